@@ -1,0 +1,6 @@
+add_library(dsdpv1_warnings INTERFACE)
+target_compile_options(dsdpv1_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow)
+option(DSDPV1_WERROR "Treat warnings as errors" ON)
+if(DSDPV1_WERROR)
+  target_compile_options(dsdpv1_warnings INTERFACE -Werror)
+endif()

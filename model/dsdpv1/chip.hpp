@@ -1,0 +1,88 @@
+#pragma once
+// The DSDPV1: pins in, pin changes out. Plain C++17, no SystemC, no I/O, no heap after construction.
+//
+//   Chip chip;                                     // RESET is low
+//   chip.watch({&on_pin, self}, kOutputPins);
+//   chip.set(20 * 250, Pin::kReset, 1);            // release reset at cycle 20
+//   chip.advance(48'000 * 250);                    // one millisecond
+//
+// A change of an input made at tick t is seen by the first rising CLK edge strictly after t (ruling P9); the host port, which is
+// asynchronous to CLK, sees it at t. Calls must be made in order of time: `set` first runs the chip up to its own tick.
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "model/dsdpv1/pins.hpp"
+#include "model/profibus/event.hpp"
+
+namespace dsdpv1 {
+
+enum class Engine : std::uint8_t {
+  kStep,  ///< every cycle of every block is evaluated
+  kSkip,  ///< sleeps until the next cycle at which a block does something; the same pin trace
+};
+
+/// The parameters of the rulings marked (p), with their defaults.
+struct Config {
+  Engine engine = Engine::kSkip;
+  std::uint32_t access_interval = 48;      ///< H1: cycles from the start of one DPRAM access to the next
+  std::uint32_t ready_cycles = 4096;       ///< D1: cycles from the release of RESET to B004 = 0xC5
+  std::uint32_t rts_lead = 4;              ///< P2: cycles from PBRTS high to the first start bit
+  std::uint32_t rts_trail = 4;             ///< P2: cycles from the end of the last stop bit to PBRTS low
+  std::uint32_t intr_low = 64;             ///< P7: cycles that INTR0 stays low
+  std::uint32_t intr_gap = 64;             ///< P7: least cycles that INTR0 stays high between two pulses
+  std::uint32_t search_window_ms = 50;     ///< S1: least time at one baud rate while searching
+  std::uint32_t search_window_bits = 4000; ///< S1: ... and least bit times
+  std::uint32_t baud_control_ms = 600;     ///< S1: silence after which the baud rate is searched again
+};
+
+enum class DpState : std::uint8_t { kOffline = 0, kWaitPrm = 1, kWaitCfg = 2, kDataExch = 3 };  // coding of B012, table 5
+
+/// Counters and states for benches and results; reading it changes nothing.
+struct Status {
+  DpState dp_state = DpState::kOffline;
+  int baud_index = 15;                ///< table 5: 0 = 12 M ... 9 = 9.6 k, 15 = searching
+  std::uint8_t address = 0;           ///< the station's present address, 0 before the initialisation
+  std::uint8_t master = 255;          ///< the parameterising master, 255 = none
+  std::uint64_t telegrams_received = 0;   ///< error-free telegrams of all stations
+  std::uint64_t telegrams_answered = 0;   ///< answers sent
+  std::uint64_t data_exchanges = 0;       ///< executed data exchanges, repetitions not counted
+  std::uint64_t accesses = 0;             ///< DPRAM accesses of the chip
+  std::uint64_t longest_wait = 0;         ///< H1: most cycles that a due access waited for R_REQ
+};
+
+class Chip {
+ public:
+  explicit Chip(const Config& config = {});
+  ~Chip();
+  Chip(const Chip&) = delete;
+  Chip& operator=(const Chip&) = delete;
+
+  /// Changes an input pin at tick `at` (>= every earlier call's). Setting a pin to the level it has does nothing.
+  /// Before the first call RESET is low, R_REQ, R_STA and A are 0, CSR, RD, WR and PBRXD are 1, D is released.
+  void set(Tick at, Pin pin, Level level);
+  /// Evaluates everything up to and including tick `to`; pin changes and events leave through the sinks on the way.
+  void advance(Tick to);
+  /// The tick of the next thing that the chip does by itself (a rising CLK edge, or the falling edge at which D is driven);
+  /// never before `now()`. With Engine::kStep the next rising edge.
+  Tick next_event() const;
+  Tick now() const;
+  /// The present level of a pin, input or output.
+  Level level(Pin pin) const;
+
+  /// Reports changes of the output pins in `pins` (see mask(Pin)). One sink; a second call replaces it.
+  void watch(const PinSink& sink, std::uint32_t pins);
+  void on_event(const profibus::EventSink& sink);
+
+  /// DPRAM without pins, time or side effects: for debuggers and checks. `address` 0..0x7FF (others wrap).
+  std::uint8_t peek(std::uint16_t address) const;
+  void poke(std::uint16_t address, std::uint8_t value);
+
+  Status status() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dsdpv1

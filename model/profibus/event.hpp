@@ -1,0 +1,44 @@
+#pragma once
+// What the chip has to say about itself: every refusal with its reason (ruling S8), every state change, every violated rule of
+// the user's bus. Events carry numbers only; words are made outside the core's per-character path, by `describe`.
+#include <cstdint>
+#include <string>
+
+#include "model/profibus/time.hpp"
+
+namespace profibus {
+
+/// What kind of event: decides how it is counted and shown.
+enum class Severity : std::uint8_t {
+  kInfo,       ///< a state change or a service that was carried out
+  kRefusal,    ///< the chip refused something that a master or the user asked for
+  kViolation,  ///< the user's side broke a rule of the host port or the handshake
+};
+
+// X(identifier, severity, stable code, text). The text may hold {a}, {b}, {c} (decimal) and {a:x} (hexadecimal).
+// The table is in event_table.inc; docs/reasons.md explains each and is generated from it.
+enum class Reason : std::uint8_t {
+#define X(id, severity, code, text) id,
+#include "model/profibus/event_table.inc"
+#undef X
+};
+
+struct Event {
+  Tick at = 0;
+  Reason reason{};
+  std::uint16_t a = 0, b = 0, c = 0;  ///< what the text's {a}, {b}, {c} stand for
+};
+
+/// Receives events in order of time (host port violations carry the tick, all others the tick of a cycle's rising edge).
+struct EventSink {
+  void (*call)(void* self, const Event& event) = nullptr;
+  void* self = nullptr;
+};
+
+/// The stable code of a reason ("PRM_IDENT"), for logs and result files.
+const char* code(Reason reason);
+Severity severity(Reason reason);
+/// The event in words, one line, without the time.
+std::string describe(const Event& event);
+
+}  // namespace profibus
