@@ -1,0 +1,10 @@
+#pragma once
+// Octets of telegrams, in the order in which they are on the wire.
+#include <cstdint>
+#include <vector>
+
+namespace bus {
+
+using Bytes = std::vector<std::uint8_t>;
+
+}  // namespace bus
