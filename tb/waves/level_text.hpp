@@ -1,0 +1,19 @@
+#pragma once
+#include <array>
+
+#include "tb/waves/wave_writer.hpp"
+
+namespace tb {
+
+/// The wires of a level as characters 0, 1, x, z, the highest first, ended by a zero byte.
+inline std::array<char, 33> level_text(int level, int width) {
+  std::array<char, 33> text{};
+  for (int i = 0; i < width; ++i) {
+    const auto bit = static_cast<unsigned>(width - 1 - i);
+    const char driven = ((static_cast<unsigned>(level) >> bit) & 1U) != 0 ? '1' : '0';
+    text[static_cast<std::size_t>(i)] = level == WaveWriter::kReleased ? 'z' : level == WaveWriter::kUnknown ? 'x' : driven;
+  }
+  return text;
+}
+
+}  // namespace tb

@@ -1,0 +1,67 @@
+#include "tb/waves/vcd_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "tb/waves/level_text.hpp"
+
+namespace tb {
+namespace {
+
+/// The short name of a signal: base 94 in the printable characters ! to ~.
+std::string identifier(WaveWriter::Signal signal) {
+  std::string text;
+  do {
+    text += static_cast<char>('!' + signal % 94);
+    signal /= 94;
+  } while (signal != 0);
+  return text;
+}
+
+}  // namespace
+
+VcdWriter::VcdWriter(const std::string& path) : file_(path) { file_.write("$version dsdpv1-sim $end\n$timescale 1 ps $end\n"); }
+
+void VcdWriter::open_scope(const std::string& name) { file_.write(fmt::format("$scope module {} $end\n", name)); }
+void VcdWriter::close_scope() { file_.write("$upscope $end\n"); }
+
+WaveWriter::Signal VcdWriter::declare(const char* type, const std::string& name, int width) {
+  const auto signal = static_cast<Signal>(widths_.size());
+  widths_.push_back(width);
+  const std::string range = width > 1 ? fmt::format(" [{}:0]", width - 1) : "";
+  file_.write(fmt::format("$var {} {} {} {}{} $end\n", type, width, identifier(signal), name, range));
+  return signal;
+}
+
+WaveWriter::Signal VcdWriter::wire(const std::string& name, int width) { return declare("wire", name, width); }
+WaveWriter::Signal VcdWriter::words(const std::string& name) { return declare("string", name, 1); }
+
+void VcdWriter::move_to(bus::Tick at) {
+  if (at < now_) throw std::logic_error("wave changes out of order");
+  if (now_ < 0) file_.write("$enddefinitions $end\n");
+  if (now_ < 0 || picoseconds(at) != picoseconds(now_)) file_.write(fmt::format("#{}\n", picoseconds(at)));
+  now_ = at;
+}
+
+void VcdWriter::set(bus::Tick at, Signal signal, int level) {
+  move_to(at);
+  const int width = widths_.at(signal);
+  const auto text = level_text(level, width);
+  file_.write(width == 1 ? fmt::format("{}{}\n", text.data(), identifier(signal)) : fmt::format("b{} {}\n", text.data(), identifier(signal)));
+}
+
+void VcdWriter::say(bus::Tick at, Signal signal, std::string_view word) {
+  move_to(at);
+  std::string text(word);
+  std::replace(text.begin(), text.end(), ' ', '_');  // the value ends at the first blank
+  file_.write(fmt::format("s{} {}\n", text, identifier(signal)));
+}
+
+void VcdWriter::finish(bus::Tick end) {
+  move_to(std::max(end, now_));
+  file_.commit();
+}
+
+}  // namespace tb

@@ -1,0 +1,31 @@
+#pragma once
+#include <vector>
+
+#include "tb/report/output_file.hpp"
+#include "tb/waves/wave_writer.hpp"
+
+namespace tb {
+
+/// Value Change Dump, IEEE 1364-2005 clause 18. Words use the `string` extension that GTKWave and Surfer read.
+class VcdWriter : public WaveWriter {
+ public:
+  explicit VcdWriter(const std::string& path);
+
+  void open_scope(const std::string& name) override;
+  void close_scope() override;
+  Signal wire(const std::string& name, int width) override;
+  Signal words(const std::string& name) override;
+  void set(bus::Tick at, Signal signal, int level) override;
+  void say(bus::Tick at, Signal signal, std::string_view word) override;
+  void finish(bus::Tick end) override;
+
+ private:
+  Signal declare(const char* type, const std::string& name, int width);
+  void move_to(bus::Tick at);
+
+  OutputFile file_;
+  std::vector<int> widths_;
+  bus::Tick now_ = -1;  // -1: still declaring
+};
+
+}  // namespace tb

@@ -1,0 +1,47 @@
+#pragma once
+// Waves: a hierarchy of signals and their changes in order of time. The time scale of the files is 1 ps; each change is converted
+// from its absolute tick (1/12 ns) and rounded once, so nothing drifts.
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "bus/time.hpp"
+
+namespace tb {
+
+/// Picoseconds since the start, rounded to the nearest.
+constexpr std::uint64_t picoseconds(bus::Tick tick) { return (static_cast<std::uint64_t>(tick) * 500 + 3) / 6; }
+
+class WaveWriter {
+ public:
+  using Signal = std::uint32_t;
+  /// Levels as the chip's pins have them: 0.. a value, kReleased Z on every wire, kUnknown X on every wire.
+  static constexpr int kReleased = -1, kUnknown = -2;
+
+  virtual ~WaveWriter() = default;
+
+  // Declarations, all before the first change. Names are plain words; `width` is 1 to 32 wires.
+  virtual void open_scope(const std::string& name) = 0;
+  virtual void close_scope() = 0;
+  virtual Signal wire(const std::string& name, int width) = 0;
+  /// A signal whose values are words, like a state.
+  virtual Signal words(const std::string& name) = 0;
+
+  // Changes; `at` never decreases (std::logic_error).
+  virtual void set(bus::Tick at, Signal signal, int level) = 0;
+  virtual void say(bus::Tick at, Signal signal, std::string_view word) = 0;
+
+  /// Finishes the file at `end` and gives it its name; throws InputError when it cannot be written. A writer that is destroyed
+  /// without it leaves no file.
+  virtual void finish(bus::Tick end) = 0;
+};
+
+/// The writer for the file's ending, .vcd or .fst; throws InputError for others, when the file cannot be created, and for .fst
+/// when this program was built without it.
+std::unique_ptr<WaveWriter> open_wave(const std::string& path);
+
+/// Checks the ending alone, before a run is started: the same errors.
+void check_wave_name(const std::string& path);
+
+}  // namespace tb
