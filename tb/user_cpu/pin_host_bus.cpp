@@ -1,0 +1,91 @@
+#include "tb/user_cpu/pin_host_bus.hpp"
+
+#include <algorithm>
+
+namespace tb {
+
+using dsdpv1::Level;
+using dsdpv1::Pin;
+
+void PinHostBus::set_r_req(Tick at, bool level) { chip_.set(at, Pin::kRReq, level ? 1 : 0); }
+
+void PinHostBus::set_r_sta(Tick at, bool level) { chip_.set(at, Pin::kRSta, level ? 1 : 0); }
+
+bool PinHostBus::l_req(Tick at) { return is_high(at, Pin::kLReq); }
+
+bool PinHostBus::l_sta(Tick at) { return is_high(at, Pin::kLSta); }
+
+bool PinHostBus::intr0(Tick at) { return is_high(at, Pin::kIntr0); }
+
+bool PinHostBus::is_high(Tick at, Pin pin) {
+  chip_.advance(at);
+  return chip_.level(pin) == 1;
+}
+
+void PinHostBus::add(Tick offset, Pin pin, Level level) {
+  edges_.at[edges_.size++] = {offset, false, pin, level};
+}
+
+void PinHostBus::add_sample(Tick offset) { edges_.at[edges_.size++] = {offset, true, Pin::kDOut, 0}; }
+
+// Offsets are counted from the strobe's fall. Edges at the same tick happen in the order in which they are added here: what
+// prepares the strobe before it, what ends with it after it.
+void PinHostBus::plan_read(const AccessTiming& timing) {
+  add(-timing.cs_lead, Pin::kCsr, 0);
+  add(0, Pin::kRd, 0);
+  add_sample(timing.rd_sample);
+  add(timing.rd_low, Pin::kRd, 1);
+  add(timing.rd_low + timing.cs_trail, Pin::kCsr, 1);
+  add(timing.rd_low + timing.address_hold, Pin::kA, kIdleAddress);
+}
+
+void PinHostBus::plan_write(const Access& access, const AccessTiming& timing) {
+  add(-timing.cs_lead, Pin::kCsr, 0);
+  add(0, Pin::kWr, 0);
+  add(timing.wr_low - timing.data_setup, Pin::kDIn, access.value);
+  add(timing.wr_low, Pin::kWr, 1);
+  add(timing.wr_low + timing.data_hold, Pin::kDIn, dsdpv1::kLevelZ);
+  add(timing.wr_low + timing.cs_trail, Pin::kCsr, 1);
+  add(timing.wr_low + timing.address_hold, Pin::kA, kIdleAddress);
+}
+
+void PinHostBus::begin(Tick at, const Access& access, const AccessTiming& timing) {
+  edges_.size = 0;
+  add(-timing.address_setup, Pin::kA, static_cast<Level>(access.address));
+  if (access.write) {
+    plan_write(access, timing);
+  } else {
+    plan_read(timing);
+  }
+  place(at, timing.recovery);
+}
+
+void PinHostBus::place(Tick start, Tick recovery) {
+  const auto first = edges_.at.begin();
+  const auto last = first + static_cast<std::ptrdiff_t>(edges_.size);
+  std::stable_sort(first, last, [](const Edge& a, const Edge& b) { return a.tick < b.tick; });
+  const Tick shift = start - first->tick;
+  std::for_each(first, last, [shift](Edge& edge) { edge.tick += shift; });
+  edge_ = 0;
+  end_ = (last - 1)->tick + recovery;
+}
+
+void PinHostBus::run_edges(Tick now) {
+  for (; next_edge() <= now; ++edge_) {
+    const Edge& edge = edges_.at[edge_];
+    if (edge.sample) {
+      sample(edge.tick);
+    } else {
+      chip_.set(edge.tick, edge.pin, edge.level);
+    }
+  }
+}
+
+void PinHostBus::sample(Tick at) {
+  chip_.advance(at);
+  const Level level = chip_.level(Pin::kDOut);
+  bad_ = level < 0;
+  value_ = bad_ ? std::uint8_t{0xFF} : static_cast<std::uint8_t>(level);
+}
+
+}  // namespace tb
