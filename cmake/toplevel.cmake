@@ -1,0 +1,16 @@
+# Settings of the build as a whole; they are the parent's business when this project is a part of another.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
+endif()
+
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)  # for clang-tidy and editors
+
+find_program(DSDPV1_CCACHE ccache)
+mark_as_advanced(DSDPV1_CCACHE)
+if(DSDPV1_CCACHE)
+  foreach(language C CXX)
+    if(NOT CMAKE_${language}_COMPILER_LAUNCHER)
+      set(CMAKE_${language}_COMPILER_LAUNCHER ${DSDPV1_CCACHE})
+    endif()
+  endforeach()
+endif()

@@ -1,0 +1,136 @@
+// The map against the datasheet's own numbers (tables 2 to 14), written here a second time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "registers/dsdpv1_regs.hpp"
+
+namespace dsdpv1::regs {
+namespace {
+
+const Cell& cell_at(Address address) {
+  return *std::find_if(std::begin(kMap), std::end(kMap), [address](const Cell& cell) { return address <= cell.last; });
+}
+
+TEST(RegisterMap, EveryAddressIsNamedOnce) {
+  int expected = 0;
+  for (const Cell& cell : kMap) {
+    EXPECT_EQ(cell.first, expected) << cell.name;
+    expected = cell.last + 1;
+  }
+  EXPECT_EQ(expected, 0x800);
+}
+
+TEST(RegisterMap, ControlBytesAreWhereTable2PutsThem) {
+  EXPECT_EQ(kVersion, 0x000);
+  EXPECT_EQ(kValidFlag, 0x004);
+  EXPECT_EQ(kDpv1Enable, 0x005);
+  EXPECT_EQ(kAccessCount, 0x006);
+  EXPECT_EQ(kOfflineCount, 0x008);
+  EXPECT_EQ(kChipStatus1, 0x00A);
+  EXPECT_EQ(kChipStatus2, 0x00B);
+  EXPECT_EQ(kUserStatus1, 0x00C);
+  EXPECT_EQ(kUserStatus2, 0x00D);
+  EXPECT_EQ(kChipCommand1, 0x00E);
+  EXPECT_EQ(kChipCommand2, 0x00F);
+  EXPECT_EQ(kUserCommand1, 0x010);
+  EXPECT_EQ(kUserCommand2, 0x011);
+  EXPECT_EQ(kChipStatus3, 0x012);
+  EXPECT_EQ(kChipStatus4, 0x013);
+}
+
+TEST(RegisterMap, InitialisationBytesAreWhereTable2PutsThem) {
+  EXPECT_EQ(kInitAddress, 0x021);
+  EXPECT_EQ(kInitIdentHigh, 0x022);
+  EXPECT_EQ(kInitIdentLow, 0x023);
+  EXPECT_EQ(kInitCommand, 0x024);
+  EXPECT_EQ(kInitMaxInput, 0x027);
+  EXPECT_EQ(kInitMaxOutput, 0x028);
+  EXPECT_EQ(kInitMaxDiag, 0x029);
+  EXPECT_EQ(kInitMaxPrm, 0x02A);
+  EXPECT_EQ(kPrmMode, 0x02B);
+  EXPECT_EQ(kInitMaxCfg, 0x02C);
+  EXPECT_EQ(kCfgMode, 0x02D);
+  EXPECT_EQ(kInitCfgLength, 0x02E);
+  EXPECT_EQ(kInitCfg, 0x02F);
+}
+
+struct AreaCase {
+  const char* name;
+  Address first, size, crc;
+  Address expected_first, expected_size, expected_crc;
+};
+
+TEST(RegisterMap, AreasHaveTable2sAddressesAndSizes) {
+  const AreaCase areas[] = {
+      {"init", kInit, kInitSize, kInitCrc, 0x020, 215, 0x0F7},
+      {"input", kInput, kInputSize, kInputCrc, 0x130, 245, 0x225},
+      {"diag", kDiag, kDiagSize, kDiagCrc, 0x227, 240, 0x317},
+      {"output", kOutput, kOutputSize, kOutputCrc, 0x319, 245, 0x40E},
+      {"prm", kPrm, kPrmSize, kPrmCrc, 0x410, 238, 0x4FE},
+      {"cfg", kCfg, kCfgSize, kCfgCrc, 0x500, 203, 0x5CB},
+      {"c1", kC1, kC1Size, kC1Crc, 0x5D0, 244, 0x6C4},
+      {"c2", kC2, kC2Size, kC2Crc, 0x6D0, 244, 0x7C4},
+  };
+  for (const AreaCase& area : areas) {
+    EXPECT_EQ(area.first, area.expected_first) << area.name;
+    EXPECT_EQ(area.size, area.expected_size) << area.name;
+    EXPECT_EQ(area.crc, area.expected_crc) << area.name;
+  }
+}
+
+TEST(RegisterMap, VerdictBitsAreThoseOfTable10) {  // D4: the notes under the table have the two exchanged
+  EXPECT_EQ(kUserCommand1PrmVerdict, 0x80);
+  EXPECT_EQ(kUserCommand1CfgVerdict, 0x40);
+  EXPECT_EQ(kUserStatus1PrmWrong, 0x01);
+  EXPECT_EQ(kUserStatus1CfgWrong, 0x02);
+}
+
+TEST(RegisterMap, FlagsOfTheTwoSidesDiffer) {
+  EXPECT_EQ(kChipStatus2InitCrc | kChipStatus2InputCrc | kChipStatus2DiagCrc | kChipStatus2C1Crc | kChipStatus2C2Crc, 0x3D);
+  EXPECT_EQ(kChipCommand1Output | kChipCommand1Prm | kChipCommand1Cfg, 0x07);
+  EXPECT_EQ(kUserCommand1Input | kUserCommand1Diag | kUserCommand1Init, 0x07);
+  EXPECT_EQ(kUserStatus2C1Crc, 0x10);  // table 7 has C1 above C2, unlike table 4
+  EXPECT_EQ(kUserStatus2C2Crc, 0x08);
+}
+
+TEST(RegisterMap, StatusByte3HoldsBaudRateAndState) {
+  EXPECT_EQ(kChipStatus3BaudRate, 0xF0);
+  EXPECT_EQ(kChipStatus3BaudRateShift, 4);
+  EXPECT_EQ(kChipStatus3DpState, 0x0C);
+  EXPECT_EQ(kChipStatus3DpStateShift, 2);
+}
+
+TEST(RegisterMap, LimitsAreThoseOfRulingD7) {
+  EXPECT_EQ(kInitAddressLimit, 126);
+  EXPECT_EQ(kInitMaxInputLimit, 244);
+  EXPECT_EQ(kInitMaxOutputLimit, 244);
+  EXPECT_EQ(kInitMaxDiagLimit, 238);
+  EXPECT_EQ(kInitMaxPrmLimit, 237);
+  EXPECT_EQ(kInitMaxCfgLimit, 200);
+}
+
+TEST(RegisterMap, ResetValuesAreThoseOfRulingD1) {
+  EXPECT_EQ(kVersionReset, 0x01);
+  EXPECT_EQ(kVersionYearReset, 0x0D);
+  EXPECT_EQ(kVersionMonthReset, 0x07);
+  EXPECT_EQ(kVersionDayReset, 0x01);
+  EXPECT_EQ(kValidFlagValid, 0xC5);
+}
+
+TEST(RegisterMap, WhoWritesFollowsTable2) {
+  EXPECT_FALSE(cell_at(kVersion).user_writes);
+  EXPECT_TRUE(cell_at(kVersion).chip_writes);
+  EXPECT_TRUE(cell_at(kInit).user_writes);
+  EXPECT_FALSE(cell_at(kInit).chip_writes);
+  EXPECT_FALSE(cell_at(kPrmData).user_writes);
+  EXPECT_TRUE(cell_at(kUserCommand1).user_writes);
+  EXPECT_TRUE(cell_at(kUserCommand1).chip_writes);
+  EXPECT_FALSE(cell_at(0x7FF).user_writes);
+  EXPECT_EQ(std::string(cell_at(0x224).name), "input.data");
+}
+
+}  // namespace
+}  // namespace dsdpv1::regs

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# The command line of ./run: help, and one line with exit 2 for what it does not know.
+set -euo pipefail
+run=$1
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# refuses WORDS ARGUMENTS...: exit 2, nothing on stdout, one line on stderr with these words.
+refuses() {
+  local words=$1 status=0 errors
+  shift
+  errors=$("$run" "$@" 2>&1 >/dev/null) || status=$?
+  [ "$status" -eq 2 ] || fail "run $*: exit $status, not 2"
+  [ "$(wc -l <<<"$errors")" -eq 1 ] || fail "run $*: not one line: $errors"
+  [[ $errors == *"$words"* ]] || fail "run $*: \"$words\" is missing in: $errors"
+}
+
+help=$("$run" --help) || fail "--help: exit $?"
+for command in demo test sim build format lint generate deps; do
+  grep -q "^  $command " <<<"$help" || fail "--help does not explain $command"
+done
+grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
+[ "$("$run")" = "$help" ] || fail "without arguments it does not print the help"
+
+refuses "allowed are demo test sim" dmeo
+refuses "allowed is --quick" test --fast
+refuses "allowed is --quick" test --quick again
+refuses "allowed is default debug coverage" build release
+refuses "allowed is none" demo now
+
+echo "$failures failures"
+[ "$failures" -eq 0 ]
