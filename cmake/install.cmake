@@ -21,7 +21,7 @@ endfunction()
 
 function(dsdpv1_install_headers)
   install(DIRECTORY model registers DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR} COMPONENT dsdpv1
-          FILES_MATCHING PATTERN "*.hpp" PATTERN "dsdpv1_regs.h" PATTERN "dsdpv1_regs.svh")
+          FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc" PATTERN "dsdpv1_regs.h" PATTERN "dsdpv1_regs.svh")
 endfunction()
 
 function(dsdpv1_install_package)
