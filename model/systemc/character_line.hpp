@@ -1,0 +1,68 @@
+#pragma once
+// Characters of PROFIBUS (start bit, eight data bits LSB first, even parity, stop bit) to and from the edges of a line. Times are
+// the chip's ticks (1/12 ns). No SystemC in here.
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "model/profibus/baud.hpp"
+#include "model/profibus/time.hpp"
+
+namespace dsdpv1::systemc {
+
+using profibus::Tick;
+
+/// One character on the line, in ticks.
+struct LineCharacter {
+  Tick start = 0;  ///< falling edge of the start bit
+  Tick bit = 0;    ///< length of a bit
+  std::uint8_t data = 0;
+  bool parity_ok = true;  ///< even parity
+  bool stop_ok = true;    ///< the stop bit is high
+  Tick end() const { return start + profibus::kBitsPerCharacter * bit; }
+};
+
+/// The eleven levels of a character, start bit in bit 0.
+std::uint16_t frame_of(std::uint8_t data, bool parity_ok, bool stop_ok);
+
+struct Edge {
+  Tick at;
+  bool level;
+};
+
+/// The changes of a line that characters are put on, in order of time. The line idles high.
+class EdgeQueue {
+ public:
+  /// Appends a change. A change planned for the same tick or later is dropped: whoever comes later wins.
+  void push(Edge edge);
+  /// Tick of the earliest change, kNever when there is none.
+  Tick next() const { return edges_.empty() ? profibus::kNever : edges_.front().at; }
+  Edge take();
+
+ private:
+  std::deque<Edge> edges_;
+};
+
+/// Collects the characters that a transmitter of known bit time sends.
+class CharacterCollector {
+ public:
+  /// The line is `level` from `at` on. `bit` (> 0) is the bit time to assume when this edge starts a character.
+  void edge(Tick at, bool level, Tick bit);
+  /// Tick at which the running character is complete, kNever while the line is idle.
+  Tick next() const { return running_ ? character_.end() : profibus::kNever; }
+  /// The character that is complete at `now`, once.
+  std::optional<LineCharacter> take(Tick now);
+
+ private:
+  void sample_until(Tick now);
+  Tick middle_of_next_bit() const;
+
+  LineCharacter character_;
+  bool running_ = false;
+  bool level_ = true;
+  int sampled_ = 0;          ///< bits sampled so far
+  std::uint16_t frame_ = 0;  ///< as frame_of
+};
+
+}  // namespace dsdpv1::systemc

@@ -1,0 +1,75 @@
+#include "model/systemc/chip_module.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace dsdpv1::systemc {
+namespace {
+
+using profibus::Reason;
+
+/// Of the host port's violations, those after which the data of the access are not to be trusted.
+bool spoils_data(Reason reason) { return reason >= Reason::kWriteLowTooShort && reason <= Reason::kReadUnknown; }
+
+}  // namespace
+
+ChipModule::ChipModule(const sc_core::sc_module_name& name, const ChipOptions& options)
+    : sc_core::sc_module(name), due_("due"), options_(options), chip_(options.chip) {
+  require_femtoseconds();
+  if (options.phase < 0 || options.phase >= profibus::kTicksPerCycle) {
+    const std::string text = "phase is " + std::to_string(options.phase) + " ticks, allowed is 0 to 249";
+    SC_REPORT_ERROR("/dsdpv1/phase", text.c_str());
+  }
+  chip_.on_event({[](void* self, const profibus::Event& event) { static_cast<ChipModule*>(self)->event_happened(event); }, this});
+}
+
+void ChipModule::watch(std::uint32_t pins) {
+  chip_.watch({[](void* self, Tick at, Pin pin, Level level) { static_cast<ChipModule*>(self)->pin_changed(at, pin, level); }, this},
+              pins);
+}
+
+void ChipModule::set(Tick at, Pin pin, Level level) {
+  if (chip_.level(pin) == level) return;
+  if (on_pin) {
+    chip_.advance(at);  // what the core did before belongs before this change
+    on_pin(at, pin, level);
+  }
+  chip_.set(at, pin, level);
+}
+
+std::uint32_t ChipModule::take_changed() {
+  const std::uint32_t pins = changed_;
+  changed_ = 0;
+  return pins;
+}
+
+bool ChipModule::take_broken_timing() {
+  const bool broken = broken_timing_;
+  broken_timing_ = false;
+  return broken;
+}
+
+void ChipModule::schedule(Tick other) {
+  due_.cancel();
+  const Tick due = std::min(chip_.next_event(), other);
+  if (due == profibus::kNever) return;
+  // Everything of this tick is done; asking for it again would stop simulation time.
+  const sc_core::sc_time at = to_time(std::max(due, chip_now() + 1) + options_.phase);
+  due_.notify(at - sc_core::sc_time_stamp());
+}
+
+void ChipModule::pin_changed(Tick at, Pin pin, Level level) {
+  changed_ |= mask(pin);
+  output_changed(at, pin, level);
+  if (on_pin) on_pin(at, pin, level);
+}
+
+void ChipModule::event_happened(const profibus::Event& event) {
+  broken_timing_ = broken_timing_ || spoils_data(event.reason);
+  if (on_event) on_event(event);
+  if (!options_.report_violations || profibus::severity(event.reason) != profibus::Severity::kViolation) return;
+  const std::string text = std::string(name()) + ": " + profibus::code(event.reason) + ": " + profibus::describe(event);
+  SC_REPORT_WARNING("/dsdpv1/violation", text.c_str());
+}
+
+}  // namespace dsdpv1::systemc

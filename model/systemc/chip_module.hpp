@@ -1,0 +1,66 @@
+#pragma once
+// What the two SystemC views of the chip share: the core, its place in simulation time, and what is reported about it.
+#include <cstdint>
+#include <functional>
+#include <systemc>
+
+#include "model/dsdpv1/chip.hpp"
+#include "model/systemc/sim_time.hpp"
+
+namespace dsdpv1::systemc {
+
+struct ChipOptions {
+  Config chip{};
+  Tick phase = 0;                 ///< 0..249 ticks: the rising CLK edge of cycle n is at n * 250 + phase (CLK unbound)
+  bool report_violations = true;  ///< SC_REPORT_WARNING /dsdpv1/violation for every violated rule of the user's bus
+};
+
+/// Base of PinModule and TlmModule; not to be used by itself.
+class ChipModule : public sc_core::sc_module {
+ public:
+  /// Every change of a pin, inputs as the core got them and outputs, in order of time. Ticks are the chip's: simulation time less
+  /// the phase. Set it before the simulation starts. It must not call the module.
+  std::function<void(Tick at, Pin pin, Level level)> on_pin;
+  /// Every event of the core (refusals, state changes, violations), at the time it happens; ticks as for `on_pin`.
+  std::function<void(const profibus::Event& event)> on_event;
+
+  /// Levels and status of the core at its last evaluation. TlmModule::sync() brings it to the present time.
+  const Chip& chip() const { return chip_; }
+  Tick phase() const { return options_.phase; }
+  /// DPRAM past the pins: no time, no side effects. `address` 0..0x7FF.
+  std::uint8_t peek(std::uint16_t address) const { return chip_.peek(address); }
+  void poke(std::uint16_t address, std::uint8_t value) { chip_.poke(address, value); }
+
+ protected:
+  ChipModule(const sc_core::sc_module_name& name, const ChipOptions& options);
+
+  /// The chip's tick at simulation tick `tick`; 0 until the first rising edge.
+  Tick chip_tick(Tick tick) const { return tick > options_.phase ? tick - options_.phase : 0; }
+  Tick chip_now() const { return chip_tick(current_tick()); }
+
+  void watch(std::uint32_t pins);
+  void set(Tick at, Pin pin, Level level);
+  void advance(Tick to) { chip_.advance(to); }
+  /// Outputs that changed since the last call.
+  std::uint32_t take_changed();
+  bool has_changed() const { return changed_ != 0; }
+  /// True when the user's access has violated the timing of table 15 or P8 since the last call.
+  bool take_broken_timing();
+  /// Called from inside the core for every output that is watched.
+  virtual void output_changed(Tick, Pin, Level) {}
+
+  /// Notifies `due_` at the chip's next event, or at `other` (a tick of the chip) when that is earlier.
+  void schedule(Tick other = profibus::kNever);
+  sc_core::sc_event due_;
+
+ private:
+  void pin_changed(Tick at, Pin pin, Level level);
+  void event_happened(const profibus::Event& event);
+
+  ChipOptions options_;
+  Chip chip_;
+  std::uint32_t changed_ = kOutputPins;  ///< the first drive is of all of them
+  bool broken_timing_ = false;
+};
+
+}  // namespace dsdpv1::systemc

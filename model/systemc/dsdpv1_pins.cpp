@@ -1,0 +1,114 @@
+#include "model/systemc/dsdpv1_pins.hpp"
+
+#include <string>
+
+namespace dsdpv1::systemc {
+namespace {
+
+/// The time by which a bound CLK must have made its first window of edges, so that a dead one is noticed.
+const Tick kClockStart = 2 * BoundClock::kWindow * profibus::kTicksPerCycle;
+
+sc_dt::sc_lv<8> wires(Level level) {
+  if (level == kLevelZ) return sc_dt::sc_lv<8>(sc_dt::SC_LOGIC_Z);
+  if (level == kLevelX) return sc_dt::sc_lv<8>(sc_dt::SC_LOGIC_X);
+  return sc_dt::sc_lv<8>(static_cast<int>(level));
+}
+
+/// What the user drives. A byte with a floating or unknown bit counts as floating: the core reports it when it matters (P11).
+Level user_level(const sc_dt::sc_lv<8>& wires) {
+  return wires.is_01() ? static_cast<Level>(wires.to_uint()) : kLevelZ;
+}
+
+}  // namespace
+
+PinModule::PinModule(const sc_core::sc_module_name& name, const PinOptions& options)
+    : ChipModule(name, options), clock_tolerance_ppm_(options.clock_tolerance_ppm) {
+  watch(kOutputPins);
+  SC_HAS_PROCESS(PinModule);
+  SC_METHOD(evaluate);  // the only process: SystemC would count a second one as a second driver of D
+  sensitive << due_ << CLK << RESET << R_REQ << R_STA << CSR << RD << WR << A << D << PBRXD;
+}
+
+void PinModule::end_of_elaboration() {
+  if (CLK.size() > 0) clock_ = std::make_unique<BoundClock>(clock_tolerance_ppm_);
+}
+
+void PinModule::evaluate() {
+  if (clock_) clock_edge();
+  if (sc_core::sc_time_stamp() == sc_core::SC_ZERO_TIME) {
+    begin();
+    return;
+  }
+  const Tick now = present();
+  advance(now);
+  apply_inputs(now);
+  drive(take_changed());
+  if (!clock_) {
+    schedule();
+  } else if (due_.triggered()) {
+    check_clock();
+  }
+}
+
+void PinModule::begin() {
+  drive(kOutputPins);
+  due_.notify(sc_core::sc_time(1, sc_core::SC_FS));  // when the delta cycles of time 0 are over
+}
+
+void PinModule::clock_edge() {
+  if (!CLK->event()) return;
+  if (CLK->read()) {
+    clock_->rising(sc_core::sc_time_stamp());
+  } else {
+    clock_->falling(sc_core::sc_time_stamp());
+  }
+  if (const auto mhz = clock_->take_wrong_frequency()) {
+    const std::string text = std::string(name()) + ": CLK is " + std::to_string(*mhz) + " MHz, allowed is 48 MHz +/- " +
+                             std::to_string(clock_tolerance_ppm_) + " ppm";
+    SC_REPORT_WARNING("/dsdpv1/clock", text.c_str());
+  }
+}
+
+void PinModule::check_clock() {
+  if (sc_core::sc_time_stamp() < to_time(kClockStart)) {
+    due_.notify(to_time(kClockStart) - sc_core::sc_time_stamp());
+  } else if (clock_->edges() < BoundClock::kWindow) {
+    const std::string text = std::string(name()) + ": CLK made " + std::to_string(clock_->edges()) +
+                             " rising edges in the first 20 us, 48 MHz makes 960; leave it unbound to do without";
+    SC_REPORT_WARNING("/dsdpv1/clock", text.c_str());
+  }
+}
+
+Tick PinModule::present() const { return clock_ ? clock_->chip_tick(sc_core::sc_time_stamp()) : chip_now(); }
+
+void PinModule::apply_inputs(Tick at) {
+  const bool user_drives_d = chip().level(Pin::kDOut) == kLevelZ;
+  if (R_REQ.read()) set(at, Pin::kRReq, 1);
+  if (R_STA.read()) set(at, Pin::kRSta, 1);
+  set(at, Pin::kA, static_cast<Level>(A.read().to_uint()));
+  set(at, Pin::kDIn, user_drives_d ? user_level(D.read()) : kLevelZ);
+  if (!CSR.read()) set(at, Pin::kCsr, 0);
+  set(at, Pin::kRd, RD.read());
+  set(at, Pin::kWr, WR.read());
+  set(at, Pin::kCsr, CSR.read());
+  set(at, Pin::kRSta, R_STA.read());
+  set(at, Pin::kRReq, R_REQ.read());
+  set(at, Pin::kPbrxd, PBRXD.read());
+  set(at, Pin::kReset, RESET.read());
+}
+
+void PinModule::drive(std::uint32_t pins) {
+  const struct {
+    Pin pin;
+    Out& port;
+  } wires[] = {{Pin::kLReq, L_REQ}, {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
+               {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},   {Pin::kBr, BR},       {Pin::kReady, READY}};
+  for (const auto& wire : wires) {
+    if (pins & mask(wire.pin)) wire.port.write(chip().level(wire.pin) != 0);
+  }
+  if (pins & mask(Pin::kDOut)) drive_data();
+}
+
+void PinModule::drive_data() { D.write(wires(chip().level(Pin::kDOut))); }
+
+}  // namespace dsdpv1::systemc

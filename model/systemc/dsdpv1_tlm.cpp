@@ -1,0 +1,284 @@
+#include "model/systemc/dsdpv1_tlm.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace dsdpv1::systemc {
+namespace {
+
+constexpr sc_dt::uint64 kDpramSize = 0x800;
+
+/// Releases the host bus also when the initiator's process is killed inside an access.
+class BusLock {
+ public:
+  explicit BusLock(sc_core::sc_mutex& mutex) : mutex_(mutex) { mutex_.lock(); }
+  ~BusLock() { mutex_.unlock(); }
+  BusLock(const BusLock&) = delete;
+  BusLock& operator=(const BusLock&) = delete;
+
+ private:
+  sc_core::sc_mutex& mutex_;
+};
+
+bool enables_are_valid(const tlm::tlm_generic_payload& payload) {
+  const unsigned char* enables = payload.get_byte_enable_ptr();
+  if (enables == nullptr) return true;
+  const unsigned int length = payload.get_byte_enable_length();
+  return length > 0 && std::all_of(enables, enables + length, [](unsigned char enable) {
+           return enable == TLM_BYTE_ENABLED || enable == TLM_BYTE_DISABLED;
+         });
+}
+
+bool is_enabled(const tlm::tlm_generic_payload& payload, unsigned int index) {
+  const unsigned char* enables = payload.get_byte_enable_ptr();
+  return enables == nullptr || enables[index % payload.get_byte_enable_length()] == TLM_BYTE_ENABLED;
+}
+
+/// TLM_OK_RESPONSE for a transaction that can be carried out.
+tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload) {
+  const unsigned int length = payload.get_data_length();
+  if (!payload.is_read() && !payload.is_write()) return tlm::TLM_COMMAND_ERROR_RESPONSE;
+  if (length == 0 || payload.get_streaming_width() < length) return tlm::TLM_BURST_ERROR_RESPONSE;
+  if (payload.get_address() >= kDpramSize || length > kDpramSize - payload.get_address()) {
+    return tlm::TLM_ADDRESS_ERROR_RESPONSE;
+  }
+  if (!enables_are_valid(payload)) return tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE;
+  return payload.get_data_ptr() != nullptr ? tlm::TLM_OK_RESPONSE : tlm::TLM_GENERIC_ERROR_RESPONSE;
+}
+
+}  // namespace
+
+std::ostream& operator<<(std::ostream& out, const BusCharacter& character) {
+  const std::ios_base::fmtflags flags = out.flags();
+  out << character.start << " " << std::hex << std::uppercase << unsigned{character.data};
+  out.flags(flags);
+  return out << (character.parity_ok ? "" : " parity error") << (character.stop_ok ? "" : " framing error");
+}
+
+TlmModule::TlmModule(const sc_core::sc_module_name& name, const TlmOptions& options)
+    : ChipModule(name, options), access_(options.access) {
+  host_socket.register_b_transport(this, &TlmModule::b_transport);
+  host_socket.register_transport_dbg(this, &TlmModule::transport_dbg);
+  bus_in.bind(*this);
+  SC_HAS_PROCESS(TlmModule);
+  SC_METHOD(evaluate);
+  sensitive << due_ << RESET << R_REQ << R_STA << PBRXD;
+}
+
+void TlmModule::start_of_simulation() {
+  const struct {
+    Pin pin;
+    OptionalOut& port;
+  } wires[] = {{Pin::kLReq, L_REQ}, {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbrts, PBRTS},
+               {Pin::kPbf, PBF},    {Pin::kBr, BR},      {Pin::kReady, READY}};
+  std::uint32_t watched = mask(Pin::kPbtxd);
+  for (const auto& wire : wires) {
+    if (wire.port.size() > 0) watched |= mask(wire.pin);
+  }
+  watch(on_pin ? kOutputPins : watched);
+}
+
+void TlmModule::sync() {
+  catch_up();
+  plan();
+}
+
+// ---------------------------------------------------------------------------------------------------------- host port
+
+void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
+  payload.set_dmi_allowed(false);
+  const tlm::tlm_response_status judgement = judge(payload);
+  if (judgement != tlm::TLM_OK_RESPONSE) {
+    payload.set_response_status(judgement);
+    return;
+  }
+  // The chip lives in simulation time: an initiator that runs ahead of it (quantum) is brought back to it here.
+  if (delay != sc_core::SC_ZERO_TIME) wait(delay);
+  delay = sc_core::SC_ZERO_TIME;
+  const BusLock lock(host_bus_);
+  carry_out(payload);
+}
+
+void TlmModule::carry_out(Payload& payload) {
+  const AccessTiming& timing = timing_of(payload);
+  access_start_ = current_tick();
+  unsigned char* data = payload.get_data_ptr();
+  for (unsigned int i = 0; i < payload.get_data_length(); ++i) {
+    if (!is_enabled(payload, i)) continue;
+    const auto address = static_cast<std::uint16_t>(payload.get_address() + i);
+    if (payload.is_write() ? !write_byte(address, timing, data[i]) : !read_byte(address, timing, data[i])) {
+      payload.set_response_status(tlm::TLM_GENERIC_ERROR_RESPONSE);
+      return;
+    }
+  }
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+}
+
+const AccessTiming& TlmModule::timing_of(const Payload& payload) const {
+  const auto* extension = payload.get_extension<AccessTimingExtension>();
+  return extension != nullptr ? extension->timing : access_;
+}
+
+bool TlmModule::read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte) {
+  const Level level = perform(HostAccess::read(address, timing));
+  if (level >= 0) byte = static_cast<unsigned char>(level);
+  return level >= 0;
+}
+
+bool TlmModule::write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte) {
+  take_broken_timing();
+  perform(HostAccess::write(address, byte, timing));
+  return !take_broken_timing();
+}
+
+/// Moves the pins at the exact ticks of the access. The level of D when it was sampled, X for an access without a sample.
+Level TlmModule::perform(const HostAccess& access) {
+  Level sampled = kLevelX;
+  for (const HostAccess::Edge& edge : access) {
+    wait_until(access_start_ + edge.at);
+    if (edge.pin == Pin::kDOut) {
+      sampled = chip().level(Pin::kDOut);
+    } else {
+      set(chip_now(), edge.pin, edge.level);
+    }
+  }
+  access_start_ += access.duration();
+  wait_until(access_start_);
+  return sampled;
+}
+
+void TlmModule::wait_until(Tick tick) {
+  plan();
+  const sc_core::sc_time until = to_time(tick);
+  if (until > sc_core::sc_time_stamp()) wait(until - sc_core::sc_time_stamp());
+  catch_up();
+}
+
+unsigned int TlmModule::transport_dbg(Payload& payload) {
+  const sc_dt::uint64 first = payload.get_address();
+  unsigned char* data = payload.get_data_ptr();
+  if (first >= kDpramSize || data == nullptr || payload.get_command() == tlm::TLM_IGNORE_COMMAND) return 0;
+  if (sc_core::sc_is_running()) sync();
+  const auto count = static_cast<unsigned int>(std::min<sc_dt::uint64>(payload.get_data_length(), kDpramSize - first));
+  for (unsigned int i = 0; i < count; ++i) {
+    const auto address = static_cast<std::uint16_t>(first + i);
+    if (payload.is_write()) {
+      poke(address, data[i]);
+    } else {
+      data[i] = peek(address);
+    }
+  }
+  return count;
+}
+
+// ------------------------------------------------------------------------------------------------------ pins and core
+
+void TlmModule::evaluate() {
+  catch_up();
+  drive_outputs();
+  plan();
+}
+
+void TlmModule::catch_up() {
+  const Tick now = chip_now();
+  advance(now);
+  apply_line(now);
+  apply_inputs(now);
+  collect_character(now);
+  emit_characters();
+}
+
+void TlmModule::apply_inputs(Tick now) {
+  set(now, Pin::kRReq, R_REQ.read());
+  set(now, Pin::kRSta, R_STA.read());
+  set(now, Pin::kReset, RESET.read());
+}
+
+void TlmModule::apply_line(Tick now) {
+  while (to_chip_.next() <= now) characters_level_ = to_chip_.take().level;
+  const bool raw = PBRXD.size() == 0 || PBRXD->read();
+  set(now, Pin::kPbrxd, raw && characters_level_);
+}
+
+void TlmModule::drive_outputs() {
+  const struct {
+    Pin pin;
+    OptionalOut& port;
+  } wires[] = {{Pin::kLReq, L_REQ}, {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
+               {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},   {Pin::kBr, BR},       {Pin::kReady, READY}};
+  const std::uint32_t pins = take_changed();
+  for (const auto& wire : wires) {
+    if ((pins & mask(wire.pin)) != 0 && wire.port.size() > 0) wire.port->write(chip().level(wire.pin) != 0);
+  }
+}
+
+/// Signals are written by `evaluate` only (SystemC allows one writer), characters for now take effect in the next delta cycle.
+void TlmModule::plan() {
+  if (has_changed() || to_chip_.next() <= chip_now()) {
+    due_.notify(sc_core::SC_ZERO_TIME);
+  } else {
+    schedule(std::min(to_chip_.next(), from_chip_.next()));
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------------------- bus
+
+void TlmModule::output_changed(Tick at, Pin pin, Level level) {
+  if (pin != Pin::kPbtxd) return;
+  collect_character(at);
+  const int baud = chip().status().baud_index;
+  // Without a baud rate the chip does not send; an edge then is RESET cutting a character off.
+  const int cycles = baud < profibus::kBaudCount ? profibus::kBitCycles.at(static_cast<std::size_t>(baud)) : 1;
+  from_chip_.edge(at, level != 0, cycles * profibus::kTicksPerCycle);
+}
+
+void TlmModule::collect_character(Tick now) {
+  if (const auto character = from_chip_.take(now)) complete_.push_back(*character);
+}
+
+void TlmModule::emit_characters() {
+  if (complete_.empty()) return;
+  std::vector<LineCharacter> complete;
+  complete.swap(complete_);  // a listener may call back
+  for (const LineCharacter& c : complete) {
+    bus_out.write({to_time(c.start + phase()), to_time(c.bit), c.data, c.parity_ok, c.stop_ok});
+  }
+}
+
+void TlmModule::write(const BusCharacter& character) {
+  if (!is_sendable(character)) return;
+  put_on_line(character);
+  plan();
+}
+
+bool TlmModule::is_sendable(const BusCharacter& character) {
+  const char* fault = nullptr;
+  if (character.start < sc_core::sc_time_stamp()) fault = "begins in the past, it is not sent";
+  if (to_tick(character.bit) <= 0) fault = "has no bit time, it is not sent";
+  if (fault == nullptr) return true;
+  const std::string text = std::string(name()) + ": character at " + character.start.to_string() + " " + fault;
+  SC_REPORT_WARNING("/dsdpv1/bus", text.c_str());
+  return false;
+}
+
+void TlmModule::put_on_line(const BusCharacter& character) {
+  const auto tick_of_bit = [&](unsigned int bit) {
+    return chip_tick(to_tick(sc_core::sc_time::from_value(character.start.value() + bit * character.bit.value())));
+  };
+  if (tick_of_bit(0) < line_busy_until_) {
+    const std::string text = std::string(name()) + ": character at " + character.start.to_string() +
+                             " begins before the previous one has ended";
+    SC_REPORT_WARNING("/dsdpv1/bus", text.c_str());
+  }
+  const std::uint16_t frame = frame_of(character.data, character.parity_ok, character.stop_ok);
+  bool level = true;
+  for (unsigned int bit = 0; bit < profibus::kBitsPerCharacter; ++bit) {
+    const bool next = ((frame >> bit) & 1U) != 0;
+    if (next != level) to_chip_.push({tick_of_bit(bit), next});
+    level = next;
+  }
+  line_busy_until_ = tick_of_bit(profibus::kBitsPerCharacter);
+  if (!level) to_chip_.push({line_busy_until_, true});
+}
+
+}  // namespace dsdpv1::systemc

@@ -1,0 +1,124 @@
+#pragma once
+// The chip as a SystemC module with TLM-2.0 sockets: the host port as a target socket, the bus as characters.
+//
+//   sc_set_time_resolution(1, SC_FS);            // first thing in sc_main
+//   dsdpv1::systemc::TlmModule chip("chip");
+//   cpu.socket.bind(chip.host_socket);
+//   chip.RESET(reset); chip.R_REQ(r_req); chip.R_STA(r_sta); chip.L_REQ(l_req); chip.L_STA(l_sta);
+//   chip.bus_out.bind(master);                   // tlm_analysis_if<BusCharacter>
+//   master_port.bind(chip.bus_in);
+//
+// Ports, timing and examples: docs/systemc.md.
+#include <tlm.h>
+#include <tlm_utils/simple_target_socket.h>
+
+#include <cstdint>
+#include <ostream>
+#include <systemc>
+#include <vector>
+
+#include "model/systemc/character_line.hpp"
+#include "model/systemc/chip_module.hpp"
+#include "model/systemc/host_access.hpp"
+
+namespace dsdpv1::systemc {
+
+/// Gives one transaction another timing than TlmOptions::access. The initiator owns it.
+struct AccessTimingExtension : tlm::tlm_extension<AccessTimingExtension> {
+  AccessTiming timing;
+  tlm::tlm_extension_base* clone() const override { return new AccessTimingExtension(*this); }
+  void copy_from(const tlm::tlm_extension_base& other) override {
+    timing = static_cast<const AccessTimingExtension&>(other).timing;
+  }
+};
+
+/// One character on the bus.
+struct BusCharacter {
+  sc_core::sc_time start;  ///< falling edge of the start bit, absolute
+  sc_core::sc_time bit;    ///< length of a bit: what the baud rate is
+  std::uint8_t data = 0;
+  bool parity_ok = true;  ///< even parity
+  bool stop_ok = true;    ///< the stop bit is high (else a framing error)
+};
+std::ostream& operator<<(std::ostream& out, const BusCharacter& character);
+
+struct TlmOptions : ChipOptions {
+  AccessTiming access{};
+};
+
+class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> {
+ public:
+  using In = sc_core::sc_in<bool>;
+  using OptionalIn = sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
+  using OptionalOut = sc_core::sc_port<sc_core::sc_signal_inout_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
+
+  /// DPRAM 0x000..0x7FF. Every byte of a transaction is one access with `AccessTiming`; the time passes inside b_transport.
+  ///   data length 0, streaming width less than the length    TLM_BURST_ERROR_RESPONSE
+  ///   byte enables: any pattern of 0x00 and 0xFF; others     TLM_BYTE_ENABLE_ERROR_RESPONSE
+  ///   a byte outside of the DPRAM                            TLM_ADDRESS_ERROR_RESPONSE, nothing accessed
+  ///   neither read nor write                                 TLM_COMMAND_ERROR_RESPONSE
+  ///   X or Z read, table 15 violated by a write              TLM_GENERIC_ERROR_RESPONSE, the burst ends there
+  /// Access without ownership is carried out and reported (P12). Debug transport reads and writes the DPRAM past the pins;
+  /// direct memory access is denied.
+  tlm_utils::simple_target_socket<TlmModule> host_socket{"host_socket"};
+
+  In RESET{"RESET"};                        ///< low-active
+  In R_REQ{"R_REQ"}, R_STA{"R_STA"};        ///< the user's side of the handshake
+  OptionalOut L_REQ{"L_REQ"}, L_STA{"L_STA"};  ///< the chip's side; bound, they cost two events per microsecond
+  OptionalOut INTR0{"INTR0"};
+  OptionalOut PBF{"PBF"}, BR{"BR"}, READY{"READY"};
+
+  /// Characters to the chip. `start` may be now or later, in order of time; one that begins before the previous one has ended destroys
+  /// the rest of that (a collision), one in the past is not sent; both are reported as the warning /dsdpv1/bus.
+  sc_core::sc_export<tlm::tlm_analysis_if<BusCharacter>> bus_in{"bus_in"};
+  /// Characters from the chip, each at the end of its stop bit.
+  tlm::tlm_analysis_port<BusCharacter> bus_out{"bus_out"};
+  OptionalOut PBRTS{"PBRTS"};  ///< the RS-485 driver's enable (P2)
+  /// The raw line, beside the characters. A bound PBRXD and the characters of `bus_in` are both on the wire: a low of either wins.
+  OptionalIn PBRXD{"PBRXD"};
+  OptionalOut PBTXD{"PBTXD"};
+
+  explicit TlmModule(const sc_core::sc_module_name& name, const TlmOptions& options = {});
+
+  /// Brings the core to the present time; signals follow in the next delta cycle. For users that read levels through `chip()`.
+  void sync();
+
+ private:
+  using Payload = tlm::tlm_generic_payload;
+
+  void start_of_simulation() override;
+  void write(const BusCharacter& character) override;  // bus_in
+  void b_transport(Payload& payload, sc_core::sc_time& delay);
+  unsigned int transport_dbg(Payload& payload);
+
+  void carry_out(Payload& payload);
+  const AccessTiming& timing_of(const Payload& payload) const;
+  bool read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte);
+  bool write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte);
+  Level perform(const HostAccess& access);
+  void wait_until(Tick tick);
+
+  void evaluate();
+  void catch_up();
+  void apply_line(Tick now);
+  void apply_inputs(Tick now);
+  void drive_outputs();
+  void plan();
+
+  void output_changed(Tick at, Pin pin, Level level) override;
+  void collect_character(Tick now);
+  void emit_characters();
+  bool is_sendable(const BusCharacter& character);
+  void put_on_line(const BusCharacter& character);
+
+  AccessTiming access_;
+  sc_core::sc_mutex host_bus_;  ///< accesses of several initiators follow each other
+  Tick access_start_ = 0;       ///< simulation tick of the running access' first edge
+  EdgeQueue to_chip_;
+  Tick line_busy_until_ = 0;      ///< chip tick of the end of the last character in `to_chip_`
+  bool characters_level_ = true;  ///< what the characters of `bus_in` drive now
+  CharacterCollector from_chip_;
+  std::vector<LineCharacter> complete_;  ///< collected, not yet sent through `bus_out`
+};
+
+}  // namespace dsdpv1::systemc

@@ -1,0 +1,63 @@
+#include "model/systemc/host_access.hpp"
+
+#include <algorithm>
+
+namespace dsdpv1::systemc {
+namespace {
+
+constexpr Level kIdleAddress = 0x7FF;
+
+/// Of edges at one tick, what prepares a strobe comes before it and what ends an access after it.
+int rank(const HostAccess::Edge& edge) {
+  switch (edge.pin) {
+    case Pin::kA:
+      return edge.level == kIdleAddress ? 6 : 0;
+    case Pin::kCsr:
+      return edge.level == 0 ? 1 : 5;
+    case Pin::kDIn:
+      return edge.level == kLevelZ ? 4 : 2;
+    default:
+      return edge.pin == Pin::kDOut ? 2 : 3;
+  }
+}
+
+}  // namespace
+
+HostAccess HostAccess::read(std::uint16_t address, const AccessTiming& timing) {
+  HostAccess access;
+  access.frame(Pin::kRd, address, timing.rd_low, timing);
+  access.add(timing.rd_sample, Pin::kDOut, 0);
+  access.order(timing.recovery);
+  return access;
+}
+
+HostAccess HostAccess::write(std::uint16_t address, std::uint8_t value, const AccessTiming& timing) {
+  HostAccess access;
+  access.frame(Pin::kWr, address, timing.wr_low, timing);
+  access.add(timing.wr_low - timing.data_setup, Pin::kDIn, value);
+  access.add(timing.wr_low + timing.data_hold, Pin::kDIn, kLevelZ);
+  access.order(timing.recovery);
+  return access;
+}
+
+/// What reads and writes have in common, counted from the fall of the strobe.
+void HostAccess::frame(Pin strobe, std::uint16_t address, Tick low, const AccessTiming& timing) {
+  add(-timing.address_setup, Pin::kA, static_cast<Level>(address));
+  add(-timing.cs_lead, Pin::kCsr, 0);
+  add(0, strobe, 0);
+  add(low, strobe, 1);
+  add(low + timing.cs_trail, Pin::kCsr, 1);
+  add(low + timing.address_hold, Pin::kA, kIdleAddress);
+}
+
+void HostAccess::order(Tick recovery) {
+  const auto last = edges_.begin() + static_cast<std::ptrdiff_t>(size_);
+  std::sort(edges_.begin(), last, [](const Edge& a, const Edge& b) {
+    return a.at != b.at ? a.at < b.at : rank(a) < rank(b);
+  });
+  const Tick first = edges_.front().at;
+  std::for_each(edges_.begin(), last, [first](Edge& edge) { edge.at -= first; });
+  duration_ = (last - 1)->at + std::max<Tick>(recovery, 0);
+}
+
+}  // namespace dsdpv1::systemc
