@@ -1,0 +1,33 @@
+#pragma once
+// The keywords outside of blocks, their types and ranges (PROFIBUS GSD specification, revisions 1 to 5). Internal to the GSD
+// reader.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace bus::gsd {
+
+enum class Kind : std::uint8_t {
+  kNumber,  ///< low..high
+  kText,    ///< at most `high` characters
+  kBytes,  ///< a list of 0..255
+  kAny,     ///< kept as written
+};
+
+struct Keyword {
+  std::string_view name;
+  Kind kind;
+  std::int64_t low, high;
+};
+
+/// The keyword with this name, case ignored; nullptr when there is none.
+const Keyword* find_keyword(std::string_view name);
+
+/// What a misspelt name stands for: known slips of real files, underscores forgotten or added. nullptr when nothing fits.
+const Keyword* guess_keyword(std::string_view name);
+
+/// Vendor and profile keywords (F_, X_, Unit_Diag...) that are kept without a remark.
+bool is_kept_silently(std::string_view key);
+
+}  // namespace bus::gsd
