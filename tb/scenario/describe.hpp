@@ -1,0 +1,29 @@
+#pragma once
+// The parts of the description of a scenario's keys, one function for each mapping.
+#include "tb/scenario/keys.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace tb::scenario {
+
+using keys::Choice;
+using keys::ObjectOf;
+using keys::Range;
+using keys::WordFor;
+
+const ObjectOf<ChipParameters>& chip_keys();
+const ObjectOf<Master>& master_keys();
+const ObjectOf<Slave>& slave_keys();
+const ObjectOf<Action>& action_keys();
+const ObjectOf<When>& when_keys();
+const ObjectOf<Expectation>& expectation_keys();
+const ObjectOf<Allow>& allow_keys();
+
+/// The ten baud rates, fastest first; with `searching` also the word for no baud rate (-1).
+std::vector<WordFor<int>> baud_words(bool searching = false);
+
+constexpr bus::Tick kLongestTime = 3600 * bus::kTicksPerSecond;
+constexpr Range kAnyTime = {0, kLongestTime};
+constexpr Range kAddresses = {0, 126};
+constexpr Range kItems = {0, 1000};
+
+}  // namespace tb::scenario

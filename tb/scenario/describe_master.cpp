@@ -1,0 +1,67 @@
+// Keys of a master and of the slaves that it brings up.
+#include "tb/scenario/describe.hpp"
+
+namespace tb::scenario {
+namespace {
+
+const ObjectOf<BusParameters>& bus_keys() {
+  static const ObjectOf<BusParameters> keys = [] {
+    using B = BusParameters;
+    ObjectOf<B> o("bus", "Bus parameters of a master.");
+    o.integer("slot_time", &B::slot_time, {37, 16383}, "bit times", "T_SL; left out: what EN 50170 gives for the baud rate (100 ... 1000).");
+    o.integer("idle_time", &B::idle_time, {33, 1023}, "bit times", "T_ID1 before every request; left out: the master's own.");
+    o.integer("retries", &B::retries, {0, 8}, "", "How often an unanswered request is repeated.");
+    o.integer("gap_factor", &B::gap_factor, {0, 100}, "cycles", "Data cycles between two FDL status polls for the live list, 0 for none.");
+    o.time("cycle_time", &B::cycle_time, {0, 10 * bus::kTicksPerSecond}, "Least time from the start of one data cycle to the next; 0ns: as fast as the bus allows.");
+    o.integer("clock_error", &B::clock_error, {-20000, 20000}, "ppm", "Error of the master's bit clock; positive is slow.");
+    return o;
+  }();
+  return keys;
+}
+
+const ObjectOf<MasterSlave>& master_slave_keys() {
+  static const ObjectOf<MasterSlave> keys = [] {
+    using S = MasterSlave;
+    ObjectOf<S> o("master slave", "A slave as its master sees it: where it is, and what it is sent.");
+    o.name_of("slave", &S::slave, "Name of the scenario's slave: its address, GSD and modules are taken unless given here.");
+    o.integer("address", &S::address, kAddresses, "", "Station address; needed where no slave is named.");
+    o.file("gsd", &S::gsd, "GSD file for ident, Set_Prm and Chk_Cfg, relative to the scenario's folder.");
+    o.names("modules", &S::modules, {0, 64}, "Names of the GSD's modules, in the order of the slots.");
+    o.bytes("user_prm", &S::user_prm, {0, 237}, "User parameters (behind the seven standard bytes) instead of those of the GSD.");
+    o.bytes("cfg", &S::cfg, {1, 244}, "Configuration bytes instead of those of the GSD's modules.");
+    o.integer("ident", &S::ident, {0, 0xFFFF}, "", "Ident number instead of that of the GSD.");
+    o.time("watchdog", &S::watchdog, {0, 650 * bus::kTicksPerSecond}, "Watchdog time of Set_Prm, rounded up to what WD_Fact_1 x WD_Fact_2 can be; 0ns: off.");
+    o.integer("min_tsdr", &S::min_tsdr, {0, 255}, "bit times", "min_TSDR of Set_Prm; 0 leaves the slave's unchanged.");
+    o.bytes("groups", &S::groups, {0, 8}, "Group numbers 1 to 8 that the slave belongs to (Group_Ident).");
+    o.boolean("sync", &S::sync, "Sync_Req of Set_Prm.");
+    o.boolean("freeze", &S::freeze, "Freeze_Req of Set_Prm.");
+    o.boolean("fail_safe", &S::fail_safe, "Fail_Safe of the first DPV1 byte of Set_Prm.");
+    o.boolean("dpv1", &S::dpv1, "DPV1_Enable of the first DPV1 byte of Set_Prm.");
+    o.bytes("outputs", &S::outputs, {0, 244}, "First outputs, filled up with 0; left out: all 0.");
+    o.at_least_one = {{"slave", "address"}};
+    return o;
+  }();
+  return keys;
+}
+
+}  // namespace
+
+const ObjectOf<Master>& master_keys() {
+  static const ObjectOf<Master> keys = [] {
+    ObjectOf<Master> o("master", "A DP master class 1.");
+    o.name_of("name", &Master::name, "Name of the master in the log and the script.").required = true;
+    o.integer("address", &Master::address, {0, 125}, "", "Station address.");
+    o.word("personality", &Master::personality,
+           std::vector<WordFor<Personality>>{{Personality::kHighAlways, "high_always", "SRD high for everything, SD3 where 8 bytes fit, min_TSDR 0 possible"},
+                                             {Personality::kClassic, "classic", "SRD low for diagnosis, parameters and configuration, a Global_Control before Set_Prm"}},
+           "Which of the habits of real masters it has.");
+    o.time("start", &Master::start, kAnyTime, "When it enters the bus.");
+    o.boolean("operate", &Master::operate, "Whether it goes to Operate by itself; false: it stays in Clear until the script says `operate`.");
+    o.object("bus", &Master::bus, bus_keys(), "Bus parameters other than those of the baud rate.");
+    o.list("slaves", &Master::slaves, master_slave_keys(), {0, 125}, "The slaves that it brings up.");
+    return o;
+  }();
+  return keys;
+}
+
+}  // namespace tb::scenario

@@ -1,0 +1,139 @@
+// Keys of the script: actions, and the conditions that they may wait for.
+#include "tb/scenario/describe.hpp"
+
+namespace tb::scenario {
+namespace {
+
+const ObjectOf<Faults>& fault_keys() {
+  static const ObjectOf<Faults> keys = [] {
+    const Range byte = {0, 254};
+    ObjectOf<Faults> o("faults", "What is broken in a telegram. Bytes count from 0.");
+    o.integer("wrong_parity_at", &Faults::wrong_parity_at, byte, "", "This byte has the wrong parity bit.");
+    o.integer("missing_stop_at", &Faults::missing_stop_at, byte, "", "This byte's stop bit is low.");
+    o.integer("gap_before", &Faults::gap_before, byte, "", "Idle time before this byte.");
+    o.number("gap_bits", &Faults::gap_bits, {0, 1000}, "bit times", "How long that idle time is.");
+    o.integer("truncate_after", &Faults::truncate_after, {0, 255}, "bytes", "Only this many bytes are sent.");
+    o.integer("glitch_at", &Faults::glitch_at, byte, "", "The line is inverted for a while in this byte.");
+    o.number("glitch_start_bits", &Faults::glitch_start_bits, {0, 11}, "bit times", "Where in the byte that begins.");
+    o.number("glitch_bits", &Faults::glitch_bits, {0, 11}, "bit times", "How long it lasts.");
+    return o;
+  }();
+  return keys;
+}
+
+std::vector<WordFor<Do>> action_words() {
+  return {{Do::kSetInputs, "set_inputs", ""},
+          {Do::kSetDiagnosis, "set_diagnosis", ""},
+          {Do::kReinitialise, "reinitialise", ""},
+          {Do::kResetChip, "reset_chip", ""},
+          {Do::kHoldDpram, "hold_dpram", ""},
+          {Do::kWrongCrc, "wrong_crc", ""},
+          {Do::kEarlyRSta, "early_r_sta", ""},
+          {Do::kVerdict, "verdict", ""},
+          {Do::kUnplug, "unplug", ""},
+          {Do::kPlug, "plug", ""},
+          {Do::kSetOutputs, "set_outputs", ""},
+          {Do::kReadInputs, "read_inputs", ""},
+          {Do::kReadOutputs, "read_outputs", ""},
+          {Do::kGetCfg, "get_cfg", ""},
+          {Do::kSlaveDiag, "slave_diag", ""},
+          {Do::kSetSlaveAddress, "set_slave_address", ""},
+          {Do::kGlobalControl, "global_control", ""},
+          {Do::kOperate, "operate", ""},
+          {Do::kClear, "clear", ""},
+          {Do::kStopMaster, "stop_master", ""},
+          {Do::kStartMaster, "start_master", ""},
+          {Do::kChangeBaud, "change_baud", ""},
+          {Do::kTelegram, "telegram", ""},
+          {Do::kGlitch, "glitch", ""}};
+}
+
+/// What each word of `do` means and takes, in the order of action_words().
+std::vector<Choice> action_choices() {
+  const std::vector<std::string> reads = {"master", "slave", "address"};
+  return {
+      {"set_inputs", "The user CPU hands these inputs to the chip (behaviour constant or idle).", {"slave", "bytes"}, {}},
+      {"set_diagnosis", "The user CPU hands a diagnosis to the chip.", {"slave", "type"}, {"bytes"}},
+      {"reinitialise", "The user CPU initialises the chip again, with another address or configuration if given.", {"slave"}, {"new_address", "cfg"}},
+      {"reset_chip", "RESET goes low for a while; the user CPU starts again with it.", {"slave"}, {"for"}},
+      {"hold_dpram", "The user CPU takes the DPRAM and keeps it.", {"slave", "for"}, {}},
+      {"wrong_crc", "The next blocks of this kind that the user CPU writes have a wrong CRC.", {"slave", "area"}, {"times"}},
+      {"early_r_sta", "The next holds raise R_STA together with R_REQ, without looking at L_REQ and L_STA (against H2).", {"slave"}, {"times"}},
+      {"verdict", "The user CPU sends a verdict, as it does in judging mode 2.", {"slave", "of"}, {"refuse"}},
+      {"unplug", "The station is taken from the bus.", {}, {"slave", "master"}},
+      {"plug", "The station is put back.", {}, {"slave", "master"}},
+      {"set_outputs", "The master sends these outputs from the next cycle on.", {"slave", "bytes"}, {"master"}},
+      {"read_inputs", "The master reads the inputs (SAP 56).", {}, reads},
+      {"read_outputs", "The master reads the outputs (SAP 57).", {}, reads},
+      {"get_cfg", "The master reads the configuration (SAP 59).", {}, reads},
+      {"slave_diag", "The master reads the diagnosis (SAP 60).", {}, reads},
+      {"set_slave_address", "The master gives the slave another address (SAP 55).", {"new_address"}, {"master", "slave", "address", "ident", "lock"}},
+      {"global_control", "The master sends a Global_Control (SAP 58) to all, or to the groups.", {}, {"master", "sync", "unsync", "freeze", "unfreeze", "clear", "group"}},
+      {"operate", "The master goes to Operate.", {}, {"master"}},
+      {"clear", "The master goes to Clear.", {}, {"master"}},
+      {"stop_master", "The master falls silent.", {}, {"master"}},
+      {"start_master", "The master enters the bus again, from the beginning.", {}, {"master"}},
+      {"change_baud", "All masters go on with another baud rate.", {"baud"}, {}},
+      {"telegram", "The master sends these bytes between two of its own telegrams, right or broken.", {"bytes"}, {"master", "faults"}},
+      {"glitch", "The line is forced to a level for a while.", {"for"}, {"level"}},
+  };
+}
+
+void describe_values(ObjectOf<Action>& o) {
+  using A = Action;
+  o.name_of("slave", &A::slave, "Name of the slave.");
+  o.name_of("master", &A::master, "Name of the master; left out: the first one.");
+  o.bytes("bytes", &A::bytes, {0, 255}, "Data, or all bytes of a telegram.");
+  o.word("type", &A::diagnosis,
+         std::vector<WordFor<DiagWord>>{{DiagWord::kExtended, "extended", "B227 = 00, low priority"},
+                                        {DiagWord::kExternal, "external", "81, Ext_Diag"},
+                                        {DiagWord::kExternalGone, "external_gone", "01"},
+                                        {DiagWord::kStatic, "static", "82, Stat_Diag"},
+                                        {DiagWord::kStaticGone, "static_gone", "02"}},
+         "Kind of the diagnosis (D9).");
+  o.integer("address", &A::address, kAddresses, "", "Station address, where it is not that of the slave in the scenario.");
+  o.integer("new_address", &A::new_address, {0, 255}, "", "The new station address.");
+  o.integer("ident", &A::ident, {0, 0xFFFF}, "", "Ident number in the telegram; left out: the right one.");
+  o.boolean("lock", &A::lock, "No_Add_Chg: no further change of the address.");
+  o.bytes("cfg", &A::cfg, {1, 200}, "The new configuration.");
+  o.time("for", &A::duration, {1, 10 * bus::kTicksPerSecond}, "How long; of reset_chip left out: 10us.");
+  o.word("area", &A::area,
+         std::vector<WordFor<Area>>{{Area::kInit, "init", "initialisation"}, {Area::kInputs, "inputs", ""}, {Area::kDiagnosis, "diagnosis", ""}},
+         "Which block.");
+  o.integer("times", &A::times, {1, 1000}, "", "How many.");
+  o.word("of", &A::of, std::vector<WordFor<Verdict>>{{Verdict::kPrm, "prm", "parameters"}, {Verdict::kCfg, "cfg", "configuration"}}, "What is judged.");
+  o.boolean("refuse", &A::refuse, "The verdict is: wrong.");
+  o.word("baud", &A::baud, baud_words(), "The new baud rate.");
+  o.object("faults", &A::faults, fault_keys(), "What is broken in the telegram.");
+  o.boolean("level", &A::level, "true: the line is forced high, false: low.");
+}
+
+void describe_global_control(ObjectOf<Action>& o) {
+  o.boolean("sync", &Action::sync, "Sync.");
+  o.boolean("unsync", &Action::unsync, "Unsync.");
+  o.boolean("freeze", &Action::freeze, "Freeze.");
+  o.boolean("unfreeze", &Action::unfreeze, "Unfreeze.");
+  o.boolean("clear", &Action::clear, "Clear_Data.");
+  o.integer("group", &Action::group, {0, 255}, "", "Group_Select, a bit for each group; 0 means all.");
+}
+
+}  // namespace
+
+const ObjectOf<Action>& action_keys() {
+  static const ObjectOf<Action> keys = [] {
+    ObjectOf<Action> o("action", "One thing that happens, at a time or when a condition has become true.");
+    o.time("at", &Action::at, kAnyTime, "When, from the start of the run.");
+    o.object("when", &Action::when, when_keys(), "Once, as soon as this is true.");
+    o.word("do", &Action::what, action_words(), "What happens.");
+    describe_values(o);
+    describe_global_control(o);
+    o.selector = "do";
+    o.choices = action_choices();
+    o.always = {"at", "when"};
+    o.exactly_one = {{"at", "when"}};
+    return o;
+  }();
+  return keys;
+}
+
+}  // namespace tb::scenario

@@ -1,0 +1,20 @@
+#pragma once
+// What every reader of input files throws: one line that says where, what is wrong and what is allowed.
+#include <stdexcept>
+#include <string>
+
+namespace tb {
+
+/// "file:line: text", or "file: text" when `line` is 0, or "text" when there is no file (command line). Lines count from 1.
+class InputError : public std::runtime_error {
+ public:
+  InputError(const std::string& file, int line, const std::string& text) : std::runtime_error(join(file, line, text)) {}
+  explicit InputError(const std::string& text) : std::runtime_error(text) {}
+
+ private:
+  static std::string join(const std::string& file, int line, const std::string& text) {
+    return line > 0 ? file + ":" + std::to_string(line) + ": " + text : file + ": " + text;
+  }
+};
+
+}  // namespace tb

@@ -1,0 +1,231 @@
+#pragma once
+// A scenario as typed values. What each key means, with unit, range and default, is said once, in describe.cpp.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/bytes.hpp"
+#include "bus/time.hpp"
+#include "model/dsdpv1/chip.hpp"
+#include "tb/scenario/keys.hpp"
+#include "tb/user_cpu/cpu.hpp"
+
+namespace tb::scenario {
+
+using keys::Name;
+
+struct ChipParameters : dsdpv1::Config {
+  int line = 0;
+};
+
+/// Values that a master takes from the baud rate (bus/baud.hpp) when they are absent.
+struct BusParameters {
+  std::optional<int> slot_time;  ///< T_SL, bit times
+  std::optional<int> idle_time;  ///< T_ID1, bit times
+  int retries = 1;
+  int gap_factor = 10;           ///< cycles between two FDL status polls of the live list, 0 = none
+  bus::Tick cycle_time = 0;      ///< least time from one data cycle's start to the next
+  int clock_error = 0;           ///< ppm
+  int line = 0;
+};
+
+/// A slave as a master sees it.
+struct MasterSlave {
+  std::optional<int> address;  ///< absent: that of the scenario's slave
+  Name slave;                  ///< the scenario's slave, empty when nobody is meant to be there
+  Name gsd;
+  std::vector<Name> modules;
+  std::optional<bus::Bytes> user_prm, cfg;
+  bus::Tick watchdog = 0;  ///< 0 = off
+  int min_tsdr = 11;
+  bus::Bytes groups;       ///< group numbers 1..8
+  bool sync = false, freeze = false, fail_safe = false, dpv1 = false;
+  std::optional<int> ident;
+  bus::Bytes outputs;
+  int line = 0;
+};
+
+enum class Personality : std::uint8_t { kHighAlways, kClassic };
+
+struct Master {
+  Name name;
+  int address = 2;
+  Personality personality = Personality::kHighAlways;
+  bus::Tick start = 0;
+  bool operate = true;
+  BusParameters bus;
+  std::vector<MasterSlave> slaves;
+  int line = 0;
+};
+
+/// What the user CPU hands to the chip at the initialisation (table 2, B020..).
+struct InitData {
+  std::optional<int> ident, max_inputs, max_outputs, max_diag, max_prm, max_cfg;
+  std::optional<bus::Bytes> cfg;
+  int prm_mode = 0, cfg_mode = 0;
+  std::optional<bool> set_slave_address, freeze, sync, fail_safe;
+  bool dpv1 = false;
+  int line = 0;
+};
+
+enum class Behaviour : std::uint8_t { kLoopBack, kCount, kConstant, kIdle };
+enum class Judgement : std::uint8_t { kAccept, kRefuse, kNever };
+
+struct AccessTimes : user_cpu::AccessTiming {
+  int line = 0;
+};
+
+struct CpuTimes : user_cpu::CpuTiming {
+  int line = 0;
+};
+
+struct UserCpu {
+  Behaviour behaviour = Behaviour::kLoopBack;
+  bus::Bytes constant;
+  bus::Tick start_delay = 100 * bus::kTicksPerUs;
+  bus::Tick cycle = 50 * bus::kTicksPerUs;
+  bus::Tick judge_delay = 0;
+  Judgement judge_prm = Judgement::kAccept, judge_cfg = Judgement::kAccept;
+  CpuTimes timing;  ///< its `access` is left alone: that is the next member
+  AccessTimes access;
+  int line = 0;
+};
+
+struct Slave {
+  Name name;
+  int address = 0;
+  Name gsd;
+  std::vector<Name> modules;
+  InitData init;
+  UserCpu user_cpu;
+  bus::Tick release_reset = 10 * bus::kTicksPerUs;
+  int clock_phase = 0;  ///< ticks
+  int line = 0;
+};
+
+enum class Do : std::uint8_t {
+  kSetInputs,
+  kSetDiagnosis,
+  kReinitialise,
+  kResetChip,
+  kHoldDpram,
+  kWrongCrc,
+  kEarlyRSta,
+  kVerdict,
+  kUnplug,
+  kPlug,
+  kSetOutputs,
+  kReadInputs,
+  kReadOutputs,
+  kGetCfg,
+  kSlaveDiag,
+  kSetSlaveAddress,
+  kGlobalControl,
+  kOperate,
+  kClear,
+  kStopMaster,
+  kStartMaster,
+  kChangeBaud,
+  kTelegram,
+  kGlitch,
+};
+
+enum class DpStateWord : std::uint8_t { kOffline, kWaitPrm, kWaitCfg, kDataExch };
+
+/// Something about a slave (or the telegrams of the bus) that is true or not at a point of time; all parts given must hold.
+struct Condition {
+  Name slave;
+  std::optional<DpStateWord> dp_state;
+  std::optional<int> baud;  ///< index of bus/baud.hpp, -1 = searching
+  std::optional<int> station_address;
+  std::optional<std::int64_t> data_exchanges, data_exchanges_at_most;
+  std::optional<bus::Bytes> inputs, outputs;
+  Name event;
+  std::int64_t count = 1;
+  std::optional<std::int64_t> count_at_most;
+  std::optional<double> tsdr_min, tsdr_max;  ///< bit times
+  std::optional<bus::Tick> longest_wait_at_most;
+  Name master;
+  std::optional<Do> reply_of;
+  std::optional<bus::Bytes> reply;
+  int line = 0;
+};
+
+struct Expectation : Condition {
+  std::optional<bus::Tick> at, by;
+};
+
+struct When : Condition {
+  bus::Tick after = 0;
+};
+
+enum class DiagWord : std::uint8_t { kExtended, kExternalGone, kExternal, kStaticGone, kStatic };
+enum class Area : std::uint8_t { kInit, kInputs, kDiagnosis };
+enum class Verdict : std::uint8_t { kPrm, kCfg };
+
+/// What is broken in a telegram on the wire; byte positions count from 0.
+struct Faults {
+  std::optional<int> wrong_parity_at, missing_stop_at, gap_before, truncate_after, glitch_at;
+  double gap_bits = 2;
+  double glitch_start_bits = 1, glitch_bits = 0.4;
+  int line = 0;
+};
+
+struct Action {
+  std::optional<bus::Tick> at;
+  std::optional<When> when;
+  Do what = Do::kSetInputs;
+  Name slave, master;
+  bus::Bytes bytes;
+  DiagWord diagnosis = DiagWord::kExtended;
+  std::optional<int> address, new_address, ident;
+  std::optional<bus::Bytes> cfg;
+  bool lock = false, refuse = false, level = false;
+  bool sync = false, unsync = false, freeze = false, unfreeze = false, clear = false;
+  int group = 0;
+  std::optional<bus::Tick> duration;
+  Area area = Area::kInputs;
+  int times = 1;
+  Verdict of = Verdict::kPrm;
+  int baud = 0;
+  Faults faults;
+  int line = 0;
+};
+
+/// A violation that does not fail the run.
+struct Allow {
+  Name event;
+  Name slave;  ///< empty: any
+  int line = 0;
+};
+
+struct Scenario {
+  std::string file;  ///< as given to `load_scenario`
+  std::string name;
+  int baud = 0;  ///< index of bus/baud.hpp
+  bus::Tick end = 0;
+  ChipParameters chip;
+  std::vector<Master> masters;
+  std::vector<Slave> slaves;
+  std::vector<Action> script;
+  std::vector<Expectation> expect;
+  std::vector<Allow> allow;
+  int line = 0;
+};
+
+/// Reads and checks a scenario; throws InputError. GSD files are not opened here.
+Scenario load(const std::string& path);
+/// The same from text; `file` is used in errors and as the base of relative paths.
+Scenario parse(const std::string& text, const std::string& file);
+/// `path` of a scenario as the program can open it: relative to the scenario's folder.
+std::string resolve(const Scenario& scenario, const Name& path);
+
+/// The description of a whole scenario.
+const keys::Object& description();
+/// JSON Schema (draft 2020-12) of the scenario, indented, with a line end.
+std::string json_schema();
+/// docs/scenarios.md.
+std::string markdown();
+
+}  // namespace tb::scenario

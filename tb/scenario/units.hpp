@@ -1,0 +1,26 @@
+#pragma once
+// Times and bytes as people write them in scenarios and on command lines.
+#include <optional>
+#include <string>
+
+#include "bus/bytes.hpp"
+#include "bus/time.hpp"
+
+namespace tb {
+
+/// What a time may look like, for error messages.
+extern const char* const kTimeForm;
+
+/// "250ns", "1.5ms", "20us", "2s", "48cycles" (of 48 MHz) as ticks, rounded once to the nearest; nullopt for anything else.
+std::optional<bus::Tick> parse_time(const std::string& text);
+
+/// The shortest way to write a time that `parse_time` reads back: "1.5ms".
+std::string time_text(bus::Tick ticks);
+
+/// "01 a0 FF*10": hexadecimal bytes, `*n` repeats one n times; nullopt for anything else. Blank text is no bytes.
+std::optional<bus::Bytes> parse_bytes(const std::string& text);
+
+/// "01 A0 FF"; longer than `most` bytes: the first ones, "..." and the length.
+std::string bytes_text(const bus::Bytes& bytes, std::size_t most = 32);
+
+}  // namespace tb

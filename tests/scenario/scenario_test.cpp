@@ -1,0 +1,72 @@
+// Scenarios: what is read, and what comes from the same description.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tb/scenario/input_error.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace {
+
+namespace sc = tb::scenario;
+
+const std::string kSmall =
+    "name: small\nbaud: 1.5M\nend: 10ms\n"
+    "slaves:\n  - {name: demo, address: 5, init: {ident: 0x1234, max_inputs: 2, max_outputs: 2, cfg: \"31\"}}\n";
+
+TEST(Scenario, HoldsWhatTheFileSays) {
+  const sc::Scenario scenario = sc::parse(kSmall +
+                                              "masters:\n  - name: plc\n    start: 1ms\n    slaves:\n      - {slave: demo, watchdog: 100ms, groups: [1, 3]}\n"
+                                              "script:\n  - {at: 2ms, do: set_outputs, slave: demo, bytes: \"01 02\"}\n"
+                                              "  - {when: {slave: demo, dp_state: data_exch, after: 1us}, do: global_control, sync: true}\n"
+                                              "expect:\n  - {slave: demo, data_exchanges: 10, by: 9ms}\n"
+                                              "allow:\n  - {event: HOST_TS}\n",
+                                          "s.yaml");
+  EXPECT_EQ(scenario.name, "small");
+  EXPECT_EQ(scenario.baud, 3);
+  EXPECT_EQ(scenario.end, 10 * bus::kTicksPerMs);
+  ASSERT_EQ(scenario.slaves.size(), 1U);
+  EXPECT_EQ(scenario.slaves[0].init.ident, 0x1234);
+  EXPECT_EQ(scenario.slaves[0].init.cfg, bus::Bytes{0x31});
+  ASSERT_EQ(scenario.masters.size(), 1U);
+  EXPECT_EQ(scenario.masters[0].slaves.at(0).groups, (bus::Bytes{1, 3}));
+  ASSERT_EQ(scenario.script.size(), 2U);
+  EXPECT_EQ(scenario.script[0].what, sc::Do::kSetOutputs);
+  EXPECT_EQ(scenario.script[1].when->after, bus::kTicksPerUs);
+  EXPECT_TRUE(scenario.script[1].sync);
+  EXPECT_EQ(scenario.expect.at(0).data_exchanges, 10);
+  EXPECT_EQ(scenario.expect[0].by, 9 * bus::kTicksPerMs);
+  EXPECT_EQ(scenario.allow.at(0).event.line, 17);
+}
+
+TEST(Scenario, LeavesDefaultsWhereKeysAreMissing) {
+  const sc::Scenario scenario = sc::parse(kSmall, "s.yaml");
+  EXPECT_EQ(scenario.chip.access_interval, dsdpv1::Config{}.access_interval);
+  EXPECT_EQ(scenario.slaves[0].user_cpu.access.wr_low, user_cpu::AccessTiming{}.wr_low);
+}
+
+TEST(Scenario, PathsAreRelativeToItsFolder) {
+  sc::Scenario scenario = sc::parse(kSmall, "some/where/s.yaml");
+  EXPECT_EQ(sc::resolve(scenario, {"../x.gsd", 1}), "some/x.gsd");
+  scenario.file = "s.yaml";
+  EXPECT_EQ(sc::resolve(scenario, {"x.gsd", 1}), "x.gsd");
+}
+
+TEST(JsonSchema, IsJsonAndKnowsEveryKeyOfTheDescription) {
+  const auto schema = nlohmann::json::parse(sc::json_schema());
+  for (const auto& field : sc::description().fields) EXPECT_TRUE(schema["properties"].contains(field.name)) << field.name;
+  EXPECT_FALSE(schema["additionalProperties"]);
+  EXPECT_EQ(schema["required"], (nlohmann::json{"name", "baud", "end", "slaves"}));
+  EXPECT_EQ(schema["$defs"]["action"]["oneOf"].size(), 24U);
+}
+
+TEST(Markdown, IsTheCheckedInFile) {
+  std::ifstream in(DSDPV1_SOURCE_DIR "/docs/scenarios.md");
+  std::ostringstream text;
+  text << in.rdbuf();
+  EXPECT_TRUE(text.str() == sc::markdown()) << "docs/scenarios.md is stale: dsdpv1-sim schema --markdown > docs/scenarios.md";
+}
+
+}  // namespace
