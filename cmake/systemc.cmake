@@ -18,20 +18,20 @@ endfunction()
 function(dsdpv1_check_systemc)
   dsdpv1_systemc_links(17 links)
   if(links)
-    set(DSDPV1_SYSTEMC_CHECKED "${SYSTEMC_VERSION} ${SYSTEMC_LINK_LIBRARIES}" CACHE INTERNAL "the SystemC that links with C++17")
+    set(DSDPV1_SYSTEMC_CHECKED "${SYSTEMC_systemc_VERSION} ${SYSTEMC_LINK_LIBRARIES}" CACHE INTERNAL "the SystemC that links with C++17")
     return()
   endif()
   foreach(standard 11 14 20 23)
     dsdpv1_systemc_links(${standard} links)
     if(links)
-      message(FATAL_ERROR "SystemC ${SYSTEMC_VERSION} in ${SYSTEMC_LIBDIR} was built for C++${standard}; this project needs one built "
+      message(FATAL_ERROR "SystemC ${SYSTEMC_systemc_VERSION} in ${SYSTEMC_systemc_LIBDIR} was built for C++${standard}; this project needs one built "
                           "for C++17: build it with -DCMAKE_CXX_STANDARD=17, or use Debian's libsystemc-dev.")
     endif()
   endforeach()
-  message(FATAL_ERROR "No program links with SystemC ${SYSTEMC_VERSION} in ${SYSTEMC_LIBDIR}, in no C++ standard from 11 to 23: "
+  message(FATAL_ERROR "No program links with SystemC ${SYSTEMC_systemc_VERSION} in ${SYSTEMC_systemc_LIBDIR}, in no C++ standard from 11 to 23: "
                       "its headers and its library do not belong together, or it was built by another compiler.")
 endfunction()
 
-if(NOT DSDPV1_SYSTEMC_CHECKED STREQUAL "${SYSTEMC_VERSION} ${SYSTEMC_LINK_LIBRARIES}")
+if(NOT DSDPV1_SYSTEMC_CHECKED STREQUAL "${SYSTEMC_systemc_VERSION} ${SYSTEMC_LINK_LIBRARIES}")
   dsdpv1_check_systemc()
 endif()
