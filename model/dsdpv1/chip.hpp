@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "model/dsdpv1/pins.hpp"
+#include "model/profibus/dp_state.hpp"
 #include "model/profibus/event.hpp"
 
 namespace dsdpv1 {
@@ -36,7 +37,7 @@ struct Config {
   std::uint32_t baud_control_ms = 600;     ///< S1: silence after which the baud rate is searched again
 };
 
-enum class DpState : std::uint8_t { kOffline = 0, kWaitPrm = 1, kWaitCfg = 2, kDataExch = 3 };  // coding of B012, table 5
+using profibus::DpState;  ///< coding of B012, table 5
 
 /// Counters and states for benches and results; reading it changes nothing.
 struct Status {

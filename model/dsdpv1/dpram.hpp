@@ -1,0 +1,28 @@
+#pragma once
+// The 2 KB dual-port RAM. A cell that the user wrote with violated timing keeps what was captured and is marked unknown until
+// somebody writes it properly (ruling P11).
+#include <array>
+#include <bitset>
+
+#include "registers/dsdpv1_regs.hpp"
+
+namespace dsdpv1 {
+
+class Dpram {
+ public:
+  std::uint8_t read(regs::Address address) const { return cells_[index(address)]; }
+  void write(regs::Address address, std::uint8_t value) {
+    cells_[index(address)] = value;
+    unknown_.reset(index(address));
+  }
+  void mark_unknown(regs::Address address) { unknown_.set(index(address)); }
+  bool unknown(regs::Address address) const { return unknown_.test(index(address)); }
+
+ private:
+  static constexpr std::size_t index(regs::Address address) { return address % regs::kDpramSize; }
+
+  std::array<std::uint8_t, regs::kDpramSize> cells_{};
+  std::bitset<regs::kDpramSize> unknown_;
+};
+
+}  // namespace dsdpv1

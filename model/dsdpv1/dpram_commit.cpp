@@ -1,0 +1,72 @@
+// What the user's blocks do when an access of the chip has read them (rulings D5, D7, D10 to D14, H7).
+#include "model/dsdpv1/crc16.hpp"
+#include "model/dsdpv1/dpram_sequencer.hpp"
+#include "model/dsdpv1/init_data.hpp"
+
+namespace dsdpv1 {
+
+using profibus::Reason;
+
+bool DpramSequencer::crc_right(Cycle now, Reason reason, std::uint8_t error_bit) {
+  const auto* stored = &image_[static_cast<std::size_t>(image_size_)];
+  const unsigned found = static_cast<unsigned>(stored[0]) << 8 | stored[1];
+  const unsigned computed = crc16(image_.data(), image_size_);
+  const bool right = found == computed;
+  (right ? status2_clear_ : status2_set_) |= error_bit;
+  if (!right) log_.at_cycle(now, reason, found, computed);
+  return right;
+}
+
+void DpramSequencer::refuse_length(Cycle now) {
+  const std::uint8_t* header = image_.data();
+  switch (item_) {
+    case Item::kInit:
+      log_.at_cycle(now, Reason::kInitLength, header[0], regs::kInitCfg - regs::kInit - 1);
+      return init_result(false);
+    case Item::kInput:
+      return log_.at_cycle(now, Reason::kInputLength, header[0], static_cast<unsigned>(station_.slave().input_size()));
+    default: return log_.at_cycle(now, Reason::kDiagLength, header[1], regs::kDiagDataSize);
+  }
+}
+
+void DpramSequencer::commit_init(Cycle now) {
+  init_result_due1_ = true;
+  chip_status1_ = 0;
+  if (!crc_right(now, Reason::kInitCrc, regs::kChipStatus2InitCrc)) return;
+  profibus::SlaveConfig config;
+  const bool good = parse_init(image_.data(), image_size_, now, log_, config);
+  init_result(good);
+  if (!good) return;
+  log_.at_cycle(now, Reason::kInitialised, config.address, config.ident, dpv1_ == regs::kDpv1EnableOn);
+  station_.initialise(now, config);
+  initialised_ = true;
+}
+
+void DpramSequencer::init_result(bool good) {
+  chip_status1_ = good ? regs::kChipStatus1Initialised : std::uint8_t{0};
+  chip_status4_ = good ? std::uint8_t{0} : regs::kChipStatus4InitLimit;
+  init_result_due1_ = init_result_due4_ = true;
+}
+
+void DpramSequencer::commit_input(Cycle now) {
+  if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag);
+  if (!crc_right(now, Reason::kInputCrc, regs::kChipStatus2InputCrc)) return;
+  station_.slave().new_inputs(now, &image_[1], image_size_ - 1);
+}
+
+void DpramSequencer::commit_diag(Cycle now) {
+  if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag);
+  if (!crc_right(now, Reason::kDiagCrc, regs::kChipStatus2DiagCrc)) return;
+  station_.slave().new_diagnosis(now, image_[0], &image_[2], image_size_ - 2);
+}
+
+void DpramSequencer::commit_verdict(Cycle now) {
+  const std::uint8_t verdict = image_[0];  // B00C
+  if (item_ == Item::kPrmVerdict) {
+    station_.slave().prm_verdict(now, (verdict & regs::kUserStatus1PrmWrong) == 0);
+  } else {
+    station_.slave().cfg_verdict(now, (verdict & regs::kUserStatus1CfgWrong) == 0);
+  }
+}
+
+}  // namespace dsdpv1

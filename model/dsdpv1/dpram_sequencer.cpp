@@ -1,0 +1,313 @@
+#include "model/dsdpv1/dpram_sequencer.hpp"
+
+#include <algorithm>
+
+#include "model/dsdpv1/crc16.hpp"
+
+namespace dsdpv1 {
+namespace {
+
+constexpr int kHeaderMoves = 6;
+constexpr int kVersionBytes = 4;
+constexpr std::uint8_t kVersion[kVersionBytes] = {regs::kVersionReset, regs::kVersionYearReset, regs::kVersionMonthReset,
+                                                  regs::kVersionDayReset};
+constexpr int kStartUpMoves = regs::kDpramSize + kVersionBytes + 1;  // the RAM, the version, B006
+constexpr std::uint8_t kChipWasHere = 1;                             // B006
+
+}  // namespace
+
+void DpramSequencer::reset() {
+  goto_phase(Phase::kOff, profibus::kNever);
+  initialised_ = valid_written_ = init_result_due1_ = init_result_due4_ = false;
+  offline_written_ = 0;
+  status3_written_ = chip_status1_ = chip_status4_ = status2_set_ = status2_clear_ = 0;
+  accesses_ = 0;
+  longest_wait_ = 0;
+}
+
+void DpramSequencer::start_up(Cycle now) {
+  origin_ = start_ = now;
+  op_ = now + 1;
+  index_ = 0;
+  accesses_ = 1;
+  goto_phase(Phase::kStartUp, now + kStartUpMoves + 1);
+}
+
+void DpramSequencer::eval(Cycle now) {
+  r_req_.eval(now);
+  if (phase_ == Phase::kIdle) {
+    if (now >= due_ && !r_req_.level()) begin(now);
+  } else {
+    catch_up(now);
+  }
+}
+
+Cycle DpramSequencer::next() const {
+  const Cycle own = phase_ != Phase::kIdle ? visible_ : r_req_.level() ? profibus::kNever : due_;
+  return std::min(own, r_req_.next());
+}
+
+void DpramSequencer::catch_up(Cycle until) {
+  while (owns() && op_ <= until) move(op_++);
+}
+
+// --- the access -----------------------------------------------------------------------------------------------------------
+
+void DpramSequencer::begin(Cycle now) {
+  longest_wait_ = std::max(longest_wait_, now - due_);
+  ++accesses_;
+  start_ = now;
+  op_ = now + 1;
+  index_ = 0;
+  goto_phase(Phase::kHeader, now + kHeaderMoves + 1);
+}
+
+void DpramSequencer::end(Cycle now) {
+  due_ = std::max(start_ + interval_, now + 1);  // H1, H8
+  goto_phase(Phase::kIdle, profibus::kNever);
+}
+
+void DpramSequencer::move(Cycle now) {
+  switch (phase_) {
+    case Phase::kOff:
+    case Phase::kIdle: return;
+    case Phase::kStartUp: return move_start_up(now);
+    case Phase::kHeader: return move_header(now);
+    case Phase::kChoose: return choose(now);
+    case Phase::kRead: return read_byte();
+    case Phase::kDecode: return decode(now);
+    case Phase::kReadRest: return read_byte();
+    case Phase::kCheck: phase_ = Phase::kCommit; return;
+    case Phase::kCommit: return commit(now);
+    case Phase::kWrite:
+      dpram_.write(static_cast<regs::Address>(area(item_).base + index_), image_[static_cast<std::size_t>(index_)]);
+      if (++index_ == image_size_) phase_ = Phase::kCrcHigh;
+      return;
+    case Phase::kCrcHigh:
+      dpram_.write(area(item_).crc, static_cast<std::uint8_t>(image_crc_ >> 8));
+      phase_ = Phase::kCrcLow;
+      return;
+    case Phase::kCrcLow:
+      dpram_.write(static_cast<regs::Address>(area(item_).crc + 1), static_cast<std::uint8_t>(image_crc_ & 0xFF));
+      phase_ = Phase::kFlag;
+      return;
+    case Phase::kFlag: return flag(now);
+    case Phase::kStatus2:
+      dpram_.write(regs::kChipStatus2, static_cast<std::uint8_t>((status2_read_ & ~status2_clear_) | status2_set_));
+      status2_set_ = status2_clear_ = 0;
+      return goto_phase(Phase::kChoose, now + 1);
+  }
+}
+
+void DpramSequencer::move_start_up(Cycle now) {
+  const int move = index_++;
+  if (move < regs::kDpramSize) {
+    dpram_.write(static_cast<regs::Address>(move), 0);
+  } else if (move < regs::kDpramSize + kVersionBytes) {
+    const int i = move - regs::kDpramSize;
+    dpram_.write(static_cast<regs::Address>(regs::kVersion + i), kVersion[i]);
+  } else if (move < kStartUpMoves) {
+    dpram_.write(regs::kAccessCount, kChipWasHere);
+  } else {
+    end(now);
+  }
+}
+
+void DpramSequencer::move_header(Cycle now) {
+  switch (index_++) {
+    case 0: dpram_.write(regs::kAccessCount, kChipWasHere); return;
+    case 1: user_command1_ = dpram_.read(regs::kUserCommand1); return;
+    case 2: return;  // B011: nothing in it is used without DPV1
+    case 3: chip_command1_ = dpram_.read(regs::kChipCommand1); return;
+    case 4: return;  // B00F: as B011
+    default:
+      dpv1_ = dpram_.read(regs::kDpv1Enable);
+      item_ = Item::kInit;
+      return goto_phase(Phase::kChoose, now + 1);
+  }
+}
+
+// --- choosing ---------------------------------------------------------------------------------------------------------------
+
+void DpramSequencer::choose(Cycle now) {
+  if (item_ == Item::kInit) station_.slave().set_dpv1_byte(dpv1_);
+  while (item_ != Item::kNone && !due(item_, now)) next_item();
+  if (item_ == Item::kNone) return end(now);
+  start(item_, now);
+}
+
+bool DpramSequencer::due(Item item, Cycle now) const {
+  const profibus::DpSlave& slave = station_.slave();
+  switch (item) {
+    case Item::kInit: return (user_command1_ & regs::kUserCommand1Init) != 0;
+    case Item::kPrmVerdict: return (user_command1_ & regs::kUserCommand1PrmVerdict) != 0;
+    case Item::kCfgVerdict: return (user_command1_ & regs::kUserCommand1CfgVerdict) != 0;
+    case Item::kInput: return (user_command1_ & regs::kUserCommand1Input) != 0;
+    case Item::kDiag: return (user_command1_ & regs::kUserCommand1Diag) != 0;
+    case Item::kPrm: return slave.mail().prm_due.before(now);
+    case Item::kCfg: return slave.mail().cfg_due.before(now);
+    case Item::kOutput: return slave.mail().output_due.before(now);
+    case Item::kValidFlag: return !valid_written_ && start_ >= origin_ + ready_cycles_;
+    case Item::kOfflineHigh: return (slave.offline_count() ^ offline_written_) > 0xFF;
+    case Item::kOfflineLow: return ((slave.offline_count() ^ offline_written_) & 0xFF) != 0;
+    case Item::kChipStatus1: return init_result_due1_;
+    case Item::kChipStatus2: return (status2_set_ | status2_clear_) != 0;
+    case Item::kChipStatus3: return status3() != status3_written_;
+    case Item::kChipStatus4: return init_result_due4_;
+    case Item::kNone: return false;
+  }
+  return false;
+}
+
+const DpramSequencer::Area& DpramSequencer::area(Item item) {
+  static constexpr Area kInit = {regs::kInit, regs::kInitCrc, 1, regs::kInitSize - 1, regs::kUserCommand1Init};
+  static constexpr Area kInput = {regs::kInput, regs::kInputCrc, 1, regs::kInputDataSize, regs::kUserCommand1Input};
+  static constexpr Area kDiag = {regs::kDiag, regs::kDiagCrc, 2, regs::kDiagDataSize, regs::kUserCommand1Diag};
+  static constexpr Area kPrmVerdict = {regs::kUserStatus1, 0, 1, 0, regs::kUserCommand1PrmVerdict};
+  static constexpr Area kCfgVerdict = {regs::kUserStatus1, 0, 1, 0, regs::kUserCommand1CfgVerdict};
+  static constexpr Area kPrm = {regs::kPrm, regs::kPrmCrc, 1, regs::kPrmDataSize, regs::kChipCommand1Prm};
+  static constexpr Area kCfg = {regs::kCfg, regs::kCfgCrc, 3, regs::kCfgDataSize, regs::kChipCommand1Cfg};
+  static constexpr Area kOutput = {regs::kOutput, regs::kOutputCrc, 1, regs::kOutputDataSize, regs::kChipCommand1Output};
+  switch (item) {
+    case Item::kInit: return kInit;
+    case Item::kPrmVerdict: return kPrmVerdict;
+    case Item::kCfgVerdict: return kCfgVerdict;
+    case Item::kInput: return kInput;
+    case Item::kDiag: return kDiag;
+    case Item::kPrm: return kPrm;
+    case Item::kCfg: return kCfg;
+    default: return kOutput;
+  }
+}
+
+void DpramSequencer::start(Item item, Cycle now) {
+  if (item <= Item::kDiag) return start_read(now, area(item));
+  if (item <= Item::kOutput) return start_write(now, item);
+  status_byte(item, now);
+}
+
+// The first byte moves in the cycle of the choice.
+void DpramSequencer::start_read(Cycle now, const Area& area) {
+  index_ = 0;
+  image_size_ = area.header;
+  goto_phase(Phase::kRead, now + area.header);
+  read_byte();
+}
+
+void DpramSequencer::start_write(Cycle now, Item item) {
+  profibus::UserMail& mail = station_.slave().mail();
+  const auto load = [this](const std::uint8_t* bytes, int size) {
+    image_[static_cast<std::size_t>(image_size_++)] = static_cast<std::uint8_t>(size);
+    std::copy_n(bytes, size, image_.begin() + image_size_);
+    image_size_ += size;
+  };
+  image_size_ = 0;
+  if (item == Item::kPrm) {
+    load(mail.prm.bytes.data(), mail.prm.size);
+    mail.prm_due.clear();
+  } else if (item == Item::kCfg) {
+    image_[0] = static_cast<std::uint8_t>(mail.cfg_output);
+    image_[1] = static_cast<std::uint8_t>(mail.cfg_input);
+    image_size_ = 2;
+    load(mail.cfg.bytes.data(), mail.cfg.size);
+    mail.cfg_due.clear();
+  } else {
+    const profibus::IoBlock& outputs = station_.slave().outputs();
+    load(outputs.bytes.data(), outputs.size);
+    mail.output_due.clear();
+  }
+  image_crc_ = crc16(image_.data(), image_size_);
+  index_ = 0;
+  goto_phase(Phase::kWrite, now + image_size_ + 2);  // the flag follows the two CRC bytes
+  move(now);
+}
+
+void DpramSequencer::status_byte(Item item, Cycle now) {
+  const std::uint16_t count = station_.slave().offline_count();
+  next_item();
+  goto_phase(Phase::kChoose, now + 1);
+  switch (item) {
+    case Item::kValidFlag:
+      dpram_.write(regs::kValidFlag, regs::kValidFlagValid);
+      valid_written_ = true;
+      log_.at_cycle(now, profibus::Reason::kReadyFlag);
+      return;
+    case Item::kOfflineHigh:
+      dpram_.write(regs::kOfflineCount, static_cast<std::uint8_t>(count >> 8));
+      offline_written_ = static_cast<std::uint16_t>((count & 0xFF00) | (offline_written_ & 0xFF));
+      return;
+    case Item::kOfflineLow:
+      dpram_.write(regs::kOfflineCount + 1, static_cast<std::uint8_t>(count & 0xFF));
+      offline_written_ = static_cast<std::uint16_t>((offline_written_ & 0xFF00) | (count & 0xFF));
+      return;
+    case Item::kChipStatus1:
+      dpram_.write(regs::kChipStatus1, chip_status1_);
+      init_result_due1_ = false;
+      return;
+    case Item::kChipStatus2:
+      status2_read_ = dpram_.read(regs::kChipStatus2);
+      return goto_phase(Phase::kStatus2, now + 1);
+    case Item::kChipStatus3:
+      status3_written_ = status3();
+      dpram_.write(regs::kChipStatus3, status3_written_);
+      return;
+    default:
+      dpram_.write(regs::kChipStatus4, chip_status4_);
+      init_result_due4_ = false;
+      return;
+  }
+}
+
+std::uint8_t DpramSequencer::status3() const {
+  const int state = static_cast<int>(station_.slave().state());
+  return static_cast<std::uint8_t>(station_.baud_index() << regs::kChipStatus3BaudRateShift | state << regs::kChipStatus3DpStateShift);
+}
+
+// --- moving blocks ------------------------------------------------------------------------------------------------------------
+
+void DpramSequencer::read_byte() {
+  const Area& block = area(item_);
+  const bool crc = index_ >= image_size_ && phase_ == Phase::kReadRest;
+  const int address = crc ? block.crc + (index_ - image_size_) : block.base + index_;
+  image_[static_cast<std::size_t>(index_)] = dpram_.read(static_cast<regs::Address>(address));
+  ++index_;
+  if (phase_ == Phase::kRead && index_ == image_size_) phase_ = Phase::kDecode;
+  if (phase_ == Phase::kReadRest && index_ == image_size_ + 2) phase_ = Phase::kCheck;
+}
+
+void DpramSequencer::decode(Cycle now) {
+  const Area& block = area(item_);
+  if (block.maximum == 0) return goto_phase(Phase::kCommit, now + 1);  // a verdict: nothing follows
+  const int length = image_[static_cast<std::size_t>(block.header - 1)];
+  if (length > block.maximum) {
+    image_size_ = 0;  // D12
+    return goto_phase(Phase::kCommit, now + 1);
+  }
+  image_size_ += length;
+  const Cycle rest = length + 2;
+  goto_phase(Phase::kReadRest, now + rest + 2);  // then the check cycle, then the commit
+}
+
+void DpramSequencer::commit(Cycle now) {
+  user_command1_ = static_cast<std::uint8_t>(user_command1_ & ~area(item_).flag);
+  dpram_.write(regs::kUserCommand1, user_command1_);
+  goto_phase(Phase::kChoose, now + 1);
+  const bool too_long = image_size_ == 0;
+  switch (item_) {
+    case Item::kInit: too_long ? refuse_length(now) : commit_init(now); break;
+    case Item::kInput: too_long ? refuse_length(now) : commit_input(now); break;
+    case Item::kDiag: too_long ? refuse_length(now) : commit_diag(now); break;
+    default: commit_verdict(now); break;
+  }
+  next_item();
+}
+
+void DpramSequencer::flag(Cycle now) {
+  chip_command1_ = static_cast<std::uint8_t>(chip_command1_ | area(item_).flag);
+  dpram_.write(regs::kChipCommand1, chip_command1_);
+  if (item_ != Item::kOutput) interrupt_.trigger(now);
+  next_item();
+  goto_phase(Phase::kChoose, now + 1);
+}
+
+}  // namespace dsdpv1

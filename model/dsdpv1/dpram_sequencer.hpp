@@ -1,0 +1,137 @@
+#pragma once
+// The chip's side of the DPRAM (5.1, chapter 8; rulings H1 to H8, D1 to D15): one access a microsecond, one byte a cycle, in
+// the order that docs/microarchitecture.md defines. It carries blocks between the DPRAM and profibus::Station.
+//
+// Bytes move lazily: `next()` is the next cycle whose effect somebody else can see, and the moves between are made up for then
+// (or earlier, by catch_up, when somebody looks at the DPRAM).
+#include <array>
+
+#include "model/dsdpv1/dpram.hpp"
+#include "model/dsdpv1/interrupt.hpp"
+#include "model/profibus/event_log.hpp"
+#include "model/profibus/station.hpp"
+#include "model/profibus/synchroniser.hpp"
+
+namespace dsdpv1 {
+
+using profibus::Cycle;
+using profibus::Tick;
+
+class DpramSequencer {
+ public:
+  DpramSequencer(profibus::EventLog& log, Dpram& dpram, profibus::Station& station, Interrupt& interrupt, Cycle interval,
+                 Cycle ready_cycles)
+      : log_(log), dpram_(dpram), station_(station), interrupt_(interrupt), interval_(interval), ready_cycles_(ready_cycles) {}
+
+  void reset();
+  /// The logic leaves reset at `now` (cycle R): the start-up access begins (H6).
+  void start_up(Cycle now);
+  void set_r_req(Tick at, bool level) { r_req_.set(at, level); }
+
+  /// The rising edge of `now`.
+  void eval(Cycle now);
+  /// Makes up for the byte moves up to and including `until`.
+  void catch_up(Cycle until);
+  Cycle next() const;
+
+  bool owns() const { return phase_ > Phase::kIdle; }  ///< L_REQ and L_STA
+  bool ready_led() const { return initialised_; }      ///< READY: an initialisation has succeeded
+  std::uint64_t accesses() const { return accesses_; }
+  Cycle longest_wait() const { return longest_wait_; }
+
+ private:
+  // What one access may have to do, in the order of ruling H4, then the changed status bytes by address.
+  enum class Item : std::uint8_t {
+    kInit, kPrmVerdict, kCfgVerdict, kInput, kDiag, kPrm, kCfg, kOutput,
+    kValidFlag, kOfflineHigh, kOfflineLow, kChipStatus1, kChipStatus2, kChipStatus3, kChipStatus4, kNone,
+  };
+  enum class Phase : std::uint8_t {
+    kOff,        // reset
+    kIdle,       // L_REQ and L_STA low
+    kStartUp,    // clearing the RAM
+    kHeader,     // B006 := 1, reading B010, B011, B00E, B00F, B005
+    kChoose,     // the next item begins, or the access ends
+    kRead,       // a block of the user: first bytes up to the length
+    kDecode,     // the length is looked at
+    kReadRest,   // the bytes that the length says, and the CRC
+    kCheck,      // the last byte has arrived
+    kCommit,     // the flag is cleared, the block takes effect
+    kWrite,      // a block for the user
+    kCrcHigh, kCrcLow,
+    kFlag,       // its flag is set
+    kStatus2,    // B00B, second cycle: written back
+  };
+  struct Area {
+    regs::Address base, crc;
+    int header;  // bytes up to and including the length
+    int maximum; // largest length
+    std::uint8_t flag;
+  };
+  static const Area& area(Item item);
+
+  // access
+  void begin(Cycle now);
+  void end(Cycle now);
+  void move(Cycle now);  // the byte move of one cycle
+  void move_start_up(Cycle now);
+  void move_header(Cycle now);
+  // choosing
+  void choose(Cycle now);
+  bool due(Item item, Cycle now) const;
+  void start(Item item, Cycle now);
+  void next_item() { item_ = static_cast<Item>(static_cast<int>(item_) + 1); }
+  void start_read(Cycle now, const Area& area);
+  void start_write(Cycle now, Item item);
+  void status_byte(Item item, Cycle now);
+  // moving blocks
+  void read_byte();
+  void decode(Cycle now);
+  void commit(Cycle now);
+  void flag(Cycle now);
+  void goto_phase(Phase phase, Cycle visible) {
+    phase_ = phase;
+    visible_ = visible;
+  }
+  // effects
+  bool crc_right(Cycle now, profibus::Reason reason, std::uint8_t error_bit);
+  void commit_init(Cycle now);
+  void commit_input(Cycle now);
+  void commit_diag(Cycle now);
+  void commit_verdict(Cycle now);
+  void refuse_length(Cycle now);
+  void init_result(bool good);
+  bool offline() const { return station_.slave().state() == profibus::DpState::kOffline; }
+  std::uint8_t status3() const;
+
+  profibus::EventLog& log_;
+  Dpram& dpram_;
+  profibus::Station& station_;
+  Interrupt& interrupt_;
+  const Cycle interval_, ready_cycles_;
+  profibus::Synchroniser r_req_{false};
+
+  Phase phase_ = Phase::kOff;
+  Item item_ = Item::kNone;  // in work, or the last one done in this access
+  Cycle origin_ = 0;         // cycle R
+  Cycle start_ = 0, due_ = 0;
+  Cycle op_ = 0;             // the cycle of the next byte move
+  Cycle visible_ = profibus::kNever;
+  int index_ = 0;
+  std::array<std::uint8_t, 256> image_{};  // the block in work, from its first byte
+  int image_size_ = 0;                     // without the CRC
+  std::uint16_t image_crc_ = 0;
+
+  std::uint8_t user_command1_ = 0, chip_command1_ = 0, dpv1_ = 0;  // B010, B00E, B005 as this access found them
+  // status bytes as last written, and what is to be written
+  bool valid_written_ = false;
+  std::uint16_t offline_written_ = 0;
+  std::uint8_t status3_written_ = 0;
+  bool init_result_due1_ = false, init_result_due4_ = false;
+  std::uint8_t chip_status1_ = 0, chip_status4_ = 0;
+  std::uint8_t status2_set_ = 0, status2_clear_ = 0, status2_read_ = 0;
+  bool initialised_ = false;
+  std::uint64_t accesses_ = 0;
+  Cycle longest_wait_ = 0;
+};
+
+}  // namespace dsdpv1

@@ -1,0 +1,190 @@
+#include "model/dsdpv1/host_port.hpp"
+
+#include <algorithm>
+
+namespace dsdpv1 {
+namespace {
+
+using profibus::Reason;
+
+constexpr Cycle kWriteSettles = 2;  // P8: the third rising edge after WR's, two after the first
+
+bool chips_own(regs::Address address) {
+  for (const regs::Cell& cell : regs::kMap) {
+    if (address <= cell.last) return cell.chip_writes && !cell.user_writes;
+  }
+  return false;
+}
+
+}  // namespace
+
+void HostPort::reset() {
+  enabled_ = false;
+  write_count_ = 0;
+  hold_reported_ = true;
+  reading_ = false;
+  sample_at_ = profibus::kNever;
+  drive_at_ = profibus::kNever;
+  d_out_ = kLevelZ;
+}
+
+Level HostPort::level(Pin pin) const {
+  switch (pin) {
+    case Pin::kCsr: return csr_;
+    case Pin::kRd: return rd_;
+    case Pin::kWr: return wr_;
+    case Pin::kA: return static_cast<Level>(a_);
+    case Pin::kDIn: return d_in_;
+    default: return d_out_;
+  }
+}
+
+void HostPort::set(Tick at, Pin pin, Level level) {
+  switch (pin) {
+    case Pin::kCsr: return chip_select(at, level != 0);
+    case Pin::kRd: return read_strobe(at, level != 0);
+    case Pin::kWr: return write_strobe(at, level != 0);
+    case Pin::kA:
+      a_ = static_cast<regs::Address>(level);
+      if (reading_ && sample_at_ != profibus::kNever && at > read_began_) {
+        log_.at_tick(at, Reason::kReadAddressChanged, a_);
+        read_spoilt_ = true;
+      }
+      return lines_changed(at);
+    case Pin::kDIn: d_in_ = level; return lines_changed(at);
+    default: return;
+  }
+}
+
+// --- strobes ------------------------------------------------------------------------------------------------------------
+
+void HostPort::chip_select(Tick at, bool level) {
+  csr_ = level;
+  if (!level && !rd_) begin_read(at);
+  if (level && reading_) end_read(at);
+  if (enabled_ && level && !wr_) log_.at_tick(at, Reason::kWriteDeselected, a_);
+}
+
+void HostPort::read_strobe(Tick at, bool level) {
+  rd_ = level;
+  if (!level && !csr_) begin_read(at);
+  if (level && reading_) end_read(at);
+}
+
+void HostPort::write_strobe(Tick at, bool level) {
+  wr_ = level;
+  if (!level) wr_fell_ = at;
+  if (level && !csr_) capture(at);
+}
+
+void HostPort::check_owner(Tick at) {
+  if (!r_req_ || !r_sta_) log_.at_tick(at, Reason::kAccessNotOwned, a_, r_req_, r_sta_);
+}
+
+// --- reads --------------------------------------------------------------------------------------------------------------
+
+void HostPort::begin_read(Tick at) {
+  if (!enabled_) return;
+  check_owner(at);
+  reading_ = true;
+  read_spoilt_ = false;
+  read_began_ = at;
+  sample_at_ = profibus::first_edge_after(at);
+  d_out_ = kLevelX;  // P5: until D is driven nobody knows it
+}
+
+void HostPort::end_read(Tick at) {
+  if (at - read_began_ < kTw) log_.at_tick(at, Reason::kReadTooShort, a_, static_cast<unsigned>(at - read_began_));
+  reading_ = false;
+  sample_at_ = profibus::kNever;
+  drive_at_ = profibus::kNever;
+  d_out_ = kLevelZ;
+}
+
+Level HostPort::sample(Cycle now, bool chip_owns) {
+  if (read_spoilt_ || chip_owns) return kLevelX;
+  const Tick at = now * profibus::kTicksPerCycle;
+  if (in_flight(a_)) {
+    log_.at_tick(at, Reason::kReadInFlight, a_);
+    return kLevelX;
+  }
+  if (dpram_.unknown(a_)) {
+    log_.at_tick(at, Reason::kReadUnknown, a_);
+    return kLevelX;
+  }
+  return dpram_.read(a_);
+}
+
+bool HostPort::in_flight(regs::Address address) const {
+  for (unsigned i = 0; i < write_count_; ++i) {
+    if (write_at(i).address == address) return true;
+  }
+  return false;
+}
+
+void HostPort::drive() {
+  d_out_ = sampled_;
+  drive_at_ = profibus::kNever;
+}
+
+// --- writes -------------------------------------------------------------------------------------------------------------
+
+void HostPort::capture(Tick at) {
+  if (!enabled_) return;
+  check_owner(at);
+  if (write_count_ == kWritesInFlight) {
+    log_.at_tick(at, Reason::kWriteOverrun, a_);
+    return;
+  }
+  const bool good = check_capture(at);
+  const Cycle settles = profibus::first_edge_after(at) + kWriteSettles;
+  write_at(write_count_++) = {settles, a_, static_cast<std::uint8_t>(d_in_ & 0xFF), good};
+  captured_ = at;
+  captured_address_ = a_;
+  hold_reported_ = false;
+}
+
+bool HostPort::check_capture(Tick at) {
+  bool good = true;
+  const auto report = [&](Reason reason, Tick seen) {
+    log_.at_tick(at, reason, a_, static_cast<unsigned>(std::min<Tick>(seen, 0xFFFF)));
+    good = false;
+  };
+  if (at - wr_fell_ < kTs) report(Reason::kWriteLowTooShort, at - wr_fell_);
+  if (at - lines_changed_ < kTd) report(Reason::kWriteSetup, at - lines_changed_);
+  if (d_in_ < 0) report(Reason::kWriteFloating, 0);
+  if (chips_own(a_)) log_.at_tick(at, Reason::kReadOnlyWritten, a_, static_cast<unsigned>(d_in_ & 0xFF));
+  return good;
+}
+
+void HostPort::lines_changed(Tick at) {
+  lines_changed_ = at;
+  if (hold_reported_ || at - captured_ >= kTd) return;
+  hold_reported_ = true;
+  log_.at_tick(at, Reason::kWriteHold, captured_address_, static_cast<unsigned>(at - captured_));
+  if (write_count_ > 0) write_at(write_count_ - 1).good = false;  // settles 3 edges later, so it is still in flight
+}
+
+void HostPort::settle(const Write& write) {
+  dpram_.write(write.address, write.value);
+  if (!write.good) dpram_.mark_unknown(write.address);
+}
+
+// --- the rising edge ------------------------------------------------------------------------------------------------------
+
+void HostPort::eval(Cycle now, bool chip_owns) {
+  if (now == sample_at_) {
+    sampled_ = sample(now, chip_owns);
+    sample_at_ = profibus::kNever;
+    drive_at_ = now * profibus::kTicksPerCycle + profibus::kTicksPerCycle / 2;
+  }
+  while (write_count_ > 0 && write_at(0).settles <= now) {
+    settle(write_at(0));
+    first_write_ = (first_write_ + 1) % kWritesInFlight;
+    --write_count_;
+  }
+}
+
+Cycle HostPort::next() const { return std::min(sample_at_, write_count_ > 0 ? write_at(0).settles : profibus::kNever); }
+
+}  // namespace dsdpv1

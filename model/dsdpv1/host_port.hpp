@@ -1,0 +1,86 @@
+#pragma once
+// The asynchronous 8-bit user port (5.2, figure 6, table 15; rulings P5, P6, P8, P11, P12): CSR, RD, WR, A and D by the tick,
+// the DPRAM by the cycle.
+#include <array>
+
+#include "model/dsdpv1/dpram.hpp"
+#include "model/dsdpv1/pins.hpp"
+#include "model/profibus/event_log.hpp"
+
+namespace dsdpv1 {
+
+/// Table 15 in ticks.
+constexpr Tick kTs = 150;   ///< 12.5 ns, WR low
+constexpr Tick kTd = 150;   ///< 12.5 ns, A and D stable before and after WR rises
+constexpr Tick kTw = 375;   ///< 31.25 ns, RD's fall to certain data
+
+class HostPort {
+ public:
+  HostPort(profibus::EventLog& log, Dpram& dpram) : log_(log), dpram_(dpram) {}
+
+  /// In reset the port neither reads nor writes; `release` ends that.
+  void reset();
+  void release() { enabled_ = true; }
+  /// A change of CSR, RD, WR, A or D_IN at `at`.
+  void set(Tick at, Pin pin, Level level);
+  void set_handshake(bool r_req, bool r_sta) {
+    r_req_ = r_req;
+    r_sta_ = r_sta;
+  }
+  Level level(Pin pin) const;
+
+  /// The rising edge of `now`: writes that have settled, the address of a read. `chip_owns`: L_STA as it was before the edge.
+  void eval(Cycle now, bool chip_owns);
+  Cycle next() const;
+  /// The falling edge at which D is driven.
+  Tick drive_at() const { return drive_at_; }
+  void drive();
+
+  /// D as the chip drives it now.
+  Level d_out() const { return d_out_; }
+
+ private:
+  static constexpr unsigned kWritesInFlight = 4;
+  struct Write {
+    Cycle settles = 0;
+    regs::Address address = 0;
+    std::uint8_t value = 0;
+    bool good = true;
+  };
+  void chip_select(Tick at, bool level);
+  void read_strobe(Tick at, bool level);
+  void write_strobe(Tick at, bool level);
+  void lines_changed(Tick at);
+  void begin_read(Tick at);
+  void end_read(Tick at);
+  void capture(Tick at);
+  bool check_capture(Tick at);
+  void settle(const Write& write);
+  Level sample(Cycle now, bool chip_owns);
+  bool in_flight(regs::Address address) const;
+  void check_owner(Tick at);
+  Write& write_at(unsigned i) { return writes_[(first_write_ + i) % kWritesInFlight]; }
+  const Write& write_at(unsigned i) const { return writes_[(first_write_ + i) % kWritesInFlight]; }
+
+  profibus::EventLog& log_;
+  Dpram& dpram_;
+  bool enabled_ = false;
+  bool csr_ = true, rd_ = true, wr_ = true;
+  bool r_req_ = false, r_sta_ = false;
+  regs::Address a_ = 0;
+  Level d_in_ = kLevelZ;
+  Tick wr_fell_ = 0, lines_changed_ = -kTd, captured_ = -kTd;
+  bool hold_reported_ = true;  // or nothing was captured yet
+
+  std::array<Write, kWritesInFlight> writes_{};
+  unsigned first_write_ = 0, write_count_ = 0;
+
+  bool reading_ = false, read_spoilt_ = false;
+  Tick read_began_ = 0;
+  Cycle sample_at_ = profibus::kNever;
+  Tick drive_at_ = profibus::kNever;
+  Level sampled_ = kLevelX, d_out_ = kLevelZ;
+  regs::Address captured_address_ = 0;
+};
+
+}  // namespace dsdpv1

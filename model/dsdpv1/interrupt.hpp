@@ -1,0 +1,39 @@
+#pragma once
+// INTR0 (5.2, table 16, ruling P7): low pulses of fixed length with a least time between them.
+#include <algorithm>
+
+#include "model/profibus/time.hpp"
+
+namespace dsdpv1 {
+
+using profibus::Cycle;
+
+class Interrupt {
+ public:
+  Interrupt(Cycle low, Cycle gap) : low_(low), gap_(gap) {}
+
+  void reset() {
+    fall_ = rise_ = profibus::kNever;
+    ready_ = 0;
+  }
+  /// New parameter or configuration data are in the DPRAM: their flag was written at `now`.
+  void trigger(Cycle now) {
+    if (fall_ == profibus::kNever) fall_ = std::max(now + 1, ready_);
+  }
+  void eval(Cycle now) {
+    if (now == rise_) rise_ = profibus::kNever;
+    if (now != fall_) return;
+    fall_ = profibus::kNever;
+    rise_ = now + low_;
+    ready_ = rise_ + gap_;
+  }
+  Cycle next() const { return std::min(fall_, rise_); }
+  bool level() const { return rise_ == profibus::kNever; }
+
+ private:
+  Cycle low_, gap_;
+  Cycle fall_ = profibus::kNever, rise_ = profibus::kNever;
+  Cycle ready_ = 0;  // no earlier than this may INTR0 fall again
+};
+
+}  // namespace dsdpv1

@@ -1,0 +1,48 @@
+#pragma once
+// Automatic baud rate search (ruling S1, APC3 4.4.1): from 12 Mbit/s downwards, wrapping, one window for each rate.
+#include <algorithm>
+
+#include "model/profibus/baud.hpp"
+
+namespace profibus {
+
+class BaudSearch {
+ public:
+  /// Least time at one rate: `window` cycles and `bits` bit times.
+  BaudSearch(Cycle window, Cycle bits) : window_(window), bits_(bits) {}
+
+  void start(Cycle now) {
+    searching_ = true;
+    select(0, now);
+  }
+  /// The present rate is the right one.
+  void lock() {
+    searching_ = false;
+    deadline_ = kNever;
+  }
+  /// The edge of `now`. True when the window of the present rate has passed and the next rate is selected.
+  bool eval(Cycle now) {
+    if (now < deadline_) return false;
+    select((index_ + 1) % kBaudCount, now);
+    return true;
+  }
+  Cycle next() const { return deadline_; }
+
+  bool searching() const { return searching_; }
+  int index() const { return index_; }  ///< the rate that the receiver uses, found or tried
+  int bit() const { return kBitCycles[static_cast<std::size_t>(index_)]; }
+  int max_tsdr() const { return kMaxTsdr[static_cast<std::size_t>(index_)]; }
+
+ private:
+  void select(int index, Cycle now) {
+    index_ = index;
+    deadline_ = now + std::max(window_, bits_ * bit());
+  }
+
+  Cycle window_, bits_;
+  Cycle deadline_ = kNever;
+  int index_ = 0;
+  bool searching_ = false;
+};
+
+}  // namespace profibus

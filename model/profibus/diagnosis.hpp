@@ -1,0 +1,48 @@
+#pragma once
+// Slave_Diagnosis (6.2.4, APC3 A.4, ruling D9): the six standard bytes and the user's diagnosis of three kinds.
+#include "model/profibus/sap_buffers.hpp"
+
+namespace profibus {
+
+/// What the standard bytes show besides the diagnosis block's own flags.
+struct DiagnosisView {
+  bool ready = false;     ///< DATA_EXCH
+  bool prm_req = false;
+  bool watchdog = false, freeze = false, sync = false;
+  std::uint8_t master = 255;
+  std::uint16_t ident = 0;
+};
+
+class Diagnosis {
+ public:
+  /// After an initialisation: no faults, no user diagnosis.
+  void reset() { *this = Diagnosis(); }
+
+  static bool known_type(std::uint8_t type);
+  /// A right block of the user (type checked before). All but type 00 are high priority.
+  void set_user(std::uint8_t type, const std::uint8_t* bytes, int size);
+
+  /// The 6 standard bytes and the user's, at most 244; valid until the next call.
+  const std::uint8_t* bytes(const DiagnosisView& view);
+  int size() const { return kStandard + user_.size; }
+
+  bool high_priority() const { return high_priority_; }
+  void read_by_holder() { high_priority_ = false; }
+
+  void prm_fault(bool not_supported) {
+    prm_fault_ = true;
+    not_supported_ = not_supported_ || not_supported;
+  }
+  void prm_good() { prm_fault_ = not_supported_ = false; }
+  void cfg_fault() { cfg_fault_ = true; }
+  void cfg_good() { cfg_fault_ = false; }
+
+ private:
+  static constexpr int kStandard = 6;
+  bool prm_fault_ = false, not_supported_ = false, cfg_fault_ = false;
+  bool ext_diag_ = false, stat_diag_ = false, high_priority_ = false;
+  Block<kMaxDiag> user_;
+  std::array<std::uint8_t, kMaxIo> answer_{};
+};
+
+}  // namespace profibus

@@ -1,0 +1,120 @@
+#pragma once
+// The DP slave state machine (chapter 6, rulings S4 to S28): OFFLINE, WAIT_PRM, WAIT_CFG, DATA_EXCH. Service bodies that are
+// longer than a few lines are in set_prm.cpp, check_cfg.cpp and global_control.cpp.
+#include "model/profibus/diagnosis.hpp"
+#include "model/profibus/dp_state.hpp"
+#include "model/profibus/event_log.hpp"
+#include "model/profibus/request.hpp"
+#include "model/profibus/user_side.hpp"
+#include "model/profibus/watchdog.hpp"
+
+namespace profibus {
+
+namespace sap {
+constexpr int kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 57, kGlobalControl = 58, kGetCfg = 59, kSlaveDiag = 60,
+              kSetPrm = 61, kCheckCfg = 62;
+}
+
+constexpr std::uint8_t kNoMaster = 255;
+
+class DpSlave {
+ public:
+  DpSlave(EventLog& log, Watchdog& watchdog) : log_(log), watchdog_(watchdog) {}
+
+  // --- from the bus -------------------------------------------------------------------------------------------------
+  /// Executes a request at `now`. The reply's data are valid until the next call.
+  Reply handle(Cycle now, const Request& request);
+  /// The holding master's time is over (S1).
+  void watchdog_expired(Cycle now);
+
+  // --- from the user's side -------------------------------------------------------------------------------------------
+  void reset();
+  void initialise(Cycle now, const SlaveConfig& config);
+  void set_dpv1_byte(std::uint8_t b005) { b005_ = b005; }
+  /// `good`: the user found the parameters (configuration) right. See ruling H7.
+  void prm_verdict(Cycle now, bool good);
+  void cfg_verdict(Cycle now, bool good);
+  /// False with an event when refused (D10).
+  bool new_inputs(Cycle now, const std::uint8_t* bytes, int size);
+  bool new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size);
+  UserMail& mail() { return mail_; }
+  const UserMail& mail() const { return mail_; }
+  /// What the user is to see of the outputs (buffer 2).
+  const IoBlock& outputs() const { return outputs_.shown(); }
+
+  // --- what others need to know -----------------------------------------------------------------------------------------
+  DpState state() const { return state_; }
+  std::uint8_t address() const { return address_; }
+  std::uint8_t master() const { return master_; }
+  int input_size() const { return inputs_.size(); }  ///< configured, from the initialisation or Check_Cfg
+  int min_tsdr() const { return min_tsdr_; }
+  std::uint16_t offline_count() const { return offline_count_; }  ///< B008/B009: times that data exchange was left
+  std::uint64_t data_exchanges() const { return data_exchanges_; }
+  const SlaveConfig& config() const { return config_; }
+
+ private:
+  struct PrmRequest {  // a Set_Prm that passed the checks of its standard bytes
+    std::uint8_t master = kNoMaster, min_tsdr = 0, group = 0;
+    bool watchdog = false, sync = false, freeze = false, fail_safe = false;
+    Cycle watchdog_time = 0;
+    int user_size = 0;
+  };
+
+  // dp_slave.cpp
+  Reply dispatch(Cycle now, const Request& request);
+  Reply data_exchange(Cycle now, const Request& request);
+  Reply input_reply() const;
+  Reply slave_diag(const Request& request);
+  Reply get_cfg() const;
+  Reply set_slave_address(Cycle now, const Request& request);
+  Reply reply_data(const std::uint8_t* data, int size) const;
+  Reply refuse_state(Cycle now, const Request& request, int sap);
+  Reply refuse_master(Cycle now, const Request& request, int sap);
+  bool held_by_other(const Request& request) const { return master_ != kNoMaster && master_ != request.sa; }
+  void enter(Cycle now, DpState state);
+  void leave_to_wait_prm(Cycle now);
+  void hand_outputs(Cycle now);
+  void clear_outputs(Cycle now);
+  // set_prm.cpp
+  Reply set_prm(Cycle now, const Request& request);
+  bool check_prm(Cycle now, const Request& request, PrmRequest& prm);
+  bool check_options(Cycle now, std::uint8_t status, std::uint8_t spec, int user_size);
+  bool check_user_length(Cycle now, int user_size);
+  void refuse_prm(Cycle now, Reason reason, bool not_supported, unsigned a = 0, unsigned b = 0, unsigned c = 0);
+  void accept_prm(Cycle now, const PrmRequest& prm);
+  void set_min_tsdr(std::uint8_t bits);
+  // check_cfg.cpp
+  Reply check_cfg(Cycle now, const Request& request);
+  bool check_cfg_bytes(Cycle now, const Request& request, const CfgLengths& lengths);
+  bool check_cfg_equal(Cycle now, const Request& request, const Block<kMaxCfg>& expected);
+  void mail_cfg(Cycle now, const Request& request, const CfgLengths& lengths);
+  void refuse_cfg(Cycle now, Reason reason, unsigned a = 0, unsigned b = 0, unsigned c = 0);
+  void accept_cfg(Cycle now);
+  // global_control.cpp
+  void global_control(Cycle now, const Request& request);
+  void sync_command(Cycle now, std::uint8_t command);
+  void freeze_command(Cycle now, std::uint8_t command);
+
+  EventLog& log_;
+  Watchdog& watchdog_;
+  SlaveConfig config_;
+  std::uint8_t b005_ = 0;
+
+  DpState state_ = DpState::kOffline;
+  std::uint8_t address_ = 0;
+  bool address_locked_ = false;
+  std::uint8_t master_ = kNoMaster;
+  PrmRequest prm_;               // in force, or awaiting the user's verdict
+  bool prm_awaited_ = false, cfg_awaited_ = false;
+  bool watchdog_on_ = false;
+  int min_tsdr_ = kMinTsdr;
+  Block<kMaxCfg> cfg_;           // the configuration in use, or awaiting the verdict
+
+  DoubleBuffer outputs_, inputs_;
+  Diagnosis diagnosis_;
+  UserMail mail_;
+  std::uint16_t offline_count_ = 0;
+  std::uint64_t data_exchanges_ = 0;
+};
+
+}  // namespace profibus

@@ -1,0 +1,57 @@
+#include "model/profibus/event.hpp"
+
+#include <iterator>
+
+namespace profibus {
+namespace {
+
+struct Row {
+  Severity severity;
+  const char* code;
+  const char* text;
+};
+
+constexpr Row kRows[] = {
+#define X(id, severity, code, text) {Severity::severity, code, text},
+#include "model/profibus/event_table.inc"
+#undef X
+};
+
+const Row& row(Reason reason) { return kRows[static_cast<std::size_t>(reason)]; }
+
+// `format` is empty for decimal, "4x" for four hexadecimal digits.
+std::string number(std::uint16_t value, const std::string& format) {
+  if (format.empty()) return std::to_string(value);
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string digits;
+  for (unsigned rest = value; rest != 0 || digits.size() < static_cast<std::size_t>(format[0] - '0'); rest >>= 4) {
+    digits.insert(digits.begin(), kDigits[rest & 0xF]);
+  }
+  return digits;
+}
+
+}  // namespace
+
+const char* code(Reason reason) { return row(reason).code; }
+Severity severity(Reason reason) { return row(reason).severity; }
+const char* text_template(Reason reason) { return row(reason).text; }
+std::size_t reason_count() { return std::size(kRows); }
+
+std::string describe(const Event& event) {
+  const std::string pattern = row(event.reason).text;
+  std::string words;
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    if (pattern[i] != '{') {
+      words += pattern[i];
+      continue;
+    }
+    const std::size_t close = pattern.find('}', i);
+    const std::string field = pattern.substr(i + 1, close - i - 1);
+    const std::uint16_t value = field[0] == 'a' ? event.a : field[0] == 'b' ? event.b : event.c;
+    words += number(value, field.size() > 2 ? field.substr(2) : "");
+    i = close;
+  }
+  return words;
+}
+
+}  // namespace profibus

@@ -1,0 +1,64 @@
+#include "model/profibus/fdl.hpp"
+
+namespace profibus {
+namespace {
+
+constexpr std::uint8_t kSapBit = 0x80, kAddressMask = 0x7F;
+
+}  // namespace
+
+bool Fdl::addressed(Cycle now, const Telegram& telegram, std::uint8_t address, Request& request) {
+  request.da = telegram.da & kAddressMask;
+  request.sa = telegram.sa & kAddressMask;
+  if (request.da != address && request.da != kBroadcast) return false;
+  if ((telegram.fc & fc::kRequest) == 0) {
+    if (telegram.synced) log_.at_cycle(now, Reason::kResponse, telegram.fc, request.sa);
+    return false;
+  }
+  if (!telegram.synced) {
+    log_.at_cycle(now, Reason::kNoSyn, static_cast<unsigned>(telegram.idle_bits));
+    return false;
+  }
+  request.code = telegram.fc & fc::kCode;
+  if (!take_saps(now, telegram, request)) return false;
+  if (request.da != kBroadcast || request.sdn()) return true;
+  log_.at_cycle(now, Reason::kFunction, request.code, request.sa);
+  return false;  // only SDN goes to all
+}
+
+bool Fdl::take_saps(Cycle now, const Telegram& telegram, Request& request) {
+  const bool dsap = (telegram.da & kSapBit) != 0, ssap = (telegram.sa & kSapBit) != 0;
+  const int needed = static_cast<int>(dsap) + static_cast<int>(ssap);
+  if (telegram.size < needed) {
+    log_.at_cycle(now, Reason::kSapBytes, request.sa);
+    return false;
+  }
+  int used = 0;
+  if (dsap) request.dsap = telegram.data[used++];
+  if (ssap) request.ssap = telegram.data[used++];
+  request.data = telegram.data + used;
+  request.size = telegram.size - used;
+  return true;
+}
+
+bool Fdl::repetition(const Telegram& telegram, const Request& request) const {
+  const bool fcb = (telegram.fc & fc::kFcb) != 0, fcv = (telegram.fc & fc::kFcv) != 0;
+  return fcv && memory_.valid && memory_.master == request.sa && memory_.fcb == fcb;
+}
+
+const Frame* Fdl::execute(Cycle now, const Telegram& telegram, const Request& request, DpSlave& slave) {
+  if (repetition(telegram, request)) {
+    log_.at_cycle(now, Reason::kRepetition, request.sa);
+    return &answer_;
+  }
+  const bool series = (telegram.fc & (fc::kFcb | fc::kFcv)) != 0;
+  const std::uint8_t address = slave.address();  // Set_Slave_Address is answered from the old one (S25)
+  const Reply reply = slave.handle(now, request);
+  if (reply.kind == Reply::Kind::kNothing) return nullptr;
+  Frame& frame = series ? answer_ : single_;
+  build_frame(request, reply, address, frame);
+  if (series) memory_ = {true, (telegram.fc & fc::kFcb) != 0, request.sa};
+  return &frame;
+}
+
+}  // namespace profibus

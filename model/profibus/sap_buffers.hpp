@@ -1,0 +1,64 @@
+#pragma once
+// The fixed buffers of figure 8. Outputs and inputs are double: buffer 1 is what the other side gave last, buffer 2 what is
+// shown on (ruling S4: the user and Read_Outputs see output 2, the master and Read_Inputs see input 2).
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+namespace profibus {
+
+constexpr int kMaxIo = 244, kMaxUserPrm = 237, kMaxCfg = 200, kMaxDiag = 238;
+
+/// A buffer of fixed size with the number of bytes in use.
+template <int N>
+struct Block {
+  std::array<std::uint8_t, N> bytes{};
+  int size = 0;
+
+  void assign(const std::uint8_t* from, int count) {
+    std::memcpy(bytes.data(), from, static_cast<std::size_t>(count));
+    size = count;
+  }
+  void clear(int count) {
+    bytes.fill(0);
+    size = count;
+  }
+  bool equals(const std::uint8_t* other, int count) const {
+    return size == count && std::memcmp(bytes.data(), other, static_cast<std::size_t>(count)) == 0;
+  }
+};
+
+using IoBlock = Block<kMaxIo>;
+
+/// Two buffers with the gate between them that Sync and Freeze close.
+class DoubleBuffer {
+ public:
+  void reset(int size) {
+    first_.clear(size);
+    second_.clear(size);
+    held_ = false;
+  }
+  void write(const std::uint8_t* bytes) {
+    first_.assign(bytes, first_.size);
+    if (!held_) second_ = first_;
+  }
+  void clear() {
+    first_.clear(first_.size);
+    second_.clear(second_.size);
+  }
+  void pass() { second_ = first_; }
+  void hold() { held_ = true; }
+  void release() {
+    held_ = false;
+    pass();
+  }
+  bool held() const { return held_; }
+  int size() const { return first_.size; }
+  const IoBlock& shown() const { return second_; }
+
+ private:
+  IoBlock first_, second_;
+  bool held_ = false;
+};
+
+}  // namespace profibus

@@ -1,0 +1,143 @@
+// Set_Prm (6.2.2, rulings S5 to S7, S12, S14, S15, S28).
+#include <algorithm>
+
+#include "model/profibus/dp_slave.hpp"
+
+namespace profibus {
+namespace {
+
+// Station_status, table 19
+constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40, kSyncReq = 0x20, kFreezeReq = 0x10, kWdOn = 0x08;
+// Spec_User_Prm_Byte = DPV1_Status_1, tables 21 and 25
+constexpr std::uint8_t kDpv1Enable = 0x80, kFailSafe = 0x40, kWdBase1ms = 0x04;
+constexpr int kStandardSize = 7, kDpv1Size = 10;
+constexpr std::uint8_t kDpv1Switch = 0x1D;  // B005
+
+}  // namespace
+
+Reply DpSlave::set_prm(Cycle now, const Request& request) {
+  if (held_by_other(request)) return refuse_master(now, request, sap::kSetPrm);
+  const std::uint8_t* data = request.data;
+  if (request.size < kStandardSize) {
+    refuse_prm(now, Reason::kPrmShort, false, static_cast<unsigned>(request.size), kStandardSize);
+    return Reply::sc();
+  }
+  if ((data[0] & kUnlock) != 0) {
+    log_.at_cycle(now, Reason::kPrmUnlock, request.sa);
+    leave_to_wait_prm(now);
+    return Reply::sc();
+  }
+  if ((data[0] & kLock) == 0) {
+    set_min_tsdr(data[3]);
+    log_.at_cycle(now, Reason::kPrmMinTsdr, request.sa, static_cast<unsigned>(min_tsdr_));
+    return Reply::sc();
+  }
+  PrmRequest prm;
+  if (!check_prm(now, request, prm)) return Reply::sc();
+
+  mail_.prm.assign(data + kStandardSize, prm.user_size);
+  mail_.prm_due.set(now);
+  if (config_.prm_mode == Judging::kUser) {
+    log_.at_cycle(now, Reason::kPrmJudged, request.sa, static_cast<unsigned>(prm.user_size));
+    leave_to_wait_prm(now);
+    prm_ = prm;
+    prm_awaited_ = true;
+  } else {
+    accept_prm(now, prm);
+  }
+  return Reply::sc();
+}
+
+bool DpSlave::check_prm(Cycle now, const Request& request, PrmRequest& prm) {
+  const std::uint8_t* data = request.data;
+  const unsigned ident = static_cast<unsigned>(data[4]) << 8 | data[5];
+  if (ident != config_.ident) {
+    refuse_prm(now, Reason::kPrmIdent, false, ident, config_.ident);
+    return false;
+  }
+  const int user_size = request.size - kStandardSize;
+  const std::uint8_t spec = user_size > 0 ? data[kStandardSize] : std::uint8_t{0};
+  if (!check_options(now, data[0], spec, user_size)) return false;
+  prm.watchdog = (data[0] & kWdOn) != 0;
+  if (prm.watchdog && (data[1] == 0 || data[2] == 0)) {
+    refuse_prm(now, Reason::kPrmWatchdog, false, data[1], data[2]);
+    return false;
+  }
+  if (!check_user_length(now, user_size)) return false;
+  const Cycle base = (spec & kWdBase1ms) != 0 ? kCyclesPerMs : 10 * kCyclesPerMs;
+  prm.master = request.sa;
+  prm.watchdog_time = base * data[1] * data[2];
+  prm.min_tsdr = data[3];
+  prm.group = data[6];
+  prm.sync = (data[0] & kSyncReq) != 0;
+  prm.freeze = (data[0] & kFreezeReq) != 0;
+  prm.fail_safe = (spec & kFailSafe) != 0;
+  prm.user_size = user_size;
+  return true;
+}
+
+bool DpSlave::check_options(Cycle now, std::uint8_t status, std::uint8_t spec, int user_size) {
+  const auto refuse = [&](Reason reason, unsigned a) {
+    refuse_prm(now, reason, true, a);
+    return false;
+  };
+  if ((status & kSyncReq) != 0 && !config_.sync_supported) return refuse(Reason::kPrmSync, 0);
+  if ((status & kFreezeReq) != 0 && !config_.freeze_supported) return refuse(Reason::kPrmFreeze, 0);
+  if ((spec & kFailSafe) != 0 && !config_.fail_safe_supported) return refuse(Reason::kPrmFailSafe, 0);
+  if ((spec & kDpv1Enable) == 0) return true;
+  if (b005_ != kDpv1Switch) return refuse(Reason::kPrmDpv1, b005_);
+  if (user_size + kStandardSize >= kDpv1Size) return true;
+  refuse_prm(now, Reason::kPrmShort, false, static_cast<unsigned>(user_size + kStandardSize), kDpv1Size);
+  return false;
+}
+
+bool DpSlave::check_user_length(Cycle now, int user_size) {
+  const int limit = config_.max_prm;
+  const bool good = config_.prm_mode == Judging::kUser ||
+                    (config_.prm_mode == Judging::kExact ? user_size == limit : user_size <= limit);
+  if (good) return true;
+  refuse_prm(now, Reason::kPrmUserLength, false, static_cast<unsigned>(user_size), static_cast<unsigned>(limit),
+             static_cast<unsigned>(config_.prm_mode));
+  return false;
+}
+
+void DpSlave::refuse_prm(Cycle now, Reason reason, bool not_supported, unsigned a, unsigned b, unsigned c) {
+  log_.at_cycle(now, reason, a, b, c);
+  diagnosis_.prm_fault(not_supported);
+  leave_to_wait_prm(now);
+}
+
+void DpSlave::accept_prm(Cycle now, const PrmRequest& prm) {
+  log_.at_cycle(now, Reason::kPrmAccepted, prm.master, prm.min_tsdr, static_cast<unsigned>(prm.user_size));
+  diagnosis_.prm_good();
+  prm_awaited_ = cfg_awaited_ = false;
+  prm_ = prm;
+  master_ = prm.master;
+  set_min_tsdr(prm.min_tsdr);
+  watchdog_on_ = prm.watchdog;
+  if (prm.watchdog) {
+    log_.at_cycle(now, Reason::kWatchdogOn, static_cast<unsigned>(prm.watchdog_time / kCyclesPerMs));
+    watchdog_.dp_control(now, prm.watchdog_time);
+  } else {
+    watchdog_.baud_control(now);
+  }
+  enter(now, DpState::kWaitCfg);
+}
+
+void DpSlave::set_min_tsdr(std::uint8_t bits) {
+  if (bits != 0) min_tsdr_ = std::max<int>(bits, kMinTsdr);  // S6, S11
+}
+
+void DpSlave::prm_verdict(Cycle now, bool good) {
+  if (mail_.prm_due.waiting()) {
+    log_.at_cycle(now, Reason::kVerdictSuperseded, 0);
+  } else if (!prm_awaited_) {
+    log_.at_cycle(now, Reason::kVerdictUnexpected, 0);
+  } else if (good) {
+    accept_prm(now, prm_);
+  } else {
+    refuse_prm(now, Reason::kPrmUserRefused, false);
+  }
+}
+
+}  // namespace profibus

@@ -1,0 +1,116 @@
+#include "model/profibus/station.hpp"
+
+#include <algorithm>
+
+namespace profibus {
+namespace {
+
+constexpr Cycle kSynchroniserDelay = 2;  // P9: the logic sees a start edge two cycles after it was sampled
+
+}  // namespace
+
+Station::Station(EventLog& log, const StationTiming& timing)
+    : log_(log),
+      timing_(timing),
+      telegrams_(log),
+      search_(timing.search_window, timing.search_window_bits),
+      watchdog_(timing.baud_control),
+      slave_(log, watchdog_),
+      fdl_(log) {}
+
+void Station::reset() {
+  slave_.reset();
+  watchdog_.baud_search();
+  search_.lock();
+  telegrams_.restart();
+  fdl_.forget();
+  tx_.abort();
+  received_ = answered_ = 0;
+}
+
+void Station::initialise(Cycle now, const SlaveConfig& config) {
+  tx_.abort();
+  slave_.initialise(now, config);
+  start_search(now);
+}
+
+Cycle Station::next() const {
+  Cycle next = std::min(rxd_.next(), tx_.next());
+  if (!running()) return next;
+  next = std::min({next, search_.next(), watchdog_.next()});
+  return tx_.rts() ? next : std::min({next, rx_.next(), telegrams_.next(rx_.receiving())});
+}
+
+void Station::eval(Cycle now) {
+  rxd_.eval(now);
+  if (running()) {
+    if (!tx_.rts()) listen(now);
+    watch(now);
+    if (!tx_.rts() && telegrams_.eval(now, rx_.receiving())) decide(now, telegrams_.telegram());
+  }
+  const bool was_sending = tx_.rts();
+  if (tx_.eval(now)) rx_.restart(search_.bit(), tx_.end(), rxd_.level());
+  if (!was_sending && tx_.rts()) telegrams_.restart();  // half duplex: what comes now is our own echo
+}
+
+void Station::listen(Cycle now) {
+  if (rx_.eval(now, rxd_.level())) telegrams_.character(now, rx_.character(), rx_.bit());
+}
+
+// --- baud rate and watchdog (S1) ----------------------------------------------------------------------------------------
+
+void Station::start_search(Cycle now) {
+  log_.at_cycle(now, Reason::kBaudSearch);
+  watchdog_.baud_search();
+  search_.start(now);
+  select_rate(now);
+}
+
+void Station::select_rate(Cycle now) {
+  rx_.restart(search_.bit(), now, rxd_.level());
+  telegrams_.restart();
+  telegrams_.set_quiet(search_.searching());
+  fdl_.forget();
+}
+
+void Station::watch(Cycle now) {
+  if (search_.eval(now)) select_rate(now);
+  if (!watchdog_.expired(now)) return;
+  if (watchdog_.state() == Watchdog::State::kDpControl) {
+    slave_.watchdog_expired(now);
+  } else {
+    log_.at_cycle(now, Reason::kBaudLost, static_cast<unsigned>(timing_.baud_control / kCyclesPerMs));
+    start_search(now);
+  }
+}
+
+void Station::lock(Cycle now) {
+  search_.lock();
+  telegrams_.set_quiet(false);
+  log_.at_cycle(now, Reason::kBaudFound, static_cast<unsigned>(search_.index()));
+  watchdog_.baud_control(now);
+}
+
+// --- telegrams ------------------------------------------------------------------------------------------------------------
+
+void Station::decide(Cycle now, const Telegram& telegram) {
+  if (telegram.sd == sd::kSc || telegram.sd == sd::kSd4) return;
+  ++received_;
+  if (search_.searching()) {
+    if (telegram.synced) lock(now);
+    return;  // S9: the telegram that locks the rate is not executed
+  }
+  Request request;
+  if (!fdl_.addressed(now, telegram, slave_.address(), request)) return;
+  if (request.da != kBroadcast) watchdog_.trigger(now, request.sa == slave_.master());
+  if (const Frame* frame = fdl_.execute(now, telegram, request, slave_)) answer(telegram, *frame);
+}
+
+void Station::answer(const Telegram& telegram, const Frame& frame) {
+  const Cycle tsdr = std::min(slave_.min_tsdr(), search_.max_tsdr());  // S11
+  const Cycle begin = telegram.end - kSynchroniserDelay + tsdr * search_.bit();
+  tx_.send(frame.bytes.data(), frame.size, search_.bit(), begin, timing_.rts_lead, timing_.rts_trail);
+  ++answered_;
+}
+
+}  // namespace profibus

@@ -1,0 +1,68 @@
+#pragma once
+// A PROFIBUS DP slave station between PBRXD and PBTXD: receiver, baud search, watchdog, FDL and the DP services, evaluated in
+// the order that docs/microarchitecture.md fixes. Nothing here knows how the user's side looks.
+#include "model/profibus/baud_search.hpp"
+#include "model/profibus/dp_slave.hpp"
+#include "model/profibus/fdl.hpp"
+#include "model/profibus/synchroniser.hpp"
+#include "model/profibus/telegram_rx.hpp"
+#include "model/profibus/uart_rx.hpp"
+#include "model/profibus/uart_tx.hpp"
+
+namespace profibus {
+
+/// Parameters of the rulings, in cycles (bits where it says so).
+struct StationTiming {
+  Cycle rts_lead = 4, rts_trail = 4;
+  Cycle search_window = 50 * kCyclesPerMs;
+  Cycle search_window_bits = 4000;
+  Cycle baud_control = 600 * kCyclesPerMs;
+};
+
+class Station {
+ public:
+  Station(EventLog& log, const StationTiming& timing);
+
+  void set_rxd(Tick at, bool level) { rxd_.set(at, level); }
+  /// Reset: everything as at power-on.
+  void reset();
+  /// The user's initialisation: through OFFLINE to WAIT_PRM and baud search (D7, S1).
+  void initialise(Cycle now, const SlaveConfig& config);
+  /// The rising edge of `now`.
+  void eval(Cycle now);
+  /// The next cycle at which eval() does something.
+  Cycle next() const;
+
+  bool txd() const { return tx_.txd(); }
+  bool rts() const { return tx_.rts(); }
+  bool baud_found() const { return running() && !search_.searching(); }
+  int baud_index() const { return baud_found() ? search_.index() : kBaudUnknown; }
+  DpSlave& slave() { return slave_; }
+  const DpSlave& slave() const { return slave_; }
+  std::uint64_t telegrams_received() const { return received_; }
+  std::uint64_t telegrams_answered() const { return answered_; }
+
+ private:
+  bool running() const { return slave_.state() != DpState::kOffline; }
+  void listen(Cycle now);
+  void select_rate(Cycle now);
+  void watch(Cycle now);
+  void start_search(Cycle now);
+  void decide(Cycle now, const Telegram& telegram);
+  void lock(Cycle now);
+  void answer(const Telegram& telegram, const Frame& frame);
+
+  EventLog& log_;
+  StationTiming timing_;
+  Synchroniser rxd_{true};
+  UartRx rx_;
+  TelegramRx telegrams_;
+  BaudSearch search_;
+  Watchdog watchdog_;
+  DpSlave slave_;
+  Fdl fdl_;
+  UartTx tx_;
+  std::uint64_t received_ = 0, answered_ = 0;
+};
+
+}  // namespace profibus

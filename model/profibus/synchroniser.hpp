@@ -1,0 +1,50 @@
+#pragma once
+// Two flip-flops in front of an asynchronous input (ruling P9): what rising edge m sampled, the logic uses at edge m+2.
+#include <array>
+
+#include "model/profibus/time.hpp"
+
+namespace profibus {
+
+class Synchroniser {
+ public:
+  explicit Synchroniser(bool level) : level_(level), input_(level) {}
+
+  /// The input changes at `at`; pulses that no rising edge samples vanish.
+  void set(Tick at, bool level) {
+    if (level == input_) return;
+    input_ = level;
+    const Cycle visible = first_edge_after(at) + 2;
+    if (count_ > 0 && slot(count_ - 1).cycle == visible) {
+      slot(count_ - 1).level = level;
+    } else {
+      slot(count_++) = {visible, level};
+    }
+  }
+  /// The edge of `now`; true when the logic sees another level than before.
+  bool eval(Cycle now) {
+    const bool before = level_;
+    while (count_ > 0 && slot(0).cycle <= now) {
+      level_ = slot(0).level;
+      first_ = (first_ + 1) % kDepth;
+      --count_;
+    }
+    return level_ != before;
+  }
+  Cycle next() const { return count_ > 0 ? changes_[first_].cycle : kNever; }
+  bool level() const { return level_; }
+
+ private:
+  static constexpr unsigned kDepth = 4;  // at most the three edges still on their way, and the one being sampled
+  struct Change {
+    Cycle cycle = 0;
+    bool level = false;
+  };
+  Change& slot(unsigned i) { return changes_[(first_ + i) % kDepth]; }
+
+  std::array<Change, kDepth> changes_{};
+  unsigned first_ = 0, count_ = 0;
+  bool level_, input_;
+};
+
+}  // namespace profibus

@@ -1,0 +1,120 @@
+#include "model/profibus/telegram_rx.hpp"
+
+namespace profibus {
+namespace {
+
+constexpr int kSd2Header = 4;  // SD2 LE LEr SD2
+constexpr int kSd2Frame = 6;   // header, FCS, ED
+constexpr int kMinLe = 4, kMaxLe = 249;
+
+int expected_size(std::uint8_t delimiter) {
+  switch (delimiter) {
+    case sd::kSd1: return 6;
+    case sd::kSd2: return kSd2Header;  // until LE is known
+    case sd::kSd3: return 14;
+    case sd::kSd4: return 3;
+    case sd::kSc: return 1;
+    default: return 0;
+  }
+}
+
+int address_offset(std::uint8_t delimiter) { return delimiter == sd::kSd2 ? kSd2Header : 1; }
+
+std::uint8_t fcs_of(const std::uint8_t* bytes, int size) {
+  unsigned sum = 0;
+  for (int i = 0; i < size; ++i) sum += bytes[i];
+  return static_cast<std::uint8_t>(sum);
+}
+
+}  // namespace
+
+void TelegramRx::character(Cycle now, const Character& character, int bit) {
+  const bool after_syn = character.idle >= static_cast<Cycle>(kSynBits) * bit - 1;
+  const bool after_gap = character.idle > bit;
+  if (in_telegram() && !after_syn) {
+    if (state_ == State::kComplete) return fail(now, Reason::kOversized);
+    if (after_gap) return fail(now, Reason::kGap, static_cast<unsigned>(count_), static_cast<unsigned>(expected_));
+  }
+  const bool first = after_syn || !in_telegram();
+  if (first && !after_gap) return;  // the rest of something that was given up
+  if (first) {
+    count_ = 0;
+    telegram_.synced = after_syn;
+    telegram_.idle_bits = static_cast<int>(character.idle / bit);
+  }
+  if (!character.parity_ok) return fail(now, Reason::kParity, static_cast<unsigned>(count_), character.value);
+  if (!character.stop_ok) return fail(now, Reason::kFraming, static_cast<unsigned>(count_), character.value);
+
+  telegram_.end = character.start + static_cast<Cycle>(kBitsPerCharacter) * bit;
+  deadline_ = telegram_.end + bit + 1;
+  if (first) {
+    begin(now, character.value);
+  } else {
+    take(now, character.value);
+  }
+}
+
+void TelegramRx::begin(Cycle now, std::uint8_t value) {
+  expected_ = expected_size(value);
+  if (expected_ == 0) return fail(now, Reason::kStartDelimiter, value);
+  state_ = State::kReceiving;
+  take(now, value);
+}
+
+void TelegramRx::take(Cycle now, std::uint8_t value) {
+  bytes_[static_cast<std::size_t>(count_++)] = value;
+  if (bytes_[0] == sd::kSd2 && count_ <= kSd2Header && !check_sd2_header(now, value)) return;
+  if (count_ == expected_) check_end(now);
+}
+
+bool TelegramRx::check_sd2_header(Cycle now, std::uint8_t value) {
+  if (count_ == 3) {
+    const int le = bytes_[1];
+    if (le != value || le < kMinLe || le > kMaxLe) {
+      fail(now, Reason::kLength, bytes_[1], value);
+      return false;
+    }
+  }
+  if (count_ == kSd2Header) {
+    if (value != sd::kSd2) {
+      fail(now, Reason::kRepeatedDelimiter, value);
+      return false;
+    }
+    expected_ = bytes_[1] + kSd2Frame;
+  }
+  return true;
+}
+
+void TelegramRx::check_end(Cycle now) {
+  state_ = State::kComplete;
+  telegram_.sd = bytes_[0];
+  if (bytes_[0] == sd::kSc) return;
+  const auto* body = &bytes_[static_cast<std::size_t>(address_offset(bytes_[0]))];
+  telegram_.da = body[0];
+  telegram_.sa = body[1];
+  if (bytes_[0] == sd::kSd4) return;
+  telegram_.fc = body[2];
+  telegram_.data = body + 3;
+  telegram_.size = expected_ - address_offset(bytes_[0]) - 5;  // DA SA FC, FCS ED
+  const std::uint8_t fcs = fcs_of(body, telegram_.size + 3);
+  const std::uint8_t received = body[telegram_.size + 3], ed = body[telegram_.size + 4];
+  if (received != fcs) return fail(now, Reason::kFcs, received, fcs);
+  if (ed != sd::kEd) return fail(now, Reason::kEndDelimiter, ed);
+}
+
+bool TelegramRx::eval(Cycle now, bool receiving) {
+  if (!in_telegram() || receiving || now < deadline_) return false;
+  if (state_ == State::kReceiving) {
+    fail(now, Reason::kGap, static_cast<unsigned>(count_), static_cast<unsigned>(expected_));
+    return false;
+  }
+  state_ = State::kWaitSyn;
+  return true;
+}
+
+void TelegramRx::fail(Cycle now, Reason reason, unsigned a, unsigned b) {
+  state_ = State::kWaitSyn;
+  if (!quiet_ && telegram_.synced) log_.at_cycle(now, reason, a, b);
+}
+
+}  // namespace profibus

@@ -1,0 +1,57 @@
+#pragma once
+// From characters to error-free telegrams (ruling S3, S10): start delimiters, lengths, FCS, ED, T_SYN and gaps.
+#include <array>
+
+#include "model/profibus/event_log.hpp"
+#include "model/profibus/uart_rx.hpp"
+
+namespace profibus {
+
+namespace sd {
+constexpr std::uint8_t kSd1 = 0x10, kSd2 = 0x68, kSd3 = 0xA2, kSd4 = 0xDC, kSc = 0xE5, kEd = 0x16;
+}
+
+/// An error-free telegram; `data` points into the receiver and is valid until the next one starts.
+struct Telegram {
+  std::uint8_t sd = 0, da = 0, sa = 0, fc = 0;
+  const std::uint8_t* data = nullptr;
+  int size = 0;
+  Cycle end = 0;        ///< calculated end of the last stop bit
+  bool synced = false;  ///< T_SYN went before it; answers of other stations have none
+  int idle_bits = 0;    ///< whole bit times of idle before it; a large number says little
+};
+
+class TelegramRx {
+ public:
+  explicit TelegramRx(EventLog& log) : log_(log) {}
+
+  /// Forgets the telegram in progress.
+  void restart() { state_ = State::kWaitSyn; }
+  /// While `quiet`, faulty telegrams are no events: at a wrong baud rate everything is faulty. Nor are they without T_SYN.
+  void set_quiet(bool quiet) { quiet_ = quiet; }
+  /// A character was completed at `now`.
+  void character(Cycle now, const Character& character, int bit);
+  /// The edge of `now`; `receiving`: a character is being sampled. True when a telegram is decided (S10): see telegram().
+  bool eval(Cycle now, bool receiving);
+  Cycle next(bool receiving) const { return receiving || !in_telegram() ? kNever : deadline_; }
+  const Telegram& telegram() const { return telegram_; }
+
+ private:
+  enum class State : std::uint8_t { kWaitSyn, kReceiving, kComplete };
+  bool in_telegram() const { return state_ != State::kWaitSyn; }
+  void begin(Cycle now, std::uint8_t value);
+  void take(Cycle now, std::uint8_t value);
+  bool check_sd2_header(Cycle now, std::uint8_t value);
+  void check_end(Cycle now);
+  void fail(Cycle now, Reason reason, unsigned a = 0, unsigned b = 0);
+
+  EventLog& log_;
+  State state_ = State::kWaitSyn;
+  bool quiet_ = true;
+  int count_ = 0, expected_ = 0;
+  Cycle deadline_ = kNever;
+  std::array<std::uint8_t, 256> bytes_{};
+  Telegram telegram_;
+};
+
+}  // namespace profibus

@@ -1,0 +1,67 @@
+#include "model/profibus/uart_tx.hpp"
+
+namespace profibus {
+namespace {
+
+unsigned frame_of(std::uint8_t value) {
+  const unsigned parity = static_cast<unsigned>(__builtin_popcount(value)) & 1U;
+  return (1U << 10) | (parity << 9) | (static_cast<unsigned>(value) << 1);
+}
+
+}  // namespace
+
+void UartTx::send(const std::uint8_t* bytes, int size, int bit, Cycle begin, Cycle lead, Cycle trail) {
+  bytes_ = bytes;
+  left_ = size;
+  bit_ = bit;
+  begin_ = begin;
+  end_ = begin + static_cast<Cycle>(size) * kBitsPerCharacter * bit;
+  trail_ = trail;
+  frame_bits_ = 0;
+  next_ = begin - lead;
+}
+
+void UartTx::abort() {
+  next_ = kNever;
+  txd_ = true;
+  rts_ = false;
+}
+
+bool UartTx::eval(Cycle now) {
+  if (now != next_) return false;
+  if (now == end_ + trail_) {
+    abort();
+    return true;
+  }
+  rts_ = true;
+  if (now < begin_) {
+    next_ = begin_;
+    return false;
+  }
+  if (frame_bits_ == 0) load();
+  shift();
+  return false;
+}
+
+void UartTx::load() {
+  if (left_ == 0) return;
+  frame_ = frame_of(*bytes_++);
+  frame_bits_ = kBitsPerCharacter;
+  --left_;
+}
+
+// Puts the next run of equal bits on the line, so that only level changes and character ends need an evaluation.
+void UartTx::shift() {
+  if (frame_bits_ == 0) {
+    next_ = end_ + trail_;
+    return;
+  }
+  txd_ = (frame_ & 1U) != 0;
+  int run = 1;
+  while (run < frame_bits_ && ((frame_ >> run) & 1U) == (frame_ & 1U)) ++run;
+  frame_ >>= run;
+  frame_bits_ -= run;
+  next_ += static_cast<Cycle>(run) * bit_;
+}
+
+}  // namespace profibus

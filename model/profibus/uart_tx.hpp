@@ -1,0 +1,37 @@
+#pragma once
+// The sending half of the UART bit engine: characters without a gap, PBRTS round them (rulings P2, S2).
+#include "model/profibus/baud.hpp"
+
+namespace profibus {
+
+class UartTx {
+ public:
+  /// Sends `size` bytes, which must stay unchanged until busy() is false. The first start bit falls at `begin`; PBRTS rises
+  /// `lead` cycles before and falls `trail` cycles after the end of the last stop bit.
+  void send(const std::uint8_t* bytes, int size, int bit, Cycle begin, Cycle lead, Cycle trail);
+  /// Drops everything at once: PBTXD high, PBRTS low.
+  void abort();
+  /// The edge of `now`. True at the edge at which PBRTS falls.
+  bool eval(Cycle now);
+  Cycle next() const { return next_; }
+
+  bool txd() const { return txd_; }
+  bool rts() const { return rts_; }
+  bool planned() const { return next_ != kNever; }  ///< from send() until PBRTS has fallen
+  Cycle end() const { return end_; }                ///< end of the last stop bit
+
+ private:
+  void load();
+  void shift();
+
+  const std::uint8_t* bytes_ = nullptr;
+  int left_ = 0;   // characters not yet loaded
+  int bit_ = 0;
+  Cycle begin_ = 0, end_ = 0, trail_ = 0;
+  Cycle next_ = kNever;
+  unsigned frame_ = 0;  // bits still to be sent, lowest first
+  int frame_bits_ = 0;
+  bool txd_ = true, rts_ = false;
+};
+
+}  // namespace profibus

@@ -1,0 +1,44 @@
+#pragma once
+// The watchdog state machine (ruling S1, APC3 4.4.2 and 4.4.3): BAUD_CONTROL watches that the baud rate still is right,
+// DP_CONTROL that the holding master lives. BAUD_SEARCH is the state without a deadline here: see BaudSearch.
+#include "model/profibus/baud.hpp"
+
+namespace profibus {
+
+class Watchdog {
+ public:
+  enum class State : std::uint8_t { kBaudSearch, kBaudControl, kDpControl };
+
+  explicit Watchdog(Cycle baud_control) : baud_control_(baud_control) {}
+
+  void baud_search() {
+    state_ = State::kBaudSearch;
+    deadline_ = kNever;
+  }
+  void baud_control(Cycle now) {
+    state_ = State::kBaudControl;
+    deadline_ = now + baud_control_;
+  }
+  void dp_control(Cycle now, Cycle time) {
+    state_ = State::kDpControl;
+    time_ = time;
+    deadline_ = now + time;
+  }
+  /// An error-free telegram to this station; `from_holder`: from the master that holds the slave (ruling S22).
+  void trigger(Cycle now, bool from_holder) {
+    if (state_ == State::kBaudControl) deadline_ = now + baud_control_;
+    if (state_ == State::kDpControl && from_holder) deadline_ = now + time_;
+  }
+  bool expired(Cycle now) const { return now >= deadline_; }
+  Cycle next() const { return deadline_; }
+  State state() const { return state_; }
+  Cycle time() const { return time_; }
+
+ private:
+  Cycle baud_control_;
+  Cycle time_ = 0;
+  Cycle deadline_ = kNever;
+  State state_ = State::kBaudSearch;
+};
+
+}  // namespace profibus
