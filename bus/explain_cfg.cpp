@@ -16,8 +16,8 @@ class CfgReader {
 
   DataWords read() {
     while (at_ < data_.size()) read_identifier();
-    words_.summary = fmt::format("{} {}, output {} bytes, input {} bytes", modules_, modules_ == 1 ? "module" : "modules", output_,
-                                 input_);
+    words_.summary = fmt::format("{} {}, output {} bytes, input {} bytes", modules_,
+                                 modules_ == 1 ? "module" : "modules", output_, input_);
     if (incomplete_) words_.summary += ", the last one incomplete";
     return std::move(words_);
   }
@@ -88,7 +88,9 @@ class CfgReader {
     const int units = word ? bytes / 2 : bytes;
     const bool whole = (format & kWholeConsistency) != 0;
     return fmt::format("{} {}{}, consistency over {}", units, word ? "word" : "byte", units == 1 ? "" : "s",
-                       whole ? "the whole module" : word ? "a word" : "a byte");
+                       whole  ? "the whole module"
+                       : word ? "a word"
+                              : "a byte");
   }
 
   void say(std::string text) { words_.bytes.push_back(std::move(text)); }

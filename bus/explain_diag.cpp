@@ -7,9 +7,10 @@ namespace bus::detail {
 
 namespace {
 
-const char* const kStatus1[8] = {"Station_Non_Existent", "Station_Not_Ready", "Cfg_Fault", "Ext_Diag",
-                                 "Not_Supported", "Invalid_Slave_Response", "Prm_Fault", "Master_Lock"};
-const char* const kStatus2[8] = {"Prm_Req", "Stat_Diag", "DP slave", "WD_On", "Freeze_Mode", "Sync_Mode", "", "Deactivated"};
+const char* const kStatus1[8] = {"Station_Non_Existent", "Station_Not_Ready",      "Cfg_Fault", "Ext_Diag",
+                                 "Not_Supported",        "Invalid_Slave_Response", "Prm_Fault", "Master_Lock"};
+const char* const kStatus2[8] = {"Prm_Req",     "Stat_Diag", "DP slave", "WD_On",
+                                 "Freeze_Mode", "Sync_Mode", "",         "Deactivated"};
 const char* const kStatus3[8] = {"", "", "", "", "", "", "", "Ext_Diag_Overflow"};
 
 const char* channel_kind(std::uint8_t byte) {
@@ -22,13 +23,15 @@ const char* channel_kind(std::uint8_t byte) {
 }
 
 const char* channel_type(std::uint8_t byte) {
-  static const char* const kTypes[8] = {"unspecified", "bit", "2 bits", "4 bits", "byte", "word", "2 words", "reserved type"};
+  static const char* const kTypes[8] = {"unspecified", "bit",  "2 bits",  "4 bits",
+                                        "byte",        "word", "2 words", "reserved type"};
   return kTypes[byte >> 5];
 }
 
 std::string channel_error(std::uint8_t byte) {
-  static const char* const kErrors[] = {"reserved error",  "short circuit",        "undervoltage", "overvoltage", "overload",
-                                        "overtemperature", "line break", "upper limit exceeded", "lower limit exceeded", "error"};
+  static const char* const kErrors[] = {
+      "reserved error",  "short circuit", "undervoltage",         "overvoltage",          "overload",
+      "overtemperature", "line break",    "upper limit exceeded", "lower limit exceeded", "error"};
   const unsigned error = byte & 0x1FU;
   if (error < 10) return kErrors[error];
   return error < 16 ? fmt::format("reserved error {}", error) : fmt::format("manufacturer's error {}", error);
@@ -67,7 +70,8 @@ class ExtDiagReader {
     const bool fits = length > 0 && at_ + length <= data_.size();
     say(fmt::format("{} diagnosis, block of {} bytes{}", kind, length, fits ? "" : " (does not fit the telegram)"));
     for (std::size_t i = 1; i < length && at_ < data_.size(); ++i) {
-      say(identifiers ? modules_words(data_[at_], (i - 1) * 8) : fmt::format("device related byte {}: 0x{:02X}", i, data_[at_]));
+      say(identifiers ? modules_words(data_[at_], (i - 1) * 8)
+                      : fmt::format("device related byte {}: 0x{:02X}", i, data_[at_]));
     }
   }
 
@@ -100,16 +104,15 @@ DataWords diag_words(const Bytes& data) {
     return words;
   }
   DataWords words;
-  words.bytes = {"Station_status_1: " + bit_names(data[0], kStatus1),
-                 "Station_status_2: " + bit_names(data[1], kStatus2),
-                 "Station_status_3: " + bit_names(data[2], kStatus3),
-                 master_words(data[3]),
-                 fmt::format("Ident_Number high: 0x{:02X}", data[4]),
-                 fmt::format("Ident_Number low: 0x{:02X}", data[5])};
+  words.bytes = {
+      "Station_status_1: " + bit_names(data[0], kStatus1), "Station_status_2: " + bit_names(data[1], kStatus2),
+      "Station_status_3: " + bit_names(data[2], kStatus3), master_words(data[3]),
+      fmt::format("Ident_Number high: 0x{:02X}", data[4]), fmt::format("Ident_Number low: 0x{:02X}", data[5])};
   ExtDiagReader(data, words).read();
   const auto status2 = static_cast<std::uint8_t>(data[1] & ~0x04U);  // bit 2 is always set: it says nothing
-  words.summary = fmt::format("[{}] [{}]{}, {}, ident 0x{:02X}{:02X}", bit_names(data[0], kStatus1), bit_names(status2, kStatus2),
-                              (data[2] & 0x80U) != 0 ? " [Ext_Diag_Overflow]" : "", master_words(data[3]), data[4], data[5]);
+  words.summary =
+      fmt::format("[{}] [{}]{}, {}, ident 0x{:02X}{:02X}", bit_names(data[0], kStatus1), bit_names(status2, kStatus2),
+                  (data[2] & 0x80U) != 0 ? " [Ext_Diag_Overflow]" : "", master_words(data[3]), data[4], data[5]);
   if (data.size() > 6) words.summary += fmt::format(", {} bytes of Ext_Diag_Data", data.size() - 6);
   return words;
 }

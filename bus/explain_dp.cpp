@@ -46,11 +46,12 @@ std::string prm_header_words(const Bytes& data, std::size_t i) {
 }
 
 std::string prm_user_words(const Bytes& data, std::size_t i) {
-  static const char* const kStatus1[8] = {"Dis_Startbit", "Dis_Stopbit", "WD_Base_1ms", "", "", "", "Fail_Safe", "DPV1_Enable"};
+  static const char* const kStatus1[8] = {"Dis_Startbit", "Dis_Stopbit", "WD_Base_1ms", "", "", "",
+                                          "Fail_Safe",    "DPV1_Enable"};
   const bool dpv1 = (data[7] & 0x80U) != 0;
   if (i == 7) return fmt::format("{}: {}", dpv1 ? "DPV1_Status_1" : "Spec_User_Prm_Byte", bit_names(data[i], kStatus1));
   if (dpv1 && i < 10) return fmt::format("DPV1_Status_{}: 0x{:02X}", i - 6, data[i]);
-  return fmt::format("User_Prm_Data {}", i - 7);
+  return fmt::format("User_Prm_Data {}", i - (dpv1 ? 10 : 8));
 }
 
 std::string watchdog_words(const Bytes& data) {

@@ -10,7 +10,15 @@ namespace bus::detail {
 namespace {
 
 constexpr std::uint8_t kErrorBit = 0x80;
-enum : std::uint8_t { kIdle = 0x48, kTransport = 0x51, kResourceManager = 0x56, kInitiate = 0x57, kAbort = 0x58, kRead = 0x5E, kWrite = 0x5F };
+enum : std::uint8_t {
+  kIdle = 0x48,
+  kTransport = 0x51,
+  kResourceManager = 0x56,
+  kInitiate = 0x57,
+  kAbort = 0x58,
+  kRead = 0x5E,
+  kWrite = 0x5F
+};
 
 const char* function_name(std::uint8_t function) {
   switch (function) {
@@ -27,8 +35,9 @@ const char* function_name(std::uint8_t function) {
 
 std::string error_code_1(std::uint8_t code) {
   static const char* const kApplication[] = {"read error", "write error", "module failure"};
-  static const char* const kAccess[] = {"invalid index", "write length error", "invalid slot", "type conflict", "invalid area",
-                                        "state conflict", "access denied", "invalid range", "invalid parameter", "invalid type"};
+  static const char* const kAccess[] = {"invalid index",     "write length error", "invalid slot",  "type conflict",
+                                        "invalid area",      "state conflict",     "access denied", "invalid range",
+                                        "invalid parameter", "invalid type"};
   static const char* const kResource[] = {"read constrain conflict", "write constrain conflict", "resource busy",
                                           "resource unavailable"};
   const unsigned kind = code >> 4, detail = code & 0x0FU;
@@ -77,8 +86,8 @@ void read_initiate(DataWords& words, const Bytes& data, bool response) {
   }
   name_fields(words,
               {"reserved", "reserved", "reserved", "Send_Timeout high (unit 10 ms)", "Send_Timeout low",
-               "Features_Supported 1", "Features_Supported 2", "Profile_Features_Supported 1", "Profile_Features_Supported 2",
-               "Profile_Ident_Number high", "Profile_Ident_Number low"},
+               "Features_Supported 1", "Features_Supported 2", "Profile_Features_Supported 1",
+               "Profile_Features_Supported 2", "Profile_Ident_Number high", "Profile_Ident_Number low"},
               data);
   if (data.size() > 5) words.summary = fmt::format("Initiate, Send_Timeout {} ms", ((data[4] << 8) | data[5]) * 10);
 }
@@ -89,7 +98,8 @@ void read_function(DataWords& words, const Bytes& data, const char* name, bool r
     case kWrite:
     case kTransport: return read_data_set(words, data, name);
     case kInitiate: return read_initiate(words, data, response);
-    case kResourceManager: return name_fields(words, {"SAP of the channel", "Send_Timeout high (unit 10 ms)", "Send_Timeout low"}, data);
+    case kResourceManager:
+      return name_fields(words, {"SAP of the channel", "Send_Timeout high (unit 10 ms)", "Send_Timeout low"}, data);
     case kAbort: return name_fields(words, {"Subnet", "Instance and Reason_Code", "Additional_Detail"}, data);
     default: return;
   }

@@ -140,9 +140,11 @@ class TextDecoder {
     print(at, "garbage", fmt::format("{} {} between telegrams", end - at, end - at == 1 ? "byte" : "bytes"), bytes);
   }
 
-  void print(std::size_t at, const std::string& what, const std::string& line, const std::vector<ExplainedByte>& bytes) {
+  void print(std::size_t at, const std::string& what, const std::string& line,
+             const std::vector<ExplainedByte>& bytes) {
     out_ << fmt::format("{}, line {}: {}\n", what, text_.lines[at], line);
-    for (const ExplainedByte& byte : bytes) out_ << fmt::format("  {:4}  {:02X}  {}\n", byte.offset, byte.byte, byte.meaning);
+    for (const ExplainedByte& byte : bytes)
+      out_ << fmt::format("  {:4}  {:02X}  {}\n", byte.offset, byte.byte, byte.meaning);
   }
 
   const TextBytes& text_;

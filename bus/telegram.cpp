@@ -111,8 +111,8 @@ bool operator==(const Telegram& a, const Telegram& b) {
          a.data == b.data;
 }
 
-Telegram make_telegram(std::uint8_t da, std::uint8_t sa, std::uint8_t fc, const Bytes& data, std::optional<std::uint8_t> dsap,
-                       std::optional<std::uint8_t> ssap, bool use_sd3) {
+Telegram make_telegram(std::uint8_t da, std::uint8_t sa, std::uint8_t fc, const Bytes& data,
+                       std::optional<std::uint8_t> dsap, std::optional<std::uint8_t> ssap, bool use_sd3) {
   Telegram t{TelegramKind::kSd2, da, sa, fc, dsap, ssap, data};
   if (unit_size(t) == 0) t.kind = TelegramKind::kSd1;
   if (use_sd3 && unit_size(t) == kSd3Data) t.kind = TelegramKind::kSd3;
@@ -125,7 +125,8 @@ Telegram make_sc() { return {TelegramKind::kSc}; }
 
 Bytes encode(const Telegram& telegram) {
   if (telegram.kind == TelegramKind::kSc) return {sd::kSc};
-  if (telegram.kind == TelegramKind::kSd4) return {sd::k4, address_byte(telegram.da, false), address_byte(telegram.sa, false)};
+  if (telegram.kind == TelegramKind::kSd4)
+    return {sd::k4, address_byte(telegram.da, false), address_byte(telegram.sa, false)};
   check_unit(telegram);
   Bytes bytes;
   append_header(bytes, telegram);

@@ -31,10 +31,10 @@ constexpr std::uint8_t kOk = 0, kUe = 1, kRr = 2, kRs = 3, kDl = 8, kNr = 9, kDh
 namespace sap {
 constexpr std::uint8_t kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 57, kGlobalControl = 58, kGetCfg = 59,
                        kSlaveDiag = 60, kSetPrm = 61, kChkCfg = 62;
-constexpr std::uint8_t kMaster = 62;   ///< SSAP of a DP master
-constexpr std::uint8_t kMs1 = 51;      ///< class 1 acyclic, both sides
-constexpr std::uint8_t kMs1Alarm = 50; ///< alarm acknowledge of class 1
-constexpr std::uint8_t kMs2Rm = 49;    ///< Initiate of class 2
+constexpr std::uint8_t kMaster = 62;    ///< SSAP of a DP master
+constexpr std::uint8_t kMs1 = 51;       ///< class 1 acyclic, both sides
+constexpr std::uint8_t kMs1Alarm = 50;  ///< alarm acknowledge of class 1
+constexpr std::uint8_t kMs2Rm = 49;     ///< Initiate of class 2
 constexpr std::uint8_t kMs2Master = 50;
 }  // namespace sap
 
@@ -45,8 +45,8 @@ constexpr std::size_t kMaxData = 244;      ///< ... without the two SAP bytes
 
 struct Telegram {
   TelegramKind kind = TelegramKind::kSd1;
-  std::uint8_t da = 0, sa = 0;  ///< 0..127, without the extension bit; 0 in SC
-  std::uint8_t fc = 0;          ///< 0 in SD4 and SC
+  std::uint8_t da = 0, sa = 0;                       ///< 0..127, without the extension bit; 0 in SC
+  std::uint8_t fc = 0;                               ///< 0 in SD4 and SC
   std::optional<std::uint8_t> dsap = {}, ssap = {};  ///< the extension bytes when bit 7 of DA or SA is set
   Bytes data = {};                                   ///< behind the SAP bytes
 
@@ -63,7 +63,8 @@ bool operator==(const Telegram& a, const Telegram& b);
 
 /// SD1 without data and SAPs, else SD2; SD3 when `use_sd3` and exactly 8 bytes (SAP bytes included) are to be sent.
 Telegram make_telegram(std::uint8_t da, std::uint8_t sa, std::uint8_t fc, const Bytes& data = {},
-                       std::optional<std::uint8_t> dsap = {}, std::optional<std::uint8_t> ssap = {}, bool use_sd3 = false);
+                       std::optional<std::uint8_t> dsap = {}, std::optional<std::uint8_t> ssap = {},
+                       bool use_sd3 = false);
 Telegram make_token(std::uint8_t da, std::uint8_t sa);
 Telegram make_sc();
 
@@ -87,9 +88,9 @@ const char* describe(DecodeError error);
 
 struct Decoded {
   DecodeError error = DecodeError::kNone;
-  bool readable = false;   ///< `telegram` is filled: without an error, and also when only FCS or ED are wrong
+  bool readable = false;  ///< `telegram` is filled: without an error, and also when only FCS or ED are wrong
   Telegram telegram = {};
-  Bytes bytes = {};        ///< what was received
+  Bytes bytes = {};  ///< what was received
 };
 
 /// Takes the bytes of one telegram after the other.

@@ -105,7 +105,8 @@ void UartSender::add_character(std::int64_t start_millibits, const Character& ch
   for (const std::int64_t instant : instants) {
     const int bit = static_cast<int>(instant / kMillibits);
     const bool inverted = instant >= glitch_start && instant < glitch_end;
-    add_level(start_ + exact(start_millibits + instant), (bit >= character.bit_count || bit_of(character.bits, bit)) != inverted);
+    add_level(start_ + exact(start_millibits + instant),
+              (bit >= character.bit_count || bit_of(character.bits, bit)) != inverted);
   }
 }
 

@@ -24,9 +24,9 @@ struct Glitch {
 
 /// One character as it is sent, whole or deliberately broken.
 struct Character {
-  std::uint16_t bits = 0;              ///< levels in the order of sending, bit 0 first
-  int bit_count = kCharacterBits;      ///< how many of them are sent, 1..16; afterwards the line is idle
-  int gap_millibits = 0;               ///< idle time before the first bit
+  std::uint16_t bits = 0;          ///< levels in the order of sending, bit 0 first
+  int bit_count = kCharacterBits;  ///< how many of them are sent, 1..16; afterwards the line is idle
+  int gap_millibits = 0;           ///< idle time before the first bit
   std::optional<Glitch> glitch = {};
 
   static Character of(std::uint8_t byte);
@@ -39,7 +39,7 @@ struct Character {
 struct WireFaults {
   std::optional<std::size_t> wrong_parity_at = {};
   std::optional<std::size_t> missing_stop_at = {};
-  std::optional<std::size_t> gap_before = {};   ///< `gap_millibits` of idle before this byte
+  std::optional<std::size_t> gap_before = {};  ///< `gap_millibits` of idle before this byte
   int gap_millibits = 0;
   std::optional<std::size_t> truncate_after = {};  ///< only this many whole characters are sent ...
   int truncate_bits = 0;                           ///< ... and this many bits of the next one

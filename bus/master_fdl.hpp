@@ -1,0 +1,121 @@
+#pragma once
+// Data link layer of a master: one request at a time with its answer, times, repetitions and FCB.
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/slave_parameters.hpp"
+#include "bus/telegram.hpp"
+#include "bus/uart.hpp"
+
+namespace bus {
+
+enum class FdlOutcome : std::uint8_t {
+  kSent,       ///< a telegram without answer has been sent
+  kAnswered,   ///< by a right telegram; it may be a refusal (UE, RR, RS)
+  kNoAnswer,   ///< nothing within the slot time, also not to the repetitions
+  kBadAnswer,  ///< the last attempt was answered by something wrong
+  kAborted,    ///< the master was stopped
+};
+
+struct FdlResult {
+  FdlOutcome outcome = FdlOutcome::kNoAnswer;
+  Telegram request = {};                    ///< with FCB and FCV as sent; empty for raw bytes that are no telegram
+  Telegram answer = {};                     ///< with kAnswered
+  Bytes raw = {};                           ///< bytes of the last answer, right or wrong
+  Tick request_start = 0, request_end = 0;  ///< of the last attempt
+  Tick answer_start = 0, answer_end = 0;    ///< with an answer
+  int retries = 0;                          ///< repetitions sent
+  int timeouts = 0;                         ///< attempts without any answer
+  int errors = 0;                           ///< attempts with a wrong answer
+
+  bool answered() const { return outcome == FdlOutcome::kAnswered; }
+  bool short_acknowledge() const { return answered() && answer.kind == TelegramKind::kSc; }
+};
+
+struct FdlRequest {
+  /// FC holds bit 6 and the function; FCB and FCV are added for SDA, SRD and MSRD.
+  Telegram telegram = {};
+  /// Sent instead of `telegram`, as it is and without repetition.
+  std::optional<std::vector<Character>> raw = {};
+  bool wants_answer = true;  ///< for `raw`
+};
+
+class MasterFdl : public Listener {
+ public:
+  /// Attaches to the segment, which must outlive it. `address` 0..126.
+  MasterFdl(Segment& segment, const std::string& name, std::uint8_t address, const BusParameters& parameters);
+  MasterFdl(const MasterFdl&) = delete;
+  MasterFdl& operator=(const MasterFdl&) = delete;
+
+  /// 0..9. Only while idle.
+  void set_baud(int index);
+  bool idle() const { return state_ == State::kIdle; }
+  /// Sends as soon as the idle times allow. Only while idle.
+  void start(Tick now, FdlRequest request);
+  /// Falls silent at once; a request under way ends with kAborted.
+  void abort(Tick now);
+  /// The next request to `address` starts a new series (FCB = 1, FCV = 0).
+  void restart_series(std::uint8_t address) { series_.at(address) = {}; }
+  /// End of the last character heard or sent.
+  Tick last_activity() const { return last_activity_; }
+
+  Tick next() const;
+  void run(Tick now);
+  void line_changed(Tick at, bool level) override;
+
+  /// Called once for every `start`; the layer is idle again by then.
+  std::function<void(const FdlResult&)> on_done;
+
+ private:
+  enum class State : std::uint8_t {
+    kIdle,
+    kWaitBus,  ///< until the line was idle long enough
+    kSending,
+    kWaitAnswer,  ///< until the first character or the end of the slot time
+    kReceiving,
+    kDraining,  ///< behind a wrong answer, until the line was idle for T_SYN
+  };
+  struct Series {
+    bool started = false;
+    bool fcb = true;  ///< of the next request
+  };
+  Tick bits(Tick count) const { return count * bit_; }
+  Tick earliest_start() const;
+  Tick quiet_deadline() const { return last_activity_ + bits(kSynBits); }
+  void compose();
+  void send(Tick now);
+  void sent();
+  void character(const ReceivedCharacter& received);
+  void take(const Decoded& decoded);
+  bool answers_request(const Telegram& answer) const;
+  void succeed();
+  void no_answer(Tick now);
+  void wrong_answer(Tick now);
+  void retry_or(FdlOutcome outcome, Tick now);
+  void finish(FdlOutcome outcome);
+  void deadline(Tick now);
+
+  std::uint8_t address_;
+  BusParameters parameters_;
+  Segment& segment_;
+  StationId station_;
+  UartSender sender_;
+  UartReceiver receiver_;
+  TelegramDecoder decoder_;
+  int baud_ = 0;
+  Tick bit_ = 0;
+
+  State state_ = State::kIdle;
+  FdlRequest request_;
+  std::vector<Character> characters_;
+  bool wants_answer_ = false;
+  FdlResult result_;
+  Tick last_activity_ = 0, ready_at_ = 0, slot_end_ = 0;
+  std::array<Series, 128> series_ = {};
+};
+
+}  // namespace bus

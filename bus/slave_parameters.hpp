@@ -1,0 +1,67 @@
+#pragma once
+// What a class-1 master knows of its bus and of one slave: plain data. The bench makes it from a GSD file; a test writes it down.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "bus/baud.hpp"
+#include "bus/bytes.hpp"
+
+namespace bus {
+
+struct SlaveParameters {
+  std::string name = {};       ///< for messages
+  std::uint8_t address = 0;    ///< 0..126
+  std::uint16_t ident = 0;     ///< Ident_Number
+  Bytes user_prm = {};         ///< Set_Prm behind the first 7 bytes, at most 237
+  Bytes cfg = {};              ///< Chk_Cfg data, 1..244
+  int input_length = 0;        ///< bytes the slave sends, 0..244
+  int output_length = 0;       ///< bytes the slave gets, 0..244
+  std::uint8_t wd_fact_1 = 0;  ///< watchdog = fact 1 x fact 2 x 10 ms (or 1 ms); 0 switches it off
+  std::uint8_t wd_fact_2 = 0;
+  bool wd_base_1ms = false;              ///< sets WD_Base in the first user byte
+  std::uint8_t group_ident = 0;          ///< bit n: member of group n + 1
+  std::uint8_t min_tsdr = kMinTsdrBits;  ///< bit times; Personality::kHighAlways sends 0 instead
+  bool sync = false, freeze = false;     ///< asks for these modes
+  bool lock = true;                      ///< Lock_Req
+  bool fail_safe = false;                ///< sets Fail_Safe; the slave gets empty outputs instead of zeros in Clear
+  bool dpv1 = false;                     ///< sets DPV1_Enable; user_prm is filled up to three bytes
+  std::array<int, kBaudCount> max_tsdr = {};  ///< bit times by baud index, 0 = that of the baud rate; for monitors
+};
+
+/// The data of Set_Prm (table 19). `min_tsdr` 0 leaves the slave's value unchanged.
+Bytes set_prm_data(const SlaveParameters& slave, std::uint8_t min_tsdr);
+
+/// Bus parameters of EN 50170, in bit times unless said otherwise. What is not set follows the baud rate.
+struct BusParameters {
+  std::optional<int> slot_bits = {};       ///< T_SL
+  std::optional<int> set_bits = {};        ///< T_SET
+  std::optional<int> quiet_bits = {};      ///< T_QUI
+  std::optional<int> max_retries = {};     ///< repetitions of an unanswered request; 1, at 3/6/12 Mbit/s 2/3/4
+  int gap_factor = 10;                     ///< one FDL status poll for the live list every so many cycles; 0 = none
+  std::uint8_t highest_address = 126;      ///< HSA: last address of the live list
+  std::int64_t min_slave_interval_us = 0;  ///< least time between the starts of two cycles
+  bool token = true;                       ///< passes the token to itself after each cycle, as a single master does
+  std::int64_t clock_ppm = 0;              ///< error of the sender's clock; positive = slow
+
+  int slot(int baud_index) const { return slot_bits.value_or(baud(baud_index).slot_bits); }
+  int retries(int baud_index) const { return max_retries.value_or(std::max(1, 4 - baud_index)); }
+  /// T_SM: the safety margin in front of a request.
+  int safety(int baud_index) const {
+    return 2 + 2 * set_bits.value_or(baud(baud_index).set_bits) + quiet_bits.value_or(baud(baud_index).quiet_bits);
+  }
+  /// T_ID1: idle after an answer or a token.
+  int id1(int baud_index) const { return std::max(kSynBits + safety(baud_index), kMinTsdrBits); }
+  /// T_ID2: idle after a telegram that is not answered.
+  int id2(int baud_index) const { return std::max(kSynBits + safety(baud_index), baud(baud_index).max_tsdr_bits); }
+};
+
+/// How a master behaves where EN 50170 leaves a choice; both kinds are in the field (ruling "Real masters differ").
+enum class Personality : std::uint8_t {
+  kHighAlways,  ///< SRD high for everything, SD3 whenever 8 bytes fit, min_TSDR 0, finds slaves by Slave_Diag
+  kClassic,     ///< SRD low for Slave_Diag, Set_Prm and Chk_Cfg, Clear before Set_Prm, finds slaves by FDL status
+};
+
+}  // namespace bus
