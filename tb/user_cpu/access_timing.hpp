@@ -3,7 +3,7 @@
 // makes sense, so that each limit of table 15 (rulings P5, P11) can be kept exactly, kept with margin, or violated.
 #include "bus/time.hpp"
 
-namespace tb {
+namespace user_cpu {
 
 using bus::Tick;
 
@@ -30,4 +30,4 @@ struct AccessTiming {
   Tick recovery = 333;       ///< from the last edge to the end of the access
 };
 
-}  // namespace tb
+}  // namespace user_cpu

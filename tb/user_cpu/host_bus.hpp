@@ -6,7 +6,7 @@
 #include "bus/time.hpp"
 #include "tb/user_cpu/access_timing.hpp"
 
-namespace tb {
+namespace user_cpu {
 
 struct Access {
   bool write = false;
@@ -44,4 +44,4 @@ class HostBus {
   virtual bool last_read_was_bad() const = 0;
 };
 
-}  // namespace tb
+}  // namespace user_cpu

@@ -1,8 +1,6 @@
 #include "tb/user_cpu/pin_host_bus.hpp"
 
-#include <algorithm>
-
-namespace tb {
+namespace user_cpu {
 
 using dsdpv1::Level;
 using dsdpv1::Pin;
@@ -22,14 +20,20 @@ bool PinHostBus::is_high(Tick at, Pin pin) {
   return chip_.level(pin) == 1;
 }
 
-void PinHostBus::add(Tick offset, Pin pin, Level level) {
-  edges_.at[edges_.size++] = {offset, false, pin, level};
+// Keeps the plan in order of time; edges at the same tick happen in the order in which they were added.
+void PinHostBus::insert(const Edge& edge) {
+  std::size_t place = edges_.size++;
+  for (; place > 0 && edges_.at[place - 1].tick > edge.tick; --place) {
+    edges_.at[place] = edges_.at[place - 1];
+  }
+  edges_.at[place] = edge;
 }
 
-void PinHostBus::add_sample(Tick offset) { edges_.at[edges_.size++] = {offset, true, Pin::kDOut, 0}; }
+void PinHostBus::add(Tick offset, Pin pin, Level level) { insert({offset, false, pin, level}); }
 
-// Offsets are counted from the strobe's fall. Edges at the same tick happen in the order in which they are added here: what
-// prepares the strobe before it, what ends with it after it.
+void PinHostBus::add_sample(Tick offset) { insert({offset, true, Pin::kDOut, 0}); }
+
+// Offsets are counted from the strobe's fall. What prepares the strobe is added before it, what ends with it after it.
 void PinHostBus::plan_read(const AccessTiming& timing) {
   add(-timing.cs_lead, Pin::kCsr, 0);
   add(0, Pin::kRd, 0);
@@ -61,13 +65,12 @@ void PinHostBus::begin(Tick at, const Access& access, const AccessTiming& timing
 }
 
 void PinHostBus::place(Tick start, Tick recovery) {
-  const auto first = edges_.at.begin();
-  const auto last = first + static_cast<std::ptrdiff_t>(edges_.size);
-  std::stable_sort(first, last, [](const Edge& a, const Edge& b) { return a.tick < b.tick; });
-  const Tick shift = start - first->tick;
-  std::for_each(first, last, [shift](Edge& edge) { edge.tick += shift; });
+  const Tick shift = start - edges_.at[0].tick;
+  for (std::size_t i = 0; i < edges_.size; ++i) {
+    edges_.at[i].tick += shift;
+  }
   edge_ = 0;
-  end_ = (last - 1)->tick + recovery;
+  end_ = edges_.at[edges_.size - 1].tick + recovery;
 }
 
 void PinHostBus::run_edges(Tick now) {
@@ -88,4 +91,4 @@ void PinHostBus::sample(Tick at) {
   value_ = bad_ ? std::uint8_t{0xFF} : static_cast<std::uint8_t>(level);
 }
 
-}  // namespace tb
+}  // namespace user_cpu

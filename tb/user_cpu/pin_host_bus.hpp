@@ -6,7 +6,7 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tb/user_cpu/host_bus.hpp"
 
-namespace tb {
+namespace user_cpu {
 
 /// Drives `chip`, which must outlive it. Between accesses CSR, RD and WR are high, D is released and A is 0x7FF, so that an address
 /// taken away too early is never masked by a bus that happens to hold it.
@@ -39,6 +39,7 @@ class PinHostBus : public HostBus {
     std::array<Edge, 8> at{};
     std::size_t size = 0;
   };
+  void insert(const Edge& edge);
   void add(Tick offset, dsdpv1::Pin pin, dsdpv1::Level level);
   void add_sample(Tick offset);
   void plan_read(const AccessTiming& timing);
@@ -55,4 +56,4 @@ class PinHostBus : public HostBus {
   bool bad_ = false;
 };
 
-}  // namespace tb
+}  // namespace user_cpu

@@ -1,0 +1,79 @@
+#include "tb/user_cpu/tlm_host_bus.hpp"
+
+#include "model/systemc/sim_time.hpp"
+
+namespace user_cpu {
+namespace {
+
+using dsdpv1::systemc::HostAccess;
+
+dsdpv1::systemc::AccessTiming of_module(const AccessTiming& t) {
+  return {t.address_setup, t.cs_lead,   t.rd_low,       t.rd_sample, t.wr_low,
+          t.data_setup,    t.data_hold, t.address_hold, t.cs_trail,  t.recovery};
+}
+
+Tick duration(const Access& access, const dsdpv1::systemc::AccessTiming& timing) {
+  return access.write ? HostAccess::write(access.address, access.value, timing).duration()
+                      : HostAccess::read(access.address, timing).duration();
+}
+
+}  // namespace
+
+TlmHostBus::TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip) : sc_module(name), chip_(chip) {
+  socket_.bind(chip.module().host_socket);
+  SC_HAS_PROCESS(TlmHostBus);
+  SC_THREAD(initiate);
+}
+
+void TlmHostBus::set_r_req(Tick /*at*/, bool level) { chip_.set_r_req(level); }
+
+void TlmHostBus::set_r_sta(Tick /*at*/, bool level) { chip_.set_r_sta(level); }
+
+bool TlmHostBus::l_req(Tick /*at*/) { return is_high(dsdpv1::Pin::kLReq); }
+
+bool TlmHostBus::l_sta(Tick /*at*/) { return is_high(dsdpv1::Pin::kLSta); }
+
+bool TlmHostBus::intr0(Tick /*at*/) { return is_high(dsdpv1::Pin::kIntr0); }
+
+bool TlmHostBus::is_high(dsdpv1::Pin pin) {
+  chip_.module().sync();
+  return chip_.module().chip().level(pin) == 1;
+}
+
+void TlmHostBus::begin(Tick at, const Access& access, const AccessTiming& timing) {
+  access_ = access;
+  timing_.timing = of_module(timing);
+  end_ = at + duration(access, timing_.timing);
+  running_ = true;
+  const Tick now = dsdpv1::systemc::current_tick();
+  if (at > now) {
+    start_.notify(dsdpv1::systemc::to_time(at) - sc_core::sc_time_stamp());
+  } else {
+    start_.notify(sc_core::SC_ZERO_TIME);  // after the handshake pins that were set just now
+  }
+}
+
+void TlmHostBus::run_edges(Tick /*now*/) { running_ = false; }
+
+void TlmHostBus::initiate() {
+  for (;;) {
+    wait(start_);
+    tlm::tlm_generic_payload payload;
+    sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+    std::uint8_t byte = access_.write ? access_.value : std::uint8_t{0xFF};
+    payload.set_command(access_.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
+    payload.set_address(access_.address);
+    payload.set_data_ptr(&byte);
+    payload.set_data_length(1);
+    payload.set_streaming_width(1);
+    payload.set_extension(&timing_);
+    socket_->b_transport(payload, delay);
+    payload.clear_extension(&timing_);
+    if (!access_.write) {
+      value_ = byte;
+      bad_ = payload.is_response_error();
+    }
+  }
+}
+
+}  // namespace user_cpu

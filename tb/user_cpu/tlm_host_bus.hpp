@@ -1,0 +1,45 @@
+#pragma once
+// The HostBus on the TLM socket of a chip in SystemC.
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <systemc>
+
+#include "tb/systemc/tlm_chip.hpp"
+#include "tb/user_cpu/host_bus.hpp"
+
+namespace user_cpu {
+
+/// An access is one transaction, carried out by a thread of its own so that the timeline goes on meanwhile. The module moves the
+/// same pins at the same ticks as PinHostBus does. The one edge of an access is its end, where the result is there.
+class TlmHostBus : public sc_core::sc_module, public HostBus {
+ public:
+  TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip);
+
+  void set_r_req(Tick at, bool level) override;
+  void set_r_sta(Tick at, bool level) override;
+  bool l_req(Tick at) override;
+  bool l_sta(Tick at) override;
+  bool intr0(Tick at) override;
+  void begin(Tick at, const Access& access, const AccessTiming& timing) override;
+  Tick next_edge() const override { return running_ ? end_ : bus::kNever; }
+  void run_edges(Tick now) override;
+  Tick end() const override { return end_; }
+  std::uint8_t read_value() const override { return value_; }
+  bool last_read_was_bad() const override { return bad_; }
+
+ private:
+  void initiate();
+  bool is_high(dsdpv1::Pin pin);
+
+  systemc_bench::TlmChip& chip_;
+  tlm_utils::simple_initiator_socket<TlmHostBus> socket_{"socket"};
+  sc_core::sc_event start_{"start"};
+  Access access_;
+  dsdpv1::systemc::AccessTimingExtension timing_;
+  bool running_ = false;
+  Tick end_ = 0;
+  std::uint8_t value_ = 0xFF;
+  bool bad_ = false;
+};
+
+}  // namespace user_cpu
