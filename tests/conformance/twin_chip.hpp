@@ -1,0 +1,58 @@
+#pragma once
+// The chip under test, twice: one evaluated in every cycle (step), one sleeping between its actions (skip), fed with the same pins.
+// Every difference of pins or events fails the test, so each conformance test also proves that the two engines agree.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bus/segment.hpp"
+#include "bus/timeline.hpp"
+#include "model/dsdpv1/chip.hpp"
+
+namespace conformance {
+
+using bus::Tick;
+using dsdpv1::Level;
+using dsdpv1::Pin;
+
+struct PinChange {
+  Tick at;
+  Pin pin;
+  Level level;
+  bool operator==(const PinChange& other) const { return at == other.at && pin == other.pin && level == other.level; }
+};
+
+class TwinChip : public bus::Agent, public bus::Listener {
+ public:
+  explicit TwinChip(bus::Segment& segment, dsdpv1::Config config = {});
+
+  void set(Tick at, Pin pin, Level level);
+  Level level(Pin pin) const { return skip_.level(pin); }
+  dsdpv1::Status status() const { return skip_.status(); }
+  std::uint8_t peek(std::uint16_t address) const { return skip_.peek(address); }
+
+  Tick next() const override { return skip_.next_event(); }
+  void run(Tick now) override;
+  void line_changed(Tick at, bool level) override { set(at, Pin::kPbrxd, level ? Level{1} : Level{0}); }
+
+  /// Everything that left the chip so far, in order.
+  const std::vector<PinChange>& trace() const { return trace_; }
+  const std::vector<profibus::Event>& events() const { return events_; }
+  /// Compares step with skip up to `at`; called by the bench after every operation.
+  void compare(Tick at);
+
+ private:
+  static void on_skip_pin(void* self, Tick at, Pin pin, Level level);
+  static void on_step_pin(void* self, Tick at, Pin pin, Level level);
+  static void on_skip_event(void* self, const profibus::Event& event);
+  static void on_step_event(void* self, const profibus::Event& event);
+
+  bus::Segment& segment_;
+  bus::StationId station_;
+  dsdpv1::Chip skip_, step_;
+  std::vector<PinChange> trace_, step_trace_;
+  std::vector<profibus::Event> events_, step_events_;
+  std::size_t compared_pins_ = 0, compared_events_ = 0;
+};
+
+}  // namespace conformance
