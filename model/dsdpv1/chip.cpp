@@ -173,9 +173,10 @@ void Chip::Impl::rising_edge(Cycle cycle) {
 
 std::uint32_t Chip::Impl::edge_outputs() const {
   const bool owns = sequencer.owns();
-  return bit(Pin::kLReq, owns) | bit(Pin::kLSta, owns) | bit(Pin::kIntr0, interrupt.level()) | bit(Pin::kPbtxd, station.txd()) |
-         bit(Pin::kPbrts, station.rts()) | bit(Pin::kPbf, station.slave().state() != profibus::DpState::kDataExch) |
-         bit(Pin::kBr, station.baud_found()) | bit(Pin::kReady, sequencer.ready_led());
+  return bit(Pin::kLReq, owns) | bit(Pin::kLSta, owns) | bit(Pin::kIntr0, interrupt.level()) |
+         bit(Pin::kPbtxd, station.txd()) | bit(Pin::kPbrts, station.rts()) |
+         bit(Pin::kPbf, station.slave().state() != profibus::DpState::kDataExch) | bit(Pin::kBr, station.baud_found()) |
+         bit(Pin::kReady, sequencer.ready_led());
 }
 
 void Chip::Impl::publish_edge_outputs(Tick at, std::uint32_t levels) {

@@ -26,15 +26,15 @@ enum class Engine : std::uint8_t {
 /// The parameters of the rulings marked (p), with their defaults.
 struct Config {
   Engine engine = Engine::kSkip;
-  std::uint32_t access_interval = 48;      ///< H1: cycles from the start of one DPRAM access to the next
-  std::uint32_t ready_cycles = 4096;       ///< D1: cycles from the release of RESET to B004 = 0xC5
-  std::uint32_t rts_lead = 4;              ///< P2: cycles from PBRTS high to the first start bit
-  std::uint32_t rts_trail = 4;             ///< P2: cycles from the end of the last stop bit to PBRTS low
-  std::uint32_t intr_low = 64;             ///< P7: cycles that INTR0 stays low
-  std::uint32_t intr_gap = 64;             ///< P7: least cycles that INTR0 stays high between two pulses
-  std::uint32_t search_window_ms = 50;     ///< S1: least time at one baud rate while searching
-  std::uint32_t search_window_bits = 4000; ///< S1: ... and least bit times
-  std::uint32_t baud_control_ms = 600;     ///< S1: silence after which the baud rate is searched again
+  std::uint32_t access_interval = 48;       ///< H1: cycles from the start of one DPRAM access to the next
+  std::uint32_t ready_cycles = 4096;        ///< D1: cycles from the release of RESET to B004 = 0xC5
+  std::uint32_t rts_lead = 4;               ///< P2: cycles from PBRTS high to the first start bit
+  std::uint32_t rts_trail = 4;              ///< P2: cycles from the end of the last stop bit to PBRTS low
+  std::uint32_t intr_low = 64;              ///< P7: cycles that INTR0 stays low
+  std::uint32_t intr_gap = 64;              ///< P7: least cycles that INTR0 stays high between two pulses
+  std::uint32_t search_window_ms = 50;      ///< S1: least time at one baud rate while searching
+  std::uint32_t search_window_bits = 4000;  ///< S1: ... and least bit times
+  std::uint32_t baud_control_ms = 600;      ///< S1: silence after which the baud rate is searched again
 };
 
 using profibus::DpState;  ///< coding of B012, table 5
@@ -42,14 +42,14 @@ using profibus::DpState;  ///< coding of B012, table 5
 /// Counters and states for benches and results; reading it changes nothing.
 struct Status {
   DpState dp_state = DpState::kOffline;
-  int baud_index = 15;                ///< table 5: 0 = 12 M ... 9 = 9.6 k, 15 = searching
-  std::uint8_t address = 0;           ///< the station's present address, 0 before the initialisation
-  std::uint8_t master = 255;          ///< the parameterising master, 255 = none
-  std::uint64_t telegrams_received = 0;   ///< error-free telegrams of all stations
-  std::uint64_t telegrams_answered = 0;   ///< answers sent
-  std::uint64_t data_exchanges = 0;       ///< executed data exchanges, repetitions not counted
-  std::uint64_t accesses = 0;             ///< DPRAM accesses of the chip
-  std::uint64_t longest_wait = 0;         ///< H1: most cycles that a due access waited for R_REQ
+  int baud_index = 15;                   ///< table 5: 0 = 12 M ... 9 = 9.6 k, 15 = searching
+  std::uint8_t address = 0;              ///< the station's present address, 0 before the initialisation
+  std::uint8_t master = 255;             ///< the parameterising master, 255 = none
+  std::uint64_t telegrams_received = 0;  ///< error-free telegrams of all stations
+  std::uint64_t telegrams_answered = 0;  ///< answers sent
+  std::uint64_t data_exchanges = 0;      ///< executed data exchanges, repetitions not counted
+  std::uint64_t accesses = 0;            ///< DPRAM accesses of the chip
+  std::uint64_t longest_wait = 0;        ///< H1: most cycles that a due access waited for R_REQ
 };
 
 class Chip {

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kHeaderMoves = 6;
 constexpr int kVersionBytes = 4;
-constexpr std::uint8_t kVersion[kVersionBytes] = {regs::kVersionReset, regs::kVersionYearReset, regs::kVersionMonthReset,
-                                                  regs::kVersionDayReset};
+constexpr std::uint8_t kVersion[kVersionBytes] = {regs::kVersionReset, regs::kVersionYearReset,
+                                                  regs::kVersionMonthReset, regs::kVersionDayReset};
 constexpr int kStartUpMoves = regs::kDpramSize + kVersionBytes + 1;  // the RAM, the version, B006
 constexpr std::uint8_t kChipWasHere = 1;                             // B006
 
@@ -167,7 +167,8 @@ const DpramSequencer::Area& DpramSequencer::area(Item item) {
   static constexpr Area kCfgVerdict = {regs::kUserStatus1, 0, 1, 0, regs::kUserCommand1CfgVerdict};
   static constexpr Area kPrm = {regs::kPrm, regs::kPrmCrc, 1, regs::kPrmDataSize, regs::kChipCommand1Prm};
   static constexpr Area kCfg = {regs::kCfg, regs::kCfgCrc, 3, regs::kCfgDataSize, regs::kChipCommand1Cfg};
-  static constexpr Area kOutput = {regs::kOutput, regs::kOutputCrc, 1, regs::kOutputDataSize, regs::kChipCommand1Output};
+  static constexpr Area kOutput = {regs::kOutput, regs::kOutputCrc, 1, regs::kOutputDataSize,
+                                   regs::kChipCommand1Output};
   switch (item) {
     case Item::kInit: return kInit;
     case Item::kPrmVerdict: return kPrmVerdict;
@@ -260,7 +261,8 @@ void DpramSequencer::status_byte(Item item, Cycle now) {
 
 std::uint8_t DpramSequencer::status3() const {
   const int state = static_cast<int>(station_.slave().state());
-  return static_cast<std::uint8_t>(station_.baud_index() << regs::kChipStatus3BaudRateShift | state << regs::kChipStatus3DpStateShift);
+  return static_cast<std::uint8_t>(station_.baud_index() << regs::kChipStatus3BaudRateShift |
+                                   state << regs::kChipStatus3DpStateShift);
 }
 
 // --- moving blocks ------------------------------------------------------------------------------------------------------------

@@ -19,9 +19,14 @@ using profibus::Tick;
 
 class DpramSequencer {
  public:
-  DpramSequencer(profibus::EventLog& log, Dpram& dpram, profibus::Station& station, Interrupt& interrupt, Cycle interval,
-                 Cycle ready_cycles)
-      : log_(log), dpram_(dpram), station_(station), interrupt_(interrupt), interval_(interval), ready_cycles_(ready_cycles) {}
+  DpramSequencer(profibus::EventLog& log, Dpram& dpram, profibus::Station& station, Interrupt& interrupt,
+                 Cycle interval, Cycle ready_cycles)
+      : log_(log),
+        dpram_(dpram),
+        station_(station),
+        interrupt_(interrupt),
+        interval_(interval),
+        ready_cycles_(ready_cycles) {}
 
   void reset();
   /// The logic leaves reset at `now` (cycle R): the start-up access begins (H6).
@@ -42,29 +47,44 @@ class DpramSequencer {
  private:
   // What one access may have to do, in the order of ruling H4, then the changed status bytes by address.
   enum class Item : std::uint8_t {
-    kInit, kPrmVerdict, kCfgVerdict, kInput, kDiag, kPrm, kCfg, kOutput,
-    kValidFlag, kOfflineHigh, kOfflineLow, kChipStatus1, kChipStatus2, kChipStatus3, kChipStatus4, kNone,
+    kInit,
+    kPrmVerdict,
+    kCfgVerdict,
+    kInput,
+    kDiag,
+    kPrm,
+    kCfg,
+    kOutput,
+    kValidFlag,
+    kOfflineHigh,
+    kOfflineLow,
+    kChipStatus1,
+    kChipStatus2,
+    kChipStatus3,
+    kChipStatus4,
+    kNone,
   };
   enum class Phase : std::uint8_t {
-    kOff,        // reset
-    kIdle,       // L_REQ and L_STA low
-    kStartUp,    // clearing the RAM
-    kHeader,     // B006 := 1, reading B010, B011, B00E, B00F, B005
-    kChoose,     // the next item begins, or the access ends
-    kRead,       // a block of the user: first bytes up to the length
-    kDecode,     // the length is looked at
-    kReadRest,   // the bytes that the length says, and the CRC
-    kCheck,      // the last byte has arrived
-    kCommit,     // the flag is cleared, the block takes effect
-    kWrite,      // a block for the user
-    kCrcHigh, kCrcLow,
-    kFlag,       // its flag is set
-    kStatus2,    // B00B, second cycle: written back
+    kOff,       // reset
+    kIdle,      // L_REQ and L_STA low
+    kStartUp,   // clearing the RAM
+    kHeader,    // B006 := 1, reading B010, B011, B00E, B00F, B005
+    kChoose,    // the next item begins, or the access ends
+    kRead,      // a block of the user: first bytes up to the length
+    kDecode,    // the length is looked at
+    kReadRest,  // the bytes that the length says, and the CRC
+    kCheck,     // the last byte has arrived
+    kCommit,    // the flag is cleared, the block takes effect
+    kWrite,     // a block for the user
+    kCrcHigh,
+    kCrcLow,
+    kFlag,     // its flag is set
+    kStatus2,  // B00B, second cycle: written back
   };
   struct Area {
     regs::Address base, crc;
-    int header;  // bytes up to and including the length
-    int maximum; // largest length
+    int header;   // bytes up to and including the length
+    int maximum;  // largest length
     std::uint8_t flag;
   };
   static const Area& area(Item item);
@@ -114,7 +134,7 @@ class DpramSequencer {
   Item item_ = Item::kNone;  // in work, or the last one done in this access
   Cycle origin_ = 0;         // cycle R
   Cycle start_ = 0, due_ = 0;
-  Cycle op_ = 0;             // the cycle of the next byte move
+  Cycle op_ = 0;  // the cycle of the next byte move
   Cycle visible_ = profibus::kNever;
   int index_ = 0;
   std::array<std::uint8_t, 256> image_{};  // the block in work, from its first byte

@@ -10,9 +10,9 @@
 namespace dsdpv1 {
 
 /// Table 15 in ticks.
-constexpr Tick kTs = 150;   ///< 12.5 ns, WR low
-constexpr Tick kTd = 150;   ///< 12.5 ns, A and D stable before and after WR rises
-constexpr Tick kTw = 375;   ///< 31.25 ns, RD's fall to certain data
+constexpr Tick kTs = 150;  ///< 12.5 ns, WR low
+constexpr Tick kTd = 150;  ///< 12.5 ns, A and D stable before and after WR rises
+constexpr Tick kTw = 375;  ///< 31.25 ns, RD's fall to certain data
 
 class HostPort {
  public:

@@ -16,15 +16,19 @@ struct Limit {
   int maximum;
 };
 constexpr Limit kLimits[] = {
-    {regs::kInitMaxInput, regs::kInitMaxInputLimit}, {regs::kInitMaxOutput, regs::kInitMaxOutputLimit},
-    {regs::kInitMaxDiag, regs::kInitMaxDiagLimit},   {regs::kInitMaxPrm, regs::kInitMaxPrmLimit},
-    {regs::kPrmMode, kMaxMode},                      {regs::kInitMaxCfg, regs::kInitMaxCfgLimit},
+    {regs::kInitMaxInput, regs::kInitMaxInputLimit},
+    {regs::kInitMaxOutput, regs::kInitMaxOutputLimit},
+    {regs::kInitMaxDiag, regs::kInitMaxDiagLimit},
+    {regs::kInitMaxPrm, regs::kInitMaxPrmLimit},
+    {regs::kPrmMode, kMaxMode},
+    {regs::kInitMaxCfg, regs::kInitMaxCfgLimit},
     {regs::kCfgMode, kMaxMode},
 };
 
 class InitBlock {
  public:
-  InitBlock(const std::uint8_t* block, int size, Cycle now, EventLog& log) : block_(block), size_(size), now_(now), log_(log) {}
+  InitBlock(const std::uint8_t* block, int size, Cycle now, EventLog& log)
+      : block_(block), size_(size), now_(now), log_(log) {}
 
   bool check() const {
     const int fixed = regs::kInitCfg - regs::kInit;
@@ -33,7 +37,8 @@ class InitBlock {
     for (const Limit& limit : kLimits) {
       if (at(limit.address) > limit.maximum) return refuse_limit(limit.address, limit.maximum);
     }
-    if (at(regs::kInitCfgLength) > at(regs::kInitMaxCfg)) return refuse_limit(regs::kInitCfgLength, at(regs::kInitMaxCfg));
+    if (at(regs::kInitCfgLength) > at(regs::kInitMaxCfg))
+      return refuse_limit(regs::kInitCfgLength, at(regs::kInitMaxCfg));
     const int needed = fixed + at(regs::kInitCfgLength);
     if (size_ < needed) return refuse(Reason::kInitLength, at(regs::kInitLength), static_cast<unsigned>(needed - 1));
     return check_cfg();
@@ -72,8 +77,11 @@ class InitBlock {
   }
   bool check_cfg() const {
     const profibus::CfgLengths lengths = profibus::cfg_lengths(cfg(), at(regs::kInitCfgLength));
-    if (lengths.complete() && lengths.input() <= at(regs::kInitMaxInput) && lengths.output() <= at(regs::kInitMaxOutput)) return true;
-    return refuse(Reason::kInitCfg, static_cast<unsigned>(lengths.input()), static_cast<unsigned>(lengths.output()), lengths.complete());
+    if (lengths.complete() && lengths.input() <= at(regs::kInitMaxInput) &&
+        lengths.output() <= at(regs::kInitMaxOutput))
+      return true;
+    return refuse(Reason::kInitCfg, static_cast<unsigned>(lengths.input()), static_cast<unsigned>(lengths.output()),
+                  lengths.complete());
   }
 
   const std::uint8_t* block_;

@@ -5,8 +5,9 @@
 namespace dsdpv1 {
 
 const char* name(Pin pin) {
-  constexpr std::array<const char*, kPinCount> kNames = {"RESET", "R_REQ", "R_STA", "CSR",   "RD",    "WR",    "A",  "D_IN", "PBRXD",
-                                                         "L_REQ", "L_STA", "D_OUT", "INTR0", "PBTXD", "PBRTS", "PBF", "BR",   "READY"};
+  constexpr std::array<const char*, kPinCount> kNames = {"RESET", "R_REQ", "R_STA", "CSR",   "RD",    "WR",
+                                                         "A",     "D_IN",  "PBRXD", "L_REQ", "L_STA", "D_OUT",
+                                                         "INTR0", "PBTXD", "PBRTS", "PBF",   "BR",    "READY"};
   return kNames[static_cast<std::size_t>(pin)];
 }
 

@@ -14,8 +14,8 @@ constexpr std::array<int, kBaudCount> kBitCycles = {4, 8, 16, 32, 96, 256, 512, 
 /// max_TSDR in bit times (ruling S3, chapter 11's GSD).
 constexpr std::array<int, kBaudCount> kMaxTsdr = {800, 450, 250, 150, 100, 60, 60, 250, 60, 60};
 
-constexpr int kMinTsdr = 11;          ///< bit times, S3
-constexpr int kSynBits = 33;          ///< T_SYN, S3
-constexpr int kBitsPerCharacter = 11; ///< start, 8 data, even parity, stop
+constexpr int kMinTsdr = 11;           ///< bit times, S3
+constexpr int kSynBits = 33;           ///< T_SYN, S3
+constexpr int kBitsPerCharacter = 11;  ///< start, 8 data, even parity, stop
 
 }  // namespace profibus

@@ -3,8 +3,8 @@
 namespace profibus {
 namespace {
 
-constexpr std::uint8_t kInputBit = 0x10, kOutputBit = 0x20, kWordBit = 0x40;             // compact, table A.3
-constexpr std::uint8_t kSpecialInput = 0x40, kSpecialOutput = 0x80;                      // special, table A.4
+constexpr std::uint8_t kInputBit = 0x10, kOutputBit = 0x20, kWordBit = 0x40;  // compact, table A.3
+constexpr std::uint8_t kSpecialInput = 0x40, kSpecialOutput = 0x80;           // special, table A.4
 constexpr int kNoManufacturerData = 15;  // EN 50170: 15 = no manufacturer data either
 
 int special_length(std::uint8_t byte) { return ((byte & 0x3F) + 1) * ((byte & kWordBit) != 0 ? 2 : 1); }  // table A.5

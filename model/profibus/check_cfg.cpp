@@ -40,7 +40,8 @@ bool DpSlave::check_cfg_bytes(Cycle now, const Request& request, const CfgLength
   }
   const int max_input = user ? kMaxIo : config_.max_input, max_output = user ? kMaxIo : config_.max_output;
   if (lengths.input() > max_input || lengths.output() > max_output) {
-    refuse_cfg(now, Reason::kCfgIoLength, static_cast<unsigned>(lengths.input()), static_cast<unsigned>(lengths.output()));
+    refuse_cfg(now, Reason::kCfgIoLength, static_cast<unsigned>(lengths.input()),
+               static_cast<unsigned>(lengths.output()));
     return false;
   }
   return true;
@@ -49,7 +50,9 @@ bool DpSlave::check_cfg_bytes(Cycle now, const Request& request, const CfgLength
 bool DpSlave::check_cfg_equal(Cycle now, const Request& request, const Block<kMaxCfg>& expected) {
   if (expected.equals(request.data, request.size)) return true;
   int first = 0;
-  while (first < expected.size && first < request.size && expected.bytes[static_cast<std::size_t>(first)] == request.data[first]) ++first;
+  while (first < expected.size && first < request.size &&
+         expected.bytes[static_cast<std::size_t>(first)] == request.data[first])
+    ++first;
   refuse_cfg(now, Reason::kCfgDiffers, static_cast<unsigned>(first), static_cast<unsigned>(expected.size),
              static_cast<unsigned>(request.size));
   return false;
@@ -70,7 +73,8 @@ void DpSlave::refuse_cfg(Cycle now, Reason reason, unsigned a, unsigned b, unsig
 
 void DpSlave::accept_cfg(Cycle now) {
   const CfgLengths lengths = cfg_lengths(cfg_.bytes.data(), cfg_.size);
-  log_.at_cycle(now, Reason::kCfgAccepted, master_, static_cast<unsigned>(lengths.input()), static_cast<unsigned>(lengths.output()));
+  log_.at_cycle(now, Reason::kCfgAccepted, master_, static_cast<unsigned>(lengths.input()),
+                static_cast<unsigned>(lengths.output()));
   diagnosis_.cfg_good();
   cfg_awaited_ = false;
   if (lengths.input() != inputs_.size()) inputs_.reset(lengths.input());  // D10: zeros until the first valid block

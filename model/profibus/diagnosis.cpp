@@ -3,7 +3,13 @@
 namespace profibus {
 namespace {
 
-enum DiagType : std::uint8_t { kExtended = 0x00, kExtGone = 0x01, kExtPresent = 0x81, kStatGone = 0x02, kStatPresent = 0x82 };
+enum DiagType : std::uint8_t {
+  kExtended = 0x00,
+  kExtGone = 0x01,
+  kExtPresent = 0x81,
+  kStatGone = 0x02,
+  kStatPresent = 0x82
+};
 
 constexpr unsigned bit(bool set, int position) { return set ? 1U << position : 0U; }
 
@@ -24,8 +30,8 @@ const std::uint8_t* Diagnosis::bytes(const DiagnosisView& view) {
   constexpr unsigned kAlwaysOne = 1U << 2;
   answer_[0] = static_cast<std::uint8_t>(bit(!view.ready, 1) | bit(cfg_fault_, 2) | bit(ext_diag_, 3) |
                                          bit(not_supported_, 4) | bit(prm_fault_, 6));
-  answer_[1] = static_cast<std::uint8_t>(bit(view.prm_req, 0) | bit(stat_diag_, 1) | kAlwaysOne | bit(view.watchdog, 3) |
-                                         bit(view.freeze, 4) | bit(view.sync, 5));
+  answer_[1] = static_cast<std::uint8_t>(bit(view.prm_req, 0) | bit(stat_diag_, 1) | kAlwaysOne |
+                                         bit(view.watchdog, 3) | bit(view.freeze, 4) | bit(view.sync, 5));
   answer_[2] = 0;  // Ext_Diag_Overflow cannot happen: 6 + 238 bytes fit
   answer_[3] = view.master;
   answer_[4] = static_cast<std::uint8_t>(view.ident >> 8);

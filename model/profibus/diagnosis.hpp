@@ -6,7 +6,7 @@ namespace profibus {
 
 /// What the standard bytes show besides the diagnosis block's own flags.
 struct DiagnosisView {
-  bool ready = false;     ///< DATA_EXCH
+  bool ready = false;  ///< DATA_EXCH
   bool prm_req = false;
   bool watchdog = false, freeze = false, sync = false;
   std::uint8_t master = 255;

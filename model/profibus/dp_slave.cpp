@@ -25,7 +25,8 @@ void DpSlave::reset() {
 }
 
 void DpSlave::initialise(Cycle now, const SlaveConfig& config) {
-  const std::uint16_t offline_count = static_cast<std::uint16_t>(offline_count_ + (state_ == DpState::kDataExch ? 1 : 0));
+  const std::uint16_t offline_count =
+      static_cast<std::uint16_t>(offline_count_ + (state_ == DpState::kDataExch ? 1 : 0));
   const std::uint64_t data_exchanges = data_exchanges_;
   const std::uint8_t b005 = b005_;
   enter(now, DpState::kOffline);
@@ -139,7 +140,8 @@ Reply DpSlave::data_exchange(Cycle now, const Request& request) {
     log_.at_cycle(now, Reason::kFailSafeClear);
     clear_outputs(now);
   } else {
-    log_.at_cycle(now, Reason::kOutputLength, static_cast<unsigned>(request.size), static_cast<unsigned>(outputs_.size()));
+    log_.at_cycle(now, Reason::kOutputLength, static_cast<unsigned>(request.size),
+                  static_cast<unsigned>(outputs_.size()));
     diagnosis_.cfg_fault();
     leave_to_wait_prm(now);
     return Reply::status(fc::kRr);  // S19
@@ -150,7 +152,8 @@ Reply DpSlave::data_exchange(Cycle now, const Request& request) {
 
 Reply DpSlave::input_reply() const {
   const bool high = diagnosis_.high_priority();
-  if (inputs_.size() > 0) return Reply::with_data(high ? fc::kDh : fc::kDl, inputs_.shown().bytes.data(), inputs_.size());
+  if (inputs_.size() > 0)
+    return Reply::with_data(high ? fc::kDh : fc::kDl, inputs_.shown().bytes.data(), inputs_.size());
   return high ? Reply::status(fc::kDh) : Reply::sc();
 }
 
@@ -187,7 +190,8 @@ Reply DpSlave::set_slave_address(Cycle now, const Request& request) {
   const std::uint8_t* data = request.data;
   const unsigned ident = request.size == kSize ? static_cast<unsigned>(data[1]) << 8 | data[2] : 0;
   if (request.size < kSize || data[0] > kMaxAddress || ident != config_.ident) {
-    log_.at_cycle(now, Reason::kAddressRefused, static_cast<unsigned>(request.size), request.size > 0 ? data[0] : 0U, ident);
+    log_.at_cycle(now, Reason::kAddressRefused, static_cast<unsigned>(request.size), request.size > 0 ? data[0] : 0U,
+                  ident);
     return Reply::sc();
   }
   log_.at_cycle(now, Reason::kAddressChanged, address_, data[0], data[3]);

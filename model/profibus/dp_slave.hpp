@@ -11,8 +11,8 @@
 namespace profibus {
 
 namespace sap {
-constexpr int kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 57, kGlobalControl = 58, kGetCfg = 59, kSlaveDiag = 60,
-              kSetPrm = 61, kCheckCfg = 62;
+constexpr int kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 57, kGlobalControl = 58, kGetCfg = 59,
+              kSlaveDiag = 60, kSetPrm = 61, kCheckCfg = 62;
 }
 
 constexpr std::uint8_t kNoMaster = 255;
@@ -104,11 +104,11 @@ class DpSlave {
   std::uint8_t address_ = 0;
   bool address_locked_ = false;
   std::uint8_t master_ = kNoMaster;
-  PrmRequest prm_;               // in force, or awaiting the user's verdict
+  PrmRequest prm_;  // in force, or awaiting the user's verdict
   bool prm_awaited_ = false, cfg_awaited_ = false;
   bool watchdog_on_ = false;
   int min_tsdr_ = kMinTsdr;
-  Block<kMaxCfg> cfg_;           // the configuration in use, or awaiting the verdict
+  Block<kMaxCfg> cfg_;  // the configuration in use, or awaiting the verdict
 
   DoubleBuffer outputs_, inputs_;
   Diagnosis diagnosis_;

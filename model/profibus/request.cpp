@@ -9,7 +9,9 @@ namespace {
 
 constexpr std::uint8_t kSapBit = 0x80;
 
-void put(Frame& frame, unsigned byte) { frame.bytes[static_cast<std::size_t>(frame.size++)] = static_cast<std::uint8_t>(byte); }
+void put(Frame& frame, unsigned byte) {
+  frame.bytes[static_cast<std::size_t>(frame.size++)] = static_cast<std::uint8_t>(byte);
+}
 
 void put_end(Frame& frame, int body) {
   unsigned fcs = 0;

@@ -38,7 +38,9 @@ struct Reply {
   static Reply nothing() { return {}; }
   static Reply sc() { return {Kind::kShort, 0, nullptr, 0}; }
   static Reply status(std::uint8_t code) { return {Kind::kSd1, code, nullptr, 0}; }
-  static Reply with_data(std::uint8_t code, const std::uint8_t* data, int size) { return {Kind::kData, code, data, size}; }
+  static Reply with_data(std::uint8_t code, const std::uint8_t* data, int size) {
+    return {Kind::kData, code, data, size};
+  }
 };
 
 /// A telegram ready to be sent.

@@ -24,8 +24,7 @@ bool UartRx::eval(Cycle now, bool line) {
     case State::kIdle:
       if (fell) start(now);
       return false;
-    case State::kReceiving:
-      return now == sample_ && sample(line);
+    case State::kReceiving: return now == sample_ && sample(line);
     case State::kBreak:
       if (line) {
         state_ = State::kIdle;

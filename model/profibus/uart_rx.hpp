@@ -35,8 +35,8 @@ class UartRx {
   State state_ = State::kIdle;
   bool line_ = true;
   int bit_ = kBitCycles[0];
-  int index_ = 0;             // 0 start bit, 1..8 data, 9 parity, 10 stop
-  unsigned shift_ = 0;        // data and parity, first bit lowest
+  int index_ = 0;       // 0 start bit, 1..8 data, 9 parity, 10 stop
+  unsigned shift_ = 0;  // data and parity, first bit lowest
   Cycle sample_ = kNever;
   Cycle idle_since_ = 0;
   Character character_;

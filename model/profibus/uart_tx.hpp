@@ -25,7 +25,7 @@ class UartTx {
   void shift();
 
   const std::uint8_t* bytes_ = nullptr;
-  int left_ = 0;   // characters not yet loaded
+  int left_ = 0;  // characters not yet loaded
   int bit_ = 0;
   Cycle begin_ = 0, end_ = 0, trail_ = 0;
   Cycle next_ = kNever;

@@ -24,15 +24,30 @@ void put_crc(Bytes& block, std::uint16_t crc_error) {
 Bytes Init::block() const {
   const std::size_t to_cfg = regs::kInitCfg - regs::kInit - 1;
   const std::uint8_t size = length.value_or(static_cast<std::uint8_t>(to_cfg + cfg.size()));
-  Bytes block = {size, address, static_cast<std::uint8_t>(ident >> 8), static_cast<std::uint8_t>(ident & 0xFF), command, 0, 0,
-                 max_input, max_output, max_diag, max_prm, prm_mode, max_cfg, cfg_mode, static_cast<std::uint8_t>(cfg.size())};
+  Bytes block = {size,
+                 address,
+                 static_cast<std::uint8_t>(ident >> 8),
+                 static_cast<std::uint8_t>(ident & 0xFF),
+                 command,
+                 0,
+                 0,
+                 max_input,
+                 max_output,
+                 max_diag,
+                 max_prm,
+                 prm_mode,
+                 max_cfg,
+                 cfg_mode,
+                 static_cast<std::uint8_t>(cfg.size())};
   block.insert(block.end(), cfg.begin(), cfg.end());
   block.resize(static_cast<std::size_t>(size) + 1);
   return block;
 }
 
 Bytes Prm::bytes() const {
-  Bytes bytes = {status, wd1, wd2, min_tsdr, static_cast<std::uint8_t>(ident >> 8), static_cast<std::uint8_t>(ident & 0xFF), group};
+  Bytes bytes = {
+      status, wd1, wd2, min_tsdr, static_cast<std::uint8_t>(ident >> 8), static_cast<std::uint8_t>(ident & 0xFF),
+      group};
   bytes.insert(bytes.end(), user.begin(), user.end());
   return bytes;
 }
@@ -102,7 +117,8 @@ void SlaveBench::write(std::uint16_t cell, std::uint8_t value) {
   chip.set(now(), Pin::kDIn, dsdpv1::kLevelZ);
 }
 
-void SlaveBench::write_block(std::uint16_t base, const Bytes& bytes, std::uint16_t crc_address, std::uint16_t crc_error) {
+void SlaveBench::write_block(std::uint16_t base, const Bytes& bytes, std::uint16_t crc_address,
+                             std::uint16_t crc_error) {
   Bytes block = bytes;
   put_crc(block, crc_error);
   for (std::size_t i = 0; i < bytes.size(); ++i) write(static_cast<std::uint16_t>(base + i), block[i]);
@@ -159,7 +175,8 @@ void SlaveBench::give_diag(std::uint8_t type, const Bytes& diag, std::uint16_t c
 void SlaveBench::verdict(std::optional<bool> prm_good, std::optional<bool> cfg_good) {
   const unsigned wrong = (prm_good.value_or(true) ? 0U : regs::kUserStatus1PrmWrong) |
                          (cfg_good.value_or(true) ? 0U : regs::kUserStatus1CfgWrong);
-  const unsigned flags = (prm_good ? regs::kUserCommand1PrmVerdict : 0U) | (cfg_good ? regs::kUserCommand1CfgVerdict : 0U);
+  const unsigned flags =
+      (prm_good ? regs::kUserCommand1PrmVerdict : 0U) | (cfg_good ? regs::kUserCommand1CfgVerdict : 0U);
   acquire();
   write(regs::kUserStatus1, static_cast<std::uint8_t>(wrong));
   write(regs::kUserCommand1, static_cast<std::uint8_t>(flags));
@@ -217,7 +234,8 @@ Bytes SlaveBench::slave_diag() {
 }
 
 void SlaveBench::global_control(std::uint8_t command, std::uint8_t group) {
-  requester.send(timeline, bus::make_telegram(bus::kBroadcast, master, 0x46, {command, group}, 58, 62), {.wants_answer = false});
+  requester.send(timeline, bus::make_telegram(bus::kBroadcast, master, 0x46, {command, group}, 58, 62),
+                 {.wants_answer = false});
   run_for(requester.bit() * 4);  // the decision is 1 bit time after the end (S10)
 }
 

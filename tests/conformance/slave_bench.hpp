@@ -18,7 +18,8 @@ struct Init {
   std::uint8_t address = 5;
   std::uint16_t ident = 0x0CC9;
   std::uint8_t command = 0x0F;  ///< fail-safe, sync, freeze, address change supported
-  std::uint8_t max_input = 244, max_output = 244, max_diag = 32, max_prm = 237, prm_mode = 0, max_cfg = 200, cfg_mode = 0;
+  std::uint8_t max_input = 244, max_output = 244, max_diag = 32, max_prm = 237, prm_mode = 0, max_cfg = 200,
+               cfg_mode = 0;
   Bytes cfg = {0x11, 0x21};
   std::optional<std::uint8_t> length = {};  ///< B020; default: up to the last configuration byte
   std::uint16_t crc_error = 0;              ///< exclusive-ored to the right CRC
@@ -109,7 +110,6 @@ class SlaveBench {
   bool fcb = true, fcb_valid = false;  ///< the next request's; reset when `master` changes the series
 
  private:
-
   bool owns_ = false;
 };
 

@@ -11,12 +11,13 @@ dsdpv1::Config with_engine(dsdpv1::Config config, dsdpv1::Engine engine) {
 }
 
 std::string words(const PinChange& change) {
-  return std::string(dsdpv1::name(change.pin)) + "=" + std::to_string(change.level) + " at tick " + std::to_string(change.at) +
-         " (cycle " + std::to_string(change.at / profibus::kTicksPerCycle) + ")";
+  return std::string(dsdpv1::name(change.pin)) + "=" + std::to_string(change.level) + " at tick " +
+         std::to_string(change.at) + " (cycle " + std::to_string(change.at / profibus::kTicksPerCycle) + ")";
 }
 
 std::string words(const profibus::Event& event) {
-  return std::string(profibus::code(event.reason)) + " at tick " + std::to_string(event.at) + ": " + profibus::describe(event);
+  return std::string(profibus::code(event.reason)) + " at tick " + std::to_string(event.at) + ": " +
+         profibus::describe(event);
 }
 
 bool same(const PinChange& a, const PinChange& b) { return a == b; }
@@ -27,7 +28,8 @@ bool same(const profibus::Event& a, const profibus::Event& b) {
 template <typename T>
 void compare_lists(const std::vector<T>& skip, const std::vector<T>& step, std::size_t& compared) {
   for (; compared < skip.size() && compared < step.size(); ++compared) {
-    ASSERT_TRUE(same(skip[compared], step[compared])) << "skip: " << words(skip[compared]) << "\nstep: " << words(step[compared]);
+    ASSERT_TRUE(same(skip[compared], step[compared]))
+        << "skip: " << words(skip[compared]) << "\nstep: " << words(step[compared]);
   }
   ASSERT_EQ(skip.size(), step.size()) << "one engine did more, first: "
                                       << words(skip.size() > step.size() ? skip[compared] : step[compared]);
@@ -71,7 +73,9 @@ void TwinChip::on_step_pin(void* self, Tick at, Pin pin, Level level) {
   static_cast<TwinChip*>(self)->step_trace_.push_back({at, pin, level});
 }
 
-void TwinChip::on_skip_event(void* self, const profibus::Event& event) { static_cast<TwinChip*>(self)->events_.push_back(event); }
+void TwinChip::on_skip_event(void* self, const profibus::Event& event) {
+  static_cast<TwinChip*>(self)->events_.push_back(event);
+}
 
 void TwinChip::on_step_event(void* self, const profibus::Event& event) {
   static_cast<TwinChip*>(self)->step_events_.push_back(event);
