@@ -9,10 +9,10 @@ void describe_condition(ObjectOf<T>& o) {
   using C = Condition;
   o.name_of("slave", &C::slave, "Name of the slave that the other keys are about.");
   o.word("dp_state", &C::dp_state,
-         std::vector<WordFor<DpStateWord>>{{DpStateWord::kOffline, "offline", "not initialised"},
-                                           {DpStateWord::kWaitPrm, "wait_prm", "waits for Set_Prm, or for the user's verdict on it"},
-                                           {DpStateWord::kWaitCfg, "wait_cfg", "waits for Chk_Cfg, or for the user's verdict on it"},
-                                           {DpStateWord::kDataExch, "data_exch", "exchanges data"}},
+         std::vector<WordFor<dsdpv1::DpState>>{{dsdpv1::DpState::kOffline, "offline", "not initialised"},
+                                           {dsdpv1::DpState::kWaitPrm, "wait_prm", "waits for Set_Prm, or for the user's verdict on it"},
+                                           {dsdpv1::DpState::kWaitCfg, "wait_cfg", "waits for Chk_Cfg, or for the user's verdict on it"},
+                                           {dsdpv1::DpState::kDataExch, "data_exch", "exchanges data"}},
          "State of the DP state machine.");
   o.word("baud", &C::baud, baud_words(true), "Baud rate that the chip has found.");
   o.integer("station_address", &C::station_address, kAddresses, "", "The chip's present station address.");

@@ -9,10 +9,13 @@ const ObjectOf<BusParameters>& bus_keys() {
     using B = BusParameters;
     ObjectOf<B> o("bus", "Bus parameters of a master.");
     o.integer("slot_time", &B::slot_time, {37, 16383}, "bit times", "T_SL; left out: what EN 50170 gives for the baud rate (100 ... 1000).");
-    o.integer("idle_time", &B::idle_time, {33, 1023}, "bit times", "T_ID1 before every request; left out: the master's own.");
-    o.integer("retries", &B::retries, {0, 8}, "", "How often an unanswered request is repeated.");
+    o.integer("setup_time", &B::setup_time, {1, 255}, "bit times", "T_SET; left out: that of the baud rate.");
+    o.integer("quiet_time", &B::quiet_time, {0, 255}, "bit times", "T_QUI; left out: that of the baud rate.");
+    o.integer("retries", &B::retries, {0, 8}, "", "How often an unanswered request is repeated; left out: 1, at 3M, 6M and 12M 2, 3 and 4.");
     o.integer("gap_factor", &B::gap_factor, {0, 100}, "cycles", "Data cycles between two FDL status polls for the live list, 0 for none.");
-    o.time("cycle_time", &B::cycle_time, {0, 10 * bus::kTicksPerSecond}, "Least time from the start of one data cycle to the next; 0ns: as fast as the bus allows.");
+    o.integer("highest_address", &B::highest_address, {1, 126}, "", "HSA, the last address of the live list.");
+    o.integer("min_slave_interval", &B::min_slave_interval, {0, 1000000}, "us", "Least time from the start of one data cycle to the next; 0: as fast as the bus allows.");
+    o.boolean("token", &B::token, "Whether the token is passed (to itself) after each cycle, as a single master does.");
     o.integer("clock_error", &B::clock_error, {-20000, 20000}, "ppm", "Error of the master's bit clock; positive is slow.");
     return o;
   }();

@@ -29,6 +29,8 @@ std::vector<WordFor<Do>> action_words() {
           {Do::kHoldDpram, "hold_dpram", ""},
           {Do::kWrongCrc, "wrong_crc", ""},
           {Do::kEarlyRSta, "early_r_sta", ""},
+          {Do::kWrongLength, "wrong_length", ""},
+          {Do::kPauseUser, "pause_user", ""},
           {Do::kVerdict, "verdict", ""},
           {Do::kUnplug, "unplug", ""},
           {Do::kPlug, "plug", ""},
@@ -58,7 +60,9 @@ std::vector<Choice> action_choices() {
       {"reset_chip", "RESET goes low for a while; the user CPU starts again with it.", {"slave"}, {"for"}},
       {"hold_dpram", "The user CPU takes the DPRAM and keeps it.", {"slave", "for"}, {}},
       {"wrong_crc", "The next blocks of this kind that the user CPU writes have a wrong CRC.", {"slave", "area"}, {"times"}},
-      {"early_r_sta", "The next holds raise R_STA together with R_REQ, without looking at L_REQ and L_STA (against H2).", {"slave"}, {"times"}},
+      {"early_r_sta", "The user CPU raises R_STA one cycle after R_REQ without a look at L_REQ and L_STA (against H2), and holds for 1 us, so often.", {"slave"}, {"times"}},
+      {"wrong_length", "The next inputs are one byte longer than configured, shorter where that is impossible.", {"slave"}, {}},
+      {"pause_user", "The user CPU does nothing for a while, not even judge.", {"slave", "for"}, {}},
       {"verdict", "The user CPU sends a verdict, as it does in judging mode 2.", {"slave", "of"}, {"refuse"}},
       {"unplug", "The station is taken from the bus.", {}, {"slave", "master"}},
       {"plug", "The station is put back.", {}, {"slave", "master"}},
@@ -85,11 +89,11 @@ void describe_values(ObjectOf<Action>& o) {
   o.name_of("master", &A::master, "Name of the master; left out: the first one.");
   o.bytes("bytes", &A::bytes, {0, 255}, "Data, or all bytes of a telegram.");
   o.word("type", &A::diagnosis,
-         std::vector<WordFor<DiagWord>>{{DiagWord::kExtended, "extended", "B227 = 00, low priority"},
-                                        {DiagWord::kExternal, "external", "81, Ext_Diag"},
-                                        {DiagWord::kExternalGone, "external_gone", "01"},
-                                        {DiagWord::kStatic, "static", "82, Stat_Diag"},
-                                        {DiagWord::kStaticGone, "static_gone", "02"}},
+         std::vector<WordFor<dsdpv1_diag_type>>{{DSDPV1_DIAG_EXTENDED, "extended", "B227 = 00, low priority"},
+                                        {DSDPV1_DIAG_EXTERNAL, "external", "81, Ext_Diag"},
+                                        {DSDPV1_DIAG_EXTERNAL_GONE, "external_gone", "01"},
+                                        {DSDPV1_DIAG_STATIC, "static", "82, Stat_Diag"},
+                                        {DSDPV1_DIAG_STATIC_GONE, "static_gone", "02"}},
          "Kind of the diagnosis (D9).");
   o.integer("address", &A::address, kAddresses, "", "Station address, where it is not that of the slave in the scenario.");
   o.integer("new_address", &A::new_address, {0, 255}, "", "The new station address.");

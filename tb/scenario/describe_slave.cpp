@@ -84,9 +84,12 @@ const ObjectOf<UserCpu>& user_cpu_keys() {
                                            {Behaviour::kIdle, "idle", "initialises and judges, exchanges nothing"}},
            "What it does with the cyclic data.");
     o.bytes("constant", &U::constant, {0, 244}, "Inputs of the behaviour constant, filled up with 0.");
+    o.boolean("overwrite_inputs", &U::overwrite_inputs, "Whether inputs that the chip has not taken yet are overwritten; false: they stay, the new ones are dropped.");
     o.time("start_delay", &U::start_delay, kAnyTime, "From the release of RESET until it looks for the chip.");
     o.time("cycle", &U::cycle, {bus::kTicksPerUs, 10 * bus::kTicksPerSecond}, "From the start of one exchange of cyclic data to the next.");
     o.time("judge_delay", &U::judge_delay, {0, 10 * bus::kTicksPerSecond}, "How long it thinks before it writes a verdict.");
+    o.boolean("judge_in_handler", &U::judge_in_handler, "Whether the INTR0 handler judges; false: it notes INTR0 and the main loop judges.");
+    o.time("retry_delay", &U::retry_delay, {bus::kTicksPerUs, 10 * bus::kTicksPerSecond}, "Pause before a failed initialisation is tried again.");
     o.word("judge_prm", &U::judge_prm, judgement_words(), "Its verdict on parameters in judging mode 2.");
     o.word("judge_cfg", &U::judge_cfg, judgement_words(), "Its verdict on the configuration in judging mode 2.");
     o.object("timing", &U::timing, timing_keys(), "How fast it is.");
@@ -108,7 +111,6 @@ const ObjectOf<Slave>& slave_keys() {
     o.object("init", &Slave::init, init_keys(), "Initialisation data other than those of the GSD.");
     o.object("user_cpu", &Slave::user_cpu, user_cpu_keys(), "What the user CPU does, and how fast.");
     o.time("release_reset", &Slave::release_reset, kAnyTime, "When RESET rises.");
-    o.integer("clock_phase", &Slave::clock_phase, {0, 249}, "1/12 ns", "Shift of the chip's CLK against the bus; one cycle is 250.");
     return o;
   }();
   return keys;

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "bus/bytes.hpp"
+#include "bus/slave_parameters.hpp"
 #include "bus/time.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/scenario/keys.hpp"
-#include "tb/user_cpu/cpu.hpp"
+#include "tb/user_cpu/programs.hpp"
 
 namespace tb::scenario {
 
@@ -21,12 +22,15 @@ struct ChipParameters : dsdpv1::Config {
 
 /// Values that a master takes from the baud rate (bus/baud.hpp) when they are absent.
 struct BusParameters {
-  std::optional<int> slot_time;  ///< T_SL, bit times
-  std::optional<int> idle_time;  ///< T_ID1, bit times
-  int retries = 1;
-  int gap_factor = 10;           ///< cycles between two FDL status polls of the live list, 0 = none
-  bus::Tick cycle_time = 0;      ///< least time from one data cycle's start to the next
-  int clock_error = 0;           ///< ppm
+  std::optional<int> slot_time;   ///< T_SL, bit times
+  std::optional<int> setup_time;  ///< T_SET, bit times
+  std::optional<int> quiet_time;  ///< T_QUI, bit times
+  std::optional<int> retries;
+  int gap_factor = 10;              ///< cycles between two FDL status polls of the live list, 0 = none
+  int highest_address = 126;        ///< HSA
+  int min_slave_interval = 0;       ///< us from one data cycle's start to the next
+  bool token = true;                ///< passes the token to itself
+  int clock_error = 0;              ///< ppm
   int line = 0;
 };
 
@@ -46,7 +50,7 @@ struct MasterSlave {
   int line = 0;
 };
 
-enum class Personality : std::uint8_t { kHighAlways, kClassic };
+using bus::Personality;
 
 struct Master {
   Name name;
@@ -69,8 +73,8 @@ struct InitData {
   int line = 0;
 };
 
-enum class Behaviour : std::uint8_t { kLoopBack, kCount, kConstant, kIdle };
-enum class Judgement : std::uint8_t { kAccept, kRefuse, kNever };
+using Behaviour = user_cpu::InputSource;
+using user_cpu::Judgement;
 
 struct AccessTimes : user_cpu::AccessTiming {
   int line = 0;
@@ -83,9 +87,12 @@ struct CpuTimes : user_cpu::CpuTiming {
 struct UserCpu {
   Behaviour behaviour = Behaviour::kLoopBack;
   bus::Bytes constant;
-  bus::Tick start_delay = 100 * bus::kTicksPerUs;
+  bool overwrite_inputs = true;  ///< DSDPV1_INPUT_NEWEST
+  bus::Tick start_delay = 0;
   bus::Tick cycle = 50 * bus::kTicksPerUs;
   bus::Tick judge_delay = 0;
+  bool judge_in_handler = true;
+  bus::Tick retry_delay = bus::kTicksPerMs;
   Judgement judge_prm = Judgement::kAccept, judge_cfg = Judgement::kAccept;
   CpuTimes timing;  ///< its `access` is left alone: that is the next member
   AccessTimes access;
@@ -100,7 +107,6 @@ struct Slave {
   InitData init;
   UserCpu user_cpu;
   bus::Tick release_reset = 10 * bus::kTicksPerUs;
-  int clock_phase = 0;  ///< ticks
   int line = 0;
 };
 
@@ -112,6 +118,8 @@ enum class Do : std::uint8_t {
   kHoldDpram,
   kWrongCrc,
   kEarlyRSta,
+  kWrongLength,
+  kPauseUser,
   kVerdict,
   kUnplug,
   kPlug,
@@ -131,12 +139,11 @@ enum class Do : std::uint8_t {
   kGlitch,
 };
 
-enum class DpStateWord : std::uint8_t { kOffline, kWaitPrm, kWaitCfg, kDataExch };
 
 /// Something about a slave (or the telegrams of the bus) that is true or not at a point of time; all parts given must hold.
 struct Condition {
   Name slave;
-  std::optional<DpStateWord> dp_state;
+  std::optional<dsdpv1::DpState> dp_state;
   std::optional<int> baud;  ///< index of bus/baud.hpp, -1 = searching
   std::optional<int> station_address;
   std::optional<std::int64_t> data_exchanges, data_exchanges_at_most;
@@ -160,8 +167,7 @@ struct When : Condition {
   bus::Tick after = 0;
 };
 
-enum class DiagWord : std::uint8_t { kExtended, kExternalGone, kExternal, kStaticGone, kStatic };
-enum class Area : std::uint8_t { kInit, kInputs, kDiagnosis };
+using user_cpu::command::Area;
 enum class Verdict : std::uint8_t { kPrm, kCfg };
 
 /// What is broken in a telegram on the wire; byte positions count from 0.
@@ -178,7 +184,7 @@ struct Action {
   Do what = Do::kSetInputs;
   Name slave, master;
   bus::Bytes bytes;
-  DiagWord diagnosis = DiagWord::kExtended;
+  dsdpv1_diag_type diagnosis = DSDPV1_DIAG_EXTENDED;
   std::optional<int> address, new_address, ident;
   std::optional<bus::Bytes> cfg;
   bool lock = false, refuse = false, level = false;

@@ -59,7 +59,7 @@ TEST(JsonSchema, IsJsonAndKnowsEveryKeyOfTheDescription) {
   for (const auto& field : sc::description().fields) EXPECT_TRUE(schema["properties"].contains(field.name)) << field.name;
   EXPECT_FALSE(schema["additionalProperties"]);
   EXPECT_EQ(schema["required"], (nlohmann::json{"name", "baud", "end", "slaves"}));
-  EXPECT_EQ(schema["$defs"]["action"]["oneOf"].size(), 24U);
+  EXPECT_EQ(schema["$defs"]["action"]["oneOf"].size(), 26U);
 }
 
 TEST(Markdown, IsTheCheckedInFile) {

@@ -1,0 +1,32 @@
+#pragma once
+// How a run is carried out: makes the chips and moves time.
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "bus/timeline.hpp"
+#include "tb/bench/chip_view.hpp"
+
+namespace tb {
+
+class Execution {
+ public:
+  virtual ~Execution() = default;
+  /// `watched`: the output pins whose changes are wanted; all of them include the inputs. Chips are made before anything else is
+  /// added to the timeline.
+  virtual std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched) = 0;
+  /// Runs the timeline up to and including `end`, or until `stopped` says so.
+  virtual void run(Tick end, const std::function<bool()>& stopped) = 0;
+
+  bus::Segment& segment() { return segment_; }
+  bus::Timeline& timeline() { return timeline_; }
+
+ protected:
+  bus::Segment segment_;
+  bus::Timeline timeline_;
+};
+
+/// The pins of the core, no SystemC.
+std::unique_ptr<Execution> make_pin_execution();
+
+}  // namespace tb

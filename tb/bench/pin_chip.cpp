@@ -1,0 +1,108 @@
+#include "tb/bench/pin_chip.hpp"
+
+#include <utility>
+
+#include "tb/bench/execution.hpp"
+
+namespace tb {
+
+using dsdpv1::Level;
+using dsdpv1::Pin;
+
+PinChip::PinChip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched, bus::Segment& segment)
+    : chip_(config), pins_(std::in_place, chip_), segment_(segment), station_(segment.attach(name, this)), reports_inputs_((watched & dsdpv1::kOutputPins) == dsdpv1::kOutputPins) {
+  chip_.watch({[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); }, this}, watched | kBusPins);
+  chip_.on_event({[](void* self, const profibus::Event& event) {
+                    const auto& view = *static_cast<PinChip*>(self);
+                    if (view.on_event) view.on_event(event);
+                  },
+                  this});
+  for (std::size_t pin = 0; pin < inputs_.size(); ++pin) inputs_.at(pin) = chip_.level(static_cast<Pin>(pin));
+}
+
+Tick PinChip::next() const { return driven_ < drives_due_.size() ? drives_due_[driven_].at : chip_.next_event(); }
+
+void PinChip::run(Tick now) {
+  chip_.advance(now);
+  drive_line();
+}
+
+void PinChip::pin_changed(Tick at, Pin pin, Level level) {
+  if (on_pin) on_pin(at, pin, level);
+  if (pin != Pin::kPbtxd && pin != Pin::kPbrts) return;
+  (pin == Pin::kPbtxd ? drives_ : enabled_) = level != 0;
+  drives_due_.push_back({at, enabled_, drives_});
+}
+
+void PinChip::drive_line() {
+  // The line may change an input of this chip, which may add to the list.
+  for (; driven_ < drives_due_.size(); ++driven_) {
+    const Drive due = drives_due_[driven_];
+    segment_.drive(station_, due.at, due.enabled, due.level);
+  }
+  drives_due_.clear();
+  driven_ = 0;
+}
+
+void PinChip::line_changed(Tick at, bool level) { set(at, Pin::kPbrxd, level ? 1 : 0); }
+void PinChip::set_reset(Tick at, bool level) { set(at, Pin::kReset, level ? 1 : 0); }
+
+void PinChip::set(Tick at, Pin pin, Level level) {
+  chip_.set(at, pin, level);
+  report_inputs(at);
+}
+
+void PinChip::reset_host(Tick at) {
+  pins_.emplace(chip_);
+  for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) chip_.set(at, pin, 1);
+  for (const Pin pin : {Pin::kRSta, Pin::kRReq}) chip_.set(at, pin, 0);
+  chip_.set(at, Pin::kDIn, dsdpv1::kLevelZ);
+  chip_.set(at, Pin::kA, user_cpu::PinHostBus::kIdleAddress);
+  report_inputs(at);
+}
+
+void PinChip::set_r_req(Tick at, bool level) {
+  pins_->set_r_req(at, level);
+  report_inputs(at);
+}
+
+void PinChip::set_r_sta(Tick at, bool level) {
+  pins_->set_r_sta(at, level);
+  report_inputs(at);
+}
+
+void PinChip::run_edges(Tick now) {
+  pins_->run_edges(now);
+  report_inputs(now);
+}
+
+void PinChip::report_inputs(Tick at) {
+  if (!reports_inputs_ || !on_pin) return;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const Pin pin = static_cast<Pin>(i);
+    const Level level = chip_.level(pin);
+    if (std::exchange(inputs_.at(i), level) != level) on_pin(at, pin, level);
+  }
+}
+
+namespace {
+
+class PinExecution : public Execution {
+ public:
+  std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched) override {
+    auto chip = std::make_unique<PinChip>(name, config, watched, segment_);
+    timeline_.add(*chip);
+    return chip;
+  }
+
+  void run(Tick end, const std::function<bool()>& stopped) override {
+    while (!stopped() && timeline_.step(end)) {
+    }
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Execution> make_pin_execution() { return std::make_unique<PinExecution>(); }
+
+}  // namespace tb

@@ -1,0 +1,64 @@
+#pragma once
+// A chip driven by its pins: the core itself as a station of the segment.
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/timeline.hpp"
+#include "tb/bench/chip_view.hpp"
+#include "tb/user_cpu/pin_host_bus.hpp"
+
+namespace tb {
+
+/// Wired as on a board with an RS-485 driver: PBRTS enables it, PBTXD is what it drives, PBRXD hears the line at all times.
+class PinChip : public ChipView, public bus::Agent, private bus::Listener, private user_cpu::HostBus {
+ public:
+  PinChip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched, bus::Segment& segment);
+
+  void set_reset(Tick at, bool level) override;
+  void reset_host(Tick at) override;
+  user_cpu::HostBus& host_bus() override { return *this; }
+  bus::StationId station() const override { return station_; }
+  const dsdpv1::Chip& chip() const override { return chip_; }
+  void sync(Tick now) override { run(now); }
+
+  Tick next() const override;
+  void run(Tick now) override;
+
+ private:
+  struct Drive {
+    Tick at;
+    bool enabled, level;
+  };
+  void line_changed(Tick at, bool level) override;
+  void pin_changed(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void set(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void drive_line();
+  void report_inputs(Tick at);
+
+  // The host bus is that of the pins; what it does to the input pins is reported.
+  void set_r_req(Tick at, bool level) override;
+  void set_r_sta(Tick at, bool level) override;
+  bool l_req(Tick at) override { return pins_->l_req(at); }
+  bool l_sta(Tick at) override { return pins_->l_sta(at); }
+  bool intr0(Tick at) override { return pins_->intr0(at); }
+  void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) override { pins_->begin(at, access, timing); }
+  Tick next_edge() const override { return pins_->next_edge(); }
+  void run_edges(Tick now) override;
+  Tick end() const override { return pins_->end(); }
+  std::uint8_t read_value() const override { return pins_->read_value(); }
+  bool last_read_was_bad() const override { return pins_->last_read_was_bad(); }
+
+  dsdpv1::Chip chip_;
+  std::optional<user_cpu::PinHostBus> pins_;
+  bus::Segment& segment_;
+  bus::StationId station_;
+  bool reports_inputs_;
+  std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
+  bool enabled_ = false, drives_ = true;
+  std::vector<Drive> drives_due_;  ///< what the chip did to the line inside of a call; told after it, because the line answers
+  std::size_t driven_ = 0;
+};
+
+}  // namespace tb

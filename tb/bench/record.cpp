@@ -1,0 +1,42 @@
+#include "tb/bench/record.hpp"
+
+#include <algorithm>
+
+#include "bus/baud.hpp"
+
+namespace tb {
+
+const char* name(profibus::Severity severity) {
+  switch (severity) {
+    case profibus::Severity::kInfo: return "info";
+    case profibus::Severity::kRefusal: return "refusal";
+    case profibus::Severity::kViolation: return "violation";
+  }
+  return "";
+}
+
+const char* name(dsdpv1::DpState state) {
+  switch (state) {
+    case dsdpv1::DpState::kOffline: return "OFFLINE";
+    case dsdpv1::DpState::kWaitPrm: return "WAIT_PRM";
+    case dsdpv1::DpState::kWaitCfg: return "WAIT_CFG";
+    case dsdpv1::DpState::kDataExch: return "DATA_EXCH";
+  }
+  return "";
+}
+
+void Tsdr::add(double bits) {
+  min_bits = answers == 0 ? bits : std::min(min_bits, bits);
+  max_bits = answers == 0 ? bits : std::max(max_bits, bits);
+  ++answers;
+}
+
+double RunResult::real_time_factor() const {
+  return wall_s > 0 ? static_cast<double>(simulated) / static_cast<double>(bus::kTicksPerSecond) / wall_s : 0;
+}
+
+std::string baud_text(int baud_index) {
+  return baud_index >= 0 && baud_index < bus::kBaudCount ? std::string(bus::baud(baud_index).name) : "searching";
+}
+
+}  // namespace tb

@@ -1,0 +1,77 @@
+#pragma once
+// What a run has brought, as plain values: for expectations, the result file and the table.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/bytes.hpp"
+#include "bus/time.hpp"
+#include "model/dsdpv1/chip.hpp"
+
+namespace tb {
+
+using bus::Tick;
+
+/// Something that happened: an event of a chip, an error of a driver, a flag of the bus monitor.
+struct Happening {
+  Tick at = 0;
+  std::string station;  ///< name of the slave, "bus" for the monitor
+  std::string code;     ///< stable: "PRM_IDENT", "DSDPV1_ERR_INIT_CRC", "BUS_COLLISION"
+  profibus::Severity severity = profibus::Severity::kInfo;
+  std::string text;
+  bool allowed = false;  ///< a violation that the scenario lists
+};
+
+/// "info", "refusal", "violation".
+const char* name(profibus::Severity severity);
+
+/// Answers of one slave, measured by the monitor.
+struct Tsdr {
+  std::uint64_t answers = 0;
+  double min_bits = 0, max_bits = 0;
+  void add(double bits);
+};
+
+struct SlaveResult {
+  std::string name;
+  dsdpv1::Status status;
+  std::string master_state;  ///< what its master makes of it, empty without one
+  std::string master_reason;
+  Tsdr tsdr;
+  Tick longest_user_wait = 0, longest_hold = 0;
+  std::uint64_t holds = 0, given_up = 0, bad_reads = 0;
+  std::uint64_t exchanges = 0, outputs_received = 0, inputs_written = 0, judgements = 0, driver_errors = 0;
+  bus::Bytes inputs, outputs;
+};
+
+struct ExpectationResult {
+  std::string text;
+  int line = 0;
+  bool passed = false;
+  std::string seen;
+};
+
+struct RunResult {
+  std::string scenario, file, engine, view;
+  bool passed = false, interrupted = false;
+  Tick simulated = 0;
+  double wall_s = 0;
+  std::uint64_t telegrams = 0, wrong_telegrams = 0;
+  std::uint64_t violations = 0;  ///< those that are not allowed
+  std::vector<SlaveResult> slaves;
+  std::vector<Happening> happenings;
+  std::uint64_t happenings_dropped = 0;  ///< beyond the first kKept
+  std::vector<ExpectationResult> expectations;
+
+  static constexpr std::size_t kKept = 10'000;
+  /// Simulated time over wall time, 0 when nothing was measured.
+  double real_time_factor() const;
+};
+
+/// The word for a baud index of Status: "12M" ... "9.6k", "searching".
+std::string baud_text(int baud_index);
+/// "OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH".
+const char* name(dsdpv1::DpState state);
+
+}  // namespace tb

@@ -1,0 +1,28 @@
+#include "tb/bench/run_log.hpp"
+
+#include <fmt/format.h>
+
+namespace tb {
+
+std::string nanoseconds(bus::Tick tick) {
+  const bus::Tick thousandths = ((tick % bus::kTicksPerNs) * 1000 + bus::kTicksPerNs / 2) / bus::kTicksPerNs;
+  return fmt::format("{}.{:03}", tick / bus::kTicksPerNs, thousandths);
+}
+
+void RunLog::line(bus::Tick at, const std::string& station, const std::string& kind, const std::string& text) {
+  waiting_.emplace(at, fmt::format("{:>17} ns  {:<12} {:<9} {}\n", nanoseconds(at), station, kind, text));
+}
+
+void RunLog::flush(bus::Tick now) {
+  while (!waiting_.empty() && waiting_.begin()->first <= now) {
+    file_.write(waiting_.begin()->second);
+    waiting_.erase(waiting_.begin());
+  }
+}
+
+void RunLog::finish() {
+  flush(bus::kNever);
+  file_.commit();
+}
+
+}  // namespace tb

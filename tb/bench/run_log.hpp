@@ -1,0 +1,31 @@
+#pragma once
+// The log of a run: one line a thing, in order of time.
+#include <map>
+#include <string>
+
+#include "bus/time.hpp"
+#include "tb/report/output_file.hpp"
+
+namespace tb {
+
+class RunLog {
+ public:
+  /// Throws InputError when the file cannot be created.
+  explicit RunLog(const std::string& path) : file_(path) {}
+
+  /// A line for `at`, which may lie a little ahead of the present (the end of a telegram that is known before its last half bit).
+  void line(bus::Tick at, const std::string& station, const std::string& kind, const std::string& text);
+  /// Nothing will come for a time before `now` any more.
+  void flush(bus::Tick now);
+  /// Writes the rest and gives the file its name.
+  void finish();
+
+ private:
+  OutputFile file_;
+  std::multimap<bus::Tick, std::string> waiting_;  // equal times in the order of their coming
+};
+
+/// Nanoseconds with three digits behind the point, from the absolute tick, rounded once: "1500.083".
+std::string nanoseconds(bus::Tick tick);
+
+}  // namespace tb

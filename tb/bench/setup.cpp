@@ -1,0 +1,189 @@
+#include "tb/bench/setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "bus/gsd_cfg.hpp"
+#include "tb/scenario/input_error.hpp"
+#include "tb/scenario/suggest.hpp"
+
+namespace tb {
+namespace {
+
+constexpr int kStandardDiag = 6;  // bytes of Slave_Diag in front of the user's
+
+template <class To, class From>
+void override_with(To& value, const std::optional<From>& given) {
+  if (given) value = static_cast<To>(*given);
+}
+
+std::vector<std::string> module_names(const bus::Gsd& gsd) {
+  std::vector<std::string> names;
+  for (const bus::GsdModule& module : gsd.modules) names.push_back(module.name);
+  return names;
+}
+
+std::uint8_t limited(int value, int most) { return static_cast<std::uint8_t>(std::clamp(value, 0, most)); }
+
+/// What the GSD says about the station, before the scenario's own values.
+user_cpu::StationConfig from_gsd(const bus::Gsd& gsd, const bus::GsdSetup& setup, int prm_mode) {
+  user_cpu::StationConfig station;
+  station.ident = gsd.ident;
+  station.address_change = gsd.set_slave_add;
+  station.freeze = gsd.freeze;
+  station.sync = gsd.sync;
+  station.fail_safe = gsd.fail_safe;
+  station.max_input = limited(gsd.max_input.value_or(setup.lengths.input), 244);
+  station.max_output = limited(gsd.max_output.value_or(setup.lengths.output), 244);
+  station.max_diag = limited(gsd.max_diag.value_or(kStandardDiag) - kStandardDiag, 238);
+  const int prm = static_cast<int>(setup.user_prm.size());
+  station.max_prm = limited(prm_mode == 1 ? prm : gsd.max_user_prm.value_or(prm), 237);  // table 13: mode 1 wants exactly so many
+  station.cfg = setup.chk_cfg;
+  return station;
+}
+
+}  // namespace
+
+void Setup::fail(int line, const std::string& text) const { throw InputError(scenario_.file, line, text); }
+
+const scenario::Slave* Setup::named(const scenario::MasterSlave& slave) const {
+  const auto found = std::find_if(scenario_.slaves.begin(), scenario_.slaves.end(),
+                                  [&slave](const scenario::Slave& each) { return each.name.text == slave.slave.text; });
+  return found == scenario_.slaves.end() ? nullptr : &*found;
+}
+
+const bus::Gsd& Setup::gsd(const scenario::Name& path) {
+  const std::string file = scenario::resolve(scenario_, path);
+  const auto known = files_.find(file);
+  if (known != files_.end()) return known->second;
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file)) fail(path.line, fmt::format("gsd {} cannot be opened, allowed is a path relative to the scenario", path.text));
+  bus::GsdResult result = bus::parse_gsd(in, file);
+  if (!result.gsd) {
+    const auto error = std::find_if(result.diagnostics.begin(), result.diagnostics.end(),
+                                    [](const bus::GsdDiagnostic& each) { return each.level == bus::GsdDiagnostic::Level::kError; });
+    throw InputError(bus::to_string(*error));
+  }
+  return files_.emplace(file, std::move(*result.gsd)).first->second;
+}
+
+bus::GsdSetup Setup::choose(const scenario::Name& path, const std::vector<scenario::Name>& modules) {
+  const bus::Gsd& file = gsd(path);
+  bus::GsdChoice choice;
+  for (const scenario::Name& module : modules) {
+    std::string why;
+    if (!bus::find_module(file, module.text, why)) {
+      const std::vector<std::string> names = module_names(file);
+      const std::string allowed = names.size() > 8 ? fmt::format("one of the {} of {}", names.size(), path.text) : join(names);
+      fail(module.line, fmt::format("module \"{}\": {}{}, allowed is {}", module.text, why, did_you_mean(module.text, names), allowed));
+    }
+    choice.modules.push_back(module.text);
+  }
+  bus::GsdSetup setup = bus::set_up(file, choice);
+  for (const bus::GsdDiagnostic& each : setup.diagnostics) {
+    if (each.level == bus::GsdDiagnostic::Level::kError) fail(path.line, each.text);
+  }
+  return setup;
+}
+
+user_cpu::StationConfig Setup::station(const scenario::Slave& slave) {
+  const scenario::InitData& init = slave.init;
+  user_cpu::StationConfig station;
+  if (!slave.gsd.empty()) station = from_gsd(gsd(slave.gsd), choose(slave.gsd, slave.modules), init.prm_mode);
+  station.address = static_cast<std::uint8_t>(slave.address);
+  station.prm_mode = static_cast<std::uint8_t>(init.prm_mode);
+  station.cfg_mode = static_cast<std::uint8_t>(init.cfg_mode);
+  station.dpv1 = init.dpv1;
+  override_with(station.ident, init.ident);
+  override_with(station.max_input, init.max_inputs);
+  override_with(station.max_output, init.max_outputs);
+  override_with(station.max_diag, init.max_diag);
+  override_with(station.max_prm, init.max_prm);
+  override_with(station.max_cfg, init.max_cfg);
+  override_with(station.address_change, init.set_slave_address);
+  override_with(station.freeze, init.freeze);
+  override_with(station.sync, init.sync);
+  override_with(station.fail_safe, init.fail_safe);
+  override_with(station.cfg, init.cfg);
+  if (station.cfg.empty()) fail(slave.line, fmt::format("slave {} has no configuration, modules or init cfg are needed", slave.name.text));
+  return station;
+}
+
+void Setup::take_gsd(bus::SlaveParameters& parameters, const scenario::Name& path, const std::vector<scenario::Name>& modules) {
+  const bus::Gsd& file = gsd(path);
+  const bus::GsdSetup setup = choose(path, modules);
+  parameters.ident = file.ident;
+  parameters.user_prm = setup.user_prm;
+  parameters.cfg = setup.chk_cfg;
+  for (int i = 0; i < bus::kBaudCount; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    parameters.max_tsdr.at(index) = file.bauds.at(index).max_tsdr.value_or(0);
+  }
+}
+
+void Setup::take_init(bus::SlaveParameters& parameters, const scenario::Slave& slave) {
+  const user_cpu::StationConfig config = station(slave);
+  parameters.ident = config.ident;
+  parameters.cfg = config.cfg;
+  if (config.prm_mode == 1) parameters.user_prm.assign(config.max_prm, 0);  // table 13: exactly so many
+}
+
+void Setup::take_lengths(bus::SlaveParameters& parameters, int line) const {
+  const bus::CfgLengths lengths = bus::cfg_lengths(parameters.cfg);
+  if (!lengths.ok()) fail(line, "cfg: " + lengths.error);
+  parameters.input_length = lengths.input;
+  parameters.output_length = lengths.output;
+}
+
+bus::SlaveParameters Setup::parameters(const scenario::MasterSlave& slave) {
+  const scenario::Slave* there = named(slave);
+  bus::SlaveParameters parameters;
+  parameters.address = static_cast<std::uint8_t>(slave.address.value_or(there != nullptr ? there->address : 0));
+  parameters.name = there != nullptr ? there->name.text : fmt::format("address {}", parameters.address);
+  if (!slave.gsd.empty()) {
+    const bool own_modules = !slave.modules.empty() || there == nullptr;
+    take_gsd(parameters, slave.gsd, own_modules ? slave.modules : there->modules);
+  } else if (there != nullptr && !there->gsd.empty()) {
+    take_gsd(parameters, there->gsd, slave.modules.empty() ? there->modules : slave.modules);
+  } else if (there != nullptr) {
+    take_init(parameters, *there);
+  }
+  override_with(parameters.ident, slave.ident);
+  override_with(parameters.user_prm, slave.user_prm);
+  override_with(parameters.cfg, slave.cfg);
+  take_lengths(parameters, slave.line);
+  const Watchdog watchdog = watchdog_factors(slave.watchdog);
+  parameters.wd_fact_1 = watchdog.fact_1;
+  parameters.wd_fact_2 = watchdog.fact_2;
+  parameters.wd_base_1ms = watchdog.base_1ms;
+  for (const std::uint8_t group : slave.groups) parameters.group_ident = static_cast<std::uint8_t>(parameters.group_ident | 1U << (group - 1U));
+  parameters.min_tsdr = static_cast<std::uint8_t>(slave.min_tsdr);
+  parameters.sync = slave.sync;
+  parameters.freeze = slave.freeze;
+  parameters.fail_safe = slave.fail_safe;
+  parameters.dpv1 = slave.dpv1;
+  return parameters;
+}
+
+Watchdog watchdog_factors(bus::Tick time) {
+  if (time == 0) return {};
+  Watchdog best;
+  // The 1 ms base needs the first DPV1 byte in Set_Prm: only where 10 ms is too coarse.
+  best.base_1ms = time % (10 * bus::kTicksPerMs) != 0 && time <= 65025 * bus::kTicksPerMs;
+  const bus::Tick base = (best.base_1ms ? 1 : 10) * bus::kTicksPerMs;
+  const std::int64_t units = std::min<std::int64_t>((time + base - 1) / base, 255 * 255);
+  std::int64_t least = 255 * 255 + 1;
+  for (std::int64_t first = (units + 254) / 255; first <= 255; ++first) {
+    const std::int64_t second = (units + first - 1) / first;
+    if (first * second >= least) continue;
+    least = first * second;
+    best.fact_1 = static_cast<std::uint8_t>(first);
+    best.fact_2 = static_cast<std::uint8_t>(second);
+  }
+  return best;
+}
+
+}  // namespace tb

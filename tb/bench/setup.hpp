@@ -1,0 +1,45 @@
+#pragma once
+// From a scenario and its GSD files to what the user CPUs and the masters are given. All errors are InputErrors with file and line.
+#include <map>
+#include <string>
+
+#include "bus/gsd_setup.hpp"
+#include "bus/slave_parameters.hpp"
+#include "tb/scenario/scenario.hpp"
+#include "tb/user_cpu/station_config.hpp"
+
+namespace tb {
+
+/// Reads each GSD file once.
+class Setup {
+ public:
+  /// `scenario` must outlive it.
+  explicit Setup(const scenario::Scenario& scenario) : scenario_(scenario) {}
+
+  /// The initialisation data of a slave: those of its GSD and modules, with the scenario's own on top.
+  user_cpu::StationConfig station(const scenario::Slave& slave);
+  /// What a master sends to a slave.
+  bus::SlaveParameters parameters(const scenario::MasterSlave& slave);
+  /// The scenario's slave that a master's slave names; null when it names none.
+  const scenario::Slave* named(const scenario::MasterSlave& slave) const;
+
+ private:
+  [[noreturn]] void fail(int line, const std::string& text) const;
+  const bus::Gsd& gsd(const scenario::Name& path);
+  bus::GsdSetup choose(const scenario::Name& path, const std::vector<scenario::Name>& modules);
+  void take_gsd(bus::SlaveParameters& parameters, const scenario::Name& path, const std::vector<scenario::Name>& modules);
+  void take_init(bus::SlaveParameters& parameters, const scenario::Slave& slave);
+  void take_lengths(bus::SlaveParameters& parameters, int line) const;
+
+  const scenario::Scenario& scenario_;
+  std::map<std::string, bus::Gsd> files_;
+};
+
+/// WD_Fact_1, WD_Fact_2 and the base for a watchdog time: the least time that is not shorter. Off for 0.
+struct Watchdog {
+  std::uint8_t fact_1 = 0, fact_2 = 0;
+  bool base_1ms = false;
+};
+Watchdog watchdog_factors(bus::Tick time);
+
+}  // namespace tb

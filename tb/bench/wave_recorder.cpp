@@ -1,0 +1,75 @@
+#include "tb/bench/wave_recorder.hpp"
+
+namespace tb {
+
+using dsdpv1::Level;
+using dsdpv1::Pin;
+
+namespace {
+
+/// The data bus as everybody on it sees it: two drivers at once are X.
+Level resolved(Level user, Level chip) {
+  if (user == dsdpv1::kLevelZ) return chip;
+  return chip == dsdpv1::kLevelZ || chip == user ? user : dsdpv1::kLevelX;
+}
+
+}  // namespace
+
+WaveRecorder::WaveRecorder(const std::string& path, bus::Segment& segment) : writer_(open_wave(path)) {
+  writer_->open_scope("bus");
+  line_ = writer_->wire("line", 1);
+  telegram_ = writer_->words("telegram");
+  writer_->close_scope();
+  segment.attach("waves", this);
+}
+
+std::size_t WaveRecorder::add_chip(const std::string& name, const dsdpv1::Chip& chip) {
+  ChipSignals signals;
+  signals.chip = &chip;
+  writer_->open_scope(name);
+  for (int i = 0; i < dsdpv1::kPinCount; ++i) {
+    const Pin pin = static_cast<Pin>(i);
+    if (pin == Pin::kDOut) continue;  // D is one bus: both directions are shown as D
+    signals.pins.at(static_cast<std::size_t>(i)) = writer_->wire(pin == Pin::kDIn ? "D" : dsdpv1::name(pin), dsdpv1::width(pin));
+  }
+  signals.dp_state = writer_->words("dp_state");
+  writer_->close_scope();
+  chips_.push_back(signals);
+  return chips_.size() - 1;
+}
+
+void WaveRecorder::add_master(const std::string& master, const std::vector<std::string>& slaves) {
+  writer_->open_scope(master);
+  for (const std::string& slave : slaves) master_states_[master + "." + slave] = writer_->words(slave);
+  writer_->close_scope();
+}
+
+void WaveRecorder::begin() {
+  writer_->set(0, line_, 1);
+  writer_->say(0, telegram_, "-");
+  for (std::size_t chip = 0; chip < chips_.size(); ++chip) {
+    for (int i = 0; i < dsdpv1::kPinCount; ++i) pin(chip, 0, static_cast<Pin>(i), chips_[chip].chip->level(static_cast<Pin>(i)));
+    dp_state(chip, 0, "OFFLINE");
+  }
+  for (const auto& [name, signal] : master_states_) writer_->say(0, signal, "OFFLINE");
+}
+
+void WaveRecorder::pin(std::size_t chip, bus::Tick at, Pin pin, Level level) {
+  ChipSignals& signals = chips_[chip];
+  if (pin != Pin::kDIn && pin != Pin::kDOut) {
+    writer_->set(at, signals.pins.at(static_cast<std::size_t>(pin)), level);
+    return;
+  }
+  (pin == Pin::kDIn ? signals.user_data : signals.chip_data) = level;
+  writer_->set(at, signals.pins.at(static_cast<std::size_t>(Pin::kDIn)), resolved(signals.user_data, signals.chip_data));
+}
+
+void WaveRecorder::dp_state(std::size_t chip, bus::Tick at, const std::string& word) { writer_->say(at, chips_[chip].dp_state, word); }
+
+void WaveRecorder::master_state(const std::string& master, const std::string& slave, bus::Tick at, const std::string& word) {
+  writer_->say(at, master_states_.at(master + "." + slave), word);
+}
+
+void WaveRecorder::telegram(bus::Tick at, const std::string& words) { writer_->say(at, telegram_, words); }
+
+}  // namespace tb

@@ -1,0 +1,50 @@
+#pragma once
+// What a run puts into its wave file: the pins of every chip, the line, and decoded states as words.
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/segment.hpp"
+#include "model/dsdpv1/chip.hpp"
+#include "tb/waves/wave_writer.hpp"
+
+namespace tb {
+
+class WaveRecorder : private bus::Listener {
+ public:
+  /// Listens to the line as a station of its own.
+  WaveRecorder(const std::string& path, bus::Segment& segment);
+
+  // Declarations, before `begin`.
+  /// Returns the chip's number for `pin` and `dp_state`.
+  std::size_t add_chip(const std::string& name, const dsdpv1::Chip& chip);
+  void add_master(const std::string& master, const std::vector<std::string>& slaves);
+  /// Writes the first values.
+  void begin();
+
+  void pin(std::size_t chip, bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void dp_state(std::size_t chip, bus::Tick at, const std::string& word);
+  void master_state(const std::string& master, const std::string& slave, bus::Tick at, const std::string& word);
+  /// The telegram that has just ended, in words.
+  void telegram(bus::Tick at, const std::string& words);
+  void finish(bus::Tick end) { writer_->finish(end); }
+
+ private:
+  using Signal = WaveWriter::Signal;
+  struct ChipSignals {
+    const dsdpv1::Chip* chip = nullptr;
+    std::array<Signal, dsdpv1::kPinCount> pins{};
+    Signal dp_state = 0;
+    dsdpv1::Level user_data = dsdpv1::kLevelZ, chip_data = dsdpv1::kLevelZ;
+  };
+  void line_changed(bus::Tick at, bool level) override { writer_->set(at, line_, level ? 1 : 0); }
+
+  std::unique_ptr<WaveWriter> writer_;
+  Signal line_ = 0, telegram_ = 0;
+  std::vector<ChipSignals> chips_;
+  std::map<std::string, Signal> master_states_;  // by "master.slave"
+};
+
+}  // namespace tb
