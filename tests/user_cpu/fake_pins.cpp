@@ -1,0 +1,21 @@
+// The core's Chip, replaced by one that records its input pins and drives D as it is told.
+#include "tests/user_cpu/fake_pins.hpp"
+
+FakePins& fake_pins() {
+  static FakePins pins;
+  return pins;
+}
+
+namespace dsdpv1 {
+
+struct Chip::Impl {};
+
+Chip::Chip(const Config&) {}
+Chip::~Chip() = default;
+
+void Chip::set(Tick at, Pin pin, Level level) { fake_pins().changes.push_back({at, pin, level}); }
+void Chip::advance(Tick to) { fake_pins().now = to; }
+
+Level Chip::level(Pin pin) const { return pin == Pin::kDOut ? fake_pins().data(fake_pins().now) : fake_pins().high; }
+
+}  // namespace dsdpv1

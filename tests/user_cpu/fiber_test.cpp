@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "tb/user_cpu/fiber.hpp"
+
+namespace {
+
+using user_cpu::Fiber;
+
+/// A fiber needs itself to suspend.
+struct Coroutine {
+  template <typename Body>
+  explicit Coroutine(Body body) : fiber([this, body] { body(fiber); }) {}
+  Fiber fiber;
+};
+
+TEST(Fiber, AlternatesWithItsOwner) {
+  std::string trace;
+  Coroutine co([&](Fiber& fiber) {
+    trace += 'a';
+    fiber.suspend();
+    trace += 'b';
+    fiber.suspend();
+    trace += 'c';
+  });
+  co.fiber.resume();
+  trace += '1';
+  co.fiber.resume();
+  trace += '2';
+  EXPECT_FALSE(co.fiber.ended());
+  co.fiber.resume();
+  EXPECT_TRUE(co.fiber.ended());
+  EXPECT_EQ(trace, "a1b2c");
+}
+
+TEST(Fiber, SuspendsInTheDepthOfCalls) {
+  int depth = 0;
+  Coroutine co([&](Fiber& fiber) {
+    std::function<void(int)> descend = [&](int levels) {
+      volatile char stack[512] = {};
+      stack[0] = 1;
+      if (levels == 0) {
+        fiber.suspend();
+      } else {
+        descend(levels - 1);
+      }
+      depth += stack[0];
+    };
+    descend(50);
+  });
+  co.fiber.resume();
+  EXPECT_EQ(depth, 0);
+  co.fiber.resume();
+  EXPECT_EQ(depth, 51);
+}
+
+TEST(Fiber, TwoFibersKeepTheirOwnLocals) {
+  auto count = [](int& total) {
+    return [&total](Fiber& fiber) {
+      for (int i = 1; i <= 3; ++i) {
+        total += i;
+        fiber.suspend();
+      }
+    };
+  };
+  int first = 0;
+  int second = 0;
+  Coroutine one(count(first));
+  Coroutine two(count(second));
+  one.fiber.resume();
+  two.fiber.resume();
+  one.fiber.resume();
+  EXPECT_EQ(first, 3);
+  EXPECT_EQ(second, 1);
+}
+
+TEST(Fiber, ExceptionOfTheBodyReachesTheOwner) {
+  Coroutine co([](Fiber& fiber) {
+    fiber.suspend();
+    throw std::runtime_error("broken");
+  });
+  co.fiber.resume();
+  EXPECT_THROW(co.fiber.resume(), std::runtime_error);
+  EXPECT_TRUE(co.fiber.ended());
+}
+
+TEST(Fiber, AbandonedBodyIsUnwound) {
+  auto held = std::make_shared<int>(1);
+  struct SuspendsOnTheWayOut {
+    Fiber& fiber;
+    ~SuspendsOnTheWayOut() { fiber.suspend(); }
+  };
+  {
+    Coroutine co([held](Fiber& fiber) {
+      const auto copy = held;
+      const SuspendsOnTheWayOut guard{fiber};
+      fiber.suspend();
+      FAIL() << "nobody resumes";
+    });
+    co.fiber.resume();
+    EXPECT_GT(held.use_count(), 2);
+  }
+  EXPECT_EQ(held.use_count(), 1);
+}
+
+TEST(Fiber, BodyThatNeverBeganIsDropped) {
+  bool ran = false;
+  { Coroutine co([&](Fiber&) { ran = true; }); }
+  EXPECT_FALSE(ran);
+}
+
+}  // namespace

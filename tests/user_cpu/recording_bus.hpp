@@ -1,0 +1,48 @@
+#pragma once
+// A HostBus that writes down what the CPU does. An access has two edges: one at its start, one 1000 ticks later.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tb/user_cpu/host_bus.hpp"
+
+class RecordingBus : public user_cpu::HostBus {
+ public:
+  using Tick = bus::Tick;
+  static constexpr Tick kLength = 1000;
+  static constexpr Tick kRecovery = 100;
+
+  void set_r_req(Tick at, bool level) override { note(at, level ? "R_REQ up" : "R_REQ down"); }
+  void set_r_sta(Tick at, bool level) override { note(at, level ? "R_STA up" : "R_STA down"); }
+  bool l_req(Tick at) override {
+    note(at, "L_REQ?");
+    return chip_busy;
+  }
+  bool l_sta(Tick at) override {
+    note(at, "L_STA?");
+    return chip_busy;
+  }
+  bool intr0(Tick) override { return true; }
+
+  void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming&) override {
+    access_ = access;
+    edge_ = at;
+    last_ = at + kLength;
+  }
+  Tick next_edge() const override { return edge_; }
+  void run_edges(Tick now) override {
+    note(now, now == last_ ? "edge 2" : (access_.write ? "write" : "read"));
+    edge_ = now == last_ ? bus::kNever : last_;
+  }
+  Tick end() const override { return last_ + kRecovery; }
+  std::uint8_t read_value() const override { return bad ? 0xFF : static_cast<std::uint8_t>(access_.address & 0xFF); }
+  bool last_read_was_bad() const override { return bad; }
+
+  bool chip_busy = false, bad = false;
+  std::vector<std::string> log;
+
+ private:
+  void note(Tick at, const char* what) { log.push_back(std::to_string(at) + " " + what); }
+  user_cpu::Access access_;
+  Tick edge_ = bus::kNever, last_ = 0;
+};
