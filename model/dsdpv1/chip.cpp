@@ -47,8 +47,8 @@ struct Chip::Impl {
     interrupt.reset();
   }
 
-  void set(Tick at, Pin pin, Level level);
-  void set_reset(Tick at, bool level);
+  void set(Tick at, Pin pin, Level value);
+  void set_reset(Tick at, bool high);
   void advance(Tick to);
   Tick next_event() const;
   Tick next_edge() const;

@@ -25,8 +25,7 @@ void DpSlave::reset() {
 }
 
 void DpSlave::initialise(Cycle now, const SlaveConfig& config) {
-  const std::uint16_t offline_count =
-      static_cast<std::uint16_t>(offline_count_ + (state_ == DpState::kDataExch ? 1 : 0));
+  const auto offline_count = static_cast<std::uint16_t>(offline_count_ + (state_ == DpState::kDataExch ? 1 : 0));
   const std::uint64_t data_exchanges = data_exchanges_;
   const std::uint8_t b005 = b005_;
   enter(now, DpState::kOffline);

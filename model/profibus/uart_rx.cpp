@@ -56,7 +56,7 @@ bool UartRx::sample(bool line) {
   character_.value = static_cast<std::uint8_t>(shift_ & 0xFF);
   character_.parity_ok = !odd_ones(shift_);
   character_.stop_ok = line;
-  idle_since_ = character_.start + kBitsPerCharacter * bit_;
+  idle_since_ = character_.start + Cycle{kBitsPerCharacter} * bit_;
   state_ = line ? State::kIdle : State::kBreak;
   return true;
 }
