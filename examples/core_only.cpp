@@ -47,7 +47,8 @@ int main() {
   chip.set(now, Pin::kRSta, 1);
   now += 50 * kNs;
 
-  for (dsdpv1::Level address = 0; address <= 4; ++address) std::printf("B%03X = %02X\n", address, read(chip, now, address));
+  for (dsdpv1::Level address = 0; address <= 4; ++address)
+    std::printf("B%03X = %02X\n", address, read(chip, now, address));
   chip.set(now, Pin::kRSta, 0);
   chip.set(now, Pin::kRReq, 0);
   chip.advance(now + 1 * kUs);

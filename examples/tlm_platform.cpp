@@ -41,12 +41,22 @@ class Cpu : public sc_core::sc_module {
     p.write = [](void* ctx, uint16_t address, uint8_t value) {
       self(ctx).transport(tlm::TLM_WRITE_COMMAND, address, value);
     };
-    p.set_r_req = [](void* ctx, bool level) { self(ctx).r_req.write(level); };
-    p.set_r_sta = [](void* ctx, bool level) { self(ctx).r_sta.write(level); };
-    p.get_l_req = [](void* ctx) { return self(ctx).l_req.read(); };
-    p.get_l_sta = [](void* ctx) { return self(ctx).l_sta.read(); };
+    p.set_r_req = [](void* ctx, bool level) { set_pin(self(ctx).r_req, level); };
+    p.set_r_sta = [](void* ctx, bool level) { set_pin(self(ctx).r_sta, level); };
+    p.get_l_req = [](void* ctx) { return get_pin(self(ctx).l_req); };
+    p.get_l_sta = [](void* ctx) { return get_pin(self(ctx).l_sta); };
     p.pause = [](void* /*ctx*/, uint32_t ns) { sc_core::wait(ns, SC_NS); };
     return p;
+  }
+
+  // A GPIO access of an MCU takes its time; without it polling would stand still.
+  static void set_pin(sc_core::sc_out<bool>& pin, bool level) {
+    pin.write(level);
+    sc_core::wait(50, SC_NS);
+  }
+  static bool get_pin(sc_core::sc_in<bool>& pin) {
+    sc_core::wait(50, SC_NS);
+    return pin.read();
   }
 
   uint8_t transport(tlm::tlm_command command, uint16_t address, uint8_t value) {
@@ -87,7 +97,8 @@ class Cpu : public sc_core::sc_module {
   }
 
   static void report(const char* what, dsdpv1_error error) {
-    std::cout << what << " at " << sc_core::sc_time_stamp().to_seconds() * 1e6 << " us: " << dsdpv1_error_text(error) << "\n";
+    std::cout << what << " at " << sc_core::sc_time_stamp().to_seconds() * 1e6 << " us: " << dsdpv1_error_text(error)
+              << "\n";
   }
 };
 
@@ -137,7 +148,8 @@ class Station : public sc_core::sc_module, private tlm::tlm_analysis_if<BusChara
   void print_answer() const {
     std::cout << "answer:";
     for (const BusCharacter& c : answer_) std::cout << " " << std::hex << unsigned{c.data} << std::dec;
-    if (!answer_.empty()) std::cout << ", TSDR " << (answer_.front().start - sent_) / answer_.front().bit << " bit times";
+    if (!answer_.empty())
+      std::cout << ", TSDR " << (answer_.front().start - sent_) / answer_.front().bit << " bit times";
     std::cout << "\n";
   }
 
@@ -149,7 +161,7 @@ class Station : public sc_core::sc_module, private tlm::tlm_analysis_if<BusChara
 }  // namespace
 
 int sc_main(int, char*[]) {
-  sc_core::sc_set_time_resolution(1, sc_core::SC_FS);
+  dsdpv1::systemc::require_femtoseconds();
   TlmModule chip("chip");
   Cpu cpu("cpu");
   Station station("station", cpu.initialised);

@@ -20,12 +20,15 @@ ChipModule::ChipModule(const sc_core::sc_module_name& name, const ChipOptions& o
     const std::string text = "phase is " + std::to_string(options.phase) + " ticks, allowed is 0 to 249";
     SC_REPORT_ERROR("/dsdpv1/phase", text.c_str());
   }
-  chip_.on_event({[](void* self, const profibus::Event& event) { static_cast<ChipModule*>(self)->event_happened(event); }, this});
+  chip_.on_event(
+      {[](void* self, const profibus::Event& event) { static_cast<ChipModule*>(self)->event_happened(event); }, this});
 }
 
 void ChipModule::watch(std::uint32_t pins) {
-  chip_.watch({[](void* self, Tick at, Pin pin, Level level) { static_cast<ChipModule*>(self)->pin_changed(at, pin, level); }, this},
-              pins);
+  chip_.watch(
+      {[](void* self, Tick at, Pin pin, Level level) { static_cast<ChipModule*>(self)->pin_changed(at, pin, level); },
+       this},
+      pins);
 }
 
 void ChipModule::set(Tick at, Pin pin, Level level) {

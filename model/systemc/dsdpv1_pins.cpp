@@ -15,9 +15,7 @@ sc_dt::sc_lv<8> wires(Level level) {
 }
 
 /// What the user drives. A byte with a floating or unknown bit counts as floating: the core reports it when it matters (P11).
-Level user_level(const sc_dt::sc_lv<8>& wires) {
-  return wires.is_01() ? static_cast<Level>(wires.to_uint()) : kLevelZ;
-}
+Level user_level(const sc_dt::sc_lv<8>& wires) { return wires.is_01() ? static_cast<Level>(wires.to_uint()) : kLevelZ; }
 
 }  // namespace
 
@@ -101,8 +99,8 @@ void PinModule::drive(std::uint32_t pins) {
   const struct {
     Pin pin;
     Out& port;
-  } wires[] = {{Pin::kLReq, L_REQ}, {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
-               {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},   {Pin::kBr, BR},       {Pin::kReady, READY}};
+  } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
+               {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
   for (const auto& wire : wires) {
     if (pins & mask(wire.pin)) wire.port.write(chip().level(wire.pin) != 0);
   }

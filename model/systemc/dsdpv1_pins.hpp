@@ -1,7 +1,7 @@
 #pragma once
 // The chip as a SystemC module with the pins of table 1.
 //
-//   sc_set_time_resolution(1, SC_FS);            // first thing in sc_main
+//   dsdpv1::systemc::require_femtoseconds();     // first thing in sc_main
 //   dsdpv1::systemc::PinModule chip("chip");
 //   chip.RESET(reset); chip.R_REQ(r_req); ...    // CLK may be left unbound
 //
@@ -35,16 +35,16 @@ class PinModule : public ChipModule {
 
   /// 48 MHz, optional.
   sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND> CLK{"CLK"};
-  In<bool> RESET{"RESET"};                                      ///< low-active
-  In<bool> R_REQ{"R_REQ"}, R_STA{"R_STA"};                      ///< the user's side of the handshake
-  In<bool> CSR{"CSR"}, RD{"RD"}, WR{"WR"};                      ///< low-active
-  In<sc_dt::sc_uint<11>> A{"A"};                                ///< 0..0x7FF
-  sc_core::sc_inout_rv<8> D{"D"};                               ///< Z while released, X while unknown (P5)
-  Out L_REQ{"L_REQ"}, L_STA{"L_STA"};                           ///< the chip's side of the handshake
-  Out INTR0{"INTR0"};                                           ///< falls on new parameters or configuration (P7)
-  In<bool> PBRXD{"PBRXD"};                                      ///< idle high
-  Out PBTXD{"PBTXD"}, PBRTS{"PBRTS"};                           ///< idle high; driver enable (P2)
-  Out PBF{"PBF"}, BR{"BR"}, READY{"READY"};                     ///< LEDs, high is lit (P3)
+  In<bool> RESET{"RESET"};                   ///< low-active
+  In<bool> R_REQ{"R_REQ"}, R_STA{"R_STA"};   ///< the user's side of the handshake
+  In<bool> CSR{"CSR"}, RD{"RD"}, WR{"WR"};   ///< low-active
+  In<sc_dt::sc_uint<11>> A{"A"};             ///< 0..0x7FF
+  sc_core::sc_inout_rv<8> D{"D"};            ///< Z while released, X while unknown (P5)
+  Out L_REQ{"L_REQ"}, L_STA{"L_STA"};        ///< the chip's side of the handshake
+  Out INTR0{"INTR0"};                        ///< falls on new parameters or configuration (P7)
+  In<bool> PBRXD{"PBRXD"};                   ///< idle high
+  Out PBTXD{"PBTXD"}, PBRTS{"PBRTS"};        ///< idle high; driver enable (P2)
+  Out PBF{"PBF"}, BR{"BR"}, READY{"READY"};  ///< LEDs, high is lit (P3)
 
   explicit PinModule(const sc_core::sc_module_name& name, const PinOptions& options = {});
 

@@ -204,8 +204,8 @@ void TlmModule::drive_outputs() {
   const struct {
     Pin pin;
     OptionalOut& port;
-  } wires[] = {{Pin::kLReq, L_REQ}, {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
-               {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},   {Pin::kBr, BR},       {Pin::kReady, READY}};
+  } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
+               {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
   const std::uint32_t pins = take_changed();
   for (const auto& wire : wires) {
     if ((pins & mask(wire.pin)) != 0 && wire.port.size() > 0) wire.port->write(chip().level(wire.pin) != 0);

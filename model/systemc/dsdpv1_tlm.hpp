@@ -1,7 +1,7 @@
 #pragma once
 // The chip as a SystemC module with TLM-2.0 sockets: the host port as a target socket, the bus as characters.
 //
-//   sc_set_time_resolution(1, SC_FS);            // first thing in sc_main
+//   dsdpv1::systemc::require_femtoseconds();     // first thing in sc_main
 //   dsdpv1::systemc::TlmModule chip("chip");
 //   cpu.socket.bind(chip.host_socket);
 //   chip.RESET(reset); chip.R_REQ(r_req); chip.R_STA(r_sta); chip.L_REQ(l_req); chip.L_STA(l_sta);
@@ -62,8 +62,8 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   /// direct memory access is denied.
   tlm_utils::simple_target_socket<TlmModule> host_socket{"host_socket"};
 
-  In RESET{"RESET"};                        ///< low-active
-  In R_REQ{"R_REQ"}, R_STA{"R_STA"};        ///< the user's side of the handshake
+  In RESET{"RESET"};                           ///< low-active
+  In R_REQ{"R_REQ"}, R_STA{"R_STA"};           ///< the user's side of the handshake
   OptionalOut L_REQ{"L_REQ"}, L_STA{"L_STA"};  ///< the chip's side; bound, they cost two events per microsecond
   OptionalOut INTR0{"INTR0"};
   OptionalOut PBF{"PBF"}, BR{"BR"}, READY{"READY"};

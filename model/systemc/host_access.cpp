@@ -10,14 +10,10 @@ constexpr Level kIdleAddress = 0x7FF;
 /// Of edges at one tick, what prepares a strobe comes before it and what ends an access after it.
 int rank(const HostAccess::Edge& edge) {
   switch (edge.pin) {
-    case Pin::kA:
-      return edge.level == kIdleAddress ? 6 : 0;
-    case Pin::kCsr:
-      return edge.level == 0 ? 1 : 5;
-    case Pin::kDIn:
-      return edge.level == kLevelZ ? 4 : 2;
-    default:
-      return edge.pin == Pin::kDOut ? 2 : 3;
+    case Pin::kA: return edge.level == kIdleAddress ? 6 : 0;
+    case Pin::kCsr: return edge.level == 0 ? 1 : 5;
+    case Pin::kDIn: return edge.level == kLevelZ ? 4 : 2;
+    default: return edge.pin == Pin::kDOut ? 2 : 3;
   }
 }
 
@@ -52,9 +48,8 @@ void HostAccess::frame(Pin strobe, std::uint16_t address, Tick low, const Access
 
 void HostAccess::order(Tick recovery) {
   const auto last = edges_.begin() + static_cast<std::ptrdiff_t>(size_);
-  std::sort(edges_.begin(), last, [](const Edge& a, const Edge& b) {
-    return a.at != b.at ? a.at < b.at : rank(a) < rank(b);
-  });
+  std::sort(edges_.begin(), last,
+            [](const Edge& a, const Edge& b) { return a.at != b.at ? a.at < b.at : rank(a) < rank(b); });
   const Tick first = edges_.front().at;
   std::for_each(edges_.begin(), last, [first](Edge& edge) { edge.at -= first; });
   duration_ = (last - 1)->at + std::max<Tick>(recovery, 0);

@@ -21,9 +21,9 @@ namespace dsdpv1::systemc {
 struct AccessTiming {
   Tick address_setup = 333;  ///< Tc: >= 0
   Tick cs_lead = 333;
-  Tick rd_low = 1000;    ///< Tw: >= 375
-  Tick rd_sample = 833;  ///< Tw: >= 375
-  Tick wr_low = 833;     ///< Ts: >= 150
+  Tick rd_low = 1000;     ///< Tw: >= 375
+  Tick rd_sample = 833;   ///< Tw: >= 375
+  Tick wr_low = 833;      ///< Ts: >= 150
   Tick data_setup = 833;  ///< Td: >= 150
   Tick data_hold = 167;   ///< Td: >= 150
   Tick address_hold = 167;

@@ -7,14 +7,19 @@ namespace {
 
 constexpr std::uint64_t kFsPerThreeTicks = 250'000;
 
+/// Asking SystemC for its resolution fixes it, so this is for after an attempt to set it.
 bool resolution_is_femtosecond() { return sc_core::sc_get_time_resolution().to_seconds() < 2e-15; }
 
+/// SystemC refuses a second setting, also of the same value; its own text does not say who asked or what to do.
 void try_to_set_resolution() {
+  const sc_core::sc_report_handler_proc handler = sc_core::sc_report_handler::get_handler();
+  sc_core::sc_report_handler::set_handler(
+      [](const sc_core::sc_report& report, const sc_core::sc_actions&) { throw report; });
   try {
     sc_core::sc_set_time_resolution(1, sc_core::SC_FS);
   } catch (const sc_core::sc_report&) {
-    // SystemC's own text does not say who asked or what to do; require_femtoseconds() reports instead.
   }
+  sc_core::sc_report_handler::set_handler(handler);
 }
 
 }  // namespace
@@ -32,11 +37,13 @@ Tick to_tick(const sc_core::sc_time& time) {
 }
 
 void require_femtoseconds() {
-  if (resolution_is_femtosecond()) return;
-  try_to_set_resolution();
-  if (resolution_is_femtosecond()) return;
-  const std::string text = "the SystemC time resolution is fixed at " + sc_core::sc_get_time_resolution().to_string() +
-                           ", 1 fs is needed: call sc_set_time_resolution(1, SC_FS) before the first sc_time is made";
+  static bool done = false;  // the resolution is a property of the process
+  if (!done) try_to_set_resolution();
+  done = resolution_is_femtosecond();
+  if (done) return;
+  const std::string text =
+      "the SystemC time resolution is fixed at " + sc_core::sc_get_time_resolution().to_string() +
+      ", 1 fs is needed: call dsdpv1::systemc::require_femtoseconds() before the first sc_time is made";
   SC_REPORT_ERROR("/dsdpv1/time_resolution", text.c_str());
 }
 

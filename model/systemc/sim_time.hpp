@@ -20,7 +20,8 @@ inline Tick current_tick() { return to_tick(sc_core::sc_time_stamp()); }
 
 /// Makes 1 fs the time resolution of the simulation. Reports the error /dsdpv1/time_resolution (which SystemC throws as
 /// sc_core::sc_report) when another one is fixed already, because an sc_time was made before. Every module of this library calls
-/// it when it is constructed; a program that makes an sc_time or sc_clock earlier calls it first in sc_main.
+/// it when it is constructed; a program that makes an sc_time or sc_clock earlier calls it first in sc_main. (After a program's own
+/// sc_set_time_resolution(1, SC_FS) it works as well, but SystemC then counts one error: it offers no way to ask beforehand.)
 void require_femtoseconds();
 
 }  // namespace dsdpv1::systemc

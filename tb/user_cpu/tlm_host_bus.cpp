@@ -19,7 +19,8 @@ Tick duration(const Access& access, const dsdpv1::systemc::AccessTiming& timing)
 
 }  // namespace
 
-TlmHostBus::TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip) : sc_module(name), chip_(chip) {
+TlmHostBus::TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip)
+    : sc_module(name), chip_(chip) {
   socket_.bind(chip.module().host_socket);
   SC_HAS_PROCESS(TlmHostBus);
   SC_THREAD(initiate);

@@ -1,0 +1,36 @@
+#include "tb/systemc/timeline_module.hpp"
+
+#include "model/systemc/sim_time.hpp"
+
+namespace systemc_bench {
+
+using dsdpv1::systemc::to_time;
+
+TimelineModule::TimelineModule(const sc_core::sc_module_name& name, bus::Timeline& timeline)
+    : sc_module(name), timeline_(timeline) {
+  dsdpv1::systemc::require_femtoseconds();
+  SC_HAS_PROCESS(TimelineModule);
+  SC_THREAD(run);
+}
+
+void TimelineModule::run() {
+  for (;;) {
+    const bus::Tick due = timeline_.next();
+    if (due > dsdpv1::systemc::current_tick()) {
+      sleep(due);
+      continue;
+    }
+    wait(sc_core::SC_ZERO_TIME);  // every process that this time has woken goes first
+    timeline_.run_until(dsdpv1::systemc::current_tick());
+  }
+}
+
+void TimelineModule::sleep(bus::Tick due) {
+  if (due == bus::kNever) {
+    wait(wake_);
+  } else {
+    wait(to_time(due) - sc_core::sc_time_stamp(), wake_);
+  }
+}
+
+}  // namespace systemc_bench

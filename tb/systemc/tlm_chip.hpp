@@ -1,0 +1,46 @@
+#pragma once
+// A chip in its TLM view as a station of the bench: RESET and the handshake as calls, the bus as a station of an RS-485 segment.
+#include <functional>
+#include <string>
+#include <systemc>
+
+#include "bus/segment.hpp"
+#include "model/systemc/dsdpv1_tlm.hpp"
+#include "tb/systemc/timeline_module.hpp"
+
+namespace systemc_bench {
+
+/// The module and what it is wired to. The segment hears PBTXD and PBRTS at their exact ticks, also from inside the core; what the
+/// segment says arrives at PBRXD at its tick (one delta cycle later, which no rule of the chip can tell apart: P9).
+/// The phase of the chip must be 0: the bench counts the chip's ticks.
+class TlmChip : public sc_core::sc_module, private bus::Listener {
+ public:
+  TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::TlmOptions& options, bus::Segment& segment,
+          TimelineModule& timeline);
+
+  dsdpv1::systemc::TlmModule& module() { return module_; }
+  bus::StationId station() const { return station_; }
+
+  /// Pins that the bench drives, at the present time only.
+  void set_reset(bool level) { reset_.write(level); }
+  void set_r_req(bool level) { r_req_.write(level); }
+  void set_r_sta(bool level) { r_sta_.write(level); }
+
+  /// Every pin change, as ChipModule::on_pin. Set before the simulation starts.
+  std::function<void(bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level)> on_pin;
+
+ private:
+  using Signal = sc_core::sc_signal<bool, sc_core::SC_MANY_WRITERS>;  // the timeline's thread and the chip's process
+
+  void line_changed(bus::Tick at, bool level) override;
+  void pin_changed(bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+
+  bus::Segment& segment_;
+  TimelineModule& timeline_;
+  dsdpv1::systemc::TlmModule module_;
+  Signal reset_{"reset"}, r_req_{"r_req"}, r_sta_{"r_sta"}, rxd_{"rxd", true};
+  bus::StationId station_;
+  bool enabled_ = false, drives_ = true;
+};
+
+}  // namespace systemc_bench
