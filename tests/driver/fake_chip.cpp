@@ -35,6 +35,7 @@ dsdpv1_port FakeChip::port() {
 }
 
 void FakeChip::check_ownership(const char* what) {
+  ++accesses;
   if (!r_req_ || !r_sta_ || l_) {
     violations.push_back(std::string(what) + " without ownership");
   }

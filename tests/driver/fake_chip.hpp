@@ -25,6 +25,7 @@ struct FakeChip {
   std::array<std::uint8_t, 2048> memory{};
   std::vector<std::string> violations;
   int holds = 0;
+  int accesses = 0;
   int pauses = 0;
   std::vector<std::uint8_t> inputs, diagnosis;  ///< as consumed, without CRC
   int initialisations = 0;

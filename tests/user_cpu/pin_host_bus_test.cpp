@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "tb/user_cpu/cpu.hpp"
 #include "tests/user_cpu/fake_pins.hpp"
 
 namespace {
@@ -125,6 +130,20 @@ TEST_F(PinHostBus, DefaultsKeepTable15) {
   EXPECT_GE(defaults.data_hold, 150);
   EXPECT_GE(defaults.address_hold, 150);
   EXPECT_GE(defaults.cs_trail, 0);
+}
+
+TEST_F(PinHostBus, GuideNamesTheTimesOfTheDefaults) {
+  std::ifstream file(GUIDE);
+  std::stringstream guide;
+  guide << file.rdbuf();
+  timing = AccessTiming{};
+  const Tick overhead = user_cpu::CpuTiming{}.overhead;
+  run(false, 0);
+  const auto read_ns = (host.end() + overhead) / bus::kTicksPerNs;
+  run(true, 0);
+  const auto write_ns = (host.end() + overhead) / bus::kTicksPerNs;
+  const std::string expected = std::to_string(read_ns) + " ns and a write " + std::to_string(write_ns) + " ns";
+  EXPECT_NE(guide.str().find(expected), std::string::npos) << expected;
 }
 
 }  // namespace

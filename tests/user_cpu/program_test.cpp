@@ -102,10 +102,20 @@ TEST_F(Program, InitialisesAfterTheStartDelay) {
 }
 
 TEST_F(Program, RepeatsAFailedInitialisation) {
+  chip.present = false;
+  chip.at(0x004) = 0;
   start();
-  program->post(command::WrongCrc{command::Area::kInit, 1});
-  run_for(kMs / 2);
-  EXPECT_EQ(chip.initialisations, 1) << "commands are for the running program";
+  run_for(50 * kMs);
+  ASSERT_FALSE(program->errors().empty());
+  EXPECT_EQ(program->errors()[0].error, DSDPV1_ERR_CHIP_NOT_READY);
+  chip.present = true;
+  run_for(20 * kMs);
+  EXPECT_EQ(chip.initialisations, 1);
+}
+
+TEST_F(Program, InitialisationWithAWrongCrcIsReported) {
+  bring_up(1, 1);
+  post(command::WrongCrc{command::Area::kInit, 1});
   post(command::Reinitialise{options.station});
   run_for(kMs);
   ASSERT_EQ(program->errors().size(), 1U);
