@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Runs clang-tidy over source files and remembers what was clean.
+
+    tidy.py BUILD_FOLDER [-j N] FILE...
+
+BUILD_FOLDER holds compile_commands.json and a finished Ninja build: ninja knows what each source includes. A file is looked at
+again when it, one of the project's headers it includes, its command, .clang-tidy or clang-tidy itself has changed. Exit 1 when
+something was found.
+"""
+import argparse
+import hashlib
+import json
+import shlex
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def output_of(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+def read_commands(build):
+    """Source -> its entry in the compile database; of a source that is compiled twice, the first."""
+    commands = {}
+    for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
+        commands.setdefault(Path(entry["file"]).resolve(), entry)
+    return commands
+
+
+def object_of(entry):
+    words = shlex.split(entry["command"])
+    return words[words.index("-o") + 1]
+
+
+def read_dependencies(build):
+    """Object -> the files of this project that it was made from."""
+    dependencies, current = {}, []
+    for line in output_of("ninja", "-C", str(build), "-t", "deps").splitlines():
+        if line.startswith("    "):
+            path = (build / line.strip()).resolve()
+            if path.is_relative_to(ROOT) and not path.is_relative_to(build):
+                current.append(path)
+        elif ": #deps" in line:
+            current = dependencies.setdefault(line.split(": #deps")[0], [])
+    return dependencies
+
+
+def settings_digest():
+    digest = hashlib.sha256(output_of("clang-tidy", "--version").encode())
+    for pattern in (".clang-tidy", "*/.clang-tidy", "*/*/.clang-tidy"):
+        for path in sorted(ROOT.glob(pattern)):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def digest_of(settings, command, files):
+    digest = hashlib.sha256((settings + command).encode())
+    for path in sorted(files):
+        digest.update(str(path.relative_to(ROOT)).encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
+
+
+def look_at(build, source, clean):
+    """Prints what clang-tidy finds; `clean` is made when it finds nothing."""
+    result = subprocess.run(
+        ["clang-tidy", "--quiet", "-p", str(build), source], capture_output=True, text=True, check=False
+    )
+    if result.returncode == 0:
+        clean.touch()
+        return True
+    errors = result.stdout.strip() or result.stderr.strip()
+    print(errors, flush=True)
+    return False
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=Path)
+    parser.add_argument("-j", type=int, default=2, dest="jobs")
+    parser.add_argument("files", nargs="+")
+    arguments = parser.parse_args()
+    build = arguments.build.resolve()
+    commands, dependencies, settings = read_commands(build), read_dependencies(build), settings_digest()
+    cache = build / "tidy-clean"
+    cache.mkdir(exist_ok=True)
+
+    due = []
+    for source in (Path(name).resolve() for name in arguments.files):
+        if source not in commands:
+            continue  # not a part of this build, as the projects of tests/install
+        entry = commands[source]
+        clean = cache / digest_of(settings, entry["command"], dependencies.get(object_of(entry), [source]))
+        if not clean.exists():
+            due.append((entry["file"], clean))
+    print(f"clang-tidy: {len(due)} of {len(arguments.files)} files to look at", flush=True)
+    with ThreadPoolExecutor(arguments.jobs) as pool:
+        results = list(pool.map(lambda item: look_at(build, *item), due))
+    return 0 if all(results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
