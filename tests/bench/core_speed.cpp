@@ -94,7 +94,8 @@ void saturated_bus(benchmark::State& state) {
   const Tick begin = slave.now();
   const std::uint64_t before = slave.exchanges();
   for (auto _ : state) slave.exchange();
-  if (slave.exchanges() - before != state.iterations()) state.SkipWithError("exchanges were lost");
+  if (slave.exchanges() - before != static_cast<std::uint64_t>(state.iterations()))
+    state.SkipWithError("exchanges were lost");
   state.counters["x_real_time"] =
       benchmark::Counter(static_cast<double>(slave.now() - begin) / 12e9, benchmark::Counter::kIsRate);
 }
