@@ -9,10 +9,11 @@ struct Row {
   Severity severity;
   const char* code;
   const char* text;
+  const char* advice;
 };
 
 constexpr Row kRows[] = {
-#define X(id, severity, code, text) {Severity::severity, code, text},
+#define X(id, severity, code, text, advice) {Severity::severity, code, text, advice},
 #include "model/profibus/event_table.inc"
 #undef X
 };
@@ -35,6 +36,7 @@ std::string number(std::uint16_t value, const std::string& format) {
 const char* code(Reason reason) { return row(reason).code; }
 Severity severity(Reason reason) { return row(reason).severity; }
 const char* text_template(Reason reason) { return row(reason).text; }
+const char* advice(Reason reason) { return row(reason).advice; }
 std::size_t reason_count() { return std::size(kRows); }
 
 std::string describe(const Event& event) {

@@ -16,10 +16,10 @@ enum class Severity : std::uint8_t {
   kViolation,  ///< the user's side broke a rule of the host port or the handshake
 };
 
-// X(identifier, severity, stable code, text). The text may hold {a}, {b}, {c} (decimal) and {a:4x} (hexadecimal, 4 digits).
+// X(identifier, severity, stable code, text, advice). The text may hold {a}, {b}, {c} (decimal) and {a:4x} (hexadecimal, 4 digits).
 // The table is in event_table.inc; docs/reasons.md explains each and is generated from it.
 enum class Reason : std::uint8_t {
-#define X(id, severity, code, text) id,
+#define X(id, severity, code, text, advice) id,
 #include "model/profibus/event_table.inc"
 #undef X
 };
@@ -39,8 +39,9 @@ struct EventSink {
 /// The stable code of a reason ("PRM_IDENT"), for logs and result files.
 const char* code(Reason reason);
 Severity severity(Reason reason);
-/// The text of a reason with its placeholders, and how many reasons there are: for documentation.
+/// The text of a reason with its placeholders, what to do about it, and how many reasons there are: for documentation.
 const char* text_template(Reason reason);
+const char* advice(Reason reason);
 std::size_t reason_count();
 /// The event in words, one line, without the time.
 std::string describe(const Event& event);
