@@ -3,8 +3,8 @@
 /*
  * Driver for the PROFIBUS-DP slave chip DSDPV1, user side of the DPRAM.
  *
- * C99, no allocation, no operating system, no floating point. The device maker supplies `dsdpv1_port`: two functions for a
- * DPRAM byte, four for the handshake pins. See docs/programmers_guide.md for the bring-up and a port for an MCU.
+ * C99, no allocation, no operating system, no floating point. The device maker supplies `dsdpv1_port`: two functions
+ * for a DPRAM byte, four for the handshake pins. See docs/programmers_guide.md for the bring-up and a port for an MCU.
  *
  *   dsdpv1_device chip;
  *   dsdpv1_open(&chip, &port, &judge);
@@ -15,11 +15,11 @@
  *     dsdpv1_exchange(&chip, DSDPV1_INPUT_NEWEST, in, in_length, &out);
  *   }
  *
- * Every call that touches the DPRAM takes it (a "hold": R_REQ, R_STA), does its accesses and releases it. CRCs are computed
- * outside of the holds. The calls block for bounded times only; the bounds are in `dsdpv1_tuning`.
+ * Every call that touches the DPRAM takes it (a "hold": R_REQ, R_STA), does its accesses and releases it. CRCs are
+ * computed outside of the holds. The calls block for bounded times only; the bounds are in `dsdpv1_tuning`.
  *
- * Contexts: one thread and one interrupt handler may use a device. A call from the handler that finds a hold of the interrupted
- * program open returns DSDPV1_ERR_NESTED and touches nothing.
+ * Contexts: one thread and one interrupt handler may use a device. A call from the handler that finds a hold of the
+ * interrupted program open returns DSDPV1_ERR_NESTED and touches nothing.
  */
 #include <stdbool.h>
 #include <stddef.h>
@@ -39,46 +39,46 @@ extern "C" {
 /* Ruling H2: for 3 cycles of 48 MHz after R_REQ rose the chip may still start an access; 62.5 ns, rounded up. */
 #define DSDPV1_SYNC_WINDOW_NS 63u
 
-/* ---------------------------------------------------------------------------------------------------------- errors */
+/* ----------------------------------------------------------------------------------------------------------- errors */
 
 /*
- * X(name, value, text). Values are stable: 1x use and handshake, 2x configuration refused by the driver, 3x initialisation
- * refused by the chip, 4x cyclic data, 5x diagnosis, 6x parameters and configuration from the master.
+ * X(name, value, text). Values are stable: 1x use and handshake, 2x configuration refused by the driver, 3x
+ * initialisation refused by the chip, 4x cyclic data, 5x diagnosis, 6x parameters and configuration from the master.
  */
-#define DSDPV1_ERROR_TABLE(X)                                                                                        \
-  X(DSDPV1_OK, 0, "success")                                                                                         \
-  X(DSDPV1_ERR_ARGUMENT, 10, "an argument is null, or a mandatory function of the port is missing")                  \
-  X(DSDPV1_ERR_NESTED, 11, "the interrupted program holds the DPRAM; call again when it has released it")            \
-  X(DSDPV1_ERR_DPRAM_BUSY, 12, "the chip did not release the DPRAM (L_REQ, L_STA) within the allowed polls")         \
-  X(DSDPV1_ERR_CHIP_SILENT, 13, "the chip has not been at the DPRAM (B006) during the last holds")                   \
-  X(DSDPV1_ERR_CHIP_NOT_READY, 14, "B004 did not become 0xC5 within the allowed polls")                              \
-  X(DSDPV1_ERR_NOT_INITIALISED, 15, "no initialisation has succeeded since the device was opened")                   \
-  X(DSDPV1_ERR_CONFIG_ADDRESS, 20, "station address above 126")                                                      \
-  X(DSDPV1_ERR_CONFIG_INPUT, 21, "largest input length above 244")                                                   \
-  X(DSDPV1_ERR_CONFIG_OUTPUT, 22, "largest output length above 244")                                                 \
-  X(DSDPV1_ERR_CONFIG_DIAG, 23, "diagnosis length above 238")                                                        \
-  X(DSDPV1_ERR_CONFIG_PRM, 24, "largest user parameter length above 237")                                            \
-  X(DSDPV1_ERR_CONFIG_CFG, 25, "largest configuration length is 0 or above 200")                                     \
-  X(DSDPV1_ERR_CONFIG_CFG_LENGTH, 26, "configuration is empty, missing or longer than its largest length")           \
-  X(DSDPV1_ERR_CONFIG_PRM_MODE, 27, "judging mode of the parameters is not 0, 1 or 2")                               \
-  X(DSDPV1_ERR_CONFIG_CFG_MODE, 28, "judging mode of the configuration is not 0, 1 or 2")                            \
-  X(DSDPV1_ERR_INIT_TIMEOUT, 30, "the chip did not take the initialisation (B010.2) within the allowed polls")       \
-  X(DSDPV1_ERR_INIT_CRC, 31, "the chip refused the initialisation: wrong CRC (B00B.0)")                              \
-  X(DSDPV1_ERR_INIT_LIMIT, 32, "the chip refused the initialisation: a value out of its limits (B013.0)")            \
-  X(DSDPV1_ERR_INIT_REFUSED, 33, "the chip refused the initialisation and gave no reason")                           \
-  X(DSDPV1_ERR_INPUT_LENGTH, 40, "more input bytes than the initialisation allowed")                                 \
-  X(DSDPV1_ERR_INPUT_CRC, 41, "the chip refused the previous inputs: wrong CRC (B00B.2)")                            \
-  X(DSDPV1_ERR_OUTPUT_LENGTH, 42, "the output length in the DPRAM is above 244 or what the caller's buffer holds")   \
-  X(DSDPV1_ERR_OUTPUT_CRC, 43, "the outputs' CRC is wrong, also after reading again")                                \
-  X(DSDPV1_ERR_DIAG_TYPE, 50, "diagnosis type is not 00, 01, 81, 02 or 82")                                          \
-  X(DSDPV1_ERR_DIAG_LENGTH, 51, "diagnosis longer than the initialisation allowed")                                  \
-  X(DSDPV1_ERR_DIAG_TIMEOUT, 52, "the chip did not take the diagnosis (B010.1) within the allowed polls")            \
-  X(DSDPV1_ERR_DIAG_CRC, 53, "the chip refused the diagnosis: wrong CRC (B00B.3)")                                   \
-  X(DSDPV1_ERR_PRM_LENGTH, 60, "the parameter length in the DPRAM is above 237")                                     \
-  X(DSDPV1_ERR_PRM_CRC, 61, "the parameters' CRC is wrong, also after reading again")                                \
-  X(DSDPV1_ERR_CFG_LENGTH, 62, "the configuration length in the DPRAM is above 200")                                 \
-  X(DSDPV1_ERR_CFG_CRC, 63, "the configuration's CRC is wrong, also after reading again")                            \
-  X(DSDPV1_ERR_NO_VERDICT_DUE, 64, "a verdict was sent that no open judgement in mode 2 waits for")                  \
+#define DSDPV1_ERROR_TABLE(X)                                                                                      \
+  X(DSDPV1_OK, 0, "success")                                                                                       \
+  X(DSDPV1_ERR_ARGUMENT, 10, "an argument is null, or a mandatory function of the port is missing")                \
+  X(DSDPV1_ERR_NESTED, 11, "the interrupted program holds the DPRAM; call again when it has released it")          \
+  X(DSDPV1_ERR_DPRAM_BUSY, 12, "the chip did not release the DPRAM (L_REQ, L_STA) within the allowed polls")       \
+  X(DSDPV1_ERR_CHIP_SILENT, 13, "the chip has not been at the DPRAM (B006) during the last holds")                 \
+  X(DSDPV1_ERR_CHIP_NOT_READY, 14, "B004 did not become 0xC5 within the allowed polls")                            \
+  X(DSDPV1_ERR_NOT_INITIALISED, 15, "no initialisation has succeeded since the device was opened")                 \
+  X(DSDPV1_ERR_CONFIG_ADDRESS, 20, "station address above 126")                                                    \
+  X(DSDPV1_ERR_CONFIG_INPUT, 21, "largest input length above 244")                                                 \
+  X(DSDPV1_ERR_CONFIG_OUTPUT, 22, "largest output length above 244")                                               \
+  X(DSDPV1_ERR_CONFIG_DIAG, 23, "diagnosis length above 238")                                                      \
+  X(DSDPV1_ERR_CONFIG_PRM, 24, "largest user parameter length above 237")                                          \
+  X(DSDPV1_ERR_CONFIG_CFG, 25, "largest configuration length is 0 or above 200")                                   \
+  X(DSDPV1_ERR_CONFIG_CFG_LENGTH, 26, "configuration is empty, missing or longer than its largest length")         \
+  X(DSDPV1_ERR_CONFIG_PRM_MODE, 27, "judging mode of the parameters is not 0, 1 or 2")                             \
+  X(DSDPV1_ERR_CONFIG_CFG_MODE, 28, "judging mode of the configuration is not 0, 1 or 2")                          \
+  X(DSDPV1_ERR_INIT_TIMEOUT, 30, "the chip did not take the initialisation (B010.2) within the allowed polls")     \
+  X(DSDPV1_ERR_INIT_CRC, 31, "the chip refused the initialisation: wrong CRC (B00B.0)")                            \
+  X(DSDPV1_ERR_INIT_LIMIT, 32, "the chip refused the initialisation: a value out of its limits (B013.0)")          \
+  X(DSDPV1_ERR_INIT_REFUSED, 33, "the chip refused the initialisation and gave no reason")                         \
+  X(DSDPV1_ERR_INPUT_LENGTH, 40, "more input bytes than the initialisation allowed")                               \
+  X(DSDPV1_ERR_INPUT_CRC, 41, "the chip refused the previous inputs: wrong CRC (B00B.2)")                          \
+  X(DSDPV1_ERR_OUTPUT_LENGTH, 42, "the output length in the DPRAM is above 244 or what the caller's buffer holds") \
+  X(DSDPV1_ERR_OUTPUT_CRC, 43, "the outputs' CRC is wrong, also after reading again")                              \
+  X(DSDPV1_ERR_DIAG_TYPE, 50, "diagnosis type is not 00, 01, 81, 02 or 82")                                        \
+  X(DSDPV1_ERR_DIAG_LENGTH, 51, "diagnosis longer than the initialisation allowed")                                \
+  X(DSDPV1_ERR_DIAG_TIMEOUT, 52, "the chip did not take the diagnosis (B010.1) within the allowed polls")          \
+  X(DSDPV1_ERR_DIAG_CRC, 53, "the chip refused the diagnosis: wrong CRC (B00B.3)")                                 \
+  X(DSDPV1_ERR_PRM_LENGTH, 60, "the parameter length in the DPRAM is above 237")                                   \
+  X(DSDPV1_ERR_PRM_CRC, 61, "the parameters' CRC is wrong, also after reading again")                              \
+  X(DSDPV1_ERR_CFG_LENGTH, 62, "the configuration length in the DPRAM is above 200")                               \
+  X(DSDPV1_ERR_CFG_CRC, 63, "the configuration's CRC is wrong, also after reading again")                          \
+  X(DSDPV1_ERR_NO_VERDICT_DUE, 64, "a verdict was sent that no open judgement in mode 2 waits for")                \
   X(DSDPV1_ERR_VERDICT_STALE, 65, "the master has sent a newer block; judge that one first (dsdpv1_service)")
 
 typedef enum dsdpv1_error {
@@ -88,30 +88,30 @@ typedef enum dsdpv1_error {
 } dsdpv1_error;
 
 /* The error in words, one line in English; "unknown error" for values not in the table. Never null. */
-const char *dsdpv1_error_text(dsdpv1_error error);
+const char* dsdpv1_error_text(dsdpv1_error error);
 
-/* ------------------------------------------------------------------------------------------------------------ port */
+/* ------------------------------------------------------------------------------------------------------------- port */
 
 /*
  * How the driver reaches the chip. `ctx` is handed to every function. All are mandatory except `pause`.
  * Pins: true is high. Addresses 0x000..0x7FF.
  */
 typedef struct dsdpv1_port {
-  void *ctx;
-  uint8_t (*read)(void *ctx, uint16_t address);
-  void (*write)(void *ctx, uint16_t address, uint8_t value);
-  void (*set_r_req)(void *ctx, bool level);
-  void (*set_r_sta)(void *ctx, bool level);
-  bool (*get_l_req)(void *ctx);
-  bool (*get_l_sta)(void *ctx);
+  void* ctx;
+  uint8_t (*read)(void* ctx, uint16_t address);
+  void (*write)(void* ctx, uint16_t address, uint8_t value);
+  void (*set_r_req)(void* ctx, bool level);
+  void (*set_r_sta)(void* ctx, bool level);
+  bool (*get_l_req)(void* ctx);
+  bool (*get_l_sta)(void* ctx);
   /*
-   * Lets at least `ns` nanoseconds pass. May be null when from set_r_req(true) to the third of four pin samples at least
-   * DSDPV1_SYNC_WINDOW_NS pass anyway (an MCU below some 150 MHz), and polling without a pause is welcome.
+   * Lets at least `ns` nanoseconds pass. May be null when from set_r_req(true) to the third of four pin samples at
+   * least DSDPV1_SYNC_WINDOW_NS pass anyway (an MCU below some 150 MHz), and polling without a pause is welcome.
    */
-  void (*pause)(void *ctx, uint32_t ns);
+  void (*pause)(void* ctx, uint32_t ns);
 } dsdpv1_port;
 
-/* ------------------------------------------------------------------------------------------------------- judging */
+/* ---------------------------------------------------------------------------------------------------------- judging */
 
 typedef enum dsdpv1_verdict {
   DSDPV1_ACCEPT,
@@ -121,29 +121,29 @@ typedef enum dsdpv1_verdict {
 
 /* A configuration that the master has sent (table 2: B500..; ruling D6). */
 typedef struct dsdpv1_cfg_block {
-  const uint8_t *bytes;
+  const uint8_t* bytes;
   uint8_t length;        /* 0..200 */
   uint8_t input_length;  /* bytes slave to master, computed by the chip: what every input block must have (D10) */
   uint8_t output_length; /* bytes master to slave, computed by the chip */
 } dsdpv1_cfg_block;
 
 /*
- * The application's judgement. Called from dsdpv1_service, outside of holds, for every block in every judging mode (P7, D15); the
- * return value counts only when the mode of that block is 2. A null function accepts.
- * The blocks are the driver's own copies, valid until the next dsdpv1_service.
+ * The application's judgement. Called from dsdpv1_service, outside of holds, for every block in every judging mode (P7,
+ * D15); the return value counts only when the mode of that block is 2. A null function accepts. The blocks are the
+ * driver's own copies, valid until the next dsdpv1_service.
  */
 typedef struct dsdpv1_judge {
-  void *ctx;
+  void* ctx;
   /* `bytes`: everything behind the first 7 bytes of Set_Prm, the DPV1 byte first where the master sends one. */
-  dsdpv1_verdict (*prm)(void *ctx, const uint8_t *bytes, uint8_t length);
-  dsdpv1_verdict (*cfg)(void *ctx, const dsdpv1_cfg_block *cfg);
+  dsdpv1_verdict (*prm)(void* ctx, const uint8_t* bytes, uint8_t length);
+  dsdpv1_verdict (*cfg)(void* ctx, const dsdpv1_cfg_block* cfg);
 } dsdpv1_judge;
 
-/* ---------------------------------------------------------------------------------------------------------- device */
+/* ----------------------------------------------------------------------------------------------------------- device */
 
 /* Bounds of waiting. dsdpv1_open sets the defaults given here; the application may change them afterwards. */
 typedef struct dsdpv1_tuning {
-  uint32_t acquire_polls; /* 10000: samples of L_REQ and L_STA for one hold; must span 45 us, the chip's start-up (H6) */
+  uint32_t acquire_polls; /* 10000: looks at L_REQ and L_STA for one hold; must span 45 us, the chip's start-up (H6) */
   uint32_t ready_polls;   /* 1000: holds in which B004 is looked at */
   uint32_t init_polls;    /* 1000: holds after an initialisation or diagnosis until the chip has taken it */
   uint32_t poll_pause_ns; /* 10000: pause between two such holds, when the port has `pause` */
@@ -153,8 +153,8 @@ typedef struct dsdpv1_tuning {
 
 /* What the initialisation tells the chip (table 2 B020.., tables 12 to 14). */
 typedef struct dsdpv1_config {
-  uint8_t address; /* 0..126 */
-  uint16_t ident;  /* Ident_Number of the GSD */
+  uint8_t address;                              /* 0..126 */
+  uint16_t ident;                               /* Ident_Number of the GSD */
   bool address_change, freeze, sync, fail_safe; /* table 12 */
   bool dpv1;                                    /* B005 = 0x1D */
   uint8_t max_input, max_output;                /* 0..244 bytes, slave to master and master to slave */
@@ -162,7 +162,7 @@ typedef struct dsdpv1_config {
   uint8_t max_prm;                              /* 0..237 bytes behind the seven standard ones */
   uint8_t max_cfg;                              /* 1..200 bytes */
   uint8_t prm_mode, cfg_mode;                   /* 0, 1: the chip judges; 2: the user (tables 13, 14) */
-  const uint8_t *cfg;                           /* initial configuration, only read during dsdpv1_initialise */
+  const uint8_t* cfg;                           /* initial configuration, only read during dsdpv1_initialise */
   uint8_t cfg_length;                           /* 1..max_cfg bytes */
 } dsdpv1_config;
 
@@ -187,20 +187,21 @@ typedef struct dsdpv1_device {
  * Prepares `device`; touches no pin. `port` and `judge` are copied; `judge` may be null (accept everything).
  * Errors: ARGUMENT.
  */
-dsdpv1_error dsdpv1_open(dsdpv1_device *device, const dsdpv1_port *port, const dsdpv1_judge *judge);
+dsdpv1_error dsdpv1_open(dsdpv1_device* device, const dsdpv1_port* port, const dsdpv1_judge* judge);
 
 /*
  * Waits until the chip has begun to work: B004 = 0xC5, 85 us after the release of RESET (ruling D1).
  * Errors: DPRAM_BUSY, CHIP_NOT_READY, NESTED.
  */
-dsdpv1_error dsdpv1_wait_ready(dsdpv1_device *device);
+dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device);
 
 /*
- * Initialises the chip (chapter 8): checks `config` against table 2, writes B005 and B020.., sets B010.2, waits for the chip
- * and clears B00A.0. In operation the chip goes through OFFLINE with the new values. After an error the chip keeps what it had.
+ * Initialises the chip (chapter 8): checks `config` against table 2, writes B005 and B020.., sets B010.2, waits for
+ * the chip and clears B00A.0. In operation the chip goes through OFFLINE with the new values. After an error the chip
+ * keeps what it had.
  * Errors: 20..28 before anything is written; 30..33; NESTED, DPRAM_BUSY, CHIP_NOT_READY (B004), CHIP_SILENT.
  */
-dsdpv1_error dsdpv1_initialise(dsdpv1_device *device, const dsdpv1_config *config);
+dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* config);
 
 /* ------------------------------------------------------------------------------------------------------ cyclic data */
 
@@ -211,26 +212,28 @@ typedef enum dsdpv1_input_policy {
 
 /* What an exchange did. The caller sets `outputs` and `capacity`. */
 typedef struct dsdpv1_exchange_result {
-  uint8_t *outputs;     /* the caller's buffer; may be null when outputs are not wanted */
-  uint8_t capacity;     /* its size in bytes */
-  uint8_t length;       /* bytes received, valid when `outputs_new` */
-  bool outputs_new;     /* the chip had new outputs (B00E.0), and their CRC is right */
-  bool inputs_written;  /* the inputs are in the DPRAM and announced (B010.0) */
-  bool intr0_missed;    /* B00E.1 or .2 is set: call dsdpv1_service, also when INTR0 was not seen */
+  uint8_t* outputs;    /* the caller's buffer; may be null when outputs are not wanted */
+  uint8_t capacity;    /* its size in bytes */
+  uint8_t length;      /* bytes received, valid when `outputs_new` */
+  bool outputs_new;    /* the chip had new outputs (B00E.0), and their CRC is right */
+  bool inputs_written; /* the inputs are in the DPRAM and announced (B010.0) */
+  bool intr0_missed;   /* B00E.1 or .2 is set: call dsdpv1_service, also when INTR0 was not seen */
 } dsdpv1_exchange_result;
 
 /*
- * Inputs to the chip and outputs from it in one hold. The length of the inputs must be the configured input length, or the chip
- * refuses them (D10); `inputs` null: only outputs. Outputs with a wrong CRC are read again in a hold of their own.
- * When an error is returned the other direction has still been served.
- * Errors: NOT_INITIALISED, INPUT_LENGTH (nothing done), INPUT_CRC, OUTPUT_LENGTH, OUTPUT_CRC; NESTED, DPRAM_BUSY, CHIP_SILENT.
+ * Inputs to the chip and outputs from it in one hold. The length of the inputs must be the configured input length, or
+ * the chip refuses them (D10); `inputs` null: only outputs. Outputs with a wrong CRC are read again in a hold of their
+ * own. When an error is returned the other direction has still been served.
+ * Errors: NOT_INITIALISED, INPUT_LENGTH (nothing done), INPUT_CRC, OUTPUT_LENGTH, OUTPUT_CRC; NESTED, DPRAM_BUSY,
+ * CHIP_SILENT.
  */
-dsdpv1_error dsdpv1_exchange(dsdpv1_device *device, dsdpv1_input_policy policy, const uint8_t *inputs,
-                             uint8_t input_length, dsdpv1_exchange_result *result);
+dsdpv1_error dsdpv1_exchange(dsdpv1_device* device, dsdpv1_input_policy policy, const uint8_t* inputs,
+                             uint8_t input_length, dsdpv1_exchange_result* result);
 
-/* --------------------------------------------------------------------------------------------------------- diagnosis */
+/* -------------------------------------------------------------------------------------------------------- diagnosis */
 
-typedef enum dsdpv1_diag_type { /* B227, ruling D9 */
+/* B227, ruling D9. */
+typedef enum dsdpv1_diag_type {
   DSDPV1_DIAG_EXTENDED = 0x00,
   DSDPV1_DIAG_EXTERNAL_GONE = 0x01,
   DSDPV1_DIAG_EXTERNAL = 0x81,
@@ -239,41 +242,48 @@ typedef enum dsdpv1_diag_type { /* B227, ruling D9 */
 } dsdpv1_diag_type;
 
 /*
- * Hands user diagnosis to the chip (B227.., B010.1) and waits until it has been taken. `data`: what follows the six standard bytes
- * in Slave_Diag, with the block headers of EN 50170. A wrong CRC is written again up to `crc_retries` times.
+ * Hands user diagnosis to the chip (B227.., B010.1) and waits until it has been taken. `data`: what follows the six
+ * standard bytes in Slave_Diag, with the block headers of EN 50170. A wrong CRC is written again up to `crc_retries`
+ * times.
  * Errors: NOT_INITIALISED, DIAG_TYPE, DIAG_LENGTH, DIAG_TIMEOUT, DIAG_CRC; NESTED, DPRAM_BUSY, CHIP_SILENT.
  */
-dsdpv1_error dsdpv1_set_diagnosis(dsdpv1_device *device, dsdpv1_diag_type type, const uint8_t *data, uint8_t length);
+dsdpv1_error dsdpv1_set_diagnosis(dsdpv1_device* device, dsdpv1_diag_type type, const uint8_t* data, uint8_t length);
 
-/* ------------------------------------------------------------------------------- parameters and configuration, INTR0 */
-
-/* Notes that INTR0 fell. For the INTR0 handler of firmware that calls dsdpv1_service from its main loop. Touches no pin. */
-void dsdpv1_on_intr0(dsdpv1_device *device);
-
-/* True when INTR0 fell and dsdpv1_service has not run successfully since. */
-bool dsdpv1_intr0_pending(const dsdpv1_device *device);
+/* ------------------------------------------------------------------------------ parameters and configuration, INTR0 */
 
 /*
- * Fetches new parameters and configuration (B00E.1, B00E.2), lets the application judge them and hands the verdicts of mode 2 to the
- * chip, both in one hold. Also callable straight from the INTR0 handler; on NESTED the flag of dsdpv1_on_intr0
- * stays set for the main loop. A block that the master replaces meanwhile is judged anew, its stale verdict is not sent (H7).
- * Errors: NOT_INITIALISED, PRM_LENGTH, PRM_CRC, CFG_LENGTH, CFG_CRC (that block gets no verdict); NESTED, DPRAM_BUSY, CHIP_SILENT.
+ * Notes that INTR0 fell. For the INTR0 handler of firmware that calls dsdpv1_service from its main loop. Touches no
+ * pin.
  */
-dsdpv1_error dsdpv1_service(dsdpv1_device *device);
+void dsdpv1_on_intr0(dsdpv1_device* device);
+
+/* True when INTR0 fell and dsdpv1_service has not run successfully since. */
+bool dsdpv1_intr0_pending(const dsdpv1_device* device);
+
+/*
+ * Fetches new parameters and configuration (B00E.1, B00E.2), lets the application judge them and hands the verdicts of
+ * mode 2 to the chip, both in one hold. Also callable straight from the INTR0 handler; on NESTED the flag of
+ * dsdpv1_on_intr0 stays set for the main loop. A block that the master replaces meanwhile is judged anew, its stale
+ * verdict is not sent (H7).
+ * Errors: NOT_INITIALISED, PRM_LENGTH, PRM_CRC, CFG_LENGTH, CFG_CRC (that block gets no verdict); NESTED, DPRAM_BUSY,
+ * CHIP_SILENT.
+ */
+dsdpv1_error dsdpv1_service(dsdpv1_device* device);
 
 #define DSDPV1_VERDICT_PRM 0x01u
 #define DSDPV1_VERDICT_CFG 0x02u
 
 /*
- * The verdicts that a judge function put off with DSDPV1_LATER. `which` says for what (DSDPV1_VERDICT_ bits), `wrong` which of them
- * are refused.
+ * The verdicts that a judge function put off with DSDPV1_LATER. `which` says for what (DSDPV1_VERDICT_ bits), `wrong`
+ * which of them are refused.
  * Errors: ARGUMENT, NO_VERDICT_DUE, VERDICT_STALE (nothing sent); NESTED, DPRAM_BUSY, CHIP_SILENT.
  */
-dsdpv1_error dsdpv1_send_verdict(dsdpv1_device *device, uint8_t which, uint8_t wrong);
+dsdpv1_error dsdpv1_send_verdict(dsdpv1_device* device, uint8_t which, uint8_t wrong);
 
-/* ------------------------------------------------------------------------------------------------------------ status */
+/* ----------------------------------------------------------------------------------------------------------- status */
 
-typedef enum dsdpv1_dp_state { /* B012.3..2 */
+/* B012.3..2. */
+typedef enum dsdpv1_dp_state {
   DSDPV1_STATE_OFFLINE = 0,
   DSDPV1_STATE_WAIT_PRM = 1,
   DSDPV1_STATE_WAIT_CFG = 2,
@@ -281,23 +291,23 @@ typedef enum dsdpv1_dp_state { /* B012.3..2 */
 } dsdpv1_dp_state;
 
 typedef struct dsdpv1_status {
-  uint8_t version[4];      /* B000..B003: code, year - 2000, month, day */
+  uint8_t version[4]; /* B000..B003: code, year - 2000, month, day */
   dsdpv1_dp_state state;
-  uint32_t baud;           /* bit/s; 0 while the chip searches */
-  uint16_t offline_count;  /* B008/B009: how often data exchange was left */
-  uint8_t crc_errors;      /* B00B as it is: 1 = the chip refused the last block of that kind (table 4) */
+  uint32_t baud;          /* bit/s; 0 while the chip searches */
+  uint16_t offline_count; /* B008/B009: how often data exchange was left */
+  uint8_t crc_errors;     /* B00B as it is: 1 = the chip refused the last block of that kind (table 4) */
 } dsdpv1_status;
 
 /* Reads the chip's status bytes in one hold. Errors: ARGUMENT, NESTED, DPRAM_BUSY, CHIP_SILENT. */
-dsdpv1_error dsdpv1_get_status(dsdpv1_device *device, dsdpv1_status *status);
+dsdpv1_error dsdpv1_get_status(dsdpv1_device* device, dsdpv1_status* status);
 
-/* --------------------------------------------------------------------------------------------------------------- CRC */
+/* -------------------------------------------------------------------------------------------------------------- CRC */
 
 /* Start value and one step of the CRC-16 of 4.2 (polynomial 0xA001 reflected): 02 07 gives 0x1241. */
 #define DSDPV1_CRC_START 0xFFFFu
 uint16_t dsdpv1_crc_byte(uint16_t crc, uint8_t byte);
 /* Continues `crc` over `length` bytes, low address first. */
-uint16_t dsdpv1_crc(uint16_t crc, const uint8_t *bytes, size_t length);
+uint16_t dsdpv1_crc(uint16_t crc, const uint8_t* bytes, size_t length);
 
 #ifdef __cplusplus
 }

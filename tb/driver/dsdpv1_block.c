@@ -1,13 +1,13 @@
 /* Reading what the chip has written, with its CRC (4.2, table 7). */
 #include "dsdpv1_internal.h"
 
-uint8_t dsdpv1_copy_length(const dsdpv1_area *area, const dsdpv1_copy *copy) { return copy->header[area->header - 1u]; }
+uint8_t dsdpv1_copy_length(const dsdpv1_area* area, const dsdpv1_copy* copy) { return copy->header[area->header - 1u]; }
 
-static bool fits(const dsdpv1_area *area, const dsdpv1_copy *copy) {
+static bool fits(const dsdpv1_area* area, const dsdpv1_copy* copy) {
   return dsdpv1_copy_length(area, copy) <= copy->capacity;
 }
 
-void dsdpv1_fetch(const dsdpv1_device *device, const dsdpv1_area *area, dsdpv1_copy *copy) {
+void dsdpv1_fetch(const dsdpv1_device* device, const dsdpv1_area* area, dsdpv1_copy* copy) {
   dsdpv1_get_block(device, area->address, copy->header, area->header);
   if (!fits(area, copy)) {
     return; /* no CRC can make an impossible length right */
@@ -16,19 +16,19 @@ void dsdpv1_fetch(const dsdpv1_device *device, const dsdpv1_area *area, dsdpv1_c
   copy->crc = dsdpv1_get_word(device, area->crc_address);
 }
 
-static bool is_right(const dsdpv1_area *area, const dsdpv1_copy *copy) {
+static bool is_right(const dsdpv1_area* area, const dsdpv1_copy* copy) {
   const uint16_t header = dsdpv1_crc(DSDPV1_CRC_START, copy->header, area->header);
   return dsdpv1_crc(header, copy->data, dsdpv1_copy_length(area, copy)) == copy->crc;
 }
 
 /* B00D tells the chip what the user found; inside a hold. */
-static void put_user_status(dsdpv1_device *device, uint8_t value) {
+static void put_user_status(dsdpv1_device* device, uint8_t value) {
   device->user_status_2 = value;
   dsdpv1_put(device, DSDPV1_REG_USER_STATUS_2, value);
 }
 
 /* Costs a hold only after an earlier error. */
-static dsdpv1_error clear_error(dsdpv1_device *device, const dsdpv1_area *area) {
+static dsdpv1_error clear_error(dsdpv1_device* device, const dsdpv1_area* area) {
   if ((device->user_status_2 & area->error_bit) == 0u) {
     return DSDPV1_OK;
   }
@@ -40,7 +40,7 @@ static dsdpv1_error clear_error(dsdpv1_device *device, const dsdpv1_area *area) 
   return error;
 }
 
-static dsdpv1_error tell_and_fetch_again(dsdpv1_device *device, const dsdpv1_area *area, dsdpv1_copy *copy) {
+static dsdpv1_error tell_and_fetch_again(dsdpv1_device* device, const dsdpv1_area* area, dsdpv1_copy* copy) {
   const dsdpv1_error error = dsdpv1_hold(device);
   if (error == DSDPV1_OK) {
     put_user_status(device, (uint8_t)(device->user_status_2 | area->error_bit));
@@ -50,7 +50,7 @@ static dsdpv1_error tell_and_fetch_again(dsdpv1_device *device, const dsdpv1_are
   return error;
 }
 
-dsdpv1_error dsdpv1_confirm(dsdpv1_device *device, const dsdpv1_area *area, dsdpv1_copy *copy) {
+dsdpv1_error dsdpv1_confirm(dsdpv1_device* device, const dsdpv1_area* area, dsdpv1_copy* copy) {
   for (uint8_t retries = device->tuning.crc_retries;; --retries) {
     if (!fits(area, copy)) {
       return area->length_error;

@@ -3,7 +3,7 @@
 
 enum { kHeadLength = DSDPV1_REG_INIT_CFG - DSDPV1_REG_INIT }; /* B020..B02E, before the configuration bytes */
 
-dsdpv1_error dsdpv1_wait_ready(dsdpv1_device *device) {
+dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device) {
   if (device == NULL) {
     return DSDPV1_ERR_ARGUMENT;
   }
@@ -23,7 +23,7 @@ dsdpv1_error dsdpv1_wait_ready(dsdpv1_device *device) {
   return DSDPV1_ERR_CHIP_NOT_READY;
 }
 
-static dsdpv1_error check_sizes(const dsdpv1_config *config) { /* D7 */
+static dsdpv1_error check_sizes(const dsdpv1_config* config) { /* D7 */
   if (config->max_input > DSDPV1_MAX_IO) {
     return DSDPV1_ERR_CONFIG_INPUT;
   }
@@ -45,7 +45,7 @@ static dsdpv1_error check_sizes(const dsdpv1_config *config) { /* D7 */
   return DSDPV1_OK;
 }
 
-static dsdpv1_error check_config(const dsdpv1_config *config) {
+static dsdpv1_error check_config(const dsdpv1_config* config) {
   if (config->address > DSDPV1_MAX_ADDRESS) {
     return DSDPV1_ERR_CONFIG_ADDRESS;
   }
@@ -58,7 +58,7 @@ static dsdpv1_error check_config(const dsdpv1_config *config) {
   return check_sizes(config);
 }
 
-static uint8_t command_byte(const dsdpv1_config *config) { /* table 12 */
+static uint8_t command_byte(const dsdpv1_config* config) { /* table 12 */
   unsigned command = 0;
   command |= config->address_change ? DSDPV1_REG_INIT_COMMAND_ADDRESS_CHANGE : 0u;
   command |= config->freeze ? DSDPV1_REG_INIT_COMMAND_FREEZE : 0u;
@@ -67,7 +67,7 @@ static uint8_t command_byte(const dsdpv1_config *config) { /* table 12 */
   return (uint8_t)command;
 }
 
-static void build_head(uint8_t head[kHeadLength], const dsdpv1_config *config) {
+static void build_head(uint8_t head[kHeadLength], const dsdpv1_config* config) {
   const uint8_t values[kHeadLength] = {
       (uint8_t)(kHeadLength - 1 + config->cfg_length), /* B020 counts what follows it */
       config->address,
@@ -91,10 +91,11 @@ static void build_head(uint8_t head[kHeadLength], const dsdpv1_config *config) {
 }
 
 /*
- * Inside a hold. Flags of an earlier operation are dropped on both sides: their data belong to the old configuration, and a B00A.0
- * left standing would pass for the success of this initialisation.
+ * Inside a hold. Flags of an earlier operation are dropped on both sides: their data belong to the old configuration,
+ * and a B00A.0 left standing would pass for the success of this initialisation.
  */
-static void write_init(dsdpv1_device *device, const dsdpv1_config *config, const uint8_t head[kHeadLength], uint16_t crc) {
+static void write_init(dsdpv1_device* device, const dsdpv1_config* config, const uint8_t head[kHeadLength],
+                       uint16_t crc) {
   dsdpv1_put(device, DSDPV1_REG_DPV1_ENABLE, config->dpv1 ? DSDPV1_REG_DPV1_ENABLE_ON : 0u);
   dsdpv1_put_block(device, DSDPV1_REG_INIT, head, kHeadLength);
   dsdpv1_put_block(device, DSDPV1_REG_INIT_CFG, config->cfg, config->cfg_length);
@@ -109,7 +110,7 @@ static void write_init(dsdpv1_device *device, const dsdpv1_config *config, const
   dsdpv1_put(device, DSDPV1_REG_USER_COMMAND_1, DSDPV1_REG_USER_COMMAND_1_INIT);
 }
 
-static dsdpv1_error hand_over(dsdpv1_device *device, const dsdpv1_config *config) {
+static dsdpv1_error hand_over(dsdpv1_device* device, const dsdpv1_config* config) {
   uint8_t head[kHeadLength];
   build_head(head, config);
   const uint16_t crc =
@@ -127,7 +128,7 @@ static dsdpv1_error hand_over(dsdpv1_device *device, const dsdpv1_config *config
 }
 
 /* Inside a hold: why B00A.0 is or is not set. The CRC is looked at first (D11). */
-static dsdpv1_error read_answer(const dsdpv1_device *device) {
+static dsdpv1_error read_answer(const dsdpv1_device* device) {
   if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_1) & DSDPV1_REG_CHIP_STATUS_1_INITIALISED) != 0u) {
     dsdpv1_put(device, DSDPV1_REG_CHIP_STATUS_1, 0);
     return DSDPV1_OK;
@@ -141,7 +142,7 @@ static dsdpv1_error read_answer(const dsdpv1_device *device) {
   return DSDPV1_ERR_INIT_REFUSED;
 }
 
-static void remember(dsdpv1_device *device, const dsdpv1_config *config) {
+static void remember(dsdpv1_device* device, const dsdpv1_config* config) {
   device->max_input = config->max_input;
   device->max_diag = config->max_diag;
   device->prm_mode = config->prm_mode;
@@ -149,7 +150,7 @@ static void remember(dsdpv1_device *device, const dsdpv1_config *config) {
   device->initialised = true;
 }
 
-dsdpv1_error dsdpv1_initialise(dsdpv1_device *device, const dsdpv1_config *config) {
+dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* config) {
   if (device == NULL || config == NULL) {
     return DSDPV1_ERR_ARGUMENT;
   }

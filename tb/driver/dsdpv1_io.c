@@ -1,19 +1,19 @@
 /* Cyclic data and diagnosis. */
 #include "dsdpv1_internal.h"
 
-static const dsdpv1_area kOutputs = {
-    DSDPV1_REG_OUTPUT,        1, DSDPV1_REG_OUTPUT_CRC, DSDPV1_REG_USER_STATUS_2_OUTPUT_CRC,
-    DSDPV1_ERR_OUTPUT_LENGTH, DSDPV1_ERR_OUTPUT_CRC};
+static const dsdpv1_area kOutputs = {DSDPV1_REG_OUTPUT,        1,
+                                     DSDPV1_REG_OUTPUT_CRC,    DSDPV1_REG_USER_STATUS_2_OUTPUT_CRC,
+                                     DSDPV1_ERR_OUTPUT_LENGTH, DSDPV1_ERR_OUTPUT_CRC};
 
 typedef struct input_block {
-  const uint8_t *bytes;
+  const uint8_t* bytes;
   uint8_t length;
   uint16_t crc;
 } input_block;
 
 /* Inside a hold. Sets `written`; returns the chip's opinion of the previous inputs (B00B.2). */
-static dsdpv1_error give_inputs(const dsdpv1_device *device, dsdpv1_input_policy policy, const input_block *inputs,
-                                bool *written) {
+static dsdpv1_error give_inputs(const dsdpv1_device* device, dsdpv1_input_policy policy, const input_block* inputs,
+                                bool* written) {
   const uint8_t command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1);
   const uint8_t status = dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_2);
   if (policy == DSDPV1_INPUT_NEWEST || (command & DSDPV1_REG_USER_COMMAND_1_INPUT) == 0u) {
@@ -27,7 +27,7 @@ static dsdpv1_error give_inputs(const dsdpv1_device *device, dsdpv1_input_policy
 }
 
 /* Inside a hold. True when there were new outputs. */
-static bool take_outputs(const dsdpv1_device *device, dsdpv1_exchange_result *result, dsdpv1_copy *copy) {
+static bool take_outputs(const dsdpv1_device* device, dsdpv1_exchange_result* result, dsdpv1_copy* copy) {
   const uint8_t command = dsdpv1_get(device, DSDPV1_REG_CHIP_COMMAND_1);
   result->intr0_missed = (command & (DSDPV1_REG_CHIP_COMMAND_1_PRM | DSDPV1_REG_CHIP_COMMAND_1_CFG)) != 0u;
   if (copy->data == NULL || (command & DSDPV1_REG_CHIP_COMMAND_1_OUTPUT) == 0u) {
@@ -38,14 +38,14 @@ static bool take_outputs(const dsdpv1_device *device, dsdpv1_exchange_result *re
   return true;
 }
 
-static dsdpv1_copy output_copy(const dsdpv1_exchange_result *result) {
+static dsdpv1_copy output_copy(const dsdpv1_exchange_result* result) {
   const dsdpv1_copy copy = {
       {0}, result->outputs, result->capacity < DSDPV1_MAX_IO ? result->capacity : (uint8_t)DSDPV1_MAX_IO, 0};
   return copy;
 }
 
-static dsdpv1_error check_exchange(const dsdpv1_device *device, const uint8_t *inputs, uint8_t input_length,
-                                   const dsdpv1_exchange_result *result) {
+static dsdpv1_error check_exchange(const dsdpv1_device* device, const uint8_t* inputs, uint8_t input_length,
+                                   const dsdpv1_exchange_result* result) {
   if (device == NULL || result == NULL) {
     return DSDPV1_ERR_ARGUMENT;
   }
@@ -55,8 +55,8 @@ static dsdpv1_error check_exchange(const dsdpv1_device *device, const uint8_t *i
   return inputs != NULL && input_length > device->max_input ? DSDPV1_ERR_INPUT_LENGTH : DSDPV1_OK;
 }
 
-dsdpv1_error dsdpv1_exchange(dsdpv1_device *device, dsdpv1_input_policy policy, const uint8_t *inputs,
-                             uint8_t input_length, dsdpv1_exchange_result *result) {
+dsdpv1_error dsdpv1_exchange(dsdpv1_device* device, dsdpv1_input_policy policy, const uint8_t* inputs,
+                             uint8_t input_length, dsdpv1_exchange_result* result) {
   dsdpv1_error error = check_exchange(device, inputs, input_length, result);
   if (error != DSDPV1_OK) {
     return error;
@@ -86,14 +86,14 @@ dsdpv1_error dsdpv1_exchange(dsdpv1_device *device, dsdpv1_input_policy policy, 
   return error != DSDPV1_OK ? error : input_error;
 }
 
-/* ------------------------------------------------------------------------------------------------------- diagnosis */
+/* -------------------------------------------------------------------------------------------------------- diagnosis */
 
 static bool type_is_known(dsdpv1_diag_type type) { /* D9 */
   return type == DSDPV1_DIAG_EXTENDED || type == DSDPV1_DIAG_EXTERNAL || type == DSDPV1_DIAG_EXTERNAL_GONE ||
          type == DSDPV1_DIAG_STATIC || type == DSDPV1_DIAG_STATIC_GONE;
 }
 
-static dsdpv1_error check_diagnosis(const dsdpv1_device *device, dsdpv1_diag_type type, const uint8_t *data,
+static dsdpv1_error check_diagnosis(const dsdpv1_device* device, dsdpv1_diag_type type, const uint8_t* data,
                                     uint8_t length) {
   if (device == NULL || (data == NULL && length != 0u)) {
     return DSDPV1_ERR_ARGUMENT;
@@ -107,7 +107,7 @@ static dsdpv1_error check_diagnosis(const dsdpv1_device *device, dsdpv1_diag_typ
   return length > device->max_diag ? DSDPV1_ERR_DIAG_LENGTH : DSDPV1_OK;
 }
 
-static dsdpv1_error write_diagnosis(dsdpv1_device *device, const uint8_t head[2], const uint8_t *data, uint16_t crc) {
+static dsdpv1_error write_diagnosis(dsdpv1_device* device, const uint8_t head[2], const uint8_t* data, uint16_t crc) {
   const dsdpv1_error error = dsdpv1_hold(device);
   if (error != DSDPV1_OK) {
     return error;
@@ -121,9 +121,8 @@ static dsdpv1_error write_diagnosis(dsdpv1_device *device, const uint8_t head[2]
   return DSDPV1_OK;
 }
 
-static dsdpv1_error diagnosis_answer(dsdpv1_device *device) {
-  const dsdpv1_error error =
-      dsdpv1_hold_when_taken(device, DSDPV1_REG_USER_COMMAND_1_DIAG, DSDPV1_ERR_DIAG_TIMEOUT);
+static dsdpv1_error diagnosis_answer(dsdpv1_device* device) {
+  const dsdpv1_error error = dsdpv1_hold_when_taken(device, DSDPV1_REG_USER_COMMAND_1_DIAG, DSDPV1_ERR_DIAG_TIMEOUT);
   if (error != DSDPV1_OK) {
     return error;
   }
@@ -132,7 +131,7 @@ static dsdpv1_error diagnosis_answer(dsdpv1_device *device) {
   return (status & DSDPV1_REG_CHIP_STATUS_2_DIAG_CRC) != 0u ? DSDPV1_ERR_DIAG_CRC : DSDPV1_OK;
 }
 
-dsdpv1_error dsdpv1_set_diagnosis(dsdpv1_device *device, dsdpv1_diag_type type, const uint8_t *data, uint8_t length) {
+dsdpv1_error dsdpv1_set_diagnosis(dsdpv1_device* device, dsdpv1_diag_type type, const uint8_t* data, uint8_t length) {
   dsdpv1_error error = check_diagnosis(device, type, data, length);
   if (error != DSDPV1_OK) {
     return error;

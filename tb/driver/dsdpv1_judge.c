@@ -6,7 +6,8 @@ static const dsdpv1_area kPrm = {
 static const dsdpv1_area kCfg = {
     DSDPV1_REG_CFG, 3, DSDPV1_REG_CFG_CRC, DSDPV1_REG_USER_STATUS_2_CFG_CRC, DSDPV1_ERR_CFG_LENGTH, DSDPV1_ERR_CFG_CRC};
 
-/* A master that changes its mind faster than this many rounds is left to the next call, so that a call stays bounded. */
+/* A master that changes its mind faster than this many rounds is left to the next call, so that a call stays bounded.
+ */
 enum { kRounds = 3 };
 
 /* Verdicts reached in one round, as DSDPV1_VERDICT_ bits. */
@@ -21,25 +22,25 @@ static unsigned fresh_blocks(uint8_t command) {
   return fresh;
 }
 
-static unsigned user_judged(const dsdpv1_device *device) {
+static unsigned user_judged(const dsdpv1_device* device) {
   unsigned kinds = 0;
   kinds |= device->prm_mode == DSDPV1_REG_PRM_MODE_USER ? DSDPV1_VERDICT_PRM : 0u;
   kinds |= device->cfg_mode == DSDPV1_REG_CFG_MODE_USER ? DSDPV1_VERDICT_CFG : 0u;
   return kinds;
 }
 
-static dsdpv1_copy prm_copy(dsdpv1_device *device) {
+static dsdpv1_copy prm_copy(dsdpv1_device* device) {
   const dsdpv1_copy copy = {{0}, device->prm, (uint8_t)DSDPV1_MAX_PRM, 0};
   return copy;
 }
 
-static dsdpv1_copy cfg_copy(dsdpv1_device *device) {
+static dsdpv1_copy cfg_copy(dsdpv1_device* device) {
   const dsdpv1_copy copy = {{0}, device->cfg, (uint8_t)DSDPV1_MAX_CFG, 0};
   return copy;
 }
 
 /* One hold: copies what is new and clears its flags, so that a flag set afterwards means a newer block. */
-static dsdpv1_error take_blocks(dsdpv1_device *device, unsigned *fresh, dsdpv1_copy *prm, dsdpv1_copy *cfg) {
+static dsdpv1_error take_blocks(dsdpv1_device* device, unsigned* fresh, dsdpv1_copy* prm, dsdpv1_copy* cfg) {
   const dsdpv1_error error = dsdpv1_hold(device);
   if (error != DSDPV1_OK) {
     return error;
@@ -61,7 +62,7 @@ static dsdpv1_error take_blocks(dsdpv1_device *device, unsigned *fresh, dsdpv1_c
   return DSDPV1_OK;
 }
 
-static void note(dsdpv1_device *device, verdicts *reached, unsigned kind, dsdpv1_verdict verdict) {
+static void note(dsdpv1_device* device, verdicts* reached, unsigned kind, dsdpv1_verdict verdict) {
   if ((user_judged(device) & kind) == 0u) {
     return; /* modes 0 and 1: the chip has judged */
   }
@@ -73,20 +74,19 @@ static void note(dsdpv1_device *device, verdicts *reached, unsigned kind, dsdpv1
   reached->wrong |= verdict == DSDPV1_REFUSE ? kind : 0u;
 }
 
-static dsdpv1_error judge_prm(dsdpv1_device *device, dsdpv1_copy *copy, verdicts *reached) {
+static dsdpv1_error judge_prm(dsdpv1_device* device, dsdpv1_copy* copy, verdicts* reached) {
   const dsdpv1_error error = dsdpv1_confirm(device, &kPrm, copy);
   if (error != DSDPV1_OK) {
     return error;
   }
   device->prm_length = dsdpv1_copy_length(&kPrm, copy);
-  const dsdpv1_verdict verdict = device->judge.prm == NULL
-                                     ? DSDPV1_ACCEPT
-                                     : device->judge.prm(device->judge.ctx, device->prm, device->prm_length);
+  const dsdpv1_verdict verdict =
+      device->judge.prm == NULL ? DSDPV1_ACCEPT : device->judge.prm(device->judge.ctx, device->prm, device->prm_length);
   note(device, reached, DSDPV1_VERDICT_PRM, verdict);
   return DSDPV1_OK;
 }
 
-static dsdpv1_error judge_cfg(dsdpv1_device *device, dsdpv1_copy *copy, verdicts *reached) {
+static dsdpv1_error judge_cfg(dsdpv1_device* device, dsdpv1_copy* copy, verdicts* reached) {
   const dsdpv1_error error = dsdpv1_confirm(device, &kCfg, copy);
   if (error != DSDPV1_OK) {
     return error;
@@ -94,8 +94,7 @@ static dsdpv1_error judge_cfg(dsdpv1_device *device, dsdpv1_copy *copy, verdicts
   device->cfg_output_length = copy->header[0];
   device->cfg_input_length = copy->header[1];
   device->cfg_length = dsdpv1_copy_length(&kCfg, copy);
-  const dsdpv1_cfg_block block = {device->cfg, device->cfg_length, device->cfg_input_length,
-                                  device->cfg_output_length};
+  const dsdpv1_cfg_block block = {device->cfg, device->cfg_length, device->cfg_input_length, device->cfg_output_length};
   const dsdpv1_verdict verdict =
       device->judge.cfg == NULL ? DSDPV1_ACCEPT : device->judge.cfg(device->judge.ctx, &block);
   note(device, reached, DSDPV1_VERDICT_CFG, verdict);
@@ -103,7 +102,7 @@ static dsdpv1_error judge_cfg(dsdpv1_device *device, dsdpv1_copy *copy, verdicts
 }
 
 /* Inside a hold: B00C and the flags of B010 for the verdicts (D4). */
-static void write_verdicts(const dsdpv1_device *device, const verdicts *reached) {
+static void write_verdicts(const dsdpv1_device* device, const verdicts* reached) {
   unsigned status = 0;
   status |= (reached->wrong & DSDPV1_VERDICT_PRM) != 0u ? DSDPV1_REG_USER_STATUS_1_PRM_WRONG : 0u;
   status |= (reached->wrong & DSDPV1_VERDICT_CFG) != 0u ? DSDPV1_REG_USER_STATUS_1_CFG_WRONG : 0u;
@@ -115,7 +114,7 @@ static void write_verdicts(const dsdpv1_device *device, const verdicts *reached)
 }
 
 /* One hold. Verdicts on blocks that the master has replaced meanwhile are kept back (H7); `fresh` tells which. */
-static dsdpv1_error hand_over(dsdpv1_device *device, const verdicts *reached, unsigned *fresh) {
+static dsdpv1_error hand_over(dsdpv1_device* device, const verdicts* reached, unsigned* fresh) {
   const dsdpv1_error error = dsdpv1_hold(device);
   if (error != DSDPV1_OK) {
     return error;
@@ -131,7 +130,7 @@ static dsdpv1_error hand_over(dsdpv1_device *device, const verdicts *reached, un
 }
 
 /* One round: take, judge, answer. `fresh` is not 0 when the master has sent something newer meanwhile. */
-static dsdpv1_error service_round(dsdpv1_device *device, unsigned *fresh) {
+static dsdpv1_error service_round(dsdpv1_device* device, unsigned* fresh) {
   dsdpv1_copy prm = prm_copy(device);
   dsdpv1_copy cfg = cfg_copy(device);
   verdicts reached = {0, 0};
@@ -158,11 +157,11 @@ static dsdpv1_error service_round(dsdpv1_device *device, unsigned *fresh) {
   return prm_error != DSDPV1_OK ? prm_error : cfg_error;
 }
 
-void dsdpv1_on_intr0(dsdpv1_device *device) { device->intr0_pending = true; }
+void dsdpv1_on_intr0(dsdpv1_device* device) { device->intr0_pending = true; }
 
-bool dsdpv1_intr0_pending(const dsdpv1_device *device) { return device->intr0_pending; }
+bool dsdpv1_intr0_pending(const dsdpv1_device* device) { return device->intr0_pending; }
 
-dsdpv1_error dsdpv1_service(dsdpv1_device *device) {
+dsdpv1_error dsdpv1_service(dsdpv1_device* device) {
   if (device == NULL) {
     return DSDPV1_ERR_ARGUMENT;
   }
@@ -187,7 +186,7 @@ dsdpv1_error dsdpv1_service(dsdpv1_device *device) {
   return error;
 }
 
-dsdpv1_error dsdpv1_send_verdict(dsdpv1_device *device, uint8_t which, uint8_t wrong) {
+dsdpv1_error dsdpv1_send_verdict(dsdpv1_device* device, uint8_t which, uint8_t wrong) {
   if (device == NULL || which == 0u || (which & ~(DSDPV1_VERDICT_PRM | DSDPV1_VERDICT_CFG)) != 0u ||
       (wrong & ~(unsigned)which) != 0u) {
     return DSDPV1_ERR_ARGUMENT;

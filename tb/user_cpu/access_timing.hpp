@@ -1,6 +1,7 @@
 #pragma once
-// When a CPU moves its bus pins during one access to the DPRAM. Every value is in ticks of 1/12 ns and may be negative where that
-// makes sense, so that each limit of table 15 (rulings P5, P11) can be kept exactly, kept with margin, or violated.
+// When a CPU moves its bus pins during one access to the DPRAM. Every value is in ticks of 1/12 ns and may be negative
+// where that makes sense, so that each limit of table 15 (rulings P5, P11) can be kept exactly, kept with margin, or
+// violated.
 #include "bus/time.hpp"
 
 namespace user_cpu {
@@ -15,8 +16,9 @@ using bus::Tick;
 ///   D in   ---------------|-------     read: sampled rd_sample after RD fell
 ///   D out  ---------<==========>--     write: data_setup before WR rises, data_hold after it
 ///
-/// The defaults are those of an STM32F103 at 72 MHz (HCLK 13.9 ns) with FSMC mode 1, ADDSET = 1, DATAST = 5: 2 HCLK of address
-/// phase; reads with RD low for 6 HCLK, sampled 1 HCLK before its rise; writes with WR low for 5 HCLK and 1 HCLK of hold.
+/// The defaults are those of an STM32F103 at 72 MHz (HCLK 13.9 ns) with FSMC mode 1, ADDSET = 1, DATAST = 5: 2 HCLK of
+/// address phase; reads with RD low for 6 HCLK, sampled 1 HCLK before its rise; writes with WR low for 5 HCLK and 1
+/// HCLK of hold.
 struct AccessTiming {
   Tick address_setup = 333;  ///< Tc: >= 0; negative: A arrives after the strobe fell
   Tick cs_lead = 333;        ///< CSR falls before the strobe; >= 0

@@ -19,7 +19,8 @@ namespace user_cpu {
 
 namespace {
 
-void start_switch([[maybe_unused]] void** save, [[maybe_unused]] const void* stack, [[maybe_unused]] std::size_t bytes) {
+void start_switch([[maybe_unused]] void** save, [[maybe_unused]] const void* stack,
+                  [[maybe_unused]] std::size_t bytes) {
 #ifdef USER_CPU_ASAN
   __sanitizer_start_switch_fiber(save, stack, bytes);
 #endif

@@ -1,6 +1,6 @@
 #pragma once
-// A program on a stack of its own, so that code written as one thread of control (the driver, its application) can be suspended
-// inside of a call and go on later. POSIX ucontext; announces its stacks to AddressSanitizer.
+// A program on a stack of its own, so that code written as one thread of control (the driver, its application) can be
+// suspended inside of a call and go on later. POSIX ucontext; announces its stacks to AddressSanitizer.
 #include <ucontext.h>
 
 #include <cstddef>
@@ -19,8 +19,8 @@ class Fiber {
   Fiber(const Fiber&) = delete;
   Fiber& operator=(const Fiber&) = delete;
 
-  /// Runs the body until it suspends or ends. An exception that leaves the body is thrown here. Not from inside the body,
-  /// and not after its end.
+  /// Runs the body until it suspends or ends. An exception that leaves the body is thrown here. Not from inside the
+  /// body, and not after its end.
   void resume();
   /// From inside the body: returns to the caller of `resume` until it is called again.
   void suspend();

@@ -41,9 +41,7 @@ void NativeCpu::take_request() {
     case Op::kNone:
       ready_at_ = bus::kNever;  // ended
       break;
-    case Op::kAccess:
-      begin_access();
-      break;
+    case Op::kAccess: begin_access(); break;
     case Op::kSetRReq:
       bus_.set_r_req(now_, request_.level);
       ready_at_ = now_ + timing_.pin_write;
@@ -60,9 +58,7 @@ void NativeCpu::take_request() {
       sampled_ = bus_.l_sta(now_);
       ready_at_ = now_ + timing_.pin_sample;
       break;
-    case Op::kWait:
-      ready_at_ = request_.until;
-      break;
+    case Op::kWait: ready_at_ = request_.until; break;
   }
 }
 
@@ -94,12 +90,9 @@ void NativeCpu::wake(Tick at) { wake_at_ = std::min(wake_at_, at); }
 Tick NativeCpu::break_tick() const {
   const Tick interrupt = interrupts_open() ? interrupt_at_ : bus::kNever;
   switch (break_) {
-    case Break::kWake:
-      return std::min(interrupt, wake_at_);
-    case Break::kIntr0:
-      return std::min(interrupt, intr0_at_);
-    case Break::kInterrupt:
-      break;
+    case Break::kWake: return std::min(interrupt, wake_at_);
+    case Break::kIntr0: return std::min(interrupt, intr0_at_);
+    case Break::kInterrupt: break;
   }
   return interrupt;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// A user CPU made of a C++ program: it runs on a stack of its own and is suspended during every access and wait, so that blocking code
-// like the driver takes simulated time.
+// A user CPU made of a C++ program: it runs on a stack of its own and is suspended during every access and wait, so
+// that blocking code like the driver takes simulated time.
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -29,7 +29,8 @@ class NativeCpu : public bus::Agent, private Cpu {
   Tick next() const override;
   void run(Tick now) override;
 
-  /// INTR0 changed at `at`; for the bench that watches the pin. Callable while the chip runs ahead of this agent's turn.
+  /// INTR0 changed at `at`; for the bench that watches the pin. Callable while the chip runs ahead of this agent's
+  /// turn.
   void intr0_changed(Tick at, bool level);
   /// Ends a `wait_for_wake`, the present or the next one, not before `at`.
   void wake(Tick at);

@@ -8,8 +8,8 @@
 
 namespace user_cpu {
 
-/// Drives `chip`, which must outlive it. Between accesses CSR, RD and WR are high, D is released and A is 0x7FF, so that an address
-/// taken away too early is never masked by a bus that happens to hold it.
+/// Drives `chip`, which must outlive it. Between accesses CSR, RD and WR are high, D is released and A is 0x7FF, so
+/// that an address taken away too early is never masked by a bus that happens to hold it.
 class PinHostBus : public HostBus {
  public:
   explicit PinHostBus(dsdpv1::Chip& chip) : chip_(chip) {}

@@ -169,12 +169,9 @@ dsdpv1_verdict UserProgram::judge(Judgement judgement) {
   ++counters_.judgements;
   cpu_->wait(options_.judge_delay);
   switch (judgement) {
-    case Judgement::kAccept:
-      return DSDPV1_ACCEPT;
-    case Judgement::kRefuse:
-      return DSDPV1_REFUSE;
-    case Judgement::kNever:
-      break;
+    case Judgement::kAccept: return DSDPV1_ACCEPT;
+    case Judgement::kRefuse: return DSDPV1_REFUSE;
+    case Judgement::kNever: break;
   }
   return DSDPV1_LATER;
 }
@@ -254,12 +251,9 @@ void UserProgram::carry_out(const command::EarlyRSta& early) {
 void UserProgram::carry_out(const command::WrongCrc& wrong) {
   constexpr std::uint8_t kLowestBit = 0x01;
   switch (wrong.area) {
-    case command::Area::kInit:
-      return port_->corrupt_writes(DSDPV1_REG_INIT_CRC, kLowestBit, wrong.times);
-    case command::Area::kInputs:
-      return port_->corrupt_writes(DSDPV1_REG_INPUT_CRC, kLowestBit, wrong.times);
-    case command::Area::kDiagnosis:
-      return port_->corrupt_writes(DSDPV1_REG_DIAG_CRC, kLowestBit, wrong.times);
+    case command::Area::kInit: return port_->corrupt_writes(DSDPV1_REG_INIT_CRC, kLowestBit, wrong.times);
+    case command::Area::kInputs: return port_->corrupt_writes(DSDPV1_REG_INPUT_CRC, kLowestBit, wrong.times);
+    case command::Area::kDiagnosis: return port_->corrupt_writes(DSDPV1_REG_DIAG_CRC, kLowestBit, wrong.times);
   }
 }
 

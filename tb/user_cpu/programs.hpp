@@ -1,6 +1,7 @@
 #pragma once
-// The standard user program: the firmware of a simple device, made of the driver. It initialises the chip, then exchanges
-// inputs and outputs at a fixed period, judges what the master sends, and carries out what the bench asks of it.
+// The standard user program: the firmware of a simple device, made of the driver. It initialises the chip, then
+// exchanges inputs and outputs at a fixed period, judges what the master sends, and carries out what the bench asks of
+// it.
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -29,17 +30,17 @@ enum class Judgement : std::uint8_t { kAccept, kRefuse, kNever };
 
 struct ProgramOptions {
   StationConfig station;
-  Tick start_delay = 0;                          ///< from the CPU's start to the first access
-  Tick period = 50 * bus::kTicksPerUs;           ///< from the start of one exchange to the next, > 0
+  Tick start_delay = 0;                 ///< from the CPU's start to the first access
+  Tick period = 50 * bus::kTicksPerUs;  ///< from the start of one exchange to the next, > 0
   InputSource inputs = InputSource::kLoopBack;
   std::vector<std::uint8_t> constant;
   dsdpv1_input_policy policy = DSDPV1_INPUT_NEWEST;
-  Judgement prm = Judgement::kAccept;            ///< judging mode 2 only
+  Judgement prm = Judgement::kAccept;  ///< judging mode 2 only
   Judgement cfg = Judgement::kAccept;
-  Tick judge_delay = 0;                          ///< time that a judgement takes
-  bool judge_in_handler = true;                  ///< false: the handler notes INTR0, the main loop judges
-  Tick retry_delay = bus::kTicksPerMs;           ///< pause before a failed initialisation is repeated
-  int init_attempts = 0;                         ///< 0: until it succeeds; else the program ends after so many
+  Tick judge_delay = 0;                 ///< time that a judgement takes
+  bool judge_in_handler = true;         ///< false: the handler notes INTR0, the main loop judges
+  Tick retry_delay = bus::kTicksPerMs;  ///< pause before a failed initialisation is repeated
+  int init_attempts = 0;                ///< 0: until it succeeds; else the program ends after so many
 };
 
 /// What the bench may ask for while the program runs.
@@ -82,9 +83,9 @@ struct SendVerdict {
 };
 }  // namespace command
 
-using Command = std::variant<command::SetInputs, command::SetDiagnosis, command::Reinitialise, command::Hold,
-                             command::Stop, command::Resume, command::EarlyRSta, command::WrongCrc,
-                             command::WrongLength, command::SendVerdict>;
+using Command =
+    std::variant<command::SetInputs, command::SetDiagnosis, command::Reinitialise, command::Hold, command::Stop,
+                 command::Resume, command::EarlyRSta, command::WrongCrc, command::WrongLength, command::SendVerdict>;
 
 /// A call of the driver that did not return DSDPV1_OK.
 struct DriverError {
@@ -94,11 +95,11 @@ struct DriverError {
 };
 
 struct ProgramCounters {
-  std::uint64_t exchanges = 0;          ///< calls of dsdpv1_exchange
-  std::uint64_t outputs_received = 0;   ///< blocks of outputs with the right CRC
-  std::uint64_t inputs_written = 0;     ///< blocks of inputs announced to the chip
-  std::uint64_t initialisations = 0;    ///< successful ones
-  std::uint64_t judgements = 0;         ///< blocks of parameters and configuration judged
+  std::uint64_t exchanges = 0;         ///< calls of dsdpv1_exchange
+  std::uint64_t outputs_received = 0;  ///< blocks of outputs with the right CRC
+  std::uint64_t inputs_written = 0;    ///< blocks of inputs announced to the chip
+  std::uint64_t initialisations = 0;   ///< successful ones
+  std::uint64_t judgements = 0;        ///< blocks of parameters and configuration judged
   std::uint64_t driver_errors = 0;
 };
 
@@ -111,8 +112,8 @@ class UserProgram {
 
   /// For NativeCpu: `NativeCpu cpu(bus, timing, program.entry());`
   NativeCpu::Program entry();
-  /// Carried out in order, each as soon as the program has finished what it is at; call NativeCpu::wake afterwards, or it waits for
-  /// the next exchange. Allowed before the program runs.
+  /// Carried out in order, each as soon as the program has finished what it is at; call NativeCpu::wake afterwards, or
+  /// it waits for the next exchange. Allowed before the program runs.
   void post(Command command) { commands_.push_back(std::move(command)); }
 
   /// Told of every driver error, besides the log.

@@ -7,7 +7,8 @@
 
 namespace user_cpu {
 
-/// The members mean what those of dsdpv1_config mean, with the same limits. Defaults: a station with one byte in, one byte out.
+/// The members mean what those of dsdpv1_config mean, with the same limits. Defaults: a station with one byte in, one
+/// byte out.
 struct StationConfig {
   std::uint8_t address = 3;
   std::uint16_t ident = 0x0CC9;

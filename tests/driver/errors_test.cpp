@@ -36,9 +36,7 @@ TEST(Errors, EachHasItsOwnValueAndText) {
   }
 }
 
-TEST(Errors, UnknownValueHasAText) {
-  EXPECT_STREQ(dsdpv1_error_text(static_cast<dsdpv1_error>(9)), "unknown error");
-}
+TEST(Errors, UnknownValueHasAText) { EXPECT_STREQ(dsdpv1_error_text(static_cast<dsdpv1_error>(9)), "unknown error"); }
 
 TEST(Errors, GuideHasTheSameTable) {
   std::ifstream file(GUIDE);
@@ -47,7 +45,8 @@ TEST(Errors, GuideHasTheSameTable) {
   guide << file.rdbuf();
   std::size_t rows_in_guide = 0;
   for (std::string line; std::getline(guide, line);) {
-    rows_in_guide += line.find("| `DSDPV1_ERR_") != std::string::npos || line.find("| `DSDPV1_OK`") != std::string::npos;
+    rows_in_guide +=
+        line.find("| `DSDPV1_ERR_") != std::string::npos || line.find("| `DSDPV1_OK`") != std::string::npos;
   }
   EXPECT_EQ(rows_in_guide, table().size());
   for (const Row& row : table()) {

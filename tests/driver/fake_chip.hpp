@@ -1,6 +1,7 @@
 #pragma once
-// The chip's side of the DPRAM as the driver sees it, in memory and without time: it makes one access whenever the user releases.
-// It watches the user's discipline: no access without ownership, B006 counted once a hold, R_STA only after two free samples.
+// The chip's side of the DPRAM as the driver sees it, in memory and without time: it makes one access whenever the user
+// releases. It watches the user's discipline: no access without ownership, B006 counted once a hold, R_STA only after
+// two free samples.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -12,11 +13,11 @@
 
 struct FakeChip {
   // ------------------------------------------------------------------------------------------------------ behaviour
-  bool present = true;          ///< makes its accesses
-  bool takes_commands = true;   ///< looks at B010 in them
+  bool present = true;         ///< makes its accesses
+  bool takes_commands = true;  ///< looks at B010 in them
   bool refuses_silently = false;
-  int not_ready_accesses = 0;   ///< accesses until B004 becomes 0xC5
-  int busy_samples = 0;         ///< L_REQ samples that still find the chip at work
+  int not_ready_accesses = 0;              ///< accesses until B004 becomes 0xC5
+  int busy_samples = 0;                    ///< L_REQ samples that still find the chip at work
   std::map<std::uint16_t, int> bad_reads;  ///< address -> how many reads of it return a wrong value
   std::function<void()> before_access;     ///< called at each release
   std::function<void(bool)> on_r_req;

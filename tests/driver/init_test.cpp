@@ -94,19 +94,18 @@ TEST_P(InitLimit, IsCheckedBeforeAnythingIsWritten) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, InitLimit,
-    testing::Values(
-        Limit{"Address", [](auto& c) { c.address = 127; }, DSDPV1_ERR_CONFIG_ADDRESS},
-        Limit{"Input", [](auto& c) { c.max_input = 245; }, DSDPV1_ERR_CONFIG_INPUT},
-        Limit{"Output", [](auto& c) { c.max_output = 245; }, DSDPV1_ERR_CONFIG_OUTPUT},
-        Limit{"Diag", [](auto& c) { c.max_diag = 239; }, DSDPV1_ERR_CONFIG_DIAG},
-        Limit{"Prm", [](auto& c) { c.max_prm = 238; }, DSDPV1_ERR_CONFIG_PRM},
-        Limit{"Cfg", [](auto& c) { c.max_cfg = 201; }, DSDPV1_ERR_CONFIG_CFG},
-        Limit{"CfgZero", [](auto& c) { c.max_cfg = 0; }, DSDPV1_ERR_CONFIG_CFG},
-        Limit{"CfgLength", [](auto& c) { c.max_cfg = 1; }, DSDPV1_ERR_CONFIG_CFG_LENGTH},
-        Limit{"CfgEmpty", [](auto& c) { c.cfg_length = 0; }, DSDPV1_ERR_CONFIG_CFG_LENGTH},
-        Limit{"CfgMissing", [](auto& c) { c.cfg = nullptr; }, DSDPV1_ERR_CONFIG_CFG_LENGTH},
-        Limit{"PrmMode", [](auto& c) { c.prm_mode = 3; }, DSDPV1_ERR_CONFIG_PRM_MODE},
-        Limit{"CfgMode", [](auto& c) { c.cfg_mode = 3; }, DSDPV1_ERR_CONFIG_CFG_MODE}),
+    testing::Values(Limit{"Address", [](auto& c) { c.address = 127; }, DSDPV1_ERR_CONFIG_ADDRESS},
+                    Limit{"Input", [](auto& c) { c.max_input = 245; }, DSDPV1_ERR_CONFIG_INPUT},
+                    Limit{"Output", [](auto& c) { c.max_output = 245; }, DSDPV1_ERR_CONFIG_OUTPUT},
+                    Limit{"Diag", [](auto& c) { c.max_diag = 239; }, DSDPV1_ERR_CONFIG_DIAG},
+                    Limit{"Prm", [](auto& c) { c.max_prm = 238; }, DSDPV1_ERR_CONFIG_PRM},
+                    Limit{"Cfg", [](auto& c) { c.max_cfg = 201; }, DSDPV1_ERR_CONFIG_CFG},
+                    Limit{"CfgZero", [](auto& c) { c.max_cfg = 0; }, DSDPV1_ERR_CONFIG_CFG},
+                    Limit{"CfgLength", [](auto& c) { c.max_cfg = 1; }, DSDPV1_ERR_CONFIG_CFG_LENGTH},
+                    Limit{"CfgEmpty", [](auto& c) { c.cfg_length = 0; }, DSDPV1_ERR_CONFIG_CFG_LENGTH},
+                    Limit{"CfgMissing", [](auto& c) { c.cfg = nullptr; }, DSDPV1_ERR_CONFIG_CFG_LENGTH},
+                    Limit{"PrmMode", [](auto& c) { c.prm_mode = 3; }, DSDPV1_ERR_CONFIG_PRM_MODE},
+                    Limit{"CfgMode", [](auto& c) { c.cfg_mode = 3; }, DSDPV1_ERR_CONFIG_CFG_MODE}),
     [](const auto& limit) { return std::string(limit.param.name); });
 
 TEST_F(Init, LimitsThemselvesAreAccepted) {
@@ -134,7 +133,9 @@ TEST_F(Init, ChipThatDoesNotTakeIt) {
 
 TEST_F(Init, RefusedForItsCrc) {
   bool once = true;
-  chip.before_access = [&] { chip.at(0x0F8) = static_cast<std::uint8_t>(chip.at(0x0F8) ^ (std::exchange(once, false) ? 1 : 0)); };
+  chip.before_access = [&] {
+    chip.at(0x0F8) = static_cast<std::uint8_t>(chip.at(0x0F8) ^ (std::exchange(once, false) ? 1 : 0));
+  };
   EXPECT_EQ(dsdpv1_initialise(&device, &config), DSDPV1_ERR_INIT_CRC);
   EXPECT_EQ(dsdpv1_initialise(&device, &config), DSDPV1_OK) << "a repetition is possible";
 }

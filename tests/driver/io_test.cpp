@@ -88,7 +88,9 @@ TEST_F(Exchange, TooManyInputsAreRefusedBeforeTheHold) {
 TEST_F(Exchange, RefusalOfEarlierInputsIsReportedOnce) {
   initialise();
   bool once = true;
-  chip.before_access = [&] { chip.at(0x226) = static_cast<std::uint8_t>(chip.at(0x226) ^ (std::exchange(once, false) ? 1 : 0)); };
+  chip.before_access = [&] {
+    chip.at(0x226) = static_cast<std::uint8_t>(chip.at(0x226) ^ (std::exchange(once, false) ? 1 : 0));
+  };
   EXPECT_EQ(exchange({1}), DSDPV1_OK);
   chip.put_outputs({7});
   EXPECT_EQ(exchange({2}), DSDPV1_ERR_INPUT_CRC);

@@ -8,9 +8,7 @@ struct PinChange {
   dsdpv1::Tick at;
   dsdpv1::Pin pin;
   dsdpv1::Level level;
-  bool operator==(const PinChange& other) const {
-    return at == other.at && pin == other.pin && level == other.level;
-  }
+  bool operator==(const PinChange& other) const { return at == other.at && pin == other.pin && level == other.level; }
 };
 
 struct FakePins {

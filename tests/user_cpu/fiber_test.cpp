@@ -108,7 +108,9 @@ TEST(Fiber, AbandonedBodyIsUnwound) {
 
 TEST(Fiber, BodyThatNeverBeganIsDropped) {
   bool ran = false;
-  { Coroutine co([&](Fiber&) { ran = true; }); }
+  {
+    Coroutine co([&](Fiber&) { ran = true; });
+  }
   EXPECT_FALSE(ran);
 }
 

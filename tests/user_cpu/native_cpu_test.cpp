@@ -38,13 +38,15 @@ class NativeCpu : public testing::Test {
 
 TEST_F(NativeCpu, AccessesTakeTheirTime) {
   std::vector<Tick> times;
-  start([&](Cpu& c) {
-    times.push_back(c.now());
-    EXPECT_EQ(c.read(0x012), 0x12);
-    times.push_back(c.now());
-    c.write(0x020, 0x55);
-    times.push_back(c.now());
-  }, 500);
+  start(
+      [&](Cpu& c) {
+        times.push_back(c.now());
+        EXPECT_EQ(c.read(0x012), 0x12);
+        times.push_back(c.now());
+        c.write(0x020, 0x55);
+        times.push_back(c.now());
+      },
+      500);
   timeline.run_until(10'000);
   EXPECT_THAT(times, ElementsAre(500, 1650, 2800));  // 1000 + 100 recovery + 50 overhead each
   EXPECT_THAT(bus.log, ElementsAre("500 read", "1500 edge 2", "1650 write", "2650 edge 2"));

@@ -54,10 +54,9 @@ TEST_F(PinHostBus, ReadHasItsEdgesAtTheirTicks) {
     return Level{0x5A};
   };
   run(false);
-  EXPECT_THAT(fake_pins().changes,
-              ElementsAre(PinChange{1000, Pin::kA, 0x123}, PinChange{1010, Pin::kCsr, 0}, PinChange{1030, Pin::kRd, 0},
-                          PinChange{1530, Pin::kRd, 1}, PinChange{1540, Pin::kCsr, 1},
-                          PinChange{1690, Pin::kA, 0x7FF}));
+  EXPECT_THAT(fake_pins().changes, ElementsAre(PinChange{1000, Pin::kA, 0x123}, PinChange{1010, Pin::kCsr, 0},
+                                               PinChange{1030, Pin::kRd, 0}, PinChange{1530, Pin::kRd, 1},
+                                               PinChange{1540, Pin::kCsr, 1}, PinChange{1690, Pin::kA, 0x7FF}));
   EXPECT_EQ(sampled, 1430);
   EXPECT_EQ(host.read_value(), 0x5A);
   EXPECT_FALSE(host.last_read_was_bad());
@@ -68,9 +67,8 @@ TEST_F(PinHostBus, WriteHasItsEdgesAtTheirTicks) {
   run(true);
   EXPECT_THAT(fake_pins().changes,
               ElementsAre(PinChange{1000, Pin::kA, 0x123}, PinChange{1010, Pin::kCsr, 0}, PinChange{1030, Pin::kWr, 0},
-                          PinChange{1130, Pin::kDIn, 0xA5}, PinChange{1330, Pin::kWr, 1},
-                          PinChange{1340, Pin::kCsr, 1}, PinChange{1480, Pin::kDIn, dsdpv1::kLevelZ},
-                          PinChange{1490, Pin::kA, 0x7FF}));
+                          PinChange{1130, Pin::kDIn, 0xA5}, PinChange{1330, Pin::kWr, 1}, PinChange{1340, Pin::kCsr, 1},
+                          PinChange{1480, Pin::kDIn, dsdpv1::kLevelZ}, PinChange{1490, Pin::kA, 0x7FF}));
   EXPECT_EQ(host.end(), 1560);
 }
 

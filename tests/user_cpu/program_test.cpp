@@ -211,8 +211,8 @@ TEST_F(Program, HoldsTheDpramForAsLongAsAsked) {
   run_for(2 * kMs);
   EXPECT_GT(chip.holds, holds + 10);
   EXPECT_GE(program->port_counters().longest_hold, 3 * kMs);
-  EXPECT_THAT(chip.violations, ElementsAre(testing::HasSubstr("R_STA rose after less"),
-                                           testing::HasSubstr("B006 was counted 0 times")));
+  EXPECT_THAT(chip.violations,
+              ElementsAre(testing::HasSubstr("R_STA rose after less"), testing::HasSubstr("B006 was counted 0 times")));
   chip.violations.clear();
 }
 
