@@ -1,11 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <iostream>
 #include <systemc>
 
 #include "tests/systemc/bench.hpp"
 
 int sc_main(int argc, char* argv[]) {
   testing::InitGoogleTest(&argc, argv);
-  if (!testing::GTEST_FLAG(list_tests)) simulate();
+  try {
+    if (!testing::GTEST_FLAG(list_tests)) simulate();
+  } catch (const sc_core::sc_report& report) {  // SystemC would hand it to a handler that a bench has replaced
+    std::cerr << report.what() << "\n";
+    return 1;
+  }
   return RUN_ALL_TESTS();
 }
