@@ -68,17 +68,22 @@ void Monitor::set_baud(int index) {
 
 Tick Monitor::next() const {
   if (receiver_.receiving()) return receiver_.next();
-  Tick due = kNever;
-  if (active_) due = *last_end_ + bits(kSynBits);
-  if (pending_) due = std::min(due, pending_->end + bits(slot_bits_.value_or(bus::baud(baud_).slot_bits)));
-  return due;
+  return std::min(idle_at(), slot_end());
+}
+
+Tick Monitor::idle_at() const { return active_ ? *last_end_ + bits(kSynBits) : kNever; }
+
+Tick Monitor::slot_end() const {
+  // The slot time ends with the first character of an answer.
+  if (!pending_ || decoder_.begun()) return kNever;
+  return pending_->end + bits(slot_bits_.value_or(bus::baud(baud_).slot_bits));
 }
 
 void Monitor::run(Tick now) {
   receiver_.run(now);
   if (receiver_.receiving()) return;
-  if (active_ && now >= *last_end_ + bits(kSynBits)) idle();
-  if (pending_ && now >= pending_->end + bits(slot_bits_.value_or(bus::baud(baud_).slot_bits))) give_up_waiting(now);
+  if (now >= idle_at()) idle();
+  if (now >= slot_end()) give_up_waiting(now);
 }
 
 void Monitor::character(const ReceivedCharacter& received) {

@@ -109,6 +109,8 @@ class Monitor : public Listener, public Agent {
     std::uint8_t da;
   };
   Tick bits(Tick count) const { return count * bit_; }
+  Tick idle_at() const;
+  Tick slot_end() const;
   void character(const ReceivedCharacter& received);
   void begin_telegram(const ReceivedCharacter& first);
   void check_character(const ReceivedCharacter& received);

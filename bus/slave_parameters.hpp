@@ -1,6 +1,5 @@
 #pragma once
 // What a class-1 master knows of its bus and of one slave: plain data. The bench makes it from a GSD file; a test writes it down.
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -46,16 +45,14 @@ struct BusParameters {
   bool token = true;                       ///< passes the token to itself after each cycle, as a single master does
   std::int64_t clock_ppm = 0;              ///< error of the sender's clock; positive = slow
 
-  int slot(int baud_index) const { return slot_bits.value_or(baud(baud_index).slot_bits); }
-  int retries(int baud_index) const { return max_retries.value_or(std::max(1, 4 - baud_index)); }
+  int slot(int baud_index) const;
+  int retries(int baud_index) const;
   /// T_SM: the safety margin in front of a request.
-  int safety(int baud_index) const {
-    return 2 + 2 * set_bits.value_or(baud(baud_index).set_bits) + quiet_bits.value_or(baud(baud_index).quiet_bits);
-  }
+  int safety(int baud_index) const;
   /// T_ID1: idle after an answer or a token.
-  int id1(int baud_index) const { return std::max(kSynBits + safety(baud_index), kMinTsdrBits); }
+  int id1(int baud_index) const;
   /// T_ID2: idle after a telegram that is not answered.
-  int id2(int baud_index) const { return std::max(kSynBits + safety(baud_index), baud(baud_index).max_tsdr_bits); }
+  int id2(int baud_index) const;
 };
 
 /// How a master behaves where EN 50170 leaves a choice; both kinds are in the field (ruling "Real masters differ").

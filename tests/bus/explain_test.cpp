@@ -1,0 +1,263 @@
+#include "bus/explain.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace bus {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr std::uint8_t kRequestFc = 0x7D, kAnswerFc = 0x08;
+
+Telegram request(std::uint8_t slave_sap, const Bytes& data, std::uint8_t fc = kRequestFc) {
+  return make_telegram(3, 1, fc, data, slave_sap, sap::kMaster);
+}
+
+Telegram answer(std::uint8_t slave_sap, const Bytes& data, std::uint8_t fc = kAnswerFc) {
+  return make_telegram(1, 3, fc, data, sap::kMaster, slave_sap);
+}
+
+std::vector<ExplainedByte> bytes_of(const Telegram& telegram) {
+  TelegramDecoder decoder;
+  for (const std::uint8_t byte : encode(telegram)) {
+    if (const auto decoded = decoder.feed(byte)) return explain_bytes(*decoded);
+  }
+  return {};
+}
+
+/// The texts of the data bytes of an SD2 telegram with two SAP bytes.
+std::vector<std::string> data_texts(const Telegram& telegram) {
+  std::vector<std::string> texts;
+  const std::vector<ExplainedByte> bytes = bytes_of(telegram);
+  for (std::size_t i = 9; i + 2 < bytes.size(); ++i) texts.push_back(bytes[i].meaning);
+  return texts;
+}
+
+TEST(ExplainLine, FunctionCodes) {
+  EXPECT_EQ(explain_fc(0x49), "request FDL status FCB=0 FCV=0");
+  EXPECT_EQ(explain_fc(0x6D), "request SRD high FCB=1 FCV=0");
+  EXPECT_EQ(explain_fc(0x5C), "request SRD low FCB=0 FCV=1");
+  EXPECT_EQ(explain_fc(0x46), "request SDN high FCB=0 FCV=0");
+  EXPECT_EQ(explain_fc(0x00), "response OK, passive station");
+  EXPECT_EQ(explain_fc(0x30), "response OK, active station, in the ring");
+  EXPECT_EQ(explain_fc(0x03), "response RS (SAP not enabled), passive station");
+  EXPECT_EQ(explain_fc(0x0A), "response DH (data high), passive station");
+  EXPECT_THAT(explain_fc(0x40), HasSubstr("reserved"));
+  EXPECT_THAT(explain_fc(0x04), HasSubstr("reserved"));
+}
+
+TEST(ExplainLine, TokenAndShortAcknowledge) {
+  EXPECT_EQ(explain_line(make_sc()), "SC (short acknowledge)");
+  EXPECT_EQ(explain_line(make_token(2, 1)), "1 -> 2  token");
+}
+
+TEST(ExplainLine, FdlStatus) {
+  EXPECT_EQ(explain_line(make_telegram(3, 1, 0x49)), "1 -> 3  request FDL status FCB=0 FCV=0");
+  EXPECT_EQ(explain_line(make_telegram(1, 3, 0x00)), "3 -> 1  response OK, passive station");
+}
+
+TEST(ExplainLine, DataExchange) {
+  EXPECT_THAT(explain_line(make_telegram(3, 1, 0x7D, {0xAB, 0xCD})), HasSubstr("Data_Exchange: output AB CD"));
+  EXPECT_THAT(explain_line(make_telegram(3, 1, 0x7D)), HasSubstr("Data_Exchange: no output"));
+  EXPECT_THAT(explain_line(make_telegram(1, 3, 0x0A, {0x12})), HasSubstr("Data_Exchange: input 12"));
+}
+
+TEST(ExplainLine, EveryServiceHasItsName) {
+  const std::pair<int, const char*> services[] = {{55, "Set_Slave_Address"}, {56, "Read_Inputs"}, {57, "Read_Outputs"},
+                                                  {58, "Global_Control"},    {59, "Get_Cfg"},     {60, "Slave_Diag"},
+                                                  {61, "Set_Prm"},           {62, "Chk_Cfg"},     {51, "MSAC1"},
+                                                  {49, "MSAC2 Initiate"},    {48, "MSAC2"},       {63, "SAP 63"}};
+  for (const auto& [sap, name] : services) {
+    EXPECT_THAT(explain_line(request(static_cast<std::uint8_t>(sap), {})), HasSubstr(name)) << sap;
+  }
+}
+
+TEST(ExplainLine, ReadInputsAndOutputs) {
+  EXPECT_THAT(explain_line(answer(56, {1, 2})), HasSubstr("Read_Inputs: input 01 02"));
+  EXPECT_THAT(explain_line(answer(57, {3})), HasSubstr("Read_Outputs: output 03"));
+}
+
+TEST(ExplainSetPrm, AllFields) {
+  const Telegram prm = request(61, {0xB8, 2, 50, 11, 0x0B, 0x9A, 0x05, 0xC4, 0x01, 0x02, 0x99});
+  EXPECT_THAT(explain_line(prm),
+              HasSubstr("ident 0x0B9A, locked for this master, WD 100 ms, min_TSDR: 11 bit times, user bytes 4"));
+  const auto texts = data_texts(prm);
+  ASSERT_EQ(texts.size(), 11U);
+  EXPECT_EQ(texts[0], "Station_status: WD_On, Freeze_Req, Sync_Req, Lock_Req (locked for this master)");
+  EXPECT_EQ(texts[1], "WD_Fact_1: 2");
+  EXPECT_EQ(texts[2], "WD_Fact_2: 50");
+  EXPECT_EQ(texts[4], "Ident_Number high: 0x0B");
+  EXPECT_EQ(texts[6], "Group_Ident: group 1, 3");
+  EXPECT_EQ(texts[7], "DPV1_Status_1: WD_Base_1ms, Fail_Safe, DPV1_Enable");
+  EXPECT_EQ(texts[9], "DPV1_Status_3: 0x02");
+  EXPECT_EQ(texts[10], "User_Prm_Data 0");
+}
+
+TEST(ExplainSetPrm, LockAndUnlock) {
+  EXPECT_THAT(explain_line(request(61, {0x00, 0, 0, 0, 0, 0, 0})),
+              AllOf(HasSubstr("only min_TSDR changes"), HasSubstr("WD off")));
+  EXPECT_THAT(explain_line(request(61, {0x40, 0, 0, 0, 0, 0, 0})), HasSubstr("released"));
+  EXPECT_THAT(explain_line(request(61, {0xC0, 0, 0, 0, 0, 0, 0})), HasSubstr("released"));
+  EXPECT_THAT(explain_line(request(61, {0x88, 1, 1, 0, 0, 0, 0})), HasSubstr("WD 10 ms, min_TSDR: 0 = unchanged"));
+}
+
+TEST(ExplainSetPrm, WithoutDpv1TheUserBytesFollowAtOnce) {
+  const auto texts = data_texts(request(61, {0x80, 0, 0, 0, 0, 0, 0, 0x00, 0x01}));
+  EXPECT_EQ(texts[7], "Spec_User_Prm_Byte: none");
+  EXPECT_EQ(texts[8], "User_Prm_Data 0");
+}
+
+TEST(ExplainSetPrm, TooShort) { EXPECT_THAT(explain_line(request(61, {0x80, 0})), HasSubstr("2 bytes, at least 7")); }
+
+TEST(ExplainCfg, GeneralFormat) {
+  const Telegram cfg = request(62, {0x13, 0x23, 0xF0, 0x61});
+  EXPECT_THAT(explain_line(cfg), HasSubstr("4 modules, output 10 bytes, input 6 bytes"));
+  const auto texts = data_texts(cfg);
+  EXPECT_EQ(texts[0], "module 1: input 4 bytes, consistency over a byte");
+  EXPECT_EQ(texts[1], "module 2: output 4 bytes, consistency over a byte");
+  EXPECT_EQ(texts[2], "module 3: input and output 1 word, consistency over the whole module");
+  EXPECT_EQ(texts[3], "module 4: output 2 words, consistency over a word");
+}
+
+TEST(ExplainCfg, SpecialFormatOfTheManual) {  // the example of table A.5 in the APC3 manual
+  const Telegram cfg = request(62, {0xC3, 0xCF, 0xC7, 0x01, 0x02, 0x03});
+  EXPECT_THAT(explain_line(cfg), HasSubstr("1 module, output 32 bytes, input 16 bytes"));
+  const auto texts = data_texts(cfg);
+  EXPECT_EQ(texts[0], "module 1: special format, output and input, 3 bytes of manufacturer data");
+  EXPECT_EQ(texts[1], "  length of output: 16 words, consistency over the whole module");
+  EXPECT_EQ(texts[2], "  length of input: 8 words, consistency over the whole module");
+  EXPECT_EQ(texts[5], "  manufacturer data 2");
+}
+
+TEST(ExplainCfg, EmptySlotsAndIncompleteOnes) {
+  EXPECT_EQ(data_texts(request(62, {0x00}))[0], "module 1: special format, empty slot, no manufacturer data");
+  EXPECT_EQ(data_texts(request(62, {0x4F, 0x00}))[0],
+            "module 1: special format, input, no manufacturer data, their comparison is switched off");
+  EXPECT_THAT(explain_line(request(62, {0x10, 0x81})), HasSubstr("the last one incomplete"));
+  EXPECT_THAT(explain_line(request(62, {0x02, 0x11})), HasSubstr("the last one incomplete"));
+}
+
+TEST(ExplainCfg, GetCfgIsReadTheSameWay) {
+  EXPECT_THAT(explain_line(answer(59, {0x13})), HasSubstr("Get_Cfg: 1 module, output 0 bytes, input 4 bytes"));
+}
+
+TEST(ExplainDiag, StandardBytes) {
+  const Telegram diag = answer(60, {0x42, 0x05, 0x00, 0xFF, 0x0B, 0x9A});
+  EXPECT_THAT(explain_line(diag),
+              HasSubstr("[Station_Not_Ready, Prm_Fault] [Prm_Req], Master_Add: none, ident 0x0B9A"));
+  const auto texts = data_texts(diag);
+  ASSERT_EQ(texts.size(), 6U);
+  EXPECT_EQ(texts[1], "Station_status_2: Prm_Req, DP slave");
+}
+
+TEST(ExplainDiag, EveryBitHasItsName) {
+  const auto texts = data_texts(answer(60, {0xFF, 0xFF, 0x80, 1, 0, 0}));
+  EXPECT_EQ(texts[0],
+            "Station_status_1: Station_Non_Existent, Station_Not_Ready, Cfg_Fault, Ext_Diag, Not_Supported, "
+            "Invalid_Slave_Response, Prm_Fault, Master_Lock");
+  EXPECT_EQ(texts[1],
+            "Station_status_2: Prm_Req, Stat_Diag, DP slave, WD_On, Freeze_Mode, Sync_Mode, bit 6, Deactivated");
+  EXPECT_EQ(texts[2], "Station_status_3: Ext_Diag_Overflow");
+  EXPECT_EQ(texts[3], "Master_Add: 1");
+}
+
+TEST(ExplainDiag, ExtendedBlocks) {
+  const auto texts =
+      data_texts(answer(60, {0x08, 0x0C, 0, 1, 0, 0, 0x03, 0xAA, 0xBB, 0x42, 0x05, 0x83, 0x44, 0xA6, 0xC1}));
+  ASSERT_EQ(texts.size(), 15U);
+  EXPECT_EQ(texts[6], "device related diagnosis, block of 3 bytes");
+  EXPECT_EQ(texts[8], "device related byte 2: 0xBB");
+  EXPECT_EQ(texts[9], "identifier related diagnosis, block of 2 bytes");
+  EXPECT_EQ(texts[10], "diagnosis of module 0, 2");
+  EXPECT_EQ(texts[11], "channel related diagnosis, module 3");
+  EXPECT_EQ(texts[12], "input channel 4");
+  EXPECT_EQ(texts[13], "word, line break");
+  EXPECT_EQ(texts[14], "revision number 1");
+}
+
+TEST(ExplainDiag, BlocksThatDoNotFit) {
+  EXPECT_THAT(data_texts(answer(60, {0, 0, 0, 0, 0, 0, 0x05, 0x01}))[6], HasSubstr("does not fit"));
+  EXPECT_THAT(data_texts(answer(60, {0, 0, 0, 0, 0, 0, 0x00}))[6], HasSubstr("does not fit"));
+  EXPECT_EQ(data_texts(answer(60, {0, 0, 0, 0, 0, 0, 0x81, 0x00})).size(), 8U);
+  EXPECT_THAT(explain_line(answer(60, {0x02})), HasSubstr("1 bytes, at least 6"));
+}
+
+TEST(ExplainDiag, ChannelErrors) {
+  const auto error = [](std::uint8_t byte) { return data_texts(answer(60, {0, 0, 0, 0, 0, 0, 0x80, 0xC0, byte}))[8]; };
+  EXPECT_EQ(error(0x21), "bit, short circuit");
+  EXPECT_EQ(error(0x09), "unspecified, error");
+  EXPECT_EQ(error(0x0A), "unspecified, reserved error 10");
+  EXPECT_EQ(error(0x90), "byte, manufacturer's error 16");
+}
+
+TEST(ExplainGlobalControl, CommandsAndGroups) {
+  EXPECT_THAT(explain_line(request(58, {0x28, 0x03}, 0x46)), HasSubstr("Freeze, Sync, Group_Select: group 1, 2"));
+  EXPECT_THAT(explain_line(request(58, {0x02, 0x00}, 0x46)), HasSubstr("Clear_Data, Group_Select: all groups"));
+  EXPECT_THAT(explain_line(request(58, {0x00, 0x00}, 0x46)), HasSubstr("operate"));
+  EXPECT_THAT(explain_line(request(58, {0x14}, 0x46)), HasSubstr("1 bytes instead of 2"));
+}
+
+TEST(ExplainSetSlaveAddress, Fields) {
+  const Telegram ssa = request(55, {9, 0x0B, 0x9A, 0xFF, 0x01});
+  EXPECT_THAT(explain_line(ssa), HasSubstr("new address 9, ident 0x0B9A, no later change"));
+  EXPECT_EQ(data_texts(ssa)[4], "Rem_Slave_Data 0");
+  EXPECT_THAT(explain_line(request(55, {9})), HasSubstr("at least 4"));
+}
+
+TEST(ExplainDpv1, ReadWriteAndErrors) {
+  EXPECT_THAT(explain_line(request(51, {0x5E, 1, 2, 240})), HasSubstr("MSAC1: DS_Read slot 1 index 2 length 240"));
+  EXPECT_THAT(explain_line(answer(51, {0x5F, 1, 2, 4})), HasSubstr("DS_Write slot 1 index 2 length 4"));
+  EXPECT_THAT(explain_line(answer(51, {0xDE, 0x80, 0xB0, 0x00})), HasSubstr("DS_Read refused, access: invalid index"));
+  EXPECT_THAT(explain_line(answer(51, {0xDF, 0x80, 0xA9, 0x00})), HasSubstr("application: feature not supported"));
+  EXPECT_THAT(explain_line(answer(51, {0xDF, 0x80, 0xC2, 0x00})), HasSubstr("resource: resource busy"));
+  EXPECT_THAT(explain_line(request(51, {})), HasSubstr("MSAC1: poll"));
+  EXPECT_THAT(explain_line(request(51, {0x5E, 1})), HasSubstr("at least 4"));
+}
+
+TEST(ExplainDpv1, ClassTwo) {
+  const Telegram initiate = request(49, {0x57, 0, 0, 0, 0x00, 0x64, 1, 0, 0, 0, 0, 0});
+  EXPECT_THAT(explain_line(initiate), HasSubstr("Initiate, Send_Timeout 1000 ms"));
+  EXPECT_EQ(data_texts(initiate)[4], "Send_Timeout high (unit 10 ms): 0x00");
+  EXPECT_EQ(data_texts(answer(49, {0x56, 0x30, 0, 100}))[1], "SAP of the channel: 0x30");
+  EXPECT_EQ(data_texts(answer(48, {0x57, 0xF0, 1, 0}))[1], "Max_Len_Data_Unit: 0xF0");
+  EXPECT_THAT(explain_line(request(48, {0x48})), HasSubstr("MSAC2: Idle"));
+  EXPECT_THAT(explain_line(request(48, {0x51, 0, 1, 2, 9, 9})), HasSubstr("Data_Transport slot 0 index 1 length 2"));
+  EXPECT_EQ(data_texts(request(48, {0x58, 1, 0x12, 0}))[2], "Instance and Reason_Code: 0x12");
+  EXPECT_THAT(explain_line(request(48, {0x33})), HasSubstr("unknown function"));
+}
+
+TEST(ExplainBytes, EveryByteOfEveryDelimiterIsExplained) {
+  const std::vector<Telegram> telegrams = {make_sc(), make_token(1, 2), make_telegram(3, 1, 0x49), request(60, {}),
+                                           make_telegram(3, 1, 0x7D, Bytes(8, 1), {}, {}, true)};
+  for (const Telegram& telegram : telegrams) {
+    const Bytes bytes = encode(telegram);
+    const auto explained = bytes_of(telegram);
+    ASSERT_EQ(explained.size(), bytes.size());
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      EXPECT_EQ(explained[i].offset, i);
+      EXPECT_EQ(explained[i].byte, bytes[i]);
+      EXPECT_FALSE(explained[i].meaning.empty());
+    }
+  }
+}
+
+TEST(ExplainBytes, AWrongFcsShowsTheRightOne) {
+  TelegramDecoder decoder;
+  std::optional<Decoded> decoded;
+  for (const std::uint8_t byte : Bytes{0x10, 0x03, 0x01, 0x49, 0x4E, 0x16}) decoded = decoder.feed(byte);
+  const auto explained = explain_bytes(*decoded);
+  EXPECT_EQ(explained[4].meaning, "FCS: wrong, 4D is right");
+  EXPECT_EQ(explained[5].meaning, "ED");
+}
+
+TEST(ExplainBytes, SapsOfTheMasterHaveNoServiceName) {
+  const auto explained = bytes_of(request(60, {}));
+  EXPECT_EQ(explained[7].meaning, "DSAP: 60 (Slave_Diag)");
+  EXPECT_EQ(explained[8].meaning, "SSAP: 62");
+}
+
+}  // namespace
+}  // namespace bus

@@ -1,0 +1,132 @@
+#include "bus/segment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+namespace bus {
+namespace {
+
+struct Recorder : Listener {
+  void line_changed(Tick at, bool level) override { changes.emplace_back(at, level); }
+  std::vector<std::pair<Tick, bool>> changes;
+};
+
+using Changes = std::vector<std::pair<Tick, bool>>;
+
+struct SegmentTest : testing::Test {
+  SegmentTest() {
+    a = segment.attach("A", &ear_a);
+    b = segment.attach("B", &ear_b);
+    segment.on_collision = [this](const Collision& collision) { collisions.push_back(collision); };
+  }
+  Segment segment;
+  Recorder ear_a, ear_b;
+  StationId a = 0, b = 0;
+  std::vector<Collision> collisions;
+};
+
+TEST_F(SegmentTest, IdleIsHigh) { EXPECT_TRUE(segment.level()); }
+
+TEST_F(SegmentTest, EverybodyHearsTheDriverTheDriverToo) {
+  segment.drive(a, 10, true, false);
+  segment.drive(a, 20, true, true);
+  EXPECT_EQ(ear_a.changes, (Changes{{10, false}, {20, true}}));
+  EXPECT_EQ(ear_b.changes, ear_a.changes);
+}
+
+TEST_F(SegmentTest, EnablingADriverAtIdleLevelChangesNothing) {
+  segment.drive(a, 10, true, true);
+  segment.drive(a, 20, false, true);
+  EXPECT_TRUE(ear_b.changes.empty());
+}
+
+TEST_F(SegmentTest, ReleasingALowDriverReturnsToIdle) {
+  segment.drive(a, 10, true, false);
+  segment.drive(a, 15, false, false);
+  EXPECT_TRUE(segment.level());
+}
+
+TEST_F(SegmentTest, TwoDriversCollideAlsoAtTheSameLevel) {
+  segment.drive(a, 10, true, true);
+  segment.drive(b, 30, true, true);
+  ASSERT_EQ(collisions.size(), 1U);
+  EXPECT_EQ(collisions[0].at, 30);
+  EXPECT_EQ(collisions[0].first, "A");
+  EXPECT_EQ(collisions[0].second, "B");
+}
+
+TEST_F(SegmentTest, ACollisionIsReportedOnceForEachEnabling) {
+  segment.drive(a, 10, true, true);
+  segment.drive(b, 30, true, true);
+  segment.drive(b, 31, true, false);
+  segment.drive(b, 32, false, true);
+  EXPECT_EQ(collisions.size(), 1U);
+  segment.drive(b, 40, true, true);
+  EXPECT_EQ(collisions.size(), 2U);
+}
+
+TEST_F(SegmentTest, LowWinsACollision) {
+  segment.drive(a, 10, true, true);
+  segment.drive(b, 30, true, false);
+  EXPECT_FALSE(segment.level());
+}
+
+TEST_F(SegmentTest, OneAfterTheOtherIsNoCollision) {
+  segment.drive(a, 10, true, true);
+  segment.drive(a, 20, false, true);
+  segment.drive(b, 20, true, true);
+  EXPECT_TRUE(collisions.empty());
+}
+
+TEST_F(SegmentTest, AForcedLevelHidesTheDrivers) {
+  segment.force(5, false);
+  segment.drive(a, 10, true, true);
+  EXPECT_FALSE(segment.level());
+  segment.force(20, std::nullopt);
+  EXPECT_TRUE(segment.level());
+  EXPECT_EQ(ear_b.changes, (Changes{{5, false}, {20, true}}));
+}
+
+TEST_F(SegmentTest, AnUnpluggedStationHearsIdleAndIsNotHeard) {
+  segment.drive(a, 10, true, false);
+  segment.plug(b, 12, false);
+  EXPECT_EQ(ear_b.changes, (Changes{{10, false}, {12, true}}));
+  EXPECT_TRUE(segment.level_at(b));
+  segment.drive(b, 14, true, false);
+  EXPECT_TRUE(collisions.empty());
+  segment.drive(a, 16, false, true);
+  EXPECT_TRUE(segment.level());
+}
+
+TEST_F(SegmentTest, PluggingInADrivingStationCollides) {
+  segment.plug(b, 1, false);
+  segment.drive(b, 2, true, true);
+  segment.drive(a, 3, true, true);
+  segment.plug(b, 4, true);
+  EXPECT_EQ(collisions.size(), 1U);
+}
+
+TEST(Segment, AListenerThatDrivesAtOnceKeepsTheOrderForTheOthers) {
+  struct Echo : Listener {
+    void line_changed(Tick at, bool level) override {
+      if (!level) segment->drive(own, at, true, true), segment->drive(other, at, false, true);
+    }
+    Segment* segment = nullptr;
+    StationId own = 0, other = 0;
+  } echo;
+  Segment segment;
+  Recorder before, after;
+  segment.attach("before", &before);
+  echo.segment = &segment;
+  echo.own = segment.attach("echo", &echo);
+  segment.attach("after", &after);
+  echo.other = segment.attach("sender", nullptr);
+  segment.drive(echo.other, 7, true, false);
+  EXPECT_EQ(before.changes, (Changes{{7, false}, {7, true}}));
+  EXPECT_TRUE(after.changes.empty());
+}
+
+}  // namespace
+}  // namespace bus
