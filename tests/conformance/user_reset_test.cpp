@@ -1,0 +1,415 @@
+// RESET and start-up: rulings P1, P9, P10, D1, H6.
+#include <string>
+
+#include "tests/conformance/user_helpers.hpp"
+
+namespace conformance {
+namespace {
+
+using dsdpv1::DpState;
+
+constexpr Cycle kStartUpMoves = 2048 + 4 + 1;               // H6: clear, B000..B003, B006
+constexpr Cycle kStartUpHigh = kStartUpMoves + 1;           // one byte a cycle from R + 1 on
+constexpr Cycle kReadyCycles = 4096;
+
+void expect_reset_levels(const SlaveBench& bench) {
+  EXPECT_EQ(bench.chip.level(Pin::kPbtxd), 1);
+  EXPECT_EQ(bench.chip.level(Pin::kPbrts), 0);
+  EXPECT_EQ(bench.chip.level(Pin::kLReq), 0);
+  EXPECT_EQ(bench.chip.level(Pin::kLSta), 0);
+  EXPECT_EQ(bench.chip.level(Pin::kIntr0), 1);
+  EXPECT_EQ(bench.chip.level(Pin::kPbf), 1);
+  EXPECT_EQ(bench.chip.level(Pin::kBr), 0);
+  EXPECT_EQ(bench.chip.level(Pin::kReady), 0);
+  EXPECT_EQ(bench.chip.level(Pin::kDOut), dsdpv1::kLevelZ);
+}
+
+/// Releases RESET at `tick`; cycle R.
+Cycle release_reset(SlaveBench& bench, Tick tick) {
+  bench.run_until(tick);
+  bench.chip.set(tick, Pin::kReset, 1);
+  return seen_at(tick);
+}
+
+/// RESET low now and for a while; the user and the master forget what they were doing.
+void reset_now(SlaveBench& bench) {
+  bench.chip.set(bench.now(), Pin::kReset, 0);
+  expect_reset_levels(bench);
+  bench.release();
+  bench.fcb = true;
+  bench.fcb_valid = false;
+  bench.run_cycles(100);
+  expect_reset_levels(bench);
+}
+
+void expect_full_function(SlaveBench& bench) {
+  bench.to_data_exch();
+  bench.give_inputs({0x12, 0x34});
+  const bus::Exchange exchange = bench.data_exchange({0xAB, 0xCD});
+  ASSERT_TRUE(exchange.answered());
+  EXPECT_EQ(exchange.answer().data, (Bytes{0x12, 0x34}));
+  bench.chip_accesses();
+  EXPECT_EQ(bench.fetch_outputs(), (Bytes{0xAB, 0xCD}));
+}
+
+void fill_dpram(SlaveBench& bench, std::uint8_t value) {
+  bench.acquire();
+  for (int cell = 0; cell < regs::kDpramSize; ++cell) bench.write(static_cast<std::uint16_t>(cell), value);
+  bench.run_cycles(4);
+}
+
+TEST(UserReset, EveryOutputHasItsResetLevelBeforeTheFirstRelease) {
+  SlaveBench bench;
+  expect_reset_levels(bench);
+  bench.run_ms(1);
+  expect_reset_levels(bench);
+  EXPECT_TRUE(bench.chip.trace().empty());
+  EXPECT_TRUE(bench.chip.events().empty());
+}
+
+TEST(UserReset, HostPortIsDeadInReset) {
+  SlaveBench bench;
+  bench.run_cycles(10);
+  for (const Pin pin : {Pin::kCsr, Pin::kRd}) bench.chip.set(bench.now(), pin, 0);
+  bench.run_cycles(5);
+  EXPECT_EQ(bench.chip.level(Pin::kDOut), dsdpv1::kLevelZ);
+  bench.chip.set(bench.now(), Pin::kRd, 1);
+  bench.write(0x130, 0x55);
+  bench.run_cycles(5);
+  EXPECT_EQ(bench.peek(0x130), 0);
+}
+
+TEST(UserReset, ResetReleasesDWhileReading) {
+  SlaveBench bench;
+  bench.power_on();
+  bench.acquire();
+  bench.chip.set(bench.now(), Pin::kA, 0);
+  bench.chip.set(bench.now(), Pin::kCsr, 0);
+  bench.chip.set(bench.now(), Pin::kRd, 0);
+  bench.run_cycles(4);
+  ASSERT_EQ(bench.chip.level(Pin::kDOut), 0x01);
+  bench.run_for(37);
+  bench.chip.set(bench.now(), Pin::kReset, 0);
+  EXPECT_EQ(bench.chip.level(Pin::kDOut), dsdpv1::kLevelZ);
+  EXPECT_EQ(bench.changes(Pin::kDOut).back().at, bench.now());
+}
+
+class AtPhase : public testing::TestWithParam<Tick> {};
+
+TEST_P(AtPhase, AssertionIsAsynchronous) {
+  SlaveBench bench;
+  bench.power_on();
+  ASSERT_TRUE(bench.initialise());
+  const Cycle start = run_to_l_sta(bench, 1);
+  const Tick when = (start + 3) * kCycleTicks + GetParam();
+  bench.run_until(when);
+  ASSERT_EQ(bench.chip.level(Pin::kLSta), 1);
+  ASSERT_EQ(bench.chip.level(Pin::kReady), 1);
+  bench.chip.set(when, Pin::kReset, 0);
+  expect_reset_levels(bench);
+  EXPECT_EQ(bench.changes(Pin::kLSta).back().at, when);
+  EXPECT_EQ(bench.changes(Pin::kLReq).back().at, when);
+  EXPECT_EQ(bench.changes(Pin::kReady).back().at, when);
+  EXPECT_EQ(bench.dp_state(), DpState::kOffline);
+  bench.run_ms(1);
+  EXPECT_EQ(bench.chip.trace().back().at, when) << "something happens in reset";
+}
+
+TEST_P(AtPhase, ReleaseIsSynchronousAndStartUpIsCycleExact) {
+  SlaveBench bench;
+  const Cycle r = release_reset(bench, 20 * kCycleTicks + GetParam());
+  EXPECT_EQ(r, 23);
+  run_to_cycle(bench, r + 3000);
+  const std::vector<Access> found = accesses(bench);
+  ASSERT_GE(found.size(), 3U);
+  EXPECT_EQ(found[0].rise, r);
+  EXPECT_EQ(found[0].length(), kStartUpHigh);
+  EXPECT_EQ(found[1].rise, found[0].fall + 1) << "H8: one cycle low, also when overdue";
+  EXPECT_EQ(found[2].rise, found[1].rise + 48);
+}
+
+TEST_P(AtPhase, PulseShorterThanACycleResets) {
+  SlaveBench bench;
+  bench.power_on();
+  ASSERT_TRUE(bench.initialise());
+  const Tick fall = bench.now() + 10 * kCycleTicks + GetParam();
+  bench.run_until(fall);
+  bench.chip.set(fall, Pin::kReset, 0);
+  expect_reset_levels(bench);
+  bench.run_until(fall + 1);
+  bench.chip.set(fall + 1, Pin::kReset, 1);
+  run_to_cycle(bench, seen_at(fall + 1) - 1);
+  expect_reset_levels(bench);
+  bench.run_cycles(1);
+  EXPECT_EQ(last_rise(bench), seen_at(fall + 1));
+  bench.run_cycles(kStartUpHigh);
+  EXPECT_EQ(accesses(bench).back().length(), kStartUpHigh);
+}
+
+INSTANTIATE_TEST_SUITE_P(UserReset, AtPhase, testing::Values(0, 1, 60, 124, 125, 126, 187, 248, 249),
+                         [](const auto& at) { return "Tick" + std::to_string(at.param); });
+
+TEST(UserReset, ReleaseTooShortForTheSynchroniserStartsNothing) {
+  for (const Tick high : {1L, 100L, 249L, 250L, 400L, 500L, 639L}) {
+    SlaveBench bench;
+    const Tick rise = 20 * kCycleTicks + 110;
+    const Cycle r = release_reset(bench, rise);
+    bench.run_until(rise + high);
+    ASSERT_LT(rise + high, r * kCycleTicks);
+    bench.chip.set(rise + high, Pin::kReset, 0);
+    bench.run_ms(1);
+    EXPECT_TRUE(bench.chip.trace().empty()) << "RESET was high for " << high << " ticks";
+  }
+}
+
+TEST(UserReset, ReleasedAgainAfterAShortReleaseStartsWithTheSecond) {
+  SlaveBench bench;
+  const Tick first = 20 * kCycleTicks + 110;
+  release_reset(bench, first);
+  bench.run_until(first + 300);
+  bench.chip.set(first + 300, Pin::kReset, 0);
+  const Cycle r = release_reset(bench, first + 310);
+  bench.run_cycles(20);
+  EXPECT_EQ(last_rise(bench), r);
+  EXPECT_EQ(bench.changes(Pin::kLSta).size(), 1U);
+}
+
+TEST(UserReset, StartUpClearsOneCellACycleAndThenWritesTheVersion) {
+  SlaveBench bench;
+  bench.power_on();
+  fill_dpram(bench, 0xA5);
+  reset_now(bench);
+  EXPECT_EQ(bench.peek(0x7FF), 0xA5) << "RESET itself does not touch the RAM";
+  const Cycle r = release_reset(bench, bench.now() + 33);
+  run_to_cycle(bench, r);
+  EXPECT_EQ(bench.peek(0x000), 0xA5);
+  for (int cell = 0; cell < regs::kDpramSize; ++cell) {
+    run_to_cycle(bench, r + 1 + cell);
+    ASSERT_EQ(bench.peek(static_cast<std::uint16_t>(cell)), 0) << "B" << std::hex << cell;
+    const int next = std::min(cell + 1, regs::kDpramSize - 1);
+    ASSERT_EQ(bench.peek(static_cast<std::uint16_t>(next)), next == cell ? 0 : 0xA5);
+  }
+  constexpr std::uint8_t kVersion[] = {0x01, 0x0D, 0x07, 0x01};
+  for (int cell = 0; cell < 4; ++cell) {
+    ASSERT_EQ(bench.peek(static_cast<std::uint16_t>(cell)), 0);
+    run_to_cycle(bench, r + 2049 + cell);
+    ASSERT_EQ(bench.peek(static_cast<std::uint16_t>(cell)), kVersion[cell]);
+  }
+  EXPECT_EQ(bench.peek(regs::kAccessCount), 0);
+  run_to_cycle(bench, r + 2053);
+  EXPECT_EQ(bench.peek(regs::kAccessCount), 1);
+}
+
+TEST(UserReset, StartUpLeavesEverythingElseZero) {
+  SlaveBench bench;
+  bench.power_on();
+  fill_dpram(bench, 0xFF);
+  reset_now(bench);
+  const Cycle r = release_reset(bench, bench.now());
+  run_to_cycle(bench, r + kStartUpHigh);
+  EXPECT_EQ(bench.peek(0x000, 8), (Bytes{1, 0x0D, 7, 1, 0, 0, 1, 0}));
+  EXPECT_EQ(bench.peek(0x008, 0x7F8), Bytes(0x7F8, 0));
+}
+
+TEST(UserReset, ValidFlagComesInTheFirstAccessFrom4096CyclesOn) {
+  SlaveBench bench;
+  const Cycle r = release_reset(bench, 77);
+  const Cycle second = r + kStartUpHigh + 1;
+  const Cycle expected = second + (r + kReadyCycles - second + 47) / 48 * 48;
+  run_to_cycle(bench, expected + 6);
+  EXPECT_EQ(bench.peek(regs::kValidFlag), 0) << "the header of that access has six moves";
+  ASSERT_EQ(last_rise(bench), expected);
+  run_to_l_sta(bench, 0);
+  EXPECT_EQ(bench.peek(regs::kValidFlag), 0xC5);
+  EXPECT_EQ(bench.chip.status().accesses, accesses(bench).size());
+}
+
+TEST(UserReset, ValidFlagWaitsForAUserWhoHolds) {
+  SlaveBench bench;
+  const Cycle r = release_reset(bench, 77);
+  run_to_cycle(bench, r + 3000);
+  bench.acquire();
+  run_to_cycle(bench, r + 6000);
+  EXPECT_EQ(bench.peek(regs::kValidFlag), 0);
+  bench.release();
+  const Cycle start = run_to_l_sta(bench, 1);
+  EXPECT_EQ(start, seen_at((r + 6000) * kCycleTicks));
+  run_to_l_sta(bench, 0);
+  EXPECT_EQ(bench.peek(regs::kValidFlag), 0xC5);
+}
+
+TEST(UserReset, ReadyCyclesAreAParameter) {
+  dsdpv1::Config config;
+  config.ready_cycles = 10'000;
+  SlaveBench bench(config);
+  const Cycle r = release_reset(bench, 77);
+  run_to_cycle(bench, r + 10'000);
+  EXPECT_EQ(bench.peek(regs::kValidFlag), 0);
+  run_to_cycle(bench, r + 10'000 + 48 + 16);
+  EXPECT_EQ(bench.peek(regs::kValidFlag), 0xC5);
+}
+
+TEST(UserReset, StartUpDoesNotLookAtTheUsersRequest) {
+  SlaveBench bench;
+  bench.run_cycles(10);
+  bench.chip.set(bench.now(), Pin::kRReq, 1);
+  const Cycle r = release_reset(bench, bench.now() + 500);
+  run_to_cycle(bench, r + 10'000);
+  const std::vector<Access> found = accesses(bench);
+  ASSERT_EQ(found.size(), 1U) << "the chip may not access again while R_REQ is high";
+  EXPECT_EQ(found[0].rise, r);
+  EXPECT_EQ(found[0].length(), kStartUpHigh);
+  EXPECT_EQ(bench.peek(regs::kValidFlag), 0);
+  bench.chip.set(bench.now(), Pin::kRReq, 0);
+  EXPECT_EQ(run_to_l_sta(bench, 1), seen_at((r + 10'000) * kCycleTicks));
+  run_to_l_sta(bench, 0);
+  EXPECT_EQ(bench.peek(regs::kValidFlag), 0xC5);
+}
+
+TEST(UserReset, UserWhoAsksInStartUpIsServedAfterIt) {
+  SlaveBench bench;
+  const Cycle r = release_reset(bench, 2600);
+  run_to_cycle(bench, r + 500);
+  bench.acquire();
+  EXPECT_GE(bench.now() / kCycleTicks, r + kStartUpHigh);
+  EXPECT_LE(bench.now() / kCycleTicks, r + kStartUpHigh + 8);
+  EXPECT_EQ(bench.read(0x000), 0x01);
+  EXPECT_EQ(bench.read(0x001), 0x0D);
+  EXPECT_EQ(bench.read(0x002), 0x07);
+  EXPECT_EQ(bench.read(0x003), 0x01);
+  EXPECT_EQ(bench.read(0x004), 0x00);
+  EXPECT_EQ(bench.read(0x006), 0x01);
+  bench.release();
+  expect_no_violation(bench);
+}
+
+TEST(UserReset, ACellWithAViolatedWriteIsKnownAgainAfterReset) {
+  SlaveBench bench;
+  bench.power_on();
+  bench.acquire();
+  bench.chip.set(bench.now(), Pin::kA, 0x130);
+  bench.chip.set(bench.now(), Pin::kCsr, 0);
+  bench.chip.set(bench.now(), Pin::kWr, 0);
+  bench.run_for(600);
+  bench.chip.set(bench.now(), Pin::kWr, 1);  // nobody drives D
+  bench.run_for(600);
+  bench.chip.set(bench.now(), Pin::kCsr, 1);
+  ASSERT_EQ(bench.count(Reason::kWriteFloating), 1);
+  reset_now(bench);
+  bench.power_on();
+  bench.acquire();
+  EXPECT_EQ(bench.read(0x130), 0);
+}
+
+// --- reset in every state -----------------------------------------------------------------------------------------------------
+
+struct State {
+  const char* name;
+  void (*reach)(SlaveBench& bench);
+};
+
+void searching(SlaveBench& bench) {
+  bench.power_on();
+  ASSERT_TRUE(bench.initialise());
+  bench.run_ms(7);
+}
+
+void in_long_transfer(SlaveBench& bench) {
+  bench.power_on();
+  bench.acquire();
+  bench.write_block(regs::kInit, Init{}.block(), regs::kInitCrc);
+  bench.write(regs::kUserCommand1, regs::kUserCommand1Init);
+  bench.release();
+  run_to_l_sta(bench, 1);
+  bench.run_cycles(12);
+  ASSERT_EQ(bench.chip.level(Pin::kLSta), 1);
+}
+
+const State kStates[] = {
+    {"StartUp", [](SlaveBench& bench) { release_reset(bench, 3000), bench.run_cycles(1000); }},
+    {"BeforeValid", [](SlaveBench& bench) { release_reset(bench, 3000), bench.run_cycles(3000); }},
+    {"Idle", [](SlaveBench& bench) { bench.power_on(), run_to_l_sta(bench, 0); }},
+    {"Header", [](SlaveBench& bench) { bench.power_on(), run_to_l_sta(bench, 1), bench.run_cycles(3); }},
+    {"Transfer", in_long_transfer},
+    {"UserOwns", [](SlaveBench& bench) { bench.power_on(), bench.acquire(), bench.write(0x131, 0x77); }},
+    {"WriteInFlight", [](SlaveBench& bench) { bench.power_on(), bench.acquire(), bench.write(0x006, 0x77); }},
+    {"Searching", searching},
+    {"WaitPrm", [](SlaveBench& bench) { bench.to_wait_prm(); }},
+    {"WaitCfg", [](SlaveBench& bench) { bench.to_wait_cfg(); }},
+    {"DataExch", [](SlaveBench& bench) { bench.to_data_exch(); }},
+    {"Interrupt", [](SlaveBench& bench) {
+       bench.to_wait_prm();
+       bench.set_prm({});
+       bench.run_cycles(60);
+       for (int i = 0; i < 200 && bench.chip.level(Pin::kIntr0) != 0; ++i) bench.run_cycles(1);
+     }},
+    {"UserJudges", [](SlaveBench& bench) {
+       Init init;
+       init.prm_mode = 2;
+       bench.to_wait_prm(init);
+       bench.set_prm({});
+       bench.run_ms(1);
+     }},
+    {"Watchdog", [](SlaveBench& bench) {
+       Prm prm;
+       prm.status = 0x88;
+       prm.wd1 = prm.wd2 = 1;
+       bench.to_data_exch({}, prm);
+     }},
+};
+
+class InState : public testing::TestWithParam<State> {};
+
+TEST_P(InState, ResetLevelsAtOnceAndFullFunctionAfterwards) {
+  SlaveBench bench;
+  GetParam().reach(bench);
+  bench.run_for(93);
+  reset_now(bench);
+  EXPECT_EQ(bench.dp_state(), DpState::kOffline);
+  EXPECT_EQ(bench.chip.status().baud_index, 15);
+  EXPECT_EQ(bench.chip.status().master, 255);
+  EXPECT_EQ(bench.chip.status().address, 0);
+  expect_full_function(bench);
+  EXPECT_EQ(bench.peek(regs::kOfflineCount, 2), (Bytes{0, 0})) << "D1: all zero at reset";
+}
+
+INSTANTIATE_TEST_SUITE_P(UserReset, InState, testing::ValuesIn(kStates), [](const auto& at) { return at.param.name; });
+
+TEST(UserReset, AnytimeInAnExchangeAt12M) {
+  // The request has 11 characters, the answer follows 11 bit times later: all of it in steps of less than a bit.
+  for (Tick offset = 0; offset < 1300 * kCycleTicks; offset += 4'321) {
+    SlaveBench bench;
+    bench.to_data_exch();
+    Script script(bench);
+    const Tick when = bench.now() + offset;
+    script.at(when, [&bench](Tick now) {
+      bench.chip.set(now, Pin::kReset, 0);
+      expect_reset_levels(bench);
+    });
+    bench.data_exchange({1, 2});
+    bench.run_until(when + 10 * kCycleTicks);
+    EXPECT_LE(bench.chip.trace().back().at, when);
+    reset_now(bench);
+    expect_full_function(bench);
+    if (HasFailure()) FAIL() << "reset " << offset << " ticks after the call";
+  }
+}
+
+TEST(UserReset, WhileSendingPbtxdAndPbrtsGoAtOnce) {
+  SlaveBench bench;
+  bench.to_data_exch();
+  Script script(bench);
+  const bus::Exchange whole = bench.data_exchange({1, 2});
+  ASSERT_TRUE(whole.answered());
+  const Tick again = whole.answer_end() + 40 * bench.requester.bit();
+  const Tick low_in_start_bit = again + (whole.answer_start() - whole.request_start) + kCycleTicks + 13;
+  script.set(low_in_start_bit, Pin::kReset, 0);
+  const auto telegram = bus::make_telegram(5, 2, 0x5D, {3, 4});
+  bench.requester.send(bench.timeline, telegram, {.at = again});
+  EXPECT_EQ(bench.changes(Pin::kPbrts).back().at, low_in_start_bit);
+  EXPECT_EQ(bench.changes(Pin::kPbtxd).back().at, low_in_start_bit);
+  expect_reset_levels(bench);
+}
+
+}  // namespace
+}  // namespace conformance
