@@ -37,7 +37,16 @@ struct GsdRange {
 };
 
 /// The data types of ExtUserPrmData. Several bytes are sent with the most significant first.
-enum class GsdType : std::uint8_t { kBit, kBitArea, kUnsigned8, kUnsigned16, kUnsigned32, kSigned8, kSigned16, kSigned32 };
+enum class GsdType : std::uint8_t {
+  kBit,
+  kBitArea,
+  kUnsigned8,
+  kUnsigned16,
+  kUnsigned32,
+  kSigned8,
+  kSigned16,
+  kSigned32
+};
 /// Bytes that a parameter of this type occupies: 1, 2 or 4.
 int size_of(GsdType type);
 /// The GSD's own word: "Unsigned16".
@@ -116,7 +125,8 @@ std::string_view gsd_baud_name(int index);
 struct Gsd {
   std::string file;
   int revision = 0;  ///< GSD_Revision; 0 when the file does not say
-  std::string vendor, model, device_revision, hardware_release, software_release, order_number, implementation, info_text;
+  std::string vendor, model, device_revision, hardware_release, software_release, order_number, implementation,
+      info_text;
   std::string slave_family;  ///< as written: "3@TdF@Temperature"
   std::uint16_t ident = 0;
   bool is_master = false;  ///< Station_Type 1

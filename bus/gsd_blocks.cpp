@@ -9,12 +9,13 @@
 namespace bus::gsd {
 namespace {
 
-constexpr std::int64_t kMaxNumber = 0xFFFF;   // of PrmText, ExtUserPrmData and module references
+constexpr std::int64_t kMaxNumber = 0xFFFF;  // of PrmText, ExtUserPrmData and module references
 constexpr std::int64_t kMaxText = 0xFFFFFFFF;
-constexpr std::size_t kMaxCfg = 244;          // one Chk_Cfg
+constexpr std::size_t kMaxCfg = 244;  // one Chk_Cfg
 
-constexpr std::array<GsdType, 8> kTypes = {GsdType::kBit,        GsdType::kBitArea, GsdType::kUnsigned8, GsdType::kUnsigned16,
-                                           GsdType::kUnsigned32, GsdType::kSigned8, GsdType::kSigned16,  GsdType::kSigned32};
+constexpr std::array<GsdType, 8> kTypes = {GsdType::kBit,        GsdType::kBitArea,    GsdType::kUnsigned8,
+                                           GsdType::kUnsigned16, GsdType::kUnsigned32, GsdType::kSigned8,
+                                           GsdType::kSigned16,   GsdType::kSigned32};
 
 const GsdType* find_type(std::string_view key) {
   const auto found = std::find_if(kTypes.begin(), kTypes.end(), [&](GsdType type) { return lower(name(type)) == key; });
@@ -28,7 +29,8 @@ GsdRange type_range(const GsdParameter& parameter) {
 }
 
 bool within(const std::vector<GsdRange>& ranges, std::int64_t value) {
-  return std::any_of(ranges.begin(), ranges.end(), [&](const GsdRange& r) { return value >= r.low && value <= r.high; });
+  return std::any_of(ranges.begin(), ranges.end(),
+                     [&](const GsdRange& r) { return value >= r.low && value <= r.high; });
 }
 
 }  // namespace
@@ -43,8 +45,8 @@ std::optional<std::int64_t> Parser::number(const Statement& statement, std::int6
 std::optional<int> Parser::offset(const Statement& statement) {
   const auto value = to_number(statement.index.value_or(""));
   if (value && *value >= 0 && *value < static_cast<std::int64_t>(kMaxCfg)) return static_cast<int>(*value);
-  diagnostics_.error(statement.line, fmt::format("{} has no offset, {}(0) to {}(243) is allowed", statement.title(), statement.keyword,
-                                                 statement.keyword));
+  diagnostics_.error(statement.line, fmt::format("{} has no offset, {}(0) to {}(243) is allowed", statement.title(),
+                                                 statement.keyword, statement.keyword));
   return std::nullopt;
 }
 
@@ -61,7 +63,8 @@ void Parser::in_top(const Statement& statement) {
   }
   if (keyword == nullptr) return keep(gsd.keywords, statement);
   if (!statement.equals) {
-    diagnostics_.error(statement.line, fmt::format("{} has no '=', {} = value is needed", keyword->name, keyword->name));
+    diagnostics_.error(statement.line,
+                       fmt::format("{} has no '=', {} = value is needed", keyword->name, keyword->name));
     return;
   }
   read_keyword(*keyword, statement);
@@ -74,8 +77,10 @@ void Parser::read_keyword(const Keyword& keyword, const Statement& statement) {
   }
   Values values(statement, diagnostics_);
   if (keyword.kind == Kind::kNumber) {
-    if (const auto value = values.number(keyword.low, keyword.high)) settings.numbers[key] = *value;
-    else return;
+    if (const auto value = values.number(keyword.low, keyword.high))
+      settings.numbers[key] = *value;
+    else
+      return;
   } else if (keyword.kind == Kind::kText) {
     settings.texts[key] = values.text();
     if (static_cast<std::int64_t>(settings.texts[key].size()) > keyword.high) {
@@ -95,16 +100,20 @@ void Parser::read_keyword(const Keyword& keyword, const Statement& statement) {
 // ---- parameter bytes of the station and of modules
 
 bool Parser::read_prm_block(GsdPrmBlock& block, const Statement& statement, std::string_view key) {
-  if (key == "ext_user_prm_data_const") read_prm_const(block, statement);
-  else if (key == "ext_user_prm_data_ref") read_prm_ref(block, statement);
-  else return false;
+  if (key == "ext_user_prm_data_const")
+    read_prm_const(block, statement);
+  else if (key == "ext_user_prm_data_ref")
+    read_prm_ref(block, statement);
+  else
+    return false;
   return true;
 }
 
 void Parser::read_prm_const(GsdPrmBlock& block, const Statement& statement) {
   const auto at = offset(statement);
   if (!at) return;
-  if (auto bytes = Values(statement, diagnostics_).bytes()) block.constants.push_back({*at, std::move(*bytes), statement.line});
+  if (auto bytes = Values(statement, diagnostics_).bytes())
+    block.constants.push_back({*at, std::move(*bytes), statement.line});
 }
 
 void Parser::read_prm_ref(GsdPrmBlock& block, const Statement& statement) {
@@ -114,7 +123,8 @@ void Parser::read_prm_ref(GsdPrmBlock& block, const Statement& statement) {
 }
 
 void Parser::read_length(GsdPrmBlock& block, const Statement& statement) {
-  if (const auto length = number(statement, 0, static_cast<std::int64_t>(kMaxCfg))) block.length = static_cast<int>(*length);
+  if (const auto length = number(statement, 0, static_cast<std::int64_t>(kMaxCfg)))
+    block.length = static_cast<int>(*length);
 }
 
 // ---- Module
@@ -133,7 +143,8 @@ bool Parser::begin_module(const Statement& statement) {
   auto bytes = values.bytes();
   if (!bytes) return false;
   if (bytes->size() > kMaxCfg) {
-    diagnostics_.error(statement.line, fmt::format("Module has {} identifier bytes, 1 to 244 are allowed", bytes->size()));
+    diagnostics_.error(statement.line,
+                       fmt::format("Module has {} identifier bytes, 1 to 244 are allowed", bytes->size()));
     return false;
   }
   module_.cfg = std::move(*bytes);
@@ -178,7 +189,8 @@ void Parser::in_prm_text(const Statement& statement) {
   if (statement.key != "text") return keep(gsd.keywords, statement);
   const auto value = to_number(statement.index.value_or(""));
   if (!value || *value < -kMaxText || *value > kMaxText) {
-    diagnostics_.error(statement.line, fmt::format("{} has no value in parentheses, Text(0) = \"...\" is the form", statement.title()));
+    diagnostics_.error(statement.line,
+                       fmt::format("{} has no value in parentheses, Text(0) = \"...\" is the form", statement.title()));
     return;
   }
   gsd.prm_texts[prm_text_][*value] = Values(statement, diagnostics_).text();
@@ -210,9 +222,10 @@ void Parser::in_parameter(const Statement& statement) {
     keep(gsd.keywords, statement);
   } else {
     typed_ = true;  // told once, not again at the end of the block
-    diagnostics_.error(statement.line, fmt::format("{} is no data type, Bit(n), BitArea(a-b), Unsigned8, Unsigned16, Unsigned32, "
-                                                   "Signed8, Signed16 and Signed32 are allowed",
-                                                   statement.keyword.empty() ? statement.value : statement.title()));
+    diagnostics_.error(statement.line,
+                       fmt::format("{} is no data type, Bit(n), BitArea(a-b), Unsigned8, Unsigned16, Unsigned32, "
+                                   "Signed8, Signed16 and Signed32 are allowed",
+                                   statement.keyword.empty() ? statement.value : statement.title()));
   }
 }
 
@@ -230,7 +243,7 @@ bool Parser::read_bits(const Statement& statement) {
   const auto first = to_number(trim(std::string_view(index).substr(0, area ? dash : index.size())));
   const auto last = area ? to_number(trim(std::string_view(index).substr(dash + 1))) : first;
   if (!first || !last || *first < 0 || *last > 7 || *first > *last) {
-    diagnostics_.error(statement.line, fmt::format("{} names no bits of an byte, Bit(0) to Bit(7) and BitArea(a-b) with "
+    diagnostics_.error(statement.line, fmt::format("{} names no bits of a byte, Bit(0) to Bit(7) and BitArea(a-b) with "
                                                    "0 <= a <= b <= 7 are allowed",
                                                    statement.title()));
     return false;
@@ -252,8 +265,8 @@ void Parser::read_preset(const Statement& statement) {
   parameter_.allowed = std::move(*allowed);
   for (const GsdRange& range : parameter_.allowed) {
     if (range.low >= whole.low && range.high <= whole.high) continue;
-    diagnostics_.warning(statement.line, fmt::format("{}-{} is more than {} holds, {} to {}", range.low, range.high, statement.title(),
-                                                     whole.low, whole.high));
+    diagnostics_.warning(statement.line, fmt::format("{}-{} is more than {} holds, {} to {}", range.low, range.high,
+                                                     statement.title(), whole.low, whole.high));
   }
   if (!within(parameter_.allowed, *preset)) {
     diagnostics_.warning(statement.line, fmt::format("the default {} is none of the allowed values", *preset));
@@ -261,9 +274,11 @@ void Parser::read_preset(const Statement& statement) {
 }
 
 void Parser::end_parameter() {
-  if (!typed_) diagnostics_.error(parameter_.line, "ExtUserPrmData has no data type, a line such as Unsigned8 0 0-255 is needed");
+  if (!typed_)
+    diagnostics_.error(parameter_.line, "ExtUserPrmData has no data type, a line such as Unsigned8 0 0-255 is needed");
   if (gsd.parameters.count(parameter_.number) != 0) {
-    diagnostics_.warning(parameter_.line, fmt::format("ExtUserPrmData {} is defined again, the last counts", parameter_.number));
+    diagnostics_.warning(parameter_.line,
+                         fmt::format("ExtUserPrmData {} is defined again, the last counts", parameter_.number));
   }
   gsd.parameters[parameter_.number] = parameter_;
 }
@@ -276,7 +291,8 @@ void Parser::in_slots(const Statement& statement) {
   slot.line = statement.line;
   const auto index = to_number(statement.index.value_or(""));
   if (!index || *index < 0 || *index > 255) {
-    diagnostics_.error(statement.line, fmt::format("{} has no slot number, Slot(0) to Slot(255) is allowed", statement.title()));
+    diagnostics_.error(statement.line,
+                       fmt::format("{} has no slot number, Slot(0) to Slot(255) is allowed", statement.title()));
     return;
   }
   slot.number = static_cast<int>(*index);

@@ -62,7 +62,8 @@ CfgLengths cfg_lengths(const Bytes& cfg) {
     const bool is_special = (byte & 0x30U) == 0;
     const std::size_t size = is_special ? special_size(byte) : 1;
     if (size > cfg.size() - at) {
-      result.error = fmt::format("identifier 0x{:02X} wants {} more bytes, {} follow", byte, size - 1, cfg.size() - at - 1);
+      result.error =
+          fmt::format("identifier 0x{:02X} wants {} more bytes, {} follow", byte, size - 1, cfg.size() - at - 1);
       return result;
     }
     result.identifiers.push_back(is_special ? special(cfg, at, size) : compact(at, byte));

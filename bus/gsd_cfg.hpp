@@ -10,9 +10,9 @@ namespace bus {
 
 /// One direction of an identifier.
 struct CfgDirection {
-  int count = 0;            ///< bytes or words, 1..64; 0 = no data in this direction
-  bool words = false;       ///< two bytes a unit
-  bool whole = false;       ///< consistent over the whole module, else over one unit
+  int count = 0;       ///< bytes or words, 1..64; 0 = no data in this direction
+  bool words = false;  ///< two bytes a unit
+  bool whole = false;  ///< consistent over the whole module, else over one unit
   int bytes() const { return words ? 2 * count : count; }
 };
 

@@ -102,7 +102,8 @@ class Completion {
     const int given = static_cast<int>(data->bytes.size());
     if (!length) gsd_.prm.length = given;
     if (length.value_or(given) == given) return;
-    diagnostics_.warning(data->line, fmt::format("User_Prm_Data has {} bytes, User_Prm_Data_Len = {} counts", given, *length));
+    diagnostics_.warning(data->line,
+                         fmt::format("User_Prm_Data has {} bytes, User_Prm_Data_Len = {} counts", given, *length));
     gsd_.prm.constants.back().bytes.resize(static_cast<std::size_t>(*length));
   }
 
@@ -114,7 +115,8 @@ class Completion {
       if (settings_.seen.count(lower(name)) == 0) diagnostics_.warning(0, fmt::format("{} is missing", name));
     }
     if (gsd_.revision > 5) {
-      diagnostics_.warning(0, fmt::format("GSD_Revision = {} is newer than 5, its new keywords are kept only", gsd_.revision));
+      diagnostics_.warning(
+          0, fmt::format("GSD_Revision = {} is newer than 5, its new keywords are kept only", gsd_.revision));
     }
   }
 
@@ -128,8 +130,8 @@ class Completion {
 
   void check_block(const GsdPrmBlock& block, std::optional<int> length, std::string_view length_name, int line) {
     for (const GsdPrmConst& constant : block.constants) {
-      check_extent("Ext_User_Prm_Data_Const", constant.offset, static_cast<int>(constant.bytes.size()), length, length_name,
-                   constant.line);
+      check_extent("Ext_User_Prm_Data_Const", constant.offset, static_cast<int>(constant.bytes.size()), length,
+                   length_name, constant.line);
     }
     for (const GsdPrmRef& ref : block.refs) check_ref(ref, length, length_name);
     const bool used = !block.constants.empty() || !block.refs.empty();
@@ -139,17 +141,21 @@ class Completion {
   void check_ref(const GsdPrmRef& ref, std::optional<int> length, std::string_view length_name) {
     const auto found = gsd_.parameters.find(ref.parameter);
     if (found == gsd_.parameters.end()) {
-      diagnostics_.error(ref.line, fmt::format("Ext_User_Prm_Data_Ref({}) names ExtUserPrmData {}, {}", ref.offset, ref.parameter,
-                                               defined(gsd_.parameters, "ExtUserPrmData")));
+      diagnostics_.error(ref.line, fmt::format("Ext_User_Prm_Data_Ref({}) names ExtUserPrmData {}, {}", ref.offset,
+                                               ref.parameter, defined(gsd_.parameters, "ExtUserPrmData")));
       return;
     }
     check_extent("Ext_User_Prm_Data_Ref", ref.offset, size_of(found->second.type), length, length_name, ref.line);
   }
 
-  void check_extent(std::string_view keyword, int offset, int size, std::optional<int> length, std::string_view length_name, int line) {
+  void check_extent(std::string_view keyword, int offset, int size, std::optional<int> length,
+                    std::string_view length_name, int line) {
     if (!length || offset + size <= *length) return;
-    diagnostics_.error(line, fmt::format("{}({}) reaches byte {}, {} = {} allows {}", keyword, offset, offset + size - 1, length_name,
-                                         *length, *length == 0 ? "none" : fmt::format("0 to {}", *length - 1)));
+    diagnostics_.error(line, fmt::format("{}({}) reaches byte {}, {} = {} allows {}", keyword, offset,
+                                         offset + size - 1, length_name, *length,
+                                         *length == 0   ? "none"
+                                         : *length == 1 ? "0"
+                                                        : fmt::format("0 to {}", *length - 1)));
   }
 
   /// "1, 2, 3 are defined": what a reference may name.
@@ -161,26 +167,29 @@ class Completion {
     for (const auto& entry : map) {
       if (numbers.size() < kShown) numbers.push_back(entry.first);
     }
-    return fmt::format("{}{} {} defined", fmt::join(numbers, ", "), map.size() > kShown ? ", ..." : "", map.size() == 1 ? "is" : "are");
+    return fmt::format("{}{} {} defined", fmt::join(numbers, ", "), map.size() > kShown ? ", ..." : "",
+                       map.size() == 1 ? "is" : "are");
   }
 
   void check_parameters() {
     for (const auto& [number, parameter] : gsd_.parameters) {
       if (!parameter.text_ref || gsd_.prm_texts.count(*parameter.text_ref) != 0) continue;
-      diagnostics_.error(parameter.line, fmt::format("ExtUserPrmData {} names PrmText {}, {}", number, *parameter.text_ref,
-                                                     defined(gsd_.prm_texts, "PrmText")));
+      diagnostics_.error(parameter.line, fmt::format("ExtUserPrmData {} names PrmText {}, {}", number,
+                                                     *parameter.text_ref, defined(gsd_.prm_texts, "PrmText")));
     }
   }
 
   bool has_module(std::int64_t reference) const {
-    return std::any_of(gsd_.modules.begin(), gsd_.modules.end(), [&](const GsdModule& m) { return m.reference == reference; });
+    return std::any_of(gsd_.modules.begin(), gsd_.modules.end(),
+                       [&](const GsdModule& m) { return m.reference == reference; });
   }
 
   void check_slots() {
     for (const GsdSlot& slot : gsd_.slots) {
       if (slot.preset != 0 && !has_module(slot.preset)) {
-        diagnostics_.error(slot.line, fmt::format("Slot({}) presets module {}, a module reference number of the file or 0 is allowed",
-                                                  slot.number, slot.preset));
+        diagnostics_.error(
+            slot.line, fmt::format("Slot({}) presets module {}, a module reference number of the file or 0 is allowed",
+                                   slot.number, slot.preset));
       }
     }
     std::set<int> references;
@@ -193,18 +202,22 @@ class Completion {
   void check_slave() {
     check_bauds();
     check_modules();
-    if (gsd_.dpv1 && prm_bytes() < 3) diagnostics_.warning(0, "DPV1_Slave = 1, but the user parameters lack the three DPV1 bytes");
+    if (gsd_.dpv1 && prm_bytes() < 3)
+      diagnostics_.warning(0, "DPV1_Slave = 1, but the user parameters lack the three DPV1 bytes");
     if (gsd_.max_user_prm.value_or(0) > kMaxUserPrm) {
-      diagnostics_.warning(0, fmt::format("Max_User_Prm_Data_Len = {}, a Set_Prm carries at most {}", *gsd_.max_user_prm, kMaxUserPrm));
+      diagnostics_.warning(
+          0, fmt::format("Max_User_Prm_Data_Len = {}, a Set_Prm carries at most {}", *gsd_.max_user_prm, kMaxUserPrm));
     }
     if (!gsd_.modular) return;
     if (!gsd_.max_modules) diagnostics_.warning(0, "Max_Module is missing in a modular station");
-    if (!gsd_.max_input || !gsd_.max_output) diagnostics_.warning(0, "Max_Input_Len or Max_Output_Len is missing in a modular station");
+    if (!gsd_.max_input || !gsd_.max_output)
+      diagnostics_.warning(0, "Max_Input_Len or Max_Output_Len is missing in a modular station");
   }
 
   int prm_bytes() const {
     int bytes = gsd_.prm.length.value_or(0);
-    for (const auto& constant : gsd_.prm.constants) bytes = std::max(bytes, constant.offset + static_cast<int>(constant.bytes.size()));
+    for (const auto& constant : gsd_.prm.constants)
+      bytes = std::max(bytes, constant.offset + static_cast<int>(constant.bytes.size()));
     for (const auto& ref : gsd_.prm.refs) bytes = std::max(bytes, ref.offset + 1);
     return bytes;
   }
@@ -214,7 +227,8 @@ class Completion {
     for (int i = 0; i < kBaudCount; ++i) {
       const GsdBaud& rate = gsd_.bauds[static_cast<std::size_t>(i)];
       any = any || rate.supported;
-      if (rate.supported && !rate.max_tsdr) diagnostics_.warning(0, fmt::format("MaxTsdr_{} is missing", gsd_baud_name(i)));
+      if (rate.supported && !rate.max_tsdr)
+        diagnostics_.warning(0, fmt::format("MaxTsdr_{} is missing", gsd_baud_name(i)));
     }
     if (!any) diagnostics_.warning(0, "no baud rate is supported");
   }
@@ -234,6 +248,8 @@ class Completion {
 
 }  // namespace
 
-void complete(Gsd& gsd, const Settings& settings, Diagnostics& diagnostics) { Completion(gsd, settings, diagnostics).run(); }
+void complete(Gsd& gsd, const Settings& settings, Diagnostics& diagnostics) {
+  Completion(gsd, settings, diagnostics).run();
+}
 
 }  // namespace bus::gsd

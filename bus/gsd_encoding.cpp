@@ -15,9 +15,11 @@ constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
 std::size_t utf8_sequence(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char head = byte(at);
-  const std::size_t size = head < 0x80 ? 1 : head >= 0xC2 && head < 0xE0 ? 2 : head >= 0xE0 && head < 0xF0 ? 3
-                         : head >= 0xF0 && head < 0xF5                   ? 4
-                                                                         : 0;
+  const std::size_t size = head < 0x80                   ? 1
+                           : head >= 0xC2 && head < 0xE0 ? 2
+                           : head >= 0xE0 && head < 0xF0 ? 3
+                           : head >= 0xF0 && head < 0xF5 ? 4
+                                                         : 0;
   if (size == 0 || at + size > text.size()) return 0;
   for (std::size_t i = 1; i < size; ++i) {
     if ((byte(at + i) & 0xC0U) != 0x80U) return 0;
@@ -79,9 +81,10 @@ std::string decode(std::string bytes, Diagnostics& diagnostics) {
   const auto alien = std::find_if_not(bytes.begin(), bytes.end(), is_text_byte);
   if (alien != bytes.end()) {
     const auto at = static_cast<std::size_t>(alien - bytes.begin());
-    diagnostics.error(line_of(bytes, at), fmt::format("byte 0x{:02X} is no text, a GSD file holds printable characters, tabs "
-                                                       "and line ends",
-                                                       static_cast<unsigned char>(*alien)));
+    diagnostics.error(line_of(bytes, at),
+                      fmt::format("byte 0x{:02X} is no text, a GSD file holds printable characters, tabs "
+                                  "and line ends",
+                                  static_cast<unsigned char>(*alien)));
     return {};
   }
   return is_utf8(bytes) ? bytes : from_latin1(bytes);

@@ -11,7 +11,7 @@ namespace bus::gsd {
 enum class Kind : std::uint8_t {
   kNumber,  ///< low..high
   kText,    ///< at most `high` characters
-  kBytes,  ///< a list of 0..255
+  kBytes,   ///< a list of 0..255
   kAny,     ///< kept as written
 };
 

@@ -35,8 +35,18 @@ std::string bare(std::string_view key) {
 
 const BlockKind* find_block(const Statement& statement, std::string_view BlockKind::*member) {
   const std::string key = bare(statement.key);
-  const auto found = std::find_if(std::begin(kBlocks), std::end(kBlocks), [&](const auto& kind) { return kind.*member == key; });
+  const auto found =
+      std::find_if(std::begin(kBlocks), std::end(kBlocks), [&](const auto& kind) { return kind.*member == key; });
   return found == std::end(kBlocks) ? nullptr : found;
+}
+
+/// The begin of a long text, never cut inside a UTF-8 character.
+std::string abridge(const std::string& text) {
+  constexpr std::size_t kShown = 40;
+  if (text.size() <= kShown) return text;
+  std::size_t end = kShown;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + "...";
 }
 
 bool may_hold_area(std::string_view name) { return name == "Module" || name == "UnitDiagType"; }
@@ -72,7 +82,8 @@ void Parser::read_content(const Statement& statement) {
 void Parser::read_header(const Statement& statement) {
   const std::string name = lower(trim(std::string_view(statement.value).substr(1)));
   if (name.compare(0, 11, "profibus_dp") != 0) {
-    diagnostics_.warning(statement.line, fmt::format("section {} is unknown, #Profibus_DP is the one for DP", statement.value));
+    diagnostics_.warning(statement.line,
+                         fmt::format("section {} is unknown, #Profibus_DP is the one for DP", statement.value));
     return;
   }
   if (started_) diagnostics_.warning(statement.line, "#Profibus_DP must stand before the first keyword");
@@ -83,8 +94,8 @@ void Parser::open(const BlockKind& kind, const Statement& statement) {
   const bool inside = !open_.empty() && !(kind.nests && may_hold_area(open_.back().kind->name));
   if (inside) {
     const Open outer = open_.back();
-    diagnostics_.error(statement.line, fmt::format("{} begins inside the {} of line {}, {} is needed before it", kind.name,
-                                                   outer.kind->name, outer.line, outer.kind->end));
+    diagnostics_.error(statement.line, fmt::format("{} begins inside the {} of line {}, {} is needed before it",
+                                                   kind.name, outer.kind->name, outer.line, outer.kind->end));
     while (!open_.empty()) leave();
   }
   const bool skipped = !begin(kind.scope, statement);
@@ -102,13 +113,14 @@ bool Parser::begin(Scope kind, const Statement& statement) {
 void Parser::close(const BlockKind& kind, const Statement& statement) {
   const auto same = [&](const Open& open) { return open.kind->key == kind.key; };
   if (std::none_of(open_.begin(), open_.end(), same)) {
-    diagnostics_.error(statement.line, fmt::format("{} without {}, it may only end an open {}", kind.end, kind.name, kind.name));
+    diagnostics_.error(statement.line,
+                       fmt::format("{} without {}, it may only end an open {}", kind.end, kind.name, kind.name));
     return;
   }
   while (!same(open_.back())) {
     const Open& inner = open_.back();
-    diagnostics_.error(statement.line, fmt::format("{} comes before the end of the {} of line {}, {} is needed first", kind.end,
-                                                   inner.kind->name, inner.line, inner.kind->end));
+    diagnostics_.error(statement.line, fmt::format("{} comes before the end of the {} of line {}, {} is needed first",
+                                                   kind.end, inner.kind->name, inner.line, inner.kind->end));
     leave();
   }
   leave();
@@ -130,13 +142,14 @@ void Parser::finish() {
 
 void Parser::keep(std::vector<GsdKeyword>& list, const Statement& statement) {
   if (statement.keyword.empty() || (!statement.equals && !statement.index)) {
-    const std::string shown = (statement.title() + " " + statement.value).substr(0, 40);
-    diagnostics_.warning(statement.line, fmt::format("\"{}\" is no GSD statement, ignored", trim(shown)));
+    const std::string shown = abridge(statement.title() + (statement.keyword.empty() ? "" : " ") + statement.value);
+    diagnostics_.warning(statement.line, fmt::format("\"{}\" is no GSD statement, ignored", shown));
     return;
   }
-  const bool known = find_keyword(statement.key) != nullptr || is_kept_silently(statement.key) || scope() == Scope::kKept ||
-                     find_block(statement, &BlockKind::key) != nullptr;
-  if (!known) diagnostics_.warning(statement.line, fmt::format("unknown keyword {}, kept without a meaning", statement.keyword));
+  const bool known = find_keyword(statement.key) != nullptr || is_kept_silently(statement.key) ||
+                     scope() == Scope::kKept || find_block(statement, &BlockKind::key) != nullptr;
+  if (!known)
+    diagnostics_.warning(statement.line, fmt::format("unknown keyword {}, kept without a meaning", statement.keyword));
   list.push_back({statement.title(), statement.value, statement.line});
 }
 

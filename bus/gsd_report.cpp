@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <ostream>
 
@@ -36,7 +37,10 @@ class TextReport {
   }
 
   void print_identity() {
-    line(fmt::format("{}: {}", gsd_.file, gsd_.is_master ? "a DP master" : gsd_.modular ? "a modular DP slave" : "a fixed DP slave"));
+    line(fmt::format("{}: {}", gsd_.file,
+                     gsd_.is_master ? "a DP master"
+                     : gsd_.modular ? "a modular DP slave"
+                                    : "a fixed DP slave"));
     entry("Ident_Number", fmt::format("0x{:04X}", gsd_.ident));
     entry("GSD_Revision", gsd_.revision == 0 ? "not given" : fmt::format("{}", gsd_.revision));
     entry("Vendor_Name", gsd_.vendor);
@@ -83,11 +87,13 @@ class TextReport {
   void print_module(std::size_t index) {
     const GsdModule& module = gsd_.modules[index];
     const GsdSetup setup = alone(gsd_, index);
-    line(fmt::format("  {} \"{}\"{}", module.reference.value_or(static_cast<int>(index) + 1), module.name, module.preset ? ", preset" : ""));
+    line(fmt::format("  {} \"{}\"{}", module.reference.value_or(static_cast<int>(index) + 1), module.name,
+                     module.preset ? ", preset" : ""));
     entry("  Chk_Cfg", hex(module.cfg));
     for (const CfgIdentifier& identifier : setup.lengths.identifiers) entry("", bus::describe(identifier));
-    entry("  lengths", setup.lengths.ok() ? fmt::format("input {} bytes, output {} bytes", setup.lengths.input, setup.lengths.output)
-                                          : setup.lengths.error);
+    entry("  lengths", setup.lengths.ok()
+                           ? fmt::format("input {} bytes, output {} bytes", setup.lengths.input, setup.lengths.output)
+                           : setup.lengths.error);
     entry("  Set_Prm with it alone", hex(set_prm_bytes(gsd_.ident, {}, setup.user_prm)));
     for (const GsdPrmField& field : setup.fields) {
       if (field.module) entry("", fmt::format("byte {}: {}", 7 + field.position, gsd::describe(field)));
@@ -106,7 +112,8 @@ class TextReport {
     const Bytes prm = set_prm_bytes(gsd_.ident, {}, setup.user_prm);
     print_telegram("Set_Prm (SAP 61)", prm, explain_set_prm(gsd_, prm, setup));
     print_telegram("Chk_Cfg (SAP 62)", setup.chk_cfg, explain_chk_cfg(setup.chk_cfg));
-    line(fmt::format("Data exchange: {} bytes output to the slave, {} bytes input from it", setup.lengths.output, setup.lengths.input));
+    line(fmt::format("Data exchange: {} bytes output to the slave, {} bytes input from it", setup.lengths.output,
+                     setup.lengths.input));
   }
 
   void print_telegram(std::string_view title, const Bytes& data, const std::vector<Explained>& words) {
@@ -155,17 +162,18 @@ void soften(GsdSetup& setup) {
 
 }  // namespace
 
-void print_gsd_report(const Gsd& gsd, const GsdSetup& setup, const std::vector<GsdDiagnostic>& remarks, std::ostream& out,
-                      GsdFormat format) {
-  if (format == GsdFormat::kJson) gsd::print_json(gsd, setup, remarks, out);
-  else gsd::print_text(gsd, setup, remarks, out);
+void print_gsd_report(const Gsd& gsd, const GsdSetup& setup, const std::vector<GsdDiagnostic>& remarks,
+                      std::ostream& out, GsdFormat format) {
+  if (format == GsdFormat::kJson)
+    gsd::print_json(gsd, setup, remarks, out);
+  else
+    gsd::print_text(gsd, setup, remarks, out);
 }
 
 int gsd_command(const std::string& path, const GsdCommand& command, std::ostream& out, std::ostream& err) {
   std::ifstream in(path, std::ios::binary);
-  if (!in || in.peek() == std::ifstream::traits_type::eof()) {
-    const char* wrong = in.is_open() && in.eof() ? "is empty or no file" : "cannot be opened";
-    err << fmt::format("{}:1: {}, a readable GSD file is needed\n", path, wrong);
+  if (!in || std::filesystem::is_directory(path)) {
+    err << fmt::format("{}:1: cannot be opened, a readable GSD file is needed\n", path);
     return 2;
   }
   const GsdResult result = parse_gsd(in, path);

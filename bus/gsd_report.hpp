@@ -13,8 +13,8 @@ enum class GsdFormat : std::uint8_t { kText, kJson };
 
 /// Prints ident, names, baud rates, limits, features, modules with their Chk_Cfg and Set_Prm, and the whole Set_Prm and Chk_Cfg
 /// of `setup` byte by byte; `remarks` are those of the file, the setup brings its own. `setup` must be made from `gsd`.
-void print_gsd_report(const Gsd& gsd, const GsdSetup& setup, const std::vector<GsdDiagnostic>& remarks, std::ostream& out,
-                      GsdFormat format);
+void print_gsd_report(const Gsd& gsd, const GsdSetup& setup, const std::vector<GsdDiagnostic>& remarks,
+                      std::ostream& out, GsdFormat format);
 
 struct GsdCommand {
   GsdChoice choice;  ///< empty: the modules that the file presets

@@ -67,8 +67,8 @@ Json parameter(const GsdPrmField& field) {
   const GsdParameter& known = *field.parameter;
   Json allowed = Json::array();
   for (const GsdRange& range : known.allowed) allowed.push_back({range.low, range.high});
-  return {{"byte", 7 + field.position},  {"bits", bits(known)},   {"name", known.name},   {"number", known.number},
-          {"type", name(known.type)},    {"value", field.value},  {"text", field.text},   {"allowed", allowed},
+  return {{"byte", 7 + field.position},     {"bits", bits(known)},     {"name", known.name}, {"number", known.number},
+          {"type", name(known.type)},       {"value", field.value},    {"text", field.text}, {"allowed", allowed},
           {"changeable", known.changeable}, {"visible", known.visible}};
 }
 

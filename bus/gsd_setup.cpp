@@ -16,7 +16,8 @@ constexpr std::size_t kMaxUserPrm = 237;
 using Modules = std::vector<std::size_t>;
 
 bool has_references(const Gsd& gsd) {
-  return std::any_of(gsd.modules.begin(), gsd.modules.end(), [](const GsdModule& m) { return m.reference.has_value(); });
+  return std::any_of(gsd.modules.begin(), gsd.modules.end(),
+                     [](const GsdModule& m) { return m.reference.has_value(); });
 }
 
 template <typename Matches>
@@ -73,8 +74,9 @@ class PrmBuilder {
 
   GsdUserPrm finish() {
     for (std::size_t i = 0; i < overrides_.size(); ++i) {
-      if (used_.count(i) == 0) fail(0, fmt::format("{} has no parameter \"{}\"{}", owner(overrides_[i].module),
-                                                   overrides_[i].parameter, offered(overrides_[i].module)));
+      if (used_.count(i) == 0)
+        fail(0, fmt::format("{} has no parameter \"{}\"{}", owner(overrides_[i].module), overrides_[i].parameter,
+                            offered(overrides_[i].module)));
     }
     return std::move(result_);
   }
@@ -88,7 +90,8 @@ class PrmBuilder {
       value = overridden(overrides_[i], parameter);
     }
     store(parameter, at, value);
-    result_.fields.push_back({at, static_cast<std::size_t>(size_of(parameter.type)), module, &parameter, value, text(parameter, value)});
+    result_.fields.push_back(
+        {at, static_cast<std::size_t>(size_of(parameter.type)), module, &parameter, value, text(parameter, value)});
   }
 
   static bool names(const GsdOverride& change, const GsdParameter& parameter) {
@@ -148,7 +151,8 @@ class PrmBuilder {
     }
     const int size = size_of(parameter.type);
     for (int i = 0; i < size; ++i) {
-      result_.bytes[at + static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(bits >> static_cast<unsigned>(8 * (size - 1 - i)));
+      result_.bytes[at + static_cast<std::size_t>(i)] =
+          static_cast<std::uint8_t>(bits >> static_cast<unsigned>(8 * (size - 1 - i)));
     }
   }
 
@@ -188,7 +192,9 @@ class Limits {
   }
 
  private:
-  void error(std::string text) { setup_.diagnostics.push_back({GsdDiagnostic::Level::kError, gsd_.file, 0, std::move(text)}); }
+  void error(std::string text) {
+    setup_.diagnostics.push_back({GsdDiagnostic::Level::kError, gsd_.file, 0, std::move(text)});
+  }
 
   void check_count() {
     const auto count = static_cast<int>(setup_.modules.size());
@@ -202,7 +208,8 @@ class Limits {
     if (setup_.modules.size() > gsd_.slots.size()) {
       error(fmt::format("{} modules are chosen, the station has {} slots", setup_.modules.size(), gsd_.slots.size()));
     }
-    for (std::size_t i = 0; i < std::min(setup_.modules.size(), gsd_.slots.size()); ++i) check_slot(gsd_.slots[i], setup_.modules[i]);
+    for (std::size_t i = 0; i < std::min(setup_.modules.size(), gsd_.slots.size()); ++i)
+      check_slot(gsd_.slots[i], setup_.modules[i]);
   }
 
   void check_slot(const GsdSlot& slot, std::size_t index) {
@@ -212,7 +219,8 @@ class Limits {
     };
     if (slot.allowed.empty() || module.reference == slot.preset) return;
     if (std::none_of(slot.allowed.begin(), slot.allowed.end(), takes)) {
-      error(fmt::format("module \"{}\" does not fit slot {}, line {} says which modules are allowed", module.name, slot.number, slot.line));
+      error(fmt::format("module \"{}\" does not fit slot {}, line {} says which modules are allowed", module.name,
+                        slot.number, slot.line));
     }
   }
 
@@ -222,25 +230,33 @@ class Limits {
     if (!setup_.lengths.ok()) error(setup_.lengths.error);
   }
 
-  void check_length(const char* what, int bytes, std::optional<int> limit, const char* keyword, int most) {
-    if (bytes > most) error(fmt::format("{} are {} bytes, 0 to {} are allowed", what, bytes, most));
-    else if (limit && bytes > *limit) error(fmt::format("{} are {} bytes, {} = {} is the most", what, bytes, keyword, *limit));
+  bool check_length(const char* what, int bytes, std::optional<int> limit, const char* keyword, int most) {
+    if (bytes > most)
+      error(fmt::format("{} are {} bytes, 0 to {} are allowed", what, bytes, most));
+    else if (limit && bytes > *limit)
+      error(fmt::format("{} are {} bytes, {} = {} is the most", what, bytes, keyword, *limit));
+    else
+      return true;
+    return false;
   }
 
   void check_lengths() {
     const CfgLengths& data = setup_.lengths;
-    check_length("inputs", data.input, gsd_.max_input, "Max_Input_Len", kMaxData);
-    check_length("outputs", data.output, gsd_.max_output, "Max_Output_Len", kMaxData);
+    const bool input = check_length("inputs", data.input, gsd_.max_input, "Max_Input_Len", kMaxData);
+    const bool output = check_length("outputs", data.output, gsd_.max_output, "Max_Output_Len", kMaxData);
+    if (!input || !output) return;
     check_length("inputs and outputs", data.input + data.output, gsd_.max_data, "Max_Data_Len", 2 * kMaxData);
   }
 
   /// Max_User_Prm_Data_Len is only a warning: files give it with and without the modules' parameters.
   void check_prm() {
     const std::size_t size = setup_.user_prm.size();
-    if (size > kMaxUserPrm) error(fmt::format("the user parameters have {} bytes, 0 to {} are allowed", size, kMaxUserPrm));
+    if (size > kMaxUserPrm)
+      error(fmt::format("the user parameters have {} bytes, 0 to {} are allowed", size, kMaxUserPrm));
     if (!gsd_.max_user_prm || static_cast<int>(size) <= *gsd_.max_user_prm) return;
-    setup_.diagnostics.push_back({GsdDiagnostic::Level::kWarning, gsd_.file, 0,
-                                  fmt::format("the user parameters have {} bytes, Max_User_Prm_Data_Len = {}", size, *gsd_.max_user_prm)});
+    setup_.diagnostics.push_back(
+        {GsdDiagnostic::Level::kWarning, gsd_.file, 0,
+         fmt::format("the user parameters have {} bytes, Max_User_Prm_Data_Len = {}", size, *gsd_.max_user_prm)});
   }
 
   const Gsd& gsd_;
@@ -253,8 +269,10 @@ Modules chosen_modules(const Gsd& gsd, const std::vector<std::string>& names, st
   for (const std::string& module_name : names) {
     std::string why;
     const auto found = find_module(gsd, module_name, why);
-    if (found) modules.push_back(*found);
-    else diagnostics.push_back({GsdDiagnostic::Level::kError, gsd.file, 0, why});
+    if (found)
+      modules.push_back(*found);
+    else
+      diagnostics.push_back({GsdDiagnostic::Level::kError, gsd.file, 0, why});
   }
   return modules;
 }
@@ -262,7 +280,8 @@ Modules chosen_modules(const Gsd& gsd, const std::vector<std::string>& names, st
 }  // namespace
 
 bool GsdSetup::ok() const {
-  return std::none_of(diagnostics.begin(), diagnostics.end(), [](const auto& d) { return d.level == GsdDiagnostic::Level::kError; });
+  return std::none_of(diagnostics.begin(), diagnostics.end(),
+                      [](const auto& d) { return d.level == GsdDiagnostic::Level::kError; });
 }
 
 Modules preset_modules(const Gsd& gsd) {
@@ -292,7 +311,8 @@ std::optional<std::size_t> find_module(const Gsd& gsd, const std::string& name, 
 std::size_t prm_length(const Gsd& gsd, const GsdPrmBlock& block) {
   if (block.length) return static_cast<std::size_t>(*block.length);
   std::size_t end = 0;
-  for (const GsdPrmConst& constant : block.constants) end = std::max(end, static_cast<std::size_t>(constant.offset) + constant.bytes.size());
+  for (const GsdPrmConst& constant : block.constants)
+    end = std::max(end, static_cast<std::size_t>(constant.offset) + constant.bytes.size());
   for (const GsdPrmRef& ref : block.refs) {
     end = std::max(end, static_cast<std::size_t>(ref.offset + size_of(gsd.parameters.at(ref.parameter).type)));
   }
@@ -318,10 +338,15 @@ Bytes chk_cfg_bytes(const Gsd& gsd, const Modules& modules) {
 
 Bytes set_prm_bytes(std::uint16_t ident, const SetPrmHead& head, const Bytes& user_prm) {
   const bool watchdog = head.wd_fact_1 != 0 && head.wd_fact_2 != 0;
-  const int status = (head.lock ? 0x80 : 0) | (head.unlock ? 0x40 : 0) | (head.sync ? 0x20 : 0) | (head.freeze ? 0x10 : 0) |
-                     (watchdog ? 0x08 : 0);
-  Bytes bytes = {static_cast<std::uint8_t>(status), head.wd_fact_1, head.wd_fact_2, head.min_tsdr,
-                  static_cast<std::uint8_t>(ident >> 8U), static_cast<std::uint8_t>(ident & 0xFFU), head.group};
+  const int status = (head.lock ? 0x80 : 0) | (head.unlock ? 0x40 : 0) | (head.sync ? 0x20 : 0) |
+                     (head.freeze ? 0x10 : 0) | (watchdog ? 0x08 : 0);
+  Bytes bytes = {static_cast<std::uint8_t>(status),
+                 head.wd_fact_1,
+                 head.wd_fact_2,
+                 head.min_tsdr,
+                 static_cast<std::uint8_t>(ident >> 8U),
+                 static_cast<std::uint8_t>(ident & 0xFFU),
+                 head.group};
   bytes.insert(bytes.end(), user_prm.begin(), user_prm.end());
   return bytes;
 }

@@ -32,12 +32,12 @@ struct GsdChoice {
 
 /// What stands at one place of the user parameters.
 struct GsdPrmField {
-  std::size_t position = 0;           ///< byte in the user parameters
-  std::size_t size = 1;               ///< bytes
-  std::optional<std::size_t> module;  ///< position in the choice; nullopt: the station
+  std::size_t position = 0;                 ///< byte in the user parameters
+  std::size_t size = 1;                     ///< bytes
+  std::optional<std::size_t> module;        ///< position in the choice; nullopt: the station
   const GsdParameter* parameter = nullptr;  ///< in the Gsd; nullptr: constant bytes
-  std::int64_t value = 0;             ///< of the parameter
-  std::string text;                   ///< the PrmText of the value, empty when there is none
+  std::int64_t value = 0;                   ///< of the parameter
+  std::string text;                         ///< the PrmText of the value, empty when there is none
 };
 
 struct GsdUserPrm {
@@ -48,7 +48,7 @@ struct GsdUserPrm {
 
 struct GsdSetup {
   std::vector<std::size_t> modules;  ///< indices into Gsd::modules
-  Bytes user_prm;                    ///< Set_Prm behind its first seven bytes, DPV1 bytes included as the file gives them
+  Bytes user_prm;  ///< Set_Prm behind its first seven bytes, DPV1 bytes included as the file gives them
   std::vector<GsdPrmField> fields;
   Bytes chk_cfg;
   CfgLengths lengths;
@@ -59,8 +59,9 @@ struct GsdSetup {
 /// The seven bytes in front of the user parameters (table 19).
 struct SetPrmHead {
   bool lock = true, unlock = false, sync = false, freeze = false;
-  std::uint8_t wd_fact_1 = 10, wd_fact_2 = 10;  ///< the watchdog is on when both are not 0; unit 10 ms, with WD_Base 1 ms
-  std::uint8_t min_tsdr = 11;                   ///< bit times, 0 leaves it unchanged
+  std::uint8_t wd_fact_1 = 10,
+               wd_fact_2 = 10;  ///< the watchdog is on when both are not 0; unit 10 ms, with WD_Base 1 ms
+  std::uint8_t min_tsdr = 11;   ///< bit times, 0 leaves it unchanged
   std::uint8_t group = 0;
 };
 
@@ -76,7 +77,8 @@ std::optional<std::size_t> find_module(const Gsd& gsd, const std::string& name, 
 std::size_t prm_length(const Gsd& gsd, const GsdPrmBlock& block);
 
 /// User parameters of the station and behind them those of the modules.
-GsdUserPrm set_prm_user_bytes(const Gsd& gsd, const std::vector<std::size_t>& modules, const std::vector<GsdOverride>& overrides);
+GsdUserPrm set_prm_user_bytes(const Gsd& gsd, const std::vector<std::size_t>& modules,
+                              const std::vector<GsdOverride>& overrides);
 
 /// The identifiers of the modules, one behind the other.
 Bytes chk_cfg_bytes(const Gsd& gsd, const std::vector<std::size_t>& modules);

@@ -131,10 +131,12 @@ std::string Values::text() {
 bool Values::separator() {
   const bool comma = accept(',');
   if (at_end()) {
-    if (comma) diagnostics_.warning(statement_.line, fmt::format("the list of {} ends with a comma", statement_.title()));
+    if (comma)
+      diagnostics_.warning(statement_.line, fmt::format("the list of {} ends with a comma", statement_.title()));
     return false;
   }
-  if (!comma) diagnostics_.warning(statement_.line, fmt::format("a comma is missing in the list of {}", statement_.title()));
+  if (!comma)
+    diagnostics_.warning(statement_.line, fmt::format("a comma is missing in the list of {}", statement_.title()));
   return true;
 }
 
@@ -157,7 +159,8 @@ std::optional<std::vector<GsdRange>> Values::ranges() {
     const auto high = accept('-') ? number(-kLimit, kLimit) : low;
     if (!high) return std::nullopt;
     if (*high < *low) {
-      diagnostics_.error(statement_.line, fmt::format("the range {}-{} is empty, the lower value comes first", *low, *high));
+      diagnostics_.error(statement_.line,
+                         fmt::format("the range {}-{} is empty, the lower value comes first", *low, *high));
       return std::nullopt;
     }
     result.push_back({*low, *high});
@@ -166,7 +169,9 @@ std::optional<std::vector<GsdRange>> Values::ranges() {
 }
 
 void Values::finish() {
-  if (!at_end()) diagnostics_.warning(statement_.line, fmt::format("\"{}\" behind the value of {} is ignored", rest_, statement_.title()));
+  if (!at_end())
+    diagnostics_.warning(statement_.line,
+                         fmt::format("\"{}\" behind the value of {} is ignored", rest_, statement_.title()));
 }
 
 }  // namespace bus::gsd

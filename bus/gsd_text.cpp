@@ -29,7 +29,8 @@ bool ends_with(std::string_view text, char c) { return !text.empty() && text.bac
 /// "Keyword =" or "Keyword(n) =": a line that cannot be the continuation of another.
 bool starts_statement(std::string_view text) {
   const std::size_t equals = text.find('=');
-  if (equals == std::string_view::npos || text.empty() || std::isalnum(static_cast<unsigned char>(text.front())) == 0) return false;
+  if (equals == std::string_view::npos || text.empty() || std::isalnum(static_cast<unsigned char>(text.front())) == 0)
+    return false;
   return text.substr(0, equals).find_first_of("\",") == std::string_view::npos;
 }
 
@@ -97,7 +98,8 @@ class Splitter {
   bool continuation_follows() {
     if (in_string_) return next_ < physical_.size();
     while (next_ < physical_.size() && trim(physical_[next_]).substr(0, 1) == ";") ++next_;
-    if (next_ < physical_.size() && !trim(physical_[next_]).empty() && !starts_statement(trim(physical_[next_]))) return true;
+    if (next_ < physical_.size() && !trim(physical_[next_]).empty() && !starts_statement(trim(physical_[next_])))
+      return true;
     diagnostics_.warning(static_cast<int>(next_), "\\ at the end of the line, but no value follows");
     return false;
   }

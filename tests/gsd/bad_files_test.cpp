@@ -1,0 +1,45 @@
+// Each file of tests/bad/gsd has one fault, and beside it the one line that tells it.
+#include <gmock/gmock.h>
+
+#include "bus/gsd_report.hpp"
+#include "files.hpp"
+
+namespace {
+
+using namespace gsd_test;
+
+class BadGsd : public testing::TestWithParam<std::filesystem::path> {};
+
+std::string expected_line(std::filesystem::path path) {
+  std::string line = content(path.replace_extension(".expected"));
+  line.erase(line.find_last_not_of('\n') + 1);
+  return line;
+}
+
+TEST_P(BadGsd, IsRefusedWithItsLine) {
+  const bus::GsdResult result = parse(content(GetParam()), GetParam().filename().string());
+  EXPECT_FALSE(result.gsd.has_value());
+  std::vector<std::string> errors;
+  for (const auto& diagnostic : result.diagnostics) {
+    if (diagnostic.level == bus::GsdDiagnostic::Level::kError) errors.push_back(to_string(diagnostic));
+  }
+  EXPECT_THAT(errors, testing::ElementsAre(expected_line(GetParam())));
+}
+
+TEST_P(BadGsd, MakesTheCommandEndWithTwoAndNoReport) {
+  std::ostringstream out, err;
+  EXPECT_EQ(bus::gsd_command(GetParam().string(), {}, out, err), 2);
+  EXPECT_EQ(out.str(), "");
+  EXPECT_EQ(err.str(), GetParam().parent_path().string() + "/" + expected_line(GetParam()) + "\n");
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, BadGsd, testing::ValuesIn(files_of(GSD_BAD)),
+                         [](const auto& parameter) { return parameter.param.stem().string(); });
+
+TEST(GsdCommand, RefusesAFileThatCannotBeOpened) {
+  std::ostringstream out, err;
+  EXPECT_EQ(bus::gsd_command("no/such/file.gsd", {}, out, err), 2);
+  EXPECT_EQ(err.str(), "no/such/file.gsd:1: cannot be opened, a readable GSD file is needed\n");
+}
+
+}  // namespace
