@@ -1,0 +1,341 @@
+// The data link layer: FDL status, frame count bit, function codes, SAPs and the addressing of answers (S20, S21, S26, chip.md "PROFIBUS
+// facts").
+#include <gtest/gtest.h>
+
+#include "tests/conformance/master_side.hpp"
+
+namespace conformance {
+namespace {
+
+constexpr std::uint8_t kFirst = 0x6D;    ///< FCB = 1, FCV = 0
+constexpr std::uint8_t kFcb0 = 0x5D;     ///< FCB = 0, FCV = 1
+constexpr std::uint8_t kFcb1 = 0x7D;     ///< FCB = 1, FCV = 1
+constexpr std::uint8_t kNoCount = 0x4D;  ///< FCB = 0, FCV = 0
+
+class Fdl : public testing::Test {
+ protected:
+  Exchange dx(std::uint8_t fc, const Bytes& outputs = {1, 2}, std::uint8_t master = 2) {
+    return send_fc(bench, fc, kNoSap, kNoSap, outputs, master);
+  }
+  std::uint64_t executed() const { return bench.chip.status().data_exchanges; }
+
+  SlaveBench bench{quick_search()};
+};
+
+// --- FDL status
+
+TEST_F(Fdl, StatusIsAnsweredOkInEveryState) {
+  const auto expect_status = [this](std::uint8_t master) {
+    const Exchange exchange = bench.requester.send(bench.timeline, bus::make_telegram(5, master, kFdlStatus));
+    ASSERT_TRUE(exchange.answered());
+    EXPECT_EQ(exchange.raw, (Bytes{0x10, master, 5, 0x00, static_cast<std::uint8_t>(master + 5), 0x16}));
+  };
+  bench.to_wait_prm();
+  expect_status(2);
+  ASSERT_TRUE(is_sc(bench.set_prm({})));
+  expect_status(2);
+  expect_status(3);
+  ASSERT_TRUE(is_sc(bench.check_cfg()));
+  expect_status(2);
+  expect_status(126);
+  EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
+}
+
+TEST_F(Fdl, NothingIsAnsweredBeforeTheInitialisation) {
+  bench.power_on();
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(bench.fdl_status().silent());
+    EXPECT_TRUE(ask(bench, 60).silent());
+  }
+  EXPECT_EQ(bench.dp_state(), DpState::kOffline);
+}
+
+// --- frame count bit
+
+TEST_F(Fdl, TogglingSeriesIsExecutedEveryTime) {
+  bench.to_data_exch();
+  const auto before = executed();
+  EXPECT_TRUE(dx(kFirst).answered());
+  for (int i = 0; i < 6; ++i) EXPECT_TRUE(dx(i % 2 == 0 ? kFcb0 : kFcb1).answered());
+  EXPECT_EQ(executed(), before + 7);
+  EXPECT_EQ(bench.count(Reason::kRepetition), 0);
+}
+
+TEST_F(Fdl, RepeatedRequestIsAnsweredFromMemoryAndNotExecuted) {
+  bench.to_data_exch();
+  bench.give_inputs({0x11, 0x22});
+  dx(kFirst);
+  const Exchange first = dx(kFcb0, {1, 2});
+  bench.give_inputs({0x33, 0x44});
+  const auto before = executed();
+  for (int i = 0; i < 3; ++i) {
+    const Exchange again = dx(kFcb0, {7, 8});
+    EXPECT_EQ(again.raw, first.raw);
+  }
+  EXPECT_EQ(executed(), before);
+  EXPECT_EQ(bench.count(Reason::kRepetition), 3);
+  settle(bench);
+  EXPECT_EQ(output_area(bench), (Bytes{1, 2}));
+  EXPECT_EQ(dx(kFcb1).answer().data, (Bytes{0x33, 0x44}));
+}
+
+TEST_F(Fdl, StartOfASeriesIsAlwaysExecuted) {
+  bench.to_data_exch();
+  const auto before = executed();
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(dx(kFirst).answered());
+  EXPECT_EQ(executed(), before + 4);
+}
+
+TEST_F(Fdl, FirstOfASeriesIsRepeatedWithFcvOneAndFcbOne) {
+  bench.to_data_exch();
+  const Exchange first = dx(kFirst);
+  const auto before = executed();
+  EXPECT_EQ(dx(kFcb1, {3, 4}).raw, first.raw);  // same SA, same FCB
+  EXPECT_EQ(executed(), before);
+}
+
+TEST_F(Fdl, SetPrmRepeatedIsExecutedOnce) {
+  bench.to_wait_prm();
+  const Bytes prm = Prm{}.bytes();
+  EXPECT_TRUE(is_sc(send_fc(bench, kFirst, 61, 62, prm)));
+  EXPECT_TRUE(is_sc(send_fc(bench, kFcb0, 61, 62, prm)));
+  EXPECT_TRUE(is_sc(send_fc(bench, kFcb0, 61, 62, prm)));
+  EXPECT_EQ(bench.count(Reason::kPrmAccepted), 2);
+}
+
+TEST_F(Fdl, SameFrameCountOfAnotherMasterIsNoRepetition) {
+  bench.to_data_exch();
+  dx(kFirst);
+  const Exchange of_the_holder = dx(kFcb0);
+  EXPECT_TRUE(of_the_holder.answered());
+  const Exchange other = send_fc(bench, kFcb0, 60, 62, {}, 3);
+  ASSERT_TRUE(is_data(other)) << kind_of(other);
+  EXPECT_EQ(other.answer().data.size(), 6U);
+  const auto before = executed();
+  EXPECT_TRUE(dx(kFcb0, {5, 6}).answered());  // the memory is the other's now: stored anew, executed
+  EXPECT_EQ(executed(), before + 1);
+  EXPECT_EQ(bench.count(Reason::kRepetition), 0);
+}
+
+TEST_F(Fdl, StatusBetweenRequestAndRepetitionKeepsTheMemory) {
+  bench.to_data_exch();
+  bench.give_inputs({1, 1});
+  dx(kFirst);
+  const Exchange first = dx(kFcb0);
+  bench.give_inputs({2, 2});
+  EXPECT_EQ(bench.fdl_status().raw.size(), 6U);
+  EXPECT_EQ(bench.requester.send(bench.timeline, bus::make_telegram(5, 3, kFdlStatus)).raw.size(), 6U);
+  EXPECT_EQ(dx(kFcb0).raw, first.raw);
+}
+
+TEST_F(Fdl, BroadcastAndForeignTrafficKeepTheMemory) {
+  bench.to_data_exch();
+  bench.give_inputs({1, 1});
+  dx(kFirst);
+  const Exchange first = dx(kFcb0);
+  bench.give_inputs({2, 2});
+  tell(bench, bus::kBroadcast, 58, {0, 0});
+  bench.requester.send(bench.timeline, bus::make_telegram(9, 2, kFcb1, {1, 2}));
+  bench.requester.send(bench.timeline, bus::make_token(3, 2), {.wants_answer = false});
+  EXPECT_EQ(dx(kFcb0).raw, first.raw);
+}
+
+TEST_F(Fdl, RequestWithoutFrameCountIsAlwaysExecuted) {
+  bench.to_data_exch();
+  const auto before = executed();
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(dx(kNoCount).answered());
+  EXPECT_EQ(executed(), before + 3);
+}
+
+TEST_F(Fdl, RefusalIsRepeatedFromMemoryToo) {
+  bench.to_wait_prm();
+  EXPECT_TRUE(is_rs(dx(kFirst)));
+  EXPECT_TRUE(is_rs(dx(kFcb0)));
+  EXPECT_TRUE(is_rs(dx(kFcb0)));
+  EXPECT_EQ(bench.count(Reason::kRepetition), 1);
+}
+
+TEST_F(Fdl, RepetitionBehindAStateChangeIsAnsweredFromMemory) {
+  Prm prm;
+  prm.status = 0x88;  // lock, WD_On
+  prm.wd1 = 1;
+  prm.wd2 = 1;  // 10 ms
+  bench.to_data_exch({}, prm);
+  bench.give_inputs({9, 8});
+  dx(kFirst);
+  const Exchange first = dx(kFcb0);
+  bench.run_ms(12);
+  ASSERT_EQ(bench.dp_state(), DpState::kWaitPrm);
+  EXPECT_EQ(dx(kFcb0).raw, first.raw);
+  EXPECT_TRUE(is_rs(dx(kFcb1)));
+}
+
+TEST_F(Fdl, MemoryIsDroppedByANewInitialisation) {
+  bench.to_data_exch();
+  dx(kFirst);
+  EXPECT_TRUE(is_data(dx(kFcb0)));
+  ASSERT_TRUE(bench.initialise());
+  bench.find_baud(0);
+  EXPECT_TRUE(is_rs(dx(kFcb0)));
+  EXPECT_EQ(bench.count(Reason::kRepetition), 0);
+}
+
+TEST_F(Fdl, MemoryIsDroppedByAReset) {
+  bench.to_data_exch();
+  dx(kFirst);
+  EXPECT_TRUE(is_data(dx(kFcb0)));
+  bench.chip.set(bench.now(), Pin::kReset, 0);
+  bench.power_on();
+  ASSERT_TRUE(bench.initialise());
+  bench.find_baud(0);
+  EXPECT_TRUE(is_rs(dx(kFcb0)));
+}
+
+TEST(FdlMemory, IsDroppedByANewBaudRate) {
+  dsdpv1::Config config = quick_search();
+  config.baud_control_ms = 5;
+  SlaveBench bench(config);
+  bench.to_data_exch();
+  send_fc(bench, kFirst, kNoSap, kNoSap, {1, 2});
+  ASSERT_TRUE(send_fc(bench, kFcb0, kNoSap, kNoSap, {1, 2}).answered());
+  bench.run_ms(6);
+  bench.find_baud(1);
+  const auto before = bench.chip.status().data_exchanges;
+  EXPECT_TRUE(send_fc(bench, kFcb0, kNoSap, kNoSap, {1, 2}).answered());
+  EXPECT_EQ(bench.chip.status().data_exchanges, before + 1);
+}
+
+TEST_F(Fdl, RepetitionKeepsTheTimeToTheAnswer) {
+  bench.to_data_exch();
+  dx(kFirst);
+  const Exchange first = dx(kFcb0);
+  const Exchange again = dx(kFcb0);
+  EXPECT_EQ(static_cast<int>(again.tsdr_bits()), 11);
+  EXPECT_EQ(first.raw, again.raw);
+}
+
+// --- function codes
+
+TEST_F(Fdl, IdentAndLsapStatusAreRefused) {
+  bench.to_data_exch();
+  for (const int fc : {0x4E, 0x4F}) {
+    EXPECT_TRUE(is_rs(send_fc(bench, static_cast<std::uint8_t>(fc), kNoSap, kNoSap, {}))) << fc;
+  }
+}
+
+TEST_F(Fdl, SdaToADpSapIsRefusedAndNotExecuted) {
+  bench.to_wait_prm();
+  for (const int fc : {0x43, 0x45, 0x63, 0x65, 0x73}) {
+    EXPECT_TRUE(is_rs(send_fc(bench, static_cast<std::uint8_t>(fc), 61, 62, Prm{}.bytes()))) << fc;
+    EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
+  }
+  EXPECT_EQ(bench.count(Reason::kPrmAccepted), 0);
+}
+
+TEST_F(Fdl, SdnIsNeverAnsweredNorExecutedButForGlobalControl) {
+  bench.to_wait_prm();
+  for (const int fc : {0x44, 0x46}) {
+    EXPECT_TRUE(send_fc(bench, static_cast<std::uint8_t>(fc), 61, 62, Prm{}.bytes()).silent());
+    EXPECT_TRUE(send_fc(bench, static_cast<std::uint8_t>(fc), 60, 62, {}).silent());
+    EXPECT_TRUE(send_fc(bench, static_cast<std::uint8_t>(fc), 51, 51, {1}).silent());
+    EXPECT_TRUE(send_fc(bench, static_cast<std::uint8_t>(fc), kNoSap, kNoSap, {1, 2}).silent());
+  }
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
+  EXPECT_EQ(bench.count(Reason::kSdnIgnored), 8);
+  EXPECT_EQ(bench.chip.status().data_exchanges, 0U);
+}
+
+TEST_F(Fdl, OtherFunctionCodesExecuteNothing) {
+  bench.to_data_exch();
+  const auto before = executed();
+  for (const int fc : {0x40, 0x41, 0x42, 0x47, 0x48, 0x4A, 0x4B}) {
+    const Exchange exchange = send_fc(bench, static_cast<std::uint8_t>(fc), kNoSap, kNoSap, {1, 2});
+    EXPECT_TRUE(exchange.silent() || is_rs(exchange)) << fc << ": " << kind_of(exchange);
+  }
+  EXPECT_EQ(executed(), before);
+  EXPECT_TRUE(dx(kFirst).answered());
+}
+
+TEST_F(Fdl, SrdLowAndHighAreServedAlike) {
+  bench.to_wait_prm();
+  EXPECT_TRUE(is_sc(send_fc(bench, 0x6C, 61, 62, Prm{}.bytes())));
+  EXPECT_TRUE(is_sc(send_fc(bench, 0x6C, 62, 62, {0x11, 0x21})));
+  EXPECT_TRUE(is_data(send_fc(bench, 0x6C, kNoSap, kNoSap, {1, 2})));
+  EXPECT_TRUE(is_data(send_fc(bench, 0x6D, kNoSap, kNoSap, {1, 2})));
+}
+
+// --- SAPs
+
+TEST_F(Fdl, SapsThatDoNotExistAreRefusedWithTheReason) {
+  bench.to_data_exch();
+  int refused = 0;
+  for (int sap = 0; sap < 64; ++sap) {
+    if (sap >= 55 && sap <= 62) continue;
+    const Exchange exchange = ask(bench, sap, {0, 0});
+    EXPECT_TRUE(is_rs(exchange)) << "SAP " << sap << ": " << kind_of(exchange);
+    EXPECT_EQ(bench.count(Reason::kSapUnknown), ++refused) << "SAP " << sap;
+    EXPECT_EQ(bench.last(Reason::kSapUnknown).a, sap);
+  }
+  EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
+}
+
+TEST_F(Fdl, Dpv1SapsAreRefusedAsLongAsTheyAreNotServed) {
+  bench.to_data_exch();
+  for (const auto& [dsap, ssap] : {std::pair{51, 51}, {50, 51}, {49, 50}, {48, 50}, {47, 50}}) {
+    EXPECT_TRUE(is_rs(send_fc(bench, kFirst, dsap, ssap, {0x5E, 0, 0, 10}))) << dsap;
+  }
+}
+
+// --- addressing of answers (S21)
+
+TEST_F(Fdl, AnswerGoesToTheSsapFromTheDsap) {
+  bench.to_data_exch();
+  for (const int ssap : {62, 50, 0, 63}) {
+    for (const int dsap : {60, 59, 56, 57}) {
+      const Exchange exchange = send_fc(bench, kFirst, dsap, ssap, {}, 7);
+      ASSERT_TRUE(is_data(exchange)) << dsap << " from " << ssap << ": " << kind_of(exchange);
+      EXPECT_EQ(exchange.answer().da, 7);
+      EXPECT_EQ(exchange.answer().sa, 5);
+      EXPECT_EQ(exchange.answer().dsap, ssap);
+      EXPECT_EQ(exchange.answer().ssap, dsap);
+    }
+  }
+}
+
+TEST_F(Fdl, AnswerToAServiceWithoutSsapHasNoSapBytes) {
+  bench.to_data_exch();
+  const Exchange exchange = send_fc(bench, kFirst, 60, kNoSap, {}, 7);
+  ASSERT_TRUE(is_data(exchange)) << kind_of(exchange);
+  EXPECT_EQ(exchange.answer().dsap, std::nullopt);
+  EXPECT_EQ(exchange.answer().ssap, std::nullopt);
+  EXPECT_EQ(exchange.answer().data.size(), 6U);
+}
+
+TEST_F(Fdl, AnswerToADataExchangeHasNoSapBytes) {
+  bench.to_data_exch();
+  bench.give_inputs({0xA1, 0xB2});
+  const Exchange exchange = dx(kFirst);
+  EXPECT_EQ(exchange.raw, (Bytes{0x68, 5, 5, 0x68, 2, 5, 0x08, 0xA1, 0xB2,
+                                 static_cast<std::uint8_t>(2 + 5 + 8 + 0xA1 + 0xB2), 0x16}));
+}
+
+TEST_F(Fdl, RefusalIsAnSd1WithoutSapBytes) {
+  bench.to_wait_prm();
+  EXPECT_EQ(ask(bench, 62, {0x11, 0x21}).raw, (Bytes{0x10, 2, 5, 0x03, 0x0A, 0x16}));
+  ASSERT_TRUE(is_sc(bench.set_prm({})));
+  EXPECT_EQ(ask(bench, 62, Bytes(201, 0)).raw, (Bytes{0x10, 2, 5, 0x02, 0x09, 0x16}));
+}
+
+TEST_F(Fdl, EveryStationAddressIsServed) {
+  for (const int address : {0, 1, 125, 126}) {
+    SlaveBench other(quick_search());
+    Init init;
+    init.address = static_cast<std::uint8_t>(address);
+    other.to_data_exch(init);
+    EXPECT_TRUE(other.data_exchange({1, 2}).answered()) << address;
+    EXPECT_EQ(other.fdl_status().answer().sa, address);
+  }
+}
+
+}  // namespace
+}  // namespace conformance
