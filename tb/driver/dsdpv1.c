@@ -124,7 +124,8 @@ static bool acquire(const dsdpv1_device* device) {
   port->set_r_req(port->ctx, true);
   pass_time(device, DSDPV1_SYNC_WINDOW_NS);
   for (uint32_t polls = device->tuning.acquire_polls; polls != 0u; --polls) {
-    if (chip_is_away(port) && chip_is_away(port)) {
+    const bool first = chip_is_away(port);
+    if (first && chip_is_away(port)) {
       port->set_r_sta(port->ctx, true);
       return true;
     }

@@ -21,6 +21,7 @@
  * Contexts: one thread and one interrupt handler may use a device. A call from the handler that finds a hold of the
  * interrupted program open returns DSDPV1_ERR_NESTED and touches nothing.
  */
+/* NOLINTBEGIN(modernize-deprecated-headers, modernize-use-using): C, also when included by C++ */
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -312,5 +313,7 @@ uint16_t dsdpv1_crc(uint16_t crc, const uint8_t* bytes, size_t length);
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(modernize-deprecated-headers, modernize-use-using) */
 
 #endif /* DSDPV1_H */

@@ -29,10 +29,10 @@ dsdpv1_config StationConfig::for_driver() const {
 }
 
 NativeCpu::Program UserProgram::entry() {
-  return [this](Cpu& cpu) { main(cpu); };
+  return [this](Cpu& cpu) { run_firmware(cpu); };
 }
 
-void UserProgram::main(Cpu& cpu) {
+void UserProgram::run_firmware(Cpu& cpu) {
   cpu_ = &cpu;
   port_ = std::make_unique<DriverPort>(cpu);
   dsdpv1_judge judge{};
@@ -196,7 +196,7 @@ bool UserProgram::check(dsdpv1_error error, const char* during) {
 
 void UserProgram::run_commands() {
   while (!commands_.empty()) {
-    const Command next = std::move(commands_.front());
+    const Command next = commands_.front();
     commands_.pop_front();
     std::visit([this](const auto& command) { carry_out(command); }, next);
   }

@@ -114,7 +114,7 @@ class UserProgram {
   NativeCpu::Program entry();
   /// Carried out in order, each as soon as the program has finished what it is at; call NativeCpu::wake afterwards, or
   /// it waits for the next exchange. Allowed before the program runs.
-  void post(Command command) { commands_.push_back(std::move(command)); }
+  void post(const Command& command) { commands_.push_back(command); }
 
   /// Told of every driver error, besides the log.
   std::function<void(const DriverError&)> on_error;
@@ -130,7 +130,7 @@ class UserProgram {
   std::optional<std::uint8_t> input_length() const { return input_length_; }
 
  private:
-  void main(Cpu& cpu);
+  void run_firmware(Cpu& cpu);
   bool bring_up();
   void main_loop();
   void exchange();

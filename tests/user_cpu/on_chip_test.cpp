@@ -48,8 +48,8 @@ class OnChip : public testing::TestWithParam<dsdpv1::Engine>, private bus::Agent
     chip.set(kReleaseReset, Pin::kReset, 1);
   }
   void run_for(Tick ticks) { timeline.run_until(timeline.now() + ticks); }
-  void post(user_cpu::Command what) {
-    program->post(std::move(what));
+  void post(const user_cpu::Command& what) {
+    program->post(what);
     cpu->wake(timeline.now());
   }
 

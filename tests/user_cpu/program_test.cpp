@@ -64,8 +64,8 @@ class Program : public testing::Test {
   }
   void run_for(Tick ticks) { timeline.run_until(timeline.now() + ticks); }
   void intr0() { cpu->intr0_changed(timeline.now(), false); }
-  void post(user_cpu::Command what) {
-    program->post(std::move(what));
+  void post(const user_cpu::Command& what) {
+    program->post(what);
     cpu->wake(timeline.now());
   }
   /// Brought up and configured for `inputs` bytes in, `outputs` out.
