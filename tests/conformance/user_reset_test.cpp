@@ -404,7 +404,7 @@ TEST(UserReset, WhileSendingPbtxdAndPbrtsGoAtOnce) {
   const Tick again = whole.answer_end() + 40 * bench.requester.bit();
   const Tick low_in_start_bit = again + (whole.answer_start() - whole.request_start) + kCycleTicks + 13;
   script.set(low_in_start_bit, Pin::kReset, 0);
-  const auto telegram = bus::make_telegram(5, 2, 0x5D, {3, 4});
+  const auto telegram = bus::make_telegram(5, 2, bench.fcb ? 0x7D : 0x5D, {3, 4});
   bench.requester.send(bench.timeline, telegram, {.at = again});
   EXPECT_EQ(bench.changes(Pin::kPbrts).back().at, low_in_start_bit);
   EXPECT_EQ(bench.changes(Pin::kPbtxd).back().at, low_in_start_bit);
