@@ -11,6 +11,18 @@ using profibus::Reason;
 /// Of the host port's violations, those after which the data of the access are not to be trusted.
 bool spoils_data(Reason reason) { return reason >= Reason::kWriteLowTooShort && reason <= Reason::kReadUnknown; }
 
+/// True for as long as it lives, also when a report is made to throw.
+class WhileIn {
+ public:
+  explicit WhileIn(bool& flag) : flag_(flag) { flag_ = true; }
+  ~WhileIn() { flag_ = false; }
+  WhileIn(const WhileIn&) = delete;
+  WhileIn& operator=(const WhileIn&) = delete;
+
+ private:
+  bool& flag_;
+};
+
 }  // namespace
 
 ChipModule::ChipModule(const sc_core::sc_module_name& name, const ChipOptions& options)
@@ -33,11 +45,17 @@ void ChipModule::watch(std::uint32_t pins) {
 
 void ChipModule::set(Tick at, Pin pin, Level level) {
   if (chip_.level(pin) == level) return;
+  const WhileIn core(in_core_);
   if (on_pin) {
     chip_.advance(at);  // what the core did before belongs before this change
     on_pin(at, pin, level);
   }
   chip_.set(at, pin, level);
+}
+
+void ChipModule::advance(Tick to) {
+  const WhileIn core(in_core_);
+  chip_.advance(to);
 }
 
 std::uint32_t ChipModule::take_changed() {

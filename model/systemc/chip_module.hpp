@@ -40,7 +40,9 @@ class ChipModule : public sc_core::sc_module {
 
   void watch(std::uint32_t pins);
   void set(Tick at, Pin pin, Level level);
-  void advance(Tick to) { chip_.advance(to); }
+  void advance(Tick to);
+  /// True while the core runs, that is inside of `on_pin` and `on_event`.
+  bool is_in_core() const { return in_core_; }
   /// Outputs that changed since the last call.
   std::uint32_t take_changed();
   bool has_changed() const { return changed_ != 0; }
@@ -61,6 +63,7 @@ class ChipModule : public sc_core::sc_module {
   Chip chip_;
   std::uint32_t changed_ = kOutputPins;  ///< the first drive is of all of them
   bool broken_timing_ = false;
+  bool in_core_ = false;
 };
 
 }  // namespace dsdpv1::systemc

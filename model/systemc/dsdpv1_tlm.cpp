@@ -8,18 +8,6 @@ namespace {
 
 constexpr sc_dt::uint64 kDpramSize = 0x800;
 
-/// Releases the host bus also when the initiator's process is killed inside an access.
-class BusLock {
- public:
-  explicit BusLock(sc_core::sc_mutex& mutex) : mutex_(mutex) { mutex_.lock(); }
-  ~BusLock() { mutex_.unlock(); }
-  BusLock(const BusLock&) = delete;
-  BusLock& operator=(const BusLock&) = delete;
-
- private:
-  sc_core::sc_mutex& mutex_;
-};
-
 bool enables_are_valid(const tlm::tlm_generic_payload& payload) {
   const unsigned char* enables = payload.get_byte_enable_ptr();
   if (enables == nullptr) return true;
@@ -56,7 +44,7 @@ std::ostream& operator<<(std::ostream& out, const BusCharacter& character) {
 }
 
 TlmModule::TlmModule(const sc_core::sc_module_name& name, const TlmOptions& options)
-    : ChipModule(name, options), access_(options.access) {
+    : ChipModule(name, options), access_(options.access), observed_(options.observed) {
   host_socket.register_b_transport(this, &TlmModule::b_transport);
   host_socket.register_transport_dbg(this, &TlmModule::transport_dbg);
   bus_in.bind(*this);
@@ -75,10 +63,11 @@ void TlmModule::start_of_simulation() {
   for (const auto& wire : wires) {
     if (wire.port.size() > 0) watched |= mask(wire.pin);
   }
-  watch(on_pin ? kOutputPins : watched);
+  watch(on_pin ? watched | observed_ : watched);
 }
 
 void TlmModule::sync() {
+  if (is_in_core()) return;
   catch_up();
   plan();
 }
@@ -95,8 +84,15 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
   // The chip lives in simulation time: an initiator that runs ahead of it (quantum) is brought back to it here.
   if (delay != sc_core::SC_ZERO_TIME) wait(delay);
   delay = sc_core::SC_ZERO_TIME;
-  const BusLock lock(host_bus_);
-  carry_out(payload);
+  host_bus_.lock();
+  try {
+    carry_out(payload);
+  } catch (const sc_core::sc_unwind_exception&) {
+    release_host_pins();
+    host_bus_.unlock();
+    throw;
+  }
+  host_bus_.unlock();
 }
 
 void TlmModule::carry_out(Payload& payload) {
@@ -129,6 +125,16 @@ bool TlmModule::write_byte(std::uint16_t address, const AccessTiming& timing, un
   take_broken_timing();
   perform(HostAccess::write(address, byte, timing));
   return !take_broken_timing();
+}
+
+/// Ends an access at once, when its initiator's process was reset or killed. After a complete one nothing is left to do.
+void TlmModule::release_host_pins() {
+  catch_up();
+  const Tick now = chip_now();
+  for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) set(now, pin, 1);
+  set(now, Pin::kDIn, kLevelZ);
+  set(now, Pin::kA, HostAccess::kIdleAddress);
+  plan();
 }
 
 /// Moves the pins at the exact ticks of the access. The level of D when it was sampled, X for an access without a sample.

@@ -23,7 +23,8 @@
 
 namespace dsdpv1::systemc {
 
-/// Gives one transaction another timing than TlmOptions::access. The initiator owns it.
+/// Gives one transaction another timing than TlmOptions::access. A payload frees the extensions that it still has in the
+/// end: clear one that is not on the heap.
 struct AccessTimingExtension : tlm::tlm_extension<AccessTimingExtension> {
   AccessTiming timing;
   tlm::tlm_extension_base* clone() const override { return new AccessTimingExtension(*this); }
@@ -44,6 +45,8 @@ std::ostream& operator<<(std::ostream& out, const BusCharacter& character);
 
 struct TlmOptions : ChipOptions {
   AccessTiming access{};
+  /// The output pins that `on_pin` hears (dsdpv1::mask); each change of one costs an event. Inputs are always heard.
+  std::uint32_t observed = kOutputPins;
 };
 
 class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> {
@@ -80,7 +83,8 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
 
   explicit TlmModule(const sc_core::sc_module_name& name, const TlmOptions& options = {});
 
-  /// Brings the core to the present time; signals follow in the next delta cycle. For users that read levels through `chip()`.
+  /// Brings the core to the present time; signals follow in the next delta cycle. For users that read levels through `chip()`. Does nothing when called from
+  /// `on_pin` or `on_event`: the core is on its way then.
   void sync();
 
  private:
@@ -96,6 +100,7 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   bool read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte);
   bool write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte);
   Level perform(const HostAccess& access);
+  void release_host_pins();
   void wait_until(Tick tick);
 
   void evaluate();
@@ -112,6 +117,7 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   void put_on_line(const BusCharacter& character);
 
   AccessTiming access_;
+  std::uint32_t observed_;
   sc_core::sc_mutex host_bus_;  ///< accesses of several initiators follow each other
   Tick access_start_ = 0;       ///< simulation tick of the running access' first edge
   EdgeQueue to_chip_;

@@ -34,6 +34,8 @@ struct AccessTiming {
 /// The edges of one access in order of time. Ticks count from the first edge.
 class HostAccess {
  public:
+  static constexpr Level kIdleAddress = 0x7FF;  ///< A between accesses
+
   struct Edge {
     Tick at = 0;
     Pin pin = Pin::kA;  ///< kDOut: D is sampled

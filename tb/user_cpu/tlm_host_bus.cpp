@@ -21,9 +21,21 @@ Tick duration(const Access& access, const dsdpv1::systemc::AccessTiming& timing)
 
 TlmHostBus::TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip)
     : sc_module(name), chip_(chip) {
+  payload_.set_extension(timing_);
+  payload_.set_data_length(1);
+  payload_.set_streaming_width(1);
   socket_.bind(chip.module().host_socket);
   SC_HAS_PROCESS(TlmHostBus);
   SC_THREAD(initiate);
+  initiator_ = sc_core::sc_get_current_process_handle();
+}
+
+void TlmHostBus::reset() {
+  running_ = false;
+  start_.cancel();
+  chip_.set_r_req(false);
+  chip_.set_r_sta(false);
+  if (sc_core::sc_is_running()) initiator_.reset();
 }
 
 void TlmHostBus::set_r_req(Tick /*at*/, bool level) { chip_.set_r_req(level); }
@@ -43,8 +55,8 @@ bool TlmHostBus::is_high(dsdpv1::Pin pin) {
 
 void TlmHostBus::begin(Tick at, const Access& access, const AccessTiming& timing) {
   access_ = access;
-  timing_.timing = of_module(timing);
-  end_ = at + duration(access, timing_.timing);
+  timing_->timing = of_module(timing);
+  end_ = at + duration(access, timing_->timing);
   running_ = true;
   const Tick now = dsdpv1::systemc::current_tick();
   if (at > now) {
@@ -59,20 +71,15 @@ void TlmHostBus::run_edges(Tick /*now*/) { running_ = false; }
 void TlmHostBus::initiate() {
   for (;;) {
     wait(start_);
-    tlm::tlm_generic_payload payload;
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
     std::uint8_t byte = access_.write ? access_.value : std::uint8_t{0xFF};
-    payload.set_command(access_.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
-    payload.set_address(access_.address);
-    payload.set_data_ptr(&byte);
-    payload.set_data_length(1);
-    payload.set_streaming_width(1);
-    payload.set_extension(&timing_);
-    socket_->b_transport(payload, delay);
-    payload.clear_extension(&timing_);
+    payload_.set_command(access_.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
+    payload_.set_address(access_.address);
+    payload_.set_data_ptr(&byte);
+    socket_->b_transport(payload_, delay);
     if (!access_.write) {
       value_ = byte;
-      bad_ = payload.is_response_error();
+      bad_ = payload_.is_response_error();
     }
   }
 }

@@ -15,6 +15,9 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
  public:
   TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip);
 
+  /// The user CPU is reset: an access begun is forgotten, the pins are released. From a SystemC process.
+  void reset();
+
   void set_r_req(Tick at, bool level) override;
   void set_r_sta(Tick at, bool level) override;
   bool l_req(Tick at) override;
@@ -33,9 +36,11 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
 
   systemc_bench::TlmChip& chip_;
   tlm_utils::simple_initiator_socket<TlmHostBus> socket_{"socket"};
+  sc_core::sc_process_handle initiator_;
   sc_core::sc_event start_{"start"};
   Access access_;
-  dsdpv1::systemc::AccessTimingExtension timing_;
+  tlm::tlm_generic_payload payload_;
+  dsdpv1::systemc::AccessTimingExtension* timing_ = new dsdpv1::systemc::AccessTimingExtension;  ///< owned by payload_
   bool running_ = false;
   Tick end_ = 0;
   std::uint8_t value_ = 0xFF;

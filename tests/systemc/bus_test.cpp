@@ -125,7 +125,8 @@ TEST(Bus, ACharacterMovesPbrxdAtTheExactTicks) {
 }
 
 TEST(Bus, ParityAndFramingErrorsAreOnTheLine) {
-  EXPECT_THAT(edges(kBroken, kBroken + 20 * kBit), ElementsAre(Pair(0, 0), Pair(9 * kBit, 1), Pair(10 * kBit, 0), Pair(11 * kBit, 1)));
+  EXPECT_THAT(edges(kBroken, kBroken + 20 * kBit),
+              ElementsAre(Pair(0, 0), Pair(9 * kBit, 1), Pair(10 * kBit, 0), Pair(11 * kBit, 1)));
 }
 
 TEST(Bus, TheBitTimeIsTheSenders) {
@@ -135,8 +136,10 @@ TEST(Bus, TheBitTimeIsTheSenders) {
 }
 
 TEST(Bus, AnOverlappingCharacterDestroysTheRestAndIsReported) {
-  EXPECT_THAT(edges(kOverlap, kOverlap + 20 * kBit), ElementsAre(Pair(0, 0), Pair(6 * kBit, 1), Pair(14 * kBit, 0), Pair(15 * kBit, 1)));
-  EXPECT_THAT(reports_of("/dsdpv1/bus", "world.chip"), testing::Contains(HasSubstr("begins before the previous one has ended")));
+  EXPECT_THAT(edges(kOverlap, kOverlap + 20 * kBit),
+              ElementsAre(Pair(0, 0), Pair(6 * kBit, 1), Pair(14 * kBit, 0), Pair(15 * kBit, 1)));
+  EXPECT_THAT(reports_of("/dsdpv1/bus", "world.chip"),
+              testing::Contains(HasSubstr("begins before the previous one has ended")));
 }
 
 TEST(Bus, CharactersInThePastOrWithoutBitTimeAreNotSentAndReported) {

@@ -1,0 +1,136 @@
+// A user CPU with the C driver brings two chips up: one by its pins in a plain timeline, one through the TLM socket inside of SystemC.
+// Both must do the same at the same ticks. A third CPU is reset in the middle of an access.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "bus/timeline.hpp"
+#include "tb/systemc/timeline_module.hpp"
+#include "tb/systemc/tlm_chip.hpp"
+#include "tb/user_cpu/native_cpu.hpp"
+#include "tb/user_cpu/pin_host_bus.hpp"
+#include "tb/user_cpu/programs.hpp"
+#include "tb/user_cpu/tlm_host_bus.hpp"
+#include "tests/systemc/bench.hpp"
+
+using dsdpv1::Level;
+using dsdpv1::Pin;
+using dsdpv1::Tick;
+using user_cpu::NativeCpu;
+using user_cpu::UserProgram;
+
+namespace {
+
+constexpr Tick kReset = 1'007, kEnd = 2000 * kUs, kAbortAt = 200 * kUs, kAbort = kAbortAt + 700;
+
+user_cpu::ProgramOptions options() {
+  user_cpu::ProgramOptions options;
+  options.inputs = user_cpu::InputSource::kCount;
+  return options;
+}
+
+/// An action at one tick.
+class Once : public bus::Agent {
+ public:
+  Once(Tick at, std::function<void()> action) : at_(at), action_(std::move(action)) {}
+  Tick next() const override { return at_; }
+  void run(Tick) override {
+    at_ = bus::kNever;
+    action_();
+  }
+
+ private:
+  Tick at_;
+  std::function<void()> action_;
+};
+
+/// The core as an agent, its output changes recorded.
+class CoreAgent : public bus::Agent {
+ public:
+  CoreAgent() {
+    chip.watch({[](void* self, Tick at, Pin pin, Level level) {
+                  static_cast<Changes*>(self)->push_back({at, pin, level});
+                },
+                &changes},
+               dsdpv1::kOutputPins);
+  }
+  Tick next() const override { return chip.next_event(); }
+  void run(Tick now) override { chip.advance(now); }
+
+  dsdpv1::Chip chip;
+  Changes changes;
+};
+
+struct PinRun {
+  bus::Timeline timeline;
+  CoreAgent core;
+  Once reset{kReset, [this] { core.chip.set(kReset, Pin::kReset, 1); }};
+  user_cpu::PinHostBus host{core.chip};
+  UserProgram program{options()};
+  NativeCpu cpu{host, {}, program.entry()};
+
+  PinRun() {
+    timeline.add(core);
+    timeline.add(reset);
+    timeline.add(cpu);
+    timeline.run_until(kEnd);
+  }
+};
+
+struct TlmRun {
+  bus::Timeline timeline;
+  bus::Segment segment;
+  systemc_bench::TimelineModule timeline_module{"timeline", timeline};
+  systemc_bench::TlmChip chip{"slave", {}, segment, timeline_module}, aborted{"aborted", {}, segment, timeline_module};
+  user_cpu::TlmHostBus host{"host", chip}, aborted_host{"aborted_host", aborted};
+  Once reset{kReset, [this] { chip.set_reset(true), aborted.set_reset(true); }};
+  Once begin{kAbortAt, [this] { aborted_host.begin(kAbortAt, {false, 0x000, 0}, {}); }};
+  Once abort{kAbort, [this] { aborted_host.reset(); }};
+  Once again{kAbort + 5000, [this] { aborted_host.begin(kAbort + 5000, {false, 0x001, 0}, {}); }};
+  UserProgram program{options()};
+  NativeCpu cpu{host, {}, program.entry()};
+  Changes changes, aborted_changes;
+
+  TlmRun() {
+    for (bus::Agent* agent : std::initializer_list<bus::Agent*>{&reset, &begin, &abort, &again, &cpu})
+      timeline.add(*agent);
+    chip.on_pin = [this](Tick at, Pin pin, Level level) {
+      if (!is_input(pin)) changes.push_back({at, pin, level});
+    };
+    aborted.on_pin = [this](Tick at, Pin pin, Level level) { aborted_changes.push_back({at, pin, level}); };
+  }
+};
+
+std::unique_ptr<TlmRun> tlm_run;
+
+}  // namespace
+
+void simulate() {
+  dsdpv1::systemc::require_femtoseconds();
+  collect_reports();
+  tlm_run = std::make_unique<TlmRun>();
+  sc_core::sc_start(dsdpv1::systemc::to_time(kEnd));
+}
+
+namespace {
+
+TEST(SystemcBench, TheUserCpuBehindTheSocketDoesWhatTheOneAtThePinsDoes) {
+  const PinRun pins;
+  EXPECT_TRUE(pins.program.initialised());
+  EXPECT_TRUE(tlm_run->program.initialised());
+  EXPECT_EQ(tlm_run->cpu.counters().accesses, pins.cpu.counters().accesses);
+  EXPECT_EQ(tlm_run->cpu.counters().bad_reads, 0U);
+  EXPECT_EQ(tlm_run->program.counters().exchanges, pins.program.counters().exchanges);
+  EXPECT_GT(pins.core.changes.size(), 1000U);
+  EXPECT_EQ(tlm_run->changes, pins.core.changes);
+}
+
+TEST(SystemcBench, AResetOfTheUserCpuReleasesThePinsAtOnce) {
+  EXPECT_THAT(only(tlm_run->aborted_changes, Pin::kRd),
+              testing::ElementsAre(Change{kAbortAt + 333, Pin::kRd, 0}, Change{kAbort, Pin::kRd, 1},
+                                   Change{kAbort + 5333, Pin::kRd, 0}, Change{kAbort + 6333, Pin::kRd, 1}));
+  EXPECT_EQ(tlm_run->aborted_host.read_value(), 0x0D);
+}
+
+}  // namespace
