@@ -45,8 +45,8 @@ const char* response_function(std::uint8_t function) {
 }
 
 const char* station_type(std::uint8_t fc) {
-  static const char* const kTypes[4] = {"passive station", "active station, not ready", "active station, ready",
-                                        "active station, in the ring"};
+  static constexpr const char* kTypes[4] = {"passive station", "active station, not ready", "active station, ready",
+                                            "active station, in the ring"};
   return kTypes[(fc >> 4) & 3];
 }
 
@@ -176,8 +176,8 @@ class ByteExplainer {
   }
 
   std::vector<ExplainedByte> explain_unreadable() {
-    static const char* const kVariable[] = {"SD2", "LE", "LEr", "SD2 repeated", "DA", "SA", "FC"};
-    static const char* const kFixed[] = {"start delimiter", "DA", "SA", "FC"};
+    static constexpr const char* kVariable[] = {"SD2", "LE", "LEr", "SD2 repeated", "DA", "SA", "FC"};
+    static constexpr const char* kFixed[] = {"start delimiter", "DA", "SA", "FC"};
     const bool variable = decoded_.bytes[0] == sd::k2;
     const std::size_t known = variable ? std::size(kVariable) : std::size(kFixed);
     while (at_ < decoded_.bytes.size()) {

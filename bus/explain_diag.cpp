@@ -23,13 +23,13 @@ const char* channel_kind(std::uint8_t byte) {
 }
 
 const char* channel_type(std::uint8_t byte) {
-  static const char* const kTypes[8] = {"unspecified", "bit",  "2 bits",  "4 bits",
-                                        "byte",        "word", "2 words", "reserved type"};
+  static constexpr const char* kTypes[8] = {"unspecified", "bit",  "2 bits",  "4 bits",
+                                            "byte",        "word", "2 words", "reserved type"};
   return kTypes[byte >> 5];
 }
 
 std::string channel_error(std::uint8_t byte) {
-  static const char* const kErrors[] = {
+  static constexpr const char* kErrors[] = {
       "reserved error",  "short circuit", "undervoltage",         "overvoltage",          "overload",
       "overtemperature", "line break",    "upper limit exceeded", "lower limit exceeded", "error"};
   const unsigned error = byte & 0x1FU;

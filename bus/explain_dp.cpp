@@ -16,7 +16,7 @@ const char* lock_words(std::uint8_t station_status) {
 }
 
 std::string station_status_words(std::uint8_t byte) {
-  static const char* const kNames[8] = {"", "", "", "WD_On", "Freeze_Req", "Sync_Req", "Unlock_Req", "Lock_Req"};
+  static constexpr const char* kNames[8] = {"", "", "", "WD_On", "Freeze_Req", "Sync_Req", "Unlock_Req", "Lock_Req"};
   return fmt::format("Station_status: {} ({})", bit_names(byte, kNames), lock_words(byte));
 }
 
@@ -46,8 +46,8 @@ std::string prm_header_words(const Bytes& data, std::size_t i) {
 }
 
 std::string prm_user_words(const Bytes& data, std::size_t i) {
-  static const char* const kStatus1[8] = {"Dis_Startbit", "Dis_Stopbit", "WD_Base_1ms", "", "", "",
-                                          "Fail_Safe",    "DPV1_Enable"};
+  static constexpr const char* kStatus1[8] = {"Dis_Startbit", "Dis_Stopbit", "WD_Base_1ms", "", "", "",
+                                              "Fail_Safe",    "DPV1_Enable"};
   const bool dpv1 = (data[7] & 0x80U) != 0;
   if (i == 7) return fmt::format("{}: {}", dpv1 ? "DPV1_Status_1" : "Spec_User_Prm_Byte", bit_names(data[i], kStatus1));
   if (dpv1 && i < 10) return fmt::format("DPV1_Status_{}: 0x{:02X}", i - 6, data[i]);
@@ -84,7 +84,7 @@ DataWords set_prm_words(const Bytes& data) {
 }
 
 DataWords global_control_words(const Bytes& data) {
-  static const char* const kNames[8] = {"", "Clear_Data", "Unfreeze", "Freeze", "Unsync", "Sync", "", ""};
+  static constexpr const char* kNames[8] = {"", "Clear_Data", "Unfreeze", "Freeze", "Unsync", "Sync", "", ""};
   DataWords words = plain_words("surplus byte", data);
   if (data.size() != 2) {
     words.summary = fmt::format("{} bytes instead of 2", data.size());

@@ -34,12 +34,12 @@ const char* function_name(std::uint8_t function) {
 }
 
 std::string error_code_1(std::uint8_t code) {
-  static const char* const kApplication[] = {"read error", "write error", "module failure"};
-  static const char* const kAccess[] = {"invalid index",     "write length error", "invalid slot",  "type conflict",
-                                        "invalid area",      "state conflict",     "access denied", "invalid range",
-                                        "invalid parameter", "invalid type"};
-  static const char* const kResource[] = {"read constrain conflict", "write constrain conflict", "resource busy",
-                                          "resource unavailable"};
+  static constexpr const char* kApplication[] = {"read error", "write error", "module failure"};
+  static constexpr const char* kAccess[] = {"invalid index",     "write length error", "invalid slot",  "type conflict",
+                                            "invalid area",      "state conflict",     "access denied", "invalid range",
+                                            "invalid parameter", "invalid type"};
+  static constexpr const char* kResource[] = {"read constrain conflict", "write constrain conflict", "resource busy",
+                                              "resource unavailable"};
   const unsigned kind = code >> 4, detail = code & 0x0FU;
   if (kind == 10 && detail < 3) return fmt::format("application: {}", kApplication[detail]);
   if (kind == 10 && detail == 8) return "application: version conflict";

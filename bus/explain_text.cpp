@@ -46,7 +46,7 @@ std::string add_line(const std::string& content, int line, TextBytes& text) {
     }
     std::size_t stop = at;
     while (stop < end && !is_separator(content[stop])) ++stop;
-    const std::string wrong = add_word(content.substr(at, stop - at), line, text);
+    std::string wrong = add_word(content.substr(at, stop - at), line, text);
     if (!wrong.empty()) return wrong;
     at = stop;
   }

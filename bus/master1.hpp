@@ -44,7 +44,7 @@ class Master1 : public Agent {
   Master1& operator=(const Master1&) = delete;
 
   /// Throws std::invalid_argument on values out of range or an address used already. Before `start` or in operation.
-  void add_slave(const SlaveParameters& slave);
+  void add_slave(const SlaveParameters& parameters);
 
   // --- Operation. Everything takes effect between two requests, at the timeline's present time at the earliest.
   /// Listens for the timeout T_TO = (6 + 2 x address) x T_SL, claims the token, begins. All slaves are brought up anew.

@@ -76,7 +76,8 @@ void Master1::request(const Telegram& telegram, AnswerCallback done) {
 void Master1::service(std::uint8_t address, std::uint8_t sap, const Bytes& data, AnswerCallback done) {
   const bool high = config_.personality == Personality::kHighAlways;
   const auto function = static_cast<std::uint8_t>(fc::kRequest | (high ? fc::kSrdHigh : fc::kSrdLow));
-  request(make_telegram(address, config_.address, function, data, sap, sap::kMaster, high), std::move(done));
+  const Telegram telegram = make_telegram(address, config_.address, function, data, sap, sap::kMaster);
+  request(high ? prefer_sd3(telegram) : telegram, std::move(done));
 }
 
 void Master1::global_control(std::uint8_t command, std::uint8_t group, std::uint8_t da, AnswerCallback done) {

@@ -77,15 +77,18 @@ void SlaveHandler::restart(const std::string& reason) {
 Telegram SlaveHandler::service(std::uint8_t sap, const Bytes& data) const {
   const bool high = personality_ == Personality::kHighAlways;
   const auto function = static_cast<std::uint8_t>(fc::kRequest | (high ? fc::kSrdHigh : fc::kSrdLow));
-  return make_telegram(parameters_.address, master_, function, data, sap, sap::kMaster, high);
+  return framed(make_telegram(parameters_.address, master_, function, data, sap, sap::kMaster));
 }
 
 Telegram SlaveHandler::data_exchange() const {
   // EN 50170: in Clear a fail-safe slave gets no data at all, any other zeros.
   Bytes data = view_.outputs;
   if (clear_) data.assign(parameters_.fail_safe ? 0 : data.size(), 0);
-  return make_telegram(parameters_.address, master_, fc::kRequest | fc::kSrdHigh, data, {}, {},
-                       personality_ == Personality::kHighAlways);
+  return framed(make_telegram(parameters_.address, master_, fc::kRequest | fc::kSrdHigh, data));
+}
+
+Telegram SlaveHandler::framed(const Telegram& telegram) const {
+  return personality_ == Personality::kHighAlways ? prefer_sd3(telegram) : telegram;
 }
 
 Telegram SlaveHandler::next_request() {

@@ -68,6 +68,7 @@ class SlaveHandler {
   Telegram due_request() const;
   Telegram service(std::uint8_t sap, const Bytes& data) const;
   Telegram data_exchange() const;
+  Telegram framed(const Telegram& telegram) const;
   void go(SlaveState state);
   void count(const FdlResult& result);
   void answered(const FdlResult& result);

@@ -116,8 +116,8 @@ class Monitor : public Listener, public Agent {
   void check_character(const ReceivedCharacter& received);
   void finish_telegram(const Decoded& decoded);
   void classify(WireTelegram& telegram);
-  void request(const WireTelegram& telegram);
-  void answer(WireTelegram& telegram);
+  void request(const WireTelegram& wire);
+  void answer(WireTelegram& wire);
   void measure(const WireTelegram& telegram);
   void check_syn(const WireTelegram& telegram);
   void count(const WireTelegram& telegram);

@@ -112,11 +112,15 @@ bool operator==(const Telegram& a, const Telegram& b) {
 }
 
 Telegram make_telegram(std::uint8_t da, std::uint8_t sa, std::uint8_t fc, const Bytes& data,
-                       std::optional<std::uint8_t> dsap, std::optional<std::uint8_t> ssap, bool use_sd3) {
+                       std::optional<std::uint8_t> dsap, std::optional<std::uint8_t> ssap) {
   Telegram t{TelegramKind::kSd2, da, sa, fc, dsap, ssap, data};
   if (unit_size(t) == 0) t.kind = TelegramKind::kSd1;
-  if (use_sd3 && unit_size(t) == kSd3Data) t.kind = TelegramKind::kSd3;
   return t;
+}
+
+Telegram prefer_sd3(Telegram telegram) {
+  if (telegram.kind == TelegramKind::kSd2 && unit_size(telegram) == kSd3Data) telegram.kind = TelegramKind::kSd3;
+  return telegram;
 }
 
 Telegram make_token(std::uint8_t da, std::uint8_t sa) { return {TelegramKind::kSd4, da, sa}; }

@@ -61,10 +61,11 @@ struct Telegram {
 
 bool operator==(const Telegram& a, const Telegram& b);
 
-/// SD1 without data and SAPs, else SD2; SD3 when `use_sd3` and exactly 8 bytes (SAP bytes included) are to be sent.
+/// SD1 without data and SAPs, else SD2.
 Telegram make_telegram(std::uint8_t da, std::uint8_t sa, std::uint8_t fc, const Bytes& data = {},
-                       std::optional<std::uint8_t> dsap = {}, std::optional<std::uint8_t> ssap = {},
-                       bool use_sd3 = false);
+                       std::optional<std::uint8_t> dsap = {}, std::optional<std::uint8_t> ssap = {});
+/// SD3 instead of SD2 when exactly 8 bytes, SAP bytes included, are to be sent; else unchanged.
+Telegram prefer_sd3(Telegram telegram);
 Telegram make_token(std::uint8_t da, std::uint8_t sa);
 Telegram make_sc();
 

@@ -98,6 +98,7 @@ void UartSender::add_character(std::int64_t start_millibits, const Character& ch
   const std::int64_t glitch_start = character.glitch ? character.glitch->start_millibits : -1;
   const std::int64_t glitch_end = character.glitch ? glitch_start + character.glitch->length_millibits : -1;
   std::vector<std::int64_t> instants;
+  instants.reserve(static_cast<std::size_t>(character.bit_count) + 2);
   for (int i = 0; i < character.bit_count; ++i) instants.push_back(i * kMillibits);
   if (character.glitch) instants.insert(instants.end(), {glitch_start, glitch_end});
   std::sort(instants.begin(), instants.end());

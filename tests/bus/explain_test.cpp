@@ -231,7 +231,7 @@ TEST(ExplainDpv1, ClassTwo) {
 
 TEST(ExplainBytes, EveryByteOfEveryDelimiterIsExplained) {
   const std::vector<Telegram> telegrams = {make_sc(), make_token(1, 2), make_telegram(3, 1, 0x49), request(60, {}),
-                                           make_telegram(3, 1, 0x7D, Bytes(8, 1), {}, {}, true)};
+                                           prefer_sd3(make_telegram(3, 1, 0x7D, Bytes(8, 1)))};
   for (const Telegram& telegram : telegrams) {
     const Bytes bytes = encode(telegram);
     const auto explained = bytes_of(telegram);

@@ -31,10 +31,10 @@ TEST(TelegramEncode, KnownTelegrams) {
 }
 
 TEST(TelegramEncode, Sd3OnlyForEightBytesAndWhenAskedFor) {
-  EXPECT_EQ(make_telegram(3, 1, 0x5D, counting(8), {}, {}, true).kind, TelegramKind::kSd3);
-  EXPECT_EQ(make_telegram(3, 1, 0x5D, counting(6), 61, 62, true).kind, TelegramKind::kSd3);
+  EXPECT_EQ(prefer_sd3(make_telegram(3, 1, 0x5D, counting(8))).kind, TelegramKind::kSd3);
+  EXPECT_EQ(prefer_sd3(make_telegram(3, 1, 0x5D, counting(6), 61, 62)).kind, TelegramKind::kSd3);
   EXPECT_EQ(make_telegram(3, 1, 0x5D, counting(8)).kind, TelegramKind::kSd2);
-  EXPECT_EQ(make_telegram(3, 1, 0x5D, counting(8), 61, 62, true).kind, TelegramKind::kSd2);
+  EXPECT_EQ(prefer_sd3(make_telegram(3, 1, 0x5D, counting(8), 61, 62)).kind, TelegramKind::kSd2);
 }
 
 TEST(TelegramEncode, RefusesDataThatDoNotFit) {
@@ -53,9 +53,9 @@ TEST(TelegramCodec, EveryLengthAndSapCombinationComesBack) {
   for (std::size_t size = 0; size <= kMaxData; ++size) {
     for (const bool dsap : {false, true}) {
       for (const bool ssap : {false, true}) {
-        const Telegram sent =
-            make_telegram(126, 0, 0x7C, counting(size), dsap ? std::optional<std::uint8_t>(61) : std::nullopt,
-                          ssap ? std::optional<std::uint8_t>(62) : std::nullopt, size % 2 == 0);
+        const Telegram sent = prefer_sd3(make_telegram(126, 0, 0x7C, counting(size),
+                                                       dsap ? std::optional<std::uint8_t>(61) : std::nullopt,
+                                                       ssap ? std::optional<std::uint8_t>(62) : std::nullopt));
         const Decoded got = decode(encode(sent));
         ASSERT_EQ(got.error, DecodeError::kNone) << size;
         ASSERT_EQ(got.telegram, sent) << size;
