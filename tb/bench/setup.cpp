@@ -91,8 +91,8 @@ bus::GsdSetup Setup::choose(const scenario::Name& path, const std::vector<scenar
 
 user_cpu::StationConfig Setup::station(const scenario::Slave& slave) {
   const scenario::InitData& init = slave.init;
-  user_cpu::StationConfig station;
-  if (!slave.gsd.empty()) station = from_gsd(gsd(slave.gsd), choose(slave.gsd, slave.modules), init.prm_mode);
+  user_cpu::StationConfig station =
+      slave.gsd.empty() ? user_cpu::StationConfig{} : from_gsd(gsd(slave.gsd), choose(slave.gsd, slave.modules), init.prm_mode);
   station.address = static_cast<std::uint8_t>(slave.address);
   station.prm_mode = static_cast<std::uint8_t>(init.prm_mode);
   station.cfg_mode = static_cast<std::uint8_t>(init.cfg_mode);

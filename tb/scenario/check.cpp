@@ -6,6 +6,7 @@
 #include <cctype>
 #include <map>
 
+#include "tb/scenario/event_codes.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/suggest.hpp"
 #include "tb/scenario/units.hpp"
@@ -26,7 +27,10 @@ class Checker {
     for (const Master& master : scenario_.masters) check_master(master);
     for (const Action& action : scenario_.script) check_action(action);
     for (const Expectation& expectation : scenario_.expect) check_expectation(expectation);
-    for (const Allow& allow : scenario_.allow) check_slave_name(allow.slave);
+    for (const Allow& allow : scenario_.allow) {
+      check_slave_name(allow.slave);
+      check_code(allow.event);
+    }
   }
 
  private:
@@ -55,6 +59,12 @@ class Checker {
   }
   void check_slave_name(const Name& name) const { check_known(name, "slave", slaves_); }
   void check_master_name(const Name& name) const { check_known(name, "master", masters_); }
+
+  void check_code(const Name& code) const {
+    const std::vector<std::string>& codes = all_codes();
+    if (code.empty() || std::find(codes.begin(), codes.end(), code.text) != codes.end()) return;
+    fail(code.line, fmt::format("event {} does not exist{}, allowed are the codes of docs/reasons.md", code.text, did_you_mean(code.text, codes)));
+  }
 
   void check_slave(const Slave& slave) const {
     if (slave.gsd.empty() && !slave.modules.empty()) fail(slave.modules.front().line, "modules without gsd, allowed are the modules of a GSD file");
@@ -98,6 +108,7 @@ class Checker {
   void check_condition(const Condition& condition) const {
     check_slave_name(condition.slave);
     check_master_name(condition.master);
+    check_code(condition.event);
     const bool about_slave = condition.dp_state || condition.baud || condition.station_address || condition.data_exchanges || condition.data_exchanges_at_most ||
                              condition.inputs || condition.outputs || !condition.event.empty() || condition.tsdr_min || condition.tsdr_max ||
                              condition.longest_wait_at_most;
@@ -124,10 +135,6 @@ class Checker {
       case Do::kGetCfg:
       case Do::kSlaveDiag:
       case Do::kSetSlaveAddress: check_target(action); break;
-      case Do::kUnplug:
-      case Do::kPlug:
-        if (action.slave.empty() == action.master.empty()) fail(action.line, "exactly one of slave and master is needed");
-        break;
       default: break;
     }
     if (needs_master(action.what) && scenario_.masters.empty()) fail(action.line, "this needs a master, the scenario has none");

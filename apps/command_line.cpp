@@ -1,0 +1,110 @@
+#include "apps/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+#include "tb/scenario/input_error.hpp"
+#include "tb/scenario/suggest.hpp"
+
+namespace app {
+namespace {
+
+const char* const kExitCodes =
+    "\nExit codes: 0 passed, 1 a check or expectation failed, 2 wrong input (one line says where, what, and what is allowed),\n"
+    "130 interrupted.\n";
+
+void describe_run(CLI::App& app, RunArguments& arguments) {
+  CLI::App* command = app.add_subcommand("run", "Carries out a scenario and judges it");
+  command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md")->required();
+  command->add_option("--engine", arguments.engine, "How the chips are executed: step (every cycle), skip (from event to event), rtl")->capture_default_str();
+  command->add_option("--view", arguments.view, "How the user CPUs reach them: pins, tlm (SystemC)")->capture_default_str();
+  command->add_option("--wave", arguments.wave, "Waves of all pins, the line and the states: FILE.vcd or FILE.fst");
+  command->add_option("--log", arguments.log, "Everything that happened, one line a thing");
+  command->add_option("--result", arguments.result, "Result and measurements as JSON");
+  command->add_option("--trace", arguments.trace, "Every change of every output pin, for comparisons");
+  command->add_flag_callback("--progress", [&arguments] { arguments.progress = true; }, "Show a progress bar (on a terminal it is shown anyway)");
+  command->add_flag_callback("--no-progress", [&arguments] { arguments.progress = false; }, "Show none");
+  command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
+  command->footer(std::string("\nExamples:\n"
+                              "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
+                              "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
+                              "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n") +
+                  kExitCodes);
+}
+
+void describe_schema(CLI::App& app, SchemaArguments& arguments) {
+  CLI::App* command = app.add_subcommand("schema", "Prints the scenario's JSON Schema");
+  command->add_flag("--markdown", arguments.markdown, "Prints docs/scenarios.md instead");
+  command->add_option("--output,-o", arguments.output, "Into this file");
+  command->footer(
+      "\nExamples:\n  dsdpv1-sim schema > scenario.schema.json\n"
+      "  and in the first line of a scenario, for editors with the YAML language server:\n"
+      "  # yaml-language-server: $schema=scenario.schema.json\n");
+}
+
+void describe_gsd(CLI::App& app, GsdArguments& arguments) {
+  CLI::App* command = app.add_subcommand("gsd", "Checks a PROFIBUS GSD file and prints what a master makes of it");
+  command->add_option("FILE", arguments.file, "GSD file, revision 1 to 5")->required();
+  command->add_option("--module,-m", arguments.modules, "Module by name or number, once for each slot; left out: the file's presets")->allow_extra_args(false);
+  command->add_flag("--json", arguments.json, "As JSON");
+  command->footer("\nExamples:\n  dsdpv1-sim gsd scenarios/dsdpv1.gsd\n  dsdpv1-sim gsd my_device.gsd --module \"8 bytes in\" --module 3 --json\n");
+}
+
+void describe_decode(CLI::App& app, DecodeArguments& arguments) {
+  CLI::App* command = app.add_subcommand("decode", "Reads telegrams as hexadecimal text and explains every byte");
+  command->add_option("FILE", arguments.file, "Text file; left out or -: standard input");
+  command->footer(
+      "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
+      "\nExamples:\n  dsdpv1-sim decode capture.txt\n  echo 68 05 05 68 85 82 6D 3C 3E EE 16 | dsdpv1-sim decode\n"
+      "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 not hexadecimal.\n");
+}
+
+std::vector<std::string> subcommand_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  return names;
+}
+
+/// CLI11's words for a wrong command line, as one line that says what is allowed.
+std::string in_one_line(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const std::vector<std::string> commands = subcommand_names(app);
+  const std::string first = argc > 1 ? argv[1] : "";
+  const bool known = std::find(commands.begin(), commands.end(), first) != commands.end();
+  if (first.empty()) return "dsdpv1-sim: a command is missing, allowed are " + tb::join(commands);
+  if (!known && first[0] != '-') return "dsdpv1-sim: unknown command " + first + tb::did_you_mean(first, commands) + ", allowed are " + tb::join(commands);
+  std::string text = error.what();
+  for (char& c : text) c = c == '\n' ? ' ' : c;
+  return "dsdpv1-sim" + (known ? " " + first : std::string()) + ": " + text + ", see --help for what is allowed";
+}
+
+}  // namespace
+
+int command_line(int argc, char** argv) {
+  CLI::App app("Cycle-accurate simulation of the DSDPV1 PROFIBUS-DP slave chip with its bus and its user CPU.", "dsdpv1-sim");
+  app.set_version_flag("--version", "dsdpv1-sim " DSDPV1_VERSION);
+  app.require_subcommand(1);
+  app.footer(std::string("\nExamples:\n  dsdpv1-sim run scenarios/power_on_12m.yaml --wave out.fst\n  dsdpv1-sim gsd scenarios/dsdpv1.gsd\n"
+                         "  dsdpv1-sim decode capture.txt\n  dsdpv1-sim run --help\n") +
+             kExitCodes);
+  RunArguments run_arguments;
+  SchemaArguments schema_arguments;
+  GsdArguments gsd_arguments;
+  DecodeArguments decode_arguments;
+  describe_run(app, run_arguments);
+  describe_schema(app, schema_arguments);
+  describe_gsd(app, gsd_arguments);
+  describe_decode(app, decode_arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    throw tb::InputError(in_one_line(app, error, argc, argv));
+  }
+  if (app.got_subcommand("run")) return run(run_arguments);
+  if (app.got_subcommand("schema")) return schema(schema_arguments);
+  if (app.got_subcommand("gsd")) return gsd(gsd_arguments);
+  return decode(decode_arguments);
+}
+
+}  // namespace app

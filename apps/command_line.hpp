@@ -1,0 +1,45 @@
+#pragma once
+// The options of dsdpv1-sim as values.
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace app {
+
+// Exit codes of every command.
+constexpr int kPassed = 0;       ///< all checks and expectations passed
+constexpr int kFailed = 1;       ///< a check or an expectation failed
+constexpr int kWrongInput = 2;   ///< one line on the error channel says where, what, and what is allowed
+constexpr int kInterrupted = 130;  ///< SIGINT or SIGTERM; all files are complete up to there
+
+struct RunArguments {
+  std::string scenario, engine = "skip", view = "pins";
+  std::string wave, log, result, trace;
+  std::optional<bool> progress;  ///< absent: on a terminal
+  bool quiet = false;
+};
+
+struct SchemaArguments {
+  bool markdown = false;
+  std::string output;  ///< empty: standard output
+};
+
+struct GsdArguments {
+  std::string file;
+  std::vector<std::string> modules;
+  bool json = false;
+};
+
+struct DecodeArguments {
+  std::string file;  ///< empty or "-": standard input
+};
+
+int run(const RunArguments& arguments);
+int schema(const SchemaArguments& arguments);
+int gsd(const GsdArguments& arguments);
+int decode(const DecodeArguments& arguments);
+
+/// Parses the command line and carries it out; returns the exit code.
+int command_line(int argc, char** argv);
+
+}  // namespace app

@@ -1,0 +1,84 @@
+// run: a scenario from its file to the verdict.
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <iostream>
+#include <memory>
+
+#include "apps/command_line.hpp"
+#include "tb/bench/bench.hpp"
+#include "tb/bench/tlm_execution.hpp"
+#include "tb/report/output_file.hpp"
+#include "tb/report/progress.hpp"
+#include "tb/report/result_json.hpp"
+#include "tb/report/summary.hpp"
+#include "tb/scenario/input_error.hpp"
+#include "tb/scenario/suggest.hpp"
+
+namespace app {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void on_signal(int) { interrupted = 1; }
+
+/// Ctrl-C ends the run at the next look, so that every file is finished; a second one kills as usual.
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed) {
+  if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return;
+  throw tb::InputError("dsdpv1-sim run: " + option + " is " + word + tb::did_you_mean(word, allowed) + ", allowed are " + tb::join(allowed));
+}
+
+tb::RunOptions options_of(const RunArguments& arguments) {
+  if (arguments.engine == "rtl") throw tb::InputError("dsdpv1-sim run: --engine rtl comes with the RTL, this program has none yet; allowed are step, skip");
+  check_word("--engine", arguments.engine, {"step", "skip"});
+  check_word("--view", arguments.view, {"pins", "tlm"});
+  if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
+  tb::RunOptions options;
+  options.engine = arguments.engine == "step" ? dsdpv1::Engine::kStep : dsdpv1::Engine::kSkip;
+  options.engine_name = arguments.engine;
+  options.view_name = arguments.view;
+  options.wave = arguments.wave;
+  options.log = arguments.log;
+  options.trace = arguments.trace;
+  return options;
+}
+
+int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options, std::unique_ptr<tb::Execution> execution) {
+  std::optional<tb::OutputFile> result_file;
+  if (!arguments.result.empty()) result_file.emplace(arguments.result);
+  tb::Bench bench(scenario, options, std::move(execution));
+  tb::Progress progress(scenario.end, arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
+  catch_signals();
+  const tb::RunResult result = bench.run([&progress](tb::Tick now) {
+    progress.show(now);
+    return interrupted == 0;
+  });
+  progress.clear();
+  if (result_file) {
+    result_file->write(tb::result_json(result));
+    result_file->commit();
+  }
+  if (!arguments.quiet) std::cout << tb::summary(result) << std::flush;
+  if (result.interrupted) return kInterrupted;
+  return result.passed ? kPassed : kFailed;
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  const tb::RunOptions options = options_of(arguments);
+  const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
+  if (arguments.view == "pins") return run_scenario(scenario, arguments, options, tb::make_pin_execution());
+  return tb::inside_systemc([&] { return run_scenario(scenario, arguments, options, tb::make_tlm_execution()); });
+}
+
+}  // namespace app

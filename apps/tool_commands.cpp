@@ -1,0 +1,47 @@
+// schema, gsd, decode: commands without a simulation.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "apps/command_line.hpp"
+#include "bus/explain.hpp"
+#include "bus/gsd_report.hpp"
+#include "tb/report/output_file.hpp"
+#include "tb/scenario/input_error.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace app {
+
+int schema(const SchemaArguments& arguments) {
+  const std::string text = arguments.markdown ? tb::scenario::markdown() : tb::scenario::json_schema();
+  if (arguments.output.empty()) {
+    std::cout << text;
+    return kPassed;
+  }
+  tb::OutputFile file(arguments.output);
+  file.write(text);
+  file.commit();
+  return kPassed;
+}
+
+int gsd(const GsdArguments& arguments) {
+  bus::GsdCommand command;
+  command.choice.modules = arguments.modules;
+  command.format = arguments.json ? bus::GsdFormat::kJson : bus::GsdFormat::kText;
+  return bus::gsd_command(arguments.file, command, std::cout, std::cerr);
+}
+
+int decode(const DecodeArguments& arguments) {
+  const bool standard_input = arguments.file.empty() || arguments.file == "-";
+  std::ifstream file;
+  if (!standard_input) {
+    file.open(arguments.file);
+    if (!file || std::filesystem::is_directory(arguments.file)) throw tb::InputError(arguments.file, 0, "cannot be opened, allowed is a text file of hexadecimal bytes");
+  }
+  std::string error;
+  const int status = bus::decode_text(standard_input ? std::cin : file, standard_input ? "standard input" : arguments.file, std::cout, error);
+  if (!error.empty()) throw tb::InputError(error);
+  return status;
+}
+
+}  // namespace app

@@ -1,0 +1,335 @@
+#include "tb/bench/bench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <stdexcept>
+
+#include "bus/explain.hpp"
+#include "tb/bench/script.hpp"
+#include "tb/scenario/event_codes.hpp"
+#include "tb/scenario/input_error.hpp"
+#include "tb/scenario/units.hpp"
+
+namespace tb {
+
+/// Lets somebody look at the run from time to time.
+class Bench::Pulse : public bus::Agent {
+ public:
+  static constexpr Tick kPeriod = 100 * bus::kTicksPerUs;
+
+  Tick next() const override { return stopped_ ? bus::kNever : next_; }
+  void run(Tick now) override {
+    next_ = now + kPeriod;
+    stopped_ = poll && !poll(now);
+  }
+  bool stopped() const { return stopped_; }
+  std::function<bool(Tick)> poll;
+
+ private:
+  Tick next_ = 0;
+  bool stopped_ = false;
+};
+
+/// Keeps the monitor at the rate of the masters. It hears each edge before the monitor does.
+class Bench::BaudFollower : private bus::Listener {
+ public:
+  explicit BaudFollower(Bench& bench) : bench_(bench) { bench.segment().attach("baud follower", this); }
+
+ private:
+  void line_changed(Tick, bool) override {
+    for (const Master& each : bench_.masters_) {
+      if (each.master->running() && each.master->baud() != bench_.monitor_->baud()) bench_.monitor_->set_baud(each.master->baud());
+    }
+  }
+  Bench& bench_;
+};
+
+// --- building ---------------------------------------------------------------------------------------------------------
+
+Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std::unique_ptr<Execution> execution)
+    : scenario_(scenario), options_(options), execution_(std::move(execution)), setup_(scenario) {
+  if (!options.wave.empty()) waves_.emplace(options.wave, segment());
+  for (const scenario::Slave& slave : scenario.slaves) add_slave(slave);
+  baud_follower_ = std::make_unique<BaudFollower>(*this);
+  add_monitor();
+  for (const scenario::Master& master : scenario.masters) add_master(master);
+  script_ = std::make_unique<Script>(*this);
+  pulse_ = std::make_unique<Pulse>();
+  add_agents();
+  if (!options.log.empty()) log_.emplace(options.log);
+  if (!options.trace.empty()) trace_.emplace(options.trace);
+  if (waves_) waves_->begin();
+}
+
+Bench::~Bench() = default;
+
+std::uint32_t Bench::watched_pins() const { return options_.wave.empty() && options_.trace.empty() ? kBusPins : dsdpv1::kOutputPins; }
+
+void Bench::add_slave(const scenario::Slave& slave) {
+  dsdpv1::Config config = scenario_.chip;
+  config.engine = options_.engine;
+  user_cpu::StationConfig station = setup_.station(slave);
+  slaves_.push_back(std::make_unique<SlaveStation>(slave, std::move(station), execution_->make_chip(slave.name.text, config, watched_pins())));
+  connect(*slaves_.back(), slaves_.size() - 1);
+}
+
+void Bench::connect(SlaveStation& station, std::size_t index) {
+  if (waves_) waves_->add_chip(station.name(), station.chip().chip());
+  station.chip().on_pin = [this, index](Tick at, dsdpv1::Pin pin, dsdpv1::Level level) { pin_changed(index, at, pin, level); };
+  station.chip().on_event = [this, index](const profibus::Event& event) { chip_event(index, event); };
+  station.on_driver_error = [this, &station](const user_cpu::DriverError& error) { driver_error(station, error); };
+  station.on_outputs = [this, &station](Tick at, bool changed) {
+    if (changed) log(at, station.name(), "user", "outputs " + bytes_text(station.outputs()));
+    touch();
+  };
+}
+
+void Bench::add_monitor() {
+  monitor_ = std::make_unique<bus::Monitor>(segment());
+  monitor_->set_baud(scenario_.baud);
+  monitor_->on_telegram = [this](const bus::WireTelegram& each) { telegram(each); };
+  monitor_->on_flag = [this](const bus::Flag& each) { flagged(each); };
+}
+
+void Bench::add_master(const scenario::Master& spec) {
+  bus::MasterConfig config;
+  config.name = spec.name.text;
+  config.address = static_cast<std::uint8_t>(spec.address);
+  config.baud = scenario_.baud;
+  config.personality = spec.personality;
+  config.bus.slot_bits = spec.bus.slot_time;
+  config.bus.set_bits = spec.bus.setup_time;
+  config.bus.quiet_bits = spec.bus.quiet_time;
+  config.bus.max_retries = spec.bus.retries;
+  config.bus.gap_factor = spec.bus.gap_factor;
+  config.bus.highest_address = static_cast<std::uint8_t>(spec.bus.highest_address);
+  config.bus.min_slave_interval_us = spec.bus.min_slave_interval;
+  config.bus.token = spec.bus.token;
+  config.bus.clock_ppm = spec.bus.clock_error;
+  Master entry{&spec, std::make_unique<bus::Master1>(segment(), config), {}};
+  for (const scenario::MasterSlave& slave : spec.slaves) {
+    const bus::SlaveParameters parameters = setup_.parameters(slave);
+    try {
+      entry.master->add_slave(parameters);
+      bus::Bytes outputs = slave.outputs;
+      outputs.resize(static_cast<std::size_t>(parameters.output_length));
+      entry.master->set_outputs(parameters.address, outputs);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(scenario_.file, slave.line, error.what());
+    }
+    entry.slaves[parameters.address] = parameters.name;
+  }
+  if (!spec.operate) entry.master->clear();
+  masters_.push_back(std::move(entry));
+  connect(masters_.back());
+}
+
+void Bench::connect(Master& entry) {
+  const std::string& name = entry.spec->name.text;
+  if (waves_) {
+    std::vector<std::string> slaves;
+    for (const auto& [address, slave] : entry.slaves) slaves.push_back(slave);
+    waves_->add_master(name, slaves);
+  }
+  bus::Master1& master = *entry.master;
+  master.on_state = [this, &master, &name, slaves = entry.slaves](Tick at, std::uint8_t address, bus::SlaveState from, bus::SlaveState to) {
+    const std::string& reason = master.slave(address).reason;
+    log(at, name, "state", fmt::format("{} (address {}): {} to {}{}", slaves.at(address), address, bus::name(from), bus::name(to), reason.empty() ? "" : ", " + reason));
+    if (waves_) waves_->master_state(name, slaves.at(address), now(), bus::name(to));
+    touch();
+  };
+  master.on_inputs = [this, &master, &name, slaves = entry.slaves](Tick at, std::uint8_t address) {
+    log(at, name, "inputs", fmt::format("{}: {}", slaves.at(address), bytes_text(master.slave(address).inputs)));
+    touch();
+  };
+}
+
+/// The chips are in the timeline already; then in the order of who answers whom, the script last.
+void Bench::add_agents() {
+  bus::Timeline& timeline = execution_->timeline();
+  timeline.add(*monitor_);
+  for (const Master& each : masters_) timeline.add(*each.master);
+  for (const auto& slave : slaves_) timeline.add(*slave);
+  timeline.add(*script_);
+  timeline.add(*pulse_);
+}
+
+// --- what happens -----------------------------------------------------------------------------------------------------
+
+void Bench::log(Tick at, const std::string& station, const std::string& kind, const std::string& text) {
+  if (log_) log_->line(std::max(at, now()), station, kind, text);
+}
+
+void Bench::touch() { touch(now()); }
+
+/// In the TLM view chips act before the timeline has come to their tick.
+void Bench::touch(Tick at) { script_->touch(std::max(at, now())); }
+
+void Bench::pin_changed(std::size_t index, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
+  if (pin == dsdpv1::Pin::kIntr0) slaves_[index]->intr0_changed(at, level != 0);
+  if (trace_ && !dsdpv1::is_input(pin)) trace_->change(slaves_[index]->name(), at, pin, level);
+  if (waves_) waves_->pin(index, at, pin, level);
+}
+
+void Bench::chip_event(std::size_t index, const profibus::Event& event) {
+  if (event.reason == profibus::Reason::kDpState && waves_) waves_->dp_state(index, event.at, name(static_cast<dsdpv1::DpState>(event.b)));
+  happened({event.at, slaves_[index]->name(), profibus::code(event.reason), profibus::severity(event.reason), profibus::describe(event)});
+  touch(event.at);
+}
+
+void Bench::driver_error(const SlaveStation& station, const user_cpu::DriverError& error) {
+  const std::string text = fmt::format("the driver's {} failed: {}", error.during, dsdpv1_error_text(error.error));
+  happened({error.at, station.name(), scenario::driver_error_code(error.error), profibus::Severity::kRefusal, text});
+  touch();
+}
+
+void Bench::telegram(const bus::WireTelegram& telegram) {
+  const std::string words = telegram.decoded.readable ? bus::explain_line(telegram.decoded.telegram) : "not readable";
+  const std::string tsdr = telegram.tsdr ? fmt::format("  [TSDR {:.2f}]", telegram.tsdr_bits()) : "";
+  const std::string fault = telegram.right() ? "" : fmt::format("  [wrong: {}]", bus::describe(telegram.decoded.error));
+  log(telegram.end, "bus", "telegram", words + tsdr + fault + "  " + bytes_text(telegram.decoded.bytes));
+  if (waves_) waves_->telegram(now(), words);
+  if (telegram.tsdr) {
+    for (const auto& slave : slaves_) {
+      if (slave->chip().chip().status().address == telegram.station) slave->tsdr().add(telegram.tsdr_bits());
+    }
+  }
+  touch();
+}
+
+void Bench::flagged(const bus::Flag& flag) {
+  // An unanswered request is how masters find out that nobody is there.
+  const bool wrong = flag.kind != bus::FlagKind::kUnanswered;
+  happened({flag.at, "bus", scenario::flag_code(flag.kind), wrong ? profibus::Severity::kViolation : profibus::Severity::kInfo, flag.text});
+  touch();
+}
+
+bool Bench::is_allowed(const Happening& happening) const {
+  return std::any_of(scenario_.allow.begin(), scenario_.allow.end(), [&happening](const scenario::Allow& allow) {
+    return allow.event.text == happening.code && (allow.slave.empty() || allow.slave.text == happening.station);
+  });
+}
+
+void Bench::happened(Happening happening) {
+  ++counts_[happening.station][happening.code];
+  happening.allowed = happening.severity == profibus::Severity::kViolation && is_allowed(happening);
+  if (happening.severity == profibus::Severity::kViolation && !happening.allowed) ++violations_;
+  log(happening.at, happening.station, happening.allowed ? "allowed" : name(happening.severity), happening.code + ": " + happening.text);
+  if (happenings_.size() < RunResult::kKept) {
+    happenings_.push_back(std::move(happening));
+  } else {
+    ++happenings_dropped_;
+  }
+}
+
+// --- for the script ---------------------------------------------------------------------------------------------------
+
+SlaveStation& Bench::slave(const std::string& name) {
+  const auto found = std::find_if(slaves_.begin(), slaves_.end(), [&name](const auto& slave) { return slave->name() == name; });
+  if (found == slaves_.end()) throw std::out_of_range("no slave " + name);
+  return **found;
+}
+
+bus::Master1& Bench::master(const std::string& name) {
+  for (Master& each : masters_) {
+    if (name.empty() || each.spec->name.text == name) return *each.master;
+  }
+  throw std::out_of_range("no master " + name);
+}
+
+const bus::Master1* Bench::master_of(const std::string& slave) const {
+  for (const Master& each : masters_) {
+    for (const auto& [address, name] : each.slaves) {
+      if (name == slave) return each.master.get();
+    }
+  }
+  return nullptr;
+}
+
+std::optional<std::uint8_t> Bench::listed_address(const std::string& slave) const {
+  for (const Master& each : masters_) {
+    for (const auto& [address, name] : each.slaves) {
+      if (name == slave) return address;
+    }
+  }
+  return std::nullopt;
+}
+
+std::uint64_t Bench::count(const std::string& slave, const std::string& code) const {
+  const auto station = counts_.find(slave);
+  if (station == counts_.end()) return 0;
+  const auto entry = station->second.find(code);
+  return entry == station->second.end() ? 0 : entry->second;
+}
+
+const Reply* Bench::last_reply(const std::string& master, scenario::Do service) const {
+  const auto replies = replies_.find(master);
+  if (replies == replies_.end()) return nullptr;
+  const auto reply = replies->second.find(service);
+  return reply == replies->second.end() ? nullptr : &reply->second;
+}
+
+void Bench::keep_reply(const std::string& master, scenario::Do service, Reply reply) {
+  replies_[master][service] = std::move(reply);
+  touch();
+}
+
+void Bench::change_baud(int index) {
+  for (Master& each : masters_) each.master->change_baud(index);
+}
+
+// --- running ----------------------------------------------------------------------------------------------------------
+
+RunResult Bench::run(const std::function<bool(Tick)>& poll) {
+  const auto begin = std::chrono::steady_clock::now();
+  pulse_->poll = [&](Tick at) {
+    if (log_) log_->flush(at - 1);
+    return poll(at);
+  };
+  execution_->run(scenario_.end, [this] { return pulse_->stopped(); });
+  RunResult result = collect();
+  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  finish_outputs();
+  return result;
+}
+
+RunResult Bench::collect() {
+  RunResult result;
+  result.scenario = scenario_.name;
+  result.file = scenario_.file;
+  result.engine = options_.engine_name;
+  result.view = options_.view_name;
+  result.interrupted = pulse_->stopped();
+  result.simulated = result.interrupted ? now() : scenario_.end;
+  result.telegrams = monitor_->statistics().telegrams;
+  result.wrong_telegrams = monitor_->statistics().wrong;
+  result.violations = violations_;
+  for (const auto& slave : slaves_) {
+    slave->chip().sync(result.simulated);
+    SlaveResult entry = slave->result();
+    if (const bus::Master1* master = master_of(slave->name())) {
+      const bus::SlaveView& view = master->slave(*listed_address(slave->name()));
+      entry.master_state = bus::name(view.state);
+      entry.master_reason = view.reason;
+      entry.inputs = view.inputs;
+    }
+    result.slaves.push_back(std::move(entry));
+  }
+  result.expectations = script_->finish(result.simulated);
+  result.happenings = happenings_;
+  result.happenings_dropped = happenings_dropped_;
+  const bool met = std::all_of(result.expectations.begin(), result.expectations.end(), [](const ExpectationResult& each) { return each.passed; });
+  result.passed = met && violations_ == 0 && !result.interrupted;
+  return result;
+}
+
+void Bench::finish_outputs() {
+  if (waves_) waves_->finish(std::max(now(), pulse_->stopped() ? now() : scenario_.end));
+  if (log_) log_->finish();
+  if (trace_) trace_->finish();
+}
+
+}  // namespace tb

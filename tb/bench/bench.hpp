@@ -1,0 +1,118 @@
+#pragma once
+// A scenario carried out: builds the stations, runs the timeline, collects what happened. The script is in script.hpp, the judging
+// of conditions in conditions.hpp.
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/master1.hpp"
+#include "bus/monitor.hpp"
+#include "tb/bench/execution.hpp"
+#include "tb/bench/pin_trace.hpp"
+#include "tb/bench/record.hpp"
+#include "tb/bench/run_log.hpp"
+#include "tb/bench/setup.hpp"
+#include "tb/bench/slave_station.hpp"
+#include "tb/bench/wave_recorder.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace tb {
+
+class Script;
+
+struct RunOptions {
+  dsdpv1::Engine engine = dsdpv1::Engine::kSkip;
+  std::string engine_name = "skip", view_name = "pins";
+  std::string wave, log, trace;  ///< paths, empty: not wanted
+};
+
+/// One answer to a request of the script.
+struct Reply {
+  bool answered = false;
+  bus::Bytes data;
+};
+
+class Bench {
+ public:
+  /// Builds everything; throws InputError. `scenario` must outlive the bench.
+  Bench(const scenario::Scenario& scenario, const RunOptions& options, std::unique_ptr<Execution> execution);
+  ~Bench();
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+
+  /// Runs to the scenario's end, or until `poll`, which is called every 100 us of simulated time, returns false. The files of
+  /// the options are complete afterwards.
+  RunResult run(const std::function<bool(Tick now)>& poll);
+
+  // --- For the script and the conditions.
+  const scenario::Scenario& scenario() const { return scenario_; }
+  Tick now() const { return execution_->timeline().now(); }
+  SlaveStation& slave(const std::string& name);
+  const SlaveStation& slave(const std::string& name) const { return const_cast<Bench*>(this)->slave(name); }
+  /// The first one for an empty name.
+  bus::Master1& master(const std::string& name);
+  bus::Segment& segment() { return execution_->segment(); }
+  /// The master that exchanges data with a slave, null when none does.
+  const bus::Master1* master_of(const std::string& slave) const;
+  /// What masters call the slave: the address in their lists.
+  std::optional<std::uint8_t> listed_address(const std::string& slave) const;
+  std::uint64_t count(const std::string& slave, const std::string& code) const;
+  const Reply* last_reply(const std::string& master, scenario::Do service) const;
+  void keep_reply(const std::string& master, scenario::Do service, Reply reply);
+  void change_baud(int index);
+  void log(Tick at, const std::string& station, const std::string& kind, const std::string& text);
+  /// Something has changed: conditions are looked at again in this tick.
+  void touch();
+  void touch(Tick at);
+
+ private:
+  struct Master {
+    const scenario::Master* spec = nullptr;
+    std::unique_ptr<bus::Master1> master;
+    std::map<std::uint8_t, std::string> slaves;  ///< names by address
+  };
+  class Pulse;
+  class BaudFollower;
+
+  std::uint32_t watched_pins() const;
+  void add_slave(const scenario::Slave& slave);
+  void connect(SlaveStation& station, std::size_t index);
+  void connect(Master& master);
+  void add_master(const scenario::Master& spec);
+  void add_monitor();
+  void add_agents();
+  void begin_waves();
+  void pin_changed(std::size_t index, Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void chip_event(std::size_t index, const profibus::Event& event);
+  void driver_error(const SlaveStation& station, const user_cpu::DriverError& error);
+  void telegram(const bus::WireTelegram& telegram);
+  void flagged(const bus::Flag& flag);
+  void happened(Happening happening);
+  bool is_allowed(const Happening& happening) const;
+  RunResult collect();
+  void finish_outputs();
+
+  const scenario::Scenario& scenario_;
+  RunOptions options_;
+  std::unique_ptr<Execution> execution_;
+  Setup setup_;
+  std::vector<std::unique_ptr<SlaveStation>> slaves_;
+  std::vector<Master> masters_;
+  std::unique_ptr<BaudFollower> baud_follower_;
+  std::unique_ptr<bus::Monitor> monitor_;
+  std::unique_ptr<Script> script_;
+  std::unique_ptr<Pulse> pulse_;
+  std::optional<RunLog> log_;
+  std::optional<PinTrace> trace_;
+  std::optional<WaveRecorder> waves_;
+
+  std::vector<Happening> happenings_;
+  std::uint64_t happenings_dropped_ = 0, violations_ = 0;
+  std::map<std::string, std::map<std::string, std::uint64_t>> counts_;  ///< by station and code
+  std::map<std::string, std::map<scenario::Do, Reply>> replies_;        ///< by master and service
+};
+
+}  // namespace tb

@@ -1,0 +1,23 @@
+#pragma once
+// Judging of a scenario's conditions against the bench.
+#include <string>
+
+#include "tb/scenario/scenario.hpp"
+
+namespace tb {
+
+class Bench;
+
+struct Judged {
+  bool holds = false;
+  std::string seen;  ///< what is there instead or as well: "dp_state WAIT_CFG, data_exchanges 0"
+};
+
+Judged judge(const scenario::Condition& condition, const Bench& bench);
+
+/// The condition in words: "demo: dp_state DATA_EXCH, data_exchanges >= 10".
+std::string describe(const scenario::Condition& condition);
+/// ... with its time: "... by 9ms".
+std::string describe(const scenario::Expectation& expectation);
+
+}  // namespace tb

@@ -1,0 +1,247 @@
+#include "tb/bench/script.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tb/bench/bench.hpp"
+#include "tb/bench/conditions.hpp"
+#include "tb/scenario/units.hpp"
+
+namespace tb {
+
+using scenario::Action;
+using scenario::Do;
+
+Script::Script(Bench& bench) : bench_(bench) {
+  const scenario::Scenario& scenario = bench.scenario();
+  for (std::size_t i = 0; i < scenario.slaves.size(); ++i) plan(scenario.slaves[i].release_reset, Kind::kReleaseReset, i);
+  for (std::size_t i = 0; i < scenario.masters.size(); ++i) plan(scenario.masters[i].start, Kind::kStartMaster, i);
+  for (std::size_t i = 0; i < scenario.script.size(); ++i) {
+    if (scenario.script[i].at) {
+      plan(*scenario.script[i].at, Kind::kAction, i);
+    } else {
+      waiting_.push_back(i);
+    }
+  }
+  for (std::size_t i = 0; i < scenario.expect.size(); ++i) {
+    const scenario::Expectation& expectation = scenario.expect[i];
+    expectations_.push_back({describe(expectation), expectation.line, false, ""});
+    plan(expectation.at.value_or(expectation.by.value_or(scenario.end)), Kind::kExpectation, i);
+  }
+  judged_.resize(expectations_.size());
+}
+
+void Script::plan(Tick at, Kind kind, std::size_t index) {
+  const auto later = [at](const Due& due) { return due.at > at; };
+  agenda_.insert(std::find_if_not(agenda_.begin(), agenda_.end(), later), {at, kind, index});
+}
+
+Tick Script::next() const { return std::min(touched_at_, agenda_.empty() ? bus::kNever : agenda_.back().at); }
+
+void Script::run(Tick now) {
+  touched_at_ = bus::kNever;
+  look(now);
+  while (!agenda_.empty() && agenda_.back().at <= now) {
+    const Due due = agenda_.back();
+    agenda_.pop_back();
+    carry_out(due, now);
+  }
+}
+
+void Script::carry_out(const Due& due, Tick now) {
+  const scenario::Scenario& scenario = bench_.scenario();
+  switch (due.kind) {
+    case Kind::kReleaseReset: {
+      const std::string& name = scenario.slaves[due.index].name.text;
+      bench_.log(now, name, "script", "RESET rises, the user CPU starts");
+      bench_.slave(name).release_reset(now);
+      break;
+    }
+    case Kind::kStartMaster: {
+      const std::string& name = scenario.masters[due.index].name.text;
+      bench_.log(now, name, "script", "starts");
+      bench_.master(name).start();
+      break;
+    }
+    case Kind::kAction: act(scenario.script[due.index], now); break;
+    case Kind::kResumeUser:
+      bench_.slave(scenario.slaves[due.index].name.text).command(now, user_cpu::command::Resume{});
+      break;
+    case Kind::kEndGlitch: bench_.segment().force(now, std::nullopt); break;
+    case Kind::kExpectation: judge(due.index, now, true); break;
+  }
+}
+
+// --- conditions -------------------------------------------------------------------------------------------------------
+
+void Script::look(Tick now) {
+  look_at_actions(now);
+  const auto& expect = bench_.scenario().expect;
+  for (std::size_t i = 0; i < expect.size(); ++i) {
+    if (expect[i].by && !judged_[i]) judge(i, now, false);
+  }
+}
+
+void Script::look_at_actions(Tick now) {
+  const auto has_come_true = [this, now](std::size_t index) {
+    const scenario::When& when = *bench_.scenario().script[index].when;
+    if (!tb::judge(when, bench_).holds) return false;
+    plan(now + when.after, Kind::kAction, index);
+    return true;
+  };
+  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), has_come_true), waiting_.end());
+}
+
+void Script::judge(std::size_t index, Tick now, bool last_chance) {
+  if (judged_[index]) return;
+  const scenario::Expectation& expectation = bench_.scenario().expect[index];
+  const Judged judged = tb::judge(expectation, bench_);
+  if (!judged.holds && !last_chance) return;
+  ExpectationResult& result = expectations_[index];
+  result.passed = judged.holds;
+  result.seen = fmt::format("{} at {} ns", judged.seen, nanoseconds(now));
+  judged_[index] = true;
+  const std::string& station = expectation.slave.empty() ? "bus" : expectation.slave.text;
+  bench_.log(now, station, "expect", fmt::format("{}: {}, seen {}", judged.holds ? "met" : "FAILED", result.text, judged.seen));
+}
+
+std::vector<ExpectationResult> Script::finish(Tick now) {
+  for (std::size_t i = 0; i < expectations_.size(); ++i) {
+    if (judged_[i]) continue;
+    expectations_[i].seen = fmt::format("the run ended at {} ns", nanoseconds(now));
+  }
+  return expectations_;
+}
+
+// --- actions ----------------------------------------------------------------------------------------------------------
+
+void Script::act(const Action& action, Tick now) {
+  if (action.what >= Do::kSetOutputs && action.what <= Do::kTelegram) return act_on_master(action, now);
+  if (action.what == Do::kGlitch || action.what == Do::kPlug || action.what == Do::kUnplug) return act_on_bus(action, now);
+  act_on_user(action, now);
+}
+
+std::size_t Script::slave_index(const std::string& name) const {
+  const auto& slaves = bench_.scenario().slaves;
+  const auto found = std::find_if(slaves.begin(), slaves.end(), [&name](const scenario::Slave& slave) { return slave.name.text == name; });
+  return static_cast<std::size_t>(found - slaves.begin());
+}
+
+void Script::act_on_user(const Action& action, Tick now) {
+  namespace command = user_cpu::command;
+  SlaveStation& slave = bench_.slave(action.slave.text);
+  const auto order = [&](const std::string& text, const user_cpu::Command& what) {
+    bench_.log(now, slave.name(), "script", text);
+    slave.command(now, what);
+  };
+  switch (action.what) {
+    case Do::kSetInputs: return order("inputs " + bytes_text(action.bytes), command::SetInputs{action.bytes});
+    case Do::kSetDiagnosis:
+      return order(fmt::format("diagnosis {:02X}: {}", static_cast<int>(action.diagnosis), bytes_text(action.bytes)), command::SetDiagnosis{action.diagnosis, action.bytes});
+    case Do::kHoldDpram: return order("holds the DPRAM for " + time_text(*action.duration), command::Hold{*action.duration});
+    case Do::kWrongCrc: return order("wrong CRC", command::WrongCrc{action.area, action.times});
+    case Do::kEarlyRSta:
+      for (int i = 0; i < action.times; ++i) order("R_STA without a look at L_REQ and L_STA", command::EarlyRSta{});
+      return;
+    case Do::kWrongLength: return order("inputs of a wrong length", command::WrongLength{});
+    case Do::kVerdict: return order(action.refuse ? "verdict: wrong" : "verdict: right", command::SendVerdict{action.of == scenario::Verdict::kCfg, action.refuse});
+    case Do::kPauseUser:
+      order("pauses for " + time_text(*action.duration), command::Stop{});
+      return plan(now + *action.duration, Kind::kResumeUser, slave_index(slave.name()));
+    case Do::kReinitialise:
+      bench_.log(now, slave.name(), "script", "initialises the chip again");
+      return slave.reinitialise(now, action.new_address, action.cfg);
+    default: return reset_chip(action, now);
+  }
+}
+
+void Script::reset_chip(const Action& action, Tick now) {
+  constexpr Tick kUsual = 10 * bus::kTicksPerUs;
+  bench_.log(now, action.slave.text, "script", "RESET falls");
+  bench_.slave(action.slave.text).hold_in_reset(now);
+  plan(now + action.duration.value_or(kUsual), Kind::kReleaseReset, slave_index(action.slave.text));
+}
+
+void Script::act_on_bus(const Action& action, Tick now) {
+  if (action.what == Do::kGlitch) {
+    bench_.log(now, "bus", "script", fmt::format("line forced {} for {}", action.level ? "high" : "low", time_text(*action.duration)));
+    bench_.segment().force(now, action.level);
+    return plan(now + *action.duration, Kind::kEndGlitch, 0);
+  }
+  const bool plugged = action.what == Do::kPlug;
+  SlaveStation& slave = bench_.slave(action.slave.text);
+  bench_.log(now, slave.name(), "script", plugged ? "plugged in" : "unplugged");
+  bench_.segment().plug(slave.chip().station(), now, plugged);
+}
+
+void Script::act_on_master(const Action& action, Tick now) {
+  bus::Master1& master = bench_.master(action.master.text);
+  const auto say = [&](const std::string& text) { bench_.log(now, action.master.empty() ? bench_.scenario().masters.front().name.text : action.master.text, "script", text); };
+  switch (action.what) {
+    case Do::kSetOutputs: {
+      const std::uint8_t address = target(action);
+      bus::Bytes outputs = action.bytes;
+      outputs.resize(static_cast<std::size_t>(master.parameters(address).output_length));
+      say(fmt::format("outputs of {}: {}", action.slave.text, bytes_text(outputs)));
+      return master.set_outputs(address, outputs);
+    }
+    case Do::kGlobalControl: return global_control(action);
+    case Do::kOperate: say("Operate"); return master.operate();
+    case Do::kClear: say("Clear"); return master.clear();
+    case Do::kStopMaster: say("stops"); return master.stop();
+    case Do::kStartMaster: say("starts"); return master.start();
+    case Do::kChangeBaud: say("baud rate " + baud_text(action.baud)); return bench_.change_baud(action.baud);
+    case Do::kTelegram: say("telegram " + bytes_text(action.bytes)); return send_telegram(action);
+    default: return ask(action);
+  }
+}
+
+std::uint8_t Script::target(const Action& action) const {
+  if (action.address) return static_cast<std::uint8_t>(*action.address);
+  const std::optional<std::uint8_t> listed = bench_.listed_address(action.slave.text);
+  return listed.value_or(bench_.slave(action.slave.text).chip().chip().status().address);
+}
+
+/// A service out of the cycle; its answer is kept for `reply`.
+void Script::ask(const Action& action) {
+  bus::Master1& master = bench_.master(action.master.text);
+  const auto keep = [this, name = action.master.text, what = action.what](const bus::FdlResult& result) {
+    bench_.keep_reply(name, what, {result.answered() && !result.short_acknowledge(), result.answer.data});
+  };
+  const std::uint8_t address = action.what == Do::kSetSlaveAddress && !action.address ? bench_.slave(action.slave.text).chip().chip().status().address : target(action);
+  switch (action.what) {
+    case Do::kReadInputs: return master.read_inputs(address, keep);
+    case Do::kReadOutputs: return master.read_outputs(address, keep);
+    case Do::kGetCfg: return master.get_cfg(address, keep);
+    case Do::kSlaveDiag: return master.slave_diag(address, keep);
+    default: break;
+  }
+  const int ident = action.ident.value_or(action.slave.empty() ? 0 : bench_.slave(action.slave.text).station().ident);
+  master.set_slave_address(address, static_cast<std::uint8_t>(*action.new_address), static_cast<std::uint16_t>(ident), action.lock, keep);
+}
+
+void Script::global_control(const Action& action) {
+  namespace gc = bus::global_control;
+  const auto bit = [](bool wanted, std::uint8_t value) { return wanted ? unsigned{value} : 0U; };
+  const unsigned command = bit(action.sync, gc::kSync) | bit(action.unsync, gc::kUnsync) | bit(action.freeze, gc::kFreeze) | bit(action.unfreeze, gc::kUnfreeze) |
+                           bit(action.clear, gc::kClearData);
+  bench_.master(action.master.text).global_control(static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(action.group));
+}
+
+void Script::send_telegram(const Action& action) {
+  const scenario::Faults& f = action.faults;
+  const auto millibits = [](double bits) { return static_cast<int>(bits * 1000 + 0.5); };
+  const auto place = [](const std::optional<int>& at) { return at ? std::optional<std::size_t>(static_cast<std::size_t>(*at)) : std::nullopt; };
+  bus::WireFaults faults;
+  faults.wrong_parity_at = place(f.wrong_parity_at);
+  faults.missing_stop_at = place(f.missing_stop_at);
+  faults.gap_before = place(f.gap_before);
+  faults.gap_millibits = millibits(f.gap_bits);
+  faults.truncate_after = place(f.truncate_after);
+  faults.glitch_at = place(f.glitch_at);
+  faults.glitch = {millibits(f.glitch_start_bits), millibits(f.glitch_bits)};
+  bench_.master(action.master.text).send_raw(action.bytes, faults);
+}
+
+}  // namespace tb

@@ -1,0 +1,58 @@
+#pragma once
+// The scenario's script and expectations as the last agent of the timeline: it acts when everybody else has acted at a tick.
+#include <cstddef>
+#include <vector>
+
+#include "bus/timeline.hpp"
+#include "tb/bench/record.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace tb {
+
+class Bench;
+
+class Script : public bus::Agent {
+ public:
+  explicit Script(Bench& bench);
+
+  /// Conditions are looked at again at `at`.
+  void touch(Tick at) { touched_at_ = at; }
+  Tick next() const override;
+  void run(Tick now) override;
+  /// Judges what is to be judged at the end; an expectation whose time did not come (interrupted) has failed.
+  std::vector<ExpectationResult> finish(Tick now);
+
+ private:
+  enum class Kind : std::uint8_t { kReleaseReset, kStartMaster, kAction, kResumeUser, kEndGlitch, kExpectation };
+  /// One entry of the agenda.
+  struct Due {
+    Tick at = 0;
+    Kind kind{};
+    std::size_t index = 0;  ///< of the slave, master, action or expectation
+  };
+  void plan(Tick at, Kind kind, std::size_t index);
+  void carry_out(const Due& due, Tick now);
+  void look(Tick now);
+  void look_at_actions(Tick now);
+  void judge(std::size_t index, Tick now, bool last_chance);
+
+  void act(const scenario::Action& action, Tick now);
+  void act_on_user(const scenario::Action& action, Tick now);
+  void act_on_master(const scenario::Action& action, Tick now);
+  void act_on_bus(const scenario::Action& action, Tick now);
+  void reset_chip(const scenario::Action& action, Tick now);
+  void ask(const scenario::Action& action);
+  void global_control(const scenario::Action& action);
+  void send_telegram(const scenario::Action& action);
+  std::size_t slave_index(const std::string& name) const;
+  std::uint8_t target(const scenario::Action& action) const;
+
+  Bench& bench_;
+  std::vector<Due> agenda_;           ///< latest first; equal times in the order of planning
+  std::vector<std::size_t> waiting_;  ///< actions whose condition has not come true
+  std::vector<ExpectationResult> expectations_;
+  std::vector<bool> judged_;
+  Tick touched_at_ = bus::kNever;
+};
+
+}  // namespace tb

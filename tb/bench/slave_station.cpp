@@ -1,0 +1,99 @@
+#include "tb/bench/slave_station.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tb {
+
+SlaveStation::SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig station, std::unique_ptr<ChipView> chip)
+    : slave_(slave), station_(std::move(station)), chip_(std::move(chip)) {}
+
+user_cpu::ProgramOptions SlaveStation::options() const {
+  const scenario::UserCpu& user = slave_.user_cpu;
+  user_cpu::ProgramOptions options;
+  options.station = station_;
+  options.start_delay = user.start_delay;
+  options.period = user.cycle;
+  options.inputs = user.behaviour;
+  options.constant = user.constant;
+  options.policy = user.overwrite_inputs ? DSDPV1_INPUT_NEWEST : DSDPV1_INPUT_WHEN_CONSUMED;
+  options.prm = user.judge_prm;
+  options.cfg = user.judge_cfg;
+  options.judge_delay = user.judge_delay;
+  options.judge_in_handler = user.judge_in_handler;
+  options.retry_delay = user.retry_delay;
+  return options;
+}
+
+void SlaveStation::hold_in_reset(Tick now) {
+  if (program_) add_counters(before_reset_);
+  cpu_.reset();
+  program_.reset();
+  outputs_seen_ = 0;
+  chip_->reset_host(now);
+  chip_->set_reset(now, false);
+}
+
+void SlaveStation::release_reset(Tick now) {
+  chip_->set_reset(now, true);
+  user_cpu::CpuTiming timing = slave_.user_cpu.timing;
+  timing.access = slave_.user_cpu.access;
+  program_ = std::make_unique<user_cpu::UserProgram>(options());
+  program_->on_error = [this](const user_cpu::DriverError& error) {
+    if (on_driver_error) on_driver_error(error);
+  };
+  cpu_ = std::make_unique<user_cpu::NativeCpu>(chip_->host_bus(), timing, program_->entry(), now);
+}
+
+void SlaveStation::command(Tick now, const user_cpu::Command& command) {
+  if (!program_) return;  // held in reset: nobody listens
+  program_->post(command);
+  cpu_->wake(now);
+}
+
+void SlaveStation::reinitialise(Tick now, std::optional<int> address, const std::optional<bus::Bytes>& cfg) {
+  if (address) station_.address = static_cast<std::uint8_t>(*address);
+  if (cfg) station_.cfg = *cfg;
+  command(now, user_cpu::command::Reinitialise{station_});
+}
+
+void SlaveStation::intr0_changed(Tick at, bool level) {
+  if (cpu_) cpu_->intr0_changed(at, level);
+}
+
+void SlaveStation::run(Tick now) {
+  cpu_->run(now);
+  const std::uint64_t received = program_->counters().outputs_received;
+  if (received == outputs_seen_) return;
+  outputs_seen_ = received;
+  const bool changed = outputs_ != program_->outputs();
+  outputs_ = program_->outputs();
+  if (on_outputs) on_outputs(now, changed);
+}
+
+void SlaveStation::add_counters(SlaveResult& result) const {
+  const user_cpu::ProgramCounters& program = program_->counters();
+  const user_cpu::PortCounters& port = program_->port_counters();
+  result.longest_user_wait = std::max(result.longest_user_wait, port.longest_wait);
+  result.longest_hold = std::max(result.longest_hold, port.longest_hold);
+  result.holds += port.holds;
+  result.given_up += port.given_up;
+  result.bad_reads += cpu_->counters().bad_reads;
+  result.exchanges += program.exchanges;
+  result.outputs_received += program.outputs_received;
+  result.inputs_written += program.inputs_written;
+  result.judgements += program.judgements;
+  result.driver_errors += program.driver_errors;
+}
+
+SlaveResult SlaveStation::result() const {
+  SlaveResult result = before_reset_;
+  if (program_) add_counters(result);
+  result.name = name();
+  result.status = chip_->chip().status();
+  result.tsdr = tsdr_;
+  result.outputs = outputs_;
+  return result;
+}
+
+}  // namespace tb

@@ -1,0 +1,66 @@
+#pragma once
+// One slave on the bench: the chip and the user CPU that runs the driver.
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "bus/timeline.hpp"
+#include "tb/bench/chip_view.hpp"
+#include "tb/bench/record.hpp"
+#include "tb/scenario/scenario.hpp"
+#include "tb/user_cpu/native_cpu.hpp"
+#include "tb/user_cpu/programs.hpp"
+
+namespace tb {
+
+/// The agent is the user CPU; the chip is the execution's business.
+class SlaveStation : public bus::Agent {
+ public:
+  SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig station, std::unique_ptr<ChipView> chip);
+  SlaveStation(const SlaveStation&) = delete;
+  SlaveStation& operator=(const SlaveStation&) = delete;
+
+  const std::string& name() const { return slave_.name.text; }
+  const ChipView& chip() const { return *chip_; }
+  ChipView& chip() { return *chip_; }
+  const user_cpu::StationConfig& station() const { return station_; }
+
+  /// RESET of the board: the chip, and the user CPU that starts from the beginning when it is released.
+  void hold_in_reset(Tick now);
+  void release_reset(Tick now);
+
+  /// Hands a command to the user program and wakes it.
+  void command(Tick now, const user_cpu::Command& command);
+  void reinitialise(Tick now, std::optional<int> address, const std::optional<bus::Bytes>& cfg);
+  void intr0_changed(Tick at, bool level);
+
+  Tick next() const override { return cpu_ ? cpu_->next() : bus::kNever; }
+  void run(Tick now) override;
+
+  /// What the user CPU has fetched last.
+  const bus::Bytes& outputs() const { return outputs_; }
+  Tsdr& tsdr() { return tsdr_; }
+  const Tsdr& tsdr() const { return tsdr_; }
+  /// Everything but the master's side.
+  SlaveResult result() const;
+
+  std::function<void(const user_cpu::DriverError&)> on_driver_error;
+  /// The user CPU has fetched outputs, other ones than before when `changed`.
+  std::function<void(Tick at, bool changed)> on_outputs;
+
+ private:
+  user_cpu::ProgramOptions options() const;
+  void add_counters(SlaveResult& result) const;
+
+  const scenario::Slave& slave_;
+  user_cpu::StationConfig station_;
+  std::unique_ptr<ChipView> chip_;
+  std::unique_ptr<user_cpu::UserProgram> program_;
+  std::unique_ptr<user_cpu::NativeCpu> cpu_;  // ends before the program that it runs
+  SlaveResult before_reset_;                  ///< counters of programs that a reset has ended
+  std::uint64_t outputs_seen_ = 0;
+  bus::Bytes outputs_;
+  Tsdr tsdr_;
+};
+
+}  // namespace tb

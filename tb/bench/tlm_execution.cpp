@@ -1,0 +1,101 @@
+#include "tb/bench/tlm_execution.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "model/systemc/sim_time.hpp"
+#include "tb/systemc/tlm_chip.hpp"
+#include "tb/user_cpu/tlm_host_bus.hpp"
+
+namespace tb {
+namespace {
+
+using dsdpv1::Pin;
+
+class TlmChipView : public ChipView {
+ public:
+  TlmChipView(const std::string& name, const dsdpv1::systemc::TlmOptions& options, std::uint32_t watched, bus::Segment& segment,
+              systemc_bench::TimelineModule& timeline)
+      : chip_(name.c_str(), options, segment, timeline), bus_((name + "_host").c_str(), chip_) {
+    const bool all = (watched & dsdpv1::kOutputPins) == dsdpv1::kOutputPins;
+    chip_.on_pin = [this, all, &timeline](Tick at, Pin pin, dsdpv1::Level level) {
+      if (on_pin && (all || !dsdpv1::is_input(pin))) on_pin(at, pin, level);
+      if (pin == Pin::kIntr0) timeline.wake();  // the user CPU has a new plan
+    };
+    chip_.module().on_event = [this, &timeline](const profibus::Event& event) {
+      if (on_event) on_event(event);
+      timeline.wake();  // the script may have waited for it
+    };
+  }
+
+  void set_reset(Tick, bool level) override { chip_.set_reset(level); }
+  void reset_host(Tick) override {
+    chip_.set_r_sta(false);
+    chip_.set_r_req(false);
+  }
+  user_cpu::HostBus& host_bus() override { return bus_; }
+  bus::StationId station() const override { return chip_.station(); }
+  const dsdpv1::Chip& chip() const override { return const_cast<systemc_bench::TlmChip&>(chip_).module().chip(); }
+  void sync(Tick) override {}
+
+ private:
+  systemc_bench::TlmChip chip_;
+  user_cpu::TlmHostBus bus_;
+};
+
+class TlmExecution : public Execution {
+ public:
+  std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched) override {
+    dsdpv1::systemc::TlmOptions options;
+    options.chip = config;
+    options.report_violations = false;  // the bench reports them
+    return std::make_unique<TlmChipView>(name, options, watched, segment_, module_);
+  }
+
+  void run(Tick end, const std::function<bool()>& stopped) override {
+    // In slices, so that a stop takes effect; the last one ends a tick behind `end`, which SystemC itself would leave out.
+    constexpr Tick kSlice = bus::kTicksPerMs;
+    for (Tick to = std::min(kSlice, end + 1); !stopped(); to = std::min(to + kSlice, end + 1)) {
+      sc_core::sc_start(dsdpv1::systemc::to_time(to) - sc_core::sc_time_stamp());
+      if (to > end) return;
+    }
+  }
+
+ private:
+  systemc_bench::TimelineModule module_{"timeline", timeline_};
+};
+
+const std::function<int()>* body_of_sc_main = nullptr;
+std::exception_ptr failure_of_sc_main;
+
+}  // namespace
+
+std::unique_ptr<Execution> make_tlm_execution() { return std::make_unique<TlmExecution>(); }
+
+int inside_systemc(const std::function<int()>& body) {
+  setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
+  body_of_sc_main = &body;
+  char name[] = "dsdpv1-sim";
+  char* arguments[] = {name, nullptr};
+  const int status = sc_core::sc_elab_and_sim(1, arguments);
+  if (failure_of_sc_main) std::rethrow_exception(std::exchange(failure_of_sc_main, nullptr));
+  return status;
+}
+
+/// SystemC would print an exception in words of its own.
+int run_body() {
+  try {
+    return (*body_of_sc_main)();
+  } catch (...) {
+    failure_of_sc_main = std::current_exception();
+    return 1;
+  }
+}
+
+}  // namespace tb
+
+int sc_main(int, char**) { return tb::run_body(); }

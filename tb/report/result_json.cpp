@@ -1,0 +1,96 @@
+#include "tb/report/result_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "bus/time.hpp"
+#include "tb/scenario/units.hpp"
+
+namespace tb {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Nanoseconds as a number: whole where they are whole.
+Json nanoseconds_of(Tick tick) {
+  if (tick % bus::kTicksPerNs == 0) return tick / bus::kTicksPerNs;
+  return static_cast<double>(tick) / static_cast<double>(bus::kTicksPerNs);
+}
+
+Json tsdr_of(const SlaveResult& slave) {
+  if (slave.tsdr.answers == 0) return nullptr;
+  return {{"answers", slave.tsdr.answers}, {"min_bits", slave.tsdr.min_bits}, {"max_bits", slave.tsdr.max_bits}};
+}
+
+Json handshake_of(const SlaveResult& slave) {
+  return {{"chip_accesses", slave.status.accesses},
+          {"chip_longest_wait_ns", nanoseconds_of(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle)},
+          {"user_holds", slave.holds},
+          {"user_given_up", slave.given_up},
+          {"user_longest_wait_ns", nanoseconds_of(slave.longest_user_wait)},
+          {"user_longest_hold_ns", nanoseconds_of(slave.longest_hold)}};
+}
+
+Json user_of(const SlaveResult& slave) {
+  return {{"exchanges", slave.exchanges},   {"outputs_received", slave.outputs_received}, {"inputs_written", slave.inputs_written},
+          {"judgements", slave.judgements}, {"driver_errors", slave.driver_errors},       {"bad_reads", slave.bad_reads}};
+}
+
+Json slave_of(const SlaveResult& slave) {
+  Json json;
+  json["name"] = slave.name;
+  json["address"] = slave.status.address;
+  json["dp_state"] = name(slave.status.dp_state);
+  json["baud"] = baud_text(slave.status.baud_index);
+  json["master"] = slave.status.master == 255 ? Json(nullptr) : Json(slave.status.master);
+  json["data_exchanges"] = slave.status.data_exchanges;
+  json["telegrams_received"] = slave.status.telegrams_received;
+  json["telegrams_answered"] = slave.status.telegrams_answered;
+  json["tsdr"] = tsdr_of(slave);
+  json["handshake"] = handshake_of(slave);
+  json["user_cpu"] = user_of(slave);
+  json["master_state"] = slave.master_state;
+  json["master_reason"] = slave.master_reason;
+  json["inputs"] = bytes_text(slave.inputs, slave.inputs.size());
+  json["outputs"] = bytes_text(slave.outputs, slave.outputs.size());
+  return json;
+}
+
+Json event_of(const Happening& happening) {
+  return {{"at_ns", nanoseconds_of(happening.at)},
+          {"slave", happening.station},
+          {"code", happening.code},
+          {"severity", name(happening.severity)},
+          {"allowed", happening.allowed},
+          {"text", happening.text}};
+}
+
+}  // namespace
+
+std::string result_json(const RunResult& result) {
+  Json json;
+  json["scenario"] = result.scenario;
+  json["file"] = result.file;
+  json["passed"] = result.passed;
+  json["interrupted"] = result.interrupted;
+  json["engine"] = result.engine;
+  json["view"] = result.view;
+  json["simulated_ns"] = nanoseconds_of(result.simulated);
+  json["chip_cycles"] = result.simulated / profibus::kTicksPerCycle * static_cast<Tick>(result.slaves.size());
+  json["wall_s"] = result.wall_s;
+  json["real_time_factor"] = result.real_time_factor();
+  json["telegrams"] = result.telegrams;
+  json["wrong_telegrams"] = result.wrong_telegrams;
+  json["violations"] = result.violations;
+  json["slaves"] = Json::array();
+  for (const SlaveResult& slave : result.slaves) json["slaves"].push_back(slave_of(slave));
+  json["expectations"] = Json::array();
+  for (const ExpectationResult& each : result.expectations) {
+    json["expectations"].push_back({{"text", each.text}, {"line", each.line}, {"passed", each.passed}, {"seen", each.seen}});
+  }
+  json["events"] = Json::array();
+  for (const Happening& each : result.happenings) json["events"].push_back(event_of(each));
+  json["events_dropped"] = result.happenings_dropped;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tb

@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+
+#include "tb/bench/record.hpp"
+
+namespace tb {
+
+/// The result file: one JSON object, indented, with a line end. docs/results.md explains its members.
+std::string result_json(const RunResult& result);
+
+}  // namespace tb

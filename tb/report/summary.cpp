@@ -1,0 +1,118 @@
+#include "tb/report/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "tb/scenario/units.hpp"
+
+namespace tb {
+namespace {
+
+/// Columns as wide as their widest cell; numbers and times to the right.
+class Table {
+ public:
+  explicit Table(std::vector<std::string> head) { add(std::move(head)); }
+  void add(std::vector<std::string> row) {
+    widths_.resize(std::max(widths_.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths_[i] = std::max(widths_[i], row[i].size());
+    rows_.push_back(std::move(row));
+  }
+  std::string text() const {
+    std::string text;
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      text += line(rows_[r]);
+      if (r == 0) text += rule();
+    }
+    return text;
+  }
+
+ private:
+  std::string line(const std::vector<std::string>& row) const {
+    std::string text = " ";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const bool last = i + 1 == row.size();
+      text += last ? " " + row[i] : fmt::format(" {:<{}} ", row[i], widths_[i]);
+    }
+    return text + "\n";
+  }
+  std::string rule() const {
+    std::string text = " ";
+    for (const std::size_t width : widths_) text += " " + std::string(width, '-') + " ";
+    text.pop_back();
+    return text + "\n";
+  }
+  std::vector<std::vector<std::string>> rows_;
+  std::vector<std::size_t> widths_;
+};
+
+std::string microseconds(Tick tick) { return fmt::format("{:.3f}", static_cast<double>(tick) / static_cast<double>(bus::kTicksPerUs)); }
+
+/// The steps from power-on to data exchange, and whatever went wrong.
+bool is_step(const Happening& each) {
+  static constexpr std::array<const char*, 9> kSteps = {"READY_FLAG", "INITIALISED", "BAUD_SEARCH", "BAUD_FOUND", "BAUD_LOST", "DP_STATE", "WD_ON", "WD_EXPIRED", "ADDRESS"};
+  const bool known = std::any_of(kSteps.begin(), kSteps.end(), [&each](const char* code) { return each.code == code; });
+  return known || each.severity == profibus::Severity::kViolation;
+}
+
+std::string steps(const RunResult& result) {
+  constexpr std::size_t kMost = 40;
+  Table table({"time / us", "station", "what"});
+  std::size_t shown = 0, hidden = 0;
+  for (const Happening& each : result.happenings) {
+    if (!is_step(each)) continue;
+    if (shown == kMost) {
+      ++hidden;
+      continue;
+    }
+    ++shown;
+    const std::string mark = each.severity == profibus::Severity::kViolation ? (each.allowed ? "allowed: " : "VIOLATION: ") : "";
+    table.add({fmt::format("{:>13}", microseconds(each.at)), each.station, mark + each.text});
+  }
+  if (shown == 0) return "";
+  return table.text() + (hidden != 0 ? fmt::format("  ... and {} more, see --log and --result\n", hidden) : "") + "\n";
+}
+
+std::string tsdr(const SlaveResult& slave) {
+  return slave.tsdr.answers == 0 ? "-" : fmt::format("{:.2f} .. {:.2f}", slave.tsdr.min_bits, slave.tsdr.max_bits);
+}
+
+std::string slaves(const RunResult& result) {
+  Table table({"slave", "address", "DP state", "baud", "exchanges", "TSDR / bit times", "chip waited / us", "user waited / us", "longest hold / us"});
+  for (const SlaveResult& slave : result.slaves) {
+    table.add({slave.name, fmt::format("{}", slave.status.address), name(slave.status.dp_state), baud_text(slave.status.baud_index), fmt::format("{}", slave.status.data_exchanges),
+               tsdr(slave), microseconds(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle), microseconds(slave.longest_user_wait),
+               microseconds(slave.longest_hold)});
+  }
+  return table.text() + "\n";
+}
+
+std::string expectations(const RunResult& result) {
+  if (result.expectations.empty()) return "";
+  std::string text;
+  std::size_t met = 0;
+  for (const ExpectationResult& each : result.expectations) {
+    if (each.passed) {
+      ++met;
+    } else {
+      text += fmt::format("  NOT MET  {}:{}: {}; seen: {}\n", result.file, each.line, each.text, each.seen);
+    }
+  }
+  return fmt::format("  expectations   {} of {} met\n", met, result.expectations.size()) + text;
+}
+
+}  // namespace
+
+std::string summary(const RunResult& result) {
+  std::string text = fmt::format("\n{}\n\n", result.scenario) + steps(result) + slaves(result);
+  text += fmt::format("  telegrams      {} ({} wrong)\n", result.telegrams, result.wrong_telegrams);
+  text += fmt::format("  simulated      {} in {:.2f} s: {:.2f} times real time (engine {}, view {})\n", time_text(result.simulated), result.wall_s, result.real_time_factor(),
+                      result.engine, result.view);
+  if (result.violations != 0) text += fmt::format("  violations     {} that the scenario does not allow\n", result.violations);
+  text += expectations(result);
+  return text + fmt::format("\n{}\n", result.interrupted ? "INTERRUPTED" : result.passed ? "PASSED" : "FAILED");
+}
+
+}  // namespace tb

@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+
+#include "tb/bench/record.hpp"
+
+namespace tb {
+
+/// What the terminal shows at the end of a run: state changes with times, measurements of each slave, expectations, verdict.
+std::string summary(const RunResult& result);
+
+}  // namespace tb

@@ -1,0 +1,39 @@
+#include "tb/scenario/event_codes.hpp"
+
+#include <cctype>
+
+namespace tb::scenario {
+
+std::string flag_code(bus::FlagKind kind) {
+  std::string code = "BUS_";
+  for (const char* c = bus::name(kind); *c != '\0'; ++c) {
+    code += std::isalnum(static_cast<unsigned char>(*c)) != 0 ? static_cast<char>(std::toupper(static_cast<unsigned char>(*c))) : '_';
+  }
+  return code;
+}
+
+std::string driver_error_code(dsdpv1_error error) {
+#define X(name, value, text) \
+  if (error == name) return #name;
+  DSDPV1_ERROR_TABLE(X)
+#undef X
+  return "DSDPV1_ERR_UNKNOWN";
+}
+
+const std::vector<std::string>& all_codes() {
+  static const std::vector<std::string> codes = [] {
+    std::vector<std::string> list = {
+#define X(id, severity, code, ...) code,
+#include "model/profibus/event_table.inc"
+#undef X
+    };
+#define X(name, value, text) list.emplace_back(#name);
+    DSDPV1_ERROR_TABLE(X)
+#undef X
+    for (std::size_t kind = 0; kind < bus::kFlagKinds; ++kind) list.push_back(flag_code(static_cast<bus::FlagKind>(kind)));
+    return list;
+  }();
+  return codes;
+}
+
+}  // namespace tb::scenario
