@@ -200,7 +200,7 @@ constexpr Slip kSlips[] = {
 };
 
 std::string mend(std::string_view name) {
-  const std::string key = lower(name);
+  std::string key = lower(name);
   for (const Slip& slip : kSlips) {
     const bool family = slip.written.back() == '_';
     if (family && key.compare(0, slip.written.size(), slip.written) == 0) {

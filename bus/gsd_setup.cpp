@@ -125,7 +125,7 @@ class PrmBuilder {
     const auto holds = [&](const GsdRange& range) { return value && *value >= range.low && *value <= range.high; };
     const auto& allowed = parameter.allowed;
     if (holds(whole) && (allowed.empty() || std::any_of(allowed.begin(), allowed.end(), holds))) return *value;
-    fail(parameter.line, fmt::format("\"{}\" is no value for \"{}\", {} is allowed", change.value, parameter.name,
+    fail(parameter.line, fmt::format(R"("{}" is no value for "{}", {} is allowed)", change.value, parameter.name,
                                      allowed_words(parameter, whole)));
     return parameter.preset;
   }

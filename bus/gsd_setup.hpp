@@ -59,8 +59,8 @@ struct GsdSetup {
 /// The seven bytes in front of the user parameters (table 19).
 struct SetPrmHead {
   bool lock = true, unlock = false, sync = false, freeze = false;
-  std::uint8_t wd_fact_1 = 10,
-               wd_fact_2 = 10;  ///< the watchdog is on when both are not 0; unit 10 ms, with WD_Base 1 ms
+  std::uint8_t wd_fact_1 = 10;  ///< unit 10 ms, with WD_Base 1 ms
+  std::uint8_t wd_fact_2 = 10;  ///< the watchdog is on when both factors are not 0
   std::uint8_t min_tsdr = 11;   ///< bit times, 0 leaves it unchanged
   std::uint8_t group = 0;
 };

@@ -123,7 +123,7 @@ std::optional<std::string> Values::string() {
 std::string Values::text() {
   if (at_string()) return *string();
   diagnostics_.warning(statement_.line, fmt::format("{} is not in quotes", statement_.title()));
-  const std::string result(rest_);
+  std::string result(rest_);
   rest_ = {};
   return result;
 }
