@@ -13,7 +13,6 @@ namespace {
 
 using test::FakeDpSlave;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 SlaveParameters parameters(std::uint8_t address) {
   SlaveParameters slave;
