@@ -317,8 +317,12 @@ class RandomUser : public bus::Agent {
     const auto low = static_cast<std::uint8_t>(given & 0xFF), high = static_cast<std::uint8_t>(given >> 8);
     const Bytes block = {2, high, low};
     const std::uint16_t crc = document_crc(block);
-    writes_ = {{0x130, 2}, {0x131, high}, {0x132, low}, {0x225, static_cast<std::uint8_t>(crc >> 8)},
-               {0x226, static_cast<std::uint8_t>(crc & 0xFF)}, {regs::kUserCommand1, regs::kUserCommand1Input}};
+    writes_ = {{0x130, 2},
+               {0x131, high},
+               {0x132, low},
+               {0x225, static_cast<std::uint8_t>(crc >> 8)},
+               {0x226, static_cast<std::uint8_t>(crc & 0xFF)},
+               {regs::kUserCommand1, regs::kUserCommand1Input}};
   }
   void fetch(std::uint8_t command) {
     const Bytes block = {bench_.peek(0x319), bench_.peek(0x31A), bench_.peek(0x31B)};

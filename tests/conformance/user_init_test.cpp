@@ -16,8 +16,8 @@ struct Shown {
 };
 
 std::ostream& operator<<(std::ostream& out, const Shown& shown) {
-  return out << "B00A " << int{shown.status1} << ", B00B " << int{shown.status2} << ", B013 " << int{shown.status4} << ", READY "
-             << shown.ready;
+  return out << "B00A " << int{shown.status1} << ", B00B " << int{shown.status2} << ", B013 " << int{shown.status4}
+             << ", READY " << shown.ready;
 }
 
 Shown shown(SlaveBench& bench) {
@@ -117,14 +117,23 @@ const Case kCases[] = {
     {"CfgBeyondTheInputs", with([](Init& i) { i.cfg = {0x1F}, i.max_input = 15; }), kLimitWrong, Reason::kInitCfg},
     {"CfgFillsTheOutputs", with([](Init& i) { i.cfg = {0x2F}, i.max_output = 16; }), kGood, Reason::kInitialised},
     {"CfgBeyondTheOutputs", with([](Init& i) { i.cfg = {0x2F}, i.max_output = 15; }), kLimitWrong, Reason::kInitCfg},
-    {"CfgIncomplete", with([](Init& i) { i.cfg = {0x11, 0x40}; }), kLimitWrong, Reason::kInitCfg},
-    {"CfgManufacturerBytesMissing", with([](Init& i) { i.cfg = {0x03, 1, 2}; }), kLimitWrong, Reason::kInitCfg},
+    {"CfgIncomplete", with([](Init& i) {
+       i.cfg = {0x11, 0x40};
+     }),
+     kLimitWrong, Reason::kInitCfg},
+    {"CfgManufacturerBytesMissing", with([](Init& i) {
+       i.cfg = {0x03, 1, 2};
+     }),
+     kLimitWrong, Reason::kInitCfg},
     {"CfgFills244", with([](Init& i) { i.cfg = {0xC0, 0x7F, 0x7F, 0xC0, 0x79, 0x79}; }), kGood, Reason::kInitialised},
-    {"CfgNeeds245Inputs", with([](Init& i) { i.cfg = {0xC0, 0x7F, 0x7F, 0xC0, 0x79, 0x79, 0x10}; }), kLimitWrong, Reason::kInitCfg},
-    {"CfgNeeds245Outputs", with([](Init& i) { i.cfg = {0xC0, 0x7F, 0x7F, 0xC0, 0x79, 0x79, 0x20}; }), kLimitWrong, Reason::kInitCfg},
+    {"CfgNeeds245Inputs", with([](Init& i) { i.cfg = {0xC0, 0x7F, 0x7F, 0xC0, 0x79, 0x79, 0x10}; }), kLimitWrong,
+     Reason::kInitCfg},
+    {"CfgNeeds245Outputs", with([](Init& i) { i.cfg = {0xC0, 0x7F, 0x7F, 0xC0, 0x79, 0x79, 0x20}; }), kLimitWrong,
+     Reason::kInitCfg},
 };
 
-INSTANTIATE_TEST_SUITE_P(UserInit, UserInitCase, testing::ValuesIn(kCases), [](const auto& at) { return at.param.name; });
+INSTANTIATE_TEST_SUITE_P(UserInit, UserInitCase, testing::ValuesIn(kCases),
+                         [](const auto& at) { return at.param.name; });
 
 TEST(UserInit, EveryCoveredByteIsInTheCrc) {
   SlaveBench bench;
@@ -381,7 +390,8 @@ const Case kRefused[] = {
     {"Mode", with([](Init& i) { i.cfg_mode = 9; }), kLimitWrong, Reason::kInitLimit},
 };
 
-INSTANTIATE_TEST_SUITE_P(UserInit, RefusedInOperation, testing::ValuesIn(kRefused), [](const auto& at) { return at.param.name; });
+INSTANTIATE_TEST_SUITE_P(UserInit, RefusedInOperation, testing::ValuesIn(kRefused),
+                         [](const auto& at) { return at.param.name; });
 
 TEST(UserInit, WhileAnAnswerIsSentItIsStopped) {
   // Micro-architecture 10: the transmitter is aborted. The user writes the block before and lets the chip in during the answer.

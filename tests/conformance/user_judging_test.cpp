@@ -33,8 +33,8 @@ Diag diag(SlaveBench& bench) {
   const Bytes bytes = bench.slave_diag();
   EXPECT_GE(bytes.size(), 6U);
   if (bytes.size() < 6) return {};
-  return {(bytes[0] & 0x02) != 0, (bytes[0] & 0x04) != 0, (bytes[0] & 0x40) != 0, (bytes[0] & 0x10) != 0, (bytes[1] & 0x01) != 0,
-          bytes[3]};
+  return {(bytes[0] & 0x02) != 0, (bytes[0] & 0x04) != 0, (bytes[0] & 0x40) != 0,
+          (bytes[0] & 0x10) != 0, (bytes[1] & 0x01) != 0, bytes[3]};
 }
 
 void expect_judging(SlaveBench& bench) {
@@ -144,7 +144,10 @@ TEST_P(Modes, Configurations) {
     fresh.chip_accesses(3);
     const bool user = cfg_mode() == 2;
     const bool right = !user && one.right[cfg_mode()];
-    EXPECT_EQ(fresh.dp_state(), right ? DpState::kDataExch : user ? DpState::kWaitCfg : DpState::kWaitPrm) << one.cfg.size();
+    EXPECT_EQ(fresh.dp_state(), right  ? DpState::kDataExch
+                                : user ? DpState::kWaitCfg
+                                       : DpState::kWaitPrm)
+        << one.cfg.size();
     EXPECT_EQ(pulses(fresh) - before, right || user ? 1 : 0);
     if (!right && !user) expect_refused(fresh, false);
   }
@@ -168,9 +171,11 @@ TEST_P(Modes, VerdictOnAnythingTheChipJudgesIsDiscarded) {
   EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
 }
 
-INSTANTIATE_TEST_SUITE_P(UserJudging, Modes, testing::Combine(testing::Range(0, 3), testing::Range(0, 3)), [](const auto& at) {
-  return "Prm" + std::to_string(std::get<0>(at.param)) + "Cfg" + std::to_string(std::get<1>(at.param));
-});
+INSTANTIATE_TEST_SUITE_P(UserJudging, Modes, testing::Combine(testing::Range(0, 3), testing::Range(0, 3)),
+                         [](const auto& at) {
+                           return "Prm" + std::to_string(std::get<0>(at.param)) + "Cfg" +
+                                  std::to_string(std::get<1>(at.param));
+                         });
 
 // --- the user's verdict on parameters ----------------------------------------------------------------------------------------------
 

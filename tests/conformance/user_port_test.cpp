@@ -11,10 +11,10 @@ constexpr Tick kTs = 150, kTd = 150, kTw = 375;
 constexpr std::uint16_t kCell = 0x150;  // a cell that the user may write
 
 struct WriteShape {
-  Tick low = 300;               ///< WR low
+  Tick low = 300;                       ///< WR low
   Tick a_before = 400, d_before = 400;  ///< last change of A and D before WR's rise
   Tick a_after = 400, d_after = 400;    ///< first change of A and D after it
-  Tick csr_after = 500;         ///< CSR's rise after WR's rise; negative: before it
+  Tick csr_after = 500;                 ///< CSR's rise after WR's rise; negative: before it
   bool drive = true;
 };
 
@@ -48,9 +48,7 @@ class UserPort : public testing::Test {
     for (const auto& [at, change] : plan) set(at, change.first, change.second);
     bench.run_cycles(8);
   }
-  void write_shaped(std::uint8_t value, const WriteShape& shape) {
-    write_shaped(next_rise(), kCell, value, shape);
-  }
+  void write_shaped(std::uint8_t value, const WriteShape& shape) { write_shaped(next_rise(), kCell, value, shape); }
   Tick next_rise() const { return bench.now() + 2000; }
 
   /// D long after RD fell; the bus is quiet again afterwards.
@@ -349,7 +347,8 @@ TEST_F(UserPort, ReadsOfEveryAddress) {
   }
   bench.run_cycles(4);
   for (int cell = 0; cell < regs::kDpramSize; ++cell) {
-    ASSERT_EQ(bench.read(static_cast<std::uint16_t>(cell)), expected[static_cast<std::size_t>(cell)]) << std::hex << cell;
+    ASSERT_EQ(bench.read(static_cast<std::uint16_t>(cell)), expected[static_cast<std::size_t>(cell)])
+        << std::hex << cell;
   }
 }
 
@@ -449,10 +448,12 @@ TEST_F(UserPort, FastestLegalWritesReachEveryAddressAtEveryPhase) {
     set(rise, Pin::kCsr, 1);
     bench.run_cycles(4);
     for (int cell = 0; cell < regs::kDpramSize; ++cell) {
-      ASSERT_EQ(bench.peek(static_cast<std::uint16_t>(cell)), values[static_cast<std::size_t>(cell)]) << std::hex << cell;
+      ASSERT_EQ(bench.peek(static_cast<std::uint16_t>(cell)), values[static_cast<std::size_t>(cell)])
+          << std::hex << cell;
     }
     EXPECT_EQ(bench.count(Reason::kWriteOverrun), 0);
-    for (const Reason reason : {Reason::kWriteSetup, Reason::kWriteHold, Reason::kWriteLowTooShort, Reason::kWriteFloating}) {
+    for (const Reason reason :
+         {Reason::kWriteSetup, Reason::kWriteHold, Reason::kWriteLowTooShort, Reason::kWriteFloating}) {
       EXPECT_EQ(bench.count(reason), 0) << profibus::code(reason);
     }
   }

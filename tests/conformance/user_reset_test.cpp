@@ -8,8 +8,8 @@ namespace {
 
 using dsdpv1::DpState;
 
-constexpr Cycle kStartUpMoves = 2048 + 4 + 1;               // H6: clear, B000..B003, B006
-constexpr Cycle kStartUpHigh = kStartUpMoves + 1;           // one byte a cycle from R + 1 on
+constexpr Cycle kStartUpMoves = 2048 + 4 + 1;      // H6: clear, B000..B003, B006
+constexpr Cycle kStartUpHigh = kStartUpMoves + 1;  // one byte a cycle from R + 1 on
 constexpr Cycle kReadyCycles = 4096;
 
 void expect_reset_levels(const SlaveBench& bench) {
@@ -337,20 +337,23 @@ const State kStates[] = {
     {"WaitPrm", [](SlaveBench& bench) { bench.to_wait_prm(); }},
     {"WaitCfg", [](SlaveBench& bench) { bench.to_wait_cfg(); }},
     {"DataExch", [](SlaveBench& bench) { bench.to_data_exch(); }},
-    {"Interrupt", [](SlaveBench& bench) {
+    {"Interrupt",
+     [](SlaveBench& bench) {
        bench.to_wait_prm();
        bench.set_prm({});
        bench.run_cycles(60);
        for (int i = 0; i < 200 && bench.chip.level(Pin::kIntr0) != 0; ++i) bench.run_cycles(1);
      }},
-    {"UserJudges", [](SlaveBench& bench) {
+    {"UserJudges",
+     [](SlaveBench& bench) {
        Init init;
        init.prm_mode = 2;
        bench.to_wait_prm(init);
        bench.set_prm({});
        bench.run_ms(1);
      }},
-    {"Watchdog", [](SlaveBench& bench) {
+    {"Watchdog",
+     [](SlaveBench& bench) {
        Prm prm;
        prm.status = 0x88;
        prm.wd1 = prm.wd2 = 1;
