@@ -147,6 +147,52 @@ TEST_F(Fdl, RequestWithoutFrameCountIsAlwaysExecuted) {
   EXPECT_EQ(executed(), before + 3);
 }
 
+TEST_F(Fdl, FcvWithoutASeriesIsExecuted) {
+  bench.to_wait_prm();
+  EXPECT_TRUE(is_sc(send_fc(bench, kFcb0, 61, 62, Prm{}.bytes())));
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
+}
+
+TEST_F(Fdl, NewerRequestReplacesAnAnswerThatHasNotBegun) {
+  Prm prm;
+  prm.min_tsdr = 255;
+  bench.to_data_exch({}, prm);
+  bench.give_inputs({1, 2});
+  const auto enabled = bench.changes(Pin::kPbrts).size();
+  bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kFirst, {}, 60, 62), {.wants_answer = false});
+  const Exchange second = bench.requester.send(bench.timeline, bus::make_telegram(5, 3, kFdlStatus));
+  ASSERT_TRUE(second.answered());
+  EXPECT_EQ(second.answer().da, 3);
+  EXPECT_EQ(static_cast<int>(second.tsdr_bits()), 255);
+  bench.run_for(second.bit * 600);
+  EXPECT_EQ(bench.changes(Pin::kPbrts).size(), enabled + 2) << "only one answer";
+  EXPECT_TRUE(dx(kFirst).answered());
+}
+
+TEST_F(Fdl, AnswerThatWasReplacedIsNotCountedAsSent) {
+  Prm prm;
+  prm.min_tsdr = 255;
+  bench.to_data_exch({}, prm);
+  const auto sent = bench.chip.status().telegrams_answered;
+  bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kFdlStatus), {.wants_answer = false});
+  EXPECT_TRUE(bench.requester.send(bench.timeline, bus::make_telegram(5, 3, kFdlStatus)).answered());
+  bench.run_for(bench.requester.bit() * 600);
+  EXPECT_EQ(bench.chip.status().telegrams_answered, sent + 1);  // Status: "answers sent"
+}
+
+TEST_F(Fdl, RequestBegunBeforeTheAnswerIsLostToIt) {
+  Prm prm;
+  prm.min_tsdr = 60;
+  bench.to_data_exch({}, prm);
+  const auto executed_before = executed();
+  bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kFdlStatus), {.wants_answer = false});
+  // 66 bits long, begun 33 bits behind the first: the answer begins in its middle.
+  bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kFirst, {1, 2}), {.wants_answer = false});
+  bench.run_for(bench.requester.bit() * 300);
+  EXPECT_EQ(executed(), executed_before);
+  EXPECT_TRUE(dx(kFirst).answered());
+}
+
 TEST_F(Fdl, RefusalIsRepeatedFromMemoryToo) {
   bench.to_wait_prm();
   EXPECT_TRUE(is_rs(dx(kFirst)));
@@ -269,7 +315,7 @@ TEST_F(Fdl, SrdLowAndHighAreServedAlike) {
 TEST_F(Fdl, SapsThatDoNotExistAreRefusedWithTheReason) {
   bench.to_data_exch();
   int refused = 0;
-  for (int sap = 0; sap < 64; ++sap) {
+  for (int sap = 0; sap < 256; ++sap) {  // bits 7 and 6 of the extension byte are not for SAPs of DP
     if (sap >= 55 && sap <= 62) continue;
     const Exchange exchange = ask(bench, sap, {0, 0});
     EXPECT_TRUE(is_rs(exchange)) << "SAP " << sap << ": " << kind_of(exchange);

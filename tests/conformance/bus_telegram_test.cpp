@@ -104,7 +104,7 @@ TEST_F(Telegrams, WithAWrongEndDelimiterAreIgnored) {
 
 TEST_F(Telegrams, WithAWrongFcsOrEndDelimiterAreIgnoredAsSd1AndSd3) {
   const auto sd1 = bus::encode(bus::make_telegram(5, 2, kFdlStatus));
-  const auto sd3 = bus::encode(bus::make_telegram(5, 2, kSrdFirst, {1, 2, 3, 4, 5, 6, 7, 8}, {}, {}, true));
+  const auto sd3 = bus::encode(bus::prefer_sd3(bus::make_telegram(5, 2, kSrdFirst, {1, 2, 3, 4, 5, 6, 7, 8})));
   for (Bytes bytes : {sd1, sd3}) {
     ++bytes[bytes.size() - 2];
     expect_ignored(bus::characters(bytes), {Reason::kFcs}, "FCS");
@@ -281,6 +281,14 @@ TEST_F(Telegrams, FollowedByACharacterBehindTheDecisionAreExecuted) {
   EXPECT_EQ(bench.chip.status().data_exchanges, before + 1);
 }
 
+TEST_F(Telegrams, WithoutEndAreIgnored) {
+  for (const int first : {0x68, 0x10, 0xA2, 0xDC, 0xE5, 0x00}) {
+    Bytes bytes = {static_cast<std::uint8_t>(first), 249, 249, 0x68, 5, 2, kSrdFirst};
+    bytes.resize(70'000, 0x55);
+    expect_ignored(bus::characters(bytes), {}, "70 000 characters behind " + std::to_string(first));
+  }
+}
+
 TEST_F(Telegrams, GluedTogetherAreIgnored) {
   Bytes both = request();
   const Bytes second = request();
@@ -402,8 +410,9 @@ TEST(TelegramForms, Sd3RequestsAreServedAndAnsweredWithSd2) {
   SlaveBench bench(quick_search());
   bench.to_wait_prm(init);
   const auto sd3 = [&](int dsap, const Bytes& data) {
-    return bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kSrdFirst, data, optional_sap(dsap),
-                                                                   dsap < 0 ? std::nullopt : optional_sap(62), true));
+    return bench.requester.send(bench.timeline,
+                                bus::prefer_sd3(bus::make_telegram(5, 2, kSrdFirst, data, optional_sap(dsap),
+                                                                   dsap < 0 ? std::nullopt : optional_sap(62))));
   };
   Init six;
   six.cfg = {0x11, 0x11, 0x11, 0x21, 0x21, 0x21};

@@ -276,6 +276,25 @@ TEST(Driver, StaysOffAndThePinHighWhenNothingIsAnswered) {
   EXPECT_TRUE(bench.changes(Pin::kPbtxd).size() <= 1 && bench.changes(Pin::kPbrts).size() <= 1);
 }
 
+TEST(Driver, IsOffAtOnceWhenAnInitialisationOrAResetComesInAnAnswer) {
+  for (const bool reset : {false, true}) {
+    SlaveBench bench(quick_search());
+    bench.to_wait_prm({}, 9);  // an answer of 17 characters takes 20 ms
+    bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kSrdFirst, {}, 60, 62), {.wants_answer = false});
+    bench.run_for(bench.requester.bit() * 40);
+    ASSERT_EQ(bench.chip.level(Pin::kPbrts), 1);
+    if (reset) {
+      bench.chip.set(bench.now(), Pin::kReset, 0);
+    } else {
+      ASSERT_TRUE(bench.initialise());
+    }
+    EXPECT_EQ(bench.chip.level(Pin::kPbrts), 0);
+    EXPECT_EQ(bench.chip.level(Pin::kPbtxd), 1);
+    bench.run_ms(1);
+    EXPECT_EQ(bench.chip.level(Pin::kPbrts), 0);
+  }
+}
+
 TEST(Driver, NeverFightsWithTheRequester) {
   SlaveBench bench(quick_search());
   int collisions = 0;
