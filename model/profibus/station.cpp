@@ -50,7 +50,9 @@ void Station::eval(Cycle now) {
   }
   const bool was_sending = tx_.rts();
   if (tx_.eval(now)) rx_.restart(search_.bit(), tx_.end(), rxd_.level());
-  if (!was_sending && tx_.rts()) telegrams_.restart();  // half duplex: what comes now is our own echo
+  if (was_sending || !tx_.rts()) return;
+  ++answered_;
+  telegrams_.restart();  // half duplex: what comes now is our own echo
 }
 
 void Station::listen(Cycle now) {
@@ -110,7 +112,6 @@ void Station::answer(const Telegram& telegram, const Frame& frame) {
   const Cycle tsdr = std::min(slave_.min_tsdr(), search_.max_tsdr());  // S11
   const Cycle begin = telegram.end - kSynchroniserDelay + tsdr * search_.bit();
   tx_.send(frame.bytes.data(), frame.size, search_.bit(), begin, timing_.rts_lead, timing_.rts_trail);
-  ++answered_;
 }
 
 }  // namespace profibus
