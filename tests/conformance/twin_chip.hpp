@@ -30,6 +30,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
   Level level(Pin pin) const { return skip_.level(pin); }
   dsdpv1::Status status() const { return skip_.status(); }
   std::uint8_t peek(std::uint16_t address) const { return skip_.peek(address); }
+  std::uint8_t peek_step(std::uint16_t address) const { return step_.peek(address); }
 
   Tick next() const override { return skip_.next_event(); }
   void run(Tick now) override;
