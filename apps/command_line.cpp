@@ -73,9 +73,10 @@ std::string in_one_line(const CLI::App& app, const CLI::ParseError& error, int a
   const bool known = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (first.empty()) return "dsdpv1-sim: a command is missing, allowed are " + tb::join(commands);
   if (!known && first[0] != '-') return "dsdpv1-sim: unknown command " + first + tb::did_you_mean(first, commands) + ", allowed are " + tb::join(commands);
+  if (!known) return "dsdpv1-sim: unknown option " + first + ", allowed are --help, --version and the commands " + tb::join(commands);
   std::string text = error.what();
   for (char& c : text) c = c == '\n' ? ' ' : c;
-  return "dsdpv1-sim" + (known ? " " + first : std::string()) + ": " + text + ", see --help for what is allowed";
+  return "dsdpv1-sim " + first + ": " + text + ", see --help for what is allowed";
 }
 
 }  // namespace

@@ -76,9 +76,7 @@ bus::GsdSetup Setup::choose(const scenario::Name& path, const std::vector<scenar
   for (const scenario::Name& module : modules) {
     std::string why;
     if (!bus::find_module(file, module.text, why)) {
-      const std::vector<std::string> names = module_names(file);
-      const std::string allowed = names.size() > 8 ? fmt::format("one of the {} of {}", names.size(), path.text) : join(names);
-      fail(module.line, fmt::format("module \"{}\": {}{}, allowed is {}", module.text, why, did_you_mean(module.text, names), allowed));
+      fail(module.line, why + did_you_mean(module.text, module_names(file)));
     }
     choice.modules.push_back(module.text);
   }

@@ -20,7 +20,7 @@ constexpr std::array<Unit, 5> kUnits = {{{"s", bus::kTicksPerSecond},
                                          {"ns", bus::kTicksPerNs},
                                          {"cycles", 250}}};
 
-constexpr std::int64_t kLongest = 3600;  // seconds; keeps every product below 2^63
+constexpr std::int64_t kLongest = 100'000'000;  // seconds; keeps every product below 2^63
 
 /// Digits with at most one point, at least one digit; `end` is where they stop.
 bool scan_decimal(const std::string& text, std::size_t& end, std::string& whole, std::string& fraction) {

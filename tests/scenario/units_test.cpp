@@ -28,7 +28,7 @@ TEST(Time, MayBeNegative) {
 }
 
 TEST(Time, WithoutUnitOrWithAWrongOneIsRefused) {
-  for (const char* text : {"", "20", "us", "20 parsec", "1.us", ".5us", "1e3us", "4000s", "20us ", "99999999999999999999s", "1.0000000001s"}) {
+  for (const char* text : {"", "20", "us", "20 parsec", "1.us", ".5us", "1e3us", "1000000000s", "20us ", "99999999999999999999s", "1.0000000001s"}) {
     EXPECT_FALSE(tb::parse_time(text)) << text;
   }
 }

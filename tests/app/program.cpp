@@ -1,0 +1,38 @@
+#include "tests/app/program.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace app_test {
+
+namespace fs = std::filesystem;
+
+Called call(const std::string& arguments, const fs::path& folder) {
+  const Folder outputs;
+  const std::string command =
+      "cd '" + folder.string() + "' && '" DSDPV1_SIM "' " + arguments + " >'" + outputs.file("out") + "' 2>'" + outputs.file("err") + "' </dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(outputs.file("out")), read(outputs.file("err"))};
+}
+
+std::string read(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+Folder::Folder() {
+  static int count = 0;
+  path_ = fs::temp_directory_path() / ("dsdpv1_app_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
+  fs::create_directories(path_);
+}
+
+Folder::~Folder() { fs::remove_all(path_); }
+
+}  // namespace app_test

@@ -1,0 +1,32 @@
+#pragma once
+// Calls the built dsdpv1-sim.
+#include <filesystem>
+#include <string>
+
+namespace app_test {
+
+struct Called {
+  int status = 0;  ///< exit code, 128 + signal when it was killed
+  std::string out, err;
+};
+
+/// Runs the program with `arguments` (shell words) in `folder`.
+Called call(const std::string& arguments, const std::filesystem::path& folder);
+
+std::string read(const std::filesystem::path& path);
+
+/// A folder for one test, removed at its end.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace app_test

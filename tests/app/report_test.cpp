@@ -1,0 +1,43 @@
+// Times and texts of reports.
+#include <gtest/gtest.h>
+
+#include "tb/bench/conditions.hpp"
+#include "tb/bench/run_log.hpp"
+#include "tb/report/progress.hpp"
+#include "tb/report/summary.hpp"
+#include "tb/waves/wave_writer.hpp"
+
+namespace {
+
+TEST(Nanoseconds, AreRoundedOnceFromTheTick) {
+  EXPECT_EQ(tb::nanoseconds(0), "0.000");
+  EXPECT_EQ(tb::nanoseconds(250), "20.833");
+  EXPECT_EQ(tb::nanoseconds(11), "0.917");
+  EXPECT_EQ(tb::nanoseconds(bus::kTicksPerSecond), "1000000000.000");
+}
+
+TEST(Expectation, IsDescribedInWords) {
+  tb::scenario::Expectation expectation;
+  expectation.slave.text = "demo";
+  expectation.dp_state = dsdpv1::DpState::kDataExch;
+  expectation.data_exchanges = 10;
+  expectation.by = 9 * bus::kTicksPerMs;
+  EXPECT_EQ(tb::describe(expectation), "demo: dp_state DATA_EXCH, data_exchanges >= 10 by 9ms");
+}
+
+TEST(Progress, ShowsPartFactorAndRest) {
+  EXPECT_EQ(tb::progress_text(60 * bus::kTicksPerMs, 120 * bus::kTicksPerMs, 2.0),
+            "[###############               ]  50 %  60.0 of 120.0 ms  0.03 x real time  2 s left");
+}
+
+TEST(Summary, NamesWhatIsNotMet) {
+  tb::RunResult result;
+  result.scenario = "x";
+  result.file = "x.yaml";
+  result.expectations.push_back({"demo: baud 12M at the end", 7, false, "baud searching"});
+  const std::string text = tb::summary(result);
+  EXPECT_NE(text.find("NOT MET  x.yaml:7: demo: baud 12M at the end; seen: baud searching\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nFAILED\n"), std::string::npos);
+}
+
+}  // namespace
