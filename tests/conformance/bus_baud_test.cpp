@@ -1,4 +1,4 @@
-// Baud search, BAUD_CONTROL and DP_CONTROL: orders, windows and expiries to the cycle (S1, S9, S10, S22).
+// Baud search and BAUD_CONTROL: order, windows and expiries to the cycle (S1, S9, S10, S22).
 #include <gtest/gtest.h>
 
 #include "tests/conformance/master_side.hpp"
@@ -13,26 +13,8 @@ constexpr Cycle kMs = profibus::kCyclesPerMs;
 Cycle cycles_of_bit(int index) { return bus::baud(index).bit / kCycleTicks; }
 Cycle window(int index) { return std::max<Cycle>(50 * kMs, 4000 * cycles_of_bit(index)); }
 
-/// Sends so that the chip decides the telegram at this cycle: start edge, synchroniser (P9), characters, 1 bit time (S10).
-struct Aimed {
-  static constexpr Cycle kSynchroniser = 3;  // an edge at the tick of edge k is seen by k+1 and used at k+3
-  static Tick start_for(Cycle decision, int baud, std::size_t characters) {
-    const Cycle bits = static_cast<Cycle>(characters - 1) * 11 + 12;
-    return (decision - 1 - bits * cycles_of_bit(baud) - kSynchroniser) * kCycleTicks;
-  }
-};
-
 const bus::Telegram kToNobody = bus::make_telegram(100, 2, kFdlStatus);
 const bus::Telegram kToChip = bus::make_telegram(5, 2, kFdlStatus);
-
-void send_decided_at(SlaveBench& bench, Cycle decision, int baud, const bus::Telegram& telegram,
-                     bool wants_answer = false) {
-  bench.requester.set_baud(baud);
-  const Bytes bytes = bus::encode(telegram);
-  bench.requester.send(bench.timeline, bytes,
-                       {.at = Aimed::start_for(decision, baud, bytes.size()), .wants_answer = wants_answer});
-  bench.run_for(bus::baud(baud).bit * 2);
-}
 
 // --- the search
 
@@ -209,7 +191,8 @@ TEST_F(BaudControl, IsKeptAliveInItsLastCycleAndNotInTheNext) {
     const Cycle end = bench.last(Reason::kBaudFound).at / kCycleTicks + 3 * kMs;
     send_decided_at(bench, in_time ? end - 1 : end, 0, kToChip);
     EXPECT_EQ(bench.count(Reason::kBaudLost), in_time ? 0 : 1);
-    // S22: the time is first. S9: the same telegram then only begins the search anew; it came before the restart and locks nothing.
+    // S22: the time is first. S9: the same telegram then only begins the search anew; it came before the restart and
+    // locks nothing.
     EXPECT_EQ(bench.chip.status().baud_index, in_time ? 0 : 15);
   }
 }
@@ -280,233 +263,6 @@ TEST_P(BaudChange, InOperationIsFollowedAndDataExchangeGoesOn) {
 
 INSTANTIATE_TEST_SUITE_P(AllRates, BaudChange, testing::Range(0, bus::kBaudCount),
                          [](const auto& at) { return "ToCode" + std::to_string(at.param); });
-
-// --- DP_CONTROL
-
-class Watchdog : public Search {
- protected:
-  static Prm prm(int wd1, int wd2, bool one_ms) {
-    Prm prm;
-    prm.status = 0x88;
-    prm.wd1 = static_cast<std::uint8_t>(wd1);
-    prm.wd2 = static_cast<std::uint8_t>(wd2);
-    if (one_ms) prm.user = {0x04};
-    return prm;
-  }
-  Cycle soon() const { return bench.now() / kCycleTicks + 2000; }
-  void dx_decided_at(Cycle decision, std::uint8_t master = 2) {
-    send_decided_at(bench, decision, 0, bus::make_telegram(5, master, kSrdFirst, {1, 2}), true);
-  }
-
-  SlaveBench bench{quick_search()};
-};
-
-TEST_F(Watchdog, TimeIsTheProductOfTheFactorsInTheBaseThatSetPrmChose) {
-  struct Case {
-    int wd1, wd2;
-    bool one_ms;
-    Cycle ms;
-  };
-  for (const Case& each : {Case{1, 1, true, 1},
-                           {7, 1, true, 7},
-                           {1, 9, true, 9},
-                           {5, 6, true, 30},
-                           {1, 1, false, 10},
-                           {2, 3, false, 60},
-                           {255, 1, true, 255}}) {
-    SlaveBench one(quick_search());
-    one.to_data_exch({}, prm(each.wd1, each.wd2, each.one_ms));
-    const Cycle decision = one.now() / kCycleTicks + 2000;
-    send_decided_at(one, decision, 0, bus::make_telegram(5, 2, kSrdFirst, {1, 2}), true);
-    const Tick end = (decision + each.ms * kMs) * kCycleTicks;
-    one.run_until(end - 1);
-    EXPECT_EQ(one.dp_state(), DpState::kDataExch) << each.ms;
-    one.run_until(end);
-    EXPECT_EQ(one.dp_state(), DpState::kWaitPrm) << each.ms;
-    EXPECT_EQ(one.last(Reason::kWatchdogExpired).at, end);
-  }
-}
-
-TEST_F(Watchdog, LongestTimeIsSixHundredAndFiftySeconds) {
-  bench.to_data_exch({}, prm(255, 255, false));
-  EXPECT_EQ(bench.last(Reason::kWatchdogOn).a, 65025U * 10 & 0xFFFF);  // an event carries 16 bits
-  bench.run_ms(700);                                                   // BAUD_CONTROL's 600 ms do not run now
-  EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
-  EXPECT_EQ(bench.count(Reason::kBaudLost), 0);
-}
-
-TEST_F(Watchdog, LongestTimeEndsToTheCycle) {
-  bench.to_data_exch({}, prm(255, 255, false));
-  const Cycle decision = soon();
-  dx_decided_at(decision);
-  bench.chip.set(bench.now(), Pin::kRReq, 1);  // no accesses: nothing but the time passes
-  const Tick end = (decision + 650'250 * kMs) * kCycleTicks;
-  // 31 thousand million cycles: only the engine that skips.
-  bench.timeline.run_until(end - 1);
-  EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
-  bench.timeline.run_until(end);
-  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
-}
-
-TEST_F(Watchdog, RunsFromTheSetPrmOn) {
-  bench.to_wait_prm();
-  const Cycle decision = soon();
-  send_decided_at(bench, decision, 0, bus::make_telegram(5, 2, kSrdFirst, prm(3, 1, true).bytes(), 61, 62), true);
-  EXPECT_EQ(bench.last(Reason::kPrmAccepted).at, decision * kCycleTicks);
-  bench.run_ms(4);
-  EXPECT_EQ(bench.last(Reason::kWatchdogExpired).at, (decision + 3 * kMs) * kCycleTicks);
-}
-
-TEST_F(Watchdog, IsTriggeredByARepetitionToo) {
-  bench.to_data_exch({}, prm(3, 1, true));
-  for (int i = 0; i < 5; ++i) {
-    bench.run_ms(2);
-    EXPECT_TRUE(send_fc(bench, i == 0 ? 0x6D : 0x7D, kNoSap, kNoSap, {1, 2}).answered());
-  }
-  EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
-}
-
-TEST_F(Watchdog, OfARefusedSetPrmDoesNotRun) {
-  bench.to_wait_prm();
-  Prm wrong = prm(3, 1, true);
-  wrong.ident = 1;
-  ASSERT_TRUE(is_sc(ask(bench, 61, wrong.bytes())));
-  bench.run_ms(5);
-  EXPECT_EQ(bench.count(Reason::kWatchdogExpired), 0);
-  EXPECT_EQ(diag(bench).at(1) & 0x08, 0);
-}
-
-TEST_F(Watchdog, IsTriggeredInItsLastCycleAndNotInTheNext) {
-  for (const bool in_time : {true, false}) {
-    SlaveBench one(quick_search());
-    one.to_data_exch({}, prm(3, 1, true));
-    const Cycle first = one.now() / kCycleTicks + 2000;
-    const auto dx = bus::make_telegram(5, 2, kSrdFirst, {1, 2});
-    send_decided_at(one, first, 0, dx, true);
-    send_decided_at(one, first + 3 * kMs - (in_time ? 1 : 0), 0, dx, true);
-    EXPECT_EQ(one.dp_state(), in_time ? DpState::kDataExch : DpState::kWaitPrm);
-  }
-}
-
-TEST_F(Watchdog, ClearsTheOutputsReleasesTheMasterAndCounts) {
-  bench.to_data_exch({}, prm(3, 1, true));
-  dx_decided_at(soon());
-  bench.chip_accesses();
-  ASSERT_EQ(bench.fetch_outputs(), (Bytes{1, 2}));
-  bench.run_ms(4);
-  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
-  EXPECT_EQ(bench.chip.status().master, 255);
-  EXPECT_EQ(bench.chip.level(Pin::kPbf), 1);
-  EXPECT_EQ(bench.fetch_outputs(), (Bytes{0, 0}));
-  EXPECT_EQ(offline_count(bench), 1);
-  EXPECT_EQ(bench.peek(0x012), 0x04);
-  EXPECT_EQ(ask(bench, bus::sap::kReadOutputs).answer().data, (Bytes{0, 0}));
-  EXPECT_TRUE(is_rs(ask(bench, kNoSap, {1, 2})));
-  EXPECT_EQ(bench.chip.level(Pin::kBr), 1) << "the baud rate stays";
-}
-
-TEST_F(Watchdog, IsTriggeredByEveryTelegramOfTheHolderToTheStation) {
-  bench.to_data_exch({}, prm(3, 1, true));
-  for (int i = 0; i < 4; ++i) {
-    bench.run_ms(2);
-    EXPECT_TRUE(bench.fdl_status().answered());
-    bench.run_ms(2);
-    EXPECT_TRUE(is_data(ask(bench, 60)));
-    bench.run_ms(2);
-    EXPECT_TRUE(is_rs(ask(bench, 40, {1})));
-    bench.run_ms(2);
-    tell(bench, 5, 58, {0, 0});
-  }
-  EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
-}
-
-TEST_F(Watchdog, IsNotTriggeredByOthersNorByBroadcasts) {
-  bench.to_data_exch({}, prm(3, 1, true));
-  const Cycle decision = soon();
-  dx_decided_at(decision);
-  for (int i = 0; i < 2; ++i) {
-    bench.run_ms(1);
-    EXPECT_TRUE(is_data(ask(bench, 60, {}, 3)));
-    EXPECT_TRUE(bench.requester.send(bench.timeline, bus::make_telegram(5, 3, kFdlStatus)).answered());
-    tell(bench, bus::kBroadcast, 58, {0, 0});
-    bench.requester.send(bench.timeline, bus::make_telegram(9, 2, kSrdFirst, {1, 2}));
-  }
-  bench.run_ms(1);
-  EXPECT_EQ(bench.last(Reason::kWatchdogExpired).at, (decision + 3 * kMs) * kCycleTicks);
-}
-
-TEST_F(Watchdog, RunsInWaitCfgToo) {
-  bench.to_wait_cfg({}, prm(3, 1, true));
-  bench.run_ms(4);
-  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
-  EXPECT_EQ(bench.count(Reason::kWatchdogExpired), 1);
-}
-
-TEST_F(Watchdog, NeverExpiresWithoutWdOn) {
-  Prm off = prm(1, 1, true);
-  off.status = 0x80;
-  bench.to_data_exch({}, off);
-  bench.run_ms(590);
-  EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
-  EXPECT_EQ(bench.count(Reason::kWatchdogExpired), 0);
-}
-
-TEST_F(Watchdog, IsSwitchedOffByASetPrmWithoutIt) {
-  bench.to_data_exch({}, prm(3, 1, true));
-  ASSERT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
-  ASSERT_TRUE(is_sc(ask(bench, 62, {0x11, 0x21})));
-  bench.run_ms(20);
-  EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
-}
-
-TEST_F(Watchdog, TakesItsTimeFromTheNewestSetPrm) {
-  bench.to_data_exch({}, prm(50, 1, true));
-  ASSERT_TRUE(is_sc(ask(bench, 61, prm(2, 1, true).bytes())));
-  ASSERT_TRUE(is_sc(ask(bench, 62, {0x11, 0x21})));
-  bench.run_ms(3);
-  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
-}
-
-TEST_F(Watchdog, IsNotTouchedByASetPrmThatChangesOnlyMinTsdr) {
-  bench.to_data_exch({}, prm(3, 1, true));
-  Prm only = prm(200, 200, false);
-  only.status = 0x08;
-  ASSERT_TRUE(is_sc(ask(bench, 61, only.bytes())));
-  bench.run_ms(4);
-  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
-}
-
-TEST_F(Watchdog, ExpiryLeavesTheRateToBaudControl) {
-  dsdpv1::Config config = quick_search();
-  config.baud_control_ms = 7;
-  SlaveBench one(config);
-  one.to_data_exch({}, prm(3, 1, true));
-  one.run_ms(11);
-  const Tick expired = one.last(Reason::kWatchdogExpired).at;
-  EXPECT_EQ(one.last(Reason::kBaudLost).at, expired + 7 * kMs * kCycleTicks);
-}
-
-TEST_F(Watchdog, EndsWithTheMasterThatUnlocks) {
-  dsdpv1::Config config = quick_search();
-  config.baud_control_ms = 7;
-  SlaveBench one(config);
-  one.to_data_exch({}, prm(3, 1, true));
-  Prm unlock;
-  unlock.status = 0x40;
-  ASSERT_TRUE(is_sc(ask(one, 61, unlock.bytes())));
-  one.run_ms(8);
-  EXPECT_EQ(one.count(Reason::kWatchdogExpired), 0);
-  EXPECT_EQ(one.count(Reason::kBaudLost), 1);
-}
-
-TEST_F(Watchdog, ShowsInTheDiagnosisWhileItRuns) {
-  bench.to_wait_prm();
-  EXPECT_EQ(diag(bench)[1] & 0x08, 0);
-  ASSERT_TRUE(is_sc(ask(bench, 61, prm(3, 1, true).bytes())));
-  EXPECT_EQ(diag(bench)[1] & 0x08, 0x08);
-  bench.run_ms(4);
-  EXPECT_EQ(diag(bench)[1] & 0x08, 0);
-}
 
 }  // namespace
 }  // namespace conformance

@@ -1,5 +1,5 @@
-// The data link layer: FDL status, frame count bit, function codes, SAPs and the addressing of answers (S20, S21, S26, chip.md "PROFIBUS
-// facts").
+// The data link layer: FDL status, frame count bit, function codes, SAPs and the addressing of answers (S20, S21,
+// S26, chip.md "PROFIBUS facts").
 #include <gtest/gtest.h>
 
 #include "tests/conformance/master_side.hpp"

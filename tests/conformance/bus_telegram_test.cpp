@@ -1,4 +1,5 @@
-// Telegrams that are not right, not for this station or not requests: ignored without harm and with a reason (S3, S8, S9, S10).
+// Telegrams that are not right, not for this station or not requests: ignored without harm and with a reason (S3, S8,
+// S9, S10).
 #include <gtest/gtest.h>
 
 #include <random>

@@ -27,7 +27,8 @@ class Tsdr : public testing::TestWithParam<int> {
       const Tick at = (bench.now() + 60 * bit()) / kCycleTicks * kCycleTicks + phase;
       const Exchange exchange = bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kFdlStatus), {.at = at});
       ASSERT_TRUE(exchange.answered());
-      // P9: the chip sees an edge at the first CLK edge strictly after it, so the answer's bits lie on the next grid of cycles.
+      // P9: the chip sees an edge at the first CLK edge strictly after it, so the answer's bits lie on the next grid
+      // of cycles.
       EXPECT_EQ(exchange.tsdr(), bits * bit() + kCycleTicks - phase) << bits << " bits, phase " << phase;
     }
     bench.chip.compare(bench.now());

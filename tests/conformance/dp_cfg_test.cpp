@@ -1,4 +1,5 @@
-// Check_Cfg judged by the chip: modes 0 and 1, identifier formats, lengths, repetition in operation (D6, D8, S14 to S17).
+// Check_Cfg judged by the chip: modes 0 and 1, identifier formats, lengths, repetition in operation (D6, D8, S14 to
+// S17).
 #include <gtest/gtest.h>
 
 #include "tests/conformance/master_side.hpp"

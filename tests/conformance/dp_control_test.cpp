@@ -1,4 +1,5 @@
-// Global_Control: all commands from all states of sync and freeze against a model of the buffers of figure 8; groups (S4, S18, S24, S27).
+// Global_Control: all commands from all states of sync and freeze against a model of the buffers of figure 8; groups
+// (S4, S18, S24, S27).
 #include <gtest/gtest.h>
 
 #include "tests/conformance/master_side.hpp"

@@ -1,4 +1,5 @@
-// Slave_Diag: the six standard bytes in every situation, the user's diagnosis of three kinds, high priority (D9, D14, S7, S23).
+// Slave_Diag: the six standard bytes in every situation, the user's diagnosis of three kinds, high priority (D9, D14,
+// S7, S23).
 #include <gtest/gtest.h>
 
 #include "tests/conformance/master_side.hpp"

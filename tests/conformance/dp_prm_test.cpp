@@ -1,4 +1,5 @@
-// Set_Prm judged by the chip: table 20, every fault of S6 with its reason, what lasts and what falls (S6, S11, S14, S15, S17, S28).
+// Set_Prm judged by the chip: table 20, every fault of S6 with its reason, what lasts and what falls (S6, S11, S14,
+// S15, S17, S28).
 #include <gtest/gtest.h>
 
 #include "tests/conformance/master_side.hpp"
