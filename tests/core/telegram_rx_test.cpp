@@ -55,9 +55,9 @@ struct Bench {
       if (!rx.eval(now, receiving)) continue;
       decided.push_back(now);
       const Telegram& telegram = rx.telegram();
-      telegrams.push_back(Bytes(telegram.data, telegram.data + telegram.size));
-      telegrams.back().insert(telegrams.back().begin(),
-                              {telegram.sd, telegram.da, telegram.sa, telegram.fc, telegram.synced});
+      Bytes seen = {telegram.sd, telegram.da, telegram.sa, telegram.fc, telegram.synced};
+      for (int k = 0; k < telegram.size; ++k) seen.push_back(telegram.data[k]);
+      telegrams.push_back(seen);
     }
   }
 
