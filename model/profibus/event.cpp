@@ -20,9 +20,14 @@ constexpr Row kRows[] = {
 
 const Row& row(Reason reason) { return kRows[static_cast<std::size_t>(reason)]; }
 
-// `format` is empty for decimal, "4x" for four hexadecimal digits.
-std::string number(std::uint16_t value, const std::string& format) {
+constexpr const char* kStates[] = {"OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH"};
+constexpr const char* kRates[] = {"12M", "6M", "3M", "1.5M", "500k", "187.5k", "93.75k", "45.45k", "19.2k", "9.6k"};
+
+// `format` is empty for decimal, "4x" for four hexadecimal digits, "state" and "rate" for their names.
+std::string field_text(std::uint16_t value, const std::string& format) {
   if (format.empty()) return std::to_string(value);
+  if (format == "state") return kStates[value % std::size(kStates)];
+  if (format == "rate") return kRates[value % std::size(kRates)];
   constexpr const char* kDigits = "0123456789ABCDEF";
   std::string digits;
   for (unsigned rest = value; rest != 0 || digits.size() < static_cast<std::size_t>(format[0] - '0'); rest >>= 4) {
@@ -50,7 +55,7 @@ std::string describe(const Event& event) {
     const std::size_t close = pattern.find('}', i);
     const std::string field = pattern.substr(i + 1, close - i - 1);
     const std::uint16_t value = field[0] == 'a' ? event.a : field[0] == 'b' ? event.b : event.c;
-    words += number(value, field.size() > 2 ? field.substr(2) : "");
+    words += field_text(value, field.size() > 2 ? field.substr(2) : "");
     i = close;
   }
   return words;

@@ -16,7 +16,8 @@ enum class Severity : std::uint8_t {
   kViolation,  ///< the user's side broke a rule of the host port or the handshake
 };
 
-// X(identifier, severity, stable code, text, advice). The text may hold {a}, {b}, {c} (decimal) and {a:4x} (hexadecimal, 4 digits).
+// X(identifier, severity, stable code, text, advice). The text may hold {a}, {b}, {c} (decimal), {a:4x} (hexadecimal, 4
+// digits), {a:state} (a DP state) and {a:rate} (a baud rate).
 // The table is in event_table.inc; docs/reasons.md explains each and is generated from it.
 enum class Reason : std::uint8_t {
 #define X(id, severity, code, text, advice) id,
