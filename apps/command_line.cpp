@@ -11,26 +11,35 @@ namespace app {
 namespace {
 
 const char* const kExitCodes =
-    "\nExit codes: 0 passed, 1 a check or expectation failed, 2 wrong input (one line says where, what, and what is allowed),\n"
+    "\nExit codes: 0 passed, 1 a check or expectation failed, 2 wrong input (one line says where, what, and what is "
+    "allowed),\n"
     "130 interrupted.\n";
 
 void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* command = app.add_subcommand("run", "Carries out a scenario and judges it");
   command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md")->required();
-  command->add_option("--engine", arguments.engine, "How the chips are executed: step (every cycle), skip (from event to event), rtl")->capture_default_str();
-  command->add_option("--view", arguments.view, "How the user CPUs reach them: pins, tlm (SystemC)")->capture_default_str();
+  command
+      ->add_option("--engine", arguments.engine,
+                   "How the chips are executed: step (every cycle), skip (from event to event), rtl")
+      ->capture_default_str();
+  command->add_option("--view", arguments.view, "How the user CPUs reach them: pins, tlm (SystemC)")
+      ->capture_default_str();
   command->add_option("--wave", arguments.wave, "Waves of all pins, the line and the states: FILE.vcd or FILE.fst");
   command->add_option("--log", arguments.log, "Everything that happened, one line a thing");
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
   command->add_option("--trace", arguments.trace, "Every change of every output pin, for comparisons");
-  command->add_flag_callback("--progress", [&arguments] { arguments.progress = true; }, "Show a progress bar (on a terminal it is shown anyway)");
-  command->add_flag_callback("--no-progress", [&arguments] { arguments.progress = false; }, "Show none");
+  command->add_flag_callback(
+      "--progress", [&arguments] { arguments.progress = true; },
+      "Show a progress bar (on a terminal it is shown anyway)");
+  command->add_flag_callback(
+      "--no-progress", [&arguments] { arguments.progress = false; }, "Show none");
   command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
-  command->footer(std::string("\nExamples:\n"
-                              "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
-                              "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
-                              "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n") +
-                  kExitCodes);
+  command->footer(
+      std::string("\nExamples:\n"
+                  "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
+                  "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
+                  "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n") +
+      kExitCodes);
 }
 
 void describe_schema(CLI::App& app, SchemaArguments& arguments) {
@@ -46,9 +55,14 @@ void describe_schema(CLI::App& app, SchemaArguments& arguments) {
 void describe_gsd(CLI::App& app, GsdArguments& arguments) {
   CLI::App* command = app.add_subcommand("gsd", "Checks a PROFIBUS GSD file and prints what a master makes of it");
   command->add_option("FILE", arguments.file, "GSD file, revision 1 to 5")->required();
-  command->add_option("--module,-m", arguments.modules, "Module by name or number, once for each slot; left out: the file's presets")->allow_extra_args(false);
+  command
+      ->add_option("--module,-m", arguments.modules,
+                   "Module by name or number, once for each slot; left out: the file's presets")
+      ->allow_extra_args(false);
   command->add_flag("--json", arguments.json, "As JSON");
-  command->footer("\nExamples:\n  dsdpv1-sim gsd scenarios/dsdpv1.gsd\n  dsdpv1-sim gsd my_device.gsd --module \"8 bytes in\" --module 3 --json\n");
+  command->footer(
+      "\nExamples:\n  dsdpv1-sim gsd scenarios/dsdpv1.gsd\n  dsdpv1-sim gsd my_device.gsd --module \"8 bytes in\" "
+      "--module 3 --json\n");
 }
 
 void describe_decode(CLI::App& app, DecodeArguments& arguments) {
@@ -62,7 +76,8 @@ void describe_decode(CLI::App& app, DecodeArguments& arguments) {
 
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
   return names;
 }
 
@@ -72,8 +87,12 @@ std::string in_one_line(const CLI::App& app, const CLI::ParseError& error, int a
   const std::string first = argc > 1 ? argv[1] : "";
   const bool known = std::find(commands.begin(), commands.end(), first) != commands.end();
   if (first.empty()) return "dsdpv1-sim: a command is missing, allowed are " + tb::join(commands);
-  if (!known && first[0] != '-') return "dsdpv1-sim: unknown command " + first + tb::did_you_mean(first, commands) + ", allowed are " + tb::join(commands);
-  if (!known) return "dsdpv1-sim: unknown option " + first + ", allowed are --help, --version and the commands " + tb::join(commands);
+  if (!known && first[0] != '-')
+    return "dsdpv1-sim: unknown command " + first + tb::did_you_mean(first, commands) + ", allowed are " +
+           tb::join(commands);
+  if (!known)
+    return "dsdpv1-sim: unknown option " + first + ", allowed are --help, --version and the commands " +
+           tb::join(commands);
   std::string text = error.what();
   for (char& c : text) c = c == '\n' ? ' ' : c;
   return "dsdpv1-sim " + first + ": " + text + ", see --help for what is allowed";
@@ -82,10 +101,12 @@ std::string in_one_line(const CLI::App& app, const CLI::ParseError& error, int a
 }  // namespace
 
 int command_line(int argc, char** argv) {
-  CLI::App app("Cycle-accurate simulation of the DSDPV1 PROFIBUS-DP slave chip with its bus and its user CPU.", "dsdpv1-sim");
+  CLI::App app("Cycle-accurate simulation of the DSDPV1 PROFIBUS-DP slave chip with its bus and its user CPU.",
+               "dsdpv1-sim");
   app.set_version_flag("--version", "dsdpv1-sim " DSDPV1_VERSION);
   app.require_subcommand(1);
-  app.footer(std::string("\nExamples:\n  dsdpv1-sim run scenarios/power_on_12m.yaml --wave out.fst\n  dsdpv1-sim gsd scenarios/dsdpv1.gsd\n"
+  app.footer(std::string("\nExamples:\n  dsdpv1-sim run scenarios/power_on_12m.yaml --wave out.fst\n  dsdpv1-sim gsd "
+                         "scenarios/dsdpv1.gsd\n"
                          "  dsdpv1-sim decode capture.txt\n  dsdpv1-sim run --help\n") +
              kExitCodes);
   RunArguments run_arguments;

@@ -7,9 +7,9 @@
 namespace app {
 
 // Exit codes of every command.
-constexpr int kPassed = 0;       ///< all checks and expectations passed
-constexpr int kFailed = 1;       ///< a check or an expectation failed
-constexpr int kWrongInput = 2;   ///< one line on the error channel says where, what, and what is allowed
+constexpr int kPassed = 0;         ///< all checks and expectations passed
+constexpr int kFailed = 1;         ///< a check or an expectation failed
+constexpr int kWrongInput = 2;     ///< one line on the error channel says where, what, and what is allowed
 constexpr int kInterrupted = 130;  ///< SIGINT or SIGTERM; all files are complete up to there
 
 struct RunArguments {

@@ -34,11 +34,14 @@ void catch_signals() {
 
 void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed) {
   if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return;
-  throw tb::InputError("dsdpv1-sim run: " + option + " is " + word + tb::did_you_mean(word, allowed) + ", allowed are " + tb::join(allowed));
+  throw tb::InputError("dsdpv1-sim run: " + option + " is " + word + tb::did_you_mean(word, allowed) +
+                       ", allowed are " + tb::join(allowed));
 }
 
 tb::RunOptions options_of(const RunArguments& arguments) {
-  if (arguments.engine == "rtl") throw tb::InputError("dsdpv1-sim run: --engine rtl comes with the RTL, this program has none yet; allowed are step, skip");
+  if (arguments.engine == "rtl")
+    throw tb::InputError(
+        "dsdpv1-sim run: --engine rtl comes with the RTL, this program has none yet; allowed are step, skip");
   check_word("--engine", arguments.engine, {"step", "skip"});
   check_word("--view", arguments.view, {"pins", "tlm"});
   if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
@@ -52,7 +55,8 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   return options;
 }
 
-int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options, std::unique_ptr<tb::Execution> execution) {
+int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options,
+                 std::unique_ptr<tb::Execution> execution) {
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
   tb::Bench bench(scenario, options, std::move(execution));

@@ -36,10 +36,12 @@ int decode(const DecodeArguments& arguments) {
   std::ifstream file;
   if (!standard_input) {
     file.open(arguments.file);
-    if (!file || std::filesystem::is_directory(arguments.file)) throw tb::InputError(arguments.file, 0, "cannot be opened, allowed is a text file of hexadecimal bytes");
+    if (!file || std::filesystem::is_directory(arguments.file))
+      throw tb::InputError(arguments.file, 0, "cannot be opened, allowed is a text file of hexadecimal bytes");
   }
   std::string error;
-  const int status = bus::decode_text(standard_input ? std::cin : file, standard_input ? "standard input" : arguments.file, std::cout, error);
+  const int status = bus::decode_text(standard_input ? std::cin : file,
+                                      standard_input ? "standard input" : arguments.file, std::cout, error);
   if (!error.empty()) throw tb::InputError(error);
   return status;
 }

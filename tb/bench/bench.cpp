@@ -6,6 +6,7 @@
 #include <cctype>
 #include <chrono>
 #include <stdexcept>
+#include <tuple>
 
 #include "bus/explain.hpp"
 #include "tb/bench/script.hpp"
@@ -41,7 +42,8 @@ class Bench::BaudFollower : private bus::Listener {
  private:
   void line_changed(Tick, bool) override {
     for (const Master& each : bench_.masters_) {
-      if (each.master->running() && each.master->baud() != bench_.monitor_->baud()) bench_.monitor_->set_baud(each.master->baud());
+      if (each.master->running() && each.master->baud() != bench_.monitor_->baud())
+        bench_.monitor_->set_baud(each.master->baud());
     }
   }
   Bench& bench_;
@@ -66,19 +68,24 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
 
 Bench::~Bench() = default;
 
-std::uint32_t Bench::watched_pins() const { return options_.wave.empty() && options_.trace.empty() ? kBusPins : dsdpv1::kOutputPins; }
+std::uint32_t Bench::watched_pins() const {
+  return options_.wave.empty() && options_.trace.empty() ? kBusPins : dsdpv1::kOutputPins;
+}
 
 void Bench::add_slave(const scenario::Slave& slave) {
   dsdpv1::Config config = scenario_.chip;
   config.engine = options_.engine;
   user_cpu::StationConfig station = setup_.station(slave);
-  slaves_.push_back(std::make_unique<SlaveStation>(slave, std::move(station), execution_->make_chip(slave.name.text, config, watched_pins())));
+  slaves_.push_back(std::make_unique<SlaveStation>(slave, std::move(station),
+                                                   execution_->make_chip(slave.name.text, config, watched_pins())));
   connect(*slaves_.back(), slaves_.size() - 1);
 }
 
 void Bench::connect(SlaveStation& station, std::size_t index) {
   if (waves_) waves_->add_chip(station.name(), station.chip().chip());
-  station.chip().on_pin = [this, index](Tick at, dsdpv1::Pin pin, dsdpv1::Level level) { pin_changed(index, at, pin, level); };
+  station.chip().on_pin = [this, index](Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
+    pin_changed(index, at, pin, level);
+  };
   station.chip().on_event = [this, index](const profibus::Event& event) { chip_event(index, event); };
   station.on_driver_error = [this, &station](const user_cpu::DriverError& error) { driver_error(station, error); };
   station.on_outputs = [this, &station](Tick at, bool changed) {
@@ -135,9 +142,12 @@ void Bench::connect(Master& entry) {
     waves_->add_master(name, slaves);
   }
   bus::Master1& master = *entry.master;
-  master.on_state = [this, &master, &name, slaves = entry.slaves](Tick at, std::uint8_t address, bus::SlaveState from, bus::SlaveState to) {
+  master.on_state = [this, &master, &name, slaves = entry.slaves](Tick at, std::uint8_t address, bus::SlaveState from,
+                                                                  bus::SlaveState to) {
     const std::string& reason = master.slave(address).reason;
-    log(at, name, "state", fmt::format("{} (address {}): {} to {}{}", slaves.at(address), address, bus::name(from), bus::name(to), reason.empty() ? "" : ", " + reason));
+    log(at, name, "state",
+        fmt::format("{} (address {}): {} to {}{}", slaves.at(address), address, bus::name(from), bus::name(to),
+                    reason.empty() ? "" : ", " + reason));
     if (waves_) waves_->master_state(name, slaves.at(address), now(), bus::name(to));
     touch();
   };
@@ -170,13 +180,15 @@ void Bench::touch(Tick at) { script_->touch(std::max(at, now())); }
 
 void Bench::pin_changed(std::size_t index, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
   if (pin == dsdpv1::Pin::kIntr0) slaves_[index]->intr0_changed(at, level != 0);
-  if (trace_ && !dsdpv1::is_input(pin)) trace_->change(slaves_[index]->name(), at, pin, level);
+  if (trace_ && !dsdpv1::is_input(pin)) trace_->change(index, slaves_[index]->name(), at, pin, level);
   if (waves_) waves_->pin(index, at, pin, level);
 }
 
 void Bench::chip_event(std::size_t index, const profibus::Event& event) {
-  if (event.reason == profibus::Reason::kDpState && waves_) waves_->dp_state(index, event.at, name(static_cast<dsdpv1::DpState>(event.b)));
-  happened({event.at, slaves_[index]->name(), profibus::code(event.reason), profibus::severity(event.reason), profibus::describe(event)});
+  if (event.reason == profibus::Reason::kDpState && waves_)
+    waves_->dp_state(index, event.at, name(static_cast<dsdpv1::DpState>(event.b)));
+  happened({event.at, slaves_[index]->name(), profibus::code(event.reason), profibus::severity(event.reason),
+            profibus::describe(event)});
   touch(event.at);
 }
 
@@ -203,7 +215,8 @@ void Bench::telegram(const bus::WireTelegram& telegram) {
 void Bench::flagged(const bus::Flag& flag) {
   // An unanswered request is how masters find out that nobody is there.
   const bool wrong = flag.kind != bus::FlagKind::kUnanswered;
-  happened({flag.at, "bus", scenario::flag_code(flag.kind), wrong ? profibus::Severity::kViolation : profibus::Severity::kInfo, flag.text});
+  happened({flag.at, "bus", scenario::flag_code(flag.kind),
+            wrong ? profibus::Severity::kViolation : profibus::Severity::kInfo, flag.text});
   touch();
 }
 
@@ -217,7 +230,8 @@ void Bench::happened(Happening happening) {
   ++counts_[happening.station][happening.code];
   happening.allowed = happening.severity == profibus::Severity::kViolation && is_allowed(happening);
   if (happening.severity == profibus::Severity::kViolation && !happening.allowed) ++violations_;
-  log(happening.at, happening.station, happening.allowed ? "allowed" : name(happening.severity), happening.code + ": " + happening.text);
+  log(happening.at, happening.station, happening.allowed ? "allowed" : name(happening.severity),
+      happening.code + ": " + happening.text);
   if (happenings_.size() < RunResult::kKept) {
     happenings_.push_back(std::move(happening));
   } else {
@@ -228,7 +242,8 @@ void Bench::happened(Happening happening) {
 // --- for the script ---------------------------------------------------------------------------------------------------
 
 SlaveStation& Bench::slave(const std::string& name) {
-  const auto found = std::find_if(slaves_.begin(), slaves_.end(), [&name](const auto& slave) { return slave->name() == name; });
+  const auto found =
+      std::find_if(slaves_.begin(), slaves_.end(), [&name](const auto& slave) { return slave->name() == name; });
   if (found == slaves_.end()) throw std::out_of_range("no slave " + name);
   return **found;
 }
@@ -320,8 +335,12 @@ RunResult Bench::collect() {
   }
   result.expectations = script_->finish(result.simulated);
   result.happenings = happenings_;
+  std::stable_sort(result.happenings.begin(), result.happenings.end(), [](const Happening& a, const Happening& b) {
+    return std::tie(a.at, a.station) < std::tie(b.at, b.station);
+  });
   result.happenings_dropped = happenings_dropped_;
-  const bool met = std::all_of(result.expectations.begin(), result.expectations.end(), [](const ExpectationResult& each) { return each.passed; });
+  const bool met = std::all_of(result.expectations.begin(), result.expectations.end(),
+                               [](const ExpectationResult& each) { return each.passed; });
   result.passed = met && violations_ == 0 && !result.interrupted;
   return result;
 }

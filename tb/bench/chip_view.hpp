@@ -29,6 +29,7 @@ class ChipView {
 };
 
 /// The output pins that the bench itself needs.
-constexpr std::uint32_t kBusPins = dsdpv1::mask(dsdpv1::Pin::kPbtxd) | dsdpv1::mask(dsdpv1::Pin::kPbrts) | dsdpv1::mask(dsdpv1::Pin::kIntr0);
+constexpr std::uint32_t kBusPins =
+    dsdpv1::mask(dsdpv1::Pin::kPbtxd) | dsdpv1::mask(dsdpv1::Pin::kPbrts) | dsdpv1::mask(dsdpv1::Pin::kIntr0);
 
 }  // namespace tb

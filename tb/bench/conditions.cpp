@@ -46,24 +46,31 @@ const char* service_word(scenario::Do service) {
 // Each function handles one group of keys; `bench` is null when only the words are wanted.
 
 void add_state(Parts& parts, const Condition& c, const dsdpv1::Status& status) {
-  if (c.dp_state) parts.add(fmt::format("dp_state {}", name(*c.dp_state)), fmt::format("dp_state {}", name(status.dp_state)), status.dp_state == *c.dp_state);
+  if (c.dp_state)
+    parts.add(fmt::format("dp_state {}", name(*c.dp_state)), fmt::format("dp_state {}", name(status.dp_state)),
+              status.dp_state == *c.dp_state);
   if (c.baud) {
     const bool same = *c.baud < 0 ? status.baud_index >= bus::kBaudCount : status.baud_index == *c.baud;
     parts.add("baud " + baud_text(*c.baud), "baud " + baud_text(status.baud_index), same);
   }
   if (c.station_address) {
-    parts.add(fmt::format("station_address {}", *c.station_address), fmt::format("station_address {}", status.address), status.address == *c.station_address);
+    parts.add(fmt::format("station_address {}", *c.station_address), fmt::format("station_address {}", status.address),
+              status.address == *c.station_address);
   }
 }
 
 void add_counts(Parts& parts, const Condition& c, const dsdpv1::Status& status) {
   const auto exchanges = static_cast<std::int64_t>(status.data_exchanges);
   const std::string seen = fmt::format("data_exchanges {}", exchanges);
-  if (c.data_exchanges) parts.add(fmt::format("data_exchanges >= {}", *c.data_exchanges), seen, exchanges >= *c.data_exchanges);
-  if (c.data_exchanges_at_most) parts.add(fmt::format("data_exchanges <= {}", *c.data_exchanges_at_most), seen, exchanges <= *c.data_exchanges_at_most);
+  if (c.data_exchanges)
+    parts.add(fmt::format("data_exchanges >= {}", *c.data_exchanges), seen, exchanges >= *c.data_exchanges);
+  if (c.data_exchanges_at_most)
+    parts.add(fmt::format("data_exchanges <= {}", *c.data_exchanges_at_most), seen,
+              exchanges <= *c.data_exchanges_at_most);
   if (c.longest_wait_at_most) {
     const auto wait = static_cast<Tick>(status.longest_wait) * profibus::kTicksPerCycle;
-    parts.add("longest wait <= " + time_text(*c.longest_wait_at_most), "longest wait " + time_text(wait), wait <= *c.longest_wait_at_most);
+    parts.add("longest wait <= " + time_text(*c.longest_wait_at_most), "longest wait " + time_text(wait),
+              wait <= *c.longest_wait_at_most);
   }
 }
 
@@ -71,16 +78,22 @@ void add_event(Parts& parts, const Condition& c, const Bench* bench) {
   if (c.event.empty()) return;
   const std::int64_t count = bench != nullptr ? static_cast<std::int64_t>(bench->count(c.slave.text, c.event.text)) : 0;
   const bool bounded = c.count_at_most.has_value();
-  const std::string wanted = bounded ? fmt::format("event {} {} to {} times", c.event.text, std::min(c.count, *c.count_at_most), *c.count_at_most)
+  const std::string wanted = bounded ? fmt::format("event {} {} to {} times", c.event.text,
+                                                   std::min(c.count, *c.count_at_most), *c.count_at_most)
                                      : fmt::format("event {} at least {} times", c.event.text, c.count);
   const bool enough = count >= (bounded ? std::min(c.count, *c.count_at_most) : c.count);
   parts.add(wanted, fmt::format("{} times", count), enough && (!bounded || count <= *c.count_at_most));
 }
 
 void add_tsdr(Parts& parts, const Condition& c, const Tsdr& tsdr) {
-  const std::string seen = tsdr.answers == 0 ? "no answers" : fmt::format("TSDR {:.2f} to {:.2f}", tsdr.min_bits, tsdr.max_bits);
-  if (c.tsdr_min) parts.add(fmt::format("TSDR >= {} bit times", *c.tsdr_min), seen, tsdr.answers != 0 && tsdr.min_bits >= *c.tsdr_min);
-  if (c.tsdr_max) parts.add(fmt::format("TSDR <= {} bit times", *c.tsdr_max), seen, tsdr.answers != 0 && tsdr.max_bits <= *c.tsdr_max);
+  const std::string seen =
+      tsdr.answers == 0 ? "no answers" : fmt::format("TSDR {:.2f} to {:.2f}", tsdr.min_bits, tsdr.max_bits);
+  if (c.tsdr_min)
+    parts.add(fmt::format("TSDR >= {} bit times", *c.tsdr_min), seen,
+              tsdr.answers != 0 && tsdr.min_bits >= *c.tsdr_min);
+  if (c.tsdr_max)
+    parts.add(fmt::format("TSDR <= {} bit times", *c.tsdr_max), seen,
+              tsdr.answers != 0 && tsdr.max_bits <= *c.tsdr_max);
 }
 
 bus::Bytes inputs_at_master(const Bench* bench, const std::string& slave) {
@@ -101,7 +114,8 @@ void add_reply(Parts& parts, const Condition& c, const Bench* bench) {
   const Reply* reply = bench != nullptr ? bench->last_reply(c.master.text, *c.reply_of) : nullptr;
   const std::string seen = reply == nullptr ? "nothing" : reply->answered ? shown(reply->data) : "no answer";
   const char* service = service_word(*c.reply_of);
-  parts.add(fmt::format("reply to {} {}", service, shown(*c.reply)), fmt::format("reply {}", seen), reply != nullptr && reply->answered && reply->data == *c.reply);
+  parts.add(fmt::format("reply to {} {}", service, shown(*c.reply)), fmt::format("reply {}", seen),
+            reply != nullptr && reply->answered && reply->data == *c.reply);
 }
 
 Parts examine(const Condition& c, const Bench* bench) {

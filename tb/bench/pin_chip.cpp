@@ -10,8 +10,15 @@ using dsdpv1::Level;
 using dsdpv1::Pin;
 
 PinChip::PinChip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched, bus::Segment& segment)
-    : chip_(config), pins_(std::in_place, chip_), segment_(segment), station_(segment.attach(name, this)), reports_inputs_((watched & dsdpv1::kOutputPins) == dsdpv1::kOutputPins) {
-  chip_.watch({[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); }, this}, watched | kBusPins);
+    : chip_(config),
+      pins_(std::in_place, chip_),
+      segment_(segment),
+      station_(segment.attach(name, this)),
+      reports_inputs_((watched & dsdpv1::kOutputPins) == dsdpv1::kOutputPins) {
+  chip_.watch(
+      {[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); },
+       this},
+      watched | kBusPins);
   chip_.on_event({[](void* self, const profibus::Event& event) {
                     const auto& view = *static_cast<PinChip*>(self);
                     if (view.on_event) view.on_event(event);
@@ -89,7 +96,8 @@ namespace {
 
 class PinExecution : public Execution {
  public:
-  std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched) override {
+  std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config,
+                                      std::uint32_t watched) override {
     auto chip = std::make_unique<PinChip>(name, config, watched, segment_);
     timeline_.add(*chip);
     return chip;

@@ -43,7 +43,9 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener, priva
   bool l_req(Tick at) override { return pins_->l_req(at); }
   bool l_sta(Tick at) override { return pins_->l_sta(at); }
   bool intr0(Tick at) override { return pins_->intr0(at); }
-  void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) override { pins_->begin(at, access, timing); }
+  void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) override {
+    pins_->begin(at, access, timing);
+  }
   Tick next_edge() const override { return pins_->next_edge(); }
   void run_edges(Tick now) override;
   Tick end() const override { return pins_->end(); }
@@ -57,7 +59,8 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener, priva
   bool reports_inputs_;
   std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
   bool enabled_ = false, drives_ = true;
-  std::vector<Drive> drives_due_;  ///< what the chip did to the line inside of a call; told after it, because the line answers
+  std::vector<Drive>
+      drives_due_;  ///< what the chip did to the line inside of a call; told after it, because the line answers
   std::size_t driven_ = 0;
 };
 

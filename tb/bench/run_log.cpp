@@ -10,11 +10,12 @@ std::string nanoseconds(bus::Tick tick) {
 }
 
 void RunLog::line(bus::Tick at, const std::string& station, const std::string& kind, const std::string& text) {
-  waiting_.emplace(at, fmt::format("{:>17} ns  {:<12} {:<9} {}\n", nanoseconds(at), station, kind, text));
+  waiting_.emplace(std::pair(at, station),
+                   fmt::format("{:>17} ns  {:<12} {:<9} {}\n", nanoseconds(at), station, kind, text));
 }
 
 void RunLog::flush(bus::Tick now) {
-  while (!waiting_.empty() && waiting_.begin()->first <= now) {
+  while (!waiting_.empty() && waiting_.begin()->first.first <= now) {
     file_.write(waiting_.begin()->second);
     waiting_.erase(waiting_.begin());
   }

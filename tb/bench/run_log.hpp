@@ -2,6 +2,7 @@
 // The log of a run: one line a thing, in order of time.
 #include <map>
 #include <string>
+#include <utility>
 
 #include "bus/time.hpp"
 #include "tb/report/output_file.hpp"
@@ -22,7 +23,8 @@ class RunLog {
 
  private:
   OutputFile file_;
-  std::multimap<bus::Tick, std::string> waiting_;  // equal times in the order of their coming
+  /// By time and station: chips that act at the same time are in no order of their own.
+  std::multimap<std::pair<bus::Tick, std::string>, std::string> waiting_;
 };
 
 /// Nanoseconds with three digits behind the point, from the absolute tick, rounded once: "1500.083".

@@ -15,7 +15,8 @@ using scenario::Do;
 
 Script::Script(Bench& bench) : bench_(bench) {
   const scenario::Scenario& scenario = bench.scenario();
-  for (std::size_t i = 0; i < scenario.slaves.size(); ++i) plan(scenario.slaves[i].release_reset, Kind::kReleaseReset, i);
+  for (std::size_t i = 0; i < scenario.slaves.size(); ++i)
+    plan(scenario.slaves[i].release_reset, Kind::kReleaseReset, i);
   for (std::size_t i = 0; i < scenario.masters.size(); ++i) plan(scenario.masters[i].start, Kind::kStartMaster, i);
   for (std::size_t i = 0; i < scenario.script.size(); ++i) {
     if (scenario.script[i].at) {
@@ -103,7 +104,8 @@ void Script::judge(std::size_t index, Tick now, bool last_chance) {
   result.seen = fmt::format("{} at {} ns", judged.seen, nanoseconds(now));
   judged_[index] = true;
   const std::string& station = expectation.slave.empty() ? "bus" : expectation.slave.text;
-  bench_.log(now, station, "expect", fmt::format("{}: {}, seen {}", judged.holds ? "met" : "FAILED", result.text, judged.seen));
+  bench_.log(now, station, "expect",
+             fmt::format("{}: {}, seen {}", judged.holds ? "met" : "FAILED", result.text, judged.seen));
 }
 
 std::vector<ExpectationResult> Script::finish(Tick now) {
@@ -118,13 +120,15 @@ std::vector<ExpectationResult> Script::finish(Tick now) {
 
 void Script::act(const Action& action, Tick now) {
   if (action.what >= Do::kSetOutputs && action.what <= Do::kTelegram) return act_on_master(action, now);
-  if (action.what == Do::kGlitch || action.what == Do::kPlug || action.what == Do::kUnplug) return act_on_bus(action, now);
+  if (action.what == Do::kGlitch || action.what == Do::kPlug || action.what == Do::kUnplug)
+    return act_on_bus(action, now);
   act_on_user(action, now);
 }
 
 std::size_t Script::slave_index(const std::string& name) const {
   const auto& slaves = bench_.scenario().slaves;
-  const auto found = std::find_if(slaves.begin(), slaves.end(), [&name](const scenario::Slave& slave) { return slave.name.text == name; });
+  const auto found = std::find_if(slaves.begin(), slaves.end(),
+                                  [&name](const scenario::Slave& slave) { return slave.name.text == name; });
   return static_cast<std::size_t>(found - slaves.begin());
 }
 
@@ -138,14 +142,18 @@ void Script::act_on_user(const Action& action, Tick now) {
   switch (action.what) {
     case Do::kSetInputs: return order("inputs " + bytes_text(action.bytes), command::SetInputs{action.bytes});
     case Do::kSetDiagnosis:
-      return order(fmt::format("diagnosis {:02X}: {}", static_cast<int>(action.diagnosis), bytes_text(action.bytes)), command::SetDiagnosis{action.diagnosis, action.bytes});
-    case Do::kHoldDpram: return order("holds the DPRAM for " + time_text(*action.duration), command::Hold{*action.duration});
+      return order(fmt::format("diagnosis {:02X}: {}", static_cast<int>(action.diagnosis), bytes_text(action.bytes)),
+                   command::SetDiagnosis{action.diagnosis, action.bytes});
+    case Do::kHoldDpram:
+      return order("holds the DPRAM for " + time_text(*action.duration), command::Hold{*action.duration});
     case Do::kWrongCrc: return order("wrong CRC", command::WrongCrc{action.area, action.times});
     case Do::kEarlyRSta:
       for (int i = 0; i < action.times; ++i) order("R_STA without a look at L_REQ and L_STA", command::EarlyRSta{});
       return;
     case Do::kWrongLength: return order("inputs of a wrong length", command::WrongLength{});
-    case Do::kVerdict: return order(action.refuse ? "verdict: wrong" : "verdict: right", command::SendVerdict{action.of == scenario::Verdict::kCfg, action.refuse});
+    case Do::kVerdict:
+      return order(action.refuse ? "verdict: wrong" : "verdict: right",
+                   command::SendVerdict{action.of == scenario::Verdict::kCfg, action.refuse});
     case Do::kPauseUser:
       order("pauses for " + time_text(*action.duration), command::Stop{});
       return plan(now + *action.duration, Kind::kResumeUser, slave_index(slave.name()));
@@ -165,7 +173,8 @@ void Script::reset_chip(const Action& action, Tick now) {
 
 void Script::act_on_bus(const Action& action, Tick now) {
   if (action.what == Do::kGlitch) {
-    bench_.log(now, "bus", "script", fmt::format("line forced {} for {}", action.level ? "high" : "low", time_text(*action.duration)));
+    bench_.log(now, "bus", "script",
+               fmt::format("line forced {} for {}", action.level ? "high" : "low", time_text(*action.duration)));
     bench_.segment().force(now, action.level);
     return plan(now + *action.duration, Kind::kEndGlitch, 0);
   }
@@ -177,7 +186,10 @@ void Script::act_on_bus(const Action& action, Tick now) {
 
 void Script::act_on_master(const Action& action, Tick now) {
   bus::Master1& master = bench_.master(action.master.text);
-  const auto say = [&](const std::string& text) { bench_.log(now, action.master.empty() ? bench_.scenario().masters.front().name.text : action.master.text, "script", text); };
+  const auto say = [&](const std::string& text) {
+    bench_.log(now, action.master.empty() ? bench_.scenario().masters.front().name.text : action.master.text, "script",
+               text);
+  };
   switch (action.what) {
     case Do::kSetOutputs: {
       const std::uint8_t address = target(action);
@@ -209,7 +221,9 @@ void Script::ask(const Action& action) {
   const auto keep = [this, name = action.master.text, what = action.what](const bus::FdlResult& result) {
     bench_.keep_reply(name, what, {result.answered() && !result.short_acknowledge(), result.answer.data});
   };
-  const std::uint8_t address = action.what == Do::kSetSlaveAddress && !action.address ? bench_.slave(action.slave.text).chip().chip().status().address : target(action);
+  const std::uint8_t address = action.what == Do::kSetSlaveAddress && !action.address
+                                   ? bench_.slave(action.slave.text).chip().chip().status().address
+                                   : target(action);
   switch (action.what) {
     case Do::kReadInputs: return master.read_inputs(address, keep);
     case Do::kReadOutputs: return master.read_outputs(address, keep);
@@ -218,21 +232,26 @@ void Script::ask(const Action& action) {
     default: break;
   }
   const int ident = action.ident.value_or(action.slave.empty() ? 0 : bench_.slave(action.slave.text).station().ident);
-  master.set_slave_address(address, static_cast<std::uint8_t>(*action.new_address), static_cast<std::uint16_t>(ident), action.lock, keep);
+  master.set_slave_address(address, static_cast<std::uint8_t>(*action.new_address), static_cast<std::uint16_t>(ident),
+                           action.lock, keep);
 }
 
 void Script::global_control(const Action& action) {
   namespace gc = bus::global_control;
   const auto bit = [](bool wanted, std::uint8_t value) { return wanted ? unsigned{value} : 0U; };
-  const unsigned command = bit(action.sync, gc::kSync) | bit(action.unsync, gc::kUnsync) | bit(action.freeze, gc::kFreeze) | bit(action.unfreeze, gc::kUnfreeze) |
+  const unsigned command = bit(action.sync, gc::kSync) | bit(action.unsync, gc::kUnsync) |
+                           bit(action.freeze, gc::kFreeze) | bit(action.unfreeze, gc::kUnfreeze) |
                            bit(action.clear, gc::kClearData);
-  bench_.master(action.master.text).global_control(static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(action.group));
+  bench_.master(action.master.text)
+      .global_control(static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(action.group));
 }
 
 void Script::send_telegram(const Action& action) {
   const scenario::Faults& f = action.faults;
   const auto millibits = [](double bits) { return static_cast<int>(bits * 1000 + 0.5); };
-  const auto place = [](const std::optional<int>& at) { return at ? std::optional<std::size_t>(static_cast<std::size_t>(*at)) : std::nullopt; };
+  const auto place = [](const std::optional<int>& at) {
+    return at ? std::optional<std::size_t>(static_cast<std::size_t>(*at)) : std::nullopt;
+  };
   bus::WireFaults faults;
   faults.wrong_parity_at = place(f.wrong_parity_at);
   faults.missing_stop_at = place(f.missing_stop_at);

@@ -40,7 +40,8 @@ user_cpu::StationConfig from_gsd(const bus::Gsd& gsd, const bus::GsdSetup& setup
   station.max_output = limited(gsd.max_output.value_or(setup.lengths.output), 244);
   station.max_diag = limited(gsd.max_diag.value_or(kStandardDiag) - kStandardDiag, 238);
   const int prm = static_cast<int>(setup.user_prm.size());
-  station.max_prm = limited(prm_mode == 1 ? prm : gsd.max_user_prm.value_or(prm), 237);  // table 13: mode 1 wants exactly so many
+  station.max_prm =
+      limited(prm_mode == 1 ? prm : gsd.max_user_prm.value_or(prm), 237);  // table 13: mode 1 wants exactly so many
   station.cfg = setup.chk_cfg;
   return station;
 }
@@ -60,11 +61,13 @@ const bus::Gsd& Setup::gsd(const scenario::Name& path) {
   const auto known = files_.find(file);
   if (known != files_.end()) return known->second;
   std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) fail(path.line, fmt::format("gsd {} cannot be opened, allowed is a path relative to the scenario", path.text));
+  if (!in || std::filesystem::is_directory(file))
+    fail(path.line, fmt::format("gsd {} cannot be opened, allowed is a path relative to the scenario", path.text));
   bus::GsdResult result = bus::parse_gsd(in, file);
   if (!result.gsd) {
-    const auto error = std::find_if(result.diagnostics.begin(), result.diagnostics.end(),
-                                    [](const bus::GsdDiagnostic& each) { return each.level == bus::GsdDiagnostic::Level::kError; });
+    const auto error =
+        std::find_if(result.diagnostics.begin(), result.diagnostics.end(),
+                     [](const bus::GsdDiagnostic& each) { return each.level == bus::GsdDiagnostic::Level::kError; });
     throw InputError(bus::to_string(*error));
   }
   return files_.emplace(file, std::move(*result.gsd)).first->second;
@@ -89,8 +92,9 @@ bus::GsdSetup Setup::choose(const scenario::Name& path, const std::vector<scenar
 
 user_cpu::StationConfig Setup::station(const scenario::Slave& slave) {
   const scenario::InitData& init = slave.init;
-  user_cpu::StationConfig station =
-      slave.gsd.empty() ? user_cpu::StationConfig{} : from_gsd(gsd(slave.gsd), choose(slave.gsd, slave.modules), init.prm_mode);
+  user_cpu::StationConfig station = slave.gsd.empty()
+                                        ? user_cpu::StationConfig{}
+                                        : from_gsd(gsd(slave.gsd), choose(slave.gsd, slave.modules), init.prm_mode);
   station.address = static_cast<std::uint8_t>(slave.address);
   station.prm_mode = static_cast<std::uint8_t>(init.prm_mode);
   station.cfg_mode = static_cast<std::uint8_t>(init.cfg_mode);
@@ -106,11 +110,13 @@ user_cpu::StationConfig Setup::station(const scenario::Slave& slave) {
   override_with(station.sync, init.sync);
   override_with(station.fail_safe, init.fail_safe);
   override_with(station.cfg, init.cfg);
-  if (station.cfg.empty()) fail(slave.line, fmt::format("slave {} has no configuration, modules or init cfg are needed", slave.name.text));
+  if (station.cfg.empty())
+    fail(slave.line, fmt::format("slave {} has no configuration, modules or init cfg are needed", slave.name.text));
   return station;
 }
 
-void Setup::take_gsd(bus::SlaveParameters& parameters, const scenario::Name& path, const std::vector<scenario::Name>& modules) {
+void Setup::take_gsd(bus::SlaveParameters& parameters, const scenario::Name& path,
+                     const std::vector<scenario::Name>& modules) {
   const bus::Gsd& file = gsd(path);
   const bus::GsdSetup setup = choose(path, modules);
   parameters.ident = file.ident;
@@ -157,7 +163,8 @@ bus::SlaveParameters Setup::parameters(const scenario::MasterSlave& slave) {
   parameters.wd_fact_1 = watchdog.fact_1;
   parameters.wd_fact_2 = watchdog.fact_2;
   parameters.wd_base_1ms = watchdog.base_1ms;
-  for (const std::uint8_t group : slave.groups) parameters.group_ident = static_cast<std::uint8_t>(parameters.group_ident | 1U << (group - 1U));
+  for (const std::uint8_t group : slave.groups)
+    parameters.group_ident = static_cast<std::uint8_t>(parameters.group_ident | 1U << (group - 1U));
   parameters.min_tsdr = static_cast<std::uint8_t>(slave.min_tsdr);
   parameters.sync = slave.sync;
   parameters.freeze = slave.freeze;

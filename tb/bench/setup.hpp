@@ -27,7 +27,8 @@ class Setup {
   [[noreturn]] void fail(int line, const std::string& text) const;
   const bus::Gsd& gsd(const scenario::Name& path);
   bus::GsdSetup choose(const scenario::Name& path, const std::vector<scenario::Name>& modules);
-  void take_gsd(bus::SlaveParameters& parameters, const scenario::Name& path, const std::vector<scenario::Name>& modules);
+  void take_gsd(bus::SlaveParameters& parameters, const scenario::Name& path,
+                const std::vector<scenario::Name>& modules);
   void take_init(bus::SlaveParameters& parameters, const scenario::Slave& slave);
   void take_lengths(bus::SlaveParameters& parameters, int line) const;
 

@@ -5,7 +5,8 @@
 
 namespace tb {
 
-SlaveStation::SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig station, std::unique_ptr<ChipView> chip)
+SlaveStation::SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig station,
+                           std::unique_ptr<ChipView> chip)
     : slave_(slave), station_(std::move(station)), chip_(std::move(chip)) {}
 
 user_cpu::ProgramOptions SlaveStation::options() const {

@@ -18,8 +18,8 @@ using dsdpv1::Pin;
 
 class TlmChipView : public ChipView {
  public:
-  TlmChipView(const std::string& name, const dsdpv1::systemc::TlmOptions& options, std::uint32_t watched, bus::Segment& segment,
-              systemc_bench::TimelineModule& timeline)
+  TlmChipView(const std::string& name, const dsdpv1::systemc::TlmOptions& options, std::uint32_t watched,
+              bus::Segment& segment, systemc_bench::TimelineModule& timeline)
       : chip_(name.c_str(), options, segment, timeline), bus_((name + "_host").c_str(), chip_) {
     const bool all = (watched & dsdpv1::kOutputPins) == dsdpv1::kOutputPins;
     chip_.on_pin = [this, all, &timeline](Tick at, Pin pin, dsdpv1::Level level) {
@@ -49,7 +49,8 @@ class TlmChipView : public ChipView {
 
 class TlmExecution : public Execution {
  public:
-  std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched) override {
+  std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config,
+                                      std::uint32_t watched) override {
     dsdpv1::systemc::TlmOptions options;
     options.chip = config;
     options.report_violations = false;  // the bench reports them

@@ -30,7 +30,8 @@ std::size_t WaveRecorder::add_chip(const std::string& name, const dsdpv1::Chip& 
   for (int i = 0; i < dsdpv1::kPinCount; ++i) {
     const Pin pin = static_cast<Pin>(i);
     if (pin == Pin::kDOut) continue;  // D is one bus: both directions are shown as D
-    signals.pins.at(static_cast<std::size_t>(i)) = writer_->wire(pin == Pin::kDIn ? "D" : dsdpv1::name(pin), dsdpv1::width(pin));
+    signals.pins.at(static_cast<std::size_t>(i)) =
+        writer_->wire(pin == Pin::kDIn ? "D" : dsdpv1::name(pin), dsdpv1::width(pin));
   }
   signals.dp_state = writer_->words("dp_state");
   writer_->close_scope();
@@ -48,7 +49,8 @@ void WaveRecorder::begin() {
   writer_->set(0, line_, 1);
   writer_->say(0, telegram_, "-");
   for (std::size_t chip = 0; chip < chips_.size(); ++chip) {
-    for (int i = 0; i < dsdpv1::kPinCount; ++i) pin(chip, 0, static_cast<Pin>(i), chips_[chip].chip->level(static_cast<Pin>(i)));
+    for (int i = 0; i < dsdpv1::kPinCount; ++i)
+      pin(chip, 0, static_cast<Pin>(i), chips_[chip].chip->level(static_cast<Pin>(i)));
     dp_state(chip, 0, "OFFLINE");
   }
   for (const auto& [name, signal] : master_states_) writer_->say(0, signal, "OFFLINE");
@@ -61,12 +63,16 @@ void WaveRecorder::pin(std::size_t chip, bus::Tick at, Pin pin, Level level) {
     return;
   }
   (pin == Pin::kDIn ? signals.user_data : signals.chip_data) = level;
-  writer_->set(at, signals.pins.at(static_cast<std::size_t>(Pin::kDIn)), resolved(signals.user_data, signals.chip_data));
+  writer_->set(at, signals.pins.at(static_cast<std::size_t>(Pin::kDIn)),
+               resolved(signals.user_data, signals.chip_data));
 }
 
-void WaveRecorder::dp_state(std::size_t chip, bus::Tick at, const std::string& word) { writer_->say(at, chips_[chip].dp_state, word); }
+void WaveRecorder::dp_state(std::size_t chip, bus::Tick at, const std::string& word) {
+  writer_->say(at, chips_[chip].dp_state, word);
+}
 
-void WaveRecorder::master_state(const std::string& master, const std::string& slave, bus::Tick at, const std::string& word) {
+void WaveRecorder::master_state(const std::string& master, const std::string& slave, bus::Tick at,
+                                const std::string& word) {
   writer_->say(at, master_states_.at(master + "." + slave), word);
 }
 

@@ -17,7 +17,8 @@ void rename_part(const std::string& part, const std::string& path) {
   throw InputError(path, 0, "cannot be written: " + reason);
 }
 
-OutputFile::OutputFile(std::string path) : path_(std::move(path)), part_(part_name(path_)), file_(std::fopen(part_.c_str(), "wb")) {
+OutputFile::OutputFile(std::string path)
+    : path_(std::move(path)), part_(part_name(path_)), file_(std::fopen(part_.c_str(), "wb")) {
   if (!file_) throw InputError(path_, 0, std::string("cannot be written: ") + std::strerror(errno));
 }
 

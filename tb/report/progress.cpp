@@ -13,8 +13,9 @@ std::string progress_text(bus::Tick now, bus::Tick end, double wall_s) {
   const double factor = wall_s > 0 ? simulated_s / wall_s : 0;
   const double left = done > 0 ? wall_s / done - wall_s : 0;
   const std::string bar(static_cast<std::size_t>(done * kWidth), '#');
-  return fmt::format("[{:<{}}] {:3.0f} %  {:.1f} of {:.1f} ms  {:.2f} x real time  {:.0f} s left", bar, kWidth, done * 100, simulated_s * 1e3,
-                     static_cast<double>(end) / static_cast<double>(bus::kTicksPerMs), factor, left);
+  return fmt::format("[{:<{}}] {:3.0f} %  {:.1f} of {:.1f} ms  {:.2f} x real time  {:.0f} s left", bar, kWidth,
+                     done * 100, simulated_s * 1e3, static_cast<double>(end) / static_cast<double>(bus::kTicksPerMs),
+                     factor, left);
 }
 
 void Progress::show(bus::Tick now) {

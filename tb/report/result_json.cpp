@@ -22,17 +22,19 @@ Json tsdr_of(const SlaveResult& slave) {
 }
 
 Json handshake_of(const SlaveResult& slave) {
-  return {{"chip_accesses", slave.status.accesses},
-          {"chip_longest_wait_ns", nanoseconds_of(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle)},
-          {"user_holds", slave.holds},
-          {"user_given_up", slave.given_up},
-          {"user_longest_wait_ns", nanoseconds_of(slave.longest_user_wait)},
-          {"user_longest_hold_ns", nanoseconds_of(slave.longest_hold)}};
+  return {
+      {"chip_accesses", slave.status.accesses},
+      {"chip_longest_wait_ns", nanoseconds_of(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle)},
+      {"user_holds", slave.holds},
+      {"user_given_up", slave.given_up},
+      {"user_longest_wait_ns", nanoseconds_of(slave.longest_user_wait)},
+      {"user_longest_hold_ns", nanoseconds_of(slave.longest_hold)}};
 }
 
 Json user_of(const SlaveResult& slave) {
-  return {{"exchanges", slave.exchanges},   {"outputs_received", slave.outputs_received}, {"inputs_written", slave.inputs_written},
-          {"judgements", slave.judgements}, {"driver_errors", slave.driver_errors},       {"bad_reads", slave.bad_reads}};
+  return {{"exchanges", slave.exchanges},           {"outputs_received", slave.outputs_received},
+          {"inputs_written", slave.inputs_written}, {"judgements", slave.judgements},
+          {"driver_errors", slave.driver_errors},   {"bad_reads", slave.bad_reads}};
 }
 
 Json slave_of(const SlaveResult& slave) {
@@ -56,12 +58,8 @@ Json slave_of(const SlaveResult& slave) {
 }
 
 Json event_of(const Happening& happening) {
-  return {{"at_ns", nanoseconds_of(happening.at)},
-          {"slave", happening.station},
-          {"code", happening.code},
-          {"severity", name(happening.severity)},
-          {"allowed", happening.allowed},
-          {"text", happening.text}};
+  return {{"at_ns", nanoseconds_of(happening.at)}, {"slave", happening.station},   {"code", happening.code},
+          {"severity", name(happening.severity)},  {"allowed", happening.allowed}, {"text", happening.text}};
 }
 
 }  // namespace
@@ -85,7 +83,8 @@ std::string result_json(const RunResult& result) {
   for (const SlaveResult& slave : result.slaves) json["slaves"].push_back(slave_of(slave));
   json["expectations"] = Json::array();
   for (const ExpectationResult& each : result.expectations) {
-    json["expectations"].push_back({{"text", each.text}, {"line", each.line}, {"passed", each.passed}, {"seen", each.seen}});
+    json["expectations"].push_back(
+        {{"text", each.text}, {"line", each.line}, {"passed", each.passed}, {"seen", each.seen}});
   }
   json["events"] = Json::array();
   for (const Happening& each : result.happenings) json["events"].push_back(event_of(each));

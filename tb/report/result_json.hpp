@@ -5,7 +5,7 @@
 
 namespace tb {
 
-/// The result file: one JSON object, indented, with a line end. docs/results.md explains its members.
+/// The result file: one JSON object, indented, with a line end.
 std::string result_json(const RunResult& result);
 
 }  // namespace tb

@@ -48,11 +48,15 @@ class Table {
   std::vector<std::size_t> widths_;
 };
 
-std::string microseconds(Tick tick) { return fmt::format("{:.3f}", static_cast<double>(tick) / static_cast<double>(bus::kTicksPerUs)); }
+std::string microseconds(Tick tick) {
+  return fmt::format("{:.3f}", static_cast<double>(tick) / static_cast<double>(bus::kTicksPerUs));
+}
 
 /// The steps from power-on to data exchange, and whatever went wrong.
 bool is_step(const Happening& each) {
-  static constexpr std::array<const char*, 9> kSteps = {"READY_FLAG", "INITIALISED", "BAUD_SEARCH", "BAUD_FOUND", "BAUD_LOST", "DP_STATE", "WD_ON", "WD_EXPIRED", "ADDRESS"};
+  static constexpr std::array<const char*, 9> kSteps = {"READY_FLAG", "INITIALISED", "BAUD_SEARCH",
+                                                        "BAUD_FOUND", "BAUD_LOST",   "DP_STATE",
+                                                        "WD_ON",      "WD_EXPIRED",  "ADDRESS"};
   const bool known = std::any_of(kSteps.begin(), kSteps.end(), [&each](const char* code) { return each.code == code; });
   return known || each.severity == profibus::Severity::kViolation;
 }
@@ -68,7 +72,8 @@ std::string steps(const RunResult& result) {
       continue;
     }
     ++shown;
-    const std::string mark = each.severity == profibus::Severity::kViolation ? (each.allowed ? "allowed: " : "VIOLATION: ") : "";
+    const std::string mark =
+        each.severity == profibus::Severity::kViolation ? (each.allowed ? "allowed: " : "VIOLATION: ") : "";
     table.add({fmt::format("{:>13}", microseconds(each.at)), each.station, mark + each.text});
   }
   if (shown == 0) return "";
@@ -80,11 +85,13 @@ std::string tsdr(const SlaveResult& slave) {
 }
 
 std::string slaves(const RunResult& result) {
-  Table table({"slave", "address", "DP state", "baud", "exchanges", "TSDR / bit times", "chip waited / us", "user waited / us", "longest hold / us"});
+  Table table({"slave", "address", "DP state", "baud", "exchanges", "TSDR / bit times", "chip waited / us",
+               "user waited / us", "longest hold / us"});
   for (const SlaveResult& slave : result.slaves) {
-    table.add({slave.name, fmt::format("{}", slave.status.address), name(slave.status.dp_state), baud_text(slave.status.baud_index), fmt::format("{}", slave.status.data_exchanges),
-               tsdr(slave), microseconds(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle), microseconds(slave.longest_user_wait),
-               microseconds(slave.longest_hold)});
+    table.add({slave.name, fmt::format("{}", slave.status.address), name(slave.status.dp_state),
+               baud_text(slave.status.baud_index), fmt::format("{}", slave.status.data_exchanges), tsdr(slave),
+               microseconds(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle),
+               microseconds(slave.longest_user_wait), microseconds(slave.longest_hold)});
   }
   return table.text() + "\n";
 }
@@ -108,9 +115,11 @@ std::string expectations(const RunResult& result) {
 std::string summary(const RunResult& result) {
   std::string text = fmt::format("\n{}\n\n", result.scenario) + steps(result) + slaves(result);
   text += fmt::format("  telegrams      {} ({} wrong)\n", result.telegrams, result.wrong_telegrams);
-  text += fmt::format("  simulated      {} in {:.2f} s: {:.2f} times real time (engine {}, view {})\n", time_text(result.simulated), result.wall_s, result.real_time_factor(),
-                      result.engine, result.view);
-  if (result.violations != 0) text += fmt::format("  violations     {} that the scenario does not allow\n", result.violations);
+  text +=
+      fmt::format("  simulated      {} in {:.2f} s: {:.2f} times real time (engine {}, view {})\n",
+                  time_text(result.simulated), result.wall_s, result.real_time_factor(), result.engine, result.view);
+  if (result.violations != 0)
+    text += fmt::format("  violations     {} that the scenario does not allow\n", result.violations);
   text += expectations(result);
   return text + fmt::format("\n{}\n", result.interrupted ? "INTERRUPTED" : result.passed ? "PASSED" : "FAILED");
 }

@@ -44,9 +44,12 @@ class Checker {
       if (name.text.size() > 32 || !std::all_of(name.text.begin(), name.text.end(), good)) {
         fail(name.line, fmt::format("name is \"{}\", allowed are 1 to 32 letters, digits and _", name.text));
       }
-      if (name.text == "bus" || name.text == "script") fail(name.line, fmt::format("name {} is taken, allowed is any other", name.text));
+      if (name.text == "bus" || name.text == "script")
+        fail(name.line, fmt::format("name {} is taken, allowed is any other", name.text));
       const auto [place, fresh] = seen.emplace(name.text, name.line);
-      if (!fresh) fail(name.line, fmt::format("name {} is already that of line {}, allowed is each name once", name.text, place->second));
+      if (!fresh)
+        fail(name.line,
+             fmt::format("name {} is already that of line {}, allowed is each name once", name.text, place->second));
     };
     for (const Slave& slave : scenario_.slaves) check(slave.name);
     for (const Master& master : scenario_.masters) check(master.name);
@@ -55,7 +58,8 @@ class Checker {
   void check_known(const Name& name, const char* what, const std::vector<std::string>& known) const {
     if (name.empty() || std::find(known.begin(), known.end(), name.text) != known.end()) return;
     if (known.empty()) fail(name.line, fmt::format("{} {} does not exist, the scenario has none", what, name.text));
-    fail(name.line, fmt::format("{} {} does not exist{}, allowed are {}", what, name.text, did_you_mean(name.text, known), join(known)));
+    fail(name.line, fmt::format("{} {} does not exist{}, allowed are {}", what, name.text,
+                                did_you_mean(name.text, known), join(known)));
   }
   void check_slave_name(const Name& name) const { check_known(name, "slave", slaves_); }
   void check_master_name(const Name& name) const { check_known(name, "master", masters_); }
@@ -63,15 +67,19 @@ class Checker {
   void check_code(const Name& code) const {
     const std::vector<std::string>& codes = all_codes();
     if (code.empty() || std::find(codes.begin(), codes.end(), code.text) != codes.end()) return;
-    fail(code.line, fmt::format("event {} does not exist{}, allowed are the codes of docs/reasons.md", code.text, did_you_mean(code.text, codes)));
+    fail(code.line, fmt::format("event {} does not exist{}, allowed are the codes of docs/reasons.md", code.text,
+                                did_you_mean(code.text, codes)));
   }
 
   void check_slave(const Slave& slave) const {
-    if (slave.gsd.empty() && !slave.modules.empty()) fail(slave.modules.front().line, "modules without gsd, allowed are the modules of a GSD file");
+    if (slave.gsd.empty() && !slave.modules.empty())
+      fail(slave.modules.front().line, "modules without gsd, allowed are the modules of a GSD file");
     if (!slave.gsd.empty()) return;
     const InitData& init = slave.init;
     const auto need = [&](bool there, const char* key) {
-      if (!there) fail(slave.line, fmt::format("slave {} has neither gsd nor init: {}, one of them is needed", slave.name.text, key));
+      if (!there)
+        fail(slave.line,
+             fmt::format("slave {} has neither gsd nor init: {}, one of them is needed", slave.name.text, key));
     };
     need(init.ident.has_value(), "ident");
     need(init.max_inputs.has_value(), "max_inputs");
@@ -82,7 +90,8 @@ class Checker {
   void check_master(const Master& master) const {
     for (const Slave& slave : scenario_.slaves) {
       if (slave.address == master.address) {
-        fail(master.line, fmt::format("master {} has address {} of slave {}, allowed is each address once", master.name.text, master.address, slave.name.text));
+        fail(master.line, fmt::format("master {} has address {} of slave {}, allowed is each address once",
+                                      master.name.text, master.address, slave.name.text));
       }
     }
     for (const MasterSlave& slave : master.slaves) check_master_slave(slave);
@@ -102,20 +111,26 @@ class Checker {
   }
 
   void check_time(const std::optional<bus::Tick>& time, const char* key, int line) const {
-    if (time && *time > scenario_.end) fail(line, fmt::format("{} is {}, allowed is up to the end of the run, {}", key, time_text(*time), time_text(scenario_.end)));
+    if (time && *time > scenario_.end)
+      fail(line, fmt::format("{} is {}, allowed is up to the end of the run, {}", key, time_text(*time),
+                             time_text(scenario_.end)));
   }
 
   void check_condition(const Condition& condition) const {
     check_slave_name(condition.slave);
     check_master_name(condition.master);
     check_code(condition.event);
-    const bool about_slave = condition.dp_state || condition.baud || condition.station_address || condition.data_exchanges || condition.data_exchanges_at_most ||
-                             condition.inputs || condition.outputs || !condition.event.empty() || condition.tsdr_min || condition.tsdr_max ||
-                             condition.longest_wait_at_most;
+    const bool about_slave = condition.dp_state || condition.baud || condition.station_address ||
+                             condition.data_exchanges || condition.data_exchanges_at_most || condition.inputs ||
+                             condition.outputs || !condition.event.empty() || condition.tsdr_min ||
+                             condition.tsdr_max || condition.longest_wait_at_most;
     if (about_slave && condition.slave.empty()) fail(condition.line, "slave is missing, allowed are " + join(slaves_));
-    if (condition.reply.has_value() != condition.reply_of.has_value()) fail(condition.line, "reply and reply_of are only allowed together");
-    if (condition.reply && scenario_.masters.empty()) fail(condition.line, "reply needs a master, the scenario has none");
-    if (condition.event.empty() && condition.count_at_most) fail(condition.line, "count_at_most without event, allowed is an event's code");
+    if (condition.reply.has_value() != condition.reply_of.has_value())
+      fail(condition.line, "reply and reply_of are only allowed together");
+    if (condition.reply && scenario_.masters.empty())
+      fail(condition.line, "reply needs a master, the scenario has none");
+    if (condition.event.empty() && condition.count_at_most)
+      fail(condition.line, "count_at_most without event, allowed is an event's code");
   }
 
   void check_expectation(const Expectation& expectation) const {
@@ -137,17 +152,18 @@ class Checker {
       case Do::kSetSlaveAddress: check_target(action); break;
       default: break;
     }
-    if (needs_master(action.what) && scenario_.masters.empty()) fail(action.line, "this needs a master, the scenario has none");
+    if (needs_master(action.what) && scenario_.masters.empty())
+      fail(action.line, "this needs a master, the scenario has none");
   }
 
   void check_target(const Action& action) const {
-    if (action.slave.empty() == !action.address.has_value()) fail(action.line, "exactly one of slave and address is needed");
-    if (action.what == Do::kSetSlaveAddress && action.slave.empty() && !action.ident) fail(action.line, "ident is missing, it can only be left out where slave is named");
+    if (action.slave.empty() == !action.address.has_value())
+      fail(action.line, "exactly one of slave and address is needed");
+    if (action.what == Do::kSetSlaveAddress && action.slave.empty() && !action.ident)
+      fail(action.line, "ident is missing, it can only be left out where slave is named");
   }
 
-  static bool needs_master(Do what) {
-    return what >= Do::kSetOutputs && what <= Do::kTelegram;
-  }
+  static bool needs_master(Do what) { return what >= Do::kSetOutputs && what <= Do::kTelegram; }
 
   const Scenario& scenario_;
   std::vector<std::string> slaves_, masters_;

@@ -16,15 +16,21 @@ const ObjectOf<ChipParameters>& chip_keys() {
   static const ObjectOf<ChipParameters> keys = [] {
     using C = ChipParameters;
     ObjectOf<C> o("chip", "The parameters of the chip that the rulings mark (p), for all slaves of the scenario.");
-    o.integer("access_interval", &C::access_interval, {16, 4800}, "cycles", "From the start of one DPRAM access of the chip to the next (H1).");
-    o.integer("ready_cycles", &C::ready_cycles, {1, 1000000}, "cycles", "From the release of RESET to B004 = 0xC5 (D1).");
+    o.integer("access_interval", &C::access_interval, {16, 4800}, "cycles",
+              "From the start of one DPRAM access of the chip to the next (H1).");
+    o.integer("ready_cycles", &C::ready_cycles, {1, 1000000}, "cycles",
+              "From the release of RESET to B004 = 0xC5 (D1).");
     o.integer("rts_lead", &C::rts_lead, {0, 1000}, "cycles", "PBRTS high before the first start bit (P2).");
     o.integer("rts_trail", &C::rts_trail, {0, 1000}, "cycles", "PBRTS high after the last stop bit (P2).");
     o.integer("intr_low", &C::intr_low, {1, 10000}, "cycles", "How long INTR0 stays low (P7).");
-    o.integer("intr_gap", &C::intr_gap, {1, 10000}, "cycles", "How long INTR0 stays high between two pulses at least (P7).");
-    o.integer("search_window_ms", &C::search_window_ms, {1, 10000}, "ms", "Least time at one baud rate of the search (S1).");
-    o.integer("search_window_bits", &C::search_window_bits, {100, 100000}, "bit times", "Least bit times at one baud rate of the search (S1).");
-    o.integer("baud_control_ms", &C::baud_control_ms, {1, 60000}, "ms", "Silence after which the baud rate is searched again (S1).");
+    o.integer("intr_gap", &C::intr_gap, {1, 10000}, "cycles",
+              "How long INTR0 stays high between two pulses at least (P7).");
+    o.integer("search_window_ms", &C::search_window_ms, {1, 10000}, "ms",
+              "Least time at one baud rate of the search (S1).");
+    o.integer("search_window_bits", &C::search_window_bits, {100, 100000}, "bit times",
+              "Least bit times at one baud rate of the search (S1).");
+    o.integer("baud_control_ms", &C::baud_control_ms, {1, 60000}, "ms",
+              "Silence after which the baud rate is searched again (S1).");
     return o;
   }();
   return keys;
@@ -45,14 +51,17 @@ namespace {
 ObjectOf<Scenario> describe_scenario() {
   ObjectOf<Scenario> o("scenario", "A bus with its masters and slaves, what happens on it, and what is expected.");
   o.text("name", &Scenario::name, "What the scenario shows, one line.").required = true;
-  o.word("baud", &Scenario::baud, baud_words(), "Baud rate of the masters; the chips find it themselves.").required = true;
+  o.word("baud", &Scenario::baud, baud_words(), "Baud rate of the masters; the chips find it themselves.").required =
+      true;
   o.time("end", &Scenario::end, {bus::kTicksPerUs, kLongestTime}, "When the run ends.").required = true;
   o.object("chip", &Scenario::chip, chip_keys(), "Parameters of the chip other than its defaults.");
-  o.list("masters", &Scenario::masters, master_keys(), {0, 4}, "The DP masters class 1. Each needs the bus for itself: two may not be started at the same time.");
+  o.list("masters", &Scenario::masters, master_keys(), {0, 4},
+         "The DP masters class 1. Each needs the bus for itself: two may not be started at the same time.");
   o.list("slaves", &Scenario::slaves, slave_keys(), {1, 32}, "The chips, each with its user CPU.").required = true;
   o.list("script", &Scenario::script, action_keys(), kItems, "What happens during the run.");
   o.list("expect", &Scenario::expect, expectation_keys(), kItems, "What must be true, else the run fails (exit 1).");
-  o.list("allow", &Scenario::allow, allow_keys(), kItems, "Violations that are expected. Every other one fails the run.");
+  o.list("allow", &Scenario::allow, allow_keys(), kItems,
+         "Violations that are expected. Every other one fails the run.");
   return o;
 }
 

@@ -9,15 +9,18 @@ void describe_condition(ObjectOf<T>& o) {
   using C = Condition;
   o.name_of("slave", &C::slave, "Name of the slave that the other keys are about.");
   o.word("dp_state", &C::dp_state,
-         std::vector<WordFor<dsdpv1::DpState>>{{dsdpv1::DpState::kOffline, "offline", "not initialised"},
-                                           {dsdpv1::DpState::kWaitPrm, "wait_prm", "waits for Set_Prm, or for the user's verdict on it"},
-                                           {dsdpv1::DpState::kWaitCfg, "wait_cfg", "waits for Chk_Cfg, or for the user's verdict on it"},
-                                           {dsdpv1::DpState::kDataExch, "data_exch", "exchanges data"}},
+         std::vector<WordFor<dsdpv1::DpState>>{
+             {dsdpv1::DpState::kOffline, "offline", "not initialised"},
+             {dsdpv1::DpState::kWaitPrm, "wait_prm", "waits for Set_Prm, or for the user's verdict on it"},
+             {dsdpv1::DpState::kWaitCfg, "wait_cfg", "waits for Chk_Cfg, or for the user's verdict on it"},
+             {dsdpv1::DpState::kDataExch, "data_exch", "exchanges data"}},
          "State of the DP state machine.");
   o.word("baud", &C::baud, baud_words(true), "Baud rate that the chip has found.");
   o.integer("station_address", &C::station_address, kAddresses, "", "The chip's present station address.");
-  o.integer("data_exchanges", &C::data_exchanges, {0, 1'000'000'000}, "", "At least so many data exchanges, repetitions not counted.");
-  o.integer("data_exchanges_at_most", &C::data_exchanges_at_most, {0, 1'000'000'000}, "", "At most so many data exchanges.");
+  o.integer("data_exchanges", &C::data_exchanges, {0, 1'000'000'000}, "",
+            "At least so many data exchanges, repetitions not counted.");
+  o.integer("data_exchanges_at_most", &C::data_exchanges_at_most, {0, 1'000'000'000}, "",
+            "At most so many data exchanges.");
   o.bytes("inputs", &C::inputs, {0, 244}, "The inputs that its master has received last.");
   o.bytes("outputs", &C::outputs, {0, 244}, "The outputs that the user CPU has fetched last.");
   o.name_of("event", &C::event, "Code of an event of the chip (docs/reasons.md) that has happened.");
@@ -25,7 +28,8 @@ void describe_condition(ObjectOf<T>& o) {
   o.integer("count_at_most", &C::count_at_most, {0, 1'000'000'000}, "", "How often that event has happened at most.");
   o.number("tsdr_min", &C::tsdr_min, {0, 100000}, "bit times", "No answer of the slave came sooner.");
   o.number("tsdr_max", &C::tsdr_max, {0, 100000}, "bit times", "No answer of the slave came later.");
-  o.time("longest_wait_at_most", &C::longest_wait_at_most, kAnyTime, "No due DPRAM access of the chip waited longer for the user CPU.");
+  o.time("longest_wait_at_most", &C::longest_wait_at_most, kAnyTime,
+         "No due DPRAM access of the chip waited longer for the user CPU.");
   o.name_of("master", &C::master, "Name of the master whose answers `reply` is about; left out: the first one.");
   o.word("reply_of", &C::reply_of,
          std::vector<WordFor<Do>>{{Do::kReadInputs, "read_inputs", ""},
@@ -35,8 +39,8 @@ void describe_condition(ObjectOf<T>& o) {
                                   {Do::kSetSlaveAddress, "set_slave_address", ""}},
          "The service whose last answer `reply` is about.");
   o.bytes("reply", &C::reply, {0, 244}, "Data of the last answer of that service.");
-  o.at_least_one = {{"dp_state", "baud", "station_address", "data_exchanges", "data_exchanges_at_most", "inputs", "outputs", "event", "tsdr_min", "tsdr_max",
-                     "longest_wait_at_most", "reply"}};
+  o.at_least_one = {{"dp_state", "baud", "station_address", "data_exchanges", "data_exchanges_at_most", "inputs",
+                     "outputs", "event", "tsdr_min", "tsdr_max", "longest_wait_at_most", "reply"}};
 }
 
 }  // namespace
@@ -53,7 +57,9 @@ const ObjectOf<When>& when_keys() {
 
 const ObjectOf<Expectation>& expectation_keys() {
   static const ObjectOf<Expectation> keys = [] {
-    ObjectOf<Expectation> o("expectation", "What must be true: at a time, by a time, or (with neither) at the end; all keys given together.");
+    ObjectOf<Expectation> o(
+        "expectation",
+        "What must be true: at a time, by a time, or (with neither) at the end; all keys given together.");
     describe_condition(o);
     o.time("at", &Expectation::at, kAnyTime, "True exactly then.");
     o.time("by", &Expectation::by, kAnyTime, "True at some time until then.");

@@ -8,15 +8,20 @@ const ObjectOf<BusParameters>& bus_keys() {
   static const ObjectOf<BusParameters> keys = [] {
     using B = BusParameters;
     ObjectOf<B> o("bus", "Bus parameters of a master.");
-    o.integer("slot_time", &B::slot_time, {37, 16383}, "bit times", "T_SL; left out: what EN 50170 gives for the baud rate (100 ... 1000).");
+    o.integer("slot_time", &B::slot_time, {37, 16383}, "bit times",
+              "T_SL; left out: what EN 50170 gives for the baud rate (100 ... 1000).");
     o.integer("setup_time", &B::setup_time, {1, 255}, "bit times", "T_SET; left out: that of the baud rate.");
     o.integer("quiet_time", &B::quiet_time, {0, 255}, "bit times", "T_QUI; left out: that of the baud rate.");
-    o.integer("retries", &B::retries, {0, 8}, "", "How often an unanswered request is repeated; left out: 1, at 3M, 6M and 12M 2, 3 and 4.");
-    o.integer("gap_factor", &B::gap_factor, {0, 100}, "cycles", "Data cycles between two FDL status polls for the live list, 0 for none.");
+    o.integer("retries", &B::retries, {0, 8}, "",
+              "How often an unanswered request is repeated; left out: 1, at 3M, 6M and 12M 2, 3 and 4.");
+    o.integer("gap_factor", &B::gap_factor, {0, 100}, "cycles",
+              "Data cycles between two FDL status polls for the live list, 0 for none.");
     o.integer("highest_address", &B::highest_address, {1, 126}, "", "HSA, the last address of the live list.");
-    o.integer("min_slave_interval", &B::min_slave_interval, {0, 1000000}, "us", "Least time from the start of one data cycle to the next; 0: as fast as the bus allows.");
+    o.integer("min_slave_interval", &B::min_slave_interval, {0, 1000000}, "us",
+              "Least time from the start of one data cycle to the next; 0: as fast as the bus allows.");
     o.boolean("token", &B::token, "Whether the token is passed (to itself) after each cycle, as a single master does.");
-    o.integer("clock_error", &B::clock_error, {-20000, 20000}, "ppm", "Error of the master's bit clock; positive is slow.");
+    o.integer("clock_error", &B::clock_error, {-20000, 20000}, "ppm",
+              "Error of the master's bit clock; positive is slow.");
     return o;
   }();
   return keys;
@@ -26,14 +31,17 @@ const ObjectOf<MasterSlave>& master_slave_keys() {
   static const ObjectOf<MasterSlave> keys = [] {
     using S = MasterSlave;
     ObjectOf<S> o("master slave", "A slave as its master sees it: where it is, and what it is sent.");
-    o.name_of("slave", &S::slave, "Name of the scenario's slave: its address, GSD and modules are taken unless given here.");
+    o.name_of("slave", &S::slave,
+              "Name of the scenario's slave: its address, GSD and modules are taken unless given here.");
     o.integer("address", &S::address, kAddresses, "", "Station address; needed where no slave is named.");
     o.file("gsd", &S::gsd, "GSD file for ident, Set_Prm and Chk_Cfg, relative to the scenario's folder.");
     o.names("modules", &S::modules, {0, 64}, "Names of the GSD's modules, in the order of the slots.");
-    o.bytes("user_prm", &S::user_prm, {0, 237}, "User parameters (behind the seven standard bytes) instead of those of the GSD.");
+    o.bytes("user_prm", &S::user_prm, {0, 237},
+            "User parameters (behind the seven standard bytes) instead of those of the GSD.");
     o.bytes("cfg", &S::cfg, {1, 244}, "Configuration bytes instead of those of the GSD's modules.");
     o.integer("ident", &S::ident, {0, 0xFFFF}, "", "Ident number instead of that of the GSD.");
-    o.time("watchdog", &S::watchdog, {0, 650 * bus::kTicksPerSecond}, "Watchdog time of Set_Prm, rounded up to what WD_Fact_1 x WD_Fact_2 can be; 0ns: off.");
+    o.time("watchdog", &S::watchdog, {0, 650 * bus::kTicksPerSecond},
+           "Watchdog time of Set_Prm, rounded up to what WD_Fact_1 x WD_Fact_2 can be; 0ns: off.");
     o.integer("min_tsdr", &S::min_tsdr, {0, 255}, "bit times", "min_TSDR of Set_Prm; 0 leaves the slave's unchanged.");
     o.bytes("groups", &S::groups, {0, 8}, "Group numbers 1 to 8 that the slave belongs to (Group_Ident).");
     o.boolean("sync", &S::sync, "Sync_Req of Set_Prm.");
@@ -55,11 +63,15 @@ const ObjectOf<Master>& master_keys() {
     o.name_of("name", &Master::name, "Name of the master in the log and the script.").required = true;
     o.integer("address", &Master::address, {0, 125}, "", "Station address.");
     o.word("personality", &Master::personality,
-           std::vector<WordFor<Personality>>{{Personality::kHighAlways, "high_always", "SRD high for everything, SD3 where 8 bytes fit, min_TSDR 0 possible"},
-                                             {Personality::kClassic, "classic", "SRD low for diagnosis, parameters and configuration, a Global_Control before Set_Prm"}},
+           std::vector<WordFor<Personality>>{
+               {Personality::kHighAlways, "high_always",
+                "SRD high for everything, SD3 where 8 bytes fit, min_TSDR 0 possible"},
+               {Personality::kClassic, "classic",
+                "SRD low for diagnosis, parameters and configuration, a Global_Control before Set_Prm"}},
            "Which of the habits of real masters it has.");
     o.time("start", &Master::start, kAnyTime, "When it enters the bus.");
-    o.boolean("operate", &Master::operate, "Whether it goes to Operate by itself; false: it stays in Clear until the script says `operate`.");
+    o.boolean("operate", &Master::operate,
+              "Whether it goes to Operate by itself; false: it stays in Clear until the script says `operate`.");
     o.object("bus", &Master::bus, bus_keys(), "Bus parameters other than those of the baud rate.");
     o.list("slaves", &Master::slaves, master_slave_keys(), {0, 125}, "The slaves that it brings up.");
     return o;

@@ -54,14 +54,30 @@ std::vector<WordFor<Do>> action_words() {
 std::vector<Choice> action_choices() {
   const std::vector<std::string> reads = {"master", "slave", "address"};
   return {
-      {"set_inputs", "The user CPU hands these inputs to the chip (behaviour constant or idle).", {"slave", "bytes"}, {}},
+      {"set_inputs",
+       "The user CPU hands these inputs to the chip (behaviour constant or idle).",
+       {"slave", "bytes"},
+       {}},
       {"set_diagnosis", "The user CPU hands a diagnosis to the chip.", {"slave", "type"}, {"bytes"}},
-      {"reinitialise", "The user CPU initialises the chip again, with another address or configuration if given.", {"slave"}, {"new_address", "cfg"}},
+      {"reinitialise",
+       "The user CPU initialises the chip again, with another address or configuration if given.",
+       {"slave"},
+       {"new_address", "cfg"}},
       {"reset_chip", "RESET goes low for a while; the user CPU starts again with it.", {"slave"}, {"for"}},
       {"hold_dpram", "The user CPU takes the DPRAM and keeps it.", {"slave", "for"}, {}},
-      {"wrong_crc", "The next blocks of this kind that the user CPU writes have a wrong CRC.", {"slave", "area"}, {"times"}},
-      {"early_r_sta", "The user CPU raises R_STA one cycle after R_REQ without a look at L_REQ and L_STA (against H2), and holds for 1 us, so often.", {"slave"}, {"times"}},
-      {"wrong_length", "The next inputs are one byte longer than configured, shorter where that is impossible.", {"slave"}, {}},
+      {"wrong_crc",
+       "The next blocks of this kind that the user CPU writes have a wrong CRC.",
+       {"slave", "area"},
+       {"times"}},
+      {"early_r_sta",
+       "The user CPU raises R_STA one cycle after R_REQ without a look at L_REQ and L_STA (against H2), and holds for "
+       "1 us, so often.",
+       {"slave"},
+       {"times"}},
+      {"wrong_length",
+       "The next inputs are one byte longer than configured, shorter where that is impossible.",
+       {"slave"},
+       {}},
       {"pause_user", "The user CPU does nothing for a while, not even judge.", {"slave", "for"}, {}},
       {"verdict", "The user CPU sends a verdict, as it does in judging mode 2.", {"slave", "of"}, {"refuse"}},
       {"unplug", "The slave is taken from the bus.", {"slave"}, {}},
@@ -71,14 +87,23 @@ std::vector<Choice> action_choices() {
       {"read_outputs", "The master reads the outputs (SAP 57).", {}, reads},
       {"get_cfg", "The master reads the configuration (SAP 59).", {}, reads},
       {"slave_diag", "The master reads the diagnosis (SAP 60).", {}, reads},
-      {"set_slave_address", "The master gives the slave another address (SAP 55).", {"new_address"}, {"master", "slave", "address", "ident", "lock"}},
-      {"global_control", "The master sends a Global_Control (SAP 58) to all, or to the groups.", {}, {"master", "sync", "unsync", "freeze", "unfreeze", "clear", "group"}},
+      {"set_slave_address",
+       "The master gives the slave another address (SAP 55).",
+       {"new_address"},
+       {"master", "slave", "address", "ident", "lock"}},
+      {"global_control",
+       "The master sends a Global_Control (SAP 58) to all, or to the groups.",
+       {},
+       {"master", "sync", "unsync", "freeze", "unfreeze", "clear", "group"}},
       {"operate", "The master goes to Operate.", {}, {"master"}},
       {"clear", "The master goes to Clear.", {}, {"master"}},
       {"stop_master", "The master falls silent.", {}, {"master"}},
       {"start_master", "The master enters the bus again, from the beginning.", {}, {"master"}},
       {"change_baud", "All masters go on with another baud rate.", {"baud"}, {}},
-      {"telegram", "The master sends these bytes between two of its own telegrams, right or broken.", {"bytes"}, {"master", "faults"}},
+      {"telegram",
+       "The master sends these bytes between two of its own telegrams, right or broken.",
+       {"bytes"},
+       {"master", "faults"}},
       {"glitch", "The line is forced to a level for a while.", {"for"}, {"level"}},
   };
 }
@@ -90,22 +115,27 @@ void describe_values(ObjectOf<Action>& o) {
   o.bytes("bytes", &A::bytes, {0, 255}, "Data, or all bytes of a telegram.");
   o.word("type", &A::diagnosis,
          std::vector<WordFor<dsdpv1_diag_type>>{{DSDPV1_DIAG_EXTENDED, "extended", "B227 = 00, low priority"},
-                                        {DSDPV1_DIAG_EXTERNAL, "external", "81, Ext_Diag"},
-                                        {DSDPV1_DIAG_EXTERNAL_GONE, "external_gone", "01"},
-                                        {DSDPV1_DIAG_STATIC, "static", "82, Stat_Diag"},
-                                        {DSDPV1_DIAG_STATIC_GONE, "static_gone", "02"}},
+                                                {DSDPV1_DIAG_EXTERNAL, "external", "81, Ext_Diag"},
+                                                {DSDPV1_DIAG_EXTERNAL_GONE, "external_gone", "01"},
+                                                {DSDPV1_DIAG_STATIC, "static", "82, Stat_Diag"},
+                                                {DSDPV1_DIAG_STATIC_GONE, "static_gone", "02"}},
          "Kind of the diagnosis (D9).");
-  o.integer("address", &A::address, kAddresses, "", "Station address, where it is not that of the slave in the scenario.");
+  o.integer("address", &A::address, kAddresses, "",
+            "Station address, where it is not that of the slave in the scenario.");
   o.integer("new_address", &A::new_address, {0, 255}, "", "The new station address.");
   o.integer("ident", &A::ident, {0, 0xFFFF}, "", "Ident number in the telegram; left out: the right one.");
   o.boolean("lock", &A::lock, "No_Add_Chg: no further change of the address.");
   o.bytes("cfg", &A::cfg, {1, 200}, "The new configuration.");
   o.time("for", &A::duration, {1, 10 * bus::kTicksPerSecond}, "How long; of reset_chip left out: 10us.");
-  o.word("area", &A::area,
-         std::vector<WordFor<Area>>{{Area::kInit, "init", "initialisation"}, {Area::kInputs, "inputs", ""}, {Area::kDiagnosis, "diagnosis", ""}},
-         "Which block.");
+  o.word(
+      "area", &A::area,
+      std::vector<WordFor<Area>>{
+          {Area::kInit, "init", "initialisation"}, {Area::kInputs, "inputs", ""}, {Area::kDiagnosis, "diagnosis", ""}},
+      "Which block.");
   o.integer("times", &A::times, {1, 1000}, "", "How many.");
-  o.word("of", &A::of, std::vector<WordFor<Verdict>>{{Verdict::kPrm, "prm", "parameters"}, {Verdict::kCfg, "cfg", "configuration"}}, "What is judged.");
+  o.word("of", &A::of,
+         std::vector<WordFor<Verdict>>{{Verdict::kPrm, "prm", "parameters"}, {Verdict::kCfg, "cfg", "configuration"}},
+         "What is judged.");
   o.boolean("refuse", &A::refuse, "The verdict is: wrong.");
   o.word("baud", &A::baud, baud_words(), "The new baud rate.");
   o.object("faults", &A::faults, fault_keys(), "What is broken in the telegram.");

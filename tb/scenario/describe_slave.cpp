@@ -5,25 +5,35 @@ namespace tb::scenario {
 namespace {
 
 const std::vector<WordFor<Judgement>>& judgement_words() {
-  static const std::vector<WordFor<Judgement>> words = {{Judgement::kAccept, "accept", "found right"},
-                                                        {Judgement::kRefuse, "refuse", "found wrong"},
-                                                        {Judgement::kNever, "never", "no verdict; the script may send one with `verdict`"}};
+  static const std::vector<WordFor<Judgement>> words = {
+      {Judgement::kAccept, "accept", "found right"},
+      {Judgement::kRefuse, "refuse", "found wrong"},
+      {Judgement::kNever, "never", "no verdict; the script may send one with `verdict`"}};
   return words;
 }
 
 const ObjectOf<InitData>& init_keys() {
   static const ObjectOf<InitData> keys = [] {
     using I = InitData;
-    ObjectOf<I> o("init", "What the user CPU tells the chip at the initialisation (table 2, B020..). With a GSD, what is left out comes from there.");
+    ObjectOf<I> o("init",
+                  "What the user CPU tells the chip at the initialisation (table 2, B020..). With a GSD, what is left "
+                  "out comes from there.");
     o.integer("ident", &I::ident, {0, 0xFFFF}, "", "Ident number (B022, B023).");
-    o.integer("max_inputs", &I::max_inputs, {0, 255}, "bytes", "Most input bytes, slave to master (B027); above 244 the chip refuses.");
-    o.integer("max_outputs", &I::max_outputs, {0, 255}, "bytes", "Most output bytes, master to slave (B028); above 244 the chip refuses.");
-    o.integer("max_diag", &I::max_diag, {0, 255}, "bytes", "User diagnosis without the standard 6 bytes (B029); above 238 the chip refuses.");
-    o.integer("max_prm", &I::max_prm, {0, 255}, "bytes", "User parameters without the standard 7 bytes (B02A); above 237 the chip refuses.");
-    o.integer("max_cfg", &I::max_cfg, {0, 255}, "bytes", "Most configuration bytes (B02C); above 200 the chip refuses.");
+    o.integer("max_inputs", &I::max_inputs, {0, 255}, "bytes",
+              "Most input bytes, slave to master (B027); above 244 the chip refuses.");
+    o.integer("max_outputs", &I::max_outputs, {0, 255}, "bytes",
+              "Most output bytes, master to slave (B028); above 244 the chip refuses.");
+    o.integer("max_diag", &I::max_diag, {0, 255}, "bytes",
+              "User diagnosis without the standard 6 bytes (B029); above 238 the chip refuses.");
+    o.integer("max_prm", &I::max_prm, {0, 255}, "bytes",
+              "User parameters without the standard 7 bytes (B02A); above 237 the chip refuses.");
+    o.integer("max_cfg", &I::max_cfg, {0, 255}, "bytes",
+              "Most configuration bytes (B02C); above 200 the chip refuses.");
     o.bytes("cfg", &I::cfg, {1, 200}, "Initial configuration (B02F..); left out: that of the modules.");
-    o.integer("prm_mode", &I::prm_mode, {0, 255}, "", "Who judges parameters (B02B, table 13): 0 length at most max_prm, 1 length equal, 2 the user.");
-    o.integer("cfg_mode", &I::cfg_mode, {0, 255}, "", "Who judges the configuration (B02D, table 14): 0 length, 1 equal to cfg, 2 the user.");
+    o.integer("prm_mode", &I::prm_mode, {0, 255}, "",
+              "Who judges parameters (B02B, table 13): 0 length at most max_prm, 1 length equal, 2 the user.");
+    o.integer("cfg_mode", &I::cfg_mode, {0, 255}, "",
+              "Who judges the configuration (B02D, table 14): 0 length, 1 equal to cfg, 2 the user.");
     o.boolean("set_slave_address", &I::set_slave_address, "Whether a master may change the address (B024.0).");
     o.boolean("freeze", &I::freeze, "Whether Freeze is supported (B024.1).");
     o.boolean("sync", &I::sync, "Whether Sync is supported (B024.2).");
@@ -38,9 +48,10 @@ const ObjectOf<AccessTimes>& access_keys() {
   static const ObjectOf<AccessTimes> keys = [] {
     using A = AccessTimes;
     const Range any = {-100 * bus::kTicksPerUs, 100 * bus::kTicksPerUs}, positive = {0, 100 * bus::kTicksPerUs};
-    ObjectOf<A> o("access",
-                  "When the user CPU moves its bus pins. The chip's limits are in table 15; times beyond them are reported as "
-                  "violations. The defaults are those of an STM32F103 at 72 MHz.");
+    ObjectOf<A> o(
+        "access",
+        "When the user CPU moves its bus pins. The chip's limits are in table 15; times beyond them are reported as "
+        "violations. The defaults are those of an STM32F103 at 72 MHz.");
     o.time("address_setup", &A::address_setup, any, "A valid before RD or WR falls (Tc >= 0ns); negative: after it.");
     o.time("cs_lead", &A::cs_lead, positive, "CSR falls before RD or WR.");
     o.time("rd_low", &A::rd_low, {1, 100 * bus::kTicksPerUs}, "RD low.");
@@ -66,7 +77,8 @@ const ObjectOf<CpuTimes>& timing_keys() {
     o.time("pin_write", &T::pin_write, range, "Setting one handshake pin.");
     o.time("r_req_to_sample", &T::r_req_to_sample, range, "From the rise of R_REQ to the first look at L_REQ (H2).");
     o.time("r_req_to_r_sta", &T::r_req_to_r_sta, range, "Least time from the rise of R_REQ to that of R_STA (H2).");
-    o.time("interrupt_latency", &T::interrupt_latency, slow, "From the fall of INTR0 to the first instruction of its handler.");
+    o.time("interrupt_latency", &T::interrupt_latency, slow,
+           "From the fall of INTR0 to the first instruction of its handler.");
     o.time("poll_interval", &T::poll_interval, slow, "Pause between two polls of the DPRAM while the driver waits.");
     return o;
   }();
@@ -78,18 +90,25 @@ const ObjectOf<UserCpu>& user_cpu_keys() {
     using U = UserCpu;
     ObjectOf<U> o("user_cpu", "The user CPU: it runs the shipped C driver.");
     o.word("behaviour", &U::behaviour,
-           std::vector<WordFor<Behaviour>>{{Behaviour::kLoopBack, "loop_back", "inputs are the last outputs, cut or filled with 0"},
-                                           {Behaviour::kCount, "count", "every input byte is the number of the cycle"},
-                                           {Behaviour::kConstant, "constant", "inputs are `constant` until the script changes them"},
-                                           {Behaviour::kIdle, "idle", "initialises and judges, exchanges nothing"}},
+           std::vector<WordFor<Behaviour>>{
+               {Behaviour::kLoopBack, "loop_back", "inputs are the last outputs, cut or filled with 0"},
+               {Behaviour::kCount, "count", "every input byte is the number of the cycle"},
+               {Behaviour::kConstant, "constant", "inputs are `constant` until the script changes them"},
+               {Behaviour::kIdle, "idle", "initialises and judges, exchanges nothing"}},
            "What it does with the cyclic data.");
     o.bytes("constant", &U::constant, {0, 244}, "Inputs of the behaviour constant, filled up with 0.");
-    o.boolean("overwrite_inputs", &U::overwrite_inputs, "Whether inputs that the chip has not taken yet are overwritten; false: they stay, the new ones are dropped.");
+    o.boolean(
+        "overwrite_inputs", &U::overwrite_inputs,
+        "Whether inputs that the chip has not taken yet are overwritten; false: they stay, the new ones are dropped.");
     o.time("start_delay", &U::start_delay, kAnyTime, "From the release of RESET until it looks for the chip.");
-    o.time("cycle", &U::cycle, {bus::kTicksPerUs, 10 * bus::kTicksPerSecond}, "From the start of one exchange of cyclic data to the next.");
-    o.time("judge_delay", &U::judge_delay, {0, 10 * bus::kTicksPerSecond}, "How long it thinks before it writes a verdict.");
-    o.boolean("judge_in_handler", &U::judge_in_handler, "Whether the INTR0 handler judges; false: it notes INTR0 and the main loop judges.");
-    o.time("retry_delay", &U::retry_delay, {bus::kTicksPerUs, 10 * bus::kTicksPerSecond}, "Pause before a failed initialisation is tried again.");
+    o.time("cycle", &U::cycle, {bus::kTicksPerUs, 10 * bus::kTicksPerSecond},
+           "From the start of one exchange of cyclic data to the next.");
+    o.time("judge_delay", &U::judge_delay, {0, 10 * bus::kTicksPerSecond},
+           "How long it thinks before it writes a verdict.");
+    o.boolean("judge_in_handler", &U::judge_in_handler,
+              "Whether the INTR0 handler judges; false: it notes INTR0 and the main loop judges.");
+    o.time("retry_delay", &U::retry_delay, {bus::kTicksPerUs, 10 * bus::kTicksPerSecond},
+           "Pause before a failed initialisation is tried again.");
     o.word("judge_prm", &U::judge_prm, judgement_words(), "Its verdict on parameters in judging mode 2.");
     o.word("judge_cfg", &U::judge_cfg, judgement_words(), "Its verdict on the configuration in judging mode 2.");
     o.object("timing", &U::timing, timing_keys(), "How fast it is.");
@@ -105,7 +124,9 @@ const ObjectOf<Slave>& slave_keys() {
   static const ObjectOf<Slave> keys = [] {
     ObjectOf<Slave> o("slave", "A DSDPV1 with its user CPU.");
     o.name_of("name", &Slave::name, "Name of the slave in the log, the script and the expectations.").required = true;
-    o.integer("address", &Slave::address, {0, 255}, "", "Station address that the user CPU sets (B021); above 126 the chip refuses.").required = true;
+    o.integer("address", &Slave::address, {0, 255}, "",
+              "Station address that the user CPU sets (B021); above 126 the chip refuses.")
+        .required = true;
     o.file("gsd", &Slave::gsd, "GSD file that the initialisation follows, relative to the scenario's folder.");
     o.names("modules", &Slave::modules, {0, 64}, "Names of the GSD's modules that are plugged in.");
     o.object("init", &Slave::init, init_keys(), "Initialisation data other than those of the GSD.");

@@ -7,7 +7,9 @@ namespace tb::scenario {
 std::string flag_code(bus::FlagKind kind) {
   std::string code = "BUS_";
   for (const char* c = bus::name(kind); *c != '\0'; ++c) {
-    code += std::isalnum(static_cast<unsigned char>(*c)) != 0 ? static_cast<char>(std::toupper(static_cast<unsigned char>(*c))) : '_';
+    code += std::isalnum(static_cast<unsigned char>(*c)) != 0
+                ? static_cast<char>(std::toupper(static_cast<unsigned char>(*c)))
+                : '_';
   }
   return code;
 }
@@ -30,7 +32,8 @@ const std::vector<std::string>& all_codes() {
 #define X(name, value, text) list.emplace_back(#name);
     DSDPV1_ERROR_TABLE(X)
 #undef X
-    for (std::size_t kind = 0; kind < bus::kFlagKinds; ++kind) list.push_back(flag_code(static_cast<bus::FlagKind>(kind)));
+    for (std::size_t kind = 0; kind < bus::kFlagKinds; ++kind)
+      list.push_back(flag_code(static_cast<bus::FlagKind>(kind)));
     return list;
   }();
   return codes;

@@ -45,7 +45,8 @@ class SchemaWriter {
   Json value(const Field& field) {
     switch (field.type.kind) {
       case Kind::kInteger: return integer(field);
-      case Kind::kNumber: return {{"type", "number"}, {"minimum", field.type.range.min}, {"maximum", field.type.range.max}};
+      case Kind::kNumber:
+        return {{"type", "number"}, {"minimum", field.type.range.min}, {"maximum", field.type.range.max}};
       case Kind::kBoolean: return {{"type", "boolean"}};
       case Kind::kText:
       case Kind::kFile: return {{"type", "string"}, {"minLength", 1}};
@@ -60,7 +61,8 @@ class SchemaWriter {
 
   static Json integer(const Field& field) {
     Json json;
-    json["anyOf"] = {{{"type", "integer"}, {"minimum", field.type.range.min}, {"maximum", field.type.range.max}}, {{"type", "string"}, {"pattern", "^0[xX][0-9A-Fa-f]+$"}}};
+    json["anyOf"] = {{{"type", "integer"}, {"minimum", field.type.range.min}, {"maximum", field.type.range.max}},
+                     {{"type", "string"}, {"pattern", "^0[xX][0-9A-Fa-f]+$"}}};
     return json;
   }
 
@@ -74,20 +76,23 @@ class SchemaWriter {
   static Json bytes(const Field& field) {
     Json json;
     Json items = {{"type", "integer"}, {"minimum", 0}, {"maximum", 255}};
-    json["anyOf"] = {{{"type", "string"}, {"pattern", "^ *([0-9A-Fa-f]{2}([*][0-9]{1,3})?( +|$))*$"}},
-                     {{"type", "array"}, {"items", items}, {"minItems", field.type.range.min}, {"maxItems", field.type.range.max}}};
+    json["anyOf"] = {
+        {{"type", "string"}, {"pattern", "^ *([0-9A-Fa-f]{2}([*][0-9]{1,3})?( +|$))*$"}},
+        {{"type", "array"}, {"items", items}, {"minItems", field.type.range.min}, {"maxItems", field.type.range.max}}};
     return json;
   }
 
   Json list(const Field& field) {
     Json json = {{"type", "array"}, {"minItems", field.type.range.min}, {"maxItems", field.type.range.max}};
-    json["items"] = field.type.object != nullptr ? reference(*field.type.object) : Json{{"type", "string"}, {"minLength", 1}};
+    json["items"] =
+        field.type.object != nullptr ? reference(*field.type.object) : Json{{"type", "string"}, {"minLength", 1}};
     return json;
   }
 
   Json property(const Field& field) {
     Json json = value(field);
-    json["description"] = field.doc + (field.default_text.empty() || field.required ? "" : " Default: " + field.default_text + ".");
+    json["description"] =
+        field.doc + (field.default_text.empty() || field.required ? "" : " Default: " + field.default_text + ".");
     return json;
   }
 

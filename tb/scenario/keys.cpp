@@ -27,7 +27,8 @@ std::string shown(const YAML::Node& node) {
   return "\"" + (text.size() > 40 ? text.substr(0, 40) + "..." : text) + "\"";
 }
 
-const std::string& scalar(const Field& field, const YAML::Node& node, const Source& source, const std::string& allowed) {
+const std::string& scalar(const Field& field, const YAML::Node& node, const Source& source,
+                          const std::string& allowed) {
   if (!node.IsScalar()) fail(source, node, fmt::format("{} is {}, allowed is {}", field.name, shown(node), allowed));
   return node.Scalar();
 }
@@ -38,8 +39,8 @@ std::string integer_form(const Field& field) {
 }
 
 std::string bytes_form(const Field& field) {
-  return fmt::format("{} to {} bytes as quoted hexadecimal text (\"01 A0 00*4\") or as a list of numbers ([1, 0xA0])", field.type.range.min,
-                     field.type.range.max);
+  return fmt::format("{} to {} bytes as quoted hexadecimal text (\"01 A0 00*4\") or as a list of numbers ([1, 0xA0])",
+                     field.type.range.min, field.type.range.max);
 }
 
 /// Decimal, or hexadecimal with 0x; the whole text must be the number.
@@ -61,7 +62,8 @@ bus::Bytes read_byte_list(const Field& field, const YAML::Node& node, const Sour
   bus::Bytes bytes;
   for (const YAML::Node& item : node) {
     const std::optional<std::int64_t> value = item.IsScalar() ? parse_integer(item.Scalar()) : std::nullopt;
-    if (!value || *value < 0 || *value > 255) fail(source, item, fmt::format("{} holds {}, allowed are numbers from 0 to 255", field.name, shown(item)));
+    if (!value || *value < 0 || *value > 255)
+      fail(source, item, fmt::format("{} holds {}, allowed are numbers from 0 to 255", field.name, shown(item)));
     bytes.push_back(static_cast<std::uint8_t>(*value));
   }
   return bytes;
@@ -73,7 +75,9 @@ std::vector<std::string> names_of(const Object& object) {
   return names;
 }
 
-bool contains(const std::vector<std::string>& list, const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); }
+bool contains(const std::vector<std::string>& list, const std::string& word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
 
 std::string key_text(const YAML::Node& key, const Source& source) {
   if (!key.IsScalar()) fail(source, key, fmt::format("a key is {}, allowed is a word", shown(key)));
@@ -83,11 +87,12 @@ std::string key_text(const YAML::Node& key, const Source& source) {
 /// The choice that the selector of `object` names in `node`.
 const Choice& chosen(const Object& object, const YAML::Node& node, const Source& source) {
   const YAML::Node word = node[object.selector];
-  if (!word.IsDefined()) fail(source, node, fmt::format("{} is missing in {}, allowed are {}", object.selector, object.name, join([&] {
-                                                           std::vector<std::string> words;
-                                                           for (const Choice& choice : object.choices) words.push_back(choice.word);
-                                                           return words;
-                                                         }())));
+  if (!word.IsDefined())
+    fail(source, node, fmt::format("{} is missing in {}, allowed are {}", object.selector, object.name, join([&] {
+                                     std::vector<std::string> words;
+                                     for (const Choice& choice : object.choices) words.push_back(choice.word);
+                                     return words;
+                                   }())));
   return object.choices[read_word(*object.find(object.selector), word, source)];
 }
 
@@ -101,24 +106,29 @@ std::vector<std::string> allowed_keys(const Object& object, const Choice* choice
   return keys;
 }
 
-void check_groups(const Object& object, const std::set<std::string>& seen, const YAML::Node& node, const Source& source) {
+void check_groups(const Object& object, const std::set<std::string>& seen, const YAML::Node& node,
+                  const Source& source) {
   const auto count = [&seen](const std::vector<std::string>& group) {
     return std::count_if(group.begin(), group.end(), [&seen](const std::string& key) { return seen.count(key) != 0; });
   };
   for (const auto& group : object.exactly_one) {
     const auto found = count(group);
     if (found == 0) fail(source, node, fmt::format("{} needs exactly one of {}", object.name, join(group)));
-    if (found > 1) fail(source, node, fmt::format("{} has {} of {}, allowed is exactly one", object.name, found, join(group)));
+    if (found > 1)
+      fail(source, node, fmt::format("{} has {} of {}, allowed is exactly one", object.name, found, join(group)));
   }
   for (const auto& group : object.at_most_one) {
-    if (count(group) > 1) fail(source, node, fmt::format("{} has {} of {}, allowed is one at most", object.name, count(group), join(group)));
+    if (count(group) > 1)
+      fail(source, node,
+           fmt::format("{} has {} of {}, allowed is one at most", object.name, count(group), join(group)));
   }
   for (const auto& group : object.at_least_one) {
     if (count(group) == 0) fail(source, node, fmt::format("{} needs at least one of {}", object.name, join(group)));
   }
 }
 
-void check_required(const Object& object, const Choice* choice, const std::set<std::string>& seen, const YAML::Node& node, const Source& source) {
+void check_required(const Object& object, const Choice* choice, const std::set<std::string>& seen,
+                    const YAML::Node& node, const Source& source) {
   for (const Field& field : object.fields) {
     const bool needed = field.required || (choice != nullptr && contains(choice->required, field.name));
     if (!needed || seen.count(field.name) != 0) continue;
@@ -130,7 +140,8 @@ void check_required(const Object& object, const Choice* choice, const std::set<s
 }  // namespace
 
 const Field* Object::find(const std::string& key) const {
-  const auto found = std::find_if(fields.begin(), fields.end(), [&key](const Field& field) { return field.name == key; });
+  const auto found =
+      std::find_if(fields.begin(), fields.end(), [&key](const Field& field) { return field.name == key; });
   return found == fields.end() ? nullptr : &*found;
 }
 
@@ -146,7 +157,8 @@ std::int64_t read_integer(const Field& field, const YAML::Node& node, const Sour
 }
 
 double read_number(const Field& field, const YAML::Node& node, const Source& source) {
-  const std::string allowed = fmt::format("a number from {} to {} {}", field.type.range.min, field.type.range.max, field.type.unit);
+  const std::string allowed =
+      fmt::format("a number from {} to {} {}", field.type.range.min, field.type.range.max, field.type.unit);
   double value = 0;
   scalar(field, node, source, allowed);
   const bool good = YAML::convert<double>::decode(node, value) && std::isfinite(value);
@@ -158,7 +170,8 @@ double read_number(const Field& field, const YAML::Node& node, const Source& sou
 
 bool read_boolean(const Field& field, const YAML::Node& node, const Source& source) {
   const std::string& text = scalar(field, node, source, "true or false");
-  if (text != "true" && text != "false") fail(source, node, fmt::format("{} is {}, allowed is true or false", field.name, shown(node)));
+  if (text != "true" && text != "false")
+    fail(source, node, fmt::format("{} is {}, allowed is true or false", field.name, shown(node)));
   return text == "true";
 }
 
@@ -174,7 +187,8 @@ std::size_t read_word(const Field& field, const YAML::Node& node, const Source& 
   const std::string& text = scalar(field, node, source, "one of " + join(words));
   const auto found = std::find(words.begin(), words.end(), text);
   if (found == words.end()) {
-    fail(source, node, fmt::format("{} is {}{}, allowed are {}", field.name, shown(node), did_you_mean(text, words), join(words)));
+    fail(source, node,
+         fmt::format("{} is {}{}, allowed are {}", field.name, shown(node), did_you_mean(text, words), join(words)));
   }
   return static_cast<std::size_t>(found - words.begin());
 }
@@ -183,7 +197,9 @@ bus::Tick read_time(const Field& field, const YAML::Node& node, const Source& so
   const std::optional<bus::Tick> time = parse_time(scalar(field, node, source, kTimeForm));
   if (!time) fail(source, node, fmt::format("{} is {}, allowed is {}", field.name, shown(node), kTimeForm));
   if (*time < field.type.range.min || *time > field.type.range.max) {
-    fail(source, node, fmt::format("{} is {}, allowed is {} to {}", field.name, shown(node), time_text(field.type.range.min), time_text(field.type.range.max)));
+    fail(source, node,
+         fmt::format("{} is {}, allowed is {} to {}", field.name, shown(node), time_text(field.type.range.min),
+                     time_text(field.type.range.max)));
   }
   return *time;
 }
@@ -202,7 +218,9 @@ bus::Bytes read_bytes(const Field& field, const YAML::Node& node, const Source& 
   }
   const auto length = static_cast<std::int64_t>(bytes.size());
   if (length < field.type.range.min || length > field.type.range.max) {
-    fail(source, node, fmt::format("{} has {} bytes, allowed are {} to {}", field.name, length, field.type.range.min, field.type.range.max));
+    fail(source, node,
+         fmt::format("{} has {} bytes, allowed are {} to {}", field.name, length, field.type.range.min,
+                     field.type.range.max));
   }
   return bytes;
 }
@@ -211,12 +229,17 @@ void check_list(const Field& field, const YAML::Node& node, const Source& source
   if (!node.IsSequence()) fail(source, node, fmt::format("{} is {}, allowed is a list", field.name, shown(node)));
   const auto items = static_cast<std::int64_t>(node.size());
   if (items < field.type.range.min || items > field.type.range.max) {
-    fail(source, node, fmt::format("{} has {} items, allowed are {} to {}", field.name, items, field.type.range.min, field.type.range.max));
+    fail(source, node,
+         fmt::format("{} has {} items, allowed are {} to {}", field.name, items, field.type.range.min,
+                     field.type.range.max));
   }
 }
 
 void read_object(const Object& object, void* owner, const YAML::Node& node, const Source& source) {
-  if (!node.IsMap()) fail(source, node, fmt::format("{} is {}, allowed is a mapping with the keys {}", object.name, shown(node), join(names_of(object))));
+  if (!node.IsMap())
+    fail(source, node,
+         fmt::format("{} is {}, allowed is a mapping with the keys {}", object.name, shown(node),
+                     join(names_of(object))));
   object.set_line(owner, line_of(node));
   const Choice* choice = object.selector.empty() ? nullptr : &chosen(object, node, source);
   const std::vector<std::string> allowed = allowed_keys(object, choice);
@@ -225,9 +248,12 @@ void read_object(const Object& object, void* owner, const YAML::Node& node, cons
     const std::string key = key_text(pair.first, source);
     if (!contains(allowed, key)) {
       const std::string where = choice != nullptr ? fmt::format("{} {}", object.selector, choice->word) : object.name;
-      fail(source, pair.first, fmt::format("unknown key {} in {}{}, allowed are {}", key, where, did_you_mean(key, allowed), join(allowed)));
+      fail(
+          source, pair.first,
+          fmt::format("unknown key {} in {}{}, allowed are {}", key, where, did_you_mean(key, allowed), join(allowed)));
     }
-    if (!seen.insert(key).second) fail(source, pair.first, fmt::format("{} is there twice in {}, allowed is once", key, object.name));
+    if (!seen.insert(key).second)
+      fail(source, pair.first, fmt::format("{} is there twice in {}, allowed is once", key, object.name));
     object.find(key)->read(owner, pair.second, source);
   }
   check_required(object, choice, seen, node, source);

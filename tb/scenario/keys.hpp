@@ -34,7 +34,7 @@ struct Object;
 struct Type {
   Kind kind = Kind::kText;
   Range range;
-  std::string unit;                ///< of an integer or number, for people
+  std::string unit;  ///< of an integer or number, for people
   std::vector<Word> words;
   Kind element = Kind::kObject;    ///< of a kList
   const Object* object = nullptr;  ///< of a kObject, or of the elements of a kList; outlives the Type
@@ -176,7 +176,9 @@ class ObjectOf : public Object {
 
   /// A name (with its line) or plain text.
   template <class B>
-  Field& name_of(const char* key, Name B::*member, const char* text) { return named(key, member, Kind::kText, text); }
+  Field& name_of(const char* key, Name B::*member, const char* text) {
+    return named(key, member, Kind::kText, text);
+  }
   /// A path, relative to the folder of the scenario.
   Field& file(const char* key, Name T::*member, const char* text) { return named(key, member, Kind::kFile, text); }
 
@@ -230,13 +232,14 @@ class ObjectOf : public Object {
     Field& field = add(key, Kind::kList, text);
     field.type.object = &described;
     field.type.range = items;
-    return on_read(field, [member, &described](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
-      check_list(self, node, source);
-      for (const YAML::Node& item : node) {
-        (owner.*member).emplace_back();
-        read_object(described, &(owner.*member).back(), item, source);
-      }
-    });
+    return on_read(field,
+                   [member, &described](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
+                     check_list(self, node, source);
+                     for (const YAML::Node& item : node) {
+                       (owner.*member).emplace_back();
+                       read_object(described, &(owner.*member).back(), item, source);
+                     }
+                   });
   }
 
   Field& names(const char* key, std::vector<Name> T::*member, Range items, const char* text) {

@@ -10,7 +10,8 @@
 namespace tb::scenario {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 4U << 20;  // far beyond every scenario; keeps a wrong file from filling the memory
+constexpr std::uintmax_t kLargestFile = 4U
+                                        << 20;  // far beyond every scenario; keeps a wrong file from filling the memory
 
 std::string read_file(const std::string& path) {
   std::error_code error;
@@ -31,7 +32,8 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.empty() || documents[0].IsNull()) throw InputError(file, 1, "is empty, allowed is a scenario");
-    if (documents.size() > 1) throw InputError(file, keys::line_of(documents[1]), "a second document, allowed is one scenario a file");
+    if (documents.size() > 1)
+      throw InputError(file, keys::line_of(documents[1]), "a second document, allowed is one scenario a file");
     return documents[0];
   } catch (const YAML::Exception& error) {
     throw InputError(file, error.mark.line + 1, "is not YAML: " + error.msg);

@@ -26,11 +26,11 @@ struct BusParameters {
   std::optional<int> setup_time;  ///< T_SET, bit times
   std::optional<int> quiet_time;  ///< T_QUI, bit times
   std::optional<int> retries;
-  int gap_factor = 10;              ///< cycles between two FDL status polls of the live list, 0 = none
-  int highest_address = 126;        ///< HSA
-  int min_slave_interval = 0;       ///< us from one data cycle's start to the next
-  bool token = true;                ///< passes the token to itself
-  int clock_error = 0;              ///< ppm
+  int gap_factor = 10;         ///< cycles between two FDL status polls of the live list, 0 = none
+  int highest_address = 126;   ///< HSA
+  int min_slave_interval = 0;  ///< us from one data cycle's start to the next
+  bool token = true;           ///< passes the token to itself
+  int clock_error = 0;         ///< ppm
   int line = 0;
 };
 
@@ -43,7 +43,7 @@ struct MasterSlave {
   std::optional<bus::Bytes> user_prm, cfg;
   bus::Tick watchdog = 0;  ///< 0 = off
   int min_tsdr = 11;
-  bus::Bytes groups;       ///< group numbers 1..8
+  bus::Bytes groups;  ///< group numbers 1..8
   bool sync = false, freeze = false, fail_safe = false, dpv1 = false;
   std::optional<int> ident;
   bus::Bytes outputs;
@@ -138,7 +138,6 @@ enum class Do : std::uint8_t {
   kTelegram,
   kGlitch,
 };
-
 
 /// Something about a slave (or the telegrams of the bus) that is true or not at a point of time; all parts given must hold.
 struct Condition {

@@ -56,7 +56,8 @@ const char* const kTimeForm = "a number with a unit ns, us, ms, s or cycles, lik
 
 std::optional<bus::Tick> parse_time(const std::string& text) {
   if (!text.empty() && text[0] == '-') {
-    const std::optional<bus::Tick> positive = text.size() > 1 && text[1] != '-' ? parse_time(text.substr(1)) : std::nullopt;
+    const std::optional<bus::Tick> positive =
+        text.size() > 1 && text[1] != '-' ? parse_time(text.substr(1)) : std::nullopt;
     return positive ? std::optional(-*positive) : std::nullopt;
   }
   std::size_t end = 0;
@@ -95,14 +96,16 @@ std::optional<bus::Bytes> parse_bytes(const std::string& text) {
     const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
     if (hex.size() != 2 || !std::all_of(hex.begin(), hex.end(), is_hex)) return std::nullopt;
     if (count.empty() || count.size() > 3 || !std::all_of(count.begin(), count.end(), is_digit)) return std::nullopt;
-    bytes.insert(bytes.end(), static_cast<std::size_t>(std::stoi(count)), static_cast<std::uint8_t>(std::stoi(hex, nullptr, 16)));
+    bytes.insert(bytes.end(), static_cast<std::size_t>(std::stoi(count)),
+                 static_cast<std::uint8_t>(std::stoi(hex, nullptr, 16)));
   }
   return bytes;
 }
 
 std::string bytes_text(const bus::Bytes& bytes, std::size_t most) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(bytes.size(), most); ++i) text += fmt::format("{}{:02X}", i == 0 ? "" : " ", bytes[i]);
+  for (std::size_t i = 0; i < std::min(bytes.size(), most); ++i)
+    text += fmt::format("{}{:02X}", i == 0 ? "" : " ", bytes[i]);
   if (bytes.size() > most) text += fmt::format(" ... ({} bytes)", bytes.size());
   return text;
 }

@@ -31,13 +31,16 @@ FstWriter::~FstWriter() {
   std::remove(part_.c_str());
 }
 
-void FstWriter::open_scope(const std::string& name) { fstWriterSetScope(context_, FST_ST_VCD_MODULE, name.c_str(), nullptr); }
+void FstWriter::open_scope(const std::string& name) {
+  fstWriterSetScope(context_, FST_ST_VCD_MODULE, name.c_str(), nullptr);
+}
 void FstWriter::close_scope() { fstWriterSetUpscope(context_); }
 
 WaveWriter::Signal FstWriter::wire(const std::string& name, int width) {
   widths_.push_back(width);
   const std::string range = width > 1 ? " [" + std::to_string(width - 1) + ":0]" : "";
-  return fstWriterCreateVar(context_, FST_VT_VCD_WIRE, FST_VD_IMPLICIT, static_cast<std::uint32_t>(width), (name + range).c_str(), 0);
+  return fstWriterCreateVar(context_, FST_VT_VCD_WIRE, FST_VD_IMPLICIT, static_cast<std::uint32_t>(width),
+                            (name + range).c_str(), 0);
 }
 
 WaveWriter::Signal FstWriter::words(const std::string& name) {

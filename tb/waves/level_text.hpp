@@ -11,7 +11,9 @@ inline std::array<char, 33> level_text(int level, int width) {
   for (int i = 0; i < width; ++i) {
     const auto bit = static_cast<unsigned>(width - 1 - i);
     const char driven = ((static_cast<unsigned>(level) >> bit) & 1U) != 0 ? '1' : '0';
-    text[static_cast<std::size_t>(i)] = level == WaveWriter::kReleased ? 'z' : level == WaveWriter::kUnknown ? 'x' : driven;
+    text[static_cast<std::size_t>(i)] = level == WaveWriter::kReleased  ? 'z'
+                                        : level == WaveWriter::kUnknown ? 'x'
+                                                                        : driven;
   }
   return text;
 }

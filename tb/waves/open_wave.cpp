@@ -21,7 +21,8 @@ void check_wave_name(const std::string& path) {
   const bool fst = false;
 #endif
   if (ends_with(path, ".vcd") || (fst && ends_with(path, ".fst"))) return;
-  if (ends_with(path, ".fst")) throw InputError(path, 0, "this program was built without FST (Verilator's fstapi was not found), allowed is .vcd");
+  if (ends_with(path, ".fst"))
+    throw InputError(path, 0, "this program was built without FST (Verilator's fstapi was not found), allowed is .vcd");
   throw InputError(path, 0, "the ending of a wave file decides its format, allowed are .vcd and .fst");
 }
 

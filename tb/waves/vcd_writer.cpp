@@ -22,7 +22,9 @@ std::string identifier(WaveWriter::Signal signal) {
 
 }  // namespace
 
-VcdWriter::VcdWriter(const std::string& path) : file_(path) { file_.write("$version dsdpv1-sim $end\n$timescale 1 ps $end\n"); }
+VcdWriter::VcdWriter(const std::string& path) : file_(path) {
+  file_.write("$version dsdpv1-sim $end\n$timescale 1 ps $end\n");
+}
 
 void VcdWriter::open_scope(const std::string& name) { file_.write(fmt::format("$scope module {} $end\n", name)); }
 void VcdWriter::close_scope() { file_.write("$upscope $end\n"); }
@@ -49,7 +51,8 @@ void VcdWriter::set(bus::Tick at, Signal signal, int level) {
   move_to(at);
   const int width = widths_.at(signal);
   const auto text = level_text(level, width);
-  file_.write(width == 1 ? fmt::format("{}{}\n", text.data(), identifier(signal)) : fmt::format("b{} {}\n", text.data(), identifier(signal)));
+  file_.write(width == 1 ? fmt::format("{}{}\n", text.data(), identifier(signal))
+                         : fmt::format("b{} {}\n", text.data(), identifier(signal)));
 }
 
 void VcdWriter::say(bus::Tick at, Signal signal, std::string_view word) {

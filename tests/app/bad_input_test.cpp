@@ -30,7 +30,8 @@ TEST_P(BadInput, HasOneLineAndExitCode2) {
   std::string arguments = GetParam().arguments;
   // Whatever a scenario's run might write must not be there afterwards.
   if (arguments.rfind("run scenario/", 0) == 0 && arguments.find("--") == std::string::npos) {
-    for (const char* name : {"log", "result", "trace"}) arguments += std::string(" --") + name + " '" + outputs.file(name) + "'";
+    for (const char* name : {"log", "result", "trace"})
+      arguments += std::string(" --") + name + " '" + outputs.file(name) + "'";
     arguments += " --wave '" + outputs.file("wave.vcd") + "'";
   }
   const app_test::Called called = app_test::call(arguments, DSDPV1_SOURCE_DIR "/tests/bad");

@@ -44,7 +44,8 @@ TEST_F(Outputs, ResultHoldsWhatItMust) {
   EXPECT_EQ(result["passed"], true);
   EXPECT_EQ(result["simulated_ns"], 3'000'000);
   EXPECT_EQ(result["chip_cycles"], 144'000);
-  for (const char* key : {"wall_s", "real_time_factor", "telegrams", "engine", "view", "events", "expectations"}) EXPECT_TRUE(result.contains(key)) << key;
+  for (const char* key : {"wall_s", "real_time_factor", "telegrams", "engine", "view", "events", "expectations"})
+    EXPECT_TRUE(result.contains(key)) << key;
   const auto& slave = result["slaves"].at(0);
   EXPECT_EQ(slave["dp_state"], "DATA_EXCH");
   EXPECT_EQ(slave["baud"], "12M");
@@ -59,7 +60,9 @@ TEST_F(Outputs, UnmetExpectationFailsTheRunAndIsNamed) {
   write("s.yaml", std::string(kScenario) + "  - {slave: demo, dp_state: wait_prm}\n");
   const app_test::Called called = run("--result r.json");
   EXPECT_EQ(called.status, 1);
-  EXPECT_NE(called.out.find("NOT MET  s.yaml:10: demo: dp_state WAIT_PRM at the end; seen: dp_state DATA_EXCH"), std::string::npos) << called.out;
+  EXPECT_NE(called.out.find("NOT MET  s.yaml:10: demo: dp_state WAIT_PRM at the end; seen: dp_state DATA_EXCH"),
+            std::string::npos)
+      << called.out;
   EXPECT_EQ(nlohmann::json::parse(read(folder_.file("r.json")))["passed"], false);
 }
 
@@ -69,7 +72,9 @@ TEST_F(Outputs, ViolationThatIsNotAllowedFailsTheRun) {
   text.erase(text.find("expect:"));
   write("s.yaml", text);
   EXPECT_EQ(run("").status, 1);
-  write("s.yaml", text + "allow: [{event: HOST_TS}, {event: HOST_TD_SETUP}, {event: HOST_READ_UNKNOWN}, {event: HOST_READ_IN_FLIGHT}]\n");
+  write("s.yaml", text +
+                      "allow: [{event: HOST_TS}, {event: HOST_TD_SETUP}, {event: HOST_READ_UNKNOWN}, {event: "
+                      "HOST_READ_IN_FLIGHT}]\n");
   EXPECT_EQ(run("").status, 0);
 }
 
@@ -82,7 +87,8 @@ TEST_F(Outputs, WavesShowThePinsTheLineAndTheStates) {
   write("s.yaml", kScenario);
   ASSERT_EQ(run("--wave w.vcd --quiet").status, 0);
   const std::string wave = read(folder_.file("w.vcd"));
-  for (const char* part : {"$timescale 1 ps $end", " L_REQ $end", " D [7:0] $end", " A [10:0] $end", " PBTXD $end", " line $end", "sDATA_EXCH ", "bzzzzzzzz ", "bxxxxxxxx "}) {
+  for (const char* part : {"$timescale 1 ps $end", " L_REQ $end", " D [7:0] $end", " A [10:0] $end", " PBTXD $end",
+                           " line $end", "sDATA_EXCH ", "bzzzzzzzz ", "bxxxxxxxx "}) {
     EXPECT_NE(wave.find(part), std::string::npos) << part;
   }
 }
@@ -93,7 +99,9 @@ TEST_F(Outputs, SameRunGivesTheSameFiles) {
     const std::string n = name;
     ASSERT_EQ(run("--quiet --wave " + n + ".vcd --log " + n + ".log --trace " + n + ".txt").status, 0);
   }
-  for (const char* ending : {".vcd", ".log", ".txt"}) EXPECT_TRUE(read(folder_.file(std::string("a") + ending)) == read(folder_.file(std::string("b") + ending))) << ending;
+  for (const char* ending : {".vcd", ".log", ".txt"})
+    EXPECT_TRUE(read(folder_.file(std::string("a") + ending)) == read(folder_.file(std::string("b") + ending)))
+        << ending;
 }
 
 TEST_F(Outputs, InterruptedRunLeavesCompleteFilesAndExits130) {
@@ -102,7 +110,10 @@ TEST_F(Outputs, InterruptedRunLeavesCompleteFilesAndExits130) {
   write("s.yaml", text);
   // timeout sends SIGINT after a second of a run that would take hours.
   for (const char* view : {"pins", "tlm"}) {
-    const std::string command = "cd '" + folder_.path().string() + "' && timeout --preserve-status -s INT 1 '" DSDPV1_SIM "' run s.yaml --quiet --wave w.vcd --log l.txt --result r.json --view " + view;
+    const std::string command = "cd '" + folder_.path().string() +
+                                "' && timeout --preserve-status -s INT 1 '" DSDPV1_SIM
+                                "' run s.yaml --quiet --wave w.vcd --log l.txt --result r.json --view " +
+                                view;
     const int status = std::system(command.c_str());
     EXPECT_EQ(WEXITSTATUS(status), 130) << view;
     const auto result = nlohmann::json::parse(read(folder_.file("r.json")));

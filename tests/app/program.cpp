@@ -14,10 +14,11 @@ namespace fs = std::filesystem;
 
 Called call(const std::string& arguments, const fs::path& folder) {
   const Folder outputs;
-  const std::string command =
-      "cd '" + folder.string() + "' && '" DSDPV1_SIM "' " + arguments + " >'" + outputs.file("out") + "' 2>'" + outputs.file("err") + "' </dev/null";
+  const std::string command = "cd '" + folder.string() + "' && '" DSDPV1_SIM "' " + arguments + " >'" +
+                              outputs.file("out") + "' 2>'" + outputs.file("err") + "' </dev/null";
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(outputs.file("out")), read(outputs.file("err"))};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(outputs.file("out")),
+          read(outputs.file("err"))};
 }
 
 std::string read(const fs::path& path) {

@@ -36,7 +36,8 @@ TEST(Summary, NamesWhatIsNotMet) {
   result.file = "x.yaml";
   result.expectations.push_back({"demo: baud 12M at the end", 7, false, "baud searching"});
   const std::string text = tb::summary(result);
-  EXPECT_NE(text.find("NOT MET  x.yaml:7: demo: baud 12M at the end; seen: baud searching\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("NOT MET  x.yaml:7: demo: baud 12M at the end; seen: baud searching\n"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("\nFAILED\n"), std::string::npos);
 }
 

@@ -26,15 +26,17 @@ class Scenarios : public testing::TestWithParam<std::string> {
   /// Runs the scenario and says whether it passed.
   bool run(const std::string& engine, const std::string& view) const {
     const std::string name = engine + "_" + view;
-    const app_test::Called called = call("run scenarios/" + GetParam() + ".yaml --no-progress --engine " + engine + " --view " + view + " --trace '" +
-                                             folder_.file(name + ".trace") + "' --log '" + folder_.file(name + ".log") + "'",
-                                         DSDPV1_SOURCE_DIR);
+    const app_test::Called called =
+        call("run scenarios/" + GetParam() + ".yaml --no-progress --engine " + engine + " --view " + view +
+                 " --trace '" + folder_.file(name + ".trace") + "' --log '" + folder_.file(name + ".log") + "'",
+             DSDPV1_SOURCE_DIR);
     if (called.status != 0) std::cout << called.out << called.err;
     return called.status == 0;
   }
   void expect_same(const std::string& a, const std::string& b) const {
     for (const char* ending : {".trace", ".log"}) {
-      EXPECT_TRUE(read(folder_.file(a + ending)) == read(folder_.file(b + ending))) << a << " and " << b << " differ in " << ending;
+      EXPECT_TRUE(read(folder_.file(a + ending)) == read(folder_.file(b + ending)))
+          << a << " and " << b << " differ in " << ending;
     }
   }
   app_test::Folder folder_;
@@ -56,15 +58,20 @@ class BaudRates : public testing::TestWithParam<const char*> {};
 
 TEST_P(BaudRates, PowerOnToDataExchange) {
   const app_test::Folder folder;
-  std::ofstream(folder.file("s.yaml")) << "name: rate\nbaud: " << GetParam() << "\nend: 4s\nchip: {search_window_ms: 5}\n"
-                                       << "slaves:\n  - {name: demo, address: 5, init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}, user_cpu: {cycle: 1ms}}\n"
-                                       << "masters:\n  - {name: plc, address: 2, bus: {gap_factor: 0, min_slave_interval: 10000}, slaves: [{slave: demo, outputs: \"01 02\"}]}\n"
+  std::ofstream(folder.file("s.yaml")) << "name: rate\nbaud: " << GetParam()
+                                       << "\nend: 4s\nchip: {search_window_ms: 5}\n"
+                                       << "slaves:\n  - {name: demo, address: 5, init: {ident: 1, max_inputs: 2, "
+                                          "max_outputs: 2, cfg: \"31\"}, user_cpu: {cycle: 1ms}}\n"
+                                       << "masters:\n  - {name: plc, address: 2, bus: {gap_factor: 0, "
+                                          "min_slave_interval: 10000}, slaves: [{slave: demo, outputs: \"01 02\"}]}\n"
                                        << "expect:\n  - {slave: demo, dp_state: data_exch, baud: " << GetParam()
                                        << ", inputs: \"01 02\", tsdr_min: 11, tsdr_max: 13}\n";
   const app_test::Called called = call("run s.yaml --no-progress", folder.path());
   EXPECT_EQ(called.status, 0) << called.out << called.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BaudRates, testing::Values("12M", "6M", "3M", "1.5M", "500k", "187.5k", "93.75k", "45.45k", "19.2k", "9.6k"));
+INSTANTIATE_TEST_SUITE_P(All, BaudRates,
+                         testing::Values("12M", "6M", "3M", "1.5M", "500k", "187.5k", "93.75k", "45.45k", "19.2k",
+                                         "9.6k"));
 
 }  // namespace

@@ -9,7 +9,9 @@ namespace {
 const std::string kFile = DSDPV1_SOURCE_DIR "/scenarios/test.yaml";
 
 tb::scenario::Scenario parse(const std::string& slave, const std::string& master_slave) {
-  return tb::scenario::parse("name: x\nbaud: 12M\nend: 1ms\nslaves:\n  - {name: demo, address: 5, " + slave + "}\nmasters:\n  - {name: plc, slaves: [{" + master_slave + "}]}\n", kFile);
+  return tb::scenario::parse("name: x\nbaud: 12M\nend: 1ms\nslaves:\n  - {name: demo, address: 5, " + slave +
+                                 "}\nmasters:\n  - {name: plc, slaves: [{" + master_slave + "}]}\n",
+                             kFile);
 }
 
 TEST(Setup, StationFollowsTheGsdAndItsModules) {
@@ -24,7 +26,8 @@ TEST(Setup, StationFollowsTheGsdAndItsModules) {
 }
 
 TEST(Setup, InitOverridesTheGsd) {
-  const auto scenario = parse("gsd: dsdpv1.gsd, init: {max_inputs: 8, sync: false, ident: 0x1234, cfg: \"30\"}", "slave: demo");
+  const auto scenario =
+      parse("gsd: dsdpv1.gsd, init: {max_inputs: 8, sync: false, ident: 0x1234, cfg: \"30\"}", "slave: demo");
   const auto station = tb::Setup(scenario).station(scenario.slaves[0]);
   EXPECT_EQ(station.max_input, 8);
   EXPECT_FALSE(station.sync);
@@ -33,7 +36,8 @@ TEST(Setup, InitOverridesTheGsd) {
 }
 
 TEST(Setup, MasterTakesTheModulesOfItsSlave) {
-  const auto scenario = parse("gsd: dsdpv1.gsd, modules: [\"2 bytes in\", \"4 bytes out\"]", "slave: demo, groups: [1, 3], watchdog: 100ms");
+  const auto scenario = parse("gsd: dsdpv1.gsd, modules: [\"2 bytes in\", \"4 bytes out\"]",
+                              "slave: demo, groups: [1, 3], watchdog: 100ms");
   tb::Setup setup(scenario);
   const auto parameters = setup.parameters(scenario.masters[0].slaves[0]);
   EXPECT_EQ(parameters.address, 5);

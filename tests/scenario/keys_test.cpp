@@ -8,7 +8,8 @@
 namespace {
 
 const std::string kHead = "name: x\nbaud: 12M\nend: 10ms\n";
-const std::string kSlave = "slaves: [{name: demo, address: 5, init: {ident: 1, max_inputs: 1, max_outputs: 1, cfg: \"30\"}}]\n";
+const std::string kSlave =
+    "slaves: [{name: demo, address: 5, init: {ident: 1, max_inputs: 1, max_outputs: 1, cfg: \"30\"}}]\n";
 
 std::string error_of(const std::string& text) {
   try {
@@ -23,7 +24,8 @@ TEST(Keys, AcceptTheLeastScenario) { EXPECT_EQ(error_of(kHead + kSlave), "no err
 
 TEST(Keys, UnknownKeyIsNamedWithTheNearestKnownOne) {
   EXPECT_EQ(error_of(kHead + "slavs: []\n"),
-            "s.yaml:4: unknown key slavs in scenario (did you mean slaves?), allowed are name, baud, end, chip, masters, slaves, script, expect, allow");
+            "s.yaml:4: unknown key slavs in scenario (did you mean slaves?), allowed are name, baud, end, chip, "
+            "masters, slaves, script, expect, allow");
 }
 
 TEST(Keys, MissingKeyIsNamed) {
@@ -31,23 +33,31 @@ TEST(Keys, MissingKeyIsNamed) {
   EXPECT_EQ(error_of(kHead + "slaves: [{address: 5}]\n"), "s.yaml:4: name is missing in slave");
 }
 
-TEST(Keys, DuplicateKeyIsRefused) { EXPECT_EQ(error_of(kHead + "end: 11ms\n" + kSlave), "s.yaml:4: end is there twice in scenario, allowed is once"); }
+TEST(Keys, DuplicateKeyIsRefused) {
+  EXPECT_EQ(error_of(kHead + "end: 11ms\n" + kSlave), "s.yaml:4: end is there twice in scenario, allowed is once");
+}
 
 TEST(Keys, WrongWordListsTheAllowedOnes) {
   EXPECT_EQ(error_of("name: x\nbaud: 11M\nend: 1ms\n"),
-            "s.yaml:2: baud is \"11M\" (did you mean 12M?), allowed are 12M, 6M, 3M, 1.5M, 500k, 187.5k, 93.75k, 45.45k, 19.2k, 9.6k");
+            "s.yaml:2: baud is \"11M\" (did you mean 12M?), allowed are 12M, 6M, 3M, 1.5M, 500k, 187.5k, 93.75k, "
+            "45.45k, 19.2k, 9.6k");
 }
 
 TEST(Keys, TimeWithoutUnitIsRefused) {
-  EXPECT_EQ(error_of("name: x\nbaud: 12M\nend: 20\n"), "s.yaml:3: end is \"20\", allowed is a number with a unit ns, us, ms, s or cycles, like 1.5ms");
+  EXPECT_EQ(error_of("name: x\nbaud: 12M\nend: 20\n"),
+            "s.yaml:3: end is \"20\", allowed is a number with a unit ns, us, ms, s or cycles, like 1.5ms");
 }
 
 TEST(Keys, NumberOutOfRangeTellsTheRangeWithUnit) {
-  EXPECT_EQ(error_of(kHead + "chip: {access_interval: 1}\n" + kSlave), "s.yaml:4: access_interval is \"1\", allowed is a whole number from 16 to 4800 cycles");
-  EXPECT_EQ(error_of(kHead + "chip: {access_interval: many}\n" + kSlave), "s.yaml:4: access_interval is \"many\", allowed is a whole number from 16 to 4800 cycles");
+  EXPECT_EQ(error_of(kHead + "chip: {access_interval: 1}\n" + kSlave),
+            "s.yaml:4: access_interval is \"1\", allowed is a whole number from 16 to 4800 cycles");
+  EXPECT_EQ(error_of(kHead + "chip: {access_interval: many}\n" + kSlave),
+            "s.yaml:4: access_interval is \"many\", allowed is a whole number from 16 to 4800 cycles");
 }
 
-TEST(Keys, ListInsteadOfMappingIsRefused) { EXPECT_EQ(error_of("[1]\n").substr(0, 52), "s.yaml:1: scenario is a list, allowed is a mapping w"); }
+TEST(Keys, ListInsteadOfMappingIsRefused) {
+  EXPECT_EQ(error_of("[1]\n").substr(0, 52), "s.yaml:1: scenario is a list, allowed is a mapping w");
+}
 
 TEST(Keys, OnePlainNumberIsNotTakenForBytes) {
   const std::string start = kHead + kSlave + "script: [{at: 1ms, do: set_inputs, slave: demo, bytes: ";
@@ -59,21 +69,27 @@ TEST(Keys, OnePlainNumberIsNotTakenForBytes) {
 TEST(Keys, ActionTakesOnlyTheKeysOfItsWord) {
   EXPECT_EQ(error_of(kHead + kSlave + "script: [{at: 1ms, do: reset_chip, slave: demo, bytes: \"01\"}]\n"),
             "s.yaml:5: unknown key bytes in do reset_chip, allowed are at, when, do, slave, for");
-  EXPECT_EQ(error_of(kHead + kSlave + "script: [{at: 1ms, do: hold_dpram, slave: demo}]\n"), "s.yaml:5: for is missing in do hold_dpram");
-  EXPECT_EQ(error_of(kHead + kSlave + "script: [{do: reset_chip, slave: demo}]\n"), "s.yaml:5: action needs exactly one of at, when");
+  EXPECT_EQ(error_of(kHead + kSlave + "script: [{at: 1ms, do: hold_dpram, slave: demo}]\n"),
+            "s.yaml:5: for is missing in do hold_dpram");
+  EXPECT_EQ(error_of(kHead + kSlave + "script: [{do: reset_chip, slave: demo}]\n"),
+            "s.yaml:5: action needs exactly one of at, when");
 }
 
 TEST(Check, NamesThatDoNotExistAreRefusedWithASuggestion) {
-  EXPECT_EQ(error_of(kHead + kSlave + "expect: [{slave: dem, data_exchanges: 1}]\n"), "s.yaml:5: slave dem does not exist (did you mean demo?), allowed are demo");
-  EXPECT_EQ(error_of(kHead + kSlave + "script: [{at: 1ms, do: stop_master}]\n"), "s.yaml:5: this needs a master, the scenario has none");
+  EXPECT_EQ(error_of(kHead + kSlave + "expect: [{slave: dem, data_exchanges: 1}]\n"),
+            "s.yaml:5: slave dem does not exist (did you mean demo?), allowed are demo");
+  EXPECT_EQ(error_of(kHead + kSlave + "script: [{at: 1ms, do: stop_master}]\n"),
+            "s.yaml:5: this needs a master, the scenario has none");
 }
 
 TEST(Check, TimesBehindTheEndAreRefused) {
-  EXPECT_EQ(error_of(kHead + kSlave + "expect: [{slave: demo, data_exchanges: 1, by: 11ms}]\n"), "s.yaml:5: by is 11ms, allowed is up to the end of the run, 10ms");
+  EXPECT_EQ(error_of(kHead + kSlave + "expect: [{slave: demo, data_exchanges: 1, by: 11ms}]\n"),
+            "s.yaml:5: by is 11ms, allowed is up to the end of the run, 10ms");
 }
 
 TEST(Check, AddressesAreThereOnce) {
-  EXPECT_EQ(error_of(kHead + kSlave + "masters: [{name: plc, address: 5}]\n"), "s.yaml:5: master plc has address 5 of slave demo, allowed is each address once");
+  EXPECT_EQ(error_of(kHead + kSlave + "masters: [{name: plc, address: 5}]\n"),
+            "s.yaml:5: master plc has address 5 of slave demo, allowed is each address once");
 }
 
 TEST(Suggest, FindsTheNearestWordAndNothingForAStrangeOne) {

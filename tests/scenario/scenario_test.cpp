@@ -17,13 +17,15 @@ const std::string kSmall =
     "slaves:\n  - {name: demo, address: 5, init: {ident: 0x1234, max_inputs: 2, max_outputs: 2, cfg: \"31\"}}\n";
 
 TEST(Scenario, HoldsWhatTheFileSays) {
-  const sc::Scenario scenario = sc::parse(kSmall +
-                                              "masters:\n  - name: plc\n    start: 1ms\n    slaves:\n      - {slave: demo, watchdog: 100ms, groups: [1, 3]}\n"
-                                              "script:\n  - {at: 2ms, do: set_outputs, slave: demo, bytes: \"01 02\"}\n"
-                                              "  - {when: {slave: demo, dp_state: data_exch, after: 1us}, do: global_control, sync: true}\n"
-                                              "expect:\n  - {slave: demo, data_exchanges: 10, by: 9ms}\n"
-                                              "allow:\n  - {event: HOST_TS}\n",
-                                          "s.yaml");
+  const sc::Scenario scenario =
+      sc::parse(kSmall +
+                    "masters:\n  - name: plc\n    start: 1ms\n    slaves:\n      - {slave: demo, watchdog: 100ms, "
+                    "groups: [1, 3]}\n"
+                    "script:\n  - {at: 2ms, do: set_outputs, slave: demo, bytes: \"01 02\"}\n"
+                    "  - {when: {slave: demo, dp_state: data_exch, after: 1us}, do: global_control, sync: true}\n"
+                    "expect:\n  - {slave: demo, data_exchanges: 10, by: 9ms}\n"
+                    "allow:\n  - {event: HOST_TS}\n",
+                "s.yaml");
   EXPECT_EQ(scenario.name, "small");
   EXPECT_EQ(scenario.baud, 3);
   EXPECT_EQ(scenario.end, 10 * bus::kTicksPerMs);
@@ -56,7 +58,8 @@ TEST(Scenario, PathsAreRelativeToItsFolder) {
 
 TEST(JsonSchema, IsJsonAndKnowsEveryKeyOfTheDescription) {
   const auto schema = nlohmann::json::parse(sc::json_schema());
-  for (const auto& field : sc::description().fields) EXPECT_TRUE(schema["properties"].contains(field.name)) << field.name;
+  for (const auto& field : sc::description().fields)
+    EXPECT_TRUE(schema["properties"].contains(field.name)) << field.name;
   EXPECT_FALSE(schema["additionalProperties"]);
   EXPECT_EQ(schema["required"], (nlohmann::json{"name", "baud", "end", "slaves"}));
   EXPECT_EQ(schema["$defs"]["action"]["oneOf"].size(), 26U);
@@ -66,7 +69,8 @@ TEST(Markdown, IsTheCheckedInFile) {
   std::ifstream in(DSDPV1_SOURCE_DIR "/docs/scenarios.md");
   std::ostringstream text;
   text << in.rdbuf();
-  EXPECT_TRUE(text.str() == sc::markdown()) << "docs/scenarios.md is stale: dsdpv1-sim schema --markdown > docs/scenarios.md";
+  EXPECT_TRUE(text.str() == sc::markdown())
+      << "docs/scenarios.md is stale: dsdpv1-sim schema --markdown > docs/scenarios.md";
 }
 
 }  // namespace

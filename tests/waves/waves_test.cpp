@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 class Waves : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("dsdpv1_waves_" + std::to_string(::getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = fs::temp_directory_path() / ("dsdpv1_waves_" + std::to_string(::getpid()) +
+                                           testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
@@ -50,8 +51,8 @@ class Waves : public testing::Test {
 
 TEST(WaveTime, IsRoundedOnceFromTheAbsoluteTick) {
   EXPECT_EQ(tb::picoseconds(0), 0U);
-  EXPECT_EQ(tb::picoseconds(250), 20833U);               // one chip cycle, 20833.33 ps
-  EXPECT_EQ(tb::picoseconds(500), 41667U);               // two, 41666.67 ps
+  EXPECT_EQ(tb::picoseconds(250), 20833U);  // one chip cycle, 20833.33 ps
+  EXPECT_EQ(tb::picoseconds(500), 41667U);  // two, 41666.67 ps
   EXPECT_EQ(tb::picoseconds(bus::kTicksPerSecond), 1'000'000'000'000U);
 }
 
@@ -96,7 +97,8 @@ void collect(void* text, uint64_t time, fstHandle signal, const unsigned char* v
   *static_cast<std::ostringstream*>(text) << time << ' ' << signal << ' ' << value << '\n';
 }
 void collect_words(void* text, uint64_t time, fstHandle signal, const unsigned char* value, uint32_t length) {
-  *static_cast<std::ostringstream*>(text) << time << ' ' << signal << ' ' << std::string(reinterpret_cast<const char*>(value), length) << '\n';
+  *static_cast<std::ostringstream*>(text)
+      << time << ' ' << signal << ' ' << std::string(reinterpret_cast<const char*>(value), length) << '\n';
 }
 
 TEST_F(Waves, FstReadsBackWhatWasWritten) {
