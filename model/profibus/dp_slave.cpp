@@ -25,10 +25,11 @@ void DpSlave::reset() {
 }
 
 void DpSlave::initialise(Cycle now, const SlaveConfig& config) {
-  const auto offline_count = static_cast<std::uint16_t>(offline_count_ + (state_ == DpState::kDataExch ? 1 : 0));
+  const bool left_exchange = state_ == DpState::kDataExch;
+  enter(now, DpState::kOffline);
+  const std::uint16_t offline_count = offline_count_;
   const std::uint64_t data_exchanges = data_exchanges_;
   const std::uint8_t b005 = b005_;
-  enter(now, DpState::kOffline);
   reset();
   offline_count_ = offline_count;
   data_exchanges_ = data_exchanges;
@@ -38,6 +39,7 @@ void DpSlave::initialise(Cycle now, const SlaveConfig& config) {
   const CfgLengths lengths = cfg_lengths(config.cfg.bytes.data(), config.cfg.size);
   inputs_.reset(lengths.input());
   outputs_.reset(lengths.output());
+  if (left_exchange) hand_outputs(now);  // S18
   enter(now, DpState::kWaitPrm);
 }
 
