@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/reasons_command.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/suggest.hpp"
 
@@ -74,6 +75,14 @@ void describe_decode(CLI::App& app, DecodeArguments& arguments) {
       "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 not hexadecimal.\n");
 }
 
+void describe_reasons(CLI::App& app, ReasonsArguments& arguments) {
+  CLI::App* command = app.add_subcommand("reasons", "Explains the codes of logs and results: what happened, what to do");
+  command->add_option("CODE", arguments.code, "Only this one");
+  command->add_flag("--markdown", arguments.markdown, "Prints docs/reasons.md instead");
+  command->add_option("--output,-o", arguments.output, "Into this file");
+  command->footer("\nExamples:\n  dsdpv1-sim reasons PRM_IDENT\n  dsdpv1-sim reasons | less\n");
+}
+
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -117,6 +126,8 @@ int command_line(int argc, char** argv) {
   describe_schema(app, schema_arguments);
   describe_gsd(app, gsd_arguments);
   describe_decode(app, decode_arguments);
+  ReasonsArguments reasons_arguments;
+  describe_reasons(app, reasons_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -126,6 +137,7 @@ int command_line(int argc, char** argv) {
   if (app.got_subcommand("run")) return run(run_arguments);
   if (app.got_subcommand("schema")) return schema(schema_arguments);
   if (app.got_subcommand("gsd")) return gsd(gsd_arguments);
+  if (app.got_subcommand("reasons")) return reasons(reasons_arguments);
   return decode(decode_arguments);
 }
 

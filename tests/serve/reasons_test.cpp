@@ -1,0 +1,44 @@
+// Every code is explained, and docs/reasons.md is what the program prints.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tb/scenario/event_codes.hpp"
+#include "tests/app/program.hpp"
+
+namespace {
+
+using app_test::call;
+using app_test::read;
+
+TEST(Reasons, DocumentIsWhatTheProgramPrints) {
+  const app_test::Called printed = call("reasons --markdown", DSDPV1_SOURCE_DIR);
+  ASSERT_EQ(printed.status, 0) << printed.err;
+  EXPECT_TRUE(printed.out == read(DSDPV1_SOURCE_DIR "/docs/reasons.md")) << "docs/reasons.md is stale: ./run generate";
+}
+
+TEST(Reasons, EveryCodeOfScenariosAndLogsHasATextAndAnAdvice) {
+  const std::string document = read(DSDPV1_SOURCE_DIR "/docs/reasons.md");
+  for (const std::string& code : tb::scenario::all_codes()) {
+    const std::size_t row = document.find("| `" + code + "` |");
+    ASSERT_NE(row, std::string::npos) << code;
+    const std::string line = document.substr(row, document.find('\n', row) - row);
+    EXPECT_EQ(line.find("|  |"), std::string::npos) << "an empty cell: " << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), '|'), 5) << line;
+  }
+}
+
+TEST(Reasons, OneCodeIsPrintedAlone) {
+  const app_test::Called printed = call("reasons PRM_IDENT", DSDPV1_SOURCE_DIR);
+  EXPECT_EQ(printed.status, 0) << printed.err;
+  EXPECT_EQ(std::count(printed.out.begin(), printed.out.end(), '\n'), 3);
+  EXPECT_EQ(printed.out.rfind("PRM_IDENT (refusal)\n", 0), 0U) << printed.out;
+}
+
+TEST(Reasons, AnUnknownCodeIsRefusedInOneLine) {
+  const app_test::Called printed = call("reasons PRM_IDNT", DSDPV1_SOURCE_DIR);
+  EXPECT_EQ(printed.status, 2);
+  EXPECT_EQ(printed.err, "dsdpv1-sim reasons: unknown code PRM_IDNT (did you mean PRM_IDENT?), allowed are those that `dsdpv1-sim reasons` prints\n");
+}
+
+}  // namespace
