@@ -65,7 +65,7 @@ void DpSlave::leave_to_wait_prm(Cycle now) {
 }
 
 void DpSlave::watchdog_expired(Cycle now) {
-  log_.at_cycle(now, Reason::kWatchdogExpired, master_, static_cast<unsigned>(watchdog_.time() / kCyclesPerMs));
+  log_.at_cycle(now, Reason::kWatchdogExpired, master_, prm_.watchdog_factor, prm_.watchdog_base_ms);
   leave_to_wait_prm(now);
 }
 

@@ -56,7 +56,7 @@ class DpSlave {
   struct PrmRequest {  // a Set_Prm that passed the checks of its standard bytes
     std::uint8_t master = kNoMaster, min_tsdr = 0, group = 0;
     bool watchdog = false, sync = false, freeze = false, fail_safe = false;
-    Cycle watchdog_time = 0;
+    unsigned watchdog_factor = 0, watchdog_base_ms = 0;  ///< WD_Fact_1 x WD_Fact_2, WD_Base
     int user_size = 0;
   };
 

@@ -64,9 +64,9 @@ bool DpSlave::check_prm(Cycle now, const Request& request, PrmRequest& prm) {
     return false;
   }
   if (!check_user_length(now, user_size)) return false;
-  const Cycle base = (spec & kWdBase1ms) != 0 ? kCyclesPerMs : 10 * kCyclesPerMs;
   prm.master = request.sa;
-  prm.watchdog_time = base * data[1] * data[2];
+  prm.watchdog_base_ms = (spec & kWdBase1ms) != 0 ? 1 : 10;
+  prm.watchdog_factor = static_cast<unsigned>(data[1]) * data[2];
   prm.min_tsdr = data[3];
   prm.group = data[6];
   prm.sync = (data[0] & kSyncReq) != 0;
@@ -116,8 +116,8 @@ void DpSlave::accept_prm(Cycle now, const PrmRequest& prm) {
   set_min_tsdr(prm.min_tsdr);
   watchdog_on_ = prm.watchdog;
   if (prm.watchdog) {
-    log_.at_cycle(now, Reason::kWatchdogOn, static_cast<unsigned>(prm.watchdog_time / kCyclesPerMs));
-    watchdog_.dp_control(now, prm.watchdog_time);
+    log_.at_cycle(now, Reason::kWatchdogOn, prm.watchdog_factor, prm.watchdog_base_ms);
+    watchdog_.dp_control(now, kCyclesPerMs * prm.watchdog_base_ms * prm.watchdog_factor);
   } else {
     watchdog_.baud_control(now);
   }

@@ -49,7 +49,7 @@ void Station::eval(Cycle now) {
     if (!tx_.rts() && telegrams_.eval(now, rx_.receiving())) decide(now, telegrams_.telegram());
   }
   const bool was_sending = tx_.rts();
-  if (tx_.eval(now)) rx_.restart(search_.bit(), tx_.end(), rxd_.level());
+  if (tx_.eval(now)) rx_.restart(search_.bit(), tx_.end() + kSynchroniserDelay, rxd_.level());
   if (was_sending || !tx_.rts()) return;
   ++answered_;
   telegrams_.restart();  // half duplex: what comes now is our own echo

@@ -32,7 +32,6 @@ class Watchdog {
   bool expired(Cycle now) const { return now >= deadline_; }
   Cycle next() const { return deadline_; }
   State state() const { return state_; }
-  Cycle time() const { return time_; }
 
  private:
   Cycle baud_control_;

@@ -153,6 +153,15 @@ TEST_F(Fdl, FcvWithoutASeriesIsExecuted) {
   EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
 }
 
+TEST_F(Fdl, EveryOtherFunctionCodeIsAnsweredRs) {
+  bench.to_data_exch();
+  for (const int code : {0, 1, 2, 3, 5, 7, 8, 0xA, 0xB, 0xE, 0xF}) {
+    EXPECT_TRUE(is_rs(send_fc(bench, static_cast<std::uint8_t>(0x40 | code), kNoSap, kNoSap, {}))) << code;
+  }
+  EXPECT_TRUE(is_rs(ask(bench, 58, {0x08, 0x00}))) << "Global_Control is SDN only";
+  EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
+}
+
 TEST_F(Fdl, NewerRequestReplacesAnAnswerThatHasNotBegun) {
   Prm prm;
   prm.min_tsdr = 255;

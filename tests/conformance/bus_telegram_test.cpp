@@ -223,6 +223,16 @@ TEST_F(Telegrams, NeedTheIdleTimeBehindTheOwnAnswerToo) {
   EXPECT_TRUE(send(bus::characters(request()), 33).answered());
 }
 
+TEST_F(Telegrams, NeedTheIdleTimeBehindTheOwnAnswerLessOneCycle) {
+  for (const bool enough : {true, false}) {
+    const Exchange answered = data_exchange();
+    ASSERT_TRUE(answered.answered());
+    const Tick end = bench.changes(Pin::kPbrts).back().at - 4 * kCycleTicks;  // P2: PBRTS falls 4 cycles after the end
+    const Tick at = end + 33 * bench.requester.bit() - (enough ? 1 : 2) * kCycleTicks;
+    EXPECT_EQ(bench.requester.send(bench.timeline, request(), {.at = at}).answered(), enough);
+  }
+}
+
 TEST_F(Telegrams, OfARepeatedRequestWithoutIdleRestartTheIdleTime) {
   const Tick bit = bench.requester.bit();
   bench.requester.send(bench.timeline, bus::make_telegram(9, 2, kFdlStatus), {.idle_bits = 60, .wants_answer = false});

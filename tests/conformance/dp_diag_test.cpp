@@ -118,6 +118,25 @@ TEST_F(Diagnosis, ExtendedIsLowPriorityAndSetsNoBit) {
   EXPECT_EQ(diag(bench), (Bytes{0x00, 0x04, 0, 2, 0x0C, 0xC9, 0x03, 0xAA, 0xBB}));
 }
 
+TEST_F(Diagnosis, ExtendedLeavesTheBitsOfTheOthers) {
+  bench.to_data_exch();
+  bench.give_diag(0x81, {1});
+  bench.give_diag(0x82, {2});
+  bench.give_diag(0x00, {3});
+  EXPECT_EQ(diag(bench), (Bytes{0x08, 0x06, 0, 2, 0x0C, 0xC9, 3}));
+}
+
+TEST_F(Diagnosis, WaitsVisiblyAlsoWithoutInputs) {
+  Init init;
+  init.cfg = {0x21};
+  bench.to_data_exch(init);
+  EXPECT_EQ(kind_of(ask(bench, kNoSap, {1, 2})), "SC");
+  bench.give_diag(0x81, {7});
+  EXPECT_TRUE(is_refusal(ask(bench, kNoSap, {1, 2}), bus::fc::kDh)) << "SD1 with FC 0A (S19)";
+  diag(bench);
+  EXPECT_EQ(kind_of(ask(bench, kNoSap, {1, 2})), "SC");
+}
+
 TEST_F(Diagnosis, ExternalSetsAndClearsExtDiagWithHighPriorityUntilRead) {
   bench.to_data_exch();
   bench.give_diag(0x81, {0x02, 0x77});
