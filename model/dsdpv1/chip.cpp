@@ -50,8 +50,10 @@ struct Chip::Impl {
   void set(Tick at, Pin pin, Level value);
   void set_reset(Tick at, bool high);
   void advance(Tick to);
-  Tick next_event() const;
-  Tick next_edge() const;
+  Tick next_event() const { return std::min(next_edge(), host.drive_at()); }
+  Tick next_edge() const { return engine == Engine::kStep ? (done + 1) * kTicksPerCycle : planned_edge; }
+  void plan();
+  void apply(Tick at, Pin pin, Level value);
   void rising_edge(Cycle cycle);
   void enter_reset(Tick at);
   std::uint32_t edge_outputs() const;
@@ -72,6 +74,7 @@ struct Chip::Impl {
   std::uint32_t watched = 0;
   Tick now = 0;
   Cycle done = 0;  // the last rising edge that was evaluated
+  Tick planned_edge = kNever;
   bool reset_pin = false, running = false, r_req = false, r_sta = false, rxd = true;
   Cycle release_at = kNever;  // cycle R
   std::uint32_t outputs = kResetLevels;
@@ -82,6 +85,11 @@ struct Chip::Impl {
 
 void Chip::Impl::set(Tick at, Pin pin, Level value) {
   advance(at);
+  apply(at, pin, value);
+  plan();
+}
+
+void Chip::Impl::apply(Tick at, Pin pin, Level value) {
   const bool high = value != 0;
   switch (pin) {
     case Pin::kReset: return set_reset(at, high);
@@ -125,13 +133,11 @@ void Chip::Impl::enter_reset(Tick at) {
 
 // --- time -----------------------------------------------------------------------------------------------------------------
 
-Tick Chip::Impl::next_edge() const {
-  if (engine == Engine::kStep) return (done + 1) * kTicksPerCycle;
+// Asked far more often than changed, so it is kept: by everybody who calls a block.
+void Chip::Impl::plan() {
   const Cycle cycle = std::min({release_at, station.next(), host.next(), interrupt.next(), sequencer.next()});
-  return cycle == kNever ? kNever : std::max(cycle, done + 1) * kTicksPerCycle;
+  planned_edge = cycle == kNever ? kNever : std::max(cycle, done + 1) * kTicksPerCycle;
 }
-
-Tick Chip::Impl::next_event() const { return std::min(next_edge(), host.drive_at()); }
 
 void Chip::Impl::advance(Tick to) {
   for (Tick event = next_event(); event <= to; event = next_event()) {
@@ -141,6 +147,7 @@ void Chip::Impl::advance(Tick to) {
       publish_data(event);
     } else {
       rising_edge(event / kTicksPerCycle);
+      plan();
     }
   }
   now = std::max(now, to);
