@@ -76,7 +76,8 @@ void describe_decode(CLI::App& app, DecodeArguments& arguments) {
 }
 
 void describe_reasons(CLI::App& app, ReasonsArguments& arguments) {
-  CLI::App* command = app.add_subcommand("reasons", "Explains the codes of logs and results: what happened, what to do");
+  CLI::App* command =
+      app.add_subcommand("reasons", "Explains the codes of logs and results: what happened, what to do");
   command->add_option("CODE", arguments.code, "Only this one");
   command->add_flag("--markdown", arguments.markdown, "Prints docs/reasons.md instead");
   command->add_option("--output,-o", arguments.output, "Into this file");

@@ -22,10 +22,15 @@ const char* advice_of(dsdpv1_error error) {
   switch (error) {
     case DSDPV1_OK: return "Nothing.";
     case DSDPV1_ERR_ARGUMENT: return "Fill in the port's functions and pass no null pointers.";
-    case DSDPV1_ERR_NESTED: return "Let the interrupt handler return; the main program calls dsdpv1_service when it has released the DPRAM.";
-    case DSDPV1_ERR_DPRAM_BUSY: return "Check that L_REQ and L_STA reach the CPU and that the chip has its clock and is out of reset; then allow more polls.";
-    case DSDPV1_ERR_CHIP_SILENT: return "Check clock, RESET and R_REQ: while R_REQ stays high the chip cannot come to the DPRAM.";
-    case DSDPV1_ERR_CHIP_NOT_READY: return "Wait 86 us or more after RESET rises (4096 cycles); check the read timing with B000..B003 = 01 0D 07 01.";
+    case DSDPV1_ERR_NESTED:
+      return "Let the interrupt handler return; the main program calls dsdpv1_service when it has released the DPRAM.";
+    case DSDPV1_ERR_DPRAM_BUSY:
+      return "Check that L_REQ and L_STA reach the CPU and that the chip has its clock and is out of reset; then allow "
+             "more polls.";
+    case DSDPV1_ERR_CHIP_SILENT:
+      return "Check clock, RESET and R_REQ: while R_REQ stays high the chip cannot come to the DPRAM.";
+    case DSDPV1_ERR_CHIP_NOT_READY:
+      return "Wait 86 us or more after RESET rises (4096 cycles); check the read timing with B000..B003 = 01 0D 07 01.";
     case DSDPV1_ERR_NOT_INITIALISED: return "Call dsdpv1_initialise first and look at what it returns.";
     case DSDPV1_ERR_CONFIG_ADDRESS: return "Give a station address from 0 to 126.";
     case DSDPV1_ERR_CONFIG_INPUT:
@@ -36,18 +41,22 @@ const char* advice_of(dsdpv1_error error) {
     case DSDPV1_ERR_CONFIG_CFG_LENGTH: return "Pass the configuration bytes, no more than their largest length.";
     case DSDPV1_ERR_CONFIG_PRM_MODE:
     case DSDPV1_ERR_CONFIG_CFG_MODE: return "Use mode 0 (length), 1 (equal) or 2 (the user judges).";
-    case DSDPV1_ERR_INIT_TIMEOUT: return "Check that R_REQ falls after each hold and that the chip runs; then allow more polls.";
-    case DSDPV1_ERR_INIT_CRC: return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
+    case DSDPV1_ERR_INIT_TIMEOUT:
+      return "Check that R_REQ falls after each hold and that the chip runs; then allow more polls.";
+    case DSDPV1_ERR_INIT_CRC:
+      return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
     case DSDPV1_ERR_INIT_LIMIT: return "Look at the chip's INIT_ reason in the log; it names the byte.";
     case DSDPV1_ERR_INIT_REFUSED: return "Check the read timing of B00A, B00B and B013.";
     case DSDPV1_ERR_INPUT_LENGTH: return "Pass no more input bytes than max_input.";
-    case DSDPV1_ERR_INPUT_CRC: return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
+    case DSDPV1_ERR_INPUT_CRC:
+      return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
     case DSDPV1_ERR_OUTPUT_LENGTH: return "Make the buffer as large as max_output; if it is, check the read timing.";
     case DSDPV1_ERR_OUTPUT_CRC: return "Check the read timing, and that nobody reads without owning the DPRAM.";
     case DSDPV1_ERR_DIAG_TYPE: return "Use one of the five types of table 22.";
     case DSDPV1_ERR_DIAG_LENGTH: return "Shorten the diagnosis or initialise with a larger max_diag.";
     case DSDPV1_ERR_DIAG_TIMEOUT: return "Check that R_REQ falls after each hold; then allow more polls.";
-    case DSDPV1_ERR_DIAG_CRC: return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
+    case DSDPV1_ERR_DIAG_CRC:
+      return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
     case DSDPV1_ERR_PRM_LENGTH:
     case DSDPV1_ERR_PRM_CRC:
     case DSDPV1_ERR_CFG_LENGTH:
@@ -66,7 +75,8 @@ const char* meaning_of(bus::FlagKind kind) {
     case bus::FlagKind::kTsdrEarly: return "an answer came before min_TSDR";
     case bus::FlagKind::kTsdrLate: return "an answer came after max_TSDR";
     case bus::FlagKind::kCharacterError: return "a character with wrong parity or a low stop bit";
-    case bus::FlagKind::kTelegramError: return "a telegram with a wrong delimiter, length or FCS, or one that broke off";
+    case bus::FlagKind::kTelegramError:
+      return "a telegram with a wrong delimiter, length or FCS, or one that broke off";
     case bus::FlagKind::kUnanswered: return "no answer within the slot time";
     case bus::FlagKind::kUnexpectedAnswer: return "an answer that nobody asked for, or by the wrong station";
     case bus::FlagKind::kGlitch: return "a low level shorter than half a bit";
@@ -76,36 +86,51 @@ const char* meaning_of(bus::FlagKind kind) {
 
 const char* advice_of(bus::FlagKind kind) {
   switch (kind) {
-    case bus::FlagKind::kCollision: return "Give each station an address of its own, run one master at a time, and let requests wait for the answer or the slot time.";
-    case bus::FlagKind::kGap: return "Send the characters of a telegram without a pause. Slaves ignore such a telegram.";
-    case bus::FlagKind::kSynViolated: return "The master must leave 33 bit times of idle before a request. Slaves ignore it otherwise.";
+    case bus::FlagKind::kCollision:
+      return "Give each station an address of its own, run one master at a time, and let requests wait for the answer "
+             "or the slot time.";
+    case bus::FlagKind::kGap:
+      return "Send the characters of a telegram without a pause. Slaves ignore such a telegram.";
+    case bus::FlagKind::kSynViolated:
+      return "The master must leave 33 bit times of idle before a request. Slaves ignore it otherwise.";
     case bus::FlagKind::kTsdrEarly: return "Look at min_TSDR of Set_Prm and at who answered.";
     case bus::FlagKind::kTsdrLate: return "Look at who answered; MaxTsdr of the GSD file must hold at this baud rate.";
-    case bus::FlagKind::kCharacterError: return "Disturbed line, a second sender, or another baud rate or parity than 8E1.";
-    case bus::FlagKind::kTelegramError: return "Disturbed line, or a sender that builds telegrams wrongly: `dsdpv1-sim decode` explains the bytes.";
-    case bus::FlagKind::kUnanswered: return "Nothing while masters look for stations or slaves search the baud rate. Else the slave's own reason stands beside it in the log.";
-    case bus::FlagKind::kUnexpectedAnswer: return "Two stations with the same address, or a master whose slot time is too short: its request and the late answer overlap.";
+    case bus::FlagKind::kCharacterError:
+      return "Disturbed line, a second sender, or another baud rate or parity than 8E1.";
+    case bus::FlagKind::kTelegramError:
+      return "Disturbed line, or a sender that builds telegrams wrongly: `dsdpv1-sim decode` explains the bytes.";
+    case bus::FlagKind::kUnanswered:
+      return "Nothing while masters look for stations or slaves search the baud rate. Else the slave's own reason "
+             "stands beside it in the log.";
+    case bus::FlagKind::kUnexpectedAnswer:
+      return "Two stations with the same address, or a master whose slot time is too short: its request and the late "
+             "answer overlap.";
     case bus::FlagKind::kGlitch: return "Disturbed line. The chip ignores it while idle (S10).";
   }
   return "";
 }
 
 void print(std::string& text, const std::vector<ReasonText>& reasons) {
-  for (const ReasonText& each : reasons) text += fmt::format("{} ({})\n    {}\n    {}\n", each.code, each.severity, each.text, each.advice);
+  for (const ReasonText& each : reasons)
+    text += fmt::format("{} ({})\n    {}\n    {}\n", each.code, each.severity, each.text, each.advice);
 }
 
 void print_table(std::string& text, const std::string& head, const std::vector<ReasonText>& reasons) {
   text += head + "\n| code | kind | text | what to do |\n|---|---|---|---|\n";
-  for (const ReasonText& each : reasons) text += fmt::format("| `{}` | {} | {} | {} |\n", each.code, each.severity, each.text, each.advice);
+  for (const ReasonText& each : reasons)
+    text += fmt::format("| `{}` | {} | {} | {} |\n", each.code, each.severity, each.text, each.advice);
 }
 
 std::string as_markdown() {
   std::string text =
       "# Reasons\n\nGenerated by `dsdpv1-sim reasons --markdown`; do not edit.\n\n"
-      "Every code that a log, a result file or a scenario may hold, what it says, and what to do about it. `dsdpv1-sim reasons CODE` prints one of\n"
-      "them. **info**: something was carried out; **refusal**: something that the master or the user asked for was not; **violation**: a rule was\n"
+      "Every code that a log, a result file or a scenario may hold, what it says, and what to do about it. `dsdpv1-sim "
+      "reasons CODE` prints one of\n"
+      "them. **info**: something was carried out; **refusal**: something that the master or the user asked for was "
+      "not; **violation**: a rule was\n"
       "broken, and a scenario that does not allow it fails.\n";
-  print_table(text, "\n## The chip\n\n`{a}`, `{b}`, `{c}` stand for values; `{a:4x}` is hexadecimal.\n", chip_reasons());
+  print_table(text, "\n## The chip\n\n`{a}`, `{b}`, `{c}` stand for values; `{a:4x}` is hexadecimal.\n",
+              chip_reasons());
   print_table(text, "\n## The driver\n\nWhat a call of the C driver returned to the user program.\n", driver_reasons());
   print_table(text, "\n## The bus\n\nWhat the bus monitor saw on the line.\n", bus_reasons());
   return text;
@@ -124,9 +149,12 @@ std::string as_text(const std::string& code) {
     std::vector<std::string> codes;
     for (const ReasonText& each : all) codes.push_back(each.code);
     if (std::find(codes.begin(), codes.end(), code) == codes.end()) {
-      throw tb::InputError(fmt::format("dsdpv1-sim reasons: unknown code {}{}, allowed are those that `dsdpv1-sim reasons` prints", code, tb::did_you_mean(code, codes)));
+      throw tb::InputError(
+          fmt::format("dsdpv1-sim reasons: unknown code {}{}, allowed are those that `dsdpv1-sim reasons` prints", code,
+                      tb::did_you_mean(code, codes)));
     }
-    all.erase(std::remove_if(all.begin(), all.end(), [&code](const ReasonText& each) { return each.code != code; }), all.end());
+    all.erase(std::remove_if(all.begin(), all.end(), [&code](const ReasonText& each) { return each.code != code; }),
+              all.end());
   }
   print(text, all);
   return text;
@@ -138,7 +166,8 @@ std::vector<ReasonText> chip_reasons() {
   std::vector<ReasonText> list;
   for (std::size_t i = 0; i < profibus::reason_count(); ++i) {
     const auto reason = static_cast<profibus::Reason>(i);
-    list.push_back({profibus::code(reason), tb::name(profibus::severity(reason)), profibus::text_template(reason), profibus::advice(reason)});
+    list.push_back({profibus::code(reason), tb::name(profibus::severity(reason)), profibus::text_template(reason),
+                    profibus::advice(reason)});
   }
   return list;
 }
@@ -155,7 +184,8 @@ std::vector<ReasonText> bus_reasons() {
   std::vector<ReasonText> list;
   for (std::size_t i = 0; i < bus::kFlagKinds; ++i) {
     const auto kind = static_cast<bus::FlagKind>(i);
-    list.push_back({tb::scenario::flag_code(kind), kind == bus::FlagKind::kUnanswered ? "info" : "violation", meaning_of(kind), advice_of(kind)});
+    list.push_back({tb::scenario::flag_code(kind), kind == bus::FlagKind::kUnanswered ? "info" : "violation",
+                    meaning_of(kind), advice_of(kind)});
   }
   return list;
 }

@@ -1,6 +1,7 @@
 #include "bus/gsd_setup.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -347,7 +348,7 @@ Bytes set_prm_bytes(std::uint16_t ident, const SetPrmHead& head, const Bytes& us
                  static_cast<std::uint8_t>(ident >> 8U),
                  static_cast<std::uint8_t>(ident & 0xFFU),
                  head.group};
-  bytes.insert(bytes.end(), user_prm.begin(), user_prm.end());
+  std::copy(user_prm.begin(), user_prm.end(), std::back_inserter(bytes));
   return bytes;
 }
 

@@ -58,7 +58,7 @@ TEST_F(Watchdog, LongestTimeIsSixHundredAndFiftySeconds) {
   bench.to_data_exch({}, prm(255, 255, false));
   EXPECT_EQ(bench.last(Reason::kWatchdogOn).a, 65025U);
   EXPECT_EQ(bench.last(Reason::kWatchdogOn).b, 10);
-  bench.run_ms(700);                                                   // BAUD_CONTROL's 600 ms do not run now
+  bench.run_ms(700);  // BAUD_CONTROL's 600 ms do not run now
   EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
   EXPECT_EQ(bench.count(Reason::kBaudLost), 0);
 }

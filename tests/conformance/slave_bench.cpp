@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "model/dsdpv1/crc16.hpp"
 
 namespace conformance {
@@ -39,7 +42,7 @@ Bytes Init::block() const {
                  max_cfg,
                  cfg_mode,
                  static_cast<std::uint8_t>(cfg.size())};
-  block.insert(block.end(), cfg.begin(), cfg.end());
+  std::copy(cfg.begin(), cfg.end(), std::back_inserter(block));
   block.resize(static_cast<std::size_t>(size) + 1);
   return block;
 }
@@ -48,7 +51,7 @@ Bytes Prm::bytes() const {
   Bytes bytes = {
       status, wd1, wd2, min_tsdr, static_cast<std::uint8_t>(ident >> 8), static_cast<std::uint8_t>(ident & 0xFF),
       group};
-  bytes.insert(bytes.end(), user.begin(), user.end());
+  std::copy(user.begin(), user.end(), std::back_inserter(bytes));
   return bytes;
 }
 

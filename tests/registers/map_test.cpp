@@ -89,7 +89,8 @@ TEST(RegisterMap, VerdictBitsAreThoseOfTable10) {  // D4: the notes under the ta
 }
 
 TEST(RegisterMap, FlagsOfTheTwoSidesDiffer) {
-  EXPECT_EQ(kChipStatus2InitCrc | kChipStatus2InputCrc | kChipStatus2DiagCrc | kChipStatus2C1Crc | kChipStatus2C2Crc, 0x3D);
+  EXPECT_EQ(kChipStatus2InitCrc | kChipStatus2InputCrc | kChipStatus2DiagCrc | kChipStatus2C1Crc | kChipStatus2C2Crc,
+            0x3D);
   EXPECT_EQ(kChipCommand1Output | kChipCommand1Prm | kChipCommand1Cfg, 0x07);
   EXPECT_EQ(kUserCommand1Input | kUserCommand1Diag | kUserCommand1Init, 0x07);
   EXPECT_EQ(kUserStatus2C1Crc, 0x10);  // table 7 has C1 above C2, unlike table 4
