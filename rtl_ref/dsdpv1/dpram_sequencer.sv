@@ -1,0 +1,678 @@
+// The chip's accesses to the DPRAM (sections 9 and 10; H1 to H8, D1 to D15): one byte a cycle.
+//
+// The state says what the next edge does. A byte read at one edge is in rdata_i at the next.
+`include "dsdpv1_types.svh"
+
+module dpram_sequencer #(
+  parameter integer ACCESS_INTERVAL = 48,
+  parameter integer READY_CYCLES = 4096
+) (
+  `FAULT_PORT
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  input  logic        r_req_i,          // behind its synchroniser
+  output logic        l_req_o,
+  output logic        l_sta_o,
+  output logic        interrupt_o,      // a flag of parameters or configuration is written at this edge
+  // DPRAM
+  output logic        we_o,
+  output logic [10:0] addr_o,
+  output logic [7:0]  wdata_o,
+  input  logic [7:0]  rdata_i,
+  // commits, at this edge
+  output logic        init_o,
+  output logic [6:0]  init_address_o,
+  output logic [15:0] init_ident_o,
+  output logic [3:0]  init_command_o,
+  output logic [7:0]  init_max_input_o,
+  output logic [7:0]  init_max_output_o,
+  output logic [7:0]  init_max_diag_o,
+  output logic [7:0]  init_max_prm_o,
+  output logic [1:0]  init_prm_mode_o,
+  output logic [7:0]  init_max_cfg_o,
+  output logic [1:0]  init_cfg_mode_o,
+  output logic [7:0]  init_cfg_length_o,
+  output logic        inputs_o,
+  output logic        diag_o,
+  output logic [7:0]  block_length_o,
+  output logic [7:0]  diag_type_o,
+  output logic        verdict_prm_o,
+  output logic        verdict_cfg_o,
+  output logic        verdict_wrong_o,
+  output logic        dpv1_enabled_o,   // B005, as it is at this edge
+  output logic        stage_inputs_o,
+  output logic        stage_diag_o,
+  output logic        stage_we_o,
+  output logic [1:0]  stage_pool_o,
+  output logic [7:0]  stage_index_o,
+  output logic [7:0]  stage_data_o,
+  // station
+  input  logic        initialised_i,
+  input  logic [7:0]  status_i,
+  input  logic [15:0] count_i,
+  input  logic        prm_mail_i,
+  input  logic        cfg_mail_i,
+  input  logic        output_mail_i,
+  input  logic [7:0]  prm_length_i,
+  input  logic [7:0]  cfg_length_i,
+  input  logic [7:0]  cfg_input_length_i,
+  input  logic [7:0]  cfg_output_length_i,
+  input  logic [7:0]  output_length_i,
+  output logic        take_prm_o,
+  output logic        take_cfg_o,
+  output logic        take_output_o,
+  output logic [7:0]  transfer_index_o,
+  input  logic [7:0]  transfer_data_i
+);
+  // States
+  localparam logic [4:0] RELEASED = 5'd0;    // cycle R
+  localparam logic [4:0] CLEAR = 5'd1;
+  localparam logic [4:0] VERSION = 5'd2;
+  localparam logic [4:0] BOOT_COUNT = 5'd3;
+  localparam logic [4:0] BOOT_END = 5'd4;
+  localparam logic [4:0] IDLE = 5'd5;
+  localparam logic [4:0] COUNT = 5'd6;       // 9.1: s+1
+  localparam logic [4:0] FLAGS_U = 5'd7;
+  localparam logic [4:0] FLAGS_U2 = 5'd8;
+  localparam logic [4:0] FLAGS_E = 5'd9;
+  localparam logic [4:0] FLAGS_E2 = 5'd10;
+  localparam logic [4:0] ENABLE = 5'd11;
+  localparam logic [4:0] CHOICE = 5'd12;
+  localparam logic [4:0] READ_HEADER = 5'd13;  // 9.3: the second byte of the diagnosis
+  localparam logic [4:0] READ_LOOK = 5'd14;
+  localparam logic [4:0] READ_BYTES = 5'd15;
+  localparam logic [4:0] READ_CRC_HIGH = 5'd16;
+  localparam logic [4:0] READ_CRC_LOW = 5'd17;
+  localparam logic [4:0] READ_LAST = 5'd18;
+  localparam logic [4:0] COMMIT = 5'd19;
+  localparam logic [4:0] VERDICT = 5'd20;
+  localparam logic [4:0] WRITE_INPUT_LENGTH = 5'd21;  // 9.5: header of the configuration
+  localparam logic [4:0] WRITE_LENGTH = 5'd22;
+  localparam logic [4:0] WRITE_BYTES = 5'd23;
+  localparam logic [4:0] WRITE_CRC_HIGH = 5'd24;
+  localparam logic [4:0] WRITE_CRC_LOW = 5'd25;
+  localparam logic [4:0] FLAG = 5'd26;
+  localparam logic [4:0] ERRORS = 5'd27;       // second cycle of B00B
+
+  // Items in the order of 9.2
+  localparam integer ITEMS = 15;
+  localparam logic [3:0] INIT = 4'd0;
+  localparam logic [3:0] VERDICT_PRM = 4'd1;
+  localparam logic [3:0] VERDICT_CFG = 4'd2;
+  localparam logic [3:0] INPUTS = 4'd3;
+  localparam logic [3:0] DIAG = 4'd4;
+  localparam logic [3:0] PRM = 4'd5;
+  localparam logic [3:0] CFG = 4'd6;
+  localparam logic [3:0] OUTPUTS = 4'd7;
+  localparam logic [3:0] VALID = 4'd8;
+  localparam logic [3:0] COUNT_HIGH = 4'd9;
+  localparam logic [3:0] COUNT_LOW = 4'd10;
+  localparam logic [3:0] STATUS_1 = 4'd11;
+  localparam logic [3:0] STATUS_2 = 4'd12;
+  localparam logic [3:0] STATUS_3 = 4'd13;
+  localparam logic [3:0] STATUS_4 = 4'd14;
+  localparam logic [3:0] NOTHING = 4'd15;
+
+  logic [4:0] state_q, state_d;
+  logic [3:0] item_q, pick;
+  logic [ITEMS-1:0] due, behind_q;
+  logic own_q;
+  logic first_choice_q;
+  logic [7:0] u_q, e_q, b005_q;
+  logic [10:0] boot_q;
+  logic [12:0] since_q;
+  logic [20:0] up_q;
+  logic valid_due_q, valid_written_q;
+
+  // ---- due accesses
+  logic access_due, starts;
+  assign access_due = since_q >= ACCESS_INTERVAL[12:0] + (`FAULT(48) ? 13'd1 : 13'd0);
+  assign starts = state_q == IDLE && access_due && (!r_req_i || `FAULT(49));
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      since_q <= 13'd0;
+      up_q <= 21'd0;
+    end else begin
+      if (starts || state_q == RELEASED) since_q <= 13'd1;
+      else if (!(&since_q)) since_q <= since_q + 13'd1;
+      if (up_q != READY_CYCLES[20:0]) up_q <= up_q + 21'd1;
+    end
+  end
+
+  // ---- notes of what is to be written as status
+  logic [15:0] crc_q;
+  logic [7:0] high_written_q, low_written_q, status_written_q, set_q, clear_q;
+  logic status_1_due_q, status_1_q, status_4_due_q, status_4_q;
+  logic [7:0] count_high, count_low, crc_high, crc_low;
+  logic [1:0] boot_low;
+  assign {count_high, count_low} = count_i;
+  assign {crc_high, crc_low} = crc_q;
+  assign boot_low = boot_q[1:0];
+
+  // In the order of 9.2, the first lowest
+  assign due = {
+    status_4_due_q,
+    status_i != status_written_q,
+    (set_q | clear_q) != 8'd0,
+    status_1_due_q,
+    count_low != low_written_q,
+    count_high != high_written_q,
+    valid_due_q && !valid_written_q,
+    output_mail_i,
+    cfg_mail_i,
+    prm_mail_i,
+    u_q[1],
+    u_q[0],
+    u_q[6],
+    u_q[7],
+    u_q[2]};
+
+  logic [ITEMS-1:0] candidates;
+  assign candidates = due & behind_q;
+  always_comb begin
+    casez (candidates)
+      15'b??????????????1: pick = INIT;
+      15'b?????????????10: pick = VERDICT_PRM;
+      15'b????????????100: pick = VERDICT_CFG;
+      15'b???????????1000: pick = INPUTS;
+      15'b??????????10000: pick = DIAG;
+      15'b?????????100000: pick = PRM;
+      15'b????????1000000: pick = CFG;
+      15'b???????10000000: pick = OUTPUTS;
+      15'b??????100000000: pick = VALID;
+      15'b?????1000000000: pick = COUNT_HIGH;
+      15'b????10000000000: pick = COUNT_LOW;
+      15'b???100000000000: pick = STATUS_1;
+      15'b??1000000000000: pick = STATUS_2;
+      15'b?10000000000000: pick = STATUS_3;
+      15'b100000000000000: pick = STATUS_4;
+      default: pick = NOTHING;
+    endcase
+  end
+
+  logic chooses;
+  assign chooses = state_q == CHOICE;
+  assign take_prm_o = chooses && pick == PRM;
+  assign take_cfg_o = chooses && pick == CFG;
+  assign take_output_o = chooses && pick == OUTPUTS;
+  assign stage_inputs_o = chooses && pick == INPUTS;
+  assign stage_diag_o = chooses && pick == DIAG;
+
+  // ---- blocks: base address, area of the CRC, limit
+  logic [10:0] address_q, crc_address;
+  logic [7:0] limit, left_q, taken_q;
+  logic [15:0] crc_next;
+  logic [7:0] crc_byte;
+  logic too_long, too_long_q, crc_wrong_q;
+  always_comb begin
+    case (item_q)
+      INIT: begin
+        crc_address = DSDPV1_REG_INIT_CRC;
+        limit = 8'd214;
+      end
+      INPUTS: begin
+        crc_address = DSDPV1_REG_INPUT_CRC;
+        limit = 8'd244;
+      end
+      DIAG: begin
+        crc_address = DSDPV1_REG_DIAG_CRC;
+        limit = 8'd238;
+      end
+      PRM: begin
+        crc_address = DSDPV1_REG_PRM_CRC;
+        limit = 8'd0;
+      end
+      CFG: begin
+        crc_address = DSDPV1_REG_CFG_CRC;
+        limit = 8'd0;
+      end
+      default: begin
+        crc_address = DSDPV1_REG_OUTPUT_CRC;
+        limit = 8'd0;
+      end
+    endcase
+  end
+  assign too_long = rdata_i > limit && !`FAULT(50);
+
+  // ---- moves
+  logic [7:0] u_without, e_with, version;
+  always_comb begin
+    case (item_q)
+      INIT: u_without = u_q & 8'hFB;
+      VERDICT_PRM: u_without = u_q & 8'h7F;
+      VERDICT_CFG: u_without = u_q & 8'hBF;
+      INPUTS: u_without = u_q & 8'hFE;
+      default: u_without = u_q & 8'hFD;
+    endcase
+    case (item_q)
+      PRM: e_with = e_q | DSDPV1_REG_CHIP_COMMAND_1_PRM;
+      CFG: e_with = e_q | DSDPV1_REG_CHIP_COMMAND_1_CFG;
+      default: e_with = e_q | DSDPV1_REG_CHIP_COMMAND_1_OUTPUT;
+    endcase
+    case (boot_low)
+      2'd0: version = DSDPV1_REG_VERSION_RESET;
+      2'd1: version = DSDPV1_REG_VERSION_YEAR_RESET;
+      2'd2: version = DSDPV1_REG_VERSION_MONTH_RESET;
+      default: version = DSDPV1_REG_VERSION_DAY_RESET;
+    endcase
+  end
+
+  logic errors_both;
+  assign errors_both = `FAULT(51);
+  always_comb begin
+    we_o = 1'b0;
+    addr_o = address_q;
+    wdata_o = 8'h00;
+    case (state_q)
+      CLEAR: begin
+        we_o = 1'b1;
+        addr_o = boot_q;
+      end
+      VERSION: begin
+        we_o = 1'b1;
+        addr_o = boot_q;
+        wdata_o = version;
+      end
+      BOOT_COUNT, COUNT: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_ACCESS_COUNT;
+        wdata_o = 8'h01;
+      end
+      FLAGS_U: addr_o = DSDPV1_REG_USER_COMMAND_1;
+      FLAGS_U2: addr_o = DSDPV1_REG_USER_COMMAND_2;
+      FLAGS_E: addr_o = DSDPV1_REG_CHIP_COMMAND_1;
+      FLAGS_E2: addr_o = DSDPV1_REG_CHIP_COMMAND_2;
+      ENABLE: addr_o = DSDPV1_REG_DPV1_ENABLE;
+      CHOICE: begin
+        case (pick)
+          INIT: addr_o = DSDPV1_REG_INIT_LENGTH;
+          VERDICT_PRM, VERDICT_CFG: addr_o = DSDPV1_REG_USER_STATUS_1;
+          INPUTS: addr_o = DSDPV1_REG_INPUT_LENGTH;
+          DIAG: addr_o = DSDPV1_REG_DIAG_TYPE;
+          PRM: begin
+            we_o = 1'b1;
+            addr_o = DSDPV1_REG_PRM_LENGTH;
+            wdata_o = prm_length_i;
+          end
+          CFG: begin
+            we_o = 1'b1;
+            addr_o = DSDPV1_REG_CFG_OUTPUT_LENGTH;
+            wdata_o = `FAULT(52) ? cfg_input_length_i : cfg_output_length_i;
+          end
+          OUTPUTS: begin
+            we_o = 1'b1;
+            addr_o = DSDPV1_REG_OUTPUT_LENGTH;
+            wdata_o = output_length_i;
+          end
+          VALID: begin
+            we_o = 1'b1;
+            addr_o = DSDPV1_REG_VALID_FLAG;
+            wdata_o = DSDPV1_REG_VALID_FLAG_VALID;
+          end
+          COUNT_HIGH: begin
+            we_o = 1'b1;
+            addr_o = DSDPV1_REG_OFFLINE_COUNT;
+            wdata_o = count_high;
+          end
+          COUNT_LOW: begin
+            we_o = 1'b1;
+            addr_o = DSDPV1_REG_OFFLINE_COUNT + 11'd1;
+            wdata_o = count_low;
+          end
+          STATUS_1: begin
+            we_o = 1'b1;
+            addr_o = DSDPV1_REG_CHIP_STATUS_1;
+            wdata_o = {7'd0, status_1_q};
+          end
+          STATUS_2: addr_o = DSDPV1_REG_CHIP_STATUS_2;
+          STATUS_3: begin
+            we_o = 1'b1;
+            addr_o = DSDPV1_REG_CHIP_STATUS_3;
+            wdata_o = status_i;
+          end
+          STATUS_4: begin
+            we_o = 1'b1;
+            addr_o = DSDPV1_REG_CHIP_STATUS_4;
+            wdata_o = {7'd0, status_4_q};
+          end
+          default: ;
+        endcase
+      end
+      COMMIT: begin
+        we_o = !`FAULT(53);
+        addr_o = DSDPV1_REG_USER_COMMAND_1;
+        wdata_o = u_without;
+      end
+      WRITE_INPUT_LENGTH, WRITE_LENGTH: begin
+        we_o = 1'b1;
+        wdata_o = state_q == WRITE_INPUT_LENGTH ? taken_q : left_q;
+      end
+      WRITE_BYTES: begin
+        we_o = 1'b1;
+        wdata_o = transfer_data_i;
+      end
+      WRITE_CRC_HIGH: begin
+        we_o = 1'b1;
+        addr_o = crc_address;
+        wdata_o = crc_high;
+      end
+      WRITE_CRC_LOW: begin
+        we_o = !`FAULT(54);
+        addr_o = crc_address + 11'd1;
+        wdata_o = crc_low;
+      end
+      READ_CRC_HIGH: addr_o = crc_address;
+      READ_CRC_LOW: addr_o = crc_address + 11'd1;
+      FLAG: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_CHIP_COMMAND_1;
+        wdata_o = e_with;
+      end
+      ERRORS: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_CHIP_STATUS_2;
+        wdata_o = (errors_both ? 8'd0 : rdata_i & ~clear_q) | set_q;
+      end
+      default: ;
+    endcase
+  end
+
+  // ---- next state
+  logic no_bytes;
+  assign no_bytes = left_q == 8'd0;
+  always_comb begin
+    state_d = state_q;
+    case (state_q)
+      RELEASED: state_d = CLEAR;
+      CLEAR: if (&boot_q) state_d = VERSION;
+      VERSION: if (boot_low == 2'd3) state_d = BOOT_COUNT;
+      BOOT_COUNT: state_d = BOOT_END;
+      BOOT_END: state_d = IDLE;
+      IDLE: if (starts) state_d = COUNT;
+      CHOICE: begin
+        case (pick)
+          INIT, INPUTS: state_d = READ_LOOK;
+          DIAG: state_d = READ_HEADER;
+          VERDICT_PRM, VERDICT_CFG: state_d = VERDICT;
+          PRM: state_d = prm_length_i == 8'd0 ? WRITE_CRC_HIGH : WRITE_BYTES;
+          CFG: state_d = WRITE_INPUT_LENGTH;
+          OUTPUTS: state_d = output_length_i == 8'd0 ? WRITE_CRC_HIGH : WRITE_BYTES;
+          STATUS_2: state_d = ERRORS;
+          NOTHING: state_d = IDLE;
+          default: state_d = CHOICE;
+        endcase
+      end
+      READ_HEADER: state_d = READ_LOOK;
+      READ_LOOK: state_d = too_long ? COMMIT : rdata_i == 8'd0 ? READ_CRC_HIGH : READ_BYTES;
+      READ_BYTES: if (left_q == 8'd1) state_d = READ_CRC_HIGH;
+      READ_CRC_HIGH: state_d = READ_CRC_LOW;
+      READ_CRC_LOW: state_d = READ_LAST;
+      READ_LAST: state_d = COMMIT;
+      VERDICT: state_d = COMMIT;
+      WRITE_INPUT_LENGTH: state_d = WRITE_LENGTH;
+      WRITE_LENGTH: state_d = no_bytes ? WRITE_CRC_HIGH : WRITE_BYTES;
+      WRITE_BYTES: if (left_q == 8'd1) state_d = WRITE_CRC_HIGH;
+      WRITE_CRC_HIGH: state_d = WRITE_CRC_LOW;
+      WRITE_CRC_LOW: state_d = FLAG;
+      COMMIT, FLAG, ERRORS: state_d = CHOICE;
+      default: state_d = state_q + 5'd1;  // 9.1: s+1 .. s+6
+    endcase
+  end
+
+  // ---- bytes on their way: read ones arrive one edge later
+  logic arrives_q, stages_q, arrives_high_q, arrives_verdict_q;
+  logic [7:0] arrives_index_q;
+  assign crc_byte = arrives_q ? rdata_i : wdata_o;
+  crc16 u_crc (.crc_i(crc_q), .byte_i(crc_byte), .crc_o(crc_next));
+
+  logic writes_covered, reads_covered;
+  assign writes_covered = (chooses && (pick == PRM || pick == CFG || pick == OUTPUTS)) || state_q == WRITE_INPUT_LENGTH ||
+                          state_q == WRITE_LENGTH || state_q == WRITE_BYTES;
+  assign reads_covered = (chooses && (pick == INIT || pick == INPUTS || pick == DIAG)) || state_q == READ_HEADER ||
+                         state_q == READ_BYTES;
+
+  logic [15:0] crc_start;
+  assign crc_start = `FAULT(55) ? 16'h0000 : 16'hFFFF;
+
+  // The CRC of a written block begins with the byte of the choice itself
+  logic [15:0] crc_first;
+  crc16 u_crc_first (.crc_i(crc_start), .byte_i(wdata_o), .crc_o(crc_first));
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q <= RELEASED;
+      item_q <= NOTHING;
+      behind_q <= 15'd0;
+      own_q <= 1'b0;
+      first_choice_q <= 1'b0;
+      {u_q, e_q, b005_q} <= 24'd0;
+      boot_q <= 11'd0;
+      {valid_due_q, valid_written_q} <= 2'b00;
+      address_q <= 11'd0;
+      {left_q, taken_q} <= 16'd0;
+      crc_q <= 16'd0;
+      {too_long_q, crc_wrong_q} <= 2'b00;
+      {arrives_q, stages_q, arrives_high_q, arrives_verdict_q} <= 4'd0;
+      arrives_index_q <= 8'd0;
+    end else begin
+      state_q <= state_d;
+      own_q <= state_d != IDLE;
+
+      // start-up (9.7)
+      if (state_q == CLEAR) boot_q <= boot_q + 11'd1;
+      if (state_q == VERSION) boot_q <= boot_q + 11'd1;
+
+      // frame (9.1)
+      if (starts) begin
+        behind_q <= 15'h7FFF;
+        valid_due_q <= up_q == READY_CYCLES[20:0];
+      end
+      if (state_q == FLAGS_U2) u_q <= rdata_i;
+      if (state_q == FLAGS_E2) e_q <= rdata_i;
+      first_choice_q <= state_q == ENABLE;
+      if (first_choice_q) b005_q <= rdata_i;
+
+      // choice (9.2)
+      if (chooses) begin
+        item_q <= pick;
+        behind_q <= 15'h7FFE << pick;
+        if (pick == VALID) valid_written_q <= 1'b1;
+        too_long_q <= 1'b0;
+        crc_wrong_q <= 1'b0;
+        address_q <= addr_o + 11'd1;
+        left_q <= pick == PRM ? prm_length_i : pick == CFG ? cfg_length_i : output_length_i;
+        taken_q <= cfg_input_length_i;
+      end else begin
+        address_q <= address_q + (state_q == READ_LOOK ? 11'd0 : 11'd1);
+      end
+
+      // lengths
+      if (state_q == READ_LOOK) begin
+        left_q <= rdata_i;
+        taken_q <= rdata_i;
+        too_long_q <= too_long;
+      end
+      if (state_q == READ_BYTES || state_q == WRITE_BYTES) left_q <= left_q - 8'd1;
+
+      // bytes
+      arrives_q <= reads_covered;
+      stages_q <= state_q == READ_BYTES;
+      arrives_index_q <= state_q == READ_BYTES ? (stages_q ? arrives_index_q + 8'd1 : 8'd0) : arrives_index_q;
+      arrives_high_q <= state_q == READ_CRC_HIGH;
+      arrives_verdict_q <= chooses && (pick == VERDICT_PRM || pick == VERDICT_CFG);
+
+      if (chooses) crc_q <= reads_covered ? crc_start : crc_first;
+      else if (arrives_q || (writes_covered && !`FAULT(56))) crc_q <= crc_next;
+
+      // the CRC read is compared as it arrives
+      if (arrives_high_q && rdata_i != crc_high) crc_wrong_q <= 1'b1;
+      if (state_q == READ_LAST && rdata_i != crc_low && !`FAULT(57)) crc_wrong_q <= 1'b1;
+
+      if (state_q == COMMIT) u_q <= u_without;
+      if (state_q == FLAG) e_q <= e_with;
+    end
+  end
+
+  assign dpv1_enabled_o = (first_choice_q ? rdata_i : b005_q) == DSDPV1_REG_DPV1_ENABLE_ON;
+  assign interrupt_o = state_q == FLAG && (item_q == PRM || item_q == CFG || `FAULT(58));
+  assign l_req_o = own_q;
+  assign l_sta_o = own_q;
+
+  // ---- transfer from the station: parameters begin behind the seven standard bytes
+  logic [7:0] transfer_q, transfer_start;
+  assign transfer_start = take_prm_o ? 8'd7 : 8'd0;
+  assign transfer_index_o = chooses ? transfer_start : state_q == WRITE_BYTES ? transfer_q + 8'd1 : transfer_q;
+  always_ff @(posedge clk_i) transfer_q <= transfer_index_o;
+
+  // ---- staging of blocks read
+  assign stage_we_o = stages_q && (item_q != INIT || arrives_index_q >= 8'd14);
+  assign stage_pool_o = item_q == INPUTS ? POOL_INPUTS : item_q == DIAG ? POOL_DIAG : POOL_INIT;
+  assign stage_index_o = item_q == INIT ? arrives_index_q - 8'd14 : arrives_index_q;
+  assign stage_data_o = rdata_i;
+  assign block_length_o = taken_q;
+
+  logic verdict_wrong_q;
+  logic [7:0] type_q;
+  logic [1:0] verdict_bits;
+  assign verdict_bits = rdata_i[1:0];
+  always_ff @(posedge clk_i) begin
+    if (arrives_verdict_q) verdict_wrong_q <= item_q == VERDICT_PRM || `FAULT(59) ? verdict_bits[0] : verdict_bits[1];
+    if (state_q == READ_HEADER) type_q <= rdata_i;
+  end
+  assign diag_type_o = type_q;
+  assign verdict_wrong_o = verdict_wrong_q;
+
+  // ---- initialisation: its bytes, and their limits as they arrive (D7, D11)
+  logic [6:0] address_byte_q;
+  logic [15:0] ident_q;
+  logic [3:0] command_q;
+  logic [7:0] max_input_q, max_output_q, max_diag_q, max_prm_q, max_cfg_q, cfg_length_q;
+  logic [1:0] prm_mode_q, cfg_mode_q;
+  logic limits_wrong_q, in_cfg, cfg_complete;
+  logic [12:0] cfg_input_length, cfg_output_length;
+  assign in_cfg = stages_q && item_q == INIT && arrives_index_q >= 8'd14 && {1'b0, arrives_index_q} < {1'b0, cfg_length_q} + 9'd14;
+
+  cfg_identifier u_identifier (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_ni), .clear_i(chooses), .valid_i(in_cfg), .byte_i(rdata_i), .complete_o(cfg_complete),
+    .input_length_o(cfg_input_length), .output_length_o(cfg_output_length));
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      address_byte_q <= 7'd0;
+      ident_q <= 16'd0;
+      command_q <= 4'd0;
+      {max_input_q, max_output_q, max_diag_q, max_prm_q, max_cfg_q, cfg_length_q} <= 48'd0;
+      {prm_mode_q, cfg_mode_q} <= 4'd0;
+      limits_wrong_q <= 1'b0;
+    end else begin
+      if (state_q == READ_LOOK) limits_wrong_q <= rdata_i < 8'd14;
+      if (stages_q && item_q == INIT) begin
+        case (arrives_index_q)
+          8'd0: begin
+            address_byte_q <= rdata_i[6:0];
+            if (rdata_i > DSDPV1_REG_INIT_ADDRESS_LIMIT && !`FAULT(60)) limits_wrong_q <= 1'b1;
+          end
+          8'd1: ident_q[15:8] <= rdata_i;
+          8'd2: ident_q[7:0] <= rdata_i;
+          8'd3: command_q <= rdata_i[3:0];
+          8'd6: begin
+            max_input_q <= rdata_i;
+            if (rdata_i > DSDPV1_REG_INIT_MAX_INPUT_LIMIT) limits_wrong_q <= 1'b1;
+          end
+          8'd7: begin
+            max_output_q <= rdata_i;
+            if (rdata_i > DSDPV1_REG_INIT_MAX_OUTPUT_LIMIT) limits_wrong_q <= 1'b1;
+          end
+          8'd8: begin
+            max_diag_q <= rdata_i;
+            if (rdata_i > DSDPV1_REG_INIT_MAX_DIAG_LIMIT) limits_wrong_q <= 1'b1;
+          end
+          8'd9: begin
+            max_prm_q <= rdata_i;
+            if (rdata_i > DSDPV1_REG_INIT_MAX_PRM_LIMIT) limits_wrong_q <= 1'b1;
+          end
+          8'd10: begin
+            prm_mode_q <= rdata_i[1:0];
+            if (rdata_i > 8'd2) limits_wrong_q <= 1'b1;
+          end
+          8'd11: begin
+            max_cfg_q <= rdata_i;
+            if (rdata_i > DSDPV1_REG_INIT_MAX_CFG_LIMIT) limits_wrong_q <= 1'b1;
+          end
+          8'd12: begin
+            cfg_mode_q <= rdata_i[1:0];
+            if (rdata_i > 8'd2) limits_wrong_q <= 1'b1;
+          end
+          8'd13: begin
+            cfg_length_q <= rdata_i;
+            if (rdata_i > max_cfg_q || {1'b0, taken_q} < 9'd14 + {1'b0, rdata_i}) limits_wrong_q <= 1'b1;
+          end
+          default: ;
+        endcase
+      end
+      // the last byte of the configuration is decoded before the CRC arrives
+      if (state_q == READ_LAST && item_q == INIT &&
+          (!cfg_complete || cfg_input_length > {5'd0, max_input_q} || cfg_output_length > {5'd0, max_output_q}))
+        limits_wrong_q <= 1'b1;
+    end
+  end
+
+  assign init_address_o = address_byte_q;
+  assign init_ident_o = ident_q;
+  assign init_command_o = command_q;
+  assign init_max_input_o = max_input_q;
+  assign init_max_output_o = max_output_q;
+  assign init_max_diag_o = max_diag_q;
+  assign init_max_prm_o = max_prm_q;
+  assign init_prm_mode_o = prm_mode_q;
+  assign init_max_cfg_o = max_cfg_q;
+  assign init_cfg_mode_o = cfg_mode_q;
+  assign init_cfg_length_o = cfg_length_q;
+
+  // ---- commits (section 10)
+  logic commits, readable;
+  assign commits = state_q == COMMIT;
+  assign readable = commits && !too_long_q;
+  assign init_o = readable && item_q == INIT && !crc_wrong_q && !limits_wrong_q;
+  assign inputs_o = readable && item_q == INPUTS && initialised_i && !crc_wrong_q;
+  assign diag_o = readable && item_q == DIAG && initialised_i && !crc_wrong_q;
+  assign verdict_prm_o = commits && item_q == VERDICT_PRM;
+  assign verdict_cfg_o = commits && item_q == VERDICT_CFG;
+
+  logic judged;
+  logic [7:0] error_bit;
+  assign judged = readable && (item_q == INIT || ((item_q == INPUTS || item_q == DIAG) && initialised_i));
+  assign error_bit = item_q == INIT ? DSDPV1_REG_CHIP_STATUS_2_INIT_CRC :
+                     item_q == INPUTS ? DSDPV1_REG_CHIP_STATUS_2_INPUT_CRC : DSDPV1_REG_CHIP_STATUS_2_DIAG_CRC;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {high_written_q, low_written_q, status_written_q, set_q, clear_q} <= 40'd0;
+      {status_1_due_q, status_1_q, status_4_due_q, status_4_q} <= 4'd0;
+    end else begin
+      if (chooses) begin
+        if (pick == COUNT_HIGH) high_written_q <= count_i[15:8];
+        if (pick == COUNT_LOW) low_written_q <= count_i[7:0];
+        if (pick == STATUS_3) status_written_q <= status_i;
+        if (pick == STATUS_1) status_1_due_q <= 1'b0;
+        if (pick == STATUS_4) status_4_due_q <= 1'b0;
+      end
+      if (state_q == ERRORS) begin
+        set_q <= 8'd0;
+        clear_q <= 8'd0;
+      end
+      if (judged && crc_wrong_q) set_q <= set_q | error_bit;
+      if (judged && !crc_wrong_q) clear_q <= clear_q | error_bit;
+      if (commits && item_q == INIT) begin
+        status_1_due_q <= 1'b1;
+        status_1_q <= init_o;
+        if (too_long_q || !crc_wrong_q) begin
+          status_4_due_q <= 1'b1;
+          status_4_q <= !init_o;
+        end
+      end
+    end
+  end
+endmodule

@@ -1,0 +1,118 @@
+// The chip: PROFIBUS half, DPRAM and the user's side (section 2). Pins as in table 1; D is split into d_i, d_o and d_oe_o.
+`include "dsdpv1_types.svh"
+
+module dsdpv1 #(
+  parameter integer ACCESS_INTERVAL = 48,       // cycles from one DPRAM access to the next (H1)
+  parameter integer READY_CYCLES = 4096,        // from R until B004 is due (D1)
+  parameter integer RTS_LEAD = 4,               // P2; 0 to 32
+  parameter integer RTS_TRAIL = 4,              // P2
+  parameter integer INTR_LOW = 64,              // P7
+  parameter integer INTR_GAP = 64,              // P7
+  parameter integer SEARCH_WINDOW_MS = 50,      // S1
+  parameter integer SEARCH_WINDOW_BITS = 4000,  // S1
+  parameter integer BAUD_CONTROL_MS = 600       // S1
+) (
+  `FAULT_PORT
+  input  logic        reset_i,
+  input  logic        clk_i,
+  input  logic        pbrxd_i,
+  output logic        pbtxd_o,
+  output logic        pbrts_o,
+  input  logic        r_req_i,
+  input  logic        r_sta_i,
+  output logic        l_req_o,
+  output logic        l_sta_o,
+  input  logic [10:0] a_i,
+  input  logic [7:0]  d_i,
+  output logic [7:0]  d_o,
+  output logic        d_oe_o,
+  input  logic        csr_i,
+  input  logic        rd_i,
+  input  logic        wr_i,
+  output logic        intr0_o,
+  output logic        pbf_o,
+  output logic        br_o,
+  output logic        ready_o
+);
+  // RESET: asynchronous in, synchronous release (P1, P9). The first active edge is R = m+2.
+  logic [1:0] release_q;
+  logic rst_n;
+  always_ff @(posedge clk_i or negedge reset_i) begin
+    if (!reset_i) release_q <= 2'b00;
+    else release_q <= {release_q[0], 1'b1};
+  end
+  assign rst_n = release_q[1];
+
+  // R_STA only tells a checker that the user owns the DPRAM (H2); the chip does not look at it.
+  logic unused;
+  assign unused = r_sta_i;
+
+  logic r_req;
+  synchroniser #(.POWER_ON(1'b0)) u_r_req (.clk_i(clk_i), .d_i(r_req_i), .q_o(r_req));
+
+  logic user_we, chip_we, l_sta;
+  logic [10:0] user_waddr, user_raddr, chip_addr;
+  logic [7:0] user_wdata, chip_wdata, rdata;
+
+  host_port u_host_port (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_n), .csr_i(csr_i), .rd_i(rd_i), .wr_i(wr_i), .a_i(a_i), .d_i(d_i), .d_o(d_o),
+    .d_oe_o(d_oe_o), .we_o(user_we), .waddr_o(user_waddr), .wdata_o(user_wdata), .raddr_o(user_raddr), .rdata_i(rdata));
+
+  dpram u_dpram (
+    .clk_i(clk_i), .rst_ni(rst_n), .user_we_i(user_we), .user_waddr_i(user_waddr), .user_wdata_i(user_wdata),
+    .user_raddr_i(user_raddr), .chip_owns_i(l_sta), .chip_we_i(chip_we), .chip_addr_i(chip_addr),
+    .chip_wdata_i(chip_wdata), .rdata_o(rdata));
+  assign l_sta_o = l_sta;
+
+  logic init, inputs, diag, verdict_prm, verdict_cfg, verdict_wrong, dpv1_enabled, interrupt_flag;
+  logic stage_inputs, stage_diag, stage_we, initialised, prm_mail, cfg_mail, output_mail, take_prm, take_cfg, take_output;
+  logic [1:0] init_prm_mode, init_cfg_mode, stage_pool;
+  logic [3:0] init_command;
+  logic [6:0] init_address;
+  logic [15:0] init_ident, count;
+  logic [7:0] init_max_input, init_max_output, init_max_diag, init_max_prm, init_max_cfg, init_cfg_length;
+  logic [7:0] block_length, diag_type, stage_index, stage_data, status;
+  logic [7:0] prm_length, cfg_length, cfg_input_length, cfg_output_length, output_length, transfer_index, transfer_data;
+
+  dpram_sequencer #(.ACCESS_INTERVAL(ACCESS_INTERVAL), .READY_CYCLES(READY_CYCLES)) u_sequencer (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_n), .r_req_i(r_req), .l_req_o(l_req_o), .l_sta_o(l_sta), .interrupt_o(interrupt_flag),
+    .we_o(chip_we), .addr_o(chip_addr), .wdata_o(chip_wdata), .rdata_i(rdata),
+    .init_o(init), .init_address_o(init_address), .init_ident_o(init_ident), .init_command_o(init_command),
+    .init_max_input_o(init_max_input), .init_max_output_o(init_max_output), .init_max_diag_o(init_max_diag),
+    .init_max_prm_o(init_max_prm), .init_prm_mode_o(init_prm_mode), .init_max_cfg_o(init_max_cfg),
+    .init_cfg_mode_o(init_cfg_mode), .init_cfg_length_o(init_cfg_length), .inputs_o(inputs), .diag_o(diag),
+    .block_length_o(block_length), .diag_type_o(diag_type), .verdict_prm_o(verdict_prm), .verdict_cfg_o(verdict_cfg),
+    .verdict_wrong_o(verdict_wrong), .dpv1_enabled_o(dpv1_enabled), .stage_inputs_o(stage_inputs),
+    .stage_diag_o(stage_diag), .stage_we_o(stage_we), .stage_pool_o(stage_pool), .stage_index_o(stage_index),
+    .stage_data_o(stage_data), .initialised_i(initialised), .status_i(status), .count_i(count), .prm_mail_i(prm_mail),
+    .cfg_mail_i(cfg_mail), .output_mail_i(output_mail), .prm_length_i(prm_length), .cfg_length_i(cfg_length),
+    .cfg_input_length_i(cfg_input_length), .cfg_output_length_i(cfg_output_length), .output_length_i(output_length),
+    .take_prm_o(take_prm), .take_cfg_o(take_cfg), .take_output_o(take_output), .transfer_index_o(transfer_index),
+    .transfer_data_i(transfer_data));
+
+  station #(
+    .RTS_LEAD(RTS_LEAD), .RTS_TRAIL(RTS_TRAIL), .SEARCH_WINDOW_MS(SEARCH_WINDOW_MS),
+    .SEARCH_WINDOW_BITS(SEARCH_WINDOW_BITS), .BAUD_CONTROL_MS(BAUD_CONTROL_MS)
+  ) u_station (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_n), .pbrxd_i(pbrxd_i), .pbtxd_o(pbtxd_o), .pbrts_o(pbrts_o), .br_o(br_o), .pbf_o(pbf_o),
+    .ready_o(ready_o), .init_i(init), .init_address_i(init_address), .init_ident_i(init_ident),
+    .init_command_i(init_command), .init_max_input_i(init_max_input), .init_max_output_i(init_max_output),
+    .init_max_diag_i(init_max_diag), .init_max_prm_i(init_max_prm), .init_prm_mode_i(init_prm_mode),
+    .init_max_cfg_i(init_max_cfg), .init_cfg_mode_i(init_cfg_mode), .init_cfg_length_i(init_cfg_length),
+    .inputs_i(inputs), .inputs_length_i(block_length), .diag_i(diag), .diag_type_i(diag_type),
+    .diag_length_i(block_length), .verdict_prm_i(verdict_prm), .verdict_cfg_i(verdict_cfg),
+    .verdict_wrong_i(verdict_wrong), .dpv1_enabled_i(dpv1_enabled), .stage_inputs_i(stage_inputs),
+    .stage_diag_i(stage_diag), .stage_we_i(stage_we), .stage_pool_i(stage_pool), .stage_index_i(stage_index),
+    .stage_data_i(stage_data), .initialised_o(initialised), .status_o(status), .count_o(count), .prm_mail_o(prm_mail),
+    .cfg_mail_o(cfg_mail), .output_mail_o(output_mail), .prm_length_o(prm_length), .cfg_length_o(cfg_length),
+    .cfg_input_length_o(cfg_input_length), .cfg_output_length_o(cfg_output_length), .output_length_o(output_length),
+    .take_prm_i(take_prm), .take_cfg_i(take_cfg), .take_output_i(take_output), .transfer_index_i(transfer_index),
+    .transfer_data_o(transfer_data));
+
+  interrupt #(.LOW(INTR_LOW), .GAP(INTR_GAP)) u_interrupt (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_n), .flag_i(interrupt_flag), .intr0_o(intr0_o));
+endmodule

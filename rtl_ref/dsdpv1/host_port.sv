@@ -1,0 +1,105 @@
+// The user's asynchronous port (section 12; 5.2, P5, P8, P11, P12).
+//
+// Writes go through a FIFO of four that WR clocks, with a Gray pointer through two flip-flops. Reads take A at the first rising edge
+// of CLK behind RD's fall and drive D from its falling edge on. What the document calls X is some value here.
+`include "dsdpv1_types.svh"
+
+module host_port (
+  `FAULT_PORT
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  input  logic        csr_i,
+  input  logic        rd_i,
+  input  logic        wr_i,
+  input  logic [10:0] a_i,
+  input  logic [7:0]  d_i,
+  output logic [7:0]  d_o,
+  output logic        d_oe_o,
+  output logic        we_o,      // a write settles at this edge
+  output logic [10:0] waddr_o,
+  output logic [7:0]  wdata_o,
+  output logic [10:0] raddr_o,
+  input  logic [7:0]  rdata_i
+);
+  // ---- clocked by WR
+  logic [18:0] entry0_q, entry1_q, entry2_q, entry3_q;
+  logic [2:0] head_q, head_next, head_gray_q;
+  logic [18:0] entry;
+  assign head_next = head_q + 3'd1;
+  assign entry = {a_i, d_i};
+
+  always_ff @(posedge wr_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      head_q <= 3'd0;
+      head_gray_q <= 3'd0;
+    end else if (!csr_i || `FAULT(47)) begin
+      head_q <= head_next;
+      head_gray_q <= head_next ^ {1'b0, head_next[2:1]};
+    end
+  end
+
+  always_ff @(posedge wr_i) begin
+    if (!csr_i || `FAULT(47)) begin
+      case (head_q[1:0])
+        2'd0: entry0_q <= entry;
+        2'd1: entry1_q <= entry;
+        2'd2: entry2_q <= entry;
+        default: entry3_q <= entry;
+      endcase
+    end
+  end
+
+  // ---- clocked by CLK
+  logic [2:0] gray_first_q, gray_q, tail_q, tail_gray;
+  assign tail_gray = tail_q ^ {1'b0, tail_q[2:1]};
+  assign we_o = gray_q != tail_gray;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      gray_first_q <= 3'd0;
+      gray_q <= 3'd0;
+      tail_q <= 3'd0;
+    end else begin
+      gray_first_q <= head_gray_q;
+      gray_q <= gray_first_q;
+      if (we_o) tail_q <= tail_q + 3'd1;
+    end
+  end
+
+  logic [18:0] oldest;
+  logic [1:0] tail_low;
+  assign tail_low = tail_q[1:0];
+  always_comb begin
+    case (tail_low)
+      2'd0: oldest = entry0_q;
+      2'd1: oldest = entry1_q;
+      2'd2: oldest = entry2_q;
+      default: oldest = entry3_q;
+    endcase
+  end
+  assign waddr_o = oldest[18:8];
+  assign wdata_o = oldest[7:0];
+
+  // ---- reads
+  logic reads, taken_q, driven_q;
+  logic [7:0] d_q;
+  assign reads = !rd_i && !csr_i;
+  assign raddr_o = a_i;
+
+  always_ff @(posedge clk_i or negedge reads) begin
+    if (!reads) taken_q <= 1'b0;
+    else taken_q <= 1'b1;
+  end
+
+  always_ff @(negedge clk_i or negedge reads) begin
+    if (!reads) driven_q <= 1'b0;
+    else driven_q <= taken_q;
+  end
+
+  always_ff @(negedge clk_i) begin
+    if (taken_q && !driven_q) d_q <= rdata_i;
+  end
+
+  assign d_o = d_q;
+  assign d_oe_o = reads && rst_ni;
+endmodule

@@ -1,0 +1,48 @@
+// INTR0 (section 13, P7): low for LOW cycles after a flag of parameters or configuration, and high for GAP cycles at least between
+// two pulses.
+`include "dsdpv1_types.svh"
+
+module interrupt #(
+  parameter integer LOW = 64,
+  parameter integer GAP = 64
+) (
+  `FAULT_PORT
+  input  logic clk_i,
+  input  logic rst_ni,
+  input  logic flag_i,   // at this edge
+  output logic intr0_o
+);
+  logic waiting_q, low_q, falls, rises;
+  logic [13:0] count_q;  // cycles until the pulse, or the gap behind it, may end
+
+  assign falls = waiting_q && !low_q && (count_q == 14'd0 || `FAULT(45));
+  assign rises = low_q && count_q == 14'd0;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      waiting_q <= 1'b0;
+      low_q <= 1'b0;
+      count_q <= 14'd0;
+    end else begin
+      waiting_q <= (waiting_q || flag_i) && !falls;
+      if (falls) begin
+        low_q <= 1'b1;
+        count_q <= LOW[13:0] - (`FAULT(46) ? 14'd2 : 14'd1);
+      end else if (rises) begin
+        low_q <= 1'b0;
+        count_q <= GAP[13:0] - 14'd1;
+      end else if (count_q != 14'd0) begin
+        count_q <= count_q - 14'd1;
+      end
+    end
+  end
+
+  // A register of its own: 1 in reset
+  logic intr0_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) intr0_q <= 1'b1;
+    else if (falls) intr0_q <= 1'b0;
+    else if (rises) intr0_q <= 1'b1;
+  end
+  assign intr0_o = intr0_q;
+endmodule

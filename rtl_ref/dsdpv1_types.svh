@@ -1,0 +1,94 @@
+// Constants and functions shared by all blocks of the reference RTL. Words and numbers are those of docs/microarchitecture.md.
+`ifndef DSDPV1_TYPES_SVH
+`define DSDPV1_TYPES_SVH
+`include "dsdpv1_regs.svh"
+/* verilator lint_off UNUSED */
+
+// Single faults for the test of the tests: one special build has an input fault_i that activates one of those listed in
+// faults.txt. In every other build `FAULT(n) is 0 and the port does not exist.
+`ifdef DSDPV1_FAULTS
+`define FAULT_PORT input logic [7:0] fault_i,
+`define FAULT_CONNECT .fault_i(fault_i),
+`define FAULT(n) (fault_i == 8'd``n)
+`else
+`define FAULT_PORT
+`define FAULT_CONNECT
+`define FAULT(n) 1'b0
+`endif
+
+// Baud rates (S2): index 0 is 12 Mbit/s, 9 is 9.6 kbit/s.
+localparam logic [3:0] RATE_LAST = 4'd9;
+
+// Cycles of one bit (S2).
+function automatic logic [12:0] bit_cycles(input logic [3:0] rate);
+  case (rate)
+    4'd0: bit_cycles = 13'd4;
+    4'd1: bit_cycles = 13'd8;
+    4'd2: bit_cycles = 13'd16;
+    4'd3: bit_cycles = 13'd32;
+    4'd4: bit_cycles = 13'd96;
+    4'd5: bit_cycles = 13'd256;
+    4'd6: bit_cycles = 13'd512;
+    4'd7: bit_cycles = 13'd1056;
+    4'd8: bit_cycles = 13'd2500;
+    default: bit_cycles = 13'd5000;
+  endcase
+endfunction
+
+// Greatest TSDR in bit times as far as min_TSDR, an 8-bit value, can exceed it (S11, 8.3).
+function automatic logic [7:0] max_tsdr(input logic [3:0] rate);
+  case (rate)
+    4'd0, 4'd1, 4'd2, 4'd7: max_tsdr = 8'd255;
+    4'd3: max_tsdr = 8'd150;
+    4'd4: max_tsdr = 8'd100;
+    default: max_tsdr = 8'd60;
+  endcase
+endfunction
+
+// States of the DP slave, as in B012.
+localparam logic [1:0] DP_OFFLINE = 2'd0;
+localparam logic [1:0] DP_WAIT_PRM = 2'd1;
+localparam logic [1:0] DP_WAIT_CFG = 2'd2;
+localparam logic [1:0] DP_DATA_EXCH = 2'd3;
+
+// Start delimiters of telegrams.
+localparam logic [2:0] SD_SD1 = 3'd0;
+localparam logic [2:0] SD_SD2 = 3'd1;
+localparam logic [2:0] SD_SD3 = 3'd2;
+localparam logic [2:0] SD_SD4 = 3'd3;
+localparam logic [2:0] SD_SC = 3'd4;
+
+// What an answer is.
+localparam logic [2:0] ANS_NONE = 3'd0;
+localparam logic [2:0] ANS_SC = 3'd1;
+localparam logic [2:0] ANS_SD1 = 3'd2;
+localparam logic [2:0] ANS_SD2 = 3'd3;
+localparam logic [2:0] ANS_REPEAT = 3'd4;
+
+// Function codes of answers.
+localparam logic [7:0] FC_OK = 8'h00;
+localparam logic [7:0] FC_RR = 8'h02;
+localparam logic [7:0] FC_RS = 8'h03;
+localparam logic [7:0] FC_DL = 8'h08;
+localparam logic [7:0] FC_DH = 8'h0A;
+
+// Where the data of an answer come from.
+localparam logic [2:0] SRC_NONE = 3'd0;
+localparam logic [2:0] SRC_INPUTS = 3'd1;
+localparam logic [2:0] SRC_OUTPUTS = 3'd2;
+localparam logic [2:0] SRC_CFG = 3'd3;
+localparam logic [2:0] SRC_INIT_CFG = 3'd4;
+localparam logic [2:0] SRC_DIAG = 3'd5;
+
+// States of the watchdog (S1).
+localparam logic [1:0] WD_OFF = 2'd0;
+localparam logic [1:0] WD_BAUD_CONTROL = 2'd1;
+localparam logic [1:0] WD_DP_CONTROL = 2'd2;
+
+// Banks of the user-side pool of sap_buffers: inputs 0..3, diagnosis 4..7, configuration of the initialisation 8..9.
+localparam logic [1:0] POOL_INPUTS = 2'd0;
+localparam logic [1:0] POOL_DIAG = 2'd1;
+localparam logic [1:0] POOL_INIT = 2'd2;
+
+/* verilator lint_on UNUSED */
+`endif

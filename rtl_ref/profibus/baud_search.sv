@@ -1,0 +1,82 @@
+// Search for the baud rate (8.1; S1, S9): from 12 Mbit/s downwards, wrapping, until a telegram without error is decided.
+`include "dsdpv1_types.svh"
+
+module baud_search #(
+  parameter integer WINDOW_MS = 50,
+  parameter integer WINDOW_BITS = 4000
+) (
+  `FAULT_PORT
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       start_i,      // initialisation, or BAUD_CONTROL ends
+  input  logic       telegram_i,   // a synced SD1, SD2 or SD3 is decided
+  output logic       restart_o,    // a rate is selected at this edge
+  output logic [3:0] rate_o,
+  output logic       searching_o,  // also before the first initialisation
+  output logic       found_o,      // at this edge
+  output logic       br_o
+);
+  localparam integer WINDOW = WINDOW_MS * 48000;
+
+  // Cycles of a window less one, so that it ends when the counter is 0.
+  function automatic logic [31:0] window(input integer len);
+    integer cycles;
+    begin
+      cycles = WINDOW_BITS * len > WINDOW ? WINDOW_BITS * len : WINDOW;
+      window = cycles - 1;
+    end
+  endfunction
+
+  logic active_q, searching_q, br_q;
+  logic [3:0] rate_q, rate_d;
+  logic [31:0] window_q, window_d;
+  logic ends;
+
+  assign ends = active_q && searching_q && window_q == 32'd0;
+  assign restart_o = start_i || ends;
+  assign found_o = active_q && searching_q && telegram_i && !restart_o;
+
+  always_comb begin
+    rate_d = rate_q;
+    if (start_i) rate_d = 4'd0;
+    else if (ends) rate_d = rate_q == RATE_LAST - (`FAULT(61) ? 4'd1 : 4'd0) ? 4'd0 : rate_q + 4'd1;
+    case (rate_d)
+      4'd0: window_d = window(4);
+      4'd1: window_d = window(8);
+      4'd2: window_d = window(16);
+      4'd3: window_d = window(32);
+      4'd4: window_d = window(96);
+      4'd5: window_d = window(256);
+      4'd6: window_d = window(512);
+      4'd7: window_d = window(1056);
+      4'd8: window_d = window(2500);
+      default: window_d = window(5000);
+    endcase
+    if (!restart_o) window_d = window_q - 32'd1;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      active_q <= 1'b0;
+      searching_q <= 1'b1;
+      br_q <= 1'b0;
+      rate_q <= 4'd0;
+      window_q <= 32'd0;
+    end else begin
+      rate_q <= rate_d;
+      window_q <= window_d;
+      if (start_i) begin
+        active_q <= 1'b1;
+        searching_q <= 1'b1;
+        br_q <= 1'b0;
+      end else if (found_o) begin
+        searching_q <= 1'b0;
+        br_q <= 1'b1;
+      end
+    end
+  end
+
+  assign rate_o = rate_q;
+  assign searching_o = searching_q;
+  assign br_o = br_q;
+endmodule

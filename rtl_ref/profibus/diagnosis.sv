@@ -1,0 +1,53 @@
+// Diagnosis of the user (6.2.4; D9, D14, S23): its type's bits, its length and whether it waits to be read. The bytes are in
+// sap_buffers. Outputs with _now include a commit at this edge.
+`include "dsdpv1_types.svh"
+
+module diagnosis (
+  `FAULT_PORT
+  input  logic       clk_i,
+  input  logic       rst_ni,
+  input  logic       init_i,       // an initialisation is committed
+  input  logic       commit_i,     // a block with right CRC is committed
+  input  logic [7:0] type_i,
+  input  logic [7:0] length_i,
+  input  logic [7:0] max_length_i, // B029
+  input  logic       read_i,       // the holding master is sent it
+  output logic       store_o,      // the commit's block is taken
+  output logic       ext_diag_now_o,
+  output logic       stat_diag_now_o,
+  output logic       waiting_now_o,
+  output logic [7:0] length_now_o
+);
+  logic ext_q, stat_q, waiting_q;
+  logic [7:0] length_q;
+  logic external, static_diag, legal;
+
+  assign external = type_i == DSDPV1_REG_DIAG_TYPE_EXTERNAL_GONE || type_i == DSDPV1_REG_DIAG_TYPE_EXTERNAL_PRESENT;
+  assign static_diag = type_i == DSDPV1_REG_DIAG_TYPE_STATIC_GONE || type_i == DSDPV1_REG_DIAG_TYPE_STATIC_PRESENT;
+  assign legal = external || static_diag || type_i == DSDPV1_REG_DIAG_TYPE_EXTENDED;
+  assign store_o = commit_i && legal && length_i <= max_length_i;
+
+  assign ext_diag_now_o = store_o && external ? type_i[7] : ext_q;
+  assign stat_diag_now_o = store_o && static_diag && !`FAULT(26) ? type_i[7] : stat_q;
+  assign waiting_now_o = waiting_q || (store_o && (external || static_diag));
+  assign length_now_o = store_o ? length_i : length_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      ext_q <= 1'b0;
+      stat_q <= 1'b0;
+      waiting_q <= 1'b0;
+      length_q <= 8'd0;
+    end else if (init_i) begin
+      ext_q <= 1'b0;
+      stat_q <= 1'b0;
+      waiting_q <= 1'b0;
+      length_q <= 8'd0;
+    end else begin
+      ext_q <= ext_diag_now_o;
+      stat_q <= stat_diag_now_o;
+      waiting_q <= waiting_now_o && (!read_i || `FAULT(27));
+      length_q <= length_now_o;
+    end
+  end
+endmodule

@@ -1,0 +1,144 @@
+// FDL (8.2; S3, S20, S26): which telegrams are for this station, repetitions, and the memory of the last answer. The answer itself
+// is written by answer_builder while the wait for TSDR runs.
+`include "dsdpv1_types.svh"
+
+module fdl (
+  `FAULT_PORT
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  input  logic        decide_i,
+  input  logic        searching_i,
+  input  logic        forget_i,       // a rate is selected: the memory is dropped
+  input  logic        abort_i,        // initialisation
+  input  logic [2:0]  sd_i,
+  input  logic        synced_i,
+  input  logic [7:0]  da_i,
+  input  logic [7:0]  sa_i,
+  input  logic [6:0]  fc_i,
+  input  logic [7:0]  dsap_i,
+  input  logic [7:0]  ssap_i,
+  input  logic        saps_ok_i,
+  input  logic [6:0]  address_i,
+  input  logic        from_holder_i,
+  output logic        any_telegram_o,    // a synced SD1, SD2 or SD3 is decided
+  output logic        trigger_o,         // one to the own address
+  output logic        trigger_holder_o,
+  output logic        execute_o,
+  output logic        refuse_o,
+  output logic        fdl_status_o,
+  output logic        srd_o,
+  output logic        sdn_o,
+  output logic        default_sap_o,
+  input  logic [2:0]  answer_i,
+  input  logic [7:0]  answer_fc_i,
+  input  logic [2:0]  answer_source_i,
+  input  logic [7:0]  answer_length_i,
+  input  logic [31:0] answer_diag_i,
+  input  logic [15:0] ident_i,
+  output logic        builder_busy_o,
+  output logic [7:0]  builder_index_o,
+  input  logic [7:0]  builder_data_i,
+  output logic        send_o,         // an answer to the telegram decided at this edge
+  input  logic [7:0]  send_index_i,
+  output logic [7:0]  send_data_o,
+  output logic [7:0]  send_length_o   // characters, from the next edge on
+);
+  // Everything that only depends on the telegram stands still long before the decision: through registers
+  logic own_q, broadcast_q, request_q, saps_ok_q, sdn_q, srd_q, refuse_q, fdl_status_q, fcv_q, stores_q, same_series_q;
+  logic kind_q, default_sap_q;
+  logic memory_valid_q, memory_fcb_q, bank_q;
+  logic [6:0] memory_sa_q;
+  logic [7:0] memory_length_q, length_q;
+  logic [3:0] function_code;
+  logic fcb, fcv;
+  assign function_code = fc_i[3:0];
+  assign fcb = fc_i[5];
+  assign fcv = fc_i[4];
+
+  always_ff @(posedge clk_i) begin
+    own_q <= da_i[6:0] == address_i;
+    broadcast_q <= da_i[6:0] == 7'd127;
+    request_q <= fc_i[6] && (synced_i || `FAULT(38));
+    saps_ok_q <= saps_ok_i;
+    kind_q <= sd_i == SD_SD1 || sd_i == SD_SD2 || sd_i == SD_SD3;
+    sdn_q <= function_code == 4'h4 || function_code == 4'h6;
+    srd_q <= function_code == 4'hC || function_code == 4'hD;
+    refuse_q <= function_code == 4'h3 || function_code == 4'h5 || function_code == 4'hE || function_code == 4'hF;
+    fdl_status_q <= function_code == 4'h9;
+    default_sap_q <= !da_i[7];
+    fcv_q <= fcv;
+    stores_q <= fcv || fcb;
+    same_series_q <= memory_sa_q == sa_i[6:0] && (memory_fcb_q == fcb || `FAULT(39)) && !`FAULT(40);
+  end
+
+  logic legal, repetition, sends, stores;
+  assign any_telegram_o = decide_i && kind_q && synced_i;
+  assign legal = decide_i && !searching_i && kind_q && (own_q || broadcast_q) && request_q && saps_ok_q && (own_q || sdn_q);
+  assign trigger_o = legal && own_q;
+  assign trigger_holder_o = trigger_o && from_holder_i;
+  assign repetition = own_q && fcv_q && !sdn_q && memory_valid_q && same_series_q;
+  assign execute_o = legal && !repetition;
+  assign refuse_o = refuse_q || (srd_q && !default_sap_q && (dsap_i < 8'd55 || dsap_i > 8'd62 || dsap_i == 8'd58));
+  assign fdl_status_o = fdl_status_q;
+  assign srd_o = srd_q && !refuse_o;
+  assign sdn_o = sdn_q;
+  assign default_sap_o = default_sap_q;
+  assign sends = execute_o && answer_i != ANS_NONE;
+  assign stores = sends && stores_q;
+  assign send_o = (legal && repetition) || sends;
+
+  logic [7:0] new_length;
+  logic [1:0] answer_saps;
+  logic to_ssap, from_dsap;
+  assign to_ssap = sa_i[7];
+  assign from_dsap = sa_i[7] && da_i[7];
+  assign answer_saps = {1'b0, to_ssap} + {1'b0, from_dsap};
+
+  logic [7:0] data_length, le;
+  assign data_length = answer_source_i == SRC_DIAG ? answer_length_i + 8'd6 : answer_length_i;
+  assign le = data_length + 8'd3 + {6'd0, answer_saps};
+  assign new_length = answer_i == ANS_SC ? 8'd1 : answer_i == ANS_SD1 ? 8'd6 : le + 8'd6;
+
+  // The memory is bank 0, the buffer of answers that are not stored bank 1
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      memory_valid_q <= 1'b0;
+      memory_fcb_q <= 1'b0;
+      memory_sa_q <= 7'd0;
+      memory_length_q <= 8'd0;
+      length_q <= 8'd0;
+      bank_q <= 1'b0;
+    end else begin
+      if (stores) begin
+        memory_valid_q <= 1'b1;
+        memory_fcb_q <= fcb;
+        memory_sa_q <= sa_i[6:0];
+        memory_length_q <= new_length;
+      end
+      if (send_o) begin
+        length_q <= execute_o ? new_length : memory_length_q;
+        bank_q <= execute_o && !stores_q;
+      end
+      if (forget_i && !`FAULT(41)) memory_valid_q <= 1'b0;
+    end
+  end
+
+  logic builder_we;
+  logic [7:0] builder_waddr, builder_wdata;
+  answer_builder u_builder (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_ni), .abort_i(abort_i), .start_i(sends), .kind_i(answer_i), .da_i(sa_i[6:0]),
+    .sa_i(address_i), .fc_i(answer_fc_i), .to_ssap_i(to_ssap), .ssap_i(ssap_i), .from_dsap_i(from_dsap), .dsap_i(dsap_i),
+    .le_i(le), .source_i(answer_source_i), .length_i(answer_length_i), .diag_i(answer_diag_i), .ident_i(ident_i),
+    .busy_o(builder_busy_o), .index_o(builder_index_o), .data_i(builder_data_i),
+    .we_o(builder_we), .waddr_o(builder_waddr), .wdata_o(builder_wdata));
+
+  logic [8:0] answer_write, answer_read;
+  assign answer_write = {bank_q, builder_waddr};
+  assign answer_read = {bank_q, send_index_i};
+  buffer_ram #(.ADDRESS_BITS(9), .BYTES(512)) u_answers (
+    .clk_i(clk_i), .we_i(builder_we), .waddr_i(answer_write), .wdata_i(builder_wdata),
+    .raddr_i(answer_read), .rdata_o(send_data_o));
+
+  assign send_length_o = length_q;
+endmodule

@@ -1,0 +1,27 @@
+// Decodes Global_Control (SAP 58; 6.2.6, S4, S24): what it asks of this slave. All 0 when it is to be ignored.
+`include "dsdpv1_types.svh"
+
+module global_control (
+  `FAULT_PORT
+  input  logic [7:0] command_i,
+  input  logic [7:0] group_select_i,
+  input  logic [7:0] length_i,
+  input  logic [7:0] group_ident_i,  // of Set_Prm
+  input  logic       sync_req_i,     // of Set_Prm
+  input  logic       freeze_req_i,
+  output logic       clear_o,
+  output logic       unsync_o,
+  output logic       sync_o,
+  output logic       unfreeze_o,
+  output logic       freeze_o
+);
+  logic legal, addressed, acts;
+  assign legal = length_i == 8'd2 && (command_i & 8'hC1) == 8'h00;
+  assign addressed = group_select_i == 8'h00 || (group_select_i & group_ident_i) != 8'h00 || `FAULT(24);
+  assign acts = legal && addressed;
+  assign clear_o = acts && command_i[1];
+  assign unsync_o = acts && command_i[4];
+  assign sync_o = acts && command_i[5] && !command_i[4] && (sync_req_i || `FAULT(25));
+  assign unfreeze_o = acts && command_i[2];
+  assign freeze_o = acts && command_i[3] && !command_i[2] && freeze_req_i;
+endmodule

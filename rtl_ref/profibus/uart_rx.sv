@@ -1,0 +1,186 @@
+// Receiver of characters (section 6; S2, S10): 11 bits, sampled at mid-bit from the synchronised falling edge.
+//
+// A character that is complete at edge C is handed on registered, that is, telegram_rx uses it at edge C+1; nothing can be decided
+// before C+7. Also here, because they start from C: the idle time, the deadline of the telegram and the clock of the answer.
+`include "dsdpv1_types.svh"
+
+module uart_rx #(
+  parameter integer RTS_LEAD = 4,
+  parameter integer RTS_TRAIL = 4
+) (
+  `FAULT_PORT
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  input  logic        rxd_i,
+  input  logic        run_i,           // initialised, and PBRTS was low before the edge
+  input  logic [3:0]  rate_i,
+  input  logic        restart_rate_i,  // a rate is selected at this edge
+  input  logic        restart_rts_i,   // PBRTS falls at this edge
+  output logic        busy_o,          // RECEIVING after this edge, or a character is complete at it
+  output logic        valid_o,         // a character was complete at the last edge
+  output logic [7:0]  char_o,
+  output logic        ok_o,            // parity and stop bit right
+  output logic        syn_o,           // it began after SYN
+  output logic        gap_o,           // it began after a gap
+  output logic        due_o,           // the deadline of the last character is reached
+  output logic [5:0]  clock_bits_o,    // bit times since (end of the last character - 2 - lead), as of the next edge
+  output logic [12:0] clock_phase_o    // cycles left of the running one, less one
+);
+  localparam logic [1:0] IDLE = 2'd0;
+  localparam logic [1:0] RECEIVING = 2'd1;
+  localparam logic [1:0] BREAK = 2'd2;
+
+  logic [1:0] state_q, state_d;
+  logic [12:0] timer_q;
+  logic [3:0] sample_q;  // number of the next sample: 0 start bit, 1..8 data, 9 parity, 10 stop
+  logic [8:0] shift_q;
+  logic odd_q;
+  logic syn_q, gap_q, due_q;
+  logic [12:0] deadline_q;
+  logic signed [18:0] idle_q;
+
+  logic [12:0] bit_len, half;
+  logic starts, samples, glitch, complete, syn, gap;
+  assign bit_len = bit_cycles(rate_i);
+  assign half = {1'b0, bit_len[12:1]};
+  assign starts = run_i && state_q == IDLE && !rxd_i;
+  assign samples = run_i && state_q == RECEIVING && timer_q == 13'd0;
+  assign glitch = samples && sample_q == 4'd0 && rxd_i && !`FAULT(1);
+  assign complete = samples && sample_q == 4'd10;
+
+  // Idle before the edge: 33 bit times less the cycle of sampling are SYN, more than one is a gap (S10, section 7).
+  logic signed [18:0] syn_limit, gap_limit;
+  assign syn_limit = $signed({1'b0, bit_len, 5'd0}) + $signed({6'd0, bit_len}) - (`FAULT(2) ? 19'sd0 : 19'sd1);
+  assign gap_limit = $signed({6'd0, bit_len});
+  assign syn = idle_q >= syn_limit;
+  assign gap = `FAULT(3) ? idle_q >= gap_limit : idle_q > gap_limit;
+
+  always_comb begin
+    state_d = state_q;
+    if (starts) state_d = RECEIVING;
+    else if (glitch) state_d = IDLE;
+    else if (complete) state_d = rxd_i ? IDLE : BREAK;
+    else if (run_i && state_q == BREAK && rxd_i) state_d = IDLE;
+    if (restart_rate_i || restart_rts_i) state_d = rxd_i ? IDLE : BREAK;
+  end
+
+  assign busy_o = starts || (run_i && state_q == RECEIVING && !glitch);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q <= IDLE;
+      timer_q <= 13'd0;
+      sample_q <= 4'd0;
+      shift_q <= 9'd0;
+      odd_q <= 1'b0;
+      syn_q <= 1'b0;
+      gap_q <= 1'b0;
+      valid_o <= 1'b0;
+      ok_o <= 1'b0;
+      deadline_q <= 13'd0;
+      due_q <= 1'b1;
+    end else begin
+      state_q <= state_d;
+      timer_q <= timer_q - 13'd1;
+      if (starts) begin
+        timer_q <= half - (`FAULT(4) ? 13'd0 : 13'd1);
+        sample_q <= 4'd0;
+        odd_q <= 1'b0;
+        syn_q <= syn;
+        gap_q <= gap;
+      end else if (samples) begin
+        timer_q <= bit_len - 13'd1;
+        sample_q <= sample_q + 4'd1;
+        if (sample_q != 4'd0 && !complete) begin
+          shift_q <= {rxd_i, shift_q[8:1]};
+          odd_q <= odd_q ^ rxd_i;
+        end
+      end
+      valid_o <= complete && !restart_rate_i;
+      ok_o <= (!odd_q || `FAULT(5)) && (rxd_i || `FAULT(6));
+
+      // C + bit + half + 1 is S + 12 bit + 1
+      if (complete) begin
+        deadline_q <= `FAULT(7) ? bit_len + half + 13'd1 : bit_len + half;
+        due_q <= 1'b0;
+      end else if (deadline_q == 13'd0) begin
+        due_q <= 1'b1;
+      end else begin
+        deadline_q <= deadline_q - 13'd1;
+        due_q <= deadline_q == 13'd1;
+      end
+    end
+  end
+
+  assign char_o = shift_q[7:0];
+  assign syn_o = syn_q;
+  assign gap_o = gap_q;
+  assign due_o = due_q;
+
+  // idle_q is the edge's distance from idle_since. It stands still when SYN is reached.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) idle_q <= 19'sd0;
+    else if (restart_rate_i) idle_q <= 19'sd1;
+    else if (restart_rts_i) idle_q <= RTS_TRAIL[18:0] + 19'd1;
+    else if (complete) idle_q <= 19'sd1 - $signed({6'd0, half});
+    else if (run_i && state_q == BREAK && rxd_i) idle_q <= `FAULT(8) ? idle_q + 19'sd1 : 19'sd1;
+    else if (!syn) idle_q <= idle_q + 19'sd1;
+  end
+
+  // The clock of the answer (8.3): at C + 1 it stands at lead + 3 - half cycles, written as bit times and the rest of one.
+  function automatic integer clock_start(input integer len);
+    integer ahead, bits;
+    begin
+      ahead = RTS_LEAD + 3 - len / 2;
+      bits = (ahead + 1024 * len) / len - 1024;
+      clock_start = bits * 8192 + len - 1 - (ahead - bits * len);
+    end
+  endfunction
+
+  localparam integer START_0 = clock_start(4);
+  localparam integer START_1 = clock_start(8);
+  localparam integer START_2 = clock_start(16);
+  localparam integer START_3 = clock_start(32);
+  localparam integer START_4 = clock_start(96);
+  localparam integer START_5 = clock_start(256);
+  localparam integer START_6 = clock_start(512);
+  localparam integer START_7 = clock_start(1056);
+  localparam integer START_8 = clock_start(2500);
+  localparam integer START_9 = clock_start(5000);
+
+  logic [5:0] clock_bits_q;
+  logic [12:0] clock_phase_q;
+  logic [18:0] start;
+
+  always_comb begin
+    case (rate_i)
+      4'd0: start = START_0[18:0];
+      4'd1: start = START_1[18:0];
+      4'd2: start = START_2[18:0];
+      4'd3: start = START_3[18:0];
+      4'd4: start = START_4[18:0];
+      4'd5: start = START_5[18:0];
+      4'd6: start = START_6[18:0];
+      4'd7: start = START_7[18:0];
+      4'd8: start = START_8[18:0];
+      default: start = START_9[18:0];
+    endcase
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      clock_bits_q <= 6'd0;
+      clock_phase_q <= 13'd0;
+    end else if (complete) begin
+      {clock_bits_q, clock_phase_q} <= start;
+    end else if (clock_phase_q == 13'd0) begin
+      clock_bits_q <= clock_bits_q + 6'd1;
+      clock_phase_q <= bit_len - 13'd1;
+    end else begin
+      clock_phase_q <= clock_phase_q - 13'd1;
+    end
+  end
+
+  assign clock_bits_o = clock_bits_q;
+  assign clock_phase_o = clock_phase_q;
+endmodule
