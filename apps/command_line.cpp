@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/reasons_command.hpp"
+#include "apps/serve_command.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/suggest.hpp"
 
@@ -75,6 +76,40 @@ void describe_decode(CLI::App& app, DecodeArguments& arguments) {
       "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 not hexadecimal.\n");
 }
 
+void describe_serve(CLI::App& app, ServeArguments& arguments) {
+  CLI::App* command = app.add_subcommand("serve", "Lets a real master talk to a scenario's slaves, in real time");
+  command
+      ->add_option("SCENARIO", arguments.scenario,
+                   "Scenario in YAML; it needs no masters, and its end is not looked at")
+      ->required();
+  CLI::Option* pty =
+      command->add_option("--pty", arguments.link, "At a pseudo-terminal (default) with this name as a link to it")
+          ->expected(0, 1);
+  CLI::Option* tcp =
+      command->add_option("--tcp", arguments.tcp, "At this TCP port (0: any free one), a byte a character")
+          ->check(CLI::Range(0, 65535));
+  CLI::Option* serial =
+      command->add_option("--serial", arguments.serial, "At this serial port, 8E1, with an RS-485 transceiver");
+  pty->excludes(tcp)->excludes(serial);
+  tcp->excludes(serial);
+  command->add_option("--bind", arguments.bind, "IPv4 address of --tcp")->capture_default_str()->needs(tcp);
+  command
+      ->add_flag("--rts", arguments.rts, "RTS of the serial port switches the transceiver; else it does so by itself")
+      ->needs(serial);
+  command->add_option("--baud", arguments.baud, "Baud rate; left out: that of the scenario");
+  command->add_option("--for", arguments.duration, "Ends after this time, for example 10s; left out: Ctrl-C");
+  command->add_option("--wave", arguments.wave, "As of run");
+  command->add_option("--log", arguments.log, "As of run; FILE.part until the end");
+  command->add_option("--result", arguments.result, "As of run, and how well real time was kept");
+  command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
+  command->footer(std::string("\nExamples:\n"
+                              "  dsdpv1-sim serve scenarios/serve_19k2.yaml --pty dp --log serve.log\n"
+                              "  dsdpv1-sim serve scenarios/serve_19k2.yaml --tcp 5020\n"
+                              "  dsdpv1-sim serve scenarios/serve_19k2.yaml --serial /dev/ttyUSB0 --baud 93.75k\n"
+                              "docs/pyprofibus.md and docs/usb_rs485.md take you through it.\n") +
+                  kExitCodes);
+}
+
 void describe_reasons(CLI::App& app, ReasonsArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("reasons", "Explains the codes of logs and results: what happened, what to do");
@@ -128,6 +163,8 @@ int command_line(int argc, char** argv) {
   describe_gsd(app, gsd_arguments);
   describe_decode(app, decode_arguments);
   ReasonsArguments reasons_arguments;
+  ServeArguments serve_arguments;
+  describe_serve(app, serve_arguments);
   describe_reasons(app, reasons_arguments);
   try {
     app.parse(argc, argv);
@@ -136,6 +173,7 @@ int command_line(int argc, char** argv) {
     throw tb::InputError(in_one_line(app, error, argc, argv));
   }
   if (app.got_subcommand("run")) return run(run_arguments);
+  if (app.got_subcommand("serve")) return serve(serve_arguments);
   if (app.got_subcommand("schema")) return schema(schema_arguments);
   if (app.got_subcommand("gsd")) return gsd(gsd_arguments);
   if (app.got_subcommand("reasons")) return reasons(reasons_arguments);

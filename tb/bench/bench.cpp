@@ -317,8 +317,8 @@ RunResult Bench::collect() {
   result.file = scenario_.file;
   result.engine = options_.engine_name;
   result.view = options_.view_name;
-  result.interrupted = pulse_->stopped();
-  result.simulated = result.interrupted ? now() : scenario_.end;
+  result.interrupted = pulse_->stopped() && !options_.open_ended;
+  result.simulated = pulse_->stopped() ? now() : scenario_.end;
   result.telegrams = monitor_->statistics().telegrams;
   result.wrong_telegrams = monitor_->statistics().wrong;
   result.violations = violations_;
@@ -333,7 +333,7 @@ RunResult Bench::collect() {
     }
     result.slaves.push_back(std::move(entry));
   }
-  result.expectations = script_->finish(result.simulated);
+  result.expectations = script_->finish(result.simulated, result.interrupted);
   result.happenings = happenings_;
   std::stable_sort(result.happenings.begin(), result.happenings.end(), [](const Happening& a, const Happening& b) {
     return std::tie(a.at, a.station) < std::tie(b.at, b.station);

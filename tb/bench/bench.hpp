@@ -27,6 +27,7 @@ struct RunOptions {
   dsdpv1::Engine engine = dsdpv1::Engine::kSkip;
   std::string engine_name = "skip", view_name = "pins";
   std::string wave, log, trace;  ///< paths, empty: not wanted
+  bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
 };
 
 /// One answer to a request of the script.

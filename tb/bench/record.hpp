@@ -52,6 +52,17 @@ struct ExpectationResult {
   std::string seen;
 };
 
+/// How a run against a host outside kept to real time (serve).
+struct Pacing {
+  std::string port;
+  std::uint64_t telegrams_from_host = 0, bytes_from_host = 0, bytes_to_host = 0;
+  std::uint64_t held_back = 0;  ///< telegrams of the host that came before T_SYN or the slot time had ended
+  Tick longest_held_back = 0;
+  double error_mean_us = 0, error_max_us = 0;  ///< real minus simulated time
+  std::uint64_t losses = 0;                    ///< how often the computer was too slow
+  Tick lost = 0;                               ///< simulated time given up because of that
+};
+
 struct RunResult {
   std::string scenario, file, engine, view;
   bool passed = false, interrupted = false;
@@ -63,6 +74,7 @@ struct RunResult {
   std::vector<Happening> happenings;
   std::uint64_t happenings_dropped = 0;  ///< beyond the first kKept
   std::vector<ExpectationResult> expectations;
+  std::optional<Pacing> pacing;
 
   static constexpr std::size_t kKept = 10'000;
   /// Simulated time over wall time, 0 when nothing was measured.

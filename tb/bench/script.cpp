@@ -108,8 +108,10 @@ void Script::judge(std::size_t index, Tick now, bool last_chance) {
              fmt::format("{}: {}, seen {}", judged.holds ? "met" : "FAILED", result.text, judged.seen));
 }
 
-std::vector<ExpectationResult> Script::finish(Tick now) {
+std::vector<ExpectationResult> Script::finish(Tick now, bool interrupted) {
   for (std::size_t i = 0; i < expectations_.size(); ++i) {
+    const scenario::Expectation& expectation = bench_.scenario().expect[i];
+    if (!interrupted && !expectation.at && !expectation.by) judge(i, now, true);
     if (judged_[i]) continue;
     expectations_[i].seen = fmt::format("the run ended at {} ns", nanoseconds(now));
   }

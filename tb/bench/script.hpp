@@ -19,8 +19,9 @@ class Script : public bus::Agent {
   void touch(Tick at) { touched_at_ = at; }
   Tick next() const override;
   void run(Tick now) override;
-  /// Judges what is to be judged at the end; an expectation whose time did not come (interrupted) has failed.
-  std::vector<ExpectationResult> finish(Tick now);
+  /// Judges what is to be judged at the end; an expectation whose time did not come has failed, when interrupted also those
+  /// of the end.
+  std::vector<ExpectationResult> finish(Tick now, bool interrupted);
 
  private:
   enum class Kind : std::uint8_t { kReleaseReset, kStartMaster, kAction, kResumeUser, kEndGlitch, kExpectation };

@@ -57,6 +57,19 @@ Json slave_of(const SlaveResult& slave) {
   return json;
 }
 
+Json pacing_of(const Pacing& pacing) {
+  return {{"port", pacing.port},
+          {"telegrams_from_host", pacing.telegrams_from_host},
+          {"bytes_from_host", pacing.bytes_from_host},
+          {"bytes_to_host", pacing.bytes_to_host},
+          {"held_back", pacing.held_back},
+          {"longest_held_back_ns", nanoseconds_of(pacing.longest_held_back)},
+          {"error_mean_us", pacing.error_mean_us},
+          {"error_max_us", pacing.error_max_us},
+          {"times_too_slow", pacing.losses},
+          {"time_lost_ns", nanoseconds_of(pacing.lost)}};
+}
+
 Json event_of(const Happening& happening) {
   return {{"at_ns", nanoseconds_of(happening.at)}, {"slave", happening.station},   {"code", happening.code},
           {"severity", name(happening.severity)},  {"allowed", happening.allowed}, {"text", happening.text}};
@@ -79,6 +92,7 @@ std::string result_json(const RunResult& result) {
   json["telegrams"] = result.telegrams;
   json["wrong_telegrams"] = result.wrong_telegrams;
   json["violations"] = result.violations;
+  if (result.pacing) json["pacing"] = pacing_of(*result.pacing);
   json["slaves"] = Json::array();
   for (const SlaveResult& slave : result.slaves) json["slaves"].push_back(slave_of(slave));
   json["expectations"] = Json::array();

@@ -1,0 +1,111 @@
+// serve: a scenario's segment behind a pseudo-terminal, a TCP port or a serial port.
+#include "apps/serve_command.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "apps/command_line.hpp"
+#include "bus/baud.hpp"
+#include "tb/bench/bench.hpp"
+#include "tb/report/output_file.hpp"
+#include "tb/report/result_json.hpp"
+#include "tb/report/summary.hpp"
+#include "tb/scenario/input_error.hpp"
+#include "tb/scenario/suggest.hpp"
+#include "tb/scenario/units.hpp"
+#include "tb/serve/ports.hpp"
+#include "tb/serve/real_time_execution.hpp"
+
+namespace app {
+namespace {
+
+/// Longer than any computer stays up, and far from the end of 64 bits.
+constexpr tb::Tick kOpenEnd = 5LL * 365 * 24 * 3600 * bus::kTicksPerSecond;
+
+volatile std::sig_atomic_t ended = 0;
+
+void on_signal(int) { ended = 1; }
+
+/// The first Ctrl-C ends the run as it is meant to end; a second one kills.
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);  // a host that hung up shows at the write
+}
+
+int chosen_baud(const tb::scenario::Scenario& scenario, const std::string& word) {
+  if (word.empty()) return scenario.baud;
+  if (const std::optional<int> index = bus::baud_index(word)) return *index;
+  std::vector<std::string> allowed;
+  for (const bus::Baud& baud : bus::kBauds) allowed.emplace_back(baud.name);
+  throw tb::InputError(fmt::format("dsdpv1-sim serve: --baud is {}{}, allowed are {}", word,
+                                   tb::did_you_mean(word, allowed), tb::join(allowed)));
+}
+
+tb::Tick chosen_end(const std::string& text) {
+  if (text.empty()) return kOpenEnd;
+  const std::optional<tb::Tick> time = tb::parse_time(text);
+  if (!time || *time <= 0)
+    throw tb::InputError(fmt::format("dsdpv1-sim serve: --for is {}, allowed is {}", text, tb::kTimeForm));
+  return *time;
+}
+
+std::unique_ptr<tb::serve::HostPort> open_port(const ServeArguments& arguments, int baud) {
+  const int bits_per_second = static_cast<int>(bus::kTicksPerSecond / bus::baud(baud).bit);
+  if (!arguments.serial.empty()) return tb::serve::open_serial({arguments.serial, bits_per_second, arguments.rts});
+  if (arguments.tcp >= 0) return tb::serve::open_tcp(arguments.bind, arguments.tcp);
+  return tb::serve::open_pty(arguments.link, bits_per_second);
+}
+
+tb::RunOptions options_of(const ServeArguments& arguments) {
+  if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
+  tb::RunOptions options;
+  options.wave = arguments.wave;
+  options.log = arguments.log;
+  options.open_ended = true;
+  return options;
+}
+
+}  // namespace
+
+int serve(const ServeArguments& arguments) {
+  tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
+  scenario.baud = chosen_baud(scenario, arguments.baud);
+  scenario.end = chosen_end(arguments.duration);
+  const tb::RunOptions options = options_of(arguments);
+  std::optional<tb::OutputFile> result_file;
+  if (!arguments.result.empty()) result_file.emplace(arguments.result);
+  catch_signals();
+
+  auto port = open_port(arguments, scenario.baud);
+  const std::string name = port->name();
+  auto made = std::make_unique<tb::serve::RealTimeExecution>(std::move(port), scenario.baud);
+  tb::serve::RealTimeExecution& execution = *made;
+  tb::Bench bench(scenario, options, std::move(made));
+  execution.join();
+  execution.say = [&bench](tb::Tick at, const std::string& text) {
+    std::cerr << "serve: " << text << std::endl;
+    bench.log(at, "host", "serve", text);
+  };
+  std::cout << "serving \"" << scenario.name << "\" at " << bus::baud(scenario.baud).name << " on " << name
+            << "; Ctrl-C ends" << std::endl;
+
+  tb::RunResult result = bench.run([](tb::Tick) { return ended == 0; });
+  result.pacing = execution.pacing();
+  if (result_file) {
+    result_file->write(tb::result_json(result));
+    result_file->commit();
+  }
+  if (!arguments.quiet) std::cout << tb::summary(result) << std::flush;
+  return result.passed ? kPassed : kFailed;
+}
+
+}  // namespace app

@@ -1,0 +1,22 @@
+#pragma once
+// serve: the simulated segment goes on in the real world.
+#include <string>
+
+namespace app {
+
+struct ServeArguments {
+  std::string scenario;
+  std::string link;  ///< of the pseudo-terminal; empty: none
+  int tcp = -1;      ///< port; 0: any free one; -1: no TCP
+  std::string bind = "127.0.0.1";
+  std::string serial;
+  bool rts = false;
+  std::string baud;      ///< empty: that of the scenario
+  std::string duration;  ///< empty: until interrupted
+  std::string wave, log, result;
+  bool quiet = false;
+};
+
+int serve(const ServeArguments& arguments);
+
+}  // namespace app

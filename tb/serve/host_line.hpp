@@ -1,0 +1,69 @@
+#pragma once
+// The host as a station of the simulated segment: what it writes becomes characters, what others send becomes bytes.
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "bus/baud.hpp"
+#include "bus/segment.hpp"
+#include "bus/timeline.hpp"
+#include "bus/uart.hpp"
+
+namespace tb::serve {
+
+using bus::Tick;
+
+struct HostLineStatistics {
+  std::uint64_t telegrams = 0;    ///< handed over by the host
+  std::uint64_t sent_bytes = 0;   ///< by the host
+  std::uint64_t heard_bytes = 0;  ///< by the host
+  std::uint64_t held_back = 0;    ///< telegrams that came too soon
+  Tick longest_held_back = 0;
+};
+
+/// A host cannot keep bus times, so they are kept here: a telegram starts when the line has been idle for T_SYN (33 bit times; an
+/// answer of the host: min_TSDR, 11), and a request after one that wants an answer when the answer or the slot time has ended.
+/// The characters of a telegram follow each other without a gap.
+class HostLine : public bus::Agent, private bus::Listener {
+ public:
+  /// `baud` as in bus/baud.hpp. The segment must outlive the line.
+  HostLine(bus::Segment& segment, int baud);
+  HostLine(const HostLine&) = delete;
+  HostLine& operator=(const HostLine&) = delete;
+
+  /// Sends after what was handed over before, not before `at` (not in the past).
+  void send(Tick at, bus::Bytes bytes);
+  /// The bytes whose last stop bit has ended, in order; with `whole_only` nothing while more may follow without a gap.
+  bus::Bytes take_heard(Tick now, bool whole_only);
+  /// Something is on the line or about to be: a telegram of the host that waits or is sent, an awaited answer, a character.
+  bool busy(Tick now) const;
+  const HostLineStatistics& statistics() const { return statistics_; }
+
+  Tick next() const override;
+  void run(Tick now) override;
+
+ private:
+  struct Waiting {
+    Tick at;
+    bus::Bytes bytes;
+    bool answer, wants_answer;
+  };
+  void line_changed(Tick at, bool level) override;
+  void heard(const bus::ReceivedCharacter& character);
+  Tick earliest(const Waiting& telegram) const;
+  void start(Tick now);
+  bool slot_runs(Tick now) const { return now < slot_end_; }
+  Tick bits(int count) const { return count * bit_; }
+
+  bus::StationId station_;
+  bus::UartSender sender_;
+  bus::UartReceiver receiver_;
+  Tick bit_, slot_;
+  Tick last_activity_ = 0;  ///< end of the last character sent or heard
+  Tick slot_end_ = 0;       ///< until then an answer may begin
+  std::deque<Waiting> waiting_;
+  bus::Bytes heard_;
+  HostLineStatistics statistics_;
+};
+
+}  // namespace tb::serve

@@ -1,0 +1,25 @@
+#pragma once
+// The three kinds of ports. Each constructor throws InputError in one line when the port cannot be had.
+#include <memory>
+#include <string>
+
+#include "tb/serve/framing.hpp"
+#include "tb/serve/host_port.hpp"
+
+namespace tb::serve {
+
+/// A pseudo-terminal; `link` is a symbolic link to it, removed at the end; empty: none. Warns when the host sets another speed
+/// than `bits_per_second`.
+std::unique_ptr<HostPort> open_pty(const std::string& link, int bits_per_second);
+
+/// A TCP port at the numeric address `bind`, one host at a time.
+std::unique_ptr<HostPort> open_tcp(const std::string& bind, int port);
+
+struct SerialOptions {
+  std::string device;
+  int bits_per_second = 19200;
+  bool rts = false;  ///< RTS switches the RS-485 driver; else the adapter does it by itself
+};
+std::unique_ptr<HostPort> open_serial(const SerialOptions& options);
+
+}  // namespace tb::serve

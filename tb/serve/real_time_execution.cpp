@@ -1,0 +1,120 @@
+#include "tb/serve/real_time_execution.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "tb/bench/pin_chip.hpp"
+
+namespace tb::serve {
+namespace {
+
+constexpr Tick kSlice = bus::kTicksPerMs;
+constexpr Tick kBusySlice = kSlice / 10;
+constexpr std::chrono::seconds kBetweenComplaints{5};
+
+}  // namespace
+
+RealTimeExecution::RealTimeExecution(std::unique_ptr<HostPort> port, int baud)
+    : port_(std::move(port)), line_(segment_, baud) {
+  port_->say = [this](const std::string& text) { say(timeline_.now(), text); };
+}
+
+std::unique_ptr<ChipView> RealTimeExecution::make_chip(const std::string& name, const dsdpv1::Config& config,
+                                                       std::uint32_t watched) {
+  auto chip = std::make_unique<PinChip>(name, config, watched, segment_);
+  timeline_.add(*chip);
+  return chip;
+}
+
+void RealTimeExecution::join() { timeline_.add(line_); }
+
+void RealTimeExecution::run(Tick end, const std::function<bool()>& stopped) {
+  pace_.emplace(WallClock::now, timeline_.now());
+  while (!stopped() && timeline_.now() < end) {
+    take_from_host();
+    advance(end);
+    give_to_host();
+    sleep();
+  }
+}
+
+void RealTimeExecution::take_from_host() {
+  intake_.take(port_->receive(), pace_->now());
+  // Late looks at the clock must not make a telegram late that came meanwhile.
+  const Tick at = std::clamp(pace_->target(), timeline_.now(), timeline_.now() + kSlice);
+  while (auto telegram = intake_.next(pace_->now()))
+    line_.send(held_since_ ? timeline_.now() : at, std::move(*telegram));
+  if (intake_.holding()) {
+    if (!held_since_) held_since_ = pace_->now();
+  } else if (held_since_) {
+    pace_->hold(to_ticks(pace_->now() - *held_since_));
+    held_since_.reset();
+  }
+}
+
+/// Up to where simulated time may go now.
+Tick RealTimeExecution::limit() const {
+  const Tick now = timeline_.now();
+  if (intake_.holding()) return now;
+  const bool ahead = port_->timed() && line_.busy(now);
+  return ahead ? now + kSlice : std::min(pace_->target(), now + kSlice);
+}
+
+void RealTimeExecution::advance(Tick end) {
+  const Tick to = std::min(limit(), end);
+  if (to > timeline_.now()) timeline_.run_until(to);
+  if (intake_.holding()) return;
+  if (const auto loss = pace_->check(timeline_.now())) tell(*loss);
+}
+
+void RealTimeExecution::give_to_host() {
+  const bus::Bytes heard = line_.take_heard(timeline_.now(), port_->timed());
+  port_->send(heard);
+}
+
+void RealTimeExecution::sleep() {
+  const Tick now = timeline_.now();
+  WallTime until = pace_->wall(now + (line_.busy(now) ? kBusySlice : kSlice));
+  if (intake_.holding()) until = intake_.give_up_at();
+  if (!intake_.holding() && port_->timed() && line_.busy(now)) return;
+  const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(until - pace_->now());
+  if (left.count() <= 0) return;
+  pollfd watched = port_->watched();
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(left);
+  const timespec timeout{static_cast<time_t>(seconds.count()), static_cast<long>((left - seconds).count())};
+  ::ppoll(&watched, 1, &timeout, nullptr);
+}
+
+void RealTimeExecution::tell(const Pace::Loss& loss) {
+  const WallTime now = pace_->now();
+  if (std::exchange(told_, true) && now - told_at_ < kBetweenComplaints) return;
+  told_at_ = now;
+  const double lag_ms = static_cast<double>(loss.lag) / static_cast<double>(bus::kTicksPerMs);
+  say(timeline_.now(),
+      fmt::format("this computer is too slow: {:.0f} ms behind real time, it simulates at {:.2f} of real time; going "
+                  "on, {:.1f} s given up so far",
+                  lag_ms, loss.speed,
+                  static_cast<double>(pace_->statistics().lost) / static_cast<double>(bus::kTicksPerSecond)));
+}
+
+Pacing RealTimeExecution::pacing() const {
+  const HostLineStatistics& line = line_.statistics();
+  Pacing pacing;
+  pacing.port = port_->name();
+  pacing.telegrams_from_host = line.telegrams;
+  pacing.bytes_from_host = line.sent_bytes;
+  pacing.bytes_to_host = line.heard_bytes;
+  pacing.held_back = line.held_back;
+  pacing.longest_held_back = line.longest_held_back;
+  if (!pace_) return pacing;
+  pacing.error_mean_us = pace_->statistics().error_mean_us();
+  pacing.error_max_us = pace_->statistics().error_max_us;
+  pacing.losses = pace_->statistics().losses;
+  pacing.lost = pace_->statistics().lost;
+  return pacing;
+}
+
+}  // namespace tb::serve

@@ -1,0 +1,51 @@
+#pragma once
+// A run held to real time, with a host on the segment.
+#include <memory>
+#include <string>
+
+#include "tb/bench/execution.hpp"
+#include "tb/bench/record.hpp"
+#include "tb/serve/framing.hpp"
+#include "tb/serve/host_line.hpp"
+#include "tb/serve/host_port.hpp"
+#include "tb/serve/pace.hpp"
+
+namespace tb::serve {
+
+/// Simulated time follows real time in slices of at most 1 ms, 0.1 ms while something is on the line, and sleeps in between. It
+/// stands still while a telegram of the host has begun and is not complete (Intake), and catches up afterwards; so a telegram that
+/// came slowly, from a real UART, ends on the segment when it ended on the wire. Behind a UART simulated time does not wait
+/// while the answer is awaited and sent: nothing can come from the host meanwhile, and the UART gives the answer its times.
+class RealTimeExecution : public Execution {
+ public:
+  /// `baud` as in bus/baud.hpp.
+  RealTimeExecution(std::unique_ptr<HostPort> port, int baud);
+
+  std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config,
+                                      std::uint32_t watched) override;
+  /// Call after the last make_chip and before `run`: the host acts behind the chips.
+  void join();
+  void run(Tick end, const std::function<bool()>& stopped) override;
+
+  /// One line about the port or about the pace.
+  std::function<void(Tick at, const std::string& text)> say = [](Tick, const std::string&) {};
+  Pacing pacing() const;
+
+ private:
+  void take_from_host();
+  void advance(Tick end);
+  Tick limit() const;
+  void give_to_host();
+  void sleep();
+  void tell(const Pace::Loss& loss);
+
+  std::unique_ptr<HostPort> port_;
+  HostLine line_;
+  Intake intake_;
+  std::optional<Pace> pace_;
+  std::optional<WallTime> held_since_;
+  WallTime told_at_{};
+  bool told_ = false;
+};
+
+}  // namespace tb::serve
