@@ -227,6 +227,7 @@ TEST_F(Telegrams, NeedTheIdleTimeBehindTheOwnAnswerLessOneCycle) {
   for (const bool enough : {true, false}) {
     const Exchange answered = data_exchange();
     ASSERT_TRUE(answered.answered());
+    bench.run_cycles(20);
     const Tick end = bench.changes(Pin::kPbrts).back().at - 4 * kCycleTicks;  // P2: PBRTS falls 4 cycles after the end
     const Tick at = end + 33 * bench.requester.bit() - (enough ? 1 : 2) * kCycleTicks;
     EXPECT_EQ(bench.requester.send(bench.timeline, request(), {.at = at}).answered(), enough);
