@@ -6,6 +6,7 @@ namespace profibus {
 namespace {
 
 constexpr Cycle kSynchroniserDelay = 2;  // P9: the logic sees a start edge two cycles after it was sampled
+constexpr Cycle kLoopDelay = 3;          // P9: an edge that the chip itself drives is sampled by the next edge
 
 }  // namespace
 
@@ -49,7 +50,7 @@ void Station::eval(Cycle now) {
     if (!tx_.rts() && telegrams_.eval(now, rx_.receiving())) decide(now, telegrams_.telegram());
   }
   const bool was_sending = tx_.rts();
-  if (tx_.eval(now)) rx_.restart(search_.bit(), tx_.end() + kSynchroniserDelay, rxd_.level());
+  if (tx_.eval(now)) rx_.restart(search_.bit(), tx_.end() + kLoopDelay, rxd_.level());
   if (was_sending || !tx_.rts()) return;
   ++answered_;
   telegrams_.restart();  // half duplex: what comes now is our own echo
