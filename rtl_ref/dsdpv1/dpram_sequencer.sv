@@ -32,6 +32,8 @@ module dpram_sequencer #(
   output logic [7:0]  init_max_cfg_o,
   output logic [1:0]  init_cfg_mode_o,
   output logic [7:0]  init_cfg_length_o,
+  output logic [7:0]  init_input_length_o,
+  output logic [7:0]  init_output_length_o,
   output logic        inputs_o,
   output logic        diag_o,
   output logic [7:0]  block_length_o,
@@ -118,7 +120,9 @@ module dpram_sequencer #(
   logic [ITEMS-1:0] due, behind_q;
   logic own_q;
   logic first_choice_q;
-  logic [7:0] u_q, e_q, b005_q;
+  logic [7:0] u_q, e_q;
+  logic read_on, dpv1_on_q;
+  assign read_on = rdata_i == DSDPV1_REG_DPV1_ENABLE_ON;
   logic [10:0] boot_q;
   logic [12:0] since_q;
   logic [20:0] up_q;
@@ -446,7 +450,7 @@ module dpram_sequencer #(
       behind_q <= 15'd0;
       own_q <= 1'b0;
       first_choice_q <= 1'b0;
-      {u_q, e_q, b005_q} <= 24'd0;
+      {u_q, e_q, dpv1_on_q} <= 17'd0;
       boot_q <= 11'd0;
       {valid_due_q, valid_written_q} <= 2'b00;
       address_q <= 11'd0;
@@ -471,7 +475,7 @@ module dpram_sequencer #(
       if (state_q == FLAGS_U2) u_q <= rdata_i;
       if (state_q == FLAGS_E2) e_q <= rdata_i;
       first_choice_q <= state_q == ENABLE;
-      if (first_choice_q) b005_q <= rdata_i;
+      if (first_choice_q) dpv1_on_q <= read_on;
 
       // choice (9.2)
       if (chooses) begin
@@ -514,7 +518,7 @@ module dpram_sequencer #(
     end
   end
 
-  assign dpv1_enabled_o = (first_choice_q ? rdata_i : b005_q) == DSDPV1_REG_DPV1_ENABLE_ON;
+  assign dpv1_enabled_o = first_choice_q ? read_on : dpv1_on_q;
   assign interrupt_o = state_q == FLAG && (item_q == PRM || item_q == CFG || `FAULT(58));
   assign l_req_o = own_q;
   assign l_sta_o = own_q;
@@ -630,6 +634,8 @@ module dpram_sequencer #(
   assign init_max_cfg_o = max_cfg_q;
   assign init_cfg_mode_o = cfg_mode_q;
   assign init_cfg_length_o = cfg_length_q;
+  assign init_input_length_o = cfg_input_length[7:0];
+  assign init_output_length_o = cfg_output_length[7:0];
 
   // ---- commits (section 10)
   logic commits, readable;

@@ -72,6 +72,7 @@ module dsdpv1 #(
   logic [6:0] init_address;
   logic [15:0] init_ident, count;
   logic [7:0] init_max_input, init_max_output, init_max_diag, init_max_prm, init_max_cfg, init_cfg_length;
+  logic [7:0] init_input_length, init_output_length;
   logic [7:0] block_length, diag_type, stage_index, stage_data, status;
   logic [7:0] prm_length, cfg_length, cfg_input_length, cfg_output_length, output_length, transfer_index, transfer_data;
 
@@ -82,7 +83,8 @@ module dsdpv1 #(
     .init_o(init), .init_address_o(init_address), .init_ident_o(init_ident), .init_command_o(init_command),
     .init_max_input_o(init_max_input), .init_max_output_o(init_max_output), .init_max_diag_o(init_max_diag),
     .init_max_prm_o(init_max_prm), .init_prm_mode_o(init_prm_mode), .init_max_cfg_o(init_max_cfg),
-    .init_cfg_mode_o(init_cfg_mode), .init_cfg_length_o(init_cfg_length), .inputs_o(inputs), .diag_o(diag),
+    .init_cfg_mode_o(init_cfg_mode), .init_cfg_length_o(init_cfg_length), .init_input_length_o(init_input_length),
+    .init_output_length_o(init_output_length), .inputs_o(inputs), .diag_o(diag),
     .block_length_o(block_length), .diag_type_o(diag_type), .verdict_prm_o(verdict_prm), .verdict_cfg_o(verdict_cfg),
     .verdict_wrong_o(verdict_wrong), .dpv1_enabled_o(dpv1_enabled), .stage_inputs_o(stage_inputs),
     .stage_diag_o(stage_diag), .stage_we_o(stage_we), .stage_pool_o(stage_pool), .stage_index_o(stage_index),
@@ -102,6 +104,7 @@ module dsdpv1 #(
     .init_command_i(init_command), .init_max_input_i(init_max_input), .init_max_output_i(init_max_output),
     .init_max_diag_i(init_max_diag), .init_max_prm_i(init_max_prm), .init_prm_mode_i(init_prm_mode),
     .init_max_cfg_i(init_max_cfg), .init_cfg_mode_i(init_cfg_mode), .init_cfg_length_i(init_cfg_length),
+    .init_input_length_i(init_input_length), .init_output_length_i(init_output_length),
     .inputs_i(inputs), .inputs_length_i(block_length), .diag_i(diag), .diag_type_i(diag_type),
     .diag_length_i(block_length), .verdict_prm_i(verdict_prm), .verdict_cfg_i(verdict_cfg),
     .verdict_wrong_i(verdict_wrong), .dpv1_enabled_i(dpv1_enabled), .stage_inputs_i(stage_inputs),

@@ -16,11 +16,11 @@ module answer_builder (
   input  logic [7:0]  ssap_i,
   input  logic        from_dsap_i,
   input  logic [7:0]  dsap_i,
-  input  logic [7:0]  le_i,
   input  logic [2:0]  source_i,
   input  logic [7:0]  length_i,
   input  logic [31:0] diag_i,
   input  logic [15:0] ident_i,
+  output logic [7:0]  characters_o,  // of the whole answer, from the edge behind the decision on
   output logic        busy_o,
   output logic [7:0]  index_o,   // byte of the source that is needed at the next edge
   input  logic [7:0]  data_i,
@@ -46,13 +46,20 @@ module answer_builder (
   logic [3:0] state_q, state_d, after_header, after_ssap;
   logic [2:0] kind_q, source_q;
   logic [6:0] da_q, sa_q;
-  logic [7:0] fc_q, ssap_q, dsap_q, le_q, length_q, sum_q, position_q, count_q;
+  logic [7:0] fc_q, ssap_q, dsap_q, length_q, sum_q, position_q, count_q;
   logic to_ssap_q, from_dsap_q, last_data, summed;
   logic [47:0] diag_q;
   logic [7:0] diag_byte, value;
   assign diag_byte = diag_q[7:0];
   assign last_data = count_q + 8'd1 == length_q;
   assign summed = state_q >= DA && state_q <= DATA;
+
+  logic [7:0] data_length, le;
+  logic [1:0] saps;
+  assign saps = {1'b0, to_ssap_q} + {1'b0, from_dsap_q};
+  assign data_length = source_q == SRC_DIAG ? length_q + 8'd6 : length_q;
+  assign le = data_length + 8'd3 + {6'd0, saps};
+  assign characters_o = kind_q == ANS_SC ? 8'd1 : kind_q == ANS_SD1 ? 8'd6 : le + 8'd6;
 
   assign after_ssap = source_q == SRC_DIAG ? DIAG : DATA;
   assign after_header = kind_q == ANS_SD1 ? FCS : to_ssap_q ? DSAP : after_ssap;
@@ -66,11 +73,11 @@ module answer_builder (
         state_d = kind_q == ANS_SC ? IDLE : kind_q == ANS_SD1 ? DA : LE;
       end
       LE: begin
-        value = le_q;
+        value = le;
         state_d = LER;
       end
       LER: begin
-        value = le_q;
+        value = le;
         state_d = SD2;
       end
       SD2: begin
@@ -125,7 +132,7 @@ module answer_builder (
       sum_q <= 8'd0;
       {kind_q, source_q} <= 6'd0;
       {da_q, sa_q} <= 14'd0;
-      {fc_q, ssap_q, dsap_q, le_q, length_q} <= 40'd0;
+      {fc_q, ssap_q, dsap_q, length_q} <= 32'd0;
       {to_ssap_q, from_dsap_q} <= 2'd0;
       diag_q <= 48'd0;
     end else if (abort_i) begin
@@ -142,7 +149,6 @@ module answer_builder (
       fc_q <= fc_i;
       ssap_q <= ssap_i;
       dsap_q <= dsap_i;
-      le_q <= le_i;
       length_q <= length_i;
       to_ssap_q <= to_ssap_i;
       from_dsap_q <= from_dsap_i;

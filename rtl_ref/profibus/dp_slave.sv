@@ -21,6 +21,8 @@ module dp_slave (
   input  logic [7:0]  init_max_cfg_i,
   input  logic [1:0]  init_cfg_mode_i,
   input  logic [7:0]  init_cfg_length_i,
+  input  logic [7:0]  init_input_length_i,
+  input  logic [7:0]  init_output_length_i,
   input  logic        inputs_i,         // a block with right CRC
   input  logic [7:0]  inputs_length_i,
   input  logic        diag_i,           // a block with right CRC
@@ -583,7 +585,8 @@ module dp_slave (
     .begin_i(begin_i), .data_valid_i(data_valid_i), .data_index_i(data_index_i), .data_i(data_i),
     .stage_inputs_i(stage_inputs_i), .stage_diag_i(stage_diag_i), .stage_we_i(stage_we_i), .stage_pool_i(stage_pool_i),
     .stage_index_i(stage_index_i), .stage_data_i(stage_data_i),
-    .init_i(init_i), .commit_inputs_i(inputs_i && inputs_length_i == input_length), .commit_diag_i(diag_store),
+    .init_i(init_i), .init_leave_i(state_q == DP_DATA_EXCH), .init_input_length_i(init_input_length_i),
+    .init_output_length_i(init_output_length_i), .commit_inputs_i(inputs_i && inputs_length_i == input_length), .commit_diag_i(diag_store),
     .commit_accept_cfg_i(commit_accept_cfg), .end_leave_i(end_leave),
     .hold_outputs_i(sync_b), .hold_inputs_i(freeze_q), .leave_i(leave), .store_i(store), .clear_i(clear),
     .copy_outputs_i(copy_outputs), .copy_inputs_i(copy_inputs), .mail_prm_i(good_prm), .mail_prm_length_i(prm_user_length),

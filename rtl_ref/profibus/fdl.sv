@@ -41,7 +41,7 @@ module fdl (
   output logic        send_o,         // an answer to the telegram decided at this edge
   input  logic [7:0]  send_index_i,
   output logic [7:0]  send_data_o,
-  output logic [7:0]  send_length_o   // characters, from the next edge on
+  output logic [7:0]  send_length_o   // characters, from the second edge behind the decision on
 );
   // Everything that only depends on the telegram stands still long before the decision: through registers
   logic own_q, broadcast_q, request_q, saps_ok_q, sdn_q, srd_q, refuse_q, fdl_status_q, fcv_q, stores_q, same_series_q;
@@ -63,7 +63,8 @@ module fdl (
     kind_q <= sd_i == SD_SD1 || sd_i == SD_SD2 || sd_i == SD_SD3;
     sdn_q <= function_code == 4'h4 || function_code == 4'h6;
     srd_q <= function_code == 4'hC || function_code == 4'hD;
-    refuse_q <= function_code == 4'h3 || function_code == 4'h5 || function_code == 4'hE || function_code == 4'hF;
+    refuse_q <= function_code != 4'h4 && function_code != 4'h6 && function_code != 4'h9 && function_code != 4'hC &&
+                function_code != 4'hD;  // S29
     fdl_status_q <= function_code == 4'h9;
     default_sap_q <= !da_i[7];
     fcv_q <= fcv;
@@ -78,26 +79,20 @@ module fdl (
   assign trigger_holder_o = trigger_o && from_holder_i;
   assign repetition = own_q && fcv_q && !sdn_q && memory_valid_q && same_series_q;
   assign execute_o = legal && !repetition;
-  assign refuse_o = refuse_q || (srd_q && !default_sap_q && (dsap_i < 8'd55 || dsap_i > 8'd62 || dsap_i == 8'd58));
+  assign refuse_o = refuse_q;
   assign fdl_status_o = fdl_status_q;
-  assign srd_o = srd_q && !refuse_o;
+  assign srd_o = srd_q;
   assign sdn_o = sdn_q;
   assign default_sap_o = default_sap_q;
   assign sends = execute_o && answer_i != ANS_NONE;
   assign stores = sends && stores_q;
   assign send_o = (legal && repetition) || sends;
 
-  logic [7:0] new_length;
-  logic [1:0] answer_saps;
+  logic [7:0] built_length;
+  logic built_q;  // the edge behind the decision
   logic to_ssap, from_dsap;
   assign to_ssap = sa_i[7];
   assign from_dsap = sa_i[7] && da_i[7];
-  assign answer_saps = {1'b0, to_ssap} + {1'b0, from_dsap};
-
-  logic [7:0] data_length, le;
-  assign data_length = answer_source_i == SRC_DIAG ? answer_length_i + 8'd6 : answer_length_i;
-  assign le = data_length + 8'd3 + {6'd0, answer_saps};
-  assign new_length = answer_i == ANS_SC ? 8'd1 : answer_i == ANS_SD1 ? 8'd6 : le + 8'd6;
 
   // The memory is bank 0, the buffer of answers that are not stored bank 1
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -108,16 +103,21 @@ module fdl (
       memory_length_q <= 8'd0;
       length_q <= 8'd0;
       bank_q <= 1'b0;
+      built_q <= 1'b0;
     end else begin
       if (stores) begin
         memory_valid_q <= 1'b1;
         memory_fcb_q <= fcb;
         memory_sa_q <= sa_i[6:0];
-        memory_length_q <= new_length;
       end
       if (send_o) begin
-        length_q <= execute_o ? new_length : memory_length_q;
+        length_q <= memory_length_q;
         bank_q <= execute_o && !stores_q;
+      end
+      built_q <= sends;
+      if (built_q) begin
+        length_q <= built_length;
+        if (!bank_q) memory_length_q <= built_length;
       end
       if (forget_i && !`FAULT(41)) memory_valid_q <= 1'b0;
     end
@@ -129,8 +129,8 @@ module fdl (
     `FAULT_CONNECT
     .clk_i(clk_i), .rst_ni(rst_ni), .abort_i(abort_i), .start_i(sends), .kind_i(answer_i), .da_i(sa_i[6:0]),
     .sa_i(address_i), .fc_i(answer_fc_i), .to_ssap_i(to_ssap), .ssap_i(ssap_i), .from_dsap_i(from_dsap), .dsap_i(dsap_i),
-    .le_i(le), .source_i(answer_source_i), .length_i(answer_length_i), .diag_i(answer_diag_i), .ident_i(ident_i),
-    .busy_o(builder_busy_o), .index_o(builder_index_o), .data_i(builder_data_i),
+    .source_i(answer_source_i), .length_i(answer_length_i), .diag_i(answer_diag_i), .ident_i(ident_i),
+    .characters_o(built_length), .busy_o(builder_busy_o), .index_o(builder_index_o), .data_i(builder_data_i),
     .we_o(builder_we), .waddr_o(builder_waddr), .wdata_o(builder_wdata));
 
   logic [8:0] answer_write, answer_read;

@@ -23,6 +23,9 @@ module sap_buffers (
   input  logic [7:0] stage_data_i,
   // commits
   input  logic       init_i,
+  input  logic       init_leave_i,
+  input  logic [7:0] init_input_length_i,
+  input  logic [7:0] init_output_length_i,
   input  logic       commit_inputs_i,
   input  logic       commit_diag_i,
   input  logic       commit_accept_cfg_i,
@@ -282,8 +285,11 @@ module sap_buffers (
       if (init_i) begin
         init_q <= !init_q;
         {out1_zero_q, out2_zero_q, in1_zero_q, in2_zero_q} <= 4'b1111;
-        {prm_mail_q, cfg_mail_q, output_mail_q} <= 3'b000;
-        {in_use_length_q, input_length_q, output_length_q} <= 24'd0;
+        {prm_mail_q, cfg_mail_q} <= 2'b00;
+        output_mail_q <= init_leave_i && init_output_length_i != 8'd0;
+        in_use_length_q <= 8'd0;
+        input_length_q <= init_input_length_i;
+        output_length_q <= init_output_length_i;
       end
     end
   end

@@ -48,25 +48,28 @@ module set_prm (
   assign length_wrong = mode_i == 2'd0 ? user_length_o > max_length_i : mode_i == 2'd1 && user_length_o != max_length_i;
   assign user_length_wrong = (length_wrong && !`FAULT(18)) || user_length_o > 8'd237;
 
-  // The bytes stand still long before the decision: the checks are taken through a register
-  logic short_q, unlock_q, lock_q, ident_wrong_q, unsupported_q, dpv1_q, rest_wrong_q;
+  logic too_short, checked, ident_wrong, unsupported, rest_wrong;
+  assign too_short = length_i < 8'd7;
+  assign checked = !too_short && !status[6] && status[7];
+  assign ident_wrong = {head_i[39:32], head_i[47:40]} != ident_i && !`FAULT(19);
+  assign unsupported = (sync_req_o && !command_i[2] && !`FAULT(20)) || (freeze_req_o && !command_i[1]) ||
+                       (fail_safe_o && !command_i[3]);
+  assign rest_wrong = (dpv1 && length_i < 8'd10) ||
+                      (wd_on_o && (wd_factor_1_o == 8'd0 || wd_factor_2_o == 8'd0) && !`FAULT(21)) || user_length_wrong;
+
+  // The bytes stand still long before the decision: all checks are taken through registers, but B005 may change at its edge
+  logic unlock_q, min_tsdr_only_q, fault_q, unsupported_q, fault_without_dpv1_q, unsupported_without_dpv1_q;
   always_ff @(posedge clk_i) begin
-    short_q <= length_i < 8'd7;
-    unlock_q <= status[6];
-    lock_q <= status[7];
-    ident_wrong_q <= {head_i[39:32], head_i[47:40]} != ident_i && !`FAULT(19);
-    unsupported_q <= (sync_req_o && !command_i[2] && !`FAULT(20)) || (freeze_req_o && !command_i[1]) ||
-                     (fail_safe_o && !command_i[3]);
-    dpv1_q <= dpv1;
-    rest_wrong_q <= (dpv1 && length_i < 8'd10) ||
-                    (wd_on_o && (wd_factor_1_o == 8'd0 || wd_factor_2_o == 8'd0) && !`FAULT(21)) || user_length_wrong;
+    unlock_q <= !too_short && status[6];
+    min_tsdr_only_q <= !too_short && !status[6] && !status[7];
+    fault_q <= too_short || (checked && (ident_wrong || unsupported || rest_wrong));
+    unsupported_q <= checked && !ident_wrong && unsupported;
+    fault_without_dpv1_q <= too_short || (checked && (ident_wrong || unsupported || rest_wrong || dpv1));
+    unsupported_without_dpv1_q <= checked && !ident_wrong && (unsupported || dpv1);
   end
 
-  logic checked, unsupported;
-  assign unlock_o = !short_q && unlock_q;
-  assign min_tsdr_only_o = !short_q && !unlock_q && !lock_q;
-  assign checked = !short_q && !unlock_q && lock_q;
-  assign unsupported = unsupported_q || (dpv1_q && !dpv1_enabled_i);
-  assign fault_o = short_q || (checked && (ident_wrong_q || unsupported || rest_wrong_q));
-  assign not_supported_o = checked && !ident_wrong_q && unsupported;
+  assign unlock_o = unlock_q;
+  assign min_tsdr_only_o = min_tsdr_only_q;
+  assign fault_o = dpv1_enabled_i ? fault_q : fault_without_dpv1_q;
+  assign not_supported_o = dpv1_enabled_i ? unsupported_q : unsupported_without_dpv1_q;
 endmodule

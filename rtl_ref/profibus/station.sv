@@ -30,6 +30,8 @@ module station #(
   input  logic [7:0]  init_max_cfg_i,
   input  logic [1:0]  init_cfg_mode_i,
   input  logic [7:0]  init_cfg_length_i,
+  input  logic [7:0]  init_input_length_i,
+  input  logic [7:0]  init_output_length_i,
   input  logic        inputs_i,
   input  logic [7:0]  inputs_length_i,
   input  logic        diag_i,
@@ -64,7 +66,7 @@ module station #(
   input  logic [7:0]  transfer_index_i,
   output logic [7:0]  transfer_data_o
 );
-  logic rxd, restart, rise, fall, initialised, searching, found;
+  logic rxd, restart, risen, fall, initialised, searching, found;
   logic [3:0] rate;
 
   synchroniser #(.POWER_ON(1'b1)) u_rxd (.clk_i(clk_i), .d_i(pbrxd_i), .q_o(rxd));
@@ -89,7 +91,7 @@ module station #(
   logic [63:0] head;
   telegram_rx u_telegram_rx (
     `FAULT_CONNECT
-    .clk_i(clk_i), .rst_ni(rst_ni), .restart_i(restart), .rise_i(rise), .valid_i(char_valid), .char_i(char), .ok_i(char_ok),
+    .clk_i(clk_i), .rst_ni(rst_ni), .restart_i(restart), .risen_i(risen), .valid_i(char_valid), .char_i(char), .ok_i(char_ok),
     .syn_i(char_syn), .gap_i(char_gap), .busy_i(busy), .due_i(due), .begin_o(tg_begin), .decide_o(decide), .sd_o(sd),
     .synced_o(synced), .da_o(da), .sa_o(sa), .fc_o(fc), .dsap_o(dsap), .ssap_o(ssap), .saps_ok_o(saps_ok),
     .length_o(length), .head_o(head), .data_valid_o(data_valid), .data_index_o(data_index), .data_o(data));
@@ -138,7 +140,8 @@ module station #(
     .init_i(init_i), .init_address_i(init_address_i), .init_ident_i(init_ident_i), .init_command_i(init_command_i),
     .init_max_input_i(init_max_input_i), .init_max_output_i(init_max_output_i), .init_max_diag_i(init_max_diag_i),
     .init_max_prm_i(init_max_prm_i), .init_prm_mode_i(init_prm_mode_i), .init_max_cfg_i(init_max_cfg_i),
-    .init_cfg_mode_i(init_cfg_mode_i), .init_cfg_length_i(init_cfg_length_i), .inputs_i(inputs_i),
+    .init_cfg_mode_i(init_cfg_mode_i), .init_cfg_length_i(init_cfg_length_i), .init_input_length_i(init_input_length_i),
+    .init_output_length_i(init_output_length_i), .inputs_i(inputs_i),
     .inputs_length_i(inputs_length_i), .diag_i(diag_i), .diag_type_i(diag_type_i), .diag_length_i(diag_length_i),
     .verdict_prm_i(verdict_prm_i), .verdict_cfg_i(verdict_cfg_i), .verdict_wrong_i(verdict_wrong_i),
     .dpv1_enabled_i(dpv1_enabled_i), .stage_inputs_i(stage_inputs_i), .stage_diag_i(stage_diag_i),
@@ -162,7 +165,7 @@ module station #(
     `FAULT_CONNECT
     .clk_i(clk_i), .rst_ni(rst_ni), .abort_i(init_i), .send_i(send), .rate_i(rate), .min_tsdr_i(min_tsdr),
     .clock_bits_i(clock_bits), .clock_phase_i(clock_phase), .index_o(send_index), .data_i(send_data),
-    .length_i(send_length), .rise_o(rise), .fall_o(fall), .pbtxd_o(pbtxd_o), .pbrts_o(pbrts_o));
+    .length_i(send_length), .risen_o(risen), .fall_o(fall), .pbtxd_o(pbtxd_o), .pbrts_o(pbrts_o));
 
   assign initialised_o = initialised;
   assign ready_o = initialised;

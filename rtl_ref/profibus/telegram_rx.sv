@@ -9,7 +9,7 @@ module telegram_rx (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        restart_i,  // a rate is selected at this edge: nothing is decided
-  input  logic        rise_i,     // PBRTS rises at this edge, behind the decision
+  input  logic        risen_i,    // PBRTS rose at the last edge, behind the decision
   input  logic        valid_i,    // a character, as uart_rx gives it
   input  logic [7:0]  char_i,
   input  logic        ok_i,
@@ -76,7 +76,7 @@ module telegram_rx (
   assign data_index_o = data_count_q - sap_count;
   assign data_o = char_i;
 
-  assign decide_o = due_i && !busy_i && !valid_i && !restart_i && state_q == COMPLETE;
+  assign decide_o = due_i && !busy_i && !valid_i && !restart_i && !risen_i && state_q == COMPLETE;
 
   logic gap_void, sum_wrong, end_wrong;
   assign gap_void = gap_i && !`FAULT(9);
@@ -99,7 +99,7 @@ module telegram_rx (
       fc_q <= 7'd0;
       dsap_q <= 8'd0;
       ssap_q <= 8'd0;
-    end else if (restart_i || rise_i) begin
+    end else if (restart_i || risen_i) begin
       state_q <= NONE;
     end else if (first) begin
       state_q <= !ok_i || !legal_start ? NONE : char_i == 8'hE5 ? COMPLETE : RECEIVING;

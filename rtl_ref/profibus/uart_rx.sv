@@ -31,10 +31,11 @@ module uart_rx #(
   localparam logic [1:0] BREAK = 2'd2;
 
   logic [1:0] state_q, state_d;
-  logic [12:0] timer_q;
+  logic [12:0] timer_q, timer_d;
+  logic tick_q;  // the timer is 0
   logic [3:0] sample_q;  // number of the next sample: 0 start bit, 1..8 data, 9 parity, 10 stop
   logic [8:0] shift_q;
-  logic odd_q;
+  logic start_bit_q, stop_bit_q, odd_q;
   logic syn_q, gap_q, due_q;
   logic [12:0] deadline_q;
   logic signed [18:0] idle_q;
@@ -44,9 +45,9 @@ module uart_rx #(
   assign bit_len = bit_cycles(rate_i);
   assign half = {1'b0, bit_len[12:1]};
   assign starts = run_i && state_q == IDLE && !rxd_i;
-  assign samples = run_i && state_q == RECEIVING && timer_q == 13'd0;
-  assign glitch = samples && sample_q == 4'd0 && rxd_i && !`FAULT(1);
-  assign complete = samples && sample_q == 4'd10;
+  assign samples = run_i && state_q == RECEIVING && tick_q;
+  assign glitch = samples && start_bit_q && rxd_i && !`FAULT(1);
+  assign complete = samples && stop_bit_q;
 
   // Idle before the edge: 33 bit times less the cycle of sampling are SYN, more than one is a gap (S10, section 7).
   logic signed [18:0] syn_limit, gap_limit;
@@ -64,12 +65,20 @@ module uart_rx #(
     if (restart_rate_i || restart_rts_i) state_d = rxd_i ? IDLE : BREAK;
   end
 
+  always_comb begin
+    timer_d = timer_q - 13'd1;
+    if (starts) timer_d = half - (`FAULT(4) ? 13'd0 : 13'd1);
+    else if (samples) timer_d = bit_len - 13'd1;
+  end
+
   assign busy_o = starts || (run_i && state_q == RECEIVING && !glitch);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= IDLE;
       timer_q <= 13'd0;
+      tick_q <= 1'b1;
+      {start_bit_q, stop_bit_q} <= 2'b00;
       sample_q <= 4'd0;
       shift_q <= 9'd0;
       odd_q <= 1'b0;
@@ -81,17 +90,20 @@ module uart_rx #(
       due_q <= 1'b1;
     end else begin
       state_q <= state_d;
-      timer_q <= timer_q - 13'd1;
+      timer_q <= timer_d;
+      tick_q <= timer_d == 13'd0;
       if (starts) begin
-        timer_q <= half - (`FAULT(4) ? 13'd0 : 13'd1);
         sample_q <= 4'd0;
+        start_bit_q <= 1'b1;
+        stop_bit_q <= 1'b0;
         odd_q <= 1'b0;
         syn_q <= syn;
         gap_q <= gap;
       end else if (samples) begin
-        timer_q <= bit_len - 13'd1;
         sample_q <= sample_q + 4'd1;
-        if (sample_q != 4'd0 && !complete) begin
+        start_bit_q <= 1'b0;
+        stop_bit_q <= sample_q == 4'd9;
+        if (!start_bit_q && !complete) begin
           shift_q <= {rxd_i, shift_q[8:1]};
           odd_q <= odd_q ^ rxd_i;
         end
@@ -121,7 +133,7 @@ module uart_rx #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) idle_q <= 19'sd0;
     else if (restart_rate_i) idle_q <= 19'sd1;
-    else if (restart_rts_i) idle_q <= RTS_TRAIL[18:0] + 19'd1;
+    else if (restart_rts_i) idle_q <= RTS_TRAIL[18:0] - (`FAULT(62) ? 19'd2 : 19'd1);  // from E + 2 to the next edge
     else if (complete) idle_q <= 19'sd1 - $signed({6'd0, half});
     else if (run_i && state_q == BREAK && rxd_i) idle_q <= `FAULT(8) ? idle_q + 19'sd1 : 19'sd1;
     else if (!syn) idle_q <= idle_q + 19'sd1;

@@ -17,7 +17,7 @@ module uart_tx #(
   output logic [7:0]  index_o,
   input  logic [7:0]  data_i,
   input  logic [7:0]  length_i,       // characters
-  output logic        rise_o,         // PBRTS rises at this edge
+  output logic        risen_o,        // PBRTS rose at the last edge
   output logic        fall_o,         // PBRTS falls at this edge, at the end of an answer
   output logic        pbtxd_o,
   output logic        pbrts_o
@@ -40,17 +40,17 @@ module uart_tx #(
   logic [9:0] shift_q;
   logic [3:0] bit_q;
   logic [7:0] index_q;
-  logic txd_q, rts_q;
+  logic txd_q, rts_q, risen_q;
 
   assign phase_last = bit_cycles(rate_q) - 13'd1;
   assign tsdr_limit = max_tsdr(rate_q);
   assign tsdr_now = !fresh_q ? tsdr_q : min_tsdr_i > tsdr_limit && !`FAULT(43) ? tsdr_limit : min_tsdr_i;
 
-  logic time_comes, character_starts, bit_ends, all_sent, parity;
+  logic time_comes, rises, character_starts, bit_ends, all_sent, parity;
   assign time_comes = state_q == WAIT && bits_q >= {1'b0, tsdr_now};
-  assign rise_o = time_comes && !send_i;
+  assign rises = time_comes && !send_i;
   assign bit_ends = phase_q == 13'd0;
-  assign character_starts = (state_q == LEAD && count_q == 10'd0) || (rise_o && RTS_LEAD == 0) ||
+  assign character_starts = (state_q == LEAD && count_q == 10'd0) || (rises && RTS_LEAD == 0) ||
                             (state_q == SEND && bit_ends && bit_q == 4'd10 && index_q != length_i);
   assign all_sent = state_q == SEND && bit_ends && bit_q == 4'd10 && index_q == length_i;
   assign fall_o = !abort_i && ((all_sent && RTS_TRAIL == 0) || (state_q == TRAIL && count_q == 10'd0));
@@ -60,6 +60,7 @@ module uart_tx #(
     if (!rst_ni) begin
       state_q <= IDLE;
       fresh_q <= 1'b0;
+      risen_q <= 1'b0;
       rate_q <= 4'd0;
       tsdr_q <= 8'd0;
       bits_q <= 9'd0;
@@ -72,10 +73,12 @@ module uart_tx #(
       rts_q <= 1'b0;
     end else if (abort_i) begin
       state_q <= IDLE;
+      risen_q <= 1'b0;
       txd_q <= 1'b1;
       rts_q <= 1'b0;
     end else begin
       fresh_q <= send_i;
+      risen_q <= rises;
       tsdr_q <= tsdr_now;
       count_q <= count_q - 10'd1;
       phase_q <= bit_ends ? phase_last : phase_q - 13'd1;
@@ -87,7 +90,7 @@ module uart_tx #(
         index_q <= 8'd0;
         bits_q <= clock_phase_i == 13'd0 ? {3'd0, clock_bits_i} + 9'd1 : {3'd0, clock_bits_i};
         phase_q <= clock_phase_i == 13'd0 ? bit_cycles(rate_i) - 13'd1 : clock_phase_i - 13'd1;
-      end else if (rise_o) begin
+      end else if (rises) begin
         state_q <= LEAD;
         count_q <= LEAD_LAST;
         rts_q <= 1'b1;
@@ -116,6 +119,7 @@ module uart_tx #(
     end
   end
 
+  assign risen_o = risen_q;
   assign index_o = index_q;
   assign pbtxd_o = txd_q;
   assign pbrts_o = rts_q;
