@@ -1,0 +1,233 @@
+#!/usr/bin/env python3
+"""The documents against the project they describe: one line a fault, exit 1 when there is any.
+
+    check_docs.py links            relative links and their anchors exist
+    check_docs.py files            files named in backquotes exist
+    check_docs.py plan             every ruling is in docs/test_plan.md, and every test named there exists
+    check_docs.py snippets         code in README.md is that of the example
+    check_docs.py readme SIM       the demo's output in README.md is what dsdpv1-sim prints
+    check_docs.py picture SIM      docs/img/power_on_12m.svg is drawn from what dsdpv1-sim writes
+    check_docs.py update SIM       writes README.md and the picture anew
+
+--root FOLDER: another project than the one this file is in. Python's standard library only.
+"""
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+SCENARIO = "scenarios/power_on_12m.yaml"
+PICTURE = "docs/img/power_on_12m.svg"
+FENCE = re.compile(r"^```.*?^```", re.M | re.S)
+# Folders in which a file may be named from, besides the root and the document's own.
+ROOMS = ["model", "tb", "docs"]
+ENDINGS = "md|py|cpp|hpp|c|h|sv|svh|rdl|yaml|gsd|txt|cmake"
+GENERATED = ("out/", "build/", ".venv/")
+
+
+def documents(root):
+    """The project's own documents; symbolic links are somebody's convenience and no part of it."""
+    found = [*root.glob("*.md"), *root.glob("docs/**/*.md")]
+    return sorted(path for path in found if not path.is_symlink())
+
+
+def fault(root, path, text, at, words):
+    line = text.count("\n", 0, at) + 1
+    return f"{path.relative_to(root)}:{line}: {words}"
+
+
+def prose(text):
+    """The text without its code blocks, every character at its place."""
+    return FENCE.sub(lambda block: re.sub(r"[^\n]", " ", block.group()), text)
+
+
+# --------------------------------------------------------------------------------------------------------------- links
+def anchors(text):
+    """GitHub's anchors of the headings."""
+    for heading in re.findall(r"^#+ +(.+)$", prose(text), re.M):
+        yield re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+def check_links(root):
+    for path in documents(root):
+        text = path.read_text(encoding="utf-8")
+        for link in re.finditer(r"\]\(([^)\s]+)\)", prose(text)):
+            target, _, anchor = link.group(1).partition("#")
+            if re.match(r"\w+:", target):
+                continue  # somewhere else in the world
+            file = path if target == "" else path.parent / target
+            if not file.exists():
+                yield fault(root, path, text, link.start(), f"the link {target} leads nowhere")
+            elif anchor and anchor not in anchors(file.read_text(encoding="utf-8")):
+                yield fault(root, path, text, link.start(), f"no heading of {file.name} has the anchor #{anchor}")
+
+
+# --------------------------------------------------------------------------------------------------------------- files
+def is_path(word, folders):
+    """A file or folder of the project by its form: begins with one of the folders, or has a known ending."""
+    if not re.fullmatch(r"[\w.\-/*]+", word) or word.startswith(GENERATED):
+        return False
+    folder, slash, _ = word.partition("/")
+    return folder in folders if slash else bool(re.fullmatch(rf"[\w\-]+\.({ENDINGS})", word))
+
+
+def check_files(root):
+    folders = {each.name for room in ["", *ROOMS] for each in (root / room).glob("*") if each.is_dir()}
+    names = {each.name for top in folders - {"build", "out", ".venv", ".git"} for each in (root / top).glob("**/*")}
+    for path in documents(root):
+        text = path.read_text(encoding="utf-8")
+        for word in re.finditer(r"`([^`\n]+)`", prose(text)):
+            name = word.group(1)
+            if not is_path(name, folders):
+                continue
+            places = [root, path.parent, *(root / room for room in ROOMS)]
+            if any(any(place.glob(name.rstrip("/"))) for place in places) or ("/" not in name and name in names):
+                continue
+            yield fault(root, path, text, word.start(), f"there is no {name}")
+
+
+# ---------------------------------------------------------------------------------------------------------------- plan
+RULING = r"[PHDSV]\d+"
+
+
+def existing_tests(root):
+    """Suites and tests of GoogleTest, and the tests that CMake adds by name."""
+    tests = set()
+    for path in [*root.glob("tests/**/*.cpp"), *root.glob("examples/*.cpp")]:
+        for suite, test in re.findall(r"^\s*TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", path.read_text(encoding="utf-8"), re.M):
+            tests.add(f"{suite}.{test}")
+    for path in [*root.glob("tests/**/CMakeLists.txt"), *root.glob("examples/CMakeLists.txt")]:
+        text = path.read_text(encoding="utf-8")
+        tests.update(re.findall(r"add_test\(NAME ([\w.]+)", text))
+        wrapper = r"^function\((\w+) name.*?add_test\(NAME ([\w.]+\$\{name\})"
+        for function, pattern in re.findall(wrapper, text, re.M | re.S):
+            for name in re.findall(rf"^\s*{function}\((\w+)", text, re.M):
+                tests.add(pattern.replace("${name}", name))
+    return tests | {test.split(".")[0] for test in tests}
+
+
+def plan_rows(text):
+    """(ruling, its cell of tests, where) for every row that begins with one."""
+    for row in re.finditer(rf"^\| ({RULING}) \| (.*) \|$", text, re.M):
+        yield row.group(1), row.group(2), row.start()
+
+
+def check_plan(root):
+    yield from check_rulings(root, root / "docs/test_plan.md")
+    yield from check_test_names(root, root / "docs/test_plan.md")
+
+
+def check_rulings(root, path):
+    text = path.read_text(encoding="utf-8")
+    rulings = re.findall(rf"^- \*\*({RULING})\*\*", (root / "docs/chip.md").read_text(encoding="utf-8"), re.M)
+    rows = list(plan_rows(text))
+    planned = [name for name, _, _ in rows]
+    for ruling in rulings:
+        times = planned.count(ruling)
+        if times != 1:
+            yield f"docs/test_plan.md:1: ruling {ruling} of docs/chip.md is there {times} times, allowed is once"
+    for name, cell, at in rows:
+        if name not in rulings:
+            yield fault(root, path, text, at, f"docs/chip.md has no ruling {name}")
+        if "`" not in cell and "issue 5" not in cell:
+            yield fault(root, path, text, at, f"ruling {name} names no test")
+
+
+def check_test_names(root, path):
+    text = path.read_text(encoding="utf-8")
+    tests = existing_tests(root)
+    last_parts = {test.split(".")[-1] for test in tests}  # a test that many suites have, or a suite
+    for word in re.finditer(r"`([A-Z]\w*|\w+\.[A-Z]\w*|examples\.\w+)`", prose(text)):
+        name = word.group(1)
+        if name not in tests and name not in last_parts:
+            yield fault(root, path, text, word.start(), f"there is no test {name}")
+
+
+# -------------------------------------------------------------------------------------------------------------- README
+def check_snippets(root):
+    path = root / "README.md"
+    text = path.read_text(encoding="utf-8")
+    for snippet in re.finditer(r"<!-- from (\S+) -->\n```\w*\n(.*?)^```", text, re.M | re.S):
+        if snippet.group(2) not in (root / snippet.group(1)).read_text(encoding="utf-8"):
+            yield fault(root, path, text, snippet.start(), f"this is not in {snippet.group(1)} (any more)")
+
+
+DEMO = re.compile(r"(<!-- demo:.*?-->\n```\n)(.*?)(```\n<!-- /demo -->)", re.S)
+
+
+def simulate(root, sim, *arguments):
+    return subprocess.run([sim, "run", SCENARIO, "--no-progress", *arguments], cwd=root, check=True, text=True,
+                          stdout=subprocess.PIPE).stdout
+
+
+def without_wall_time(output):
+    """All figures are the same in every run but how long it took."""
+    return re.sub(r"in [\d.]+ m?s: [\d.]+ times real time", "in ... s: ... times real time", output.strip("\n") + "\n")
+
+
+def check_readme(root, sim):
+    path = root / "README.md"
+    text = path.read_text(encoding="utf-8")
+    block = DEMO.search(text)
+    if block is None:
+        yield "README.md:1: the block of the demo's output is missing"
+        return
+    shown, real = without_wall_time(block.group(2)).splitlines(), without_wall_time(simulate(root, sim)).splitlines()
+    for number, line in enumerate(real):
+        if number >= len(shown) or shown[number] != line:
+            words = f"stale (./run generate); the demo's line {number + 1} is now: {line}"
+            yield fault(root, path, text, block.start(2), words)
+            return
+    if len(shown) > len(real):
+        yield fault(root, path, text, block.start(2), "stale (./run generate); the demo prints fewer lines")
+
+
+def draw(root, sim, picture):
+    with tempfile.TemporaryDirectory() as folder:
+        waves = f"{folder}/waves.vcd"
+        simulate(root, sim, "-q", "--wave", waves)
+        subprocess.run([sys.executable, root / "docs/img/draw_wave.py", waves, picture], check=True)
+
+
+def check_picture(root, sim):
+    with tempfile.TemporaryDirectory() as folder:
+        fresh = pathlib.Path(folder, "fresh.svg")
+        draw(root, sim, fresh)
+        if fresh.read_bytes() != (root / PICTURE).read_bytes():
+            yield f"{PICTURE}:1: stale; ./run generate draws it anew"
+
+
+def update(root, sim):
+    readme = root / "README.md"
+    output = simulate(root, sim).strip("\n") + "\n"
+    text = readme.read_text(encoding="utf-8")
+    block = DEMO.search(text)
+    if without_wall_time(block.group(2)) != without_wall_time(output):  # else the wall time alone would change the file
+        readme.write_text(text[:block.start(2)] + output + text[block.end(2):], encoding="utf-8")
+    draw(root, sim, root / PICTURE)
+    return []
+
+
+def main():
+    here = pathlib.Path(__file__).resolve().parents[2]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--root", type=pathlib.Path, default=here)
+    parser.add_argument("what", choices=["links", "files", "plan", "snippets", "readme", "picture", "update"])
+    parser.add_argument("sim", nargs="?")
+    arguments = parser.parse_args()
+    with_sim = {"readme": check_readme, "picture": check_picture, "update": update}
+    without = {"links": check_links, "files": check_files, "plan": check_plan, "snippets": check_snippets}
+    if arguments.what in with_sim:
+        if arguments.sim is None:
+            parser.error(f"{arguments.what} needs the path of dsdpv1-sim")
+        faults = list(with_sim[arguments.what](arguments.root, str(pathlib.Path(arguments.sim).resolve())))
+    else:
+        faults = list(without[arguments.what](arguments.root))
+    print("\n".join(faults) if faults else f"{arguments.what}: right")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,112 @@
+"""Breaks a small project on purpose, to see that check_docs.py finds each kind of fault and nothing else."""
+import pathlib
+import tempfile
+import unittest
+
+import check_docs
+
+RIGHT = {
+    "README.md": "# Top\n"
+                 "See [the chip](docs/chip.md#its-rulings), `model/core.cpp`, `core.cpp` and [far](https://example.org).\n"
+                 "```\n[no](link.md) in code\n```\n"
+                 "<!-- from examples/one.cpp -->\n```cpp\nint main() {}\n```\n"
+                 "<!-- demo: x -->\n```\nat 1.5 us\nin 0.5 s: 2.0 times real time\n```\n<!-- /demo -->\n",
+    "docs/chip.md": "# Chip\n## Its rulings\n- **P1** a\n- **V1** b\n",
+    "docs/test_plan.md": "| P1 | `Core.Works`, `Core`, `Install.Core` |\n| V1 | issue 5 |\n",
+    "model/core.cpp": "",
+    "examples/one.cpp": "// one\nint main() {}\n",
+    "tests/core_test.cpp": "TEST_F(Core, Works) {\n",
+    "tests/CMakeLists.txt": "function(try name)\n  add_test(NAME Install.${name}\n)\nendfunction()\ntry(Core x)\n",
+    "sim": "#!/bin/sh\necho 'at 1.5 us'\necho 'in 0.7 s: 1.4 times real time'\n",
+}
+
+
+class Project(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name)
+        for name, text in RIGHT.items():
+            self.write(name, text)
+        (self.root / "sim").chmod(0o755)
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+    def change(self, name, old, new):
+        text = (self.root / name).read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        self.write(name, text.replace(old, new))
+
+    def faults(self):
+        found = []
+        for check in (check_docs.check_links, check_docs.check_files, check_docs.check_plan, check_docs.check_snippets):
+            found += check(self.root)
+        return found + list(check_docs.check_readme(self.root, str(self.root / "sim")))
+
+    def expect(self, fault):
+        faults = self.faults()
+        self.assertEqual(len(faults), 1, faults)
+        self.assertIn(fault, faults[0])
+
+    def test_a_right_project_has_no_fault(self):
+        self.assertEqual(self.faults(), [])
+
+    def test_a_link_to_nowhere(self):
+        self.change("README.md", "docs/chip.md#its-rulings", "docs/chips.md")
+        self.expect("README.md:2: the link docs/chips.md leads nowhere")
+
+    def test_an_anchor_that_no_heading_has(self):
+        self.change("README.md", "#its-rulings", "#rulings")
+        self.expect("has the anchor #rulings")
+
+    def test_a_file_that_is_not_there(self):
+        self.change("README.md", "`model/core.cpp`", "`model/heart.cpp`")
+        self.expect("README.md:2: there is no model/heart.cpp")
+
+    def test_a_bare_name_that_no_file_has(self):
+        self.change("README.md", "`core.cpp`", "`heart.cpp`")
+        self.expect("there is no heart.cpp")
+
+    def test_a_ruling_that_the_plan_lacks(self):
+        self.change("docs/chip.md", "- **V1**", "- **P2** new\n- **V1**")
+        self.expect("ruling P2 of docs/chip.md is there 0 times")
+
+    def test_a_ruling_that_is_planned_twice(self):
+        self.change("docs/test_plan.md", "| V1", "| P1 | `Core` |\n| V1")
+        self.expect("ruling P1 of docs/chip.md is there 2 times")
+
+    def test_a_planned_ruling_that_is_gone(self):
+        self.change("docs/chip.md", "- **V1** b\n", "")
+        self.expect("docs/test_plan.md:2: docs/chip.md has no ruling V1")
+
+    def test_a_ruling_without_a_test(self):
+        self.change("docs/test_plan.md", "issue 5", "later")
+        self.expect("ruling V1 names no test")
+
+    def test_a_test_that_is_gone(self):
+        self.change("tests/core_test.cpp", "Works", "Runs")
+        self.expect("there is no test Core.Works")
+
+    def test_a_test_of_cmake_that_is_gone(self):
+        self.change("tests/CMakeLists.txt", "try(Core", "try(Driver")
+        self.expect("there is no test Install.Core")
+
+    def test_a_snippet_that_the_example_has_no_more(self):
+        self.change("examples/one.cpp", "int main() {}", "int main() { return 0; }")
+        self.expect("README.md:6: this is not in examples/one.cpp")
+
+    def test_a_stale_figure(self):
+        self.change("sim", "1.5 us", "1.6 us")
+        (self.root / "sim").chmod(0o755)
+        self.expect("the demo's line 1 is now: at 1.6 us")
+
+    def test_a_line_too_many(self):
+        self.change("README.md", "at 1.5 us\n", "at 1.5 us\nand more\n")
+        self.expect("the demo's line 2 is now")
+
+
+if __name__ == "__main__":
+    unittest.main()
