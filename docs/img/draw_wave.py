@@ -43,7 +43,10 @@ class Vcd:
         raise SystemExit("draw_wave: no data exchange in the waves")
 
     def _is_done(self, now):
-        return bool(self.telegrams) and short(self.telegrams[-1][2]) == "inputs" and now > self.telegrams[-1][1] + MARGIN
+        if not self.telegrams:
+            return False
+        _, end, words = self.telegrams[-1]
+        return short(words) == "inputs" and now > end + MARGIN
 
     def _declare(self, words, current, scope):
         if current in (scope, "bus"):
@@ -172,8 +175,8 @@ def main(waves, picture):
         Panel(vcd, set_prm[0] - MARGIN, exchange[1] + MARGIN,
               "From Set_Prm to the answer of the first data exchange", 10 * US, PINS + LAMPS),
         Panel(vcd, set_prm[1] - US, judged + 2 * US,
-              "In detail: Set_Prm ends, the chip acknowledges, interrupts the user, who fetches the parameters and sends the "
-              "verdict", US, PINS)]
+              "In detail: Set_Prm ends, the chip acknowledges, interrupts the user, who fetches the parameters and sends "
+              "the verdict", US, PINS)]
     y, parts = 8, []
     for panel in panels:
         y = panel.draw(y)

@@ -7,7 +7,7 @@ import check_docs
 
 RIGHT = {
     "README.md": "# Top\n"
-                 "See [the chip](docs/chip.md#its-rulings), `model/core.cpp`, `core.cpp` and [far](https://example.org).\n"
+                 "See [the chip](docs/chip.md#its-rulings), `model/core.cpp`, `core.cpp` and [far](https://a.org).\n"
                  "```\n[no](link.md) in code\n```\n"
                  "<!-- from examples/one.cpp -->\n```cpp\nint main() {}\n```\n"
                  "<!-- demo: x -->\n```\nat 1.5 us\nin 0.5 s: 2.0 times real time\n```\n<!-- /demo -->\n",
