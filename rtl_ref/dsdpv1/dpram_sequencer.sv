@@ -638,14 +638,26 @@ module dpram_sequencer #(
   assign init_output_length_o = cfg_output_length[7:0];
 
   // ---- commits (section 10)
-  logic commits, readable;
+  // What the commit is about is known an edge ahead
+  logic commits, readable, commit_init_q, commit_inputs_q, commit_diag_q, verdict_prm_q, verdict_cfg_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {commit_init_q, commit_inputs_q, commit_diag_q, verdict_prm_q, verdict_cfg_q} <= 5'd0;
+    end else begin
+      commit_init_q <= state_q == READ_LAST && item_q == INIT;
+      commit_inputs_q <= state_q == READ_LAST && item_q == INPUTS && initialised_i;
+      commit_diag_q <= state_q == READ_LAST && item_q == DIAG && initialised_i;
+      verdict_prm_q <= state_q == VERDICT && item_q == VERDICT_PRM;
+      verdict_cfg_q <= state_q == VERDICT && item_q == VERDICT_CFG;
+    end
+  end
   assign commits = state_q == COMMIT;
   assign readable = commits && !too_long_q;
-  assign init_o = readable && item_q == INIT && !crc_wrong_q && !limits_wrong_q;
-  assign inputs_o = readable && item_q == INPUTS && initialised_i && !crc_wrong_q;
-  assign diag_o = readable && item_q == DIAG && initialised_i && !crc_wrong_q;
-  assign verdict_prm_o = commits && item_q == VERDICT_PRM;
-  assign verdict_cfg_o = commits && item_q == VERDICT_CFG;
+  assign init_o = commit_init_q && !crc_wrong_q && !limits_wrong_q;
+  assign inputs_o = commit_inputs_q && !crc_wrong_q;
+  assign diag_o = commit_diag_q && !crc_wrong_q;
+  assign verdict_prm_o = verdict_prm_q;
+  assign verdict_cfg_o = verdict_cfg_q;
 
   logic judged;
   logic [7:0] error_bit;

@@ -18,21 +18,21 @@ module baud_search #(
 );
   localparam integer WINDOW = WINDOW_MS * 48000;
 
-  // Cycles of a window less one, so that it ends when the counter is 0.
+  // The counter is loaded one edge behind the start and the end is seen one edge ahead: cycles of a window less two.
   function automatic logic [31:0] window(input integer len);
     integer cycles;
     begin
       cycles = WINDOW_BITS * len > WINDOW ? WINDOW_BITS * len : WINDOW;
-      window = cycles - 1;
+      window = cycles - 2;
     end
   endfunction
 
   logic active_q, searching_q, br_q;
   logic [3:0] rate_q, rate_d;
   logic [31:0] window_q, window_d;
-  logic ends;
+  logic last_q, loads_q, ends;
 
-  assign ends = active_q && searching_q && window_q == 32'd0;
+  assign ends = active_q && searching_q && last_q;
   assign restart_o = start_i || ends;
   assign found_o = active_q && searching_q && telegram_i && !restart_o;
 
@@ -40,7 +40,7 @@ module baud_search #(
     rate_d = rate_q;
     if (start_i) rate_d = 4'd0;
     else if (ends) rate_d = rate_q == RATE_LAST - (`FAULT(61) ? 4'd1 : 4'd0) ? 4'd0 : rate_q + 4'd1;
-    case (rate_d)
+    case (rate_q)
       4'd0: window_d = window(4);
       4'd1: window_d = window(8);
       4'd2: window_d = window(16);
@@ -52,7 +52,7 @@ module baud_search #(
       4'd8: window_d = window(2500);
       default: window_d = window(5000);
     endcase
-    if (!restart_o) window_d = window_q - 32'd1;
+    if (!loads_q) window_d = window_q - 32'd1;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -62,9 +62,12 @@ module baud_search #(
       br_q <= 1'b0;
       rate_q <= 4'd0;
       window_q <= 32'd0;
+      {last_q, loads_q} <= 2'b00;
     end else begin
       rate_q <= rate_d;
       window_q <= window_d;
+      loads_q <= restart_o;
+      last_q <= !restart_o && !loads_q && window_q == 32'd1;
       if (start_i) begin
         active_q <= 1'b1;
         searching_q <= 1'b1;

@@ -461,9 +461,9 @@ module dp_slave (
   assign wd_accept_dp_o = accept_prm && prm_wd_on;
   assign wd_accept_baud_o = accept_prm && !prm_wd_on;
   assign wd_wait_prm_o = enter_wait_prm;
-  assign wd_factor_1_o = accept_prm ? prm_factor_1 : accept_prm_b ? wait_factor_1_q : wd_factor_1_q;
-  assign wd_factor_2_o = accept_prm ? prm_factor_2 : accept_prm_b ? wait_factor_2_q : wd_factor_2_q;
-  assign wd_base_1ms_o = accept_prm ? prm_base_1ms : accept_prm_b ? wait_base_1ms_q : wd_base_1ms_q;
+  assign wd_factor_1_o = wd_factor_1_q;
+  assign wd_factor_2_o = wd_factor_2_q;
+  assign wd_base_1ms_o = wd_base_1ms_q;
 
   // S18: leaving DATA_EXCH is counted, for whatever reason
   logic left;

@@ -72,13 +72,18 @@ module fdl (
     same_series_q <= memory_sa_q == sa_i[6:0] && (memory_fcb_q == fcb || `FAULT(39)) && !`FAULT(40);
   end
 
-  logic legal, repetition, sends, stores;
+  logic legal_q, repetition_q;
+  always_ff @(posedge clk_i) begin
+    legal_q <= kind_q && (own_q || (broadcast_q && sdn_q)) && request_q && saps_ok_q;
+    repetition_q <= own_q && fcv_q && !sdn_q && memory_valid_q && same_series_q;
+  end
+
+  logic legal, sends, stores;
   assign any_telegram_o = decide_i && kind_q && synced_i;
-  assign legal = decide_i && !searching_i && kind_q && (own_q || broadcast_q) && request_q && saps_ok_q && (own_q || sdn_q);
+  assign legal = decide_i && !searching_i && legal_q;
   assign trigger_o = legal && own_q;
   assign trigger_holder_o = trigger_o && from_holder_i;
-  assign repetition = own_q && fcv_q && !sdn_q && memory_valid_q && same_series_q;
-  assign execute_o = legal && !repetition;
+  assign execute_o = legal && !repetition_q;
   assign refuse_o = refuse_q;
   assign fdl_status_o = fdl_status_q;
   assign srd_o = srd_q;
@@ -86,7 +91,7 @@ module fdl (
   assign default_sap_o = default_sap_q;
   assign sends = execute_o && answer_i != ANS_NONE;
   assign stores = sends && stores_q;
-  assign send_o = (legal && repetition) || sends;
+  assign send_o = (legal && repetition_q) || sends;
 
   logic [7:0] built_length;
   logic built_q;  // the edge behind the decision

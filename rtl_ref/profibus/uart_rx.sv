@@ -133,7 +133,7 @@ module uart_rx #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) idle_q <= 19'sd0;
     else if (restart_rate_i) idle_q <= 19'sd1;
-    else if (restart_rts_i) idle_q <= RTS_TRAIL[18:0] - (`FAULT(62) ? 19'd2 : 19'd1);  // from E + 2 to the next edge
+    else if (restart_rts_i) idle_q <= RTS_TRAIL[18:0] - (`FAULT(62) ? 19'd3 : 19'd2);  // from E + 3 to the next edge
     else if (complete) idle_q <= 19'sd1 - $signed({6'd0, half});
     else if (run_i && state_q == BREAK && rxd_i) idle_q <= `FAULT(8) ? idle_q + 19'sd1 : 19'sd1;
     else if (!syn) idle_q <= idle_q + 19'sd1;

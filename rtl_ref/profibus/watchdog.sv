@@ -1,6 +1,7 @@
 // Watchdog (8.1; S1, S22): BAUD_CONTROL watches for telegrams to this station, DP_CONTROL for those of the holding master.
 //
-// One timer of three nested counters, base time x WD_Fact_1 x WD_Fact_2; BAUD_CONTROL uses the innermost only.
+// One timer of three nested counters, base time x WD_Fact_1 x WD_Fact_2; BAUD_CONTROL uses the innermost only. It is loaded one edge
+// behind its start, and its end is seen one edge ahead, so that neither lengthens the path through a decision.
 `include "dsdpv1_types.svh"
 
 module watchdog #(
@@ -18,24 +19,25 @@ module watchdog #(
   input  logic       accept_dp_i,       // Set_Prm accepted with WD_On, behind an end at the same edge
   input  logic       accept_baud_i,     // Set_Prm accepted without WD_On
   input  logic       wait_prm_i,        // WAIT_PRM entered by refusal, Unlock, wrong length
-  input  logic [7:0] factor_1_i,        // of the parameters just accepted, or those in use
+  input  logic [7:0] factor_1_i,        // of the parameters in use, at the edge behind their acceptance
   input  logic [7:0] factor_2_i,
   input  logic       base_1ms_i,
   output logic       baud_end_o,        // BAUD_CONTROL ends at this edge
   output logic       dp_end_o,          // DP_CONTROL ends at this edge
   output logic       dp_control_o       // before the edge
 );
-  localparam logic [31:0] BAUD_CONTROL_CYCLES = BAUD_CONTROL_MS * 48000 - 1;
+  localparam logic [31:0] BAUD_CONTROL_LOAD = BAUD_CONTROL_MS * 48000 - 2;
   localparam logic [31:0] BASE_1MS = 32'd47999;
   localparam logic [31:0] BASE_10MS = 32'd479999;
 
   logic [1:0] state_q, state_d;
   logic [31:0] base_q, base_d, base_start_q;
   logic [7:0] inner_q, inner_d, outer_q, outer_d, inner_start_q;
+  logic last_q, load_dp_q, load_baud_q;
   logic ended, load_dp, load_baud;
   logic [31:0] dp_base;
 
-  assign ended = base_q == 32'd0 && inner_q == 8'd0 && outer_q == 8'd0 && !commit_dp_i && !commit_baud_i && !stop_i;
+  assign ended = last_q && !commit_dp_i && !commit_baud_i && !stop_i;
   assign baud_end_o = state_q == WD_BAUD_CONTROL && ended;
   assign dp_end_o = state_q == WD_DP_CONTROL && ended;
   assign dp_control_o = state_q == WD_DP_CONTROL;
@@ -85,12 +87,12 @@ module watchdog #(
     base_d = base_q - 32'd1;
     inner_d = inner_q;
     outer_d = outer_q;
-    if (load_dp) begin
-      base_d = dp_base;
+    if (load_dp_q) begin
+      base_d = dp_base - 32'd1;
       inner_d = factor_1_i - 8'd1;
       outer_d = factor_2_i - 8'd1;
-    end else if (load_baud) begin
-      base_d = BAUD_CONTROL_CYCLES;
+    end else if (load_baud_q) begin
+      base_d = BAUD_CONTROL_LOAD;
       inner_d = 8'd0;
       outer_d = 8'd0;
     end else if (base_q == 32'd0) begin
@@ -108,12 +110,16 @@ module watchdog #(
       inner_q <= 8'd0;
       inner_start_q <= 8'd0;
       outer_q <= 8'd0;
+      {last_q, load_dp_q, load_baud_q} <= 3'b000;
     end else begin
       state_q <= state_d;
       base_q <= base_d;
       inner_q <= inner_d;
       outer_q <= outer_d;
-      if (load_dp) begin
+      load_dp_q <= load_dp;
+      load_baud_q <= load_baud;
+      last_q <= !load_dp && !load_baud && !load_dp_q && !load_baud_q && base_q == 32'd1 && inner_q == 8'd0 && outer_q == 8'd0;
+      if (load_dp_q) begin
         base_start_q <= dp_base;
         inner_start_q <= factor_1_i - 8'd1;
       end
