@@ -102,6 +102,27 @@ TEST(TsdrSetting, IsChangedAloneWithoutLockAndUnlock) {
   EXPECT_TRUE(is_tsdr(exchange, 77)) << exchange.tsdr_bits();
 }
 
+TEST(TsdrSetting, HoldsFromTheAnswerToItsSetPrmOn) {
+  SlaveBench bench(quick_search());
+  bench.to_wait_prm();
+  Prm prm;
+  prm.min_tsdr = 60;
+  EXPECT_TRUE(is_tsdr(ask(bench, 61, prm.bytes()), 60));
+}
+
+TEST(TsdrSetting, HoldsFromTheVerdictOnWhenTheUserJudges) {
+  SlaveBench bench(quick_search());
+  Init init;
+  init.prm_mode = 2;
+  bench.to_wait_prm(init);
+  Prm prm;
+  prm.min_tsdr = 60;
+  EXPECT_TRUE(is_tsdr(ask(bench, 61, prm.bytes()), 11));
+  bench.chip_accesses(3);
+  bench.verdict(true, std::nullopt);
+  EXPECT_TRUE(is_tsdr(bench.fdl_status(), 60));
+}
+
 TEST(TsdrSetting, LastsUntilANewInitialisation) {
   SlaveBench bench(quick_search());
   Prm prm;

@@ -168,6 +168,7 @@ TEST_F(Watchdog, RunsInWaitCfgToo) {
   bench.run_ms(4);
   EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
   EXPECT_EQ(bench.count(Reason::kWatchdogExpired), 1);
+  EXPECT_EQ(bench.peek(dsdpv1::regs::kOfflineCount, 2), (Bytes{0, 0})) << "data exchange was not left (S29)";
 }
 
 TEST_F(Watchdog, NeverExpiresWithoutWdOn) {

@@ -295,6 +295,19 @@ TEST_F(SetPrm, GoodOneInWaitCfgStaysThere) {
   EXPECT_EQ(offline_count(bench), 0);
 }
 
+TEST_F(SetPrm, ReservedBitsAreNotLookedAt) {
+  bench.to_wait_prm();
+  for (int bit = 0; bit < 3; ++bit) {
+    EXPECT_TRUE(is_sc(prm(with(static_cast<std::uint8_t>(0x80 | 1 << bit)))));
+    EXPECT_EQ(faults(), 0) << "byte 0 bit " << bit;
+  }
+  for (const unsigned spec : {0x01U, 0x02U, 0x08U, 0x10U, 0x20U}) {
+    EXPECT_TRUE(is_sc(prm(with(0x80, {static_cast<std::uint8_t>(spec), 0xFF, 0xFF}))));
+    EXPECT_EQ(faults(), 0) << "byte 7 = " << spec;
+  }
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
+}
+
 TEST_F(SetPrm, CountsEveryLeavingOfDataExchange) {
   bench.to_data_exch();
   for (int i = 1; i <= 260; ++i) {
