@@ -15,7 +15,7 @@ quiet() {
 for define in "" -DDSDPV1_FAULTS; do
   quiet verilator --lint-only -Wall $define -I. -I../registers --top-module dsdpv1 $files
   quiet iverilog -g2012 -Wall $define -I. -I../registers -s dsdpv1 -t null $files
-  quiet yosys -q -e '.*' -p "read_verilog -sv $define -I. -I../registers $files; hierarchy -check -top dsdpv1; proc; check -assert"
+  quiet yosys -q -e '.*' -p "read_verilog -sv $define -I. -I../registers $(echo $files); hierarchy -check -top dsdpv1; proc; check -assert"
 done
 
 in_sources=$(grep -ho 'FAULT([0-9]*)' profibus/*.sv dsdpv1/*.sv | tr -dc '0-9\n' | sort -nu)
