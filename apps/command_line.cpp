@@ -99,7 +99,7 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
   command->add_option("--baud", arguments.baud, "Baud rate; left out: that of the scenario");
   command->add_option("--for", arguments.duration, "Ends after this time, for example 10s; left out: Ctrl-C");
   command->add_option("--wave", arguments.wave, "As of run");
-  command->add_option("--log", arguments.log, "As of run; FILE.part until the end");
+  command->add_option("--log", arguments.log, "As of run; while it grows, FILE.part");
   command->add_option("--result", arguments.result, "As of run, and how well real time was kept");
   command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
   command->footer(std::string("\nExamples:\n"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <ctime>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -29,14 +30,25 @@ namespace {
 constexpr tb::Tick kOpenEnd = 5LL * 365 * 24 * 3600 * bus::kTicksPerSecond;
 
 volatile std::sig_atomic_t ended = 0;
+volatile std::sig_atomic_t ended_at = 0;  ///< seconds of the monotonic clock
 
-void on_signal(int) { ended = 1; }
+/// The first Ctrl-C ends the run as it is meant to end; one more after 2 s, when that has got stuck, kills. Signals come in twos
+/// when a shell or `timeout` sends them to the process and to its group.
+void on_signal(int signal) {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (ended == 0) {
+    ended_at = static_cast<std::sig_atomic_t>(now.tv_sec);
+    ended = 1;
+  } else if (now.tv_sec > ended_at + 1) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
 
-/// The first Ctrl-C ends the run as it is meant to end; a second one kills.
 void catch_signals() {
   struct sigaction action {};
   action.sa_handler = on_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);  // a host that hung up shows at the write
 }

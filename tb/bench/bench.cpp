@@ -61,7 +61,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
   script_ = std::make_unique<Script>(*this);
   pulse_ = std::make_unique<Pulse>();
   add_agents();
-  if (!options.log.empty()) log_.emplace(options.log);
+  if (!options.log.empty()) log_.emplace(options.log, options.open_ended);
   if (!options.trace.empty()) trace_.emplace(options.trace);
   if (waves_) waves_->begin();
 }

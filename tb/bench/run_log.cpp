@@ -15,10 +15,12 @@ void RunLog::line(bus::Tick at, const std::string& station, const std::string& k
 }
 
 void RunLog::flush(bus::Tick now) {
+  const bool anything = !waiting_.empty() && waiting_.begin()->first.first <= now;
   while (!waiting_.empty() && waiting_.begin()->first.first <= now) {
     file_.write(waiting_.begin()->second);
     waiting_.erase(waiting_.begin());
   }
+  if (live_ && anything) file_.flush();
 }
 
 void RunLog::finish() {

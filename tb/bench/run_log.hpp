@@ -12,7 +12,8 @@ namespace tb {
 class RunLog {
  public:
   /// Throws InputError when the file cannot be created.
-  explicit RunLog(const std::string& path) : file_(path) {}
+  /// `live`: each line is in the file at once, for whoever follows it while the run goes on.
+  explicit RunLog(const std::string& path, bool live = false) : file_(path), live_(live) {}
 
   /// A line for `at`, which may lie a little ahead of the present (the end of a telegram that is known before its last half bit).
   void line(bus::Tick at, const std::string& station, const std::string& kind, const std::string& text);
@@ -23,6 +24,7 @@ class RunLog {
 
  private:
   OutputFile file_;
+  bool live_;
   /// By time and station: chips that act at the same time are in no order of their own.
   std::multimap<std::pair<bus::Tick, std::string>, std::string> waiting_;
 };

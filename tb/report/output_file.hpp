@@ -18,6 +18,8 @@ class OutputFile {
 
   /// Errors (a full disk) are kept until `commit`.
   void write(std::string_view text) { std::fwrite(text.data(), 1, text.size(), file_.get()); }
+  /// What was written so far is in the file with the temporary name.
+  void flush() { std::fflush(file_.get()); }
   /// Closes and gives the file its name; throws InputError when something could not be written.
   void commit();
   const std::string& path() const { return path_; }

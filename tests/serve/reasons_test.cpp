@@ -38,7 +38,9 @@ TEST(Reasons, OneCodeIsPrintedAlone) {
 TEST(Reasons, AnUnknownCodeIsRefusedInOneLine) {
   const app_test::Called printed = call("reasons PRM_IDNT", DSDPV1_SOURCE_DIR);
   EXPECT_EQ(printed.status, 2);
-  EXPECT_EQ(printed.err, "dsdpv1-sim reasons: unknown code PRM_IDNT (did you mean PRM_IDENT?), allowed are those that `dsdpv1-sim reasons` prints\n");
+  EXPECT_EQ(printed.err,
+            "dsdpv1-sim reasons: unknown code PRM_IDNT (did you mean PRM_IDENT?), allowed are those that `dsdpv1-sim "
+            "reasons` prints\n");
 }
 
 }  // namespace

@@ -1,0 +1,168 @@
+"""What the pyprofibus tests need: `dsdpv1-sim serve` and the master as processes, and their words as data."""
+import json
+import os
+import re
+import selectors
+import signal
+import subprocess
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+GSD = os.path.join(ROOT, "scenarios", "dsdpv1.gsd")
+BITS_PER_SECOND = {"19.2k": 19200, "45.45k": 45450, "187.5k": 187500, "500k": 500000, "1.5M": 1500000}
+DEADLINE = 60  # seconds for one wait; far more than a busy machine needs
+
+
+class Failure(Exception):
+    """A check that did not hold."""
+
+
+def check(holds, text):
+    if not holds:
+        raise Failure(text)
+
+
+class Lines:
+    """The lines of a pipe, without ever waiting longer than asked for."""
+
+    def __init__(self, pipe):
+        self.pipe = pipe
+        self.rest = b""
+        os.set_blocking(pipe.fileno(), False)
+        self.selector = selectors.DefaultSelector()
+        self.selector.register(pipe, selectors.EVENT_READ)
+
+    def next(self, deadline):
+        """The next line; None at the end. Fails at the deadline (of time.monotonic)."""
+        while b"\n" not in self.rest:
+            left = deadline - time.monotonic()
+            check(left > 0, "no line came in time")
+            if not self.selector.select(left):
+                continue
+            data = self.pipe.read(65536)
+            if not data:
+                return None
+            self.rest += data
+        line, self.rest = self.rest.split(b"\n", 1)
+        return line.decode("utf-8", "replace")
+
+
+class Serve:
+    """A running `dsdpv1-sim serve`; `end` ends it as Ctrl-C does."""
+
+    def __init__(self, program, folder, scenario, *options, port=("--pty", "dp")):
+        self.folder = folder
+        with open(os.path.join(folder, "scenario.yaml"), "w", encoding="UTF-8") as file:
+            file.write(scenario)
+        self.errors = open(os.path.join(folder, "serve.err"), "w+", encoding="UTF-8")
+        self.process = subprocess.Popen(
+            [program, "serve", "scenario.yaml", *port, "--log", "serve.log", "--result", "serve.json", *options],
+            cwd=folder, stdout=subprocess.PIPE, stderr=self.errors)
+        self.lines = Lines(self.process.stdout)
+        self.ready = self.lines.next(time.monotonic() + DEADLINE)
+        check(self.ready is not None, "serve did not start: " + self.said())
+        self.port = os.path.join(folder, "dp")
+        self.log = self.result = None
+
+    def said(self):
+        return os.pread(self.errors.fileno(), 1 << 20, 0).decode()  # leaves the place alone where serve writes
+
+    def wait_for_log(self, pattern):
+        """Waits until a line of the log that is being written matches."""
+        deadline = time.monotonic() + DEADLINE
+        path = os.path.join(self.folder, "serve.log.part")
+        while time.monotonic() < deadline:
+            with open(path, encoding="UTF-8") as file:
+                if re.search(pattern, file.read()):
+                    return
+            time.sleep(0.05)  # polls; nothing depends on how long
+        raise Failure("the log never said " + pattern)
+
+    def end(self):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        output, _ = self.process.communicate(timeout=DEADLINE)
+        self.summary = (output or b"").decode()
+        self.status = self.process.returncode
+        check(not os.path.lexists(self.port), "the link is still there")
+        with open(os.path.join(self.folder, "serve.json"), encoding="UTF-8") as file:
+            self.result = json.load(file)
+        with open(os.path.join(self.folder, "serve.log"), encoding="UTF-8") as file:
+            self.log = [LogLine(line) for line in file]
+        return self
+
+    def was_late(self):
+        """Simulated time was behind real time for longer than half of pyprofibus's shortest time limit that matters."""
+        late_us = self.result["pacing"]["error_max_us"] if self.result else 0
+        return "too slow" in self.said() or late_us > 25000
+
+    def kill(self):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+
+
+class LogLine:
+    """'  123.000 ns  echo   info   PRM_OK: text' as fields; the code of info, refusal and violation lines apart."""
+
+    def __init__(self, text):
+        fields = text.split(None, 4)
+        self.ns = float(fields[0])
+        self.station, self.kind = fields[2], fields[3]
+        self.text = fields[4].rstrip("\n") if len(fields) > 4 else ""
+        self.code = self.text.split(":")[0] if self.kind in ("info", "refusal", "violation") else ""
+
+
+class Master:
+    """pyprofibus in its own process."""
+
+    def __init__(self, python, folder, plan):
+        plan = dict(plan, folder=folder, gsd=GSD)
+        path = os.path.join(folder, "plan.json")
+        with open(path, "w", encoding="UTF-8") as file:
+            json.dump(plan, file)
+        self.process = subprocess.Popen([python, os.path.join(HERE, "master.py"), path], stdout=subprocess.PIPE,
+                                        stderr=subprocess.STDOUT)
+        self.lines = Lines(self.process.stdout)
+        self.words = []      # what pyprofibus itself printed
+        self.exchanges = []  # events of exchanges
+        self.did = []        # actions, with the place in the list of exchanges where they happened
+
+    def run_until(self, holds):
+        """Takes in events until `holds()`; True, or False when the master has ended before."""
+        deadline = time.monotonic() + DEADLINE
+        while not holds():
+            line = self.lines.next(deadline)
+            if line is None:
+                return False
+            if not line.startswith("{"):
+                self.words.append(line)
+                continue
+            event = json.loads(line)
+            if "slave" in event:
+                self.exchanges.append(event)
+            elif "did" in event:
+                self.did.append((len(self.exchanges), event))
+            elif "error" in event:
+                self.words.append("error: " + event["error"])
+            elif "done" in event:
+                return True
+        return True
+
+    def finish(self):
+        """Until all cycles of the plan are done."""
+        self.run_until(lambda: False)
+        status = self.process.wait(timeout=DEADLINE)
+        check(status == 0, "the master ended with %d:\n%s" % (status, "\n".join(self.words[-20:])))
+
+    def of(self, slave):
+        return [event for event in self.exchanges if event["slave"] == slave]
+
+    def said(self, text):
+        return any(text in line for line in self.words)
+
+    def kill(self):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()

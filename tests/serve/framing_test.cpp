@@ -1,0 +1,77 @@
+// Telegrams from the pieces in which an operating system hands them over.
+#include "tb/serve/framing.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bus/telegram.hpp"
+
+namespace {
+
+using bus::Bytes;
+using tb::serve::Intake;
+using tb::serve::WallTime;
+
+const Bytes kStatus = {0x10, 0x08, 0x02, 0x49, 0x53, 0x16};
+const Bytes kDiag = {0x68, 0x05, 0x05, 0x68, 0x88, 0x82, 0x6D, 0x3C, 0x3E, 0xF1, 0x16};
+constexpr WallTime kNow{};
+
+TEST(Framing, EveryKindOfTelegramHasTheLengthOfItsEncoding) {
+  for (const bus::Telegram& telegram :
+       {bus::make_telegram(8, 2, 0x49), bus::make_telegram(8, 2, 0x6D, Bytes(100, 7), 60, 62),
+        bus::prefer_sd3(bus::make_telegram(8, 2, 0x5D, Bytes(8, 1))), bus::make_token(2, 2), bus::make_sc()}) {
+    const Bytes bytes = bus::encode(telegram);
+    const tb::serve::Frame frame = tb::serve::frame_of(bytes);
+    EXPECT_TRUE(frame.telegram);
+    EXPECT_EQ(frame.length, bytes.size());
+  }
+}
+
+TEST(Framing, ATelegramIsHeldUntilItIsComplete) {
+  Intake intake;
+  for (std::size_t i = 0; i + 1 < kDiag.size(); ++i) {
+    intake.take({kDiag[i]}, kNow);
+    EXPECT_FALSE(intake.next(kNow)) << i;
+    EXPECT_TRUE(intake.holding());
+  }
+  intake.take({kDiag.back()}, kNow);
+  EXPECT_EQ(intake.next(kNow), kDiag);
+  EXPECT_FALSE(intake.holding());
+}
+
+TEST(Framing, TelegramsInOnePieceAreTakenApart) {
+  Intake intake;
+  Bytes both = kStatus;
+  both.insert(both.end(), kDiag.begin(), kDiag.end());
+  both.push_back(0x10);
+  intake.take(both, kNow);
+  EXPECT_EQ(intake.next(kNow), kStatus);
+  EXPECT_EQ(intake.next(kNow), kDiag);
+  EXPECT_FALSE(intake.next(kNow));
+  EXPECT_TRUE(intake.holding());
+}
+
+TEST(Framing, ATelegramThatBreaksOffIsHandedOverAfterAWhile) {
+  Intake intake;
+  intake.take({0x68, 0x05}, kNow);
+  EXPECT_FALSE(intake.next(kNow + Intake::kPatience - std::chrono::milliseconds(1)));
+  EXPECT_EQ(intake.next(kNow + Intake::kPatience), (Bytes{0x68, 0x05}));
+  EXPECT_FALSE(intake.holding());
+}
+
+TEST(Framing, PatienceBeginsAnewWithEachPiece) {
+  Intake intake;
+  intake.take({0x68, 0x05}, kNow);
+  intake.take({0x05}, kNow + std::chrono::milliseconds(40));
+  EXPECT_FALSE(intake.next(kNow + std::chrono::milliseconds(60)));
+}
+
+TEST(Framing, BytesThatBeginNoTelegramAreHandedOverAtOnce) {
+  for (const Bytes& bytes : {Bytes{0x00}, Bytes{0xFF, 0x10}, Bytes{0x68, 0x03}, Bytes{0x68, 0xFA},
+                             Bytes{0x68, 0x05, 0x06}, Bytes{0x68, 0x05, 0x05, 0x10}}) {
+    Intake intake;
+    intake.take(bytes, kNow);
+    EXPECT_EQ(intake.next(kNow), bytes);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,118 @@
+// The host as a station of the segment: times that it cannot keep are kept for it.
+#include "tb/serve/host_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bus/monitor.hpp"
+#include "bus/telegram.hpp"
+
+namespace {
+
+using bus::Bytes;
+using bus::Tick;
+
+constexpr int kBaud = 8;  // 19.2k
+constexpr Tick kBit = bus::baud(kBaud).bit;
+
+const Bytes kRequest = bus::encode(bus::make_telegram(8, 2, 0x49));
+const Bytes kAnswer = bus::encode(bus::make_telegram(2, 8, 0x00));
+const Bytes kUnanswered = bus::encode(bus::make_telegram(127, 2, 0x46, {0x00, 0x00}, 58, 62));
+
+class HostLineTest : public testing::Test {
+ protected:
+  HostLineTest() {
+    other_.set_timing(kBit);
+    monitor_.set_baud(kBaud);
+    monitor_.on_telegram = [this](const bus::WireTelegram& telegram) { heard_.push_back(telegram); };
+    monitor_.on_flag = [this](const bus::Flag& flag) { flags_.push_back(flag.kind); };
+    timeline_.add(monitor_);
+    timeline_.add(line_);
+  }
+  /// Another station sends.
+  void send(Tick at, const Bytes& bytes) {
+    other_.send(at, bus::characters(bytes));
+    while (other_.busy()) {
+      timeline_.run_until(other_.next());
+      other_.run(timeline_.now());
+    }
+  }
+
+  bus::Timeline timeline_;
+  bus::Segment segment_;
+  bus::StationId station_ = segment_.attach("other", nullptr);
+  bus::UartSender other_{segment_, station_};
+  bus::Monitor monitor_{segment_};
+  tb::serve::HostLine line_{segment_, kBaud};
+  std::vector<bus::WireTelegram> heard_;
+  std::vector<bus::FlagKind> flags_;
+};
+
+TEST_F(HostLineTest, ATelegramStartsWhenItComesAndHasNoGaps) {
+  line_.send(100 * kBit, kRequest);
+  timeline_.run_until(300 * kBit);
+  ASSERT_EQ(heard_.size(), 1U);
+  EXPECT_TRUE(heard_[0].right());
+  EXPECT_EQ(heard_[0].start, 100 * kBit);
+  EXPECT_EQ(heard_[0].end, (100 + 6 * 11) * kBit);
+  EXPECT_EQ(line_.statistics().held_back, 0U);
+}
+
+TEST_F(HostLineTest, ARequestWaitsForTheSlotTimeOfTheOneBefore) {
+  line_.send(100 * kBit, kRequest);
+  line_.send(100 * kBit, kRequest);
+  timeline_.run_until(1000 * kBit);
+  ASSERT_EQ(heard_.size(), 2U);
+  EXPECT_EQ(heard_[1].start, heard_[0].end + bus::baud(kBaud).slot_bits * kBit);
+  EXPECT_EQ(line_.statistics().held_back, 1U);
+  EXPECT_EQ(line_.statistics().longest_held_back, heard_[1].start - 100 * kBit);
+}
+
+TEST_F(HostLineTest, ARequestWaitsForTheAnswerAndTSyn) {
+  line_.send(100 * kBit, kRequest);
+  line_.send(100 * kBit, kRequest);
+  timeline_.run_until((166 + 5) * kBit);
+  send((166 + 11) * kBit, kAnswer);
+  timeline_.run_until(1000 * kBit);
+  ASSERT_EQ(heard_.size(), 3U);
+  EXPECT_EQ(heard_[2].start, heard_[1].end + bus::kSynBits * kBit);
+  EXPECT_EQ(flags_, (std::vector<bus::FlagKind>{bus::FlagKind::kUnanswered})) << "only the last request";
+}
+
+TEST_F(HostLineTest, AfterATelegramThatNobodyAnswersTSynIsEnough) {
+  line_.send(100 * kBit, kUnanswered);
+  line_.send(100 * kBit, kRequest);
+  timeline_.run_until(1000 * kBit);
+  ASSERT_EQ(heard_.size(), 2U);
+  EXPECT_EQ(heard_[1].start, heard_[0].end + bus::kSynBits * kBit);
+}
+
+TEST_F(HostLineTest, AnAnswerOfTheHostWaitsForMinTsdrOnly) {
+  send(100 * kBit, kRequest);
+  line_.send(timeline_.now(), kAnswer);
+  timeline_.run_until(1000 * kBit);
+  ASSERT_EQ(heard_.size(), 2U);
+  EXPECT_EQ(heard_[1].start, heard_[0].end + bus::kMinTsdrBits * kBit);
+  EXPECT_TRUE(flags_.empty());
+}
+
+TEST_F(HostLineTest, TheHostHearsOthersAndNotItself) {
+  line_.send(100 * kBit, kRequest);
+  timeline_.run_until(170 * kBit);
+  EXPECT_TRUE(line_.take_heard(timeline_.now(), false).empty());
+  EXPECT_TRUE(line_.busy(timeline_.now())) << "an answer is awaited";
+  send(177 * kBit, kAnswer);
+  EXPECT_TRUE(line_.take_heard(timeline_.now(), true).empty()) << "more might follow";
+  timeline_.run_until(timeline_.now() + 3 * kBit);
+  EXPECT_EQ(line_.take_heard(timeline_.now(), true), kAnswer);
+  EXPECT_FALSE(line_.busy(timeline_.now()));
+  EXPECT_EQ(line_.statistics().heard_bytes, kAnswer.size());
+}
+
+TEST_F(HostLineTest, BytesThatAreNoTelegramAreSentAsTheyAre) {
+  line_.send(100 * kBit, {0x00, 0xFF, 0x55});
+  timeline_.run_until(1000 * kBit);
+  EXPECT_EQ(line_.statistics().sent_bytes, 3U);
+  EXPECT_FALSE(flags_.empty());
+}
+
+}  // namespace

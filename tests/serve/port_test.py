@@ -1,0 +1,245 @@
+#!/usr/bin/env python3
+"""The ports of `dsdpv1-sim serve`, without any master: bytes in, bytes out, comings and goings.
+
+    port_test.py DSDPV1_SIM CASE      CASE: one of the functions below, or `list`
+"""
+import os
+import pty
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import tty
+
+from bench import DEADLINE, ROOT, Failure, Serve, check
+
+SCENARIO = """name: ports
+baud: 500k
+end: 100ms
+chip: {access_interval: 480}
+slaves:
+  - {name: echo, address: 8, gsd: "%s", modules: ["2 bytes in, 2 bytes out"]}
+""" % os.path.join(ROOT, "scenarios", "dsdpv1.gsd")
+STATUS_REQUEST = bytes.fromhex("100802495316")
+STATUS_ANSWER = bytes.fromhex("10020800 0A16")
+
+
+class Folder(tempfile.TemporaryDirectory):
+    def __init__(self):
+        super().__init__(prefix="dsdpv1_port_")
+
+
+def read_some(fd, count, patience=5.0):
+    """Up to `count` bytes, fewer when they have not come within `patience` seconds."""
+    os.set_blocking(fd, False)
+    got, end = b"", time.monotonic() + patience
+    while len(got) < count and time.monotonic() < end:
+        try:
+            got += os.read(fd, count - len(got))
+        except (BlockingIOError, InterruptedError):
+            time.sleep(0.001)
+    return got
+
+
+def ask(fd, pieces=(STATUS_REQUEST,), answer=STATUS_ANSWER):
+    """Repeats a request until the answer comes: the slave has to find the baud rate first."""
+    end = time.monotonic() + DEADLINE
+    while time.monotonic() < end:
+        for piece in pieces:
+            os.write(fd, piece)
+        if read_some(fd, len(answer), 0.02) == answer:
+            read_some(fd, 4096, 0.2)  # late answers to earlier requests
+            return
+    raise Failure("never answered")
+
+
+def open_raw(path):
+    fd = os.open(path, os.O_RDWR | os.O_NOCTTY)
+    tty.setraw(fd)
+    return fd
+
+
+def with_serve(program, body, *options, port=("--pty", "dp")):
+    with Folder() as folder:
+        serve = Serve(program, folder, SCENARIO, *options, port=port)
+        try:
+            body(serve)
+            serve.end()
+            check(serve.status == 0, "serve ended with %s: %s" % (serve.status, serve.said()))
+            return serve
+        finally:
+            serve.kill()
+
+
+def pty_hang_up_and_next_opener(program):
+    def body(serve):
+        for time_round in range(1, 4):
+            fd = open_raw(serve.port)
+            ask(fd)
+            os.close(fd)
+            serve.wait_for_log("(?s)(hung up.*?){%d}" % time_round)
+    serve = with_serve(program, body)
+    check(serve.said().count("hung up") == 3, "not one line for each hang-up: " + serve.said())
+
+
+def telegram_in_pieces(program):
+    """Bytes that come one by one are a telegram without gaps on the segment."""
+    def body(serve):
+        fd = open_raw(serve.port)
+        ask(fd)
+        ask(fd, [bytes([byte]) for byte in STATUS_REQUEST])
+        for byte in STATUS_REQUEST:
+            os.write(fd, bytes([byte]))
+            time.sleep(0.005)
+        check(read_some(fd, 6) == STATUS_ANSWER, "a slow telegram was not answered")
+        os.close(fd)
+    serve = with_serve(program, body)
+    codes = {line.code for line in serve.log}
+    check(not codes & {"GAP", "BUS_GAP", "T_SYN", "BUS_T_SYN_VIOLATED"}, "gaps on the segment: %s" % codes)
+
+
+def requests_in_one_write(program):
+    """The second request waits for the answer of the first, and T_SYN."""
+    def body(serve):
+        fd = open_raw(serve.port)
+        ask(fd)
+        os.write(fd, STATUS_REQUEST * 5)
+        check(read_some(fd, 30) == STATUS_ANSWER * 5, "not all five were answered")
+        os.close(fd)
+    serve = with_serve(program, body)
+    check(serve.result["pacing"]["held_back"] >= 4, "nothing was held back")
+    check(not [line for line in serve.log if line.kind == "violation"], "violations")
+
+
+def broken_off_telegram(program):
+    """Half a telegram does not hold up the next one for long, and the log says what came."""
+    def body(serve):
+        fd = open_raw(serve.port)
+        ask(fd)
+        os.write(fd, STATUS_REQUEST[:3])
+        serve.wait_for_log("BUS_TELEGRAM_ERROR")
+        ask(fd)
+        os.write(fd, b"\x00\xff")
+        ask(fd)
+        os.close(fd)
+    with Folder() as folder:
+        serve = Serve(program, folder, SCENARIO)
+        try:
+            body(serve)
+            serve.end()
+            check(serve.status == 1, "a broken telegram is a violation on the bus")
+        finally:
+            serve.kill()
+
+
+def wrong_speed_is_said(program):
+    def body(serve):
+        fd = open_raw(serve.port)  # a fresh pseudo-terminal stands at 38400
+        ask(fd)
+        os.close(fd)
+    serve = with_serve(program, body)
+    check(serve.said().count("the segment runs at 500000") == 1, "no warning: " + serve.said())
+
+
+def tcp_one_after_the_other(program):
+    def body(serve):
+        number = int(serve.ready.split("127.0.0.1:")[1].split(";")[0])
+        for _ in range(2):
+            with socket.create_connection(("127.0.0.1", number)) as host:
+                ask(host.fileno())
+        taken = subprocess.run([program, "serve", "scenario.yaml", "--tcp", str(number)], cwd=serve.folder, capture_output=True,
+                               text=True, check=False)
+        check(taken.returncode == 2 and taken.stderr.count("\n") == 1 and "cannot be had" in taken.stderr, "taken port: " + taken.stderr)
+    serve = with_serve(program, body, port=("--tcp", "0"))
+    check(serve.said().count("has connected") == 2, serve.said())
+
+
+def serial_port(program):
+    """A pseudo-terminal in place of a serial port: whole answers, taken alone, a line when it goes."""
+    wire, device = pty.openpty()
+    tty.setraw(device)
+    name = os.ttyname(device)
+
+    def body(serve):
+        nonlocal device
+        second = subprocess.run([program, "serve", "scenario.yaml", "--serial", name], cwd=serve.folder, capture_output=True, text=True,
+                                check=False)
+        check(second.returncode == 2 and second.stderr.count("\n") == 1, "device in use: " + second.stderr)
+        ask(wire)
+        ask(wire, [bytes([byte]) for byte in STATUS_REQUEST])
+        os.close(device)
+        os.close(wire)
+        serve.wait_for_log("is gone")
+    with_serve(program, body, port=("--serial", name))
+
+
+def bad_ports(program):
+    """One line and exit code 2 for everything that cannot be had."""
+    with Folder() as folder:
+        with open(os.path.join(folder, "scenario.yaml"), "w", encoding="UTF-8") as file:
+            file.write(SCENARIO)
+        with open(os.path.join(folder, "there"), "w", encoding="UTF-8") as file:
+            file.write("a file that must stay")
+        for options in (["--serial", "/dev/nothing"], ["--serial", "/dev/null"], ["--pty", "there"], ["--tcp", "70000"],
+                        ["--tcp", "1", "--bind", "nowhere"], ["--baud", "9600"], ["--for", "5"], ["--rts"],
+                        ["--tcp", "1", "--pty", "x"], ["--log", "no/folder/log"]):
+            called = subprocess.run([program, "serve", "scenario.yaml", *options], cwd=folder, capture_output=True, text=True,
+                                    check=False, timeout=DEADLINE)
+            check(called.returncode == 2 and called.stderr.count("\n") == 1 and not called.stdout,
+                  "%s: %d %r" % (options, called.returncode, called.stderr))
+        check(sorted(os.listdir(folder)) == ["scenario.yaml", "there"], "left behind: %s" % os.listdir(folder))
+
+
+def ends_after_its_time(program):
+    with Folder() as folder:
+        serve = Serve(program, folder, SCENARIO, "--for", "300ms", "--wave", "serve.vcd")
+        try:
+            serve.process.wait(timeout=DEADLINE)
+            serve.end()
+            check(serve.status == 0 and serve.result["simulated_ns"] == 300e6, "ended at %s" % serve.result["simulated_ns"])
+            check(serve.result["pacing"]["error_mean_us"] >= 0 and os.path.getsize(os.path.join(folder, "serve.vcd")) > 1000, "files")
+        finally:
+            serve.kill()
+
+
+def shipped_scenario(program):
+    with Folder() as folder:
+        called = subprocess.run([program, "serve", os.path.join(ROOT, "scenarios", "serve_19k2.yaml"), "--for", "300ms"], cwd=folder,
+                                capture_output=True, text=True, check=False, timeout=DEADLINE)
+        check(called.returncode == 0 and "PASSED" in called.stdout and "pacing" in called.stdout, called.stdout + called.stderr)
+
+
+def too_slow_is_said(program):
+    """Sixteen chips whose user CPUs exchange every 5 us are more than a computer does in real time: it says so and goes on."""
+    slaves = "".join('  - {name: s%d, address: %d, gsd: "%s", user_cpu: {cycle: 5us}}\n'
+                     % (i, i + 3, os.path.join(ROOT, "scenarios", "dsdpv1.gsd")) for i in range(16))
+    with Folder() as folder:
+        serve = Serve(program, folder, "name: many\nbaud: 12M\nend: 100ms\nslaves:\n" + slaves)
+        try:
+            serve.wait_for_log("too slow")
+            serve.end()
+            check("of real time" in serve.said() and serve.result["pacing"]["times_too_slow"] >= 1, serve.said())
+        finally:
+            serve.kill()
+
+
+CASES = [pty_hang_up_and_next_opener, telegram_in_pieces, requests_in_one_write, broken_off_telegram, wrong_speed_is_said,
+         tcp_one_after_the_other, serial_port, bad_ports, ends_after_its_time, shipped_scenario, too_slow_is_said]
+
+
+def main(program, name):
+    cases = {case.__name__: case for case in CASES}
+    if name == "list":
+        print("\n".join(cases))
+        return 0
+    try:
+        cases[name](program)
+        return 0
+    except Failure as failure:
+        print(failure)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(os.path.abspath(sys.argv[1]), sys.argv[2]))
