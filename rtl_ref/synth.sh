@@ -3,7 +3,7 @@
 #   synth.sh [FOLDER FOR RESULTS] [-u to rewrite the figures in docs/rtl.md]
 set -eu
 cd "$(dirname "$0")"
-out=${1:-/tmp/dsdpv1-synth}
+out=${1:-../build/rtl-synth}
 mkdir -p "$out"
 yosys -Q -l "$out/yosys.log" -e 'implicitly declared' -p "
   read_verilog -sv -I. -I../registers $(tr '\n' ' ' < files.txt)

@@ -452,9 +452,11 @@ module dp_slave (
 
   // Slave_Diag's standard bytes (section 11)
   logic [6:0] holder_b;
+  logic watchdog_on;
   assign holder_b = accept_prm_b ? wait_sa_q : holder_q;
+  assign watchdog_on = wd_commit_dp_o || (dp_control_i && !dp_end_i && !wd_commit_baud_o);
   assign answer_diag_o = {held_b ? {1'b0, holder_b} : 8'hFF, 8'h00,
-                          2'b00, sync_b, freeze_b, dp_control_i && !dp_end_i, 1'b1, diag_stat,
+                          2'b00, sync_b, freeze_b, watchdog_on, 1'b1, diag_stat,
                           state_b == DP_WAIT_PRM && !await_prm_b,
                           1'b0, prm_fault_b, 1'b0, unsupported_b, diag_ext, cfg_fault_b, !in_data_exch, 1'b0};
 

@@ -140,22 +140,31 @@ class Bench {
   // ---- bus
   void send(const Bytes& telegram) {
     step(40 * bit);
+    send_at_once(telegram);
+  }
+  void send_at_once(const Bytes& telegram) {
     answer.clear();
     start_sampled = edge + 1;
-    for (uint8_t byte : telegram) {
-      int parity = 0;
+    for (size_t n = 0; n < telegram.size(); ++n) {
+      const uint8_t byte = telegram[n];
+      int parity = static_cast<int>(n) == wrong_parity_at;
       put(0);
       for (int i = 0; i < 8; ++i) {
         put(byte >> i & 1);
         parity ^= byte >> i & 1;
       }
       put(parity);
-      put(1);
+      put(static_cast<int>(n) == no_stop_at ? 0 : 1);
+      if (static_cast<int>(n) == no_stop_at) put(1);
+      if (static_cast<int>(n) == gap_at) step(gap);
     }
     end = start_sampled + 2 + 11 * bit * static_cast<int64_t>(telegram.size());  // as the chip calculates it
   }
   Bytes ask(const Bytes& telegram, int tsdr = 11) {
     send(telegram);
+    return finish(tsdr);
+  }
+  Bytes finish(int tsdr) {
     rts = Pin{};
     wait([&] { return rts.rise >= 0; }, 300 * bit);
     wait([&] { return rts.fall >= 0; }, 3000 * bit);
@@ -170,6 +179,8 @@ class Bench {
   int64_t edge = -1;
   int bit = 4;
   int64_t start_sampled = 0, end = 0;
+  int wrong_parity_at = -1, no_stop_at = -1, gap_at = -1;  // characters of the telegrams sent from now on
+  int gap = 0;
   Pin rts, l_req, intr, br, pbf, ready;
   Bytes answer;
   Vdsdpv1& pins() { return top_; }
@@ -263,6 +274,10 @@ void start_up(Bench& b) {
   const int64_t r = b.edge + 1 + 2;
   b.step(10);
   expect(b.l_req.rise, r, "start-up access begins at R");
+  // A user who writes although the chip owns the DPRAM (P12): what is cleared already keeps his bytes
+  b.step(r + 1500 - b.edge);
+  for (int i = 0; i < 64; ++i) b.write(0x100 + i, i + 1);
+  for (int i = 0; i < 16; ++i) b.write(0x7C0 + i, 0xFF);
   b.wait([&] { return b.l_req.fall >= 0; }, 3000);
   expect(b.l_req.fall, r + 2054, "start-up access ends");
   b.step(3);
@@ -272,6 +287,9 @@ void start_up(Bench& b) {
   b.step(60);
   expect(b.l_req.rise, r + 2055 + 48, "access interval");
   expect(b.l_req.fall, r + 2055 + 48 + 7, "access with nothing due");
+  const Bytes unowned = b.peek(0x100, 64);
+  for (int i = 0; i < 64; ++i) expect(unowned[static_cast<size_t>(i)], i + 1, "write behind the clearing");
+  expect_bytes(b.peek(0x7C0, 16), Bytes(16), "write ahead of the clearing");
   expect_bytes(b.peek(0x000, 8), {1, 0x0D, 7, 1, 0, 0, 1, 0}, "version");
   expect_bytes(b.peek(0x012, 1), {0xF0}, "B012 while searching");
   b.step(r + 4096 + 100 - b.edge);
@@ -346,6 +364,41 @@ void fdl(Bench& b) {
   expect_bytes(b.ask(wrong), {}, "wrong FCS");
 }
 
+// What makes a telegram void, to the cycle (section 7)
+void receiver(Bench& b) {
+  const Bytes status = sd1(5, 2, 0x49), answer = sd1(2, 5, 0);
+  b.wrong_parity_at = 2;
+  expect_bytes(b.ask(status), {}, "wrong parity");
+  b.wrong_parity_at = -1;
+  b.no_stop_at = 3;
+  expect_bytes(b.ask(status), {}, "no stop bit");
+  b.no_stop_at = -1;
+  b.gap_at = 2;
+  b.gap = b.bit;
+  b.send(status);
+  b.end += b.gap;
+  expect_bytes(b.finish(11), answer, "a pause of one bit time is no gap");
+  b.gap = b.bit + 1;
+  expect_bytes(b.ask(status), {}, "a cycle more is one");
+  b.gap_at = -1;
+  Bytes longer = status;
+  longer.push_back(0);
+  expect_bytes(b.ask(longer), {}, "a character too many");
+  for (const int idle : {33 * b.bit - 1, 33 * b.bit - 2}) {
+    b.send(sd1(9, 2, 0x49));
+    b.step(idle);
+    b.send_at_once(status);
+    expect_bytes(b.finish(11), idle == 33 * b.bit - 1 ? answer : Bytes{}, "T_SYN");
+  }
+  // glitches shorter than half a bit time do not end idle
+  b.step(40 * b.bit);
+  b.pins().pbrxd_i = 0;
+  b.step(b.bit / 2 - 1);
+  b.pins().pbrxd_i = 1;
+  b.step(10);
+  expect_bytes(b.ask(status), answer, "behind a glitch");
+}
+
 Bytes diag(uint8_t s1, uint8_t s2, uint8_t master) { return {s1, s2, 0, master, 0x0C, 0xC9}; }
 
 void to_data_exchange(Bench& b) {
@@ -401,8 +454,7 @@ void diagnosis(Bench& b) {
   expect_bytes(b.ask(sd2({5, 2, 0x5D, 5, 6, 7, 8})), sd2({2, 5, 0x0A, 0, 0, 0, 1}), "high priority");
   Bytes data = diag(8, 0x0C, 2);
   data.insert(data.end(), {0x43, 0x11, 0x22});
-  const Bytes got = b.ask(request(0x7D, 60, {}));
-  expect_bytes(Bytes(got.begin() + 9, got.end() - 2), data, "diagnosis of the user");
+  expect_bytes(b.ask(request(0x7D, 60, {})), response(0x0A, 60, data), "diagnosis of the user");
   expect_bytes(b.ask(sd2({5, 2, 0x5D, 5, 6, 7, 8})), sd2({2, 5, 8, 0, 0, 0, 1}), "low priority behind it");
 }
 
@@ -442,6 +494,21 @@ void leave(Bench& b) {
   }()), "Slave_Diag with Cfg_Fault");
 }
 
+// Two blocks in one access: the second pulse of INTR0 begins 64 cycles behind the first (section 13)
+void interrupts(Bench& b) {
+  b.own();
+  b.ask(request(0x5D, 61, {0x88, 10, 10, 11, 0x0C, 0xC9, 1}));
+  b.ask(request(0x7D, 62, {0x13, 0x23}));
+  b.intr = Pin{};
+  b.intr.level = 1;
+  b.disown();
+  b.wait([&] { return b.intr.rise >= 0; }, 300);
+  const int64_t first = b.intr.rise;
+  b.wait([&] { return b.intr.rise > first; }, 300);
+  expect(b.intr.fall, first + 64, "gap between two pulses of INTR0");
+  expect(b.intr.rise, first + 128, "second pulse of INTR0");
+}
+
 void user_judges(Bench& b) {
   b.own();
   b.write_block(0x020, init_block(2, 2), 0x0F7, 4);
@@ -478,22 +545,30 @@ void user_judges(Bench& b) {
 
 }  // namespace
 
+// rtl_test [FAULT]: with a number, only the faster part, for the build with faults
 int main(int argc, char** argv) {
   Verilated::commandArgs(argc, argv);
+  const int fault = argc > 1 ? std::atoi(argv[1]) : 0;
   const uint16_t example = crc16({2, 7});
   expect(example, 0x1241, "CRC of 02 07");
   for (int rate : {0, 3}) {
+    if (fault != 0 && rate != 0) break;
     Bench b;
+#ifdef DSDPV1_FAULTS
+    b.pins().fault_i = static_cast<uint8_t>(fault);
+#endif
     start_up(b);
     host_port(b);
     initialise(b, 0, 1);
     baud(b, rate);
     fdl(b);
+    receiver(b);
     to_data_exchange(b);
     exchange(b);
     diagnosis(b);
     sync_and_freeze(b);
     leave(b);
+    interrupts(b);
     if (rate == 0) user_judges(b);
     std::printf("rate index %d: %lld cycles\n", rate, static_cast<long long>(b.edge));
   }
