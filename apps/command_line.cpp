@@ -22,7 +22,8 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md")->required();
   command
       ->add_option("--engine", arguments.engine,
-                   "How the chips are executed: step (every cycle), skip (from event to event), rtl")
+                   "How the chips are executed: step (every cycle), skip (from event to event), rtl (the reference RTL), "
+                   "lockstep (model and RTL side by side, compared)")
       ->capture_default_str();
   command->add_option("--view", arguments.view, "How the user CPUs reach them: pins, tlm (SystemC)")
       ->capture_default_str();
@@ -30,6 +31,10 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   command->add_option("--log", arguments.log, "Everything that happened, one line a thing");
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
   command->add_option("--trace", arguments.trace, "Every change of every output pin, for comparisons");
+  command
+      ->add_option("--difference", arguments.difference,
+                   "Wave of both sides, written when --engine lockstep finds a difference")
+      ->capture_default_str();
   command->add_flag_callback(
       "--progress", [&arguments] { arguments.progress = true; },
       "Show a progress bar (on a terminal it is shown anyway)");
@@ -40,7 +45,8 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
       std::string("\nExamples:\n"
                   "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
                   "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
-                  "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n") +
+                  "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
+                  "  dsdpv1-sim run my.yaml --engine lockstep --difference both.vcd\n") +
       kExitCodes);
 }
 

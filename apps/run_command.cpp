@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <csignal>
+#include <functional>
 #include <iostream>
 #include <memory>
 
 #include "apps/command_line.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/bench/tlm_execution.hpp"
+#include "tb/cosim/lockstep_execution.hpp"
+#include "tb/cosim/reference_rtl.hpp"
 #include "tb/report/output_file.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/result_json.hpp"
@@ -39,11 +42,12 @@ void check_word(const std::string& option, const std::string& word, const std::v
 }
 
 tb::RunOptions options_of(const RunArguments& arguments) {
-  if (arguments.engine == "rtl")
-    throw tb::InputError(
-        "dsdpv1-sim run: --engine rtl comes with the RTL, this program has none yet; allowed are step, skip");
-  check_word("--engine", arguments.engine, {"step", "skip"});
+  check_word("--engine", arguments.engine, {"step", "skip", "rtl", "lockstep"});
   check_word("--view", arguments.view, {"pins", "tlm"});
+  if (arguments.view == "tlm" && arguments.engine != "step" && arguments.engine != "skip")
+    throw tb::InputError("dsdpv1-sim run: --engine " + arguments.engine +
+                         " is about pins, allowed with it is --view pins");
+  if (!arguments.difference.empty()) tb::check_wave_name(arguments.difference);
   if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
   tb::RunOptions options;
   options.engine = arguments.engine == "step" ? dsdpv1::Engine::kStep : dsdpv1::Engine::kSkip;
@@ -56,7 +60,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
 }
 
 int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options,
-                 std::unique_ptr<tb::Execution> execution) {
+                 std::unique_ptr<tb::Execution> execution, const std::function<void()>& afterwards = {}) {
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
   tb::Bench bench(scenario, options, std::move(execution));
@@ -72,8 +76,24 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
     result_file->commit();
   }
   if (!arguments.quiet) std::cout << tb::summary(result) << std::flush;
+  if (afterwards) afterwards();  // while the bench still stands
   if (result.interrupted) return kInterrupted;
   return result.passed ? kPassed : kFailed;
+}
+
+std::unique_ptr<cosim::RtlTop> reference_rtl(const dsdpv1::Config& config) { return cosim::make_reference_rtl(config); }
+
+int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arguments,
+                 const tb::RunOptions& options) {
+  auto made = std::make_unique<cosim::LockstepExecution>(reference_rtl, cosim::LockstepOptions{});
+  cosim::LockstepExecution& execution = *made;
+  bool same = true;
+  const int status = run_scenario(scenario, arguments, options, std::move(made), [&] {
+    std::string text;
+    same = cosim::report(execution, arguments.difference, text);
+    std::cout << text << std::flush;
+  });
+  return status == kPassed && !same ? kFailed : status;
 }
 
 }  // namespace
@@ -81,6 +101,9 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
 int run(const RunArguments& arguments) {
   const tb::RunOptions options = options_of(arguments);
   const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
+  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options);
+  if (arguments.engine == "rtl")
+    return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(reference_rtl));
   if (arguments.view == "pins") return run_scenario(scenario, arguments, options, tb::make_pin_execution());
   return tb::inside_systemc([&] { return run_scenario(scenario, arguments, options, tb::make_tlm_execution()); });
 }

@@ -10,7 +10,12 @@ using dsdpv1::Level;
 using dsdpv1::Pin;
 
 PinChip::PinChip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched, bus::Segment& segment)
-    : chip_(config),
+    : PinChip(name, std::make_unique<CoreDevice>(config), watched, segment) {}
+
+PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std::uint32_t watched,
+                 bus::Segment& segment)
+    : device_(std::move(device)),
+      chip_(*device_),
       pins_(std::in_place, chip_),
       segment_(segment),
       station_(segment.attach(name, this)),

@@ -1,12 +1,14 @@
 #pragma once
-// A chip driven by its pins: the core itself as a station of the segment.
+// A chip driven by its pins, the core or RTL, as a station of the segment.
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bus/timeline.hpp"
 #include "tb/bench/chip_view.hpp"
+#include "tb/bench/pin_device.hpp"
 #include "tb/user_cpu/pin_host_bus.hpp"
 
 namespace tb {
@@ -14,13 +16,15 @@ namespace tb {
 /// Wired as on a board with an RS-485 driver: PBRTS enables it, PBTXD is what it drives, PBRXD hears the line at all times.
 class PinChip : public ChipView, public bus::Agent, private bus::Listener, private user_cpu::HostBus {
  public:
+  /// The core itself.
   PinChip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched, bus::Segment& segment);
+  PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std::uint32_t watched, bus::Segment& segment);
 
   void set_reset(Tick at, bool level) override;
   void reset_host(Tick at) override;
   user_cpu::HostBus& host_bus() override { return *this; }
   bus::StationId station() const override { return station_; }
-  const dsdpv1::Chip& chip() const override { return chip_; }
+  const dsdpv1::Chip& chip() const override { return device_->core(); }
   void sync(Tick now) override { run(now); }
 
   Tick next() const override;
@@ -52,7 +56,8 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener, priva
   std::uint8_t read_value() const override { return pins_->read_value(); }
   bool last_read_was_bad() const override { return pins_->last_read_was_bad(); }
 
-  dsdpv1::Chip chip_;
+  std::unique_ptr<PinDevice> device_;
+  PinDevice& chip_;
   std::optional<user_cpu::PinHostBus> pins_;
   bus::Segment& segment_;
   bus::StationId station_;

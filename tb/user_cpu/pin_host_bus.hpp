@@ -1,18 +1,23 @@
 #pragma once
-// The HostBus on the pins of the core: A, D, CSR, RD, WR with exact edges.
+// The HostBus on the pins of a chip: A, D, CSR, RD, WR with exact edges.
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "model/dsdpv1/chip.hpp"
 #include "tb/user_cpu/host_bus.hpp"
+#include "tb/user_cpu/host_pins.hpp"
 
 namespace user_cpu {
 
-/// Drives `chip`, which must outlive it. Between accesses CSR, RD and WR are high, D is released and A is 0x7FF, so
+/// Drives a chip, which must outlive it. Between accesses CSR, RD and WR are high, D is released and A is 0x7FF, so
 /// that an address taken away too early is never masked by a bus that happens to hold it.
 class PinHostBus : public HostBus {
  public:
-  explicit PinHostBus(dsdpv1::Chip& chip) : chip_(chip) {}
+  explicit PinHostBus(dsdpv1::Chip& chip) : core_(std::in_place, chip), chip_(*core_) {}
+  explicit PinHostBus(HostPins& pins) : chip_(pins) {}
+  PinHostBus(const PinHostBus&) = delete;
+  PinHostBus& operator=(const PinHostBus&) = delete;
 
   void set_r_req(Tick at, bool level) override;
   void set_r_sta(Tick at, bool level) override;
@@ -48,7 +53,8 @@ class PinHostBus : public HostBus {
   void sample(Tick at);
   bool is_high(Tick at, dsdpv1::Pin pin);
 
-  dsdpv1::Chip& chip_;
+  std::optional<CoreHostPins> core_;
+  HostPins& chip_;
   Edges edges_;
   std::size_t edge_ = 0;
   Tick end_ = 0;

@@ -1,0 +1,131 @@
+#include "tb/cosim/lockstep_execution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tb/bench/pin_chip.hpp"
+
+namespace cosim {
+namespace {
+
+/// The RTL, and a core that gets the same inputs.
+class RtlDevice : public tb::PinDevice {
+ public:
+  RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top) : core_(config), rtl_(std::move(top)) {}
+
+  void set(Tick at, Pin pin, Level level) override {
+    core_.set(at, pin, level);
+    rtl_.set(at, pin, level);
+  }
+  void advance(Tick to) override {
+    core_.advance(to);
+    rtl_.advance(to);
+  }
+  Level level(Pin pin) const override { return rtl_.level(pin); }
+  Tick next_event() const override { return std::min(rtl_.next_event(), core_.next_event()); }
+  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { rtl_.watch(sink, pins); }
+  void on_event(const profibus::EventSink& sink) override { core_.on_event(sink); }
+  const dsdpv1::Chip& core() const override { return core_; }
+
+ private:
+  dsdpv1::Chip core_;
+  RtlChip rtl_;
+};
+
+class LockstepDevice : public tb::PinDevice {
+ public:
+  LockstepDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, const LockstepOptions& options)
+      : lockstep_(config, std::move(top), options) {}
+
+  void set(Tick at, Pin pin, Level level) override { lockstep_.set(at, pin, level); }
+  void advance(Tick to) override { lockstep_.advance(to); }
+  Level level(Pin pin) const override { return lockstep_.level(pin); }
+  Tick next_event() const override { return lockstep_.next_event(); }
+  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { lockstep_.watch(sink, pins); }
+  void on_event(const profibus::EventSink& sink) override { lockstep_.on_event(sink); }
+  const dsdpv1::Chip& core() const override { return lockstep_.model(); }
+  Lockstep& lockstep() { return lockstep_; }
+
+ private:
+  Lockstep lockstep_;
+};
+
+class RtlExecution : public tb::Execution {
+ public:
+  explicit RtlExecution(MakeRtl make) : make_(std::move(make)) {}
+
+  std::unique_ptr<tb::ChipView> make_chip(const std::string& name, const dsdpv1::Config& config,
+                                          std::uint32_t watched) override {
+    auto chip = std::make_unique<tb::PinChip>(name, std::make_unique<RtlDevice>(config, make_(config)), watched, segment_);
+    timeline_.add(*chip);
+    return chip;
+  }
+  void run(tb::Tick end, const std::function<bool()>& stopped) override {
+    while (!stopped() && timeline_.step(end)) {
+    }
+  }
+
+ private:
+  MakeRtl make_;
+};
+
+}  // namespace
+
+std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make) {
+  return std::make_unique<RtlExecution>(std::move(make));
+}
+
+std::unique_ptr<tb::ChipView> LockstepExecution::make_chip(const std::string& name, const dsdpv1::Config& config,
+                                                           std::uint32_t watched) {
+  auto device = std::make_unique<LockstepDevice>(config, make_(config), options_);
+  chips_.push_back({name, &device->lockstep()});
+  auto chip = std::make_unique<tb::PinChip>(name, std::move(device), watched, segment_);
+  timeline_.add(*chip);
+  return chip;
+}
+
+void LockstepExecution::run(tb::Tick end, const std::function<bool()>& stopped) {
+  while (!stopped() && different() == nullptr && timeline_.step(end)) {
+  }
+  for (const Chip& chip : chips_) chip.lockstep->advance(std::max(end * !stopped(), timeline_.now()));
+}
+
+Lockstep* LockstepExecution::different() {
+  const auto found = std::find_if(chips_.begin(), chips_.end(),
+                                  [](const Chip& chip) { return chip.lockstep->difference().has_value(); });
+  return found == chips_.end() ? nullptr : found->lockstep;
+}
+
+const std::string& LockstepExecution::different_name() {
+  return std::find_if(chips_.begin(), chips_.end(), [](const Chip& chip) {
+           return chip.lockstep->difference().has_value();
+         })->name;
+}
+
+MatchCounts LockstepExecution::counts() const {
+  MatchCounts sum;
+  for (const Chip& chip : chips_) {
+    const MatchCounts& one = chip.lockstep->counts();
+    sum.cycles = std::max(sum.cycles, one.cycles);
+    sum.pin_changes += one.pin_changes;
+    sum.dpram_images += one.dpram_images;
+  }
+  return sum;
+}
+
+bool report(LockstepExecution& execution, const std::string& wave, std::string& text) {
+  const MatchCounts counts = execution.counts();
+  text = fmt::format("lockstep          {} cycles, {} pin changes and {} DPRAM images of model and RTL are the same\n",
+                     counts.cycles, counts.pin_changes, counts.dpram_images);
+  Lockstep* different = execution.different();
+  if (different == nullptr) return true;
+  text += fmt::format("chip              {}\n{}", execution.different_name(), describe(*different->difference()));
+  if (!wave.empty()) {
+    different->write_wave(wave);
+    text += fmt::format("wave              {}\n", wave);
+  }
+  return false;
+}
+
+}  // namespace cosim

@@ -1,0 +1,28 @@
+#pragma once
+// The pins that a host bus needs, whoever is behind them: the core, or the core and RTL side by side.
+#include "model/dsdpv1/chip.hpp"
+
+namespace user_cpu {
+
+class HostPins {
+ public:
+  virtual ~HostPins() = default;
+  /// As dsdpv1::Chip has them.
+  virtual void set(dsdpv1::Tick at, dsdpv1::Pin pin, dsdpv1::Level level) = 0;
+  virtual void advance(dsdpv1::Tick to) = 0;
+  virtual dsdpv1::Level level(dsdpv1::Pin pin) const = 0;
+};
+
+/// Those of the core.
+class CoreHostPins : public HostPins {
+ public:
+  explicit CoreHostPins(dsdpv1::Chip& chip) : chip_(chip) {}
+  void set(dsdpv1::Tick at, dsdpv1::Pin pin, dsdpv1::Level level) override { chip_.set(at, pin, level); }
+  void advance(dsdpv1::Tick to) override { chip_.advance(to); }
+  dsdpv1::Level level(dsdpv1::Pin pin) const override { return chip_.level(pin); }
+
+ private:
+  dsdpv1::Chip& chip_;
+};
+
+}  // namespace user_cpu
