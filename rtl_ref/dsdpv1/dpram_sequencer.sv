@@ -547,95 +547,19 @@ module dpram_sequencer #(
   assign diag_type_o = type_q;
   assign verdict_wrong_o = verdict_wrong_q;
 
-  // ---- initialisation: its bytes, and their limits as they arrive (D7, D11)
-  logic [6:0] address_byte_q;
-  logic [15:0] ident_q;
-  logic [3:0] command_q;
-  logic [7:0] max_input_q, max_output_q, max_diag_q, max_prm_q, max_cfg_q, cfg_length_q;
-  logic [1:0] prm_mode_q, cfg_mode_q;
-  logic limits_wrong_q, in_cfg, cfg_complete;
-  logic [12:0] cfg_input_length, cfg_output_length;
-  assign in_cfg = stages_q && item_q == INIT && arrives_index_q >= 8'd14 && {1'b0, arrives_index_q} < {1'b0, cfg_length_q} + 9'd14;
-
-  cfg_identifier u_identifier (
+  // ---- initialisation
+  logic init_look, init_valid, init_last, limits_wrong;
+  assign init_look = state_q == READ_LOOK && item_q == INIT;
+  assign init_valid = stages_q && item_q == INIT;
+  assign init_last = state_q == READ_LAST && item_q == INIT;
+  init_block u_init_block (
     `FAULT_CONNECT
-    .clk_i(clk_i), .rst_ni(rst_ni), .clear_i(chooses), .valid_i(in_cfg), .byte_i(rdata_i), .complete_o(cfg_complete),
-    .input_length_o(cfg_input_length), .output_length_o(cfg_output_length));
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      address_byte_q <= 7'd0;
-      ident_q <= 16'd0;
-      command_q <= 4'd0;
-      {max_input_q, max_output_q, max_diag_q, max_prm_q, max_cfg_q, cfg_length_q} <= 48'd0;
-      {prm_mode_q, cfg_mode_q} <= 4'd0;
-      limits_wrong_q <= 1'b0;
-    end else begin
-      if (state_q == READ_LOOK) limits_wrong_q <= rdata_i < 8'd14;
-      if (stages_q && item_q == INIT) begin
-        case (arrives_index_q)
-          8'd0: begin
-            address_byte_q <= rdata_i[6:0];
-            if (rdata_i > DSDPV1_REG_INIT_ADDRESS_LIMIT && !`FAULT(60)) limits_wrong_q <= 1'b1;
-          end
-          8'd1: ident_q[15:8] <= rdata_i;
-          8'd2: ident_q[7:0] <= rdata_i;
-          8'd3: command_q <= rdata_i[3:0];
-          8'd6: begin
-            max_input_q <= rdata_i;
-            if (rdata_i > DSDPV1_REG_INIT_MAX_INPUT_LIMIT) limits_wrong_q <= 1'b1;
-          end
-          8'd7: begin
-            max_output_q <= rdata_i;
-            if (rdata_i > DSDPV1_REG_INIT_MAX_OUTPUT_LIMIT) limits_wrong_q <= 1'b1;
-          end
-          8'd8: begin
-            max_diag_q <= rdata_i;
-            if (rdata_i > DSDPV1_REG_INIT_MAX_DIAG_LIMIT) limits_wrong_q <= 1'b1;
-          end
-          8'd9: begin
-            max_prm_q <= rdata_i;
-            if (rdata_i > DSDPV1_REG_INIT_MAX_PRM_LIMIT) limits_wrong_q <= 1'b1;
-          end
-          8'd10: begin
-            prm_mode_q <= rdata_i[1:0];
-            if (rdata_i > 8'd2) limits_wrong_q <= 1'b1;
-          end
-          8'd11: begin
-            max_cfg_q <= rdata_i;
-            if (rdata_i > DSDPV1_REG_INIT_MAX_CFG_LIMIT) limits_wrong_q <= 1'b1;
-          end
-          8'd12: begin
-            cfg_mode_q <= rdata_i[1:0];
-            if (rdata_i > 8'd2) limits_wrong_q <= 1'b1;
-          end
-          8'd13: begin
-            cfg_length_q <= rdata_i;
-            if (rdata_i > max_cfg_q || {1'b0, taken_q} < 9'd14 + {1'b0, rdata_i}) limits_wrong_q <= 1'b1;
-          end
-          default: ;
-        endcase
-      end
-      // the last byte of the configuration is decoded before the CRC arrives
-      if (state_q == READ_LAST && item_q == INIT &&
-          (!cfg_complete || cfg_input_length > {5'd0, max_input_q} || cfg_output_length > {5'd0, max_output_q}))
-        limits_wrong_q <= 1'b1;
-    end
-  end
-
-  assign init_address_o = address_byte_q;
-  assign init_ident_o = ident_q;
-  assign init_command_o = command_q;
-  assign init_max_input_o = max_input_q;
-  assign init_max_output_o = max_output_q;
-  assign init_max_diag_o = max_diag_q;
-  assign init_max_prm_o = max_prm_q;
-  assign init_prm_mode_o = prm_mode_q;
-  assign init_max_cfg_o = max_cfg_q;
-  assign init_cfg_mode_o = cfg_mode_q;
-  assign init_cfg_length_o = cfg_length_q;
-  assign init_input_length_o = cfg_input_length[7:0];
-  assign init_output_length_o = cfg_output_length[7:0];
+    .clk_i(clk_i), .rst_ni(rst_ni), .look_i(init_look), .valid_i(init_valid), .index_i(arrives_index_q), .byte_i(rdata_i),
+    .last_i(init_last), .wrong_o(limits_wrong), .address_o(init_address_o), .ident_o(init_ident_o),
+    .command_o(init_command_o), .max_input_o(init_max_input_o), .max_output_o(init_max_output_o),
+    .max_diag_o(init_max_diag_o), .max_prm_o(init_max_prm_o), .prm_mode_o(init_prm_mode_o), .max_cfg_o(init_max_cfg_o),
+    .cfg_mode_o(init_cfg_mode_o), .cfg_length_o(init_cfg_length_o), .input_length_o(init_input_length_o),
+    .output_length_o(init_output_length_o));
 
   // ---- commits (section 10)
   // What the commit is about is known an edge ahead
@@ -653,7 +577,7 @@ module dpram_sequencer #(
   end
   assign commits = state_q == COMMIT;
   assign readable = commits && !too_long_q;
-  assign init_o = commit_init_q && !crc_wrong_q && !limits_wrong_q;
+  assign init_o = commit_init_q && !crc_wrong_q && !limits_wrong;
   assign inputs_o = commit_inputs_q && !crc_wrong_q;
   assign diag_o = commit_diag_q && !crc_wrong_q;
   assign verdict_prm_o = verdict_prm_q;
