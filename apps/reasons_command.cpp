@@ -147,6 +147,7 @@ std::string as_text(const std::string& code) {
   std::string text;
   if (!code.empty()) {
     std::vector<std::string> codes;
+    codes.reserve(all.size());
     for (const ReasonText& each : all) codes.push_back(each.code);
     if (std::find(codes.begin(), codes.end(), code) == codes.end()) {
       throw tb::InputError(
@@ -174,7 +175,7 @@ std::vector<ReasonText> chip_reasons() {
 
 std::vector<ReasonText> driver_reasons() {
   return {
-#define X(name, value, text) {#name, name == DSDPV1_OK ? "info" : "refusal", text, advice_of(name)},
+#define X(name, value, text) {#name, (name) == DSDPV1_OK ? "info" : "refusal", text, advice_of(name)},
       DSDPV1_ERROR_TABLE(X)
 #undef X
   };

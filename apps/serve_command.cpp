@@ -57,6 +57,7 @@ int chosen_baud(const tb::scenario::Scenario& scenario, const std::string& word)
   if (word.empty()) return scenario.baud;
   if (const std::optional<int> index = bus::baud_index(word)) return *index;
   std::vector<std::string> allowed;
+  allowed.reserve(bus::kBauds.size());
   for (const bus::Baud& baud : bus::kBauds) allowed.emplace_back(baud.name);
   throw tb::InputError(fmt::format("dsdpv1-sim serve: --baud is {}{}, allowed are {}", word,
                                    tb::did_you_mean(word, allowed), tb::join(allowed)));

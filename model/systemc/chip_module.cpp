@@ -14,7 +14,7 @@ bool spoils_data(Reason reason) { return reason >= Reason::kWriteLowTooShort && 
 /// True for as long as it lives, also when a report is made to throw.
 class WhileIn {
  public:
-  explicit WhileIn(bool& flag) : flag_(flag) { flag_ = true; }
+  explicit WhileIn(bool& flag) : flag_(flag) { flag = true; }
   ~WhileIn() { flag_ = false; }
   WhileIn(const WhileIn&) = delete;
   WhileIn& operator=(const WhileIn&) = delete;

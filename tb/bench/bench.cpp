@@ -73,7 +73,7 @@ std::uint32_t Bench::watched_pins() const {
 }
 
 void Bench::add_slave(const scenario::Slave& slave) {
-  dsdpv1::Config config = scenario_.chip;
+  auto config = static_cast<const dsdpv1::Config&>(scenario_.chip);
   config.engine = options_.engine;
   user_cpu::StationConfig station = setup_.station(slave);
   slaves_.push_back(std::make_unique<SlaveStation>(slave, std::move(station),
@@ -116,7 +116,9 @@ void Bench::add_master(const scenario::Master& spec) {
   config.bus.min_slave_interval_us = spec.bus.min_slave_interval;
   config.bus.token = spec.bus.token;
   config.bus.clock_ppm = spec.bus.clock_error;
-  Master entry{&spec, std::make_unique<bus::Master1>(segment(), config), {}};
+  Master& entry = masters_.emplace_back();
+  entry.spec = &spec;
+  entry.master = std::make_unique<bus::Master1>(segment(), config);
   for (const scenario::MasterSlave& slave : spec.slaves) {
     const bus::SlaveParameters parameters = setup_.parameters(slave);
     try {
@@ -130,8 +132,7 @@ void Bench::add_master(const scenario::Master& spec) {
     entry.slaves[parameters.address] = parameters.name;
   }
   if (!spec.operate) entry.master->clear();
-  masters_.push_back(std::move(entry));
-  connect(masters_.back());
+  connect(entry);
 }
 
 void Bench::connect(Master& entry) {
@@ -241,11 +242,11 @@ void Bench::happened(Happening happening) {
 
 // --- for the script ---------------------------------------------------------------------------------------------------
 
-SlaveStation& Bench::slave(const std::string& name) {
+const std::unique_ptr<SlaveStation>& Bench::find_slave(const std::string& name) const {
   const auto found =
       std::find_if(slaves_.begin(), slaves_.end(), [&name](const auto& slave) { return slave->name() == name; });
   if (found == slaves_.end()) throw std::out_of_range("no slave " + name);
-  return **found;
+  return *found;
 }
 
 bus::Master1& Bench::master(const std::string& name) {

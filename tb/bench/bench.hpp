@@ -51,8 +51,8 @@ class Bench {
   // --- For the script and the conditions.
   const scenario::Scenario& scenario() const { return scenario_; }
   Tick now() const { return execution_->timeline().now(); }
-  SlaveStation& slave(const std::string& name);
-  const SlaveStation& slave(const std::string& name) const { return const_cast<Bench*>(this)->slave(name); }
+  SlaveStation& slave(const std::string& name) { return *find_slave(name); }
+  const SlaveStation& slave(const std::string& name) const { return *find_slave(name); }
   /// The first one for an empty name.
   bus::Master1& master(const std::string& name);
   bus::Segment& segment() { return execution_->segment(); }
@@ -79,9 +79,10 @@ class Bench {
   class BaudFollower;
 
   std::uint32_t watched_pins() const;
+  const std::unique_ptr<SlaveStation>& find_slave(const std::string& name) const;
   void add_slave(const scenario::Slave& slave);
   void connect(SlaveStation& station, std::size_t index);
-  void connect(Master& master);
+  void connect(Master& entry);
   void add_master(const scenario::Master& spec);
   void add_monitor();
   void add_agents();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tb/bench/bench.hpp"
 #include "tb/bench/conditions.hpp"
@@ -250,7 +251,7 @@ void Script::global_control(const Action& action) {
 
 void Script::send_telegram(const Action& action) {
   const scenario::Faults& f = action.faults;
-  const auto millibits = [](double bits) { return static_cast<int>(bits * 1000 + 0.5); };
+  const auto millibits = [](double bits) { return static_cast<int>(std::lround(bits * 1000)); };
   const auto place = [](const std::optional<int>& at) {
     return at ? std::optional<std::size_t>(static_cast<std::size_t>(*at)) : std::nullopt;
   };

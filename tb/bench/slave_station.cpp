@@ -37,8 +37,8 @@ void SlaveStation::hold_in_reset(Tick now) {
 
 void SlaveStation::release_reset(Tick now) {
   chip_->set_reset(now, true);
-  user_cpu::CpuTiming timing = slave_.user_cpu.timing;
-  timing.access = slave_.user_cpu.access;
+  auto timing = static_cast<const user_cpu::CpuTiming&>(slave_.user_cpu.timing);
+  timing.access = static_cast<const user_cpu::AccessTiming&>(slave_.user_cpu.access);
   program_ = std::make_unique<user_cpu::UserProgram>(options());
   program_->on_error = [this](const user_cpu::DriverError& error) {
     if (on_driver_error) on_driver_error(error);

@@ -39,7 +39,7 @@ class TlmChipView : public ChipView {
   }
   user_cpu::HostBus& host_bus() override { return bus_; }
   bus::StationId station() const override { return chip_.station(); }
-  const dsdpv1::Chip& chip() const override { return const_cast<systemc_bench::TlmChip&>(chip_).module().chip(); }
+  const dsdpv1::Chip& chip() const override { return chip_.module().chip(); }
   void sync(Tick) override {}
 
  private:

@@ -41,7 +41,8 @@ std::size_t WaveRecorder::add_chip(const std::string& name, const dsdpv1::Chip& 
 
 void WaveRecorder::add_master(const std::string& master, const std::vector<std::string>& slaves) {
   writer_->open_scope(master);
-  for (const std::string& slave : slaves) master_states_[master + "." + slave] = writer_->words(slave);
+  const std::string prefix = master + ".";
+  for (const std::string& slave : slaves) master_states_[prefix + slave] = writer_->words(slave);
   writer_->close_scope();
 }
 

@@ -16,7 +16,7 @@ std::string flag_code(bus::FlagKind kind) {
 
 std::string driver_error_code(dsdpv1_error error) {
 #define X(name, value, text) \
-  if (error == name) return #name;
+  if (error == (name)) return #name;
   DSDPV1_ERROR_TABLE(X)
 #undef X
   return "DSDPV1_ERR_UNKNOWN";

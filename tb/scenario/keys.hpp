@@ -61,6 +61,8 @@ struct Choice {
 };
 
 struct Object {
+  Object(std::string object_name, std::string object_doc) : name(std::move(object_name)), doc(std::move(object_doc)) {}
+
   std::string name, doc;
   std::vector<Field> fields;
   std::string selector;  ///< name of the field whose word decides which fields may be there; empty: all may
@@ -125,9 +127,7 @@ struct WordFor {
 template <class T>
 class ObjectOf : public Object {
  public:
-  ObjectOf(std::string object_name, std::string object_doc) {
-    name = std::move(object_name);
-    doc = std::move(object_doc);
+  ObjectOf(std::string object_name, std::string object_doc) : Object(std::move(object_name), std::move(object_doc)) {
     set_line = [](void* owner, int line) { static_cast<T*>(owner)->line = line; };
   }
 

@@ -19,6 +19,7 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
           TimelineModule& timeline);
 
   dsdpv1::systemc::TlmModule& module() { return module_; }
+  const dsdpv1::systemc::TlmModule& module() const { return module_; }
   bus::StationId station() const { return station_; }
 
   /// Pins that the bench drives, at the present time only.

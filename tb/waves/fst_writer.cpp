@@ -13,12 +13,22 @@
 
 namespace tb {
 
-FstWriter::FstWriter(std::string path) : path_(std::move(path)), part_(part_name(path_)) {
+namespace {
+
+/// The writer of `part`, which becomes `path` when it is complete.
+void* create(const std::string& path, const std::string& part) {
   {
-    OutputFile probe(path_);  // gives the reason when the file cannot be created; fstapi does not
+    OutputFile probe(path);  // gives the reason when the file cannot be created; fstapi does not
   }
-  context_ = fstWriterCreate(part_.c_str(), 1);
-  if (context_ == nullptr) throw InputError(path_, 0, "cannot be written as FST");
+  void* const context = fstWriterCreate(part.c_str(), 1);
+  if (context == nullptr) throw InputError(path, 0, "cannot be written as FST");
+  return context;
+}
+
+}  // namespace
+
+FstWriter::FstWriter(std::string path)
+    : path_(std::move(path)), part_(part_name(path_)), context_(create(path_, part_)) {
   fstWriterSetTimescaleFromString(context_, "1ps");
   fstWriterSetVersion(context_, "dsdpv1-sim");
   fstWriterSetDate(context_, "");  // the same run gives the same file
