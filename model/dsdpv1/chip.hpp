@@ -28,8 +28,8 @@ struct Config {
   Engine engine = Engine::kSkip;
   std::uint32_t access_interval = 48;       ///< H1: cycles from the start of one DPRAM access to the next
   std::uint32_t ready_cycles = 4096;        ///< D1: cycles from the release of RESET to B004 = 0xC5
-  std::uint32_t rts_lead = 4;               ///< P2: cycles from PBRTS high to the first start bit
-  std::uint32_t rts_trail = 4;              ///< P2: cycles from the end of the last stop bit to PBRTS low
+  std::uint32_t rts_lead = 4;               ///< P2: cycles from PBRTS high to the first start bit, 0..32
+  std::uint32_t rts_trail = 4;              ///< P2: cycles from the end of the last stop bit to PBRTS low, 0..32
   std::uint32_t intr_low = 64;              ///< P7: cycles that INTR0 stays low
   std::uint32_t intr_gap = 64;              ///< P7: least cycles that INTR0 stays high between two pulses
   std::uint32_t search_window_ms = 50;      ///< S1: least time at one baud rate while searching

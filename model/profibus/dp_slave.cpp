@@ -14,7 +14,7 @@ void DpSlave::reset() {
   address_ = 0;
   address_locked_ = false;
   master_ = kNoMaster;
-  prm_awaited_ = cfg_awaited_ = watchdog_on_ = false;
+  prm_awaited_ = cfg_awaited_ = false;
   min_tsdr_ = kMinTsdr;
   outputs_.reset(0);
   inputs_.reset(0);
@@ -60,7 +60,7 @@ void DpSlave::enter(Cycle now, DpState state) {
 void DpSlave::leave_to_wait_prm(Cycle now) {
   enter(now, DpState::kWaitPrm);
   master_ = kNoMaster;
-  prm_awaited_ = cfg_awaited_ = watchdog_on_ = false;
+  prm_awaited_ = cfg_awaited_ = false;
   if (watchdog_.state() == Watchdog::State::kDpControl) watchdog_.baud_control(now);
 }
 
@@ -162,7 +162,7 @@ Reply DpSlave::slave_diag(const Request& request) {
   DiagnosisView view;
   view.ready = state_ == DpState::kDataExch;
   view.prm_req = state_ == DpState::kWaitPrm && !prm_awaited_;
-  view.watchdog = watchdog_on_;
+  view.watchdog = watchdog_.state() == Watchdog::State::kDpControl;
   view.freeze = inputs_.held();
   view.sync = outputs_.held();
   view.master = master_;

@@ -106,7 +106,6 @@ class DpSlave {
   std::uint8_t master_ = kNoMaster;
   PrmRequest prm_;  // in force, or awaiting the user's verdict
   bool prm_awaited_ = false, cfg_awaited_ = false;
-  bool watchdog_on_ = false;
   int min_tsdr_ = kMinTsdr;
   Block<kMaxCfg> cfg_;  // the configuration in use, or awaiting the verdict
 

@@ -43,7 +43,7 @@ bool Fdl::take_saps(Cycle now, const Telegram& telegram, Request& request) {
 
 bool Fdl::repetition(const Telegram& telegram, const Request& request) const {
   const bool fcb = (telegram.fc & fc::kFcb) != 0, fcv = (telegram.fc & fc::kFcv) != 0;
-  return fcv && memory_.valid && memory_.master == request.sa && memory_.fcb == fcb;
+  return fcv && !request.sdn() && memory_.valid && memory_.master == request.sa && memory_.fcb == fcb;
 }
 
 const Frame* Fdl::execute(Cycle now, const Telegram& telegram, const Request& request, DpSlave& slave) {

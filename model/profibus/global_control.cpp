@@ -27,6 +27,7 @@ void DpSlave::global_control(Cycle now, const Request& request) {
 void DpSlave::sync_command(Cycle now, std::uint8_t command) {
   if ((command & (kSync | kUnsync)) == 0) return;
   if ((command & kUnsync) != 0) {
+    if (!outputs_.held()) return;
     outputs_.release();
   } else if (prm_.sync) {
     outputs_.hold();

@@ -29,20 +29,17 @@ void build_sd1(const Request& request, std::uint8_t code, std::uint8_t address, 
 }
 
 void build_sd2(const Request& request, const Reply& reply, std::uint8_t address, Frame& frame) {
-  const bool saps = request.dsap != kNoSap && request.ssap != kNoSap;
-  const unsigned sap_bit = saps ? kSapBit : 0;
-  const unsigned le = static_cast<unsigned>(reply.size) + (saps ? 5U : 3U);
+  const bool to_sap = request.ssap != kNoSap, from_sap = to_sap && request.dsap != kNoSap;  // S21
+  const unsigned le = static_cast<unsigned>(reply.size) + 3U + (to_sap ? 1U : 0U) + (from_sap ? 1U : 0U);
   put(frame, sd::kSd2);
   put(frame, le);
   put(frame, le);
   put(frame, sd::kSd2);
-  put(frame, request.sa | sap_bit);
-  put(frame, address | sap_bit);
+  put(frame, request.sa | (to_sap ? kSapBit : 0U));
+  put(frame, address | (from_sap ? kSapBit : 0U));
   put(frame, reply.code);
-  if (saps) {
-    put(frame, static_cast<unsigned>(request.ssap));
-    put(frame, static_cast<unsigned>(request.dsap));
-  }
+  if (to_sap) put(frame, static_cast<unsigned>(request.ssap));
+  if (from_sap) put(frame, static_cast<unsigned>(request.dsap));
   std::memcpy(&frame.bytes[static_cast<std::size_t>(frame.size)], reply.data, static_cast<std::size_t>(reply.size));
   frame.size += reply.size;
   put_end(frame, 4);

@@ -39,9 +39,10 @@ Reply DpSlave::set_prm(Cycle now, const Request& request) {
   mail_.prm_due.set(now);
   if (config_.prm_mode == Judging::kUser) {
     log_.at_cycle(now, Reason::kPrmJudged, request.sa, static_cast<unsigned>(prm.user_size));
-    leave_to_wait_prm(now);
+    enter(now, DpState::kWaitPrm);  // who held the slave goes on holding it, the watchdog goes on watching (S15)
     prm_ = prm;
     prm_awaited_ = true;
+    cfg_awaited_ = false;
   } else {
     accept_prm(now, prm);
   }
@@ -92,9 +93,8 @@ bool DpSlave::check_options(Cycle now, std::uint8_t status, std::uint8_t spec, i
 }
 
 bool DpSlave::check_user_length(Cycle now, int user_size) {
-  const int limit = config_.max_prm;
-  const bool good = config_.prm_mode == Judging::kUser ||
-                    (config_.prm_mode == Judging::kExact ? user_size == limit : user_size <= limit);
+  const int limit = config_.prm_mode == Judging::kUser ? kMaxUserPrm : config_.max_prm;
+  const bool good = config_.prm_mode == Judging::kExact ? user_size == limit : user_size <= limit;
   if (good) return true;
   refuse_prm(now, Reason::kPrmUserLength, false, static_cast<unsigned>(user_size), static_cast<unsigned>(limit),
              static_cast<unsigned>(config_.prm_mode));
@@ -114,7 +114,6 @@ void DpSlave::accept_prm(Cycle now, const PrmRequest& prm) {
   prm_ = prm;
   master_ = prm.master;
   set_min_tsdr(prm.min_tsdr);
-  watchdog_on_ = prm.watchdog;
   if (prm.watchdog) {
     log_.at_cycle(now, Reason::kWatchdogOn, prm.watchdog_factor, prm.watchdog_base_ms);
     watchdog_.dp_control(now, kCyclesPerMs * prm.watchdog_base_ms * prm.watchdog_factor);

@@ -91,7 +91,7 @@ void Station::lock(Cycle now) {
   search_.lock();
   telegrams_.set_quiet(false);
   log_.at_cycle(now, Reason::kBaudFound, static_cast<unsigned>(search_.index()));
-  watchdog_.baud_control(now);
+  watchdog_.rate_found(now);
 }
 
 // --- telegrams ------------------------------------------------------------------------------------------------------------

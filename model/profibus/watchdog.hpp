@@ -15,11 +15,17 @@ class Watchdog {
     state_ = State::kBaudSearch;
     deadline_ = kNever;
   }
-  void baud_control(Cycle now) {
+  /// The baud rate was found.
+  void rate_found(Cycle now) {
     state_ = State::kBaudControl;
     deadline_ = now + baud_control_;
   }
+  /// A Set_Prm without or with watchdog, or the end of one. While the rate is searched there is nothing to watch.
+  void baud_control(Cycle now) {
+    if (state_ != State::kBaudSearch) rate_found(now);
+  }
   void dp_control(Cycle now, Cycle time) {
+    if (state_ == State::kBaudSearch) return;
     state_ = State::kDpControl;
     time_ = time;
     deadline_ = now + time;

@@ -7,6 +7,7 @@ namespace tb::scenario {
 
 std::vector<WordFor<int>> baud_words(bool searching) {
   std::vector<WordFor<int>> words;
+  words.reserve(bus::kBaudCount + 1);
   for (int i = 0; i < bus::kBaudCount; ++i) words.push_back({i, bus::baud(i).name.data(), ""});
   if (searching) words.push_back({-1, "searching", "the chip looks for the baud rate"});
   return words;
@@ -20,8 +21,8 @@ const ObjectOf<ChipParameters>& chip_keys() {
               "From the start of one DPRAM access of the chip to the next (H1).");
     o.integer("ready_cycles", &C::ready_cycles, {1, 1000000}, "cycles",
               "From the release of RESET to B004 = 0xC5 (D1).");
-    o.integer("rts_lead", &C::rts_lead, {0, 1000}, "cycles", "PBRTS high before the first start bit (P2).");
-    o.integer("rts_trail", &C::rts_trail, {0, 1000}, "cycles", "PBRTS high after the last stop bit (P2).");
+    o.integer("rts_lead", &C::rts_lead, {0, 32}, "cycles", "PBRTS high before the first start bit (P2).");
+    o.integer("rts_trail", &C::rts_trail, {0, 32}, "cycles", "PBRTS high after the last stop bit (P2).");
     o.integer("intr_low", &C::intr_low, {1, 10000}, "cycles", "How long INTR0 stays low (P7).");
     o.integer("intr_gap", &C::intr_gap, {1, 10000}, "cycles",
               "How long INTR0 stays high between two pulses at least (P7).");
