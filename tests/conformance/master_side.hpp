@@ -38,7 +38,7 @@ inline Exchange send_fc(SlaveBench& bench, std::uint8_t fc, int dsap, int ssap, 
   bench.fcb = true;  // the chip's frame count memory no longer fits the bench's series
   bench.fcb_valid = false;
   const auto telegram = bus::make_telegram(bench.address, master, fc, data, optional_sap(dsap), optional_sap(ssap));
-  const Exchange exchange = bench.requester.send(bench.timeline, telegram);
+  Exchange exchange = bench.requester.send(bench.timeline, telegram);
   bench.chip.compare(bench.now());
   return exchange;
 }
