@@ -153,6 +153,26 @@ TEST_F(Fdl, FcvWithoutASeriesIsExecuted) {
   EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
 }
 
+TEST_F(Fdl, SdnIsNoRepetitionAndLeavesTheMemory) {
+  bench.to_data_exch();
+  ASSERT_TRUE(dx(kFirst).answered());
+  ASSERT_TRUE(dx(kFcb0).answered());
+  const auto before = executed();
+  EXPECT_TRUE(send_fc(bench, kSdnHigh | 0x10, 58, 62, {0x02, 0x00}).silent())
+      << "FCB = 0, FCV = 1, as the request before";
+  EXPECT_EQ(bench.count(Reason::kGlobalControl), 1);
+  EXPECT_TRUE(dx(kFcb0).answered());
+  EXPECT_EQ(executed(), before) << "a repetition still";
+}
+
+TEST_F(Fdl, RequestWithSsapAloneIsAnsweredToItWithoutDsap) {
+  bench.to_data_exch();
+  const Exchange exchange = send_fc(bench, kSrdFirst, kNoSap, 62, {1, 2});
+  ASSERT_TRUE(exchange.answered());
+  EXPECT_EQ(exchange.answer().dsap, std::optional<std::uint8_t>{62});
+  EXPECT_EQ(exchange.answer().ssap, std::nullopt);
+}
+
 TEST_F(Fdl, EveryOtherFunctionCodeIsAnsweredRs) {
   bench.to_data_exch();
   for (const int code : {0, 1, 2, 3, 5, 7, 8, 0xA, 0xB, 0xE, 0xF}) {

@@ -128,6 +128,16 @@ TEST_F(GlobalControl, SyncHandsTheOutputsToTheUserOnceACommand) {
   EXPECT_EQ(bench.fetch_outputs(), model.out1);
 }
 
+TEST_F(GlobalControl, UnsyncWithoutSyncTellsTheUserNothing) {
+  start(prm());
+  bench.data_exchange({1, 2});
+  bench.chip_accesses();
+  ASSERT_TRUE(bench.fetch_outputs());
+  control(0x10);
+  bench.chip_accesses(3);
+  EXPECT_EQ(bench.fetch_outputs(), std::nullopt);
+}
+
 TEST_F(GlobalControl, ClearTellsTheUserAndLeavesTheStateAndTheCountAlone) {
   start(prm());
   exchange();

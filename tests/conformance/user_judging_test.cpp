@@ -383,6 +383,42 @@ TEST_F(ByUser, SetPrmInDataExchangeIsJudgedAgain) {
   EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
 }
 
+TEST_F(ByUser, WhoHoldsTheSlaveGoesOnHoldingItWhileTheUserJudges) {
+  wait_for_cfg_verdict();
+  bench.verdict(std::nullopt, true);
+  ASSERT_TRUE(bench.set_prm(with_user({5})).short_acknowledge());
+  EXPECT_EQ(bench.slave_diag().at(3), 2);
+  bench.master = 3;
+  bench.fcb = true;
+  bench.fcb_valid = false;
+  EXPECT_FALSE(bench.set_prm(with_user({6})).short_acknowledge()) << "RS for another master (S12)";
+}
+
+TEST_F(ByUser, MoreThan237BytesAreAPrmFaultInEveryMode) {
+  bench.to_wait_prm(judged_by(2, 2));
+  EXPECT_TRUE(bench.srd(61, -1, with_user(Bytes(238, 1)).bytes()).short_acknowledge()) << "fits without SSAP";
+  EXPECT_EQ(bench.count(profibus::Reason::kPrmUserLength), 1);
+  EXPECT_EQ(bench.slave_diag().at(0) & 0x40, 0x40);
+}
+
+TEST_F(ByUser, VerdictWhileTheRateIsSearchedStartsNoWatchdog) {
+  dsdpv1::Config config;
+  config.baud_control_ms = 5;
+  SlaveBench lost(config);
+  lost.to_wait_prm(judged_by(2, 0));
+  Prm watched = with_user({});
+  watched.status |= 0x08;
+  watched.wd1 = watched.wd2 = 1;
+  ASSERT_TRUE(lost.set_prm(watched).short_acknowledge());
+  lost.run_ms(10);
+  ASSERT_EQ(lost.chip.status().baud_index, 15);
+  lost.verdict(true, std::nullopt);
+  EXPECT_EQ(lost.dp_state(), DpState::kWaitCfg);
+  lost.run_ms(20);
+  EXPECT_EQ(lost.count(profibus::Reason::kWatchdogExpired), 0);
+  EXPECT_EQ(lost.count(profibus::Reason::kBaudSearch), 2) << "one search, undisturbed";
+}
+
 TEST_F(ByUser, CheckCfgInDataExchangeNeedsNoVerdict) {
   wait_for_cfg_verdict();
   bench.verdict(std::nullopt, true);
