@@ -6,7 +6,9 @@
 
 namespace {
 
-using namespace gsd_test;
+using gsd_test::content;
+using gsd_test::files_of;
+using gsd_test::parse;
 
 class BadGsd : public testing::TestWithParam<std::filesystem::path> {};
 

@@ -6,7 +6,9 @@
 
 namespace {
 
-using namespace gsd_test;
+using gsd_test::content;
+using gsd_test::lines;
+using gsd_test::parse;
 
 bus::Gsd chip() { return parse(content(GSD_CHIP), "dsdpv1.gsd").gsd.value(); }
 

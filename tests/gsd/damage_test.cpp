@@ -8,7 +8,9 @@
 
 namespace {
 
-using namespace gsd_test;
+using gsd_test::content;
+using gsd_test::files_of;
+using gsd_test::parse;
 
 class DamagedGsd : public testing::TestWithParam<std::filesystem::path> {};
 

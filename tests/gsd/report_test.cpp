@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace gsd_test;
+using gsd_test::files_of;
 using testing::HasSubstr;
 
 struct Ran {

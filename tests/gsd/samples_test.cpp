@@ -6,8 +6,11 @@
 
 namespace {
 
-using namespace gsd_test;
 using bus::Bytes;
+using gsd_test::content;
+using gsd_test::lines;
+using gsd_test::parse;
+using gsd_test::sample;
 using testing::ElementsAre;
 using testing::IsEmpty;
 

@@ -6,9 +6,12 @@
 
 namespace {
 
-using namespace gsd_test;
 using bus::Bytes;
 using bus::set_up;
+using gsd_test::file_with;
+using gsd_test::lines;
+using gsd_test::parse;
+using gsd_test::sample;
 
 std::string only_error(const bus::GsdSetup& setup) {
   return setup.diagnostics.size() == 1 ? to_string(setup.diagnostics.front())

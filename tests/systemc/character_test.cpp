@@ -4,7 +4,9 @@
 #include "tests/systemc/bench.hpp"
 
 using dsdpv1::Tick;
-using namespace dsdpv1::systemc;
+using dsdpv1::systemc::CharacterCollector;
+using dsdpv1::systemc::EdgeQueue;
+using dsdpv1::systemc::frame_of;
 
 void simulate() {}
 
