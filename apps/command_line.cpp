@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/reasons_command.hpp"
+#include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/suggest.hpp"
@@ -116,6 +117,32 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
                   kExitCodes);
 }
 
+void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
+  CLI::App* command = app.add_subcommand("rtl-random", "Random stimulus for model and reference RTL in lockstep");
+  command->add_option("--cycles", arguments.cycles, "How many cycles to compare")->capture_default_str();
+  command->add_option("--seed", arguments.seed, "The same cases for the same seed")->capture_default_str();
+  command->add_option("--replay", arguments.replay, "This stimulus file instead of random cases");
+  command->add_option("--fault", arguments.fault, "With this single fault of rtl_ref/faults.txt")
+      ->check(CLI::Range(0, 255));
+  command->add_option("--stimulus", arguments.stimulus, "File for a case that differs, shrunk")->capture_default_str();
+  command->add_option("--difference", arguments.difference, "Wave of both sides for it")->capture_default_str();
+  command->footer(
+      "\nExamples:\n  dsdpv1-sim rtl-random --cycles 100000000 --seed 7\n"
+      "  dsdpv1-sim rtl-random --replay lockstep.stimulus --difference both.fst\n"
+      "\nExit codes: 0 no difference, 1 a difference, 2 wrong input.\n");
+}
+
+void describe_rtl_faults(CLI::App& app, RtlFaultsArguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("rtl-faults", "Checks the lockstep itself: every single fault in the RTL must be found");
+  command->add_option("--list", arguments.list, "The list of faults")->capture_default_str();
+  command->add_option("--directed", arguments.directed, "Folder of stimulus files that are played first")
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--cycles", arguments.cycles, "Random cycles for each fault at most")->capture_default_str();
+  command->add_option("--seed", arguments.seed, "Of the random cases")->capture_default_str();
+  command->footer("\nExit codes: 0 all found, 1 some not, 2 wrong input.\n");
+}
+
 void describe_reasons(CLI::App& app, ReasonsArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("reasons", "Explains the codes of logs and results: what happened, what to do");
@@ -172,6 +199,10 @@ int command_line(int argc, char** argv) {
   ServeArguments serve_arguments;
   describe_serve(app, serve_arguments);
   describe_reasons(app, reasons_arguments);
+  RtlRandomArguments rtl_random_arguments;
+  RtlFaultsArguments rtl_faults_arguments;
+  describe_rtl_random(app, rtl_random_arguments);
+  describe_rtl_faults(app, rtl_faults_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -180,6 +211,8 @@ int command_line(int argc, char** argv) {
   }
   if (app.got_subcommand("run")) return run(run_arguments);
   if (app.got_subcommand("serve")) return serve(serve_arguments);
+  if (app.got_subcommand("rtl-random")) return rtl_random(rtl_random_arguments);
+  if (app.got_subcommand("rtl-faults")) return rtl_faults(rtl_faults_arguments);
   if (app.got_subcommand("schema")) return schema(schema_arguments);
   if (app.got_subcommand("gsd")) return gsd(gsd_arguments);
   if (app.got_subcommand("reasons")) return reasons(reasons_arguments);

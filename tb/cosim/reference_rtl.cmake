@@ -1,5 +1,6 @@
 # The reference RTL, Verilated once for each set of its parameters.
-set(rtl_dir ${PROJECT_SOURCE_DIR}/rtl_ref)
+set(DSDPV1_RTL_DIR ${PROJECT_SOURCE_DIR}/rtl_ref CACHE PATH "Folder of the reference RTL: files.txt and what it names")
+set(rtl_dir ${DSDPV1_RTL_DIR})
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rtl_dir}/files.txt)
 file(STRINGS ${rtl_dir}/files.txt rtl_sources)
 list(TRANSFORM rtl_sources PREPEND ${rtl_dir}/)

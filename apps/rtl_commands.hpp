@@ -1,0 +1,24 @@
+#pragma once
+// rtl-random, rtl-faults: model and reference RTL in lockstep without a scenario.
+#include <cstdint>
+#include <string>
+
+namespace app {
+
+struct RtlRandomArguments {
+  std::uint64_t cycles = 10'000'000, seed = 1;
+  std::string replay;                          ///< a stimulus file instead of random cases
+  unsigned fault = 0;                          ///< of rtl_ref/faults.txt, to see one found
+  std::string stimulus = "lockstep.stimulus";  ///< where a shrunk failing case goes
+  std::string difference = "lockstep.vcd";     ///< ... and its wave
+};
+
+struct RtlFaultsArguments {
+  std::string list = "rtl_ref/faults.txt", directed;  ///< `directed`: a folder of stimulus files; empty: none
+  std::uint64_t cycles = 30'000'000, seed = 1;
+};
+
+int rtl_random(const RtlRandomArguments& arguments);
+int rtl_faults(const RtlFaultsArguments& arguments);
+
+}  // namespace app

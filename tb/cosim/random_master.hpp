@@ -1,0 +1,53 @@
+#pragma once
+// The master of a random case: DP services right and wrong, broken telegrams, idle times at their limits.
+#include <optional>
+
+#include "bus/telegram.hpp"
+#include "tb/cosim/random_setup.hpp"
+
+namespace cosim {
+
+class RandomMaster {
+ public:
+  RandomMaster(Random& random, Setup& setup, Stimulus& stimulus)
+      : random_(random), setup_(setup), stimulus_(stimulus) {}
+
+  /// Another baud rate, and telegrams until the chip must have found it.
+  void choose_rate();
+  void forget_series() { fcv_ = false; }
+  void slave_diag();
+  void set_prm(bool right);
+  void check_cfg(bool right);
+  void data_exchange();
+  void anything();
+  /// Nothing on the line, for a while.
+  void silence();
+  /// ... until BAUD_CONTROL has run out.
+  void wait_baud_control();
+
+ private:
+  bus::Bytes prm(bool right);
+  void request(int dsap, const bus::Bytes& data);
+  void global_control();
+  void set_slave_address();
+  void other_service();
+  void repetition();
+  void broken();
+  void noise();
+  void sd3();
+  void send(const bus::Bytes& bytes, Tick idle, bool answered, const bus::WireFaults& faults = {});
+  void send(const bus::Telegram& telegram, bool answered = true);
+  std::uint8_t function_code();
+  std::uint8_t master();
+  Tick bit() const;
+  Tick idle();
+
+  Random& random_;
+  Setup& setup_;
+  Stimulus& stimulus_;
+  bool fcb_ = true, fcv_ = false;
+  std::optional<bus::Telegram> last_;
+  Tick extra_ = 0;  ///< waited before the next telegram
+};
+
+}  // namespace cosim

@@ -1,0 +1,49 @@
+#pragma once
+// Stimulus for lockstep runs without the bench: what happens at the chip's input pins, as short lines of text.
+//
+// Three lanes act at the same time: the bus (send), the user at the host port (take, give, write, read, block, pin), the board (reset).
+// Each action begins `delay` ticks after the one before it in its lane has ended; `sync` lets all lanes wait for each other.
+#include <string>
+#include <vector>
+
+#include "bus/uart.hpp"
+#include "model/dsdpv1/pins.hpp"
+
+namespace cosim {
+
+using dsdpv1::Level;
+using dsdpv1::Pin;
+using dsdpv1::Tick;
+
+enum class Verb : std::uint8_t {
+  kSend,   ///< a telegram at `rate`; then an answer is waited for, `reply_bits` bit times for its beginning
+  kTake,   ///< R_REQ up, L_REQ and L_STA looked at every `low` ticks until both are 0, R_STA up (H2)
+  kGive,   ///< both down
+  kWrite,  ///< one byte: CSR, A and D `setup` before, WR low for `low`, all held for `hold`
+  kRead,   ///< one byte: CSR and A `setup` before, RD low for `low`
+  kBlock,  ///< `bytes` from `address` on, then their CRC, exclusive-ored with `value`, at `crc_address`
+  kPin,    ///< one input pin to `value`
+  kReset,  ///< RESET low for `low` ticks, then high
+  kSync,
+};
+
+/// One action; members that its verb does not name are not used.
+struct Action {
+  Verb verb = Verb::kSync;
+  Tick delay = 0;
+  int rate = 0, reply_bits = 0;
+  int address = 0, crc_address = 0, value = 0;
+  Tick setup = 200, low = 600, hold = 200;
+  Pin pin{};
+  bus::Bytes bytes = {};
+  bus::WireFaults faults = {};
+};
+
+using Stimulus = std::vector<Action>;
+
+/// The text of a stimulus file: comments, one action a line.
+std::string to_text(const Stimulus& stimulus);
+/// Reads it; `file` is for messages only. Throws tb::InputError.
+Stimulus parse_stimulus(const std::string& text, const std::string& file);
+
+}  // namespace cosim
