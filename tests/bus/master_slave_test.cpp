@@ -42,7 +42,7 @@ struct SlaveTest : testing::Test {
       : slave(p, 1, personality) {}
   /// One request and what comes back to it.
   Telegram step(const FdlResult& result) {
-    const Telegram request = slave.next_request();
+    Telegram request = slave.next_request();
     slave.done(result);
     return request;
   }

@@ -9,8 +9,8 @@ namespace {
 
 Decoded decode(const Bytes& bytes) {
   TelegramDecoder decoder;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    if (auto decoded = decoder.feed(bytes[i])) return *decoded;
+  for (const std::uint8_t byte : bytes) {
+    if (auto decoded = decoder.feed(byte)) return *decoded;
   }
   return *decoder.finish();
 }

@@ -118,8 +118,7 @@ class Glitches : public testing::Test {
  protected:
   void SetUp() override { bench.to_wait_prm({}, 4); }
   Exchange request(const bus::WireFaults& faults) {
-    const Exchange exchange =
-        bench.requester.send(bench.timeline, fdl_status_request(), {.idle_bits = 60, .faults = faults});
+    Exchange exchange = bench.requester.send(bench.timeline, fdl_status_request(), {.idle_bits = 60, .faults = faults});
     bench.run_for(bench.requester.bit() * 60);
     bench.chip.compare(bench.now());
     return exchange;

@@ -220,7 +220,7 @@ bus::Exchange SlaveBench::srd(int dsap, int ssap, const Bytes& data) {
     return sap < 0 ? std::optional<std::uint8_t>{} : std::optional<std::uint8_t>{static_cast<std::uint8_t>(sap)};
   };
   const auto telegram = bus::make_telegram(address, master, fc, data, optional_sap(dsap), optional_sap(ssap));
-  const bus::Exchange exchange = requester.send(timeline, telegram);
+  bus::Exchange exchange = requester.send(timeline, telegram);
   if (!exchange.silent()) {
     fcb = fcb_valid ? !fcb : false;  // a series starts with FCB = 1, FCV = 0
     fcb_valid = true;
@@ -272,12 +272,12 @@ int SlaveBench::count(profibus::Reason reason) const {
 }
 
 const profibus::Event& SlaveBench::last(profibus::Reason reason) const {
-  static const profibus::Event kNone{};
+  static const profibus::Event none{};
   for (auto event = chip.events().rbegin(); event != chip.events().rend(); ++event) {
     if (event->reason == reason) return *event;
   }
   ADD_FAILURE() << "no event " << profibus::code(reason);
-  return kNone;
+  return none;
 }
 
 std::vector<PinChange> SlaveBench::changes(Pin pin) const {

@@ -33,8 +33,8 @@ Bytes sd3() { return with_fcs({sd::kSd3}, {5, 2, 0x6D, 1, 2, 3, 4, 5, 6, 7, 8});
 
 /// A character on its way to the receiver, by its start edge.
 struct Sent {
-  Cycle start, idle;
-  std::uint8_t value;
+  Cycle start = 0, idle = 0;
+  std::uint8_t value = 0;
   bool parity_ok = true, stop_ok = true;
 };
 

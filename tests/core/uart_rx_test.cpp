@@ -23,7 +23,7 @@ std::vector<bool> bits_of(std::uint8_t byte, bool good_parity = true, bool good_
 }
 
 struct Received {
-  Cycle at;
+  Cycle at = 0;
   Character character;
 };
 

@@ -76,7 +76,7 @@ TEST(UartTxBlock, EvaluatedOnlyAtNextItIsTheSame) {
     for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
     const int bit = kBitCycles[random() % 6];
     const Cycle begin = now + 5 + static_cast<Cycle>(random() % 60);
-    const Cycle lead = static_cast<Cycle>(random() % 5), trail = static_cast<Cycle>(random() % 5);
+    const auto lead = static_cast<Cycle>(random() % 5), trail = static_cast<Cycle>(random() % 5);
     every.send(bytes.data(), static_cast<int>(bytes.size()), bit, begin, lead, trail);
     sparse.send(bytes.data(), static_cast<int>(bytes.size()), bit, begin, lead, trail);
   }

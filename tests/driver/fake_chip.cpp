@@ -43,7 +43,7 @@ void FakeChip::check_ownership(const char* what) {
 
 void FakeChip::set_r_req(bool level) {
   if (!level && r_sta_) {
-    violations.push_back("R_REQ fell before R_STA");
+    violations.emplace_back("R_REQ fell before R_STA");
   }
   const bool released = r_req_ && !level;
   r_req_ = level;
@@ -61,7 +61,7 @@ void FakeChip::set_r_req(bool level) {
 
 void FakeChip::set_r_sta(bool level) {
   if (level && free_samples_ < 4) {
-    violations.push_back("R_STA rose after less than two looks at L_REQ and L_STA");
+    violations.emplace_back("R_STA rose after less than two looks at L_REQ and L_STA");
   }
   if (level) {
     ++holds;
@@ -99,7 +99,7 @@ void FakeChip::access() {
 }
 
 bool FakeChip::crc_is_right(std::uint16_t address, std::size_t count, std::uint16_t crc) const {
-  const std::uint16_t stored = static_cast<std::uint16_t>(memory.at(crc) << 8 | memory.at(crc + 1U));
+  const auto stored = static_cast<std::uint16_t>(memory.at(crc) << 8 | memory.at(crc + 1U));
   return crc_of(bytes(address, count)) == stored;
 }
 

@@ -36,9 +36,9 @@ struct FakeChip {
   dsdpv1_port port();
   std::uint8_t& at(std::uint16_t address) { return memory.at(address); }
   /// Puts a block where the chip puts them, with its CRC.
-  void put_outputs(const std::vector<std::uint8_t>& bytes);
-  void put_prm(const std::vector<std::uint8_t>& bytes);
-  void put_cfg(std::uint8_t outputs, std::uint8_t inputs_length, const std::vector<std::uint8_t>& bytes);
+  void put_outputs(const std::vector<std::uint8_t>& data);
+  void put_prm(const std::vector<std::uint8_t>& data);
+  void put_cfg(std::uint8_t outputs, std::uint8_t inputs_length, const std::vector<std::uint8_t>& data);
   /// Bytes of the memory from `address`.
   std::vector<std::uint8_t> bytes(std::uint16_t address, std::size_t count) const;
 

@@ -95,7 +95,7 @@ TEST(Fiber, AbandonedBodyIsUnwound) {
   };
   {
     Coroutine co([held](Fiber& fiber) {
-      const auto copy = held;
+      const auto copy = held;  // NOLINT(performance-unnecessary-copy-initialization): unwinding has to destroy it
       const SuspendsOnTheWayOut guard{fiber};
       fiber.suspend();
       FAIL() << "nobody resumes";

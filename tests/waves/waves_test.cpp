@@ -68,7 +68,7 @@ TEST_F(Waves, VcdHoldsDeclarationsAndChanges) {
 }
 
 TEST_F(Waves, UnfinishedFileIsAbsent) {
-  for (const std::string name : {"w.vcd", "w.fst"}) {
+  for (const char* const name : {"w.vcd", "w.fst"}) {
     try {
       auto wave = tb::open_wave(path(name));
       write_example(*wave);
