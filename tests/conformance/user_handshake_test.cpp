@@ -330,7 +330,7 @@ class RandomUser : public bus::Agent {
     EXPECT_EQ(crc, document_crc(block)) << "torn outputs";
     EXPECT_EQ(block[1] ^ 0xFF, block[2]) << "torn outputs";
     fetched.push_back(block[1]);
-    writes_.push_back({regs::kChipCommand1, static_cast<std::uint8_t>(command & ~regs::kChipCommand1Output)});
+    writes_.emplace_back(regs::kChipCommand1, static_cast<std::uint8_t>(command & ~regs::kChipCommand1Output));
   }
   void next_write() {
     if (writes_.empty()) return wait(draw(750, 20'000), &RandomUser::leave);

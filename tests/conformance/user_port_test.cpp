@@ -31,7 +31,7 @@ class UserPort : public testing::Test {
   }
   /// One write with exactly these times; WR rises at `rise`. Afterwards the bus is quiet and the write settled.
   void write_shaped(Tick rise, std::uint16_t cell, std::uint8_t value, const WriteShape& shape) {
-    const Level other_a = 0x7FF & ~cell;
+    const auto other_a = static_cast<Level>(0x7FF & ~cell);
     std::multimap<Tick, std::pair<Pin, Level>> plan;
     plan.insert({rise - 900, {Pin::kA, other_a}});
     plan.insert({rise - 900, {Pin::kDIn, static_cast<Level>(value ^ 0xFF)}});

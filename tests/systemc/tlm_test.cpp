@@ -41,21 +41,22 @@ struct Cpu : sc_core::sc_module {
   }
 
   Outcome send(tlm_generic_payload& payload, std::vector<std::uint8_t>& data, sc_time delay = SC_ZERO_TIME) {
+    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): the reference is to the present time, which moves on
     const sc_time start = sc_core::sc_time_stamp();
     socket->b_transport(payload, delay);
     return {payload.get_response_status(), sc_core::sc_time_stamp() - start, delay, data};
   }
 
   Outcome transport(tlm::tlm_command command, sc_dt::uint64 address, std::vector<std::uint8_t> data,
-                    sc_time delay = SC_ZERO_TIME) {
+                    const sc_time& delay = SC_ZERO_TIME) {
     tlm_generic_payload payload;
     prepare(payload, command, address, data);
     return send(payload, data, delay);
   }
-  Outcome write(sc_dt::uint64 address, std::vector<std::uint8_t> data, sc_time delay = SC_ZERO_TIME) {
+  Outcome write(sc_dt::uint64 address, std::vector<std::uint8_t> data, const sc_time& delay = SC_ZERO_TIME) {
     return transport(tlm::TLM_WRITE_COMMAND, address, std::move(data), delay);
   }
-  Outcome read(sc_dt::uint64 address, std::size_t count, sc_time delay = SC_ZERO_TIME) {
+  Outcome read(sc_dt::uint64 address, std::size_t count, const sc_time& delay = SC_ZERO_TIME) {
     return transport(tlm::TLM_READ_COMMAND, address, std::vector<std::uint8_t>(count, 0xEE), delay);
   }
 };
@@ -185,7 +186,7 @@ struct World : sc_core::sc_module {
     extension.timing = timing;
     Cpu::prepare(payload, command, 0x150, data);
     payload.set_extension(&extension);
-    const Outcome outcome = cpu.send(payload, data);
+    Outcome outcome = cpu.send(payload, data);
     payload.clear_extension(&extension);
     return outcome;
   }
