@@ -21,25 +21,34 @@ module host_port (
   output logic [10:0] raddr_o,
   input  logic [7:0]  rdata_i
 );
+  // The port listens behind R, the first edge without reset (section 12)
+  logic listens_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) listens_q <= 1'b0;
+    else listens_q <= 1'b1;
+  end
+
   // ---- clocked by WR
   logic [18:0] entry0_q, entry1_q, entry2_q, entry3_q;
   logic [2:0] head_q, head_next, head_gray_q;
   logic [18:0] entry;
   assign head_next = head_q + 3'd1;
   assign entry = {a_i, d_i};
+  logic takes;
+  assign takes = listens_q && (!csr_i || `FAULT(47));
 
   always_ff @(posedge wr_i or negedge rst_ni) begin
     if (!rst_ni) begin
       head_q <= 3'd0;
       head_gray_q <= 3'd0;
-    end else if (!csr_i || `FAULT(47)) begin
+    end else if (takes) begin
       head_q <= head_next;
       head_gray_q <= head_next ^ {1'b0, head_next[2:1]};
     end
   end
 
   always_ff @(posedge wr_i) begin
-    if (!csr_i || `FAULT(47)) begin
+    if (takes) begin
       case (head_q[1:0])
         2'd0: entry0_q <= entry;
         2'd1: entry1_q <= entry;
@@ -81,10 +90,16 @@ module host_port (
   assign wdata_o = oldest[7:0];
 
   // ---- reads
-  logic reads, taken_q, driven_q;
+  logic reads, early_q, taken_q, driven_q;
   logic [7:0] d_q;
   assign reads = !rd_i && !csr_i;
   assign raddr_o = a_i;
+
+  // RD and CSR were low already at R: no access, until one of them rises
+  always_ff @(posedge clk_i or negedge reads) begin
+    if (!reads) early_q <= 1'b0;
+    else if (!listens_q) early_q <= 1'b1;
+  end
 
   always_ff @(posedge clk_i or negedge reads) begin
     if (!reads) taken_q <= 1'b0;
@@ -101,5 +116,5 @@ module host_port (
   end
 
   assign d_o = d_q;
-  assign d_oe_o = reads && rst_ni;
+  assign d_oe_o = reads && listens_q && !early_q;
 endmodule

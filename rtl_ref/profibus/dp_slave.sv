@@ -250,7 +250,7 @@ module dp_slave (
   logic min_tsdr_only, in_data_exch, execute_srd;
   logic [7:0] ssa_lock;
   logic [15:0] ssa_ident;
-  logic [7:0] data_fc;
+  logic urgent;
   logic [7:0] ssa_address;
   logic [6:0] new_address;
   logic user_judges_prm, user_judges_cfg, fits_outputs, is_empty, supports_address;
@@ -260,7 +260,7 @@ module dp_slave (
   assign ssa_lock = head_i[31:24];
   assign in_data_exch = state_b == DP_DATA_EXCH;
   assign execute_srd = execute_i && srd_i;
-  assign data_fc = diag_waiting ? FC_DH : FC_DL;
+  assign urgent = diag_waiting && default_sap_i;  // D9: only data exchange says so
   assign user_judges_prm = prm_mode_q == 2'd2;
   assign user_judges_cfg = cfg_mode_q == 2'd2;
   assign fits_outputs = length_i == output_length_now;
@@ -375,7 +375,7 @@ module dp_slave (
               answer = ANS_SC;
               if (in_data_exch ? cfg_same : cfg_right) begin
                 good_cfg = 1'b1;
-                accept_cfg = in_data_exch || !user_judges_cfg;
+                accept_cfg = !in_data_exch && !user_judges_cfg;
               end else begin
                 cfg_fault_d = 1'b1;
                 enter_wait_prm = 1'b1;
@@ -399,10 +399,10 @@ module dp_slave (
     // An answer that has no data (S19, S20)
     if ((source == SRC_INPUTS && input_length_now == 8'd0) || (source == SRC_OUTPUTS && output_length_now == 8'd0) ||
         (source == SRC_CFG && in_use_length_now == 8'd0) || (source == SRC_INIT_CFG && init_cfg_length_q == 8'd0)) begin
-      answer = diag_waiting ? ANS_SD1 : ANS_SC;
+      answer = urgent ? ANS_SD1 : ANS_SC;
       fc = FC_DH;
     end else if (source != SRC_NONE) begin
-      fc = data_fc;
+      fc = urgent ? FC_DH : FC_DL;
     end
 
     // What follows (S15, S18)
@@ -417,7 +417,7 @@ module dp_slave (
         unsupported_d = 1'b0;
       end
     end
-    if (good_cfg) begin
+    if (good_cfg && !in_data_exch) begin  // in DATA_EXCH it is mail and nothing else (S16)
       await_cfg_d = !accept_cfg;
       if (accept_cfg) begin
         state_d = DP_DATA_EXCH;

@@ -270,9 +270,13 @@ void start_up(Bench& b) {
   expect(b.pins().pbtxd_o && b.pins().intr0_o && b.pins().pbf_o, 1, "levels of reset that are high");
   expect(b.pins().pbrts_o || b.pins().l_req_o || b.pins().l_sta_o || b.pins().br_o || b.pins().ready_o, 0,
          "levels of reset that are low");
+  b.pins().csr_i = b.pins().rd_i = 0;
   b.release_reset();
   const int64_t r = b.edge + 1 + 2;
   b.step(10);
+  expect(b.pins().d_oe_o, 0, "RD low since before R is no access");
+  b.pins().csr_i = b.pins().rd_i = 1;
+  b.step();
   expect(b.l_req.rise, r, "start-up access begins at R");
   // A user who writes although the chip owns the DPRAM (P12): what is cleared already keeps his bytes
   b.step(r + 1500 - b.edge);
@@ -452,10 +456,36 @@ void diagnosis(Bench& b) {
   b.disown();
   b.step(200);
   expect_bytes(b.ask(sd2({5, 2, 0x5D, 5, 6, 7, 8})), sd2({2, 5, 0x0A, 0, 0, 0, 1}), "high priority");
+  expect_bytes(b.ask(request(0x7D, 57, {})), response(8, 57, {5, 6, 7, 8}), "only data exchange tells of high priority");
   Bytes data = diag(8, 0x0C, 2);
   data.insert(data.end(), {0x43, 0x11, 0x22});
-  expect_bytes(b.ask(request(0x7D, 60, {})), response(0x0A, 60, data), "diagnosis of the user");
-  expect_bytes(b.ask(sd2({5, 2, 0x5D, 5, 6, 7, 8})), sd2({2, 5, 8, 0, 0, 0, 1}), "low priority behind it");
+  expect_bytes(b.ask(request(0x5D, 60, {})), response(8, 60, data), "diagnosis of the user");
+  expect_bytes(b.ask(sd2({5, 2, 0x7D, 5, 6, 7, 8})), sd2({2, 5, 8, 0, 0, 0, 1}), "low priority behind it");
+}
+
+// Check_Cfg with the configuration in use is mail and nothing else (S16)
+void check_again(Bench& b) {
+  b.own();
+  b.write(0x00E, 0);
+  b.step(3);
+  b.disown();
+  expect_bytes(b.ask(request(0x5D, 62, {0x13, 0x23})), kSc, "Check_Cfg in DATA_EXCH");
+  b.step(200);
+  expect_bytes(b.peek(0x00E, 1), {4}, "B00E behind it: no outputs");
+  expect_bytes(b.peek(0x500, 5), {4, 4, 2, 0x13, 0x23}, "configuration again in the DPRAM");
+  expect_bytes(b.ask(request(0x7D, 57, {})), response(8, 57, {5, 6, 7, 8}), "the outputs stay");
+}
+
+// Frame count bit and SAP bytes (S20, S21)
+void repetitions(Bench& b) {
+  const Bytes outputs = request(0x5D, 57, {}), answer = response(8, 57, {5, 6, 7, 8});
+  expect_bytes(b.ask(outputs), answer, "Read_Outputs ahead of an SDN");
+  b.send(sd2({0x85, 0x82, 0x76, 40, 62, 0, 0}));
+  b.step(20 * b.bit);
+  b.ask(sd2({5, 2, 0x4D, 1, 2, 3, 4}));
+  expect_bytes(b.ask(outputs), answer, "the memory stays behind an SDN and an answer that is not stored");
+  expect_bytes(b.ask(sd2({5, 0x82, 0x4D, 62, 5, 6, 7, 8})), sd2({0x82, 5, 8, 62, 0, 0, 0, 1}), "SSAP alone");
+  expect_bytes(b.ask(sd2({0x85, 2, 0x4D, 57})), sd2({2, 5, 8, 5, 6, 7, 8}), "DSAP alone");
 }
 
 void sync_and_freeze(Bench& b) {
@@ -520,27 +550,43 @@ void user_judges(Bench& b) {
   b.own();
   b.write(0x00E, 0);
   b.disown();
+  const auto accept = [&](int flag) {
+    b.step(200);
+    b.own();
+    b.write(0x00C, 0);
+    b.write(0x010, flag);
+    b.step(3);
+    b.disown();
+    b.step(200);
+  };
   expect_bytes(b.ask(request(0x6D, 61, {0x88, 1, 1, 15, 0x0C, 0xC9, 1})), kSc, "Set_Prm for the user");
   expect_bytes(b.ask(request(0x6D, 60, {})), response(8, 60, diag(2, 4, 255)), "Slave_Diag while the user judges");
-  b.own();
-  b.write(0x00C, 0);
-  b.write(0x010, 0x80);
-  b.step(3);
-  b.disown();
-  b.step(200);
+  accept(0x80);
   expect_bytes(b.ask(request(0x4D, 62, {0x13, 0x23}), 15), kSc, "Check_Cfg for the user, new min_TSDR");
-  b.step(200);
-  b.own();
-  b.write(0x010, 0x40);
-  b.step(3);
-  b.disown();
-  b.step(200);
+  accept(0x40);
   expect(b.pbf.level, 0, "the user's verdict leads to DATA_EXCH");
   expect_bytes(b.ask(sd2({5, 2, 0x5D, 1, 2, 3, 4}), 15), sd2({2, 5, 8, 0, 0, 0, 0}), "data exchange");
+  // While the user judges a new Set_Prm, nothing of it is in force, and holder and watchdog stay (S15)
+  expect_bytes(b.ask(request(0x4D, 61, {0x88, 2, 2, 20, 0x0C, 0xC9, 1}), 15), kSc, "Set_Prm again for the user");
+  expect_bytes(b.ask(request(0x4D, 60, {}), 15), response(8, 60, diag(2, 0x0C, 2)), "holder and watchdog stay");
+  expect_bytes(b.ask(sd2({0x85, 0x83, 0x4D, 61, 62, 0x88, 2, 2, 20, 0x0C, 0xC9, 1}), 15), sd1(3, 5, 3), "another master");
+  accept(0x80);
+  // A configuration without inputs (S19, S20)
+  expect_bytes(b.ask(request(0x4D, 62, {0x23}), 20), kSc, "Check_Cfg without inputs");
+  accept(0x40);
+  b.own();
+  b.write_block(0x227, {0x81, 0}, 0x317, 2);
+  b.step(3);
+  b.disown();
+  b.step(200);
+  expect_bytes(b.ask(request(0x4D, 56, {}), 20), kSc, "Read_Inputs without inputs");
+  expect_bytes(b.ask(sd2({5, 2, 0x4D, 1, 2, 3, 4}), 20), sd1(2, 5, 0x0A), "high priority without inputs");
+  b.ask(request(0x4D, 60, {}), 20);
+  expect_bytes(b.ask(sd2({5, 2, 0x4D, 1, 2, 3, 4}), 20), kSc, "data exchange without inputs");
   b.pbf.rise = -1;
   const int64_t triggered = b.end + b.bit + 1;
-  b.step(500000);
-  expect(b.pbf.rise, triggered + 480000, "watchdog of 10 ms");
+  b.step(2000000);
+  expect(b.pbf.rise, triggered + 1920000, "watchdog of 40 ms");
 }
 
 }  // namespace
@@ -566,6 +612,8 @@ int main(int argc, char** argv) {
     to_data_exchange(b);
     exchange(b);
     diagnosis(b);
+    check_again(b);
+    repetitions(b);
     sync_and_freeze(b);
     leave(b);
     interrupts(b);
