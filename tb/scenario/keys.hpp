@@ -61,7 +61,10 @@ struct Choice {
 };
 
 struct Object {
-  Object(std::string object_name, std::string object_doc) : name(std::move(object_name)), doc(std::move(object_doc)) {}
+  using SetLine = std::function<void(void* owner, int line)>;
+
+  Object(std::string object_name, std::string object_doc, SetLine line_setter)
+      : name(std::move(object_name)), doc(std::move(object_doc)), set_line(std::move(line_setter)) {}
 
   std::string name, doc;
   std::vector<Field> fields;
@@ -71,7 +74,7 @@ struct Object {
   std::vector<std::vector<std::string>> exactly_one;   ///< exactly one field of each group must be there
   std::vector<std::vector<std::string>> at_most_one;   ///< no two fields of a group together
   std::vector<std::vector<std::string>> at_least_one;  ///< at least one field of each group must be there
-  std::function<void(void* owner, int line)> set_line;
+  SetLine set_line;
 
   const Field* find(const std::string& key) const;
 };
@@ -127,9 +130,9 @@ struct WordFor {
 template <class T>
 class ObjectOf : public Object {
  public:
-  ObjectOf(std::string object_name, std::string object_doc) : Object(std::move(object_name), std::move(object_doc)) {
-    set_line = [](void* owner, int line) { static_cast<T*>(owner)->line = line; };
-  }
+  ObjectOf(std::string object_name, std::string object_doc)
+      : Object(std::move(object_name), std::move(object_doc),
+               [](void* owner, int line) { static_cast<T*>(owner)->line = line; }) {}
 
   template <class M, class B>
   Field& integer(const char* key, M B::*member, Range range, const char* unit, const char* text) {

@@ -15,7 +15,7 @@ tb::scenario::Scenario parse(const std::string& slave, const std::string& master
 }
 
 TEST(Setup, StationFollowsTheGsdAndItsModules) {
-  const auto scenario = parse("gsd: dsdpv1.gsd, modules: [\"8 bytes in\", \"2 words out\"]", "slave: demo");
+  const auto scenario = parse(R"(gsd: dsdpv1.gsd, modules: ["8 bytes in", "2 words out"])", "slave: demo");
   const auto station = tb::Setup(scenario).station(scenario.slaves[0]);
   EXPECT_EQ(station.address, 5);
   EXPECT_EQ(station.ident, 0x0CC9);
@@ -36,7 +36,7 @@ TEST(Setup, InitOverridesTheGsd) {
 }
 
 TEST(Setup, MasterTakesTheModulesOfItsSlave) {
-  const auto scenario = parse("gsd: dsdpv1.gsd, modules: [\"2 bytes in\", \"4 bytes out\"]",
+  const auto scenario = parse(R"(gsd: dsdpv1.gsd, modules: ["2 bytes in", "4 bytes out"])",
                               "slave: demo, groups: [1, 3], watchdog: 100ms");
   tb::Setup setup(scenario);
   const auto parameters = setup.parameters(scenario.masters[0].slaves[0]);

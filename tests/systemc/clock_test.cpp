@@ -76,7 +76,7 @@ TEST(Clock, CycleNIsTheNthRisingEdge) {
   const Changes rises = only(world->late.changes, Pin::kLReq);
   ASSERT_GE(rises.size(), 3U);
   ASSERT_GE(world->late_rises.size(), 2U);
-  const Tick first = rises[0].at / 250, second = rises[2].at / 250;
+  const dsdpv1::Tick first = rises[0].at / 250, second = rises[2].at / 250;
   EXPECT_EQ(world->late_rises[0], sc_time(21, sc_core::SC_NS) * static_cast<double>(first));
   EXPECT_EQ(world->late_rises[1], sc_time(21, sc_core::SC_NS) * static_cast<double>(second));
 }
