@@ -39,9 +39,10 @@ void Intake::take(const bus::Bytes& bytes, WallTime now) {
 std::optional<bus::Bytes> Intake::next(WallTime now) {
   if (bytes_.empty()) return std::nullopt;
   const Frame frame = frame_of(bytes_);
+  // First of all: what is complete is a telegram of its own, however late this is called.
+  if (frame.length != 0 && bytes_.size() >= frame.length) return take_out(frame.length);
   if (!frame.telegram || now >= give_up_at()) return take_out(bytes_.size());
-  if (frame.length == 0 || bytes_.size() < frame.length) return std::nullopt;
-  return take_out(frame.length);
+  return std::nullopt;
 }
 
 bus::Bytes Intake::take_out(std::size_t count) {

@@ -58,6 +58,18 @@ TEST(Framing, ATelegramThatBreaksOffIsHandedOverAfterAWhile) {
   EXPECT_FALSE(intake.holding());
 }
 
+TEST(Framing, CompleteTelegramsAreTakenApartHoweverLateTheyAreLookedAt) {
+  // A busy computer may come back to them after more than kPatience; together they would lack T_SYN on the line.
+  Intake intake;
+  Bytes twice = kStatus;
+  twice.insert(twice.end(), kStatus.begin(), kStatus.end());
+  intake.take(twice, kNow);
+  const WallTime late = kNow + 2 * Intake::kPatience;
+  EXPECT_EQ(intake.next(late), kStatus);
+  EXPECT_EQ(intake.next(late), kStatus);
+  EXPECT_FALSE(intake.holding());
+}
+
 TEST(Framing, PatienceBeginsAnewWithEachPiece) {
   Intake intake;
   intake.take({0x68, 0x05}, kNow);

@@ -3,8 +3,8 @@
 
     pyprofibus_test.py DSDPV1_SIM CASE      CASE: one of the functions below, or `list`
 
-Exit code 77 (skipped) when pyprofibus is not in .venv: ./run test installs it. A case is tried again when the machine was too
-busy to keep up with real time, which serve itself reports.
+Exit code 77 (skipped) when pyprofibus is not in .venv: ./run test installs it. A case is tried again only when the machine was too
+busy to keep up with real time, which serve itself measures, and then with a slower clock for pyprofibus.
 """
 import os
 import re
@@ -36,12 +36,13 @@ class Run:
     """Serve and master together; both are gone afterwards."""
 
     was_too_busy = False  # the last run: the machine did not keep up with real time
+    slower = 1            # how much slower pyprofibus's clock goes; 4: its requests still come in every window of the baud search
 
     def __init__(self, program, baud, stations, script="", **plan):
         self.folder = tempfile.TemporaryDirectory(prefix="dsdpv1_serve_")
         self.serve = self.master = None
         self.arguments = program, scenario(baud, stations, script)
-        self.plan = dict(plan, baud=BITS_PER_SECOND[baud])
+        self.plan = dict(plan, baud=BITS_PER_SECOND[baud], slower=Run.slower)
 
     def __enter__(self):
         self.serve = Serve(self.arguments[0], self.folder.name, self.arguments[1])
@@ -113,11 +114,11 @@ def exchange_45k45(program):
 
 
 def exchange_500k(program):
-    exchange(program, "500k", 4000)
+    exchange(program, "500k", 3000)
 
 
 def exchange_1m5(program):
-    exchange(program, "1.5M", 4000)
+    exchange(program, "1.5M", 2000)
 
 
 def two_slaves(program):
@@ -150,20 +151,24 @@ def sync_freeze(program):
                   "%s minds another group than its own: %s" % (name, ignored))
         check([event["did"] for _, event in run.master.did] == [action["do"] for action in actions], "not all commands were sent")
 
-        def inputs(name, first, last):
-            """What came back between two commands, without the exchanges that were under way at them."""
-            margin = 6
-            return [event["got"] for event in run.master.of(name) if first + margin <= event["cycle"] < last - margin]
+        # Places in the order of all exchanges: when one slave is brought up again, the slaves' own counts drift apart.
+        places = [0] + [place for place, _ in run.master.did] + [len(run.master.exchanges)]
 
-        check(len(set(inputs("out", 0, 50))) > 20, "out: nothing moves before Sync")
-        held = set(inputs("out", 50, 150))
+        def inputs(name, begin, end):
+            """How many different inputs came between two commands, without the exchanges that were under way at them."""
+            margin = 6
+            got = [event["got"] for event in run.master.exchanges[places[begin]:places[end]] if event["slave"] == name]
+            return set(got[margin:-margin])
+
+        check(len(inputs("out", 0, 1)) > 20, "out: nothing moves before Sync")
+        held = inputs("out", 1, 3)
         check(len(held) == 1, "out: outputs move although Sync holds: %s" % sorted(held)[:4])
-        again = set(inputs("out", 150, 200))
+        again = inputs("out", 3, 4)
         check(len(again) == 1 and again != held, "out: the second Sync took nothing over")
-        check(len(set(inputs("out", 200, 300))) > 50, "out: nothing moves after Unsync")
-        check(len(set(inputs("in", 50, 100))) > 20, "in: inputs do not move before Freeze")
-        check(len(set(inputs("in", 100, 250))) == 1, "in: inputs move although Freeze holds")
-        check(len(set(inputs("in", 250, 300))) > 10, "in: inputs do not move after Unfreeze")
+        check(len(inputs("out", 4, 6)) > 50, "out: nothing moves after Unsync")
+        check(len(inputs("in", 1, 2)) > 20, "in: inputs do not move before Freeze")
+        check(len(inputs("in", 2, 5)) == 1, "in: inputs move although Freeze holds")
+        check(len(inputs("in", 5, 6)) > 10, "in: inputs do not move after Unfreeze")
 
 
 def diagnosis(program):
@@ -193,8 +198,10 @@ def unplug_and_replug(program):
     with Run(program, "500k", [slave("echo", 8)], script, cycles=300, slaves=plan) as run:
         run.master.finish()
         run.serve.end()
-        check(run.serve.result["wrong_telegrams"] == 0, "wrong telegrams on the segment")
-        check("violation" not in [line.kind for line in run.serve.log], "violations")
+        # Whatever is on the line at that moment is cut off; a telegram of this scenario lasts less than 1 ms. Nothing else breaks.
+        moments = [line.ns for line in run.serve.log if line.text in ("unplugged", "plugged in")]
+        bad = [line.text for line in run.serve.log if line.kind == "violation" and not any(0 <= line.ns - at < 1e6 for at in moments)]
+        check(len(moments) == 2 and not bad, "violations apart from the unplugging: %s" % bad)
         check(run.codes("refusal").count("WD_EXPIRED") >= 1, "the watchdog did not expire while unplugged")
         states = [line.text for line in run.serve.log if line.code == "DP_STATE"]
         check(sum("to DATA_EXCH" in text for text in states) == 2, "the slave was not brought up twice: %s" % states)
@@ -270,6 +277,7 @@ def main(program, name):
             print("attempt %d: %s" % (attempt, failure))
             if not Run.was_too_busy:
                 return 1
+            Run.slower = 4
     return 1
 
 
