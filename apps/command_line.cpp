@@ -22,9 +22,10 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* command = app.add_subcommand("run", "Carries out a scenario and judges it");
   command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md")->required();
   command
-      ->add_option("--engine", arguments.engine,
-                   "How the chips are executed: step (every cycle), skip (from event to event), rtl (the reference RTL), "
-                   "lockstep (model and RTL side by side, compared)")
+      ->add_option(
+          "--engine", arguments.engine,
+          "How the chips are executed: step (every cycle), skip (from event to event), rtl (the reference RTL), "
+          "lockstep (model and RTL side by side, compared)")
       ->capture_default_str();
   command->add_option("--view", arguments.view, "How the user CPUs reach them: pins, tlm (SystemC)")
       ->capture_default_str();

@@ -16,7 +16,7 @@ struct RunArguments {
   std::string scenario, engine = "skip", view = "pins";
   std::string wave, log, result, trace;
   std::string difference = "lockstep.vcd";  ///< wave of a lockstep run's first difference
-  std::optional<bool> progress;  ///< absent: on a terminal
+  std::optional<bool> progress;             ///< absent: on a terminal
   bool quiet = false;
 };
 

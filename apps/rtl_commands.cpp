@@ -56,7 +56,8 @@ int replay(const RtlRandomArguments& arguments, const std::string& path) {
 
 void show(const cosim::CampaignResult& result) {
   if (isatty(STDERR_FILENO) != 0)
-    std::cerr << fmt::format("\r{} cases, {:.1f} M cycles", result.cases, static_cast<double>(result.counts.cycles) / 1e6);
+    std::cerr << fmt::format("\r{} cases, {:.1f} M cycles", result.cases,
+                             static_cast<double>(result.counts.cycles) / 1e6);
 }
 
 }  // namespace
@@ -65,13 +66,15 @@ int rtl_random(const RtlRandomArguments& arguments) {
   tb::check_wave_name(arguments.difference);
   if (!arguments.replay.empty()) return replay(arguments, arguments.replay);
   const auto begin = std::chrono::steady_clock::now();
-  const cosim::CampaignResult result = cosim::run_campaign(arguments.seed, arguments.cycles, maker(arguments.fault), show);
+  const cosim::CampaignResult result =
+      cosim::run_campaign(arguments.seed, arguments.cycles, maker(arguments.fault), show);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (isatty(STDERR_FILENO) != 0) std::cerr << '\r';
   std::cout << fmt::format("seed {}: {} cases, {} ({:.1f} M cycles/s)\n", arguments.seed, result.cases,
                            counts_text(result.counts), static_cast<double>(result.counts.cycles) / 1e6 / seconds);
   if (!result.difference) return kPassed;
-  std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", result.cases, result.difference->what) << std::flush;
+  std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", result.cases, result.difference->what)
+            << std::flush;
   const cosim::Stimulus shrunk =
       cosim::shrink(cosim::random_stimulus(result.failed_seed), maker(arguments.fault), kShrinkRuns);
   tb::OutputFile file(arguments.stimulus);
@@ -89,8 +92,8 @@ int rtl_faults(const RtlFaultsArguments& arguments) {
       directed.push_back({entry.path().stem().string(), read_stimulus(entry.path().string())});
     std::sort(directed.begin(), directed.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   }
-  const cosim::Kill none = cosim::hunt({0, "none", "the build for the faults, with none active"}, directed, arguments.seed,
-                                       arguments.cycles / 10);
+  const cosim::Kill none = cosim::hunt({0, "none", "the build for the faults, with none active"}, directed,
+                                       arguments.seed, arguments.cycles / 10);
   if (none.found) {
     std::cout << cosim::line_of(none) << "model and RTL differ without a fault; find that out first\n";
     return kFailed;

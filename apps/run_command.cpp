@@ -83,8 +83,7 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
 
 std::unique_ptr<cosim::RtlTop> reference_rtl(const dsdpv1::Config& config) { return cosim::make_reference_rtl(config); }
 
-int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arguments,
-                 const tb::RunOptions& options) {
+int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options) {
   auto made = std::make_unique<cosim::LockstepExecution>(reference_rtl, cosim::LockstepOptions{});
   cosim::LockstepExecution& execution = *made;
   bool same = true;

@@ -75,7 +75,8 @@ class Shrinker {
   void cut_behind_difference() {
     const PlayResult result = play(best_, make_, options_);
     if (!result.difference) return;
-    Stimulus cut(best_.begin(), best_.begin() + static_cast<std::ptrdiff_t>(std::min(result.actions_begun, best_.size())));
+    Stimulus cut(best_.begin(),
+                 best_.begin() + static_cast<std::ptrdiff_t>(std::min(result.actions_begun, best_.size())));
     try_it(cut);
     options_.limit = result.difference->at * 2;
   }
@@ -116,7 +117,9 @@ class Shrinker {
 
 }  // namespace
 
-Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs) { return Shrinker(std::move(stimulus), make, runs).run(); }
+Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs) {
+  return Shrinker(std::move(stimulus), make, runs).run();
+}
 
 // --- faults -------------------------------------------------------------------------------------------------------------
 

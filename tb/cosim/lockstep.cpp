@@ -22,7 +22,8 @@ std::string level_text(Pin pin, const std::optional<Level>& level) {
 
 std::string time_text(Tick at) {
   const Tick rest = at % kCycle;
-  const std::string cycle = rest == 0 ? fmt::format("{}", at / kCycle) : fmt::format("{} + {} ticks", at / kCycle, rest);
+  const std::string cycle =
+      rest == 0 ? fmt::format("{}", at / kCycle) : fmt::format("{} + {} ticks", at / kCycle, rest);
   return fmt::format("cycle {} ({:.3f} us)", cycle, static_cast<double>(at) / (1000.0 * profibus::kTicksPerNs));
 }
 
@@ -52,16 +53,14 @@ Lockstep::Lockstep(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, co
     history_.begin(Side::kRtl, pin, rtl_.level(pin));
     if (!dsdpv1::is_input(pin)) comparator_.begin(pin, model_.level(pin), rtl_.level(pin));
   }
-  model_.watch({[](void* self, Tick at, Pin pin, Level level) {
-                  static_cast<Lockstep*>(self)->model_changed(at, pin, level);
-                },
-                this},
-               dsdpv1::kOutputPins);
-  rtl_.watch({[](void* self, Tick at, Pin pin, Level level) {
-                static_cast<Lockstep*>(self)->rtl_changed(at, pin, level);
-              },
-              this},
-             dsdpv1::kOutputPins);
+  model_.watch(
+      {[](void* self, Tick at, Pin pin, Level level) { static_cast<Lockstep*>(self)->model_changed(at, pin, level); },
+       this},
+      dsdpv1::kOutputPins);
+  rtl_.watch(
+      {[](void* self, Tick at, Pin pin, Level level) { static_cast<Lockstep*>(self)->rtl_changed(at, pin, level); },
+       this},
+      dsdpv1::kOutputPins);
 }
 
 void Lockstep::watch(const dsdpv1::PinSink& sink, std::uint32_t pins) {
@@ -151,9 +150,10 @@ void Lockstep::settle(Tick horizon) {
 
 void Lockstep::found(Tick at, std::string what) {
   const LineTelegram telegram = history_.last_telegram(model_.status().baud_index);
-  difference_ = Difference{at, std::move(what),
-                           telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, time_text(telegram.start)),
-                           access_text(), dpram_text()};
+  difference_ = Difference{
+      at, std::move(what),
+      telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, time_text(telegram.start)),
+      access_text(), dpram_text()};
 }
 
 std::string Lockstep::access_text() const {

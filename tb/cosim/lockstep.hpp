@@ -87,8 +87,8 @@ class Lockstep {
   std::uint32_t watched_ = 0;
   UserAccess last_access_;
   Tick access_start_ = -1, access_end_ = -1, last_write_ = -1;
-  std::optional<Tick> ended_;   ///< an access of the model has ended, the DPRAM is not compared yet
-  bool user_wrote_ = true;      ///< since the DPRAM was compared
+  std::optional<Tick> ended_;  ///< an access of the model has ended, the DPRAM is not compared yet
+  bool user_wrote_ = true;     ///< since the DPRAM was compared
   unsigned accesses_ = 0;
   std::optional<Difference> difference_;
   mutable MatchCounts counts_;

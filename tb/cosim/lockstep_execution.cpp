@@ -57,7 +57,8 @@ class RtlExecution : public tb::Execution {
 
   std::unique_ptr<tb::ChipView> make_chip(const std::string& name, const dsdpv1::Config& config,
                                           std::uint32_t watched) override {
-    auto chip = std::make_unique<tb::PinChip>(name, std::make_unique<RtlDevice>(config, make_(config)), watched, segment_);
+    auto chip =
+        std::make_unique<tb::PinChip>(name, std::make_unique<RtlDevice>(config, make_(config)), watched, segment_);
     timeline_.add(*chip);
     return chip;
   }
@@ -98,9 +99,9 @@ Lockstep* LockstepExecution::different() {
 }
 
 const std::string& LockstepExecution::different_name() {
-  return std::find_if(chips_.begin(), chips_.end(), [](const Chip& chip) {
-           return chip.lockstep->difference().has_value();
-         })->name;
+  return std::find_if(chips_.begin(), chips_.end(),
+                      [](const Chip& chip) { return chip.lockstep->difference().has_value(); })
+      ->name;
 }
 
 MatchCounts LockstepExecution::counts() const {

@@ -15,8 +15,8 @@ using MakeTop = std::function<std::unique_ptr<RtlTop>()>;
 struct PlayOptions {
   dsdpv1::Config config;
   LockstepOptions lockstep;
-  std::string wave;                 ///< for the wave of a difference; empty: none
-  Tick limit = Tick{1} << 50;       ///< the run ends here at the latest
+  std::string wave;            ///< for the wave of a difference; empty: none
+  Tick limit = Tick{1} << 50;  ///< the run ends here at the latest
 };
 
 struct PlayResult {

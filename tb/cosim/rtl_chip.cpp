@@ -23,9 +23,7 @@ Level level_of(const RtlOutputs& out, Pin pin) {
 }
 
 /// Strobes act at their own tick; all others are looked at by an edge of CLK or by a strobe.
-bool acts_at_once(Pin pin) {
-  return pin == Pin::kReset || pin == Pin::kCsr || pin == Pin::kRd || pin == Pin::kWr;
-}
+bool acts_at_once(Pin pin) { return pin == Pin::kReset || pin == Pin::kCsr || pin == Pin::kRd || pin == Pin::kWr; }
 
 }  // namespace
 

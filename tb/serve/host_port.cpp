@@ -32,7 +32,7 @@ void HostPort::forget_peer(const std::string& why) {
 bus::Bytes HostPort::receive() {
   look();
   bus::Bytes bytes;
-  std::array<std::uint8_t, 4096> buffer;
+  std::array<std::uint8_t, 4096> buffer{};
   while (has_peer()) {
     const ssize_t count = ::read(peer_, buffer.data(), buffer.size());
     if (count > 0) {
