@@ -125,11 +125,11 @@ def two_slaves(program):
     slaves = [slave("io", 5, "4 bytes in, 4 bytes out"), slave("words", 40, "8 words in, 8 words out")]
     plan = [{"name": "io", "address": 5, "modules": ["4 bytes in, 4 bytes out"], "inputs": 4, "outputs": 4},
             {"name": "words", "address": 40, "modules": ["8 words in, 8 words out"], "inputs": 16, "outputs": 16}]
-    with Run(program, "187.5k", slaves, cycles=400, slaves=plan) as run:
+    with Run(program, "187.5k", slaves, cycles=200, slaves=plan) as run:
         run.master.finish()
         run.serve.end()
-        check_loop(run, "io", 400)
-        check_loop(run, "words", 400)
+        check_loop(run, "io", 200)
+        check_loop(run, "words", 200)
         check_clean(run, program)
 
 
@@ -251,7 +251,25 @@ def killed_master(program):
         check("hung up" in run.serve.said(), "serve does not say that the host hung up")
 
 
-CASES = [exchange_19k2, exchange_45k45, exchange_500k, exchange_1m5, two_slaves, sync_freeze, diagnosis, unplug_and_replug,
+def documented_commands(program):
+    """What docs/pyprofibus.md tells to do, with the shipped scenario and master."""
+    with tempfile.TemporaryDirectory(prefix="dsdpv1_serve_") as folder:
+        with open(os.path.join(ROOT, "scenarios", "serve_19k2.yaml"), encoding="UTF-8") as file:
+            text = file.read().replace("dsdpv1.gsd", os.path.join(ROOT, "scenarios", "dsdpv1.gsd"))
+        serve = Serve(program, folder, text)
+        try:
+            master = subprocess.run([PYTHON, os.path.join(ROOT, "tests", "serve", "first_master.py"), serve.port, "30"],
+                                    capture_output=True, text=True, check=False, timeout=60)
+            serve.end()
+            Run.was_too_busy = serve.was_late()
+            check(master.returncode == 0, master.stdout[-300:] + master.stderr[-300:])
+            check(master.stdout.count("received") == 30 and "sent 1d00 received 1c00" in master.stdout, master.stdout[-300:])
+            check(serve.status == 0, serve.said())
+        finally:
+            serve.kill()
+
+
+CASES = [documented_commands, exchange_19k2, exchange_45k45, exchange_500k, exchange_1m5, two_slaves, sync_freeze, diagnosis, unplug_and_replug,
          wrong_ident, wrong_configuration, killed_master]
 
 
