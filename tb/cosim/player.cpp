@@ -1,6 +1,7 @@
 #include "tb/cosim/player.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "bus/segment.hpp"
 #include "bus/timeline.hpp"
@@ -69,18 +70,29 @@ class Lane : public bus::Agent {
 class BusLane : public Lane {
  public:
   BusLane(bus::Segment& segment, const Lockstep& chip)
-      : sender_(segment, segment.attach("master", nullptr)), chip_(chip) {}
+      : segment_(segment), sender_(segment, segment.attach("master", nullptr)), chip_(chip) {}
 
-  bool takes(Verb verb) const override { return verb == Verb::kSend; }
+  bool takes(Verb verb) const override { return verb == Verb::kSend || verb == Verb::kSpike; }
   void begin(Tick at, const Action& action) override {
+    if (action.verb == Verb::kSpike) {
+      spike_ = at;
+      spike_end_ = at + action.low;
+      return;
+    }
     bit_ = bus::baud(action.rate).bit;
     sender_.set_timing(bit_);
     sender_.send(at, bus::characters(action.bytes, action.faults));
     answer_by_ = action.reply_bits == 0 ? -1 : sender_.end() + action.reply_bits * bit_;
     look_ = sender_.end();
   }
-  Tick next() const override { return sender_.busy() ? std::min(sender_.next(), look_) : look_; }
+  /// A glitch may last longer than the telegram: the line is looked at when the sender is through.
+  Tick next() const override { return std::min({sender_.busy() ? sender_.next() : look_, spike_, spike_end_}); }
   void run(Tick now) override {
+    if (spike_ <= now) {
+      segment_.force(std::exchange(spike_, bus::kNever), false);
+    } else if (spike_end_ <= now) {
+      segment_.force(std::exchange(spike_end_, bus::kNever), std::nullopt);
+    }
     if (sender_.next() <= now) sender_.run(now);
     if (!sender_.busy() && look_ <= now) look(now);
   }
@@ -93,9 +105,10 @@ class BusLane : public Lane {
     look_ = answers || now < answer_by_ ? now + (answers ? kCycle : bit_) : bus::kNever;
   }
 
+  bus::Segment& segment_;
   bus::UartSender sender_;
   const Lockstep& chip_;
-  Tick bit_ = 0, answer_by_ = -1, look_ = bus::kNever;
+  Tick bit_ = 0, answer_by_ = -1, look_ = bus::kNever, spike_ = bus::kNever, spike_end_ = bus::kNever;
 };
 
 class UserLane : public Lane {

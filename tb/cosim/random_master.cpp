@@ -23,8 +23,9 @@ Tick RandomMaster::bit() const { return bus::baud(setup_.rate).bit; }
 
 void RandomMaster::choose_rate() {
   // Slow rates are rare: a telegram takes as long as a whole case at 12 Mbit/s.
-  constexpr int kRates[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 3, 3, 4, 5, 6};
-  setup_.rate = random_.one_in(120) ? random_.between(7, 9) : random_.pick(kRates);
+  constexpr int kRates[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+                            0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 5, 6};
+  setup_.rate = random_.one_in(200) ? random_.between(7, 9) : random_.pick(kRates);
   Tick wait = 0;
   for (int rate = 0; rate < setup_.rate; ++rate) wait += window(rate);
   extra_ += wait + 500 * kCycle;
@@ -38,7 +39,7 @@ void RandomMaster::slave_diag() { request(bus::sap::kSlaveDiag, {}); }
 
 bus::Bytes RandomMaster::prm(bool right) {
   const int user = setup_.prm_mode == 1 ? setup_.max_prm : random_.below(std::min(setup_.max_prm, 5) + 1);
-  bus::Bytes bytes = {static_cast<std::uint8_t>(0x80 | (setup_.command & 0x02) << 3 | (setup_.command & 0x04) << 3),
+  bus::Bytes bytes = {static_cast<std::uint8_t>(0x80 | (random_.one_in(4) ? random_.byte() & 0x30 : (setup_.command & 0x06) << 3)),
                       0, 0, 11, static_cast<std::uint8_t>(setup_.ident >> 8),
                       static_cast<std::uint8_t>(setup_.ident & 0xFF), 0};
   const bus::Bytes more = random_.bytes(user);
@@ -53,11 +54,44 @@ bus::Bytes RandomMaster::prm(bool right) {
   if (random_.one_in(3)) bytes[6] = random_.byte();
   if (right) return bytes;
   if (random_.one_in(3)) bytes[0] = random_.byte();
+  if (random_.one_in(4)) bytes.resize(static_cast<std::size_t>(std::min(7 + setup_.max_prm + random_.between(-1, 2), 30)), 0);
+  if (random_.one_in(6)) bytes[0] |= 0x08;  // with what may be factors of 0
   if (random_.one_in(5)) bytes[random_.one_in(2) ? 4 : 5] ^= static_cast<std::uint8_t>(1 << random_.below(8));
   if (random_.one_in(6)) bytes.resize(static_cast<std::size_t>(random_.below(14)));
   if (random_.one_in(6) && bytes.size() > 7) bytes[7] = random_.byte();
   if (random_.one_in(6) && bytes.size() > 2) bytes[1] = bytes[2] = static_cast<std::uint8_t>(random_.below(2));
   return bytes;
+}
+
+void RandomMaster::set_prm_with_watchdog() {
+  bus::Bytes bytes = prm(true);
+  bytes.resize(std::max<std::size_t>(bytes.size(), 8), 0);
+  bytes[0] |= 0x08;
+  bytes[1] = static_cast<std::uint8_t>(random_.between(1, 2));
+  bytes[2] = 1;
+  bytes[7] = 0x04;
+  request(bus::sap::kSetPrm, bytes);
+}
+
+void RandomMaster::wait_watchdog() { extra_ += random_.between(9, 22) * bus::kTicksPerMs / 10; }
+
+void RandomMaster::repeat_last() {
+  if (last_) send(*last_);
+}
+
+void RandomMaster::read_service() {
+  constexpr int kSaps[] = {bus::sap::kReadInputs, bus::sap::kReadOutputs, bus::sap::kGetCfg};
+  request(random_.pick(kSaps), {});
+}
+
+/// Too short for a start bit, a wrong character, or a break; a telegram soon behind it.
+void RandomMaster::spike() {
+  Action action;
+  action.verb = Verb::kSpike;
+  action.delay = random_.below(40) * bit() + random_.below(static_cast<int>(bit()));
+  action.low = random_.one_in(2) ? random_.between(1, static_cast<int>(bit())) : random_.below(20) * bit() + 1;
+  stimulus_.push_back(action);
+  if (random_.one_in(2)) slave_diag();
 }
 
 void RandomMaster::set_prm(bool right) { request(bus::sap::kSetPrm, prm(right)); }
@@ -66,6 +100,7 @@ void RandomMaster::check_cfg(bool right) {
   bus::Bytes cfg = setup_.cfg;
   if (!right) {
     const int what = random_.below(5);
+    if (what == 4) cfg[0] ^= 0x01;
     if (what == 0) cfg[static_cast<std::size_t>(random_.below(static_cast<int>(cfg.size())))] = random_.byte();
     if (what == 1) cfg.push_back(random_.one_in(2) ? std::uint8_t{0x00} : random_.byte());
     if (what == 2) cfg.pop_back();
@@ -128,7 +163,7 @@ void RandomMaster::broken() {
   bus::Bytes bytes = bus::encode(telegram);
   const auto position = static_cast<std::size_t>(random_.below(static_cast<int>(bytes.size())));
   bus::WireFaults faults;
-  switch (random_.below(10)) {
+  switch (random_.below(12)) {
     case 0: faults.wrong_parity_at = position; break;
     case 1: faults.missing_stop_at = position; break;
     case 2:
@@ -146,6 +181,8 @@ void RandomMaster::broken() {
     case 5: bytes[position] ^= static_cast<std::uint8_t>(1 << random_.below(8)); break;
     case 6: bytes.push_back(random_.byte()); break;
     case 7: bytes[bytes.size() - (random_.one_in(2) ? 1 : 2)] ^= static_cast<std::uint8_t>(1 << random_.below(8)); break;
+    case 9: bytes[std::min<std::size_t>(2, bytes.size() - 1)] ^= static_cast<std::uint8_t>(1 << random_.below(8)); break;
+    case 10: faults.missing_stop_at = bytes.size() - 1; break;
     case 8: bytes.insert(bytes.end(), bytes.begin(), bytes.end()); break;
     default: bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(position)); break;
   }
@@ -183,9 +220,10 @@ void RandomMaster::anything() {
   if (what < 66) return global_control();
   if (what < 69) return set_slave_address();
   if (what < 78) return other_service();
-  if (what < 83) return repetition();
-  if (what < 95) return broken();
-  if (what < 98) return noise();
+  if (what < 82) return repetition();
+  if (what < 94) return broken();
+  if (what < 96) return noise();
+  if (what < 98) return spike();
   return sd3();
 }
 
@@ -225,7 +263,7 @@ void RandomMaster::send(const bus::Telegram& telegram, bool answered) {
 
 /// Mostly T_SYN and some more; often just about T_SYN, where one cycle decides (S3, S10).
 Tick RandomMaster::idle() {
-  if (random_.one_in(3)) return 33 * bit() + random_.between(-6, 6) * kCycle / 2;
+  if (random_.one_in(3)) return 33 * bit() + random_.between(-22, 6) * kCycle / 2;
   if (random_.one_in(12)) return random_.below(33) * bit();
   return 33 * bit() + random_.below(static_cast<int>(20 * bit()));
 }

@@ -19,6 +19,14 @@ class RandomMaster {
   void set_prm(bool right);
   void check_cfg(bool right);
   void data_exchange();
+  void global_control();
+  void set_slave_address();
+  void read_service();
+  /// WD_On, WD_Base, 1 to 2 ms; and so long a silence.
+  void set_prm_with_watchdog();
+  void wait_watchdog();
+  /// The last request, exactly.
+  void repeat_last();
   void anything();
   /// Nothing on the line, for a while.
   void silence();
@@ -28,12 +36,11 @@ class RandomMaster {
  private:
   bus::Bytes prm(bool right);
   void request(int dsap, const bus::Bytes& data);
-  void global_control();
-  void set_slave_address();
   void other_service();
   void repetition();
   void broken();
   void noise();
+  void spike();
   void sd3();
   void send(const bus::Bytes& bytes, Tick idle, bool answered, const bus::WireFaults& faults = {});
   void send(const bus::Telegram& telegram, bool answered = true);

@@ -42,6 +42,7 @@ class Case {
     user_.wait(200);
     sync();
     master_.choose_rate();
+    for (int i = random_.below(4); i > 0; --i) random_.one_in(3) ? master_.set_slave_address() : master_.anything();
     if (!random_.one_in(8)) bring_up();
     for (int i = steps(); i > 0; --i) step();
     sync();
@@ -54,13 +55,17 @@ class Case {
   /// The usual way to data exchange, with the user's verdicts where the modes ask for them.
   void bring_up() {
     if (random_.one_in(2)) master_.slave_diag();
+    const bool held = random_.one_in(4);  // both blocks wait for the user to let go of the DPRAM
+    if (held) user_.take();
+    sync();
     master_.set_prm(true);
     sync();
-    user_.wait(300);
+    if (!held) user_.wait(300);
     if (setup_.prm_mode == 2) user_.verdict(true, false, !random_.one_in(8));
     sync();
     master_.check_cfg(true);
     sync();
+    if (held) user_.give();
     user_.wait(300);
     if (setup_.cfg_mode == 2) user_.verdict(false, true, !random_.one_in(8));
     sync();
@@ -70,21 +75,55 @@ class Case {
 
   void step() {
     const int what = random_.below(200);
-    if (what < 110) return master_.anything();
-    if (what < 180) return user_.anything();
-    if (what < 188) return sync();
-    if (what < 192) return bring_up();
+    if (what < 102) return master_.anything();
+    if (what < 168) return user_.anything();
+    if (what < 176) return sync();
+    if (what < 184) return hold_commands();
+    if (what < 188) return priority();
+    if (what < 193) return bring_up();
     if (what < 195) return master_.silence();
-    if (what < 197) return search_again();
-    if (what < 198) return reset();
+    if (what < 196) return watchdog();
+    if (what < 197) return random_.one_in(3) ? search_again() : reset();
     return user_.initialise();
   }
 
+  /// Sync, Freeze and their ends, with new data on both sides in between (S4).
+  void hold_commands() {
+    for (int i = random_.between(2, 4); i > 0; --i) {
+      master_.global_control();
+      user_.inputs();
+      master_.data_exchange();
+      sync();
+      user_.wait(150);
+      sync();
+      master_.data_exchange();
+      if (random_.one_in(3)) master_.read_service();
+    }
+  }
+  /// A diagnosis that changes the priority of the answers until the holder has read it (D9, S23).
+  void priority() {
+    sync();
+    user_.diagnosis();
+    user_.wait(150);
+    sync();
+    master_.data_exchange();
+    master_.slave_diag();
+    master_.data_exchange();
+  }
+  /// Parameters with a short watchdog, and no telegram until it has run out (S1).
+  void watchdog() {
+    sync();
+    master_.set_prm_with_watchdog();
+    master_.check_cfg(true);
+    master_.wait_watchdog();
+  }
   /// Silence until BAUD_CONTROL has run out, then another rate (S1); the DP state stays.
   void search_again() {
     sync();
+    master_.data_exchange();
     master_.wait_baud_control();
     master_.choose_rate();
+    master_.repeat_last();
   }
   void reset() {
     sync();

@@ -75,7 +75,7 @@ void RandomUser::initialise() {
 void RandomUser::inputs() {
   bus::Bytes bytes = random_.bytes(setup_.inputs + (random_.one_in(10) ? random_.between(-1, 1) : 0) + 1);
   if (bytes.empty()) bytes.push_back(0);
-  bytes[0] = static_cast<std::uint8_t>(random_.one_in(40) ? random_.between(240, 255) : bytes.size() - 1);
+  bytes[0] = static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(240, 255) : bytes.size() - 1);
   take();
   block(regs::kInput, regs::kInputCrc, bytes);
   command(regs::kUserCommand1Input);
@@ -86,7 +86,7 @@ void RandomUser::diagnosis() {
   constexpr int kTypes[] = {0x00, 0x01, 0x81, 0x02, 0x82, 0x81, 0x02, 0x55};
   bus::Bytes bytes = random_.bytes(random_.between(2, 2 + std::min(setup_.max_diag + 1, 12)));
   bytes[0] = static_cast<std::uint8_t>(random_.pick(kTypes));
-  bytes[1] = static_cast<std::uint8_t>(random_.one_in(30) ? random_.between(236, 255) : bytes.size() - 2);
+  bytes[1] = static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(236, 255) : bytes.size() - 2);
   take();
   block(regs::kDiag, regs::kDiagCrc, bytes);
   command(regs::kUserCommand1Diag);
@@ -135,16 +135,18 @@ void RandomUser::poke() {
 
 /// Pins in an order that no access has.
 void RandomUser::rude() {
-  constexpr Pin kPins[] = {Pin::kRReq, Pin::kRSta, Pin::kCsr, Pin::kRd, Pin::kA};
+  constexpr Pin kPins[] = {Pin::kRReq, Pin::kRSta, Pin::kCsr, Pin::kRd, Pin::kA, Pin::kWr, Pin::kDIn};
   for (int i = random_.between(2, 12); i > 0; --i) {
     Action action;
     action.verb = Verb::kPin;
     action.delay = random_.one_in(4) ? random_.below(20'000) : random_.below(900);
     action.pin = random_.pick(kPins);
-    action.value = action.pin == Pin::kA ? random_.below(0x800) : random_.below(2);
+    action.value = random_.below(2);
+    if (action.pin == Pin::kA) action.value = random_.below(0x800);
+    if (action.pin == Pin::kDIn) action.value = random_.below(257) - 1;
     stimulus_.push_back(action);
   }
-  for (const Pin pin : {Pin::kRd, Pin::kCsr}) {
+  for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) {
     Action action;
     action.verb = Verb::kPin;
     action.delay = 500;
@@ -153,6 +155,7 @@ void RandomUser::rude() {
     stimulus_.push_back(action);
   }
   give();
+  wait(1);
 }
 
 void RandomUser::long_hold() {

@@ -17,13 +17,13 @@ class RandomUser {
   void verdict(bool prm, bool cfg, bool good);
   /// Reads a block that the chip has written and clears its flag.
   void fetch();
+  void take();
   void give();
   /// Nothing for so many cycles.
   void wait(int cycles);
   void anything();
 
  private:
-  void take();
   void write(int address, int value);
   void read(int address);
   void block(int address, int crc_address, const bus::Bytes& bytes);

@@ -10,7 +10,7 @@ set(DSDPV1_RTL_VARIANTS "50:4000:600" "5:4000:600" "10:4000:30" CACHE STRING
     "Parameters of the RTL that scenarios may ask for: search_window_ms:search_window_bits:baud_control_ms")
 set(quick_window_ms 1)
 set(quick_window_bits 100)
-set(quick_baud_control_ms 3)
+set(quick_baud_control_ms 2)
 set(quick "${quick_window_ms}:${quick_window_bits}:${quick_baud_control_ms}")
 
 # dsdpv1_rtl_variant(NAME PARAMETERS HAS_FAULTS): adds make_NAME to dsdpv1_rtl.

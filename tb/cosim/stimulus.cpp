@@ -14,7 +14,7 @@ namespace cosim {
 namespace {
 
 const std::map<std::string, Verb> kVerbs = {
-    {"send", Verb::kSend}, {"take", Verb::kTake},   {"give", Verb::kGive}, {"write", Verb::kWrite}, {"read", Verb::kRead},
+    {"send", Verb::kSend}, {"spike", Verb::kSpike}, {"take", Verb::kTake},   {"give", Verb::kGive}, {"write", Verb::kWrite}, {"read", Verb::kRead},
     {"block", Verb::kBlock}, {"pin", Verb::kPin}, {"reset", Verb::kReset}, {"sync", Verb::kSync}};
 
 constexpr Tick kLongest = Tick{1} << 40;
@@ -47,7 +47,7 @@ const Field kPoll = {"poll", FIELD(low), 1, kLongest, false};
 
 const std::vector<Field>& fields(Verb verb) {
   static const std::map<Verb, std::vector<Field>> table = {
-      {Verb::kSend, {kRate, kReply}},          {Verb::kTake, {kPoll}},
+      {Verb::kSend, {kRate, kReply}},          {Verb::kSpike, {kLow}}, {Verb::kTake, {kPoll}},
       {Verb::kGive, {}},                       {Verb::kWrite, {kAt, kByte, kSetup, kLow, kHold}},
       {Verb::kRead, {kAt, kSetup, kLow, kHold}}, {Verb::kBlock, {kAt, kCrc, kXor, kSetup, kLow, kHold}},
       {Verb::kPin, {kLevel}},                  {Verb::kReset, {kLow}},
@@ -129,7 +129,7 @@ class LineParser {
     if (!(words_ >> word) || word[0] == '#') return std::nullopt;
     const auto verb = kVerbs.find(word);
     if (verb == kVerbs.end())
-      fail("unknown action " + word, "send, take, give, write, read, block, pin, reset, sync");
+      fail("unknown action " + word, "send, spike, take, give, write, read, block, pin, reset, sync");
     Action action;
     action.verb = verb->second;
     while (words_ >> word) {

@@ -1,7 +1,7 @@
 #pragma once
 // Stimulus for lockstep runs without the bench: what happens at the chip's input pins, as short lines of text.
 //
-// Three lanes act at the same time: the bus (send), the user at the host port (take, give, write, read, block, pin), the board (reset).
+// Three lanes act at the same time: the bus (send, spike), the user at the host port (take, give, write, read, block, pin), the board (reset).
 // Each action begins `delay` ticks after the one before it in its lane has ended; `sync` lets all lanes wait for each other.
 #include <string>
 #include <vector>
@@ -17,6 +17,7 @@ using dsdpv1::Tick;
 
 enum class Verb : std::uint8_t {
   kSend,   ///< a telegram at `rate`; then an answer is waited for, `reply_bits` bit times for its beginning
+  kSpike,  ///< the line low for `low` ticks, whoever drives it
   kTake,   ///< R_REQ up, L_REQ and L_STA looked at every `low` ticks until both are 0, R_STA up (H2)
   kGive,   ///< both down
   kWrite,  ///< one byte: CSR, A and D `setup` before, WR low for `low`, all held for `hold`
