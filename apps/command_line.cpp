@@ -144,6 +144,21 @@ void describe_rtl_faults(CLI::App& app, RtlFaultsArguments& arguments) {
   command->footer("\nExit codes: 0 all found, 1 some not, 2 wrong input.\n");
 }
 
+void describe_cosim(CLI::App& app, CosimArguments& arguments) {
+  CLI::App* command = app.add_subcommand("cosim", "Builds RTL of your own with Verilator and holds it against the model");
+  command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML")->required();
+  command->add_option("--rtl", arguments.rtl, "Folder of the RTL")->required();
+  command->add_option("--top", arguments.top, "Its top module")->required();
+  command->add_option("--pins", arguments.pins, "Names, polarities and tolerances of its pins, see docs/cosim.md");
+  command->add_option("--build", arguments.build, "Folder for what is built")->capture_default_str();
+  command->add_option("--difference", arguments.difference, "Wave of both sides, written when they differ")
+      ->capture_default_str();
+  command->footer(
+      "\nExamples:\n  dsdpv1-sim cosim --rtl examples/own_rtl --top board_chip --pins examples/own_rtl/pins.yaml "
+      "scenarios/two_slaves.yaml\n"
+      "\nExit codes: 0 no difference and the scenario passed, 1 otherwise, 2 wrong input.\n");
+}
+
 void describe_reasons(CLI::App& app, ReasonsArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("reasons", "Explains the codes of logs and results: what happened, what to do");
@@ -204,6 +219,8 @@ int command_line(int argc, char** argv) {
   RtlFaultsArguments rtl_faults_arguments;
   describe_rtl_random(app, rtl_random_arguments);
   describe_rtl_faults(app, rtl_faults_arguments);
+  CosimArguments cosim_arguments;
+  describe_cosim(app, cosim_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -214,6 +231,7 @@ int command_line(int argc, char** argv) {
   if (app.got_subcommand("serve")) return serve(serve_arguments);
   if (app.got_subcommand("rtl-random")) return rtl_random(rtl_random_arguments);
   if (app.got_subcommand("rtl-faults")) return rtl_faults(rtl_faults_arguments);
+  if (app.got_subcommand("cosim")) return cosim_own_rtl(cosim_arguments);
   if (app.got_subcommand("schema")) return schema(schema_arguments);
   if (app.got_subcommand("gsd")) return gsd(gsd_arguments);
   if (app.got_subcommand("reasons")) return reasons(reasons_arguments);

@@ -1,5 +1,5 @@
 #pragma once
-// rtl-random, rtl-faults: model and reference RTL in lockstep without a scenario.
+// rtl-random, rtl-faults: model and reference RTL in lockstep without a scenario. cosim: RTL of the user's own.
 #include <cstdint>
 #include <string>
 
@@ -18,7 +18,12 @@ struct RtlFaultsArguments {
   std::uint64_t cycles = 30'000'000, seed = 1;
 };
 
+struct CosimArguments {
+  std::string scenario, rtl, top, pins, build = "build/cosim", difference = "lockstep.vcd";
+};
+
 int rtl_random(const RtlRandomArguments& arguments);
 int rtl_faults(const RtlFaultsArguments& arguments);
+int cosim_own_rtl(const CosimArguments& arguments);
 
 }  // namespace app

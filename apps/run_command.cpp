@@ -6,12 +6,15 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "apps/command_line.hpp"
+#include "apps/rtl_commands.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/bench/tlm_execution.hpp"
 #include "tb/cosim/lockstep_execution.hpp"
 #include "tb/cosim/reference_rtl.hpp"
+#include "tb/cosim/user_rtl.hpp"
 #include "tb/report/output_file.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/result_json.hpp"
@@ -60,7 +63,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
 }
 
 int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options,
-                 std::unique_ptr<tb::Execution> execution, const std::function<void()>& afterwards = {}) {
+                 std::unique_ptr<tb::Execution> execution, const std::function<bool()>& afterwards = {}) {
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
   tb::Bench bench(scenario, options, std::move(execution));
@@ -75,22 +78,24 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
     result_file->write(tb::result_json(result));
     result_file->commit();
   }
-  if (!arguments.quiet) std::cout << tb::summary(result) << std::flush;
-  if (afterwards) afterwards();  // while the bench still stands
+  const bool ran_through = !afterwards || afterwards();  // while the bench still stands
+  if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << std::flush;
   if (result.interrupted) return kInterrupted;
   return result.passed ? kPassed : kFailed;
 }
 
 std::unique_ptr<cosim::RtlTop> reference_rtl(const dsdpv1::Config& config) { return cosim::make_reference_rtl(config); }
 
-int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options) {
-  auto made = std::make_unique<cosim::LockstepExecution>(reference_rtl, cosim::LockstepOptions{});
+int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options,
+                 cosim::MakeRtl make, const cosim::LockstepOptions& lockstep = {}) {
+  auto made = std::make_unique<cosim::LockstepExecution>(std::move(make), lockstep);
   cosim::LockstepExecution& execution = *made;
   bool same = true;
   const int status = run_scenario(scenario, arguments, options, std::move(made), [&] {
     std::string text;
     same = cosim::report(execution, arguments.difference, text);
     std::cout << text << std::flush;
+    return same;
   });
   return status == kPassed && !same ? kFailed : status;
 }
@@ -100,11 +105,25 @@ int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arg
 int run(const RunArguments& arguments) {
   const tb::RunOptions options = options_of(arguments);
   const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
-  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options);
+  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, reference_rtl);
   if (arguments.engine == "rtl")
     return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(reference_rtl));
   if (arguments.view == "pins") return run_scenario(scenario, arguments, options, tb::make_pin_execution());
   return tb::inside_systemc([&] { return run_scenario(scenario, arguments, options, tb::make_tlm_execution()); });
+}
+
+int cosim_own_rtl(const CosimArguments& arguments) {
+  RunArguments run_arguments;
+  run_arguments.scenario = arguments.scenario;
+  run_arguments.difference = arguments.difference;
+  run_arguments.engine = "lockstep";
+  const tb::RunOptions options = options_of(run_arguments);
+  const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
+  const cosim::PinMap map = arguments.pins.empty() ? cosim::default_pin_map() : cosim::load_pin_map(arguments.pins);
+  cosim::LockstepOptions lockstep;
+  lockstep.tolerances = map.tolerances;
+  cosim::MakeRtl make = cosim::build_user_rtl({arguments.rtl, arguments.top, arguments.build}, map);
+  return run_lockstep(scenario, run_arguments, options, std::move(make), lockstep);
 }
 
 }  // namespace app

@@ -14,7 +14,7 @@ constexpr Tick kSettles = 4 * kCycle;      // P8: longer than a user's write is 
 constexpr unsigned kImageEvery = 256;      // ... the DPRAM is compared all the same from time to time
 
 std::string level_text(Pin pin, const std::optional<Level>& level) {
-  if (!level) return "unchanged within the tolerance";
+  if (!level) return "no such change within the tolerance";
   if (*level == dsdpv1::kLevelZ) return "Z";
   if (*level == dsdpv1::kLevelX) return "X";
   return dsdpv1::width(pin) == 1 ? fmt::format("{}", *level) : fmt::format("{:02X}", *level);

@@ -89,7 +89,8 @@ std::unique_ptr<tb::ChipView> LockstepExecution::make_chip(const std::string& na
 void LockstepExecution::run(tb::Tick end, const std::function<bool()>& stopped) {
   while (!stopped() && different() == nullptr && timeline_.step(end)) {
   }
-  for (const Chip& chip : chips_) chip.lockstep->advance(std::max(end * !stopped(), timeline_.now()));
+  const Tick reached = stopped() || different() != nullptr ? timeline_.now() : std::max(end, timeline_.now());
+  for (const Chip& chip : chips_) chip.lockstep->advance(reached);
 }
 
 Lockstep* LockstepExecution::different() {
@@ -116,10 +117,11 @@ MatchCounts LockstepExecution::counts() const {
 }
 
 bool report(LockstepExecution& execution, const std::string& wave, std::string& text) {
-  const MatchCounts counts = execution.counts();
+  MatchCounts counts = execution.counts();
+  Lockstep* different = execution.different();
+  if (different != nullptr) counts.cycles = different->counts().cycles;
   text = fmt::format("lockstep          {} cycles, {} pin changes and {} DPRAM images of model and RTL are the same\n",
                      counts.cycles, counts.pin_changes, counts.dpram_images);
-  Lockstep* different = execution.different();
   if (different == nullptr) return true;
   text += fmt::format("chip              {}\n{}", execution.different_name(), describe(*different->difference()));
   if (!wave.empty()) {

@@ -20,13 +20,13 @@ void PinComparator::begin(Pin pin, Level model, Level rtl) {
 }
 
 std::optional<PinDifference> PinComparator::settle(Tick horizon) {
-  std::optional<PinDifference> found;
+  std::optional<PinDifference> found = compare(0);  // the levels at the beginning, once
   while (!found) {
     Tick at = horizon;
     if (model_next_ < model_.size()) at = std::min(at, model_[model_next_].at);
     if (rtl_next_ < rtl_.size()) at = std::min(at, rtl_[rtl_next_].at);
-    if (at >= horizon && touched_ == 0) break;
-    if (at < horizon) take(at);
+    if (at >= horizon) break;
+    take(at);
     found = compare(at);
   }
   if (!found) found = overdue(horizon);
@@ -74,6 +74,7 @@ std::optional<PinDifference> PinComparator::compare_exact(Tick at, Pin pin) {
 
 std::optional<PinDifference> PinComparator::compare_tolerant(Tick at, Pin pin) {
   State& now = state(pin);
+  if (!now.model_touched && !now.rtl_touched) return compare_exact(at, pin);  // the levels at the beginning
   if (now.model_touched) now.model_ahead.push_back({at, now.model});
   if (now.rtl_touched) now.rtl_ahead.push_back({at, now.rtl});
   now.model_touched = now.rtl_touched = false;

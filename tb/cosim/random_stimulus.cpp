@@ -89,6 +89,7 @@ class Case {
 
   /// Sync, Freeze and their ends, with new data on both sides in between (S4).
   void hold_commands() {
+    if (random_.one_in(4)) return hold_commands_unseen();
     for (int i = random_.between(2, 4); i > 0; --i) {
       master_.global_control();
       user_.inputs();
@@ -99,6 +100,19 @@ class Case {
       master_.data_exchange();
       if (random_.one_in(3)) master_.read_service();
     }
+  }
+  /// The same while the user keeps the chip from the DPRAM: what he gets in the end is what Sync has let through.
+  void hold_commands_unseen() {
+    sync();
+    user_.take();
+    user_.wait(20);
+    sync();
+    for (int i = random_.between(1, 3); i > 0; --i) {
+      master_.global_control();
+      master_.data_exchange();
+    }
+    sync();
+    user_.give();
   }
   /// A diagnosis that changes the priority of the answers until the holder has read it (D9, S23).
   void priority() {

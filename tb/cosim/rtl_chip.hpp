@@ -26,7 +26,7 @@ class RtlChip {
   /// The next edge of CLK, rising or falling.
   Tick next_event() const { return next_edge_; }
   Tick now() const { return now_; }
-  /// A pin's level; D_OUT is 0..0xFF or kLevelZ, never kLevelX: the simulation is two-valued.
+  /// A pin's level; kLevelX only when the design tells what it does not know.
   Level level(Pin pin) const;
   /// Reports changes of the output pins in `pins`. One sink; a second call replaces it.
   void watch(const dsdpv1::PinSink& sink, std::uint32_t pins);

@@ -21,12 +21,16 @@ struct RtlOutputs {
        ready = false;
   bool d_oe = false;   ///< the chip drives D
   std::uint8_t d = 0;  ///< ... with this
+  std::uint32_t unknown = 0;  ///< wires that are X, as far as the design tells; places as in `packed`
+
+  static constexpr unsigned kFirstBit = 8;  ///< D is in bits 0 to 7, then the single wires in the order above
+  static constexpr unsigned kDriven = kFirstBit + 8;
 
   /// All of them in one word, to see quickly whether anything has changed.
   std::uint32_t packed() const {
     const bool bits[] = {l_req, l_sta, intr0, pbtxd, pbrts, pbf, br, ready, d_oe};
     std::uint32_t word = d_oe ? d : 0U;
-    for (unsigned i = 0; i < 9; ++i) word |= static_cast<std::uint32_t>(bits[i]) << (8 + i);
+    for (unsigned i = 0; i < 9; ++i) word |= static_cast<std::uint32_t>(bits[i]) << (kFirstBit + i);
     return word;
   }
 };

@@ -1,0 +1,44 @@
+// A chip as a user of the co-simulation might bring it: the pins have names and polarities of their own, INTR0 is made by an own pulse
+// generator. Two things are wrong in it; docs/cosim.md shows how they are found.
+module board_chip #(
+  parameter integer SEARCH_WINDOW_MS = 50,
+  parameter integer PULSE = 60            // wrong: the low time is 64 cycles (P7)
+) (
+  input  logic        clk,
+  input  logic        rst,                // high: reset
+  input  logic        rxd,
+  output logic        txd,
+  output logic        tx_enable,
+  input  logic        user_request,
+  input  logic        user_state,
+  output logic        chip_request,
+  output logic        chip_state,
+  input  logic [10:0] addr,
+  input  logic [7:0]  data_in,
+  output logic [7:0]  data_out,
+  output logic        data_drive,
+  input  logic        cs,                 // high: selected
+  input  logic        rd_n,
+  input  logic        wr_n,
+  output logic        irq,                // high: interrupt
+  output logic        led_no_exchange,
+  output logic        led_baud,
+  output logic        led_ready
+);
+  logic intr0, intr0_q;
+  logic [6:0] count_q;
+
+  dsdpv1 #(.SEARCH_WINDOW_MS(SEARCH_WINDOW_MS)) u_chip (
+    .reset_i(!rst), .clk_i(clk), .pbrxd_i(rxd), .pbtxd_o(txd), .pbrts_o(tx_enable), .r_req_i(user_request),
+    .r_sta_i(user_state), .l_req_o(chip_request), .l_sta_o(chip_state), .a_i(addr), .d_i(data_in), .d_o(data_out),
+    .d_oe_o(data_drive), .csr_i(!cs), .rd_i(rd_n), .wr_i(wr_n), .intr0_o(intr0), .pbf_o(led_no_exchange), .br_o(led_baud),
+    .ready_o(led_ready));
+
+  // wrong: count_q has no reset, so that irq may be high after power-on until it has counted down
+  always_ff @(posedge clk) begin
+    intr0_q <= intr0;
+    if (intr0_q && !intr0) count_q <= PULSE[6:0];
+    else if (count_q != 7'd0) count_q <= count_q - 7'd1;
+  end
+  assign irq = count_q != 7'd0;
+endmodule

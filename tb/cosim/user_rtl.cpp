@@ -1,0 +1,167 @@
+#include "tb/cosim/user_rtl.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tb/report/output_file.hpp"
+#include "tb/scenario/input_error.hpp"
+
+namespace cosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Bytes that go to and come from the library, in this order.
+constexpr const char* kInputs[] = {"CLK", "RESET", "R_REQ", "R_STA", "CSR", "RD", "WR", "PBRXD"};
+constexpr const char* kOutputs[] = {"L_REQ", "L_STA", "INTR0", "PBTXD", "PBRTS", "PBF", "BR", "READY", "D_OE"};
+constexpr std::size_t kInputBytes = std::size(kInputs) + 3, kOutputBytes = std::size(kOutputs) + 1;
+constexpr std::size_t kD = std::size(kInputs), kALow = kD + 1, kAHigh = kD + 2;
+
+const Port& port(const PinMap& map, const std::string& name) { return name == "CLK" ? map.clock : map.pins.at(name); }
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+/// Runs a command; what it says goes to a file, whose first lines with an error are the message when it fails.
+void call(const std::string& command, const std::string& log, const std::string& what) {
+  if (std::system((command + " >" + quoted(log) + " 2>&1").c_str()) == 0) return;
+  std::ifstream file(log);
+  std::string first;
+  for (std::string line; first.empty() && std::getline(file, line);) {
+    if (line.find("rror") != std::string::npos) first = line;
+  }
+  throw tb::InputError(fmt::format("dsdpv1-sim cosim: {}: {} (all of it in {}), allowed is RTL that Verilator 5.006 builds",
+                                   what, first.empty() ? "failed" : first, log));
+}
+
+std::vector<std::string> sources(const UserRtl& rtl, const PinMap& map) {
+  std::vector<std::string> files;
+  for (const std::string& file : map.files) files.push_back(fs::absolute(fs::path(rtl.folder) / file).string());
+  if (!files.empty()) return files;
+  for (const auto& entry : fs::directory_iterator(rtl.folder)) {
+    const std::string ending = entry.path().extension().string();
+    if (ending == ".sv" || ending == ".v") files.push_back(fs::absolute(entry.path()).string());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) throw tb::InputError(rtl.folder, 0, "holds no RTL, allowed are .sv and .v files");
+  return files;
+}
+
+using Create = void* (*)(unsigned seed);
+using Destroy = void (*)(void* self);
+using Eval = void (*)(void* self, const std::uint8_t* in, std::uint8_t* out);
+
+struct Library {
+  Create create = nullptr;
+  Destroy destroy = nullptr;
+  Eval eval = nullptr;
+};
+
+template <class Function>
+Function symbol(void* handle, const char* name) {
+  return reinterpret_cast<Function>(dlsym(handle, name));  // the way POSIX gives for functions
+}
+
+/// Stays loaded to the end of the program: designs may live as long.
+Library load(const std::string& path) {
+  void* handle = dlopen(fs::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) throw tb::InputError(path, 0, fmt::format("cannot be loaded: {}", dlerror()));
+  return {symbol<Create>(handle, "dsdpv1_rtl_create"), symbol<Destroy>(handle, "dsdpv1_rtl_destroy"),
+          symbol<Eval>(handle, "dsdpv1_rtl_eval")};
+}
+
+/// Two designs that began with different values.
+class UserTop : public RtlTop {
+ public:
+  explicit UserTop(const Library& library) : library_(library), designs_{library.create(1), library.create(2)} {}
+  ~UserTop() override {
+    for (void* design : designs_) library_.destroy(design);
+  }
+  UserTop(const UserTop&) = delete;
+  UserTop& operator=(const UserTop&) = delete;
+
+  void eval() override {
+    const std::array<std::uint8_t, kInputBytes> levels = {
+        in.clk, in.reset, in.r_req, in.r_sta, in.csr, in.rd, in.wr, in.pbrxd, in.d, static_cast<std::uint8_t>(in.a & 0xFF),
+        static_cast<std::uint8_t>(in.a >> 8)};
+    out = outputs(0, levels);
+    out.unknown = out.packed() ^ outputs(1, levels).packed();
+  }
+  bool dpram(DpramImage&) const override { return false; }
+
+ private:
+  RtlOutputs outputs(std::size_t design, const std::array<std::uint8_t, kInputBytes>& levels) {
+    std::array<std::uint8_t, kOutputBytes> bytes{};
+    library_.eval(designs_.at(design), levels.data(), bytes.data());
+    RtlOutputs result;
+    bool* const wires[] = {&result.l_req, &result.l_sta, &result.intr0, &result.pbtxd, &result.pbrts,
+                           &result.pbf,   &result.br,    &result.ready, &result.d_oe};
+    for (std::size_t i = 0; i < std::size(wires); ++i) *wires[i] = bytes.at(i) != 0;
+    result.d = bytes.back();
+    return result;
+  }
+
+  Library library_;
+  std::array<void*, 2> designs_;
+};
+
+}  // namespace
+
+std::string adapter_source(const std::string& top, const PinMap& map) {
+  std::string text = fmt::format(
+      "// Generated: the pins of {0} for the co-simulation.\n"
+      "#include \"V{0}.h\"\n#include \"verilated.h\"\n#include <memory>\n\nnamespace {{\nstruct Design {{\n"
+      "  VerilatedContext context;\n  std::unique_ptr<V{0}> model;\n}};\n}}  // namespace\n\n"
+      "extern \"C\" void* dsdpv1_rtl_create(unsigned seed) {{\n  auto* design = new Design;\n"
+      "  design->context.randReset(2);\n  design->context.randSeed(static_cast<int>(seed));\n"
+      "  design->model = std::make_unique<V{0}>(&design->context);\n  return design;\n}}\n\n"
+      "extern \"C\" void dsdpv1_rtl_destroy(void* self) {{ delete static_cast<Design*>(self); }}\n\n"
+      "extern \"C\" void dsdpv1_rtl_eval(void* self, const unsigned char* in, unsigned char* out) {{\n"
+      "  V{0}& model = *static_cast<Design*>(self)->model;\n",
+      top);
+  for (std::size_t i = 0; i < std::size(kInputs); ++i)
+    text += fmt::format("  model.{} = {}in[{}];\n", port(map, kInputs[i]).name, port(map, kInputs[i]).inverted ? "!" : "", i);
+  const auto inverted = [&map](const char* name) { return port(map, name).inverted ? "~" : ""; };
+  text += fmt::format("  model.{} = ({}in[{}]) & 0xFF;\n", port(map, "D_IN").name, inverted("D_IN"), kD);
+  text += fmt::format("  model.{} = ({}(in[{}] | in[{}] << 8)) & 0x7FF;\n", port(map, "A").name, inverted("A"), kALow, kAHigh);
+  text += "  model.eval();\n";
+  for (std::size_t i = 0; i < std::size(kOutputs); ++i)
+    text += fmt::format("  out[{}] = {}model.{};\n", i, port(map, kOutputs[i]).inverted ? "!" : "", port(map, kOutputs[i]).name);
+  text += fmt::format("  out[{}] = {}model.{};\n}}\n", std::size(kOutputs), inverted("D_OUT"), port(map, "D_OUT").name);
+  return text;
+}
+
+MakeRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
+  if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, allowed is one with RTL");
+  if (std::system("command -v verilator >/dev/null 2>&1") != 0)
+    throw tb::InputError("dsdpv1-sim cosim: Verilator is missing, allowed is version 5.006 or later in PATH");
+  fs::create_directories(rtl.build);
+  const std::string adapter = fs::absolute(fs::path(rtl.build) / "adapter.cpp").string();
+  tb::OutputFile file(adapter);
+  file.write(adapter_source(rtl.top, map));
+  file.commit();
+
+  std::string verilator = "verilator --cc --exe --build -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS '-O2 -fPIC' -LDFLAGS -shared";
+  verilator += fmt::format(" --top-module {} --prefix V{} --Mdir {} -I{} -o librtl.so", quoted(rtl.top), rtl.top,
+                           quoted(fs::absolute(rtl.build).string()), quoted(fs::absolute(rtl.folder).string()));
+  for (const std::string& folder : map.include)
+    verilator += " -I" + quoted(fs::absolute(fs::path(rtl.folder) / folder).string());
+  for (const auto& [name, value] : map.parameters) verilator += fmt::format(" {}", quoted("-G" + name + "=" + value));
+  for (const std::string& source : sources(rtl, map)) verilator += " " + quoted(source);
+  call(verilator + " " + quoted(adapter), (fs::path(rtl.build) / "verilator.log").string(), rtl.top);
+
+  const Library library = load((fs::path(rtl.build) / "librtl.so").string());
+  return [library](const dsdpv1::Config&) { return std::make_unique<UserTop>(library); };
+}
+
+}  // namespace cosim
