@@ -167,6 +167,11 @@ typedef struct dsdpv1_config {
   uint8_t cfg_length;                           /* 1..max_cfg bytes */
 } dsdpv1_config;
 
+/* Flags taken from the DPRAM for an initialisation that the chip has not judged yet; set back if it refuses (D11). */
+typedef struct dsdpv1_aside {
+  uint8_t chip_command_1, chip_command_2, user_command_1; /* B00E, B00F, B010 */
+} dsdpv1_aside;
+
 /* State of one chip. The members are the driver's own, except `tuning`. */
 typedef struct dsdpv1_device {
   dsdpv1_port port;
@@ -179,7 +184,9 @@ typedef struct dsdpv1_device {
   uint8_t max_input, max_diag, prm_mode, cfg_mode; /* of the last successful initialisation */
   uint8_t user_status_2;                           /* B00D as it is in the DPRAM */
   uint8_t last_count, absent_holds;                /* B006 as left by the last hold; holds since the chip was seen */
-  uint8_t verdicts_due;                            /* DSDPV1_VERDICT_ bits of blocks that wait for a verdict */
+  dsdpv1_aside aside;
+  uint8_t generation;   /* counts successful initialisations, modulo 256 */
+  uint8_t verdicts_due; /* DSDPV1_VERDICT_ bits of blocks that wait for a verdict */
   uint8_t prm_length, prm[DSDPV1_MAX_PRM];
   uint8_t cfg_length, cfg_input_length, cfg_output_length, cfg[DSDPV1_MAX_CFG];
 } dsdpv1_device;
@@ -198,8 +205,9 @@ dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device);
 
 /*
  * Initialises the chip (chapter 8): checks `config` against table 2, writes B005 and B020.., sets B010.2, waits for
- * the chip and clears B00A.0. In operation the chip goes through OFFLINE with the new values. After an error the chip
- * keeps what it had.
+ * the chip and clears B00A.0. In operation the chip goes through OFFLINE with the new values, and what waits in the DPRAM
+ * or for an answer is dropped. After an error the chip keeps what it had, blocks that wait and verdicts due included
+ * (D11).
  * Errors: 20..28 before anything is written; 30..33; NESTED, DPRAM_BUSY, CHIP_NOT_READY (B004), CHIP_SILENT.
  */
 dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* config);

@@ -1,4 +1,6 @@
 /* Bring-up: waiting for the chip and initialising it (chapter 8, figure 12). */
+#include <string.h>
+
 #include "dsdpv1_internal.h"
 
 enum { kHeadLength = DSDPV1_REG_INIT_CFG - DSDPV1_REG_INIT }; /* B020..B02E, before the configuration bytes */
@@ -90,9 +92,20 @@ static void build_head(uint8_t head[kHeadLength], const dsdpv1_config* config) {
   }
 }
 
+/* The flags at `address` go to `aside` and are 0 afterwards; inside a hold. */
+static void set_aside(const dsdpv1_device* device, uint16_t address, uint8_t* aside) {
+  *aside = (uint8_t)(*aside | dsdpv1_get(device, address));
+  dsdpv1_put(device, address, 0);
+}
+
+static void set_back(const dsdpv1_device* device, uint16_t address, uint8_t aside) {
+  dsdpv1_put(device, address, (uint8_t)(dsdpv1_get(device, address) | aside));
+}
+
 /*
- * Inside a hold. Flags of an earlier operation are dropped on both sides: their data belong to the old configuration,
- * and a B00A.0 left standing would pass for the success of this initialisation.
+ * Inside a hold. Flags of the earlier operation are set aside on both sides: their data belong to the old configuration
+ * if the chip accepts the new one, and still count if it refuses it (D11). Verdicts stay, since the chip itself
+ * discards those that nobody awaits (H7). A B00A.0 left standing would pass for the success of this initialisation.
  */
 static void write_init(dsdpv1_device* device, const dsdpv1_config* config, const uint8_t head[kHeadLength],
                        uint16_t crc) {
@@ -103,11 +116,13 @@ static void write_init(dsdpv1_device* device, const dsdpv1_config* config, const
   if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_1) & DSDPV1_REG_CHIP_STATUS_1_INITIALISED) != 0u) {
     dsdpv1_put(device, DSDPV1_REG_CHIP_STATUS_1, 0);
   }
-  device->user_status_2 = 0;
-  dsdpv1_put(device, DSDPV1_REG_USER_STATUS_2, 0);
-  dsdpv1_put(device, DSDPV1_REG_CHIP_COMMAND_1, 0);
-  device->verdicts_due = 0;
-  dsdpv1_put(device, DSDPV1_REG_USER_COMMAND_1, DSDPV1_REG_USER_COMMAND_1_INIT);
+  set_aside(device, DSDPV1_REG_CHIP_COMMAND_1, &device->aside.chip_command_1);
+  set_aside(device, DSDPV1_REG_CHIP_COMMAND_2, &device->aside.chip_command_2);
+  const unsigned verdicts = DSDPV1_REG_USER_COMMAND_1_PRM_VERDICT | DSDPV1_REG_USER_COMMAND_1_CFG_VERDICT;
+  const unsigned command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1);
+  const unsigned blocks = DSDPV1_REG_USER_COMMAND_1_INPUT | DSDPV1_REG_USER_COMMAND_1_DIAG;
+  device->aside.user_command_1 = (uint8_t)(device->aside.user_command_1 | (command & blocks));
+  dsdpv1_put(device, DSDPV1_REG_USER_COMMAND_1, (uint8_t)((command & verdicts) | DSDPV1_REG_USER_COMMAND_1_INIT));
 }
 
 static dsdpv1_error hand_over(dsdpv1_device* device, const dsdpv1_config* config) {
@@ -142,7 +157,19 @@ static dsdpv1_error read_answer(const dsdpv1_device* device) {
   return DSDPV1_ERR_INIT_REFUSED;
 }
 
+/* Inside the hold that found the initialisation refused: the chip goes on with what it had (D11), so do the flags. */
+static void resume(dsdpv1_device* device) {
+  set_back(device, DSDPV1_REG_CHIP_COMMAND_1, device->aside.chip_command_1);
+  set_back(device, DSDPV1_REG_CHIP_COMMAND_2, device->aside.chip_command_2);
+  set_back(device, DSDPV1_REG_USER_COMMAND_1, device->aside.user_command_1);
+}
+
+/* Inside the hold that found it accepted, so that an INTR0 handler sees the new modes: a fresh start. */
 static void remember(dsdpv1_device* device, const dsdpv1_config* config) {
+  device->user_status_2 = 0;
+  dsdpv1_put(device, DSDPV1_REG_USER_STATUS_2, 0);
+  device->verdicts_due = 0;
+  ++device->generation;
   device->max_input = config->max_input;
   device->max_diag = config->max_diag;
   device->prm_mode = config->prm_mode;
@@ -166,8 +193,11 @@ dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* confi
   }
   error = read_answer(device);
   if (error == DSDPV1_OK) {
-    remember(device, config); /* before the release: an INTR0 handler sees the new modes */
+    remember(device, config);
+  } else {
+    resume(device);
   }
+  memset(&device->aside, 0, sizeof device->aside);
   dsdpv1_release(device);
   return error;
 }

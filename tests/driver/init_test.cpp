@@ -171,8 +171,94 @@ TEST_F(Init, DropsFlagsOfTheEarlierOperation) {
   std::uint8_t announced = 0;
   chip.before_access = [&] { announced = announced == 0 ? chip.at(0x010) : announced; };
   initialise();
-  EXPECT_EQ(announced, 0x04);
+  EXPECT_EQ(announced, 0xC4) << "the chip itself discards verdicts that nobody awaits (H7)";
   EXPECT_EQ(chip.at(0x00E), 0);
+}
+
+/// An initialisation that the chip refuses changes nothing (D11): what waited in DPRAM and driver waits still.
+class RefusedInit : public Init {
+ protected:
+  void refuse_one(std::function<void()> meanwhile = [] {}) {
+    chip.before_access = [this, meanwhile, once = true]() mutable {
+      if ((chip.at(0x010) & 0x04) != 0 && std::exchange(once, false)) {
+        chip.at(0x0F8) = static_cast<std::uint8_t>(chip.at(0x0F8) ^ 1);
+        meanwhile();
+      }
+    };
+    ASSERT_EQ(dsdpv1_initialise(&device, &config), DSDPV1_ERR_INIT_CRC);
+  }
+};
+
+TEST_F(RefusedInit, KeepsBlocksThatWaitForJudgement) {
+  initialise(2, 2);
+  chip.put_prm({1});
+  chip.put_cfg(4, 8, {0x17, 0x23});
+  refuse_one();
+  EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  EXPECT_THAT(prm_seen, ElementsAre(Bytes{1}));
+  EXPECT_THAT(chip.verdicts, ElementsAre("prm ok, cfg ok"));
+}
+
+TEST_F(RefusedInit, KeepsTheFlagOfABlockThatCameMeanwhile) {
+  initialise(2, 0);
+  refuse_one([&] { chip.put_prm({2}); });
+  EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  EXPECT_THAT(prm_seen, ElementsAre(Bytes{2}));
+}
+
+TEST_F(RefusedInit, KeepsALateVerdictDue) {
+  initialise(2, 0);
+  prm_verdict = DSDPV1_LATER;
+  chip.put_prm({1});
+  ASSERT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  refuse_one();
+  EXPECT_EQ(dsdpv1_send_verdict(&device, DSDPV1_VERDICT_PRM, 0), DSDPV1_OK);
+  EXPECT_THAT(chip.verdicts, ElementsAre("prm ok"));
+}
+
+TEST_F(RefusedInit, KeepsAVerdictThatTheChipHasNotTaken) {
+  initialise(2, 0);
+  chip.put_prm({1});
+  chip.takes_commands = false;
+  ASSERT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  chip.takes_commands = true;
+  refuse_one();
+  EXPECT_THAT(chip.verdicts, ElementsAre("prm ok"));
+}
+
+TEST_F(RefusedInit, KeepsOutputsAndInputs) {
+  initialise();
+  chip.put_outputs({7});
+  chip.takes_commands = false;
+  result.outputs = nullptr;
+  ASSERT_EQ(exchange({9}), DSDPV1_OK);
+  chip.takes_commands = true;
+  refuse_one();
+  result.outputs = outputs.data();
+  ASSERT_EQ(dsdpv1_exchange(&device, DSDPV1_INPUT_NEWEST, nullptr, 0, &result), DSDPV1_OK);
+  EXPECT_THAT(received(), ElementsAre(7));
+  EXPECT_THAT(chip.inputs, ElementsAre(9));
+}
+
+TEST_F(RefusedInit, AfterOneThatTheChipDidNotTakeKeepsThemToo) {
+  initialise(2, 0);
+  chip.put_prm({1});
+  chip.takes_commands = false;
+  device.tuning.init_polls = 2;
+  ASSERT_EQ(dsdpv1_initialise(&device, &config), DSDPV1_ERR_INIT_TIMEOUT);
+  chip.takes_commands = true;
+  refuse_one();
+  EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  EXPECT_THAT(chip.verdicts, ElementsAre("prm ok"));
+}
+
+TEST_F(RefusedInit, AndThenAnAcceptedOneDropsWhatWaits) {
+  initialise(2, 0);
+  chip.put_prm({1});
+  refuse_one();
+  initialise(2, 0);
+  EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  EXPECT_TRUE(prm_seen.empty());
 }
 
 TEST_F(Init, SilentChipIsReported) {
