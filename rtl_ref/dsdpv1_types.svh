@@ -16,6 +16,15 @@
 `define FAULT(n) 1'b0
 `endif
 
+// The parameters of the rulings are inputs of the blocks, which the top ties to its parameters: constants for a synthesis. In a build
+// with DSDPV1_RUN_TIME_LIMITS, for simulation only, the top has inputs instead, to be held during a run, and so one build serves for
+// all values. `LIMIT(PARAMETER, port) is the one or the other.
+`ifdef DSDPV1_RUN_TIME_LIMITS
+`define LIMIT(parameter_name, port) port
+`else
+`define LIMIT(parameter_name, port) parameter_name
+`endif
+
 // Baud rates (S2): index 0 is 12 Mbit/s, 9 is 9.6 kbit/s.
 localparam logic [3:0] RATE_LAST = 4'd9;
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Lints the reference RTL with all three tools, in the normal build and in that with faults, and compares the numbers of the faults in
-# the sources with faults.txt. Silent when all is well.
+# Lints the reference RTL with all three tools in all its builds (normal, with faults, with limits of run time, with both), and compares
+# the numbers of the faults in the sources with faults.txt. Silent when all is well.
 set -eu
 cd "$(dirname "$0")"
 files=$(cat files.txt)
@@ -12,7 +12,7 @@ quiet() {
   [ ! -s "$log" ] || { cat "$log"; exit 1; }
 }
 
-for define in "" -DDSDPV1_FAULTS; do
+for define in "" -DDSDPV1_FAULTS -DDSDPV1_RUN_TIME_LIMITS "-DDSDPV1_FAULTS -DDSDPV1_RUN_TIME_LIMITS"; do
   quiet verilator --lint-only -Wall $define -I. -I../registers --top-module dsdpv1 $files
   quiet iverilog -g2012 -Wall $define -I. -I../registers -s dsdpv1 -t null $files
   quiet yosys -q -e '.*' -p "read_verilog -sv $define -I. -I../registers $(echo $files); hierarchy -check -top dsdpv1; proc; check -assert"

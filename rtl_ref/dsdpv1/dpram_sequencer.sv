@@ -3,11 +3,10 @@
 // The state says what the next edge does. A byte read at one edge is in rdata_i at the next.
 `include "dsdpv1_types.svh"
 
-module dpram_sequencer #(
-  parameter integer ACCESS_INTERVAL = 48,
-  parameter integer READY_CYCLES = 4096
-) (
+module dpram_sequencer (
   `FAULT_PORT
+  input  logic [12:0] access_interval_i,  // H1
+  input  logic [20:0] ready_cycles_i,     // D1
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        r_req_i,          // behind its synchroniser
@@ -130,7 +129,7 @@ module dpram_sequencer #(
 
   // ---- due accesses
   logic access_due, starts;
-  assign access_due = since_q >= ACCESS_INTERVAL[12:0] + (`FAULT(48) ? 13'd1 : 13'd0);
+  assign access_due = since_q >= access_interval_i + (`FAULT(48) ? 13'd1 : 13'd0);
   assign starts = state_q == IDLE && access_due && (!r_req_i || `FAULT(49));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -140,7 +139,7 @@ module dpram_sequencer #(
     end else begin
       if (starts || state_q == RELEASED) since_q <= 13'd1;
       else if (!(&since_q)) since_q <= since_q + 13'd1;
-      if (up_q != READY_CYCLES[20:0]) up_q <= up_q + 21'd1;
+      if (up_q != ready_cycles_i) up_q <= up_q + 21'd1;
     end
   end
 
@@ -470,7 +469,7 @@ module dpram_sequencer #(
       // frame (9.1)
       if (starts) begin
         behind_q <= 15'h7FFF;
-        valid_due_q <= up_q == READY_CYCLES[20:0];
+        valid_due_q <= up_q == ready_cycles_i;
       end
       if (state_q == FLAGS_U2) u_q <= rdata_i;
       if (state_q == FLAGS_E2) e_q <= rdata_i;

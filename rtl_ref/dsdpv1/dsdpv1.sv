@@ -1,17 +1,30 @@
 // The chip: PROFIBUS half, DPRAM and the user's side (section 2). Pins as in table 1; D is split into d_i, d_o and d_oe_o.
 `include "dsdpv1_types.svh"
 
+`ifdef DSDPV1_RUN_TIME_LIMITS
+module dsdpv1 (
+  input  logic [31:0] access_interval_i,     // as the parameters of these names below
+  input  logic [31:0] ready_cycles_i,
+  input  logic [31:0] rts_lead_i,
+  input  logic [31:0] rts_trail_i,
+  input  logic [31:0] intr_low_i,
+  input  logic [31:0] intr_gap_i,
+  input  logic [31:0] search_window_ms_i,
+  input  logic [31:0] search_window_bits_i,
+  input  logic [31:0] baud_control_ms_i,
+`else
 module dsdpv1 #(
   parameter integer ACCESS_INTERVAL = 48,       // cycles from one DPRAM access to the next (H1)
   parameter integer READY_CYCLES = 4096,        // from R until B004 is due (D1)
   parameter integer RTS_LEAD = 4,               // P2; 0 to 32
-  parameter integer RTS_TRAIL = 4,              // P2
+  parameter integer RTS_TRAIL = 4,              // P2; 0 to 32
   parameter integer INTR_LOW = 64,              // P7
   parameter integer INTR_GAP = 64,              // P7
   parameter integer SEARCH_WINDOW_MS = 50,      // S1
   parameter integer SEARCH_WINDOW_BITS = 4000,  // S1
   parameter integer BAUD_CONTROL_MS = 600       // S1
 ) (
+`endif
   `FAULT_PORT
   input  logic        reset_i,
   input  logic        clk_i,
@@ -47,6 +60,20 @@ module dsdpv1 #(
   logic unused;
   assign unused = r_sta_i;
 
+  /* verilator lint_off UNUSED */  // the upper bits of most
+  logic [31:0] access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap;
+  /* verilator lint_on UNUSED */
+  logic [31:0] search_window_ms, search_window_bits, baud_control_ms;
+  assign access_interval = `LIMIT(ACCESS_INTERVAL, access_interval_i);
+  assign ready_cycles = `LIMIT(READY_CYCLES, ready_cycles_i);
+  assign rts_lead = `LIMIT(RTS_LEAD, rts_lead_i);
+  assign rts_trail = `LIMIT(RTS_TRAIL, rts_trail_i);
+  assign intr_low = `LIMIT(INTR_LOW, intr_low_i);
+  assign intr_gap = `LIMIT(INTR_GAP, intr_gap_i);
+  assign search_window_ms = `LIMIT(SEARCH_WINDOW_MS, search_window_ms_i);
+  assign search_window_bits = `LIMIT(SEARCH_WINDOW_BITS, search_window_bits_i);
+  assign baud_control_ms = `LIMIT(BAUD_CONTROL_MS, baud_control_ms_i);
+
   logic r_req;
   synchroniser #(.POWER_ON(1'b0)) u_r_req (.clk_i(clk_i), .d_i(r_req_i), .q_o(r_req));
 
@@ -76,8 +103,9 @@ module dsdpv1 #(
   logic [7:0] block_length, diag_type, stage_index, stage_data, status;
   logic [7:0] prm_length, cfg_length, cfg_input_length, cfg_output_length, output_length, transfer_index, transfer_data;
 
-  dpram_sequencer #(.ACCESS_INTERVAL(ACCESS_INTERVAL), .READY_CYCLES(READY_CYCLES)) u_sequencer (
+  dpram_sequencer u_sequencer (
     `FAULT_CONNECT
+    .access_interval_i(access_interval[12:0]), .ready_cycles_i(ready_cycles[20:0]),
     .clk_i(clk_i), .rst_ni(rst_n), .r_req_i(r_req), .l_req_o(l_req_o), .l_sta_o(l_sta), .interrupt_o(interrupt_flag),
     .we_o(chip_we), .addr_o(chip_addr), .wdata_o(chip_wdata), .rdata_i(rdata),
     .init_o(init), .init_address_o(init_address), .init_ident_o(init_ident), .init_command_o(init_command),
@@ -94,11 +122,10 @@ module dsdpv1 #(
     .take_prm_o(take_prm), .take_cfg_o(take_cfg), .take_output_o(take_output), .transfer_index_o(transfer_index),
     .transfer_data_i(transfer_data));
 
-  station #(
-    .RTS_LEAD(RTS_LEAD), .RTS_TRAIL(RTS_TRAIL), .SEARCH_WINDOW_MS(SEARCH_WINDOW_MS),
-    .SEARCH_WINDOW_BITS(SEARCH_WINDOW_BITS), .BAUD_CONTROL_MS(BAUD_CONTROL_MS)
-  ) u_station (
+  station u_station (
     `FAULT_CONNECT
+    .rts_lead_i(rts_lead[5:0]), .rts_trail_i(rts_trail[5:0]), .search_window_ms_i(search_window_ms),
+    .search_window_bits_i(search_window_bits), .baud_control_ms_i(baud_control_ms),
     .clk_i(clk_i), .rst_ni(rst_n), .pbrxd_i(pbrxd_i), .pbtxd_o(pbtxd_o), .pbrts_o(pbrts_o), .br_o(br_o), .pbf_o(pbf_o),
     .ready_o(ready_o), .init_i(init), .init_address_i(init_address), .init_ident_i(init_ident),
     .init_command_i(init_command), .init_max_input_i(init_max_input), .init_max_output_i(init_max_output),
@@ -115,7 +142,7 @@ module dsdpv1 #(
     .take_prm_i(take_prm), .take_cfg_i(take_cfg), .take_output_i(take_output), .transfer_index_i(transfer_index),
     .transfer_data_o(transfer_data));
 
-  interrupt #(.LOW(INTR_LOW), .GAP(INTR_GAP)) u_interrupt (
+  interrupt u_interrupt (
     `FAULT_CONNECT
-    .clk_i(clk_i), .rst_ni(rst_n), .flag_i(interrupt_flag), .intr0_o(intr0_o));
+    .low_i(intr_low[13:0]), .gap_i(intr_gap[13:0]), .clk_i(clk_i), .rst_ni(rst_n), .flag_i(interrupt_flag), .intr0_o(intr0_o));
 endmodule

@@ -1,16 +1,15 @@
-// INTR0 (section 13, P7): low for LOW cycles after a flag of parameters or configuration, and high for GAP cycles at least between
+// INTR0 (section 13, P7): low for low_i cycles after a flag of parameters or configuration, and high for gap_i cycles at least between
 // two pulses.
 `include "dsdpv1_types.svh"
 
-module interrupt #(
-  parameter integer LOW = 64,
-  parameter integer GAP = 64
-) (
+module interrupt (
   `FAULT_PORT
-  input  logic clk_i,
-  input  logic rst_ni,
-  input  logic flag_i,   // at this edge
-  output logic intr0_o
+  input  logic [13:0] low_i,    // both at least 1
+  input  logic [13:0] gap_i,
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  input  logic        flag_i,   // at this edge
+  output logic        intr0_o
 );
   logic waiting_q, low_q, falls, rises;
   logic [13:0] count_q;  // cycles until the pulse, or the gap behind it, may end
@@ -27,10 +26,10 @@ module interrupt #(
       waiting_q <= (waiting_q || flag_i) && !falls;
       if (falls) begin
         low_q <= 1'b1;
-        count_q <= LOW[13:0] - (`FAULT(46) ? 14'd2 : 14'd1);
+        count_q <= low_i - (`FAULT(46) ? 14'd2 : 14'd1);
       end else if (rises) begin
         low_q <= 1'b0;
-        count_q <= GAP[13:0] - 14'd1;
+        count_q <= gap_i - 14'd1;
       end else if (count_q != 14'd0) begin
         count_q <= count_q - 14'd1;
       end

@@ -1,30 +1,23 @@
 // Search for the baud rate (8.1; S1, S9): from 12 Mbit/s downwards, wrapping, until a telegram without error is decided.
 `include "dsdpv1_types.svh"
 
-module baud_search #(
-  parameter integer WINDOW_MS = 50,
-  parameter integer WINDOW_BITS = 4000
-) (
+module baud_search (
   `FAULT_PORT
-  input  logic       clk_i,
-  input  logic       rst_ni,
-  input  logic       start_i,      // initialisation, or BAUD_CONTROL ends
-  input  logic       telegram_i,   // a synced SD1, SD2 or SD3 is decided
-  output logic       restart_o,    // a rate is selected at this edge
-  output logic [3:0] rate_o,
-  output logic       searching_o,  // also before the first initialisation
-  output logic       found_o,      // at this edge
-  output logic       br_o
+  input  logic [31:0] window_ms_i,
+  input  logic [31:0] window_bits_i,
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  input  logic        start_i,      // initialisation, or BAUD_CONTROL ends
+  input  logic        telegram_i,   // a synced SD1, SD2 or SD3 is decided
+  output logic        restart_o,    // a rate is selected at this edge
+  output logic [3:0]  rate_o,
+  output logic        searching_o,  // also before the first initialisation
+  output logic        found_o,      // at this edge
+  output logic        br_o
 );
-  localparam integer WINDOW = WINDOW_MS * 48000;
-
   // The counter is loaded one edge behind the start and the end is seen one edge ahead: cycles of a window less two.
-  function automatic logic [31:0] window(input integer len);
-    integer cycles;
-    begin
-      cycles = WINDOW_BITS * len > WINDOW ? WINDOW_BITS * len : WINDOW;
-      window = cycles - 2;
-    end
+  function automatic logic [31:0] window(input logic [31:0] ms, input logic [31:0] bits, input logic [31:0] len);
+    window = (bits * len > ms * 32'd48000 ? bits * len : ms * 32'd48000) - 32'd2;
   endfunction
 
   logic active_q, searching_q, br_q;
@@ -41,16 +34,16 @@ module baud_search #(
     if (start_i) rate_d = 4'd0;
     else if (ends) rate_d = rate_q == RATE_LAST - (`FAULT(61) ? 4'd1 : 4'd0) ? 4'd0 : rate_q + 4'd1;
     case (rate_q)
-      4'd0: window_d = window(4);
-      4'd1: window_d = window(8);
-      4'd2: window_d = window(16);
-      4'd3: window_d = window(32);
-      4'd4: window_d = window(96);
-      4'd5: window_d = window(256);
-      4'd6: window_d = window(512);
-      4'd7: window_d = window(1056);
-      4'd8: window_d = window(2500);
-      default: window_d = window(5000);
+      4'd0: window_d = window(window_ms_i, window_bits_i, 32'd4);
+      4'd1: window_d = window(window_ms_i, window_bits_i, 32'd8);
+      4'd2: window_d = window(window_ms_i, window_bits_i, 32'd16);
+      4'd3: window_d = window(window_ms_i, window_bits_i, 32'd32);
+      4'd4: window_d = window(window_ms_i, window_bits_i, 32'd96);
+      4'd5: window_d = window(window_ms_i, window_bits_i, 32'd256);
+      4'd6: window_d = window(window_ms_i, window_bits_i, 32'd512);
+      4'd7: window_d = window(window_ms_i, window_bits_i, 32'd1056);
+      4'd8: window_d = window(window_ms_i, window_bits_i, 32'd2500);
+      default: window_d = window(window_ms_i, window_bits_i, 32'd5000);
     endcase
     if (!loads_q) window_d = window_q - 32'd1;
   end

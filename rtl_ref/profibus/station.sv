@@ -1,14 +1,13 @@
 // The PROFIBUS half of the chip: from PBRXD to PBTXD and PBRTS, and the side that faces the user (section 2).
 `include "dsdpv1_types.svh"
 
-module station #(
-  parameter integer RTS_LEAD = 4,
-  parameter integer RTS_TRAIL = 4,
-  parameter integer SEARCH_WINDOW_MS = 50,
-  parameter integer SEARCH_WINDOW_BITS = 4000,
-  parameter integer BAUD_CONTROL_MS = 600
-) (
+module station (
   `FAULT_PORT
+  input  logic [5:0]  rts_lead_i,            // P2
+  input  logic [5:0]  rts_trail_i,
+  input  logic [31:0] search_window_ms_i,    // S1
+  input  logic [31:0] search_window_bits_i,
+  input  logic [31:0] baud_control_ms_i,
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        pbrxd_i,
@@ -78,8 +77,9 @@ module station #(
   logic [12:0] clock_phase;
   assign run = initialised && !pbrts_o;
 
-  uart_rx #(.RTS_LEAD(RTS_LEAD), .RTS_TRAIL(RTS_TRAIL)) u_uart_rx (
+  uart_rx u_uart_rx (
     `FAULT_CONNECT
+    .rts_lead_i(rts_lead_i), .rts_trail_i(rts_trail_i),
     .clk_i(clk_i), .rst_ni(rst_ni), .rxd_i(rxd), .run_i(run), .rate_i(rate), .restart_rate_i(restart), .restart_rts_i(fall),
     .busy_o(busy), .valid_o(char_valid), .char_o(char), .ok_o(char_ok), .syn_o(char_syn), .gap_o(char_gap), .due_o(due),
     .clock_bits_o(clock_bits), .clock_phase_o(clock_phase));
@@ -102,13 +102,15 @@ module station #(
   logic [7:0] wd_factor_1, wd_factor_2;
   assign search = init_i || baud_end;
 
-  baud_search #(.WINDOW_MS(SEARCH_WINDOW_MS), .WINDOW_BITS(SEARCH_WINDOW_BITS)) u_baud_search (
+  baud_search u_baud_search (
     `FAULT_CONNECT
+    .window_ms_i(search_window_ms_i), .window_bits_i(search_window_bits_i),
     .clk_i(clk_i), .rst_ni(rst_ni), .start_i(search), .telegram_i(any_telegram), .restart_o(restart), .rate_o(rate),
     .searching_o(searching), .found_o(found), .br_o(br_o));
 
-  watchdog #(.BAUD_CONTROL_MS(BAUD_CONTROL_MS)) u_watchdog (
+  watchdog u_watchdog (
     `FAULT_CONNECT
+    .baud_control_ms_i(baud_control_ms_i),
     .clk_i(clk_i), .rst_ni(rst_ni), .stop_i(init_i), .found_i(found), .commit_dp_i(wd_commit_dp),
     .commit_baud_i(wd_commit_baud), .trigger_i(trigger), .trigger_holder_i(trigger_holder), .accept_dp_i(wd_accept_dp),
     .accept_baud_i(wd_accept_baud), .wait_prm_i(wd_wait_prm), .factor_1_i(wd_factor_1), .factor_2_i(wd_factor_2),
@@ -161,8 +163,9 @@ module station #(
     .output_length_o(output_length_o), .take_prm_i(take_prm_i), .take_cfg_i(take_cfg_i), .take_output_i(take_output_i),
     .transfer_index_i(transfer_index_i), .transfer_data_o(transfer_data_o));
 
-  uart_tx #(.RTS_LEAD(RTS_LEAD), .RTS_TRAIL(RTS_TRAIL)) u_uart_tx (
+  uart_tx u_uart_tx (
     `FAULT_CONNECT
+    .rts_lead_i(rts_lead_i), .rts_trail_i(rts_trail_i),
     .clk_i(clk_i), .rst_ni(rst_ni), .abort_i(init_i), .send_i(send), .rate_i(rate), .min_tsdr_i(min_tsdr),
     .clock_bits_i(clock_bits), .clock_phase_i(clock_phase), .index_o(send_index), .data_i(send_data),
     .length_i(send_length), .risen_o(risen), .fall_o(fall), .pbtxd_o(pbtxd_o), .pbrts_o(pbrts_o));

@@ -4,11 +4,10 @@
 // before C+7. Also here, because they start from C: the idle time, the deadline of the telegram and the clock of the answer.
 `include "dsdpv1_types.svh"
 
-module uart_rx #(
-  parameter integer RTS_LEAD = 4,
-  parameter integer RTS_TRAIL = 4
-) (
+module uart_rx (
   `FAULT_PORT
+  input  logic [5:0]  rts_lead_i,
+  input  logic [5:0]  rts_trail_i,
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        rxd_i,
@@ -133,49 +132,42 @@ module uart_rx #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) idle_q <= 19'sd0;
     else if (restart_rate_i) idle_q <= 19'sd1;
-    else if (restart_rts_i) idle_q <= RTS_TRAIL[18:0] - (`FAULT(62) ? 19'd3 : 19'd2);  // from E + 3 to the next edge
+    else if (restart_rts_i) idle_q <= $signed({13'd0, rts_trail_i}) - (`FAULT(62) ? 19'sd3 : 19'sd2);  // from E + 3
     else if (complete) idle_q <= 19'sd1 - $signed({6'd0, half});
     else if (run_i && state_q == BREAK && rxd_i) idle_q <= `FAULT(8) ? idle_q + 19'sd1 : 19'sd1;
     else if (!syn) idle_q <= idle_q + 19'sd1;
   end
 
   // The clock of the answer (8.3): at C + 1 it stands at lead + 3 - half cycles, written as bit times and the rest of one.
-  function automatic integer clock_start(input integer len);
+  function automatic integer clock_start(input integer lead, input integer len);
     integer ahead, bits;
     begin
-      ahead = RTS_LEAD + 3 - len / 2;
+      ahead = lead + 3 - len / 2;
       bits = (ahead + 1024 * len) / len - 1024;
       clock_start = bits * 8192 + len - 1 - (ahead - bits * len);
     end
   endfunction
 
-  localparam integer START_0 = clock_start(4);
-  localparam integer START_1 = clock_start(8);
-  localparam integer START_2 = clock_start(16);
-  localparam integer START_3 = clock_start(32);
-  localparam integer START_4 = clock_start(96);
-  localparam integer START_5 = clock_start(256);
-  localparam integer START_6 = clock_start(512);
-  localparam integer START_7 = clock_start(1056);
-  localparam integer START_8 = clock_start(2500);
-  localparam integer START_9 = clock_start(5000);
-
   logic [5:0] clock_bits_q;
   logic [12:0] clock_phase_q;
   logic [18:0] start;
+  logic [12:0] unused;
+  logic [31:0] lead, start_wide;
+  assign lead = {26'd0, rts_lead_i};
+  assign {unused, start} = start_wide;
 
   always_comb begin
     case (rate_i)
-      4'd0: start = START_0[18:0];
-      4'd1: start = START_1[18:0];
-      4'd2: start = START_2[18:0];
-      4'd3: start = START_3[18:0];
-      4'd4: start = START_4[18:0];
-      4'd5: start = START_5[18:0];
-      4'd6: start = START_6[18:0];
-      4'd7: start = START_7[18:0];
-      4'd8: start = START_8[18:0];
-      default: start = START_9[18:0];
+      4'd0: start_wide = clock_start(lead, 4);
+      4'd1: start_wide = clock_start(lead, 8);
+      4'd2: start_wide = clock_start(lead, 16);
+      4'd3: start_wide = clock_start(lead, 32);
+      4'd4: start_wide = clock_start(lead, 96);
+      4'd5: start_wide = clock_start(lead, 256);
+      4'd6: start_wide = clock_start(lead, 512);
+      4'd7: start_wide = clock_start(lead, 1056);
+      4'd8: start_wide = clock_start(lead, 2500);
+      default: start_wide = clock_start(lead, 5000);
     endcase
   end
 

@@ -1,11 +1,10 @@
 // Sends the answer (8.3; P2, S3, S11): waits until T, then PBRTS and the characters without a gap.
 `include "dsdpv1_types.svh"
 
-module uart_tx #(
-  parameter integer RTS_LEAD = 4,  // 0 to 32: PBRTS has to rise behind the decision at every rate
-  parameter integer RTS_TRAIL = 4
-) (
+module uart_tx (
   `FAULT_PORT
+  input  logic [5:0]  rts_lead_i,     // 0 to 32: PBRTS has to rise behind the decision at every rate
+  input  logic [5:0]  rts_trail_i,    // 0 to 32
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        abort_i,        // initialisation
@@ -27,8 +26,6 @@ module uart_tx #(
   localparam logic [2:0] LEAD = 3'd2;
   localparam logic [2:0] SEND = 3'd3;
   localparam logic [2:0] TRAIL = 3'd4;
-  localparam logic [9:0] LEAD_LAST = RTS_LEAD > 0 ? RTS_LEAD[9:0] - 10'd1 : 10'd0;
-  localparam logic [9:0] TRAIL_LAST = RTS_TRAIL > 0 ? RTS_TRAIL[9:0] - 10'd1 : 10'd0;
 
   logic [2:0] state_q;
   logic fresh_q;  // the edge behind the decision
@@ -42,6 +39,11 @@ module uart_tx #(
   logic [7:0] index_q;
   logic txd_q, rts_q, risen_q;
 
+  // Without lead or trail their states are not entered
+  logic no_lead, no_trail;
+  assign no_lead = rts_lead_i == 6'd0;
+  assign no_trail = rts_trail_i == 6'd0;
+
   assign phase_last = bit_cycles(rate_q) - 13'd1;
   assign tsdr_limit = max_tsdr(rate_q);
   assign tsdr_now = !fresh_q ? tsdr_q : min_tsdr_i > tsdr_limit && !`FAULT(43) ? tsdr_limit : min_tsdr_i;
@@ -50,10 +52,10 @@ module uart_tx #(
   assign time_comes = state_q == WAIT && bits_q >= {1'b0, tsdr_now};
   assign rises = time_comes && !send_i;
   assign bit_ends = phase_q == 13'd0;
-  assign character_starts = (state_q == LEAD && count_q == 10'd0) || (rises && RTS_LEAD == 0) ||
+  assign character_starts = (state_q == LEAD && count_q == 10'd0) || (rises && no_lead) ||
                             (state_q == SEND && bit_ends && bit_q == 4'd10 && index_q != length_i);
   assign all_sent = state_q == SEND && bit_ends && bit_q == 4'd10 && index_q == length_i;
-  assign fall_o = !abort_i && ((all_sent && RTS_TRAIL == 0) || (state_q == TRAIL && count_q == 10'd0));
+  assign fall_o = !abort_i && ((all_sent && no_trail) || (state_q == TRAIL && count_q == 10'd0));
   assign parity = ^data_i ^ `FAULT(44);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -92,7 +94,7 @@ module uart_tx #(
         phase_q <= clock_phase_i == 13'd0 ? bit_cycles(rate_i) - 13'd1 : clock_phase_i - 13'd1;
       end else if (rises) begin
         state_q <= LEAD;
-        count_q <= LEAD_LAST;
+        count_q <= {4'd0, rts_lead_i} - 10'd1;
         rts_q <= 1'b1;
       end
 
@@ -105,7 +107,7 @@ module uart_tx #(
         txd_q <= 1'b0;
       end else if (all_sent) begin
         state_q <= TRAIL;
-        count_q <= TRAIL_LAST;
+        count_q <= {4'd0, rts_trail_i} - 10'd1;
       end else if (state_q == SEND && bit_ends) begin
         bit_q <= bit_q + 4'd1;
         shift_q <= {1'b1, shift_q[9:1]};

@@ -4,29 +4,27 @@
 // behind its start, and its end is seen one edge ahead, so that neither lengthens the path through a decision.
 `include "dsdpv1_types.svh"
 
-module watchdog #(
-  parameter integer BAUD_CONTROL_MS = 600
-) (
+module watchdog (
   `FAULT_PORT
-  input  logic       clk_i,
-  input  logic       rst_ni,
-  input  logic       stop_i,            // the search starts by an initialisation
-  input  logic       found_i,           // the rate is found
-  input  logic       commit_dp_i,       // a verdict accepts parameters with WD_On, ahead of an end at the same edge
-  input  logic       commit_baud_i,     // ... without WD_On, or one that leads to WAIT_PRM
-  input  logic       trigger_i,         // telegram to the own address
-  input  logic       trigger_holder_i,  // ... of the holding master
-  input  logic       accept_dp_i,       // Set_Prm accepted with WD_On, behind an end at the same edge
-  input  logic       accept_baud_i,     // Set_Prm accepted without WD_On
-  input  logic       wait_prm_i,        // WAIT_PRM entered by refusal, Unlock, wrong length
-  input  logic [7:0] factor_1_i,        // of the parameters in use, at the edge behind their acceptance
-  input  logic [7:0] factor_2_i,
-  input  logic       base_1ms_i,
-  output logic       baud_end_o,        // BAUD_CONTROL ends at this edge
-  output logic       dp_end_o,          // DP_CONTROL ends at this edge
-  output logic       dp_control_o       // before the edge
+  input  logic [31:0] baud_control_ms_i,
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  input  logic        stop_i,            // the search starts by an initialisation
+  input  logic        found_i,           // the rate is found
+  input  logic        commit_dp_i,       // a verdict accepts parameters with WD_On, ahead of an end at the same edge
+  input  logic        commit_baud_i,     // ... without WD_On, or one that leads to WAIT_PRM
+  input  logic        trigger_i,         // telegram to the own address
+  input  logic        trigger_holder_i,  // ... of the holding master
+  input  logic        accept_dp_i,       // Set_Prm accepted with WD_On, behind an end at the same edge
+  input  logic        accept_baud_i,     // Set_Prm accepted without WD_On
+  input  logic        wait_prm_i,        // WAIT_PRM entered by refusal, Unlock, wrong length
+  input  logic [7:0]  factor_1_i,        // of the parameters in use, at the edge behind their acceptance
+  input  logic [7:0]  factor_2_i,
+  input  logic        base_1ms_i,
+  output logic        baud_end_o,        // BAUD_CONTROL ends at this edge
+  output logic        dp_end_o,          // DP_CONTROL ends at this edge
+  output logic        dp_control_o       // before the edge
 );
-  localparam logic [31:0] BAUD_CONTROL_LOAD = BAUD_CONTROL_MS * 48000 - 2;
   localparam logic [31:0] BASE_1MS = 32'd47999;
   localparam logic [31:0] BASE_10MS = 32'd479999;
 
@@ -35,12 +33,13 @@ module watchdog #(
   logic [7:0] inner_q, inner_d, outer_q, outer_d, inner_start_q;
   logic last_q, load_dp_q, load_baud_q;
   logic ended, load_dp, load_baud;
-  logic [31:0] dp_base;
+  logic [31:0] dp_base, baud_control;
 
   assign ended = last_q && !commit_dp_i && !commit_baud_i && !stop_i;
   assign baud_end_o = state_q == WD_BAUD_CONTROL && ended;
   assign dp_end_o = state_q == WD_DP_CONTROL && ended;
   assign dp_control_o = state_q == WD_DP_CONTROL;
+  assign baud_control = baud_control_ms_i * 32'd48000 - 32'd2;
   assign dp_base = base_1ms_i && !`FAULT(15) ? BASE_1MS : BASE_10MS;
 
   // In the order of the cycle: commit, end, telegram. No rate, no watchdog: while searching nothing starts it.
@@ -92,7 +91,7 @@ module watchdog #(
       inner_d = factor_1_i - 8'd1;
       outer_d = factor_2_i - 8'd1;
     end else if (load_baud_q) begin
-      base_d = BAUD_CONTROL_LOAD;
+      base_d = baud_control;
       inner_d = 8'd0;
       outer_d = 8'd0;
     end else if (base_q == 32'd0) begin

@@ -4,21 +4,21 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "Vdsdpv1.h"
 #include "verilated.h"
 
-// Parameters of P2; run.sh gives other values to test their limits
-#ifndef RTS_LEAD
-#define RTS_LEAD 4
-#define RTS_TRAIL 4
-#endif
-
 namespace {
 
 using Bytes = std::vector<uint8_t>;
+
+// What the command line chooses: parameters of the chip, which without DSDPV1_RUN_TIME_LIMITS are those that run.sh builds it with
+struct Limits {
+  unsigned rts_lead = 4, rts_trail = 4, search_window_ms = 50;
+} limits;
 
 int failures = 0;
 
@@ -60,6 +60,16 @@ struct Pin {
 class Bench {
  public:
   Bench() {
+#ifdef DSDPV1_RUN_TIME_LIMITS
+    top_.access_interval_i = 48;
+    top_.ready_cycles_i = 4096;
+    top_.rts_lead_i = limits.rts_lead;
+    top_.rts_trail_i = limits.rts_trail;
+    top_.intr_low_i = top_.intr_gap_i = 64;
+    top_.search_window_ms_i = limits.search_window_ms;
+    top_.search_window_bits_i = 4000;
+    top_.baud_control_ms_i = 600;
+#endif
     top_.reset_i = 0;
     top_.pbrxd_i = 1;
     top_.csr_i = top_.rd_i = top_.wr_i = 1;
@@ -176,8 +186,8 @@ class Bench {
     wait([&] { return rts.fall >= 0; }, 3000 * bit);
     const int64_t first = end - 2 + tsdr * bit;
     if (rts.rise >= 0) {
-      expect(rts.rise, first - RTS_LEAD, "PBRTS rises ahead of the first start bit");
-      expect(rts.fall, first + 11 * bit * static_cast<int64_t>(answer.size()) + RTS_TRAIL, "PBRTS falls behind the answer");
+      expect(rts.rise, first - limits.rts_lead, "PBRTS rises ahead of the first start bit");
+      expect(rts.fall, first + 11 * bit * static_cast<int64_t>(answer.size()) + limits.rts_trail, "PBRTS falls behind the answer");
     }
     return answer;
   }
@@ -189,6 +199,7 @@ class Bench {
   int gap = 0;
   Pin rts, l_req, intr, br, pbf, ready;
   Bytes answer;
+  uint64_t digest = 14695981039346656037U;  // of every level of the output pins (FNV-1a): equal runs have equal ones
   Vdsdpv1& pins() { return top_; }
 
  private:
@@ -201,6 +212,10 @@ class Bench {
     pbf.level = 1;
   }
   void see() {
+    const int levels = top_.pbtxd_o | top_.pbrts_o << 1 | top_.l_req_o << 2 | top_.l_sta_o << 3 | top_.intr0_o << 4 |
+                       top_.pbf_o << 5 | top_.br_o << 6 | top_.ready_o << 7;
+    for (const int byte : {levels, top_.d_oe_o ? 0x100 | top_.d_o : 0})
+      digest = (digest ^ static_cast<uint64_t>(byte)) * 1099511628211U;
     rts.see(top_.pbrts_o, edge);
     l_req.see(top_.l_req_o, edge);
     intr.see(top_.intr0_o, edge);
@@ -356,7 +371,7 @@ void initialise(Bench& b, uint8_t prm_mode, uint8_t cfg_mode) {
 void baud(Bench& b, int rate_index) {
   static const int kBits[] = {4, 8, 16, 32};
   b.bit = kBits[rate_index];
-  b.step(int64_t{rate_index} * 50 * 48000);
+  b.step(int64_t{rate_index} * limits.search_window_ms * 48000);
   b.send(sd1(9, 2, 0x49));
   b.step(4 * b.bit);
   expect(b.br.rise, b.end + b.bit + 1, "rate found at the decision");
@@ -597,10 +612,24 @@ void user_judges(Bench& b) {
 
 }  // namespace
 
-// rtl_test [FAULT]: with a number, only the faster part, for the build with faults
+// rtl_test [NAME=NUMBER...]: names of Limits, or fault, and with that only the faster part, for the build with faults
 int main(int argc, char** argv) {
   Verilated::commandArgs(argc, argv);
-  const int fault = argc > 1 ? std::atoi(argv[1]) : 0;
+  unsigned fault = 0;
+  const std::map<std::string, unsigned*> settings = {{"rts_lead", &limits.rts_lead},
+                                                     {"rts_trail", &limits.rts_trail},
+                                                     {"search_window_ms", &limits.search_window_ms},
+                                                     {"fault", &fault}};
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const size_t equals = argument.find('=');
+    const auto setting = settings.find(argument.substr(0, equals));
+    if (setting == settings.end() || equals == std::string::npos) {
+      std::fprintf(stderr, "rtl_test: unknown argument %s, allowed are rts_lead, rts_trail, search_window_ms, fault =NUMBER\n", argv[i]);
+      return 2;
+    }
+    *setting->second = static_cast<unsigned>(std::stoul(argument.substr(equals + 1)));
+  }
   const uint16_t example = crc16({2, 7});
   expect(example, 0x1241, "CRC of 02 07");
   for (int rate : {0, 3}) {
@@ -624,7 +653,8 @@ int main(int argc, char** argv) {
     leave(b);
     interrupts(b);
     if (rate == 0) user_judges(b);
-    std::printf("rate index %d: %lld cycles\n", rate, static_cast<long long>(b.edge));
+    std::printf("rate index %d: %lld cycles, pins %016llx\n", rate, static_cast<long long>(b.edge),
+                static_cast<unsigned long long>(b.digest));
   }
   std::printf("%d failures\n", failures);
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
