@@ -13,6 +13,7 @@
 
 #include "apps/command_line.hpp"
 #include "tb/cosim/campaign.hpp"
+#include "tb/cosim/random_setup.hpp"
 #include "tb/cosim/random_stimulus.hpp"
 #include "tb/cosim/reference_rtl.hpp"
 #include "tb/report/output_file.hpp"
@@ -39,7 +40,7 @@ std::string counts_text(const cosim::MatchCounts& counts) {
 }
 
 cosim::MakeTop maker(unsigned fault) {
-  if (fault != 0) return [fault] { return cosim::make_faulty_rtl(fault); };
+  if (fault != 0) return [fault] { return cosim::make_faulty_rtl(cosim::quick_config(), fault); };
   return [] { return cosim::make_reference_rtl(cosim::quick_config()); };
 }
 

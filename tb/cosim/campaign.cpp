@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tb/cosim/random_setup.hpp"
 #include "tb/cosim/random_stimulus.hpp"
 #include "tb/cosim/reference_rtl.hpp"
 #include "tb/scenario/input_error.hpp"
@@ -142,7 +143,7 @@ std::vector<Fault> read_faults(const std::string& path) {
 
 Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, std::uint64_t seed, std::uint64_t cycles) {
   Kill kill{fault, false, "", 0, ""};
-  const MakeTop make = [&fault] { return make_faulty_rtl(fault.number); };
+  const MakeTop make = [&fault] { return make_faulty_rtl(quick_config(), fault.number); };
   const auto take = [&kill](const std::string& name, const Difference& difference) {
     kill.found = true;
     kill.stimulus = name;

@@ -36,7 +36,8 @@ class Reader {
   YAML::Node load() const {
     try {
       YAML::Node root = YAML::LoadFile(path_);
-      if (!root.IsMap() && !root.IsNull()) fail(root, "is no map, allowed are clock, pins, tolerance, parameters, files, include");
+      if (!root.IsMap() && !root.IsNull())
+        fail(root, "is no map, allowed are clock, pins, tolerance, parameters, files, include");
       return root;
     } catch (const YAML::BadFile&) {
       throw tb::InputError(path_, 0, "cannot be opened, allowed is a map of pins in YAML");
@@ -84,7 +85,8 @@ class Reader {
     }
     check_name(name, outputs);
     for (int i = 0; i < dsdpv1::kPinCount; ++i) {
-      if (text(name) == dsdpv1::name(static_cast<Pin>(i))) map_.tolerances.at(static_cast<std::size_t>(i)) = cycles(node);
+      if (text(name) == dsdpv1::name(static_cast<Pin>(i)))
+        map_.tolerances.at(static_cast<std::size_t>(i)) = cycles(node);
     }
   }
   int cycles(const YAML::Node& node) const {

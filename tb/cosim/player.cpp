@@ -18,12 +18,12 @@ constexpr Tick kAfterwards = 3000 * kCycle;  // so that what the last action has
 class ChipAgent : public bus::Agent, private bus::Listener {
  public:
   ChipAgent(const PlayOptions& options, std::unique_ptr<RtlTop> top, bus::Segment& segment)
-      : lockstep_(options.config, std::move(top), options.lockstep), segment_(segment), station_(segment.attach("chip", this)) {
-    lockstep_.watch({[](void* self, Tick at, Pin pin, Level level) {
-                       static_cast<ChipAgent*>(self)->drive(at, pin, level);
-                     },
-                     this},
-                    dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts));
+      : lockstep_(options.config, std::move(top), options.lockstep),
+        segment_(segment),
+        station_(segment.attach("chip", this)) {
+    lockstep_.watch(
+        {[](void* self, Tick at, Pin pin, Level level) { static_cast<ChipAgent*>(self)->drive(at, pin, level); }, this},
+        dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts));
   }
   Tick next() const override { return due_.empty() ? lockstep_.next_event() : due_.front().at; }
   void run(Tick now) override {
@@ -185,7 +185,8 @@ class UserLane : public Lane {
   }
   void block(const Action& action) {
     const int crc = dsdpv1::crc16(action.bytes.data(), static_cast<int>(action.bytes.size())) ^ action.value;
-    for (std::size_t i = 0; i < action.bytes.size(); ++i) write(action, action.address + static_cast<int>(i), action.bytes[i]);
+    for (std::size_t i = 0; i < action.bytes.size(); ++i)
+      write(action, action.address + static_cast<int>(i), action.bytes[i]);
     write(action, action.crc_address, crc >> 8);
     write(action, action.crc_address + 1, crc & 0xFF);
   }
@@ -224,8 +225,12 @@ class BoardLane : public Lane {
 class Player {
  public:
   Player(const Stimulus& stimulus, const MakeTop& make, const PlayOptions& options)
-      : stimulus_(stimulus), options_(options), chip_(options, make(), segment_), bus_(segment_, chip_.lockstep()),
-        user_(chip_.lockstep()), board_(chip_.lockstep()) {
+      : stimulus_(stimulus),
+        options_(options),
+        chip_(options, make(), segment_),
+        bus_(segment_, chip_.lockstep()),
+        user_(chip_.lockstep()),
+        board_(chip_.lockstep()) {
     timeline_.add(chip_);
     for (Place& place : places_) timeline_.add(*place.lane);
   }

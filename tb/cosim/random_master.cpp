@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "tb/cosim/reference_rtl.hpp"
-
 namespace cosim {
 namespace {
 
@@ -23,8 +21,8 @@ Tick RandomMaster::bit() const { return bus::baud(setup_.rate).bit; }
 
 void RandomMaster::choose_rate() {
   // Slow rates are rare: a telegram takes as long as a whole case at 12 Mbit/s.
-  constexpr int kRates[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
-                            0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 5, 6};
+  constexpr int kRates[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+                            0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 5, 6};
   setup_.rate = random_.one_in(200) ? random_.between(7, 9) : random_.pick(kRates);
   Tick wait = 0;
   for (int rate = 0; rate < setup_.rate; ++rate) wait += window(rate);
@@ -39,9 +37,14 @@ void RandomMaster::slave_diag() { request(bus::sap::kSlaveDiag, {}); }
 
 bus::Bytes RandomMaster::prm(bool right) {
   const int user = setup_.prm_mode == 1 ? setup_.max_prm : random_.below(std::min(setup_.max_prm, 5) + 1);
-  bus::Bytes bytes = {static_cast<std::uint8_t>(0x80 | (random_.one_in(4) ? random_.byte() & 0x30 : (setup_.command & 0x06) << 3)),
-                      0, 0, 11, static_cast<std::uint8_t>(setup_.ident >> 8),
-                      static_cast<std::uint8_t>(setup_.ident & 0xFF), 0};
+  bus::Bytes bytes = {
+      static_cast<std::uint8_t>(0x80 | (random_.one_in(4) ? random_.byte() & 0x30 : (setup_.command & 0x06) << 3)),
+      0,
+      0,
+      11,
+      static_cast<std::uint8_t>(setup_.ident >> 8),
+      static_cast<std::uint8_t>(setup_.ident & 0xFF),
+      0};
   const bus::Bytes more = random_.bytes(user);
   bytes.insert(bytes.end(), more.begin(), more.end());
   if (bytes.size() > 7) bytes[7] = static_cast<std::uint8_t>(random_.below(4) << 1 & 0x04);
@@ -54,7 +57,8 @@ bus::Bytes RandomMaster::prm(bool right) {
   if (random_.one_in(3)) bytes[6] = random_.byte();
   if (right) return bytes;
   if (random_.one_in(3)) bytes[0] = random_.byte();
-  if (random_.one_in(4)) bytes.resize(static_cast<std::size_t>(std::min(7 + setup_.max_prm + random_.between(-1, 2), 30)), 0);
+  if (random_.one_in(4))
+    bytes.resize(static_cast<std::size_t>(std::min(7 + setup_.max_prm + random_.between(-1, 2), 30)), 0);
   if (random_.one_in(6)) bytes[0] |= 0x08;  // with what may be factors of 0
   if (random_.one_in(5)) bytes[random_.one_in(2) ? 4 : 5] ^= static_cast<std::uint8_t>(1 << random_.below(8));
   if (random_.one_in(6)) bytes.resize(static_cast<std::size_t>(random_.below(14)));
@@ -120,7 +124,8 @@ void RandomMaster::global_control() {
                      random_.one_in(3) ? random_.byte() : std::uint8_t{0}};
   if (random_.one_in(16)) data.resize(static_cast<std::size_t>(random_.below(4)));
   const std::uint8_t to = random_.one_in(3) ? setup_.address : bus::kBroadcast;
-  send(bus::make_telegram(to, master(), random_.one_in(2) ? 0x46 : 0x44, data, bus::sap::kGlobalControl, bus::sap::kMaster),
+  send(bus::make_telegram(to, master(), random_.one_in(2) ? 0x46 : 0x44, data, bus::sap::kGlobalControl,
+                          bus::sap::kMaster),
        false);
 }
 
@@ -136,14 +141,26 @@ void RandomMaster::set_slave_address() {
 
 /// Other SAPs, function codes, FDL services.
 void RandomMaster::other_service() {
-  constexpr int kSaps[] = {bus::sap::kReadInputs, bus::sap::kReadOutputs, bus::sap::kGetCfg, bus::sap::kReadInputs,
-                           bus::sap::kReadOutputs, bus::sap::kGetCfg, 49, 51, 50, 58, 10};
+  constexpr int kSaps[] = {bus::sap::kReadInputs,
+                           bus::sap::kReadOutputs,
+                           bus::sap::kGetCfg,
+                           bus::sap::kReadInputs,
+                           bus::sap::kReadOutputs,
+                           bus::sap::kGetCfg,
+                           49,
+                           51,
+                           50,
+                           58,
+                           10};
   const int what = random_.below(12);
   if (what == 0) return send(bus::make_telegram(setup_.address, master(), 0x49));
-  if (what == 1) return send(bus::make_telegram(setup_.address, master(), static_cast<std::uint8_t>(random_.byte() | 0x40)));
-  if (what == 2) return send(bus::make_telegram(setup_.address, master(), random_.byte(), random_.bytes(random_.below(5)),
-                                                static_cast<std::uint8_t>(random_.below(64)), bus::sap::kMaster));
-  request(random_.one_in(12) ? random_.below(64) : random_.pick(kSaps), random_.one_in(6) ? random_.bytes(random_.below(4)) : bus::Bytes{});
+  if (what == 1)
+    return send(bus::make_telegram(setup_.address, master(), static_cast<std::uint8_t>(random_.byte() | 0x40)));
+  if (what == 2)
+    return send(bus::make_telegram(setup_.address, master(), random_.byte(), random_.bytes(random_.below(5)),
+                                   static_cast<std::uint8_t>(random_.below(64)), bus::sap::kMaster));
+  request(random_.one_in(12) ? random_.below(64) : random_.pick(kSaps),
+          random_.one_in(6) ? random_.bytes(random_.below(4)) : bus::Bytes{});
 }
 
 void RandomMaster::repetition() {
@@ -180,8 +197,12 @@ void RandomMaster::broken() {
       break;
     case 5: bytes[position] ^= static_cast<std::uint8_t>(1 << random_.below(8)); break;
     case 6: bytes.push_back(random_.byte()); break;
-    case 7: bytes[bytes.size() - (random_.one_in(2) ? 1 : 2)] ^= static_cast<std::uint8_t>(1 << random_.below(8)); break;
-    case 9: bytes[std::min<std::size_t>(2, bytes.size() - 1)] ^= static_cast<std::uint8_t>(1 << random_.below(8)); break;
+    case 7:
+      bytes[bytes.size() - (random_.one_in(2) ? 1 : 2)] ^= static_cast<std::uint8_t>(1 << random_.below(8));
+      break;
+    case 9:
+      bytes[std::min<std::size_t>(2, bytes.size() - 1)] ^= static_cast<std::uint8_t>(1 << random_.below(8));
+      break;
     case 10: faults.missing_stop_at = bytes.size() - 1; break;
     case 8: bytes.insert(bytes.end(), bytes.begin(), bytes.end()); break;
     default: bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(position)); break;
@@ -238,7 +259,8 @@ std::uint8_t RandomMaster::master() { return random_.one_in(10) ? std::uint8_t{3
 /// SRD; the frame count bit toggles in a series, and sometimes not.
 std::uint8_t RandomMaster::function_code() {
   constexpr std::uint8_t kFcb = bus::fc::kFcb, kFcv = bus::fc::kFcv;
-  const auto base = static_cast<std::uint8_t>(bus::fc::kRequest | (random_.one_in(3) ? bus::fc::kSrdLow : bus::fc::kSrdHigh));
+  const auto base =
+      static_cast<std::uint8_t>(bus::fc::kRequest | (random_.one_in(3) ? bus::fc::kSrdLow : bus::fc::kSrdHigh));
   if (random_.one_in(16)) return base;
   if (!fcv_ || random_.one_in(30)) {
     fcv_ = fcb_ = true;
@@ -251,7 +273,9 @@ std::uint8_t RandomMaster::function_code() {
 void RandomMaster::request(int dsap, const bus::Bytes& data) {
   const bool sap = dsap != kNoSap;
   bus::Telegram telegram = bus::make_telegram(setup_.address, master(), function_code(), data);
-  if (sap) telegram = bus::make_telegram(setup_.address, telegram.sa, telegram.fc, data, static_cast<std::uint8_t>(dsap), bus::sap::kMaster);
+  if (sap)
+    telegram = bus::make_telegram(setup_.address, telegram.sa, telegram.fc, data, static_cast<std::uint8_t>(dsap),
+                                  bus::sap::kMaster);
   if (sap && random_.one_in(24)) telegram.ssap.reset();
   send(telegram);
 }

@@ -4,9 +4,19 @@
 #include <random>
 
 #include "bus/bytes.hpp"
+#include "model/dsdpv1/chip.hpp"
 #include "tb/cosim/stimulus.hpp"
 
 namespace cosim {
+
+/// Chip parameters so short that every state is reached soon. What a random case waits for, it waits for with their times.
+inline dsdpv1::Config quick_config() {
+  dsdpv1::Config config;
+  config.search_window_ms = 1;
+  config.search_window_bits = 100;
+  config.baud_control_ms = 2;
+  return config;
+}
 
 /// Random numbers that are the same with every standard library.
 class Random {

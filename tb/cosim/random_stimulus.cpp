@@ -11,7 +11,8 @@ namespace {
 
 class Case {
  public:
-  explicit Case(std::uint64_t seed) : random_(seed), master_(random_, setup_, stimulus_), user_(random_, setup_, stimulus_) {}
+  explicit Case(std::uint64_t seed)
+      : random_(seed), master_(random_, setup_, stimulus_), user_(random_, setup_, stimulus_) {}
 
   Stimulus make() {
     power_on();

@@ -19,10 +19,17 @@ struct Configuration {
 };
 
 /// Identifiers of every kind: simple and special, bytes and words, one direction and both.
-const Configuration kConfigurations[] = {
-    {{0x11, 0x21}, 2, 2},       {{0x31}, 2, 2},       {{0x13, 0x23}, 4, 4},       {{0x10}, 1, 0},
-    {{0x20}, 0, 1},             {{0x51, 0x60}, 4, 2}, {{0x71}, 4, 4},             {{0xC1, 0x01, 0x02, 0xAA}, 3, 2},
-    {{0x41, 0x43, 0x11}, 4, 0}, {{0x00, 0x33}, 4, 4}, {{0x1F, 0x2F, 0x12}, 19, 16}};
+const Configuration kConfigurations[] = {{{0x11, 0x21}, 2, 2},
+                                         {{0x31}, 2, 2},
+                                         {{0x13, 0x23}, 4, 4},
+                                         {{0x10}, 1, 0},
+                                         {{0x20}, 0, 1},
+                                         {{0x51, 0x60}, 4, 2},
+                                         {{0x71}, 4, 4},
+                                         {{0xC1, 0x01, 0x02, 0xAA}, 3, 2},
+                                         {{0x41, 0x43, 0x11}, 4, 0},
+                                         {{0x00, 0x33}, 4, 4},
+                                         {{0x1F, 0x2F, 0x12}, 19, 16}};
 
 }  // namespace
 
@@ -64,7 +71,8 @@ void RandomUser::initialise() {
                       byte(setup_.cfg_mode),
                       byte(static_cast<int>(cfg_length))};
   bytes.insert(bytes.end(), setup_.cfg.begin(), setup_.cfg.end());
-  if (random_.one_in(10)) bytes[static_cast<std::size_t>(random_.below(static_cast<int>(bytes.size())))] = random_.byte();
+  if (random_.one_in(10))
+    bytes[static_cast<std::size_t>(random_.below(static_cast<int>(bytes.size())))] = random_.byte();
   if (random_.one_in(16)) bytes[1] = byte(random_.between(125, 129));
   take();
   block(regs::kInit, regs::kInitCrc, bytes);

@@ -1,6 +1,6 @@
 #pragma once
-// The reference RTL (rtl_ref/) under Verilator. Its parameters are fixed when it is compiled, so there is one variant for each set of
-// them that is needed (CMakeLists.txt).
+// The reference RTL (rtl_ref/) under Verilator. It is no part of the program: it stands in two shared libraries, the RTL as it is and
+// the RTL with single faults, which are loaded when somebody asks for them. `./run build` builds them, `./run sim` need not wait for it.
 #include <cstdint>
 #include <memory>
 
@@ -9,16 +9,11 @@
 
 namespace cosim {
 
-/// True when this program was built with Verilator.
-bool reference_rtl_built();
-
-/// The variant with the parameters of `config`; throws tb::InputError with those that there are when there is none. What is not
-/// reset in the RTL begins with values that depend on `seed`.
+/// The RTL with the parameters of `config`. What is not reset in it begins with values that depend on `seed`. Throws tb::InputError
+/// when it was not built.
 std::unique_ptr<RtlTop> make_reference_rtl(const dsdpv1::Config& config, std::uint32_t seed = 1);
 
-/// Parameters so short that every state is reached soon: for random lockstep and the fault campaign.
-dsdpv1::Config quick_config();
-/// The variant with them and with the single faults of rtl_ref/faults.txt; `fault` 0: none.
-std::unique_ptr<RtlTop> make_faulty_rtl(unsigned fault, std::uint32_t seed = 1);
+/// The RTL with the single fault `fault` of rtl_ref/faults.txt; 0: none. Throws likewise.
+std::unique_ptr<RtlTop> make_faulty_rtl(const dsdpv1::Config& config, unsigned fault, std::uint32_t seed = 1);
 
 }  // namespace cosim

@@ -8,28 +8,27 @@ constexpr Tick kHalfCycle = profibus::kTicksPerCycle / 2;
 /// What the chip captures from a bus that nobody drives: as the model, which reads no bits from Z.
 constexpr std::uint8_t kReleasedReadsAs = 0xFF;
 
-/// A wire of `packed`, or X.
-Level wire(const RtlOutputs& out, unsigned number, bool level) {
-  return (out.unknown >> (RtlOutputs::kFirstBit + number) & 1U) != 0 ? dsdpv1::kLevelX : Level{level};
+Level wire(const RtlOutputs& out, Wire place) {
+  return (out.unknown >> place & 1U) != 0 ? dsdpv1::kLevelX : static_cast<Level>(out.word >> place & 1U);
 }
 
 Level data(const RtlOutputs& out) {
-  if ((out.unknown >> RtlOutputs::kDriven & 1U) != 0) return dsdpv1::kLevelX;
-  if (!out.d_oe) return dsdpv1::kLevelZ;
-  return (out.unknown & 0xFFU) != 0 ? dsdpv1::kLevelX : Level{out.d};
+  if ((out.unknown >> kWireDriven & 1U) != 0) return dsdpv1::kLevelX;
+  if ((out.word >> kWireDriven & 1U) == 0) return dsdpv1::kLevelZ;
+  return (out.unknown & 0xFFU) != 0 ? dsdpv1::kLevelX : static_cast<Level>(out.word & 0xFFU);
 }
 
 Level level_of(const RtlOutputs& out, Pin pin) {
   switch (pin) {
-    case Pin::kLReq: return wire(out, 0, out.l_req);
-    case Pin::kLSta: return wire(out, 1, out.l_sta);
+    case Pin::kLReq: return wire(out, kWireLReq);
+    case Pin::kLSta: return wire(out, kWireLSta);
     case Pin::kDOut: return data(out);
-    case Pin::kIntr0: return wire(out, 2, out.intr0);
-    case Pin::kPbtxd: return wire(out, 3, out.pbtxd);
-    case Pin::kPbrts: return wire(out, 4, out.pbrts);
-    case Pin::kPbf: return wire(out, 5, out.pbf);
-    case Pin::kBr: return wire(out, 6, out.br);
-    default: return wire(out, 7, out.ready);
+    case Pin::kIntr0: return wire(out, kWireIntr0);
+    case Pin::kPbtxd: return wire(out, kWirePbtxd);
+    case Pin::kPbrts: return wire(out, kWirePbrts);
+    case Pin::kPbf: return wire(out, kWirePbf);
+    case Pin::kBr: return wire(out, kWireBr);
+    default: return wire(out, kWireReady);
   }
 }
 
@@ -53,7 +52,6 @@ void RtlChip::power_up() {
   top_->in.clk = false;
   top_->eval();
   last_ = top_->out;
-  packed_ = last_.packed();
 }
 
 void RtlChip::set(Tick at, Pin pin, Level level) {
@@ -90,9 +88,7 @@ void RtlChip::advance(Tick to) {
 
 void RtlChip::eval(Tick at) {
   top_->eval();
-  const std::uint32_t packed = top_->out.packed();
-  if (packed == packed_ && top_->out.unknown == last_.unknown) return;
-  packed_ = packed;
+  if (top_->out == last_) return;
   const RtlOutputs before = last_;
   last_ = top_->out;
   report(at, before);

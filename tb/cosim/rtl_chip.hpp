@@ -40,7 +40,7 @@ class RtlChip {
 
   std::unique_ptr<RtlTop> top_;
   dsdpv1::PinSink sink_;
-  std::uint32_t watched_ = 0, packed_ = 0;
+  std::uint32_t watched_ = 0;
   RtlOutputs last_;
   Level d_in_ = dsdpv1::kLevelZ;
   Tick next_edge_ = 0, now_ = 0;

@@ -1,6 +1,9 @@
 #pragma once
 // A chip in RTL as the harness evaluates it: levels in, levels out. One implementation for each Verilated design.
+//
+// The reference RTL stands in shared libraries of its own (reference_rtl.hpp), so nothing in here may need code of the program.
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace cosim {
@@ -15,24 +18,31 @@ struct RtlInputs {
   std::uint8_t d = 0;   ///< what the user drives; what a released bus reads as while nobody does
 };
 
-/// Levels at the output pins, likewise.
+/// Output wires: places in the word of RtlOutputs. D is in bits 0 to 7, 0 while it is released.
+enum Wire : unsigned {
+  kWireLReq = 8,
+  kWireLSta,
+  kWireIntr0,
+  kWirePbtxd,
+  kWirePbrts,
+  kWirePbf,
+  kWireBr,
+  kWireReady,
+  kWireDriven
+};
+
+/// Levels at the output pins, all in one word, so that a change of any is seen at once.
 struct RtlOutputs {
-  bool l_req = false, l_sta = false, intr0 = false, pbtxd = false, pbrts = false, pbf = false, br = false,
-       ready = false;
-  bool d_oe = false;   ///< the chip drives D
-  std::uint8_t d = 0;  ///< ... with this
-  std::uint32_t unknown = 0;  ///< wires that are X, as far as the design tells; places as in `packed`
+  std::uint32_t word = 0;
+  std::uint32_t unknown = 0;  ///< wires that are X, as far as the design tells
 
-  static constexpr unsigned kFirstBit = 8;  ///< D is in bits 0 to 7, then the single wires in the order above
-  static constexpr unsigned kDriven = kFirstBit + 8;
+  bool operator==(const RtlOutputs& other) const { return word == other.word && unknown == other.unknown; }
+};
 
-  /// All of them in one word, to see quickly whether anything has changed.
-  std::uint32_t packed() const {
-    const bool bits[] = {l_req, l_sta, intr0, pbtxd, pbrts, pbf, br, ready, d_oe};
-    std::uint32_t word = d_oe ? d : 0U;
-    for (unsigned i = 0; i < 9; ++i) word |= static_cast<std::uint32_t>(bits[i]) << (kFirstBit + i);
-    return word;
-  }
+/// The parameters of the rulings, as in dsdpv1::Config, with its units.
+struct RtlLimits {
+  std::uint32_t access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap, search_window_ms,
+      search_window_bits, baud_control_ms;
 };
 
 class RtlTop {

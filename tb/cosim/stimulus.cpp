@@ -13,9 +13,10 @@
 namespace cosim {
 namespace {
 
-const std::map<std::string, Verb> kVerbs = {
-    {"send", Verb::kSend}, {"spike", Verb::kSpike}, {"take", Verb::kTake},   {"give", Verb::kGive}, {"write", Verb::kWrite}, {"read", Verb::kRead},
-    {"block", Verb::kBlock}, {"pin", Verb::kPin}, {"reset", Verb::kReset}, {"sync", Verb::kSync}};
+const std::map<std::string, Verb> kVerbs = {{"send", Verb::kSend},   {"spike", Verb::kSpike}, {"take", Verb::kTake},
+                                            {"give", Verb::kGive},   {"write", Verb::kWrite}, {"read", Verb::kRead},
+                                            {"block", Verb::kBlock}, {"pin", Verb::kPin},     {"reset", Verb::kReset},
+                                            {"sync", Verb::kSync}};
 
 constexpr Tick kLongest = Tick{1} << 40;
 constexpr int kLastCell = 0x7FF;
@@ -29,8 +30,9 @@ struct Field {
   bool hex;
 };
 
-#define FIELD(member) \
-  [](const Action& a) { return static_cast<Tick>(a.member); }, [](Action& a, Tick v) { a.member = static_cast<decltype(a.member)>(v); }
+#define FIELD(member)                                          \
+  [](const Action& a) { return static_cast<Tick>(a.member); }, \
+      [](Action& a, Tick v) { a.member = static_cast<decltype(a.member)>(v); }
 
 const Field kRate = {"rate", FIELD(rate), 0, 9, false};
 const Field kReply = {"reply", FIELD(reply_bits), 0, 2000, false};
@@ -46,12 +48,16 @@ const Field kPoll = {"poll", FIELD(low), 1, kLongest, false};
 #undef FIELD
 
 const std::vector<Field>& fields(Verb verb) {
-  static const std::map<Verb, std::vector<Field>> table = {
-      {Verb::kSend, {kRate, kReply}},          {Verb::kSpike, {kLow}}, {Verb::kTake, {kPoll}},
-      {Verb::kGive, {}},                       {Verb::kWrite, {kAt, kByte, kSetup, kLow, kHold}},
-      {Verb::kRead, {kAt, kSetup, kLow, kHold}}, {Verb::kBlock, {kAt, kCrc, kXor, kSetup, kLow, kHold}},
-      {Verb::kPin, {kLevel}},                  {Verb::kReset, {kLow}},
-      {Verb::kSync, {}}};
+  static const std::map<Verb, std::vector<Field>> table = {{Verb::kSend, {kRate, kReply}},
+                                                           {Verb::kSpike, {kLow}},
+                                                           {Verb::kTake, {kPoll}},
+                                                           {Verb::kGive, {}},
+                                                           {Verb::kWrite, {kAt, kByte, kSetup, kLow, kHold}},
+                                                           {Verb::kRead, {kAt, kSetup, kLow, kHold}},
+                                                           {Verb::kBlock, {kAt, kCrc, kXor, kSetup, kLow, kHold}},
+                                                           {Verb::kPin, {kLevel}},
+                                                           {Verb::kReset, {kLow}},
+                                                           {Verb::kSync, {}}};
   return table.at(verb);
 }
 
@@ -104,7 +110,8 @@ std::string faults_text(const bus::WireFaults& faults) {
 }
 
 std::string line_of(const Action& action) {
-  const auto verb = std::find_if(kVerbs.begin(), kVerbs.end(), [&](const auto& each) { return each.second == action.verb; });
+  const auto verb =
+      std::find_if(kVerbs.begin(), kVerbs.end(), [&](const auto& each) { return each.second == action.verb; });
   std::string line = verb->first;
   if (action.verb == Verb::kSync) return line;
   line += fmt::format(" +{}", action.delay);
@@ -114,14 +121,16 @@ std::string line_of(const Action& action) {
     line += field.hex ? fmt::format(" {}={:X}", field.key, value) : fmt::format(" {}={}", field.key, value);
   }
   line += faults_text(action.faults);
-  for (std::size_t i = 0; i < action.bytes.size(); ++i) line += fmt::format("{}{:02X}", i == 0 ? " : " : " ", action.bytes[i]);
+  for (std::size_t i = 0; i < action.bytes.size(); ++i)
+    line += fmt::format("{}{:02X}", i == 0 ? " : " : " ", action.bytes[i]);
   return line;
 }
 
 /// Reads one line, word by word.
 class LineParser {
  public:
-  LineParser(const std::string& line, const std::string& file, int number) : words_(line), file_(file), number_(number) {}
+  LineParser(const std::string& line, const std::string& file, int number)
+      : words_(line), file_(file), number_(number) {}
 
   /// Nothing for an empty line or a comment.
   std::optional<Action> parse() {
@@ -155,8 +164,8 @@ class LineParser {
       used = 0;
     }
     if (used == 0 || used != text.size() || value < least || value > most)
-      fail("wrong number " + text, base == 16 ? fmt::format("{:X} to {:X}, hexadecimal", least, most)
-                                              : fmt::format("{} to {}", least, most));
+      fail("wrong number " + text,
+           base == 16 ? fmt::format("{:X} to {:X}, hexadecimal", least, most) : fmt::format("{} to {}", least, most));
     return value;
   }
   void argument(Action& action, const std::string& word) {
@@ -199,7 +208,8 @@ class LineParser {
     fail("unknown word " + word, "+DELAY, KEY=VALUE, : BYTES, and the name of an input pin behind pin");
   }
   void bytes(Action& action) {
-    for (std::string word; words_ >> word;) action.bytes.push_back(static_cast<std::uint8_t>(number(word, 16, 0, 0xFF)));
+    for (std::string word; words_ >> word;)
+      action.bytes.push_back(static_cast<std::uint8_t>(number(word, 16, 0, 0xFF)));
   }
 
   std::istringstream words_;

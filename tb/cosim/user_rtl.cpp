@@ -40,8 +40,9 @@ void call(const std::string& command, const std::string& log, const std::string&
   for (std::string line; first.empty() && std::getline(file, line);) {
     if (line.find("rror") != std::string::npos) first = line;
   }
-  throw tb::InputError(fmt::format("dsdpv1-sim cosim: {}: {} (all of it in {}), allowed is RTL that Verilator 5.006 builds",
-                                   what, first.empty() ? "failed" : first, log));
+  throw tb::InputError(
+      fmt::format("dsdpv1-sim cosim: {}: {} (all of it in {}), allowed is RTL that Verilator 5.006 builds", what,
+                  first.empty() ? "failed" : first, log));
 }
 
 std::vector<std::string> sources(const UserRtl& rtl, const PinMap& map) {
@@ -91,24 +92,29 @@ class UserTop : public RtlTop {
   UserTop& operator=(const UserTop&) = delete;
 
   void eval() override {
-    const std::array<std::uint8_t, kInputBytes> levels = {
-        in.clk, in.reset, in.r_req, in.r_sta, in.csr, in.rd, in.wr, in.pbrxd, in.d, static_cast<std::uint8_t>(in.a & 0xFF),
-        static_cast<std::uint8_t>(in.a >> 8)};
-    out = outputs(0, levels);
-    out.unknown = out.packed() ^ outputs(1, levels).packed();
+    const std::array<std::uint8_t, kInputBytes> levels = {in.clk,
+                                                          in.reset,
+                                                          in.r_req,
+                                                          in.r_sta,
+                                                          in.csr,
+                                                          in.rd,
+                                                          in.wr,
+                                                          in.pbrxd,
+                                                          in.d,
+                                                          static_cast<std::uint8_t>(in.a & 0xFF),
+                                                          static_cast<std::uint8_t>(in.a >> 8)};
+    out.word = word(0, levels);
+    out.unknown = out.word ^ word(1, levels);
   }
   bool dpram(DpramImage&) const override { return false; }
 
  private:
-  RtlOutputs outputs(std::size_t design, const std::array<std::uint8_t, kInputBytes>& levels) {
+  std::uint32_t word(std::size_t design, const std::array<std::uint8_t, kInputBytes>& levels) {
     std::array<std::uint8_t, kOutputBytes> bytes{};
     library_.eval(designs_.at(design), levels.data(), bytes.data());
-    RtlOutputs result;
-    bool* const wires[] = {&result.l_req, &result.l_sta, &result.intr0, &result.pbtxd, &result.pbrts,
-                           &result.pbf,   &result.br,    &result.ready, &result.d_oe};
-    for (std::size_t i = 0; i < std::size(wires); ++i) *wires[i] = bytes.at(i) != 0;
-    result.d = bytes.back();
-    return result;
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < std::size(kOutputs); ++i) word |= (bytes.at(i) & 1U) << (kWireLReq + i);
+    return (word >> kWireDriven & 1U) != 0 ? word | bytes.back() : word;
   }
 
   Library library_;
@@ -130,13 +136,16 @@ std::string adapter_source(const std::string& top, const PinMap& map) {
       "  V{0}& model = *static_cast<Design*>(self)->model;\n",
       top);
   for (std::size_t i = 0; i < std::size(kInputs); ++i)
-    text += fmt::format("  model.{} = {}in[{}];\n", port(map, kInputs[i]).name, port(map, kInputs[i]).inverted ? "!" : "", i);
+    text += fmt::format("  model.{} = {}in[{}];\n", port(map, kInputs[i]).name,
+                        port(map, kInputs[i]).inverted ? "!" : "", i);
   const auto inverted = [&map](const char* name) { return port(map, name).inverted ? "~" : ""; };
   text += fmt::format("  model.{} = ({}in[{}]) & 0xFF;\n", port(map, "D_IN").name, inverted("D_IN"), kD);
-  text += fmt::format("  model.{} = ({}(in[{}] | in[{}] << 8)) & 0x7FF;\n", port(map, "A").name, inverted("A"), kALow, kAHigh);
+  text += fmt::format("  model.{} = ({}(in[{}] | in[{}] << 8)) & 0x7FF;\n", port(map, "A").name, inverted("A"), kALow,
+                      kAHigh);
   text += "  model.eval();\n";
   for (std::size_t i = 0; i < std::size(kOutputs); ++i)
-    text += fmt::format("  out[{}] = {}model.{};\n", i, port(map, kOutputs[i]).inverted ? "!" : "", port(map, kOutputs[i]).name);
+    text += fmt::format("  out[{}] = {}model.{};\n", i, port(map, kOutputs[i]).inverted ? "!" : "",
+                        port(map, kOutputs[i]).name);
   text += fmt::format("  out[{}] = {}model.{};\n}}\n", std::size(kOutputs), inverted("D_OUT"), port(map, "D_OUT").name);
   return text;
 }
@@ -151,7 +160,9 @@ MakeRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
   file.write(adapter_source(rtl.top, map));
   file.commit();
 
-  std::string verilator = "verilator --cc --exe --build -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS '-O2 -fPIC' -LDFLAGS -shared";
+  std::string verilator =
+      "verilator --cc --exe --build -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS '-O2 -fPIC' -LDFLAGS "
+      "-shared";
   verilator += fmt::format(" --top-module {} --prefix V{} --Mdir {} -I{} -o librtl.so", quoted(rtl.top), rtl.top,
                            quoted(fs::absolute(rtl.build).string()), quoted(fs::absolute(rtl.folder).string()));
   for (const std::string& folder : map.include)

@@ -1,5 +1,5 @@
 #pragma once
-// A Verilated `dsdpv1` of rtl_ref/ as an RtlTop. Included only where a variant is compiled (reference_variant.cpp.in).
+// A Verilated `dsdpv1` of rtl_ref/ as an RtlTop. Included only where the reference RTL is compiled (reference_library.cpp).
 #include <memory>
 
 #include "tb/cosim/rtl_top.hpp"
@@ -30,16 +30,10 @@ class VerilatedTop : public RtlTop {
     model_->a_i = in.a;
     model_->d_i = in.d;
     model_->eval();
-    out.l_req = model_->l_req_o;
-    out.l_sta = model_->l_sta_o;
-    out.intr0 = model_->intr0_o;
-    out.pbtxd = model_->pbtxd_o;
-    out.pbrts = model_->pbrts_o;
-    out.pbf = model_->pbf_o;
-    out.br = model_->br_o;
-    out.ready = model_->ready_o;
-    out.d_oe = model_->d_oe_o;
-    out.d = model_->d_o;
+    out.word = wire(model_->l_req_o, kWireLReq) | wire(model_->l_sta_o, kWireLSta) | wire(model_->intr0_o, kWireIntr0) |
+               wire(model_->pbtxd_o, kWirePbtxd) | wire(model_->pbrts_o, kWirePbrts) | wire(model_->pbf_o, kWirePbf) |
+               wire(model_->br_o, kWireBr) | wire(model_->ready_o, kWireReady) | wire(model_->d_oe_o, kWireDriven) |
+               (model_->d_oe_o != 0 ? model_->d_o : 0U);
   }
 
   /// Four memories interleaved by the low address bits, and up to two writes on their way to them, the older one first.
@@ -59,6 +53,7 @@ class VerilatedTop : public RtlTop {
   Model& model() { return *model_; }
 
  private:
+  static std::uint32_t wire(std::uint32_t level, Wire place) { return level << place; }
   static void put(DpramImage& image, std::uint32_t write) {
     image.at(write >> 8 & (kDpramSize - 1)) = static_cast<std::uint8_t>(write & 0xFF);
   }
