@@ -29,23 +29,22 @@ module baud_search (
   assign restart_o = start_i || ends;
   assign found_o = active_q && searching_q && telegram_i && !restart_o;
 
+  // Index 0 lowest
+  logic [319:0] windows;
+  logic [31:0] window_of_rate;
+  assign windows = {
+    window(window_ms_i, window_bits_i, 32'd5000), window(window_ms_i, window_bits_i, 32'd2500),
+    window(window_ms_i, window_bits_i, 32'd1056), window(window_ms_i, window_bits_i, 32'd512),
+    window(window_ms_i, window_bits_i, 32'd256), window(window_ms_i, window_bits_i, 32'd96),
+    window(window_ms_i, window_bits_i, 32'd32), window(window_ms_i, window_bits_i, 32'd16),
+    window(window_ms_i, window_bits_i, 32'd8), window(window_ms_i, window_bits_i, 32'd4)};
+  assign window_of_rate = windows[{rate_q, 5'd0}+:32];
+
   always_comb begin
     rate_d = rate_q;
     if (start_i) rate_d = 4'd0;
     else if (ends) rate_d = rate_q == RATE_LAST - (`FAULT(61) ? 4'd1 : 4'd0) ? 4'd0 : rate_q + 4'd1;
-    case (rate_q)
-      4'd0: window_d = window(window_ms_i, window_bits_i, 32'd4);
-      4'd1: window_d = window(window_ms_i, window_bits_i, 32'd8);
-      4'd2: window_d = window(window_ms_i, window_bits_i, 32'd16);
-      4'd3: window_d = window(window_ms_i, window_bits_i, 32'd32);
-      4'd4: window_d = window(window_ms_i, window_bits_i, 32'd96);
-      4'd5: window_d = window(window_ms_i, window_bits_i, 32'd256);
-      4'd6: window_d = window(window_ms_i, window_bits_i, 32'd512);
-      4'd7: window_d = window(window_ms_i, window_bits_i, 32'd1056);
-      4'd8: window_d = window(window_ms_i, window_bits_i, 32'd2500);
-      default: window_d = window(window_ms_i, window_bits_i, 32'd5000);
-    endcase
-    if (!loads_q) window_d = window_q - 32'd1;
+    window_d = loads_q ? window_of_rate : window_q - 32'd1;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

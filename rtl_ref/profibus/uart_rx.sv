@@ -152,24 +152,14 @@ module uart_rx (
   logic [12:0] clock_phase_q;
   logic [18:0] start;
   logic [12:0] unused;
-  logic [31:0] lead, start_wide;
+  logic [31:0] lead;
+  logic [319:0] clock_starts;  // index 0 lowest
   assign lead = {26'd0, rts_lead_i};
-  assign {unused, start} = start_wide;
-
-  always_comb begin
-    case (rate_i)
-      4'd0: start_wide = clock_start(lead, 4);
-      4'd1: start_wide = clock_start(lead, 8);
-      4'd2: start_wide = clock_start(lead, 16);
-      4'd3: start_wide = clock_start(lead, 32);
-      4'd4: start_wide = clock_start(lead, 96);
-      4'd5: start_wide = clock_start(lead, 256);
-      4'd6: start_wide = clock_start(lead, 512);
-      4'd7: start_wide = clock_start(lead, 1056);
-      4'd8: start_wide = clock_start(lead, 2500);
-      default: start_wide = clock_start(lead, 5000);
-    endcase
-  end
+  assign clock_starts = {
+    clock_start(lead, 5000), clock_start(lead, 2500), clock_start(lead, 1056), clock_start(lead, 512),
+    clock_start(lead, 256), clock_start(lead, 96), clock_start(lead, 32), clock_start(lead, 16), clock_start(lead, 8),
+    clock_start(lead, 4)};
+  assign {unused, start} = clock_starts[{rate_i, 5'd0}+:32];
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
