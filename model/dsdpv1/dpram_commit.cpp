@@ -25,7 +25,8 @@ void DpramSequencer::refuse_length(Cycle now) {
       return init_result(false);
     case Item::kInput:
       return log_.at_cycle(now, Reason::kInputLength, header[0], static_cast<unsigned>(station_.slave().input_size()));
-    default: return log_.at_cycle(now, Reason::kDiagLength, header[1], regs::kDiagDataSize);
+    case Item::kDiag: return log_.at_cycle(now, Reason::kDiagLength, header[1], regs::kDiagDataSize);
+    default: return log_.at_cycle(now, Reason::kAcyclicLength, item_ == Item::kC1Answer ? 1 : 2, header[3]);
   }
 }
 
@@ -49,15 +50,27 @@ void DpramSequencer::init_result(bool good) {
 }
 
 void DpramSequencer::commit_input(Cycle now) {
-  if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag);
+  if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag, regs::kUserCommand1);
   if (!crc_right(now, Reason::kInputCrc, regs::kChipStatus2InputCrc)) return;
   station_.slave().new_inputs(now, &image_[1], image_size_ - 1);
 }
 
 void DpramSequencer::commit_diag(Cycle now) {
-  if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag);
+  if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag, regs::kUserCommand1);
   if (!crc_right(now, Reason::kDiagCrc, regs::kChipStatus2DiagCrc)) return;
   station_.slave().new_diagnosis(now, image_[0], &image_[2], image_size_ - 2);
+}
+
+void DpramSequencer::commit_acyclic(Cycle now) {
+  const bool c1 = item_ == Item::kC1Answer;
+  if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag, regs::kUserCommand2);
+  const std::uint8_t error_bit = c1 ? regs::kChipStatus2C1Crc : regs::kChipStatus2C2Crc;
+  if (!crc_right(now, c1 ? Reason::kC1Crc : Reason::kC2Crc, error_bit)) return;
+  if (c1) {
+    station_.slave().c1_answer(now, image_.data(), image_size_);
+  } else {
+    station_.slave().c2_answer(now, image_.data(), image_size_);
+  }
 }
 
 void DpramSequencer::commit_verdict(Cycle now) {

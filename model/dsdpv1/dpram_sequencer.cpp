@@ -14,6 +14,11 @@ constexpr std::uint8_t kVersion[kVersionBytes] = {regs::kVersionReset, regs::kVe
 constexpr int kStartUpMoves = regs::kDpramSize + kVersionBytes + 1;  // the RAM, the version, B006
 constexpr std::uint8_t kChipWasHere = 1;                             // B006
 
+// An acyclic answer is as long as its length byte says only when it carries data (V14).
+bool carries_data(std::uint8_t function) {
+  return function == profibus::dpv1::kRead || function == profibus::dpv1::kTransport;
+}
+
 }  // namespace
 
 void DpramSequencer::reset() {
@@ -117,9 +122,9 @@ void DpramSequencer::move_header(Cycle now) {
   switch (index_++) {
     case 0: dpram_.write(regs::kAccessCount, kChipWasHere); return;
     case 1: user_command1_ = dpram_.read(regs::kUserCommand1); return;
-    case 2: return;  // B011: nothing in it is used without DPV1
+    case 2: user_command2_ = dpram_.read(regs::kUserCommand2); return;
     case 3: chip_command1_ = dpram_.read(regs::kChipCommand1); return;
-    case 4: return;  // B00F: as B011
+    case 4: chip_command2_ = dpram_.read(regs::kChipCommand2); return;
     default:
       dpv1_ = dpram_.read(regs::kDpv1Enable);
       item_ = Item::kInit;
@@ -144,9 +149,13 @@ bool DpramSequencer::due(Item item, Cycle now) const {
     case Item::kCfgVerdict: return (user_command1_ & regs::kUserCommand1CfgVerdict) != 0;
     case Item::kInput: return (user_command1_ & regs::kUserCommand1Input) != 0;
     case Item::kDiag: return (user_command1_ & regs::kUserCommand1Diag) != 0;
+    case Item::kC1Answer: return (user_command2_ & regs::kUserCommand2C1) != 0;
+    case Item::kC2Answer: return (user_command2_ & regs::kUserCommand2C2) != 0;
     case Item::kPrm: return slave.mail().prm_due.before(now);
     case Item::kCfg: return slave.mail().cfg_due.before(now);
     case Item::kOutput: return slave.mail().output_due.before(now);
+    case Item::kC1Request: return slave.mail().c1.due.before(now);
+    case Item::kC2Request: return slave.mail().c2.due.before(now);
     case Item::kValidFlag: return !valid_written_ && start_ >= origin_ + ready_cycles_;
     case Item::kOfflineHigh: return (slave.offline_count() ^ offline_written_) > 0xFF;
     case Item::kOfflineLow: return ((slave.offline_count() ^ offline_written_) & 0xFF) != 0;
@@ -169,6 +178,10 @@ const DpramSequencer::Area& DpramSequencer::area(Item item) {
   static constexpr Area kCfg = {regs::kCfg, regs::kCfgCrc, 3, regs::kCfgDataSize, regs::kChipCommand1Cfg};
   static constexpr Area kOutput = {regs::kOutput, regs::kOutputCrc, 1, regs::kOutputDataSize,
                                    regs::kChipCommand1Output};
+  static constexpr Area kC1Answer = {regs::kC1, regs::kC1Crc, 4, regs::kC1DataSize, regs::kUserCommand2C1};
+  static constexpr Area kC2Answer = {regs::kC2, regs::kC2Crc, 4, regs::kC2DataSize, regs::kUserCommand2C2};
+  static constexpr Area kC1Request = {regs::kC1, regs::kC1Crc, 4, regs::kC1DataSize, regs::kChipCommand2C1};
+  static constexpr Area kC2Request = {regs::kC2, regs::kC2Crc, 4, regs::kC2DataSize, regs::kChipCommand2C2};
   switch (item) {
     case Item::kInit: return kInit;
     case Item::kPrmVerdict: return kPrmVerdict;
@@ -176,14 +189,18 @@ const DpramSequencer::Area& DpramSequencer::area(Item item) {
     case Item::kInput: return kInput;
     case Item::kDiag: return kDiag;
     case Item::kPrm: return kPrm;
+    case Item::kC1Answer: return kC1Answer;
+    case Item::kC2Answer: return kC2Answer;
     case Item::kCfg: return kCfg;
+    case Item::kC1Request: return kC1Request;
+    case Item::kC2Request: return kC2Request;
     default: return kOutput;
   }
 }
 
 void DpramSequencer::start(Item item, Cycle now) {
-  if (item <= Item::kDiag) return start_read(now, area(item));
-  if (item <= Item::kOutput) return start_write(now, item);
+  if (item <= Item::kC2Answer) return start_read(now, area(item));
+  if (item <= Item::kC2Request) return start_write(now, item);
   status_byte(item, now);
 }
 
@@ -212,10 +229,15 @@ void DpramSequencer::start_write(Cycle now, Item item) {
     image_size_ = 2;
     load(mail.cfg.bytes.data(), mail.cfg.size);
     mail.cfg_due.clear();
-  } else {
+  } else if (item == Item::kOutput) {
     const profibus::IoBlock& outputs = station_.slave().outputs();
     load(outputs.bytes.data(), outputs.size);
     mail.output_due.clear();
+  } else {
+    profibus::AcyclicMail& acyclic = item == Item::kC1Request ? mail.c1 : mail.c2;
+    image_size_ = acyclic.pdu.size;
+    std::copy_n(acyclic.pdu.bytes.begin(), image_size_, image_.begin());
+    acyclic.due.clear();
   }
   image_crc_ = crc16(image_.data(), image_size_);
   index_ = 0;
@@ -280,7 +302,8 @@ void DpramSequencer::read_byte() {
 void DpramSequencer::decode(Cycle now) {
   const Area& block = area(item_);
   if (block.maximum == 0) return goto_phase(Phase::kCommit, now + 1);  // a verdict: nothing follows
-  const int length = image_[static_cast<std::size_t>(block.header - 1)];
+  const int length =
+      acyclic_answer(item_) && !carries_data(image_[0]) ? 0 : image_[static_cast<std::size_t>(block.header - 1)];
   if (length > block.maximum) {
     image_size_ = 0;  // D12
     return goto_phase(Phase::kCommit, now + 1);
@@ -291,23 +314,29 @@ void DpramSequencer::decode(Cycle now) {
 }
 
 void DpramSequencer::commit(Cycle now) {
-  user_command1_ = static_cast<std::uint8_t>(user_command1_ & ~area(item_).flag);
-  dpram_.write(regs::kUserCommand1, user_command1_);
+  const bool acyclic = acyclic_answer(item_);
+  std::uint8_t& command = acyclic ? user_command2_ : user_command1_;
+  command = static_cast<std::uint8_t>(command & ~area(item_).flag);
+  dpram_.write(acyclic ? regs::kUserCommand2 : regs::kUserCommand1, command);
   goto_phase(Phase::kChoose, now + 1);
   const bool too_long = image_size_ == 0;
   switch (item_) {
     case Item::kInit: too_long ? refuse_length(now) : commit_init(now); break;
     case Item::kInput: too_long ? refuse_length(now) : commit_input(now); break;
     case Item::kDiag: too_long ? refuse_length(now) : commit_diag(now); break;
+    case Item::kC1Answer:
+    case Item::kC2Answer: too_long ? refuse_length(now) : commit_acyclic(now); break;
     default: commit_verdict(now); break;
   }
   next_item();
 }
 
 void DpramSequencer::flag(Cycle now) {
-  chip_command1_ = static_cast<std::uint8_t>(chip_command1_ | area(item_).flag);
-  dpram_.write(regs::kChipCommand1, chip_command1_);
-  if (item_ != Item::kOutput) interrupt_.trigger(now);
+  const bool acyclic = item_ == Item::kC1Request || item_ == Item::kC2Request;
+  std::uint8_t& command = acyclic ? chip_command2_ : chip_command1_;
+  command = static_cast<std::uint8_t>(command | area(item_).flag);
+  dpram_.write(acyclic ? regs::kChipCommand2 : regs::kChipCommand1, command);
+  if (item_ == Item::kPrm || item_ == Item::kCfg) interrupt_.trigger(now);  // P7
   next_item();
   goto_phase(Phase::kChoose, now + 1);
 }

@@ -52,9 +52,13 @@ class DpramSequencer {
     kCfgVerdict,
     kInput,
     kDiag,
+    kC1Answer,
+    kC2Answer,
     kPrm,
     kCfg,
     kOutput,
+    kC1Request,
+    kC2Request,
     kValidFlag,
     kOfflineHigh,
     kOfflineLow,
@@ -88,6 +92,7 @@ class DpramSequencer {
     std::uint8_t flag;
   };
   static const Area& area(Item item);
+  static bool acyclic_answer(Item item) { return item == Item::kC1Answer || item == Item::kC2Answer; }
 
   // access
   void begin(Cycle now);
@@ -118,6 +123,7 @@ class DpramSequencer {
   void commit_input(Cycle now);
   void commit_diag(Cycle now);
   void commit_verdict(Cycle now);
+  void commit_acyclic(Cycle now);
   void refuse_length(Cycle now);
   void init_result(bool good);
   bool offline() const { return station_.slave().state() == profibus::DpState::kOffline; }
@@ -141,7 +147,8 @@ class DpramSequencer {
   int image_size_ = 0;                     // without the CRC
   std::uint16_t image_crc_ = 0;
 
-  std::uint8_t user_command1_ = 0, chip_command1_ = 0, dpv1_ = 0;  // B010, B00E, B005 as this access found them
+  // B010, B011, B00E, B00F and B005 as this access found them
+  std::uint8_t user_command1_ = 0, user_command2_ = 0, chip_command1_ = 0, chip_command2_ = 0, dpv1_ = 0;
   // status bytes as last written, and what is to be written
   bool valid_written_ = false;
   std::uint16_t offline_written_ = 0;

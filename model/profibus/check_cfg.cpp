@@ -79,6 +79,7 @@ void DpSlave::accept_cfg(Cycle now) {
   cfg_awaited_ = false;
   if (lengths.input() != inputs_.size()) inputs_.reset(lengths.input());  // D10: zeros until the first valid block
   outputs_.reset(lengths.output());
+  if (lengths.output() == 0) mail_.output_due.clear();
   enter(now, DpState::kDataExch);
 }
 

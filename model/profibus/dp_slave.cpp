@@ -3,7 +3,10 @@
 namespace profibus {
 namespace {
 
-constexpr int kMaxAddress = 125;  // EN 50170: 126 is the delivery address, 127 broadcast
+constexpr int kC1Ssap = 51, kC2Ssap = 50;  // table 24
+constexpr int kMaxAddress = 125;           // EN 50170: 126 is the delivery address, 127 broadcast
+
+bool c2_channel(int dsap) { return dsap <= kC2FirstSap && dsap > kC2FirstSap - kC2Channels; }
 
 }  // namespace
 
@@ -20,6 +23,8 @@ void DpSlave::reset() {
   inputs_.reset(0);
   diagnosis_.reset();
   mail_ = UserMail();
+  msac1_.reset();
+  msac2_.reset();
   offline_count_ = 0;
   data_exchanges_ = 0;
 }
@@ -55,6 +60,7 @@ void DpSlave::enter(Cycle now, DpState state) {
   inputs_.release();
   outputs_.release();
   clear_outputs(now);
+  msac1_.close(now);
 }
 
 void DpSlave::leave_to_wait_prm(Cycle now) {
@@ -83,11 +89,7 @@ void DpSlave::clear_outputs(Cycle now) {
 Reply DpSlave::handle(Cycle now, const Request& request) {
   if (request.code == fc::kFdlStatus) return Reply::status(fc::kOk);
   if (request.sdn()) {
-    if (request.dsap == sap::kGlobalControl) {
-      global_control(now, request);
-    } else {
-      log_.at_cycle(now, Reason::kSdnIgnored, static_cast<unsigned>(request.dsap), request.sa);
-    }
+    unanswered(now, request);
     return Reply::nothing();
   }
   if (!request.srd()) {
@@ -95,6 +97,12 @@ Reply DpSlave::handle(Cycle now, const Request& request) {
     return Reply::status(fc::kRs);  // S20: SDA, MSRD, identify, LSAP status
   }
   return dispatch(now, request);
+}
+
+void DpSlave::unanswered(Cycle now, const Request& request) {
+  if (request.dsap == sap::kGlobalControl) return global_control(now, request);
+  if (c2_channel(request.dsap) && msac2_.abort_unanswered(now, request)) return;
+  log_.at_cycle(now, Reason::kSdnIgnored, static_cast<unsigned>(request.dsap), request.sa);
 }
 
 Reply DpSlave::dispatch(Cycle now, const Request& request) {
@@ -110,7 +118,10 @@ Reply DpSlave::dispatch(Cycle now, const Request& request) {
     case sap::kSetPrm: return set_prm(now, request);
     case sap::kCheckCfg: return check_cfg(now, request);
     case sap::kGlobalControl: return refuse_state(now, request, sap::kGlobalControl);  // an SRD: only SDN is served
+    case sap::kC1: return c1(now, request);
+    case Msac2::kManagerSap: return c2_initiate(now, request);
     default:
+      if (c2_channel(request.dsap)) return msac2_.handle(now, request);
       log_.at_cycle(now, Reason::kSapUnknown, static_cast<unsigned>(request.dsap), request.sa);
       return Reply::status(fc::kRs);
   }
@@ -128,6 +139,32 @@ Reply DpSlave::refuse_state(Cycle now, const Request& request, int sap) {
 Reply DpSlave::refuse_master(Cycle now, const Request& request, int sap) {
   log_.at_cycle(now, Reason::kSapMaster, static_cast<unsigned>(sap), request.sa, master_);
   return Reply::status(fc::kRs);
+}
+
+Reply DpSlave::refuse_ssap(Cycle now, const Request& request, int ssap) {
+  log_.at_cycle(now, Reason::kAcyclicSsap, static_cast<unsigned>(request.dsap), static_cast<unsigned>(request.ssap),
+                static_cast<unsigned>(ssap));
+  return Reply::status(fc::kRs);
+}
+
+Reply DpSlave::c1(Cycle now, const Request& request) {
+  if (state_ != DpState::kDataExch) return refuse_state(now, request, sap::kC1);
+  if (held_by_other(request)) return refuse_master(now, request, sap::kC1);
+  if (!prm_.dpv1) {
+    log_.at_cycle(now, Reason::kC1Disabled, request.sa);
+    return Reply::status(fc::kRs);
+  }
+  if (request.ssap != kC1Ssap) return refuse_ssap(now, request, kC1Ssap);
+  return msac1_.handle(now, request);
+}
+
+Reply DpSlave::c2_initiate(Cycle now, const Request& request) {
+  if (b005_ != kDpv1Switch) {
+    log_.at_cycle(now, Reason::kC2Disabled, b005_, request.sa);
+    return Reply::status(fc::kRs);
+  }
+  if (request.ssap != kC2Ssap) return refuse_ssap(now, request, kC2Ssap);
+  return msac2_.initiate(now, request);
 }
 
 Reply DpSlave::data_exchange(Cycle now, const Request& request) {

@@ -4,6 +4,8 @@
 #include "model/profibus/diagnosis.hpp"
 #include "model/profibus/dp_state.hpp"
 #include "model/profibus/event_log.hpp"
+#include "model/profibus/msac1.hpp"
+#include "model/profibus/msac2.hpp"
 #include "model/profibus/request.hpp"
 #include "model/profibus/user_side.hpp"
 #include "model/profibus/watchdog.hpp"
@@ -11,19 +13,24 @@
 namespace profibus {
 
 namespace sap {
-constexpr int kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 57, kGlobalControl = 58, kGetCfg = 59,
+constexpr int kC1 = 51, kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 57, kGlobalControl = 58, kGetCfg = 59,
               kSlaveDiag = 60, kSetPrm = 61, kCheckCfg = 62;
 }
 
 constexpr std::uint8_t kNoMaster = 255;
+constexpr std::uint8_t kDpv1Switch = 0x1D;  // B005: the user's side has DPV1
 
 class DpSlave {
  public:
-  DpSlave(EventLog& log, Watchdog& watchdog) : log_(log), watchdog_(watchdog) {}
+  DpSlave(EventLog& log, Watchdog& watchdog)
+      : log_(log), watchdog_(watchdog), msac1_(log, mail_.c1), msac2_(log, mail_.c2) {}
 
   // --- from the bus -------------------------------------------------------------------------------------------------
   /// Executes a request at `now`. The reply's data are valid until the next call.
   Reply handle(Cycle now, const Request& request);
+  /// The C2 timers at `now` (V12), and when one of them ends next.
+  void eval_timers(Cycle now) { msac2_.eval(now); }
+  Cycle next_timer() const { return msac2_.next(); }
   /// The holding master's time is over (S1).
   void watchdog_expired(Cycle now);
 
@@ -37,6 +44,8 @@ class DpSlave {
   /// False with an event when refused (D10).
   bool new_inputs(Cycle now, const std::uint8_t* bytes, int size);
   bool new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size);
+  void c1_answer(Cycle now, const std::uint8_t* pdu, int size) { msac1_.answer(now, pdu, size); }
+  void c2_answer(Cycle now, const std::uint8_t* pdu, int size) { msac2_.answer(now, pdu, size); }
   UserMail& mail() { return mail_; }
   const UserMail& mail() const { return mail_; }
   /// What the user is to see of the outputs (buffer 2).
@@ -51,17 +60,22 @@ class DpSlave {
   std::uint16_t offline_count() const { return offline_count_; }  ///< B008/B009: times that data exchange was left
   std::uint64_t data_exchanges() const { return data_exchanges_; }
   const SlaveConfig& config() const { return config_; }
+  RmRegistry rm_registry() const { return msac2_.registry(); }
 
  private:
   struct PrmRequest {  // a Set_Prm that passed the checks of its standard bytes
     std::uint8_t master = kNoMaster, min_tsdr = 0, group = 0;
-    bool watchdog = false, sync = false, freeze = false, fail_safe = false;
+    bool watchdog = false, sync = false, freeze = false, fail_safe = false, dpv1 = false;
     unsigned watchdog_factor = 0, watchdog_base_ms = 0;  ///< WD_Fact_1 x WD_Fact_2, WD_Base
     int user_size = 0;
   };
 
   // dp_slave.cpp
   Reply dispatch(Cycle now, const Request& request);
+  void unanswered(Cycle now, const Request& request);
+  Reply c1(Cycle now, const Request& request);
+  Reply c2_initiate(Cycle now, const Request& request);
+  Reply refuse_ssap(Cycle now, const Request& request, int ssap);
   Reply data_exchange(Cycle now, const Request& request);
   Reply input_reply() const;
   Reply slave_diag(const Request& request);
@@ -112,6 +126,8 @@ class DpSlave {
   DoubleBuffer outputs_, inputs_;
   Diagnosis diagnosis_;
   UserMail mail_;
+  Msac1 msac1_;
+  Msac2 msac2_;
   std::uint16_t offline_count_ = 0;
   std::uint64_t data_exchanges_ = 0;
 };

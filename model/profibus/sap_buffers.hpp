@@ -7,7 +7,7 @@
 
 namespace profibus {
 
-constexpr int kMaxIo = 244, kMaxUserPrm = 237, kMaxCfg = 200, kMaxDiag = 238;
+constexpr int kMaxIo = 244, kMaxUserPrm = 237, kMaxCfg = 200, kMaxDiag = 238, kMaxAcyclic = 240;
 
 /// A buffer of fixed size with the number of bytes in use.
 template <int N>
@@ -29,6 +29,7 @@ struct Block {
 };
 
 using IoBlock = Block<kMaxIo>;
+using Pdu = Block<kMaxAcyclic + 4>;  ///< of C1 or C2: Function_Num, slot, index, length, data (7.2)
 
 /// Two buffers with the gate between them that Sync and Freeze close.
 class DoubleBuffer {

@@ -11,7 +11,6 @@ constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40, kSyncReq = 0x20, kFreezeReq
 // Spec_User_Prm_Byte = DPV1_Status_1, tables 21 and 25
 constexpr std::uint8_t kDpv1Enable = 0x80, kFailSafe = 0x40, kWdBase1ms = 0x04;
 constexpr int kStandardSize = 7, kDpv1Size = 10;
-constexpr std::uint8_t kDpv1Switch = 0x1D;  // B005
 
 }  // namespace
 
@@ -73,6 +72,7 @@ bool DpSlave::check_prm(Cycle now, const Request& request, PrmRequest& prm) {
   prm.sync = (data[0] & kSyncReq) != 0;
   prm.freeze = (data[0] & kFreezeReq) != 0;
   prm.fail_safe = (spec & kFailSafe) != 0;
+  prm.dpv1 = (spec & kDpv1Enable) != 0;
   prm.user_size = user_size;
   return true;
 }

@@ -38,7 +38,7 @@ void Station::initialise(Cycle now, const SlaveConfig& config) {
 Cycle Station::next() const {
   Cycle next = std::min(rxd_.next(), tx_.next());
   if (!running()) return next;
-  next = std::min({next, search_.next(), watchdog_.next()});
+  next = std::min({next, search_.next(), watchdog_.next(), slave_.next_timer()});
   return tx_.rts() ? next : std::min({next, rx_.next(), telegrams_.next(rx_.receiving())});
 }
 
@@ -78,7 +78,11 @@ void Station::select_rate(Cycle now) {
 
 void Station::watch(Cycle now) {
   if (search_.eval(now)) select_rate(now);
-  if (!watchdog_.expired(now)) return;
+  if (watchdog_.expired(now)) watchdog_expired(now);
+  slave_.eval_timers(now);
+}
+
+void Station::watchdog_expired(Cycle now) {
   if (watchdog_.state() == Watchdog::State::kDpControl) {
     slave_.watchdog_expired(now);
   } else {

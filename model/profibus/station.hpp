@@ -47,6 +47,7 @@ class Station {
   void listen(Cycle now);
   void select_rate(Cycle now);
   void watch(Cycle now);
+  void watchdog_expired(Cycle now);
   void start_search(Cycle now);
   void decide(Cycle now, const Telegram& telegram);
   void lock(Cycle now);

@@ -30,12 +30,19 @@ struct Due {
   bool before(Cycle now) const { return since < now; }
 };
 
+/// A C1 or C2 request for the user. It stays in `pdu` after it was taken, until the next one.
+struct AcyclicMail {
+  Due due;
+  Pdu pdu;
+};
+
 /// What the slave has for the user. The user's side takes a block by copying it and clearing its `due`.
 struct UserMail {
   Due prm_due, cfg_due, output_due;
   Block<kMaxUserPrm> prm;
   Block<kMaxCfg> cfg;
   int cfg_output = 0, cfg_input = 0;  ///< lengths that `cfg` describes
+  AcyclicMail c1, c2;
 };
 
 }  // namespace profibus

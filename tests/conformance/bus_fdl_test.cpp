@@ -345,20 +345,13 @@ TEST_F(Fdl, SapsThatDoNotExistAreRefusedWithTheReason) {
   bench.to_data_exch();
   int refused = 0;
   for (int sap = 0; sap < 256; ++sap) {  // bits 7 and 6 of the extension byte are not for SAPs of DP
-    if (sap >= 55 && sap <= 62) continue;
+    if ((sap >= 55 && sap <= 62) || (sap >= 47 && sap <= 49) || sap == 51) continue;
     const Exchange exchange = ask(bench, sap, {0, 0});
     EXPECT_TRUE(is_rs(exchange)) << "SAP " << sap << ": " << kind_of(exchange);
     EXPECT_EQ(bench.count(Reason::kSapUnknown), ++refused) << "SAP " << sap;
     EXPECT_EQ(bench.last(Reason::kSapUnknown).a, sap);
   }
   EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
-}
-
-TEST_F(Fdl, Dpv1SapsAreRefusedAsLongAsTheyAreNotServed) {
-  bench.to_data_exch();
-  for (const auto& [dsap, ssap] : {std::pair{51, 51}, {50, 51}, {49, 50}, {48, 50}, {47, 50}}) {
-    EXPECT_TRUE(is_rs(send_fc(bench, kFirst, dsap, ssap, {0x5E, 0, 0, 10}))) << dsap;
-  }
 }
 
 // --- addressing of answers (S21)

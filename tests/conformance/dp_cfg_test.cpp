@@ -179,6 +179,20 @@ TEST_F(CheckCfg, FaultFallsWithTheNextGoodOneNotWithSetPrm) {
 
 class CheckCfgInOperation : public CheckCfg, public testing::WithParamInterface<int> {};
 
+// Micro-architecture, section 11: cleared outputs that still wait when a configuration without outputs is accepted.
+TEST_F(CheckCfg, WaitingOutputsAreDroppedByAConfigurationWithoutOutputs) {
+  bench.to_data_exch();
+  settle(bench);
+  bench.fetch_outputs();
+  bench.acquire();
+  ASSERT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));  // leaves DATA_EXCH: the cleared outputs wait
+  ASSERT_TRUE(is_sc(cfg({0x11})));
+  ASSERT_EQ(bench.dp_state(), DpState::kDataExch);
+  bench.release();
+  settle(bench);
+  EXPECT_EQ(bench.peek(0x00E) & 0x01, 0);
+}
+
 TEST_P(CheckCfgInOperation, TheConfigurationInUseIsAcceptedAgain) {
   Init init;
   init.cfg_mode = static_cast<std::uint8_t>(GetParam());

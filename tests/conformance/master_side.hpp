@@ -13,7 +13,6 @@ using bus::Exchange;
 using dsdpv1::DpState;
 using profibus::Reason;
 
-constexpr Tick kCycleTicks = profibus::kTicksPerCycle;
 constexpr int kNoSap = -1;
 constexpr std::uint8_t kSrdFirst = 0x6D;   ///< SRD high, FCB = 1, FCV = 0: the start of a series, always executed
 constexpr std::uint8_t kSdnHigh = 0x46;    ///< SDN high

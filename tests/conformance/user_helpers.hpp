@@ -16,8 +16,6 @@ namespace regs = dsdpv1::regs;
 using profibus::Reason;
 using Cycle = profibus::Cycle;
 
-constexpr Tick kCycleTicks = 250;
-
 /// The first edge that samples a change made at `t`, and the one at which the logic sees it (P9).
 constexpr Cycle sampled_at(Tick t) { return t / kCycleTicks + 1; }
 constexpr Cycle seen_at(Tick t) { return sampled_at(t) + 2; }

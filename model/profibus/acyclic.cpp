@@ -1,0 +1,33 @@
+#include "model/profibus/acyclic.hpp"
+
+namespace profibus {
+
+std::uint8_t request_fault(const std::uint8_t* pdu, int size, bool transport) {
+  const std::uint8_t function = pdu[0];
+  const bool read = function == dpv1::kRead;
+  const bool write = function == dpv1::kWrite || (transport && function == dpv1::kTransport);
+  if (!read && !write) return dpv1::kNotSupported;
+  if (read) return size == dpv1::kHeader && pdu[3] <= kMaxAcyclic ? std::uint8_t{0} : dpv1::kInvalidParameter;
+  return size >= dpv1::kHeader && size == dpv1::kHeader + pdu[3] ? std::uint8_t{0} : dpv1::kWriteLength;
+}
+
+void negative_answer(std::uint8_t function, std::uint8_t error_code1, Pdu& pdu) {
+  const std::uint8_t bytes[dpv1::kHeader] = {static_cast<std::uint8_t>(function | dpv1::kNegative), dpv1::kErrorDecode,
+                                             error_code1, 0};
+  pdu.assign(bytes, dpv1::kHeader);
+}
+
+bool answer_fits(Cycle now, EventLog& log, int area, const std::uint8_t* answer, const Pdu& request) {
+  const bool negative = (answer[0] & dpv1::kNegative) != 0;
+  const int compared = negative ? 1 : 3;  // an error's other bytes are codes
+  for (int i = 0; i < compared; ++i) {
+    const unsigned expected = request.bytes[static_cast<std::size_t>(i)];
+    const unsigned found = i == 0 ? answer[0] & ~unsigned{dpv1::kNegative} : answer[i];
+    if (found == expected) continue;
+    log.at_cycle(now, Reason::kAcyclicAnswerDiffers, static_cast<unsigned>(area << 8 | i), found, expected);
+    return false;
+  }
+  return true;
+}
+
+}  // namespace profibus

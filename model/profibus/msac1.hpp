@@ -1,0 +1,30 @@
+#pragma once
+// MSAC_C1: DS_Read and DS_Write of the parameterising master on SAP 51 (7.2; rulings V1, V8, V9, V14).
+#include "model/profibus/acyclic.hpp"
+
+namespace profibus {
+
+class Msac1 {
+ public:
+  Msac1(EventLog& log, AcyclicMail& mail) : log_(log), mail_(mail) {}
+
+  void reset() { state_ = State::kIdle; }
+  /// A request or a poll of the master that may (SAP 51, SSAP 51). The reply's data are valid until the next call.
+  Reply handle(Cycle now, const Request& request);
+  /// Data exchange is left: an open request is withdrawn.
+  void close(Cycle now);
+  /// The user's answer, CRC already found right. Refused with a reason when it does not fit (V14).
+  void answer(Cycle now, const std::uint8_t* pdu, int size);
+
+ private:
+  enum class State : std::uint8_t { kIdle, kOpen, kAnswered };
+
+  Reply poll(Cycle now);
+
+  EventLog& log_;
+  AcyclicMail& mail_;
+  State state_ = State::kIdle;
+  Pdu answer_;
+};
+
+}  // namespace profibus

@@ -1,0 +1,287 @@
+#include "model/profibus/msac2.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace profibus {
+namespace {
+
+constexpr int kArea = 2, kSsap = 50;
+constexpr Cycle kCyclesPerUnit = 10 * kCyclesPerMs;  // Send_Timeout counts 10 ms
+constexpr int kLargestTimer = 0xFFFF;                // 16 bit, table 33
+// Initiate: Function_Num, 3 reserved, Send_Timeout, Features, Profile_Features, Profile_Ident, Add_Addr
+constexpr int kSendTimeout = 4, kFeatures = 6, kAddAddr = 12, kLeastInitiate = 14;
+constexpr std::uint8_t kReadWrite = 0x01;  // Features_Supported, first byte
+constexpr std::uint8_t kLargestPdu = 240;  // Max_Len_Data_Unit
+// The second byte of an abort PDU is the subnet, the third instance and reason: 1 = MSAC_C2; sequence error, timeout
+constexpr std::uint8_t kNoSubnet = 0, kSequenceError = 0x11, kTimeout = 0x13;
+constexpr std::uint8_t kFTimer = 1, kITimer = 2, kUTimer = 3;
+
+void put(Pdu& pdu, std::initializer_list<std::uint8_t> bytes) {
+  pdu.assign(bytes.begin(), static_cast<int>(bytes.size()));
+}
+
+// Add_Addr is two API bytes, or `S_Type, S_Len, D_Type, D_Len, S_Addr, D_Addr` (V10).
+constexpr int kShortAddr = 2, kLongAddr = 4;
+
+bool addresses_right(const std::uint8_t* addr, int size) {
+  return size == kShortAddr || (size >= kLongAddr && size == kLongAddr + addr[1] + addr[3]);
+}
+
+/// Appends Add_Addr with source and destination exchanged.
+void exchange_addresses(const std::uint8_t* addr, int size, Pdu& pdu) {
+  std::uint8_t* to = pdu.bytes.data() + pdu.size;
+  pdu.size += size;
+  if (size == kShortAddr) {
+    to[0] = addr[1];
+    to[1] = addr[0];
+    return;
+  }
+  const std::uint8_t* source = addr + kLongAddr;
+  const std::uint8_t* destination = source + addr[1];
+  to = std::copy_n(addr + 2, 2, to);
+  to = std::copy_n(addr, 2, to);
+  to = std::copy_n(destination, addr[3], to);
+  std::copy_n(source, addr[1], to);
+}
+
+int send_timeout(const std::uint8_t* initiate) { return initiate[kSendTimeout] << 8 | initiate[kSendTimeout + 1]; }
+
+bool well_formed(const std::uint8_t* pdu, int size) {
+  return pdu[0] == dpv1::kInitiate && size >= kLeastInitiate && send_timeout(pdu) != 0;
+}
+
+std::uint8_t initiate_fault(const Pdu& pdu) {
+  const std::uint8_t* bytes = pdu.bytes.data();
+  if ((bytes[kFeatures] & kReadWrite) == 0) return dpv1::kNotSupported;
+  if (!addresses_right(bytes + kAddAddr, pdu.size - kAddAddr)) return dpv1::kInvalidParameter;
+  return 0;
+}
+
+}  // namespace
+
+void Msac2::reset() {
+  for (Channel& channel : channels_) channel = Channel();
+  turn_ = kNobody;
+}
+
+RmRegistry Msac2::registry() const {
+  RmRegistry registry;
+  for (std::size_t i = 0; i < registry.size(); ++i) {
+    const State state = channels_[i].state;
+    RmEntry& entry = registry[i];
+    entry.in_use = state != State::kFree;
+    entry.master = entry.in_use ? channels_[i].master : std::uint8_t{0};
+    entry.exchanging = state == State::kBusy || state == State::kAnswered;
+    entry.connected = entry.exchanging || state == State::kOpen;
+  }
+  return registry;
+}
+
+// --- the resource manager -------------------------------------------------------------------------------------------------
+
+int Msac2::free_channel() const {
+  for (int channel = 0; channel < kC2Channels; ++channel)
+    if (state(channel) == State::kFree) return channel;
+  return kNobody;
+}
+
+Reply Msac2::initiate(Cycle now, const Request& request) {
+  if (request.size == 0) return Reply::sc();
+  if (!well_formed(request.data, request.size)) {
+    log_.at_cycle(now, Reason::kC2InitiateWrong, request.data[0], static_cast<unsigned>(request.size));
+    return Reply::status(fc::kRs);
+  }
+  const int free = free_channel();
+  if (free == kNobody) {
+    log_.at_cycle(now, Reason::kC2Full, request.sa);
+    return Reply::status(fc::kRs);
+  }
+  Channel& channel = channel_at(free);
+  channel.pdu.assign(request.data, request.size);
+  const int units = send_timeout(request.data);
+  log_.at_cycle(now, Reason::kC2Initiate, sap_of(free), request.sa, static_cast<unsigned>(units));
+  channel.state = State::kInitiated;
+  channel.master = request.sa;
+  channel.timeout = units * kCyclesPerUnit;
+  channel.idle_timeout = std::min(2 * units, kLargestTimer) * kCyclesPerUnit;
+  channel.watch = now + channel.timeout;
+  put(reply_, {dpv1::kInitiateNow, static_cast<std::uint8_t>(sap_of(free)), request.data[kSendTimeout],
+               request.data[kSendTimeout + 1]});
+  return Reply::with_data(fc::kDl, reply_.bytes.data(), reply_.size);
+}
+
+// --- a channel --------------------------------------------------------------------------------------------------------------
+
+bool Msac2::refused(Cycle now, const Request& request) const {
+  const Channel& channel = channel_at(channel_of(request));
+  const auto sap = static_cast<unsigned>(request.dsap);
+  if (channel.state == State::kFree) {
+    log_.at_cycle(now, Reason::kC2NotInUse, sap, request.sa);
+  } else if (channel.master != request.sa) {
+    log_.at_cycle(now, Reason::kC2Master, sap, request.sa, channel.master);
+  } else if (request.ssap != kSsap) {
+    log_.at_cycle(now, Reason::kAcyclicSsap, sap, static_cast<unsigned>(request.ssap), kSsap);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+Reply Msac2::handle(Cycle now, const Request& request) {
+  if (refused(now, request)) return Reply::status(fc::kRs);
+  const int channel = channel_of(request);
+  if (request.size == 0) return poll(now, channel);
+  if (abort_unanswered(now, request)) return Reply::sc();
+  return this->request(now, channel, request);
+}
+
+bool Msac2::abort_unanswered(Cycle now, const Request& request) {
+  if (request.size == 0 || request.data[0] != dpv1::kAbort) return false;
+  const int channel = channel_of(request);
+  if (state(channel) == State::kFree || channel_at(channel).master != request.sa || request.ssap != kSsap) return false;
+  log_.at_cycle(now, Reason::kC2AbortedByMaster, sap_of(channel), request.size > 2 ? request.data[2] : 0U,
+                request.size > 3 ? request.data[3] : 0U);
+  free(channel, now);
+  return true;
+}
+
+Reply Msac2::poll(Cycle now, int number) {
+  Channel& channel = channel_at(number);
+  switch (channel.state) {
+    case State::kInitiated: return connect(now, number);
+    case State::kAnswered: return send_answer(now, number);
+    case State::kAborted: return send_abort(now, number, kTimeout, channel.abort_detail);
+    case State::kBusy: channel.watch = now + channel.timeout; break;
+    default: break;
+  }
+  return Reply::sc();
+}
+
+Reply Msac2::connect(Cycle now, int number) {
+  Channel& channel = channel_at(number);
+  if (const std::uint8_t fault = initiate_fault(channel.pdu); fault != 0) {
+    log_.at_cycle(now, Reason::kC2InitiateRefused, sap_of(number), fault);
+    free(number, now);
+    negative_answer(dpv1::kInitiate, fault, reply_);
+  } else {
+    log_.at_cycle(now, Reason::kC2Connected, sap_of(number), channel.master);
+    channel.state = State::kOpen;
+    channel.watch = now + channel.idle_timeout;
+    put(reply_, {dpv1::kInitiate, kLargestPdu, kReadWrite, 0, 0, 0, 0, 0});
+    exchange_addresses(channel.pdu.bytes.data() + kAddAddr, channel.pdu.size - kAddAddr, reply_);
+  }
+  return Reply::with_data(fc::kDl, reply_.bytes.data(), reply_.size);
+}
+
+Reply Msac2::request(Cycle now, int number, const Request& request) {
+  Channel& channel = channel_at(number);
+  const std::uint8_t function = request.data[0];
+  switch (channel.state) {
+    case State::kInitiated: return send_abort(now, number, kSequenceError, 0);
+    case State::kAborted: return send_abort(now, number, kTimeout, channel.abort_detail);
+    case State::kOpen: break;
+    default: log_.at_cycle(now, Reason::kAcyclicOpen, sap_of(number), function); return Reply::status(fc::kRr);
+  }
+  channel.watch = now + channel.timeout;
+  if (function == dpv1::kIdle) {
+    put(channel.pdu, {dpv1::kIdle});
+    channel.state = State::kAnswered;
+  } else if (const std::uint8_t fault = request_fault(request.data, request.size, true); fault != 0) {
+    log_.at_cycle(now, Reason::kAcyclicRequestRefused, sap_of(number), function, fault);
+    negative_answer(function, fault, channel.pdu);
+    channel.state = State::kAnswered;
+  } else {
+    log_.at_cycle(now, Reason::kC2Request, sap_of(number) << 8 | function, request.data[1], request.data[2]);
+    channel.pdu.assign(request.data, request.size);
+    channel.state = State::kBusy;
+    if (turn_ == kNobody) begin_turn(now, number);
+  }
+  return Reply::sc();
+}
+
+Reply Msac2::send_answer(Cycle now, int number) {
+  Channel& channel = channel_at(number);
+  if (channel.pdu.bytes[0] != dpv1::kIdle)
+    log_.at_cycle(now, Reason::kC2Answer, sap_of(number), channel.pdu.bytes[0],
+                  static_cast<unsigned>(channel.pdu.size));
+  channel.state = State::kOpen;
+  channel.watch = now + channel.idle_timeout;
+  return Reply::with_data(fc::kDl, channel.pdu.bytes.data(), channel.pdu.size);
+}
+
+Reply Msac2::send_abort(Cycle now, int number, std::uint8_t instance_reason, std::uint8_t detail) {
+  log_.at_cycle(now, Reason::kC2Abort, sap_of(number), instance_reason, detail);
+  free(number, now);
+  put(reply_, {dpv1::kAbort, kNoSubnet, instance_reason, detail});
+  return Reply::with_data(fc::kDl, reply_.bytes.data(), reply_.size);
+}
+
+void Msac2::answer(Cycle now, const std::uint8_t* pdu, int size) {
+  if (turn_ == kNobody || mail_.due.waiting()) return log_.at_cycle(now, Reason::kAcyclicNoRequest, kArea);
+  if (!answer_fits(now, log_, kArea, pdu, mail_.pdu)) return;
+  const int number = turn_;
+  channel_at(number).pdu.assign(pdu, size);
+  channel_at(number).state = State::kAnswered;
+  end_turn(now, number);
+}
+
+// --- timers -----------------------------------------------------------------------------------------------------------------
+
+void Msac2::eval(Cycle now) {
+  for (int channel = 0; channel < kC2Channels; ++channel)
+    if (now >= std::min(channel_at(channel).watch, channel_at(channel).user)) expire(now, channel);
+}
+
+Cycle Msac2::next() const {
+  Cycle next = kNever;
+  for (const Channel& channel : channels_) next = std::min({next, channel.watch, channel.user});
+  return next;
+}
+
+void Msac2::expire(Cycle now, int number) {
+  const Channel& channel = channel_at(number);
+  if (channel.state == State::kAborted) {
+    log_.at_cycle(now, Reason::kC2Freed, sap_of(number), channel.master);
+    return free(number, now);
+  }
+  const bool watch = now >= channel.watch;
+  abort(now, number, !watch ? kUTimer : channel.state == State::kOpen ? kITimer : kFTimer);
+}
+
+void Msac2::abort(Cycle now, int number, std::uint8_t detail) {
+  Channel& channel = channel_at(number);
+  log_.at_cycle(now, Reason::kC2Timeout, sap_of(number), detail, channel.master);
+  channel.state = State::kAborted;
+  channel.abort_detail = detail;
+  channel.watch = now + channel.timeout;
+  end_turn(now, number);
+}
+
+void Msac2::free(int number, Cycle now) {
+  Channel& channel = channel_at(number);
+  channel.state = State::kFree;
+  channel.watch = kNever;
+  end_turn(now, number);
+}
+
+// --- the DPRAM area that both channels share (V4) -----------------------------------------------------------------------------
+
+void Msac2::begin_turn(Cycle now, int number) {
+  Channel& channel = channel_at(number);
+  turn_ = number;
+  mail_.pdu = channel.pdu;
+  mail_.due.set(now);
+  channel.user = now + channel.timeout;
+}
+
+void Msac2::end_turn(Cycle now, int number) {
+  channel_at(number).user = kNever;
+  if (turn_ != number) return;
+  turn_ = kNobody;
+  mail_.due.clear();
+  const int other = 1 - number;
+  if (channel_at(other).state == State::kBusy) begin_turn(now, other);
+}
+
+}  // namespace profibus

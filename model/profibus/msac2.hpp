@@ -1,0 +1,71 @@
+#pragma once
+// MSAC_C2: two channels for class 2 masters, the resource manager that lends them (table 30) and the F, I and U timers (7.3,
+// figure 11; rulings V2 to V4, V7 to V14). docs/microarchitecture.md, section 15.2, has the states.
+#include "model/profibus/acyclic.hpp"
+#include "model/profibus/rm_registry.hpp"
+
+namespace profibus {
+
+class Msac2 {
+ public:
+  static constexpr int kManagerSap = 49;
+
+  Msac2(EventLog& log, AcyclicMail& mail) : log_(log), mail_(mail) {}
+
+  void reset();
+  /// SAP 49 with SSAP 50: a channel for the sender, or RS. The reply's data are valid until the next call.
+  Reply initiate(Cycle now, const Request& request);
+  /// SAP 48 or 47: poll, request or abort.
+  Reply handle(Cycle now, const Request& request);
+  /// SDN to SAP 48 or 47: true when it was the abort of the channel's master.
+  bool abort_unanswered(Cycle now, const Request& request);
+  /// The user's answer, CRC already found right. Refused with a reason when it does not fit (V14).
+  void answer(Cycle now, const std::uint8_t* pdu, int size);
+
+  /// The timers at `now`, and when one of them ends next.
+  void eval(Cycle now);
+  Cycle next() const;
+
+  RmRegistry registry() const;
+
+ private:
+  enum class State : std::uint8_t { kFree, kInitiated, kOpen, kBusy, kAnswered, kAborted };
+
+  struct Channel {
+    State state = State::kFree;
+    std::uint8_t master = 0;
+    std::uint8_t abort_detail = 0;  ///< 1, 2, 3: F, I, U ended
+    Cycle timeout = 0;              ///< Send_Timeout in cycles
+    Cycle idle_timeout = 0;         ///< twice that, as far as 16 bits go
+    Cycle watch = kNever;           ///< F or I ends
+    Cycle user = kNever;            ///< U ends
+    Pdu pdu;                        ///< Initiate, then the request, then its answer
+  };
+  static constexpr int kNobody = -1;
+
+  Channel& channel_at(int channel) { return channels_[static_cast<std::size_t>(channel)]; }
+  const Channel& channel_at(int channel) const { return channels_[static_cast<std::size_t>(channel)]; }
+  State state(int channel) const { return channel_at(channel).state; }
+  static int channel_of(const Request& request) { return kC2FirstSap - request.dsap; }
+  static unsigned sap_of(int channel) { return static_cast<unsigned>(kC2FirstSap - channel); }
+  bool refused(Cycle now, const Request& request) const;
+  int free_channel() const;
+  Reply poll(Cycle now, int channel);
+  Reply connect(Cycle now, int channel);
+  Reply request(Cycle now, int channel, const Request& request);
+  Reply send_answer(Cycle now, int channel);
+  Reply send_abort(Cycle now, int channel, std::uint8_t instance_reason, std::uint8_t detail);
+  void expire(Cycle now, int channel);
+  void abort(Cycle now, int channel, std::uint8_t detail);
+  void free(int channel, Cycle now);
+  void begin_turn(Cycle now, int channel);
+  void end_turn(Cycle now, int channel);
+
+  EventLog& log_;
+  AcyclicMail& mail_;
+  std::array<Channel, kC2Channels> channels_;
+  int turn_ = kNobody;  ///< the channel whose request has the DPRAM area
+  Pdu reply_;           ///< what the chip itself says: immediate answers, initiate answers, aborts
+};
+
+}  // namespace profibus

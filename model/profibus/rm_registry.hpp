@@ -1,0 +1,19 @@
+#pragma once
+// The resource manager's registry (table 30): which C2 channel is lent to whom.
+#include <array>
+#include <cstdint>
+
+namespace profibus {
+
+constexpr int kC2Channels = 2, kC2FirstSap = 48;  ///< channel k has SAP 48 - k: 0x30, 0x2F
+
+struct RmEntry {
+  std::uint8_t master = 0;  ///< its address; 0 while not in use
+  bool in_use = false;      ///< lent to a master
+  bool connected = false;   ///< the initiate answer has been fetched
+  bool exchanging = false;  ///< a request is open
+};
+
+using RmRegistry = std::array<RmEntry, kC2Channels>;
+
+}  // namespace profibus
