@@ -5,33 +5,10 @@
 #include <algorithm>
 
 #include "tb/bench/pin_chip.hpp"
+#include "tb/cosim/rtl_device.hpp"
 
 namespace cosim {
 namespace {
-
-/// The RTL, and a core that gets the same inputs.
-class RtlDevice : public tb::PinDevice {
- public:
-  RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top) : core_(config), rtl_(std::move(top)) {}
-
-  void set(Tick at, Pin pin, Level level) override {
-    core_.set(at, pin, level);
-    rtl_.set(at, pin, level);
-  }
-  void advance(Tick to) override {
-    core_.advance(to);
-    rtl_.advance(to);
-  }
-  Level level(Pin pin) const override { return rtl_.level(pin); }
-  Tick next_event() const override { return std::min(rtl_.next_event(), core_.next_event()); }
-  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { rtl_.watch(sink, pins); }
-  void on_event(const profibus::EventSink& sink) override { core_.on_event(sink); }
-  const dsdpv1::Chip& core() const override { return core_; }
-
- private:
-  dsdpv1::Chip core_;
-  RtlChip rtl_;
-};
 
 class LockstepDevice : public tb::PinDevice {
  public:
