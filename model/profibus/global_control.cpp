@@ -12,10 +12,12 @@ constexpr int kSize = 2;
 
 void DpSlave::global_control(Cycle now, const Request& request) {
   const unsigned command = request.size > 0 ? request.data[0] : 0U, group = request.size > 1 ? request.data[1] : 0U;
-  const bool meant = group == 0 || (group & prm_.group) != 0;
-  if (request.size != kSize || (command & kReserved) != 0 || !meant || state_ != DpState::kDataExch ||
-      master_ != request.sa) {
+  if (request.size != kSize || (command & kReserved) != 0 || state_ != DpState::kDataExch || master_ != request.sa) {
     log_.at_cycle(now, Reason::kGcIgnored, command, group, request.sa);
+    return;
+  }
+  if (group != 0 && (group & prm_.group) == 0) {
+    log_.at_cycle(now, Reason::kGcOtherGroup, command, group, prm_.group);
     return;
   }
   log_.at_cycle(now, Reason::kGlobalControl, command, group, request.sa);

@@ -192,10 +192,11 @@ TEST_F(GlobalControl, IsForTheGroupsOfSetPrmAndForAllWithZero) {
     one.to_data_exch({}, prm(0xB0, own));
     for (const int selected : {0x00, 0x01, 0x02, 0x80, 0xA5, 0xFF}) {
       ask(one, kNoSap, {1, 2});
-      const int before = one.count(Reason::kGlobalControl);
+      const int before = one.count(Reason::kGlobalControl), others = one.count(Reason::kGcOtherGroup);
       tell(one, bus::kBroadcast, 58, {kClear, static_cast<std::uint8_t>(selected)});
       const bool meant = selected == 0 || (own & selected) != 0;
       EXPECT_EQ(one.count(Reason::kGlobalControl) - before, meant ? 1 : 0) << own << " " << selected;
+      EXPECT_EQ(one.count(Reason::kGcOtherGroup) - others, meant ? 0 : 1) << own << " " << selected;
       EXPECT_EQ(ask(one, 57).answer().data, meant ? (Bytes{0, 0}) : (Bytes{1, 2})) << own << " " << selected;
     }
   }
