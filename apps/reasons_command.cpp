@@ -63,6 +63,17 @@ const char* advice_of(dsdpv1_error error) {
     case DSDPV1_ERR_CFG_CRC: return "Check the read timing, and that nobody reads without owning the DPRAM.";
     case DSDPV1_ERR_NO_VERDICT_DUE: return "Send a verdict once for each block, and only in judging mode 2.";
     case DSDPV1_ERR_VERDICT_STALE: return "Call dsdpv1_service: it hands over the newer block.";
+    case DSDPV1_ERR_TABLE:
+      return "Give each slot and index once, 0 <= min_length <= max_length <= 240, services and classes, and data or a "
+             "handler for each service.";
+    case DSDPV1_ERR_IM0: return "Give texts of at most 20 and 16 characters.";
+    case DSDPV1_ERR_C1_LENGTH:
+    case DSDPV1_ERR_C1_CRC:
+    case DSDPV1_ERR_C2_LENGTH:
+    case DSDPV1_ERR_C2_CRC: return "Check the read timing, and that nobody reads without owning the DPRAM.";
+    case DSDPV1_ERR_ANSWER_LENGTH: return "Answer with 0 to 240 bytes.";
+    case DSDPV1_ERR_NO_REQUEST_OPEN: return "Answer each deferred request once.";
+    case DSDPV1_ERR_ANSWER_STALE: return "Forget the request: its master no longer waits for the answer.";
   }
   return "";
 }

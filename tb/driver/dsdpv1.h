@@ -44,7 +44,8 @@ extern "C" {
 
 /*
  * X(name, value, text). Values are stable: 1x use and handshake, 2x configuration refused by the driver, 3x
- * initialisation refused by the chip, 4x cyclic data, 5x diagnosis, 6x parameters and configuration from the master.
+ * initialisation refused by the chip, 4x cyclic data, 5x diagnosis, 6x parameters and configuration from the master,
+ * 7x DPV1 (dsdpv1_acyclic.h).
  */
 #define DSDPV1_ERROR_TABLE(X)                                                                                      \
   X(DSDPV1_OK, 0, "success")                                                                                       \
@@ -80,7 +81,17 @@ extern "C" {
   X(DSDPV1_ERR_CFG_LENGTH, 62, "the configuration length in the DPRAM is above 200")                               \
   X(DSDPV1_ERR_CFG_CRC, 63, "the configuration's CRC is wrong, also after reading again")                          \
   X(DSDPV1_ERR_NO_VERDICT_DUE, 64, "a verdict was sent that no open judgement in mode 2 waits for")                \
-  X(DSDPV1_ERR_VERDICT_STALE, 65, "the master has sent a newer block; judge that one first (dsdpv1_service)")
+  X(DSDPV1_ERR_VERDICT_STALE, 65, "the master has sent a newer block; judge that one first (dsdpv1_service)")      \
+  X(DSDPV1_ERR_TABLE, 70, "an object of the slot and index table contradicts itself or stands there twice")        \
+  X(DSDPV1_ERR_IM0, 71, "I&M0: order or serial number is missing or longer than 20 and 16 characters")             \
+  X(DSDPV1_ERR_C1_LENGTH, 72, "the length of the C1 request in the DPRAM is above 240")                            \
+  X(DSDPV1_ERR_C1_CRC, 73, "the C1 request's CRC is wrong, also after reading again")                              \
+  X(DSDPV1_ERR_C2_LENGTH, 74, "the length of the C2 request in the DPRAM is above 240")                            \
+  X(DSDPV1_ERR_C2_CRC, 75, "the C2 request's CRC is wrong, also after reading again")                              \
+  X(DSDPV1_ERR_ANSWER_LENGTH, 76, "an acyclic answer is longer than 240 bytes")                                    \
+  X(DSDPV1_ERR_NO_REQUEST_OPEN, 77, "the acyclic request has been answered already")                               \
+  X(DSDPV1_ERR_ANSWER_STALE, 78,                                                                                   \
+    "the acyclic request is gone: a newer one or a new initialisation came; nothing was sent")
 
 typedef enum dsdpv1_error {
 #define DSDPV1_ERROR_ENUMERATOR(name, value, text) name = (value),

@@ -1,7 +1,10 @@
 /* Reading what the chip has written, with its CRC (4.2, table 7). */
 #include "dsdpv1_internal.h"
 
-uint8_t dsdpv1_copy_length(const dsdpv1_area* area, const dsdpv1_copy* copy) { return copy->header[area->header - 1u]; }
+uint8_t dsdpv1_copy_length(const dsdpv1_area* area, const dsdpv1_copy* copy) {
+  const bool read_request = area->header == kAcyclicHeader && copy->header[0] == DSDPV1_REG_FUNCTION_NUM_READ;
+  return read_request ? 0u : copy->header[area->header - 1u];
+}
 
 static bool fits(const dsdpv1_area* area, const dsdpv1_copy* copy) {
   return dsdpv1_copy_length(area, copy) <= copy->capacity;
@@ -45,6 +48,7 @@ static dsdpv1_error tell_and_fetch_again(dsdpv1_device* device, const dsdpv1_are
   if (error == DSDPV1_OK) {
     put_user_status(device, (uint8_t)(device->user_status_2 | area->error_bit));
     dsdpv1_fetch(device, area, copy);
+    dsdpv1_put(device, area->command, (uint8_t)(dsdpv1_get(device, area->command) & ~(unsigned)area->flag));
     dsdpv1_release(device);
   }
   return error;

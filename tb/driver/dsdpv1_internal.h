@@ -30,21 +30,25 @@ void dsdpv1_put_word(const dsdpv1_device* device, uint16_t address, uint16_t val
 
 /* ---------------------------------------------------------------------------- blocks from the chip (dsdpv1_block.c) */
 
+enum { kAcyclicHeader = 4 }; /* Function_Num, slot, index, length */
+
 /*
  * An area that the chip fills. The bytes before the data are all covered by the CRC, the last of them is the length
- * (D3).
+ * (D3); only a DPV1 read request has no data behind its length (V5).
  */
 typedef struct dsdpv1_area {
   uint16_t address;
-  uint8_t header; /* bytes before the data, 1..3 */
+  uint8_t header; /* bytes before the data, 1..3; kAcyclicHeader for DPV1 */
   uint16_t crc_address;
   uint8_t error_bit; /* in B00D */
   dsdpv1_error length_error, crc_error;
+  uint16_t command; /* where the chip announces it, B00E or B00F */
+  uint8_t flag;     /* and with which bit */
 } dsdpv1_area;
 
 /* What was read of an area. */
 typedef struct dsdpv1_copy {
-  uint8_t header[3];
+  uint8_t header[4];
   uint8_t* data;    /* `capacity` bytes */
   uint8_t capacity; /* longer blocks are not read */
   uint16_t crc;
@@ -54,10 +58,11 @@ typedef struct dsdpv1_copy {
 void dsdpv1_fetch(const dsdpv1_device* device, const dsdpv1_area* area, dsdpv1_copy* copy);
 /*
  * Checks the copy's CRC; when it is wrong, says so in B00D and reads again in holds of its own, `crc_retries` times.
+ * What is read again may be a newer block, so the flag falls with it.
  * Outside of holds. Returns the area's errors or those of a hold.
  */
 dsdpv1_error dsdpv1_confirm(dsdpv1_device* device, const dsdpv1_area* area, dsdpv1_copy* copy);
-/* The length byte of the copy. */
+/* Bytes of data that the copy's header announces. */
 uint8_t dsdpv1_copy_length(const dsdpv1_area* area, const dsdpv1_copy* copy);
 
 #endif /* DSDPV1_INTERNAL_H */

@@ -1,9 +1,10 @@
 /* Cyclic data and diagnosis. */
 #include "dsdpv1_internal.h"
 
-static const dsdpv1_area kOutputs = {DSDPV1_REG_OUTPUT,        1,
-                                     DSDPV1_REG_OUTPUT_CRC,    DSDPV1_REG_USER_STATUS_2_OUTPUT_CRC,
-                                     DSDPV1_ERR_OUTPUT_LENGTH, DSDPV1_ERR_OUTPUT_CRC};
+static const dsdpv1_area kOutputs = {DSDPV1_REG_OUTPUT,         1,
+                                     DSDPV1_REG_OUTPUT_CRC,     DSDPV1_REG_USER_STATUS_2_OUTPUT_CRC,
+                                     DSDPV1_ERR_OUTPUT_LENGTH,  DSDPV1_ERR_OUTPUT_CRC,
+                                     DSDPV1_REG_CHIP_COMMAND_1, DSDPV1_REG_CHIP_COMMAND_1_OUTPUT};
 
 typedef struct input_block {
   const uint8_t* bytes;

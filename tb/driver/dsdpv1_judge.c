@@ -1,10 +1,22 @@
 /* Parameters and configuration from the master, and the user's verdicts on them (4.1.6, 6.2.2, 6.2.3). */
 #include "dsdpv1_internal.h"
 
-static const dsdpv1_area kPrm = {
-    DSDPV1_REG_PRM, 1, DSDPV1_REG_PRM_CRC, DSDPV1_REG_USER_STATUS_2_PRM_CRC, DSDPV1_ERR_PRM_LENGTH, DSDPV1_ERR_PRM_CRC};
-static const dsdpv1_area kCfg = {
-    DSDPV1_REG_CFG, 3, DSDPV1_REG_CFG_CRC, DSDPV1_REG_USER_STATUS_2_CFG_CRC, DSDPV1_ERR_CFG_LENGTH, DSDPV1_ERR_CFG_CRC};
+static const dsdpv1_area kPrm = {DSDPV1_REG_PRM,
+                                 1,
+                                 DSDPV1_REG_PRM_CRC,
+                                 DSDPV1_REG_USER_STATUS_2_PRM_CRC,
+                                 DSDPV1_ERR_PRM_LENGTH,
+                                 DSDPV1_ERR_PRM_CRC,
+                                 DSDPV1_REG_CHIP_COMMAND_1,
+                                 DSDPV1_REG_CHIP_COMMAND_1_PRM};
+static const dsdpv1_area kCfg = {DSDPV1_REG_CFG,
+                                 3,
+                                 DSDPV1_REG_CFG_CRC,
+                                 DSDPV1_REG_USER_STATUS_2_CFG_CRC,
+                                 DSDPV1_ERR_CFG_LENGTH,
+                                 DSDPV1_ERR_CFG_CRC,
+                                 DSDPV1_REG_CHIP_COMMAND_1,
+                                 DSDPV1_REG_CHIP_COMMAND_1_CFG};
 
 /* A master that changes its mind faster than this many rounds is left to the next call, so that a call stays bounded.
  */

@@ -94,7 +94,10 @@ void FakeChip::access() {
     take_verdicts();
     take_inputs();
     take_diagnosis();
+    take_answer(1);
+    take_answer(2);
     at(0x010) = 0;
+    at(0x011) = 0;
   }
 }
 
@@ -151,20 +154,36 @@ void FakeChip::take_diagnosis() {
   }
 }
 
+void FakeChip::take_answer(int master_class) {
+  if ((at(0x011) & master_class) == 0) {
+    return;
+  }
+  ++answers_taken;
+  const auto area = static_cast<std::uint16_t>(master_class == 1 ? 0x5D0 : 0x6D0);
+  const bool data = at(area) == 0x5E || at(area) == 0x51;
+  const std::size_t count = 4U + (data ? at(static_cast<std::uint16_t>(area + 3)) : 0U);
+  const bool right = crc_is_right(area, count, static_cast<std::uint16_t>(area + 0xF4));
+  const int bit = master_class == 1 ? 0x10 : 0x20;
+  at(0x00B) = static_cast<std::uint8_t>((at(0x00B) & ~bit) | (right ? 0 : bit));
+  if (right) {
+    answers[master_class - 1] = bytes(area, count);
+  }
+}
+
 std::vector<std::uint8_t> FakeChip::bytes(std::uint16_t address, std::size_t count) const {
   const auto first = memory.begin() + address;
   return {first, first + static_cast<std::ptrdiff_t>(count)};
 }
 
 void FakeChip::put_block(std::uint16_t address, const std::vector<std::uint8_t>& block, std::uint16_t crc,
-                         std::uint8_t flag) {
+                         std::uint8_t flag, std::uint16_t command) {
   for (std::size_t i = 0; i < block.size(); ++i) {
     memory.at(address + i) = block[i];
   }
   const std::uint16_t value = crc_of(block);
   at(crc) = static_cast<std::uint8_t>(value >> 8);
   at(static_cast<std::uint16_t>(crc + 1)) = static_cast<std::uint8_t>(value & 0xFF);
-  at(0x00E) = static_cast<std::uint8_t>(at(0x00E) | flag);
+  at(command) = static_cast<std::uint8_t>(at(command) | flag);
 }
 
 void FakeChip::put_outputs(const std::vector<std::uint8_t>& data) {
@@ -183,4 +202,9 @@ void FakeChip::put_cfg(std::uint8_t outputs, std::uint8_t inputs_length, const s
   std::vector<std::uint8_t> block{outputs, inputs_length, static_cast<std::uint8_t>(data.size())};
   block.insert(block.end(), data.begin(), data.end());
   put_block(0x500, block, 0x5CB, 0x04);
+}
+
+void FakeChip::put_request(int master_class, const std::vector<std::uint8_t>& request) {
+  const auto area = static_cast<std::uint16_t>(master_class == 1 ? 0x5D0 : 0x6D0);
+  put_block(area, request, static_cast<std::uint16_t>(area + 0xF4), static_cast<std::uint8_t>(master_class), 0x00F);
 }

@@ -30,7 +30,9 @@ struct FakeChip {
   int pauses = 0;
   std::vector<std::uint8_t> inputs, diagnosis;  ///< as consumed, without CRC
   int initialisations = 0;
-  std::vector<std::string> verdicts;  ///< "prm ok", "cfg wrong" ... in one entry what came in one access
+  std::vector<std::uint8_t> answers[2];  ///< the last answer of class 1 and 2 with a right CRC, without the CRC
+  int answers_taken = 0;                 ///< all, with a right or a wrong CRC
+  std::vector<std::string> verdicts;     ///< "prm ok", "cfg wrong" ... in one entry what came in one access
 
   FakeChip();
   dsdpv1_port port();
@@ -39,6 +41,8 @@ struct FakeChip {
   void put_outputs(const std::vector<std::uint8_t>& data);
   void put_prm(const std::vector<std::uint8_t>& data);
   void put_cfg(std::uint8_t outputs, std::uint8_t inputs_length, const std::vector<std::uint8_t>& data);
+  /// A request of a master of class 1 or 2: Function_Num, slot, index, length and what follows.
+  void put_request(int master_class, const std::vector<std::uint8_t>& request);
   /// Bytes of the memory from `address`.
   std::vector<std::uint8_t> bytes(std::uint16_t address, std::size_t count) const;
 
@@ -48,8 +52,10 @@ struct FakeChip {
   void take_verdicts();
   void take_inputs();
   void take_diagnosis();
+  void take_answer(int master_class);
   bool crc_is_right(std::uint16_t address, std::size_t count, std::uint16_t crc) const;
-  void put_block(std::uint16_t address, const std::vector<std::uint8_t>& block, std::uint16_t crc, std::uint8_t flag);
+  void put_block(std::uint16_t address, const std::vector<std::uint8_t>& block, std::uint16_t crc, std::uint8_t flag,
+                 std::uint16_t command = 0x00E);
   void check_ownership(const char* what);
   void set_r_req(bool level);
   void set_r_sta(bool level);

@@ -1,10 +1,46 @@
-// The numbers of the timing budget in docs/programmers_guide.md: DPRAM accesses and holds of each call, counted.
+// docs/programmers_guide.md: the numbers of the timing budget (DPRAM accesses and holds of each call, counted) and the
+// example of the DPV1 chapter, which is compiled as it stands there.
 #include <fstream>
 #include <sstream>
 
-#include "tests/driver/driver_fixture.hpp"
+#include "tests/driver/acyclic_fixture.hpp"
+
+extern "C" {
+dsdpv1_error drive_open(dsdpv1_device* chip);
+dsdpv1_error drive_poll(void);
+std::uint16_t measure_speed(void);
+void flash_start(const std::uint8_t* bytes, std::uint8_t length);
+bool flash_busy(void);
+bool flash_failed(void);
+}
+
+namespace board {
+
+// What the example's board functions do; the example is C and knows no object.
+std::vector<std::uint8_t> flash;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+bool busy = false, failed = false;
+
+}  // namespace board
+
+std::uint16_t measure_speed() { return 1500; }
+void flash_start(const std::uint8_t* bytes, std::uint8_t length) {
+  board::flash.assign(bytes, bytes + length);
+  board::busy = true;
+}
+bool flash_busy() { return board::busy; }
+bool flash_failed() { return board::failed; }
 
 namespace {
+
+/// The guide has the row "| what | holds | accesses |" with the numbers just counted.
+void expect_row_of(const FakeChip& chip, const std::string& what) {
+  std::ifstream file(GUIDE);
+  std::stringstream guide;
+  guide << file.rdbuf();
+  const std::string row =
+      "| " + what + " | " + std::to_string(chip.holds) + " | " + std::to_string(chip.accesses) + " |";
+  EXPECT_NE(guide.str().find(row), std::string::npos) << "the guide should say: " << row;
+}
 
 class GuideBudget : public DriverTest {
  protected:
@@ -16,15 +52,7 @@ class GuideBudget : public DriverTest {
     config.max_cfg = 200;
   }
   void begin() { chip.holds = chip.accesses = 0; }
-  /// The guide has the row "| what | holds | accesses |" with the numbers just counted.
-  void expect_row(const std::string& what) {
-    std::ifstream file(GUIDE);
-    std::stringstream guide;
-    guide << file.rdbuf();
-    const std::string row =
-        "| " + what + " | " + std::to_string(chip.holds) + " | " + std::to_string(chip.accesses) + " |";
-    EXPECT_NE(guide.str().find(row), std::string::npos) << "the guide should say: " << row;
-  }
+  void expect_row(const std::string& what) { expect_row_of(chip, what); }
 };
 
 TEST_F(GuideBudget, Initialisation) {
@@ -83,6 +111,103 @@ TEST_F(GuideBudget, DiagnosisAndStatus) {
   begin();
   ASSERT_EQ(dsdpv1_get_status(&device, &status), DSDPV1_OK);
   expect_row("get_status");
+}
+
+class GuideAcyclicBudget : public AcyclicTest {
+ protected:
+  /// One poll with that request, after everything earlier has settled.
+  void expect_row(const std::string& what, const Bytes& request) {
+    EXPECT_EQ(poll(), DSDPV1_OK);
+    chip.holds = chip.accesses = 0;
+    EXPECT_FALSE(ask(1, request).empty());
+    expect_row_of(chip, what);
+  }
+};
+
+TEST_F(GuideAcyclicBudget, Polls) {
+  dsdpv1_im0 im0{};
+  im0.order_id = im0.serial_number = "1";
+  table.im0 = &im0;
+  open();
+  chip.holds = chip.accesses = 0;
+  EXPECT_EQ(poll(), DSDPV1_OK);
+  expect_row_of(chip, "acyclic_poll, no request");
+  expect_row("acyclic_poll, read answered with 4 bytes", {0x5E, 1, 1, 4});
+  chip.holds = chip.accesses = 0;
+  EXPECT_EQ(poll(), DSDPV1_OK);
+  expect_row_of(chip, "acyclic_poll, no request, first after an answer");
+  expect_row("acyclic_poll, write of 4 bytes", {0x5F, 1, 1, 4, 1, 2, 3, 4});
+  expect_row("acyclic_poll, read answered with 240 bytes", {0x5E, 1, 5, 240});
+  expect_row("acyclic_poll, write of 240 bytes", with_data({0x5F, 1, 5, 240}, Bytes(240)));
+  static_cast<void>(ask(1, {0x5F, 0, 255, 4, 0x08, 0x00, 0xFD, 0xE8}));
+  expect_row("acyclic_poll, I&M0 read", {0x5E, 0, 255, 68});
+}
+
+/// The example, run on the fake chip.
+class GuideExample : public AcyclicTest {
+ protected:
+  void SetUp() override {
+    AcyclicTest::SetUp();
+    board::flash.clear();
+    board::busy = board::failed = false;
+    ASSERT_EQ(drive_open(&device), DSDPV1_OK);
+    initialise();
+  }
+  Bytes ask(int master_class, const Bytes& request) {
+    chip.answers[master_class - 1].clear();
+    chip.put_request(master_class, request);
+    EXPECT_EQ(drive_poll(), DSDPV1_OK);
+    return chip.answers[master_class - 1];
+  }
+};
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST_F(GuideExample, LimitsAreWrittenAndReadBack) {
+  EXPECT_THAT(ask(1, {0x5F, 1, 10, 4, 1, 2, 3, 4}), ElementsAre(0x5F, 1, 10, 4));
+  EXPECT_THAT(ask(2, {0x5E, 1, 10, 4}), ElementsAre(0x5E, 1, 10, 4, 1, 2, 3, 4));
+  EXPECT_THAT(ask(1, {0x5F, 1, 10, 3, 1, 2, 3}), ElementsAre(0xDF, 0x80, 0xB1, 0));
+}
+
+TEST_F(GuideExample, SpeedIsMeasured) {
+  EXPECT_THAT(ask(1, {0x5E, 1, 11, 2}), ElementsAre(0x5E, 1, 11, 2, 0x05, 0xDC));
+  EXPECT_THAT(ask(1, {0x5F, 1, 11, 2, 0, 0}), ElementsAre(0xDF, 0x80, 0xB6, 0));
+}
+
+TEST_F(GuideExample, StoreIsAnsweredWhenTheFlashIsReady) {
+  EXPECT_THAT(ask(1, {0x5F, 2, 1, 1, 7}), ElementsAre(0xDF, 0x80, 0xB6, 0)) << "class 2 only";
+  EXPECT_THAT(ask(2, {0x5F, 2, 1, 2, 7, 8}), IsEmpty());
+  EXPECT_THAT(board::flash, ElementsAre(7, 8));
+  EXPECT_EQ(drive_poll(), DSDPV1_OK);
+  EXPECT_THAT(last_answer(2), IsEmpty());
+  board::busy = false;
+  EXPECT_EQ(drive_poll(), DSDPV1_OK);
+  EXPECT_THAT(last_answer(2), ElementsAre(0x5F, 2, 1, 2));
+}
+
+TEST_F(GuideExample, FailedStoreIsRefused) {
+  EXPECT_THAT(ask(2, {0x5F, 2, 1, 1, 7}), IsEmpty());
+  board::busy = false;
+  board::failed = true;
+  EXPECT_EQ(drive_poll(), DSDPV1_OK);
+  EXPECT_THAT(last_answer(2), ElementsAre(0xDF, 0x80, 0xA1, 0));
+}
+
+TEST_F(GuideExample, MasterThatAsksAnewDuringAStoreIsToldBusy) {
+  EXPECT_THAT(ask(2, {0x5F, 2, 1, 1, 7}), IsEmpty());
+  EXPECT_THAT(ask(2, {0x5F, 2, 1, 1, 9}), ElementsAre(0xDF, 0x80, 0xC2, 0));
+  EXPECT_THAT(board::flash, ElementsAre(7));
+  board::busy = false;
+  EXPECT_EQ(drive_poll(), DSDPV1_OK) << "the first one's answer is stale, which is no error";
+  EXPECT_THAT(last_answer(2), ElementsAre(0xDF, 0x80, 0xC2, 0));
+}
+
+TEST_F(GuideExample, Nameplate) {
+  EXPECT_THAT(ask(2, {0x5F, 0, 255, 4, 0x08, 0x00, 0xFD, 0xE8}), ElementsAre(0x5F, 0, 255, 4));
+  const Bytes answer = ask(2, {0x5E, 0, 255, 68});
+  ASSERT_EQ(answer.size(), 72U);
+  EXPECT_EQ(std::string(answer.begin() + 20, answer.begin() + 27), "DRIVE-1");
 }
 
 }  // namespace

@@ -1,6 +1,12 @@
-/* The public header must stand alone in C99, twice included. */
+/* The public headers must stand alone in C99, twice included. */
+#include "tb/driver/dsdpv1_acyclic.h"
+
+/* Each again, behind the other. */
 #include "tb/driver/dsdpv1.h"
 
-dsdpv1_error standalone(dsdpv1_device* device);
+dsdpv1_error standalone(dsdpv1_acyclic* acyclic);
 
-dsdpv1_error standalone(dsdpv1_device* device) { return dsdpv1_service(device); }
+dsdpv1_error standalone(dsdpv1_acyclic* acyclic) {
+  dsdpv1_acyclic_result result;
+  return dsdpv1_acyclic_poll(acyclic, &result);
+}
