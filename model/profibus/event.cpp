@@ -23,12 +23,16 @@ const Row& row(Reason reason) { return kRows[static_cast<std::size_t>(reason)]; 
 constexpr const char* kStates[] = {"OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH"};
 constexpr const char* kRates[] = {"12M", "6M", "3M", "1.5M", "500k", "187.5k", "93.75k", "45.45k", "19.2k", "9.6k"};
 
-// `format` is empty for decimal, "4x" for four hexadecimal digits, "state" and "rate" for their names; "high" and "low" are
+// A row of table 30: each bit of RmEntry::bits stands on the one before it.
+constexpr const char* kRmStates[] = {"not in use", "in use", "in use, connected", "in use, connected, exchanging"};
+
+// `format` is empty for decimal, "4x" for four hexadecimal digits, "state", "rate" and "rm" for their names; "high" and "low" are
 // the bytes, the low one also as "low2x".
 std::string field_text(std::uint16_t value, const std::string& format) {
   if (format.empty()) return std::to_string(value);
   if (format == "state") return kStates[value % std::size(kStates)];
   if (format == "rate") return kRates[value % std::size(kRates)];
+  if (format == "rm") return kRmStates[(value & 1) + (value >> 1 & 1) + (value >> 2 & 1)];
   if (format == "high") return std::to_string(value >> 8);
   if (format.rfind("low", 0) == 0) return field_text(value & 0xFF, format.substr(3));
   constexpr const char* kDigits = "0123456789ABCDEF";

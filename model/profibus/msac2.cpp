@@ -65,17 +65,27 @@ void Msac2::reset() {
   turn_ = kNobody;
 }
 
+RmEntry Msac2::entry(int number) const {
+  const Channel& channel = channel_at(number);
+  RmEntry entry;
+  entry.in_use = channel.state != State::kFree;
+  entry.master = entry.in_use ? channel.master : std::uint8_t{0};
+  entry.exchanging = channel.state == State::kBusy || channel.state == State::kAnswered;
+  entry.connected = entry.exchanging || channel.state == State::kOpen;
+  return entry;
+}
+
 RmRegistry Msac2::registry() const {
   RmRegistry registry;
-  for (std::size_t i = 0; i < registry.size(); ++i) {
-    const State state = channels_[i].state;
-    RmEntry& entry = registry[i];
-    entry.in_use = state != State::kFree;
-    entry.master = entry.in_use ? channels_[i].master : std::uint8_t{0};
-    entry.exchanging = state == State::kBusy || state == State::kAnswered;
-    entry.connected = entry.exchanging || state == State::kOpen;
-  }
+  for (int channel = 0; channel < kC2Channels; ++channel) registry[static_cast<std::size_t>(channel)] = entry(channel);
   return registry;
+}
+
+void Msac2::enter(Cycle now, int number, State state) {
+  const unsigned before = entry(number).bits();
+  channel_at(number).state = state;
+  const RmEntry after = entry(number);
+  if (after.bits() != before) log_.at_cycle(now, Reason::kRmEntry, sap_of(number), after.master, after.bits());
 }
 
 // --- the resource manager -------------------------------------------------------------------------------------------------
@@ -101,8 +111,8 @@ Reply Msac2::initiate(Cycle now, const Request& request) {
   channel.pdu.assign(request.data, request.size);
   const int units = send_timeout(request.data);
   log_.at_cycle(now, Reason::kC2Initiate, sap_of(free), request.sa, static_cast<unsigned>(units));
-  channel.state = State::kInitiated;
   channel.master = request.sa;
+  enter(now, free, State::kInitiated);
   channel.timeout = units * kCyclesPerUnit;
   channel.idle_timeout = std::min(2 * units, kLargestTimer) * kCyclesPerUnit;
   channel.watch = now + channel.timeout;
@@ -166,7 +176,7 @@ Reply Msac2::connect(Cycle now, int number) {
     negative_answer(dpv1::kInitiate, fault, reply_);
   } else {
     log_.at_cycle(now, Reason::kC2Connected, sap_of(number), channel.master);
-    channel.state = State::kOpen;
+    enter(now, number, State::kOpen);
     channel.watch = now + channel.idle_timeout;
     put(reply_, {dpv1::kInitiate, kLargestPdu, kReadWrite, 0, 0, 0, 0, 0});
     exchange_addresses(channel.pdu.bytes.data() + kAddAddr, channel.pdu.size - kAddAddr, reply_);
@@ -186,15 +196,15 @@ Reply Msac2::request(Cycle now, int number, const Request& request) {
   channel.watch = now + channel.timeout;
   if (function == dpv1::kIdle) {
     put(channel.pdu, {dpv1::kIdle});
-    channel.state = State::kAnswered;
+    enter(now, number, State::kAnswered);
   } else if (const std::uint8_t fault = request_fault(request.data, request.size, true); fault != 0) {
     log_.at_cycle(now, Reason::kAcyclicRequestRefused, sap_of(number), function, fault);
     negative_answer(function, fault, channel.pdu);
-    channel.state = State::kAnswered;
+    enter(now, number, State::kAnswered);
   } else {
     log_.at_cycle(now, Reason::kC2Request, sap_of(number) << 8 | function, request.data[1], request.data[2]);
     channel.pdu.assign(request.data, request.size);
-    channel.state = State::kBusy;
+    enter(now, number, State::kBusy);
     if (turn_ == kNobody) begin_turn(now, number);
   }
   return Reply::sc();
@@ -205,7 +215,7 @@ Reply Msac2::send_answer(Cycle now, int number) {
   if (channel.pdu.bytes[0] != dpv1::kIdle)
     log_.at_cycle(now, Reason::kC2Answer, sap_of(number), channel.pdu.bytes[0],
                   static_cast<unsigned>(channel.pdu.size));
-  channel.state = State::kOpen;
+  enter(now, number, State::kOpen);
   channel.watch = now + channel.idle_timeout;
   return Reply::with_data(fc::kDl, channel.pdu.bytes.data(), channel.pdu.size);
 }
@@ -222,7 +232,7 @@ void Msac2::answer(Cycle now, const std::uint8_t* pdu, int size) {
   if (!answer_fits(now, log_, kArea, pdu, mail_.pdu)) return;
   const int number = turn_;
   channel_at(number).pdu.assign(pdu, size);
-  channel_at(number).state = State::kAnswered;
+  enter(now, number, State::kAnswered);
   end_turn(now, number);
 }
 
@@ -252,7 +262,7 @@ void Msac2::expire(Cycle now, int number) {
 void Msac2::abort(Cycle now, int number, std::uint8_t detail) {
   Channel& channel = channel_at(number);
   log_.at_cycle(now, Reason::kC2Timeout, sap_of(number), detail, channel.master);
-  channel.state = State::kAborted;
+  enter(now, number, State::kAborted);
   channel.abort_detail = detail;
   channel.watch = now + channel.timeout;
   end_turn(now, number);
@@ -260,7 +270,7 @@ void Msac2::abort(Cycle now, int number, std::uint8_t detail) {
 
 void Msac2::free(int number, Cycle now) {
   Channel& channel = channel_at(number);
-  channel.state = State::kFree;
+  enter(now, number, State::kFree);
   channel.watch = kNever;
   end_turn(now, number);
 }

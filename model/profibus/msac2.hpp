@@ -48,6 +48,8 @@ class Msac2 {
   State state(int channel) const { return channel_at(channel).state; }
   static int channel_of(const Request& request) { return kC2FirstSap - request.dsap; }
   static unsigned sap_of(int channel) { return static_cast<unsigned>(kC2FirstSap - channel); }
+  RmEntry entry(int channel) const;
+  void enter(Cycle now, int channel, State state);
   bool refused(Cycle now, const Request& request) const;
   int free_channel() const;
   Reply poll(Cycle now, int channel);

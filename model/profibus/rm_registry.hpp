@@ -12,6 +12,12 @@ struct RmEntry {
   bool in_use = false;      ///< lent to a master
   bool connected = false;   ///< the initiate answer has been fetched
   bool exchanging = false;  ///< a request is open
+
+  /// In use, connected, exchanging as bits 0, 1, 2.
+  unsigned bits() const {
+    return static_cast<unsigned>(in_use) | static_cast<unsigned>(connected) << 1 |
+           static_cast<unsigned>(exchanging) << 2;
+  }
 };
 
 using RmRegistry = std::array<RmEntry, kC2Channels>;

@@ -188,6 +188,8 @@ void Bench::pin_changed(std::size_t index, Tick at, dsdpv1::Pin pin, dsdpv1::Lev
 void Bench::chip_event(std::size_t index, const profibus::Event& event) {
   if (event.reason == profibus::Reason::kDpState && waves_)
     waves_->dp_state(index, event.at, name(static_cast<dsdpv1::DpState>(event.b)));
+  if (event.reason == profibus::Reason::kRmEntry && waves_)
+    waves_->rm_entry(index, event.at, profibus::kC2FirstSap - event.a, profibus::describe(event));
   happened({event.at, slaves_[index]->name(), profibus::code(event.reason), profibus::severity(event.reason),
             profibus::describe(event)});
   touch(event.at);

@@ -34,6 +34,7 @@ std::size_t WaveRecorder::add_chip(const std::string& name, const dsdpv1::Chip& 
         writer_->wire(pin == Pin::kDIn ? "D" : dsdpv1::name(pin), dsdpv1::width(pin));
   }
   signals.dp_state = writer_->words("dp_state");
+  signals.rm_entries = {writer_->words("rm_30"), writer_->words("rm_2F")};
   writer_->close_scope();
   chips_.push_back(signals);
   return chips_.size() - 1;
@@ -53,6 +54,7 @@ void WaveRecorder::begin() {
     for (int i = 0; i < dsdpv1::kPinCount; ++i)
       pin(chip, 0, static_cast<Pin>(i), chips_[chip].chip->level(static_cast<Pin>(i)));
     dp_state(chip, 0, "OFFLINE");
+    for (int channel = 0; channel < profibus::kC2Channels; ++channel) rm_entry(chip, 0, channel, "not in use");
   }
   for (const auto& [name, signal] : master_states_) writer_->say(0, signal, "OFFLINE");
 }
@@ -70,6 +72,10 @@ void WaveRecorder::pin(std::size_t chip, bus::Tick at, Pin pin, Level level) {
 
 void WaveRecorder::dp_state(std::size_t chip, bus::Tick at, const std::string& word) {
   writer_->say(at, chips_[chip].dp_state, word);
+}
+
+void WaveRecorder::rm_entry(std::size_t chip, bus::Tick at, int channel, const std::string& words) {
+  writer_->say(at, chips_[chip].rm_entries.at(static_cast<std::size_t>(channel)), words);
 }
 
 void WaveRecorder::master_state(const std::string& master, const std::string& slave, bus::Tick at,

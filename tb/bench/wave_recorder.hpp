@@ -26,6 +26,8 @@ class WaveRecorder : private bus::Listener {
 
   void pin(std::size_t chip, bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void dp_state(std::size_t chip, bus::Tick at, const std::string& word);
+  /// A row of the RM registry (table 30) has changed; `channel` 0 or 1.
+  void rm_entry(std::size_t chip, bus::Tick at, int channel, const std::string& words);
   void master_state(const std::string& master, const std::string& slave, bus::Tick at, const std::string& word);
   /// The telegram that has just ended, in words.
   void telegram(bus::Tick at, const std::string& words);
@@ -37,6 +39,7 @@ class WaveRecorder : private bus::Listener {
     const dsdpv1::Chip* chip = nullptr;
     std::array<Signal, dsdpv1::kPinCount> pins{};
     Signal dp_state = 0;
+    std::array<Signal, profibus::kC2Channels> rm_entries{};
     dsdpv1::Level user_data = dsdpv1::kLevelZ, chip_data = dsdpv1::kLevelZ;
   };
   void line_changed(bus::Tick at, bool level) override { writer_->set(at, line_, level ? 1 : 0); }

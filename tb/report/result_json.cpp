@@ -37,6 +37,18 @@ Json user_of(const SlaveResult& slave) {
           {"driver_errors", slave.driver_errors},   {"bad_reads", slave.bad_reads}};
 }
 
+Json registry_of(const profibus::RmRegistry& registry) {
+  Json rows = Json::array();
+  int sap = profibus::kC2FirstSap;
+  for (const profibus::RmEntry& entry : registry)
+    rows.push_back({{"sap", sap--},
+                    {"master", entry.in_use ? Json(entry.master) : Json(nullptr)},
+                    {"in_use", entry.in_use},
+                    {"connected", entry.connected},
+                    {"exchanging", entry.exchanging}});
+  return rows;
+}
+
 Json slave_of(const SlaveResult& slave) {
   Json json;
   json["name"] = slave.name;
@@ -45,6 +57,7 @@ Json slave_of(const SlaveResult& slave) {
   json["baud"] = baud_text(slave.status.baud_index);
   json["master"] = slave.status.master == 255 ? Json(nullptr) : Json(slave.status.master);
   json["data_exchanges"] = slave.status.data_exchanges;
+  json["rm_registry"] = registry_of(slave.status.c2);
   json["telegrams_received"] = slave.status.telegrams_received;
   json["telegrams_answered"] = slave.status.telegrams_answered;
   json["tsdr"] = tsdr_of(slave);

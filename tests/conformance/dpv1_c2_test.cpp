@@ -44,6 +44,7 @@ TEST_F(C2, InitiateIsAnsweredAtOnceAndConnectedByTheFirstPoll) {
   EXPECT_EQ(poll.answer().ssap, kFirstChannel);
   EXPECT_TRUE(registry(0x30).connected);
   EXPECT_FALSE(registry(0x30).exchanging);
+  EXPECT_EQ(profibus::describe(bench.last(Reason::kRmEntry)), "RM registry: channel 48, master 1, in use, connected");
   EXPECT_FALSE(registry(0x2F).in_use);
   EXPECT_TRUE(is_sc(c2(kFirstChannel))) << "nothing waits";
 }
