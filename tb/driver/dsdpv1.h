@@ -198,6 +198,7 @@ typedef struct dsdpv1_device {
   dsdpv1_aside aside;
   uint8_t generation;   /* counts successful initialisations, modulo 256 */
   uint8_t verdicts_due; /* DSDPV1_VERDICT_ bits of blocks that wait for a verdict */
+  uint8_t unread;       /* the same of blocks whose reading found no hold */
   uint8_t prm_length, prm[DSDPV1_MAX_PRM];
   uint8_t cfg_length, cfg_input_length, cfg_output_length, cfg[DSDPV1_MAX_CFG];
 } dsdpv1_device;

@@ -169,6 +169,7 @@ static void remember(dsdpv1_device* device, const dsdpv1_config* config) {
   device->user_status_2 = 0;
   dsdpv1_put(device, DSDPV1_REG_USER_STATUS_2, 0);
   device->verdicts_due = 0;
+  device->unread = 0;
   ++device->generation;
   device->max_input = config->max_input;
   device->max_diag = config->max_diag;

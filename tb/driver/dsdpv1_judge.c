@@ -58,7 +58,8 @@ static dsdpv1_error take_blocks(dsdpv1_device* device, unsigned* fresh, dsdpv1_c
     return error;
   }
   const uint8_t command = dsdpv1_get(device, DSDPV1_REG_CHIP_COMMAND_1);
-  *fresh = fresh_blocks(command);
+  *fresh = fresh_blocks(command) | device->unread;
+  device->unread = 0;
   if ((*fresh & DSDPV1_VERDICT_PRM) != 0u) {
     dsdpv1_fetch(device, &kPrm, prm);
   }
@@ -86,8 +87,17 @@ static void note(dsdpv1_device* device, verdicts* reached, unsigned kind, dsdpv1
   reached->wrong |= verdict == DSDPV1_REFUSE ? kind : 0u;
 }
 
+/* A block whose repeated reading found no hold stays due: its flag is gone already. */
+static dsdpv1_error confirm(dsdpv1_device* device, const dsdpv1_area* area, dsdpv1_copy* copy, unsigned kind) {
+  const dsdpv1_error error = dsdpv1_confirm(device, area, copy);
+  if (error != DSDPV1_OK && error != area->length_error && error != area->crc_error) {
+    device->unread = (uint8_t)(device->unread | kind);
+  }
+  return error;
+}
+
 static dsdpv1_error judge_prm(dsdpv1_device* device, dsdpv1_copy* copy, verdicts* reached) {
-  const dsdpv1_error error = dsdpv1_confirm(device, &kPrm, copy);
+  const dsdpv1_error error = confirm(device, &kPrm, copy, DSDPV1_VERDICT_PRM);
   if (error != DSDPV1_OK) {
     return error;
   }
@@ -99,7 +109,7 @@ static dsdpv1_error judge_prm(dsdpv1_device* device, dsdpv1_copy* copy, verdicts
 }
 
 static dsdpv1_error judge_cfg(dsdpv1_device* device, dsdpv1_copy* copy, verdicts* reached) {
-  const dsdpv1_error error = dsdpv1_confirm(device, &kCfg, copy);
+  const dsdpv1_error error = confirm(device, &kCfg, copy, DSDPV1_VERDICT_CFG);
   if (error != DSDPV1_OK) {
     return error;
   }

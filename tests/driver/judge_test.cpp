@@ -144,6 +144,45 @@ TEST_F(Judge, FailedHoldKeepsTheRequest) {
   EXPECT_TRUE(dsdpv1_intr0_pending(&device));
 }
 
+class FailedHoldWhileReadingAgain : public Judge {
+ protected:
+  void fail_while_reading(std::uint16_t address) {
+    chip.bad_reads[address] = 1;
+    device.tuning.acquire_polls = 10;
+    chip.before_access = [&, once = true]() mutable { chip.busy_samples = std::exchange(once, false) ? 20 : 0; };
+    EXPECT_EQ(dsdpv1_service(&device), DSDPV1_ERR_DPRAM_BUSY);
+    EXPECT_THAT(chip.verdicts, IsEmpty());
+    EXPECT_TRUE(dsdpv1_intr0_pending(&device));
+  }
+};
+
+TEST_F(FailedHoldWhileReadingAgain, LosesNoParameters) {
+  initialise(2, 2);
+  chip.put_prm({0x55});
+  fail_while_reading(0x411);
+  EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  EXPECT_THAT(chip.verdicts, ElementsAre("prm ok"));
+  EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  EXPECT_EQ(prm_seen.size(), 1U) << "judged once";
+}
+
+TEST_F(FailedHoldWhileReadingAgain, LosesNoConfiguration) {
+  initialise(2, 2);
+  chip.put_cfg(0, 1, {0x10});
+  fail_while_reading(0x503);
+  EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  EXPECT_THAT(chip.verdicts, ElementsAre("cfg ok"));
+}
+
+TEST_F(FailedHoldWhileReadingAgain, IsForgottenByAnInitialisation) {
+  initialise(2, 2);
+  chip.put_prm({0x55});
+  fail_while_reading(0x411);
+  initialise(2, 2);
+  EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  EXPECT_THAT(prm_seen, IsEmpty());
+}
+
 TEST_F(Judge, ParametersReadWronglyAreReadAgain) {
   initialise(2, 0);
   chip.put_prm({0x55});
