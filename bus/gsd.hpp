@@ -138,6 +138,7 @@ struct Gsd {
   bool c2_read_write = false;  ///< C2_Read_Write_supp
   bool wd_base_1ms = false;    ///< WD_Base_1ms_supp
   std::optional<int> c1_max_data, c2_max_data, c2_channels;
+  std::optional<int> c1_response_timeout, c2_response_timeout;  ///< units of 10 ms
 
   bool modular = false;
   std::optional<int> max_modules;

@@ -74,6 +74,8 @@ class Completion {
     gsd_.c1_max_data = number("c1_max_data_len");
     gsd_.c2_max_data = number("c2_max_data_len");
     gsd_.c2_channels = number("c2_max_count_channels");
+    gsd_.c1_response_timeout = number("c1_response_timeout");
+    gsd_.c2_response_timeout = number("c2_response_timeout");
     gsd_.max_modules = number("max_module");
     gsd_.max_input = number("max_input_len");
     gsd_.max_output = number("max_output_len");

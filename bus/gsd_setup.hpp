@@ -13,6 +13,7 @@
 #include "bus/bytes.hpp"
 #include "bus/gsd.hpp"
 #include "bus/gsd_cfg.hpp"
+#include "bus/slave_parameters.hpp"
 
 namespace bus {
 
@@ -85,6 +86,10 @@ Bytes chk_cfg_bytes(const Gsd& gsd, const std::vector<std::size_t>& modules);
 
 /// A whole Set_Prm: 7 bytes and the user parameters.
 Bytes set_prm_bytes(std::uint16_t ident, const SetPrmHead& head, const Bytes& user_prm);
+
+/// Asks a slave for DPV1: DPV1_Enable in its Set_Prm (three bytes more, table 25) and the time that C1 waits for answers, as the file says.
+/// Returns why the file does not allow it (then nothing is changed), empty when all is well.
+std::string enable_dpv1(const Gsd& gsd, SlaveParameters& parameters);
 
 /// Everything together, with the limits of the file and of the protocol checked: modules allowed in their slots, their number
 /// (Max_Module, 1 in a fixed station without it), Max_Input_Len, Max_Output_Len, Max_Data_Len, 244 bytes of Chk_Cfg, 237 of

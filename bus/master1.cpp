@@ -21,16 +21,20 @@ void Master1::add_slave(const SlaveParameters& parameters) {
   if (has_slave(parameters.address) || parameters.address == config_.address) {
     throw std::invalid_argument(fmt::format("address {} is used twice", parameters.address));
   }
-  auto slave = std::make_unique<SlaveHandler>(parameters, config_.address, config_.personality);
   const std::uint8_t address = parameters.address;
-  slave->set_clear(clear_);
-  slave->on_state = [this, address](SlaveState from, SlaveState to) {
+  auto slave = std::make_unique<Slave>(
+      Slave{SlaveHandler(parameters, config_.address, config_.personality),
+            C1Client(address, config_.address, parameters.c1_response_timeout * kTimeUnit10ms)});
+  SlaveHandler& handler = slave->handler;
+  handler.set_clear(clear_);
+  handler.on_state = [this, address, &c1 = slave->c1](SlaveState from, SlaveState to) {
+    if (from == SlaveState::kDataExchange) c1.leave(now_, "data exchange was left");
     if (on_state) on_state(now_, address, from, to);
   };
-  slave->on_inputs = [this, address] {
+  handler.on_inputs = [this, address] {
     if (on_inputs) on_inputs(now_, address);
   };
-  slave->on_diagnosis = [this, address] {
+  handler.on_diagnosis = [this, address] {
     if (on_diagnosis) on_diagnosis(now_, address);
   };
   slaves_.push_back(std::move(slave));
@@ -54,6 +58,7 @@ void Master1::run(Tick now) {
     stop_requested_ = false;
     running_ = false;
     fdl_.abort(now);
+    for (const auto& slave : slaves_) slave->c1.leave(now, "the master was stopped");
   }
   if (start_requested_) begin_operation();
   fdl_.run(now);
@@ -69,8 +74,8 @@ void Master1::begin_operation() {
   claims_ = 0;
   listen_from_ = now_;
   for (const auto& slave : slaves_) {
-    if (slave->view().state != SlaveState::kReleased) slave->restart("master started");
-    fdl_.restart_series(slave->parameters().address);
+    if (slave->handler.view().state != SlaveState::kReleased) slave->handler.restart("master started");
+    fdl_.restart_series(slave->handler.parameters().address);
   }
 }
 
@@ -93,6 +98,7 @@ bool Master1::start_phase() {
     case Phase::kListen: return listen();
     case Phase::kClaim: return start_claim();
     case Phase::kSlaves: return start_slave();
+    case Phase::kAcyclic: return start_acyclic();
     case Phase::kPollSlot: return start_poll_slot();
     case Phase::kGap: return start_gap_poll();
     case Phase::kToken: return start_token();
@@ -130,9 +136,22 @@ void Master1::begin_cycle() {
 
 bool Master1::start_slave() {
   while (slave_position_ < slaves_.size()) {
-    SlaveHandler& slave = *slaves_[slave_position_++];
+    SlaveHandler& slave = slaves_[slave_position_++]->handler;
     if (slave.offline() || slave.view().state == SlaveState::kReleased) continue;
     ask_slave(slave);
+    return true;
+  }
+  phase_ = Phase::kAcyclic;
+  acyclic_position_ = 0;
+  return true;
+}
+
+/// One acyclic telegram a slave and cycle, whatever waits: the cyclic exchange keeps its rhythm.
+bool Master1::start_acyclic() {
+  while (acyclic_position_ < slaves_.size()) {
+    Slave& slave = *slaves_[acyclic_position_++];
+    if (slave.handler.view().state != SlaveState::kDataExchange || !slave.c1.due(now_)) continue;
+    ask_c1(slave.c1);
     return true;
   }
   phase_ = Phase::kPollSlot;
@@ -144,8 +163,8 @@ bool Master1::start_poll_slot() {
   phase_ = Phase::kGap;
   for (std::size_t i = 0; i < slaves_.size(); ++i) {
     offline_position_ = (offline_position_ + 1) % slaves_.size();
-    if (!slaves_[offline_position_]->offline()) continue;
-    ask_slave(*slaves_[offline_position_]);
+    if (!slaves_[offline_position_]->handler.offline()) continue;
+    ask_slave(slaves_[offline_position_]->handler);
     break;
   }
   return true;
@@ -196,6 +215,12 @@ void Master1::ask_slave(SlaveHandler& slave) {
   FdlRequest request;
   request.telegram = slave.next_request();
   ask(std::move(request), [&slave](const FdlResult& result) { slave.done(result); });
+}
+
+void Master1::ask_c1(C1Client& c1) {
+  FdlRequest request;
+  request.telegram = c1.next_request();
+  ask(std::move(request), [this, &c1](const FdlResult& result) { c1.done(now_, result); });
 }
 
 void Master1::finished(const FdlResult& result) {

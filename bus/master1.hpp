@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/master_c1.hpp"
 #include "bus/master_fdl.hpp"
 #include "bus/master_slave.hpp"
 #include "bus/segment.hpp"
@@ -88,6 +89,20 @@ class Master1 : public Agent {
   /// Any bytes, with faults, once. The series (FCB) of the station addressed starts anew behind it.
   void send_raw(const Bytes& bytes, const WireFaults& faults = {}, bool wants_answer = true, AnswerCallback done = {});
 
+  // --- Acyclic, class 1 (MSAC_C1). Queued for the slave, `address` as above; carried out while it is in data exchange: after each pass of
+  // the cyclic exchange every slave gets at most one acyclic telegram, the request or one poll, so that a cycle grows by one short
+  // message a slave at most and a poll comes once a cycle. The time for an answer is SlaveParameters::c1_response_timeout.
+  /// DS_Read of `length` bytes. Reads and writes are sent also to a slave not parameterised for DPV1, to see it refuse.
+  void c1_read(std::uint8_t address, std::uint8_t slot, std::uint8_t index, std::uint8_t length,
+               AcyclicCallback done = {});
+  /// DS_Write; more than 240 bytes: std::invalid_argument.
+  void c1_write(std::uint8_t address, std::uint8_t slot, std::uint8_t index, const Bytes& data,
+                AcyclicCallback done = {});
+  /// Any request PDU header, also a wrong one.
+  void c1_request(std::uint8_t address, const AcyclicRequest& request, AcyclicCallback done = {});
+  /// Operations that wait or are at work.
+  std::size_t c1_open(std::uint8_t address) const;
+
   LiveState live(std::uint8_t address) const { return live_.at(address); }
   std::uint64_t cycles() const { return cycles_; }
   /// Start to start of the last complete cycle, 0 before.
@@ -95,6 +110,8 @@ class Master1 : public Agent {
 
   std::function<void(Tick at, std::uint8_t address, SlaveState from, SlaveState to)> on_state;
   std::function<void(Tick at, std::uint8_t address)> on_inputs, on_diagnosis;
+  /// Every finished C1 operation, behind its own callback.
+  std::function<void(Tick at, std::uint8_t address, const AcyclicResult&)> on_acyclic;
   /// Every finished request, those of the cycle included.
   std::function<void(Tick at, const FdlResult&)> on_answer;
 
@@ -103,7 +120,7 @@ class Master1 : public Agent {
 
  private:
   /// What the bus is used for next in the cycle.
-  enum class Phase : std::uint8_t { kListen, kClaim, kSlaves, kPollSlot, kGap, kToken, kWait };
+  enum class Phase : std::uint8_t { kListen, kClaim, kSlaves, kAcyclic, kPollSlot, kGap, kToken, kWait };
   struct Command {
     FdlRequest request;
     AnswerCallback done;
@@ -111,8 +128,13 @@ class Master1 : public Agent {
   void set_mode(bool clear);
   void service(std::uint8_t address, std::uint8_t sap, const Bytes& data, AnswerCallback done);
   void push(FdlRequest request, AnswerCallback done);
-  SlaveHandler& handler(std::uint8_t address);
-  const SlaveHandler& handler(std::uint8_t address) const;
+  /// One slave: the cyclic exchange and the acyclic one.
+  struct Slave {
+    SlaveHandler handler;
+    C1Client c1;
+  };
+  Slave& slave_at(std::uint8_t address);
+  const Slave& slave_at(std::uint8_t address) const;
   bool has_slave(std::uint8_t address) const;
 
   void begin_operation();
@@ -121,6 +143,7 @@ class Master1 : public Agent {
   bool listen();
   bool start_claim();
   bool start_slave();
+  bool start_acyclic();
   bool start_poll_slot();
   bool start_gap_poll();
   bool start_token();
@@ -128,13 +151,14 @@ class Master1 : public Agent {
   void begin_cycle();
   void ask(FdlRequest request, AnswerCallback done);
   void ask_slave(SlaveHandler& slave);
+  void ask_c1(C1Client& c1);
   void finished(const FdlResult& result);
   void record_live(std::uint8_t address, const FdlResult& result);
   bool work_to_do() const;
 
   MasterConfig config_;
   MasterFdl fdl_;
-  std::vector<std::unique_ptr<SlaveHandler>> slaves_;
+  std::vector<std::unique_ptr<Slave>> slaves_;
   std::deque<Command> commands_;
   AnswerCallback current_done_;
   std::optional<int> new_baud_;
@@ -143,7 +167,7 @@ class Master1 : public Agent {
 
   Phase phase_ = Phase::kListen;
   int claims_ = 0;
-  std::size_t slave_position_ = 0, offline_position_ = 0;
+  std::size_t slave_position_ = 0, acyclic_position_ = 0, offline_position_ = 0;
   std::uint8_t gap_address_ = 0;
   std::array<LiveState, 128> live_ = {};
   Tick now_ = 0, due_ = 0, listen_from_ = 0, cycle_start_ = 0, cycle_time_ = 0;

@@ -24,42 +24,46 @@ void Master1::change_baud(int index) {
 void Master1::set_mode(bool clear) {
   if (clear_ == clear) return;
   clear_ = clear;
-  for (const auto& slave : slaves_) slave->set_clear(clear);
+  for (const auto& slave : slaves_) slave->handler.set_clear(clear);
   global_control(clear ? global_control::kClearData : std::uint8_t{0});
 }
 
 bool Master1::has_slave(std::uint8_t address) const {
   return std::any_of(slaves_.begin(), slaves_.end(),
-                     [&](const auto& slave) { return slave->parameters().address == address; });
+                     [&](const auto& slave) { return slave->handler.parameters().address == address; });
 }
 
-SlaveHandler& Master1::handler(std::uint8_t address) {
+Master1::Slave& Master1::slave_at(std::uint8_t address) {
   for (const auto& slave : slaves_) {
-    if (slave->parameters().address == address) return *slave;
+    if (slave->handler.parameters().address == address) return *slave;
   }
   throw std::out_of_range(fmt::format("no slave with address {}", address));
 }
 
-const SlaveHandler& Master1::handler(std::uint8_t address) const {
+const Master1::Slave& Master1::slave_at(std::uint8_t address) const {
   for (const auto& slave : slaves_) {
-    if (slave->parameters().address == address) return *slave;
+    if (slave->handler.parameters().address == address) return *slave;
   }
   throw std::out_of_range(fmt::format("no slave with address {}", address));
 }
 
-void Master1::set_outputs(std::uint8_t address, const Bytes& outputs) { handler(address).set_outputs(outputs); }
+void Master1::set_outputs(std::uint8_t address, const Bytes& outputs) {
+  slave_at(address).handler.set_outputs(outputs);
+}
 
-void Master1::release(std::uint8_t address) { handler(address).release(); }
+void Master1::release(std::uint8_t address) { slave_at(address).handler.release(); }
 
-void Master1::activate(std::uint8_t address) { handler(address).restart("activated"); }
+void Master1::activate(std::uint8_t address) { slave_at(address).handler.restart("activated"); }
 
-const SlaveView& Master1::slave(std::uint8_t address) const { return handler(address).view(); }
+const SlaveView& Master1::slave(std::uint8_t address) const { return slave_at(address).handler.view(); }
 
-const SlaveParameters& Master1::parameters(std::uint8_t address) const { return handler(address).parameters(); }
+const SlaveParameters& Master1::parameters(std::uint8_t address) const {
+  return slave_at(address).handler.parameters();
+}
 
 std::vector<std::uint8_t> Master1::slave_addresses() const {
   std::vector<std::uint8_t> addresses;
-  for (const auto& slave : slaves_) addresses.push_back(slave->parameters().address);
+  for (const auto& slave : slaves_) addresses.push_back(slave->handler.parameters().address);
   return addresses;
 }
 
@@ -112,6 +116,25 @@ void Master1::set_slave_address(std::uint8_t address, std::uint8_t new_address, 
                       static_cast<std::uint8_t>(lock ? 0xFF : 0)};
   service(address, sap::kSetSlaveAddress, data, std::move(done));
 }
+
+void Master1::c1_read(std::uint8_t address, std::uint8_t slot, std::uint8_t index, std::uint8_t length,
+                      AcyclicCallback done) {
+  c1_request(address, read_request(slot, index, length), std::move(done));
+}
+
+void Master1::c1_write(std::uint8_t address, std::uint8_t slot, std::uint8_t index, const Bytes& data,
+                       AcyclicCallback done) {
+  c1_request(address, write_request(slot, index, data), std::move(done));
+}
+
+void Master1::c1_request(std::uint8_t address, const AcyclicRequest& request, AcyclicCallback done) {
+  slave_at(address).c1.push(now_, request, [this, address, done = std::move(done)](const AcyclicResult& result) {
+    if (done) done(result);
+    if (on_acyclic) on_acyclic(now_, address, result);
+  });
+}
+
+std::size_t Master1::c1_open(std::uint8_t address) const { return slave_at(address).c1.open(); }
 
 void Master1::send_raw(const Bytes& bytes, const WireFaults& faults, bool wants_answer, AnswerCallback done) {
   FdlRequest request;

@@ -27,6 +27,7 @@ struct SlaveParameters {
   bool lock = true;                      ///< Lock_Req
   bool fail_safe = false;                ///< sets Fail_Safe; the slave gets empty outputs instead of zeros in Clear
   bool dpv1 = false;                     ///< sets DPV1_Enable; user_prm is filled up to three bytes
+  int c1_response_timeout = 100;         ///< C1_Response_Timeout, units of 10 ms: how long C1 waits for an answer
   std::array<int, kBaudCount> max_tsdr = {};  ///< bit times by baud index, 0 = that of the baud rate; for monitors
 };
 

@@ -97,7 +97,9 @@ class FakeDpSlave {
   int silent_for = 0;          ///< so many requests are not answered
   int broken_for = 0;          ///< so many answers have a wrong FCS
   Bytes inputs = {0x11, 0x22}, outputs = {0, 0};
-  std::vector<Telegram> requests;  ///< to this station, repetitions included
+  std::function<Telegram(const Telegram&)> acyclic;  ///< answers SAPs 47 to 51; without it they are refused with RS
+  bool acyclic_silent = false;                       ///< requests to these SAPs are not answered
+  std::vector<Telegram> requests;                    ///< to this station, repetitions included
   int executed = 0, repetitions = 0, empty_outputs = 0;
   Bytes prm, cfg;
   FakeStation station;
@@ -107,6 +109,7 @@ class FakeDpSlave {
     if (!telegram.is_request() || (telegram.da != address_ && telegram.da != kBroadcast)) return std::nullopt;
     requests.push_back(telegram);
     if (!telegram.wants_answer()) return std::nullopt;
+    if (acyclic_silent && telegram.dsap && *telegram.dsap <= sap::kMs1) return std::nullopt;
     if (!repetition(telegram)) answer_ = execute(telegram);
     if (silent_for > 0) {
       --silent_for;
@@ -143,7 +146,7 @@ class FakeDpSlave {
       case sap::kReadInputs: return answer(fc::kDl, inputs, request);
       case sap::kReadOutputs: return answer(fc::kDl, outputs, request);
       case sap::kGetCfg: return answer(fc::kDl, cfg, request);
-      default: return make_telegram(request.sa, address_, fc::kRs);
+      default: return acyclic ? acyclic(request) : make_telegram(request.sa, address_, fc::kRs);
     }
   }
 
