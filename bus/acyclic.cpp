@@ -1,5 +1,7 @@
 #include "bus/acyclic.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <stdexcept>
@@ -85,8 +87,10 @@ AcyclicRequest transport_request(std::uint8_t slot, std::uint8_t index, const By
 }
 
 Bytes pdu_of(const AcyclicRequest& request) {
-  Bytes pdu = {request.function, request.slot, request.index, request.length};
-  pdu.insert(pdu.end(), request.data.begin(), request.data.end());
+  Bytes pdu(request.data.size() + 4);
+  std::uint8_t* to = pdu.data();
+  for (const std::uint8_t byte : {request.function, request.slot, request.index, request.length}) *to++ = byte;
+  std::copy(request.data.begin(), request.data.end(), to);
   return pdu;
 }
 
