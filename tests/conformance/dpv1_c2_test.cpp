@@ -345,7 +345,7 @@ TEST_F(C2, NewInitialisationFreesBothChannels) {
   start();
   ASSERT_EQ(connect(1), kFirstChannel);
   ASSERT_EQ(connect(9), kSecondChannel);
-  ASSERT_TRUE(is_sc(c2(kFirstChannel, read_request(1, 1, 1), 1)));
+  to_user(kFirstChannel, read_request(1, 1, 1), 1);
   ASSERT_TRUE(bench.initialise());
   EXPECT_FALSE(registry(0x30).in_use);
   EXPECT_FALSE(registry(0x2F).in_use);

@@ -68,8 +68,11 @@ class Dpv1Test : public testing::Test {
     return sap;
   }
 
+  Bytes fetch(const Area& area) { return fetch(bench, area); }
+  void give(const Area& area, const Bytes& pdu, std::uint16_t crc_error = 0) { give(bench, area, pdu, crc_error); }
+
   /// The request in an area with its CRC checked; empty when the flag is not set. Clears the flag.
-  Bytes fetch(const Area& area) {
+  static Bytes fetch(SlaveBench& bench, const Area& area) {
     bench.acquire();
     Bytes pdu;
     const std::uint8_t flags = bench.read(0x00F);
@@ -84,13 +87,17 @@ class Dpv1Test : public testing::Test {
     bench.release();
     return pdu;
   }
-  /// The user's answer, and two accesses of the chip.
-  void give(const Area& area, const Bytes& pdu, std::uint16_t crc_error = 0) {
+  /// The user's answer, and three accesses of the chip. As a good driver, nothing when a newer request has come (V13): false.
+  static bool give(SlaveBench& bench, const Area& area, const Bytes& pdu, std::uint16_t crc_error = 0) {
     bench.acquire();
-    bench.write_block(area.base, pdu, area.crc, crc_error);
-    bench.write(0x011, static_cast<std::uint8_t>(bench.read(0x011) | area.flag));
+    const bool newer = (bench.read(0x00F) & area.flag) != 0;
+    if (!newer) {
+      bench.write_block(area.base, pdu, area.crc, crc_error);
+      bench.write(0x011, static_cast<std::uint8_t>(bench.read(0x011) | area.flag));
+    }
     bench.release();
     bench.chip_accesses(3);
+    return !newer;
   }
   static Bytes read_request(int slot, int index, int length) { return pdu_of(0x5E, slot, index, length); }
   static Bytes pdu_of(int function, int slot, int index, int length, const Bytes& data = {}) {

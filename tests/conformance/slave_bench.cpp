@@ -55,7 +55,8 @@ Bytes Prm::bytes() const {
   return bytes;
 }
 
-SlaveBench::SlaveBench(const dsdpv1::Config& config) : chip(segment, config), requester(segment) {
+SlaveBench::SlaveBench(const dsdpv1::Config& config, Engines engines)
+    : chip(segment, config, engines), requester(segment) {
   timeline.add(chip);
   timeline.add(requester);
 }

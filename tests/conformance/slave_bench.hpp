@@ -42,7 +42,7 @@ struct Prm {
 
 class SlaveBench {
  public:
-  explicit SlaveBench(const dsdpv1::Config& config = {});
+  explicit SlaveBench(const dsdpv1::Config& config = {}, Engines engines = Engines::kStepAndSkip);
 
   // --- time
   Tick now() const { return timeline.now(); }

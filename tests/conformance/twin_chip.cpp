@@ -37,12 +37,13 @@ void compare_lists(const std::vector<T>& skip, const std::vector<T>& step, std::
 
 }  // namespace
 
-TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config)
+TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines)
     : segment_(segment),
       station_(segment.attach("chip", this)),
+      twin_(engines == Engines::kStepAndSkip),
       skip_(with_engine(config, dsdpv1::Engine::kSkip)),
       step_(with_engine(config, dsdpv1::Engine::kStep)) {
-  skip_.watch({&on_skip_pin, this}, dsdpv1::kOutputPins);
+  skip_.watch({&on_skip_pin, this}, twin_ ? dsdpv1::kOutputPins : mask(Pin::kPbtxd) | mask(Pin::kPbrts));
   step_.watch({&on_step_pin, this}, dsdpv1::kOutputPins);
   skip_.on_event({&on_skip_event, this});
   step_.on_event({&on_step_event, this});
@@ -50,13 +51,14 @@ TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config)
 
 void TwinChip::set(Tick at, Pin pin, Level level) {
   skip_.set(at, pin, level);
-  step_.set(at, pin, level);
+  if (twin_) step_.set(at, pin, level);
 }
 
 void TwinChip::run(Tick now) { skip_.advance(now); }
 
 void TwinChip::compare(Tick at) {
   skip_.advance(at);
+  if (!twin_) return;
   step_.advance(at);
   compare_lists(trace_, step_trace_, compared_pins_);
   compare_lists(events_, step_events_, compared_events_);
@@ -64,7 +66,7 @@ void TwinChip::compare(Tick at) {
 
 void TwinChip::on_skip_pin(void* self, Tick at, Pin pin, Level level) {
   auto& twin = *static_cast<TwinChip*>(self);
-  twin.trace_.push_back({at, pin, level});
+  if (twin.twin_) twin.trace_.push_back({at, pin, level});
   if (pin != Pin::kPbtxd && pin != Pin::kPbrts) return;
   twin.segment_.drive(twin.station_, at, twin.skip_.level(Pin::kPbrts) != 0, twin.skip_.level(Pin::kPbtxd) != 0);
 }

@@ -22,9 +22,12 @@ struct PinChange {
   bool operator==(const PinChange& other) const { return at == other.at && pin == other.pin && level == other.level; }
 };
 
+/// Whether the chip has its twin. Alone, in skip, it keeps no trace either: for long campaigns.
+enum class Engines : std::uint8_t { kStepAndSkip, kSkipAlone };
+
 class TwinChip : public bus::Agent, public bus::Listener {
  public:
-  explicit TwinChip(bus::Segment& segment, dsdpv1::Config config = {});
+  explicit TwinChip(bus::Segment& segment, dsdpv1::Config config = {}, Engines engines = Engines::kStepAndSkip);
 
   void set(Tick at, Pin pin, Level level);
   Level level(Pin pin) const { return skip_.level(pin); }
@@ -50,6 +53,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
 
   bus::Segment& segment_;
   bus::StationId station_;
+  const bool twin_;
   dsdpv1::Chip skip_, step_;
   std::vector<PinChange> trace_, step_trace_;
   std::vector<profibus::Event> events_, step_events_;
