@@ -30,8 +30,11 @@ void dsdpv1_forget_old_requests(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* 
 /* ----------------------------------------------------------------------------------- the table (dsdpv1_dispatch.c) */
 
 dsdpv1_error dsdpv1_check_table(const dsdpv1_table* table);
-/* The channel's request is answered (READY) or deferred (OPEN). Errors: ANSWER_LENGTH, with the answer ready. */
-dsdpv1_error dsdpv1_dispatch(dsdpv1_acyclic* acyclic, unsigned channel);
+/*
+ * The request of channel `number`, 0 or 1, is answered (READY) or deferred (OPEN). Errors: ANSWER_LENGTH, with the
+ * answer ready.
+ */
+dsdpv1_error dsdpv1_dispatch(dsdpv1_acyclic* acyclic, unsigned number);
 
 /* ------------------------------------------------------------------------------------------------ I&M0 (dsdpv1_im0.c) */
 

@@ -50,18 +50,17 @@ dsdpv1_error dsdpv1_check_table(const dsdpv1_table* table) {
 
 /* --------------------------------------------------------------------------------------------------------- admitting */
 
-/* `object` is null when a code is returned. */
-static uint8_t find(const dsdpv1_table* table, uint8_t slot, uint8_t index, const dsdpv1_object** object) {
+/* Null when there is none; `code` says then what is unknown. */
+static const dsdpv1_object* find(const dsdpv1_table* table, uint8_t slot, uint8_t index, uint8_t* code) {
   bool slot_known = table->im0 != NULL && slot == kIm0Slot;
   for (size_t i = 0; i < table->count; ++i) {
     if (same_place(&table->objects[i], slot, index)) {
-      *object = &table->objects[i];
-      return kAdmitted;
+      return &table->objects[i];
     }
     slot_known = slot_known || table->objects[i].slot == slot;
   }
-  *object = NULL;
-  return slot_known ? DSDPV1_EC_INVALID_INDEX : DSDPV1_EC_INVALID_SLOT;
+  *code = slot_known ? DSDPV1_EC_INVALID_INDEX : DSDPV1_EC_INVALID_SLOT;
+  return NULL;
 }
 
 static uint8_t admit_read(const dsdpv1_object* object, uint8_t length) {
@@ -153,25 +152,25 @@ static dsdpv1_error carry_out(dsdpv1_channel* channel, uint8_t master_class, con
   return conclude(channel, outcome, &reply);
 }
 
-dsdpv1_error dsdpv1_dispatch(dsdpv1_acyclic* acyclic, unsigned i) {
-  dsdpv1_channel* channel = &acyclic->channels[i];
+dsdpv1_error dsdpv1_dispatch(dsdpv1_acyclic* acyclic, unsigned number) {
+  dsdpv1_channel* channel = &acyclic->channels[number];
   const uint8_t* header = channel->request;
   const dsdpv1_table* table = &acyclic->table;
   if (table->im0 != NULL && header[1] == kIm0Slot && header[2] == kIm0Index) {
     dsdpv1_serve_im0(table->im0, channel);
     return DSDPV1_OK;
   }
-  const dsdpv1_object* object = NULL;
-  uint8_t code = find(table, header[1], header[2], &object);
+  uint8_t code = kAdmitted;
+  const dsdpv1_object* object = find(table, header[1], header[2], &code);
   if (object != NULL) {
-    code = admit(object, dsdpv1_class_of(i), header[0], header[3]);
+    code = admit(object, dsdpv1_class_of(number), header[0], header[3]);
   }
-  if (code == kAdmitted && is_busy(&acyclic->channels[1u - i], object)) {
+  if (code == kAdmitted && is_busy(&acyclic->channels[1u - number], object)) {
     code = DSDPV1_EC_RESOURCE_BUSY;
   }
-  if (code != kAdmitted) {
+  if (object == NULL || code != kAdmitted) {
     dsdpv1_answer_negative(channel, code, 0);
     return DSDPV1_OK;
   }
-  return carry_out(channel, dsdpv1_class_of(i), object);
+  return carry_out(channel, dsdpv1_class_of(number), object);
 }

@@ -34,8 +34,9 @@ static uint8_t* put_word(uint8_t* to, uint16_t value) {
 }
 
 static uint8_t* put_text(uint8_t* to, const char* text, size_t room) {
-  memset(to, ' ', room);
-  memcpy(to, text, strlen(text));
+  for (size_t i = 0; i < room; ++i) {
+    to[i] = (uint8_t)(*text != '\0' ? *text++ : ' ');
+  }
   return to + room;
 }
 

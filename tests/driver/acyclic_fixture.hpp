@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <tuple>
 
 #include "tb/driver/dsdpv1_acyclic.h"
 #include "tests/driver/driver_fixture.hpp"
@@ -11,32 +12,31 @@ class AcyclicTest : public DriverTest {
     DriverTest::SetUp();
     config.dpv1 = true;
     objects = {
-        data_object(1, 1, DSDPV1_MAY_READ | DSDPV1_MAY_WRITE, DSDPV1_CLASS_BOTH, 1, 4, parameter.data()),
-        data_object(1, 2, DSDPV1_MAY_READ, DSDPV1_CLASS_BOTH, 0, 4, parameter.data()),
-        data_object(1, 3, DSDPV1_MAY_WRITE, DSDPV1_CLASS_BOTH, 2, 3, parameter.data()),
-        data_object(1, 4, DSDPV1_MAY_READ | DSDPV1_MAY_WRITE, DSDPV1_CLASS_2, 0, 4, parameter.data()),
-        data_object(1, 5, DSDPV1_MAY_READ | DSDPV1_MAY_WRITE, DSDPV1_CLASS_BOTH, 0, 240, largest.data()),
-        handled_object(2, 1),
-        handled_object(2, 2),
+        data_object({1, 1}, DSDPV1_MAY_READ | DSDPV1_MAY_WRITE, DSDPV1_CLASS_BOTH, {1, 4}, parameter.data()),
+        data_object({1, 2}, DSDPV1_MAY_READ, DSDPV1_CLASS_BOTH, {0, 4}, parameter.data()),
+        data_object({1, 3}, DSDPV1_MAY_WRITE, DSDPV1_CLASS_BOTH, {2, 3}, parameter.data()),
+        data_object({1, 4}, DSDPV1_MAY_READ | DSDPV1_MAY_WRITE, DSDPV1_CLASS_2, {0, 4}, parameter.data()),
+        data_object({1, 5}, DSDPV1_MAY_READ | DSDPV1_MAY_WRITE, DSDPV1_CLASS_BOTH, {0, 240}, largest.data()),
+        handled_object({2, 1}),
+        handled_object({2, 2}),
     };
   }
 
-  dsdpv1_object data_object(int slot, int index, unsigned services, unsigned classes, int min_length, int max_length,
-                            std::uint8_t* data) const {
+  using Two = std::pair<std::uint8_t, std::uint8_t>;
+  /// `place`: slot and index; `lengths`: least and largest.
+  static dsdpv1_object data_object(Two place, unsigned services, unsigned classes, Two lengths, std::uint8_t* data) {
     dsdpv1_object object{};
-    object.slot = static_cast<std::uint8_t>(slot);
-    object.index = static_cast<std::uint8_t>(index);
+    std::tie(object.slot, object.index) = place;
+    std::tie(object.min_length, object.max_length) = lengths;
     object.services = static_cast<std::uint8_t>(services);
     object.classes = static_cast<std::uint8_t>(classes);
-    object.min_length = static_cast<std::uint8_t>(min_length);
-    object.max_length = static_cast<std::uint8_t>(max_length);
     object.data = data;
     return object;
   }
 
-  dsdpv1_object handled_object(int slot, int index) {
-    dsdpv1_object object = data_object(slot, index, DSDPV1_MAY_READ | DSDPV1_MAY_WRITE | DSDPV1_MAY_TRANSPORT,
-                                       DSDPV1_CLASS_BOTH, 0, 240, nullptr);
+  dsdpv1_object handled_object(Two place) {
+    dsdpv1_object object = data_object(place, DSDPV1_MAY_READ | DSDPV1_MAY_WRITE | DSDPV1_MAY_TRANSPORT,
+                                       DSDPV1_CLASS_BOTH, {0, 240}, nullptr);
     object.read = object.write = object.transport = [](void* ctx, const dsdpv1_request* request, dsdpv1_reply* reply) {
       return static_cast<AcyclicTest*>(ctx)->handle(*request, *reply);
     };

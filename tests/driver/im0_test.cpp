@@ -125,7 +125,7 @@ TEST_P(Im0, AloneNeedsNoTable) {
 
 TEST_P(Im0, WithoutItTheApplicationMayUseThePlace) {
   table.im0 = nullptr;
-  objects.push_back(data_object(0, 255, DSDPV1_MAY_READ, DSDPV1_CLASS_BOTH, 0, 4, parameter.data()));
+  objects.push_back(data_object({0, 255}, DSDPV1_MAY_READ, DSDPV1_CLASS_BOTH, {0, 4}, parameter.data()));
   open();
   EXPECT_THAT(read(1), ElementsAre(0x5E, 0, 255, 1, 0x11));
 }
@@ -140,7 +140,7 @@ TEST_P(Im0, TextsAndPlaceAreChecked) {
   EXPECT_EQ(dsdpv1_acyclic_open(&acyclic, &device, &table), DSDPV1_ERR_IM0);
   im0.serial_number = "";
   EXPECT_EQ(dsdpv1_acyclic_open(&acyclic, &device, &table), DSDPV1_OK);
-  const dsdpv1_object object = data_object(0, 255, DSDPV1_MAY_READ, DSDPV1_CLASS_BOTH, 0, 4, parameter.data());
+  const dsdpv1_object object = data_object({0, 255}, DSDPV1_MAY_READ, DSDPV1_CLASS_BOTH, {0, 4}, parameter.data());
   table.objects = &object;
   table.count = 1;
   EXPECT_EQ(dsdpv1_acyclic_open(&acyclic, &device, &table), DSDPV1_ERR_TABLE);
