@@ -48,6 +48,10 @@ void UserProgram::run_firmware(Cpu& cpu) {
   };
   const dsdpv1_port port = port_->port();
   dsdpv1_open(&device_, &port, &judge);
+  if (options_.acyclic.any()) {
+    acyclic_ = std::make_unique<AcyclicServer>(options_.acyclic);
+    check(acyclic_->open(device_), "acyclic_open");
+  }
   cpu.wait(options_.start_delay);
   if (bring_up()) {
     main_loop();
@@ -89,6 +93,7 @@ void UserProgram::main_loop() {
     due = std::max(due, cpu_->now() - options_.period);  // a long hold does not make the exchanges come in a burst
     service_if_pending();
     exchange();
+    poll_acyclic();
     service_if_pending();  // an INTR0 during the exchange found the DPRAM held
   }
 }
@@ -118,6 +123,10 @@ void UserProgram::exchange() {
   if (result.intr0_missed) {
     service();
   }
+}
+
+void UserProgram::poll_acyclic() {
+  if (acyclic_) check(acyclic_->poll(cpu_->now()), "acyclic_poll");
 }
 
 /// Before the master has sent a configuration nobody knows how long the inputs have to be.
@@ -254,6 +263,8 @@ void UserProgram::carry_out(const command::WrongCrc& wrong) {
     case command::Area::kInit: return port_->corrupt_writes(DSDPV1_REG_INIT_CRC, kLowestBit, wrong.times);
     case command::Area::kInputs: return port_->corrupt_writes(DSDPV1_REG_INPUT_CRC, kLowestBit, wrong.times);
     case command::Area::kDiagnosis: return port_->corrupt_writes(DSDPV1_REG_DIAG_CRC, kLowestBit, wrong.times);
+    case command::Area::kC1Answer: return port_->corrupt_writes(DSDPV1_REG_C1_CRC, kLowestBit, wrong.times);
+    case command::Area::kC2Answer: return port_->corrupt_writes(DSDPV1_REG_C2_CRC, kLowestBit, wrong.times);
   }
 }
 
@@ -262,6 +273,11 @@ void UserProgram::carry_out(const command::WrongLength&) { wrong_length_ = true;
 void UserProgram::carry_out(const command::SendVerdict& verdict) {
   const auto which = static_cast<std::uint8_t>(verdict.cfg ? DSDPV1_VERDICT_CFG : DSDPV1_VERDICT_PRM);
   check(dsdpv1_send_verdict(&device_, which, verdict.refuse ? which : std::uint8_t{0}), "send_verdict");
+}
+
+void UserProgram::carry_out(const command::SetAnswering& set) {
+  options_.acyclic.answering = set.answering;
+  if (acyclic_) acyclic_->set_answering(set.answering);
 }
 
 }  // namespace user_cpu

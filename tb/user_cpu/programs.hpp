@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tb/driver/dsdpv1.h"
+#include "tb/user_cpu/acyclic_server.hpp"
 #include "tb/user_cpu/driver_port.hpp"
 #include "tb/user_cpu/native_cpu.hpp"
 #include "tb/user_cpu/station_config.hpp"
@@ -41,6 +42,7 @@ struct ProgramOptions {
   bool judge_in_handler = true;         ///< false: the handler notes INTR0, the main loop judges
   Tick retry_delay = bus::kTicksPerMs;  ///< pause before a failed initialisation is repeated
   int init_attempts = 0;                ///< 0: until it succeeds; else the program ends after so many
+  AcyclicOptions acyclic;               ///< DPV1; polled behind each exchange
 };
 
 /// What the bench may ask for while the program runs.
@@ -68,7 +70,7 @@ struct EarlyRSta {
   Tick after = 250;
   Tick hold = 12'000;
 };
-enum class Area : std::uint8_t { kInit, kInputs, kDiagnosis };
+enum class Area : std::uint8_t { kInit, kInputs, kDiagnosis, kC1Answer, kC2Answer };
 /// The CRC of the next `times` blocks of that kind is written wrong.
 struct WrongCrc {
   Area area = Area::kInputs;
@@ -81,11 +83,15 @@ struct SendVerdict {
   bool cfg = false;  ///< on the configuration; else on the parameters
   bool refuse = false;
 };
+/// How acyclic requests are answered from now on.
+struct SetAnswering {
+  Answering answering = Answering::kNormal;
+};
 }  // namespace command
 
-using Command =
-    std::variant<command::SetInputs, command::SetDiagnosis, command::Reinitialise, command::Hold, command::Stop,
-                 command::Resume, command::EarlyRSta, command::WrongCrc, command::WrongLength, command::SendVerdict>;
+using Command = std::variant<command::SetInputs, command::SetDiagnosis, command::Reinitialise, command::Hold,
+                             command::Stop, command::Resume, command::EarlyRSta, command::WrongCrc,
+                             command::WrongLength, command::SendVerdict, command::SetAnswering>;
 
 /// A call of the driver that did not return DSDPV1_OK.
 struct DriverError {
@@ -125,6 +131,8 @@ class UserProgram {
   const std::vector<DriverError>& errors() const { return errors_; }
   const std::vector<std::uint8_t>& outputs() const { return outputs_; }
   const std::vector<std::uint8_t>& inputs() const { return inputs_; }
+  /// Zeros without DPV1.
+  AcyclicCounters acyclic_counters() const { return acyclic_ ? acyclic_->counters() : AcyclicCounters(); }
   bool initialised() const { return counters_.initialisations != 0; }
   /// The lengths of the last configuration that the master sent; absent before.
   std::optional<std::uint8_t> input_length() const { return input_length_; }
@@ -134,6 +142,7 @@ class UserProgram {
   bool bring_up();
   void main_loop();
   void exchange();
+  void poll_acyclic();
   void service();
   void service_if_pending();
   void intr0();
@@ -155,12 +164,14 @@ class UserProgram {
   void carry_out(const command::WrongCrc& wrong);
   void carry_out(const command::WrongLength& wrong);
   void carry_out(const command::SendVerdict& verdict);
+  void carry_out(const command::SetAnswering& set);
 
   ProgramOptions options_;
   std::deque<Command> commands_;
   Cpu* cpu_ = nullptr;
   std::unique_ptr<DriverPort> port_;
   dsdpv1_device device_{};
+  std::unique_ptr<AcyclicServer> acyclic_;
   ProgramCounters counters_;
   PortCounters before_start_;
   std::vector<DriverError> errors_;

@@ -1,0 +1,98 @@
+#pragma once
+// The DPV1 side of the standard user program: objects by slot and index with memory of their own, I&M0, and answers that come at
+// once, late, never, or as an error.
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/time.hpp"
+#include "tb/driver/dsdpv1_acyclic.h"
+
+namespace user_cpu {
+
+using bus::Tick;
+
+/// One object. A read gives its bytes, a write replaces its first bytes, a transport writes and answers with what was there before.
+struct AcyclicObject {
+  std::uint8_t slot = 0, index = 0;
+  std::uint8_t services = DSDPV1_MAY_READ | DSDPV1_MAY_WRITE;  ///< DSDPV1_MAY_ bits
+  std::uint8_t classes = DSDPV1_CLASS_BOTH;                    ///< DSDPV1_CLASS_ bits
+  std::uint8_t min_length = 0;                                 ///< 0..240
+  std::vector<std::uint8_t> data;                              ///< 0..240 bytes, its size is the largest length
+};
+
+/// Identification data (I&M0), with the members of dsdpv1_im0 that a scenario may set.
+struct Nameplate {
+  std::uint16_t manufacturer_id = 0, hardware_revision = 1, profile_id = 0xF600;
+  std::string order_id, serial_number;  ///< at most 20 and 16 characters
+  std::vector<std::uint8_t> software_revision = {1, 0, 0};
+};
+
+enum class Answering : std::uint8_t { kNormal, kRefuse, kNever };
+
+struct AcyclicOptions {
+  std::vector<AcyclicObject> objects;
+  std::optional<Nameplate> im0;
+  Answering answering = Answering::kNormal;
+  Tick delay = 0;  ///< from the poll that fetched a request to its answer
+  std::uint8_t error_code_1 = DSDPV1_EC_INVALID_PARAMETER, error_code_2 = 0;  ///< of Answering::kRefuse
+
+  bool any() const { return !objects.empty() || im0.has_value(); }
+};
+
+struct AcyclicCounters {
+  std::uint64_t requests = 0;  ///< fetched with the right CRC
+  std::uint64_t answers = 0;   ///< handed to the chip, the next two included
+  std::uint64_t refusals = 0;  ///< negative ones
+  std::uint64_t repeated = 0;  ///< written again: the chip had found the CRC wrong
+  std::uint64_t dropped = 0;   ///< answers or requests that came to nothing
+};
+
+/// Not copied or moved: the driver points into it.
+class AcyclicServer {
+ public:
+  explicit AcyclicServer(AcyclicOptions options);
+  AcyclicServer(const AcyclicServer&) = delete;
+  AcyclicServer& operator=(const AcyclicServer&) = delete;
+
+  /// Once, for an opened device.
+  dsdpv1_error open(dsdpv1_device& device);
+  /// Fetches and answers what there is; `now` starts the delay of requests that come with it.
+  dsdpv1_error poll(Tick now);
+
+  void set_answering(Answering answering) { options_.answering = answering; }
+  const AcyclicCounters& counters() const { return counters_; }
+  const std::vector<AcyclicObject>& objects() const { return options_.objects; }
+
+ private:
+  struct Later {
+    Tick due = 0;
+    std::uint16_t ticket = 0;
+    bool refuse = false;
+    std::vector<std::uint8_t> data;
+  };
+  struct Entry {  // what a handler gets as its context
+    AcyclicServer* server = nullptr;
+    AcyclicObject* object = nullptr;
+  };
+  static dsdpv1_outcome handle(void* ctx, const dsdpv1_request* request, dsdpv1_reply* reply);
+  dsdpv1_outcome serve(AcyclicObject& object, const dsdpv1_request& request, dsdpv1_reply& reply);
+  dsdpv1_error answer_due(Tick now);
+  void fill_table();
+  void fill_im0(const Nameplate& nameplate);
+  void count(const dsdpv1_acyclic_result& result);
+
+  AcyclicOptions options_;
+  std::vector<Entry> entries_;
+  std::vector<dsdpv1_object> table_;
+  dsdpv1_im0 im0_{};
+  dsdpv1_acyclic acyclic_{};
+  std::deque<Later> later_;  ///< in order of their times
+  Tick now_ = 0;
+  AcyclicCounters counters_;
+};
+
+}  // namespace user_cpu
