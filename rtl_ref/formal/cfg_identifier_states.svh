@@ -1,0 +1,3 @@
+// Bound into cfg_identifier: 15 announces no bytes of the manufacturer.
+initial assume (!rst_ni);
+always @* assert (skip_q <= 4'd14);

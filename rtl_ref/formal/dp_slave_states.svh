@@ -1,0 +1,18 @@
+// Bound into dp_slave: its states and what may hold in each (S13, S15, S18).
+reg init_before = 1'b0, initialised_before = 1'b0;
+always @(posedge clk_i) begin
+  init_before <= init_i;
+  initialised_before <= initialised_q;
+end
+initial assume (!rst_ni);
+always @* begin
+  assert (initialised_q == (state_q != DP_OFFLINE));
+  if (initialised_q && !initialised_before) assert (init_before);
+  assert (pbf_q == (state_q != DP_DATA_EXCH));
+  if (await_prm_q) assert (state_q == DP_WAIT_PRM);
+  if (await_cfg_q) assert (state_q == DP_WAIT_CFG);
+  if (state_q == DP_WAIT_CFG || state_q == DP_DATA_EXCH) assert (held_q);
+  if (state_q == DP_WAIT_PRM && held_q) assert (await_prm_q);
+  if (state_q == DP_OFFLINE) assert (!held_q);
+  if (sync_q || freeze_q) assert (state_q == DP_DATA_EXCH);
+end

@@ -1,0 +1,9 @@
+// Bound into station. While PBRTS is high no telegram is decided: the receiver stands still (8.3), and the rise of PBRTS forgets a
+// telegram in progress (section 7). uart_tx is free but for what uart_tx_states proves of it: risen is the first cycle of PBRTS.
+reg rts_before = 1'b0;
+always @(posedge clk_i) rts_before <= rst_ni && pbrts_o;
+initial assume (!rst_ni);
+always @* begin
+  assume (risen == (pbrts_o && !rts_before));
+  assert (!(decide && pbrts_o));
+end

@@ -1,0 +1,110 @@
+"""The proofs: what is bound where, what is cut away, and the defect of the twin."""
+import dataclasses
+
+CHIP = "dsdpv1/dsdpv1.sv"
+SEQUENCER = "dsdpv1/dpram_sequencer.sv"
+ANY_PARAMETERS = ("DSDPV1_RUN_TIME_LIMITS",)
+
+
+@dataclasses.dataclass(frozen=True)
+class Proof:
+    name: str
+    title: str
+    top: str
+    bind: dict               # source file: properties
+    cut_cells: tuple = ()    # instances whose outputs become free
+    cut_wires: tuple = ()    # wires that become free
+    defines: tuple = ()
+    engine: str = "pdr"      # or "induction"
+    depth: int = 0           # of the induction
+    twin_depth: int = 0      # cycles in which the twin's violation is looked for
+    fault: int = 0           # the twin's defect: one of faults.txt,
+    edit: tuple = ()         # or file, old text, new text
+
+
+def states(block, file, edit, **more):
+    """No state machine of a block leaves its legal states, whatever its inputs do."""
+    return Proof(name=f"{block}_states", title=f"{block}: legal states only", top=more.pop("top", block),
+                 bind={file: f"{block}_states"}, edit=(file, *edit), **more)
+
+
+PROOFS = (
+    Proof(
+        name="ownership",
+        title="never both sides own the DPRAM, for a user that keeps H2",
+        top="dsdpv1",
+        bind={CHIP: "ownership"},
+        cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt"),
+        cut_wires=("w:u_sequencer.boot_q",),
+        defines=ANY_PARAMETERS,
+        fault=49,
+    ),
+    Proof(
+        name="l_req_l_sta",
+        title="L_REQ and L_STA are always equal",
+        top="dsdpv1",
+        bind={CHIP: "l_req_l_sta"},
+        cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt"),
+        cut_wires=("w:u_sequencer.boot_q",),
+        defines=ANY_PARAMETERS,
+        edit=(SEQUENCER, "assign l_req_o = own_q;", "assign l_req_o = own_q && state_q != COMMIT;"),
+    ),
+    Proof(
+        name="intr0_low",
+        title="INTR0 is low for exactly 64 cycles a pulse",
+        top="dsdpv1",
+        bind={CHIP: "intr0_low"},
+        cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_sequencer"),
+        fault=46,
+    ),
+    Proof(
+        name="intr0_high",
+        title="INTR0 is high for at least 64 cycles between two pulses",
+        top="dsdpv1",
+        bind={CHIP: "intr0_high"},
+        cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_sequencer"),
+        fault=45,
+    ),
+    Proof(
+        name="uart_rx_idle",
+        title="the receiver is IDLE 10.5 bit times behind the release of PBRXD",
+        top="uart_rx",
+        bind={"profibus/uart_rx.sv": "uart_rx_idle"},
+        cut_wires=("w:start", "w:syn", "w:gap"),
+        engine="induction",
+        depth=2,
+        twin_depth=100,
+        edit=("profibus/uart_rx.sv", "else if (run_i && state_q == BREAK && rxd_i) state_d = IDLE;", ""),
+    ),
+    Proof(
+        name="nothing_decided_while_sending",
+        title="no telegram is decided while PBRTS is high",
+        top="station",
+        bind={"profibus/station.sv": "nothing_decided_while_sending"},
+        cut_cells=("c:u_dp_slave", "c:u_baud_search", "c:u_watchdog", "c:u_fdl", "c:u_uart_tx"),
+        cut_wires=("w:u_uart_rx.start",),
+        edit=("profibus/telegram_rx.sv", "else if (restart_i || risen_i) begin", "else if (restart_i) begin"),
+    ),
+    states("uart_rx", "profibus/uart_rx.sv", ("stop_bit_q <= sample_q == 4'd9;", "stop_bit_q <= sample_q == 4'd10;")),
+    states("uart_tx", "profibus/uart_tx.sv",
+           ("assign all_sent = state_q == SEND && bit_ends && bit_q == 4'd10",
+            "assign all_sent = state_q == SEND && bit_ends && bit_q == 4'd9")),
+    states("telegram_rx", "profibus/telegram_rx.sv",
+           ("field_q <= sd_q == SD_SD1 ? FCS : DATA;", "field_q <= field_q + 4'd4;")),
+    states("baud_search", "profibus/baud_search.sv", ("rate_q == RATE_LAST - ", "rate_q == RATE_LAST + 4'd1 - "),
+           cut_wires=("w:window_of_rate",)),
+    states("watchdog", "profibus/watchdog.sv", ("state_d = WD_OFF;", "state_d = state_q + 2'd2;"),
+           cut_wires=("w:baud_control",)),
+    states("answer_builder", "profibus/answer_builder.sv",
+           ("value = 8'h16;\n        state_d = IDLE;", "value = 8'h16;\n        state_d = state_q + 4'd1;")),
+    states("cfg_identifier", "profibus/cfg_identifier.sv",
+           ("byte_i[3:0] == 4'd15 ? 4'd0 : byte_i[3:0]", "byte_i[3:0]")),
+    states("dpram_sequencer", SEQUENCER, ("COMMIT, FLAG, ERRORS: state_d = CHOICE;", "COMMIT, FLAG: state_d = CHOICE;"),
+           cut_wires=("w:boot_q",)),
+    states("dp_slave", "profibus/dp_slave.sv", ("if (leave) begin\n      sync_d = 1'b0;", "if (leave) begin"),
+           top="station",
+           cut_cells=("c:u_uart_rx", "c:u_uart_tx", "c:u_telegram_rx", "fdl/c:u_builder", "fdl/c:u_answers",
+                      "dp_slave/c:u_buffers", "dp_slave/c:u_set_prm", "dp_slave/c:u_check_cfg",
+                      "dp_slave/c:u_global_control", "dp_slave/c:u_diagnosis"),
+           cut_wires=("w:u_baud_search.window_of_rate", "w:u_watchdog.last_q")),
+)

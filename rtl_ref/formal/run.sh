@@ -1,0 +1,6 @@
+#!/bin/sh
+# Unbounded proofs of the reference RTL and their broken twins: prints a table, exit 0 only when every proof holds and every twin is
+# found. Arguments: names of proofs, by default all. OUT is the folder for models and logs, by default build/rtl-formal.
+set -eu
+cd "$(dirname "$0")"
+exec python3 prove.py --out "${OUT:-../../build/rtl-formal}" "$@"
