@@ -36,6 +36,13 @@ TEST_P(AcyclicPoll, FlagIsClearedInTheHoldThatReadTheRequest) {
   EXPECT_THAT(flags, ElementsAre(0, 0));
 }
 
+TEST_P(AcyclicPoll, ReservedBitsOfTheChipsCommandByteAreLeftAlone) {
+  open();
+  chip.at(0x00F) = 0x80;
+  static_cast<void>(ask(cls(), {0x5E, 1, 1, 4}));
+  EXPECT_EQ(chip.at(0x00F), 0x80);
+}
+
 TEST_P(AcyclicPoll, AnswerHasItsCrcAndFlag) {
   open();
   std::uint8_t flags = 0;
@@ -105,18 +112,32 @@ TEST_P(AcyclicPoll, ImpossibleLengthIsNeverRead) {
 
 TEST_P(AcyclicPoll, RequestReplacedWhileItIsReadAgainIsServedOnce) {
   open();
-  chip.put_request(cls(), {0x5F, 1, 1, 1, 0xAA});
+  int served = 0;
+  while_handling = [&] { ++served; };
+  chip.put_request(cls(), {0x5F, 2, 1, 1, 0xAA});
   spoil_crc();
-  bool once = true;
-  chip.before_access = [&] {
+  chip.before_access = [&, once = true]() mutable {
     if (std::exchange(once, false)) {
-      chip.put_request(cls(), {0x5F, 1, 1, 1, 0xBB});
+      chip.put_request(cls(), {0x5F, 2, 1, 1, 0xBB});
     }
   };
   EXPECT_EQ(poll(), DSDPV1_OK);
-  EXPECT_EQ(parameter[0], 0xBB);
+  EXPECT_THAT(seen_data, ElementsAre(0xBB));
   EXPECT_EQ(poll(), DSDPV1_OK);
+  EXPECT_EQ(served, 1);
   EXPECT_EQ(chip.answers_taken, 1);
+}
+
+TEST_P(AcyclicPoll, RequestThatStaysWrongIsForgottenByAnInitialisation) {
+  open();
+  chip.put_request(cls(), {0x5F, 1, 1, 1, 0xAA});
+  spoil_crc();
+  EXPECT_NE(poll(), DSDPV1_OK);
+  initialise();
+  spoil_crc();
+  EXPECT_EQ(poll(), DSDPV1_OK);
+  EXPECT_EQ(done.received, 0);
+  EXPECT_EQ(parameter[0], 0x11);
 }
 
 TEST_P(AcyclicPoll, HoldThatFailsWhileReadingAgainLosesNothing) {
@@ -252,6 +273,28 @@ TEST_F(AcyclicBoth, WrongCrcOfOneClassDoesNotStopTheOther) {
   EXPECT_EQ(poll(), DSDPV1_ERR_C1_CRC);
   EXPECT_THAT(last_answer(2), ElementsAre(0x5E, 1, 1, 1, 0x11));
   EXPECT_EQ(done.received, DSDPV1_CLASS_2);
+}
+
+TEST_F(AcyclicBoth, AnswerThatTheChipHasNotTakenKeepsItsFlagWhenTheOtherFollows) {
+  open();
+  chip.takes_commands = false;
+  static_cast<void>(ask(1, {0x5E, 1, 1, 1}));
+  static_cast<void>(ask(2, {0x5E, 1, 1, 1}));
+  EXPECT_EQ(chip.at(0x011), 3);
+}
+
+TEST_F(AcyclicBoth, OnlyTheAnswerWithTheWrongCrcIsWrittenAgain) {
+  open();
+  chip.before_access = [&, once = true]() mutable {
+    if (chip.at(0x011) != 0 && std::exchange(once, false)) {
+      chip.at(0x6C4) = static_cast<std::uint8_t>(chip.at(0x6C4) ^ 1);
+    }
+  };
+  chip.put_request(1, {0x5E, 1, 1, 1});
+  static_cast<void>(ask(2, {0x5E, 1, 1, 1}));
+  EXPECT_EQ(poll(), DSDPV1_OK);
+  EXPECT_EQ(done.repeated, DSDPV1_CLASS_1);
+  EXPECT_EQ(chip.answers_taken, 3);
 }
 
 TEST_F(AcyclicBoth, CyclicDataAndDiagnosisGoOnWhileRequestsAreOpen) {

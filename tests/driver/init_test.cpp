@@ -252,6 +252,16 @@ TEST_F(RefusedInit, AfterOneThatTheChipDidNotTakeKeepsThemToo) {
   EXPECT_THAT(chip.verdicts, ElementsAre("prm ok"));
 }
 
+TEST_F(RefusedInit, BringsBackABlockOnce) {
+  initialise(2, 0);
+  chip.put_prm({1});
+  refuse_one();
+  EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  refuse_one();
+  EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);
+  EXPECT_EQ(prm_seen.size(), 1U);
+}
+
 TEST_F(RefusedInit, AndThenAnAcceptedOneDropsWhatWaits) {
   initialise(2, 0);
   chip.put_prm({1});
