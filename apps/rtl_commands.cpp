@@ -39,16 +39,16 @@ std::string counts_text(const cosim::MatchCounts& counts) {
                      counts.dpram_images);
 }
 
-cosim::MakeTop maker(unsigned fault) {
-  if (fault != 0) return [fault] { return cosim::make_faulty_rtl(cosim::quick_config(), fault); };
-  return [] { return cosim::make_reference_rtl(cosim::quick_config()); };
+cosim::MakeTop maker(unsigned fault, std::uint32_t seed) {
+  if (fault != 0) return [fault, seed] { return cosim::make_faulty_rtl(cosim::quick_config(), fault, seed); };
+  return [seed] { return cosim::make_reference_rtl(cosim::quick_config(), seed); };
 }
 
 int replay(const RtlRandomArguments& arguments, const std::string& path) {
   cosim::PlayOptions options;
   options.config = cosim::quick_config();
   options.wave = arguments.difference;
-  const cosim::PlayResult result = cosim::play(read_stimulus(path), maker(arguments.fault), options);
+  const cosim::PlayResult result = cosim::play(read_stimulus(path), maker(arguments.fault, static_cast<std::uint32_t>(arguments.seed)), options);
   std::cout << path << ": " << counts_text(result.counts) << '\n';
   if (!result.difference) return kPassed;
   std::cout << cosim::describe(*result.difference) << "wave              " << arguments.difference << '\n';
@@ -68,7 +68,7 @@ int rtl_random(const RtlRandomArguments& arguments) {
   if (!arguments.replay.empty()) return replay(arguments, arguments.replay);
   const auto begin = std::chrono::steady_clock::now();
   const cosim::CampaignResult result =
-      cosim::run_campaign(arguments.seed, arguments.cycles, maker(arguments.fault), show);
+      cosim::run_campaign(arguments.seed, arguments.cycles, maker(arguments.fault, static_cast<std::uint32_t>(arguments.seed)), show);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (isatty(STDERR_FILENO) != 0) std::cerr << '\r';
   std::cout << fmt::format("seed {}: {} cases, {} ({:.1f} M cycles/s)\n", arguments.seed, result.cases,
@@ -77,7 +77,7 @@ int rtl_random(const RtlRandomArguments& arguments) {
   std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", result.cases, result.difference->what)
             << std::flush;
   const cosim::Stimulus shrunk =
-      cosim::shrink(cosim::random_stimulus(result.failed_seed), maker(arguments.fault), kShrinkRuns);
+      cosim::shrink(cosim::random_stimulus(result.failed_seed), maker(arguments.fault, static_cast<std::uint32_t>(arguments.seed)), kShrinkRuns);
   tb::OutputFile file(arguments.stimulus);
   file.write(cosim::to_text(shrunk));
   file.commit();

@@ -18,6 +18,9 @@ inline dsdpv1::Config quick_config() {
   return config;
 }
 
+/// The RTL has no DPV1 (rtl_ref/README.md): until it has, no case asks for what only the model does.
+constexpr bool kDpv1InRtl = false;
+
 /// Random numbers that are the same with every standard library.
 class Random {
  public:

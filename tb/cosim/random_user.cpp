@@ -203,6 +203,7 @@ Action RandomUser::access(Verb verb) {
 }
 
 void RandomUser::write(int address, int value) {
+  if (address == regs::kUserCommand2 && !kDpv1InRtl) value &= ~(regs::kUserCommand2C1 | regs::kUserCommand2C2);
   Action action = access(Verb::kWrite);
   action.address = address;
   action.value = value;

@@ -1,5 +1,5 @@
 # The reference RTL as two shared libraries in the folder rtl/ of the build: the RTL as it is, and the one with single faults.
-# No target depends on them but `all` and the tests; the program loads them when it is asked for RTL (reference_rtl.hpp).
+# Their target dsdpv1_rtl_libraries is part of `all` and of nothing else; the program loads them when it is asked for RTL (reference_rtl.hpp).
 set(DSDPV1_RTL_DIR ${PROJECT_SOURCE_DIR}/rtl_ref CACHE PATH "Folder of the reference RTL: files.txt and what it names")
 mark_as_advanced(DSDPV1_RTL_DIR)
 set(rtl_dir ${DSDPV1_RTL_DIR})
@@ -8,12 +8,13 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rtl_dir}/files.
 file(STRINGS ${rtl_dir}/files.txt rtl_sources)
 list(TRANSFORM rtl_sources PREPEND ${rtl_dir}/)
 
-# dsdpv1_rtl_library(NAME ARGUMENTS...): lib<NAME>.so; the arguments go to Verilator. Its own make keeps Verilator out of the
+# dsdpv1_rtl_library(NAME MACROS...): lib<NAME>.so, RTL and adapter with these macros (-D). Verilator's own make keeps it out of the
 # configuration, which every `./run` waits for.
 function(dsdpv1_rtl_library name)
   set(library ${rtl_folder}/lib${name}.so)
   set(adapter ${CMAKE_CURRENT_SOURCE_DIR}/reference_library.cpp)
-  set(compile "-O3 -fPIC -std=c++17 -I${PROJECT_SOURCE_DIR} -DDSDPV1_RTL_LAYOUT=${DSDPV1_RTL_LAYOUT}")
+  list(JOIN ARGN " " macros)
+  set(compile "-O3 -fPIC -std=c++17 -I${PROJECT_SOURCE_DIR} -DDSDPV1_RTL_LAYOUT=${DSDPV1_RTL_LAYOUT} ${macros}")
   add_custom_command(
     OUTPUT ${library}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${rtl_folder}
@@ -28,6 +29,5 @@ function(dsdpv1_rtl_library name)
   set_property(TARGET dsdpv1_rtl_libraries APPEND PROPERTY SOURCES ${library})
 endfunction()
 
-add_custom_target(dsdpv1_rtl_libraries ALL)
 dsdpv1_rtl_library(dsdpv1_rtl)
 dsdpv1_rtl_library(dsdpv1_rtl_faults -DDSDPV1_FAULTS)
