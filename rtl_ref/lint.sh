@@ -4,12 +4,10 @@
 set -eu
 cd "$(dirname "$0")"
 files=$(cat files.txt)
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
 
+# quiet COMMAND...: fails also when the command says anything
 quiet() {
-  "$@" > "$log" 2>&1 || { cat "$log"; exit 1; }
-  [ ! -s "$log" ] || { cat "$log"; exit 1; }
+  output=$("$@" 2>&1) && [ -z "$output" ] || { echo "$output"; exit 1; }
 }
 
 for define in "" -DDSDPV1_FAULTS -DDSDPV1_RUN_TIME_LIMITS "-DDSDPV1_FAULTS -DDSDPV1_RUN_TIME_LIMITS"; do

@@ -3,4 +3,4 @@
 # found. Arguments: names of proofs, by default all. OUT is the folder for models and logs, by default build/rtl-formal.
 set -eu
 cd "$(dirname "$0")"
-exec python3 prove.py --out "${OUT:-../../build/rtl-formal}" "$@"
+exec python3 -B prove.py --out "${OUT:-../../build/rtl-formal}" "$@"
