@@ -33,7 +33,8 @@ struct RunOptions {
 /// One answer to a request of the script.
 struct Reply {
   bool answered = false;
-  bus::Bytes data;
+  bus::Bytes data;                                           ///< of a negative acyclic answer its three error bytes
+  bus::AcyclicOutcome outcome = bus::AcyclicOutcome::kLost;  ///< of acyclic services
 };
 
 class Bench {

@@ -39,6 +39,8 @@ const char* service_word(scenario::Do service) {
     case scenario::Do::kReadOutputs: return "read_outputs";
     case scenario::Do::kGetCfg: return "get_cfg";
     case scenario::Do::kSlaveDiag: return "slave_diag";
+    case scenario::Do::kC1Read: return "c1_read";
+    case scenario::Do::kC1Write: return "c1_write";
     default: return "set_slave_address";
   }
 }
@@ -110,12 +112,17 @@ void add_data(Parts& parts, const Condition& c, const Bench* bench, const bus::B
 }
 
 void add_reply(Parts& parts, const Condition& c, const Bench* bench) {
-  if (!c.reply) return;
+  if (!c.reply_of) return;
   const Reply* reply = bench != nullptr ? bench->last_reply(c.master.text, *c.reply_of) : nullptr;
   const std::string seen = reply == nullptr ? "nothing" : reply->answered ? shown(reply->data) : "no answer";
   const char* service = service_word(*c.reply_of);
-  parts.add(fmt::format("reply to {} {}", service, shown(*c.reply)), fmt::format("reply {}", seen),
-            reply != nullptr && reply->answered && reply->data == *c.reply);
+  if (c.reply)
+    parts.add(fmt::format("reply to {} {}", service, shown(*c.reply)), fmt::format("reply {}", seen),
+              reply != nullptr && reply->answered && reply->data == *c.reply);
+  if (c.outcome)
+    parts.add(fmt::format("outcome of {} {}", service, bus::name(*c.outcome)),
+              fmt::format("outcome {}", reply == nullptr ? "nothing" : bus::name(reply->outcome)),
+              reply != nullptr && reply->outcome == *c.outcome);
 }
 
 Parts examine(const Condition& c, const Bench* bench) {

@@ -14,6 +14,16 @@ namespace tb {
 using scenario::Action;
 using scenario::Do;
 
+namespace {
+
+Reply reply_of(const bus::AcyclicResult& result) {
+  const bool negative = result.outcome == bus::AcyclicOutcome::kNegative;
+  const bus::Bytes codes = {result.error_decode, result.error_code_1, result.error_code_2};
+  return {negative || result.positive(), negative ? codes : result.data, result.outcome};
+}
+
+}  // namespace
+
 Script::Script(Bench& bench) : bench_(bench) {
   const scenario::Scenario& scenario = bench.scenario();
   for (std::size_t i = 0; i < scenario.slaves.size(); ++i)
@@ -154,6 +164,8 @@ void Script::act_on_user(const Action& action, Tick now) {
       for (int i = 0; i < action.times; ++i) order("R_STA without a look at L_REQ and L_STA", command::EarlyRSta{});
       return;
     case Do::kWrongLength: return order("inputs of a wrong length", command::WrongLength{});
+    case Do::kAnswerAcyclic:
+      return order("answers acyclic requests otherwise", command::SetAnswering{action.answering});
     case Do::kVerdict:
       return order(action.refuse ? "verdict: wrong" : "verdict: right",
                    command::SendVerdict{action.of == scenario::Verdict::kCfg, action.refuse});
@@ -208,6 +220,8 @@ void Script::act_on_master(const Action& action, Tick now) {
     case Do::kStartMaster: say("starts"); return master.start();
     case Do::kChangeBaud: say("baud rate " + baud_text(action.baud)); return bench_.change_baud(action.baud);
     case Do::kTelegram: say("telegram " + bytes_text(action.bytes)); return send_telegram(action);
+    case Do::kC1Read:
+    case Do::kC1Write: return ask_acyclic(action);
     default: return ask(action);
   }
 }
@@ -222,7 +236,7 @@ std::uint8_t Script::target(const Action& action) const {
 void Script::ask(const Action& action) {
   bus::Master1& master = bench_.master(action.master.text);
   const auto keep = [this, name = action.master.text, what = action.what](const bus::FdlResult& result) {
-    bench_.keep_reply(name, what, {result.answered() && !result.short_acknowledge(), result.answer.data});
+    bench_.keep_reply(name, what, {result.answered() && !result.short_acknowledge(), result.answer.data, {}});
   };
   const std::uint8_t address = action.what == Do::kSetSlaveAddress && !action.address
                                    ? bench_.slave(action.slave.text).chip().chip().status().address
@@ -237,6 +251,18 @@ void Script::ask(const Action& action) {
   const int ident = action.ident.value_or(action.slave.empty() ? 0 : bench_.slave(action.slave.text).station().ident);
   master.set_slave_address(address, static_cast<std::uint8_t>(*action.new_address), static_cast<std::uint16_t>(ident),
                            action.lock, keep);
+}
+
+void Script::ask_acyclic(const Action& action) {
+  bus::Master1& master = bench_.master(action.master.text);
+  const auto slot = static_cast<std::uint8_t>(action.slot), index = static_cast<std::uint8_t>(action.index);
+  const auto keep = [this, name = action.master.text, what = action.what](const bus::AcyclicResult& result) {
+    bench_.keep_reply(name, what, reply_of(result));
+  };
+  const std::uint8_t address = target(action);
+  if (action.what == Do::kC1Read)
+    return master.c1_read(address, slot, index, static_cast<std::uint8_t>(action.length), keep);
+  master.c1_write(address, slot, index, action.bytes, keep);
 }
 
 void Script::global_control(const Action& action) {

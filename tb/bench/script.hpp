@@ -43,6 +43,7 @@ class Script : public bus::Agent {
   void act_on_bus(const scenario::Action& action, Tick now);
   void reset_chip(const scenario::Action& action, Tick now);
   void ask(const scenario::Action& action);
+  void ask_acyclic(const scenario::Action& action);
   void global_control(const scenario::Action& action);
   void send_telegram(const scenario::Action& action);
   std::size_t slave_index(const std::string& name) const;

@@ -9,6 +9,30 @@ SlaveStation::SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig
                            std::unique_ptr<ChipView> chip)
     : slave_(slave), station_(std::move(station)), chip_(std::move(chip)) {}
 
+namespace {
+
+user_cpu::AcyclicObject object_of(const scenario::Dpv1Object& object) {
+  const auto bit = [](bool wanted, unsigned value) { return wanted ? value : 0U; };
+  const unsigned services = bit(object.read, DSDPV1_MAY_READ) | bit(object.write, DSDPV1_MAY_WRITE) |
+                            bit(object.transport, DSDPV1_MAY_TRANSPORT);
+  return {static_cast<std::uint8_t>(object.slot),       static_cast<std::uint8_t>(object.index),
+          static_cast<std::uint8_t>(services),          object.classes,
+          static_cast<std::uint8_t>(object.min_length), object.data};
+}
+
+user_cpu::AcyclicOptions acyclic_options(const scenario::Dpv1User& user) {
+  user_cpu::AcyclicOptions options;
+  for (const scenario::Dpv1Object& object : user.objects) options.objects.push_back(object_of(object));
+  if (user.im0) options.im0 = *user.im0;
+  options.answering = user.answering;
+  options.delay = user.delay;
+  options.error_code_1 = static_cast<std::uint8_t>(user.error_code_1);
+  options.error_code_2 = static_cast<std::uint8_t>(user.error_code_2);
+  return options;
+}
+
+}  // namespace
+
 user_cpu::ProgramOptions SlaveStation::options() const {
   const scenario::UserCpu& user = slave_.user_cpu;
   user_cpu::ProgramOptions options;
@@ -23,6 +47,7 @@ user_cpu::ProgramOptions SlaveStation::options() const {
   options.judge_delay = user.judge_delay;
   options.judge_in_handler = user.judge_in_handler;
   options.retry_delay = user.retry_delay;
+  options.acyclic = acyclic_options(user.dpv1);
   return options;
 }
 

@@ -72,6 +72,7 @@ class Checker {
   }
 
   void check_slave(const Slave& slave) const {
+    check_objects(slave.user_cpu.dpv1);
     if (slave.gsd.empty() && !slave.modules.empty())
       fail(slave.modules.front().line, "modules without gsd, allowed are the modules of a GSD file");
     if (!slave.gsd.empty()) return;
@@ -85,6 +86,24 @@ class Checker {
     need(init.max_inputs.has_value(), "max_inputs");
     need(init.max_outputs.has_value(), "max_outputs");
     need(init.cfg.has_value(), "cfg");
+  }
+
+  void check_objects(const Dpv1User& user) const {
+    std::map<std::pair<int, int>, int> seen;
+    if (user.im0) seen[{0, 255}] = user.im0->line;
+    for (const Dpv1Object& object : user.objects) {
+      const auto [place, fresh] = seen.emplace(std::pair(object.slot, object.index), object.line);
+      if (!fresh)
+        fail(object.line, fmt::format("slot {} index {} is already taken in line {}, allowed is each once", object.slot,
+                                      object.index, place->second));
+      if (!object.read && !object.write && !object.transport)
+        fail(object.line, "an object needs at least one of read, write, transport");
+      if (object.min_length > static_cast<int>(object.data.size()))
+        fail(object.line, fmt::format("min_length is {}, allowed is up to the length of data, {}", object.min_length,
+                                      object.data.size()));
+      if (object.transport && object.classes == DSDPV1_CLASS_1)
+        fail(object.line, "transport is a service of C2, allowed with classes: both or class_2");
+    }
   }
 
   void check_master(const Master& master) const {
@@ -125,10 +144,12 @@ class Checker {
                              condition.outputs || !condition.event.empty() || condition.tsdr_min ||
                              condition.tsdr_max || condition.longest_wait_at_most;
     if (about_slave && condition.slave.empty()) fail(condition.line, "slave is missing, allowed are " + join(slaves_));
-    if (condition.reply.has_value() != condition.reply_of.has_value())
-      fail(condition.line, "reply and reply_of are only allowed together");
-    if (condition.reply && scenario_.masters.empty())
-      fail(condition.line, "reply needs a master, the scenario has none");
+    if ((condition.reply || condition.outcome) != condition.reply_of.has_value())
+      fail(condition.line, "reply or outcome and reply_of are only allowed together");
+    if (condition.outcome && !acyclic(*condition.reply_of))
+      fail(condition.line, "outcome is only known of acyclic services, allowed is reply");
+    if (condition.reply_of && scenario_.masters.empty())
+      fail(condition.line, "reply_of needs a master, the scenario has none");
     if (condition.event.empty() && condition.count_at_most)
       fail(condition.line, "count_at_most without event, allowed is an event's code");
   }
@@ -163,6 +184,7 @@ class Checker {
       fail(action.line, "ident is missing, it can only be left out where slave is named");
   }
 
+  static bool acyclic(Do what) { return what == Do::kC1Read || what == Do::kC1Write; }
   static bool needs_master(Do what) { return what >= Do::kSetOutputs && what <= Do::kTelegram; }
 
   const Scenario& scenario_;

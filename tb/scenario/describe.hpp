@@ -13,6 +13,8 @@ using keys::WordFor;
 const ObjectOf<ChipParameters>& chip_keys();
 const ObjectOf<Master>& master_keys();
 const ObjectOf<Slave>& slave_keys();
+const ObjectOf<Dpv1User>& dpv1_keys();
+const std::vector<WordFor<Answering>>& answering_words();
 const ObjectOf<Action>& action_keys();
 const ObjectOf<When>& when_keys();
 const ObjectOf<Expectation>& expectation_keys();

@@ -36,11 +36,25 @@ void describe_condition(ObjectOf<T>& o) {
                                   {Do::kReadOutputs, "read_outputs", ""},
                                   {Do::kGetCfg, "get_cfg", ""},
                                   {Do::kSlaveDiag, "slave_diag", ""},
-                                  {Do::kSetSlaveAddress, "set_slave_address", ""}},
-         "The service whose last answer `reply` is about.");
-  o.bytes("reply", &C::reply, {0, 244}, "Data of the last answer of that service.");
+                                  {Do::kSetSlaveAddress, "set_slave_address", ""},
+                                  {Do::kC1Read, "c1_read", ""},
+                                  {Do::kC1Write, "c1_write", ""}},
+         "The service whose last answer `reply` and `outcome` are about.");
+  o.bytes("reply", &C::reply, {0, 244},
+          "Data of the last answer of that service; of an acyclic one that was refused Error_Decode, Error_Code_1 and "
+          "Error_Code_2.");
+  o.word("outcome", &C::outcome,
+         std::vector<WordFor<bus::AcyclicOutcome>>{
+             {bus::AcyclicOutcome::kPositive, "positive", ""},
+             {bus::AcyclicOutcome::kNegative, "negative", "an error answer (tables 27, 32)"},
+             {bus::AcyclicOutcome::kTimeout, "timeout", "acknowledged, never answered"},
+             {bus::AcyclicOutcome::kRefused, "refused", "RS, RR or UE"},
+             {bus::AcyclicOutcome::kNoAnswer, "no_answer", "nobody there"},
+             {bus::AcyclicOutcome::kWrongAnswer, "wrong_answer", "an answer to something else"},
+             {bus::AcyclicOutcome::kLost, "lost", "data exchange was left, or the connection ended"}},
+         "What came of the last acyclic service.");
   o.at_least_one = {{"dp_state", "baud", "station_address", "data_exchanges", "data_exchanges_at_most", "inputs",
-                     "outputs", "event", "tsdr_min", "tsdr_max", "longest_wait_at_most", "reply"}};
+                     "outputs", "event", "tsdr_min", "tsdr_max", "longest_wait_at_most", "reply", "outcome"}};
 }
 
 }  // namespace

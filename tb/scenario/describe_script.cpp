@@ -32,6 +32,7 @@ std::vector<WordFor<Do>> action_words() {
           {Do::kWrongLength, "wrong_length", ""},
           {Do::kPauseUser, "pause_user", ""},
           {Do::kVerdict, "verdict", ""},
+          {Do::kAnswerAcyclic, "answer_acyclic", ""},
           {Do::kUnplug, "unplug", ""},
           {Do::kPlug, "plug", ""},
           {Do::kSetOutputs, "set_outputs", ""},
@@ -40,6 +41,8 @@ std::vector<WordFor<Do>> action_words() {
           {Do::kGetCfg, "get_cfg", ""},
           {Do::kSlaveDiag, "slave_diag", ""},
           {Do::kSetSlaveAddress, "set_slave_address", ""},
+          {Do::kC1Read, "c1_read", ""},
+          {Do::kC1Write, "c1_write", ""},
           {Do::kGlobalControl, "global_control", ""},
           {Do::kOperate, "operate", ""},
           {Do::kClear, "clear", ""},
@@ -80,6 +83,7 @@ std::vector<Choice> action_choices() {
        {}},
       {"pause_user", "The user CPU does nothing for a while, not even judge.", {"slave", "for"}, {}},
       {"verdict", "The user CPU sends a verdict, as it does in judging mode 2.", {"slave", "of"}, {"refuse"}},
+      {"answer_acyclic", "From now on the user CPU answers acyclic requests like this.", {"slave", "answering"}, {}},
       {"unplug", "The slave is taken from the bus.", {"slave"}, {}},
       {"plug", "The slave is put back.", {"slave"}, {}},
       {"set_outputs", "The master sends these outputs from the next cycle on.", {"slave", "bytes"}, {"master"}},
@@ -91,6 +95,14 @@ std::vector<Choice> action_choices() {
        "The master gives the slave another address (SAP 55).",
        {"new_address"},
        {"master", "slave", "address", "ident", "lock"}},
+      {"c1_read",
+       "The master reads an object acyclically (DS_Read, MSAC_C1).",
+       {"slave", "slot", "index", "length"},
+       {"master"}},
+      {"c1_write",
+       "The master writes an object acyclically (DS_Write, MSAC_C1).",
+       {"slave", "slot", "index", "bytes"},
+       {"master"}},
       {"global_control",
        "The master sends a Global_Control (SAP 58) to all, or to the groups.",
        {},
@@ -127,16 +139,22 @@ void describe_values(ObjectOf<Action>& o) {
   o.boolean("lock", &A::lock, "No_Add_Chg: no further change of the address.");
   o.bytes("cfg", &A::cfg, {1, 200}, "The new configuration.");
   o.time("for", &A::duration, {1, 10 * bus::kTicksPerSecond}, "How long; of reset_chip left out: 10us.");
-  o.word(
-      "area", &A::area,
-      std::vector<WordFor<Area>>{
-          {Area::kInit, "init", "initialisation"}, {Area::kInputs, "inputs", ""}, {Area::kDiagnosis, "diagnosis", ""}},
-      "Which block.");
+  o.word("area", &A::area,
+         std::vector<WordFor<Area>>{{Area::kInit, "init", "initialisation"},
+                                    {Area::kInputs, "inputs", ""},
+                                    {Area::kDiagnosis, "diagnosis", ""},
+                                    {Area::kC1Answer, "c1_answer", ""},
+                                    {Area::kC2Answer, "c2_answer", ""}},
+         "Which block.");
   o.integer("times", &A::times, {1, 1000}, "", "How many.");
   o.word("of", &A::of,
          std::vector<WordFor<Verdict>>{{Verdict::kPrm, "prm", "parameters"}, {Verdict::kCfg, "cfg", "configuration"}},
          "What is judged.");
   o.boolean("refuse", &A::refuse, "The verdict is: wrong.");
+  o.word("answering", &A::answering, answering_words(), "How acyclic requests are answered.");
+  o.integer("slot", &A::slot, {0, 255}, "", "Slot number.");
+  o.integer("index", &A::index, {0, 255}, "", "Index.");
+  o.integer("length", &A::length, {0, 255}, "bytes", "How many bytes are asked for; above 240 the chip refuses.");
   o.word("baud", &A::baud, baud_words(), "The new baud rate.");
   o.object("faults", &A::faults, fault_keys(), "What is broken in the telegram.");
   o.boolean("level", &A::level, "true: the line is forced high, false: low.");

@@ -113,6 +113,7 @@ const ObjectOf<UserCpu>& user_cpu_keys() {
     o.word("judge_cfg", &U::judge_cfg, judgement_words(), "Its verdict on the configuration in judging mode 2.");
     o.object("timing", &U::timing, timing_keys(), "How fast it is.");
     o.object("access", &U::access, access_keys(), "When it moves the pins of its bus.");
+    o.object("dpv1", &U::dpv1, dpv1_keys(), "Its answers to acyclic requests.");
     return o;
   }();
   return keys;

@@ -48,7 +48,7 @@ class SchemaWriter {
       case Kind::kNumber:
         return {{"type", "number"}, {"minimum", field.type.range.min}, {"maximum", field.type.range.max}};
       case Kind::kBoolean: return {{"type", "boolean"}};
-      case Kind::kText:
+      case Kind::kText: return text(field);
       case Kind::kFile: return {{"type", "string"}, {"minLength", 1}};
       case Kind::kWord: return words(field);
       case Kind::kTime: return {{"type", "string"}, {"pattern", "^-?[0-9]+([.][0-9]+)? *(s|ms|us|ns|cycles)$"}};
@@ -57,6 +57,12 @@ class SchemaWriter {
       case Kind::kList: return list(field);
     }
     return {};
+  }
+
+  static Json text(const Field& field) {
+    Json json = {{"type", "string"}, {"minLength", 1}};
+    if (field.type.range.max > 0) json["maxLength"] = field.type.range.max;
+    return json;
   }
 
   static Json integer(const Field& field) {

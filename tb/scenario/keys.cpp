@@ -178,6 +178,9 @@ bool read_boolean(const Field& field, const YAML::Node& node, const Source& sour
 std::string read_text(const Field& field, const YAML::Node& node, const Source& source) {
   const std::string& text = scalar(field, node, source, "text");
   if (text.empty()) fail(source, node, fmt::format("{} is empty, allowed is text", field.name));
+  const auto most = static_cast<std::size_t>(field.type.range.max);
+  if (most != 0 && text.size() > most)
+    fail(source, node, fmt::format("{} has {} characters, allowed are {}", field.name, text.size(), most));
   return text;
 }
 

@@ -18,7 +18,7 @@ namespace tb::keys {
 
 enum class Kind : std::uint8_t { kInteger, kNumber, kBoolean, kText, kFile, kWord, kTime, kBytes, kObject, kList };
 
-/// Least and greatest allowed value: of an integer, of a time in ticks, of the number of bytes or items.
+/// Least and greatest allowed value: of an integer, of a time in ticks, of the number of bytes, items or (0: any) characters.
 struct Range {
   std::int64_t min = 0, max = 0;
 };
@@ -185,8 +185,11 @@ class ObjectOf : public Object {
   /// A path, relative to the folder of the scenario.
   Field& file(const char* key, Name T::*member, const char* text) { return named(key, member, Kind::kFile, text); }
 
-  Field& text(const char* key, std::string T::*member, const char* text) {
+  /// At most `most` characters, 0: as many as you like.
+  template <class B>
+  Field& text(const char* key, std::string B::*member, const char* text, std::int64_t most = 0) {
     Field& field = add(key, Kind::kText, text);
+    field.type.range.max = most;
     field.default_text = T{}.*member;
     return on_read(field, [member](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
       owner.*member = read_text(self, node, source);

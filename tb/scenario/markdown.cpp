@@ -43,7 +43,7 @@ std::string type_text(const Field& field) {
     case Kind::kInteger: return fmt::format("{} to {}{}", range.min, range.max, unit);
     case Kind::kNumber: return fmt::format("number, {} to {}{}", range.min, range.max, unit);
     case Kind::kBoolean: return "`true`, `false`";
-    case Kind::kText: return "text";
+    case Kind::kText: return range.max > 0 ? fmt::format("text, at most {} characters", range.max) : "text";
     case Kind::kFile: return "path";
     case Kind::kWord: {
       std::string text;

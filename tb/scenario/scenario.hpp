@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/acyclic.hpp"
 #include "bus/bytes.hpp"
 #include "bus/slave_parameters.hpp"
 #include "bus/time.hpp"
@@ -84,6 +85,30 @@ struct CpuTimes : user_cpu::CpuTiming {
   int line = 0;
 };
 
+/// An object of the user CPU that masters reach by slot and index.
+struct Dpv1Object {
+  int slot = 0, index = 0, min_length = 0;
+  bool read = true, write = true, transport = false;
+  std::uint8_t classes = DSDPV1_CLASS_BOTH;
+  bus::Bytes data;
+  int line = 0;
+};
+
+struct Im0 : user_cpu::Nameplate {
+  int line = 0;
+};
+
+using user_cpu::Answering;
+
+struct Dpv1User {
+  std::vector<Dpv1Object> objects;
+  std::optional<Im0> im0;
+  Answering answering = Answering::kNormal;
+  bus::Tick delay = 0;
+  int error_code_1 = DSDPV1_EC_INVALID_PARAMETER, error_code_2 = 0;
+  int line = 0;
+};
+
 struct UserCpu {
   Behaviour behaviour = Behaviour::kLoopBack;
   bus::Bytes constant;
@@ -96,6 +121,7 @@ struct UserCpu {
   Judgement judge_prm = Judgement::kAccept, judge_cfg = Judgement::kAccept;
   CpuTimes timing;  ///< its `access` is left alone: that is the next member
   AccessTimes access;
+  Dpv1User dpv1;
   int line = 0;
 };
 
@@ -121,6 +147,7 @@ enum class Do : std::uint8_t {
   kWrongLength,
   kPauseUser,
   kVerdict,
+  kAnswerAcyclic,
   kUnplug,
   kPlug,
   kSetOutputs,
@@ -129,6 +156,8 @@ enum class Do : std::uint8_t {
   kGetCfg,
   kSlaveDiag,
   kSetSlaveAddress,
+  kC1Read,
+  kC1Write,
   kGlobalControl,
   kOperate,
   kClear,
@@ -155,6 +184,7 @@ struct Condition {
   Name master;
   std::optional<Do> reply_of;
   std::optional<bus::Bytes> reply;
+  std::optional<bus::AcyclicOutcome> outcome;
   int line = 0;
 };
 
@@ -193,6 +223,8 @@ struct Action {
   Area area = Area::kInputs;
   int times = 1;
   Verdict of = Verdict::kPrm;
+  Answering answering = Answering::kNormal;
+  int slot = 0, index = 0, length = 0;
   int baud = 0;
   Faults faults;
   int line = 0;
