@@ -122,6 +122,7 @@ void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
   CLI::App* command = app.add_subcommand("rtl-random", "Random stimulus for model and reference RTL in lockstep");
   command->add_option("--cycles", arguments.cycles, "How many cycles to compare")->capture_default_str();
   command->add_option("--seed", arguments.seed, "The same cases for the same seed")->capture_default_str();
+  command->add_option("--jobs", arguments.jobs, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
   command->add_option("--replay", arguments.replay, "This stimulus file instead of random cases");
   command->add_option("--fault", arguments.fault, "With this single fault of rtl_ref/faults.txt")
       ->check(CLI::Range(0, 255));
@@ -138,14 +139,17 @@ void describe_rtl_faults(CLI::App& app, RtlFaultsArguments& arguments) {
       app.add_subcommand("rtl-faults", "Checks the lockstep itself: every single fault in the RTL must be found");
   command->add_option("--list", arguments.list, "The list of faults")->capture_default_str();
   command->add_option("--directed", arguments.directed, "Folder of stimulus files that are played first")
-      ->check(CLI::ExistingDirectory);
+      ->capture_default_str();
   command->add_option("--cycles", arguments.cycles, "Random cycles for each fault at most")->capture_default_str();
   command->add_option("--seed", arguments.seed, "Of the random cases")->capture_default_str();
+  command->add_option("--jobs", arguments.jobs, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
+  command->add_option("--tsv", arguments.tsv, "The table also as tab-separated text into this file");
   command->footer("\nExit codes: 0 all found, 1 some not, 2 wrong input.\n");
 }
 
 void describe_cosim(CLI::App& app, CosimArguments& arguments) {
-  CLI::App* command = app.add_subcommand("cosim", "Builds RTL of your own with Verilator and holds it against the model");
+  CLI::App* command =
+      app.add_subcommand("cosim", "Builds RTL of your own with Verilator and holds it against the model");
   command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML")->required();
   command->add_option("--rtl", arguments.rtl, "Folder of the RTL")->required();
   command->add_option("--top", arguments.top, "Its top module")->required();

@@ -9,10 +9,13 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <optional>
+#include <thread>
 #include <vector>
 
 #include "apps/command_line.hpp"
 #include "tb/cosim/campaign.hpp"
+#include "tb/cosim/faults.hpp"
 #include "tb/cosim/random_setup.hpp"
 #include "tb/cosim/random_stimulus.hpp"
 #include "tb/cosim/reference_rtl.hpp"
@@ -39,7 +42,9 @@ std::string counts_text(const cosim::MatchCounts& counts) {
                      counts.dpram_images);
 }
 
-cosim::MakeTop maker(unsigned fault, std::uint32_t seed) {
+cosim::MakeTop maker(const RtlRandomArguments& arguments) {
+  const unsigned fault = arguments.fault;
+  const auto seed = static_cast<std::uint32_t>(arguments.seed);
   if (fault != 0) return [fault, seed] { return cosim::make_faulty_rtl(cosim::quick_config(), fault, seed); };
   return [seed] { return cosim::make_reference_rtl(cosim::quick_config(), seed); };
 }
@@ -48,17 +53,41 @@ int replay(const RtlRandomArguments& arguments, const std::string& path) {
   cosim::PlayOptions options;
   options.config = cosim::quick_config();
   options.wave = arguments.difference;
-  const cosim::PlayResult result = cosim::play(read_stimulus(path), maker(arguments.fault, static_cast<std::uint32_t>(arguments.seed)), options);
+  const cosim::PlayResult result = cosim::play(read_stimulus(path), maker(arguments), options);
   std::cout << path << ": " << counts_text(result.counts) << '\n';
   if (!result.difference) return kPassed;
   std::cout << cosim::describe(*result.difference) << "wave              " << arguments.difference << '\n';
   return kFailed;
 }
 
-void show(const cosim::CampaignResult& result) {
-  if (isatty(STDERR_FILENO) != 0)
-    std::cerr << fmt::format("\r{} cases, {:.1f} M cycles", result.cases,
-                             static_cast<double>(result.counts.cycles) / 1e6);
+unsigned threads(unsigned jobs) { return jobs != 0 ? jobs : std::max(1U, std::thread::hardware_concurrency()); }
+
+/// How far a campaign is, in one line that is written over itself.
+class ProgressLine {
+ public:
+  void show(std::uint64_t cases, std::uint64_t cycles) const {
+    if (shown_) std::cerr << fmt::format("\r{} cases, {:.1f} M cycles", cases, static_cast<double>(cycles) / 1e6);
+  }
+  void clear() const {
+    if (shown_) std::cerr << "\r" << std::string(60, ' ') << '\r';
+  }
+
+ private:
+  bool shown_ = isatty(STDERR_FILENO) != 0;
+};
+
+int shrink_and_replay(const RtlRandomArguments& arguments, const cosim::CampaignResult& result) {
+  std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", result.cases, result.difference->what)
+            << std::flush;
+  const cosim::Stimulus shrunk =
+      cosim::shrink(cosim::random_stimulus(result.failed_seed), maker(arguments), kShrinkRuns);
+  tb::OutputFile file(arguments.stimulus);
+  file.write(cosim::to_text(shrunk));
+  file.commit();
+  const std::string fault = arguments.fault == 0 ? "" : fmt::format(" --fault {}", arguments.fault);
+  std::cout << fmt::format("{} actions, to be seen again with\n  dsdpv1-sim rtl-random{} --seed {} --replay {}\n",
+                           shrunk.size(), fault, arguments.seed, arguments.stimulus);
+  return replay(arguments, arguments.stimulus);
 }
 
 }  // namespace
@@ -67,46 +96,40 @@ int rtl_random(const RtlRandomArguments& arguments) {
   tb::check_wave_name(arguments.difference);
   if (!arguments.replay.empty()) return replay(arguments, arguments.replay);
   const auto begin = std::chrono::steady_clock::now();
+  const ProgressLine line;
   const cosim::CampaignResult result =
-      cosim::run_campaign(arguments.seed, arguments.cycles, maker(arguments.fault, static_cast<std::uint32_t>(arguments.seed)), show);
+      cosim::run_campaign({arguments.seed, arguments.cycles, threads(arguments.jobs)}, maker(arguments),
+                          [&line](std::uint64_t cases, std::uint64_t cycles) { line.show(cases, cycles); });
+  line.clear();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (isatty(STDERR_FILENO) != 0) std::cerr << '\r';
   std::cout << fmt::format("seed {}: {} cases, {} ({:.1f} M cycles/s)\n", arguments.seed, result.cases,
-                           counts_text(result.counts), static_cast<double>(result.counts.cycles) / 1e6 / seconds);
-  if (!result.difference) return kPassed;
-  std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", result.cases, result.difference->what)
-            << std::flush;
-  const cosim::Stimulus shrunk =
-      cosim::shrink(cosim::random_stimulus(result.failed_seed), maker(arguments.fault, static_cast<std::uint32_t>(arguments.seed)), kShrinkRuns);
-  tb::OutputFile file(arguments.stimulus);
-  file.write(cosim::to_text(shrunk));
-  file.commit();
-  std::cout << fmt::format("{} actions, to be seen again with --replay {}\n", shrunk.size(), arguments.stimulus);
-  return replay(arguments, arguments.stimulus);
+                           counts_text(result.counts), static_cast<double>(result.counts.cycles) / 1e6 / seconds)
+            << result.coverage.text();
+  return result.difference ? shrink_and_replay(arguments, result) : kPassed;
 }
 
 int rtl_faults(const RtlFaultsArguments& arguments) {
   const std::vector<cosim::Fault> faults = cosim::read_faults(arguments.list);
-  std::vector<cosim::NamedStimulus> directed;
-  if (!arguments.directed.empty()) {
-    for (const auto& entry : fs::directory_iterator(arguments.directed))
-      directed.push_back({entry.path().stem().string(), read_stimulus(entry.path().string())});
-    std::sort(directed.begin(), directed.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
-  }
+  const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(arguments.directed);
   const cosim::Kill none = cosim::hunt({0, "none", "the build for the faults, with none active"}, directed,
                                        arguments.seed, arguments.cycles / 10);
+  std::cout << cosim::heading();
   if (none.found) {
     std::cout << cosim::line_of(none) << "model and RTL differ without a fault; find that out first\n";
     return kFailed;
   }
-  std::size_t found = 0;
-  for (const cosim::Fault& fault : faults) {
-    const cosim::Kill kill = cosim::hunt(fault, directed, arguments.seed, arguments.cycles);
-    found += kill.found ? 1 : 0;
-    std::cout << cosim::line_of(kill) << std::flush;
+  std::optional<tb::OutputFile> tsv;
+  if (!arguments.tsv.empty()) tsv.emplace(arguments.tsv);
+  const std::vector<cosim::Kill> kills =
+      cosim::hunt_all(faults, directed, {arguments.seed, arguments.cycles, threads(arguments.jobs)},
+                      [](const cosim::Kill& kill) { std::cout << cosim::line_of(kill) << std::flush; });
+  if (tsv) {
+    tsv->write(cosim::to_tsv(kills));
+    tsv->commit();
   }
+  const auto found = std::count_if(kills.begin(), kills.end(), [](const cosim::Kill& kill) { return kill.found; });
   std::cout << fmt::format("{} of {} faults found\n", found, faults.size());
-  return found == faults.size() ? kPassed : kFailed;
+  return found == static_cast<std::ptrdiff_t>(faults.size()) ? kPassed : kFailed;
 }
 
 }  // namespace app

@@ -7,6 +7,7 @@ namespace app {
 
 struct RtlRandomArguments {
   std::uint64_t cycles = 10'000'000, seed = 1;
+  unsigned jobs = 0;                           ///< threads; 0: as many as there are processors
   std::string replay;                          ///< a stimulus file instead of random cases
   unsigned fault = 0;                          ///< of rtl_ref/faults.txt, to see one found
   std::string stimulus = "lockstep.stimulus";  ///< where a shrunk failing case goes
@@ -14,8 +15,10 @@ struct RtlRandomArguments {
 };
 
 struct RtlFaultsArguments {
-  std::string list = "rtl_ref/faults.txt", directed;  ///< `directed`: a folder of stimulus files; empty: none
+  std::string list = "rtl_ref/faults.txt", directed = "tests/cosim/stimuli";
+  std::string tsv;  ///< the kill table for other programs; empty: none
   std::uint64_t cycles = 30'000'000, seed = 1;
+  unsigned jobs = 0;  ///< as of rtl-random
 };
 
 struct CosimArguments {

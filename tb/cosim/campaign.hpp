@@ -1,54 +1,45 @@
 #pragma once
-// Many random cases, the shrinking of one that fails, and the fault campaign.
+// Many random cases, on several threads; and the shrinking of one that fails.
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "tb/cosim/coverage.hpp"
 #include "tb/cosim/player.hpp"
 
 namespace cosim {
 
+struct CampaignOptions {
+  std::uint64_t seed = 1, cycles = 0;  ///< cases are begun until so many cycles are compared
+  unsigned jobs = 1;                   ///< threads
+};
+
+/// The same for the same seed and cycles, however many threads there are.
 struct CampaignResult {
   MatchCounts counts;
-  std::uint64_t cases = 0;
+  Coverage coverage;
+  std::uint64_t cases = 0;               ///< up to and including the one with the difference
   std::uint64_t failed_seed = 0;         ///< of the case with the difference
-  std::optional<Difference> difference;  ///< the first one
+  std::optional<Difference> difference;  ///< of the first case that has one
 };
+
+/// What is compared so far, for a progress line; called by one thread at a time.
+using CampaignProgress = std::function<void(std::uint64_t cases, std::uint64_t cycles)>;
 
 /// The seed of case `number` of a campaign.
 std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number);
 
-/// Cases one after the other until so many cycles are compared, or one differs. `progress` may be empty.
-CampaignResult run_campaign(std::uint64_t seed, std::uint64_t cycles, const MakeTop& make,
-                            const std::function<void(const CampaignResult&)>& progress);
+/// Cases until so many cycles are compared, or one differs. `make` is called by all threads; `progress` may be empty.
+CampaignResult run_campaign(const CampaignOptions& options, const MakeTop& make, const CampaignProgress& progress = {});
 
 /// A shorter stimulus that still differs: actions are left out, then delays and faults, as long as there is a difference. At most
 /// `runs` runs.
 Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs);
 
-struct Fault {
-  unsigned number = 0;
-  std::string block, text;
-};
-/// rtl_ref/faults.txt; throws tb::InputError.
-std::vector<Fault> read_faults(const std::string& path);
+/// How random cases and directed stimuli are played.
+PlayOptions quick_options();
 
-struct Kill {
-  Fault fault;
-  bool found = false;
-  std::string stimulus;  ///< name of the directed stimulus or "random"
-  std::uint64_t cycles = 0;
-  std::string what;  ///< the difference
-};
-
-struct NamedStimulus {
-  std::string name;
-  Stimulus stimulus;
-};
-
-/// Directed stimuli first, then random cases until `cycles` are compared.
-Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, std::uint64_t seed, std::uint64_t cycles);
-/// One line of the kill table.
-std::string line_of(const Kill& kill);
+/// Calls `work` on so many threads, each until it returns false; throws what the first of them threw.
+void in_parallel(unsigned jobs, const std::function<bool()>& work);
 
 }  // namespace cosim

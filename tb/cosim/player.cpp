@@ -233,6 +233,8 @@ class Player {
         board_(chip_.lockstep()) {
     timeline_.add(chip_);
     for (Place& place : places_) timeline_.add(*place.lane);
+    lockstep().on_event(
+        {[](void* self, const profibus::Event& event) { static_cast<Coverage*>(self)->happened(event); }, &coverage_});
   }
 
   PlayResult run() {
@@ -240,7 +242,7 @@ class Player {
       if (!timeline_.step(options_.limit)) break;
     }
     finish();
-    PlayResult result{lockstep().difference(), lockstep().counts(), begun_};
+    PlayResult result{lockstep().difference(), lockstep().counts(), begun_, coverage_};
     if (result.difference && !options_.wave.empty()) lockstep().write_wave(options_.wave);
     return result;
   }
@@ -266,6 +268,7 @@ class Player {
       const Action& action = stimulus_[place.next];
       if (!place.lane->takes(action.verb)) continue;
       place.lane->begin(timeline_.now() + action.delay, action);
+      if (action.verb == Verb::kSend) coverage_.sent(action.bytes, action.faults);
       begun_ = std::max(begun_, ++place.next);
       return true;
     }
@@ -301,6 +304,7 @@ class Player {
   BoardLane board_;
   Place places_[3] = {{&bus_}, {&user_}, {&board_}};
   std::size_t sync_ = 0, passed_ = 0, begun_ = 0;
+  Coverage coverage_;
 };
 
 }  // namespace

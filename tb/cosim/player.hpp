@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "tb/cosim/coverage.hpp"
 #include "tb/cosim/lockstep.hpp"
 #include "tb/cosim/stimulus.hpp"
 
@@ -23,6 +24,7 @@ struct PlayResult {
   std::optional<Difference> difference;
   MatchCounts counts;
   std::size_t actions_begun = 0;  ///< up to the difference, or to the end
+  Coverage coverage;
 };
 
 /// Until the first difference, or until all lanes are through and some cycles more.

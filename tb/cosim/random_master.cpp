@@ -121,7 +121,7 @@ void RandomMaster::check_cfg(bool right) {
 }
 
 void RandomMaster::data_exchange() {
-  const int length = random_.one_in(16) ? random_.below(6) : setup_.outputs;
+  const int length = !careful_ && random_.one_in(16) ? random_.below(6) : setup_.outputs;
   request(kNoSap, random_.bytes(length));
 }
 
@@ -261,15 +261,15 @@ void RandomMaster::wait_baud_control() {
   extra_ += static_cast<Tick>(quick_config().baud_control_ms) * bus::kTicksPerMs - random_.below(2) * 40 * bit();
 }
 
-std::uint8_t RandomMaster::master() { return random_.one_in(10) ? std::uint8_t{3} : std::uint8_t{2}; }
+std::uint8_t RandomMaster::master() { return !careful_ && random_.one_in(10) ? std::uint8_t{3} : std::uint8_t{2}; }
 
 /// SRD; the frame count bit toggles in a series, and sometimes not.
 std::uint8_t RandomMaster::function_code() {
   constexpr std::uint8_t kFcb = bus::fc::kFcb, kFcv = bus::fc::kFcv;
   const auto base =
       static_cast<std::uint8_t>(bus::fc::kRequest | (random_.one_in(3) ? bus::fc::kSrdLow : bus::fc::kSrdHigh));
-  if (random_.one_in(16)) return base;
-  if (!fcv_ || random_.one_in(30)) {
+  if (!careful_ && random_.one_in(16)) return base;
+  if (!fcv_ || careful_ || random_.one_in(30)) {
     fcv_ = fcb_ = true;
     return static_cast<std::uint8_t>(base | kFcb);
   }
@@ -283,7 +283,7 @@ void RandomMaster::request(int dsap, const bus::Bytes& data) {
   if (sap)
     telegram = bus::make_telegram(setup_.address, telegram.sa, telegram.fc, data, static_cast<std::uint8_t>(dsap),
                                   bus::sap::kMaster);
-  if (sap && random_.one_in(24)) telegram.ssap.reset();
+  if (sap && !careful_ && random_.one_in(24)) telegram.ssap.reset();
   send(telegram);
 }
 
@@ -294,7 +294,8 @@ void RandomMaster::send(const bus::Telegram& telegram, bool answered) {
 
 /// Mostly T_SYN and some more; often just about T_SYN, where one cycle decides (S3, S10).
 Tick RandomMaster::idle() {
-  if (random_.one_in(3)) return 33 * bit() + random_.between(-22, 6) * kCycle / 2;
+  if (careful_) return 33 * bit() + random_.below(static_cast<int>(8 * bit()));
+  if (random_.one_in(6)) return 33 * bit() + random_.between(-22, 6) * kCycle / 2;
   if (random_.one_in(12)) return random_.below(33) * bit();
   return 33 * bit() + random_.below(static_cast<int>(20 * bit()));
 }

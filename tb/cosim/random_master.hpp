@@ -15,6 +15,8 @@ class RandomMaster {
   /// Another baud rate, and telegrams until the chip must have found it.
   void choose_rate();
   void forget_series() { fcv_ = false; }
+  /// From now on nothing goes wrong on the line: T_SYN is kept, each request begins a series, one master.
+  void careful(bool careful) { careful_ = careful; }
   void slave_diag();
   void set_prm(bool right);
   void check_cfg(bool right);
@@ -52,7 +54,7 @@ class RandomMaster {
   Random& random_;
   Setup& setup_;
   Stimulus& stimulus_;
-  bool fcb_ = true, fcv_ = false;
+  bool fcb_ = true, fcv_ = false, careful_ = false;
   std::optional<bus::Telegram> last_;
   Tick extra_ = 0;  ///< waited before the next telegram
 };

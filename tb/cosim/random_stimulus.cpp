@@ -1,6 +1,7 @@
 #include "tb/cosim/random_stimulus.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <random>
 
 #include "tb/cosim/random_master.hpp"
@@ -48,14 +49,17 @@ class Case {
     for (int i = steps(); i > 0; --i) step();
     sync();
   }
+  /// About as many cycles at every rate; most of them where most can happen.
   int steps() {
-    if (setup_.rate >= 6) return random_.between(1, 3);
-    return setup_.rate < 3 ? random_.between(20, 80) : random_.between(4, 20);
+    constexpr int kMost[] = {120, 50, 20, 10, 4};
+    const int most = setup_.rate < static_cast<int>(std::size(kMost)) ? kMost[setup_.rate] : 3;
+    return random_.between(most / 3, most);
   }
 
   /// The usual way to data exchange, with the user's verdicts where the modes ask for them.
   void bring_up() {
     if (random_.one_in(2)) master_.slave_diag();
+    master_.careful(!random_.one_in(4));
     const bool held = random_.one_in(4);  // both blocks wait for the user to let go of the DPRAM
     if (held) user_.take();
     sync();
@@ -72,25 +76,50 @@ class Case {
     sync();
     if (random_.one_in(2)) master_.slave_diag();
     for (int i = random_.between(0, 3); i > 0; --i) master_.data_exchange();
+    master_.careful(false);
   }
 
   void step() {
     const int what = random_.below(200);
-    if (what < 102) return master_.anything();
-    if (what < 168) return user_.anything();
-    if (what < 176) return sync();
-    if (what < 184) return hold_commands();
-    if (what < 188) return priority();
-    if (what < 193) return bring_up();
-    if (what < 195) return master_.silence();
-    if (what < 196) return watchdog();
-    if (what < 197) return random_.one_in(3) ? search_again() : reset();
+    if (what < 90) return master_.anything();
+    if (what < 146) return user_.anything();
+    if (what < 152) return sync();
+    if (what < 164) return hold_commands();
+    if (what < 170) return priority();
+    if (what < 182) return judging();
+    if (what < 192) return bring_up();
+    if (what < 193) return master_.silence();
+    if (what < 194) return watchdog();
+    if (what < 196) return random_.one_in(3) ? search_again() : reset();
     return user_.initialise();
   }
 
+  /// Parameters or a configuration that may be wrong, in the state in which they are looked at, and what the diagnosis says (S6, D8).
+  void judging() {
+    const bool prm = random_.one_in(2);
+    sync();
+    master_.careful(true);
+    master_.set_prm(!prm);
+    user_.wait(300);
+    sync();
+    if (setup_.prm_mode == 2) user_.verdict(true, false, true);
+    master_.check_cfg(prm);
+    sync();
+    master_.slave_diag();
+    master_.careful(false);
+  }
   /// Sync, Freeze and their ends, with new data on both sides in between (S4).
   void hold_commands() {
-    if (random_.one_in(4)) return hold_commands_unseen();
+    if (random_.one_in(2)) bring_up();
+    master_.careful(!random_.one_in(4));
+    if (random_.one_in(4)) {
+      hold_commands_unseen();
+    } else {
+      hold_commands_seen();
+    }
+    master_.careful(false);
+  }
+  void hold_commands_seen() {
     for (int i = random_.between(2, 4); i > 0; --i) {
       master_.global_control();
       user_.inputs();

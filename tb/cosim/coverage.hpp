@@ -1,0 +1,30 @@
+#pragma once
+// What a random campaign has done: kinds of telegrams, and what the chip said to them and to its user.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bus/uart.hpp"
+#include "model/profibus/event.hpp"
+
+namespace cosim {
+
+class Coverage {
+ public:
+  /// A telegram as it was sent, with its faults on the wire.
+  void sent(const bus::Bytes& bytes, const bus::WireFaults& faults);
+  void happened(const profibus::Event& event);
+  void add(const Coverage& other);
+
+  const std::map<std::string, std::uint64_t>& telegrams() const { return telegrams_; }
+  std::uint64_t count(profibus::Reason reason) const { return reasons_.at(static_cast<std::size_t>(reason)); }
+  /// Telegrams, refusals and states with their counts, then the codes that never occurred: some lines of text.
+  std::string text() const;
+
+ private:
+  std::map<std::string, std::uint64_t> telegrams_;
+  std::vector<std::uint64_t> reasons_ = std::vector<std::uint64_t>(profibus::reason_count());
+};
+
+}  // namespace cosim
