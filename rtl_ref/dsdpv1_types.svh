@@ -88,11 +88,66 @@ localparam logic [2:0] SRC_OUTPUTS = 3'd2;
 localparam logic [2:0] SRC_CFG = 3'd3;
 localparam logic [2:0] SRC_INIT_CFG = 3'd4;
 localparam logic [2:0] SRC_DIAG = 3'd5;
+localparam logic [2:0] SRC_MSAC = 3'd6;
+
+// DPV1 (section 15): Function_Num that only the chip sees, and the codes of its abort PDU (V11, V12).
+localparam logic [7:0] MSAC_IDLE = 8'h48;
+localparam logic [7:0] MSAC_IMMEDIATE = 8'h56;
+localparam logic [7:0] MSAC_INITIATE = 8'h57;
+localparam logic [7:0] MSAC_ABORT = 8'h58;
+localparam logic [7:0] ABORT_SEQUENCE = 8'h11;
+localparam logic [7:0] ABORT_TIMEOUT = 8'h13;
+
+// Most data bytes of a request or an answer of the user.
+localparam logic [7:0] MSAC_MAX_DATA = 8'd240;
+
+// Who asks.
+localparam logic [1:0] MSAC_C1 = 2'd0;
+localparam logic [1:0] MSAC_30 = 2'd1;
+localparam logic [1:0] MSAC_2F = 2'd2;
+
+// What is wrong with a request or an Initiate (V9, V10).
+localparam logic [1:0] MSAC_RIGHT = 2'd0;
+localparam logic [1:0] MSAC_NOT_SUPPORTED = 2'd1;
+localparam logic [1:0] MSAC_INVALID_PARAMETER = 2'd2;
+localparam logic [1:0] MSAC_WRITE_LENGTH = 2'd3;
+
+// Negative answer: Function_Num with bit 7, Error_Decode, Error_Code_1, Error_Code_2; the first lowest.
+function automatic logic [31:0] negative_answer(input logic [7:0] function_num, input logic [1:0] code);
+  case (code)
+    MSAC_INVALID_PARAMETER: negative_answer = {16'h00B8, 8'h80, function_num | 8'h80};
+    MSAC_WRITE_LENGTH: negative_answer = {16'h00B1, 8'h80, function_num | 8'h80};
+    default: negative_answer = {16'h00A9, 8'h80, function_num | 8'h80};
+  endcase
+endfunction
 
 // States of the watchdog (S1).
 localparam logic [1:0] WD_OFF = 2'd0;
 localparam logic [1:0] WD_BAUD_CONTROL = 2'd1;
 localparam logic [1:0] WD_DP_CONTROL = 2'd2;
+
+// What the sequencer does in an access, in the order of 9.2.
+localparam integer ITEMS = 19;
+localparam logic [4:0] ITEM_INIT = 5'd0;
+localparam logic [4:0] ITEM_VERDICT_PRM = 5'd1;
+localparam logic [4:0] ITEM_VERDICT_CFG = 5'd2;
+localparam logic [4:0] ITEM_INPUTS = 5'd3;
+localparam logic [4:0] ITEM_DIAG = 5'd4;
+localparam logic [4:0] ITEM_C1_ANSWER = 5'd5;
+localparam logic [4:0] ITEM_C2_ANSWER = 5'd6;
+localparam logic [4:0] ITEM_PRM = 5'd7;
+localparam logic [4:0] ITEM_CFG = 5'd8;
+localparam logic [4:0] ITEM_OUTPUTS = 5'd9;
+localparam logic [4:0] ITEM_C1_REQUEST = 5'd10;
+localparam logic [4:0] ITEM_C2_REQUEST = 5'd11;
+localparam logic [4:0] ITEM_VALID = 5'd12;
+localparam logic [4:0] ITEM_COUNT_HIGH = 5'd13;
+localparam logic [4:0] ITEM_COUNT_LOW = 5'd14;
+localparam logic [4:0] ITEM_STATUS_1 = 5'd15;
+localparam logic [4:0] ITEM_STATUS_2 = 5'd16;
+localparam logic [4:0] ITEM_STATUS_3 = 5'd17;
+localparam logic [4:0] ITEM_STATUS_4 = 5'd18;
+localparam logic [4:0] ITEM_NOTHING = 5'd19;
 
 // Banks of the user-side pool of sap_buffers: inputs 0..3, diagnosis 4..7, configuration of the initialisation 8..9.
 localparam logic [1:0] POOL_INPUTS = 2'd0;

@@ -40,10 +40,15 @@ module dpram_sequencer (
   output logic        verdict_prm_o,
   output logic        verdict_cfg_o,
   output logic        verdict_wrong_o,
+  output logic        c1_answer_o,      // with right CRC
+  output logic        c2_answer_o,
   output logic        dpv1_enabled_o,   // B005, as it is at this edge
   output logic        stage_inputs_o,
   output logic        stage_diag_o,
+  output logic        stage_c1_o,
+  output logic        stage_c2_o,
   output logic        stage_we_o,
+  output logic        stage_msac_we_o,
   output logic [1:0]  stage_pool_o,
   output logic [7:0]  stage_index_o,
   output logic [7:0]  stage_data_o,
@@ -54,14 +59,22 @@ module dpram_sequencer (
   input  logic        prm_mail_i,
   input  logic        cfg_mail_i,
   input  logic        output_mail_i,
+  input  logic        c1_mail_i,
+  input  logic        c2_mail_i,
   input  logic [7:0]  prm_length_i,
   input  logic [7:0]  cfg_length_i,
   input  logic [7:0]  cfg_input_length_i,
   input  logic [7:0]  cfg_output_length_i,
   input  logic [7:0]  output_length_i,
+  input  logic [7:0]  c1_function_i,
+  input  logic [7:0]  c2_function_i,
+  input  logic [7:0]  c1_length_i,
+  input  logic [7:0]  c2_length_i,
   output logic        take_prm_o,
   output logic        take_cfg_o,
   output logic        take_output_o,
+  output logic        take_c1_o,
+  output logic        take_c2_o,
   output logic [7:0]  transfer_index_o,
   input  logic [7:0]  transfer_data_i
 );
@@ -79,7 +92,7 @@ module dpram_sequencer (
   localparam logic [4:0] FLAGS_E2 = 5'd10;
   localparam logic [4:0] ENABLE = 5'd11;
   localparam logic [4:0] CHOICE = 5'd12;
-  localparam logic [4:0] READ_HEADER = 5'd13;  // 9.3: the second byte of the diagnosis
+  localparam logic [4:0] READ_HEADER = 5'd13;  // 9.3: from the second byte on
   localparam logic [4:0] READ_LOOK = 5'd14;
   localparam logic [4:0] READ_BYTES = 5'd15;
   localparam logic [4:0] READ_CRC_HIGH = 5'd16;
@@ -95,37 +108,18 @@ module dpram_sequencer (
   localparam logic [4:0] FLAG = 5'd26;
   localparam logic [4:0] ERRORS = 5'd27;       // second cycle of B00B
 
-  // Items in the order of 9.2
-  localparam integer ITEMS = 15;
-  localparam logic [3:0] INIT = 4'd0;
-  localparam logic [3:0] VERDICT_PRM = 4'd1;
-  localparam logic [3:0] VERDICT_CFG = 4'd2;
-  localparam logic [3:0] INPUTS = 4'd3;
-  localparam logic [3:0] DIAG = 4'd4;
-  localparam logic [3:0] PRM = 4'd5;
-  localparam logic [3:0] CFG = 4'd6;
-  localparam logic [3:0] OUTPUTS = 4'd7;
-  localparam logic [3:0] VALID = 4'd8;
-  localparam logic [3:0] COUNT_HIGH = 4'd9;
-  localparam logic [3:0] COUNT_LOW = 4'd10;
-  localparam logic [3:0] STATUS_1 = 4'd11;
-  localparam logic [3:0] STATUS_2 = 4'd12;
-  localparam logic [3:0] STATUS_3 = 4'd13;
-  localparam logic [3:0] STATUS_4 = 4'd14;
-  localparam logic [3:0] NOTHING = 4'd15;
-
   logic [4:0] state_q, state_d;
-  logic [3:0] item_q, pick;
+  logic [4:0] item_q, pick;
   logic [ITEMS-1:0] due, behind_q;
   logic own_q;
   logic first_choice_q;
-  logic [7:0] u_q, e_q;
+  logic [7:0] u_q, w_q, e_q, v_q;
   logic read_on, dpv1_on_q;
   assign read_on = rdata_i == DSDPV1_REG_DPV1_ENABLE_ON;
   logic [10:0] boot_q;
   logic [12:0] since_q;
   logic [20:0] up_q;
-  logic valid_due_q, valid_written_q;
+  logic valid_due_q;
 
   // ---- due accesses
   logic access_due, starts;
@@ -143,28 +137,32 @@ module dpram_sequencer (
     end
   end
 
-  // ---- notes of what is to be written as status
+  // ---- status bytes
+  logic chooses, crc_wrong_q, judged, judged_init, init_limits, status_1, status_4;
+  logic [6:0] status_due, status_written;
+  logic [7:0] error_bit, set, clear;
+  chip_status u_chip_status (
+    .clk_i(clk_i), .rst_ni(rst_ni), .valid_due_i(valid_due_q), .count_i(count_i), .state_i(status_i), .judged_i(judged),
+    .crc_wrong_i(crc_wrong_q), .error_bit_i(error_bit), .init_i(judged_init), .init_right_i(init_o),
+    .init_limits_i(init_limits), .written_i(status_written), .due_o(status_due), .initialised_o(status_1),
+    .limits_o(status_4), .clear_o(clear), .set_o(set));
+
   logic [15:0] crc_q;
-  logic [7:0] high_written_q, low_written_q, status_written_q, set_q, clear_q;
-  logic status_1_due_q, status_1_q, status_4_due_q, status_4_q;
-  logic [7:0] count_high, count_low, crc_high, crc_low;
+  logic [7:0] crc_high, crc_low;
   logic [1:0] boot_low;
-  assign {count_high, count_low} = count_i;
   assign {crc_high, crc_low} = crc_q;
   assign boot_low = boot_q[1:0];
 
   // In the order of 9.2, the first lowest
   assign due = {
-    status_4_due_q,
-    status_i != status_written_q,
-    (set_q | clear_q) != 8'd0,
-    status_1_due_q,
-    count_low != low_written_q,
-    count_high != high_written_q,
-    valid_due_q && !valid_written_q,
+    status_due,
+    c2_mail_i,
+    c1_mail_i,
     output_mail_i,
     cfg_mail_i,
     prm_mail_i,
+    w_q[1],
+    w_q[0],
     u_q[1],
     u_q[0],
     u_q[6],
@@ -173,61 +171,77 @@ module dpram_sequencer (
 
   logic [ITEMS-1:0] candidates;
   assign candidates = due & behind_q;
-  always_comb begin
-    casez (candidates)
-      15'b??????????????1: pick = INIT;
-      15'b?????????????10: pick = VERDICT_PRM;
-      15'b????????????100: pick = VERDICT_CFG;
-      15'b???????????1000: pick = INPUTS;
-      15'b??????????10000: pick = DIAG;
-      15'b?????????100000: pick = PRM;
-      15'b????????1000000: pick = CFG;
-      15'b???????10000000: pick = OUTPUTS;
-      15'b??????100000000: pick = VALID;
-      15'b?????1000000000: pick = COUNT_HIGH;
-      15'b????10000000000: pick = COUNT_LOW;
-      15'b???100000000000: pick = STATUS_1;
-      15'b??1000000000000: pick = STATUS_2;
-      15'b?10000000000000: pick = STATUS_3;
-      15'b100000000000000: pick = STATUS_4;
-      default: pick = NOTHING;
-    endcase
-  end
+  logic first_we;
+  logic [10:0] first_addr;
+  logic [7:0] first_wdata;
+  dpram_choice u_choice (
+    `FAULT_CONNECT
+    .candidates_i(candidates), .prm_length_i(prm_length_i), .cfg_input_length_i(cfg_input_length_i),
+    .cfg_output_length_i(cfg_output_length_i), .output_length_i(output_length_i), .c1_function_i(c1_function_i),
+    .c2_function_i(c2_function_i), .count_i(count_i), .status_1_i(status_1), .status_3_i(status_i), .status_4_i(status_4),
+    .pick_o(pick), .we_o(first_we), .addr_o(first_addr), .wdata_o(first_wdata));
 
-  logic chooses;
   assign chooses = state_q == CHOICE;
-  assign take_prm_o = chooses && pick == PRM;
-  assign take_cfg_o = chooses && pick == CFG;
-  assign take_output_o = chooses && pick == OUTPUTS;
-  assign stage_inputs_o = chooses && pick == INPUTS;
-  assign stage_diag_o = chooses && pick == DIAG;
+  assign take_prm_o = chooses && pick == ITEM_PRM;
+  assign take_cfg_o = chooses && pick == ITEM_CFG;
+  assign take_output_o = chooses && pick == ITEM_OUTPUTS;
+  assign take_c1_o = chooses && pick == ITEM_C1_REQUEST;
+  assign take_c2_o = chooses && pick == ITEM_C2_REQUEST;
+  assign stage_inputs_o = chooses && pick == ITEM_INPUTS;
+  assign stage_diag_o = chooses && pick == ITEM_DIAG;
+  assign stage_c1_o = chooses && pick == ITEM_C1_ANSWER;
+  assign stage_c2_o = chooses && pick == ITEM_C2_ANSWER;
+  assign status_written = {
+    chooses && pick == ITEM_STATUS_4,
+    chooses && pick == ITEM_STATUS_3,
+    state_q == ERRORS,
+    chooses && pick == ITEM_STATUS_1,
+    chooses && pick == ITEM_COUNT_LOW,
+    chooses && pick == ITEM_COUNT_HIGH,
+    chooses && pick == ITEM_VALID};
 
   // ---- blocks: base address, area of the CRC, limit
   logic [10:0] address_q, crc_address;
   logic [7:0] limit, left_q, taken_q;
   logic [15:0] crc_next;
   logic [7:0] crc_byte;
-  logic too_long, too_long_q, crc_wrong_q;
+  logic too_long, too_long_q;
   always_comb begin
     case (item_q)
-      INIT: begin
+      ITEM_INIT: begin
         crc_address = DSDPV1_REG_INIT_CRC;
         limit = 8'd214;
       end
-      INPUTS: begin
+      ITEM_INPUTS: begin
         crc_address = DSDPV1_REG_INPUT_CRC;
         limit = 8'd244;
       end
-      DIAG: begin
+      ITEM_DIAG: begin
         crc_address = DSDPV1_REG_DIAG_CRC;
         limit = 8'd238;
       end
-      PRM: begin
+      ITEM_C1_ANSWER: begin
+        crc_address = DSDPV1_REG_C1_CRC;
+        limit = MSAC_MAX_DATA;
+      end
+      ITEM_C2_ANSWER: begin
+        crc_address = DSDPV1_REG_C2_CRC;
+        limit = MSAC_MAX_DATA;
+      end
+      ITEM_PRM: begin
         crc_address = DSDPV1_REG_PRM_CRC;
         limit = 8'd0;
       end
-      CFG: begin
+      ITEM_CFG: begin
         crc_address = DSDPV1_REG_CFG_CRC;
+        limit = 8'd0;
+      end
+      ITEM_C1_REQUEST: begin
+        crc_address = DSDPV1_REG_C1_CRC;
+        limit = 8'd0;
+      end
+      ITEM_C2_REQUEST: begin
+        crc_address = DSDPV1_REG_C2_CRC;
         limit = 8'd0;
       end
       default: begin
@@ -236,21 +250,32 @@ module dpram_sequencer (
       end
     endcase
   end
-  assign too_long = rdata_i > limit && !`FAULT(50);
+
+  // A C1 or C2 answer has data behind its four bytes only where its Function_Num says so (V14)
+  logic answer_item, no_data_q;
+  logic [7:0] block_length;
+  assign answer_item = item_q == ITEM_C1_ANSWER || item_q == ITEM_C2_ANSWER;
+  assign block_length = no_data_q ? 8'd0 : rdata_i;
+  assign too_long = rdata_i > limit && !no_data_q && !`FAULT(50);
 
   // ---- moves
-  logic [7:0] u_without, e_with, version;
+  logic [7:0] u_without, w_without, e_with, v_with, version;
+  logic request_item, c2_flag;
+  assign request_item = item_q == ITEM_C1_REQUEST || item_q == ITEM_C2_REQUEST;
+  assign c2_flag = item_q == ITEM_C2_REQUEST || `FAULT(88);
+  assign w_without = w_q & (item_q == ITEM_C1_ANSWER ? 8'hFE : 8'hFD);
+  assign v_with = v_q | (c2_flag ? DSDPV1_REG_CHIP_COMMAND_2_C2 : DSDPV1_REG_CHIP_COMMAND_2_C1);
   always_comb begin
     case (item_q)
-      INIT: u_without = u_q & 8'hFB;
-      VERDICT_PRM: u_without = u_q & 8'h7F;
-      VERDICT_CFG: u_without = u_q & 8'hBF;
-      INPUTS: u_without = u_q & 8'hFE;
+      ITEM_INIT: u_without = u_q & 8'hFB;
+      ITEM_VERDICT_PRM: u_without = u_q & 8'h7F;
+      ITEM_VERDICT_CFG: u_without = u_q & 8'hBF;
+      ITEM_INPUTS: u_without = u_q & 8'hFE;
       default: u_without = u_q & 8'hFD;
     endcase
     case (item_q)
-      PRM: e_with = e_q | DSDPV1_REG_CHIP_COMMAND_1_PRM;
-      CFG: e_with = e_q | DSDPV1_REG_CHIP_COMMAND_1_CFG;
+      ITEM_PRM: e_with = e_q | DSDPV1_REG_CHIP_COMMAND_1_PRM;
+      ITEM_CFG: e_with = e_q | DSDPV1_REG_CHIP_COMMAND_1_CFG;
       default: e_with = e_q | DSDPV1_REG_CHIP_COMMAND_1_OUTPUT;
     endcase
     case (boot_low)
@@ -288,64 +313,14 @@ module dpram_sequencer (
       FLAGS_E2: addr_o = DSDPV1_REG_CHIP_COMMAND_2;
       ENABLE: addr_o = DSDPV1_REG_DPV1_ENABLE;
       CHOICE: begin
-        case (pick)
-          INIT: addr_o = DSDPV1_REG_INIT_LENGTH;
-          VERDICT_PRM, VERDICT_CFG: addr_o = DSDPV1_REG_USER_STATUS_1;
-          INPUTS: addr_o = DSDPV1_REG_INPUT_LENGTH;
-          DIAG: addr_o = DSDPV1_REG_DIAG_TYPE;
-          PRM: begin
-            we_o = 1'b1;
-            addr_o = DSDPV1_REG_PRM_LENGTH;
-            wdata_o = prm_length_i;
-          end
-          CFG: begin
-            we_o = 1'b1;
-            addr_o = DSDPV1_REG_CFG_OUTPUT_LENGTH;
-            wdata_o = `FAULT(52) ? cfg_input_length_i : cfg_output_length_i;
-          end
-          OUTPUTS: begin
-            we_o = 1'b1;
-            addr_o = DSDPV1_REG_OUTPUT_LENGTH;
-            wdata_o = output_length_i;
-          end
-          VALID: begin
-            we_o = 1'b1;
-            addr_o = DSDPV1_REG_VALID_FLAG;
-            wdata_o = DSDPV1_REG_VALID_FLAG_VALID;
-          end
-          COUNT_HIGH: begin
-            we_o = 1'b1;
-            addr_o = DSDPV1_REG_OFFLINE_COUNT;
-            wdata_o = count_high;
-          end
-          COUNT_LOW: begin
-            we_o = 1'b1;
-            addr_o = DSDPV1_REG_OFFLINE_COUNT + 11'd1;
-            wdata_o = count_low;
-          end
-          STATUS_1: begin
-            we_o = 1'b1;
-            addr_o = DSDPV1_REG_CHIP_STATUS_1;
-            wdata_o = {7'd0, status_1_q};
-          end
-          STATUS_2: addr_o = DSDPV1_REG_CHIP_STATUS_2;
-          STATUS_3: begin
-            we_o = 1'b1;
-            addr_o = DSDPV1_REG_CHIP_STATUS_3;
-            wdata_o = status_i;
-          end
-          STATUS_4: begin
-            we_o = 1'b1;
-            addr_o = DSDPV1_REG_CHIP_STATUS_4;
-            wdata_o = {7'd0, status_4_q};
-          end
-          default: ;
-        endcase
+        we_o = first_we;
+        addr_o = first_addr;
+        wdata_o = first_wdata;
       end
       COMMIT: begin
         we_o = !`FAULT(53);
-        addr_o = DSDPV1_REG_USER_COMMAND_1;
-        wdata_o = u_without;
+        addr_o = answer_item ? DSDPV1_REG_USER_COMMAND_2 : DSDPV1_REG_USER_COMMAND_1;
+        wdata_o = answer_item ? w_without : u_without;
       end
       WRITE_INPUT_LENGTH, WRITE_LENGTH: begin
         we_o = 1'b1;
@@ -369,21 +344,23 @@ module dpram_sequencer (
       READ_CRC_LOW: addr_o = crc_address + 11'd1;
       FLAG: begin
         we_o = 1'b1;
-        addr_o = DSDPV1_REG_CHIP_COMMAND_1;
-        wdata_o = e_with;
+        addr_o = request_item ? DSDPV1_REG_CHIP_COMMAND_2 : DSDPV1_REG_CHIP_COMMAND_1;
+        wdata_o = request_item ? v_with : e_with;
       end
       ERRORS: begin
         we_o = 1'b1;
         addr_o = DSDPV1_REG_CHIP_STATUS_2;
-        wdata_o = (errors_both ? 8'd0 : rdata_i & ~clear_q) | set_q;
+        wdata_o = (errors_both ? 8'd0 : rdata_i & ~clear) | set;
       end
       default: ;
     endcase
   end
 
   // ---- next state
-  logic no_bytes;
+  logic no_bytes, header_ends;
+  logic [1:0] header_q;  // bytes of the header behind the next one
   assign no_bytes = left_q == 8'd0;
+  assign header_ends = header_q == 2'd0;
   always_comb begin
     state_d = state_q;
     case (state_q)
@@ -395,19 +372,20 @@ module dpram_sequencer (
       IDLE: if (starts) state_d = COUNT;
       CHOICE: begin
         case (pick)
-          INIT, INPUTS: state_d = READ_LOOK;
-          DIAG: state_d = READ_HEADER;
-          VERDICT_PRM, VERDICT_CFG: state_d = VERDICT;
-          PRM: state_d = prm_length_i == 8'd0 ? WRITE_CRC_HIGH : WRITE_BYTES;
-          CFG: state_d = WRITE_INPUT_LENGTH;
-          OUTPUTS: state_d = output_length_i == 8'd0 ? WRITE_CRC_HIGH : WRITE_BYTES;
-          STATUS_2: state_d = ERRORS;
-          NOTHING: state_d = IDLE;
+          ITEM_INIT, ITEM_INPUTS: state_d = READ_LOOK;
+          ITEM_DIAG, ITEM_C1_ANSWER, ITEM_C2_ANSWER: state_d = READ_HEADER;
+          ITEM_VERDICT_PRM, ITEM_VERDICT_CFG: state_d = VERDICT;
+          ITEM_PRM: state_d = prm_length_i == 8'd0 ? WRITE_CRC_HIGH : WRITE_BYTES;
+          ITEM_CFG: state_d = WRITE_INPUT_LENGTH;
+          ITEM_OUTPUTS: state_d = output_length_i == 8'd0 ? WRITE_CRC_HIGH : WRITE_BYTES;
+          ITEM_C1_REQUEST, ITEM_C2_REQUEST: state_d = WRITE_BYTES;
+          ITEM_STATUS_2: state_d = ERRORS;
+          ITEM_NOTHING: state_d = IDLE;
           default: state_d = CHOICE;
         endcase
       end
-      READ_HEADER: state_d = READ_LOOK;
-      READ_LOOK: state_d = too_long ? COMMIT : rdata_i == 8'd0 ? READ_CRC_HIGH : READ_BYTES;
+      READ_HEADER: if (header_ends) state_d = READ_LOOK;
+      READ_LOOK: state_d = too_long ? COMMIT : block_length == 8'd0 ? READ_CRC_HIGH : READ_BYTES;
       READ_BYTES: if (left_q == 8'd1) state_d = READ_CRC_HIGH;
       READ_CRC_HIGH: state_d = READ_CRC_LOW;
       READ_CRC_LOW: state_d = READ_LAST;
@@ -429,11 +407,11 @@ module dpram_sequencer (
   assign crc_byte = arrives_q ? rdata_i : wdata_o;
   crc16 u_crc (.crc_i(crc_q), .byte_i(crc_byte), .crc_o(crc_next));
 
-  logic writes_covered, reads_covered;
-  assign writes_covered = (chooses && (pick == PRM || pick == CFG || pick == OUTPUTS)) || state_q == WRITE_INPUT_LENGTH ||
-                          state_q == WRITE_LENGTH || state_q == WRITE_BYTES;
-  assign reads_covered = (chooses && (pick == INIT || pick == INPUTS || pick == DIAG)) || state_q == READ_HEADER ||
-                         state_q == READ_BYTES;
+  logic writes_covered, reads_covered, last_dropped;
+  assign last_dropped = state_q == WRITE_BYTES && item_q == ITEM_C2_REQUEST && left_q == 8'd1 && `FAULT(89);
+  assign writes_covered = (state_q == WRITE_INPUT_LENGTH || state_q == WRITE_LENGTH || state_q == WRITE_BYTES) && !last_dropped;
+  assign reads_covered = (chooses && (pick == ITEM_INIT || pick == ITEM_INPUTS || pick == ITEM_DIAG || pick == ITEM_C1_ANSWER || pick == ITEM_C2_ANSWER)) ||
+                         state_q == READ_HEADER || state_q == READ_BYTES;
 
   logic [15:0] crc_start;
   assign crc_start = `FAULT(55) ? 16'h0000 : 16'hFFFF;
@@ -445,13 +423,15 @@ module dpram_sequencer (
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= RELEASED;
-      item_q <= NOTHING;
-      behind_q <= 15'd0;
+      item_q <= ITEM_NOTHING;
+      behind_q <= 19'd0;
       own_q <= 1'b0;
       first_choice_q <= 1'b0;
-      {u_q, e_q, dpv1_on_q} <= 17'd0;
+      {u_q, w_q, e_q, v_q, dpv1_on_q} <= 33'd0;
+      header_q <= 2'd0;
+      no_data_q <= 1'b0;
       boot_q <= 11'd0;
-      {valid_due_q, valid_written_q} <= 2'b00;
+      valid_due_q <= 1'b0;
       address_q <= 11'd0;
       {left_q, taken_q} <= 16'd0;
       crc_q <= 16'd0;
@@ -468,32 +448,46 @@ module dpram_sequencer (
 
       // frame (9.1)
       if (starts) begin
-        behind_q <= 15'h7FFF;
+        behind_q <= 19'h7FFFF;
         valid_due_q <= up_q == ready_cycles_i;
       end
       if (state_q == FLAGS_U2) u_q <= rdata_i;
+      if (state_q == FLAGS_E) w_q <= rdata_i;
       if (state_q == FLAGS_E2) e_q <= rdata_i;
+      if (state_q == ENABLE) v_q <= rdata_i;
       first_choice_q <= state_q == ENABLE;
       if (first_choice_q) dpv1_on_q <= read_on;
 
       // choice (9.2)
       if (chooses) begin
         item_q <= pick;
-        behind_q <= 15'h7FFE << pick;
-        if (pick == VALID) valid_written_q <= 1'b1;
+        behind_q <= 19'h7FFFE << pick;
         too_long_q <= 1'b0;
         crc_wrong_q <= 1'b0;
         address_q <= addr_o + 11'd1;
-        left_q <= pick == PRM ? prm_length_i : pick == CFG ? cfg_length_i : output_length_i;
+        case (pick)
+          ITEM_PRM: left_q <= prm_length_i;
+          ITEM_CFG: left_q <= cfg_length_i;
+          ITEM_C1_REQUEST: left_q <= c1_length_i - 8'd1;
+          ITEM_C2_REQUEST: left_q <= c2_length_i - 8'd1;
+          default: left_q <= output_length_i;
+        endcase
+        header_q <= pick == ITEM_DIAG ? 2'd0 : 2'd2;
+        no_data_q <= 1'b0;
         taken_q <= cfg_input_length_i;
       end else begin
         address_q <= address_q + (state_q == READ_LOOK ? 11'd0 : 11'd1);
       end
 
       // lengths
+      if (state_q == READ_HEADER) begin
+        header_q <= header_q - 2'd1;
+        if (header_q == 2'd2)
+          no_data_q <= rdata_i != DSDPV1_REG_FUNCTION_NUM_READ && rdata_i != DSDPV1_REG_FUNCTION_NUM_TRANSPORT && !`FAULT(90);
+      end
       if (state_q == READ_LOOK) begin
-        left_q <= rdata_i;
-        taken_q <= rdata_i;
+        left_q <= block_length;
+        taken_q <= block_length;
         too_long_q <= too_long;
       end
       if (state_q == READ_BYTES || state_q == WRITE_BYTES) left_q <= left_q - 8'd1;
@@ -501,9 +495,11 @@ module dpram_sequencer (
       // bytes
       arrives_q <= reads_covered;
       stages_q <= state_q == READ_BYTES;
-      arrives_index_q <= state_q == READ_BYTES ? (stages_q ? arrives_index_q + 8'd1 : 8'd0) : arrives_index_q;
+      if (chooses) arrives_index_q <= 8'd0;
+      else if (state_q == READ_HEADER && answer_item) arrives_index_q <= arrives_index_q + 8'd1;
+      else if (state_q == READ_BYTES) arrives_index_q <= stages_q || answer_item ? arrives_index_q + 8'd1 : 8'd0;
       arrives_high_q <= state_q == READ_CRC_HIGH;
-      arrives_verdict_q <= chooses && (pick == VERDICT_PRM || pick == VERDICT_CFG);
+      arrives_verdict_q <= chooses && (pick == ITEM_VERDICT_PRM || pick == ITEM_VERDICT_CFG);
 
       if (chooses) crc_q <= reads_covered ? crc_start : crc_first;
       else if (arrives_q || (writes_covered && !`FAULT(56))) crc_q <= crc_next;
@@ -512,26 +508,29 @@ module dpram_sequencer (
       if (arrives_high_q && rdata_i != crc_high) crc_wrong_q <= 1'b1;
       if (state_q == READ_LAST && rdata_i != crc_low && !`FAULT(57)) crc_wrong_q <= 1'b1;
 
-      if (state_q == COMMIT) u_q <= u_without;
-      if (state_q == FLAG) e_q <= e_with;
+      if (state_q == COMMIT && !answer_item) u_q <= u_without;
+      if (state_q == COMMIT && answer_item) w_q <= w_without;
+      if (state_q == FLAG && !request_item) e_q <= e_with;
+      if (state_q == FLAG && request_item) v_q <= v_with;
     end
   end
 
   assign dpv1_enabled_o = first_choice_q ? read_on : dpv1_on_q;
-  assign interrupt_o = state_q == FLAG && (item_q == PRM || item_q == CFG || `FAULT(58));
+  assign interrupt_o = state_q == FLAG && (item_q == ITEM_PRM || item_q == ITEM_CFG || (item_q == ITEM_OUTPUTS && `FAULT(58)));
   assign l_req_o = own_q;
   assign l_sta_o = own_q;
 
-  // ---- transfer from the station: parameters begin behind the seven standard bytes
+  // ---- transfer from the station: parameters begin behind the seven standard bytes; of a request the choice writes the first
   logic [7:0] transfer_q, transfer_start;
-  assign transfer_start = take_prm_o ? 8'd7 : 8'd0;
+  assign transfer_start = take_prm_o ? 8'd7 : take_c1_o || take_c2_o ? 8'd1 : 8'd0;
   assign transfer_index_o = chooses ? transfer_start : state_q == WRITE_BYTES ? transfer_q + 8'd1 : transfer_q;
   always_ff @(posedge clk_i) transfer_q <= transfer_index_o;
 
   // ---- staging of blocks read
-  assign stage_we_o = stages_q && (item_q != INIT || arrives_index_q >= 8'd14);
-  assign stage_pool_o = item_q == INPUTS ? POOL_INPUTS : item_q == DIAG ? POOL_DIAG : POOL_INIT;
-  assign stage_index_o = item_q == INIT ? arrives_index_q - 8'd14 : arrives_index_q;
+  assign stage_we_o = stages_q && !answer_item && (item_q != ITEM_INIT || arrives_index_q >= 8'd14);
+  assign stage_msac_we_o = arrives_q && answer_item;
+  assign stage_pool_o = item_q == ITEM_INPUTS ? POOL_INPUTS : item_q == ITEM_DIAG ? POOL_DIAG : POOL_INIT;
+  assign stage_index_o = item_q == ITEM_INIT ? arrives_index_q - 8'd14 : arrives_index_q;
   assign stage_data_o = rdata_i;
   assign block_length_o = taken_q;
 
@@ -540,17 +539,17 @@ module dpram_sequencer (
   logic [1:0] verdict_bits;
   assign verdict_bits = rdata_i[1:0];
   always_ff @(posedge clk_i) begin
-    if (arrives_verdict_q) verdict_wrong_q <= item_q == VERDICT_PRM || `FAULT(59) ? verdict_bits[0] : verdict_bits[1];
-    if (state_q == READ_HEADER) type_q <= rdata_i;
+    if (arrives_verdict_q) verdict_wrong_q <= item_q == ITEM_VERDICT_PRM || `FAULT(59) ? verdict_bits[0] : verdict_bits[1];
+    if (state_q == READ_HEADER) type_q <= rdata_i;  // of the diagnosis
   end
   assign diag_type_o = type_q;
   assign verdict_wrong_o = verdict_wrong_q;
 
   // ---- initialisation
   logic init_look, init_valid, init_last, limits_wrong;
-  assign init_look = state_q == READ_LOOK && item_q == INIT;
-  assign init_valid = stages_q && item_q == INIT;
-  assign init_last = state_q == READ_LAST && item_q == INIT;
+  assign init_look = state_q == READ_LOOK && item_q == ITEM_INIT;
+  assign init_valid = stages_q && item_q == ITEM_INIT;
+  assign init_last = state_q == READ_LAST && item_q == ITEM_INIT;
   init_block u_init_block (
     `FAULT_CONNECT
     .clk_i(clk_i), .rst_ni(rst_ni), .look_i(init_look), .valid_i(init_valid), .index_i(arrives_index_q), .byte_i(rdata_i),
@@ -562,16 +561,19 @@ module dpram_sequencer (
 
   // ---- commits (section 10)
   // What the commit is about is known an edge ahead
-  logic commits, readable, commit_init_q, commit_inputs_q, commit_diag_q, verdict_prm_q, verdict_cfg_q;
+  logic commits, readable, commit_init_q, commit_inputs_q, commit_diag_q, commit_c1_q, commit_c2_q;
+  logic verdict_prm_q, verdict_cfg_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {commit_init_q, commit_inputs_q, commit_diag_q, verdict_prm_q, verdict_cfg_q} <= 5'd0;
+      {commit_init_q, commit_inputs_q, commit_diag_q, commit_c1_q, commit_c2_q, verdict_prm_q, verdict_cfg_q} <= 7'd0;
     end else begin
-      commit_init_q <= state_q == READ_LAST && item_q == INIT;
-      commit_inputs_q <= state_q == READ_LAST && item_q == INPUTS && initialised_i;
-      commit_diag_q <= state_q == READ_LAST && item_q == DIAG && initialised_i;
-      verdict_prm_q <= state_q == VERDICT && item_q == VERDICT_PRM;
-      verdict_cfg_q <= state_q == VERDICT && item_q == VERDICT_CFG;
+      commit_init_q <= state_q == READ_LAST && item_q == ITEM_INIT;
+      commit_inputs_q <= state_q == READ_LAST && item_q == ITEM_INPUTS && initialised_i;
+      commit_diag_q <= state_q == READ_LAST && item_q == ITEM_DIAG && initialised_i;
+      commit_c1_q <= state_q == READ_LAST && item_q == ITEM_C1_ANSWER && initialised_i;
+      commit_c2_q <= state_q == READ_LAST && item_q == ITEM_C2_ANSWER && initialised_i;
+      verdict_prm_q <= state_q == VERDICT && item_q == ITEM_VERDICT_PRM;
+      verdict_cfg_q <= state_q == VERDICT && item_q == ITEM_VERDICT_CFG;
     end
   end
   assign commits = state_q == COMMIT;
@@ -579,41 +581,23 @@ module dpram_sequencer (
   assign init_o = commit_init_q && !crc_wrong_q && !limits_wrong;
   assign inputs_o = commit_inputs_q && !crc_wrong_q;
   assign diag_o = commit_diag_q && !crc_wrong_q;
+  assign c1_answer_o = commit_c1_q && !crc_wrong_q;
+  assign c2_answer_o = commit_c2_q && !crc_wrong_q;
   assign verdict_prm_o = verdict_prm_q;
   assign verdict_cfg_o = verdict_cfg_q;
 
-  logic judged;
-  logic [7:0] error_bit;
-  assign judged = readable && (item_q == INIT || ((item_q == INPUTS || item_q == DIAG) && initialised_i));
-  assign error_bit = item_q == INIT ? DSDPV1_REG_CHIP_STATUS_2_INIT_CRC :
-                     item_q == INPUTS ? DSDPV1_REG_CHIP_STATUS_2_INPUT_CRC : DSDPV1_REG_CHIP_STATUS_2_DIAG_CRC;
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      {high_written_q, low_written_q, status_written_q, set_q, clear_q} <= 40'd0;
-      {status_1_due_q, status_1_q, status_4_due_q, status_4_q} <= 4'd0;
-    end else begin
-      if (chooses) begin
-        if (pick == COUNT_HIGH) high_written_q <= count_i[15:8];
-        if (pick == COUNT_LOW) low_written_q <= count_i[7:0];
-        if (pick == STATUS_3) status_written_q <= status_i;
-        if (pick == STATUS_1) status_1_due_q <= 1'b0;
-        if (pick == STATUS_4) status_4_due_q <= 1'b0;
-      end
-      if (state_q == ERRORS) begin
-        set_q <= 8'd0;
-        clear_q <= 8'd0;
-      end
-      if (judged && crc_wrong_q) set_q <= set_q | error_bit;
-      if (judged && !crc_wrong_q) clear_q <= clear_q | error_bit;
-      if (commits && item_q == INIT) begin
-        status_1_due_q <= 1'b1;
-        status_1_q <= init_o;
-        if (too_long_q || !crc_wrong_q) begin
-          status_4_due_q <= 1'b1;
-          status_4_q <= !init_o;
-        end
-      end
-    end
+  logic judges;
+  assign judges = item_q == ITEM_INPUTS || item_q == ITEM_DIAG || answer_item;
+  assign judged = readable && (item_q == ITEM_INIT || (judges && initialised_i));
+  assign judged_init = commits && item_q == ITEM_INIT;
+  assign init_limits = too_long_q || !crc_wrong_q;
+  always_comb begin
+    case (item_q)
+      ITEM_INIT: error_bit = DSDPV1_REG_CHIP_STATUS_2_INIT_CRC;
+      ITEM_INPUTS: error_bit = DSDPV1_REG_CHIP_STATUS_2_INPUT_CRC;
+      ITEM_DIAG: error_bit = DSDPV1_REG_CHIP_STATUS_2_DIAG_CRC;
+      ITEM_C1_ANSWER: error_bit = `FAULT(91) ? DSDPV1_REG_CHIP_STATUS_2_C2_CRC : DSDPV1_REG_CHIP_STATUS_2_C1_CRC;
+      default: error_bit = DSDPV1_REG_CHIP_STATUS_2_C2_CRC;
+    endcase
   end
 endmodule

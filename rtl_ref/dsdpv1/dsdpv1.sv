@@ -93,6 +93,8 @@ module dsdpv1 #(
   assign l_sta_o = l_sta;
 
   logic init, inputs, diag, verdict_prm, verdict_cfg, verdict_wrong, dpv1_enabled, interrupt_flag;
+  logic c1_answer, c2_answer, c1_mail, c2_mail, take_c1, take_c2, stage_c1, stage_c2, stage_msac_we;
+  logic [7:0] c1_function, c2_function, c1_length, c2_length;
   logic stage_inputs, stage_diag, stage_we, initialised, prm_mail, cfg_mail, output_mail, take_prm, take_cfg, take_output;
   logic [1:0] init_prm_mode, init_cfg_mode, stage_pool;
   logic [3:0] init_command;
@@ -112,14 +114,16 @@ module dsdpv1 #(
     .init_max_input_o(init_max_input), .init_max_output_o(init_max_output), .init_max_diag_o(init_max_diag),
     .init_max_prm_o(init_max_prm), .init_prm_mode_o(init_prm_mode), .init_max_cfg_o(init_max_cfg),
     .init_cfg_mode_o(init_cfg_mode), .init_cfg_length_o(init_cfg_length), .init_input_length_o(init_input_length),
-    .init_output_length_o(init_output_length), .inputs_o(inputs), .diag_o(diag),
+    .init_output_length_o(init_output_length), .inputs_o(inputs), .diag_o(diag), .c1_answer_o(c1_answer), .c2_answer_o(c2_answer),
     .block_length_o(block_length), .diag_type_o(diag_type), .verdict_prm_o(verdict_prm), .verdict_cfg_o(verdict_cfg),
     .verdict_wrong_o(verdict_wrong), .dpv1_enabled_o(dpv1_enabled), .stage_inputs_o(stage_inputs),
-    .stage_diag_o(stage_diag), .stage_we_o(stage_we), .stage_pool_o(stage_pool), .stage_index_o(stage_index),
+    .stage_diag_o(stage_diag), .stage_c1_o(stage_c1), .stage_c2_o(stage_c2), .stage_we_o(stage_we), .stage_msac_we_o(stage_msac_we),
+    .stage_pool_o(stage_pool), .stage_index_o(stage_index),
     .stage_data_o(stage_data), .initialised_i(initialised), .status_i(status), .count_i(count), .prm_mail_i(prm_mail),
-    .cfg_mail_i(cfg_mail), .output_mail_i(output_mail), .prm_length_i(prm_length), .cfg_length_i(cfg_length),
+    .cfg_mail_i(cfg_mail), .output_mail_i(output_mail), .c1_mail_i(c1_mail), .c2_mail_i(c2_mail), .prm_length_i(prm_length), .cfg_length_i(cfg_length),
     .cfg_input_length_i(cfg_input_length), .cfg_output_length_i(cfg_output_length), .output_length_i(output_length),
-    .take_prm_o(take_prm), .take_cfg_o(take_cfg), .take_output_o(take_output), .transfer_index_o(transfer_index),
+    .c1_function_i(c1_function), .c2_function_i(c2_function), .c1_length_i(c1_length), .c2_length_i(c2_length),
+    .take_prm_o(take_prm), .take_cfg_o(take_cfg), .take_output_o(take_output), .take_c1_o(take_c1), .take_c2_o(take_c2), .transfer_index_o(transfer_index),
     .transfer_data_i(transfer_data));
 
   station u_station (
@@ -134,12 +138,15 @@ module dsdpv1 #(
     .init_input_length_i(init_input_length), .init_output_length_i(init_output_length),
     .inputs_i(inputs), .inputs_length_i(block_length), .diag_i(diag), .diag_type_i(diag_type),
     .diag_length_i(block_length), .verdict_prm_i(verdict_prm), .verdict_cfg_i(verdict_cfg),
-    .verdict_wrong_i(verdict_wrong), .dpv1_enabled_i(dpv1_enabled), .stage_inputs_i(stage_inputs),
-    .stage_diag_i(stage_diag), .stage_we_i(stage_we), .stage_pool_i(stage_pool), .stage_index_i(stage_index),
+    .verdict_wrong_i(verdict_wrong), .dpv1_enabled_i(dpv1_enabled), .c1_answer_i(c1_answer), .c2_answer_i(c2_answer),
+    .answer_length_i(block_length), .stage_inputs_i(stage_inputs),
+    .stage_diag_i(stage_diag), .stage_c1_i(stage_c1), .stage_c2_i(stage_c2), .stage_we_i(stage_we), .stage_msac_we_i(stage_msac_we),
+    .stage_pool_i(stage_pool), .stage_index_i(stage_index),
     .stage_data_i(stage_data), .initialised_o(initialised), .status_o(status), .count_o(count), .prm_mail_o(prm_mail),
-    .cfg_mail_o(cfg_mail), .output_mail_o(output_mail), .prm_length_o(prm_length), .cfg_length_o(cfg_length),
+    .cfg_mail_o(cfg_mail), .output_mail_o(output_mail), .c1_mail_o(c1_mail), .c2_mail_o(c2_mail), .prm_length_o(prm_length), .cfg_length_o(cfg_length),
     .cfg_input_length_o(cfg_input_length), .cfg_output_length_o(cfg_output_length), .output_length_o(output_length),
-    .take_prm_i(take_prm), .take_cfg_i(take_cfg), .take_output_i(take_output), .transfer_index_i(transfer_index),
+    .c1_function_o(c1_function), .c2_function_o(c2_function), .c1_length_o(c1_length), .c2_length_o(c2_length),
+    .take_prm_i(take_prm), .take_cfg_i(take_cfg), .take_output_i(take_output), .take_c1_i(take_c1), .take_c2_i(take_c2), .transfer_index_i(transfer_index),
     .transfer_data_o(transfer_data));
 
   interrupt u_interrupt (

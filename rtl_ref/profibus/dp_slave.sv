@@ -65,6 +65,9 @@ module dp_slave (
   input  logic        default_sap_i,
   input  logic [7:0]  dsap_i,
   output logic        from_holder_o,
+  output logic        data_exch_o,      // behind the commits
+  output logic        left_o,           // DATA_EXCH is left at this edge
+  output logic        dpv1_o,           // DPV1_Enable of the Set_Prm in force
   output logic [2:0]  answer_o,         // ANS_...
   output logic [7:0]  answer_fc_o,
   output logic [2:0]  answer_source_o,
@@ -137,12 +140,12 @@ module dp_slave (
 
   // Parameters: those accepted, those that wait for the verdict, those of the telegram
   logic [7:0] min_tsdr_q, group_q, wd_factor_1_q, wd_factor_2_q;
-  logic sync_req_q, freeze_req_q, fail_safe_q, wd_base_1ms_q;
+  logic sync_req_q, freeze_req_q, fail_safe_q, wd_base_1ms_q, dpv1_q;
   logic [6:0] wait_sa_q;
   logic [7:0] wait_min_tsdr_q, wait_group_q, wait_factor_1_q, wait_factor_2_q;
-  logic wait_sync_req_q, wait_freeze_req_q, wait_fail_safe_q, wait_wd_on_q, wait_base_1ms_q;
+  logic wait_sync_req_q, wait_freeze_req_q, wait_fail_safe_q, wait_wd_on_q, wait_base_1ms_q, wait_dpv1_q;
   logic [7:0] prm_min_tsdr, prm_group, prm_factor_1, prm_factor_2, prm_user_length;
-  logic prm_sync_req, prm_freeze_req, prm_fail_safe, prm_wd_on, prm_base_1ms;
+  logic prm_sync_req, prm_freeze_req, prm_fail_safe, prm_wd_on, prm_base_1ms, prm_dpv1;
   logic prm_unlock, prm_min_only, prm_fault, prm_unsupported;
 
   logic [7:0] command_byte, group_select;
@@ -156,7 +159,7 @@ module dp_slave (
     .unlock_o(prm_unlock), .min_tsdr_only_o(prm_min_only), .fault_o(prm_fault), .not_supported_o(prm_unsupported),
     .user_length_o(prm_user_length), .wd_on_o(prm_wd_on), .wd_factor_1_o(prm_factor_1), .wd_factor_2_o(prm_factor_2),
     .wd_base_1ms_o(prm_base_1ms), .min_tsdr_o(prm_min_tsdr), .group_o(prm_group), .sync_req_o(prm_sync_req),
-    .freeze_req_o(prm_freeze_req), .fail_safe_o(prm_fail_safe));
+    .freeze_req_o(prm_freeze_req), .fail_safe_o(prm_fail_safe), .dpv1_o(prm_dpv1));
 
   logic [7:0] peek_index, peek_bus, peek_init, cfg_input_length, cfg_output_length;
   logic [7:0] in_use_length_now, last_cfg_length;
@@ -533,11 +536,11 @@ module dp_slave (
     if (!rst_ni) begin
       min_tsdr_q <= 8'd11;
       {group_q, wd_factor_1_q, wd_factor_2_q} <= 24'd0;
-      {sync_req_q, freeze_req_q, fail_safe_q, wd_base_1ms_q} <= 4'd0;
+      {sync_req_q, freeze_req_q, fail_safe_q, wd_base_1ms_q, dpv1_q} <= 5'd0;
     end else if (init_i) begin
       min_tsdr_q <= 8'd11;
       {group_q, wd_factor_1_q, wd_factor_2_q} <= 24'd0;
-      {sync_req_q, freeze_req_q, fail_safe_q, wd_base_1ms_q} <= 4'd0;
+      {sync_req_q, freeze_req_q, fail_safe_q, wd_base_1ms_q, dpv1_q} <= 5'd0;
     end else begin
       if (accept_prm_b) begin
         min_tsdr_q <= new_min_tsdr(wait_min_tsdr_q, min_tsdr_q);
@@ -548,6 +551,7 @@ module dp_slave (
         sync_req_q <= wait_sync_req_q;
         freeze_req_q <= wait_freeze_req_q;
         fail_safe_q <= wait_fail_safe_q;
+        dpv1_q <= wait_dpv1_q;
       end
       if (accept_prm || min_tsdr_only) min_tsdr_q <= new_min_tsdr(prm_min_tsdr, min_tsdr_q);
       if (accept_prm) begin
@@ -558,6 +562,7 @@ module dp_slave (
         sync_req_q <= prm_sync_req;
         freeze_req_q <= prm_freeze_req;
         fail_safe_q <= prm_fail_safe;
+        dpv1_q <= prm_dpv1;
       end
     end
   end
@@ -566,7 +571,7 @@ module dp_slave (
     if (!rst_ni) begin
       wait_sa_q <= 7'd0;
       {wait_min_tsdr_q, wait_group_q, wait_factor_1_q, wait_factor_2_q} <= 32'd0;
-      {wait_sync_req_q, wait_freeze_req_q, wait_fail_safe_q, wait_wd_on_q, wait_base_1ms_q} <= 5'd0;
+      {wait_sync_req_q, wait_freeze_req_q, wait_fail_safe_q, wait_wd_on_q, wait_base_1ms_q, wait_dpv1_q} <= 6'd0;
     end else if (good_prm) begin
       wait_sa_q <= sa_i;
       wait_min_tsdr_q <= prm_min_tsdr;
@@ -578,6 +583,7 @@ module dp_slave (
       wait_freeze_req_q <= prm_freeze_req;
       wait_fail_safe_q <= prm_fail_safe;
       wait_wd_on_q <= prm_wd_on;
+      wait_dpv1_q <= prm_dpv1;
     end
   end
 
@@ -603,6 +609,9 @@ module dp_slave (
     .input_length_o(input_length), .output_length_o(output_length_o), .take_prm_i(take_prm_i), .take_cfg_i(take_cfg_i), .take_output_i(take_output_i),
     .transfer_index_i(transfer_index_i), .transfer_data_o(transfer_data_o));
 
+  assign data_exch_o = in_data_exch;
+  assign left_o = leave || end_leave;
+  assign dpv1_o = dpv1_q;
   assign ident_o = ident_q;
   assign min_tsdr_o = min_tsdr_q;
   assign address_o = address_q;

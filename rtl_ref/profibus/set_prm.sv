@@ -26,7 +26,8 @@ module set_prm (
   output logic [7:0]  group_o,
   output logic        sync_req_o,
   output logic        freeze_req_o,
-  output logic        fail_safe_o
+  output logic        fail_safe_o,
+  output logic        dpv1_o
 );
   logic [7:3] status;
   logic has_spec, dpv1, user_length_wrong, length_wrong;
@@ -37,6 +38,7 @@ module set_prm (
   assign group_o = head_i[55:48];
   assign has_spec = length_i >= 8'd8;
   assign dpv1 = has_spec && head_i[63];
+  assign dpv1_o = dpv1;
   assign sync_req_o = status[5];
   assign freeze_req_o = status[4];
   assign wd_on_o = status[3];

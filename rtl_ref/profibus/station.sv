@@ -40,10 +40,16 @@ module station (
   input  logic        verdict_cfg_i,
   input  logic        verdict_wrong_i,
   input  logic        dpv1_enabled_i,
+  input  logic        c1_answer_i,     // a block with right CRC
+  input  logic        c2_answer_i,
+  input  logic [7:0]  answer_length_i, // its data bytes
   // blocks of the user on their way into buffers
   input  logic        stage_inputs_i,
   input  logic        stage_diag_i,
+  input  logic        stage_c1_i,
+  input  logic        stage_c2_i,
   input  logic        stage_we_i,
+  input  logic        stage_msac_we_i,
   input  logic [1:0]  stage_pool_i,
   input  logic [7:0]  stage_index_i,
   input  logic [7:0]  stage_data_i,
@@ -54,14 +60,22 @@ module station (
   output logic        prm_mail_o,
   output logic        cfg_mail_o,
   output logic        output_mail_o,
+  output logic        c1_mail_o,
+  output logic        c2_mail_o,
   output logic [7:0]  prm_length_o,
   output logic [7:0]  cfg_length_o,
   output logic [7:0]  cfg_input_length_o,
   output logic [7:0]  cfg_output_length_o,
   output logic [7:0]  output_length_o,
+  output logic [7:0]  c1_function_o,
+  output logic [7:0]  c2_function_o,
+  output logic [7:0]  c1_length_o,
+  output logic [7:0]  c2_length_o,
   input  logic        take_prm_i,
   input  logic        take_cfg_i,
   input  logic        take_output_i,
+  input  logic        take_c1_i,
+  input  logic        take_c2_i,
   input  logic [7:0]  transfer_index_i,
   output logic [7:0]  transfer_data_o
 );
@@ -116,10 +130,12 @@ module station (
     .accept_baud_i(wd_accept_baud), .wait_prm_i(wd_wait_prm), .factor_1_i(wd_factor_1), .factor_2_i(wd_factor_2),
     .base_1ms_i(wd_base_1ms), .baud_end_o(baud_end), .dp_end_o(dp_end), .dp_control_o(dp_control));
 
-  // ---- telegrams and services
+  // ---- telegrams and services: those of DPV1 are msac's, all others the DP slave's
   logic from_holder, execute, refuse, fdl_status, srd, sdn, default_sap, builder_busy, send;
-  logic [2:0] answer, answer_source;
-  logic [7:0] answer_fc, answer_length, builder_index, builder_data, send_index, send_data, send_length, min_tsdr;
+  logic data_exch, left, prm_dpv1, msac_replies;
+  logic [2:0] answer, answer_source, slave_answer, slave_source, msac_reply;
+  logic [7:0] answer_fc, answer_length, slave_fc, slave_length, slave_data, msac_fc, msac_length, msac_data;
+  logic [7:0] transfer_slave, transfer_msac, builder_index, builder_data, send_index, send_data, send_length, min_tsdr;
   logic [31:0] answer_diag;
   logic [15:0] ident;
   logic [6:0] address;
@@ -153,15 +169,44 @@ module station (
     .wd_factor_1_o(wd_factor_1), .wd_factor_2_o(wd_factor_2), .wd_base_1ms_o(wd_base_1ms),
     .begin_i(tg_begin), .data_valid_i(data_valid), .data_index_i(data_index), .data_i(data), .head_i(head),
     .length_i(length), .sa_i(sa[6:0]), .execute_i(execute), .refuse_i(refuse), .fdl_status_i(fdl_status), .srd_i(srd),
-    .sdn_i(sdn), .default_sap_i(default_sap), .dsap_i(dsap), .from_holder_o(from_holder), .answer_o(answer),
-    .answer_fc_o(answer_fc), .answer_source_o(answer_source), .answer_length_o(answer_length),
+    .sdn_i(sdn), .default_sap_i(default_sap), .dsap_i(dsap), .from_holder_o(from_holder), .data_exch_o(data_exch),
+    .left_o(left), .dpv1_o(prm_dpv1), .answer_o(slave_answer),
+    .answer_fc_o(slave_fc), .answer_source_o(slave_source), .answer_length_o(slave_length),
     .answer_diag_o(answer_diag), .ident_o(ident), .min_tsdr_o(min_tsdr), .address_o(address),
-    .answer_busy_i(builder_busy), .answer_index_i(builder_index), .answer_data_o(builder_data),
+    .answer_busy_i(builder_busy), .answer_index_i(builder_index), .answer_data_o(slave_data),
     .initialised_o(initialised), .state_o(state), .pbf_o(pbf_o), .count_o(count_o),
     .prm_mail_o(prm_mail_o), .cfg_mail_o(cfg_mail_o), .output_mail_o(output_mail_o), .prm_length_o(prm_length_o),
     .cfg_length_o(cfg_length_o), .cfg_input_length_o(cfg_input_length_o), .cfg_output_length_o(cfg_output_length_o),
     .output_length_o(output_length_o), .take_prm_i(take_prm_i), .take_cfg_i(take_cfg_i), .take_output_i(take_output_i),
-    .transfer_index_i(transfer_index_i), .transfer_data_o(transfer_data_o));
+    .transfer_index_i(transfer_index_i), .transfer_data_o(transfer_slave));
+
+  msac u_msac (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_ni), .init_i(init_i), .left_i(left), .data_exch_i(data_exch), .from_holder_i(from_holder),
+    .prm_dpv1_i(prm_dpv1), .enabled_i(dpv1_enabled_i), .data_valid_i(data_valid), .data_index_i(data_index), .data_i(data),
+    .head_i(head), .length_i(length), .sa_i(sa), .ssap_i(ssap), .dsap_i(dsap), .execute_i(execute), .srd_i(srd),
+    .sdn_i(sdn), .default_sap_i(default_sap), .replies_o(msac_replies), .reply_o(msac_reply), .reply_fc_o(msac_fc),
+    .reply_length_o(msac_length), .reply_index_i(builder_index), .reply_data_o(msac_data), .c1_mail_o(c1_mail_o),
+    .c2_mail_o(c2_mail_o), .c1_function_o(c1_function_o), .c2_function_o(c2_function_o), .c1_length_o(c1_length_o),
+    .c2_length_o(c2_length_o), .take_c1_i(take_c1_i), .take_c2_i(take_c2_i), .transfer_index_i(transfer_index_i),
+    .transfer_data_o(transfer_msac), .stage_c1_i(stage_c1_i), .stage_c2_i(stage_c2_i), .stage_we_i(stage_msac_we_i),
+    .stage_index_i(stage_index_i), .stage_data_i(stage_data_i), .c1_answer_i(c1_answer_i), .c2_answer_i(c2_answer_i),
+    .answer_data_length_i(answer_length_i));
+
+  assign answer = msac_replies ? msac_reply : slave_answer;
+  assign answer_fc = msac_replies ? msac_fc : slave_fc;
+  assign answer_source = msac_replies ? SRC_MSAC : slave_source;
+  assign answer_length = msac_replies ? msac_length : slave_length;
+
+  // Whose bytes the builder and the sequencer fetch
+  logic msac_built_q, msac_transferred_q;
+  always_ff @(posedge clk_i) begin
+    if (send) msac_built_q <= msac_replies;
+    if (take_c1_i || take_c2_i) msac_transferred_q <= 1'b1;
+    else if (take_prm_i || take_cfg_i || take_output_i) msac_transferred_q <= 1'b0;
+  end
+  assign builder_data = msac_built_q ? msac_data : slave_data;
+  assign transfer_data_o = msac_transferred_q ? transfer_msac : transfer_slave;
 
   uart_tx u_uart_tx (
     `FAULT_CONNECT

@@ -1,0 +1,120 @@
+// What the sequencer does next in an access (9.2; H4): the first item that is due, and its first move.
+`include "dsdpv1_types.svh"
+
+module dpram_choice (
+  `FAULT_PORT
+  input  logic [ITEMS-1:0] candidates_i,  // due and behind the item done last; the first lowest
+  input  logic [7:0]  prm_length_i,
+  input  logic [7:0]  cfg_input_length_i,
+  input  logic [7:0]  cfg_output_length_i,
+  input  logic [7:0]  output_length_i,
+  input  logic [7:0]  c1_function_i,
+  input  logic [7:0]  c2_function_i,
+  input  logic [15:0] count_i,            // B008, B009
+  input  logic        status_1_i,         // B00A
+  input  logic [7:0]  status_3_i,         // B012
+  input  logic        status_4_i,         // B013
+  output logic [4:0]  pick_o,             // ITEM_...
+  output logic        we_o,
+  output logic [10:0] addr_o,
+  output logic [7:0]  wdata_o
+);
+  logic [7:0] count_high, count_low;
+  assign {count_high, count_low} = count_i;
+
+  always_comb begin
+    casez (candidates_i)
+      19'b??????????????????1: pick_o = ITEM_INIT;
+      19'b?????????????????10: pick_o = ITEM_VERDICT_PRM;
+      19'b????????????????100: pick_o = ITEM_VERDICT_CFG;
+      19'b???????????????1000: pick_o = ITEM_INPUTS;
+      19'b??????????????10000: pick_o = ITEM_DIAG;
+      19'b?????????????100000: pick_o = ITEM_C1_ANSWER;
+      19'b????????????1000000: pick_o = ITEM_C2_ANSWER;
+      19'b???????????10000000: pick_o = ITEM_PRM;
+      19'b??????????100000000: pick_o = ITEM_CFG;
+      19'b?????????1000000000: pick_o = ITEM_OUTPUTS;
+      19'b????????10000000000: pick_o = ITEM_C1_REQUEST;
+      19'b???????100000000000: pick_o = ITEM_C2_REQUEST;
+      19'b??????1000000000000: pick_o = ITEM_VALID;
+      19'b?????10000000000000: pick_o = ITEM_COUNT_HIGH;
+      19'b????100000000000000: pick_o = ITEM_COUNT_LOW;
+      19'b???1000000000000000: pick_o = ITEM_STATUS_1;
+      19'b??10000000000000000: pick_o = ITEM_STATUS_2;
+      19'b?100000000000000000: pick_o = ITEM_STATUS_3;
+      19'b1000000000000000000: pick_o = ITEM_STATUS_4;
+      default: pick_o = ITEM_NOTHING;
+    endcase
+  end
+
+  always_comb begin
+    we_o = 1'b0;
+    addr_o = 11'd0;
+    wdata_o = 8'h00;
+    case (pick_o)
+      ITEM_INIT: addr_o = DSDPV1_REG_INIT_LENGTH;
+      ITEM_VERDICT_PRM, ITEM_VERDICT_CFG: addr_o = DSDPV1_REG_USER_STATUS_1;
+      ITEM_INPUTS: addr_o = DSDPV1_REG_INPUT_LENGTH;
+      ITEM_DIAG: addr_o = DSDPV1_REG_DIAG_TYPE;
+      ITEM_C1_ANSWER: addr_o = DSDPV1_REG_C1_FUNCTION_NUM;
+      ITEM_C2_ANSWER: addr_o = DSDPV1_REG_C2_FUNCTION_NUM;
+      ITEM_PRM: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_PRM_LENGTH;
+        wdata_o = prm_length_i;
+      end
+      ITEM_CFG: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_CFG_OUTPUT_LENGTH;
+        wdata_o = `FAULT(52) ? cfg_input_length_i : cfg_output_length_i;
+      end
+      ITEM_OUTPUTS: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_OUTPUT_LENGTH;
+        wdata_o = output_length_i;
+      end
+      ITEM_C1_REQUEST: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_C1_FUNCTION_NUM;
+        wdata_o = c1_function_i;
+      end
+      ITEM_C2_REQUEST: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_C2_FUNCTION_NUM;
+        wdata_o = c2_function_i;
+      end
+      ITEM_VALID: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_VALID_FLAG;
+        wdata_o = DSDPV1_REG_VALID_FLAG_VALID;
+      end
+      ITEM_COUNT_HIGH: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_OFFLINE_COUNT;
+        wdata_o = count_high;
+      end
+      ITEM_COUNT_LOW: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_OFFLINE_COUNT + 11'd1;
+        wdata_o = count_low;
+      end
+      ITEM_STATUS_1: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_CHIP_STATUS_1;
+        wdata_o = {7'd0, status_1_i};
+      end
+      ITEM_STATUS_2: addr_o = DSDPV1_REG_CHIP_STATUS_2;
+      ITEM_STATUS_3: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_CHIP_STATUS_3;
+        wdata_o = status_3_i;
+      end
+      ITEM_STATUS_4: begin
+        we_o = 1'b1;
+        addr_o = DSDPV1_REG_CHIP_STATUS_4;
+        wdata_o = {7'd0, status_4_i};
+      end
+      default: ;
+    endcase
+  end
+endmodule

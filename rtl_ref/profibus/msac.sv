@@ -1,0 +1,167 @@
+// DPV1 (section 15): hands telegrams to SAPs 51, 49, 48 and 47 to MSAC_C1 and MSAC_C2, and the user's answers to the request that is
+// with him.
+`include "dsdpv1_types.svh"
+
+module msac (
+  `FAULT_PORT
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  input  logic        init_i,           // an initialisation is committed
+  // the DP slave
+  input  logic        left_i,           // DATA_EXCH is left at this edge
+  input  logic        data_exch_i,      // behind the commits
+  input  logic        from_holder_i,
+  input  logic        prm_dpv1_i,       // DPV1_Enable of the Set_Prm in force
+  input  logic        enabled_i,        // B005 is 1D
+  // the telegram
+  input  logic        data_valid_i,
+  input  logic [7:0]  data_index_i,
+  input  logic [7:0]  data_i,
+  input  logic [63:0] head_i,
+  input  logic [7:0]  length_i,
+  input  logic [7:0]  sa_i,
+  input  logic [7:0]  ssap_i,
+  input  logic [7:0]  dsap_i,
+  input  logic        execute_i,        // the service is executed at this edge
+  input  logic        srd_i,
+  input  logic        sdn_i,
+  input  logic        default_sap_i,
+  output logic        replies_o,        // it is a service of this block: what follows is the answer
+  output logic [2:0]  reply_o,          // ANS_...
+  output logic [7:0]  reply_fc_o,
+  output logic [7:0]  reply_length_o,
+  input  logic [7:0]  reply_index_i,
+  output logic [7:0]  reply_data_o,
+  // mail, taken by the sequencer
+  output logic        c1_mail_o,
+  output logic        c2_mail_o,
+  output logic [7:0]  c1_function_o,    // the request's first byte
+  output logic [7:0]  c2_function_o,
+  output logic [7:0]  c1_length_o,      // of the whole PDU
+  output logic [7:0]  c2_length_o,
+  input  logic        take_c1_i,
+  input  logic        take_c2_i,
+  input  logic [7:0]  transfer_index_i,
+  output logic [7:0]  transfer_data_o,
+  // the user's answers
+  input  logic        stage_c1_i,       // a block begins
+  input  logic        stage_c2_i,
+  input  logic        stage_we_i,
+  input  logic [7:0]  stage_index_i,
+  input  logic [7:0]  stage_data_i,
+  input  logic        c1_answer_i,      // it is committed with right CRC
+  input  logic        c2_answer_i,
+  input  logic [7:0]  answer_data_length_i
+);
+  // ---- the telegram stands still long before the decision: through registers
+  logic c1_sap_q, initiate_sap_q, c30_sap_q, c2f_sap_q, ssap_51_q, ssap_50_q, has_sap;
+  assign has_sap = !default_sap_i && (srd_i || sdn_i);
+  always_ff @(posedge clk_i) begin
+    c1_sap_q <= has_sap && dsap_i == 8'd51;
+    initiate_sap_q <= has_sap && dsap_i == 8'd49;
+    c30_sap_q <= has_sap && dsap_i == 8'd48;
+    c2f_sap_q <= has_sap && dsap_i == 8'd47;
+    ssap_51_q <= sa_i[7] && ssap_i == 8'd51;
+    ssap_50_q <= sa_i[7] && ssap_i == 8'd50;
+  end
+
+  logic poll, abort, idle, initiate_legal, long_form;
+  logic [1:0] c1_code, c2_code, initiate_code;
+  logic [7:0] s_length, d_length;
+  logic [15:0] timeout;
+  logic [23:0] head;
+  assign head = head_i[23:0];
+  request_check u_request_check (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .function_i(head_i[7:0]), .data_length_i(head_i[31:24]), .length_i(length_i), .poll_o(poll), .abort_o(abort), .idle_o(idle),
+    .c1_code_o(c1_code), .c2_code_o(c2_code));
+  initiate_check u_initiate_check (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .head_i(head_i), .length_i(length_i), .valid_i(data_valid_i), .index_i(data_index_i), .data_i(data_i),
+    .legal_o(initiate_legal), .timeout_o(timeout), .code_o(initiate_code), .long_o(long_form), .s_length_o(s_length),
+    .d_length_o(d_length));
+
+  logic c1_srd, initiate_srd, srd;
+  logic [1:0] channel_srd, channel_sdn;
+  assign srd = execute_i && srd_i;
+  assign c1_srd = srd && c1_sap_q;
+  assign initiate_srd = srd && initiate_sap_q;
+  assign channel_srd = srd ? {c2f_sap_q, c30_sap_q} : 2'b00;
+  assign channel_sdn = execute_i && sdn_i ? {c2f_sap_q, c30_sap_q} : 2'b00;
+
+  // ---- the user's answer against the request with him (V6, V14), while its first bytes arrive
+  logic staged_c2_q, error_q, function_same_q, slot_same_q, index_same_q, fits, c1_answer, c2_answer;
+  logic c1_with_user, c2_with_user, owner_2f;
+  logic [23:0] c1_request, c2_request;
+  logic [6:0] request_function;
+  logic [7:0] request_slot, request_index, answer_length;
+  assign request_function = staged_c2_q ? c2_request[6:0] : c1_request[6:0];
+  assign request_slot = staged_c2_q ? c2_request[15:8] : c1_request[15:8];
+  assign request_index = staged_c2_q ? c2_request[23:16] : c1_request[23:16];
+  always_ff @(posedge clk_i) begin
+    if (stage_c1_i || stage_c2_i) staged_c2_q <= stage_c2_i;
+    if (stage_we_i && stage_index_i == 8'd0) begin
+      error_q <= stage_data_i[7] && !`FAULT(93);
+      function_same_q <= stage_data_i[6:0] == request_function;
+    end
+    if (stage_we_i && stage_index_i == 8'd1) slot_same_q <= stage_data_i == request_slot;
+    if (stage_we_i && stage_index_i == 8'd2) index_same_q <= stage_data_i == request_index;
+  end
+  assign fits = function_same_q && (error_q || (slot_same_q && index_same_q) || `FAULT(92));
+  assign c1_answer = c1_answer_i && c1_with_user && fits;
+  assign c2_answer = c2_answer_i && c2_with_user && fits;
+  assign answer_length = answer_data_length_i + 8'd4;
+
+  // ---- the two of them
+  logic c1_left, c1_allowed, c1_accept, c1_reply_user, c2_reply_user, reply_user, reply_long;
+  logic [1:0] c2_accept, requester;
+  logic [2:0] c1_reply, c2_reply, accept;
+  logic [7:0] c1_reply_fc, c2_reply_fc, c1_reply_length, c2_reply_length, reply_s_length, reply_d_length;
+  logic [31:0] c1_reply_head, c2_reply_head, reply_head;
+  assign c1_left = left_i || init_i;
+  assign c1_allowed = data_exch_i && from_holder_i && prm_dpv1_i;
+
+  msac1 u_msac1 (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_ni), .left_i(c1_left), .answer_i(c1_answer), .answer_length_i(answer_length),
+    .take_i(take_c1_i), .mail_o(c1_mail_o), .with_user_o(c1_with_user), .srd_i(c1_srd), .allowed_i(c1_allowed),
+    .ssap_ok_i(ssap_51_q), .poll_i(poll), .code_i(c1_code), .head_i(head), .length_i(length_i), .accept_o(c1_accept),
+    .request_o(c1_request), .length_o(c1_length_o), .reply_o(c1_reply), .reply_fc_o(c1_reply_fc),
+    .reply_user_o(c1_reply_user), .reply_head_o(c1_reply_head), .reply_length_o(c1_reply_length));
+
+  msac2 u_msac2 (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_ni), .init_i(init_i), .answer_i(c2_answer), .answer_length_i(answer_length),
+    .take_i(take_c2_i), .mail_o(c2_mail_o), .with_user_o(c2_with_user), .owner_2f_o(owner_2f), .request_o(c2_request),
+    .request_length_o(c2_length_o), .initiate_srd_i(initiate_srd), .channel_srd_i(channel_srd),
+    .channel_sdn_i(channel_sdn), .enabled_i(enabled_i), .sa_i(sa_i[6:0]), .ssap_ok_i(ssap_50_q), .poll_i(poll),
+    .abort_i(abort), .idle_i(idle), .code_i(c2_code), .head_i(head), .length_i(length_i),
+    .initiate_legal_i(initiate_legal), .timeout_i(timeout), .initiate_code_i(initiate_code), .long_i(long_form),
+    .s_length_i(s_length), .d_length_i(d_length), .accept_o(c2_accept), .initiate_sap_i(initiate_sap_q),
+    .channel_2f_i(c2f_sap_q), .reply_o(c2_reply), .reply_fc_o(c2_reply_fc), .reply_user_o(c2_reply_user),
+    .reply_head_o(c2_reply_head), .reply_length_o(c2_reply_length), .reply_long_o(reply_long),
+    .reply_s_length_o(reply_s_length), .reply_d_length_o(reply_d_length));
+
+  assign accept = {c2_accept, c1_accept};
+  assign requester = c1_sap_q ? MSAC_C1 : c2f_sap_q ? MSAC_2F : MSAC_30;
+  assign replies_o = (srd_i || `FAULT(84)) && (c1_sap_q || initiate_sap_q || c30_sap_q || c2f_sap_q);
+  assign reply_o = c1_sap_q ? c1_reply : c2_reply;
+  assign reply_fc_o = c1_sap_q ? c1_reply_fc : c2_reply_fc;
+  assign reply_length_o = c1_sap_q ? c1_reply_length : c2_reply_length;
+  assign reply_user = c1_sap_q ? c1_reply_user : c2_reply_user;
+  assign reply_head = c1_sap_q ? c1_reply_head : c2_reply_head;
+  assign c1_function_o = c1_request[7:0];
+  assign c2_function_o = c2_request[7:0];
+
+  logic stage, stage_taken;
+  assign stage = stage_c1_i || stage_c2_i;
+  assign stage_taken = stage_c2_i ? c2_with_user : c1_with_user;
+  msac_buffers u_buffers (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .rst_ni(rst_ni), .data_valid_i(data_valid_i), .data_index_i(data_index_i), .data_i(data_i),
+    .accept_i(accept), .take_c1_i(take_c1_i), .take_c2_i(take_c2_i), .owner_2f_i(owner_2f),
+    .transfer_index_i(transfer_index_i), .transfer_data_o(transfer_data_o), .stage_i(stage), .stage_taken_i(stage_taken),
+    .stage_c2_i(stage_c2_i), .stage_we_i(stage_we_i), .stage_index_i(stage_index_i), .stage_data_i(stage_data_i),
+    .reply_i(execute_i), .requester_i(requester), .user_i(reply_user), .head_i(reply_head), .long_i(reply_long),
+    .s_length_i(reply_s_length), .d_length_i(reply_d_length), .index_i(reply_index_i), .data_o(reply_data_o));
+endmodule
