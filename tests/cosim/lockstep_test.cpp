@@ -1,0 +1,173 @@
+// The lockstep against RTL that differs in a known way: it must stop at the first difference and name it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "bus/segment.hpp"
+#include "bus/timeline.hpp"
+#include "bus/uart.hpp"
+#include "tb/cosim/lockstep.hpp"
+#include "tests/cosim/made_up_top.hpp"
+
+namespace {
+
+using cosim::Lockstep;
+using cosim::Pin;
+using cosim_test::MadeUpTop;
+using testing::HasSubstr;
+
+constexpr cosim::Tick kCycle = profibus::kTicksPerCycle;
+constexpr cosim::Tick kEnd = 10'000 * kCycle;
+
+std::unique_ptr<MadeUpTop> spoiled(MadeUpTop::Spoil spoil) { return std::make_unique<MadeUpTop>(std::move(spoil)); }
+
+/// Out of RESET after 10 us, then to kEnd.
+void run(Lockstep& lockstep) {
+  lockstep.set(480 * kCycle + 40, Pin::kReset, 1);
+  lockstep.advance(kEnd);
+}
+
+TEST(Lockstep, ModelAgainstItselfIsTheSame) {
+  Lockstep lockstep({}, std::make_unique<MadeUpTop>());
+  run(lockstep);
+  ASSERT_FALSE(lockstep.difference()) << describe(*lockstep.difference());
+  EXPECT_EQ(lockstep.counts().cycles, 10'000U);
+  EXPECT_GT(lockstep.counts().pin_changes, 600U);  // L_REQ and L_STA each microsecond
+  EXPECT_GT(lockstep.counts().dpram_images, 1U);
+}
+
+struct WireOfPin {
+  Pin pin;
+  cosim::Wire wire;
+};
+
+class EachPin : public testing::TestWithParam<WireOfPin> {};
+
+TEST_P(EachPin, ThatDiffersIsNamedWithCycleAndBothLevels) {
+  const auto [pin, wire] = GetParam();
+  Lockstep lockstep({}, spoiled([wire = wire](cosim::RtlOutputs& out, long cycle) {
+                      if (cycle >= 5000) out.word ^= 1U << wire;
+                    }));
+  run(lockstep);
+  ASSERT_TRUE(lockstep.difference());
+  EXPECT_EQ(lockstep.difference()->at, 5000 * kCycle);
+  const int model = static_cast<int>(lockstep.difference()->what.find("model 1") != std::string::npos);
+  EXPECT_EQ(lockstep.difference()->what,
+            std::string("pin ") + dsdpv1::name(pin) + (model != 0 ? ": model 1, RTL 0" : ": model 0, RTL 1"));
+  EXPECT_THAT(describe(*lockstep.difference()), HasSubstr("cycle 5000 (104.167 us)"));
+  EXPECT_EQ(lockstep.counts().cycles, 5000U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Outputs, EachPin,
+    testing::Values(WireOfPin{Pin::kLReq, cosim::kWireLReq}, WireOfPin{Pin::kLSta, cosim::kWireLSta},
+                    WireOfPin{Pin::kIntr0, cosim::kWireIntr0}, WireOfPin{Pin::kPbtxd, cosim::kWirePbtxd},
+                    WireOfPin{Pin::kPbrts, cosim::kWirePbrts}, WireOfPin{Pin::kPbf, cosim::kWirePbf},
+                    WireOfPin{Pin::kBr, cosim::kWireBr}, WireOfPin{Pin::kReady, cosim::kWireReady}),
+    [](const auto& each) { return std::string(dsdpv1::name(each.param.pin)); });
+
+TEST(Lockstep, ADifferenceOfOneCycleIsFound) {
+  Lockstep lockstep({}, spoiled([](cosim::RtlOutputs& out, long cycle) {
+                      if (cycle == 7777) out.word ^= 1U << cosim::kWireIntr0;
+                    }));
+  run(lockstep);
+  ASSERT_TRUE(lockstep.difference());
+  EXPECT_EQ(lockstep.difference()->at, 7777 * kCycle);
+}
+
+TEST(Lockstep, DDrivenWithoutAReadIsFound) {
+  Lockstep lockstep({}, spoiled([](cosim::RtlOutputs& out, long cycle) {
+                      if (cycle >= 6000) out.word |= 1U << cosim::kWireDriven | 0x3CU;
+                    }));
+  run(lockstep);
+  ASSERT_TRUE(lockstep.difference());
+  EXPECT_EQ(lockstep.difference()->what, "pin D_OUT: model Z, RTL 3C");
+}
+
+TEST(Lockstep, AnOutputThatIsUnknownIsADifference) {
+  Lockstep lockstep({}, spoiled([](cosim::RtlOutputs& out, long cycle) {
+                      if (cycle >= 4000) out.unknown = 1U << cosim::kWirePbrts;
+                    }));
+  run(lockstep);
+  ASSERT_TRUE(lockstep.difference());
+  EXPECT_EQ(lockstep.difference()->what, "pin PBRTS: model 0, RTL X");
+}
+
+TEST(Lockstep, AnotherContentOfTheDpramIsFoundAtTheEndOfAnAccess) {
+  auto top = std::make_unique<MadeUpTop>();
+  top->spoil_cell(0x123);
+  Lockstep lockstep({}, std::move(top));
+  lockstep.set(480 * kCycle, Pin::kReset, 1);
+  lockstep.advance(10 * kEnd);  // nobody writes: compared from time to time
+  ASSERT_TRUE(lockstep.difference());
+  EXPECT_EQ(lockstep.difference()->what, "DPRAM B123: model 00, RTL 5A");
+  EXPECT_THAT(lockstep.difference()->dpram_accesses, HasSubstr("last access from cycle"));
+}
+
+TEST(Lockstep, ToleranceLetsAPinBeLater) {
+  cosim::LockstepOptions options;
+  options.tolerances.at(static_cast<std::size_t>(Pin::kLReq)) = 1;
+  std::uint32_t before = 0;
+  const auto late = [&before](cosim::RtlOutputs& out, long) {  // L_REQ half a cycle late
+    const std::uint32_t now = out.word & 1U << cosim::kWireLReq;
+    out.word = (out.word & ~(1U << cosim::kWireLReq)) | std::exchange(before, now);
+  };
+  Lockstep tolerant({}, spoiled(late), options);
+  run(tolerant);
+  EXPECT_FALSE(tolerant.difference()) << describe(*tolerant.difference());
+  before = 0;
+  Lockstep exact({}, spoiled(late));
+  run(exact);
+  ASSERT_TRUE(exact.difference());
+  EXPECT_EQ(exact.difference()->what, "pin L_REQ: model 1, RTL 0");
+}
+
+TEST(Lockstep, WaveShowsBothSidesAroundTheDifference) {
+  Lockstep lockstep({}, spoiled([](cosim::RtlOutputs& out, long cycle) {
+                      if (cycle >= 5000) out.word |= 1U << cosim::kWireReady;
+                    }));
+  run(lockstep);
+  const auto file = std::filesystem::path(testing::TempDir()) / "lockstep_both_sides.vcd";
+  lockstep.write_wave(file.string());
+  std::ifstream stream(file);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  for (const char* scope : {"inputs", "model", "rtl"}) EXPECT_THAT(text, HasSubstr(std::string("module ") + scope));
+  const auto count = [&text](const std::string& name) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count(" READY "), 2U);
+  EXPECT_EQ(count(" RESET "), 1U);
+  std::filesystem::remove(file);
+}
+
+TEST(Lockstep, LastTelegramAndAccessAreTold) {
+  Lockstep lockstep({}, spoiled([](cosim::RtlOutputs& out, long cycle) {
+                      if (cycle >= 9000) out.word ^= 1U << cosim::kWireBr;
+                    }));
+  lockstep.set(480 * kCycle, Pin::kReset, 1);
+  bus::Segment segment;
+  struct Line : bus::Listener {
+    explicit Line(Lockstep& lockstep) : chip(lockstep) {}
+    void line_changed(bus::Tick at, bool level) override { chip.set(at, Pin::kPbrxd, level ? 1 : 0); }
+    Lockstep& chip;
+  } line(lockstep);
+  segment.attach("chip", &line);
+  bus::UartSender sender(segment, segment.attach("master", nullptr));
+  sender.set_timing(bus::baud(0).bit);
+  sender.send(6000 * kCycle, bus::characters({0x10, 0x05, 0x02, 0x49, 0x50, 0x16}, {}));
+  while (sender.busy()) sender.run(sender.next());
+  lockstep.advance(kEnd);
+  ASSERT_TRUE(lockstep.difference());
+  EXPECT_THAT(lockstep.difference()->last_telegram, HasSubstr("10 05 02 49 50 16"));
+  EXPECT_THAT(lockstep.difference()->last_telegram, HasSubstr("cycle 6000"));
+  EXPECT_EQ(lockstep.difference()->last_access, "none");
+}
+
+}  // namespace
