@@ -107,4 +107,10 @@ PROOFS = (
                       "dp_slave/c:u_buffers", "dp_slave/c:u_set_prm", "dp_slave/c:u_check_cfg",
                       "dp_slave/c:u_global_control", "dp_slave/c:u_diagnosis"),
            cut_wires=("w:u_baud_search.window_of_rate", "w:u_watchdog.last_q")),
+    states("msac1", "profibus/msac1.sv",
+           ("state_b == ANSWERED && !`FAULT(66)) state_d = IDLE;", "state_b == ANSWERED) state_d = state_b + 2'd1;")),
+    states("msac2_channel", "profibus/msac2_channel.sv",
+           ("default: state_d = FREE;", "default: state_d = state_b + 3'd1;"), cut_cells=("c:u_watch", "c:u_user")),
+    states("msac2", "profibus/msac2.sv", ("busy[0] ? 2'b01 : busy[1] ? 2'b10 : 2'b00;", "busy;"),
+           cut_cells=("c:*u_channel",)),
 )

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Unbounded proofs of the reference RTL, each with a broken twin that has to fail.
 
-A proof takes copies of the RTL, binds its properties into one block (in front of endmodule), makes the rest of its surroundings
-free and proves the properties for ever. Its twin is the same with one defect, from faults.txt or an edit, and has to have a trace
-from RESET that violates them.
+A proof takes copies of the RTL, binds its properties into one block (in front of endmodule), makes its surroundings free and
+proves the properties for ever. Its twin is the same with one defect, from faults.txt or an edit, and has to have a trace from
+RESET that violates them.
 """
 import argparse
 import concurrent.futures

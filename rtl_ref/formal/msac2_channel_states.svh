@@ -1,0 +1,9 @@
+// Bound into msac2_channel (15.2). An answer is accepted only for a BUSY channel, and Initiate takes a FREE one (msac2).
+initial assume (!rst_ni);
+always @* begin
+  if (answer_i) assume (state_q == BUSY);
+  if (initiate_i) assume (free_o);
+  assert (state_q <= ABORTED);
+  if (state_q == BUSY) assert (code_q == MSAC_RIGHT && !idle_q);
+  if (state_q == ABORTED) assert (ended_q != 2'd0);
+end
