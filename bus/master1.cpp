@@ -8,11 +8,23 @@
 
 namespace bus {
 
+namespace {
+
+/// High or low priority of the data link layer; a telegram that is none is low.
+bool is_high(const FdlRequest& request) {
+  const std::uint8_t function = request.telegram.function();
+  return function == fc::kSrdHigh || function == fc::kSdnHigh || function == fc::kSdaHigh;
+}
+
+}  // namespace
+
 Master1::Master1(Segment& segment, const MasterConfig& config)
     : config_(config), fdl_(segment, config.name, config.address, config.bus), baud_(config.baud) {
   if (config.address >= kHighestAddress) {
     throw std::invalid_argument(fmt::format("master address {}, allowed are 0 to 125", config.address));
   }
+  if (config.bus.ring) ring_ = std::make_unique<TokenRing>(fdl_, config.address, config.bus);
+  if (ring_) ring_->set_baud(config.baud);
   fdl_.set_baud(config.baud);
   fdl_.on_done = [this](const FdlResult& result) { finished(result); };
 }
@@ -43,6 +55,7 @@ void Master1::add_slave(const SlaveParameters& parameters) {
 Tick Master1::next() const {
   if (stop_requested_ || (start_requested_ && !running_)) return now_;
   if (!running_ || !fdl_.idle()) return fdl_.next();
+  if (ring_) return ring_->holds_token() ? now_ : std::min(ring_->next(), fdl_.next());
   if (work_to_do()) return now_;
   return std::min(due_, fdl_.next());
 }
@@ -57,6 +70,7 @@ void Master1::run(Tick now) {
   if (stop_requested_) {
     stop_requested_ = false;
     running_ = false;
+    if (ring_) ring_->stop(now);
     fdl_.abort(now);
     for (const auto& slave : slaves_) slave->c1.leave(now, "the master was stopped");
   }
@@ -70,7 +84,9 @@ void Master1::begin_operation() {
   start_requested_ = false;
   if (running_) return;
   running_ = true;
-  phase_ = Phase::kListen;
+  phase_ = ring_ ? Phase::kWait : Phase::kListen;
+  due_ = now_;
+  if (ring_) ring_->start(now_);
   claims_ = 0;
   listen_from_ = now_;
   for (const auto& slave : slaves_) {
@@ -84,9 +100,23 @@ bool Master1::start_next() {
   if (new_baud_) {
     baud_ = *std::exchange(new_baud_, std::nullopt);
     fdl_.set_baud(baud_);
+    if (ring_) ring_->set_baud(baud_);
   }
+  if (ring_) return start_in_ring();
   if (phase_ == Phase::kListen) return listen();
-  if (commands_.empty()) return start_phase();
+  return commands_.empty() ? start_phase() : start_command();
+}
+
+bool Master1::start_in_ring() {
+  if (!ring_->holds_token()) return ring_->act(now_);
+  const bool command = !commands_.empty();
+  const bool high = command ? is_high(commands_.front().request) : phase_ == Phase::kSlaves || phase_ == Phase::kWait;
+  if (ring_->may_begin(now_, high)) return command ? start_command() : start_phase();
+  ring_->release(now_);
+  return true;
+}
+
+bool Master1::start_command() {
   Command command = std::move(commands_.front());
   commands_.pop_front();
   ask(std::move(command.request), std::move(command.done));
@@ -172,6 +202,7 @@ bool Master1::start_poll_slot() {
 
 bool Master1::start_gap_poll() {
   phase_ = Phase::kToken;
+  if (ring_) return true;  // its GAP
   const auto factor = static_cast<std::uint64_t>(std::max(config_.bus.gap_factor, 0));
   if (factor == 0 || cycles_ % factor != 0) return true;
   for (int i = 0; i <= config_.bus.highest_address; ++i) {
@@ -192,6 +223,10 @@ bool Master1::start_token() {
   // A cycle without any request must take some time, too.
   const Tick least = std::max(config_.bus.min_slave_interval_us * kTicksPerUs, kSynBits * bus::baud(baud_).bit);
   due_ = cycle_start_ + least;
+  if (ring_) {
+    ring_->release(now_);
+    return true;
+  }
   if (!config_.bus.token) return true;
   FdlRequest request;
   request.telegram = make_token(config_.address, config_.address);
@@ -200,7 +235,10 @@ bool Master1::start_token() {
 }
 
 bool Master1::wait() {
-  if (now_ < due_) return false;
+  if (now_ < due_) {
+    if (ring_) ring_->release(now_);
+    return ring_ != nullptr;
+  }
   cycle_time_ = now_ - cycle_start_;
   begin_cycle();
   return true;
@@ -208,6 +246,7 @@ bool Master1::wait() {
 
 void Master1::ask(FdlRequest request, AnswerCallback done) {
   current_done_ = std::move(done);
+  if (ring_) ring_->begun(is_high(request));
   fdl_.start(now_, std::move(request));
 }
 
@@ -225,6 +264,7 @@ void Master1::ask_c1(C1Client& c1) {
 
 void Master1::finished(const FdlResult& result) {
   const AnswerCallback done = std::exchange(current_done_, {});
+  if (ring_ && ring_->asking()) ring_->done(now_, result);
   if (result.request.is_request()) record_live(result.request.da, result);
   if (done) done(result);
   if (on_answer) on_answer(now_, result);

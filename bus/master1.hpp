@@ -1,6 +1,11 @@
 #pragma once
 // A DP master class 1: brings up its slaves, exchanges data cyclically, answers commands of the bench. Layers: master_fdl (one request
-// with its repetitions), master_slave (one slave), and here the order of things: commands, slaves, poll slot, token.
+// with its repetitions), master_slave and master_c1 (one slave), token_ring (several masters), and here the order of things: commands,
+// slaves, acyclic telegrams, poll slot, token.
+//
+// With BusParameters::ring the master shares the token: it goes on with its cycle at each token as far as the time to hold it allows (the
+// cyclic exchange counts as high priority, acyclic telegrams and the poll slot as low), passes it on when a cycle is over, and leaves the
+// search for new stations to the ring's GAP. Without, it is alone and passes the token to itself.
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -16,6 +21,7 @@
 #include "bus/segment.hpp"
 #include "bus/slave_parameters.hpp"
 #include "bus/timeline.hpp"
+#include "bus/token_ring.hpp"
 
 namespace bus {
 
@@ -48,7 +54,8 @@ class Master1 : public Agent {
   void add_slave(const SlaveParameters& parameters);
 
   // --- Operation. Everything takes effect between two requests, at the timeline's present time at the earliest.
-  /// Listens for the timeout T_TO = (6 + 2 x address) x T_SL, claims the token, begins. All slaves are brought up anew.
+  /// Listens for the timeout T_TO = (6 + 2 x address) x T_SL, claims the token, begins; in a ring that runs already it waits to be let in.
+  /// All slaves are brought up anew.
   void start();
   /// Falls silent at once, also inside a telegram: a dead master.
   void stop();
@@ -103,6 +110,10 @@ class Master1 : public Agent {
   /// Operations that wait or are at work.
   std::size_t c1_open(std::uint8_t address) const;
 
+  /// The master's part in the ring; nullptr without BusParameters::ring.
+  TokenRing* ring() { return ring_.get(); }
+  const TokenRing* ring() const { return ring_.get(); }
+
   LiveState live(std::uint8_t address) const { return live_.at(address); }
   std::uint64_t cycles() const { return cycles_; }
   /// Start to start of the last complete cycle, 0 before.
@@ -139,6 +150,8 @@ class Master1 : public Agent {
 
   void begin_operation();
   bool start_next();
+  bool start_in_ring();
+  bool start_command();
   bool start_phase();
   bool listen();
   bool start_claim();
@@ -158,6 +171,7 @@ class Master1 : public Agent {
 
   MasterConfig config_;
   MasterFdl fdl_;
+  std::unique_ptr<TokenRing> ring_;  ///< none when alone
   std::vector<std::unique_ptr<Slave>> slaves_;
   std::deque<Command> commands_;
   AnswerCallback current_done_;

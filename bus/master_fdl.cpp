@@ -36,6 +36,7 @@ void MasterFdl::set_baud(int index) {
   baud_ = index;
   sender_.set_timing(bit_, parameters_.clock_ppm);
   receiver_.set_bit(bit_);
+  listener_.set_bit(bit_);
   receiver_.reset(segment_.level_at(station_));
 }
 
@@ -45,6 +46,15 @@ void MasterFdl::start(Tick now, FdlRequest request) {
   compose();
   state_ = State::kWaitBus;
   ready_at_ = std::max(ready_at_, now);
+}
+
+void MasterFdl::respond(Tick request_end, const Telegram& answer) {
+  request_ = {};
+  characters_ = characters(encode(answer));
+  wants_answer_ = false;
+  responding_ = true;
+  slot_end_ = request_end + bits(kMinTsdrBits);
+  state_ = State::kResponding;
 }
 
 void MasterFdl::compose() {
@@ -69,18 +79,22 @@ void MasterFdl::compose() {
 void MasterFdl::abort(Tick now) {
   sender_.abort(now);
   decoder_ = {};
+  listener_.reset();
   if (idle()) return;
-  finish(FdlOutcome::kAborted);
+  if (!std::exchange(responding_, false)) return finish(FdlOutcome::kAborted);
+  state_ = State::kIdle;
 }
 
 Tick MasterFdl::earliest_start() const { return std::max(ready_at_, quiet_deadline()); }
 
 Tick MasterFdl::next() const {
-  if (state_ == State::kSending) return sender_.next();
+  if (state_ == State::kSending) return std::min(sender_.next(), receiver_.next());
+  if (state_ == State::kResponding) return std::min(slot_end_, receiver_.next());
   if (receiver_.receiving()) return receiver_.next();
   switch (state_) {
     case State::kWaitBus: return earliest_start();
-    case State::kWaitAnswer: return slot_end_;
+    case State::kWaitAnswer:
+    case State::kAwaitActivity: return slot_end_;
     case State::kReceiving:
     case State::kDraining: return quiet_deadline();
     default: return kNever;
@@ -89,17 +103,20 @@ Tick MasterFdl::next() const {
 
 void MasterFdl::run(Tick now) {
   if (state_ == State::kSending) {
+    receiver_.run(now);  // hears itself only while it sends a token
     sender_.run(now);
     if (!sender_.busy()) sent();
     return;
   }
   receiver_.run(now);
+  if (state_ == State::kResponding && now >= slot_end_) return send(now);  // also into the talk of another
   if (state_ != State::kIdle && !receiver_.receiving() && now >= next()) deadline(now);
 }
 
 void MasterFdl::deadline(Tick now) {
   switch (state_) {
     case State::kWaitBus: return send(now);
+    case State::kAwaitActivity:
     case State::kWaitAnswer: return no_answer(now);
     case State::kReceiving: {  // the answer broke off
       if (const auto decoded = decoder_.finish()) result_.raw = decoded->bytes;
@@ -111,13 +128,16 @@ void MasterFdl::deadline(Tick now) {
 }
 
 void MasterFdl::line_changed(Tick at, bool level) {
-  if (state_ != State::kSending) receiver_.line_changed(at, level);  // while sending it would hear itself
+  if (state_ != State::kSending || reads_back()) receiver_.line_changed(at, level);  // else it would hear itself
 }
 
 void MasterFdl::send(Tick now) {
   state_ = State::kSending;
   result_.request_start = now;
   result_.raw.clear();
+  echo_.clear();
+  receiver_.reset(segment_.level_at(station_));
+  listener_.reset();
   sender_.send(now, characters_);
   sender_.run(now);
 }
@@ -126,8 +146,13 @@ void MasterFdl::sent() {
   last_activity_ = sender_.end();
   result_.request_end = last_activity_;
   receiver_.reset(segment_.level_at(station_));
-  if (wants_answer_) {
-    state_ = State::kWaitAnswer;
+  if (std::exchange(responding_, false)) {
+    state_ = State::kIdle;
+    return;
+  }
+  if (reads_back()) result_.read_back = echo_ == encode(request_.telegram);
+  if (wants_answer_ || request_.await_activity) {
+    state_ = wants_answer_ ? State::kWaitAnswer : State::kAwaitActivity;
     slot_end_ = last_activity_ + bits(parameters_.slot(baud_));
     return;
   }
@@ -137,12 +162,17 @@ void MasterFdl::sent() {
 }
 
 void MasterFdl::character(const ReceivedCharacter& received) {
+  if (state_ == State::kSending) {
+    echo_.push_back(received.byte);
+    return;
+  }
   last_activity_ = received.end;
+  if (state_ == State::kAwaitActivity) finish(FdlOutcome::kSent);
   if (state_ == State::kWaitAnswer) {
     state_ = State::kReceiving;
     result_.answer_start = received.start;
   }
-  if (state_ != State::kReceiving) return;
+  if (state_ != State::kReceiving) return listen(received);
   result_.answer_end = received.end;
   if (!received.ok()) {
     state_ = State::kDraining;
@@ -154,8 +184,18 @@ void MasterFdl::character(const ReceivedCharacter& received) {
   if (const auto decoded = decoder_.feed(received.byte)) take(*decoded);
 }
 
+void MasterFdl::listen(const ReceivedCharacter& received) {
+  if (!on_heard) return;
+  if (const auto heard = listener_.feed(received)) on_heard(*heard);
+}
+
 void MasterFdl::take(const Decoded& decoded) {
   result_.raw = decoded.bytes;
+  if (on_heard && decoded.error == DecodeError::kNone && !decoded.telegram.is_response()) {
+    const HeardTelegram heard{decoded.telegram, result_.answer_start, result_.answer_end};
+    finish(FdlOutcome::kAborted);
+    return on_heard(heard);
+  }
   if (decoded.error != DecodeError::kNone || !answers_request(decoded.telegram)) {
     state_ = State::kDraining;
     return;
@@ -191,7 +231,8 @@ void MasterFdl::wrong_answer(Tick now) {
 
 void MasterFdl::retry_or(FdlOutcome outcome, Tick now) {
   // FDL status is not repeated: it looks for stations that are mostly not there.
-  const bool repeat = !request_.raw && request_.telegram.function() != fc::kFdlStatus;
+  const bool token = request_.telegram.kind == TelegramKind::kSd4;  // repeated by the ring
+  const bool repeat = !request_.raw && !token && request_.telegram.function() != fc::kFdlStatus;
   if (repeat && result_.retries < parameters_.retries(baud_)) {
     ++result_.retries;
     state_ = State::kWaitBus;

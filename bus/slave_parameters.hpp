@@ -34,17 +34,27 @@ struct SlaveParameters {
 /// The data of Set_Prm (table 19). `min_tsdr` 0 leaves the slave's value unchanged.
 Bytes set_prm_data(const SlaveParameters& slave, std::uint8_t min_tsdr);
 
+/// T_TR by default: some thirty messages of full length, 4.2 ms at 12 Mbit/s and 33 ms at 1.5 Mbit/s.
+constexpr int kTargetRotationBits = 50'000;
+
 /// Bus parameters of EN 50170, in bit times unless said otherwise. What is not set follows the baud rate.
 struct BusParameters {
-  std::optional<int> slot_bits = {};       ///< T_SL
-  std::optional<int> set_bits = {};        ///< T_SET
-  std::optional<int> quiet_bits = {};      ///< T_QUI
-  std::optional<int> max_retries = {};     ///< repetitions of an unanswered request; 1, at 3/6/12 Mbit/s 2/3/4
-  int gap_factor = 10;                     ///< one FDL status poll for the live list every so many cycles; 0 = none
+  std::optional<int> slot_bits = {};    ///< T_SL
+  std::optional<int> set_bits = {};     ///< T_SET
+  std::optional<int> quiet_bits = {};   ///< T_QUI
+  std::optional<int> max_retries = {};  ///< repetitions of an unanswered request; 1, at 3/6/12 Mbit/s 2/3/4
+  /// One FDL status poll for the live list every so many cycles; 0 = none. In a ring G: the GAP is looked through, one address a token,
+  /// and again G x T_TR after the end of that.
+  int gap_factor = 10;
   std::uint8_t highest_address = 126;      ///< HSA: last address of the live list
   std::int64_t min_slave_interval_us = 0;  ///< least time between the starts of two cycles
   bool token = true;                       ///< passes the token to itself after each cycle, as a single master does
-  std::int64_t clock_ppm = 0;              ///< error of the sender's clock; positive = slow
+  /// Takes part in a ring of several masters: learns the active stations, waits to be polled in the GAP, shares the token. false: a
+  /// single master, which passes the token to itself after each cycle (`token`).
+  bool ring = false;
+  /// T_TR: the token should come round within so many bit times; a ring only. What is left of it is the time to hold the token.
+  int target_rotation_bits = kTargetRotationBits;
+  std::int64_t clock_ppm = 0;  ///< error of the sender's clock; positive = slow
 
   int slot(int baud_index) const;
   int retries(int baud_index) const;

@@ -98,6 +98,7 @@ class FakeDpSlave {
   int broken_for = 0;          ///< so many answers have a wrong FCS
   Bytes inputs = {0x11, 0x22}, outputs = {0, 0};
   std::function<Telegram(const Telegram&)> acyclic;  ///< answers SAPs 47 to 51; without it they are refused with RS
+  std::function<void(const Telegram&)> unanswered;   ///< hears SDN
   bool acyclic_silent = false;                       ///< requests to these SAPs are not answered
   std::vector<Telegram> requests;                    ///< to this station, repetitions included
   int executed = 0, repetitions = 0, empty_outputs = 0;
@@ -108,7 +109,10 @@ class FakeDpSlave {
   std::optional<Reply> hear(const Telegram& telegram) {
     if (!telegram.is_request() || (telegram.da != address_ && telegram.da != kBroadcast)) return std::nullopt;
     requests.push_back(telegram);
-    if (!telegram.wants_answer()) return std::nullopt;
+    if (!telegram.wants_answer()) {
+      if (unanswered) unanswered(telegram);
+      return std::nullopt;
+    }
     if (acyclic_silent && telegram.dsap && *telegram.dsap <= sap::kMs1) return std::nullopt;
     if (!repetition(telegram)) answer_ = execute(telegram);
     if (silent_for > 0) {
@@ -125,8 +129,9 @@ class FakeDpSlave {
 
   bool repetition(const Telegram& telegram) {
     const bool fcb = (telegram.fc & fc::kFcb) != 0;
-    const bool same = (telegram.fc & fc::kFcv) != 0 && fcb == fcb_;
+    const bool same = (telegram.fc & fc::kFcv) != 0 && fcb == fcb_ && telegram.sa == fcb_master_;
     fcb_ = fcb;
+    fcb_master_ = telegram.sa;
     repetitions += same ? 1 : 0;
     return same;
   }
@@ -188,6 +193,7 @@ class FakeDpSlave {
 
   std::uint8_t address_;
   bool fcb_ = false, cfg_fault_ = false;
+  std::uint8_t fcb_master_ = 255;
   Telegram answer_;
 };
 
