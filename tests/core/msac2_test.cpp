@@ -68,9 +68,8 @@ TEST_F(Msac2Block, FIsReportedWhenItEndsTogetherWithU) {
   request.size = sizeof read;
   msac2.handle(2000, request);
   msac2.eval(2000 + kUnit);
-  ASSERT_FALSE(recorder.events.empty());
-  EXPECT_EQ(recorder.events.back().reason, Reason::kC2Timeout);
-  EXPECT_EQ(recorder.events.back().b, 1);
+  ASSERT_EQ(recorder.count(Reason::kC2Timeout), 1);
+  for (const Event& event : recorder.events) EXPECT_TRUE(event.reason != Reason::kC2Timeout || event.b == 1);
 }
 
 TEST_F(Msac2Block, RestsWhileNoChannelIsInUse) { EXPECT_EQ(msac2.next(), kNever); }
