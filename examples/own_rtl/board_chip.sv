@@ -2,7 +2,8 @@
 // generator. Two things are wrong in it; docs/cosim.md shows how they are found.
 module board_chip #(
   parameter integer SEARCH_WINDOW_MS = 50,
-  parameter integer PULSE = 60            // wrong: the low time is 64 cycles (P7)
+  parameter integer PULSE = 60,           // wrong: the low time is 64 cycles (P7)
+  parameter integer RESET_VALUE = 0       // wrong: 0 leaves the pulse counter without a reset
 ) (
   input  logic        clk,
   input  logic        rst,                // high: reset
@@ -34,11 +35,18 @@ module board_chip #(
     .d_oe_o(data_drive), .csr_i(!cs), .rd_i(rd_n), .wr_i(wr_n), .intr0_o(intr0), .pbf_o(led_no_exchange), .br_o(led_baud),
     .ready_o(led_ready));
 
-  // wrong: count_q has no reset, so that irq may be high after power-on until it has counted down
-  always_ff @(posedge clk) begin
-    intr0_q <= intr0;
-    if (intr0_q && !intr0) count_q <= PULSE[6:0];
-    else if (count_q != 7'd0) count_q <= count_q - 7'd1;
+  // irq is high while count_q counts down; without a reset it may be high after power-on, for as long as it happens to take
+  logic clear;
+  assign clear = rst && RESET_VALUE != 0;
+  always_ff @(posedge clk or posedge clear) begin
+    if (clear) begin
+      intr0_q <= 1'b1;
+      count_q <= 7'd0;
+    end else begin
+      intr0_q <= intr0;
+      if (intr0_q && !intr0) count_q <= PULSE[6:0];
+      else if (count_q != 7'd0) count_q <= count_q - 7'd1;
+    end
   end
   assign irq = count_q != 7'd0;
 endmodule

@@ -20,6 +20,13 @@ class Reader {
   PinMap read() {
     const YAML::Node root = load();
     check_keys(root, {"clock", "pins", "tolerance", "parameters", "files", "include"});
+    for (const char* key : {"pins", "tolerance", "parameters"}) {
+      if (root[key] && !root[key].IsMap()) fail(root[key], std::string(key) + " is no map, allowed is NAME: VALUE");
+    }
+    for (const char* key : {"files", "include"}) {
+      if (root[key] && !root[key].IsSequence())
+        fail(root[key], std::string(key) + " is no list, allowed is [NAME, NAME]");
+    }
     if (root["clock"]) map_.clock = port(root["clock"]);
     for (const auto& each : root["pins"]) pin(each.first, each.second);
     for (const auto& each : root["tolerance"]) tolerance(each.first, each.second);

@@ -187,12 +187,13 @@ void RandomMaster::broken() {
   bus::Bytes bytes = bus::encode(telegram);
   const auto position = static_cast<std::size_t>(random_.below(static_cast<int>(bytes.size())));
   bus::WireFaults faults;
-  switch (random_.below(12)) {
+  switch (random_.below(14)) {
     case 0: faults.wrong_parity_at = position; break;
     case 1: faults.missing_stop_at = position; break;
     case 2:
+    case 12:  // about a bit time, where it becomes a gap, or clearly one
       faults.gap_before = position;
-      faults.gap_millibits = random_.between(0, 4) * 250 + random_.between(0, 3) * 250;
+      faults.gap_millibits = random_.one_in(2) ? random_.between(0, 7) * 250 : random_.between(1000, 4000);
       break;
     case 3:
       faults.truncate_after = position;

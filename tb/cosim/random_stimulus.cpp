@@ -45,6 +45,7 @@ class Case {
     sync();
     master_.choose_rate();
     for (int i = random_.below(4); i > 0; --i) random_.one_in(3) ? master_.set_slave_address() : master_.anything();
+    if (random_.one_in(5)) address_changes();
     if (!random_.one_in(8)) bring_up();
     for (int i = steps(); i > 0; --i) step();
     sync();
@@ -94,6 +95,13 @@ class Case {
     return user_.initialise();
   }
 
+  /// One after the other: the first may lock the address (S5).
+  void address_changes() {
+    master_.careful(true);
+    for (int i = random_.between(2, 3); i > 0; --i) master_.set_slave_address();
+    master_.slave_diag();
+    master_.careful(false);
+  }
   /// Parameters or a configuration that may be wrong, in the state in which they are looked at, and what the diagnosis says (S6, D8).
   void judging() {
     const bool prm = random_.one_in(2);

@@ -38,7 +38,7 @@ void call(const std::string& command, const std::string& log, const std::string&
   std::ifstream file(log);
   std::string first;
   for (std::string line; first.empty() && std::getline(file, line);) {
-    if (line.find("rror") != std::string::npos) first = line;
+    if (line.find("rror:") != std::string::npos || line.find("%Error") != std::string::npos) first = line;
   }
   throw tb::InputError(
       fmt::format("dsdpv1-sim cosim: {}: {} (all of it in {}), allowed is RTL that Verilator 5.006 builds", what,
@@ -58,7 +58,7 @@ std::vector<std::string> sources(const UserRtl& rtl, const PinMap& map) {
   return files;
 }
 
-using Create = void* (*)(unsigned seed);
+using Create = void* (*)(int start);
 using Destroy = void (*)(void* self);
 using Eval = void (*)(void* self, const std::uint8_t* in, std::uint8_t* out);
 
@@ -81,10 +81,11 @@ Library load(const std::string& path) {
           symbol<Eval>(handle, "dsdpv1_rtl_eval")};
 }
 
-/// Two designs that began with different values.
+/// Three designs that begin with zeros, with ones and with random values wherever nothing is initialised or reset (Verilator's randReset).
 class UserTop : public RtlTop {
  public:
-  explicit UserTop(const Library& library) : library_(library), designs_{library.create(1), library.create(2)} {}
+  explicit UserTop(const Library& library)
+      : library_(library), designs_{library.create(0), library.create(1), library.create(2)} {}
   ~UserTop() override {
     for (void* design : designs_) library_.destroy(design);
   }
@@ -104,7 +105,7 @@ class UserTop : public RtlTop {
                                                           static_cast<std::uint8_t>(in.a & 0xFF),
                                                           static_cast<std::uint8_t>(in.a >> 8)};
     out.word = word(0, levels);
-    out.unknown = out.word ^ word(1, levels);
+    out.unknown = (out.word ^ word(1, levels)) | (out.word ^ word(2, levels));
   }
   bool dpram(DpramImage&) const override { return false; }
 
@@ -118,7 +119,7 @@ class UserTop : public RtlTop {
   }
 
   Library library_;
-  std::array<void*, 2> designs_;
+  std::array<void*, 3> designs_;
 };
 
 }  // namespace
@@ -128,8 +129,8 @@ std::string adapter_source(const std::string& top, const PinMap& map) {
       "// Generated: the pins of {0} for the co-simulation.\n"
       "#include \"V{0}.h\"\n#include \"verilated.h\"\n#include <memory>\n\nnamespace {{\nstruct Design {{\n"
       "  VerilatedContext context;\n  std::unique_ptr<V{0}> model;\n}};\n}}  // namespace\n\n"
-      "extern \"C\" void* dsdpv1_rtl_create(unsigned seed) {{\n  auto* design = new Design;\n"
-      "  design->context.randReset(2);\n  design->context.randSeed(static_cast<int>(seed));\n"
+      "extern \"C\" void* dsdpv1_rtl_create(int start) {{\n  auto* design = new Design;\n"
+      "  design->context.randReset(start);\n  design->context.randSeed(1);\n"
       "  design->model = std::make_unique<V{0}>(&design->context);\n  return design;\n}}\n\n"
       "extern \"C\" void dsdpv1_rtl_destroy(void* self) {{ delete static_cast<Design*>(self); }}\n\n"
       "extern \"C\" void dsdpv1_rtl_eval(void* self, const unsigned char* in, unsigned char* out) {{\n"
@@ -150,6 +151,36 @@ std::string adapter_source(const std::string& top, const PinMap& map) {
   return text;
 }
 
+namespace {
+
+std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::string& build,
+                              const std::string& adapter) {
+  std::string command =
+      "verilator --cc --exe -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS '-O2 -fPIC' -LDFLAGS -shared";
+  command += fmt::format(" --top-module {} --prefix V{} --Mdir {} -I{} -o librtl.so", quoted(rtl.top), rtl.top,
+                         quoted(build), quoted(fs::absolute(rtl.folder).string()));
+  for (const std::string& folder : map.include)
+    command += " -I" + quoted(fs::absolute(fs::path(rtl.folder) / folder).string());
+  for (const auto& [name, value] : map.parameters) command += " " + quoted("-G" + name + "=" + value);
+  for (const std::string& source : sources(rtl, map)) command += " " + quoted(source);
+  return command + " " + quoted(adapter);
+}
+
+/// Every port that the map names is one of the Verilated top, whose header declares them as VL_IN8(&name,7,0).
+void check_ports(const std::string& top, const PinMap& map, const std::string& build) {
+  std::ifstream file(fmt::format("{}/V{}.h", build, top));
+  const std::string header{std::istreambuf_iterator<char>(file), {}};
+  const auto check = [&](const std::string& pin, const std::string& name) {
+    if (header.find("(&" + name + ",") != std::string::npos) return;
+    throw tb::InputError(fmt::format(
+        "dsdpv1-sim cosim: {} has no port {} for {}, allowed are its ports, named in --pins", top, name, pin));
+  };
+  check("CLK", map.clock.name);
+  for (const auto& [pin, port] : map.pins) check(pin, port.name);
+}
+
+}  // namespace
+
 MakeRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
   if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, allowed is one with RTL");
   if (std::system("command -v verilator >/dev/null 2>&1") != 0)
@@ -160,17 +191,10 @@ MakeRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
   file.write(adapter_source(rtl.top, map));
   file.commit();
 
-  std::string verilator =
-      "verilator --cc --exe --build -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS '-O2 -fPIC' -LDFLAGS "
-      "-shared";
-  verilator += fmt::format(" --top-module {} --prefix V{} --Mdir {} -I{} -o librtl.so", quoted(rtl.top), rtl.top,
-                           quoted(fs::absolute(rtl.build).string()), quoted(fs::absolute(rtl.folder).string()));
-  for (const std::string& folder : map.include)
-    verilator += " -I" + quoted(fs::absolute(fs::path(rtl.folder) / folder).string());
-  for (const auto& [name, value] : map.parameters) verilator += fmt::format(" {}", quoted("-G" + name + "=" + value));
-  for (const std::string& source : sources(rtl, map)) verilator += " " + quoted(source);
-  call(verilator + " " + quoted(adapter), (fs::path(rtl.build) / "verilator.log").string(), rtl.top);
-
+  const std::string build = fs::absolute(rtl.build).string();
+  call(verilator_command(rtl, map, build, adapter), build + "/verilator.log", rtl.top);
+  check_ports(rtl.top, map, build);
+  call(fmt::format("make -s -C {} -f V{}.mk", quoted(build), rtl.top), build + "/compiler.log", rtl.top);
   const Library library = load((fs::path(rtl.build) / "librtl.so").string());
   return [library](const dsdpv1::Config&) { return std::make_unique<UserTop>(library); };
 }

@@ -1,0 +1,71 @@
+// Random campaigns on the reference RTL: a fault is found, shrunk to some lines and seen again; the result does not depend on threads.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "tb/cosim/campaign.hpp"
+#include "tb/cosim/random_setup.hpp"
+#include "tb/cosim/reference_rtl.hpp"
+#include "tests/app/program.hpp"
+
+namespace {
+
+using app_test::call;
+using testing::HasSubstr;
+
+cosim::MakeTop faulty(unsigned fault) {
+  return [fault] { return cosim::make_faulty_rtl(cosim::quick_config(), fault); };
+}
+
+TEST(Campaign, IsTheSameWithOneThreadAndWithThree) {
+  constexpr std::uint64_t kCycles = 3'000'000;
+  const auto one = cosim::run_campaign({9, kCycles, 1}, faulty(0)),
+             three = cosim::run_campaign({9, kCycles, 3}, faulty(0));
+  EXPECT_FALSE(one.difference);
+  EXPECT_GE(one.counts.cycles, kCycles);
+  EXPECT_EQ(one.counts.cycles, three.counts.cycles);
+  EXPECT_EQ(one.counts.pin_changes, three.counts.pin_changes);
+  EXPECT_EQ(one.cases, three.cases);
+  EXPECT_EQ(one.coverage.text(), three.coverage.text());
+}
+
+TEST(Campaign, ReachesDataExchangeAndRefusals) {
+  const auto result = cosim::run_campaign({4, 5'000'000, 2}, faulty(0));
+  EXPECT_GT(result.coverage.telegrams().at("Data_Exchange"), 100U);
+  EXPECT_GT(result.coverage.count(profibus::Reason::kCfgAccepted), 10U);
+  EXPECT_THAT(result.coverage.text(), HasSubstr("T_SYN"));
+}
+
+TEST(RtlRandom, ShrinksAFaultToAFewLinesThatShowItAgain) {
+  const app_test::Folder folder;
+  const app_test::Called found =
+      call("rtl-random --fault 46 --seed 2 --stimulus short.stimulus --difference both.vcd", folder.path());
+  EXPECT_EQ(found.status, 1);
+  EXPECT_THAT(found.out, HasSubstr("dsdpv1-sim rtl-random --fault 46 --seed 2 --replay short.stimulus"));
+  EXPECT_THAT(found.out, HasSubstr("pin INTR0: model 0, RTL 1"));
+  EXPECT_THAT(app_test::read(folder.file("both.vcd")), HasSubstr("module rtl"));
+  const std::string text = app_test::read(folder.file("short.stimulus"));
+  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 20) << text;
+
+  const app_test::Called again = call("rtl-random --fault 46 --seed 2 --replay short.stimulus", folder.path());
+  EXPECT_EQ(again.status, 1);
+  EXPECT_THAT(again.out, HasSubstr("pin INTR0: model 0, RTL 1"));
+  const app_test::Called healthy = call("rtl-random --replay short.stimulus", folder.path());
+  EXPECT_EQ(healthy.status, 0) << healthy.out;
+}
+
+TEST(RtlFaults, OneThatCannotBeFoundIsCountedAndExitIs1) {
+  const app_test::Folder folder;
+  std::ofstream(folder.file("faults.txt"))
+      << "# no such fault in the RTL\n255 uart_rx nothing is wrong\n46 interrupt INTR0 is low for 63 cycles\n";
+  const app_test::Called called =
+      call("rtl-faults --list faults.txt --directed . --cycles 3000000 --tsv kills.tsv", folder.path());
+  EXPECT_EQ(called.status, 1);
+  EXPECT_THAT(called.out, HasSubstr("ALIVE"));
+  EXPECT_THAT(called.out, HasSubstr("1 of 2 faults found\n"));
+  EXPECT_THAT(app_test::read(folder.file("kills.tsv")), HasSubstr("46\tinterrupt\tINTR0 is low for 63 cycles\tyes\t"));
+}
+
+}  // namespace

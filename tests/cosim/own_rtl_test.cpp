@@ -1,0 +1,94 @@
+// What a user may say about the pins of RTL of his own, and the code that is made of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tb/cosim/pin_map.hpp"
+#include "tb/cosim/user_rtl.hpp"
+#include "tb/scenario/input_error.hpp"
+
+namespace {
+
+using cosim::Pin;
+using testing::HasSubstr;
+
+class PinMapFile : public testing::Test {
+ protected:
+  ~PinMapFile() override { std::filesystem::remove(path_); }
+  cosim::PinMap load(const std::string& text) const {
+    std::ofstream(path_) << text;
+    return cosim::load_pin_map(path_);
+  }
+  /// The message behind the file's name.
+  std::string error_of(const std::string& text) const {
+    try {
+      load(text);
+    } catch (const tb::InputError& error) {
+      return std::string(error.what()).substr(path_.size());
+    }
+    return "none";
+  }
+
+ private:
+  std::string path_ =
+      testing::TempDir() + "pins_" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".yaml";
+};
+
+TEST_F(PinMapFile, WithoutKeysHasTheNamesOfTheReferenceRtl) {
+  const cosim::PinMap map = load("{}\n");
+  EXPECT_EQ(map.clock.name, "clk_i");
+  EXPECT_EQ(map.pins.at("R_REQ").name, "r_req_i");
+  EXPECT_EQ(map.pins.at("INTR0").name, "intr0_o");
+  EXPECT_EQ(map.pins.at("D_OE").name, "d_oe_o");
+  EXPECT_FALSE(map.pins.at("CSR").inverted);
+}
+
+TEST_F(PinMapFile, NamesPolaritiesAndTolerancesAreRead) {
+  const cosim::PinMap map = load(
+      "clock: clk48\npins:\n  CSR: {port: cs, inverted: true}\n  RD: rd_n\ntolerance: {PBTXD: 3}\n"
+      "parameters: {WIDTH: 8}\nfiles: [a.sv]\ninclude: [lib]\n");
+  EXPECT_EQ(map.clock.name, "clk48");
+  EXPECT_EQ(map.pins.at("CSR").name, "cs");
+  EXPECT_TRUE(map.pins.at("CSR").inverted);
+  EXPECT_EQ(map.pins.at("RD").name, "rd_n");
+  EXPECT_EQ(map.tolerances.at(static_cast<std::size_t>(Pin::kPbtxd)), 3);
+  EXPECT_EQ(map.tolerances.at(static_cast<std::size_t>(Pin::kIntr0)), 0);
+  EXPECT_EQ(map.parameters.at("WIDTH"), "8");
+  EXPECT_THAT(map.files, testing::ElementsAre("a.sv"));
+}
+
+TEST_F(PinMapFile, WrongContentIsNamedWithItsLineAndWhatIsAllowed) {
+  EXPECT_EQ(
+      error_of("clock: c\npinns: {}\n"),
+      ":2: unknown name pinns (did you mean pins?), allowed are clock, pins, tolerance, parameters, files, include");
+  EXPECT_THAT(error_of("pins:\n  L_RQE: x\n"),
+              HasSubstr(":2: unknown name L_RQE (did you mean L_REQ?), allowed are A,"));
+  EXPECT_EQ(error_of("pins:\n  RD: {port: r, inverted: maybe}\n"), ":2: is maybe, allowed are true, false");
+  EXPECT_EQ(error_of("pins:\n  RD: {inverted: true}\n"),
+            ":2: is no port, allowed are NAME and {port: NAME, inverted: true}");
+  EXPECT_EQ(error_of("tolerance:\n  INTR0: 1001\n"), ":2: is 1001, allowed are 0 to 1000 cycles");
+  EXPECT_THAT(error_of("tolerance: {RD: 1}\n"), HasSubstr(":1: unknown name RD"));
+  EXPECT_EQ(error_of("- a\n"), ":1: is no map, allowed are clock, pins, tolerance, parameters, files, include");
+  EXPECT_THAT(error_of("pins: {\n"), HasSubstr("allowed is YAML"));
+  EXPECT_THAT(error_of("pins: 5\n"), HasSubstr(":1: pins is no map"));
+  EXPECT_THAT(error_of("files: a.sv\n"), HasSubstr(":1: files is no list"));
+}
+
+TEST(PinMap, FileThatIsNotThereIsNamed) { EXPECT_THROW(cosim::load_pin_map("none.yaml"), tb::InputError); }
+
+TEST(Adapter, InvertsWhereTheMapSaysSo) {
+  cosim::PinMap map = cosim::default_pin_map();
+  map.pins["CSR"] = {"cs", true};
+  map.pins["INTR0"] = {"irq", true};
+  map.pins["D_OUT"] = {"q", true};
+  const std::string text = cosim::adapter_source("chip", map);
+  EXPECT_THAT(text, HasSubstr("model.cs = !in["));
+  EXPECT_THAT(text, HasSubstr("= !model.irq;"));
+  EXPECT_THAT(text, HasSubstr("= ~model.q;"));
+  EXPECT_THAT(text, HasSubstr("model.rd_i = in["));
+  EXPECT_THAT(text, HasSubstr("= model.l_req_o;"));
+}
+
+}  // namespace

@@ -1,0 +1,60 @@
+// Every scenario that ships on the reference RTL: in lockstep without a difference, and with the pin trace and log of the model.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/app/program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using app_test::call;
+using app_test::read;
+
+std::vector<std::string> scenarios() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(DSDPV1_SOURCE_DIR "/scenarios")) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class RtlScenarios : public testing::TestWithParam<std::string> {
+ protected:
+  app_test::Called run(const std::string& arguments) const {
+    return call("run scenarios/" + GetParam() + ".yaml --no-progress " + arguments, DSDPV1_SOURCE_DIR);
+  }
+  std::string files(const std::string& engine) const {
+    return "--engine " + engine + " --trace '" + folder_.file(engine + ".trace") + "' --log '" +
+           folder_.file(engine + ".log") + "'";
+  }
+  app_test::Folder folder_;
+};
+
+TEST_P(RtlScenarios, ModelAndRtlDoNotDiffer) {
+  const app_test::Called called = run("--engine lockstep --difference '" + folder_.file("difference.vcd") +
+                                      "' --log '" + folder_.file("log") + "'");
+  EXPECT_EQ(called.status, 0) << called.out << called.err;
+  EXPECT_THAT(called.out, testing::HasSubstr("of model and RTL are the same"));
+  EXPECT_FALSE(fs::exists(folder_.file("difference.vcd")));
+}
+
+TEST_P(RtlScenarios, TraceAndLogOfTheRtlAreThoseOfTheModel) {
+  // 3.5 s at 9.6 kbit/s are 168 M cycles; the lockstep above has compared each of them.
+  if (GetParam() == "power_on_9k6") {
+    EXPECT_EQ(run("--engine rtl --log '" + folder_.file("missing/log") + "'").status, 2);
+    return;
+  }
+  ASSERT_EQ(run(files("skip")).status, 0);
+  ASSERT_EQ(run(files("rtl")).status, 0);
+  for (const char* ending : {".trace", ".log"})
+    EXPECT_TRUE(read(folder_.file(std::string("skip") + ending)) == read(folder_.file(std::string("rtl") + ending)))
+        << ending;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RtlScenarios, testing::ValuesIn(scenarios()),
+                         [](const auto& each) { return each.param; });
+
+}  // namespace

@@ -1,0 +1,62 @@
+// Stimulus files: what is written is read back, and wrong lines are named.
+#include <gtest/gtest.h>
+
+#include "tb/cosim/random_stimulus.hpp"
+#include "tb/cosim/stimulus.hpp"
+#include "tb/scenario/input_error.hpp"
+
+namespace {
+
+using cosim::parse_stimulus;
+using cosim::to_text;
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_stimulus(text, "my.stimulus");
+  } catch (const tb::InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Stimulus, RandomCasesAreReadBackAsTheyWereWritten) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 77U}) {
+    const std::string text = to_text(cosim::random_stimulus(seed));
+    EXPECT_EQ(to_text(parse_stimulus(text, "again")), text) << seed;
+  }
+}
+
+TEST(Stimulus, RandomCasesAreTheSameForTheSameSeed) {
+  EXPECT_EQ(to_text(cosim::random_stimulus(5)), to_text(cosim::random_stimulus(5)));
+  EXPECT_NE(to_text(cosim::random_stimulus(5)), to_text(cosim::random_stimulus(6)));
+}
+
+TEST(Stimulus, EmptyLinesAndCommentsAreSkipped) {
+  EXPECT_EQ(parse_stimulus("# a comment\n\nsync\n  # another\ngive +12\n", "x").size(), 2U);
+}
+
+struct Wrong {
+  const char *text, *error;
+};
+
+class WrongLine : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongLine, IsNamedWithWhatIsAllowed) { EXPECT_EQ(error_of(GetParam().text), GetParam().error); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, WrongLine,
+    testing::Values(
+        Wrong{"sync\nfly +1\n",
+              "my.stimulus:2: unknown action fly, allowed: send, spike, take, give, write, read, block, pin, reset, "
+              "sync"},
+        Wrong{"write +0 at=800 value=1\n", "my.stimulus:1: wrong number 800, allowed: 0 to 7FF, hexadecimal"},
+        Wrong{"write +0 to=1\n",
+              "my.stimulus:1: unknown argument to, allowed: +DELAY, at=, value=, setup=, low=, hold="},
+        Wrong{"reset +x\n", "my.stimulus:1: wrong number x, allowed: 0 to 1099511627776"},
+        Wrong{"pin +0 PBTXD level=1\n",
+              "my.stimulus:1: unknown word PBTXD, allowed: +DELAY, KEY=VALUE, : BYTES, and the name of an input pin "
+              "behind pin"},
+        Wrong{"send +0 rate=0 gap=1 : 10\n", "my.stimulus:1: wrong fault 1, allowed: 2 numbers with : between them"},
+        Wrong{"send +0 : 10 GG\n", "my.stimulus:1: wrong number GG, allowed: 0 to FF, hexadecimal"}));
+
+}  // namespace
