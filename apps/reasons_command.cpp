@@ -91,6 +91,7 @@ const char* meaning_of(bus::FlagKind kind) {
     case bus::FlagKind::kUnanswered: return "no answer within the slot time";
     case bus::FlagKind::kUnexpectedAnswer: return "an answer that nobody asked for, or by the wrong station";
     case bus::FlagKind::kGlitch: return "a low level shorter than half a bit";
+    case bus::FlagKind::kTwoMasters: return "a master sends while another has the token";
   }
   return "";
 }
@@ -117,6 +118,9 @@ const char* advice_of(bus::FlagKind kind) {
       return "Two stations with the same address, or a master whose slot time is too short: its request and the late "
              "answer overlap.";
     case bus::FlagKind::kGlitch: return "Disturbed line. The chip ignores it while idle (S10).";
+    case bus::FlagKind::kTwoMasters:
+      return "Masters on one segment must share the token: each takes part in the ring, with an address of its own and "
+             "the same slot time.";
   }
   return "";
 }

@@ -38,6 +38,7 @@ const char* name(FlagKind kind) {
     case FlagKind::kUnanswered: return "unanswered";
     case FlagKind::kUnexpectedAnswer: return "unexpected answer";
     case FlagKind::kGlitch: return "glitch";
+    case FlagKind::kTwoMasters: return "two masters";
   }
   return "";
 }
@@ -76,8 +77,10 @@ Tick Monitor::idle_at() const { return active_ ? *last_end_ + bits(kSynBits) : k
 Tick Monitor::slot_end() const {
   // The slot time ends with the first character of an answer.
   if (!pending_ || decoder_.begun()) return kNever;
-  return pending_->end + bits(slot_bits_.value_or(bus::baud(baud_).slot_bits));
+  return pending_->end + slot();
 }
+
+Tick Monitor::slot() const { return bits(slot_bits_.value_or(bus::baud(baud_).slot_bits)); }
 
 void Monitor::run(Tick now) {
   receiver_.run(now);
@@ -147,6 +150,7 @@ void Monitor::request(const WireTelegram& wire) {
   const Telegram& telegram = wire.decoded.telegram;
   if (pending_) give_up_waiting(wire.start);
   check_syn(wire);
+  check_token(wire);
   if (!telegram.is_request()) return;
   ++statistics_.stations[telegram.da].requests;
   if (telegram.wants_answer() && !wire.character_errors) pending_ = Pending{wire.end, telegram.da};
@@ -157,6 +161,13 @@ void Monitor::check_syn(const WireTelegram& telegram) {
   const Tick quiet = telegram.start - *quiet_from_;
   if (quiet < bits(kSynBits))
     flag(FlagKind::kSynViolated, telegram.start, fmt::format("{} after the last activity", in_bits(quiet)));
+}
+
+void Monitor::check_token(const WireTelegram& telegram) {
+  if (telegram.character_errors) return;
+  const Tick quiet = telegram.start - quiet_from_.value_or(telegram.start);
+  if (auto wrong = token_.hear(telegram.decoded.telegram, telegram.end, quiet, slot()))
+    flag(FlagKind::kTwoMasters, telegram.start, std::move(*wrong));
 }
 
 void Monitor::answer(WireTelegram& wire) {

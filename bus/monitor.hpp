@@ -10,6 +10,7 @@
 #include "bus/segment.hpp"
 #include "bus/telegram.hpp"
 #include "bus/timeline.hpp"
+#include "bus/token_watch.hpp"
 #include "bus/uart.hpp"
 
 namespace bus {
@@ -25,8 +26,9 @@ enum class FlagKind : std::uint8_t {
   kUnanswered,        ///< no answer within the slot time
   kUnexpectedAnswer,  ///< an answer that nobody asked for, or by the wrong station
   kGlitch,            ///< a low level shorter than half a bit
+  kTwoMasters,        ///< a master sends while another has the token
 };
-constexpr std::size_t kFlagKinds = 10;
+constexpr std::size_t kFlagKinds = 11;
 /// "collision", "gap", ... for logs and results.
 const char* name(FlagKind kind);
 
@@ -98,6 +100,8 @@ class Monitor : public Listener, public Agent {
   std::function<void(const Flag&)> on_flag;
 
   const MonitorStatistics& statistics() const { return statistics_; }
+  /// T_RR of each master, by its address.
+  const std::map<std::uint8_t, RotationStatistics>& rotations() const { return token_.rotations(); }
 
   void line_changed(Tick at, bool level) override { receiver_.line_changed(at, level); }
   Tick next() const override;
@@ -120,6 +124,8 @@ class Monitor : public Listener, public Agent {
   void answer(WireTelegram& wire);
   void measure(const WireTelegram& telegram);
   void check_syn(const WireTelegram& telegram);
+  void check_token(const WireTelegram& telegram);
+  Tick slot() const;
   void count(const WireTelegram& telegram);
   void idle();
   void give_up_waiting(Tick now);
@@ -141,6 +147,7 @@ class Monitor : public Listener, public Agent {
   std::optional<Tick> last_end_;    ///< end of the last character, none before the first
   std::optional<Tick> quiet_from_;  ///< end of the activity before the telegram begun
   std::optional<Pending> pending_;  ///< the request that waits for its answer
+  TokenWatch token_;
   MonitorStatistics statistics_;
 };
 

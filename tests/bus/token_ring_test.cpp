@@ -9,6 +9,7 @@
 #include "bus/master2.hpp"
 #include "bus/monitor.hpp"
 #include "bus/requester.hpp"
+#include "bus/token_watch.hpp"
 #include "tests/bus/fake_slave.hpp"
 
 namespace bus {
@@ -384,6 +385,63 @@ TEST_F(TokenRingTest, TokensKeepTheirIdleTimes) {
       EXPECT_EQ(idle, bus_parameters().id1(0) * bit());
     }
   }
+}
+
+TEST_F(TokenRingTest, TheMonitorMeasuresTheRotationsThatTheMastersHave) {
+  for (const int address : {2, 5}) add(static_cast<std::uint8_t>(address));
+  start_all();
+  ASSERT_TRUE(run_until([this] { return all_in({2, 5}); }));
+  run_bits(50'000);
+  ASSERT_TRUE(run_until([this] { return has_token(0); }));
+  const RotationStatistics& seen = monitor.rotations().at(5);
+  const RotationStatistics& own = masters[1]->ring().statistics().rotations;
+  EXPECT_EQ(seen.count, own.count);
+  EXPECT_EQ(seen.min, own.min);
+  EXPECT_EQ(seen.max, own.max);
+  EXPECT_EQ(seen.mean(), own.mean());
+  // At least two tokens and their idle times.
+  EXPECT_GE(seen.min, 2 * (33 + bus_parameters().id1(0)) * bit());
+}
+
+TEST_F(TokenRingTest, TheMonitorFlagsAMasterThatTalksWithoutTheToken) {
+  for (const int address : {2, 5}) add(static_cast<std::uint8_t>(address));
+  start_all();
+  ASSERT_TRUE(run_until([this] { return all_in({2, 5}); }));
+  run_bits(5000);
+  flags.clear();
+  Requester intruder(segment, "intruder");
+  timeline.add(intruder);
+  ASSERT_TRUE(run_until([this] { return has_token(0); }));
+  ExchangeOptions options;
+  options.at = timeline.now() + 34 * bit();  // T_SYN later, while master 2 still waits for T_ID1
+  options.wants_answer = false;
+  intruder.send(timeline, make_telegram(11, 9, fc::kRequest | fc::kSdnHigh, {0}, 58, 62), options);
+  run_bits(100);
+  ASSERT_EQ(flags.size(), 1U);
+  EXPECT_THAT(flags[0], testing::HasSubstr("FLAG two masters: master 9 sends while 2 has the token"));
+}
+
+TEST(TokenWatch, ClaimsAfterTheTimeoutAndRepeatedTokensAreRight) {
+  TokenWatch watch;
+  constexpr Tick kSlot = 100;
+  const Telegram to_2 = make_token(2, 1), to_1 = make_token(1, 2);
+  EXPECT_FALSE(watch.hear(to_2, 1000, 50, kSlot));
+  EXPECT_FALSE(watch.hear(to_2, 1200, 100, kSlot));
+  EXPECT_FALSE(watch.hear(to_1, 2000, 50, kSlot));
+  EXPECT_FALSE(watch.hear(to_2, 2500, 50, kSlot));
+  EXPECT_EQ(watch.rotations().at(2).count, 1U);
+  EXPECT_EQ(watch.rotations().at(2).min, 2500 - 1200);
+  EXPECT_FALSE(watch.hear(make_telegram(3, 2, 0x49), 2600, 50, kSlot));
+  EXPECT_TRUE(watch.hear(make_telegram(3, 1, 0x49), 2700, 599, kSlot));
+  EXPECT_FALSE(watch.hear(make_telegram(3, 2, 0x49), 3400, 600, kSlot));
+  EXPECT_EQ(watch.holder(), 2);
+}
+
+TEST(TokenWatch, ASingleMasterMaySendWhatItLikesButNoToken) {
+  TokenWatch watch;
+  EXPECT_FALSE(watch.hear(make_token(1, 1), 1000, 50, 100));
+  EXPECT_FALSE(watch.hear(make_telegram(3, 9, 0x49), 2000, 50, 100));
+  EXPECT_TRUE(watch.hear(make_token(9, 9), 3000, 50, 100));
 }
 
 // --- two class-1 masters ------------------------------------------------------------------------------------------------
