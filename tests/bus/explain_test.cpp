@@ -224,9 +224,101 @@ TEST(ExplainDpv1, ClassTwo) {
   EXPECT_EQ(data_texts(answer(49, {0x56, 0x30, 0, 100}))[1], "SAP of the channel: 0x30");
   EXPECT_EQ(data_texts(answer(48, {0x57, 0xF0, 1, 0}))[1], "Max_Len_Data_Unit: 0xF0");
   EXPECT_THAT(explain_line(request(48, {0x48})), HasSubstr("MSAC2: Idle"));
-  EXPECT_THAT(explain_line(request(48, {0x51, 0, 1, 2, 9, 9})), HasSubstr("Data_Transport slot 0 index 1 length 2"));
-  EXPECT_EQ(data_texts(request(48, {0x58, 1, 0x12, 0}))[2], "Instance and Reason_Code: 0x12");
+  EXPECT_THAT(explain_line(request(48, {0x51, 0, 1, 2, 9, 9})), HasSubstr("DS_Transport slot 0 index 1 length 2"));
+  EXPECT_EQ(data_texts(request(48, {0x58, 1, 0x12, 0}))[2],
+            "Instance and Reason_Code: 0x12, MSAC_C2: ABT_FE (invalid request PDU)");
   EXPECT_THAT(explain_line(request(48, {0x33})), HasSubstr("unknown function"));
+}
+
+TEST(ExplainDpv1, InitiateWithBothFormsOfAddAddr) {
+  const Bytes fixed = {0x57, 0, 0, 0, 0x01, 0x00, 1, 0, 0, 0, 0, 0};
+  const auto with = [&fixed](const Bytes& address) {
+    Bytes data = fixed;
+    data.insert(data.end(), address.begin(), address.end());
+    return request(49, data);
+  };
+  EXPECT_THAT(explain_line(with({3, 4})),
+              HasSubstr("Initiate, Send_Timeout 2560 ms, DS_Read and DS_Write, Add_Addr API 3 to API 4"));
+  const Telegram extended = with({1, 2, 0, 1, 0xA0, 0xA1, 0xB0});
+  EXPECT_THAT(explain_line(extended), HasSubstr("Add_Addr type 1 A0 A1 to type 0 B0"));
+  EXPECT_EQ(data_texts(extended)[13], "S_Len: 2");
+  EXPECT_EQ(data_texts(extended)[17], "S_Addr 1");
+  EXPECT_EQ(data_texts(extended)[18], "D_Addr 0");
+  EXPECT_THAT(explain_line(with({0, 0, 0, 0})), HasSubstr("type 0 none to type 0 none"));
+  EXPECT_THAT(explain_line(with({1, 2, 0})), HasSubstr("Add_Addr of 3 bytes, neither 2 nor what its lengths say"));
+  EXPECT_THAT(explain_line(with({1, 2, 0, 9, 5})), HasSubstr("neither 2"));
+  EXPECT_THAT(explain_line(request(49, {0x57, 0, 0})), HasSubstr("3 bytes, at least 12"));
+}
+
+TEST(ExplainDpv1, AnswersToInitiate) {
+  EXPECT_THAT(explain_line(answer(49, {0x56, 0x2F, 0x00, 0x64})),
+              HasSubstr("Immediate answer, channel 0x2F, Send_Timeout 1000 ms"));
+  EXPECT_THAT(explain_line(answer(49, {0x56, 0x2F})), HasSubstr("at least 4"));
+  EXPECT_THAT(explain_line(answer(48, {0x57, 0xF0, 1, 0, 0, 0, 0, 0, 4, 3})),
+              HasSubstr("Initiate accepted, at most 240 bytes, Add_Addr API 4 to API 3"));
+  EXPECT_THAT(explain_line(answer(48, {0xD7, 0x80, 0xB8, 0})),
+              HasSubstr("Initiate refused, access: invalid parameter"));
+}
+
+TEST(ExplainDpv1, EveryErrorCodeOfTable29) {
+  const std::vector<std::pair<int, std::string>> codes = {{0xA0, "application: read error"},
+                                                          {0xA1, "application: write error"},
+                                                          {0xA2, "application: module failure"},
+                                                          {0xA3, "application: reserved 3"},
+                                                          {0xA8, "application: version conflict"},
+                                                          {0xA9, "application: feature not supported"},
+                                                          {0xAF, "application: user specific 15"},
+                                                          {0xB0, "access: invalid index"},
+                                                          {0xB1, "access: write length error"},
+                                                          {0xB2, "access: invalid slot"},
+                                                          {0xB3, "access: type conflict"},
+                                                          {0xB4, "access: invalid area"},
+                                                          {0xB5, "access: state conflict"},
+                                                          {0xB6, "access: access denied"},
+                                                          {0xB7, "access: invalid range"},
+                                                          {0xB8, "access: invalid parameter"},
+                                                          {0xB9, "access: invalid type"},
+                                                          {0xBA, "access: user specific 10"},
+                                                          {0xC0, "resource: read constrain conflict"},
+                                                          {0xC1, "resource: write constrain conflict"},
+                                                          {0xC2, "resource: resource busy"},
+                                                          {0xC3, "resource: resource unavailable"},
+                                                          {0xC4, "resource: reserved 4"},
+                                                          {0xC8, "resource: user specific 8"},
+                                                          {0x12, "reserved 0x12"},
+                                                          {0xD0, "user specific 0xD0"}};
+  for (const auto& [code, words] : codes) {
+    EXPECT_THAT(explain_line(answer(48, {0xD1, 0x80, static_cast<std::uint8_t>(code), 0})),
+                HasSubstr("DS_Transport refused, " + words));
+  }
+  const Telegram odd = answer(48, {0xDE, 0x81, 0xB0, 0x07});
+  EXPECT_THAT(explain_line(odd), HasSubstr("invalid index, Error_Code_2 0x07 (Error_Decode 0x81, 0x80 is right)"));
+  EXPECT_EQ(data_texts(answer(48, {0xDE, 0x80, 0xB0, 0}))[1], "Error_Decode: 0x80 (DPV1)");
+  EXPECT_THAT(explain_line(answer(48, {0xDE, 0x80})), HasSubstr("DS_Read, 2 bytes, at least 4"));
+}
+
+TEST(ExplainDpv1, AbortsInWords) {
+  const std::vector<std::pair<int, std::string>> reasons = {{0x11, "MSAC_C2: ABT_SE (sequence error)"},
+                                                            {0x12, "MSAC_C2: ABT_FE (invalid request PDU)"},
+                                                            {0x13, "MSAC_C2: ABT_TO (timeout of the connection)"},
+                                                            {0x14, "MSAC_C2: ABT_RE (invalid response PDU)"},
+                                                            {0x15, "MSAC_C2: ABT_IV"},
+                                                            {0x16, "MSAC_C2: ABT_STO"},
+                                                            {0x17, "MSAC_C2: ABT_IA"},
+                                                            {0x18, "MSAC_C2: ABT_OC"},
+                                                            {0x19, "MSAC_C2: reserved reason 9"},
+                                                            {0x1F, "MSAC_C2: ABT_RES (resource error)"},
+                                                            {0x03, "FDL: RS"},
+                                                            {0x0F, "FDL: NA (no answer)"},
+                                                            {0x25, "user: reason 5"},
+                                                            {0x31, "reserved instance, reason 1"}};
+  for (const auto& [code, words] : reasons) {
+    EXPECT_THAT(explain_line(answer(48, {0x58, 0, static_cast<std::uint8_t>(code), 3})), HasSubstr("Abort, " + words));
+  }
+  EXPECT_THAT(explain_line(request(48, {0x58, 1, 0x13, 3})), HasSubstr("local subnet, detail 3"));
+  EXPECT_THAT(explain_line(request(48, {0x58, 2, 0x13, 3})), HasSubstr("remote subnet"));
+  EXPECT_THAT(explain_line(request(48, {0x58, 9, 0x13, 3})), HasSubstr("subnet 9 (reserved)"));
+  EXPECT_THAT(explain_line(request(48, {0x58})), HasSubstr("Abort, 1 bytes, at least 4"));
 }
 
 TEST(ExplainBytes, EveryByteOfEveryDelimiterIsExplained) {
