@@ -444,6 +444,51 @@ TEST(TokenWatch, ASingleMasterMaySendWhatItLikesButNoToken) {
   EXPECT_TRUE(watch.hear(make_token(9, 9), 3000, 50, 100));
 }
 
+TEST_F(TokenRingTest, ATokenThatIsNotOnTheLineAsSentIsGivenUp) {
+  Master2& master = add(2);
+  start_all();
+  run_bits(20'000);
+  ASSERT_TRUE(run_until([&] { return master.ring().state() == RingState::kPassToken && !segment.level(); }));
+  segment.force(timeline.now(), false);
+  run_bits(40);
+  segment.force(timeline.now(), std::nullopt);
+  EXPECT_EQ(master.ring().statistics().tokens_given_up, 1U);
+  EXPECT_EQ(master.ring().state(), RingState::kListenToken);
+  run_bits(20'000);
+  EXPECT_TRUE(master.ring().in_ring());
+  EXPECT_EQ(master.ring().statistics().claims, 2U);
+}
+
+/// Masters die and come back at any time, each draw another seed; the ring comes together again, without a collision.
+TEST_F(TokenRingTest, WhateverStopsAndStartsTheRingComesTogetherAgain) {
+  const std::vector<std::uint8_t> all = {1, 4, 5, 10};
+  for (const std::uint8_t address : all) add(address);
+  std::vector<bool> on(all.size(), true);
+  start_all();
+  std::uint32_t random = 12345;
+  const auto draw = [&random](std::uint32_t below) {
+    random = random * 1664525U + 1013904223U;
+    return (random >> 8) % below;
+  };
+  for (int round = 0; round < 60; ++round) {
+    run_bits(draw(3000));
+    const std::size_t which = draw(static_cast<std::uint32_t>(all.size()));
+    on[which] = !on[which];
+    if (on[which]) {
+      masters[which]->start();
+    } else {
+      masters[which]->stop();
+    }
+    settle();
+    if (round % 3 != 0) continue;  // two more before the ring has settled
+    std::vector<std::uint8_t> expected;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (on[i]) expected.push_back(all[i]);
+    }
+    ASSERT_TRUE(run_until([&] { return all_in(expected); })) << "round " << round;
+  }
+}
+
 // --- two class-1 masters ------------------------------------------------------------------------------------------------
 
 struct TwoMasters : testing::Test, Ring {
@@ -472,6 +517,55 @@ TEST_F(TwoMasters, BothExchangeDataWithTheirSlaves) {
   EXPECT_GT(cyclic[0]->cycles(), 50U);
   EXPECT_GT(cyclic[1]->cycles(), 50U);
   EXPECT_THAT(flags, IsEmpty());
+}
+
+TEST_F(TwoMasters, WithoutTimeLeftNoLowPriorityMessageIsSent) {
+  BusParameters none = bus_parameters();
+  none.target_rotation_bits = 0;
+  MasterConfig hurried = config(7);
+  hurried.bus = none;
+  Master1 third(segment, hurried);
+  timeline.add(third);
+  for (const auto& master : cyclic) master->start();
+  third.start();
+  for (int i = 0; i < 10; ++i) third.fdl_status(11);
+  ASSERT_TRUE(run_until([&] { return third.ring()->in_ring(); }));
+  run_bits(20'000);
+  telegrams.clear();
+  run_bits(50'000);
+  int tokens_to = 0, low = 0;
+  for (const WireTelegram& wire : telegrams) {
+    const Telegram& telegram = wire.decoded.telegram;
+    tokens_to += telegram.kind == TelegramKind::kSd4 && telegram.da == 7 ? 1 : 0;
+    low += telegram.is_request() && telegram.sa == 7 ? 1 : 0;
+  }
+  EXPECT_GT(tokens_to, 10);
+  EXPECT_EQ(low, 0);
+  EXPECT_THAT(flags, IsEmpty());
+}
+
+TEST_F(TwoMasters, WithoutTimeLeftOneHighPriorityMessageATokenIsSent) {
+  BusParameters none = bus_parameters();
+  none.target_rotation_bits = 0;
+  MasterConfig hurried = config(7);
+  hurried.bus = none;
+  Master1 third(segment, hurried);
+  timeline.add(third);
+  cyclic[0]->start();
+  third.start();
+  ASSERT_TRUE(run_until([&] { return third.ring()->in_ring(); }));
+  int sent = 0;
+  for (int i = 0; i < 5; ++i) third.global_control(0, 0, kBroadcast, [&](const FdlResult&) { ++sent; });
+  telegrams.clear();
+  ASSERT_TRUE(run_until([&] { return sent == 5; }));
+  int since_token = 0;
+  for (const WireTelegram& wire : telegrams) {
+    const Telegram& telegram = wire.decoded.telegram;
+    if (telegram.kind == TelegramKind::kSd4) since_token = 0;
+    if (telegram.is_request() && telegram.sa == 7) {
+      EXPECT_EQ(++since_token, 1);
+    }
+  }
 }
 
 TEST_F(TwoMasters, TheOtherGoesOnWhenOneDies) {
