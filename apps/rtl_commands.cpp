@@ -54,7 +54,7 @@ int replay(const RtlRandomArguments& arguments, const std::string& path) {
   options.config = cosim::quick_config();
   options.wave = arguments.difference;
   const cosim::PlayResult result = cosim::play(read_stimulus(path), maker(arguments), options);
-  std::cout << path << ": " << counts_text(result.counts) << '\n';
+  std::cout << path << ": " << counts_text(result.counts) << '\n' << result.coverage.text();
   if (!result.difference) return kPassed;
   std::cout << cosim::describe(*result.difference) << "wave              " << arguments.difference << '\n';
   return kFailed;

@@ -7,19 +7,12 @@ namespace {
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr int kNoSap = -1;
-constexpr int kC1Sap = 51, kAlarmSap = 50, kInitiateSap = 49, kFirstC2Sap = 47;
 constexpr int kReplyBits = 270;  // longer than any min_TSDR
 
 Tick window(int rate) {
   const dsdpv1::Config config = quick_config();
   const Tick least = static_cast<Tick>(config.search_window_ms) * bus::kTicksPerMs;
   return std::max(least, static_cast<Tick>(config.search_window_bits) * bus::baud(rate).bit);
-}
-
-/// `sap`, or one that both sides have.
-int shared_sap(int sap) {
-  const bool dpv1 = sap == kC1Sap || (sap >= kFirstC2Sap && sap <= kInitiateSap);
-  return dpv1 && !kDpv1InRtl ? kAlarmSap : sap;
 }
 
 }  // namespace
@@ -55,7 +48,11 @@ bus::Bytes RandomMaster::prm(bool right) {
   const bus::Bytes more = random_.bytes(user);
   bytes.insert(bytes.end(), more.begin(), more.end());
   if (bytes.size() > 7) bytes[7] = static_cast<std::uint8_t>(random_.below(4) << 1 & 0x04);
-  if (random_.one_in(4)) {  // watchdog, 1 to 30 ms
+  if (setup_.dpv1) {
+    bytes.resize(std::max<std::size_t>(bytes.size(), 10), 0);
+    bytes[7] |= 0x80;
+  }
+  if (!setup_.dpv1 && random_.one_in(4)) {  // watchdog, 1 to 30 ms
     bytes[0] |= 0x08;
     bytes[1] = static_cast<std::uint8_t>(random_.between(1, 3));
     bytes[2] = 1;
@@ -165,8 +162,8 @@ void RandomMaster::other_service() {
     return send(bus::make_telegram(setup_.address, master(), static_cast<std::uint8_t>(random_.byte() | 0x40)));
   if (what == 2)
     return send(bus::make_telegram(setup_.address, master(), random_.byte(), random_.bytes(random_.below(5)),
-                                   static_cast<std::uint8_t>(shared_sap(random_.below(64))), bus::sap::kMaster));
-  request(shared_sap(random_.one_in(12) ? random_.below(64) : random_.pick(kSaps)),
+                                   static_cast<std::uint8_t>(random_.below(64)), bus::sap::kMaster));
+  request(random_.one_in(12) ? random_.below(64) : random_.pick(kSaps),
           random_.one_in(6) ? random_.bytes(random_.below(4)) : bus::Bytes{});
 }
 

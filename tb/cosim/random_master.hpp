@@ -30,6 +30,12 @@ class RandomMaster {
   /// The last request, exactly.
   void repeat_last();
   void anything();
+  /// To SAP 51 (channel 0), 48 or 47: without data, or a PDU right or wrong.
+  void acyclic_poll(int channel);
+  void acyclic_request(int channel);
+  void initiate();
+  /// Silence for so many milliseconds, or some cycles around it.
+  void wait_timer(int ms) { extra_ += ms * bus::kTicksPerMs + random_.between(-1500, 100) * profibus::kTicksPerCycle; }
   /// Nothing on the line, for a while.
   void silence();
   /// ... until BAUD_CONTROL has run out.
@@ -38,6 +44,8 @@ class RandomMaster {
  private:
   bus::Bytes prm(bool right);
   void request(int dsap, const bus::Bytes& data);
+  void send_acyclic(int dsap, int ssap, const bus::Bytes& data);
+  bus::Bytes acyclic_pdu(int channel);
   void other_service();
   void repetition();
   void broken();

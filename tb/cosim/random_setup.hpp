@@ -13,13 +13,10 @@ namespace cosim {
 inline dsdpv1::Config quick_config() {
   dsdpv1::Config config;
   config.search_window_ms = 1;
-  config.search_window_bits = 100;
+  config.search_window_bits = 150;  // T_SYN and the shortest telegram take 100
   config.baud_control_ms = 2;
   return config;
 }
-
-/// The RTL has no DPV1 (rtl_ref/README.md): until it has, no case asks for what only the model does.
-constexpr bool kDpv1InRtl = false;
 
 /// Random numbers that are the same with every standard library.
 class Random {
@@ -54,6 +51,9 @@ struct Setup {
   bus::Bytes cfg = {0x11, 0x21};  ///< of the initialisation
   int inputs = 2, outputs = 2;    ///< bytes that `cfg` describes
   int rate = 0;
+  bool dpv1 = false;  ///< B005 is 1D, and Set_Prm enables DPV1
+  /// Of the last acyclic requests to SAP 51, 48 and 47: function, slot, index.
+  std::uint8_t function[3] = {0x5E, 0x5E, 0x5E}, slot[3] = {}, index[3] = {};
 };
 
 }  // namespace cosim

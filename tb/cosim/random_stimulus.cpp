@@ -37,9 +37,12 @@ class Case {
   /// An initialisation, a baud rate, and then anything.
   void episode() {
     setup_ = user_.any_setup();
+    const bool dpv1 = random_.one_in(2);
+    if (dpv1) prepare_dpv1();
     master_.forget_series();
     user_.initialise();
     sync();
+    if (dpv1) user_.enable_dpv1(0x1D);
     if (random_.one_in(12)) user_.initialise();
     user_.wait(200);
     sync();
@@ -47,6 +50,7 @@ class Case {
     for (int i = random_.below(4); i > 0; --i) random_.one_in(3) ? master_.set_slave_address() : master_.anything();
     if (random_.one_in(5)) address_changes();
     if (!random_.one_in(8)) bring_up();
+    if (dpv1) acyclic();
     for (int i = steps(); i > 0; --i) step();
     sync();
   }
@@ -95,6 +99,49 @@ class Case {
     return user_.initialise();
   }
 
+  void prepare_dpv1() {
+    setup_.dpv1 = true;
+    setup_.prm_mode = 0;
+    setup_.max_prm = 237;
+  }
+  /// Requests of both classes and the user's answers, in an order that is mostly the right one (V1 to V14).
+  void acyclic() {
+    master_.careful(true);
+    for (int i = random_.between(0, 3); i > 0; --i) {
+      master_.initiate();
+      if (!random_.one_in(6)) master_.acyclic_poll(i % 2 + 1);
+    }
+    for (int i = random_.between(2, steps() / 4 + 2); i > 0; --i) acyclic_step(random_.below(3));
+    if (random_.one_in(4)) acyclic_timer();
+    master_.careful(false);
+  }
+  void acyclic_step(int channel) {
+    master_.careful(!random_.one_in(16));
+    master_.acyclic_request(channel);
+    if (random_.one_in(3)) master_.acyclic_request(random_.below(3));
+    if (random_.one_in(4)) master_.acyclic_poll(channel);
+    sync();
+    user_.wait(random_.between(100, 400));
+    if (random_.one_in(12)) channel = random_.below(3);
+    if (!random_.one_in(8)) user_.acyclic_answer(channel);
+    user_.wait(random_.between(50, 400));
+    if (random_.one_in(3)) user_.acyclic_answer(random_.below(3));
+    sync();
+    master_.acyclic_poll(channel);
+    if (random_.one_in(3)) master_.acyclic_poll(random_.below(3));
+    if (random_.one_in(5)) master_.data_exchange();
+    if (random_.one_in(10)) master_.initiate();
+    if (random_.one_in(20)) master_.set_prm(!random_.one_in(3));
+  }
+  /// F, I or U run out (V3, V12): Send_Timeout is 10 ms.
+  void acyclic_timer() {
+    const int channel = random_.between(1, 2);
+    constexpr int kWaits[] = {5, 10, 10, 20, 20, 30};
+    if (random_.one_in(2)) master_.acyclic_request(channel);
+    master_.wait_timer(random_.pick(kWaits));
+    master_.acyclic_poll(channel);
+    master_.acyclic_poll(channel);
+  }
   /// One after the other: the first may lock the address (S5).
   void address_changes() {
     master_.careful(true);

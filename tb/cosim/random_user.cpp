@@ -120,9 +120,35 @@ void RandomUser::fetch() {
   give();
 }
 
-void RandomUser::dpv1() {
+void RandomUser::dpv1() { enable_dpv1(random_.one_in(3) ? random_.byte() : 0x1D); }
+
+void RandomUser::enable_dpv1(int value) {
   take();
-  write(regs::kDpv1Enable, random_.one_in(3) ? random_.byte() : 0x1D);
+  write(regs::kDpv1Enable, value);
+  give();
+}
+
+void RandomUser::acyclic_answer(int channel) {
+  const bool c1 = channel == 0;
+  const auto function = setup_.function[channel];
+  bus::Bytes bytes = {function, setup_.slot[channel], setup_.index[channel],
+                      static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(238, 243) : random_.below(6))};
+  constexpr std::uint8_t kRead = 0x5E, kTransport = 0x51, kError = 0x80;
+  const bool data = function == kRead || function == kTransport;
+  if (random_.one_in(5)) {
+    bytes = {static_cast<std::uint8_t>(function | kError), 0x80, random_.byte(), random_.byte()};
+  } else if (data) {
+    const bus::Bytes more = random_.bytes(bytes[3]);
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  }
+  if (random_.one_in(8))
+    bytes[static_cast<std::size_t>(random_.below(3))] ^= static_cast<std::uint8_t>(1 << random_.below(8));
+  bytes.resize(std::min<std::size_t>(bytes.size(), regs::kC1Size));
+  take();
+  block(c1 ? regs::kC1 : regs::kC2, c1 ? regs::kC1Crc : regs::kC2Crc, bytes);
+  write(regs::kUserCommand2, c1 ? regs::kUserCommand2C1 : regs::kUserCommand2C2);
+  if (random_.one_in(3)) write(regs::kChipStatus2, 0);
+  if (random_.one_in(2)) write(regs::kChipCommand2, 0);
   give();
 }
 
@@ -203,7 +229,6 @@ Action RandomUser::access(Verb verb) {
 }
 
 void RandomUser::write(int address, int value) {
-  if (address == regs::kUserCommand2 && !kDpv1InRtl) value &= ~(regs::kUserCommand2C1 | regs::kUserCommand2C2);
   Action action = access(Verb::kWrite);
   action.address = address;
   action.value = value;

@@ -17,6 +17,9 @@ class RandomUser {
   void verdict(bool prm, bool cfg, bool good);
   /// Reads a block that the chip has written and clears its flag.
   void fetch();
+  void enable_dpv1(int value);
+  /// To the last request on SAP 51 (channel 0), 48 or 47; mostly right.
+  void acyclic_answer(int channel);
   void take();
   void give();
   /// Nothing for so many cycles.
