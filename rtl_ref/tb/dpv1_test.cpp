@@ -162,11 +162,16 @@ void c1_write_and_errors(Bench& b) {
   b.write(0x00F, 0);
   b.step(3);
   b.disown();
-  const std::vector<std::pair<Bytes, Bytes>> wrong = {
-      {{0x51, 1, 2, 0}, {0xD1, 0x80, 0xA9, 0}},       {{0x48}, {0xC8, 0x80, 0xA9, 0}},
-      {{0x5E, 1, 2, 241}, {0xDE, 0x80, 0xB8, 0}},     {{0x5E, 1, 2}, {0xDE, 0x80, 0xB8, 0}},
-      {{0x5E, 1, 2, 1, 0}, {0xDE, 0x80, 0xB8, 0}},    {{0x5F, 1, 2, 1}, {0xDF, 0x80, 0xB1, 0}},
-      {{0x5F, 1, 2, 1, 0, 0}, {0xDF, 0x80, 0xB1, 0}}, {{0x5F, 1, 2}, {0xDF, 0x80, 0xB1, 0}}};
+  const std::vector<std::pair<Bytes, Bytes>> wrong = {{{0x51, 1, 2, 0}, {0xD1, 0x80, 0xA9, 0}},
+                                                      {{0x48}, {0xC8, 0x80, 0xA9, 0}},
+                                                      {{0x5E, 1, 2, 241}, {0xDE, 0x80, 0xB8, 0}},
+                                                      {{0x5E, 1, 2}, {0xDE, 0x80, 0xB8, 0}},
+                                                      {{0x5E, 1, 2, 1, 0}, {0xDE, 0x80, 0xB8, 0}},
+                                                      {{0x5F, 1, 2, 1}, {0xDF, 0x80, 0xB1, 0}},
+                                                      {{0x5F, 1, 2, 1, 0, 0}, {0xDF, 0x80, 0xB1, 0}},
+                                                      {{0x5F, 1, 2}, {0xDF, 0x80, 0xB1, 0}},
+                                                      {{0x5E}, {0xDE, 0x80, 0xB8, 0}},
+                                                      {{0x5F}, {0xDF, 0x80, 0xB1, 0}}};
   for (const auto& [pdu, negative] : wrong) {
     expect_bytes(b.ask(srd(kClass1, pdu)), kSc, "a wrong request is acknowledged");
     expect_bytes(b.ask(srd(kClass1)), answer(kClass1, negative), "and answered by the chip");
@@ -283,7 +288,12 @@ void c2_aborts(Bench& b) {
   b.answer.clear();
   expect_bytes(b.ask(telegram(kFirst, 0x46, {0x5E, 1, 1, 1})), {}, "an SDN that is no abort");
   expect_bytes(b.ask(srd(kFirst)), kSc, "changes nothing");
+  for (const Path& path : {Path{3, 48, 50}, Path{2, 48, 51}}) b.ask(telegram(path, 0x46, {0x58}));
+  expect_bytes(b.ask(srd(kFirst)), kSc, "neither does an abort of another master or SSAP");
   expect_bytes(b.ask(telegram(kFirst, 0x46, {0x58})), {}, "abort as SDN");
+  expect_bytes(b.ask(srd(kFirst)), refusal(kFirst, kRs), "free behind it");
+  connect(b, kFirst, 100);
+  expect_bytes(b.ask(sd2({0xFF, 0x82, 0x46, 48, 50, 0x58})), {}, "abort as broadcast");
   expect_bytes(b.ask(srd(kFirst)), refusal(kFirst, kRs), "free behind it");
   b.own();
   b.write(0x00F, 0);
