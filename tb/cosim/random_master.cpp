@@ -239,17 +239,17 @@ void RandomMaster::sd3() {
 
 void RandomMaster::anything() {
   const int what = random_.below(100);
-  if (what < 36) return data_exchange();
-  if (what < 46) return slave_diag();
-  if (what < 52) return set_prm(!random_.one_in(3));
-  if (what < 58) return check_cfg(!random_.one_in(3));
-  if (what < 66) return global_control();
-  if (what < 69) return set_slave_address();
-  if (what < 78) return other_service();
-  if (what < 82) return repetition();
-  if (what < 94) return broken();
-  if (what < 96) return noise();
-  if (what < 98) return spike();
+  if (what < 26) return data_exchange();
+  if (what < 34) return slave_diag();
+  if (what < 39) return set_prm(!random_.one_in(3));
+  if (what < 44) return check_cfg(!random_.one_in(3));
+  if (what < 51) return global_control();
+  if (what < 54) return set_slave_address();
+  if (what < 61) return other_service();
+  if (what < 65) return repetition();
+  if (what < 87) return broken();
+  if (what < 91) return noise();
+  if (what < 97) return spike();
   return sd3();
 }
 
