@@ -24,6 +24,16 @@ void RandomMaster::choose_rate() {
   constexpr int kRates[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
                             0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 5, 6};
   setup_.rate = random_.one_in(200) ? random_.between(7, 9) : random_.pick(kRates);
+  be_found();
+}
+
+void RandomMaster::fastest_rate() {
+  setup_.rate = 0;
+  be_found();
+}
+
+/// Waits for the rate's window, then telegrams.
+void RandomMaster::be_found() {
   Tick wait = 0;
   for (int rate = 0; rate < setup_.rate; ++rate) wait += window(rate);
   extra_ += wait + 500 * kCycle;

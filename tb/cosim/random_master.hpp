@@ -14,6 +14,7 @@ class RandomMaster {
 
   /// Another baud rate, and telegrams until the chip must have found it.
   void choose_rate();
+  void fastest_rate();
   void forget_series() { fcv_ = false; }
   /// From now on nothing goes wrong on the line: T_SYN is kept, each request begins a series, one master.
   void careful(bool careful) { careful_ = careful; }
@@ -42,6 +43,7 @@ class RandomMaster {
   void wait_baud_control();
 
  private:
+  void be_found();
   bus::Bytes prm(bool right);
   void request(int dsap, const bus::Bytes& data);
   void send_acyclic(int dsap, int ssap, const bus::Bytes& data);

@@ -46,7 +46,11 @@ class Case {
     if (random_.one_in(12)) user_.initialise();
     user_.wait(200);
     sync();
-    master_.choose_rate();
+    if (dpv1) {
+      master_.fastest_rate();
+    } else {
+      master_.choose_rate();
+    }
     for (int i = random_.below(4); i > 0; --i) random_.one_in(3) ? master_.set_slave_address() : master_.anything();
     if (random_.one_in(5)) address_changes();
     if (!random_.one_in(8)) bring_up();
@@ -109,9 +113,11 @@ class Case {
     master_.careful(true);
     for (int i = random_.between(0, 3); i > 0; --i) {
       master_.initiate();
-      if (!random_.one_in(6)) master_.acyclic_poll(i % 2 + 1);
+      for (const int channel : {1, 2}) {
+        if (!random_.one_in(6)) master_.acyclic_poll(channel);
+      }
     }
-    for (int i = random_.between(2, steps() / 4 + 2); i > 0; --i) acyclic_step(random_.below(3));
+    for (int i = random_.between(10, 40); i > 0; --i) acyclic_step(random_.below(3));
     if (random_.one_in(4)) acyclic_timer();
     master_.careful(false);
   }
@@ -132,6 +138,7 @@ class Case {
     if (random_.one_in(5)) master_.data_exchange();
     if (random_.one_in(10)) master_.initiate();
     if (random_.one_in(20)) master_.set_prm(!random_.one_in(3));
+    if (random_.one_in(10)) bring_up();
   }
   /// F, I or U run out (V3, V12): Send_Timeout is 10 ms.
   void acyclic_timer() {
