@@ -121,7 +121,7 @@ Connection::Asked Connection::choose() const {
   return operations_.empty() ? Asked::kIdle : Asked::kRequest;
 }
 
-Telegram Connection::telegram(Bytes pdu, std::uint8_t dsap) const {
+Telegram Connection::telegram(const Bytes& pdu, std::uint8_t dsap) const {
   return make_telegram(parameters_.slave, master_, fc::kRequest | fc::kSrdLow, pdu, dsap, sap::kMs2Master);
 }
 

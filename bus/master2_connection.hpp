@@ -144,7 +144,7 @@ class Connection {
   bool normal_due(Tick now);
   bool open_due(Tick now) const;
   Asked choose() const;
-  Telegram telegram(Bytes pdu, std::uint8_t dsap) const;
+  Telegram telegram(const Bytes& pdu, std::uint8_t dsap) const;
   Telegram raw_telegram() const;
   Bytes initiate_pdu() const;
   void go(ConnectionState state);
