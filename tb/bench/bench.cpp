@@ -58,6 +58,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
   baud_follower_ = std::make_unique<BaudFollower>(*this);
   add_monitor();
   for (const scenario::Master& master : scenario.masters) add_master(master);
+  for (const scenario::Master2& master : scenario.masters2) add_master2(master);
   script_ = std::make_unique<Script>(*this);
   pulse_ = std::make_unique<Pulse>();
   add_agents();
@@ -107,15 +108,7 @@ void Bench::add_master(const scenario::Master& spec) {
   config.address = static_cast<std::uint8_t>(spec.address);
   config.baud = scenario_.baud;
   config.personality = spec.personality;
-  config.bus.slot_bits = spec.bus.slot_time;
-  config.bus.set_bits = spec.bus.setup_time;
-  config.bus.quiet_bits = spec.bus.quiet_time;
-  config.bus.max_retries = spec.bus.retries;
-  config.bus.gap_factor = spec.bus.gap_factor;
-  config.bus.highest_address = static_cast<std::uint8_t>(spec.bus.highest_address);
-  config.bus.min_slave_interval_us = spec.bus.min_slave_interval;
-  config.bus.token = spec.bus.token;
-  config.bus.clock_ppm = spec.bus.clock_error;
+  config.bus = bus_parameters(spec.bus);
   Master& entry = masters_.emplace_back();
   entry.spec = &spec;
   entry.master = std::make_unique<bus::Master1>(segment(), config);
@@ -135,12 +128,21 @@ void Bench::add_master(const scenario::Master& spec) {
   connect(entry);
 }
 
+void Bench::add_master2(const scenario::Master2& spec) {
+  masters2_.push_back(std::make_unique<Class2Station>(*this, spec));
+  if (waves_) waves_->add_master(spec.name.text, masters2_.back()->connection_names(), "CLOSED");
+}
+
+void Bench::connection_changed(const std::string& master, const std::string& connection, const std::string& state) {
+  if (waves_) waves_->master_state(master, connection, now(), state);
+}
+
 void Bench::connect(Master& entry) {
   const std::string& name = entry.spec->name.text;
   if (waves_) {
     std::vector<std::string> slaves;
     for (const auto& [address, slave] : entry.slaves) slaves.push_back(slave);
-    waves_->add_master(name, slaves);
+    waves_->add_master(name, slaves, bus::name(bus::SlaveState::kOffline));
   }
   bus::Master1& master = *entry.master;
   master.on_state = [this, &master, &name, slaves = entry.slaves](Tick at, std::uint8_t address, bus::SlaveState from,
@@ -163,6 +165,7 @@ void Bench::add_agents() {
   bus::Timeline& timeline = execution_->timeline();
   timeline.add(*monitor_);
   for (const Master& each : masters_) timeline.add(*each.master);
+  for (const auto& each : masters2_) timeline.add(each->master());
   for (const auto& slave : slaves_) timeline.add(*slave);
   timeline.add(*script_);
   timeline.add(*pulse_);
@@ -258,6 +261,24 @@ bus::Master1& Bench::master(const std::string& name) {
   throw std::out_of_range("no master " + name);
 }
 
+Class2Station* Bench::class2(const std::string& name) {
+  for (const auto& each : masters2_)
+    if (each->name() == name) return each.get();
+  return nullptr;
+}
+
+Class2Station& Bench::owner_of(const std::string& connection) {
+  for (const auto& each : masters2_)
+    if (each->has(connection)) return *each;
+  throw std::out_of_range("no connection " + connection);
+}
+
+const bus::Connection& Bench::connection(const std::string& name) const {
+  for (const auto& each : masters2_)
+    if (each->has(name)) return each->connection(name);
+  throw std::out_of_range("no connection " + name);
+}
+
 const bus::Master1* Bench::master_of(const std::string& slave) const {
   for (const Master& each : masters_) {
     for (const auto& [address, name] : each.slaves) {
@@ -283,20 +304,21 @@ std::uint64_t Bench::count(const std::string& slave, const std::string& code) co
   return entry == station->second.end() ? 0 : entry->second;
 }
 
-const Reply* Bench::last_reply(const std::string& master, scenario::Do service) const {
-  const auto replies = replies_.find(master);
+const Reply* Bench::last_reply(const std::string& asker, scenario::Do service) const {
+  const auto replies = replies_.find(asker);
   if (replies == replies_.end()) return nullptr;
   const auto reply = replies->second.find(service);
   return reply == replies->second.end() ? nullptr : &reply->second;
 }
 
-void Bench::keep_reply(const std::string& master, scenario::Do service, Reply reply) {
-  replies_[master][service] = std::move(reply);
+void Bench::keep_reply(const std::string& asker, scenario::Do service, Reply reply) {
+  replies_[asker][service] = std::move(reply);
   touch();
 }
 
 void Bench::change_baud(int index) {
   for (Master& each : masters_) each.master->change_baud(index);
+  for (const auto& each : masters2_) each->master().change_baud(index);
 }
 
 // --- running ----------------------------------------------------------------------------------------------------------

@@ -10,9 +10,11 @@
 
 #include "bus/master1.hpp"
 #include "bus/monitor.hpp"
+#include "tb/bench/class2_station.hpp"
 #include "tb/bench/execution.hpp"
 #include "tb/bench/pin_trace.hpp"
 #include "tb/bench/record.hpp"
+#include "tb/bench/reply.hpp"
 #include "tb/bench/run_log.hpp"
 #include "tb/bench/setup.hpp"
 #include "tb/bench/slave_station.hpp"
@@ -28,13 +30,6 @@ struct RunOptions {
   std::string engine_name = "skip", view_name = "pins";
   std::string wave, log, trace;  ///< paths, empty: not wanted
   bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
-};
-
-/// One answer to a request of the script.
-struct Reply {
-  bool answered = false;
-  bus::Bytes data;                                           ///< of a negative acyclic answer its three error bytes
-  bus::AcyclicOutcome outcome = bus::AcyclicOutcome::kLost;  ///< of acyclic services
 };
 
 class Bench {
@@ -56,14 +51,20 @@ class Bench {
   const SlaveStation& slave(const std::string& name) const { return *find_slave(name); }
   /// The first one for an empty name.
   bus::Master1& master(const std::string& name);
+  /// The class 2 master with this name, null when there is none; and the one that has this connection.
+  Class2Station* class2(const std::string& name);
+  Class2Station& owner_of(const std::string& connection);
+  const bus::Connection& connection(const std::string& name) const;
   bus::Segment& segment() { return execution_->segment(); }
   /// The master that exchanges data with a slave, null when none does.
   const bus::Master1* master_of(const std::string& slave) const;
   /// What masters call the slave: the address in their lists.
   std::optional<std::uint8_t> listed_address(const std::string& slave) const;
   std::uint64_t count(const std::string& slave, const std::string& code) const;
-  const Reply* last_reply(const std::string& master, scenario::Do service) const;
-  void keep_reply(const std::string& master, scenario::Do service, Reply reply);
+  /// `asker`: the master's name as the script gives it, or a connection's.
+  const Reply* last_reply(const std::string& asker, scenario::Do service) const;
+  void keep_reply(const std::string& asker, scenario::Do service, Reply reply);
+  void connection_changed(const std::string& master, const std::string& connection, const std::string& state);
   void change_baud(int index);
   void log(Tick at, const std::string& station, const std::string& kind, const std::string& text);
   /// Something has changed: conditions are looked at again in this tick.
@@ -85,6 +86,7 @@ class Bench {
   void connect(SlaveStation& station, std::size_t index);
   void connect(Master& entry);
   void add_master(const scenario::Master& spec);
+  void add_master2(const scenario::Master2& spec);
   void add_monitor();
   void add_agents();
   void begin_waves();
@@ -104,6 +106,7 @@ class Bench {
   Setup setup_;
   std::vector<std::unique_ptr<SlaveStation>> slaves_;
   std::vector<Master> masters_;
+  std::vector<std::unique_ptr<Class2Station>> masters2_;
   std::unique_ptr<BaudFollower> baud_follower_;
   std::unique_ptr<bus::Monitor> monitor_;
   std::unique_ptr<Script> script_;

@@ -41,6 +41,9 @@ const char* service_word(scenario::Do service) {
     case scenario::Do::kSlaveDiag: return "slave_diag";
     case scenario::Do::kC1Read: return "c1_read";
     case scenario::Do::kC1Write: return "c1_write";
+    case scenario::Do::kC2Read: return "c2_read";
+    case scenario::Do::kC2Write: return "c2_write";
+    case scenario::Do::kC2Transport: return "c2_transport";
     default: return "set_slave_address";
   }
 }
@@ -113,7 +116,8 @@ void add_data(Parts& parts, const Condition& c, const Bench* bench, const bus::B
 
 void add_reply(Parts& parts, const Condition& c, const Bench* bench) {
   if (!c.reply_of) return;
-  const Reply* reply = bench != nullptr ? bench->last_reply(c.master.text, *c.reply_of) : nullptr;
+  const std::string& asker = c.connection.empty() ? c.master.text : c.connection.text;
+  const Reply* reply = bench != nullptr ? bench->last_reply(asker, *c.reply_of) : nullptr;
   const std::string seen = reply == nullptr ? "nothing" : reply->answered ? shown(reply->data) : "no answer";
   const char* service = service_word(*c.reply_of);
   if (c.reply)
@@ -123,6 +127,13 @@ void add_reply(Parts& parts, const Condition& c, const Bench* bench) {
     parts.add(fmt::format("outcome of {} {}", service, bus::name(*c.outcome)),
               fmt::format("outcome {}", reply == nullptr ? "nothing" : bus::name(reply->outcome)),
               reply != nullptr && reply->outcome == *c.outcome);
+}
+
+void add_connection(Parts& parts, const Condition& c, const Bench* bench) {
+  if (!c.connection_state) return;
+  const auto state = bench != nullptr ? bench->connection(c.connection.text).state() : bus::ConnectionState::kClosed;
+  parts.add(fmt::format("connection {}", bus::name(*c.connection_state)),
+            fmt::format("connection {}", bus::name(state)), state == *c.connection_state);
 }
 
 Parts examine(const Condition& c, const Bench* bench) {
@@ -135,6 +146,7 @@ Parts examine(const Condition& c, const Bench* bench) {
   add_event(parts, c, bench);
   add_tsdr(parts, c, slave != nullptr ? slave->tsdr() : Tsdr{});
   add_reply(parts, c, bench);
+  add_connection(parts, c, bench);
   return parts;
 }
 
@@ -143,7 +155,8 @@ Parts examine(const Condition& c, const Bench* bench) {
 Judged judge(const scenario::Condition& condition, const Bench& bench) { return examine(condition, &bench).judged(); }
 
 std::string describe(const scenario::Condition& condition) {
-  const std::string subject = condition.slave.empty() ? condition.master.text : condition.slave.text;
+  const std::string& asker = condition.connection.empty() ? condition.master.text : condition.connection.text;
+  const std::string& subject = condition.slave.empty() ? asker : condition.slave.text;
   return (subject.empty() ? "" : subject + ": ") + examine(condition, nullptr).wanted();
 }
 

@@ -14,21 +14,12 @@ namespace tb {
 using scenario::Action;
 using scenario::Do;
 
-namespace {
-
-Reply reply_of(const bus::AcyclicResult& result) {
-  const bool negative = result.outcome == bus::AcyclicOutcome::kNegative;
-  const bus::Bytes codes = {result.error_decode, result.error_code_1, result.error_code_2};
-  return {negative || result.positive(), negative ? codes : result.data, result.outcome};
-}
-
-}  // namespace
-
 Script::Script(Bench& bench) : bench_(bench) {
   const scenario::Scenario& scenario = bench.scenario();
   for (std::size_t i = 0; i < scenario.slaves.size(); ++i)
     plan(scenario.slaves[i].release_reset, Kind::kReleaseReset, i);
   for (std::size_t i = 0; i < scenario.masters.size(); ++i) plan(scenario.masters[i].start, Kind::kStartMaster, i);
+  for (std::size_t i = 0; i < scenario.masters2.size(); ++i) plan(scenario.masters2[i].start, Kind::kStartMaster2, i);
   for (std::size_t i = 0; i < scenario.script.size(); ++i) {
     if (scenario.script[i].at) {
       plan(*scenario.script[i].at, Kind::kAction, i);
@@ -74,6 +65,12 @@ void Script::carry_out(const Due& due, Tick now) {
       const std::string& name = scenario.masters[due.index].name.text;
       bench_.log(now, name, "script", "starts");
       bench_.master(name).start();
+      break;
+    }
+    case Kind::kStartMaster2: {
+      const std::string& name = scenario.masters2[due.index].name.text;
+      bench_.log(now, name, "script", "starts");
+      bench_.class2(name)->master().start();
       break;
     }
     case Kind::kAction: act(scenario.script[due.index], now); break;
@@ -132,6 +129,8 @@ std::vector<ExpectationResult> Script::finish(Tick now, bool interrupted) {
 // --- actions ----------------------------------------------------------------------------------------------------------
 
 void Script::act(const Action& action, Tick now) {
+  if (!action.connection.empty()) return bench_.owner_of(action.connection.text).act(action);
+  if (Class2Station* station = bench_.class2(action.master.text)) return act_on_class2(action, *station, now);
   if (action.what >= Do::kSetOutputs && action.what <= Do::kTelegram) return act_on_master(action, now);
   if (action.what == Do::kGlitch || action.what == Do::kPlug || action.what == Do::kUnplug)
     return act_on_bus(action, now);
@@ -224,6 +223,12 @@ void Script::act_on_master(const Action& action, Tick now) {
     case Do::kC1Write: return ask_acyclic(action);
     default: return ask(action);
   }
+}
+
+void Script::act_on_class2(const Action& action, Class2Station& station, Tick now) {
+  const bool start = action.what == Do::kStartMaster;
+  bench_.log(now, station.name(), "script", start ? "starts" : "stops");
+  start ? station.master().start() : station.master().stop();
 }
 
 std::uint8_t Script::target(const Action& action) const {

@@ -10,6 +10,7 @@
 namespace tb {
 
 class Bench;
+class Class2Station;
 
 class Script : public bus::Agent {
  public:
@@ -24,7 +25,15 @@ class Script : public bus::Agent {
   std::vector<ExpectationResult> finish(Tick now, bool interrupted);
 
  private:
-  enum class Kind : std::uint8_t { kReleaseReset, kStartMaster, kAction, kResumeUser, kEndGlitch, kExpectation };
+  enum class Kind : std::uint8_t {
+    kReleaseReset,
+    kStartMaster,
+    kStartMaster2,
+    kAction,
+    kResumeUser,
+    kEndGlitch,
+    kExpectation
+  };
   /// One entry of the agenda.
   struct Due {
     Tick at = 0;
@@ -40,6 +49,7 @@ class Script : public bus::Agent {
   void act(const scenario::Action& action, Tick now);
   void act_on_user(const scenario::Action& action, Tick now);
   void act_on_master(const scenario::Action& action, Tick now);
+  void act_on_class2(const scenario::Action& action, Class2Station& station, Tick now);
   void act_on_bus(const scenario::Action& action, Tick now);
   void reset_chip(const scenario::Action& action, Tick now);
   void ask(const scenario::Action& action);

@@ -40,10 +40,11 @@ std::size_t WaveRecorder::add_chip(const std::string& name, const dsdpv1::Chip& 
   return chips_.size() - 1;
 }
 
-void WaveRecorder::add_master(const std::string& master, const std::vector<std::string>& slaves) {
+void WaveRecorder::add_master(const std::string& master, const std::vector<std::string>& members,
+                              const std::string& initial) {
   writer_->open_scope(master);
   const std::string prefix = master + ".";
-  for (const std::string& slave : slaves) master_states_[prefix + slave] = writer_->words(slave);
+  for (const std::string& member : members) master_states_[prefix + member] = {writer_->words(member), initial};
   writer_->close_scope();
 }
 
@@ -56,7 +57,7 @@ void WaveRecorder::begin() {
     dp_state(chip, 0, "OFFLINE");
     for (int channel = 0; channel < profibus::kC2Channels; ++channel) rm_entry(chip, 0, channel, "not in use");
   }
-  for (const auto& [name, signal] : master_states_) writer_->say(0, signal, "OFFLINE");
+  for (const auto& [name, state] : master_states_) writer_->say(0, state.signal, state.initial);
 }
 
 void WaveRecorder::pin(std::size_t chip, bus::Tick at, Pin pin, Level level) {
@@ -78,9 +79,9 @@ void WaveRecorder::rm_entry(std::size_t chip, bus::Tick at, int channel, const s
   writer_->say(at, chips_[chip].rm_entries.at(static_cast<std::size_t>(channel)), words);
 }
 
-void WaveRecorder::master_state(const std::string& master, const std::string& slave, bus::Tick at,
+void WaveRecorder::master_state(const std::string& master, const std::string& member, bus::Tick at,
                                 const std::string& word) {
-  writer_->say(at, master_states_.at(master + "." + slave), word);
+  writer_->say(at, master_states_.at(master + "." + member).signal, word);
 }
 
 void WaveRecorder::telegram(bus::Tick at, const std::string& words) { writer_->say(at, telegram_, words); }

@@ -20,7 +20,8 @@ class WaveRecorder : private bus::Listener {
   // Declarations, before `begin`.
   /// Returns the chip's number for `pin` and `dp_state`.
   std::size_t add_chip(const std::string& name, const dsdpv1::Chip& chip);
-  void add_master(const std::string& master, const std::vector<std::string>& slaves);
+  /// `members`: its slaves or connections, all in the state `initial`.
+  void add_master(const std::string& master, const std::vector<std::string>& members, const std::string& initial);
   /// Writes the first values.
   void begin();
 
@@ -28,7 +29,7 @@ class WaveRecorder : private bus::Listener {
   void dp_state(std::size_t chip, bus::Tick at, const std::string& word);
   /// A row of the RM registry (table 30) has changed; `channel` 0 or 1.
   void rm_entry(std::size_t chip, bus::Tick at, int channel, const std::string& words);
-  void master_state(const std::string& master, const std::string& slave, bus::Tick at, const std::string& word);
+  void master_state(const std::string& master, const std::string& member, bus::Tick at, const std::string& word);
   /// The telegram that has just ended, in words.
   void telegram(bus::Tick at, const std::string& words);
   void finish(bus::Tick end) { writer_->finish(end); }
@@ -47,7 +48,11 @@ class WaveRecorder : private bus::Listener {
   std::unique_ptr<WaveWriter> writer_;
   Signal line_ = 0, telegram_ = 0;
   std::vector<ChipSignals> chips_;
-  std::map<std::string, Signal> master_states_;  // by "master.slave"
+  struct MasterState {
+    Signal signal = 0;
+    std::string initial;
+  };
+  std::map<std::string, MasterState> master_states_;  // by "master.member"
 };
 
 }  // namespace tb

@@ -19,12 +19,17 @@ class Checker {
   explicit Checker(const Scenario& scenario) : scenario_(scenario) {
     for (const Slave& slave : scenario.slaves) slaves_.push_back(slave.name.text);
     for (const Master& master : scenario.masters) masters_.push_back(master.name.text);
+    for (const Master2& master : scenario.masters2) {
+      masters2_.push_back(master.name.text);
+      for (const Connection& connection : master.connections) connections_.push_back(connection.name.text);
+    }
   }
 
   void run() const {
     check_names();
     for (const Slave& slave : scenario_.slaves) check_slave(slave);
     for (const Master& master : scenario_.masters) check_master(master);
+    for (const Master2& master : scenario_.masters2) check_master2(master);
     for (const Action& action : scenario_.script) check_action(action);
     for (const Expectation& expectation : scenario_.expect) check_expectation(expectation);
     for (const Allow& allow : scenario_.allow) {
@@ -53,6 +58,10 @@ class Checker {
     };
     for (const Slave& slave : scenario_.slaves) check(slave.name);
     for (const Master& master : scenario_.masters) check(master.name);
+    for (const Master2& master : scenario_.masters2) {
+      check(master.name);
+      for (const Connection& connection : master.connections) check(connection.name);
+    }
   }
 
   void check_known(const Name& name, const char* what, const std::vector<std::string>& known) const {
@@ -63,6 +72,12 @@ class Checker {
   }
   void check_slave_name(const Name& name) const { check_known(name, "slave", slaves_); }
   void check_master_name(const Name& name) const { check_known(name, "master", masters_); }
+  void check_connection_name(const Name& name) const { check_known(name, "connection", connections_); }
+  void check_any_master_name(const Name& name) const {
+    std::vector<std::string> all = masters_;
+    all.insert(all.end(), masters2_.begin(), masters2_.end());
+    check_known(name, "master", all);
+  }
 
   void check_code(const Name& code) const {
     const std::vector<std::string>& codes = all_codes();
@@ -107,13 +122,30 @@ class Checker {
   }
 
   void check_master(const Master& master) const {
+    check_free_address(master);
+    if (!scenario_.masters2.empty() && !master.bus.ring)
+      fail(master.line, fmt::format("master {} is alone on the bus, beside masters2 allowed is bus: {{ring: true}}",
+                                    master.name.text));
+    for (const MasterSlave& slave : master.slaves) check_master_slave(slave);
+  }
+
+  void check_master2(const Master2& master) const {
+    check_free_address(master);
+    for (const Master& other : scenario_.masters) {
+      if (other.address == master.address)
+        fail(master.line, fmt::format("master {} has address {} of master {}, allowed is each address once",
+                                      master.name.text, master.address, other.name.text));
+    }
+    for (const Connection& connection : master.connections) check_slave_name(connection.slave);
+  }
+
+  template <class AnyMaster>
+  void check_free_address(const AnyMaster& master) const {
     for (const Slave& slave : scenario_.slaves) {
-      if (slave.address == master.address) {
+      if (slave.address == master.address)
         fail(master.line, fmt::format("master {} has address {} of slave {}, allowed is each address once",
                                       master.name.text, master.address, slave.name.text));
-      }
     }
-    for (const MasterSlave& slave : master.slaves) check_master_slave(slave);
   }
 
   void check_master_slave(const MasterSlave& slave) const {
@@ -138,6 +170,7 @@ class Checker {
   void check_condition(const Condition& condition) const {
     check_slave_name(condition.slave);
     check_master_name(condition.master);
+    check_connection_name(condition.connection);
     check_code(condition.event);
     const bool about_slave = condition.dp_state || condition.baud || condition.station_address ||
                              condition.data_exchanges || condition.data_exchanges_at_most || condition.inputs ||
@@ -148,7 +181,11 @@ class Checker {
       fail(condition.line, "reply or outcome and reply_of are only allowed together");
     if (condition.outcome && !acyclic(*condition.reply_of))
       fail(condition.line, "outcome is only known of acyclic services, allowed is reply");
-    if (condition.reply_of && scenario_.masters.empty())
+    if (condition.connection_state && condition.connection.empty())
+      fail(condition.line, "connection_state without connection, allowed is a connection's name");
+    if (condition.reply_of && class2(*condition.reply_of) == condition.connection.empty())
+      fail(condition.line, "connection belongs to the services c2_read, c2_write and c2_transport");
+    if (condition.reply_of && !class2(*condition.reply_of) && scenario_.masters.empty())
       fail(condition.line, "reply_of needs a master, the scenario has none");
     if (condition.event.empty() && condition.count_at_most)
       fail(condition.line, "count_at_most without event, allowed is an event's code");
@@ -162,7 +199,9 @@ class Checker {
 
   void check_action(const Action& action) const {
     check_slave_name(action.slave);
-    check_master_name(action.master);
+    const bool any_class = action.what == Do::kStopMaster || action.what == Do::kStartMaster;
+    any_class ? check_any_master_name(action.master) : check_master_name(action.master);
+    check_connection_name(action.connection);
     check_time(action.at, "at", action.line);
     if (action.when) check_condition(*action.when);
     switch (action.what) {
@@ -173,7 +212,8 @@ class Checker {
       case Do::kSetSlaveAddress: check_target(action); break;
       default: break;
     }
-    if (needs_master(action.what) && scenario_.masters.empty())
+    const bool named_class2 = any_class && !action.master.empty();
+    if (needs_master(action.what) && !named_class2 && scenario_.masters.empty())
       fail(action.line, "this needs a master, the scenario has none");
   }
 
@@ -184,11 +224,12 @@ class Checker {
       fail(action.line, "ident is missing, it can only be left out where slave is named");
   }
 
-  static bool acyclic(Do what) { return what == Do::kC1Read || what == Do::kC1Write; }
+  static bool class2(Do what) { return what >= Do::kC2Connect && what <= Do::kC2Raw; }
+  static bool acyclic(Do what) { return what == Do::kC1Read || what == Do::kC1Write || class2(what); }
   static bool needs_master(Do what) { return what >= Do::kSetOutputs && what <= Do::kTelegram; }
 
   const Scenario& scenario_;
-  std::vector<std::string> slaves_, masters_;
+  std::vector<std::string> slaves_, masters_, masters2_, connections_;
 };
 
 }  // namespace

@@ -57,7 +57,8 @@ ObjectOf<Scenario> describe_scenario() {
   o.time("end", &Scenario::end, {bus::kTicksPerUs, kLongestTime}, "When the run ends.").required = true;
   o.object("chip", &Scenario::chip, chip_keys(), "Parameters of the chip other than its defaults.");
   o.list("masters", &Scenario::masters, master_keys(), {0, 4},
-         "The DP masters class 1. Each needs the bus for itself: two may not be started at the same time.");
+         "The DP masters class 1. Several at a time, and those beside masters of class 2, need `bus: {ring: true}`.");
+  o.list("masters2", &Scenario::masters2, master2_keys(), {0, 4}, "The DP masters class 2.");
   o.list("slaves", &Scenario::slaves, slave_keys(), {1, 32}, "The chips, each with its user CPU.").required = true;
   o.list("script", &Scenario::script, action_keys(), kItems, "What happens during the run.");
   o.list("expect", &Scenario::expect, expectation_keys(), kItems, "What must be true, else the run fails (exit 1).");

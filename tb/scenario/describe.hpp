@@ -12,7 +12,10 @@ using keys::WordFor;
 
 const ObjectOf<ChipParameters>& chip_keys();
 const ObjectOf<Master>& master_keys();
+const ObjectOf<BusParameters>& bus_keys();
+const ObjectOf<Master2>& master2_keys();
 const ObjectOf<Slave>& slave_keys();
+const std::vector<WordFor<bus::ConnectionState>>& connection_state_words();
 const ObjectOf<Dpv1User>& dpv1_keys();
 const std::vector<WordFor<Answering>>& answering_words();
 const ObjectOf<Action>& action_keys();

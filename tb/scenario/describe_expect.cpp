@@ -31,6 +31,8 @@ void describe_condition(ObjectOf<T>& o) {
   o.time("longest_wait_at_most", &C::longest_wait_at_most, kAnyTime,
          "No due DPRAM access of the chip waited longer for the user CPU.");
   o.name_of("master", &C::master, "Name of the master whose answers `reply` is about; left out: the first one.");
+  o.name_of("connection", &C::connection, "Name of the connection that `connection_state` or a C2 service is about.");
+  o.word("connection_state", &C::connection_state, connection_state_words(), "What the class 2 master makes of it.");
   o.word("reply_of", &C::reply_of,
          std::vector<WordFor<Do>>{{Do::kReadInputs, "read_inputs", ""},
                                   {Do::kReadOutputs, "read_outputs", ""},
@@ -38,7 +40,10 @@ void describe_condition(ObjectOf<T>& o) {
                                   {Do::kSlaveDiag, "slave_diag", ""},
                                   {Do::kSetSlaveAddress, "set_slave_address", ""},
                                   {Do::kC1Read, "c1_read", ""},
-                                  {Do::kC1Write, "c1_write", ""}},
+                                  {Do::kC1Write, "c1_write", ""},
+                                  {Do::kC2Read, "c2_read", ""},
+                                  {Do::kC2Write, "c2_write", ""},
+                                  {Do::kC2Transport, "c2_transport", ""}},
          "The service whose last answer `reply` and `outcome` are about.");
   o.bytes("reply", &C::reply, {0, 244},
           "Data of the last answer of that service; of an acyclic one that was refused Error_Decode, Error_Code_1 and "
@@ -54,7 +59,8 @@ void describe_condition(ObjectOf<T>& o) {
              {bus::AcyclicOutcome::kLost, "lost", "data exchange was left, or the connection ended"}},
          "What came of the last acyclic service.");
   o.at_least_one = {{"dp_state", "baud", "station_address", "data_exchanges", "data_exchanges_at_most", "inputs",
-                     "outputs", "event", "tsdr_min", "tsdr_max", "longest_wait_at_most", "reply", "outcome"}};
+                     "outputs", "event", "tsdr_min", "tsdr_max", "longest_wait_at_most", "reply", "outcome",
+                     "connection_state"}};
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "tb/scenario/describe.hpp"
 
 namespace tb::scenario {
-namespace {
 
 const ObjectOf<BusParameters>& bus_keys() {
   static const ObjectOf<BusParameters> keys = [] {
@@ -20,12 +19,20 @@ const ObjectOf<BusParameters>& bus_keys() {
     o.integer("min_slave_interval", &B::min_slave_interval, {0, 1000000}, "us",
               "Least time from the start of one data cycle to the next; 0: as fast as the bus allows.");
     o.boolean("token", &B::token, "Whether the token is passed (to itself) after each cycle, as a single master does.");
+    o.boolean(
+        "ring", &B::ring,
+        "Whether the master shares the token with others: it learns the active stations, is let in by the GAP poll, "
+        "passes the token on. Masters of class 2 always do.");
+    o.integer("target_rotation", &B::target_rotation, {256, 16777215}, "bit times",
+              "T_TR: in what time the token should come round, in a ring.");
     o.integer("clock_error", &B::clock_error, {-20000, 20000}, "ppm",
               "Error of the master's bit clock; positive is slow.");
     return o;
   }();
   return keys;
 }
+
+namespace {
 
 const ObjectOf<MasterSlave>& master_slave_keys() {
   static const ObjectOf<MasterSlave> keys = [] {

@@ -50,6 +50,13 @@ std::vector<WordFor<Do>> action_words() {
           {Do::kStartMaster, "start_master", ""},
           {Do::kChangeBaud, "change_baud", ""},
           {Do::kTelegram, "telegram", ""},
+          {Do::kC2Connect, "c2_connect", ""},
+          {Do::kC2Read, "c2_read", ""},
+          {Do::kC2Write, "c2_write", ""},
+          {Do::kC2Transport, "c2_transport", ""},
+          {Do::kC2Abort, "c2_abort", ""},
+          {Do::kC2Behaviour, "c2_behaviour", ""},
+          {Do::kC2Raw, "c2_raw", ""},
           {Do::kGlitch, "glitch", ""}};
 }
 
@@ -116,6 +123,19 @@ std::vector<Choice> action_choices() {
        "The master sends these bytes between two of its own telegrams, right or broken.",
        {"bytes"},
        {"master", "faults"}},
+      {"c2_connect", "The class 2 master opens the connection (Initiate).", {"connection"}, {}},
+      {"c2_read", "It reads an object (DS_Read, MSAC_C2).", {"connection", "slot", "index", "length"}, {}},
+      {"c2_write", "It writes an object (DS_Write).", {"connection", "slot", "index", "bytes"}, {}},
+      {"c2_transport",
+       "It writes and reads an object in one (DS_Transport).",
+       {"connection", "slot", "index", "bytes"},
+       {}},
+      {"c2_abort", "It ends the connection (Abort).", {"connection"}, {}},
+      {"c2_behaviour", "From now on it behaves on this connection like this.", {"connection", "behaviour"}, {}},
+      {"c2_raw",
+       "It sends this PDU, right or wrong, to the connection's SAP or to another one.",
+       {"connection", "bytes"},
+       {"sap"}},
       {"glitch", "The line is forced to a level for a while.", {"for"}, {"level"}},
   };
 }
@@ -124,6 +144,7 @@ void describe_values(ObjectOf<Action>& o) {
   using A = Action;
   o.name_of("slave", &A::slave, "Name of the slave.");
   o.name_of("master", &A::master, "Name of the master; left out: the first one.");
+  o.name_of("connection", &A::connection, "Name of a connection of a class 2 master.");
   o.bytes("bytes", &A::bytes, {0, 255}, "Data, or all bytes of a telegram.");
   o.word("type", &A::diagnosis,
          std::vector<WordFor<dsdpv1_diag_type>>{{DSDPV1_DIAG_EXTENDED, "extended", "B227 = 00, low priority"},
@@ -155,6 +176,13 @@ void describe_values(ObjectOf<Action>& o) {
   o.integer("slot", &A::slot, {0, 255}, "", "Slot number.");
   o.integer("index", &A::index, {0, 255}, "", "Index.");
   o.integer("length", &A::length, {0, 255}, "bytes", "How many bytes are asked for; above 240 the chip refuses.");
+  o.integer("sap", &A::sap, {0, 63}, "", "DSAP; left out: that of the connection, 49 while there is none.");
+  o.word("behaviour", &A::behaviour,
+         std::vector<WordFor<bus::Behaviour>>{
+             {bus::Behaviour::kNormal, "normal", ""},
+             {bus::Behaviour::kSilent, "silent", "sends nothing: the slave's F or I timer ends"},
+             {bus::Behaviour::kPollOnly, "poll_only", "polls, sends no request and no Idle: the slave's I timer ends"}},
+         "What a class 2 master does.");
   o.word("baud", &A::baud, baud_words(), "The new baud rate.");
   o.object("faults", &A::faults, fault_keys(), "What is broken in the telegram.");
   o.boolean("level", &A::level, "true: the line is forced high, false: low.");

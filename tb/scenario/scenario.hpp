@@ -7,6 +7,7 @@
 
 #include "bus/acyclic.hpp"
 #include "bus/bytes.hpp"
+#include "bus/master2_connection.hpp"
 #include "bus/slave_parameters.hpp"
 #include "bus/time.hpp"
 #include "model/dsdpv1/chip.hpp"
@@ -27,11 +28,13 @@ struct BusParameters {
   std::optional<int> setup_time;  ///< T_SET, bit times
   std::optional<int> quiet_time;  ///< T_QUI, bit times
   std::optional<int> retries;
-  int gap_factor = 10;         ///< cycles between two FDL status polls of the live list, 0 = none
-  int highest_address = 126;   ///< HSA
-  int min_slave_interval = 0;  ///< us from one data cycle's start to the next
-  bool token = true;           ///< passes the token to itself
-  int clock_error = 0;         ///< ppm
+  int gap_factor = 10;                             ///< cycles between two FDL status polls of the live list, 0 = none
+  int highest_address = 126;                       ///< HSA
+  int min_slave_interval = 0;                      ///< us from one data cycle's start to the next
+  bool token = true;                               ///< passes the token to itself
+  bool ring = false;                               ///< shares the token with other masters
+  int target_rotation = bus::kTargetRotationBits;  ///< T_TR, bit times; a ring only
+  int clock_error = 0;                             ///< ppm
   int line = 0;
 };
 
@@ -61,6 +64,25 @@ struct Master {
   bool operate = true;
   BusParameters bus;
   std::vector<MasterSlave> slaves;
+  int line = 0;
+};
+
+/// A C2 connection of a class 2 master to a slave.
+struct Connection {
+  Name name, slave;
+  std::optional<int> address;  ///< absent: that of the scenario's slave
+  int send_timeout = 100;      ///< unit 10 ms
+  bus::Bytes add_addr = {0, 0};
+  bus::Tick poll_interval = 0;
+  int line = 0;
+};
+
+struct Master2 {
+  Name name;
+  int address = 1;
+  bus::Tick start = 0;
+  BusParameters bus;
+  std::vector<Connection> connections;
   int line = 0;
 };
 
@@ -165,6 +187,13 @@ enum class Do : std::uint8_t {
   kStartMaster,
   kChangeBaud,
   kTelegram,
+  kC2Connect,
+  kC2Read,
+  kC2Write,
+  kC2Transport,
+  kC2Abort,
+  kC2Behaviour,
+  kC2Raw,
   kGlitch,
 };
 
@@ -181,7 +210,8 @@ struct Condition {
   std::optional<std::int64_t> count_at_most;
   std::optional<double> tsdr_min, tsdr_max;  ///< bit times
   std::optional<bus::Tick> longest_wait_at_most;
-  Name master;
+  Name master, connection;
+  std::optional<bus::ConnectionState> connection_state;
   std::optional<Do> reply_of;
   std::optional<bus::Bytes> reply;
   std::optional<bus::AcyclicOutcome> outcome;
@@ -211,7 +241,7 @@ struct Action {
   std::optional<bus::Tick> at;
   std::optional<When> when;
   Do what = Do::kSetInputs;
-  Name slave, master;
+  Name slave, master, connection;
   bus::Bytes bytes;
   dsdpv1_diag_type diagnosis = DSDPV1_DIAG_EXTENDED;
   std::optional<int> address, new_address, ident;
@@ -225,6 +255,8 @@ struct Action {
   Verdict of = Verdict::kPrm;
   Answering answering = Answering::kNormal;
   int slot = 0, index = 0, length = 0;
+  std::optional<int> sap;
+  bus::Behaviour behaviour = bus::Behaviour::kNormal;
   int baud = 0;
   Faults faults;
   int line = 0;
@@ -244,6 +276,7 @@ struct Scenario {
   bus::Tick end = 0;
   ChipParameters chip;
   std::vector<Master> masters;
+  std::vector<Master2> masters2;
   std::vector<Slave> slaves;
   std::vector<Action> script;
   std::vector<Expectation> expect;

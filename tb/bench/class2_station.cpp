@@ -1,0 +1,122 @@
+#include "tb/bench/class2_station.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "tb/bench/bench.hpp"
+#include "tb/scenario/input_error.hpp"
+#include "tb/scenario/units.hpp"
+
+namespace tb {
+
+using scenario::Do;
+
+namespace {
+
+bus::MasterConfig config_of(const scenario::Master2& spec, int baud) {
+  bus::MasterConfig config;
+  config.name = spec.name.text;
+  config.address = static_cast<std::uint8_t>(spec.address);
+  config.baud = baud;
+  config.bus = bus_parameters(spec.bus);
+  return config;
+}
+
+}  // namespace
+
+bus::BusParameters bus_parameters(const scenario::BusParameters& bus) {
+  bus::BusParameters parameters;
+  parameters.slot_bits = bus.slot_time;
+  parameters.set_bits = bus.setup_time;
+  parameters.quiet_bits = bus.quiet_time;
+  parameters.max_retries = bus.retries;
+  parameters.gap_factor = bus.gap_factor;
+  parameters.highest_address = static_cast<std::uint8_t>(bus.highest_address);
+  parameters.min_slave_interval_us = bus.min_slave_interval;
+  parameters.token = bus.token;
+  parameters.ring = bus.ring;
+  parameters.target_rotation_bits = bus.target_rotation;
+  parameters.clock_ppm = bus.clock_error;
+  return parameters;
+}
+
+Class2Station::Class2Station(Bench& bench, const scenario::Master2& spec)
+    : bench_(bench), spec_(spec), master_(bench.segment(), config_of(spec, bench.scenario().baud)) {
+  for (const scenario::Connection& connection : spec.connections) add(connection);
+  listen();
+}
+
+void Class2Station::add(const scenario::Connection& connection) {
+  bus::ConnectionParameters parameters;
+  parameters.slave = static_cast<std::uint8_t>(connection.address.value_or(
+      connection.slave.empty() ? 0 : bench_.slave(connection.slave.text).station().address));
+  parameters.send_timeout = static_cast<std::uint16_t>(connection.send_timeout);
+  parameters.add_addr = connection.add_addr;
+  parameters.poll_interval_us = connection.poll_interval / bus::kTicksPerUs;
+  try {
+    ids_[connection.name.text] = master_.add_connection(parameters);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(bench_.scenario().file, connection.line, error.what());
+  }
+}
+
+std::vector<std::string> Class2Station::connection_names() const {
+  std::vector<std::string> names;
+  for (const scenario::Connection& connection : spec_.connections) names.push_back(connection.name.text);
+  return names;
+}
+
+void Class2Station::listen() {
+  const auto connection = [this](bus::ConnectionId id) -> const std::string& {
+    return spec_.connections[id].name.text;
+  };
+  master_.on_state = [this, connection](Tick at, bus::ConnectionId id, bus::ConnectionState from,
+                                        bus::ConnectionState to) {
+    bench_.log(at, name(), "state", fmt::format("{}: {} to {}", connection(id), bus::name(from), bus::name(to)));
+    bench_.connection_changed(name(), connection(id), bus::name(to));
+    bench_.touch();
+  };
+  master_.on_end = [this, connection](Tick at, bus::ConnectionId id, const bus::ConnectionEnd& end) {
+    bench_.log(at, name(), "state", fmt::format("{} {}", connection(id), end.words));
+  };
+  master_.on_acyclic = [this, connection](Tick at, bus::ConnectionId id, const bus::AcyclicResult& result) {
+    bench_.log(at, name(), "acyclic", fmt::format("{}: {}", connection(id), bus::describe(result)));
+  };
+}
+
+void Class2Station::act(const scenario::Action& action) {
+  const bus::ConnectionId id = ids_.at(action.connection.text);
+  const auto say = [&](const std::string& text) {
+    bench_.log(bench_.now(), name(), "script", fmt::format("{}: {}", action.connection.text, text));
+  };
+  switch (action.what) {
+    case Do::kC2Connect: say("connects"); return master_.connect(id);
+    case Do::kC2Abort: say("aborts"); return master_.abort(id);
+    case Do::kC2Behaviour: say("behaves otherwise"); return master_.set_behaviour(id, action.behaviour);
+    case Do::kC2Raw: {
+      say("sends " + bytes_text(action.bytes));
+      bus::RawAcyclic raw;
+      raw.pdu = action.bytes;
+      if (action.sap) raw.dsap = static_cast<std::uint8_t>(*action.sap);
+      return master_.inject(id, std::move(raw));
+    }
+    default: return ask(action, id);
+  }
+}
+
+void Class2Station::ask(const scenario::Action& action, bus::ConnectionId id) {
+  const auto keep = [this, connection = action.connection.text, what = action.what](const bus::AcyclicResult& result) {
+    bench_.keep_reply(connection, what, reply_of(result));
+  };
+  if (connection(action.connection.text).state() == bus::ConnectionState::kClosed)
+    return bench_.keep_reply(action.connection.text, action.what, Reply{});
+  const auto slot = static_cast<std::uint8_t>(action.slot), index = static_cast<std::uint8_t>(action.index);
+  switch (action.what) {
+    case Do::kC2Read: return master_.read(id, slot, index, static_cast<std::uint8_t>(action.length), keep);
+    case Do::kC2Write: return master_.write(id, slot, index, action.bytes, keep);
+    default: return master_.transport(id, slot, index, action.bytes, keep);
+  }
+}
+
+}  // namespace tb
