@@ -44,6 +44,15 @@ bus::Bytes RandomMaster::acyclic_pdu(int channel) {
   return pdu;
 }
 
+void RandomMaster::wait_timer(int ms) {
+  constexpr Tick kStep = bus::kTicksPerMs, kTelegram = 700 * profibus::kTicksPerCycle;
+  for (; ms > 1; --ms) {
+    extra_ += kStep - kTelegram;
+    send(bus::make_telegram(setup_.address, 2, bus::fc::kRequest | bus::fc::kFdlStatus));
+  }
+  extra_ += ms * kStep + random_.between(-4000, 1500) * profibus::kTicksPerCycle;
+}
+
 /// Add_Addr in both forms, and neither.
 void RandomMaster::initiate() {
   bus::Bytes pdu = {kInitiate, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0};

@@ -35,8 +35,8 @@ class RandomMaster {
   void acyclic_poll(int channel);
   void acyclic_request(int channel);
   void initiate();
-  /// Silence for so many milliseconds, or some cycles around it.
-  void wait_timer(int ms) { extra_ += ms * bus::kTicksPerMs + random_.between(-1500, 100) * profibus::kTicksPerCycle; }
+  /// So many milliseconds, or some cycles around them, in which nothing but the watchdog is triggered.
+  void wait_timer(int ms);
   /// Nothing on the line, for a while.
   void silence();
   /// ... until BAUD_CONTROL has run out.
