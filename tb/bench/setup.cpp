@@ -169,8 +169,18 @@ bus::SlaveParameters Setup::parameters(const scenario::MasterSlave& slave) {
   parameters.sync = slave.sync;
   parameters.freeze = slave.freeze;
   parameters.fail_safe = slave.fail_safe;
-  parameters.dpv1 = slave.dpv1;
+  if (slave.dpv1) take_dpv1(parameters, slave, there);
   return parameters;
+}
+
+void Setup::take_dpv1(bus::SlaveParameters& parameters, const scenario::MasterSlave& slave,
+                      const scenario::Slave* there) {
+  const scenario::Name& path = slave.gsd.empty() && there != nullptr ? there->gsd : slave.gsd;
+  if (path.empty()) {
+    parameters.dpv1 = true;
+    return;
+  }
+  if (const std::string why = bus::enable_dpv1(gsd(path), parameters); !why.empty()) fail(slave.line, "dpv1: " + why);
 }
 
 Watchdog watchdog_factors(bus::Tick time) {

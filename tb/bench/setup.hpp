@@ -31,6 +31,7 @@ class Setup {
                 const std::vector<scenario::Name>& modules);
   void take_init(bus::SlaveParameters& parameters, const scenario::Slave& slave);
   void take_lengths(bus::SlaveParameters& parameters, int line) const;
+  void take_dpv1(bus::SlaveParameters& parameters, const scenario::MasterSlave& slave, const scenario::Slave* there);
 
   const scenario::Scenario& scenario_;
   std::map<std::string, bus::Gsd> files_;
