@@ -152,7 +152,7 @@ bool Msac2::abort_unanswered(Cycle now, const Request& request) {
   if (state(channel) == State::kFree || channel_at(channel).master != request.sa || request.ssap != kSsap) return false;
   log_.at_cycle(now, Reason::kC2AbortedByMaster, sap_of(channel), request.size > 2 ? request.data[2] : 0U,
                 request.size > 3 ? request.data[3] : 0U);
-  free(channel, now);
+  free(now, channel);
   return true;
 }
 
@@ -172,7 +172,7 @@ Reply Msac2::connect(Cycle now, int number) {
   Channel& channel = channel_at(number);
   if (const std::uint8_t fault = initiate_fault(channel.pdu); fault != 0) {
     log_.at_cycle(now, Reason::kC2InitiateRefused, sap_of(number), fault);
-    free(number, now);
+    free(now, number);
     negative_answer(dpv1::kInitiate, fault, reply_);
   } else {
     log_.at_cycle(now, Reason::kC2Connected, sap_of(number), channel.master);
@@ -222,7 +222,7 @@ Reply Msac2::send_answer(Cycle now, int number) {
 
 Reply Msac2::send_abort(Cycle now, int number, std::uint8_t instance_reason, std::uint8_t detail) {
   log_.at_cycle(now, Reason::kC2Abort, sap_of(number), instance_reason, detail);
-  free(number, now);
+  free(now, number);
   put(reply_, {dpv1::kAbort, kNoSubnet, instance_reason, detail});
   return Reply::with_data(fc::kDl, reply_.bytes.data(), reply_.size);
 }
@@ -253,7 +253,7 @@ void Msac2::expire(Cycle now, int number) {
   const Channel& channel = channel_at(number);
   if (channel.state == State::kAborted) {
     log_.at_cycle(now, Reason::kC2Freed, sap_of(number), channel.master);
-    return free(number, now);
+    return free(now, number);
   }
   const bool watch = now >= channel.watch;
   abort(now, number, !watch ? kUTimer : channel.state == State::kOpen ? kITimer : kFTimer);
@@ -268,7 +268,7 @@ void Msac2::abort(Cycle now, int number, std::uint8_t detail) {
   end_turn(now, number);
 }
 
-void Msac2::free(int number, Cycle now) {
+void Msac2::free(Cycle now, int number) {
   Channel& channel = channel_at(number);
   enter(now, number, State::kFree);
   channel.watch = kNever;

@@ -48,20 +48,20 @@ class Msac2 {
   State state(int channel) const { return channel_at(channel).state; }
   static int channel_of(const Request& request) { return kC2FirstSap - request.dsap; }
   static unsigned sap_of(int channel) { return static_cast<unsigned>(kC2FirstSap - channel); }
-  RmEntry entry(int channel) const;
-  void enter(Cycle now, int channel, State state);
+  RmEntry entry(int number) const;
+  void enter(Cycle now, int number, State state);
   bool refused(Cycle now, const Request& request) const;
   int free_channel() const;
-  Reply poll(Cycle now, int channel);
-  Reply connect(Cycle now, int channel);
-  Reply request(Cycle now, int channel, const Request& request);
-  Reply send_answer(Cycle now, int channel);
-  Reply send_abort(Cycle now, int channel, std::uint8_t instance_reason, std::uint8_t detail);
-  void expire(Cycle now, int channel);
-  void abort(Cycle now, int channel, std::uint8_t detail);
-  void free(int channel, Cycle now);
-  void begin_turn(Cycle now, int channel);
-  void end_turn(Cycle now, int channel);
+  Reply poll(Cycle now, int number);
+  Reply connect(Cycle now, int number);
+  Reply request(Cycle now, int number, const Request& request);
+  Reply send_answer(Cycle now, int number);
+  Reply send_abort(Cycle now, int number, std::uint8_t instance_reason, std::uint8_t detail);
+  void expire(Cycle now, int number);
+  void abort(Cycle now, int number, std::uint8_t detail);
+  void free(Cycle now, int number);
+  void begin_turn(Cycle now, int number);
+  void end_turn(Cycle now, int number);
 
   EventLog& log_;
   AcyclicMail& mail_;
