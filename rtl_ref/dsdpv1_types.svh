@@ -47,7 +47,8 @@ endfunction
 // Greatest TSDR in bit times as far as min_TSDR, an 8-bit value, can exceed it (S11, 8.3).
 function automatic logic [7:0] max_tsdr(input logic [3:0] rate);
   case (rate)
-    4'd0, 4'd1, 4'd2, 4'd7: max_tsdr = 8'd255;
+    4'd0, 4'd1: max_tsdr = 8'd255;
+    4'd2, 4'd7: max_tsdr = 8'd250;
     4'd3: max_tsdr = 8'd150;
     4'd4: max_tsdr = 8'd100;
     default: max_tsdr = 8'd60;
