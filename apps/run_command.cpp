@@ -2,13 +2,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <functional>
 #include <iostream>
 #include <memory>
 #include <utility>
 
 #include "apps/command_line.hpp"
+#include "apps/interrupt.hpp"
 #include "apps/rtl_commands.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/bench/tlm_execution.hpp"
@@ -24,19 +24,6 @@
 
 namespace app {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-void on_signal(int) { interrupted = 1; }
-
-/// Ctrl-C ends the run at the next look, so that every file is finished; a second one kills as usual.
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = on_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed) {
   if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return;
@@ -71,7 +58,7 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
   catch_signals();
   const tb::RunResult result = bench.run([&progress](tb::Tick now) {
     progress.show(now);
-    return interrupted == 0;
+    return !interrupted();
   });
   progress.clear();
   if (result_file) {

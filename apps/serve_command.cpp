@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <csignal>
-#include <ctime>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "apps/command_line.hpp"
+#include "apps/interrupt.hpp"
 #include "bus/baud.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/report/output_file.hpp"
@@ -28,30 +28,6 @@ namespace {
 
 /// Longer than any computer stays up, and far from the end of 64 bits.
 constexpr tb::Tick kOpenEnd = 5LL * 365 * 24 * 3600 * bus::kTicksPerSecond;
-
-volatile std::sig_atomic_t ended = 0;
-volatile std::sig_atomic_t ended_at = 0;  ///< seconds of the monotonic clock
-
-/// The first Ctrl-C ends the run as it is meant to end; one more after 2 s, when that has got stuck, kills. Signals come in twos
-/// when a shell or `timeout` sends them to the process and to its group.
-void on_signal(int signal) {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  if (ended == 0) {
-    ended_at = static_cast<std::sig_atomic_t>(now.tv_sec);
-    ended = 1;
-  } else if (now.tv_sec > ended_at + 1) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-}
-
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = on_signal;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);  // a host that hung up shows at the write
-}
 
 int chosen_baud(const tb::scenario::Scenario& scenario, const std::string& word) {
   if (word.empty()) return scenario.baud;
@@ -97,6 +73,7 @@ int serve(const ServeArguments& arguments) {
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
   catch_signals();
+  std::signal(SIGPIPE, SIG_IGN);  // a host that hung up shows at the write
 
   auto port = open_port(arguments, scenario.baud);
   const std::string name = port->name();
@@ -111,7 +88,7 @@ int serve(const ServeArguments& arguments) {
   std::cout << "serving \"" << scenario.name << "\" at " << bus::baud(scenario.baud).name << " on " << name
             << "; Ctrl-C ends" << std::endl;
 
-  tb::RunResult result = bench.run([](tb::Tick) { return ended == 0; });
+  tb::RunResult result = bench.run([](tb::Tick) { return !interrupted(); });
   result.pacing = execution.pacing();
   if (result_file) {
     result_file->write(tb::result_json(result));
