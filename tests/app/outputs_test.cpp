@@ -113,7 +113,7 @@ TEST_F(Outputs, InterruptedRunLeavesCompleteFilesAndExits130) {
     const std::string command =
         "cd '" + folder_.path().string() +
         "' && { '" DSDPV1_SIM "' run s.yaml --quiet --wave w.vcd --log l.txt --result r.json --view " + view +
-        " & sleep 1; for i in 1 2 3 4 5; do kill -INT $! 2>/dev/null; sleep 0.001; done; wait $!; }";
+        " & sleep 1; i=0; while [ $i -lt 300 ]; do kill -INT $! 2>/dev/null; i=$((i+1)); done; wait $!; }";
     const int status = std::system(command.c_str());
     EXPECT_EQ(WEXITSTATUS(status), 130) << view;
     const auto result = nlohmann::json::parse(read(folder_.file("r.json")));
