@@ -8,7 +8,9 @@
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <numeric>
 #include <sstream>
+#include <utility>
 
 #include "tb/cosim/random_setup.hpp"
 #include "tb/cosim/reference_rtl.hpp"
@@ -52,6 +54,12 @@ class Hunt {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
+/// How long it waits, all lanes together.
+Tick waits(const Stimulus& stimulus) {
+  return std::accumulate(stimulus.begin(), stimulus.end(), Tick{0},
+                         [](Tick sum, const Action& action) { return sum + action.delay; });
+}
+
 }  // namespace
 
 std::vector<Fault> read_faults(const std::string& path) {
@@ -80,7 +88,9 @@ std::vector<NamedStimulus> read_stimuli(const std::string& folder) {
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     stimuli.push_back({entry.path().stem().string(), parse_stimulus(text, entry.path().string())});
   }
-  std::sort(stimuli.begin(), stimuli.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  std::sort(stimuli.begin(), stimuli.end(), [](const auto& a, const auto& b) {
+    return std::pair(waits(a.stimulus), a.name) < std::pair(waits(b.stimulus), b.name);
+  });
   return stimuli;
 }
 

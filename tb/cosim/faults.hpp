@@ -18,7 +18,7 @@ struct NamedStimulus {
   std::string name;
   Stimulus stimulus;
 };
-/// The stimulus files of a folder, by name; throws tb::InputError.
+/// The stimulus files of a folder, those with the shortest delays first; throws tb::InputError.
 std::vector<NamedStimulus> read_stimuli(const std::string& folder);
 
 struct Kill {
