@@ -46,10 +46,11 @@ def table(rows, mhz):
     return "\n".join(lines)
 
 
-def rewrite(text):
-    head, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
-    tail = rest.split(END)[1]
-    PAGE.write_text(f"{head}{BEGIN}\n{text}\n{END}{tail}", encoding="utf-8")
+def rewrite(text, begin=BEGIN, end=END):
+    """Puts the text between these markers of the page."""
+    head, rest = PAGE.read_text(encoding="utf-8").split(begin)
+    tail = rest.split(end)[1]
+    PAGE.write_text(f"{head}{begin}\n{text}\n{end}{tail}", encoding="utf-8")
 
 
 def measured(report, update):

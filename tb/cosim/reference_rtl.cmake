@@ -3,31 +3,49 @@
 set(DSDPV1_RTL_DIR ${PROJECT_SOURCE_DIR}/rtl_ref CACHE PATH "Folder of the reference RTL: files.txt and what it names")
 mark_as_advanced(DSDPV1_RTL_DIR)
 set(rtl_dir ${DSDPV1_RTL_DIR})
-set(rtl_folder ${PROJECT_BINARY_DIR}/rtl)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rtl_dir}/files.txt)
 file(STRINGS ${rtl_dir}/files.txt rtl_sources)
 list(TRANSFORM rtl_sources PREPEND ${rtl_dir}/)
 
-# dsdpv1_rtl_library(NAME MACROS...): lib<NAME>.so, RTL and adapter with these macros (-D). Verilator's own make keeps it out of the
-# configuration, which every `./run` waits for.
-function(dsdpv1_rtl_library name)
-  set(library ${rtl_folder}/lib${name}.so)
+# dsdpv1_rtl_library(TARGET LIBRARY OPTIMISATION ARGUMENTS...): a part of TARGET, RTL and adapter with these arguments for Verilator and
+# the macros (-D) among them. Verilator's own make keeps it out of the configuration, which every `./run` waits for.
+function(dsdpv1_rtl_library target library optimisation)
   set(adapter ${CMAKE_CURRENT_SOURCE_DIR}/reference_library.cpp)
-  list(JOIN ARGN " " macros)
-  set(compile "-O3 -fPIC -std=c++17 -I${PROJECT_SOURCE_DIR} -DDSDPV1_RTL_LAYOUT=${DSDPV1_RTL_LAYOUT} ${macros}")
+  cmake_path(REMOVE_EXTENSION library OUTPUT_VARIABLE sources_folder)
+  cmake_path(GET library PARENT_PATH folder)
+  cmake_path(GET library STEM name)
+  set(macros ${ARGN})
+  list(FILTER macros INCLUDE REGEX "^-D")
+  list(JOIN macros " " macros)
+  set(compile "${optimisation} -fPIC -std=c++17 -I${PROJECT_SOURCE_DIR} -DDSDPV1_RTL_LAYOUT=${DSDPV1_RTL_LAYOUT} ${macros}")
   add_custom_command(
     OUTPUT ${library}
-    COMMAND ${CMAKE_COMMAND} -E make_directory ${rtl_folder}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
     COMMAND ${DSDPV1_VERILATOR} --cc --exe --build -O3 --x-assign fast --x-initial unique -DDSDPV1_RUN_TIME_LIMITS -I${rtl_dir} -I${PROJECT_SOURCE_DIR}/registers
-            --top-module dsdpv1 --Mdir ${rtl_folder}/${name} -CFLAGS ${compile} -LDFLAGS -shared
+            --top-module dsdpv1 --Mdir ${sources_folder} -CFLAGS ${compile} -LDFLAGS -shared
             -MAKEFLAGS "-s CXX=${CMAKE_CXX_COMPILER} OBJCACHE=${CMAKE_CXX_COMPILER_LAUNCHER} OPT_FAST= OPT_GLOBAL=" -o ${library} ${ARGN}
             ${CMAKE_CURRENT_SOURCE_DIR}/public.vlt ${rtl_sources} ${adapter}
     DEPENDS ${rtl_sources} ${rtl_dir}/dsdpv1_types.svh ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter}
             ${CMAKE_CURRENT_SOURCE_DIR}/public.vlt ${CMAKE_CURRENT_SOURCE_DIR}/rtl_top.hpp ${CMAKE_CURRENT_SOURCE_DIR}/verilated_top.hpp
     COMMENT "Verilating ${name}"
     VERBATIM)
-  set_property(TARGET dsdpv1_rtl_libraries APPEND PROPERTY SOURCES ${library})
+  set_property(TARGET ${target} APPEND PROPERTY SOURCES ${library})
 endfunction()
 
-dsdpv1_rtl_library(dsdpv1_rtl)
-dsdpv1_rtl_library(dsdpv1_rtl_faults -DDSDPV1_FAULTS)
+set(rtl_folder ${PROJECT_BINARY_DIR}/rtl)
+dsdpv1_rtl_library(dsdpv1_rtl_libraries ${rtl_folder}/libdsdpv1_rtl.so -O3)
+dsdpv1_rtl_library(dsdpv1_rtl_libraries ${rtl_folder}/libdsdpv1_rtl_faults.so -O3 -DDSDPV1_FAULTS)
+
+# The RTL as it is once more, counting lines and toggles, and the program beside it, which therefore loads this one: ./run rtl-coverage.
+# Far slower, so it is no part of `all`. It writes what it has counted into the folder of the environment's DSDPV1_RTL_COVERAGE. All
+# begins with 0: a start with random values would count as toggles.
+set(coverage_folder ${PROJECT_BINARY_DIR}/rtl-coverage)
+add_custom_command(
+  OUTPUT ${coverage_folder}/dsdpv1-sim
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${coverage_folder}
+  COMMAND ${CMAKE_COMMAND} -E copy $<TARGET_FILE:dsdpv1-sim> ${coverage_folder}/dsdpv1-sim
+  DEPENDS dsdpv1-sim
+  VERBATIM)
+add_custom_target(dsdpv1_rtl_coverage SOURCES ${coverage_folder}/dsdpv1-sim)
+dsdpv1_rtl_library(dsdpv1_rtl_coverage ${coverage_folder}/rtl/libdsdpv1_rtl.so -O1
+                   --coverage-line --coverage-toggle --coverage-max-width 64 --output-split 20000 --x-initial 0 -j 2)

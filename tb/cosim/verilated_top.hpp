@@ -51,6 +51,7 @@ class VerilatedTop : public RtlTop {
   }
 
   Model& model() { return *model_; }
+  VerilatedContext& context() { return *context_; }
 
  private:
   static std::uint32_t wire(std::uint32_t level, Wire place) { return level << place; }
