@@ -88,7 +88,7 @@ def table(counts):
     lines = ["| file | lines and branches | toggles |", "|---|---|---|"]
     for file in [*sorted({point.file for point in counts}), ""]:
         columns = [[p for p in counts if p.kind == kind and file in ("", p.file)] for kind in ("line", "toggle")]
-        name = f"`{file}`" if file else "all"
+        name = f"`{figures.RTL.name}/{file}`" if file else "all"
         lines.append(f"| {name} | {share(columns[0], counts)} | {share(columns[1], counts)} |")
     return "\n".join(lines)
 

@@ -29,7 +29,7 @@ class Report(unittest.TestCase):
     def test_counts_lines_and_toggles_apart(self):
         result = self.report([record("v_line/block", 2, "case", 5), record("v_branch/block", 1, "if", 3),
                               record("v_toggle/block", 3, "word[0]", 1), record("v_toggle/block", 3, "word[1]", 0)])
-        self.assertIn("| `rtl/block.sv` | 2 of 2, 100.0 % | 1 of 2, 50.0 % |", result.stdout)
+        self.assertIn("| `rtl_ref/rtl/block.sv` | 2 of 2, 100.0 % | 1 of 2, 50.0 % |", result.stdout)
         self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_a_line_reached_in_one_instance_is_reached(self):
