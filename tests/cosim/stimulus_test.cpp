@@ -1,6 +1,10 @@
 // Stimulus files: what is written is read back, and wrong lines are named.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
+#include "tb/cosim/faults.hpp"
 #include "tb/cosim/random_stimulus.hpp"
 #include "tb/cosim/stimulus.hpp"
 #include "tb/scenario/input_error.hpp"
@@ -33,6 +37,20 @@ TEST(Stimulus, RandomCasesAreTheSameForTheSameSeed) {
 
 TEST(Stimulus, EmptyLinesAndCommentsAreSkipped) {
   EXPECT_EQ(parse_stimulus("# a comment\n\nsync\n  # another\ngive +12\n", "x").size(), 2U);
+}
+
+TEST(Stimulus, FilesWithTheShortestDelaysArePlayedFirst) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(testing::TempDir()) / "stimuli_in_order";
+  fs::create_directories(folder);
+  std::ofstream(folder / "a.stimulus") << "reset +500 low=1\nsync\ngive +501\n";
+  std::ofstream(folder / "b.stimulus") << "give +1000\n";
+  std::ofstream(folder / "c.stimulus") << "give +30\n";
+  std::ofstream(folder / "d.txt") << "no stimulus\n";
+  std::string order;
+  for (const cosim::NamedStimulus& each : cosim::read_stimuli(folder.string())) order += each.name;
+  fs::remove_all(folder);
+  EXPECT_EQ(order, "cba");
 }
 
 struct Wrong {
