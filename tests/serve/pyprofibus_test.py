@@ -146,7 +146,7 @@ def sync_freeze(program):
         for name, group in (("out", "02"), ("in", "01")):
             ignored = [line.text for line in run.serve.log if line.station == name and line.code == "GC_OTHER_GROUP"]
             others = [action for action in actions if action["group"] == int(group)]
-            check(len(ignored) == len(others) and all("group %s " % group in text for text in ignored),
+            check(len(ignored) == len(others) and all("for group %s:" % group in text for text in ignored),
                   "%s minds another group than its own: %s" % (name, ignored))
         check([event["did"] for _, event in run.master.did] == [action["do"] for action in actions], "not all commands were sent")
 
