@@ -24,17 +24,17 @@ std::optional<bus::Telegram> decode(const bus::Bytes& bytes) {
 }
 
 std::string service(const bus::Telegram& telegram) {
-  static const std::map<int, const char*> kNames = {{bus::sap::kSetSlaveAddress, "Set_Slave_Address"},
-                                                    {bus::sap::kReadInputs, "Read_Inputs"},
-                                                    {bus::sap::kReadOutputs, "Read_Outputs"},
-                                                    {bus::sap::kGlobalControl, "Global_Control"},
-                                                    {bus::sap::kGetCfg, "Get_Cfg"},
-                                                    {bus::sap::kSlaveDiag, "Slave_Diag"},
-                                                    {bus::sap::kSetPrm, "Set_Prm"},
-                                                    {bus::sap::kChkCfg, "Check_Cfg"}};
+  static const std::map<int, const char*> names = {{bus::sap::kSetSlaveAddress, "Set_Slave_Address"},
+                                                   {bus::sap::kReadInputs, "Read_Inputs"},
+                                                   {bus::sap::kReadOutputs, "Read_Outputs"},
+                                                   {bus::sap::kGlobalControl, "Global_Control"},
+                                                   {bus::sap::kGetCfg, "Get_Cfg"},
+                                                   {bus::sap::kSlaveDiag, "Slave_Diag"},
+                                                   {bus::sap::kSetPrm, "Set_Prm"},
+                                                   {bus::sap::kChkCfg, "Check_Cfg"}};
   if (!telegram.dsap) return telegram.function() == bus::fc::kFdlStatus ? "FDL status" : "Data_Exchange";
-  const auto name = kNames.find(*telegram.dsap);
-  return name == kNames.end() ? "other SAP" : name->second;
+  const auto name = names.find(*telegram.dsap);
+  return name == names.end() ? "other SAP" : name->second;
 }
 
 std::string kind(const bus::Bytes& bytes, bool faulty) {

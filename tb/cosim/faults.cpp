@@ -120,6 +120,7 @@ std::vector<Kill> hunt_all(const std::vector<Fault>& faults, const std::vector<N
     return true;
   });
   std::vector<Kill> result;
+  result.reserve(kills.size());
   for (std::optional<Kill>& each : kills) result.push_back(std::move(*each));
   return result;
 }

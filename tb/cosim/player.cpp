@@ -43,7 +43,7 @@ class ChipAgent : public bus::Agent, private bus::Listener {
     due_.push_back({at, enabled_, level_});
   }
   void tell() {
-    for (std::size_t i = 0; i < due_.size(); ++i) {
+    for (std::size_t i = 0; i < due_.size(); ++i) {  // NOLINT(modernize-loop-convert): the list may grow meanwhile
       const Drive due = due_[i];
       segment_.drive(station_, due.at, due.enabled, due.level);
     }
@@ -249,7 +249,7 @@ class Player {
 
  private:
   struct Place {
-    Lane* lane;
+    Lane* lane = nullptr;
     std::size_t next = 0;  ///< of the stimulus
   };
   Lockstep& lockstep() { return chip_.lockstep(); }

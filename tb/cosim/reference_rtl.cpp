@@ -40,7 +40,7 @@ Make load(const std::string& name) {
   const fs::path path = find(name);
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) fail(std::string("the reference RTL cannot be loaded: ") + dlerror());
-  const Layout layout = symbol<Layout>(library, "dsdpv1_rtl_layout");
+  const auto layout = symbol<Layout>(library, "dsdpv1_rtl_layout");
   if (layout == nullptr || layout() != DSDPV1_RTL_LAYOUT)
     fail(path.string() + " is of another build than this program");
   return symbol<Make>(library, "dsdpv1_rtl_make");

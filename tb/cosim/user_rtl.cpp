@@ -161,7 +161,8 @@ std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::
                          quoted(build), quoted(fs::absolute(rtl.folder).string()));
   for (const std::string& folder : map.include)
     command += " -I" + quoted(fs::absolute(fs::path(rtl.folder) / folder).string());
-  for (const auto& [name, value] : map.parameters) command += " " + quoted("-G" + name + "=" + value);
+  for (const auto& [name, value] : map.parameters)
+    command.append(" ").append(quoted(fmt::format("-G{}={}", name, value)));
   for (const std::string& source : sources(rtl, map)) command += " " + quoted(source);
   return command + " " + quoted(adapter);
 }

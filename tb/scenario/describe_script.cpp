@@ -60,9 +60,7 @@ std::vector<WordFor<Do>> action_words() {
           {Do::kGlitch, "glitch", ""}};
 }
 
-/// What each word of `do` means and takes, in the order of action_words().
-std::vector<Choice> action_choices() {
-  const std::vector<std::string> reads = {"master", "slave", "address"};
+std::vector<Choice> user_choices() {
   return {
       {"set_inputs",
        "The user CPU hands these inputs to the chip (behaviour constant or idle).",
@@ -93,6 +91,12 @@ std::vector<Choice> action_choices() {
       {"answer_acyclic", "From now on the user CPU answers acyclic requests like this.", {"slave", "answering"}, {}},
       {"unplug", "The slave is taken from the bus.", {"slave"}, {}},
       {"plug", "The slave is put back.", {"slave"}, {}},
+  };
+}
+
+std::vector<Choice> master_choices() {
+  const std::vector<std::string> reads = {"master", "slave", "address"};
+  return {
       {"set_outputs", "The master sends these outputs from the next cycle on.", {"slave", "bytes"}, {"master"}},
       {"read_inputs", "The master reads the inputs (SAP 56).", {}, reads},
       {"read_outputs", "The master reads the outputs (SAP 57).", {}, reads},
@@ -123,6 +127,11 @@ std::vector<Choice> action_choices() {
        "The master sends these bytes between two of its own telegrams, right or broken.",
        {"bytes"},
        {"master", "faults"}},
+  };
+}
+
+std::vector<Choice> class2_choices() {
+  return {
       {"c2_connect", "The class 2 master opens the connection (Initiate).", {"connection"}, {}},
       {"c2_read", "It reads an object (DS_Read, MSAC_C2).", {"connection", "slot", "index", "length"}, {}},
       {"c2_write", "It writes an object (DS_Write).", {"connection", "slot", "index", "bytes"}, {}},
@@ -136,8 +145,16 @@ std::vector<Choice> action_choices() {
        "It sends this PDU, right or wrong, to the connection's SAP or to another one.",
        {"connection", "bytes"},
        {"sap"}},
-      {"glitch", "The line is forced to a level for a while.", {"for"}, {"level"}},
   };
+}
+
+/// What each word of `do` means and takes, in the order of action_words().
+std::vector<Choice> action_choices() {
+  std::vector<Choice> choices = user_choices();
+  for (const std::vector<Choice>& more : {master_choices(), class2_choices()})
+    choices.insert(choices.end(), more.begin(), more.end());
+  choices.push_back({"glitch", "The line is forced to a level for a while.", {"for"}, {"level"}});
+  return choices;
 }
 
 void describe_values(ObjectOf<Action>& o) {
