@@ -8,7 +8,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
 
 constexpr std::uint8_t kRequestFc = 0x7D, kAnswerFc = 0x08;
 
