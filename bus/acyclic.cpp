@@ -1,9 +1,8 @@
 #include "bus/acyclic.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -87,7 +86,7 @@ AcyclicRequest transport_request(std::uint8_t slot, std::uint8_t index, const By
 }
 
 Bytes pdu_of(const AcyclicRequest& request) {
-  Bytes pdu(request.data.size() + 4);
+  Bytes pdu(request.data.size() + kHeader);
   std::uint8_t* to = pdu.data();
   for (const std::uint8_t byte : {request.function, request.slot, request.index, request.length}) *to++ = byte;
   std::copy(request.data.begin(), request.data.end(), to);
@@ -121,6 +120,18 @@ void judge_answer(const Bytes& pdu, AcyclicResult& result) {
     return wrong(result, fmt::format("answer with Function_Num 0x{:02X}, asked was 0x{:02X}", pdu[0], asked));
   }
   take_positive(pdu, result);
+}
+
+AcyclicOperation::AcyclicOperation(Tick now, AcyclicRequest request, AcyclicCallback when_done)
+    : done(std::move(when_done)) {
+  result.request = std::move(request);
+  result.queued_at = now;
+}
+
+void AcyclicOperation::finish(Tick now, AcyclicOutcome outcome) {
+  result.outcome = outcome;
+  result.done_at = now;
+  if (done) done(result);
 }
 
 std::optional<std::uint8_t> refusal_of(const Telegram& answer) {

@@ -77,6 +77,10 @@ std::optional<std::uint8_t> refusal_of(const Telegram& answer);
 
 /// An operation that waits for its turn or for its answer.
 struct AcyclicOperation {
+  AcyclicOperation(Tick now, AcyclicRequest request, AcyclicCallback when_done);
+  /// Tells its user what came of it; the rest of `result` is filled already.
+  void finish(Tick now, AcyclicOutcome outcome);
+
   AcyclicResult result;
   AcyclicCallback done;
 };

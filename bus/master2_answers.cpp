@@ -52,10 +52,8 @@ void Connection::end(Tick now, const ConnectionEnd& how) {
   at_work_ = idle_at_work_ = false;
   go(ConnectionState::kClosed);
   for (AcyclicOperation& operation : lost) {
-    operation.result.outcome = AcyclicOutcome::kLost;
     operation.result.reason = how.words;
-    operation.result.done_at = now;
-    if (operation.done) operation.done(operation.result);
+    operation.finish(now, AcyclicOutcome::kLost);
   }
   if (on_end) on_end(how);
 }
@@ -104,9 +102,7 @@ void Connection::finish_operation(Tick now, AcyclicOutcome outcome) {
   AcyclicOperation operation = std::move(operations_.front());
   operations_.pop_front();
   at_work_ = false;
-  operation.result.outcome = outcome;
-  operation.result.done_at = now;
-  if (operation.done) operation.done(operation.result);
+  operation.finish(now, outcome);
 }
 
 // --- answers ------------------------------------------------------------------------------------------------------------

@@ -37,10 +37,13 @@ Bytes short_add_addr(std::uint8_t source_api, std::uint8_t destination_api) { re
 
 Bytes long_add_addr(const AddressEnd& source, const AddressEnd& destination) {
   check(source.address.size() + destination.address.size() + 4 <= kMaxInitiate, "Add_Addr does not fit the telegram");
-  Bytes bytes = {source.type, static_cast<std::uint8_t>(source.address.size()), destination.type,
-                 static_cast<std::uint8_t>(destination.address.size())};
-  bytes.insert(bytes.end(), source.address.begin(), source.address.end());
-  bytes.insert(bytes.end(), destination.address.begin(), destination.address.end());
+  Bytes bytes;
+  for (const AddressEnd* end : {&source, &destination}) {
+    bytes.push_back(end->type);
+    bytes.push_back(static_cast<std::uint8_t>(end->address.size()));
+  }
+  for (const AddressEnd* end : {&source, &destination})
+    bytes.insert(bytes.end(), end->address.begin(), end->address.end());
   return bytes;
 }
 
@@ -70,10 +73,7 @@ void Connection::open() {
 
 void Connection::push(Tick now, AcyclicRequest request, AcyclicCallback done) {
   if (state_ == ConnectionState::kClosed) throw std::logic_error("the connection is closed");
-  AcyclicOperation& operation = operations_.emplace_back();
-  operation.result.request = std::move(request);
-  operation.result.queued_at = now;
-  operation.done = std::move(done);
+  operations_.emplace_back(now, std::move(request), std::move(done));
 }
 
 void Connection::abort(Tick now, const AbortReason& reason) {

@@ -5,10 +5,7 @@
 namespace bus {
 
 void C1Client::push(Tick now, AcyclicRequest request, AcyclicCallback done) {
-  AcyclicOperation& operation = operations_.emplace_back();
-  operation.result.request = std::move(request);
-  operation.result.queued_at = now;
-  operation.done = std::move(done);
+  operations_.emplace_back(now, std::move(request), std::move(done));
 }
 
 bool C1Client::due(Tick now) {
@@ -76,9 +73,7 @@ void C1Client::finish(Tick now, AcyclicOutcome outcome) {
   AcyclicOperation operation = std::move(operations_.front());
   operations_.pop_front();
   at_work_ = acknowledged_ = false;
-  operation.result.outcome = outcome;
-  operation.result.done_at = now;
-  if (operation.done) operation.done(operation.result);
+  operation.finish(now, outcome);
 }
 
 }  // namespace bus

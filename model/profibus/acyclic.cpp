@@ -2,6 +2,13 @@
 
 namespace profibus {
 
+bool ssap_right(Cycle now, EventLog& log, const Request& request, int expected) {
+  if (request.ssap == expected) return true;
+  log.at_cycle(now, Reason::kAcyclicSsap, static_cast<unsigned>(request.dsap), static_cast<unsigned>(request.ssap),
+               static_cast<unsigned>(expected));
+  return false;
+}
+
 std::uint8_t request_fault(const std::uint8_t* pdu, int size, bool transport) {
   const std::uint8_t function = pdu[0];
   const bool read = function == dpv1::kRead;

@@ -16,6 +16,9 @@ constexpr std::uint8_t kNotSupported = 0xA9, kWriteLength = 0xB1, kInvalidParame
 constexpr int kHeader = 4;  ///< Function_Num, slot, index, length; or Function_Num and three error bytes
 }  // namespace dpv1
 
+/// True when the request comes from the SSAP of its service (table 24, V8); else the reason is logged.
+bool ssap_right(Cycle now, EventLog& log, const Request& request, int expected);
+
 /// What is wrong with a request for the chip itself: an Error_Code_1, or 0. `size` is at least 1.
 std::uint8_t request_fault(const std::uint8_t* pdu, int size, bool transport);
 

@@ -3,8 +3,7 @@
 namespace profibus {
 namespace {
 
-constexpr int kC1Ssap = 51, kC2Ssap = 50;  // table 24
-constexpr int kMaxAddress = 125;           // EN 50170: 126 is the delivery address, 127 broadcast
+constexpr int kMaxAddress = 125;  // EN 50170: 126 is the delivery address, 127 broadcast
 
 bool c2_channel(int dsap) { return dsap <= kC2FirstSap && dsap > kC2FirstSap - kC2Channels; }
 
@@ -141,12 +140,6 @@ Reply DpSlave::refuse_master(Cycle now, const Request& request, int sap) {
   return Reply::status(fc::kRs);
 }
 
-Reply DpSlave::refuse_ssap(Cycle now, const Request& request, int ssap) {
-  log_.at_cycle(now, Reason::kAcyclicSsap, static_cast<unsigned>(request.dsap), static_cast<unsigned>(request.ssap),
-                static_cast<unsigned>(ssap));
-  return Reply::status(fc::kRs);
-}
-
 Reply DpSlave::c1(Cycle now, const Request& request) {
   if (state_ != DpState::kDataExch) return refuse_state(now, request, sap::kC1);
   if (held_by_other(request)) return refuse_master(now, request, sap::kC1);
@@ -154,7 +147,6 @@ Reply DpSlave::c1(Cycle now, const Request& request) {
     log_.at_cycle(now, Reason::kC1Disabled, request.sa);
     return Reply::status(fc::kRs);
   }
-  if (request.ssap != kC1Ssap) return refuse_ssap(now, request, kC1Ssap);
   return msac1_.handle(now, request);
 }
 
@@ -163,7 +155,6 @@ Reply DpSlave::c2_initiate(Cycle now, const Request& request) {
     log_.at_cycle(now, Reason::kC2Disabled, b005_, request.sa);
     return Reply::status(fc::kRs);
   }
-  if (request.ssap != kC2Ssap) return refuse_ssap(now, request, kC2Ssap);
   return msac2_.initiate(now, request);
 }
 

@@ -75,7 +75,6 @@ class DpSlave {
   void unanswered(Cycle now, const Request& request);
   Reply c1(Cycle now, const Request& request);
   Reply c2_initiate(Cycle now, const Request& request);
-  Reply refuse_ssap(Cycle now, const Request& request, int ssap);
   Reply data_exchange(Cycle now, const Request& request);
   Reply input_reply() const;
   Reply slave_diag(const Request& request);

@@ -3,11 +3,12 @@
 namespace profibus {
 namespace {
 
-constexpr int kArea = 1, kSap = 51;
+constexpr int kArea = 1, kSap = 51;  // the master's SAP is the same, table 24
 
 }  // namespace
 
 Reply Msac1::handle(Cycle now, const Request& request) {
+  if (!ssap_right(now, log_, request, kSap)) return Reply::status(fc::kRs);
   if (request.size == 0) return poll(now);
   const std::uint8_t function = request.data[0];
   if (state_ != State::kIdle) {

@@ -9,7 +9,7 @@ class Msac1 {
   Msac1(EventLog& log, AcyclicMail& mail) : log_(log), mail_(mail) {}
 
   void reset() { state_ = State::kIdle; }
-  /// A request or a poll of the master that may (SAP 51, SSAP 51). The reply's data are valid until the next call.
+  /// SAP 51: a request or a poll of the master that may. The reply's data are valid until the next call.
   Reply handle(Cycle now, const Request& request);
   /// Data exchange is left: an open request is withdrawn.
   void close(Cycle now);

@@ -97,6 +97,7 @@ int Msac2::free_channel() const {
 }
 
 Reply Msac2::initiate(Cycle now, const Request& request) {
+  if (!ssap_right(now, log_, request, kSsap)) return Reply::status(fc::kRs);
   if (request.size == 0) return Reply::sc();
   if (!well_formed(request.data, request.size)) {
     log_.at_cycle(now, Reason::kC2InitiateWrong, request.data[0], static_cast<unsigned>(request.size));
@@ -123,37 +124,45 @@ Reply Msac2::initiate(Cycle now, const Request& request) {
 
 // --- a channel --------------------------------------------------------------------------------------------------------------
 
-bool Msac2::refused(Cycle now, const Request& request) const {
+bool Msac2::lent_to_sender(const Request& request) const {
+  const Channel& channel = channel_at(channel_of(request));
+  return channel.state != State::kFree && channel.master == request.sa && request.ssap == kSsap;
+}
+
+/// Why a channel is not the sender's.
+Reply Msac2::refuse(Cycle now, const Request& request) const {
   const Channel& channel = channel_at(channel_of(request));
   const auto sap = static_cast<unsigned>(request.dsap);
   if (channel.state == State::kFree) {
     log_.at_cycle(now, Reason::kC2NotInUse, sap, request.sa);
   } else if (channel.master != request.sa) {
     log_.at_cycle(now, Reason::kC2Master, sap, request.sa, channel.master);
-  } else if (request.ssap != kSsap) {
-    log_.at_cycle(now, Reason::kAcyclicSsap, sap, static_cast<unsigned>(request.ssap), kSsap);
   } else {
-    return false;
+    ssap_right(now, log_, request, kSsap);
   }
-  return true;
+  return Reply::status(fc::kRs);
 }
 
 Reply Msac2::handle(Cycle now, const Request& request) {
-  if (refused(now, request)) return Reply::status(fc::kRs);
+  if (!lent_to_sender(request)) return refuse(now, request);
   const int channel = channel_of(request);
   if (request.size == 0) return poll(now, channel);
-  if (abort_unanswered(now, request)) return Reply::sc();
-  return this->request(now, channel, request);
+  if (request.data[0] != dpv1::kAbort) return this->request(now, channel, request);
+  aborted_by_master(now, request);
+  return Reply::sc();
 }
 
 bool Msac2::abort_unanswered(Cycle now, const Request& request) {
-  if (request.size == 0 || request.data[0] != dpv1::kAbort) return false;
+  if (!lent_to_sender(request) || request.size == 0 || request.data[0] != dpv1::kAbort) return false;
+  aborted_by_master(now, request);
+  return true;
+}
+
+void Msac2::aborted_by_master(Cycle now, const Request& request) {
   const int channel = channel_of(request);
-  if (state(channel) == State::kFree || channel_at(channel).master != request.sa || request.ssap != kSsap) return false;
   log_.at_cycle(now, Reason::kC2AbortedByMaster, sap_of(channel), request.size > 2 ? request.data[2] : 0U,
                 request.size > 3 ? request.data[3] : 0U);
   free(now, channel);
-  return true;
 }
 
 Reply Msac2::poll(Cycle now, int number) {

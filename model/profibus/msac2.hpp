@@ -13,7 +13,7 @@ class Msac2 {
   Msac2(EventLog& log, AcyclicMail& mail) : log_(log), mail_(mail) {}
 
   void reset();
-  /// SAP 49 with SSAP 50: a channel for the sender, or RS. The reply's data are valid until the next call.
+  /// SAP 49: a channel for the sender, or RS. The reply's data are valid until the next call.
   Reply initiate(Cycle now, const Request& request);
   /// SAP 48 or 47: poll, request or abort.
   Reply handle(Cycle now, const Request& request);
@@ -50,7 +50,9 @@ class Msac2 {
   static unsigned sap_of(int channel) { return static_cast<unsigned>(kC2FirstSap - channel); }
   RmEntry entry(int number) const;
   void enter(Cycle now, int number, State state);
-  bool refused(Cycle now, const Request& request) const;
+  bool lent_to_sender(const Request& request) const;
+  Reply refuse(Cycle now, const Request& request) const;
+  void aborted_by_master(Cycle now, const Request& request);
   int free_channel() const;
   Reply poll(Cycle now, int number);
   Reply connect(Cycle now, int number);

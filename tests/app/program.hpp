@@ -2,6 +2,7 @@
 // Calls the built dsdpv1-sim.
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace app_test {
 
@@ -14,6 +15,9 @@ struct Called {
 Called call(const std::string& arguments, const std::filesystem::path& folder);
 
 std::string read(const std::filesystem::path& path);
+
+/// The names of scenarios/*.yaml, in order.
+std::vector<std::string> shipped_scenarios();
 
 /// A folder for one test, removed at its end.
 class Folder {

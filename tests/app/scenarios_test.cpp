@@ -11,15 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 using app_test::call;
 using app_test::read;
-
-std::vector<std::string> scenarios() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(DSDPV1_SOURCE_DIR "/scenarios")) {
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
+using app_test::shipped_scenarios;
 
 class Scenarios : public testing::TestWithParam<std::string> {
  protected:
@@ -50,9 +42,10 @@ TEST_P(Scenarios, PassesAndStepSkipAndTlmAreTheSame) {
   expect_same("skip_pins", "skip_tlm");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Scenarios, testing::ValuesIn(scenarios()), [](const auto& each) { return each.param; });
+INSTANTIATE_TEST_SUITE_P(All, Scenarios, testing::ValuesIn(shipped_scenarios()),
+                         [](const auto& each) { return each.param; });
 
-TEST(ShippedScenarios, AreAllFound) { EXPECT_GE(scenarios().size(), 12U); }
+TEST(ShippedScenarios, AreAllFound) { EXPECT_GE(shipped_scenarios().size(), 12U); }
 
 class BaudRates : public testing::TestWithParam<const char*> {};
 

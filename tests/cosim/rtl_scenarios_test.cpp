@@ -13,20 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 using app_test::call;
 using app_test::read;
-
-std::vector<std::string> scenarios() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(DSDPV1_SOURCE_DIR "/scenarios")) {
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
+using app_test::shipped_scenarios;
 
 /// A trace of a long one costs minutes, and the lockstep compares each of its cycles all the same.
 std::vector<std::string> short_scenarios() {
   constexpr bus::Tick kLongest = 120 * bus::kTicksPerMs;
-  std::vector<std::string> names = scenarios();
+  std::vector<std::string> names = shipped_scenarios();
   const auto is_long = [](const std::string& name) {
     return tb::scenario::load(DSDPV1_SOURCE_DIR "/scenarios/" + name + ".yaml").end > kLongest;
   };
@@ -64,7 +56,7 @@ TEST_P(ShortRtlScenarios, TraceAndLogOfTheRtlAreThoseOfTheModel) {
         << ending;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RtlScenarios, testing::ValuesIn(scenarios()),
+INSTANTIATE_TEST_SUITE_P(All, RtlScenarios, testing::ValuesIn(shipped_scenarios()),
                          [](const auto& each) { return each.param; });
 INSTANTIATE_TEST_SUITE_P(All, ShortRtlScenarios, testing::ValuesIn(short_scenarios()),
                          [](const auto& each) { return each.param; });
