@@ -10,6 +10,7 @@
 
 #include "bus/explain.hpp"
 #include "tb/bench/script.hpp"
+#include "tb/bench/user_maker.hpp"
 #include "tb/scenario/event_codes.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/units.hpp"
@@ -77,8 +78,9 @@ void Bench::add_slave(const scenario::Slave& slave) {
   auto config = static_cast<const dsdpv1::Config&>(scenario_.chip);
   config.engine = options_.engine;
   user_cpu::StationConfig station = setup_.station(slave);
-  slaves_.push_back(std::make_unique<SlaveStation>(slave, std::move(station),
-                                                   execution_->make_chip(slave.name.text, config, watched_pins())));
+  std::unique_ptr<ChipView> chip = execution_->make_chip(slave.name.text, config, watched_pins());
+  MakeUser make_user = user_maker(scenario_, slave, *chip);
+  slaves_.push_back(std::make_unique<SlaveStation>(slave, std::move(station), std::move(chip), std::move(make_user)));
   connect(*slaves_.back(), slaves_.size() - 1);
 }
 

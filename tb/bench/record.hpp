@@ -8,6 +8,7 @@
 #include "bus/bytes.hpp"
 #include "bus/time.hpp"
 #include "model/dsdpv1/chip.hpp"
+#include "tb/user_cpu/user_side.hpp"
 
 namespace tb {
 
@@ -39,9 +40,8 @@ struct SlaveResult {
   std::string master_state;  ///< what its master makes of it, empty without one
   std::string master_reason;
   Tsdr tsdr;
-  Tick longest_user_wait = 0, longest_hold = 0;
-  std::uint64_t holds = 0, given_up = 0, bad_reads = 0;
-  std::uint64_t exchanges = 0, outputs_received = 0, inputs_written = 0, judgements = 0, driver_errors = 0;
+  user_cpu::UserCounters user;
+  std::optional<user_cpu::BoardReport> board;  ///< of an ARM board
   bus::Bytes inputs, outputs;
 };
 

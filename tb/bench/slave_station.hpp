@@ -2,21 +2,25 @@
 // One slave on the bench: the chip and the user CPU that runs the driver.
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "bus/timeline.hpp"
 #include "tb/bench/chip_view.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/scenario/scenario.hpp"
-#include "tb/user_cpu/native_cpu.hpp"
-#include "tb/user_cpu/programs.hpp"
+#include "tb/user_cpu/user_side.hpp"
 
 namespace tb {
+
+/// Makes the user CPU that starts at `start` with these initialisation data.
+using MakeUser = std::function<std::unique_ptr<user_cpu::UserSide>(const user_cpu::StationConfig& station, Tick start)>;
 
 /// The agent is the user CPU; the chip is the execution's business.
 class SlaveStation : public bus::Agent {
  public:
-  SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig station, std::unique_ptr<ChipView> chip);
+  SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig station, std::unique_ptr<ChipView> chip,
+               MakeUser make_user);
   SlaveStation(const SlaveStation&) = delete;
   SlaveStation& operator=(const SlaveStation&) = delete;
 
@@ -34,7 +38,7 @@ class SlaveStation : public bus::Agent {
   void reinitialise(Tick now, std::optional<int> address, const std::optional<bus::Bytes>& cfg);
   void intr0_changed(Tick at, bool level);
 
-  Tick next() const override { return cpu_ ? cpu_->next() : bus::kNever; }
+  Tick next() const override { return user_ ? user_->next() : bus::kNever; }
   void run(Tick now) override;
 
   /// What the user CPU has fetched last.
@@ -45,19 +49,19 @@ class SlaveStation : public bus::Agent {
   SlaveResult result() const;
 
   std::function<void(const user_cpu::DriverError&)> on_driver_error;
+  /// As user_cpu::UserSide has them.
+  std::function<void(Tick at, const std::string&line)> on_text, on_failure;
   /// The user CPU has fetched outputs, other ones than before when `changed`.
   std::function<void(Tick at, bool changed)> on_outputs;
 
  private:
-  user_cpu::ProgramOptions options() const;
-  void add_counters(SlaveResult& result) const;
-
   const scenario::Slave& slave_;
   user_cpu::StationConfig station_;
   std::unique_ptr<ChipView> chip_;
-  std::unique_ptr<user_cpu::UserProgram> program_;
-  std::unique_ptr<user_cpu::NativeCpu> cpu_;  // ends before the program that it runs
-  SlaveResult before_reset_;                  ///< counters of programs that a reset has ended
+  MakeUser make_user_;
+  std::unique_ptr<user_cpu::UserSide> user_;
+  user_cpu::UserCounters before_reset_;  ///< of user CPUs that a reset has ended
+  std::optional<user_cpu::BoardReport> board_before_reset_;
   std::uint64_t outputs_seen_ = 0;
   bus::Bytes outputs_;
   Tsdr tsdr_;

@@ -25,16 +25,17 @@ Json handshake_of(const SlaveResult& slave) {
   return {
       {"chip_accesses", slave.status.accesses},
       {"chip_longest_wait_ns", nanoseconds_of(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle)},
-      {"user_holds", slave.holds},
-      {"user_given_up", slave.given_up},
-      {"user_longest_wait_ns", nanoseconds_of(slave.longest_user_wait)},
-      {"user_longest_hold_ns", nanoseconds_of(slave.longest_hold)}};
+      {"user_holds", slave.user.port.holds},
+      {"user_given_up", slave.user.port.given_up},
+      {"user_longest_wait_ns", nanoseconds_of(slave.user.port.longest_wait)},
+      {"user_longest_hold_ns", nanoseconds_of(slave.user.port.longest_hold)}};
 }
 
 Json user_of(const SlaveResult& slave) {
-  return {{"exchanges", slave.exchanges},           {"outputs_received", slave.outputs_received},
-          {"inputs_written", slave.inputs_written}, {"judgements", slave.judgements},
-          {"driver_errors", slave.driver_errors},   {"bad_reads", slave.bad_reads}};
+  const user_cpu::ProgramCounters& program = slave.user.program;
+  return {{"exchanges", program.exchanges},           {"outputs_received", program.outputs_received},
+          {"inputs_written", program.inputs_written}, {"judgements", program.judgements},
+          {"driver_errors", program.driver_errors},   {"bad_reads", slave.user.cpu.bad_reads}};
 }
 
 Json registry_of(const profibus::RmRegistry& registry) {

@@ -91,7 +91,7 @@ std::string slaves(const RunResult& result) {
     table.add({slave.name, fmt::format("{}", slave.status.address), name(slave.status.dp_state),
                baud_text(slave.status.baud_index), fmt::format("{}", slave.status.data_exchanges), tsdr(slave),
                microseconds(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle),
-               microseconds(slave.longest_user_wait), microseconds(slave.longest_hold)});
+               microseconds(slave.user.port.longest_wait), microseconds(slave.user.port.longest_hold)});
   }
   return table.text() + "\n";
 }

@@ -27,6 +27,8 @@ class Cpu {
 
   virtual Tick now() const = 0;
   virtual const CpuTiming& timing() const = 0;
+  /// From the next access on.
+  virtual void set_access_timing(const AccessTiming& read, const AccessTiming& write) = 0;
 
   /// One DPRAM access with the timing's edges, then the overhead. A bad read (X or Z sampled) gives 0xFF and is
   /// counted.

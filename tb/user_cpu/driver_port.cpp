@@ -1,7 +1,5 @@
 #include "tb/user_cpu/driver_port.hpp"
 
-#include <algorithm>
-
 namespace user_cpu {
 
 dsdpv1_port DriverPort::port() {
@@ -35,30 +33,18 @@ void DriverPort::write(std::uint16_t address, std::uint8_t value) {
 }
 
 void DriverPort::set_r_req(bool level) {
-  if (level) {
-    asked_at_ = cpu_.now();
-  } else if (held_) {
-    held_ = false;
-    counters_.longest_hold = std::max(counters_.longest_hold, cpu_.now() - held_at_);
-  } else {
-    ++counters_.given_up;
-  }
+  handshake_.r_req(cpu_.now(), level);
   cpu_.set_r_req(level);
 }
 
 void DriverPort::set_r_sta(bool level) {
-  if (level) {
-    cpu_.wait_until(asked_at_ + cpu_.timing().r_req_to_r_sta);
-    held_ = true;
-    held_at_ = cpu_.now();
-    ++counters_.holds;
-    counters_.longest_wait = std::max(counters_.longest_wait, held_at_ - asked_at_);
-  }
+  if (level) cpu_.wait_until(handshake_.asked_at() + cpu_.timing().r_req_to_r_sta);
+  handshake_.r_sta(cpu_.now(), level);
   cpu_.set_r_sta(level);
 }
 
 bool DriverPort::look(bool (Cpu::*pin)()) {
-  cpu_.wait_until(asked_at_ + cpu_.timing().r_req_to_sample);
+  cpu_.wait_until(handshake_.asked_at() + cpu_.timing().r_req_to_sample);
   return (cpu_.*pin)();
 }
 

@@ -16,6 +16,13 @@ struct CpuCounters {
   std::uint64_t accesses = 0;    ///< DPRAM reads and writes
   std::uint64_t bad_reads = 0;   ///< of these, reads that sampled X or Z
   std::uint64_t interrupts = 0;  ///< handler runs
+
+  CpuCounters& operator+=(const CpuCounters& other) {
+    accesses += other.accesses;
+    bad_reads += other.bad_reads;
+    interrupts += other.interrupts;
+    return *this;
+  }
 };
 
 /// The bus is touched from `run` only, on the bench's stack. Exceptions of the program leave through `run`.

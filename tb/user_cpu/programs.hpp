@@ -107,6 +107,16 @@ struct ProgramCounters {
   std::uint64_t initialisations = 0;   ///< successful ones
   std::uint64_t judgements = 0;        ///< blocks of parameters and configuration judged
   std::uint64_t driver_errors = 0;
+
+  ProgramCounters& operator+=(const ProgramCounters& other) {
+    exchanges += other.exchanges;
+    outputs_received += other.outputs_received;
+    inputs_written += other.inputs_written;
+    initialisations += other.initialisations;
+    judgements += other.judgements;
+    driver_errors += other.driver_errors;
+    return *this;
+  }
 };
 
 /// The program and what the bench sees of it. Not copied, and must outlive the CPU that runs it.

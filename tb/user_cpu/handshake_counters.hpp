@@ -1,0 +1,58 @@
+#pragma once
+// What a user CPU's handshake pins tell about its holds of the DPRAM.
+#include <algorithm>
+#include <cstdint>
+
+#include "bus/time.hpp"
+
+namespace user_cpu {
+
+using bus::Tick;
+
+/// Times in ticks. A wait runs from R_REQ's rise to R_STA's, a hold from R_STA's rise to R_REQ's fall.
+struct PortCounters {
+  std::uint64_t holds = 0;
+  std::uint64_t given_up = 0;  ///< R_REQ lowered without having had the DPRAM
+  Tick longest_wait = 0;
+  Tick longest_hold = 0;
+
+  PortCounters& operator+=(const PortCounters& other) {
+    holds += other.holds;
+    given_up += other.given_up;
+    longest_wait = std::max(longest_wait, other.longest_wait);
+    longest_hold = std::max(longest_hold, other.longest_hold);
+    return *this;
+  }
+};
+
+/// Told of each change of the two pins, in order of time.
+class HandshakeCounters {
+ public:
+  void r_req(Tick at, bool level) {
+    if (level) {
+      asked_at_ = at;
+    } else if (held_) {
+      counters_.longest_hold = std::max(counters_.longest_hold, at - held_at_);
+    } else {
+      ++counters_.given_up;
+    }
+    held_ = held_ && level;
+  }
+  void r_sta(Tick at, bool level) {
+    if (!level) return;
+    held_ = true;
+    held_at_ = at;
+    ++counters_.holds;
+    counters_.longest_wait = std::max(counters_.longest_wait, at - asked_at_);
+  }
+  Tick asked_at() const { return asked_at_; }
+  const PortCounters& counters() const { return counters_; }
+
+ private:
+  PortCounters counters_;
+  Tick asked_at_ = 0;  ///< R_REQ rose
+  Tick held_at_ = 0;   ///< R_STA rose
+  bool held_ = false;
+};
+
+}  // namespace user_cpu

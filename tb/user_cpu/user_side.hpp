@@ -1,0 +1,57 @@
+#pragma once
+// The user CPU of a station as the bench sees it, whatever runs on it: a C++ program (NativeUser) or firmware on an ARM board.
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/timeline.hpp"
+#include "tb/user_cpu/programs.hpp"
+
+namespace user_cpu {
+
+/// What a user CPU has done since its start.
+struct UserCounters {
+  PortCounters port;
+  ProgramCounters program;
+  CpuCounters cpu;
+
+  UserCounters& operator+=(const UserCounters& other) {
+    port += other.port;
+    program += other.program;
+    cpu += other.cpu;
+    return *this;
+  }
+};
+
+/// What a board with a processor of its own tells at the end.
+struct BoardReport {
+  std::uint64_t instructions = 0;
+  std::uint64_t cycles = 0;        ///< of its clock, since the start
+  std::vector<std::string> notes;  ///< what its firmware did that the board does not do like a real one
+};
+
+/// Lives from the release of the board's reset to the next reset.
+class UserSide : public bus::Agent {
+ public:
+  /// INTR0 changed at `at`; also callable while the chip runs ahead of this agent's turn.
+  virtual void intr0_changed(Tick at, bool level) = 0;
+  /// Carried out in order, each as soon as the program has finished what it is at.
+  virtual void command(Tick now, const Command& command) = 0;
+  virtual UserCounters counters() const = 0;
+  /// Of those the blocks of outputs alone: cheap, looked at after each step.
+  virtual std::uint64_t outputs_received() const = 0;
+  /// What the program fetched last.
+  virtual const std::vector<std::uint8_t>& outputs() const = 0;
+  /// Absent where there is no such board.
+  virtual std::optional<BoardReport> board() const { return std::nullopt; }
+
+  std::function<void(const DriverError&)> on_driver_error;
+  /// A line of text that the program printed.
+  std::function<void(Tick at, const std::string& line)> on_text;
+  /// The processor cannot go on, in words; several lines.
+  std::function<void(Tick at, const std::string& text)> on_failure;
+};
+
+}  // namespace user_cpu
