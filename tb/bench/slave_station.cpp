@@ -64,6 +64,11 @@ void SlaveStation::release_reset(Tick now) {
   chip_->set_reset(now, true);
   auto timing = static_cast<const user_cpu::CpuTiming&>(slave_.user_cpu.timing);
   timing.access = static_cast<const user_cpu::AccessTiming&>(slave_.user_cpu.access);
+  if (slave_.user_cpu.fsmc) {
+    const user_cpu::FsmcAccess fsmc = user_cpu::access_timing(user_cpu::with({}, *slave_.user_cpu.fsmc));
+    timing.access = fsmc.read;
+    timing.write_access = fsmc.write;
+  }
   program_ = std::make_unique<user_cpu::UserProgram>(options());
   program_->on_error = [this](const user_cpu::DriverError& error) {
     if (on_driver_error) on_driver_error(error);
