@@ -18,6 +18,14 @@ const char* const kExitCodes =
     "allowed),\n"
     "130 interrupted.\n";
 
+void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
+  command
+      .add_option("--set", settings,
+                  "PATH=VALUE instead of what the scenario says, once for each key: slaves.0.user_cpu.cycle=40us, "
+                  "slaves.plant.init.dpv1=true, or of every slave user_cpu.fsmc.datast=3")
+      ->allow_extra_args(false);
+}
+
 void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* command = app.add_subcommand("run", "Carries out a scenario and judges it");
   command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md")->required();
@@ -37,6 +45,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
       ->add_option("--difference", arguments.difference,
                    "Wave of both sides, written when --engine lockstep finds a difference")
       ->capture_default_str();
+  add_set_option(*command, arguments.set);
   command->add_flag_callback(
       "--progress", [&arguments] { arguments.progress = true; },
       "Show a progress bar (on a terminal it is shown anyway)");
@@ -48,6 +57,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
                   "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
                   "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
                   "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
+                  "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
                   "  dsdpv1-sim run my.yaml --engine lockstep --difference both.vcd\n") +
       kExitCodes);
 }

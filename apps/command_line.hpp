@@ -17,6 +17,7 @@ struct RunArguments {
   std::string wave, log, result, trace;
   std::string difference = "lockstep.vcd";  ///< wave of a lockstep run's first difference
   std::optional<bool> progress;             ///< absent: on a terminal
+  std::vector<std::string> set;             ///< PATH=VALUE: keys other than in the file
   bool quiet = false;
 };
 

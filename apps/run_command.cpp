@@ -49,6 +49,13 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   return options;
 }
 
+std::vector<tb::scenario::Setting> settings_of(const std::vector<std::string>& texts) {
+  std::vector<tb::scenario::Setting> settings;
+  settings.reserve(texts.size());
+  for (const std::string& text : texts) settings.push_back(tb::scenario::parse_setting("--set", text));
+  return settings;
+}
+
 int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options,
                  std::unique_ptr<tb::Execution> execution, const std::function<bool()>& afterwards = {}) {
   std::optional<tb::OutputFile> result_file;
@@ -91,7 +98,7 @@ int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arg
 
 int run(const RunArguments& arguments) {
   const tb::RunOptions options = options_of(arguments);
-  const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
+  const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario, settings_of(arguments.set));
   if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, reference_rtl);
   if (arguments.engine == "rtl")
     return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(reference_rtl));

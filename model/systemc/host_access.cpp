@@ -8,10 +8,11 @@ namespace {
 /// Of edges at one tick, what prepares a strobe comes before it and what ends an access after it.
 int rank(const HostAccess::Edge& edge) {
   switch (edge.pin) {
-    case Pin::kA: return edge.level == HostAccess::kIdleAddress ? 6 : 0;
-    case Pin::kCsr: return edge.level == 0 ? 1 : 5;
-    case Pin::kDIn: return edge.level == kLevelZ ? 4 : 2;
-    default: return edge.pin == Pin::kDOut ? 2 : 3;
+    case Pin::kA: return edge.level == HostAccess::kIdleAddress ? 7 : 0;
+    case Pin::kCsr: return edge.level == 0 ? 1 : 6;
+    case Pin::kDIn: return edge.level == kLevelZ ? 5 : 2;
+    case Pin::kDOut: return 2;
+    default: return edge.level == 0 ? 3 : 4;
   }
 }
 

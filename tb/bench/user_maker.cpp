@@ -1,5 +1,6 @@
 #include "tb/bench/user_maker.hpp"
 
+#include "tb/user_cpu/fsmc_timing.hpp"
 #include "tb/user_cpu/native_user.hpp"
 
 namespace tb {
@@ -45,6 +46,11 @@ user_cpu::ProgramOptions program_options(const scenario::UserCpu& user, const us
 MakeUser native_user(const scenario::UserCpu& user, ChipView& chip) {
   auto timing = static_cast<const user_cpu::CpuTiming&>(user.timing);
   timing.access = static_cast<const user_cpu::AccessTiming&>(user.access);
+  if (user.fsmc) {
+    const user_cpu::FsmcAccess fsmc = user_cpu::access_timing(user_cpu::with({}, *user.fsmc));
+    timing.access = fsmc.read;
+    timing.write_access = fsmc.write;
+  }
   return [&user, &chip, timing](const user_cpu::StationConfig& station, Tick start) {
     return std::make_unique<user_cpu::NativeUser>(chip.host_bus(), timing, program_options(user, station), start);
   };

@@ -67,6 +67,29 @@ const ObjectOf<AccessTimes>& access_keys() {
   return keys;
 }
 
+const ObjectOf<Fsmc>& fsmc_keys() {
+  static const ObjectOf<Fsmc> keys = [] {
+    using user_cpu::FsmcMode;
+    ObjectOf<Fsmc> o(
+        "fsmc",
+        "Bus timing as the FSMC of an STM32F103 makes it from its registers (bank 1, SRAM, 8 bits). Left "
+        "out: what the firmware of an ARM board writes there; a native CPU has addset 1, datast 5, busturn 0, "
+        "mode 1, hclk 72.");
+    o.integer("addset", &Fsmc::addset, {0, 15}, "HCLK", "ADDSET: WR (and in mode A RD) falls one HCLK more after CSR.");
+    o.integer("datast", &Fsmc::datast, {0, 255}, "HCLK",
+              "DATAST: WR is low so long; D is sampled one HCLK more after the address phase. 0 is reserved in the "
+              "manual: no low time of WR, against Ts.");
+    o.integer("busturn", &Fsmc::busturn, {0, 15}, "HCLK", "BUSTURN: CSR stays high so much longer between accesses.");
+    o.integer("hclk", &Fsmc::hclk_mhz, {1, 72}, "MHz", "Frequency of HCLK.");
+    o.word("mode", &Fsmc::mode,
+           std::vector<WordFor<FsmcMode>>{{FsmcMode::k1, "1", "RD falls with CSR"},
+                                          {FsmcMode::kA, "A", "RD falls addset + 1 HCLK after CSR"}},
+           "Access mode.");
+    return o;
+  }();
+  return keys;
+}
+
 const ObjectOf<CpuTimes>& timing_keys() {
   static const ObjectOf<CpuTimes> keys = [] {
     using T = CpuTimes;
@@ -113,6 +136,8 @@ const ObjectOf<UserCpu>& user_cpu_keys() {
     o.word("judge_cfg", &U::judge_cfg, judgement_words(), "Its verdict on the configuration in judging mode 2.");
     o.object("timing", &U::timing, timing_keys(), "How fast it is.");
     o.object("access", &U::access, access_keys(), "When it moves the pins of its bus.");
+    o.object("fsmc", &U::fsmc, fsmc_keys(), "When it moves them, as registers of an FSMC.");
+    o.at_most_one.push_back({"access", "fsmc"});
     o.object("dpv1", &U::dpv1, dpv1_keys(), "Its answers to acyclic requests.");
     return o;
   }();

@@ -13,6 +13,20 @@ namespace {
 constexpr std::uintmax_t kLargestFile = 4U
                                         << 20;  // far beyond every scenario; keeps a wrong file from filling the memory
 
+YAML::Node parse_yaml(const std::string& text, const std::string& file) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.empty() || documents[0].IsNull()) throw InputError(file, 1, "is empty, allowed is a scenario");
+    if (documents.size() > 1)
+      throw InputError(file, keys::line_of(documents[1]), "a second document, allowed is one scenario a file");
+    return documents[0];
+  } catch (const YAML::Exception& error) {
+    throw InputError(file, error.mark.line + 1, "is not YAML: " + error.msg);
+  }
+}
+
+}  // namespace
+
 std::string read_file(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -28,22 +42,9 @@ std::string read_file(const std::string& path) {
   return text.str();
 }
 
-YAML::Node parse_yaml(const std::string& text, const std::string& file) {
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty() || documents[0].IsNull()) throw InputError(file, 1, "is empty, allowed is a scenario");
-    if (documents.size() > 1)
-      throw InputError(file, keys::line_of(documents[1]), "a second document, allowed is one scenario a file");
-    return documents[0];
-  } catch (const YAML::Exception& error) {
-    throw InputError(file, error.mark.line + 1, "is not YAML: " + error.msg);
-  }
-}
-
-}  // namespace
-
-Scenario parse(const std::string& text, const std::string& file) {
-  const YAML::Node root = parse_yaml(text, file);
+Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings) {
+  YAML::Node root = parse_yaml(text, file);
+  for (const Setting& setting : settings) apply(setting, root);
   Scenario scenario;
   keys::read_object(description(), &scenario, root, {file});
   scenario.file = file;
@@ -51,7 +52,9 @@ Scenario parse(const std::string& text, const std::string& file) {
   return scenario;
 }
 
-Scenario load(const std::string& path) { return parse(read_file(path), path); }
+Scenario load(const std::string& path, const std::vector<Setting>& settings) {
+  return parse(read_file(path), path, settings);
+}
 
 std::string resolve(const Scenario& scenario, const Name& path) {
   return (std::filesystem::path(scenario.file).parent_path() / path.text).lexically_normal().string();

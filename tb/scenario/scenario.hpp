@@ -12,6 +12,8 @@
 #include "bus/time.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/scenario/keys.hpp"
+#include "tb/scenario/settings.hpp"
+#include "tb/user_cpu/fsmc_timing.hpp"
 #include "tb/user_cpu/programs.hpp"
 
 namespace tb::scenario {
@@ -103,6 +105,10 @@ struct AccessTimes : user_cpu::AccessTiming {
   int line = 0;
 };
 
+struct Fsmc : user_cpu::FsmcOverride {
+  int line = 0;
+};
+
 struct CpuTimes : user_cpu::CpuTiming {
   int line = 0;
 };
@@ -143,6 +149,7 @@ struct UserCpu {
   Judgement judge_prm = Judgement::kAccept, judge_cfg = Judgement::kAccept;
   CpuTimes timing;  ///< its `access` is left alone: that is the next member
   AccessTimes access;
+  std::optional<Fsmc> fsmc;
   Dpv1User dpv1;
   int line = 0;
 };
@@ -284,10 +291,12 @@ struct Scenario {
   int line = 0;
 };
 
-/// Reads and checks a scenario; throws InputError. GSD files are not opened here.
-Scenario load(const std::string& path);
+/// Reads and checks a scenario; throws InputError. GSD files are not opened here. The settings replace keys of the file.
+Scenario load(const std::string& path, const std::vector<Setting>& settings = {});
 /// The same from text; `file` is used in errors and as the base of relative paths.
-Scenario parse(const std::string& text, const std::string& file);
+Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings = {});
+/// The text of a scenario's file; throws InputError when there is none.
+std::string read_file(const std::string& path);
 /// `path` of a scenario as the program can open it: relative to the scenario's folder.
 std::string resolve(const Scenario& scenario, const Name& path);
 

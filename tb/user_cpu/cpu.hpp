@@ -3,6 +3,7 @@
 // bench goes on.
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "tb/user_cpu/host_bus.hpp"
 
@@ -11,6 +12,8 @@ namespace user_cpu {
 /// How fast the CPU is. Ticks of 1/12 ns, none negative. The defaults are those of a Cortex-M3 at 72 MHz.
 struct CpuTiming {
   AccessTiming access;
+  /// Of writes, where they differ from reads in more than the strobe.
+  std::optional<AccessTiming> write_access;
   Tick overhead = 1000;           ///< instructions between two accesses: 6 cycles, 83.3 ns
   Tick pin_sample = 210;          ///< reading one handshake pin: 17.5 ns
   Tick pin_write = 167;           ///< setting one handshake pin: 1 cycle, 13.9 ns

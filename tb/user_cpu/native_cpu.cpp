@@ -63,7 +63,8 @@ void NativeCpu::take_request() {
 }
 
 void NativeCpu::begin_access() {
-  bus_.begin(now_, request_.access, timing_.access);
+  const bool own_timing = request_.access.write && timing_.write_access;
+  bus_.begin(now_, request_.access, own_timing ? *timing_.write_access : timing_.access);
   ready_at_ = bus_.end() + timing_.overhead;
   if (bus_.next_edge() <= now_) {
     bus_.run_edges(now_);

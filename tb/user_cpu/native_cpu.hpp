@@ -58,6 +58,10 @@ class NativeCpu : public bus::Agent, private Cpu {
 
   Tick now() const override { return now_; }
   const CpuTiming& timing() const override { return timing_; }
+  void set_access_timing(const AccessTiming& read, const AccessTiming& write) override {
+    timing_.access = read;
+    timing_.write_access = write;
+  }
   std::uint8_t read(std::uint16_t address) override;
   void write(std::uint16_t address, std::uint8_t value) override;
   void set_r_req(bool level) override;

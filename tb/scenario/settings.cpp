@@ -1,0 +1,205 @@
+#include "tb/scenario/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "tb/scenario/describe.hpp"
+#include "tb/scenario/input_error.hpp"
+#include "tb/scenario/suggest.hpp"
+
+namespace tb::scenario {
+namespace {
+
+using keys::Field;
+using keys::Kind;
+using keys::Object;
+using Steps = std::vector<std::string>;
+
+[[noreturn]] void fail(const std::string& origin, const std::string& text) { throw InputError(origin, 0, text); }
+
+Steps split(const std::string& path) {
+  Steps steps(1);
+  for (const char c : path) {
+    if (c == '.') {
+      steps.emplace_back();
+    } else {
+      steps.back() += c;
+    }
+  }
+  return steps;
+}
+
+std::vector<std::string> names_of(const Object& object) {
+  std::vector<std::string> names;
+  for (const Field& field : object.fields) names.push_back(field.name);
+  return names;
+}
+
+/// Whether a path with this first step is meant for every slave.
+bool of_every_slave(const std::string& first) {
+  return description().find(first) == nullptr && slave_keys().find(first) != nullptr;
+}
+
+const Field& find(const Object& object, const std::string& step, const std::string& origin) {
+  if (const Field* field = object.find(step)) return *field;
+  std::vector<std::string> names = names_of(object);
+  const std::string allowed = join(names);
+  std::string more;
+  if (&object == &description()) {
+    const std::vector<std::string> of_slave = names_of(slave_keys());
+    more = "; of every slave " + join(of_slave);
+    names.insert(names.end(), of_slave.begin(), of_slave.end());
+  }
+  fail(origin, fmt::format("unknown key {} in {}{}, allowed are {}{}", step, object.name, did_you_mean(step, names),
+                           allowed, more));
+}
+
+bool has_items(const Field& field) { return field.type.kind == Kind::kList && field.type.object != nullptr; }
+bool has_keys(const Field& field) { return field.type.kind == Kind::kObject; }
+
+/// The end of a path must be one value.
+void check_end(const Field& field, const std::string& origin) {
+  if (has_keys(field))
+    fail(origin,
+         fmt::format("{} is a mapping, allowed are its keys {}", field.name, join(names_of(*field.type.object))));
+  if (has_items(field))
+    fail(origin, fmt::format("{} is a list, allowed are the keys of one item, like {}.0.{}", field.name, field.name,
+                             field.type.object->fields.front().name));
+}
+
+/// The same for the middle of one.
+void check_middle(const Field& field, const std::string& next, const std::string& origin) {
+  if (has_keys(field) || has_items(field)) return;
+  fail(origin, fmt::format("{} is one value, allowed is no key {} below it", field.name, next));
+}
+
+const Field& walk(const Object& object, const Steps& steps, std::size_t at, const std::string& origin) {
+  const Field& field = find(object, steps[at], origin);
+  if (at + 1 == steps.size()) {
+    check_end(field, origin);
+    return field;
+  }
+  check_middle(field, steps[at + 1], origin);
+  const std::size_t next = at + (has_items(field) ? 2 : 1);
+  if (next >= steps.size()) check_end(field, origin);
+  return walk(*field.type.object, steps, std::min(next, steps.size() - 1), origin);
+}
+
+void check_value(const Field& field, const YAML::Node& value, const std::string& origin) {
+  const keys::Source source = {origin};
+  switch (field.type.kind) {
+    case Kind::kInteger: keys::read_integer(field, value, source); break;
+    case Kind::kNumber: keys::read_number(field, value, source); break;
+    case Kind::kBoolean: keys::read_boolean(field, value, source); break;
+    case Kind::kWord: keys::read_word(field, value, source); break;
+    case Kind::kTime: keys::read_time(field, value, source); break;
+    case Kind::kBytes: keys::read_bytes(field, value, source); break;
+    case Kind::kList: keys::check_list(field, value, source); break;
+    default: keys::read_text(field, value, source); break;
+  }
+}
+
+/// What is given on a command line is text, hexadecimal where bytes are wanted, unless it is a list in brackets.
+YAML::Node value_of(const Field& field, const Setting& setting) {
+  const bool list = field.type.kind == Kind::kList || field.type.kind == Kind::kBytes;
+  YAML::Node value(setting.value);
+  if (list && !setting.value.empty() && setting.value.front() == '[') {
+    try {
+      value.reset(YAML::Load(setting.value));
+    } catch (const YAML::Exception&) {
+      fail(setting.origin, fmt::format("{} is no list, allowed is like [1, 2]", setting.value));
+    }
+  }
+  check_value(field, value, setting.origin);
+  return value;
+}
+
+std::vector<std::string> item_names(const YAML::Node& list) {
+  std::vector<std::string> names;
+  for (const YAML::Node& item : list) {
+    if (item.IsMap() && item["name"].IsDefined() && item["name"].IsScalar()) names.push_back(item["name"].Scalar());
+  }
+  return names;
+}
+
+std::optional<std::size_t> item_number(const YAML::Node& list, const std::string& step) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const YAML::Node item = list[i];
+    const bool named = item.IsMap() && item["name"].IsDefined() && item["name"].IsScalar();
+    if (std::to_string(i) == step || (named && item["name"].Scalar() == step)) return i;
+  }
+  return std::nullopt;
+}
+
+class Writer {
+ public:
+  Writer(const Setting& setting, const Steps& steps, const YAML::Node& value)
+      : setting_(setting), steps_(steps), value_(value) {}
+
+  void write(YAML::Node node, const Object& object, std::size_t at) const {
+    if (!node.IsMap()) fail(setting_.origin, fmt::format("{} is no mapping in the scenario", object.name));
+    const Field& field = find(object, steps_[at], setting_.origin);
+    if (at + 1 == steps_.size()) {
+      put(node[field.name]);
+    } else if (has_items(field)) {
+      write(item(node[field.name], field, steps_[at + 1]), *field.type.object, at + 2);
+    } else {
+      if (!node[field.name].IsDefined()) node[field.name] = YAML::Node(YAML::NodeType::Map);
+      write(node[field.name], *field.type.object, at + 1);
+    }
+  }
+
+ private:
+  /// Text goes into the node that is there, which so keeps its line for errors; it counts as quoted.
+  void put(YAML::Node slot) const {
+    if (!value_.IsScalar()) {
+      slot = YAML::Clone(value_);
+      return;
+    }
+    slot = value_.Scalar();
+    slot.SetTag("!");
+  }
+
+  YAML::Node item(const YAML::Node& list, const Field& field, const std::string& step) const {
+    if (!list.IsDefined() || !list.IsSequence() || list.size() == 0)
+      fail(setting_.origin, fmt::format("the scenario has no {}", field.name));
+    if (const std::optional<std::size_t> number = item_number(list, step)) return list[*number];
+    const std::vector<std::string> names = item_names(list);
+    fail(setting_.origin,
+         fmt::format("{} has no item {}{}, allowed are 0 to {}{}", field.name, step, did_you_mean(step, names),
+                     list.size() - 1, names.empty() ? "" : " and " + join(names)));
+  }
+
+  const Setting& setting_;
+  const Steps& steps_;
+  const YAML::Node& value_;
+};
+
+}  // namespace
+
+Setting parse_setting(const std::string& option, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string origin = option + " " + text;
+  if (equals == std::string::npos || equals == 0) fail(origin, "allowed is PATH=VALUE, like user_cpu.cycle=40us");
+  return {text.substr(0, equals), text.substr(equals + 1), origin};
+}
+
+const Field& field_of(const std::string& path, const std::string& origin) {
+  const Steps steps = split(path);
+  return walk(of_every_slave(steps[0]) ? slave_keys() : description(), steps, 0, origin);
+}
+
+void apply(const Setting& setting, YAML::Node& root) {
+  const Field& field = field_of(setting.path, setting.origin);
+  const YAML::Node value = value_of(field, setting);
+  const Steps steps = split(setting.path);
+  const Writer writer(setting, steps, value);
+  if (!of_every_slave(steps[0])) return writer.write(root, description(), 0);
+  const YAML::Node slaves = root.IsMap() ? root["slaves"] : YAML::Node();
+  if (!slaves.IsDefined() || !slaves.IsSequence()) return;  // the reader says what is wrong with it
+  for (const YAML::Node& slave : slaves) writer.write(slave, slave_keys(), 0);
+}
+
+}  // namespace tb::scenario
