@@ -1,6 +1,6 @@
 #pragma once
-// Where processor and debugger meet: the processor implements DebugTarget and calls Debugger. One thread; calls of either kind are made
-// between two instructions only, when the registers are those of the instruction that comes next.
+// Where processor and debugger meet: the processor implements DebugTarget and calls Debugger. One thread; calls of either
+// kind, data_access() apart, are made between two instructions, when the registers are those of the one that comes next.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -41,13 +41,14 @@ class DebugTarget {
   virtual ~DebugTarget() = default;
 
   virtual std::uint32_t read_register(Register which) const = 0;
-  /// Also of kPc while it is halted: the run goes on there.
+  /// Also of kPc (bit 0 is clear): the run goes on there.
   virtual void write_register(Register which, std::uint32_t value) = 0;
 
   virtual std::vector<MemoryRegion> memory_map() const = 0;
   /// Copies `count` bytes from `address`; returns how many could be read, from the first on.
   virtual std::size_t read_memory(std::uint32_t address, std::uint8_t* to, std::size_t count) const = 0;
-  /// False, and nothing written, when one of the bytes cannot be: flash is not writable, the run's firmware is that of the scenario.
+  /// False, and nothing written, when one of the bytes cannot be: flash is not writable, the run's firmware is that of the
+  /// scenario.
   virtual bool write_memory(std::uint32_t address, const std::uint8_t* from, std::size_t count) = 0;
 
   /// From now on data accesses are reported by Debugger::data_access(), or no longer. False: it cannot, there are no watchpoints.
@@ -70,17 +71,18 @@ class Debugger {
   /// Whether before_instruction() must be called for every instruction. Changes only in calls of this class: look after each of
   /// poll() and before_instruction(). While false, poll() now and then is enough and the processor may run as fast as it can.
   virtual bool wanted() const = 0;
-  /// Before each instruction, those of handlers too; returns when it may be executed. Meanwhile registers (kPc!) and memory may have been
-  /// changed and end_run() or reset() called. Costs a few nanoseconds when nothing stops the run.
+  /// Before each instruction, those of handlers too; returns when it may be executed. Meanwhile registers (kPc!) and memory
+  /// may have been changed and end_run() or reset() called. Costs a few nanoseconds when nothing stops the run.
   virtual void before_instruction(std::uint32_t pc) = 0;
-  /// An access of the instruction that is being executed, after report_data_accesses(true). Never halts: the run stops before the next
-  /// instruction. `size` is 1, 2 or 4 bytes. Instruction fetches and the debugger's own accesses are not meant.
+  /// An access of the instruction that is being executed, after report_data_accesses(true). Never halts: the run stops before
+  /// the next instruction. `size` is 1, 2 or 4 bytes. Instruction fetches and the debugger's own accesses are not meant.
   virtual void data_access(std::uint32_t address, std::uint32_t size, bool write) = 0;
-  /// Looks for gdb: whether it connects, wants a halt (Ctrl-C), has gone. To be called now and then between instructions, about every
-  /// 10 ms of real time, also while the processor sleeps (WFI); a system call. Returns at once unless gdb wants the processor halted; then like
-  /// before_instruction().
+  /// Looks for gdb: whether it connects, wants a halt (Ctrl-C), has gone. To be called now and then between instructions,
+  /// about every 10 ms of real time, also while the processor sleeps (WFI); a system call. Returns at once unless gdb wants the
+  /// processor halted; then like before_instruction().
   virtual void poll() = 0;
-  /// The processor cannot go on: a fault that nobody handles, in words. Halts so that the user can look; the run ends when it returns.
+  /// The processor cannot go on: a fault that nobody handles, in words. Halts so that the user can look, when gdb is attached;
+  /// the run ends when it returns.
   virtual void fault(const std::string& what) = 0;
 };
 

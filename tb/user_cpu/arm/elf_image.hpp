@@ -1,5 +1,6 @@
 #pragma once
-// The firmware: what of an ELF file (System V gABI chapters 4 and 5, ELF for the ARM Architecture) goes into the board's memories.
+// The firmware: what of an ELF file (System V gABI chapters 4 and 5, ELF for the ARM Architecture) goes into the board's
+// memories.
 #include <cstdint>
 #include <map>
 #include <string>
@@ -45,9 +46,9 @@ struct ElfImage {
                 ///< of the same name
 };
 
-/// An executable for ARM, 32 bit, little endian, whose segments lie in the memories, with a vector table whose stack pointer lies in (or at
-/// the end of) RAM and whose reset handler lies in flash. Throws tb::InputError, `path: what is wrong, what is allowed`, for every other
-/// file.
+/// An executable for ARM, 32 bit, little endian, whose segments lie in the memories, with a vector table whose stack pointer
+/// lies in RAM or at its end and whose reset handler lies in flash. Throws tb::InputError, `path: what is wrong, what is
+/// allowed`, for every other file.
 ElfImage load_elf(const std::string& path, const FirmwareMemory& memory = {});
 
 /// The same from the bytes of a file; `path` is for messages only.
