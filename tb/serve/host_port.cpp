@@ -6,13 +6,9 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 namespace tb::serve {
-
-void Descriptor::reset(int fd) {
-  if (fd_ >= 0) ::close(fd_);
-  fd_ = fd;
-}
 
 namespace {
 bool for_later(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }

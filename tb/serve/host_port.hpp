@@ -5,27 +5,11 @@
 #include <cstddef>
 #include <functional>
 #include <string>
-#include <utility>
 
 #include "bus/bytes.hpp"
+#include "tb/socket/descriptor.hpp"
 
 namespace tb::serve {
-
-/// A file descriptor that is closed at the end; -1 is none.
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  ~Descriptor() { reset(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return fd_; }
-  explicit operator bool() const { return fd_ >= 0; }
-  void reset(int fd = -1);
-  int release() { return std::exchange(fd_, -1); }
-
- private:
-  int fd_;
-};
 
 class HostPort {
  public:

@@ -1,0 +1,68 @@
+#include "tb/socket/tcp_listener.hpp"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "tb/scenario/input_error.hpp"
+
+namespace tb {
+namespace {
+
+sockaddr_in address_of(const std::string& who, const std::string& bind, int port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  if (::inet_pton(AF_INET, bind.c_str(), &address.sin_addr) != 1) {
+    throw InputError(
+        fmt::format("{}: --bind is {}, allowed is an IPv4 address such as 127.0.0.1 or 0.0.0.0", who, bind));
+  }
+  return address;
+}
+
+std::string text_of(const sockaddr_in& address) {
+  std::array<char, INET_ADDRSTRLEN> text{};
+  ::inet_ntop(AF_INET, &address.sin_addr, text.data(), static_cast<socklen_t>(text.size()));
+  return fmt::format("{}:{}", text.data(), ntohs(address.sin_port));
+}
+
+int listen_at(const std::string& who, const sockaddr_in& address) {
+  Descriptor listener(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const int on = 1;
+  ::setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (!listener || ::bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      ::listen(listener.get(), 4) != 0) {
+    throw InputError(fmt::format("{}: TCP port {} cannot be had: {}, allowed is a free one", who, text_of(address),
+                                 std::strerror(errno)));
+  }
+  return listener.release();
+}
+
+}  // namespace
+
+TcpListener::TcpListener(const std::string& who, const std::string& bind, int port)
+    : listener_(listen_at(who, address_of(who, bind, port))) {
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  ::getsockname(listener_.get(), reinterpret_cast<sockaddr*>(&address), &size);
+  port_ = ntohs(address.sin_port);
+  address_ = text_of(address);
+}
+
+TcpListener::Connection TcpListener::accept() {
+  sockaddr_in from{};
+  socklen_t size = sizeof from;
+  const int fd = ::accept4(listener_.get(), reinterpret_cast<sockaddr*>(&from), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
+  if (fd < 0) return {-1, ""};
+  const int on = 1;
+  ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  return {fd, text_of(from)};
+}
+
+}  // namespace tb

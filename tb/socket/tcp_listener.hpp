@@ -1,0 +1,35 @@
+#pragma once
+// A TCP port that others connect to. Nothing here is ever waited for.
+#include <string>
+
+#include "tb/socket/descriptor.hpp"
+
+namespace tb {
+
+class TcpListener {
+ public:
+  /// Listens at the numeric IPv4 address `bind`; port 0 is any free one. Throws InputError, which begins with `who`, when
+  /// that cannot be had.
+  TcpListener(const std::string& who, const std::string& bind, int port);
+
+  /// Which port it has become.
+  int port() const { return port_; }
+  /// "127.0.0.1:2331"
+  const std::string& address() const { return address_; }
+  /// For poll(2).
+  int descriptor() const { return listener_.get(); }
+
+  struct Connection {
+    int descriptor;    ///< the caller closes it; -1: nobody has connected
+    std::string from;  ///< address of the other side, as address()
+  };
+  /// The next connection: not blocking, bytes go out at once (TCP_NODELAY).
+  Connection accept();
+
+ private:
+  Descriptor listener_;
+  int port_;
+  std::string address_;
+};
+
+}  // namespace tb

@@ -1,0 +1,43 @@
+#pragma once
+// The connection with gdb: one at a time, over TCP, on this machine only.
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "tb/socket/descriptor.hpp"
+#include "tb/socket/tcp_listener.hpp"
+#include "tb/user_cpu/arm/gdb_packet.hpp"
+
+namespace arm {
+
+class GdbLink {
+ public:
+  /// Listens at 127.0.0.1; port 0 is any free one. Throws tb::InputError when the port cannot be had.
+  explicit GdbLink(int port) : listener_("--gdb", "127.0.0.1", port) {}
+
+  int port() const { return listener_.port(); }
+  bool connected() const { return static_cast<bool>(gdb_); }
+
+  /// Takes in what has come, connections too; waits up to `milliseconds` (real time) for something, or for a signal. A
+  /// second gdb is turned away.
+  void look(int milliseconds);
+  /// The next packet, or Ctrl-C. Acknowledges, asks for repetition and repeats as the protocol wants.
+  std::optional<GdbInput> next();
+  void send(std::string_view payload);
+  /// From now on neither side acknowledges (QStartNoAckMode).
+  void stop_acknowledging() { acknowledge_ = false; }
+  void close();
+
+ private:
+  void accept();
+  void receive();
+  void write(std::string_view bytes);
+
+  tb::TcpListener listener_;
+  tb::Descriptor gdb_;
+  GdbReader reader_;
+  std::string last_;  ///< as it was sent, for repetition
+  bool acknowledge_ = true;
+};
+
+}  // namespace arm

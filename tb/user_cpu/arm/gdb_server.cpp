@@ -1,0 +1,148 @@
+#include "tb/user_cpu/arm/gdb_server.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace arm {
+namespace {
+
+constexpr int kLookMs = 100;  // real time between two looks at `stopped` while the processor is halted
+
+// Stop replies: signals by gdb's numbers, and the one thread.
+constexpr const char* kInterrupted = "T02thread:1;";  // SIGINT
+constexpr const char* kTrapped = "T05thread:1;";      // SIGTRAP
+constexpr const char* kFaulted = "T0bthread:1;";      // SIGSEGV
+constexpr const char* kRunHasEnded = "W00";
+
+std::string watch_reply(const Watchpoint& point) {
+  const char* const name = point.kind == Watchpoint::Kind::kWrite  ? "watch"
+                           : point.kind == Watchpoint::Kind::kRead ? "rwatch"
+                                                                   : "awatch";
+  return fmt::format("{}{}:{:x};", kTrapped, name, point.address);
+}
+
+}  // namespace
+
+GdbServer::GdbServer(DebugTarget& target, GdbOptions options)
+    : target_(target), options_(std::move(options)), link_(options_.port), commands_(target) {
+  commands_.set_stop_reply(kTrapped);
+}
+
+GdbServer::~GdbServer() {
+  if (attached_ && link_.connected()) link_.send(kRunHasEnded);
+}
+
+void GdbServer::data_access(std::uint32_t address, std::uint32_t size, bool write) {
+  if (!watch_hit_.empty() || over_) return;
+  const auto point = commands_.watchpoints().met_by(address, size, write);
+  if (!point) return;
+  watch_hit_ = watch_reply(*point);
+  due_ = true;
+}
+
+void GdbServer::consider(std::uint32_t pc) {
+  if (over_) return;
+  if (waiting_) return wait_for_gdb();
+  if (const auto reply = reason_to_stop(pc)) stop(*reply);
+}
+
+std::optional<std::string> GdbServer::reason_to_stop(std::uint32_t pc) const {
+  if (!watch_hit_.empty()) return watch_hit_;
+  if (commands_.breakpoints().at(pc)) return kTrapped;
+  if (stepping_ && !commands_.step_range().holds(pc)) return kTrapped;
+  return std::nullopt;
+}
+
+void GdbServer::wait_for_gdb() {
+  options_.say(fmt::format("waiting for gdb: target remote localhost:{}", port()));
+  while (!link_.connected() && !options_.stopped()) link_.look(kLookMs);
+  converse();
+}
+
+void GdbServer::stop(const std::string& reply) {
+  commands_.set_stop_reply(reply);
+  link_.send(reply);
+  converse();
+}
+
+void GdbServer::converse() {
+  attached_ = attached_ || link_.connected();
+  waiting_ = stepping_ = due_ = false;
+  watch_hit_.clear();
+  while (!options_.stopped()) {
+    if (!link_.connected()) return let_go();
+    if (const auto input = link_.next()) {
+      // Ctrl-C that came too late: the processor is halted already.
+      if (input->kind == GdbInput::Kind::kPacket && carry_out(input->packet)) return;
+    } else {
+      link_.look(kLookMs);
+    }
+  }
+  end();
+}
+
+/// Whether the processor goes on.
+bool GdbServer::carry_out(const std::string& packet) {
+  const GdbCommands::Result result = commands_.execute(packet);
+  if (result.reply) link_.send(*result.reply);
+  if (result.stop_acknowledging) link_.stop_acknowledging();
+  resume(result.resumption);
+  return result.resumption != Resumption::kNone;
+}
+
+void GdbServer::resume(Resumption how) {
+  switch (how) {
+    case Resumption::kNone:
+    case Resumption::kContinue: break;
+    case Resumption::kStep: stepping_ = due_ = true; break;
+    case Resumption::kDetach:
+      attached_ = false;
+      let_go();
+      break;
+    case Resumption::kKill:
+      end();
+      target_.end_run();
+      break;
+  }
+}
+
+void GdbServer::end() {
+  over_ = true;
+  attached_ = false;
+  let_go();
+}
+
+void GdbServer::let_go() {
+  if (std::exchange(attached_, false)) options_.say("gdb has gone without `detach`: the run goes on");
+  link_.close();
+  commands_.forget_stops();
+  watch_hit_.clear();
+  stepping_ = due_ = false;
+}
+
+void GdbServer::poll() {
+  if (over_) return;
+  if (waiting_) return wait_for_gdb();
+  link_.look(0);
+  if (!link_.connected()) {
+    if (attached_) let_go();
+    return;
+  }
+  if (!attached_) {
+    commands_.set_stop_reply(kTrapped);
+    return converse();
+  }
+  while (const auto input = link_.next()) {
+    if (input->kind == GdbInput::Kind::kInterrupt) return stop(kInterrupted);
+  }
+}
+
+void GdbServer::fault(const std::string& what) {
+  poll();
+  if (!attached_ || over_) return;
+  link_.send("O" + to_hex(what + "\n"));
+  stop(kFaulted);
+}
+
+}  // namespace arm
