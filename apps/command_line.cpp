@@ -46,6 +46,11 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
                    "Wave of both sides, written when --engine lockstep finds a difference")
       ->capture_default_str();
   add_set_option(*command, arguments.set);
+  command
+      ->add_option(
+          "--gdb", arguments.gdb,
+          "TCP port (0: any free one) where gdb-multiarch attaches to the first ARM board; the run waits for it")
+      ->check(CLI::Range(0, 65535));
   command->add_flag_callback(
       "--progress", [&arguments] { arguments.progress = true; },
       "Show a progress bar (on a terminal it is shown anyway)");
@@ -58,6 +63,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
                   "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
                   "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
                   "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
+                  "  dsdpv1-sim run scenarios/arm_board_12m.yaml --gdb 3333\n"
                   "  dsdpv1-sim run my.yaml --engine lockstep --difference both.vcd\n") +
       kExitCodes);
 }

@@ -18,6 +18,7 @@ struct RunArguments {
   std::string difference = "lockstep.vcd";  ///< wave of a lockstep run's first difference
   std::optional<bool> progress;             ///< absent: on a terminal
   std::vector<std::string> set;             ///< PATH=VALUE: keys other than in the file
+  std::optional<int> gdb;                   ///< TCP port for the debugger of the first ARM board
   bool quiet = false;
 };
 

@@ -46,6 +46,15 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   options.wave = arguments.wave;
   options.log = arguments.log;
   options.trace = arguments.trace;
+  if (arguments.gdb) {
+    const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
+    options.gdb = tb::GdbWish{*arguments.gdb, say, interrupted};
+  }
+  if (!arguments.quiet) {
+    options.on_text = [](const std::string& station, const std::string& line) {
+      std::cout << station << "| " << line << std::endl;
+    };
+  }
   return options;
 }
 
@@ -94,11 +103,19 @@ int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arg
   return status == kPassed && !same ? kFailed : status;
 }
 
+void check_has_board(const tb::scenario::Scenario& scenario) {
+  for (const tb::scenario::Slave& slave : scenario.slaves)
+    if (slave.user_cpu.kind == tb::scenario::CpuKind::kArm) return;
+  throw tb::InputError("dsdpv1-sim run: --gdb needs a slave whose user_cpu has kind: arm, " + scenario.file +
+                       " has none");
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
   const tb::RunOptions options = options_of(arguments);
   const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario, settings_of(arguments.set));
+  if (arguments.gdb) check_has_board(scenario);
   if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, reference_rtl);
   if (arguments.engine == "rtl")
     return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(reference_rtl));

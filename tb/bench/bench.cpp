@@ -10,7 +10,6 @@
 
 #include "bus/explain.hpp"
 #include "tb/bench/script.hpp"
-#include "tb/bench/user_maker.hpp"
 #include "tb/scenario/event_codes.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/units.hpp"
@@ -79,9 +78,17 @@ void Bench::add_slave(const scenario::Slave& slave) {
   config.engine = options_.engine;
   user_cpu::StationConfig station = setup_.station(slave);
   std::unique_ptr<ChipView> chip = execution_->make_chip(slave.name.text, config, watched_pins());
-  MakeUser make_user = user_maker(scenario_, slave, *chip);
+  MakeUser make_user = user_maker(scenario_, slave, *chip, gdb_of(slave));
   slaves_.push_back(std::make_unique<SlaveStation>(slave, std::move(station), std::move(chip), std::move(make_user)));
   connect(*slaves_.back(), slaves_.size() - 1);
+}
+
+const GdbWish* Bench::gdb_of(const scenario::Slave& slave) const {
+  const auto& slaves = scenario_.slaves;
+  const auto first = std::find_if(slaves.begin(), slaves.end(), [](const scenario::Slave& each) {
+    return each.user_cpu.kind == scenario::CpuKind::kArm;
+  });
+  return options_.gdb && first != slaves.end() && &*first == &slave ? &*options_.gdb : nullptr;
 }
 
 void Bench::connect(SlaveStation& station, std::size_t index) {
@@ -91,6 +98,13 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
   };
   station.chip().on_event = [this, index](const profibus::Event& event) { chip_event(index, event); };
   station.on_driver_error = [this, &station](const user_cpu::DriverError& error) { driver_error(station, error); };
+  station.on_text = [this, &station](Tick at, const std::string& line) {
+    log(at, station.name(), "text", line);
+    if (options_.on_text) options_.on_text(station.name(), line);
+  };
+  station.on_failure = [this, &station](Tick at, const std::string& why, const std::string& registers) {
+    user_failed(station, at, why, registers);
+  };
   station.on_outputs = [this, &station](Tick at, bool changed) {
     if (changed) log(at, station.name(), "user", "outputs " + bytes_text(station.outputs()));
     touch();
@@ -205,6 +219,13 @@ void Bench::driver_error(const SlaveStation& station, const user_cpu::DriverErro
   happened({error.at, station.name(), scenario::driver_error_code(error.error), profibus::Severity::kRefusal, text});
   touch();
 }
+
+void Bench::user_failed(const SlaveStation& station, Tick at, const std::string& why, const std::string& registers) {
+  happened({at, station.name(), scenario::kFirmwareFault, profibus::Severity::kViolation, why});
+  registers_ = registers;
+}
+
+bool Bench::stopped() const { return pulse_->stopped() || !registers_.empty(); }
 
 void Bench::telegram(const bus::WireTelegram& telegram) {
   const std::string words = telegram.decoded.readable ? bus::explain_line(telegram.decoded.telegram) : "not readable";
@@ -331,7 +352,7 @@ RunResult Bench::run(const std::function<bool(Tick)>& poll) {
     if (log_) log_->flush(at - 1);
     return poll(at);
   };
-  execution_->run(scenario_.end, [this] { return pulse_->stopped(); });
+  execution_->run(scenario_.end, [this] { return stopped(); });
   RunResult result = collect();
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   finish_outputs();
@@ -345,7 +366,8 @@ RunResult Bench::collect() {
   result.engine = options_.engine_name;
   result.view = options_.view_name;
   result.interrupted = pulse_->stopped() && !options_.open_ended;
-  result.simulated = pulse_->stopped() ? now() : scenario_.end;
+  result.simulated = stopped() ? now() : scenario_.end;
+  result.fault_registers = registers_;
   result.telegrams = monitor_->statistics().telegrams;
   result.wrong_telegrams = monitor_->statistics().wrong;
   result.violations = violations_;
@@ -373,7 +395,7 @@ RunResult Bench::collect() {
 }
 
 void Bench::finish_outputs() {
-  if (waves_) waves_->finish(std::max(now(), pulse_->stopped() ? now() : scenario_.end));
+  if (waves_) waves_->finish(std::max(now(), stopped() ? now() : scenario_.end));
   if (log_) log_->finish();
   if (trace_) trace_->finish();
 }

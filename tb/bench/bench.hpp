@@ -18,6 +18,7 @@
 #include "tb/bench/run_log.hpp"
 #include "tb/bench/setup.hpp"
 #include "tb/bench/slave_station.hpp"
+#include "tb/bench/user_maker.hpp"
 #include "tb/bench/wave_recorder.hpp"
 #include "tb/scenario/scenario.hpp"
 
@@ -29,6 +30,8 @@ struct RunOptions {
   dsdpv1::Engine engine = dsdpv1::Engine::kSkip;
   std::string engine_name = "skip", view_name = "pins";
   std::string wave, log, trace;  ///< paths, empty: not wanted
+  std::optional<GdbWish> gdb;    ///< debugger of the first ARM board
+  std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
   bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
 };
 
@@ -92,6 +95,9 @@ class Bench {
   void begin_waves();
   void pin_changed(std::size_t index, Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void chip_event(std::size_t index, const profibus::Event& event);
+  const GdbWish* gdb_of(const scenario::Slave& slave) const;
+  void user_failed(const SlaveStation& station, Tick at, const std::string& why, const std::string& registers);
+  bool stopped() const;
   void driver_error(const SlaveStation& station, const user_cpu::DriverError& error);
   void telegram(const bus::WireTelegram& telegram);
   void flagged(const bus::Flag& flag);
@@ -117,6 +123,7 @@ class Bench {
 
   std::vector<Happening> happenings_;
   std::uint64_t happenings_dropped_ = 0, violations_ = 0;
+  std::string registers_;  ///< of the processor that cannot go on; the run ends with it
   std::map<std::string, std::map<std::string, std::uint64_t>> counts_;  ///< by station and code
   std::map<std::string, std::map<scenario::Do, Reply>> replies_;        ///< by master and service
 };

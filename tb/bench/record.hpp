@@ -75,6 +75,7 @@ struct RunResult {
   std::uint64_t happenings_dropped = 0;  ///< beyond the first kKept
   std::vector<ExpectationResult> expectations;
   std::optional<Pacing> pacing;
+  std::string fault_registers;  ///< of the ARM board whose fault ended the run, a few lines; else empty
 
   static constexpr std::size_t kKept = 10'000;
   /// Simulated time over wall time, 0 when nothing was measured.

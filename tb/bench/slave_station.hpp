@@ -50,7 +50,8 @@ class SlaveStation : public bus::Agent {
 
   std::function<void(const user_cpu::DriverError&)> on_driver_error;
   /// As user_cpu::UserSide has them.
-  std::function<void(Tick at, const std::string&line)> on_text, on_failure;
+  std::function<void(Tick at, const std::string& line)> on_text;
+  std::function<void(Tick at, const std::string& why, const std::string& registers)> on_failure;
   /// The user CPU has fetched outputs, other ones than before when `changed`.
   std::function<void(Tick at, bool changed)> on_outputs;
 

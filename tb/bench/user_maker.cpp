@@ -1,7 +1,16 @@
 #include "tb/bench/user_maker.hpp"
 
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "tb/scenario/input_error.hpp"
 #include "tb/user_cpu/fsmc_timing.hpp"
 #include "tb/user_cpu/native_user.hpp"
+#ifdef DSDPV1_HAS_ARM_BOARD
+#include "tb/user_cpu/arm/board.hpp"
+#include "tb/user_cpu/arm/gdb_server.hpp"
+#endif
 
 namespace tb {
 namespace {
@@ -56,10 +65,58 @@ MakeUser native_user(const scenario::UserCpu& user, ChipView& chip) {
   };
 }
 
+#ifdef DSDPV1_HAS_ARM_BOARD
+
+/// The script's actions for the user CPU reach firmware through its mailbox only.
+void check_mailbox(const scenario::Scenario& scenario, const scenario::Slave& slave, const arm::Firmware& firmware) {
+  if (firmware.mailbox) return;
+  for (const scenario::Action& action : scenario.script) {
+    if (action.slave.text == slave.name.text && scenario::is_for_user_cpu(action.what))
+      throw InputError(scenario.file, action.line,
+                       fmt::format("{} has no mailbox ({}), allowed are actions for the master and the bus",
+                                   firmware.path, DSDPV1_MAILBOX_SYMBOL));
+  }
+}
+
+MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip,
+                  const GdbWish* gdb) {
+  const scenario::UserCpu& user = slave.user_cpu;
+  arm::BoardOptions options;
+  options.firmware = arm::load_firmware(scenario::resolve(scenario, user.elf));
+  check_mailbox(scenario, slave, *options.firmware);
+  options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(user.cpi * 1000);
+  if (user.fsmc) options.fsmc = *user.fsmc;
+  options.hclk_mhz = options.fsmc.hclk_mhz.value_or(options.hclk_mhz);
+  if (gdb != nullptr) {
+    options.make_debugger = [gdb](arm::DebugTarget& target) {
+      return std::make_unique<arm::GdbServer>(target, arm::GdbOptions{gdb->port, gdb->stopped, gdb->say});
+    };
+  }
+  return [&user, &chip, options](const user_cpu::StationConfig& station, Tick start) {
+    arm::BoardOptions now = options;
+    now.program = program_options(user, station);
+    const auto set_chip_reset = [&chip](Tick at, bool level) { chip.set_reset(at, level); };
+    return std::make_unique<arm::Board>(chip.host_bus(), std::move(now), set_chip_reset, start);
+  };
+}
+
+#endif
+
 }  // namespace
 
-MakeUser user_maker(const scenario::Scenario&, const scenario::Slave& slave, ChipView& chip) {
+#ifdef DSDPV1_HAS_ARM_BOARD
+MakeUser user_maker(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip,
+                    const GdbWish* gdb) {
+  return slave.user_cpu.kind == scenario::CpuKind::kArm ? arm_user(scenario, slave, chip, gdb)
+                                                        : native_user(slave.user_cpu, chip);
+}
+#else
+MakeUser user_maker(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip, const GdbWish*) {
+  if (slave.user_cpu.kind == scenario::CpuKind::kArm)
+    throw InputError(scenario.file, slave.user_cpu.line,
+                     "kind is arm, this program was built without the ARM board (libunicorn), allowed is native");
   return native_user(slave.user_cpu, chip);
 }
+#endif
 
 }  // namespace tb

@@ -38,6 +38,10 @@ Json user_of(const SlaveResult& slave) {
           {"driver_errors", program.driver_errors},   {"bad_reads", slave.user.cpu.bad_reads}};
 }
 
+Json board_of(const user_cpu::BoardReport& board) {
+  return {{"instructions", board.instructions}, {"hclk_cycles", board.cycles}, {"notes", board.notes}};
+}
+
 Json registry_of(const profibus::RmRegistry& registry) {
   Json rows = Json::array();
   int sap = profibus::kC2FirstSap;
@@ -64,6 +68,7 @@ Json slave_of(const SlaveResult& slave) {
   json["tsdr"] = tsdr_of(slave);
   json["handshake"] = handshake_of(slave);
   json["user_cpu"] = user_of(slave);
+  if (slave.board) json["arm_board"] = board_of(*slave.board);
   json["master_state"] = slave.master_state;
   json["master_reason"] = slave.master_reason;
   json["inputs"] = bytes_text(slave.inputs, slave.inputs.size());

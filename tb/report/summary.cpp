@@ -126,6 +126,18 @@ std::string pacing(const Pacing& pacing) {
   return text;
 }
 
+std::string boards(const RunResult& result) {
+  std::string text;
+  for (const SlaveResult& slave : result.slaves) {
+    if (!slave.board) continue;
+    text += fmt::format("  ARM board      {}: {} instructions, {:.1f} million a second\n", slave.name,
+                        slave.board->instructions,
+                        static_cast<double>(slave.board->instructions) / 1e6 / std::max(result.wall_s, 1e-9));
+    for (const std::string& note : slave.board->notes) text += fmt::format("                 {}\n", note);
+  }
+  return text + result.fault_registers;
+}
+
 }  // namespace
 
 std::string summary(const RunResult& result) {
@@ -135,6 +147,7 @@ std::string summary(const RunResult& result) {
       fmt::format("  simulated      {} in {:.2f} s: {:.2f} times real time (engine {}, view {})\n",
                   time_text(result.simulated), result.wall_s, result.real_time_factor(), result.engine, result.view);
   if (result.pacing) text += pacing(*result.pacing);
+  text += boards(result);
   if (result.violations != 0)
     text += fmt::format("  violations     {} that the scenario does not allow\n", result.violations);
   text += expectations(result);

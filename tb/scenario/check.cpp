@@ -88,6 +88,7 @@ class Checker {
 
   void check_slave(const Slave& slave) const {
     check_objects(slave.user_cpu.dpv1);
+    check_cpu(slave);
     if (slave.gsd.empty() && !slave.modules.empty())
       fail(slave.modules.front().line, "modules without gsd, allowed are the modules of a GSD file");
     if (!slave.gsd.empty()) return;
@@ -101,6 +102,18 @@ class Checker {
     need(init.max_inputs.has_value(), "max_inputs");
     need(init.max_outputs.has_value(), "max_outputs");
     need(init.cfg.has_value(), "cfg");
+  }
+
+  void check_cpu(const Slave& slave) const {
+    const UserCpu& user = slave.user_cpu;
+    const bool arm = user.kind == CpuKind::kArm;
+    if (arm && user.elf.empty())
+      fail(slave.line, fmt::format("elf is missing, slave {} has an ARM board that runs it", slave.name.text));
+    if (!arm && !user.elf.empty()) fail(user.elf.line, "elf without kind: arm, allowed is firmware of an ARM board");
+    for (const int line : {user.timing.line, user.access.line}) {
+      if (arm && line != 0)
+        fail(line, "timing and access are those of kind: native, allowed with arm are cpi and fsmc");
+    }
   }
 
   void check_objects(const Dpv1User& user) const {

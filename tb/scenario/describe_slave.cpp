@@ -111,7 +111,17 @@ const ObjectOf<CpuTimes>& timing_keys() {
 const ObjectOf<UserCpu>& user_cpu_keys() {
   static const ObjectOf<UserCpu> keys = [] {
     using U = UserCpu;
-    ObjectOf<U> o("user_cpu", "The user CPU: it runs the shipped C driver.");
+    ObjectOf<U> o(
+        "user_cpu",
+        "The user CPU: it runs the shipped C driver, or firmware of your own. What says how it behaves reaches "
+        "firmware only through the mailbox of tb/user_cpu/arm/mailbox.h.");
+    o.word("kind", &U::kind,
+           std::vector<WordFor<CpuKind>>{
+               {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing` and `access`"},
+               {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"}},
+           "Who runs it.");
+    o.file("elf", &U::elf, "Firmware of the ARM board, relative to the scenario's folder.");
+    o.number("cpi", &U::cpi, {1, 10}, "HCLK", "Cycles per instruction of the ARM board, an estimate.");
     o.word("behaviour", &U::behaviour,
            std::vector<WordFor<Behaviour>>{
                {Behaviour::kLoopBack, "loop_back", "inputs are the last outputs, cut or filled with 0"},

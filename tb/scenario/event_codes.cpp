@@ -34,6 +34,7 @@ const std::vector<std::string>& all_codes() {
 #undef X
     for (std::size_t kind = 0; kind < bus::kFlagKinds; ++kind)
       list.push_back(flag_code(static_cast<bus::FlagKind>(kind)));
+    list.emplace_back(kFirmwareFault);
     return list;
   }();
   return codes;

@@ -12,7 +12,9 @@ namespace tb::scenario {
 std::string flag_code(bus::FlagKind kind);
 /// "DSDPV1_ERR_INIT_CRC", ...: what a call of the driver returned.
 std::string driver_error_code(dsdpv1_error error);
-/// All codes of the chip, the driver and the monitor.
+/// The firmware of an ARM board stopped with a fault.
+constexpr const char* kFirmwareFault = "ARM_FAULT";
+/// All codes of the chip, the driver, the monitor and the ARM board.
 const std::vector<std::string>& all_codes();
 
 }  // namespace tb::scenario

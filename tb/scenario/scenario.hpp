@@ -137,7 +137,12 @@ struct Dpv1User {
   int line = 0;
 };
 
+enum class CpuKind : std::uint8_t { kNative, kArm };
+
 struct UserCpu {
+  CpuKind kind = CpuKind::kNative;
+  Name elf;          ///< kArm
+  double cpi = 1.5;  ///< kArm: cycles of HCLK per instruction
   Behaviour behaviour = Behaviour::kLoopBack;
   bus::Bytes constant;
   bool overwrite_inputs = true;  ///< DSDPV1_INPUT_NEWEST
@@ -203,6 +208,9 @@ enum class Do : std::uint8_t {
   kC2Raw,
   kGlitch,
 };
+
+/// What the program on the user CPU has to carry out itself.
+constexpr bool is_for_user_cpu(Do what) { return what <= Do::kAnswerAcyclic && what != Do::kResetChip; }
 
 /// Something about a slave (or the telegrams of the bus) that is true or not at a point of time; all parts given must hold.
 struct Condition {

@@ -50,8 +50,8 @@ class UserSide : public bus::Agent {
   std::function<void(const DriverError&)> on_driver_error;
   /// A line of text that the program printed.
   std::function<void(Tick at, const std::string& line)> on_text;
-  /// The processor cannot go on, in words; several lines.
-  std::function<void(Tick at, const std::string& text)> on_failure;
+  /// The processor cannot go on: why, in one line, and its registers in several.
+  std::function<void(Tick at, const std::string& why, const std::string& registers)> on_failure;
 };
 
 }  // namespace user_cpu

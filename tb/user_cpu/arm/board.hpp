@@ -1,0 +1,121 @@
+#pragma once
+// An evaluation board with an STM32F103 as a station's user CPU: it runs the firmware that is meant for the real board.
+//
+//   PC6 R_REQ, PC7 R_STA  outputs; low while the firmware has not made them outputs (pull-down on the board)
+//   PC8 L_REQ, PC9 L_STA  inputs
+//   PE4 RESET             of the chip; high while it is no output (pull-up on the board)
+//   PG6 INTR0             through AFIO, EXTI line 6, IRQ 23
+//   FSMC bank 1, NE1      0x60000000..0x63FFFFFF: A10..A0, D7..D0, RD, WR, CSR; the 2 KB repeat
+//   USART1                a terminal
+//
+// HCLK is 72 MHz from the first instruction on (p); an instruction takes Timing::millicycles_per_instruction, an access to a peripheral two
+// cycles more (p: the bridge to APB), an access to the chip what the FSMC's registers say.
+#include <array>
+#include <bitset>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tb/user_cpu/arm/cortex_m3.hpp"
+#include "tb/user_cpu/arm/exti.hpp"
+#include "tb/user_cpu/arm/firmware.hpp"
+#include "tb/user_cpu/arm/fsmc.hpp"
+#include "tb/user_cpu/arm/gpio.hpp"
+#include "tb/user_cpu/arm/mailbox_link.hpp"
+#include "tb/user_cpu/arm/other_registers.hpp"
+#include "tb/user_cpu/arm/rcc.hpp"
+#include "tb/user_cpu/arm/usart.hpp"
+#include "tb/user_cpu/native_cpu.hpp"
+#include "tb/user_cpu/user_side.hpp"
+
+namespace arm {
+
+using bus::Tick;
+
+struct BoardOptions {
+  std::shared_ptr<const Firmware> firmware;
+  user_cpu::ProgramOptions program;  ///< for the mailbox, when the firmware has one
+  user_cpu::FsmcOverride fsmc;
+  Timing timing;
+  int hclk_mhz = 72;
+  std::function<std::unique_ptr<Debugger>(DebugTarget&)> make_debugger;  ///< null: none
+};
+
+class Board : public user_cpu::UserSide, private System {
+ public:
+  /// Its processor leaves reset at `start`. `set_chip_reset` moves the chip's RESET pin; both must outlive the board.
+  Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick at, bool level)> set_chip_reset,
+        Tick start);
+
+  Tick next() const override { return cpu_.next(); }
+  void run(Tick now) override;
+  void intr0_changed(Tick at, bool level) override;
+  void command(Tick now, const user_cpu::Command& command) override;
+  user_cpu::UserCounters counters() const override;
+  std::uint64_t outputs_received() const override { return outputs_received_; }
+  const std::vector<std::uint8_t>& outputs() const override { return outputs_; }
+  std::optional<user_cpu::BoardReport> board() const override;
+
+ private:
+  struct Intr0Edge {
+    Tick at;
+    bool level;
+  };
+  enum Port : unsigned { kA, kB, kC, kD, kE, kF, kG, kPorts };
+  /// What is said once only; the first are the clocks of the ports.
+  enum class Noted : unsigned { kFsmcClock = kPorts, kAfioClock, kUsartClock, kWideBus, kCount };
+
+  // System
+  std::uint32_t load(std::uint32_t address, unsigned bytes) override;
+  void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
+  void keep_up() override;
+  void sleep(std::uint64_t until) override;
+  void reset() override;
+  Tick now() const override { return tick_of(core_.cycles()); }
+
+  void run_firmware(user_cpu::Cpu& cpu);
+  void failed(const Fault& fault);
+  Tick tick_of(std::uint64_t cycle) const;
+  std::uint64_t cycle_of(Tick tick) const;
+  void come_up();
+  bool take_intr0_edges();
+  void update_interrupts();
+  void update_pins();
+
+  std::uint32_t load_chip(std::uint32_t address, unsigned bytes);
+  void store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  bool may_access(std::uint32_t address, bool write);
+  std::uint32_t load_word(std::uint32_t address);
+  void store_word(std::uint32_t address, std::uint32_t value);
+  std::uint32_t load_port(unsigned port, std::uint32_t offset);
+  void look_at_clock(std::uint32_t address);
+  void note_clock(const char* peripheral, const char* reg, Noted which);
+  void note(const std::string& text, Noted which);
+
+  BoardOptions options_;
+  std::function<void(Tick at, bool level)> set_chip_reset_;
+  Tick start_;
+  std::array<Gpio, kPorts> ports_;
+  Exti exti_;
+  Rcc rcc_;
+  Usart usart_;
+  Fsmc fsmc_;
+  OtherRegisters others_;
+  std::deque<Intr0Edge> intr0_edges_;  ///< that the processor has not come to
+  bool intr0_ = true;
+  bool r_req_ = false, r_sta_ = false, chip_reset_ = true, chip_reset_due_ = false;
+  user_cpu::HandshakeCounters handshake_;
+  unsigned requests_ = 0;  ///< of exti_, as the processor knows them
+  std::bitset<static_cast<std::size_t>(Noted::kCount)> noted_;
+  std::vector<std::string> notes_;
+  CortexM3 core_;
+  std::unique_ptr<Debugger> debugger_;
+  std::optional<MailboxLink> mailbox_;
+  std::uint64_t outputs_received_ = 0;
+  std::vector<std::uint8_t> outputs_;
+  user_cpu::Cpu* pins_ = nullptr;  ///< of cpu_, while the processor runs
+  user_cpu::NativeCpu cpu_;        // ends before everything that its fiber uses
+};
+
+}  // namespace arm

@@ -1,0 +1,29 @@
+#pragma once
+// External interrupts of the STM32F103: AFIO chooses the port of each of the 16 GPIO lines, EXTI the edges (RM0008, chapters AFIO, EXTI).
+#include <array>
+#include <cstdint>
+
+namespace arm {
+
+/// Which interrupts of the NVIC the pending lines ask for: bit 0..4 lines 0..4, bit 5 lines 5 to 9, bit 6 lines 10 to 15.
+constexpr std::array<unsigned, 7> kExtiIrq = {6, 7, 8, 9, 10, 23, 40};
+
+class Exti {
+ public:
+  std::uint32_t read(std::uint32_t offset) const;
+  void write(std::uint32_t offset, std::uint32_t value);
+  std::uint32_t read_afio(std::uint32_t offset) const;
+  void write_afio(std::uint32_t offset, std::uint32_t value);
+
+  /// The pin `line` of `port` (0 = A ... 6 = G) has got this level.
+  void edge(unsigned port, unsigned line, bool level);
+  /// A bit for each of kExtiIrq whose interrupt is asked for.
+  unsigned requests() const;
+
+ private:
+  std::uint32_t imr_ = 0, emr_ = 0, rtsr_ = 0, ftsr_ = 0, swier_ = 0, pr_ = 0;
+  std::uint32_t evcr_ = 0, mapr_ = 0;
+  std::array<std::uint32_t, 4> exticr_{};
+};
+
+}  // namespace arm

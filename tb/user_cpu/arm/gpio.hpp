@@ -1,0 +1,28 @@
+#pragma once
+// A GPIO port of the STM32F103 (RM0008, chapter GPIO): its registers, and what they make of 16 pins.
+#include <cstdint>
+
+namespace arm {
+
+class Gpio {
+ public:
+  /// Register at `offset` (CRL 0x00, CRH 0x04, IDR 0x08, ODR 0x0C, LCKR 0x18; BSRR and BRR read 0). `driven`: pins that
+  /// somebody outside drives, `levels`: how.
+  std::uint32_t read(std::uint32_t offset, std::uint16_t driven, std::uint16_t levels) const;
+  void write(std::uint32_t offset, std::uint32_t value);
+
+  /// Pins that the port drives (general purpose output, push-pull or open drain with 0).
+  bool drives(unsigned pin) const;
+  /// The pin when the port drives it, else `floating`: what the board pulls it to.
+  bool level(unsigned pin, bool floating) const { return drives(pin) ? (odr_ >> pin & 1U) != 0 : floating; }
+
+ private:
+  unsigned mode(unsigned pin) const;
+  std::uint16_t input(std::uint16_t driven, std::uint16_t levels) const;
+
+  // Reset values: every pin a floating input.
+  std::uint32_t crl_ = 0x4444'4444, crh_ = 0x4444'4444, lckr_ = 0;
+  std::uint16_t odr_ = 0;
+};
+
+}  // namespace arm

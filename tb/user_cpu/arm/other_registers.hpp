@@ -1,0 +1,31 @@
+#pragma once
+// Peripherals that the board does not have: they read 0 until written, keep what is written, and are listed at the end of the run.
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace arm {
+
+class OtherRegisters {
+ public:
+  /// `address` of a word.
+  std::uint32_t read(std::uint32_t address);
+  void write(std::uint32_t address, std::uint32_t value);
+  /// One line for each block of 1 KB that was used: its name in the STM32F103, how often, and the first place in the firmware.
+  std::vector<std::string> notes(const std::function<std::string(std::uint32_t pc)>& place) const;
+
+  std::uint32_t pc = 0;  ///< of the instruction at work
+
+ private:
+  struct Use {
+    std::uint64_t reads = 0, writes = 0;
+    std::uint32_t first_pc = 0;
+  };
+  Use& use(std::uint32_t address);
+  std::map<std::uint32_t, std::uint32_t> words_;
+  std::map<std::uint32_t, Use> uses_;  ///< by block
+};
+
+}  // namespace arm
