@@ -1,0 +1,16 @@
+#ifndef BENCH_H
+#define BENCH_H
+/*
+ * The bench's side door (tb/user_cpu/arm/mailbox.h): what a scenario's script wants of the user CPU. A product leaves out
+ * bench.c and bench_faults.c, and their calls in main.c.
+ */
+#include <stdbool.h>
+
+#include "tb/driver/dsdpv1.h"
+
+/* Carries out the commands that the bench has posted, in order; all that there are. */
+void bench_run_commands(void);
+/* Between the commands "stop" and "resume". */
+bool bench_stopped(void);
+
+#endif /* BENCH_H */

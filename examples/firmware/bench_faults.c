@@ -1,0 +1,107 @@
+/* Faults at the handshake and in the DPRAM. */
+#include "examples/firmware/bench_faults.h"
+
+#include <stddef.h>
+
+#include "examples/firmware/board.h"
+#include "examples/firmware/dsdpv1_port_stm32.h"
+#include "registers/dsdpv1_regs.h"
+#include "tb/user_cpu/arm/mailbox.h"
+
+/* ------------------------------------------------------------------------------------------------------- wrong CRCs */
+
+static struct {
+  uint16_t address; /* of the CRC's high byte */
+  uint32_t times;
+} wrong_crcs[] = {[DSDPV1_AREA_INIT] = {DSDPV1_REG_INIT_CRC, 0},
+                  [DSDPV1_AREA_INPUTS] = {DSDPV1_REG_INPUT_CRC, 0},
+                  [DSDPV1_AREA_DIAGNOSIS] = {DSDPV1_REG_DIAG_CRC, 0},
+                  [DSDPV1_AREA_C1_ANSWER] = {DSDPV1_REG_C1_CRC, 0},
+                  [DSDPV1_AREA_C2_ANSWER] = {DSDPV1_REG_C2_CRC, 0}};
+enum { kAreas = sizeof wrong_crcs / sizeof wrong_crcs[0] };
+
+static bool any_wrong; /* one look for the writes of a board without faults */
+
+void bench_wrong_crc(uint8_t area, uint32_t times) {
+  if (area < kAreas) {
+    wrong_crcs[area].times = times;
+    any_wrong = true;
+  }
+}
+
+static uint8_t spoil(uint16_t address, uint8_t value) {
+  bool more = false;
+  for (unsigned area = 0; area < kAreas; ++area) {
+    if (wrong_crcs[area].times != 0u && wrong_crcs[area].address == address) {
+      --wrong_crcs[area].times;
+      value ^= 0x01u;
+    }
+    more = more || wrong_crcs[area].times != 0u;
+  }
+  any_wrong = more;
+  return value;
+}
+
+static void write(void* ctx, uint16_t address, uint8_t value) {
+  (void)ctx;
+  port_dpram_write(address, any_wrong ? spoil(address, value) : value);
+}
+
+/* The others go straight to the board. */
+static uint8_t read(void* ctx, uint16_t address) {
+  (void)ctx;
+  return port_dpram_read(address);
+}
+static void set_r_req(void* ctx, bool level) { port_stm32.set_r_req(ctx, level); }
+static void set_r_sta(void* ctx, bool level) { port_stm32.set_r_sta(ctx, level); }
+static bool get_l_req(void* ctx) { return port_stm32.get_l_req(ctx); }
+static bool get_l_sta(void* ctx) { return port_stm32.get_l_sta(ctx); }
+static void pause(void* ctx, uint32_t ns) { port_stm32.pause(ctx, ns); }
+
+const dsdpv1_port bench_port = {NULL, read, write, set_r_req, set_r_sta, get_l_req, get_l_sta, pause};
+
+/* -------------------------------------------------------------------------------------------------------- handshake */
+
+/* Without the driver, whose holds are as short as possible. */
+void bench_hold(uint64_t ns) {
+  board_enable_intr0(false);
+  port_stm32.set_r_req(NULL, true);
+  while (port_stm32.get_l_req(NULL) || port_stm32.get_l_sta(NULL)) {
+  }
+  port_stm32.set_r_sta(NULL, true);
+  board_wait(board_cycles(ns));
+  port_stm32.set_r_sta(NULL, false);
+  port_stm32.set_r_req(NULL, false);
+  board_enable_intr0(true);
+}
+
+/* Both stores side by side, whatever the compiler's optimisation: one cycle from pin to pin. */
+static void raise_both(void) {
+  const uint32_t r_req = kRReqBit;
+  const uint32_t r_sta = kRStaBit;
+  __asm__ volatile("str %1, [%0]\n\tstr %2, [%0]" ::"r"(&GPIOC->BSRR), "r"(r_req), "r"(r_sta) : "memory");
+}
+
+static void raise_one_after_the_other(uint32_t cycles) {
+  const uint32_t start = DWT->CYCCNT;
+  GPIOC->BSRR = kRReqBit;
+  while (DWT->CYCCNT - start < cycles) {
+  }
+  GPIOC->BSRR = kRStaBit;
+}
+
+void bench_early_r_sta(uint64_t after_ns, uint64_t hold_ns) {
+  const uint64_t after = board_cycles(after_ns);
+  const uint64_t hold = board_cycles(hold_ns);
+  enum { kLoop = 10 }; /* a look at CYCCNT takes about as long */
+  board_enable_intr0(false);
+  if (after < kLoop) {
+    raise_both();
+  } else {
+    raise_one_after_the_other((uint32_t)after);
+  }
+  board_wait(hold);
+  GPIOC->BRR = kRStaBit;
+  GPIOC->BRR = kRReqBit;
+  board_enable_intr0(true);
+}

@@ -1,0 +1,203 @@
+/* Clocks, pins, memory bus, time and interrupts of the evaluation board. */
+#include "examples/firmware/board.h"
+
+#include <stddef.h>
+
+#include "examples/firmware/console.h"
+#include "examples/firmware/interrupts.h"
+#include "examples/firmware/stm32f103.h"
+
+enum {
+  kKeyPin = 0,      /* port A */
+  kSerialTxPin = 9, /* port A */
+  kRReqPin = 6,     /* port C */
+  kRStaPin = 7,
+  kLReqPin = 8,
+  kLStaPin = 9,
+  kResetPin = 4, /* port E */
+  kIntr0Pin = 6  /* port G, and the number of its EXTI line */
+};
+
+/* 4 bits of priority, in the high nibble; a lower number goes first. The time goes on while INTR0 is served. */
+enum { kPrioritySysTick = 0x00, kPriorityIntr0 = 0x40 };
+
+/* ----------------------------------------------------------------------------------------------------------- clocks */
+
+static void wait_for(const reg32* address, uint32_t mask, uint32_t value) {
+  while ((*address & mask) != value) {
+  }
+}
+
+/* 8 MHz x 9 = 72 MHz; APB1 bears 36 MHz at most. Without the crystal nothing is in time: waits for it. */
+static void start_clocks(void) {
+  RCC->CR |= RCC_CR_HSEON;
+  wait_for(&RCC->CR, RCC_CR_HSERDY, RCC_CR_HSERDY);
+  FLASH_ACR = FLASH_ACR_PRFTBE | FLASH_ACR_LATENCY_2;
+  RCC->CFGR = RCC_CFGR_PLLSRC_HSE | RCC_CFGR_PLLMUL9 | RCC_CFGR_PPRE1_DIV2;
+  RCC->CR |= RCC_CR_PLLON;
+  wait_for(&RCC->CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY);
+  RCC->CFGR |= RCC_CFGR_SW_PLL;
+  wait_for(&RCC->CFGR, RCC_CFGR_SWS, RCC_CFGR_SWS_PLL);
+}
+
+static void start_peripherals(void) {
+  RCC->AHBENR = RCC_AHBENR_SRAMEN | RCC_AHBENR_FLITFEN | RCC_AHBENR_FSMCEN;
+  RCC->APB2ENR = RCC_APB2ENR_AFIOEN | RCC_APB2ENR_IOPAEN | RCC_APB2ENR_IOPCEN | RCC_APB2ENR_IOPDEN |
+                 RCC_APB2ENR_IOPEEN | RCC_APB2ENR_IOPFEN | RCC_APB2ENR_IOPGEN | RCC_APB2ENR_USART1EN;
+}
+
+/* ------------------------------------------------------------------------------------------------------------- pins */
+
+static void configure(gpio_registers* port, unsigned pin, uint32_t function) {
+  reg32* half = pin < 8u ? &port->CRL : &port->CRH;
+  const unsigned shift = 4u * (pin % 8u);
+  *half = (*half & ~(0xFu << shift)) | function << shift;
+}
+
+static void configure_all(gpio_registers* port, uint32_t pins, uint32_t function) {
+  for (unsigned pin = 0; pin < 16u; ++pin) {
+    if ((pins >> pin & 1u) != 0u) {
+      configure(port, pin, function);
+    }
+  }
+}
+
+/* R_REQ and R_STA are low outputs before the chip leaves its reset. L_REQ and L_STA of a chip that is missing read as
+ * high: it never gives the DPRAM away, and the driver says so. */
+static void configure_handshake(void) {
+  GPIOE->BRR = 1u << kResetPin;
+  configure(GPIOE, kResetPin, GPIO_OUTPUT_50MHZ);
+  GPIOC->BRR = 1u << kRReqPin | 1u << kRStaPin;
+  configure_all(GPIOC, 1u << kRReqPin | 1u << kRStaPin, GPIO_OUTPUT_50MHZ);
+  GPIOC->BSRR = 1u << kLReqPin | 1u << kLStaPin; /* pull-up */
+  configure_all(GPIOC, 1u << kLReqPin | 1u << kLStaPin, GPIO_INPUT_PULL);
+}
+
+static void configure_memory_bus(void) {
+  configure_all(GPIOD, 0xC0B3u, GPIO_ALTERNATE_50MHZ); /* D2 D3 NOE NWE NE1 D0 D1 */
+  configure_all(GPIOE, 0x0780u, GPIO_ALTERNATE_50MHZ); /* D4..D7 */
+  configure_all(GPIOF, 0xF03Fu, GPIO_ALTERNATE_50MHZ); /* A0..A9 */
+  configure_all(GPIOG, 0x0001u, GPIO_ALTERNATE_50MHZ); /* A10 */
+}
+
+/*
+ * Mode 1, asynchronous, 8 bits. Address phase (ADDSET + 1) 27.8 ns, WR low DATAST 69.4 ns and one HCLK, 13.9 ns, of hold
+ * behind it, RD low one HCLK longer: the limits of table 15 (Ts and Td 12.5 ns, Tw 31.25 ns) with margin.
+ */
+static void start_memory_bus(void) {
+  configure_memory_bus();
+  FSMC_BANK1->NE[0].BTR = 1u << FSMC_BTR_ADDSET_SHIFT | 5u << FSMC_BTR_DATAST_SHIFT;
+  FSMC_BANK1->NE[0].BCR = FSMC_BCR_MBKEN | FSMC_BCR_RESERVED_7 | FSMC_BCR_WREN;
+}
+
+bool board_key(void) { return (GPIOA->IDR >> kKeyPin & 1u) != 0u; }
+
+void board_release_chip(void) { GPIOE->BSRR = 1u << kResetPin; }
+
+void board_halt(void) {
+  (void)board_lock();
+  GPIOE->BRR = 1u << kResetPin;
+  for (;;) {
+  }
+}
+
+/* ------------------------------------------------------------------------------------------------------------- time */
+
+/* CYCCNT overflows after a minute; SysTick looks at it every millisecond. */
+static volatile uint32_t overflows, last_count;
+
+static void start_time(void) {
+  DEMCR |= DEMCR_TRCENA;
+  DWT->CYCCNT = 0;
+  DWT->CTRL |= DWT_CTRL_CYCCNTENA;
+  SCB->SHPR[SCB_SHPR_SYSTICK] = kPrioritySysTick;
+  SYST->LOAD = 1000u * BOARD_HCLK_MHZ - 1u;
+  SYST->VAL = 0;
+  SYST->CTRL = SYST_CTRL_CLKSOURCE | SYST_CTRL_TICKINT | SYST_CTRL_ENABLE;
+}
+
+uint64_t board_now(void) {
+  const uint32_t before = board_lock();
+  const uint32_t count = DWT->CYCCNT;
+  if (count < last_count) {
+    ++overflows;
+  }
+  last_count = count;
+  const uint64_t now = (uint64_t)overflows << 32 | count;
+  board_unlock(before);
+  return now;
+}
+
+void systick_handler(void) { (void)board_now(); }
+
+uint64_t board_cycles(uint64_t ns) { return (ns * BOARD_HCLK_MHZ + 999u) / 1000u; }
+
+void board_wait(uint64_t cycles) {
+  const uint64_t end = board_now() + cycles;
+  while (board_now() < end) {
+  }
+}
+
+/* ------------------------------------------------------------------------------------------------------- interrupts */
+
+static void (*intr0_handler)(void);
+
+/* INTR0 is low for 1.3 us only (P7): the edge counts. */
+static void configure_intr0(void) {
+  GPIOG->BSRR = 1u << kIntr0Pin; /* pull-up */
+  configure(GPIOG, kIntr0Pin, GPIO_INPUT_PULL);
+  AFIO->EXTICR[1] = (AFIO->EXTICR[1] & ~AFIO_EXTICR2_EXTI6) | AFIO_EXTICR2_EXTI6_PG;
+  EXTI->RTSR &= ~(1u << kIntr0Pin);
+  EXTI->FTSR |= 1u << kIntr0Pin;
+  NVIC->IPR[kIrqExti9To5] = kPriorityIntr0;
+}
+
+void board_enable_intr0(bool enabled) {
+  if (enabled) {
+    NVIC->ISER[0] = 1u << kIrqExti9To5;
+  } else {
+    NVIC->ICER[0] = 1u << kIrqExti9To5;
+    board_barrier();
+    __asm__ volatile("isb" ::: "memory"); /* no handler begins after this */
+  }
+}
+
+void board_on_intr0(void (*handler)(void)) {
+  intr0_handler = handler;
+  EXTI->IMR |= 1u << kIntr0Pin;
+  EXTI->PR = 1u << kIntr0Pin;
+  NVIC->ICPR[0] = 1u << kIrqExti9To5;
+  board_enable_intr0(true);
+}
+
+/* The flag goes before the work: a second INTR0 meanwhile makes the handler run again. */
+void exti9_5_handler(void) {
+  EXTI->PR = 1u << kIntr0Pin;
+  board_barrier();
+  if (intr0_handler != NULL) {
+    intr0_handler();
+  }
+}
+
+uint32_t board_lock(void) {
+  uint32_t before;
+  __asm__ volatile("mrs %0, primask\n\tcpsid i" : "=r"(before)::"memory");
+  return before;
+}
+
+void board_unlock(uint32_t before) { __asm__ volatile("msr primask, %0" ::"r"(before) : "memory"); }
+
+/* ------------------------------------------------------------------------------------------------------------ start */
+
+void board_start(void) {
+  SCB->CCR |= SCB_CCR_DIV_0_TRP;
+  start_clocks();
+  start_peripherals();
+  configure_handshake();
+  configure_intr0();
+  start_memory_bus();
+  start_time();
+  configure(GPIOA, kKeyPin, GPIO_INPUT_PULL); /* down */
+  configure(GPIOA, kSerialTxPin, GPIO_ALTERNATE_50MHZ);
+  console_start();
+}

@@ -1,0 +1,52 @@
+#ifndef BOARD_H
+#define BOARD_H
+/*
+ * The evaluation board: STM32F103ZE, crystal 8 MHz, HCLK 72 MHz.
+ *
+ *   PC6  out  R_REQ            PD14 PD15 PD0 PD1 PE7..PE10         D0..D7
+ *   PC7  out  R_STA            PF0..PF5 PF12..PF15 PG0             A0..A10
+ *   PC8  in   L_REQ            PD4 NOE -> RD, PD5 NWE -> WR, PD7 NE1 -> CSR
+ *   PC9  in   L_STA            PG6  in   INTR0, falling edge, EXTI line 6
+ *   PE4  out  RESET, low       PA9  USART1 TX;  PA0 in, key, high when pressed
+ */
+#include <stdbool.h>
+#include <stdint.h>
+
+#define BOARD_HCLK_MHZ 72u
+
+/* Clocks, memory bus, pins, SysTick, serial line. Afterwards the chip is held in reset and INTR0 is not heard. */
+void board_start(void);
+
+/* RESET of the chip high; it works after 4096 of its cycles, 85 us (ruling D1). */
+void board_release_chip(void);
+
+/* For what must not go on: interrupts closed, the chip back in reset, so that the master sees the station gone. */
+void board_halt(void) __attribute__((noreturn));
+
+/* True while the key is pressed. */
+bool board_key(void);
+
+/* ------------------------------------------------------------------------------------------------------------- time */
+
+/* HCLK cycles since board_start, without overflow. Callable from everywhere. */
+uint64_t board_now(void);
+/* Nanoseconds in cycles, rounded up. */
+uint64_t board_cycles(uint64_t ns);
+/* Waits at least so many cycles; interrupts are served meanwhile, and their time counts. */
+void board_wait(uint64_t cycles);
+
+/* ------------------------------------------------------------------------------------------------------- interrupts */
+
+/* Who is called from the INTR0 handler. Forgets an INTR0 that fell before, and hears it from now on. */
+void board_on_intr0(void (*handler)(void));
+/* Keeps the INTR0 handler out, or lets it in again; an INTR0 meanwhile is served then. */
+void board_enable_intr0(bool enabled);
+
+/* Closes all interrupts; returns what board_unlock wants. */
+uint32_t board_lock(void);
+void board_unlock(uint32_t before);
+
+/* All writes so far are done before anything that follows. */
+static inline void board_barrier(void) { __asm__ volatile("dsb" ::: "memory"); }
+
+#endif /* BOARD_H */

@@ -1,0 +1,16 @@
+#ifndef CONSOLE_H
+#define CONSOLE_H
+/*
+ * Lines of text on USART1, 115200 8N1. Nobody waits for the slow line: text goes into a buffer, and what finds it full is
+ * lost. From the main loop only.
+ */
+#include <stdint.h>
+
+void console_start(void);
+void console_text(const char* text);
+void console_decimal(uint32_t value);
+void console_hex(uint32_t value, unsigned digits);
+/* Sends a character when the line is free. To be called often. */
+void console_poll(void);
+
+#endif /* CONSOLE_H */

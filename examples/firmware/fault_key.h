@@ -1,0 +1,8 @@
+#ifndef FAULT_KEY_H
+#define FAULT_KEY_H
+/* The board's key stands for a fault of the process: diagnosis comes and goes with it. */
+
+/* From the main loop. */
+void fault_key_watch(void);
+
+#endif /* FAULT_KEY_H */

@@ -1,0 +1,64 @@
+/*
+ * Firmware of a simple PROFIBUS-DP slave: STM32F103ZE and DSDPV1. It initialises the chip, exchanges inputs and outputs at a
+ * fixed period, judges what the master sends, and answers acyclic requests.
+ */
+#include "examples/firmware/bench.h"
+#include "examples/firmware/bench_faults.h"
+#include "examples/firmware/board.h"
+#include "examples/firmware/console.h"
+#include "examples/firmware/cyclic.h"
+#include "examples/firmware/dsdpv1_port_stm32.h"
+#include "examples/firmware/fault_key.h"
+#include "examples/firmware/objects.h"
+#include "examples/firmware/report.h"
+#include "examples/firmware/settings.h"
+#include "examples/firmware/station.h"
+
+/* What is not urgent. */
+static void idle(void) {
+  bench_run_commands();
+  report_print_errors();
+  console_poll();
+}
+
+static void wait_for_turn(uint64_t due) {
+  do {
+    idle();
+  } while (bench_stopped() || board_now() < due);
+}
+
+/* The order matters: a judgement first, since the master waits for it; requests, which have no interrupt, last. */
+static void turn(dsdpv1_device* chip) {
+  station_service_if_pending();
+  if (cyclic_exchange(chip)) {
+    station_service();
+  }
+  objects_poll();
+  station_service_if_pending(); /* an INTR0 during the exchange found the DPRAM held */
+  if (!settings_from_bench()) {
+    fault_key_watch();
+  }
+}
+
+/* After a long hold the turns do not come in a burst. */
+static uint64_t not_too_late(uint64_t due, uint64_t period) {
+  const uint64_t now = board_now();
+  return due + period < now ? now - period : due;
+}
+
+int main(void) {
+  board_start();
+  settings_load();
+  report_print_device();
+  dsdpv1_device* chip = station_open(settings_from_bench() ? &bench_port : &port_stm32);
+  objects_open(chip);
+  board_release_chip();
+  board_wait(settings_in_cycles()->start_delay);
+  station_bring_up();
+  const uint64_t period = settings_in_cycles()->period;
+  for (uint64_t due = board_now();; due += period) {
+    wait_for_turn(due);
+    due = not_too_late(due, period);
+    turn(chip);
+  }
+}

@@ -1,0 +1,62 @@
+/* Counters and errors. */
+#include "examples/firmware/report.h"
+
+#include <string.h>
+
+#include "examples/firmware/board.h"
+#include "examples/firmware/console.h"
+
+static uint32_t printed; /* errors */
+
+dsdpv1_mailbox_report* report(void) { return &dsdpv1_bench.report; }
+
+/* The INTR0 handler may interrupt the main loop in here. */
+bool report_check(dsdpv1_error error, uint8_t during) {
+  if (error == DSDPV1_OK) {
+    return true;
+  }
+  const uint32_t before = board_lock();
+  const uint32_t place = report()->error_count % DSDPV1_MAILBOX_ERRORS;
+  report()->errors[place].error = (uint8_t)error;
+  report()->errors[place].during = during;
+  board_barrier(); /* the count announces what has been written */
+  ++report()->error_count;
+  board_unlock(before);
+  return false;
+}
+
+void report_outputs(const uint8_t* bytes, uint8_t length) {
+  memcpy(report()->outputs, bytes, length);
+  report()->output_length = length;
+  board_barrier();
+  ++report()->outputs_received;
+}
+
+void report_print_device(void) {
+  const dsdpv1_mailbox_station* station = &settings()->station;
+  console_text("DSDPV1 example firmware, station ");
+  console_decimal(station->address);
+  console_text(", ident ");
+  console_hex(station->ident, 4);
+  console_text(settings_from_bench() ? ", settings of the bench\r\n" : ", own settings\r\n");
+}
+
+static void print_error(uint32_t number) {
+  static const char* const kDuring[] = {"wait_ready",    "initialise",   "exchange",     "service",
+                                        "set_diagnosis", "send_verdict", "acyclic_open", "acyclic_poll"};
+  const uint32_t place = number % DSDPV1_MAILBOX_ERRORS;
+  console_text(kDuring[report()->errors[place].during]);
+  console_text(": ");
+  console_text(dsdpv1_error_text((dsdpv1_error)report()->errors[place].error));
+  console_text("\r\n");
+}
+
+void report_print_errors(void) {
+  const uint32_t count = report()->error_count;
+  if (count - printed > DSDPV1_MAILBOX_ERRORS) {
+    printed = count - DSDPV1_MAILBOX_ERRORS; /* the others are gone */
+  }
+  while (printed != count) {
+    print_error(printed++);
+  }
+}
