@@ -97,7 +97,7 @@ void CortexM3::forget_code() {
 }
 
 void CortexM3::run() {
-  stopped_ = false;
+  stopped_ = stale_code_ = false;  // nothing has been translated yet
   reset_processor();
   while (!stopped_) {
     advance_run();

@@ -143,6 +143,7 @@ void Engine::hook(int type, void* function) {
 void Engine::map(std::uint32_t address, std::size_t size, std::uint8_t* memory, bool writable) {
   const std::uint32_t rights = UC_PROT_READ | UC_PROT_EXEC | (writable ? UC_PROT_WRITE : 0);
   check(uc_mem_map_ptr(uc_, address, size, rights, memory), "uc_mem_map_ptr");
+  code_.push_back({address, size});
 }
 
 void Engine::map_events(std::uint32_t address, std::size_t size) {
@@ -151,7 +152,12 @@ void Engine::map_events(std::uint32_t address, std::size_t size) {
   check(uc_mmio_map(uc_, address, size, &Hooks::load, window, &Hooks::store, window), "uc_mmio_map");
 }
 
-void Engine::forget_translations() { check(uc_ctl_flush_tlb(uc_), "uc_ctl_flush_tlb"); }
+// Region by region: uc_ctl_flush_tlb writes all of Unicorn's buffer of 1 GB, which takes seconds.
+void Engine::forget_translations() {
+  for (const Code& region : code_) {
+    check(uc_ctl_remove_cache(uc_, std::uint64_t{region.start}, std::uint64_t{region.start} + region.size), "uc_ctl_remove_cache");
+  }
+}
 
 void Engine::report_data(bool on) {
   if (on == reports_data_) {

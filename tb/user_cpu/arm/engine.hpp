@@ -70,11 +70,16 @@ class Engine {
   struct Window;
   struct Hooks;
   class Privileged;
+  struct Code {
+    std::uint32_t start;
+    std::size_t size;
+  };
   void check(int error, const char* what) const;
   void hook(int type, void* function);
   EngineEvents& events_;
   uc_struct* uc_ = nullptr;
   std::vector<std::unique_ptr<Window>> windows_;
+  std::vector<Code> code_;
   Trap trap_ = Trap::kNone;
   std::size_t data_hook_ = 0;
   bool reports_data_ = false;
