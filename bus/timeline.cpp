@@ -10,6 +10,14 @@ Tick Timeline::next() const {
   return earliest;
 }
 
+Tick Timeline::next_except(const Agent& agent) const {
+  Tick earliest = kNever;
+  for (const Agent* each : agents_) {
+    if (each != &agent) earliest = std::min(earliest, each->next());
+  }
+  return earliest;
+}
+
 bool Timeline::step(Tick limit) {
   const Tick due = next();
   if (due == kNever || due > limit) return false;

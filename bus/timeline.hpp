@@ -24,6 +24,8 @@ class Timeline {
 
   /// The tick of the earliest planned action of any agent.
   Tick next() const;
+  /// The same of everybody but `agent`: as long as it does nothing to others, nothing happens before that tick.
+  Tick next_except(const Agent& agent) const;
   /// Runs every action due up to and including `until`; `now()` is then `until`.
   void run_until(Tick until);
   /// Runs the actions of one tick, the earliest, if it is not after `limit`. False when there is none.

@@ -19,6 +19,9 @@ class Execution {
   /// Runs the timeline up to and including `end`, or until `stopped` says so.
   virtual void run(Tick end, const std::function<bool()>& stopped) = 0;
 
+  /// Nothing happens to `agent` before this tick unless it acts itself; 0: not known.
+  virtual Tick quiet_until(const bus::Agent& /*agent*/) const { return 0; }
+
   bus::Segment& segment() { return segment_; }
   bus::Timeline& timeline() { return timeline_; }
 

@@ -108,6 +108,8 @@ class PinExecution : public Execution {
     return chip;
   }
 
+  Tick quiet_until(const bus::Agent& agent) const override { return timeline_.next_except(agent); }
+
   void run(Tick end, const std::function<bool()>& stopped) override {
     while (!stopped() && timeline_.step(end)) {
     }

@@ -22,6 +22,7 @@ void SlaveStation::hold_in_reset(Tick now) {
 void SlaveStation::release_reset(Tick now) {
   chip_->set_reset(now, true);
   user_ = make_user_(station_, now);
+  user_->quiet_until = quiet_until;
   user_->on_driver_error = [this](const user_cpu::DriverError& error) {
     if (on_driver_error) on_driver_error(error);
   };

@@ -48,8 +48,9 @@ class SlaveStation : public bus::Agent {
   /// Everything but the master's side.
   SlaveResult result() const;
 
-  std::function<void(const user_cpu::DriverError&)> on_driver_error;
   /// As user_cpu::UserSide has them.
+  std::function<Tick()> quiet_until;
+  std::function<void(const user_cpu::DriverError&)> on_driver_error;
   std::function<void(Tick at, const std::string& line)> on_text;
   std::function<void(Tick at, const std::string& why, const std::string& registers)> on_failure;
   /// The user CPU has fetched outputs, other ones than before when `changed`.

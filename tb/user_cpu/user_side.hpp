@@ -47,6 +47,9 @@ class UserSide : public bus::Agent {
   /// Absent where there is no such board.
   virtual std::optional<BoardReport> board() const { return std::nullopt; }
 
+  /// Nothing reaches this CPU before that tick: it may compute up to there in one go. Absent: not known.
+  std::function<Tick()> quiet_until;
+
   std::function<void(const DriverError&)> on_driver_error;
   /// A line of text that the program printed.
   std::function<void(Tick at, const std::string& line)> on_text;

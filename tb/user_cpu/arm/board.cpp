@@ -121,7 +121,10 @@ void Board::come_up() {
   take_intr0_edges();
 }
 
-void Board::keep_up() { come_up(); }
+/// The processor may stay ahead of the others as long as nobody has anything to do.
+void Board::keep_up() {
+  if (!quiet_until || now() >= quiet_until()) come_up();
+}
 
 void Board::sleep(std::uint64_t until) {
   const Tick end = until == kNever ? bus::kNever : tick_of(until);
