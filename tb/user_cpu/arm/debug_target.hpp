@@ -72,7 +72,8 @@ class Debugger {
   /// poll() and before_instruction(). While false, poll() now and then is enough and the processor may run as fast as it can.
   virtual bool wanted() const = 0;
   /// Before each instruction, those of handlers too; returns when it may be executed. Meanwhile registers (kPc!) and memory
-  /// may have been changed and end_run() or reset() called. Costs a few nanoseconds when nothing stops the run.
+  /// may have been changed and end_run() or reset() called; with another kPc it may be called again before the instruction
+  /// there, or not. Costs a few nanoseconds when nothing stops the run.
   virtual void before_instruction(std::uint32_t pc) = 0;
   /// An access of the instruction that is being executed, after report_data_accesses(true). Never halts: the run stops before
   /// the next instruction. `size` is 1, 2 or 4 bytes. Instruction fetches and the debugger's own accesses are not meant.

@@ -19,8 +19,11 @@ bool for_later(int error) { return error == EAGAIN || error == EWOULDBLOCK || er
 void GdbLink::look(int milliseconds) {
   std::array<pollfd, 2> wanted{{{listener_.descriptor(), POLLIN, 0}, {gdb_.get(), POLLIN, 0}}};
   if (::poll(wanted.data(), wanted.size(), milliseconds) <= 0) return;
-  if (wanted[1].revents != 0) receive();
-  if (wanted[0].revents != 0) accept();
+  // A newcomer waits while there is something from the present gdb: it may be that it has gone.
+  if (wanted[1].revents != 0)
+    receive();
+  else
+    accept();
 }
 
 void GdbLink::accept() {

@@ -42,9 +42,28 @@ void GdbServer::data_access(std::uint32_t address, std::uint32_t size, bool writ
 }
 
 void GdbServer::consider(std::uint32_t pc) {
-  if (over_) return;
-  if (waiting_) return wait_for_gdb();
-  if (const auto reply = reason_to_stop(pc)) stop(*reply);
+  if (over_ || resumed_here(pc)) return;
+  if (waiting_)
+    wait_for_gdb();
+  else if (const auto reply = reason_to_stop(pc))
+    stop(*reply);
+  else
+    return;
+  if (target_.read_register(Register::kPc) != pc) expect_call_again();
+}
+
+/// Whether the run has just been let go at this very instruction, without its having been executed.
+bool GdbServer::resumed_here(std::uint32_t pc) {
+  if (!resumed_at_) return false;
+  due_ = stepping_;
+  return *std::exchange(resumed_at_, std::nullopt) == pc;
+}
+
+/// The run was let go at an instruction that before_instruction() is yet to be called for: it is not to stop there again.
+void GdbServer::expect_call_again() {
+  if (!wanted()) return;
+  resumed_at_ = target_.read_register(Register::kPc);
+  due_ = true;
 }
 
 std::optional<std::string> GdbServer::reason_to_stop(std::uint32_t pc) const {
@@ -123,18 +142,22 @@ void GdbServer::let_go() {
 
 void GdbServer::poll() {
   if (over_) return;
-  if (waiting_) return wait_for_gdb();
-  link_.look(0);
-  if (!link_.connected()) {
-    if (attached_) let_go();
-    return;
+  if (waiting_) {
+    wait_for_gdb();
+    return expect_call_again();
   }
+  link_.look(0);
+  if (!link_.connected() && attached_) return let_go();
+  if (!link_.connected()) return;
   if (!attached_) {
     commands_.set_stop_reply(kTrapped);
-    return converse();
+    converse();
+    return expect_call_again();
   }
   while (const auto input = link_.next()) {
-    if (input->kind == GdbInput::Kind::kInterrupt) return stop(kInterrupted);
+    if (input->kind != GdbInput::Kind::kInterrupt) continue;
+    stop(kInterrupted);
+    return expect_call_again();
   }
 }
 

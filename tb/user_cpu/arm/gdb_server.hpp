@@ -46,6 +46,8 @@ class GdbServer final : public Debugger {
 
  private:
   void consider(std::uint32_t pc);
+  bool resumed_here(std::uint32_t pc);
+  void expect_call_again();
   std::optional<std::string> reason_to_stop(std::uint32_t pc) const;
   void wait_for_gdb();
   void stop(const std::string& reply);
@@ -63,8 +65,9 @@ class GdbServer final : public Debugger {
   bool waiting_ = true;    ///< for the first gdb
   bool attached_ = false;  ///< a gdb has connected and has not been taken leave of
   bool stepping_ = false;
-  bool over_ = false;      ///< the run ends: nothing halts it any more
-  std::string watch_hit_;  ///< stop reply of a watchpoint that the last instruction met; empty: none
+  bool over_ = false;                        ///< the run ends: nothing halts it any more
+  std::optional<std::uint32_t> resumed_at_;  ///< see expect_call_again()
+  std::string watch_hit_;                    ///< stop reply of a watchpoint that the last instruction met; empty: none
 };
 
 }  // namespace arm
