@@ -7,6 +7,7 @@
 #include "apps/reasons_command.hpp"
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
+#include "apps/sweep_command.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/suggest.hpp"
 
@@ -134,6 +135,37 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
                   kExitCodes);
 }
 
+void describe_sweep(CLI::App& app, SweepArguments& arguments) {
+  CLI::App* command = app.add_subcommand("sweep", "Runs a scenario at every combination of some keys' values");
+  command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML")->required();
+  command
+      ->add_option("--param", arguments.parameters,
+                   "PATH=VALUES, once for each key that varies: user_cpu.fsmc.datast=0..15, "
+                   "user_cpu.cycle=40us..100us/20us, baud=12M,6M,500k")
+      ->allow_extra_args(false);
+  add_set_option(*command, arguments.set);
+  command->add_option("--checks", arguments.checks, "As of run, report or fail; left out: as run does");
+  command->add_option("--out", arguments.out,
+                      "Folder for the points and results; left out: sweep_ and the scenario's name");
+  command->add_option("--jobs", arguments.jobs, "Processes at a time; left out: one a processor")
+      ->check(CLI::Range(1, 256));
+  command->add_flag_callback(
+      "--progress", [&arguments] { arguments.progress = true; },
+      "Show a progress bar (on a terminal it is shown anyway)");
+  command->add_flag_callback(
+      "--no-progress", [&arguments] { arguments.progress = false; }, "Show none");
+  command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
+  command->footer(
+      "\nExamples:\n"
+      "  dsdpv1-sim sweep scenarios/power_on_12m.yaml --param user_cpu.fsmc.datast=0..15 --param "
+      "user_cpu.fsmc.addset=0..3\n"
+      "  dsdpv1-sim sweep my.yaml --set user_cpu.fsmc.mode=A --param user_cpu.fsmc.datast=1..8 --out mode_a\n"
+      "  dsdpv1-sim sweep my.yaml --param baud=12M,6M,500k --param slaves.plant.user_cpu.cycle=40us..200us/20us --jobs "
+      "4\n"
+      "The same command again goes on with an interrupted sweep. docs/sweep.md explains the results.\n"
+      "\nExit codes: 0 all points were run, whatever they showed, 2 wrong input, 130 interrupted.\n");
+}
+
 void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
   CLI::App* command = app.add_subcommand("rtl-random", "Random stimulus for model and reference RTL in lockstep");
   command->add_option("--cycles", arguments.cycles, "How many cycles to compare")->capture_default_str();
@@ -235,6 +267,8 @@ int command_line(int argc, char** argv) {
   ServeArguments serve_arguments;
   describe_serve(app, serve_arguments);
   describe_reasons(app, reasons_arguments);
+  SweepArguments sweep_arguments;
+  describe_sweep(app, sweep_arguments);
   RtlRandomArguments rtl_random_arguments;
   RtlFaultsArguments rtl_faults_arguments;
   describe_rtl_random(app, rtl_random_arguments);
@@ -249,6 +283,7 @@ int command_line(int argc, char** argv) {
   }
   if (app.got_subcommand("run")) return run(run_arguments);
   if (app.got_subcommand("serve")) return serve(serve_arguments);
+  if (app.got_subcommand("sweep")) return sweep(sweep_arguments);
   if (app.got_subcommand("rtl-random")) return rtl_random(rtl_random_arguments);
   if (app.got_subcommand("rtl-faults")) return rtl_faults(rtl_faults_arguments);
   if (app.got_subcommand("cosim")) return cosim_own_rtl(cosim_arguments);

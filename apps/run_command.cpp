@@ -58,13 +58,6 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   return options;
 }
 
-std::vector<tb::scenario::Setting> settings_of(const std::vector<std::string>& texts) {
-  std::vector<tb::scenario::Setting> settings;
-  settings.reserve(texts.size());
-  for (const std::string& text : texts) settings.push_back(tb::scenario::parse_setting("--set", text));
-  return settings;
-}
-
 int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options,
                  std::unique_ptr<tb::Execution> execution, const std::function<bool()>& afterwards = {}) {
   std::optional<tb::OutputFile> result_file;
@@ -114,7 +107,8 @@ void check_has_board(const tb::scenario::Scenario& scenario) {
 
 int run(const RunArguments& arguments) {
   const tb::RunOptions options = options_of(arguments);
-  const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario, settings_of(arguments.set));
+  const tb::scenario::Scenario scenario =
+      tb::scenario::load(arguments.scenario, tb::scenario::parse_settings(arguments.set));
   if (arguments.gdb) check_has_board(scenario);
   if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, reference_rtl);
   if (arguments.engine == "rtl")

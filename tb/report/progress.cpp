@@ -5,15 +5,20 @@
 #include <cstdio>
 
 namespace tb {
+namespace {
+
+constexpr int kWidth = 30;
+
+std::string bar_of(double done) { return std::string(static_cast<std::size_t>(done * kWidth), '#'); }
+
+}  // namespace
 
 std::string progress_text(bus::Tick now, bus::Tick end, double wall_s) {
-  constexpr int kWidth = 30;
   const double done = static_cast<double>(now) / static_cast<double>(end);
   const double simulated_s = static_cast<double>(now) / static_cast<double>(bus::kTicksPerSecond);
   const double factor = wall_s > 0 ? simulated_s / wall_s : 0;
   const double left = done > 0 ? wall_s / done - wall_s : 0;
-  const std::string bar(static_cast<std::size_t>(done * kWidth), '#');
-  return fmt::format("[{:<{}}] {:3.0f} %  {:.1f} of {:.1f} ms  {:.2f} x real time  {:.0f} s left", bar, kWidth,
+  return fmt::format("[{:<{}}] {:3.0f} %  {:.1f} of {:.1f} ms  {:.2f} x real time  {:.0f} s left", bar_of(done), kWidth,
                      done * 100, simulated_s * 1e3, static_cast<double>(end) / static_cast<double>(bus::kTicksPerMs),
                      factor, left);
 }
@@ -31,6 +36,22 @@ void Progress::show(bus::Tick now) {
 void Progress::clear() {
   if (drawn_) fmt::print(stderr, "\r\033[K");
   drawn_ = false;
+}
+
+std::string count_text(std::size_t done, std::size_t all, double wall_s) {
+  const double part = static_cast<double>(done) / static_cast<double>(all);
+  return fmt::format("[{:<{}}] {} of {} points  {:.0f} s", bar_of(part), kWidth, done, all, wall_s);
+}
+
+void CountProgress::show(std::size_t done) const {
+  if (!wanted_) return;
+  const double wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+  fmt::print(stderr, "\r{}\033[K", count_text(done, all_, wall_s));
+  std::fflush(stderr);
+}
+
+void CountProgress::clear() const {
+  if (wanted_) fmt::print(stderr, "\r\033[K");
 }
 
 }  // namespace tb

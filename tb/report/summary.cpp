@@ -4,49 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
+#include "tb/report/text_table.hpp"
 #include "tb/scenario/units.hpp"
 
 namespace tb {
 namespace {
-
-/// Columns as wide as their widest cell; numbers and times to the right.
-class Table {
- public:
-  explicit Table(std::vector<std::string> head) { add(std::move(head)); }
-  void add(std::vector<std::string> row) {
-    widths_.resize(std::max(widths_.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) widths_[i] = std::max(widths_[i], row[i].size());
-    rows_.push_back(std::move(row));
-  }
-  std::string text() const {
-    std::string text;
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      text += line(rows_[r]);
-      if (r == 0) text += rule();
-    }
-    return text;
-  }
-
- private:
-  std::string line(const std::vector<std::string>& row) const {
-    std::string text = " ";
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const bool last = i + 1 == row.size();
-      text += last ? " " + row[i] : fmt::format(" {:<{}} ", row[i], widths_[i]);
-    }
-    return text + "\n";
-  }
-  std::string rule() const {
-    std::string text = " ";
-    for (const std::size_t width : widths_) text += " " + std::string(width, '-') + " ";
-    text.pop_back();
-    return text + "\n";
-  }
-  std::vector<std::vector<std::string>> rows_;
-  std::vector<std::size_t> widths_;
-};
 
 std::string microseconds(Tick tick) {
   return fmt::format("{:.3f}", static_cast<double>(tick) / static_cast<double>(bus::kTicksPerUs));
@@ -63,7 +26,7 @@ bool is_step(const Happening& each) {
 
 std::string steps(const RunResult& result) {
   constexpr std::size_t kMost = 40;
-  Table table({"time / us", "station", "what"});
+  TextTable table({"time / us", "station", "what"});
   std::size_t shown = 0, hidden = 0;
   for (const Happening& each : result.happenings) {
     if (!is_step(each)) continue;
@@ -85,8 +48,8 @@ std::string tsdr(const SlaveResult& slave) {
 }
 
 std::string slaves(const RunResult& result) {
-  Table table({"slave", "address", "DP state", "baud", "exchanges", "TSDR / bit times", "chip waited / us",
-               "user waited / us", "longest hold / us"});
+  TextTable table({"slave", "address", "DP state", "baud", "exchanges", "TSDR / bit times", "chip waited / us",
+                   "user waited / us", "longest hold / us"});
   for (const SlaveResult& slave : result.slaves) {
     table.add({slave.name, fmt::format("{}", slave.status.address), name(slave.status.dp_state),
                baud_text(slave.status.baud_index), fmt::format("{}", slave.status.data_exchanges), tsdr(slave),

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -41,21 +40,6 @@ std::string integer_form(const Field& field) {
 std::string bytes_form(const Field& field) {
   return fmt::format("{} to {} bytes as quoted hexadecimal text (\"01 A0 00*4\") or as a list of numbers ([1, 0xA0])",
                      field.type.range.min, field.type.range.max);
-}
-
-/// Decimal, or hexadecimal with 0x; the whole text must be the number.
-std::optional<std::int64_t> parse_integer(const std::string& text) {
-  const bool negative = !text.empty() && text[0] == '-';
-  const std::string digits = text.substr(negative ? 1 : 0);
-  const bool hex = digits.size() > 2 && digits[0] == '0' && (digits[1] == 'x' || digits[1] == 'X');
-  const std::string body = hex ? digits.substr(2) : digits;
-  const auto good = [hex](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return hex ? std::isxdigit(byte) != 0 : std::isdigit(byte) != 0;
-  };
-  if (body.empty() || body.size() > 15 || !std::all_of(body.begin(), body.end(), good)) return std::nullopt;
-  const std::int64_t value = std::stoll(body, nullptr, hex ? 16 : 10);
-  return negative ? -value : value;
 }
 
 bus::Bytes read_byte_list(const Field& field, const YAML::Node& node, const Source& source) {

@@ -25,6 +25,30 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   }
 }
 
+/// `path` relative to the folder of `scenario`.
+std::string beside(const std::string& scenario, const std::string& path) {
+  return (std::filesystem::path(scenario).parent_path() / path).lexically_normal().string();
+}
+
+/// The values of all keys of the kind file in `node` and below.
+void collect_files(const keys::Object& object, const YAML::Node& node, std::vector<std::string>& found) {
+  for (const keys::Field& field : object.fields) {
+    const YAML::Node value = node.IsMap() ? node[field.name] : YAML::Node(YAML::NodeType::Undefined);
+    if (!value.IsDefined()) continue;
+    if (field.type.kind == keys::Kind::kFile && value.IsScalar()) found.push_back(value.Scalar());
+    if (field.type.object == nullptr) continue;
+    if (value.IsMap()) collect_files(*field.type.object, value, found);
+    if (!value.IsSequence()) continue;
+    for (const YAML::Node& item : value) collect_files(*field.type.object, item, found);
+  }
+}
+
+YAML::Node root_of(const std::string& text, const std::string& file, const std::vector<Setting>& settings) {
+  YAML::Node root = parse_yaml(text, file);
+  for (const Setting& setting : settings) apply(setting, root);
+  return root;
+}
+
 }  // namespace
 
 std::string read_file(const std::string& path) {
@@ -43,8 +67,7 @@ std::string read_file(const std::string& path) {
 }
 
 Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings) {
-  YAML::Node root = parse_yaml(text, file);
-  for (const Setting& setting : settings) apply(setting, root);
+  const YAML::Node root = root_of(text, file, settings);
   Scenario scenario;
   keys::read_object(description(), &scenario, root, {file});
   scenario.file = file;
@@ -56,8 +79,13 @@ Scenario load(const std::string& path, const std::vector<Setting>& settings) {
   return parse(read_file(path), path, settings);
 }
 
-std::string resolve(const Scenario& scenario, const Name& path) {
-  return (std::filesystem::path(scenario.file).parent_path() / path.text).lexically_normal().string();
+std::vector<std::string> files(const std::string& path, const std::vector<Setting>& settings) {
+  std::vector<std::string> found;
+  collect_files(description(), root_of(read_file(path), path, settings), found);
+  for (std::string& file : found) file = beside(path, file);
+  return found;
 }
+
+std::string resolve(const Scenario& scenario, const Name& path) { return beside(scenario.file, path.text); }
 
 }  // namespace tb::scenario

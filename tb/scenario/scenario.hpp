@@ -303,6 +303,8 @@ struct Scenario {
 Scenario load(const std::string& path, const std::vector<Setting>& settings = {});
 /// The same from text; `file` is used in errors and as the base of relative paths.
 Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings = {});
+/// The files that a scenario names (GSD files and the like), as the program can open them.
+std::vector<std::string> files(const std::string& path, const std::vector<Setting>& settings = {});
 /// The text of a scenario's file; throws InputError when there is none.
 std::string read_file(const std::string& path);
 /// `path` of a scenario as the program can open it: relative to the scenario's folder.

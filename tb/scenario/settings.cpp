@@ -186,10 +186,19 @@ Setting parse_setting(const std::string& option, const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1), origin};
 }
 
+std::vector<Setting> parse_settings(const std::vector<std::string>& texts) {
+  std::vector<Setting> settings;
+  settings.reserve(texts.size());
+  for (const std::string& text : texts) settings.push_back(parse_setting("--set", text));
+  return settings;
+}
+
 const Field& field_of(const std::string& path, const std::string& origin) {
   const Steps steps = split(path);
   return walk(of_every_slave(steps[0]) ? slave_keys() : description(), steps, 0, origin);
 }
+
+void check(const Setting& setting) { value_of(field_of(setting.path, setting.origin), setting); }
 
 void apply(const Setting& setting, YAML::Node& root) {
   const Field& field = field_of(setting.path, setting.origin);

@@ -25,8 +25,14 @@ struct Setting {
 /// "PATH=VALUE"; `option` is how the command line calls it. Throws InputError.
 Setting parse_setting(const std::string& option, const std::string& text);
 
+/// Those of several options --set.
+std::vector<Setting> parse_settings(const std::vector<std::string>& texts);
+
 /// The key that a path names, whatever items the scenario has. Throws InputError, beginning with `origin`.
 const keys::Field& field_of(const std::string& path, const std::string& origin);
+
+/// Throws InputError when no scenario could have the setting; whether it has the item of a list is left open.
+void check(const Setting& setting);
 
 /// Writes the setting into a scenario's YAML. Throws InputError for a path or value that is wrong.
 void apply(const Setting& setting, YAML::Node& root);

@@ -54,6 +54,20 @@ std::optional<bus::Tick> scale(const std::string& whole, const std::string& frac
 
 const char* const kTimeForm = "a number with a unit ns, us, ms, s or cycles, like 1.5ms";
 
+std::optional<std::int64_t> parse_integer(const std::string& text) {
+  const bool negative = !text.empty() && text[0] == '-';
+  const std::string digits = text.substr(negative ? 1 : 0);
+  const bool hex = digits.size() > 2 && digits[0] == '0' && (digits[1] == 'x' || digits[1] == 'X');
+  const std::string body = hex ? digits.substr(2) : digits;
+  const auto good = [hex](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return hex ? std::isxdigit(byte) != 0 : std::isdigit(byte) != 0;
+  };
+  if (body.empty() || body.size() > 15 || !std::all_of(body.begin(), body.end(), good)) return std::nullopt;
+  const std::int64_t value = std::stoll(body, nullptr, hex ? 16 : 10);
+  return negative ? -value : value;
+}
+
 std::optional<bus::Tick> parse_time(const std::string& text) {
   if (!text.empty() && text[0] == '-') {
     const std::optional<bus::Tick> positive =

@@ -1,5 +1,6 @@
 #pragma once
 // Times and bytes as people write them in scenarios and on command lines.
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -7,6 +8,9 @@
 #include "bus/time.hpp"
 
 namespace tb {
+
+/// "-12", "0x1F": decimal, or hexadecimal with 0x, at most 15 digits; nullopt for anything else.
+std::optional<std::int64_t> parse_integer(const std::string& text);
 
 /// What a time may look like, for error messages.
 extern const char* const kTimeForm;

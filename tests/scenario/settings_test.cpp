@@ -19,10 +19,7 @@ const std::string kScenario =
     "masters: [{name: plc, slaves: [{slave: first}]}]\n";
 
 Scenario with(const std::vector<std::string>& texts) {
-  std::vector<tb::scenario::Setting> settings;
-  settings.reserve(texts.size());
-  for (const std::string& text : texts) settings.push_back(tb::scenario::parse_setting("--set", text));
-  return tb::scenario::parse(kScenario, "s.yaml", settings);
+  return tb::scenario::parse(kScenario, "s.yaml", tb::scenario::parse_settings(texts));
 }
 
 std::string error_of(const std::string& text) {

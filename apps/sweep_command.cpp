@@ -1,0 +1,192 @@
+// sweep: the points of a plan in child processes, then the tables and pictures.
+#include "apps/sweep_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "apps/command_line.hpp"
+#include "apps/interrupt.hpp"
+#include "tb/report/output_file.hpp"
+#include "tb/report/progress.hpp"
+#include "tb/scenario/input_error.hpp"
+#include "tb/scenario/scenario.hpp"
+#include "tb/scenario/suggest.hpp"
+#include "tb/sweep/children.hpp"
+#include "tb/sweep/folder.hpp"
+#include "tb/sweep/heat_map.hpp"
+#include "tb/sweep/plan.hpp"
+#include "tb/sweep/point.hpp"
+#include "tb/sweep/table.hpp"
+
+namespace app {
+namespace {
+
+using tb::sweep::Children;
+using tb::sweep::Ended;
+using tb::sweep::Folder;
+using tb::sweep::Plan;
+using tb::sweep::Point;
+
+void check_checks(const std::string& word) {
+  const std::vector<std::string> allowed = {"report", "fail"};
+  if (word.empty() || std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return;
+  throw tb::InputError("dsdpv1-sim sweep: --checks is " + word + tb::did_you_mean(word, allowed) + ", allowed are " +
+                       tb::join(allowed));
+}
+
+Plan plan_of(const SweepArguments& arguments) {
+  check_checks(arguments.checks);
+  Plan plan{arguments.scenario, arguments.set, arguments.checks, {}};
+  for (const tb::scenario::Setting& setting : tb::scenario::parse_settings(arguments.set)) tb::scenario::check(setting);
+  for (const std::string& text : arguments.parameters) plan.parameters.push_back(tb::sweep::parse_parameter(text));
+  tb::sweep::check(plan);
+  return plan;
+}
+
+std::string folder_of(const SweepArguments& arguments) {
+  if (!arguments.out.empty()) return arguments.out;
+  return "sweep_" + std::filesystem::path(arguments.scenario).stem().string();
+}
+
+/// Runs what is not finished yet, `jobs` points at a time.
+class Runner {
+ public:
+  Runner(const Plan& plan, const Folder& folder, unsigned jobs, bool progress)
+      : plan_(plan), folder_(folder), jobs_(jobs), bar_(plan.points(), progress) {
+    for (std::size_t i = 0; i < plan.points(); ++i) points_.push_back(folder.finished(i));
+    done_ = static_cast<std::size_t>(
+        std::count_if(points_.begin(), points_.end(), [](const auto& point) { return point.has_value(); }));
+    kept_ = done_;
+  }
+
+  /// False when it was interrupted.
+  bool run() {
+    while (done_ < points_.size() && !interrupted()) {
+      while (children_.running() < jobs_ && start_next()) {
+      }
+      if (const std::optional<Ended> ended = children_.wait()) take(*ended);
+      bar_.show(done_);
+    }
+    give_up();
+    bar_.clear();
+    return done_ == points_.size();
+  }
+
+  std::size_t done() const { return done_; }
+  std::size_t kept() const { return kept_; }
+  std::vector<Point> points() const {
+    std::vector<Point> all;
+    for (const std::optional<Point>& point : points_) all.push_back(*point);
+    return all;
+  }
+
+ private:
+  bool start_next() {
+    while (next_ < points_.size() && points_[next_]) ++next_;
+    if (next_ == points_.size()) return false;
+    children_.start(next_, arguments(next_), folder_.error_file(next_));
+    ++next_;
+    return true;
+  }
+
+  std::vector<std::string> arguments(std::size_t point) const {
+    std::vector<std::string> words = {"run",           plan_.scenario, "--quiet",
+                                      "--no-progress", "--result",     folder_.result_file(point)};
+    for (const std::string& setting : plan_.settings_of(point)) words.insert(words.end(), {"--set", setting});
+    if (!plan_.checks.empty()) words.insert(words.end(), {"--checks", plan_.checks});
+    return words;
+  }
+
+  /// A child that was interrupted together with this program has nothing to tell.
+  void take(const Ended& ended) {
+    const bool told = ended.exit <= kWrongInput || (ended.exit != kInterrupted && !interrupted());
+    if (!told) return folder_.forget(ended.point);
+    points_[ended.point] = folder_.finish(ended.point, plan_, ended.exit);
+    ++done_;
+  }
+
+  void give_up() {
+    children_.terminate();
+    while (children_.running() != 0) {
+      if (const std::optional<Ended> ended = children_.wait()) folder_.forget(ended->point);
+    }
+  }
+
+  const Plan& plan_;
+  const Folder& folder_;
+  unsigned jobs_;
+  tb::CountProgress bar_;
+  Children children_;
+  std::vector<std::optional<Point>> points_;
+  std::size_t done_ = 0, kept_ = 0, next_ = 0;
+};
+
+void write(const std::string& path, const std::string& text) {
+  tb::OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+/// A scenario that cannot be read at any point is wrong itself: then nothing is run and no folder made.
+void check_loads(const Plan& plan) {
+  std::string error;
+  for (std::size_t i = 0; i < plan.points(); ++i) {
+    try {
+      tb::scenario::load(plan.scenario, tb::scenario::parse_settings(plan.settings_of(i)));
+      return;
+    } catch (const tb::InputError& wrong) {
+      if (error.empty()) error = wrong.what();
+    }
+  }
+  throw tb::InputError(error);
+}
+
+/// Likewise one that cannot be run, because of its GSD files for example.
+void check_possible(const std::vector<Point>& points) {
+  const bool any = std::any_of(points.begin(), points.end(), [](const Point& point) { return point.possible(); });
+  if (!any) throw tb::InputError(points.front().error);
+}
+
+void write_results(const Plan& plan, const std::vector<Point>& points, const Folder& folder) {
+  write(folder.file("results.csv"), tb::sweep::csv(plan, points));
+  for (const tb::sweep::Picture& picture : tb::sweep::heat_maps(plan, points))
+    write(folder.file(picture.name), picture.svg);
+}
+
+unsigned jobs_of(const SweepArguments& arguments) {
+  return arguments.jobs != 0 ? arguments.jobs : std::max(1U, std::thread::hardware_concurrency());
+}
+
+}  // namespace
+
+int sweep(const SweepArguments& arguments) {
+  const Plan plan = plan_of(arguments);
+  check_loads(plan);
+  const Folder folder(folder_of(arguments), tb::sweep::identity(plan, tb::sweep::program_identity(DSDPV1_VERSION)));
+  if (!folder.started_anew().empty())
+    std::cerr << "sweep: " << folder_of(arguments) << " is about " << folder.started_anew()
+              << ": its points are removed, starting anew\n";
+  catch_signals();
+  Runner runner(plan, folder, jobs_of(arguments), arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
+  if (runner.kept() != 0)
+    std::cerr << fmt::format("sweep: {} of {} points are there already\n", runner.kept(), plan.points());
+  if (!runner.run()) {
+    std::cerr << fmt::format("sweep: interrupted, {} of {} points are kept; the same command goes on from there\n",
+                             runner.done(), plan.points());
+    return kInterrupted;
+  }
+  const std::vector<Point> points = runner.points();
+  check_possible(points);
+  write_results(plan, points, folder);
+  if (!arguments.quiet)
+    std::cout << tb::sweep::summary(plan, points) << "  written: " << folder.file("results.csv") << " and map*.svg\n"
+              << std::flush;
+  return kPassed;
+}
+
+}  // namespace app

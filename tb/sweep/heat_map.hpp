@@ -1,0 +1,20 @@
+#pragma once
+// Pictures of a sweep (SVG): a cell a point, coloured by its worst margin.
+#include <string>
+#include <vector>
+
+#include "tb/sweep/plan.hpp"
+#include "tb/sweep/point.hpp"
+
+namespace tb::sweep {
+
+struct Picture {
+  std::string name;  ///< "map.svg"; of several "map_1.svg", ...
+  std::string svg;
+};
+
+/// The first parameter runs to the right, the second downwards; of three and more parameters there is a picture for each
+/// combination of the others.
+std::vector<Picture> heat_maps(const Plan& plan, const std::vector<Point>& points);
+
+}  // namespace tb::sweep

@@ -1,0 +1,44 @@
+#pragma once
+// What a sweep runs: the product of its parameters' values over one scenario.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace tb::sweep {
+
+/// A key of the scenario and the values that it takes, as `run --set` understands them.
+struct Parameter {
+  std::string path;
+  std::vector<std::string> values;
+};
+
+/// "PATH=VALUES". VALUES are separated by commas; of whole numbers and times, ranges as well:
+///
+///   user_cpu.fsmc.datast=0..15     every whole number from 0 to 15
+///   user_cpu.cycle=40us..100us/20us   40us, 60us, 80us, 100us; times need a step
+///   baud=12M,6M,500k
+///
+/// The end of a range belongs to it when a step meets it. Throws InputError for a path that no scenario has, a value
+/// that the key does not allow, one that is there twice, and more than 10 000 values.
+Parameter parse_parameter(const std::string& text);
+
+struct Plan {
+  std::string scenario;
+  std::vector<std::string> settings;  ///< PATH=VALUE, the same at every point
+  std::string checks;                 ///< of `run --checks`; empty: what is usual there
+  std::vector<Parameter> parameters;
+
+  /// How many points the product has.
+  std::size_t points() const;
+  /// The value of each parameter at a point; the last parameter changes fastest.
+  std::vector<std::string> values(std::size_t point) const;
+  /// PATH=VALUE of everything that is set at a point.
+  std::vector<std::string> settings_of(std::size_t point) const;
+  /// "datast": the end of a parameter's path, the whole path where two have the same end.
+  std::string short_name(std::size_t parameter) const;
+};
+
+/// Throws InputError when a key is set or swept twice, no parameter is there, or there are more than 100 000 points.
+void check(const Plan& plan);
+
+}  // namespace tb::sweep
