@@ -48,13 +48,13 @@ static uint64_t not_too_late(uint64_t due, uint64_t period) {
 
 int main(void) {
   board_start();
+  board_release_chip(); /* it needs 85 us, time for what follows */
   settings_load();
-  report_print_device();
   dsdpv1_device* chip = station_open(settings_from_bench() ? &bench_port : &port_stm32);
   objects_open(chip);
-  board_release_chip();
   board_wait(settings_in_cycles()->start_delay);
   station_bring_up();
+  report_print_device();
   const uint64_t period = settings_in_cycles()->period;
   for (uint64_t due = board_now();; due += period) {
     wait_for_turn(due);
