@@ -15,7 +15,7 @@ COUNTED_ON = "Counted on RTL with the checksum `{}`."
 
 # kind: line or toggle. name: the signal's bit, or the direction of a branch.
 Point = collections.namedtuple("Point", "kind file line name")
-# bits: of a signal, empty for all of them
+# bits: of a signal, None for all of them
 Reason = collections.namedtuple("Reason", "kind file pattern bits why")
 
 
@@ -37,6 +37,15 @@ def read_points(data):
     return counts
 
 
+def read_bits(text):
+    """The bits of `7:4, 2`."""
+    bits = set()
+    for part in text.split(","):
+        high, low = int(part.split(":")[0]), int(part.split(":")[-1])
+        bits |= set(range(low, high + 1))
+    return frozenset(bits)
+
+
 def read_reasons(path):
     """Lines `line | file | part of the source line | why` and `toggle | file | pattern of signals, [bits] behind it | why`."""
     reasons = []
@@ -47,10 +56,10 @@ def read_reasons(path):
         if len(fields) != 4 or fields[0] not in ("line", "toggle") or not all(fields):
             sys.exit(f"{path}:{number}: not a reason, allowed is: line or toggle | file | pattern | why")
         kind, file, pattern, why = fields
-        bits = re.fullmatch(r"(.+)\[(\d+)(?::(\d+))?\]", pattern) if kind == "toggle" else None
+        bits = re.fullmatch(r"(.+)\[([\d:, ]+)\]", pattern) if kind == "toggle" else None
         if bits:
-            pattern, bits = bits[1], range(int(bits[3] or bits[2]), int(bits[2]) + 1)
-        reasons.append(Reason(kind, file, pattern, bits or (), why))
+            pattern, bits = bits[1], read_bits(bits[2])
+        reasons.append(Reason(kind, file, pattern, bits, why))
     return reasons
 
 
@@ -63,8 +72,18 @@ def bit(name):
     return int(name[name.index("[") + 1:-1]) if "[" in name else 0
 
 
+def ranges(bits):
+    """Text of the bits, neighbours together: 7:4, 2."""
+    text, bits = [], sorted(bits, reverse=True)
+    while bits:
+        length = next((i for i in range(1, len(bits)) if bits[i] != bits[0] - i), len(bits))
+        text.append(str(bits[0]) if length == 1 else f"{bits[0]}:{bits[length - 1]}")
+        bits = bits[length:]
+    return ", ".join(text)
+
+
 def words(reason):
-    bits = f"[{reason.bits[-1]}:{reason.bits[0]}]" if reason.bits else ""
+    bits = f"[{ranges(reason.bits)}]" if reason.bits else ""
     return f"{reason.kind} | {reason.file} | {reason.pattern}{bits} | {reason.why}"
 
 
@@ -119,16 +138,6 @@ def uncovered_lines(counts, sources, reasons):
         why = reason.why if reason else "NO EXPLANATION"
         text.append(f"{point.file}:{point.line}: {sources.text(point)}\n    {why}")
     return "\n".join(text), missing, used
-
-
-def ranges(bits):
-    """Text of the bits, neighbours together: 7:4, 2."""
-    text, bits = [], sorted(bits, reverse=True)
-    while bits:
-        length = next((i for i in range(1, len(bits)) if bits[i] != bits[0] - i), len(bits))
-        text.append(str(bits[0]) if length == 1 else f"{bits[0]}:{bits[length - 1]}")
-        bits = bits[length:]
-    return ", ".join(text)
 
 
 def uncovered_toggles(counts, sources, reasons):

@@ -74,12 +74,15 @@ class Report(unittest.TestCase):
         result = self.report(bits, "toggle | rtl/block.sv | word[3:2] | too high\n")
         self.assertIn("too high\n    rtl/block.sv: word[3:2]", result.stdout)
         self.assertIn("NO EXPLANATION\n    rtl/block.sv: word[1:0]", result.stdout)
+        some = self.report(bits, "toggle | rtl/block.sv | word[3, 1:0] | not 2\n")
+        self.assertIn("not 2\n    rtl/block.sv: word[3, 1:0]", some.stdout)
+        self.assertIn("NO EXPLANATION\n    rtl/block.sv: word[2]", some.stdout)
         one = self.report(bits[:1], "toggle | rtl/block.sv | word[0] | odd words only\n")
         self.assertEqual(one.returncode, 0, one.stdout)
 
     def test_a_reason_that_explains_nothing_fails(self):
         result = self.report([record("v_toggle/block", 3, "word[0]", 1)], "toggle | rtl/block.sv | word[0] | never\n")
-        self.assertIn("explains nothing: toggle | rtl/block.sv | word[0:0] | never", result.stdout)
+        self.assertIn("explains nothing: toggle | rtl/block.sv | word[0] | never", result.stdout)
         self.assertEqual(result.returncode, 1)
 
     def test_data_of_another_kind_are_refused(self):
