@@ -15,7 +15,8 @@ COUNTED_ON = "Counted on RTL with the checksum `{}`."
 
 # kind: line or toggle. name: the signal's bit, or the direction of a branch.
 Point = collections.namedtuple("Point", "kind file line name")
-Reason = collections.namedtuple("Reason", "kind file pattern why")
+# bits: of a signal, None for all of them
+Reason = collections.namedtuple("Reason", "kind file pattern bits why")
 
 
 def read_points(data):
@@ -36,8 +37,17 @@ def read_points(data):
     return counts
 
 
+def read_bits(text):
+    """The bits of `7:4, 2`."""
+    bits = set()
+    for part in text.split(","):
+        high, low = int(part.split(":")[0]), int(part.split(":")[-1])
+        bits |= set(range(low, high + 1))
+    return frozenset(bits)
+
+
 def read_reasons(path):
-    """Lines `line | file | part of the source line | why` and `toggle | file | pattern of signals | why`."""
+    """Lines `line | file | part of the source line | why` and `toggle | file | pattern of signals, [bits] behind it | why`."""
     reasons = []
     for number, text in enumerate(pathlib.Path(path).read_text(encoding="utf-8").splitlines(), 1):
         if not text.strip() or text.startswith("#"):
@@ -45,12 +55,44 @@ def read_reasons(path):
         fields = [field.strip() for field in text.split(" | ")]
         if len(fields) != 4 or fields[0] not in ("line", "toggle") or not all(fields):
             sys.exit(f"{path}:{number}: not a reason, allowed is: line or toggle | file | pattern | why")
-        reasons.append(Reason(*fields))
+        kind, file, pattern, why = fields
+        bits = re.fullmatch(r"(.+)\[([\d:, ]+)\]", pattern) if kind == "toggle" else None
+        if bits:
+            pattern, bits = bits[1], read_bits(bits[2])
+        reasons.append(Reason(kind, file, pattern, bits, why))
     return reasons
 
 
 def signal(name):
     return name.split("[")[0]
+
+
+def bit(name):
+    """Number of the bit; 0 for a signal that is no vector."""
+    return int(name[name.index("[") + 1:-1]) if "[" in name else 0
+
+
+def ranges(bits):
+    """Text of the bits, neighbours together: 7:4, 2."""
+    text, bits = [], sorted(bits, reverse=True)
+    while bits:
+        length = next((i for i in range(1, len(bits)) if bits[i] != bits[0] - i), len(bits))
+        text.append(str(bits[0]) if length == 1 else f"{bits[0]}:{bits[length - 1]}")
+        bits = bits[length:]
+    return ", ".join(text)
+
+
+def words(reason):
+    bits = f"[{ranges(reason.bits)}]" if reason.bits else ""
+    return f"{reason.kind} | {reason.file} | {reason.pattern}{bits} | {reason.why}"
+
+
+def fits(point, reason, sources):
+    if reason.kind != point.kind or not fnmatch.fnmatchcase(point.file, reason.file):
+        return False
+    if point.kind == "line":
+        return reason.pattern in sources.text(point)
+    return fnmatch.fnmatchcase(signal(point.name), reason.pattern) and (not reason.bits or bit(point.name) in reason.bits)
 
 
 class Sources:
@@ -69,14 +111,7 @@ class Sources:
 
 def reason_of(point, sources, reasons):
     """The first reason that fits, or None."""
-    for reason in reasons:
-        if reason.kind != point.kind or not fnmatch.fnmatchcase(point.file, reason.file):
-            continue
-        if point.kind == "toggle" and fnmatch.fnmatchcase(signal(point.name), reason.pattern):
-            return reason
-        if point.kind == "line" and reason.pattern in sources.text(point):
-            return reason
-    return None
+    return next((reason for reason in reasons if fits(point, reason, sources)), None)
 
 
 def share(points, counts):
@@ -106,26 +141,24 @@ def uncovered_lines(counts, sources, reasons):
 
 
 def uncovered_toggles(counts, sources, reasons):
-    """Text of the summary by signal, number of bits without a reason, reasons used."""
-    bits, total, used, missing = collections.Counter(), collections.Counter(), set(), 0
-    why = {}
+    """Text of the list by reason and signal, number of bits without a reason, reasons used."""
+    bits = collections.defaultdict(lambda: collections.defaultdict(list))
     for point in counts:
-        if point.kind != "toggle":
-            continue
-        key = (point.file, signal(point.name))
-        total[key] += 1
-        if counts[point] == 0:
-            bits[key] += 1
-            why[key] = reason_of(point, sources, reasons)
-    by_reason = collections.defaultdict(list)
-    for key in sorted(bits):
-        by_reason[why[key]].append(f"{key[0]}: {key[1]} ({bits[key]} of {total[key]})")
-        missing += bits[key] if why[key] is None else 0
+        if point.kind == "toggle" and counts[point] == 0:
+            bits[reason_of(point, sources, reasons)][point.file, signal(point.name)].append(bit(point.name))
     text = []
-    for reason, signals in by_reason.items():
-        used.add(reason)
-        text.append((reason.why if reason else "NO EXPLANATION") + "".join(f"\n    {each}" for each in signals))
-    return "\n".join(text), missing, used
+    for reason, signals in bits.items():
+        text.append((reason.why if reason else "NO EXPLANATION") +
+                    "".join(f"\n    {file}: {name}[{ranges(signals[file, name])}]" for file, name in sorted(signals)))
+    return "\n".join(text), sum(map(len, bits.get(None, {}).values())), set(bits)
+
+
+def summary(counts, reasons):
+    """What the page says below the table."""
+    lines, bits = (sum(counts[p] == 0 for p in counts if p.kind == kind) for kind in ("line", "toggle"))
+    rules = collections.Counter(reason.kind for reason in reasons)
+    return (f"{lines} lines and branches were not reached, explained by {rules['line']} reasons in `rtl_ref/coverage.txt`; {bits} bits did\n"
+            f"not change, explained by {rules['toggle']} rules there.")
 
 
 def report(data, folder, path, update):
@@ -135,13 +168,15 @@ def report(data, folder, path, update):
     toggles, missing_bits, used_toggles = uncovered_toggles(counts, sources, reasons)
     text = table(counts)
     print(f"{text}\n\nLines and branches that were not reached:\n{lines}\n\nBits that did not change:\n{toggles}\n")
-    for reason in reasons:
-        if reason not in used_lines | used_toggles:
-            print(f"no longer needed: {' | '.join(reason)}")
-    print(f"{missing} lines and {missing_bits} bits without an explanation")
+    unused = [reason for reason in reasons if reason not in used_lines | used_toggles]
+    for reason in unused:
+        print(f"explains nothing: {words(reason)}")
+    print(f"{missing} lines and {missing_bits} bits without an explanation, {len(unused)} explanations of nothing")
+    if missing or missing_bits or unused:
+        return 1
     if update:
-        figures.rewrite(f"{text}\n\n{COUNTED_ON.format(figures.checksum())}", BEGIN, END)
-    return 1 if missing else 0
+        figures.rewrite(f"{text}\n\n{summary(counts, reasons)}\n\n{COUNTED_ON.format(figures.checksum())}", BEGIN, END)
+    return 0
 
 
 def check():
@@ -154,7 +189,7 @@ def check():
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
-    show = commands.add_parser("report", help="tables and lists; exit 1 when an uncovered line has no explanation")
+    show = commands.add_parser("report", help="tables and lists; exit 1 unless just what was not reached is explained")
     show.add_argument("data", help="what verilator_coverage has merged")
     show.add_argument("--sources", default=figures.RTL, help="folder of the RTL")
     show.add_argument("--reasons", default=figures.RTL / "coverage.txt", help="why the rest was not reached")

@@ -138,7 +138,7 @@ class LineParser {
     if (!(words_ >> word) || word[0] == '#') return std::nullopt;
     const auto verb = kVerbs.find(word);
     if (verb == kVerbs.end())
-      fail("unknown action " + word, "send, spike, take, give, write, read, block, pin, reset, sync");
+      fail("unknown action " + word, "send, spike, take, give, write, read, block, pin, reset, sync, repeat, end");
     Action action;
     action.verb = verb->second;
     while (words_ >> word) {
@@ -217,6 +217,59 @@ class LineParser {
   int number_;
 };
 
+/// The lines of a file; those between `repeat COUNT` and `end` several times.
+class FileParser {
+ public:
+  explicit FileParser(const std::string& file) : file_(file) {}
+
+  Stimulus parse(const std::string& text) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      ++number_;
+      std::istringstream words(line);
+      std::string verb, argument, more;
+      words >> verb >> argument >> more;
+      if (verb == "repeat") {
+        repeat(more.empty() ? argument : argument + " " + more);
+      } else if (verb == "end") {
+        end(argument);
+      } else if (auto action = LineParser(line, file_, number_).parse()) {
+        stimulus_.push_back(std::move(*action));
+      }
+    }
+    if (count_ != 0) fail(repeat_line_, "repeat without its end", "end behind the lines that are repeated");
+    return std::move(stimulus_);
+  }
+
+ private:
+  static constexpr int kMostRepeats = 1000;
+  [[noreturn]] void fail(int line, const std::string& what, const std::string& allowed) const {
+    throw tb::InputError(file_, line, what + ", allowed: " + allowed);
+  }
+  void repeat(const std::string& argument) {
+    if (count_ != 0) fail(number_, "repeat within repeat", fmt::format("end first, of line {}", repeat_line_));
+    const bool digits =
+        !argument.empty() && argument.size() <= 4 && argument.find_first_not_of("0123456789") == std::string::npos;
+    count_ = digits ? std::stoi(argument) : 0;
+    if (count_ < 1 || count_ > kMostRepeats)
+      fail(number_, "wrong count " + argument, fmt::format("repeat 1 to repeat {}", kMostRepeats));
+    first_ = stimulus_.size();
+    repeat_line_ = number_;
+  }
+  void end(const std::string& argument) {
+    if (count_ == 0) fail(number_, "end without repeat", "repeat COUNT before it");
+    if (!argument.empty()) fail(number_, "unknown word " + argument, "end alone");
+    const Stimulus lines(stimulus_.begin() + static_cast<std::ptrdiff_t>(first_), stimulus_.end());
+    for (; count_ > 1; --count_) stimulus_.insert(stimulus_.end(), lines.begin(), lines.end());
+    count_ = 0;
+  }
+
+  const std::string& file_;
+  Stimulus stimulus_;
+  int number_ = 0, count_ = 0, repeat_line_ = 0;
+  std::size_t first_ = 0;
+};
+
 }  // namespace
 
 std::string to_text(const Stimulus& stimulus) {
@@ -226,14 +279,6 @@ std::string to_text(const Stimulus& stimulus) {
   return text;
 }
 
-Stimulus parse_stimulus(const std::string& text, const std::string& file) {
-  Stimulus stimulus;
-  std::istringstream lines(text);
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    if (auto action = LineParser(line, file, ++number).parse()) stimulus.push_back(std::move(*action));
-  }
-  return stimulus;
-}
+Stimulus parse_stimulus(const std::string& text, const std::string& file) { return FileParser(file).parse(text); }
 
 }  // namespace cosim

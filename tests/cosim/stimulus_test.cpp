@@ -39,6 +39,12 @@ TEST(Stimulus, EmptyLinesAndCommentsAreSkipped) {
   EXPECT_EQ(parse_stimulus("# a comment\n\nsync\n  # another\ngive +12\n", "x").size(), 2U);
 }
 
+TEST(Stimulus, LinesBetweenRepeatAndEndCountAsOftenAsSaid) {
+  const std::string once = "give +1\nsync\n";
+  EXPECT_EQ(to_text(parse_stimulus("take +7\nrepeat 3\n" + once + "end\ngive +9\n", "x")),
+            to_text(parse_stimulus("take +7\n" + once + once + once + "give +9\n", "x")));
+}
+
 TEST(Stimulus, FilesWithTheShortestDelaysArePlayedFirst) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(testing::TempDir()) / "stimuli_in_order";
@@ -66,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"sync\nfly +1\n",
               "my.stimulus:2: unknown action fly, allowed: send, spike, take, give, write, read, block, pin, reset, "
-              "sync"},
+              "sync, repeat, end"},
         Wrong{"write +0 at=800 value=1\n", "my.stimulus:1: wrong number 800, allowed: 0 to 7FF, hexadecimal"},
         Wrong{"write +0 to=1\n",
               "my.stimulus:1: unknown argument to, allowed: +DELAY, at=, value=, setup=, low=, hold="},
@@ -75,6 +81,14 @@ INSTANTIATE_TEST_SUITE_P(
               "my.stimulus:1: unknown word PBTXD, allowed: +DELAY, KEY=VALUE, : BYTES, and the name of an input pin "
               "behind pin"},
         Wrong{"send +0 rate=0 gap=1 : 10\n", "my.stimulus:1: wrong fault 1, allowed: 2 numbers with : between them"},
-        Wrong{"send +0 : 10 GG\n", "my.stimulus:1: wrong number GG, allowed: 0 to FF, hexadecimal"}));
+        Wrong{"send +0 : 10 GG\n", "my.stimulus:1: wrong number GG, allowed: 0 to FF, hexadecimal"},
+        Wrong{"repeat\n", "my.stimulus:1: wrong count , allowed: repeat 1 to repeat 1000"},
+        Wrong{"repeat 2 3\n", "my.stimulus:1: wrong count 2 3, allowed: repeat 1 to repeat 1000"},
+        Wrong{"repeat 1001\n", "my.stimulus:1: wrong count 1001, allowed: repeat 1 to repeat 1000"},
+        Wrong{"sync\nrepeat 2\nsync\n",
+              "my.stimulus:2: repeat without its end, allowed: end behind the lines that are repeated"},
+        Wrong{"repeat 2\nrepeat 2\n", "my.stimulus:2: repeat within repeat, allowed: end first, of line 1"},
+        Wrong{"sync\nend\n", "my.stimulus:2: end without repeat, allowed: repeat COUNT before it"},
+        Wrong{"repeat 2\nsync\nend 2\n", "my.stimulus:3: unknown word 2, allowed: end alone"}));
 
 }  // namespace

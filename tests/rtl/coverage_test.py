@@ -28,7 +28,7 @@ class Report(unittest.TestCase):
 
     def test_counts_lines_and_toggles_apart(self):
         result = self.report([record("v_line/block", 2, "case", 5), record("v_branch/block", 1, "if", 3),
-                              record("v_toggle/block", 3, "word[0]", 1), record("v_toggle/block", 3, "word[1]", 0)])
+                              record("v_toggle/block", 3, "word[0]", 1), record("v_toggle/block", 3, "word[1]", 0)], "toggle | * | word[1] | a constant\n")
         self.assertIn("| `rtl_ref/rtl/block.sv` | 2 of 2, 100.0 % | 1 of 2, 50.0 % |", result.stdout)
         self.assertEqual(result.returncode, 0, result.stderr)
 
@@ -44,8 +44,8 @@ class Report(unittest.TestCase):
         result = self.report([record("v_branch/block", 1, "if", 0)], "line | rtl/block.sv | case (state) | another line\n")
         self.assertEqual(result.returncode, 1)
         self.assertIn("rtl/block.sv:1: if (a) b = c;\n    NO EXPLANATION", result.stdout)
-        self.assertIn("1 lines and 0 bits without an explanation", result.stdout)
-        self.assertIn("no longer needed: line | rtl/block.sv | case (state) | another line", result.stdout)
+        self.assertIn("1 lines and 0 bits without an explanation, 1 explanations of nothing", result.stdout)
+        self.assertIn("explains nothing: line | rtl/block.sv | case (state) | another line", result.stdout)
 
     def test_an_explained_line_passes(self):
         result = self.report([record("v_branch/block", 1, "if", 0)], "# words\n\nline | rtl/block.sv | b = c | a is never 1\n")
@@ -56,14 +56,34 @@ class Report(unittest.TestCase):
         point = [record("v_branch/block", 1, "else", 0)]
         self.assertEqual(self.report(point, "line | rtl/block.sv | else of: if (a) | a is always 1\n").returncode, 0)
 
-    def test_bits_of_a_signal_are_explained_together_and_do_not_fail(self):
-        bits = [record("v_toggle/block", 3, "word[0]", 0), record("v_toggle/block", 3, "word[1]", 0)]
-        explained = self.report(bits, "toggle | */block.sv | wo* | a constant\n")
-        self.assertIn("a constant\n    rtl/block.sv: word (2 of 2)", explained.stdout)
-        self.assertIn("0 lines and 0 bits without", explained.stdout)
-        unexplained = self.report(bits)
-        self.assertIn("0 lines and 2 bits without", unexplained.stdout)
-        self.assertEqual(unexplained.returncode, 0)
+    def test_bits_of_a_signal_are_explained_together(self):
+        bits = [record("v_toggle/block", 3, f"word[{number}]", count) for number, count in enumerate((0, 0, 0, 4, 0))]
+        result = self.report(bits, "toggle | */block.sv | wo* | a constant\n")
+        self.assertIn("a constant\n    rtl/block.sv: word[4, 2:0]", result.stdout)
+        self.assertIn("0 lines and 0 bits without", result.stdout)
+        self.assertEqual(result.returncode, 0)
+
+    def test_a_bit_without_explanation_fails(self):
+        result = self.report([record("v_toggle/block", 3, "word[0]", 0), record("v_toggle/block", 3, "word[1]", 0)])
+        self.assertIn("NO EXPLANATION\n    rtl/block.sv: word[1:0]", result.stdout)
+        self.assertIn("0 lines and 2 bits without", result.stdout)
+        self.assertEqual(result.returncode, 1)
+
+    def test_a_rule_for_some_bits_leaves_the_others(self):
+        bits = [record("v_toggle/block", 3, f"word[{number}]", 0) for number in range(4)]
+        result = self.report(bits, "toggle | rtl/block.sv | word[3:2] | too high\n")
+        self.assertIn("too high\n    rtl/block.sv: word[3:2]", result.stdout)
+        self.assertIn("NO EXPLANATION\n    rtl/block.sv: word[1:0]", result.stdout)
+        some = self.report(bits, "toggle | rtl/block.sv | word[3, 1:0] | not 2\n")
+        self.assertIn("not 2\n    rtl/block.sv: word[3, 1:0]", some.stdout)
+        self.assertIn("NO EXPLANATION\n    rtl/block.sv: word[2]", some.stdout)
+        one = self.report(bits[:1], "toggle | rtl/block.sv | word[0] | odd words only\n")
+        self.assertEqual(one.returncode, 0, one.stdout)
+
+    def test_a_reason_that_explains_nothing_fails(self):
+        result = self.report([record("v_toggle/block", 3, "word[0]", 1)], "toggle | rtl/block.sv | word[0] | never\n")
+        self.assertIn("explains nothing: toggle | rtl/block.sv | word[0] | never", result.stdout)
+        self.assertEqual(result.returncode, 1)
 
     def test_data_of_another_kind_are_refused(self):
         result = self.report(["nonsense"])

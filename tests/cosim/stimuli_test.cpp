@@ -1,0 +1,35 @@
+// The directed stimuli that coverage asks for: model and RTL do not differ, and the model tells that what they are there for has happened.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/app/program.hpp"
+
+namespace {
+
+struct Directed {
+  const char* name;
+  std::vector<std::string> told;  ///< events and their numbers, as rtl-random prints them
+};
+
+class DirectedStimulus : public testing::TestWithParam<Directed> {};
+
+TEST_P(DirectedStimulus, DoesNotDifferAndReachesWhatItIsFor) {
+  const app_test::Called called = app_test::call(
+      "rtl-random --replay tests/cosim/stimuli/" + std::string(GetParam().name) + ".stimulus", DSDPV1_SOURCE_DIR);
+  EXPECT_EQ(called.status, 0) << called.out << called.err;
+  for (const std::string& told : GetParam().told) EXPECT_THAT(called.out, testing::HasSubstr(" " + told + " "));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, DirectedStimulus,
+    testing::Values(Directed{"init_limits", {"INIT_LENGTH 3", "INIT_LIMIT 9", "INIT_CFG 3", "INITIALISED 1"}},
+                    Directed{"verdicts", {"PRM_USER 2", "CFG_USER 2", "PRM_OK 6", "CFG_OK 4", "VERDICT_UNEXPECTED 4"}},
+                    Directed{"service_lengths",
+                             {"ADDRESS 2", "ADDRESS_TOO_LONG 1", "CFG_TOO_LONG 1", "DX_FAIL_SAFE 1", "DX_LENGTH 1"}},
+                    Directed{"longest_blocks", {"PRM_OK 1", "CFG_OK 1", "DIAG 1"}},
+                    Directed{"banks", {"Check_Cfg 2", "Global_Control 2", "CFG_OK 1"}},
+                    Directed{"offline_count", {"PRM_OK 257", "CFG_OK 257"}},
+                    Directed{"host_port", {"HOST_NOT_OWNER 4"}}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+}  // namespace
