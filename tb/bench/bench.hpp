@@ -10,6 +10,7 @@
 
 #include "bus/master1.hpp"
 #include "bus/monitor.hpp"
+#include "tb/bench/check_watch.hpp"
 #include "tb/bench/class2_station.hpp"
 #include "tb/bench/execution.hpp"
 #include "tb/bench/pin_trace.hpp"
@@ -29,6 +30,7 @@ struct RunOptions {
   dsdpv1::Engine engine = dsdpv1::Engine::kSkip;
   std::string engine_name = "skip", view_name = "pins";
   std::string wave, log, trace;  ///< paths, empty: not wanted
+  ChecksMode checks = ChecksMode::kOff;
   bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
 };
 
@@ -92,11 +94,11 @@ class Bench {
   void begin_waves();
   void pin_changed(std::size_t index, Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void chip_event(std::size_t index, const profibus::Event& event);
+  void check_violated(const std::string& slave, const checks::Violation& violation, const char* kind);
   void driver_error(const SlaveStation& station, const user_cpu::DriverError& error);
   void telegram(const bus::WireTelegram& telegram);
   void flagged(const bus::Flag& flag);
   void happened(Happening happening);
-  bool is_allowed(const Happening& happening) const;
   RunResult collect();
   void finish_outputs();
 
@@ -104,6 +106,7 @@ class Bench {
   RunOptions options_;
   std::unique_ptr<Execution> execution_;
   Setup setup_;
+  CheckWatch checks_;
   std::vector<std::unique_ptr<SlaveStation>> slaves_;
   std::vector<Master> masters_;
   std::vector<std::unique_ptr<Class2Station>> masters2_;

@@ -12,7 +12,7 @@ namespace tb::scenario {
 std::string flag_code(bus::FlagKind kind);
 /// "DSDPV1_ERR_INIT_CRC", ...: what a call of the driver returned.
 std::string driver_error_code(dsdpv1_error error);
-/// All codes of the chip, the driver and the monitor.
+/// All codes of the chip, the driver and the monitor, and the ids of the checks.
 const std::vector<std::string>& all_codes();
 
 }  // namespace tb::scenario

@@ -1,4 +1,5 @@
 // From a file to a checked scenario.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -52,6 +53,12 @@ Scenario parse(const std::string& text, const std::string& file) {
 }
 
 Scenario load(const std::string& path) { return parse(read_file(path), path); }
+
+bool allows(const Scenario& scenario, const std::string& code, const std::string& station) {
+  return std::any_of(scenario.allow.begin(), scenario.allow.end(), [&](const Allow& allow) {
+    return allow.event.text == code && (allow.slave.empty() || allow.slave.text == station);
+  });
+}
 
 std::string resolve(const Scenario& scenario, const Name& path) {
   return (std::filesystem::path(scenario.file).parent_path() / path.text).lexically_normal().string();
