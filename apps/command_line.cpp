@@ -41,6 +41,12 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   command->add_option("--wave", arguments.wave, "Waves of all pins, the line and the states: FILE.vcd or FILE.fst");
   command->add_option("--log", arguments.log, "Everything that happened, one line a thing");
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
+  command
+      ->add_option(
+          "--checks", arguments.checks,
+          "The checks of docs/checks.md on handshake, bus timing and DPRAM: report (listed), fail (exit 1 on a "
+          "violation that the scenario does not allow), off")
+      ->capture_default_str();
   command->add_option("--trace", arguments.trace, "Every change of every output pin, for comparisons");
   command
       ->add_option("--difference", arguments.difference,

@@ -13,7 +13,7 @@ constexpr int kWrongInput = 2;     ///< one line on the error channel says where
 constexpr int kInterrupted = 130;  ///< SIGINT or SIGTERM; all files are complete up to there
 
 struct RunArguments {
-  std::string scenario, engine = "skip", view = "pins";
+  std::string scenario, engine = "skip", view = "pins", checks = "report";
   std::string wave, log, result, trace;
   std::string difference = "lockstep.vcd";  ///< wave of a lockstep run's first difference
   std::optional<bool> progress;             ///< absent: on a terminal

@@ -31,9 +31,15 @@ void check_word(const std::string& option, const std::string& word, const std::v
                        ", allowed are " + tb::join(allowed));
 }
 
+tb::ChecksMode checks_mode(const std::string& word) {
+  if (word == "off") return tb::ChecksMode::kOff;
+  return word == "fail" ? tb::ChecksMode::kFail : tb::ChecksMode::kReport;
+}
+
 tb::RunOptions options_of(const RunArguments& arguments) {
   check_word("--engine", arguments.engine, {"step", "skip", "rtl", "lockstep"});
   check_word("--view", arguments.view, {"pins", "tlm"});
+  check_word("--checks", arguments.checks, {"report", "fail", "off"});
   if (arguments.view == "tlm" && arguments.engine != "step" && arguments.engine != "skip")
     throw tb::InputError("dsdpv1-sim run: --engine " + arguments.engine +
                          " is about pins, allowed with it is --view pins");
@@ -55,6 +61,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
       std::cout << station << "| " << line << std::endl;
     };
   }
+  options.checks = checks_mode(arguments.checks);
   return options;
 }
 

@@ -52,7 +52,14 @@ class Bench::BaudFollower : private bus::Listener {
 // --- building ---------------------------------------------------------------------------------------------------------
 
 Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std::unique_ptr<Execution> execution)
-    : scenario_(scenario), options_(options), execution_(std::move(execution)), setup_(scenario) {
+    : scenario_(scenario),
+      options_(options),
+      execution_(std::move(execution)),
+      setup_(scenario),
+      checks_(scenario, options.checks) {
+  checks_.on_violation = [this](const std::string& slave, const checks::Violation& violation, const char* kind) {
+    check_violated(slave, violation, kind);
+  };
   if (!options.wave.empty()) waves_.emplace(options.wave, segment());
   for (const scenario::Slave& slave : scenario.slaves) add_slave(slave);
   baud_follower_ = std::make_unique<BaudFollower>(*this);
@@ -70,7 +77,8 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
 Bench::~Bench() = default;
 
 std::uint32_t Bench::watched_pins() const {
-  return options_.wave.empty() && options_.trace.empty() ? kBusPins : dsdpv1::kOutputPins;
+  const bool all = !options_.wave.empty() || !options_.trace.empty();
+  return all ? kInputPins | dsdpv1::kOutputPins : kBusPins | checks_.pins();
 }
 
 void Bench::add_slave(const scenario::Slave& slave) {
@@ -92,6 +100,7 @@ const GdbWish* Bench::gdb_of(const scenario::Slave& slave) const {
 }
 
 void Bench::connect(SlaveStation& station, std::size_t index) {
+  checks_.add(station.name());
   if (waves_) waves_->add_chip(station.name(), station.chip().chip());
   station.chip().on_pin = [this, index](Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
     pin_changed(index, at, pin, level);
@@ -201,6 +210,7 @@ void Bench::touch(Tick at) { script_->touch(std::max(at, now())); }
 
 void Bench::pin_changed(std::size_t index, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
   if (pin == dsdpv1::Pin::kIntr0) slaves_[index]->intr0_changed(at, level != 0);
+  checks_.pin(index, at, pin, level);
   if (trace_ && !dsdpv1::is_input(pin)) trace_->change(index, slaves_[index]->name(), at, pin, level);
   if (waves_) waves_->pin(index, at, pin, level);
 }
@@ -213,6 +223,13 @@ void Bench::chip_event(std::size_t index, const profibus::Event& event) {
   happened({event.at, slaves_[index]->name(), profibus::code(event.reason), profibus::severity(event.reason),
             profibus::describe(event)});
   touch(event.at);
+}
+
+void Bench::check_violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
+  const std::string id = checks::rule(violation.check).id;
+  ++counts_[slave][id];
+  log(violation.found, slave, kind, id + ": " + violation.text);
+  touch(violation.found);
 }
 
 void Bench::driver_error(const SlaveStation& station, const user_cpu::DriverError& error) {
@@ -234,6 +251,7 @@ void Bench::telegram(const bus::WireTelegram& telegram) {
   const std::string fault = telegram.right() ? "" : fmt::format("  [wrong: {}]", bus::describe(telegram.decoded.error));
   log(telegram.end, "bus", "telegram", words + tsdr + fault + "  " + bytes_text(telegram.decoded.bytes));
   if (waves_) waves_->telegram(now(), words);
+  checks_.telegram(now(), telegram);
   if (telegram.tsdr) {
     for (const auto& slave : slaves_) {
       if (slave->chip().chip().status().address == telegram.station) slave->tsdr().add(telegram.tsdr_bits());
@@ -250,15 +268,10 @@ void Bench::flagged(const bus::Flag& flag) {
   touch();
 }
 
-bool Bench::is_allowed(const Happening& happening) const {
-  return std::any_of(scenario_.allow.begin(), scenario_.allow.end(), [&happening](const scenario::Allow& allow) {
-    return allow.event.text == happening.code && (allow.slave.empty() || allow.slave.text == happening.station);
-  });
-}
-
 void Bench::happened(Happening happening) {
   ++counts_[happening.station][happening.code];
-  happening.allowed = happening.severity == profibus::Severity::kViolation && is_allowed(happening);
+  happening.allowed =
+      happening.severity == profibus::Severity::kViolation && allows(scenario_, happening.code, happening.station);
   if (happening.severity == profibus::Severity::kViolation && !happening.allowed) ++violations_;
   log(happening.at, happening.station, happening.allowed ? "allowed" : name(happening.severity),
       happening.code + ": " + happening.text);
@@ -371,7 +384,6 @@ RunResult Bench::collect() {
   result.fault_registers = registers_;
   result.telegrams = monitor_->statistics().telegrams;
   result.wrong_telegrams = monitor_->statistics().wrong;
-  result.violations = violations_;
   for (const auto& slave : slaves_) {
     slave->chip().sync(result.simulated);
     SlaveResult entry = slave->result();
@@ -383,6 +395,9 @@ RunResult Bench::collect() {
     }
     result.slaves.push_back(std::move(entry));
   }
+  checks_.finish(result.simulated);
+  result.checks = checks_.results();
+  result.violations = violations_ + checks_.failures();
   result.expectations = script_->finish(result.simulated, result.interrupted);
   result.happenings = happenings_;
   std::stable_sort(result.happenings.begin(), result.happenings.end(), [](const Happening& a, const Happening& b) {
@@ -391,7 +406,7 @@ RunResult Bench::collect() {
   result.happenings_dropped = happenings_dropped_;
   const bool met = std::all_of(result.expectations.begin(), result.expectations.end(),
                                [](const ExpectationResult& each) { return each.passed; });
-  result.passed = met && violations_ == 0 && !result.interrupted;
+  result.passed = met && result.violations == 0 && !result.interrupted;
   return result;
 }
 

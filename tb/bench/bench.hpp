@@ -10,6 +10,7 @@
 
 #include "bus/master1.hpp"
 #include "bus/monitor.hpp"
+#include "tb/bench/check_watch.hpp"
 #include "tb/bench/class2_station.hpp"
 #include "tb/bench/execution.hpp"
 #include "tb/bench/pin_trace.hpp"
@@ -32,6 +33,7 @@ struct RunOptions {
   std::string wave, log, trace;  ///< paths, empty: not wanted
   std::optional<GdbWish> gdb;    ///< debugger of the first ARM board
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
+  ChecksMode checks = ChecksMode::kOff;
   bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
 };
 
@@ -98,11 +100,11 @@ class Bench {
   const GdbWish* gdb_of(const scenario::Slave& slave) const;
   void user_failed(const SlaveStation& station, Tick at, const std::string& why, const std::string& registers);
   bool stopped() const;
+  void check_violated(const std::string& slave, const checks::Violation& violation, const char* kind);
   void driver_error(const SlaveStation& station, const user_cpu::DriverError& error);
   void telegram(const bus::WireTelegram& telegram);
   void flagged(const bus::Flag& flag);
   void happened(Happening happening);
-  bool is_allowed(const Happening& happening) const;
   RunResult collect();
   void finish_outputs();
 
@@ -110,6 +112,7 @@ class Bench {
   RunOptions options_;
   std::unique_ptr<Execution> execution_;
   Setup setup_;
+  CheckWatch checks_;
   std::vector<std::unique_ptr<SlaveStation>> slaves_;
   std::vector<Master> masters_;
   std::vector<std::unique_ptr<Class2Station>> masters2_;

@@ -23,10 +23,13 @@ class ChipView {
   virtual const dsdpv1::Chip& chip() const = 0;
   virtual void sync(Tick now) = 0;
 
-  /// Changes of the watched output pins, in order of time; with all of them watched also of the input pins.
+  /// Changes of the watched pins, in order of time.
   std::function<void(Tick at, dsdpv1::Pin pin, dsdpv1::Level level)> on_pin;
   std::function<void(const profibus::Event&)> on_event;
 };
+
+/// All input pins.
+constexpr std::uint32_t kInputPins = dsdpv1::mask(dsdpv1::Pin::kLReq) - 1;
 
 /// The output pins that the bench itself needs.
 constexpr std::uint32_t kBusPins =

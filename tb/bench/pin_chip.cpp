@@ -19,11 +19,11 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
       pins_(std::in_place, chip_),
       segment_(segment),
       station_(segment.attach(name, this)),
-      reports_inputs_((watched & dsdpv1::kOutputPins) == dsdpv1::kOutputPins) {
+      reports_inputs_((watched & kInputPins) != 0) {
   chip_.watch(
       {[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); },
        this},
-      watched | kBusPins);
+      (watched & dsdpv1::kOutputPins) | kBusPins);
   chip_.on_event({[](void* self, const profibus::Event& event) {
                     const auto& view = *static_cast<PinChip*>(self);
                     if (view.on_event) view.on_event(event);
@@ -61,7 +61,7 @@ void PinChip::set_reset(Tick at, bool level) { set(at, Pin::kReset, level ? 1 : 
 
 void PinChip::set(Tick at, Pin pin, Level level) {
   chip_.set(at, pin, level);
-  report_inputs(at);
+  report_inputs(at, pin, pin);
 }
 
 void PinChip::reset_host(Tick at) {
@@ -70,27 +70,27 @@ void PinChip::reset_host(Tick at) {
   for (const Pin pin : {Pin::kRSta, Pin::kRReq}) chip_.set(at, pin, 0);
   chip_.set(at, Pin::kDIn, dsdpv1::kLevelZ);
   chip_.set(at, Pin::kA, user_cpu::PinHostBus::kIdleAddress);
-  report_inputs(at);
+  report_inputs(at, Pin::kRReq, Pin::kDIn);
 }
 
 void PinChip::set_r_req(Tick at, bool level) {
   pins_->set_r_req(at, level);
-  report_inputs(at);
+  report_inputs(at, Pin::kRReq, Pin::kRReq);
 }
 
 void PinChip::set_r_sta(Tick at, bool level) {
   pins_->set_r_sta(at, level);
-  report_inputs(at);
+  report_inputs(at, Pin::kRSta, Pin::kRSta);
 }
 
 void PinChip::run_edges(Tick now) {
   pins_->run_edges(now);
-  report_inputs(now);
+  report_inputs(now, Pin::kCsr, Pin::kDIn);
 }
 
-void PinChip::report_inputs(Tick at) {
+void PinChip::report_inputs(Tick at, Pin first, Pin last) {
   if (!reports_inputs_ || !on_pin) return;
-  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+  for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
     const Pin pin = static_cast<Pin>(i);
     const Level level = chip_.level(pin);
     if (std::exchange(inputs_.at(i), level) != level) on_pin(at, pin, level);

@@ -39,7 +39,8 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener, priva
   void pin_changed(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void set(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void drive_line();
-  void report_inputs(Tick at);
+  /// Those of the inputs from `first` to `last` that have changed.
+  void report_inputs(Tick at, dsdpv1::Pin first, dsdpv1::Pin last);
 
   // The host bus is that of the pins; what it does to the input pins is reported.
   void set_r_req(Tick at, bool level) override;

@@ -8,6 +8,7 @@
 #include "bus/bytes.hpp"
 #include "bus/time.hpp"
 #include "model/dsdpv1/chip.hpp"
+#include "tb/checks/recorder.hpp"
 #include "tb/user_cpu/user_side.hpp"
 
 namespace tb {
@@ -45,6 +46,25 @@ struct SlaveResult {
   bus::Bytes inputs, outputs;
 };
 
+/// What is done with violations that the checks of tb/checks find.
+enum class ChecksMode : std::uint8_t {
+  kOff,     ///< nothing is checked
+  kReport,  ///< listed
+  kFail,    ///< listed, and those that the scenario does not allow fail the run
+};
+
+/// A check on one slave.
+struct CheckResult {
+  std::string slave;
+  checks::Check check{};
+  checks::Limit limit;
+  checks::Record record;
+  std::uint64_t allowed = 0;              ///< violations that the scenario lists
+  std::vector<checks::Violation> listed;  ///< the first kListed
+
+  static constexpr std::size_t kListed = 20;
+};
+
 struct ExpectationResult {
   std::string text;
   int line = 0;
@@ -69,11 +89,12 @@ struct RunResult {
   Tick simulated = 0;
   double wall_s = 0;
   std::uint64_t telegrams = 0, wrong_telegrams = 0;
-  std::uint64_t violations = 0;  ///< those that are not allowed
+  std::uint64_t violations = 0;  ///< those that are not allowed, and with ChecksMode::kFail those of checks
   std::vector<SlaveResult> slaves;
   std::vector<Happening> happenings;
   std::uint64_t happenings_dropped = 0;  ///< beyond the first kKept
   std::vector<ExpectationResult> expectations;
+  std::vector<CheckResult> checks;  ///< by slave, then in the order of checks::Check
   std::optional<Pacing> pacing;
   std::string fault_registers;  ///< of the ARM board whose fault ended the run, a few lines; else empty
 

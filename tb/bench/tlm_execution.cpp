@@ -21,9 +21,9 @@ class TlmChipView : public ChipView {
   TlmChipView(const std::string& name, const dsdpv1::systemc::TlmOptions& options, std::uint32_t watched,
               bus::Segment& segment, systemc_bench::TimelineModule& timeline)
       : chip_(name.c_str(), options, segment, timeline), bus_((name + "_host").c_str(), chip_) {
-    const bool all = (watched & dsdpv1::kOutputPins) == dsdpv1::kOutputPins;
-    chip_.on_pin = [this, all, &timeline](Tick at, Pin pin, dsdpv1::Level level) {
-      if (on_pin && (all || !dsdpv1::is_input(pin))) on_pin(at, pin, level);
+    const bool inputs = (watched & kInputPins) != 0;
+    chip_.on_pin = [this, inputs, &timeline](Tick at, Pin pin, dsdpv1::Level level) {
+      if (on_pin && (inputs || !dsdpv1::is_input(pin))) on_pin(at, pin, level);
       if (pin == Pin::kIntr0) timeline.wake();  // the user CPU has a new plan
     };
     chip_.module().on_event = [this, &timeline](const profibus::Event& event) {

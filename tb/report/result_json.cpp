@@ -89,6 +89,52 @@ Json pacing_of(const Pacing& pacing) {
           {"time_lost_ns", nanoseconds_of(pacing.lost)}};
 }
 
+Json history_of(const checks::Violation& violation) {
+  Json changes = Json::array();
+  for (const checks::PinChange& change : violation.history)
+    changes.push_back({{"at_ns", nanoseconds_of(change.at)},
+                       {"pin", dsdpv1::name(change.pin)},
+                       {"level", checks::level_text(change.pin, change.level)}});
+  return changes;
+}
+
+Json histogram_of(const checks::Histogram& histogram) {
+  Json bins = Json::array();
+  for (std::size_t bin = 0; bin < checks::Histogram::kBins; ++bin) {
+    if (histogram.count(bin) == 0) continue;
+    const Tick from = checks::Histogram::from(bin), to = checks::Histogram::to(bin);
+    bins.push_back({{"from_ns", from == -bus::kNever ? Json(nullptr) : nanoseconds_of(from)},
+                    {"to_ns", to == bus::kNever ? Json(nullptr) : nanoseconds_of(to)},
+                    {"count", histogram.count(bin)}});
+  }
+  return bins;
+}
+
+Json check_of(const CheckResult& result) {
+  const checks::Rule& rule = checks::rule(result.check);
+  const auto time = [](const std::optional<Tick>& tick) { return tick ? nanoseconds_of(*tick) : Json(nullptr); };
+  const bool limited = rule.bound != checks::Bound::kRule && result.limit.value != checks::kNoLimit;
+  Json json = {{"id", rule.id},
+               {"slave", result.slave},
+               {"rule", rule.rule},
+               {"clause", rule.clause},
+               {"limit_ns", limited ? nanoseconds_of(result.limit.value) : Json(nullptr)},
+               {"count", result.record.count},
+               {"violations", result.record.violations},
+               {"allowed", result.allowed},
+               {"worst_margin_ns", time(result.record.worst_margin)},
+               {"worst_value_ns", time(result.record.worst_value)},
+               {"at_ns", time(result.record.at)},
+               {"histogram", histogram_of(result.record.histogram)},
+               {"listed", Json::array()}};
+  for (const checks::Violation& each : result.listed)
+    json["listed"].push_back({{"at_ns", nanoseconds_of(each.at)},
+                              {"margin_ns", time(each.margin)},
+                              {"text", each.text},
+                              {"history", history_of(each)}});
+  return json;
+}
+
 Json event_of(const Happening& happening) {
   return {{"at_ns", nanoseconds_of(happening.at)}, {"slave", happening.station},   {"code", happening.code},
           {"severity", name(happening.severity)},  {"allowed", happening.allowed}, {"text", happening.text}};
@@ -119,6 +165,8 @@ std::string result_json(const RunResult& result) {
     json["expectations"].push_back(
         {{"text", each.text}, {"line", each.line}, {"passed", each.passed}, {"seen", each.seen}});
   }
+  json["checks"] = Json::array();
+  for (const CheckResult& each : result.checks) json["checks"].push_back(check_of(each));
   json["events"] = Json::array();
   for (const Happening& each : result.happenings) json["events"].push_back(event_of(each));
   json["events_dropped"] = result.happenings_dropped;

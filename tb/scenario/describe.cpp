@@ -40,7 +40,8 @@ const ObjectOf<ChipParameters>& chip_keys() {
 const ObjectOf<Allow>& allow_keys() {
   static const ObjectOf<Allow> keys = [] {
     ObjectOf<Allow> o("allow", "A violation that is part of the scenario and does not fail the run.");
-    o.name_of("event", &Allow::event, "Code of the event, as in the log and in docs/reasons.md.").required = true;
+    o.name_of("event", &Allow::event, "Code of the event, as in the log and in docs/reasons.md, or id of a check.")
+        .required = true;
     o.name_of("slave", &Allow::slave, "Only of this slave; left out: of any slave or of the bus.");
     return o;
   }();
@@ -64,6 +65,7 @@ ObjectOf<Scenario> describe_scenario() {
   o.list("expect", &Scenario::expect, expectation_keys(), kItems, "What must be true, else the run fails (exit 1).");
   o.list("allow", &Scenario::allow, allow_keys(), kItems,
          "Violations that are expected. Every other one fails the run.");
+  o.object("checks", &Scenario::checks, check_keys(), "Limits of the checks other than their defaults.");
   return o;
 }
 

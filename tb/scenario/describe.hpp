@@ -22,6 +22,7 @@ const ObjectOf<Action>& action_keys();
 const ObjectOf<When>& when_keys();
 const ObjectOf<Expectation>& expectation_keys();
 const ObjectOf<Allow>& allow_keys();
+const ObjectOf<CheckLimits>& check_keys();
 
 /// The ten baud rates, fastest first; with `searching` also the word for no baud rate (-1).
 std::vector<WordFor<int>> baud_words(bool searching = false);

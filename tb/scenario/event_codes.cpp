@@ -2,6 +2,8 @@
 
 #include <cctype>
 
+#include "tb/checks/check.hpp"
+
 namespace tb::scenario {
 
 std::string flag_code(bus::FlagKind kind) {
@@ -35,6 +37,8 @@ const std::vector<std::string>& all_codes() {
     for (std::size_t kind = 0; kind < bus::kFlagKinds; ++kind)
       list.push_back(flag_code(static_cast<bus::FlagKind>(kind)));
     list.emplace_back(kFirmwareFault);
+    for (std::size_t i = 0; i < checks::kCheckCount; ++i)
+      list.emplace_back(checks::rule(static_cast<checks::Check>(i)).id);
     return list;
   }();
   return codes;

@@ -14,7 +14,7 @@ std::string flag_code(bus::FlagKind kind);
 std::string driver_error_code(dsdpv1_error error);
 /// The firmware of an ARM board stopped with a fault.
 constexpr const char* kFirmwareFault = "ARM_FAULT";
-/// All codes of the chip, the driver, the monitor and the ARM board.
+/// All codes of the chip, the driver, the monitor and the ARM board, and the ids of the checks.
 const std::vector<std::string>& all_codes();
 
 }  // namespace tb::scenario

@@ -1,4 +1,5 @@
 // From a file to a checked scenario.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -77,6 +78,12 @@ Scenario parse(const std::string& text, const std::string& file, const std::vect
 
 Scenario load(const std::string& path, const std::vector<Setting>& settings) {
   return parse(read_file(path), path, settings);
+}
+
+bool allows(const Scenario& scenario, const std::string& code, const std::string& station) {
+  return std::any_of(scenario.allow.begin(), scenario.allow.end(), [&](const Allow& allow) {
+    return allow.event.text == code && (allow.slave.empty() || allow.slave.text == station);
+  });
 }
 
 std::vector<std::string> files(const std::string& path, const std::vector<Setting>& settings) {

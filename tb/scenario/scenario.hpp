@@ -11,6 +11,7 @@
 #include "bus/slave_parameters.hpp"
 #include "bus/time.hpp"
 #include "model/dsdpv1/chip.hpp"
+#include "tb/checks/check.hpp"
 #include "tb/scenario/keys.hpp"
 #include "tb/scenario/settings.hpp"
 #include "tb/user_cpu/fsmc_timing.hpp"
@@ -284,6 +285,11 @@ struct Allow {
   int line = 0;
 };
 
+/// Limits of checks other than their defaults, for all slaves.
+struct CheckLimits : checks::Limits {
+  int line = 0;
+};
+
 struct Scenario {
   std::string file;  ///< as given to `load_scenario`
   std::string name;
@@ -296,6 +302,7 @@ struct Scenario {
   std::vector<Action> script;
   std::vector<Expectation> expect;
   std::vector<Allow> allow;
+  CheckLimits checks;
   int line = 0;
 };
 
@@ -309,6 +316,9 @@ std::vector<std::string> files(const std::string& path, const std::vector<Settin
 std::string read_file(const std::string& path);
 /// `path` of a scenario as the program can open it: relative to the scenario's folder.
 std::string resolve(const Scenario& scenario, const Name& path);
+
+/// Whether the scenario lists this violation of `station` (a slave's name, "bus").
+bool allows(const Scenario& scenario, const std::string& code, const std::string& station);
 
 /// The description of a whole scenario.
 const keys::Object& description();

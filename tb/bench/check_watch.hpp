@@ -1,0 +1,57 @@
+#pragma once
+// The checks of a run: one set a slave, what counts against the scenario, and what is kept for the report.
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tb/bench/record.hpp"
+#include "tb/checks/checks.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace tb {
+
+class CheckWatch {
+ public:
+  /// `scenario` must outlive it.
+  CheckWatch(const scenario::Scenario& scenario, ChecksMode mode) : scenario_(scenario), mode_(mode) {}
+  CheckWatch(const CheckWatch&) = delete;
+  CheckWatch& operator=(const CheckWatch&) = delete;
+
+  bool on() const { return mode_ != ChecksMode::kOff; }
+  /// The pins that must be watched, none when off.
+  std::uint32_t pins() const;
+
+  /// Slaves are numbered in the order in which they are added. Nothing happens when off.
+  void add(const std::string& slave);
+  void pin(std::size_t slave, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
+    if (on()) slaves_[slave]->checks.pin(at, pin, level);
+  }
+  void telegram(Tick now, const bus::WireTelegram& telegram);
+  void finish(Tick end);
+
+  /// Violations that fail the run.
+  std::uint64_t failures() const { return failures_; }
+  std::vector<CheckResult> results() const;
+
+  /// `kind`: "check" when it is only reported, else "violation" or "allowed".
+  std::function<void(const std::string& slave, const checks::Violation& violation, const char* kind)> on_violation;
+
+ private:
+  struct Slave {
+    Slave(std::string slave_name, const checks::Limits& limits) : name(std::move(slave_name)), checks(limits) {}
+    std::string name;
+    checks::Checks checks;
+    std::vector<checks::Violation> listed;
+    std::array<std::uint64_t, checks::kCheckCount> allowed{};
+    std::array<std::size_t, checks::kCheckCount> listed_of{};
+  };
+  void violated(Slave& slave, const checks::Violation& violation);
+
+  const scenario::Scenario& scenario_;
+  ChecksMode mode_;
+  std::vector<std::unique_ptr<Slave>> slaves_;
+  std::uint64_t failures_ = 0;
+};
+
+}  // namespace tb

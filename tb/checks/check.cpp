@@ -1,0 +1,32 @@
+#include "tb/checks/check.hpp"
+
+#include "model/dsdpv1/pins.hpp"
+
+namespace checks {
+namespace {
+
+using dsdpv1::mask;
+using dsdpv1::Pin;
+
+constexpr std::uint32_t kUserHandshake = mask(Pin::kRReq) | mask(Pin::kRSta);
+constexpr std::uint32_t kHandshake = kUserHandshake | mask(Pin::kLReq) | mask(Pin::kLSta);
+constexpr std::uint32_t kWriteStrobe = mask(Pin::kCsr) | mask(Pin::kWr) | mask(Pin::kA) | mask(Pin::kDIn);
+constexpr std::uint32_t kReadStrobe = mask(Pin::kCsr) | mask(Pin::kRd) | mask(Pin::kA);
+constexpr std::uint32_t kUserPort = kUserHandshake | mask(Pin::kCsr) | mask(Pin::kRd) | mask(Pin::kWr);
+constexpr std::uint32_t kInterruptPins = kUserHandshake | mask(Pin::kIntr0);
+
+constexpr std::array<Rule, kCheckCount> kRules = {{
+#define X(enumerator, id, bound, limit, pins, ...) {id, Bound::bound, limit, pins, __VA_ARGS__},
+#include "tb/checks/check_table.inc"
+#undef X
+}};
+
+}  // namespace
+
+const Rule& rule(Check check) { return kRules.at(static_cast<std::size_t>(check)); }
+
+Limits::Limits() {
+  for (std::size_t i = 0; i < kCheckCount; ++i) limits_.at(i).value = kRules.at(i).limit;
+}
+
+}  // namespace checks

@@ -1,0 +1,62 @@
+#include "tb/checks/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace checks {
+
+std::string ns_text(Tick ticks) {
+  return fmt::format("{:.3f} ns", static_cast<double>(ticks) / static_cast<double>(bus::kTicksPerNs));
+}
+
+Tick Recorder::margin(Check check, Tick measured) const {
+  const Tick limit = limits_[check].value;
+  return rule(check).bound == Bound::kMin ? measured - limit : limit - measured;
+}
+
+bool Recorder::add(Check check, Tick at, Tick measured) {
+  Record& record = records_.at(static_cast<std::size_t>(check));
+  ++record.count;
+  if (limits_[check].value == kNoLimit) {
+    if (!record.worst_value || measured > *record.worst_value) {
+      record.worst_value = measured;
+      record.at = at;
+    }
+    return true;
+  }
+  const Tick left = margin(check, measured);
+  record.histogram.add(left);
+  if (!record.worst_margin || left < *record.worst_margin) {
+    record.worst_margin = left;
+    record.worst_value = measured;
+    record.at = at;
+  }
+  record.violations += left < 0 ? 1 : 0;
+  return left >= 0;
+}
+
+bool Recorder::add_outcome(Check check, Tick at, bool is_kept) {
+  Record& record = records_.at(static_cast<std::size_t>(check));
+  ++record.count;
+  if (is_kept) return true;
+  if (record.violations++ == 0) record.at = at;
+  return false;
+}
+
+void Recorder::report_value(Check check, Tick at, Tick measured, const std::string& context) {
+  const Tick left = margin(check, measured);
+  std::string text =
+      fmt::format("{}: {} = {}, {} {} needed", rule(check).rule, rule(check).formula, ns_text(measured),
+                  rule(check).bound == Bound::kMin ? "at least" : "at most", ns_text(limits_[check].value));
+  if (!context.empty()) text += "; " + context;
+  report(check, at, left, std::move(text));
+}
+
+void Recorder::report(Check check, Tick at, std::optional<Tick> margin, std::string text) {
+  if (!on_violation) return;
+  on_violation({check, at, std::max(now_, history_.now()), margin, std::move(text), history_.last(rule(check).pins)});
+}
+
+}  // namespace checks

@@ -1,0 +1,72 @@
+#pragma once
+// Where the checks put what they found: counts, worst margins, histograms, and the violations in words.
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tb/checks/check.hpp"
+#include "tb/checks/histogram.hpp"
+#include "tb/checks/pin_history.hpp"
+
+namespace checks {
+
+/// What a check has found so far. Values and margins are ticks of 1/12 ns.
+struct Record {
+  std::uint64_t count = 0;           ///< how often it was evaluated
+  std::uint64_t violations = 0;      ///< how often in vain
+  std::optional<Tick> worst_margin;  ///< the least one, positive = kept; absent without a limit, and for Bound::kRule
+  std::optional<Tick> worst_value;   ///< measured then; without a limit the greatest one
+  std::optional<Tick> at;            ///< when that was; for Bound::kRule the first violation
+  Histogram histogram;               ///< of margins
+};
+
+struct Violation {
+  Check check{};
+  Tick at = 0;     ///< where the rule was broken
+  Tick found = 0;  ///< when that could be seen, not before `at`
+  std::optional<Tick> margin;
+  std::string text;
+  std::vector<PinChange> history;  ///< the last changes of the pins that the check is about
+};
+
+/// "12.500 ns".
+std::string ns_text(Tick ticks);
+
+class Recorder {
+ public:
+  Recorder(const Limits& limits, const PinHistory& history) : limits_(limits), history_(history) {}
+
+  /// A measured value of a check with Bound::kMin or kMax; `context()` names what it was about, asked for when it is violated.
+  template <class Context>
+  void value(Check check, Tick at, Tick measured, const Context& context) {
+    if (limits_[check].on && !add(check, at, measured)) report_value(check, at, measured, context());
+  }
+  /// The outcome of a check with Bound::kRule; `text()` says what was wrong.
+  template <class Text>
+  void kept(Check check, Tick at, bool is_kept, const Text& text) {
+    if (limits_[check].on && !add_outcome(check, at, is_kept)) report(check, at, std::nullopt, text());
+  }
+
+  const Record& record(Check check) const { return records_.at(static_cast<std::size_t>(check)); }
+  const Limit& limit(Check check) const { return limits_[check]; }
+  /// Time goes on without a change of a pin (a telegram, the end of the run).
+  void now(Tick at) { now_ = at; }
+
+  std::function<void(const Violation&)> on_violation;
+
+ private:
+  bool add(Check check, Tick at, Tick measured);
+  bool add_outcome(Check check, Tick at, bool is_kept);
+  void report_value(Check check, Tick at, Tick measured, const std::string& context);
+  void report(Check check, Tick at, std::optional<Tick> margin, std::string text);
+  Tick margin(Check check, Tick measured) const;
+
+  Limits limits_;
+  const PinHistory& history_;
+  Tick now_ = 0;
+  std::array<Record, kCheckCount> records_{};
+};
+
+}  // namespace checks

@@ -1,0 +1,87 @@
+// Keys of the checks: a key a check of tb/checks, with what can be said about it.
+#include "tb/scenario/describe.hpp"
+
+namespace tb::scenario {
+namespace {
+
+using checks::Bound;
+using checks::Check;
+
+/// What a scenario says about one check.
+struct CheckLimit {
+  std::optional<bus::Tick> min, max;
+  bool enabled = true;
+  int line = 0;
+};
+
+ObjectOf<CheckLimit> limit_keys(const char* name, const char* doc) {
+  ObjectOf<CheckLimit> o(name, doc);
+  o.boolean("enabled", &CheckLimit::enabled, "Whether it is made at all.");
+  return o;
+}
+
+constexpr Range kLimits = {-kLongestTime, kLongestTime};
+
+const ObjectOf<CheckLimit>& least_keys() {
+  static const ObjectOf<CheckLimit> keys = [] {
+    ObjectOf<CheckLimit> o = limit_keys("least value", "A check whose measured value must not be less than a limit.");
+    o.time("min", &CheckLimit::min, kLimits, "The limit; left out: the default of docs/checks.md.");
+    return o;
+  }();
+  return keys;
+}
+
+const ObjectOf<CheckLimit>& greatest_keys() {
+  static const ObjectOf<CheckLimit> keys = [] {
+    ObjectOf<CheckLimit> o = limit_keys("greatest value", "A check whose measured value must not exceed a limit.");
+    o.time("max", &CheckLimit::max, kLimits, "The limit; left out: the default of docs/checks.md.");
+    return o;
+  }();
+  return keys;
+}
+
+const ObjectOf<CheckLimit>& rule_keys() {
+  static const ObjectOf<CheckLimit> keys = limit_keys("rule", "A check without a value: its rule is kept or not.");
+  return keys;
+}
+
+const ObjectOf<CheckLimit>& keys_of(Bound bound) {
+  switch (bound) {
+    case Bound::kMin: return least_keys();
+    case Bound::kMax: return greatest_keys();
+    case Bound::kRule: break;
+  }
+  return rule_keys();
+}
+
+keys::Field field_of(Check check) {
+  const checks::Rule& rule = checks::rule(check);
+  keys::Field field;
+  field.name = rule.id;
+  field.type.kind = keys::Kind::kObject;
+  field.type.object = &keys_of(rule.bound);
+  field.doc = std::string(rule.rule) + " (" + rule.clause + ").";
+  field.read = [check, &described = *field.type.object](void* owner, const YAML::Node& node,
+                                                        const keys::Source& source) {
+    CheckLimit said;
+    keys::read_object(described, &said, node, source);
+    checks::Limit& limit = (*static_cast<CheckLimits*>(owner))[check];
+    limit.on = said.enabled;
+    if (said.min) limit.value = *said.min;
+    if (said.max) limit.value = *said.max;
+  };
+  return field;
+}
+
+}  // namespace
+
+const ObjectOf<CheckLimits>& check_keys() {
+  static const ObjectOf<CheckLimits> keys = [] {
+    ObjectOf<CheckLimits> o("checks", "Limits of the checks on the user's side, see docs/checks.md. A key a check.");
+    for (std::size_t i = 0; i < checks::kCheckCount; ++i) o.fields.push_back(field_of(static_cast<Check>(i)));
+    return o;
+  }();
+  return keys;
+}
+
+}  // namespace tb::scenario
