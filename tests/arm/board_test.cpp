@@ -1,0 +1,245 @@
+// The board's peripherals and wiring, seen from the pins: tests/arm/firmware/probe.c does things, the test looks at the host bus.
+#include "tb/user_cpu/arm/board.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "tb/user_cpu/pin_host_bus.hpp"
+
+namespace {
+
+using bus::Tick;
+using dsdpv1::Level;
+using dsdpv1::Pin;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr Tick kHclk3 = 500;  // three periods of 72 MHz
+
+enum Program {
+  kHandshake,
+  kAccesses,
+  kUnsetAccesses,
+  kInterrupt,
+  kChipReset,
+  kText,
+  kStrange,
+  kUndefined,
+  kBankOff,
+  kMaskedAndRising
+};
+
+/// Pins of a chip that answers every read with the low byte of its address.
+class Pins : public user_cpu::HostPins {
+ public:
+  struct Change {
+    Tick at;
+    Pin pin;
+    Level level;
+  };
+  void set(Tick at, Pin pin, Level level) override {
+    changes.push_back({at, pin, level});
+    if (pin == Pin::kA) address_ = level;
+    if (pin == Pin::kDIn) data_ = level;
+    if (pin == Pin::kWr && level == 1) written.emplace_back(address_, data_);
+  }
+  void advance(Tick) override {}
+  Level level(Pin pin) const override {
+    if (pin == Pin::kLReq) return l_req;
+    if (pin == Pin::kLSta) return l_sta;
+    return pin == Pin::kDOut ? static_cast<Level>(address_ & 0xFF) : 0;
+  }
+  std::vector<Change> of(Pin pin) const {
+    std::vector<Change> found;
+    for (const Change& each : changes)
+      if (each.pin == pin) found.push_back(each);
+    return found;
+  }
+
+  Level l_req = 0, l_sta = 0;
+  std::vector<Change> changes;
+  std::vector<std::pair<int, int>> written;  ///< address and data of each write
+
+ private:
+  Level address_ = 0, data_ = 0;
+};
+
+class BoardTest : public testing::Test {
+ protected:
+  void start(Program program, const user_cpu::FsmcOverride& fsmc = {}) {
+    arm::BoardOptions options;
+    options.firmware = with(program);
+    options.fsmc = fsmc;
+    board = std::make_unique<arm::Board>(
+        host, std::move(options), [this](Tick at, bool level) { resets.emplace_back(at, level); }, kStart);
+    board->on_text = [this](Tick, const std::string& line) { lines.push_back(line); };
+    board->on_failure = [this](Tick, const std::string& why, const std::string& table) { failure = {why, table}; };
+  }
+  static std::shared_ptr<const arm::Firmware> with(Program program) {
+    auto firmware = std::make_shared<arm::Firmware>(*arm::load_firmware(PROBE));
+    const std::uint32_t word = firmware->image.symbols.at("program").address;
+    for (arm::Segment& segment : firmware->image.segments)
+      if (word >= segment.address && word < segment.address + segment.bytes.size())
+        segment.bytes[word - segment.address] = static_cast<std::uint8_t>(program);
+    return firmware;
+  }
+  void run_until(Tick end) {
+    while (board->next() <= end) board->run(board->next());
+  }
+  void run() { run_until(kStart + bus::kTicksPerMs); }
+
+  static constexpr Tick kStart = 1234;
+  Pins pins;
+  user_cpu::PinHostBus host{pins};
+  std::vector<std::pair<Tick, bool>> resets;
+  std::vector<std::string> lines;
+  std::pair<std::string, std::string> failure;
+  std::unique_ptr<arm::Board> board;
+};
+
+std::vector<Level> levels(const std::vector<Pins::Change>& changes) {
+  std::vector<Level> list;
+  for (const Pins::Change& each : changes) list.push_back(each.level);
+  return list;
+}
+
+TEST_F(BoardTest, PortCIsTheHandshake) {
+  pins.l_req = 1;
+  start(kHandshake);
+  run();
+  EXPECT_THAT(levels(pins.of(Pin::kRReq)), ElementsAre(1, 0, 1, 0));
+  EXPECT_THAT(levels(pins.of(Pin::kRSta)), ElementsAre(1, 0, 1, 0));
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 1)));  // PC8 high, PC9 low
+  EXPECT_LT(pins.of(Pin::kRReq).at(0).at, pins.of(Pin::kRSta).at(0).at);
+  EXPECT_EQ(board->counters().port.holds, 2U);
+}
+
+TEST_F(BoardTest, BothPinsOfOneStoreMoveAtOneTick) {
+  start(kHandshake);
+  run();
+  EXPECT_EQ(pins.of(Pin::kRReq).at(1).at, pins.of(Pin::kRSta).at(1).at);  // ODR = 0
+  EXPECT_EQ(pins.of(Pin::kRReq).at(2).at, pins.of(Pin::kRSta).at(2).at);
+}
+
+TEST_F(BoardTest, BtrOfTheFirmwareMovesTheEdges) {
+  start(kAccesses);
+  run();
+  const auto rd = pins.of(Pin::kRd), wr = pins.of(Pin::kWr), csr = pins.of(Pin::kCsr);
+  // Read, mode 1: RD falls with CSR, low for ADDSET + 1 + DATAST + 1 + 2 = 14.
+  EXPECT_EQ(csr.at(0).at, rd.at(0).at);
+  EXPECT_NEAR(static_cast<double>(rd.at(1).at - rd.at(0).at), 14 * kHclk3 / 3.0, 1);
+  // Write: WR falls ADDSET + 1 = 4 after CSR, low for DATAST = 7, CSR rises one later.
+  EXPECT_NEAR(static_cast<double>(wr.at(0).at - csr.at(2).at), 4 * kHclk3 / 3.0, 1);
+  EXPECT_NEAR(static_cast<double>(wr.at(1).at - wr.at(0).at), 7 * kHclk3 / 3.0, 1);
+  EXPECT_NEAR(static_cast<double>(csr.at(3).at - wr.at(1).at), 1 * kHclk3 / 3.0, 1);
+}
+
+TEST_F(BoardTest, ModeAHasATimingOfItsOwnForWrites) {
+  start(kAccesses);
+  run();
+  const auto rd = pins.of(Pin::kRd), wr = pins.of(Pin::kWr), csr = pins.of(Pin::kCsr);
+  EXPECT_NEAR(static_cast<double>(rd.at(2).at - csr.at(4).at), 4 * kHclk3 / 3.0, 1);  // RD falls ADDSET + 1 after CSR
+  EXPECT_NEAR(static_cast<double>(wr.at(3).at - wr.at(2).at), 2 * kHclk3 / 3.0, 1);   // BWTR: DATAST = 2
+}
+
+TEST_F(BoardTest, HalfwordIsTwoBytesTheLowerAddressFirstAndTheDpramRepeats) {
+  start(kAccesses);
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0x123, 0x56), std::pair(0x10, 0xFE), std::pair(0x11, 0xFF)));
+}
+
+TEST_F(BoardTest, RegistersNeverWrittenGiveTheDefaultTiming) {
+  start(kUnsetAccesses);
+  run();
+  const auto rd = pins.of(Pin::kRd);
+  EXPECT_NEAR(static_cast<double>(rd.at(1).at - rd.at(0).at), (1 + 1 + 5 + 1 + 2) * kHclk3 / 3.0, 1);
+}
+
+TEST_F(BoardTest, ScenarioTimingStandsAboveTheFirmwares) {
+  user_cpu::FsmcOverride fsmc;
+  fsmc.datast = 2;
+  start(kAccesses, fsmc);
+  run();
+  const auto wr = pins.of(Pin::kWr);
+  EXPECT_NEAR(static_cast<double>(wr.at(1).at - wr.at(0).at), 2 * kHclk3 / 3.0, 1);
+}
+
+TEST_F(BoardTest, Intr0RunsTheHandlerThroughExtiLine6) {
+  start(kInterrupt);
+  const Tick fall = kStart + 100 * bus::kTicksPerUs;
+  run_until(fall - 1);
+  EXPECT_TRUE(pins.written.empty());
+  board->intr0_changed(fall, false);
+  board->intr0_changed(fall + 64 * 250, true);
+  run();
+  EXPECT_THAT(pins.written,
+              ElementsAre(std::pair(0x7FF, 0), std::pair(0, 1)));  // the handler, then the main loop; once
+  const Tick handler = pins.of(Pin::kCsr).at(0).at;
+  EXPECT_GE(handler - fall, 12 * kHclk3 / 3);  // 12 cycles of entry
+  EXPECT_LE(handler - fall, 30 * kHclk3 / 3);
+}
+
+TEST_F(BoardTest, MaskedLineIsPendingOnItsChosenEdgeOnly) {
+  start(kMaskedAndRising);
+  const Tick fall = kStart + 50 * bus::kTicksPerUs;
+  board->intr0_changed(fall, false);
+  run_until(fall + 10 * bus::kTicksPerUs);
+  EXPECT_TRUE(pins.written.empty());
+  board->intr0_changed(fall + 20 * bus::kTicksPerUs, true);
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 1), std::pair(1, 0)));  // PG6 high; PR cleared by writing 1
+}
+
+TEST_F(BoardTest, PortE4IsTheChipsReset) {
+  start(kChipReset);
+  run();
+  ASSERT_EQ(resets.size(), 2U);
+  EXPECT_FALSE(resets[0].second);
+  EXPECT_TRUE(resets[1].second);
+  EXPECT_GT(resets[1].first - resets[0].first, bus::kTicksPerUs);
+  EXPECT_GT(pins.of(Pin::kCsr).at(0).at, resets[1].first);
+}
+
+TEST_F(BoardTest, UsartPrintsLinesAndRccIsReadyAtOnce) {
+  start(kText);
+  run();
+  EXPECT_THAT(lines, ElementsAre("ready"));
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 1)));
+  EXPECT_THAT(board->board()->notes, ElementsAre("USART1, a line without end: half a li"));
+}
+
+TEST_F(BoardTest, OtherPeripheralsKeepWhatIsWrittenAndAreListed) {
+  start(kStrange);
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 77), std::pair(1, 0)));
+  EXPECT_THAT(board->board()->notes,
+              ElementsAre(HasSubstr("GPIOB is used while its clock is off in RCC_APB2ENR"),
+                          testing::AllOf(HasSubstr("TIM2 is not on the board: 2 reads and 1 writes"),
+                                         HasSubstr("strange at probe.c"))));
+}
+
+TEST_F(BoardTest, FaultEndsTheRunWithPlaceAndRegisters) {
+  start(kUndefined);
+  run();
+  EXPECT_THAT(failure.first, HasSubstr("undefined at probe.c"));
+  EXPECT_THAT(failure.second, HasSubstr("pc"));
+  EXPECT_EQ(board->next(), bus::kNever);
+}
+
+TEST_F(BoardTest, BankSwitchedOffIsABusFault) {
+  start(kBankOff);
+  run();
+  EXPECT_THAT(failure.first, HasSubstr("bank_off at probe.c"));
+  EXPECT_TRUE(pins.written.empty());
+}
+
+TEST_F(BoardTest, EndsInTheMiddleOfAnAccess) {
+  start(kUnsetAccesses);
+  while (pins.of(Pin::kCsr).empty()) board->run(board->next());
+  board.reset();  // the processor's stack is unwound through the emulator
+  EXPECT_TRUE(pins.written.empty());
+}
+
+}  // namespace

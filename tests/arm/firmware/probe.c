@@ -1,0 +1,146 @@
+/* Firmware for the tests of the board: one program for each thing that firmware does to it. The test chooses it by the word `program`. Results go
+   to the chip's DPRAM, where the test sees them. */
+#include <stdint.h>
+
+#define REG(address) (*(volatile uint32_t*)(address))
+#define CHIP(offset) (*(volatile uint8_t*)(0x60000000u + (offset)))
+#define CHIP16(offset) (*(volatile uint16_t*)(0x60000000u + (offset)))
+
+enum {
+  AFIO_EXTICR2 = 0x4001000C,
+  EXTI_IMR = 0x40010400,
+  EXTI_RTSR = 0x40010408,
+  EXTI_FTSR = 0x4001040C,
+  EXTI_PR = 0x40010414,
+  GPIOB_ODR = 0x40010C0C,
+  GPIOC_CRL = 0x40011000,
+  GPIOC_IDR = 0x40011008,
+  GPIOC_ODR = 0x4001100C,
+  GPIOC_BSRR = 0x40011010,
+  GPIOC_BRR = 0x40011014,
+  GPIOE_CRL = 0x40011800,
+  GPIOE_BSRR = 0x40011810,
+  GPIOG_IDR = 0x40012008,
+  USART1_SR = 0x40013800,
+  USART1_DR = 0x40013804,
+  USART1_CR1 = 0x4001380C,
+  TIM2_CNT = 0x40000024,
+  RCC_CR = 0x40021000,
+  RCC_CFGR = 0x40021004,
+  RCC_AHBENR = 0x40021014,
+  RCC_APB2ENR = 0x40021018
+};
+#define FSMC_BCR1 0xA0000000u
+#define FSMC_BTR1 0xA0000004u
+#define FSMC_BWTR1 0xA0000104u
+#define NVIC_ISER0 0xE000E100u
+
+const volatile uint32_t program __attribute__((used)) = 0;
+static volatile uint32_t edges;
+
+static void clocks(void) {
+  REG(RCC_APB2ENR) = 0x41FD;
+  REG(RCC_AHBENR) |= 1u << 8;
+}
+
+static void handshake(void) {
+  REG(GPIOC_CRL) = 0x11444444; /* PC6, PC7 outputs */
+  REG(GPIOC_BSRR) = 1u << 6;
+  CHIP(0) = (uint8_t)(REG(GPIOC_IDR) >> 8);
+  REG(GPIOC_BSRR) = 1u << 7;
+  REG(GPIOC_ODR) = 0;
+  REG(GPIOC_BSRR) = 1u << 6 | 1u << 7;
+  REG(GPIOC_BRR) = 1u << 7;
+  REG(GPIOC_BSRR) = 1u << 22;
+}
+
+static void accesses(void) {
+  REG(FSMC_BCR1) = 0x1001; /* MBKEN, WREN, 8 bits */
+  REG(FSMC_BTR1) = 3u | 7u << 8;
+  CHIP(0x123) = CHIP(0x456);
+  REG(FSMC_BCR1) = 0x5001; /* EXTMOD: mode A, writes by BWTR */
+  REG(FSMC_BWTR1) = 1u | 2u << 8;
+  CHIP16(0x10) = CHIP16(0x7FE);
+}
+
+static void unset_accesses(void) { CHIP(1) = CHIP(2); }
+
+static void interrupt(void) {
+  REG(AFIO_EXTICR2) = 6u << 8; /* line 6: port G */
+  REG(EXTI_FTSR) = 1u << 6;
+  REG(EXTI_IMR) = 1u << 6;
+  REG(NVIC_ISER0) = 1u << 23;
+  for (;;) {
+    __asm volatile("wfi");
+    CHIP(0) = (uint8_t)edges;
+  }
+}
+
+static void chip_reset(void) {
+  REG(GPIOE_CRL) = 0x44414444;
+  REG(GPIOE_BSRR) = 1u << 20;
+  for (volatile int i = 0; i < 100; ++i) {
+  }
+  REG(GPIOE_BSRR) = 1u << 4;
+  CHIP(0) = 1;
+}
+
+static void text(void) {
+  static const char words[] = "ready\r\nhalf a li";
+  REG(RCC_CR) = 0x01010001; /* HSI, HSE, PLL on */
+  REG(RCC_CFGR) = 2;
+  CHIP(0) = (REG(RCC_CR) & 0x02020002u) == 0x02020002u && (REG(RCC_CFGR) & 0xCu) == 0x8u;
+  REG(USART1_CR1) = 0x2008;
+  for (const char* c = words; *c; ++c) {
+    while (!(REG(USART1_SR) & 0x80)) {
+    }
+    REG(USART1_DR) = (uint32_t)*c;
+  }
+}
+
+static void strange(void) {
+  REG(TIM2_CNT) = 77;
+  CHIP(0) = (uint8_t)REG(TIM2_CNT);
+  CHIP(1) = (uint8_t)REG(TIM2_CNT + 4);
+  REG(RCC_APB2ENR) = 0;
+  REG(GPIOB_ODR) = 1;
+}
+
+static void undefined(void) { __asm volatile("udf #0"); }
+
+static void bank_off(void) {
+  REG(FSMC_BCR1) = 0;
+  CHIP(0) = 1;
+}
+
+static void masked_and_rising(void) {
+  REG(AFIO_EXTICR2) = 6u << 8;
+  REG(EXTI_RTSR) = 1u << 6; /* IMR stays 0 */
+  while (!REG(EXTI_PR)) {
+  }
+  CHIP(0) = (uint8_t)(REG(GPIOG_IDR) >> 6 & 1u);
+  REG(EXTI_PR) = 1u << 6;
+  CHIP(1) = (uint8_t)REG(EXTI_PR);
+}
+
+void EXTI9_5_handler(void);
+void EXTI9_5_handler(void) {
+  CHIP(0x7FF) = 0;
+  ++edges;
+  REG(EXTI_PR) = 1u << 6;
+}
+
+void run(void);
+void run(void) {
+  static void (*const programs[])(void) = {handshake,  accesses, unset_accesses, interrupt,         chip_reset,
+                                           text,       strange,  undefined,      bank_off,          masked_and_rising};
+  edges = 0;
+  clocks();
+  programs[program]();
+  for (;;) __asm volatile("wfi");
+}
+
+/* Initial stack pointer, reset and the vector of IRQ 23 (ARMv7-M B1.5.3). */
+extern char stack_top[];
+__attribute__((section(".vectors"), used)) static const void* const vectors[16 + 24] = {
+    [0] = stack_top, [1] = (const void*)run, [16 + 23] = (const void*)EXTI9_5_handler};
