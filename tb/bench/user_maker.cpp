@@ -86,6 +86,7 @@ MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& sla
   check_mailbox(scenario, slave, *options.firmware);
   options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(user.cpi * 1000);
   if (user.fsmc) options.fsmc = *user.fsmc;
+  if (user.access.line != 0) options.access = user.access;
   options.hclk_mhz = options.fsmc.hclk_mhz.value_or(options.hclk_mhz);
   if (gdb != nullptr) {
     options.make_debugger = [gdb](arm::DebugTarget& target) {

@@ -117,7 +117,7 @@ const ObjectOf<UserCpu>& user_cpu_keys() {
         "firmware only through the mailbox of tb/user_cpu/arm/mailbox.h.");
     o.word("kind", &U::kind,
            std::vector<WordFor<CpuKind>>{
-               {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing` and `access`"},
+               {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing`"},
                {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"}},
            "Who runs it.");
     o.file("elf", &U::elf, "Firmware of the ARM board, relative to the scenario's folder.");
@@ -145,7 +145,7 @@ const ObjectOf<UserCpu>& user_cpu_keys() {
     o.word("judge_prm", &U::judge_prm, judgement_words(), "Its verdict on parameters in judging mode 2.");
     o.word("judge_cfg", &U::judge_cfg, judgement_words(), "Its verdict on the configuration in judging mode 2.");
     o.object("timing", &U::timing, timing_keys(), "How fast it is.");
-    o.object("access", &U::access, access_keys(), "When it moves the pins of its bus.");
+    o.object("access", &U::access, access_keys(), "When it moves the pins of its bus; on an ARM board in place of the FSMC.");
     o.object("fsmc", &U::fsmc, fsmc_keys(), "When it moves them, as registers of an FSMC.");
     o.at_most_one.push_back({"access", "fsmc"});
     o.object("dpv1", &U::dpv1, dpv1_keys(), "Its answers to acyclic requests.");

@@ -90,8 +90,7 @@ std::optional<user_cpu::BoardReport> Board::board() const {
 
 void Board::run_firmware(user_cpu::Cpu& cpu) {
   pins_ = &cpu;
-  const user_cpu::FsmcAccess access = fsmc_.timing();
-  cpu.set_access_timing(access.read, access.write);
+  set_access_timing();
   try {
     core_.run();
   } catch (const FaultError& error) {
@@ -140,6 +139,7 @@ void Board::reset() {
   exti_ = {};
   rcc_ = {};
   fsmc_ = Fsmc(options_.fsmc);
+  set_access_timing();
   update_interrupts();
   update_pins();
 }
@@ -215,6 +215,11 @@ void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t valu
   core_.advance_to(cycle_of(pins_->now()));
 }
 
+void Board::set_access_timing() {
+  const user_cpu::FsmcAccess made = fsmc_.timing();
+  pins_->set_access_timing(options_.access.value_or(made.read), options_.access.value_or(made.write));
+}
+
 bool Board::may_access(std::uint32_t address, bool write) {
   if (fsmc_.refuses(write) || address >= kBank1 + kRegionSize) {
     core_.bus_error();
@@ -270,8 +275,7 @@ void Board::store_word(std::uint32_t address, std::uint32_t value) {
     rcc_.write(address - kRcc, value);
   } else if (address - Fsmc::kBase < Fsmc::kSize) {
     fsmc_.write(address - Fsmc::kBase, value);
-    const user_cpu::FsmcAccess access = fsmc_.timing();
-    pins_->set_access_timing(access.read, access.write);
+    set_access_timing();
   } else {
     others_.pc = core_.pc();
     others_.write(address, value);

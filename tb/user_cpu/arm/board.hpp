@@ -37,6 +37,7 @@ struct BoardOptions {
   std::shared_ptr<const Firmware> firmware;
   user_cpu::ProgramOptions program;  ///< for the mailbox, when the firmware has one
   user_cpu::FsmcOverride fsmc;
+  std::optional<user_cpu::AccessTiming> access;  ///< edges in place of those that the FSMC makes
   Timing timing;
   int hclk_mhz = 72;
   std::function<std::unique_ptr<Debugger>(DebugTarget&)> make_debugger;  ///< null: none
@@ -85,6 +86,7 @@ class Board : public user_cpu::UserSide, private System {
 
   std::uint32_t load_chip(std::uint32_t address, unsigned bytes);
   void store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  void set_access_timing();
   bool may_access(std::uint32_t address, bool write);
   std::uint32_t load_word(std::uint32_t address);
   void store_word(std::uint32_t address, std::uint32_t value);
