@@ -2,6 +2,9 @@
 if(NOT TARGET dsdpv1_cortex_m3)
   return()
 endif()
+dsdpv1_test(arm_nvic_test nvic_test.cpp LIBS dsdpv1_cortex_m3)
+dsdpv1_test(arm_systick_test systick_test.cpp LIBS dsdpv1_cortex_m3)
+
 find_program(ARM_GCC arm-none-eabi-gcc)
 find_program(ARM_OBJCOPY arm-none-eabi-objcopy)
 if(NOT ARM_GCC OR NOT ARM_OBJCOPY)
