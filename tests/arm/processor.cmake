@@ -2,6 +2,9 @@
 if(NOT TARGET dsdpv1_cortex_m3)
   return()
 endif()
+dsdpv1_test(arm_nvic_test nvic_test.cpp LIBS dsdpv1_cortex_m3)
+dsdpv1_test(arm_systick_test systick_test.cpp LIBS dsdpv1_cortex_m3)
+
 find_program(ARM_GCC arm-none-eabi-gcc)
 find_program(ARM_OBJCOPY arm-none-eabi-objcopy)
 if(NOT ARM_GCC OR NOT ARM_OBJCOPY)
@@ -25,6 +28,6 @@ foreach(source ${programs})
 endforeach()
 add_custom_target(cortex_m3_test_programs DEPENDS ${images})
 
-dsdpv1_test(cortex_m3_test cortex_m3_test.cpp processor_bench.cpp LIBS dsdpv1_cortex_m3 dsdpv1_user_cpu)
+dsdpv1_test(cortex_m3_test cortex_m3_test.cpp exceptions_test.cpp processor_bench.cpp LIBS dsdpv1_cortex_m3 dsdpv1_user_cpu)
 add_dependencies(cortex_m3_test cortex_m3_test_programs)
 target_compile_definitions(cortex_m3_test PRIVATE PROGRAMS="${CMAKE_CURRENT_BINARY_DIR}")

@@ -92,12 +92,12 @@ void CortexM3::load(std::uint32_t address, const std::uint8_t* bytes, std::size_
 
 // Translations of instructions that may have been changed go before the next one is executed.
 void CortexM3::forget_code() {
-  stale_code_ = true;
+  stale_code_ = translated_;
   check_at_ = 0;
 }
 
 void CortexM3::run() {
-  stopped_ = stale_code_ = false;  // nothing has been translated yet
+  stopped_ = false;
   reset_processor();
   while (!stopped_) {
     advance_run();
@@ -129,13 +129,14 @@ void CortexM3::advance_run() {
   leaving_ = Leave::kNo;
   hint_ = Sleep::kNone;
   check_at_ = 0;
+  engine_.report_data(report_data_);
   if (std::exchange(stale_code_, false)) {
-    engine_.report_data(report_data_);
     engine_.forget_translations();
   }
   if (it_.open()) {  // Unicorn keeps ITSTATE of its own, not always that of the next instruction
     engine_.write(Register::kXpsr, read_register(Register::kXpsr));
   }
+  translated_ = true;
   const Trap trap = engine_.run();
   switch (leaving_) {
     case Leave::kFailure: std::rethrow_exception(std::exchange(failure_, nullptr));

@@ -1,4 +1,4 @@
-@ Enables irq 0 and 1 with priorities 0x80 and 0x40, lets irq 0 in, whose handler is preempted by irq 1.
+@ Interrupts 0 and 1 with priorities 0x80 and 0x40; the handler of 0 is preempted by 1.
         .include "vectors.inc"
 function main
         control 0x400, 0x00004080

@@ -1,0 +1,2 @@
+@ No handler for any fault.
+        .include "faults.inc"
