@@ -286,6 +286,15 @@ TEST_F(GdbServerTest, CtrlCHaltsARunThatIsNotPolledBecauseOfABreakpoint) {
   EXPECT_EQ(gdb.ask("s"), kStopped);
 }
 
+TEST_F(GdbServerTest, CtrlCHaltsAStepThroughARangeThatIsNeverLeft) {
+  bench.target.polls_when_wanted = false;
+  start();
+  RawGdb gdb(bench.port());
+  gdb.send("vCont;r8000008,8000018");
+  gdb.write("\x03");
+  EXPECT_EQ(gdb.reply(), "T02thread:1;");
+}
+
 TEST_F(GdbServerTest, StepAfterAChangeOfPcExecutesTheInstructionThere) {
   start();
   RawGdb gdb(bench.port());

@@ -42,19 +42,19 @@ void GdbServer::data_access(std::uint32_t address, std::uint32_t size, bool writ
 }
 
 void GdbServer::consider(std::uint32_t pc) {
-  if (over_ || resumed_here(pc)) return;
-  if (!halt_if_due(pc)) return;
+  const bool look = until_look_ == 0;
+  if (look) until_look_ = kInstructionsPerLook;
+  if (over_ || resumed_here(pc) || !halt_if_due(pc, look)) return;
   // With another pc the processor comes again, for the instruction that has been let go already.
   if (target_.read_register(Register::kPc) != pc) expect_call_again();
 }
 
-bool GdbServer::halt_if_due(std::uint32_t pc) {
+bool GdbServer::halt_if_due(std::uint32_t pc, bool look) {
   if (const auto reply = reason_to_stop(pc)) {
     stop(*reply);
     return true;
   }
-  if (!waiting_ && until_look_ > 0) return false;
-  return halt_if_gdb_wants();
+  return (waiting_ || look) && halt_if_gdb_wants();
 }
 
 /// Whether the run has just been let go at this very instruction, without its having been executed.
@@ -151,7 +151,6 @@ void GdbServer::poll() {
 
 /// Whether the processor was halted, and has been let go.
 bool GdbServer::halt_if_gdb_wants() {
-  until_look_ = kInstructionsPerLook;
   if (waiting_) {
     wait_for_gdb();
     return true;

@@ -38,7 +38,7 @@ class GdbServer final : public Debugger {
     return !over_ && (due_ || !commands_.breakpoints().empty() || !commands_.watchpoints().empty());
   }
   void before_instruction(std::uint32_t pc) override {
-    if (due_ || --until_look_ == 0 || commands_.breakpoints().at(pc)) consider(pc);
+    if (--until_look_ == 0 || due_ || commands_.breakpoints().at(pc)) consider(pc);
   }
   void data_access(std::uint32_t address, std::uint32_t size, bool write) override;
   void poll() override;
@@ -49,7 +49,7 @@ class GdbServer final : public Debugger {
   static constexpr unsigned kInstructionsPerLook = 4096;
 
   void consider(std::uint32_t pc);
-  bool halt_if_due(std::uint32_t pc);
+  bool halt_if_due(std::uint32_t pc, bool look);
   bool halt_if_gdb_wants();
   bool resumed_here(std::uint32_t pc);
   void expect_call_again();
