@@ -16,24 +16,25 @@ FakeTarget::FakeTarget(const ElfImage& firmware)
     : entry_(firmware.reset_handler & ~1U), flash_(kFlash.size, 0xFF), ram_(kRam.size) {
   for (const Segment& segment : firmware.segments)
     std::memcpy(&flash_.at(segment.address - kFlash.start), segment.bytes.data(), segment.bytes.size());
-  FakeTarget::reset();
+  start();
 }
 
-bool FakeTarget::reset() {
-  if (!resettable) return false;
+void FakeTarget::start() {
+  reset_requested_ = false;
   registers_.fill(0);
   r(13) = load(kFlash.start, 4);
   write_register(Register::kMsp, r(13));
   write_register(Register::kXpsr, 0x0100'0000);
   write_register(Register::kPc, entry_);
-  return true;
 }
 
 bool FakeTarget::run(Debugger& debugger, std::uint64_t most) {
   while (!ended_ && done_ < most) {
-    if (done_ % kPollEvery == 0) debugger.poll();
-    if (debugger.wanted()) debugger.before_instruction(read_register(Register::kPc));
-    if (ended_) break;
+    if (done_ % kPollEvery == 0 && (polls_when_wanted || !debugger.wanted())) debugger.poll();
+    const std::uint32_t pc = read_register(Register::kPc);
+    if (debugger.wanted()) debugger.before_instruction(pc);
+    if (reset_requested_) start();
+    if (ended_ || read_register(Register::kPc) != pc) continue;  // with another pc it begins anew
     if (!execute(debugger)) return false;
     ++done_;
   }

@@ -25,17 +25,23 @@ class FakeTarget : public DebugTarget {
   std::size_t read_memory(std::uint32_t address, std::uint8_t* to, std::size_t count) const override;
   bool write_memory(std::uint32_t address, const std::uint8_t* from, std::size_t count) override;
   bool report_data_accesses(bool on) override;
-  bool reset() override;
+  bool reset() override {
+    reset_requested_ = resettable;
+    return resettable;
+  }
   bus::Tick now() const override { return static_cast<bus::Tick>(done_) * bus::kTicksPerUs; }
   void end_run() override { ended_ = true; }
 
   bool watchable = true, resettable = true;
   std::uint64_t done() const { return done_; }  ///< instructions
   bool ended() const { return ended_; }
+  /// Whether run() calls poll() too while before_instruction() is wanted; it need not.
+  bool polls_when_wanted = true;
   bool reports_accesses() const { return reports_; }
 
  private:
   std::uint32_t& r(unsigned number) { return registers_.at(number); }
+  void start();
   bool execute(Debugger& debugger);
   std::uint32_t load(std::uint32_t address, std::uint32_t size) const;
 
@@ -43,7 +49,7 @@ class FakeTarget : public DebugTarget {
   std::vector<std::uint8_t> flash_, ram_;
   std::array<std::uint32_t, kRegisterCount> registers_{};
   std::uint64_t done_ = 0;
-  bool ended_ = false, reports_ = false;
+  bool ended_ = false, reports_ = false, reset_requested_ = false;
 };
 
 }  // namespace arm::test

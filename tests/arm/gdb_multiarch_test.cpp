@@ -75,6 +75,7 @@ TEST(GdbMultiarch, SetsHardwareBreakpointsInFlashAndRefusesLoad) {
   const std::string text = gdb(bench, {"set debug remote 1", "break loop", "continue", "load", "detach"});
   EXPECT_THAT(text, HasSubstr("$Z1,8000010,2#"));
   EXPECT_THAT(text, Not(HasSubstr("$Z0,8000010")));
+  EXPECT_THAT(text, HasSubstr("Load failed"));
 }
 
 TEST(GdbMultiarch, LeavesTheRunGoingWhenItQuits) {

@@ -275,6 +275,47 @@ TEST_F(GdbServerTest, CtrlCHaltsTheRun) {
   EXPECT_EQ(gdb.ask("s"), kStopped) << "a late Ctrl-C is nothing";
 }
 
+TEST_F(GdbServerTest, CtrlCHaltsARunThatIsNotPolledBecauseOfABreakpoint) {
+  bench.target.polls_when_wanted = false;
+  start();
+  RawGdb gdb(bench.port());
+  EXPECT_EQ(gdb.ask("Z1,8000008,2"), "OK") << "not on the way";
+  gdb.send("c");
+  gdb.write("\x03");
+  EXPECT_EQ(gdb.reply(), "T02thread:1;");
+  EXPECT_EQ(gdb.ask("s"), kStopped);
+}
+
+TEST_F(GdbServerTest, CtrlCHaltsAStepThroughARangeThatIsNeverLeft) {
+  bench.target.polls_when_wanted = false;
+  start();
+  RawGdb gdb(bench.port());
+  gdb.send("vCont;r8000008,8000018");
+  gdb.write("\x03");
+  EXPECT_EQ(gdb.reply(), "T02thread:1;");
+}
+
+TEST_F(GdbServerTest, StepAfterAChangeOfPcExecutesTheInstructionThere) {
+  start();
+  RawGdb gdb(bench.port());
+  EXPECT_EQ(gdb.ask("s"), kStopped);
+  EXPECT_EQ(gdb.ask("Pf=0c000008"), "OK");
+  EXPECT_EQ(gdb.ask("s"), kStopped);
+  EXPECT_EQ(pc(gdb), kRun + 6);
+  EXPECT_EQ(from_hex(gdb.ask("qRcmd," + to_hex("time"))), "simulated time 0.000002000 s\n");
+}
+
+TEST_F(GdbServerTest, BreakpointWhereTheRunIsLetGoDoesNotStopItAtOnce) {
+  start();
+  RawGdb gdb(bench.port());
+  EXPECT_EQ(gdb.ask("Z1,8000008,2"), "OK");
+  EXPECT_EQ(gdb.ask("Z1,8000010,2"), "OK");
+  EXPECT_EQ(gdb.ask("c"), kStopped);
+  EXPECT_EQ(pc(gdb), kLoop);
+  EXPECT_EQ(gdb.ask("c8000010"), kStopped);
+  EXPECT_EQ(gdb.ask("p0"), "01000000") << "once round";
+}
+
 TEST_F(GdbServerTest, AfterDetachTheRunGoesOnAndTheNextGdbHaltsIt) {
   start();
   RawGdb first(bench.port());
@@ -386,8 +427,11 @@ TEST_F(GdbServerTest, MonitorResetsTheProcessor) {
   start();
   RawGdb gdb(bench.port());
   EXPECT_EQ(gdb.ask("s"), kStopped);
-  EXPECT_THAT(from_hex(gdb.ask("qRcmd," + to_hex("reset"))).value_or(""), StartsWith("reset;"));
+  EXPECT_EQ(from_hex(gdb.ask("qRcmd," + to_hex("reset"))),
+            "reset before the next instruction: `stepi` goes to the reset handler\n");
+  EXPECT_EQ(gdb.ask("s"), kStopped);
   EXPECT_EQ(pc(gdb), kRun);
+  EXPECT_EQ(from_hex(gdb.ask("qRcmd," + to_hex("time"))), "simulated time 0.000001000 s\n") << "before it is executed";
   EXPECT_EQ(from_hex(gdb.ask("qRcmd," + to_hex("halt"))), "monitor halt: allowed are time, reset\n");
 }
 

@@ -54,8 +54,8 @@ class DebugTarget {
   /// From now on data accesses are reported by Debugger::data_access(), or no longer. False: it cannot, there are no watchpoints.
   virtual bool report_data_accesses(bool on) = 0;
 
-  /// As a system reset of the processor and its peripherals (AIRCR.SYSRESETREQ), at the present time; the chip is not touched.
-  /// False: it cannot.
+  /// As a system reset of the processor and its peripherals (AIRCR.SYSRESETREQ) before the next instruction, which is then the
+  /// reset handler's first; the chip is not touched. False: it cannot.
   virtual bool reset() = 0;
   /// Simulated time.
   virtual bus::Tick now() const = 0;
@@ -69,7 +69,8 @@ class Debugger {
   virtual ~Debugger() = default;
 
   /// Whether before_instruction() must be called for every instruction. Changes only in calls of this class: look after each of
-  /// poll() and before_instruction(). While false, poll() now and then is enough and the processor may run as fast as it can.
+  /// poll() and before_instruction(). While false, poll() now and then is enough and the processor may run as fast as it can;
+  /// while true, before_instruction() does what poll() does.
   virtual bool wanted() const = 0;
   /// Before each instruction, those of handlers too; returns when it may be executed. Meanwhile registers (kPc!) and memory
   /// may have been changed and end_run() or reset() called; with another kPc it may be called again before the instruction

@@ -82,7 +82,7 @@ class Reader {
   template <typename T>
   T at(std::uint64_t offset, std::string_view what) const {
     check_range(offset, sizeof(T), what);
-    T value;
+    T value{};
     std::memcpy(&value, file_.data() + offset, sizeof value);
     return value;
   }

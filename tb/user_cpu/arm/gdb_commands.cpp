@@ -117,7 +117,7 @@ std::string GdbCommands::monitor(std::string_view command) {
   }
   if (command == "reset") {
     if (!target_.reset()) return to_hex("the processor cannot be reset\n");
-    return to_hex("reset; `maintenance flush register-cache` makes gdb read the registers again\n");
+    return to_hex("reset before the next instruction: `stepi` goes to the reset handler\n");
   }
   return to_hex(fmt::format("monitor {}: allowed are time, reset\n", command));
 }

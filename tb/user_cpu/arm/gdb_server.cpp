@@ -42,14 +42,19 @@ void GdbServer::data_access(std::uint32_t address, std::uint32_t size, bool writ
 }
 
 void GdbServer::consider(std::uint32_t pc) {
-  if (over_ || resumed_here(pc)) return;
-  if (waiting_)
-    wait_for_gdb();
-  else if (const auto reply = reason_to_stop(pc))
-    stop(*reply);
-  else
-    return;
+  const bool look = until_look_ == 0;
+  if (look) until_look_ = kInstructionsPerLook;
+  if (over_ || resumed_here(pc) || !halt_if_due(pc, look)) return;
+  // With another pc the processor comes again, for the instruction that has been let go already.
   if (target_.read_register(Register::kPc) != pc) expect_call_again();
+}
+
+bool GdbServer::halt_if_due(std::uint32_t pc, bool look) {
+  if (const auto reply = reason_to_stop(pc)) {
+    stop(*reply);
+    return true;
+  }
+  return (waiting_ || look) && halt_if_gdb_wants();
 }
 
 /// Whether the run has just been let go at this very instruction, without its having been executed.
@@ -141,24 +146,31 @@ void GdbServer::let_go() {
 }
 
 void GdbServer::poll() {
-  if (over_) return;
+  if (!over_ && halt_if_gdb_wants()) expect_call_again();
+}
+
+/// Whether the processor was halted, and has been let go.
+bool GdbServer::halt_if_gdb_wants() {
   if (waiting_) {
     wait_for_gdb();
-    return expect_call_again();
+    return true;
   }
   link_.look(0);
-  if (!link_.connected() && attached_) return let_go();
-  if (!link_.connected()) return;
+  if (!link_.connected()) {
+    if (attached_) let_go();
+    return false;
+  }
   if (!attached_) {
     commands_.set_stop_reply(kTrapped);
     converse();
-    return expect_call_again();
+    return true;
   }
   while (const auto input = link_.next()) {
     if (input->kind != GdbInput::Kind::kInterrupt) continue;
     stop(kInterrupted);
-    return expect_call_again();
+    return true;
   }
+  return false;
 }
 
 void GdbServer::fault(const std::string& what) {

@@ -38,14 +38,19 @@ class GdbServer final : public Debugger {
     return !over_ && (due_ || !commands_.breakpoints().empty() || !commands_.watchpoints().empty());
   }
   void before_instruction(std::uint32_t pc) override {
-    if (due_ || commands_.breakpoints().at(pc)) consider(pc);
+    if (--until_look_ == 0 || due_ || commands_.breakpoints().at(pc)) consider(pc);
   }
   void data_access(std::uint32_t address, std::uint32_t size, bool write) override;
   void poll() override;
   void fault(const std::string& what) override;
 
  private:
+  /// Instructions between two looks for Ctrl-C: about a millisecond of real time.
+  static constexpr unsigned kInstructionsPerLook = 4096;
+
   void consider(std::uint32_t pc);
+  bool halt_if_due(std::uint32_t pc, bool look);
+  bool halt_if_gdb_wants();
   bool resumed_here(std::uint32_t pc);
   void expect_call_again();
   std::optional<std::string> reason_to_stop(std::uint32_t pc) const;
@@ -64,6 +69,7 @@ class GdbServer final : public Debugger {
   bool due_ = true;        ///< consider() has to look at the next instruction, whichever it is
   bool waiting_ = true;    ///< for the first gdb
   bool attached_ = false;  ///< a gdb has connected and has not been taken leave of
+  unsigned until_look_ = kInstructionsPerLook;
   bool stepping_ = false;
   bool over_ = false;                        ///< the run ends: nothing halts it any more
   std::optional<std::uint32_t> resumed_at_;  ///< see expect_call_again()
