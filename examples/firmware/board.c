@@ -103,16 +103,26 @@ void board_halt(void) {
 
 /* ------------------------------------------------------------------------------------------------------------- time */
 
-/* CYCCNT overflows after a minute; SysTick looks at it every millisecond. */
+/* CYCCNT overflows after a minute; SysTick looks at it every millisecond at least. */
+enum { kTick = 1000u * BOARD_HCLK_MHZ };
+
 static volatile uint32_t overflows, last_count;
+
+/* The next tick comes in so many cycles, those after it every millisecond again. */
+static void tick_in(uint32_t cycles) {
+  SYST->LOAD = cycles - 1u;
+  SYST->VAL = 0;
+  board_barrier();
+  SYST->LOAD = kTick - 1u;
+}
 
 static void start_time(void) {
   DEMCR |= DEMCR_TRCENA;
   DWT->CYCCNT = 0;
   DWT->CTRL |= DWT_CTRL_CYCCNTENA;
   SCB->SHPR[SCB_SHPR_SYSTICK] = kPrioritySysTick;
-  SYST->LOAD = 1000u * BOARD_HCLK_MHZ - 1u;
-  SYST->VAL = 0;
+  DBGMCU_CR |= DBGMCU_CR_DBG_SLEEP;
+  tick_in(kTick);
   SYST->CTRL = SYST_CTRL_CLKSOURCE | SYST_CTRL_TICKINT | SYST_CTRL_ENABLE;
 }
 
@@ -135,6 +145,17 @@ uint64_t board_cycles(uint64_t ns) { return (ns * BOARD_HCLK_MHZ + 999u) / 1000u
 void board_wait(uint64_t cycles) {
   const uint64_t end = board_now() + cycles;
   while (board_now() < end) {
+    board_sleep(end);
+  }
+}
+
+/* WFE, not WFI: the event of an interrupt between the caller's look and the sleep is kept. */
+void board_sleep(uint64_t until) {
+  enum { kWorthwhile = 200 }; /* below it setting up the tick takes longer */
+  const uint64_t now = board_now();
+  if (until > now + kWorthwhile) {
+    tick_in(until - now < kTick ? (uint32_t)(until - now) : kTick);
+    __asm__ volatile("wfe" ::: "memory");
   }
 }
 

@@ -47,8 +47,10 @@ void console_hex(uint32_t value, unsigned digits) {
   }
 }
 
+bool console_busy(void) { return head != tail; }
+
 void console_poll(void) {
-  if (head != tail && (USART1->SR & USART_SR_TXE) != 0u) {
+  if (console_busy() && (USART1->SR & USART_SR_TXE) != 0u) {
     USART1->DR = (uint8_t)buffer[tail];
     tail = (tail + 1u) % kBufferSize;
   }

@@ -21,10 +21,16 @@ static void idle(void) {
   console_poll();
 }
 
+static bool is_idle(uint64_t due) { return bench_stopped() || board_now() < due; }
+
 static void wait_for_turn(uint64_t due) {
-  do {
+  idle();
+  while (is_idle(due)) {
+    if (!console_busy()) {
+      board_sleep(bench_stopped() ? UINT64_MAX : due);
+    }
     idle();
-  } while (bench_stopped() || board_now() < due);
+  }
 }
 
 /* The order matters: a judgement first, since the master waits for it; requests, which have no interrupt, last. */

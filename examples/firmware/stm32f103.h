@@ -42,6 +42,9 @@ typedef struct {
 #define DEMCR (*(reg32*)0xE000EDFCu)
 #define DEMCR_TRCENA (1u << 24)
 
+#define DBGMCU_CR (*(reg32*)0xE0042004u)
+#define DBGMCU_CR_DBG_SLEEP (1u << 0) /* HCLK goes on in sleep, and with it CYCCNT */
+
 /* --------------------------------------------------------------------------------------------- reset and clock control */
 
 typedef struct {

@@ -58,9 +58,16 @@ void Board::run(Tick now) {
   if (std::exchange(chip_reset_due_, false)) set_chip_reset_(now, chip_reset_);
   if (!mailbox_) return;
   const std::uint64_t before = outputs_received_;
-  mailbox_->look(now, on_driver_error);
+  look_at_mailbox(now);
   outputs_received_ = mailbox_->outputs_received();
   if (outputs_received_ != before) outputs_ = mailbox_->outputs();
+}
+
+/// Firmware may sleep until an event comes (WFE): a command is one.
+void Board::look_at_mailbox(Tick now) {
+  if (!mailbox_->look(now, on_driver_error)) return;
+  core_.signal_event();
+  cpu_.wake(now);
 }
 
 void Board::intr0_changed(Tick at, bool level) {
@@ -71,7 +78,7 @@ void Board::intr0_changed(Tick at, bool level) {
 void Board::command(Tick now, const user_cpu::Command& command) {
   if (!mailbox_) return;
   mailbox_->post(command);
-  mailbox_->look(now, on_driver_error);
+  look_at_mailbox(now);
 }
 
 user_cpu::UserCounters Board::counters() const {
@@ -129,7 +136,8 @@ void Board::sleep(std::uint64_t until) {
   const Tick end = until == kNever ? bus::kNever : tick_of(until);
   const Tick longest = debugger_ ? std::min(end, now() + kDebuggerLooks) : end;
   pins_->wait_until(now());
-  while (!take_intr0_edges() && pins_->now() < longest) pins_->wait_for_wake(longest);
+  bool woken = false;
+  while (!take_intr0_edges() && !woken && pins_->now() < longest) woken = pins_->wait_for_wake(longest);
   core_.advance_to(std::max(core_.cycles(), cycle_of(pins_->now())));
 }
 

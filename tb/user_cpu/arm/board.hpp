@@ -75,6 +75,7 @@ class Board : public user_cpu::UserSide, private System {
   void reset() override;
   Tick now() const override { return tick_of(core_.cycles()); }
 
+  void look_at_mailbox(Tick now);
   void run_firmware(user_cpu::Cpu& cpu);
   void failed(const Fault& fault);
   Tick tick_of(std::uint64_t cycle) const;

@@ -86,6 +86,8 @@ class CortexM3 : public DebugTarget, private EngineEvents {
 
   /// External interrupt 0 to 67 becomes pending.
   void set_interrupt(unsigned irq);
+  /// The RXEV pin: an event from outside, which ends a WFE (B1.5.18).
+  void signal_event() { event_ = true; }
   /// Level-sensitive source: pending again after return while high.
   void set_interrupt_level(unsigned irq, bool high);
   /// From System::load and store: nothing answers at this address; the access ends with a bus fault.

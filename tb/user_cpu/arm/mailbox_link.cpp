@@ -186,8 +186,9 @@ MailboxLink::MailboxLink(std::uint8_t* memory, const user_cpu::ProgramOptions& o
   fill(box_.settings, options);
 }
 
-void MailboxLink::look(Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error) {
-  if (!commands_.empty() && box_.posted == box_.done) {
+bool MailboxLink::look(Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error) {
+  const bool ready = !commands_.empty() && box_.posted == box_.done;
+  if (ready) {
     box_.command = {};
     std::visit(Fill{box_.command}, commands_.front());
     commands_.pop_front();
@@ -199,6 +200,7 @@ void MailboxLink::look(Tick now, const std::function<void(const user_cpu::Driver
     const auto& error = box_.report.errors[errors_seen_ % DSDPV1_MAILBOX_ERRORS];
     if (on_error) on_error({now, static_cast<dsdpv1_error>(error.error), words(error.during)});
   }
+  return ready;
 }
 
 std::vector<std::uint8_t> MailboxLink::outputs() const {

@@ -18,7 +18,8 @@ class MailboxLink {
 
   void post(const user_cpu::Command& command) { commands_.push_back(command); }
   /// Hands over the next command when the firmware is done with the last, and looks for errors: after each step of the processor.
-  void look(bus::Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error);
+  /// True when it has handed one over.
+  bool look(bus::Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error);
 
   std::uint64_t outputs_received() const { return box_.report.outputs_received; }
   std::vector<std::uint8_t> outputs() const;

@@ -16,7 +16,7 @@ struct Named {
 };
 
 // RM0008, memory map.
-constexpr std::array<Named, 33> kBlocks = {{
+constexpr std::array<Named, 34> kBlocks = {{
     {0x1FFF'F400, "system memory"}, {0x4000'0000, "TIM2"},   {0x4000'0400, "TIM3"},  {0x4000'0800, "TIM4"},
     {0x4000'0C00, "TIM5"},          {0x4000'1000, "TIM6"},   {0x4000'1400, "TIM7"},  {0x4000'2800, "RTC"},
     {0x4000'2C00, "WWDG"},          {0x4000'3000, "IWDG"},   {0x4000'3800, "SPI2"},  {0x4000'3C00, "SPI3"},
@@ -25,7 +25,7 @@ constexpr std::array<Named, 33> kBlocks = {{
     {0x4000'6C00, "BKP"},           {0x4000'7000, "PWR"},    {0x4000'7400, "DAC"},   {0x4001'2400, "ADC1"},
     {0x4001'2800, "ADC2"},          {0x4001'2C00, "TIM1"},   {0x4001'3000, "SPI1"},  {0x4001'3400, "TIM8"},
     {0x4001'8000, "SDIO"},          {0x4002'0000, "DMA1"},   {0x4002'0400, "DMA2"},  {0x4002'2000, "FLASH"},
-    {0x4002'3000, "CRC"},
+    {0x4002'3000, "CRC"},           {0xE004'2000, "DBGMCU"},
 }};
 
 std::string name_of(std::uint32_t block) {
