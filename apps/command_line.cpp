@@ -151,6 +151,7 @@ void describe_sweep(CLI::App& app, SweepArguments& arguments) {
       ->allow_extra_args(false);
   add_set_option(*command, arguments.set);
   command->add_option("--checks", arguments.checks, "As of run, report or fail; left out: as run does");
+  command->add_option("--map", arguments.map, "Check whose margin the pictures show; left out: the worst of all");
   command->add_option("--out", arguments.out,
                       "Folder for the points and results; left out: sweep_ and the scenario's name");
   command->add_option("--jobs", arguments.jobs, "Processes at a time; left out: one a processor")

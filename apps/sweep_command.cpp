@@ -152,9 +152,16 @@ void check_possible(const std::vector<Point>& points) {
   if (!any) throw tb::InputError(points.front().error);
 }
 
-void write_results(const Plan& plan, const std::vector<Point>& points, const Folder& folder) {
+void check_map(const std::string& check, const std::vector<Point>& points) {
+  const std::vector<std::string> ids = tb::sweep::check_ids(points);
+  if (check.empty() || std::find(ids.begin(), ids.end(), check) != ids.end()) return;
+  throw tb::InputError("dsdpv1-sim sweep: --map is " + check + tb::did_you_mean(check, ids) + ", allowed are " +
+                       (ids.empty() ? "no checks, the runs have none" : tb::join(ids)));
+}
+
+void write_results(const Plan& plan, const std::vector<Point>& points, const Folder& folder, const std::string& map) {
   write(folder.file("results.csv"), tb::sweep::csv(plan, points));
-  for (const tb::sweep::Picture& picture : tb::sweep::heat_maps(plan, points))
+  for (const tb::sweep::Picture& picture : tb::sweep::heat_maps(plan, points, map))
     write(folder.file(picture.name), picture.svg);
 }
 
@@ -182,7 +189,8 @@ int sweep(const SweepArguments& arguments) {
   }
   const std::vector<Point> points = runner.points();
   check_possible(points);
-  write_results(plan, points, folder);
+  check_map(arguments.map, points);
+  write_results(plan, points, folder, arguments.map);
   if (!arguments.quiet)
     std::cout << tb::sweep::summary(plan, points) << "  written: " << folder.file("results.csv") << " and map*.svg\n"
               << std::flush;

@@ -43,9 +43,13 @@ std::string count_text(std::size_t done, std::size_t all, double wall_s) {
   return fmt::format("[{:<{}}] {} of {} points  {:.0f} s", bar_of(part), kWidth, done, all, wall_s);
 }
 
-void CountProgress::show(std::size_t done) const {
-  if (!wanted_) return;
-  const double wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+void CountProgress::show(std::size_t done) {
+  using namespace std::chrono_literals;
+  const Clock::time_point time = Clock::now();
+  if (!wanted_ || (done == shown_ && time - last_ < 1s)) return;
+  shown_ = done;
+  last_ = time;
+  const double wall_s = std::chrono::duration<double>(time - begin_).count();
   fmt::print(stderr, "\r{}\033[K", count_text(done, all_, wall_s));
   std::fflush(stderr);
 }

@@ -28,14 +28,15 @@ class Progress {
 class CountProgress {
  public:
   CountProgress(std::size_t all, bool wanted) : all_(all), wanted_(wanted) {}
-  void show(std::size_t done) const;
+  /// Redraws when something was done, or the last drawing is a second old.
+  void show(std::size_t done);
   void clear() const;
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::size_t all_;
+  std::size_t all_, shown_ = 0;
   bool wanted_;
-  Clock::time_point begin_ = Clock::now();
+  Clock::time_point begin_ = Clock::now(), last_ = begin_;
 };
 
 /// The bar's text: "[#####     ]  50 %  60ms of 120ms  0.85 x real time  2 s left".

@@ -5,8 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <thread>
 
 #include "tb/scenario/input_error.hpp"
 
@@ -15,6 +17,7 @@ namespace {
 
 constexpr const char* kThisProgram = "/proc/self/exe";  // also when the file was replaced meanwhile
 constexpr int kSignalled = 128;
+constexpr std::chrono::milliseconds kMoment(10);
 
 class FileActions {
  public:
@@ -57,9 +60,12 @@ void Children::start(std::size_t point, const std::vector<std::string>& argument
 
 std::optional<Ended> Children::wait() {
   int status = 0;
-  const pid_t pid = waitpid(-1, &status, 0);
+  const pid_t pid = waitpid(-1, &status, WNOHANG);
   const auto found = points_.find(pid);
-  if (found == points_.end()) return std::nullopt;
+  if (found == points_.end()) {
+    std::this_thread::sleep_for(kMoment);
+    return std::nullopt;
+  }
   const Ended ended{found->second, WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status)};
   points_.erase(found);
   return ended;

@@ -29,7 +29,7 @@ class Children {
   /// system refuses.
   void start(std::size_t point, const std::vector<std::string>& arguments, const std::string& errors);
   std::size_t running() const { return points_.size(); }
-  /// Waits for the end of one; nullopt when a signal came first, or none runs.
+  /// One that has ended; waits a moment when there is none, and returns nullopt then, so that the caller hears signals.
   std::optional<Ended> wait();
   /// Asks all to end.
   void terminate() const;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 
 namespace tb::sweep {
 namespace {
@@ -17,8 +18,9 @@ struct Colour {
 // Blue and orange are told apart by every kind of eye. Light: little margin or a small violation; dark: much.
 constexpr Colour kHoldsLeast = {222, 235, 247}, kHoldsMost = {66, 146, 198};
 constexpr Colour kFailsLeast = {253, 208, 162}, kFailsMost = {230, 85, 13};
-constexpr int kHeight = 34, kTop = 78, kLegend = 74;
-constexpr double kTextWidth = 34;  // narrower cells bear no number
+constexpr int kHeight = 34, kTop = 90, kLegend = 74;
+constexpr double kWithoutMargin = 0.6;  // how dark a colour is then
+constexpr double kTextWidth = 34;       // narrower cells bear no number
 
 Colour between(const Colour& a, const Colour& b, double part) {
   const auto mix = [part](int from, int to) { return from + static_cast<int>(std::lround((to - from) * part)); };
@@ -47,43 +49,57 @@ std::string text_at(double x, double y, const std::string& style, const std::str
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, escaped(text));
 }
 
+std::string number(double ns) {
+  return std::abs(ns) < 999.5 ? fmt::format("{:.1f}", ns) : fmt::format("{:.3g}u", ns / 1000);
+}
+
 /// Margins over all pictures, so that their colours mean the same.
 struct Scale {
   double most = 0, deepest = 0;  ///< greatest margin where it holds, greatest violation, both in ns and not negative
 
-  explicit Scale(const std::vector<Point>& points) {
+  Scale(const std::vector<Point>& points, const std::string& check) : check_(check) {
     for (const Point& point : points) {
-      const CheckSeen* worst = point.worst();
+      const CheckSeen* worst = shown(point);
       if (worst == nullptr) continue;
       (point.holds() ? most : deepest) =
           std::max(point.holds() ? most : deepest, point.holds() ? *worst->margin_ns : -*worst->margin_ns);
     }
   }
 
+  /// The check whose margin a cell shows.
+  const CheckSeen* shown(const Point& point) const {
+    const CheckSeen* check = check_.empty() ? point.worst() : point.check(check_);
+    return check != nullptr && check->margin_ns ? check : nullptr;
+  }
+
+  std::string subject() const {
+    if (most == 0 && deepest == 0) return "";
+    return ": " + (check_.empty() ? "worst margin" : "margin of " + check_) + " / ns";
+  }
+
   Colour colour(const Point& point) const {
-    const CheckSeen* worst = point.worst();
+    const CheckSeen* worst = shown(point);
     const double margin = worst != nullptr ? *worst->margin_ns : 0;
     if (point.holds()) return between(kHoldsLeast, kHoldsMost, part(margin, most));
     return between(kFailsLeast, kFailsMost, part(-margin, deepest));
   }
 
-  static double part(double value, double greatest) {
-    return greatest > 0 ? std::clamp(value / greatest, 0.0, 1.0) : 1;
+  /// What stands in a cell: the margin where there is one that tells.
+  std::string text(const Point& point) const {
+    if (!point.possible()) return "";
+    const CheckSeen* worst = shown(point);
+    const bool telling = worst != nullptr && (point.holds() || *worst->margin_ns < 0);
+    if (telling) return number(*worst->margin_ns);
+    return point.holds() ? "holds" : "fails";
   }
+
+ private:
+  static double part(double value, double greatest) {
+    return greatest > 0 ? std::clamp(value / greatest, 0.0, 1.0) : kWithoutMargin;
+  }
+
+  std::string check_;
 };
-
-std::string number(double ns) {
-  return std::abs(ns) < 999.5 ? fmt::format("{:.1f}", ns) : fmt::format("{:.3g}u", ns / 1000);
-}
-
-/// What stands in a cell: the margin where there is one that tells.
-std::string cell_text(const Point& point) {
-  if (!point.possible()) return "";
-  const CheckSeen* worst = point.worst();
-  const bool telling = worst != nullptr && (point.holds() || *worst->margin_ns < 0);
-  if (telling) return number(*worst->margin_ns);
-  return point.holds() ? "holds" : "fails";
-}
 
 /// One picture: the points whose other parameters have their `other`-th combination of values.
 class Map {
@@ -131,11 +147,11 @@ class Map {
   }
 
   std::string head() const {
-    std::string what = plan_.scenario;
+    std::string what = std::filesystem::path(plan_.scenario).filename().string();
     const std::vector<std::string> values = plan_.values(other_);
     for (std::size_t i = 2; i < values.size(); ++i) what += fmt::format("  {}={}", plan_.parameters[i].path, values[i]);
     for (const std::string& setting : plan_.settings) what += "  " + setting;
-    return text_at(12, 22, "font-size=\"15\" font-weight=\"bold\"", "Where the timing holds: worst margin / ns") +
+    return text_at(12, 22, "font-size=\"15\" font-weight=\"bold\"", "Where the timing holds" + scale_.subject()) +
            text_at(12, 40, "fill=\"#505050\"", what);
   }
 
@@ -170,7 +186,7 @@ class Map {
         "stroke=\"white\"><title>{}</title></rect>\n",
         x(column), y(row), cell_, kHeight, fill, escaped(title(column, row)));
     if (cell_ >= kTextWidth)
-      text += text_at(x(column) + cell_ / 2, y(row) + kHeight / 2.0 + 4, "text-anchor=\"middle\"", cell_text(point));
+      text += text_at(x(column) + cell_ / 2, y(row) + kHeight / 2.0 + 4, "text-anchor=\"middle\"", scale_.text(point));
     return text;
   }
 
@@ -179,7 +195,8 @@ class Map {
     const Point& point = at(column, row);
     std::string text = plan_.short_name(0) + "=" + plan_.parameters[0].values[column];
     if (plan_.parameters.size() > 1) text += ", " + plan_.short_name(1) + "=" + plan_.parameters[1].values[row];
-    if (point.worst() != nullptr) text += fmt::format(": {:.3f} ns ({})", *point.worst()->margin_ns, point.worst()->id);
+    if (const CheckSeen* check = scale_.shown(point))
+      text += fmt::format(": {:.3f} ns ({})", *check->margin_ns, check->id);
     return text + (point.holds() ? "" : ": " + point.reason());
   }
 
@@ -205,9 +222,10 @@ class Map {
     };
     const std::string most = scale_.most > 0 ? " (dark: " + number(scale_.most) + " ns)" : "";
     const std::string deepest = scale_.deepest > 0 ? " (dark: " + number(-scale_.deepest) + " ns)" : "";
-    const std::array<Entry, 3> entries = {{{hex(between(kHoldsLeast, kHoldsMost, 0.6)), "holds" + most},
-                                           {hex(between(kFailsLeast, kFailsMost, 0.6)), "does not hold" + deepest},
-                                           {"url(#hatch)", "not possible"}}};
+    const std::array<Entry, 3> entries = {
+        {{hex(between(kHoldsLeast, kHoldsMost, kWithoutMargin)), "holds" + most},
+         {hex(between(kFailsLeast, kFailsMost, kWithoutMargin)), "does not hold" + deepest},
+         {"url(#hatch)", "not possible"}}};
     std::string text;
     double place = 12;
     for (const Entry& entry : entries) {
@@ -246,8 +264,8 @@ class Map {
 
 }  // namespace
 
-std::vector<Picture> heat_maps(const Plan& plan, const std::vector<Point>& points) {
-  const Scale scale(points);
+std::vector<Picture> heat_maps(const Plan& plan, const std::vector<Point>& points, const std::string& check) {
+  const Scale scale(points, check);
   const std::size_t shown =
       plan.parameters[0].values.size() * (plan.parameters.size() > 1 ? plan.parameters[1].values.size() : 1);
   const std::size_t others = points.size() / shown;

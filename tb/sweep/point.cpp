@@ -59,6 +59,11 @@ bool Point::holds() const {
   return exit == 0 && violations == 0 && bad_reads == 0 && std::all_of(checks.begin(), checks.end(), kept);
 }
 
+const CheckSeen* Point::check(const std::string& id) const {
+  const auto found = std::find_if(checks.begin(), checks.end(), [&id](const CheckSeen& each) { return each.id == id; });
+  return found == checks.end() ? nullptr : &*found;
+}
+
 const CheckSeen* Point::worst() const {
   const CheckSeen* worst = nullptr;
   for (const CheckSeen& check : checks) {

@@ -31,6 +31,8 @@ struct Point {
   bool possible() const { return exit != 2; }
   /// The run passed, and nothing of its timing was violated.
   bool holds() const;
+  /// The check with this id, null when the run has none.
+  const CheckSeen* check(const std::string& id) const;
   /// The check with the least margin; null without any.
   const CheckSeen* worst() const;
   /// Why it does not hold, in a few words; empty when it does.

@@ -26,23 +26,6 @@ std::string csv_line(const Row& row) {
   return text + "\n";
 }
 
-/// The checks of all points, in the order in which they come.
-Row check_ids(const std::vector<Point>& points) {
-  Row ids;
-  for (const Point& point : points) {
-    for (const CheckSeen& check : point.checks) {
-      if (std::find(ids.begin(), ids.end(), check.id) == ids.end()) ids.push_back(check.id);
-    }
-  }
-  return ids;
-}
-
-const CheckSeen* find(const Point& point, const std::string& id) {
-  const auto found =
-      std::find_if(point.checks.begin(), point.checks.end(), [&id](const CheckSeen& each) { return each.id == id; });
-  return found == point.checks.end() ? nullptr : &*found;
-}
-
 std::string margin_text(const CheckSeen* check) {
   return check != nullptr && check->margin_ns ? fmt::format("{:.3f}", *check->margin_ns) : "";
 }
@@ -74,7 +57,7 @@ Row csv_row(const Point& point, const Row& checks) {
              point.first ? fmt::format("{:.3f}", point.first->at_ns) : "",
              point.reason()};
   for (const std::string& id : checks) {
-    const CheckSeen* check = find(point, id);
+    const CheckSeen* check = point.check(id);
     row.push_back(check != nullptr ? fmt::format("{}", check->violations) : "");
     row.push_back(margin_text(check));
   }
@@ -174,6 +157,16 @@ std::string least_margin(const Plan& plan, const std::vector<Point>& points) {
 }
 
 }  // namespace
+
+std::vector<std::string> check_ids(const std::vector<Point>& points) {
+  std::vector<std::string> ids;
+  for (const Point& point : points) {
+    for (const CheckSeen& check : point.checks) {
+      if (std::find(ids.begin(), ids.end(), check.id) == ids.end()) ids.push_back(check.id);
+    }
+  }
+  return ids;
+}
 
 std::string csv(const Plan& plan, const std::vector<Point>& points) {
   const Row checks = check_ids(points);

@@ -199,6 +199,42 @@ def check_picture(root, sim):
             yield f"{PICTURE}:1: stale; ./run generate draws it anew"
 
 
+# --------------------------------------------------------------------------------------------------------------- sweep
+SWEEP = ["scenarios/bus_timing.yaml", "--set", "user_cpu.fsmc.mode=A", "--param", "user_cpu.fsmc.datast=0..15",
+         "--param", "user_cpu.fsmc.addset=0..3", "--map", "HOST_TW"]
+SWEEP_PICTURE = "docs/img/sweep_fsmc.svg"
+SWEEP_BLOCK = re.compile(r"(<!-- sweep -->\n```\n)(.*?)(```\n<!-- /sweep -->)", re.S)
+
+
+def sweep(root, sim):
+    """The table and the picture of docs/sweep.md, from a run of its command."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder, "out")
+        table = subprocess.run([sim, "sweep", *SWEEP, "--no-progress", "--out", out], cwd=root, check=True, text=True,
+                               stdout=subprocess.PIPE).stdout
+        return table[:table.index("  written:")].strip("\n") + "\n", (out / "map.svg").read_bytes()
+
+
+def check_sweep(root, sim):
+    path = root / "docs/sweep.md"
+    text = path.read_text(encoding="utf-8")
+    table, picture = sweep(root, sim)
+    if "dsdpv1-sim sweep " + " ".join(SWEEP) not in text:
+        yield "docs/sweep.md:1: the command of the table and the picture is missing"
+    if SWEEP_BLOCK.search(text).group(2) != table:
+        yield fault(root, path, text, SWEEP_BLOCK.search(text).start(2), "stale; ./run generate writes it anew")
+    if (root / SWEEP_PICTURE).read_bytes() != picture:
+        yield f"{SWEEP_PICTURE}:1: stale; ./run generate draws it anew"
+
+
+def update_sweep(root, sim):
+    path = root / "docs/sweep.md"
+    table, picture = sweep(root, sim)
+    path.write_text(SWEEP_BLOCK.sub(lambda block: block.group(1) + table + block.group(3),
+                                    path.read_text(encoding="utf-8")), encoding="utf-8")
+    (root / SWEEP_PICTURE).write_bytes(picture)
+
+
 def update(root, sim):
     readme = root / "README.md"
     output = simulate(root, sim).strip("\n") + "\n"
@@ -207,6 +243,7 @@ def update(root, sim):
     if without_wall_time(block.group(2)) != without_wall_time(output):  # else the wall time alone would change the file
         readme.write_text(text[:block.start(2)] + output + text[block.end(2):], encoding="utf-8")
     draw(root, sim, root / PICTURE)
+    update_sweep(root, sim)
     return []
 
 
@@ -214,10 +251,11 @@ def main():
     here = pathlib.Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=here)
-    parser.add_argument("what", choices=["links", "files", "plan", "snippets", "readme", "picture", "update"])
+    parser.add_argument("what", choices=["links", "files", "plan", "snippets", "readme", "picture", "sweep", "update"])
     parser.add_argument("sim", nargs="?")
     arguments = parser.parse_args()
-    with_sim = {"readme": check_readme, "picture": check_picture, "update": update}
+    with_sim = {"readme": check_readme, "picture": check_picture, "sweep": check_sweep,
+                "update": update}
     without = {"links": check_links, "files": check_files, "plan": check_plan, "snippets": check_snippets}
     if arguments.what in with_sim:
         if arguments.sim is None:
