@@ -18,6 +18,8 @@ Point = collections.namedtuple("Point", "kind file line name")
 # bits: of a signal, None for all of them
 Reason = collections.namedtuple("Reason", "kind file pattern bits why")
 
+BITS = re.compile(r"([^\[]+)\[(\d+(?::\d+)?(?:, *\d+(?::\d+)?)*)\]")
+
 
 def read_points(data):
     """Point -> count; one that stands in several instances of a module is counted in all of them together."""
@@ -41,8 +43,8 @@ def read_bits(text):
     """The bits of `7:4, 2`."""
     bits = set()
     for part in text.split(","):
-        high, low = int(part.split(":")[0]), int(part.split(":")[-1])
-        bits |= set(range(low, high + 1))
+        ends = [int(end) for end in part.split(":")]
+        bits |= set(range(min(ends), max(ends) + 1))
     return frozenset(bits)
 
 
@@ -56,9 +58,12 @@ def read_reasons(path):
         if len(fields) != 4 or fields[0] not in ("line", "toggle") or not all(fields):
             sys.exit(f"{path}:{number}: not a reason, allowed is: line or toggle | file | pattern | why")
         kind, file, pattern, why = fields
-        bits = re.fullmatch(r"(.+)\[([\d:, ]+)\]", pattern) if kind == "toggle" else None
-        if bits:
-            pattern, bits = bits[1], read_bits(bits[2])
+        bits = None
+        if kind == "toggle" and "[" in pattern:
+            match = BITS.fullmatch(pattern)
+            if not match:
+                sys.exit(f"{path}:{number}: wrong bits in {pattern}, allowed is: a pattern, then [7:4, 2]")
+            pattern, bits = match[1], read_bits(match[2])
         reasons.append(Reason(kind, file, pattern, bits, why))
     return reasons
 
@@ -92,7 +97,7 @@ def fits(point, reason, sources):
         return False
     if point.kind == "line":
         return reason.pattern in sources.text(point)
-    return fnmatch.fnmatchcase(signal(point.name), reason.pattern) and (not reason.bits or bit(point.name) in reason.bits)
+    return fnmatch.fnmatchcase(signal(point.name), reason.pattern) and (reason.bits is None or bit(point.name) in reason.bits)
 
 
 class Sources:

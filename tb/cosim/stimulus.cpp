@@ -230,7 +230,7 @@ class FileParser {
       std::string verb, argument, more;
       words >> verb >> argument >> more;
       if (verb == "repeat") {
-        repeat(more.empty() ? argument : argument + " " + more);
+        repeat(more.empty() ? argument : fmt::format("{} {}", argument, more));
       } else if (verb == "end") {
         end(argument);
       } else if (auto action = LineParser(line, file_, number_).parse()) {

@@ -95,6 +95,12 @@ class Report(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("reasons:2: not a reason", result.stderr)
 
+    def test_wrong_bits_are_refused_with_their_line(self):
+        for pattern in ("word[3:]", "word[a]", "word[1", "word[]"):
+            result = self.report([], f"toggle | rtl/block.sv | {pattern} | a constant\n")
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(f"reasons:1: wrong bits in {pattern}, allowed is", result.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
