@@ -9,6 +9,7 @@
 #include "bus/monitor.hpp"
 #include "model/profibus/event.hpp"
 #include "tb/bench/record.hpp"
+#include "tb/checks/check.hpp"
 #include "tb/driver/dsdpv1.h"
 #include "tb/report/output_file.hpp"
 #include "tb/scenario/event_codes.hpp"
@@ -148,12 +149,18 @@ std::string as_markdown() {
               chip_reasons());
   print_table(text, "\n## The driver\n\nWhat a call of the C driver returned to the user program.\n", driver_reasons());
   print_table(text, "\n## The bus\n\nWhat the bus monitor saw on the line.\n", bus_reasons());
+  print_table(
+      text,
+      "\n## The checks\n\nWhat the checks on the user's side found broken, see [checks.md](checks.md). They fail a run "
+      "with `--checks fail` only.\n",
+      check_reasons());
   return text;
 }
 
 std::vector<ReasonText> all_reasons() {
   std::vector<ReasonText> all = chip_reasons();
-  for (const auto& more : {driver_reasons(), bus_reasons()}) all.insert(all.end(), more.begin(), more.end());
+  for (const auto& more : {driver_reasons(), bus_reasons(), check_reasons()})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
@@ -202,6 +209,15 @@ std::vector<ReasonText> bus_reasons() {
     const auto kind = static_cast<bus::FlagKind>(i);
     list.push_back({tb::scenario::flag_code(kind), kind == bus::FlagKind::kUnanswered ? "info" : "violation",
                     meaning_of(kind), advice_of(kind)});
+  }
+  return list;
+}
+
+std::vector<ReasonText> check_reasons() {
+  std::vector<ReasonText> list;
+  for (std::size_t i = 0; i < checks::kCheckCount; ++i) {
+    const checks::Rule& rule = checks::rule(static_cast<checks::Check>(i));
+    list.push_back({rule.id, "violation", std::string(rule.rule) + " (" + rule.clause + ")", rule.advice});
   }
   return list;
 }

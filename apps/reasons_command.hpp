@@ -20,6 +20,7 @@ struct ReasonText {
 std::vector<ReasonText> chip_reasons();
 std::vector<ReasonText> driver_reasons();
 std::vector<ReasonText> bus_reasons();
+std::vector<ReasonText> check_reasons();
 
 int reasons(const ReasonsArguments& arguments);
 

@@ -40,6 +40,7 @@ struct Rule {
   const char* clause;  ///< of the datasheet, and rulings of docs/chip.md
   const char* formula;
   const char* source;  ///< of the default limit
+  const char* advice;  ///< what to do about a violation
 };
 
 const Rule& rule(Check check);
