@@ -10,6 +10,7 @@
 #include "model/profibus/event.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/checks/check.hpp"
+#include "tb/checks/markdown.hpp"
 #include "tb/driver/dsdpv1.h"
 #include "tb/report/output_file.hpp"
 #include "tb/scenario/event_codes.hpp"
@@ -223,7 +224,9 @@ std::vector<ReasonText> check_reasons() {
 }
 
 int reasons(const ReasonsArguments& arguments) {
-  const std::string text = arguments.markdown ? as_markdown() : as_text(arguments.code);
+  const std::string text = arguments.checks     ? checks::markdown()
+                           : arguments.markdown ? as_markdown()
+                                                : as_text(arguments.code);
   if (arguments.output.empty()) {
     std::cout << text << std::flush;
     return kPassed;

@@ -25,7 +25,7 @@ TEST(Keys, AcceptTheLeastScenario) { EXPECT_EQ(error_of(kHead + kSlave), "no err
 TEST(Keys, UnknownKeyIsNamedWithTheNearestKnownOne) {
   EXPECT_EQ(error_of(kHead + "slavs: []\n"),
             "s.yaml:4: unknown key slavs in scenario (did you mean slaves?), allowed are name, baud, end, chip, "
-            "masters, masters2, slaves, script, expect, allow");
+            "masters, masters2, slaves, script, expect, allow, checks");
 }
 
 TEST(Keys, MissingKeyIsNamed) {
