@@ -216,8 +216,8 @@ std::vector<ReasonText> bus_reasons() {
 
 std::vector<ReasonText> check_reasons() {
   std::vector<ReasonText> list;
-  for (std::size_t i = 0; i < checks::kCheckCount; ++i) {
-    const checks::Rule& rule = checks::rule(static_cast<checks::Check>(i));
+  for (const checks::Check check : checks::kAllChecks) {
+    const checks::Rule& rule = checks::rule(check);
     list.push_back({rule.id, "violation", std::string(rule.rule) + " (" + rule.clause + ")", rule.advice});
   }
   return list;

@@ -103,11 +103,11 @@ std::string section(const Rule& rule) {
 std::string markdown() {
   std::string text = kIntroduction;
   text += "\n| check | clause | default limit |\n|---|---|---|\n";
-  for (std::size_t i = 0; i < kCheckCount; ++i) {
-    const Rule& each = rule(static_cast<Check>(i));
+  for (const Check check : kAllChecks) {
+    const Rule& each = rule(check);
     text += fmt::format("| `{}` | {} | {} |\n", each.id, each.clause, limit_text(each));
   }
-  for (std::size_t i = 0; i < kCheckCount; ++i) text += section(rule(static_cast<Check>(i)));
+  for (const Check check : kAllChecks) text += section(rule(check));
   return text;
 }
 

@@ -70,10 +70,10 @@ std::string first_violation(const CheckResult& result) {
 std::string check_report(const RunResult& result) {
   if (result.checks.empty()) return "";
   TextTable table({"check", "count", "violations", "worst margin", "when"});
-  for (std::size_t i = 0; i < checks::kCheckCount; ++i) {
-    const Row row = row_of(result, static_cast<Check>(i));
+  for (const Check check : checks::kAllChecks) {
+    const Row row = row_of(result, check);
     if (row.count == 0) continue;
-    table.add({checks::rule(static_cast<Check>(i)).id, fmt::format("{}", row.count), violations_text(row),
+    table.add({checks::rule(check).id, fmt::format("{}", row.count), violations_text(row),
                worst_text(row.worst->record), at_text(*row.worst)});
   }
   std::string text = "\n" + table.text();

@@ -81,7 +81,7 @@ keys::Field field_of(Check check) {
 const ObjectOf<CheckLimits>& check_keys() {
   static const ObjectOf<CheckLimits> keys = [] {
     ObjectOf<CheckLimits> o("checks", "Limits of the checks on the user's side, see docs/checks.md. A key a check.");
-    for (std::size_t i = 0; i < checks::kCheckCount; ++i) o.fields.push_back(field_of(static_cast<Check>(i)));
+    for (const Check check : checks::kAllChecks) o.fields.push_back(field_of(check));
     return o;
   }();
   return keys;
