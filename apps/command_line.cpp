@@ -222,7 +222,8 @@ void describe_reasons(CLI::App& app, ReasonsArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("reasons", "Explains the codes of logs and results: what happened, what to do");
   command->add_option("CODE", arguments.code, "Only this one");
-  command->add_flag("--markdown", arguments.markdown, "Prints docs/reasons.md instead");
+  CLI::Option* markdown = command->add_flag("--markdown", arguments.markdown, "Prints docs/reasons.md instead");
+  command->add_flag("--checks", arguments.checks, "Prints docs/checks.md instead")->excludes(markdown);
   command->add_option("--output,-o", arguments.output, "Into this file");
   command->footer("\nExamples:\n  dsdpv1-sim reasons PRM_IDENT\n  dsdpv1-sim reasons | less\n");
 }

@@ -9,6 +9,8 @@
 #include "bus/monitor.hpp"
 #include "model/profibus/event.hpp"
 #include "tb/bench/record.hpp"
+#include "tb/checks/check.hpp"
+#include "tb/checks/markdown.hpp"
 #include "tb/driver/dsdpv1.h"
 #include "tb/report/output_file.hpp"
 #include "tb/scenario/event_codes.hpp"
@@ -148,12 +150,18 @@ std::string as_markdown() {
               chip_reasons());
   print_table(text, "\n## The driver\n\nWhat a call of the C driver returned to the user program.\n", driver_reasons());
   print_table(text, "\n## The bus\n\nWhat the bus monitor saw on the line.\n", bus_reasons());
+  print_table(
+      text,
+      "\n## The checks\n\nWhat the checks on the user's side found broken, see [checks.md](checks.md). They fail a run "
+      "with `--checks fail` only.\n",
+      check_reasons());
   return text;
 }
 
 std::vector<ReasonText> all_reasons() {
   std::vector<ReasonText> all = chip_reasons();
-  for (const auto& more : {driver_reasons(), bus_reasons()}) all.insert(all.end(), more.begin(), more.end());
+  for (const auto& more : {driver_reasons(), bus_reasons(), check_reasons()})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
@@ -206,8 +214,19 @@ std::vector<ReasonText> bus_reasons() {
   return list;
 }
 
+std::vector<ReasonText> check_reasons() {
+  std::vector<ReasonText> list;
+  for (const checks::Check check : checks::kAllChecks) {
+    const checks::Rule& rule = checks::rule(check);
+    list.push_back({rule.id, "violation", std::string(rule.rule) + " (" + rule.clause + ")", rule.advice});
+  }
+  return list;
+}
+
 int reasons(const ReasonsArguments& arguments) {
-  const std::string text = arguments.markdown ? as_markdown() : as_text(arguments.code);
+  const std::string text = arguments.checks     ? checks::markdown()
+                           : arguments.markdown ? as_markdown()
+                                                : as_text(arguments.code);
   if (arguments.output.empty()) {
     std::cout << text << std::flush;
     return kPassed;

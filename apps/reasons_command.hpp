@@ -8,7 +8,8 @@ namespace app {
 struct ReasonsArguments {
   std::string code;  ///< only this one; empty: all
   bool markdown = false;
-  std::string output;  ///< empty: standard output
+  bool checks = false;  ///< docs/checks.md
+  std::string output;   ///< empty: standard output
 };
 
 /// One code as a user reads it.
@@ -16,10 +17,11 @@ struct ReasonText {
   std::string code, severity, text, advice;
 };
 
-/// Those of the chip, of the driver's calls, of the bus monitor.
+/// Those of the chip, of the driver's calls, of the bus monitor, of the checks.
 std::vector<ReasonText> chip_reasons();
 std::vector<ReasonText> driver_reasons();
 std::vector<ReasonText> bus_reasons();
+std::vector<ReasonText> check_reasons();
 
 int reasons(const ReasonsArguments& arguments);
 

@@ -228,7 +228,10 @@ void Bench::chip_event(std::size_t index, const profibus::Event& event) {
 void Bench::check_violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
   const std::string id = checks::rule(violation.check).id;
   ++counts_[slave][id];
-  log(violation.found, slave, kind, id + ": " + violation.text);
+  if (log_)
+    log_->finding(std::max(violation.found, now()), slave, kind,
+                  fmt::format("{} at {} ns: {}  [{}]", id, nanoseconds(violation.at), violation.text,
+                              checks::history_text(violation)));
   touch(violation.found);
 }
 

@@ -34,11 +34,14 @@ void CheckWatch::violated(Slave& slave, const checks::Violation& violation) {
 std::vector<CheckResult> CheckWatch::results() const {
   std::vector<CheckResult> results;
   for (const auto& slave : slaves_) {
-    for (std::size_t i = 0; i < checks::kCheckCount; ++i) {
-      const auto check = static_cast<checks::Check>(i);
+    for (const checks::Check check : checks::kAllChecks) {
       if (!slave->checks.limit(check).on) continue;
-      CheckResult result{slave->name,          check, slave->checks.limit(check), slave->checks.record(check),
-                         slave->allowed.at(i), {}};
+      CheckResult result{slave->name,
+                         check,
+                         slave->checks.limit(check),
+                         slave->checks.record(check),
+                         slave->allowed.at(static_cast<std::size_t>(check)),
+                         {}};
       for (const checks::Violation& each : slave->listed)
         if (each.check == check) result.listed.push_back(each);
       results.push_back(std::move(result));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace tb {
 
 std::string nanoseconds(bus::Tick tick) {
@@ -10,13 +12,22 @@ std::string nanoseconds(bus::Tick tick) {
 }
 
 void RunLog::line(bus::Tick at, const std::string& station, const std::string& kind, const std::string& text) {
-  waiting_.emplace(std::pair(at, station),
+  add(at, station, kind, text, {});
+}
+
+void RunLog::finding(bus::Tick at, const std::string& station, const std::string& kind, const std::string& text) {
+  add(at, station, kind, text, text);
+}
+
+void RunLog::add(bus::Tick at, const std::string& station, const std::string& kind, const std::string& text,
+                 std::string order) {
+  waiting_.emplace(std::tuple(at, station, std::move(order)),
                    fmt::format("{:>17} ns  {:<12} {:<9} {}\n", nanoseconds(at), station, kind, text));
 }
 
 void RunLog::flush(bus::Tick now) {
-  const bool anything = !waiting_.empty() && waiting_.begin()->first.first <= now;
-  while (!waiting_.empty() && waiting_.begin()->first.first <= now) {
+  const bool anything = !waiting_.empty() && std::get<0>(waiting_.begin()->first) <= now;
+  while (!waiting_.empty() && std::get<0>(waiting_.begin()->first) <= now) {
     file_.write(waiting_.begin()->second);
     waiting_.erase(waiting_.begin());
   }

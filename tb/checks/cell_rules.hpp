@@ -52,7 +52,7 @@ class CellRules {
   void check_crcs_written(Tick at);
   void check_crc_written(const Block& block, Tick at);
   void check_crcs_fetched(Tick at);
-  bool restores(Address address, std::uint8_t bits) const;
+  bool restores(Address address, std::uint8_t set) const;
   std::optional<std::uint8_t> look(Address address) const;
   void learn(Address address, const std::optional<std::uint8_t>& value);
 

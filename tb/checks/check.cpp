@@ -26,7 +26,7 @@ constexpr std::array<Rule, kCheckCount> kRules = {{
 const Rule& rule(Check check) { return kRules.at(static_cast<std::size_t>(check)); }
 
 Limits::Limits() {
-  for (std::size_t i = 0; i < kCheckCount; ++i) limits_.at(i).value = kRules.at(i).limit;
+  for (const Check check : kAllChecks) (*this)[check].value = rule(check).limit;
 }
 
 }  // namespace checks

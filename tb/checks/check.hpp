@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 #include "bus/time.hpp"
 
@@ -15,11 +16,13 @@ enum class Check : std::uint8_t {
 #include "tb/checks/check_table.inc"
 #undef X
 };
-constexpr std::size_t kCheckCount = 0
-#define X(...) +1
+/// All of them, in the order of the table.
+constexpr Check kAllChecks[] = {
+#define X(enumerator, ...) Check::enumerator,
 #include "tb/checks/check_table.inc"
 #undef X
-    ;
+};
+constexpr std::size_t kCheckCount = std::size(kAllChecks);
 
 /// What the limit is.
 enum class Bound : std::uint8_t {
@@ -40,6 +43,7 @@ struct Rule {
   const char* clause;  ///< of the datasheet, and rulings of docs/chip.md
   const char* formula;
   const char* source;  ///< of the default limit
+  const char* advice;  ///< what to do about a violation
 };
 
 const Rule& rule(Check check);

@@ -146,9 +146,9 @@ void PortTiming::address_changed(Tick at, Level level) {
   a_ = level;
   a_changed_ = at;
   if (!reading_ || at >= sample_edge_) return;
+  a_read_ = level;
   if (at == began_) {
     a_valid_since_ = at;
-    a_read_ = level;
   } else if (!std::exchange(read_spoilt_, true)) {
     recorder_.value(Check::kTc, at, began_ - at, [level] { return fmt::format("reading B{:03X}", level); });
   }
@@ -174,8 +174,8 @@ void PortTiming::end_read(Tick at) {
   if (!read_spoilt_) {
     recorder_.value(Check::kTc, began_, began_ - a_valid_since_, reading);
     check_read_back();
-    sink_.accessed({false, address, chip_data(at), began_, at});
   }
+  sink_.accessed({false, address, read_spoilt_ ? std::nullopt : chip_data(at), began_, at});
 }
 
 void PortTiming::check_read_back() {

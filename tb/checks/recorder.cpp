@@ -11,6 +11,14 @@ std::string ns_text(Tick ticks) {
   return fmt::format("{:.3f} ns", static_cast<double>(ticks) / static_cast<double>(bus::kTicksPerNs));
 }
 
+std::string history_text(const Violation& violation) {
+  std::string text;
+  for (const PinChange& change : violation.history)
+    text += fmt::format("{}{}={} {}", text.empty() ? "" : ", ", dsdpv1::name(change.pin),
+                        level_text(change.pin, change.level), ns_text(change.at - violation.at));
+  return text;
+}
+
 Tick Recorder::margin(Check check, Tick measured) const {
   const Tick limit = limits_[check].value;
   return rule(check).bound == Bound::kMin ? measured - limit : limit - measured;
@@ -48,9 +56,9 @@ bool Recorder::add_outcome(Check check, Tick at, bool is_kept) {
 void Recorder::report_value(Check check, Tick at, Tick measured, const std::string& context) {
   const Tick left = margin(check, measured);
   std::string text =
-      fmt::format("{}: {} = {}, {} {} needed", rule(check).rule, rule(check).formula, ns_text(measured),
-                  rule(check).bound == Bound::kMin ? "at least" : "at most", ns_text(limits_[check].value));
-  if (!context.empty()) text += "; " + context;
+      fmt::format("{} of {} {}", ns_text(measured), rule(check).bound == Bound::kMin ? "at least" : "at most",
+                  ns_text(limits_[check].value));
+  if (!context.empty()) text += ", " + context;
   report(check, at, left, std::move(text));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tb/report/check_report.hpp"
 #include "tb/report/text_table.hpp"
 #include "tb/scenario/units.hpp"
 
@@ -113,7 +114,7 @@ std::string summary(const RunResult& result) {
   text += boards(result);
   if (result.violations != 0)
     text += fmt::format("  violations     {} that the scenario does not allow\n", result.violations);
-  text += expectations(result);
+  text += expectations(result) + check_report(result);
   return text + fmt::format("\n{}\n", result.interrupted ? "INTERRUPTED" : result.passed ? "PASSED" : "FAILED");
 }
 

@@ -27,6 +27,7 @@ std::string TextTable::line(const std::vector<std::string>& row) const {
     const bool last = i + 1 == row.size();
     text += last ? " " + row[i] : fmt::format(" {:<{}} ", row[i], widths_[i]);
   }
+  text.erase(text.find_last_not_of(' ') + 1);
   return text + "\n";
 }
 

@@ -24,7 +24,8 @@ constexpr Range kLimits = {-kLongestTime, kLongestTime};
 
 const ObjectOf<CheckLimit>& least_keys() {
   static const ObjectOf<CheckLimit> keys = [] {
-    ObjectOf<CheckLimit> o = limit_keys("least value", "A check whose measured value must not be less than a limit.");
+    ObjectOf<CheckLimit> o =
+        limit_keys("check with a least value", "A check whose measured value must not be less than a limit.");
     o.time("min", &CheckLimit::min, kLimits, "The limit; left out: the default of docs/checks.md.");
     return o;
   }();
@@ -33,7 +34,8 @@ const ObjectOf<CheckLimit>& least_keys() {
 
 const ObjectOf<CheckLimit>& greatest_keys() {
   static const ObjectOf<CheckLimit> keys = [] {
-    ObjectOf<CheckLimit> o = limit_keys("greatest value", "A check whose measured value must not exceed a limit.");
+    ObjectOf<CheckLimit> o =
+        limit_keys("check with a greatest value", "A check whose measured value must not exceed a limit.");
     o.time("max", &CheckLimit::max, kLimits, "The limit; left out: the default of docs/checks.md.");
     return o;
   }();
@@ -41,7 +43,8 @@ const ObjectOf<CheckLimit>& greatest_keys() {
 }
 
 const ObjectOf<CheckLimit>& rule_keys() {
-  static const ObjectOf<CheckLimit> keys = limit_keys("rule", "A check without a value: its rule is kept or not.");
+  static const ObjectOf<CheckLimit> keys =
+      limit_keys("check without a value", "A check without a value: its rule is kept or not.");
   return keys;
 }
 
@@ -78,7 +81,7 @@ keys::Field field_of(Check check) {
 const ObjectOf<CheckLimits>& check_keys() {
   static const ObjectOf<CheckLimits> keys = [] {
     ObjectOf<CheckLimits> o("checks", "Limits of the checks on the user's side, see docs/checks.md. A key a check.");
-    for (std::size_t i = 0; i < checks::kCheckCount; ++i) o.fields.push_back(field_of(static_cast<Check>(i)));
+    for (const Check check : checks::kAllChecks) o.fields.push_back(field_of(check));
     return o;
   }();
   return keys;

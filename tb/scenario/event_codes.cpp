@@ -37,8 +37,7 @@ const std::vector<std::string>& all_codes() {
     for (std::size_t kind = 0; kind < bus::kFlagKinds; ++kind)
       list.push_back(flag_code(static_cast<bus::FlagKind>(kind)));
     list.emplace_back(kFirmwareFault);
-    for (std::size_t i = 0; i < checks::kCheckCount; ++i)
-      list.emplace_back(checks::rule(static_cast<checks::Check>(i)).id);
+    for (const checks::Check check : checks::kAllChecks) list.emplace_back(checks::rule(check).id);
     return list;
   }();
   return codes;

@@ -1,4 +1,4 @@
-// Every scenario that ships passes, and is the same to the byte in step, skip and TLM: pin trace and log.
+// Every scenario that ships passes, the checks included, and is the same to the byte in step, skip and TLM: pin trace and log.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class Scenarios : public testing::TestWithParam<std::string> {
   bool run(const std::string& engine, const std::string& view) const {
     const std::string name = engine + "_" + view;
     const app_test::Called called =
-        call("run scenarios/" + GetParam() + ".yaml --no-progress --engine " + engine + " --view " + view +
+        call("run scenarios/" + GetParam() + ".yaml --no-progress --checks fail --engine " + engine + " --view " + view +
                  " --trace '" + folder_.file(name + ".trace") + "' --log '" + folder_.file(name + ".log") + "'",
              DSDPV1_SOURCE_DIR);
     if (called.status != 0) std::cout << called.out << called.err;

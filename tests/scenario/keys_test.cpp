@@ -25,7 +25,7 @@ TEST(Keys, AcceptTheLeastScenario) { EXPECT_EQ(error_of(kHead + kSlave), "no err
 TEST(Keys, UnknownKeyIsNamedWithTheNearestKnownOne) {
   EXPECT_EQ(error_of(kHead + "slavs: []\n"),
             "s.yaml:4: unknown key slavs in scenario (did you mean slaves?), allowed are name, baud, end, chip, "
-            "masters, masters2, slaves, script, expect, allow");
+            "masters, masters2, slaves, script, expect, allow, checks");
 }
 
 TEST(Keys, MissingKeyIsNamed) {
@@ -73,6 +73,28 @@ TEST(Keys, ActionTakesOnlyTheKeysOfItsWord) {
             "s.yaml:5: for is missing in do hold_dpram");
   EXPECT_EQ(error_of(kHead + kSlave + "script: [{do: reset_chip, slave: demo}]\n"),
             "s.yaml:5: action needs exactly one of at, when");
+}
+
+TEST(ChecksKeys, EachCheckTakesTheLimitOfItsKind) {
+  EXPECT_EQ(error_of(kHead + kSlave +
+                     "checks: {TIMING_TS: {min: 15ns}, INTR0_SERVICE: {max: 1ms}, CRC_WRITTEN: {enabled: false}}\n"),
+            "no error");
+  EXPECT_EQ(error_of(kHead + kSlave + "checks: {TIMING_TS: {max: 15ns}}\n"),
+            "s.yaml:5: unknown key max in check with a least value, allowed are enabled, min");
+  EXPECT_EQ(error_of(kHead + kSlave + "checks: {CRC_WRITTEN: {min: 15ns}}\n"),
+            "s.yaml:5: unknown key min in check without a value, allowed are enabled");
+  EXPECT_EQ(error_of(kHead + kSlave + "checks: {TIMING_TS: {min: 15}}\n"),
+            "s.yaml:5: min is \"15\", allowed is a number with a unit ns, us, ms, s or cycles, like 1.5ms");
+  EXPECT_EQ(error_of(kHead + kSlave + "checks: {TIMING_TZ: {min: 15ns}}\n").substr(0, 67),
+            "s.yaml:5: unknown key TIMING_TZ in checks (did you mean TIMING_TS?)");
+}
+
+TEST(ChecksKeys, LimitsReachTheCheckAndOthersKeepTheirDefault) {
+  const tb::scenario::Scenario scenario =
+      tb::scenario::parse(kHead + kSlave + "checks: {TIMING_TS: {min: 15ns}, TIMING_TW: {enabled: false}}\n", "s.yaml");
+  EXPECT_EQ(scenario.checks[checks::Check::kTs].value, 15 * bus::kTicksPerNs);
+  EXPECT_FALSE(scenario.checks[checks::Check::kTw].on);
+  EXPECT_EQ(scenario.checks[checks::Check::kTd].value, 150);
 }
 
 TEST(Check, NamesThatDoNotExistAreRefusedWithASuggestion) {

@@ -1,0 +1,10 @@
+#pragma once
+// docs/checks.md.
+#include <string>
+
+namespace checks {
+
+/// The whole document: how the checks are used, and each of them with rule, clause, formula and limit.
+std::string markdown();
+
+}  // namespace checks

@@ -1,0 +1,106 @@
+#pragma once
+// A user CPU and a chip as nothing but levels: every pin of a chip's user side is moved by the test, so that each rule can be kept by a tick
+// and broken by a tick, also those that no program on the native CPU can break.
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "tb/checks/checks.hpp"
+
+namespace checks_test {
+
+using bus::Tick;
+using checks::Check;
+using dsdpv1::Level;
+using dsdpv1::Pin;
+
+/// Table 15 with room to spare; a test changes what it is about. Ticks of 1/12 ns.
+struct Timing {
+  Tick address_setup = 300, low = 600, data_setup = 500, data_hold = 200, address_hold = 200, cs_trail = 100;
+};
+
+class Board {
+ public:
+  explicit Board(const checks::Limits& limits = {}) : checks_(limits) {
+    checks_.on_violation([this](const checks::Violation& violation) { violations.push_back(violation); });
+    set(Pin::kA, 0x7FF);
+    wait(5000);
+    set(Pin::kReset, 1);
+    wait(2'000'000);
+  }
+
+  checks::Checks& checks() { return checks_; }
+  Tick now() const { return now_; }
+  void wait(Tick ticks) { now_ += ticks; }
+  void set(Pin pin, Level level) { checks_.pin(now_, pin, level); }
+
+  /// The handshake of figure 4, R_STA `window` behind R_REQ.
+  void ask(Tick window = 2040) {
+    set(Pin::kRReq, 1);
+    wait(window);
+    set(Pin::kRSta, 1);
+    wait(500);
+  }
+  void release() {
+    set(Pin::kRSta, 0);
+    wait(100);
+    set(Pin::kRReq, 0);
+    wait(5000);
+  }
+  void chip_owns(bool owns) {
+    set(Pin::kLReq, owns ? 1 : 0);
+    set(Pin::kLSta, owns ? 1 : 0);
+  }
+
+  void write(unsigned address, unsigned value, const Timing& t = {}) {
+    const Tick fall = now_ + t.address_setup, rise = fall + t.low;
+    plan(now_, Pin::kA, address);
+    plan(now_, Pin::kCsr, 0);
+    plan(fall, Pin::kWr, 0);
+    plan(rise - t.data_setup, Pin::kDIn, value);
+    plan(rise, Pin::kWr, 1);
+    plan(rise + t.data_hold, Pin::kDIn, static_cast<unsigned>(dsdpv1::kLevelZ));
+    plan(rise + t.cs_trail, Pin::kCsr, 1);
+    plan(rise + t.address_hold, Pin::kA, 0x7FF);
+    carry_out();
+  }
+  /// The chip answers with `value`, driven a cycle after RD's fall and released with its rise.
+  void read(unsigned address, unsigned value, const Timing& t = {}) {
+    const Tick fall = now_ + std::max<Tick>(t.address_setup, 0);
+    plan(fall - t.address_setup, Pin::kA, address);
+    plan(now_, Pin::kCsr, 0);
+    plan(fall, Pin::kDOut, static_cast<unsigned>(dsdpv1::kLevelX));
+    plan(fall, Pin::kRd, 0);
+    if (t.low > 250) plan(fall + 250, Pin::kDOut, value);
+    plan(fall + t.low, Pin::kDOut, static_cast<unsigned>(dsdpv1::kLevelZ));
+    plan(fall + t.low, Pin::kRd, 1);
+    plan(fall + t.low + t.cs_trail, Pin::kCsr, 1);
+    plan(fall + t.low + t.address_hold, Pin::kA, 0x7FF);
+    carry_out();
+  }
+  /// B006 as the rule wants it, the chip having been there.
+  void count() {
+    read(0x006, 1);
+    write(0x006, 2);
+  }
+
+  std::vector<checks::Violation> violations;
+
+ private:
+  void plan(Tick at, Pin pin, unsigned level) { plan_.emplace(at, std::pair(pin, static_cast<Level>(level))); }
+  void carry_out() {
+    for (const auto& [at, change] : plan_) {
+      now_ = at;
+      set(change.first, change.second);
+    }
+    plan_.clear();
+    wait(1000);
+  }
+
+  checks::Checks checks_;
+  std::multimap<Tick, std::pair<Pin, Level>> plan_;
+  Tick now_ = 0;
+};
+
+}  // namespace checks_test

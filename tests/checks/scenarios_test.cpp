@@ -1,0 +1,181 @@
+// Each check that the native user CPU can break, by a scenario built for it: found with --checks fail and the run fails, found and passed when
+// the scenario allows it, and nothing else is found. The other checks need pins driven directly: values_test.cpp and cells_test.cpp.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tb/bench/bench.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace {
+
+struct Case {
+  const char* name;
+  std::vector<const char*> found;   ///< ids, the one that it is about first
+  const char* user_cpu;             ///< beside cycle
+  const char* script;               ///< actions
+  const char* limits;               ///< of checks
+  std::vector<const char*> events;  ///< violations that the core itself reports, allowed
+};
+
+void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
+
+const char* const kNone = "";
+
+const Case kCases[] = {
+    {"BothOwn",
+     {"OWNERSHIP_BOTH_OWN", "OWNERSHIP_SYNC_WINDOW"},
+     kNone,
+     "{at: 5ms, do: early_r_sta, slave: demo, times: 200}",
+     kNone,
+     {"HANDSHAKE_BOTH_OWN"}},
+    {"SyncWindow", {"OWNERSHIP_SYNC_WINDOW"}, kNone, kNone, "OWNERSHIP_SYNC_WINDOW: {min: 200ns}", {}},
+    {"NeverReleased",
+     {"OWNERSHIP_NEVER_RELEASED", "HOLD_INTERVAL"},
+     kNone,
+     "{at: 6ms, do: hold_dpram, slave: demo, for: 11ms}",
+     kNone,
+     {}},
+    {"Ts",
+     {"TIMING_TS", "TIMING_TD"},
+     "access: {wr_low: 12ns, data_setup: 12ns}",
+     kNone,
+     kNone,
+     {"HOST_TS", "HOST_TD_SETUP", "HOST_READ_UNKNOWN"}},
+    {"Td", {"TIMING_TD"}, "access: {data_setup: 12ns}", kNone, kNone, {"HOST_TD_SETUP", "HOST_READ_UNKNOWN"}},
+    {"AddressHold",
+     {"TIMING_ADDRESS_HOLD"},
+     "access: {address_hold: 12ns}",
+     kNone,
+     kNone,
+     {"HOST_TD_HOLD", "HOST_READ_UNKNOWN"}},
+    {"DataHold",
+     {"TIMING_DATA_HOLD"},
+     "access: {data_hold: 12ns}",
+     kNone,
+     kNone,
+     {"HOST_TD_HOLD", "HOST_READ_UNKNOWN"}},
+    {"Tc", {"TIMING_TC"}, "access: {address_setup: -0.05ns, cs_lead: 0ns}", kNone, kNone, {"HOST_TC"}},
+    {"Tw", {"TIMING_TW"}, "access: {rd_low: 31ns, rd_sample: 31ns}", kNone, kNone, {"HOST_TW"}},
+    {"ReadBack", {"TIMING_READ_BACK"}, kNone, kNone, "TIMING_READ_BACK: {min: 2us}", {}},
+    {"Intr0Service",
+     {"INTR0_SERVICE"},
+     "judge_in_handler: false",
+     "{at: 1100us, do: pause_user, slave: demo, for: 3ms}",
+     "INTR0_SERVICE: {max: 1ms}",
+     {}},
+    {"HoldInterval", {"HOLD_INTERVAL"}, kNone, "{at: 10ms, do: hold_dpram, slave: demo, for: 2ms}", kNone, {}},
+    {"CountByUser", {"COUNT_BY_USER"}, "access: {rd_sample: 1ns}", kNone, kNone, {}},
+    {"CrcWritten", {"CRC_WRITTEN"}, kNone, "{at: 10ms, do: wrong_crc, slave: demo, area: inputs}", kNone, {}},
+};
+
+std::string text_of(const Case& each, bool allowed) {
+  std::string text =
+      "name: check\nbaud: 12M\nend: 20ms\nslaves:\n  - name: demo\n    address: 5\n"
+      "    init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\", prm_mode: 2, cfg_mode: 2}\n    user_cpu:\n     "
+      " cycle: 200us\n";
+  if (*each.user_cpu != '\0') text += std::string("      ") + each.user_cpu + "\n";
+  text += "masters: [{name: plc, address: 2, start: 1ms, slaves: [{slave: demo, outputs: \"01 02\"}]}]\n";
+  if (*each.script != '\0') text += std::string("script:\n  - ") + each.script + "\n";
+  if (*each.limits != '\0') text += std::string("checks:\n  ") + each.limits + "\n";
+  std::vector<const char*> codes = each.events;
+  if (allowed) codes.insert(codes.end(), each.found.begin(), each.found.end());
+  if (!codes.empty()) text += "allow:\n";
+  for (const char* code : codes) text += std::string("  - {event: ") + code + ", slave: demo}\n";
+  return text;
+}
+
+tb::RunResult run(const Case& each, bool allowed, tb::ChecksMode mode) {
+  const tb::scenario::Scenario scenario = tb::scenario::parse(text_of(each, allowed), "check.yaml");
+  tb::RunOptions options;
+  options.checks = mode;
+  tb::Bench bench(scenario, options, tb::make_pin_execution());
+  return bench.run([](tb::Tick) { return true; });
+}
+
+std::set<std::string> broken(const tb::RunResult& result) {
+  std::set<std::string> ids;
+  for (const tb::CheckResult& check : result.checks)
+    if (check.record.violations != 0) ids.insert(checks::rule(check.check).id);
+  return ids;
+}
+
+class EachCheck : public testing::TestWithParam<Case> {};
+
+TEST_P(EachCheck, IsFoundByItsScenarioAndFailsTheRun) {
+  const tb::RunResult result = run(GetParam(), false, tb::ChecksMode::kFail);
+  EXPECT_EQ(broken(result), std::set<std::string>(GetParam().found.begin(), GetParam().found.end()));
+  EXPECT_FALSE(result.passed);
+  std::uint64_t counted = 0;
+  for (const tb::CheckResult& check : result.checks) {
+    counted += check.record.violations;
+    EXPECT_EQ(check.listed.size(), std::min<std::uint64_t>(check.record.violations, tb::CheckResult::kListed));
+  }
+  EXPECT_EQ(result.violations, counted);
+}
+
+TEST_P(EachCheck, DoesNotFailTheRunWhenAllowedReportedOrOff) {
+  const tb::RunResult allowed = run(GetParam(), true, tb::ChecksMode::kFail);
+  EXPECT_TRUE(allowed.passed);
+  EXPECT_FALSE(broken(allowed).empty());
+  const tb::RunResult reported = run(GetParam(), false, tb::ChecksMode::kReport);
+  EXPECT_TRUE(reported.passed);
+  EXPECT_FALSE(broken(reported).empty());
+  const tb::RunResult off = run(GetParam(), false, tb::ChecksMode::kOff);
+  EXPECT_TRUE(off.passed);
+  EXPECT_TRUE(off.checks.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Checks, EachCheck, testing::ValuesIn(kCases),
+                         [](const auto& each) { return each.param.name; });
+
+std::uint64_t events(const tb::RunResult& result, const char* code) {
+  return static_cast<std::uint64_t>(std::count_if(result.happenings.begin(), result.happenings.end(),
+                                                  [code](const tb::Happening& each) { return each.code == code; }));
+}
+
+std::uint64_t violations(const tb::RunResult& result, checks::Check check) {
+  for (const tb::CheckResult& each : result.checks)
+    if (each.check == check) return each.record.violations;
+  return 0;
+}
+
+TEST(ChecksAndCore, FindTheSameViolationsIndependently) {
+  const struct {
+    const char* name;
+    checks::Check check;
+    const char* event;
+  } pairs[] = {{"BothOwn", checks::Check::kBothOwn, "HANDSHAKE_BOTH_OWN"},
+               {"Ts", checks::Check::kTs, "HOST_TS"},
+               {"Td", checks::Check::kTd, "HOST_TD_SETUP"},
+               {"DataHold", checks::Check::kDataHold, "HOST_TD_HOLD"},
+               {"Tc", checks::Check::kTc, "HOST_TC"},
+               {"Tw", checks::Check::kTw, "HOST_TW"}};
+  for (const auto& pair : pairs) {
+    const Case* found = std::find_if(std::begin(kCases), std::end(kCases),
+                                     [&pair](const Case& each) { return std::string(each.name) == pair.name; });
+    ASSERT_NE(found, std::end(kCases));
+    const tb::RunResult result = run(*found, false, tb::ChecksMode::kReport);
+    EXPECT_GT(violations(result, pair.check), 0U) << pair.name;
+    EXPECT_EQ(violations(result, pair.check), events(result, pair.event)) << pair.name;
+  }
+}
+
+TEST(Checks, OneSwitchedOffInTheScenarioIsNotInTheResult) {
+  const Case each = {"Off",
+                     {},
+                     "access: {data_hold: 12ns}",
+                     kNone,
+                     "TIMING_DATA_HOLD: {enabled: false}",
+                     {"HOST_TD_HOLD", "HOST_READ_UNKNOWN"}};
+  const tb::RunResult result = run(each, false, tb::ChecksMode::kFail);
+  EXPECT_TRUE(broken(result).empty());
+  EXPECT_TRUE(result.passed);
+  EXPECT_EQ(result.checks.size(), checks::kCheckCount - 1);
+}
+
+}  // namespace
