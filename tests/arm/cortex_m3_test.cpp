@@ -52,9 +52,10 @@ TEST_F(Execution, AccessesArriveInOrderWithSizeAndTheCycleAtWhichTheyBegin) {
     seen.emplace_back(access.write, access.address, access.bytes);
   }
   using A = std::tuple<bool, std::uint32_t, unsigned>;
-  EXPECT_THAT(seen, ElementsAre(A{false, 0x60000001, 1}, A{false, 0x60000002, 2}, A{false, 0x60000004, 4}, A{false, 0x60000008, 1},
-                                A{false, 0x6000000A, 2}, A{false, 0x60000000, 4}, A{false, 0x60000004, 4}, A{false, 0x60000000, 4},
-                                A{false, 0x60000004, 4}, A{true, 0x60000011, 1}, A{true, 0x60000012, 2}, A{true, 0x60000014, 4},
+  EXPECT_THAT(seen, ElementsAre(A{false, 0x60000001, 1}, A{false, 0x60000002, 2}, A{false, 0x60000004, 4},
+                                A{false, 0x60000008, 1}, A{false, 0x6000000A, 2}, A{false, 0x60000000, 4},
+                                A{false, 0x60000004, 4}, A{false, 0x60000000, 4}, A{false, 0x60000004, 4},
+                                A{true, 0x60000011, 1}, A{true, 0x60000012, 2}, A{true, 0x60000014, 4},
                                 A{true, 0x60000000, 4}, A{true, 0x60000004, 4}, A{false, 0xA0000008, 4}));
   EXPECT_EQ(r(1), 0x81U);
   EXPECT_EQ(r(2), 0x8382U);

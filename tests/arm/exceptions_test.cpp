@@ -67,7 +67,8 @@ TEST_F(Exceptions, AHigherOneThatArrivesDuringEntryGoesFirst) {
   // Both have priority 0: of those pending when the entry ends, the lower number goes first.
   system.interrupts = {{100, 1}, {115, 0}};
   run("waiting");
-  EXPECT_THAT(system.notes, ElementsAre(1U, 11U, 1U, 2U)) << "seen at 108, entered at 120 before the world came up to 115";
+  EXPECT_THAT(system.notes, ElementsAre(1U, 11U, 1U, 2U))
+      << "seen at 108, entered at 120 before the world came up to 115";
 }
 
 TEST_F(Exceptions, AnItBlockIsFinishedFirst) {
@@ -93,25 +94,38 @@ TEST_F(Exceptions, SysTickComesToTheCycle) {
 TEST_F(Exceptions, SleepEndsWithWhatMayWakeIt) {
   system.interrupts = {{1000, 0}, {3000, 0}, {4000, 0}, {9000, 0}, {10'000, 1}};
   run("sleep");
-  EXPECT_THAT(system.notes, ElementsAre(1U, 2U, 10U, 3U,     // PRIMASK keeps the handler out, not the waking
-                                        4U, 10U, 5U,         // SEV lets one WFE pass, not two
-                                        10U, 6U, 12U, 7U,    // WFI until an interrupt, until SysTick
-                                        10U, 11U, 8U));      // SLEEPONEXIT until the second handler clears it
+  EXPECT_THAT(system.notes, ElementsAre(1U, 2U, 10U, 3U,   // PRIMASK keeps the handler out, not the waking
+                                        4U, 10U, 5U,       // SEV lets one WFE pass, not two
+                                        10U, 6U, 12U, 7U,  // WFI until an interrupt, until SysTick
+                                        10U, 11U, 8U));    // SLEEPONEXIT until the second handler clears it
   EXPECT_GE(system.note_cycles[1], 1000U);
   EXPECT_LT(system.note_cycles[1], 1010U);
 }
 
 TEST_F(Exceptions, ThreadsWithStacksOfTheirOwnTakeTurns) {
   run("tasks");
-  EXPECT_THAT(system.notes, ElementsAre(1U, 14U, 0xFFFFFFFDU, 11U, 3U,  // CONTROL: unprivileged, process stack, not to be changed
-                                        14U, 0xFFFFFFFDU, 2U, 14U, 0xFFFFFFFDU, 12U, 14U, 0xFFFFFFFDU, 3U));
+  EXPECT_THAT(system.notes,
+              ElementsAre(1U, 14U, 0xFFFFFFFDU, 11U, 3U,  // CONTROL: unprivileged, process stack, not to be changed
+                          14U, 0xFFFFFFFDU, 2U, 14U, 0xFFFFFFFDU, 12U, 14U, 0xFFFFFFFDU, 3U));
 }
 
 class Faults : public ProcessorBench {
  protected:
   enum Case : std::uint32_t {
-    kUndefined, kBadLoad, kBadStore, kFlashStore, kEvenBranch, kFarBranch, kDeviceBranch, kBreakpoint, kMaskedSvc, kBadReturn, kNoStack,
-    kCoprocessor, kWrongPsp, kRefused,
+    kUndefined,
+    kBadLoad,
+    kBadStore,
+    kFlashStore,
+    kEvenBranch,
+    kFarBranch,
+    kDeviceBranch,
+    kBreakpoint,
+    kMaskedSvc,
+    kBadReturn,
+    kNoStack,
+    kCoprocessor,
+    kWrongPsp,
+    kRefused,
   };
   void choose(Case which, std::uint32_t shcsr = 0, std::uint32_t fault_again = 0) {
     const std::uint32_t words[] = {which, shcsr, fault_again};
@@ -212,10 +226,11 @@ TEST_P(HandledFaults, ReachTheFirmwaresHandlerWithTheirStatusBits) {
 
 // Case, SHCSR, exception, CFSR, HFSR
 constexpr Handled kHandledFaults[] = {
-    {0, 0, 3, 0x00010000, 0x40000000},  {0, 0x70000, 6, 0x00010000, 0}, {1, 0, 3, 0x00008200, 0x40000000}, {1, 0x70000, 5, 0x00008200, 0},
-    {3, 0x70000, 5, 0x00008200, 0},     {4, 0x70000, 6, 0x00020000, 0}, {5, 0x70000, 5, 0x00000100, 0},    {6, 0x70000, 4, 0x00000001, 0},
-    {7, 0x70000, 3, 0, 0x80000000},     {8, 0x70000, 3, 0, 0x40000000}, {9, 0x70000, 6, 0x00040000, 0},    {11, 0x70000, 6, 0x00080000, 0},
-    {12, 0x70000, 5, 0x00000800, 0},    {13, 0x70000, 5, 0x00008200, 0},
+    {0, 0, 3, 0x00010000, 0x40000000}, {0, 0x70000, 6, 0x00010000, 0},  {1, 0, 3, 0x00008200, 0x40000000},
+    {1, 0x70000, 5, 0x00008200, 0},    {3, 0x70000, 5, 0x00008200, 0},  {4, 0x70000, 6, 0x00020000, 0},
+    {5, 0x70000, 5, 0x00000100, 0},    {6, 0x70000, 4, 0x00000001, 0},  {7, 0x70000, 3, 0, 0x80000000},
+    {8, 0x70000, 3, 0, 0x40000000},    {9, 0x70000, 6, 0x00040000, 0},  {11, 0x70000, 6, 0x00080000, 0},
+    {12, 0x70000, 5, 0x00000800, 0},   {13, 0x70000, 5, 0x00008200, 0},
 };
 INSTANTIATE_TEST_SUITE_P(All, HandledFaults, testing::ValuesIn(kHandledFaults));
 

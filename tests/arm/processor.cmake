@@ -28,6 +28,6 @@ foreach(source ${programs})
 endforeach()
 add_custom_target(cortex_m3_test_programs DEPENDS ${images})
 
-dsdpv1_test(cortex_m3_test cortex_m3_test.cpp exceptions_test.cpp processor_bench.cpp LIBS dsdpv1_cortex_m3 dsdpv1_user_cpu)
+dsdpv1_test(cortex_m3_test cortex_m3_test.cpp exceptions_test.cpp debugged_test.cpp processor_bench.cpp LIBS dsdpv1_cortex_m3 dsdpv1_user_cpu)
 add_dependencies(cortex_m3_test cortex_m3_test_programs)
 target_compile_definitions(cortex_m3_test PRIVATE PROGRAMS="${CMAKE_CURRENT_BINARY_DIR}")

@@ -59,6 +59,15 @@ TEST(SysTickTimer, ANewReloadCountsFromTheNextPeriodOn) {
   EXPECT_EQ(tick.next(), 110U);
 }
 
+TEST(SysTickTimer, IsZeroForOneCountWhateverTheReloadBecomes) {
+  SysTick tick = started(99, kEnable | kProcessorClock, 0);
+  tick.catch_up(100);
+  tick.store(kLoad, 49, 100);
+  EXPECT_EQ(tick.peek(kVal, 100), 0U);
+  EXPECT_EQ(tick.peek(kVal, 101), 99U);
+  EXPECT_EQ(tick.peek(kVal, 150), 50U);
+}
+
 TEST(SysTickTimer, AWriteToTheCounterClearsItAndTheFlagWithoutAnException) {
   SysTick tick = started(99, kEnable | kTickInt | kProcessorClock, 0);
   EXPECT_TRUE(tick.catch_up(100));

@@ -114,7 +114,7 @@ void CortexM3::reset_processor() {
   systick_.reset();
   scb_.reset();
   it_ = ItBlock();
-  event_ = reset_requested_ = moved_ = false;
+  event_ = reset_requested_ = moved_ = announced_ = false;
   due_ = 0;
   keep_up_at_ = now_;
   for (const Register mask : {Register::kPrimask, Register::kBasepri, Register::kFaultmask}) {
@@ -180,12 +180,13 @@ void CortexM3::between_instructions() {
     moved_ = false;
     it_.end();
     engine_.write(Register::kPc, at_);
-  }
-  if (reset_requested_) {
+  } else if (reset_requested_) {
     system_.reset();
     reset_processor();
   } else if (!stopped_ && preempting() != kNoException) {
     take_exception(at_);
+  } else {
+    announced_ = true;  // new code only: the debugger has seen this instruction
   }
 }
 
@@ -275,7 +276,7 @@ void CortexM3::note_hint(std::uint32_t address, std::uint16_t opcode) {
 
 void CortexM3::attend() {
   catch_up();
-  if (debugger_ != nullptr) {
+  if (debugger_ != nullptr && !stopped_ && !std::exchange(announced_, false)) {
     attend_debugger();
   }
   if (!inside_it_ && (stopped_ || reset_requested_ || moved_ || stale_code_ || preempting() != kNoException)) {

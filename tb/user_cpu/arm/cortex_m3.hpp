@@ -212,6 +212,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   bool moved_ = false;       // a debugger wrote PC
   bool stale_code_ = false;  // memory was written from outside, or report_data_ changed
   bool report_data_ = false;
+  bool announced_ = false;   // the debugger has let the next instruction pass
   bool translated_ = false;  // something has been executed
 
   std::function<void(const Fault&)> report_fault_;

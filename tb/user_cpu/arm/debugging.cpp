@@ -78,8 +78,10 @@ bool CortexM3::write_memory(std::uint32_t address, const std::uint8_t* from, std
 }
 
 bool CortexM3::report_data_accesses(bool on) {
-  report_data_ = on;
-  forget_code();
+  if (on != report_data_) {
+    report_data_ = on;
+    forget_code();
+  }
   return true;
 }
 

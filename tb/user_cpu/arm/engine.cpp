@@ -155,7 +155,8 @@ void Engine::map_events(std::uint32_t address, std::size_t size) {
 // Region by region: uc_ctl_flush_tlb writes all of Unicorn's buffer of 1 GB, which takes seconds.
 void Engine::forget_translations() {
   for (const Code& region : code_) {
-    check(uc_ctl_remove_cache(uc_, std::uint64_t{region.start}, std::uint64_t{region.start} + region.size), "uc_ctl_remove_cache");
+    check(uc_ctl_remove_cache(uc_, std::uint64_t{region.start}, std::uint64_t{region.start} + region.size),
+          "uc_ctl_remove_cache");
   }
 }
 

@@ -21,6 +21,7 @@ bool SysTick::catch_up(std::uint64_t now) {
   } else {
     const std::uint64_t period = (reload_ + 1ULL) * divider();
     zero_at_ += ((now - zero_at_) / period + 1) * period;
+    loaded_ = reload_;
   }
   return (control_ & kTickInt) != 0;
 }
@@ -30,8 +31,7 @@ std::uint32_t SysTick::value(std::uint64_t now) const {
     return stopped_value_;
   }
   const std::uint64_t left = (zero_at_ - now + divider() - 1) / divider();
-  return left > reload_ && left == reload_ + 1ULL ? 0
-                                                  : static_cast<std::uint32_t>(left);  // between zero and the reload
+  return left > loaded_ ? 0 : static_cast<std::uint32_t>(left);  // zero for one count before the reload
 }
 
 void SysTick::start(std::uint32_t value, std::uint64_t now) {
@@ -40,8 +40,8 @@ void SysTick::start(std::uint32_t value, std::uint64_t now) {
     stopped_value_ = 0;
     return;
   }
-  const std::uint64_t counts = value == 0 ? reload_ + 1ULL : value;
-  zero_at_ = now + counts * divider();
+  loaded_ = value == 0 ? reload_ : value;
+  zero_at_ = now + (loaded_ + (value == 0 ? 1ULL : 0ULL)) * divider();
 }
 
 void SysTick::store_control(std::uint32_t value, std::uint64_t now) {

@@ -32,6 +32,7 @@ class SysTick {
   void store_control(std::uint32_t value, std::uint64_t now);
 
   std::uint32_t control_ = 0, reload_ = 0;
+  std::uint32_t loaded_ = 0;         // what the present count began with
   std::uint32_t stopped_value_ = 0;  // while not enabled, and the zero at which a counter without reload stays
   std::uint64_t zero_at_ = kNever;   // while enabled: when the counter next changes from 1 to 0
 };
