@@ -67,8 +67,7 @@ TEST_F(Exceptions, AHigherOneThatArrivesDuringEntryGoesFirst) {
   // Both have priority 0: of those pending when the entry ends, the lower number goes first.
   system.interrupts = {{100, 1}, {115, 0}};
   run("waiting");
-  EXPECT_THAT(system.notes, ElementsAre(1U, 11U, 1U, 2U))
-      << "seen at 108, entered at 120 before the world came up to 115";
+  EXPECT_THAT(system.notes, ElementsAre(1U, 1U, 11U, 2U)) << "entry of interrupt 1 from 108 to 120";
 }
 
 TEST_F(Exceptions, AnItBlockIsFinishedFirst) {

@@ -316,8 +316,10 @@ void CortexM3::schedule() {
   }
 }
 
+// Entry, return and tail-chain. The world comes up to their end: an exception that arrives meanwhile may go first (B1.5.4).
 void CortexM3::spend(std::uint32_t cycles) {
   now_ += cycles * kMillis;
+  keep_up_at_ = now_;
   catch_up();
 }
 
