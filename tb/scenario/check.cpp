@@ -110,8 +110,8 @@ class Checker {
     if (arm && user.elf.empty())
       fail(slave.line, fmt::format("elf is missing, slave {} has an ARM board that runs it", slave.name.text));
     if (!arm && !user.elf.empty()) fail(user.elf.line, "elf without kind: arm, allowed is firmware of an ARM board");
-    if (arm && user.timing.line != 0)
-      fail(user.timing.line, "timing is that of kind: native, allowed with arm are cpi, fsmc and access");
+    if (arm && user.timing)
+      fail(user.timing->line, "timing is that of kind: native, allowed with arm are cpi, fsmc and access");
   }
 
   void check_objects(const Dpv1User& user) const {

@@ -145,7 +145,8 @@ const ObjectOf<UserCpu>& user_cpu_keys() {
     o.word("judge_prm", &U::judge_prm, judgement_words(), "Its verdict on parameters in judging mode 2.");
     o.word("judge_cfg", &U::judge_cfg, judgement_words(), "Its verdict on the configuration in judging mode 2.");
     o.object("timing", &U::timing, timing_keys(), "How fast it is.");
-    o.object("access", &U::access, access_keys(), "When it moves the pins of its bus; on an ARM board in place of the FSMC.");
+    o.object("access", &U::access, access_keys(),
+             "When it moves the pins of its bus; on an ARM board in place of the FSMC.");
     o.object("fsmc", &U::fsmc, fsmc_keys(), "When it moves them, as registers of an FSMC.");
     o.at_most_one.push_back({"access", "fsmc"});
     o.object("dpv1", &U::dpv1, dpv1_keys(), "Its answers to acyclic requests.");

@@ -153,8 +153,8 @@ struct UserCpu {
   bool judge_in_handler = true;
   bus::Tick retry_delay = bus::kTicksPerMs;
   Judgement judge_prm = Judgement::kAccept, judge_cfg = Judgement::kAccept;
-  CpuTimes timing;  ///< its `access` is left alone: that is the next member
-  AccessTimes access;
+  std::optional<CpuTimes> timing;  ///< kNative; its `access` is left alone: that is the next member
+  std::optional<AccessTimes> access;
   std::optional<Fsmc> fsmc;
   Dpv1User dpv1;
   int line = 0;

@@ -22,12 +22,13 @@ const std::string kArm = " --set user_cpu.kind=arm --set user_cpu.elf=";
 
 std::string scenario(const std::string& name) { return std::string("scenarios/") + name + ".yaml --no-progress"; }
 
-/// What the bus has seen of a slave in the end.
-Json on_the_bus(const Json& slave) {
+/// What the bus has seen of a slave in the end. `counts`: its inputs count the exchanges, which hang on the CPU's speed.
+Json on_the_bus(const Json& slave, bool counts) {
   Json seen;
   for (const char* key :
        {"name", "address", "dp_state", "baud", "master", "master_state", "inputs", "outputs", "rm_registry"})
     seen[key] = slave.at(key);
+  if (counts) seen.erase("inputs");
   return seen;
 }
 
@@ -43,8 +44,10 @@ TEST_P(ArmScenarios, EndOnTheBusAsWithTheNativeCpu) {
   ASSERT_EQ(arm.status, 0) << arm.out << arm.err;
   const Json native_result = Json::parse(read(folder.file("native.json")));
   const Json arm_result = Json::parse(read(folder.file("arm.json")));
+  const std::string text = read(std::string(DSDPV1_SOURCE_DIR) + "/scenarios/" + GetParam() + ".yaml");
+  const bool counts = text.find("behaviour: count") != std::string::npos;
   for (std::size_t i = 0; i < native_result.at("slaves").size(); ++i)
-    EXPECT_EQ(on_the_bus(arm_result.at("slaves").at(i)), on_the_bus(native_result.at("slaves").at(i)));
+    EXPECT_EQ(on_the_bus(arm_result.at("slaves").at(i), counts), on_the_bus(native_result.at("slaves").at(i), counts));
 }
 
 std::vector<std::string> native_scenarios() {

@@ -46,7 +46,9 @@ TEST(Scenario, HoldsWhatTheFileSays) {
 TEST(Scenario, LeavesDefaultsWhereKeysAreMissing) {
   const sc::Scenario scenario = sc::parse(kSmall, "s.yaml");
   EXPECT_EQ(scenario.chip.access_interval, dsdpv1::Config{}.access_interval);
-  EXPECT_EQ(scenario.slaves[0].user_cpu.access.wr_low, user_cpu::AccessTiming{}.wr_low);
+  EXPECT_EQ(scenario.slaves[0].user_cpu.kind, sc::CpuKind::kNative);
+  EXPECT_EQ(scenario.slaves[0].user_cpu.judge_delay, 0);
+  EXPECT_FALSE(scenario.slaves[0].user_cpu.access);
 }
 
 TEST(Scenario, PathsAreRelativeToItsFolder) {
