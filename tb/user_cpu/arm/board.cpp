@@ -101,6 +101,7 @@ void Board::run_firmware(user_cpu::Cpu& cpu) {
   try {
     core_.run();
   } catch (const FaultError& error) {
+    if (debugger_) debugger_->fault(error.fault().text);
     failed(error.fault());
   }
 }
