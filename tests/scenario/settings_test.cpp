@@ -71,7 +71,7 @@ TEST(Settings, WrongPathIsNamedWithTheNearestKey) {
       "end, chip, masters, masters2, slaves, script, expect, allow; of every slave name, address, gsd, modules, "
       "init, user_cpu, release_reset");
   EXPECT_EQ(error_of("slaves.third.address=1"),
-            "--set slaves.third.address=1: slaves has no item third, allowed are 0 to 1 and first, second");
+            "--set slaves.third.address=1: slaves has no item third, allowed are 0 to 1, first, second");
   EXPECT_EQ(error_of("script.0.at=1us"), "--set script.0.at=1us: the scenario has no script");
 }
 
