@@ -166,10 +166,10 @@ class Writer {
     if (!list.IsDefined() || !list.IsSequence() || list.size() == 0)
       fail(setting_.origin, fmt::format("the scenario has no {}", field.name));
     if (const std::optional<std::size_t> number = item_number(list, step)) return list[*number];
-    const std::vector<std::string> names = item_names(list);
-    fail(setting_.origin,
-         fmt::format("{} has no item {}{}, allowed are 0 to {}{}", field.name, step, did_you_mean(step, names),
-                     list.size() - 1, names.empty() ? "" : " and " + join(names)));
+    std::vector<std::string> names = item_names(list);
+    const std::string near = did_you_mean(step, names);
+    names.insert(names.begin(), list.size() == 1 ? "0" : fmt::format("0 to {}", list.size() - 1));
+    fail(setting_.origin, fmt::format("{} has no item {}{}, allowed are {}", field.name, step, near, join(names)));
   }
 
   const Setting& setting_;

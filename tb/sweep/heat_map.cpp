@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <utility>
 
 namespace tb::sweep {
 namespace {
@@ -53,11 +54,20 @@ std::string number(double ns) {
   return std::abs(ns) < 999.5 ? fmt::format("{:.1f}", ns) : fmt::format("{:.3g}u", ns / 1000);
 }
 
+constexpr const char* kHead =
+    R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}"
+  font-family="sans-serif" font-size="12">
+<defs><pattern id="hatch" width="6" height="6" patternUnits="userSpaceOnUse">
+<rect width="6" height="6" fill="#e0e0e0"/>
+<path d="M0 6L6 0" stroke="#909090"/></pattern></defs>
+<rect width="100%" height="100%" fill="white"/>
+)";
+
 /// Margins over all pictures, so that their colours mean the same.
 struct Scale {
   double most = 0, deepest = 0;  ///< greatest margin where it holds, greatest violation, both in ns and not negative
 
-  Scale(const std::vector<Point>& points, const std::string& check) : check_(check) {
+  Scale(const std::vector<Point>& points, std::string check) : check_(std::move(check)) {
     for (const Point& point : points) {
       const CheckSeen* worst = shown(point);
       if (worst == nullptr) continue;
@@ -118,16 +128,7 @@ class Map {
   std::string svg() const {
     const double width = std::max(left_ + cell_ * static_cast<double>(columns_) + 24, 720.0);
     const double height = bottom() + kLegend;
-    return fmt::format(
-               "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
-               "{1:.0f}\" "
-               "font-family=\"sans-serif\" font-size=\"12\">\n"
-               "<defs><pattern id=\"hatch\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\">"
-               "<rect width=\"6\" height=\"6\" fill=\"#e0e0e0\"/><path d=\"M0 6L6 0\" "
-               "stroke=\"#909090\"/></pattern></defs>\n"
-               "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-               width, height) +
-           head() + axes() + cells() + borders() + legend() + "</svg>\n";
+    return fmt::format(kHead, width, height) + head() + axes() + cells() + borders() + legend() + "</svg>\n";
   }
 
  private:
@@ -151,7 +152,7 @@ class Map {
     const std::vector<std::string> values = plan_.values(other_);
     for (std::size_t i = 2; i < values.size(); ++i) what += fmt::format("  {}={}", plan_.parameters[i].path, values[i]);
     for (const std::string& setting : plan_.settings) what += "  " + setting;
-    return text_at(12, 22, "font-size=\"15\" font-weight=\"bold\"", "Where the timing holds" + scale_.subject()) +
+    return text_at(12, 22, R"(font-size="15" font-weight="bold")", "Where the timing holds" + scale_.subject()) +
            text_at(12, 40, "fill=\"#505050\"", what);
   }
 

@@ -75,8 +75,10 @@ const CheckSeen* Point::worst() const {
 std::string Point::reason() const {
   if (holds()) return "";
   if (!error.empty()) return error;
-  if (first) return fmt::format("{} at {:.3f} us: {}", first->code, first->at_ns / 1000, first->text);
-  if (bad_reads != 0) return fmt::format("{} reads of unknown data", bad_reads);
+  const std::string bad = bad_reads != 0 ? fmt::format("{} reads of unknown data", bad_reads) : "";
+  const std::string seen =
+      first ? fmt::format("{} at {:.3f} us: {}", first->code, first->at_ns / 1000, first->text) : "";
+  if (!bad.empty() || !seen.empty()) return bad + (bad.empty() || seen.empty() ? "" : "; ") + seen;
   return unmet.empty() ? fmt::format("exit code {}", exit) : "not met: " + unmet;
 }
 

@@ -201,7 +201,7 @@ def check_picture(root, sim):
 
 # --------------------------------------------------------------------------------------------------------------- sweep
 SWEEP = ["scenarios/bus_timing.yaml", "--set", "user_cpu.fsmc.mode=A", "--param", "user_cpu.fsmc.datast=0..15",
-         "--param", "user_cpu.fsmc.addset=0..3", "--map", "HOST_TW"]
+         "--param", "user_cpu.fsmc.addset=0..3", "--map", "TIMING_TS"]
 SWEEP_PICTURE = "docs/img/sweep_fsmc.svg"
 SWEEP_BLOCK = re.compile(r"(<!-- sweep -->\n```\n)(.*?)(```\n<!-- /sweep -->)", re.S)
 

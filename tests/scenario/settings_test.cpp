@@ -65,13 +65,12 @@ TEST(Settings, TakeBytesAsHexadecimalTextOrAsAList) {
 TEST(Settings, WrongPathIsNamedWithTheNearestKey) {
   EXPECT_EQ(error_of("user_cpu.cicle=1us").substr(0, 73),
             "--set user_cpu.cicle=1us: unknown key cicle in user_cpu (did you mean cyc");
-  EXPECT_EQ(
-      error_of("usercpu.cycle=1us"),
-      "--set usercpu.cycle=1us: unknown key usercpu in scenario (did you mean user_cpu?), allowed are name, baud, "
-      "end, chip, masters, masters2, slaves, script, expect, allow; of every slave name, address, gsd, modules, "
-      "init, user_cpu, release_reset");
+  const std::string error = error_of("usercpu.cycle=1us");
+  EXPECT_EQ(error.substr(0, error.find(", allowed")),
+            "--set usercpu.cycle=1us: unknown key usercpu in scenario (did you mean user_cpu?)");
+  EXPECT_NE(error.find("; of every slave name, address,"), std::string::npos) << error;
   EXPECT_EQ(error_of("slaves.third.address=1"),
-            "--set slaves.third.address=1: slaves has no item third, allowed are 0 to 1 and first, second");
+            "--set slaves.third.address=1: slaves has no item third, allowed are 0 to 1, first, second");
   EXPECT_EQ(error_of("script.0.at=1us"), "--set script.0.at=1us: the scenario has no script");
 }
 

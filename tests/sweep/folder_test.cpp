@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <functional>
 
 #include "tb/scenario/input_error.hpp"
 
@@ -28,13 +29,23 @@ class SweepFolder : public testing::Test {
   SweepFolder& operator=(const SweepFolder&) = delete;
 
   static void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
-  Folder open(const std::string& program = "p") { return {base_ / "out", tb::sweep::identity(plan_, program)}; }
+  Folder open() { return {base_ / "out", tb::sweep::identity(plan_, program_)}; }
   void finish(const Folder& folder, std::size_t point, int exit) {
     write(folder.error_file(point), "the reason\nmore\n");
     folder.finish(point, plan_, exit);
   }
 
+  /// Finishes a point, changes something and opens the folder again: why that started anew.
+  std::string anew_after(const std::function<void()>& change) {
+    finish(open(), 0, 2);
+    change();
+    const Folder folder = open();
+    EXPECT_FALSE(folder.finished(0));
+    return folder.started_anew();
+  }
+
   fs::path base_;
+  std::string program_ = "p";
   Plan plan_;
 };
 
@@ -55,28 +66,12 @@ TEST_F(SweepFolder, PointOfARunThatWasKilledIsTriedAgain) {
 }
 
 TEST_F(SweepFolder, AnotherScenarioGsdProgramOrParameterStartsAnewAndSaysSo) {
-  const auto reopened = [this](const std::string& program = "p") {
-    finish(open(), 0, 2);
-    return [this, program] {
-      const Folder folder = open(program);
-      EXPECT_FALSE(folder.finished(0));
-      return folder.started_anew();
-    };
-  };
-  auto open_again = reopened();
-  write(base_ / "s.yaml", "name: y\nslaves: [{name: a, gsd: a.gsd}]\n");
-  EXPECT_EQ(open_again(), "another scenario or other content of its files");
-  open_again = reopened();
-  write(base_ / "a.gsd", "two");
-  EXPECT_EQ(open_again(), "another scenario or other content of its files");
-  open_again = reopened("q");
-  EXPECT_EQ(open_again(), "another version of the program");
-  finish(open(), 0, 2);
-  plan_.parameters[0].values.emplace_back("3");
-  EXPECT_EQ(open().started_anew(), "other parameters");
-  finish(open(), 0, 2);
-  plan_.settings = {"slaves.0.address=4"};
-  EXPECT_EQ(open().started_anew(), "other settings");
+  EXPECT_EQ(anew_after([this] { write(base_ / "s.yaml", "name: y\nslaves: [{name: a, gsd: a.gsd}]\n"); }),
+            "another scenario or other content of its files");
+  EXPECT_EQ(anew_after([this] { write(base_ / "a.gsd", "two"); }), "another scenario or other content of its files");
+  EXPECT_EQ(anew_after([this] { program_ = "q"; }), "another version of the program");
+  EXPECT_EQ(anew_after([this] { plan_.parameters[0].values.emplace_back("3"); }), "other parameters");
+  EXPECT_EQ(anew_after([this] { plan_.settings = {"slaves.0.address=4"}; }), "other settings");
 }
 
 TEST_F(SweepFolder, FolderWithSomethingElseIsLeftAlone) {

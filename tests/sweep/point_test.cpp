@@ -69,6 +69,9 @@ TEST(SweepPoint, FirstViolationIsTheEarliestThatIsNotAllowed) {
   };
   made["events"] = {event(10, "ALLOWED", true), event(3000, "LATE", false), event(2000, "EARLY", false)};
   EXPECT_EQ(point_of(1, "", made).reason(), "EARLY at 2.000 us: t");
+  made["slaves"][0]["user_cpu"]["bad_reads"] = 2;
+  EXPECT_EQ(point_of(1, "", made).reason(), "2 reads of unknown data; EARLY at 2.000 us: t");
+  made["slaves"][0]["user_cpu"]["bad_reads"] = 0;
   made["checks"] = {check("HOST_TW", -1, 1)};
   made["checks"][0]["listed"] = {{{"at_ns", 1000}, {"margin_ns", -1}, {"text", "too early"}}};
   EXPECT_EQ(point_of(1, "", made).reason(), "HOST_TW at 1.000 us: too early");
