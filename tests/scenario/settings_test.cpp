@@ -68,7 +68,8 @@ TEST(Settings, WrongPathIsNamedWithTheNearestKey) {
   EXPECT_EQ(
       error_of("usercpu.cycle=1us"),
       "--set usercpu.cycle=1us: unknown key usercpu in scenario (did you mean user_cpu?), allowed are name, baud, "
-      "end, chip, masters, masters2, slaves, script, expect, allow; of every slave name, address, gsd, modules, "
+      "end, chip, masters, masters2, slaves, script, expect, allow, checks; of every slave name, address, gsd, "
+      "modules, "
       "init, user_cpu, release_reset");
   EXPECT_EQ(error_of("slaves.third.address=1"),
             "--set slaves.third.address=1: slaves has no item third, allowed are 0 to 1 and first, second");
