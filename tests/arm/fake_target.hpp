@@ -10,7 +10,7 @@
 
 namespace arm::test {
 
-class FakeTarget : public DebugTarget {
+class FakeTarget final : public DebugTarget {
  public:
   explicit FakeTarget(const ElfImage& firmware);
 
