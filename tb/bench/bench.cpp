@@ -26,6 +26,7 @@ class Bench::Pulse : public bus::Agent {
     next_ = now + kPeriod;
     stopped_ = poll && !poll(now);
   }
+  void stop() { stopped_ = true; }
   bool stopped() const { return stopped_; }
   std::function<bool(Tick)> poll;
 
@@ -112,6 +113,7 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
     log(at, station.name(), "text", line);
     if (options_.on_text) options_.on_text(station.name(), line);
   };
+  station.on_killed = [this] { pulse_->stop(); };
   station.on_failure = [this, &station](Tick at, const std::string& why, const std::string& registers) {
     user_failed(station, at, why, registers);
   };

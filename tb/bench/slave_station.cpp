@@ -29,6 +29,9 @@ void SlaveStation::release_reset(Tick now) {
   user_->on_text = [this](Tick at, const std::string& line) {
     if (on_text) on_text(at, line);
   };
+  user_->on_killed = [this] {
+    if (on_killed) on_killed();
+  };
   user_->on_failure = [this](Tick at, const std::string& why, const std::string& registers) {
     if (on_failure) on_failure(at, why, registers);
   };

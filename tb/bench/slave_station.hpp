@@ -53,6 +53,7 @@ class SlaveStation : public bus::Agent {
   std::function<void(const user_cpu::DriverError&)> on_driver_error;
   std::function<void(Tick at, const std::string& line)> on_text;
   std::function<void(Tick at, const std::string& why, const std::string& registers)> on_failure;
+  std::function<void()> on_killed;
   /// The user CPU has fetched outputs, other ones than before when `changed`.
   std::function<void(Tick at, bool changed)> on_outputs;
 

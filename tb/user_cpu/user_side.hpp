@@ -55,6 +55,8 @@ class UserSide : public bus::Agent {
   std::function<void(Tick at, const std::string& line)> on_text;
   /// The processor cannot go on: why, in one line, and its registers in several.
   std::function<void(Tick at, const std::string& why, const std::string& registers)> on_failure;
+  /// A debugger wants the run to end.
+  std::function<void()> on_killed;
 };
 
 }  // namespace user_cpu

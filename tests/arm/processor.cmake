@@ -1,17 +1,8 @@
 # The processor. Its programs are Thumb assembler, one a group of behaviours; the tests read the raw images.
-if(NOT TARGET dsdpv1_cortex_m3)
-  return()
-endif()
 dsdpv1_test(arm_nvic_test nvic_test.cpp LIBS dsdpv1_cortex_m3)
 dsdpv1_test(arm_systick_test systick_test.cpp LIBS dsdpv1_cortex_m3)
 
-find_program(ARM_GCC arm-none-eabi-gcc)
-find_program(ARM_OBJCOPY arm-none-eabi-objcopy)
-if(NOT ARM_GCC OR NOT ARM_OBJCOPY)
-  message(STATUS "Tests of the processor: left out, no arm-none-eabi-gcc")
-  return()
-endif()
-
+find_program(ARM_OBJCOPY arm-none-eabi-objcopy REQUIRED)
 set(images)
 file(GLOB programs CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/programs/*.s)
 foreach(source ${programs})

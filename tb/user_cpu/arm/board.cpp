@@ -46,6 +46,7 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
     mailbox_.emplace(core_.ram() + (*options_.firmware->mailbox - MemoryMap().ram_base), options_.program);
   if (options_.make_debugger) debugger_ = options_.make_debugger(core_);
   core_.attach(debugger_.get());
+  core_.on_fault([this](const Fault& fault) { note_fault(fault); });
   usart_.on_line = [this](const std::string& line) {
     if (on_text) on_text(now(), line);
   };
@@ -100,10 +101,22 @@ void Board::run_firmware(user_cpu::Cpu& cpu) {
   set_access_timing();
   try {
     core_.run();
+    fault_ ? failed(*fault_) : ended_by_debugger();
   } catch (const FaultError& error) {
-    if (debugger_) debugger_->fault(error.fault().text);
     failed(error.fault());
   }
+}
+
+/// Also a fault that the firmware has a handler for ends the run: that handler is for products, here somebody wants to see it.
+void Board::note_fault(const Fault& fault) {
+  if (fault.outcome != FaultOutcome::kHandled) return;  // comes as FaultError
+  fault_ = fault;
+  if (debugger_) debugger_->fault(fault.text);
+  core_.stop();
+}
+
+void Board::ended_by_debugger() {
+  if (on_killed) on_killed();
 }
 
 void Board::failed(const Fault& fault) {

@@ -77,7 +77,9 @@ class Board : public user_cpu::UserSide, private System {
 
   void look_at_mailbox(Tick now);
   void run_firmware(user_cpu::Cpu& cpu);
+  void note_fault(const Fault& fault);
   void failed(const Fault& fault);
+  void ended_by_debugger();
   Tick tick_of(std::uint64_t cycle) const;
   std::uint64_t cycle_of(Tick tick) const;
   void come_up();
@@ -112,6 +114,7 @@ class Board : public user_cpu::UserSide, private System {
   unsigned requests_ = 0;  ///< of exti_, as the processor knows them
   std::bitset<static_cast<std::size_t>(Noted::kCount)> noted_;
   std::vector<std::string> notes_;
+  std::optional<Fault> fault_;  ///< that the firmware would have handled
   CortexM3 core_;
   std::unique_ptr<Debugger> debugger_;
   std::optional<MailboxLink> mailbox_;

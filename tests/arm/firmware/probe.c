@@ -123,6 +123,14 @@ static void masked_and_rising(void) {
   CHIP(1) = (uint8_t)REG(EXTI_PR);
 }
 
+/* A fault ends the run before this: it must never be seen at the pins. */
+void HardFault_handler(void);
+void HardFault_handler(void) {
+  CHIP(0) = 0xEE;
+  for (;;) {
+  }
+}
+
 void EXTI9_5_handler(void);
 void EXTI9_5_handler(void) {
   CHIP(0x7FF) = 0;
@@ -132,15 +140,15 @@ void EXTI9_5_handler(void) {
 
 void run(void);
 void run(void) {
-  static void (*const programs[])(void) = {handshake,  accesses, unset_accesses, interrupt,         chip_reset,
-                                           text,       strange,  undefined,      bank_off,          masked_and_rising};
+  static void (*const programs[])(void) = {handshake, accesses, unset_accesses, interrupt,         chip_reset, text,
+                                           strange,   undefined, bank_off,      masked_and_rising};
   edges = 0;
   clocks();
   programs[program]();
   for (;;) __asm volatile("wfi");
 }
 
-/* Initial stack pointer, reset and the vector of IRQ 23 (ARMv7-M B1.5.3). */
+/* Initial stack pointer, reset, HardFault and IRQ 23 (ARMv7-M B1.5.3). */
 extern char stack_top[];
 __attribute__((section(".vectors"), used)) static const void* const vectors[16 + 24] = {
-    [0] = stack_top, [1] = (const void*)run, [16 + 23] = (const void*)EXTI9_5_handler};
+    [0] = stack_top, [1] = (const void*)run, [3] = (const void*)HardFault_handler, [16 + 23] = (const void*)EXTI9_5_handler};

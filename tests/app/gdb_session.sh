@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# gdb-multiarch on the ARM board of a scenario: breakpoint, step, memory, then kill, which ends the run like Ctrl-C.
+# Usage: gdb_session.sh DSDPV1_SIM FIRMWARE, in the project's folder.
+set -euo pipefail
+sim=$1 firmware=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+fail() {
+  echo "$1" >&2
+  cat "$folder"/* >&2
+  exit 1
+}
+
+"$sim" run scenarios/arm_board_12m.yaml --no-progress --set "user_cpu.elf=$firmware" --gdb 0 >"$folder/out" 2>"$folder/err" &
+run=$!
+until grep -q 'localhost:' "$folder/err"; do
+  kill -0 "$run" 2>/dev/null || fail "the run did not wait for gdb"
+done
+port=$(sed -n 's/.*localhost:\([0-9]*\).*/\1/p' "$folder/err" | head -n 1)
+
+gdb-multiarch -nx -batch -ex "target remote localhost:$port" -ex 'break dsdpv1_initialise' -ex continue \
+  -ex 'print config->address' -ex stepi -ex 'monitor time' -ex kill "$firmware" >"$folder/gdb" 2>&1 || fail "gdb failed"
+status=0
+wait "$run" || status=$?
+
+[ "$status" -eq 130 ] || fail "exit code $status after kill, wanted 130"
+grep -q 'Breakpoint 1.* dsdpv1_initialise' "$folder/gdb" || fail "gdb did not stop at the breakpoint"
+grep -q '^\$1 = 5' "$folder/gdb" || fail "gdb did not read the station address from the firmware's memory"
+grep -q 'INTERRUPTED' "$folder/out" || fail "the run does not say that it was interrupted"
