@@ -102,7 +102,7 @@ TEST(SweepTable, SummarySaysWhereItHoldsAndWhereTheViolationBegins) {
               good = with_margin(2);
   const std::string text = tb::sweep::summary(plan, {bad, good, border, good, good, good, good, with_margin(1)});
   EXPECT_THAT(text, testing::HasSubstr("  7  2, 3              0, 1         1: at the border\n"));
-  EXPECT_THAT(text, testing::HasSubstr("  8  all               none         \n"));
+  EXPECT_THAT(text, testing::HasSubstr("  8  all               none\n"));
   EXPECT_THAT(text, testing::HasSubstr("the timing holds at 6 of 8 points, 1 are not possible\n"));
   EXPECT_THAT(text, testing::HasSubstr("least margin where it holds: 1.000 ns (HOST_TW) at d=3, e=8\n"));
 }
