@@ -11,7 +11,6 @@
 namespace tb {
 namespace {
 
-using checks::Bound;
 using checks::Check;
 
 /// One check on all slaves.
