@@ -44,7 +44,7 @@ TEST(FirmwareMemory, MovesOverlappingBytesUpAndDown) {
 TEST(FirmwareMemory, FillsWithTheLowByteOfTheValue) {
   Bytes own = kCounting, host = kCounting;
   EXPECT_EQ(firmware_memset(own.data() + 3, 0x1A5, 5), own.data() + 3);
-  std::memset(host.data() + 3, 0x1A5, 5);
+  std::memset(host.data() + 3, 0xA5, 5);
   EXPECT_EQ(own, host);
 }
 
