@@ -150,6 +150,7 @@ std::string as_markdown() {
               chip_reasons());
   print_table(text, "\n## The driver\n\nWhat a call of the C driver returned to the user program.\n", driver_reasons());
   print_table(text, "\n## The bus\n\nWhat the bus monitor saw on the line.\n", bus_reasons());
+  print_table(text, "\n## The ARM board\n\nSee [arm_board.md](arm_board.md).\n", board_reasons());
   print_table(
       text,
       "\n## The checks\n\nWhat the checks on the user's side found broken, see [checks.md](checks.md). They fail a run "
@@ -160,7 +161,7 @@ std::string as_markdown() {
 
 std::vector<ReasonText> all_reasons() {
   std::vector<ReasonText> all = chip_reasons();
-  for (const auto& more : {driver_reasons(), bus_reasons(), check_reasons()})
+  for (const auto& more : {driver_reasons(), bus_reasons(), board_reasons(), check_reasons()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }
@@ -212,6 +213,11 @@ std::vector<ReasonText> bus_reasons() {
                     meaning_of(kind), advice_of(kind)});
   }
   return list;
+}
+
+std::vector<ReasonText> board_reasons() {
+  return {{tb::scenario::kFirmwareFault, "violation", "the firmware of an ARM board has met a fault; the run ends",
+           "Look at the source line and the registers below the table, or run it again with --gdb."}};
 }
 
 std::vector<ReasonText> check_reasons() {

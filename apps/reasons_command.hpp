@@ -17,10 +17,11 @@ struct ReasonText {
   std::string code, severity, text, advice;
 };
 
-/// Those of the chip, of the driver's calls, of the bus monitor, of the checks.
+/// Those of the chip, of the driver's calls, of the bus monitor, of the ARM board, of the checks.
 std::vector<ReasonText> chip_reasons();
 std::vector<ReasonText> driver_reasons();
 std::vector<ReasonText> bus_reasons();
+std::vector<ReasonText> board_reasons();
 std::vector<ReasonText> check_reasons();
 
 int reasons(const ReasonsArguments& arguments);

@@ -16,25 +16,6 @@
 
 namespace tb {
 
-/// Lets somebody look at the run from time to time.
-class Bench::Pulse : public bus::Agent {
- public:
-  static constexpr Tick kPeriod = 100 * bus::kTicksPerUs;
-
-  Tick next() const override { return stopped_ ? bus::kNever : next_; }
-  void run(Tick now) override {
-    next_ = now + kPeriod;
-    stopped_ = poll && !poll(now);
-  }
-  void stop() { stopped_ = true; }
-  bool stopped() const { return stopped_; }
-  std::function<bool(Tick)> poll;
-
- private:
-  Tick next_ = 0;
-  bool stopped_ = false;
-};
-
 /// Keeps the monitor at the rate of the masters. It hears each edge before the monitor does.
 class Bench::BaudFollower : private bus::Listener {
  public:
@@ -68,7 +49,6 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
   for (const scenario::Master& master : scenario.masters) add_master(master);
   for (const scenario::Master2& master : scenario.masters2) add_master2(master);
   script_ = std::make_unique<Script>(*this);
-  pulse_ = std::make_unique<Pulse>();
   add_agents();
   if (!options.log.empty()) log_.emplace(options.log, options.open_ended);
   if (!options.trace.empty()) trace_.emplace(options.trace);
@@ -113,7 +93,7 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
     log(at, station.name(), "text", line);
     if (options_.on_text) options_.on_text(station.name(), line);
   };
-  station.on_killed = [this] { pulse_->stop(); };
+  station.on_killed = [this] { pulse_.stop(); };
   station.on_failure = [this, &station](Tick at, const std::string& why, const std::string& registers) {
     user_failed(station, at, why, registers);
   };
@@ -196,7 +176,7 @@ void Bench::add_agents() {
   for (const auto& each : masters2_) timeline.add(each->master());
   for (const auto& slave : slaves_) timeline.add(*slave);
   timeline.add(*script_);
-  timeline.add(*pulse_);
+  timeline.add(pulse_);
 }
 
 // --- what happens -----------------------------------------------------------------------------------------------------
@@ -248,7 +228,7 @@ void Bench::user_failed(const SlaveStation& station, Tick at, const std::string&
   registers_ = registers;
 }
 
-bool Bench::stopped() const { return pulse_->stopped() || !registers_.empty(); }
+bool Bench::stopped() const { return pulse_.stopped() || !registers_.empty(); }
 
 void Bench::telegram(const bus::WireTelegram& telegram) {
   const std::string words = telegram.decoded.readable ? bus::explain_line(telegram.decoded.telegram) : "not readable";
@@ -367,7 +347,7 @@ void Bench::change_baud(int index) {
 
 RunResult Bench::run(const std::function<bool(Tick)>& poll) {
   const auto begin = std::chrono::steady_clock::now();
-  pulse_->poll = [&](Tick at) {
+  pulse_.poll = [&](Tick at) {
     if (log_) log_->flush(at - 1);
     return poll(at);
   };
@@ -384,7 +364,7 @@ RunResult Bench::collect() {
   result.file = scenario_.file;
   result.engine = options_.engine_name;
   result.view = options_.view_name;
-  result.interrupted = pulse_->stopped() && !options_.open_ended;
+  result.interrupted = pulse_.stopped() && !options_.open_ended;
   result.simulated = stopped() ? now() : scenario_.end;
   result.fault_registers = registers_;
   result.telegrams = monitor_->statistics().telegrams;

@@ -14,6 +14,7 @@
 #include "tb/bench/class2_station.hpp"
 #include "tb/bench/execution.hpp"
 #include "tb/bench/pin_trace.hpp"
+#include "tb/bench/pulse.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/bench/reply.hpp"
 #include "tb/bench/run_log.hpp"
@@ -82,7 +83,6 @@ class Bench {
     std::unique_ptr<bus::Master1> master;
     std::map<std::uint8_t, std::string> slaves;  ///< names by address
   };
-  class Pulse;
   class BaudFollower;
 
   std::uint32_t watched_pins() const;
@@ -119,7 +119,7 @@ class Bench {
   std::unique_ptr<BaudFollower> baud_follower_;
   std::unique_ptr<bus::Monitor> monitor_;
   std::unique_ptr<Script> script_;
-  std::unique_ptr<Pulse> pulse_;
+  Pulse pulse_;
   std::optional<RunLog> log_;
   std::optional<PinTrace> trace_;
   std::optional<WaveRecorder> waves_;

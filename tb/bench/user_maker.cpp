@@ -79,12 +79,21 @@ void check_mailbox(const scenario::Scenario& scenario, const scenario::Slave& sl
   }
 }
 
+/// The mailbox has room for so many.
+void check_objects(const scenario::Scenario& scenario, const scenario::Slave& slave, const arm::Firmware& firmware) {
+  const std::size_t count = slave.user_cpu.dpv1.objects.size();
+  if (firmware.mailbox && count > DSDPV1_MAILBOX_OBJECTS)
+    throw InputError(scenario.file, slave.user_cpu.dpv1.line,
+                     fmt::format("dpv1 has {} objects, allowed on an ARM board are {}", count, DSDPV1_MAILBOX_OBJECTS));
+}
+
 MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip,
                   const GdbWish* gdb) {
   const scenario::UserCpu& user = slave.user_cpu;
   arm::BoardOptions options;
   options.firmware = arm::load_firmware(scenario::resolve(scenario, user.elf));
   check_mailbox(scenario, slave, *options.firmware);
+  check_objects(scenario, slave, *options.firmware);
   options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(user.cpi * 1000);
   if (user.fsmc) options.fsmc = *user.fsmc;
   if (user.access) options.access = *user.access;

@@ -142,22 +142,22 @@ enum class CpuKind : std::uint8_t { kNative, kArm };
 
 struct UserCpu {
   CpuKind kind = CpuKind::kNative;
+  Behaviour behaviour = Behaviour::kLoopBack;
+  Judgement judge_prm = Judgement::kAccept, judge_cfg = Judgement::kAccept;
+  bool overwrite_inputs = true;  ///< DSDPV1_INPUT_NEWEST
+  bool judge_in_handler = true;
+  int line = 0;
   Name elf;          ///< kArm
   double cpi = 1.5;  ///< kArm: cycles of HCLK per instruction
-  Behaviour behaviour = Behaviour::kLoopBack;
   bus::Bytes constant;
-  bool overwrite_inputs = true;  ///< DSDPV1_INPUT_NEWEST
   bus::Tick start_delay = 0;
   bus::Tick cycle = 50 * bus::kTicksPerUs;
   bus::Tick judge_delay = 0;
-  bool judge_in_handler = true;
   bus::Tick retry_delay = bus::kTicksPerMs;
-  Judgement judge_prm = Judgement::kAccept, judge_cfg = Judgement::kAccept;
   std::optional<CpuTimes> timing;  ///< kNative; its `access` is left alone: that is the next member
   std::optional<AccessTimes> access;
   std::optional<Fsmc> fsmc;
   Dpv1User dpv1;
-  int line = 0;
 };
 
 struct Slave {

@@ -1,5 +1,6 @@
-// Each check that the native user CPU can break, by a scenario built for it: found with --checks fail and the run fails, found and passed when
-// the scenario allows it, and nothing else is found. The other checks need pins driven directly: values_test.cpp and cells_test.cpp.
+// Each check that a user CPU can break, by a scenario built for it: found with --checks fail and the run fails, found and passed when
+// the scenario allows it, and nothing else is found. What the driver cannot break on the native user CPU, firmware on the ARM board does
+// (firmware/rude.c). What only the chip, or pins that move on their own, can break is in values_test.cpp and cells_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,6 +26,10 @@ struct Case {
 void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
 
 const char* const kNone = "";
+
+#ifdef RUDE_FOLDER
+#define RUDE(name) "kind: arm\n      elf: " RUDE_FOLDER "/" name ".elf"
+#endif
 
 const Case kCases[] = {
     {"BothOwn",
@@ -70,6 +75,19 @@ const Case kCases[] = {
      {}},
     {"HoldInterval", {"HOLD_INTERVAL"}, kNone, "{at: 10ms, do: hold_dpram, slave: demo, for: 2ms}", kNone, {}},
     {"CountByUser", {"COUNT_BY_USER"}, "access: {rd_sample: 1ns}", kNone, kNone, {}},
+    {"Csr", {"TIMING_CSR"}, kNone, kNone, "TIMING_CSR: {min: 20ns}", {}},
+#ifdef RUDE
+    {"NoRequest",
+     {"OWNERSHIP_NO_REQUEST", "OWNERSHIP_BOTH_OWN"},
+     RUDE("no_request"),
+     kNone,
+     kNone,
+     {"HANDSHAKE_BOTH_OWN"}},
+    {"NotOwner", {"OWNERSHIP_NOT_OWNER"}, RUDE("not_owner"), kNone, kNone, {"HOST_NOT_OWNER"}},
+    {"CellOfChip", {"CELL_OF_CHIP"}, RUDE("cell_of_chip"), kNone, kNone, {"HOST_READ_ONLY"}},
+    {"FlagByUser", {"FLAG_BY_USER"}, RUDE("flag_by_user"), kNone, kNone, {}},
+    {"CrcFetched", {"CRC_FETCHED"}, RUDE("crc_fetched"), kNone, kNone, {}},
+#endif
     {"CrcWritten", {"CRC_WRITTEN"}, kNone, "{at: 10ms, do: wrong_crc, slave: demo, area: inputs}", kNone, {}},
 };
 
@@ -164,6 +182,14 @@ TEST(ChecksAndCore, FindTheSameViolationsIndependently) {
     EXPECT_EQ(violations(result, pair.check), events(result, pair.event)) << pair.name;
   }
 }
+
+#ifdef RUDE
+TEST(Checks, TheSameFirmwareWithoutItsMistakesIsSilent) {
+  const tb::RunResult result = run({"Polite", {}, RUDE("polite"), kNone, kNone, {}}, false, tb::ChecksMode::kFail);
+  EXPECT_TRUE(broken(result).empty());
+  EXPECT_TRUE(result.passed);
+}
+#endif
 
 TEST(Checks, OneSwitchedOffInTheScenarioIsNotInTheResult) {
   const Case each = {"Off",

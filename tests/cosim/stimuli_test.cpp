@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "tests/app/program.hpp"
 
 namespace {
@@ -19,6 +21,8 @@ TEST_P(DirectedStimulus, DoesNotDifferAndReachesWhatItIsFor) {
   EXPECT_EQ(called.status, 0) << called.out << called.err;
   for (const std::string& told : GetParam().told) EXPECT_THAT(called.out, testing::HasSubstr(" " + told + " "));
 }
+
+void PrintTo(const Directed& each, std::ostream* out) { *out << each.name; }
 
 INSTANTIATE_TEST_SUITE_P(
     All, DirectedStimulus,

@@ -54,14 +54,11 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
 
 // ------------------------------------------------------------------------------------------------- the bench's side
 
+// The mailbox first: afterwards the processor has gone on to its next stop, which lies behind `now`.
 void Board::run(Tick now) {
+  if (mailbox_) look_at_mailbox(now);
   cpu_.run(now);
   if (std::exchange(chip_reset_due_, false)) set_chip_reset_(now, chip_reset_);
-  if (!mailbox_) return;
-  const std::uint64_t before = outputs_received_;
-  look_at_mailbox(now);
-  outputs_received_ = mailbox_->outputs_received();
-  if (outputs_received_ != before) outputs_ = mailbox_->outputs();
 }
 
 /// Firmware may sleep until an event comes (WFE): a command is one.
@@ -141,9 +138,10 @@ void Board::come_up() {
   take_intr0_edges();
 }
 
-/// The processor may stay ahead of the others as long as nobody has anything to do.
+/// The processor may stay ahead of the others as long as nobody has anything to do; the bench hears of news at the same time in any case.
 void Board::keep_up() {
-  if (!quiet_until || now() >= quiet_until()) come_up();
+  const bool news = mailbox_ && mailbox_->has_news();
+  if (news || !quiet_until || now() >= quiet_until()) come_up();
 }
 
 void Board::sleep(std::uint64_t until) {

@@ -54,8 +54,8 @@ class Board : public user_cpu::UserSide, private System {
   void intr0_changed(Tick at, bool level) override;
   void command(Tick now, const user_cpu::Command& command) override;
   user_cpu::UserCounters counters() const override;
-  std::uint64_t outputs_received() const override { return outputs_received_; }
-  const std::vector<std::uint8_t>& outputs() const override { return outputs_; }
+  std::uint64_t outputs_received() const override { return mailbox_ ? mailbox_->outputs_received() : 0; }
+  const std::vector<std::uint8_t>& outputs() const override { return mailbox_ ? mailbox_->outputs() : no_outputs_; }
   std::optional<user_cpu::BoardReport> board() const override;
 
  private:
@@ -118,10 +118,9 @@ class Board : public user_cpu::UserSide, private System {
   CortexM3 core_;
   std::unique_ptr<Debugger> debugger_;
   std::optional<MailboxLink> mailbox_;
-  std::uint64_t outputs_received_ = 0;
-  std::vector<std::uint8_t> outputs_;
-  user_cpu::Cpu* pins_ = nullptr;  ///< of cpu_, while the processor runs
-  user_cpu::NativeCpu cpu_;        // ends before everything that its fiber uses
+  std::vector<std::uint8_t> no_outputs_;  ///< of firmware without mailbox
+  user_cpu::Cpu* pins_ = nullptr;         ///< of cpu_, while the processor runs
+  user_cpu::NativeCpu cpu_;               // ends before everything that its fiber uses
 };
 
 }  // namespace arm

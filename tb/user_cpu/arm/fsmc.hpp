@@ -9,6 +9,8 @@ namespace arm {
 
 class Fsmc {
  public:
+  static constexpr std::uint32_t kBase = 0xA000'0000, kSize = 0x120;
+
   explicit Fsmc(const user_cpu::FsmcOverride& given) : given_(given) {}
 
   /// Registers of the bank: BCR1 0x000, BTR1 0x004, BWTR1 0x104; others are kept and do nothing.
@@ -24,13 +26,10 @@ class Fsmc {
 
  private:
   user_cpu::FsmcBank bank() const;
-  static constexpr std::size_t kWords = 0x120 / 4;
+  static constexpr std::size_t kWords = kSize / 4;
   user_cpu::FsmcOverride given_;
-  std::array<std::uint32_t, kWords> words_;
+  std::array<std::uint32_t, kWords> words_{};
   std::array<bool, kWords> written_{};
-
- public:
-  static constexpr std::uint32_t kBase = 0xA000'0000, kSize = kWords * 4;
 };
 
 }  // namespace arm

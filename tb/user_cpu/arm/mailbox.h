@@ -15,7 +15,7 @@
  *
  * Little endian, natural alignment; times in nanoseconds.
  */
-/* NOLINTBEGIN(modernize-deprecated-headers, modernize-use-using): C, also when included by C++ */
+/* NOLINTBEGIN(modernize-deprecated-headers, modernize-use-using, readability-identifier-naming): C, also when included by C++ */
 #include <stdint.h>
 
 #define DSDPV1_MAILBOX_SYMBOL "dsdpv1_bench"
@@ -128,6 +128,6 @@ typedef struct dsdpv1_mailbox {
   dsdpv1_mailbox_report report;
 } dsdpv1_mailbox;
 
-/* NOLINTEND(modernize-deprecated-headers, modernize-use-using) */
+/* NOLINTEND(modernize-deprecated-headers, modernize-use-using, readability-identifier-naming) */
 
 #endif /* DSDPV1_BENCH_MAILBOX_H */

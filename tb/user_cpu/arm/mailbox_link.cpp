@@ -187,13 +187,14 @@ MailboxLink::MailboxLink(std::uint8_t* memory, const user_cpu::ProgramOptions& o
 }
 
 bool MailboxLink::look(Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error) {
-  const bool ready = !commands_.empty() && box_.posted == box_.done;
+  const bool ready = !commands_.empty() && is_done();
   if (ready) {
     box_.command = {};
     std::visit(Fill{box_.command}, commands_.front());
     commands_.pop_front();
     box_.posted = box_.posted + 1;
   }
+  fetch_outputs();
   const std::uint32_t count = box_.report.error_count;
   if (count - errors_seen_ > DSDPV1_MAILBOX_ERRORS) errors_seen_ = count - DSDPV1_MAILBOX_ERRORS;
   for (; errors_seen_ != count; ++errors_seen_) {
@@ -203,10 +204,12 @@ bool MailboxLink::look(Tick now, const std::function<void(const user_cpu::Driver
   return ready;
 }
 
-std::vector<std::uint8_t> MailboxLink::outputs() const {
+void MailboxLink::fetch_outputs() {
   const auto& report = box_.report;
+  if (outputs_received_ == report.outputs_received) return;
+  outputs_received_ = report.outputs_received;
   const std::size_t length = std::min<std::size_t>(report.output_length, sizeof report.outputs);
-  return {report.outputs, report.outputs + length};
+  outputs_.assign(report.outputs, report.outputs + length);
 }
 
 user_cpu::ProgramCounters MailboxLink::counters() const {

@@ -12,23 +12,33 @@ namespace arm {
 
 class MailboxLink {
  public:
-  /// `memory` is the mailbox in the processor's RAM; it is cleared and the settings filled in. Objects beyond DSDPV1_MAILBOX_OBJECTS
-  /// are left out.
+  /// `memory` is the mailbox in the processor's RAM; it is cleared and the settings filled in. At most DSDPV1_MAILBOX_OBJECTS
+  /// objects.
   MailboxLink(std::uint8_t* memory, const user_cpu::ProgramOptions& options);
 
   void post(const user_cpu::Command& command) { commands_.push_back(command); }
-  /// Hands over the next command when the firmware is done with the last, and looks for errors: after each step of the processor.
-  /// True when it has handed one over.
+  /// Whether look() would find something.
+  bool has_news() const {
+    return (!commands_.empty() && is_done()) || outputs_received_ != box_.report.outputs_received ||
+           errors_seen_ != box_.report.error_count;
+  }
+  /// Hands over the next command when the firmware is done with the last, fetches outputs and errors: after each step of the
+  /// processor. True when it has handed one over.
   bool look(bus::Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error);
 
-  std::uint64_t outputs_received() const { return box_.report.outputs_received; }
-  std::vector<std::uint8_t> outputs() const;
+  /// As of the last look().
+  std::uint64_t outputs_received() const { return outputs_received_; }
+  const std::vector<std::uint8_t>& outputs() const { return outputs_; }
   user_cpu::ProgramCounters counters() const;
 
  private:
+  bool is_done() const { return box_.posted == box_.done; }
+  void fetch_outputs();
+
   dsdpv1_mailbox& box_;
   std::deque<user_cpu::Command> commands_;
-  std::uint32_t errors_seen_ = 0;
+  std::uint32_t errors_seen_ = 0, outputs_received_ = 0;
+  std::vector<std::uint8_t> outputs_;
 };
 
 }  // namespace arm

@@ -1,0 +1,28 @@
+#pragma once
+// Lets somebody look at the run from time to time, and end it.
+#include <functional>
+
+#include "bus/timeline.hpp"
+
+namespace tb {
+
+class Pulse : public bus::Agent {
+ public:
+  static constexpr bus::Tick kPeriod = 100 * bus::kTicksPerUs;
+
+  bus::Tick next() const override { return stopped_ ? bus::kNever : next_; }
+  void run(bus::Tick now) override {
+    next_ = now + kPeriod;
+    stopped_ = poll && !poll(now);
+  }
+  void stop() { stopped_ = true; }
+  bool stopped() const { return stopped_; }
+
+  std::function<bool(bus::Tick now)> poll;  ///< false: the run ends
+
+ private:
+  bus::Tick next_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace tb
