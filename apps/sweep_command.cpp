@@ -102,10 +102,13 @@ class Runner {
     return words;
   }
 
-  /// A child that was interrupted together with this program has nothing to tell.
+  /// A child that was interrupted has nothing to tell; alone, and not together with this program, it gets another try.
   void take(const Ended& ended) {
     const bool told = ended.exit <= kWrongInput || (ended.exit != kInterrupted && !interrupted());
-    if (!told) return folder_.forget(ended.point);
+    if (!told) {
+      next_ = std::min(next_, ended.point);
+      return folder_.forget(ended.point);
+    }
     points_[ended.point] = folder_.finish(ended.point, plan_, ended.exit);
     ++done_;
   }

@@ -55,6 +55,19 @@ TEST_F(SweepCommand, SameCommandAgainRunsNothingAndGivesTheSameFiles) {
   EXPECT_EQ(file("out/results.csv"), before);
 }
 
+// The child may be met before or after it has its own handler: it ends with 130 in either case.
+TEST_F(SweepCommand, AChildThatIsInterruptedAloneGetsAnotherTry) {
+  std::string longer = kScenario;
+  longer.replace(longer.find("600us"), 5, "200ms");
+  write("s.yaml", longer);
+  const Called called = sweep(
+      "--param user_cpu.cycle=50us --out out >/dev/null 2>&1 & sweep=$!; "
+      "until child=$(cat /proc/$sweep/task/$sweep/children) && [ -n \"$child\" ]; do kill -0 $sweep || exit 9; done; "
+      "kill -INT $child; wait $sweep");
+  EXPECT_EQ(called.status, 0) << called.err;
+  EXPECT_THAT(file("out/results.csv"), HasSubstr("\n0,50us,yes,0,"));
+}
+
 TEST_F(SweepCommand, GoesOnWithTheMissingPoints) {
   const std::string arguments = "--param user_cpu.cycle=50us,60us --out out";
   ASSERT_EQ(sweep(arguments).status, 0);

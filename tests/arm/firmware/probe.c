@@ -140,8 +140,8 @@ void EXTI9_5_handler(void) {
 
 void run(void);
 void run(void) {
-  static void (*const programs[])(void) = {handshake, accesses, unset_accesses, interrupt,         chip_reset, text,
-                                           strange,   undefined, bank_off,      masked_and_rising};
+  static void (*const programs[])(void) = {handshake, accesses, unset_accesses, interrupt, chip_reset,
+                                           text,      strange,  undefined,      bank_off,  masked_and_rising};
   edges = 0;
   clocks();
   programs[program]();
@@ -151,4 +151,7 @@ void run(void) {
 /* Initial stack pointer, reset, HardFault and IRQ 23 (ARMv7-M B1.5.3). */
 extern char stack_top[];
 __attribute__((section(".vectors"), used)) static const void* const vectors[16 + 24] = {
-    [0] = stack_top, [1] = (const void*)run, [3] = (const void*)HardFault_handler, [16 + 23] = (const void*)EXTI9_5_handler};
+    [0] = stack_top,
+    [1] = (const void*)run,
+    [3] = (const void*)HardFault_handler,
+    [16 + 23] = (const void*)EXTI9_5_handler};

@@ -86,4 +86,3 @@ int main(void) {
   while (!fetch_parameters()) board_wait(board_cycles(50000));
   for (;;) board_wait(board_cycles(1000000));
 }
-
