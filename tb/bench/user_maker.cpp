@@ -54,8 +54,8 @@ user_cpu::ProgramOptions program_options(const scenario::UserCpu& user, const us
 
 MakeUser native_user(const scenario::UserCpu& user, ChipView& chip) {
   user_cpu::CpuTiming timing;
-  if (user.timing) timing = *user.timing;
-  if (user.access) timing.access = *user.access;
+  if (user.timing) timing = static_cast<const user_cpu::CpuTiming&>(*user.timing);
+  if (user.access) timing.access = static_cast<const user_cpu::AccessTiming&>(*user.access);
   if (user.fsmc) {
     const user_cpu::FsmcAccess fsmc = user_cpu::access_timing(user_cpu::with({}, *user.fsmc));
     timing.access = fsmc.read;
@@ -95,8 +95,8 @@ MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& sla
   check_mailbox(scenario, slave, *options.firmware);
   check_objects(scenario, slave, *options.firmware);
   options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(user.cpi * 1000);
-  if (user.fsmc) options.fsmc = *user.fsmc;
-  if (user.access) options.access = *user.access;
+  if (user.fsmc) options.fsmc = static_cast<const user_cpu::FsmcOverride&>(*user.fsmc);
+  if (user.access) options.access = static_cast<const user_cpu::AccessTiming&>(*user.access);
   options.hclk_mhz = options.fsmc.hclk_mhz.value_or(options.hclk_mhz);
   if (gdb != nullptr) {
     options.make_debugger = [gdb](arm::DebugTarget& target) {

@@ -27,8 +27,8 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
 }
 
 /// `path` relative to the folder of `scenario`.
-std::string beside(const std::string& scenario, const std::string& path) {
-  return (std::filesystem::path(scenario).parent_path() / path).lexically_normal().string();
+std::string beside(const std::string& scenario, const std::string& relative) {
+  return (std::filesystem::path(scenario).parent_path() / relative).lexically_normal().string();
 }
 
 /// The values of all keys of the kind file in `node` and below.

@@ -19,8 +19,8 @@ class Scenarios : public testing::TestWithParam<std::string> {
   bool run(const std::string& engine, const std::string& view) const {
     const std::string name = engine + "_" + view;
     const app_test::Called called =
-        call("run scenarios/" + GetParam() + ".yaml --no-progress --checks fail --engine " + engine + " --view " + view +
-                 " --trace '" + folder_.file(name + ".trace") + "' --log '" + folder_.file(name + ".log") + "'",
+        call("run scenarios/" + GetParam() + ".yaml --no-progress --checks fail --engine " + engine + " --view " +
+                 view + " --trace '" + folder_.file(name + ".trace") + "' --log '" + folder_.file(name + ".log") + "'",
              DSDPV1_SOURCE_DIR);
     if (called.status != 0) std::cout << called.out << called.err;
     return called.status == 0;

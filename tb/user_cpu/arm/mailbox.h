@@ -75,8 +75,9 @@ enum {
   DSDPV1_CMD_HOLD = 4,          /* time_ns: takes the DPRAM and keeps it so long, interrupts closed */
   DSDPV1_CMD_STOP = 5,          /* nothing at all until RESUME, not even judge */
   DSDPV1_CMD_RESUME = 6,
-  DSDPV1_CMD_EARLY_R_STA = 7,  /* breaks H2: R_STA rises time_ns after R_REQ unasked, both fall after hold_ns */
-  DSDPV1_CMD_WRONG_CRC = 8,    /* value: DSDPV1_AREA_; times: so many blocks go out with bit 0 of the CRC's high byte wrong */
+  DSDPV1_CMD_EARLY_R_STA = 7, /* breaks H2: R_STA rises time_ns after R_REQ unasked, both fall after hold_ns */
+  DSDPV1_CMD_WRONG_CRC =
+      8, /* value: DSDPV1_AREA_; times: so many blocks go out with bit 0 of the CRC's high byte wrong */
   DSDPV1_CMD_WRONG_LENGTH = 9, /* the next inputs are one byte longer, shorter where that is impossible */
   DSDPV1_CMD_VERDICT = 10,     /* value: DSDPV1_VERDICT_PRM or _CFG; refuse */
   DSDPV1_CMD_ANSWERING = 11    /* value: DSDPV1_SAY_ */
