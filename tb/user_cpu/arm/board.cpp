@@ -19,7 +19,6 @@ constexpr std::uint32_t kGpioIdr = 0x08;
 constexpr unsigned kRReqPin = 6, kRStaPin = 7, kLReqPin = 8, kLStaPin = 9, kResetPin = 4, kIntr0Pin = 6;
 
 constexpr std::uint64_t kApbCycles = 2;
-constexpr Tick kDebuggerLooks = bus::kTicksPerMs;  // how long a processor with a debugger sleeps at a time
 
 bool within(std::uint32_t address, std::uint32_t base) { return address - base < kBlock; }
 
@@ -146,10 +145,9 @@ void Board::keep_up() {
 
 void Board::sleep(std::uint64_t until) {
   const Tick end = until == kNever ? bus::kNever : tick_of(until);
-  const Tick longest = debugger_ ? std::min(end, now() + kDebuggerLooks) : end;
   pins_->wait_until(now());
   bool woken = false;
-  while (!take_intr0_edges() && !woken && pins_->now() < longest) woken = pins_->wait_for_wake(longest);
+  while (!take_intr0_edges() && !woken && pins_->now() < end) woken = pins_->wait_for_wake(end);
   core_.advance_to(std::max(core_.cycles(), cycle_of(pins_->now())));
 }
 
