@@ -8,7 +8,6 @@
 
 namespace {
 
-namespace fs = std::filesystem;
 using app_test::call;
 using app_test::read;
 using app_test::shipped_scenarios;

@@ -49,7 +49,7 @@ class Pins : public user_cpu::HostPins {
   Level level(Pin pin) const override {
     if (pin == Pin::kLReq) return l_req;
     if (pin == Pin::kLSta) return l_sta;
-    return pin == Pin::kDOut ? static_cast<Level>(address_ & 0xFF) : 0;
+    return static_cast<Level>(pin == Pin::kDOut ? address_ & 0xFF : 0);
   }
   std::vector<Change> of(Pin pin) const {
     std::vector<Change> found;
@@ -101,6 +101,7 @@ class BoardTest : public testing::Test {
 
 std::vector<Level> levels(const std::vector<Pins::Change>& changes) {
   std::vector<Level> list;
+  list.reserve(changes.size());
   for (const Pins::Change& each : changes) list.push_back(each.level);
   return list;
 }

@@ -23,7 +23,9 @@ struct Case {
   std::vector<const char*> events;  ///< violations that the core itself reports, allowed
 };
 
-void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
+void PrintTo(const Case& each, std::ostream* out) {
+  *out << each.name;
+}  // NOLINT(readability-identifier-naming): GoogleTest looks for it
 
 const char* const kNone = "";
 

@@ -209,7 +209,9 @@ const Case kCases[] = {
     {"HoldInterval", Check::kHoldInterval, hold_interval},
 };
 
-void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
+void PrintTo(const Case& each, std::ostream* out) {
+  *out << each.name;
+}  // NOLINT(readability-identifier-naming): GoogleTest looks for it
 
 class EachValue : public testing::TestWithParam<Case> {
  protected:

@@ -15,8 +15,10 @@ using cosim::Pin;
 using testing::HasSubstr;
 
 class PinMapFile : public testing::Test {
- protected:
+ public:
   ~PinMapFile() override { std::filesystem::remove(path_); }
+
+ protected:
   cosim::PinMap load(const std::string& text) const {
     std::ofstream(path_) << text;
     return cosim::load_pin_map(path_);

@@ -22,7 +22,9 @@ TEST_P(DirectedStimulus, DoesNotDifferAndReachesWhatItIsFor) {
   for (const std::string& told : GetParam().told) EXPECT_THAT(called.out, testing::HasSubstr(" " + told + " "));
 }
 
-void PrintTo(const Directed& each, std::ostream* out) { *out << each.name; }
+void PrintTo(const Directed& each, std::ostream* out) {
+  *out << each.name;
+}  // NOLINT(readability-identifier-naming): GoogleTest looks for it
 
 INSTANTIATE_TEST_SUITE_P(
     All, DirectedStimulus,
