@@ -27,6 +27,14 @@ void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
       ->allow_extra_args(false);
 }
 
+void add_output_options(CLI::App& command, std::optional<bool>& progress, bool& quiet) {
+  command.add_flag_callback(
+      "--progress", [&progress] { progress = true; }, "Show a progress bar (on a terminal it is shown anyway)");
+  command.add_flag_callback(
+      "--no-progress", [&progress] { progress = false; }, "Show none");
+  command.add_flag("--quiet,-q", quiet, "No table at the end");
+}
+
 void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* command = app.add_subcommand("run", "Carries out a scenario and judges it");
   command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md")->required();
@@ -58,12 +66,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
           "--gdb", arguments.gdb,
           "TCP port (0: any free one) where gdb-multiarch attaches to the first ARM board; the run waits for it")
       ->check(CLI::Range(0, 65535));
-  command->add_flag_callback(
-      "--progress", [&arguments] { arguments.progress = true; },
-      "Show a progress bar (on a terminal it is shown anyway)");
-  command->add_flag_callback(
-      "--no-progress", [&arguments] { arguments.progress = false; }, "Show none");
-  command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
+  add_output_options(*command, arguments.progress, arguments.quiet);
   command->footer(
       std::string("\nExamples:\n"
                   "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
@@ -156,12 +159,7 @@ void describe_sweep(CLI::App& app, SweepArguments& arguments) {
                       "Folder for the points and results; left out: sweep_ and the scenario's name");
   command->add_option("--jobs", arguments.jobs, "Processes at a time; left out: one a processor")
       ->check(CLI::Range(1, 256));
-  command->add_flag_callback(
-      "--progress", [&arguments] { arguments.progress = true; },
-      "Show a progress bar (on a terminal it is shown anyway)");
-  command->add_flag_callback(
-      "--no-progress", [&arguments] { arguments.progress = false; }, "Show none");
-  command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
+  add_output_options(*command, arguments.progress, arguments.quiet);
   command->footer(
       "\nExamples:\n"
       "  dsdpv1-sim sweep scenarios/power_on_12m.yaml --param user_cpu.fsmc.datast=0..15 --param "
@@ -253,6 +251,12 @@ std::string in_one_line(const CLI::App& app, const CLI::ParseError& error, int a
 }
 
 }  // namespace
+
+void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed) {
+  if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return;
+  throw tb::InputError("dsdpv1-sim " + option + " is " + word + tb::did_you_mean(word, allowed) + ", allowed are " +
+                       tb::join(allowed));
+}
 
 int command_line(int argc, char** argv) {
   CLI::App app("Cycle-accurate simulation of the DSDPV1 PROFIBUS-DP slave chip with its bus and its user CPU.",

@@ -42,6 +42,9 @@ int schema(const SchemaArguments& arguments);
 int gsd(const GsdArguments& arguments);
 int decode(const DecodeArguments& arguments);
 
+/// Throws tb::InputError unless `word` is one of `allowed`; `option` is the command and its option, "run: --engine".
+void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed);
+
 /// Parses the command line and carries it out; returns the exit code.
 int command_line(int argc, char** argv);
 

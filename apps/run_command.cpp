@@ -1,7 +1,6 @@
 // run: a scenario from its file to the verdict.
 #include <unistd.h>
 
-#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -20,16 +19,9 @@
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/scenario/input_error.hpp"
-#include "tb/scenario/suggest.hpp"
 
 namespace app {
 namespace {
-
-void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed) {
-  if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return;
-  throw tb::InputError("dsdpv1-sim run: " + option + " is " + word + tb::did_you_mean(word, allowed) +
-                       ", allowed are " + tb::join(allowed));
-}
 
 tb::ChecksMode checks_mode(const std::string& word) {
   if (word == "off") return tb::ChecksMode::kOff;
@@ -37,9 +29,9 @@ tb::ChecksMode checks_mode(const std::string& word) {
 }
 
 tb::RunOptions options_of(const RunArguments& arguments) {
-  check_word("--engine", arguments.engine, {"step", "skip", "rtl", "lockstep"});
-  check_word("--view", arguments.view, {"pins", "tlm"});
-  check_word("--checks", arguments.checks, {"report", "fail", "off"});
+  check_word("run: --engine", arguments.engine, {"step", "skip", "rtl", "lockstep"});
+  check_word("run: --view", arguments.view, {"pins", "tlm"});
+  check_word("run: --checks", arguments.checks, {"report", "fail", "off"});
   if (arguments.view == "tlm" && arguments.engine != "step" && arguments.engine != "skip")
     throw tb::InputError("dsdpv1-sim run: --engine " + arguments.engine +
                          " is about pins, allowed with it is --view pins");

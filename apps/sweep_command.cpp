@@ -32,15 +32,8 @@ using tb::sweep::Folder;
 using tb::sweep::Plan;
 using tb::sweep::Point;
 
-void check_checks(const std::string& word) {
-  const std::vector<std::string> allowed = {"report", "fail"};
-  if (word.empty() || std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return;
-  throw tb::InputError("dsdpv1-sim sweep: --checks is " + word + tb::did_you_mean(word, allowed) + ", allowed are " +
-                       tb::join(allowed));
-}
-
 Plan plan_of(const SweepArguments& arguments) {
-  check_checks(arguments.checks);
+  if (!arguments.checks.empty()) check_word("sweep: --checks", arguments.checks, {"report", "fail"});
   Plan plan{arguments.scenario, arguments.set, arguments.checks, {}};
   for (const tb::scenario::Setting& setting : tb::scenario::parse_settings(arguments.set)) tb::scenario::check(setting);
   for (const std::string& text : arguments.parameters) plan.parameters.push_back(tb::sweep::parse_parameter(text));

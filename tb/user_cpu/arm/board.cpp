@@ -260,8 +260,7 @@ std::uint32_t Board::load_word(std::uint32_t address) {
   if (within(address, kUsart1)) return usart_.read(address - kUsart1);
   if (within(address, kRcc)) return rcc_.read(address - kRcc);
   if (address - Fsmc::kBase < Fsmc::kSize) return fsmc_.read(address - Fsmc::kBase);
-  others_.pc = core_.pc();
-  return others_.read(address);
+  return others_.read(address, core_.pc());
 }
 
 std::uint32_t Board::load_port(unsigned port, std::uint32_t offset) {
@@ -295,8 +294,7 @@ void Board::store_word(std::uint32_t address, std::uint32_t value) {
     fsmc_.write(address - Fsmc::kBase, value);
     set_access_timing();
   } else {
-    others_.pc = core_.pc();
-    others_.write(address, value);
+    others_.write(address, value, core_.pc());
   }
 }
 

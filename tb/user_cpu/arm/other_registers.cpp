@@ -41,20 +41,20 @@ std::string name_of(std::uint32_t block) {
 
 }  // namespace
 
-OtherRegisters::Use& OtherRegisters::use(std::uint32_t address) {
+OtherRegisters::Use& OtherRegisters::use(std::uint32_t address, std::uint32_t pc) {
   const auto [place, fresh] = uses_.try_emplace(address & ~(kBlock - 1));
   if (fresh) place->second.first_pc = pc;
   return place->second;
 }
 
-std::uint32_t OtherRegisters::read(std::uint32_t address) {
-  ++use(address).reads;
+std::uint32_t OtherRegisters::read(std::uint32_t address, std::uint32_t pc) {
+  ++use(address, pc).reads;
   const auto kept = words_.find(address);
   return kept == words_.end() ? 0 : kept->second;
 }
 
-void OtherRegisters::write(std::uint32_t address, std::uint32_t value) {
-  ++use(address).writes;
+void OtherRegisters::write(std::uint32_t address, std::uint32_t value, std::uint32_t pc) {
+  ++use(address, pc).writes;
   words_[address] = value;
 }
 

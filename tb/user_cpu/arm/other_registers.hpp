@@ -10,20 +10,18 @@ namespace arm {
 
 class OtherRegisters {
  public:
-  /// `address` of a word.
-  std::uint32_t read(std::uint32_t address);
-  void write(std::uint32_t address, std::uint32_t value);
+  /// `address` of a word, `pc` of the instruction that uses it.
+  std::uint32_t read(std::uint32_t address, std::uint32_t pc);
+  void write(std::uint32_t address, std::uint32_t value, std::uint32_t pc);
   /// One line for each block of 1 KB that was used: its name in the STM32F103, how often, and the first place in the firmware.
   std::vector<std::string> notes(const std::function<std::string(std::uint32_t pc)>& place) const;
-
-  std::uint32_t pc = 0;  ///< of the instruction at work
 
  private:
   struct Use {
     std::uint64_t reads = 0, writes = 0;
     std::uint32_t first_pc = 0;
   };
-  Use& use(std::uint32_t address);
+  Use& use(std::uint32_t address, std::uint32_t pc);
   std::map<std::uint32_t, std::uint32_t> words_;
   std::map<std::uint32_t, Use> uses_;  ///< by block
 };
