@@ -137,7 +137,6 @@ void DpramSequencer::move_header(Cycle now) {
 // --- choosing ---------------------------------------------------------------------------------------------------------------
 
 void DpramSequencer::choose(Cycle now) {
-  if (item_ == Item::kInit) station_.slave().set_dpv1_byte(dpv1_);
   while (item_ != Item::kNone && !due(item_, now)) next_item();
   if (item_ == Item::kNone) return end(now);
   start(item_, now);
@@ -149,6 +148,7 @@ bool DpramSequencer::due(Item item, Cycle now) const {
     case Item::kInit: return (user_command1_ & regs::kUserCommand1Init) != 0;
     case Item::kPrmVerdict: return (user_command1_ & regs::kUserCommand1PrmVerdict) != 0;
     case Item::kCfgVerdict: return (user_command1_ & regs::kUserCommand1CfgVerdict) != 0;
+    case Item::kInputClear: return (user_command2_ & regs::kUserCommand2InputClear) != 0;
     case Item::kInput: return (user_command1_ & regs::kUserCommand1Input) != 0;
     case Item::kDiag: return (user_command1_ & regs::kUserCommand1Diag) != 0;
     case Item::kC1Answer: return (user_command2_ & regs::kUserCommand2C1) != 0;
@@ -201,6 +201,7 @@ const DpramSequencer::Area& DpramSequencer::area(Item item) {
 }
 
 void DpramSequencer::start(Item item, Cycle now) {
+  if (item == Item::kInputClear) return clear_input_error(now);
   if (item <= Item::kC2Answer) return start_read(now, area(item));
   if (item <= Item::kC2Request) return start_write(now, item);
   status_byte(item, now);

@@ -1,5 +1,5 @@
 #pragma once
-// The chip's side of the DPRAM (5.1, chapter 8; rulings H1 to H8, D1 to D15): one access a microsecond, one byte a cycle, in
+// The chip's side of the DPRAM (5.1, chapter 8; rulings H1 to H8, D1 to D17): one access a microsecond, one byte a cycle, in
 // the order that docs/microarchitecture.md defines. It carries blocks between the DPRAM and profibus::Station.
 //
 // Bytes move lazily: `next()` is the next cycle whose effect somebody else can see, and the moves between are made up for then
@@ -52,6 +52,7 @@ class DpramSequencer {
     kInit,
     kPrmVerdict,
     kCfgVerdict,
+    kInputClear,
     kInput,
     kDiag,
     kC1Answer,
@@ -123,6 +124,8 @@ class DpramSequencer {
     visible_ = visible;
   }
   // effects
+  bool input_history() const;
+  void clear_input_error(Cycle now);
   bool crc_right(Cycle now, profibus::Reason reason, std::uint8_t error_bit);
   void commit_init(Cycle now);
   void commit_input(Cycle now);
