@@ -27,7 +27,7 @@ constexpr std::array<FlagByte, 8> kFlags = {{
      regs::kUserCommand1Input | regs::kUserCommand1Diag | regs::kUserCommand1Init | regs::kUserCommand1CfgVerdict |
          regs::kUserCommand1PrmVerdict,
      false},
-    {regs::kUserCommand2, 0, regs::kUserCommand2C1 | regs::kUserCommand2C2, false},
+    {regs::kUserCommand2, 0, regs::kUserCommand2C1 | regs::kUserCommand2C2 | regs::kUserCommand2InputClear, false},
 }};
 
 bool is_command_of_chip(Address address) { return address == regs::kChipCommand1 || address == regs::kChipCommand2; }
