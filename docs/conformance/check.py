@@ -46,17 +46,13 @@ def check_rulings(root, data, known):
             yield from check_files(root, kind, ruling, what)
 
 
-def covers(clause, place):
-    return clause.name == place or clause.name.startswith(place + "-")
-
-
 def check_places(document):
     """Each place of the document has a clause, and each clause a place."""
     for place in document.places:
-        if not any(covers(clause, place) for clause in document.clauses):
+        if not any(source.covers(clause, place) for clause in document.clauses):
             yield f"{document.where}: {document.title} has {place}, but no clause is called {place} or {place}-..."
     for clause in document.clauses:
-        if not any(covers(clause, place) for place in document.places):
+        if not any(source.covers(clause, place) for place in document.places):
             yield f"{clause.where}: clause {clause.name} is at none of the places of {document.title}"
 
 

@@ -17,7 +17,7 @@ class BadData(Exception):
     """One line: file:line: what is wrong, what is allowed."""
 
 
-@dataclass
+@dataclass(frozen=True)
 class Test:
     """A suite of GoogleTest, one test of it, a test of ctest or a scenario, and what it shows of this matter."""
 
@@ -87,11 +87,12 @@ class Data:
 
 # ------------------------------------------------------------------------------------------------------- YAML with lines
 class Map(dict):
-    """A mapping that knows where it stands."""
+    """A mapping that knows where it and its keys stand."""
 
     def __init__(self, where):
         super().__init__()
         self.where = where
+        self.where_is = {}
 
 
 def build(node, file):
@@ -102,8 +103,9 @@ def build(node, file):
         return [build(item, file) for item in node.value]
     result = Map(f"{file}:{node.start_mark.line + 1}")
     for key, value in node.value:
+        result.where_is[key.value] = f"{file}:{key.start_mark.line + 1}"
         if key.value in result:
-            raise BadData(f"{file}:{key.start_mark.line + 1}: {key.value} is there twice, allowed is once")
+            raise BadData(f"{result.where_is[key.value]}: {key.value} is there twice, allowed is once")
         result[key.value] = build(value, file)
     return result
 
@@ -159,37 +161,55 @@ def read_rulings(root):
     file = read(root, RULINGS)
     result = {}
     for name, entry in file.items():
-        mapping(entry, file.where, f"ruling {name}")
+        where = file.where_is[name]
+        mapping(entry, where, f"ruling {name}")
         keys(entry, f"ruling {name}", ["tests", "model", "rtl"])
-        where = entry.where
         result[name] = Ruling(name, where, tests(entry, where), names(entry, "model", where), names(entry, "rtl", where))
     return result
 
 
-def inherited(entry, key, rulings, part):
-    """What a clause does not say itself its rulings say, else its part."""
-    if key in entry:
-        return names(entry, key, entry.where)
-    result = []
-    for name in names(entry, "ruled", entry.where):
-        result += [item for item in getattr(rulings.get(name), key, []) if item not in result]
-    return result or names(part, key, part.where)
+def joined(lists):
+    return list(dict.fromkeys(item for each in lists for item in each))
 
 
-def read_clause(entry, rulings, part):
-    keys(entry, "a clause", ["at", "says"], ["ruled", "tests", "model", "rtl", "reason"])
-    where = entry.where
-    if "tests" in entry and "reason" in entry:
-        raise BadData(f"{where}: clause {entry['at']} has tests and a reason for having none, allowed is one of them")
+def covers(clause, place):
+    """Whether a clause is at a place: at 5.1 are 5.1 and 5.1-3."""
+    return clause.name == place or clause.name.startswith(place + "-")
+
+
+class Sources:
+    """Where a clause has what it does not say itself from: the clauses that it repeats, else its rulings, else its part."""
+
+    def __init__(self, entry, rulings, earlier, part):
+        self.part = part
+        self.repeated = [clause for place in names(entry, "same_as", entry.where) for clause in at(earlier, place, entry.where)]
+        self.rulings = [rulings[name] for name in names(entry, "ruled", entry.where) if name in rulings]
+
+    def of(self, entry, key):
+        if key in entry:
+            return tests(entry, entry.where) if key == "tests" else names(entry, key, entry.where)
+        found = joined(getattr(owner, key) for owner in self.repeated or self.rulings)
+        return found or (tests(self.part, self.part.where) if key == "tests" else names(self.part, key, self.part.where))
+
+
+def at(clauses, place, where):
+    found = [clause for clause in clauses if covers(clause, place)]
+    if not found:
+        raise BadData(f"{where}: no clause of an earlier document is at {place}")
+    return found
+
+
+def read_clause(entry, rulings, earlier, part):
+    keys(entry, "a clause", ["at", "says"], ["ruled", "same_as", "tests", "model", "rtl", "reason"])
+    sources = Sources(entry, rulings, earlier, part)
     reason = entry.get("reason", "")
-    if reason:
-        found = []
-    elif "tests" in entry:
-        found = tests(entry, where)
-    else:
-        found = [item if isinstance(item, Test) else test(item, where) for item in inherited(entry, "tests", rulings, part)]
-    return Clause(entry["at"], entry["says"], where, names(entry, "ruled", where), found,
-                  inherited(entry, "model", rulings, part), inherited(entry, "rtl", rulings, part), reason)
+    if reason and "tests" in entry:
+        raise BadData(f"{entry.where}: clause {entry['at']} has tests and a reason for having none, allowed is one of them")
+    ruled = joined([names(entry, "ruled", entry.where), *[clause.rulings for clause in sources.repeated]])
+    found = [] if reason else sources.of(entry, "tests")
+    if not reason and not found and sources.repeated:
+        reason = "; ".join(dict.fromkeys(clause.reason for clause in sources.repeated if clause.reason))
+    return Clause(entry["at"], entry["says"], entry.where, ruled, found, sources.of(entry, "model"), sources.of(entry, "rtl"), reason)
 
 
 def places(listed):
@@ -203,14 +223,14 @@ def places(listed):
                 yield f"{match.group(1)}{number}"
 
 
-def read_document(root, name, rulings):
+def read_document(root, name, rulings, earlier):
     file = read(root, name)
     keys(file, "a document", ["title", "text", "places", "parts"])
     parts = []
     for part in file["parts"]:
         mapping(part, file.where, "a part")
         keys(part, "a part", ["title", "clauses"], ["tests", "model", "rtl"])
-        clauses = [read_clause(mapping(entry, part.where, "a clause"), rulings, part) for entry in part["clauses"]]
+        clauses = [read_clause(mapping(entry, part.where, "a clause"), rulings, earlier, part) for entry in part["clauses"]]
         parts.append(Part(part["title"], clauses))
     return Document(file["title"], file["text"], file.where, list(places(names(file, "places", file.where))), parts)
 
@@ -233,7 +253,10 @@ def read_plan(root):
 
 def load(root):
     rulings = read_rulings(root)
-    documents = [read_document(root, name, rulings) for name in DOCUMENTS if (root / name).exists()]
+    documents = []
+    for name in DOCUMENTS:
+        earlier = [clause for document in documents for clause in document.clauses]
+        documents.append(read_document(root, name, rulings, earlier))
     data = Data(rulings, documents, read_plan(root))
     for section in data.plan:
         data.texts += [(section.text, section.where)]

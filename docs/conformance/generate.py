@@ -59,11 +59,12 @@ def run_of(report, data):
 
 
 def judge(run):
-    for name, result in sorted(run.results.items()):
-        if result.total == 0:
-            yield f"conformance: no test of {name} was run"
-        for case in result.failed:
-            yield f"conformance: {case} failed"
+    unknown = [name for name, result in sorted(run.results.items()) if result.total == 0]
+    if unknown:
+        more = f" and {len(unknown) - 5} more" if len(unknown) > 5 else ""
+        yield f"conformance: named by rulings and clauses, but not run: {', '.join(unknown[:5])}{more}"
+    for case in sorted({case for result in run.results.values() for case in result.failed}):
+        yield f"conformance: {case} failed"
 
 
 def report(root, data, page, run):

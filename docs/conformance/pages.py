@@ -77,7 +77,7 @@ def summary(data, run):
     for name, owners in [*[(document.title, document.clauses) for document in data.documents], ("Rulings", data.rulings.values())]:
         text += row(name, *map(str, counts(owners, run)))
     if run.commit:
-        return text + f"\nThe last recorded run, of commit {run.commit}, {run.date}: {run.passed} of {run.total} tests passed.\n"
+        return text + f"\nResults are those of the run of commit {run.commit}, {run.date}: {run.passed} of all {run.total} tests passed.\n"
     return text + "\nNo run has been recorded yet (`./run conformance --record`).\n"
 
 
@@ -100,8 +100,8 @@ def rulings(root, data, run):
     text = "\n## The rulings\n\nWhat each says is in [chip.md](../docs/chip.md). Without a clause: the documents are silent there.\n\n"
     text += head("ruling", "clauses", "model", "RTL", "tests", "last run")
     for ruling in data.rulings.values():
-        text += row(ruling.name, ", ".join(cited[ruling.name]) or "-", files(root, "model", ruling.model), files(root, "rtl", ruling.rtl),
-                    tests(ruling.tests), shown(run.of(ruling.tests)))
+        text += row(ruling.name, ", ".join(cited[ruling.name]) or "-", files(root, "model", ruling.model),
+                    files(root, "rtl", ruling.rtl), tests(ruling.tests), shown(run.of(ruling.tests)))
     return text
 
 

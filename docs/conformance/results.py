@@ -1,7 +1,7 @@
 """What the last run says of the tests that the data name: read from ctest's JUnit report, or from the recorded run.
 
-The record (last_run.txt) has one line a name: the name, how many tests of it passed, how many there were, and the names of those that
-did not pass. docs/conformance.md is made from it, so that the page is a function of files under version control alone.
+The record (last_run.txt) has one line a name, its parts divided by tabs: the name, how many tests of it passed, how many there were, and the
+names of those that did not pass. docs/conformance.md is made from it, so that the page is a function of files under version control alone.
 """
 import re
 import xml.etree.ElementTree
@@ -29,8 +29,9 @@ class Run:
     results: dict = field(default_factory=dict)
 
     def of(self, tests):
-        """One result for several names; None when one of them is not in the run."""
-        found = [self.results.get(test.name) for test in tests]
+        """One result for several names; None when one of them is not in the run. A test of a suite that is named too counts once."""
+        names = {test.name for test in tests}
+        found = [self.results.get(name) for name in sorted(names) if name.split(".")[0] not in names - {name}]
         if not found or any(result is None or result.total == 0 for result in found):
             return None
         return Result(sum(each.passed for each in found), sum(each.total for each in found),
@@ -44,12 +45,12 @@ def test_cases(report):
 
 
 def words(case):
-    """By what a test case may be named: instance/Suite.Test/parameter has Suite, Test, Suite.Test and /parameter."""
+    """By what a test case may be named: instance/Suite.Test/parameter has Suite, Suite.Test, .Test and /parameter."""
     parts = case.split("/")
     for number, part in enumerate(parts):
         suite, dot, test = part.partition(".")
         if dot:
-            yield from [part, suite, test]
+            yield from [part, suite, f".{test}"]
             yield from (f"/{parameter}" for parameter in parts[number + 1:])
             return
     yield case
@@ -68,23 +69,22 @@ def run_of(report, names, commit, date):
             by_word.setdefault(word, []).append(case)
     run = Run(commit, date, sum(cases.values()), len(cases))
     for name in names:
-        mine = by_word.get(wanted(name), [])
+        mine = by_word.get(wanted(name)) or by_word.get(f".{name}", [])  # a suite, or a test that many suites have
         run.results[name] = Result(sum(cases[case] for case in mine), len(mine), sorted(case for case in mine if not cases[case]))
     return run
 
 
 # ------------------------------------------------------------------------------------------------------------ the record
 def write_record(path, run):
-    lines = [HEADER, f"run {run.commit} {run.date} {run.passed} {run.total}\n"]
-    for name, result in sorted(run.results.items()):
-        lines.append(" ".join([name, str(result.passed), str(result.total), *result.failed]) + "\n")
-    path.write_text("".join(lines), encoding="utf-8")
+    rows = [["run", run.commit, run.date, str(run.passed), str(run.total)]]
+    rows += [[name, str(each.passed), str(each.total), *each.failed] for name, each in sorted(run.results.items())]
+    path.write_text(HEADER + "".join("\t".join(row) + "\n" for row in rows), encoding="utf-8")
 
 
 def read_record(path):
     if not path.exists():
         return Run()
-    rows = [line.split() for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    rows = [line.split("\t") for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
     _, commit, date, passed, total = rows[0]
     run = Run(commit, date, int(passed), int(total))
     for name, good, count, *failed in rows[1:]:
