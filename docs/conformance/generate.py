@@ -70,8 +70,8 @@ def judge(run):
 def report(root, data, page, run):
     page.write_text(pages.conformance(root, data, run), encoding="utf-8")
     clauses = [clause for document in data.documents for clause in document.clauses]
-    reasoned = sum(bool(clause.reason) for clause in clauses)
-    print(f"conformance: {len(clauses)} clauses, {reasoned} of them with a reason for having no test, {len(data.rulings)} rulings: {page}")
+    number, _, reasoned, neither, good, bad, absent = pages.counts(clauses, run)
+    print(f"conformance: {number} clauses: {good} passed, {bad} failed, {absent} not run, {reasoned} cannot have a test, {neither} have none: {page}")
     return list(judge(run))
 
 
@@ -102,7 +102,8 @@ def main():
     except source.BadData as bad:
         print(bad, file=sys.stderr)
         return 2
-    print("\n".join(faults) if faults else "conformance: right")
+    if faults or not arguments.report:
+        print("\n".join(faults) or "conformance: right")
     return 1 if faults else 0
 
 
