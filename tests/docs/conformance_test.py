@@ -31,7 +31,8 @@ RIGHT = {
     "tests/CMakeLists.txt": "function(try name)\n  add_test(NAME Install.${name}\n)\nendfunction()\ntry(Core x)\n",
     "build/tests.commit": "1a2b3c4\n",
     "build/tests.xml": '<testsuite><testcase name="Core.Works" status="run"/><testcase name="Install.Core" status="run"/>'
-                       '<testcase name="All/Scenarios.Pass/one" status="run"/><testcase name="Core.Else" status="run"/></testsuite>',
+                       '<testcase name="All/Scenarios.Pass/one  # GetParam() = &quot;one.x&quot;" status="run"/>'
+                       '<testcase name="Core.Else" status="run"/></testsuite>',
 }
 SHEET = "docs/conformance/datasheet.yaml"
 RULINGS = "docs/conformance/rulings.yaml"
