@@ -31,6 +31,9 @@ class TlmChipView : public ChipView {
       if (on_event) on_event(event);
       timeline.wake();  // the script may have waited for it
     };
+    bus_.on_read = [this](Tick sample) {
+      if (on_read) on_read(sample);
+    };
   }
 
   void set_reset(Tick, bool level) override { chip_.set_reset(level); }
