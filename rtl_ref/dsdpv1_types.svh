@@ -128,27 +128,28 @@ localparam logic [1:0] WD_BAUD_CONTROL = 2'd1;
 localparam logic [1:0] WD_DP_CONTROL = 2'd2;
 
 // What the sequencer does in an access, in the order of 9.2.
-localparam integer ITEMS = 19;
+localparam integer ITEMS = 20;
 localparam logic [4:0] ITEM_INIT = 5'd0;
 localparam logic [4:0] ITEM_VERDICT_PRM = 5'd1;
 localparam logic [4:0] ITEM_VERDICT_CFG = 5'd2;
-localparam logic [4:0] ITEM_INPUTS = 5'd3;
-localparam logic [4:0] ITEM_DIAG = 5'd4;
-localparam logic [4:0] ITEM_C1_ANSWER = 5'd5;
-localparam logic [4:0] ITEM_C2_ANSWER = 5'd6;
-localparam logic [4:0] ITEM_PRM = 5'd7;
-localparam logic [4:0] ITEM_CFG = 5'd8;
-localparam logic [4:0] ITEM_OUTPUTS = 5'd9;
-localparam logic [4:0] ITEM_C1_REQUEST = 5'd10;
-localparam logic [4:0] ITEM_C2_REQUEST = 5'd11;
-localparam logic [4:0] ITEM_VALID = 5'd12;
-localparam logic [4:0] ITEM_COUNT_HIGH = 5'd13;
-localparam logic [4:0] ITEM_COUNT_LOW = 5'd14;
-localparam logic [4:0] ITEM_STATUS_1 = 5'd15;
-localparam logic [4:0] ITEM_STATUS_2 = 5'd16;
-localparam logic [4:0] ITEM_STATUS_3 = 5'd17;
-localparam logic [4:0] ITEM_STATUS_4 = 5'd18;
-localparam logic [4:0] ITEM_NOTHING = 5'd19;
+localparam logic [4:0] ITEM_HISTORY = 5'd3;  // B011.7: clearing of B00B.2 (D16)
+localparam logic [4:0] ITEM_INPUTS = 5'd4;
+localparam logic [4:0] ITEM_DIAG = 5'd5;
+localparam logic [4:0] ITEM_C1_ANSWER = 5'd6;
+localparam logic [4:0] ITEM_C2_ANSWER = 5'd7;
+localparam logic [4:0] ITEM_PRM = 5'd8;
+localparam logic [4:0] ITEM_CFG = 5'd9;
+localparam logic [4:0] ITEM_OUTPUTS = 5'd10;
+localparam logic [4:0] ITEM_C1_REQUEST = 5'd11;
+localparam logic [4:0] ITEM_C2_REQUEST = 5'd12;
+localparam logic [4:0] ITEM_VALID = 5'd13;
+localparam logic [4:0] ITEM_COUNT_HIGH = 5'd14;
+localparam logic [4:0] ITEM_COUNT_LOW = 5'd15;
+localparam logic [4:0] ITEM_STATUS_1 = 5'd16;
+localparam logic [4:0] ITEM_STATUS_2 = 5'd17;
+localparam logic [4:0] ITEM_STATUS_3 = 5'd18;
+localparam logic [4:0] ITEM_STATUS_4 = 5'd19;
+localparam logic [4:0] ITEM_NOTHING = 5'd20;
 
 // Banks of the user-side pool of sap_buffers: inputs 0..3, diagnosis 4..7, configuration of the initialisation 8..9.
 localparam logic [1:0] POOL_INPUTS = 2'd0;

@@ -31,7 +31,7 @@ module dp_slave (
   input  logic        verdict_prm_i,
   input  logic        verdict_cfg_i,
   input  logic        verdict_wrong_i,
-  input  logic        dpv1_enabled_i,
+  input  logic        dpv1_on_i,        // D17
   input  logic        stage_inputs_i,
   input  logic        stage_diag_i,
   input  logic        stage_we_i,
@@ -155,7 +155,7 @@ module dp_slave (
   set_prm u_set_prm (
     `FAULT_CONNECT
     .clk_i(clk_i), .head_i(head_i), .length_i(length_i), .ident_i(ident_q), .command_i(command_q[3:1]),
-    .max_length_i(max_prm_q), .mode_i(prm_mode_q), .dpv1_enabled_i(dpv1_enabled_i),
+    .max_length_i(max_prm_q), .mode_i(prm_mode_q), .dpv1_on_i(dpv1_on_i),
     .unlock_o(prm_unlock), .min_tsdr_only_o(prm_min_only), .fault_o(prm_fault), .not_supported_o(prm_unsupported),
     .user_length_o(prm_user_length), .wd_on_o(prm_wd_on), .wd_factor_1_o(prm_factor_1), .wd_factor_2_o(prm_factor_2),
     .wd_base_1ms_o(prm_base_1ms), .min_tsdr_o(prm_min_tsdr), .group_o(prm_group), .sync_req_o(prm_sync_req),

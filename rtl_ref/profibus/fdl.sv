@@ -1,4 +1,4 @@
-// FDL (8.2; S3, S20, S26): which telegrams are for this station, repetitions, and the memory of the last answer. The answer itself
+// FDL (8.2; S3, S20, S26, S32): which telegrams are for this station, repetitions, and the memory of the last answer. The answer itself
 // is written by answer_builder while the wait for TSDR runs.
 `include "dsdpv1_types.svh"
 
@@ -45,6 +45,7 @@ module fdl (
 );
   // Everything that only depends on the telegram stands still long before the decision: through registers
   logic own_q, broadcast_q, request_q, saps_ok_q, sdn_q, srd_q, refuse_q, fdl_status_q, fcv_q, stores_q, same_series_q;
+  logic from_nobody_q;  // SA 127
   logic kind_q, default_sap_q;
   logic memory_valid_q, memory_fcb_q, bank_q;
   logic [6:0] memory_sa_q;
@@ -58,6 +59,7 @@ module fdl (
   always_ff @(posedge clk_i) begin
     own_q <= da_i[6:0] == address_i;
     broadcast_q <= da_i[6:0] == 7'd127;
+    from_nobody_q <= sa_i[6:0] == 7'd127;
     request_q <= fc_i[6] && (synced_i || `FAULT(38));
     saps_ok_q <= saps_ok_i;
     kind_q <= sd_i == SD_SD1 || sd_i == SD_SD2 || sd_i == SD_SD3;
@@ -72,17 +74,18 @@ module fdl (
     same_series_q <= memory_sa_q == sa_i[6:0] && (memory_fcb_q == fcb || `FAULT(39)) && !`FAULT(40);
   end
 
-  logic legal_q, repetition_q;
+  logic legal_q, repetition_q, ignored_q;
   always_ff @(posedge clk_i) begin
-    legal_q <= kind_q && (own_q || (broadcast_q && sdn_q)) && request_q && saps_ok_q;
+    legal_q <= kind_q && (own_q || (broadcast_q && sdn_q)) && request_q && saps_ok_q && (!from_nobody_q || `FAULT(107));
+    ignored_q <= kind_q && own_q && request_q && saps_ok_q && from_nobody_q;
     repetition_q <= own_q && fcv_q && !sdn_q && memory_valid_q && same_series_q;
   end
 
   logic legal, sends, stores;
-  assign any_telegram_o = decide_i && kind_q && synced_i;
+  assign any_telegram_o = decide_i && kind_q && synced_i && !(from_nobody_q && `FAULT(110));
   assign legal = decide_i && !searching_i && legal_q;
-  assign trigger_o = legal && own_q;
-  assign trigger_holder_o = trigger_o && from_holder_i;
+  assign trigger_o = (legal && own_q) || (decide_i && !searching_i && ignored_q && `FAULT(108));
+  assign trigger_holder_o = trigger_o && (from_holder_i || `FAULT(108));
   assign execute_o = legal && !repetition_q;
   assign refuse_o = refuse_q;
   assign fdl_status_o = fdl_status_q;
@@ -125,6 +128,7 @@ module fdl (
         if (!bank_q) memory_length_q <= built_length;
       end
       if (forget_i && !`FAULT(41)) memory_valid_q <= 1'b0;
+      if (decide_i && ignored_q && `FAULT(109)) memory_valid_q <= 1'b0;
     end
   end
 

@@ -12,7 +12,7 @@ module msac (
   input  logic        data_exch_i,      // behind the commits
   input  logic        from_holder_i,
   input  logic        prm_dpv1_i,       // DPV1_Enable of the Set_Prm in force
-  input  logic        enabled_i,        // B005 is 1D
+  input  logic        dpv1_on_i,        // D17
   // the telegram
   input  logic        data_valid_i,
   input  logic [7:0]  data_index_i,
@@ -134,7 +134,7 @@ module msac (
     .clk_i(clk_i), .rst_ni(rst_ni), .init_i(init_i), .answer_i(c2_answer), .answer_length_i(answer_length),
     .take_i(take_c2_i), .mail_o(c2_mail_o), .with_user_o(c2_with_user), .owner_2f_o(owner_2f), .request_o(c2_request),
     .request_length_o(c2_length_o), .initiate_srd_i(initiate_srd), .channel_srd_i(channel_srd),
-    .channel_sdn_i(channel_sdn), .enabled_i(enabled_i), .sa_i(sa_i[6:0]), .ssap_ok_i(ssap_50_q), .poll_i(poll),
+    .channel_sdn_i(channel_sdn), .dpv1_on_i(dpv1_on_i), .sa_i(sa_i[6:0]), .ssap_ok_i(ssap_50_q), .poll_i(poll),
     .abort_i(abort), .idle_i(idle), .code_i(c2_code), .head_i(head), .length_i(length_i),
     .initiate_legal_i(initiate_legal), .timeout_i(timeout), .initiate_code_i(initiate_code), .long_i(long_form),
     .s_length_i(s_length), .d_length_i(d_length), .accept_o(c2_accept), .initiate_sap_i(initiate_sap_q),

@@ -21,7 +21,7 @@ module msac2 (
   input  logic        initiate_srd_i,   // an SRD to SAP 49
   input  logic [1:0]  channel_srd_i,    // an SRD to a channel
   input  logic [1:0]  channel_sdn_i,
-  input  logic        enabled_i,        // B005 is 1D
+  input  logic        dpv1_on_i,        // D17
   input  logic [6:0]  sa_i,
   input  logic        ssap_ok_i,
   input  logic        poll_i,
@@ -87,7 +87,7 @@ module msac2 (
 
   // ---- Initiate: the first free row of the registry
   logic may_initiate, initiate_ok, takes_2f;
-  assign may_initiate = enabled_i && ssap_ok_i;
+  assign may_initiate = dpv1_on_i && ssap_ok_i;
   assign takes_2f = `FAULT(74) ? is_free[1] : !is_free[0];
   assign initiate_ok = may_initiate && !poll_i && initiate_legal_i && is_free != 2'b00;
   assign initiate = initiate_srd_i && initiate_ok ? {takes_2f, !takes_2f} : 2'b00;

@@ -12,7 +12,7 @@ module set_prm (
   input  logic [3:1]  command_i,       // B024
   input  logic [7:0]  max_length_i,    // B02A
   input  logic [1:0]  mode_i,          // B02B
-  input  logic        dpv1_enabled_i,  // B005, as it is at this edge
+  input  logic        dpv1_on_i,       // D17
   output logic        unlock_o,
   output logic        min_tsdr_only_o,
   output logic        fault_o,         // Prm_Fault
@@ -55,23 +55,21 @@ module set_prm (
   assign checked = !too_short && !status[6] && status[7];
   assign ident_wrong = {head_i[39:32], head_i[47:40]} != ident_i && !`FAULT(19);
   assign unsupported = (sync_req_o && !command_i[2] && !`FAULT(20)) || (freeze_req_o && !command_i[1]) ||
-                       (fail_safe_o && !command_i[3]);
+                       (fail_safe_o && !command_i[3]) || (dpv1 && !dpv1_on_i);
   assign rest_wrong = (dpv1 && length_i < 8'd10) ||
                       (wd_on_o && (wd_factor_1_o == 8'd0 || wd_factor_2_o == 8'd0) && !`FAULT(21)) || user_length_wrong;
 
-  // The bytes stand still long before the decision: all checks are taken through registers, but B005 may change at its edge
-  logic unlock_q, min_tsdr_only_q, fault_q, unsupported_q, fault_without_dpv1_q, unsupported_without_dpv1_q;
+  // The bytes stand still long before the decision: all checks are taken through registers
+  logic unlock_q, min_tsdr_only_q, fault_q, unsupported_q;
   always_ff @(posedge clk_i) begin
     unlock_q <= !too_short && status[6];
     min_tsdr_only_q <= !too_short && !status[6] && !status[7];
     fault_q <= too_short || (checked && (ident_wrong || unsupported || rest_wrong));
     unsupported_q <= checked && !ident_wrong && unsupported;
-    fault_without_dpv1_q <= too_short || (checked && (ident_wrong || unsupported || rest_wrong || dpv1));
-    unsupported_without_dpv1_q <= checked && !ident_wrong && (unsupported || dpv1);
   end
 
   assign unlock_o = unlock_q;
   assign min_tsdr_only_o = min_tsdr_only_q;
-  assign fault_o = dpv1_enabled_i ? fault_q : fault_without_dpv1_q;
-  assign not_supported_o = dpv1_enabled_i ? unsupported_q : unsupported_without_dpv1_q;
+  assign fault_o = fault_q;
+  assign not_supported_o = unsupported_q;
 endmodule

@@ -39,7 +39,7 @@ module station (
   input  logic        verdict_prm_i,
   input  logic        verdict_cfg_i,
   input  logic        verdict_wrong_i,
-  input  logic        dpv1_enabled_i,
+  input  logic        dpv1_on_i,       // D17
   input  logic        c1_answer_i,     // a block with right CRC
   input  logic        c2_answer_i,
   input  logic [7:0]  answer_length_i, // its data bytes
@@ -162,7 +162,7 @@ module station (
     .init_output_length_i(init_output_length_i), .inputs_i(inputs_i),
     .inputs_length_i(inputs_length_i), .diag_i(diag_i), .diag_type_i(diag_type_i), .diag_length_i(diag_length_i),
     .verdict_prm_i(verdict_prm_i), .verdict_cfg_i(verdict_cfg_i), .verdict_wrong_i(verdict_wrong_i),
-    .dpv1_enabled_i(dpv1_enabled_i), .stage_inputs_i(stage_inputs_i), .stage_diag_i(stage_diag_i),
+    .dpv1_on_i(dpv1_on_i), .stage_inputs_i(stage_inputs_i), .stage_diag_i(stage_diag_i),
     .stage_we_i(stage_we_i), .stage_pool_i(stage_pool_i), .stage_index_i(stage_index_i), .stage_data_i(stage_data_i),
     .dp_end_i(dp_end), .dp_control_i(dp_control), .wd_commit_dp_o(wd_commit_dp), .wd_commit_baud_o(wd_commit_baud),
     .wd_accept_dp_o(wd_accept_dp), .wd_accept_baud_o(wd_accept_baud), .wd_wait_prm_o(wd_wait_prm),
@@ -183,7 +183,7 @@ module station (
   msac u_msac (
     `FAULT_CONNECT
     .clk_i(clk_i), .rst_ni(rst_ni), .init_i(init_i), .left_i(left), .data_exch_i(data_exch), .from_holder_i(from_holder),
-    .prm_dpv1_i(prm_dpv1), .enabled_i(dpv1_enabled_i), .data_valid_i(data_valid), .data_index_i(data_index), .data_i(data),
+    .prm_dpv1_i(prm_dpv1), .dpv1_on_i(dpv1_on_i), .data_valid_i(data_valid), .data_index_i(data_index), .data_i(data),
     .head_i(head), .length_i(length), .sa_i(sa), .ssap_i(ssap), .dsap_i(dsap), .execute_i(execute), .srd_i(srd),
     .sdn_i(sdn), .default_sap_i(default_sap), .replies_o(msac_replies), .reply_o(msac_reply), .reply_fc_o(msac_fc),
     .reply_length_o(msac_length), .reply_index_i(builder_index), .reply_data_o(msac_data), .c1_mail_o(c1_mail_o),

@@ -376,6 +376,13 @@ int main(int argc, char** argv) {
     std::printf("rate index %d: %lld cycles, pins %016llx\n", rate, static_cast<long long>(b.edge),
                 static_cast<unsigned long long>(b.digest));
   }
+  Bench user(fault);
+  ownership(user);
+  std::printf("ownership: %lld cycles, pins %016llx\n", static_cast<long long>(user.edge), static_cast<unsigned long long>(user.digest));
+  Bench rules(fault);
+  user_rules(rules);
+  std::printf("rules of the user: %lld cycles, pins %016llx\n", static_cast<long long>(rules.edge),
+              static_cast<unsigned long long>(rules.digest));
   Bench b(fault);
   dpv1(b);
   std::printf("DPV1: %lld cycles, pins %016llx\n", static_cast<long long>(b.edge), static_cast<unsigned long long>(b.digest));
