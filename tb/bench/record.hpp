@@ -1,8 +1,10 @@
 #pragma once
 // What a run has brought, as plain values: for expectations, the result file and the table.
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/bytes.hpp"
@@ -27,6 +29,24 @@ struct Happening {
 
 /// "info", "refusal", "violation".
 const char* name(profibus::Severity severity);
+
+/// What was refused at one station for one reason: however long the run, none is forgotten.
+struct Refused {
+  std::string station, code;
+  std::string text;  ///< of the first time
+  Tick first = 0, last = 0;
+  std::uint64_t count = 0;
+};
+
+class Refusals {
+ public:
+  void count(const Happening& happening);
+  /// By the first time.
+  std::vector<Refused> list() const;
+
+ private:
+  std::map<std::pair<std::string, std::string>, Refused> entries_;  ///< by station and code
+};
 
 /// Answers of one slave, measured by the monitor.
 struct Tsdr {
@@ -93,6 +113,7 @@ struct RunResult {
   std::vector<SlaveResult> slaves;
   std::vector<Happening> happenings;
   std::uint64_t happenings_dropped = 0;  ///< beyond the first kKept
+  std::vector<Refused> refused;          ///< by the first time
   std::vector<ExpectationResult> expectations;
   std::vector<CheckResult> checks;  ///< by slave, then in the order of checks::Check
   std::optional<Pacing> pacing;

@@ -140,6 +140,15 @@ Json event_of(const Happening& happening) {
           {"severity", name(happening.severity)},  {"allowed", happening.allowed}, {"text", happening.text}};
 }
 
+Json refused_of(const Refused& refused) {
+  return {{"slave", refused.station},
+          {"code", refused.code},
+          {"count", refused.count},
+          {"first_ns", nanoseconds_of(refused.first)},
+          {"last_ns", nanoseconds_of(refused.last)},
+          {"text", refused.text}};
+}
+
 }  // namespace
 
 std::string result_json(const RunResult& result) {
@@ -167,6 +176,8 @@ std::string result_json(const RunResult& result) {
   }
   json["checks"] = Json::array();
   for (const CheckResult& each : result.checks) json["checks"].push_back(check_of(each));
+  json["refused"] = Json::array();
+  for (const Refused& each : result.refused) json["refused"].push_back(refused_of(each));
   json["events"] = Json::array();
   for (const Happening& each : result.happenings) json["events"].push_back(event_of(each));
   json["events_dropped"] = result.happenings_dropped;
