@@ -378,6 +378,9 @@ RunResult Bench::collect() {
   result.fault_registers = registers_;
   result.telegrams = monitor_->statistics().telegrams;
   result.wrong_telegrams = monitor_->statistics().wrong;
+  for (const Master& each : masters_)
+    result.masters.push_back({each.spec->name.text, each.spec->address, each.master->cycles(),
+                              each.master->min_slave_interval_us(), each.spec->bus.min_slave_interval.has_value()});
   for (const auto& slave : slaves_) {
     slave->chip().sync(result.simulated);
     SlaveResult entry = slave->result();

@@ -66,6 +66,14 @@ struct SlaveResult {
   bus::Bytes inputs, outputs;
 };
 
+struct MasterResult {
+  std::string name;
+  int address = 0;
+  std::uint64_t cycles = 0;
+  std::int64_t min_slave_interval_us = 0;
+  bool interval_given = false;  ///< by the scenario; else it is the greatest of the slaves' GSD files
+};
+
 /// What is done with violations that the checks of tb/checks find.
 enum class ChecksMode : std::uint8_t {
   kOff,     ///< nothing is checked
@@ -109,7 +117,8 @@ struct RunResult {
   Tick simulated = 0;
   double wall_s = 0;
   std::uint64_t telegrams = 0, wrong_telegrams = 0;
-  std::uint64_t violations = 0;  ///< those that are not allowed, and with ChecksMode::kFail those of checks
+  std::uint64_t violations = 0;       ///< those that are not allowed, and with ChecksMode::kFail those of checks
+  std::vector<MasterResult> masters;  ///< of class 1
   std::vector<SlaveResult> slaves;
   std::vector<Happening> happenings;
   std::uint64_t happenings_dropped = 0;  ///< beyond the first kKept

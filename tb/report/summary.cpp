@@ -76,6 +76,24 @@ std::string slaves(const RunResult& result) {
   return table.text() + "\n";
 }
 
+std::string interval_from(const MasterResult& master) {
+  if (master.interval_given) return "min_slave_interval of the scenario";
+  return master.min_slave_interval_us == 0 ? "its slaves name no Min_Slave_Intervall"
+                                           : "Min_Slave_Intervall of its slaves";
+}
+
+std::string masters(const RunResult& result) {
+  std::string text;
+  for (const MasterResult& master : result.masters) {
+    const std::string interval = master.min_slave_interval_us == 0
+                                     ? "as fast as the bus allows"
+                                     : fmt::format("{}us or more each", master.min_slave_interval_us);
+    text += fmt::format("  master         {}: {} cycles, {} ({})\n", master.name, master.cycles, interval,
+                        interval_from(master));
+  }
+  return text;
+}
+
 std::string expectations(const RunResult& result) {
   if (result.expectations.empty()) return "";
   std::string text;
@@ -122,6 +140,7 @@ std::string boards(const RunResult& result) {
 
 std::string summary(const RunResult& result) {
   std::string text = fmt::format("\n{}\n\n", result.scenario) + steps(result) + refused(result) + slaves(result);
+  text += masters(result);
   text += fmt::format("  telegrams      {} ({} wrong)\n", result.telegrams, result.wrong_telegrams);
   text +=
       fmt::format("  simulated      {} in {:.2f} s: {:.2f} times real time (engine {}, view {})\n",

@@ -54,6 +54,7 @@ TEST_F(Outputs, ResultHoldsWhatItMust) {
   EXPECT_GE(slave["tsdr"]["min_bits"], 11.0);
   EXPECT_EQ(slave["outputs"], "01 02");
   EXPECT_EQ(result["expectations"].at(0)["passed"], true);
+  EXPECT_EQ(result["masters"].at(0)["min_slave_interval_from"], nullptr) << "no GSD, no wish";
   EXPECT_NE(read(folder_.file("l.txt")).find("DATA_EXCH"), std::string::npos);
 }
 
@@ -95,6 +96,27 @@ TEST_F(Outputs, RefusalsStandInTheTableAndTheResult) {
   EXPECT_LT(refused.at(0)["first_ns"], refused.at(0)["last_ns"]);
   EXPECT_NE(called.out.find("  demo        CFG_IO_LENGTH  " + std::to_string(count) + " "), std::string::npos)
       << called.out;
+}
+
+TEST_F(Outputs, PollRateIsThatOfTheGsdUnlessTheScenarioHasItsOwn) {
+  std::string text = kScenario;
+  const std::string init = "init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}";
+  text.replace(text.find(init), init.size(),
+               "gsd: " DSDPV1_SOURCE_DIR "/scenarios/dsdpv1.gsd, modules: [\"2 bytes in, 2 bytes out\"]");
+  text.replace(text.find("3ms"), 3, "9ms");
+  write("s.yaml", text);
+  const app_test::Called from_gsd = run("--result gsd.json");
+  EXPECT_EQ(from_gsd.status, 0) << from_gsd.out;
+  EXPECT_NE(from_gsd.out.find("600us or more each (Min_Slave_Intervall of its slaves)"), std::string::npos);
+  EXPECT_EQ(run("--result own.json --quiet --set masters.plc.bus.min_slave_interval=0").status, 0);
+  const auto gsd = nlohmann::json::parse(read(folder_.file("gsd.json"))),
+             own = nlohmann::json::parse(read(folder_.file("own.json")));
+  EXPECT_EQ(gsd["masters"].at(0)["min_slave_interval_us"], 600);
+  EXPECT_EQ(gsd["masters"].at(0)["min_slave_interval_from"], "gsd");
+  EXPECT_EQ(own["masters"].at(0)["min_slave_interval_us"], 0);
+  EXPECT_EQ(own["masters"].at(0)["min_slave_interval_from"], "scenario");
+  EXPECT_LE(gsd["masters"].at(0)["cycles"], 15);
+  EXPECT_GT(own["masters"].at(0)["cycles"], 60);
 }
 
 /// The scenario with an exchange of telegrams longer than the log shows them.
