@@ -347,15 +347,16 @@ TEST(Master, TheGreatestMinSlaveIntervalOfItsSlavesCounts) {
     for (const int address : {4, 5}) {
       SlaveParameters slave = parameters(static_cast<std::uint8_t>(address));
       slave.min_slave_interval_us = address == 4 ? 700 : 400;
-      bench.master.add_slave(slave);
-      bench.master.release(slave.address);
+      bench.master.add_slave(slave);  // not there: its wish counts all the same
     }
-    bench.bring_up();
+    bench.master.start();
+    bench.run_bits(200'000);
+    EXPECT_EQ(bench.state(), SlaveState::kDataExchange);
     return bench.master.cycle_time() / kTicksPerUs;
   };
   EXPECT_EQ(cycle_time(std::nullopt), 700);
   EXPECT_EQ(cycle_time(900), 900);
-  EXPECT_LT(cycle_time(0), 400) << "0: as fast as the bus allows";
+  EXPECT_LT(cycle_time(0), 600) << "0: as fast as the bus allows";
 }
 
 TEST(Master, WithoutAnySlaveTimeStillPasses) {
