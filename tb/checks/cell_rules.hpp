@@ -11,7 +11,7 @@
 
 namespace checks {
 
-/// A hold is the time that R_STA is high. What the chip may have changed before it is not known until the user reads it.
+/// A hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again. What the chip may have changed before it is not known until the user reads it.
 class CellRules {
  public:
   explicit CellRules(Recorder& recorder);

@@ -73,11 +73,16 @@ says. The checks are written apart from it, from the same rulings, and where bot
 - Whether INTR0's block was read from B00E alone. INTR0_SERVICE ends with the begin of the first read that is in B410 to B5CC, or that finds
   B00E.1 or B00E.2 set; a read of B00E that finds neither ends it uncounted, because an earlier service has taken the block along. An INTR0 that is
   not served is judged at the end of the run.
-- The station's address. HOLD_INTERVAL learns it from the answers that are on the line while PBRTS is high, so it begins behind the first one.
+- The station's address. HOLD_INTERVAL learns it from the answers that are on the line while PBRTS is high, so it begins after the first one.
+  Its intervals run from the execution of one Data_Exchange, a bit time after the telegram's end, to that of the next; of a hold only the part
+  within the interval counts. Which outputs were lost is not its business: `outputs_overwritten` of the result file counts them, also where the
+  user was merely slower than the master.
 
 ## The checks
 
-A hold is the time that R_STA is high. Rulings are those of [chip.md](chip.md), tables and chapters those of the datasheet.
+R_REQ and R_STA may fall one after the other, in either order (text of figure 5). A request begins when the first of them rises and ends when
+both are low again, and so long the chip stays away (H1). A hold begins with R_STA's rise and ends with the request. The right to access
+the DPRAM lasts while both are high: it ends with the first fall (P12). Rulings are those of [chip.md](chip.md), tables and chapters those of the datasheet.
 )";
 
 std::string limit_text(const Rule& rule) {

@@ -80,11 +80,11 @@ const Case kCases[] = {
     {"Csr", {"TIMING_CSR"}, kNone, kNone, "TIMING_CSR: {min: 20ns}", {}},
 #ifdef RUDE
     {"NoRequest",
-     {"OWNERSHIP_NO_REQUEST", "OWNERSHIP_BOTH_OWN"},
+     {"OWNERSHIP_NO_REQUEST"},
      RUDE("no_request"),
      kNone,
      kNone,
-     {"HANDSHAKE_BOTH_OWN"}},
+     {}},
     {"NotOwner", {"OWNERSHIP_NOT_OWNER"}, RUDE("not_owner"), kNone, kNone, {"HOST_NOT_OWNER"}},
     {"CellOfChip", {"CELL_OF_CHIP"}, RUDE("cell_of_chip"), kNone, kNone, {"HOST_READ_ONLY"}},
     {"FlagByUser", {"FLAG_BY_USER"}, RUDE("flag_by_user"), kNone, kNone, {}},

@@ -31,6 +31,10 @@ static void release(void) {
 
 static void break_a_rule(void) {
 #if defined RUDE_NO_REQUEST
+  while (!port_stm32.get_l_sta(NULL)) {
+  }
+  while (port_stm32.get_l_sta(NULL)) { /* the chip has just gone, so it is no collision */
+  }
   port_stm32.set_r_sta(NULL, true);
   port_stm32.set_r_sta(NULL, false);
 #elif defined RUDE_NOT_OWNER
