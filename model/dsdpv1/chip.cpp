@@ -264,6 +264,7 @@ Status Chip::status() const {
   status.telegrams_answered = station.telegrams_answered();
   status.data_exchanges = station.slave().data_exchanges();
   status.accesses = impl_->sequencer.accesses();
+  status.outputs_missed = station.slave().outputs_replaced() + impl_->sequencer.outputs_overwritten();
   status.c2 = station.slave().rm_registry();
   status.longest_wait = static_cast<std::uint64_t>(impl_->sequencer.longest_wait());
   return status;

@@ -62,6 +62,7 @@ Json slave_of(const SlaveResult& slave) {
   json["baud"] = baud_text(slave.status.baud_index);
   json["master"] = slave.status.master == 255 ? Json(nullptr) : Json(slave.status.master);
   json["data_exchanges"] = slave.status.data_exchanges;
+  json["outputs_overwritten"] = slave.status.outputs_missed;
   json["rm_registry"] = registry_of(slave.status.c2);
   json["telegrams_received"] = slave.status.telegrams_received;
   json["telegrams_answered"] = slave.status.telegrams_answered;

@@ -65,11 +65,12 @@ std::string tsdr(const SlaveResult& slave) {
 }
 
 std::string slaves(const RunResult& result) {
-  TextTable table({"slave", "address", "DP state", "baud", "exchanges", "TSDR / bit times", "chip waited / us",
-                   "user waited / us", "longest hold / us"});
+  TextTable table({"slave", "address", "DP state", "baud", "exchanges", "overwritten", "TSDR / bit times",
+                   "chip waited / us", "user waited / us", "longest hold / us"});
   for (const SlaveResult& slave : result.slaves) {
     table.add({slave.name, fmt::format("{}", slave.status.address), name(slave.status.dp_state),
-               baud_text(slave.status.baud_index), fmt::format("{}", slave.status.data_exchanges), tsdr(slave),
+               baud_text(slave.status.baud_index), fmt::format("{}", slave.status.data_exchanges),
+               fmt::format("{}", slave.status.outputs_missed), tsdr(slave),
                microseconds(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle),
                microseconds(slave.user.port.longest_wait), microseconds(slave.user.port.longest_hold)});
   }
