@@ -228,6 +228,10 @@ Chip::~Chip() = default;
 
 void Chip::set(Tick at, Pin pin, Level level) { impl_->set(at, pin, level); }
 void Chip::advance(Tick to) { impl_->advance(to); }
+Level Chip::sample(Tick at) {
+  impl_->advance(at);
+  return impl_->host.user_samples(at);
+}
 Tick Chip::next_event() const { return impl_->next_event(); }
 Tick Chip::now() const { return impl_->now; }
 Level Chip::level(Pin pin) const { return impl_->level(pin); }

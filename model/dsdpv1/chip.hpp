@@ -72,6 +72,9 @@ class Chip {
   Tick now() const;
   /// The present level of a pin, input or output.
   Level level(Pin pin) const;
+  /// The user samples D at tick `at` (>= every earlier call's): its level then. Earlier than Tw after RD and CSR fell it is X and the
+  /// violation is reported, whatever D is already by the phase of CLK (P5). `level` cannot know who looks, and when.
+  Level sample(Tick at);
 
   /// Reports changes of the output pins in `pins` (see mask(Pin)). One sink; a second call replaces it.
   void watch(const PinSink& sink, std::uint32_t pins);

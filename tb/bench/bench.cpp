@@ -87,6 +87,7 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
     pin_changed(index, at, pin, level);
   };
   station.chip().on_event = [this, index](const profibus::Event& event) { chip_event(index, event); };
+  station.chip().on_read = [this, index](Tick sample) { checks_.read(index, sample); };
   station.quiet_until = [this, &station] { return execution_->quiet_until(station); };
   station.on_driver_error = [this, &station](const user_cpu::DriverError& error) { driver_error(station, error); };
   station.on_text = [this, &station](Tick at, const std::string& line) {

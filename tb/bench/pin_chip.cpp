@@ -83,6 +83,11 @@ void PinChip::set_r_sta(Tick at, bool level) {
   report_inputs(at, Pin::kRSta, Pin::kRSta);
 }
 
+void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) {
+  pins_->begin(at, access, timing);
+  if (!access.write && on_read) on_read(pins_->sample_tick());
+}
+
 void PinChip::run_edges(Tick now) {
   pins_->run_edges(now);
   report_inputs(now, Pin::kCsr, Pin::kDIn);

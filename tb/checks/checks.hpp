@@ -39,6 +39,8 @@ class Checks : private AccessSink {
   /// A change of a pin. The first changes are those from the levels of a chip fresh from construction (dsdpv1::Chip::set). Ticks never
   /// go back; pins that change at the same tick may come in any order.
   void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  /// The user begins a read, told before its first edge, and samples D at `sample`. Only for a user CPU that tells: at the pins nobody sees it.
+  void read(Tick sample) { port_.read(sample); }
   /// A telegram that has ended, of any station, heard at `now`.
   void telegram(Tick now, const bus::WireTelegram& telegram);
   /// Once, at the end of the run.

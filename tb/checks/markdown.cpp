@@ -66,8 +66,8 @@ says. The checks are written apart from it, from the same rulings, and where bot
 
 ## What cannot be seen at the pins
 
-- When the user samples D. TIMING_TW takes the end of the read, RD's or CSR's rise, as the latest moment; a user who samples earlier, before
-  31.25 ns, reads X, and only his own reports (`bad_reads`) show it. What a read brought is taken to be D as the chip drove it last.
+- When the user samples D. The user CPUs of the bench tell it, so TIMING_TW is exact for them, at the pins and in TLM; for any other user it takes
+  the end of the read, RD's or CSR's rise, as the latest moment. What a read brought is taken to be D as the chip drove it last.
 - A cell that the chip may have written since the user's last look. It counts as unknown until the user reads it in the hold, and what depends on
   it is not judged (a CRC over it, a flag written blindly).
 - Whether INTR0's block was read from B00E alone. INTR0_SERVICE ends with the begin of the first read that is in B410 to B5CC, or that finds

@@ -78,6 +78,20 @@ TEST_F(Outputs, ViolationThatIsNotAllowedFailsTheRun) {
   EXPECT_EQ(run("").status, 0);
 }
 
+TEST_F(Outputs, SamplesBeforeTwAreReportedTheSameInEveryExecution) {
+  std::string text = kScenario;
+  text.replace(text.find("cfg: \"31\"}"), 10, "cfg: \"31\"}, user_cpu: {access: {rd_sample: 31ns}}");
+  text.erase(text.find("expect:"));
+  write("s.yaml", text);
+  EXPECT_EQ(run("--quiet --log skip.log --trace skip.txt").status, 1);
+  EXPECT_NE(read(folder_.file("skip.log")).find("Tw: D was sampled"), std::string::npos);
+  for (const char* other : {"--engine step", "--view tlm"}) {
+    EXPECT_EQ(run(std::string("--quiet --log other.log --trace other.txt ") + other).status, 1);
+    EXPECT_TRUE(read(folder_.file("skip.log")) == read(folder_.file("other.log"))) << other;
+    EXPECT_TRUE(read(folder_.file("skip.txt")) == read(folder_.file("other.txt"))) << other;
+  }
+}
+
 TEST_F(Outputs, QuietPrintsNothing) {
   write("s.yaml", kScenario);
   EXPECT_EQ(run("--quiet --no-progress").out, "");

@@ -67,7 +67,8 @@ const Case kCases[] = {
      kNone,
      {"HOST_TD_HOLD", "HOST_READ_UNKNOWN"}},
     {"Tc", {"TIMING_TC"}, "access: {address_setup: -0.05ns, cs_lead: 0ns}", kNone, kNone, {"HOST_TC"}},
-    {"Tw", {"TIMING_TW"}, "access: {rd_low: 31ns, rd_sample: 31ns}", kNone, kNone, {"HOST_TW"}},
+    {"Tw", {"TIMING_TW"}, "access: {rd_low: 31ns, rd_sample: 40ns}", kNone, kNone, {"HOST_TW"}},
+    {"TwOfTheSample", {"TIMING_TW"}, "access: {rd_low: 60ns, rd_sample: 31ns}", kNone, kNone, {"HOST_TW"}},
     {"ReadBack", {"TIMING_READ_BACK"}, kNone, kNone, "TIMING_READ_BACK: {min: 2us}", {}},
     {"Intr0Service",
      {"INTR0_SERVICE"},
@@ -76,7 +77,7 @@ const Case kCases[] = {
      "INTR0_SERVICE: {max: 1ms}",
      {}},
     {"HoldInterval", {"HOLD_INTERVAL"}, kNone, "{at: 10ms, do: hold_dpram, slave: demo, for: 2ms}", kNone, {}},
-    {"CountByUser", {"COUNT_BY_USER"}, "access: {rd_sample: 1ns}", kNone, kNone, {}},
+    {"CountByUser", {"COUNT_BY_USER", "TIMING_TW"}, "access: {rd_sample: 1ns}", kNone, kNone, {"HOST_TW"}},
     {"Csr", {"TIMING_CSR"}, kNone, kNone, "TIMING_CSR: {min: 20ns}", {}},
 #ifdef RUDE
     {"NoRequest",
@@ -174,7 +175,8 @@ TEST(ChecksAndCore, FindTheSameViolationsIndependently) {
                {"Td", checks::Check::kTd, "HOST_TD_SETUP"},
                {"DataHold", checks::Check::kDataHold, "HOST_TD_HOLD"},
                {"Tc", checks::Check::kTc, "HOST_TC"},
-               {"Tw", checks::Check::kTw, "HOST_TW"}};
+               {"Tw", checks::Check::kTw, "HOST_TW"},
+               {"TwOfTheSample", checks::Check::kTw, "HOST_TW"}};
   for (const auto& pair : pairs) {
     const Case* found = std::find_if(std::begin(kCases), std::end(kCases),
                                      [&pair](const Case& each) { return std::string(each.name) == pair.name; });

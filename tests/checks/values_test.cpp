@@ -154,6 +154,12 @@ void tw(Board& board, Tick margin) {
   one_read(board, timing);
 }
 
+void tw_of_the_sample(Board& board, Tick margin) {
+  Timing timing;
+  timing.sample = 375 + margin;
+  one_read(board, timing);
+}
+
 /// WR rises so that RD's sampling edge is a cycle behind the edge at which the write settles, or at it.
 void read_back(Board& board, Tick margin) {
   board.ask();
@@ -204,6 +210,7 @@ const Case kCases[] = {
     {"Csr", Check::kCsr, csr},
     {"Tc", Check::kTc, tc},
     {"Tw", Check::kTw, tw},
+    {"TwOfTheSample", Check::kTw, tw_of_the_sample},
     {"Intr0Service", Check::kIntr0Service, intr0_service, kIntr0Limit},
     {"Intr0FoundInB00E", Check::kIntr0Service, intr0_found_in_b00e, kIntr0Limit},
     {"HoldInterval", Check::kHoldInterval, hold_interval},
@@ -283,6 +290,22 @@ TEST(ReadBack, IsKeptACycleBehindTheSettlingEdgeAndViolatedAtIt) {
   read_back(broken, -1);
   EXPECT_EQ(broken.checks().record(Check::kReadBack).worst_margin, -250);
   EXPECT_EQ(broken.checks().record(Check::kReadBack).violations, 1U);
+}
+
+TEST(Tw, ASampleThatNobodyHasToldIsTheEndOfTheRead) {
+  Board board;
+  board.ask();
+  board.read(0x014, 0);
+  Timing late;
+  late.sample = late.low + 100;  // D is released by then
+  board.read(0x014, 0, late);
+  EXPECT_EQ(board.checks().record(Check::kTw).worst_value, Timing{}.low);
+  late.sample = 380;
+  board.read(0x014, 0, late);
+  board.read(0x014, 0);  // told of one read, not of the next
+  const checks::Record& record = board.checks().record(Check::kTw);
+  EXPECT_EQ(record.worst_value, 380);
+  EXPECT_EQ(record.count, 4U);
 }
 
 TEST(Td, NobodyDrivingDIsAViolation) {
