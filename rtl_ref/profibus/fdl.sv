@@ -93,7 +93,7 @@ module fdl (
   always_ff @(posedge clk_i) begin
     legal_q <= kind_q && (own_q || (broadcast_q && sdn_q)) && request_q && saps_ok_q && (!from_nobody_q || `FAULT(107));
     ignored_q <= kind_q && own_q && request_q && saps_ok_q && from_nobody_q;
-    repetition_q <= own_q && fcv_q && memory_valid_q && same_saps_q && same_rest_q;
+    repetition_q <= own_q && (fcv_q || `FAULT(118)) && memory_valid_q && same_saps_q && same_rest_q;
   end
 
   logic legal, sends;
@@ -117,8 +117,8 @@ module fdl (
   assign from_dsap = sa_i[7] && da_i[7];
 
   // There is one answer: the memory, valid or not, and what is sent
-  logic valid_behind;
-  assign valid_behind = fcv_q || (memory_valid_q && `FAULT(117)) || (fc_i[5] && `FAULT(118));
+  logic counts;
+  assign counts = fcv_q || `FAULT(118);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       memory_valid_q <= 1'b0;
@@ -130,8 +130,8 @@ module fdl (
       length_q <= 8'd0;
       built_q <= 1'b0;
     end else begin
-      if (sends) begin
-        memory_valid_q <= valid_behind;
+      if (sends && (fcv_q || !`FAULT(117))) begin
+        memory_valid_q <= counts;
         memory_sa_q <= sa_i[6:0];
         memory_fc_q <= fc_i;
         memory_saps_q <= saps;

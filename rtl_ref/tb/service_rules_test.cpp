@@ -100,7 +100,8 @@ void not_repeated(Bench& b) {
   after(exchange(0x7C, 4), exchange(0x7D, 3), with_inputs(0x10), "another FC");
   b.step(200);
   expect_bytes(b.peek(0x31D, 1), {3}, "it is executed");
-  after(sd2({0x85, 0x82, 0x7D, 59, 60}), sd2({0x85, 0x82, 0x7D, 57, 62}), response(8, 57, {1, 2, 3, 3}), "other SAPs");
+  after(request(0x7D, 57, {1}), request(0x7D, 58, {0}), sd1(2, 5, kRs), "another DSAP");
+  after(sd2({5, 0x82, 0x7D, 62, 1, 2, 3, 4}), sd2({5, 0x82, 0x7D, 61, 1, 2, 3, 5}), sd2({0x82, 5, 8, 61, 0x10, 0, 0, 0}), "another SSAP");
   after(sd2({0x85, 2, 0x7D, 60}), sd2({0x85, 2, 0x7D, 60, 0}), sd1(2, 5, kRr), "another length");
   after(exchange(0x7D, 4), exchange(0x7D, 9), with_inputs(0x10), "another FCS");
   b.step(200);
