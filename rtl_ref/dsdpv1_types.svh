@@ -96,8 +96,11 @@ localparam logic [7:0] MSAC_IDLE = 8'h48;
 localparam logic [7:0] MSAC_IMMEDIATE = 8'h56;
 localparam logic [7:0] MSAC_INITIATE = 8'h57;
 localparam logic [7:0] MSAC_ABORT = 8'h58;
-localparam logic [7:0] ABORT_SEQUENCE = 8'h11;
-localparam logic [7:0] ABORT_TIMEOUT = 8'h13;
+localparam logic [3:0] ABORT_MSAC_C2 = 4'd1;   // Instance
+localparam logic [2:0] ABORT_SEQUENCE = 3'd1;  // Reason
+localparam logic [2:0] ABORT_INVALID_PDU = 3'd2;
+localparam logic [2:0] ABORT_TIMEOUT = 3'd3;
+localparam logic [2:0] ABORT_ADDRESS = 3'd7;
 
 // Most data bytes of a request or an answer of the user.
 localparam logic [7:0] MSAC_MAX_DATA = 8'd240;
@@ -120,6 +123,11 @@ function automatic logic [31:0] negative_answer(input logic [7:0] function_num, 
     MSAC_WRITE_LENGTH: negative_answer = {16'h00B1, 8'h80, function_num | 8'h80};
     default: negative_answer = {16'h00A9, 8'h80, function_num | 8'h80};
   endcase
+endfunction
+
+// Abort PDU (V2, V11): Function_Num, Subnet, Instance and Reason; the first lowest.
+function automatic logic [31:0] abort_pdu(input logic [2:0] reason);
+  abort_pdu = {8'h00, ABORT_MSAC_C2, 1'b0, reason, 8'h00, MSAC_ABORT};
 endfunction
 
 // States of the watchdog (S1).

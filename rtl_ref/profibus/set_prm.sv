@@ -1,4 +1,4 @@
-// Checks Set_Prm (SAP 61; 6.2.2, S6, S28, D8) in the order of section 11. The first check that fails decides.
+// Checks Set_Prm (SAP 61; 6.2.2, S6, S28, D8, D17) in the order of section 11. The first check that fails decides.
 `include "dsdpv1_types.svh"
 
 module set_prm (
@@ -50,10 +50,11 @@ module set_prm (
   assign length_wrong = mode_i == 2'd0 ? user_length_o > max_length_i : mode_i == 2'd1 && user_length_o != max_length_i;
   assign user_length_wrong = (length_wrong && !`FAULT(18)) || user_length_o > 8'd237;
 
-  logic too_short, checked, ident_wrong, unsupported, rest_wrong;
+  logic too_short, checked, ident_counts, ident_wrong, unsupported, rest_wrong;
   assign too_short = length_i < 8'd7;
   assign checked = !too_short && !status[6] && status[7];
-  assign ident_wrong = {head_i[39:32], head_i[47:40]} != ident_i && !`FAULT(19);
+  assign ident_counts = !too_short && ((status[6] && !`FAULT(120)) || status[7]);
+  assign ident_wrong = ident_counts && {head_i[39:32], head_i[47:40]} != ident_i && !`FAULT(19);
   assign unsupported = (sync_req_o && !command_i[2] && !`FAULT(20)) || (freeze_req_o && !command_i[1]) ||
                        (fail_safe_o && !command_i[3]) || (dpv1 && !dpv1_on_i);
   assign rest_wrong = (dpv1 && length_i < 8'd10) ||
@@ -62,9 +63,9 @@ module set_prm (
   // The bytes stand still long before the decision: all checks are taken through registers
   logic unlock_q, min_tsdr_only_q, fault_q, unsupported_q;
   always_ff @(posedge clk_i) begin
-    unlock_q <= !too_short && status[6];
+    unlock_q <= !too_short && status[6] && !ident_wrong;
     min_tsdr_only_q <= !too_short && !status[6] && !status[7];
-    fault_q <= too_short || (checked && (ident_wrong || unsupported || rest_wrong));
+    fault_q <= too_short || ident_wrong || (checked && (unsupported || rest_wrong));
     unsupported_q <= checked && !ident_wrong && unsupported;
   end
 

@@ -101,14 +101,14 @@ module station (
   logic tg_begin, decide, synced, saps_ok, data_valid;
   logic [2:0] sd;
   logic [6:0] fc;
-  logic [7:0] da, sa, dsap, ssap, length, data_index, data;
+  logic [7:0] da, sa, dsap, ssap, length, fcs, data_index, data;
   logic [63:0] head;
   telegram_rx u_telegram_rx (
     `FAULT_CONNECT
     .clk_i(clk_i), .rst_ni(rst_ni), .restart_i(restart), .risen_i(risen), .valid_i(char_valid), .char_i(char), .ok_i(char_ok),
     .syn_i(char_syn), .gap_i(char_gap), .busy_i(busy), .due_i(due), .begin_o(tg_begin), .decide_o(decide), .sd_o(sd),
     .synced_o(synced), .da_o(da), .sa_o(sa), .fc_o(fc), .dsap_o(dsap), .ssap_o(ssap), .saps_ok_o(saps_ok),
-    .length_o(length), .head_o(head), .data_valid_o(data_valid), .data_index_o(data_index), .data_o(data));
+    .length_o(length), .fcs_o(fcs), .head_o(head), .data_valid_o(data_valid), .data_index_o(data_index), .data_o(data));
 
   // ---- baud rate and watchdog
   logic any_telegram, trigger, trigger_holder, baud_end, dp_end, dp_control;
@@ -144,7 +144,7 @@ module station (
   fdl u_fdl (
     `FAULT_CONNECT
     .clk_i(clk_i), .rst_ni(rst_ni), .decide_i(decide), .searching_i(searching), .forget_i(restart), .abort_i(init_i),
-    .sd_i(sd), .synced_i(synced), .da_i(da), .sa_i(sa), .fc_i(fc), .dsap_i(dsap), .ssap_i(ssap), .saps_ok_i(saps_ok),
+    .sd_i(sd), .synced_i(synced), .da_i(da), .sa_i(sa), .fc_i(fc), .dsap_i(dsap), .ssap_i(ssap), .saps_ok_i(saps_ok), .length_i(length), .fcs_i(fcs),
     .address_i(address), .from_holder_i(from_holder), .any_telegram_o(any_telegram), .trigger_o(trigger),
     .trigger_holder_o(trigger_holder), .execute_o(execute), .refuse_o(refuse), .fdl_status_o(fdl_status), .srd_o(srd),
     .sdn_o(sdn), .default_sap_o(default_sap), .answer_i(answer), .answer_fc_i(answer_fc), .answer_source_i(answer_source),

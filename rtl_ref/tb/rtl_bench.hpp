@@ -293,8 +293,11 @@ inline Bytes init_block(uint8_t prm_mode, uint8_t cfg_mode) {
 // Who owns the DPRAM (ownership_test.cpp), on a chip in RESET
 void ownership(Bench& b);
 
-// What the user chooses with B005 and B011, and telegrams of SA 127 (user_rules_test.cpp), on a chip in RESET
+// What the user chooses with B005 and B011 (user_rules_test.cpp), on a chip in RESET
 void user_rules(Bench& b);
+
+// Repetitions, refusals, Not_Supported and high priority (service_rules_test.cpp), on a chip in RESET
+void service_rules(Bench& b);
 
 // The DPV1 part (dpv1_test.cpp), on a chip fresh out of RESET
 void dpv1(Bench& b);

@@ -1,4 +1,4 @@
-// What the user chooses with B005 (D17) and B011 (D16), and telegrams of SA 127 (S32).
+// What the user chooses with B005 (D17) and B011 (D16).
 #include "rtl_bench.hpp"
 
 namespace {
@@ -103,15 +103,6 @@ void dpv1_at_the_initialisation(Bench& b) {
   expect_dpv1(b, true, "B005 = 0 at a refused initialisation");
 }
 
-// SA 127 is nobody's (S32): no answer, and the memory for repetitions stays
-void nobody(Bench& b) {
-  const Bytes status = sd1(5, 2, 0x7C), refused = sd1(2, 5, 3);
-  expect_bytes(b.ask(sd1(5, 127, 0x49)), {}, "FDL status of SA 127");
-  expect_bytes(b.ask(status), refused, "data exchange in WAIT_PRM");
-  expect_bytes(b.ask(sd1(5, 127, 0x7C)), {}, "SRD of SA 127");
-  expect_bytes(b.ask(status), refused, "the repetition behind it");
-}
-
 }  // namespace
 
 void rtl::user_rules(Bench& b) {
@@ -119,9 +110,7 @@ void rtl::user_rules(Bench& b) {
   b.step(5000);
   clearing_offline(b);
   initialise(b, 0);
-  b.ask(sd1(9, 127, 0x49));
-  expect(b.br.level, 1, "a telegram of SA 127 locks the rate");
+  b.ask(sd1(9, 2, 0x49));
   history(b);
   dpv1_at_the_initialisation(b);
-  nobody(b);
 }
