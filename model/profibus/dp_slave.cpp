@@ -11,7 +11,6 @@ bool c2_channel(int dsap) { return dsap <= kC2FirstSap && dsap > kC2FirstSap - k
 
 void DpSlave::reset() {
   config_ = SlaveConfig();
-  b005_ = 0;
   state_ = DpState::kOffline;
   address_ = 0;
   address_locked_ = false;
@@ -33,12 +32,10 @@ void DpSlave::initialise(Cycle now, const SlaveConfig& config) {
   enter(now, DpState::kOffline);
   const std::uint16_t offline_count = offline_count_;
   const std::uint64_t data_exchanges = data_exchanges_, outputs_replaced = outputs_replaced_;
-  const std::uint8_t b005 = b005_;
   reset();
   offline_count_ = offline_count;
   data_exchanges_ = data_exchanges;
   outputs_replaced_ = outputs_replaced;
-  b005_ = b005;
   config_ = config;
   address_ = config.address;
   const CfgLengths lengths = cfg_lengths(config.cfg.bytes.data(), config.cfg.size);
@@ -153,8 +150,8 @@ Reply DpSlave::c1(Cycle now, const Request& request) {
 }
 
 Reply DpSlave::c2_initiate(Cycle now, const Request& request) {
-  if (b005_ != kDpv1Switch) {
-    log_.at_cycle(now, Reason::kC2Disabled, b005_, request.sa);
+  if (!config_.dpv1) {
+    log_.at_cycle(now, Reason::kC2Disabled, request.sa);
     return Reply::status(fc::kRs);
   }
   return msac2_.initiate(now, request);
