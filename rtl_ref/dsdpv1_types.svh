@@ -96,8 +96,11 @@ localparam logic [7:0] MSAC_IDLE = 8'h48;
 localparam logic [7:0] MSAC_IMMEDIATE = 8'h56;
 localparam logic [7:0] MSAC_INITIATE = 8'h57;
 localparam logic [7:0] MSAC_ABORT = 8'h58;
-localparam logic [7:0] ABORT_SEQUENCE = 8'h11;
-localparam logic [7:0] ABORT_TIMEOUT = 8'h13;
+localparam logic [3:0] ABORT_MSAC_C2 = 4'd1;   // Instance
+localparam logic [2:0] ABORT_SEQUENCE = 3'd1;  // Reason
+localparam logic [2:0] ABORT_INVALID_PDU = 3'd2;
+localparam logic [2:0] ABORT_TIMEOUT = 3'd3;
+localparam logic [2:0] ABORT_ADDRESS = 3'd7;
 
 // Most data bytes of a request or an answer of the user.
 localparam logic [7:0] MSAC_MAX_DATA = 8'd240;
@@ -122,33 +125,39 @@ function automatic logic [31:0] negative_answer(input logic [7:0] function_num, 
   endcase
 endfunction
 
+// Abort PDU (V2, V11): Function_Num, Subnet, Instance and Reason; the first lowest.
+function automatic logic [31:0] abort_pdu(input logic [2:0] reason);
+  abort_pdu = {8'h00, ABORT_MSAC_C2, 1'b0, reason, 8'h00, MSAC_ABORT};
+endfunction
+
 // States of the watchdog (S1).
 localparam logic [1:0] WD_OFF = 2'd0;
 localparam logic [1:0] WD_BAUD_CONTROL = 2'd1;
 localparam logic [1:0] WD_DP_CONTROL = 2'd2;
 
 // What the sequencer does in an access, in the order of 9.2.
-localparam integer ITEMS = 19;
+localparam integer ITEMS = 20;
 localparam logic [4:0] ITEM_INIT = 5'd0;
 localparam logic [4:0] ITEM_VERDICT_PRM = 5'd1;
 localparam logic [4:0] ITEM_VERDICT_CFG = 5'd2;
-localparam logic [4:0] ITEM_INPUTS = 5'd3;
-localparam logic [4:0] ITEM_DIAG = 5'd4;
-localparam logic [4:0] ITEM_C1_ANSWER = 5'd5;
-localparam logic [4:0] ITEM_C2_ANSWER = 5'd6;
-localparam logic [4:0] ITEM_PRM = 5'd7;
-localparam logic [4:0] ITEM_CFG = 5'd8;
-localparam logic [4:0] ITEM_OUTPUTS = 5'd9;
-localparam logic [4:0] ITEM_C1_REQUEST = 5'd10;
-localparam logic [4:0] ITEM_C2_REQUEST = 5'd11;
-localparam logic [4:0] ITEM_VALID = 5'd12;
-localparam logic [4:0] ITEM_COUNT_HIGH = 5'd13;
-localparam logic [4:0] ITEM_COUNT_LOW = 5'd14;
-localparam logic [4:0] ITEM_STATUS_1 = 5'd15;
-localparam logic [4:0] ITEM_STATUS_2 = 5'd16;
-localparam logic [4:0] ITEM_STATUS_3 = 5'd17;
-localparam logic [4:0] ITEM_STATUS_4 = 5'd18;
-localparam logic [4:0] ITEM_NOTHING = 5'd19;
+localparam logic [4:0] ITEM_HISTORY = 5'd3;  // B011.7: clearing of B00B.2 (D16)
+localparam logic [4:0] ITEM_INPUTS = 5'd4;
+localparam logic [4:0] ITEM_DIAG = 5'd5;
+localparam logic [4:0] ITEM_C1_ANSWER = 5'd6;
+localparam logic [4:0] ITEM_C2_ANSWER = 5'd7;
+localparam logic [4:0] ITEM_PRM = 5'd8;
+localparam logic [4:0] ITEM_CFG = 5'd9;
+localparam logic [4:0] ITEM_OUTPUTS = 5'd10;
+localparam logic [4:0] ITEM_C1_REQUEST = 5'd11;
+localparam logic [4:0] ITEM_C2_REQUEST = 5'd12;
+localparam logic [4:0] ITEM_VALID = 5'd13;
+localparam logic [4:0] ITEM_COUNT_HIGH = 5'd14;
+localparam logic [4:0] ITEM_COUNT_LOW = 5'd15;
+localparam logic [4:0] ITEM_STATUS_1 = 5'd16;
+localparam logic [4:0] ITEM_STATUS_2 = 5'd17;
+localparam logic [4:0] ITEM_STATUS_3 = 5'd18;
+localparam logic [4:0] ITEM_STATUS_4 = 5'd19;
+localparam logic [4:0] ITEM_NOTHING = 5'd20;
 
 // Banks of the user-side pool of sap_buffers: inputs 0..3, diagnosis 4..7, configuration of the initialisation 8..9.
 localparam logic [1:0] POOL_INPUTS = 2'd0;

@@ -229,6 +229,10 @@ Chip::~Chip() = default;
 
 void Chip::set(Tick at, Pin pin, Level level) { impl_->set(at, pin, level); }
 void Chip::advance(Tick to) { impl_->advance(to); }
+Level Chip::sample(Tick at) {
+  impl_->advance(at);
+  return impl_->host.user_samples(at);
+}
 Tick Chip::next_event() const { return impl_->next_event(); }
 Tick Chip::now() const { return impl_->now; }
 Level Chip::level(Pin pin) const { return impl_->level(pin); }
@@ -261,6 +265,7 @@ Status Chip::status() const {
   status.telegrams_answered = station.telegrams_answered();
   status.data_exchanges = station.slave().data_exchanges();
   status.accesses = impl_->sequencer.accesses();
+  status.outputs_missed = station.slave().outputs_replaced() + impl_->sequencer.outputs_overwritten();
   status.c2 = station.slave().rm_registry();
   status.longest_wait = static_cast<std::uint64_t>(impl_->sequencer.longest_wait());
   return status;

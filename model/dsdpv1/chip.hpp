@@ -49,6 +49,7 @@ struct Status {
   std::uint64_t telegrams_received = 0;  ///< error-free telegrams of all stations
   std::uint64_t telegrams_answered = 0;  ///< answers sent
   std::uint64_t data_exchanges = 0;      ///< executed data exchanges, repetitions not counted
+  std::uint64_t outputs_missed = 0;      ///< H5: blocks that newer ones replaced before the user had fetched them
   std::uint64_t accesses = 0;            ///< DPRAM accesses of the chip
   profibus::RmRegistry c2 = {};          ///< table 30: who has the C2 channels 0x30 and 0x2F
   std::uint64_t longest_wait = 0;        ///< H1: most cycles that a due access waited for R_REQ and R_STA
@@ -72,6 +73,9 @@ class Chip {
   Tick now() const;
   /// The present level of a pin, input or output.
   Level level(Pin pin) const;
+  /// The user samples D at tick `at` (>= every earlier call's): its level then. Earlier than Tw after RD and CSR fell it is X and the
+  /// violation is reported, whatever D is already by the phase of CLK (P5). `level` cannot know who looks, and when.
+  Level sample(Tick at);
 
   /// Reports changes of the output pins in `pins` (see mask(Pin)). One sink; a second call replaces it.
   void watch(const PinSink& sink, std::uint32_t pins);

@@ -26,7 +26,7 @@ void DpramSequencer::reset() {
   initialised_ = valid_written_ = init_result_due1_ = init_result_due4_ = false;
   offline_written_ = 0;
   status3_written_ = chip_status1_ = chip_status4_ = status2_set_ = status2_clear_ = 0;
-  accesses_ = 0;
+  accesses_ = outputs_overwritten_ = 0;
   longest_wait_ = 0;
 }
 
@@ -236,6 +236,7 @@ void DpramSequencer::start_write(Cycle now, Item item) {
     const profibus::IoBlock& outputs = station_.slave().outputs();
     load(outputs.bytes.data(), outputs.size);
     mail.output_due.clear();
+    if ((chip_command1_ & regs::kChipCommand1Output) != 0) ++outputs_overwritten_;  // H5
   } else {
     profibus::AcyclicMail& acyclic = item == Item::kC1Request ? mail.c1 : mail.c2;
     image_size_ = acyclic.pdu.size;

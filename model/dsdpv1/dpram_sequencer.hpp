@@ -45,6 +45,7 @@ class DpramSequencer {
   bool ready_led() const { return initialised_; }           ///< READY: an initialisation has succeeded
   std::uint64_t accesses() const { return accesses_; }
   Cycle longest_wait() const { return longest_wait_; }
+  std::uint64_t outputs_overwritten() const { return outputs_overwritten_; }  ///< in the DPRAM, B00E.0 still set
 
  private:
   // What one access may have to do, in the order of ruling H4, then the changed status bytes by address.
@@ -165,7 +166,7 @@ class DpramSequencer {
   std::uint8_t chip_status1_ = 0, chip_status4_ = 0;
   std::uint8_t status2_set_ = 0, status2_clear_ = 0, status2_read_ = 0;
   bool initialised_ = false;
-  std::uint64_t accesses_ = 0;
+  std::uint64_t accesses_ = 0, outputs_overwritten_ = 0;
   Cycle longest_wait_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "model/dsdpv1/host_port.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace dsdpv1 {
 namespace {
@@ -88,17 +89,29 @@ void HostPort::begin_read(Tick at) {
   check_owner(at);
   reading_ = true;
   read_spoilt_ = false;
+  tw_reported_ = false;
   read_began_ = at;
   sample_at_ = profibus::first_edge_after(at);
   d_out_ = kLevelX;  // P5: until D is driven nobody knows it
 }
 
 void HostPort::end_read(Tick at) {
-  if (at - read_began_ < kTw) log_.at_tick(at, Reason::kReadTooShort, a_, static_cast<unsigned>(at - read_began_));
+  check_tw(at);
   reading_ = false;
   sample_at_ = profibus::kNever;
   drive_at_ = profibus::kNever;
   d_out_ = kLevelZ;
+}
+
+Level HostPort::user_samples(Tick at) {
+  if (!reading_ || at - read_began_ >= kTw) return d_out_;
+  check_tw(at);
+  return kLevelX;
+}
+
+void HostPort::check_tw(Tick at) {
+  if (at - read_began_ >= kTw || std::exchange(tw_reported_, true)) return;
+  log_.at_tick(at, Reason::kReadTooShort, a_, static_cast<unsigned>(at - read_began_));
 }
 
 Level HostPort::sample(Cycle now, bool unreadable) {

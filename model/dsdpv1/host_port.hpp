@@ -39,6 +39,8 @@ class HostPort {
 
   /// D as the chip drives it now.
   Level d_out() const { return d_out_; }
+  /// D as a user who samples it at `at` may take it: X before Tw (P5).
+  Level user_samples(Tick at);
 
  private:
   static constexpr unsigned kWritesInFlight = 4;
@@ -54,6 +56,7 @@ class HostPort {
   void lines_changed(Tick at);
   void begin_read(Tick at);
   void end_read(Tick at);
+  void check_tw(Tick at);
   void capture(Tick at);
   bool check_capture(Tick at);
   void settle(const Write& write);
@@ -77,6 +80,7 @@ class HostPort {
   unsigned first_write_ = 0, write_count_ = 0;
 
   bool reading_ = false, read_spoilt_ = false;
+  bool tw_reported_ = false;  ///< of the running read: once is enough
   Tick read_began_ = 0;
   Cycle sample_at_ = profibus::kNever;
   Tick drive_at_ = profibus::kNever;

@@ -24,17 +24,18 @@ void DpSlave::reset() {
   msac1_.reset();
   msac2_.reset();
   offline_count_ = 0;
-  data_exchanges_ = 0;
+  data_exchanges_ = outputs_replaced_ = 0;
 }
 
 void DpSlave::initialise(Cycle now, const SlaveConfig& config) {
   const bool left_exchange = state_ == DpState::kDataExch;
   enter(now, DpState::kOffline);
   const std::uint16_t offline_count = offline_count_;
-  const std::uint64_t data_exchanges = data_exchanges_;
+  const std::uint64_t data_exchanges = data_exchanges_, outputs_replaced = outputs_replaced_;
   reset();
   offline_count_ = offline_count;
   data_exchanges_ = data_exchanges;
+  outputs_replaced_ = outputs_replaced;
   config_ = config;
   address_ = config.address;
   const CfgLengths lengths = cfg_lengths(config.cfg.bytes.data(), config.cfg.size);
@@ -72,6 +73,7 @@ void DpSlave::watchdog_expired(Cycle now) {
 }
 
 void DpSlave::hand_outputs(Cycle now) {
+  if (mail_.output_due.waiting()) ++outputs_replaced_;
   if (outputs_.size() > 0) mail_.output_due.set(now);
 }
 

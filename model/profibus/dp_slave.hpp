@@ -57,6 +57,7 @@ class DpSlave {
   int min_tsdr() const { return min_tsdr_; }
   std::uint16_t offline_count() const { return offline_count_; }  ///< B008/B009: times that data exchange was left
   std::uint64_t data_exchanges() const { return data_exchanges_; }
+  std::uint64_t outputs_replaced() const { return outputs_replaced_; }  ///< before the user's side took them
   const SlaveConfig& config() const { return config_; }
   RmRegistry rm_registry() const { return msac2_.registry(); }
 
@@ -125,7 +126,7 @@ class DpSlave {
   Msac1 msac1_;
   Msac2 msac2_;
   std::uint16_t offline_count_ = 0;
-  std::uint64_t data_exchanges_ = 0;
+  std::uint64_t data_exchanges_ = 0, outputs_replaced_ = 0;
 };
 
 }  // namespace profibus

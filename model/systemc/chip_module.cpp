@@ -58,6 +58,11 @@ void ChipModule::advance(Tick to) {
   chip_.advance(to);
 }
 
+Level ChipModule::sample(Tick at) {
+  const WhileIn core(in_core_);
+  return chip_.sample(at);
+}
+
 std::uint32_t ChipModule::take_changed() {
   const std::uint32_t pins = changed_;
   changed_ = 0;

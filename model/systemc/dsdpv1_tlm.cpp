@@ -143,7 +143,7 @@ Level TlmModule::perform(const HostAccess& access) {
   for (const HostAccess::Edge& edge : access) {
     wait_until(access_start_ + edge.at);
     if (edge.pin == Pin::kDOut) {
-      sampled = chip().level(Pin::kDOut);
+      sampled = sample(chip_now());
     } else {
       set(chip_now(), edge.pin, edge.level);
     }

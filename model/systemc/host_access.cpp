@@ -5,14 +5,14 @@
 namespace dsdpv1::systemc {
 namespace {
 
-/// Of edges at one tick, what prepares a strobe comes before it and what ends an access after it.
+/// Of edges at one tick, what prepares a strobe comes before it and what ends an access after it; D is sampled in between.
 int rank(const HostAccess::Edge& edge) {
   switch (edge.pin) {
-    case Pin::kA: return edge.level == HostAccess::kIdleAddress ? 7 : 0;
-    case Pin::kCsr: return edge.level == 0 ? 1 : 6;
-    case Pin::kDIn: return edge.level == kLevelZ ? 5 : 2;
-    case Pin::kDOut: return 2;
-    default: return edge.level == 0 ? 3 : 4;
+    case Pin::kA: return edge.level == HostAccess::kIdleAddress ? 8 : 0;
+    case Pin::kCsr: return edge.level == 0 ? 1 : 7;
+    case Pin::kDIn: return edge.level == kLevelZ ? 6 : 2;
+    case Pin::kDOut: return 4;
+    default: return edge.level == 0 ? 3 : 5;
   }
 }
 
@@ -21,7 +21,8 @@ int rank(const HostAccess::Edge& edge) {
 HostAccess HostAccess::read(std::uint16_t address, const AccessTiming& timing) {
   HostAccess access;
   access.frame(Pin::kRd, address, timing.rd_low, timing);
-  access.add(timing.rd_sample, Pin::kDOut, 0);
+  // Before RD and CSR are low there is nothing to sample.
+  access.add(std::max({timing.rd_sample, Tick{0}, -timing.cs_lead}), Pin::kDOut, 0);
   access.order(timing.recovery);
   return access;
 }
@@ -43,6 +44,10 @@ void HostAccess::frame(Pin strobe, std::uint16_t address, Tick low, const Access
   add(low, strobe, 1);
   add(low + timing.cs_trail, Pin::kCsr, 1);
   add(low + timing.address_hold, Pin::kA, kIdleAddress);
+}
+
+Tick HostAccess::sample() const {
+  return std::find_if(begin(), end(), [](const Edge& edge) { return edge.pin == Pin::kDOut; })->at;
 }
 
 void HostAccess::order(Tick recovery) {

@@ -49,6 +49,8 @@ class HostAccess {
   const Edge* end() const { return edges_.data() + size_; }
   /// From the first edge to the end of the recovery time.
   Tick duration() const { return duration_; }
+  /// From the first edge to the sampling of D; of a read.
+  Tick sample() const;
 
  private:
   void frame(Pin strobe, std::uint16_t address, Tick low, const AccessTiming& timing);

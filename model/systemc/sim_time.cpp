@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "model/systemc/main_stack.hpp"
+
 namespace dsdpv1::systemc {
 namespace {
 
@@ -37,6 +39,8 @@ Tick to_tick(const sc_core::sc_time& time) {
 }
 
 void require_femtoseconds() {
+  announce_main_stack_at_exit();  // here, as every program with a simulation comes by
+
   static bool done = false;  // the resolution is a property of the process
   if (!done) try_to_set_resolution();
   done = resolution_is_femtosecond();

@@ -1,4 +1,4 @@
-// Notes of what the chip's status bytes are to say (9.2, section 10; D1, D5, D7): which of them have to be written, and what.
+// Notes of what the chip's status bytes are to say (9.2, section 10; D1, D5, D7, D16): which of them have to be written, and what.
 `include "dsdpv1_types.svh"
 
 module chip_status (
@@ -11,6 +11,8 @@ module chip_status (
   input  logic        judged_i,        // the CRC of a block is judged at this edge
   input  logic        crc_wrong_i,
   input  logic [7:0]  error_bit_i,     // its bit in B00B
+  input  logic        keeps_i,         // a right block does not clear it (D16)
+  input  logic        clear_inputs_i,  // the user has the inputs' bit cleared at this edge (D16)
   input  logic        init_i,          // an initialisation is read, and at this edge
   input  logic        init_right_i,    // ... accepted
   input  logic        init_limits_i,   // ... its limits were checked
@@ -51,7 +53,8 @@ module chip_status (
       if (written_i[5]) state_written_q <= state_i;
       if (written_i[6]) limits_due_q <= 1'b0;
       if (judged_i && crc_wrong_i) set_q <= set_q | error_bit_i;
-      if (judged_i && !crc_wrong_i) clear_q <= clear_q | error_bit_i;
+      if (judged_i && !crc_wrong_i && !keeps_i) clear_q <= clear_q | error_bit_i;
+      if (clear_inputs_i) clear_q <= clear_q | DSDPV1_REG_CHIP_STATUS_2_INPUT_CRC;
       if (init_i) begin
         initialised_due_q <= 1'b1;
         initialised_q <= init_right_i;

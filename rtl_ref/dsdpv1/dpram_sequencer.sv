@@ -1,4 +1,4 @@
-// The chip's accesses to the DPRAM (sections 9 and 10; H1 to H8, D1 to D15): one byte a cycle.
+// The chip's accesses to the DPRAM (sections 9 and 10; H1 to H8, D1 to D17): one byte a cycle.
 //
 // The state says what the next edge does. A byte read at one edge is in rdata_i at the next.
 `include "dsdpv1_types.svh"
@@ -9,7 +9,8 @@ module dpram_sequencer (
   input  logic [20:0] ready_cycles_i,     // D1
   input  logic        clk_i,
   input  logic        rst_ni,
-  input  logic        r_req_i,          // behind its synchroniser
+  input  logic        r_req_i,          // each after its synchroniser
+  input  logic        r_sta_i,
   output logic        l_req_o,
   output logic        l_sta_o,
   output logic        interrupt_o,      // a flag of parameters or configuration is written at this edge
@@ -42,7 +43,7 @@ module dpram_sequencer (
   output logic        verdict_wrong_o,
   output logic        c1_answer_o,      // with right CRC
   output logic        c2_answer_o,
-  output logic        dpv1_enabled_o,   // B005, as it is at this edge
+  output logic        dpv1_on_o,        // as B005 said at the initialisation (D17)
   output logic        stage_inputs_o,
   output logic        stage_diag_o,
   output logic        stage_c1_o,
@@ -79,7 +80,7 @@ module dpram_sequencer (
   input  logic [7:0]  transfer_data_i
 );
   // States
-  localparam logic [4:0] RELEASED = 5'd0;    // cycle R
+  localparam logic [4:0] RELEASED = 5'd0;    // from cycle R until the start-up access begins (H6)
   localparam logic [4:0] CLEAR = 5'd1;
   localparam logic [4:0] VERSION = 5'd2;
   localparam logic [4:0] BOOT_COUNT = 5'd3;
@@ -114,36 +115,36 @@ module dpram_sequencer (
   logic own_q;
   logic first_choice_q;
   logic [7:0] u_q, w_q, e_q, v_q;
-  logic read_on, dpv1_on_q;
-  assign read_on = rdata_i == DSDPV1_REG_DPV1_ENABLE_ON;
+  logic read_on_q, dpv1_on_q;  // D17: B005 of this access, and of the initialisation
   logic [10:0] boot_q;
   logic [12:0] since_q;
   logic [20:0] up_q;
   logic valid_due_q;
 
   // ---- due accesses
-  logic access_due, starts;
+  logic access_due, starts, boot_starts;
   assign access_due = since_q >= access_interval_i + (`FAULT(48) ? 13'd1 : 13'd0);
-  assign starts = state_q == IDLE && access_due && (!r_req_i || `FAULT(49));
+  assign starts = state_q == IDLE && access_due && (!r_req_i || `FAULT(49)) && (!r_sta_i || `FAULT(95));
+  assign boot_starts = state_q == RELEASED && (!r_req_i || `FAULT(97)) && (!r_sta_i || `FAULT(98));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       since_q <= 13'd0;
       up_q <= 21'd0;
     end else begin
-      if (starts || state_q == RELEASED) since_q <= 13'd1;
+      if (starts || boot_starts) since_q <= 13'd1;
       else if (!(&since_q)) since_q <= since_q + 13'd1;
       if (up_q != ready_cycles_i) up_q <= up_q + 21'd1;
     end
   end
 
   // ---- status bytes
-  logic chooses, crc_wrong_q, judged, judged_init, init_limits, status_1, status_4;
+  logic chooses, crc_wrong_q, judged, judged_init, init_limits, status_1, status_4, keeps, clear_inputs;
   logic [6:0] status_due, status_written;
   logic [7:0] error_bit, set, clear;
   chip_status u_chip_status (
     .clk_i(clk_i), .rst_ni(rst_ni), .valid_due_i(valid_due_q), .count_i(count_i), .state_i(status_i), .judged_i(judged),
-    .crc_wrong_i(crc_wrong_q), .error_bit_i(error_bit), .init_i(judged_init), .init_right_i(init_o),
+    .crc_wrong_i(crc_wrong_q), .error_bit_i(error_bit), .keeps_i(keeps), .clear_inputs_i(clear_inputs), .init_i(judged_init), .init_right_i(init_o),
     .init_limits_i(init_limits), .written_i(status_written), .due_o(status_due), .initialised_o(status_1),
     .limits_o(status_4), .clear_o(clear), .set_o(set));
 
@@ -165,6 +166,7 @@ module dpram_sequencer (
     w_q[0],
     u_q[1],
     u_q[0],
+    w_q[7],
     u_q[6],
     u_q[7],
     u_q[2]};
@@ -176,7 +178,7 @@ module dpram_sequencer (
   logic [7:0] first_wdata;
   dpram_choice u_choice (
     `FAULT_CONNECT
-    .candidates_i(candidates), .prm_length_i(prm_length_i), .cfg_input_length_i(cfg_input_length_i),
+    .candidates_i(candidates), .command_2_i(w_q[6:0]), .prm_length_i(prm_length_i), .cfg_input_length_i(cfg_input_length_i),
     .cfg_output_length_i(cfg_output_length_i), .output_length_i(output_length_i), .c1_function_i(c1_function_i),
     .c2_function_i(c2_function_i), .count_i(count_i), .status_1_i(status_1), .status_3_i(status_i), .status_4_i(status_4),
     .pick_o(pick), .we_o(first_we), .addr_o(first_addr), .wdata_o(first_wdata));
@@ -187,6 +189,8 @@ module dpram_sequencer (
   assign take_output_o = chooses && pick == ITEM_OUTPUTS;
   assign take_c1_o = chooses && pick == ITEM_C1_REQUEST;
   assign take_c2_o = chooses && pick == ITEM_C2_REQUEST;
+  assign clear_inputs = chooses && pick == ITEM_HISTORY && (w_q[6] || `FAULT(101)) && !`FAULT(100);
+  assign keeps = item_q == ITEM_INPUTS && w_q[6] && !`FAULT(99);
   assign stage_inputs_o = chooses && pick == ITEM_INPUTS;
   assign stage_diag_o = chooses && pick == ITEM_DIAG;
   assign stage_c1_o = chooses && pick == ITEM_C1_ANSWER;
@@ -287,7 +291,9 @@ module dpram_sequencer (
   end
 
   logic errors_both;
+  logic [7:0] last_cleared;
   assign errors_both = `FAULT(51);
+  assign last_cleared = `FAULT(103) ? clear : 8'h00;
   always_comb begin
     we_o = 1'b0;
     addr_o = address_q;
@@ -350,7 +356,7 @@ module dpram_sequencer (
       ERRORS: begin
         we_o = 1'b1;
         addr_o = DSDPV1_REG_CHIP_STATUS_2;
-        wdata_o = (errors_both ? 8'd0 : rdata_i & ~clear) | set;
+        wdata_o = ((errors_both ? 8'd0 : rdata_i & ~clear) | set) & ~last_cleared;
       end
       default: ;
     endcase
@@ -364,7 +370,7 @@ module dpram_sequencer (
   always_comb begin
     state_d = state_q;
     case (state_q)
-      RELEASED: state_d = CLEAR;
+      RELEASED: if (boot_starts) state_d = CLEAR;
       CLEAR: if (&boot_q) state_d = VERSION;
       VERSION: if (boot_low == 2'd3) state_d = BOOT_COUNT;
       BOOT_COUNT: state_d = BOOT_END;
@@ -424,10 +430,10 @@ module dpram_sequencer (
     if (!rst_ni) begin
       state_q <= RELEASED;
       item_q <= ITEM_NOTHING;
-      behind_q <= 19'd0;
+      behind_q <= 20'd0;
       own_q <= 1'b0;
       first_choice_q <= 1'b0;
-      {u_q, w_q, e_q, v_q, dpv1_on_q} <= 33'd0;
+      {u_q, w_q, e_q, v_q, read_on_q, dpv1_on_q} <= 34'd0;
       header_q <= 2'd0;
       no_data_q <= 1'b0;
       boot_q <= 11'd0;
@@ -440,7 +446,7 @@ module dpram_sequencer (
       arrives_index_q <= 8'd0;
     end else begin
       state_q <= state_d;
-      own_q <= state_d != IDLE;
+      own_q <= state_d != IDLE && state_d != RELEASED;
 
       // start-up (9.7)
       if (state_q == CLEAR) boot_q <= boot_q + 11'd1;
@@ -448,7 +454,7 @@ module dpram_sequencer (
 
       // frame (9.1)
       if (starts) begin
-        behind_q <= 19'h7FFFF;
+        behind_q <= 20'hFFFFF;
         valid_due_q <= up_q == ready_cycles_i;
       end
       if (state_q == FLAGS_U2) u_q <= rdata_i;
@@ -456,12 +462,14 @@ module dpram_sequencer (
       if (state_q == FLAGS_E2) e_q <= rdata_i;
       if (state_q == ENABLE) v_q <= rdata_i;
       first_choice_q <= state_q == ENABLE;
-      if (first_choice_q) dpv1_on_q <= read_on;
+      if (first_choice_q) read_on_q <= rdata_i == DSDPV1_REG_DPV1_ENABLE_ON;
+      if (init_o || (judged_init && `FAULT(106))) dpv1_on_q <= read_on_q;
 
       // choice (9.2)
       if (chooses) begin
         item_q <= pick;
-        behind_q <= 19'h7FFFE << pick;
+        behind_q <= 20'hFFFFE << pick;
+        if (pick == ITEM_HISTORY && !`FAULT(104)) w_q[7] <= 1'b0;
         too_long_q <= 1'b0;
         crc_wrong_q <= 1'b0;
         address_q <= addr_o + 11'd1;
@@ -515,7 +523,7 @@ module dpram_sequencer (
     end
   end
 
-  assign dpv1_enabled_o = first_choice_q ? read_on : dpv1_on_q;
+  assign dpv1_on_o = `FAULT(105) ? read_on_q : dpv1_on_q;
   assign interrupt_o = state_q == FLAG && (item_q == ITEM_PRM || item_q == ITEM_CFG || (item_q == ITEM_OUTPUTS && `FAULT(58)));
   assign l_req_o = own_q;
   assign l_sta_o = own_q;

@@ -56,10 +56,6 @@ module dsdpv1 #(
   end
   assign rst_n = release_q[1];
 
-  // R_STA only tells a checker that the user owns the DPRAM (H2); the chip does not look at it.
-  logic unused;
-  assign unused = r_sta_i;
-
   /* verilator lint_off UNUSED */  // the upper bits of most
   logic [31:0] access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap;
   /* verilator lint_on UNUSED */
@@ -74,8 +70,10 @@ module dsdpv1 #(
   assign search_window_bits = `LIMIT(SEARCH_WINDOW_BITS, search_window_bits_i);
   assign baud_control_ms = `LIMIT(BAUD_CONTROL_MS, baud_control_ms_i);
 
-  logic r_req;
+  logic r_req, r_sta, r_sta_seen;
   synchroniser #(.POWER_ON(1'b0)) u_r_req (.clk_i(clk_i), .d_i(r_req_i), .q_o(r_req));
+  synchroniser #(.POWER_ON(1'b0)) u_r_sta (.clk_i(clk_i), .d_i(r_sta_i), .q_o(r_sta_seen));
+  assign r_sta = `FAULT(96) ? r_sta_i : r_sta_seen;
 
   logic user_we, chip_we, l_sta;
   logic [10:0] user_waddr, user_raddr, chip_addr;
@@ -83,7 +81,7 @@ module dsdpv1 #(
 
   host_port u_host_port (
     `FAULT_CONNECT
-    .clk_i(clk_i), .rst_ni(rst_n), .csr_i(csr_i), .rd_i(rd_i), .wr_i(wr_i), .a_i(a_i), .d_i(d_i), .d_o(d_o),
+    .clk_i(clk_i), .rst_ni(rst_n), .chip_owns_i(l_sta), .csr_i(csr_i), .rd_i(rd_i), .wr_i(wr_i), .a_i(a_i), .d_i(d_i), .d_o(d_o),
     .d_oe_o(d_oe_o), .we_o(user_we), .waddr_o(user_waddr), .wdata_o(user_wdata), .raddr_o(user_raddr), .rdata_i(rdata));
 
   dpram u_dpram (
@@ -92,7 +90,7 @@ module dsdpv1 #(
     .chip_wdata_i(chip_wdata), .rdata_o(rdata));
   assign l_sta_o = l_sta;
 
-  logic init, inputs, diag, verdict_prm, verdict_cfg, verdict_wrong, dpv1_enabled, interrupt_flag;
+  logic init, inputs, diag, verdict_prm, verdict_cfg, verdict_wrong, dpv1_on, interrupt_flag;
   logic c1_answer, c2_answer, c1_mail, c2_mail, take_c1, take_c2, stage_c1, stage_c2, stage_msac_we;
   logic [7:0] c1_function, c2_function, c1_length, c2_length;
   logic stage_inputs, stage_diag, stage_we, initialised, prm_mail, cfg_mail, output_mail, take_prm, take_cfg, take_output;
@@ -108,7 +106,7 @@ module dsdpv1 #(
   dpram_sequencer u_sequencer (
     `FAULT_CONNECT
     .access_interval_i(access_interval[12:0]), .ready_cycles_i(ready_cycles[20:0]),
-    .clk_i(clk_i), .rst_ni(rst_n), .r_req_i(r_req), .l_req_o(l_req_o), .l_sta_o(l_sta), .interrupt_o(interrupt_flag),
+    .clk_i(clk_i), .rst_ni(rst_n), .r_req_i(r_req), .r_sta_i(r_sta), .l_req_o(l_req_o), .l_sta_o(l_sta), .interrupt_o(interrupt_flag),
     .we_o(chip_we), .addr_o(chip_addr), .wdata_o(chip_wdata), .rdata_i(rdata),
     .init_o(init), .init_address_o(init_address), .init_ident_o(init_ident), .init_command_o(init_command),
     .init_max_input_o(init_max_input), .init_max_output_o(init_max_output), .init_max_diag_o(init_max_diag),
@@ -116,7 +114,7 @@ module dsdpv1 #(
     .init_cfg_mode_o(init_cfg_mode), .init_cfg_length_o(init_cfg_length), .init_input_length_o(init_input_length),
     .init_output_length_o(init_output_length), .inputs_o(inputs), .diag_o(diag), .c1_answer_o(c1_answer), .c2_answer_o(c2_answer),
     .block_length_o(block_length), .diag_type_o(diag_type), .verdict_prm_o(verdict_prm), .verdict_cfg_o(verdict_cfg),
-    .verdict_wrong_o(verdict_wrong), .dpv1_enabled_o(dpv1_enabled), .stage_inputs_o(stage_inputs),
+    .verdict_wrong_o(verdict_wrong), .dpv1_on_o(dpv1_on), .stage_inputs_o(stage_inputs),
     .stage_diag_o(stage_diag), .stage_c1_o(stage_c1), .stage_c2_o(stage_c2), .stage_we_o(stage_we), .stage_msac_we_o(stage_msac_we),
     .stage_pool_o(stage_pool), .stage_index_o(stage_index),
     .stage_data_o(stage_data), .initialised_i(initialised), .status_i(status), .count_i(count), .prm_mail_i(prm_mail),
@@ -138,7 +136,7 @@ module dsdpv1 #(
     .init_input_length_i(init_input_length), .init_output_length_i(init_output_length),
     .inputs_i(inputs), .inputs_length_i(block_length), .diag_i(diag), .diag_type_i(diag_type),
     .diag_length_i(block_length), .verdict_prm_i(verdict_prm), .verdict_cfg_i(verdict_cfg),
-    .verdict_wrong_i(verdict_wrong), .dpv1_enabled_i(dpv1_enabled), .c1_answer_i(c1_answer), .c2_answer_i(c2_answer),
+    .verdict_wrong_i(verdict_wrong), .dpv1_on_i(dpv1_on), .c1_answer_i(c1_answer), .c2_answer_i(c2_answer),
     .answer_length_i(block_length), .stage_inputs_i(stage_inputs),
     .stage_diag_i(stage_diag), .stage_c1_i(stage_c1), .stage_c2_i(stage_c2), .stage_we_i(stage_we), .stage_msac_we_i(stage_msac_we),
     .stage_pool_i(stage_pool), .stage_index_i(stage_index),

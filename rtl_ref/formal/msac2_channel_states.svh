@@ -4,6 +4,7 @@ always @* begin
   if (answer_i) assume (state_q == BUSY);
   if (initiate_i) assume (free_o);
   assert (state_q <= ABORTED);
-  if (state_q == BUSY) assert (code_q == MSAC_RIGHT && !idle_q);
-  if (state_q == ABORTED) assert (ended_q != 2'd0);
+  if (state_q == OPEN || state_q == BUSY || state_q == ANSWERED) assert (code_q == MSAC_RIGHT);
+  if (state_q == BUSY) assert (!idle_q);
+  if (state_q == ABORTED) assert (reason_q == ABORT_SEQUENCE || reason_q == ABORT_INVALID_PDU || reason_q == ABORT_TIMEOUT);
 end

@@ -1,4 +1,4 @@
-"""The proofs: what is bound where, what is cut away, and the defect of the twin."""
+"""The proofs: what is bound where, what is cut away, and the defects of the twins."""
 import dataclasses
 
 CHIP = "dsdpv1/dsdpv1.sv"
@@ -18,7 +18,7 @@ class Proof:
     engine: str = "pdr"      # or "induction"
     depth: int = 0           # of the induction
     twin_depth: int = 0      # cycles in which the twin's violation is looked for
-    fault: int = 0           # the twin's defect: one of faults.txt,
+    faults: tuple = ()       # the defects, a twin each: of faults.txt,
     edit: tuple = ()         # or file, old text, new text
 
 
@@ -31,13 +31,13 @@ def states(block, file, edit, **more):
 PROOFS = (
     Proof(
         name="ownership",
-        title="never both sides own the DPRAM, for a user that keeps H2",
+        title="never both sides own the DPRAM, for a user that keeps H2; any RESET",
         top="dsdpv1",
         bind={CHIP: "ownership"},
         cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt"),
         cut_wires=("w:u_sequencer.boot_q",),
         defines=ANY_PARAMETERS,
-        fault=49,
+        faults=(49, 95, 97, 98),
     ),
     Proof(
         name="l_req_l_sta",
@@ -55,7 +55,7 @@ PROOFS = (
         top="dsdpv1",
         bind={CHIP: "intr0_low"},
         cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_sequencer"),
-        fault=46,
+        faults=(46,),
     ),
     Proof(
         name="intr0_high",
@@ -63,7 +63,7 @@ PROOFS = (
         top="dsdpv1",
         bind={CHIP: "intr0_high"},
         cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_sequencer"),
-        fault=45,
+        faults=(45,),
     ),
     Proof(
         name="uart_rx_idle",

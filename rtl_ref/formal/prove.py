@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Unbounded proofs of the reference RTL, each with a broken twin that has to fail.
+"""Unbounded proofs of the reference RTL, each with broken twins that have to fail.
 
 A proof takes copies of the RTL, binds its properties into one block (in front of endmodule), makes its surroundings free and
-proves the properties for ever. Its twin is the same with one defect, from faults.txt or an edit, and has to have a trace from
+proves the properties for ever. A twin is the same with one defect, from faults.txt or an edit, and has to have a trace from
 RESET that violates them.
 """
 import argparse
@@ -32,26 +32,31 @@ def replace_once(text, old, new, where):
     return text.replace(old, new)
 
 
-def sources(proof, with_defect):
-    """Texts by name: the RTL, bound properties, and the defect."""
+def defects(proof):
+    """The defects of its twins: faults of faults.txt, or the edit."""
+    return proof.faults or (proof.edit,)
+
+
+def sources(proof, defect):
+    """Texts by name: the RTL, bound properties, and the defect if there is one."""
     texts = {name: (RTL / name).read_text(encoding="utf-8") for name in SOURCES + ["dsdpv1_types.svh"]}
     for block, properties in proof.bind.items():
         text = (FORMAL / f"{properties}.svh").read_text(encoding="utf-8")
         texts[block] = replace_once(texts[block], "\nendmodule", f"\n{text}endmodule", block)
-    if with_defect and proof.fault:
+    if isinstance(defect, int):
         name = "dsdpv1_types.svh"
-        texts[name] = replace_once(texts[name], "`define FAULT(n) 1'b0", f"`define FAULT(n) (n == {proof.fault})", name)
-    elif with_defect:
-        name, old, new = proof.edit
+        texts[name] = replace_once(texts[name], "`define FAULT(n) 1'b0", f"`define FAULT(n) (n == {defect})", name)
+    elif defect:
+        name, old, new = defect
         texts[name] = replace_once(texts[name], old, new, name)
     return texts
 
 
-def yosys(proof, folder, with_defect):
+def yosys(proof, folder, is_twin):
     """Writes model.aig or model.smt2. TWIN is defined for a twin, which has to violate the goal, not only a lemma."""
     cuts = "".join(f"cutpoint {cell}; " for cell in proof.cut_cells)
     wires = "".join(f"cutpoint {wire}; " for wire in proof.cut_wires)
-    defines = " ".join(f"-D{define}" for define in proof.defines + (("TWIN",) if with_defect else ()))
+    defines = " ".join(f"-D{define}" for define in proof.defines + (("TWIN",) if is_twin else ()))
     common = (f"read_verilog -formal -sv {defines} -I. -I{RTL.parent / 'registers'} {' '.join(SOURCES)}; "
               f"hierarchy -check -top {proof.top}; proc; {cuts}flatten; {wires}async2sync; delete -output; opt_clean; "
               "memory_map; setundef -undriven -anyseq; opt -full; dffunmap; ")
@@ -82,10 +87,10 @@ def pdr(folder):
     return VIOLATED if "was asserted in frame" in output else UNKNOWN
 
 
-def induction(proof, folder, with_defect):
+def induction(proof, folder, is_twin):
     """k-induction; a twin only counts as violated by a trace from RESET."""
     smtbmc = ["yosys-smtbmc", "-s", "z3", "--unroll", "--noprogress"]
-    base = run([*smtbmc, "-t", str(proof.twin_depth if with_defect else proof.depth), "model.smt2"], folder, (0, 1))
+    base = run([*smtbmc, "-t", str(proof.twin_depth if is_twin else proof.depth), "model.smt2"], folder, (0, 1))
     if "Status: FAILED" in base:
         return VIOLATED
     if "Status: PASSED" not in base:
@@ -94,16 +99,22 @@ def induction(proof, folder, with_defect):
     return HOLDS if "Status: PASSED" in step else UNKNOWN
 
 
-def solve(proof, with_defect, out):
-    """Result and seconds."""
-    folder = out / proof.name / ("twin" if with_defect else "chip")
-    for name, text in sources(proof, with_defect).items():
+def folder_of(defect):
+    if not defect:
+        return "chip"
+    return f"twin_{defect}" if isinstance(defect, int) else "twin"
+
+
+def solve(proof, defect, out):
+    """Result and seconds, of the chip or of the twin with this defect."""
+    folder = out / proof.name / folder_of(defect)
+    for name, text in sources(proof, defect).items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
     begin = time.monotonic()
-    yosys(proof, folder, with_defect)
-    result = pdr(folder) if proof.engine == "pdr" else induction(proof, folder, with_defect)
+    yosys(proof, folder, bool(defect))
+    result = pdr(folder) if proof.engine == "pdr" else induction(proof, folder, bool(defect))
     return result, time.monotonic() - begin
 
 
@@ -116,18 +127,20 @@ def main():
     chosen = [proof for proof in PROOFS if not arguments.names or proof.name in arguments.names]
     if len(chosen) < len(arguments.names):
         fail(f"unknown proof, known are {', '.join(proof.name for proof in PROOFS)}")
-    proved = found = 0
-    print(ROW.format("proof", "engine", "result", "seconds", "broken twin found"))
+    proved = twins = found = 0
+    print(ROW.format("proof", "engine", "result", "seconds", "broken twins found"))
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        runs = [[pool.submit(solve, proof, defect, arguments.out) for defect in (False, True)] for proof in chosen]
-        for proof, (chip, twin) in zip(chosen, runs):
-            (result, seconds), (twin_result, _) = chip.result(), twin.result()
+        runs = [[pool.submit(solve, proof, defect, arguments.out) for defect in (None, *defects(proof))] for proof in chosen]
+        for proof, (chip, *broken) in zip(chosen, runs):
+            (result, seconds), results = chip.result(), [twin.result()[0] for twin in broken]
             proved += result == HOLDS
-            found += twin_result == VIOLATED
-            answer = "yes" if twin_result == VIOLATED else f"NO: {twin_result}"
+            twins += len(results)
+            found += results.count(VIOLATED)
+            missed = [each for each in results if each != VIOLATED]
+            answer = f"NO: {', '.join(missed)}" if missed else "yes" if len(results) == 1 else f"all {len(results)}"
             print(ROW.format(proof.title, proof.engine, result, f"{seconds:.1f}", answer), flush=True)
-    print(f"{proved} of {len(chosen)} proofs hold, {found} of {len(chosen)} broken twins found")
-    return 0 if proved == found == len(chosen) else 1
+    print(f"{proved} of {len(chosen)} proofs hold, {found} of {twins} broken twins found")
+    return 0 if proved == len(chosen) and found == twins else 1
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// The DP slave (section 11; S1 to S28): state, holding master, services.
+// The DP slave (section 11; S1 to S33): state, holding master, services.
 //
 // Three things can happen at an edge, in this order: a commit of the sequencer, the end of DP_CONTROL, a telegram. Each has its
 // group of next values: _q before the edge, _b behind commit and end, _d behind the telegram.
@@ -31,7 +31,7 @@ module dp_slave (
   input  logic        verdict_prm_i,
   input  logic        verdict_cfg_i,
   input  logic        verdict_wrong_i,
-  input  logic        dpv1_enabled_i,
+  input  logic        dpv1_on_i,        // D17
   input  logic        stage_inputs_i,
   input  logic        stage_diag_i,
   input  logic        stage_we_i,
@@ -99,6 +99,7 @@ module dp_slave (
   output logic [7:0]  transfer_data_o
 );
   localparam logic [6:0] NO_MASTER = 7'h7F;
+  localparam logic [6:0] DELIVERY_ADDRESS = 7'd126;
 
   // ---- initialisation
   logic [15:0] ident_q;
@@ -155,7 +156,7 @@ module dp_slave (
   set_prm u_set_prm (
     `FAULT_CONNECT
     .clk_i(clk_i), .head_i(head_i), .length_i(length_i), .ident_i(ident_q), .command_i(command_q[3:1]),
-    .max_length_i(max_prm_q), .mode_i(prm_mode_q), .dpv1_enabled_i(dpv1_enabled_i),
+    .max_length_i(max_prm_q), .mode_i(prm_mode_q), .dpv1_on_i(dpv1_on_i),
     .unlock_o(prm_unlock), .min_tsdr_only_o(prm_min_only), .fault_o(prm_fault), .not_supported_o(prm_unsupported),
     .user_length_o(prm_user_length), .wd_on_o(prm_wd_on), .wd_factor_1_o(prm_factor_1), .wd_factor_2_o(prm_factor_2),
     .wd_base_1ms_o(prm_base_1ms), .min_tsdr_o(prm_min_tsdr), .group_o(prm_group), .sync_req_o(prm_sync_req),
@@ -175,12 +176,12 @@ module dp_slave (
     .too_long_o(cfg_too_long), .same_o(cfg_same), .right_o(cfg_right),
     .input_length_o(cfg_input_length), .output_length_o(cfg_output_length));
 
-  logic gc_clear, gc_unsync, gc_sync, gc_unfreeze, gc_freeze;
+  logic gc_clear, gc_unsync, gc_sync, gc_unfreeze, gc_freeze, gc_unsupported;
   global_control u_global_control (
     `FAULT_CONNECT
     .command_i(command_byte), .group_select_i(group_select), .length_i(length_i), .group_ident_i(group_q),
-    .sync_req_i(sync_req_q), .freeze_req_i(freeze_req_q), .clear_o(gc_clear), .unsync_o(gc_unsync), .sync_o(gc_sync),
-    .unfreeze_o(gc_unfreeze), .freeze_o(gc_freeze));
+    .sync_req_i(sync_req_q), .freeze_req_i(freeze_req_q), .can_sync_i(command_q[2]), .can_freeze_i(command_q[1]), .clear_o(gc_clear), .unsync_o(gc_unsync), .sync_o(gc_sync),
+    .unfreeze_o(gc_unfreeze), .freeze_o(gc_freeze), .unsupported_o(gc_unsupported));
 
   logic diag_store, diag_read, diag_ext, diag_stat, diag_waiting;
   logic [7:0] diag_length;
@@ -236,9 +237,11 @@ module dp_slave (
 
   // Is the telegram's SA the holder behind the commits? Both comparisons stand still long before.
   logic sa_is_holder_q, sa_is_waiting_q, from_holder, other_holder;
+  logic delivery_address_q;  // S33
   always_ff @(posedge clk_i) begin
     sa_is_holder_q <= sa_i == holder_q;
     sa_is_waiting_q <= sa_i == wait_sa_q;
+    delivery_address_q <= address_q == DELIVERY_ADDRESS && !`FAULT(125);
   end
   assign from_holder = held_b && (accept_prm_b ? sa_is_waiting_q : sa_is_holder_q);
   assign other_holder = held_b && !(accept_prm_b ? sa_is_waiting_q : sa_is_holder_q) && !`FAULT(34);
@@ -256,18 +259,19 @@ module dp_slave (
   logic urgent;
   logic [7:0] ssa_address;
   logic [6:0] new_address;
-  logic user_judges_prm, user_judges_cfg, fits_outputs, is_empty, supports_address;
+  logic user_judges_prm, user_judges_cfg, fits_outputs, is_empty, has_data, supports_address;
   assign ssa_address = head_i[7:0];
   assign new_address = head_i[6:0];
   assign ssa_ident = {head_i[15:8], head_i[23:16]};
   assign ssa_lock = head_i[31:24];
   assign in_data_exch = state_b == DP_DATA_EXCH;
   assign execute_srd = execute_i && srd_i;
-  assign urgent = diag_waiting && default_sap_i;  // D9: only data exchange says so
+  assign urgent = (diag_waiting || (diag_stat && !`FAULT(123))) && default_sap_i;  // D9: only data exchange says so
   assign user_judges_prm = prm_mode_q == 2'd2;
   assign user_judges_cfg = cfg_mode_q == 2'd2;
   assign fits_outputs = length_i == output_length_now;
   assign is_empty = length_i == 8'd0;
+  assign has_data = !is_empty && !`FAULT(124);  // S13
   assign supports_address = command_q[0];
 
   always_comb begin
@@ -310,11 +314,9 @@ module dp_slave (
       if (in_data_exch && from_holder) begin
         if (fits_outputs) begin
           store = 1'b1;
-          answer = ANS_SD2;
           source = SRC_INPUTS;
         end else if (fail_safe_q && is_empty) begin
           clear = 1'b1;
-          answer = ANS_SD2;
           source = SRC_INPUTS;
         end else begin
           fc = FC_RR;
@@ -337,25 +339,27 @@ module dp_slave (
         end
         8'd56: begin  // Read_Inputs
           if (in_data_exch) begin
-            answer = ANS_SD2;
-            source = SRC_INPUTS;
+            if (has_data) fc = FC_RR;
+            else source = SRC_INPUTS;
           end
         end
         8'd57: begin  // Read_Outputs
-          answer = ANS_SD2;
-          source = SRC_OUTPUTS;
+          if (has_data) fc = FC_RR;
+          else source = SRC_OUTPUTS;
         end
         8'd59: begin  // Get_Cfg
-          answer = ANS_SD2;
-          source = in_data_exch || `FAULT(36) ? SRC_CFG : SRC_INIT_CFG;
+          if (has_data) fc = FC_RR;
+          else source = in_data_exch || `FAULT(36) ? SRC_CFG : SRC_INIT_CFG;
         end
         8'd60: begin  // Slave_Diag (S23)
-          answer = ANS_SD2;
-          source = SRC_DIAG;
-          diag_read = from_holder;
+          if (has_data) fc = FC_RR;
+          else begin
+            source = SRC_DIAG;
+            diag_read = from_holder;
+          end
         end
         8'd61: begin  // Set_Prm
-          if (!other_holder) begin
+          if (!other_holder && !delivery_address_q) begin
             answer = ANS_SC;
             if (prm_fault) begin
               prm_fault_d = 1'b1;
@@ -397,6 +401,7 @@ module dp_slave (
       else if (gc_sync) sync_d = 1'b1;
       if (gc_unfreeze) freeze_d = 1'b0;
       else if (gc_freeze) freeze_d = 1'b1;
+      if (gc_unsupported) unsupported_d = 1'b1;
     end
 
     // An answer that has no data (S19, S20)
@@ -405,6 +410,7 @@ module dp_slave (
       answer = urgent ? ANS_SD1 : ANS_SC;
       fc = FC_DH;
     end else if (source != SRC_NONE) begin
+      answer = ANS_SD2;
       fc = urgent ? FC_DH : FC_DL;
     end
 

@@ -1,4 +1,4 @@
-// FDL (8.2; S3, S20, S26): which telegrams are for this station, repetitions, and the memory of the last answer. The answer itself
+// FDL (8.2; S3, S20, S26, S32): which telegrams are for this station, repetitions, and the memory of the last answer. The answer itself
 // is written by answer_builder while the wait for TSDR runs.
 `include "dsdpv1_types.svh"
 
@@ -18,6 +18,8 @@ module fdl (
   input  logic [7:0]  dsap_i,
   input  logic [7:0]  ssap_i,
   input  logic        saps_ok_i,
+  input  logic [7:0]  length_i,       // bytes behind the SAPs
+  input  logic [7:0]  fcs_i,
   input  logic [6:0]  address_i,
   input  logic        from_holder_i,
   output logic        any_telegram_o,    // a synced SD1, SD2 or SD3 is decided
@@ -44,20 +46,35 @@ module fdl (
   output logic [7:0]  send_length_o   // characters, from the second edge behind the decision on
 );
   // Everything that only depends on the telegram stands still long before the decision: through registers
-  logic own_q, broadcast_q, request_q, saps_ok_q, sdn_q, srd_q, refuse_q, fdl_status_q, fcv_q, stores_q, same_series_q;
+  logic own_q, broadcast_q, request_q, saps_ok_q, sdn_q, srd_q, refuse_q, fdl_status_q, fcv_q, same_saps_q, same_rest_q;
+  logic from_nobody_q;  // SA 127
   logic kind_q, default_sap_q;
-  logic memory_valid_q, memory_fcb_q, bank_q;
-  logic [6:0] memory_sa_q;
-  logic [7:0] memory_length_q, length_q;
+  logic memory_valid_q;
+  logic [7:0] length_q;
   logic [3:0] function_code;
-  logic fcb, fcv;
+  logic fcv;
   assign function_code = fc_i[3:0];
-  assign fcb = fc_i[5];
   assign fcv = fc_i[4];
+
+  // What makes a request the last one again (S26): SAPs, or that there is none; SA, FC, length and FCS
+  logic [17:0] saps, memory_saps_q;
+  logic [7:0] memory_data_length_q, memory_fcs_q, dsap, ssap;
+  logic [6:0] memory_sa_q, memory_fc_q;
+  assign dsap = da_i[7] ? dsap_i : 8'd0;
+  assign ssap = sa_i[7] ? ssap_i : 8'd0;
+  assign saps = {da_i[7], sa_i[7], dsap, ssap};
+  logic same_sa, same_fc, same_dsap, same_ssap, same_length, same_fcs;
+  assign same_sa = memory_sa_q == sa_i[6:0] || `FAULT(112);
+  assign same_fc = memory_fc_q == fc_i || `FAULT(39);
+  assign same_dsap = {memory_saps_q[17], memory_saps_q[15:8]} == {saps[17], saps[15:8]} || `FAULT(113);
+  assign same_ssap = {memory_saps_q[16], memory_saps_q[7:0]} == {saps[16], saps[7:0]} || `FAULT(114);
+  assign same_length = memory_data_length_q == length_i || `FAULT(115);
+  assign same_fcs = memory_fcs_q == fcs_i || `FAULT(116);
 
   always_ff @(posedge clk_i) begin
     own_q <= da_i[6:0] == address_i;
     broadcast_q <= da_i[6:0] == 7'd127;
+    from_nobody_q <= sa_i[6:0] == 7'd127;
     request_q <= fc_i[6] && (synced_i || `FAULT(38));
     saps_ok_q <= saps_ok_i;
     kind_q <= sd_i == SD_SD1 || sd_i == SD_SD2 || sd_i == SD_SD3;
@@ -68,21 +85,22 @@ module fdl (
     fdl_status_q <= function_code == 4'h9;
     default_sap_q <= !da_i[7];
     fcv_q <= fcv;
-    stores_q <= fcv || fcb;
-    same_series_q <= memory_sa_q == sa_i[6:0] && (memory_fcb_q == fcb || `FAULT(39)) && !`FAULT(40);
+    same_saps_q <= same_dsap && same_ssap;
+    same_rest_q <= same_sa && same_fc && same_length && same_fcs && !`FAULT(40);
   end
 
-  logic legal_q, repetition_q;
+  logic legal_q, repetition_q, ignored_q;
   always_ff @(posedge clk_i) begin
-    legal_q <= kind_q && (own_q || (broadcast_q && sdn_q)) && request_q && saps_ok_q;
-    repetition_q <= own_q && fcv_q && !sdn_q && memory_valid_q && same_series_q;
+    legal_q <= kind_q && (own_q || (broadcast_q && sdn_q)) && request_q && saps_ok_q && (!from_nobody_q || `FAULT(107));
+    ignored_q <= kind_q && own_q && request_q && saps_ok_q && from_nobody_q;
+    repetition_q <= own_q && (fcv_q || `FAULT(118)) && memory_valid_q && same_saps_q && same_rest_q;
   end
 
-  logic legal, sends, stores;
-  assign any_telegram_o = decide_i && kind_q && synced_i;
+  logic legal, sends;
+  assign any_telegram_o = decide_i && kind_q && synced_i && !(from_nobody_q && `FAULT(110));
   assign legal = decide_i && !searching_i && legal_q;
-  assign trigger_o = legal && own_q;
-  assign trigger_holder_o = trigger_o && from_holder_i;
+  assign trigger_o = (legal && own_q) || (decide_i && !searching_i && ignored_q && `FAULT(108));
+  assign trigger_holder_o = trigger_o && (from_holder_i || `FAULT(108));
   assign execute_o = legal && !repetition_q;
   assign refuse_o = refuse_q;
   assign fdl_status_o = fdl_status_q;
@@ -90,7 +108,6 @@ module fdl (
   assign sdn_o = sdn_q;
   assign default_sap_o = default_sap_q;
   assign sends = execute_o && answer_i != ANS_NONE;
-  assign stores = sends && stores_q;
   assign send_o = (legal && repetition_q) || sends;
 
   logic [7:0] built_length;
@@ -99,32 +116,33 @@ module fdl (
   assign to_ssap = sa_i[7];
   assign from_dsap = sa_i[7] && da_i[7];
 
-  // The memory is bank 0, the buffer of answers that are not stored bank 1
+  // There is one answer: the memory, valid or not, and what is sent
+  logic counts;
+  assign counts = fcv_q || `FAULT(118);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       memory_valid_q <= 1'b0;
-      memory_fcb_q <= 1'b0;
       memory_sa_q <= 7'd0;
-      memory_length_q <= 8'd0;
+      memory_fc_q <= 7'd0;
+      memory_saps_q <= 18'd0;
+      memory_data_length_q <= 8'd0;
+      memory_fcs_q <= 8'd0;
       length_q <= 8'd0;
-      bank_q <= 1'b0;
       built_q <= 1'b0;
     end else begin
-      if (stores) begin
-        memory_valid_q <= 1'b1;
-        memory_fcb_q <= fcb;
+      if (sends && (fcv_q || !`FAULT(117))) begin
+        memory_valid_q <= counts;
         memory_sa_q <= sa_i[6:0];
-      end
-      if (send_o) begin
-        length_q <= memory_length_q;
-        bank_q <= execute_o && !stores_q;
+        memory_fc_q <= fc_i;
+        memory_saps_q <= saps;
+        memory_data_length_q <= length_i;
+        memory_fcs_q <= fcs_i;
       end
       built_q <= sends;
-      if (built_q) begin
-        length_q <= built_length;
-        if (!bank_q) memory_length_q <= built_length;
-      end
+      if (built_q) length_q <= built_length;
+      if (execute_o && sdn_q && `FAULT(119)) memory_valid_q <= 1'b0;
       if (forget_i && !`FAULT(41)) memory_valid_q <= 1'b0;
+      if (decide_i && ignored_q && `FAULT(109)) memory_valid_q <= 1'b0;
     end
   end
 
@@ -138,12 +156,9 @@ module fdl (
     .characters_o(built_length), .busy_o(builder_busy_o), .index_o(builder_index_o), .data_i(builder_data_i),
     .we_o(builder_we), .waddr_o(builder_waddr), .wdata_o(builder_wdata));
 
-  logic [8:0] answer_write, answer_read;
-  assign answer_write = {bank_q, builder_waddr};
-  assign answer_read = {bank_q, send_index_i};
-  buffer_ram #(.ADDRESS_BITS(9), .BYTES(512)) u_answers (
-    .clk_i(clk_i), .we_i(builder_we), .waddr_i(answer_write), .wdata_i(builder_wdata),
-    .raddr_i(answer_read), .rdata_o(send_data_o));
+  buffer_ram #(.ADDRESS_BITS(8), .BYTES(256)) u_answers (
+    .clk_i(clk_i), .we_i(builder_we), .waddr_i(builder_waddr), .wdata_i(builder_wdata),
+    .raddr_i(send_index_i), .rdata_o(send_data_o));
 
   assign send_length_o = length_q;
 endmodule

@@ -12,7 +12,7 @@ module msac (
   input  logic        data_exch_i,      // behind the commits
   input  logic        from_holder_i,
   input  logic        prm_dpv1_i,       // DPV1_Enable of the Set_Prm in force
-  input  logic        enabled_i,        // B005 is 1D
+  input  logic        dpv1_on_i,        // D17
   // the telegram
   input  logic        data_valid_i,
   input  logic [7:0]  data_index_i,
@@ -65,8 +65,8 @@ module msac (
     ssap_50_q <= sa_i[7] && ssap_i == 8'd50;
   end
 
-  logic poll, abort, idle, initiate_legal, long_form;
-  logic [1:0] c1_code, c2_code, initiate_code;
+  logic poll, abort, idle, initiate_again, initiate_legal, long_form, c2_right;
+  logic [1:0] c1_code, initiate_code;
   logic [7:0] s_length, d_length;
   logic [15:0] timeout;
   logic [23:0] head;
@@ -74,7 +74,7 @@ module msac (
   request_check u_request_check (
     `FAULT_CONNECT
     .clk_i(clk_i), .function_i(head_i[7:0]), .data_length_i(head_i[31:24]), .length_i(length_i), .poll_o(poll), .abort_o(abort), .idle_o(idle),
-    .c1_code_o(c1_code), .c2_code_o(c2_code));
+    .initiate_o(initiate_again), .c1_code_o(c1_code), .c2_right_o(c2_right));
   initiate_check u_initiate_check (
     `FAULT_CONNECT
     .clk_i(clk_i), .head_i(head_i), .length_i(length_i), .valid_i(data_valid_i), .index_i(data_index_i), .data_i(data_i),
@@ -134,8 +134,8 @@ module msac (
     .clk_i(clk_i), .rst_ni(rst_ni), .init_i(init_i), .answer_i(c2_answer), .answer_length_i(answer_length),
     .take_i(take_c2_i), .mail_o(c2_mail_o), .with_user_o(c2_with_user), .owner_2f_o(owner_2f), .request_o(c2_request),
     .request_length_o(c2_length_o), .initiate_srd_i(initiate_srd), .channel_srd_i(channel_srd),
-    .channel_sdn_i(channel_sdn), .enabled_i(enabled_i), .sa_i(sa_i[6:0]), .ssap_ok_i(ssap_50_q), .poll_i(poll),
-    .abort_i(abort), .idle_i(idle), .code_i(c2_code), .head_i(head), .length_i(length_i),
+    .channel_sdn_i(channel_sdn), .dpv1_on_i(dpv1_on_i), .sa_i(sa_i[6:0]), .ssap_ok_i(ssap_50_q), .poll_i(poll),
+    .abort_i(abort), .idle_i(idle), .again_i(initiate_again), .right_i(c2_right), .head_i(head), .length_i(length_i),
     .initiate_legal_i(initiate_legal), .timeout_i(timeout), .initiate_code_i(initiate_code), .long_i(long_form),
     .s_length_i(s_length), .d_length_i(d_length), .accept_o(c2_accept), .initiate_sap_i(initiate_sap_q),
     .channel_2f_i(c2f_sap_q), .reply_o(c2_reply), .reply_fc_o(c2_reply_fc), .reply_user_o(c2_reply_user),

@@ -21,13 +21,14 @@ module msac2 (
   input  logic        initiate_srd_i,   // an SRD to SAP 49
   input  logic [1:0]  channel_srd_i,    // an SRD to a channel
   input  logic [1:0]  channel_sdn_i,
-  input  logic        enabled_i,        // B005 is 1D
+  input  logic        dpv1_on_i,        // D17
   input  logic [6:0]  sa_i,
   input  logic        ssap_ok_i,
   input  logic        poll_i,
   input  logic        abort_i,
   input  logic        idle_i,
-  input  logic [1:0]  code_i,           // MSAC_..., of a request
+  input  logic        again_i,          // 57 on a channel
+  input  logic        right_i,          // a right request
   input  logic [23:0] head_i,           // Function_Num, slot, index; the first lowest
   input  logic [7:0]  length_i,
   input  logic        initiate_legal_i,
@@ -70,7 +71,7 @@ module msac2 (
         .turn_i(turn[n]), .initiate_i(initiate[n]), .timeout_i(timeout_i), .initiate_code_i(initiate_code_i),
         .long_i(long_i), .s_length_i(s_length_i), .d_length_i(d_length_i), .srd_i(channel_srd_i[n]),
         .sdn_i(channel_sdn_i[n]), .sa_i(sa_i), .ssap_ok_i(ssap_ok_i), .poll_i(poll_i), .abort_i(abort_i), .idle_i(idle_i),
-        .code_i(code_i), .head_i(head_i), .length_i(length_i), .accept_o(accept[n]), .reply_o(reply[n*3+:3]),
+        .again_i(again_i), .right_i(right_i), .head_i(head_i), .length_i(length_i), .accept_o(accept[n]), .reply_o(reply[n*3+:3]),
         .reply_fc_o(reply_fc[n*8+:8]), .reply_user_o(reply_user[n]),
         .reply_head_o(reply_head[n*32+:32]), .reply_length_o(reply_length[n*8+:8]), .free_o(is_free[n]), .busy_o(busy[n]),
         .request_o(request[n*24+:24]), .length_o(length[n*8+:8]), .long_o(long_form[n]), .s_length_o(s_length[n*8+:8]),
@@ -87,7 +88,7 @@ module msac2 (
 
   // ---- Initiate: the first free row of the registry
   logic may_initiate, initiate_ok, takes_2f;
-  assign may_initiate = enabled_i && ssap_ok_i;
+  assign may_initiate = dpv1_on_i && ssap_ok_i;
   assign takes_2f = `FAULT(74) ? is_free[1] : !is_free[0];
   assign initiate_ok = may_initiate && !poll_i && initiate_legal_i && is_free != 2'b00;
   assign initiate = initiate_srd_i && initiate_ok ? {takes_2f, !takes_2f} : 2'b00;

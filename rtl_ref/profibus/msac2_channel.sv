@@ -28,7 +28,8 @@ module msac2_channel (
   input  logic        poll_i,
   input  logic        abort_i,
   input  logic        idle_i,
-  input  logic [1:0]  code_i,           // MSAC_..., of a request
+  input  logic        again_i,          // 57
+  input  logic        right_i,          // a right request
   input  logic [23:0] head_i,           // Function_Num, slot, index; the first lowest
   input  logic [7:0]  length_i,
   output logic        accept_o,         // the telegram's bytes are the request
@@ -55,13 +56,9 @@ module msac2_channel (
   localparam logic [2:0] ANSWERED = 3'd4;
   localparam logic [2:0] ABORTED = 3'd5;
 
-  // Details of the abort PDU: which timer
-  localparam logic [1:0] ENDED_F = 2'd1;
-  localparam logic [1:0] ENDED_I = 2'd2;
-  localparam logic [1:0] ENDED_U = 2'd3;
-
   logic [2:0] state_q, state_b, state_d;
-  logic [1:0] ended_q, ended_b, code_q;
+  logic [1:0] code_q;
+  logic [2:0] reason_q, reason_b, reason_d;  // of the abort PDU
   logic idle_q, long_q, from_master_q;
   logic [6:0] master_q;
   logic [7:0] length_q, length_b, s_length_q, d_length_q;
@@ -84,17 +81,17 @@ module msac2_channel (
 
   always_comb begin
     state_b = answer_i ? ANSWERED : state_q;
-    ended_b = ended_q;
+    reason_b = reason_q;
     aborts = 1'b0;
     if (watch_end && state_q == ABORTED) begin
       if (!`FAULT(94)) state_b = FREE;
     end else if (watch_end) begin
       state_b = ABORTED;
-      ended_b = state_q == OPEN ? ENDED_I : ENDED_F;
+      reason_b = ABORT_TIMEOUT;
       aborts = 1'b1;
     end else if (user_end && !answer_i) begin
       state_b = ABORTED;
-      ended_b = `FAULT(85) ? ENDED_F : ENDED_U;
+      reason_b = `FAULT(85) ? ABORT_SEQUENCE : ABORT_TIMEOUT;
       aborts = 1'b1;
     end
   end
@@ -105,10 +102,11 @@ module msac2_channel (
   assign served = state_b != FREE && (from_master_q || `FAULT(87)) && (ssap_ok_i || `FAULT(75));
   assign initiate_right = code_q == MSAC_RIGHT;
   assign asks = srd_i && served && state_b == OPEN && !poll_i && !abort_i;
-  assign accept_o = asks && !idle_i && code_i == MSAC_RIGHT;
+  assign accept_o = asks && right_i;
 
   always_comb begin
     state_d = state_b;
+    reason_d = reason_b;
     starts = aborts;
     if (initiate_i) begin
       state_d = INITIATED;
@@ -118,12 +116,18 @@ module msac2_channel (
     end else if (served && srd_i) begin
       case (state_b)
         INITIATED: begin
-          state_d = poll_i && initiate_right ? OPEN : FREE;
+          if (!poll_i) begin
+            state_d = `FAULT(126) ? FREE : ABORTED;
+            reason_d = ABORT_SEQUENCE;
+          end else begin
+            state_d = initiate_right ? OPEN : FREE;
+          end
           starts = 1'b1;
         end
         OPEN: if (!poll_i) begin
-          state_d = accept_o ? BUSY : ANSWERED;
-          starts = 1'b1;
+          state_d = accept_o ? BUSY : idle_i ? ANSWERED : ABORTED;
+          reason_d = again_i && !`FAULT(127) ? ABORT_SEQUENCE : ABORT_INVALID_PDU;
+          starts = !(state_d == ABORTED && `FAULT(128));
         end
         BUSY: if (poll_i && !`FAULT(83)) starts = 1'b1;
         ANSWERED: if (poll_i) begin
@@ -140,29 +144,26 @@ module msac2_channel (
   assign user_stop = state_d != BUSY;
 
   // ---- the answer
-  logic [31:0] initiate_head, waiting_head;
+  logic wrong_address;  // of Initiate
+  logic [31:0] initiate_head;
+  assign wrong_address = code_q == MSAC_INVALID_PARAMETER && !`FAULT(129);
   assign initiate_head = initiate_right ? {8'h00, 8'h01, 8'hF0, MSAC_INITIATE} : negative_answer(MSAC_INITIATE, code_q);
-  assign waiting_head = idle_q ? {24'd0, MSAC_IDLE} : negative_answer(request_q[7:0], code_q);
 
   always_comb begin
     reply_o = ANS_SC;
     reply_fc_o = FC_DL;
     reply_user_o = 1'b0;
-    reply_head_o = {6'd0, ended_b, ABORT_TIMEOUT, 8'h00, MSAC_ABORT};
-    reply_length_o = 8'd4;
+    reply_head_o = abort_pdu(reason_b);
+    reply_length_o = 8'd3;
     if (!served) begin
       reply_o = ANS_SD1;
       reply_fc_o = FC_RS;
     end else if (poll_i || !abort_i) begin
       case (state_b)
-        INITIATED: begin
+        INITIATED: if (poll_i) begin
           reply_o = ANS_SD2;
-          if (!poll_i) begin
-            reply_head_o = {8'h00, ABORT_SEQUENCE, 8'h00, MSAC_ABORT};
-          end else begin
-            reply_head_o = initiate_head;
-            if (initiate_right) reply_length_o = length_q;
-          end
+          reply_head_o = wrong_address ? abort_pdu(ABORT_ADDRESS) : initiate_head;
+          reply_length_o = initiate_right ? length_q : wrong_address ? 8'd3 : 8'd4;
         end
         OPEN: ;
         BUSY: if (!poll_i) begin
@@ -170,9 +171,9 @@ module msac2_channel (
           reply_fc_o = FC_RR;
         end
         ANSWERED: begin
-          reply_head_o = waiting_head;
-          reply_user_o = !idle_q && code_q == MSAC_RIGHT;
-          reply_length_o = idle_q ? 8'd1 : code_q == MSAC_RIGHT ? length_b : 8'd4;
+          reply_head_o = {24'd0, MSAC_IDLE};
+          reply_user_o = !idle_q;
+          reply_length_o = idle_q ? 8'd1 : length_b;
           if (poll_i) begin
             reply_o = ANS_SD2;
           end else if (!`FAULT(86)) begin
@@ -188,7 +189,7 @@ module msac2_channel (
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= FREE;
-      {ended_q, code_q} <= 4'd0;
+      {reason_q, code_q} <= 5'd0;
       {idle_q, long_q, from_master_q, watch_i_q} <= 4'd0;
       master_q <= 7'd0;
       {length_q, s_length_q, d_length_q} <= 24'd0;
@@ -196,7 +197,7 @@ module msac2_channel (
       request_q <= 24'd0;
     end else begin
       state_q <= state_d;
-      ended_q <= ended_b;
+      reason_q <= reason_d;
       from_master_q <= sa_i == master_q;
       length_q <= length_b;
       if (watch_start) watch_i_q <= state_d == OPEN;
@@ -211,7 +212,6 @@ module msac2_channel (
       end else if (asks) begin
         request_q <= head_i;
         idle_q <= idle_i;
-        code_q <= code_i;
         length_q <= length_i;
       end
     end

@@ -11,14 +11,15 @@ module request_check (
   output logic        poll_o,         // none
   output logic        abort_o,        // 58
   output logic        idle_o,         // 48
+  output logic        initiate_o,     // 57
   output logic [1:0]  c1_code_o,      // MSAC_..., for class 1
-  output logic [1:0]  c2_code_o
+  output logic        c2_right_o      // for class 2
 );
   logic is_read, is_write, is_transport, read_wrong, write_wrong;
   assign is_read = function_i == DSDPV1_REG_FUNCTION_NUM_READ;
   assign is_write = function_i == DSDPV1_REG_FUNCTION_NUM_WRITE;
   assign is_transport = function_i == DSDPV1_REG_FUNCTION_NUM_TRANSPORT;
-  assign read_wrong = length_i != 8'd4 || (data_length_i > MSAC_MAX_DATA && !`FAULT(67));
+  assign read_wrong = length_i != 8'd4 || (data_length_i > MSAC_MAX_DATA && `FAULT(67));
   assign write_wrong = length_i < 8'd4 || ({1'b0, length_i} != {1'b0, data_length_i} + 9'd4 && !`FAULT(68));
 
   logic [1:0] read_code, write_code;
@@ -29,7 +30,8 @@ module request_check (
     poll_o <= length_i == 8'd0;
     abort_o <= function_i == MSAC_ABORT;
     idle_o <= function_i == MSAC_IDLE;
+    initiate_o <= function_i == MSAC_INITIATE;
     c1_code_o <= is_read ? read_code : is_write || (is_transport && `FAULT(69)) ? write_code : MSAC_NOT_SUPPORTED;
-    c2_code_o <= is_read ? read_code : is_write || is_transport ? write_code : MSAC_NOT_SUPPORTED;
+    c2_right_o <= is_read ? !read_wrong : (is_write || is_transport) && !write_wrong;
   end
 endmodule

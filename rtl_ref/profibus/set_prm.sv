@@ -1,4 +1,4 @@
-// Checks Set_Prm (SAP 61; 6.2.2, S6, S28, D8) in the order of section 11. The first check that fails decides.
+// Checks Set_Prm (SAP 61; 6.2.2, S6, S28, D8, D17) in the order of section 11. The first check that fails decides.
 `include "dsdpv1_types.svh"
 
 module set_prm (
@@ -12,7 +12,7 @@ module set_prm (
   input  logic [3:1]  command_i,       // B024
   input  logic [7:0]  max_length_i,    // B02A
   input  logic [1:0]  mode_i,          // B02B
-  input  logic        dpv1_enabled_i,  // B005, as it is at this edge
+  input  logic        dpv1_on_i,       // D17
   output logic        unlock_o,
   output logic        min_tsdr_only_o,
   output logic        fault_o,         // Prm_Fault
@@ -50,28 +50,27 @@ module set_prm (
   assign length_wrong = mode_i == 2'd0 ? user_length_o > max_length_i : mode_i == 2'd1 && user_length_o != max_length_i;
   assign user_length_wrong = (length_wrong && !`FAULT(18)) || user_length_o > 8'd237;
 
-  logic too_short, checked, ident_wrong, unsupported, rest_wrong;
+  logic too_short, checked, ident_counts, ident_wrong, unsupported, rest_wrong;
   assign too_short = length_i < 8'd7;
   assign checked = !too_short && !status[6] && status[7];
-  assign ident_wrong = {head_i[39:32], head_i[47:40]} != ident_i && !`FAULT(19);
+  assign ident_counts = !too_short && ((status[6] && !`FAULT(120)) || status[7]);
+  assign ident_wrong = ident_counts && {head_i[39:32], head_i[47:40]} != ident_i && !`FAULT(19);
   assign unsupported = (sync_req_o && !command_i[2] && !`FAULT(20)) || (freeze_req_o && !command_i[1]) ||
-                       (fail_safe_o && !command_i[3]);
+                       (fail_safe_o && !command_i[3]) || (dpv1 && !dpv1_on_i);
   assign rest_wrong = (dpv1 && length_i < 8'd10) ||
                       (wd_on_o && (wd_factor_1_o == 8'd0 || wd_factor_2_o == 8'd0) && !`FAULT(21)) || user_length_wrong;
 
-  // The bytes stand still long before the decision: all checks are taken through registers, but B005 may change at its edge
-  logic unlock_q, min_tsdr_only_q, fault_q, unsupported_q, fault_without_dpv1_q, unsupported_without_dpv1_q;
+  // The bytes stand still long before the decision: all checks are taken through registers
+  logic unlock_q, min_tsdr_only_q, fault_q, unsupported_q;
   always_ff @(posedge clk_i) begin
-    unlock_q <= !too_short && status[6];
+    unlock_q <= !too_short && status[6] && !ident_wrong;
     min_tsdr_only_q <= !too_short && !status[6] && !status[7];
-    fault_q <= too_short || (checked && (ident_wrong || unsupported || rest_wrong));
+    fault_q <= too_short || ident_wrong || (checked && (unsupported || rest_wrong));
     unsupported_q <= checked && !ident_wrong && unsupported;
-    fault_without_dpv1_q <= too_short || (checked && (ident_wrong || unsupported || rest_wrong || dpv1));
-    unsupported_without_dpv1_q <= checked && !ident_wrong && (unsupported || dpv1);
   end
 
   assign unlock_o = unlock_q;
   assign min_tsdr_only_o = min_tsdr_only_q;
-  assign fault_o = dpv1_enabled_i ? fault_q : fault_without_dpv1_q;
-  assign not_supported_o = dpv1_enabled_i ? unsupported_q : unsupported_without_dpv1_q;
+  assign fault_o = fault_q;
+  assign not_supported_o = unsupported_q;
 endmodule

@@ -39,7 +39,7 @@ module station (
   input  logic        verdict_prm_i,
   input  logic        verdict_cfg_i,
   input  logic        verdict_wrong_i,
-  input  logic        dpv1_enabled_i,
+  input  logic        dpv1_on_i,       // D17
   input  logic        c1_answer_i,     // a block with right CRC
   input  logic        c2_answer_i,
   input  logic [7:0]  answer_length_i, // its data bytes
@@ -101,14 +101,14 @@ module station (
   logic tg_begin, decide, synced, saps_ok, data_valid;
   logic [2:0] sd;
   logic [6:0] fc;
-  logic [7:0] da, sa, dsap, ssap, length, data_index, data;
+  logic [7:0] da, sa, dsap, ssap, length, fcs, data_index, data;
   logic [63:0] head;
   telegram_rx u_telegram_rx (
     `FAULT_CONNECT
     .clk_i(clk_i), .rst_ni(rst_ni), .restart_i(restart), .risen_i(risen), .valid_i(char_valid), .char_i(char), .ok_i(char_ok),
     .syn_i(char_syn), .gap_i(char_gap), .busy_i(busy), .due_i(due), .begin_o(tg_begin), .decide_o(decide), .sd_o(sd),
     .synced_o(synced), .da_o(da), .sa_o(sa), .fc_o(fc), .dsap_o(dsap), .ssap_o(ssap), .saps_ok_o(saps_ok),
-    .length_o(length), .head_o(head), .data_valid_o(data_valid), .data_index_o(data_index), .data_o(data));
+    .length_o(length), .fcs_o(fcs), .head_o(head), .data_valid_o(data_valid), .data_index_o(data_index), .data_o(data));
 
   // ---- baud rate and watchdog
   logic any_telegram, trigger, trigger_holder, baud_end, dp_end, dp_control;
@@ -144,7 +144,7 @@ module station (
   fdl u_fdl (
     `FAULT_CONNECT
     .clk_i(clk_i), .rst_ni(rst_ni), .decide_i(decide), .searching_i(searching), .forget_i(restart), .abort_i(init_i),
-    .sd_i(sd), .synced_i(synced), .da_i(da), .sa_i(sa), .fc_i(fc), .dsap_i(dsap), .ssap_i(ssap), .saps_ok_i(saps_ok),
+    .sd_i(sd), .synced_i(synced), .da_i(da), .sa_i(sa), .fc_i(fc), .dsap_i(dsap), .ssap_i(ssap), .saps_ok_i(saps_ok), .length_i(length), .fcs_i(fcs),
     .address_i(address), .from_holder_i(from_holder), .any_telegram_o(any_telegram), .trigger_o(trigger),
     .trigger_holder_o(trigger_holder), .execute_o(execute), .refuse_o(refuse), .fdl_status_o(fdl_status), .srd_o(srd),
     .sdn_o(sdn), .default_sap_o(default_sap), .answer_i(answer), .answer_fc_i(answer_fc), .answer_source_i(answer_source),
@@ -162,7 +162,7 @@ module station (
     .init_output_length_i(init_output_length_i), .inputs_i(inputs_i),
     .inputs_length_i(inputs_length_i), .diag_i(diag_i), .diag_type_i(diag_type_i), .diag_length_i(diag_length_i),
     .verdict_prm_i(verdict_prm_i), .verdict_cfg_i(verdict_cfg_i), .verdict_wrong_i(verdict_wrong_i),
-    .dpv1_enabled_i(dpv1_enabled_i), .stage_inputs_i(stage_inputs_i), .stage_diag_i(stage_diag_i),
+    .dpv1_on_i(dpv1_on_i), .stage_inputs_i(stage_inputs_i), .stage_diag_i(stage_diag_i),
     .stage_we_i(stage_we_i), .stage_pool_i(stage_pool_i), .stage_index_i(stage_index_i), .stage_data_i(stage_data_i),
     .dp_end_i(dp_end), .dp_control_i(dp_control), .wd_commit_dp_o(wd_commit_dp), .wd_commit_baud_o(wd_commit_baud),
     .wd_accept_dp_o(wd_accept_dp), .wd_accept_baud_o(wd_accept_baud), .wd_wait_prm_o(wd_wait_prm),
@@ -183,7 +183,7 @@ module station (
   msac u_msac (
     `FAULT_CONNECT
     .clk_i(clk_i), .rst_ni(rst_ni), .init_i(init_i), .left_i(left), .data_exch_i(data_exch), .from_holder_i(from_holder),
-    .prm_dpv1_i(prm_dpv1), .enabled_i(dpv1_enabled_i), .data_valid_i(data_valid), .data_index_i(data_index), .data_i(data),
+    .prm_dpv1_i(prm_dpv1), .dpv1_on_i(dpv1_on_i), .data_valid_i(data_valid), .data_index_i(data_index), .data_i(data),
     .head_i(head), .length_i(length), .sa_i(sa), .ssap_i(ssap), .dsap_i(dsap), .execute_i(execute), .srd_i(srd),
     .sdn_i(sdn), .default_sap_i(default_sap), .replies_o(msac_replies), .reply_o(msac_reply), .reply_fc_o(msac_fc),
     .reply_length_o(msac_length), .reply_index_i(builder_index), .reply_data_o(msac_data), .c1_mail_o(c1_mail_o),

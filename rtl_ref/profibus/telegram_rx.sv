@@ -28,6 +28,7 @@ module telegram_rx (
   output logic [7:0]  ssap_o,
   output logic        saps_ok_o,  // the SAP bytes that DA and SA announce are there
   output logic [7:0]  length_o,   // bytes behind the SAPs
+  output logic [7:0]  fcs_o,
   output logic [63:0] head_o,     // the first eight of them, the first lowest
   output logic        data_valid_o,  // a byte behind the SAPs, at this edge
   output logic [7:0]  data_index_o,
@@ -189,5 +190,6 @@ module telegram_rx (
   assign ssap_o = ssap_q;
   assign saps_ok_o = data_length_q >= sap_count;
   assign length_o = data_length_q - sap_count;
+  assign fcs_o = sum_q;
   assign head_o = head_q;
 endmodule

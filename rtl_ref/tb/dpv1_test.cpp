@@ -164,7 +164,6 @@ void c1_write_and_errors(Bench& b) {
   b.disown();
   const std::vector<std::pair<Bytes, Bytes>> wrong = {{{0x51, 1, 2, 0}, {0xD1, 0x80, 0xA9, 0}},
                                                       {{0x48}, {0xC8, 0x80, 0xA9, 0}},
-                                                      {{0x5E, 1, 2, 241}, {0xDE, 0x80, 0xB8, 0}},
                                                       {{0x5E, 1, 2}, {0xDE, 0x80, 0xB8, 0}},
                                                       {{0x5E, 1, 2, 1, 0}, {0xDE, 0x80, 0xB8, 0}},
                                                       {{0x5F, 1, 2, 1}, {0xDF, 0x80, 0xB1, 0}},
@@ -186,8 +185,8 @@ void longest(Bench& b) {
   expect_request(b, kC1, write, "240 bytes in the DPRAM");
   give(b, kC1, {0x5F, 7, 8, 240});
   b.ask(srd(kClass1));
-  b.ask(srd(kClass1, {0x5E, 7, 8, 240}));
-  b.step(200);
+  expect_bytes(b.ask(srd(kClass1, {0x5E, 7, 8, 250})), kSc, "C1 read of 250 bytes");
+  expect_request(b, kC1, {0x5E, 7, 8, 250}, "it is the user's to judge");
   write[0] = 0x5E;
   give(b, kC1, write);
   expect_bytes(b.ask(srd(kClass1)), answer(kClass1, write), "C1 answer of 240 bytes");
@@ -240,8 +239,8 @@ void c2_initiate(Bench& b) {
   expect_bytes(b.ask(srd(kInitiate, initiate(1, {0}))), refusal(kInitiate, kRs), "Initiate of 13 bytes");
   expect_bytes(b.ask(srd(kFirst)), refusal(kFirst, kRs), "a free channel");
   const std::vector<std::pair<Bytes, Bytes>> wrong = {{initiate(9, {0, 0}, 0xFE), {0xD7, 0x80, 0xA9, 0}},
-                                                      {initiate(9, {0, 0, 0}), {0xD7, 0x80, 0xB8, 0}},
-                                                      {initiate(9, {0, 2, 0, 1, 1, 2}), {0xD7, 0x80, 0xB8, 0}}};
+                                                      {initiate(9, {0, 0, 0}), {0x58, 0, 0x17}},
+                                                      {initiate(9, {0, 2, 0, 1, 1, 2}), {0x58, 0, 0x17}}};
   for (const auto& [pdu, negative] : wrong) {
     b.ask(srd(kInitiate, pdu));
     expect_bytes(b.ask(srd(kFirst)), answer(kFirst, negative), "a wrong Initiate");
@@ -277,8 +276,17 @@ void c2_both(Bench& b) {
   expect_bytes(b.ask(srd(kFirst)), answer(kFirst, {0x51, 1, 2, 1, 0xCC}), "answer on channel 30");
   expect_bytes(b.ask(srd(kFirst, {0x48, 0, 0})), kSc, "Idle");
   expect_bytes(b.ask(srd(kFirst)), answer(kFirst, {0x48}), "answer to Idle");
-  expect_bytes(b.ask(srd(kFirst, {0x51, 1, 2, 3, 0})), kSc, "a wrong transport");
-  expect_bytes(b.ask(srd(kFirst)), answer(kFirst, {0xD1, 0x80, 0xB1, 0}), "its answer");
+  expect_bytes(b.ask(srd(kFirst, {0x5E, 1, 2, 241})), kSc, "a read of more than 240 bytes");
+  expect_request(b, kC2, {0x5E, 1, 2, 241}, "it is the user's to judge");
+  give(b, kC2, {0xDE, 0x80, 0xB7, 0});
+  b.ask(srd(kFirst));
+}
+
+// The telegram is acknowledged, and the channel aborted
+void expect_aborted(Bench& b, const Bytes& pdu, uint8_t reason, const char* what) {
+  expect_bytes(b.ask(srd(kFirst, pdu)), kSc, what);
+  expect_bytes(b.ask(srd(kFirst)), answer(kFirst, {0x58, 0, static_cast<uint8_t>(0x10 | reason)}), "the poll behind it");
+  expect_bytes(b.ask(srd(kFirst)), refusal(kFirst, kRs), "free behind it");
 }
 
 void c2_aborts(Bench& b) {
@@ -300,8 +308,27 @@ void c2_aborts(Bench& b) {
   b.step(3);
   b.disown();
   b.ask(srd(kInitiate, initiate(9, {0, 0})));
-  expect_bytes(b.ask(srd(kFirst, {0x5E, 1, 1, 1})), answer(kFirst, {0x58, 0, 0x11, 0}), "a request ahead of the poll");
-  expect_bytes(b.ask(srd(kFirst)), refusal(kFirst, kRs), "free behind it");
+  expect_aborted(b, {0x5E, 1, 1, 1}, 1, "a request ahead of the poll");
+  b.ask(srd(kInitiate, initiate(9, {0, 0})));
+  expect_aborted(b, {0x48}, 1, "Idle ahead of the poll");
+}
+
+// A wrong PDU on an open channel (V9), and T behind it
+void c2_wrong_pdus(Bench& b) {
+  const Bytes second_initiate = initiate(9, {0, 0});
+  for (const Bytes& wrong : {Bytes{0x5D, 1, 2, 0}, Bytes{0x5E, 1, 2}, Bytes{0x5E, 1, 2, 0, 0}, Bytes{0x51, 1, 2, 3, 0}, Bytes{0x5F, 1, 2}}) {
+    connect(b, kFirst, 9);
+    expect_aborted(b, wrong, 2, "a wrong PDU");
+  }
+  connect(b, kFirst, 9);
+  expect_aborted(b, second_initiate, 1, "a second Initiate");
+  expect_no_request(b, "the user sees none of them");
+  for (const int64_t late : {-1, 0}) {
+    ask_at(b, srd(kFirst, {0x5D}), connect(b, kFirst, 1) + kUnit / 2);
+    const int64_t aborted = decided(b);
+    expect_bytes(ask_at(b, srd(kFirst), aborted + kUnit + late),
+                 late < 0 ? answer(kFirst, {0x58, 0, 0x12}) : refusal(kFirst, kRs), "free T behind a wrong PDU");
+  }
 }
 
 // F: the last cycle in which the poll is in time, the first in which it is not, and the second T (V12)
@@ -309,21 +336,21 @@ void timer_f(Bench& b) {
   for (const int64_t late : {-1, 0}) {
     b.ask(srd(kInitiate, initiate(1, {1, 2})));
     const Bytes got = ask_at(b, srd(kFirst), decided(b) + kUnit + late);
-    expect_bytes(got, answer(kFirst, late < 0 ? Bytes{0x57, 0xF0, 1, 0, 0, 0, 0, 0, 2, 1} : Bytes{0x58, 0, 0x13, 1}),
+    expect_bytes(got, answer(kFirst, late < 0 ? Bytes{0x57, 0xF0, 1, 0, 0, 0, 0, 0, 2, 1} : Bytes{0x58, 0, 0x13}),
                  "end of F");
     if (late < 0) abort(b, kFirst);
   }
   for (const int64_t late : {-1, 0}) {
     b.ask(srd(kInitiate, initiate(1, {1, 2})));
     const Bytes got = ask_at(b, srd(kFirst), decided(b) + 2 * kUnit + late);
-    expect_bytes(got, late < 0 ? answer(kFirst, {0x58, 0, 0x13, 1}) : refusal(kFirst, kRs), "free after a second T");
+    expect_bytes(got, late < 0 ? answer(kFirst, {0x58, 0, 0x13}) : refusal(kFirst, kRs), "free after a second T");
   }
 }
 
 void timer_i(Bench& b) {
   for (const int64_t late : {-1, 0}) {
     const Bytes got = ask_at(b, srd(kFirst, {0x48}), connect(b, kFirst, 1) + 2 * kUnit + late);
-    expect_bytes(got, late < 0 ? kSc : answer(kFirst, {0x58, 0, 0x13, 2}), "end of I");
+    expect_bytes(got, late < 0 ? kSc : answer(kFirst, {0x58, 0, 0x13}), "end of I");
     if (late < 0) abort(b, kFirst);
   }
   const int64_t opened = connect(b, kFirst, 0x8001);
@@ -338,7 +365,7 @@ void timer_u(Bench& b) {
     b.ask(srd(kFirst, {0x5E, 1, 1, 1}));
     const int64_t asked = decided(b);
     ask_at(b, srd(kFirst), asked + 100000);
-    expect_bytes(ask_at(b, srd(kFirst), asked + kUnit + late), late < 0 ? kSc : answer(kFirst, {0x58, 0, 0x13, 3}),
+    expect_bytes(ask_at(b, srd(kFirst), asked + kUnit + late), late < 0 ? kSc : answer(kFirst, {0x58, 0, 0x13}),
                  "end of U");
     if (late < 0) abort(b, kFirst);
   }
@@ -347,7 +374,7 @@ void timer_u(Bench& b) {
   expect_bytes(b.ask(srd(kFirst)), kSc, "an answer to an aborted request");
   b.ask(srd(kFirst, {0x5E, 1, 1, 1}));
   const int64_t asked = decided(b);
-  expect_bytes(ask_at(b, srd(kFirst), asked + kUnit), answer(kFirst, {0x58, 0, 0x13, 1}), "F and U at the same cycle");
+  expect_bytes(ask_at(b, srd(kFirst), asked + kUnit), answer(kFirst, {0x58, 0, 0x13}), "F and U at the same cycle");
 }
 
 // The second channel's U begins with its turn, at the commit of the first one's answer
@@ -360,7 +387,7 @@ void turn(Bench& b) {
     ask_at(b, srd(kSecond), decided(b) + 200000);
     const int64_t commit = give(b, kC2, {0x5E, 1, 1, 1, 0x66}) + 7 + 4 + 1 + 4;
     ask_at(b, srd(kSecond), commit + 200000);
-    expect_bytes(ask_at(b, srd(kSecond), commit + kUnit + late), late < 0 ? kSc : answer(kSecond, {0x58, 0, 0x13, 3}),
+    expect_bytes(ask_at(b, srd(kSecond), commit + kUnit + late), late < 0 ? kSc : answer(kSecond, {0x58, 0, 0x13}),
                  "end of U of the channel that waited");
     abort(b, kFirst);
     if (late < 0) abort(b, kSecond);
@@ -384,6 +411,7 @@ void dpv1(Bench& b) {
   c2_initiate(b);
   c2_both(b);
   c2_aborts(b);
+  c2_wrong_pdus(b);
   timer_f(b);
   timer_i(b);
   timer_u(b);

@@ -290,6 +290,15 @@ inline Bytes init_block(uint8_t prm_mode, uint8_t cfg_mode) {
   return {16, 5, 0x0C, 0xC9, 0x0F, 0, 0, 4, 4, 20, 20, prm_mode, 4, cfg_mode, 2, 0x13, 0x23};
 }
 
+// Who owns the DPRAM (ownership_test.cpp), on a chip in RESET
+void ownership(Bench& b);
+
+// What the user chooses with B005 and B011 (user_rules_test.cpp), on a chip in RESET
+void user_rules(Bench& b);
+
+// Repetitions, refusals, Not_Supported and high priority (service_rules_test.cpp), on a chip in RESET
+void service_rules(Bench& b);
+
 // The DPV1 part (dpv1_test.cpp), on a chip fresh out of RESET
 void dpv1(Bench& b);
 

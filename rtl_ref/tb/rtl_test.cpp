@@ -220,14 +220,8 @@ void check_again(Bench& b) {
   expect_bytes(b.ask(request(0x7D, 57, {})), response(8, 57, {5, 6, 7, 8}), "the outputs stay");
 }
 
-// Frame count bit and SAP bytes (S20, S21)
-void repetitions(Bench& b) {
-  const Bytes outputs = request(0x5D, 57, {}), answer = response(8, 57, {5, 6, 7, 8});
-  expect_bytes(b.ask(outputs), answer, "Read_Outputs ahead of an SDN");
-  b.send(sd2({0x85, 0x82, 0x76, 40, 62, 0, 0}));
-  b.step(20 * b.bit);
-  b.ask(sd2({5, 2, 0x4D, 1, 2, 3, 4}));
-  expect_bytes(b.ask(outputs), answer, "the memory stays behind an SDN and an answer that is not stored");
+// SAP bytes (S21)
+void sap_bytes(Bench& b) {
   expect_bytes(b.ask(sd2({5, 0x82, 0x4D, 62, 5, 6, 7, 8})), sd2({0x82, 5, 8, 62, 0, 0, 0, 1}), "SSAP alone");
   expect_bytes(b.ask(sd2({0x85, 2, 0x4D, 57})), sd2({2, 5, 8, 5, 6, 7, 8}), "DSAP alone");
 }
@@ -368,7 +362,7 @@ int main(int argc, char** argv) {
     exchange(b);
     diagnosis(b);
     check_again(b);
-    repetitions(b);
+    sap_bytes(b);
     sync_and_freeze(b);
     leave(b);
     interrupts(b);
@@ -376,6 +370,17 @@ int main(int argc, char** argv) {
     std::printf("rate index %d: %lld cycles, pins %016llx\n", rate, static_cast<long long>(b.edge),
                 static_cast<unsigned long long>(b.digest));
   }
+  Bench user(fault);
+  ownership(user);
+  std::printf("ownership: %lld cycles, pins %016llx\n", static_cast<long long>(user.edge), static_cast<unsigned long long>(user.digest));
+  Bench rules(fault);
+  user_rules(rules);
+  std::printf("rules of the user: %lld cycles, pins %016llx\n", static_cast<long long>(rules.edge),
+              static_cast<unsigned long long>(rules.digest));
+  Bench services(fault);
+  service_rules(services);
+  std::printf("rules of services: %lld cycles, pins %016llx\n", static_cast<long long>(services.edge),
+              static_cast<unsigned long long>(services.digest));
   Bench b(fault);
   dpv1(b);
   std::printf("DPV1: %lld cycles, pins %016llx\n", static_cast<long long>(b.edge), static_cast<unsigned long long>(b.digest));

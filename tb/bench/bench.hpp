@@ -32,6 +32,7 @@ struct RunOptions {
   dsdpv1::Engine engine = dsdpv1::Engine::kSkip;
   std::string engine_name = "skip", view_name = "pins";
   std::string wave, log, trace;  ///< paths, empty: not wanted
+  bool log_whole = false;        ///< no bytes are left out in the log
   std::optional<GdbWish> gdb;    ///< debugger of the first ARM board
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
   ChecksMode checks = ChecksMode::kOff;
@@ -73,6 +74,9 @@ class Bench {
   void connection_changed(const std::string& master, const std::string& connection, const std::string& state);
   void change_baud(int index);
   void log(Tick at, const std::string& station, const std::string& kind, const std::string& text);
+  void log(LogEntry entry);
+  /// Bytes as the log shows them inside of a text.
+  std::string in_log(const bus::Bytes& bytes) const;
   /// Something has changed: conditions are looked at again in this tick.
   void touch();
   void touch(Tick at);
@@ -120,12 +124,14 @@ class Bench {
   std::unique_ptr<bus::Monitor> monitor_;
   std::unique_ptr<Script> script_;
   Pulse pulse_;
+  LogForm log_form_;
   std::optional<RunLog> log_;
   std::optional<PinTrace> trace_;
   std::optional<WaveRecorder> waves_;
 
   std::vector<Happening> happenings_;
   std::uint64_t happenings_dropped_ = 0, violations_ = 0;
+  Refusals refusals_;
   std::string registers_;  ///< of the processor that cannot go on; the run ends with it
   std::map<std::string, std::map<std::string, std::uint64_t>> counts_;  ///< by station and code
   std::map<std::string, std::map<scenario::Do, Reply>> replies_;        ///< by master and service

@@ -27,6 +27,9 @@ class CheckWatch {
   void pin(std::size_t slave, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
     if (on()) slaves_[slave]->checks.pin(at, pin, level);
   }
+  void read(std::size_t slave, Tick sample) {
+    if (on()) slaves_[slave]->checks.read(sample);
+  }
   void telegram(Tick now, const bus::WireTelegram& telegram);
   void finish(Tick end);
 

@@ -26,6 +26,8 @@ class ChipView {
   /// Changes of the watched pins, in order of time.
   std::function<void(Tick at, dsdpv1::Pin pin, dsdpv1::Level level)> on_pin;
   std::function<void(const profibus::Event&)> on_event;
+  /// The user CPU begins a read, whose first edge is still to come, and samples D at `sample`: no pin shows that.
+  std::function<void(Tick sample)> on_read;
 };
 
 /// All input pins.

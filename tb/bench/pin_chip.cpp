@@ -83,8 +83,15 @@ void PinChip::set_r_sta(Tick at, bool level) {
   report_inputs(at, Pin::kRSta, Pin::kRSta);
 }
 
+void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) {
+  pins_->begin(at, access, timing);
+  if (!access.write && on_read) on_read(pins_->sample_tick());
+}
+
 void PinChip::run_edges(Tick now) {
   pins_->run_edges(now);
+  // Strobes that rise with CSR are told before it, as the TLM module does.
+  if (chip_.level(Pin::kCsr) != 0) report_inputs(now, Pin::kRd, Pin::kWr);
   report_inputs(now, Pin::kCsr, Pin::kDIn);
 }
 

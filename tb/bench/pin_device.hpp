@@ -21,6 +21,7 @@ class CoreDevice : public PinDevice {
   void set(dsdpv1::Tick at, dsdpv1::Pin pin, dsdpv1::Level level) override { chip_.set(at, pin, level); }
   void advance(dsdpv1::Tick to) override { chip_.advance(to); }
   dsdpv1::Level level(dsdpv1::Pin pin) const override { return chip_.level(pin); }
+  dsdpv1::Level sample(dsdpv1::Tick at) override { return chip_.sample(at); }
   dsdpv1::Tick next_event() const override { return chip_.next_event(); }
   void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { chip_.watch(sink, pins); }
   void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/systemc/main_stack.hpp"
 #include "model/systemc/sim_time.hpp"
 #include "tb/systemc/tlm_chip.hpp"
 #include "tb/user_cpu/tlm_host_bus.hpp"
@@ -29,6 +30,9 @@ class TlmChipView : public ChipView {
     chip_.module().on_event = [this, &timeline](const profibus::Event& event) {
       if (on_event) on_event(event);
       timeline.wake();  // the script may have waited for it
+    };
+    bus_.on_read = [this](Tick sample) {
+      if (on_read) on_read(sample);
     };
   }
 
@@ -62,6 +66,7 @@ class TlmExecution : public Execution {
     constexpr Tick kSlice = bus::kTicksPerMs;
     for (Tick to = std::min(kSlice, end + 1); !stopped(); to = std::min(to + kSlice, end + 1)) {
       sc_core::sc_start(dsdpv1::systemc::to_time(to) - sc_core::sc_time_stamp());
+      dsdpv1::systemc::announce_main_stack();
       if (to > end) return;
     }
   }

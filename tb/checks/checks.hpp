@@ -39,6 +39,8 @@ class Checks : private AccessSink {
   /// A change of a pin. The first changes are those from the levels of a chip fresh from construction (dsdpv1::Chip::set). Ticks never
   /// go back; pins that change at the same tick may come in any order.
   void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  /// The user begins a read, told before its first edge, and samples D at `sample`. Only for a user CPU that tells: at the pins nobody sees it.
+  void read(Tick sample) { port_.read(sample); }
   /// A telegram that has ended, of any station, heard at `now`.
   void telegram(Tick now, const bus::WireTelegram& telegram);
   /// Once, at the end of the run.
@@ -49,10 +51,9 @@ class Checks : private AccessSink {
   void on_violation(std::function<void(const Violation&)> sink) { recorder_.on_violation = std::move(sink); }
 
  private:
-  void reset_pin(bool level);
+  void reset_pin(Tick at, bool level);
   void end_hold_before(Tick at);
-  void r_req(Tick at, bool level);
-  void r_sta(Tick at, bool level);
+  void handshake(Tick at, dsdpv1::Pin pin, bool level);
   void access_began(Tick at) override;
   void access_ended(Tick at) override;
   void accessed(const Access& access) override;
@@ -64,6 +65,7 @@ class Checks : private AccessSink {
   CellRules cells_;
   Service service_;
   bool in_reset_ = true;
+  bool holding_ = false;          ///< a hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again
   std::optional<Tick> hold_end_;  ///< judged when time goes on: a RESET at the same tick makes it void
 };
 

@@ -24,6 +24,7 @@ void PortTiming::reset() {
   csr_due_.reset();
   a_hold_.reset();
   d_hold_.reset();
+  sample_.reset();
   writes_ = {};
   reading_ = accessing_ = false;
 }
@@ -170,7 +171,8 @@ void PortTiming::end_read(Tick at) {
   reading_ = false;
   const auto address = static_cast<std::uint16_t>(a_read_);
   const auto reading = [address] { return fmt::format("reading B{:03X}", address); };
-  recorder_.value(Check::kTw, began_, at - began_, reading);
+  const Tick sampled = std::min(std::exchange(sample_, std::nullopt).value_or(at), at);
+  recorder_.value(Check::kTw, began_, sampled - began_, reading);
   if (!read_spoilt_) {
     recorder_.value(Check::kTc, began_, began_ - a_valid_since_, reading);
     check_read_back();

@@ -2,7 +2,7 @@
 // The user's accesses to the host port, read from CSR, RD, WR, A and D, and table 15 with rulings P5, P8 and P11 on them.
 //
 // Pins that change at the same tick may be told in any order. What a write brings is D at WR's rise; what a read brings is D as the chip
-// drove it until RD or CSR rose, as nobody sees at the pins when exactly the user sampled it.
+// drove it until RD or CSR rose. Nobody sees at the pins when exactly the user sampled it: a user CPU of the bench tells.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -39,6 +39,8 @@ class PortTiming {
   void reset();
   /// A change of CSR, RD, WR, A, D_IN or D_OUT.
   void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  /// The read that begins next samples D at `sample`.
+  void read(Tick sample) { sample_ = sample; }
 
  private:
   struct Write {
@@ -77,6 +79,7 @@ class PortTiming {
   std::size_t write_count_ = 0;
 
   bool reading_ = false, read_spoilt_ = false;
+  std::optional<Tick> sample_;  ///< of D by the user, where it is known
   Tick sample_edge_ = 0;
   dsdpv1::Level a_read_ = 0;  ///< the address that the chip samples
   Tick a_valid_since_ = 0;    ///< since when it has been there

@@ -51,6 +51,10 @@ class Lockstep {
   void advance(Tick to);
   Tick next_event() const { return model_.next_event(); }
   Level level(Pin pin) const { return model_.level(pin); }
+  Level sample(Tick at) {
+    advance(at);
+    return model_.sample(at);
+  }
   void watch(const dsdpv1::PinSink& sink, std::uint32_t pins);
   void on_event(const profibus::EventSink& sink) { model_.on_event(sink); }
 

@@ -18,6 +18,7 @@ class LockstepDevice : public tb::PinDevice {
   void set(Tick at, Pin pin, Level level) override { lockstep_.set(at, pin, level); }
   void advance(Tick to) override { lockstep_.advance(to); }
   Level level(Pin pin) const override { return lockstep_.level(pin); }
+  Level sample(Tick at) override { return lockstep_.sample(at); }
   Tick next_event() const override { return lockstep_.next_event(); }
   void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { lockstep_.watch(sink, pins); }
   void on_event(const profibus::EventSink& sink) override { lockstep_.on_event(sink); }

@@ -36,6 +36,12 @@ void RtlDevice::advance(Tick to) {
   pass_on();
 }
 
+/// The RTL does not know when the user looks: before Tw (P5) the core beside it says that D is unknown.
+Level RtlDevice::sample(Tick at) {
+  advance(at);
+  return core_.sample(at) == dsdpv1::kLevelX ? dsdpv1::kLevelX : d_;
+}
+
 /// Both sides have told their changes in order of time, one side after the other.
 void RtlDevice::pass_on() {
   while (core_next_ < core_changes_.size() || rtl_next_ < rtl_changes_.size()) {

@@ -18,6 +18,7 @@ class RtlDevice : public tb::PinDevice {
   void set(Tick at, Pin pin, Level level) override;
   void advance(Tick to) override;
   Level level(Pin pin) const override { return pin == Pin::kDOut ? d_ : rtl_.level(pin); }
+  Level sample(Tick at) override;
   Tick next_event() const override { return std::min(rtl_.next_event(), core_.next_event()); }
   void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override;
   void on_event(const profibus::EventSink& sink) override { core_.on_event(sink); }

@@ -210,7 +210,8 @@ typedef struct dsdpv1_device {
 dsdpv1_error dsdpv1_open(dsdpv1_device* device, const dsdpv1_port* port, const dsdpv1_judge* judge);
 
 /*
- * Waits until the chip has begun to work: B004 = 0xC5, 85 us after the release of RESET (ruling D1).
+ * Waits until the chip has begun to work: B004 = 0xC5, 85 us after the release of RESET (ruling D1). To be called after
+ * that release, with R_REQ and R_STA low: a line that is high when the chip leaves its reset keeps it from starting (H6).
  * Errors: DPRAM_BUSY, CHIP_NOT_READY, NESTED.
  */
 dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device);

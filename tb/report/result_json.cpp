@@ -62,6 +62,7 @@ Json slave_of(const SlaveResult& slave) {
   json["baud"] = baud_text(slave.status.baud_index);
   json["master"] = slave.status.master == 255 ? Json(nullptr) : Json(slave.status.master);
   json["data_exchanges"] = slave.status.data_exchanges;
+  json["outputs_overwritten"] = slave.status.outputs_missed;
   json["rm_registry"] = registry_of(slave.status.c2);
   json["telegrams_received"] = slave.status.telegrams_received;
   json["telegrams_answered"] = slave.status.telegrams_answered;
@@ -140,6 +141,24 @@ Json event_of(const Happening& happening) {
           {"severity", name(happening.severity)},  {"allowed", happening.allowed}, {"text", happening.text}};
 }
 
+Json master_of(const MasterResult& master) {
+  const Json of_slaves = master.min_slave_interval_us == 0 ? Json(nullptr) : Json("gsd");
+  return {{"name", master.name},
+          {"address", master.address},
+          {"cycles", master.cycles},
+          {"min_slave_interval_us", master.min_slave_interval_us},
+          {"min_slave_interval_from", master.interval_given ? Json("scenario") : of_slaves}};
+}
+
+Json refused_of(const Refused& refused) {
+  return {{"slave", refused.station},
+          {"code", refused.code},
+          {"count", refused.count},
+          {"first_ns", nanoseconds_of(refused.first)},
+          {"last_ns", nanoseconds_of(refused.last)},
+          {"text", refused.text}};
+}
+
 }  // namespace
 
 std::string result_json(const RunResult& result) {
@@ -158,6 +177,8 @@ std::string result_json(const RunResult& result) {
   json["wrong_telegrams"] = result.wrong_telegrams;
   json["violations"] = result.violations;
   if (result.pacing) json["pacing"] = pacing_of(*result.pacing);
+  json["masters"] = Json::array();
+  for (const MasterResult& master : result.masters) json["masters"].push_back(master_of(master));
   json["slaves"] = Json::array();
   for (const SlaveResult& slave : result.slaves) json["slaves"].push_back(slave_of(slave));
   json["expectations"] = Json::array();
@@ -167,6 +188,8 @@ std::string result_json(const RunResult& result) {
   }
   json["checks"] = Json::array();
   for (const CheckResult& each : result.checks) json["checks"].push_back(check_of(each));
+  json["refused"] = Json::array();
+  for (const Refused& each : result.refused) json["refused"].push_back(refused_of(each));
   json["events"] = Json::array();
   for (const Happening& each : result.happenings) json["events"].push_back(event_of(each));
   json["events_dropped"] = result.happenings_dropped;

@@ -33,7 +33,7 @@ struct BusParameters {
   std::optional<int> retries;
   int gap_factor = 10;                             ///< cycles between two FDL status polls of the live list, 0 = none
   int highest_address = 126;                       ///< HSA
-  int min_slave_interval = 0;                      ///< us from one data cycle's start to the next
+  std::optional<int> min_slave_interval;           ///< us from one data cycle's start to the next
   bool token = true;                               ///< passes the token to itself
   bool ring = false;                               ///< shares the token with other masters
   int target_rotation = bus::kTargetRotationBits;  ///< T_TR, bit times; a ring only

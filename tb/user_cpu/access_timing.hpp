@@ -2,6 +2,8 @@
 // When a CPU moves its bus pins during one access to the DPRAM. Every value is in ticks of 1/12 ns and may be negative
 // where that makes sense, so that each limit of table 15 (rulings P5, P11) can be kept exactly, kept with margin, or
 // violated.
+#include <algorithm>
+
 #include "bus/time.hpp"
 
 namespace user_cpu {
@@ -31,5 +33,10 @@ struct AccessTiming {
   Tick cs_trail = 167;       ///< CSR rises after the strobe; >= 0
   Tick recovery = 333;       ///< from the last edge to the end of the access
 };
+
+/// From the fall of RD until D is sampled; before RD and CSR are low there is nothing to sample.
+inline Tick sample_in_read(const AccessTiming& timing) {
+  return std::max({timing.rd_sample, Tick{0}, -timing.cs_lead});
+}
 
 }  // namespace user_cpu

@@ -11,6 +11,7 @@ class HostPins {
   virtual void set(dsdpv1::Tick at, dsdpv1::Pin pin, dsdpv1::Level level) = 0;
   virtual void advance(dsdpv1::Tick to) = 0;
   virtual dsdpv1::Level level(dsdpv1::Pin pin) const = 0;
+  virtual dsdpv1::Level sample(dsdpv1::Tick at) = 0;
 };
 
 /// Those of the core.
@@ -20,6 +21,7 @@ class CoreHostPins : public HostPins {
   void set(dsdpv1::Tick at, dsdpv1::Pin pin, dsdpv1::Level level) override { chip_.set(at, pin, level); }
   void advance(dsdpv1::Tick to) override { chip_.advance(to); }
   dsdpv1::Level level(dsdpv1::Pin pin) const override { return chip_.level(pin); }
+  dsdpv1::Level sample(dsdpv1::Tick at) override { return chip_.sample(at); }
 
  private:
   dsdpv1::Chip& chip_;

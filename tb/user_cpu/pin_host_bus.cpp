@@ -37,7 +37,7 @@ void PinHostBus::add_sample(Tick offset) { insert({offset, true, Pin::kDOut, 0})
 void PinHostBus::plan_read(const AccessTiming& timing) {
   add(-timing.cs_lead, Pin::kCsr, 0);
   add(0, Pin::kRd, 0);
-  add_sample(timing.rd_sample);
+  add_sample(sample_in_read(timing));
   add(timing.rd_low, Pin::kRd, 1);
   add(timing.rd_low + timing.cs_trail, Pin::kCsr, 1);
   add(timing.rd_low + timing.address_hold, Pin::kA, kIdleAddress);
@@ -61,16 +61,18 @@ void PinHostBus::begin(Tick at, const Access& access, const AccessTiming& timing
   } else {
     plan_read(timing);
   }
-  place(at, timing.recovery);
+  sample_tick_ = place(at, timing.recovery) + sample_in_read(timing);
 }
 
-void PinHostBus::place(Tick start, Tick recovery) {
+/// The tick of the strobe's fall.
+Tick PinHostBus::place(Tick start, Tick recovery) {
   const Tick shift = start - edges_.at[0].tick;
   for (std::size_t i = 0; i < edges_.size; ++i) {
     edges_.at[i].tick += shift;
   }
   edge_ = 0;
   end_ = edges_.at[edges_.size - 1].tick + recovery;
+  return shift;
 }
 
 void PinHostBus::run_edges(Tick now) {
@@ -85,8 +87,7 @@ void PinHostBus::run_edges(Tick now) {
 }
 
 void PinHostBus::sample(Tick at) {
-  chip_.advance(at);
-  const Level level = chip_.level(Pin::kDOut);
+  const Level level = chip_.sample(at);
   bad_ = level < 0;
   value_ = bad_ ? std::uint8_t{0xFF} : static_cast<std::uint8_t>(level);
 }

@@ -30,6 +30,8 @@ class PinHostBus : public HostBus {
   Tick end() const override { return end_; }
   std::uint8_t read_value() const override { return value_; }
   bool last_read_was_bad() const override { return bad_; }
+  /// The tick at which the read begun last samples D.
+  Tick sample_tick() const { return sample_tick_; }
 
   static constexpr dsdpv1::Level kIdleAddress = 0x7FF;
 
@@ -49,7 +51,7 @@ class PinHostBus : public HostBus {
   void add_sample(Tick offset);
   void plan_read(const AccessTiming& timing);
   void plan_write(const Access& access, const AccessTiming& timing);
-  void place(Tick start, Tick recovery);
+  Tick place(Tick start, Tick recovery);
   void sample(Tick at);
   bool is_high(Tick at, dsdpv1::Pin pin);
 
@@ -57,7 +59,7 @@ class PinHostBus : public HostBus {
   HostPins& chip_;
   Edges edges_;
   std::size_t edge_ = 0;
-  Tick end_ = 0;
+  Tick end_ = 0, sample_tick_ = 0;
   std::uint8_t value_ = 0xFF;
   bool bad_ = false;
 };

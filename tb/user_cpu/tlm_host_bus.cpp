@@ -12,9 +12,9 @@ dsdpv1::systemc::AccessTiming of_module(const AccessTiming& t) {
           t.data_setup,    t.data_hold, t.address_hold, t.cs_trail,  t.recovery};
 }
 
-Tick duration(const Access& access, const dsdpv1::systemc::AccessTiming& timing) {
-  return access.write ? HostAccess::write(access.address, access.value, timing).duration()
-                      : HostAccess::read(access.address, timing).duration();
+HostAccess edges_of(const Access& access, const dsdpv1::systemc::AccessTiming& timing) {
+  return access.write ? HostAccess::write(access.address, access.value, timing)
+                      : HostAccess::read(access.address, timing);
 }
 
 }  // namespace
@@ -56,7 +56,9 @@ bool TlmHostBus::is_high(dsdpv1::Pin pin) {
 void TlmHostBus::begin(Tick at, const Access& access, const AccessTiming& timing) {
   access_ = access;
   timing_->timing = of_module(timing);
-  end_ = at + duration(access, timing_->timing);
+  const HostAccess edges = edges_of(access, timing_->timing);
+  end_ = at + edges.duration();
+  if (!access.write && on_read) on_read(at + edges.sample());
   running_ = true;
   const Tick now = dsdpv1::systemc::current_tick();
   if (at > now) {

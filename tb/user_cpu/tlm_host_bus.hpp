@@ -2,6 +2,7 @@
 // The HostBus on the TLM socket of a chip in SystemC.
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include <functional>
 #include <systemc>
 
 #include "tb/systemc/tlm_chip.hpp"
@@ -14,6 +15,9 @@ namespace user_cpu {
 class TlmHostBus : public sc_core::sc_module, public HostBus {
  public:
   TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip);
+
+  /// A read begins, which samples D at `sample`.
+  std::function<void(Tick sample)> on_read;
 
   /// The user CPU is reset: an access begun is forgotten, the pins are released. From a SystemC process.
   void reset();

@@ -51,6 +51,7 @@ class Pins : public user_cpu::HostPins {
     if (pin == Pin::kLSta) return l_sta;
     return static_cast<Level>(pin == Pin::kDOut ? address_ & 0xFF : 0);
   }
+  Level sample(Tick) override { return level(Pin::kDOut); }
   std::vector<Change> of(Pin pin) const {
     std::vector<Change> found;
     for (const Change& each : changes)

@@ -3,6 +3,7 @@
 // and broken by a tick, also those that no program on the native CPU can break.
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@ using dsdpv1::Pin;
 /// Table 15 with room to spare; a test changes what it is about. Ticks of 1/12 ns.
 struct Timing {
   Tick address_setup = 300, low = 600, data_setup = 500, data_hold = 200, address_hold = 200, cs_trail = 100;
+  std::optional<Tick> sample = {};  ///< of D, after the fall of RD, by a user who tells it
 };
 
 class Board {
@@ -68,6 +70,7 @@ class Board {
   /// The chip answers with `value`, driven a cycle after RD's fall and released with its rise.
   void read(unsigned address, unsigned value, const Timing& t = {}) {
     const Tick fall = now_ + std::max<Tick>(t.address_setup, 0);
+    if (t.sample) checks_.read(fall + *t.sample);
     plan(fall - t.address_setup, Pin::kA, address);
     plan(now_, Pin::kCsr, 0);
     plan(fall, Pin::kDOut, static_cast<unsigned>(dsdpv1::kLevelX));

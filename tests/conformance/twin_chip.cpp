@@ -54,6 +54,14 @@ void TwinChip::set(Tick at, Pin pin, Level level) {
   if (twin_) step_.set(at, pin, level);
 }
 
+Level TwinChip::sample(Tick at) {
+  const Level level = skip_.sample(at);
+  if (twin_) {
+    EXPECT_EQ(step_.sample(at), level) << "at tick " << at;
+  }
+  return level;
+}
+
 void TwinChip::run(Tick now) { skip_.advance(now); }
 
 void TwinChip::compare(Tick at) {

@@ -31,6 +31,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
 
   void set(Tick at, Pin pin, Level level);
   Level level(Pin pin) const { return skip_.level(pin); }
+  Level sample(Tick at);
   dsdpv1::Status status() const { return skip_.status(); }
   std::uint8_t peek(std::uint16_t address) const { return skip_.peek(address); }
   std::uint8_t peek_step(std::uint16_t address) const { return step_.peek(address); }

@@ -287,6 +287,30 @@ TEST_F(UserPort, TwKeptAtTheLimitAndViolatedByOneTickAtEveryPhase) {
   EXPECT_EQ(bench.last(Reason::kReadTooShort).b, kTw - 1);
 }
 
+TEST_F(UserPort, ASampleBeforeTwIsXAndReportedOnceAtEveryPhase) {
+  set(bench.now() + 10, Pin::kA, 0x003);
+  for (Tick phase = 0; phase < kCycleTicks; ++phase) {
+    for (const Tick after : {Tick{0}, kTw - 100, kTw - 1, kTw}) {
+      const int before = bench.count(Reason::kReadTooShort);
+      const Tick fall = (bench.now() / kCycleTicks + 3) * kCycleTicks + phase;
+      const bool by_csr = phase % 2 == 1;  // the later of RD's and CSR's fall begins the read
+      set(fall - 60, by_csr ? Pin::kRd : Pin::kCsr, 0);
+      set(fall, by_csr ? Pin::kCsr : Pin::kRd, 0);
+      bench.run_until(fall + after);
+      const bool early = after < kTw;
+      EXPECT_EQ(bench.chip.sample(fall + after), early ? dsdpv1::kLevelX : 0x01) << after << " at phase " << phase;
+      EXPECT_EQ(bench.count(Reason::kReadTooShort) - before, early ? 1 : 0) << after << " at phase " << phase;
+      if (early) {
+        EXPECT_EQ(bench.last(Reason::kReadTooShort).b, after);
+      }
+      set(fall + after, Pin::kRd, 1);  // too short as well: the read has been reported
+      EXPECT_EQ(bench.count(Reason::kReadTooShort) - before, early ? 1 : 0) << after << " at phase " << phase;
+      EXPECT_EQ(bench.chip.sample(fall + after), dsdpv1::kLevelZ);
+      set(fall + after, Pin::kCsr, 1);
+    }
+  }
+}
+
 TEST_F(UserPort, AReadCutBeforeItsSamplingEdgeDrivesNothing) {
   set(bench.now() + 10, Pin::kA, 0x003);
   set(bench.now(), Pin::kCsr, 0);

@@ -3,7 +3,6 @@
 
     check_docs.py links            relative links and their anchors exist
     check_docs.py files            files named in backquotes exist
-    check_docs.py plan             every ruling is in docs/test_plan.md, and every test named there exists
     check_docs.py snippets         code in README.md is that of the example
     check_docs.py readme SIM       the demo's output in README.md is what dsdpv1-sim prints
     check_docs.py picture SIM      docs/img/power_on_12m.svg is drawn from what dsdpv1-sim writes
@@ -86,63 +85,6 @@ def check_files(root):
             if any(any(place.glob(name.rstrip("/"))) for place in places) or ("/" not in name and name in names):
                 continue
             yield fault(root, path, text, word.start(), f"there is no {name}")
-
-
-# ---------------------------------------------------------------------------------------------------------------- plan
-RULING = r"[PHDSV]\d+"
-
-
-def existing_tests(root):
-    """Suites and tests of GoogleTest, and the tests that CMake adds by name."""
-    tests = set()
-    for path in [*root.glob("tests/**/*.cpp"), *root.glob("examples/*.cpp")]:
-        for suite, test in re.findall(r"^\s*TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", path.read_text(encoding="utf-8"), re.M):
-            tests.add(f"{suite}.{test}")
-    for path in [*root.glob("tests/**/CMakeLists.txt"), *root.glob("examples/CMakeLists.txt")]:
-        text = path.read_text(encoding="utf-8")
-        tests.update(re.findall(r"add_test\(NAME ([\w.]+)", text))
-        wrapper = r"^function\((\w+) name.*?add_test\(NAME ([\w.]*\$\{name\})"
-        for function, pattern in re.findall(wrapper, text, re.M | re.S):
-            for name in re.findall(rf"^\s*{function}\(([\w.]+)", text, re.M):
-                tests.add(pattern.replace("${name}", name))
-    return tests | {test.split(".")[0] for test in tests}
-
-
-def plan_rows(text):
-    """(ruling, its cell of tests, where) for every row that begins with one."""
-    for row in re.finditer(rf"^\| ({RULING}) \| (.*) \|$", text, re.M):
-        yield row.group(1), row.group(2), row.start()
-
-
-def check_plan(root):
-    yield from check_rulings(root, root / "docs/test_plan.md")
-    yield from check_test_names(root, root / "docs/test_plan.md")
-
-
-def check_rulings(root, path):
-    text = path.read_text(encoding="utf-8")
-    rulings = re.findall(rf"^- \*\*({RULING})\*\*", (root / "docs/chip.md").read_text(encoding="utf-8"), re.M)
-    rows = list(plan_rows(text))
-    planned = [name for name, _, _ in rows]
-    for ruling in rulings:
-        times = planned.count(ruling)
-        if times != 1:
-            yield f"docs/test_plan.md:1: ruling {ruling} of docs/chip.md is there {times} times, allowed is once"
-    for name, cell, at in rows:
-        if name not in rulings:
-            yield fault(root, path, text, at, f"docs/chip.md has no ruling {name}")
-        if "`" not in cell:
-            yield fault(root, path, text, at, f"ruling {name} names no test")
-
-
-def check_test_names(root, path):
-    text = path.read_text(encoding="utf-8")
-    tests = existing_tests(root)
-    last_parts = {test.split(".")[-1] for test in tests}  # a test that many suites have, or a suite
-    for word in re.finditer(r"`([A-Z]\w*|\w+\.[A-Z]\w*|examples\.\w+)`", prose(text)):
-        name = word.group(1)
-        if name not in tests and name not in last_parts:
-            yield fault(root, path, text, word.start(), f"there is no test {name}")
 
 
 # -------------------------------------------------------------------------------------------------------------- README
@@ -251,12 +193,12 @@ def main():
     here = pathlib.Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=here)
-    parser.add_argument("what", choices=["links", "files", "plan", "snippets", "readme", "picture", "sweep", "update"])
+    parser.add_argument("what", choices=["links", "files", "snippets", "readme", "picture", "sweep", "update"])
     parser.add_argument("sim", nargs="?")
     arguments = parser.parse_args()
     with_sim = {"readme": check_readme, "picture": check_picture, "sweep": check_sweep,
                 "update": update}
-    without = {"links": check_links, "files": check_files, "plan": check_plan, "snippets": check_snippets}
+    without = {"links": check_links, "files": check_files, "snippets": check_snippets}
     if arguments.what in with_sim:
         if arguments.sim is None:
             parser.error(f"{arguments.what} needs the path of dsdpv1-sim")

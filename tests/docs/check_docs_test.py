@@ -12,11 +12,8 @@ RIGHT = {
                  "<!-- from examples/one.cpp -->\n```cpp\nint main() {}\n```\n"
                  "<!-- demo: x -->\n```\nat 1.5 us\nin 0.5 s: 2.0 times real time\n```\n<!-- /demo -->\n",
     "docs/chip.md": "# Chip\n## Its rulings\n- **P1** a\n- **V1** b\n",
-    "docs/test_plan.md": "| P1 | `Core.Works`, `Core`, `Install.Core` |\n| V1 | `Core` |\n",
     "model/core.cpp": "",
     "examples/one.cpp": "// one\nint main() {}\n",
-    "tests/core_test.cpp": "TEST_F(Core, Works) {\n",
-    "tests/CMakeLists.txt": "function(try name)\n  add_test(NAME Install.${name}\n)\nendfunction()\ntry(Core x)\n",
     "sim": "#!/bin/sh\necho 'at 1.5 us'\necho 'in 0.7 s: 1.4 times real time'\n",
 }
 
@@ -42,7 +39,7 @@ class Project(unittest.TestCase):
 
     def faults(self):
         found = []
-        for check in (check_docs.check_links, check_docs.check_files, check_docs.check_plan, check_docs.check_snippets):
+        for check in (check_docs.check_links, check_docs.check_files, check_docs.check_snippets):
             found += check(self.root)
         return found + list(check_docs.check_readme(self.root, str(self.root / "sim")))
 
@@ -69,30 +66,6 @@ class Project(unittest.TestCase):
     def test_a_bare_name_that_no_file_has(self):
         self.change("README.md", "`core.cpp`", "`heart.cpp`")
         self.expect("there is no heart.cpp")
-
-    def test_a_ruling_that_the_plan_lacks(self):
-        self.change("docs/chip.md", "- **V1**", "- **P2** new\n- **V1**")
-        self.expect("ruling P2 of docs/chip.md is there 0 times")
-
-    def test_a_ruling_that_is_planned_twice(self):
-        self.change("docs/test_plan.md", "| V1", "| P1 | `Core` |\n| V1")
-        self.expect("ruling P1 of docs/chip.md is there 2 times")
-
-    def test_a_planned_ruling_that_is_gone(self):
-        self.change("docs/chip.md", "- **V1** b\n", "")
-        self.expect("docs/test_plan.md:2: docs/chip.md has no ruling V1")
-
-    def test_a_ruling_without_a_test(self):
-        self.change("docs/test_plan.md", "| V1 | `Core` |", "| V1 | later |")
-        self.expect("ruling V1 names no test")
-
-    def test_a_test_that_is_gone(self):
-        self.change("tests/core_test.cpp", "Works", "Runs")
-        self.expect("there is no test Core.Works")
-
-    def test_a_test_of_cmake_that_is_gone(self):
-        self.change("tests/CMakeLists.txt", "try(Core", "try(Driver")
-        self.expect("there is no test Install.Core")
 
     def test_a_snippet_that_the_example_has_no_more(self):
         self.change("examples/one.cpp", "int main() {}", "int main() { return 0; }")

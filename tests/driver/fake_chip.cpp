@@ -42,24 +42,21 @@ void FakeChip::check_ownership(const char* what) {
 }
 
 void FakeChip::set_r_req(bool level) {
-  if (!level && r_sta_) {
-    violations.emplace_back("R_REQ fell before R_STA");
-  }
-  const bool released = r_req_ && !level;
+  const bool fell = r_req_ && !level;
   r_req_ = level;
   free_samples_ = 0;
   if (on_r_req) {
     on_r_req(level);
   }
-  if (released) {
-    if (before_access) {
-      before_access();
-    }
-    access();
+  if (fell) {
+    lowered();
   }
 }
 
 void FakeChip::set_r_sta(bool level) {
+  if (level && !r_req_) {
+    violations.emplace_back("R_STA rose without R_REQ");
+  }
   if (level && free_samples_ < 4) {
     violations.emplace_back("R_STA rose after less than two looks at L_REQ and L_STA");
   }
@@ -69,7 +66,21 @@ void FakeChip::set_r_sta(bool level) {
   } else if (r_sta_ && counted_ != 1) {
     violations.push_back("B006 was counted " + std::to_string(counted_) + " times in a hold");
   }
+  const bool fell = r_sta_ && !level;
   r_sta_ = level;
+  if (fell) {
+    lowered();
+  }
+}
+
+void FakeChip::lowered() {
+  if (r_req_ || r_sta_) {
+    return;
+  }
+  if (before_access) {
+    before_access();
+  }
+  access();
 }
 
 bool FakeChip::l_req() {

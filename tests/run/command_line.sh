@@ -20,7 +20,7 @@ refuses() {
 }
 
 help=$("$run" --help) || fail "--help: exit $?"
-for command in demo test sim rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal cosim build format lint generate deps; do
+for command in demo test sim rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal cosim build format lint generate conformance deps; do
   grep -q "^  $command " <<<"$help" || fail "--help does not explain $command"
 done
 grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
@@ -30,6 +30,7 @@ refuses "allowed are demo test sim" dmeo
 refuses "allowed is --quick" test --fast
 refuses "allowed is --quick" test --quick again
 refuses "allowed is default debug coverage" build release
+refuses "allowed is --record" conformance now
 refuses "allowed is none" demo now
 refuses "allowed is none" rtl-formal quickly
 refuses "allowed is none" rtl-coverage again

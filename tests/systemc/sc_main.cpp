@@ -3,6 +3,7 @@
 #include <iostream>
 #include <systemc>
 
+#include "model/systemc/main_stack.hpp"
 #include "tests/systemc/bench.hpp"
 
 int sc_main(int argc, char* argv[]) {
@@ -13,5 +14,6 @@ int sc_main(int argc, char* argv[]) {
     std::cerr << report.what() << "\n";
     return 1;
   }
+  dsdpv1::systemc::announce_main_stack();
   return RUN_ALL_TESTS();
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -70,7 +71,9 @@ struct World : sc_core::sc_module {
   std::vector<profibus::Reason> events, quiet_events;
 
   Outcome burst_write, burst_read, delayed, top, outside, across, far, empty, streaming, ignored, enables, wrong_enable,
-      no_enable, no_data, short_strobe, early_sample, unowned, by_extension, before_start_up;
+      no_enable, no_data, short_strobe, unowned, by_extension, before_start_up;
+  std::vector<Outcome> at_tw, before_tw, at_the_fall;  ///< one for each phase of CLK
+  std::ptrdiff_t reported_early = 0;
   unsigned dbg_written = 0, dbg_read = 0, dbg_clipped = 0, dbg_outside = 0, dbg_ignored = 0;
   std::vector<std::uint8_t> dbg_data = std::vector<std::uint8_t>(4);
   std::size_t changes_before_dbg = 0, changes_after_dbg = 0;
@@ -202,12 +205,28 @@ struct World : sc_core::sc_module {
     return outcome;
   }
 
+  /// D comes 125 to 375 ticks after the read has begun, as the phase of CLK has it.
+  void do_samples() {
+    AccessTiming timing;
+    for (Tick phase = 0; phase < profibus::kTicksPerCycle; phase += 5) {
+      const auto read = [&](Tick sample) {
+        const Tick now = dsdpv1::systemc::current_tick();
+        wait_until((now / profibus::kTicksPerCycle + 2) * profibus::kTicksPerCycle + phase);
+        timing.rd_sample = sample;
+        return with_timing(tlm::TLM_READ_COMMAND, timing);
+      };
+      at_tw.push_back(read(375));
+      before_tw.push_back(read(374));
+      at_the_fall.push_back(read(phase == 0 ? -10 : 0));
+    }
+    reported_early = std::count(events.begin(), events.end(), profibus::Reason::kReadTooShort);
+  }
+
   void do_violations() {
     AccessTiming timing;
     timing.recovery = 1000;
     by_extension = with_timing(tlm::TLM_READ_COMMAND, timing);
-    timing.rd_sample = 10;
-    early_sample = with_timing(tlm::TLM_READ_COMMAND, timing);
+    do_samples();
     timing.wr_low = timing.data_setup = 149;
     short_strobe = with_timing(tlm::TLM_WRITE_COMMAND, timing);
   }
@@ -302,8 +321,12 @@ TEST(HostSocket, AnExtensionGivesOneTransactionItsOwnTiming) {
   EXPECT_NEAR(world->by_extension.took.to_seconds(), to_time(took).to_seconds(), 1e-15);
 }
 
-TEST(HostSocket, AnUnknownValueIsAGenericError) {
-  EXPECT_EQ(world->early_sample.response, tlm::TLM_GENERIC_ERROR_RESPONSE);
+TEST(HostSocket, ASampleBeforeTwIsAGenericErrorAndReportedAtEveryPhaseOfTheClock) {
+  for (const Outcome& each : world->at_tw) EXPECT_EQ(each.response, tlm::TLM_OK_RESPONSE);
+  for (const auto* early : {&world->before_tw, &world->at_the_fall})
+    for (const Outcome& each : *early) EXPECT_EQ(each.response, tlm::TLM_GENERIC_ERROR_RESPONSE);
+  EXPECT_EQ(world->reported_early, 2 * 50);
+  EXPECT_THAT(reports_of("/dsdpv1/violation", "world.chip"), testing::Contains(testing::HasSubstr("HOST_TW")));
 }
 
 TEST(HostSocket, AReadBeforeAStartUpThatTheUserHoldsOffIsAGenericErrorAndReported) {

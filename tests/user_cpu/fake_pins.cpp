@@ -18,4 +18,9 @@ void Chip::advance(Tick to) { fake_pins().now = to; }
 
 Level Chip::level(Pin pin) const { return pin == Pin::kDOut ? fake_pins().data(fake_pins().now) : fake_pins().high; }
 
+Level Chip::sample(Tick at) {
+  advance(at);
+  return level(Pin::kDOut);
+}
+
 }  // namespace dsdpv1

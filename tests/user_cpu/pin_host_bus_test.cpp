@@ -58,9 +58,25 @@ TEST_F(PinHostBus, ReadHasItsEdgesAtTheirTicks) {
                                                PinChange{1030, Pin::kRd, 0}, PinChange{1530, Pin::kRd, 1},
                                                PinChange{1540, Pin::kCsr, 1}, PinChange{1690, Pin::kA, 0x7FF}));
   EXPECT_EQ(sampled, 1430);
+  EXPECT_EQ(host.sample_tick(), sampled);
   EXPECT_EQ(host.read_value(), 0x5A);
   EXPECT_FALSE(host.last_read_was_bad());
   EXPECT_EQ(host.end(), 1760);
+}
+
+TEST_F(PinHostBus, NothingIsSampledBeforeTheReadBegins) {
+  Tick sampled = 0;
+  fake_pins().data = [&](Tick at) {
+    sampled = at;
+    return dsdpv1::kLevelX;
+  };
+  timing.rd_sample = -5;
+  run(false);
+  EXPECT_EQ(sampled, 1030);  // the fall of RD
+  timing.cs_lead = -20;
+  run(false, 2000);
+  EXPECT_EQ(sampled, 2050);  // that of CSR
+  EXPECT_EQ(host.sample_tick(), sampled);
 }
 
 TEST_F(PinHostBus, WriteHasItsEdgesAtTheirTicks) {

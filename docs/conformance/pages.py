@@ -1,0 +1,131 @@
+"""Writes docs/conformance.md and docs/test_plan.md from the data and the results of a run."""
+import check
+
+ORIGIN = "<!-- Generated from docs/conformance/*.yaml by docs/conformance/generate.py (./run generate). Do not edit. -->\n"
+
+CONFORMANCE = """# Conformance, clause by clause
+
+What the two documents say of this chip, in one line each, and how it is answered: the ruling of [chip.md](../docs/chip.md) that settles how the line is
+read, the file of the model and of the reference RTL in which it is found first, the tests that assert it, and what they gave in the last recorded run. The
+documents are Chinese; the lines are our own words, and the documents stand above them.
+
+*Clause*: section, table (T) or figure (F) of the document, and behind the dash which of its statements; of tables the cell, bit or row. Clauses of the
+manual begin with M and the chapter. *Last run*: how many tests passed, of how many; a suite counts with each of its tests. A clause that cannot have
+a test gives its reason instead. Where no file of the RTL is named, the line speaks to the user or the master: then the model's file is that of the driver,
+the checks or the bus.
+
+The data are in `docs/conformance/`; how a clause, a ruling or a run's results get there is in [CONTRIBUTING.md](../CONTRIBUTING.md).
+"""
+
+
+def files(root, kind, names):
+    paths = [check.find(root, kind, name) for name in names]
+    return ", ".join(f"[{path.split('/')[-1]}](../{path})" for path in paths if path) or "-"
+
+
+def tests(found):
+    return ", ".join(f"`{test.name}`" + (f" ({test.note})" if test.note else "") for test in found)
+
+
+def cell(text):
+    return text.replace("|", "\\|").replace("\n", " ")
+
+
+def row(*cells):
+    return "| " + " | ".join(cell(each) for each in cells) + " |\n"
+
+
+def head(*cells):
+    return row(*cells) + "|" + "---|" * len(cells) + "\n"
+
+
+def shown(result):
+    if result is None:
+        return "not run"
+    words = f"{result.passed} of {result.total}"
+    return words + ("".join(f", FAILED {name}" for name in result.failed))
+
+
+# ---------------------------------------------------------------------------------------------------------- conformance
+def clause_row(root, clause, run):
+    if clause.tests:
+        asserted, last = tests(clause.tests), shown(run.of(clause.tests))
+    else:
+        asserted, last = (f"*none: {clause.reason}*" if clause.reason else "**NO TEST**"), "-"
+    return row(clause.name, clause.says, ", ".join(clause.rulings) or "-", files(root, "model", clause.model),
+               files(root, "rtl", clause.rtl), asserted, last)
+
+
+def part_text(root, part, run):
+    lines = [f"\n### {part.title}\n\n", head("clause", "what it says", "ruling", "model", "RTL", "tests", "last run")]
+    return "".join(lines + [clause_row(root, clause, run) for clause in part.clauses])
+
+
+def counts(owners, run):
+    """How many there are, with tests, with a reason, with neither; of those with tests: all passed, one failed, not run."""
+    tested = [owner for owner in owners if owner.tests]
+    found = [run.of(owner.tests) for owner in tested]
+    good = sum(result is not None and result.passed == result.total for result in found)
+    bad = sum(result is not None and result.passed < result.total for result in found)
+    reasoned = sum(bool(getattr(owner, "reason", "")) for owner in owners)
+    return [len(owners), len(tested), reasoned, len(owners) - len(tested) - reasoned, good, bad, len(tested) - good - bad]
+
+
+def summary(data, run):
+    text = "\n## Summary\n\n"
+    text += head("", "number", "with tests", "with a reason", "with neither", "all tests passed", "a test failed", "not run")
+    for name, owners in [*[(document.title, document.clauses) for document in data.documents], ("Rulings", data.rulings.values())]:
+        text += row(name, *map(str, counts(owners, run)))
+    if run.commit:
+        return text + f"\nResults are those of the run of commit {run.commit}, {run.date}: {run.passed} of all {run.total} tests passed.\n"
+    return text + "\nNo run has been recorded yet (`./run conformance --record`).\n"
+
+
+def missing(data):
+    """Clauses without a test, listed as such."""
+    text = "\n## Clauses without a test\n\n"
+    bare = check.untested(data)
+    reasoned = [clause for document in data.documents for clause in document.clauses if clause.reason]
+    text += "Neither a test nor a reason: " + (", ".join(clause.name for clause in bare) or "none") + ".\n\n"
+    text += "With a reason why there can be none:\n\n" + head("clause", "reason")
+    return text + "".join(row(clause.name, clause.reason) for clause in reasoned)
+
+
+def rulings(root, data, run):
+    cited = {name: [] for name in data.rulings}
+    for document in data.documents:
+        for clause in document.clauses:
+            for name in clause.rulings:
+                cited.get(name, []).append(clause.name)
+    text = "\n## The rulings\n\nWhat each says is in [chip.md](../docs/chip.md). Without a clause: the documents are silent there.\n\n"
+    text += head("ruling", "clauses", "model", "RTL", "tests", "last run")
+    for ruling in data.rulings.values():
+        text += row(ruling.name, ", ".join(cited[ruling.name]) or "-", files(root, "model", ruling.model),
+                    files(root, "rtl", ruling.rtl), tests(ruling.tests), shown(run.of(ruling.tests)))
+    return text
+
+
+def conformance(root, data, run):
+    text = ORIGIN + CONFORMANCE + summary(data, run) + missing(data)
+    for document in data.documents:
+        text += f"\n## {document.title}\n\n{document.text.strip()}\n"
+        text += "".join(part_text(root, part, run) for part in document.parts)
+    return text + rulings(root, data, run)
+
+
+# ------------------------------------------------------------------------------------------------------------ test plan
+def plan_section(data, section):
+    text = f"\n## {section.title}\n" if section.title else ""
+    if section.text:
+        text += "\n" + section.text.strip() + "\n"
+    if section.rulings:
+        text += "\n" + head("ruling", "tests")
+        text += "".join(row(each.name, tests(each.tests)) for each in data.rulings.values() if each.name[0] in section.rulings)
+    if section.rows:
+        text += "\n" + head(*section.head)
+        text += "".join(row(*[tests(each) if isinstance(each, list) else each for each in cells]) for cells in section.rows)
+    return text
+
+
+def test_plan(data):
+    return ORIGIN + "# Test plan\n" + "".join(plan_section(data, section) for section in data.plan)

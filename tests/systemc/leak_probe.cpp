@@ -1,0 +1,42 @@
+// What the sanitizer's search for leaks sees of a SystemC program: run by ctest with `held`, where it must find nothing, and with `lost`,
+// where it must find the block. `held` ends the program inside of sc_main, with the block on the main thread's stack.
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+
+#include "model/systemc/main_stack.hpp"
+#include "tests/systemc/bench.hpp"
+
+namespace {
+
+/// A compiler may leave out an allocation that nobody uses.
+std::unique_ptr<volatile int[]> make_block() {
+  auto block = std::make_unique<volatile int[]>(1000);
+  block[0] = 1;
+  return block;
+}
+
+/// Out of line, so that no register and no frame still in use has the address of what it has lost.
+[[gnu::noinline]] void lose_a_block() { static_cast<void>(make_block().release()); }
+
+}  // namespace
+
+/// Processes that end and one that does not: SystemC leaves the stack of each in another way.
+void simulate() {
+  thread([] { wait_until(1 * kUs); });
+  thread([] { wait_until(3 * kUs); });
+  thread([] {
+    for (;;) sc_core::wait(700, sc_core::SC_NS);
+  });
+  sc_core::sc_start(10, sc_core::SC_US);
+}
+
+int sc_main(int argc, char* argv[]) {
+  dsdpv1::systemc::require_femtoseconds();
+  const auto held = make_block();
+  simulate();
+  if (argc == 2 && std::strcmp(argv[1], "held") == 0) std::exit(EXIT_SUCCESS);
+  dsdpv1::systemc::announce_main_stack();
+  lose_a_block();
+  return EXIT_SUCCESS;
+}
