@@ -10,7 +10,7 @@ namespace bus {
 
 namespace {
 
-constexpr std::size_t kAbortSize = 4;      // 58, subnet, instance and reason, detail
+constexpr std::size_t kAbortSize = 3;      // 58, subnet, instance and reason; some slaves send a detail
 constexpr std::size_t kImmediateSize = 4;  // 56, SAP, Send_Timeout
 constexpr std::size_t kInitiateSize = 8;   // 57 and its fixed part, Add_Addr behind it
 constexpr std::size_t kNegativeSize = 4;   // fn, Error_Decode, Error_Code_1, Error_Code_2
@@ -71,7 +71,7 @@ void Connection::aborted_by_slave(Tick now, const Bytes& pdu) {
   ConnectionEnd how = ended(ConnectionEnd::By::kSlaveAbort, {});
   how.subnet = pdu[1];
   how.instance_and_reason = pdu[2];
-  how.detail = pdu[3];
+  how.detail = pdu.size() > kAbortSize ? pdu[kAbortSize] : std::uint8_t{0};
   how.words = abort_words("aborted by the slave", how);
   end(now, how);
 }
