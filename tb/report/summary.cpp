@@ -63,15 +63,19 @@ std::string slaves(const RunResult& result) {
 std::string expectations(const RunResult& result) {
   if (result.expectations.empty()) return "";
   std::string text;
-  std::size_t met = 0;
+  std::size_t met = 0, left_out = 0;
   for (const ExpectationResult& each : result.expectations) {
     if (each.passed) {
       ++met;
+    } else if (each.left_out) {
+      ++left_out;
     } else {
       text += fmt::format("  NOT MET  {}:{}: {}; seen: {}\n", result.file, each.line, each.text, each.seen);
     }
   }
-  return fmt::format("  expectations   {} of {} met\n", met, result.expectations.size()) + text;
+  return fmt::format("  expectations   {} of {} met{}\n", met, result.expectations.size(),
+                     left_out != 0 ? fmt::format(", {} left out", left_out) : "") +
+         text;
 }
 
 std::string pacing(const Pacing& pacing) {

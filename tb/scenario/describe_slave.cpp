@@ -120,7 +120,17 @@ const ObjectOf<UserCpu>& user_cpu_keys() {
                {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing`"},
                {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"}},
            "Who runs it.");
-    o.file("elf", &U::elf, "Firmware of the ARM board, relative to the scenario's folder.");
+    o.file(
+        "elf", &U::elf,
+        "Firmware of the ARM board, relative to the scenario's folder; on the command line relative to where you are.");
+    o.word("without_mailbox", &U::without_mailbox,
+           std::vector<WordFor<WithoutMailbox>>{
+               {WithoutMailbox::kRefuse, "refuse", "the first of them is reported in one line, and nothing is run"},
+               {WithoutMailbox::kLeaveOut, "leave_out",
+                "actions are not carried out, expectations not judged, and each is listed at the end"}},
+           "For firmware without a mailbox: what becomes of actions for the user CPU, of expectations of outputs or of "
+           "errors of the driver, and of "
+           "settings for its program that stand beside `elf` (docs/arm_board.md).");
     o.number("cpi", &U::cpi, {1, 10}, "HCLK", "Cycles per instruction of the ARM board, an estimate.");
     o.word("behaviour", &U::behaviour,
            std::vector<WordFor<Behaviour>>{

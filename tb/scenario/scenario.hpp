@@ -96,6 +96,7 @@ struct InitData {
   int prm_mode = 0, cfg_mode = 0;
   std::optional<bool> set_slave_address, freeze, sync, fail_safe;
   bool dpv1 = false;
+  std::vector<keys::Given> given;
   int line = 0;
 };
 
@@ -139,6 +140,8 @@ struct Dpv1User {
 };
 
 enum class CpuKind : std::uint8_t { kNative, kArm };
+/// What becomes of that part of a scenario that only firmware with a mailbox can carry out or tell.
+enum class WithoutMailbox : std::uint8_t { kRefuse, kLeaveOut };
 
 struct UserCpu {
   CpuKind kind = CpuKind::kNative;
@@ -147,8 +150,9 @@ struct UserCpu {
   bool overwrite_inputs = true;  ///< DSDPV1_INPUT_NEWEST
   bool judge_in_handler = true;
   int line = 0;
-  Name elf;          ///< kArm
-  double cpi = 1.5;  ///< kArm: cycles of HCLK per instruction
+  Name elf;                                                  ///< kArm
+  WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
+  double cpi = 1.5;                                          ///< kArm: cycles of HCLK per instruction
   bus::Bytes constant;
   bus::Tick start_delay = 0;
   bus::Tick cycle = 50 * bus::kTicksPerUs;
@@ -158,6 +162,7 @@ struct UserCpu {
   std::optional<AccessTimes> access;
   std::optional<Fsmc> fsmc;
   Dpv1User dpv1;
+  std::vector<keys::Given> given;
 };
 
 struct Slave {
@@ -209,6 +214,9 @@ enum class Do : std::uint8_t {
   kC2Raw,
   kGlitch,
 };
+
+/// The word for it in a scenario.
+const char* action_word(Do what);
 
 /// What the program on the user CPU has to carry out itself.
 constexpr bool is_for_user_cpu(Do what) { return what <= Do::kAnswerAcyclic && what != Do::kResetChip; }

@@ -36,6 +36,7 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
       set_chip_reset_(std::move(set_chip_reset)),
       start_(start),
       fsmc_(options_.fsmc),
+      notes_(options_.notes),
       core_(*this, MemoryMap(), options_.timing),
       cpu_(
           bus, no_overhead(), [this](user_cpu::Cpu& cpu) { run_firmware(cpu); }, start) {
@@ -79,7 +80,9 @@ void Board::command(Tick now, const user_cpu::Command& command) {
 }
 
 user_cpu::UserCounters Board::counters() const {
-  return {handshake_.counters(), mailbox_ ? mailbox_->counters() : user_cpu::ProgramCounters(), cpu_.counters()};
+  user_cpu::UserCounters counters{handshake_.counters(), std::nullopt, cpu_.counters()};
+  if (mailbox_) counters.program = mailbox_->counters();
+  return counters;
 }
 
 std::optional<user_cpu::BoardReport> Board::board() const {

@@ -41,6 +41,7 @@ struct BoardOptions {
   Timing timing;
   int hclk_mhz = 72;
   std::function<std::unique_ptr<Debugger>(DebugTarget&)> make_debugger;  ///< null: none
+  std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
 };
 
 class Board : public user_cpu::UserSide, private System {
@@ -54,6 +55,7 @@ class Board : public user_cpu::UserSide, private System {
   void intr0_changed(Tick at, bool level) override;
   void command(Tick now, const user_cpu::Command& command) override;
   user_cpu::UserCounters counters() const override;
+  bool tells() const override { return mailbox_.has_value(); }
   std::uint64_t outputs_received() const override { return mailbox_ ? mailbox_->outputs_received() : 0; }
   const std::vector<std::uint8_t>& outputs() const override { return mailbox_ ? mailbox_->outputs() : no_outputs_; }
   std::optional<user_cpu::BoardReport> board() const override;
