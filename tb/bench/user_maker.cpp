@@ -69,6 +69,18 @@ MakeUser native_user(const scenario::UserCpu& user, ChipView& chip) {
 
 #ifdef DSDPV1_HAS_ARM_BOARD
 
+/// As the scenario's check has found them right.
+arm::Switches switches_of(const scenario::UserCpu& user) {
+  arm::Switches switches;
+  for (const scenario::Name& text : user.switches) {
+    const scenario::Switch one = *scenario::parse_switch(text.text);
+    const auto bit = static_cast<std::uint16_t>(1U << one.pin);
+    switches.held.at(one.port) |= bit;
+    if (one.high) switches.levels.at(one.port) |= bit;
+  }
+  return switches;
+}
+
 /// The mailbox has room for so many.
 void check_objects(const scenario::Scenario& scenario, const scenario::Slave& slave, const arm::Firmware& firmware) {
   const std::size_t count = slave.user_cpu.dpv1.objects.size();
@@ -91,7 +103,7 @@ MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& sla
   options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(user.cpi * 1000);
   if (user.fsmc) options.fsmc = static_cast<const user_cpu::FsmcOverride&>(*user.fsmc);
   if (user.access) options.access = static_cast<const user_cpu::AccessTiming&>(*user.access);
-  options.hclk_mhz = options.fsmc.hclk_mhz.value_or(options.hclk_mhz);
+  options.switches = switches_of(user);
   if (gdb != nullptr) {
     options.make_debugger = [gdb](arm::DebugTarget& target) {
       return std::make_unique<arm::GdbServer>(target, arm::GdbOptions{gdb->port, gdb->stopped, gdb->say});

@@ -42,7 +42,11 @@ Json user_of(const SlaveResult& slave) {
 }
 
 Json board_of(const user_cpu::BoardReport& board) {
-  return {{"instructions", board.instructions}, {"hclk_cycles", board.cycles}, {"notes", board.notes}};
+  return {{"instructions", board.instructions},
+          {"hclk_cycles", board.cycles},
+          {"hclk_hz", board.hclk_hz},
+          {"hclk_source", board.hclk_source},
+          {"notes", board.notes}};
 }
 
 Json registry_of(const profibus::RmRegistry& registry) {

@@ -98,9 +98,10 @@ std::string boards(const RunResult& result) {
   std::string text;
   for (const SlaveResult& slave : result.slaves) {
     if (!slave.board) continue;
-    text += fmt::format("  ARM board      {}: {} instructions, {:.1f} million a second\n", slave.name,
-                        slave.board->instructions,
-                        static_cast<double>(slave.board->instructions) / 1e6 / std::max(result.wall_s, 1e-9));
+    text += fmt::format("  ARM board      {}: {} instructions, {:.1f} million a second; HCLK {:g} MHz ({})\n",
+                        slave.name, slave.board->instructions,
+                        static_cast<double>(slave.board->instructions) / 1e6 / std::max(result.wall_s, 1e-9),
+                        static_cast<double>(slave.board->hclk_hz) / 1e6, slave.board->hclk_source);
     for (const std::string& note : slave.board->notes) text += fmt::format("                 {}\n", note);
   }
   return text + result.fault_registers;

@@ -152,6 +152,7 @@ struct UserCpu {
   int line = 0;
   Name elf;                                                  ///< kArm
   WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
+  std::vector<Name> switches;                                ///< kArm: "PA0=low"
   double cpi = 1.5;                                          ///< kArm: cycles of HCLK per instruction
   bus::Bytes constant;
   bus::Tick start_delay = 0;
@@ -214,6 +215,14 @@ enum class Do : std::uint8_t {
   kC2Raw,
   kGlitch,
 };
+
+/// A switch of an ARM board that holds an input pin.
+struct Switch {
+  unsigned port = 0, pin = 0;  ///< port A is 0
+  bool high = false;
+};
+/// "PA0=low"; nullopt for other text, and for pins of ports beyond G.
+std::optional<Switch> parse_switch(const std::string& text);
 
 /// The word for it in a scenario.
 const char* action_word(Do what);

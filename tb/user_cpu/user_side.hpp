@@ -30,6 +30,8 @@ struct UserCounters {
 struct BoardReport {
   std::uint64_t instructions = 0;
   std::uint64_t cycles = 0;        ///< of its clock, since the start
+  std::int64_t hclk_hz = 0;        ///< its clock at the end ...
+  std::string hclk_source;         ///< ... and where it comes from
   std::vector<std::string> notes;  ///< what its firmware did that the board does not do like a real one
 };
 

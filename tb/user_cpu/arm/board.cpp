@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace arm {
@@ -17,8 +18,11 @@ constexpr std::uint32_t kGpioIdr = 0x08;
 
 // The board's wiring.
 constexpr unsigned kRReqPin = 6, kRStaPin = 7, kLReqPin = 8, kLStaPin = 9, kResetPin = 4, kIntr0Pin = 6;
+constexpr unsigned kLampPin = 12;  // PBF, then BR and READY
 
 constexpr std::uint64_t kApbCycles = 2;
+constexpr std::int64_t kGreatestHclk = 72'000'000;
+constexpr std::int64_t kQuantaASecond = 4'000'000;  // interrupts are looked for every 250 ns
 
 bool within(std::uint32_t address, std::uint32_t base) { return address - base < kBlock; }
 
@@ -34,7 +38,7 @@ user_cpu::CpuTiming no_overhead() {
 Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick, bool)> set_chip_reset, Tick start)
     : options_(std::move(options)),
       set_chip_reset_(std::move(set_chip_reset)),
-      start_(start),
+      since_(start),
       fsmc_(options_.fsmc),
       notes_(options_.notes),
       core_(*this, MemoryMap(), options_.timing),
@@ -46,6 +50,7 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
     mailbox_.emplace(core_.ram() + (*options_.firmware->mailbox - MemoryMap().ram_base), options_.program);
   if (options_.make_debugger) debugger_ = options_.make_debugger(core_);
   core_.attach(debugger_.get());
+  follow_clock();
   core_.on_fault([this](const Fault& fault) { note_fault(fault); });
   usart_.on_line = [this](const std::string& line) {
     if (on_text) on_text(now(), line);
@@ -86,7 +91,8 @@ user_cpu::UserCounters Board::counters() const {
 }
 
 std::optional<user_cpu::BoardReport> Board::board() const {
-  user_cpu::BoardReport report{core_.instructions(), core_.cycles(), notes_};
+  user_cpu::BoardReport report{core_.instructions(), core_.cycles(), hclk_hz(),
+                               options_.fsmc.hclk_mhz ? "fsmc.hclk of the scenario" : rcc_.hclk_source(), notes_};
   const auto place = [this](std::uint32_t pc) { return options_.firmware->lines.at(pc); };
   for (std::string& line : others_.notes(place)) report.notes.push_back(std::move(line));
   if (!usart_.unfinished().empty()) report.notes.push_back("USART1, a line without end: " + usart_.unfinished());
@@ -126,12 +132,27 @@ void Board::failed(const Fault& fault) {
 }
 
 Tick Board::tick_of(std::uint64_t cycle) const {
-  return start_ + static_cast<Tick>(cycle) * bus::kTicksPerUs / options_.hclk_mhz;
+  return since_ + static_cast<Tick>(cycle - since_cycle_) * cycle_ticks_ / cycle_parts_;
 }
 
 /// The first cycle that does not begin before `tick`.
 std::uint64_t Board::cycle_of(Tick tick) const {
-  return static_cast<std::uint64_t>(((tick - start_) * options_.hclk_mhz + bus::kTicksPerUs - 1) / bus::kTicksPerUs);
+  return since_cycle_ + static_cast<std::uint64_t>(((tick - since_) * cycle_parts_ + cycle_ticks_ - 1) / cycle_ticks_);
+}
+
+std::int64_t Board::hclk_hz() const {
+  return options_.fsmc.hclk_mhz ? std::int64_t{1'000'000} * *options_.fsmc.hclk_mhz : rcc_.hclk_hz();
+}
+
+/// Cycles last what RCC says, from the present one on.
+void Board::follow_clock() {
+  since_ = now();
+  since_cycle_ = core_.cycles();
+  const std::int64_t hz = hclk_hz(), common = std::gcd(hz, bus::kTicksPerSecond);
+  cycle_ticks_ = bus::kTicksPerSecond / common;
+  cycle_parts_ = hz / common;
+  core_.set_quantum(static_cast<std::uint32_t>(std::max<std::int64_t>(hz / kQuantaASecond, 1)));
+  if (pins_ != nullptr) set_access_timing();
 }
 
 /// Everybody else has come to the processor's time.
@@ -160,7 +181,7 @@ void Board::reset() {
   exti_ = {};
   rcc_ = {};
   fsmc_ = Fsmc(options_.fsmc);
-  set_access_timing();
+  follow_clock();
   update_interrupts();
   update_pins();
 }
@@ -237,7 +258,7 @@ void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t valu
 }
 
 void Board::set_access_timing() {
-  const user_cpu::FsmcAccess made = fsmc_.timing();
+  const user_cpu::FsmcAccess made = fsmc_.timing(hclk_hz());
   pins_->set_access_timing(options_.access.value_or(made.read), options_.access.value_or(made.write));
 }
 
@@ -267,13 +288,29 @@ std::uint32_t Board::load_word(std::uint32_t address) {
 }
 
 std::uint32_t Board::load_port(unsigned port, std::uint32_t offset) {
-  if (offset != kGpioIdr || (port != kC && port != kG)) return ports_.at(port).read(offset, 0, 0);
-  come_up();
-  if (port == kG)
-    return ports_[kG].read(offset, 1U << kIntr0Pin, static_cast<std::uint16_t>(intr0_ ? 1U << kIntr0Pin : 0));
-  const unsigned levels = static_cast<unsigned>(pins_->l_req()) << kLReqPin | static_cast<unsigned>(pins_->l_sta())
-                                                                                  << kLStaPin;
-  return ports_[kC].read(offset, 1U << kLReqPin | 1U << kLStaPin, static_cast<std::uint16_t>(levels));
+  const Levels there = offset == kGpioIdr ? outside(port) : Levels{0, 0};
+  return ports_.at(port).read(offset, there.driven, there.levels);
+}
+
+/// The chip, the board's pull-up and the switches.
+Board::Levels Board::outside(unsigned port) {
+  unsigned driven = options_.switches.held.at(port), levels = options_.switches.levels.at(port);
+  const auto add = [&](unsigned pin, unsigned level) {
+    driven |= 1U << pin;
+    levels |= level << pin;
+  };
+  if (port == kC || port == kG) come_up();
+  if (port == kC) {
+    add(kLReqPin, static_cast<unsigned>(pins_->l_req()));
+    add(kLStaPin, static_cast<unsigned>(pins_->l_sta()));
+  } else if (port == kE) {
+    add(kResetPin, 1);
+  } else if (port == kG) {
+    add(kIntr0Pin, static_cast<unsigned>(intr0_));
+    const unsigned lamps = pins_->lamps();
+    for (unsigned i = 0; i < 3; ++i) add(kLampPin + i, lamps >> i & 1U);
+  }
+  return {static_cast<std::uint16_t>(driven), static_cast<std::uint16_t>(levels)};
 }
 
 void Board::store_word(std::uint32_t address, std::uint32_t value) {
@@ -293,6 +330,9 @@ void Board::store_word(std::uint32_t address, std::uint32_t value) {
     usart_.write(address - kUsart1, value);
   } else if (within(address, kRcc)) {
     rcc_.write(address - kRcc, value);
+    if (!options_.fsmc.hclk_mhz) follow_clock();
+    if (hclk_hz() > kGreatestHclk)
+      note(fmt::format("HCLK is {} MHz, allowed is 72 MHz", hclk_hz() / 1'000'000), Noted::kClockTooFast);
   } else if (address - Fsmc::kBase < Fsmc::kSize) {
     fsmc_.write(address - Fsmc::kBase, value);
     set_access_timing();

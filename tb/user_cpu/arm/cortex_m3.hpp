@@ -75,6 +75,8 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   /// The run ends before the next instruction. Callable from System's functions and on_fault.
   void stop();
 
+  /// Timing::quantum from now on; > 0.
+  void set_quantum(std::uint32_t cycles) { timing_.quantum = cycles; }
   /// Cycles of HCLK since the first reset.
   std::uint64_t cycles() const { return now_ / kMillis; }
   /// From System's functions: time has gone on. Not backwards.
