@@ -112,6 +112,7 @@ MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& sla
   return [&user, &chip, options](const user_cpu::StationConfig& station, Tick start) {
     arm::BoardOptions now = options;
     now.program = program_options(user, station);
+    now.chip = &chip.chip();
     const auto set_chip_reset = [&chip](Tick at, bool level) { chip.set_reset(at, level); };
     return std::make_unique<arm::Board>(chip.host_bus(), std::move(now), set_chip_reset, start);
   };

@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint32_t kBank1 = 0x6000'0000, kBank1End = 0x7000'0000, kRegionSize = 0x0400'0000;
 constexpr std::uint32_t kAfio = 0x4001'0000, kExti = 0x4001'0400, kGpioA = 0x4001'0800, kGpioEnd = 0x4001'2400;
 constexpr std::uint32_t kUsart1 = 0x4001'3800, kRcc = 0x4002'1000, kBlock = 0x400;
+constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralsSize = 0x2'4000, kFsmcBlock = 0x1000;
 constexpr std::uint32_t kChipMask = 0x7FF;  // A10..A0
 constexpr std::uint32_t kGpioIdr = 0x08;
 
@@ -294,24 +295,65 @@ std::uint32_t Board::load_port(unsigned port, std::uint32_t offset) {
 
 /// The chip, the board's pull-up and the switches.
 Board::Levels Board::outside(unsigned port) {
+  if (port != kC && port != kG) return wired(port, 0, 0);
+  come_up();
+  if (port == kG) return wired(port, 0, pins_->lamps());
+  const unsigned l_req = static_cast<unsigned>(pins_->l_req());
+  return wired(port, l_req | static_cast<unsigned>(pins_->l_sta()) << 1U, 0);
+}
+
+/// `handshake`: L_REQ, L_STA; `lamps` as user_cpu::HostBus has them.
+Board::Levels Board::wired(unsigned port, unsigned handshake, unsigned lamps) const {
   unsigned driven = options_.switches.held.at(port), levels = options_.switches.levels.at(port);
   const auto add = [&](unsigned pin, unsigned level) {
     driven |= 1U << pin;
-    levels |= level << pin;
+    levels |= (level & 1U) << pin;
   };
-  if (port == kC || port == kG) come_up();
-  if (port == kC) {
-    add(kLReqPin, static_cast<unsigned>(pins_->l_req()));
-    add(kLStaPin, static_cast<unsigned>(pins_->l_sta()));
-  } else if (port == kE) {
-    add(kResetPin, 1);
-  } else if (port == kG) {
+  if (port == kE) add(kResetPin, 1);
+  if (port == kC) add(kLReqPin, handshake), add(kLStaPin, handshake >> 1U);
+  if (port == kG) {
     add(kIntr0Pin, static_cast<unsigned>(intr0_));
-    const unsigned lamps = pins_->lamps();
-    for (unsigned i = 0; i < 3; ++i) add(kLampPin + i, lamps >> i & 1U);
+    for (unsigned i = 0; i < 3; ++i) add(kLampPin + i, lamps >> i);
   }
   return {static_cast<std::uint16_t>(driven), static_cast<std::uint16_t>(levels)};
 }
+
+// ------------------------------------------------------------------------------------------------- a debugger's looks
+
+std::vector<MemoryRegion> Board::regions() const {
+  std::vector<MemoryRegion> all = {{kPeripherals, kPeripheralsSize, false}, {Fsmc::kBase, kFsmcBlock, false}};
+  if (options_.chip != nullptr) all.push_back({kBank1, kRegionSize, false});
+  return all;
+}
+
+std::optional<std::uint32_t> Board::peek(std::uint32_t address) const {
+  if (options_.chip != nullptr && address - kBank1 < kRegionSize) {
+    std::uint32_t word = 0;
+    for (unsigned i = 0; i < 4; ++i)
+      word |= std::uint32_t{options_.chip->peek(static_cast<std::uint16_t>((address + i) & kChipMask))} << i * 8;
+    return word;
+  }
+  if (address - Fsmc::kBase < kFsmcBlock) return fsmc_.read(address - Fsmc::kBase);
+  if (address - kPeripherals >= kPeripheralsSize) return std::nullopt;
+  if (address >= kGpioA && address < kGpioEnd) return peek_port((address - kGpioA) / kBlock, address % kBlock);
+  if (within(address, kAfio)) return exti_.read_afio(address - kAfio);
+  if (within(address, kExti)) return exti_.read(address - kExti);
+  if (within(address, kUsart1)) return usart_.read(address - kUsart1);
+  if (within(address, kRcc)) return rcc_.read(address - kRcc);
+  return others_.peek(address);
+}
+
+std::uint32_t Board::peek_port(unsigned port, std::uint32_t offset) const {
+  const auto level = [this](dsdpv1::Pin pin) {
+    return static_cast<unsigned>(options_.chip != nullptr && options_.chip->level(pin) == 1);
+  };
+  using dsdpv1::Pin;
+  const Levels there = wired(port, level(Pin::kLReq) | level(Pin::kLSta) << 1U,
+                             level(Pin::kPbf) | level(Pin::kBr) << 1U | level(Pin::kReady) << 2U);
+  return ports_.at(port).read(offset, there.driven, there.levels);
+}
+
+// ------------------------------------------------------------------------------------------------- stores
 
 void Board::store_word(std::uint32_t address, std::uint32_t value) {
   core_.advance_to(core_.cycles() + kApbCycles);

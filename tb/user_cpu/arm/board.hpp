@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "model/dsdpv1/chip.hpp"
 #include "tb/user_cpu/arm/cortex_m3.hpp"
 #include "tb/user_cpu/arm/exti.hpp"
 #include "tb/user_cpu/arm/firmware.hpp"
@@ -47,6 +48,8 @@ struct BoardOptions {
   std::optional<user_cpu::AccessTiming> access;  ///< edges in place of those that the FSMC makes
   Timing timing;
   Switches switches;
+  const dsdpv1::Chip* chip =
+      nullptr;  ///< for a debugger, which sees it as it is without a call of it; null: it sees none
   std::function<std::unique_ptr<Debugger>(DebugTarget&)> make_debugger;  ///< null: none
   std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
 };
@@ -84,6 +87,8 @@ class Board : public user_cpu::UserSide, private System {
   std::uint32_t load(std::uint32_t address, unsigned bytes) override;
   void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
   void keep_up() override;
+  std::optional<std::uint32_t> peek(std::uint32_t address) const override;
+  std::vector<MemoryRegion> regions() const override;
   void sleep(std::uint64_t until) override;
   void reset() override;
   Tick now() const override { return tick_of(core_.cycles()); }
@@ -110,6 +115,8 @@ class Board : public user_cpu::UserSide, private System {
   void store_word(std::uint32_t address, std::uint32_t value);
   std::uint32_t load_port(unsigned port, std::uint32_t offset);
   Levels outside(unsigned port);
+  Levels wired(unsigned port, unsigned handshake, unsigned lamps) const;
+  std::uint32_t peek_port(unsigned port, std::uint32_t offset) const;
   void look_at_clock(std::uint32_t address);
   void note_clock(const char* peripheral, const char* reg, Noted which);
   void note(const std::string& text, Noted which);
