@@ -178,6 +178,20 @@ TEST(ArmBoard, ForeignFirmwareLoopsBackInTheBoardsScenario) {
                                                  "behaviour \\(line [0-9]+\\), cycle \\(line [0-9]+\\)"));
 }
 
+// foreign.c has seven switches for its address, pulled up.
+TEST(ArmBoard, SwitchesHoldInputPins) {
+  const std::string foreign = std::string(" --set user_cpu.elf=") + FIRMWARE_WITHOUT_MAILBOX;
+  const auto run = [&](const std::string& switches) {
+    return call("run " + scenario("arm_board_12m") + foreign + " --set 'user_cpu.switches=" + switches + "'",
+                DSDPV1_SOURCE_DIR);
+  };
+  EXPECT_THAT(run("[PA0=low, PA1=low, PA3=low, PA4=low, PA5=low, PA6=low]").out, HasSubstr("initialised: address 4"));
+  EXPECT_THAT(run("[PA0=high]").out, HasSubstr("initialised: address 5"));
+  EXPECT_THAT(run("[PA0=up]").err, HasSubstr("allowed are like PA0=low or PG15=high"));
+  EXPECT_THAT(run("[PG14=low]").err, HasSubstr("a pin that the board wires to the chip"));
+  EXPECT_THAT(run("[PA0=low, PA0=high]").err, HasSubstr("a pin that is there twice"));
+}
+
 TEST(ArmBoard, SettingsForAProgramThatCannotBeToldAreRefusedWhereTheyAreDemanded) {
   const auto refused = [](const std::string& arguments) {
     const Called called = call("run " + arguments, DSDPV1_SOURCE_DIR);
