@@ -30,7 +30,7 @@ void PrintTo(const Case& each, std::ostream* out) {
 const char* const kNone = "";
 
 #ifdef RUDE_FOLDER
-#define RUDE(name) "kind: arm\n      elf: " RUDE_FOLDER "/" name ".elf"
+#define RUDE(name) "kind: arm\n      without_mailbox: leave_out\n      elf: " RUDE_FOLDER "/" name ".elf"
 #endif
 
 const Case kCases[] = {

@@ -90,11 +90,11 @@ TEST(FsmcTiming, OverrideReplacesOnlyWhatItNames) {
   EXPECT_EQ(same.write.datast, 1);
   EXPECT_EQ(same.write.busturn, 9);
   EXPECT_EQ(same.mode, FsmcMode::k1);
-  EXPECT_EQ(same.hclk_mhz, 72);
+  EXPECT_EQ(same.hclk_hz, 72'000'000);
   given.mode = FsmcMode::kA;
   given.hclk_mhz = 36;
   EXPECT_EQ(user_cpu::with(bank, given).mode, FsmcMode::kA);
-  EXPECT_EQ(user_cpu::with(bank, given).hclk_mhz, 36);
+  EXPECT_EQ(user_cpu::with(bank, given).hclk_hz, 36'000'000);
 }
 
 }  // namespace
