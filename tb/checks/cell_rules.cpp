@@ -27,7 +27,7 @@ constexpr std::array<FlagByte, 8> kFlags = {{
      regs::kUserCommand1Input | regs::kUserCommand1Diag | regs::kUserCommand1Init | regs::kUserCommand1CfgVerdict |
          regs::kUserCommand1PrmVerdict,
      false},
-    {regs::kUserCommand2, 0, regs::kUserCommand2C1 | regs::kUserCommand2C2, false},
+    {regs::kUserCommand2, 0, regs::kUserCommand2C1 | regs::kUserCommand2C2 | regs::kUserCommand2InputClear, false},
 }};
 
 /// A verdict on a block: bit of B010, and of B00E, which stands until the user has fetched the block.

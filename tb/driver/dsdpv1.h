@@ -252,6 +252,21 @@ typedef struct dsdpv1_exchange_result {
 dsdpv1_error dsdpv1_exchange(dsdpv1_device* device, dsdpv1_input_policy policy, const uint8_t* inputs,
                              uint8_t input_length, dsdpv1_exchange_result* result);
 
+/*
+ * What the chip's opinion of the inputs' CRC (B00B.2, INPUT_CRC above) is about (B011.6, ruling D16). `keep` false, as after
+ * RESET: the block that it took last. True: any block since dsdpv1_clear_input_error; right ones do not take the error away.
+ * Counts from the chip's next access on; an error that stands stays. In one hold.
+ * Errors: ARGUMENT; NESTED, DPRAM_BUSY, CHIP_SILENT.
+ */
+dsdpv1_error dsdpv1_keep_input_errors(dsdpv1_device* device, bool keep);
+
+/*
+ * Asks the chip to clear the error once (B011.7), which it does in its next access, before it looks at new inputs. When
+ * errors are not kept nothing is cleared. In one hold.
+ * Errors: ARGUMENT; NESTED, DPRAM_BUSY, CHIP_SILENT.
+ */
+dsdpv1_error dsdpv1_clear_input_error(dsdpv1_device* device);
+
 /* -------------------------------------------------------------------------------------------------------- diagnosis */
 
 /* B227, ruling D9. */

@@ -103,12 +103,13 @@ void FakeChip::access() {
   if (takes_commands) {
     take_init();
     take_verdicts();
+    take_clearing();
     take_inputs();
     take_diagnosis();
     take_answer(1);
     take_answer(2);
     at(0x010) = 0;
-    at(0x011) = 0;
+    at(0x011) = static_cast<std::uint8_t>(at(0x011) & 0x40);
   }
 }
 
@@ -143,12 +144,19 @@ void FakeChip::take_verdicts() {
   }
 }
 
+void FakeChip::take_clearing() {
+  if ((at(0x011) & 0xC0) == 0xC0) {
+    at(0x00B) = static_cast<std::uint8_t>(at(0x00B) & ~0x04);
+  }
+}
+
 void FakeChip::take_inputs() {
   if ((at(0x010) & 0x01) == 0) {
     return;
   }
   const bool right = crc_is_right(0x130, at(0x130) + 1U, 0x225);
-  at(0x00B) = static_cast<std::uint8_t>((at(0x00B) & ~0x04) | (right ? 0 : 4));
+  const bool history = (at(0x011) & 0x40) != 0;
+  at(0x00B) = static_cast<std::uint8_t>((at(0x00B) & (history ? 0xFF : ~0x04)) | (right ? 0 : 4));
   if (right) {
     inputs = bytes(0x131, at(0x130));
   }

@@ -50,6 +50,7 @@ struct FakeChip {
   void access();
   void take_init();
   void take_verdicts();
+  void take_clearing();
   void take_inputs();
   void take_diagnosis();
   void take_answer(int master_class);
