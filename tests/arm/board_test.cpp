@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <utility>
 
 #include "tb/user_cpu/pin_host_bus.hpp"
@@ -245,6 +246,61 @@ TEST_F(BoardTest, HclkFollowsRccFrom8MhzOn) {
   EXPECT_NEAR(periods[0] / periods[3], 4.5, 0.1);
   EXPECT_EQ(board->board()->hclk_hz, 36'000'000);
   EXPECT_EQ(board->board()->hclk_source, "PLL, 9 x HSE, divided by 2");
+}
+
+/// Halts once, and looks.
+class Looker : public arm::Debugger {
+ public:
+  Looker(arm::DebugTarget& target, std::function<void(arm::DebugTarget&)> look)
+      : target_(target), look_(std::move(look)) {}
+  bool wanted() const override { return true; }
+  void before_instruction(std::uint32_t) override {
+    if (++instructions_ == 30) look_(target_);
+  }
+  void data_access(std::uint32_t, std::uint32_t, bool) override {}
+  void poll() override {}
+  void fault(const std::string&) override {}
+
+ private:
+  arm::DebugTarget& target_;
+  std::function<void(arm::DebugTarget&)> look_;
+  int instructions_ = 0;
+};
+
+TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
+  dsdpv1::Chip chip;
+  chip.poke(0x123, 0xA5);
+  arm::BoardOptions options;
+  options.firmware = with(kAccesses);
+  options.fsmc = at_72_mhz();
+  options.chip = &chip;
+  std::size_t looks = 0;
+  const auto look = [&](arm::DebugTarget& target) {
+    const Tick before = target.now();
+    const std::size_t changes = pins.changes.size();
+    for (const std::uint32_t address : {0x60000123U, 0x6000'0923U, 0x40021018U, 0x40011008U, 0x40012008U, 0x40010414U,
+                                        0x40013804U, 0x40000024U, 0xA0000000U}) {
+      std::uint8_t byte = 0;
+      looks += target.read_memory(address, &byte, 1);
+      EXPECT_TRUE(byte == 0xA5 || address >> 28U != 6U);
+    }
+    std::uint8_t byte = 0;
+    EXPECT_EQ(target.read_memory(0x5000'0000, &byte, 1), 0U);
+    EXPECT_EQ(target.now(), before);
+    EXPECT_EQ(pins.changes.size(), changes);
+  };
+  options.make_debugger = [&](arm::DebugTarget& target) { return std::make_unique<Looker>(target, look); };
+  board = std::make_unique<arm::Board>(
+      host, std::move(options), [](Tick, bool) {}, kStart);
+  run();
+  EXPECT_EQ(looks, 9U);
+  const auto changes = pins.changes;
+  EXPECT_TRUE(board->board()->notes.empty());  // TIM2 was looked at, not used
+  pins.changes.clear();
+  start(kAccesses);
+  run();
+  ASSERT_EQ(changes.size(), pins.changes.size());
+  for (std::size_t i = 0; i < changes.size(); ++i) EXPECT_EQ(changes[i].at, pins.changes[i].at);
 }
 
 TEST_F(BoardTest, HclkOfTheScenarioStandsAboveRcc) {
