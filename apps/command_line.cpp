@@ -19,6 +19,11 @@ const char* const kExitCodes =
     "allowed),\n"
     "130 interrupted.\n";
 
+const char* const kLogHelp =
+    "Everything that happened, one line a thing; FILE.jsonl: a JSON object a line, for programs (docs/log.md)";
+const char* const kLogWholeHelp =
+    "All bytes of telegrams and data in the log, not only the first 32 of each; FILE.jsonl has them anyway";
+
 void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
   command
       .add_option("--set", settings,
@@ -47,7 +52,8 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   command->add_option("--view", arguments.view, "How the user CPUs reach them: pins, tlm (SystemC)")
       ->capture_default_str();
   command->add_option("--wave", arguments.wave, "Waves of all pins, the line and the states: FILE.vcd or FILE.fst");
-  command->add_option("--log", arguments.log, "Everything that happened, one line a thing");
+  CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
+  command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
   command
       ->add_option(
@@ -71,6 +77,8 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
       std::string("\nExamples:\n"
                   "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
                   "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
+                  "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
+                  "  dsdpv1-sim run my.yaml --log my.jsonl\n"
                   "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
                   "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
                   "  dsdpv1-sim run scenarios/arm_board_12m.yaml --gdb 3333\n"
@@ -102,11 +110,15 @@ void describe_gsd(CLI::App& app, GsdArguments& arguments) {
 }
 
 void describe_decode(CLI::App& app, DecodeArguments& arguments) {
-  CLI::App* command = app.add_subcommand("decode", "Reads telegrams as hexadecimal text and explains every byte");
-  command->add_option("FILE", arguments.file, "Text file; left out or -: standard input");
+  CLI::App* command =
+      app.add_subcommand("decode", "Reads telegrams as hexadecimal text, or a log, and explains every byte");
+  command->add_option("FILE", arguments.file, "Text file, or a log of run or serve; left out or -: standard input");
   command->footer(
       "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
-      "\nExamples:\n  dsdpv1-sim decode capture.txt\n  echo 68 05 05 68 85 82 6D 3C 3E EE 16 | dsdpv1-sim decode\n"
+      "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes "
+      "(--log-whole).\n"
+      "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  echo 68 05 05 68 85 82 6D 3C 3E "
+      "EE 16 | dsdpv1-sim decode\n"
       "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 not hexadecimal.\n");
 }
 
@@ -133,7 +145,8 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
   command->add_option("--baud", arguments.baud, "Baud rate; left out: that of the scenario");
   command->add_option("--for", arguments.duration, "Ends after this time, for example 10s; left out: Ctrl-C");
   command->add_option("--wave", arguments.wave, "As of run");
-  command->add_option("--log", arguments.log, "As of run; while it grows, FILE.part");
+  CLI::Option* log = command->add_option("--log", arguments.log, "As of run; while it grows, FILE.part");
+  command->add_flag("--log-whole", arguments.log_whole, "As of run")->needs(log);
   command->add_option("--result", arguments.result, "As of run, and how well real time was kept");
   command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
   command->footer(std::string("\nExamples:\n"
@@ -190,14 +203,18 @@ void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
 void describe_rtl_faults(CLI::App& app, RtlFaultsArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("rtl-faults", "Checks the lockstep itself: every single fault in the RTL must be found");
-  command->add_option("--list", arguments.list, "The list of faults")->capture_default_str();
-  command->add_option("--directed", arguments.directed, "Folder of stimulus files that are played first")
-      ->capture_default_str();
+  command->add_option("--list", arguments.list, "The list of faults; left out: rtl_ref/faults.txt of this source tree");
+  command->add_option("--directed", arguments.directed,
+                      "Folder of stimulus files that are played first; left out: tests/cosim/stimuli of this source "
+                      "tree");
   command->add_option("--cycles", arguments.cycles, "Random cycles for each fault at most")->capture_default_str();
   command->add_option("--seed", arguments.seed, "Of the random cases")->capture_default_str();
   command->add_option("--jobs", arguments.jobs, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
   command->add_option("--tsv", arguments.tsv, "The table also as tab-separated text into this file");
-  command->footer("\nExit codes: 0 all found, 1 some not, 2 wrong input.\n");
+  command->footer(
+      "\nExamples:\n  dsdpv1-sim rtl-faults --tsv kills.tsv\n  dsdpv1-sim rtl-faults --list my_faults.txt --cycles "
+      "5000000\n"
+      "\nExit codes: 0 all found, 1 some not, 2 wrong input.\n");
 }
 
 void describe_cosim(CLI::App& app, CosimArguments& arguments) {
@@ -219,11 +236,11 @@ void describe_cosim(CLI::App& app, CosimArguments& arguments) {
 void describe_reasons(CLI::App& app, ReasonsArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("reasons", "Explains the codes of logs and results: what happened, what to do");
-  command->add_option("CODE", arguments.code, "Only this one");
+  command->add_option("CODE", arguments.code, "Only this one, in capitals or not");
   CLI::Option* markdown = command->add_flag("--markdown", arguments.markdown, "Prints docs/reasons.md instead");
   command->add_flag("--checks", arguments.checks, "Prints docs/checks.md instead")->excludes(markdown);
   command->add_option("--output,-o", arguments.output, "Into this file");
-  command->footer("\nExamples:\n  dsdpv1-sim reasons PRM_IDENT\n  dsdpv1-sim reasons | less\n");
+  command->footer("\nExamples:\n  dsdpv1-sim reasons prm_ident\n  dsdpv1-sim reasons | less\n");
 }
 
 std::vector<std::string> subcommand_names(const CLI::App& app) {

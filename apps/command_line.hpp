@@ -19,7 +19,7 @@ struct RunArguments {
   std::optional<bool> progress;             ///< absent: on a terminal
   std::vector<std::string> set;             ///< PATH=VALUE: keys other than in the file
   std::optional<int> gdb;                   ///< TCP port for the debugger of the first ARM board
-  bool quiet = false;
+  bool log_whole = false, quiet = false;
 };
 
 struct SchemaArguments {

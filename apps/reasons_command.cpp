@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iostream>
 
 #include "apps/command_line.hpp"
@@ -166,22 +167,31 @@ std::vector<ReasonText> all_reasons() {
   return all;
 }
 
+/// Codes are upper case; whoever types one need not be.
+std::string in_capitals(std::string code) {
+  std::transform(code.begin(), code.end(), code.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return code;
+}
+
+/// The only one with this code; throws InputError when there is none.
+ReasonText find_reason(const std::vector<ReasonText>& all, const std::string& typed) {
+  const std::string code = in_capitals(typed);
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&code](const ReasonText& each) { return each.code == code; });
+  if (found != all.end()) return *found;
+  std::vector<std::string> codes;
+  codes.reserve(all.size());
+  for (const ReasonText& each : all) codes.push_back(each.code);
+  throw tb::InputError(
+      fmt::format("dsdpv1-sim reasons: unknown code {}{}, allowed are those that `dsdpv1-sim reasons` prints", typed,
+                  tb::did_you_mean(code, codes)));
+}
+
 std::string as_text(const std::string& code) {
-  std::vector<ReasonText> all = all_reasons();
+  const std::vector<ReasonText> all = all_reasons();
   std::string text;
-  if (!code.empty()) {
-    std::vector<std::string> codes;
-    codes.reserve(all.size());
-    for (const ReasonText& each : all) codes.push_back(each.code);
-    if (std::find(codes.begin(), codes.end(), code) == codes.end()) {
-      throw tb::InputError(
-          fmt::format("dsdpv1-sim reasons: unknown code {}{}, allowed are those that `dsdpv1-sim reasons` prints", code,
-                      tb::did_you_mean(code, codes)));
-    }
-    all.erase(std::remove_if(all.begin(), all.end(), [&code](const ReasonText& each) { return each.code != code; }),
-              all.end());
-  }
-  print(text, all);
+  print(text, code.empty() ? all : std::vector<ReasonText>{find_reason(all, code)});
   return text;
 }
 

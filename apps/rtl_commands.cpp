@@ -109,8 +109,11 @@ int rtl_random(const RtlRandomArguments& arguments) {
 }
 
 int rtl_faults(const RtlFaultsArguments& arguments) {
-  const std::vector<cosim::Fault> faults = cosim::read_faults(arguments.list);
-  const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(arguments.directed);
+  const auto given_or_own = [](const std::string& path, const char* own) { return path.empty() ? own : path; };
+  const std::vector<cosim::Fault> faults =
+      cosim::read_faults(given_or_own(arguments.list, DSDPV1_SOURCE_DIR "/rtl_ref/faults.txt"));
+  const std::vector<cosim::NamedStimulus> directed =
+      cosim::read_stimuli(given_or_own(arguments.directed, DSDPV1_SOURCE_DIR "/tests/cosim/stimuli"));
   const cosim::Kill none = cosim::hunt({0, "none", "the build for the faults, with none active"}, directed,
                                        arguments.seed, arguments.cycles / 10);
   std::cout << cosim::heading();

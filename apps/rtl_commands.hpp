@@ -15,8 +15,8 @@ struct RtlRandomArguments {
 };
 
 struct RtlFaultsArguments {
-  std::string list = "rtl_ref/faults.txt", directed = "tests/cosim/stimuli";
-  std::string tsv;  ///< the kill table for other programs; empty: none
+  std::string list, directed;  ///< empty: those of the program's own sources, wherever it is called
+  std::string tsv;             ///< the kill table for other programs; empty: none
   std::uint64_t cycles = 30'000'000, seed = 1;
   unsigned jobs = 0;  ///< as of rtl-random
 };

@@ -43,6 +43,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   options.view_name = arguments.view;
   options.wave = arguments.wave;
   options.log = arguments.log;
+  options.log_whole = arguments.log_whole;
   options.trace = arguments.trace;
   if (arguments.gdb) {
     const auto say = [](const std::string& line) { std::cerr << line << std::endl; };

@@ -59,6 +59,7 @@ tb::RunOptions options_of(const ServeArguments& arguments) {
   tb::RunOptions options;
   options.wave = arguments.wave;
   options.log = arguments.log;
+  options.log_whole = arguments.log_whole;
   options.open_ended = true;
   return options;
 }

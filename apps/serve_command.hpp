@@ -14,7 +14,7 @@ struct ServeArguments {
   std::string baud;      ///< empty: that of the scenario
   std::string duration;  ///< empty: until interrupted
   std::string wave, log, result;
-  bool quiet = false;
+  bool log_whole = false, quiet = false;
 };
 
 int serve(const ServeArguments& arguments);

@@ -89,9 +89,9 @@ DataWords request_words(const Telegram& t, std::uint8_t sap) {
   }
 }
 
-DataWords response_words(const Telegram& t, std::uint8_t sap) {
+DataWords response_words(const Telegram& t, std::uint8_t sap, std::optional<bool> dpv1) {
   switch (sap) {
-    case sap::kSlaveDiag: return detail::diag_words(t.data);
+    case sap::kSlaveDiag: return detail::diag_words(t.data, dpv1);
     case sap::kGetCfg: return detail::cfg_words(t.data);
     case sap::kReadInputs: return detail::plain_words("input", t.data);
     case sap::kReadOutputs: return detail::plain_words("output", t.data);
@@ -99,10 +99,10 @@ DataWords response_words(const Telegram& t, std::uint8_t sap) {
   }
 }
 
-DataWords data_words(const Telegram& t) {
+DataWords data_words(const Telegram& t, std::optional<bool> dpv1 = {}) {
   const std::optional<std::uint8_t> sap = slave_sap(t);
   if (!sap) return default_sap_words(t);
-  return t.is_request() ? request_words(t, *sap) : response_words(t, *sap);
+  return t.is_request() ? request_words(t, *sap) : response_words(t, *sap, dpv1);
 }
 
 std::string service_words(const Telegram& t) {
@@ -133,7 +133,8 @@ std::string address_words(const char* name, std::uint8_t byte) {
 
 class ByteExplainer {
  public:
-  explicit ByteExplainer(const Decoded& decoded) : decoded_(decoded), telegram_(decoded.telegram) {}
+  ByteExplainer(const Decoded& decoded, std::optional<bool> dpv1)
+      : decoded_(decoded), telegram_(decoded.telegram), dpv1_(dpv1) {}
 
   std::vector<ExplainedByte> explain() {
     if (!decoded_.readable) return explain_unreadable();
@@ -164,7 +165,7 @@ class ByteExplainer {
     say("FC: " + explain_fc(peek()));
     if (telegram_.dsap) say(sap_words("DSAP", *telegram_.dsap, telegram_.is_request()));
     if (telegram_.ssap) say(sap_words("SSAP", *telegram_.ssap, !telegram_.is_request()));
-    for (std::string& text : data_words(telegram_).bytes) say(std::move(text));
+    for (std::string& text : data_words(telegram_, dpv1_).bytes) say(std::move(text));
     say(fcs_words());
     say(decoded_.error == DecodeError::kEndDelimiter ? "ED: wrong, 16 is right" : "ED");
   }
@@ -195,6 +196,7 @@ class ByteExplainer {
 
   const Decoded& decoded_;
   const Telegram& telegram_;
+  std::optional<bool> dpv1_;
   std::size_t at_ = 0;
   std::vector<ExplainedByte> result_;
 };
@@ -218,6 +220,10 @@ std::string explain_line(const Telegram& t) {
   return line;
 }
 
-std::vector<ExplainedByte> explain_bytes(const Decoded& decoded) { return ByteExplainer(decoded).explain(); }
+std::vector<ExplainedByte> explain_bytes(const Decoded& decoded, std::optional<bool> dpv1) {
+  return ByteExplainer(decoded, dpv1).explain();
+}
+
+std::optional<bool> dpv1_enabled(const Telegram& telegram) { return detail::dpv1_enabled(telegram); }
 
 }  // namespace bus

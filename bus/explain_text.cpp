@@ -1,74 +1,21 @@
 // Telegrams as hexadecimal text: what `dsdpv1-sim decode` reads and prints.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
+#include <array>
 #include <istream>
+#include <optional>
 #include <ostream>
 
 #include "bus/explain.hpp"
+#include "bus/telegram_text.hpp"
 
 namespace bus {
 
 namespace {
 
-struct TextBytes {
-  Bytes bytes;
-  std::vector<int> lines;  ///< the line of each byte
-};
-
-bool is_separator(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0 || c == ','; }
-
-/// Appends the bytes of one word; what is wrong with it, or empty.
-std::string add_word(std::string word, int line, TextBytes& text) {
-  const std::string shown = word;
-  if (word.size() > 2 && word[0] == '0' && (word[1] == 'x' || word[1] == 'X')) word.erase(0, 2);
-  for (const char c : word) {
-    if (std::isxdigit(static_cast<unsigned char>(c)) == 0) {
-      return fmt::format("'{}' is no hexadecimal number, allowed are bytes of two digits 00 to FF", shown);
-    }
-  }
-  if (word.size() % 2 != 0) return fmt::format("'{}' has an odd number of digits, a byte has two: 00 to FF", shown);
-  for (std::size_t i = 0; i < word.size(); i += 2) {
-    text.bytes.push_back(static_cast<std::uint8_t>(std::stoul(word.substr(i, 2), nullptr, 16)));
-    text.lines.push_back(line);
-  }
-  return {};
-}
-
-std::string add_line(const std::string& content, int line, TextBytes& text) {
-  const std::size_t end = std::min(content.find_first_of("#;"), content.size());
-  std::size_t at = 0;
-  while (at < end) {
-    if (is_separator(content[at])) {
-      ++at;
-      continue;
-    }
-    std::size_t stop = at;
-    while (stop < end && !is_separator(content[stop])) ++stop;
-    std::string wrong = add_word(content.substr(at, stop - at), line, text);
-    if (!wrong.empty()) return wrong;
-    at = stop;
-  }
-  return {};
-}
-
-bool read_text(std::istream& in, const std::string& name, TextBytes& text, std::string& error) {
-  std::string content;
-  for (int line = 1; std::getline(in, content); ++line) {
-    const std::string wrong = add_line(content, line, text);
-    if (wrong.empty()) continue;
-    error = fmt::format("{}:{}: {}", name, line, wrong);
-    return false;
-  }
-  if (!in.bad()) return true;
-  error = fmt::format("{}:1: cannot be read, a text file of hexadecimal bytes is allowed", name);
-  return false;
-}
-
 class TextDecoder {
  public:
-  TextDecoder(const TextBytes& text, std::ostream& out) : text_(text), out_(out) {}
+  TextDecoder(const TelegramText& text, std::ostream& out) : text_(text), out_(out) {}
 
   /// True when everything was right and there was something.
   bool decode() {
@@ -81,7 +28,7 @@ class TextDecoder {
  private:
   Decoded decode_at(std::size_t at) const {
     TelegramDecoder decoder;
-    for (; at < text_.bytes.size(); ++at) {
+    for (const std::size_t first = at; at < text_.bytes.size() && text_.together(first, at); ++at) {
       if (auto decoded = decoder.feed(text_.bytes[at])) return *decoded;
     }
     return *decoder.finish();
@@ -90,7 +37,10 @@ class TextDecoder {
   std::size_t decode_one(std::size_t at) {
     Decoded decoded = decode_at(at);
     if (decoded.error == DecodeError::kNone) {
-      print(at, fmt::format("telegram {}", ++count_), explain_line(decoded.telegram), explain_bytes(decoded));
+      const Telegram& telegram = decoded.telegram;
+      if (const std::optional<bool> dpv1 = dpv1_enabled(telegram)) dpv1_.at(telegram.da) = dpv1;
+      print(at, fmt::format("telegram {}", ++count_), explain_line(telegram),
+            explain_bytes(decoded, dpv1_of(telegram)));
       return at + decoded.bytes.size();
     }
     right_ = false;
@@ -103,11 +53,20 @@ class TextDecoder {
     return end;
   }
 
+  /// Of the slave that has sent the telegram, as far as its Set_Prm was seen.
+  std::optional<bool> dpv1_of(const Telegram& telegram) const { return dpv1_.at(telegram.sa); }
+
+  std::size_t end_of_stream(std::size_t at) const {
+    std::size_t end = at + 1;
+    while (end < text_.bytes.size() && text_.together(at, end)) ++end;
+    return end;
+  }
+
   /// Where to go on behind a wrong telegram. Its inside may hold any byte, so that there only a telegram with a right FCS or one
   /// at the beginning of a line is believed; between telegrams also a token or SC.
   std::size_t end_of_wrong(std::size_t at, const Decoded& decoded) const {
     const bool whole = decoded.readable || decoded.error == DecodeError::kMissingSap;
-    const std::size_t limit = whole ? at + decoded.bytes.size() : text_.bytes.size();
+    const std::size_t limit = whole ? at + decoded.bytes.size() : end_of_stream(at);
     const bool between = decoded.error == DecodeError::kStartDelimiter;
     for (std::size_t i = at + 1; i < limit; ++i) {
       const bool new_line = text_.lines[i] != text_.lines[i - 1];
@@ -131,7 +90,14 @@ class TextDecoder {
     }
     std::vector<ExplainedByte> bytes = explain_bytes(decoded);
     for (std::size_t i = bytes.size(); i < end - at; ++i) bytes.push_back({i, text_.bytes[at + i], "not decoded"});
-    print(at, "wrong telegram", describe(decoded.error), bytes);
+    print(at, "wrong telegram", what_is_wrong(at, decoded), bytes);
+  }
+
+  std::string what_is_wrong(std::size_t at, const Decoded& decoded) const {
+    const LoggedTelegram* log = text_.log_of(at);
+    if (log == nullptr || log->whole_length <= decoded.bytes.size()) return describe(decoded.error);
+    return fmt::format("the log has {} of its {} bytes, all of them with --log-whole or --log FILE.jsonl",
+                       decoded.bytes.size(), log->whole_length);
   }
 
   void print_garbage(std::size_t at, std::size_t end) {
@@ -142,12 +108,14 @@ class TextDecoder {
 
   void print(std::size_t at, const std::string& what, const std::string& line,
              const std::vector<ExplainedByte>& bytes) {
-    out_ << fmt::format("{}, line {}: {}\n", what, text_.lines[at], line);
+    const LoggedTelegram* log = text_.log_of(at);
+    out_ << fmt::format("{}, line {}{}: {}\n", what, text_.lines[at], log ? ", " + log->at_ns + " ns" : "", line);
     for (const ExplainedByte& byte : bytes)
       out_ << fmt::format("  {:4}  {:02X}  {}\n", byte.offset, byte.byte, byte.meaning);
   }
 
-  const TextBytes& text_;
+  const TelegramText& text_;
+  std::array<std::optional<bool>, 128> dpv1_ = {};  ///< by slave
   std::ostream& out_;
   int count_ = 0;
   bool right_ = true;
@@ -156,8 +124,8 @@ class TextDecoder {
 }  // namespace
 
 int decode_text(std::istream& in, const std::string& name, std::ostream& out, std::string& error) {
-  TextBytes text;
-  if (!read_text(in, name, text, error)) return 2;
+  TelegramText text;
+  if (!read_telegram_text(in, name, text, error)) return 2;
   return TextDecoder(text, out).decode() ? 0 : 1;
 }
 

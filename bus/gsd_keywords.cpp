@@ -123,6 +123,7 @@ const Keyword kKeywords[] = {
     number("X_Max_User_Prm_Data_Len", 244),
     flag("Time_Sync_supp"),
     flag("Slave_Redundancy_supp"),
+    number("Slave_Max_Switch_Over_Time", kU16),  // revision 5
     // DP master class 1
     flag("Master_Freeze_Mode_supp"),
     flag("Master_Sync_Mode_supp"),

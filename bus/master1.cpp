@@ -52,6 +52,12 @@ void Master1::add_slave(const SlaveParameters& parameters) {
   slaves_.push_back(std::move(slave));
 }
 
+std::int64_t Master1::min_slave_interval_us() const {
+  std::int64_t greatest = 0;
+  for (const auto& slave : slaves_) greatest = std::max(greatest, slave->handler.parameters().min_slave_interval_us);
+  return config_.bus.min_slave_interval_us.value_or(greatest);
+}
+
 Tick Master1::next() const {
   if (stop_requested_ || (start_requested_ && !running_)) return now_;
   if (!running_ || !fdl_.idle()) return fdl_.next();
@@ -221,7 +227,7 @@ bool Master1::start_token() {
   phase_ = Phase::kWait;
   ++cycles_;
   // A cycle without any request must take some time, too.
-  const Tick least = std::max(config_.bus.min_slave_interval_us * kTicksPerUs, kSynBits * bus::baud(baud_).bit);
+  const Tick least = std::max(min_slave_interval_us() * kTicksPerUs, kSynBits * bus::baud(baud_).bit);
   due_ = cycle_start_ + least;
   if (ring_) {
     ring_->release(now_);

@@ -115,6 +115,8 @@ class Master1 : public Agent {
   const TokenRing* ring() const { return ring_.get(); }
 
   LiveState live(std::uint8_t address) const { return live_.at(address); }
+  /// Least time from the start of one cycle to the next: that of the bus parameters, else the greatest of the slaves'.
+  std::int64_t min_slave_interval_us() const;
   std::uint64_t cycles() const { return cycles_; }
   /// Start to start of the last complete cycle, 0 before.
   Tick cycle_time() const { return cycle_time_; }

@@ -69,9 +69,9 @@ void SlaveHandler::set_outputs(const Bytes& outputs) {
 void SlaveHandler::release() { go(SlaveState::kReleasing); }
 
 void SlaveHandler::restart(const std::string& reason) {
-  view_.reason = reason;
   diagnosis_due_ = false;
-  go(SlaveState::kDiagnose);
+  view_.reason = reason;
+  go(SlaveState::kDiagnose, reason);
 }
 
 Telegram SlaveHandler::service(std::uint8_t sap, const Bytes& data) const {
@@ -121,9 +121,10 @@ Telegram SlaveHandler::due_request() const {
   return service(sap::kSlaveDiag, {});
 }
 
-void SlaveHandler::go(SlaveState state) {
+void SlaveHandler::go(SlaveState state, const std::string& why) {
   if (view_.state == state) return;
   const SlaveState from = std::exchange(view_.state, state);
+  view_.step_reason = why;
   if (state == SlaveState::kDataExchange) view_.reason.clear();
   if (on_state) on_state(from, state);
 }
@@ -137,9 +138,10 @@ void SlaveHandler::done(const FdlResult& result) {
   }
   if (result.answered()) return answered(result);
   if (view_.state == SlaveState::kReleasing) return go(SlaveState::kReleased);
-  if (!offline()) view_.reason = result.outcome == FdlOutcome::kNoAnswer ? "no answer" : "wrong answers";
   diagnosis_due_ = false;
-  go(SlaveState::kOffline);
+  if (offline()) return;
+  view_.reason = result.outcome == FdlOutcome::kNoAnswer ? "no answer" : "wrong answers";
+  go(SlaveState::kOffline, view_.reason);
 }
 
 void SlaveHandler::count(const FdlResult& result) {
@@ -217,11 +219,10 @@ void SlaveHandler::prm_answer(const FdlResult& result) {
 void SlaveHandler::cfg_answer(const FdlResult& result) {
   // A slave whose user still judges the parameters refuses Chk_Cfg with RS (S7, S13): its diagnosis tells.
   cfg_refused_ = !result.short_acknowledge();
-  if (cfg_refused_) {
-    refused(result.answer);
-    view_.reason = "Chk_Cfg not acknowledged";
-  }
-  go(SlaveState::kAwaitReady);
+  if (!cfg_refused_) return go(SlaveState::kAwaitReady);
+  refused(result.answer);
+  view_.reason = "Chk_Cfg not acknowledged";
+  go(SlaveState::kAwaitReady, view_.reason);
 }
 
 std::string SlaveHandler::fault() const {

@@ -32,10 +32,11 @@ struct SlaveCounters {
 /// What the master knows of a slave.
 struct SlaveView {
   SlaveState state = SlaveState::kOffline;
-  std::string reason = {};  ///< why the last bring-up failed or data exchange ended; empty when all is well
-  Bytes inputs = {};        ///< of the last data exchange
-  Bytes outputs = {};       ///< sent in Operate
-  Bytes diagnosis = {};     ///< data of the last Slave_Diag answer
+  std::string reason = {};       ///< why the last bring-up failed or data exchange ended; empty when all is well
+  std::string step_reason = {};  ///< why it went into `state`; empty when that was a step forward
+  Bytes inputs = {};             ///< of the last data exchange
+  Bytes outputs = {};            ///< sent in Operate
+  Bytes diagnosis = {};          ///< data of the last Slave_Diag answer
   SlaveCounters counters = {};
 };
 
@@ -69,7 +70,7 @@ class SlaveHandler {
   Telegram service(std::uint8_t sap, const Bytes& data) const;
   Telegram data_exchange() const;
   Telegram framed(const Telegram& telegram) const;
-  void go(SlaveState state);
+  void go(SlaveState state, const std::string& why = {});
   void count(const FdlResult& result);
   void answered(const FdlResult& result);
   void initial_diagnosis(const Telegram& answer);

@@ -91,7 +91,7 @@ static void raise_one_after_the_other(uint32_t cycles) {
 }
 
 /*
- * The chip comes once a microsecond, 72 cycles, and at once when R_REQ falls. Each time some cycles later than the time
+ * The chip comes once a microsecond, 72 cycles, and at once after a release. Each time some cycles later than the time
  * before, so that of a series some meet it.
  */
 static void wander(void) {

@@ -101,6 +101,7 @@ void Chip::Impl::apply(Tick at, Pin pin, Level value) {
       if (r_sta == high) return;
       r_sta = high;
       host.set_handshake(r_req, r_sta);
+      sequencer.set_r_sta(at, high);
       return report_ownership(at);
     case Pin::kPbrxd: rxd = high; return station.set_rxd(at, high);
     default: break;
@@ -159,7 +160,7 @@ void Chip::Impl::rising_edge(Cycle cycle) {
   done = cycle;
   if (host.next() <= cycle) {
     sequencer.catch_up(cycle - 1);
-    host.eval(cycle, sequencer.owns());
+    host.eval(cycle, sequencer.owns() || !sequencer.started_up());
   }
   if (cycle == release_at) {
     release_at = kNever;
@@ -264,6 +265,7 @@ Status Chip::status() const {
   status.telegrams_answered = station.telegrams_answered();
   status.data_exchanges = station.slave().data_exchanges();
   status.accesses = impl_->sequencer.accesses();
+  status.outputs_missed = station.slave().outputs_replaced() + impl_->sequencer.outputs_overwritten();
   status.c2 = station.slave().rm_registry();
   status.longest_wait = static_cast<std::uint64_t>(impl_->sequencer.longest_wait());
   return status;

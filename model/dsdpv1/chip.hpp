@@ -49,9 +49,10 @@ struct Status {
   std::uint64_t telegrams_received = 0;  ///< error-free telegrams of all stations
   std::uint64_t telegrams_answered = 0;  ///< answers sent
   std::uint64_t data_exchanges = 0;      ///< executed data exchanges, repetitions not counted
+  std::uint64_t outputs_missed = 0;      ///< H5: blocks that newer ones replaced before the user had fetched them
   std::uint64_t accesses = 0;            ///< DPRAM accesses of the chip
   profibus::RmRegistry c2 = {};          ///< table 30: who has the C2 channels 0x30 and 0x2F
-  std::uint64_t longest_wait = 0;        ///< H1: most cycles that a due access waited for R_REQ
+  std::uint64_t longest_wait = 0;        ///< H1: most cycles that a due access waited for R_REQ and R_STA
 };
 
 class Chip {

@@ -1,4 +1,4 @@
-// What the user's blocks do when an access of the chip has read them (rulings D5, D7, D10 to D14, H7).
+// What the user's blocks do when an access of the chip has read them (rulings D5, D7, D10 to D14, D16, D17, H7).
 #include "model/dsdpv1/crc16.hpp"
 #include "model/dsdpv1/dpram_sequencer.hpp"
 #include "model/dsdpv1/init_data.hpp"
@@ -12,9 +12,21 @@ bool DpramSequencer::crc_right(Cycle now, Reason reason, std::uint8_t error_bit)
   const unsigned found = static_cast<unsigned>(stored[0]) << 8 | stored[1];
   const unsigned computed = crc16(image_.data(), image_size_);
   const bool right = found == computed;
-  (right ? status2_clear_ : status2_set_) |= error_bit;
+  if (right && !(item_ == Item::kInput && input_history())) status2_clear_ |= error_bit;
+  if (!right) status2_set_ |= error_bit;
   if (!right) log_.at_cycle(now, reason, found, computed);
   return right;
+}
+
+bool DpramSequencer::input_history() const { return (user_command2_ & regs::kUserCommand2InputHistory) != 0; }
+
+// The user asks for it with B011.7; without history there is nothing to clear.
+void DpramSequencer::clear_input_error(Cycle now) {
+  user_command2_ = static_cast<std::uint8_t>(user_command2_ & ~regs::kUserCommand2InputClear);
+  dpram_.write(regs::kUserCommand2, user_command2_);
+  if (input_history()) status2_clear_ |= regs::kChipStatus2InputCrc;
+  next_item();
+  goto_phase(Phase::kChoose, now + 1);
 }
 
 void DpramSequencer::refuse_length(Cycle now) {
@@ -38,7 +50,8 @@ void DpramSequencer::commit_init(Cycle now) {
   const bool good = parse_init(image_.data(), image_size_, now, log_, config);
   init_result(good);
   if (!good) return;
-  log_.at_cycle(now, Reason::kInitialised, config.address, config.ident, dpv1_ == regs::kDpv1EnableOn);
+  config.dpv1 = dpv1_ == regs::kDpv1EnableOn;  // D17
+  log_.at_cycle(now, Reason::kInitialised, config.address, config.ident, config.dpv1);
   station_.initialise(now, config);
   initialised_ = true;
 }

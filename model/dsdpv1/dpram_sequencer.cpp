@@ -26,30 +26,27 @@ void DpramSequencer::reset() {
   initialised_ = valid_written_ = init_result_due1_ = init_result_due4_ = false;
   offline_written_ = 0;
   status3_written_ = chip_status1_ = chip_status4_ = status2_set_ = status2_clear_ = 0;
-  accesses_ = 0;
+  accesses_ = outputs_overwritten_ = 0;
   longest_wait_ = 0;
 }
 
 void DpramSequencer::start_up(Cycle now) {
-  origin_ = start_ = now;
-  op_ = now + 1;
-  index_ = 0;
-  accesses_ = 1;
-  goto_phase(Phase::kStartUp, now + kStartUpMoves + 1);
+  origin_ = due_ = now;
+  phase_ = Phase::kDue;
 }
 
 void DpramSequencer::eval(Cycle now) {
   r_req_.eval(now);
-  if (phase_ == Phase::kIdle) {
-    if (now >= due_ && !r_req_.level()) begin(now);
-  } else {
-    catch_up(now);
-  }
+  r_sta_.eval(now);
+  if (!waiting()) return catch_up(now);
+  if (now >= due_ && released()) return begin(now);
+  if (phase_ == Phase::kDue && now == origin_)
+    log_.at_cycle(now, profibus::Reason::kHeldThroughReset, r_req_.level(), r_sta_.level());
 }
 
 Cycle DpramSequencer::next() const {
-  const Cycle own = phase_ != Phase::kIdle ? visible_ : r_req_.level() ? profibus::kNever : due_;
-  return std::min(own, r_req_.next());
+  const Cycle own = !waiting() ? visible_ : released() ? due_ : profibus::kNever;
+  return std::min({own, r_req_.next(), r_sta_.next()});
 }
 
 void DpramSequencer::catch_up(Cycle until) {
@@ -64,7 +61,11 @@ void DpramSequencer::begin(Cycle now) {
   start_ = now;
   op_ = now + 1;
   index_ = 0;
-  goto_phase(Phase::kHeader, now + kHeaderMoves + 1);
+  if (phase_ == Phase::kDue) {
+    goto_phase(Phase::kStartUp, now + kStartUpMoves + 1);
+  } else {
+    goto_phase(Phase::kHeader, now + kHeaderMoves + 1);
+  }
 }
 
 void DpramSequencer::end(Cycle now) {
@@ -75,6 +76,7 @@ void DpramSequencer::end(Cycle now) {
 void DpramSequencer::move(Cycle now) {
   switch (phase_) {
     case Phase::kOff:
+    case Phase::kDue:
     case Phase::kIdle: return;
     case Phase::kStartUp: return move_start_up(now);
     case Phase::kHeader: return move_header(now);
@@ -135,7 +137,6 @@ void DpramSequencer::move_header(Cycle now) {
 // --- choosing ---------------------------------------------------------------------------------------------------------------
 
 void DpramSequencer::choose(Cycle now) {
-  if (item_ == Item::kInit) station_.slave().set_dpv1_byte(dpv1_);
   while (item_ != Item::kNone && !due(item_, now)) next_item();
   if (item_ == Item::kNone) return end(now);
   start(item_, now);
@@ -147,6 +148,7 @@ bool DpramSequencer::due(Item item, Cycle now) const {
     case Item::kInit: return (user_command1_ & regs::kUserCommand1Init) != 0;
     case Item::kPrmVerdict: return (user_command1_ & regs::kUserCommand1PrmVerdict) != 0;
     case Item::kCfgVerdict: return (user_command1_ & regs::kUserCommand1CfgVerdict) != 0;
+    case Item::kInputClear: return (user_command2_ & regs::kUserCommand2InputClear) != 0;
     case Item::kInput: return (user_command1_ & regs::kUserCommand1Input) != 0;
     case Item::kDiag: return (user_command1_ & regs::kUserCommand1Diag) != 0;
     case Item::kC1Answer: return (user_command2_ & regs::kUserCommand2C1) != 0;
@@ -199,6 +201,7 @@ const DpramSequencer::Area& DpramSequencer::area(Item item) {
 }
 
 void DpramSequencer::start(Item item, Cycle now) {
+  if (item == Item::kInputClear) return clear_input_error(now);
   if (item <= Item::kC2Answer) return start_read(now, area(item));
   if (item <= Item::kC2Request) return start_write(now, item);
   status_byte(item, now);
@@ -233,6 +236,7 @@ void DpramSequencer::start_write(Cycle now, Item item) {
     const profibus::IoBlock& outputs = station_.slave().outputs();
     load(outputs.bytes.data(), outputs.size);
     mail.output_due.clear();
+    if ((chip_command1_ & regs::kChipCommand1Output) != 0) ++outputs_overwritten_;  // H5
   } else {
     profibus::AcyclicMail& acyclic = item == Item::kC1Request ? mail.c1 : mail.c2;
     image_size_ = acyclic.pdu.size;

@@ -1,5 +1,5 @@
 #pragma once
-// The chip's side of the DPRAM (5.1, chapter 8; rulings H1 to H8, D1 to D15): one access a microsecond, one byte a cycle, in
+// The chip's side of the DPRAM (5.1, chapter 8; rulings H1 to H8, D1 to D17): one access a microsecond, one byte a cycle, in
 // the order that docs/microarchitecture.md defines. It carries blocks between the DPRAM and profibus::Station.
 //
 // Bytes move lazily: `next()` is the next cycle whose effect somebody else can see, and the moves between are made up for then
@@ -29,9 +29,10 @@ class DpramSequencer {
         ready_cycles_(ready_cycles) {}
 
   void reset();
-  /// The logic leaves reset at `now` (cycle R): the start-up access begins (H6).
+  /// The logic leaves reset at `now` (cycle R): the start-up access is due (H6).
   void start_up(Cycle now);
   void set_r_req(Tick at, bool level) { r_req_.set(at, level); }
+  void set_r_sta(Tick at, bool level) { r_sta_.set(at, level); }
 
   /// The rising edge of `now`.
   void eval(Cycle now);
@@ -39,10 +40,12 @@ class DpramSequencer {
   void catch_up(Cycle until);
   Cycle next() const;
 
-  bool owns() const { return phase_ > Phase::kIdle; }  ///< L_REQ and L_STA
-  bool ready_led() const { return initialised_; }      ///< READY: an initialisation has succeeded
+  bool owns() const { return phase_ > Phase::kIdle; }       ///< L_REQ and L_STA
+  bool started_up() const { return phase_ > Phase::kDue; }  ///< the start-up access of this reset has begun
+  bool ready_led() const { return initialised_; }           ///< READY: an initialisation has succeeded
   std::uint64_t accesses() const { return accesses_; }
   Cycle longest_wait() const { return longest_wait_; }
+  std::uint64_t outputs_overwritten() const { return outputs_overwritten_; }  ///< in the DPRAM, B00E.0 still set
 
  private:
   // What one access may have to do, in the order of ruling H4, then the changed status bytes by address.
@@ -50,6 +53,7 @@ class DpramSequencer {
     kInit,
     kPrmVerdict,
     kCfgVerdict,
+    kInputClear,
     kInput,
     kDiag,
     kC1Answer,
@@ -70,6 +74,7 @@ class DpramSequencer {
   };
   enum class Phase : std::uint8_t {
     kOff,       // reset
+    kDue,       // the start-up access waits for the user
     kIdle,      // L_REQ and L_STA low
     kStartUp,   // clearing the RAM
     kHeader,    // B006 := 1, reading B010, B011, B00E, B00F, B005
@@ -95,6 +100,8 @@ class DpramSequencer {
   static bool acyclic_answer(Item item) { return item == Item::kC1Answer || item == Item::kC2Answer; }
 
   // access
+  bool waiting() const { return phase_ == Phase::kIdle || phase_ == Phase::kDue; }
+  bool released() const { return !r_req_.level() && !r_sta_.level(); }  // H1
   void begin(Cycle now);
   void end(Cycle now);
   void move(Cycle now);  // the byte move of one cycle
@@ -118,6 +125,8 @@ class DpramSequencer {
     visible_ = visible;
   }
   // effects
+  bool input_history() const;
+  void clear_input_error(Cycle now);
   bool crc_right(Cycle now, profibus::Reason reason, std::uint8_t error_bit);
   void commit_init(Cycle now);
   void commit_input(Cycle now);
@@ -134,7 +143,7 @@ class DpramSequencer {
   profibus::Station& station_;
   Interrupt& interrupt_;
   const Cycle interval_, ready_cycles_;
-  profibus::Synchroniser r_req_{false};
+  profibus::Synchroniser r_req_{false}, r_sta_{false};
 
   Phase phase_ = Phase::kOff;
   Item item_ = Item::kNone;  // in work, or the last one done in this access
@@ -157,7 +166,7 @@ class DpramSequencer {
   std::uint8_t chip_status1_ = 0, chip_status4_ = 0;
   std::uint8_t status2_set_ = 0, status2_clear_ = 0, status2_read_ = 0;
   bool initialised_ = false;
-  std::uint64_t accesses_ = 0;
+  std::uint64_t accesses_ = 0, outputs_overwritten_ = 0;
   Cycle longest_wait_ = 0;
 };
 

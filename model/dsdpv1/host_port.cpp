@@ -114,8 +114,8 @@ void HostPort::check_tw(Tick at) {
   log_.at_tick(at, Reason::kReadTooShort, a_, static_cast<unsigned>(at - read_began_));
 }
 
-Level HostPort::sample(Cycle now, bool chip_owns) {
-  if (read_spoilt_ || chip_owns) return kLevelX;
+Level HostPort::sample(Cycle now, bool unreadable) {
+  if (read_spoilt_ || unreadable) return kLevelX;
   const Tick at = now * profibus::kTicksPerCycle;
   if (in_flight(a_)) {
     log_.at_tick(at, Reason::kReadInFlight, a_);
@@ -185,9 +185,9 @@ void HostPort::settle(const Write& write) {
 
 // --- the rising edge ------------------------------------------------------------------------------------------------------
 
-void HostPort::eval(Cycle now, bool chip_owns) {
+void HostPort::eval(Cycle now, bool unreadable) {
   if (now == sample_at_) {
-    sampled_ = sample(now, chip_owns);
+    sampled_ = sample(now, unreadable);
     sample_at_ = profibus::kNever;
     drive_at_ = now * profibus::kTicksPerCycle + profibus::kTicksPerCycle / 2;
   }

@@ -29,8 +29,9 @@ class HostPort {
   }
   Level level(Pin pin) const;
 
-  /// The rising edge of `now`: writes that have settled, the address of a read. `chip_owns`: L_STA as it was before the edge.
-  void eval(Cycle now, bool chip_owns);
+  /// The rising edge of `now`: writes that have settled, the address of a read. `unreadable`, as it was before the edge: L_STA is
+  /// high, or the start-up has not begun (P12, H6).
+  void eval(Cycle now, bool unreadable);
   Cycle next() const;
   /// The falling edge at which D is driven.
   Tick drive_at() const { return drive_at_; }
@@ -59,7 +60,7 @@ class HostPort {
   void capture(Tick at);
   bool check_capture(Tick at);
   void settle(const Write& write);
-  Level sample(Cycle now, bool chip_owns);
+  Level sample(Cycle now, bool unreadable);
   bool in_flight(regs::Address address) const;
   void check_owner(Tick at);
   Write& write_at(unsigned i) { return writes_[(first_write_ + i) % kWritesInFlight]; }

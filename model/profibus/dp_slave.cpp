@@ -11,7 +11,6 @@ bool c2_channel(int dsap) { return dsap <= kC2FirstSap && dsap > kC2FirstSap - k
 
 void DpSlave::reset() {
   config_ = SlaveConfig();
-  b005_ = 0;
   state_ = DpState::kOffline;
   address_ = 0;
   address_locked_ = false;
@@ -25,19 +24,18 @@ void DpSlave::reset() {
   msac1_.reset();
   msac2_.reset();
   offline_count_ = 0;
-  data_exchanges_ = 0;
+  data_exchanges_ = outputs_replaced_ = 0;
 }
 
 void DpSlave::initialise(Cycle now, const SlaveConfig& config) {
   const bool left_exchange = state_ == DpState::kDataExch;
   enter(now, DpState::kOffline);
   const std::uint16_t offline_count = offline_count_;
-  const std::uint64_t data_exchanges = data_exchanges_;
-  const std::uint8_t b005 = b005_;
+  const std::uint64_t data_exchanges = data_exchanges_, outputs_replaced = outputs_replaced_;
   reset();
   offline_count_ = offline_count;
   data_exchanges_ = data_exchanges;
-  b005_ = b005;
+  outputs_replaced_ = outputs_replaced;
   config_ = config;
   address_ = config.address;
   const CfgLengths lengths = cfg_lengths(config.cfg.bytes.data(), config.cfg.size);
@@ -75,6 +73,7 @@ void DpSlave::watchdog_expired(Cycle now) {
 }
 
 void DpSlave::hand_outputs(Cycle now) {
+  if (mail_.output_due.waiting()) ++outputs_replaced_;
   if (outputs_.size() > 0) mail_.output_due.set(now);
 }
 
@@ -151,8 +150,8 @@ Reply DpSlave::c1(Cycle now, const Request& request) {
 }
 
 Reply DpSlave::c2_initiate(Cycle now, const Request& request) {
-  if (b005_ != kDpv1Switch) {
-    log_.at_cycle(now, Reason::kC2Disabled, b005_, request.sa);
+  if (!config_.dpv1) {
+    log_.at_cycle(now, Reason::kC2Disabled, request.sa);
     return Reply::status(fc::kRs);
   }
   return msac2_.initiate(now, request);

@@ -18,7 +18,6 @@ constexpr int kC1 = 51, kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 
 }
 
 constexpr std::uint8_t kNoMaster = 255;
-constexpr std::uint8_t kDpv1Switch = 0x1D;  // B005: the user's side has DPV1
 
 class DpSlave {
  public:
@@ -37,7 +36,6 @@ class DpSlave {
   // --- from the user's side -------------------------------------------------------------------------------------------
   void reset();
   void initialise(Cycle now, const SlaveConfig& config);
-  void set_dpv1_byte(std::uint8_t b005) { b005_ = b005; }
   /// `good`: the user found the parameters (configuration) right. See ruling H7.
   void prm_verdict(Cycle now, bool good);
   void cfg_verdict(Cycle now, bool good);
@@ -59,6 +57,7 @@ class DpSlave {
   int min_tsdr() const { return min_tsdr_; }
   std::uint16_t offline_count() const { return offline_count_; }  ///< B008/B009: times that data exchange was left
   std::uint64_t data_exchanges() const { return data_exchanges_; }
+  std::uint64_t outputs_replaced() const { return outputs_replaced_; }  ///< before the user's side took them
   const SlaveConfig& config() const { return config_; }
   RmRegistry rm_registry() const { return msac2_.registry(); }
 
@@ -111,7 +110,6 @@ class DpSlave {
   EventLog& log_;
   Watchdog& watchdog_;
   SlaveConfig config_;
-  std::uint8_t b005_ = 0;
 
   DpState state_ = DpState::kOffline;
   std::uint8_t address_ = 0;
@@ -128,7 +126,7 @@ class DpSlave {
   Msac1 msac1_;
   Msac2 msac2_;
   std::uint16_t offline_count_ = 0;
-  std::uint64_t data_exchanges_ = 0;
+  std::uint64_t data_exchanges_ = 0, outputs_replaced_ = 0;
 };
 
 }  // namespace profibus

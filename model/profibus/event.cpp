@@ -26,10 +26,13 @@ constexpr const char* kRates[] = {"12M", "6M", "3M", "1.5M", "500k", "187.5k", "
 // A row of table 30: each bit of RmEntry::bits stands on the one before it.
 constexpr const char* kRmStates[] = {"not in use", "in use", "in use, connected", "in use, connected, exchanging"};
 
-// `format` is empty for decimal, "4x" for four hexadecimal digits, "state", "rate" and "rm" for their names; "high" and "low" are
-// the bytes, the low one also as "low2x".
+constexpr std::uint16_t kNone = 0xFFFF;  // kNoSap in 16 bits
+
+// `format` is empty for decimal, "4x" for four hexadecimal digits, "state", "rate" and "rm" for their names, "sap" for a number or
+// "none"; "high" and "low" are the bytes, the low one also as "low2x".
 std::string field_text(std::uint16_t value, const std::string& format) {
   if (format.empty()) return std::to_string(value);
+  if (format == "sap") return value == kNone ? "none" : std::to_string(value);
   if (format == "state") return kStates[value % std::size(kStates)];
   if (format == "rate") return kRates[value % std::size(kRates)];
   if (format == "rm") return kRmStates[(value & 1) + (value >> 1 & 1) + (value >> 2 & 1)];

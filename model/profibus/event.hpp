@@ -17,7 +17,7 @@ enum class Severity : std::uint8_t {
 };
 
 // X(identifier, severity, stable code, text, advice). The text may hold {a}, {b}, {c} (decimal), {a:4x} (hexadecimal, 4
-// digits), {a:state} (a DP state), {a:rate} (a baud rate), {a:rm} (a row of
+// digits), {a:state} (a DP state), {a:rate} (a baud rate), {a:sap} (a SAP or none), {a:rm} (a row of
 // the RM registry), {a:high} and {a:low} (its bytes), {a:low2x}.
 // The table is in event_table.inc; docs/reasons.md explains each and is generated from it.
 enum class Reason : std::uint8_t {

@@ -12,11 +12,15 @@ bool Fdl::addressed(Cycle now, const Telegram& telegram, std::uint8_t address, R
   request.sa = telegram.sa & kAddressMask;
   if (request.da != address && request.da != kBroadcast) return false;
   if ((telegram.fc & fc::kRequest) == 0) {
-    if (telegram.synced) log_.at_cycle(now, Reason::kResponse, telegram.fc, request.sa);
+    log_.at_cycle(now, Reason::kResponse, telegram.fc, request.sa);
     return false;
   }
   if (!telegram.synced) {
     log_.at_cycle(now, Reason::kNoSyn, static_cast<unsigned>(telegram.idle_bits));
+    return false;
+  }
+  if (request.sa == kBroadcast) {  // S32
+    log_.at_cycle(now, Reason::kSa127, telegram.fc);
     return false;
   }
   request.code = telegram.fc & fc::kCode;

@@ -78,15 +78,15 @@ bool DpSlave::check_prm(Cycle now, const Request& request, PrmRequest& prm) {
 }
 
 bool DpSlave::check_options(Cycle now, std::uint8_t status, std::uint8_t spec, int user_size) {
-  const auto refuse = [&](Reason reason, unsigned a) {
-    refuse_prm(now, reason, true, a);
+  const auto refuse = [&](Reason reason) {
+    refuse_prm(now, reason, true);
     return false;
   };
-  if ((status & kSyncReq) != 0 && !config_.sync_supported) return refuse(Reason::kPrmSync, 0);
-  if ((status & kFreezeReq) != 0 && !config_.freeze_supported) return refuse(Reason::kPrmFreeze, 0);
-  if ((spec & kFailSafe) != 0 && !config_.fail_safe_supported) return refuse(Reason::kPrmFailSafe, 0);
+  if ((status & kSyncReq) != 0 && !config_.sync_supported) return refuse(Reason::kPrmSync);
+  if ((status & kFreezeReq) != 0 && !config_.freeze_supported) return refuse(Reason::kPrmFreeze);
+  if ((spec & kFailSafe) != 0 && !config_.fail_safe_supported) return refuse(Reason::kPrmFailSafe);
   if ((spec & kDpv1Enable) == 0) return true;
-  if (b005_ != kDpv1Switch) return refuse(Reason::kPrmDpv1, b005_);
+  if (!config_.dpv1) return refuse(Reason::kPrmDpv1);  // D17
   if (user_size + kStandardSize >= kDpv1Size) return true;
   refuse_prm(now, Reason::kPrmShort, false, static_cast<unsigned>(user_size + kStandardSize), kDpv1Size);
   return false;

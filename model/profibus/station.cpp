@@ -23,7 +23,7 @@ void Station::reset() {
   slave_.reset();
   watchdog_.baud_search();
   search_.lock();
-  telegrams_.restart();
+  telegrams_.reset();
   fdl_.forget();
   tx_.abort();
   received_ = answered_ = 0;
@@ -53,7 +53,7 @@ void Station::eval(Cycle now) {
   if (tx_.eval(now)) rx_.restart(search_.bit(), tx_.end() + kLoopDelay, rxd_.level());
   if (was_sending || !tx_.rts()) return;
   ++answered_;
-  telegrams_.restart();  // half duplex: what comes now is our own echo
+  telegrams_.cut(now);  // half duplex: what comes now is our own echo
 }
 
 void Station::listen(Cycle now) {

@@ -28,6 +28,26 @@ std::uint8_t fcs_of(const std::uint8_t* bytes, int size) {
 
 }  // namespace
 
+void TelegramRx::reset() {
+  restart();
+  unsynced_ = 0;
+}
+
+void TelegramRx::restart() {
+  state_ = State::kWaitSyn;
+  given_up_ = false;
+}
+
+void TelegramRx::set_quiet(bool quiet) {
+  quiet_ = quiet;
+  if (quiet) unsynced_ = 0;
+}
+
+void TelegramRx::cut(Cycle now) {
+  if (in_telegram()) fail(now, Reason::kCutByAnswer, static_cast<unsigned>(count_));
+  restart();
+}
+
 void TelegramRx::character(Cycle now, const Character& character, int bit) {
   const bool after_syn = character.idle >= static_cast<Cycle>(kSynBits) * bit - 1;
   const bool after_gap = character.idle > bit;
@@ -36,9 +56,14 @@ void TelegramRx::character(Cycle now, const Character& character, int bit) {
     if (after_gap) return fail(now, Reason::kGap, static_cast<unsigned>(count_), static_cast<unsigned>(expected_));
   }
   const bool first = after_syn || !in_telegram();
-  if (first && !after_gap) return;  // the rest of something that was given up
+  if (after_syn) report_unsynced(now);
+  if (first && !after_gap) {  // the rest of something that was given up, or that began with the chip's own answer
+    if (!given_up_) count_unsynced();
+    return;
+  }
   if (first) {
     count_ = 0;
+    given_up_ = false;
     telegram_.synced = after_syn;
     telegram_.idle_bits = static_cast<int>(character.idle / bit);
   }
@@ -114,7 +139,20 @@ bool TelegramRx::eval(Cycle now, bool receiving) {
 
 void TelegramRx::fail(Cycle now, Reason reason, unsigned a, unsigned b) {
   state_ = State::kWaitSyn;
-  if (!quiet_ && telegram_.synced) log_.at_cycle(now, reason, a, b);
+  if (!telegram_.synced) return count_unsynced();
+  given_up_ = true;
+  if (!quiet_) log_.at_cycle(now, reason, a, b);
+}
+
+void TelegramRx::count_unsynced() {
+  constexpr unsigned kMost = 0xFFFF;  // an event's numbers have 16 bits
+  given_up_ = true;
+  if (!quiet_ && unsynced_ < kMost) ++unsynced_;
+}
+
+void TelegramRx::report_unsynced(Cycle now) {
+  if (unsynced_ > 0) log_.at_cycle(now, Reason::kFaultyUnsynced, unsynced_);
+  unsynced_ = 0;
 }
 
 }  // namespace profibus

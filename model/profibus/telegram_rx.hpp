@@ -25,10 +25,15 @@ class TelegramRx {
  public:
   explicit TelegramRx(EventLog& log) : log_(log) {}
 
+  /// Everything as at power-on.
+  void reset();
   /// Forgets the telegram in progress.
-  void restart() { state_ = State::kWaitSyn; }
-  /// While `quiet`, faulty telegrams are no events: at a wrong baud rate everything is faulty. Nor are they without T_SYN.
-  void set_quiet(bool quiet) { quiet_ = quiet; }
+  void restart();
+  /// The chip's own answer begins at `now`: what is in progress is lost.
+  void cut(Cycle now);
+  /// While `quiet`, faulty telegrams are neither events nor counted: at a wrong baud rate everything is faulty. What was counted
+  /// is forgotten.
+  void set_quiet(bool quiet);
   /// A character was completed at `now`.
   void character(Cycle now, const Character& character, int bit);
   /// The edge of `now`; `receiving`: a character is being sampled. True when a telegram is decided (S10): see telegram().
@@ -44,10 +49,14 @@ class TelegramRx {
   bool check_sd2_header(Cycle now, std::uint8_t value);
   void check_end(Cycle now);
   void fail(Cycle now, Reason reason, unsigned a = 0, unsigned b = 0);
+  void count_unsynced();
+  void report_unsynced(Cycle now);
 
   EventLog& log_;
   State state_ = State::kWaitSyn;
   bool quiet_ = true;
+  bool given_up_ = false;  // what follows without a gap belongs to something that was reported or counted
+  unsigned unsynced_ = 0;  // faulty telegrams without T_SYN that were not reported yet (S8)
   int count_ = 0, expected_ = 0;
   Cycle deadline_ = kNever;
   std::array<std::uint8_t, 256> bytes_{};

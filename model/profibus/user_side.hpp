@@ -14,6 +14,7 @@ struct SlaveConfig {
   std::uint8_t address = 0;
   std::uint16_t ident = 0;
   bool fail_safe_supported = false, sync_supported = false, freeze_supported = false, address_change = false;
+  bool dpv1 = false;  ///< D17: the slave has DPV1
   int max_input = 0, max_output = 0, max_diag = 0, max_prm = 0, max_cfg = 0;
   Judging prm_mode{}, cfg_mode{};
   Block<kMaxCfg> cfg;

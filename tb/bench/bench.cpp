@@ -38,7 +38,8 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
       options_(options),
       execution_(std::move(execution)),
       setup_(scenario),
-      checks_(scenario, options.checks) {
+      checks_(scenario, options.checks),
+      log_form_(log_form(options.log, options.log_whole, options.open_ended)) {
   checks_.on_violation = [this](const std::string& slave, const checks::Violation& violation, const char* kind) {
     check_violated(slave, violation, kind);
   };
@@ -50,7 +51,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
   for (const scenario::Master2& master : scenario.masters2) add_master2(master);
   script_ = std::make_unique<Script>(*this);
   add_agents();
-  if (!options.log.empty()) log_.emplace(options.log, options.open_ended);
+  if (!options.log.empty()) log_.emplace(options.log, log_form_);
   if (!options.trace.empty()) trace_.emplace(options.trace);
   if (waves_) waves_->begin();
 }
@@ -67,7 +68,7 @@ void Bench::add_slave(const scenario::Slave& slave) {
   config.engine = options_.engine;
   user_cpu::StationConfig station = setup_.station(slave);
   std::unique_ptr<ChipView> chip = execution_->make_chip(slave.name.text, config, watched_pins());
-  MakeUser make_user = user_maker(scenario_, slave, *chip, gdb_of(slave));
+  MakeUser make_user = user_maker(scenario_, slave, *chip, gdb_of(slave), left_out_);
   slaves_.push_back(std::make_unique<SlaveStation>(slave, std::move(station), std::move(chip), std::move(make_user)));
   connect(*slaves_.back(), slaves_.size() - 1);
 }
@@ -99,7 +100,7 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
     user_failed(station, at, why, registers);
   };
   station.on_outputs = [this, &station](Tick at, bool changed) {
-    if (changed) log(at, station.name(), "user", "outputs " + bytes_text(station.outputs()));
+    if (changed) log({at, station.name(), "user", "outputs", {}, station.outputs()});
     touch();
   };
 }
@@ -156,7 +157,7 @@ void Bench::connect(Master& entry) {
   bus::Master1& master = *entry.master;
   master.on_state = [this, &master, &name, slaves = entry.slaves](Tick at, std::uint8_t address, bus::SlaveState from,
                                                                   bus::SlaveState to) {
-    const std::string& reason = master.slave(address).reason;
+    const std::string& reason = master.slave(address).step_reason;
     log(at, name, "state",
         fmt::format("{} (address {}): {} to {}{}", slaves.at(address), address, bus::name(from), bus::name(to),
                     reason.empty() ? "" : ", " + reason));
@@ -164,7 +165,7 @@ void Bench::connect(Master& entry) {
     touch();
   };
   master.on_inputs = [this, &master, &name, slaves = entry.slaves](Tick at, std::uint8_t address) {
-    log(at, name, "inputs", fmt::format("{}: {}", slaves.at(address), bytes_text(master.slave(address).inputs)));
+    log({at, name, "inputs", slaves.at(address), {}, master.slave(address).inputs});
     touch();
   };
 }
@@ -183,8 +184,16 @@ void Bench::add_agents() {
 // --- what happens -----------------------------------------------------------------------------------------------------
 
 void Bench::log(Tick at, const std::string& station, const std::string& kind, const std::string& text) {
-  if (log_) log_->line(std::max(at, now()), station, kind, text);
+  log({at, station, kind, text});
 }
+
+void Bench::log(LogEntry entry) {
+  if (!log_) return;
+  entry.at = std::max(entry.at, now());
+  log_->add(entry);
+}
+
+std::string Bench::in_log(const bus::Bytes& bytes) const { return bytes_text(bytes, log_form_.most_bytes()); }
 
 void Bench::touch() { touch(now()); }
 
@@ -212,9 +221,10 @@ void Bench::check_violated(const std::string& slave, const checks::Violation& vi
   const std::string id = checks::rule(violation.check).id;
   ++counts_[slave][id];
   if (log_)
-    log_->finding(std::max(violation.found, now()), slave, kind,
-                  fmt::format("{} at {} ns: {}  [{}]", id, nanoseconds(violation.at), violation.text,
-                              checks::history_text(violation)));
+    log_->finding(
+        {std::max(violation.found, now()), slave, kind,
+         fmt::format("at {} ns: {}  [{}]", nanoseconds(violation.at), violation.text, checks::history_text(violation)),
+         id});
   touch(violation.found);
 }
 
@@ -233,9 +243,7 @@ bool Bench::stopped() const { return pulse_.stopped() || !registers_.empty(); }
 
 void Bench::telegram(const bus::WireTelegram& telegram) {
   const std::string words = telegram.decoded.readable ? bus::explain_line(telegram.decoded.telegram) : "not readable";
-  const std::string tsdr = telegram.tsdr ? fmt::format("  [TSDR {:.2f}]", telegram.tsdr_bits()) : "";
-  const std::string fault = telegram.right() ? "" : fmt::format("  [wrong: {}]", bus::describe(telegram.decoded.error));
-  log(telegram.end, "bus", "telegram", words + tsdr + fault + "  " + bytes_text(telegram.decoded.bytes));
+  if (log_) log(log_entry(telegram, words));
   if (waves_) waves_->telegram(now(), words);
   checks_.telegram(now(), telegram);
   if (telegram.tsdr) {
@@ -259,8 +267,9 @@ void Bench::happened(Happening happening) {
   happening.allowed =
       happening.severity == profibus::Severity::kViolation && allows(scenario_, happening.code, happening.station);
   if (happening.severity == profibus::Severity::kViolation && !happening.allowed) ++violations_;
-  log(happening.at, happening.station, happening.allowed ? "allowed" : name(happening.severity),
-      happening.code + ": " + happening.text);
+  if (happening.severity == profibus::Severity::kRefusal) refusals_.count(happening);
+  log({happening.at, happening.station, happening.allowed ? "allowed" : name(happening.severity), happening.text,
+       happening.code});
   if (happenings_.size() < RunResult::kKept) {
     happenings_.push_back(std::move(happening));
   } else {
@@ -370,6 +379,9 @@ RunResult Bench::collect() {
   result.fault_registers = registers_;
   result.telegrams = monitor_->statistics().telegrams;
   result.wrong_telegrams = monitor_->statistics().wrong;
+  for (const Master& each : masters_)
+    result.masters.push_back({each.spec->name.text, each.spec->address, each.master->cycles(),
+                              each.master->min_slave_interval_us(), each.spec->bus.min_slave_interval.has_value()});
   for (const auto& slave : slaves_) {
     slave->chip().sync(result.simulated);
     SlaveResult entry = slave->result();
@@ -390,8 +402,9 @@ RunResult Bench::collect() {
     return std::tie(a.at, a.station) < std::tie(b.at, b.station);
   });
   result.happenings_dropped = happenings_dropped_;
+  result.refused = refusals_.list();
   const bool met = std::all_of(result.expectations.begin(), result.expectations.end(),
-                               [](const ExpectationResult& each) { return each.passed; });
+                               [](const ExpectationResult& each) { return each.passed || each.left_out; });
   result.passed = met && result.violations == 0 && !result.interrupted;
   return result;
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct RunOptions {
   dsdpv1::Engine engine = dsdpv1::Engine::kSkip;
   std::string engine_name = "skip", view_name = "pins";
   std::string wave, log, trace;  ///< paths, empty: not wanted
+  bool log_whole = false;        ///< no bytes are left out in the log
   std::optional<GdbWish> gdb;    ///< debugger of the first ARM board
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
   ChecksMode checks = ChecksMode::kOff;
@@ -66,6 +68,8 @@ class Bench {
   const bus::Master1* master_of(const std::string& slave) const;
   /// What masters call the slave: the address in their lists.
   std::optional<std::uint8_t> listed_address(const std::string& slave) const;
+  /// Whether an action or expectation of the scenario is left out, see untold.hpp.
+  bool leaves_out(const void* what) const { return left_out_.count(what) != 0; }
   std::uint64_t count(const std::string& slave, const std::string& code) const;
   /// `asker`: the master's name as the script gives it, or a connection's.
   const Reply* last_reply(const std::string& asker, scenario::Do service) const;
@@ -73,6 +77,9 @@ class Bench {
   void connection_changed(const std::string& master, const std::string& connection, const std::string& state);
   void change_baud(int index);
   void log(Tick at, const std::string& station, const std::string& kind, const std::string& text);
+  void log(LogEntry entry);
+  /// Bytes as the log shows them inside of a text.
+  std::string in_log(const bus::Bytes& bytes) const;
   /// Something has changed: conditions are looked at again in this tick.
   void touch();
   void touch(Tick at);
@@ -113,6 +120,7 @@ class Bench {
   std::unique_ptr<Execution> execution_;
   Setup setup_;
   CheckWatch checks_;
+  std::set<const void*> left_out_;
   std::vector<std::unique_ptr<SlaveStation>> slaves_;
   std::vector<Master> masters_;
   std::vector<std::unique_ptr<Class2Station>> masters2_;
@@ -120,12 +128,14 @@ class Bench {
   std::unique_ptr<bus::Monitor> monitor_;
   std::unique_ptr<Script> script_;
   Pulse pulse_;
+  LogForm log_form_;
   std::optional<RunLog> log_;
   std::optional<PinTrace> trace_;
   std::optional<WaveRecorder> waves_;
 
   std::vector<Happening> happenings_;
   std::uint64_t happenings_dropped_ = 0, violations_ = 0;
+  Refusals refusals_;
   std::string registers_;  ///< of the processor that cannot go on; the run ends with it
   std::map<std::string, std::map<std::string, std::uint64_t>> counts_;  ///< by station and code
   std::map<std::string, std::map<scenario::Do, Reply>> replies_;        ///< by master and service

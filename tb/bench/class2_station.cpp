@@ -95,7 +95,7 @@ void Class2Station::act(const scenario::Action& action) {
     case Do::kC2Abort: say("aborts"); return master_.abort(id);
     case Do::kC2Behaviour: say("behaves otherwise"); return master_.set_behaviour(id, action.behaviour);
     case Do::kC2Raw: {
-      say("sends " + bytes_text(action.bytes));
+      say("sends " + bench_.in_log(action.bytes));
       bus::RawAcyclic raw;
       raw.pdu = action.bytes;
       if (action.sap) raw.dsap = static_cast<std::uint8_t>(*action.sap);

@@ -90,6 +90,8 @@ void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::Acc
 
 void PinChip::run_edges(Tick now) {
   pins_->run_edges(now);
+  // Strobes that rise with CSR are told before it, as the TLM module does.
+  if (chip_.level(Pin::kCsr) != 0) report_inputs(now, Pin::kRd, Pin::kWr);
   report_inputs(now, Pin::kCsr, Pin::kDIn);
 }
 

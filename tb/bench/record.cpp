@@ -25,6 +25,20 @@ const char* name(dsdpv1::DpState state) {
   return "";
 }
 
+void Refusals::count(const Happening& happening) {
+  Refused& entry = entries_[{happening.station, happening.code}];
+  if (entry.count++ == 0) entry = {happening.station, happening.code, happening.text, happening.at, happening.at, 1};
+  entry.last = std::max(entry.last, happening.at);
+}
+
+std::vector<Refused> Refusals::list() const {
+  std::vector<Refused> list;
+  list.reserve(entries_.size());
+  for (const auto& [key, entry] : entries_) list.push_back(entry);
+  std::stable_sort(list.begin(), list.end(), [](const Refused& a, const Refused& b) { return a.first < b.first; });
+  return list;
+}
+
 void Tsdr::add(double bits) {
   min_bits = answers == 0 ? bits : std::min(min_bits, bits);
   max_bits = answers == 0 ? bits : std::max(max_bits, bits);

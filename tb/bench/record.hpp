@@ -1,8 +1,10 @@
 #pragma once
 // What a run has brought, as plain values: for expectations, the result file and the table.
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/bytes.hpp"
@@ -28,6 +30,24 @@ struct Happening {
 /// "info", "refusal", "violation".
 const char* name(profibus::Severity severity);
 
+/// What was refused at one station for one reason: however long the run, none is forgotten.
+struct Refused {
+  std::string station, code;
+  std::string text;  ///< of the first time
+  Tick first = 0, last = 0;
+  std::uint64_t count = 0;
+};
+
+class Refusals {
+ public:
+  void count(const Happening& happening);
+  /// By the first time.
+  std::vector<Refused> list() const;
+
+ private:
+  std::map<std::pair<std::string, std::string>, Refused> entries_;  ///< by station and code
+};
+
 /// Answers of one slave, measured by the monitor.
 struct Tsdr {
   std::uint64_t answers = 0;
@@ -43,7 +63,16 @@ struct SlaveResult {
   Tsdr tsdr;
   user_cpu::UserCounters user;
   std::optional<user_cpu::BoardReport> board;  ///< of an ARM board
-  bus::Bytes inputs, outputs;
+  bus::Bytes inputs;
+  std::optional<bus::Bytes> outputs;  ///< absent: its program does not tell
+};
+
+struct MasterResult {
+  std::string name;
+  int address = 0;
+  std::uint64_t cycles = 0;
+  std::int64_t min_slave_interval_us = 0;
+  bool interval_given = false;  ///< by the scenario; else it is the greatest of the slaves' GSD files
 };
 
 /// What is done with violations that the checks of tb/checks find.
@@ -70,6 +99,7 @@ struct ExpectationResult {
   int line = 0;
   bool passed = false;
   std::string seen;
+  bool left_out = false;  ///< of firmware that does not tell: not judged
 };
 
 /// How a run against a host outside kept to real time (serve).
@@ -89,10 +119,12 @@ struct RunResult {
   Tick simulated = 0;
   double wall_s = 0;
   std::uint64_t telegrams = 0, wrong_telegrams = 0;
-  std::uint64_t violations = 0;  ///< those that are not allowed, and with ChecksMode::kFail those of checks
+  std::uint64_t violations = 0;       ///< those that are not allowed, and with ChecksMode::kFail those of checks
+  std::vector<MasterResult> masters;  ///< of class 1
   std::vector<SlaveResult> slaves;
   std::vector<Happening> happenings;
   std::uint64_t happenings_dropped = 0;  ///< beyond the first kKept
+  std::vector<Refused> refused;          ///< by the first time
   std::vector<ExpectationResult> expectations;
   std::vector<CheckResult> checks;  ///< by slave, then in the order of checks::Check
   std::optional<Pacing> pacing;

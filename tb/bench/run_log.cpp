@@ -2,27 +2,69 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "tb/scenario/units.hpp"
+
 namespace tb {
+namespace {
+
+const char* gap_before_bytes(const std::string& kind) {
+  if (kind == "telegram") return "  ";
+  return kind == "inputs" ? ": " : " ";
+}
+
+std::string text_line(const LogEntry& entry, const LogForm& form, const char* joint) {
+  std::string text = entry.code.empty() ? entry.text : entry.code + joint + entry.text;
+  if (entry.tsdr_bits) text += fmt::format("  [TSDR {:.2f}]", *entry.tsdr_bits);
+  if (!entry.wrong.empty()) text += fmt::format("  [wrong: {}]", entry.wrong);
+  if (entry.bytes) text += gap_before_bytes(entry.kind) + bytes_text(*entry.bytes, form.most_bytes());
+  return fmt::format("{:>17} ns  {:<12} {:<9} {}\n", nanoseconds(entry.at), entry.station, entry.kind, text);
+}
+
+std::string json_line(const LogEntry& entry) {
+  nlohmann::ordered_json json;
+  json["at_ns"] = std::stod(nanoseconds(entry.at));
+  json["station"] = entry.station;
+  json["kind"] = entry.kind;
+  if (!entry.code.empty()) json["code"] = entry.code;
+  json["text"] = entry.text;
+  if (entry.tsdr_bits) json["tsdr_bits"] = *entry.tsdr_bits;
+  if (!entry.wrong.empty()) json["wrong"] = entry.wrong;
+  if (entry.bytes) json["bytes"] = bytes_text(*entry.bytes, entry.bytes->size());
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
 
 std::string nanoseconds(bus::Tick tick) {
   const bus::Tick thousandths = ((tick % bus::kTicksPerNs) * 1000 + bus::kTicksPerNs / 2) / bus::kTicksPerNs;
   return fmt::format("{}.{:03}", tick / bus::kTicksPerNs, thousandths);
 }
 
-void RunLog::line(bus::Tick at, const std::string& station, const std::string& kind, const std::string& text) {
-  add(at, station, kind, text, {});
+LogEntry log_entry(const bus::WireTelegram& telegram, const std::string& words) {
+  LogEntry entry{telegram.end, "bus", "telegram", words, {}, telegram.decoded.bytes};
+  if (telegram.tsdr) entry.tsdr_bits = telegram.tsdr_bits();
+  if (telegram.decoded.error != bus::DecodeError::kNone) entry.wrong = bus::describe(telegram.decoded.error);
+  if (entry.wrong.empty() && telegram.character_errors) entry.wrong = "character errors";
+  return entry;
 }
 
-void RunLog::finding(bus::Tick at, const std::string& station, const std::string& kind, const std::string& text) {
-  add(at, station, kind, text, text);
+LogForm log_form(const std::string& path, bool whole, bool live) {
+  constexpr std::string_view kEnding = ".jsonl";
+  const bool json =
+      path.size() > kEnding.size() && path.compare(path.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
+  return {json, whole, live};
 }
 
-void RunLog::add(bus::Tick at, const std::string& station, const std::string& kind, const std::string& text,
-                 std::string order) {
-  waiting_.emplace(std::tuple(at, station, std::move(order)),
-                   fmt::format("{:>17} ns  {:<12} {:<9} {}\n", nanoseconds(at), station, kind, text));
+void RunLog::add(const LogEntry& entry) { add(entry, ": ", {}); }
+
+void RunLog::finding(const LogEntry& entry) { add(entry, " ", entry.code + " " + entry.text); }
+
+void RunLog::add(const LogEntry& entry, const char* joint, std::string order) {
+  waiting_.emplace(std::tuple(entry.at, entry.station, std::move(order)),
+                   form_.json ? json_line(entry) : text_line(entry, form_, joint));
 }
 
 void RunLog::flush(bus::Tick now) {
@@ -31,7 +73,7 @@ void RunLog::flush(bus::Tick now) {
     file_.write(waiting_.begin()->second);
     waiting_.erase(waiting_.begin());
   }
-  if (live_ && anything) file_.flush();
+  if (form_.live && anything) file_.flush();
 }
 
 void RunLog::finish() {

@@ -13,7 +13,8 @@
 namespace tb {
 namespace {
 
-constexpr int kStandardDiag = 6;  // bytes of Slave_Diag in front of the user's
+constexpr int kStandardDiag = 6;     // bytes of Slave_Diag in front of the user's
+constexpr int kGsdIntervalUs = 100;  // unit of Min_Slave_Intervall
 
 template <class To, class From>
 void override_with(To& value, const std::optional<From>& given) {
@@ -122,6 +123,7 @@ void Setup::take_gsd(bus::SlaveParameters& parameters, const scenario::Name& pat
   parameters.ident = file.ident;
   parameters.user_prm = setup.user_prm;
   parameters.cfg = setup.chk_cfg;
+  parameters.min_slave_interval_us = file.min_slave_interval.value_or(0) * kGsdIntervalUs;
   for (int i = 0; i < bus::kBaudCount; ++i) {
     const auto index = static_cast<std::size_t>(i);
     parameters.max_tsdr.at(index) = file.bauds.at(index).max_tsdr.value_or(0);

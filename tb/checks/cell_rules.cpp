@@ -27,7 +27,18 @@ constexpr std::array<FlagByte, 8> kFlags = {{
      regs::kUserCommand1Input | regs::kUserCommand1Diag | regs::kUserCommand1Init | regs::kUserCommand1CfgVerdict |
          regs::kUserCommand1PrmVerdict,
      false},
-    {regs::kUserCommand2, 0, regs::kUserCommand2C1 | regs::kUserCommand2C2, false},
+    {regs::kUserCommand2, 0, regs::kUserCommand2C1 | regs::kUserCommand2C2 | regs::kUserCommand2InputClear, false},
+}};
+
+/// A verdict on a block: bit of B010, and of B00E, which stands until the user has fetched the block.
+struct Verdict {
+  std::uint8_t given, block;
+  const char* name;
+  const char* flag;
+};
+constexpr std::array<Verdict, 2> kVerdicts = {{
+    {regs::kUserCommand1PrmVerdict, regs::kChipCommand1Prm, "parameters (B010.7)", "B00E.1"},
+    {regs::kUserCommand1CfgVerdict, regs::kChipCommand1Cfg, "configuration (B010.6)", "B00E.2"},
 }};
 
 bool is_command_of_chip(Address address) { return address == regs::kChipCommand1 || address == regs::kChipCommand2; }
@@ -53,6 +64,7 @@ void CellRules::reset() {
   hold_ = {};
   count_left_.reset();
   flags_left_ = {};
+  fetched_ = {};
   set_aside_ = {};
 }
 
@@ -66,6 +78,7 @@ void CellRules::hold_ended(Tick at) {
   check_count(at);
   check_crcs_written(at);
   check_crcs_fetched(at);
+  check_verdicts(at);
   hold_ = {};
 }
 
@@ -142,6 +155,8 @@ void CellRules::wrote(const Access& access) {
     hold_.flags_seen.set(access.address - kFirstFlags);
     if (access.value && before) check_what_user_did(access, *before);
     if (access.value) note_announcements(access, before);
+    if (access.value && access.address == regs::kUserCommand1) note_verdicts(*access.value, before.value_or(0));
+    if (access.value && access.address == regs::kChipCommand1) note_fetched(*access.value, before);
   }
   for (std::size_t i = 0; i < kUserBlocks.size(); ++i) {
     const Block& block = kUserBlocks.at(i);
@@ -234,6 +249,48 @@ void CellRules::check_crcs_fetched(Tick at) {
     recorder_.kept(Check::kCrcFetched, at, hold_.crc_high_read[i] && hold_.crc_low_read[i], [i] {
       return fmt::format("{} fetched without the CRC in B{:03X}", kChipBlocks.at(i).name, kChipBlocks.at(i).crc);
     });
+  }
+}
+
+// --- verdicts ---------------------------------------------------------------------------------------------------------
+
+/// One that stood before is none of this hold's, and one taken back in it is none at all.
+void CellRules::note_verdicts(std::uint8_t now, std::uint8_t before) {
+  for (std::size_t i = 0; i < kVerdicts.size(); ++i) {
+    const std::uint8_t given = kVerdicts.at(i).given;
+    hold_.verdicts[i] = (now & given) != 0 && ((before & given) == 0 || hold_.verdicts[i]);
+  }
+}
+
+void CellRules::note_fetched(std::uint8_t now, const std::optional<std::uint8_t>& before) {
+  for (std::size_t i = 0; i < kVerdicts.size(); ++i) {
+    const std::uint8_t block = kVerdicts.at(i).block;
+    if ((now & block) == 0 && (!before || (*before & block) != 0)) fetched_.set(i);
+  }
+}
+
+/// Whether the block's flag stands. Not looked at in this hold, it still does when it did before, as only the user clears it; else nobody knows
+/// whether a newer block has come, but who has cleared nothing since his last verdict has fetched nothing.
+std::optional<bool> CellRules::stands_unfetched(std::size_t verdict) const {
+  constexpr std::size_t kPlace = regs::kChipCommand1 - kFirstFlags;
+  const bool stood = (flags_left_.at(kPlace) & kVerdicts.at(verdict).block) != 0;
+  if (stood || hold_.flags_seen[kPlace]) return stood;
+  return fetched_[verdict] ? std::nullopt : std::optional(true);
+}
+
+/// At the release: the order of the writes within the hold does not matter, the chip sees them all at once.
+void CellRules::check_verdicts(Tick at) {
+  for (std::size_t i = 0; i < kVerdicts.size(); ++i) {
+    if (!hold_.verdicts[i]) continue;
+    const Verdict& verdict = kVerdicts.at(i);
+    if (const std::optional<bool> stands = stands_unfetched(i))
+      recorder_.kept(Check::kVerdictUnfetched, at, !*stands, [this, &verdict] {
+        const bool seen = (flags_left_.at(regs::kChipCommand1 - kFirstFlags) & verdict.block) != 0;
+        return fmt::format("verdict on the {}, {}", verdict.name,
+                           seen ? fmt::format("whose flag {} still stands", verdict.flag)
+                                : fmt::format("and {} was not cleared since the last one", verdict.flag));
+      });
+    fetched_.reset(i);
   }
 }
 

@@ -11,7 +11,7 @@
 
 namespace checks {
 
-/// A hold is the time that R_STA is high. What the chip may have changed before it is not known until the user reads it.
+/// A hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again. What the chip may have changed before it is not known until the user reads it.
 class CellRules {
  public:
   explicit CellRules(Recorder& recorder);
@@ -37,6 +37,7 @@ class CellRules {
     std::bitset<kFlagBytes> flags_seen;         ///< read or written
     std::bitset<kUserBlocks.size()> announced;  ///< flag set
     std::bitset<kUserBlocks.size()> written;    ///< a byte of the block or its CRC
+    std::bitset<2> verdicts;                    ///< on parameters, on configuration
     std::bitset<kChipBlocks.size()> header_read, data_read, crc_high_read, crc_low_read, flag_cleared;
   };
 
@@ -52,6 +53,10 @@ class CellRules {
   void check_crcs_written(Tick at);
   void check_crc_written(const Block& block, Tick at);
   void check_crcs_fetched(Tick at);
+  void note_verdicts(std::uint8_t now, std::uint8_t before);
+  void note_fetched(std::uint8_t now, const std::optional<std::uint8_t>& before);
+  void check_verdicts(Tick at);
+  std::optional<bool> stands_unfetched(std::size_t verdict) const;
   bool restores(Address address, std::uint8_t set) const;
   std::optional<std::uint8_t> look(Address address) const;
   void learn(Address address, const std::optional<std::uint8_t>& value);
@@ -62,6 +67,7 @@ class CellRules {
   Hold hold_;
   std::optional<std::uint8_t> count_left_;             ///< B006 as the user wrote it last
   std::array<std::uint8_t, kFlagBytes> flags_left_{};  ///< B00A.. as the user knew them last
+  std::bitset<2> fetched_;                             ///< he cleared B00E.1, B00E.2 since his last verdict
   std::array<std::uint8_t, 2> set_aside_{};            ///< B00E, B00F: flags that he cleared without fetching the block
 };
 

@@ -51,10 +51,9 @@ class Checks : private AccessSink {
   void on_violation(std::function<void(const Violation&)> sink) { recorder_.on_violation = std::move(sink); }
 
  private:
-  void reset_pin(bool level);
+  void reset_pin(Tick at, bool level);
   void end_hold_before(Tick at);
-  void r_req(Tick at, bool level);
-  void r_sta(Tick at, bool level);
+  void handshake(Tick at, dsdpv1::Pin pin, bool level);
   void access_began(Tick at) override;
   void access_ended(Tick at) override;
   void accessed(const Access& access) override;
@@ -66,6 +65,7 @@ class Checks : private AccessSink {
   CellRules cells_;
   Service service_;
   bool in_reset_ = true;
+  bool holding_ = false;          ///< a hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again
   std::optional<Tick> hold_end_;  ///< judged when time goes on: a RESET at the same tick makes it void
 };
 

@@ -62,7 +62,7 @@ says. The checks are written apart from it, from the same rulings, and where bot
 (`ChecksAndCore`): OWNERSHIP_BOTH_OWN and `HANDSHAKE_BOTH_OWN`, OWNERSHIP_NOT_OWNER and `HOST_NOT_OWNER`, TIMING_TS and `HOST_TS`, TIMING_TD and
 `HOST_TD_SETUP` or `HOST_D_FLOATING`, the two holds and `HOST_TD_HOLD` (which reports the first of A and D), TIMING_CSR and `HOST_CSR_EARLY`, TIMING_TC and
 `HOST_TC`, TIMING_TW and `HOST_TW`, TIMING_READ_BACK and `HOST_READ_IN_FLIGHT`, CELL_OF_CHIP and `HOST_READ_ONLY`, CRC_WRITTEN and the refusals
-`..._CRC`. What the checks add is the margin where nothing is violated, and the rules that no chip can see.
+`..._CRC`. `HANDSHAKE_HELD_THROUGH_RESET` has no check: what the user does in reset is not judged, and a hold through it counts from its end. What the checks add is the margin where nothing is violated, and the rules that no chip can see.
 
 ## What cannot be seen at the pins
 
@@ -70,14 +70,23 @@ says. The checks are written apart from it, from the same rulings, and where bot
   the end of the read, RD's or CSR's rise, as the latest moment. What a read brought is taken to be D as the chip drove it last.
 - A cell that the chip may have written since the user's last look. It counts as unknown until the user reads it in the hold, and what depends on
   it is not judged (a CRC over it, a flag written blindly).
+- Whether a block that is judged has been replaced. VERDICT_UNFETCHED looks at B00E as the user left it: a verdict in a hold in which he does not
+  look at B00E is judged by what he knew of it before; when he has cleared the flag since his last verdict, it is not judged.
 - Whether INTR0's block was read from B00E alone. INTR0_SERVICE ends with the begin of the first read that is in B410 to B5CC, or that finds
   B00E.1 or B00E.2 set; a read of B00E that finds neither ends it uncounted, because an earlier service has taken the block along. An INTR0 that is
   not served is judged at the end of the run.
-- The station's address. HOLD_INTERVAL learns it from the answers that are on the line while PBRTS is high, so it begins behind the first one.
+- The station's address. HOLD_INTERVAL learns it from the answers that are on the line while PBRTS is high, so it begins after the first one.
+  Its intervals run from the execution of one Data_Exchange, a bit time after the telegram's end, to that of the next; of a hold only the part
+  within the interval counts.
+- How many outputs were lost. The table of the slaves and `outputs_overwritten` of the result file have it: output blocks that a newer one
+  replaced before the user had fetched them (cleared B00E.0), be it that he held the chip off or that he was merely slower than the master. The
+  core counts them, since the last reset; with an RTL in its place it is the core beside it, on the same pins.
 
 ## The checks
 
-A hold is the time that R_STA is high. Rulings are those of [chip.md](chip.md), tables and chapters those of the datasheet.
+R_REQ and R_STA may fall one after the other, in either order (text of figure 5). A request begins when the first of them rises and ends when
+both are low again, and so long the chip stays away (H1). A hold begins with R_STA's rise and ends with the request. The right to access
+the DPRAM lasts while both are high: it ends with the first fall (P12). Rulings are those of [chip.md](chip.md), tables and chapters those of the datasheet.
 )";
 
 std::string limit_text(const Rule& rule) {

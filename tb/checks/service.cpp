@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bus/baud.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
 namespace checks {
@@ -16,7 +17,9 @@ namespace regs = dsdpv1::regs;
 void Service::reset() {
   intr0_fell_.reset();
   address_.reset();
+  due_exchange_.reset();
   last_exchange_.reset();
+  longest_part_ = 0;
   sending_ = false;
 }
 
@@ -38,7 +41,8 @@ void Service::accessed(const Access& access) {
   intr0_fell_.reset();
 }
 
-void Service::finish(Tick at) {
+void Service::finish(Tick at, std::optional<Tick> held_off_since) {
+  pass(at, held_off_since);
   if (intr0_fell_)
     recorder_.value(Check::kIntr0Service, *intr0_fell_, at - *intr0_fell_, [] { return std::string("not served"); });
   intr0_fell_.reset();
@@ -51,7 +55,23 @@ void Service::pbrts(Tick at, bool level) {
   (level ? pbrts_rose_ : pbrts_fell_) = at;
 }
 
-void Service::request_ended(Tick since, Tick at) { longest_hold_ = std::max(longest_hold_, at - since); }
+void Service::held_off(Tick since, Tick at) {
+  pass(at, since);
+  add_part(since, at);
+}
+
+/// What lies before the interval does not count.
+void Service::add_part(Tick since, Tick at) {
+  if (last_exchange_) longest_part_ = std::max(longest_part_, at - std::max(since, *last_exchange_));
+}
+
+/// Time has come to `at`.
+void Service::pass(Tick at, std::optional<Tick> held_off_since) {
+  if (!due_exchange_ || *due_exchange_ > at) return;
+  if (held_off_since && *held_off_since < *due_exchange_) add_part(*held_off_since, *due_exchange_);
+  exchange(*due_exchange_);
+  due_exchange_.reset();
+}
 
 /// Which address the station has is seen by what it answers to: nobody else drives the line while PBRTS is high.
 bool Service::is_own_answer(const bus::WireTelegram& telegram) const {
@@ -66,22 +86,22 @@ bool Service::is_exchange(const bus::WireTelegram& telegram) const {
   return request.is_request() && srd && request.da == *address_ && !request.dsap;
 }
 
-void Service::telegram(const bus::WireTelegram& telegram, std::optional<Tick> requested_since) {
+void Service::telegram(Tick now, const bus::WireTelegram& telegram, std::optional<Tick> held_off_since) {
+  pass(now, held_off_since);
   if (is_own_answer(telegram)) address_ = telegram.station;
-  if (is_exchange(telegram)) exchange(telegram.end, requested_since);
+  if (is_exchange(telegram)) due_exchange_ = telegram.end + bus::baud(telegram.baud).bit;
 }
 
-void Service::exchange(Tick at, std::optional<Tick> requested_since) {
-  if (requested_since) longest_hold_ = std::max(longest_hold_, at - *requested_since);
-  if (last_exchange_ && longest_hold_ != 0) {
+void Service::exchange(Tick at) {
+  if (last_exchange_ && longest_part_ != 0) {
     const Tick interval = at - *last_exchange_;
-    recorder_.value(Check::kHoldInterval, at, interval - longest_hold_, [&] {
-      return fmt::format("R_REQ was high for {}, Data_Exchange came after {}", ns_text(longest_hold_),
+    recorder_.value(Check::kHoldInterval, at, interval - longest_part_, [&] {
+      return fmt::format("the chip was held off for {} of the {} between two Data_Exchange", ns_text(longest_part_),
                          ns_text(interval));
     });
   }
   last_exchange_ = at;
-  longest_hold_ = 0;
+  longest_part_ = 0;
 }
 
 }  // namespace checks

@@ -102,27 +102,32 @@ static void pass_time(const dsdpv1_device* device, uint32_t ns) {
 
 void dsdpv1_poll_pause(const dsdpv1_device* device) { pass_time(device, device->tuning.poll_pause_ns); }
 
+void dsdpv1_sync_pause(const dsdpv1_device* device) { pass_time(device, DSDPV1_SYNC_WINDOW_NS); }
+
 static bool chip_is_away(const dsdpv1_port* port) {
   const bool req = port->get_l_req(port->ctx);
   const bool sta = port->get_l_sta(port->ctx);
   return !req && !sta;
 }
 
-/* Releases both lines; the pause lets the chip, whose synchroniser needs as long, see the gap before the next hold. */
+/*
+ * Releases both lines. Released is R_REQ = 0 and R_STA = 0 (5.1), the order does not matter (H1). The pause lets the
+ * chip, whose synchronisers need as long, see the gap before the next hold.
+ */
 static void lower_lines(const dsdpv1_device* device) {
   device->port.set_r_sta(device->port.ctx, false);
   device->port.set_r_req(device->port.ctx, false);
-  pass_time(device, DSDPV1_SYNC_WINDOW_NS);
+  dsdpv1_sync_pause(device);
 }
 
 /*
- * H2: the chip may start an access until 3 cycles after R_REQ rose, so one look at its lines proves nothing: the second
- * look, or the pause before the first, is later than that.
+ * H2: the chip may start an access until 3 cycles after R_REQ rose (R_STA has been low since the last release), so one
+ * look at its lines proves nothing: the second look, or the pause before the first, is later than that.
  */
 static bool acquire(const dsdpv1_device* device) {
   const dsdpv1_port* port = &device->port;
   port->set_r_req(port->ctx, true);
-  pass_time(device, DSDPV1_SYNC_WINDOW_NS);
+  dsdpv1_sync_pause(device);
   for (uint32_t polls = device->tuning.acquire_polls; polls != 0u; --polls) {
     const bool first = chip_is_away(port);
     if (first && chip_is_away(port)) {

@@ -210,7 +210,8 @@ typedef struct dsdpv1_device {
 dsdpv1_error dsdpv1_open(dsdpv1_device* device, const dsdpv1_port* port, const dsdpv1_judge* judge);
 
 /*
- * Waits until the chip has begun to work: B004 = 0xC5, 85 us after the release of RESET (ruling D1).
+ * Waits until the chip has begun to work: B004 = 0xC5, 85 us after the release of RESET (ruling D1). To be called after
+ * that release, with R_REQ and R_STA low: a line that is high when the chip leaves its reset keeps it from starting (H6).
  * Errors: DPRAM_BUSY, CHIP_NOT_READY, NESTED.
  */
 dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device);
@@ -250,6 +251,21 @@ typedef struct dsdpv1_exchange_result {
  */
 dsdpv1_error dsdpv1_exchange(dsdpv1_device* device, dsdpv1_input_policy policy, const uint8_t* inputs,
                              uint8_t input_length, dsdpv1_exchange_result* result);
+
+/*
+ * What the chip's opinion of the inputs' CRC (B00B.2, INPUT_CRC above) is about (B011.6, ruling D16). `keep` false, as after
+ * RESET: the block that it took last. True: any block since dsdpv1_clear_input_error; right ones do not take the error away.
+ * Counts from the chip's next access on; an error that stands stays. In one hold.
+ * Errors: ARGUMENT; NESTED, DPRAM_BUSY, CHIP_SILENT.
+ */
+dsdpv1_error dsdpv1_keep_input_errors(dsdpv1_device* device, bool keep);
+
+/*
+ * Asks the chip to clear the error once (B011.7), which it does in its next access, before it looks at new inputs. When
+ * errors are not kept nothing is cleared. In one hold.
+ * Errors: ARGUMENT; NESTED, DPRAM_BUSY, CHIP_SILENT.
+ */
+dsdpv1_error dsdpv1_clear_input_error(dsdpv1_device* device);
 
 /* -------------------------------------------------------------------------------------------------------- diagnosis */
 

@@ -9,6 +9,7 @@ dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device) {
   if (device == NULL) {
     return DSDPV1_ERR_ARGUMENT;
   }
+  dsdpv1_sync_pause(device); /* H6: a request that the chip meets as it leaves its reset keeps it from its start-up */
   for (uint32_t polls = device->tuning.ready_polls; polls != 0u; --polls) {
     const dsdpv1_error error = dsdpv1_hold_unjudged(device);
     if (error != DSDPV1_OK) {

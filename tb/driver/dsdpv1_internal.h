@@ -12,6 +12,7 @@ dsdpv1_error dsdpv1_hold(dsdpv1_device* device);
 dsdpv1_error dsdpv1_hold_unjudged(dsdpv1_device* device);
 void dsdpv1_release(dsdpv1_device* device);
 void dsdpv1_poll_pause(const dsdpv1_device* device);
+void dsdpv1_sync_pause(const dsdpv1_device* device); /* DSDPV1_SYNC_WINDOW_NS: the chip has seen what the lines are */
 /*
  * Holds the DPRAM again and again until the chip has cleared `flag` of B010, at most `init_polls` times. On success the
  * DPRAM is still held; otherwise it is released and `timeout` or the error of the hold returned.

@@ -87,6 +87,29 @@ dsdpv1_error dsdpv1_exchange(dsdpv1_device* device, dsdpv1_input_policy policy, 
   return error != DSDPV1_OK ? error : input_error;
 }
 
+/* ----------------------------------------------------------------------------------------------------- input errors */
+
+/* In a hold of its own; C1 and C2 answers that wait in B011 stay. */
+static dsdpv1_error change_user_command_2(dsdpv1_device* device, unsigned clear, unsigned set) {
+  const dsdpv1_error error = dsdpv1_hold(device);
+  if (error == DSDPV1_OK) {
+    const unsigned command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_2);
+    dsdpv1_put(device, DSDPV1_REG_USER_COMMAND_2, (uint8_t)((command & ~clear) | set));
+    dsdpv1_release(device);
+  }
+  return error;
+}
+
+dsdpv1_error dsdpv1_keep_input_errors(dsdpv1_device* device, bool keep) {
+  const unsigned history = DSDPV1_REG_USER_COMMAND_2_INPUT_HISTORY;
+  return device == NULL ? DSDPV1_ERR_ARGUMENT : change_user_command_2(device, history, keep ? history : 0u);
+}
+
+dsdpv1_error dsdpv1_clear_input_error(dsdpv1_device* device) {
+  return device == NULL ? DSDPV1_ERR_ARGUMENT
+                        : change_user_command_2(device, 0u, DSDPV1_REG_USER_COMMAND_2_INPUT_CLEAR);
+}
+
 /* -------------------------------------------------------------------------------------------------------- diagnosis */
 
 static bool type_is_known(dsdpv1_diag_type type) { /* D9 */

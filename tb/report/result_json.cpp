@@ -32,14 +32,21 @@ Json handshake_of(const SlaveResult& slave) {
 }
 
 Json user_of(const SlaveResult& slave) {
-  const user_cpu::ProgramCounters& program = slave.user.program;
-  return {{"exchanges", program.exchanges},           {"outputs_received", program.outputs_received},
-          {"inputs_written", program.inputs_written}, {"judgements", program.judgements},
-          {"driver_errors", program.driver_errors},   {"bad_reads", slave.user.cpu.bad_reads}};
+  using Counters = user_cpu::ProgramCounters;
+  const std::optional<Counters>& program = slave.user.program;
+  const auto count = [&program](std::uint64_t Counters::*which) { return program ? Json((*program).*which) : Json(); };
+  return {
+      {"exchanges", count(&Counters::exchanges)},           {"outputs_received", count(&Counters::outputs_received)},
+      {"inputs_written", count(&Counters::inputs_written)}, {"judgements", count(&Counters::judgements)},
+      {"driver_errors", count(&Counters::driver_errors)},   {"bad_reads", slave.user.cpu.bad_reads}};
 }
 
 Json board_of(const user_cpu::BoardReport& board) {
-  return {{"instructions", board.instructions}, {"hclk_cycles", board.cycles}, {"notes", board.notes}};
+  return {{"instructions", board.instructions},
+          {"hclk_cycles", board.cycles},
+          {"hclk_hz", board.hclk_hz},
+          {"hclk_source", board.hclk_source},
+          {"notes", board.notes}};
 }
 
 Json registry_of(const profibus::RmRegistry& registry) {
@@ -62,6 +69,7 @@ Json slave_of(const SlaveResult& slave) {
   json["baud"] = baud_text(slave.status.baud_index);
   json["master"] = slave.status.master == 255 ? Json(nullptr) : Json(slave.status.master);
   json["data_exchanges"] = slave.status.data_exchanges;
+  json["outputs_overwritten"] = slave.status.outputs_missed;
   json["rm_registry"] = registry_of(slave.status.c2);
   json["telegrams_received"] = slave.status.telegrams_received;
   json["telegrams_answered"] = slave.status.telegrams_answered;
@@ -72,7 +80,7 @@ Json slave_of(const SlaveResult& slave) {
   json["master_state"] = slave.master_state;
   json["master_reason"] = slave.master_reason;
   json["inputs"] = bytes_text(slave.inputs, slave.inputs.size());
-  json["outputs"] = bytes_text(slave.outputs, slave.outputs.size());
+  json["outputs"] = slave.outputs ? Json(bytes_text(*slave.outputs, slave.outputs->size())) : Json();
   return json;
 }
 
@@ -140,6 +148,24 @@ Json event_of(const Happening& happening) {
           {"severity", name(happening.severity)},  {"allowed", happening.allowed}, {"text", happening.text}};
 }
 
+Json master_of(const MasterResult& master) {
+  const Json of_slaves = master.min_slave_interval_us == 0 ? Json(nullptr) : Json("gsd");
+  return {{"name", master.name},
+          {"address", master.address},
+          {"cycles", master.cycles},
+          {"min_slave_interval_us", master.min_slave_interval_us},
+          {"min_slave_interval_from", master.interval_given ? Json("scenario") : of_slaves}};
+}
+
+Json refused_of(const Refused& refused) {
+  return {{"slave", refused.station},
+          {"code", refused.code},
+          {"count", refused.count},
+          {"first_ns", nanoseconds_of(refused.first)},
+          {"last_ns", nanoseconds_of(refused.last)},
+          {"text", refused.text}};
+}
+
 }  // namespace
 
 std::string result_json(const RunResult& result) {
@@ -158,15 +184,21 @@ std::string result_json(const RunResult& result) {
   json["wrong_telegrams"] = result.wrong_telegrams;
   json["violations"] = result.violations;
   if (result.pacing) json["pacing"] = pacing_of(*result.pacing);
+  json["masters"] = Json::array();
+  for (const MasterResult& master : result.masters) json["masters"].push_back(master_of(master));
   json["slaves"] = Json::array();
   for (const SlaveResult& slave : result.slaves) json["slaves"].push_back(slave_of(slave));
   json["expectations"] = Json::array();
   for (const ExpectationResult& each : result.expectations) {
-    json["expectations"].push_back(
-        {{"text", each.text}, {"line", each.line}, {"passed", each.passed}, {"seen", each.seen}});
+    json["expectations"].push_back({{"text", each.text},
+                                    {"line", each.line},
+                                    {"passed", each.left_out ? Json() : Json(each.passed)},
+                                    {"seen", each.seen}});
   }
   json["checks"] = Json::array();
   for (const CheckResult& each : result.checks) json["checks"].push_back(check_of(each));
+  json["refused"] = Json::array();
+  for (const Refused& each : result.refused) json["refused"].push_back(refused_of(each));
   json["events"] = Json::array();
   for (const Happening& each : result.happenings) json["events"].push_back(event_of(each));
   json["events_dropped"] = result.happenings_dropped;

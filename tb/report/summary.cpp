@@ -44,34 +44,73 @@ std::string steps(const RunResult& result) {
   return table.text() + (hidden != 0 ? fmt::format("  ... and {} more, see --log and --result\n", hidden) : "") + "\n";
 }
 
+/// What was refused, a row for each station and code: nobody should need the log to find that out.
+std::string refused(const RunResult& result) {
+  constexpr std::size_t kMost = 40;
+  if (result.refused.empty()) return "";
+  TextTable table({"refused by", "reason", "times", "first / us", "last / us", "what, the first time"});
+  const std::size_t shown = std::min(result.refused.size(), kMost);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Refused& each = result.refused[i];
+    table.add({each.station, each.code, fmt::format("{}", each.count), microseconds(each.first),
+               microseconds(each.last), each.text});
+  }
+  const std::size_t hidden = result.refused.size() - shown;
+  return table.text() + (hidden != 0 ? fmt::format("  ... and {} more, see --result\n", hidden) : "") +
+         "  dsdpv1-sim reasons REASON says what to do\n\n";
+}
+
 std::string tsdr(const SlaveResult& slave) {
   return slave.tsdr.answers == 0 ? "-" : fmt::format("{:.2f} .. {:.2f}", slave.tsdr.min_bits, slave.tsdr.max_bits);
 }
 
 std::string slaves(const RunResult& result) {
-  TextTable table({"slave", "address", "DP state", "baud", "exchanges", "TSDR / bit times", "chip waited / us",
-                   "user waited / us", "longest hold / us"});
+  TextTable table({"slave", "address", "DP state", "baud", "exchanges", "overwritten", "TSDR / bit times",
+                   "chip waited / us", "user waited / us", "longest hold / us"});
   for (const SlaveResult& slave : result.slaves) {
     table.add({slave.name, fmt::format("{}", slave.status.address), name(slave.status.dp_state),
-               baud_text(slave.status.baud_index), fmt::format("{}", slave.status.data_exchanges), tsdr(slave),
+               baud_text(slave.status.baud_index), fmt::format("{}", slave.status.data_exchanges),
+               fmt::format("{}", slave.status.outputs_missed), tsdr(slave),
                microseconds(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle),
                microseconds(slave.user.port.longest_wait), microseconds(slave.user.port.longest_hold)});
   }
   return table.text() + "\n";
 }
 
+std::string interval_from(const MasterResult& master) {
+  if (master.interval_given) return "min_slave_interval of the scenario";
+  return master.min_slave_interval_us == 0 ? "its slaves name no Min_Slave_Intervall"
+                                           : "Min_Slave_Intervall of its slaves";
+}
+
+std::string masters(const RunResult& result) {
+  std::string text;
+  for (const MasterResult& master : result.masters) {
+    const std::string interval = master.min_slave_interval_us == 0
+                                     ? "as fast as the bus allows"
+                                     : fmt::format("{}us or more each", master.min_slave_interval_us);
+    text += fmt::format("  master         {}: {} cycles, {} ({})\n", master.name, master.cycles, interval,
+                        interval_from(master));
+  }
+  return text;
+}
+
 std::string expectations(const RunResult& result) {
   if (result.expectations.empty()) return "";
   std::string text;
-  std::size_t met = 0;
+  std::size_t met = 0, left_out = 0;
   for (const ExpectationResult& each : result.expectations) {
     if (each.passed) {
       ++met;
+    } else if (each.left_out) {
+      ++left_out;
     } else {
       text += fmt::format("  NOT MET  {}:{}: {}; seen: {}\n", result.file, each.line, each.text, each.seen);
     }
   }
-  return fmt::format("  expectations   {} of {} met\n", met, result.expectations.size()) + text;
+  return fmt::format("  expectations   {} of {} met{}\n", met, result.expectations.size(),
+                     left_out != 0 ? fmt::format(", {} left out", left_out) : "") +
+         text;
 }
 
 std::string pacing(const Pacing& pacing) {
@@ -94,9 +133,10 @@ std::string boards(const RunResult& result) {
   std::string text;
   for (const SlaveResult& slave : result.slaves) {
     if (!slave.board) continue;
-    text += fmt::format("  ARM board      {}: {} instructions, {:.1f} million a second\n", slave.name,
-                        slave.board->instructions,
-                        static_cast<double>(slave.board->instructions) / 1e6 / std::max(result.wall_s, 1e-9));
+    text += fmt::format("  ARM board      {}: {} instructions, {:.1f} million a second; HCLK {:g} MHz ({})\n",
+                        slave.name, slave.board->instructions,
+                        static_cast<double>(slave.board->instructions) / 1e6 / std::max(result.wall_s, 1e-9),
+                        static_cast<double>(slave.board->hclk_hz) / 1e6, slave.board->hclk_source);
     for (const std::string& note : slave.board->notes) text += fmt::format("                 {}\n", note);
   }
   return text + result.fault_registers;
@@ -105,7 +145,8 @@ std::string boards(const RunResult& result) {
 }  // namespace
 
 std::string summary(const RunResult& result) {
-  std::string text = fmt::format("\n{}\n\n", result.scenario) + steps(result) + slaves(result);
+  std::string text = fmt::format("\n{}\n\n", result.scenario) + steps(result) + refused(result) + slaves(result);
+  text += masters(result);
   text += fmt::format("  telegrams      {} ({} wrong)\n", result.telegrams, result.wrong_telegrams);
   text +=
       fmt::format("  simulated      {} in {:.2f} s: {:.2f} times real time (engine {}, view {})\n",

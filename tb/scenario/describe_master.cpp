@@ -16,8 +16,10 @@ const ObjectOf<BusParameters>& bus_keys() {
     o.integer("gap_factor", &B::gap_factor, {0, 100}, "cycles",
               "Data cycles between two FDL status polls for the live list, 0 for none.");
     o.integer("highest_address", &B::highest_address, {1, 126}, "", "HSA, the last address of the live list.");
-    o.integer("min_slave_interval", &B::min_slave_interval, {0, 1000000}, "us",
-              "Least time from the start of one data cycle to the next; 0: as fast as the bus allows.");
+    o.integer(
+        "min_slave_interval", &B::min_slave_interval, {0, 1000000}, "us",
+        "Least time from the start of one data cycle to the next; left out: the greatest Min_Slave_Intervall in the "
+        "GSD files of its slaves; 0: as fast as the bus allows.");
     o.boolean("token", &B::token, "Whether the token is passed (to itself) after each cycle, as a single master does.");
     o.boolean(
         "ring", &B::ring,

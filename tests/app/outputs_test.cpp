@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/app/program.hpp"
 
@@ -27,7 +28,7 @@ class Outputs : public testing::Test {
 };
 
 TEST_F(Outputs, EveryCommandHasHelpWithExamples) {
-  for (const char* command : {"", "run", "schema", "gsd", "decode"}) {
+  for (const char* command : {"", "run", "schema", "gsd", "decode", "rtl-faults"}) {
     const app_test::Called called = call(std::string(command) + " --help", folder_.path());
     EXPECT_EQ(called.status, 0) << command;
     EXPECT_NE(called.out.find("Examples:"), std::string::npos) << command;
@@ -50,9 +51,11 @@ TEST_F(Outputs, ResultHoldsWhatItMust) {
   EXPECT_EQ(slave["dp_state"], "DATA_EXCH");
   EXPECT_EQ(slave["baud"], "12M");
   EXPECT_GT(slave["data_exchanges"], 10);
+  EXPECT_LT(slave["outputs_overwritten"], slave["data_exchanges"]);
   EXPECT_GE(slave["tsdr"]["min_bits"], 11.0);
   EXPECT_EQ(slave["outputs"], "01 02");
   EXPECT_EQ(result["expectations"].at(0)["passed"], true);
+  EXPECT_EQ(result["masters"].at(0)["min_slave_interval_from"], nullptr) << "no GSD, no wish";
   EXPECT_NE(read(folder_.file("l.txt")).find("DATA_EXCH"), std::string::npos);
 }
 
@@ -79,17 +82,121 @@ TEST_F(Outputs, ViolationThatIsNotAllowedFailsTheRun) {
 }
 
 TEST_F(Outputs, SamplesBeforeTwAreReportedTheSameInEveryExecution) {
+  // By the FSMC RD rises together with CSR.
+  for (const char* timing : {"access: {rd_sample: 31ns}", "fsmc: {mode: A, datast: 1}"}) {
+    std::string text = kScenario;
+    text.replace(text.find("cfg: \"31\"}"), 10, std::string("cfg: \"31\"}, user_cpu: {") + timing + "}");
+    text.erase(text.find("expect:"));
+    write("s.yaml", text);
+    EXPECT_EQ(run("--quiet --log skip.log --trace skip.txt").status, 1);
+    EXPECT_NE(read(folder_.file("skip.log")).find("Tw: D was sampled"), std::string::npos) << timing;
+    for (const char* other : {"--engine step", "--view tlm"}) {
+      EXPECT_EQ(run(std::string("--quiet --log other.log --trace other.txt ") + other).status, 1);
+      EXPECT_TRUE(read(folder_.file("skip.log")) == read(folder_.file("other.log"))) << timing << " " << other;
+      EXPECT_TRUE(read(folder_.file("skip.txt")) == read(folder_.file("other.txt"))) << timing << " " << other;
+    }
+  }
+}
+
+TEST_F(Outputs, RefusalsStandInTheTableAndTheResult) {
   std::string text = kScenario;
-  text.replace(text.find("cfg: \"31\"}"), 10, "cfg: \"31\"}, user_cpu: {access: {rd_sample: 31ns}}");
+  text.replace(text.find("{slave: demo, outputs"), 12, "{slave: demo, cfg: \"33\"");
   text.erase(text.find("expect:"));
   write("s.yaml", text);
-  EXPECT_EQ(run("--quiet --log skip.log --trace skip.txt").status, 1);
-  EXPECT_NE(read(folder_.file("skip.log")).find("Tw: D was sampled"), std::string::npos);
-  for (const char* other : {"--engine step", "--view tlm"}) {
-    EXPECT_EQ(run(std::string("--quiet --log other.log --trace other.txt ") + other).status, 1);
-    EXPECT_TRUE(read(folder_.file("skip.log")) == read(folder_.file("other.log"))) << other;
-    EXPECT_TRUE(read(folder_.file("skip.txt")) == read(folder_.file("other.txt"))) << other;
+  const app_test::Called called = run("--result r.json");
+  EXPECT_EQ(called.status, 0) << "a refusal is no violation";
+  const auto refused = nlohmann::json::parse(read(folder_.file("r.json")))["refused"];
+  ASSERT_EQ(refused.size(), 1U) << refused;
+  EXPECT_EQ(refused.at(0)["code"], "CFG_IO_LENGTH");
+  EXPECT_EQ(refused.at(0)["slave"], "demo");
+  const std::int64_t count = refused.at(0)["count"];
+  EXPECT_GT(count, 1);
+  EXPECT_LT(refused.at(0)["first_ns"], refused.at(0)["last_ns"]);
+  EXPECT_NE(called.out.find("  demo        CFG_IO_LENGTH  " + std::to_string(count) + " "), std::string::npos)
+      << called.out;
+}
+
+TEST_F(Outputs, PollRateIsThatOfTheGsdUnlessTheScenarioHasItsOwn) {
+  std::string text = kScenario;
+  const std::string init = "init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}";
+  text.replace(text.find(init), init.size(),
+               "gsd: " DSDPV1_SOURCE_DIR "/scenarios/dsdpv1.gsd, modules: [\"2 bytes in, 2 bytes out\"]");
+  text.replace(text.find("3ms"), 3, "9ms");
+  write("s.yaml", text);
+  const app_test::Called from_gsd = run("--result gsd.json");
+  EXPECT_EQ(from_gsd.status, 0) << from_gsd.out;
+  EXPECT_NE(from_gsd.out.find("600us or more each (Min_Slave_Intervall of its slaves)"), std::string::npos);
+  EXPECT_EQ(run("--result own.json --quiet --set masters.plc.bus.min_slave_interval=0").status, 0);
+  const auto gsd = nlohmann::json::parse(read(folder_.file("gsd.json"))),
+             own = nlohmann::json::parse(read(folder_.file("own.json")));
+  EXPECT_EQ(gsd["masters"].at(0)["min_slave_interval_us"], 600);
+  EXPECT_EQ(gsd["masters"].at(0)["min_slave_interval_from"], "gsd");
+  EXPECT_EQ(own["masters"].at(0)["min_slave_interval_us"], 0);
+  EXPECT_EQ(own["masters"].at(0)["min_slave_interval_from"], "scenario");
+  EXPECT_LE(gsd["masters"].at(0)["cycles"], 15);
+  EXPECT_GT(own["masters"].at(0)["cycles"], 60);
+}
+
+/// The scenario with an exchange of telegrams longer than the log shows them.
+std::string with_long_outputs() {
+  std::string text = kScenario;
+  text.replace(text.find("max_outputs: 2"), 14, "max_outputs: 40");
+  text.replace(text.find("cfg: \"31\""), 9, "cfg: \"11 A7 AF A7 A7\"");
+  text.replace(text.find("01 02"), 5, "A5*40");
+  return text;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST_F(Outputs, LogIsCutUnlessTheWholeIsAskedFor) {
+  write("s.yaml", with_long_outputs());
+  ASSERT_EQ(run("--quiet --log cut.log").status, 0);
+  ASSERT_EQ(run("--quiet --log whole.log --log-whole").status, 0);
+  const std::string cut = read(folder_.file("cut.log")), whole = read(folder_.file("whole.log"));
+  EXPECT_GT(count_of(cut, " A5 A5 ... (49 bytes)\n"), 10U);
+  EXPECT_GT(count_of(cut, "outputs A5 A5"), 0U);
+  EXPECT_EQ(count_of(whole, "... ("), 0U);
+  EXPECT_EQ(count_of(whole, "\n"), count_of(cut, "\n"));
+  const std::string all = "outputs" + [] {
+    std::string text;
+    for (int i = 0; i < 40; ++i) text += " A5";
+    return text;
+  }();
+  EXPECT_GT(count_of(whole, all + "\n"), 0U);
+  const app_test::Called decoded = call("decode whole.log", folder_.path());
+  EXPECT_EQ(decoded.status, 0) << decoded.err;
+  EXPECT_EQ(count_of(decoded.out, "\ntelegram ") + 1, count_of(whole, " telegram "));
+  EXPECT_EQ(call("decode cut.log", folder_.path()).status, 1);
+}
+
+TEST_F(Outputs, LogAsJsonLinesTellsTheSame) {
+  write("s.yaml", with_long_outputs());
+  ASSERT_EQ(run("--quiet --log l.jsonl").status, 0);
+  ASSERT_EQ(run("--quiet --log l.log --log-whole").status, 0);
+  std::istringstream lines(read(folder_.file("l.jsonl"))), texts(read(folder_.file("l.log")));
+  std::size_t telegrams = 0;
+  for (std::string line, text; std::getline(texts, text);) {
+    ASSERT_TRUE(std::getline(lines, line));
+    const auto json = nlohmann::json::parse(line);
+    std::istringstream words(text);
+    double at = 0;
+    std::string unit, station, kind;
+    words >> at >> unit >> station >> kind;
+    EXPECT_EQ(json["at_ns"], at);
+    EXPECT_EQ(json["station"], station);
+    EXPECT_EQ(json["kind"], kind);
+    EXPECT_NE(text.find(json["text"].get<std::string>()), std::string::npos) << line;
+    for (const char* key : {"code", "bytes"}) EXPECT_NE(text.find(json.value(key, "")), std::string::npos) << line;
+    EXPECT_EQ(json.contains("bytes"), kind == "telegram" || kind == "user" || kind == "inputs") << line;
+    EXPECT_EQ(json.contains("tsdr_bits"), text.find("[TSDR ") != std::string::npos) << line;
+    telegrams += kind == "telegram" ? 1 : 0;
   }
+  EXPECT_GT(telegrams, 20U);
+  EXPECT_EQ(call("decode l.jsonl", folder_.path()).out, call("decode l.log", folder_.path()).out);
 }
 
 TEST_F(Outputs, QuietPrintsNothing) {

@@ -41,4 +41,19 @@ TEST(Summary, NamesWhatIsNotMet) {
   EXPECT_NE(text.find("\nFAILED\n"), std::string::npos);
 }
 
+TEST(Summary, ListsWhatWasRefused) {
+  tb::RunResult result;
+  result.passed = true;
+  EXPECT_EQ(tb::summary(result).find("refused"), std::string::npos);
+  result.refused.push_back(
+      {"demo", "PRM_IDENT", "Prm_Fault: ident 1234", 2 * bus::kTicksPerUs, 5 * bus::kTicksPerUs, 3});
+  const std::string text = tb::summary(result);
+  EXPECT_NE(text.find("  refused by  reason     times  first / us  last / us  what, the first time\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("  demo        PRM_IDENT  3      2.000       5.000      Prm_Fault: ident 1234\n"),
+            std::string::npos)
+      << text;
+}
+
 }  // namespace

@@ -46,6 +46,7 @@ TEST(Setup, MasterTakesTheModulesOfItsSlave) {
   EXPECT_EQ(parameters.output_length, 4);
   EXPECT_EQ(parameters.group_ident, 0x05);
   EXPECT_EQ(parameters.wd_fact_1 * parameters.wd_fact_2, 10);
+  EXPECT_EQ(parameters.min_slave_interval_us, 600) << "6 units of 100 us";
 }
 
 TEST(Setup, UnknownModuleIsAnInputErrorAtItsLine) {

@@ -91,7 +91,8 @@ TEST(ExplainSetPrm, AllFields) {
   EXPECT_EQ(texts[4], "Ident_Number high: 0x0B");
   EXPECT_EQ(texts[6], "Group_Ident: group 1, 3");
   EXPECT_EQ(texts[7], "DPV1_Status_1: WD_Base_1ms, Fail_Safe, DPV1_Enable");
-  EXPECT_EQ(texts[9], "DPV1_Status_3: 0x02");
+  EXPECT_EQ(texts[8], "DPV1_Status_2: Check_Cfg_Mode");
+  EXPECT_EQ(texts[9], "DPV1_Status_3: Alarm_Mode 2 (4 alarms in all at a time)");
   EXPECT_EQ(texts[10], "User_Prm_Data 0");
 }
 
@@ -107,6 +108,69 @@ TEST(ExplainSetPrm, WithoutDpv1TheUserBytesFollowAtOnce) {
   const auto texts = data_texts(request(61, {0x80, 0, 0, 0, 0, 0, 0, 0x00, 0x01}));
   EXPECT_EQ(texts[7], "Spec_User_Prm_Byte: none");
   EXPECT_EQ(texts[8], "User_Prm_Data 0");
+}
+
+/// The texts after the seven standard bytes.
+std::vector<std::string> user_texts(const Bytes& user) {
+  Bytes data = {0x80, 0, 0, 11, 0x0C, 0xC9, 0};
+  data.insert(data.end(), user.begin(), user.end());
+  std::vector<std::string> texts = data_texts(request(61, data));
+  texts.erase(texts.begin(), texts.begin() + 7);
+  return texts;
+}
+
+TEST(ExplainSetPrm, TheThreeDpv1Bytes) {
+  using testing::ElementsAre;
+  EXPECT_THAT(user_texts({0xA0, 0xFD, 0x90}),
+              ElementsAre("DPV1_Status_1: Publisher_Enable, DPV1_Enable",
+                          "DPV1_Status_2: Check_Cfg_Mode, Enable_Update_Alarm, Enable_Status_Alarm, "
+                          "Enable_Manufacturer_Specific_Alarm, Enable_Diagnostic_Alarm, Enable_Process_Alarm, "
+                          "Enable_Pull_Plug_Alarm",
+                          "DPV1_Status_3: Alarm_Mode 0 (one alarm of each type at a time), IsoM_Req, PrmCmd"));
+  EXPECT_THAT(user_texts({0x80, 0x02, 0x67}),
+              ElementsAre("DPV1_Status_1: DPV1_Enable", "DPV1_Status_2: bit 1",
+                          "DPV1_Status_3: Alarm_Mode 7 (32 alarms in all at a time), bit 5, bit 6"));
+}
+
+TEST(ExplainSetPrm, StructuredParametersBlockByBlock) {
+  using testing::ElementsAre;
+  EXPECT_THAT(
+      user_texts({0x80, 0, 0x08, 6, 0x81, 2, 0, 0xAA, 0xBB, 5, 0x40, 3, 1, 0x11}),
+      ElementsAre("DPV1_Status_1: DPV1_Enable", "DPV1_Status_2: none",
+                  "DPV1_Status_3: Alarm_Mode 0 (one alarm of each type at a time), Prm_Structure",
+                  "Structure_Length: 6", "Structure_Type: 129 (User_Prm_Data)", "Slot_Number: 2", "Specifier: 0x00",
+                  "  data 0: 0xAA", "  data 1: 0xBB", "Structure_Length: 5",
+                  "Structure_Type: 64 (manufacturer specific)", "Slot_Number: 3", "Specifier: 0x01", "  data 0: 0x11"));
+}
+
+TEST(ExplainSetPrm, BlocksOfTheStandardHaveTheirFields) {
+  const auto texts = [](const Bytes& block) {
+    Bytes user = {0x80, 0, 0x08};
+    user.insert(user.end(), block.begin(), block.end());
+    auto all = user_texts(user);
+    all.erase(all.begin(), all.begin() + 4);
+    return all;
+  };
+  EXPECT_EQ(texts({8, 2, 0, 8, 1, 0, 0, 5})[0], "Structure_Type: 2 (PrmCmd)");
+  EXPECT_EQ(texts({8, 2, 0, 8, 1, 0, 0, 5})[6], "  Output_Hold_Time low: 0x05");
+  EXPECT_EQ(texts({14, 5, 1, 0, 8, 0, 0, 1, 0, 2, 0, 150, 0xAB, 0xCD})[10], "  F_WD_Time low: 0x96");
+  EXPECT_EQ(texts({14, 5, 1, 0, 8, 0, 0, 1, 0, 2, 0, 150, 0xAB, 0xCD})[12], "  data 9: 0xCD");
+  const auto links = texts({13, 3, 0, 0, 1, 3, 4, 0, 2, 7, 4, 2, 2});
+  EXPECT_EQ(links[3], "  Version: 0x01");
+  EXPECT_EQ(links[4], "  Publisher_Addr 1: 0x03");
+  EXPECT_EQ(links[11], "  Sample_Length 2: 0x02");
+  EXPECT_EQ(texts(Bytes{28, 4, 0, 0}).size(), 3U);
+  EXPECT_EQ(texts({4, 6, 0, 0})[0], "Structure_Type: 6 (reserved)");
+}
+
+TEST(ExplainSetPrm, BlocksThatDoNotFit) {
+  const auto texts = user_texts({0x80, 0, 0x08, 9, 0x81, 0});
+  EXPECT_EQ(texts[3], "Structure_Length: 9 (does not fit the telegram)");
+  EXPECT_EQ(texts[5], "Slot_Number: 0");
+  const auto none = user_texts({0x80, 0, 0x08, 3, 0x81, 0});
+  EXPECT_EQ(none[3], "Structure_Length: 3 (at least 4 are right)");
+  EXPECT_EQ(none[5], "no block: byte 1");
+  EXPECT_EQ(user_texts({0x80, 0, 0x00, 6, 0x81, 2})[3], "User_Prm_Data 0") << "no Prm_Structure, no blocks";
 }
 
 TEST(ExplainSetPrm, TooShort) { EXPECT_THAT(explain_line(request(61, {0x80, 0})), HasSubstr("2 bytes, at least 7")); }
@@ -182,6 +246,57 @@ TEST(ExplainDiag, BlocksThatDoNotFit) {
   EXPECT_THAT(data_texts(answer(60, {0, 0, 0, 0, 0, 0, 0x00}))[6], HasSubstr("does not fit"));
   EXPECT_EQ(data_texts(answer(60, {0, 0, 0, 0, 0, 0, 0x81, 0x00})).size(), 8U);
   EXPECT_THAT(explain_line(answer(60, {0x02})), HasSubstr("1 bytes, at least 6"));
+}
+
+/// The texts of a device related block, read with what is known of DPV1.
+std::vector<std::string> device_texts(const Bytes& block, std::optional<bool> dpv1) {
+  Bytes data = {0x08, 0x0C, 0, 1, 0, 0};
+  data.insert(data.end(), block.begin(), block.end());
+  const Telegram telegram = answer(60, data);
+  std::vector<std::string> texts;
+  for (const ExplainedByte& byte : explain_bytes({DecodeError::kNone, true, telegram, encode(telegram)}, dpv1))
+    texts.push_back(byte.meaning);
+  return {texts.begin() + 15, texts.end() - 2};
+}
+
+TEST(ExplainDiag, DeviceRelatedBlocksOfDpv1AreStatusOrAlarm) {
+  using testing::ElementsAre;
+  EXPECT_THAT(device_texts({0x06, 0x81, 2, 0x01, 0xAA, 0xBB}, true),
+              ElementsAre("device related diagnosis, block of 6 bytes", "Status_Type: status message", "Slot_Number: 2",
+                          "Status_Specifier: appears", "Diagnosis_User_Data 0", "Diagnosis_User_Data 1"));
+  EXPECT_THAT(
+      device_texts({0x05, 0x01, 4, 0x2E, 7}, true),
+      ElementsAre("device related diagnosis, block of 5 bytes", "Alarm_Type: diagnosis alarm", "Slot_Number: 4",
+                  "Alarm_Specifier: disappears, slot all right, Add_Ack, sequence number 5", "Diagnosis_User_Data 0"));
+  EXPECT_EQ(device_texts({0x06, 0x82, 0, 0, 0xE4, 0x00}, true)[4],
+            "module status: 1 valid data, 2 invalid data (error), 3 wrong module, 4 no module");
+  EXPECT_EQ(device_texts({0x06, 0x82, 0, 0, 0xE4, 0x02}, true)[5],
+            "module status: 5 wrong module, 6 valid data, 7 valid data, 8 valid data");
+}
+
+TEST(ExplainDiag, EveryTypeOfStatusAndAlarmHasItsName) {
+  const std::pair<int, const char*> types[] = {{0x02, "Alarm_Type: process alarm"},
+                                               {0x03, "Alarm_Type: pull alarm"},
+                                               {0x04, "Alarm_Type: plug alarm"},
+                                               {0x05, "Alarm_Type: status alarm"},
+                                               {0x06, "Alarm_Type: update alarm"},
+                                               {0x07, "Alarm_Type: reserved alarm"},
+                                               {0x20, "Alarm_Type: manufacturer specific alarm"},
+                                               {0x7F, "Alarm_Type: reserved alarm"},
+                                               {0x83, "Status_Type: DXB_Link_Status"},
+                                               {0x9E, "Status_Type: PrmCmdAck"},
+                                               {0x9F, "Status_Type: Red_State"},
+                                               {0xA0, "Status_Type: manufacturer specific"},
+                                               {0x84, "Status_Type: reserved"}};
+  for (const auto& [type, words] : types)
+    EXPECT_EQ(device_texts({0x04, static_cast<std::uint8_t>(type), 1, 0}, true)[1], words);
+}
+
+TEST(ExplainDiag, WithoutDpv1TheDeviceRelatedBytesAreTheManufacturers) {
+  EXPECT_EQ(device_texts({0x04, 0x81, 1, 0}, false)[1], "device related byte 1: 0x81");
+  EXPECT_EQ(device_texts({0x04, 0x81, 1, 0}, std::nullopt)[1],
+            "device related byte 1: 0x81, in DPV1 Status_Type: status message");
+  EXPECT_EQ(device_texts({0x03, 0x81, 1}, true)[1], "device related byte 1: 0x81") << "too short for DPV1";
 }
 
 TEST(ExplainDiag, ChannelErrors) {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 namespace bus {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -74,6 +76,65 @@ TEST(DecodeText, EveryErrorIsNamed) {
   EXPECT_THAT(decode("68 05 05 00").text, HasSubstr("second start delimiter"));
   EXPECT_THAT(decode("10 83 01 49 CD 16").text, HasSubstr("SAP byte that is not there"));
   EXPECT_THAT(decode("10 03").text, HasSubstr("truncated"));
+}
+
+const std::string kLog =
+    "        1361750.083 ns  demo         info      BAUD_FOUND: baud rate found: 12M; 1 -> 2\n"
+    "        1362000.000 ns  bus          telegram  1 -> 3  request FDL status FCB=0 FCV=0  10 03 01 49 4D 16\n"
+    "        1362001.000 ns  demo         text      68 it says 7\n"
+    "        1362100.917 ns  bus          telegram  SC (short acknowledge)  [TSDR 11.25]  E5\n";
+
+TEST(DecodeText, TheTelegramsOfALogWithTheirTimes) {
+  const Result result = decode(kLog);
+  EXPECT_EQ(result.code, 0) << result.error;
+  EXPECT_THAT(result.text, HasSubstr("telegram 1, line 2, 1362000.000 ns: 1 -> 3  request FDL status"));
+  EXPECT_THAT(result.text, HasSubstr("telegram 2, line 4, 1362100.917 ns: SC"));
+  EXPECT_THAT(result.text, Not(HasSubstr("garbage")));
+}
+
+TEST(DecodeText, ALogOfJsonLines) {
+  const Result result = decode(
+      "{\"at_ns\":1362.5,\"station\":\"demo\",\"kind\":\"info\",\"text\":\"bytes\",\"bytes\":\"00\"}\n"
+      "{\"at_ns\":1400.0,\"station\":\"bus\",\"kind\":\"telegram\",\"text\":\"x\",\"bytes\":\"10 03 01 49 4D 16\"}\n");
+  EXPECT_EQ(result.code, 0) << result.error;
+  EXPECT_THAT(result.text, HasSubstr("telegram 1, line 2, 1400.000 ns: 1 -> 3  request FDL status"));
+  EXPECT_THAT(decode("{\"at_ns\": 3}\n").error,
+              "bus.txt:1: is no line of a log, allowed are JSON objects with at_ns and kind, or bytes of two digits 00 "
+              "to FF");
+  EXPECT_EQ(decode("{not json\n").code, 2);
+}
+
+TEST(DecodeText, AWrongTelegramOfALogEndsWithItsLine) {
+  const Result result = decode(
+      "  1.000 ns  bus  telegram  not readable  [wrong: truncated]  68 05 05 68 83\n"
+      "  2.000 ns  bus  telegram  SC (short acknowledge)  E5\n");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.text, HasSubstr("wrong telegram, line 1, 1.000 ns: truncated"));
+  EXPECT_THAT(result.text, HasSubstr("telegram 1, line 2, 2.000 ns: SC"));
+}
+
+TEST(DecodeText, BytesThatTheLogHasCutAreNamed) {
+  const Result result = decode("  1.000 ns  bus  telegram  words  68 1D 1D 68 03 ... (35 bytes)\n");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.text,
+              HasSubstr("the log has 5 of its 35 bytes, all of them with --log-whole or --log FILE.jsonl"));
+}
+
+TEST(DecodeText, ASetPrmDecidesHowLaterDiagnosesOfItsSlaveAreRead) {
+  const auto hex_of = [](const Telegram& telegram) {
+    std::string text;
+    for (const std::uint8_t byte : encode(telegram)) text += fmt::format("{:02X} ", byte);
+    return text + "\n";
+  };
+  const std::string diagnosis =
+      hex_of(make_telegram(1, 3, 0x08, {0x08, 0x0C, 0, 1, 0, 0, 0x04, 0x81, 1, 0}, sap::kMaster, sap::kSlaveDiag));
+  const auto set_prm = [&](std::uint8_t user) {
+    return hex_of(make_telegram(3, 1, 0x7D, {0x80, 0, 0, 11, 0, 0, 0, user, 0, 0}, sap::kSetPrm, sap::kMaster));
+  };
+  const std::string manufacturers = "device related byte 1: 0x81", dpv1 = "Status_Type: status message";
+  EXPECT_THAT(decode(diagnosis).text, HasSubstr(manufacturers + ", in DPV1 " + dpv1));
+  EXPECT_THAT(decode(set_prm(0x80) + diagnosis).text, AllOf(HasSubstr(dpv1), Not(HasSubstr(manufacturers))));
+  EXPECT_THAT(decode(set_prm(0x00) + diagnosis).text, AllOf(HasSubstr(manufacturers), Not(HasSubstr(dpv1))));
 }
 
 TEST(DecodeText, NothingIsNoTelegram) {

@@ -339,6 +339,26 @@ TEST(Master, KeepsTheMinSlaveInterval) {
   EXPECT_EQ(bench.master.cycle_time(), 500 * kTicksPerUs);
 }
 
+TEST(Master, TheGreatestMinSlaveIntervalOfItsSlavesCounts) {
+  const auto cycle_time = [](std::optional<std::int64_t> given) {
+    BusParameters bus = Bench::fast();
+    bus.min_slave_interval_us = given;
+    Bench bench(0, Personality::kHighAlways, bus);
+    for (const int address : {4, 5}) {
+      SlaveParameters slave = parameters(static_cast<std::uint8_t>(address));
+      slave.min_slave_interval_us = address == 4 ? 700 : 400;
+      bench.master.add_slave(slave);  // not there: its wish counts all the same
+    }
+    bench.master.start();
+    bench.run_bits(200'000);
+    EXPECT_EQ(bench.state(), SlaveState::kDataExchange);
+    return bench.master.cycle_time() / kTicksPerUs;
+  };
+  EXPECT_EQ(cycle_time(std::nullopt), 700);
+  EXPECT_EQ(cycle_time(900), 900);
+  EXPECT_LT(cycle_time(0), 600) << "0: as fast as the bus allows";
+}
+
 TEST(Master, WithoutAnySlaveTimeStillPasses) {
   Segment segment;
   Timeline timeline;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace bus {
 namespace {
@@ -107,6 +109,31 @@ TEST_F(SlaveTest, ChkCfgRefusedWithPrmReqBeginsAnew) {
   step(refusal(fc::kRs));
   step(diagnosis(0x02, 0x01));
   EXPECT_EQ(state(), SlaveState::kDiagnose);
+}
+
+TEST_F(SlaveTest, AStepTellsItsOwnReasonAndNoneOfBefore) {
+  std::vector<std::string> steps;
+  slave.on_state = [this, &steps](SlaveState, SlaveState to) {
+    const std::string& why = slave.view().step_reason;
+    steps.push_back(name(to) + (why.empty() ? "" : ", " + why));
+  };
+  FdlResult silence;
+  silence.outcome = FdlOutcome::kNoAnswer;
+  step(diagnosis(0x02, 0x01));
+  step(silence);
+  step(silence);
+  step(diagnosis(0x02, 0x01));  // from OFFLINE on, all is well
+  step(acknowledged());
+  step(refusal(fc::kRs));
+  step(diagnosis(0x02, 0, 1));
+  EXPECT_EQ(slave.view().reason, "Chk_Cfg not acknowledged") << "the last failure is kept until all is well";
+  step(acknowledged());
+  step(diagnosis(0, 0, 1));
+  step(inputs({1, 2}, fc::kDh));
+  step(diagnosis(0x42, 0x01));
+  EXPECT_EQ(steps, (std::vector<std::string>{"DIAGNOSE", "SET_PRM", "OFFLINE, no answer", "DIAGNOSE", "SET_PRM",
+                                             "CHK_CFG", "AWAIT_READY, Chk_Cfg not acknowledged", "CHK_CFG",
+                                             "AWAIT_READY", "DATA_EXCH", "DIAGNOSE, Prm_Fault"}));
 }
 
 struct Fault {

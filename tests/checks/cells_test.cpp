@@ -51,6 +51,21 @@ void outputs(Board& board, bool with_crc) {
   if (with_crc) board.read(0x40F, 0x34);
 }
 
+void next_hold(Board& board) {
+  board.release();
+  board.ask();
+  board.count();
+}
+
+/// An empty block with its CRC; `others` of B00E stay set.
+void fetch_parameters(Board& board, unsigned others = 0) {
+  board.read(0x00E, 0x02 | others);
+  board.read(0x410, 0x00);
+  board.read(0x4FE, 0x40);
+  board.read(0x4FF, 0xBF);
+  board.write(0x00E, others);
+}
+
 const Case kCases[] = {
     {"CountByChip", Check::kCountByChip, [](Board&) {},
      [](Board& board) {
@@ -109,6 +124,17 @@ const Case kCases[] = {
        board.write(0x011, 0x01);
        board.write(0x011, 0x02);
      }},
+    {"FlagByUserWithdrawsTheClearingOfB00B", Check::kFlagByUser,  // D16: B011.6 is his, B011.7 the chip clears
+     [](Board& board) {
+       board.read(0x011, 0x40);
+       board.write(0x011, 0xC0);
+       board.write(0x011, 0x80);
+     },
+     [](Board& board) {
+       board.read(0x011, 0x40);
+       board.write(0x011, 0xC0);
+       board.write(0x011, 0x40);
+     }},
     {"FlagByUserSetsStatus", Check::kFlagByUser,
      [](Board& board) {
        board.read(0x00A, 0x01);
@@ -127,6 +153,7 @@ const Case kCases[] = {
        board.write(0x010, 0x04);
      },
      [](Board& board) {
+       board.read(0x00E, 0x00);
        board.read(0x010, 0x00);
        board.write(0x010, 0xC0);
        board.write(0x010, 0x80);
@@ -161,6 +188,67 @@ const Case kCases[] = {
      }},
     {"FlagByChipWritesTheUsersByte", Check::kFlagByChip, [](Board& board) { board.read(0x00C, 0x00); },
      [](Board& board) { board.read(0x00D, 0x01); }},
+    {"VerdictUnfetchedOnParameters", Check::kVerdictUnfetched,
+     [](Board& board) {
+       board.write(0x010, 0x80);  // before the fetching: what counts is the release
+       fetch_parameters(board);
+     },
+     [](Board& board) {
+       board.read(0x00E, 0x02);
+       board.write(0x010, 0x80);
+     }},
+    {"VerdictUnfetchedOnConfiguration", Check::kVerdictUnfetched,
+     [](Board& board) {
+       board.read(0x00E, 0x02);
+       board.write(0x010, 0x40);  // the flag of the parameters is not its business
+     },
+     [](Board& board) {
+       fetch_parameters(board, 0x04);
+       board.write(0x010, 0xC0);
+     }},
+    {"VerdictUnfetchedWithoutALook", Check::kVerdictUnfetched,
+     [](Board& board) {
+       fetch_parameters(board);
+       next_hold(board);
+       board.write(0x010, 0x80);
+     },
+     [](Board& board) {
+       fetch_parameters(board);
+       board.write(0x010, 0x80);
+       next_hold(board);
+       board.read(0x010, 0x00);
+       board.write(0x010, 0x80);  // a second one, on what?
+     }},
+    {"VerdictUnfetchedSeenEarlier", Check::kVerdictUnfetched,
+     [](Board& board) {
+       board.read(0x00E, 0x02);
+       next_hold(board);
+       board.write(0x010, 0x80);
+       board.write(0x010, 0x84);
+       board.write(0x010, 0x04);  // taken back, by an initialisation with its CRC
+       board.write(0x0F7, 0x40);
+       board.write(0x0F8, 0xBF);
+     },
+     [](Board& board) {
+       board.read(0x00E, 0x02);
+       next_hold(board);
+       board.write(0x010, 0x80);
+     }},
+    {"VerdictUnfetchedWhenANewerBlockCame", Check::kVerdictUnfetched,
+     [](Board& board) {
+       fetch_parameters(board);
+       board.write(0x010, 0x80);
+       next_hold(board);
+       board.read(0x00E, 0x02);
+       board.read(0x010, 0x80);
+       board.write(0x010, 0xA0);  // the verdict stands since the earlier hold
+     },
+     [](Board& board) {
+       fetch_parameters(board);
+       next_hold(board);
+       board.read(0x00E, 0x02);
+       board.write(0x010, 0x80);
+     }},
     {"CellOfChip", Check::kCellOfChip, [](Board& board) { board.write(0x014, 0x01); },
      [](Board& board) { board.write(0x012, 0x01); }},
     {"CellOfChipPrm", Check::kCellOfChip, [](Board& board) { board.write(0x31A, 0x01); },

@@ -38,15 +38,39 @@ void both_own(Board& board, Tick margin) {
 }
 
 void no_request(Board& board, Tick margin) {
-  board.ask();
-  board.set(margin < 0 ? Pin::kRReq : Pin::kRSta, 0);
+  board.set(margin < 0 ? Pin::kRSta : Pin::kRReq, 1);
   board.wait(margin < 0 ? -margin : margin);
-  board.set(margin < 0 ? Pin::kRSta : Pin::kRReq, 0);
+  board.set(margin < 0 ? Pin::kRReq : Pin::kRSta, 1);
+  board.wait(500);
+  board.release();
 }
 
 void sync_window(Board& board, Tick margin) {
   board.ask(750 + margin);
   board.release();
+}
+
+/// Both were low for a tick: the chip may have seen it.
+void sync_window_of_a_new_request(Board& board, Tick margin) {
+  board.set(Pin::kRReq, 1);
+  board.wait(2040);
+  board.set(Pin::kRReq, 0);
+  board.wait(1);
+  sync_window(board, margin);
+}
+
+/// Both were never low: what R_REQ did while R_STA was high does not count.
+void sync_window_of_a_renewed_request(Board& board, Tick margin) {
+  board.ask(751);
+  board.set(Pin::kRReq, 0);
+  board.wait(10);
+  board.set(Pin::kRReq, 1);
+  board.wait(10);
+  board.set(Pin::kRSta, 0);
+  board.wait(10);
+  board.set(Pin::kRSta, 1);
+  board.release();
+  sync_window(board, margin);
 }
 
 void not_owner(Board& board, Tick margin) {
@@ -68,7 +92,8 @@ void not_owner(Board& board, Tick margin) {
 /// As `not_owner`; the address takes a tick, so that is the least that a kept one shows.
 void not_owner_kept_by_a_tick(Board& board, Tick margin) { not_owner(board, margin < 0 ? margin : margin - 1); }
 
-void released_in_access(Board& board, Tick margin) {
+/// The first of the two to fall ends the right to access.
+void released_in_access(Board& board, Tick margin, Pin first, Pin second) {
   board.ask();
   board.count();
   board.set(Pin::kA, 0x014);
@@ -77,19 +102,26 @@ void released_in_access(Board& board, Tick margin) {
   board.wait(1000);
   if (margin >= 0) board.set(Pin::kRd, 1);
   board.wait(std::max<Tick>(margin, 0));
-  board.set(Pin::kRSta, 0);
+  board.set(first, 0);
   board.wait(-std::min<Tick>(margin, 0));
   board.set(Pin::kRd, 1);
   board.set(Pin::kCsr, 1);
-  board.set(Pin::kRReq, 0);
+  board.set(second, 0);
 }
 
-void never_released(Board& board, Tick margin) {
+void r_sta_released_in_access(Board& board, Tick margin) { released_in_access(board, margin, Pin::kRSta, Pin::kRReq); }
+void r_req_released_in_access(Board& board, Tick margin) { released_in_access(board, margin, Pin::kRReq, Pin::kRSta); }
+
+/// The later of the two to fall lets the chip in.
+void never_released(Board& board, Tick margin, Pin first, Pin second) {
   board.ask();
+  board.set(first, 0);
   board.wait(10 * bus::kTicksPerMs - 2540 - margin);
-  board.set(Pin::kRSta, 0);
-  board.set(Pin::kRReq, 0);
+  board.set(second, 0);
 }
+
+void r_req_never_released(Board& board, Tick margin) { never_released(board, margin, Pin::kRSta, Pin::kRReq); }
+void r_sta_never_released(Board& board, Tick margin) { never_released(board, margin, Pin::kRReq, Pin::kRSta); }
 
 /// A whole hold with one access of a timing.
 void one_write(Board& board, const Timing& timing) {
@@ -184,14 +216,36 @@ void intr0_found_in_b00e(Board& board, Tick margin) {
   board.read(0x00E, 0x02);
 }
 
+constexpr Tick kBit = 1000;         // at 12 Mbit/s: so long after its end a telegram is executed
+constexpr Tick kNeeded = 10 * 250;  // the chip's way from the release to its choice of the outputs
+
+/// The chip is held off for 300 us of the interval from `start`, and before it.
 void hold_interval(Board& board, Tick margin) {
   const checks_test::Exchanges exchanges(board, 5);
   exchanges.answered(board);
-  const Tick start = exchanges.request(board);
   board.set(Pin::kRReq, 1);
-  board.wait(300'000);
+  board.wait(500'000);
+  const Tick start = exchanges.request(board);
+  board.wait(kBit + 300'000);
   board.set(Pin::kRReq, 0);
-  exchanges.request_ending_at(board, start + 300'000 + margin);
+  exchanges.request_ending_at(board, start + 300'000 + kNeeded + margin);
+  board.wait(kBit);
+  board.checks().finish(board.now());
+}
+
+/// The hold begins in the interval, and R_STA ends it between the end of the second telegram and its execution.
+void hold_interval_to_its_end(Board& board, Tick margin) {
+  const checks_test::Exchanges exchanges(board, 5);
+  exchanges.answered(board);
+  const Tick start = exchanges.request(board);
+  board.wait(kBit + 2000);
+  board.ask();
+  board.set(Pin::kRReq, 0);
+  exchanges.request_ending_at(board, start + 300'000);
+  board.wait(kBit + 2000 - kNeeded - margin);
+  board.set(Pin::kRSta, 0);
+  board.wait(5000);
+  board.checks().finish(board.now());
 }
 
 constexpr Tick kIntr0Limit = 100'000;
@@ -200,8 +254,12 @@ const Case kCases[] = {
     {"BothOwn", Check::kBothOwn, both_own},
     {"NoRequest", Check::kNoRequest, no_request},
     {"SyncWindow", Check::kSyncWindow, sync_window},
-    {"ReleasedInAccess", Check::kReleasedInAccess, released_in_access},
-    {"NeverReleased", Check::kNeverReleased, never_released},
+    {"SyncWindowOfANewRequest", Check::kSyncWindow, sync_window_of_a_new_request},
+    {"SyncWindowOfARenewedRequest", Check::kSyncWindow, sync_window_of_a_renewed_request},
+    {"RStaReleasedInAccess", Check::kReleasedInAccess, r_sta_released_in_access},
+    {"RReqReleasedInAccess", Check::kReleasedInAccess, r_req_released_in_access},
+    {"RReqNeverReleased", Check::kNeverReleased, r_req_never_released},
+    {"RStaNeverReleased", Check::kNeverReleased, r_sta_never_released},
     {"Ts", Check::kTs, ts},
     {"TdOfD", Check::kTd, td_data},
     {"TdOfA", Check::kTd, td_address},
@@ -214,6 +272,7 @@ const Case kCases[] = {
     {"Intr0Service", Check::kIntr0Service, intr0_service, kIntr0Limit},
     {"Intr0FoundInB00E", Check::kIntr0Service, intr0_found_in_b00e, kIntr0Limit},
     {"HoldInterval", Check::kHoldInterval, hold_interval},
+    {"HoldIntervalToItsEnd", Check::kHoldInterval, hold_interval_to_its_end},
 };
 
 void PrintTo(const Case& each, std::ostream* out) {

@@ -119,7 +119,8 @@ TEST_F(Search, LocksOnSd1Sd2AndSd3OfAnybody) {
   const Bytes eight = {1, 2, 3, 4, 5, 6, 7, 8};
   for (const bus::Telegram& telegram :
        {kToNobody, kToChip, bus::make_telegram(100, 2, 0x6D, {1}),
-        bus::prefer_sd3(bus::make_telegram(100, 2, 0x6D, eight)), bus::make_telegram(127, 2, 0x46, {0, 0}, 58, 62)}) {
+        bus::prefer_sd3(bus::make_telegram(100, 2, 0x6D, eight)), bus::make_telegram(127, 2, 0x46, {0, 0}, 58, 62),
+        bus::make_telegram(5, 127, 0x6D, {1})}) {  // S32: 127 as source may lock, too
     SlaveBench bench(quick_search());
     initialised(bench);
     bench.run_cycles(33 * 4);
@@ -209,6 +210,7 @@ TEST_F(BaudControl, IsNotKeptAliveByTrafficThatIsNotForTheStation) {
     bench.requester.send(bench.timeline, bus::make_telegram(127, 2, 0x46, {0, 0}, 58, 62), {.wants_answer = false});
     bench.requester.send(bench.timeline, wrong, {.wants_answer = false});
     bench.requester.send(bench.timeline, bus::make_token(5, 2), {.wants_answer = false});
+    bench.requester.send(bench.timeline, bus::make_telegram(5, 127, 0x49), {.wants_answer = false});  // S32
   }
   bench.run_until(found + 3 * kMs * kCycleTicks);
   EXPECT_EQ(bench.last(Reason::kBaudLost).at, found + 3 * kMs * kCycleTicks);

@@ -219,7 +219,82 @@ TEST_F(Fdl, RequestBegunBeforeTheAnswerIsLostToIt) {
   bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kFirst, {1, 2}), {.wants_answer = false});
   bench.run_for(bench.requester.bit() * 300);
   EXPECT_EQ(executed(), executed_before);
+  EXPECT_EQ(bench.count(Reason::kCutByAnswer), 1) << "S8";
+  EXPECT_EQ(bench.last(Reason::kCutByAnswer).at,
+            bench.changes(Pin::kPbrts).at(bench.changes(Pin::kPbrts).size() - 2).at);
   EXPECT_TRUE(dx(kFirst).answered());
+}
+
+TEST_F(Fdl, TelegramWithoutTSynCutByTheAnswerIsCounted) {
+  Prm prm;
+  prm.min_tsdr = 60;
+  bench.to_data_exch({}, prm);
+  bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kFdlStatus), {.wants_answer = false});
+  bench.requester.send(bench.timeline, bus::encode(bus::make_telegram(5, 2, kFirst, {1, 2})),
+                       {.idle_bits = 20, .wants_answer = false});
+  bench.run_for(bench.requester.bit() * 300);
+  EXPECT_EQ(bench.count(Reason::kCutByAnswer), 0);
+  EXPECT_TRUE(dx(kFirst).answered());
+  EXPECT_EQ(bench.count(Reason::kFaultyUnsynced), 1);
+}
+
+// --- source address 127 (S32)
+
+TEST_F(Fdl, SourceAddress127IsIgnoredWhateverItAsks) {
+  bench.to_wait_prm();
+  const auto ignored = [this](const bus::Telegram& telegram) {
+    const auto before = bench.chip.status();
+    const int reported = bench.count(Reason::kSa127);
+    const std::size_t events = bench.chip.events().size();
+    EXPECT_TRUE(bench.requester.send(bench.timeline, telegram).silent());
+    settle(bench);
+    EXPECT_EQ(bench.count(Reason::kSa127), reported + 1) << int{telegram.fc};
+    EXPECT_EQ(bench.chip.events().size(), events + 1) << "nothing else is looked at";
+    EXPECT_EQ(bench.chip.status().telegrams_answered, before.telegrams_answered);
+    EXPECT_EQ(bench.chip.status().dp_state, before.dp_state);
+    EXPECT_EQ(bench.chip.status().master, before.master);
+  };
+  ignored(bus::make_telegram(5, 127, kFirst, Prm{}.bytes(), 61, 62));
+  ASSERT_TRUE(is_sc(bench.set_prm({})));
+  ignored(bus::make_telegram(5, 127, kFirst, {0x11, 0x21}, 62, 62));
+  ASSERT_TRUE(is_sc(bench.check_cfg()));
+  bench.chip_accesses(3);
+  for (int code = 0; code <= 0x0F; ++code) {
+    const auto fc = static_cast<std::uint8_t>(0x40 | code);
+    ignored(bus::make_telegram(5, 127, fc, {1, 2}));
+    ignored(bus::make_telegram(5, 127, fc, {0x02, 0}, 58, 62));
+    ignored(bus::make_telegram(bus::kBroadcast, 127, fc, {0x02, 0}, 58, 62));
+  }
+  ignored(bus::make_telegram(5, 127, kFdlStatus));
+  ignored(bus::make_telegram(5, 127, kFirst, {}, 60, 62));
+  EXPECT_EQ(output_area(bench), Bytes{}) << "no outputs, no clearing";
+  EXPECT_TRUE(dx(kFirst).answered());
+  EXPECT_EQ(bench.chip.status().master, 2);
+}
+
+TEST_F(Fdl, SourceAddress127OrAResponseOrNoTSynGivesTheFirstReasonOnly) {
+  bench.to_data_exch();
+  const Tick bit = bench.requester.bit();
+  bench.requester.send(bench.timeline, bus::make_telegram(5, 127, 0x08, {1, 2}));
+  EXPECT_EQ(bench.count(Reason::kResponse), 1);
+  bench.requester.send(bench.timeline, bus::make_telegram(9, 2, kFirst, {1}), {.wants_answer = false});
+  bench.requester.send(bench.timeline, bus::encode(bus::make_telegram(5, 127, kFirst, {1, 2})),
+                       {.idle_bits = 20, .wants_answer = false});
+  bench.run_for(bit * 10);
+  EXPECT_EQ(bench.count(Reason::kNoSyn), 1);
+  EXPECT_EQ(bench.count(Reason::kSa127), 0);
+}
+
+TEST_F(Fdl, SourceAddress127LeavesTheMemory) {
+  bench.to_data_exch();
+  ASSERT_TRUE(dx(kFirst).answered());
+  const Exchange first = dx(kFcb0);
+  const auto before = executed();
+  dx(kFirst, {9, 9}, 127);
+  dx(kFcb0, {9, 9}, 127);
+  EXPECT_EQ(dx(kFcb0).raw, first.raw);
+  EXPECT_EQ(executed(), before) << "a repetition still";
+  EXPECT_EQ(bench.count(Reason::kRepetition), 1);
 }
 
 TEST_F(Fdl, RefusalIsRepeatedFromMemoryToo) {

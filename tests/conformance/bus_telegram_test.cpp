@@ -370,6 +370,84 @@ TEST_F(Telegrams, ThatAreResponsesAreIgnored) {
   }
 }
 
+TEST_F(Telegrams, ThatAreResponsesAreReportedWithoutTSynToo) {
+  const Tick bit = bench.requester.bit();
+  for (const std::uint8_t da : {std::uint8_t{5}, bus::kBroadcast}) {
+    const int before = bench.count(Reason::kResponse);
+    bench.requester.send(bench.timeline, bus::make_telegram(9, 2, kSrdFirst, {1}),
+                         {.idle_bits = 40, .wants_answer = false});
+    bench.requester.send(bench.timeline, bus::encode(bus::make_telegram(da, 9, 0x08, {1, 2, 3})),
+                         {.idle_bits = 11, .wants_answer = false});  // as a slave answers
+    bench.run_for(bit * 4);
+    EXPECT_EQ(bench.count(Reason::kResponse), before + 1) << int{da};
+    EXPECT_EQ(bench.last(Reason::kResponse).b, 9);
+    EXPECT_EQ(bench.count(Reason::kNoSyn), 0) << "one reason";
+    EXPECT_TRUE(data_exchange().answered());
+  }
+}
+
+// --- without T_SYN: one line for many (S8)
+
+TEST_F(Telegrams, FaultyOnesWithoutTSynAreCountedAndToldWhenTheNextBeginsAfterTSyn) {
+  const Tick bit = bench.requester.bit();
+  Bytes wrong_fcs = request(), wrong_end = request(), wrong_length = request(), wrong_start = request(),
+        wrong_second = request();
+  ++wrong_fcs[wrong_fcs.size() - 2];
+  ++wrong_end.back();
+  ++wrong_length[1];
+  wrong_start[0] = 0x55;
+  wrong_second[3] = 0x69;
+  const Bytes cut(wrong_fcs.begin(), wrong_fcs.begin() + 6);
+  Bytes oversized = request();
+  oversized.push_back(0x16);
+  bus::WireFaults parity, framing;
+  parity.wrong_parity_at = 0;
+  framing.missing_stop_at = request().size() - 1;  // earlier, and what follows the break counts again
+  const std::vector<Characters> faulty = {bus::characters(wrong_fcs),          bus::characters(wrong_end),
+                                          bus::characters(wrong_length),       bus::characters(wrong_start),
+                                          bus::characters(wrong_second),       bus::characters(cut),
+                                          bus::characters(oversized),          bus::characters(request(), parity),
+                                          bus::characters(request(), framing), bus::characters(Bytes{0xA2, 5})};
+  for (const bool next_is_right : {true, false}) {
+    bench.requester.send(bench.timeline, bus::make_telegram(9, 2, kSrdFirst, {1}),
+                         {.idle_bits = 60, .wants_answer = false});
+    const std::size_t events = bench.chip.events().size();
+    for (const Characters& one : faulty) {
+      bench.requester.send(bench.timeline, one, {.idle_bits = 20, .wants_answer = false});
+    }
+    EXPECT_EQ(bench.chip.events().size(), events) << "not a line each";
+    bench.run_for(60 * bit);
+    EXPECT_EQ(bench.chip.events().size(), events);
+    const int fcs = bench.count(Reason::kFcs);
+    const Exchange next =
+        bench.requester.send(bench.timeline, next_is_right ? request() : wrong_fcs, {.idle_bits = 60});
+    EXPECT_EQ(next.answered(), next_is_right);
+    const int told = next_is_right ? 1 : 2;
+    ASSERT_EQ(bench.count(Reason::kFaultyUnsynced), told);
+    EXPECT_EQ(bench.last(Reason::kFaultyUnsynced).a, faulty.size());
+    const Tick first_character = next.request_start + 10 * bit + bit / 2;
+    EXPECT_NEAR(static_cast<double>(bench.last(Reason::kFaultyUnsynced).at), static_cast<double>(first_character),
+                4 * kCycleTicks);
+    EXPECT_EQ(bench.count(Reason::kFcs), fcs + (next_is_right ? 0 : 1)) << "with T_SYN: a line of its own";
+    EXPECT_TRUE(data_exchange().answered());
+    EXPECT_EQ(bench.count(Reason::kFaultyUnsynced), told) << "once";
+  }
+}
+
+TEST_F(Telegrams, BegunAtOnceBehindTheOwnAnswerAreCountedToo) {
+  const Tick bit = bench.requester.bit();
+  for (const Tick behind : {kCycleTicks * 6, bit / 2, bit}) {  // not even a gap: no first character of a telegram
+    ASSERT_TRUE(data_exchange().answered());
+    const int before = bench.count(Reason::kFaultyUnsynced);
+    const Tick end = bench.requester.last_activity();
+    const Exchange lost = bench.requester.send(bench.timeline, request(), {.at = end + behind});
+    EXPECT_TRUE(lost.silent());
+    ASSERT_TRUE(data_exchange().answered());
+    ASSERT_EQ(bench.count(Reason::kFaultyUnsynced), before + 1) << behind;
+    EXPECT_EQ(bench.last(Reason::kFaultyUnsynced).a, 1);
+  }
+}
+
 TEST_F(Telegrams, ToEverybodyThatWantAnAnswerAreIgnoredWithAReason) {
   const auto refusals = [this] {
     int count = 0;

@@ -186,6 +186,29 @@ TEST_F(GlobalControl, WithoutTheRequestInSetPrmSyncAndFreezeAreIgnoredTheRestIsE
   }
 }
 
+// S31: there is no bit of B024 for SAP 58 as a whole.
+TEST_F(GlobalControl, WithB024ZeroClearsAndNeitherSyncsNorFreezes) {
+  Init init;
+  init.command = 0x00;
+  bench.to_data_exch(init, prm(0x80));
+  give();
+  ask(bench, kNoSap, {1, 2});
+  tell(bench, bus::kBroadcast, 58, {kSync | kFreeze | kClear, 0});
+  EXPECT_EQ(bench.count(Reason::kGlobalControl), 1);
+  EXPECT_EQ(bench.count(Reason::kGcSync), 1);
+  EXPECT_EQ(bench.count(Reason::kGcFreeze), 1);
+  EXPECT_EQ(bench.count(Reason::kGcIgnored), 0);
+  EXPECT_EQ(diag(bench).at(1) & 0x30, 0) << "neither frozen nor synced";
+  settle(bench);
+  EXPECT_EQ(output_area(bench), (Bytes{0, 0})) << "Clear_Data";
+  tell(bench, bus::kBroadcast, 58, {kUnsync | kUnfreeze, 0});
+  EXPECT_EQ(bench.count(Reason::kGlobalControl), 2);
+  give();
+  EXPECT_EQ(ask(bench, kNoSap, {3, 4}).answer().data, model.in1) << "inputs go on";
+  settle(bench);
+  EXPECT_EQ(output_area(bench), (Bytes{3, 4})) << "outputs go on";
+}
+
 TEST_F(GlobalControl, IsForTheGroupsOfSetPrmAndForAllWithZero) {
   for (const int own : {0x00, 0x01, 0x80, 0x5A, 0xFF}) {
     SlaveBench one(quick_search());

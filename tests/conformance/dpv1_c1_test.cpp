@@ -129,11 +129,55 @@ TEST_F(C1, NeedsDpv1EnableInSetPrm) {
   EXPECT_EQ(bench.count(Reason::kC1Disabled), 1);
 }
 
-TEST_F(C1, LooksAtB005OnlyAtSetPrm) {
+// D17. Until an audit B005 was looked at again at each Set_Prm.
+TEST_F(C1, B005CountsAtTheInitialisationAndNotLater) {
   start();
   bench.enable_dpv1(false);
   bench.chip_accesses();
   EXPECT_TRUE(is_sc(c1(read_request(0, 0, 1))));
+  Prm prm;
+  prm.user = {0x80, 0, 0};
+  ASSERT_TRUE(is_sc(bench.set_prm(prm)));
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg) << "nor at Set_Prm";
+  ASSERT_TRUE(bench.initialise());
+  bench.find_baud(0);
+  ASSERT_TRUE(is_sc(send_fc(bench, kSrdFirst, 61, 62, prm.bytes())));
+  EXPECT_EQ(bench.count(Reason::kPrmDpv1), 1) << "B005 is 0 at this initialisation";
+  bench.enable_dpv1(true);
+  bench.chip_accesses();
+  ASSERT_TRUE(is_sc(send_fc(bench, kSrdFirst, 61, 62, prm.bytes())));
+  EXPECT_EQ(bench.count(Reason::kPrmDpv1), 2) << "a later 1D is too late";
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
+  ASSERT_TRUE(bench.initialise());
+  bench.find_baud(0);
+  ASSERT_TRUE(is_sc(send_fc(bench, kSrdFirst, 61, 62, prm.bytes())));
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);
+}
+
+TEST_F(C1, B005OfARefusedInitialisationDoesNotCount) {
+  start();
+  for (const Init& refused : {Init{.crc_error = 1}, Init{.address = 127}, Init{.length = 220}}) {
+    bench.enable_dpv1(false);
+    ASSERT_FALSE(bench.initialise(refused));
+    bench.address = 5;
+    ASSERT_TRUE(is_sc(c1(read_request(0, 0, 1)))) << "what was stays";
+    ASSERT_EQ(fetch(kC1Area), read_request(0, 0, 1));
+    give(kC1Area, pdu_of(0x5E, 0, 0, 1, {7}));
+    ASSERT_TRUE(is_data(c1({})));
+  }
+}
+
+TEST_F(C1, B005HasToBeExactly1D) {
+  for (const int value : {0x00, 0x1C, 0x9D, 0x5D, 0x0D, 0xFF}) {
+    bench.power_on();
+    bench.poke(regs::kDpv1Enable, static_cast<std::uint8_t>(value));
+    ASSERT_TRUE(bench.initialise());
+    EXPECT_EQ(bench.last(Reason::kInitialised).c, 0) << value;
+    bench.find_baud(0);
+    EXPECT_TRUE(is_rs(c2(kManagerSap, initiate_pdu()))) << value;
+    bench.chip.set(bench.now() + 250, Pin::kReset, 0);
+    bench.run_cycles(20);
+  }
 }
 
 TEST_F(C1, LeavingDataExchangeWithdrawsARequestThatWaits) {

@@ -130,19 +130,25 @@ TEST_F(C2, TwoChannelsForOneMasterOrForTwoAndAThirdIsRefused) {
   }
 }
 
-TEST_F(C2, NeedsB005AndNoParameterising) {
+// D17, V7. Until an audit Initiate looked at B005 as the chip had read it last.
+TEST_F(C2, NeedsB005AtTheInitialisationAndNoParameterising) {
   bench.power_on();
   ASSERT_TRUE(bench.initialise());
   bench.find_baud(0);
   EXPECT_TRUE(is_rs(c2(kManagerSap, initiate_pdu())));
-  EXPECT_EQ(bench.count(Reason::kC2Disabled), 1);
   bench.enable_dpv1(true);
   bench.chip_accesses();
+  EXPECT_TRUE(is_rs(c2(kManagerSap, initiate_pdu()))) << "too late";
+  EXPECT_EQ(bench.count(Reason::kC2Disabled), 2);
+  EXPECT_EQ(bench.last(Reason::kC2Disabled).a, kClass2);
+  ASSERT_TRUE(bench.initialise());
+  bench.find_baud(0);
   EXPECT_EQ(connect(), kFirstChannel);
   EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
   bench.enable_dpv1(false);
   bench.chip_accesses();
-  EXPECT_TRUE(is_sc(c2(kFirstChannel, read_request(0, 0, 1)))) << "a channel in use does not look at B005";
+  EXPECT_TRUE(is_sc(c2(kFirstChannel, read_request(0, 0, 1))));
+  EXPECT_EQ(connect(), kSecondChannel) << "nor does a new connection look again";
 }
 
 TEST_F(C2, ChannelIsOnlyForItsMasterAndSsap50) {

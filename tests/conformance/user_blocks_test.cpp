@@ -179,6 +179,100 @@ TEST(UserErrorBits, OtherBitsOfB00BAreTheUsers) {
   EXPECT_EQ(bench.peek(regs::kChipStatus2), 0xC2 | regs::kChipStatus2InputCrc) << "D13: read, changed, written back";
 }
 
+// --- history of the inputs' bit (D16) -------------------------------------------------------------------------------------------
+
+constexpr std::uint8_t kHistory = 0x40, kClearOnce = 0x80, kInputWrong = 0x04;
+
+TEST(UserErrorHistory, ARightBlockDoesNotClearTheBitUntilHistoryIsSwitchedOff) {
+  SlaveBench bench;
+  bench.to_data_exch();
+  bench.poke(0x011, kHistory);
+  bench.give_inputs({1, 2}, 1);
+  EXPECT_EQ(bench.peek(0x00B), kInputWrong);
+  bench.give_inputs({3, 4});
+  EXPECT_EQ(bench.peek(0x00B), kInputWrong);
+  EXPECT_EQ(inputs_seen(bench), (Bytes{3, 4})) << "the block itself counts";
+  bench.give_inputs({3, 4, 5});
+  EXPECT_EQ(bench.peek(0x00B), kInputWrong) << "nor one of another length";
+  bench.give_diag(0x81, {1}, 1);
+  bench.give_diag(0x81, {1});
+  EXPECT_EQ(bench.peek(0x00B), kInputWrong) << "the other bits show the present";
+  bench.poke(0x011, 0);
+  bench.give_inputs({5, 6});
+  EXPECT_EQ(bench.peek(0x00B), 0) << "D5 again";
+  EXPECT_EQ(bench.peek(0x011), 0);
+}
+
+TEST(UserErrorHistory, ClearOnceClearsTheBitAndItselfAndLeavesHistoryOn) {
+  SlaveBench bench;
+  bench.to_data_exch();
+  bench.poke(0x011, kHistory);
+  for (int round = 0; round < 2; ++round) {
+    bench.give_inputs({1, 2}, 1);
+    ASSERT_EQ(bench.peek(0x00B), kInputWrong);
+    bench.poke(0x011, kHistory | kClearOnce);
+    bench.chip_accesses();
+    EXPECT_EQ(bench.peek(0x00B), 0);
+    EXPECT_EQ(bench.peek(0x011), kHistory);
+  }
+}
+
+TEST(UserErrorHistory, ClearOnceWithoutHistoryClearsOnlyItself) {
+  SlaveBench bench;
+  bench.to_data_exch();
+  bench.give_inputs({1, 2}, 1);
+  bench.poke(0x011, kClearOnce);
+  bench.chip_accesses();
+  EXPECT_EQ(bench.peek(0x00B), kInputWrong);
+  EXPECT_EQ(bench.peek(0x011), 0);
+}
+
+TEST(UserErrorHistory, AWrongBlockHandedOverWithTheClearIsShownARightOneIsNot) {
+  for (const bool wrong : {true, false}) {
+    SlaveBench bench;
+    bench.to_data_exch();
+    bench.poke(0x011, kHistory);
+    bench.give_inputs({1, 2}, 1);
+    bench.acquire();
+    bench.write_block(regs::kInput, {2, 3, 4}, regs::kInputCrc, wrong ? 1 : 0);
+    bench.write(regs::kUserCommand1, regs::kUserCommand1Input);
+    bench.write(0x011, kHistory | kClearOnce);
+    bench.chip_accesses();
+    EXPECT_EQ(bench.peek(0x00B), wrong ? kInputWrong : 0);
+    EXPECT_EQ(bench.peek(0x011), kHistory);
+  }
+}
+
+TEST(UserErrorHistory, OtherBitsOfB00BAndB011StayAndAnswersAreTakenAfterTheClear) {
+  SlaveBench bench;
+  bench.to_data_exch();
+  bench.acquire();
+  bench.write(0x00B, 0xFF);
+  bench.write_block(regs::kC1, {0x5E, 0, 0, 0}, regs::kC1Crc);
+  bench.write(0x011, kHistory | kClearOnce | 0x3C | regs::kUserCommand2C1);
+  bench.chip_accesses();
+  EXPECT_EQ(bench.peek(0x011), kHistory | 0x3C);
+  EXPECT_EQ(bench.peek(0x00B), 0xFF & ~kInputWrong & ~regs::kChipStatus2C1Crc) << "the C1 answer was right";
+  EXPECT_EQ(bench.count(Reason::kAcyclicNoRequest), 1);
+}
+
+TEST(UserErrorHistory, WorksBeforeTheInitialisationAndTheUserMayStillWriteZero) {
+  SlaveBench bench;
+  bench.power_on();
+  bench.acquire();
+  bench.write(0x00B, kInputWrong);
+  bench.write(0x011, kHistory | kClearOnce);
+  bench.chip_accesses();
+  EXPECT_EQ(bench.peek(0x00B), 0) << "OFFLINE";
+  EXPECT_EQ(bench.peek(0x011), kHistory);
+  bench.to_data_exch();
+  bench.poke(0x011, kHistory);
+  bench.give_inputs({1, 2}, 1);
+  bench.poke(0x00B, 0);
+  bench.chip_accesses(3);
+  EXPECT_EQ(bench.peek(0x00B), 0);
+}
+
 // --- diagnosis ------------------------------------------------------------------------------------------------------------------
 
 struct DiagType {

@@ -108,6 +108,32 @@ TEST(UserOrder, ReadBlockWithAWrongCrc) {
   EXPECT_EQ(access.length, 17);
 }
 
+TEST(UserOrder, ClearingOfB00BComesAfterTheVerdictsAndBeforeTheInputs) {
+  SlaveBench bench;
+  bench.to_data_exch();
+  bench.chip_accesses(3);
+  bench.acquire();
+  bench.write(0x00B, regs::kChipStatus2InputCrc);
+  bench.write_block(regs::kInput, {2, 5, 6}, regs::kInputCrc);
+  bench.write(regs::kUserCommand1, regs::kUserCommand1CfgVerdict | regs::kUserCommand1Input);
+  bench.write(regs::kUserCommand2, 0xC0);
+  release_and_align(bench);
+  const Recorded access = record_access(bench);
+  // 7 8 9 verdict, 10 clearing, 11 .. 18 inputs, 19 B00B read, 20 written, 21 end
+  EXPECT_EQ(access.moves, (std::vector<Move>{{9, 0x010, 1}, {10, 0x011, 0x40}, {18, 0x010, 0}, {20, 0x00B, 0}}));
+  EXPECT_EQ(access.length, 21);
+}
+
+TEST(UserOrder, ClearingWithoutHistoryIsOneWrite) {
+  SlaveBench bench;
+  bench.to_data_exch();
+  bench.chip_accesses(3);
+  bench.poke(regs::kUserCommand2, 0x80);
+  const Recorded access = record_access(bench);
+  EXPECT_EQ(access.moves, (std::vector<Move>{{7, 0x011, 0}}));
+  EXPECT_EQ(access.length, 8);
+}
+
 TEST(UserOrder, LengthsThatCannotBeRightAreRefusedWithoutReading) {
   struct Try {
     std::uint16_t cell;

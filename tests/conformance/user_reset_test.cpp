@@ -249,21 +249,148 @@ TEST(UserReset, ReadyCyclesAreAParameter) {
   EXPECT_EQ(bench.peek(regs::kValidFlag), 0xC5);
 }
 
-TEST(UserReset, StartUpDoesNotLookAtTheUsersRequest) {
+// --- a user who was not reset (H6) ---------------------------------------------------------------------------------------------
+
+struct Held {
+  Level r_req, r_sta;
+};
+
+class HeldThroughReset : public testing::TestWithParam<Held> {
+ protected:
+  /// Both pins as the parameter says, or both low.
+  void hold(bool held) {
+    bench.chip.set(bench.now(), Pin::kRReq, held ? GetParam().r_req : Level{0});
+    bench.chip.set(bench.now(), Pin::kRSta, held ? GetParam().r_sta : Level{0});
+  }
+  int reports() const { return bench.count(Reason::kHeldThroughReset); }
+
   SlaveBench bench;
+};
+
+TEST_P(HeldThroughReset, StartUpWaitsIsReportedOnceAndComesAtOnceWithTheRelease) {
   bench.run_cycles(10);
-  bench.chip.set(bench.now(), Pin::kRReq, 1);
+  hold(true);
   const Cycle r = release_reset(bench, bench.now() + 500);
   run_to_cycle(bench, r + 10'000);
+  EXPECT_TRUE(accesses(bench).empty());
+  EXPECT_EQ(bench.chip.status().accesses, 0U);
+  expect_reset_levels(bench);
+  ASSERT_EQ(reports(), 1);
+  EXPECT_EQ(bench.last(Reason::kHeldThroughReset).at, r * kCycleTicks);
+  EXPECT_EQ(bench.last(Reason::kHeldThroughReset).a, GetParam().r_req);
+  EXPECT_EQ(bench.last(Reason::kHeldThroughReset).b, GetParam().r_sta);
+  hold(false);
+  const Cycle start = seen_at((r + 10'000) * kCycleTicks);
+  run_to_cycle(bench, start + kStartUpHigh + 48);
   const std::vector<Access> found = accesses(bench);
-  ASSERT_EQ(found.size(), 1U) << "the chip may not access again while R_REQ is high";
-  EXPECT_EQ(found[0].rise, r);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].rise, start);
   EXPECT_EQ(found[0].length(), kStartUpHigh);
-  EXPECT_EQ(bench.peek(regs::kValidFlag), 0);
-  bench.chip.set(bench.now(), Pin::kRReq, 0);
-  EXPECT_EQ(run_to_l_sta(bench, 1), seen_at((r + 10'000) * kCycleTicks));
+  EXPECT_EQ(found[1].rise, found[0].fall + 1);
+  EXPECT_EQ(bench.peek(regs::kValidFlag), 0xC5) << "overdue: in the first access after the start-up";
+  EXPECT_EQ(bench.chip.status().longest_wait, static_cast<std::uint64_t>(start - r));
+  EXPECT_EQ(reports(), 1);
+}
+
+TEST_P(HeldThroughReset, ReleaseSeenAtTheFirstActiveEdgeIsInTimeAndOneTickLaterIsNot) {
+  for (const Tick late : {-1, 0, 1, 249, 250, 251, 2000}) {
+    SlaveBench held;
+    held.run_cycles(10);
+    held.chip.set(held.now(), Pin::kRReq, GetParam().r_req);
+    held.chip.set(held.now(), Pin::kRSta, GetParam().r_sta);
+    const Cycle r = release_reset(held, 20 * kCycleTicks + 249);
+    const Tick last = (r - 2) * kCycleTicks - 1;  // the last tick that edge R - 2 samples
+    held.run_until(last + late);
+    held.chip.set(held.now(), Pin::kRReq, 0);
+    held.chip.set(held.now(), Pin::kRSta, 0);
+    const Cycle start = std::max(r, seen_at(last + late));
+    run_to_cycle(held, start + 10);
+    EXPECT_EQ(last_rise(held), start) << "late " << late;
+    EXPECT_EQ(held.count(Reason::kHeldThroughReset), start == r ? 0 : 1) << "late " << late;
+  }
+}
+
+TEST_P(HeldThroughReset, EveryResetIsReportedAndNothingIsClearedUntilTheUserReleases) {
+  bench.to_data_exch();
+  bench.acquire();
+  bench.write(0x131, 0x77);
+  bench.run_cycles(4);
+  for (int round = 1; round <= 3; ++round) {
+    hold(true);
+    bench.chip.set(bench.now(), Pin::kReset, 0);
+    bench.run_for(777);
+    const Cycle r = release_reset(bench, bench.now());
+    run_to_cycle(bench, r + 500);
+    EXPECT_EQ(reports(), round);
+    EXPECT_EQ(bench.peek(0x131), 0x77);
+    expect_reset_levels(bench);
+  }
+  bench.release();
+  bench.fcb_valid = false, bench.fcb = true;
   run_to_l_sta(bench, 0);
-  EXPECT_EQ(bench.peek(regs::kValidFlag), 0xC5);
+  EXPECT_EQ(bench.peek(0x131), 0);
+  bench.run_cycles(5000);
+  ASSERT_TRUE(bench.initialise());
+  bench.find_baud();
+  EXPECT_TRUE(bench.set_prm({}).short_acknowledge());
+}
+
+INSTANTIATE_TEST_SUITE_P(UserReset, HeldThroughReset, testing::Values(Held{1, 0}, Held{0, 1}, Held{1, 1}),
+                         [](const auto& at) {
+                           return std::string(at.param.r_req != 0 ? "Request" : "") +
+                                  (at.param.r_sta != 0 ? "State" : "");
+                         });
+
+TEST(UserReset, ReadsBeforeTheStartUpYieldXAndWritesAreClearedWithTheRest) {
+  SlaveBench bench;
+  bench.power_on();
+  bench.acquire();
+  bench.write(0x130, 0x5A);
+  bench.run_cycles(4);  // settled (P8)
+  bench.chip.set(bench.now(), Pin::kReset, 0);
+  bench.run_cycles(10);
+  const Cycle r = release_reset(bench, bench.now());
+  run_to_cycle(bench, r + 100);
+  bench.write(0x131, 0x77);
+  bench.run_cycles(4);
+  EXPECT_EQ(bench.peek(0x130, 2), (Bytes{0x5A, 0x77})) << "carried out";
+  for (const Level cell : {Level{0x130}, Level{0x131}}) {
+    bench.chip.set(bench.now(), Pin::kA, cell);
+    bench.chip.set(bench.now(), Pin::kCsr, 0);
+    bench.chip.set(bench.now(), Pin::kRd, 0);
+    bench.run_cycles(4);
+    EXPECT_EQ(bench.chip.level(Pin::kDOut), dsdpv1::kLevelX) << "nobody knows what the RAM holds";
+    bench.chip.set(bench.now(), Pin::kRd, 1);
+    bench.chip.set(bench.now(), Pin::kCsr, 1);
+  }
+  EXPECT_EQ(bench.count(Reason::kAccessNotOwned), 0);
+  bench.release();
+  run_to_l_sta(bench, 0);
+  EXPECT_EQ(bench.peek(0x130, 2), (Bytes{0, 0}));
+  bench.acquire();
+  EXPECT_EQ(bench.read(0x131), 0);
+  EXPECT_EQ(bench.read(0x001), 0x0D);
+}
+
+// The sampling edge of a read decides: the edge at which the start-up begins is still too early, then the chip owns the DPRAM.
+TEST(UserReset, NoReadRoundTheBeginOfALateStartUpGivesAValue) {
+  for (Cycle offset = -2; offset <= 2; ++offset) {
+    SlaveBench bench;
+    bench.run_cycles(10);
+    bench.chip.set(bench.now(), Pin::kRSta, 1);
+    const Cycle r = release_reset(bench, bench.now());
+    run_to_cycle(bench, r + 20);
+    Script script(bench);
+    const Cycle start = r + 60;
+    const std::vector<Tick> ticks = {(start - 3) * kCycleTicks + 10, (start + offset) * kCycleTicks - 50};
+    script.set(std::min(ticks[0], ticks[1]), ticks[0] < ticks[1] ? Pin::kRSta : Pin::kRd, 0);
+    script.set(std::max(ticks[0], ticks[1]), ticks[0] < ticks[1] ? Pin::kRd : Pin::kRSta, 0);
+    bench.chip.set(bench.now(), Pin::kCsr, 0);
+    run_to_cycle(bench, start + offset + 1);
+    EXPECT_EQ(bench.chip.level(Pin::kDOut), dsdpv1::kLevelX) << offset;
+    run_to_cycle(bench, start + 5);
+    EXPECT_EQ(last_rise(bench), start);
+  }
 }
 
 TEST(UserReset, UserWhoAsksInStartUpIsServedAfterIt) {
@@ -327,6 +454,11 @@ void in_long_transfer(SlaveBench& bench) {
 
 const State kStates[] = {
     {"StartUp", [](SlaveBench& bench) { release_reset(bench, 3000), bench.run_cycles(1000); }},
+    {"HeldOff",
+     [](SlaveBench& bench) {
+       bench.chip.set(bench.now(), Pin::kRSta, 1);
+       release_reset(bench, 3000), bench.run_cycles(1000);
+     }},
     {"BeforeValid", [](SlaveBench& bench) { release_reset(bench, 3000), bench.run_cycles(3000); }},
     {"Idle", [](SlaveBench& bench) { bench.power_on(), run_to_l_sta(bench, 0); }},
     {"Header", [](SlaveBench& bench) { bench.power_on(), run_to_l_sta(bench, 1), bench.run_cycles(3); }},

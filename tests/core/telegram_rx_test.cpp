@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -197,6 +198,55 @@ TEST(TelegramRxBlock, EvaluatedOnlyAtNextItIsTheSame) {
     }
     EXPECT_GT(every.decided.size(), 200U);
   }
+}
+
+// --- faulty ones without T_SYN (S8)
+
+/// Single characters with a wrong parity, each more than a gap and less than T_SYN after the last.
+void feed_faulty(Bench& bench, int count) {
+  constexpr int kBit = 4;
+  for (int i = 0; i < count; ++i, bench.now += 100)
+    bench.rx.character(bench.now, {bench.now - 42, 20, 0x10, false, true}, kBit);
+}
+/// The first character of a telegram with T_SYN before it.
+void feed_synced(Bench& bench) { bench.rx.character(bench.now += 500, {bench.now - 42, 400, sd::kSd1, true, true}, 4); }
+
+TEST(TelegramRxBlock, CountsFaultyOnesWithoutTSynAsFarAsAnEventGoes) {
+  for (const auto& [faulty, told] :
+       {std::pair(1, 1), {300, 300}, {65'535, 65'535}, {65'536, 65'535}, {70'000, 65'535}}) {
+    Bench bench(false);
+    feed_faulty(bench, faulty);
+    EXPECT_TRUE(bench.recorder.events.empty());
+    feed_synced(bench);
+    feed_synced(bench);
+    ASSERT_EQ(bench.recorder.events.size(), 1U) << "once";
+    EXPECT_EQ(bench.recorder.events[0].reason, Reason::kFaultyUnsynced);
+    EXPECT_EQ(bench.recorder.events[0].a, told);
+  }
+}
+
+TEST(TelegramRxBlock, ForgetsWhatItCountedWhenTheSearchOrAResetComesFirst) {
+  Bench bench(false);
+  const auto told = [&bench] {
+    const auto& events = bench.recorder.events;
+    return std::count_if(events.begin(), events.end(),
+                         [](const Event& e) { return e.reason == Reason::kFaultyUnsynced; });
+  };
+  feed_faulty(bench, 3);
+  bench.rx.reset();
+  feed_synced(bench);
+  EXPECT_EQ(told(), 0);
+  feed_faulty(bench, 3);
+  bench.rx.set_quiet(true);
+  feed_faulty(bench, 3);
+  bench.rx.set_quiet(false);
+  bench.rx.restart();
+  feed_synced(bench);
+  EXPECT_EQ(told(), 0);
+  feed_faulty(bench, 3);
+  bench.rx.restart();
+  feed_synced(bench);
+  EXPECT_EQ(told(), 1) << "an own answer forgets nothing";
 }
 
 }  // namespace

@@ -42,24 +42,21 @@ void FakeChip::check_ownership(const char* what) {
 }
 
 void FakeChip::set_r_req(bool level) {
-  if (!level && r_sta_) {
-    violations.emplace_back("R_REQ fell before R_STA");
-  }
-  const bool released = r_req_ && !level;
+  const bool fell = r_req_ && !level;
   r_req_ = level;
   free_samples_ = 0;
   if (on_r_req) {
     on_r_req(level);
   }
-  if (released) {
-    if (before_access) {
-      before_access();
-    }
-    access();
+  if (fell) {
+    lowered();
   }
 }
 
 void FakeChip::set_r_sta(bool level) {
+  if (level && !r_req_) {
+    violations.emplace_back("R_STA rose without R_REQ");
+  }
   if (level && free_samples_ < 4) {
     violations.emplace_back("R_STA rose after less than two looks at L_REQ and L_STA");
   }
@@ -69,7 +66,21 @@ void FakeChip::set_r_sta(bool level) {
   } else if (r_sta_ && counted_ != 1) {
     violations.push_back("B006 was counted " + std::to_string(counted_) + " times in a hold");
   }
+  const bool fell = r_sta_ && !level;
   r_sta_ = level;
+  if (fell) {
+    lowered();
+  }
+}
+
+void FakeChip::lowered() {
+  if (r_req_ || r_sta_) {
+    return;
+  }
+  if (before_access) {
+    before_access();
+  }
+  access();
 }
 
 bool FakeChip::l_req() {
@@ -92,12 +103,13 @@ void FakeChip::access() {
   if (takes_commands) {
     take_init();
     take_verdicts();
+    take_clearing();
     take_inputs();
     take_diagnosis();
     take_answer(1);
     take_answer(2);
     at(0x010) = 0;
-    at(0x011) = 0;
+    at(0x011) = static_cast<std::uint8_t>(at(0x011) & 0x40);
   }
 }
 
@@ -132,12 +144,19 @@ void FakeChip::take_verdicts() {
   }
 }
 
+void FakeChip::take_clearing() {
+  if ((at(0x011) & 0xC0) == 0xC0) {
+    at(0x00B) = static_cast<std::uint8_t>(at(0x00B) & ~0x04);
+  }
+}
+
 void FakeChip::take_inputs() {
   if ((at(0x010) & 0x01) == 0) {
     return;
   }
   const bool right = crc_is_right(0x130, at(0x130) + 1U, 0x225);
-  at(0x00B) = static_cast<std::uint8_t>((at(0x00B) & ~0x04) | (right ? 0 : 4));
+  const bool history = (at(0x011) & 0x40) != 0;
+  at(0x00B) = static_cast<std::uint8_t>((at(0x00B) & (history ? 0xFF : ~0x04)) | (right ? 0 : 4));
   if (right) {
     inputs = bytes(0x131, at(0x130));
   }

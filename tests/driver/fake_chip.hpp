@@ -1,7 +1,7 @@
 #pragma once
 // The chip's side of the DPRAM as the driver sees it, in memory and without time: it makes one access whenever the user
-// releases. It watches the user's discipline: no access without ownership, B006 counted once a hold, R_STA only after
-// two free samples.
+// releases: when R_REQ and R_STA are both low, in whichever order they fell. It watches the user's discipline: no access
+// without ownership, B006 counted once a hold, R_STA only with R_REQ and after two free samples.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -50,6 +50,7 @@ struct FakeChip {
   void access();
   void take_init();
   void take_verdicts();
+  void take_clearing();
   void take_inputs();
   void take_diagnosis();
   void take_answer(int master_class);
@@ -59,6 +60,7 @@ struct FakeChip {
   void check_ownership(const char* what);
   void set_r_req(bool level);
   void set_r_sta(bool level);
+  void lowered();  ///< one of the two fell: H1, the later one lets the chip in
   bool l_req();
   bool l_sta();
 

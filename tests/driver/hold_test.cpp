@@ -24,6 +24,17 @@ TEST_F(Hold, WaitsWhileTheChipOwnsTheDpram) {
   EXPECT_EQ(chip.holds, 1);
 }
 
+TEST_F(Hold, FirstOneLeavesTheChipTheTimeToBeginAfterItsReset) {
+  int pauses_before = -1;
+  chip.on_r_req = [&](bool level) {
+    if (level && pauses_before < 0) {
+      pauses_before = chip.pauses;
+    }
+  };
+  EXPECT_EQ(dsdpv1_wait_ready(&device), DSDPV1_OK);
+  EXPECT_EQ(pauses_before, 1) << "H6";
+}
+
 TEST_F(Hold, GivesUpAndReleasesWhenTheChipKeepsTheDpram) {
   chip.busy_samples = 1'000'000;
   device.tuning.acquire_polls = 50;
@@ -34,6 +45,22 @@ TEST_F(Hold, GivesUpAndReleasesWhenTheChipKeepsTheDpram) {
   EXPECT_EQ(chip.holds, 0);
   chip.busy_samples = 0;
   EXPECT_EQ(dsdpv1_wait_ready(&device), DSDPV1_OK);
+}
+
+/// A port may lower R_REQ with R_STA, or before it (a port that writes both with one store to a slow expander): H1.
+TEST_F(Hold, PortThatLowersRReqFirstIsAsGood) {
+  dsdpv1_port port = chip.port();
+  static decltype(port.set_r_req) set_r_req;
+  set_r_req = port.set_r_req;
+  static decltype(port.set_r_sta) set_r_sta;
+  set_r_sta = port.set_r_sta;
+  port.set_r_sta = [](void* ctx, bool level) { level ? set_r_sta(ctx, true) : set_r_req(ctx, false); };
+  port.set_r_req = [](void* ctx, bool level) { level ? set_r_req(ctx, true) : set_r_sta(ctx, false); };
+  ASSERT_EQ(dsdpv1_open(&device, &port, nullptr), DSDPV1_OK);
+  initialise();
+  EXPECT_EQ(exchange({1}), DSDPV1_OK);
+  EXPECT_EQ(chip.initialisations, 1);
+  EXPECT_TRUE(chip.violations.empty()) << chip.violations.front();
 }
 
 TEST_F(Hold, CallFromAnInterruptDuringAHoldIsRefused) {

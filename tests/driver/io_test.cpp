@@ -5,6 +5,7 @@ namespace {
 using testing::ElementsAre;
 
 class Exchange : public DriverTest {};
+class InputErrors : public DriverTest {};
 class Diagnosis : public DriverTest {};
 
 TEST_F(Exchange, BothDirectionsInOneHold) {
@@ -143,6 +144,55 @@ TEST_F(Exchange, TellsOfBlocksWhoseIntr0WasNotSeen) {
   chip.put_prm({1});
   ASSERT_EQ(exchange({1}), DSDPV1_OK);
   EXPECT_TRUE(result.intr0_missed);
+}
+
+TEST_F(InputErrors, OfTheHistoryStayUntilTheyAreCleared) {
+  initialise();
+  ASSERT_EQ(dsdpv1_keep_input_errors(&device, true), DSDPV1_OK);
+  EXPECT_EQ(chip.holds, 1);
+  EXPECT_EQ(chip.at(0x011), 0x40);
+  bool once = true;
+  chip.before_access = [&] {
+    chip.at(0x226) = static_cast<std::uint8_t>(chip.at(0x226) ^ (std::exchange(once, false) ? 1 : 0));
+  };
+  EXPECT_EQ(exchange({1}), DSDPV1_OK);
+  for (const std::uint8_t right : Bytes{2, 3, 4}) {
+    EXPECT_EQ(exchange({right}), DSDPV1_ERR_INPUT_CRC);
+    EXPECT_THAT(chip.inputs, ElementsAre(right)) << "the inputs themselves are taken";
+  }
+  ASSERT_EQ(dsdpv1_clear_input_error(&device), DSDPV1_OK);
+  EXPECT_EQ(exchange({5}), DSDPV1_OK);
+  EXPECT_EQ(chip.at(0x011), 0x40) << "history stays chosen";
+}
+
+TEST_F(InputErrors, OfThePresentAreChosenAgainAndNotCleared) {
+  initialise();
+  chip.at(0x00B) = 0x04;
+  ASSERT_EQ(dsdpv1_clear_input_error(&device), DSDPV1_OK);
+  EXPECT_EQ(chip.at(0x00B), 0x04);
+  ASSERT_EQ(dsdpv1_keep_input_errors(&device, true), DSDPV1_OK);
+  ASSERT_EQ(dsdpv1_keep_input_errors(&device, false), DSDPV1_OK);
+  EXPECT_EQ(chip.at(0x011), 0);
+  EXPECT_EQ(exchange({1}), DSDPV1_ERR_INPUT_CRC);
+  EXPECT_EQ(exchange({1}), DSDPV1_OK) << "the right block has cleared it";
+}
+
+TEST_F(InputErrors, LeaveTheAnswersThatWaitInB011) {
+  initialise();
+  chip.takes_commands = false;
+  chip.at(0x011) = 0x03;
+  ASSERT_EQ(dsdpv1_keep_input_errors(&device, true), DSDPV1_OK);
+  EXPECT_EQ(chip.at(0x011), 0x43);
+  ASSERT_EQ(dsdpv1_clear_input_error(&device), DSDPV1_OK);
+  EXPECT_EQ(chip.at(0x011), 0xC3);
+  ASSERT_EQ(dsdpv1_keep_input_errors(&device, false), DSDPV1_OK);
+  EXPECT_EQ(chip.at(0x011), 0x83);
+}
+
+TEST_F(InputErrors, OfANullDeviceAreRefused) {
+  EXPECT_EQ(dsdpv1_keep_input_errors(nullptr, true), DSDPV1_ERR_ARGUMENT);
+  EXPECT_EQ(dsdpv1_clear_input_error(nullptr), DSDPV1_ERR_ARGUMENT);
+  EXPECT_EQ(chip.holds, 0);
 }
 
 TEST_F(Diagnosis, AreaByteForByte) {

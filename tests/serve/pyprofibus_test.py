@@ -215,6 +215,7 @@ def wrong_ident(program):
         run.master.kill()
         run.serve.end()
         check("PRM_IDENT" in run.codes("refusal"), "the slave does not say what is wrong")
+        check(" PRM_IDENT " in run.serve.summary, "the table does not say what is wrong: " + run.serve.summary)
         text = next(line.text for line in run.serve.log if line.code == "PRM_IDENT")
         check("1234" in text and "0CC9" in text, "the reason names other values: " + text)
         check("CFG_OK" not in run.codes("info") and not run.master.exchanges, "the slave went on")

@@ -35,6 +35,18 @@ TEST(Reasons, OneCodeIsPrintedAlone) {
   EXPECT_EQ(printed.out.rfind("PRM_IDENT (refusal)\n", 0), 0U) << printed.out;
 }
 
+TEST(Reasons, TheCaseOfACodeDoesNotMatter) {
+  const app_test::Called upper = call("reasons PRM_IDENT", DSDPV1_SOURCE_DIR);
+  for (const char* code : {"prm_ident", "Prm_Ident"}) {
+    const app_test::Called printed = call(std::string("reasons ") + code, DSDPV1_SOURCE_DIR);
+    EXPECT_EQ(printed.status, 0) << printed.err;
+    EXPECT_EQ(printed.out, upper.out) << code;
+  }
+  EXPECT_EQ(call("reasons prm_idnt", DSDPV1_SOURCE_DIR).err,
+            "dsdpv1-sim reasons: unknown code prm_idnt (did you mean PRM_IDENT?), allowed are those that `dsdpv1-sim "
+            "reasons` prints\n");
+}
+
 TEST(Reasons, AnUnknownCodeIsRefusedInOneLine) {
   const app_test::Called printed = call("reasons PRM_IDNT", DSDPV1_SOURCE_DIR);
   EXPECT_EQ(printed.status, 2);

@@ -71,7 +71,7 @@ struct World : sc_core::sc_module {
   std::vector<profibus::Reason> events, quiet_events;
 
   Outcome burst_write, burst_read, delayed, top, outside, across, far, empty, streaming, ignored, enables, wrong_enable,
-      no_enable, no_data, short_strobe, unowned, by_extension;
+      no_enable, no_data, short_strobe, unowned, by_extension, before_start_up;
   std::vector<Outcome> at_tw, before_tw, at_the_fall;  ///< one for each phase of CLK
   std::ptrdiff_t reported_early = 0;
   unsigned dbg_written = 0, dbg_read = 0, dbg_clipped = 0, dbg_outside = 0, dbg_ignored = 0;
@@ -109,6 +109,17 @@ struct World : sc_core::sc_module {
     do_enables();
     do_debug();
     do_violations();
+    reset_alone();
+  }
+
+  /// The user still holds the DPRAM.
+  void reset_alone() {
+    wait_until(150 * kUs);
+    reset.write(false);
+    wait_until(151 * kUs);
+    reset.write(true);
+    wait_until(160 * kUs);
+    before_start_up = cpu.read(0x000, 1);
   }
 
   void acquire() {
@@ -316,6 +327,12 @@ TEST(HostSocket, ASampleBeforeTwIsAGenericErrorAndReportedAtEveryPhaseOfTheClock
     for (const Outcome& each : *early) EXPECT_EQ(each.response, tlm::TLM_GENERIC_ERROR_RESPONSE);
   EXPECT_EQ(world->reported_early, 2 * 50);
   EXPECT_THAT(reports_of("/dsdpv1/violation", "world.chip"), testing::Contains(testing::HasSubstr("HOST_TW")));
+}
+
+TEST(HostSocket, AReadBeforeAStartUpThatTheUserHoldsOffIsAGenericErrorAndReported) {
+  EXPECT_EQ(world->before_start_up.response, tlm::TLM_GENERIC_ERROR_RESPONSE);
+  EXPECT_THAT(reports_of("/dsdpv1/violation", "world.chip"),
+              testing::Contains(testing::HasSubstr("HANDSHAKE_HELD_THROUGH_RESET")));
 }
 
 TEST(HostSocket, AWriteThatViolatesTable15IsAGenericErrorAndReported) {

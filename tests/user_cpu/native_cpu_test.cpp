@@ -260,9 +260,36 @@ TEST_F(NativeCpu, DriverKeepsTheTimesOfRuleH2) {
     dsdpv1_open(&device, &functions, nullptr);
     dsdpv1_wait_ready(&device);
   });
-  timeline.run_until(2100);
-  EXPECT_THAT(bus.log, testing::ElementsAre("0 R_REQ up", "1200 L_REQ?", "1410 L_STA?", "1620 L_REQ?", "1830 L_STA?",
-                                            "2040 R_STA up", "2040 read"));
+  timeline.run_until(2900);  // H6: R_REQ does not rise before the chip has begun, 63 ns
+  EXPECT_THAT(bus.log, testing::ElementsAre("756 R_REQ up", "1956 L_REQ?", "2166 L_STA?", "2376 L_REQ?", "2586 L_STA?",
+                                            "2796 R_STA up", "2796 read"));
+}
+
+TEST(HandshakeCounters, HoldEndsWithTheLaterFallOfTheTwoInEitherOrder) {
+  for (const bool r_req_first : {false, true}) {
+    user_cpu::HandshakeCounters counters;
+    const auto lower = [&](bool r_req, Tick at) { r_req ? counters.r_req(at, false) : counters.r_sta(at, false); };
+    counters.r_req(100, true);
+    counters.r_sta(350, true);
+    lower(r_req_first, 1000);
+    lower(!r_req_first, 1350);
+    EXPECT_EQ(counters.counters().longest_wait, 250);
+    EXPECT_EQ(counters.counters().longest_hold, 1000);
+    EXPECT_EQ(counters.counters().holds, 1U);
+    EXPECT_EQ(counters.counters().given_up, 0U);
+  }
+}
+
+TEST(HandshakeCounters, RequestWithoutAHoldIsGivenUpWhateverIsLoweredWithIt) {
+  user_cpu::HandshakeCounters counters;
+  counters.r_sta(0, false);
+  counters.r_req(0, false);
+  EXPECT_EQ(counters.counters().given_up, 0U) << "they were low";
+  counters.r_req(100, true);
+  counters.r_sta(200, false);
+  counters.r_req(200, false);
+  EXPECT_EQ(counters.counters().given_up, 1U);
+  EXPECT_EQ(counters.counters().holds, 0U);
 }
 
 }  // namespace

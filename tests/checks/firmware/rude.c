@@ -31,6 +31,10 @@ static void release(void) {
 
 static void break_a_rule(void) {
 #if defined RUDE_NO_REQUEST
+  while (!port_stm32.get_l_sta(NULL)) {
+  }
+  while (port_stm32.get_l_sta(NULL)) { /* the chip has just gone, so it is no collision */
+  }
   port_stm32.set_r_sta(NULL, true);
   port_stm32.set_r_sta(NULL, false);
 #elif defined RUDE_NOT_OWNER
@@ -47,11 +51,17 @@ static void break_a_rule(void) {
 #endif
 }
 
-/* The parameters that the master has sent, with their CRC or without. */
+/* The parameters that the master has sent, with their CRC or without; or a verdict on what nobody has fetched. */
 static bool fetch_parameters(void) {
   take();
   const uint8_t flags = port_dpram_read(DSDPV1_REG_CHIP_COMMAND_1);
   const bool there = (flags & DSDPV1_REG_CHIP_COMMAND_1_PRM) != 0;
+#if defined RUDE_VERDICT_UNFETCHED
+  if (there) {
+    const uint8_t command = port_dpram_read(DSDPV1_REG_USER_COMMAND_1);
+    port_dpram_write(DSDPV1_REG_USER_COMMAND_1, command | DSDPV1_REG_USER_COMMAND_1_PRM_VERDICT);
+  }
+#else
   if (there) {
     const uint8_t length = port_dpram_read(DSDPV1_REG_PRM_LENGTH);
     for (uint16_t i = 0; i < length; ++i) (void)port_dpram_read((uint16_t)(DSDPV1_REG_PRM_LENGTH + 1u + i));
@@ -61,6 +71,7 @@ static bool fetch_parameters(void) {
 #endif
     port_dpram_write(DSDPV1_REG_CHIP_COMMAND_1, (uint8_t)(flags & ~DSDPV1_REG_CHIP_COMMAND_1_PRM));
   }
+#endif
   release();
   return there;
 }
