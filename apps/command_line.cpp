@@ -110,12 +110,15 @@ void describe_gsd(CLI::App& app, GsdArguments& arguments) {
 }
 
 void describe_decode(CLI::App& app, DecodeArguments& arguments) {
-  CLI::App* command = app.add_subcommand("decode", "Reads telegrams as hexadecimal text, or a log, and explains every byte");
+  CLI::App* command =
+      app.add_subcommand("decode", "Reads telegrams as hexadecimal text, or a log, and explains every byte");
   command->add_option("FILE", arguments.file, "Text file, or a log of run or serve; left out or -: standard input");
   command->footer(
       "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
-      "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes (--log-whole).\n"
-      "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  echo 68 05 05 68 85 82 6D 3C 3E EE 16 | dsdpv1-sim decode\n"
+      "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes "
+      "(--log-whole).\n"
+      "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  echo 68 05 05 68 85 82 6D 3C 3E "
+      "EE 16 | dsdpv1-sim decode\n"
       "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 not hexadecimal.\n");
 }
 

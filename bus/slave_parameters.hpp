@@ -20,16 +20,15 @@ struct SlaveParameters {
   int output_length = 0;       ///< bytes the slave gets, 0..244
   std::uint8_t wd_fact_1 = 0;  ///< watchdog = fact 1 x fact 2 x 10 ms (or 1 ms); 0 switches it off
   std::uint8_t wd_fact_2 = 0;
-  bool wd_base_1ms = false;              ///< sets WD_Base in the first user byte
-  std::uint8_t group_ident = 0;          ///< bit n: member of group n + 1
-  std::uint8_t min_tsdr = kMinTsdrBits;  ///< bit times; Personality::kHighAlways sends 0 instead
-  bool sync = false, freeze = false;     ///< asks for these modes
-  bool lock = true;                      ///< Lock_Req
-  bool fail_safe = false;                ///< sets Fail_Safe; the slave gets empty outputs instead of zeros in Clear
-  bool dpv1 = false;                     ///< sets DPV1_Enable; user_prm is filled up to three bytes
-  int c1_response_timeout = 100;         ///< C1_Response_Timeout, units of 10 ms: how long C1 waits for an answer
-  std::int64_t min_slave_interval_us =
-      0;  ///< Min_Slave_Intervall: the slave wants to be polled no more often; 0 = as often as may be
+  bool wd_base_1ms = false;                ///< sets WD_Base in the first user byte
+  std::uint8_t group_ident = 0;            ///< bit n: member of group n + 1
+  std::uint8_t min_tsdr = kMinTsdrBits;    ///< bit times; Personality::kHighAlways sends 0 instead
+  bool sync = false, freeze = false;       ///< asks for these modes
+  bool lock = true;                        ///< Lock_Req
+  bool fail_safe = false;                  ///< sets Fail_Safe; the slave gets empty outputs instead of zeros in Clear
+  bool dpv1 = false;                       ///< sets DPV1_Enable; user_prm is filled up to three bytes
+  int c1_response_timeout = 100;           ///< C1_Response_Timeout, units of 10 ms: how long C1 waits for an answer
+  std::int64_t min_slave_interval_us = 0;  ///< Min_Slave_Intervall: polled no more often than this
   std::array<int, kBaudCount> max_tsdr = {};  ///< bit times by baud index, 0 = that of the baud rate; for monitors
 };
 

@@ -29,7 +29,7 @@ static void wait_for(const reg32* address, uint32_t mask, uint32_t value) {
 }
 
 /* 8 MHz x 9 = 72 MHz; APB1 bears 36 MHz at most. Without the crystal nothing is in time: waits for it. */
-static void start_clocks(void) {
+void board_start_clocks(void) {
   RCC->CR |= RCC_CR_HSEON;
   wait_for(&RCC->CR, RCC_CR_HSERDY, RCC_CR_HSERDY);
   FLASH_ACR = FLASH_ACR_PRFTBE | FLASH_ACR_LATENCY_2;
@@ -212,7 +212,6 @@ void board_unlock(uint32_t before) { __asm__ volatile("msr primask, %0" ::"r"(be
 
 void board_start(void) {
   SCB->CCR |= SCB_CCR_DIV_0_TRP;
-  start_clocks();
   start_peripherals();
   configure_handshake();
   configure_intr0();

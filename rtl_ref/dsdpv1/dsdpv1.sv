@@ -81,7 +81,7 @@ module dsdpv1 #(
 
   host_port u_host_port (
     `FAULT_CONNECT
-    .clk_i(clk_i), .rst_ni(rst_n), .chip_owns_i(l_sta), .csr_i(csr_i), .rd_i(rd_i), .wr_i(wr_i), .a_i(a_i), .d_i(d_i), .d_o(d_o),
+    .clk_i(clk_i), .rst_ni(rst_n), .csr_i(csr_i), .rd_i(rd_i), .wr_i(wr_i), .a_i(a_i), .d_i(d_i), .d_o(d_o),
     .d_oe_o(d_oe_o), .we_o(user_we), .waddr_o(user_waddr), .wdata_o(user_wdata), .raddr_o(user_raddr), .rdata_i(rdata));
 
   dpram u_dpram (

@@ -8,7 +8,6 @@ module host_port (
   `FAULT_PORT
   input  logic        clk_i,
   input  logic        rst_ni,
-  input  logic        chip_owns_i,
   input  logic        csr_i,
   input  logic        rd_i,
   input  logic        wr_i,
@@ -117,11 +116,5 @@ module host_port (
   end
 
   assign d_o = d_q;
-  // Until the start-up access has begun (P12) some value is driven, too; only fault 111 asks for that edge
-  logic begun_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begun_q <= 1'b0;
-    else if (chip_owns_i) begun_q <= 1'b1;
-  end
-  assign d_oe_o = reads && listens_q && !early_q && (begun_q || !`FAULT(111));
+  assign d_oe_o = reads && listens_q && !early_q;
 endmodule

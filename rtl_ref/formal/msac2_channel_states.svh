@@ -1,8 +1,10 @@
-// Bound into msac2_channel (15.2). An answer is accepted only for a BUSY channel, and Initiate takes a FREE one (msac2).
+// Bound into msac2_channel (15.2). An answer is accepted only for a BUSY channel, Initiate takes a FREE one (msac2),
+// and Idle is no right request (request_check).
 initial assume (!rst_ni);
 always @* begin
   if (answer_i) assume (state_q == BUSY);
   if (initiate_i) assume (free_o);
+  if (idle_i) assume (!right_i);
   assert (state_q <= ABORTED);
   if (state_q == OPEN || state_q == BUSY || state_q == ANSWERED) assert (code_q == MSAC_RIGHT);
   if (state_q == BUSY) assert (!idle_q);

@@ -146,7 +146,7 @@ module msac2_channel (
   // ---- the answer
   logic wrong_address;  // of Initiate
   logic [31:0] initiate_head;
-  assign wrong_address = code_q == MSAC_INVALID_PARAMETER && !`FAULT(129);
+  assign wrong_address = code_q == MSAC_INVALID_PARAMETER && !`FAULT(111);
   assign initiate_head = initiate_right ? {8'h00, 8'h01, 8'hF0, MSAC_INITIATE} : negative_answer(MSAC_INITIATE, code_q);
 
   always_comb begin

@@ -316,7 +316,8 @@ void c2_aborts(Bench& b) {
 // A wrong PDU on an open channel (V9), and T behind it
 void c2_wrong_pdus(Bench& b) {
   const Bytes second_initiate = initiate(9, {0, 0});
-  for (const Bytes& wrong : {Bytes{0x5D, 1, 2, 0}, Bytes{0x5E, 1, 2}, Bytes{0x5E, 1, 2, 0, 0}, Bytes{0x51, 1, 2, 3, 0}, Bytes{0x5F, 1, 2}}) {
+  const Bytes all_wrong[] = {{0x5D, 1, 2, 0}, {0x5E, 1, 2}, {0x5E, 1, 2, 0, 0}, {0x51, 1, 2, 3, 0}, {0x5F, 1, 2}};
+  for (const Bytes& wrong : all_wrong) {
     connect(b, kFirst, 9);
     expect_aborted(b, wrong, 2, "a wrong PDU");
   }

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,8 @@ class Bench {
   const bus::Master1* master_of(const std::string& slave) const;
   /// What masters call the slave: the address in their lists.
   std::optional<std::uint8_t> listed_address(const std::string& slave) const;
+  /// Whether an action or expectation of the scenario is left out, see untold.hpp.
+  bool leaves_out(const void* what) const { return left_out_.count(what) != 0; }
   std::uint64_t count(const std::string& slave, const std::string& code) const;
   /// `asker`: the master's name as the script gives it, or a connection's.
   const Reply* last_reply(const std::string& asker, scenario::Do service) const;
@@ -117,6 +120,7 @@ class Bench {
   std::unique_ptr<Execution> execution_;
   Setup setup_;
   CheckWatch checks_;
+  std::set<const void*> left_out_;
   std::vector<std::unique_ptr<SlaveStation>> slaves_;
   std::vector<Master> masters_;
   std::vector<std::unique_ptr<Class2Station>> masters2_;

@@ -48,6 +48,7 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener, priva
   bool l_req(Tick at) override { return pins_->l_req(at); }
   bool l_sta(Tick at) override { return pins_->l_sta(at); }
   bool intr0(Tick at) override { return pins_->intr0(at); }
+  unsigned lamps(Tick at) override { return pins_->lamps(at); }
   void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) override;
   Tick next_edge() const override { return pins_->next_edge(); }
   void run_edges(Tick now) override;

@@ -63,7 +63,8 @@ struct SlaveResult {
   Tsdr tsdr;
   user_cpu::UserCounters user;
   std::optional<user_cpu::BoardReport> board;  ///< of an ARM board
-  bus::Bytes inputs, outputs;
+  bus::Bytes inputs;
+  std::optional<bus::Bytes> outputs;  ///< absent: its program does not tell
 };
 
 struct MasterResult {
@@ -98,6 +99,7 @@ struct ExpectationResult {
   int line = 0;
   bool passed = false;
   std::string seen;
+  bool left_out = false;  ///< of firmware that does not tell: not judged
 };
 
 /// How a run against a host outside kept to real time (serve).

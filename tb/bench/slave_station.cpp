@@ -22,6 +22,7 @@ void SlaveStation::hold_in_reset(Tick now) {
 void SlaveStation::release_reset(Tick now) {
   chip_->set_reset(now, true);
   user_ = make_user_(station_, now);
+  tells_ = user_->tells();
   user_->quiet_until = quiet_until;
   user_->on_driver_error = [this](const user_cpu::DriverError& error) {
     if (on_driver_error) on_driver_error(error);
@@ -69,7 +70,7 @@ SlaveResult SlaveStation::result() const {
   result.name = name();
   result.status = chip_->chip().status();
   result.tsdr = tsdr_;
-  result.outputs = outputs_;
+  if (tells_) result.outputs = outputs_;
   return result;
 }
 

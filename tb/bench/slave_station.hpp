@@ -65,6 +65,7 @@ class SlaveStation : public bus::Agent {
   std::unique_ptr<user_cpu::UserSide> user_;
   user_cpu::UserCounters before_reset_;  ///< of user CPUs that a reset has ended
   std::optional<user_cpu::BoardReport> board_before_reset_;
+  bool tells_ = true;  ///< the user CPU: what its program does
   std::uint64_t outputs_seen_ = 0;
   bus::Bytes outputs_;
   Tsdr tsdr_;

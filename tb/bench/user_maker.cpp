@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "tb/bench/untold.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/user_cpu/fsmc_timing.hpp"
 #include "tb/user_cpu/native_user.hpp"
@@ -68,15 +69,16 @@ MakeUser native_user(const scenario::UserCpu& user, ChipView& chip) {
 
 #ifdef DSDPV1_HAS_ARM_BOARD
 
-/// The script's actions for the user CPU reach firmware through its mailbox only.
-void check_mailbox(const scenario::Scenario& scenario, const scenario::Slave& slave, const arm::Firmware& firmware) {
-  if (firmware.mailbox) return;
-  for (const scenario::Action& action : scenario.script) {
-    if (action.slave.text == slave.name.text && scenario::is_for_user_cpu(action.what))
-      throw InputError(scenario.file, action.line,
-                       fmt::format("{} has no mailbox ({}), allowed are actions for the master and the bus",
-                                   firmware.path, DSDPV1_MAILBOX_SYMBOL));
+/// As the scenario's check has found them right.
+arm::Switches switches_of(const scenario::UserCpu& user) {
+  arm::Switches switches;
+  for (const scenario::Name& text : user.switches) {
+    const scenario::Switch one = *scenario::parse_switch(text.text);
+    const auto bit = static_cast<std::uint16_t>(1U << one.pin);
+    switches.held.at(one.port) |= bit;
+    if (one.high) switches.levels.at(one.port) |= bit;
   }
+  return switches;
 }
 
 /// The mailbox has room for so many.
@@ -87,17 +89,21 @@ void check_objects(const scenario::Scenario& scenario, const scenario::Slave& sl
                      fmt::format("dpv1 has {} objects, allowed on an ARM board are {}", count, DSDPV1_MAILBOX_OBJECTS));
 }
 
-MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip,
-                  const GdbWish* gdb) {
+MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip, const GdbWish* gdb,
+                  std::set<const void*>& left_out) {
   const scenario::UserCpu& user = slave.user_cpu;
   arm::BoardOptions options;
   options.firmware = arm::load_firmware(scenario::resolve(scenario, user.elf));
-  check_mailbox(scenario, slave, *options.firmware);
+  if (!options.firmware->mailbox) {
+    Untold missing = untold(scenario, slave, options.firmware->path);
+    options.notes = std::move(missing.notes);
+    left_out.merge(missing.left_out);
+  }
   check_objects(scenario, slave, *options.firmware);
   options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(user.cpi * 1000);
   if (user.fsmc) options.fsmc = static_cast<const user_cpu::FsmcOverride&>(*user.fsmc);
   if (user.access) options.access = static_cast<const user_cpu::AccessTiming&>(*user.access);
-  options.hclk_mhz = options.fsmc.hclk_mhz.value_or(options.hclk_mhz);
+  options.switches = switches_of(user);
   if (gdb != nullptr) {
     options.make_debugger = [gdb](arm::DebugTarget& target) {
       return std::make_unique<arm::GdbServer>(target, arm::GdbOptions{gdb->port, gdb->stopped, gdb->say});
@@ -106,6 +112,7 @@ MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& sla
   return [&user, &chip, options](const user_cpu::StationConfig& station, Tick start) {
     arm::BoardOptions now = options;
     now.program = program_options(user, station);
+    now.chip = &chip.chip();
     const auto set_chip_reset = [&chip](Tick at, bool level) { chip.set_reset(at, level); };
     return std::make_unique<arm::Board>(chip.host_bus(), std::move(now), set_chip_reset, start);
   };
@@ -117,12 +124,13 @@ MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& sla
 
 #ifdef DSDPV1_HAS_ARM_BOARD
 MakeUser user_maker(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip,
-                    const GdbWish* gdb) {
-  return slave.user_cpu.kind == scenario::CpuKind::kArm ? arm_user(scenario, slave, chip, gdb)
+                    const GdbWish* gdb, std::set<const void*>& left_out) {
+  return slave.user_cpu.kind == scenario::CpuKind::kArm ? arm_user(scenario, slave, chip, gdb, left_out)
                                                         : native_user(slave.user_cpu, chip);
 }
 #else
-MakeUser user_maker(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip, const GdbWish*) {
+MakeUser user_maker(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip, const GdbWish*,
+                    std::set<const void*>&) {
   if (slave.user_cpu.kind == scenario::CpuKind::kArm)
     throw InputError(scenario.file, slave.user_cpu.line,
                      "kind is arm, this program was built without the ARM board (libunicorn), allowed is native");

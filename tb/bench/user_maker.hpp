@@ -1,5 +1,7 @@
 #pragma once
 // The user CPU that a scenario asks for.
+#include <set>
+
 #include "tb/bench/slave_station.hpp"
 
 namespace tb {
@@ -12,8 +14,9 @@ struct GdbWish {
 };
 
 /// What makes the slave's user CPU at each release of its reset. Throws InputError where its firmware is no use. All of them
-/// must outlive the result; `gdb` is null without a debugger.
+/// must outlive the result; `gdb` is null without a debugger. What firmware without a mailbox cannot do of the scenario is added to
+/// `left_out`, see untold.hpp.
 MakeUser user_maker(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip,
-                    const GdbWish* gdb);
+                    const GdbWish* gdb, std::set<const void*>& left_out);
 
 }  // namespace tb

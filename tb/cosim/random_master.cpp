@@ -269,7 +269,10 @@ void RandomMaster::wait_baud_control() {
   extra_ += static_cast<Tick>(quick_config().baud_control_ms) * bus::kTicksPerMs - random_.below(2) * 40 * bit();
 }
 
-std::uint8_t RandomMaster::master() { return !careful_ && random_.one_in(10) ? std::uint8_t{3} : std::uint8_t{2}; }
+std::uint8_t RandomMaster::master() {
+  if (!careful_ && random_.one_in(60)) return 127;  // S32
+  return !careful_ && random_.one_in(10) ? std::uint8_t{3} : std::uint8_t{2};
+}
 
 /// SRD; the frame count bit toggles in a series, and sometimes not.
 std::uint8_t RandomMaster::function_code() {

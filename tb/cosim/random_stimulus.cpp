@@ -28,8 +28,12 @@ class Case {
     Action reset;
     reset.verb = Verb::kReset;
     reset.low = random_.between(1, 20'000);
+    const bool held = random_.one_in(6);
+    if (held) user_.hold_through_reset();
     stimulus_.push_back(reset);
     sync();
+    if (held) user_.wait(random_.between(0, 4200));
+    if (held) user_.give();
     // Sometimes the user comes before the chip is ready (H6).
     user_.wait(random_.one_in(4) ? random_.between(0, 4200) : 4200);
   }
@@ -40,9 +44,9 @@ class Case {
     const bool dpv1 = random_.one_in(2);
     if (dpv1) prepare_dpv1();
     master_.forget_series();
+    if (dpv1) user_.enable_dpv1(0x1D);  // before the initialisation (D17)
     user_.initialise();
     sync();
-    if (dpv1) user_.enable_dpv1(0x1D);
     if (random_.one_in(12)) user_.initialise();
     user_.wait(200);
     sync();

@@ -86,6 +86,7 @@ void RandomUser::inputs() {
   bytes[0] = static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(240, 255) : bytes.size() - 1);
   take();
   block(regs::kInput, regs::kInputCrc, bytes);
+  if (random_.one_in(4)) write(regs::kUserCommand2, random_.below(4) << 6);  // D16
   command(regs::kUserCommand1Input);
   give();
 }
@@ -258,10 +259,30 @@ void RandomUser::take() {
   stimulus_.push_back(action);
 }
 
+/// R_REQ and R_STA fall together, or one after the other in either order (H1).
 void RandomUser::give() {
+  if (random_.one_in(6)) {
+    const bool request_first = random_.one_in(2);
+    pin(request_first ? Pin::kRReq : Pin::kRSta, 0, random_.below(600));
+    return pin(request_first ? Pin::kRSta : Pin::kRReq, 0, random_.below(random_.one_in(4) ? 20'000 : 900));
+  }
   Action action;
   action.verb = Verb::kGive;
   action.delay = random_.below(600);
+  stimulus_.push_back(action);
+}
+
+void RandomUser::hold_through_reset() {
+  if (random_.one_in(2)) pin(Pin::kRReq, 1, random_.below(600));
+  if (random_.one_in(2)) pin(Pin::kRSta, 1, random_.below(600));
+}
+
+void RandomUser::pin(Pin pin, int value, int delay) {
+  Action action;
+  action.verb = Verb::kPin;
+  action.delay = delay;
+  action.pin = pin;
+  action.value = value;
   stimulus_.push_back(action);
 }
 

@@ -22,11 +22,14 @@ class RandomUser {
   void acyclic_answer(int channel);
   void take();
   void give();
+  /// R_REQ, R_STA, both or none high from here on.
+  void hold_through_reset();
   /// Nothing for so many cycles.
   void wait(int cycles);
   void anything();
 
  private:
+  void pin(Pin pin, int value, int delay);
   void write(int address, int value);
   void read(int address);
   void block(int address, int crc_address, const bus::Bytes& bytes);

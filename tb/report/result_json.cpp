@@ -32,14 +32,21 @@ Json handshake_of(const SlaveResult& slave) {
 }
 
 Json user_of(const SlaveResult& slave) {
-  const user_cpu::ProgramCounters& program = slave.user.program;
-  return {{"exchanges", program.exchanges},           {"outputs_received", program.outputs_received},
-          {"inputs_written", program.inputs_written}, {"judgements", program.judgements},
-          {"driver_errors", program.driver_errors},   {"bad_reads", slave.user.cpu.bad_reads}};
+  using Counters = user_cpu::ProgramCounters;
+  const std::optional<Counters>& program = slave.user.program;
+  const auto count = [&program](std::uint64_t Counters::*which) { return program ? Json((*program).*which) : Json(); };
+  return {
+      {"exchanges", count(&Counters::exchanges)},           {"outputs_received", count(&Counters::outputs_received)},
+      {"inputs_written", count(&Counters::inputs_written)}, {"judgements", count(&Counters::judgements)},
+      {"driver_errors", count(&Counters::driver_errors)},   {"bad_reads", slave.user.cpu.bad_reads}};
 }
 
 Json board_of(const user_cpu::BoardReport& board) {
-  return {{"instructions", board.instructions}, {"hclk_cycles", board.cycles}, {"notes", board.notes}};
+  return {{"instructions", board.instructions},
+          {"hclk_cycles", board.cycles},
+          {"hclk_hz", board.hclk_hz},
+          {"hclk_source", board.hclk_source},
+          {"notes", board.notes}};
 }
 
 Json registry_of(const profibus::RmRegistry& registry) {
@@ -73,7 +80,7 @@ Json slave_of(const SlaveResult& slave) {
   json["master_state"] = slave.master_state;
   json["master_reason"] = slave.master_reason;
   json["inputs"] = bytes_text(slave.inputs, slave.inputs.size());
-  json["outputs"] = bytes_text(slave.outputs, slave.outputs.size());
+  json["outputs"] = slave.outputs ? Json(bytes_text(*slave.outputs, slave.outputs->size())) : Json();
   return json;
 }
 
@@ -183,8 +190,10 @@ std::string result_json(const RunResult& result) {
   for (const SlaveResult& slave : result.slaves) json["slaves"].push_back(slave_of(slave));
   json["expectations"] = Json::array();
   for (const ExpectationResult& each : result.expectations) {
-    json["expectations"].push_back(
-        {{"text", each.text}, {"line", each.line}, {"passed", each.passed}, {"seen", each.seen}});
+    json["expectations"].push_back({{"text", each.text},
+                                    {"line", each.line},
+                                    {"passed", each.left_out ? Json() : Json(each.passed)},
+                                    {"seen", each.seen}});
   }
   json["checks"] = Json::array();
   for (const CheckResult& each : result.checks) json["checks"].push_back(check_of(each));

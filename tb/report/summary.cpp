@@ -98,15 +98,19 @@ std::string masters(const RunResult& result) {
 std::string expectations(const RunResult& result) {
   if (result.expectations.empty()) return "";
   std::string text;
-  std::size_t met = 0;
+  std::size_t met = 0, left_out = 0;
   for (const ExpectationResult& each : result.expectations) {
     if (each.passed) {
       ++met;
+    } else if (each.left_out) {
+      ++left_out;
     } else {
       text += fmt::format("  NOT MET  {}:{}: {}; seen: {}\n", result.file, each.line, each.text, each.seen);
     }
   }
-  return fmt::format("  expectations   {} of {} met\n", met, result.expectations.size()) + text;
+  return fmt::format("  expectations   {} of {} met{}\n", met, result.expectations.size(),
+                     left_out != 0 ? fmt::format(", {} left out", left_out) : "") +
+         text;
 }
 
 std::string pacing(const Pacing& pacing) {
@@ -129,9 +133,10 @@ std::string boards(const RunResult& result) {
   std::string text;
   for (const SlaveResult& slave : result.slaves) {
     if (!slave.board) continue;
-    text += fmt::format("  ARM board      {}: {} instructions, {:.1f} million a second\n", slave.name,
-                        slave.board->instructions,
-                        static_cast<double>(slave.board->instructions) / 1e6 / std::max(result.wall_s, 1e-9));
+    text += fmt::format("  ARM board      {}: {} instructions, {:.1f} million a second; HCLK {:g} MHz ({})\n",
+                        slave.name, slave.board->instructions,
+                        static_cast<double>(slave.board->instructions) / 1e6 / std::max(result.wall_s, 1e-9),
+                        static_cast<double>(slave.board->hclk_hz) / 1e6, slave.board->hclk_source);
     for (const std::string& note : slave.board->notes) text += fmt::format("                 {}\n", note);
   }
   return text + result.fault_registers;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <regex>
 
 #include "tb/scenario/event_codes.hpp"
 #include "tb/scenario/input_error.hpp"
@@ -110,8 +111,31 @@ class Checker {
     if (arm && user.elf.empty())
       fail(slave.line, fmt::format("elf is missing, slave {} has an ARM board that runs it", slave.name.text));
     if (!arm && !user.elf.empty()) fail(user.elf.line, "elf without kind: arm, allowed is firmware of an ARM board");
+    check_switches(user, arm);
     if (arm && user.timing)
       fail(user.timing->line, "timing is that of kind: native, allowed with arm are cpi, fsmc and access");
+  }
+
+  void check_switches(const UserCpu& user, bool arm) const {
+    std::map<std::pair<unsigned, unsigned>, std::string> seen;
+    for (const Name& text : user.switches) {
+      if (!arm) fail(text.line, "switches without kind: arm, allowed are those of an ARM board");
+      const std::optional<Switch> one = parse_switch(text.text);
+      if (!one) fail(text.line, fmt::format("switches holds {}, allowed are like PA0=low or PG15=high", text.text));
+      if (is_wired(*one))
+        fail(text.line, fmt::format("switches holds {}, a pin that the board wires to the chip; allowed are the others "
+                                    "of PA0 to PG15",
+                                    text.text));
+      if (!seen.emplace(std::pair(one->port, one->pin), text.text).second)
+        fail(text.line, fmt::format("switches holds {}, a pin that is there twice, allowed is once", text.text));
+    }
+  }
+
+  /// L_REQ, L_STA, R_REQ, R_STA; RESET; INTR0, PBF, BR, READY.
+  static bool is_wired(const Switch& one) {
+    const std::map<unsigned, unsigned> wired = {{2, 0x03C0}, {4, 0x0010}, {6, 0x7040}};
+    const auto port = wired.find(one.port);
+    return port != wired.end() && (port->second >> one.pin & 1U) != 0;
   }
 
   void check_objects(const Dpv1User& user) const {
@@ -244,6 +268,14 @@ class Checker {
 };
 
 }  // namespace
+
+std::optional<Switch> parse_switch(const std::string& text) {
+  static const std::regex form("P([A-G])([0-9]|1[0-5])=(low|high)");
+  std::smatch parts;
+  if (!std::regex_match(text, parts, form)) return std::nullopt;
+  return Switch{static_cast<unsigned>(parts.str(1)[0] - 'A'), static_cast<unsigned>(std::stoi(parts.str(2))),
+                parts.str(3) == "high"};
+}
 
 void check(const Scenario& scenario) { Checker(scenario).run(); }
 

@@ -21,43 +21,44 @@ const ObjectOf<Faults>& fault_keys() {
   return keys;
 }
 
-std::vector<WordFor<Do>> action_words() {
-  return {{Do::kSetInputs, "set_inputs", ""},
-          {Do::kSetDiagnosis, "set_diagnosis", ""},
-          {Do::kReinitialise, "reinitialise", ""},
-          {Do::kResetChip, "reset_chip", ""},
-          {Do::kHoldDpram, "hold_dpram", ""},
-          {Do::kWrongCrc, "wrong_crc", ""},
-          {Do::kEarlyRSta, "early_r_sta", ""},
-          {Do::kWrongLength, "wrong_length", ""},
-          {Do::kPauseUser, "pause_user", ""},
-          {Do::kVerdict, "verdict", ""},
-          {Do::kAnswerAcyclic, "answer_acyclic", ""},
-          {Do::kUnplug, "unplug", ""},
-          {Do::kPlug, "plug", ""},
-          {Do::kSetOutputs, "set_outputs", ""},
-          {Do::kReadInputs, "read_inputs", ""},
-          {Do::kReadOutputs, "read_outputs", ""},
-          {Do::kGetCfg, "get_cfg", ""},
-          {Do::kSlaveDiag, "slave_diag", ""},
-          {Do::kSetSlaveAddress, "set_slave_address", ""},
-          {Do::kC1Read, "c1_read", ""},
-          {Do::kC1Write, "c1_write", ""},
-          {Do::kGlobalControl, "global_control", ""},
-          {Do::kOperate, "operate", ""},
-          {Do::kClear, "clear", ""},
-          {Do::kStopMaster, "stop_master", ""},
-          {Do::kStartMaster, "start_master", ""},
-          {Do::kChangeBaud, "change_baud", ""},
-          {Do::kTelegram, "telegram", ""},
-          {Do::kC2Connect, "c2_connect", ""},
-          {Do::kC2Read, "c2_read", ""},
-          {Do::kC2Write, "c2_write", ""},
-          {Do::kC2Transport, "c2_transport", ""},
-          {Do::kC2Abort, "c2_abort", ""},
-          {Do::kC2Behaviour, "c2_behaviour", ""},
-          {Do::kC2Raw, "c2_raw", ""},
-          {Do::kGlitch, "glitch", ""}};
+const std::vector<WordFor<Do>>& action_words() {
+  static const std::vector<WordFor<Do>> words = {{Do::kSetInputs, "set_inputs", ""},
+                                                 {Do::kSetDiagnosis, "set_diagnosis", ""},
+                                                 {Do::kReinitialise, "reinitialise", ""},
+                                                 {Do::kResetChip, "reset_chip", ""},
+                                                 {Do::kHoldDpram, "hold_dpram", ""},
+                                                 {Do::kWrongCrc, "wrong_crc", ""},
+                                                 {Do::kEarlyRSta, "early_r_sta", ""},
+                                                 {Do::kWrongLength, "wrong_length", ""},
+                                                 {Do::kPauseUser, "pause_user", ""},
+                                                 {Do::kVerdict, "verdict", ""},
+                                                 {Do::kAnswerAcyclic, "answer_acyclic", ""},
+                                                 {Do::kUnplug, "unplug", ""},
+                                                 {Do::kPlug, "plug", ""},
+                                                 {Do::kSetOutputs, "set_outputs", ""},
+                                                 {Do::kReadInputs, "read_inputs", ""},
+                                                 {Do::kReadOutputs, "read_outputs", ""},
+                                                 {Do::kGetCfg, "get_cfg", ""},
+                                                 {Do::kSlaveDiag, "slave_diag", ""},
+                                                 {Do::kSetSlaveAddress, "set_slave_address", ""},
+                                                 {Do::kC1Read, "c1_read", ""},
+                                                 {Do::kC1Write, "c1_write", ""},
+                                                 {Do::kGlobalControl, "global_control", ""},
+                                                 {Do::kOperate, "operate", ""},
+                                                 {Do::kClear, "clear", ""},
+                                                 {Do::kStopMaster, "stop_master", ""},
+                                                 {Do::kStartMaster, "start_master", ""},
+                                                 {Do::kChangeBaud, "change_baud", ""},
+                                                 {Do::kTelegram, "telegram", ""},
+                                                 {Do::kC2Connect, "c2_connect", ""},
+                                                 {Do::kC2Read, "c2_read", ""},
+                                                 {Do::kC2Write, "c2_write", ""},
+                                                 {Do::kC2Transport, "c2_transport", ""},
+                                                 {Do::kC2Abort, "c2_abort", ""},
+                                                 {Do::kC2Behaviour, "c2_behaviour", ""},
+                                                 {Do::kC2Raw, "c2_raw", ""},
+                                                 {Do::kGlitch, "glitch", ""}};
+  return words;
 }
 
 std::vector<Choice> user_choices() {
@@ -215,6 +216,12 @@ void describe_global_control(ObjectOf<Action>& o) {
 }
 
 }  // namespace
+
+const char* action_word(Do what) {
+  for (const WordFor<Do>& word : action_words())
+    if (word.value == what) return word.text;
+  return "";
+}
 
 const ObjectOf<Action>& action_keys() {
   static const ObjectOf<Action> keys = [] {

@@ -80,7 +80,8 @@ const ObjectOf<Fsmc>& fsmc_keys() {
               "DATAST: WR is low so long; D is sampled one HCLK more after the address phase. 0 is reserved in the "
               "manual: no low time of WR, against Ts.");
     o.integer("busturn", &Fsmc::busturn, {0, 15}, "HCLK", "BUSTURN: CSR stays high so much longer between accesses.");
-    o.integer("hclk", &Fsmc::hclk_mhz, {1, 72}, "MHz", "Frequency of HCLK.");
+    o.integer("hclk", &Fsmc::hclk_mhz, {1, 72}, "MHz",
+              "Frequency of HCLK; left out: on an ARM board what RCC says, else 72.");
     o.word("mode", &Fsmc::mode,
            std::vector<WordFor<FsmcMode>>{{FsmcMode::k1, "1", "RD falls with CSR"},
                                           {FsmcMode::kA, "A", "RD falls addset + 1 HCLK after CSR"}},
@@ -120,7 +121,21 @@ const ObjectOf<UserCpu>& user_cpu_keys() {
                {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing`"},
                {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"}},
            "Who runs it.");
-    o.file("elf", &U::elf, "Firmware of the ARM board, relative to the scenario's folder.");
+    o.file(
+        "elf", &U::elf,
+        "Firmware of the ARM board, relative to the scenario's folder; on the command line relative to where you are.");
+    o.word("without_mailbox", &U::without_mailbox,
+           std::vector<WordFor<WithoutMailbox>>{
+               {WithoutMailbox::kRefuse, "refuse", "the first of them is reported in one line, and nothing is run"},
+               {WithoutMailbox::kLeaveOut, "leave_out",
+                "actions are not carried out, expectations not judged, and each is listed at the end"}},
+           "For firmware without a mailbox: what becomes of actions for the user CPU, of expectations of outputs or of "
+           "errors of the driver, and of "
+           "settings for its program that stand beside `elf` (docs/arm_board.md).");
+    o.names("switches", &U::switches, {0, 112},
+            "Switches that hold input pins of the ARM board, like [PA0=low, PB5=high]: PA0 to PG15 but for those that "
+            "the board wires to the "
+            "chip. Pins without one have their pull-up or pull-down only.");
     o.number("cpi", &U::cpi, {1, 10}, "HCLK", "Cycles per instruction of the ARM board, an estimate.");
     o.word("behaviour", &U::behaviour,
            std::vector<WordFor<Behaviour>>{

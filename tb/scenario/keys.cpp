@@ -129,6 +129,12 @@ const Field* Object::find(const std::string& key) const {
   return found == fields.end() ? nullptr : &*found;
 }
 
+std::string option_of(const YAML::Node& node) {
+  const std::string& tag = node.Tag();
+  const std::size_t length = std::char_traits<char>::length(kOptionTag);
+  return tag.compare(0, length, kOptionTag) == 0 ? tag.substr(length) : "";
+}
+
 int line_of(const YAML::Node& node) { return node.Mark().line + 1; }
 
 std::int64_t read_integer(const Field& field, const YAML::Node& node, const Source& source) {
@@ -242,6 +248,7 @@ void read_object(const Object& object, void* owner, const YAML::Node& node, cons
     if (!seen.insert(key).second)
       fail(source, pair.first, fmt::format("{} is there twice in {}, allowed is once", key, object.name));
     object.find(key)->read(owner, pair.second, source);
+    if (object.note_key) object.note_key(owner, {key, line_of(pair.first), option_of(pair.second)});
   }
   check_required(object, choice, seen, node, source);
   check_groups(object, seen, node, source);

@@ -60,8 +60,21 @@ struct Choice {
   std::vector<std::string> required, optional;
 };
 
+/// A key that stands in a mapping of the scenario, or that the command line has put there.
+struct Given {
+  std::string key;
+  int line = 0;
+  std::string option;  ///< of the command line, "--set user_cpu.cycle=40us"; empty: it stands in the file
+};
+
+/// Tag of what the command line has put into a scenario's YAML, followed by the option.
+constexpr const char* kOptionTag = "!option ";
+/// The option that has put the node there; empty for what stands in the file.
+std::string option_of(const YAML::Node& node);
+
 struct Object {
   using SetLine = std::function<void(void* owner, int line)>;
+  using NoteKey = std::function<void(void* owner, Given given)>;
 
   Object(std::string object_name, std::string object_doc, SetLine line_setter)
       : name(std::move(object_name)), doc(std::move(object_doc)), set_line(std::move(line_setter)) {}
@@ -75,6 +88,7 @@ struct Object {
   std::vector<std::vector<std::string>> at_most_one;   ///< no two fields of a group together
   std::vector<std::vector<std::string>> at_least_one;  ///< at least one field of each group must be there
   SetLine set_line;
+  NoteKey note_key;  ///< null: nobody wants to know which keys are there
 
   const Field* find(const std::string& key) const;
 };
@@ -98,6 +112,12 @@ void read_object(const Object& object, void* owner, const YAML::Node& node, cons
 /// Checks that `node` is a list of an allowed length.
 void check_list(const Field& field, const YAML::Node& node, const Source& source);
 int line_of(const YAML::Node& node);
+
+/// Structs with a member `given` keep which keys their mapping has.
+template <class T, class = void>
+struct KeepsKeys : std::false_type {};
+template <class T>
+struct KeepsKeys<T, std::void_t<decltype(T::given)>> : std::true_type {};
 
 template <class M>
 struct IsOptional : std::false_type {};
@@ -132,7 +152,10 @@ class ObjectOf : public Object {
  public:
   ObjectOf(std::string object_name, std::string object_doc)
       : Object(std::move(object_name), std::move(object_doc),
-               [](void* owner, int line) { static_cast<T*>(owner)->line = line; }) {}
+               [](void* owner, int line) { static_cast<T*>(owner)->line = line; }) {
+    if constexpr (KeepsKeys<T>::value)
+      note_key = [](void* owner, Given given) { static_cast<T*>(owner)->given.push_back(std::move(given)); };
+  }
 
   template <class M, class B>
   Field& integer(const char* key, M B::*member, Range range, const char* unit, const char* text) {

@@ -96,6 +96,7 @@ struct InitData {
   int prm_mode = 0, cfg_mode = 0;
   std::optional<bool> set_slave_address, freeze, sync, fail_safe;
   bool dpv1 = false;
+  std::vector<keys::Given> given;
   int line = 0;
 };
 
@@ -139,6 +140,8 @@ struct Dpv1User {
 };
 
 enum class CpuKind : std::uint8_t { kNative, kArm };
+/// What becomes of that part of a scenario that only firmware with a mailbox can carry out or tell.
+enum class WithoutMailbox : std::uint8_t { kRefuse, kLeaveOut };
 
 struct UserCpu {
   CpuKind kind = CpuKind::kNative;
@@ -147,8 +150,10 @@ struct UserCpu {
   bool overwrite_inputs = true;  ///< DSDPV1_INPUT_NEWEST
   bool judge_in_handler = true;
   int line = 0;
-  Name elf;          ///< kArm
-  double cpi = 1.5;  ///< kArm: cycles of HCLK per instruction
+  Name elf;                                                  ///< kArm
+  WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
+  std::vector<Name> switches;                                ///< kArm: "PA0=low"
+  double cpi = 1.5;                                          ///< kArm: cycles of HCLK per instruction
   bus::Bytes constant;
   bus::Tick start_delay = 0;
   bus::Tick cycle = 50 * bus::kTicksPerUs;
@@ -158,6 +163,7 @@ struct UserCpu {
   std::optional<AccessTimes> access;
   std::optional<Fsmc> fsmc;
   Dpv1User dpv1;
+  std::vector<keys::Given> given;
 };
 
 struct Slave {
@@ -209,6 +215,17 @@ enum class Do : std::uint8_t {
   kC2Raw,
   kGlitch,
 };
+
+/// A switch of an ARM board that holds an input pin.
+struct Switch {
+  unsigned port = 0, pin = 0;  ///< port A is 0
+  bool high = false;
+};
+/// "PA0=low"; nullopt for other text, and for pins of ports beyond G.
+std::optional<Switch> parse_switch(const std::string& text);
+
+/// The word for it in a scenario.
+const char* action_word(Do what);
 
 /// What the program on the user CPU has to carry out itself.
 constexpr bool is_for_user_cpu(Do what) { return what <= Do::kAnswerAcyclic && what != Do::kResetChip; }

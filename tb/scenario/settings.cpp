@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "tb/scenario/describe.hpp"
@@ -102,6 +103,7 @@ void check_value(const Field& field, const YAML::Node& value, const std::string&
 }
 
 /// What is given on a command line is text, hexadecimal where bytes are wanted, unless it is a list in brackets.
+/// A path is relative to where the user stands; the scenario's own are relative to its folder.
 YAML::Node value_of(const Field& field, const Setting& setting) {
   const bool list = field.type.kind == Kind::kList || field.type.kind == Kind::kBytes;
   YAML::Node value(setting.value);
@@ -113,6 +115,7 @@ YAML::Node value_of(const Field& field, const Setting& setting) {
     }
   }
   check_value(field, value, setting.origin);
+  if (field.type.kind == Kind::kFile) value = std::filesystem::absolute(setting.value).lexically_normal().string();
   return value;
 }
 
@@ -147,6 +150,7 @@ class Writer {
       write(item(node[field.name], field, steps_[at + 1]), *field.type.object, at + 2);
     } else {
       if (!node[field.name].IsDefined()) node[field.name] = YAML::Node(YAML::NodeType::Map);
+      mark(node[field.name]);
       write(node[field.name], *field.type.object, at + 1);
     }
   }
@@ -154,13 +158,14 @@ class Writer {
  private:
   /// Text goes into the node that is there, which so keeps its line for errors; it counts as quoted.
   void put(YAML::Node slot) const {
-    if (!value_.IsScalar()) {
+    if (value_.IsScalar()) {
+      slot = value_.Scalar();
+    } else {
       slot = YAML::Clone(value_);
-      return;
     }
-    slot = value_.Scalar();
-    slot.SetTag("!");
+    mark(slot);
   }
+  void mark(YAML::Node node) const { node.SetTag(keys::kOptionTag + setting_.origin); }
 
   YAML::Node item(const YAML::Node& list, const Field& field, const std::string& step) const {
     if (!list.IsDefined() || !list.IsSequence() || list.size() == 0)

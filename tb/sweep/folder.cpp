@@ -47,8 +47,7 @@ Json content_of(const Plan& plan) {
   std::vector<std::string> files = scenario::files(plan.scenario, scenario::parse_settings(plan.settings));
   for (const Parameter& parameter : plan.parameters) {
     if (scenario::field_of(parameter.path, "--param").type.kind != keys::Kind::kFile) continue;
-    for (const std::string& value : parameter.values)
-      files.push_back((fs::path(plan.scenario).parent_path() / value).string());
+    files.insert(files.end(), parameter.values.begin(), parameter.values.end());
   }
   Json json = {{plan.scenario, fingerprint(scenario::read_file(plan.scenario))}};
   for (const std::string& file : files) json[file] = fingerprint(content(file));

@@ -44,6 +44,8 @@ class Cpu {
   /// The pin is looked at at once; the call takes `pin_sample`.
   virtual bool l_req() = 0;
   virtual bool l_sta() = 0;
+  /// The same for the lamps' pins, as HostBus::lamps has them.
+  virtual unsigned lamps() = 0;
 
   /// Lets time pass; an interrupt is served meanwhile, and its time counts.
   virtual void wait_until(Tick at) = 0;

@@ -6,11 +6,11 @@ namespace {
 /// Ticks of so many HCLK periods, rounded to the nearest.
 class Hclk {
  public:
-  explicit Hclk(int mhz) : mhz_(mhz) {}
-  Tick operator()(int periods) const { return (periods * bus::kTicksPerUs + mhz_ / 2) / mhz_; }
+  explicit Hclk(std::int64_t hz) : hz_(hz) {}
+  Tick operator()(int periods) const { return (periods * bus::kTicksPerSecond + hz_ / 2) / hz_; }
 
  private:
-  int mhz_;
+  std::int64_t hz_;
 };
 
 /// From the end of one access to the earliest fall of CSR in the next: what RM0008 promises for the time between them.
@@ -44,7 +44,7 @@ AccessTiming write_timing(const FsmcTiming& timing, FsmcMode mode, const Hclk& a
 }  // namespace
 
 FsmcAccess access_timing(const FsmcBank& bank) {
-  const Hclk at(bank.hclk_mhz);
+  const Hclk at(bank.hclk_hz);
   return {read_timing(bank.read, bank.mode, at), write_timing(bank.write, bank.mode, at)};
 }
 
@@ -54,7 +54,7 @@ FsmcBank with(FsmcBank bank, const FsmcOverride& given) {
     timing->datast = given.datast.value_or(timing->datast);
     timing->busturn = given.busturn.value_or(timing->busturn);
   }
-  bank.hclk_mhz = given.hclk_mhz.value_or(bank.hclk_mhz);
+  if (given.hclk_mhz) bank.hclk_hz = std::int64_t{1'000'000} * *given.hclk_mhz;
   bank.mode = given.mode.value_or(bank.mode);
   return bank;
 }

@@ -26,7 +26,7 @@ struct FsmcTiming {
 struct FsmcBank {
   FsmcMode mode = FsmcMode::k1;
   FsmcTiming read, write;  ///< in mode 1 the FSMC has one register for both
-  int hclk_mhz = 72;       ///< 1..72
+  std::int64_t hclk_hz = 72'000'000;
 };
 
 /// Values that take the place of a bank's own; timing fields in both directions.

@@ -28,6 +28,8 @@ class HostBus {
   virtual bool l_req(Tick at) = 0;
   virtual bool l_sta(Tick at) = 0;
   virtual bool intr0(Tick at) = 0;
+  /// The lamps' pins at `at`: PBF in bit 0, BR in bit 1, READY in bit 2.
+  virtual unsigned lamps(Tick /*at*/) { return 0; }
 
   /// Begins an access whose first edge is at `at`. Only one runs at a time.
   virtual void begin(Tick at, const Access& access, const AccessTiming& timing) = 0;

@@ -58,6 +58,10 @@ void NativeCpu::take_request() {
       sampled_ = bus_.l_sta(now_);
       ready_at_ = now_ + timing_.pin_sample;
       break;
+    case Op::kLamps:
+      lamps_ = bus_.lamps(now_);
+      ready_at_ = now_ + timing_.pin_sample;
+      break;
     case Op::kWait: ready_at_ = request_.until; break;
   }
 }
@@ -142,6 +146,11 @@ bool NativeCpu::l_req() {
 bool NativeCpu::l_sta() {
   perform({Op::kLSta, {}, false, 0});
   return sampled_;
+}
+
+unsigned NativeCpu::lamps() {
+  perform({Op::kLamps, {}, false, 0});
+  return lamps_;
 }
 
 /// Suspends until `at` or an earlier break; interrupts due then have been served on return.

@@ -46,7 +46,7 @@ class NativeCpu : public bus::Agent, private Cpu {
   const CpuCounters& counters() const { return counters_; }
 
  private:
-  enum class Op : std::uint8_t { kNone, kAccess, kSetRReq, kSetRSta, kLReq, kLSta, kWait };
+  enum class Op : std::uint8_t { kNone, kAccess, kSetRReq, kSetRSta, kLReq, kLSta, kLamps, kWait };
   struct Request {
     Op op = Op::kNone;
     Access access;
@@ -68,6 +68,7 @@ class NativeCpu : public bus::Agent, private Cpu {
   void set_r_sta(bool level) override;
   bool l_req() override;
   bool l_sta() override;
+  unsigned lamps() override;
   void wait_until(Tick at) override;
   bool wait_for_wake(Tick until) override;
   bool wait_intr0(Tick until) override;
@@ -97,6 +98,7 @@ class NativeCpu : public bus::Agent, private Cpu {
   Tick now_ = 0;
   Tick ready_at_;  ///< when the program goes on
   bool sampled_ = false;
+  unsigned lamps_ = 0;
   Fiber fiber_;
 };
 

@@ -15,6 +15,11 @@ bool PinHostBus::l_sta(Tick at) { return is_high(at, Pin::kLSta); }
 
 bool PinHostBus::intr0(Tick at) { return is_high(at, Pin::kIntr0); }
 
+unsigned PinHostBus::lamps(Tick at) {
+  const auto bit = [&](Pin pin) { return static_cast<unsigned>(is_high(at, pin)); };
+  return bit(Pin::kPbf) | bit(Pin::kBr) << 1U | bit(Pin::kReady) << 2U;
+}
+
 bool PinHostBus::is_high(Tick at, Pin pin) {
   chip_.advance(at);
   return chip_.level(pin) == 1;

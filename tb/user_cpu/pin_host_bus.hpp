@@ -24,6 +24,7 @@ class PinHostBus : public HostBus {
   bool l_req(Tick at) override;
   bool l_sta(Tick at) override;
   bool intr0(Tick at) override;
+  unsigned lamps(Tick at) override;
   void begin(Tick at, const Access& access, const AccessTiming& timing) override;
   Tick next_edge() const override { return edge_ < edges_.size ? edges_.at[edge_].tick : bus::kNever; }
   void run_edges(Tick now) override;

@@ -48,6 +48,11 @@ bool TlmHostBus::l_sta(Tick /*at*/) { return is_high(dsdpv1::Pin::kLSta); }
 
 bool TlmHostBus::intr0(Tick /*at*/) { return is_high(dsdpv1::Pin::kIntr0); }
 
+unsigned TlmHostBus::lamps(Tick /*at*/) {
+  const auto bit = [this](dsdpv1::Pin pin) { return static_cast<unsigned>(is_high(pin)); };
+  return bit(dsdpv1::Pin::kPbf) | bit(dsdpv1::Pin::kBr) << 1U | bit(dsdpv1::Pin::kReady) << 2U;
+}
+
 bool TlmHostBus::is_high(dsdpv1::Pin pin) {
   chip_.module().sync();
   return chip_.module().chip().level(pin) == 1;

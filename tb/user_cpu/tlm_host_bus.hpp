@@ -27,6 +27,7 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
   bool l_req(Tick at) override;
   bool l_sta(Tick at) override;
   bool intr0(Tick at) override;
+  unsigned lamps(Tick at) override;
   void begin(Tick at, const Access& access, const AccessTiming& timing) override;
   Tick next_edge() const override { return running_ ? end_ : bus::kNever; }
   void run_edges(Tick now) override;

@@ -14,12 +14,13 @@ namespace user_cpu {
 /// What a user CPU has done since its start.
 struct UserCounters {
   PortCounters port;
-  ProgramCounters program;
+  std::optional<ProgramCounters> program = ProgramCounters();  ///< absent: the program does not tell
   CpuCounters cpu;
 
   UserCounters& operator+=(const UserCounters& other) {
     port += other.port;
-    program += other.program;
+    if (program && other.program) *program += *other.program;
+    if (!other.program) program.reset();
     cpu += other.cpu;
     return *this;
   }
@@ -29,6 +30,8 @@ struct UserCounters {
 struct BoardReport {
   std::uint64_t instructions = 0;
   std::uint64_t cycles = 0;        ///< of its clock, since the start
+  std::int64_t hclk_hz = 0;        ///< its clock at the end ...
+  std::string hclk_source;         ///< ... and where it comes from
   std::vector<std::string> notes;  ///< what its firmware did that the board does not do like a real one
 };
 
@@ -42,6 +45,8 @@ class UserSide : public bus::Agent {
   virtual UserCounters counters() const = 0;
   /// Of those the blocks of outputs alone: cheap, looked at after each step.
   virtual std::uint64_t outputs_received() const = 0;
+  /// Whether the program tells what it does: its counters, its errors, the outputs that it fetched.
+  virtual bool tells() const { return true; }
   /// What the program fetched last.
   virtual const std::vector<std::uint8_t>& outputs() const = 0;
   /// Absent where there is no such board.

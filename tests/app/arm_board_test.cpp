@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program.hpp"
@@ -110,11 +112,125 @@ TEST(ArmBoard, FilesThatAreNoFirmwareGiveOneLine) {
   EXPECT_THAT(refused("nowhere.elf"), HasSubstr("nowhere.elf"));
 }
 
-TEST(ArmBoard, ActionsForFirmwareWithoutMailboxAreRefused) {
-  const Called called =
-      call("run " + scenario("arm_board_12m") + " --set user_cpu.elf=" + FIRMWARE_WITHOUT_MAILBOX, DSDPV1_SOURCE_DIR);
+// --- firmware of somebody else: no mailbox -------------------------------------------------------------------------------
+
+/// The first demand of each shipped scenario on the program of its user CPU.
+const std::map<std::string, std::string> kDemands = {
+    {"baud_change", "outputs are"},         {"diagnosis", "set_diagnosis"},  {"dpv1_c1", "wrong_crc"},
+    {"dpv1_c2_two_masters", "answer_acyc"}, {"judging_modes", "verdict"},    {"min_tsdr_45k45", "outputs are"},
+    {"power_on_12m", "set_diagnosis"},      {"power_on_9k6", "outputs are"}, {"read_services", "outputs are"},
+    {"reinitialise", "reinitialise"},       {"sync_freeze", "outputs are"},  {"two_slaves", "outputs are"},
+    {"violations", "early_r_sta"},          {"watchdog", "outputs are"}};
+
+const std::string kForeign = kArm + FIRMWARE_WITHOUT_MAILBOX;
+
+class DemandingScenarios : public testing::TestWithParam<std::pair<const std::string, std::string>> {};
+
+TEST_P(DemandingScenarios, AreRefusedInOneLineThatNamesTheDemand) {
+  const auto& [name, demand] = GetParam();
+  const Called called = call("run " + scenario(name) + kForeign, DSDPV1_SOURCE_DIR);
   EXPECT_EQ(called.status, 2);
-  EXPECT_THAT(called.err, HasSubstr("has no mailbox (dsdpv1_bench)"));
+  EXPECT_THAT(called.err, testing::MatchesRegex("scenarios/" + name + "\\.yaml:[0-9]+: " + demand +
+                                                ".*foreign.elf, which has no mailbox \\(dsdpv1_bench\\), cannot "
+                                                "(be told|tell them); allowed is .*leave_out}\n"));
+}
+INSTANTIATE_TEST_SUITE_P(All, DemandingScenarios, testing::ValuesIn(kDemands),
+                         [](const auto& each) { return each.param.first; });
+
+class ForeignFirmware : public testing::TestWithParam<std::string> {};
+
+bool is_of_the_program(const std::string& expectation) {
+  return expectation.find(" outputs ") != std::string::npos || expectation.find("DSDPV1_ERR") != std::string::npos;
+}
+
+TEST_P(ForeignFirmware, RunsWithTheDemandsLeftOutAndWhatIsNotKnownIsNull) {
+  const app_test::Folder folder;
+  const std::string file = folder.file("r.json");
+  const bool demands = kDemands.count(GetParam()) != 0;
+  const std::string leave_out = demands ? " --set user_cpu.without_mailbox=leave_out" : "";
+  const Called called =
+      call("run " + scenario(GetParam()) + kForeign + leave_out + " --checks fail --result " + file, DSDPV1_SOURCE_DIR);
+  ASSERT_THAT(called.status, testing::AnyOf(0, 1)) << called.err;
+  EXPECT_EQ(called.out.find("left out: scenarios/") != std::string::npos, demands) << called.out;
+  EXPECT_THAT(called.out, HasSubstr("its counters and the outputs that it has fetched are not known"));
+  EXPECT_THAT(called.out, testing::ContainsRegex("it is not told address \\(line [0-9]+\\)"));
+  const Json result = Json::parse(read(file));
+  for (const Json& slave : result.at("slaves")) {
+    EXPECT_TRUE(slave.at("outputs").is_null());
+    for (const char* counter : {"exchanges", "outputs_received", "inputs_written", "judgements", "driver_errors"})
+      EXPECT_TRUE(slave.at("user_cpu").at(counter).is_null()) << counter;
+    EXPECT_GT(slave.at("handshake").at("user_holds"), 0);  // from the pins
+  }
+  for (const Json& check : result.at("checks")) EXPECT_EQ(check.at("violations"), check.at("allowed")) << check;
+  for (const Json& each : result.at("expectations"))
+    EXPECT_EQ(each.at("passed").is_null(), is_of_the_program(each.at("text"))) << each;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ForeignFirmware, testing::ValuesIn(shipped_scenarios()),
+                         [](const auto& each) { return each.param; });
+
+TEST(ArmBoard, ForeignFirmwareLoopsBackInTheBoardsScenario) {
+  const Called called =
+      call("run " + scenario("arm_board_12m") + " --checks fail --set user_cpu.elf=" + FIRMWARE_WITHOUT_MAILBOX,
+           DSDPV1_SOURCE_DIR);
+  EXPECT_EQ(called.status, 0) << called.out << called.err;
+  EXPECT_THAT(called.out, testing::ContainsRegex("init.prm_mode \\(line [0-9]+\\), init.cfg_mode \\(line [0-9]+\\), "
+                                                 "behaviour \\(line [0-9]+\\), cycle \\(line [0-9]+\\)"));
+}
+
+// foreign.c has seven switches for its address, pulled up.
+TEST(ArmBoard, SwitchesHoldInputPins) {
+  const std::string foreign = std::string(" --set user_cpu.elf=") + FIRMWARE_WITHOUT_MAILBOX;
+  const auto run = [&](const std::string& switches) {
+    return call("run " + scenario("arm_board_12m") + foreign + " --set 'user_cpu.switches=" + switches + "'",
+                DSDPV1_SOURCE_DIR);
+  };
+  EXPECT_THAT(run("[PA0=low, PA1=low, PA3=low, PA4=low, PA5=low, PA6=low]").out, HasSubstr("initialised: address 4"));
+  EXPECT_THAT(run("[PA0=high]").out, HasSubstr("initialised: address 5"));
+  EXPECT_THAT(run("[PA0=up]").err, HasSubstr("allowed are like PA0=low or PG15=high"));
+  EXPECT_THAT(run("[PG14=low]").err, HasSubstr("a pin that the board wires to the chip"));
+  EXPECT_THAT(run("[PA0=low, PA0=high]").err, HasSubstr("a pin that is there twice"));
+}
+
+TEST(ArmBoard, SettingsForAProgramThatCannotBeToldAreRefusedWhereTheyAreDemanded) {
+  const auto refused = [](const std::string& arguments) {
+    const Called called = call("run " + arguments, DSDPV1_SOURCE_DIR);
+    EXPECT_EQ(called.status, 2) << arguments << called.out;
+    return called.err;
+  };
+  const std::string foreign = std::string(" --set user_cpu.elf=") + FIRMWARE_WITHOUT_MAILBOX;
+  for (const char* setting : {"user_cpu.behaviour=count", "user_cpu.cycle=60us", "slaves.board.init.prm_mode=1"})
+    EXPECT_THAT(refused(scenario("arm_board_12m") + foreign + " --set " + setting),
+                testing::StartsWith(std::string("--set ") + setting + ": "));
+  const app_test::Folder folder;
+  std::ofstream(folder.file("s.yaml")) << "name: x\nbaud: 12M\nend: 1ms\nslaves:\n"
+                                          "  - name: own\n    address: 5\n"
+                                          "    init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}\n"
+                                          "    user_cpu:\n      kind: arm\n      elf: \""
+                                       << FIRMWARE_WITHOUT_MAILBOX << "\"\n      behaviour: count\n";
+  EXPECT_THAT(refused(folder.file("s.yaml")), HasSubstr("s.yaml:11: behaviour is for the program of own"));
+}
+
+TEST(ArmBoard, PathOfTheCommandLineIsRelativeToWhereTheUserStandsOneOfTheScenarioToItsFolder) {
+  const app_test::Folder folder;
+  for (const char* name : {"scenarios", "here"}) std::filesystem::create_directory(folder.path() / name);
+  std::filesystem::copy_file(FIRMWARE_WITHOUT_MAILBOX, folder.path() / "here" / "mine.elf");
+  std::ofstream(folder.path() / "scenarios" / "s.yaml")
+      << "name: x\nbaud: 12M\nend: 1ms\nslaves:\n  - {name: own, address: 5, init: {ident: 1, max_inputs: 2, "
+         "max_outputs: "
+         "2, cfg: \"31\"}, user_cpu: {kind: arm, elf: ../here/mine.elf}}\n";
+  EXPECT_EQ(call("run s.yaml", folder.path() / "scenarios").status, 0);
+  EXPECT_EQ(call("run scenarios/s.yaml", folder.path()).status, 0);
+  EXPECT_EQ(call("run ../scenarios/s.yaml --set user_cpu.elf=mine.elf", folder.path() / "here").status, 0);
+  EXPECT_EQ(call("run scenarios/s.yaml --set user_cpu.elf=here/mine.elf", folder.path()).status, 0);
+  EXPECT_EQ(call("sweep scenarios/s.yaml --quiet --no-progress --param user_cpu.elf=here/mine.elf --param "
+                 "user_cpu.cpi=1,2 --out o",
+                 folder.path())
+                .status,
+            0);
+  const Called called = call("run scenarios/s.yaml --set user_cpu.elf=mine.elf", folder.path());
+  EXPECT_EQ(called.status, 2);
+  EXPECT_THAT(called.err, HasSubstr(folder.file("mine.elf") + ": no such file"));
 }
 
 TEST(ArmBoard, KeysOfTheOtherKindAreRefused) {

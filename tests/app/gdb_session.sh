@@ -20,11 +20,18 @@ done
 port=$(sed -n 's/.*localhost:\([0-9]*\).*/\1/p' "$folder/err" | head -n 1)
 
 gdb-multiarch -nx -batch -ex "target remote localhost:$port" -ex 'break dsdpv1_initialise' -ex continue \
-  -ex 'print config->address' -ex stepi -ex 'monitor time' -ex kill "$firmware" >"$folder/gdb" 2>&1 || fail "gdb failed"
+  -ex 'print config->address' -ex stepi -ex 'monitor time' \
+  -ex 'x/1bx 0x60000004' -ex 'x/4bx 0x60000000' -ex 'x/1wx 0x40021004' -ex 'x/1wx 0x40012008' -ex 'x/1wx 0xA0000004' -ex 'monitor time' -ex kill "$firmware" >"$folder/gdb" 2>&1 || fail "gdb failed"
 status=0
 wait "$run" || status=$?
 
 [ "$status" -eq 130 ] || fail "exit code $status after kill, wanted 130"
 grep -q 'Breakpoint 1.* dsdpv1_initialise' "$folder/gdb" || fail "gdb did not stop at the breakpoint"
 grep -q '^\$1 = 5' "$folder/gdb" || fail "gdb did not read the station address from the firmware's memory"
+grep -q '^0x60000004:.*0xc5' "$folder/gdb" || fail "gdb did not read B004"
+grep -q '^0x60000000:.*0x01.*0x0d.*0x07.*0x01' "$folder/gdb" || fail "gdb did not read the version in the DPRAM"
+grep -q '^0x40021004:.*0x001d040a' "$folder/gdb" || fail "gdb did not read RCC_CFGR"
+grep -q '^0x40012008:.*0x0000' "$folder/gdb" || fail "gdb did not read the pins of port G"
+grep -q '^0xa0000004:.*0x00000501' "$folder/gdb" || fail "gdb did not read FSMC_BTR1"
+[ "$(grep -c ' us' "$folder/gdb")" -lt 2 ] || [ "$(grep ' us' "$folder/gdb" | sort -u | wc -l)" -eq 1 ] || fail "time went on while gdb looked"
 grep -q 'INTERRUPTED' "$folder/out" || fail "the run does not say that it was interrupted"

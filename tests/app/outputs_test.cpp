@@ -51,6 +51,7 @@ TEST_F(Outputs, ResultHoldsWhatItMust) {
   EXPECT_EQ(slave["dp_state"], "DATA_EXCH");
   EXPECT_EQ(slave["baud"], "12M");
   EXPECT_GT(slave["data_exchanges"], 10);
+  EXPECT_LT(slave["outputs_overwritten"], slave["data_exchanges"]);
   EXPECT_GE(slave["tsdr"]["min_bits"], 11.0);
   EXPECT_EQ(slave["outputs"], "01 02");
   EXPECT_EQ(result["expectations"].at(0)["passed"], true);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <utility>
 
 #include "tb/user_cpu/pin_host_bus.hpp"
@@ -28,7 +29,9 @@ enum Program {
   kStrange,
   kUndefined,
   kBankOff,
-  kMaskedAndRising
+  kMaskedAndRising,
+  kInputs,
+  kClockTree
 };
 
 /// Pins of a chip that answers every read with the low byte of its address.
@@ -49,6 +52,7 @@ class Pins : public user_cpu::HostPins {
   Level level(Pin pin) const override {
     if (pin == Pin::kLReq) return l_req;
     if (pin == Pin::kLSta) return l_sta;
+    if (pin == Pin::kPbf || pin == Pin::kReady) return 1;
     return static_cast<Level>(pin == Pin::kDOut ? address_ & 0xFF : 0);
   }
   Level sample(Tick) override { return level(Pin::kDOut); }
@@ -69,10 +73,16 @@ class Pins : public user_cpu::HostPins {
 
 class BoardTest : public testing::Test {
  protected:
-  void start(Program program, const user_cpu::FsmcOverride& fsmc = {}) {
+  static user_cpu::FsmcOverride at_72_mhz() {
+    user_cpu::FsmcOverride fsmc;
+    fsmc.hclk_mhz = 72;
+    return fsmc;
+  }
+  void start(Program program, const user_cpu::FsmcOverride& fsmc = at_72_mhz(), const arm::Switches& switches = {}) {
     arm::BoardOptions options;
     options.firmware = with(program);
     options.fsmc = fsmc;
+    options.switches = switches;
     board = std::make_unique<arm::Board>(
         host, std::move(options), [this](Tick at, bool level) { resets.emplace_back(at, level); }, kStart);
     board->on_text = [this](Tick, const std::string& line) { lines.push_back(line); };
@@ -160,7 +170,7 @@ TEST_F(BoardTest, RegistersNeverWrittenGiveTheDefaultTiming) {
 }
 
 TEST_F(BoardTest, ScenarioTimingStandsAboveTheFirmwares) {
-  user_cpu::FsmcOverride fsmc;
+  user_cpu::FsmcOverride fsmc = at_72_mhz();
   fsmc.datast = 2;
   start(kAccesses, fsmc);
   run();
@@ -202,6 +212,104 @@ TEST_F(BoardTest, PortE4IsTheChipsReset) {
   EXPECT_TRUE(resets[1].second);
   EXPECT_GT(resets[1].first - resets[0].first, bus::kTicksPerUs);
   EXPECT_GT(pins.of(Pin::kCsr).at(0).at, resets[1].first);
+}
+
+TEST_F(BoardTest, InputsReadTheirPullsTheSwitchesAndTheLamps) {
+  arm::Switches switches;
+  switches.held[0] = 0xF0;
+  switches.levels[0] = 0xE0;  // low against a pull-up, high against a pull-down, on a floating and on an analog input
+  start(kInputs, at_72_mhz(), switches);
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 0x61), std::pair(1, 0b101), std::pair(2, 0x10)));
+}
+
+/// From the first to the tenth write of each ten, by period of HCLK.
+std::vector<double> write_periods(const std::vector<Pins::Change>& wr) {
+  std::vector<Tick> falls;
+  for (const Pins::Change& each : wr)
+    if (each.level == 0) falls.push_back(each.at);
+  falls.erase(falls.begin() + 10);  // of the look at SWS
+  std::vector<double> periods;
+  for (std::size_t i = 0; i + 9 < falls.size(); i += 10)
+    periods.push_back(static_cast<double>(falls[i + 9] - falls[i]));
+  return periods;
+}
+
+TEST_F(BoardTest, HclkFollowsRccFrom8MhzOn) {
+  start(kClockTree, {});
+  run();
+  EXPECT_EQ(pins.written.at(10), std::pair(1, 0));  // the crystal was off: SWS still says HSI
+  const std::vector<double> periods = write_periods(pins.of(Pin::kWr));
+  ASSERT_EQ(periods.size(), 4U);
+  EXPECT_NEAR(periods[0] / periods[1], 8, 0.2);
+  EXPECT_NEAR(periods[0] / periods[2], 9, 0.2);
+  EXPECT_NEAR(periods[0] / periods[3], 4.5, 0.1);
+  EXPECT_EQ(board->board()->hclk_hz, 36'000'000);
+  EXPECT_EQ(board->board()->hclk_source, "PLL, 9 x HSE, divided by 2");
+}
+
+/// Halts once, and looks.
+class Looker : public arm::Debugger {
+ public:
+  Looker(arm::DebugTarget& target, std::function<void(arm::DebugTarget&)> look)
+      : target_(target), look_(std::move(look)) {}
+  bool wanted() const override { return true; }
+  void before_instruction(std::uint32_t) override {
+    if (++instructions_ == 30) look_(target_);
+  }
+  void data_access(std::uint32_t, std::uint32_t, bool) override {}
+  void poll() override {}
+  void fault(const std::string&) override {}
+
+ private:
+  arm::DebugTarget& target_;
+  std::function<void(arm::DebugTarget&)> look_;
+  int instructions_ = 0;
+};
+
+TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
+  dsdpv1::Chip chip;
+  chip.poke(0x123, 0xA5);
+  arm::BoardOptions options;
+  options.firmware = with(kAccesses);
+  options.fsmc = at_72_mhz();
+  options.chip = &chip;
+  std::size_t looks = 0;
+  const auto look = [&](arm::DebugTarget& target) {
+    const Tick before = target.now();
+    const std::size_t changes = pins.changes.size();
+    for (const std::uint32_t address : {0x60000123U, 0x6000'0923U, 0x40021018U, 0x40011008U, 0x40012008U, 0x40010414U,
+                                        0x40013804U, 0x40000024U, 0xA0000000U}) {
+      std::uint8_t byte = 0;
+      looks += target.read_memory(address, &byte, 1);
+      EXPECT_TRUE(byte == 0xA5 || address >> 28U != 6U);
+    }
+    std::uint8_t byte = 0;
+    EXPECT_EQ(target.read_memory(0x5000'0000, &byte, 1), 0U);
+    EXPECT_EQ(target.now(), before);
+    EXPECT_EQ(pins.changes.size(), changes);
+  };
+  options.make_debugger = [&](arm::DebugTarget& target) { return std::make_unique<Looker>(target, look); };
+  board = std::make_unique<arm::Board>(
+      host, std::move(options), [](Tick, bool) {}, kStart);
+  run();
+  EXPECT_EQ(looks, 9U);
+  const auto changes = pins.changes;
+  EXPECT_TRUE(board->board()->notes.empty());  // TIM2 was looked at, not used
+  pins.changes.clear();
+  start(kAccesses);
+  run();
+  ASSERT_EQ(changes.size(), pins.changes.size());
+  for (std::size_t i = 0; i < changes.size(); ++i) EXPECT_EQ(changes[i].at, pins.changes[i].at);
+}
+
+TEST_F(BoardTest, HclkOfTheScenarioStandsAboveRcc) {
+  start(kClockTree);
+  run();
+  const std::vector<double> periods = write_periods(pins.of(Pin::kWr));
+  for (const double period : periods) EXPECT_NEAR(period / periods[0], 1, 0.05);
+  EXPECT_EQ(board->board()->hclk_hz, 72'000'000);
+  EXPECT_EQ(board->board()->hclk_source, "fsmc.hclk of the scenario");
 }
 
 TEST_F(BoardTest, UsartPrintsLinesAndRccIsReadyAtOnce) {

@@ -68,7 +68,7 @@ TEST(UserHandshake, RequestHoldsTheChipOffAndReleaseLetsItInAtOnceAtEveryPhase) 
   }
 }
 
-TEST(UserHandshake, ChipMayStartUpTo3CyclesAfterTheRequestAndNotLater) {
+TEST(UserHandshake, ChipMayStartUpTo2CyclesAfterTheRequestAndNotLater) {
   SlaveBench bench;
   idle_chip(bench);
   Tick latest = 0;
@@ -82,7 +82,7 @@ TEST(UserHandshake, ChipMayStartUpTo3CyclesAfterTheRequestAndNotLater) {
     bench.run_cycles(60);
   }
   EXPECT_GT(latest, 2 * kCycleTicks - 14);
-  EXPECT_LE(latest, 3 * kCycleTicks) << "H2";
+  EXPECT_LE(latest, 2 * kCycleTicks) << "H2";
 }
 
 TEST(UserHandshake, RunningAccessIsFinished) {

@@ -16,7 +16,7 @@ using user_cpu::FsmcTiming;
 constexpr Tick kHclk = 12000;
 
 FsmcAccess at_1_mhz(FsmcMode mode, const FsmcTiming& timing) {
-  return user_cpu::access_timing({mode, timing, timing, 1});
+  return user_cpu::access_timing({mode, timing, timing, 1'000'000});
 }
 
 TEST(FsmcTiming, ReadOfTheDatasheetHasCsrAndRdLowForFiveHclk) {
@@ -60,14 +60,15 @@ TEST(FsmcTiming, ModeAHoldsRdBackForTheAddressPhaseOnly) {
 }
 
 TEST(FsmcTiming, ModeATakesReadsAndWritesFromTheirOwnRegisters) {
-  const FsmcAccess access = user_cpu::access_timing({FsmcMode::kA, {0, 9, 0}, {0, 2, 0}, 1});
+  const FsmcAccess access = user_cpu::access_timing({FsmcMode::kA, {0, 9, 0}, {0, 2, 0}, 1'000'000});
   EXPECT_EQ(access.read.rd_sample, 10 * kHclk);
   EXPECT_EQ(access.write.wr_low, 2 * kHclk);
 }
 
 TEST(FsmcTiming, EdgesAt72MHzAreRoundedOnceFromTheirHclkCount) {
   for (int datast = 0; datast <= 255; ++datast) {
-    const AccessTiming write = user_cpu::access_timing({FsmcMode::k1, {1, datast, 0}, {1, datast, 0}, 72}).write;
+    const AccessTiming write =
+        user_cpu::access_timing({FsmcMode::k1, {1, datast, 0}, {1, datast, 0}, 72'000'000}).write;
     const Tick rise = write.address_setup + write.wr_low;
     EXPECT_LE(std::abs(3 * rise - 500 * (2 + datast)), 1) << datast;                      // HCLK is 500/3 ticks
     EXPECT_LE(std::abs(3 * (rise + write.data_hold) - 500 * (3 + datast)), 1) << datast;  // and nothing adds up
@@ -90,11 +91,11 @@ TEST(FsmcTiming, OverrideReplacesOnlyWhatItNames) {
   EXPECT_EQ(same.write.datast, 1);
   EXPECT_EQ(same.write.busturn, 9);
   EXPECT_EQ(same.mode, FsmcMode::k1);
-  EXPECT_EQ(same.hclk_mhz, 72);
+  EXPECT_EQ(same.hclk_hz, 72'000'000);
   given.mode = FsmcMode::kA;
   given.hclk_mhz = 36;
   EXPECT_EQ(user_cpu::with(bank, given).mode, FsmcMode::kA);
-  EXPECT_EQ(user_cpu::with(bank, given).hclk_mhz, 36);
+  EXPECT_EQ(user_cpu::with(bank, given).hclk_hz, 36'000'000);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace arm {
@@ -12,13 +13,17 @@ namespace {
 constexpr std::uint32_t kBank1 = 0x6000'0000, kBank1End = 0x7000'0000, kRegionSize = 0x0400'0000;
 constexpr std::uint32_t kAfio = 0x4001'0000, kExti = 0x4001'0400, kGpioA = 0x4001'0800, kGpioEnd = 0x4001'2400;
 constexpr std::uint32_t kUsart1 = 0x4001'3800, kRcc = 0x4002'1000, kBlock = 0x400;
+constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralsSize = 0x2'4000, kFsmcBlock = 0x1000;
 constexpr std::uint32_t kChipMask = 0x7FF;  // A10..A0
 constexpr std::uint32_t kGpioIdr = 0x08;
 
 // The board's wiring.
 constexpr unsigned kRReqPin = 6, kRStaPin = 7, kLReqPin = 8, kLStaPin = 9, kResetPin = 4, kIntr0Pin = 6;
+constexpr unsigned kLampPin = 12;  // PBF, then BR and READY
 
 constexpr std::uint64_t kApbCycles = 2;
+constexpr std::int64_t kGreatestHclk = 72'000'000;
+constexpr std::int64_t kQuantaASecond = 4'000'000;  // interrupts are looked for every 250 ns
 
 bool within(std::uint32_t address, std::uint32_t base) { return address - base < kBlock; }
 
@@ -34,8 +39,9 @@ user_cpu::CpuTiming no_overhead() {
 Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick, bool)> set_chip_reset, Tick start)
     : options_(std::move(options)),
       set_chip_reset_(std::move(set_chip_reset)),
-      start_(start),
+      since_(start),
       fsmc_(options_.fsmc),
+      notes_(options_.notes),
       core_(*this, MemoryMap(), options_.timing),
       cpu_(
           bus, no_overhead(), [this](user_cpu::Cpu& cpu) { run_firmware(cpu); }, start) {
@@ -45,6 +51,7 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
     mailbox_.emplace(core_.ram() + (*options_.firmware->mailbox - MemoryMap().ram_base), options_.program);
   if (options_.make_debugger) debugger_ = options_.make_debugger(core_);
   core_.attach(debugger_.get());
+  follow_clock();
   core_.on_fault([this](const Fault& fault) { note_fault(fault); });
   usart_.on_line = [this](const std::string& line) {
     if (on_text) on_text(now(), line);
@@ -79,11 +86,14 @@ void Board::command(Tick now, const user_cpu::Command& command) {
 }
 
 user_cpu::UserCounters Board::counters() const {
-  return {handshake_.counters(), mailbox_ ? mailbox_->counters() : user_cpu::ProgramCounters(), cpu_.counters()};
+  user_cpu::UserCounters counters{handshake_.counters(), std::nullopt, cpu_.counters()};
+  if (mailbox_) counters.program = mailbox_->counters();
+  return counters;
 }
 
 std::optional<user_cpu::BoardReport> Board::board() const {
-  user_cpu::BoardReport report{core_.instructions(), core_.cycles(), notes_};
+  user_cpu::BoardReport report{core_.instructions(), core_.cycles(), hclk_hz(),
+                               options_.fsmc.hclk_mhz ? "fsmc.hclk of the scenario" : rcc_.hclk_source(), notes_};
   const auto place = [this](std::uint32_t pc) { return options_.firmware->lines.at(pc); };
   for (std::string& line : others_.notes(place)) report.notes.push_back(std::move(line));
   if (!usart_.unfinished().empty()) report.notes.push_back("USART1, a line without end: " + usart_.unfinished());
@@ -123,12 +133,27 @@ void Board::failed(const Fault& fault) {
 }
 
 Tick Board::tick_of(std::uint64_t cycle) const {
-  return start_ + static_cast<Tick>(cycle) * bus::kTicksPerUs / options_.hclk_mhz;
+  return since_ + static_cast<Tick>(cycle - since_cycle_) * cycle_ticks_ / cycle_parts_;
 }
 
 /// The first cycle that does not begin before `tick`.
 std::uint64_t Board::cycle_of(Tick tick) const {
-  return static_cast<std::uint64_t>(((tick - start_) * options_.hclk_mhz + bus::kTicksPerUs - 1) / bus::kTicksPerUs);
+  return since_cycle_ + static_cast<std::uint64_t>(((tick - since_) * cycle_parts_ + cycle_ticks_ - 1) / cycle_ticks_);
+}
+
+std::int64_t Board::hclk_hz() const {
+  return options_.fsmc.hclk_mhz ? std::int64_t{1'000'000} * *options_.fsmc.hclk_mhz : rcc_.hclk_hz();
+}
+
+/// Cycles last what RCC says, from the present one on.
+void Board::follow_clock() {
+  since_ = now();
+  since_cycle_ = core_.cycles();
+  const std::int64_t hz = hclk_hz(), common = std::gcd(hz, bus::kTicksPerSecond);
+  cycle_ticks_ = bus::kTicksPerSecond / common;
+  cycle_parts_ = hz / common;
+  core_.set_quantum(static_cast<std::uint32_t>(std::max<std::int64_t>(hz / kQuantaASecond, 1)));
+  if (pins_ != nullptr) set_access_timing();
 }
 
 /// Everybody else has come to the processor's time.
@@ -157,7 +182,7 @@ void Board::reset() {
   exti_ = {};
   rcc_ = {};
   fsmc_ = Fsmc(options_.fsmc);
-  set_access_timing();
+  follow_clock();
   update_interrupts();
   update_pins();
 }
@@ -234,7 +259,7 @@ void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t valu
 }
 
 void Board::set_access_timing() {
-  const user_cpu::FsmcAccess made = fsmc_.timing();
+  const user_cpu::FsmcAccess made = fsmc_.timing(hclk_hz());
   pins_->set_access_timing(options_.access.value_or(made.read), options_.access.value_or(made.write));
 }
 
@@ -264,14 +289,71 @@ std::uint32_t Board::load_word(std::uint32_t address) {
 }
 
 std::uint32_t Board::load_port(unsigned port, std::uint32_t offset) {
-  if (offset != kGpioIdr || (port != kC && port != kG)) return ports_.at(port).read(offset, 0, 0);
-  come_up();
-  if (port == kG)
-    return ports_[kG].read(offset, 1U << kIntr0Pin, static_cast<std::uint16_t>(intr0_ ? 1U << kIntr0Pin : 0));
-  const unsigned levels = static_cast<unsigned>(pins_->l_req()) << kLReqPin | static_cast<unsigned>(pins_->l_sta())
-                                                                                  << kLStaPin;
-  return ports_[kC].read(offset, 1U << kLReqPin | 1U << kLStaPin, static_cast<std::uint16_t>(levels));
+  const Levels there = offset == kGpioIdr ? outside(port) : Levels{0, 0};
+  return ports_.at(port).read(offset, there.driven, there.levels);
 }
+
+/// The chip, the board's pull-up and the switches.
+Board::Levels Board::outside(unsigned port) {
+  if (port != kC && port != kG) return wired(port, 0, 0);
+  come_up();
+  if (port == kG) return wired(port, 0, pins_->lamps());
+  const unsigned l_req = static_cast<unsigned>(pins_->l_req());
+  return wired(port, l_req | static_cast<unsigned>(pins_->l_sta()) << 1U, 0);
+}
+
+/// `handshake`: L_REQ, L_STA; `lamps` as user_cpu::HostBus has them.
+Board::Levels Board::wired(unsigned port, unsigned handshake, unsigned lamps) const {
+  unsigned driven = options_.switches.held.at(port), levels = options_.switches.levels.at(port);
+  const auto add = [&](unsigned pin, unsigned level) {
+    driven |= 1U << pin;
+    levels |= (level & 1U) << pin;
+  };
+  if (port == kE) add(kResetPin, 1);
+  if (port == kC) add(kLReqPin, handshake), add(kLStaPin, handshake >> 1U);
+  if (port == kG) {
+    add(kIntr0Pin, static_cast<unsigned>(intr0_));
+    for (unsigned i = 0; i < 3; ++i) add(kLampPin + i, lamps >> i);
+  }
+  return {static_cast<std::uint16_t>(driven), static_cast<std::uint16_t>(levels)};
+}
+
+// ------------------------------------------------------------------------------------------------- a debugger's looks
+
+std::vector<MemoryRegion> Board::regions() const {
+  std::vector<MemoryRegion> all = {{kPeripherals, kPeripheralsSize, false}, {Fsmc::kBase, kFsmcBlock, false}};
+  if (options_.chip != nullptr) all.push_back({kBank1, kRegionSize, false});
+  return all;
+}
+
+std::optional<std::uint32_t> Board::peek(std::uint32_t address) const {
+  if (options_.chip != nullptr && address - kBank1 < kRegionSize) {
+    std::uint32_t word = 0;
+    for (unsigned i = 0; i < 4; ++i)
+      word |= std::uint32_t{options_.chip->peek(static_cast<std::uint16_t>((address + i) & kChipMask))} << i * 8;
+    return word;
+  }
+  if (address - Fsmc::kBase < kFsmcBlock) return fsmc_.read(address - Fsmc::kBase);
+  if (address - kPeripherals >= kPeripheralsSize) return std::nullopt;
+  if (address >= kGpioA && address < kGpioEnd) return peek_port((address - kGpioA) / kBlock, address % kBlock);
+  if (within(address, kAfio)) return exti_.read_afio(address - kAfio);
+  if (within(address, kExti)) return exti_.read(address - kExti);
+  if (within(address, kUsart1)) return usart_.read(address - kUsart1);
+  if (within(address, kRcc)) return rcc_.read(address - kRcc);
+  return others_.peek(address);
+}
+
+std::uint32_t Board::peek_port(unsigned port, std::uint32_t offset) const {
+  const auto level = [this](dsdpv1::Pin pin) {
+    return static_cast<unsigned>(options_.chip != nullptr && options_.chip->level(pin) == 1);
+  };
+  using dsdpv1::Pin;
+  const Levels there = wired(port, level(Pin::kLReq) | level(Pin::kLSta) << 1U,
+                             level(Pin::kPbf) | level(Pin::kBr) << 1U | level(Pin::kReady) << 2U);
+  return ports_.at(port).read(offset, there.driven, there.levels);
+}
+
+// ------------------------------------------------------------------------------------------------- stores
 
 void Board::store_word(std::uint32_t address, std::uint32_t value) {
   core_.advance_to(core_.cycles() + kApbCycles);
@@ -290,6 +372,9 @@ void Board::store_word(std::uint32_t address, std::uint32_t value) {
     usart_.write(address - kUsart1, value);
   } else if (within(address, kRcc)) {
     rcc_.write(address - kRcc, value);
+    if (!options_.fsmc.hclk_mhz) follow_clock();
+    if (hclk_hz() > kGreatestHclk)
+      note(fmt::format("HCLK is {} MHz, allowed is 72 MHz", hclk_hz() / 1'000'000), Noted::kClockTooFast);
   } else if (address - Fsmc::kBase < Fsmc::kSize) {
     fsmc_.write(address - Fsmc::kBase, value);
     set_access_timing();

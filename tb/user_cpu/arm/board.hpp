@@ -5,10 +5,12 @@
 //   PC8 L_REQ, PC9 L_STA  inputs
 //   PE4 RESET             of the chip; high while it is no output (pull-up on the board)
 //   PG6 INTR0             through AFIO, EXTI line 6, IRQ 23
+//   PG12, PG13, PG14      inputs: PBF, BR, READY (p)
+//   other pins            inputs: what BoardOptions::switches holds; else their own pull-up or pull-down
 //   FSMC bank 1, NE1      0x60000000..0x63FFFFFF: A10..A0, D7..D0, RD, WR, CSR; the 2 KB repeat
 //   USART1                a terminal
 //
-// HCLK is 72 MHz from the first instruction on (p); an instruction takes Timing::millicycles_per_instruction, an access to a peripheral two
+// HCLK follows the firmware's RCC, 8 MHz from the HSI at first; an instruction takes Timing::millicycles_per_instruction, an access to a peripheral two
 // cycles more (p: the bridge to APB), an access to the chip what the FSMC's registers say.
 #include <array>
 #include <bitset>
@@ -17,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "model/dsdpv1/chip.hpp"
 #include "tb/user_cpu/arm/cortex_m3.hpp"
 #include "tb/user_cpu/arm/exti.hpp"
 #include "tb/user_cpu/arm/firmware.hpp"
@@ -33,14 +36,22 @@ namespace arm {
 
 using bus::Tick;
 
+/// Switches that hold input pins.
+struct Switches {
+  std::array<std::uint16_t, 7> held{}, levels{};  ///< of ports A to G
+};
+
 struct BoardOptions {
   std::shared_ptr<const Firmware> firmware;
   user_cpu::ProgramOptions program;  ///< for the mailbox, when the firmware has one
   user_cpu::FsmcOverride fsmc;
   std::optional<user_cpu::AccessTiming> access;  ///< edges in place of those that the FSMC makes
   Timing timing;
-  int hclk_mhz = 72;
+  Switches switches;
+  const dsdpv1::Chip* chip =
+      nullptr;  ///< for a debugger, which sees it as it is without a call of it; null: it sees none
   std::function<std::unique_ptr<Debugger>(DebugTarget&)> make_debugger;  ///< null: none
+  std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
 };
 
 class Board : public user_cpu::UserSide, private System {
@@ -54,6 +65,7 @@ class Board : public user_cpu::UserSide, private System {
   void intr0_changed(Tick at, bool level) override;
   void command(Tick now, const user_cpu::Command& command) override;
   user_cpu::UserCounters counters() const override;
+  bool tells() const override { return mailbox_.has_value(); }
   std::uint64_t outputs_received() const override { return mailbox_ ? mailbox_->outputs_received() : 0; }
   const std::vector<std::uint8_t>& outputs() const override { return mailbox_ ? mailbox_->outputs() : no_outputs_; }
   std::optional<user_cpu::BoardReport> board() const override;
@@ -63,14 +75,20 @@ class Board : public user_cpu::UserSide, private System {
     Tick at;
     bool level;
   };
+  /// What somebody outside of the processor does to the pins of a port.
+  struct Levels {
+    std::uint16_t driven, levels;
+  };
   enum Port : unsigned { kA, kB, kC, kD, kE, kF, kG, kPorts };
   /// What is said once only; the first are the clocks of the ports.
-  enum class Noted : unsigned { kFsmcClock = kPorts, kAfioClock, kUsartClock, kWideBus, kCount };
+  enum class Noted : unsigned { kFsmcClock = kPorts, kAfioClock, kUsartClock, kWideBus, kClockTooFast, kCount };
 
   // System
   std::uint32_t load(std::uint32_t address, unsigned bytes) override;
   void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
   void keep_up() override;
+  std::optional<std::uint32_t> peek(std::uint32_t address) const override;
+  std::vector<MemoryRegion> regions() const override;
   void sleep(std::uint64_t until) override;
   void reset() override;
   Tick now() const override { return tick_of(core_.cycles()); }
@@ -86,6 +104,8 @@ class Board : public user_cpu::UserSide, private System {
   bool take_intr0_edges();
   void update_interrupts();
   void update_pins();
+  void follow_clock();
+  std::int64_t hclk_hz() const;
 
   std::uint32_t load_chip(std::uint32_t address, unsigned bytes);
   void store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value);
@@ -94,13 +114,18 @@ class Board : public user_cpu::UserSide, private System {
   std::uint32_t load_word(std::uint32_t address);
   void store_word(std::uint32_t address, std::uint32_t value);
   std::uint32_t load_port(unsigned port, std::uint32_t offset);
+  Levels outside(unsigned port);
+  Levels wired(unsigned port, unsigned handshake, unsigned lamps) const;
+  std::uint32_t peek_port(unsigned port, std::uint32_t offset) const;
   void look_at_clock(std::uint32_t address);
   void note_clock(const char* peripheral, const char* reg, Noted which);
   void note(const std::string& text, Noted which);
 
   BoardOptions options_;
   std::function<void(Tick at, bool level)> set_chip_reset_;
-  Tick start_;
+  // `since_` is the tick of cycle `since_cycle_`; from there a cycle takes `cycle_ticks_` / `cycle_parts_` ticks.
+  Tick since_, cycle_ticks_ = 1, cycle_parts_ = 1;
+  std::uint64_t since_cycle_ = 0;
   std::array<Gpio, kPorts> ports_;
   Exti exti_;
   Rcc rcc_;

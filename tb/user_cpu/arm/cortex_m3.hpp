@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,10 @@ class System {
   virtual void sleep(std::uint64_t until) = 0;
   /// AIRCR.SYSRESETREQ or a debugger's reset: the peripherals fall back to their state after reset; the processor starts again at its vector table.
   virtual void reset() {}
+  /// The aligned word at `address` as a debugger sees it: no time passes, no pin moves, nothing is cleared. nullopt: nothing is there.
+  virtual std::optional<std::uint32_t> peek(std::uint32_t /*address*/) const { return std::nullopt; }
+  /// Where peek() finds something.
+  virtual std::vector<MemoryRegion> regions() const { return {}; }
   /// Simulated time, for a debugger.
   virtual bus::Tick now() const { return 0; }
 };
@@ -75,6 +80,8 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   /// The run ends before the next instruction. Callable from System's functions and on_fault.
   void stop();
 
+  /// Timing::quantum from now on; > 0.
+  void set_quantum(std::uint32_t cycles) { timing_.quantum = cycles; }
   /// Cycles of HCLK since the first reset.
   std::uint64_t cycles() const { return now_ / kMillis; }
   /// From System's functions: time has gone on. Not backwards.

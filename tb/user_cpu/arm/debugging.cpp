@@ -53,17 +53,24 @@ Registers CortexM3::registers() const {
 }
 
 std::vector<MemoryRegion> CortexM3::memory_map() const {
-  return {{0, map_.flash_size, false}, {map_.flash_base, map_.flash_size, false}, {map_.ram_base, map_.ram_size, true}};
+  std::vector<MemoryRegion> all = {
+      {0, map_.flash_size, false}, {map_.flash_base, map_.flash_size, false}, {map_.ram_base, map_.ram_size, true}};
+  const std::vector<MemoryRegion> outside = system_.regions();
+  all.insert(all.end(), outside.begin(), outside.end());
+  return all;
 }
 
 std::size_t CortexM3::read_memory(std::uint32_t address, std::uint8_t* to, std::size_t count) const {
   std::size_t done = 0;
   for (; done < count; ++done) {
-    const std::uint8_t* byte = host(address + static_cast<std::uint32_t>(done));
-    if (byte == nullptr) {
+    const std::uint32_t at = address + static_cast<std::uint32_t>(done);
+    if (const std::uint8_t* byte = host(at)) {
+      to[done] = *byte;
+    } else if (const std::optional<std::uint32_t> word = system_.peek(at & ~3U)) {
+      to[done] = static_cast<std::uint8_t>(*word >> at % 4 * 8);
+    } else {
       break;
     }
-    to[done] = *byte;
   }
   return done;
 }

@@ -18,7 +18,11 @@ class Fsmc {
   void write(std::uint32_t offset, std::uint32_t value);
 
   /// As the firmware's registers say, with the scenario's values on top. What the firmware never wrote is as FsmcBank's defaults.
-  user_cpu::FsmcAccess timing() const { return user_cpu::access_timing(user_cpu::with(bank(), given_)); }
+  user_cpu::FsmcAccess timing(std::int64_t hclk_hz) const {
+    user_cpu::FsmcBank made = bank();
+    made.hclk_hz = hclk_hz;
+    return user_cpu::access_timing(user_cpu::with(made, given_));
+  }
   /// The firmware has switched the bank off (MBKEN), or writing to it (WREN).
   bool refuses(bool write) const;
   /// The firmware has chosen a bus of 16 bits (MWID); the chip has 8.

@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::uint32_t kCrl = 0x00, kCrh = 0x04, kIdr = 0x08, kOdr = 0x0C, kBsrr = 0x10, kBrr = 0x14, kLckr = 0x18;
 // CNF[1:0] and MODE[1:0] of a pin, as they stand in CRL and CRH.
-constexpr unsigned kModeMask = 0b0011, kAlternate = 0b1000, kOpenDrain = 0b0100, kPulledInput = 0b1000;
+constexpr unsigned kModeMask = 0b0011, kAlternate = 0b1000, kOpenDrain = 0b0100, kPulledInput = 0b1000, kAnalog = 0;
 
 }  // namespace
 
@@ -22,6 +22,7 @@ std::uint16_t Gpio::input(std::uint16_t driven, std::uint16_t levels) const {
   for (unsigned pin = 0; pin < 16; ++pin) {
     const bool outside = (driven >> pin & 1U) != 0;
     const bool pulled = mode(pin) == kPulledInput && (odr_ >> pin & 1U) != 0;  // ODR chooses the direction
+    if (mode(pin) == kAnalog) continue;                                        // its Schmitt trigger is off
     const bool high = drives(pin) ? (odr_ >> pin & 1U) != 0 : outside ? (levels >> pin & 1U) != 0 : pulled;
     idr |= static_cast<unsigned>(high) << pin;
   }

@@ -49,6 +49,10 @@ OtherRegisters::Use& OtherRegisters::use(std::uint32_t address, std::uint32_t pc
 
 std::uint32_t OtherRegisters::read(std::uint32_t address, std::uint32_t pc) {
   ++use(address, pc).reads;
+  return peek(address);
+}
+
+std::uint32_t OtherRegisters::peek(std::uint32_t address) const {
   const auto kept = words_.find(address);
   return kept == words_.end() ? 0 : kept->second;
 }

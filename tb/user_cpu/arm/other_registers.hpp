@@ -13,6 +13,8 @@ class OtherRegisters {
   /// `address` of a word, `pc` of the instruction that uses it.
   std::uint32_t read(std::uint32_t address, std::uint32_t pc);
   void write(std::uint32_t address, std::uint32_t value, std::uint32_t pc);
+  /// Without a use of it.
+  std::uint32_t peek(std::uint32_t address) const;
   /// One line for each block of 1 KB that was used: its name in the STM32F103, how often, and the first place in the firmware.
   std::vector<std::string> notes(const std::function<std::string(std::uint32_t pc)>& place) const;
 

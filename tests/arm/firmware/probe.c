@@ -12,6 +12,9 @@ enum {
   EXTI_RTSR = 0x40010408,
   EXTI_FTSR = 0x4001040C,
   EXTI_PR = 0x40010414,
+  GPIOA_CRL = 0x40010800,
+  GPIOA_IDR = 0x40010808,
+  GPIOA_ODR = 0x4001080C,
   GPIOB_ODR = 0x40010C0C,
   GPIOC_CRL = 0x40011000,
   GPIOC_IDR = 0x40011008,
@@ -19,6 +22,7 @@ enum {
   GPIOC_BSRR = 0x40011010,
   GPIOC_BRR = 0x40011014,
   GPIOE_CRL = 0x40011800,
+  GPIOE_IDR = 0x40011808,
   GPIOE_BSRR = 0x40011810,
   GPIOG_IDR = 0x40012008,
   USART1_SR = 0x40013800,
@@ -123,6 +127,32 @@ static void masked_and_rising(void) {
   CHIP(1) = (uint8_t)REG(EXTI_PR);
 }
 
+/* PA0 pulled up, PA1 pulled down, PA2 floating, PA3 analog; PA4 to PA7 the same, with switches against each of them. */
+static void inputs(void) {
+  REG(GPIOA_CRL) = 0x04880488;
+  REG(GPIOA_ODR) = 0x11;
+  CHIP(0) = (uint8_t)REG(GPIOA_IDR);
+  CHIP(1) = (uint8_t)(REG(GPIOG_IDR) >> 12 & 7u);
+  CHIP(2) = (uint8_t)REG(GPIOE_IDR);
+}
+
+/* Ten accesses at each clock: HSI, crystal, PLL from half of the HSI times 16, PLL from the crystal times 9, half of it. */
+static void ten_accesses(void) {
+  for (int i = 0; i < 10; ++i) CHIP(0) = (uint8_t)i;
+}
+static void clock_tree(void) {
+  ten_accesses();
+  REG(RCC_CFGR) = 1; /* not on: nothing changes */
+  CHIP(1) = (uint8_t)(REG(RCC_CFGR) & 0xCu);
+  REG(RCC_CR) |= 0x01010000;
+  REG(RCC_CFGR) = 14u << 18 | 2u;
+  ten_accesses();
+  REG(RCC_CFGR) = 7u << 18 | 1u << 16 | 2u;
+  ten_accesses();
+  REG(RCC_CFGR) = 7u << 18 | 1u << 16 | 8u << 4 | 2u;
+  ten_accesses();
+}
+
 /* A fault ends the run before this: it must never be seen at the pins. */
 void HardFault_handler(void);
 void HardFault_handler(void) {
@@ -140,8 +170,8 @@ void EXTI9_5_handler(void) {
 
 void run(void);
 void run(void) {
-  static void (*const programs[])(void) = {handshake, accesses, unset_accesses, interrupt, chip_reset,
-                                           text,      strange,  undefined,      bank_off,  masked_and_rising};
+  static void (*const programs[])(void) = {handshake, accesses, unset_accesses,    interrupt, chip_reset, text, strange,
+                                           undefined, bank_off, masked_and_rising, inputs,    clock_tree};
   edges = 0;
   clocks();
   programs[program]();

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# What ./run sim builds before it calls the program: a clone with a cmake that only writes down what it is asked for.
+set -euo pipefail
+run=$1
+source=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+mkdir -p "$folder"/{tools,build/default/apps,scenarios}
+cp "$run" "$folder/run"
+cp "$source"/scenarios/*.yaml "$folder/scenarios"
+echo bash >"$folder/packages.txt"
+touch "$folder/CMakePresets.json"
+printf '#!/bin/sh\necho "$@"\n' >"$folder/build/default/apps/dsdpv1-sim"
+cat >"$folder/tools/cmake" <<STUB
+#!/bin/sh
+echo "\$@" >>"$folder/asked"
+case "\$*" in --preset*) [ ! -e "$folder/compiler" ] || echo 'build dsdpv1_firmware: phony' >"$folder/build/default/build.ninja" ;; esac
+STUB
+chmod +x "$folder/tools/cmake" "$folder/build/default/apps/dsdpv1-sim"
+
+# builds TARGETS ARGUMENTS...: ./run sim ARGUMENTS builds the program and these, and hands it the arguments.
+builds() {
+  local targets=$1 told
+  shift
+  : >"$folder/asked"
+  told=$(cd "$folder" && PATH=$folder/tools:$PATH ./run sim "$@") || fail "sim $*: exit $?"
+  [ "$told" = "$*" ] || fail "sim $*: the program was told $told"
+  grep -q -- "--target dsdpv1-sim$targets --" "$folder/asked" || fail "sim $*: not$targets but: $(cat "$folder/asked")"
+}
+
+echo 'build all: phony' >"$folder/build/default/build.ninja"
+builds "" run scenarios/power_on_12m.yaml
+builds "" run --help
+status=0
+message=$(cd "$folder" && PATH=$folder/tools:$PATH ./run sim run scenarios/arm_board_12m.yaml 2>&1) || status=$?
+[ "$status" -eq 1 ] || fail "without a compiler: exit $status"
+[[ $message == *"needs arm-none-eabi-gcc"* ]] || fail "without a compiler: $message"
+
+touch "$folder/compiler"
+for command in run sweep serve compare; do builds " dsdpv1_firmware" "$command" scenarios/arm_board_12m.yaml; done
+builds " dsdpv1_firmware" run scenarios/power_on_12m.yaml --set user_cpu.elf=build/default/examples/firmware/device_O0.elf
+builds " dsdpv1_rtl_libraries dsdpv1_firmware" run scenarios/arm_board_12m.yaml --engine lockstep
+echo '# elf: build/default/examples/firmware/device_O2.elf' >"$folder/mine.yaml"
+builds "" run mine.yaml
+
+echo "$failures failures"
+[ "$failures" -eq 0 ]
