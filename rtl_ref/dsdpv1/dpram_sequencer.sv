@@ -205,54 +205,34 @@ module dpram_sequencer (
     chooses && pick == ITEM_VALID};
 
   // ---- blocks: base address, area of the CRC, limit
-  logic [10:0] address_q, crc_address;
+  logic [10:0] address_q, crc_address, crc_address_q;
   logic [7:0] limit, left_q, taken_q;
   logic [15:0] crc_next;
   logic [7:0] crc_byte;
   logic too_long, too_long_q;
   always_comb begin
     case (item_q)
-      ITEM_INIT: begin
-        crc_address = DSDPV1_REG_INIT_CRC;
-        limit = 8'd214;
-      end
-      ITEM_INPUTS: begin
-        crc_address = DSDPV1_REG_INPUT_CRC;
-        limit = 8'd244;
-      end
-      ITEM_DIAG: begin
-        crc_address = DSDPV1_REG_DIAG_CRC;
-        limit = 8'd238;
-      end
-      ITEM_C1_ANSWER: begin
-        crc_address = DSDPV1_REG_C1_CRC;
-        limit = MSAC_MAX_DATA;
-      end
-      ITEM_C2_ANSWER: begin
-        crc_address = DSDPV1_REG_C2_CRC;
-        limit = MSAC_MAX_DATA;
-      end
-      ITEM_PRM: begin
-        crc_address = DSDPV1_REG_PRM_CRC;
-        limit = 8'd0;
-      end
-      ITEM_CFG: begin
-        crc_address = DSDPV1_REG_CFG_CRC;
-        limit = 8'd0;
-      end
-      ITEM_C1_REQUEST: begin
-        crc_address = DSDPV1_REG_C1_CRC;
-        limit = 8'd0;
-      end
-      ITEM_C2_REQUEST: begin
-        crc_address = DSDPV1_REG_C2_CRC;
-        limit = 8'd0;
-      end
-      default: begin
-        crc_address = DSDPV1_REG_OUTPUT_CRC;
-        limit = 8'd0;
-      end
+      ITEM_INIT: limit = 8'd214;
+      ITEM_INPUTS: limit = 8'd244;
+      ITEM_DIAG: limit = 8'd238;
+      default: limit = MSAC_MAX_DATA;
     endcase
+    case (pick)
+      ITEM_INIT: crc_address = DSDPV1_REG_INIT_CRC;
+      ITEM_INPUTS: crc_address = DSDPV1_REG_INPUT_CRC;
+      ITEM_DIAG: crc_address = DSDPV1_REG_DIAG_CRC;
+      ITEM_C1_ANSWER, ITEM_C1_REQUEST: crc_address = DSDPV1_REG_C1_CRC;
+      ITEM_C2_ANSWER, ITEM_C2_REQUEST: crc_address = DSDPV1_REG_C2_CRC;
+      ITEM_PRM: crc_address = DSDPV1_REG_PRM_CRC;
+      ITEM_CFG: crc_address = DSDPV1_REG_CFG_CRC;
+      default: crc_address = DSDPV1_REG_OUTPUT_CRC;
+    endcase
+  end
+
+  // The choice looks it up, so that it is a register where it is used; behind the high byte it is that of the low byte
+  always_ff @(posedge clk_i) begin
+    if (chooses) crc_address_q <= crc_address;
+    else if (state_q == READ_CRC_HIGH || state_q == WRITE_CRC_HIGH) crc_address_q <= crc_address_q + 11'd1;
   end
 
   // A C1 or C2 answer has data behind its four bytes only where its Function_Num says so (V14)
@@ -338,16 +318,15 @@ module dpram_sequencer (
       end
       WRITE_CRC_HIGH: begin
         we_o = 1'b1;
-        addr_o = crc_address;
+        addr_o = crc_address_q;
         wdata_o = crc_high;
       end
       WRITE_CRC_LOW: begin
         we_o = !`FAULT(54);
-        addr_o = crc_address + 11'd1;
+        addr_o = crc_address_q;
         wdata_o = crc_low;
       end
-      READ_CRC_HIGH: addr_o = crc_address;
-      READ_CRC_LOW: addr_o = crc_address + 11'd1;
+      READ_CRC_HIGH, READ_CRC_LOW: addr_o = crc_address_q;
       FLAG: begin
         we_o = 1'b1;
         addr_o = request_item ? DSDPV1_REG_CHIP_COMMAND_2 : DSDPV1_REG_CHIP_COMMAND_1;
