@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(
         Directed{"longest_blocks", {"PRM_OK 1", "CFG_OK 1", "DIAG 3", "Slave_Diag 3"}},
         Directed{"banks", {"Check_Cfg 18", "Global_Control 12", "CFG_OK 9"}},
         Directed{"bit_patterns",
-                 {"PRM_OK 2", "WD_ON 2", "C1_REQUEST 4", "C2_INITIATE 7", "C2_REQUEST 24", "DPV1_REQUEST 16"}},
+                 {"PRM_OK 2", "WD_ON 2", "C1_REQUEST 4", "C2_INITIATE 7", "C2_REQUEST 24", "DPV1_REQUEST 4"}},
         Directed{"answer_rates", {"BAUD_FOUND 3", "FDL status 6"}},
         Directed{"offline_count", {"PRM_OK 257", "CFG_OK 257"}},
         Directed{"host_port", {"INIT_LENGTH 3", "PRM_OK 4", "HOST_NOT_OWNER 11"}}),
