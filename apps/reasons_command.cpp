@@ -31,7 +31,7 @@ const char* advice_of(dsdpv1_error error) {
       return "Check that L_REQ and L_STA reach the CPU and that the chip has its clock and is out of reset; then allow "
              "more polls.";
     case DSDPV1_ERR_CHIP_SILENT:
-      return "Check clock, RESET and R_REQ: while R_REQ stays high the chip cannot come to the DPRAM.";
+      return "Check clock, RESET, R_REQ and R_STA: while one of the two stays high the chip cannot come to the DPRAM.";
     case DSDPV1_ERR_CHIP_NOT_READY:
       return "Wait 86 us or more after RESET rises (4096 cycles); check the read timing with B000..B003 = 01 0D 07 01.";
     case DSDPV1_ERR_NOT_INITIALISED: return "Call dsdpv1_initialise first and look at what it returns.";
@@ -45,7 +45,7 @@ const char* advice_of(dsdpv1_error error) {
     case DSDPV1_ERR_CONFIG_PRM_MODE:
     case DSDPV1_ERR_CONFIG_CFG_MODE: return "Use mode 0 (length), 1 (equal) or 2 (the user judges).";
     case DSDPV1_ERR_INIT_TIMEOUT:
-      return "Check that R_REQ falls after each hold and that the chip runs; then allow more polls.";
+      return "Check that R_REQ and R_STA fall after each hold and that the chip runs; then allow more polls.";
     case DSDPV1_ERR_INIT_CRC:
       return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
     case DSDPV1_ERR_INIT_LIMIT: return "Look at the chip's INIT_ reason in the log; it names the byte.";
@@ -57,7 +57,7 @@ const char* advice_of(dsdpv1_error error) {
     case DSDPV1_ERR_OUTPUT_CRC: return "Check the read timing, and that nobody reads without owning the DPRAM.";
     case DSDPV1_ERR_DIAG_TYPE: return "Use one of the five types of table 22.";
     case DSDPV1_ERR_DIAG_LENGTH: return "Shorten the diagnosis or initialise with a larger max_diag.";
-    case DSDPV1_ERR_DIAG_TIMEOUT: return "Check that R_REQ falls after each hold; then allow more polls.";
+    case DSDPV1_ERR_DIAG_TIMEOUT: return "Check that R_REQ and R_STA fall after each hold; then allow more polls.";
     case DSDPV1_ERR_DIAG_CRC:
       return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
     case DSDPV1_ERR_PRM_LENGTH:

@@ -117,13 +117,15 @@ void read_immediate(DataWords& words, const Bytes& data) {
 
 void read_abort(DataWords& words, const Bytes& data) {
   name_fields(words, {"Subnet", "Instance and Reason_Code", "Additional_Detail"}, data);
-  if (data.size() < kNegative) {
-    words.summary = too_short("Abort", data, kNegative);
+  constexpr std::size_t kLeast = 3;  // Additional_Detail is left out by some, by this chip too (V2)
+  if (data.size() < kLeast) {
+    words.summary = too_short("Abort", data, kLeast);
     return;
   }
   words.bytes[1] = "Subnet: " + subnet_words(data[1]);
   words.bytes[2] += ", " + abort_reason_words(data[2]);
-  words.summary = fmt::format("Abort, {}, {}, detail {}", abort_reason_words(data[2]), subnet_words(data[1]), data[3]);
+  words.summary = fmt::format("Abort, {}, {}", abort_reason_words(data[2]), subnet_words(data[1]));
+  if (data.size() > kLeast) words.summary += fmt::format(", detail {}", data[kLeast]);
 }
 
 void read_function(DataWords& words, const Bytes& data, const char* name, bool response) {

@@ -10,7 +10,7 @@ namespace bus {
 
 namespace {
 
-constexpr std::size_t kAbortSize = 4;      // 58, subnet, instance and reason, detail
+constexpr std::size_t kAbortSize = 3;      // 58, subnet, instance and reason; some slaves send a detail
 constexpr std::size_t kImmediateSize = 4;  // 56, SAP, Send_Timeout
 constexpr std::size_t kInitiateSize = 8;   // 57 and its fixed part, Add_Addr behind it
 constexpr std::size_t kNegativeSize = 4;   // fn, Error_Decode, Error_Code_1, Error_Code_2
@@ -24,9 +24,10 @@ bool is(const Bytes& pdu, std::uint8_t function, std::size_t least) {
 /// Whether a PDU is a service that exists, so that it only came at the wrong time.
 bool is_known(const Bytes& pdu) { return !pdu.empty() && std::string(function_name(pdu[0])) != "unknown function"; }
 
-std::string abort_words(const char* by, const ConnectionEnd& end) {
-  return fmt::format("{}: {}, {}, detail {}", by, abort_reason_words(end.instance_and_reason), subnet_words(end.subnet),
-                     end.detail);
+std::string abort_words(const char* by, const ConnectionEnd& end, bool detail = true) {
+  const std::string words =
+      fmt::format("{}: {}, {}", by, abort_reason_words(end.instance_and_reason), subnet_words(end.subnet));
+  return detail ? words + fmt::format(", detail {}", end.detail) : words;
 }
 
 ConnectionEnd ended(ConnectionEnd::By by, std::string words) {
@@ -71,8 +72,9 @@ void Connection::aborted_by_slave(Tick now, const Bytes& pdu) {
   ConnectionEnd how = ended(ConnectionEnd::By::kSlaveAbort, {});
   how.subnet = pdu[1];
   how.instance_and_reason = pdu[2];
-  how.detail = pdu[3];
-  how.words = abort_words("aborted by the slave", how);
+  const bool detail = pdu.size() > kAbortSize;
+  how.detail = detail ? pdu[kAbortSize] : std::uint8_t{0};
+  how.words = abort_words("aborted by the slave", how, detail);
   end(now, how);
 }
 

@@ -53,8 +53,8 @@
 #define DSDPV1_REG_USER_COMMAND_2 0x011U  // User command byte 2
 #define DSDPV1_REG_USER_COMMAND_2_C1 0x01U  // C1 answer valid.
 #define DSDPV1_REG_USER_COMMAND_2_C2 0x02U  // C2 answer valid.
-#define DSDPV1_REG_USER_COMMAND_2_INPUT_HISTORY 0x40U  // B00B.2 shows the history of the inputs' CRC: a right block does not clear it (ruling D16).
-#define DSDPV1_REG_USER_COMMAND_2_INPUT_CLEAR 0x80U  // Clears B00B.2 once when B011.6 is 1; the chip sets it back to 0 (ruling D16).
+#define DSDPV1_REG_USER_COMMAND_2_INPUT_HISTORY 0x40U  // 1: B00B.2 shows the history of the inputs' CRC, a right block does not clear it; 0: the present. The user sets and clears it, the chip only reads it (ruling D16).
+#define DSDPV1_REG_USER_COMMAND_2_INPUT_CLEAR 0x80U  // Asks the chip to clear B00B.2, which it does once when B011.6 is 1; it sets this bit back to 0 whatever B011.6 is (ruling D16).
 #define DSDPV1_REG_CHIP_STATUS_3 0x012U  // Chip status byte 3
 #define DSDPV1_REG_CHIP_STATUS_3_DP_STATE 0x0CU  // State of the DP slave.
 #define DSDPV1_REG_CHIP_STATUS_3_DP_STATE_SHIFT 2U  // lowest bit

@@ -124,6 +124,7 @@ void Chip::Impl::set_reset(Tick at, bool high) {
 void Chip::Impl::enter_reset(Tick at) {
   running = false;
   release_at = kNever;
+  sequencer.catch_up(done);  // the RAM keeps what was written before RESET fell (H6)
   sequencer.reset();
   station.reset();
   interrupt.reset();

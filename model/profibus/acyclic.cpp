@@ -14,7 +14,7 @@ std::uint8_t request_fault(const std::uint8_t* pdu, int size, bool transport) {
   const bool read = function == dpv1::kRead;
   const bool write = function == dpv1::kWrite || (transport && function == dpv1::kTransport);
   if (!read && !write) return dpv1::kNotSupported;
-  if (read) return size == dpv1::kHeader && pdu[3] <= kMaxAcyclic ? std::uint8_t{0} : dpv1::kInvalidParameter;
+  if (read) return size == dpv1::kHeader ? std::uint8_t{0} : dpv1::kInvalidParameter;
   return size >= dpv1::kHeader && size == dpv1::kHeader + pdu[3] ? std::uint8_t{0} : dpv1::kWriteLength;
 }
 

@@ -23,7 +23,7 @@ void Diagnosis::set_user(std::uint8_t type, const std::uint8_t* bytes, int size)
   user_.assign(bytes, size);
   if (type == kExtGone || type == kExtPresent) ext_diag_ = type == kExtPresent;
   if (type == kStatGone || type == kStatPresent) stat_diag_ = type == kStatPresent;
-  if (type != kExtended) high_priority_ = true;
+  if (type != kExtended) unread_ = true;
 }
 
 const std::uint8_t* Diagnosis::bytes(const DiagnosisView& view) {

@@ -19,20 +19,21 @@ class Diagnosis {
   void reset() { *this = Diagnosis(); }
 
   static bool known_type(std::uint8_t type);
-  /// A right block of the user (type checked before). All but type 00 are high priority.
+  /// A right block of the user (type checked before). All but type 00 are high priority until read.
   void set_user(std::uint8_t type, const std::uint8_t* bytes, int size);
 
   /// The 6 standard bytes and the user's, at most 244; valid until the next call.
   const std::uint8_t* bytes(const DiagnosisView& view);
   int size() const { return kStandard + user_.size; }
 
-  bool high_priority() const { return high_priority_; }
-  void read_by_holder() { high_priority_ = false; }
+  bool high_priority() const { return unread_ || stat_diag_; }
+  void read_by_holder() { unread_ = false; }
 
   void prm_fault(bool not_supported) {
     prm_fault_ = true;
     not_supported_ = not_supported_ || not_supported;
   }
+  void not_supported() { not_supported_ = true; }
   void prm_good() { prm_fault_ = not_supported_ = false; }
   void cfg_fault() { cfg_fault_ = true; }
   void cfg_good() { cfg_fault_ = false; }
@@ -40,7 +41,7 @@ class Diagnosis {
  private:
   static constexpr int kStandard = 6;
   bool prm_fault_ = false, not_supported_ = false, cfg_fault_ = false;
-  bool ext_diag_ = false, stat_diag_ = false, high_priority_ = false;
+  bool ext_diag_ = false, stat_diag_ = false, unread_ = false;
   Block<kMaxDiag> user_;
   std::array<std::uint8_t, kMaxIo> answer_{};
 };

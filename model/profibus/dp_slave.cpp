@@ -108,11 +108,9 @@ Reply DpSlave::dispatch(Cycle now, const Request& request) {
     case kNoSap: return data_exchange(now, request);
     case sap::kSetSlaveAddress: return set_slave_address(now, request);
     case sap::kReadInputs:
-      if (state_ != DpState::kDataExch) return refuse_state(now, request, sap::kReadInputs);
-      return reply_data(inputs_.shown().bytes.data(), inputs_.size());
-    case sap::kReadOutputs: return reply_data(outputs_.shown().bytes.data(), outputs_.size());
-    case sap::kGetCfg: return get_cfg();
-    case sap::kSlaveDiag: return slave_diag(request);
+    case sap::kReadOutputs:
+    case sap::kGetCfg:
+    case sap::kSlaveDiag: return read_only(now, request);
     case sap::kSetPrm: return set_prm(now, request);
     case sap::kCheckCfg: return check_cfg(now, request);
     case sap::kGlobalControl: return refuse_state(now, request, sap::kGlobalControl);  // an SRD: only SDN is served
@@ -122,6 +120,22 @@ Reply DpSlave::dispatch(Cycle now, const Request& request) {
       if (c2_channel(request.dsap)) return msac2_.handle(now, request);
       log_.at_cycle(now, Reason::kSapUnknown, static_cast<unsigned>(request.dsap), request.sa);
       return Reply::status(fc::kRs);
+  }
+}
+
+// Requests without data (S13).
+Reply DpSlave::read_only(Cycle now, const Request& request) {
+  if (request.dsap == sap::kReadInputs && state_ != DpState::kDataExch) return refuse_state(now, request, request.dsap);
+  if (request.size > 0) {
+    log_.at_cycle(now, Reason::kSapData, static_cast<unsigned>(request.dsap), static_cast<unsigned>(request.size),
+                  request.sa);
+    return Reply::status(fc::kRr);
+  }
+  switch (request.dsap) {
+    case sap::kReadInputs: return reply_data(inputs_.shown().bytes.data(), inputs_.size());
+    case sap::kReadOutputs: return reply_data(outputs_.shown().bytes.data(), outputs_.size());
+    case sap::kGetCfg: return get_cfg();
+    default: return slave_diag(request);
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The DP slave state machine (chapter 6, rulings S4 to S28): OFFLINE, WAIT_PRM, WAIT_CFG, DATA_EXCH. Service bodies that are
+// The DP slave state machine (chapter 6, rulings S4 to S33): OFFLINE, WAIT_PRM, WAIT_CFG, DATA_EXCH. Service bodies that are
 // longer than a few lines are in set_prm.cpp, check_cfg.cpp and global_control.cpp.
 #include "model/profibus/diagnosis.hpp"
 #include "model/profibus/dp_state.hpp"
@@ -78,6 +78,7 @@ class DpSlave {
   Reply input_reply() const;
   Reply slave_diag(const Request& request);
   Reply get_cfg() const;
+  Reply read_only(Cycle now, const Request& request);
   Reply set_slave_address(Cycle now, const Request& request);
   Reply reply_data(const std::uint8_t* data, int size) const;
   Reply refuse_state(Cycle now, const Request& request, int sap);
@@ -89,6 +90,7 @@ class DpSlave {
   void clear_outputs(Cycle now);
   // set_prm.cpp
   Reply set_prm(Cycle now, const Request& request);
+  bool check_ident(Cycle now, const Request& request);
   bool check_prm(Cycle now, const Request& request, PrmRequest& prm);
   bool check_options(Cycle now, std::uint8_t status, std::uint8_t spec, int user_size);
   bool check_user_length(Cycle now, int user_size);

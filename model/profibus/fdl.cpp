@@ -46,8 +46,8 @@ bool Fdl::take_saps(Cycle now, const Telegram& telegram, Request& request) {
 }
 
 bool Fdl::repetition(const Telegram& telegram, const Request& request) const {
-  const bool fcb = (telegram.fc & fc::kFcb) != 0, fcv = (telegram.fc & fc::kFcv) != 0;
-  return fcv && !request.sdn() && memory_.valid && memory_.master == request.sa && memory_.fcb == fcb;
+  return memory_.valid && memory_.sa == request.sa && memory_.fc == telegram.fc && memory_.fcs == telegram.fcs &&
+         memory_.dsap == request.dsap && memory_.ssap == request.ssap && memory_.size == request.size;
 }
 
 const Frame* Fdl::execute(Cycle now, const Telegram& telegram, const Request& request, DpSlave& slave) {
@@ -55,14 +55,13 @@ const Frame* Fdl::execute(Cycle now, const Telegram& telegram, const Request& re
     log_.at_cycle(now, Reason::kRepetition, request.sa);
     return &answer_;
   }
-  const bool series = (telegram.fc & (fc::kFcb | fc::kFcv)) != 0;
   const std::uint8_t address = slave.address();  // Set_Slave_Address is answered from the old one (S25)
   const Reply reply = slave.handle(now, request);
   if (reply.kind == Reply::Kind::kNothing) return nullptr;
-  Frame& frame = series ? answer_ : single_;
-  build_frame(request, reply, address, frame);
-  if (series) memory_ = {true, (telegram.fc & fc::kFcb) != 0, request.sa};
-  return &frame;
+  build_frame(request, reply, address, answer_);
+  memory_ = {
+      (telegram.fc & fc::kFcv) != 0, request.sa, telegram.fc, telegram.fcs, request.dsap, request.ssap, request.size};
+  return &answer_;
 }
 
 }  // namespace profibus

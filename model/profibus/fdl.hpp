@@ -1,5 +1,5 @@
 #pragma once
-// FDL: whom a telegram is for, SAP bytes, the frame count bit and the answer that a repetition gets again (EN 50170; rulings
+// FDL: whom a telegram is for, SAP bytes, and the answer that a repetition gets again (EN 50170; rulings
 // S3, S20, S21, S26).
 #include "model/profibus/dp_slave.hpp"
 #include "model/profibus/event_log.hpp"
@@ -12,7 +12,7 @@ class Fdl {
  public:
   explicit Fdl(EventLog& log) : log_(log) {}
 
-  /// Drops the memory of frame count bit and answer.
+  /// Drops the memory of the last request and its answer.
   void forget() { memory_.valid = false; }
   /// True when `telegram` is a request for `address` or for all, well formed: then `request` is filled.
   bool addressed(Cycle now, const Telegram& telegram, std::uint8_t address, Request& request);
@@ -20,17 +20,18 @@ class Fdl {
   const Frame* execute(Cycle now, const Telegram& telegram, const Request& request, DpSlave& slave);
 
  private:
+  /// What makes a request the same again (S26).
   struct Memory {
-    bool valid = false, fcb = false;
-    std::uint8_t master = 0;
+    bool valid = false;
+    std::uint8_t sa = 0, fc = 0, fcs = 0;
+    int dsap = kNoSap, ssap = kNoSap, size = 0;
   };
   bool take_saps(Cycle now, const Telegram& telegram, Request& request);
   bool repetition(const Telegram& telegram, const Request& request) const;
 
   EventLog& log_;
   Memory memory_;
-  Frame answer_;  // the last answer of a series, kept for its repetition
-  Frame single_;  // answers outside a series (FDL status)
+  Frame answer_;  // the last one
 };
 
 }  // namespace profibus

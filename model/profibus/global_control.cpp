@@ -35,7 +35,8 @@ void DpSlave::sync_command(Cycle now, std::uint8_t command) {
     outputs_.hold();
     outputs_.pass();
   } else {
-    log_.at_cycle(now, Reason::kGcSync);
+    log_.at_cycle(now, Reason::kGcSync, config_.sync_supported);
+    if (!config_.sync_supported) diagnosis_.not_supported();  // S24
     return;
   }
   hand_outputs(now);
@@ -48,7 +49,8 @@ void DpSlave::freeze_command(Cycle now, std::uint8_t command) {
     inputs_.hold();
     inputs_.pass();
   } else if ((command & kFreeze) != 0) {
-    log_.at_cycle(now, Reason::kGcFreeze);
+    log_.at_cycle(now, Reason::kGcFreeze, config_.freeze_supported);
+    if (!config_.freeze_supported) diagnosis_.not_supported();
   }
 }
 

@@ -13,9 +13,10 @@ constexpr int kLargestTimer = 0xFFFF;                // 16 bit, table 33
 constexpr int kSendTimeout = 4, kFeatures = 6, kAddAddr = 12, kLeastInitiate = 14;
 constexpr std::uint8_t kReadWrite = 0x01;  // Features_Supported, first byte
 constexpr std::uint8_t kLargestPdu = 240;  // Max_Len_Data_Unit
-// The second byte of an abort PDU is the subnet, the third instance and reason: 1 = MSAC_C2; sequence error, timeout
-constexpr std::uint8_t kNoSubnet = 0, kSequenceError = 0x11, kTimeout = 0x13;
-constexpr std::uint8_t kFTimer = 1, kITimer = 2, kUTimer = 3;
+// The second byte of an abort PDU is the subnet, the third instance and reason (V11).
+constexpr std::uint8_t kNoSubnet = 0, kInstance = 0x10;
+constexpr std::uint8_t kSequenceError = 1, kInvalidPdu = 2, kTimeout = 3, kInvalidAddAddr = 7;
+constexpr unsigned kFTimer = 1, kITimer = 2, kUTimer = 3;
 
 void put(Pdu& pdu, std::initializer_list<std::uint8_t> bytes) {
   pdu.assign(bytes.begin(), static_cast<int>(bytes.size()));
@@ -49,13 +50,6 @@ int send_timeout(const std::uint8_t* initiate) { return initiate[kSendTimeout] <
 
 bool well_formed(const std::uint8_t* pdu, int size) {
   return pdu[0] == dpv1::kInitiate && size >= kLeastInitiate && send_timeout(pdu) != 0;
-}
-
-std::uint8_t initiate_fault(const Pdu& pdu) {
-  const std::uint8_t* bytes = pdu.bytes.data();
-  if ((bytes[kFeatures] & kReadWrite) == 0) return dpv1::kNotSupported;
-  if (!addresses_right(bytes + kAddAddr, pdu.size - kAddAddr)) return dpv1::kInvalidParameter;
-  return 0;
 }
 
 }  // namespace
@@ -170,7 +164,7 @@ Reply Msac2::poll(Cycle now, int number) {
   switch (channel.state) {
     case State::kInitiated: return connect(now, number);
     case State::kAnswered: return send_answer(now, number);
-    case State::kAborted: return send_abort(now, number, kTimeout, channel.abort_detail);
+    case State::kAborted: return send_abort(now, number, channel.abort_reason);
     case State::kBusy: channel.watch = now + channel.timeout; break;
     default: break;
   }
@@ -179,16 +173,21 @@ Reply Msac2::poll(Cycle now, int number) {
 
 Reply Msac2::connect(Cycle now, int number) {
   Channel& channel = channel_at(number);
-  if (const std::uint8_t fault = initiate_fault(channel.pdu); fault != 0) {
-    log_.at_cycle(now, Reason::kC2InitiateRefused, sap_of(number), fault);
+  const std::uint8_t* initiate = channel.pdu.bytes.data();
+  const int addr_size = channel.pdu.size - kAddAddr;
+  if ((initiate[kFeatures] & kReadWrite) == 0) {
+    log_.at_cycle(now, Reason::kC2InitiateRefused, sap_of(number), dpv1::kNotSupported);
     free(now, number);
-    negative_answer(dpv1::kInitiate, fault, reply_);
+    negative_answer(dpv1::kInitiate, dpv1::kNotSupported, reply_);
+  } else if (!addresses_right(initiate + kAddAddr, addr_size)) {
+    log_.at_cycle(now, Reason::kC2AddAddr, sap_of(number), static_cast<unsigned>(addr_size));
+    return send_abort(now, number, kInvalidAddAddr);
   } else {
     log_.at_cycle(now, Reason::kC2Connected, sap_of(number), channel.master);
     enter(now, number, State::kOpen);
     channel.watch = now + channel.idle_timeout;
     put(reply_, {dpv1::kInitiate, kLargestPdu, kReadWrite, 0, 0, 0, 0, 0});
-    exchange_addresses(channel.pdu.bytes.data() + kAddAddr, channel.pdu.size - kAddAddr, reply_);
+    exchange_addresses(initiate + kAddAddr, addr_size, reply_);
   }
   return Reply::with_data(fc::kDl, reply_.bytes.data(), reply_.size);
 }
@@ -197,8 +196,8 @@ Reply Msac2::request(Cycle now, int number, const Request& request) {
   Channel& channel = channel_at(number);
   const std::uint8_t function = request.data[0];
   switch (channel.state) {
-    case State::kInitiated: return send_abort(now, number, kSequenceError, 0);
-    case State::kAborted: return send_abort(now, number, kTimeout, channel.abort_detail);
+    case State::kInitiated: return abort_for_request(now, number, function, kSequenceError);
+    case State::kAborted: return send_abort(now, number, channel.abort_reason);
     case State::kOpen: break;
     default: log_.at_cycle(now, Reason::kAcyclicOpen, sap_of(number), function); return Reply::status(fc::kRr);
   }
@@ -206,10 +205,10 @@ Reply Msac2::request(Cycle now, int number, const Request& request) {
   if (function == dpv1::kIdle) {
     put(channel.pdu, {dpv1::kIdle});
     enter(now, number, State::kAnswered);
-  } else if (const std::uint8_t fault = request_fault(request.data, request.size, true); fault != 0) {
-    log_.at_cycle(now, Reason::kAcyclicRequestRefused, sap_of(number), function, fault);
-    negative_answer(function, fault, channel.pdu);
-    enter(now, number, State::kAnswered);
+  } else if (function == dpv1::kInitiate) {
+    return abort_for_request(now, number, function, kSequenceError);
+  } else if (request_fault(request.data, request.size, true) != 0) {
+    return abort_for_request(now, number, function, kInvalidPdu);
   } else {
     log_.at_cycle(now, Reason::kC2Request, sap_of(number) << 8 | function, request.data[1], request.data[2]);
     channel.pdu.assign(request.data, request.size);
@@ -229,10 +228,18 @@ Reply Msac2::send_answer(Cycle now, int number) {
   return Reply::with_data(fc::kDl, channel.pdu.bytes.data(), channel.pdu.size);
 }
 
-Reply Msac2::send_abort(Cycle now, int number, std::uint8_t instance_reason, std::uint8_t detail) {
-  log_.at_cycle(now, Reason::kC2Abort, sap_of(number), instance_reason, detail);
+/// A request that the chip cannot serve is acknowledged; the next telegram gets the abort (V9, V11).
+Reply Msac2::abort_for_request(Cycle now, int number, std::uint8_t function, std::uint8_t reason) {
+  log_.at_cycle(now, Reason::kC2WrongRequest, sap_of(number), function, reason);
+  abort(now, number, reason);
+  return Reply::sc();
+}
+
+Reply Msac2::send_abort(Cycle now, int number, std::uint8_t reason) {
+  const auto instance_reason = static_cast<std::uint8_t>(kInstance | reason);
+  log_.at_cycle(now, Reason::kC2Abort, sap_of(number), instance_reason);
   free(now, number);
-  put(reply_, {dpv1::kAbort, kNoSubnet, instance_reason, detail});
+  put(reply_, {dpv1::kAbort, kNoSubnet, instance_reason});
   return Reply::with_data(fc::kDl, reply_.bytes.data(), reply_.size);
 }
 
@@ -265,14 +272,15 @@ void Msac2::expire(Cycle now, int number) {
     return free(now, number);
   }
   const bool watch = now >= channel.watch;
-  abort(now, number, !watch ? kUTimer : channel.state == State::kOpen ? kITimer : kFTimer);
+  const unsigned timer = !watch ? kUTimer : channel.state == State::kOpen ? kITimer : kFTimer;
+  log_.at_cycle(now, Reason::kC2Timeout, sap_of(number), timer, channel.master);
+  abort(now, number, kTimeout);
 }
 
-void Msac2::abort(Cycle now, int number, std::uint8_t detail) {
+void Msac2::abort(Cycle now, int number, std::uint8_t reason) {
   Channel& channel = channel_at(number);
-  log_.at_cycle(now, Reason::kC2Timeout, sap_of(number), detail, channel.master);
   enter(now, number, State::kAborted);
-  channel.abort_detail = detail;
+  channel.abort_reason = reason;
   channel.watch = now + channel.timeout;
   end_turn(now, number);
 }

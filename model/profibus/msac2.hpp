@@ -34,7 +34,7 @@ class Msac2 {
   struct Channel {
     State state = State::kFree;
     std::uint8_t master = 0;
-    std::uint8_t abort_detail = 0;  ///< 1, 2, 3: F, I, U ended
+    std::uint8_t abort_reason = 0;  ///< 1 sequence, 2 invalid PDU, 3 timeout
     Cycle timeout = 0;              ///< Send_Timeout in cycles
     Cycle idle_timeout = 0;         ///< twice that, as far as 16 bits go
     Cycle watch = kNever;           ///< F or I ends
@@ -58,9 +58,10 @@ class Msac2 {
   Reply connect(Cycle now, int number);
   Reply request(Cycle now, int number, const Request& request);
   Reply send_answer(Cycle now, int number);
-  Reply send_abort(Cycle now, int number, std::uint8_t instance_reason, std::uint8_t detail);
+  Reply send_abort(Cycle now, int number, std::uint8_t reason);
+  Reply abort_for_request(Cycle now, int number, std::uint8_t function, std::uint8_t reason);
   void expire(Cycle now, int number);
-  void abort(Cycle now, int number, std::uint8_t detail);
+  void abort(Cycle now, int number, std::uint8_t reason);
   void free(Cycle now, int number);
   void begin_turn(Cycle now, int number);
   void end_turn(Cycle now, int number);

@@ -1,4 +1,4 @@
-// Set_Prm (6.2.2, rulings S5 to S7, S12, S14, S15, S28).
+// Set_Prm (6.2.2, rulings S5 to S7, S12, S14, S15, S28, S33).
 #include <algorithm>
 
 #include "model/profibus/dp_slave.hpp"
@@ -11,24 +11,30 @@ constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40, kSyncReq = 0x20, kFreezeReq
 // Spec_User_Prm_Byte = DPV1_Status_1, tables 21 and 25
 constexpr std::uint8_t kDpv1Enable = 0x80, kFailSafe = 0x40, kWdBase1ms = 0x04;
 constexpr int kStandardSize = 7, kDpv1Size = 10;
+constexpr std::uint8_t kDeliveryAddress = 126;
 
 }  // namespace
 
 Reply DpSlave::set_prm(Cycle now, const Request& request) {
+  if (address_ == kDeliveryAddress) {  // S33
+    log_.at_cycle(now, Reason::kPrmNoAddress, request.sa, config_.address_change);
+    return Reply::status(fc::kRs);
+  }
   if (held_by_other(request)) return refuse_master(now, request, sap::kSetPrm);
   const std::uint8_t* data = request.data;
   if (request.size < kStandardSize) {
     refuse_prm(now, Reason::kPrmShort, false, static_cast<unsigned>(request.size), kStandardSize);
     return Reply::sc();
   }
+  if ((data[0] & (kLock | kUnlock)) == 0) {  // S28
+    set_min_tsdr(data[3]);
+    log_.at_cycle(now, Reason::kPrmMinTsdr, request.sa, static_cast<unsigned>(min_tsdr_));
+    return Reply::sc();
+  }
+  if (!check_ident(now, request)) return Reply::sc();
   if ((data[0] & kUnlock) != 0) {
     log_.at_cycle(now, Reason::kPrmUnlock, request.sa);
     leave_to_wait_prm(now);
-    return Reply::sc();
-  }
-  if ((data[0] & kLock) == 0) {
-    set_min_tsdr(data[3]);
-    log_.at_cycle(now, Reason::kPrmMinTsdr, request.sa, static_cast<unsigned>(min_tsdr_));
     return Reply::sc();
   }
   PrmRequest prm;
@@ -48,13 +54,15 @@ Reply DpSlave::set_prm(Cycle now, const Request& request) {
   return Reply::sc();
 }
 
+bool DpSlave::check_ident(Cycle now, const Request& request) {
+  const unsigned ident = static_cast<unsigned>(request.data[4]) << 8 | request.data[5];
+  if (ident == config_.ident) return true;
+  refuse_prm(now, Reason::kPrmIdent, false, ident, config_.ident);
+  return false;
+}
+
 bool DpSlave::check_prm(Cycle now, const Request& request, PrmRequest& prm) {
   const std::uint8_t* data = request.data;
-  const unsigned ident = static_cast<unsigned>(data[4]) << 8 | data[5];
-  if (ident != config_.ident) {
-    refuse_prm(now, Reason::kPrmIdent, false, ident, config_.ident);
-    return false;
-  }
   const int user_size = request.size - kStandardSize;
   const std::uint8_t spec = user_size > 0 ? data[kStandardSize] : std::uint8_t{0};
   if (!check_options(now, data[0], spec, user_size)) return false;

@@ -123,6 +123,7 @@ void TelegramRx::check_end(Cycle now) {
   telegram_.size = expected_ - address_offset(bytes_[0]) - 5;  // DA SA FC, FCS ED
   const std::uint8_t fcs = fcs_of(body, telegram_.size + 3);
   const std::uint8_t received = body[telegram_.size + 3], ed = body[telegram_.size + 4];
+  telegram_.fcs = fcs;
   if (received != fcs) return fail(now, Reason::kFcs, received, fcs);
   if (ed != sd::kEd) return fail(now, Reason::kEndDelimiter, ed);
 }

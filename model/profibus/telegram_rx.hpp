@@ -13,7 +13,7 @@ constexpr std::uint8_t kSd1 = 0x10, kSd2 = 0x68, kSd3 = 0xA2, kSd4 = 0xDC, kSc =
 
 /// An error-free telegram; `data` points into the receiver and is valid until the next one starts.
 struct Telegram {
-  std::uint8_t sd = 0, da = 0, sa = 0, fc = 0;
+  std::uint8_t sd = 0, da = 0, sa = 0, fc = 0, fcs = 0;
   const std::uint8_t* data = nullptr;
   int size = 0;
   Cycle end = 0;        ///< calculated end of the last stop bit

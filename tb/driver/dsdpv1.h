@@ -37,7 +37,7 @@ extern "C" {
 #define DSDPV1_MAX_CFG 200u
 #define DSDPV1_MAX_ADDRESS 126u
 
-/* Ruling H2: for 3 cycles of 48 MHz after R_REQ rose the chip may still start an access; 62.5 ns, rounded up. */
+/* Ruling H2: for 2 cycles of 48 MHz after R_REQ rose the chip may still start an access, 3 are the window; 62.5 ns, rounded up. */
 #define DSDPV1_SYNC_WINDOW_NS 63u
 
 /* ----------------------------------------------------------------------------------------------------------- errors */

@@ -156,6 +156,10 @@ dsdpv1_error dsdpv1_dispatch(dsdpv1_acyclic* acyclic, unsigned number) {
   dsdpv1_channel* channel = &acyclic->channels[number];
   const uint8_t* header = channel->request;
   const dsdpv1_table* table = &acyclic->table;
+  if (header[0] == DSDPV1_DS_READ && header[3] > DSDPV1_MAX_ACYCLIC) { /* V9: the chip hands it on */
+    dsdpv1_answer_negative(channel, DSDPV1_EC_INVALID_RANGE, 0);
+    return DSDPV1_OK;
+  }
   if (table->im0 != NULL && header[1] == kIm0Slot && header[2] == kIm0Index) {
     dsdpv1_serve_im0(table->im0, channel);
     return DSDPV1_OK;

@@ -432,7 +432,9 @@ TEST(ExplainDpv1, AbortsInWords) {
   EXPECT_THAT(explain_line(request(48, {0x58, 1, 0x13, 3})), HasSubstr("local subnet, detail 3"));
   EXPECT_THAT(explain_line(request(48, {0x58, 2, 0x13, 3})), HasSubstr("remote subnet"));
   EXPECT_THAT(explain_line(request(48, {0x58, 9, 0x13, 3})), HasSubstr("subnet 9 (reserved)"));
-  EXPECT_THAT(explain_line(request(48, {0x58})), HasSubstr("Abort, 1 bytes, at least 4"));
+  EXPECT_THAT(explain_line(request(48, {0x58})), HasSubstr("Abort, 1 bytes, at least 3"));
+  EXPECT_THAT(explain_line(answer(48, {0x58, 0, 0x12})), HasSubstr("ABT_FE (invalid request PDU), no subnet"));
+  EXPECT_THAT(explain_line(answer(48, {0x58, 0, 0x12})), Not(HasSubstr("detail")));
 }
 
 TEST(ExplainBytes, EveryByteOfEveryDelimiterIsExplained) {

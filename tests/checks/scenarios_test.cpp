@@ -212,8 +212,8 @@ TEST(OutputsOverwritten, AreThoseThatASlowUserMissedThoughHisHoldsAreShort) {
   const tb::RunResult result = run_lossy("cycle: 3ms", "");
   const tb::SlaveResult& slave = result.slaves.at(0);
   EXPECT_EQ(violations(result, checks::Check::kHoldInterval), 0U);
-  EXPECT_GT(slave.status.outputs_missed, slave.user.program.outputs_received);
-  const std::uint64_t seen = slave.status.outputs_missed + slave.user.program.outputs_received;
+  EXPECT_GT(slave.status.outputs_missed, slave.user.program->outputs_received);
+  const std::uint64_t seen = slave.status.outputs_missed + slave.user.program->outputs_received;
   EXPECT_LE(seen, slave.status.data_exchanges);
   EXPECT_GE(seen + 1, slave.status.data_exchanges) << "one may still wait";
 }

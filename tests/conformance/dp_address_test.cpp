@@ -54,6 +54,52 @@ TEST_F(Address, Above125IsIgnoredWithAReason) {
   }
 }
 
+// S33: the delivery address.
+TEST_F(Address, Of126IsNoAddressToBeParameterisedAt) {
+  Init init;
+  init.address = 126;
+  bench.power_on();
+  bench.enable_dpv1(true);
+  ASSERT_TRUE(bench.initialise(init));
+  bench.find_baud(0);
+  Prm other;
+  other.ident = 1;
+  Prm unlock, min_tsdr;
+  unlock.status = 0x40;
+  min_tsdr.status = 0x00;
+  int refused = 0;
+  for (const Bytes& bytes : {Prm{}.bytes(), other.bytes(), unlock.bytes(), min_tsdr.bytes(), Bytes{0x80}}) {
+    EXPECT_TRUE(is_rs(ask(bench, 61, bytes)));
+    EXPECT_EQ(bench.count(Reason::kPrmNoAddress), ++refused);
+  }
+  EXPECT_EQ(bench.last(Reason::kPrmNoAddress).a, 2);
+  EXPECT_EQ(bench.last(Reason::kPrmNoAddress).b, 1) << "B024.0";
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
+  EXPECT_EQ(diag(bench), (Bytes{0x02, 0x05, 0, 255, 0x0C, 0xC9})) << "no fault";
+  EXPECT_TRUE(is_data(ask(bench, 59)));
+  EXPECT_TRUE(is_data(ask(bench, 57)));
+  EXPECT_TRUE(bench.fdl_status().answered());
+  const Bytes initiate = {0x57, 0, 0, 0, 0, 100, 1, 0, 0, 0, 0, 0, 0, 0};
+  EXPECT_TRUE(is_data(send_fc(bench, kSrdFirst, 0x31, 0x32, initiate, 1))) << "C2 (V7)";
+  EXPECT_TRUE(is_sc(ask(bench, 55, request(42))));
+  bench.address = 42;
+  EXPECT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg) << "at once";
+}
+
+TEST_F(Address, Of126WithoutAddressChangeWaitsForANewInitialisation) {
+  Init init;
+  init.address = 126;
+  init.command = 0x0E;
+  bench.to_wait_prm(init);
+  EXPECT_TRUE(is_rs(ask(bench, 61, Prm{}.bytes())));
+  EXPECT_EQ(bench.last(Reason::kPrmNoAddress).b, 0);
+  EXPECT_TRUE(is_rs(ask(bench, 55, request(42))));
+  ASSERT_TRUE(bench.initialise());
+  bench.find_baud(0);
+  EXPECT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
+}
+
 TEST_F(Address, WithAWrongIdentIsIgnoredWithAReason) {
   bench.to_wait_prm();
   EXPECT_TRUE(is_sc(ask(bench, 55, request(42, 0xFF, 0x0DC9))));

@@ -199,6 +199,7 @@ TEST_F(GlobalControl, WithB024ZeroClearsAndNeitherSyncsNorFreezes) {
   EXPECT_EQ(bench.count(Reason::kGcFreeze), 1);
   EXPECT_EQ(bench.count(Reason::kGcIgnored), 0);
   EXPECT_EQ(diag(bench).at(1) & 0x30, 0) << "neither frozen nor synced";
+  EXPECT_EQ(diag(bench).at(0), 0x10) << "Not_Supported (S24)";
   settle(bench);
   EXPECT_EQ(output_area(bench), (Bytes{0, 0})) << "Clear_Data";
   tell(bench, bus::kBroadcast, 58, {kUnsync | kUnfreeze, 0});
@@ -207,6 +208,52 @@ TEST_F(GlobalControl, WithB024ZeroClearsAndNeitherSyncsNorFreezes) {
   EXPECT_EQ(ask(bench, kNoSap, {3, 4}).answer().data, model.in1) << "inputs go on";
   settle(bench);
   EXPECT_EQ(output_area(bench), (Bytes{3, 4})) << "outputs go on";
+}
+
+// S24: what B024 does not support is told in the diagnosis, until the next good Set_Prm.
+TEST_F(GlobalControl, SyncOrFreezeThatIsNotSupportedSetsNotSupported) {
+  struct Case {
+    int b024, command, group;
+    bool not_supported;
+  };
+  const Case kCases[] = {
+      {0x00, kSync, 0, true},
+      {0x00, kFreeze, 0, true},
+      {0x02, kSync, 0, true},
+      {0x04, kFreeze, 0, true},
+      {0x04, kSync, 0, false},
+      {0x02, kFreeze, 0, false},
+      {0x00, kSync | kUnsync, 0, false},
+      {0x00, kFreeze | kUnfreeze, 0, false},
+      {0x00, kUnsync | kUnfreeze, 0, false},
+      {0x00, kClear, 0, false},
+      {0x00, kSync | 0x01, 0, false},
+      {0x00, kSync, 0x04, false},
+      {0x00, kSync | kFreeze | kUnfreeze, 0, true},
+  };
+  for (const Case& one : kCases) {
+    SCOPED_TRACE(testing::Message() << std::hex << one.b024 << " " << one.command << " " << one.group);
+    SlaveBench slave(quick_search());
+    Init init;
+    init.command = static_cast<std::uint8_t>(one.b024);
+    slave.to_data_exch(init, prm(0x80, 0x02));
+    tell(slave, bus::kBroadcast, 58, {static_cast<std::uint8_t>(one.command), static_cast<std::uint8_t>(one.group)});
+    EXPECT_EQ(diag(slave).at(0), one.not_supported ? 0x10 : 0x00);
+    EXPECT_EQ(slave.dp_state(), DpState::kDataExch) << "it goes on";
+    ASSERT_TRUE(is_sc(ask(slave, 61, prm(0x80).bytes())));
+    EXPECT_EQ(diag(slave).at(0) & 0x10, 0);
+  }
+}
+
+TEST_F(GlobalControl, NotSupportedIsNotSetByAnotherMastersCommandOrWithoutDataExchange) {
+  Init init;
+  init.command = 0x00;
+  bench.to_wait_cfg(init, prm(0x80));
+  tell(bench, bus::kBroadcast, 58, {kSync | kFreeze, 0});
+  ASSERT_TRUE(is_sc(bench.check_cfg()));
+  tell(bench, bus::kBroadcast, 58, {kSync | kFreeze, 0}, 3);
+  EXPECT_EQ(bench.count(Reason::kGcIgnored), 2);
+  EXPECT_EQ(diag(bench).at(0), 0x00);
 }
 
 TEST_F(GlobalControl, IsForTheGroupsOfSetPrmAndForAllWithZero) {

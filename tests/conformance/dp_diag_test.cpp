@@ -150,17 +150,49 @@ TEST_F(Diagnosis, ExternalSetsAndClearsExtDiagWithHighPriorityUntilRead) {
   EXPECT_EQ(priority(), "DL");
 }
 
-TEST_F(Diagnosis, StaticSetsAndClearsStatDiagWithHighPriorityUntilRead) {
+// D9. Until an audit the first read ended the high priority of static diagnosis, too.
+TEST_F(Diagnosis, StaticSetsStatDiagAndIsHighPriorityReadOrNotUntilTheUserTakesItBack) {
   bench.to_data_exch();
   bench.give_diag(0x82, {0x02, 0x77});
   EXPECT_EQ(priority(), "DH");
   EXPECT_EQ(diag(bench), (Bytes{0x00, 0x06, 0, 2, 0x0C, 0xC9, 0x02, 0x77}));
-  EXPECT_EQ(priority(), "DL");
+  EXPECT_EQ(priority(), "DH");
   EXPECT_EQ(diag(bench).at(1), 0x06) << "stays until the user takes it back";
+  for (const std::uint8_t type : Bytes{0x00, 0x81, 0x01}) {
+    bench.give_diag(type, {0x01});
+    EXPECT_EQ(diag(bench).at(1), 0x06) << int{type};
+    EXPECT_EQ(priority(), "DH") << int{type};
+  }
   bench.give_diag(0x02, {0x01});
   EXPECT_EQ(priority(), "DH");
   EXPECT_EQ(diag(bench), (Bytes{0x00, 0x04, 0, 2, 0x0C, 0xC9, 0x01}));
   EXPECT_EQ(priority(), "DL");
+}
+
+TEST_F(Diagnosis, HighPriorityEndsWithTheReadAloneNotWithAnExtendedOneOrALostExchange) {
+  bench.to_data_exch();
+  bench.give_diag(0x81, {1});
+  bench.give_diag(0x00, {2});
+  EXPECT_EQ(priority(), "DH") << "type 00 takes nothing back";
+  ASSERT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
+  ASSERT_TRUE(is_sc(ask(bench, 62, {0x11, 0x21})));
+  EXPECT_EQ(priority(), "DH");
+  diag(bench);
+  EXPECT_EQ(priority(), "DL");
+}
+
+TEST_F(Diagnosis, StaticWithoutInputsStaysHighPriorityToo) {
+  Init init;
+  init.cfg = {0x21};
+  bench.to_data_exch(init);
+  bench.give_diag(0x82, {7});
+  diag(bench);
+  EXPECT_TRUE(is_refusal(ask(bench, kNoSap, {1, 2}), bus::fc::kDh));
+  ASSERT_TRUE(bench.initialise(init));
+  bench.find_baud(0);
+  ASSERT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
+  ASSERT_TRUE(is_sc(ask(bench, 62, {0x21})));
+  EXPECT_EQ(kind_of(ask(bench, kNoSap, {1, 2})), "SC") << "a new initialisation ends it";
 }
 
 TEST_F(Diagnosis, ExternalAndStaticHaveBitsOfTheirOwn) {
@@ -185,7 +217,7 @@ TEST_F(Diagnosis, IsReadOnlyByTheHolder) {
 
 TEST_F(Diagnosis, GivenBeforeDataExchangeWaitsForTheHolder) {
   bench.to_wait_prm();
-  bench.give_diag(0x82, {9});
+  bench.give_diag(0x81, {9});
   EXPECT_EQ(diag(bench).size(), 7U);  // nobody holds the slave
   ASSERT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
   ASSERT_TRUE(is_sc(ask(bench, 62, {0x11, 0x21})));
@@ -214,9 +246,9 @@ TEST_F(Diagnosis, NewerOneWhileOneWaitsReplacesItAndIsReadOnce) {
 TEST_F(Diagnosis, RepetitionOfTheReadDoesNotSwallowANewOne) {
   bench.to_data_exch();
   bench.give_diag(0x81, {1});
-  const Exchange first = send_fc(bench, 0x6D, 60, 62, {});
+  const Exchange first = send_fc(bench, 0x5D, 60, 62, {});
   bench.give_diag(0x81, {2});
-  const Exchange again = send_fc(bench, 0x7D, 60, 62, {});
+  const Exchange again = send_fc(bench, 0x5D, 60, 62, {});
   EXPECT_EQ(again.raw, first.raw);
   EXPECT_EQ(priority(), "DH") << "the new one has not been sent yet";
   EXPECT_EQ(diag(bench).back(), 2);

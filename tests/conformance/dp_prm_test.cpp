@@ -318,5 +318,38 @@ TEST_F(SetPrm, CountsEveryLeavingOfDataExchange) {
   }
 }
 
+// S28: an Unlock, with or without Lock, is for this slave only when the ident number is its own.
+TEST_F(SetPrm, UnlockWithAWrongIdentIsPrmFault) {
+  for (const int status : {0x40, 0xC0}) {
+    for (const int ident : {0x0DC9, 0x0CC8, 0x0CC9}) {
+      SlaveBench one(quick_search());
+      one.to_data_exch();
+      Prm unlock;
+      unlock.status = static_cast<std::uint8_t>(status);
+      unlock.ident = static_cast<std::uint16_t>(ident);
+      EXPECT_TRUE(is_sc(ask(one, 61, unlock.bytes())));
+      const bool right = ident == 0x0CC9;
+      EXPECT_EQ(one.count(Reason::kPrmUnlock), right ? 1 : 0) << status << " " << ident;
+      EXPECT_EQ(one.count(Reason::kPrmIdent), right ? 0 : 1) << status << " " << ident;
+      EXPECT_EQ(one.dp_state(), DpState::kWaitPrm);
+      EXPECT_EQ(diag(one).at(0), right ? 0x02 : 0x42) << "Prm_Fault";
+      EXPECT_EQ(diag(one).at(3), 255);
+    }
+  }
+}
+
+TEST_F(SetPrm, UnlockLeavesTheFaultsAndMinTsdr) {
+  bench.to_wait_prm();
+  Prm wrong, unlock;
+  wrong.ident = 1;
+  unlock.status = 0x40;
+  unlock.min_tsdr = 60;
+  EXPECT_TRUE(is_sc(ask(bench, 61, wrong.bytes())));
+  EXPECT_TRUE(is_sc(ask(bench, 61, unlock.bytes())));
+  EXPECT_EQ(diag(bench).at(0), 0x42) << "S17: no good Set_Prm";
+  const Exchange exchange = ask(bench, 60);
+  EXPECT_LT(exchange.tsdr(), 12 * exchange.bit) << "11 bit times still";
+}
+
 }  // namespace
 }  // namespace conformance

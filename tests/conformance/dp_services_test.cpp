@@ -80,6 +80,51 @@ TEST(Services, AreAnsweredInEveryStateAsTheRulingsDemand) {
   }
 }
 
+// S13: an SRD that only reads carries no data.
+TEST(Services, DataBytesToTheReadingSapsAreAnsweredRrOnceTheStateAllowsTheService) {
+  for (const Situation situation : {Situation::kWaitPrm, Situation::kWaitCfg, Situation::kDataExch}) {
+    for (const int sap : {56, 57, 59, 60}) {
+      for (const Bytes& data : {Bytes{0}, Bytes(244, 0x5A)}) {
+        SlaveBench bench(quick_search());
+        bring(bench, situation);
+        const bool served = sap != 56 || situation == Situation::kDataExch;
+        const DpState before = bench.dp_state();
+        const std::size_t events = bench.chip.events().size();
+        const Exchange exchange = ask(bench, sap, data, kOther);
+        EXPECT_EQ(kind_of(exchange), served ? "RR" : "RS") << sap;
+        EXPECT_EQ(bench.count(Reason::kSapData), served ? 1 : 0);
+        EXPECT_EQ(bench.chip.events().size(), events + 1);
+        EXPECT_EQ(bench.dp_state(), before);
+        if (!served) continue;
+        EXPECT_EQ(bench.last(Reason::kSapData).a, sap);
+        EXPECT_EQ(bench.last(Reason::kSapData).b, data.size());
+        EXPECT_EQ(bench.last(Reason::kSapData).c, kOther);
+      }
+    }
+  }
+}
+
+TEST(Services, RefusedSlaveDiagDoesNotCountAsRead) {
+  SlaveBench bench(quick_search());
+  bring(bench, Situation::kDataExch);
+  bench.give_diag(0x81, {1});
+  EXPECT_EQ(kind_of(ask(bench, 60, {0})), "RR");
+  EXPECT_EQ(kind_of(ask(bench, kNoSap, {1, 2})), "DH");
+}
+
+TEST(Services, ReadOutputsOutsideOfDataExchangeSendsZeros) {
+  SlaveBench bench(quick_search());
+  bring(bench, Situation::kWaitPrm);
+  EXPECT_EQ(ask(bench, 57, {}, kOther).answer().data, (Bytes{0, 0}));
+  ASSERT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
+  EXPECT_EQ(ask(bench, 57).answer().data, (Bytes{0, 0}));
+  ASSERT_TRUE(is_sc(ask(bench, 62, {0x11, 0x21})));
+  ASSERT_TRUE(is_data(ask(bench, kNoSap, {0x56, 0x78})));
+  EXPECT_EQ(ask(bench, 57, {}, kOther).answer().data, (Bytes{0x56, 0x78}));
+  ASSERT_TRUE(is_sc(ask(bench, 61, Prm{}.bytes())));
+  EXPECT_EQ(ask(bench, 57).answer().data, (Bytes{0, 0})) << "WAIT_CFG again";
+}
+
 TEST(Services, RefusalsByStateNameSapStateAndMaster) {
   SlaveBench bench(quick_search());
   bring(bench, Situation::kWaitCfg);

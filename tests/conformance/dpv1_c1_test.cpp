@@ -94,9 +94,9 @@ TEST_F(C1, RequestsThatTheChipFindsWrongAreAnsweredByItself) {
   const Wrong kWrong[] = {
       {{0x5C, 0, 0, 0}, 0xA9},  // alarm acknowledge: not supported
       {{0x51, 0, 0, 0}, 0xA9},  // transport is C2's
-      {{0x00}, 0xA9},          {{0xDE, 0, 0, 0}, 0xA9},   {{0x5E}, 0xB8},
-      {{0x5E, 1, 2}, 0xB8},    {{0x5E, 1, 2, 241}, 0xB8}, {{0x5E, 1, 2, 1, 0}, 0xB8},
-      {{0x5F, 1, 2}, 0xB1},    {{0x5F, 1, 2, 1}, 0xB1},   {{0x5F, 1, 2, 1, 0, 0}, 0xB1},
+      {{0x00}, 0xA9},          {{0xDE, 0, 0, 0}, 0xA9},      {{0x5E}, 0xB8},
+      {{0x5E, 1, 2}, 0xB8},    {{0x5E, 1, 2, 241, 0}, 0xB8}, {{0x5E, 1, 2, 1, 0}, 0xB8},
+      {{0x5F, 1, 2}, 0xB1},    {{0x5F, 1, 2, 1}, 0xB1},      {{0x5F, 1, 2, 1, 0, 0}, 0xB1},
   };
   for (const Wrong& wrong : kWrong) {
     SCOPED_TRACE(testing::PrintToString(wrong.request));
@@ -127,6 +127,20 @@ TEST_F(C1, NeedsDpv1EnableInSetPrm) {
   start(true, false);
   EXPECT_TRUE(is_rs(c1(read_request(0, 0, 1))));
   EXPECT_EQ(bench.count(Reason::kC1Disabled), 1);
+}
+
+// V9. Until an audit the chip itself refused them (B8).
+TEST_F(C1, ReadsOfMoreThan240BytesReachTheUserWhoJudges) {
+  start();
+  for (const int length : {240, 241, 255}) {
+    ASSERT_TRUE(is_sc(c1(read_request(1, 2, length))));
+    bench.chip_accesses(3);
+    EXPECT_EQ(fetch(kC1Area), read_request(1, 2, length));
+    const Bytes error = pdu_of(0xDE, 0x80, 0xB7, 0);
+    give(kC1Area, error);
+    EXPECT_EQ(text(c1({})), testing::PrintToString(error));
+  }
+  EXPECT_EQ(bench.count(Reason::kAcyclicRequestRefused), 0);
 }
 
 // D17. Until an audit B005 was looked at again at each Set_Prm.

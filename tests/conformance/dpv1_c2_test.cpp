@@ -15,9 +15,7 @@ class C2 : public Dpv1Test {
     static const Bytes answer = {0x57, 0xF0, 1, 0, 0, 0, 0, 0, 0, 2, 0, 2, 0x0C, 0x0D, 0x0A, 0x0B};
     return answer;
   }
-  static Bytes abort_pdu(int instance_reason, int detail) {
-    return {0x58, 0, static_cast<std::uint8_t>(instance_reason), static_cast<std::uint8_t>(detail)};
-  }
+  static Bytes abort_pdu(int reason) { return {0x58, 0, static_cast<std::uint8_t>(0x10 | reason)}; }
   /// A request on a channel brought to the user.
   void to_user(int sap, const Bytes& request, std::uint8_t master = kClass2) {
     ASSERT_TRUE(is_sc(c2(sap, request, master)));
@@ -86,17 +84,28 @@ TEST_F(C2, InitiatesThatCannotBeGrantedAreRefusedAtThePoll) {
   start();
   Bytes no_features = initiate_pdu();
   no_features[6] = 0xFE;
-  const std::pair<Bytes, int> kCases[] = {
-      {no_features, 0xA9},
-      {initiate_pdu(100, {0, 2, 0, 2, 1, 2, 3}), 0xB8},
-      {initiate_pdu(100, {0, 2, 0, 2, 1, 2, 3, 4, 5}), 0xB8},
-      {initiate_pdu(100, {1, 2, 3}), 0xB8},
-  };
-  for (const auto& [request, code] : kCases) {
+  Bytes both = initiate_pdu(100, {1, 2, 3});
+  both[6] = 0x00;
+  for (const Bytes& request : {no_features, both}) {
     ASSERT_TRUE(is_data(c2(kManagerSap, request)));
-    EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(Bytes{0xD7, 0x80, static_cast<std::uint8_t>(code), 0}));
+    EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(Bytes{0xD7, 0x80, 0xA9, 0}));
     EXPECT_FALSE(registry(0x30).in_use);
     EXPECT_TRUE(is_rs(c2(kFirstChannel)));
+  }
+  EXPECT_EQ(bench.count(Reason::kC2InitiateRefused), 2);
+}
+
+TEST_F(C2, InitiatesWithWrongAddressesAreAbortedAtThePoll) {
+  start();
+  int refused = 0;
+  for (const Bytes& add_addr : {Bytes{0, 2, 0, 2, 1, 2, 3}, Bytes{0, 2, 0, 2, 1, 2, 3, 4, 5}, Bytes{1, 2, 3}}) {
+    ASSERT_TRUE(is_data(c2(kManagerSap, initiate_pdu(100, add_addr))));
+    EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(7)));
+    EXPECT_FALSE(registry(0x30).in_use);
+    EXPECT_TRUE(is_rs(c2(kFirstChannel)));
+    EXPECT_EQ(bench.count(Reason::kC2AddAddr), ++refused);
+    EXPECT_EQ(bench.last(Reason::kC2AddAddr).b, add_addr.size());
+    EXPECT_EQ(bench.last(Reason::kC2Abort).b, 0x17);
   }
 }
 
@@ -214,26 +223,81 @@ TEST_F(C2, IdleIsAnsweredByTheChip) {
   EXPECT_EQ(bench.peek(0x00F), 0);
 }
 
-TEST_F(C2, RequestsThatTheChipFindsWrongAreAnsweredByItself) {
+// V9, V11. Until an audit the chip answered them with error PDUs, and the early request at once.
+TEST_F(C2, RequestsThatAreNoneOfItsServicesAbortTheChannelAtTheNextTelegram) {
+  start();
+  const std::pair<Bytes, int> kCases[] = {{{0x5C, 0, 0, 0}, 2},    {{0x5D, 0, 0, 0}, 2}, {{0x5E, 0, 0, 1, 2}, 2},
+                                          {{0x5E, 0, 0}, 2},       {{0x51, 0, 0, 1}, 2}, {{0x51}, 2},
+                                          {{0x5F, 0, 0, 0, 1}, 2}, {{0x56, 0, 0, 0}, 2}, {{0xDE, 0x80, 0xB2, 0}, 2},
+                                          {{0x57, 0, 0, 0}, 1},    {{0x57}, 1},          {initiate_pdu(), 1}};
+  bool poll = false;
+  for (const auto& [request, reason] : kCases) {
+    SCOPED_TRACE(testing::PrintToString(request));
+    ASSERT_EQ(connect(), kFirstChannel);
+    EXPECT_TRUE(is_sc(c2(kFirstChannel, request)));
+    EXPECT_EQ(bench.last(Reason::kC2WrongRequest).b, request[0]);
+    EXPECT_EQ(bench.last(Reason::kC2WrongRequest).c, reason);
+    EXPECT_TRUE(registry(0x30).in_use);
+    EXPECT_FALSE(registry(0x30).connected);
+    poll = !poll;  // the next telegram, whatever it is
+    EXPECT_EQ(text(c2(kFirstChannel, poll ? Bytes{} : read_request(1, 1, 1))),
+              testing::PrintToString(abort_pdu(reason)));
+    EXPECT_FALSE(registry(0x30).in_use);
+    EXPECT_TRUE(is_rs(c2(kFirstChannel)));
+  }
+  bench.chip_accesses();
+  EXPECT_EQ(bench.peek(0x00F), 0) << "the user sees none of them";
+}
+
+TEST_F(C2, WhileARequestIsUnderWayAnythingElseIsRr) {
   start();
   ASSERT_EQ(connect(), kFirstChannel);
-  const std::pair<Bytes, int> kCases[] = {
-      {{0x5C, 0, 0, 0}, 0xA9}, {{0x57, 0, 0, 0}, 0xA9}, {{0x5E, 0, 0, 241}, 0xB8}, {{0x5E, 0, 0, 1, 2}, 0xB8},
-      {{0x51, 0, 0, 1}, 0xB1}, {{0x51}, 0xB1},          {{0x5F, 0, 0, 0, 1}, 0xB1}};
-  for (const auto& [request, code] : kCases) {
-    EXPECT_TRUE(is_sc(c2(kFirstChannel, request)));
-    const Bytes expected = {static_cast<std::uint8_t>(request[0] | 0x80), 0x80, static_cast<std::uint8_t>(code), 0};
-    EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(expected)) << testing::PrintToString(request);
+  to_user(kFirstChannel, read_request(1, 1, 1));
+  for (const Bytes& other : {Bytes{0x5C}, initiate_pdu(), Bytes{0x48}, read_request(2, 2, 2)})
+    EXPECT_TRUE(is_rr(c2(kFirstChannel, other)));
+  EXPECT_EQ(bench.count(Reason::kC2WrongRequest), 0);
+  give(kC2Area, pdu_of(0x5E, 1, 1, 1, {9}));
+  EXPECT_TRUE(is_rr(c2(kFirstChannel, {0x5C})));
+  EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(pdu_of(0x5E, 1, 1, 1, {9})));
+}
+
+TEST_F(C2, ReadsOfMoreThan240BytesReachTheUserWhoJudges) {
+  start();
+  ASSERT_EQ(connect(), kFirstChannel);
+  for (const int length : {241, 255}) {
+    to_user(kFirstChannel, read_request(1, 2, length));
+    give(kC2Area, pdu_of(0xDE, 0x80, 0xB7, 0));
+    EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(pdu_of(0xDE, 0x80, 0xB7, 0)));
   }
-  EXPECT_TRUE(registry(0x30).connected);
 }
 
 TEST_F(C2, RequestBeforeTheInitiateAnswerIsASequenceError) {
   start();
-  ASSERT_TRUE(is_data(c2(kManagerSap, initiate_pdu())));
-  EXPECT_EQ(text(c2(kFirstChannel, read_request(0, 0, 1))), testing::PrintToString(abort_pdu(0x11, 0)));
+  for (const Bytes& request : {read_request(0, 0, 1), Bytes{0x48}, initiate_pdu()}) {
+    ASSERT_TRUE(is_data(c2(kManagerSap, initiate_pdu())));
+    EXPECT_TRUE(is_sc(c2(kFirstChannel, request)));
+    EXPECT_TRUE(registry(0x30).in_use);
+    EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(1)));
+    EXPECT_FALSE(registry(0x30).in_use);
+    EXPECT_TRUE(is_rs(c2(kFirstChannel)));
+  }
+}
+
+TEST_F(C2, ChannelAbortedByAWrongRequestIsFreedByItsMastersAbortOrAfterAnotherSendTimeout) {
+  start();
+  ASSERT_EQ(connect(kClass2, 1), kFirstChannel);
+  ASSERT_TRUE(is_sc(c2(kFirstChannel, {0x5C})));
+  EXPECT_TRUE(is_sc(c2(kFirstChannel, {0x58, 0, 0x20}))) << "no abort PDU for an abort";
   EXPECT_FALSE(registry(0x30).in_use);
-  EXPECT_TRUE(is_rs(c2(kFirstChannel)));
+  ASSERT_EQ(connect(kClass2, 1), kFirstChannel);
+  const Exchange wrong = c2(kFirstChannel, {0x5C});
+  const Cycle end = decided(wrong) + kSendTimeoutUnit;
+  run_to_cycle(bench, end - 1);
+  EXPECT_TRUE(registry(0x30).in_use);
+  run_to_cycle(bench, end);
+  EXPECT_FALSE(registry(0x30).in_use);
+  EXPECT_EQ(bench.count(Reason::kC2Freed), 1);
+  EXPECT_EQ(bench.count(Reason::kC2Timeout), 0);
 }
 
 TEST_F(C2, MasterAbortsInEveryState) {
@@ -388,7 +452,7 @@ TEST_F(C2, FEndsOneSendTimeoutAfterTheImmediateAnswer) {
   run_to_cycle(bench, end);
   ASSERT_EQ(bench.count(Reason::kC2Timeout), 1);
   EXPECT_EQ(bench.last(Reason::kC2Timeout).b, 1);
-  EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(0x13, 1)));
+  EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(3)));
   EXPECT_FALSE(registry(0x30).in_use);
 }
 
@@ -404,7 +468,7 @@ TEST_F(C2, IEndsTwoSendTimeoutsAfterTheConnectionAndPollsDoNotHelp) {
   EXPECT_EQ(bench.count(Reason::kC2Timeout), 0);
   run_to_cycle(bench, end);
   EXPECT_EQ(bench.last(Reason::kC2Timeout).b, 2);
-  EXPECT_EQ(text(c2(kFirstChannel, {0x48})), testing::PrintToString(abort_pdu(0x13, 2)));
+  EXPECT_EQ(text(c2(kFirstChannel, {0x48})), testing::PrintToString(abort_pdu(3)));
 }
 
 TEST_F(C2, IdleAndItsAnswerKeepTheChannel) {
@@ -426,7 +490,7 @@ TEST_F(C2, FIsStartedAnewByEachPollOfAnOpenRequest) {
   EXPECT_TRUE(is_rr(c2(kFirstChannel, {0x48}))) << "no poll: F goes on";
   bench.run_cycles(5'000);
   EXPECT_EQ(bench.last(Reason::kC2Timeout).b, 1);
-  EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(0x13, 1)));
+  EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(3)));
 }
 
 TEST_F(C2, UEndsOneSendTimeoutAfterTheRequestThoughTheMasterPolls) {
@@ -449,7 +513,7 @@ TEST_F(C2, UEndsOneSendTimeoutAfterTheRequestThoughTheMasterPolls) {
   fetch(kC2Area);
   give(kC2Area, pdu_of(0x5E, 1, 1, 1, {1}));
   EXPECT_EQ(bench.count(Reason::kAcyclicNoRequest), 1) << "too late";
-  EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(0x13, 3)));
+  EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(abort_pdu(3)));
   EXPECT_FALSE(registry(0x30).in_use);
 }
 
@@ -474,7 +538,7 @@ TEST_F(C2, AnswerCommittedInTheCycleInWhichUEndsIsInTimeAndOneCycleLaterIsNot) {
     bench.chip_accesses(3);
     EXPECT_EQ(bench.count(Reason::kC2Timeout), late);
     EXPECT_EQ(bench.count(Reason::kAcyclicNoRequest), late);
-    const Bytes answer = late == 0 ? pdu_of(0x5E, 1, 1, 1, {1}) : abort_pdu(0x13, 3);
+    const Bytes answer = late == 0 ? pdu_of(0x5E, 1, 1, 1, {1}) : abort_pdu(3);
     EXPECT_EQ(text(c2(kFirstChannel)), testing::PrintToString(answer));
     bench.chip.set(bench.now() + 250, Pin::kReset, 0);
     bench.run_cycles(20);

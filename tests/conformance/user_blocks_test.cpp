@@ -297,7 +297,7 @@ TEST_P(UserDiag, ShowsItsBitAndItsPriority) {
   EXPECT_EQ((diag[1] & 0x02) != 0, GetParam().stat);
   EXPECT_EQ(Bytes(diag.begin() + 6, diag.end()), (Bytes{0x09, 1, 2, 3}));
   exchange = bench.data_exchange({0, 0});
-  EXPECT_EQ(exchange.answer().fc, 0x08) << "read by the holder";
+  EXPECT_EQ(exchange.answer().fc, GetParam().stat ? 0x0A : 0x08) << "read by the holder; Stat_Diag stands (D9)";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, UserDiag,

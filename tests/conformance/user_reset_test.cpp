@@ -372,6 +372,24 @@ TEST(UserReset, ReadsBeforeTheStartUpYieldXAndWritesAreClearedWithTheRest) {
   EXPECT_EQ(bench.read(0x001), 0x0D);
 }
 
+TEST(UserReset, AResetInAStartUpLeavesTheRestOfTheRamAsItWas) {
+  SlaveBench bench;
+  bench.power_on();
+  fill_dpram(bench, 0xA5);
+  reset_now(bench);
+  const Cycle r = release_reset(bench, bench.now());
+  run_to_cycle(bench, r + 1000);
+  bench.chip.set(bench.now(), Pin::kRSta, 1);
+  bench.chip.set(bench.now(), Pin::kReset, 0);
+  bench.run_cycles(10);
+  release_reset(bench, bench.now());
+  bench.run_cycles(100);
+  for (std::uint16_t cell = 0; cell < regs::kDpramSize; ++cell) {
+    ASSERT_EQ(bench.peek(cell), cell < 1000 ? 0 : 0xA5) << "B" << std::hex << cell;
+    ASSERT_EQ(bench.chip.peek_step(cell), bench.peek(cell)) << "B" << std::hex << cell;
+  }
+}
+
 // The sampling edge of a read decides: the edge at which the start-up begins is still too early, then the chip owns the DPRAM.
 TEST(UserReset, NoReadRoundTheBeginOfALateStartUpGivesAValue) {
   for (Cycle offset = -2; offset <= 2; ++offset) {

@@ -34,22 +34,23 @@ TEST_P(AcyclicRefusal, HasTheRightCode) {
   EXPECT_THAT(parameter, ElementsAre(0x11, 0x22, 0x33, 0x44)) << "nothing is written";
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, AcyclicRefusal,
-                         testing::Values(Refusal{"UnknownSlotRead", 1, {0x5E, 9, 1, 4}, {0xDE, 0x80, 0xB2, 0}},
-                                         Refusal{"UnknownSlotWrite", 2, {0x5F, 9, 1, 1, 7}, {0xDF, 0x80, 0xB2, 0}},
-                                         Refusal{"UnknownSlotTransport", 2, {0x51, 9, 1, 1, 7}, {0xD1, 0x80, 0xB2, 0}},
-                                         Refusal{
-                                             "UnknownSlot0WithoutIm0", 1, {0x5E, 0, 255, 68}, {0xDE, 0x80, 0xB2, 0}},
-                                         Refusal{"UnknownIndex", 1, {0x5E, 1, 9, 4}, {0xDE, 0x80, 0xB0, 0}},
-                                         Refusal{"ClassNotAdmitted", 1, {0x5E, 1, 4, 4}, {0xDE, 0x80, 0xB6, 0}},
-                                         Refusal{"ReadOnly", 2, {0x5F, 1, 2, 1, 7}, {0xDF, 0x80, 0xB6, 0}},
-                                         Refusal{"WriteOnly", 1, {0x5E, 1, 3, 3}, {0xDE, 0x80, 0xB6, 0}},
-                                         Refusal{"NoTransport", 2, {0x51, 1, 1, 1, 7}, {0xD1, 0x80, 0xA9, 0}},
-                                         Refusal{"WriteTooShort", 1, {0x5F, 1, 3, 1, 7}, {0xDF, 0x80, 0xB1, 0}},
-                                         Refusal{"WriteTooLong", 2, {0x5F, 1, 3, 4, 7, 7, 7, 7}, {0xDF, 0x80, 0xB1, 0}},
-                                         Refusal{"ReadTooShort", 1, {0x5E, 1, 1, 0}, {0xDE, 0x80, 0xB8, 0}},
-                                         Refusal{"UnknownFunction", 2, {0x48, 1, 1, 0}, {0xC8, 0x80, 0xA9, 0}}),
-                         [](const auto& refusal) { return std::string(refusal.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Table, AcyclicRefusal,
+    testing::Values(Refusal{"UnknownSlotRead", 1, {0x5E, 9, 1, 4}, {0xDE, 0x80, 0xB2, 0}},
+                    Refusal{"UnknownSlotWrite", 2, {0x5F, 9, 1, 1, 7}, {0xDF, 0x80, 0xB2, 0}},
+                    Refusal{"UnknownSlotTransport", 2, {0x51, 9, 1, 1, 7}, {0xD1, 0x80, 0xB2, 0}},
+                    Refusal{"UnknownSlot0WithoutIm0", 1, {0x5E, 0, 255, 68}, {0xDE, 0x80, 0xB2, 0}},
+                    Refusal{"UnknownIndex", 1, {0x5E, 1, 9, 4}, {0xDE, 0x80, 0xB0, 0}},
+                    Refusal{"ClassNotAdmitted", 1, {0x5E, 1, 4, 4}, {0xDE, 0x80, 0xB6, 0}},
+                    Refusal{"ReadOnly", 2, {0x5F, 1, 2, 1, 7}, {0xDF, 0x80, 0xB6, 0}},
+                    Refusal{"WriteOnly", 1, {0x5E, 1, 3, 3}, {0xDE, 0x80, 0xB6, 0}},
+                    Refusal{"NoTransport", 2, {0x51, 1, 1, 1, 7}, {0xD1, 0x80, 0xA9, 0}},
+                    Refusal{"WriteTooShort", 1, {0x5F, 1, 3, 1, 7}, {0xDF, 0x80, 0xB1, 0}},
+                    Refusal{"WriteTooLong", 2, {0x5F, 1, 3, 4, 7, 7, 7, 7}, {0xDF, 0x80, 0xB1, 0}},
+                    Refusal{"ReadTooShort", 1, {0x5E, 1, 1, 0}, {0xDE, 0x80, 0xB8, 0}},
+                    Refusal{"ReadOfMoreThanAnyAnswer", 2, {0x5E, 1, 1, 241}, {0xDE, 0x80, 0xB7, 0}},
+                    Refusal{"UnknownFunction", 2, {0x48, 1, 1, 0}, {0xC8, 0x80, 0xA9, 0}}),
+    [](const auto& refusal) { return std::string(refusal.param.name); });
 
 class AcyclicObject : public AcyclicTestOfEachClass {};
 INSTANTIATE_TEST_SUITE_P(Class, AcyclicObject, testing::Values(1, 2));
