@@ -39,6 +39,7 @@ INSTANTIATE_TEST_SUITE_P(
                  {"PRM_OK 2", "WD_ON 2", "C1_REQUEST 4", "C2_INITIATE 7", "C2_REQUEST 24", "DPV1_REQUEST 4"}},
         Directed{"answer_rates", {"BAUD_FOUND 3", "FDL status 6"}},
         Directed{"offline_count", {"PRM_OK 257", "CFG_OK 257"}},
+        Directed{"initialise_while_sending", {"INITIALISED 2", "BAUD_FOUND 2"}},
         Directed{"host_port", {"INIT_LENGTH 3", "PRM_OK 4", "HOST_NOT_OWNER 11"}}),
     [](const auto& each) { return std::string(each.param.name); });
 
