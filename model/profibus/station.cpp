@@ -30,6 +30,7 @@ void Station::reset() {
 }
 
 void Station::initialise(Cycle now, const SlaveConfig& config) {
+  rxd_.eval(now);  // the sequencer acts before the station, and the receiver restarts with the level of this very edge
   tx_.abort();
   slave_.initialise(now, config);
   start_search(now);

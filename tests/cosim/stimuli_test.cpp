@@ -34,11 +34,12 @@ INSTANTIATE_TEST_SUITE_P(
         Directed{"service_lengths",
                  {"ADDRESS 2", "ADDRESS_TOO_LONG 1", "CFG_TOO_LONG 1", "DX_FAIL_SAFE 1", "DX_LENGTH 1", "SAP_DATA 8"}},
         Directed{"longest_blocks", {"PRM_OK 1", "CFG_OK 1", "DIAG 3", "Slave_Diag 3"}},
-        Directed{"banks", {"Check_Cfg 18", "Global_Control 12", "CFG_OK 9"}},
+        Directed{"banks", {"Check_Cfg 19", "Global_Control 14", "CFG_OK 10"}},
         Directed{"bit_patterns",
                  {"PRM_OK 2", "WD_ON 2", "C1_REQUEST 4", "C2_INITIATE 7", "C2_REQUEST 24", "DPV1_REQUEST 4"}},
         Directed{"answer_rates", {"BAUD_FOUND 3", "FDL status 6"}},
         Directed{"offline_count", {"PRM_OK 257", "CFG_OK 257"}},
+        Directed{"initialise_while_sending", {"INITIALISED 2", "BAUD_FOUND 2"}},
         Directed{"host_port", {"INIT_LENGTH 3", "PRM_OK 4", "HOST_NOT_OWNER 11"}}),
     [](const auto& each) { return std::string(each.param.name); });
 
