@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <regex>
 
 #include "tb/scenario/event_codes.hpp"
 #include "tb/scenario/input_error.hpp"
@@ -270,11 +269,17 @@ class Checker {
 }  // namespace
 
 std::optional<Switch> parse_switch(const std::string& text) {
-  static const std::regex form("P([A-G])([0-9]|1[0-5])=(low|high)");
-  std::smatch parts;
-  if (!std::regex_match(text, parts, form)) return std::nullopt;
-  return Switch{static_cast<unsigned>(parts.str(1)[0] - 'A'), static_cast<unsigned>(std::stoi(parts.str(2))),
-                parts.str(3) == "high"};
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals < 3 || equals > 4 || text[0] != 'P') return std::nullopt;
+  const std::string level = text.substr(equals + 1);
+  if (text[1] < 'A' || text[1] > 'G' || (level != "low" && level != "high")) return std::nullopt;
+  // 0 to 15, without a leading zero
+  const std::string number = text.substr(2, equals - 2);
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (!std::all_of(number.begin(), number.end(), digit) || (number.size() > 1 && number[0] == '0')) return std::nullopt;
+  const auto bit = static_cast<unsigned>(std::stoi(number));
+  if (bit > 15) return std::nullopt;
+  return Switch{static_cast<unsigned>(text[1] - 'A'), bit, level == "high"};
 }
 
 void check(const Scenario& scenario) { Checker(scenario).run(); }

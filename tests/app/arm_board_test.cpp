@@ -187,7 +187,10 @@ TEST(ArmBoard, SwitchesHoldInputPins) {
   };
   EXPECT_THAT(run("[PA0=low, PA1=low, PA3=low, PA4=low, PA5=low, PA6=low]").out, HasSubstr("initialised: address 4"));
   EXPECT_THAT(run("[PA0=high]").out, HasSubstr("initialised: address 5"));
-  EXPECT_THAT(run("[PA0=up]").err, HasSubstr("allowed are like PA0=low or PG15=high"));
+  for (const char* wrong :
+       {"PA0=up", "PA=low", "PA16=low", "PA00=low", "PA+1=low", "PH0=low", "QA0=low", "PA0=", "PA0"}) {
+    EXPECT_THAT(run("[" + std::string(wrong) + "]").err, HasSubstr("allowed are like PA0=low or PG15=high")) << wrong;
+  }
   EXPECT_THAT(run("[PG14=low]").err, HasSubstr("a pin that the board wires to the chip"));
   EXPECT_THAT(run("[PA0=low, PA0=high]").err, HasSubstr("a pin that is there twice"));
 }
