@@ -28,7 +28,7 @@ class Outputs : public testing::Test {
 };
 
 TEST_F(Outputs, EveryCommandHasHelpWithExamples) {
-  for (const char* command : {"", "run", "schema", "gsd", "decode", "rtl-faults"}) {
+  for (const char* command : {"", "run", "schema", "gsd", "decode", "rtl-faults", "recover"}) {
     const app_test::Called called = call(std::string(command) + " --help", folder_.path());
     EXPECT_EQ(called.status, 0) << command;
     EXPECT_NE(called.out.find("Examples:"), std::string::npos) << command;
