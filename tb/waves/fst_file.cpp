@@ -11,7 +11,18 @@
 
 namespace tb {
 
-FstFile::FstFile(const std::string& path) : part_(path), declarations_(part_.part() + ".hier"), context_(create()) {
+namespace {
+
+/// Looked at before it is opened: to open a FIFO is to wait for its reader.
+const std::string& regular(const std::string& path) {
+  if (!find_place(path).direct) return path;
+  throw InputError(path, 0, "is no regular file, allowed for FST is one; a device or FIFO can take a .vcd");
+}
+
+}  // namespace
+
+FstFile::FstFile(const std::string& path)
+    : part_(regular(path)), declarations_(part_.part() + ".hier"), context_(create()) {
   fstWriterSetTimescaleFromString(context_, "1ps");
   fstWriterSetVersion(context_, kWaveVersion);
   fstWriterSetDate(context_, "");  // the same run gives the same changes, and no other sign of when it was
@@ -20,8 +31,6 @@ FstFile::FstFile(const std::string& path) : part_(path), declarations_(part_.par
 }
 
 void* FstFile::create() {
-  if (part_.direct())
-    throw InputError(part_.path(), 0, "is no regular file, allowed for FST is one; a device or FIFO can take a .vcd");
   fst_io_take_error();
   fst_io_create_on(part_.take_descriptor());
   void* const context = fstWriterCreate(part_.part().c_str(), 1);
