@@ -21,7 +21,7 @@ std::string name_without_part(const std::string& part) {
   const bool ours = ending != std::string::npos && ending + 5 == part.size() && number != std::string::npos &&
                     number + 1 < ending && part[number] == '.' && number != 0;
   if (!ours) throw tb::InputError("dsdpv1-sim recover: " + part + " is not named NAME.PID.part, so --output is needed");
-  const std::string name = part.substr(0, number);
+  std::string name = part.substr(0, number);
   if (std::filesystem::exists(name))
     throw tb::InputError("dsdpv1-sim recover: " + name + " is there already, so --output is needed");
   return name;

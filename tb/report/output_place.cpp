@@ -1,8 +1,8 @@
 #include "tb/report/output_place.hpp"
 
 #include <fcntl.h>
-#include <limits.h>
 #include <unistd.h>
+#include <climits>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "tb/report/part_file.hpp"
 
 #include <fcntl.h>
-#include <limits.h>
 #include <unistd.h>
+#include <climits>
 
 #include <array>
 #include <atomic>
@@ -99,7 +99,7 @@ std::unique_ptr<NameToRemove> open_place(const OutputPlace& place, int& descript
 
 }  // namespace
 
-NameToRemove::NameToRemove(std::string name) : name_(std::move(name)), slot_(-1) {
+NameToRemove::NameToRemove(std::string name) : name_(std::move(name)) {
   if (!name_.empty()) slot_ = take_slot(name_.c_str());
 }
 

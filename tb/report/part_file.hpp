@@ -18,7 +18,7 @@ class NameToRemove {
 
  private:
   std::string name_;
-  int slot_;
+  int slot_ = -1;
 };
 
 /// Removes all temporary files of this process; for handlers of signals (async-signal-safe).

@@ -3,8 +3,7 @@
 #ifndef DSDPV1_TB_WAVES_FST_IO_H
 #define DSDPV1_TB_WAVES_FST_IO_H
 
-#include <stddef.h>
-#include <stdio.h>
+#include <stdio.h> /* NOLINT(modernize-deprecated-headers): for C and C++ */
 #include <sys/types.h>
 
 #ifdef __cplusplus

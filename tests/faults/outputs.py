@@ -105,22 +105,20 @@ def killed_and_recovered(place):
 
 
 def starting(place, number):
-    """The start is held at a FIFO that nobody reads, which is the file that is opened after the output's, or the wave."""
-    hold = ["--wave", "hold.vcd"] if place.output.name == "trace" else ["--trace", "hold.vcd"]
+    """The start is held at a FIFO that nobody reads: the file that is opened after the output's. Of the trace, which is the last, the one
+    before it, and the result is there already."""
+    hold = ["--wave", "hold.vcd", "--result", "held.json"] if place.output.name == "trace" else ["--trace", "hold.vcd"]
     os.mkfifo(place.file("hold.vcd"))
     process = place.start(place.output.command(more=ENDLESS + hold))
-    if place.output.name == "trace":
-        wait_for(lambda: "fifo_open" in wait_channel(process) or "wait_for_partner" in wait_channel(process), "the FIFO")
-    else:
-        place.part()
+    part = place.part()
+    if place.output.name == "wave .fst":
+        wait_for(lambda: os.path.exists(place.file(part + ".hier")), "FST's second file")
     process.send_signal(number)
+    process.wait(DEADLINE)
     place.inputs.add("hold.vcd")
+    if part.startswith("held") and number == signal.SIGKILL:
+        place.inputs.add(part)
     return place.end(process)
-
-
-def wait_channel(process):
-    with open("/proc/%d/wchan" % process.pid, encoding="ASCII") as file:
-        return file.read()
 
 
 def interrupted_at_start(place):

@@ -89,8 +89,8 @@ class Place:
             file.write(content)
 
     def start(self, words, faults="", stdout=subprocess.DEVNULL):
-        return subprocess.Popen([sys.executable, "-S", os.path.join(HERE, "launch.py"), faults, self.program, *words],
-                                cwd=self.path, stdout=stdout, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
+        launcher = [sys.executable, "-S", os.path.join(HERE, "launch.py"), faults] if faults else []
+        return subprocess.Popen([*launcher, self.program, *words], cwd=self.path, stdout=stdout, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
 
     def do(self, path=None, faults="", more=()):
         return self.end(self.start(self.output.command(path, more), faults))
@@ -130,10 +130,10 @@ class Place:
         if name.endswith(".hier"):
             return ""
         if name.endswith(".part"):
+            if self.output.file == "o.fst" and not has_changes(content):
+                return " (no changes yet)"
             if not content:
                 return " (empty)"
-            if name.startswith("o.fst") and not has_changes(content):
-                return " (no changes yet)"
             check(readable(path, content), name + " is not readable")
             return " (readable)"
         if content == BEFORE:
