@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/reasons_command.hpp"
+#include "apps/recover_command.hpp"
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
@@ -145,7 +146,7 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
   command->add_option("--baud", arguments.baud, "Baud rate; left out: that of the scenario");
   command->add_option("--for", arguments.duration, "Ends after this time, for example 10s; left out: Ctrl-C");
   command->add_option("--wave", arguments.wave, "As of run");
-  CLI::Option* log = command->add_option("--log", arguments.log, "As of run; while it grows, FILE.part");
+  CLI::Option* log = command->add_option("--log", arguments.log, "As of run; where it grows is said at the start");
   command->add_flag("--log-whole", arguments.log_whole, "As of run")->needs(log);
   command->add_option("--result", arguments.result, "As of run, and how well real time was kept");
   command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
@@ -243,6 +244,19 @@ void describe_reasons(CLI::App& app, ReasonsArguments& arguments) {
   command->footer("\nExamples:\n  dsdpv1-sim reasons prm_ident\n  dsdpv1-sim reasons | less\n");
 }
 
+void describe_recover(CLI::App& app, RecoverArguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("recover", "Makes a complete wave of what a killed run (SIGKILL) has left of it");
+  command->add_option("FILE", arguments.part, "The wave's temporary file, NAME.PID.part; FST needs FILE.hier beside it")
+      ->required();
+  command->add_option("--output,-o", arguments.output, "The wave; left out: NAME, when there is none yet");
+  command->footer(
+      "\nIt says until when the wave is complete. The files that it reads stay.\n"
+      "\nExamples:\n  dsdpv1-sim recover out/demo.fst.4711.part\n"
+      "  dsdpv1-sim recover demo.vcd.4711.part --output killed.vcd\n"
+      "\nExit codes: 0 recovered, 2 wrong input or nothing to recover.\n");
+}
+
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -304,6 +318,8 @@ int command_line(int argc, char** argv) {
   describe_rtl_faults(app, rtl_faults_arguments);
   CosimArguments cosim_arguments;
   describe_cosim(app, cosim_arguments);
+  RecoverArguments recover_arguments;
+  describe_recover(app, recover_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -316,6 +332,7 @@ int command_line(int argc, char** argv) {
   if (app.got_subcommand("rtl-random")) return rtl_random(rtl_random_arguments);
   if (app.got_subcommand("rtl-faults")) return rtl_faults(rtl_faults_arguments);
   if (app.got_subcommand("cosim")) return cosim_own_rtl(cosim_arguments);
+  if (app.got_subcommand("recover")) return recover(recover_arguments);
   if (app.got_subcommand("schema")) return schema(schema_arguments);
   if (app.got_subcommand("gsd")) return gsd(gsd_arguments);
   if (app.got_subcommand("reasons")) return reasons(reasons_arguments);

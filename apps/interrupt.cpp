@@ -1,8 +1,13 @@
 #include "apps/interrupt.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <ctime>
 #include <initializer_list>
+
+#include "apps/command_line.hpp"
+#include "tb/report/part_file.hpp"
 
 namespace app {
 namespace {
@@ -22,13 +27,25 @@ void on_signal(int signal) {
   }
 }
 
-}  // namespace
+void leave_nothing(int /*signal*/) {
+  tb::remove_parts();
+  _exit(kInterrupted);
+}
 
-void catch_signals() {
+void handle_with(void (*handler)(int)) {
   struct sigaction action {};
-  action.sa_handler = on_signal;
+  action.sa_handler = handler;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
 }
+
+}  // namespace
+
+void leave_nothing_on_signals() {
+  std::signal(SIGPIPE, SIG_IGN);
+  handle_with(leave_nothing);
+}
+
+void catch_signals() { handle_with(on_signal); }
 
 bool interrupted() { return ended != 0; }
 

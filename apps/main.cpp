@@ -1,11 +1,17 @@
 // dsdpv1-sim, the one command-line program.
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 
 #include "apps/command_line.hpp"
+#include "tb/report/standard_output.hpp"
 #include "tb/scenario/input_error.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int carry_out(int argc, char** argv) {
   try {
     return app::command_line(argc, argv);
   } catch (const tb::InputError& error) {
@@ -15,4 +21,29 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "dsdpv1-sim: internal error: %s\n", error.what());
     return app::kFailed;
   }
+}
+
+/// As if the program had been stopped when its reader went away; only that its files are complete.
+void end_as_by_sigpipe() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+}
+
+/// What should have been said and was not, is an error of its own.
+int judge_output(int status, int error) {
+  if (error == 0) return status;
+  if (status == app::kInterrupted) return status;
+  if (error == EPIPE) end_as_by_sigpipe();
+  std::fprintf(stderr, "dsdpv1-sim: standard output cannot be written: %s\n", std::strerror(error));
+  return app::kWrongInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large shows at the write
+  tb::fill_closed_channels();
+  tb::StandardOutput output;
+  const int status = carry_out(argc, argv);
+  return judge_output(status, output.finish());
 }

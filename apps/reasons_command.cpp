@@ -7,6 +7,8 @@
 #include <iostream>
 
 #include "apps/command_line.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/outputs.hpp"
 #include "bus/monitor.hpp"
 #include "model/profibus/event.hpp"
 #include "tb/bench/record.hpp"
@@ -247,6 +249,8 @@ int reasons(const ReasonsArguments& arguments) {
     std::cout << text << std::flush;
     return kPassed;
   }
+  leave_nothing_on_signals();
+  check_outputs("dsdpv1-sim reasons", {}, {{"--output", arguments.output}});
   tb::OutputFile file(arguments.output);
   file.write(text);
   file.commit();

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "apps/command_line.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/outputs.hpp"
 #include "tb/cosim/campaign.hpp"
 #include "tb/cosim/faults.hpp"
 #include "tb/cosim/random_setup.hpp"
@@ -90,10 +92,19 @@ int shrink_and_replay(const RtlRandomArguments& arguments, const cosim::Campaign
   return replay(arguments, arguments.stimulus);
 }
 
+std::vector<NamedFile> with_files_of(const std::string& folder, std::vector<NamedFile> inputs) {
+  for (const auto& entry : fs::directory_iterator(folder)) inputs.push_back({"a file of --directed", entry.path()});
+  return inputs;
+}
+
 }  // namespace
 
 int rtl_random(const RtlRandomArguments& arguments) {
+  leave_nothing_on_signals();
   tb::check_wave_name(arguments.difference);
+  check_outputs(
+      "dsdpv1-sim rtl-random", {{"--replay", arguments.replay}},
+      {{"--stimulus", arguments.replay.empty() ? arguments.stimulus : ""}, {"--difference", arguments.difference}});
   if (!arguments.replay.empty()) return replay(arguments, arguments.replay);
   const auto begin = std::chrono::steady_clock::now();
   const ProgressLine line;
@@ -109,11 +120,13 @@ int rtl_random(const RtlRandomArguments& arguments) {
 }
 
 int rtl_faults(const RtlFaultsArguments& arguments) {
+  leave_nothing_on_signals();
   const auto given_or_own = [](const std::string& path, const char* own) { return path.empty() ? own : path; };
-  const std::vector<cosim::Fault> faults =
-      cosim::read_faults(given_or_own(arguments.list, DSDPV1_SOURCE_DIR "/rtl_ref/faults.txt"));
-  const std::vector<cosim::NamedStimulus> directed =
-      cosim::read_stimuli(given_or_own(arguments.directed, DSDPV1_SOURCE_DIR "/tests/cosim/stimuli"));
+  const std::string list = given_or_own(arguments.list, DSDPV1_SOURCE_DIR "/rtl_ref/faults.txt");
+  const std::string folder = given_or_own(arguments.directed, DSDPV1_SOURCE_DIR "/tests/cosim/stimuli");
+  const std::vector<cosim::Fault> faults = cosim::read_faults(list);
+  const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder);
+  check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", arguments.tsv}});
   const cosim::Kill none = cosim::hunt({0, "none", "the build for the faults, with none active"}, directed,
                                        arguments.seed, arguments.cycles / 10);
   std::cout << cosim::heading();

@@ -5,9 +5,11 @@
 #include <iostream>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/outputs.hpp"
 #include "apps/rtl_commands.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/bench/tlm_execution.hpp"
@@ -103,12 +105,23 @@ void check_has_board(const tb::scenario::Scenario& scenario) {
                        " has none");
 }
 
+void check_outputs_of(const RunArguments& arguments, const std::vector<tb::scenario::Setting>& settings) {
+  check_outputs("dsdpv1-sim run", scenario_inputs(arguments.scenario, settings),
+                {{"--wave", arguments.wave},
+                 {"--log", arguments.log},
+                 {"--result", arguments.result},
+                 {"--trace", arguments.trace},
+                 {"--difference", arguments.engine == "lockstep" ? arguments.difference : ""}});
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
+  leave_nothing_on_signals();
   const tb::RunOptions options = options_of(arguments);
-  const tb::scenario::Scenario scenario =
-      tb::scenario::load(arguments.scenario, tb::scenario::parse_settings(arguments.set));
+  const std::vector<tb::scenario::Setting> settings = tb::scenario::parse_settings(arguments.set);
+  const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario, settings);
+  check_outputs_of(arguments, settings);
   if (arguments.gdb) check_has_board(scenario);
   if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, reference_rtl);
   if (arguments.engine == "rtl")
@@ -118,12 +131,16 @@ int run(const RunArguments& arguments) {
 }
 
 int cosim_own_rtl(const CosimArguments& arguments) {
+  leave_nothing_on_signals();
   RunArguments run_arguments;
   run_arguments.scenario = arguments.scenario;
   run_arguments.difference = arguments.difference;
   run_arguments.engine = "lockstep";
   const tb::RunOptions options = options_of(run_arguments);
   const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
+  std::vector<NamedFile> inputs = scenario_inputs(arguments.scenario);
+  inputs.push_back({"--pins", arguments.pins});
+  check_outputs("dsdpv1-sim cosim", inputs, {{"--difference", arguments.difference}});
   const cosim::PinMap map = arguments.pins.empty() ? cosim::default_pin_map() : cosim::load_pin_map(arguments.pins);
   cosim::LockstepOptions lockstep;
   lockstep.tolerances = map.tolerances;

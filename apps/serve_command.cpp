@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/outputs.hpp"
 #include "bus/baud.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/report/output_file.hpp"
@@ -67,20 +67,24 @@ tb::RunOptions options_of(const ServeArguments& arguments) {
 }  // namespace
 
 int serve(const ServeArguments& arguments) {
+  leave_nothing_on_signals();
   tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
   scenario.baud = chosen_baud(scenario, arguments.baud);
   scenario.end = chosen_end(arguments.duration);
   const tb::RunOptions options = options_of(arguments);
+  check_outputs("dsdpv1-sim serve", scenario_inputs(arguments.scenario),
+                {{"--wave", arguments.wave}, {"--log", arguments.log}, {"--result", arguments.result}});
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
   catch_signals();
-  std::signal(SIGPIPE, SIG_IGN);  // a host that hung up shows at the write
 
   auto port = open_port(arguments, scenario.baud);
   const std::string name = port->name();
   auto made = std::make_unique<tb::serve::RealTimeExecution>(std::move(port), scenario.baud);
   tb::serve::RealTimeExecution& execution = *made;
   tb::Bench bench(scenario, options, std::move(made));
+  if (interrupted()) return kInterrupted;
+  if (!arguments.log.empty()) std::cerr << "serve: the log grows as " << bench.log_grows_at() << std::endl;
   execution.join();
   execution.say = [&bench](tb::Tick at, const std::string& text) {
     std::cerr << "serve: " << text << std::endl;

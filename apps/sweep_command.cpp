@@ -11,6 +11,7 @@
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/outputs.hpp"
 #include "tb/report/output_file.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/scenario/input_error.hpp"
@@ -168,8 +169,12 @@ unsigned jobs_of(const SweepArguments& arguments) {
 }  // namespace
 
 int sweep(const SweepArguments& arguments) {
+  leave_nothing_on_signals();
   const Plan plan = plan_of(arguments);
   check_loads(plan);
+  check_outputs("dsdpv1-sim sweep", scenario_inputs(arguments.scenario, tb::scenario::parse_settings(arguments.set)),
+                {{"results.csv of --out", folder_of(arguments) + "/results.csv"},
+                 {"sweep.json of --out", folder_of(arguments) + "/sweep.json"}});
   const Folder folder(folder_of(arguments), tb::sweep::identity(plan, tb::sweep::program_identity(DSDPV1_VERSION)));
   if (!folder.started_anew().empty())
     std::cerr << "sweep: " << folder_of(arguments) << " is about " << folder.started_anew()

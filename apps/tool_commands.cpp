@@ -4,6 +4,8 @@
 #include <iostream>
 
 #include "apps/command_line.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/outputs.hpp"
 #include "bus/explain.hpp"
 #include "bus/gsd_report.hpp"
 #include "tb/report/output_file.hpp"
@@ -18,6 +20,8 @@ int schema(const SchemaArguments& arguments) {
     std::cout << text;
     return kPassed;
   }
+  leave_nothing_on_signals();
+  check_outputs("dsdpv1-sim schema", {}, {{"--output", arguments.output}});
   tb::OutputFile file(arguments.output);
   file.write(text);
   file.commit();

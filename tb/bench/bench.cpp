@@ -359,7 +359,7 @@ RunResult Bench::run(const std::function<bool(Tick)>& poll) {
   const auto begin = std::chrono::steady_clock::now();
   pulse_.poll = [&](Tick at) {
     if (log_) log_->flush(at - 1);
-    return poll(at);
+    return keep_outputs(at) && poll(at);
   };
   execution_->run(scenario_.end, [this] { return stopped(); });
   RunResult result = collect();
@@ -409,7 +409,24 @@ RunResult Bench::collect() {
   return result;
 }
 
+/// Once a second of wall time what was written goes to disk, for the case that the process is killed. False: an output cannot be
+/// written any more (a full disk), so the run need not go on.
+bool Bench::keep_outputs(Tick at) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now >= next_save_) {
+    next_save_ = now + std::chrono::seconds(1);
+    if (waves_) waves_->save(at);
+    if (log_) log_->save();
+    if (trace_) trace_->save();
+  }
+  return !(waves_ && waves_->failed()) && !(log_ && log_->failed()) && !(trace_ && trace_->failed());
+}
+
+/// A run that one of them has ended early leaves none of them.
 void Bench::finish_outputs() {
+  if (waves_) waves_->check();
+  if (log_) log_->check();
+  if (trace_) trace_->check();
   if (waves_) waves_->finish(std::max(now(), stopped() ? now() : scenario_.end));
   if (log_) log_->finish();
   if (trace_) trace_->finish();

@@ -1,6 +1,7 @@
 #pragma once
 // A scenario carried out: builds the stations, runs the timeline, collects what happened. The script is in script.hpp, the judging
 // of conditions in conditions.hpp.
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -51,6 +52,8 @@ class Bench {
   /// Runs to the scenario's end, or until `poll`, which is called every 100 us of simulated time, returns false. The files of
   /// the options are complete afterwards.
   RunResult run(const std::function<bool(Tick now)>& poll);
+  /// Where the log grows until the run ends; empty without a log.
+  std::string log_grows_at() const { return log_ ? log_->grows_at() : ""; }
 
   // --- For the script and the conditions.
   const scenario::Scenario& scenario() const { return scenario_; }
@@ -113,6 +116,7 @@ class Bench {
   void flagged(const bus::Flag& flag);
   void happened(Happening happening);
   RunResult collect();
+  bool keep_outputs(Tick at);
   void finish_outputs();
 
   const scenario::Scenario& scenario_;
@@ -132,6 +136,7 @@ class Bench {
   std::optional<RunLog> log_;
   std::optional<PinTrace> trace_;
   std::optional<WaveRecorder> waves_;
+  std::chrono::steady_clock::time_point next_save_ = {};
 
   std::vector<Happening> happenings_;
   std::uint64_t happenings_dropped_ = 0, violations_ = 0;

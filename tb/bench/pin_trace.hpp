@@ -15,6 +15,9 @@ class PinTrace {
  public:
   explicit PinTrace(const std::string& path) : file_(path) {}
   void change(std::size_t number, const std::string& slave, bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void save() { file_.flush(); }
+  bool failed() const { return file_.failed(); }
+  void check() const { file_.check(); }
   void finish();
 
  private:

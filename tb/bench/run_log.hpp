@@ -49,6 +49,11 @@ class RunLog {
   void finding(const LogEntry& entry);
   /// Nothing will come for a time before `now` any more.
   void flush(bus::Tick now);
+  /// What was written is in the temporary file, which grows there.
+  void save() { file_.flush(); }
+  const std::string& grows_at() const { return file_.grows_at(); }
+  bool failed() const { return file_.failed(); }
+  void check() const { file_.check(); }
   /// Writes the rest and gives the file its name.
   void finish();
 

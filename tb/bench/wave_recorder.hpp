@@ -32,6 +32,10 @@ class WaveRecorder : private bus::Listener {
   void master_state(const std::string& master, const std::string& member, bus::Tick at, const std::string& word);
   /// The telegram that has just ended, in words.
   void telegram(bus::Tick at, const std::string& words);
+  // See WaveWriter.
+  void save(bus::Tick at) { writer_->save(at); }
+  bool failed() const { return writer_->failed(); }
+  void check() const { writer_->check(); }
   void finish(bus::Tick end) { writer_->finish(end); }
 
  private:

@@ -1,40 +1,49 @@
 #pragma once
-// A file that is complete or absent: it is written under a temporary name beside its place and renamed by `commit`.
+// A file that is complete or absent: it is written under a temporary name beside its place and renamed by `commit`. Symbolic links
+// are followed; devices and FIFOs are written to as they are.
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
+
+#include "tb/report/part_file.hpp"
 
 namespace tb {
 
 class OutputFile {
  public:
   /// Throws InputError when the file cannot be created.
-  explicit OutputFile(std::string path);
-  /// Without a commit nothing is left behind.
-  ~OutputFile();
+  explicit OutputFile(const std::string& path);
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
+  /// Without a commit nothing is left behind.
+  ~OutputFile() = default;
 
-  /// Errors (a full disk) are kept until `commit`.
-  void write(std::string_view text) { std::fwrite(text.data(), 1, text.size(), file_.get()); }
+  /// The first error (a full disk) is kept; after it nothing more is written.
+  void write(std::string_view text) {
+    if (error_ == 0 && std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) keep_error();
+  }
   /// What was written so far is in the file with the temporary name.
-  void flush() { std::fflush(file_.get()); }
+  void flush();
+  /// Whether something could not be written: a run need not go on.
+  bool failed() const { return error_ != 0; }
+  /// Throws InputError when something could not be written.
+  void check() const;
   /// Closes and gives the file its name; throws InputError when something could not be written.
   void commit();
-  const std::string& path() const { return path_; }
+  const std::string& path() const { return part_.path(); }
+  /// Where it grows: the temporary name, or the device itself.
+  const std::string& grows_at() const { return part_.direct() ? part_.path() : part_.part(); }
 
  private:
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  std::string path_, part_;
-  std::unique_ptr<std::FILE, Close> file_;
-};
+  void keep_error();
 
-/// The temporary name of an output file: in the same folder, so that renaming is atomic.
-std::string part_name(const std::string& path);
-/// Renames `part` to `path`; throws InputError and removes `part` when that fails.
-void rename_part(const std::string& part, const std::string& path);
+  PartFile part_;
+  std::unique_ptr<std::FILE, Close> file_;  // closed before the temporary name is removed
+  int error_ = 0;
+};
 
 }  // namespace tb

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "tb/waves/fst_file.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace tb {
@@ -9,24 +10,23 @@ namespace tb {
 /// GTKWave's Fast Signal Trace, written with the fstapi library that comes with Verilator.
 class FstWriter : public WaveWriter {
  public:
-  explicit FstWriter(std::string path);
-  ~FstWriter() override;
-  FstWriter(const FstWriter&) = delete;
-  FstWriter& operator=(const FstWriter&) = delete;
+  explicit FstWriter(const std::string& path) : file_(path) {}
 
-  void open_scope(const std::string& name) override;
-  void close_scope() override;
+  void open_scope(const std::string& name) override { file_.open_scope(name); }
+  void close_scope() override { file_.close_scope(); }
   Signal wire(const std::string& name, int width) override;
   Signal words(const std::string& name) override;
   void set(bus::Tick at, Signal signal, int level) override;
   void say(bus::Tick at, Signal signal, std::string_view word) override;
+  void save(bus::Tick at) override;
+  bool failed() const override { return file_.failed(); }
+  void check() const override { file_.check(); }
   void finish(bus::Tick end) override;
 
  private:
   void move_to(bus::Tick at);
 
-  std::string path_, part_;
-  void* context_ = nullptr;
+  FstFile file_;
   std::vector<int> widths_;  // by handle - 1
   bus::Tick now_ = -1;
 };

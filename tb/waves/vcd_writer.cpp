@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tb/waves/level_text.hpp"
+#include "tb/waves/recover.hpp"
 
 namespace tb {
 namespace {
@@ -23,7 +24,7 @@ std::string identifier(WaveWriter::Signal signal) {
 }  // namespace
 
 VcdWriter::VcdWriter(const std::string& path) : file_(path) {
-  file_.write("$version dsdpv1-sim $end\n$timescale 1 ps $end\n");
+  file_.write(fmt::format("$version {} $end\n$timescale 1 ps $end\n", kWaveVersion));
 }
 
 void VcdWriter::open_scope(const std::string& name) { file_.write(fmt::format("$scope module {} $end\n", name)); }

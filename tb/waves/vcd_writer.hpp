@@ -17,6 +17,9 @@ class VcdWriter : public WaveWriter {
   Signal words(const std::string& name) override;
   void set(bus::Tick at, Signal signal, int level) override;
   void say(bus::Tick at, Signal signal, std::string_view word) override;
+  void save(bus::Tick /*at*/) override { file_.flush(); }
+  bool failed() const override { return file_.failed(); }
+  void check() const override { file_.check(); }
   void finish(bus::Tick end) override;
 
  private:

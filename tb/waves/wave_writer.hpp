@@ -32,6 +32,14 @@ class WaveWriter {
   virtual void set(bus::Tick at, Signal signal, int level) = 0;
   virtual void say(bus::Tick at, Signal signal, std::string_view word) = 0;
 
+  /// What was written up to `at` is in the temporary file, where `dsdpv1-sim recover` finds it. `at` is not before any change so far,
+  /// and no later change is before it.
+  virtual void save(bus::Tick at) = 0;
+  /// Whether something could not be written: there is no use in going on.
+  virtual bool failed() const = 0;
+  /// Throws InputError when it has.
+  virtual void check() const = 0;
+
   /// Finishes the file at `end` and gives it its name; throws InputError when it cannot be written. A writer that is destroyed
   /// without it leaves no file.
   virtual void finish(bus::Tick end) = 0;

@@ -71,7 +71,7 @@ class Serve:
     def wait_for_log(self, pattern):
         """Waits until a line of the log that is being written matches."""
         deadline = time.monotonic() + DEADLINE
-        path = os.path.join(self.folder, "serve.log.part")
+        path = os.path.join(self.folder, re.search(r"the log grows as (\S+)", self.said()).group(1))
         while time.monotonic() < deadline:
             with open(path, encoding="UTF-8") as file:
                 if re.search(pattern, file.read()):

@@ -1,7 +1,9 @@
 // Waves: exact times, X and Z, complete or absent files.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -11,6 +13,7 @@
 #endif
 
 #include "tb/scenario/input_error.hpp"
+#include "tb/waves/recover.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace {
@@ -118,6 +121,126 @@ TEST_F(Waves, FstReadsBackWhatWasWritten) {
   EXPECT_NE(changes.find("31250 2 xxxxxxxx\n"), std::string::npos) << changes;
   EXPECT_NE(changes.find("41667 2 10100101\n"), std::string::npos) << changes;
   EXPECT_NE(changes.find("41667 3 WAIT_PRM\n"), std::string::npos) << changes;
+}
+
+/// All changes of an FST file.
+std::string changes_of(const std::string& name) {
+  void* reader = fstReaderOpen(name.c_str());
+  if (reader == nullptr) return "not readable";
+  fstReaderSetFacProcessMaskAll(reader);
+  std::ostringstream text;
+  fstReaderIterBlocks2(reader, collect, collect_words, &text, nullptr);
+  text << "until " << fstReaderGetEndTime(reader);
+  fstReaderClose(reader);
+  return text.str();
+}
+
+/// A wave of some 30 KB as FST: `saves` blocks in all.
+void write_long(tb::WaveWriter& wave, int saves) {
+  const auto d = wave.wire("D", 32);
+  const auto state = wave.words("state");
+  unsigned random = 1;
+  for (int i = 0; i < 6000; ++i) {
+    random = random * 1664525U + 1013904223U;
+    wave.set(i * 10, d, static_cast<int>(random & 0x7FFFFFFFU));
+    if (i % 100 == 0) wave.say(i * 10, state, "S" + std::to_string(i));
+    if (i % (6000 / saves) == 0) wave.save(i * 10 + 5);
+  }
+}
+
+TEST_F(Waves, FstFullDiskIsAnErrorAtEveryByteAndLeavesNothing) {
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  int refused = 0;
+  for (rlim_t bytes = 0;; bytes += bytes < 2000 ? 37 : 1999) {
+    const rlimit limit{bytes, before.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    bool written = true;
+    try {
+      auto wave = tb::open_wave(path("w.fst"));
+      write_long(*wave, 3);
+      wave->finish(60'000);
+    } catch (const tb::InputError& error) {
+      written = false;
+      ++refused;
+      EXPECT_NE(std::string(error.what()).find("w.fst: cannot be written: File too large"), std::string::npos)
+          << bytes << " " << error.what();
+    }
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    if (written) break;
+    ASSERT_TRUE(fs::is_empty(folder_)) << bytes;
+  }
+  std::signal(SIGXFSZ, handler);
+  EXPECT_GT(refused, 60);
+  EXPECT_NE(changes_of(path("w.fst")).find("until 5000000"), std::string::npos);
+}
+
+TEST_F(Waves, FstInBlocksHoldsTheSameChanges) {
+  for (const auto& [name, saves] : {std::pair("one.fst", 1), std::pair("many.fst", 60)}) {
+    auto wave = tb::open_wave(path(name));
+    write_long(*wave, saves);
+    for (int idle = 1; idle < 10; ++idle) wave->save(60'000 + idle * 1000);  // nothing happens, time goes on
+    wave->set(70'000, 1, 7);
+    wave->finish(80'000);
+  }
+  EXPECT_EQ(changes_of(path("one.fst")), changes_of(path("many.fst")));
+  EXPECT_GT(changes_of(path("one.fst")).size(), 100'000U);
+}
+
+TEST_F(Waves, RecoveredIsEverythingUpToTheLastSave) {
+  for (const std::string ending : {".vcd", ".fst"}) {
+    auto wave = tb::open_wave(path("w" + ending));
+    write_long(*wave, 6);  // the last at 50005 ticks
+    std::string part;
+    for (const auto& entry : fs::directory_iterator(folder_))
+      if (entry.path().extension() == ".part") part = entry.path();
+    const auto recover = ending == ".fst" ? tb::recover_fst : tb::recover_vcd;
+    const std::uint64_t until = recover(part, path("r" + ending));
+    EXPECT_GE(until, tb::picoseconds(50'000)) << ending;
+    EXPECT_TRUE(fs::exists(part)) << "it stays";
+    wave->finish(60'000);
+    const auto all = [&](const std::string& name) { return ending == ".fst" ? changes_of(name) : read(name); };
+    std::string recovered = all(path("r" + ending));
+    const std::string whole = all(path("w" + ending));
+    recovered.resize(ending == ".fst" ? recovered.find("until") : recovered.rfind('#'));
+    EXPECT_EQ(whole.substr(0, recovered.size()), recovered) << ending;
+    EXPECT_GT(recovered.size(), whole.size() * 5 / 6 - 1000) << ending;
+    fs::remove(folder_ / ("w" + ending));
+    fs::remove(folder_ / ("r" + ending));
+    EXPECT_TRUE(fs::is_empty(folder_)) << ending;
+  }
+}
+
+TEST_F(Waves, WhatIsNoPartIsNotRecovered) {
+  const auto refusal = [&](const std::string& name) -> std::string {
+    try {
+      if (tb::wave_format(path(name)) == tb::WaveFormat::kFst) tb::recover_fst(path(name), path("out"));
+      return "none";
+    } catch (const tb::InputError& error) {
+      return error.what();
+    }
+  };
+  auto wave = tb::open_wave(path("w.fst"));
+  write_example(*wave);
+  wave->finish(750);
+  EXPECT_NE(refusal("w.fst").find("is complete"), std::string::npos);
+  const std::string whole = read(path("w.fst"));
+  std::ofstream(path("cut.fst")) << whole.substr(0, 400);
+  EXPECT_NE(refusal("cut.fst").find("holds no changes yet"), std::string::npos);
+  const std::size_t names = whole.rfind('\x06');
+  std::ofstream(path("nameless.fst")) << whole.substr(0, names);
+  EXPECT_NE(refusal("nameless.fst").find("needs " + path("nameless.fst") + ".hier"), std::string::npos);
+  std::ofstream(path("text")) << "no wave";
+  EXPECT_NE(refusal("text").find("is no wave of dsdpv1-sim"), std::string::npos);
+  EXPECT_NE(refusal("none").find("is no file"), std::string::npos);
+  // A block of changes with its inside turned to junk ends fstapi's reader, not this program.
+  std::string damaged = whole.substr(0, names);
+  for (std::size_t i = 360; i < damaged.size(); ++i) damaged[i] = static_cast<char>(damaged[i] ^ 0x5A);
+  std::ofstream(path("damaged.fst")) << damaged;
+  std::ofstream(path("damaged.fst.hier")) << "";
+  EXPECT_NE(refusal("damaged.fst"), "none");
+  EXPECT_FALSE(fs::exists(path("out")));
 }
 #endif
 

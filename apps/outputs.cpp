@@ -1,0 +1,48 @@
+#include "apps/outputs.hpp"
+
+#include <unistd.h>
+
+#include <map>
+#include <optional>
+
+#include "tb/report/output_place.hpp"
+#include "tb/scenario/input_error.hpp"
+
+namespace app {
+namespace {
+
+using Owners = std::map<std::string, std::string>;  ///< what a file is, by its identity
+
+void add(Owners& owners, const std::optional<std::string>& identity, const std::string& what) {
+  if (identity) owners.emplace(*identity, what);
+}
+
+}  // namespace
+
+std::vector<NamedFile> scenario_inputs(const std::string& scenario,
+                                       const std::vector<tb::scenario::Setting>& settings) {
+  std::vector<NamedFile> inputs = {{"the scenario", scenario}};
+  for (const std::string& file : tb::scenario::files(scenario, settings))
+    inputs.push_back({"a file of the scenario", file});
+  return inputs;
+}
+
+void check_outputs(const std::string& command, const std::vector<NamedFile>& inputs,
+                   const std::vector<NamedFile>& outputs) {
+  Owners owners;
+  for (const NamedFile& input : inputs)
+    if (!input.path.empty()) add(owners, tb::file_identity(input.path), input.what);
+  add(owners, tb::file_identity(STDOUT_FILENO), "the file of standard output");
+  add(owners, tb::file_identity(STDERR_FILENO), "the file of the error channel");
+  for (const NamedFile& output : outputs) {
+    if (output.path.empty()) continue;
+    const std::optional<std::string> identity = tb::file_identity(output.path);
+    if (!identity) continue;
+    const auto [owner, free] = owners.emplace(*identity, output.what);
+    if (free) continue;
+    throw tb::InputError(command + ": " + output.what + " would replace " + owner->second + ", " + output.path +
+                         ", allowed is a file of its own");
+  }
+}
+
+}  // namespace app

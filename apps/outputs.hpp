@@ -1,0 +1,24 @@
+#pragma once
+// What a command reads and writes, looked at before it begins: no output may replace an input or another output.
+#include <string>
+#include <vector>
+
+#include "tb/scenario/scenario.hpp"
+
+namespace app {
+
+struct NamedFile {
+  std::string what;  ///< as in "--log", "the scenario"
+  std::string path;  ///< empty: not wanted
+};
+
+/// The scenario and all files that it names.
+std::vector<NamedFile> scenario_inputs(const std::string& scenario,
+                                       const std::vector<tb::scenario::Setting>& settings = {});
+
+/// Throws InputError unless the outputs are apart from the inputs, from each other, and from the files that standard output and the
+/// error channel go to. `command`: as "dsdpv1-sim run".
+void check_outputs(const std::string& command, const std::vector<NamedFile>& inputs,
+                   const std::vector<NamedFile>& outputs);
+
+}  // namespace app

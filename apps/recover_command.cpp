@@ -1,0 +1,60 @@
+#include "apps/recover_command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "apps/command_line.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/outputs.hpp"
+#include "tb/scenario/input_error.hpp"
+#include "tb/waves/recover.hpp"
+#include "tb/waves/wave_writer.hpp"
+
+namespace app {
+namespace {
+
+/// "wave.fst" for "wave.fst.4711.part".
+std::string name_without_part(const std::string& part) {
+  const std::size_t ending = part.rfind(".part"), number = part.find_last_not_of("-0123456789", ending - 1);
+  const bool ours = ending != std::string::npos && ending + 5 == part.size() && number != std::string::npos &&
+                    number + 1 < ending && part[number] == '.' && number != 0;
+  if (!ours) throw tb::InputError("dsdpv1-sim recover: " + part + " is not named NAME.PID.part, so --output is needed");
+  std::string name = part.substr(0, number);
+  if (std::filesystem::exists(name))
+    throw tb::InputError("dsdpv1-sim recover: " + name + " is there already, so --output is needed");
+  return name;
+}
+
+void check_ending(tb::WaveFormat format, const std::string& part, const std::string& output) {
+  const std::string ending = format == tb::WaveFormat::kFst ? ".fst" : ".vcd";
+  tb::check_wave_name(output);
+  if (output.substr(output.size() - ending.size()) != ending)
+    throw tb::InputError(output, 0, "has another ending than the wave in " + part + ", allowed is " + ending);
+}
+
+std::uint64_t recover_wave(tb::WaveFormat format, const std::string& part, const std::string& output) {
+#ifdef DSDPV1_WITH_FST
+  if (format == tb::WaveFormat::kFst) return tb::recover_fst(part, output);
+#endif
+  if (format == tb::WaveFormat::kFst) throw tb::InputError(part, 0, "is FST, which this program was built without");
+  return tb::recover_vcd(part, output);
+}
+
+}  // namespace
+
+int recover(const RecoverArguments& arguments) {
+  leave_nothing_on_signals();
+  const tb::WaveFormat format = tb::wave_format(arguments.part);
+  const std::string output = arguments.output.empty() ? name_without_part(arguments.part) : arguments.output;
+  check_ending(format, arguments.part, output);
+  check_outputs("dsdpv1-sim recover",
+                {{"what is recovered", arguments.part}, {"what is recovered", arguments.part + ".hier"}},
+                {{"--output", output}});
+  const std::uint64_t until = recover_wave(format, arguments.part, output);
+  std::cout << fmt::format("{}: complete until {}.{:03} ns\n", output, until / 1000, until % 1000);
+  return kPassed;
+}
+
+}  // namespace app

@@ -1,0 +1,33 @@
+#pragma once
+// Where an output really goes: symbolic links are followed, devices and FIFOs are known for what they are.
+#include <sys/stat.h>
+
+#include <optional>
+#include <string>
+
+namespace tb {
+
+struct OutputPlace {
+  std::string wanted;                        ///< as the user names it
+  std::string target;                        ///< where all links lead
+  int descriptor = -1;                       ///< of this process, when /dev/stdout, /dev/fd/N or the like is wanted
+  bool direct = false;                       ///< a device, a FIFO or a descriptor: written to as it is, never replaced
+  std::optional<struct stat> replaced = {};  ///< the file that is there already
+};
+
+/// Throws InputError when nothing can be written there: a folder, a file without permission, a name that is too long.
+OutputPlace find_place(const std::string& path);
+
+/// A text that is the same for two names of one file, existing or not; none for devices, FIFOs and what cannot be looked at.
+std::optional<std::string> file_identity(const std::string& path);
+/// Likewise of an open descriptor.
+std::optional<std::string> file_identity(int descriptor);
+
+/// The folder of a path, "." when it names none; and what remains.
+std::string folder_of(const std::string& path);
+std::string name_of(const std::string& path);
+
+/// "PATH: cannot be written: reason" for an errno.
+[[noreturn]] void refuse_output(const std::string& path, int error);
+
+}  // namespace tb

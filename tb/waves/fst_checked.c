@@ -1,0 +1,24 @@
+/* GTKWave's fstapi as Verilator carries it along, with input and output that keep errors (fst_io.h). Somebody else's code: compiled
+ * without this project's warnings. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <time.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include "tb/waves/fst_io.h"
+
+#define fopen(name, mode) fst_io_open(name, mode)
+#define tmpfile() fst_io_temporary()
+#define fclose(file) fst_io_close(file)
+#define fwrite(data, size, count, file) fst_io_write(data, size, count, file)
+#define fputc(character, file) fst_io_put(character, file)
+#define fflush(file) fst_io_flush(file)
+#define fseeko(file, offset, whence) fst_io_seek(file, offset, whence)
+#define ftruncate(descriptor, length) fst_io_truncate(descriptor, length)
+#define unlink(name) fst_io_remove(name)
+#define mmap(address, length, protection, flags, descriptor, offset) fst_io_map(length, descriptor)
+
+#include <fstapi.c>

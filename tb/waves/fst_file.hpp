@@ -1,0 +1,56 @@
+#pragma once
+// An FST file under construction: fstapi with its errors, a temporary name, and blocks that are on disk when the process is killed.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tb/report/part_file.hpp"
+
+namespace tb {
+
+class FstFile {
+ public:
+  using Handle = std::uint32_t;
+
+  /// Throws InputError when it cannot be created, or is a device or FIFO: FST is not written from front to back.
+  explicit FstFile(const std::string& path);
+  /// What is not finished is removed.
+  ~FstFile();
+  FstFile(const FstFile&) = delete;
+  FstFile& operator=(const FstFile&) = delete;
+
+  void open_scope(const std::string& name);
+  void close_scope();
+  /// `width` 0: values are words.
+  Handle variable(const std::string& name, std::uint32_t width);
+  /// Time of the changes that follow, in ps; never decreases.
+  void move_to(std::uint64_t time);
+  /// `levels`: as many characters 0, 1, x, z as the variable is wide.
+  void set(Handle variable, const char* levels);
+  void say(Handle variable, std::string_view word);
+
+  /// What was written up to now, `time`, is in the temporary file, and recover finds it there.
+  void save(std::uint64_t time);
+  bool failed() const { return error_ != 0; }
+  /// Throws InputError when something could not be written.
+  void check() const;
+  /// Gives the complete file its name; throws InputError.
+  void finish();
+  const std::string& grows_at() const { return part_.part(); }
+
+ private:
+  void* create();
+  void close();
+  void keep_error();
+
+  PartFile part_;
+  NameToRemove declarations_;  ///< the second file of fstapi, until this one is closed
+  int error_ = 0;
+  void* context_;
+  std::optional<std::uint64_t> time_;
+  bool changed_ = false;  ///< since the last block
+  int steps_ = 0;         ///< changes of time since then, more than one of which fstapi wants for a block
+};
+
+}  // namespace tb

@@ -1,0 +1,58 @@
+"""Whether an output is whole: the same as that of an undisturbed run, or, of a run that was ended early, right up to its end."""
+import json
+import os
+import re
+import subprocess
+
+BEFORE = b"what was there before\n"
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def last_line(content):
+    lines = content.decode().splitlines()
+    return lines[-1] if lines else ""
+
+
+def ended_early(program, path, content):
+    """The output of an interrupted run by its ending."""
+    ending = os.path.splitext(path)[1]
+    if ending == ".fst":
+        told = subprocess.run([program, "recover", path, "-o", path + ".x.fst"], stderr=subprocess.PIPE, check=False).stderr
+        return b"is complete, so there is nothing to recover" in told
+    if ending == ".json":
+        return json.loads(content)["interrupted"] is True
+    if not content.endswith(b"\n"):
+        return False
+    if ending == ".vcd":
+        return re.fullmatch(r"#\d+", last_line(content)) is not None
+    if ending == ".jsonl":
+        return all("at_ns" in json.loads(line) for line in content.splitlines())
+    if ending == ".log":
+        return re.match(r" *\d+\.\d{3} ns  \S+ +\w+ ", last_line(content)) is not None
+    return re.fullmatch(r"\d+(\+\d+)? demo \w+ [0-9A-Fxz]+", last_line(content)) is not None  # the trace
+
+
+def readable(path, content):
+    """A temporary file that a killed run has left: whole lines of simulated time, except perhaps the last; FST's is for `recover`."""
+    ending = os.path.splitext(re.sub(r"\.\d+\.part$", "", path))[1]
+    if ending == ".fst":
+        return True
+    lines = content.decode().split("\n")[:-1]
+    if ending == ".jsonl":
+        return bool(lines) and all("at_ns" in json.loads(line) for line in lines)
+    return bool(lines) and (ending != ".log" or all(" ns  " in line for line in lines))
+
+
+def same(content, reference):
+    """Only a result has something in it that differs from run to run: how long it took."""
+    if b'"wall_s"' not in content or b'"wall_s"' not in reference:
+        return content == reference
+    both = [json.loads(each) for each in (content, reference)]
+    for each in both:
+        for key in ("wall_s", "real_time_factor"):
+            each.pop(key)
+    return both[0] == both[1]
