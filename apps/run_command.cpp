@@ -9,6 +9,7 @@
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/rtl_commands.hpp"
+#include "bus/printable.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/bench/tlm_execution.hpp"
 #include "tb/cosim/lockstep_execution.hpp"
@@ -51,7 +52,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   }
   if (!arguments.quiet) {
     options.on_text = [](const std::string& station, const std::string& line) {
-      std::cout << station << "| " << line << std::endl;
+      std::cout << station << "| " << bus::printable(line) << std::endl;
     };
   }
   options.checks = checks_mode(arguments.checks);

@@ -13,6 +13,7 @@
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "bus/baud.hpp"
+#include "bus/printable.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/report/output_file.hpp"
 #include "tb/report/result_json.hpp"
@@ -86,8 +87,8 @@ int serve(const ServeArguments& arguments) {
     std::cerr << "serve: " << text << std::endl;
     bench.log(at, "host", "serve", text);
   };
-  std::cout << "serving \"" << scenario.name << "\" at " << bus::baud(scenario.baud).name << " on " << name
-            << "; Ctrl-C ends" << std::endl;
+  std::cout << "serving \"" << bus::printable(scenario.name) << "\" at " << bus::baud(scenario.baud).name << " on "
+            << name << "; Ctrl-C ends" << std::endl;
 
   tb::RunResult result = bench.run([](tb::Tick) { return !interrupted(); });
   result.pacing = execution.pacing();
