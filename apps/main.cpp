@@ -6,19 +6,23 @@
 #include <exception>
 
 #include "apps/command_line.hpp"
+#include "apps/printable_output.hpp"
+#include "apps/stack.hpp"
+#include "bus/printable.hpp"
 #include "tb/report/standard_output.hpp"
 #include "tb/scenario/input_error.hpp"
 
 namespace {
 
 int carry_out(int argc, char** argv) {
+  const app::PrintableOutput printable;
   try {
     return app::command_line(argc, argv);
   } catch (const tb::InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fprintf(stderr, "%s\n", bus::printable(error.what()).c_str());
     return app::kWrongInput;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "dsdpv1-sim: internal error: %s\n", error.what());
+    std::fprintf(stderr, "dsdpv1-sim: internal error: %s\n", bus::printable(error.what()).c_str());
     return app::kFailed;
   }
 }
@@ -41,6 +45,7 @@ int judge_output(int status, int error) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (!app::ensure_stack()) return app::kWrongInput;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large shows at the write
   tb::fill_closed_channels();
   tb::StandardOutput output;

@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -16,11 +13,13 @@
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
+#include "bus/printable.hpp"
 #include "tb/cosim/campaign.hpp"
 #include "tb/cosim/faults.hpp"
 #include "tb/cosim/random_setup.hpp"
 #include "tb/cosim/random_stimulus.hpp"
 #include "tb/cosim/reference_rtl.hpp"
+#include "tb/input/read_file.hpp"
 #include "tb/report/output_file.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/waves/wave_writer.hpp"
@@ -28,15 +27,10 @@
 namespace app {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kShrinkRuns = 600;
 
 cosim::Stimulus read_stimulus(const std::string& path) {
-  std::ifstream file(path);
-  if (!file || fs::is_directory(path)) throw tb::InputError(path, 0, "cannot be opened, allowed is a stimulus file");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  return cosim::parse_stimulus(text, path);
+  return cosim::parse_stimulus(tb::read_file(path, tb::kStimulusFile), path);
 }
 
 std::string counts_text(const cosim::MatchCounts& counts) {
@@ -56,7 +50,7 @@ int replay(const RtlRandomArguments& arguments, const std::string& path) {
   options.config = cosim::quick_config();
   options.wave = arguments.difference;
   const cosim::PlayResult result = cosim::play(read_stimulus(path), maker(arguments), options);
-  std::cout << path << ": " << counts_text(result.counts) << '\n' << result.coverage.text();
+  std::cout << bus::printable(path) << ": " << counts_text(result.counts) << '\n' << result.coverage.text();
   if (!result.difference) return kPassed;
   std::cout << cosim::describe(*result.difference) << "wave              " << arguments.difference << '\n';
   return kFailed;

@@ -11,6 +11,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "apps/rtl_commands.hpp"
+#include "bus/printable.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/bench/tlm_execution.hpp"
 #include "tb/cosim/lockstep_execution.hpp"
@@ -53,7 +54,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   }
   if (!arguments.quiet) {
     options.on_text = [](const std::string& station, const std::string& line) {
-      std::cout << station << "| " << line << std::endl;
+      std::cout << station << "| " << bus::printable(line) << std::endl;
     };
   }
   options.checks = checks_mode(arguments.checks);

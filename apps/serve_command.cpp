@@ -13,6 +13,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/baud.hpp"
+#include "bus/printable.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/report/output_file.hpp"
 #include "tb/report/result_json.hpp"
@@ -90,8 +91,8 @@ int serve(const ServeArguments& arguments) {
     std::cerr << "serve: " << text << std::endl;
     bench.log(at, "host", "serve", text);
   };
-  std::cout << "serving \"" << scenario.name << "\" at " << bus::baud(scenario.baud).name << " on " << name
-            << "; Ctrl-C ends" << std::endl;
+  std::cout << "serving \"" << bus::printable(scenario.name) << "\" at " << bus::baud(scenario.baud).name << " on "
+            << name << "; Ctrl-C ends" << std::endl;
 
   tb::RunResult result = bench.run([](tb::Tick) { return !interrupted(); });
   result.pacing = execution.pacing();

@@ -1,13 +1,16 @@
 // schema, gsd, decode: commands without a simulation.
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/explain.hpp"
 #include "bus/gsd_report.hpp"
+#include "tb/input/read_file.hpp"
 #include "tb/report/output_file.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
@@ -32,16 +35,20 @@ int gsd(const GsdArguments& arguments) {
   bus::GsdCommand command;
   command.choice.modules = arguments.modules;
   command.format = arguments.json ? bus::GsdFormat::kJson : bus::GsdFormat::kText;
-  return bus::gsd_command(arguments.file, command, std::cout, std::cerr);
+  std::istringstream in(tb::read_file(arguments.file, tb::kGsdFile));
+  return bus::gsd_command(in, arguments.file, command, std::cout, std::cerr);
 }
 
 int decode(const DecodeArguments& arguments) {
   const bool standard_input = arguments.file.empty() || arguments.file == "-";
   std::ifstream file;
   if (!standard_input) {
+    const bool folder = std::filesystem::is_directory(arguments.file);
     file.open(arguments.file);
-    if (!file || std::filesystem::is_directory(arguments.file))
-      throw tb::InputError(arguments.file, 0, "cannot be opened, allowed is a text file of hexadecimal bytes");
+    if (folder || !file)
+      throw tb::InputError(
+          arguments.file, 0,
+          tb::what_is_wrong(folder ? EISDIR : errno) + ", allowed is a text file of hexadecimal bytes");
   }
   std::string error;
   const int status = bus::decode_text(standard_input ? std::cin : file,

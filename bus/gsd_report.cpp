@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
+#include <istream>
 #include <ostream>
 
 #include "bus/explain_data.hpp"
 #include "bus/gsd_report_data.hpp"
+#include "bus/printable.hpp"
 
 namespace bus {
 namespace gsd {
@@ -31,7 +31,7 @@ class TextReport {
   }
 
  private:
-  void line(const std::string& text) { out_ << text << '\n'; }
+  void line(const std::string& text) { out_ << printable(text) << '\n'; }
   void entry(std::string_view key, const std::string& value) {
     if (!value.empty()) line(fmt::format("  {:<22} {}", key, value));
   }
@@ -149,7 +149,7 @@ namespace {
 
 int fail(const std::vector<GsdDiagnostic>& diagnostics, std::ostream& err) {
   for (const GsdDiagnostic& diagnostic : diagnostics) {
-    if (diagnostic.level == GsdDiagnostic::Level::kError) err << to_string(diagnostic) << '\n';
+    if (diagnostic.level == GsdDiagnostic::Level::kError) err << printable(to_string(diagnostic)) << '\n';
   }
   return 2;
 }
@@ -170,12 +170,8 @@ void print_gsd_report(const Gsd& gsd, const GsdSetup& setup, const std::vector<G
     gsd::print_text(gsd, setup, remarks, out);
 }
 
-int gsd_command(const std::string& path, const GsdCommand& command, std::ostream& out, std::ostream& err) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path)) {
-    err << fmt::format("{}:1: cannot be opened, a readable GSD file is needed\n", path);
-    return 2;
-  }
+int gsd_command(std::istream& in, const std::string& path, const GsdCommand& command, std::ostream& out,
+                std::ostream& err) {
   const GsdResult result = parse_gsd(in, path);
   if (!result.gsd) return fail(result.diagnostics, err);
   GsdSetup setup = set_up(*result.gsd, command.choice);

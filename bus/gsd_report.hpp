@@ -21,8 +21,9 @@ struct GsdCommand {
   GsdFormat format = GsdFormat::kText;
 };
 
-/// The command itself: reads `path`, prints the report to `out`. Returns 0, or 2 after errors in the file or the choice; then
+/// The command itself: `in` is what `path` holds; prints the report to `out`. Returns 0, or 2 after errors in the file or the choice; then
 /// they stand one a line in `err` and `out` is untouched. Limits that the file's own presets break are warnings.
-int gsd_command(const std::string& path, const GsdCommand& command, std::ostream& out, std::ostream& err);
+int gsd_command(std::istream& in, const std::string& path, const GsdCommand& command, std::ostream& out,
+                std::ostream& err);
 
 }  // namespace bus

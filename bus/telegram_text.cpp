@@ -12,11 +12,20 @@
 namespace bus {
 namespace {
 
+// What a stream may make us keep: `decode` tells nothing before it has read all. 64 MB are 48 s of a full bus at 12 Mbit/s.
+constexpr std::size_t kLongestLine = 16U << 20U, kMostBytes = 64U << 20U;
+
 bool is_separator(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0 || c == ','; }
+
+/// A word as an error line quotes it.
+std::string shortened(const std::string& word) {
+  constexpr std::size_t kMost = 40;
+  return word.size() <= kMost ? word : word.substr(0, kMost) + "...";
+}
 
 /// Appends the bytes of one word; what is wrong with it, or empty.
 std::string add_word(std::string word, int line, TelegramText& text) {
-  const std::string shown = word;
+  const std::string shown = shortened(word);
   if (word.size() > 2 && word[0] == '0' && (word[1] == 'x' || word[1] == 'X')) word.erase(0, 2);
   for (const char c : word) {
     if (std::isxdigit(static_cast<unsigned char>(c)) == 0) {
@@ -114,6 +123,26 @@ std::string add_line(const std::string& content, int line, TelegramText& text) {
   return add_words(content.substr(0, content.find_first_of("#;")), line, text);
 }
 
+/// As std::getline, but a line that is too long ends one character beyond what is allowed.
+bool get_line(std::istream& in, std::string& line) {
+  line.clear();
+  for (char c = 0; in.get(c);) {
+    if (c == '\n') return true;
+    line += c;
+    if (line.size() > kLongestLine) return true;
+  }
+  return !line.empty();
+}
+
+std::string add_limited_line(const std::string& content, int line, TelegramText& text) {
+  if (content.size() > kLongestLine)
+    return fmt::format("is longer than {} MB, allowed are lines of up to that", kLongestLine >> 20U);
+  std::string wrong = add_line(content, line, text);
+  if (wrong.empty() && text.bytes.size() > kMostBytes)
+    return fmt::format("more than {} MB of telegrams, allowed are up to that", kMostBytes >> 20U);
+  return wrong;
+}
+
 }  // namespace
 
 bool TelegramText::together(std::size_t a, std::size_t b) const {
@@ -127,8 +156,8 @@ const LoggedTelegram* TelegramText::log_of(std::size_t byte) const {
 
 bool read_telegram_text(std::istream& in, const std::string& name, TelegramText& text, std::string& error) {
   std::string content;
-  for (int line = 1; std::getline(in, content); ++line) {
-    const std::string wrong = add_line(content, line, text);
+  for (int line = 1; get_line(in, content); ++line) {
+    const std::string wrong = add_limited_line(content, line, text);
     if (wrong.empty()) continue;
     error = fmt::format("{}:{}: {}", name, line, wrong);
     return false;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "bus/printable.hpp"
 #include "tb/scenario/units.hpp"
 
 namespace tb {
@@ -20,7 +21,8 @@ std::string text_line(const LogEntry& entry, const LogForm& form, const char* jo
   if (entry.tsdr_bits) text += fmt::format("  [TSDR {:.2f}]", *entry.tsdr_bits);
   if (!entry.wrong.empty()) text += fmt::format("  [wrong: {}]", entry.wrong);
   if (entry.bytes) text += gap_before_bytes(entry.kind) + bytes_text(*entry.bytes, form.most_bytes());
-  return fmt::format("{:>17} ns  {:<12} {:<9} {}\n", nanoseconds(entry.at), entry.station, entry.kind, text);
+  return fmt::format("{:>17} ns  {:<12} {:<9} {}\n", nanoseconds(entry.at), entry.station, entry.kind,
+                     bus::printable(text));
 }
 
 std::string json_line(const LogEntry& entry) {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <sstream>
@@ -14,6 +12,7 @@
 
 #include "tb/cosim/random_setup.hpp"
 #include "tb/cosim/reference_rtl.hpp"
+#include "tb/input/read_file.hpp"
 #include "tb/scenario/input_error.hpp"
 
 namespace cosim {
@@ -63,8 +62,7 @@ Tick waits(const Stimulus& stimulus) {
 }  // namespace
 
 std::vector<Fault> read_faults(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw tb::InputError(path, 0, "cannot be opened, allowed is the list of faults of the RTL");
+  std::istringstream file(tb::read_file(path, tb::kFaultListFile));
   std::vector<Fault> faults;
   int number = 0;
   for (std::string line; std::getline(file, line);) {
@@ -84,8 +82,7 @@ std::vector<NamedStimulus> read_stimuli(const std::string& folder) {
   if (!fs::is_directory(folder)) throw tb::InputError(folder, 0, "is no folder, allowed is one with stimulus files");
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".stimulus") continue;
-    std::ifstream file(entry.path());
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = tb::read_file(entry.path().string(), tb::kStimulusFile);
     stimuli.push_back({entry.path().stem().string(), parse_stimulus(text, entry.path().string())});
   }
   std::sort(stimuli.begin(), stimuli.end(), [](const auto& a, const auto& b) {

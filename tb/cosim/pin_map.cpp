@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "tb/input/read_file.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/suggest.hpp"
 
@@ -42,12 +43,10 @@ class Reader {
   }
   YAML::Node load() const {
     try {
-      YAML::Node root = YAML::LoadFile(path_);
+      YAML::Node root = YAML::Load(tb::read_file(path_, tb::kPinMapFile));
       if (!root.IsMap() && !root.IsNull())
         fail(root, "is no map, allowed are clock, pins, tolerance, parameters, files, include");
       return root;
-    } catch (const YAML::BadFile&) {
-      throw tb::InputError(path_, 0, "cannot be opened, allowed is a map of pins in YAML");
     } catch (const YAML::ParserException& error) {
       throw tb::InputError(path_, error.mark.line + 1, error.msg + ", allowed is YAML");
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bus/printable.hpp"
 #include "tb/report/check_report.hpp"
 #include "tb/report/text_table.hpp"
 #include "tb/scenario/units.hpp"
@@ -105,7 +106,8 @@ std::string expectations(const RunResult& result) {
     } else if (each.left_out) {
       ++left_out;
     } else {
-      text += fmt::format("  NOT MET  {}:{}: {}; seen: {}\n", result.file, each.line, each.text, each.seen);
+      text += "  NOT MET  " +
+              bus::printable(fmt::format("{}:{}: {}; seen: {}", result.file, each.line, each.text, each.seen)) + "\n";
     }
   }
   return fmt::format("  expectations   {} of {} met{}\n", met, result.expectations.size(),
@@ -137,7 +139,8 @@ std::string boards(const RunResult& result) {
                         slave.name, slave.board->instructions,
                         static_cast<double>(slave.board->instructions) / 1e6 / std::max(result.wall_s, 1e-9),
                         static_cast<double>(slave.board->hclk_hz) / 1e6, slave.board->hclk_source);
-    for (const std::string& note : slave.board->notes) text += fmt::format("                 {}\n", note);
+    for (const std::string& note : slave.board->notes)
+      text += fmt::format("                 {}\n", bus::printable(note));
   }
   return text + result.fault_registers;
 }
@@ -145,7 +148,8 @@ std::string boards(const RunResult& result) {
 }  // namespace
 
 std::string summary(const RunResult& result) {
-  std::string text = fmt::format("\n{}\n\n", result.scenario) + steps(result) + refused(result) + slaves(result);
+  std::string text =
+      fmt::format("\n{}\n\n", bus::printable(result.scenario)) + steps(result) + refused(result) + slaves(result);
   text += masters(result);
   text += fmt::format("  telegrams      {} ({} wrong)\n", result.telegrams, result.wrong_telegrams);
   text +=

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 
+#include "bus/printable.hpp"
+
 namespace tb {
 
 void TextTable::add(std::vector<std::string> row) {
+  for (std::string& cell : row) cell = bus::printable(cell);
   widths_.resize(std::max(widths_.size(), row.size()));
   for (std::size_t i = 0; i < row.size(); ++i) widths_[i] = std::max(widths_[i], row[i].size());
   rows_.push_back(std::move(row));

@@ -1,18 +1,14 @@
 // From a file to a checked scenario.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "tb/input/read_file.hpp"
 #include "tb/scenario/check.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace tb::scenario {
 namespace {
-
-constexpr std::uintmax_t kLargestFile = 4U
-                                        << 20;  // far beyond every scenario; keeps a wrong file from filling the memory
 
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   try {
@@ -52,20 +48,7 @@ YAML::Node root_of(const std::string& text, const std::string& file, const std::
 
 }  // namespace
 
-std::string read_file(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError(path, 0, "no such file, allowed is a scenario in YAML");
-  if (std::filesystem::is_directory(status)) throw InputError(path, 0, "is a folder, allowed is a scenario in YAML");
-  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, error) > kLargestFile) {
-    throw InputError(path, 0, "is larger than 4 MB, allowed is a scenario in YAML");
-  }
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw InputError(path, 0, "cannot be read");
-  return text.str();
-}
+std::string read_file(const std::string& path) { return tb::read_file(path, kScenarioFile); }
 
 Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings) {
   const YAML::Node root = root_of(text, file, settings);

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
+#include "tb/input/read_file.hpp"
 #include "tb/report/output_file.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
@@ -20,12 +19,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kLastOwnExit = 2;  // above it the run was killed, and is tried again
 constexpr const char* kFormat = "dsdpv1-sim sweep 1";
 
-std::string content(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
+std::string content(const fs::path& path) { return try_read_file(path.string(), kFirmwareFile.most_mb).text; }
 
 /// FNV-1a, 64 bits: tells contents apart, no more.
 std::string fingerprint(const std::string& text) {

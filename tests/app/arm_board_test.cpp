@@ -110,6 +110,7 @@ TEST(ArmBoard, FilesThatAreNoFirmwareGiveOneLine) {
   EXPECT_THAT(refused(DSDPV1_SIM), HasSubstr("64"));  // a program of this computer
   EXPECT_THAT(refused(std::string(DSDPV1_SOURCE_DIR) + "/README.md"), HasSubstr("ELF"));
   EXPECT_THAT(refused("nowhere.elf"), HasSubstr("nowhere.elf"));
+  EXPECT_THAT(refused("/dev/zero"), testing::StartsWith("/dev/zero: is larger than 64 MB, allowed is an executable"));
 }
 
 // --- firmware of somebody else: no mailbox -------------------------------------------------------------------------------

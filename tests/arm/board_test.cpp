@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "tb/user_cpu/pin_host_bus.hpp"
@@ -31,7 +32,8 @@ enum Program {
   kBankOff,
   kMaskedAndRising,
   kInputs,
-  kClockTree
+  kClockTree,
+  kNonsense
 };
 
 /// Pins of a chip that answers every read with the low byte of its address.
@@ -78,18 +80,23 @@ class BoardTest : public testing::Test {
     fsmc.hclk_mhz = 72;
     return fsmc;
   }
-  void start(Program program, const user_cpu::FsmcOverride& fsmc = at_72_mhz(), const arm::Switches& switches = {}) {
+  void start(Program program, const user_cpu::FsmcOverride& fsmc = at_72_mhz(), const arm::Switches& switches = {},
+             std::optional<std::uint32_t> mailbox = {}) {
     arm::BoardOptions options;
-    options.firmware = with(program);
+    options.firmware = with(program, mailbox);
     options.fsmc = fsmc;
     options.switches = switches;
     board = std::make_unique<arm::Board>(
         host, std::move(options), [this](Tick at, bool level) { resets.emplace_back(at, level); }, kStart);
     board->on_text = [this](Tick, const std::string& line) { lines.push_back(line); };
-    board->on_failure = [this](Tick, const std::string& why, const std::string& table) { failure = {why, table}; };
+    board->on_failure = [this](Tick, const std::string& why, const std::string& table) {
+      failure = {why, table};
+      ++failures;
+    };
   }
-  static std::shared_ptr<const arm::Firmware> with(Program program) {
+  static std::shared_ptr<const arm::Firmware> with(Program program, std::optional<std::uint32_t> mailbox = {}) {
     auto firmware = std::make_shared<arm::Firmware>(*arm::load_firmware(PROBE));
+    firmware->mailbox = mailbox;
     const std::uint32_t word = firmware->image.symbols.at("program").address;
     for (arm::Segment& segment : firmware->image.segments)
       if (word >= segment.address && word < segment.address + segment.bytes.size())
@@ -107,6 +114,7 @@ class BoardTest : public testing::Test {
   std::vector<std::pair<Tick, bool>> resets;
   std::vector<std::string> lines;
   std::pair<std::string, std::string> failure;
+  int failures = 0;
   std::unique_ptr<arm::Board> board;
 };
 
@@ -126,6 +134,17 @@ TEST_F(BoardTest, PortCIsTheHandshake) {
   EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 1)));  // PC8 high, PC9 low
   EXPECT_LT(pins.of(Pin::kRReq).at(0).at, pins.of(Pin::kRSta).at(0).at);
   EXPECT_EQ(board->counters().port.holds, 2U);
+}
+
+TEST_F(BoardTest, NonsenseInTheMailboxIsAFaultOfTheFirmware) {
+  start(kNonsense, at_72_mhz(), {}, 0x20008000);
+  board->on_driver_error = [](const user_cpu::DriverError&) { ADD_FAILURE() << "no error of the driver"; };
+  run();
+  EXPECT_EQ(failure.first,
+            "the firmware has written nonsense into its mailbox (dsdpv1_bench): report.errors[0].error is 200, allowed "
+            "are the failures of dsdpv1_error");
+  EXPECT_THAT(failure.second, HasSubstr("xpsr"));
+  EXPECT_EQ(failures, 1);
 }
 
 TEST_F(BoardTest, BothPinsOfOneStoreMoveAtOneTick) {

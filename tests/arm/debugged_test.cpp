@@ -55,6 +55,19 @@ TEST_F(Debugged, RegistersCanBeChangedBetweenTwoInstructions) {
   EXPECT_EQ(r(1), 6U);
 }
 
+TEST_F(Debugged, HandlerThatWasGivenTheNumberOfNoExceptionCannotReturn) {
+  bool written = false;
+  debugger.before = [&](std::uint32_t) {
+    const std::uint32_t xpsr = target().read_register(Register::kXpsr);
+    if (written || (xpsr & 0x1FFU) == 0) return;
+    target().write_register(Register::kXpsr, (xpsr & ~0x1FFU) | 300U);
+    written = true;
+  };
+  EXPECT_THROW(run("nesting"), FaultError);
+  EXPECT_TRUE(written);
+  EXPECT_EQ(faults.back().kind, FaultKind::kExceptionReturn);
+}
+
 TEST_F(Debugged, ExecutionGoesOnWhereTheProgramCounterWasSet) {
   unsigned steps = 0;
   debugger.before = [&](std::uint32_t pc) {

@@ -208,6 +208,13 @@ TEST_F(Faults, AccessThatTheSystemRefuses) {
   EXPECT_EQ(fault.registers.r[2], 0x40005000U);
 }
 
+TEST_F(Faults, ReturnToAnExceptionThatTheProcessorDoesNotHave) {
+  EXPECT_THROW(run("wrong_exception"), FaultError);
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults.back().kind, FaultKind::kExceptionReturn);
+  EXPECT_EQ(faults.back().address & 0x1FFU, 300U);
+}
+
 struct Handled {
   std::uint32_t which, shcsr, handler, cfsr, hfsr;
 };

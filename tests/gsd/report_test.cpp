@@ -17,7 +17,8 @@ struct Ran {
 
 Ran run(const std::string& path, const std::vector<std::string>& modules, bus::GsdFormat format) {
   std::ostringstream out, err;
-  const int code = bus::gsd_command(path, {{modules, {}}, format}, out, err);
+  std::ifstream in(path);
+  const int code = bus::gsd_command(in, path, {{modules, {}}, format}, out, err);
   return {code, out.str(), err.str()};
 }
 

@@ -69,7 +69,14 @@ void Board::run(Tick now) {
 
 /// Firmware may sleep until an event comes (WFE): a command is one.
 void Board::look_at_mailbox(Tick now) {
-  if (!mailbox_->look(now, on_driver_error)) return;
+  const bool was_right = mailbox_->wrong().empty();
+  const bool handed_over = mailbox_->look(now, on_driver_error);
+  if (was_right && !mailbox_->wrong().empty() && on_failure)
+    on_failure(now,
+               fmt::format("the firmware has written nonsense into its mailbox ({}): {}", DSDPV1_MAILBOX_SYMBOL,
+                           mailbox_->wrong()),
+               table(core_.registers()));
+  if (!handed_over) return;
   core_.signal_event();
   cpu_.wake(now);
 }

@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 
+#include "tb/input/read_file.hpp"
 #include "tb/scenario/input_error.hpp"
 
 // The structures of elf.h are copied as they stand in the file: little endian on both sides.
@@ -20,9 +18,8 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
 namespace arm {
 namespace {
 
-constexpr const char* kAllowedFile =
-    "allowed is an executable for ARM (32 bit, little endian) such as arm-none-eabi-gcc links";
-constexpr std::uintmax_t kLargestFile = 64U << 20;  // 512 KB of flash with any amount of debug information
+std::string allowed_file() { return std::string("allowed is ") + tb::kFirmwareFile.what; }
+
 // What a file may make us compute and keep; linked firmware has some three segments.
 constexpr unsigned kMostProgramHeaders = 256;
 constexpr std::size_t kLongestName = 4096;
@@ -97,13 +94,14 @@ class Reader {
 
   void check_kind() const {
     if (file_.size() < SELFMAG || std::memcmp(file_.data(), ELFMAG, SELFMAG) != 0)
-      refuse(fmt::format("is not an ELF file, {}", kAllowedFile));
+      refuse(fmt::format("is not an ELF file, {}", allowed_file()));
     check_range(0, EI_NIDENT, "ELF identification");
-    if (file_[EI_CLASS] == ELFCLASS64) refuse(fmt::format("is a 64-bit program{}, {}", machine_of_64(), kAllowedFile));
-    if (file_[EI_CLASS] != ELFCLASS32) refuse(fmt::format("is of ELF class {}, {}", file_[EI_CLASS], kAllowedFile));
-    if (file_[EI_DATA] == ELFDATA2MSB) refuse(fmt::format("is big endian, {}", kAllowedFile));
+    if (file_[EI_CLASS] == ELFCLASS64)
+      refuse(fmt::format("is a 64-bit program{}, {}", machine_of_64(), allowed_file()));
+    if (file_[EI_CLASS] != ELFCLASS32) refuse(fmt::format("is of ELF class {}, {}", file_[EI_CLASS], allowed_file()));
+    if (file_[EI_DATA] == ELFDATA2MSB) refuse(fmt::format("is big endian, {}", allowed_file()));
     if (file_[EI_DATA] != ELFDATA2LSB)
-      refuse(fmt::format("has ELF data encoding {}, {}", file_[EI_DATA], kAllowedFile));
+      refuse(fmt::format("has ELF data encoding {}, {}", file_[EI_DATA], allowed_file()));
   }
 
   /// The machine stands at the same place in files of 32 and 64 bit.
@@ -118,9 +116,9 @@ class Reader {
     if (header_.e_machine != EM_ARM) {
       const char* const name = machine_name(header_.e_machine);
       refuse(fmt::format("is a program for {}, {}",
-                         name != nullptr ? name : fmt::format("machine number {}", header_.e_machine), kAllowedFile));
+                         name != nullptr ? name : fmt::format("machine number {}", header_.e_machine), allowed_file()));
     }
-    if (header_.e_type != ET_EXEC) refuse(fmt::format("is {}, {}", type_name(header_.e_type), kAllowedFile));
+    if (header_.e_type != ET_EXEC) refuse(fmt::format("is {}, {}", type_name(header_.e_type), allowed_file()));
   }
 
   void read_segments() {
@@ -254,17 +252,8 @@ class Reader {
 }  // namespace
 
 std::vector<std::uint8_t> read_elf_file(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw tb::InputError(path, 0, fmt::format("no such file, {}", kAllowedFile));
-  if (!std::filesystem::is_regular_file(status))
-    throw tb::InputError(path, 0, fmt::format("is no regular file, {}", kAllowedFile));
-  if (std::filesystem::file_size(path, error) > kLargestFile)
-    throw tb::InputError(path, 0, fmt::format("is larger than {} MB, {}", kLargestFile >> 20, kAllowedFile));
-  std::ifstream in(path, std::ios::binary);
-  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw tb::InputError(path, 0, "cannot be read, allowed is a file that may be read");
-  return bytes;
+  const std::string bytes = tb::read_file(path, tb::kFirmwareFile);
+  return {bytes.begin(), bytes.end()};
 }
 
 ElfImage load_elf(const std::string& path, const FirmwareMemory& memory) {

@@ -113,7 +113,7 @@ void CortexM3::continue_at(std::uint32_t target) {
 
 // B1.5.8: only these values, and thread mode only from the outermost handler unless CCR.NONBASETHRDENA.
 bool CortexM3::return_allowed(std::uint32_t exc_return) const {
-  if (!nvic_.active(handler())) {
+  if (handler() >= Nvic::kExceptions || !nvic_.active(handler())) {
     return false;
   }
   const bool outermost = nvic_.active_count() == 1;
@@ -129,7 +129,9 @@ void CortexM3::return_from_exception() {
   const std::uint32_t exc_return = engine_.read(Register::kPc) | 1U;
   const bool allowed = return_allowed(exc_return);
   const unsigned ended = handler();
-  nvic_.end(ended);
+  if (ended < Nvic::kExceptions) {  // a debugger may have written any number into XPSR
+    nvic_.end(ended);
+  }
   if (ended != kNmi) {
     engine_.write(Register::kFaultmask, 0);
   }
@@ -166,7 +168,7 @@ void CortexM3::unstack(std::uint32_t exc_return) {
     return;
   }
   const std::uint32_t frame = sp, xpsr = word_at(frame + 28);
-  if (((xpsr & kExceptionBits) == 0) != to_thread) {
+  if (((xpsr & kExceptionBits) == 0) != to_thread || (xpsr & kExceptionBits) >= Nvic::kExceptions) {
     chain_fault(FaultKind::kExceptionReturn, xpsr, exc_return);
     return;
   }

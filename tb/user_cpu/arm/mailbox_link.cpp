@@ -1,5 +1,7 @@
 #include "tb/user_cpu/arm/mailbox_link.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -169,10 +171,16 @@ struct Fill {
   }
 };
 
-const char* words(std::uint8_t during) {
-  constexpr std::array<const char*, 8> kCalls = {"wait_ready",    "initialise",   "exchange",     "service",
-                                                 "set_diagnosis", "send_verdict", "acyclic_open", "acyclic_poll"};
-  return during < kCalls.size() ? kCalls.at(during) : "unknown call";
+constexpr std::array<const char*, 8> kCalls = {"wait_ready",    "initialise",   "exchange",     "service",
+                                               "set_diagnosis", "send_verdict", "acyclic_open", "acyclic_poll"};
+static_assert(kCalls.size() == DSDPV1_DURING_ACYCLIC_POLL + 1);
+
+bool is_failure(std::uint8_t error) {
+#define X(name, value, text) \
+  if (error == (value)) return error != DSDPV1_OK;
+  DSDPV1_ERROR_TABLE(X)
+#undef X
+  return false;
 }
 
 }  // namespace
@@ -187,29 +195,51 @@ MailboxLink::MailboxLink(std::uint8_t* memory, const user_cpu::ProgramOptions& o
 }
 
 bool MailboxLink::look(Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error) {
-  const bool ready = !commands_.empty() && is_done();
-  if (ready) {
-    box_.command = {};
-    std::visit(Fill{box_.command}, commands_.front());
-    commands_.pop_front();
-    box_.posted = box_.posted + 1;
-  }
+  if (!wrong_.empty()) return false;
+  is_right("done", box_.done, done_is_right(), "`posted` and the number before it");
+  const bool ready = wrong_.empty() && hand_over();
   fetch_outputs();
-  const std::uint32_t count = box_.report.error_count;
-  if (count - errors_seen_ > DSDPV1_MAILBOX_ERRORS) errors_seen_ = count - DSDPV1_MAILBOX_ERRORS;
-  for (; errors_seen_ != count; ++errors_seen_) {
-    const auto& error = box_.report.errors[errors_seen_ % DSDPV1_MAILBOX_ERRORS];
-    if (on_error) on_error({now, static_cast<dsdpv1_error>(error.error), words(error.during)});
-  }
+  fetch_errors(now, on_error);
   return ready;
+}
+
+bool MailboxLink::hand_over() {
+  if (commands_.empty() || !is_done()) return false;
+  box_.command = {};
+  std::visit(Fill{box_.command}, commands_.front());
+  commands_.pop_front();
+  box_.posted = box_.posted + 1;
+  return true;
+}
+
+/// Whether it is; the first that is not stays in wrong().
+bool MailboxLink::is_right(const std::string& field, unsigned value, bool right, const char* allowed) {
+  if (!right && wrong_.empty()) wrong_ = fmt::format("{} is {}, allowed are {}", field, value, allowed);
+  return right;
 }
 
 void MailboxLink::fetch_outputs() {
   const auto& report = box_.report;
   if (outputs_received_ == report.outputs_received) return;
   outputs_received_ = report.outputs_received;
-  const std::size_t length = std::min<std::size_t>(report.output_length, sizeof report.outputs);
-  outputs_.assign(report.outputs, report.outputs + length);
+  const std::size_t length = report.output_length;
+  if (is_right("report.output_length", report.output_length, length <= sizeof report.outputs, "0 to 244"))
+    outputs_.assign(report.outputs, report.outputs + length);
+}
+
+void MailboxLink::fetch_errors(Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error) {
+  const std::uint32_t count = box_.report.error_count;
+  if (count < errors_seen_) errors_seen_ = 0;  // firmware that has begun again, and counts again
+  if (count - errors_seen_ > DSDPV1_MAILBOX_ERRORS) errors_seen_ = count - DSDPV1_MAILBOX_ERRORS;
+  for (; errors_seen_ != count; ++errors_seen_) {
+    const std::uint32_t place = errors_seen_ % DSDPV1_MAILBOX_ERRORS;
+    const auto& each = box_.report.errors[place];
+    const std::string name = fmt::format("report.errors[{}].", place);
+    if (!is_right(name + "error", each.error, is_failure(each.error), "the failures of dsdpv1_error") ||
+        !is_right(name + "during", each.during, each.during < kCalls.size(), "0 to 7"))
+      continue;
+    if (on_error) on_error({now, static_cast<dsdpv1_error>(each.error), kCalls.at(each.during)});
+  }
 }
 
 user_cpu::ProgramCounters MailboxLink::counters() const {

@@ -2,6 +2,8 @@
    to the chip's DPRAM, where the test sees them. */
 #include <stdint.h>
 
+#include "../../../tb/user_cpu/arm/mailbox.h"
+
 #define REG(address) (*(volatile uint32_t*)(address))
 #define CHIP(offset) (*(volatile uint8_t*)(0x60000000u + (offset)))
 #define CHIP16(offset) (*(volatile uint16_t*)(0x60000000u + (offset)))
@@ -153,6 +155,15 @@ static void clock_tree(void) {
   ten_accesses();
 }
 
+/* The test has told the board that the mailbox is here. */
+static void nonsense(void) {
+  volatile dsdpv1_mailbox* box = (volatile dsdpv1_mailbox*)0x20008000u;
+  box->report.errors[0].error = 200;
+  box->report.error_count = 1;
+  for (;;) {
+  }
+}
+
 /* A fault ends the run before this: it must never be seen at the pins. */
 void HardFault_handler(void);
 void HardFault_handler(void) {
@@ -170,8 +181,9 @@ void EXTI9_5_handler(void) {
 
 void run(void);
 void run(void) {
-  static void (*const programs[])(void) = {handshake, accesses, unset_accesses,    interrupt, chip_reset, text, strange,
-                                           undefined, bank_off, masked_and_rising, inputs,    clock_tree};
+  static void (*const programs[])(void) = {handshake, accesses,   unset_accesses, interrupt, chip_reset,
+                                           text,      strange,    undefined,      bank_off,  masked_and_rising,
+                                           inputs,    clock_tree, nonsense};
   edges = 0;
   clocks();
   programs[program]();

@@ -1,0 +1,21 @@
+#pragma once
+// Nothing that a scenario, a file name or firmware holds steers the user's terminal.
+#include <memory>
+
+namespace app {
+
+/// While it lives, what goes to std::cout and std::cerr is printable_lines(): escapes stand for control characters. Line ends within
+/// a name are the business of whoever prints it (bus::printable). The progress bar goes round it, by stderr.
+class PrintableOutput {
+ public:
+  PrintableOutput();
+  ~PrintableOutput();
+  PrintableOutput(const PrintableOutput&) = delete;
+  PrintableOutput& operator=(const PrintableOutput&) = delete;
+
+ private:
+  class Filter;
+  std::unique_ptr<Filter> out_, err_;
+};
+
+}  // namespace app

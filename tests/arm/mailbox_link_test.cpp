@@ -1,0 +1,104 @@
+// The mailbox as firmware may leave it: whatever stands there, the bench uses it only when it can be meant.
+#include "tb/user_cpu/arm/mailbox_link.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+class MailboxLinkTest : public testing::Test {
+ protected:
+  bool look() {
+    return link.look(7, [this](const user_cpu::DriverError& error) { errors.push_back(error); });
+  }
+  /// As the example firmware does it.
+  void report_error(std::uint8_t error, std::uint8_t during) {
+    auto& entry = box.report.errors[box.report.error_count % DSDPV1_MAILBOX_ERRORS];
+    entry.error = error;
+    entry.during = during;
+    ++box.report.error_count;
+  }
+
+  dsdpv1_mailbox box{};
+  arm::MailboxLink link{reinterpret_cast<std::uint8_t*>(&box), {}};
+  std::vector<user_cpu::DriverError> errors;
+};
+
+TEST_F(MailboxLinkTest, EveryByteAsAnErrorIsOneOfTheDriversOrIsNamed) {
+  std::set<unsigned> failures;
+#define X(name, value, text) failures.insert(value);
+  DSDPV1_ERROR_TABLE(X)
+#undef X
+  failures.erase(DSDPV1_OK);
+  for (unsigned value = 0; value < 256; ++value) {
+    dsdpv1_mailbox memory{};
+    arm::MailboxLink each(reinterpret_cast<std::uint8_t*>(&memory), {});
+    memory.report.errors[0].error = static_cast<std::uint8_t>(value);
+    memory.report.error_count = 1;
+    unsigned seen = 0;
+    each.look(7, [&](const user_cpu::DriverError& error) { seen = error.error; });
+    const bool known = failures.count(value) != 0;
+    EXPECT_EQ(seen, known ? value : 0) << value;
+    EXPECT_EQ(each.wrong(), known ? ""
+                                  : "report.errors[0].error is " + std::to_string(value) +
+                                        ", allowed are the failures of dsdpv1_error");
+  }
+}
+
+TEST_F(MailboxLinkTest, CallThatTheDriverDoesNotHaveIsNamed) {
+  report_error(DSDPV1_ERR_C2_CRC, DSDPV1_DURING_ACYCLIC_POLL);
+  look();
+  EXPECT_EQ(link.wrong(), "");
+  report_error(DSDPV1_ERR_C2_CRC, 8);
+  look();
+  EXPECT_EQ(link.wrong(), "report.errors[1].during is 8, allowed are 0 to 7");
+  EXPECT_EQ(errors.size(), 1U);
+}
+
+TEST_F(MailboxLinkTest, LengthOfOutputsBeyondTheirPlaceIsNamedAndNothingIsFetched) {
+  box.report.outputs[243] = 9;
+  box.report.output_length = 244;
+  box.report.outputs_received = 1;
+  look();
+  EXPECT_EQ(link.outputs().size(), 244U);
+  box.report.output_length = 245;
+  box.report.outputs_received = 2;
+  look();
+  EXPECT_EQ(link.wrong(), "report.output_length is 245, allowed are 0 to 244");
+  EXPECT_EQ(link.outputs().size(), 244U);
+}
+
+TEST_F(MailboxLinkTest, DoneOfACommandThatWasNeverPostedIsNamed) {
+  link.post(user_cpu::command::Stop{});
+  EXPECT_TRUE(look());
+  EXPECT_EQ(box.posted, 1U);
+  box.done = 0xFFFFFFFF;
+  EXPECT_TRUE(link.has_news());
+  EXPECT_FALSE(look());
+  EXPECT_EQ(link.wrong(), "done is 4294967295, allowed are `posted` and the number before it");
+}
+
+TEST_F(MailboxLinkTest, AnyCountOfErrorsCostsNoMoreThanThereIsRoomFor) {
+  for (auto& entry : box.report.errors) entry.error = DSDPV1_ERR_C2_CRC;
+  box.report.error_count = 0xFFFFFFFF;
+  look();
+  EXPECT_EQ(errors.size(), std::size_t{DSDPV1_MAILBOX_ERRORS});
+  EXPECT_FALSE(link.has_news());
+}
+
+TEST_F(MailboxLinkTest, FirmwareThatBeganAgainCountsItsErrorsAgain) {
+  for (int i = 0; i < 5; ++i) report_error(DSDPV1_ERR_C2_CRC, DSDPV1_DURING_SERVICE);
+  look();
+  box.report = {};
+  report_error(DSDPV1_ERR_ANSWER_STALE, DSDPV1_DURING_ACYCLIC_POLL);
+  look();
+  EXPECT_EQ(link.wrong(), "");
+  ASSERT_EQ(errors.size(), 6U);
+  EXPECT_EQ(errors.back().error, DSDPV1_ERR_ANSWER_STALE);
+  EXPECT_STREQ(errors.back().during, "acyclic_poll");
+}
+
+}  // namespace
