@@ -98,7 +98,7 @@ int sweep(const SweepArguments& arguments) {
                       tb::sweep::identity(plan, inputs, tb::sweep::program_identity(DSDPV1_VERSION)));
   if (!folder.started_anew().empty())
     std::cerr << "sweep: " << folder_of(arguments) << " is about " << folder.started_anew()
-              << ": its points are removed, starting anew\n";
+              << ": its points are removed, the sweep starts again\n";
   SweepRunner runner(plan, inputs, folder, jobs_of(arguments), arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
   if (runner.kept() != 0)
     std::cerr << fmt::format("sweep: {} of {} points are there already\n", runner.kept(), plan.points());

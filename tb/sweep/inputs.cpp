@@ -44,7 +44,10 @@ Inputs::Inputs(const Plan& plan) : plan_(plan), common_{plan.scenario} {
   for (const std::string& file : named) content_[file] = fingerprint_json(file);
   for (const Parameter& parameter : plan.parameters) {
     if (!names_files(parameter)) continue;
-    for (const std::string& file : parameter.values) content_[file] = fingerprint_json(file);
+    for (const std::string& value : parameter.values) {
+      const std::string file = scenario::given_path(value);
+      content_[file] = fingerprint_json(file);
+    }
   }
   if (content_[plan.scenario] != fingerprint_json(plan.scenario)) fail_changed(plan.scenario);
 }
@@ -53,7 +56,7 @@ std::vector<std::string> Inputs::files_of(std::size_t point) const {
   std::vector<std::string> files = common_;
   const std::vector<std::string> values = plan_.values(point);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (names_files(plan_.parameters[i])) files.push_back(values[i]);
+    if (names_files(plan_.parameters[i])) files.push_back(scenario::given_path(values[i]));
   }
   return files;
 }

@@ -29,8 +29,8 @@ std::string owner_of(int file) {
 
 /// The owner before may have removed the file after it was opened here; then the lock would be on nothing.
 bool is_at(const std::string& path, int file) {
-  struct stat there {
-  }, opened{};
+  struct stat there {};
+  struct stat opened {};
   return fstat(file, &opened) == 0 && stat(path.c_str(), &there) == 0 && there.st_dev == opened.st_dev &&
          there.st_ino == opened.st_ino;
 }

@@ -146,7 +146,7 @@ TEST_F(SweepFault, InputThatChangesMeanwhileEndsIt) {
   EXPECT_THAT(file("err"),
               HasSubstr("a.gsd: was changed while the sweep ran, allowed is the same content for all of its points\n"));
   EXPECT_FALSE(fs::exists(folder_.file("out/results.csv")));
-  EXPECT_THAT(sweep("--param end=600us --out out").err, HasSubstr("its points are removed, starting anew\n"));
+  EXPECT_THAT(sweep("--param end=600us --out out").err, HasSubstr("its points are removed, the sweep starts again\n"));
 }
 
 // Held still, the run has read its files already or not; the change is seen at its end in either case.
@@ -164,16 +164,17 @@ TEST_F(SweepFault, AnotherGsdFileIsNotAnsweredFromTheFolder) {
   ASSERT_EQ(sweep(arguments).status, 0);
   append("a.gsd");
   const Called called = sweep(arguments);
-  EXPECT_EQ(
-      called.err,
-      "sweep: out is about another scenario or other content of its files: its points are removed, starting anew\n");
+  EXPECT_EQ(called.err,
+            "sweep: out is about another scenario or other content of its files: its points are removed, the sweep "
+            "starts again\n");
   expect_same_as_undisturbed(arguments);
 }
 
 TEST_F(SweepFault, AnotherProgramIsNotAnsweredFromTheFolder) {
   const std::string arguments = " sweep s.yaml --quiet --param user_cpu.cycle=50us,60us --out out 2>err; ";
   EXPECT_EQ(bash("cp $SIM sim; ./sim" + arguments + "echo >>sim; ./sim" + arguments), 0);
-  EXPECT_EQ(file("err"), "sweep: out is about another version of the program: its points are removed, starting anew\n");
+  EXPECT_EQ(file("err"),
+            "sweep: out is about another version of the program: its points are removed, the sweep starts again\n");
 }
 
 TEST_F(SweepFault, DamagedPointsAreDoneAgain) {

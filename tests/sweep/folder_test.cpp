@@ -1,4 +1,4 @@
-// What a sweep keeps, when it goes on and when it starts anew.
+// What a sweep keeps, when it goes on and when it starts again.
 #include "tb/sweep/folder.hpp"
 
 #include <gmock/gmock.h>

@@ -76,6 +76,21 @@ TEST_F(SweepInputs, ContentThatCameBackShowsInTheTimes) {
   EXPECT_NE(inputs.look(0), before);
 }
 
+// A scenario takes "link/../a.gsd" for "a.gsd", whatever "link" is; the system would follow it.
+TEST_F(SweepInputs, PathIsTheOneThatARunOpens) {
+  fs::create_directories(base_ / "d/e");
+  write("d/a.gsd", "other");
+  fs::create_directory_symlink(base_ / "d/e", base_ / "link");
+  const std::string relative = fs::relative(base_ / "b.gsd").string();
+  plan_.parameters = {{"slaves.0.gsd", {file("link") + "/../a.gsd", relative}}};
+  const Inputs inputs(plan_);
+  EXPECT_EQ(inputs.content().value(file("a.gsd"), ""), tb::sweep::fingerprint("a"));
+  EXPECT_EQ(inputs.content().value(file("b.gsd"), ""), tb::sweep::fingerprint("b"));
+  write("a.gsd", "A");
+  EXPECT_EQ(error_of(inputs, 0), changed("a.gsd"));
+  EXPECT_EQ(error_of(inputs, 1), "no error");
+}
+
 TEST_F(SweepInputs, WhatCannotBeReadTwiceIsRefused) {
   ASSERT_EQ(mkfifo(file("fifo").c_str(), 0666), 0);
   plan_.settings = {"slaves.0.gsd=" + file("fifo")};
