@@ -105,7 +105,7 @@ std::vector<std::string> SweepRunner::arguments(std::size_t point) const {
   return words;
 }
 
-void SweepRunner::take(const Ended& ended) {
+void SweepRunner::take(Ended ended) {
   points_[ended.point] = told(ended);
   read_.erase(ended.point);
   if (points_[ended.point]) {
@@ -117,11 +117,13 @@ void SweepRunner::take(const Ended& ended) {
 }
 
 /// What the run says about the point, when it does, and has read what all others read.
-std::optional<Point> SweepRunner::told(const Ended& ended) const {
+std::optional<Point> SweepRunner::told(Ended& ended) const {
   if (ended.exit != kPassed && ended.exit != kFailed && ended.exit != kWrongInput) return std::nullopt;
   const std::string refused = ended.exit == kWrongInput ? refusal(plan_, ended.point) : "";
-  const bool same = inputs_.look(ended.point) == read_.at(ended.point);
-  return same ? folder_.finish(ended.point, plan_, ended.exit, refused) : std::nullopt;
+  if (inputs_.look(ended.point) == read_.at(ended.point))
+    return folder_.finish(ended.point, plan_, ended.exit, refused);
+  ended.said = "one of its files was written while it ran";  // and has its old content again
+  return std::nullopt;
 }
 
 void SweepRunner::try_again(const Ended& ended) {

@@ -36,8 +36,8 @@ class SweepRunner {
   void run_missing();
   bool start_next();
   std::vector<std::string> arguments(std::size_t point) const;
-  void take(const tb::sweep::Ended& ended);
-  std::optional<tb::sweep::Point> told(const tb::sweep::Ended& ended) const;
+  void take(tb::sweep::Ended ended);
+  std::optional<tb::sweep::Point> told(tb::sweep::Ended& ended) const;
   void try_again(const tb::sweep::Ended& ended);
   std::string name_of(std::size_t point) const;
   void give_up();

@@ -43,7 +43,7 @@ class SignalsHeld {
 };
 
 [[noreturn]] void give_up() {
-  dprintf(STDERR_FILENO, "dsdpv1-sim sweep: the run cannot be started: %s\n", std::strerror(errno));
+  dprintf(STDERR_FILENO, "the run cannot be started: %s\n", std::strerror(errno));
   _exit(kNotStarted);
 }
 
