@@ -12,14 +12,14 @@
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
+#include "apps/sweep_runner.hpp"
 #include "tb/report/output_file.hpp"
-#include "tb/report/progress.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 #include "tb/scenario/suggest.hpp"
-#include "tb/sweep/children.hpp"
 #include "tb/sweep/folder.hpp"
 #include "tb/sweep/heat_map.hpp"
+#include "tb/sweep/inputs.hpp"
 #include "tb/sweep/plan.hpp"
 #include "tb/sweep/point.hpp"
 #include "tb/sweep/table.hpp"
@@ -27,8 +27,6 @@
 namespace app {
 namespace {
 
-using tb::sweep::Children;
-using tb::sweep::Ended;
 using tb::sweep::Folder;
 using tb::sweep::Plan;
 using tb::sweep::Point;
@@ -46,82 +44,6 @@ std::string folder_of(const SweepArguments& arguments) {
   if (!arguments.out.empty()) return arguments.out;
   return "sweep_" + std::filesystem::path(arguments.scenario).stem().string();
 }
-
-/// Runs what is not finished yet, `jobs` points at a time.
-class Runner {
- public:
-  Runner(const Plan& plan, const Folder& folder, unsigned jobs, bool progress)
-      : plan_(plan), folder_(folder), jobs_(jobs), bar_(plan.points(), progress) {
-    for (std::size_t i = 0; i < plan.points(); ++i) points_.push_back(folder.finished(i));
-    done_ = static_cast<std::size_t>(
-        std::count_if(points_.begin(), points_.end(), [](const auto& point) { return point.has_value(); }));
-    kept_ = done_;
-  }
-
-  /// False when it was interrupted.
-  bool run() {
-    while (done_ < points_.size() && !interrupted()) {
-      while (children_.running() < jobs_ && start_next()) {
-      }
-      if (const std::optional<Ended> ended = children_.wait()) take(*ended);
-      bar_.show(done_);
-    }
-    give_up();
-    bar_.clear();
-    return done_ == points_.size();
-  }
-
-  std::size_t done() const { return done_; }
-  std::size_t kept() const { return kept_; }
-  std::vector<Point> points() const {
-    std::vector<Point> all;
-    for (const std::optional<Point>& point : points_) all.push_back(*point);
-    return all;
-  }
-
- private:
-  bool start_next() {
-    while (next_ < points_.size() && points_[next_]) ++next_;
-    if (next_ == points_.size()) return false;
-    children_.start(next_, arguments(next_), folder_.error_file(next_));
-    ++next_;
-    return true;
-  }
-
-  std::vector<std::string> arguments(std::size_t point) const {
-    std::vector<std::string> words = {"run",           plan_.scenario, "--quiet",
-                                      "--no-progress", "--result",     folder_.result_file(point)};
-    for (const std::string& setting : plan_.settings_of(point)) words.insert(words.end(), {"--set", setting});
-    if (!plan_.checks.empty()) words.insert(words.end(), {"--checks", plan_.checks});
-    return words;
-  }
-
-  /// A child that was interrupted has nothing to tell; alone, and not together with this program, it gets another try.
-  void take(const Ended& ended) {
-    const bool told = ended.exit <= kWrongInput || (ended.exit != kInterrupted && !interrupted());
-    if (!told) {
-      next_ = std::min(next_, ended.point);
-      return folder_.forget(ended.point);
-    }
-    points_[ended.point] = folder_.finish(ended.point, plan_, ended.exit);
-    ++done_;
-  }
-
-  void give_up() {
-    children_.terminate();
-    while (children_.running() != 0) {
-      if (const std::optional<Ended> ended = children_.wait()) folder_.forget(ended->point);
-    }
-  }
-
-  const Plan& plan_;
-  const Folder& folder_;
-  unsigned jobs_;
-  tb::CountProgress bar_;
-  Children children_;
-  std::vector<std::optional<Point>> points_;
-  std::size_t done_ = 0, kept_ = 0, next_ = 0;
-};
 
 void write(const std::string& path, const std::string& text) {
   tb::OutputFile file(path);
@@ -175,12 +97,14 @@ int sweep(const SweepArguments& arguments) {
   check_outputs("dsdpv1-sim sweep", scenario_inputs(arguments.scenario, tb::scenario::parse_settings(arguments.set)),
                 {{"results.csv of --out", folder_of(arguments) + "/results.csv"},
                  {"sweep.json of --out", folder_of(arguments) + "/sweep.json"}});
-  const Folder folder(folder_of(arguments), tb::sweep::identity(plan, tb::sweep::program_identity(DSDPV1_VERSION)));
+  catch_signals();
+  const tb::sweep::Inputs inputs(plan);
+  const Folder folder(folder_of(arguments),
+                      tb::sweep::identity(plan, inputs, tb::sweep::program_identity(DSDPV1_VERSION)));
   if (!folder.started_anew().empty())
     std::cerr << "sweep: " << folder_of(arguments) << " is about " << folder.started_anew()
-              << ": its points are removed, starting anew\n";
-  catch_signals();
-  Runner runner(plan, folder, jobs_of(arguments), arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
+              << ": its points are removed, the sweep starts again\n";
+  SweepRunner runner(plan, inputs, folder, jobs_of(arguments), arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
   if (runner.kept() != 0)
     std::cerr << fmt::format("sweep: {} of {} points are there already\n", runner.kept(), plan.points());
   if (!runner.run()) {

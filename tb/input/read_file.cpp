@@ -10,31 +10,17 @@
 #include <system_error>
 #include <utility>
 
+#include "tb/input/descriptor.hpp"
 #include "tb/scenario/input_error.hpp"
 
 namespace tb {
 namespace {
-
-class Descriptor {
- public:
-  explicit Descriptor(const std::string& path) : fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 /// 0, or what errno said. At most `most` bytes and one more, which shows that there would be more.
 int read_all(int fd, std::size_t most, std::string& text) {
   std::array<char, 65536> piece{};
   while (text.size() <= most) {
     const ssize_t count = ::read(fd, piece.data(), std::min(piece.size(), most + 1 - text.size()));
-    if (count < 0 && errno == EINTR) continue;
     if (count < 0) return errno;
     if (count == 0) return 0;
     text.append(piece.data(), static_cast<std::size_t>(count));
@@ -51,7 +37,7 @@ std::string what_is_wrong(int error) {
 }
 
 ReadFile try_read_file(const std::string& path, std::size_t most_mb) {
-  const Descriptor file(path);
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0) return {"", what_is_wrong(errno)};
   const std::size_t most = most_mb << 20U;
   ReadFile result;

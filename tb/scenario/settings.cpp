@@ -115,7 +115,7 @@ YAML::Node value_of(const Field& field, const Setting& setting) {
     }
   }
   check_value(field, value, setting.origin);
-  if (field.type.kind == Kind::kFile) value = std::filesystem::absolute(setting.value).lexically_normal().string();
+  if (field.type.kind == Kind::kFile) value = given_path(setting.value);
   return value;
 }
 
@@ -183,6 +183,8 @@ class Writer {
 };
 
 }  // namespace
+
+std::string given_path(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
 
 Setting parse_setting(const std::string& option, const std::string& text) {
   const std::size_t equals = text.find('=');

@@ -34,6 +34,9 @@ const keys::Field& field_of(const std::string& path, const std::string& origin);
 /// Throws InputError when no scenario could have the setting; whether it has the item of a list is left open.
 void check(const Setting& setting);
 
+/// A path given on a command line, which is relative to where the user stands, as the scenario holds it then.
+std::string given_path(const std::string& path);
+
 /// Writes the setting into a scenario's YAML. Throws InputError for a path or value that is wrong.
 void apply(const Setting& setting, YAML::Node& root);
 

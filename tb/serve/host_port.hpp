@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bus/bytes.hpp"
-#include "tb/socket/descriptor.hpp"
+#include "tb/input/descriptor.hpp"
 
 namespace tb::serve {
 

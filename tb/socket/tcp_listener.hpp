@@ -2,7 +2,7 @@
 // A TCP port that others connect to. Nothing here is ever waited for.
 #include <string>
 
-#include "tb/socket/descriptor.hpp"
+#include "tb/input/descriptor.hpp"
 
 namespace tb {
 

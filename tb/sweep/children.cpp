@@ -1,40 +1,75 @@
 #include "tb/sweep/children.hpp"
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <thread>
-
-#include "tb/scenario/input_error.hpp"
 
 namespace tb::sweep {
 namespace {
 
 constexpr const char* kThisProgram = "/proc/self/exe";  // also when the file was replaced meanwhile
 constexpr int kSignalled = 128;
+constexpr int kNotStarted = 127;
 constexpr std::chrono::milliseconds kMoment(10);
+constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
 
-class FileActions {
+/// Holds the signals back that end a child, so that none is lost in the parent's handler before the child has its own.
+class SignalsHeld {
  public:
-  explicit FileActions(const std::string& errors) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  SignalsHeld() {
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : kSignals) sigaddset(&held, signal);
+    sigprocmask(SIG_BLOCK, &held, &before_);
   }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
-  ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
+  ~SignalsHeld() { release(); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+  void release() const { sigprocmask(SIG_SETMASK, &before_, nullptr); }
 
  private:
-  posix_spawn_file_actions_t actions_{};
+  sigset_t before_{};
 };
+
+[[noreturn]] void give_up() {
+  dprintf(STDERR_FILENO, "the run cannot be started: %s\n", std::strerror(errno));
+  _exit(kNotStarted);
+}
+
+/// In the child: dies with its parent (with the thread that called fork, which is the only one), also when that has died already.
+void bind_to(pid_t parent) {
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) give_up();
+  if (getppid() != parent) _exit(kNotStarted);
+}
+
+[[noreturn]] void become(std::vector<char*>& argv, int errors, pid_t parent, const SignalsHeld& signals) {
+  dup2(errors, STDERR_FILENO);
+  bind_to(parent);
+  const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+  if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(nothing, STDOUT_FILENO) < 0) give_up();
+  for (const int signal : kSignals) std::signal(signal, SIG_DFL);
+  signals.release();
+  execv(kThisProgram, argv.data());
+  give_up();
+}
+
+std::string first_line_of(int file) {
+  std::array<char, 4096> text{};
+  const ssize_t count = pread(file, text.data(), text.size(), 0);
+  const std::string all(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
+  return all.substr(0, all.find('\n'));
+}
 
 }  // namespace
 
@@ -43,36 +78,49 @@ Children::~Children() {
   while (running() != 0) wait();
 }
 
-void Children::start(std::size_t point, const std::vector<std::string>& arguments, const std::string& errors) {
+void Children::start(std::size_t point, const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {"dsdpv1-sim"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  const FileActions actions(errors);
-  pid_t pid = 0;
-  const int failed = posix_spawn(&pid, kThisProgram, actions.get(), nullptr, argv.data(), environ);
-  if (failed != 0)
-    throw InputError(std::string("dsdpv1-sim sweep: no process can be started: ") + std::strerror(failed));
-  points_[pid] = point;
+  const int errors = memfd_create("errors", MFD_CLOEXEC);
+  const pid_t parent = getpid();
+  const SignalsHeld signals;
+  const pid_t pid = errors < 0 ? -1 : fork();
+  if (pid == 0) become(argv, errors, parent, signals);
+  if (pid > 0) {
+    runs_[pid] = {point, errors};
+    return;
+  }
+  not_started_.push_back({point, kNotStarted, std::string("no process can be started: ") + std::strerror(errno)});
+  if (errors >= 0) close(errors);
 }
 
 std::optional<Ended> Children::wait() {
+  if (!not_started_.empty()) {
+    const Ended ended = not_started_.back();
+    not_started_.pop_back();
+    return ended;
+  }
   int status = 0;
   const pid_t pid = waitpid(-1, &status, WNOHANG);
-  const auto found = points_.find(pid);
-  if (found == points_.end()) {
+  const auto found = runs_.find(pid);
+  if (found == runs_.end()) {
     std::this_thread::sleep_for(kMoment);
     return std::nullopt;
   }
-  const Ended ended{found->second, WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status)};
-  points_.erase(found);
+  const Run run = found->second;
+  runs_.erase(found);
+  const int exit = WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status);
+  Ended ended{run.point, exit, first_line_of(run.errors)};
+  close(run.errors);
   return ended;
 }
 
 void Children::terminate() const {
-  for (const auto& [pid, point] : points_) kill(pid, SIGTERM);
+  for (const auto& [pid, run] : runs_) kill(pid, SIGTERM);
 }
 
 }  // namespace tb::sweep

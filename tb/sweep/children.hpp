@@ -13,10 +13,11 @@ namespace tb::sweep {
 /// A run that has come to its end.
 struct Ended {
   std::size_t point = 0;
-  int exit = 0;  ///< 128 + signal when it was killed
+  int exit = 0;      ///< 128 + signal when it was killed, 127 when it could not be started
+  std::string said;  ///< the first line of its error channel
 };
 
-/// The process has no other children than these.
+/// The process has no other children than these, and no other threads. They end with it, also when it is killed.
 class Children {
  public:
   Children() = default;
@@ -25,17 +26,22 @@ class Children {
   /// Ends those that still run.
   ~Children();
 
-  /// Starts this program with `arguments`; it writes nothing but its error channel, into `errors`. Throws InputError when the
-  /// system refuses.
-  void start(std::size_t point, const std::vector<std::string>& arguments, const std::string& errors);
-  std::size_t running() const { return points_.size(); }
+  /// Starts this program with `arguments`; it writes nothing but its error channel. One that the system does not start has
+  /// ended at once.
+  void start(std::size_t point, const std::vector<std::string>& arguments);
+  std::size_t running() const { return runs_.size() + not_started_.size(); }
   /// One that has ended; waits a moment when there is none, and returns nullopt then, so that the caller hears signals.
   std::optional<Ended> wait();
   /// Asks all to end.
   void terminate() const;
 
  private:
-  std::map<pid_t, std::size_t> points_;
+  struct Run {
+    std::size_t point = 0;
+    int errors = -1;  ///< file in memory: a full disk does not silence the run
+  };
+  std::map<pid_t, Run> runs_;
+  std::vector<Ended> not_started_;
 };
 
 }  // namespace tb::sweep

@@ -1,14 +1,15 @@
 #include "tb/sweep/folder.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <cstdint>
+#include <algorithm>
+#include <system_error>
 #include <utility>
 
-#include "tb/input/read_file.hpp"
 #include "tb/report/output_file.hpp"
 #include "tb/scenario/input_error.hpp"
-#include "tb/scenario/scenario.hpp"
+#include "tb/sweep/fingerprint.hpp"
 
 namespace tb::sweep {
 namespace {
@@ -16,19 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kLastOwnExit = 2;  // above it the run was killed, and is tried again
+constexpr int kPassed = 0, kFailed = 1, kWrongInput = 2;
 constexpr const char* kFormat = "dsdpv1-sim sweep 1";
 
-std::string content(const fs::path& path) { return try_read_file(path.string(), kFirmwareFile.most_mb).text; }
-
-/// FNV-1a, 64 bits: tells contents apart, no more.
-std::string fingerprint(const std::string& text) {
-  std::uint64_t hash = 0xCBF29CE484222325U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
-  return fmt::format("{:016x}", hash);
-}
-
-Json read_json(const fs::path& path) { return Json::parse(content(path), nullptr, false); }
+Json read_json(const fs::path& path) { return Json::parse(content(path.string()), nullptr, false); }
 
 void write_file(const std::string& path, const std::string& text) {
   OutputFile file(path);
@@ -36,16 +28,24 @@ void write_file(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-/// The scenario, the files that it names and those that swept keys name.
-Json content_of(const Plan& plan) {
-  std::vector<std::string> files = scenario::files(plan.scenario, scenario::parse_settings(plan.settings));
-  for (const Parameter& parameter : plan.parameters) {
-    if (scenario::field_of(parameter.path, "--param").type.kind != keys::Kind::kFile) continue;
-    files.insert(files.end(), parameter.values.begin(), parameter.values.end());
-  }
-  Json json = {{plan.scenario, fingerprint(scenario::read_file(plan.scenario))}};
-  for (const std::string& file : files) json[file] = fingerprint(content(file));
-  return json;
+bool begins_with(const std::string& text, const std::string& part) { return text.rfind(part, 0) == 0; }
+
+bool is_picture(const std::string& name) {
+  return begins_with(name, "map") && name.size() > 4 && name.substr(name.size() - 4) == ".svg";
+}
+
+/// A temporary name of a file that a sweep writes: left by one that was killed.
+bool is_left_over(std::string name) {
+  if (begins_with(name, ".")) name.erase(0, 1);
+  const bool ours = begins_with(name, "sweep.json") || begins_with(name, "results.csv") ||
+                    (begins_with(name, "map") && name.find(".svg") != std::string::npos);
+  return ours && name.find(".part") != std::string::npos;
+}
+
+/// "00042.json": what stays in the folder of the points; all else in there belongs to runs that are no more.
+bool is_point(const std::string& name) {
+  const std::size_t digits = name.find_first_not_of("0123456789");
+  return digits != std::string::npos && digits != 0 && name.substr(digits) == ".json";
 }
 
 /// In what `now` is another sweep than `before`.
@@ -56,26 +56,35 @@ std::string difference(const Json& before, const Json& now) {
   return before == now ? "" : "other settings";
 }
 
-/// The first line of what a run wrote to its error channel.
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+/// What the result of a run says; nullopt when it is no result. Only these exit codes are about the point, see docs/sweep.md.
+std::optional<Point> statement(int exit, const std::string& error, const Json& result) {
+  const bool ran = (exit == kPassed || exit == kFailed) && error.empty() && result.is_object();
+  const bool refused = exit == kWrongInput && !error.empty() && result.is_null();
+  if (!ran && !refused) return std::nullopt;
+  return point_of(exit, error, result);
+}
 
 }  // namespace
 
 std::string program_identity(const std::string& version) {
-  return version + " " + fingerprint(content("/proc/self/exe"));
+  return version + " " + fingerprint_of_file("/proc/self/exe").value_or("");
 }
 
-Json identity(const Plan& plan, const std::string& program) {
+Json identity(const Plan& plan, const Inputs& inputs, const std::string& program) {
   Json json = {{"format", kFormat},           {"program", program},        {"scenario", plan.scenario},
-               {"content", content_of(plan)}, {"settings", plan.settings}, {"checks", plan.checks},
+               {"content", inputs.content()}, {"settings", plan.settings}, {"checks", plan.checks},
                {"parameters", Json::array()}};
   for (const Parameter& parameter : plan.parameters)
     json["parameters"].push_back({{"path", parameter.path}, {"values", parameter.values}});
-  return json;
+  return as_kept(json);
 }
 
-Folder::Folder(fs::path path, const Json& identity) : path_(std::move(path)) {
+Folder::Folder(fs::path path, const Json& identity)
+    : path_(std::move(path)), identity_(fingerprint(text_of(identity))) {
   try {
+    if (fs::exists(path_) && !fs::is_directory(path_))
+      throw InputError(path_.string(), 0, "is a file, allowed is a folder for the sweep");
+    lock_.emplace(path_);
     open(identity);
   } catch (const fs::filesystem_error& error) {
     throw InputError(path_.string(), 0, "cannot be used for a sweep: " + error.code().message());
@@ -83,18 +92,29 @@ Folder::Folder(fs::path path, const Json& identity) : path_(std::move(path)) {
 }
 
 void Folder::open(const Json& identity) {
-  if (fs::exists(path_) && !fs::is_directory(path_))
-    throw InputError(path_.string(), 0, "is a file, allowed is a folder for the sweep");
-  const Json before = fs::exists(path_ / "sweep.json") ? read_json(path_ / "sweep.json") : Json();
+  Json before = fs::exists(path_ / "sweep.json") ? read_json(path_ / "sweep.json") : Json();
   const bool ours = before.is_object() && before.value("format", Json()) == kFormat;
-  if (!ours && fs::exists(path_) && !fs::is_empty(path_))
+  const bool damaged = before.is_discarded();
+  if (damaged) before = Json();  // to be compared: what is discarded differs from nothing
+  if (!ours && holds_something_else(damaged))
     throw InputError(path_.string(), 0, "holds something else, allowed is a new or empty folder, or one of a sweep");
-  if (ours) {
-    started_anew_ = difference(before, identity);
-    if (!started_anew_.empty()) clear();
-  }
-  fs::create_directories(path_ / "points");
+  if (ours) started_anew_ = difference(before, identity);
+  if (damaged) started_anew_ = "nothing that can be known, its sweep.json is damaged";
+  if (!started_anew_.empty()) clear();
+  tidy();
+  // First of all, so that a folder with points always says what they are about.
   if (before != identity) write_file(file("sweep.json"), identity.dump(2) + "\n");
+  fs::create_directories(path_ / "points");
+}
+
+/// What a sweep writes counts only where a sweep.json, though damaged, says that there was one.
+bool Folder::holds_something_else(bool swept) const {
+  const auto is_else = [swept](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    if (name == Lock::kName || is_left_over(name)) return false;
+    return !swept || !(name == "sweep.json" || name == "points" || name == "results.csv" || is_picture(name));
+  };
+  return std::any_of(fs::directory_iterator(path_), fs::directory_iterator(), is_else);
 }
 
 /// Only what a sweep writes.
@@ -102,39 +122,63 @@ void Folder::clear() const {
   fs::remove_all(path_ / "points");
   fs::remove(path_ / "results.csv");
   for (const auto& entry : fs::directory_iterator(path_)) {
-    const std::string name = entry.path().filename().string();
-    if (name.rfind("map", 0) == 0 && entry.path().extension() == ".svg") fs::remove(entry.path());
+    if (is_picture(entry.path().filename().string())) fs::remove(entry.path());
   }
 }
 
-std::string Folder::point_file(std::size_t point, const char* ending) const {
+/// Removes what a sweep that was killed has left half done.
+void Folder::tidy() const {
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    if (is_left_over(entry.path().filename().string())) fs::remove(entry.path());
+  }
+  if (!fs::exists(path_ / "points")) return;
+  for (const auto& entry : fs::directory_iterator(path_ / "points")) {
+    if (!is_point(entry.path().filename().string())) fs::remove_all(entry.path());
+  }
+}
+
+std::string Folder::point_file(std::size_t point, const std::string& ending) const {
   return (path_ / "points" / fmt::format("{:05}{}", point, ending)).string();
 }
 
-std::optional<Point> Folder::finished(std::size_t point) const {
-  const std::string name = point_file(point, ".json");
-  if (!fs::exists(name)) return std::nullopt;
-  const nlohmann::json kept = nlohmann::json::parse(content(name), nullptr, false);
-  const bool ran = !kept.is_discarded() && kept.at("exit") <= kLastOwnExit;
-  if (!ran) return std::nullopt;
-  return point_of(kept.at("exit"), kept.at("error"), kept.at("result"));
+/// With the id of this process: a run of an owner before that has not died yet writes into a file of its own.
+std::string Folder::result_file(std::size_t point) const { return point_file(point, fmt::format(".{}.run", getpid())); }
+
+std::optional<Point> Folder::finished(std::size_t point, const Plan& plan) const {
+  Json kept = read_json(point_file(point, ".json"));
+  try {
+    const Json sum = kept.at("sum");
+    kept.erase("sum");
+    const bool whole = sum == fingerprint(text_of(kept));
+    if (!whole || kept.at("identity") != identity_ || kept.at("settings") != as_kept(plan.settings_of(point)))
+      return std::nullopt;
+    return statement(kept.at("exit"), kept.at("error"), kept.at("result"));
+  } catch (const nlohmann::json::exception&) {  // no JSON, or not of this form
+    return std::nullopt;
+  }
 }
 
-Point Folder::finish(std::size_t point, const Plan& plan, int exit) const {
-  Json kept = {{"settings", plan.settings_of(point)}, {"exit", exit}, {"error", ""}, {"result", nullptr}};
-  if (fs::exists(result_file(point))) {
-    kept["result"] = read_json(result_file(point));
-  } else {
-    kept["error"] = first_line(content(error_file(point)));
-  }
-  write_file(point_file(point, ".json"), kept.dump() + "\n");
+std::optional<Point> Folder::finish(std::size_t point, const Plan& plan, int exit, const std::string& error) const {
+  const Json result = exit == kWrongInput ? Json() : read_json(result_file(point));
   forget(point);
-  return point_of(exit, kept["error"], kept["result"]);
+  try {
+    if (!statement(exit, error, result)) return std::nullopt;
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+  Json kept = as_kept({{"identity", identity_},
+                       {"settings", plan.settings_of(point)},
+                       {"exit", exit},
+                       {"error", error},
+                       {"result", result}});
+  kept["sum"] = fingerprint(text_of(kept));
+  write_file(point_file(point, ".json"), text_of(kept) + "\n");
+  return statement(exit, kept["error"], result);
 }
 
 void Folder::forget(std::size_t point) const {
-  fs::remove(result_file(point));
-  fs::remove(error_file(point));
+  std::error_code ignored;  // the next owner of the folder removes it
+  fs::remove(result_file(point), ignored);
 }
 
 }  // namespace tb::sweep

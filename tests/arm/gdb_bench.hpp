@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fake_target.hpp"
-#include "tb/socket/descriptor.hpp"
+#include "tb/input/descriptor.hpp"
 #include "tb/user_cpu/arm/gdb_server.hpp"
 
 namespace arm::test {

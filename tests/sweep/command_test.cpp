@@ -83,7 +83,7 @@ TEST_F(SweepCommand, ChangedScenarioStartsAnewWithAMessage) {
   ASSERT_EQ(sweep(arguments).status, 0);
   write("s.yaml", std::string(kScenario) + "# changed\n");
   EXPECT_THAT(sweep(arguments).err, HasSubstr("out is about another scenario or other content of its files: its points "
-                                              "are removed, starting anew\n"));
+                                              "are removed, the sweep starts again\n"));
 }
 
 TEST_F(SweepCommand, InterruptedItKeepsFinishedPointsOnlyAndExits130) {

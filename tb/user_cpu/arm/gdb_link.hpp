@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "tb/socket/descriptor.hpp"
+#include "tb/input/descriptor.hpp"
 #include "tb/socket/tcp_listener.hpp"
 #include "tb/user_cpu/arm/gdb_packet.hpp"
 
