@@ -9,7 +9,7 @@ namespace tb::serve {
 /// The first lines of each second are said, the others counted.
 class LineLimit {
  public:
-  static constexpr std::uint64_t kMost = 10;
+  static constexpr std::uint64_t kMost = 40;
   static constexpr std::chrono::seconds kSpan{1};
 
   /// Whether a line may be said now. left_out() comes first.

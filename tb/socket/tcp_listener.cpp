@@ -34,7 +34,7 @@ std::string text_of(const sockaddr_in& address) {
 
 /// The sender's own buffer grows with the size of segments, which is 64 KB within a computer.
 void keep_buffers_little(int listener) {
-  const int window = 8192, segment = 536;
+  const int window = 2048, segment = 536;
   ::setsockopt(listener, SOL_SOCKET, SO_RCVBUF, &window, sizeof window);
   ::setsockopt(listener, IPPROTO_TCP, TCP_MAXSEG, &segment, sizeof segment);
 }
