@@ -229,7 +229,7 @@ def twenty_hosts(serve):
         each.close()
 
 
-@fault("is killed in the middle of its telegrams (RST)", "wait; the telegram on the line ends as it is, those behind it are dropped, also the answer",
+@fault("is killed in the middle of its telegrams (RST)", "wait; the telegram on the line ends as it is, those after it are dropped, also the answer",
        [CONNECTED, WAITS, HUNG_UP, TURN])
 def killed_host(serve):
     with host(serve) as killed, host(serve) as other:
