@@ -8,7 +8,7 @@ namespace tb {
 
 struct TcpOptions {
   int backlog = 4;  ///< connections that the system keeps until they are accepted
-  /// The system holds some 90 KB of what the other side sends and nobody has read, not 4 MB: the other side is made to wait sooner, and
+  /// The system holds some 90 KB to 1 MB of what the other side sends and nobody has read, not 4 MB: the other side is made to wait sooner, and
   /// when it is killed its end, which comes after all that it has sent, is heard of sooner.
   bool little_buffered = false;
 };
