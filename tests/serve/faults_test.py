@@ -117,6 +117,11 @@ def flood(serve, fd, payload, seconds):
     return written
 
 
+def log_so_far(serve):
+    with open(os.path.join(serve.folder, "serve.log.part"), encoding="UTF-8") as file:
+        return file.read()
+
+
 def answered_in_turn(serve, connection):
     """A host that waited: nothing has come for it so far, it asks, it gets its answer and nothing else."""
     said(serve, TURN)
@@ -186,19 +191,18 @@ def half_telegram(serve):
         ask(after.fileno())
 
 
-@fault("sends a telegram of 255 bytes in such small pieces that it would take 10 s", "see what has come of it on the line after 1 s; simulated time, "
+@fault("sends a telegram of 255 bytes in such small pieces that it would take 10 s", "see what has come of it on the line after 1 s at most; simulated time, "
        "which stood still, catches up", [CONNECTED], may=[HUNG_UP], status=1)
 def trickle(serve):
     with host(serve) as slow:
         ask(slow.fileno())
         slow.send(bytes([0x68, 0xF9, 0xF9, 0x68]))
-        begin, sent = time.monotonic(), 4
-        while "BUS_TELEGRAM_ERROR" not in open(os.path.join(serve.folder, "serve.log.part"), encoding="UTF-8").read():
-            check(sent < 200, "it was waited for")
+        sent = 4
+        while "BUS_TELEGRAM_ERROR" not in log_so_far(serve):
+            check(sent < 100, "it was waited for")
             slow.send(b"\x00")
             sent += 1
             read_some(slow.fileno(), 1, 0.04)
-        check(time.monotonic() - begin > 0.9, "it was given up too soon")
 
 
 @fault("connects and hangs up 1000 times", "are served afterwards. 40 lines a second are said, the others counted", [CONNECTED, HUNG_UP, MORE],
