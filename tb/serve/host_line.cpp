@@ -35,12 +35,22 @@ void HostLine::send(Tick at, bus::Bytes bytes) {
   const bool answer = telegram && telegram->is_response();
   const bool wants_answer = telegram && telegram->is_request() && telegram->wants_answer();
   ++statistics_.telegrams;
+  waiting_bytes_ += bytes.size();
   waiting_.push_back({at, std::move(bytes), answer, wants_answer});
+}
+
+void HostLine::forget() {
+  statistics_.forgotten += waiting_.size();
+  waiting_.clear();
+  waiting_bytes_ = 0;
+  heard_.clear();
+  deaf_ = true;
 }
 
 bus::Bytes HostLine::take_heard(Tick now, bool whole_only) {
   if (heard_.empty() || now < last_activity_) return {};
-  if (whole_only && (receiver_.receiving() || now < last_activity_ + bits(2))) return {};
+  const bool may_follow = receiver_.receiving() || now < last_activity_ + bits(2);
+  if (whole_only && may_follow && heard_.size() < kMostWhole) return {};
   statistics_.heard_bytes += heard_.size();
   return std::exchange(heard_, {});
 }
@@ -73,6 +83,8 @@ Tick HostLine::earliest(const Waiting& telegram) const {
 void HostLine::start(Tick now) {
   const Waiting telegram = std::move(waiting_.front());
   waiting_.pop_front();
+  waiting_bytes_ -= telegram.bytes.size();
+  deaf_ = false;
   if (now > telegram.at) {
     ++statistics_.held_back;
     statistics_.longest_held_back = std::max(statistics_.longest_held_back, now - telegram.at);
@@ -90,7 +102,8 @@ void HostLine::line_changed(Tick at, bool level) {
 }
 
 void HostLine::heard(const bus::ReceivedCharacter& character) {
-  heard_.push_back(character.byte);
+  if (character.start >= std::max(last_activity_ + bits(bus::kSynBits), slot_end_)) deaf_ = false;
+  if (!deaf_) heard_.push_back(character.byte);
   last_activity_ = character.end;
   slot_end_ = 0;  // answered; what follows has to keep T_SYN
 }

@@ -18,6 +18,7 @@ struct HostLineStatistics {
   std::uint64_t sent_bytes = 0;   ///< by the host
   std::uint64_t heard_bytes = 0;  ///< by the host
   std::uint64_t held_back = 0;    ///< telegrams that came too soon
+  std::uint64_t forgotten = 0;    ///< telegrams that were still to be sent when the host hung up
   Tick longest_held_back = 0;
 };
 
@@ -28,12 +29,21 @@ class HostLine : public bus::Agent, private bus::Listener {
  public:
   /// `baud` as in bus/baud.hpp. The segment must outlive the line.
   HostLine(bus::Segment& segment, int baud);
+  /// So much is a line that never falls silent, not a telegram.
+  static constexpr std::size_t kMostWhole = 4096;
+
   HostLine(const HostLine&) = delete;
   HostLine& operator=(const HostLine&) = delete;
 
   /// Sends after what was handed over before, not before `at` (not in the past).
   void send(Tick at, bus::Bytes bytes);
-  /// The bytes whose last stop bit has ended, in order; with `whole_only` nothing while more may follow without a gap.
+  /// The host has gone: what it handed over is not sent, what was heard for it is not handed over. A telegram on the line ends as it
+  /// is; what answers it is for nobody, so nothing is heard until something new begins after T_SYN.
+  void forget();
+  /// Handed over and not yet begun to be sent.
+  std::size_t waiting_bytes() const { return waiting_bytes_; }
+  /// The bytes whose last stop bit has ended, in order; with `whole_only` nothing while more may follow without a gap, up to
+  /// kMostWhole.
   bus::Bytes take_heard(Tick now, bool whole_only);
   /// Something is on the line or about to be: a telegram of the host that waits or is sent, an awaited answer, a character.
   bool busy(Tick now) const;
@@ -61,7 +71,9 @@ class HostLine : public bus::Agent, private bus::Listener {
   Tick bit_, slot_;
   Tick last_activity_ = 0;  ///< end of the last character sent or heard
   Tick slot_end_ = 0;       ///< until then an answer may begin
+  bool deaf_ = false;       ///< what is heard is for a host that has gone
   std::deque<Waiting> waiting_;
+  std::size_t waiting_bytes_ = 0;
   bus::Bytes heard_;
   HostLineStatistics statistics_;
 };

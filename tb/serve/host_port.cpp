@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -14,6 +14,12 @@ namespace {
 bool for_later(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
 }  // namespace
 
+/// The events that poll tells of unasked, and the end of a connection.
+bool hung_up(int fd) {
+  pollfd other{fd, POLLRDHUP, 0};
+  return ::poll(&other, 1, 0) > 0;
+}
+
 void HostPort::set_peer(int fd) {
   peer_ = fd;
   heard_ = told_of_loss_ = false;
@@ -23,26 +29,35 @@ void HostPort::set_peer(int fd) {
 void HostPort::forget_peer(const std::string& why) {
   set_peer(-1);
   lost(why);
+  on_gone();
 }
 
-bus::Bytes HostPort::receive() {
+bus::Bytes HostPort::receive(std::size_t most) {
   look();
-  bus::Bytes bytes;
-  std::array<std::uint8_t, 4096> buffer{};
-  while (has_peer()) {
-    const ssize_t count = ::read(peer_, buffer.data(), buffer.size());
-    if (count > 0) {
-      bytes.insert(bytes.end(), buffer.begin(), buffer.begin() + count);
-    } else if (count < 0 && for_later(errno)) {
-      break;
-    } else {
-      // EIO is how a pseudo-terminal says that its other end was closed.
-      forget_peer(count == 0 || errno == EIO || errno == ECONNRESET ? "" : std::strerror(errno));
-    }
-  }
-  if (!bytes.empty() && !std::exchange(heard_, true) && has_peer()) first_bytes();
+  check_peer();
+  bus::Bytes bytes = read(most);
+  if (!bytes.empty() && !std::exchange(heard_, true)) first_bytes();
   flush();
+  if (!has_peer()) bytes.clear();
   return bytes;
+}
+
+bus::Bytes HostPort::read(std::size_t most) {
+  bus::Bytes bytes(most);
+  std::size_t got = 0;
+  while (has_peer() && got < most) {
+    const ssize_t count = ::read(peer_, bytes.data() + got, most - got);
+    if (count < 0 && for_later(errno)) break;
+    // EIO is how a pseudo-terminal says that its other end was closed.
+    if (count <= 0) forget_peer(count == 0 || errno == EIO || errno == ECONNRESET ? "" : std::strerror(errno));
+    got += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+  }
+  bytes.resize(has_peer() ? got : 0);
+  return bytes;
+}
+
+void HostPort::check_peer() {
+  if (has_peer() && hung_up(peer_)) forget_peer("");
 }
 
 void HostPort::send(const bus::Bytes& bytes) {
@@ -52,7 +67,7 @@ void HostPort::send(const bus::Bytes& bytes) {
       say(fmt::format("{}: the host does not read: what it is sent is thrown away from now on", name()));
     return;
   }
-  kept_.insert(kept_.end(), bytes.begin(), bytes.end());
+  kept_.push(bytes);
   flush();
 }
 
@@ -67,10 +82,12 @@ void HostPort::flush() {
     if (count <= 0) break;
     written += static_cast<std::size_t>(count);
   }
-  kept_.erase(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(written));
+  kept_.drop(written);
   after_write();
 }
 
-pollfd HostPort::watched() const { return {peer_, static_cast<short>(kept_.empty() ? POLLIN : POLLIN | POLLOUT), 0}; }
+pollfd HostPort::watched(bool reading) const {
+  return {peer_, static_cast<short>((reading ? POLLIN : 0) | (kept_.empty() ? 0 : POLLOUT)), 0};
+}
 
 }  // namespace tb::serve

@@ -8,8 +8,12 @@
 
 #include "bus/bytes.hpp"
 #include "tb/input/descriptor.hpp"
+#include "tb/serve/byte_queue.hpp"
 
 namespace tb::serve {
+
+/// The other end has gone, whatever it has left to be read.
+bool hung_up(int fd);
 
 class HostPort {
  public:
@@ -25,15 +29,18 @@ class HostPort {
   /// A UART gives the characters their times, on both ways; else bytes have none.
   virtual bool timed() const { return false; }
 
-  /// What has come since the last call. Also looks after comings and goings of the peer.
-  bus::Bytes receive();
+  /// What has come, at most `most` bytes: the rest waits where it is, with the peer in the end. Also looks after comings and goings of
+  /// the peer; nothing is received from one that has gone.
+  bus::Bytes receive(std::size_t most);
   /// Hands over to the peer, at once or as soon as it takes more; without a peer nobody hears it.
   void send(const bus::Bytes& bytes);
-  /// For poll(2): what to wait for; the descriptor is -1 while there is no peer.
-  virtual pollfd watched() const;
+  /// For poll(2): what to wait for, bytes of the peer only while `reading`; the descriptor is -1 while there is no peer.
+  virtual pollfd watched(bool reading) const;
 
   /// One line for the user about comings, goings and losses.
   std::function<void(const std::string&)> say = [](const std::string&) {};
+  /// The peer has gone: what came from it and what was meant for it is for nobody.
+  std::function<void()> on_gone = [] {};
 
  protected:
   HostPort() = default;
@@ -50,14 +57,17 @@ class HostPort {
   bool has_peer() const { return peer_ >= 0; }
   int peer() const { return peer_; }
   void set_peer(int fd);
+  /// Lets the peer go when it has hung up; that shows also when it is not read from now.
+  void check_peer();
 
  private:
+  bus::Bytes read(std::size_t most);
   void flush();
   void forget_peer(const std::string& why);
 
   int peer_ = -1;
   bool heard_ = false, told_of_loss_ = false;
-  bus::Bytes kept_;  ///< not yet taken by the peer
+  ByteQueue kept_;  ///< not yet taken by the peer
 };
 
 }  // namespace tb::serve

@@ -66,7 +66,7 @@ class PtyPort : public HostPort {
         speed_(bits_per_second) {
     set_raw(master_.get());
     // Opened and closed once, the other end counts as hung up until a host opens it.
-    const Descriptor once(::open(slave_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+    const Descriptor once(open_slave());
   }
 
   std::string name() const override { return link_name_.empty() ? slave_ : fmt::format("{} ({})", link_name_, slave_); }
@@ -83,6 +83,9 @@ class PtyPort : public HostPort {
   void lost(const std::string& why) override {
     was_lost_ = true;
     set_raw(master_.get());
+    // The kernel keeps both ways for whoever opens it next.
+    discard_input(master_.get());
+    discard_input(Descriptor(open_slave()).get());
     say(fmt::format("{}: the host hung up{}; the next one may open it", name(), why.empty() ? "" : " (" + why + ")"));
   }
 
@@ -96,6 +99,8 @@ class PtyPort : public HostPort {
   }
 
  private:
+  int open_slave() const { return ::open(slave_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC); }
+
   Descriptor master_;
   std::string slave_;
   Link link_;

@@ -19,7 +19,11 @@ constexpr std::chrono::seconds kBetweenComplaints{5};
 
 RealTimeExecution::RealTimeExecution(std::unique_ptr<HostPort> port, int baud)
     : port_(std::move(port)), line_(segment_, baud) {
-  port_->say = [this](const std::string& text) { say(timeline_.now(), text); };
+  port_->say = [this](const std::string& text) { tell_about_port(text); };
+  port_->on_gone = [this] {
+    intake_.clear();
+    line_.forget();
+  };
 }
 
 std::unique_ptr<ChipView> RealTimeExecution::make_chip(const std::string& name, const dsdpv1::Config& config,
@@ -37,20 +41,36 @@ void RealTimeExecution::run(Tick end, const std::function<bool()>& stopped) {
     take_from_host();
     advance(end);
     give_to_host();
+    tell_left_out(false);
     sleep();
   }
+  tell_left_out(true);
+}
+
+std::size_t RealTimeExecution::room() const {
+  const bool caught_up = pace_->target() <= timeline_.now() + 2 * kSlice;
+  if (!intake_.holding() && pace_->now() < rest_until_ && !caught_up) return 0;
+  const std::size_t waiting = intake_.size() + line_.waiting_bytes();
+  return std::max(kMostWaiting - std::min(waiting, kMostWaiting), intake_.missing());
 }
 
 void RealTimeExecution::take_from_host() {
-  intake_.take(port_->receive(), pace_->now());
+  intake_.take(port_->receive(room()), pace_->now());
   // Late looks at the clock must not make a telegram late that came meanwhile.
   const Tick at = std::clamp(pace_->target(), timeline_.now(), timeline_.now() + kSlice);
   while (auto telegram = intake_.next(pace_->now()))
     line_.send(held_since_ ? timeline_.now() : at, std::move(*telegram));
+  hold_time();
+}
+
+void RealTimeExecution::hold_time() {
+  const WallTime now = pace_->now();
   if (intake_.holding()) {
-    if (!held_since_) held_since_ = pace_->now();
+    if (!held_since_) held_since_ = now;
   } else if (held_since_) {
-    pace_->hold(to_ticks(pace_->now() - *held_since_));
+    const auto held = now - *held_since_;
+    pace_->hold(to_ticks(held));
+    if (held > Intake::kPatience) rest_until_ = now + held;
     held_since_.reset();
   }
 }
@@ -82,10 +102,20 @@ void RealTimeExecution::sleep() {
   if (!intake_.holding() && port_->timed() && line_.busy(now)) return;
   const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(until - pace_->now());
   if (left.count() <= 0) return;
-  pollfd watched = port_->watched();
+  pollfd watched = port_->watched(room() > 0);
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(left);
   const timespec timeout{static_cast<time_t>(seconds.count()), static_cast<long>((left - seconds).count())};
   ::ppoll(&watched, 1, &timeout, nullptr);
+}
+
+void RealTimeExecution::tell_about_port(const std::string& text) {
+  tell_left_out(false);
+  if (lines_.allows(WallClock::now())) say(timeline_.now(), text);
+}
+
+void RealTimeExecution::tell_left_out(bool at_end) {
+  if (const std::uint64_t count = lines_.left_out(WallClock::now(), !at_end))
+    say(timeline_.now(), fmt::format("{}: {} more such lines are left out", port_->name(), count));
 }
 
 void RealTimeExecution::tell(const Pace::Loss& loss) {
@@ -108,6 +138,7 @@ Pacing RealTimeExecution::pacing() const {
   pacing.bytes_from_host = line.sent_bytes;
   pacing.bytes_to_host = line.heard_bytes;
   pacing.held_back = line.held_back;
+  pacing.forgotten = line.forgotten;
   pacing.longest_held_back = line.longest_held_back;
   if (!pace_) return pacing;
   pacing.error_mean_us = pace_->statistics().error_mean_us();

@@ -8,6 +8,7 @@
 #include "tb/serve/framing.hpp"
 #include "tb/serve/host_line.hpp"
 #include "tb/serve/host_port.hpp"
+#include "tb/serve/line_limit.hpp"
 #include "tb/serve/pace.hpp"
 
 namespace tb::serve {
@@ -16,8 +17,16 @@ namespace tb::serve {
 /// stands still while a telegram of the host has begun and is not complete (Intake), and catches up afterwards; so a telegram that
 /// came slowly, from a real UART, ends on the segment when it ended on the wire. Behind a UART simulated time does not wait
 /// while the answer is awaited and sent: nothing can come from the host meanwhile, and the UART gives the answer its times.
+///
+/// No more is read from the host than waits for the line, up to kMostWaiting; what it writes faster than the line sends stays in the
+/// socket or pseudo-terminal, and in the end the host waits. After a hold longer than Intake::kPatience nothing is read until
+/// simulated time has caught up, or for as long as the hold was: so a host that sends ever so slowly cannot stop it.
 class RealTimeExecution : public Execution {
  public:
+  /// Eight of the longest telegrams; at 12 Mbit/s nearly two slices of 1 ms, so that the line never waits for the program. The rest of
+  /// a telegram begun is read beyond that.
+  static constexpr std::size_t kMostWaiting = 8 * kLongestTelegram;
+
   /// `baud` as in bus/baud.hpp.
   RealTimeExecution(std::unique_ptr<HostPort> port, int baud);
 
@@ -33,6 +42,10 @@ class RealTimeExecution : public Execution {
 
  private:
   void take_from_host();
+  std::size_t room() const;
+  void hold_time();
+  void tell_about_port(const std::string& text);
+  void tell_left_out(bool at_end);
   void advance(Tick end);
   Tick limit() const;
   void give_to_host();
@@ -43,7 +56,9 @@ class RealTimeExecution : public Execution {
   HostLine line_;
   Intake intake_;
   std::optional<Pace> pace_;
+  LineLimit lines_;
   std::optional<WallTime> held_since_;
+  WallTime rest_until_{};  ///< until then nothing is read, so that simulated time catches up
   WallTime told_at_{};
   bool told_ = false;
 };

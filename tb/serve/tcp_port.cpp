@@ -1,5 +1,9 @@
-// A TCP port: each byte of the connection is a character of the segment.
+// A TCP port: each byte of the connection is a character of the segment. One host has it; others wait for their turn.
 #include <fmt/format.h>
+#include <sys/socket.h>
+
+#include <deque>
+#include <utility>
 
 #include "tb/serve/ports.hpp"
 #include "tb/socket/tcp_listener.hpp"
@@ -7,23 +11,32 @@
 namespace tb::serve {
 namespace {
 
+/// A host that has connected.
+struct Host {
+  std::string address;
+  Descriptor connection;
+};
+
+/// The other side is told of a fault, not of an end; and nothing of the connection stays in the system.
+void reset_at_close(int connection) {
+  const linger at_once{1, 0};
+  ::setsockopt(connection, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+}
+
 class TcpPort : public HostPort {
  public:
-  TcpPort(const std::string& bind, int port) : listener_("dsdpv1-sim serve", bind, port) {}
+  TcpPort(const std::string& bind, int port) : listener_("dsdpv1-sim serve", bind, port, {kBacklog, true}) {}
 
   std::string name() const override { return "TCP port " + listener_.address(); }
-  pollfd watched() const override {
-    return has_peer() ? HostPort::watched() : pollfd{listener_.descriptor(), POLLIN, 0};
+  pollfd watched(bool reading) const override {
+    return has_peer() ? HostPort::watched(reading) : pollfd{listener_.descriptor(), POLLIN, 0};
   }
 
  protected:
   void look() override {
-    if (has_peer()) return;
-    const auto [descriptor, from] = listener_.accept();
-    if (descriptor < 0) return;
-    host_.reset(descriptor);
-    set_peer(host_.get());
-    say(fmt::format("{}: {} has connected", name(), from));
+    forget_gone();
+    accept_all();
+    if (!has_peer() && !waiting_.empty()) take_next();
   }
 
   void lost(const std::string& why) override {
@@ -32,8 +45,61 @@ class TcpPort : public HostPort {
   }
 
  private:
+  static constexpr std::size_t kMostWaiting = 16;  ///< hosts
+  static constexpr int kBacklog = 128;             ///< those that come within one look, even a late one
+  static constexpr int kMostAtOnce = 64;           ///< so that a storm does not stop the simulation
+
+  void accept_all() {
+    for (int i = 0; i < kMostAtOnce; ++i) {
+      const auto [descriptor, from] = listener_.accept();
+      if (descriptor < 0) return;
+      arrived(descriptor, from);
+    }
+  }
+
+  void arrived(int descriptor, const std::string& from) {
+    Descriptor connection(descriptor);
+    check_peer();  // who hangs up and connects again need not wait
+    if (waiting_.size() >= kMostWaiting) forget_gone();
+    if (!has_peer() && waiting_.empty()) {
+      begin(std::move(connection));
+      say(fmt::format("{}: {} has connected", name(), from));
+    } else if (waiting_.size() < kMostWaiting) {
+      waiting_.push_back({from, std::move(connection)});
+      say(fmt::format("{}: {} waits, {} of {}: another host has the port", name(), from, waiting_.size(),
+                      kMostWaiting));
+    } else {
+      reset_at_close(connection.get());
+      say(fmt::format("{}: {} is refused: {} hosts wait already", name(), from, kMostWaiting));
+    }
+  }
+
+  void forget_gone() {
+    for (auto host = waiting_.begin(); host != waiting_.end();) {
+      if (!hung_up(host->connection.get())) {
+        ++host;
+        continue;
+      }
+      say(fmt::format("{}: {} hung up while it waited", name(), host->address));
+      host = waiting_.erase(host);
+    }
+  }
+
+  void take_next() {
+    Host next = std::move(waiting_.front());
+    waiting_.pop_front();
+    begin(std::move(next.connection));
+    say(fmt::format("{}: {} has waited and has its turn", name(), next.address));
+  }
+
+  void begin(Descriptor connection) {
+    host_ = std::move(connection);
+    set_peer(host_.get());
+  }
+
   TcpListener listener_;
   Descriptor host_;
+  std::deque<Host> waiting_;  ///< in the order of their arrival
 };
 
 }  // namespace

@@ -69,6 +69,8 @@ bool set_rts(int fd, bool level) {
 
 bool take_alone(int fd) { return flock(fd, LOCK_EX | LOCK_NB) == 0 && ioctl(fd, TIOCEXCL) == 0; }
 
+void discard_input(int fd) { ioctl(fd, TCFLSH, TCIFLUSH); }
+
 bool drain(int fd) { return ioctl(fd, TCSBRK, 1) == 0; }
 
 }  // namespace tb::serve

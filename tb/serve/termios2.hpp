@@ -16,6 +16,8 @@ bool let_driver_switch_rts(int fd);
 bool set_rts(int fd, bool level);
 /// Nobody else may open the device from now on. False when somebody has it already.
 bool take_alone(int fd);
+/// Throws away what has come and was not read. Nothing happens when that cannot be done.
+void discard_input(int fd);
 /// Waits until the last stop bit has left. False, with errno, when that fails.
 bool drain(int fd);
 

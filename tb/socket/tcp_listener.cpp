@@ -32,12 +32,20 @@ std::string text_of(const sockaddr_in& address) {
   return fmt::format("{}:{}", text.data(), ntohs(address.sin_port));
 }
 
-int listen_at(const std::string& who, const sockaddr_in& address) {
+/// The sender's own buffer grows with the size of segments, which is 64 KB within a computer.
+void keep_buffers_little(int listener) {
+  const int window = 2048, segment = 536;
+  ::setsockopt(listener, SOL_SOCKET, SO_RCVBUF, &window, sizeof window);
+  ::setsockopt(listener, IPPROTO_TCP, TCP_MAXSEG, &segment, sizeof segment);
+}
+
+int listen_at(const std::string& who, const sockaddr_in& address, const TcpOptions& options) {
   Descriptor listener(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const int on = 1;
   ::setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (options.little_buffered) keep_buffers_little(listener.get());
   if (!listener || ::bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::listen(listener.get(), 4) != 0) {
+      ::listen(listener.get(), options.backlog) != 0) {
     throw InputError(fmt::format("{}: TCP port {} cannot be had: {}, allowed is a free one", who, text_of(address),
                                  std::strerror(errno)));
   }
@@ -46,8 +54,8 @@ int listen_at(const std::string& who, const sockaddr_in& address) {
 
 }  // namespace
 
-TcpListener::TcpListener(const std::string& who, const std::string& bind, int port)
-    : listener_(listen_at(who, address_of(who, bind, port))) {
+TcpListener::TcpListener(const std::string& who, const std::string& bind, int port, const TcpOptions& options)
+    : listener_(listen_at(who, address_of(who, bind, port), options)) {
   sockaddr_in address{};
   socklen_t size = sizeof address;
   ::getsockname(listener_.get(), reinterpret_cast<sockaddr*>(&address), &size);

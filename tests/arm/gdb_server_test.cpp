@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gdb_bench.hpp"
 #include "tb/scenario/input_error.hpp"
 
@@ -394,6 +396,12 @@ TEST_F(GdbServerTest, SecondGdbIsTurnedAway) {
   RawGdb second(bench.port());
   EXPECT_TRUE(second.closed());
   EXPECT_EQ(first.ask("qC"), "QC1");
+  EXPECT_TRUE(RawGdb(bench.port()).closed());
+  const std::vector<std::string> said = bench.said();
+  const auto told = std::count_if(said.begin(), said.end(), [](const std::string& line) {
+    return line.find("is turned away: one gdb at a time") != std::string::npos;
+  });
+  EXPECT_EQ(told, 1) << "a line for the first one, however many come";
 }
 
 TEST_F(GdbServerTest, NoiseIsSurvived) {

@@ -20,7 +20,7 @@ TEST(Framing, EveryKindOfTelegramHasTheLengthOfItsEncoding) {
        {bus::make_telegram(8, 2, 0x49), bus::make_telegram(8, 2, 0x6D, Bytes(100, 7), 60, 62),
         bus::prefer_sd3(bus::make_telegram(8, 2, 0x5D, Bytes(8, 1))), bus::make_token(2, 2), bus::make_sc()}) {
     const Bytes bytes = bus::encode(telegram);
-    const tb::serve::Frame frame = tb::serve::frame_of(bytes);
+    const tb::serve::Frame frame = tb::serve::frame_of(bytes.data(), bytes.size());
     EXPECT_TRUE(frame.telegram);
     EXPECT_EQ(frame.length, bytes.size());
   }
@@ -70,11 +70,52 @@ TEST(Framing, CompleteTelegramsAreTakenApartHoweverLateTheyAreLookedAt) {
   EXPECT_FALSE(intake.holding());
 }
 
+TEST(Framing, TakingTelegramsFromTheFrontCostsTheSameHoweverManyWait) {
+  Intake intake;
+  constexpr std::size_t kTelegrams = 700'000;  // 4 MB; moving the rest for each of them took minutes
+  Bytes many;
+  for (std::size_t i = 0; i < kTelegrams; ++i) many.insert(many.end(), kStatus.begin(), kStatus.end());
+  intake.take(many, kNow);
+  const WallTime begin = tb::serve::WallClock::now();
+  std::size_t taken = 0;
+  while (const auto telegram = intake.next(kNow)) {
+    taken += *telegram == kStatus ? 1 : 0;
+    ASSERT_LT(tb::serve::WallClock::now() - begin, std::chrono::seconds(10)) << taken;
+  }
+  EXPECT_EQ(taken, kTelegrams);
+}
+
 TEST(Framing, PatienceBeginsAnewWithEachPiece) {
   Intake intake;
   intake.take({0x68, 0x05}, kNow);
   intake.take({0x05}, kNow + std::chrono::milliseconds(40));
   EXPECT_FALSE(intake.next(kNow + std::chrono::milliseconds(60)));
+}
+
+TEST(Framing, ATelegramInEverSmallerPiecesIsGivenUpInTheEnd) {
+  Intake intake;
+  intake.take({0x68, 0xF9, 0xF9, 0x68}, kNow);
+  WallTime now = kNow;
+  while (now < kNow + Intake::kMostPatience) {
+    EXPECT_FALSE(intake.next(now));
+    now += Intake::kPatience / 2;
+    intake.take({0x00}, now);
+  }
+  EXPECT_EQ(intake.next(now)->size(), 4U + 2 * (Intake::kMostPatience / Intake::kPatience));
+  intake.take({0x10}, now);
+  EXPECT_EQ(intake.give_up_at(), now + Intake::kPatience) << "the next one has all its time";
+}
+
+TEST(Framing, WhatATelegramStillLacksIsKnownFromItsHeader) {
+  Intake intake;
+  EXPECT_EQ(intake.missing(), 0U);
+  intake.take({0x68}, kNow);
+  EXPECT_EQ(intake.missing(), 1U) << "LE at least";
+  intake.take({0x05}, kNow);
+  EXPECT_EQ(intake.missing(), kDiag.size() - 2);
+  intake.clear();
+  EXPECT_EQ(intake.missing(), 0U);
+  EXPECT_FALSE(intake.next(kNow + Intake::kPatience)) << "it was for nobody";
 }
 
 TEST(Framing, BytesThatBeginNoTelegramAreHandedOverAtOnce) {

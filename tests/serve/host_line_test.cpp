@@ -115,4 +115,49 @@ TEST_F(HostLineTest, BytesThatAreNoTelegramAreSentAsTheyAre) {
   EXPECT_FALSE(flags_.empty());
 }
 
+TEST_F(HostLineTest, WhatWaitsOfAHostThatHungUpIsNotSent) {
+  for (int i = 0; i < 3; ++i) line_.send(100 * kBit, kRequest);
+  timeline_.run_until(110 * kBit);
+  EXPECT_EQ(line_.waiting_bytes(), 2 * kRequest.size());
+  line_.forget();
+  EXPECT_EQ(line_.waiting_bytes(), 0U);
+  timeline_.run_until(3000 * kBit);
+  ASSERT_EQ(heard_.size(), 1U);
+  EXPECT_TRUE(heard_[0].right()) << "the one on the line ends as it is";
+  EXPECT_EQ(line_.statistics().forgotten, 2U);
+}
+
+TEST_F(HostLineTest, TheAnswerToAHostThatHungUpIsForNobody) {
+  line_.send(100 * kBit, kRequest);
+  timeline_.run_until(170 * kBit);
+  line_.forget();
+  send(177 * kBit, kAnswer);
+  timeline_.run_until(timeline_.now() + 12 * kBit);
+  EXPECT_TRUE(line_.take_heard(timeline_.now(), false).empty());
+  send(timeline_.now() + 40 * kBit, kUnanswered);
+  timeline_.run_until(timeline_.now() + 12 * kBit);
+  EXPECT_EQ(line_.take_heard(timeline_.now(), false), kUnanswered) << "what others send after T_SYN is heard again";
+}
+
+TEST_F(HostLineTest, TheNextHostHearsTheAnswerToItsOwnRequest) {
+  line_.send(100 * kBit, kRequest);
+  timeline_.run_until(170 * kBit);
+  line_.forget();
+  line_.send(timeline_.now(), kRequest);
+  while (heard_.size() < 2) timeline_.run_until(timeline_.now() + kBit);
+  send(heard_[1].end + 11 * kBit, kAnswer);
+  timeline_.run_until(timeline_.now() + 12 * kBit);
+  EXPECT_EQ(line_.take_heard(timeline_.now(), false), kAnswer);
+}
+
+TEST_F(HostLineTest, ALineThatNeverFallsSilentIsHandedOverInPieces) {
+  const std::size_t most = tb::serve::HostLine::kMostWhole;
+  send(100 * kBit, Bytes(most - 1, 0x00));
+  timeline_.run_until(timeline_.now() + kBit);
+  EXPECT_TRUE(line_.take_heard(timeline_.now(), true).empty()) << "more might follow";
+  send(timeline_.now(), {0x00});
+  timeline_.run_until(timeline_.now() + kBit);
+  EXPECT_EQ(line_.take_heard(timeline_.now(), true).size(), most);
+}
+
 }  // namespace

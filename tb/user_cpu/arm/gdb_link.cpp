@@ -27,9 +27,15 @@ void GdbLink::look(int milliseconds) {
 }
 
 void GdbLink::accept() {
-  tb::Descriptor newcomer(listener_.accept().descriptor);
-  if (connected() || !newcomer) return;
-  gdb_.reset(newcomer.release());
+  const auto [descriptor, from] = listener_.accept();
+  tb::Descriptor newcomer(descriptor);
+  if (!newcomer) return;
+  if (connected()) {
+    if (!std::exchange(told_, true)) say_(from + " is turned away: one gdb at a time");
+    return;
+  }
+  gdb_ = std::move(newcomer);
+  told_ = false;
   reader_ = GdbReader();
   last_.clear();
   acknowledge_ = true;

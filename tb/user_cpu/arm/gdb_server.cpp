@@ -25,7 +25,7 @@ std::string watch_reply(const Watchpoint& point) {
 }  // namespace
 
 GdbServer::GdbServer(DebugTarget& target, GdbOptions options)
-    : target_(target), options_(std::move(options)), link_(options_.port), commands_(target) {
+    : target_(target), options_(std::move(options)), link_(options_.port, options_.say), commands_(target) {
   commands_.set_stop_reply(kTrapped);
 }
 

@@ -1,0 +1,307 @@
+#!/usr/bin/env python3
+"""What a host can do to `dsdpv1-sim serve`, done; each fault is a row of the table in docs/robustness.md.
+
+    faults_test.py DSDPV1_SIM CASE      does one, and compares its row with the page; CASE: one of the functions below
+    faults_test.py DSDPV1_SIM --write   does all and writes the table
+"""
+import os
+import re
+import signal
+import socket
+import struct
+import sys
+import time
+
+from bench import DEADLINE, ROOT, Failure, Serve, check
+from flood import PAYLOADS, connect, floods, port_options, push, rss_kb, simulated_s, tcp_number
+from page import read_table, replace_table
+from port_test import SCENARIO, STATUS_ANSWER, STATUS_REQUEST, Folder, ask, open_raw, read_some
+
+PAGE = os.path.join(ROOT, "docs", "robustness.md")
+TABLE = "serve faults"
+MOST_S, MOST_KB = 5, 4096  # SIGINT until the end; growth of memory
+HEAD = """| a host | `serve` says | the others | exit, after SIGINT | memory |
+|---|---|---|---|---|"""
+
+CONNECTED, HUNG_UP = "PORT: HOST has connected", "PORT: the host hung up; the next one may connect"
+WAITS, TURN = "PORT: HOST waits, N of 16: another host has the port", "PORT: HOST has waited and has its turn"
+REFUSED, LEFT = "PORT: HOST is refused: 16 hosts wait already", "PORT: HOST hung up while it waited"
+MORE = "PORT: N more such lines are left out"
+CLOSED, OPENED = "PORT: the host hung up; the next one may open it", "PORT: opened again"
+SPEED = "PORT: the host has set N bit/s, the segment runs at N (--baud); a pseudo-terminal passes the bytes on all the same"
+PLACES = {"PORT": r"(TCP port [\d.]+:\d+|dp \(/dev/pts/\d+\))", "HOST": r"[\d.]+:\d+", "N": r"\d+"}
+
+CASES = {}
+
+
+def fault(what, others, says, port="tcp", status=0, may=(), stop=signal.SIGINT):
+    """A row of the table. `says`: the lines that must come; `may`: those that can come as well; no others."""
+    def register(body):
+        CASES[body.__name__] = (body, what, others, says, port, status, may, stop)
+        return body
+    return register
+
+
+def pattern(template):
+    text = re.escape(template)
+    for place, what in PLACES.items():
+        text = re.sub(r"\b%s\b" % place, lambda _, what=what: what, text)
+    return re.compile("serve: " + text + "$")
+
+
+def check_said(said, says, may):
+    """Every line is a known one, and each that must come has come. How fast this computer is does not matter."""
+    lines = [line for line in said.splitlines() if "this computer is too slow" not in line]
+    for line in lines:
+        check(any(pattern(each).match(line) for each in (*says, *may)), "it also says " + line)
+    for each in says:
+        check(any(pattern(each).match(line) for line in lines), "it does not say " + each + ", but:\n" + said)
+
+
+def do(program, name):
+    """Carries out a case; its row."""
+    body, what, others, says, port, status, may, stop = CASES[name]
+    with Folder() as folder:
+        serve = Serve(program, folder, SCENARIO, port=port_options(port))
+        try:
+            before = rss_kb(serve.process.pid)
+            body(serve)
+            grown = rss_kb(serve.process.pid) - before
+            begin = time.monotonic()
+            serve.process.send_signal(stop)
+            serve.process.wait(timeout=DEADLINE)
+            took = time.monotonic() - begin
+            serve.end()
+        finally:
+            serve.kill()
+        check(serve.status == status, "exit %s instead of %s: %s" % (serve.status, status, serve.said()))
+        check(grown < MOST_KB, "memory has grown by %d KB" % grown)
+        check(took < MOST_S, "it took %.1f s to end" % took)
+        check_said(serve.said(), says, may)
+    words = "<br>".join("`%s`" % each for each in says) or "nothing"
+    return "| %s | %s | %s | %d, within %d s | grows by less than %d MB |" % (what, words, others, status, MOST_S, MOST_KB // 1024)
+
+
+# --- hosts --------------------------------------------------------------------------------------------------------------
+
+
+def host(serve):
+    return socket.create_connection(("127.0.0.1", tcp_number(serve)), timeout=DEADLINE)
+
+
+def reset(connection):
+    """Ends a connection as when its computer resets it: at once, whatever is still on the way."""
+    connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+    connection.close()
+
+
+def until(holds, what):
+    end = time.monotonic() + DEADLINE
+    while not holds():
+        check(time.monotonic() < end, "never: " + what)
+        time.sleep(0.01)  # polls; nothing depends on how long
+
+
+def said(serve, template, count=1):
+    def enough():
+        return sum(bool(pattern(template).match(line)) for line in serve.said().splitlines()) >= count
+    until(enough, template)
+
+
+def flood(serve, fd, payload, seconds):
+    """Simulated time goes on meanwhile. Bytes written; what was sent is cut off anywhere."""
+    begin, before, written = time.monotonic(), simulated_s(serve.folder), 0
+    while time.monotonic() < begin + seconds or simulated_s(serve.folder) < before + 0.2:
+        check(time.monotonic() < begin + DEADLINE, "simulated time stands still")
+        written += push(fd, payload[written % len(payload):])
+    return written
+
+
+def log_so_far(serve):
+    with open(os.path.join(serve.folder, "serve.log.part"), encoding="UTF-8") as file:
+        return file.read()
+
+
+def answered_in_turn(serve, connection):
+    """A host that waited: nothing has come for it so far, it asks, it gets its answer and nothing else."""
+    said(serve, TURN)
+    fd = connection.fileno()
+    check(read_some(fd, 1, 0.1) == b"", "it got what was not meant for it")
+    ask(fd)
+
+
+# --- faults -------------------------------------------------------------------------------------------------------------
+
+
+@fault("sends valid telegrams as fast as it can", "wait; the next has its turn when the flooding host hangs up, and gets answers to its own requests only",
+       [CONNECTED, WAITS, HUNG_UP, TURN])
+def flood_of_telegrams(serve):
+    with host(serve) as flooding, host(serve) as other:
+        said(serve, WAITS)
+        flood(serve, flooding.fileno(), PAYLOADS["telegrams"], 2)
+        reset(flooding)
+        answered_in_turn(serve, other)
+
+
+@fault("sends junk as fast as it can", "the same", [CONNECTED, WAITS, HUNG_UP, TURN], status=1)
+def junk(serve):
+    with host(serve) as flooding, host(serve) as other:
+        said(serve, WAITS)
+        flood(serve, flooding.fileno(), PAYLOADS["junk"], 2)
+        reset(flooding)
+        answered_in_turn(serve, other)
+
+
+@fault("sends junk as fast as it can into the pseudo-terminal, and closes it", "the next that opens it gets answers to its own requests only",
+       [CLOSED, OPENED, SPEED], port="pty", status=1)
+def junk_by_pty(serve):
+    fd, _ = connect(serve, "pty")
+    flood(serve, fd, PAYLOADS["junk"], 2)
+    os.close(fd)
+    said(serve, CLOSED)
+    fd = open_raw(serve.port)
+    said(serve, OPENED)
+    check(read_some(fd, 1, 0.1) == b"", "it got what was not meant for it")
+    ask(fd)
+    os.close(fd)
+
+
+@fault("sends and does not read", "wait, as above. What it does not read is kept up to 1 MB; then one line says so, and the rest is thrown away",
+       [CONNECTED, WAITS, HUNG_UP, TURN])
+def slow_host(serve):
+    with host(serve) as slow, host(serve) as other:
+        said(serve, WAITS)
+        ask(slow.fileno())
+        for _ in range(500):
+            slow.send(STATUS_REQUEST)
+        until(lambda: simulated_s(serve.folder) > 0.5, "simulated time goes on")
+        reset(slow)
+        answered_in_turn(serve, other)
+
+
+@fault("stops in the middle of a telegram", "see the bytes on the line 50 ms later, `BUS_TELEGRAM_ERROR` in the log", [CONNECTED, HUNG_UP], status=1)
+def half_telegram(serve):
+    with host(serve) as half:
+        ask(half.fileno())
+        half.send(STATUS_REQUEST[:3])
+        serve.wait_for_log("BUS_TELEGRAM_ERROR")
+        ask(half.fileno())
+        half.send(STATUS_REQUEST[:3])
+    with host(serve) as after:
+        ask(after.fileno())
+
+
+@fault("sends a telegram of 255 bytes in such small pieces that it would take 10 s", "see what has come of it on the line after 1 s at most; simulated time, "
+       "which stood still, catches up", [CONNECTED], may=[HUNG_UP], status=1)
+def trickle(serve):
+    with host(serve) as slow:
+        ask(slow.fileno())
+        slow.send(bytes([0x68, 0xF9, 0xF9, 0x68]))
+        sent = 4
+        while "BUS_TELEGRAM_ERROR" not in log_so_far(serve):
+            check(sent < 100, "it was waited for")
+            slow.send(b"\x00")
+            sent += 1
+            read_some(slow.fileno(), 1, 0.04)
+
+
+@fault("connects and hangs up 1000 times", "are served afterwards. 40 lines a second are said, the others counted", [CONNECTED, HUNG_UP, MORE],
+       may=[WAITS, TURN, LEFT, REFUSED])
+def reconnect_storm(serve):
+    begin = time.monotonic()
+    for _ in range(1000):
+        with host(serve) as one:
+            one.send(STATUS_REQUEST)
+    with host(serve) as after:
+        ask(after.fileno())
+        said(serve, MORE)
+        lines = len(serve.said().splitlines())
+        check(lines < 43 * (time.monotonic() - begin + 2), "%d lines" % lines)
+
+
+@fault("twenty at once", "1 has the port, 16 wait and are served in the order in which they came, 3 are refused: their connections are reset",
+       [CONNECTED, WAITS, REFUSED, HUNG_UP, TURN], may=[MORE])
+def twenty_hosts(serve):
+    hosts = [host(serve) for _ in range(20)]
+    for refused in hosts[17:]:
+        try:
+            check(refused.recv(1) == b"", "it got something")
+        except ConnectionResetError:
+            pass
+    for each in hosts[:17]:
+        ask(each.fileno())
+        each.close()
+
+
+@fault("is killed in the middle of its telegrams (RST)", "wait; the telegram on the line ends as it is, those after it are dropped, also the answer",
+       [CONNECTED, WAITS, HUNG_UP, TURN])
+def killed_host(serve):
+    with host(serve) as killed, host(serve) as other:
+        ask(killed.fileno())
+        said(serve, WAITS)
+        killed.send(STATUS_REQUEST * 100 + STATUS_REQUEST[:3])
+        check(read_some(killed.fileno(), 6) == STATUS_ANSWER, "not answered")
+        reset(killed)
+        answered_in_turn(serve, other)
+
+
+@fault("sends into the pseudo-terminal, does not read the answers and closes it", "the next that opens it gets answers to its own requests only",
+       [CLOSED, OPENED, SPEED], port="pty")
+def pty_reader_gone(serve):
+    fd = open_raw(serve.port)
+    ask(fd)
+    os.write(fd, STATUS_REQUEST * 50)
+    until(lambda: simulated_s(serve.folder) > 0.3, "simulated time goes on")
+    os.close(fd)
+    said(serve, CLOSED)
+    fd = open_raw(serve.port)
+    said(serve, OPENED)
+    check(read_some(fd, 1, 0.2) == b"", "it got what was not meant for it")
+    ask(fd)
+    os.close(fd)
+
+
+def signal_during_flood(serve):
+    flooding = host(serve)
+    flood(serve, flooding.fileno(), PAYLOADS["telegrams"], 0.5)
+    serve.keep = flooding  # until the end: what it has sent still waits
+    try:
+        flooding.send(PAYLOADS["telegrams"])
+    except BlockingIOError:
+        pass
+
+
+@fault("sends valid telegrams as fast as it can, and SIGINT comes", "-", [CONNECTED])
+def sigint_during_flood(serve):
+    signal_during_flood(serve)
+
+
+@fault("sends valid telegrams as fast as it can, and SIGTERM comes", "-", [CONNECTED], stop=signal.SIGTERM)
+def sigterm_during_flood(serve):
+    signal_during_flood(serve)
+
+
+def ten_seconds(program):
+    """Junk and telegrams by both kinds of port: what the long run in the page shows, in short."""
+    _, wrong = floods(program, ["junk", "telegrams"], ["pty", "tcp"], 10)
+    for each in wrong:
+        raise each
+
+
+def main(program, name):
+    if name == "--write":
+        replace_table(PAGE, TABLE, "\n".join([HEAD] + [do(program, case) for case in CASES]))
+        return 0
+    try:
+        if name == "ten_seconds":
+            ten_seconds(program)
+        else:
+            check(do(program, name) in read_table(PAGE, TABLE).splitlines(), "docs/robustness.md is stale: faults_test.py DSDPV1_SIM --write")
+        return 0
+    except Failure as failure:
+        print(failure)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(os.path.abspath(sys.argv[1]), sys.argv[2]))

@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+"""Floods `dsdpv1-sim serve` for minutes and watches its memory and its time.
+
+    flood.py DSDPV1_SIM [--port tcp|pty] [--kind junk|telegrams] [--minutes 10] [--write]
+
+Without --port and --kind all four are done, at the same time. --write puts the table into docs/robustness.md.
+"""
+import argparse
+import os
+import select
+import socket
+import sys
+import tempfile
+import threading
+import time
+
+from bench import ROOT, Serve, check
+from page import replace_table
+from port_test import SCENARIO, STATUS_REQUEST, open_raw
+
+PAYLOADS = {"junk": bytes([0x00, 0xFF, 0x55, 0x16, 0xAA] * 819), "telegrams": STATUS_REQUEST * 680}
+EVERY_S = 1.0
+MOST_GROWTH_KB = 4096  # from the first minute (or tenth of a short run) on: the list of the first 10 000 events takes 2 to 3 MB until it is full
+
+
+def rss_kb(pid):
+    with open("/proc/%d/status" % pid, encoding="ascii") as file:
+        return next(int(line.split()[1]) for line in file if line.startswith("VmRSS:"))
+
+
+def peak_kb(pid):
+    with open("/proc/%d/status" % pid, encoding="ascii") as file:
+        return next(int(line.split()[1]) for line in file if line.startswith("VmHWM:"))
+
+
+def simulated_s(folder):
+    """Simulated time of the last whole line of the log that is being written; 0 when there is none."""
+    with open(os.path.join(folder, "serve.log.part"), "rb") as file:
+        file.seek(max(0, os.fstat(file.fileno()).st_size - 65536))
+        lines = file.read().split(b"\n")[:-1]
+    return float(lines[-1].split()[0]) / 1e9 if lines else 0.0
+
+
+def tcp_number(serve):
+    return int(serve.ready.split("127.0.0.1:")[1].split(";")[0])
+
+
+def connect(serve, port):
+    """A descriptor that writes to serve, and whatever has to live as long."""
+    if port == "pty":
+        fd = open_raw(serve.port)
+        os.set_blocking(fd, False)
+        return fd, None
+    host = socket.create_connection(("127.0.0.1", tcp_number(serve)))
+    host.setblocking(False)
+    return host.fileno(), host
+
+
+def port_options(port):
+    return ("--pty", "dp") if port == "pty" else ("--tcp", "0")
+
+
+def push(fd, payload, patience=0.05):
+    """Writes what the other side takes at once, waits a little for it to take more, and reads what it sends. Bytes written."""
+    readable, writable, _ = select.select([fd], [fd], [], patience)
+    if readable:
+        os.read(fd, 65536)
+    if not writable:
+        return 0
+    try:
+        return os.write(fd, payload)
+    except BlockingIOError:
+        return 0
+
+
+class Flood:
+    """One flood of one serve, for `seconds`; the figures are attributes."""
+
+    def __init__(self, program, port, kind, seconds):
+        self.port, self.kind, self.seconds = port, kind, seconds
+        self.offered, self.samples = 0, []  # bytes; (wall s, rss KB, simulated s)
+        with tempfile.TemporaryDirectory(prefix="dsdpv1_flood_") as folder:
+            self.serve = Serve(program, folder, SCENARIO, port=port_options(port))
+            try:
+                self.run()
+                self.end()
+            finally:
+                self.serve.kill()
+
+    def run(self):
+        fd, self.keep = connect(self.serve, self.port)
+        begin = time.monotonic()
+        self.begin, next_sample = begin, begin
+        payload, at = PAYLOADS[self.kind], 0
+        while (now := time.monotonic()) < begin + self.seconds:
+            written = push(fd, payload[at:])  # goes on where it stopped, so that telegrams stay whole
+            self.offered += written
+            at = (at + written) % len(payload)
+            if now >= next_sample:
+                self.samples.append((now - begin, rss_kb(self.serve.process.pid), simulated_s(self.serve.folder)))
+                next_sample = now + min(EVERY_S, self.seconds / 20)
+        check(self.serve.process.poll() is None, "serve has ended: " + self.serve.said())
+
+    def end(self):
+        self.peak = peak_kb(self.serve.process.pid)
+        asked = time.monotonic()
+        self.serve.end()
+        self.end_s = time.monotonic() - asked
+        self.wall_s = time.monotonic() - self.begin
+        pacing = self.serve.result["pacing"]
+        self.taken = pacing["bytes_from_host"]
+        self.simulated_s = self.serve.result["simulated_ns"] / 1e9
+        self.lost_s = pacing["time_lost_ns"] / 1e9
+        self.worst_ms = pacing["error_max_us"] / 1000
+
+    def settled(self):
+        """The first sample after a minute; after a tenth in shorter runs."""
+        return next(sample for sample in self.samples if sample[0] >= min(60, self.seconds / 10))
+
+    def judge(self):
+        """Memory is flat, simulated time goes on all the time, the line is full, and SIGINT is obeyed."""
+        growth = self.samples[-1][1] - self.settled()[1]
+        what = "%s by %s: " % (self.kind, self.port)
+        check(growth < MOST_GROWTH_KB, what + "memory has grown by %d KB" % growth)
+        check(self.end_s < 5, what + "SIGINT was obeyed after %.1f s" % self.end_s)
+        for (_, _, before), (_, _, after) in zip(self.samples[1::5], self.samples[6::5]):
+            check(after > before, what + "simulated time stands still at %.1f s" % before)
+        check(self.simulated_s + self.lost_s > self.wall_s - 2 - self.end_s, what + "simulated %.1f s of %.1f s" % (self.simulated_s, self.wall_s))
+
+    def row(self):
+        return "| %s by %s | %.0f s | %s | %s | %.1f MB | %.1f MB | %.1f MB | %.2f s | %.1f ms | %.1f s |" % (
+            self.kind, self.port, self.seconds, thousands(self.offered), thousands(self.taken), self.settled()[1] / 1024,
+            self.samples[-1][1] / 1024, self.peak / 1024, self.lost_s, self.worst_ms, self.end_s)
+
+
+def thousands(number):
+    return "{:,}".format(number).replace(",", " ")
+
+
+HEAD = """| flood | for | bytes offered | of them sent on the line | memory after 1 minute | at the end | at most | simulated time given up | behind real time at most | SIGINT until the end |
+|---|---|---|---|---|---|---|---|---|---|"""
+
+
+def floods(program, kinds, ports, seconds):
+    """All at the same time; the first thing that does not hold is raised."""
+    done, wrong = {}, []
+
+    def one(kind, port):
+        try:
+            done[kind, port] = Flood(program, port, kind, seconds)
+            done[kind, port].judge()
+        except Exception as error:  # handed to the thread that waits
+            wrong.append(error)
+    threads = [threading.Thread(target=one, args=(kind, port)) for kind in kinds for port in ports]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return [done[key] for key in sorted(done)], wrong
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("program")
+    arguments.add_argument("--port", choices=["tcp", "pty"])
+    arguments.add_argument("--kind", choices=sorted(PAYLOADS))
+    arguments.add_argument("--minutes", type=float, default=10)
+    arguments.add_argument("--write", action="store_true", help="into docs/robustness.md")
+    arguments = arguments.parse_args()
+    kinds = [arguments.kind] if arguments.kind else sorted(PAYLOADS)
+    ports = [arguments.port] if arguments.port else ["pty", "tcp"]
+    done, wrong = floods(os.path.abspath(arguments.program), kinds, ports, arguments.minutes * 60)
+    table = "\n".join([HEAD] + [each.row() for each in done])
+    print(table)
+    for each in wrong:
+        print(each)
+    if arguments.write and not wrong:
+        replace_table(os.path.join(ROOT, "docs", "robustness.md"), "serve floods", table)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,113 @@
+// What goes in and out of a port is bounded, and nothing of one peer is left for the next.
+#include "tb/serve/host_port.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using bus::Bytes;
+using tb::Descriptor;
+
+/// A port whose other end is in the test.
+class Port : public tb::serve::HostPort {
+ public:
+  std::string name() const override { return "port"; }
+  /// The host that has the port from now on.
+  Descriptor connect() {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0);
+    own_.reset(ends[0]);
+    set_peer(own_.get());
+    return Descriptor(ends[1]);
+  }
+
+ protected:
+  void look() override {}
+  void lost(const std::string& /*why*/) override { own_.reset(); }
+
+ private:
+  Descriptor own_;
+};
+
+class HostPortTest : public testing::Test {
+ protected:
+  HostPortTest() {
+    port_.say = [this](const std::string& text) { said_.push_back(text); };
+    port_.on_gone = [this] { ++gone_; };
+  }
+  /// As many as there are.
+  static std::size_t read_all(const Descriptor& host) {
+    std::array<char, 65536> bytes{};
+    std::size_t total = 0;
+    for (ssize_t count = 0; (count = ::read(host.get(), bytes.data(), bytes.size())) > 0;)
+      total += static_cast<std::size_t>(count);
+    return total;
+  }
+
+  Port port_;
+  std::vector<std::string> said_;
+  int gone_ = 0;
+};
+
+TEST_F(HostPortTest, NoMoreIsReceivedThanAskedForAndTheRestStays) {
+  const Descriptor host = port_.connect();
+  ASSERT_EQ(::write(host.get(), "123456", 6), 6);
+  EXPECT_EQ(port_.receive(4), (Bytes{'1', '2', '3', '4'}));
+  EXPECT_TRUE(port_.receive(0).empty());
+  EXPECT_EQ(port_.receive(4), (Bytes{'5', '6'}));
+}
+
+TEST_F(HostPortTest, BytesAreNotWaitedForWhileNothingIsRead) {
+  const Descriptor host = port_.connect();
+  EXPECT_EQ(port_.watched(true).events, POLLIN);
+  EXPECT_EQ(port_.watched(false).events, 0);
+}
+
+TEST_F(HostPortTest, WhatAHostDoesNotReadIsKeptUpToALimitAndThenThrownAway) {
+  const Descriptor host = port_.connect();
+  const Bytes answer(1000, 7);
+  for (int i = 0; i < 3000; ++i) port_.send(answer);
+  ASSERT_EQ(said_.size(), 1U);
+  EXPECT_NE(said_[0].find("does not read"), std::string::npos);
+  std::size_t got = 0;
+  for (std::size_t more = 0; (more = read_all(host)) > 0; got += more) port_.receive(0);
+  EXPECT_GT(got, Port::kMostKept - answer.size());
+  EXPECT_LT(got, 3000U * answer.size());
+}
+
+TEST_F(HostPortTest, AHostThatHangsUpIsNoticedThoughItIsNotReadFrom) {
+  {
+    const Descriptor host = port_.connect();
+    ASSERT_EQ(::write(host.get(), "1", 1), 1);
+  }
+  EXPECT_TRUE(port_.receive(0).empty());
+  EXPECT_EQ(gone_, 1);
+}
+
+TEST_F(HostPortTest, NothingOfAHostThatHungUpIsReceived) {
+  {
+    const Descriptor host = port_.connect();
+    ASSERT_EQ(::write(host.get(), "1", 1), 1);
+  }
+  EXPECT_TRUE(port_.receive(100).empty());
+  EXPECT_EQ(gone_, 1);
+}
+
+TEST_F(HostPortTest, WhatWasKeptForAHostIsNotForTheNext) {
+  {
+    const Descriptor slow = port_.connect();
+    for (int i = 0; i < 1000; ++i) port_.send(Bytes(1000, 7));
+  }
+  port_.receive(0);
+  const Descriptor next = port_.connect();
+  port_.receive(0);
+  EXPECT_EQ(read_all(next), 0U);
+}
+
+}  // namespace
