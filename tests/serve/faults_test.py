@@ -14,8 +14,10 @@ import time
 
 from bench import DEADLINE, ROOT, Failure, Serve, check
 from flood import PAYLOADS, connect, floods, port_options, push, rss_kb, simulated_s, tcp_number
-from page import read_table, replace_table
 from port_test import SCENARIO, STATUS_ANSWER, STATUS_REQUEST, Folder, ask, open_raw, read_some
+
+sys.path.insert(0, os.path.join(ROOT, "tests", "faults"))
+from page import read_table, replace_table  # noqa: E402
 
 PAGE = os.path.join(ROOT, "docs", "robustness.md")
 TABLE = "serve faults"

@@ -15,8 +15,10 @@ import threading
 import time
 
 from bench import ROOT, Serve, check
-from page import replace_table
 from port_test import SCENARIO, STATUS_REQUEST, open_raw
+
+sys.path.insert(0, os.path.join(ROOT, "tests", "faults"))
+from page import replace_table  # noqa: E402
 
 PAYLOADS = {"junk": bytes([0x00, 0xFF, 0x55, 0x16, 0xAA] * 819), "telegrams": STATUS_REQUEST * 680}
 EVERY_S = 1.0
