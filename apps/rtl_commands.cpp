@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <thread>
@@ -87,7 +88,8 @@ int shrink_and_replay(const RtlRandomArguments& arguments, const cosim::Campaign
 }
 
 std::vector<NamedFile> with_files_of(const std::string& folder, std::vector<NamedFile> inputs) {
-  for (const auto& entry : fs::directory_iterator(folder)) inputs.push_back({"a file of --directed", entry.path()});
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    inputs.push_back({"a file of --directed", entry.path()});
   return inputs;
 }
 
