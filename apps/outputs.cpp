@@ -19,11 +19,9 @@ void add(Owners& owners, const std::optional<std::string>& identity, const std::
 
 }  // namespace
 
-std::vector<NamedFile> scenario_inputs(const std::string& scenario,
-                                       const std::vector<tb::scenario::Setting>& settings) {
+std::vector<NamedFile> scenario_inputs(const std::string& scenario, const std::vector<std::string>& named) {
   std::vector<NamedFile> inputs = {{"the scenario", scenario}};
-  for (const std::string& file : tb::scenario::files(scenario, settings))
-    inputs.push_back({"a file of the scenario", file});
+  for (const std::string& file : named) inputs.push_back({"a file of the scenario", file});
   return inputs;
 }
 

@@ -3,8 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "tb/scenario/scenario.hpp"
-
 namespace app {
 
 struct NamedFile {
@@ -12,9 +10,8 @@ struct NamedFile {
   std::string path;  ///< empty: not wanted
 };
 
-/// The scenario and all files that it names.
-std::vector<NamedFile> scenario_inputs(const std::string& scenario,
-                                       const std::vector<tb::scenario::Setting>& settings = {});
+/// The scenario and the files that it names.
+std::vector<NamedFile> scenario_inputs(const std::string& scenario, const std::vector<std::string>& named);
 
 /// Throws InputError unless the outputs are apart from the inputs, from each other, and from the files that standard output and the
 /// error channel go to. `command`: as "dsdpv1-sim run".

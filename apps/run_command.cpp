@@ -106,8 +106,8 @@ void check_has_board(const tb::scenario::Scenario& scenario) {
                        " has none");
 }
 
-void check_outputs_of(const RunArguments& arguments, const std::vector<tb::scenario::Setting>& settings) {
-  check_outputs("dsdpv1-sim run", scenario_inputs(arguments.scenario, settings),
+void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
+  check_outputs("dsdpv1-sim run", scenario_inputs(arguments.scenario, scenario.files),
                 {{"--wave", arguments.wave},
                  {"--log", arguments.log},
                  {"--result", arguments.result},
@@ -120,9 +120,9 @@ void check_outputs_of(const RunArguments& arguments, const std::vector<tb::scena
 int run(const RunArguments& arguments) {
   leave_nothing_on_signals();
   const tb::RunOptions options = options_of(arguments);
-  const std::vector<tb::scenario::Setting> settings = tb::scenario::parse_settings(arguments.set);
-  const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario, settings);
-  check_outputs_of(arguments, settings);
+  const tb::scenario::Scenario scenario =
+      tb::scenario::load(arguments.scenario, tb::scenario::parse_settings(arguments.set));
+  check_outputs_of(arguments, scenario);
   if (arguments.gdb) check_has_board(scenario);
   if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, reference_rtl);
   if (arguments.engine == "rtl")
@@ -139,7 +139,7 @@ int cosim_own_rtl(const CosimArguments& arguments) {
   run_arguments.engine = "lockstep";
   const tb::RunOptions options = options_of(run_arguments);
   const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
-  std::vector<NamedFile> inputs = scenario_inputs(arguments.scenario);
+  std::vector<NamedFile> inputs = scenario_inputs(arguments.scenario, scenario.files);
   inputs.push_back({"--pins", arguments.pins});
   check_outputs("dsdpv1-sim cosim", inputs, {{"--difference", arguments.difference}});
   const cosim::PinMap map = arguments.pins.empty() ? cosim::default_pin_map() : cosim::load_pin_map(arguments.pins);

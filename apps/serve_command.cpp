@@ -73,7 +73,7 @@ int serve(const ServeArguments& arguments) {
   scenario.baud = chosen_baud(scenario, arguments.baud);
   scenario.end = chosen_end(arguments.duration);
   const tb::RunOptions options = options_of(arguments);
-  check_outputs("dsdpv1-sim serve", scenario_inputs(arguments.scenario),
+  check_outputs("dsdpv1-sim serve", scenario_inputs(arguments.scenario, scenario.files),
                 {{"--wave", arguments.wave}, {"--log", arguments.log}, {"--result", arguments.result}});
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);

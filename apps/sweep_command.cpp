@@ -94,7 +94,9 @@ int sweep(const SweepArguments& arguments) {
   leave_nothing_on_signals();
   const Plan plan = plan_of(arguments);
   check_loads(plan);
-  check_outputs("dsdpv1-sim sweep", scenario_inputs(arguments.scenario, tb::scenario::parse_settings(arguments.set)),
+  check_outputs("dsdpv1-sim sweep",
+                scenario_inputs(arguments.scenario,
+                                tb::scenario::files(arguments.scenario, tb::scenario::parse_settings(arguments.set))),
                 {{"results.csv of --out", folder_of(arguments) + "/results.csv"},
                  {"sweep.json of --out", folder_of(arguments) + "/sweep.json"}});
   catch_signals();

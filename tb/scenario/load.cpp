@@ -40,6 +40,13 @@ void collect_files(const keys::Object& object, const YAML::Node& node, std::vect
   }
 }
 
+std::vector<std::string> files_of(const YAML::Node& root, const std::string& scenario) {
+  std::vector<std::string> found;
+  collect_files(description(), root, found);
+  for (std::string& file : found) file = beside(scenario, file);
+  return found;
+}
+
 YAML::Node root_of(const std::string& text, const std::string& file, const std::vector<Setting>& settings) {
   YAML::Node root = parse_yaml(text, file);
   for (const Setting& setting : settings) apply(setting, root);
@@ -55,6 +62,7 @@ Scenario parse(const std::string& text, const std::string& file, const std::vect
   Scenario scenario;
   keys::read_object(description(), &scenario, root, {file});
   scenario.file = file;
+  scenario.files = files_of(root, file);
   check(scenario);
   return scenario;
 }
@@ -70,10 +78,7 @@ bool allows(const Scenario& scenario, const std::string& code, const std::string
 }
 
 std::vector<std::string> files(const std::string& path, const std::vector<Setting>& settings) {
-  std::vector<std::string> found;
-  collect_files(description(), root_of(read_file(path), path, settings), found);
-  for (std::string& file : found) file = beside(path, file);
-  return found;
+  return files_of(root_of(read_file(path), path, settings), path);
 }
 
 std::string resolve(const Scenario& scenario, const Name& path) { return beside(scenario.file, path.text); }

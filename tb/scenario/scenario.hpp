@@ -308,7 +308,8 @@ struct CheckLimits : checks::Limits {
 };
 
 struct Scenario {
-  std::string file;  ///< as given to `load_scenario`
+  std::string file;                ///< as given to `load`
+  std::vector<std::string> files;  ///< that it names (GSD files and the like), as the program can open them
   std::string name;
   int baud = 0;  ///< index of bus/baud.hpp
   bus::Tick end = 0;
@@ -327,7 +328,7 @@ struct Scenario {
 Scenario load(const std::string& path, const std::vector<Setting>& settings = {});
 /// The same from text; `file` is used in errors and as the base of relative paths.
 Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings = {});
-/// The files that a scenario names (GSD files and the like), as the program can open them.
+/// Scenario::files of a scenario that need not be right otherwise.
 std::vector<std::string> files(const std::string& path, const std::vector<Setting>& settings = {});
 /// The text of a scenario's file; throws InputError when there is none.
 std::string read_file(const std::string& path);

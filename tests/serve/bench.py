@@ -68,10 +68,14 @@ class Serve:
     def said(self):
         return os.pread(self.errors.fileno(), 1 << 20, 0).decode()  # leaves the place alone where serve writes
 
+    def growing_log(self):
+        """The path of the log while it is being written."""
+        return os.path.join(self.folder, re.search(r"the log grows as (\S+)", self.said()).group(1))
+
     def wait_for_log(self, pattern):
         """Waits until a line of the log that is being written matches."""
         deadline = time.monotonic() + DEADLINE
-        path = os.path.join(self.folder, re.search(r"the log grows as (\S+)", self.said()).group(1))
+        path = self.growing_log()
         while time.monotonic() < deadline:
             with open(path, encoding="UTF-8") as file:
                 if re.search(pattern, file.read()):

@@ -35,9 +35,9 @@ def peak_kb(pid):
         return next(int(line.split()[1]) for line in file if line.startswith("VmHWM:"))
 
 
-def simulated_s(folder):
+def simulated_s(serve):
     """Simulated time of the last whole line of the log that is being written; 0 when there is none."""
-    with open(os.path.join(folder, "serve.log.part"), "rb") as file:
+    with open(serve.growing_log(), "rb") as file:
         file.seek(max(0, os.fstat(file.fileno()).st_size - 65536))
         lines = file.read().split(b"\n")[:-1]
     return float(lines[-1].split()[0]) / 1e9 if lines else 0.0
@@ -99,7 +99,7 @@ class Flood:
             self.offered += written
             at = (at + written) % len(payload)
             if now >= next_sample:
-                self.samples.append((now - begin, rss_kb(self.serve.process.pid), simulated_s(self.serve.folder)))
+                self.samples.append((now - begin, rss_kb(self.serve.process.pid), simulated_s(self.serve)))
                 next_sample = now + min(EVERY_S, self.seconds / 20)
         check(self.serve.process.poll() is None, "serve has ended: " + self.serve.said())
 
