@@ -198,7 +198,7 @@ void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
   command->footer(
       "\nExamples:\n  dsdpv1-sim rtl-random --cycles 100000000 --seed 7\n"
       "  dsdpv1-sim rtl-random --replay lockstep.stimulus --difference both.fst\n"
-      "\nExit codes: 0 no difference, 1 a difference, 2 wrong input.\n");
+      "\nExit codes: 0 no difference, 1 a difference, 2 wrong input, 130 interrupted.\n");
 }
 
 void describe_rtl_faults(CLI::App& app, RtlFaultsArguments& arguments) {
@@ -215,7 +215,7 @@ void describe_rtl_faults(CLI::App& app, RtlFaultsArguments& arguments) {
   command->footer(
       "\nExamples:\n  dsdpv1-sim rtl-faults --tsv kills.tsv\n  dsdpv1-sim rtl-faults --list my_faults.txt --cycles "
       "5000000\n"
-      "\nExit codes: 0 all found, 1 some not, 2 wrong input.\n");
+      "\nExit codes: 0 all found, 1 some not, 2 wrong input, 130 interrupted.\n");
 }
 
 void describe_cosim(CLI::App& app, CosimArguments& arguments) {
@@ -231,7 +231,8 @@ void describe_cosim(CLI::App& app, CosimArguments& arguments) {
   command->footer(
       "\nExamples:\n  dsdpv1-sim cosim --rtl examples/own_rtl --top board_chip --pins examples/own_rtl/pins.yaml "
       "scenarios/two_slaves.yaml\n"
-      "\nExit codes: 0 no difference and the scenario passed, 1 otherwise, 2 wrong input.\n");
+      "\nExit codes: 0 no difference and the scenario passed, 1 otherwise, 2 wrong input, 130 "
+      "interrupted.\n");
 }
 
 void describe_reasons(CLI::App& app, ReasonsArguments& arguments) {
@@ -254,7 +255,7 @@ void describe_recover(CLI::App& app, RecoverArguments& arguments) {
       "\nIt says until when the wave is complete. The files that it reads stay.\n"
       "\nExamples:\n  dsdpv1-sim recover out/demo.fst.4711.part\n"
       "  dsdpv1-sim recover demo.vcd.4711.part --output killed.vcd\n"
-      "\nExit codes: 0 recovered, 2 wrong input or nothing to recover.\n");
+      "\nExit codes: 0 recovered, 2 wrong input or nothing to recover, 130 interrupted.\n");
 }
 
 std::vector<std::string> subcommand_names(const CLI::App& app) {

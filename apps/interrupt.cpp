@@ -32,10 +32,18 @@ void leave_nothing(int /*signal*/) {
   _exit(kInterrupted);
 }
 
+bool ignored(int signal) {
+  struct sigaction now {};
+  return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
+/// A write that waits (a FIFO that is full) goes on after the signal: as an error it would cost the run all of its files.
 void handle_with(void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+  if (!ignored(SIGHUP)) sigaction(SIGHUP, &action, nullptr);  // nohup
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace app {
 void leave_nothing_on_signals();
 
 /// From now on SIGINT, SIGTERM and SIGHUP are remembered, not obeyed. One more of them after 2 s, when the program's own end has got
-/// stuck, kills. Signals come in twos when a shell or `timeout` sends them to the process and to its group.
+/// stuck, kills and leaves what SIGKILL leaves. SIGHUP stays ignored where it was (nohup). Signals come in twos when a shell or `timeout` sends them to the process and to its group.
 void catch_signals();
 
 /// Whether one has come since.

@@ -29,12 +29,12 @@ void check_outputs(const std::string& command, const std::vector<NamedFile>& inp
                    const std::vector<NamedFile>& outputs) {
   Owners owners;
   for (const NamedFile& input : inputs)
-    if (!input.path.empty()) add(owners, tb::file_identity(input.path), input.what);
+    if (!input.path.empty()) add(owners, tb::input_identity(input.path), input.what);
   add(owners, tb::file_identity(STDOUT_FILENO), "the file of standard output");
   add(owners, tb::file_identity(STDERR_FILENO), "the file of the error channel");
   for (const NamedFile& output : outputs) {
     if (output.path.empty()) continue;
-    const std::optional<std::string> identity = tb::file_identity(output.path);
+    const std::optional<std::string> identity = tb::output_identity(output.path);
     if (!identity) continue;
     const auto [owner, free] = owners.emplace(*identity, output.what);
     if (free) continue;

@@ -59,14 +59,14 @@ int replay(const RtlRandomArguments& arguments, const std::string& path) {
 
 unsigned threads(unsigned jobs) { return jobs != 0 ? jobs : std::max(1U, std::thread::hardware_concurrency()); }
 
-/// How far a campaign is, in one line that is written over itself.
+/// How far a campaign is, in one line that is written over itself: not by std::cerr, where control characters are escaped.
 class ProgressLine {
  public:
   void show(std::uint64_t cases, std::uint64_t cycles) const {
-    if (shown_) std::cerr << fmt::format("\r{} cases, {:.1f} M cycles", cases, static_cast<double>(cycles) / 1e6);
+    if (shown_) fmt::print(stderr, "\r{} cases, {:.1f} M cycles", cases, static_cast<double>(cycles) / 1e6);
   }
   void clear() const {
-    if (shown_) std::cerr << "\r" << std::string(60, ' ') << '\r';
+    if (shown_) fmt::print(stderr, "\r{:60}\r", "");
   }
 
  private:

@@ -77,20 +77,19 @@ int serve(const ServeArguments& arguments) {
                 {{"--wave", arguments.wave}, {"--log", arguments.log}, {"--result", arguments.result}});
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
-  catch_signals();
 
   auto port = open_port(arguments, scenario.baud);
   const std::string name = port->name();
   auto made = std::make_unique<tb::serve::RealTimeExecution>(std::move(port), scenario.baud);
   tb::serve::RealTimeExecution& execution = *made;
   tb::Bench bench(scenario, options, std::move(made));
-  if (interrupted()) return kInterrupted;
   if (!arguments.log.empty()) std::cerr << "serve: the log grows as " << bench.log_grows_at() << std::endl;
   execution.join();
   execution.say = [&bench](tb::Tick at, const std::string& text) {
     std::cerr << "serve: " << text << std::endl;
     bench.log(at, "host", "serve", text);
   };
+  catch_signals();
   std::cout << "serving \"" << bus::printable(scenario.name) << "\" at " << bus::baud(scenario.baud).name << " on "
             << name << "; Ctrl-C ends" << std::endl;
 

@@ -1,5 +1,6 @@
 #include "apps/stack.hpp"
 
+#include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -20,6 +21,15 @@ void tell(rlim_t given) {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), static_cast<std::size_t>(size));
 }
 
+/// Theirs was taken from the limit when the program began.
+void give_threads_as_much() {
+  pthread_attr_t attributes;
+  if (pthread_getattr_default_np(&attributes) != 0) return;
+  pthread_attr_setstacksize(&attributes, kNeeded);
+  pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
+}
+
 }  // namespace
 
 bool ensure_stack() {
@@ -28,7 +38,10 @@ bool ensure_stack() {
   const rlim_t given = limit.rlim_cur;
   limit.rlim_cur = kNeeded;
   // Of the first thread the limit counts when the stack grows, not when the program begins.
-  if (limit.rlim_max >= kNeeded && setrlimit(RLIMIT_STACK, &limit) == 0) return true;
+  if (limit.rlim_max >= kNeeded && setrlimit(RLIMIT_STACK, &limit) == 0) {
+    give_threads_as_much();
+    return true;
+  }
   tell(given);
   return false;
 }

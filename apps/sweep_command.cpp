@@ -17,6 +17,7 @@
 #include "tb/scenario/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 #include "tb/scenario/suggest.hpp"
+#include "tb/sweep/fingerprint.hpp"
 #include "tb/sweep/folder.hpp"
 #include "tb/sweep/heat_map.hpp"
 #include "tb/sweep/inputs.hpp"
@@ -93,6 +94,7 @@ unsigned jobs_of(const SweepArguments& arguments) {
 int sweep(const SweepArguments& arguments) {
   leave_nothing_on_signals();
   const Plan plan = plan_of(arguments);
+  tb::sweep::fingerprint_of_file(plan.scenario);  // refuses what can be read only once, before it is read
   check_loads(plan);
   check_outputs("dsdpv1-sim sweep",
                 scenario_inputs(arguments.scenario,

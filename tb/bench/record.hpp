@@ -108,7 +108,6 @@ struct Pacing {
   std::uint64_t telegrams_from_host = 0, bytes_from_host = 0, bytes_to_host = 0;
   std::uint64_t held_back = 0;  ///< telegrams of the host that came before T_SYN or the slot time had ended
   Tick longest_held_back = 0;
-  std::uint64_t forgotten = 0;                 ///< telegrams not yet sent when their host hung up
   double error_mean_us = 0, error_max_us = 0;  ///< real minus simulated time
   std::uint64_t losses = 0;                    ///< how often the computer was too slow
   Tick lost = 0;                               ///< simulated time given up because of that

@@ -95,12 +95,18 @@ std::optional<std::string> file_identity(int descriptor) {
   return identity_of(status);
 }
 
-std::optional<std::string> file_identity(const std::string& path) {
+std::optional<std::string> input_identity(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return identity_of(status);
+}
+
+std::optional<std::string> output_identity(const std::string& path) {
   OutputPlace place;
   try {
     place = find_place(path);
   } catch (const InputError&) {
-    place.target = path;  // an input need not be writable
+    place.target = path;  // refused when it is opened
   }
   if (place.descriptor >= 0) return std::nullopt;  // several options may name standard output
   struct stat status {};

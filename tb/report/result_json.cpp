@@ -91,7 +91,6 @@ Json pacing_of(const Pacing& pacing) {
           {"bytes_to_host", pacing.bytes_to_host},
           {"held_back", pacing.held_back},
           {"longest_held_back_ns", nanoseconds_of(pacing.longest_held_back)},
-          {"forgotten", pacing.forgotten},
           {"error_mean_us", pacing.error_mean_us},
           {"error_max_us", pacing.error_max_us},
           {"times_too_slow", pacing.losses},

@@ -1,12 +1,23 @@
 #include "tb/report/standard_output.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <iostream>
 
 namespace tb {
+namespace {
+
+/// Who shares the channel may have made it one that does not wait.
+void wait_for_room() {
+  pollfd out{STDOUT_FILENO, POLLOUT, 0};
+  ::poll(&out, 1, -1);
+  errno = EAGAIN;
+}
+
+}  // namespace
 
 StandardOutput::StandardOutput() : before_(std::cout.rdbuf(this)) {
   setp(text_.data(), text_.data() + text_.size() - 1);  // one is for overflow's character
@@ -21,7 +32,8 @@ bool StandardOutput::empty() {
   for (const char* from = pbase(); from < pptr() && error_ == 0;) {
     const ssize_t written = ::write(STDOUT_FILENO, from, static_cast<std::size_t>(pptr() - from));
     if (written >= 0) from += written;
-    if (written < 0 && errno != EINTR) error_ = errno;
+    if (written < 0 && errno == EAGAIN) wait_for_room();
+    if (written < 0 && errno != EINTR && errno != EAGAIN) error_ = errno;
   }
   setp(text_.data(), text_.data() + text_.size() - 1);
   return error_ == 0;

@@ -123,9 +123,6 @@ std::string pacing(const Pacing& pacing) {
       pacing.telegrams_from_host, pacing.bytes_from_host, pacing.bytes_to_host, pacing.held_back,
       fmt::format("{:.2f} ms",
                   ms(static_cast<double>(pacing.longest_held_back) / static_cast<double>(bus::kTicksPerUs))));
-  if (pacing.forgotten != 0)
-    text += fmt::format("  hung up        {} telegrams forgotten, because their host hung up before their turn\n",
-                        pacing.forgotten);
   text += fmt::format("  pacing         simulated behind real time by {:.2f} ms in the mean, {:.2f} ms at most\n",
                       ms(pacing.error_mean_us), ms(pacing.error_max_us));
   if (pacing.losses != 0)

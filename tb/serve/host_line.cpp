@@ -36,13 +36,11 @@ void HostLine::send(Tick at, bus::Bytes bytes) {
   const bool wants_answer = telegram && telegram->is_request() && telegram->wants_answer();
   ++statistics_.telegrams;
   waiting_bytes_ += bytes.size();
-  waiting_.push_back({at, std::move(bytes), answer, wants_answer});
+  waiting_.push_back({at, std::move(bytes), answer, wants_answer, false});
 }
 
 void HostLine::forget() {
-  statistics_.forgotten += waiting_.size();
-  waiting_.clear();
-  waiting_bytes_ = 0;
+  for (Waiting& telegram : waiting_) telegram.of_nobody = true;
   heard_.clear();
   deaf_ = true;
 }
@@ -84,7 +82,7 @@ void HostLine::start(Tick now) {
   const Waiting telegram = std::move(waiting_.front());
   waiting_.pop_front();
   waiting_bytes_ -= telegram.bytes.size();
-  deaf_ = false;
+  deaf_ = telegram.of_nobody;
   if (now > telegram.at) {
     ++statistics_.held_back;
     statistics_.longest_held_back = std::max(statistics_.longest_held_back, now - telegram.at);

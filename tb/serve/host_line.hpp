@@ -18,7 +18,6 @@ struct HostLineStatistics {
   std::uint64_t sent_bytes = 0;   ///< by the host
   std::uint64_t heard_bytes = 0;  ///< by the host
   std::uint64_t held_back = 0;    ///< telegrams that came too soon
-  std::uint64_t forgotten = 0;    ///< telegrams that were still to be sent when the host hung up
   Tick longest_held_back = 0;
 };
 
@@ -37,8 +36,8 @@ class HostLine : public bus::Agent, private bus::Listener {
 
   /// Sends after what was handed over before, not before `at` (not in the past).
   void send(Tick at, bus::Bytes bytes);
-  /// The host has gone: what it handed over is not sent, what was heard for it is not handed over. A telegram on the line ends as it
-  /// is; what answers it is for nobody, so nothing is heard until something new begins after T_SYN.
+  /// The host has gone: what it handed over is still sent, what was heard for it is not handed over, and what answers it is for
+  /// nobody: nothing is heard until a later host's telegram or something new after T_SYN begins.
   void forget();
   /// Handed over and not yet begun to be sent.
   std::size_t waiting_bytes() const { return waiting_bytes_; }
@@ -57,6 +56,7 @@ class HostLine : public bus::Agent, private bus::Listener {
     Tick at;
     bus::Bytes bytes;
     bool answer, wants_answer;
+    bool of_nobody;  ///< its host has hung up
   };
   void line_changed(Tick at, bool level) override;
   void heard(const bus::ReceivedCharacter& character);

@@ -1,6 +1,7 @@
 #include "tb/serve/host_port.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,7 +12,14 @@
 namespace tb::serve {
 
 namespace {
+
 bool for_later(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
+
+bool left_to_read(int fd) {
+  int count = 0;
+  return ::ioctl(fd, FIONREAD, &count) == 0 && count != 0;
+}
+
 }  // namespace
 
 /// The events that poll tells of unasked, and the end of a connection.
@@ -22,7 +30,7 @@ bool hung_up(int fd) {
 
 void HostPort::set_peer(int fd) {
   peer_ = fd;
-  heard_ = told_of_loss_ = false;
+  heard_ = last_read_ = told_of_loss_ = false;
   kept_.clear();
 }
 
@@ -34,10 +42,12 @@ void HostPort::forget_peer(const std::string& why) {
 
 bus::Bytes HostPort::receive(std::size_t most) {
   look();
-  check_peer();
+  const bool gone = has_peer() && hung_up(peer_);
+  if (!gone) last_read_ = false;
+  if (gone && (most == 0 || std::exchange(last_read_, true))) forget_peer("");
   bus::Bytes bytes = read(most);
   if (!bytes.empty() && !std::exchange(heard_, true)) first_bytes();
-  flush();
+  if (!gone) flush();
   if (!has_peer()) bytes.clear();
   return bytes;
 }
@@ -48,6 +58,7 @@ bus::Bytes HostPort::read(std::size_t most) {
   while (has_peer() && got < most) {
     const ssize_t count = ::read(peer_, bytes.data() + got, most - got);
     if (count < 0 && for_later(errno)) break;
+    if (count <= 0 && got != 0) break;  // what it has left comes first
     // EIO is how a pseudo-terminal says that its other end was closed.
     if (count <= 0) forget_peer(count == 0 || errno == EIO || errno == ECONNRESET ? "" : std::strerror(errno));
     got += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
@@ -57,15 +68,14 @@ bus::Bytes HostPort::read(std::size_t most) {
 }
 
 void HostPort::check_peer() {
-  if (has_peer() && hung_up(peer_)) forget_peer("");
+  if (has_peer() && hung_up(peer_) && (last_read_ || !left_to_read(peer_))) forget_peer("");
 }
 
 void HostPort::send(const bus::Bytes& bytes) {
-  if (!has_peer() || bytes.empty()) return;
+  if (!has_peer() || bytes.empty() || told_of_loss_) return;
   if (kept_.size() + bytes.size() > kMostKept) {
-    if (!std::exchange(told_of_loss_, true))
-      say(fmt::format("{}: the host does not read: what it is sent is thrown away from now on", name()));
-    return;
+    told_of_loss_ = true;
+    return say(fmt::format("{}: the host does not read: what it is sent is thrown away from now on", name()));
   }
   kept_.push(bytes);
   flush();

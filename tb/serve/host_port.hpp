@@ -30,7 +30,7 @@ class HostPort {
   virtual bool timed() const { return false; }
 
   /// What has come, at most `most` bytes: the rest waits where it is, with the peer in the end. Also looks after comings and goings of
-  /// the peer; nothing is received from one that has gone.
+  /// the peer; of one that has gone, what can be read at once is the last.
   bus::Bytes receive(std::size_t most);
   /// Hands over to the peer, at once or as soon as it takes more; without a peer nobody hears it.
   void send(const bus::Bytes& bytes);
@@ -39,7 +39,7 @@ class HostPort {
 
   /// One line for the user about comings, goings and losses.
   std::function<void(const std::string&)> say = [](const std::string&) {};
-  /// The peer has gone: what came from it and what was meant for it is for nobody.
+  /// The peer has gone: what was meant for it is for nobody, and so is half a telegram.
   std::function<void()> on_gone = [] {};
 
  protected:
@@ -57,7 +57,7 @@ class HostPort {
   bool has_peer() const { return peer_ >= 0; }
   int peer() const { return peer_; }
   void set_peer(int fd);
-  /// Lets the peer go when it has hung up; that shows also when it is not read from now.
+  /// Lets the peer go when it has hung up and left nothing; that shows also when it is not read from now.
   void check_peer();
 
  private:
@@ -67,7 +67,8 @@ class HostPort {
 
   int peer_ = -1;
   bool heard_ = false, told_of_loss_ = false;
-  ByteQueue kept_;  ///< not yet taken by the peer
+  bool last_read_ = false;  ///< it has gone and what it left was read
+  ByteQueue kept_;          ///< not yet taken by the peer
 };
 
 }  // namespace tb::serve

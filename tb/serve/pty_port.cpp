@@ -8,7 +8,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
+#include "tb/report/part_file.hpp"
 #include "tb/scenario/input_error.hpp"
 #include "tb/serve/ports.hpp"
 #include "tb/serve/termios2.hpp"
@@ -30,6 +32,7 @@ class Link {
       const std::string hint = errno == EEXIST ? ", allowed is a name that is free" : "";
       throw InputError(path, 0, std::string("cannot be made a link: ") + std::strerror(errno) + hint);
     }
+    while_starting_.emplace(path);
   }
   ~Link() {
     std::error_code error;
@@ -40,6 +43,7 @@ class Link {
 
  private:
   std::string path_, target_;
+  std::optional<NameToRemove> while_starting_;  ///< a signal that ends the program then leaves no link
 };
 
 int open_master() {
@@ -75,7 +79,9 @@ class PtyPort : public HostPort {
   void look() override {
     if (has_peer()) return;
     pollfd other{master_.get(), POLLIN, 0};
-    if (::poll(&other, 1, 0) < 0 || (other.revents & POLLHUP) != 0) return;
+    if (::poll(&other, 1, 0) < 0) return;
+    const bool closed = (other.revents & POLLHUP) != 0, left = (other.revents & POLLIN) != 0;
+    if (closed && !left) return;
     set_peer(master_.get());
     if (was_lost_) say(fmt::format("{}: opened again", name()));
   }

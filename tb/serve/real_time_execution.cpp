@@ -138,7 +138,6 @@ Pacing RealTimeExecution::pacing() const {
   pacing.bytes_from_host = line.sent_bytes;
   pacing.bytes_to_host = line.heard_bytes;
   pacing.held_back = line.held_back;
-  pacing.forgotten = line.forgotten;
   pacing.longest_held_back = line.longest_held_back;
   if (!pace_) return pacing;
   pacing.error_mean_us = pace_->statistics().error_mean_us();

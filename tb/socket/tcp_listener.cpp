@@ -52,6 +52,15 @@ int listen_at(const std::string& who, const sockaddr_in& address, const TcpOptio
   return listener.release();
 }
 
+/// A host whose computer has vanished would have the port for ever: it is asked after 30 s of silence and given up a minute later.
+void notice_when_gone(int fd) {
+  const int on = 1, idle_s = 30, interval_s = 10, tries = 6;
+  ::setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+  ::setsockopt(fd, IPPROTO_TCP, TCP_KEEPIDLE, &idle_s, sizeof idle_s);
+  ::setsockopt(fd, IPPROTO_TCP, TCP_KEEPINTVL, &interval_s, sizeof interval_s);
+  ::setsockopt(fd, IPPROTO_TCP, TCP_KEEPCNT, &tries, sizeof tries);
+}
+
 }  // namespace
 
 TcpListener::TcpListener(const std::string& who, const std::string& bind, int port, const TcpOptions& options)
@@ -70,6 +79,7 @@ TcpListener::Connection TcpListener::accept() {
   if (fd < 0) return {-1, ""};
   const int on = 1;
   ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  notice_when_gone(fd);
   return {fd, text_of(from)};
 }
 

@@ -42,10 +42,12 @@ bool is_left_over(std::string name) {
   return ours && name.find(".part") != std::string::npos;
 }
 
-/// "00042.json": what stays in the folder of the points; all else in there belongs to runs that are no more.
-bool is_point(const std::string& name) {
+/// "00042.4711.run", "00042.json.4711.part": what a run that is no more has left in the folder of the points.
+bool is_remainder(const std::string& name) {
   const std::size_t digits = name.find_first_not_of("0123456789");
-  return digits != std::string::npos && digits != 0 && name.substr(digits) == ".json";
+  const std::string ending = name.substr(name.rfind('.') + 1);
+  return digits != 0 && digits != std::string::npos && name[digits] == '.' &&
+         (ending == "run" || ending == "err" || ending == "part");
 }
 
 /// In what `now` is another sweep than `before`.
@@ -133,7 +135,7 @@ void Folder::tidy() const {
   }
   if (!fs::exists(path_ / "points")) return;
   for (const auto& entry : fs::directory_iterator(path_ / "points")) {
-    if (!is_point(entry.path().filename().string())) fs::remove_all(entry.path());
+    if (is_remainder(entry.path().filename().string())) fs::remove(entry.path());
   }
 }
 

@@ -87,7 +87,7 @@ void FstFile::say(Handle variable, std::string_view word) {
 /// would spoil its table of times, so then there is no block.
 void FstFile::save(std::uint64_t time) {
   if (!changed_ || !time_) return;
-  const bool block = steps_ > 1;
+  const bool block = steps_ > 1 && time_ != time;
   fstWriterFlushContext(context_);
   move_to(time);
   if (!block) return;

@@ -106,7 +106,8 @@ void change_of_word(void* to, std::uint64_t time, fstHandle signal, const unsign
 
 void check_recoverable(const std::string& part) {
   const Blocks blocks = blocks_of(part);
-  if (blocks.names) throw InputError(part, 0, "is complete, so there is nothing to recover");
+  if (blocks.names)
+    throw InputError(part, 0, "is complete, so there is nothing to recover: give it the name that it should have");
   if (blocks.changes == 0) throw InputError(part, 0, "holds no changes yet, so there is nothing to recover");
   if (::access((part + ".hier").c_str(), R_OK) != 0)
     throw InputError(part, 0, "needs " + part + ".hier beside it, which has the names of the signals");

@@ -101,6 +101,14 @@ TEST_F(Inputs, PipesAreReadLikeFiles) {
   EXPECT_EQ(decode.status, 0) << decode.err;
 }
 
+TEST_F(Inputs, OneThatComesThroughADescriptorIsNotReplaced) {
+  write("s.yaml", scenario_named("x"));
+  const Called called = in_shell("\"$SIM\" run /dev/stdin --log s.yaml <s.yaml");
+  EXPECT_EQ(called.status, 2);
+  EXPECT_EQ(called.err, "dsdpv1-sim run: --log would replace the scenario, s.yaml, allowed is a file of its own\n");
+  EXPECT_EQ(read(folder_.path() / "s.yaml"), scenario_named("x"));
+}
+
 // Both limits of the stack, as `ulimit -s` sets them.
 TEST_F(Inputs, StackThatIsTooSmallIsOneLine) {
   write("s.yaml", scenario_named("x"));

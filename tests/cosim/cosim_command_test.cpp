@@ -26,6 +26,16 @@ std::string pins_with(const app_test::Folder& folder, const std::string& lines) 
   return "'" + folder.file("pins.yaml") + "'";
 }
 
+TEST(RtlRandom, ProgressIsOneLineWrittenOverItself) {
+  const app_test::Folder folder;
+  const app_test::Called called =
+      call("reasons prm_ident >/dev/null && script -qec \"'" DSDPV1_SIM "' rtl-random --cycles 20000\" /dev/null",
+           folder.path());
+  EXPECT_EQ(called.status, 0) << called.out << called.err;
+  EXPECT_THAT(called.out, testing::ContainsRegex("\r[0-9]+ cases, "));
+  EXPECT_THAT(called.out, testing::Not(HasSubstr("\\r")));
+}
+
 TEST(Cosim, ExampleWithoutAResetValueHasAnUnknownPin) {
   const app_test::Folder folder;
   const app_test::Called called = call(example(folder, "examples/own_rtl/pins.yaml"), kSource);

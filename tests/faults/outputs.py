@@ -5,6 +5,7 @@
 """
 import difflib
 import os
+import select
 import shutil
 import signal
 import subprocess
@@ -245,6 +246,21 @@ def fifo_reader_gone(place):
     return row
 
 
+def full_pipe_and_interrupted(place):
+    """Another output waits for its reader when the signal comes: it goes on afterwards, and no output is spoilt."""
+    os.mkfifo(place.file("pipe"))
+    process = place.start(place.output.command(more=ENDLESS + ["--log" if place.output.name == "trace" else "--trace", "pipe"]))
+    with open(place.file("pipe"), "rb", buffering=0) as pipe:
+        writer = os.open(place.file("pipe"), os.O_WRONLY | os.O_NONBLOCK)
+        wait_for(lambda: not select.select([], [writer], [], 0)[1], "a pipe that takes no more")
+        os.close(writer)
+        process.send_signal(signal.SIGINT)
+        while pipe.read(1 << 16):
+            pass
+    place.inputs.add("pipe")
+    return place.end(process)
+
+
 def link(place):
     os.mkdir(place.file("far"))
     place.make("far/there")
@@ -338,6 +354,7 @@ FAULTS = [
     ("links to /dev/null, another output too", null_twice, RUNS),
     ("is a FIFO", fifo, ALL),
     ("is a FIFO whose reader goes away while running", fifo_reader_gone, RUNS - {"wave .fst", "result"}),
+    ("SIGINT while another output is a FIFO whose reader does not read", full_pipe_and_interrupted, RUNS),
     ("links to a file in another folder", link, ALL),
     ("links to a file that is not there yet", dangling_link, ALL),
     ("name of 249 characters", name_249, ALL),

@@ -215,10 +215,11 @@ TEST_F(OutputFiles, NamesOfOneFileAreKnownAsOne) {
   fs::create_symlink("new", folder_ / "dangling");
   fs::create_hard_link(folder_ / "file", folder_ / "hard");
   for (const char* name : {"./file", "link", "hard"})
-    EXPECT_EQ(tb::file_identity(path(name)), tb::file_identity(path("file"))) << name;
-  EXPECT_EQ(tb::file_identity(path("dangling")), tb::file_identity(path("../" + folder_.filename().string() + "/new")));
-  EXPECT_NE(tb::file_identity(path("file")), tb::file_identity(path("new")));
-  for (const char* name : {"/dev/null", "/dev/stdout", "/dev/fd/1"}) EXPECT_EQ(tb::file_identity(name), std::nullopt);
+    EXPECT_EQ(tb::output_identity(path(name)), tb::output_identity(path("file"))) << name;
+  EXPECT_EQ(tb::output_identity(path("dangling")),
+            tb::output_identity(path("../" + folder_.filename().string() + "/new")));
+  EXPECT_NE(tb::output_identity(path("file")), tb::output_identity(path("new")));
+  for (const char* name : {"/dev/null", "/dev/stdout", "/dev/fd/1"}) EXPECT_EQ(tb::output_identity(name), std::nullopt);
 }
 
 }  // namespace

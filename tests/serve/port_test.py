@@ -60,6 +60,14 @@ def open_raw(path):
     return fd
 
 
+def open_host(serve, kind):
+    if kind == "--pty":
+        return os.fdopen(open_raw(serve.port), "r+b", buffering=0)
+    number = int(serve.ready.split("127.0.0.1:")[1].split(";")[0])
+    with socket.create_connection(("127.0.0.1", number)) as host:
+        return os.fdopen(host.detach(), "r+b", buffering=0)
+
+
 def with_serve(program, body, *options, port=("--pty", "dp")):
     with Folder() as folder:
         serve = Serve(program, folder, SCENARIO, *options, port=port)
@@ -81,6 +89,20 @@ def pty_hang_up_and_next_opener(program):
             serve.wait_for_log("(?s)(hung up.*?){%d}" % time_round)
     serve = with_serve(program, body)
     check(serve.said().count("hung up") == 3, "not one line for each hang-up: " + serve.said())
+
+
+def one_shot_hosts(program):
+    """A telegram of a host that hangs up at once is sent all the same, and its answer is not the next one's."""
+    for port in (("--pty", "dp"), ("--tcp", "0")):
+        def body(serve):
+            for time_round in range(1, 3):
+                with open_host(serve, port[0]) as host:
+                    host.write(STATUS_REQUEST)
+                serve.wait_for_log("(?s)(10 08 02 49 53 16.*?){%d}" % time_round)
+            with open_host(serve, port[0]) as host:
+                check(read_some(host.fileno(), 1, 0.1) == b"", "it got what was not meant for it")
+                ask(host.fileno())
+        with_serve(program, body, port=port)
 
 
 def telegram_in_pieces(program):
@@ -224,7 +246,7 @@ def too_slow_is_said(program):
             serve.kill()
 
 
-CASES = [pty_hang_up_and_next_opener, telegram_in_pieces, requests_in_one_write, broken_off_telegram, wrong_speed_is_said,
+CASES = [pty_hang_up_and_next_opener, one_shot_hosts, telegram_in_pieces, requests_in_one_write, broken_off_telegram, wrong_speed_is_said,
          tcp_one_after_the_other, serial_port, bad_ports, ends_after_its_time, shipped_scenario, too_slow_is_said]
 
 

@@ -196,11 +196,13 @@ TEST_F(SweepFolder, WhatAKilledSweepHasLeftIsRemovedByTheNext) {
   for (const char* name : {"results.csv.part", "map.svg.77.part", ".map_2.svg.part", "points/00000.json.part",
                            "points/00001.77.run", "points/00001.77.run.part", "points/00001.err"})
     write(base_ / "out" / name, "half");
-  for (const char* name : {"results.csv", "map.svg"}) write(base_ / "out" / name, "whole");
+  for (const char* name : {"results.csv", "map.svg", "points/notes.txt", "points/00000.json.bak"})
+    write(base_ / "out" / name, "whole");
   open();
   std::vector<std::string> left;
   for (const auto& entry : fs::recursive_directory_iterator(base_ / "out")) left.push_back(entry.path().filename());
-  EXPECT_THAT(left, testing::UnorderedElementsAre("points", "00000.json", "sweep.json", "results.csv", "map.svg"));
+  EXPECT_THAT(left, testing::UnorderedElementsAre("points", "00000.json", "00000.json.bak", "notes.txt", "sweep.json",
+                                                  "results.csv", "map.svg"));
 }
 
 TEST_F(SweepFolder, HasOneOwnerAtATime) {

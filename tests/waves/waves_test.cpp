@@ -212,6 +212,18 @@ TEST_F(Waves, RecoveredIsEverythingUpToTheLastSave) {
   }
 }
 
+TEST_F(Waves, ChangeAtTheTimeOfASaveIsRecoveredAfterTheNext) {
+  auto wave = tb::open_wave(path("w.fst"));
+  write_long(*wave, 1);
+  wave->set(60'000, 1, 5);
+  wave->save(60'000);
+  wave->save(61'000);
+  std::string part;
+  for (const auto& entry : fs::directory_iterator(folder_))
+    if (entry.path().extension() == ".part") part = entry.path();
+  EXPECT_GE(tb::recover_fst(part, path("r.fst")), tb::picoseconds(60'000));
+}
+
 TEST_F(Waves, WhatIsNoPartIsNotRecovered) {
   const auto refusal = [&](const std::string& name) -> std::string {
     try {
