@@ -64,11 +64,14 @@ void bind_to(pid_t parent) {
   give_up();
 }
 
-std::string first_line_of(int file) {
+/// Its own word is the last: a library's warnings come before.
+std::string last_line_of(int file) {
   std::array<char, 4096> text{};
-  const ssize_t count = pread(file, text.data(), text.size(), 0);
-  const std::string all(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
-  return all.substr(0, all.find('\n'));
+  const off_t size = lseek(file, 0, SEEK_END), most = static_cast<off_t>(text.size());
+  const ssize_t count = pread(file, text.data(), text.size(), size > most ? size - most : 0);
+  std::string all(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
+  while (!all.empty() && all.back() == '\n') all.pop_back();
+  return all.substr(all.rfind('\n') + 1);
 }
 
 }  // namespace
@@ -114,7 +117,7 @@ std::optional<Ended> Children::wait() {
   const Run run = found->second;
   runs_.erase(found);
   const int exit = WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status);
-  Ended ended{run.point, exit, first_line_of(run.errors)};
+  Ended ended{run.point, exit, last_line_of(run.errors)};
   close(run.errors);
   return ended;
 }

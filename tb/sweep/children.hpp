@@ -14,7 +14,7 @@ namespace tb::sweep {
 struct Ended {
   std::size_t point = 0;
   int exit = 0;      ///< 128 + signal when it was killed, 127 when it could not be started
-  std::string said;  ///< the first line of its error channel
+  std::string said;  ///< the last line of its error channel
 };
 
 /// The process has no other children than these, and no other threads. They end with it, also when it is killed.
