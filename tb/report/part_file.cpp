@@ -11,6 +11,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "tb/report/signals_held.hpp"
+
 namespace tb {
 namespace {
 
@@ -70,28 +72,12 @@ int open_directly(const OutputPlace& place) {
   return descriptor;
 }
 
-/// Between the making of a file and the note of its name no signal is let in.
-class SignalsHeld {
- public:
-  SignalsHeld() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_BLOCK, &all, &before_);
-  }
-  ~SignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsHeld(const SignalsHeld&) = delete;
-  SignalsHeld& operator=(const SignalsHeld&) = delete;
-
- private:
-  sigset_t before_{};
-};
-
 std::unique_ptr<NameToRemove> open_place(const OutputPlace& place, int& descriptor) {
   if (place.direct) {
     descriptor = open_directly(place);
     return std::make_unique<NameToRemove>("");
   }
-  const SignalsHeld held;
+  const SignalsHeld held;  // between the making of the file and the note of its name
   auto part = std::make_unique<NameToRemove>(create(place, descriptor));
   if (place.replaced) keep_owner_and_mode(descriptor, *place.replaced);
   return part;

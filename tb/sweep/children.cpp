@@ -15,6 +15,8 @@
 #include <cstring>
 #include <thread>
 
+#include "tb/report/signals_held.hpp"
+
 namespace tb::sweep {
 namespace {
 
@@ -23,24 +25,6 @@ constexpr int kSignalled = 128;
 constexpr int kNotStarted = 127;
 constexpr std::chrono::milliseconds kMoment(10);
 constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
-
-/// Holds the signals back that end a child, so that none is lost in the parent's handler before the child has its own.
-class SignalsHeld {
- public:
-  SignalsHeld() {
-    sigset_t held;
-    sigemptyset(&held);
-    for (const int signal : kSignals) sigaddset(&held, signal);
-    sigprocmask(SIG_BLOCK, &held, &before_);
-  }
-  ~SignalsHeld() { release(); }
-  SignalsHeld(const SignalsHeld&) = delete;
-  SignalsHeld& operator=(const SignalsHeld&) = delete;
-  void release() const { sigprocmask(SIG_SETMASK, &before_, nullptr); }
-
- private:
-  sigset_t before_{};
-};
 
 [[noreturn]] void give_up() {
   dprintf(STDERR_FILENO, "the run cannot be started: %s\n", std::strerror(errno));
@@ -90,7 +74,7 @@ void Children::start(std::size_t point, const std::vector<std::string>& argument
   argv.push_back(nullptr);
   const int errors = memfd_create("errors", MFD_CLOEXEC);
   const pid_t parent = getpid();
-  const SignalsHeld signals;
+  const SignalsHeld signals;  // one for the child must not be lost in the handler that it has from here
   const pid_t pid = errors < 0 ? -1 : fork();
   if (pid == 0) become(argv, errors, parent, signals);
   if (pid > 0) {

@@ -133,6 +133,17 @@ def answered_in_turn(serve, connection):
     ask(fd)
 
 
+def close_and_open_again(serve, fd):
+    """Whoever opens the pseudo-terminal next gets nothing that was meant for the one before."""
+    os.close(fd)
+    said(serve, CLOSED)
+    fd = open_raw(serve.port)
+    said(serve, OPENED)
+    check(read_some(fd, 1, 0.2) == b"", "it got what was not meant for it")
+    ask(fd)
+    os.close(fd)
+
+
 # --- faults -------------------------------------------------------------------------------------------------------------
 
 
@@ -160,13 +171,7 @@ def junk(serve):
 def junk_by_pty(serve):
     fd, _ = connect(serve, "pty")
     flood(serve, fd, PAYLOADS["junk"], 2)
-    os.close(fd)
-    said(serve, CLOSED)
-    fd = open_raw(serve.port)
-    said(serve, OPENED)
-    check(read_some(fd, 1, 0.1) == b"", "it got what was not meant for it")
-    ask(fd)
-    os.close(fd)
+    close_and_open_again(serve, fd)
 
 
 @fault("sends and does not read", "wait, as above. What it does not read is kept up to 1 MB; then one line says so, and the rest is thrown away",
@@ -256,13 +261,7 @@ def pty_reader_gone(serve):
     ask(fd)
     os.write(fd, STATUS_REQUEST * 50)
     until(lambda: simulated_s(serve) > 0.3, "simulated time goes on")
-    os.close(fd)
-    said(serve, CLOSED)
-    fd = open_raw(serve.port)
-    said(serve, OPENED)
-    check(read_some(fd, 1, 0.2) == b"", "it got what was not meant for it")
-    ask(fd)
-    os.close(fd)
+    close_and_open_again(serve, fd)
 
 
 def signal_during_flood(serve):
