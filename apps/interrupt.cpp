@@ -37,7 +37,8 @@ bool ignored(int signal) {
   return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
-/// A write that waits (a FIFO that is full) goes on after the signal: as an error it would cost the run all of its files.
+/// A write that waits (a FIFO that is full) goes on after the signal: as an error it would cost the run all of its
+/// files.
 void handle_with(void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;

@@ -13,8 +13,8 @@ struct NamedFile {
 /// The scenario and the files that it names.
 std::vector<NamedFile> scenario_inputs(const std::string& scenario, const std::vector<std::string>& named);
 
-/// Throws InputError unless the outputs are apart from the inputs, from each other, and from the files that standard output and the
-/// error channel go to. `command`: as "dsdpv1-sim run".
+/// Throws InputError unless the outputs are apart from the inputs, from each other, and from the files that standard
+/// output and the error channel go to. `command`: as "dsdpv1-sim run".
 void check_outputs(const std::string& command, const std::vector<NamedFile>& inputs,
                    const std::vector<NamedFile>& outputs);
 

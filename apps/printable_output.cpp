@@ -8,7 +8,8 @@
 
 namespace app {
 
-/// Passes on whole lines, and what there is of one when it is flushed: a letter of several bytes must come in one piece.
+/// Passes on whole lines, and what there is of one when it is flushed: a letter of several bytes must come in one
+/// piece.
 class PrintableOutput::Filter : public std::streambuf {
  public:
   explicit Filter(std::ostream& stream) : stream_(stream), to_(stream.rdbuf(this)) {}

@@ -4,8 +4,9 @@
 
 namespace app {
 
-/// While it lives, what goes to std::cout and std::cerr is printable_lines(): escapes stand for control characters. Line ends within
-/// a name are the business of whoever prints it (bus::printable). The progress bar goes round it, by stderr.
+/// While it lives, what goes to std::cout and std::cerr is printable_lines(): escapes stand for control characters.
+/// Line ends within a name are the business of whoever prints it (bus::printable). The progress bar goes round it, by
+/// stderr.
 class PrintableOutput {
  public:
   PrintableOutput();

@@ -59,7 +59,8 @@ int replay(const RtlRandomArguments& arguments, const std::string& path) {
 
 unsigned threads(unsigned jobs) { return jobs != 0 ? jobs : std::max(1U, std::thread::hardware_concurrency()); }
 
-/// How far a campaign is, in one line that is written over itself: not by std::cerr, where control characters are escaped.
+/// How far a campaign is, in one line that is written over itself: not by std::cerr, where control characters are
+/// escaped.
 class ProgressLine {
  public:
   void show(std::uint64_t cases, std::uint64_t cycles) const {

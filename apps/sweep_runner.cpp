@@ -19,8 +19,8 @@ using tb::sweep::Point;
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// Why the scenario cannot be run with these settings, empty when it can. Exit code 2 of a run is no proof: a full disk has it
-/// too. Here everything is built as for the run, but nothing written.
+/// Why the scenario cannot be run with these settings, empty when it can. Exit code 2 of a run is no proof: a full disk
+/// has it too. Here everything is built as for the run, but nothing written.
 std::string refusal(const Plan& plan, std::size_t point) {
   try {
     const tb::scenario::Scenario scenario =
@@ -143,9 +143,8 @@ std::string SweepRunner::name_of(std::size_t point) const {
 
 void SweepRunner::give_up() {
   children_.terminate();
-  while (children_.running() != 0) {
+  while (children_.running() != 0)
     if (const std::optional<Ended> ended = children_.wait()) folder_.forget(ended->point);
-  }
 }
 
 }  // namespace app

@@ -24,8 +24,8 @@ class SweepRunner {
   SweepRunner(const SweepRunner&) = delete;
   SweepRunner& operator=(const SweepRunner&) = delete;
 
-  /// False when it was interrupted. Throws InputError when an input has changed, a point cannot be kept, or its run has twice
-  /// ended without a statement about the point.
+  /// False when it was interrupted. Throws InputError when an input has changed, a point cannot be kept, or its run has
+  /// twice ended without a statement about the point.
   bool run();
 
   std::size_t done() const { return done_; }

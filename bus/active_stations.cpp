@@ -27,18 +27,16 @@ bool token_skips(std::uint8_t sa, std::uint8_t da, std::uint8_t address) {
 }
 
 void ActiveStations::token_passed(std::uint8_t sa, std::uint8_t da) {
-  for (std::uint8_t address = 0; address < kAddresses; ++address) {
+  for (std::uint8_t address = 0; address < kAddresses; ++address)
     if (token_skips(sa, da, address)) remove(address);
-  }
   add(sa);
   add(da);
 }
 
 std::vector<std::uint8_t> ActiveStations::addresses() const {
   std::vector<std::uint8_t> list;
-  for (std::uint8_t address = 0; address < kAddresses; ++address) {
+  for (std::uint8_t address = 0; address < kAddresses; ++address)
     if (contains(address)) list.push_back(address);
-  }
   return list;
 }
 

@@ -31,8 +31,8 @@ class ActiveStations {
 /// Whether a token from `sa` to `da` goes past `address`. To itself: past everybody else.
 bool token_skips(std::uint8_t sa, std::uint8_t da, std::uint8_t address);
 
-/// Learns the LAS: it is valid when two rotations of the token in succession were the same. A rotation ends with the token that goes
-/// to the same or a lower address.
+/// Learns the LAS: it is valid when two rotations of the token in succession were the same. A rotation ends with the
+/// token that goes to the same or a lower address.
 class StationLearner {
  public:
   void reset() { *this = StationLearner(); }

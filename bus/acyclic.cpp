@@ -15,9 +15,8 @@ namespace {
 constexpr std::size_t kHeader = 4;  // fn, slot, index, length; in a negative answer fn and three codes
 
 AcyclicRequest with_data(std::uint8_t function, std::uint8_t slot, std::uint8_t index, const Bytes& data) {
-  if (data.size() > kMaxAcyclicData) {
+  if (data.size() > kMaxAcyclicData)
     throw std::invalid_argument(fmt::format("{} bytes of acyclic data, at most 240", data.size()));
-  }
   return {function, slot, index, static_cast<std::uint8_t>(data.size()), data};
 }
 
@@ -41,12 +40,10 @@ void take_positive(const Bytes& pdu, AcyclicResult& result) {
   }
   const bool write = request.function == function_num::kWrite;
   const std::size_t expected = write ? 0 : pdu[3];
-  if (pdu.size() - kHeader != expected) {
+  if (pdu.size() - kHeader != expected)
     return wrong(result, fmt::format("{} data bytes, the length byte says {}", pdu.size() - kHeader, expected));
-  }
-  if (write && pdu[3] != request.length) {
+  if (write && pdu[3] != request.length)
     return wrong(result, fmt::format("{} bytes acknowledged, written were {}", pdu[3], request.length));
-  }
   result.outcome = AcyclicOutcome::kPositive;
   result.data.assign(pdu.begin() + kHeader, pdu.end());
 }
@@ -116,9 +113,8 @@ void judge_answer(const Bytes& pdu, AcyclicResult& result) {
   if (pdu.size() < kHeader) return wrong(result, fmt::format("answer of {} bytes, at least 4 are right", pdu.size()));
   const std::uint8_t asked = result.request.function;
   if (pdu[0] == (asked | function_num::kError)) return take_error(pdu, result);
-  if (pdu[0] != asked) {
+  if (pdu[0] != asked)
     return wrong(result, fmt::format("answer with Function_Num 0x{:02X}, asked was 0x{:02X}", pdu[0], asked));
-  }
   take_positive(pdu, result);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Acyclic services of DPV1 as a master sees them (datasheet 7.2, 7.3; rulings V1, V2): requests, their PDUs, and what came of them. C1 and C2
-// have the same PDUs for reading and writing.
+// Acyclic services of DPV1 as a master sees them (datasheet 7.2, 7.3; rulings V1, V2): requests, their PDUs, and what
+// came of them. C1 and C2 have the same PDUs for reading and writing.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -68,8 +68,8 @@ std::string describe(const AcyclicResult& result);
 
 using AcyclicCallback = std::function<void(const AcyclicResult&)>;
 
-/// Holds an answer PDU against the request: fills outcome (kPositive, kNegative, kWrongAnswer), data, codes and reason of `result`, whose
-/// `request` says what was asked.
+/// Holds an answer PDU against the request: fills outcome (kPositive, kNegative, kWrongAnswer), data, codes and reason
+/// of `result`, whose `request` says what was asked.
 void judge_answer(const Bytes& pdu, AcyclicResult& result);
 
 /// The refusal in an answer of the data link layer (UE, RR, RS); nullopt when it is none.

@@ -1,5 +1,6 @@
 #pragma once
-// The ten baud rates and the times of EN 50170 that depend on them. The index is that of table 5 of the datasheet (B013).
+// The ten baud rates and the times of EN 50170 that depend on them. The index is that of table 5 of the datasheet
+// (B013).
 #include <array>
 #include <optional>
 #include <string_view>
@@ -41,9 +42,8 @@ constexpr const Baud& baud(int index) { return kBauds.at(static_cast<std::size_t
 
 /// The index of a name of the table, nullopt for any other text.
 constexpr std::optional<int> baud_index(std::string_view name) {
-  for (int i = 0; i < kBaudCount; ++i) {
+  for (int i = 0; i < kBaudCount; ++i)
     if (baud(i).name == name) return i;
-  }
   return std::nullopt;
 }
 

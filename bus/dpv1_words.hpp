@@ -1,5 +1,6 @@
 #pragma once
-// The words of DPV1: services, error codes (tables 28 and 29), abort reasons (EN 50170 part 8, as vendors' manuals list them).
+// The words of DPV1: services, error codes (tables 28 and 29), abort reasons (EN 50170 part 8, as vendors' manuals list
+// them).
 #include <cstdint>
 #include <string>
 
@@ -10,7 +11,8 @@ const char* function_name(std::uint8_t function);
 
 /// Error_Code_1: "access: invalid index"; "user specific ..." and "reserved ..." where the table says so.
 std::string error_code_words(std::uint8_t error_code_1);
-/// A negative answer: "access: invalid index"; Error_Decode is named when it is not 0x80, Error_Code_2 when it is not 0.
+/// A negative answer: "access: invalid index"; Error_Decode is named when it is not 0x80, Error_Code_2 when it is not
+/// 0.
 std::string error_words(std::uint8_t error_decode, std::uint8_t error_code_1, std::uint8_t error_code_2);
 
 /// Who aborts a connection, and why (byte 2 of the abort PDU: instance in bits 5 and 4, reason in bits 3 to 0).

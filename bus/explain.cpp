@@ -181,9 +181,7 @@ class ByteExplainer {
     static constexpr const char* kFixed[] = {"start delimiter", "DA", "SA", "FC"};
     const bool variable = decoded_.bytes[0] == sd::k2;
     const std::size_t known = variable ? std::size(kVariable) : std::size(kFixed);
-    while (at_ < decoded_.bytes.size()) {
-      say(at_ >= known ? "not decoded" : variable ? kVariable[at_] : kFixed[at_]);
-    }
+    while (at_ < decoded_.bytes.size()) say(at_ >= known ? "not decoded" : variable ? kVariable[at_] : kFixed[at_]);
     result_.back().meaning += fmt::format(": {}", describe(decoded_.error));
     return std::move(result_);
   }

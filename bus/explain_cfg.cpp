@@ -26,11 +26,10 @@ class CfgReader {
   void read_identifier() {
     const std::uint8_t id = data_[at_++];
     ++modules_;
-    if ((id & 0x30U) == 0) {
+    if ((id & 0x30U) == 0)
       read_special(id);
-    } else {
+    else
       read_general(id);
-    }
   }
 
   void read_general(std::uint8_t id) {

@@ -30,8 +30,8 @@ DataWords plain_words(const std::string& what, const Bytes& data);
 
 /// "Group_Ident: group 1, 3".
 std::string group_words(const char* name, std::uint8_t byte, const char* zero);
-/// The names of the bits set, least significant first: "Prm_Req, WD_On"; "none" when there are none. `names` has 8 entries, an
-/// empty one is shown as "bit n".
+/// The names of the bits set, least significant first: "Prm_Req, WD_On"; "none" when there are none. `names` has 8
+/// entries, an empty one is shown as "bit n".
 std::string bit_names(std::uint8_t byte, const char* const (&names)[8]);
 std::string hex(const Bytes& bytes);
 

@@ -1,5 +1,5 @@
-// Slave_Diag: the six standard bytes and the device, identifier and channel related blocks after them; device related ones are a status or
-// an alarm of a slot in DPV1.
+// Slave_Diag: the six standard bytes and the device, identifier and channel related blocks after them; device related
+// ones are a status or an alarm of a slot in DPV1.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,9 +42,8 @@ std::string channel_error(std::uint8_t byte) {
 
 std::string modules_words(std::uint8_t bits, std::size_t first) {
   std::string text;
-  for (std::size_t bit = 0; bit < 8; ++bit) {
+  for (std::size_t bit = 0; bit < 8; ++bit)
     if (((bits >> bit) & 1U) != 0) text += fmt::format("{}{}", text.empty() ? "" : ", ", first + bit);
-  }
   return text.empty() ? fmt::format("modules {} to {}: no diagnosis", first, first + 7) : "diagnosis of module " + text;
 }
 

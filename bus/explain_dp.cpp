@@ -45,9 +45,8 @@ DataWords set_slave_address_words(const Bytes& data) {
 std::string group_words(const char* name, std::uint8_t byte, const char* zero) {
   if (byte == 0) return fmt::format("{}: {}", name, zero);
   std::string groups;
-  for (int bit = 0; bit < 8; ++bit) {
+  for (int bit = 0; bit < 8; ++bit)
     if (((byte >> bit) & 1) != 0) groups += fmt::format("{}{}", groups.empty() ? "" : ", ", bit + 1);
-  }
   return fmt::format("{}: group {}", name, groups);
 }
 

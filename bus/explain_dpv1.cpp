@@ -1,5 +1,5 @@
-// DPV1: the PDUs of C1 and C2 (rulings V1 to V6, V9 to V11, tables 26 to 32). Each PDU is a list of field names; what a list does not name
-// is data.
+// DPV1: the PDUs of C1 and C2 (rulings V1 to V6, V9 to V11, tables 26 to 32). Each PDU is a list of field names; what a
+// list does not name is data.
 #include <fmt/format.h>
 
 #include <initializer_list>
@@ -152,11 +152,10 @@ DataWords dpv1_words(const Bytes& data, bool response) {
   const char* name = function_name(data[0]);
   words.summary = name;
   words.bytes[0] = fmt::format("Function_Num: {}{}", name, error ? ", error" : "");
-  if (error) {
+  if (error)
     read_error(words, data, name);
-  } else {
+  else
     read_function(words, data, name, response);
-  }
   return words;
 }
 

@@ -1,5 +1,5 @@
-// Set_Prm (tables 18 to 20): the seven standard bytes, the three DPV1 bytes, and user parameters in blocks where DPV1_Status_3 says so
-// (Prm_Structure; EN 50170 with its DPV1 extensions, IEC 61158-6).
+// Set_Prm (tables 18 to 20): the seven standard bytes, the three DPV1 bytes, and user parameters in blocks where
+// DPV1_Status_3 says so (Prm_Structure; EN 50170 with its DPV1 extensions, IEC 61158-6).
 #include <fmt/format.h>
 
 #include "bus/explain_data.hpp"

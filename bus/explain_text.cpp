@@ -28,9 +28,8 @@ class TextDecoder {
  private:
   Decoded decode_at(std::size_t at) const {
     TelegramDecoder decoder;
-    for (const std::size_t first = at; at < text_.bytes.size() && text_.together(first, at); ++at) {
+    for (const std::size_t first = at; at < text_.bytes.size() && text_.together(first, at); ++at)
       if (auto decoded = decoder.feed(text_.bytes[at])) return *decoded;
-    }
     return *decoder.finish();
   }
 
@@ -45,11 +44,10 @@ class TextDecoder {
     }
     right_ = false;
     const std::size_t end = end_of_wrong(at, decoded);
-    if (decoded.error == DecodeError::kStartDelimiter) {
+    if (decoded.error == DecodeError::kStartDelimiter)
       print_garbage(at, end);
-    } else {
+    else
       print_wrong(at, end, decoded);
-    }
     return end;
   }
 
@@ -62,8 +60,8 @@ class TextDecoder {
     return end;
   }
 
-  /// Where to go on behind a wrong telegram. Its inside may hold any byte, so that there only a telegram with a right FCS or one
-  /// at the beginning of a line is believed; between telegrams also a token or SC.
+  /// Where to go on behind a wrong telegram. Its inside may hold any byte, so that there only a telegram with a right
+  /// FCS or one at the beginning of a line is believed; between telegrams also a token or SC.
   std::size_t end_of_wrong(std::size_t at, const Decoded& decoded) const {
     const bool whole = decoded.readable || decoded.error == DecodeError::kMissingSap;
     const std::size_t limit = whole ? at + decoded.bytes.size() : end_of_stream(at);

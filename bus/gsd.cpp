@@ -58,9 +58,8 @@ GsdResult parse_gsd(std::istream& in, const std::string& file) {
   const std::string text = gsd::decode({std::istreambuf_iterator<char>(in), {}}, diagnostics);
   if (diagnostics.failed()) return failure(diagnostics);
   const auto lines = gsd::logical_lines(text, diagnostics);
-  if (lines.empty() && !diagnostics.failed()) {
+  if (lines.empty() && !diagnostics.failed())
     diagnostics.error(1, "the file is empty, a GSD file with #Profibus_DP and Ident_Number is needed");
-  }
   if (lines.empty()) return failure(diagnostics);
   gsd::Parser parser(diagnostics);
   for (const auto& line : lines) parser.read(line);

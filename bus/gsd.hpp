@@ -1,11 +1,13 @@
 #pragma once
-// PROFIBUS GSD files (electronic data sheets), revisions 1 to 5, as vendors write them. docs/gsd.md lists what is accepted.
+// PROFIBUS GSD files (electronic data sheets), revisions 1 to 5, as vendors write them. docs/gsd.md lists what is
+// accepted.
 //
 //   std::ifstream in(path);
 //   GsdResult result = parse_gsd(in, path);
 //   if (!result.gsd) for (const auto& d : result.diagnostics) std::cerr << to_string(d) << '\n';
 //
-// What a master makes of the file (Set_Prm, Chk_Cfg, limits) is in bus/gsd_setup.hpp, the printed report in bus/gsd_report.hpp.
+// What a master makes of the file (Set_Prm, Chk_Cfg, limits) is in bus/gsd_setup.hpp, the printed report in
+// bus/gsd_report.hpp.
 #include <array>
 #include <cstdint>
 #include <iosfwd>
@@ -105,7 +107,8 @@ struct GsdModule {
   int line = 0;
 };
 
-/// Slot(number) = "name" preset allowed,... of a SlotDefinition; modules by reference number, a preset of 0 is an empty slot.
+/// Slot(number) = "name" preset allowed,... of a SlotDefinition; modules by reference number, a preset of 0 is an empty
+/// slot.
 struct GsdSlot {
   int number = 0;
   std::string name;
@@ -161,8 +164,8 @@ struct GsdResult {
   std::vector<GsdDiagnostic> diagnostics;  ///< in the order of lines, at most 200
 };
 
-/// Reads a whole GSD file. `file` is the name used in diagnostics. Never throws on account of the content. Latin-1 text is
-/// turned into UTF-8.
+/// Reads a whole GSD file. `file` is the name used in diagnostics. Never throws on account of the content. Latin-1 text
+/// is turned into UTF-8.
 GsdResult parse_gsd(std::istream& in, const std::string& file);
 
 }  // namespace bus

@@ -29,8 +29,8 @@ GsdRange type_range(const GsdParameter& parameter) {
 }
 
 bool within(const std::vector<GsdRange>& ranges, std::int64_t value) {
-  return std::any_of(ranges.begin(), ranges.end(),
-                     [&](const GsdRange& r) { return value >= r.low && value <= r.high; });
+  return std::any_of(
+      ranges.begin(), ranges.end(), [&](const GsdRange& r) { return value >= r.low && value <= r.high; });
 }
 
 }  // namespace
@@ -57,9 +57,8 @@ void Parser::in_top(const Statement& statement) {
   const Keyword* keyword = find_keyword(statement.key);
   if (keyword == nullptr) {
     keyword = statement.equals ? guess_keyword(statement.key) : nullptr;
-    if (keyword != nullptr) {
+    if (keyword != nullptr)
       diagnostics_.warning(statement.line, fmt::format("{} is read as {}", statement.keyword, keyword->name));
-    }
   }
   if (keyword == nullptr) return keep(gsd.keywords, statement);
   if (!statement.equals) {
@@ -72,9 +71,8 @@ void Parser::in_top(const Statement& statement) {
 
 void Parser::read_keyword(const Keyword& keyword, const Statement& statement) {
   const std::string key = lower(keyword.name);
-  if (!settings.seen.insert(key).second) {
+  if (!settings.seen.insert(key).second)
     diagnostics_.warning(statement.line, fmt::format("{} is given again, the last value counts", keyword.name));
-  }
   Values values(statement, diagnostics_);
   if (keyword.kind == Kind::kNumber) {
     if (const auto value = values.number(keyword.low, keyword.high))
@@ -83,9 +81,8 @@ void Parser::read_keyword(const Keyword& keyword, const Statement& statement) {
       return;
   } else if (keyword.kind == Kind::kText) {
     settings.texts[key] = values.text();
-    if (static_cast<std::int64_t>(settings.texts[key].size()) > keyword.high) {
+    if (static_cast<std::int64_t>(settings.texts[key].size()) > keyword.high)
       diagnostics_.warning(statement.line, fmt::format("{} is longer than {} characters", keyword.name, keyword.high));
-    }
   } else if (keyword.kind == Kind::kBytes) {
     const auto bytes = values.bytes();
     if (bytes) settings.user_prm_data = GsdPrmConst{0, *bytes, statement.line};
@@ -179,9 +176,8 @@ bool Parser::begin_prm_text(const Statement& statement) {
   const auto value = number(statement, 0, kMaxNumber);
   if (!value) return false;
   prm_text_ = static_cast<int>(*value);
-  if (!gsd.prm_texts.emplace(prm_text_, std::map<std::int64_t, std::string>{}).second) {
+  if (!gsd.prm_texts.emplace(prm_text_, std::map<std::int64_t, std::string>{}).second)
     diagnostics_.warning(statement.line, fmt::format("PrmText {} is defined again, its texts are added", prm_text_));
-  }
   return true;
 }
 
@@ -268,9 +264,8 @@ void Parser::read_preset(const Statement& statement) {
     diagnostics_.warning(statement.line, fmt::format("{}-{} is more than {} holds, {} to {}", range.low, range.high,
                                                      statement.title(), whole.low, whole.high));
   }
-  if (!within(parameter_.allowed, *preset)) {
+  if (!within(parameter_.allowed, *preset))
     diagnostics_.warning(statement.line, fmt::format("the default {} is none of the allowed values", *preset));
-  }
 }
 
 void Parser::end_parameter() {

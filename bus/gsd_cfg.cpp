@@ -77,9 +77,7 @@ CfgLengths cfg_lengths(const Bytes& cfg) {
 std::string describe(const CfgIdentifier& identifier) {
   std::string text = identifier.empty() ? "empty slot" : "";
   if (identifier.input.count != 0) text = describe("input", identifier.input);
-  if (identifier.output.count != 0) {
-    text += (text.empty() ? "" : "; ") + describe("output", identifier.output);
-  }
+  if (identifier.output.count != 0) text += (text.empty() ? "" : "; ") + describe("output", identifier.output);
   if (!identifier.vendor.empty()) text += fmt::format("; {} vendor bytes", identifier.vendor.size());
   return text;
 }

@@ -32,8 +32,8 @@ struct CfgLengths {
   bool ok() const { return error.empty(); }
 };
 
-/// Decodes a configuration. An empty one is right and has the lengths 0. A special identifier whose vendor length is 15 has no
-/// vendor bytes behind it (EN 50170).
+/// Decodes a configuration. An empty one is right and has the lengths 0. A special identifier whose vendor length is 15
+/// has no vendor bytes behind it (EN 50170).
 CfgLengths cfg_lengths(const Bytes& cfg);
 
 /// An identifier in words: "input 4 bytes, consistent as a whole", "empty slot".

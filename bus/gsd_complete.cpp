@@ -93,7 +93,8 @@ class Completion {
     }
   }
 
-  /// User_Prm_Data counts only when no Ext_User_Prm_Data keyword is there: files carry both for old masters and new ones.
+  /// User_Prm_Data counts only when no Ext_User_Prm_Data keyword is there: files carry both for old masters and new
+  /// ones.
   void fill_old_user_prm() {
     const auto length = number("user_prm_data_len");
     const auto& data = settings_.user_prm_data;
@@ -110,12 +111,10 @@ class Completion {
   }
 
   void check_missing() {
-    if (settings_.seen.count("ident_number") == 0) {
+    if (settings_.seen.count("ident_number") == 0)
       diagnostics_.error(1, "Ident_Number is missing, Ident_Number = 0x0000 to 0xFFFF is needed");
-    }
-    for (const char* name : {"GSD_Revision", "Vendor_Name", "Model_Name"}) {
+    for (const char* name : {"GSD_Revision", "Vendor_Name", "Model_Name"})
       if (settings_.seen.count(lower(name)) == 0) diagnostics_.warning(0, fmt::format("{} is missing", name));
-    }
     if (gsd_.revision > 5) {
       diagnostics_.warning(
           0, fmt::format("GSD_Revision = {} is newer than 5, its new keywords are kept only", gsd_.revision));
@@ -166,9 +165,8 @@ class Completion {
     constexpr std::size_t kShown = 8;
     if (map.empty()) return fmt::format("no {} is defined", what);
     std::vector<int> numbers;
-    for (const auto& entry : map) {
+    for (const auto& entry : map)
       if (numbers.size() < kShown) numbers.push_back(entry.first);
-    }
     return fmt::format("{}{} {} defined", fmt::join(numbers, ", "), map.size() > kShown ? ", ..." : "",
                        map.size() == 1 ? "is" : "are");
   }
@@ -182,8 +180,8 @@ class Completion {
   }
 
   bool has_module(std::int64_t reference) const {
-    return std::any_of(gsd_.modules.begin(), gsd_.modules.end(),
-                       [&](const GsdModule& m) { return m.reference == reference; });
+    return std::any_of(
+        gsd_.modules.begin(), gsd_.modules.end(), [&](const GsdModule& m) { return m.reference == reference; });
   }
 
   void check_slots() {

@@ -1,5 +1,5 @@
-// What a GSD file is made of: 8-bit text, in practice ASCII, Latin-1, UTF-8 with or without a byte order mark, with the end
-// marks of old editors.
+// What a GSD file is made of: 8-bit text, in practice ASCII, Latin-1, UTF-8 with or without a byte order mark, with the
+// end marks of old editors.
 #include <fmt/format.h>
 
 #include <algorithm>

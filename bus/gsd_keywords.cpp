@@ -204,9 +204,8 @@ std::string mend(std::string_view name) {
   std::string key = lower(name);
   for (const Slip& slip : kSlips) {
     const bool family = slip.written.back() == '_';
-    if (family && key.compare(0, slip.written.size(), slip.written) == 0) {
+    if (family && key.compare(0, slip.written.size(), slip.written) == 0)
       return std::string(slip.meant) + key.substr(slip.written.size());
-    }
     if (!family && key == slip.written) return std::string(slip.meant);
   }
   return key;

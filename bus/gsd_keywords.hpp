@@ -1,6 +1,6 @@
 #pragma once
-// The keywords outside of blocks, their types and ranges (PROFIBUS GSD specification, revisions 1 to 5). Internal to the GSD
-// reader.
+// The keywords outside of blocks, their types and ranges (PROFIBUS GSD specification, revisions 1 to 5). Internal to
+// the GSD reader.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,7 +24,8 @@ struct Keyword {
 /// The keyword with this name, case ignored; nullptr when there is none.
 const Keyword* find_keyword(std::string_view name);
 
-/// What a misspelt name stands for: known slips of real files, underscores forgotten or added. nullptr when nothing fits.
+/// What a misspelt name stands for: known slips of real files, underscores forgotten or added. nullptr when nothing
+/// fits.
 const Keyword* guess_keyword(std::string_view name);
 
 /// Vendor and profile keywords (F_, X_, Unit_Diag...) that are kept without a remark.

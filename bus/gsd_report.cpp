@@ -64,9 +64,8 @@ class TextReport {
 
   void print_limits() {
     line("Limits");
-    for (const auto& [keyword, value] : limits(gsd_)) {
+    for (const auto& [keyword, value] : limits(gsd_))
       entry(keyword, fmt::format("{}{}", value, keyword == "Min_Slave_Intervall" ? " x 100 us" : ""));
-    }
     line("Features");
     for (const auto& [keyword, given] : features(gsd_)) entry(keyword, given ? "yes" : "no");
   }
@@ -95,9 +94,8 @@ class TextReport {
                            ? fmt::format("input {} bytes, output {} bytes", setup.lengths.input, setup.lengths.output)
                            : setup.lengths.error);
     entry("  Set_Prm with it alone", hex(set_prm_bytes(gsd_.ident, {}, setup.user_prm)));
-    for (const GsdPrmField& field : setup.fields) {
+    for (const GsdPrmField& field : setup.fields)
       if (field.module) entry("", fmt::format("byte {}: {}", 7 + field.position, gsd::describe(field)));
-    }
   }
 
   void print_setup(const GsdSetup& setup) {
@@ -106,9 +104,8 @@ class TextReport {
       return;
     }
     line("What a master sends to a station with");
-    for (std::size_t i = 0; i < setup.modules.size(); ++i) {
+    for (std::size_t i = 0; i < setup.modules.size(); ++i)
       entry(fmt::format("module {}", i + 1), fmt::format("\"{}\"", gsd_.modules[setup.modules[i]].name));
-    }
     const Bytes prm = set_prm_bytes(gsd_.ident, {}, setup.user_prm);
     print_telegram("Set_Prm (SAP 61)", prm, explain_set_prm(gsd_, prm, setup));
     print_telegram("Chk_Cfg (SAP 62)", setup.chk_cfg, explain_chk_cfg(setup.chk_cfg));
@@ -128,9 +125,8 @@ class TextReport {
   void print_remarks(const std::vector<GsdDiagnostic>& file, const std::vector<GsdDiagnostic>& setup) {
     if (file.empty() && setup.empty()) return;
     line("Warnings");
-    for (const auto* list : {&file, &setup}) {
+    for (const auto* list : {&file, &setup})
       for (const GsdDiagnostic& remark : *list) line("  " + to_string(remark));
-    }
   }
 
   const Gsd& gsd_;
@@ -148,9 +144,8 @@ void print_text(const Gsd& gsd, const GsdSetup& setup, const std::vector<GsdDiag
 namespace {
 
 int fail(const std::vector<GsdDiagnostic>& diagnostics, std::ostream& err) {
-  for (const GsdDiagnostic& diagnostic : diagnostics) {
+  for (const GsdDiagnostic& diagnostic : diagnostics)
     if (diagnostic.level == GsdDiagnostic::Level::kError) err << printable(to_string(diagnostic)) << '\n';
-  }
   return 2;
 }
 

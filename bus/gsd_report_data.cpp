@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kHead = 7;       // Set_Prm in front of the user parameters
 constexpr std::size_t kDpv1Bytes = 3;  // DPV1_Status_1..3, the first user parameters of a DPV1 slave
 
-/// User parameters whose meaning the standard knows: the first of a DPV1 slave, all three when DPV1_Enable is set in it.
+/// User parameters whose meaning the standard knows: the first of a DPV1 slave, all three when DPV1_Enable is set in
+/// it.
 std::size_t dpv1_bytes(const Gsd& gsd, const Bytes& set_prm) {
   if (!gsd.dpv1 || set_prm.size() == kHead) return 0;
   const bool enabled = (set_prm[kHead] & 0x80U) != 0;
@@ -52,9 +53,8 @@ std::vector<std::pair<std::string, int>> limits(const Gsd& gsd) {
       {"C1_Max_Data_Len", gsd.c1_max_data},      {"C2_Max_Data_Len", gsd.c2_max_data},
       {"C2_Max_Count_Channels", gsd.c2_channels}};
   std::vector<std::pair<std::string, int>> given;
-  for (const auto& [keyword, value] : all) {
+  for (const auto& [keyword, value] : all)
     if (value) given.emplace_back(keyword, *value);
-  }
   return given;
 }
 
@@ -77,9 +77,8 @@ std::vector<Explained> explain_set_prm(const Gsd& gsd, const Bytes& set_prm, con
   const std::size_t telegram_part = kHead + dpv1_bytes(gsd, set_prm);
   std::vector<Explained> lines;
   for (std::size_t i = 0; i < telegram_part; ++i) lines.push_back({i, 1, words[i]});
-  for (const GsdPrmField& field : setup.fields) {
+  for (const GsdPrmField& field : setup.fields)
     lines.push_back({kHead + field.position, field.size, explain_field(gsd, setup, field)});
-  }
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.position < b.position; });
   return lines;
 }

@@ -75,9 +75,8 @@ Json parameter(const GsdPrmField& field) {
 /// `module`: only the parameters of this position of the choice, nullopt those of the station.
 Json parameters(const GsdSetup& setup, std::optional<std::size_t> module) {
   Json list = Json::array();
-  for (const GsdPrmField& field : setup.fields) {
+  for (const GsdPrmField& field : setup.fields)
     if (field.module == module && field.parameter != nullptr) list.push_back(parameter(field));
-  }
   return list;
 }
 
@@ -114,9 +113,8 @@ Json slots(const Gsd& gsd) {
 
 Json telegram(const Bytes& data, const std::vector<Explained>& words) {
   Json explained = Json::array();
-  for (const Explained& part : words) {
+  for (const Explained& part : words)
     explained.push_back({{"position", part.position}, {"size", part.size}, {"text", part.words}});
-  }
   return {{"bytes", detail::hex(data)}, {"length", data.size()}, {"explained", explained}};
 }
 
@@ -135,9 +133,8 @@ Json selection(const Gsd& gsd, const GsdSetup& setup) {
 
 Json remarks_json(const std::vector<GsdDiagnostic>& file, const std::vector<GsdDiagnostic>& setup) {
   Json list = Json::array();
-  for (const auto* part : {&file, &setup}) {
+  for (const auto* part : {&file, &setup})
     for (const GsdDiagnostic& remark : *part) list.push_back({{"line", remark.line}, {"text", remark.text}});
-  }
   return list;
 }
 

@@ -17,21 +17,21 @@ constexpr std::size_t kMaxUserPrm = 237;
 using Modules = std::vector<std::size_t>;
 
 bool has_references(const Gsd& gsd) {
-  return std::any_of(gsd.modules.begin(), gsd.modules.end(),
-                     [](const GsdModule& m) { return m.reference.has_value(); });
+  return std::any_of(
+      gsd.modules.begin(), gsd.modules.end(), [](const GsdModule& m) { return m.reference.has_value(); });
 }
 
 template <typename Matches>
 Modules matching(const Gsd& gsd, const Matches& matches) {
   Modules found;
-  for (std::size_t i = 0; i < gsd.modules.size(); ++i) {
+  for (std::size_t i = 0; i < gsd.modules.size(); ++i)
     if (matches(i)) found.push_back(i);
-  }
   return found;
 }
 
 Modules with_reference(const Gsd& gsd, std::int64_t number) {
-  return matching(gsd, [&](std::size_t i) { return gsd.modules[i].reference == number; });
+  return matching(
+      gsd, [&](std::size_t i) { return gsd.modules[i].reference == number; });
 }
 
 Modules candidates(const Gsd& gsd, const std::string& name) {
@@ -49,9 +49,8 @@ Modules candidates(const Gsd& gsd, const std::string& name) {
 std::string some_modules(const Gsd& gsd) {
   constexpr std::size_t kShown = 6;
   std::string list;
-  for (std::size_t i = 0; i < std::min(kShown, gsd.modules.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kShown, gsd.modules.size()); ++i)
     list += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", gsd.modules[i].name);
-  }
   return gsd.modules.size() > kShown ? list + ", ..." : list;
 }
 
@@ -68,9 +67,8 @@ class PrmBuilder {
       std::copy(constant.bytes.begin(), constant.bytes.end(), result_.bytes.begin() + static_cast<std::ptrdiff_t>(at));
       result_.fields.push_back({at, constant.bytes.size(), module, nullptr, 0, {}});
     }
-    for (const GsdPrmRef& ref : block.refs) {
+    for (const GsdPrmRef& ref : block.refs)
       add_parameter(gsd_.parameters.at(ref.parameter), base + static_cast<std::size_t>(ref.offset), module);
-    }
   }
 
   GsdUserPrm finish() {
@@ -112,9 +110,8 @@ class PrmBuilder {
 
   std::optional<std::int64_t> value_of(const GsdOverride& change, const GsdParameter& parameter) const {
     if (const auto* list = texts(parameter)) {
-      for (const auto& [value, words] : *list) {
+      for (const auto& [value, words] : *list)
         if (words == change.value) return value;
-      }
     }
     return gsd::to_number(change.value);
   }
@@ -163,9 +160,8 @@ class PrmBuilder {
 
   std::string offered(std::optional<std::size_t> module) const {
     std::string list;
-    for (const GsdPrmField& field : result_.fields) {
+    for (const GsdPrmField& field : result_.fields)
       if (field.parameter != nullptr && field.module == module) list += fmt::format(", \"{}\"", field.parameter->name);
-    }
     return list.empty() ? ", it has none" : fmt::format(", it has {}", list.substr(2));
   }
 
@@ -206,9 +202,8 @@ class Limits {
 
   void check_slots() {
     if (gsd_.slots.empty()) return;
-    if (setup_.modules.size() > gsd_.slots.size()) {
+    if (setup_.modules.size() > gsd_.slots.size())
       error(fmt::format("{} modules are chosen, the station has {} slots", setup_.modules.size(), gsd_.slots.size()));
-    }
     for (std::size_t i = 0; i < std::min(setup_.modules.size(), gsd_.slots.size()); ++i)
       check_slot(gsd_.slots[i], setup_.modules[i]);
   }
@@ -281,8 +276,8 @@ Modules chosen_modules(const Gsd& gsd, const std::vector<std::string>& names, st
 }  // namespace
 
 bool GsdSetup::ok() const {
-  return std::none_of(diagnostics.begin(), diagnostics.end(),
-                      [](const auto& d) { return d.level == GsdDiagnostic::Level::kError; });
+  return std::none_of(
+      diagnostics.begin(), diagnostics.end(), [](const auto& d) { return d.level == GsdDiagnostic::Level::kError; });
 }
 
 Modules preset_modules(const Gsd& gsd) {
@@ -314,9 +309,8 @@ std::size_t prm_length(const Gsd& gsd, const GsdPrmBlock& block) {
   std::size_t end = 0;
   for (const GsdPrmConst& constant : block.constants)
     end = std::max(end, static_cast<std::size_t>(constant.offset) + constant.bytes.size());
-  for (const GsdPrmRef& ref : block.refs) {
+  for (const GsdPrmRef& ref : block.refs)
     end = std::max(end, static_cast<std::size_t>(ref.offset + size_of(gsd.parameters.at(ref.parameter).type)));
-  }
   return end;
 }
 

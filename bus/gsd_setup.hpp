@@ -1,5 +1,6 @@
 #pragma once
-// From a GSD file and a choice of modules to what a class-1 master sends: Set_Prm, Chk_Cfg, the lengths of the data exchange.
+// From a GSD file and a choice of modules to what a class-1 master sends: Set_Prm, Chk_Cfg, the lengths of the data
+// exchange.
 //
 //   GsdSetup setup = set_up(gsd, {{"8 bytes in", "3"}, {}});
 //   if (!setup.ok()) ...                                     // setup.diagnostics says why
@@ -24,8 +25,8 @@ struct GsdOverride {
   std::string value;                  ///< a number, or a text of its PrmText
 };
 
-/// Modules by name or number, in the order of their slots. The number is the module reference number, in files without them the
-/// position in the file, 1... Empty: the modules that the file presets.
+/// Modules by name or number, in the order of their slots. The number is the module reference number, in files without
+/// them the position in the file, 1... Empty: the modules that the file presets.
 struct GsdChoice {
   std::vector<std::string> modules;
   std::vector<GsdOverride> overrides;
@@ -66,12 +67,12 @@ struct SetPrmHead {
   std::uint8_t group = 0;
 };
 
-/// The modules that a master takes without being told: the presets of the slots, else of the modules, else the only module of a
-/// fixed station.
+/// The modules that a master takes without being told: the presets of the slots, else of the modules, else the only
+/// module of a fixed station.
 std::vector<std::size_t> preset_modules(const Gsd& gsd);
 
-/// The module that `name` means (see GsdChoice); spaces at the ends and case do not count unless several names differ only in
-/// them. nullopt with the reason in `why` when there is none or several.
+/// The module that `name` means (see GsdChoice); spaces at the ends and case do not count unless several names differ
+/// only in them. nullopt with the reason in `why` when there is none or several.
 std::optional<std::size_t> find_module(const Gsd& gsd, const std::string& name, std::string& why);
 
 /// Bytes that a block of parameters occupies: its length, where the file gives none the end of its last byte.
@@ -87,13 +88,13 @@ Bytes chk_cfg_bytes(const Gsd& gsd, const std::vector<std::size_t>& modules);
 /// A whole Set_Prm: 7 bytes and the user parameters.
 Bytes set_prm_bytes(std::uint16_t ident, const SetPrmHead& head, const Bytes& user_prm);
 
-/// Asks a slave for DPV1: DPV1_Enable in its Set_Prm (three bytes more, table 25) and the time that C1 waits for answers, as the file says.
-/// Returns why the file does not allow it (then nothing is changed), empty when all is well.
+/// Asks a slave for DPV1: DPV1_Enable in its Set_Prm (three bytes more, table 25) and the time that C1 waits for
+/// answers, as the file says. Returns why the file does not allow it (then nothing is changed), empty when all is well.
 std::string enable_dpv1(const Gsd& gsd, SlaveParameters& parameters);
 
-/// Everything together, with the limits of the file and of the protocol checked: modules allowed in their slots, their number
-/// (Max_Module, 1 in a fixed station without it), Max_Input_Len, Max_Output_Len, Max_Data_Len, 244 bytes of Chk_Cfg, 237 of
-/// user parameters.
+/// Everything together, with the limits of the file and of the protocol checked: modules allowed in their slots, their
+/// number (Max_Module, 1 in a fixed station without it), Max_Input_Len, Max_Output_Len, Max_Data_Len, 244 bytes of
+/// Chk_Cfg, 237 of user parameters.
 GsdSetup set_up(const Gsd& gsd, const GsdChoice& choice);
 
 }  // namespace bus

@@ -26,8 +26,8 @@ Statement split_statement(const Line& line);
 /// A whole number in decimal, hexadecimal (0x) or binary (0b) with an optional sign; nothing else may be in `text`.
 std::optional<std::int64_t> to_number(std::string_view text);
 
-/// Reads the values of one statement from left to right. A failed read reports one error at the statement's line, after which
-/// the rest of the statement must be left alone.
+/// Reads the values of one statement from left to right. A failed read reports one error at the statement's line, after
+/// which the rest of the statement must be left alone.
 class Values {
  public:
   Values(const Statement& statement, Diagnostics& diagnostics)

@@ -114,7 +114,8 @@ class Splitter {
 
 bool begins_module(const std::string& text) { return lower(text.substr(0, 6)) == "module"; }
 
-/// A single number behind a Module whose list ends with a comma is its reference number, unless one follows that as well.
+/// A single number behind a Module whose list ends with a comma is its reference number, unless one follows that as
+/// well.
 bool is_reference_number(const std::string& before, const std::vector<Line>& lines, std::size_t at) {
   const bool single = lines[at].text.find(',') == std::string::npos;
   const bool another = at + 1 < lines.size() && is_number_list(lines[at + 1].text);

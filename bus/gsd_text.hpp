@@ -1,6 +1,6 @@
 #pragma once
-// From the bytes of a GSD file to logical lines: encoding, comments, continuation, values wrapped over lines. Internal to
-// the GSD reader.
+// From the bytes of a GSD file to logical lines: encoding, comments, continuation, values wrapped over lines. Internal
+// to the GSD reader.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,8 +37,8 @@ std::string lower(std::string_view text);
 /// "UTF-8 text of the whole file"; reports bytes that no text file has. Empty when it is no text.
 std::string decode(std::string bytes, Diagnostics& diagnostics);
 
-/// Splits decoded text into logical lines. Reports unclosed strings (error) and the habits that the standard does not know
-/// (warning): `//` comments, values on the line behind a '=' or a comma.
+/// Splits decoded text into logical lines. Reports unclosed strings (error) and the habits that the standard does not
+/// know (warning): `//` comments, values on the line behind a '=' or a comma.
 std::vector<Line> logical_lines(const std::string& text, Diagnostics& diagnostics);
 
 /// True for a text of numbers and commas only, as a wrapped list and a module reference number are.

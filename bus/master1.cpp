@@ -20,9 +20,8 @@ bool is_high(const FdlRequest& request) {
 
 Master1::Master1(Segment& segment, const MasterConfig& config)
     : config_(config), fdl_(segment, config.name, config.address, config.bus), baud_(config.baud) {
-  if (config.address >= kHighestAddress) {
+  if (config.address >= kHighestAddress)
     throw std::invalid_argument(fmt::format("master address {}, allowed are 0 to 125", config.address));
-  }
   if (config.bus.ring) ring_ = std::make_unique<TokenRing>(fdl_, config.address, config.bus);
   if (ring_) ring_->set_baud(config.baud);
   fdl_.set_baud(config.baud);
@@ -30,9 +29,8 @@ Master1::Master1(Segment& segment, const MasterConfig& config)
 }
 
 void Master1::add_slave(const SlaveParameters& parameters) {
-  if (has_slave(parameters.address) || parameters.address == config_.address) {
+  if (has_slave(parameters.address) || parameters.address == config_.address)
     throw std::invalid_argument(fmt::format("address {} is used twice", parameters.address));
-  }
   const std::uint8_t address = parameters.address;
   auto slave = std::make_unique<Slave>(
       Slave{SlaveHandler(parameters, config_.address, config_.personality),

@@ -1,11 +1,12 @@
 #pragma once
-// A DP master class 1: brings up its slaves, exchanges data cyclically, answers commands of the bench. Layers: master_fdl (one request
-// with its repetitions), master_slave and master_c1 (one slave), token_ring (several masters), and here the order of things: commands,
-// slaves, acyclic telegrams, poll slot, token.
+// A DP master class 1: brings up its slaves, exchanges data cyclically, answers commands of the bench. Layers:
+// master_fdl (one request with its repetitions), master_slave and master_c1 (one slave), token_ring (several masters),
+// and here the order of things: commands, slaves, acyclic telegrams, poll slot, token.
 //
-// With BusParameters::ring the master shares the token: it goes on with its cycle at each token as far as the time to hold it allows (the
-// cyclic exchange counts as high priority, acyclic telegrams and the poll slot as low), passes it on when a cycle is over, and leaves the
-// search for new stations to the ring's GAP. Without, it is alone and passes the token to itself.
+// With BusParameters::ring the master shares the token: it goes on with its cycle at each token as far as the time to
+// hold it allows (the cyclic exchange counts as high priority, acyclic telegrams and the poll slot as low), passes it
+// on when a cycle is over, and leaves the search for new stations to the ring's GAP. Without, it is alone and passes
+// the token to itself.
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -54,14 +55,14 @@ class Master1 : public Agent {
   void add_slave(const SlaveParameters& parameters);
 
   // --- Operation. Everything takes effect between two requests, at the timeline's present time at the earliest.
-  /// Listens for the timeout T_TO = (6 + 2 x address) x T_SL, claims the token, begins; in a ring that runs already it waits to be let in.
-  /// All slaves are brought up anew.
+  /// Listens for the timeout T_TO = (6 + 2 x address) x T_SL, claims the token, begins; in a ring that runs already it
+  /// waits to be let in. All slaves are brought up anew.
   void start();
   /// Falls silent at once, also inside a telegram: a dead master.
   void stop();
   bool running() const { return running_; }
-  /// Operate is the mode after construction. Clear: empty outputs for fail-safe slaves, zeros for the others; both are announced
-  /// by Global_Control to all.
+  /// Operate is the mode after construction. Clear: empty outputs for fail-safe slaves, zeros for the others; both are
+  /// announced by Global_Control to all.
   void operate() { set_mode(false); }
   void clear() { set_mode(true); }
   bool clearing() const { return clear_; }
@@ -96,9 +97,10 @@ class Master1 : public Agent {
   /// Any bytes, with faults, once. The series (FCB) of the station addressed starts anew behind it.
   void send_raw(const Bytes& bytes, const WireFaults& faults = {}, bool wants_answer = true, AnswerCallback done = {});
 
-  // --- Acyclic, class 1 (MSAC_C1). Queued for the slave, `address` as above; carried out while it is in data exchange: after each pass of
-  // the cyclic exchange every slave gets at most one acyclic telegram, the request or one poll, so that a cycle grows by one short
-  // message a slave at most and a poll comes once a cycle. The time for an answer is SlaveParameters::c1_response_timeout.
+  // --- Acyclic, class 1 (MSAC_C1). Queued for the slave, `address` as above; carried out while it is in data exchange:
+  // after each pass of the cyclic exchange every slave gets at most one acyclic telegram, the request or one poll, so
+  // that a cycle grows by one short message a slave at most and a poll comes once a cycle. The time for an answer is
+  // SlaveParameters::c1_response_timeout.
   /// DS_Read of `length` bytes. Reads and writes are sent also to a slave not parameterised for DPV1, to see it refuse.
   void c1_read(std::uint8_t address, std::uint8_t slot, std::uint8_t index, std::uint8_t length,
                AcyclicCallback done = {});

@@ -10,9 +10,8 @@ namespace bus {
 
 Master2::Master2(Segment& segment, const MasterConfig& config)
     : config_(config), fdl_(segment, config.name, config.address, config.bus), ring_(fdl_, config.address, config.bus) {
-  if (config.address >= kHighestAddress) {
+  if (config.address >= kHighestAddress)
     throw std::invalid_argument(fmt::format("master address {}, allowed are 0 to 125", config.address));
-  }
   fdl_.set_baud(config.baud);
   ring_.set_baud(config.baud);
   fdl_.on_done = [this](const FdlResult& result) { finished(result); };
@@ -28,7 +27,7 @@ void Master2::change_baud(int index) {
   new_baud_ = index;
 }
 
-// --- connections --------------------------------------------------------------------------------------------------------
+// --- connections -----------------------------------------------------------------------------------------------------
 
 ConnectionId Master2::add_connection(const ConnectionParameters& parameters) {
   const ConnectionId id = connections_.size();
@@ -57,13 +56,15 @@ void Master2::transport(ConnectionId id, std::uint8_t slot, std::uint8_t index, 
 }
 
 void Master2::request(ConnectionId id, const AcyclicRequest& request, AcyclicCallback done) {
-  connections_.at(id)->push(now_, request, [this, id, done = std::move(done)](const AcyclicResult& result) {
-    if (done) done(result);
-    if (on_acyclic) on_acyclic(now_, id, result);
-  });
+  connections_.at(id)->push(
+      now_, request,
+      [this, id, done = std::move(done)](const AcyclicResult& result) {
+        if (done) done(result);
+        if (on_acyclic) on_acyclic(now_, id, result);
+      });
 }
 
-// --- the order of things ------------------------------------------------------------------------------------------------
+// --- the order of things ---------------------------------------------------------------------------------------------
 
 Tick Master2::next() const {
   if (stop_requested_ || (start_requested_ && !running_)) return now_;

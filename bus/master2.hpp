@@ -1,7 +1,7 @@
 #pragma once
-// A DP master class 2: any number of acyclic connections (MSAC_C2), beside class-1 masters on the same segment. Takes part in the token
-// ring always. At each token every connection may send one telegram (low priority), the one that waited longest first, as long as the
-// time to hold the token lasts.
+// A DP master class 2: any number of acyclic connections (MSAC_C2), beside class-1 masters on the same segment. Takes
+// part in the token ring always. At each token every connection may send one telegram (low priority), the one that
+// waited longest first, as long as the time to hold the token lasts.
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -21,8 +21,8 @@ using ConnectionId = std::size_t;  ///< 0, 1, ... in the order of `add_connectio
 
 class Master2 : public Agent {
  public:
-  /// Attaches to the segment, which must outlive it; add it to the timeline. Silent until `start`. `config.personality` and
-  /// `config.bus.ring` are not looked at. Throws std::invalid_argument for an address above 125.
+  /// Attaches to the segment, which must outlive it; add it to the timeline. Silent until `start`. `config.personality`
+  /// and `config.bus.ring` are not looked at. Throws std::invalid_argument for an address above 125.
   Master2(Segment& segment, const MasterConfig& config);
   Master2(const Master2&) = delete;
   Master2& operator=(const Master2&) = delete;
@@ -43,8 +43,8 @@ class Master2 : public Agent {
   const Connection& connection(ConnectionId id) const { return *connections_.at(id); }
   /// Initiate. Nothing happens unless it is closed.
   void connect(ConnectionId id) { connections_.at(id)->open(); }
-  /// DS_Read, DS_Write, DS_Transport: one after the other in each connection. Throw std::logic_error when it is closed, std::invalid_argument
-  /// for more than 240 bytes of data.
+  /// DS_Read, DS_Write, DS_Transport: one after the other in each connection. Throw std::logic_error when it is closed,
+  /// std::invalid_argument for more than 240 bytes of data.
   void read(ConnectionId id, std::uint8_t slot, std::uint8_t index, std::uint8_t length, AcyclicCallback done = {});
   void write(ConnectionId id, std::uint8_t slot, std::uint8_t index, const Bytes& data, AcyclicCallback done = {});
   void transport(ConnectionId id, std::uint8_t slot, std::uint8_t index, const Bytes& data, AcyclicCallback done = {});

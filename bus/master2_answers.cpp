@@ -46,7 +46,7 @@ void Connection::go(ConnectionState state) {
   if (on_state) on_state(from, state);
 }
 
-// --- ends ---------------------------------------------------------------------------------------------------------------
+// --- ends ------------------------------------------------------------------------------------------------------------
 
 void Connection::end(Tick now, const ConnectionEnd& how) {
   std::deque<AcyclicOperation> lost = std::exchange(operations_, {});
@@ -107,7 +107,7 @@ void Connection::finish_operation(Tick now, AcyclicOutcome outcome) {
   operation.finish(now, outcome);
 }
 
-// --- answers ------------------------------------------------------------------------------------------------------------
+// --- answers ---------------------------------------------------------------------------------------------------------
 
 void Connection::done(Tick now, const FdlResult& result) {
   if (result.outcome == FdlOutcome::kAborted) return;

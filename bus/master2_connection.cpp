@@ -61,7 +61,7 @@ Tick Connection::response_timeout() const {
   return (units != 0 ? units : 2 * int{parameters_.send_timeout}) * kTimeUnit10ms;
 }
 
-// --- what the user of the master wants ----------------------------------------------------------------------------------
+// --- what the user of the master wants -------------------------------------------------------------------------------
 
 void Connection::open() {
   if (state_ != ConnectionState::kClosed) return;
@@ -84,7 +84,7 @@ void Connection::abort(Tick now, const AbortReason& reason) {
   go(ConnectionState::kAborting);
 }
 
-// --- which telegram -----------------------------------------------------------------------------------------------------
+// --- which telegram --------------------------------------------------------------------------------------------------
 
 bool Connection::due(Tick now) {
   if (!raw_.empty()) return true;

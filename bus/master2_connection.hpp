@@ -1,6 +1,6 @@
 #pragma once
-// MSAC_C2 of a class-2 master: one connection to one slave (7.3, rulings V2, V3, V10, V11). No I/O; the master station asks for the next
-// telegram whenever it may send one.
+// MSAC_C2 of a class-2 master: one connection to one slave (7.3, rulings V2, V3, V10, V11). No I/O; the master station
+// asks for the next telegram whenever it may send one.
 //
 //   CLOSED -- Initiate --> INITIATING --(56)--> CONNECTING --(57)--> OPEN <--answer-- BUSY
 //                             | RS                | D7, 58            | --request, Idle--> |
@@ -88,8 +88,8 @@ struct AbortReason {
   std::uint8_t code() const { return static_cast<std::uint8_t>((instance << 4) | (reason & 0x0FU)); }
 };
 
-/// A PDU sent as it is, at the next chance and whatever the state: a request while one is open, a wrong SSAP, nonsense. Its answer
-/// changes nothing but when it is the slave's abort.
+/// A PDU sent as it is, at the next chance and whatever the state: a request while one is open, a wrong SSAP, nonsense.
+/// Its answer changes nothing but when it is the slave's abort.
 struct RawAcyclic {
   Bytes pdu = {};                         ///< empty: a poll
   std::optional<std::uint8_t> dsap = {};  ///< without: the channel's SAP, 49 when there is none

@@ -29,21 +29,20 @@ void Master1::set_mode(bool clear) {
 }
 
 bool Master1::has_slave(std::uint8_t address) const {
-  return std::any_of(slaves_.begin(), slaves_.end(),
-                     [&](const auto& slave) { return slave->handler.parameters().address == address; });
+  return std::any_of(
+      slaves_.begin(), slaves_.end(),
+      [&](const auto& slave) { return slave->handler.parameters().address == address; });
 }
 
 Master1::Slave& Master1::slave_at(std::uint8_t address) {
-  for (const auto& slave : slaves_) {
+  for (const auto& slave : slaves_)
     if (slave->handler.parameters().address == address) return *slave;
-  }
   throw std::out_of_range(fmt::format("no slave with address {}", address));
 }
 
 const Master1::Slave& Master1::slave_at(std::uint8_t address) const {
-  for (const auto& slave : slaves_) {
+  for (const auto& slave : slaves_)
     if (slave->handler.parameters().address == address) return *slave;
-  }
   throw std::out_of_range(fmt::format("no slave with address {}", address));
 }
 
@@ -128,10 +127,12 @@ void Master1::c1_write(std::uint8_t address, std::uint8_t slot, std::uint8_t ind
 }
 
 void Master1::c1_request(std::uint8_t address, const AcyclicRequest& request, AcyclicCallback done) {
-  slave_at(address).c1.push(now_, request, [this, address, done = std::move(done)](const AcyclicResult& result) {
-    if (done) done(result);
-    if (on_acyclic) on_acyclic(now_, address, result);
-  });
+  slave_at(address).c1.push(
+      now_, request,
+      [this, address, done = std::move(done)](const AcyclicResult& result) {
+        if (done) done(result);
+        if (on_acyclic) on_acyclic(now_, address, result);
+      });
 }
 
 std::size_t Master1::c1_open(std::uint8_t address) const { return slave_at(address).c1.open(); }

@@ -65,7 +65,8 @@ class MasterFdl : public Listener {
   void abort(Tick now);
   /// The next request to `address` starts a new series (FCB = 1, FCV = 0).
   void restart_series(std::uint8_t address) { series_.at(address) = {}; }
-  /// An answer of this station to a request that ended at `request_end`, sent min_TSDR later. Only while idle; no on_done.
+  /// An answer of this station to a request that ended at `request_end`, sent min_TSDR later. Only while idle; no
+  /// on_done.
   void respond(Tick request_end, const Telegram& answer);
   /// No request starts before `at`.
   void not_before(Tick at) { ready_at_ = std::max(ready_at_, at); }
@@ -78,8 +79,8 @@ class MasterFdl : public Listener {
 
   /// Called once for every `start`; the layer is idle again by then.
   std::function<void(const FdlResult&)> on_done;
-  /// Telegrams of others that are no answers to this station. With it set, a request or a token of another master that comes instead of
-  /// the answer ends the request with kAborted: two masters have the token.
+  /// Telegrams of others that are no answers to this station. With it set, a request or a token of another master that
+  /// comes instead of the answer ends the request with kAborted: two masters have the token.
   std::function<void(const HeardTelegram&)> on_heard;
 
  private:

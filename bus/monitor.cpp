@@ -111,9 +111,8 @@ void Monitor::begin_telegram(const ReceivedCharacter& first) {
 void Monitor::check_character(const ReceivedCharacter& received) {
   if (decoder_.begun()) {
     const Tick gap = received.start - *last_end_;
-    if (gap * kMillibits > gap_tolerance_ * bit_) {
+    if (gap * kMillibits > gap_tolerance_ * bit_)
       flag(FlagKind::kGap, received.start, fmt::format("{} before byte {}", in_bits(gap), decoder_.bytes().size()));
-    }
   }
   if (received.ok()) return;
   current_.character_errors = true;
@@ -139,11 +138,10 @@ void Monitor::classify(WireTelegram& telegram) {
     pending_.reset();  // answered, though wrongly
     return;
   }
-  if (telegram.decoded.telegram.is_response()) {
+  if (telegram.decoded.telegram.is_response())
     answer(telegram);
-  } else {
+  else
     request(telegram);
-  }
 }
 
 void Monitor::request(const WireTelegram& wire) {
@@ -235,11 +233,10 @@ std::string Monitor::in_bits(Tick ticks) const {
 std::string format_line(const WireTelegram& telegram) {
   std::string line = fmt::format("{:>16} ns  {:>6}  ", nanoseconds(telegram.start), baud(telegram.baud).name);
   if (telegram.tsdr) line += fmt::format("TSDR {:.2f} ({} ns)  ", telegram.tsdr_bits(), nanoseconds(*telegram.tsdr));
-  if (telegram.decoded.error == DecodeError::kNone) {
+  if (telegram.decoded.error == DecodeError::kNone)
     line += explain_line(telegram.decoded.telegram);
-  } else {
+  else
     line += fmt::format("wrong telegram, {}:{}", describe(telegram.decoded.error), hex(telegram.decoded.bytes));
-  }
   return telegram.character_errors ? line + "  (with character errors)" : line;
 }
 

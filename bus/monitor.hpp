@@ -79,8 +79,8 @@ struct TsdrLimits {
 
 class Monitor : public Listener, public Agent {
  public:
-  /// Attaches to the segment and hears of its collisions (an on_collision set before is called as well). The segment, the
-  /// monitor and the timeline it is added to must live equally long.
+  /// Attaches to the segment and hears of its collisions (an on_collision set before is called as well). The segment,
+  /// the monitor and the timeline it is added to must live equally long.
   explicit Monitor(Segment& segment);
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
@@ -151,7 +151,8 @@ class Monitor : public Listener, public Agent {
   MonitorStatistics statistics_;
 };
 
-/// One line for a log: start time in ns, baud rate, TSDR, the telegram in words, or what is wrong with it and its bytes.
+/// One line for a log: start time in ns, baud rate, TSDR, the telegram in words, or what is wrong with it and its
+/// bytes.
 std::string format_line(const WireTelegram& telegram);
 std::string format_line(const Flag& flag);
 

@@ -55,12 +55,11 @@ std::size_t add(std::string_view text, std::size_t at, std::string& result) {
 std::string made_printable(std::string_view text, std::string_view kept) {
   std::string result;
   result.reserve(text.size());
-  for (std::size_t at = 0; at < text.size();) {
+  for (std::size_t at = 0; at < text.size();)
     if (kept.find(text[at]) != std::string_view::npos)
       result += text[at++];
     else
       at += add(text, at, result);
-  }
   return result;
 }
 

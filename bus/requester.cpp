@@ -8,7 +8,8 @@ namespace bus {
 
 bool Exchange::answered() const {
   return decoded.error == DecodeError::kNone &&
-         std::all_of(characters.begin(), characters.end(), [](const ReceivedCharacter& c) { return c.ok(); });
+         std::all_of(
+             characters.begin(), characters.end(), [](const ReceivedCharacter& c) { return c.ok(); });
 }
 
 Requester::Requester(Segment& segment, const std::string& name)

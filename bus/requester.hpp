@@ -1,5 +1,6 @@
 #pragma once
-// A scripted requester for conformance tests: sends any bytes at an exact time and reports what comes back, character by character.
+// A scripted requester for conformance tests: sends any bytes at an exact time and reports what comes back, character
+// by character.
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,8 +54,8 @@ class Requester : public Listener, public Agent {
   /// End of the last character sent or heard.
   Tick last_activity() const { return last_activity_; }
 
-  /// Sends, then runs the timeline until the answer is complete (or broke off: T_SYN of silence) or the slot time has elapsed.
-  /// Throws std::invalid_argument when `options.at` is in the past.
+  /// Sends, then runs the timeline until the answer is complete (or broke off: T_SYN of silence) or the slot time has
+  /// elapsed. Throws std::invalid_argument when `options.at` is in the past.
   Exchange send(Timeline& timeline, const Bytes& bytes, const ExchangeOptions& options = {});
   Exchange send(Timeline& timeline, const Telegram& telegram, const ExchangeOptions& options = {});
   /// Raw bit patterns; `options.faults` are not applied.

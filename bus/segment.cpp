@@ -39,9 +39,8 @@ bool Segment::level_at(StationId station) const { return !stations_.at(station).
 
 bool Segment::driven_level() const {
   if (forced_) return *forced_;
-  for (const Station& station : stations_) {
+  for (const Station& station : stations_)
     if (on_wire(station) && !station.drives) return false;
-  }
   return true;
 }
 
@@ -68,9 +67,8 @@ bool Segment::tell_changes(Tick at) {
 
 void Segment::report_collision(Tick at, StationId newcomer) {
   if (!on_collision) return;
-  for (StationId i = 0; i < stations_.size(); ++i) {
+  for (StationId i = 0; i < stations_.size(); ++i)
     if (i != newcomer && on_wire(stations_[i])) on_collision({at, stations_[i].name, stations_[newcomer].name});
-  }
 }
 
 }  // namespace bus

@@ -1,6 +1,6 @@
 #pragma once
-// The RS-485 segment: one pair of wires, any number of stations. Idle level is high (EN 50170: binary 1); two drivers enabled
-// at once are a collision, also while they drive the same level.
+// The RS-485 segment: one pair of wires, any number of stations. Idle level is high (EN 50170: binary 1); two drivers
+// enabled at once are a collision, also while they drive the same level.
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -11,7 +11,8 @@
 
 namespace bus {
 
-/// Hears the line. Called at the tick of the change, in the order of attachment; the new level is already that of the segment.
+/// Hears the line. Called at the tick of the change, in the order of attachment; the new level is already that of the
+/// segment.
 class Listener {
  public:
   virtual ~Listener() = default;

@@ -1,5 +1,6 @@
 #pragma once
-// What a class-1 master knows of its bus and of one slave: plain data. The bench makes it from a GSD file; a test writes it down.
+// What a class-1 master knows of its bus and of one slave: plain data. The bench makes it from a GSD file; a test
+// writes it down.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -44,17 +45,18 @@ struct BusParameters {
   std::optional<int> set_bits = {};     ///< T_SET
   std::optional<int> quiet_bits = {};   ///< T_QUI
   std::optional<int> max_retries = {};  ///< repetitions of an unanswered request; 1, at 3/6/12 Mbit/s 2/3/4
-  /// One FDL status poll for the live list every so many cycles; 0 = none. In a ring G: the GAP is looked through, one address a token,
-  /// and again G x T_TR after the end of that.
+  /// One FDL status poll for the live list every so many cycles; 0 = none. In a ring G: the GAP is looked through, one
+  /// address a token, and again G x T_TR after the end of that.
   int gap_factor = 10;
   std::uint8_t highest_address = 126;  ///< HSA: last address of the live list
   /// Least time between the starts of two cycles; not set: the greatest of the master's slaves.
   std::optional<std::int64_t> min_slave_interval_us = {};
   bool token = true;  ///< passes the token to itself after each cycle, as a single master does
-  /// Takes part in a ring of several masters: learns the active stations, waits to be polled in the GAP, shares the token. false: a
-  /// single master, which passes the token to itself after each cycle (`token`).
+  /// Takes part in a ring of several masters: learns the active stations, waits to be polled in the GAP, shares the
+  /// token. false: a single master, which passes the token to itself after each cycle (`token`).
   bool ring = false;
-  /// T_TR: the token should come round within so many bit times; a ring only. What is left of it is the time to hold the token.
+  /// T_TR: the token should come round within so many bit times; a ring only. What is left of it is the time to hold
+  /// the token.
   int target_rotation_bits = kTargetRotationBits;
   std::int64_t clock_ppm = 0;  ///< error of the sender's clock; positive = slow
 

@@ -1,5 +1,6 @@
 #pragma once
-// Telegrams of the data link layer (EN 50170 / IEC 61158-4 type 3) as types, their encoding and their decoding with exact reasons.
+// Telegrams of the data link layer (EN 50170 / IEC 61158-4 type 3) as types, their encoding and their decoding with
+// exact reasons.
 #include <cstdint>
 #include <optional>
 
@@ -97,8 +98,8 @@ struct Decoded {
 /// Takes the bytes of one telegram after the other.
 class TelegramDecoder {
  public:
-  /// A result when `byte` completes a telegram or makes it wrong. Length errors show as soon as the byte is there; FCS, ED and
-  /// SAPs are judged when the telegram is complete, in this order.
+  /// A result when `byte` completes a telegram or makes it wrong. Length errors show as soon as the byte is there; FCS,
+  /// ED and SAPs are judged when the telegram is complete, in this order.
   std::optional<Decoded> feed(std::uint8_t byte);
   /// The end of the input or an idle line: kTruncated when a telegram was begun.
   std::optional<Decoded> finish();

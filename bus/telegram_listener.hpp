@@ -19,8 +19,8 @@ class TelegramListener {
   void set_bit(Tick bit);
   /// Forgets a telegram begun.
   void reset();
-  /// A result when the character completes a right telegram. Behind a wrong one, or a wrong character, nothing counts until the line
-  /// was idle for T_SYN.
+  /// A result when the character completes a right telegram. Behind a wrong one, or a wrong character, nothing counts
+  /// until the line was idle for T_SYN.
   std::optional<HeardTelegram> feed(const ReceivedCharacter& received);
 
  private:

@@ -12,7 +12,8 @@
 namespace bus {
 namespace {
 
-// What a stream may make us keep: `decode` tells nothing before it has read all. 64 MB are 48 s of a full bus at 12 Mbit/s.
+// What a stream may make us keep: `decode` tells nothing before it has read all. 64 MB are 48 s of a full bus at 12
+// Mbit/s.
 constexpr std::size_t kLongestLine = 16U << 20U, kMostBytes = 64U << 20U;
 
 bool is_separator(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0 || c == ','; }
@@ -27,11 +28,9 @@ std::string shortened(const std::string& word) {
 std::string add_word(std::string word, int line, TelegramText& text) {
   const std::string shown = shortened(word);
   if (word.size() > 2 && word[0] == '0' && (word[1] == 'x' || word[1] == 'X')) word.erase(0, 2);
-  for (const char c : word) {
-    if (std::isxdigit(static_cast<unsigned char>(c)) == 0) {
+  for (const char c : word)
+    if (std::isxdigit(static_cast<unsigned char>(c)) == 0)
       return fmt::format("'{}' is no hexadecimal number, allowed are bytes of two digits 00 to FF", shown);
-    }
-  }
   if (word.size() % 2 != 0) return fmt::format("'{}' has an odd number of digits, a byte has two: 00 to FF", shown);
   for (std::size_t i = 0; i < word.size(); i += 2) {
     text.bytes.push_back(static_cast<std::uint8_t>(std::stoul(word.substr(i, 2), nullptr, 16)));

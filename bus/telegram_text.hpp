@@ -1,5 +1,6 @@
 #pragma once
-// Bytes of telegrams out of text: hexadecimal in any spacing, or the telegrams of a log of dsdpv1-sim, as text or JSON lines.
+// Bytes of telegrams out of text: hexadecimal in any spacing, or the telegrams of a log of dsdpv1-sim, as text or JSON
+// lines.
 #include <cstddef>
 #include <iosfwd>
 #include <map>

@@ -1,6 +1,7 @@
 #pragma once
 // Simulated time outside the chip. One tick is 1/12 ns, so that a 48 MHz cycle (125/6 ns = 250 ticks), half a cycle
-// (125 ticks), 12.5 ns (150 ticks) and every PROFIBUS bit time (4 cycles at 12 Mbit/s) are whole numbers: nothing is rounded.
+// (125 ticks), 12.5 ns (150 ticks) and every PROFIBUS bit time (4 cycles at 12 Mbit/s) are whole numbers: nothing is
+// rounded.
 #include <cstdint>
 #include <limits>
 

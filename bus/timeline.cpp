@@ -12,9 +12,8 @@ Tick Timeline::next() const {
 
 Tick Timeline::next_except(const Agent& agent) const {
   Tick earliest = kNever;
-  for (const Agent* each : agents_) {
+  for (const Agent* each : agents_)
     if (each != &agent) earliest = std::min(earliest, each->next());
-  }
   return earliest;
 }
 
@@ -22,9 +21,8 @@ bool Timeline::step(Tick limit) {
   const Tick due = next();
   if (due == kNever || due > limit) return false;
   now_ = std::max(now_, due);
-  for (Agent* agent : agents_) {
+  for (Agent* agent : agents_)
     if (agent->next() <= now_) agent->run(now_);
-  }
   return true;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// The order in which the parties of a bench act: masters, chips, user CPUs and scripts are agents; the timeline lets them act
-// in order of time, and at equal times in the order in which they were added (chips first, so that an output of cycle n is
-// seen by everybody who looks at the tick of cycle n).
+// The order in which the parties of a bench act: masters, chips, user CPUs and scripts are agents; the timeline lets
+// them act in order of time, and at equal times in the order in which they were added (chips first, so that an output
+// of cycle n is seen by everybody who looks at the tick of cycle n).
 #include <vector>
 
 #include "bus/time.hpp"

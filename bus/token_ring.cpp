@@ -68,7 +68,7 @@ void TokenRing::listen_anew(Tick now, const char* why) {
   go(now, RingState::kListenToken, why);
 }
 
-// --- the token is elsewhere ---------------------------------------------------------------------------------------------
+// --- the token is elsewhere ------------------------------------------------------------------------------------------
 
 Tick TokenRing::timeout() const {
   // EN 50170: T_TO = 6 T_SL + 2 n T_SL, so that the master with the lowest address is the first.
@@ -115,7 +115,7 @@ void TokenRing::take_token(Tick now, const char* why) {
   go(now, RingState::kUseToken, why);
 }
 
-// --- the token is here --------------------------------------------------------------------------------------------------
+// --- the token is here -----------------------------------------------------------------------------------------------
 
 void TokenRing::release(Tick now) {
   attempts_ = 0;
@@ -123,7 +123,8 @@ void TokenRing::release(Tick now) {
   go(now, gap ? RingState::kGapPoll : RingState::kPassToken, "nothing more to send");
 }
 
-/// One address of the GAP, from the own address to the next station, each token; the next round begins G x T_TR after the end of one.
+/// One address of the GAP, from the own address to the next station, each token; the next round begins G x T_TR after
+/// the end of one.
 bool TokenRing::next_gap_address(Tick now) {
   if (parameters_.gap_factor <= 0 || now >= hold_until_) return false;
   if (!gap_running_) {
@@ -199,7 +200,7 @@ void TokenRing::token_sent(Tick now, const FdlResult& result) {
   attempts_ = 0;
 }
 
-// --- what is heard ------------------------------------------------------------------------------------------------------
+// --- what is heard ---------------------------------------------------------------------------------------------------
 
 void TokenRing::heard(const HeardTelegram& heard) {
   if (state_ == RingState::kOff || state_ == RingState::kOut) return;

@@ -1,7 +1,7 @@
 #pragma once
-// The token among several masters (EN 50170 part 2, FDL state machine of a master): learning the ring, entering it, using, passing and
-// recovering the token, looking after the GAP. Sits on a MasterFdl and shares it with the master station, which sends its own requests
-// while `holds_token`.
+// The token among several masters (EN 50170 part 2, FDL state machine of a master): learning the ring, entering it,
+// using, passing and recovering the token, looking after the GAP. Sits on a MasterFdl and shares it with the master
+// station, which sends its own requests while `holds_token`.
 #include <cstdint>
 #include <functional>
 
@@ -59,8 +59,8 @@ class TokenRing {
   const ActiveStations& stations() const { return stations_; }
   const RingStatistics& statistics() const { return statistics_; }
 
-  /// EN 50170, 4.1.1: the first high-priority message of a token always, others while T_TH = T_TR - T_RR is not over. Only while it
-  /// holds the token.
+  /// EN 50170, 4.1.1: the first high-priority message of a token always, others while T_TH = T_TR - T_RR is not over.
+  /// Only while it holds the token.
   bool may_begin(Tick now, bool high) const { return now < hold_until_ || (high && !high_sent_); }
   /// The master station has begun a message.
   void begun(bool high) { high_sent_ = high_sent_ || high; }

@@ -24,11 +24,10 @@ std::optional<std::string> TokenWatch::hear(const Telegram& telegram, Tick end, 
   std::optional<std::string> wrong;
   if (!may_send(telegram, quiet, slot))
     wrong = fmt::format("master {} sends while {} has the token", telegram.sa, *holder_);
-  if (telegram.kind == TelegramKind::kSd4) {
+  if (telegram.kind == TelegramKind::kSd4)
     passed(telegram, end);
-  } else if (holder_ && several_) {
+  else if (holder_ && several_)
     holder_ = telegram.sa;  // another one: claimed, or two masters at once, of which the last one counts
-  }
   holder_heard_ = telegram.kind != TelegramKind::kSd4 || telegram.da == telegram.sa;
   return wrong;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Characters of the wire: start bit, eight data bits LSB first, even parity, stop bit (EN 50170). Written apart from the chip's
-// receiver, so that one checks the other. Lengths inside a character are in 1/1000 bit ("millibits").
+// Characters of the wire: start bit, eight data bits LSB first, even parity, stop bit (EN 50170). Written apart from
+// the chip's receiver, so that one checks the other. Lengths inside a character are in 1/1000 bit ("millibits").
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -35,7 +35,8 @@ struct Character {
   static Character without_stop(std::uint8_t byte);
 };
 
-/// What is broken in a telegram on the wire; nothing by default. Positions count bytes from 0; those behind the end have no effect.
+/// What is broken in a telegram on the wire; nothing by default. Positions count bytes from 0; those behind the end
+/// have no effect.
 struct WireFaults {
   std::optional<std::size_t> wrong_parity_at = {};
   std::optional<std::size_t> missing_stop_at = {};

@@ -25,9 +25,8 @@ std::size_t utf8_sequence(std::string_view text, std::size_t at) {
   const auto* const form = std::find_if(std::begin(kUtf8Forms), std::end(kUtf8Forms), begins);
   if (form == std::end(kUtf8Forms) || form->size > text.size() - at) return 0;
   if (form->size > 1 && (byte(1) < form->second_low || byte(1) > form->second_high)) return 0;
-  for (std::size_t i = 2; i < form->size; ++i) {
+  for (std::size_t i = 2; i < form->size; ++i)
     if ((byte(i) & 0xC0U) != 0x80U) return 0;
-  }
   return form->size;
 }
 

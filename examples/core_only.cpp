@@ -1,5 +1,5 @@
-// The DSDPV1 core without SystemC: pins in, pin changes out, advance. A user CPU releases RESET, takes the DPRAM by the handshake and
-// reads B000..B004 through the host port.
+// The DSDPV1 core without SystemC: pins in, pin changes out, advance. A user CPU releases RESET, takes the DPRAM by the
+// handshake and reads B000..B004 through the host port.
 #include <cstdio>
 
 #include "model/dsdpv1/chip.hpp"

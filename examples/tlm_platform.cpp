@@ -1,5 +1,5 @@
-// A SystemC platform round the TLM module: a user CPU that brings the chip up with the C driver, and a bus station that asks it for
-// its FDL status and prints the answer.
+// A SystemC platform round the TLM module: a user CPU that brings the chip up with the C driver, and a bus station that
+// asks it for its FDL status and prints the answer.
 #include <tlm_utils/simple_initiator_socket.h>
 
 #include <iostream>

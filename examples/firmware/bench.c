@@ -37,9 +37,7 @@ static void carry_out(const dsdpv1_mailbox_command* command) {
 }
 
 void bench_run_commands(void) {
-  if (!settings_from_bench()) {
-    return;
-  }
+  if (!settings_from_bench()) return;
   while (dsdpv1_bench.done != dsdpv1_bench.posted) {
     board_barrier(); /* the command was there before the count that announces it */
     carry_out(&dsdpv1_bench.command);

@@ -1,8 +1,8 @@
 #ifndef BENCH_H
 #define BENCH_H
 /*
- * The bench's side door (tb/user_cpu/arm/mailbox.h): what a scenario's script wants of the user CPU. A product leaves out
- * bench.c and bench_faults.c, and their calls in main.c.
+ * The bench's side door (tb/user_cpu/arm/mailbox.h): what a scenario's script wants of the user CPU. A product leaves
+ * out bench.c and bench_faults.c, and their calls in main.c.
  */
 #include <stdbool.h>
 

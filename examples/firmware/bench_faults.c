@@ -107,11 +107,10 @@ void bench_early_r_sta(uint64_t after_ns, uint64_t hold_ns) {
   enum { kLoop = 10 }; /* a look at CYCCNT takes about as long */
   board_enable_intr0(false);
   wander();
-  if (after < kLoop) {
+  if (after < kLoop)
     raise_both();
-  } else {
+  else
     raise_one_after_the_other((uint32_t)after);
-  }
   board_wait(hold);
   GPIOC->BRR = kRStaBit;
   GPIOC->BRR = kRReqBit;

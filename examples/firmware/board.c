@@ -55,11 +55,8 @@ static void configure(gpio_registers* port, unsigned pin, uint32_t function) {
 }
 
 static void configure_all(gpio_registers* port, uint32_t pins, uint32_t function) {
-  for (unsigned pin = 0; pin < 16u; ++pin) {
-    if ((pins >> pin & 1u) != 0u) {
-      configure(port, pin, function);
-    }
-  }
+  for (unsigned pin = 0; pin < 16u; ++pin)
+    if ((pins >> pin & 1u) != 0u) configure(port, pin, function);
 }
 
 /* R_REQ and R_STA are low outputs before the chip leaves its reset. L_REQ and L_STA of a chip that is missing read as
@@ -81,8 +78,8 @@ static void configure_memory_bus(void) {
 }
 
 /*
- * Mode 1, asynchronous, 8 bits. Address phase (ADDSET + 1) 27.8 ns, WR low DATAST 69.4 ns and one HCLK, 13.9 ns, of hold
- * behind it, RD low one HCLK longer: the limits of table 15 (Ts and Td 12.5 ns, Tw 31.25 ns) with margin.
+ * Mode 1, asynchronous, 8 bits. Address phase (ADDSET + 1) 27.8 ns, WR low DATAST 69.4 ns and one HCLK, 13.9 ns, of
+ * hold behind it, RD low one HCLK longer: the limits of table 15 (Ts and Td 12.5 ns, Tw 31.25 ns) with margin.
  */
 static void start_memory_bus(void) {
   configure_memory_bus();
@@ -129,9 +126,7 @@ static void start_time(void) {
 uint64_t board_now(void) {
   const uint32_t before = board_lock();
   const uint32_t count = DWT->CYCCNT;
-  if (count < last_count) {
-    ++overflows;
-  }
+  if (count < last_count) ++overflows;
   last_count = count;
   const uint64_t now = (uint64_t)overflows << 32 | count;
   board_unlock(before);
@@ -144,9 +139,7 @@ uint64_t board_cycles(uint64_t ns) { return (ns * BOARD_HCLK_MHZ + 999u) / 1000u
 
 void board_wait(uint64_t cycles) {
   const uint64_t end = board_now() + cycles;
-  while (board_now() < end) {
-    board_sleep(end);
-  }
+  while (board_now() < end) board_sleep(end);
 }
 
 /* WFE, not WFI: the event of an interrupt between the caller's look and the sleep is kept. */
@@ -195,9 +188,7 @@ void board_on_intr0(void (*handler)(void)) {
 void exti9_5_handler(void) {
   EXTI->PR = 1u << kIntr0Pin;
   board_barrier();
-  if (intr0_handler != NULL) {
-    intr0_handler();
-  }
+  if (intr0_handler != NULL) intr0_handler();
 }
 
 uint32_t board_lock(void) {

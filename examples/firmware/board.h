@@ -38,8 +38,8 @@ uint64_t board_cycles(uint64_t ns);
 /* Waits at least so many cycles; interrupts are served meanwhile, and their time counts. */
 void board_wait(uint64_t cycles);
 /*
- * Sleeps until then at the latest. Interrupts end the sleep, also one that came just before it, and so does an event from
- * outside: the caller looks whether there is something to do.
+ * Sleeps until then at the latest. Interrupts end the sleep, also one that came just before it, and so does an event
+ * from outside: the caller looks whether there is something to do.
  */
 void board_sleep(uint64_t until);
 

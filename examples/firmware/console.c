@@ -24,9 +24,7 @@ static void put(char character) {
 }
 
 void console_text(const char* text) {
-  for (; *text != '\0'; ++text) {
-    put(*text);
-  }
+  for (; *text != '\0'; ++text) put(*text);
 }
 
 void console_decimal(uint32_t value) {
@@ -36,15 +34,11 @@ void console_decimal(uint32_t value) {
     digits[count++] = (char)('0' + value % 10u);
     value /= 10u;
   } while (value != 0u);
-  while (count != 0u) {
-    put(digits[--count]);
-  }
+  while (count != 0u) put(digits[--count]);
 }
 
 void console_hex(uint32_t value, unsigned digits) {
-  while (digits-- != 0u) {
-    put("0123456789ABCDEF"[value >> (4u * digits) & 0xFu]);
-  }
+  while (digits-- != 0u) put("0123456789ABCDEF"[value >> (4u * digits) & 0xFu]);
 }
 
 bool console_busy(void) { return head != tail; }

@@ -1,8 +1,8 @@
 #ifndef CONSOLE_H
 #define CONSOLE_H
 /*
- * Lines of text on USART1, 115200 8N1. Nobody waits for the slow line: text goes into a buffer, and what finds it full is
- * lost. From the main loop only.
+ * Lines of text on USART1, 115200 8N1. Nobody waits for the slow line: text goes into a buffer, and what finds it full
+ * is lost. From the main loop only.
  */
 #include <stdbool.h>
 #include <stdint.h>

@@ -55,11 +55,10 @@ static void sample(inputs* target) {
 }
 
 static void make_length_wrong(inputs* target) {
-  if (target->length < longest) {
+  if (target->length < longest)
     target->bytes[target->length++] = 0;
-  } else if (target->length != 0u) {
+  else if (target->length != 0u)
     --target->length;
-  }
 }
 
 static void next_inputs(inputs* target, int16_t length) {
@@ -101,11 +100,7 @@ bool cyclic_exchange(dsdpv1_device* chip) {
   ++report()->exchanges;
   report_check(dsdpv1_exchange(chip, policy, are_known(length) ? next.bytes : NULL, next.length, &result),
                DSDPV1_DURING_EXCHANGE);
-  if (result.inputs_written) {
-    ++report()->inputs_written;
-  }
-  if (result.outputs_new) {
-    drive_process(received, result.length);
-  }
+  if (result.inputs_written) ++report()->inputs_written;
+  if (result.outputs_new) drive_process(received, result.length);
   return result.intr0_missed;
 }

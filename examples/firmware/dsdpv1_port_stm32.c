@@ -67,9 +67,7 @@ static void port_set_r_req(void* ctx, bool level) {
 
 static void port_set_r_sta(void* ctx, bool level) {
   (void)ctx;
-  if (level) {
-    let_pass(asked_at, kReqToStaCycles);
-  }
+  if (level) let_pass(asked_at, kReqToStaCycles);
   set_pin(kRStaBit, level);
 }
 

@@ -15,11 +15,10 @@ static uint64_t since;
 /* One device-related block of two bytes: the header with its length, and the number of the fault. */
 static void report_fault(bool present) {
   static const uint8_t kFault[] = {0x02, 0x01};
-  if (present) {
+  if (present)
     station_set_diagnosis(DSDPV1_DIAG_EXTERNAL, kFault, sizeof kFault);
-  } else {
+  else
     station_set_diagnosis(DSDPV1_DIAG_EXTERNAL_GONE, NULL, 0);
-  }
 }
 
 void fault_key_watch(void) {

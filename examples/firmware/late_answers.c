@@ -4,8 +4,8 @@
 #include <string.h>
 
 /*
- * Two requests can be open, one of each class. One that its master has withdrawn keeps its place until its time has come,
- * and a master may ask again meanwhile.
+ * Two requests can be open, one of each class. One that its master has withdrawn keeps its place until its time has
+ * come, and a master may ask again meanwhile.
  */
 enum { kPlaces = 8 };
 
@@ -23,9 +23,7 @@ static unsigned first, count;
 static uint8_t lesser(uint8_t a, uint8_t b) { return a < b ? a : b; }
 
 bool late_answers_put(uint64_t due, const dsdpv1_request* request, const dsdpv1_reply* reply, bool refuse) {
-  if (count == kPlaces) {
-    return false;
-  }
+  if (count == kPlaces) return false;
   late_answer* answer = &answers[(first + count++) % kPlaces];
   answer->due = due;
   answer->ticket = request->ticket;

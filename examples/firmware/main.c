@@ -1,6 +1,6 @@
 /*
- * Firmware of a simple PROFIBUS-DP slave: STM32F103ZE and DSDPV1. It initialises the chip, exchanges inputs and outputs at a
- * fixed period, judges what the master sends, and answers acyclic requests.
+ * Firmware of a simple PROFIBUS-DP slave: STM32F103ZE and DSDPV1. It initialises the chip, exchanges inputs and outputs
+ * at a fixed period, judges what the master sends, and answers acyclic requests.
  */
 #include "examples/firmware/bench.h"
 #include "examples/firmware/bench_faults.h"
@@ -26,9 +26,7 @@ static bool is_idle(uint64_t due) { return bench_stopped() || board_now() < due;
 static void wait_for_turn(uint64_t due) {
   idle();
   while (is_idle(due)) {
-    if (!console_busy()) {
-      board_sleep(bench_stopped() ? UINT64_MAX : due);
-    }
+    if (!console_busy()) board_sleep(bench_stopped() ? UINT64_MAX : due);
     idle();
   }
 }
@@ -36,14 +34,10 @@ static void wait_for_turn(uint64_t due) {
 /* The order matters: a judgement first, since the master waits for it; requests, which have no interrupt, last. */
 static void turn(dsdpv1_device* chip) {
   station_service_if_pending();
-  if (cyclic_exchange(chip)) {
-    station_service();
-  }
+  if (cyclic_exchange(chip)) station_service();
   objects_poll();
   station_service_if_pending(); /* an INTR0 during the exchange found the DPRAM held */
-  if (!settings_from_bench()) {
-    fault_key_watch();
-  }
+  if (!settings_from_bench()) fault_key_watch();
 }
 
 /* After a long hold the turns do not come in a burst. */

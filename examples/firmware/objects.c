@@ -18,7 +18,8 @@ static uint64_t polled_at; /* the present poll: an answer's delay starts there *
 
 void objects_answer(uint8_t answering) { settings()->answering = answering; }
 
-/* ----------------------------------------------------------------------------------------------------------- serving */
+/* ----------------------------------------------------------------------------------------------------------- serving
+ */
 
 /*
  * A read gives the object's bytes, a write replaces its first ones, a transport writes and gives what was there before.
@@ -27,9 +28,7 @@ void objects_answer(uint8_t answering) { settings()->answering = answering; }
 static void carry_out(dsdpv1_mailbox_object* object, const dsdpv1_request* request, uint8_t* data, uint8_t* length) {
   uint8_t before[DSDPV1_MAX_ACYCLIC];
   memcpy(before, object->data, object->length);
-  if (request->function != DSDPV1_DS_READ) {
-    memcpy(object->data, request->data, request->length);
-  }
+  if (request->function != DSDPV1_DS_READ) memcpy(object->data, request->data, request->length);
   if (request->function != DSDPV1_DS_WRITE) {
     memcpy(data, before, object->length);
     *length = object->length;
@@ -38,33 +37,27 @@ static void carry_out(dsdpv1_mailbox_object* object, const dsdpv1_request* reque
 
 static dsdpv1_outcome serve(void* ctx, const dsdpv1_request* request, dsdpv1_reply* reply) {
   const dsdpv1_mailbox_settings* device = settings();
-  if (device->answering == DSDPV1_SAY_NOTHING) {
-    return DSDPV1_DEFERRED;
-  }
+  if (device->answering == DSDPV1_SAY_NOTHING) return DSDPV1_DEFERRED;
   const bool refuse = device->answering == DSDPV1_SAY_NO;
-  if (!refuse) {
-    carry_out(ctx, request, reply->data, &reply->length);
-  }
+  if (!refuse) carry_out(ctx, request, reply->data, &reply->length);
   reply->error_code_1 = device->error_code_1;
   reply->error_code_2 = device->error_code_2;
   if (settings_in_cycles()->answer_delay != 0u &&
-      late_answers_put(polled_at + settings_in_cycles()->answer_delay, request, reply, refuse)) {
+      late_answers_put(polled_at + settings_in_cycles()->answer_delay, request, reply, refuse))
     return DSDPV1_DEFERRED;
-  }
   return refuse ? DSDPV1_FAILED : DSDPV1_DONE;
 }
 
 void objects_poll(void) {
-  if (!is_open) {
-    return;
-  }
+  if (!is_open) return;
   polled_at = board_now();
   const dsdpv1_error late = late_answers_send(&acyclic, polled_at);
   const dsdpv1_error polled = dsdpv1_acyclic_poll(&acyclic, NULL);
   report_check(late != DSDPV1_OK ? late : polled, DSDPV1_DURING_ACYCLIC_POLL);
 }
 
-/* ----------------------------------------------------------------------------------------------------------- opening */
+/* ----------------------------------------------------------------------------------------------------------- opening
+ */
 
 static dsdpv1_object table_line(dsdpv1_mailbox_object* object) {
   const dsdpv1_object line = {
@@ -99,12 +92,8 @@ static dsdpv1_im0 nameplate(const dsdpv1_mailbox_nameplate* plate) {
 
 void objects_open(dsdpv1_device* chip) {
   dsdpv1_mailbox_settings* device = settings();
-  if (device->object_count == 0u && device->im0.present == 0u) {
-    return;
-  }
-  for (unsigned i = 0; i < device->object_count; ++i) {
-    table[i] = table_line(&device->objects[i]);
-  }
+  if (device->object_count == 0u && device->im0.present == 0u) return;
+  for (unsigned i = 0; i < device->object_count; ++i) table[i] = table_line(&device->objects[i]);
   im0 = nameplate(&device->im0);
   const dsdpv1_table lines = {table, device->object_count, device->im0.present != 0u ? &im0 : NULL};
   is_open = report_check(dsdpv1_acyclic_open(&acyclic, chip, &lines), DSDPV1_DURING_ACYCLIC_OPEN);

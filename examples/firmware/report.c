@@ -12,9 +12,7 @@ dsdpv1_mailbox_report* report(void) { return &dsdpv1_bench.report; }
 
 /* The INTR0 handler may interrupt the main loop in here. */
 bool report_check(dsdpv1_error error, uint8_t during) {
-  if (error == DSDPV1_OK) {
-    return true;
-  }
+  if (error == DSDPV1_OK) return true;
   const uint32_t before = board_lock();
   const uint32_t place = report()->error_count % DSDPV1_MAILBOX_ERRORS;
   report()->errors[place].error = (uint8_t)error;
@@ -53,10 +51,6 @@ static void print_error(uint32_t number) {
 
 void report_print_errors(void) {
   const uint32_t count = report()->error_count;
-  if (count - printed > DSDPV1_MAILBOX_ERRORS) {
-    printed = count - DSDPV1_MAILBOX_ERRORS; /* the others are gone */
-  }
-  while (printed != count) {
-    print_error(printed++);
-  }
+  if (count - printed > DSDPV1_MAILBOX_ERRORS) printed = count - DSDPV1_MAILBOX_ERRORS; /* the others are gone */
+  while (printed != count) print_error(printed++);
 }

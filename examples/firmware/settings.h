@@ -1,8 +1,8 @@
 #ifndef SETTINGS_H
 #define SETTINGS_H
 /*
- * What kind of device this is: station, timing, objects, nameplate. On the bench the scenario says so (tb/user_cpu/arm/mailbox.h);
- * on a board of its own the firmware is the device of own_settings (settings.c).
+ * What kind of device this is: station, timing, objects, nameplate. On the bench the scenario says so
+ * (tb/user_cpu/arm/mailbox.h); on a board of its own the firmware is the device of own_settings (settings.c).
  */
 #include <stdbool.h>
 #include <stdint.h>

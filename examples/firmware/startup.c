@@ -12,12 +12,8 @@ extern uint32_t __data_in_flash[], __data_begin[], __data_end[], __bss_begin[], 
 
 static void fill_ram(void) {
   const uint32_t* source = __data_in_flash;
-  for (uint32_t* word = __data_begin; word < __data_end; ++word) {
-    *word = *source++;
-  }
-  for (uint32_t* word = __bss_begin; word < __bss_end; ++word) {
-    *word = 0;
-  }
+  for (uint32_t* word = __data_begin; word < __data_end; ++word) *word = *source++;
+  for (uint32_t* word = __bss_begin; word < __bss_end; ++word) *word = 0;
 }
 
 void reset_handler(void) {

@@ -11,7 +11,8 @@
 static dsdpv1_device chip;
 static volatile bool paused;
 
-/* ----------------------------------------------------------------------------------------------------------- judging */
+/* ----------------------------------------------------------------------------------------------------------- judging
+ */
 
 /* A product looks at the bytes here. Called from dsdpv1_service, so from the INTR0 handler or the main loop. */
 static dsdpv1_verdict judge(uint8_t judgement) {
@@ -39,23 +40,19 @@ static dsdpv1_verdict judge_cfg(void* ctx, const dsdpv1_cfg_block* cfg) {
 
 void station_service(void) {
   const dsdpv1_error error = dsdpv1_service(&chip);
-  if (error != DSDPV1_ERR_NESTED) { /* no failure: the interrupted main loop does it */
+  if (error != DSDPV1_ERR_NESTED) /* no failure: the interrupted main loop does it */
     report_check(error, DSDPV1_DURING_SERVICE);
-  }
 }
 
 void station_service_if_pending(void) {
-  if (dsdpv1_intr0_pending(&chip)) {
-    station_service();
-  }
+  if (dsdpv1_intr0_pending(&chip)) station_service();
 }
 
 static void on_intr0(void) {
-  if (settings()->judge_in_handler != 0u && !paused) {
+  if (settings()->judge_in_handler != 0u && !paused)
     station_service();
-  } else {
+  else
     dsdpv1_on_intr0(&chip);
-  }
 }
 
 void station_pause(bool pause) { paused = pause; }
@@ -64,7 +61,8 @@ void station_send_verdict(uint8_t which, bool refuse) {
   report_check(dsdpv1_send_verdict(&chip, which, refuse ? which : 0u), DSDPV1_DURING_SEND_VERDICT);
 }
 
-/* ---------------------------------------------------------------------------------------------------------- bring-up */
+/* ---------------------------------------------------------------------------------------------------------- bring-up
+ */
 
 dsdpv1_device* station_open(const dsdpv1_port* port) {
   const dsdpv1_judge judges = {NULL, judge_prm, judge_cfg};
@@ -74,24 +72,21 @@ dsdpv1_device* station_open(const dsdpv1_port* port) {
 
 bool station_initialise(const dsdpv1_mailbox_station* station) {
   const dsdpv1_config config = settings_config(station);
-  if (!report_check(dsdpv1_initialise(&chip, &config), DSDPV1_DURING_INITIALISE)) {
-    return false;
-  }
+  if (!report_check(dsdpv1_initialise(&chip, &config), DSDPV1_DURING_INITIALISE)) return false;
   ++report()->initialisations;
   cyclic_initialised(station->max_input);
   return true;
 }
 
 void station_bring_up(void) {
-  while (!report_check(dsdpv1_wait_ready(&chip), DSDPV1_DURING_WAIT_READY) ||
-         !station_initialise(&settings()->station)) {
+  while (!report_check(dsdpv1_wait_ready(&chip), DSDPV1_DURING_WAIT_READY) || !station_initialise(&settings()->station))
     board_wait(settings_in_cycles()->retry_delay);
-  }
   board_on_intr0(on_intr0);
   station_service(); /* what came between the initialisation and the line above */
 }
 
-/* --------------------------------------------------------------------------------------------------------- diagnosis */
+/* --------------------------------------------------------------------------------------------------------- diagnosis
+ */
 
 void station_set_diagnosis(dsdpv1_diag_type type, const uint8_t* bytes, uint8_t length) {
   report_check(dsdpv1_set_diagnosis(&chip, type, bytes, length), DSDPV1_DURING_SET_DIAGNOSIS);

@@ -45,7 +45,8 @@ typedef struct {
 #define DBGMCU_CR (*(reg32*)0xE0042004u)
 #define DBGMCU_CR_DBG_SLEEP (1u << 0) /* HCLK goes on in sleep, and with it CYCCNT */
 
-/* --------------------------------------------------------------------------------------------- reset and clock control */
+/* --------------------------------------------------------------------------------------------- reset and clock control
+ */
 
 typedef struct {
   reg32 CR, CFGR, CIR, APB2RSTR, APB1RSTR, AHBENR, APB2ENR, APB1ENR, BDCR, CSR;
@@ -78,7 +79,8 @@ typedef struct {
 #define FLASH_ACR_LATENCY_2 (2u << 0) /* 48 MHz < SYSCLK <= 72 MHz */
 #define FLASH_ACR_PRFTBE (1u << 4)
 
-/* --------------------------------------------------------------------------------------------------------------- pins */
+/* --------------------------------------------------------------------------------------------------------------- pins
+ */
 
 typedef struct {
   reg32 CRL, CRH, IDR, ODR, BSRR, BRR, LCKR;
@@ -108,7 +110,8 @@ typedef struct {
 } exti_registers;
 #define EXTI ((exti_registers*)0x40010400u)
 
-/* -------------------------------------------------------------------------------------------------------- memory bus */
+/* -------------------------------------------------------------------------------------------------------- memory bus
+ */
 
 /* Bank 1, chip selects NE1 to NE4: control and timing of each. */
 typedef struct {
@@ -125,7 +128,8 @@ typedef struct {
 #define FSMC_BTR_DATAST_SHIFT 8u
 #define FSMC_BTR_BUSTURN_SHIFT 16u
 
-/* ------------------------------------------------------------------------------------------------------------- serial */
+/* ------------------------------------------------------------------------------------------------------------- serial
+ */
 
 typedef struct {
   reg32 SR, DR, BRR, CR1, CR2, CR3, GTPR;
@@ -135,7 +139,8 @@ typedef struct {
 #define USART_CR1_TE (1u << 3)
 #define USART_CR1_UE (1u << 13)
 
-/* --------------------------------------------------------------------------------------------------------- interrupts */
+/* --------------------------------------------------------------------------------------------------------- interrupts
+ */
 
 enum { kIrqExti9To5 = 23, kIrqCount = 60 };
 

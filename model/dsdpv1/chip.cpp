@@ -81,7 +81,7 @@ struct Chip::Impl {
   Level d_out = kLevelZ;
 };
 
-// --- inputs ---------------------------------------------------------------------------------------------------------------
+// --- inputs ----------------------------------------------------------------------------------------------------------
 
 void Chip::Impl::set(Tick at, Pin pin, Level value) {
   advance(at);
@@ -114,11 +114,10 @@ void Chip::Impl::apply(Tick at, Pin pin, Level value) {
 void Chip::Impl::set_reset(Tick at, bool high) {
   if (high == reset_pin) return;
   reset_pin = high;
-  if (high) {
+  if (high)
     release_at = first_edge_after(at) + kResetSynchroniser;
-  } else {
+  else
     enter_reset(at);
-  }
 }
 
 void Chip::Impl::enter_reset(Tick at) {
@@ -133,7 +132,7 @@ void Chip::Impl::enter_reset(Tick at) {
   publish_data(at);
 }
 
-// --- time -----------------------------------------------------------------------------------------------------------------
+// --- time ------------------------------------------------------------------------------------------------------------
 
 // Asked far more often than changed, so it is kept: by everybody who calls a block.
 void Chip::Impl::plan() {
@@ -178,7 +177,7 @@ void Chip::Impl::rising_edge(Cycle cycle) {
   if (!owned) report_ownership(cycle * kTicksPerCycle);
 }
 
-// --- outputs --------------------------------------------------------------------------------------------------------------
+// --- outputs ---------------------------------------------------------------------------------------------------------
 
 std::uint32_t Chip::Impl::edge_outputs() const {
   const bool owns = sequencer.owns();
@@ -223,7 +222,7 @@ Level Chip::Impl::level(Pin pin) const {
   }
 }
 
-// --- the chip ---------------------------------------------------------------------------------------------------------------
+// --- the chip --------------------------------------------------------------------------------------------------------
 
 Chip::Chip(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
 Chip::~Chip() = default;

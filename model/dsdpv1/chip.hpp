@@ -6,8 +6,9 @@
 //   chip.set(20 * 250, Pin::kReset, 1);            // release reset at cycle 20
 //   chip.advance(48'000 * 250);                    // one millisecond
 //
-// A change of an input made at tick t is seen by the first rising CLK edge strictly after t (ruling P9); the host port, which is
-// asynchronous to CLK, sees it at t. Calls must be made in order of time: `set` first runs the chip up to its own tick.
+// A change of an input made at tick t is seen by the first rising CLK edge strictly after t (ruling P9); the host port,
+// which is asynchronous to CLK, sees it at t. Calls must be made in order of time: `set` first runs the chip up to its
+// own tick.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -67,14 +68,15 @@ class Chip {
   void set(Tick at, Pin pin, Level level);
   /// Evaluates everything up to and including tick `to`; pin changes and events leave through the sinks on the way.
   void advance(Tick to);
-  /// The tick of the next thing that the chip does by itself (a rising CLK edge, or the falling edge at which D is driven);
-  /// never before `now()`. With Engine::kStep the next rising edge.
+  /// The tick of the next thing that the chip does by itself (a rising CLK edge, or the falling edge at which D is
+  /// driven); never before `now()`. With Engine::kStep the next rising edge.
   Tick next_event() const;
   Tick now() const;
   /// The present level of a pin, input or output.
   Level level(Pin pin) const;
-  /// The user samples D at tick `at` (>= every earlier call's): its level then. Earlier than Tw after RD and CSR fell it is X and the
-  /// violation is reported, whatever D is already by the phase of CLK (P5). `level` cannot know who looks, and when.
+  /// The user samples D at tick `at` (>= every earlier call's): its level then. Earlier than Tw after RD and CSR fell
+  /// it is X and the violation is reported, whatever D is already by the phase of CLK (P5). `level` cannot know who
+  /// looks, and when.
   Level sample(Tick at);
 
   /// Reports changes of the output pins in `pins` (see mask(Pin)). One sink; a second call replaces it.

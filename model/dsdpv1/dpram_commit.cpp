@@ -79,20 +79,18 @@ void DpramSequencer::commit_acyclic(Cycle now) {
   if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag, regs::kUserCommand2);
   const std::uint8_t error_bit = c1 ? regs::kChipStatus2C1Crc : regs::kChipStatus2C2Crc;
   if (!crc_right(now, c1 ? Reason::kC1Crc : Reason::kC2Crc, error_bit)) return;
-  if (c1) {
+  if (c1)
     station_.slave().c1_answer(now, image_.data(), image_size_);
-  } else {
+  else
     station_.slave().c2_answer(now, image_.data(), image_size_);
-  }
 }
 
 void DpramSequencer::commit_verdict(Cycle now) {
   const std::uint8_t verdict = image_[0];  // B00C
-  if (item_ == Item::kPrmVerdict) {
+  if (item_ == Item::kPrmVerdict)
     station_.slave().prm_verdict(now, (verdict & regs::kUserStatus1PrmWrong) == 0);
-  } else {
+  else
     station_.slave().cfg_verdict(now, (verdict & regs::kUserStatus1CfgWrong) == 0);
-  }
 }
 
 }  // namespace dsdpv1

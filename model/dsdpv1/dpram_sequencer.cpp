@@ -53,7 +53,7 @@ void DpramSequencer::catch_up(Cycle until) {
   while (owns() && op_ <= until) move(op_++);
 }
 
-// --- the access -----------------------------------------------------------------------------------------------------------
+// --- the access ------------------------------------------------------------------------------------------------------
 
 void DpramSequencer::begin(Cycle now) {
   longest_wait_ = std::max(longest_wait_, now - due_);
@@ -61,11 +61,10 @@ void DpramSequencer::begin(Cycle now) {
   start_ = now;
   op_ = now + 1;
   index_ = 0;
-  if (phase_ == Phase::kDue) {
+  if (phase_ == Phase::kDue)
     goto_phase(Phase::kStartUp, now + kStartUpMoves + 1);
-  } else {
+  else
     goto_phase(Phase::kHeader, now + kHeaderMoves + 1);
-  }
 }
 
 void DpramSequencer::end(Cycle now) {
@@ -134,7 +133,7 @@ void DpramSequencer::move_header(Cycle now) {
   }
 }
 
-// --- choosing ---------------------------------------------------------------------------------------------------------------
+// --- choosing --------------------------------------------------------------------------------------------------------
 
 void DpramSequencer::choose(Cycle now) {
   while (item_ != Item::kNone && !due(item_, now)) next_item();
@@ -291,7 +290,7 @@ std::uint8_t DpramSequencer::status3() const {
                                    state << regs::kChipStatus3DpStateShift);
 }
 
-// --- moving blocks ------------------------------------------------------------------------------------------------------------
+// --- moving blocks ---------------------------------------------------------------------------------------------------
 
 void DpramSequencer::read_byte() {
   const Area& block = area(item_);

@@ -1,9 +1,10 @@
 #pragma once
-// The chip's side of the DPRAM (5.1, chapter 8; rulings H1 to H8, D1 to D17): one access a microsecond, one byte a cycle, in
-// the order that docs/microarchitecture.md defines. It carries blocks between the DPRAM and profibus::Station.
+// The chip's side of the DPRAM (5.1, chapter 8; rulings H1 to H8, D1 to D17): one access a microsecond, one byte a
+// cycle, in the order that docs/microarchitecture.md defines. It carries blocks between the DPRAM and
+// profibus::Station.
 //
-// Bytes move lazily: `next()` is the next cycle whose effect somebody else can see, and the moves between are made up for then
-// (or earlier, by catch_up, when somebody looks at the DPRAM).
+// Bytes move lazily: `next()` is the next cycle whose effect somebody else can see, and the moves between are made up
+// for then (or earlier, by catch_up, when somebody looks at the DPRAM).
 #include <array>
 
 #include "model/dsdpv1/dpram.hpp"

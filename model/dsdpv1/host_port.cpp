@@ -11,9 +11,8 @@ using profibus::Reason;
 constexpr Cycle kWriteSettles = 2;  // P8: the third rising edge after WR's, two after the first
 
 bool chips_own(regs::Address address) {
-  for (const regs::Cell& cell : regs::kMap) {
+  for (const regs::Cell& cell : regs::kMap)
     if (address <= cell.last) return cell.chip_writes && !cell.user_writes;
-  }
   return false;
 }
 
@@ -57,7 +56,7 @@ void HostPort::set(Tick at, Pin pin, Level level) {
   }
 }
 
-// --- strobes ------------------------------------------------------------------------------------------------------------
+// --- strobes ---------------------------------------------------------------------------------------------------------
 
 void HostPort::chip_select(Tick at, bool level) {
   csr_ = level;
@@ -82,7 +81,7 @@ void HostPort::check_owner(Tick at) {
   if (!r_req_ || !r_sta_) log_.at_tick(at, Reason::kAccessNotOwned, a_, r_req_, r_sta_);
 }
 
-// --- reads --------------------------------------------------------------------------------------------------------------
+// --- reads -----------------------------------------------------------------------------------------------------------
 
 void HostPort::begin_read(Tick at) {
   if (!enabled_) return;
@@ -129,9 +128,8 @@ Level HostPort::sample(Cycle now, bool unreadable) {
 }
 
 bool HostPort::in_flight(regs::Address address) const {
-  for (unsigned i = 0; i < write_count_; ++i) {
+  for (unsigned i = 0; i < write_count_; ++i)
     if (write_at(i).address == address) return true;
-  }
   return false;
 }
 
@@ -140,7 +138,7 @@ void HostPort::drive() {
   drive_at_ = profibus::kNever;
 }
 
-// --- writes -------------------------------------------------------------------------------------------------------------
+// --- writes ----------------------------------------------------------------------------------------------------------
 
 void HostPort::capture(Tick at) {
   if (!enabled_) return;
@@ -183,7 +181,7 @@ void HostPort::settle(const Write& write) {
   if (!write.good) dpram_.mark_unknown(write.address);
 }
 
-// --- the rising edge ------------------------------------------------------------------------------------------------------
+// --- the rising edge -------------------------------------------------------------------------------------------------
 
 void HostPort::eval(Cycle now, bool unreadable) {
   if (now == sample_at_) {

@@ -1,6 +1,6 @@
 #pragma once
-// The asynchronous 8-bit user port (5.2, figure 6, table 15; rulings P5, P6, P8, P11, P12): CSR, RD, WR, A and D by the tick,
-// the DPRAM by the cycle.
+// The asynchronous 8-bit user port (5.2, figure 6, table 15; rulings P5, P6, P8, P11, P12): CSR, RD, WR, A and D by the
+// tick, the DPRAM by the cycle.
 #include <array>
 
 #include "model/dsdpv1/dpram.hpp"
@@ -29,8 +29,8 @@ class HostPort {
   }
   Level level(Pin pin) const;
 
-  /// The rising edge of `now`: writes that have settled, the address of a read. `unreadable`, as it was before the edge: L_STA is
-  /// high, or the start-up has not begun (P12, H6).
+  /// The rising edge of `now`: writes that have settled, the address of a read. `unreadable`, as it was before the
+  /// edge: L_STA is high, or the start-up has not begun (P12, H6).
   void eval(Cycle now, bool unreadable);
   Cycle next() const;
   /// The falling edge at which D is driven.

@@ -34,9 +34,8 @@ class InitBlock {
     const int fixed = regs::kInitCfg - regs::kInit;
     if (size_ < fixed) return refuse(Reason::kInitLength, at(regs::kInitLength), static_cast<unsigned>(fixed - 1));
     if (at(regs::kInitAddress) > regs::kInitAddressLimit) return refuse(Reason::kInitAddress, at(regs::kInitAddress));
-    for (const Limit& limit : kLimits) {
+    for (const Limit& limit : kLimits)
       if (at(limit.address) > limit.maximum) return refuse_limit(limit.address, limit.maximum);
-    }
     if (at(regs::kInitCfgLength) > at(regs::kInitMaxCfg))
       return refuse_limit(regs::kInitCfgLength, at(regs::kInitMaxCfg));
     const int needed = fixed + at(regs::kInitCfgLength);

@@ -1,6 +1,6 @@
 #pragma once
-// What C1 and C2 have in common: the PDU (tables 26 to 32), the chip's own judgement of a request (V9), what waits for the user,
-// and whether the user's answer fits what was asked (V6, V14).
+// What C1 and C2 have in common: the PDU (tables 26 to 32), the chip's own judgement of a request (V9), what waits for
+// the user, and whether the user's answer fits what was asked (V6, V14).
 #include "model/profibus/event_log.hpp"
 #include "model/profibus/request.hpp"
 #include "model/profibus/user_side.hpp"

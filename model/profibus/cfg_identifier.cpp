@@ -14,19 +14,17 @@ int special_length(std::uint8_t byte) { return ((byte & 0x3F) + 1) * ((byte & kW
 void CfgLengths::add(std::uint8_t byte) {
   switch (state_) {
     case State::kIdentifier:
-      if ((byte & (kInputBit | kOutputBit)) != 0) {
+      if ((byte & (kInputBit | kOutputBit)) != 0)
         compact(byte);
-      } else {
+      else
         special(byte);
-      }
       return;
     case State::kOutputLength:
       output_ += special_length(byte);
-      if (input_follows_) {
+      if (input_follows_)
         state_ = State::kInputLength;
-      } else {
+      else
         after_lengths();
-      }
       return;
     case State::kInputLength:
       input_ += special_length(byte);
@@ -47,13 +45,12 @@ void CfgLengths::compact(std::uint8_t byte) {
 void CfgLengths::special(std::uint8_t byte) {
   manufacturer_ = (byte & 0x0F) == kNoManufacturerData ? 0 : byte & 0x0F;
   input_follows_ = (byte & kSpecialInput) != 0;
-  if ((byte & kSpecialOutput) != 0) {
+  if ((byte & kSpecialOutput) != 0)
     state_ = State::kOutputLength;
-  } else if (input_follows_) {
+  else if (input_follows_)
     state_ = State::kInputLength;
-  } else {
+  else
     after_lengths();
-  }
 }
 
 void CfgLengths::after_lengths() { state_ = manufacturer_ > 0 ? State::kManufacturer : State::kIdentifier; }

@@ -84,15 +84,14 @@ void DpSlave::accept_cfg(Cycle now) {
 }
 
 void DpSlave::cfg_verdict(Cycle now, bool good) {
-  if (mail_.cfg_due.waiting()) {
+  if (mail_.cfg_due.waiting())
     log_.at_cycle(now, Reason::kVerdictSuperseded, 1);
-  } else if (!cfg_awaited_) {
+  else if (!cfg_awaited_)
     log_.at_cycle(now, Reason::kVerdictUnexpected, 1);
-  } else if (good) {
+  else if (good)
     accept_cfg(now);
-  } else {
+  else
     refuse_cfg(now, Reason::kCfgUserRefused);
-  }
 }
 
 }  // namespace profibus

@@ -45,7 +45,7 @@ void DpSlave::initialise(Cycle now, const SlaveConfig& config) {
   enter(now, DpState::kWaitPrm);
 }
 
-// --- states -----------------------------------------------------------------------------------------------------------
+// --- states ----------------------------------------------------------------------------------------------------------
 
 void DpSlave::enter(Cycle now, DpState state) {
   if (state == state_) return;
@@ -82,7 +82,7 @@ void DpSlave::clear_outputs(Cycle now) {
   hand_outputs(now);
 }
 
-// --- services ---------------------------------------------------------------------------------------------------------
+// --- services --------------------------------------------------------------------------------------------------------
 
 Reply DpSlave::handle(Cycle now, const Request& request) {
   if (request.code == fc::kFdlStatus) return Reply::status(fc::kOk);
@@ -242,7 +242,7 @@ Reply DpSlave::set_slave_address(Cycle now, const Request& request) {
   return Reply::sc();
 }
 
-// --- the user's side ----------------------------------------------------------------------------------------------------
+// --- the user's side -------------------------------------------------------------------------------------------------
 
 bool DpSlave::new_inputs(Cycle now, const std::uint8_t* bytes, int size) {
   if (size != inputs_.size()) {

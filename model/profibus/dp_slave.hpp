@@ -1,6 +1,6 @@
 #pragma once
-// The DP slave state machine (chapter 6, rulings S4 to S33): OFFLINE, WAIT_PRM, WAIT_CFG, DATA_EXCH. Service bodies that are
-// longer than a few lines are in set_prm.cpp, check_cfg.cpp and global_control.cpp.
+// The DP slave state machine (chapter 6, rulings S4 to S33): OFFLINE, WAIT_PRM, WAIT_CFG, DATA_EXCH. Service bodies
+// that are longer than a few lines are in set_prm.cpp, check_cfg.cpp and global_control.cpp.
 #include "model/profibus/diagnosis.hpp"
 #include "model/profibus/dp_state.hpp"
 #include "model/profibus/event_log.hpp"
@@ -33,7 +33,7 @@ class DpSlave {
   /// The holding master's time is over (S1).
   void watchdog_expired(Cycle now);
 
-  // --- from the user's side -------------------------------------------------------------------------------------------
+  // --- from the user's side ------------------------------------------------------------------------------------------
   void reset();
   void initialise(Cycle now, const SlaveConfig& config);
   /// `good`: the user found the parameters (configuration) right. See ruling H7.
@@ -49,7 +49,7 @@ class DpSlave {
   /// What the user is to see of the outputs (buffer 2).
   const IoBlock& outputs() const { return outputs_.shown(); }
 
-  // --- what others need to know -----------------------------------------------------------------------------------------
+  // --- what others need to know --------------------------------------------------------------------------------------
   DpState state() const { return state_; }
   std::uint8_t address() const { return address_; }
   std::uint8_t master() const { return master_; }

@@ -28,8 +28,8 @@ constexpr const char* kRmStates[] = {"not in use", "in use", "in use, connected"
 
 constexpr std::uint16_t kNone = 0xFFFF;  // kNoSap in 16 bits
 
-// `format` is empty for decimal, "4x" for four hexadecimal digits, "state", "rate" and "rm" for their names, "sap" for a number or
-// "none"; "high" and "low" are the bytes, the low one also as "low2x".
+// `format` is empty for decimal, "4x" for four hexadecimal digits, "state", "rate" and "rm" for their names, "sap" for
+// a number or "none"; "high" and "low" are the bytes, the low one also as "low2x".
 std::string field_text(std::uint16_t value, const std::string& format) {
   if (format.empty()) return std::to_string(value);
   if (format == "sap") return value == kNone ? "none" : std::to_string(value);
@@ -40,9 +40,8 @@ std::string field_text(std::uint16_t value, const std::string& format) {
   if (format.rfind("low", 0) == 0) return field_text(value & 0xFF, format.substr(3));
   constexpr const char* kDigits = "0123456789ABCDEF";
   std::string digits;
-  for (unsigned rest = value; rest != 0 || digits.size() < static_cast<std::size_t>(format[0] - '0'); rest >>= 4) {
+  for (unsigned rest = value; rest != 0 || digits.size() < static_cast<std::size_t>(format[0] - '0'); rest >>= 4)
     digits.insert(digits.begin(), kDigits[rest & 0xF]);
-  }
   return digits;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-// What the chip has to say about itself: every refusal with its reason (ruling S8), every state change, every violated rule of
-// the user's bus. Events carry numbers only; words are made outside the core's per-character path, by `describe`.
+// What the chip has to say about itself: every refusal with its reason (ruling S8), every state change, every violated
+// rule of the user's bus. Events carry numbers only; words are made outside the core's per-character path, by
+// `describe`.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -32,7 +33,8 @@ struct Event {
   std::uint16_t a = 0, b = 0, c = 0;  ///< what the text's {a}, {b}, {c} stand for
 };
 
-/// Receives events in order of time (host port violations carry the tick, all others the tick of a cycle's rising edge).
+/// Receives events in order of time (host port violations carry the tick, all others the tick of a cycle's rising
+/// edge).
 struct EventSink {
   void (*call)(void* self, const Event& event) = nullptr;
   void* self = nullptr;

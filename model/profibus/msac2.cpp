@@ -82,7 +82,7 @@ void Msac2::enter(Cycle now, int number, State state) {
   if (after.bits() != before) log_.at_cycle(now, Reason::kRmEntry, sap_of(number), after.master, after.bits());
 }
 
-// --- the resource manager -------------------------------------------------------------------------------------------------
+// --- the resource manager --------------------------------------------------------------------------------------------
 
 int Msac2::free_channel() const {
   for (int channel = 0; channel < kC2Channels; ++channel)
@@ -116,7 +116,7 @@ Reply Msac2::initiate(Cycle now, const Request& request) {
   return Reply::with_data(fc::kDl, reply_.bytes.data(), reply_.size);
 }
 
-// --- a channel --------------------------------------------------------------------------------------------------------------
+// --- a channel -------------------------------------------------------------------------------------------------------
 
 bool Msac2::lent_to_sender(const Request& request) const {
   const Channel& channel = channel_at(channel_of(request));
@@ -127,13 +127,12 @@ bool Msac2::lent_to_sender(const Request& request) const {
 Reply Msac2::refuse(Cycle now, const Request& request) const {
   const Channel& channel = channel_at(channel_of(request));
   const auto sap = static_cast<unsigned>(request.dsap);
-  if (channel.state == State::kFree) {
+  if (channel.state == State::kFree)
     log_.at_cycle(now, Reason::kC2NotInUse, sap, request.sa);
-  } else if (channel.master != request.sa) {
+  else if (channel.master != request.sa)
     log_.at_cycle(now, Reason::kC2Master, sap, request.sa, channel.master);
-  } else {
+  else
     ssap_right(now, log_, request, kSsap);
-  }
   return Reply::status(fc::kRs);
 }
 
@@ -252,7 +251,7 @@ void Msac2::answer(Cycle now, const std::uint8_t* pdu, int size) {
   end_turn(now, number);
 }
 
-// --- timers -----------------------------------------------------------------------------------------------------------------
+// --- timers ----------------------------------------------------------------------------------------------------------
 
 void Msac2::eval(Cycle now) {
   for (int channel = 0; channel < kC2Channels; ++channel)
@@ -292,7 +291,7 @@ void Msac2::free(Cycle now, int number) {
   end_turn(now, number);
 }
 
-// --- the DPRAM area that both channels share (V4) -----------------------------------------------------------------------------
+// --- the DPRAM area that both channels share (V4) --------------------------------------------------------------------
 
 void Msac2::begin_turn(Cycle now, int number) {
   Channel& channel = channel_at(number);

@@ -1,6 +1,6 @@
 #pragma once
-// MSAC_C2: two channels for class 2 masters, the resource manager that lends them (table 30) and the F, I and U timers (7.3,
-// figure 11; rulings V2 to V4, V7 to V14). docs/microarchitecture.md, section 15.2, has the states.
+// MSAC_C2: two channels for class 2 masters, the resource manager that lends them (table 30) and the F, I and U timers
+// (7.3, figure 11; rulings V2 to V4, V7 to V14). docs/microarchitecture.md, section 15.2, has the states.
 #include "model/profibus/acyclic.hpp"
 #include "model/profibus/rm_registry.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
-// The fixed buffers of figure 8. Outputs and inputs are double: buffer 1 is what the other side gave last, buffer 2 what is
-// shown on (ruling S4: the user and Read_Outputs see output 2, the master and Read_Inputs see input 2).
+// The fixed buffers of figure 8. Outputs and inputs are double: buffer 1 is what the other side gave last, buffer 2
+// what is shown on (ruling S4: the user and Read_Outputs see output 2, the master and Read_Inputs see input 2).
 #include <array>
 #include <cstdint>
 #include <cstring>

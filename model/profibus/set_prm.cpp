@@ -136,15 +136,14 @@ void DpSlave::set_min_tsdr(std::uint8_t bits) {
 }
 
 void DpSlave::prm_verdict(Cycle now, bool good) {
-  if (mail_.prm_due.waiting()) {
+  if (mail_.prm_due.waiting())
     log_.at_cycle(now, Reason::kVerdictSuperseded, 0);
-  } else if (!prm_awaited_) {
+  else if (!prm_awaited_)
     log_.at_cycle(now, Reason::kVerdictUnexpected, 0);
-  } else if (good) {
+  else if (good)
     accept_prm(now, prm_);
-  } else {
+  else
     refuse_prm(now, Reason::kPrmUserRefused, false);
-  }
 }
 
 }  // namespace profibus

@@ -61,7 +61,7 @@ void Station::listen(Cycle now) {
   if (rx_.eval(now, rxd_.level())) telegrams_.character(now, rx_.character(), rx_.bit());
 }
 
-// --- baud rate and watchdog (S1) ----------------------------------------------------------------------------------------
+// --- baud rate and watchdog (S1) -------------------------------------------------------------------------------------
 
 void Station::start_search(Cycle now) {
   log_.at_cycle(now, Reason::kBaudSearch);
@@ -99,7 +99,7 @@ void Station::lock(Cycle now) {
   watchdog_.rate_found(now);
 }
 
-// --- telegrams ------------------------------------------------------------------------------------------------------------
+// --- telegrams -------------------------------------------------------------------------------------------------------
 
 void Station::decide(Cycle now, const Telegram& telegram) {
   if (telegram.sd == sd::kSc || telegram.sd == sd::kSd4) return;

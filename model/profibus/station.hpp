@@ -1,6 +1,6 @@
 #pragma once
-// A PROFIBUS DP slave station between PBRXD and PBTXD: receiver, baud search, watchdog, FDL and the DP services, evaluated in
-// the order that docs/microarchitecture.md fixes. Nothing here knows how the user's side looks.
+// A PROFIBUS DP slave station between PBRXD and PBTXD: receiver, baud search, watchdog, FDL and the DP services,
+// evaluated in the order that docs/microarchitecture.md fixes. Nothing here knows how the user's side looks.
 #include "model/profibus/baud_search.hpp"
 #include "model/profibus/dp_slave.hpp"
 #include "model/profibus/fdl.hpp"

@@ -15,11 +15,10 @@ class Synchroniser {
     if (level == input_) return;
     input_ = level;
     const Cycle visible = first_edge_after(at) + 2;
-    if (count_ > 0 && slot(count_ - 1).cycle == visible) {
+    if (count_ > 0 && slot(count_ - 1).cycle == visible)
       slot(count_ - 1).level = level;
-    } else {
+    else
       slot(count_++) = {visible, level};
-    }
   }
   /// The edge of `now`; true when the logic sees another level than before.
   bool eval(Cycle now) {

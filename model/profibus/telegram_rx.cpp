@@ -72,11 +72,10 @@ void TelegramRx::character(Cycle now, const Character& character, int bit) {
 
   telegram_.end = character.start + static_cast<Cycle>(kBitsPerCharacter) * bit;
   deadline_ = telegram_.end + bit + 1;
-  if (first) {
+  if (first)
     begin(now, character.value);
-  } else {
+  else
     take(now, character.value);
-  }
 }
 
 void TelegramRx::begin(Cycle now, std::uint8_t value) {

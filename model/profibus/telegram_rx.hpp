@@ -31,12 +31,13 @@ class TelegramRx {
   void restart();
   /// The chip's own answer begins at `now`: what is in progress is lost.
   void cut(Cycle now);
-  /// While `quiet`, faulty telegrams are neither events nor counted: at a wrong baud rate everything is faulty. What was counted
-  /// is forgotten.
+  /// While `quiet`, faulty telegrams are neither events nor counted: at a wrong baud rate everything is faulty. What
+  /// was counted is forgotten.
   void set_quiet(bool quiet);
   /// A character was completed at `now`.
   void character(Cycle now, const Character& character, int bit);
-  /// The edge of `now`; `receiving`: a character is being sampled. True when a telegram is decided (S10): see telegram().
+  /// The edge of `now`; `receiving`: a character is being sampled. True when a telegram is decided (S10): see
+  /// telegram().
   bool eval(Cycle now, bool receiving);
   Cycle next(bool receiving) const { return receiving || !in_telegram() ? kNever : deadline_; }
   const Telegram& telegram() const { return telegram_; }

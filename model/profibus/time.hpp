@@ -1,5 +1,6 @@
 #pragma once
-// Time inside the core. Blocks count 48 MHz cycles; only the host port, which is asynchronous to CLK, needs the finer tick.
+// Time inside the core. Blocks count 48 MHz cycles; only the host port, which is asynchronous to CLK, needs the finer
+// tick.
 #include <cstdint>
 #include <limits>
 

@@ -1,5 +1,6 @@
 #pragma once
-// The receiving half of the UART bit engine: start bit search, mid-bit sampling, even parity, stop bit (rulings S2, S10).
+// The receiving half of the UART bit engine: start bit search, mid-bit sampling, even parity, stop bit (rulings S2,
+// S10).
 #include "model/profibus/baud.hpp"
 
 namespace profibus {
@@ -15,8 +16,8 @@ struct Character {
 
 class UartRx {
  public:
-  /// Forgets a character in progress and samples with `bit` cycles a bit from now on. Idle counts from `idle_since` if the
-  /// line is high, else from its next rise.
+  /// Forgets a character in progress and samples with `bit` cycles a bit from now on. Idle counts from `idle_since` if
+  /// the line is high, else from its next rise.
   void restart(int bit, Cycle idle_since, bool line);
   /// The edge of `now` with the synchronised line. True when a character is complete: see character().
   bool eval(Cycle now, bool line);

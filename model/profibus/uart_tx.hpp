@@ -6,8 +6,8 @@ namespace profibus {
 
 class UartTx {
  public:
-  /// Sends `size` bytes, which must stay unchanged until busy() is false. The first start bit falls at `begin`; PBRTS rises
-  /// `lead` cycles before and falls `trail` cycles after the end of the last stop bit.
+  /// Sends `size` bytes, which must stay unchanged until busy() is false. The first start bit falls at `begin`; PBRTS
+  /// rises `lead` cycles before and falls `trail` cycles after the end of the last stop bit.
   void send(const std::uint8_t* bytes, int size, int bit, Cycle begin, Cycle lead, Cycle trail);
   /// Drops everything at once: PBTXD high, PBRTS low.
   void abort();

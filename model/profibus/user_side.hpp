@@ -1,6 +1,6 @@
 #pragma once
-// The one narrow interface between a DP slave and its user's side (DPRAM sequencer here, SPI or registers in sister chips):
-// what the user tells the slave (calls of DpSlave), and what the slave has for the user (UserMail).
+// The one narrow interface between a DP slave and its user's side (DPRAM sequencer here, SPI or registers in sister
+// chips): what the user tells the slave (calls of DpSlave), and what the slave has for the user (UserMail).
 #include "model/profibus/cfg_identifier.hpp"
 #include "model/profibus/sap_buffers.hpp"
 #include "model/profibus/time.hpp"

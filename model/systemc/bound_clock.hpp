@@ -10,8 +10,8 @@ namespace dsdpv1::systemc {
 
 using profibus::Tick;
 
-/// The n-th rising edge (from 0) is the core's cycle n. Between two edges the chip's time follows simulation time, but never
-/// reaches an edge before CLK does: a slow, fast or asymmetric CLK stretches or cuts the pause before it.
+/// The n-th rising edge (from 0) is the core's cycle n. Between two edges the chip's time follows simulation time, but
+/// never reaches an edge before CLK does: a slow, fast or asymmetric CLK stretches or cuts the pause before it.
 class BoundClock {
  public:
   /// Rising edges over which the frequency is measured: 10 us at 48 MHz.

@@ -56,9 +56,8 @@ std::optional<LineCharacter> CharacterCollector::take(Tick now) {
 
 void CharacterCollector::sample_until(Tick now) {
   if (!running_) return;
-  for (; sampled_ < profibus::kBitsPerCharacter && middle_of_next_bit() <= now; ++sampled_) {
+  for (; sampled_ < profibus::kBitsPerCharacter && middle_of_next_bit() <= now; ++sampled_)
     if (level_) frame_ = static_cast<std::uint16_t>(frame_ | 1U << sampled_);
-  }
 }
 
 Tick CharacterCollector::middle_of_next_bit() const {

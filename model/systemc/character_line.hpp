@@ -1,6 +1,6 @@
 #pragma once
-// Characters of PROFIBUS (start bit, eight data bits LSB first, even parity, stop bit) to and from the edges of a line. Times are
-// the chip's ticks (1/12 ns). No SystemC in here.
+// Characters of PROFIBUS (start bit, eight data bits LSB first, even parity, stop bit) to and from the edges of a line.
+// Times are the chip's ticks (1/12 ns). No SystemC in here.
 #include <cstddef>
 #include <cstdint>
 #include <deque>

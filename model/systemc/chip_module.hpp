@@ -18,8 +18,8 @@ struct ChipOptions {
 /// Base of PinModule and TlmModule; not to be used by itself.
 class ChipModule : public sc_core::sc_module {
  public:
-  /// Every change of a pin, inputs as the core got them and outputs, in order of time. Ticks are the chip's: simulation time less
-  /// the phase. Set it before the simulation starts. It must not call the module.
+  /// Every change of a pin, inputs as the core got them and outputs, in order of time. Ticks are the chip's: simulation
+  /// time less the phase. Set it before the simulation starts. It must not call the module.
   std::function<void(Tick at, Pin pin, Level level)> on_pin;
   /// Every event of the core (refusals, state changes, violations), at the time it happens; ticks as for `on_pin`.
   std::function<void(const profibus::Event& event)> on_event;

@@ -14,7 +14,8 @@ sc_dt::sc_lv<8> wires(Level level) {
   return sc_dt::sc_lv<8>(static_cast<int>(level));
 }
 
-/// What the user drives. A byte with a floating or unknown bit counts as floating: the core reports it when it matters (P11).
+/// What the user drives. A byte with a floating or unknown bit counts as floating: the core reports it when it matters
+/// (P11).
 Level user_level(const sc_dt::sc_lv<8>& wires) { return wires.is_01() ? static_cast<Level>(wires.to_uint()) : kLevelZ; }
 
 }  // namespace
@@ -41,11 +42,10 @@ void PinModule::evaluate() {
   advance(now);
   apply_inputs(now);
   drive(take_changed());
-  if (!clock_) {
+  if (!clock_)
     schedule();
-  } else if (due_.triggered()) {
+  else if (due_.triggered())
     check_clock();
-  }
 }
 
 void PinModule::begin() {
@@ -55,11 +55,10 @@ void PinModule::begin() {
 
 void PinModule::clock_edge() {
   if (!CLK->event()) return;
-  if (CLK->read()) {
+  if (CLK->read())
     clock_->rising(sc_core::sc_time_stamp());
-  } else {
+  else
     clock_->falling(sc_core::sc_time_stamp());
-  }
   if (const auto mhz = clock_->take_wrong_frequency()) {
     const std::string text = std::string(name()) + ": CLK is " + std::to_string(*mhz) + " MHz, allowed is 48 MHz +/- " +
                              std::to_string(clock_tolerance_ppm_) + " ppm";
@@ -101,9 +100,8 @@ void PinModule::drive(std::uint32_t pins) {
     Out& port;
   } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
                {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
-  for (const auto& wire : wires) {
+  for (const auto& wire : wires)
     if (pins & mask(wire.pin)) wire.port.write(chip().level(wire.pin) != 0);
-  }
   if (pins & mask(Pin::kDOut)) drive_data();
 }
 

@@ -16,17 +16,17 @@
 namespace dsdpv1::systemc {
 
 struct PinOptions : ChipOptions {
-  /// (p) A bound CLK whose mean over BoundClock::kWindow edges is further from 48 MHz is reported once as /dsdpv1/clock. The
-  /// default is the 0.3 % that EN 50170 allows a station's bit rate.
+  /// (p) A bound CLK whose mean over BoundClock::kWindow edges is further from 48 MHz is reported once as
+  /// /dsdpv1/clock. The default is the 0.3 % that EN 50170 allows a station's bit rate.
   double clock_tolerance_ppm = 3000;
 };
 
 /// CLK unbound: the rising edge of cycle n is at simulation tick n * 250 + phase, and only changes of pins cost events.
 /// CLK bound: cycle n is its n-th rising edge, counted from 0; `phase` is not used.
 ///
-/// An input that changes at the time of a rising edge is seen by the next one (ruling P9). The levels at the end of time 0 are
-/// the initial ones: delta cycles at time 0 are no edges. Inputs that change in one delta cycle are applied A and D first, then
-/// CSR, RD, WR; what ends an access (CSR, R_REQ, R_STA released) last.
+/// An input that changes at the time of a rising edge is seen by the next one (ruling P9). The levels at the end of
+/// time 0 are the initial ones: delta cycles at time 0 are no edges. Inputs that change in one delta cycle are applied
+/// A and D first, then CSR, RD, WR; what ends an access (CSR, R_REQ, R_STA released) last.
 class PinModule : public ChipModule {
  public:
   template <class T>

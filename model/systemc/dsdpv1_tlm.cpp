@@ -27,9 +27,8 @@ tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload) {
   const unsigned int length = payload.get_data_length();
   if (!payload.is_read() && !payload.is_write()) return tlm::TLM_COMMAND_ERROR_RESPONSE;
   if (length == 0 || payload.get_streaming_width() < length) return tlm::TLM_BURST_ERROR_RESPONSE;
-  if (payload.get_address() >= kDpramSize || length > kDpramSize - payload.get_address()) {
+  if (payload.get_address() >= kDpramSize || length > kDpramSize - payload.get_address())
     return tlm::TLM_ADDRESS_ERROR_RESPONSE;
-  }
   if (!enables_are_valid(payload)) return tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE;
   return payload.get_data_ptr() != nullptr ? tlm::TLM_OK_RESPONSE : tlm::TLM_GENERIC_ERROR_RESPONSE;
 }
@@ -60,9 +59,8 @@ void TlmModule::start_of_simulation() {
   } wires[] = {{Pin::kLReq, L_REQ}, {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbrts, PBRTS},
                {Pin::kPbf, PBF},    {Pin::kBr, BR},      {Pin::kReady, READY}};
   std::uint32_t watched = mask(Pin::kPbtxd);
-  for (const auto& wire : wires) {
+  for (const auto& wire : wires)
     if (wire.port.size() > 0) watched |= mask(wire.pin);
-  }
   watch(on_pin ? watched | observed_ : watched);
 }
 
@@ -127,7 +125,8 @@ bool TlmModule::write_byte(std::uint16_t address, const AccessTiming& timing, un
   return !take_broken_timing();
 }
 
-/// Ends an access at once, when its initiator's process was reset or killed. After a complete one nothing is left to do.
+/// Ends an access at once, when its initiator's process was reset or killed. After a complete one nothing is left to
+/// do.
 void TlmModule::release_host_pins() {
   catch_up();
   const Tick now = chip_now();
@@ -137,16 +136,16 @@ void TlmModule::release_host_pins() {
   plan();
 }
 
-/// Moves the pins at the exact ticks of the access. The level of D when it was sampled, X for an access without a sample.
+/// Moves the pins at the exact ticks of the access. The level of D when it was sampled, X for an access without a
+/// sample.
 Level TlmModule::perform(const HostAccess& access) {
   Level sampled = kLevelX;
   for (const HostAccess::Edge& edge : access) {
     wait_until(access_start_ + edge.at);
-    if (edge.pin == Pin::kDOut) {
+    if (edge.pin == Pin::kDOut)
       sampled = sample(chip_now());
-    } else {
+    else
       set(chip_now(), edge.pin, edge.level);
-    }
   }
   access_start_ += access.duration();
   wait_until(access_start_);
@@ -168,11 +167,10 @@ unsigned int TlmModule::transport_dbg(Payload& payload) {
   const auto count = static_cast<unsigned int>(std::min<sc_dt::uint64>(payload.get_data_length(), kDpramSize - first));
   for (unsigned int i = 0; i < count; ++i) {
     const auto address = static_cast<std::uint16_t>(first + i);
-    if (payload.is_write()) {
+    if (payload.is_write())
       poke(address, data[i]);
-    } else {
+    else
       data[i] = peek(address);
-    }
   }
   return count;
 }
@@ -213,18 +211,17 @@ void TlmModule::drive_outputs() {
   } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
                {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
   const std::uint32_t pins = take_changed();
-  for (const auto& wire : wires) {
+  for (const auto& wire : wires)
     if ((pins & mask(wire.pin)) != 0 && wire.port.size() > 0) wire.port->write(chip().level(wire.pin) != 0);
-  }
 }
 
-/// Signals are written by `evaluate` only (SystemC allows one writer), characters for now take effect in the next delta cycle.
+/// Signals are written by `evaluate` only (SystemC allows one writer), characters for now take effect in the next delta
+/// cycle.
 void TlmModule::plan() {
-  if (has_changed() || to_chip_.next() <= chip_now()) {
+  if (has_changed() || to_chip_.next() <= chip_now())
     due_.notify(sc_core::SC_ZERO_TIME);
-  } else {
+  else
     schedule(std::min(to_chip_.next(), from_chip_.next()));
-  }
 }
 
 // ---------------------------------------------------------------------------------------------------------------- bus
@@ -246,9 +243,8 @@ void TlmModule::emit_characters() {
   if (complete_.empty()) return;
   std::vector<LineCharacter> complete;
   complete.swap(complete_);  // a listener may call back
-  for (const LineCharacter& c : complete) {
+  for (const LineCharacter& c : complete)
     bus_out.write({to_time(c.start + phase()), to_time(c.bit), c.data, c.parity_ok, c.stop_ok});
-  }
 }
 
 void TlmModule::write(const BusCharacter& character) {

@@ -23,8 +23,8 @@
 
 namespace dsdpv1::systemc {
 
-/// Gives one transaction another timing than TlmOptions::access. A payload frees the extensions that it still has in the
-/// end: clear one that is not on the heap.
+/// Gives one transaction another timing than TlmOptions::access. A payload frees the extensions that it still has in
+/// the end: clear one that is not on the heap.
 struct AccessTimingExtension : tlm::tlm_extension<AccessTimingExtension> {
   AccessTiming timing;
   tlm::tlm_extension_base* clone() const override { return new AccessTimingExtension(*this); }
@@ -55,14 +55,15 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   using OptionalIn = sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
   using OptionalOut = sc_core::sc_port<sc_core::sc_signal_inout_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
 
-  /// DPRAM 0x000..0x7FF. Every byte of a transaction is one access with `AccessTiming`; the time passes inside b_transport.
+  /// DPRAM 0x000..0x7FF. Every byte of a transaction is one access with `AccessTiming`; the time passes inside
+  /// b_transport.
   ///   data length 0, streaming width less than the length    TLM_BURST_ERROR_RESPONSE
   ///   byte enables: any pattern of 0x00 and 0xFF; others     TLM_BYTE_ENABLE_ERROR_RESPONSE
   ///   a byte outside of the DPRAM                            TLM_ADDRESS_ERROR_RESPONSE, nothing accessed
   ///   neither read nor write                                 TLM_COMMAND_ERROR_RESPONSE
   ///   X or Z read, table 15 violated by a write              TLM_GENERIC_ERROR_RESPONSE, the burst ends there
-  /// Access without ownership is carried out and reported (P12). Debug transport reads and writes the DPRAM past the pins;
-  /// direct memory access is denied.
+  /// Access without ownership is carried out and reported (P12). Debug transport reads and writes the DPRAM past the
+  /// pins; direct memory access is denied.
   tlm_utils::simple_target_socket<TlmModule> host_socket{"host_socket"};
 
   In RESET{"RESET"};                           ///< low-active
@@ -71,20 +72,22 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   OptionalOut INTR0{"INTR0"};
   OptionalOut PBF{"PBF"}, BR{"BR"}, READY{"READY"};
 
-  /// Characters to the chip. `start` may be now or later, in order of time; one that begins before the previous one has ended destroys
-  /// the rest of that (a collision), one in the past is not sent; both are reported as the warning /dsdpv1/bus.
+  /// Characters to the chip. `start` may be now or later, in order of time; one that begins before the previous one has
+  /// ended destroys the rest of that (a collision), one in the past is not sent; both are reported as the warning
+  /// /dsdpv1/bus.
   sc_core::sc_export<tlm::tlm_analysis_if<BusCharacter>> bus_in{"bus_in"};
   /// Characters from the chip, each at the end of its stop bit.
   tlm::tlm_analysis_port<BusCharacter> bus_out{"bus_out"};
   OptionalOut PBRTS{"PBRTS"};  ///< the RS-485 driver's enable (P2)
-  /// The raw line, beside the characters. A bound PBRXD and the characters of `bus_in` are both on the wire: a low of either wins.
+  /// The raw line, beside the characters. A bound PBRXD and the characters of `bus_in` are both on the wire: a low of
+  /// either wins.
   OptionalIn PBRXD{"PBRXD"};
   OptionalOut PBTXD{"PBTXD"};
 
   explicit TlmModule(const sc_core::sc_module_name& name, const TlmOptions& options = {});
 
-  /// Brings the core to the present time; signals follow in the next delta cycle. For users that read levels through `chip()`. Does nothing when called from
-  /// `on_pin` or `on_event`: the core is on its way then.
+  /// Brings the core to the present time; signals follow in the next delta cycle. For users that read levels through
+  /// `chip()`. Does nothing when called from `on_pin` or `on_event`: the core is on its way then.
   void sync();
 
  private:

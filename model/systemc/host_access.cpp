@@ -5,7 +5,8 @@
 namespace dsdpv1::systemc {
 namespace {
 
-/// Of edges at one tick, what prepares a strobe comes before it and what ends an access after it; D is sampled in between.
+/// Of edges at one tick, what prepares a strobe comes before it and what ends an access after it; D is sampled in
+/// between.
 int rank(const HostAccess::Edge& edge) {
   switch (edge.pin) {
     case Pin::kA: return edge.level == HostAccess::kIdleAddress ? 8 : 0;
@@ -47,7 +48,9 @@ void HostAccess::frame(Pin strobe, std::uint16_t address, Tick low, const Access
 }
 
 Tick HostAccess::sample() const {
-  return std::find_if(begin(), end(), [](const Edge& edge) { return edge.pin == Pin::kDOut; })->at;
+  return std::find_if(
+             begin(), end(), [](const Edge& edge) { return edge.pin == Pin::kDOut; })
+      ->at;
 }
 
 void HostAccess::order(Tick recovery) {

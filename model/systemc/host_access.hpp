@@ -16,8 +16,9 @@ namespace dsdpv1::systemc {
 ///   D in   ---------------|-------     read: sampled rd_sample after RD fell
 ///   D out  ---------<==========>--     write: data_setup before WR rises, data_hold after it
 ///
-/// The defaults are those of an STM32F103 at 72 MHz: FSMC mode 1, ADDSET = 1, DATAST = 5. Between accesses A is 0x7FF and D released.
-/// From the rise of WR to the next fall of RD 750 ticks must pass before a byte just written may be read (P8).
+/// The defaults are those of an STM32F103 at 72 MHz: FSMC mode 1, ADDSET = 1, DATAST = 5. Between accesses A is 0x7FF
+/// and D released. From the rise of WR to the next fall of RD 750 ticks must pass before a byte just written may be
+/// read (P8).
 struct AccessTiming {
   Tick address_setup = 333;  ///< Tc: >= 0
   Tick cs_lead = 333;

@@ -1,5 +1,5 @@
-// The DPV1 part of the RTL's own test (section 15; V1 to V15): what C1 and C2 answer, what the user finds in the DPRAM, and the cycles of
-// turn and timers. At 12 Mbit/s: a decision falls 5 cycles behind the calculated end of the telegram.
+// The DPV1 part of the RTL's own test (section 15; V1 to V15): what C1 and C2 answer, what the user finds in the DPRAM,
+// and the cycles of turn and timers. At 12 Mbit/s: a decision falls 5 cycles behind the calculated end of the telegram.
 #include <utility>
 
 #include "rtl_bench.hpp"
@@ -162,15 +162,12 @@ void c1_write_and_errors(Bench& b) {
   b.write(0x00F, 0);
   b.step(3);
   b.disown();
-  const std::vector<std::pair<Bytes, Bytes>> wrong = {{{0x51, 1, 2, 0}, {0xD1, 0x80, 0xA9, 0}},
-                                                      {{0x48}, {0xC8, 0x80, 0xA9, 0}},
-                                                      {{0x5E, 1, 2}, {0xDE, 0x80, 0xB8, 0}},
-                                                      {{0x5E, 1, 2, 1, 0}, {0xDE, 0x80, 0xB8, 0}},
-                                                      {{0x5F, 1, 2, 1}, {0xDF, 0x80, 0xB1, 0}},
-                                                      {{0x5F, 1, 2, 1, 0, 0}, {0xDF, 0x80, 0xB1, 0}},
-                                                      {{0x5F, 1, 2}, {0xDF, 0x80, 0xB1, 0}},
-                                                      {{0x5E}, {0xDE, 0x80, 0xB8, 0}},
-                                                      {{0x5F}, {0xDF, 0x80, 0xB1, 0}}};
+  const std::vector<std::pair<Bytes, Bytes>> wrong = {
+      {{0x51, 1, 2, 0}, {0xD1, 0x80, 0xA9, 0}}, {{0x48}, {0xC8, 0x80, 0xA9, 0}},
+      {{0x5E, 1, 2}, {0xDE, 0x80, 0xB8, 0}},    {{0x5E, 1, 2, 1, 0}, {0xDE, 0x80, 0xB8, 0}},
+      {{0x5F, 1, 2, 1}, {0xDF, 0x80, 0xB1, 0}}, {{0x5F, 1, 2, 1, 0, 0}, {0xDF, 0x80, 0xB1, 0}},
+      {{0x5F, 1, 2}, {0xDF, 0x80, 0xB1, 0}},    {{0x5E}, {0xDE, 0x80, 0xB8, 0}},
+      {{0x5F}, {0xDF, 0x80, 0xB1, 0}}};
   for (const auto& [pdu, negative] : wrong) {
     expect_bytes(b.ask(srd(kClass1, pdu)), kSc, "a wrong request is acknowledged");
     expect_bytes(b.ask(srd(kClass1)), answer(kClass1, negative), "and answered by the chip");
@@ -285,7 +282,8 @@ void c2_both(Bench& b) {
 // The telegram is acknowledged, and the channel aborted
 void expect_aborted(Bench& b, const Bytes& pdu, uint8_t reason, const char* what) {
   expect_bytes(b.ask(srd(kFirst, pdu)), kSc, what);
-  expect_bytes(b.ask(srd(kFirst)), answer(kFirst, {0x58, 0, static_cast<uint8_t>(0x10 | reason)}), "the poll behind it");
+  expect_bytes(b.ask(srd(kFirst)), answer(kFirst, {0x58, 0, static_cast<uint8_t>(0x10 | reason)}),
+               "the poll behind it");
   expect_bytes(b.ask(srd(kFirst)), refusal(kFirst, kRs), "free behind it");
 }
 

@@ -1,4 +1,5 @@
-// The bench of the RTL's own test: pins and user port of the chip under Verilator, and a line that sends telegrams and reads answers.
+// The bench of the RTL's own test: pins and user port of the chip under Verilator, and a line that sends telegrams and
+// reads answers.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@ namespace rtl {
 
 using Bytes = std::vector<uint8_t>;
 
-// What the command line chooses: parameters of the chip, which without DSDPV1_RUN_TIME_LIMITS are those that run.sh builds it with
+// What the command line chooses: parameters of the chip, which without DSDPV1_RUN_TIME_LIMITS are those that run.sh
+// builds it with
 struct Limits {
   unsigned rts_lead = 4, rts_trail = 4, search_window_ms = 50;
 };

@@ -1,5 +1,5 @@
-// Test of the reference RTL by itself, under Verilator: what docs/microarchitecture.md says of pins and DPRAM, on the usual way from
-// RESET to data exchange. The comparison with the model is not here but in the lockstep harness.
+// Test of the reference RTL by itself, under Verilator: what docs/microarchitecture.md says of pins and DPRAM, on the
+// usual way from RESET to data exchange. The comparison with the model is not here but in the lockstep harness.
 #include <cstdlib>
 #include <map>
 
@@ -158,7 +158,8 @@ void to_data_exchange(Bench& b) {
   b.step(200);
   Bytes block = {5, 0, 0, 0, 0xAA, 0xBB};
   expect_bytes(b.peek(0x410, 6), block, "parameters in the DPRAM");
-  expect_bytes(b.peek(0x4FE, 2), {static_cast<uint8_t>(crc16(block) >> 8), static_cast<uint8_t>(crc16(block))}, "their CRC");
+  expect_bytes(b.peek(0x4FE, 2), {static_cast<uint8_t>(crc16(block) >> 8), static_cast<uint8_t>(crc16(block))},
+               "their CRC");
   expect_bytes(b.peek(0x00E, 1), {2}, "B00E.1");
   expect(b.intr.rise - b.intr.fall, 64, "INTR0 is low for 64 cycles");
   expect_bytes(b.ask(request(0x7D, 60, {})), response(8, 60, diag(2, 0x0C, 2)), "Slave_Diag in WAIT_CFG");
@@ -167,7 +168,8 @@ void to_data_exchange(Bench& b) {
   b.step(200);
   block = {4, 4, 2, 0x13, 0x23};
   expect_bytes(b.peek(0x500, 5), block, "configuration in the DPRAM");
-  expect_bytes(b.peek(0x5CB, 2), {static_cast<uint8_t>(crc16(block) >> 8), static_cast<uint8_t>(crc16(block))}, "its CRC");
+  expect_bytes(b.peek(0x5CB, 2), {static_cast<uint8_t>(crc16(block) >> 8), static_cast<uint8_t>(crc16(block))},
+               "its CRC");
   expect_bytes(b.peek(0x00E, 1), {6}, "B00E.2");
   expect_bytes(b.ask(request(0x7D, 59, {})), response(8, 59, {0x13, 0x23}), "Get_Cfg");
 }
@@ -200,7 +202,8 @@ void diagnosis(Bench& b) {
   b.disown();
   b.step(200);
   expect_bytes(b.ask(sd2({5, 2, 0x5D, 5, 6, 7, 8})), sd2({2, 5, 0x0A, 0, 0, 0, 1}), "high priority");
-  expect_bytes(b.ask(request(0x7D, 57, {})), response(8, 57, {5, 6, 7, 8}), "only data exchange tells of high priority");
+  expect_bytes(b.ask(request(0x7D, 57, {})), response(8, 57, {5, 6, 7, 8}),
+               "only data exchange tells of high priority");
   Bytes data = diag(8, 0x0C, 2);
   data.insert(data.end(), {0x43, 0x11, 0x22});
   expect_bytes(b.ask(request(0x5D, 60, {})), response(8, 60, data), "diagnosis of the user");
@@ -255,11 +258,14 @@ void leave(Bench& b) {
   b.step(300);
   expect_bytes(b.peek(0x319, 5), {4, 0, 0, 0, 0}, "cleared outputs");
   expect_bytes(b.peek(0x008, 2), {0, 1}, "count of leaving");
-  expect_bytes(b.ask(request(0x6D, 60, {})), response(8, 60, [] {
-    Bytes data = diag(0x0E, 5, 255);
-    data.insert(data.end(), {0x43, 0x11, 0x22});
-    return data;
-  }()), "Slave_Diag with Cfg_Fault");
+  expect_bytes(b.ask(request(0x6D, 60, {})),
+               response(8, 60,
+                        [] {
+                          Bytes data = diag(0x0E, 5, 255);
+                          data.insert(data.end(), {0x43, 0x11, 0x22});
+                          return data;
+                        }()),
+               "Slave_Diag with Cfg_Fault");
 }
 
 // Two blocks in one access: the second pulse of INTR0 begins 64 cycles behind the first (section 13)
@@ -307,7 +313,8 @@ void user_judges(Bench& b) {
   // While the user judges a new Set_Prm, nothing of it is in force, and holder and watchdog stay (S15)
   expect_bytes(b.ask(request(0x4D, 61, {0x88, 2, 2, 20, 0x0C, 0xC9, 1}), 15), kSc, "Set_Prm again for the user");
   expect_bytes(b.ask(request(0x4D, 60, {}), 15), response(8, 60, diag(2, 0x0C, 2)), "holder and watchdog stay");
-  expect_bytes(b.ask(sd2({0x85, 0x83, 0x4D, 61, 62, 0x88, 2, 2, 20, 0x0C, 0xC9, 1}), 15), sd1(3, 5, 3), "another master");
+  expect_bytes(b.ask(sd2({0x85, 0x83, 0x4D, 61, 62, 0x88, 2, 2, 20, 0x0C, 0xC9, 1}), 15), sd1(3, 5, 3),
+               "another master");
   accept(0x80);
   // A configuration without inputs (S19, S20)
   expect_bytes(b.ask(request(0x4D, 62, {0x23}), 20), kSc, "Check_Cfg without inputs");
@@ -342,7 +349,9 @@ int main(int argc, char** argv) {
     const size_t equals = argument.find('=');
     const auto setting = settings.find(argument.substr(0, equals));
     if (setting == settings.end() || equals == std::string::npos) {
-      std::fprintf(stderr, "rtl_test: unknown argument %s, allowed are rts_lead, rts_trail, search_window_ms, fault =NUMBER\n", argv[i]);
+      std::fprintf(stderr,
+                   "rtl_test: unknown argument %s, allowed are rts_lead, rts_trail, search_window_ms, fault =NUMBER\n",
+                   argv[i]);
       return 2;
     }
     *setting->second = static_cast<unsigned>(std::stoul(argument.substr(equals + 1)));
@@ -372,7 +381,8 @@ int main(int argc, char** argv) {
   }
   Bench user(fault);
   ownership(user);
-  std::printf("ownership: %lld cycles, pins %016llx\n", static_cast<long long>(user.edge), static_cast<unsigned long long>(user.digest));
+  std::printf("ownership: %lld cycles, pins %016llx\n", static_cast<long long>(user.edge),
+              static_cast<unsigned long long>(user.digest));
   Bench rules(fault);
   user_rules(rules);
   std::printf("rules of the user: %lld cycles, pins %016llx\n", static_cast<long long>(rules.edge),
@@ -383,7 +393,8 @@ int main(int argc, char** argv) {
               static_cast<unsigned long long>(services.digest));
   Bench b(fault);
   dpv1(b);
-  std::printf("DPV1: %lld cycles, pins %016llx\n", static_cast<long long>(b.edge), static_cast<unsigned long long>(b.digest));
+  std::printf("DPV1: %lld cycles, pins %016llx\n", static_cast<long long>(b.edge),
+              static_cast<unsigned long long>(b.digest));
   std::printf("%d failures\n", failures);
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,5 +1,5 @@
-// Rules of telegrams and services: SA 127 (S32), address 126 (S33), repetitions (S26), Unlock (S28), data bytes where there are to
-// be none (S13), Not_Supported by Global_Control (S24) and high priority (D9).
+// Rules of telegrams and services: SA 127 (S32), address 126 (S33), repetitions (S26), Unlock (S28), data bytes where
+// there are to be none (S13), Not_Supported by Global_Control (S24) and high priority (D9).
 #include "rtl_bench.hpp"
 
 namespace {
@@ -101,7 +101,8 @@ void not_repeated(Bench& b) {
   b.step(200);
   expect_bytes(b.peek(0x31D, 1), {3}, "it is executed");
   after(request(0x7D, 57, {1}), request(0x7D, 58, {0}), sd1(2, 5, kRs), "another DSAP");
-  after(sd2({5, 0x82, 0x7D, 62, 1, 2, 3, 4}), sd2({5, 0x82, 0x7D, 61, 1, 2, 3, 5}), sd2({0x82, 5, 8, 61, 0x10, 0, 0, 0}), "another SSAP");
+  after(sd2({5, 0x82, 0x7D, 62, 1, 2, 3, 4}), sd2({5, 0x82, 0x7D, 61, 1, 2, 3, 5}),
+        sd2({0x82, 5, 8, 61, 0x10, 0, 0, 0}), "another SSAP");
   after(sd2({0x85, 2, 0x7D, 60}), sd2({0x85, 2, 0x7D, 60, 0}), sd1(2, 5, kRr), "another length");
   after(exchange(0x7D, 4), exchange(0x7D, 9), with_inputs(0x10), "another FCS");
   b.step(200);

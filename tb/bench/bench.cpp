@@ -23,15 +23,14 @@ class Bench::BaudFollower : private bus::Listener {
 
  private:
   void line_changed(Tick, bool) override {
-    for (const Master& each : bench_.masters_) {
+    for (const Master& each : bench_.masters_)
       if (each.master->running() && each.master->baud() != bench_.monitor_->baud())
         bench_.monitor_->set_baud(each.master->baud());
-    }
   }
   Bench& bench_;
 };
 
-// --- building ---------------------------------------------------------------------------------------------------------
+// --- building --------------------------------------------------------------------------------------------------------
 
 Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std::unique_ptr<Execution> execution)
     : scenario_(scenario),
@@ -181,7 +180,7 @@ void Bench::add_agents() {
   timeline.add(pulse_);
 }
 
-// --- what happens -----------------------------------------------------------------------------------------------------
+// --- what happens ----------------------------------------------------------------------------------------------------
 
 void Bench::log(Tick at, const std::string& station, const std::string& kind, const std::string& text) {
   log({at, station, kind, text});
@@ -247,9 +246,8 @@ void Bench::telegram(const bus::WireTelegram& telegram) {
   if (waves_) waves_->telegram(now(), words);
   checks_.telegram(now(), telegram);
   if (telegram.tsdr) {
-    for (const auto& slave : slaves_) {
+    for (const auto& slave : slaves_)
       if (slave->chip().chip().status().address == telegram.station) slave->tsdr().add(telegram.tsdr_bits());
-    }
   }
   touch();
 }
@@ -270,14 +268,13 @@ void Bench::happened(Happening happening) {
   if (happening.severity == profibus::Severity::kRefusal) refusals_.count(happening);
   log({happening.at, happening.station, happening.allowed ? "allowed" : name(happening.severity), happening.text,
        happening.code});
-  if (happenings_.size() < RunResult::kKept) {
+  if (happenings_.size() < RunResult::kKept)
     happenings_.push_back(std::move(happening));
-  } else {
+  else
     ++happenings_dropped_;
-  }
 }
 
-// --- for the script ---------------------------------------------------------------------------------------------------
+// --- for the script --------------------------------------------------------------------------------------------------
 
 const std::unique_ptr<SlaveStation>& Bench::find_slave(const std::string& name) const {
   const auto found =
@@ -287,9 +284,8 @@ const std::unique_ptr<SlaveStation>& Bench::find_slave(const std::string& name) 
 }
 
 bus::Master1& Bench::master(const std::string& name) {
-  for (Master& each : masters_) {
+  for (Master& each : masters_)
     if (name.empty() || each.spec->name.text == name) return *each.master;
-  }
   throw std::out_of_range("no master " + name);
 }
 
@@ -313,18 +309,16 @@ const bus::Connection& Bench::connection(const std::string& name) const {
 
 const bus::Master1* Bench::master_of(const std::string& slave) const {
   for (const Master& each : masters_) {
-    for (const auto& [address, name] : each.slaves) {
+    for (const auto& [address, name] : each.slaves)
       if (name == slave) return each.master.get();
-    }
   }
   return nullptr;
 }
 
 std::optional<std::uint8_t> Bench::listed_address(const std::string& slave) const {
   for (const Master& each : masters_) {
-    for (const auto& [address, name] : each.slaves) {
+    for (const auto& [address, name] : each.slaves)
       if (name == slave) return address;
-    }
   }
   return std::nullopt;
 }
@@ -353,7 +347,7 @@ void Bench::change_baud(int index) {
   for (const auto& each : masters2_) each->master().change_baud(index);
 }
 
-// --- running ----------------------------------------------------------------------------------------------------------
+// --- running ---------------------------------------------------------------------------------------------------------
 
 RunResult Bench::run(const std::function<bool(Tick)>& poll) {
   const auto begin = std::chrono::steady_clock::now();
@@ -409,8 +403,8 @@ RunResult Bench::collect() {
   return result;
 }
 
-/// Once a second of wall time what was written goes to disk, for the case that the process is killed. False: an output cannot be
-/// written any more (a full disk), so the run need not go on.
+/// Once a second of wall time what was written goes to disk, for the case that the process is killed. False: an output
+/// cannot be written any more (a full disk), so the run need not go on.
 bool Bench::keep_outputs(Tick at) {
   const auto now = std::chrono::steady_clock::now();
   if (now >= next_save_) {

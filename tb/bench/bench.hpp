@@ -1,6 +1,6 @@
 #pragma once
-// A scenario carried out: builds the stations, runs the timeline, collects what happened. The script is in script.hpp, the judging
-// of conditions in conditions.hpp.
+// A scenario carried out: builds the stations, runs the timeline, collects what happened. The script is in script.hpp,
+// the judging of conditions in conditions.hpp.
 #include <chrono>
 #include <functional>
 #include <map>
@@ -49,8 +49,8 @@ class Bench {
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  /// Runs to the scenario's end, or until `poll`, which is called every 100 us of simulated time, returns false. The files of
-  /// the options are complete afterwards.
+  /// Runs to the scenario's end, or until `poll`, which is called every 100 us of simulated time, returns false. The
+  /// files of the options are complete afterwards.
   RunResult run(const std::function<bool(Tick now)>& poll);
   /// Where the log grows until the run ends; empty without a log.
   std::string log_grows_at() const { return log_ ? log_->grows_at() : ""; }

@@ -12,8 +12,8 @@ namespace tb {
 class Execution {
  public:
   virtual ~Execution() = default;
-  /// `watched`: the pins whose changes are wanted; of the inputs all (kInputPins) or none. Chips are made before anything else is added
-  /// to the timeline.
+  /// `watched`: the pins whose changes are wanted; of the inputs all (kInputPins) or none. Chips are made before
+  /// anything else is added to the timeline.
   virtual std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config,
                                               std::uint32_t watched) = 0;
   /// Runs the timeline up to and including `end`, or until `stopped` says so.

@@ -13,7 +13,8 @@
 
 namespace tb {
 
-/// Wired as on a board with an RS-485 driver: PBRTS enables it, PBTXD is what it drives, PBRXD hears the line at all times.
+/// Wired as on a board with an RS-485 driver: PBRTS enables it, PBTXD is what it drives, PBRXD hears the line at all
+/// times.
 class PinChip : public ChipView, public bus::Agent, private bus::Listener, private user_cpu::HostBus {
  public:
   /// The core itself.

@@ -9,8 +9,8 @@
 
 namespace tb {
 
-/// Lines "cycle slave pin level", in order of time and at equal times of the slaves' numbers, so that it does not matter which
-/// chip was evaluated first; D with its ticks behind the cycle: "cycle+ticks".
+/// Lines "cycle slave pin level", in order of time and at equal times of the slaves' numbers, so that it does not
+/// matter which chip was evaluated first; D with its ticks behind the cycle: "cycle+ticks".
 class PinTrace {
  public:
   explicit PinTrace(const std::string& path) : file_(path) {}

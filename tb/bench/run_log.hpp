@@ -1,5 +1,6 @@
 #pragma once
-// The log of a run: one line a thing, in order of time. As text for people, or a JSON object a line for programs (docs/log.md).
+// The log of a run: one line a thing, in order of time. As text for people, or a JSON object a line for programs
+// (docs/log.md).
 #include <map>
 #include <optional>
 #include <string>
@@ -45,7 +46,8 @@ class RunLog {
   RunLog(const std::string& path, const LogForm& form) : file_(path), form_(form) {}
 
   void add(const LogEntry& entry);
-  /// What a check found: after all other lines of that time, because views tell the changes of one tick in different orders.
+  /// What a check found: after all other lines of that time, because views tell the changes of one tick in different
+  /// orders.
   void finding(const LogEntry& entry);
   /// Nothing will come for a time before `now` any more.
   void flush(bus::Tick now);

@@ -22,11 +22,10 @@ Script::Script(Bench& bench) : bench_(bench) {
   for (std::size_t i = 0; i < scenario.masters2.size(); ++i) plan(scenario.masters2[i].start, Kind::kStartMaster2, i);
   for (std::size_t i = 0; i < scenario.script.size(); ++i) {
     if (bench.leaves_out(&scenario.script[i])) continue;
-    if (scenario.script[i].at) {
+    if (scenario.script[i].at)
       plan(*scenario.script[i].at, Kind::kAction, i);
-    } else {
+    else
       waiting_.push_back(i);
-    }
   }
   for (std::size_t i = 0; i < scenario.expect.size(); ++i) {
     const scenario::Expectation& expectation = scenario.expect[i];
@@ -86,14 +85,13 @@ void Script::carry_out(const Due& due, Tick now) {
   }
 }
 
-// --- conditions -------------------------------------------------------------------------------------------------------
+// --- conditions ------------------------------------------------------------------------------------------------------
 
 void Script::look(Tick now) {
   look_at_actions(now);
   const auto& expect = bench_.scenario().expect;
-  for (std::size_t i = 0; i < expect.size(); ++i) {
+  for (std::size_t i = 0; i < expect.size(); ++i)
     if (expect[i].by && !judged_[i]) judge(i, now, false);
-  }
 }
 
 void Script::look_at_actions(Tick now) {
@@ -130,7 +128,7 @@ std::vector<ExpectationResult> Script::finish(Tick now, bool interrupted) {
   return expectations_;
 }
 
-// --- actions ----------------------------------------------------------------------------------------------------------
+// --- actions ---------------------------------------------------------------------------------------------------------
 
 void Script::act(const Action& action, Tick now) {
   if (!action.connection.empty()) return bench_.owner_of(action.connection.text).act(action);

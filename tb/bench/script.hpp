@@ -1,5 +1,6 @@
 #pragma once
-// The scenario's script and expectations as the last agent of the timeline: it acts when everybody else has acted at a tick.
+// The scenario's script and expectations as the last agent of the timeline: it acts when everybody else has acted at a
+// tick.
 #include <cstddef>
 #include <vector>
 
@@ -20,8 +21,8 @@ class Script : public bus::Agent {
   void touch(Tick at) { touched_at_ = at; }
   Tick next() const override;
   void run(Tick now) override;
-  /// Judges what is to be judged at the end; an expectation whose time did not come has failed, when interrupted also those
-  /// of the end.
+  /// Judges what is to be judged at the end; an expectation whose time did not come has failed, when interrupted also
+  /// those of the end.
   std::vector<ExpectationResult> finish(Tick now, bool interrupted);
 
  private:

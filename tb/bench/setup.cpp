@@ -85,15 +85,13 @@ bus::GsdSetup Setup::choose(const scenario::Name& path, const std::vector<scenar
   bus::GsdChoice choice;
   for (const scenario::Name& module : modules) {
     std::string why;
-    if (!bus::find_module(file, module.text, why)) {
+    if (!bus::find_module(file, module.text, why))
       fail(module.line, why + did_you_mean(module.text, module_names(file)));
-    }
     choice.modules.push_back(module.text);
   }
   bus::GsdSetup setup = bus::set_up(file, choice);
-  for (const bus::GsdDiagnostic& each : setup.diagnostics) {
+  for (const bus::GsdDiagnostic& each : setup.diagnostics)
     if (each.level == bus::GsdDiagnostic::Level::kError) fail(path.line, each.text);
-  }
   return setup;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// From a scenario and its GSD files to what the user CPUs and the masters are given. All errors are InputErrors with file and line.
+// From a scenario and its GSD files to what the user CPUs and the masters are given. All errors are InputErrors with
+// file and line.
 #include <map>
 #include <string>
 

@@ -62,7 +62,8 @@ class TlmExecution : public Execution {
   }
 
   void run(Tick end, const std::function<bool()>& stopped) override {
-    // In slices, so that a stop takes effect; the last one ends a tick behind `end`, which SystemC itself would leave out.
+    // In slices, so that a stop takes effect; the last one ends a tick behind `end`, which SystemC itself would leave
+    // out.
     constexpr Tick kSlice = bus::kTicksPerMs;
     for (Tick to = std::min(kSlice, end + 1); !stopped(); to = std::min(to + kSlice, end + 1)) {
       sc_core::sc_start(dsdpv1::systemc::to_time(to) - sc_core::sc_time_stamp());

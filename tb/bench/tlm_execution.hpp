@@ -10,8 +10,8 @@ namespace tb {
 /// Only inside of sc_main, once a process.
 std::unique_ptr<Execution> make_tlm_execution();
 
-/// Calls `body` from an sc_main of its own and returns what it returned. Exceptions of `body` come through. For programs with a
-/// main of their own.
+/// Calls `body` from an sc_main of its own and returns what it returned. Exceptions of `body` come through. For
+/// programs with a main of their own.
 int inside_systemc(const std::function<int()>& body);
 
 }  // namespace tb

@@ -13,9 +13,9 @@ struct GdbWish {
   std::function<bool()> stopped;                ///< whether the run is to end
 };
 
-/// What makes the slave's user CPU at each release of its reset. Throws InputError where its firmware is no use. All of them
-/// must outlive the result; `gdb` is null without a debugger. What firmware without a mailbox cannot do of the scenario is added to
-/// `left_out`, see untold.hpp.
+/// What makes the slave's user CPU at each release of its reset. Throws InputError where its firmware is no use. All of
+/// them must outlive the result; `gdb` is null without a debugger. What firmware without a mailbox cannot do of the
+/// scenario is added to `left_out`, see untold.hpp.
 MakeUser user_maker(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip,
                     const GdbWish* gdb, std::set<const void*>& left_out);
 

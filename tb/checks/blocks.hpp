@@ -1,5 +1,6 @@
 #pragma once
-// The blocks of the DPRAM that one side writes and announces to the other with a flag (tables 2, 8 to 11), and what their CRC covers (D3).
+// The blocks of the DPRAM that one side writes and announces to the other with a flag (tables 2, 8 to 11), and what
+// their CRC covers (D3).
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -51,8 +52,8 @@ constexpr std::array<Block, 5> kChipBlocks = {{
 /// Reads a cell; absent when its content is not known.
 using Look = std::function<std::optional<std::uint8_t>(Address)>;
 
-/// How many bytes the CRC of a block of the user covers; absent when a byte is not known, or the length cannot be right (D12, V14: the chip
-/// refuses such a block unread).
+/// How many bytes the CRC of a block of the user covers; absent when a byte is not known, or the length cannot be right
+/// (D12, V14: the chip refuses such a block unread).
 std::optional<unsigned> covered(const Block& block, const Look& look);
 /// The CRC over `count` bytes from `first` (4.2, D2). Written apart from the driver's and the chip's, which it judges.
 std::optional<std::uint16_t> crc_over(Address first, unsigned count, const Look& look);

@@ -97,7 +97,7 @@ void CellRules::accessed(const Access& access) {
   access.write ? wrote(access) : read(access);
 }
 
-// --- reads ------------------------------------------------------------------------------------------------------------
+// --- reads -----------------------------------------------------------------------------------------------------------
 
 void CellRules::read(const Access& access) {
   if (access.address == regs::kAccessCount) count_read(access);
@@ -144,7 +144,7 @@ void CellRules::check_what_chip_did(const Access& access) {
                  [&] { return fmt::format("B{:03X} is {:02X}, the user left {:02X}", access.address, now, left); });
 }
 
-// --- writes -----------------------------------------------------------------------------------------------------------
+// --- writes ----------------------------------------------------------------------------------------------------------
 
 void CellRules::wrote(const Access& access) {
   recorder_.kept(Check::kCellOfChip, access.at, !only_chip_writes_[access.address],
@@ -212,7 +212,7 @@ void CellRules::note_announcements(const Access& access, std::optional<std::uint
   }
 }
 
-// --- the end of a hold ------------------------------------------------------------------------------------------------
+// --- the end of a hold -----------------------------------------------------------------------------------------------
 
 void CellRules::check_count(Tick at) {
   if (hold_.counted_unknown) return;
@@ -223,9 +223,8 @@ void CellRules::check_count(Tick at) {
 }
 
 void CellRules::check_crcs_written(Tick at) {
-  for (std::size_t i = 0; i < kUserBlocks.size(); ++i) {
+  for (std::size_t i = 0; i < kUserBlocks.size(); ++i)
     if (hold_.announced[i]) check_crc_written(kUserBlocks.at(i), at);
-  }
 }
 
 void CellRules::check_crc_written(const Block& block, Tick at) {
@@ -252,7 +251,7 @@ void CellRules::check_crcs_fetched(Tick at) {
   }
 }
 
-// --- verdicts ---------------------------------------------------------------------------------------------------------
+// --- verdicts --------------------------------------------------------------------------------------------------------
 
 /// One that stood before is none of this hold's, and one taken back in it is none at all.
 void CellRules::note_verdicts(std::uint8_t now, std::uint8_t before) {
@@ -269,8 +268,9 @@ void CellRules::note_fetched(std::uint8_t now, const std::optional<std::uint8_t>
   }
 }
 
-/// Whether the block's flag stands. Not looked at in this hold, it still does when it did before, as only the user clears it; else nobody knows
-/// whether a newer block has come, but who has cleared nothing since his last verdict has fetched nothing.
+/// Whether the block's flag stands. Not looked at in this hold, it still does when it did before, as only the user
+/// clears it; else nobody knows whether a newer block has come, but who has cleared nothing since his last verdict has
+/// fetched nothing.
 std::optional<bool> CellRules::stands_unfetched(std::size_t verdict) const {
   constexpr std::size_t kPlace = regs::kChipCommand1 - kFirstFlags;
   const bool stood = (flags_left_.at(kPlace) & kVerdicts.at(verdict).block) != 0;

@@ -1,5 +1,6 @@
 #pragma once
-// What the user may do with the cells of the DPRAM: B006, the CRCs, the flags, the chip's own cells. All of it is read from his accesses.
+// What the user may do with the cells of the DPRAM: B006, the CRCs, the flags, the chip's own cells. All of it is read
+// from his accesses.
 #include <array>
 #include <bitset>
 #include <cstdint>
@@ -11,7 +12,8 @@
 
 namespace checks {
 
-/// A hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again. What the chip may have changed before it is not known until the user reads it.
+/// A hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again. What the chip may have changed
+/// before it is not known until the user reads it.
 class CellRules {
  public:
   explicit CellRules(Recorder& recorder);

@@ -1,6 +1,6 @@
 #pragma once
-// The rules of the user's side, judged from outside: the pins of ONE chip and the telegrams on the line, nothing of what is behind the pins.
-// So they hold the same way for every user CPU, every engine and foreign RTL.
+// The rules of the user's side, judged from outside: the pins of ONE chip and the telegrams on the line, nothing of
+// what is behind the pins. So they hold the same way for every user CPU, every engine and foreign RTL.
 //
 //   checks::Checks checks(limits);
 //   checks.on_violation = ...;
@@ -36,10 +36,11 @@ class Checks : private AccessSink {
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
-  /// A change of a pin. The first changes are those from the levels of a chip fresh from construction (dsdpv1::Chip::set). Ticks never
-  /// go back; pins that change at the same tick may come in any order.
+  /// A change of a pin. The first changes are those from the levels of a chip fresh from construction
+  /// (dsdpv1::Chip::set). Ticks never go back; pins that change at the same tick may come in any order.
   void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
-  /// The user begins a read, told before its first edge, and samples D at `sample`. Only for a user CPU that tells: at the pins nobody sees it.
+  /// The user begins a read, told before its first edge, and samples D at `sample`. Only for a user CPU that tells: at
+  /// the pins nobody sees it.
   void read(Tick sample) { port_.read(sample); }
   /// A telegram that has ended, of any station, heard at `now`.
   void telegram(Tick now, const bus::WireTelegram& telegram);

@@ -64,11 +64,10 @@ void Ownership::r_sta_rose(Tick at) {
   } else {
     alone_since_ = at;
   }
-  if (l_sta_) {
+  if (l_sta_)
     both_own_since_ = at;
-  } else {
+  else
     record(Check::kBothOwn, at, at - std::max(l_sta_fell_, held_off_since_));
-  }
 }
 
 /// Both low for no time is not low: the window goes on (H2).
@@ -126,11 +125,10 @@ void Ownership::ownership_lost(Tick at) {
 void Ownership::access_began(Tick at) {
   accessing_ = true;
   began_not_owned_ = !owns();
-  if (began_not_owned_) {
+  if (began_not_owned_)
     not_owned_since_ = at;
-  } else {
+  else
     record(Check::kNotOwner, at, at - owned_since_);
-  }
 }
 
 void Ownership::access_ended(Tick at) {

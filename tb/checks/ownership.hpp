@@ -1,8 +1,9 @@
 #pragma once
 // Who owns the DPRAM (5.1; H1, H2, P12), from R_REQ, R_STA, L_STA and the begin and end of the user's accesses.
 //
-// While R_REQ or R_STA is high the user holds the chip off; only with both high may he access. So of a release, in which they may fall one
-// after the other in either order, the first fall ends the right to access, and the second lets the chip in.
+// While R_REQ or R_STA is high the user holds the chip off; only with both high may he access. So of a release, in
+// which they may fall one after the other in either order, the first fall ends the right to access, and the second lets
+// the chip in.
 //
 // Pins that change at the same tick may be told in any order: what lasts no time breaks no rule.
 #include <optional>
@@ -15,7 +16,8 @@ class Ownership {
  public:
   explicit Ownership(Recorder& recorder) : recorder_(recorder) {}
 
-  /// RESET has become low or high: nothing of what was going on is judged any more, nor what the pins do while it is low. Levels stay.
+  /// RESET has become low or high: nothing of what was going on is judged any more, nor what the pins do while it is
+  /// low. Levels stay.
   void reset(Tick at, bool low);
   void r_req(Tick at, bool level);
   void r_sta(Tick at, bool level);
@@ -25,7 +27,8 @@ class Ownership {
   /// The run ends: what still lasts is judged as if it ended now.
   void finish(Tick at);
 
-  /// Since when the user has held the chip off, the end of a reset at the earliest; absent while R_REQ and R_STA are low.
+  /// Since when the user has held the chip off, the end of a reset at the earliest; absent while R_REQ and R_STA are
+  /// low.
   std::optional<Tick> held_off_since() const;
 
  private:

@@ -40,7 +40,7 @@ void PortTiming::pin(Tick at, Pin pin, Level level) {
   }
 }
 
-// --- strobes ----------------------------------------------------------------------------------------------------------
+// --- strobes ---------------------------------------------------------------------------------------------------------
 
 void PortTiming::chip_select(Tick at, bool level) {
   csr_ = level;
@@ -66,7 +66,8 @@ void PortTiming::write_strobe(Tick at, bool level) {
   } else if (!csr_ || csr_early_ == at) {
     capture(at);
   } else if (csr_early_) {
-    recorder_.value(Check::kCsr, *csr_early_, *csr_early_ - at, [this] { return fmt::format("B{:03X}", a_); });
+    recorder_.value(
+        Check::kCsr, *csr_early_, *csr_early_ - at, [this] { return fmt::format("B{:03X}", a_); });
   }
   strobes_changed(at);
 }
@@ -87,7 +88,7 @@ void PortTiming::strobes_changed(Tick at) {
   if (!read && reading_) end_read(at);
 }
 
-// --- writes -----------------------------------------------------------------------------------------------------------
+// --- writes ----------------------------------------------------------------------------------------------------------
 
 void PortTiming::capture(Tick at) {
   const auto address = static_cast<std::uint16_t>(a_);
@@ -99,11 +100,10 @@ void PortTiming::capture(Tick at) {
   end_holds(at);
   a_hold_ = d_hold_ = at;
   written_ = address;
-  if (csr_) {
+  if (csr_)
     recorder_.value(Check::kCsr, at, 0, writing);
-  } else {
+  else
     csr_due_ = at;
-  }
   writes_.at(write_count_++ % writes_.size()) = {address, edge_after(at) + kSettles};
   const std::optional<std::uint8_t> value = floating ? std::nullopt : std::optional(static_cast<std::uint8_t>(d_in_));
   sink_.accessed({true, address, value, std::min(began_, at), at});
@@ -127,7 +127,7 @@ void PortTiming::data_changed(Tick at, Level level) {
   d_hold_.reset();
 }
 
-// --- reads ------------------------------------------------------------------------------------------------------------
+// --- reads -----------------------------------------------------------------------------------------------------------
 
 void PortTiming::begin_read(Tick at) {
   reading_ = true;
@@ -148,11 +148,10 @@ void PortTiming::address_changed(Tick at, Level level) {
   a_changed_ = at;
   if (!reading_ || at >= sample_edge_) return;
   a_read_ = level;
-  if (at == began_) {
+  if (at == began_)
     a_valid_since_ = at;
-  } else if (!std::exchange(read_spoilt_, true)) {
+  else if (!std::exchange(read_spoilt_, true))
     recorder_.value(Check::kTc, at, began_ - at, [level] { return fmt::format("reading B{:03X}", level); });
-  }
 }
 
 void PortTiming::chip_data_changed(Tick at, Level level) {

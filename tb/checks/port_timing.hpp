@@ -1,8 +1,10 @@
 #pragma once
-// The user's accesses to the host port, read from CSR, RD, WR, A and D, and table 15 with rulings P5, P8 and P11 on them.
+// The user's accesses to the host port, read from CSR, RD, WR, A and D, and table 15 with rulings P5, P8 and P11 on
+// them.
 //
-// Pins that change at the same tick may be told in any order. What a write brings is D at WR's rise; what a read brings is D as the chip
-// drove it until RD or CSR rose. Nobody sees at the pins when exactly the user sampled it: a user CPU of the bench tells.
+// Pins that change at the same tick may be told in any order. What a write brings is D at WR's rise; what a read brings
+// is D as the chip drove it until RD or CSR rose. Nobody sees at the pins when exactly the user sampled it: a user CPU
+// of the bench tells.
 #include <array>
 #include <cstdint>
 #include <optional>

@@ -41,7 +41,8 @@ class Recorder {
  public:
   Recorder(const Limits& limits, const PinHistory& history) : limits_(limits), history_(history) {}
 
-  /// A measured value of a check with Bound::kMin or kMax; `context()` names what it was about, asked for when it is violated.
+  /// A measured value of a check with Bound::kMin or kMax; `context()` names what it was about, asked for when it is
+  /// violated.
   template <class Context>
   void value(Check check, Tick at, Tick measured, const Context& context) {
     if (limits_[check].on && !add(check, at, measured)) report_value(check, at, measured, context());

@@ -36,7 +36,8 @@ class Service {
   std::optional<std::uint8_t> address_;
   bool sending_ = false;
   Tick pbrts_rose_ = 0, pbrts_fell_ = 0;
-  // A Data_Exchange counts from its execution, a bit time after its end (docs/microarchitecture.md, section 7): intervals run between these.
+  // A Data_Exchange counts from its execution, a bit time after its end (docs/microarchitecture.md, section 7):
+  // intervals run between these.
   std::optional<Tick> due_exchange_;   ///< has been heard
   std::optional<Tick> last_exchange_;  ///< was executed
   Tick longest_part_ = 0;              ///< of the interval since then, that the user held the chip off

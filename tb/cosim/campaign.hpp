@@ -32,8 +32,8 @@ std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number);
 /// Cases until so many cycles are compared, or one differs. `make` is called by all threads; `progress` may be empty.
 CampaignResult run_campaign(const CampaignOptions& options, const MakeTop& make, const CampaignProgress& progress = {});
 
-/// A shorter stimulus that still differs: actions are left out, then delays and faults, as long as there is a difference. At most
-/// `runs` runs.
+/// A shorter stimulus that still differs: actions are left out, then delays and faults, as long as there is a
+/// difference. At most `runs` runs.
 Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs);
 
 /// How random cases and directed stimuli are played.

@@ -55,8 +55,8 @@ class Hunt {
 
 /// How long it waits, all lanes together.
 Tick waits(const Stimulus& stimulus) {
-  return std::accumulate(stimulus.begin(), stimulus.end(), Tick{0},
-                         [](Tick sum, const Action& action) { return sum + action.delay; });
+  return std::accumulate(
+      stimulus.begin(), stimulus.end(), Tick{0}, [](Tick sum, const Action& action) { return sum + action.delay; });
 }
 
 }  // namespace

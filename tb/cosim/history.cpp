@@ -101,10 +101,9 @@ void History::write_wave(const std::string& path, Tick end) const {
   }
   const Tick begin = std::max<Tick>(0, changes_.empty() ? 0 : std::min(changes_.front().at, end - span_));
   for (std::size_t side = 0; side < kSides; ++side) {
-    for (std::size_t i = 0; i < dsdpv1::kPinCount; ++i) {
+    for (std::size_t i = 0; i < dsdpv1::kPinCount; ++i)
       if (belongs(static_cast<Side>(side), static_cast<Pin>(i)))
         writer->set(begin, signals.at(side).at(i), levels_.at(side).at(i));
-    }
   }
   // Each side tells its changes in order of time, the sides in turns.
   std::vector<Change> ordered(changes_.begin(), changes_.end());

@@ -1,5 +1,6 @@
 #pragma once
-// The last cycles of a lockstep run: what changed at the inputs, at the model's outputs and at the RTL's; and as a wave.
+// The last cycles of a lockstep run: what changed at the inputs, at the model's outputs and at the RTL's; and as a
+// wave.
 #include <array>
 #include <deque>
 #include <string>
@@ -28,8 +29,8 @@ class History {
 
   void begin(Side side, Pin pin, Level level) { levels_.at(static_cast<std::size_t>(side)).at(index(pin)) = level; }
   void add(Tick at, Side side, Pin pin, Level level);
-  /// Writes what happened in the last cycles up to `end` to `path` (.vcd, .fst): scopes inputs, model, rtl, one below the other.
-  /// Throws tb::InputError.
+  /// Writes what happened in the last cycles up to `end` to `path` (.vcd, .fst): scopes inputs, model, rtl, one below
+  /// the other. Throws tb::InputError.
   void write_wave(const std::string& path, Tick end) const;
   /// The last telegram on PBRXD; `rate` 0..9 is that of the chip, anything else: as the shortest pulse says.
   LineTelegram last_telegram(int rate) const;

@@ -87,7 +87,8 @@ void Lockstep::note_access(Tick at, Pin pin, Level level) {
     last_access_ = {at, write, model_.level(Pin::kA), model_.level(Pin::kDIn)};
 }
 
-/// The model is stopped wherever one of its accesses ends, because the RTL's DPRAM can be seen at its present time only.
+/// The model is stopped wherever one of its accesses ends, because the RTL's DPRAM can be seen at its present time
+/// only.
 void Lockstep::advance(Tick to) {
   for (Tick next = model_.next_event(); next <= to && !difference_; next = model_.next_event()) {
     model_.advance(next);

@@ -1,6 +1,6 @@
 #pragma once
-// Model and RTL side by side on the same inputs: every change of every output pin is compared, and the DPRAM at the end of each access
-// that can have changed it. Whoever drives the chip sees the model's outputs.
+// Model and RTL side by side on the same inputs: every change of every output pin is compared, and the DPRAM at the end
+// of each access that can have changed it. Whoever drives the chip sees the model's outputs.
 #include <memory>
 #include <optional>
 #include <string>

@@ -78,8 +78,8 @@ Lockstep* LockstepExecution::different() {
 }
 
 const std::string& LockstepExecution::different_name() {
-  return std::find_if(chips_.begin(), chips_.end(),
-                      [](const Chip& chip) { return chip.lockstep->difference().has_value(); })
+  return std::find_if(
+             chips_.begin(), chips_.end(), [](const Chip& chip) { return chip.lockstep->difference().has_value(); })
       ->name;
 }
 

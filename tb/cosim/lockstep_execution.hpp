@@ -41,8 +41,8 @@ class LockstepExecution : public tb::Execution {
   std::vector<Chip> chips_;
 };
 
-/// What a lockstep run ends with: the counts of what matched, or the first difference, for which a wave is written to `wave`
-/// (empty: none). True when there was no difference.
+/// What a lockstep run ends with: the counts of what matched, or the first difference, for which a wave is written to
+/// `wave` (empty: none). True when there was no difference.
 bool report(LockstepExecution& execution, const std::string& wave, std::string& text);
 
 }  // namespace cosim

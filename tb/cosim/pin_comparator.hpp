@@ -1,8 +1,9 @@
 #pragma once
 // Compares the pin changes of two chips that get the same inputs.
 //
-// A pin without tolerance must have the same level on both sides at every tick. A pin with a tolerance must make the same changes in
-// the same order, each within so many cycles of the other side's. D as the model drives it may be X, which anything matches (P5).
+// A pin without tolerance must have the same level on both sides at every tick. A pin with a tolerance must make the
+// same changes in the same order, each within so many cycles of the other side's. D as the model drives it may be X,
+// which anything matches (P5).
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -36,7 +37,8 @@ class PinComparator {
   void model_changed(Tick at, Pin pin, Level level) { model_.push_back({at, pin, level}); }
   void rtl_changed(Tick at, Pin pin, Level level) { rtl_.push_back({at, pin, level}); }
 
-  /// Compares everything before `horizon`, which both sides have reached. The first difference, and from then on nothing more.
+  /// Compares everything before `horizon`, which both sides have reached. The first difference, and from then on
+  /// nothing more.
   std::optional<PinDifference> settle(Tick horizon);
   /// Changes of the model that the RTL made as well.
   std::uint64_t matched() const { return matched_; }

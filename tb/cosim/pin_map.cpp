@@ -21,13 +21,11 @@ class Reader {
   PinMap read() {
     const YAML::Node root = load();
     check_keys(root, {"clock", "pins", "tolerance", "parameters", "files", "include"});
-    for (const char* key : {"pins", "tolerance", "parameters"}) {
+    for (const char* key : {"pins", "tolerance", "parameters"})
       if (root[key] && !root[key].IsMap()) fail(root[key], std::string(key) + " is no map, allowed is NAME: VALUE");
-    }
-    for (const char* key : {"files", "include"}) {
+    for (const char* key : {"files", "include"})
       if (root[key] && !root[key].IsSequence())
         fail(root[key], std::string(key) + " is no list, allowed is [NAME, NAME]");
-    }
     if (root["clock"]) map_.clock = port(root["clock"]);
     for (const auto& each : root["pins"]) pin(each.first, each.second);
     for (const auto& each : root["tolerance"]) tolerance(each.first, each.second);
@@ -90,10 +88,9 @@ class Reader {
       if (!dsdpv1::is_input(pin) && pin != Pin::kDOut) outputs.emplace_back(dsdpv1::name(pin));
     }
     check_name(name, outputs);
-    for (int i = 0; i < dsdpv1::kPinCount; ++i) {
+    for (int i = 0; i < dsdpv1::kPinCount; ++i)
       if (text(name) == dsdpv1::name(static_cast<Pin>(i)))
         map_.tolerances.at(static_cast<std::size_t>(i)) = cycles(node);
-    }
   }
   int cycles(const YAML::Node& node) const {
     int value = -1;

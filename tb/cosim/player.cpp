@@ -88,11 +88,10 @@ class BusLane : public Lane {
   /// A glitch may last longer than the telegram: the line is looked at when the sender is through.
   Tick next() const override { return std::min({sender_.busy() ? sender_.next() : look_, spike_, spike_end_}); }
   void run(Tick now) override {
-    if (spike_ <= now) {
+    if (spike_ <= now)
       segment_.force(std::exchange(spike_, bus::kNever), false);
-    } else if (spike_end_ <= now) {
+    else if (spike_end_ <= now)
       segment_.force(std::exchange(spike_end_, bus::kNever), std::nullopt);
-    }
     if (sender_.next() <= now) sender_.run(now);
     if (!sender_.busy() && look_ <= now) look(now);
   }
@@ -238,9 +237,8 @@ class Player {
   }
 
   PlayResult run() {
-    while (!lockstep().difference() && timeline_.now() < options_.limit && (hand_out() || !all_idle())) {
+    while (!lockstep().difference() && timeline_.now() < options_.limit && (hand_out() || !all_idle()))
       if (!timeline_.step(options_.limit)) break;
-    }
     finish();
     PlayResult result{lockstep().difference(), lockstep().counts(), begun_, coverage_};
     if (result.difference && !options_.wave.empty()) lockstep().write_wave(options_.wave);
@@ -285,7 +283,8 @@ class Player {
     return true;
   }
   bool all_idle() const {
-    return std::all_of(std::begin(places_), std::end(places_), [](const Place& place) { return place.lane->idle(); });
+    return std::all_of(
+        std::begin(places_), std::end(places_), [](const Place& place) { return place.lane->idle(); });
   }
   void finish() {
     const Tick end = std::min(options_.limit, timeline_.now() + kAfterwards);

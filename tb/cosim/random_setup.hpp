@@ -9,7 +9,8 @@
 
 namespace cosim {
 
-/// Chip parameters so short that every state is reached soon. What a random case waits for, it waits for with their times.
+/// Chip parameters so short that every state is reached soon. What a random case waits for, it waits for with their
+/// times.
 inline dsdpv1::Config quick_config() {
   dsdpv1::Config config;
   config.search_window_ms = 1;

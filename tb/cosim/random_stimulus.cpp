@@ -50,11 +50,10 @@ class Case {
     if (random_.one_in(12)) user_.initialise();
     user_.wait(200);
     sync();
-    if (dpv1) {
+    if (dpv1)
       master_.fastest_rate();
-    } else {
+    else
       master_.choose_rate();
-    }
     for (int i = random_.below(4); i > 0; --i) random_.one_in(3) ? master_.set_slave_address() : master_.anything();
     if (random_.one_in(5)) address_changes();
     if (!random_.one_in(8)) bring_up();
@@ -117,9 +116,8 @@ class Case {
     master_.careful(true);
     for (int i = random_.between(0, 3); i > 0; --i) {
       master_.initiate();
-      for (const int channel : {1, 2}) {
+      for (const int channel : {1, 2})
         if (!random_.one_in(6)) master_.acyclic_poll(channel);
-      }
     }
     for (int i = random_.between(10, 40); i > 0; --i) acyclic_step(random_.below(3));
     if (random_.one_in(4)) acyclic_timer();
@@ -160,7 +158,8 @@ class Case {
     master_.slave_diag();
     master_.careful(false);
   }
-  /// Parameters or a configuration that may be wrong, in the state in which they are looked at, and what the diagnosis says (S6, D8).
+  /// Parameters or a configuration that may be wrong, in the state in which they are looked at, and what the diagnosis
+  /// says (S6, D8).
   void judging() {
     const bool prm = random_.one_in(2);
     sync();
@@ -178,11 +177,10 @@ class Case {
   void hold_commands() {
     if (random_.one_in(2)) bring_up();
     master_.careful(!random_.one_in(4));
-    if (random_.one_in(4)) {
+    if (random_.one_in(4))
       hold_commands_unseen();
-    } else {
+    else
       hold_commands_seen();
-    }
     master_.careful(false);
   }
   void hold_commands_seen() {

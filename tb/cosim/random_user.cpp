@@ -159,11 +159,10 @@ void RandomUser::poke() {
   if (owned) take();
   for (int i = random_.between(1, 6); i > 0; --i) {
     const int address = random_.one_in(3) ? random_.below(0x800) : random_.between(0x005, 0x135);
-    if (random_.one_in(2)) {
+    if (random_.one_in(2))
       read(address);
-    } else {
+    else
       write(address, random_.byte());
-    }
   }
   if (owned) give();
 }

@@ -14,7 +14,8 @@
 
 namespace {
 
-/// Writes at its end what it has counted, as a file of its own in the folder that the environment names DSDPV1_RTL_COVERAGE.
+/// Writes at its end what it has counted, as a file of its own in the folder that the environment names
+/// DSDPV1_RTL_COVERAGE.
 class Top : public cosim::VerilatedTop<Vdsdpv1> {
  public:
   using VerilatedTop::VerilatedTop;

@@ -24,9 +24,8 @@ using Make = RtlTop* (*)(const RtlLimits* limits, std::uint32_t fault, std::uint
 /// The folder rtl/ of the build that this program belongs to: beside one of the folders above the program.
 fs::path find(const std::string& name) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
-  for (fs::path folder = program.parent_path(); folder != folder.root_path(); folder = folder.parent_path()) {
+  for (fs::path folder = program.parent_path(); folder != folder.root_path(); folder = folder.parent_path())
     if (fs::exists(folder / "rtl" / name)) return folder / "rtl" / name;
-  }
   fail("the reference RTL is not built");
 }
 

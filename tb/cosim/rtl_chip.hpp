@@ -1,8 +1,8 @@
 #pragma once
 // RTL behind the interface of dsdpv1::Chip: pins in, pin changes out, at the same ticks.
 //
-// A change at tick t is seen by the first rising edge strictly after t (P9), because at a tick with an edge the edge is evaluated
-// first; the strobes of the host port and RESET are evaluated at their own tick.
+// A change at tick t is seen by the first rising edge strictly after t (P9), because at a tick with an edge the edge is
+// evaluated first; the strobes of the host port and RESET are evaluated at their own tick.
 #include <memory>
 
 #include "model/dsdpv1/pins.hpp"

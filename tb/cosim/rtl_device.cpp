@@ -59,11 +59,10 @@ void RtlDevice::pass_on_tick(Tick at) {
     core_d_ = core_changes_[core_next_].level;
   for (; rtl_next_ < rtl_changes_.size() && rtl_changes_[rtl_next_].at == at; ++rtl_next_) {
     const Change& change = rtl_changes_[rtl_next_];
-    if (change.pin == Pin::kDOut) {
+    if (change.pin == Pin::kDOut)
       rtl_d_ = change.level;
-    } else {
+    else
       tell(at, change.pin, change.level);
-    }
   }
   const bool unknown = core_d_ == dsdpv1::kLevelX && rtl_d_ != dsdpv1::kLevelZ;
   const Level d = unknown ? dsdpv1::kLevelX : rtl_d_;

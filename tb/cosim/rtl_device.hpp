@@ -1,7 +1,7 @@
 #pragma once
-// RTL as the chip of a bench: the RTL drives the pins. A core beside it, on the same inputs, tells what pins do not show: states and
-// events, and when D is X. A two-state simulation has no X: where P5 and section 12 of the microarchitecture leave D unknown the
-// RTL drives some value, and the bench must not see a value there.
+// RTL as the chip of a bench: the RTL drives the pins. A core beside it, on the same inputs, tells what pins do not
+// show: states and events, and when D is X. A two-state simulation has no X: where P5 and section 12 of the
+// microarchitecture leave D unknown the RTL drives some value, and the bench must not see a value there.
 #include <algorithm>
 #include <memory>
 #include <vector>

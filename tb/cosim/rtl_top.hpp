@@ -1,7 +1,8 @@
 #pragma once
 // A chip in RTL as the harness evaluates it: levels in, levels out. One implementation for each Verilated design.
 //
-// The reference RTL stands in shared libraries of its own (reference_rtl.hpp), so nothing in here may need code of the program.
+// The reference RTL stands in shared libraries of its own (reference_rtl.hpp), so nothing in here may need code of the
+// program.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -141,13 +141,11 @@ class LineParser {
       fail("unknown action " + word, "send, spike, take, give, write, read, block, pin, reset, sync, repeat, end");
     Action action;
     action.verb = verb->second;
-    while (words_ >> word) {
-      if (word == ":") {
+    while (words_ >> word)
+      if (word == ":")
         bytes(action);
-      } else {
+      else
         argument(action, word);
-      }
-    }
     return action;
   }
 
@@ -170,13 +168,12 @@ class LineParser {
   }
   void argument(Action& action, const std::string& word) {
     const std::size_t equals = word.find('=');
-    if (word[0] == '+') {
+    if (word[0] == '+')
       action.delay = number(word.substr(1), 10, 0, kLongest);
-    } else if (equals != std::string::npos) {
+    else if (equals != std::string::npos)
       assign(action, word.substr(0, equals), word.substr(equals + 1));
-    } else {
+    else
       pin(action, word);
-    }
   }
   void assign(Action& action, const std::string& key, const std::string& text) const {
     std::string allowed = "+DELAY";
@@ -229,13 +226,12 @@ class FileParser {
       std::istringstream words(line);
       std::string verb, argument, more;
       words >> verb >> argument >> more;
-      if (verb == "repeat") {
+      if (verb == "repeat")
         repeat(more.empty() ? argument : fmt::format("{} {}", argument, more));
-      } else if (verb == "end") {
+      else if (verb == "end")
         end(argument);
-      } else if (auto action = LineParser(line, file_, number_).parse()) {
+      else if (auto action = LineParser(line, file_, number_).parse())
         stimulus_.push_back(std::move(*action));
-      }
     }
     if (count_ != 0) fail(repeat_line_, "repeat without its end", "end behind the lines that are repeated");
     return std::move(stimulus_);

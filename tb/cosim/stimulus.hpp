@@ -1,8 +1,9 @@
 #pragma once
 // Stimulus for lockstep runs without the bench: what happens at the chip's input pins, as short lines of text.
 //
-// Three lanes act at the same time: the bus (send, spike), the user at the host port (take, give, write, read, block, pin), the board (reset).
-// Each action begins `delay` ticks after the one before it in its lane has ended; `sync` lets all lanes wait for each other.
+// Three lanes act at the same time: the bus (send, spike), the user at the host port (take, give, write, read, block,
+// pin), the board (reset). Each action begins `delay` ticks after the one before it in its lane has ended; `sync` lets
+// all lanes wait for each other.
 #include <string>
 #include <vector>
 
@@ -44,7 +45,8 @@ using Stimulus = std::vector<Action>;
 
 /// The text of a stimulus file: comments, one action a line.
 std::string to_text(const Stimulus& stimulus);
-/// Reads it; lines between `repeat COUNT` (1 to 1000) and `end` count COUNT times. `file` is for messages only. Throws tb::InputError.
+/// Reads it; lines between `repeat COUNT` (1 to 1000) and `end` count COUNT times. `file` is for messages only. Throws
+/// tb::InputError.
 Stimulus parse_stimulus(const std::string& text, const std::string& file);
 
 }  // namespace cosim

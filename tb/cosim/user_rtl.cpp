@@ -37,9 +37,8 @@ void call(const std::string& command, const std::string& log, const std::string&
   if (std::system((command + " >" + quoted(log) + " 2>&1").c_str()) == 0) return;
   std::ifstream file(log);
   std::string first;
-  for (std::string line; first.empty() && std::getline(file, line);) {
+  for (std::string line; first.empty() && std::getline(file, line);)
     if (line.find("rror:") != std::string::npos || line.find("%Error") != std::string::npos) first = line;
-  }
   throw tb::InputError(
       fmt::format("dsdpv1-sim cosim: {}: {} (all of it in {}), allowed is RTL that Verilator 5.006 builds", what,
                   first.empty() ? "failed" : first, log));
@@ -81,7 +80,8 @@ Library load(const std::string& path) {
           symbol<Eval>(handle, "dsdpv1_rtl_eval")};
 }
 
-/// Three designs that begin with zeros, with ones and with random values wherever nothing is initialised or reset (Verilator's randReset).
+/// Three designs that begin with zeros, with ones and with random values wherever nothing is initialised or reset
+/// (Verilator's randReset).
 class UserTop : public RtlTop {
  public:
   explicit UserTop(const Library& library)

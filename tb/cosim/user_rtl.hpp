@@ -13,8 +13,8 @@ struct UserRtl {
   std::string build = "build/cosim";  ///< for what is generated
 };
 
-/// Builds it; throws tb::InputError with Verilator's or the compiler's words. The result makes chips that run three times, with
-/// different values wherever nothing is initialised or reset: where the three differ a pin is X.
+/// Builds it; throws tb::InputError with Verilator's or the compiler's words. The result makes chips that run three
+/// times, with different values wherever nothing is initialised or reset: where the three differ a pin is X.
 MakeRtl build_user_rtl(const UserRtl& rtl, const PinMap& map);
 
 /// The generated file between the Verilated class and this program.

@@ -1,5 +1,6 @@
 #pragma once
-// A Verilated `dsdpv1` of rtl_ref/ as an RtlTop. Included only where the reference RTL is compiled (reference_library.cpp).
+// A Verilated `dsdpv1` of rtl_ref/ as an RtlTop. Included only where the reference RTL is compiled
+// (reference_library.cpp).
 #include <memory>
 
 #include "tb/cosim/rtl_top.hpp"

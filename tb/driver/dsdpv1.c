@@ -21,16 +21,12 @@ const char* dsdpv1_error_text(dsdpv1_error error) {
 
 uint16_t dsdpv1_crc_byte(uint16_t crc, uint8_t byte) {
   unsigned value = (unsigned)crc ^ byte;
-  for (int bit = 0; bit < 8; ++bit) {
-    value = (value & 1u) != 0u ? (value >> 1) ^ 0xA001u : value >> 1;
-  }
+  for (int bit = 0; bit < 8; ++bit) value = (value & 1u) != 0u ? (value >> 1) ^ 0xA001u : value >> 1;
   return (uint16_t)value;
 }
 
 uint16_t dsdpv1_crc(uint16_t crc, const uint8_t* bytes, size_t length) {
-  for (size_t i = 0; i < length; ++i) {
-    crc = dsdpv1_crc_byte(crc, bytes[i]);
-  }
+  for (size_t i = 0; i < length; ++i) crc = dsdpv1_crc_byte(crc, bytes[i]);
   return crc;
 }
 
@@ -42,14 +38,10 @@ static bool port_is_complete(const dsdpv1_port* port) {
 }
 
 dsdpv1_error dsdpv1_open(dsdpv1_device* device, const dsdpv1_port* port, const dsdpv1_judge* judge) {
-  if (device == NULL || port == NULL || !port_is_complete(port)) {
-    return DSDPV1_ERR_ARGUMENT;
-  }
+  if (device == NULL || port == NULL || !port_is_complete(port)) return DSDPV1_ERR_ARGUMENT;
   memset(device, 0, sizeof *device);
   device->port = *port;
-  if (judge != NULL) {
-    device->judge = *judge;
-  }
+  if (judge != NULL) device->judge = *judge;
   device->tuning.acquire_polls = 10000;
   device->tuning.ready_polls = 1000;
   device->tuning.init_polls = 1000;
@@ -70,15 +62,11 @@ void dsdpv1_put(const dsdpv1_device* device, uint16_t address, uint8_t value) {
 }
 
 void dsdpv1_get_block(const dsdpv1_device* device, uint16_t address, uint8_t* bytes, uint8_t length) {
-  for (uint8_t i = 0; i < length; ++i) {
-    bytes[i] = dsdpv1_get(device, (uint16_t)(address + i));
-  }
+  for (uint8_t i = 0; i < length; ++i) bytes[i] = dsdpv1_get(device, (uint16_t)(address + i));
 }
 
 void dsdpv1_put_block(const dsdpv1_device* device, uint16_t address, const uint8_t* bytes, uint8_t length) {
-  for (uint8_t i = 0; i < length; ++i) {
-    dsdpv1_put(device, (uint16_t)(address + i), bytes[i]);
-  }
+  for (uint8_t i = 0; i < length; ++i) dsdpv1_put(device, (uint16_t)(address + i), bytes[i]);
 }
 
 uint16_t dsdpv1_get_word(const dsdpv1_device* device, uint16_t address) {
@@ -95,9 +83,7 @@ void dsdpv1_put_word(const dsdpv1_device* device, uint16_t address, uint16_t val
 /* ------------------------------------------------------------------------------------------------------------ holds */
 
 static void pass_time(const dsdpv1_device* device, uint32_t ns) {
-  if (device->port.pause != NULL) {
-    device->port.pause(device->port.ctx, ns);
-  }
+  if (device->port.pause != NULL) device->port.pause(device->port.ctx, ns);
 }
 
 void dsdpv1_poll_pause(const dsdpv1_device* device) { pass_time(device, device->tuning.poll_pause_ns); }
@@ -145,19 +131,16 @@ static bool acquire(const dsdpv1_device* device) {
  */
 static void count_access(dsdpv1_device* device) {
   const uint8_t count = dsdpv1_get(device, DSDPV1_REG_ACCESS_COUNT);
-  if (count == 1u && device->last_count != 1u) {
+  if (count == 1u && device->last_count != 1u)
     device->absent_holds = 0;
-  } else if (device->absent_holds < UINT8_MAX) {
+  else if (device->absent_holds < UINT8_MAX)
     ++device->absent_holds;
-  }
   device->last_count = (uint8_t)(count + 1u);
   dsdpv1_put(device, DSDPV1_REG_ACCESS_COUNT, device->last_count);
 }
 
 dsdpv1_error dsdpv1_hold_unjudged(dsdpv1_device* device) {
-  if (device->held) {
-    return DSDPV1_ERR_NESTED;
-  }
+  if (device->held) return DSDPV1_ERR_NESTED;
   device->held = true;
   if (!acquire(device)) {
     device->held = false;
@@ -169,9 +152,7 @@ dsdpv1_error dsdpv1_hold_unjudged(dsdpv1_device* device) {
 
 dsdpv1_error dsdpv1_hold(dsdpv1_device* device) {
   const dsdpv1_error error = dsdpv1_hold_unjudged(device);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   if (device->absent_holds > device->tuning.silent_holds) {
     dsdpv1_release(device);
     return DSDPV1_ERR_CHIP_SILENT;
@@ -187,12 +168,8 @@ void dsdpv1_release(dsdpv1_device* device) {
 dsdpv1_error dsdpv1_hold_when_taken(dsdpv1_device* device, uint8_t flag, dsdpv1_error timeout) {
   for (uint32_t polls = device->tuning.init_polls; polls != 0u; --polls) {
     const dsdpv1_error error = dsdpv1_hold(device);
-    if (error != DSDPV1_OK) {
-      return error;
-    }
-    if ((dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1) & flag) == 0u) {
-      return DSDPV1_OK;
-    }
+    if (error != DSDPV1_OK) return error;
+    if ((dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1) & flag) == 0u) return DSDPV1_OK;
     dsdpv1_release(device);
     dsdpv1_poll_pause(device);
   }
@@ -208,13 +185,9 @@ static uint32_t bit_rate(uint8_t code) { /* table 5 */
 }
 
 dsdpv1_error dsdpv1_get_status(dsdpv1_device* device, dsdpv1_status* status) {
-  if (device == NULL || status == NULL) {
-    return DSDPV1_ERR_ARGUMENT;
-  }
+  if (device == NULL || status == NULL) return DSDPV1_ERR_ARGUMENT;
   const dsdpv1_error error = dsdpv1_hold(device);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   dsdpv1_get_block(device, DSDPV1_REG_VERSION, status->version, sizeof status->version);
   status->offline_count = dsdpv1_get_word(device, DSDPV1_REG_OFFLINE_COUNT);
   status->crc_errors = dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_2);

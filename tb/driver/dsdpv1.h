@@ -37,7 +37,8 @@ extern "C" {
 #define DSDPV1_MAX_CFG 200u
 #define DSDPV1_MAX_ADDRESS 126u
 
-/* Ruling H2: for 2 cycles of 48 MHz after R_REQ rose the chip may still start an access, 3 are the window; 62.5 ns, rounded up. */
+/* Ruling H2: for 2 cycles of 48 MHz after R_REQ rose the chip may still start an access, 3 are the window; 62.5 ns,
+ * rounded up. */
 #define DSDPV1_SYNC_WINDOW_NS 63u
 
 /* ----------------------------------------------------------------------------------------------------------- errors */
@@ -211,17 +212,17 @@ dsdpv1_error dsdpv1_open(dsdpv1_device* device, const dsdpv1_port* port, const d
 
 /*
  * Waits until the chip has begun to work: B004 = 0xC5, 85 us after the release of RESET (ruling D1). To be called after
- * that release, with R_REQ and R_STA low: a line that is high when the chip leaves its reset keeps it from starting (H6).
- * Errors: DPRAM_BUSY, CHIP_NOT_READY, NESTED.
+ * that release, with R_REQ and R_STA low: a line that is high when the chip leaves its reset keeps it from starting
+ * (H6). Errors: DPRAM_BUSY, CHIP_NOT_READY, NESTED.
  */
 dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device);
 
 /*
  * Initialises the chip (chapter 8): checks `config` against table 2, writes B005 and B020.., sets B010.2, waits for
- * the chip and clears B00A.0. In operation the chip goes through OFFLINE with the new values, and what waits in the DPRAM
- * or for an answer is dropped. After an error the chip keeps what it had, blocks that wait and verdicts due included
- * (D11).
- * Errors: 20..28 before anything is written; 30..33; NESTED, DPRAM_BUSY, CHIP_NOT_READY (B004), CHIP_SILENT.
+ * the chip and clears B00A.0. In operation the chip goes through OFFLINE with the new values, and what waits in the
+ * DPRAM or for an answer is dropped. After an error the chip keeps what it had, blocks that wait and verdicts due
+ * included (D11). Errors: 20..28 before anything is written; 30..33; NESTED, DPRAM_BUSY, CHIP_NOT_READY (B004),
+ * CHIP_SILENT.
  */
 dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* config);
 
@@ -253,10 +254,10 @@ dsdpv1_error dsdpv1_exchange(dsdpv1_device* device, dsdpv1_input_policy policy, 
                              uint8_t input_length, dsdpv1_exchange_result* result);
 
 /*
- * What the chip's opinion of the inputs' CRC (B00B.2, INPUT_CRC above) is about (B011.6, ruling D16). `keep` false, as after
- * RESET: the block that it took last. True: any block since dsdpv1_clear_input_error; right ones do not take the error away.
- * Counts from the chip's next access on; an error that stands stays. In one hold.
- * Errors: ARGUMENT; NESTED, DPRAM_BUSY, CHIP_SILENT.
+ * What the chip's opinion of the inputs' CRC (B00B.2, INPUT_CRC above) is about (B011.6, ruling D16). `keep` false, as
+ * after RESET: the block that it took last. True: any block since dsdpv1_clear_input_error; right ones do not take the
+ * error away. Counts from the chip's next access on; an error that stands stays. In one hold. Errors: ARGUMENT; NESTED,
+ * DPRAM_BUSY, CHIP_SILENT.
  */
 dsdpv1_error dsdpv1_keep_input_errors(dsdpv1_device* device, bool keep);
 

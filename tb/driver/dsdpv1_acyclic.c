@@ -11,17 +11,15 @@ static const dsdpv1_area kAreas[kChannels] = {
     {DSDPV1_REG_C2, kAcyclicHeader, DSDPV1_REG_C2_CRC, DSDPV1_REG_USER_STATUS_2_C2_CRC, DSDPV1_ERR_C2_LENGTH,
      DSDPV1_ERR_C2_CRC, DSDPV1_REG_CHIP_COMMAND_2, DSDPV1_REG_CHIP_COMMAND_2_C2}};
 
-/* Masters that withdraw and ask faster than this many rounds are left to the next call, so that a call stays bounded. */
+/* Masters that withdraw and ask faster than this many rounds are left to the next call, so that a call stays bounded.
+ */
 enum { kRounds = 3 };
 
 dsdpv1_error dsdpv1_acyclic_open(dsdpv1_acyclic* acyclic, dsdpv1_device* device, const dsdpv1_table* table) {
-  if (acyclic == NULL || device == NULL || table == NULL || (table->objects == NULL && table->count != 0u)) {
+  if (acyclic == NULL || device == NULL || table == NULL || (table->objects == NULL && table->count != 0u))
     return DSDPV1_ERR_ARGUMENT;
-  }
   const dsdpv1_error error = dsdpv1_check_table(table);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   memset(acyclic, 0, sizeof *acyclic);
   acyclic->device = device;
   acyclic->table = *table;
@@ -30,21 +28,19 @@ dsdpv1_error dsdpv1_acyclic_open(dsdpv1_acyclic* acyclic, dsdpv1_device* device,
   return DSDPV1_OK;
 }
 
-/* ----------------------------------------------------------------------------------------------------------- polling */
+/* ----------------------------------------------------------------------------------------------------------- polling
+ */
 
 static unsigned unread_requests(const dsdpv1_acyclic* acyclic) {
   unsigned unread = 0;
-  for (unsigned i = 0; i < kChannels; ++i) {
-    unread |= acyclic->channels[i].unread ? dsdpv1_class_of(i) : 0u;
-  }
+  for (unsigned i = 0; i < kChannels; ++i) unread |= acyclic->channels[i].unread ? dsdpv1_class_of(i) : 0u;
   return unread;
 }
 
 /* A newer request ends the earlier one, whatever its answer's state (V13). */
 static void begin_request(dsdpv1_channel* channel, uint8_t bit, dsdpv1_acyclic_result* result) {
-  if (channel->state == DSDPV1_CHANNEL_OPEN || channel->state == DSDPV1_CHANNEL_READY) {
+  if (channel->state == DSDPV1_CHANNEL_OPEN || channel->state == DSDPV1_CHANNEL_READY)
     result->dropped = (uint8_t)(result->dropped | bit);
-  }
   channel->state = DSDPV1_CHANNEL_IDLE;
   channel->ticket = (uint16_t)(channel->ticket + 2u);
 }
@@ -62,19 +58,13 @@ static dsdpv1_error take_requests(dsdpv1_acyclic* acyclic, dsdpv1_copy copies[kC
                                   dsdpv1_acyclic_result* result) {
   dsdpv1_device* device = acyclic->device;
   const dsdpv1_error error = dsdpv1_hold(device);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   const unsigned flags = dsdpv1_get(device, DSDPV1_REG_CHIP_COMMAND_2);
   *fresh = (flags & DSDPV1_CLASS_BOTH) | unread_requests(acyclic);
-  for (unsigned i = 0; i < kChannels; ++i) {
-    if ((*fresh & dsdpv1_class_of(i)) != 0u) {
-      fetch_request(acyclic, i, &copies[i], result);
-    }
-  }
-  if ((flags & DSDPV1_CLASS_BOTH) != 0u) {
+  for (unsigned i = 0; i < kChannels; ++i)
+    if ((*fresh & dsdpv1_class_of(i)) != 0u) fetch_request(acyclic, i, &copies[i], result);
+  if ((flags & DSDPV1_CLASS_BOTH) != 0u)
     dsdpv1_put(device, DSDPV1_REG_CHIP_COMMAND_2, (uint8_t)(flags & ~DSDPV1_CLASS_BOTH));
-  }
   dsdpv1_look_at_sent(acyclic, result);
   dsdpv1_release(device);
   return DSDPV1_OK;
@@ -85,9 +75,7 @@ static dsdpv1_error serve(dsdpv1_acyclic* acyclic, unsigned i, dsdpv1_copy* copy
   dsdpv1_channel* channel = &acyclic->channels[i];
   const dsdpv1_error error = dsdpv1_confirm(acyclic->device, &kAreas[i], copy);
   channel->unread = error != DSDPV1_OK;
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   result->received = (uint8_t)(result->received | dsdpv1_class_of(i));
   memcpy(channel->request, copy->header, sizeof channel->request);
   return dsdpv1_dispatch(acyclic, i);
@@ -99,9 +87,7 @@ static dsdpv1_error poll_round(dsdpv1_acyclic* acyclic, unsigned* fresh, dsdpv1_
   unsigned taken = 0;
   dsdpv1_error error = take_requests(acyclic, copies, &taken, result);
   *fresh = 0;
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   for (unsigned i = 0; i < kChannels; ++i) {
     if ((taken & dsdpv1_class_of(i)) != 0u) {
       const dsdpv1_error own = serve(acyclic, i, &copies[i], result);
@@ -118,51 +104,38 @@ static dsdpv1_error poll_round(dsdpv1_acyclic* acyclic, unsigned* fresh, dsdpv1_
 
 static unsigned open_requests(const dsdpv1_acyclic* acyclic) {
   unsigned open = 0;
-  for (unsigned i = 0; i < kChannels; ++i) {
+  for (unsigned i = 0; i < kChannels; ++i)
     open |= acyclic->channels[i].state == DSDPV1_CHANNEL_OPEN ? dsdpv1_class_of(i) : 0u;
-  }
   return open;
 }
 
 dsdpv1_error dsdpv1_acyclic_poll(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* result) {
-  if (acyclic == NULL || acyclic->device == NULL) {
-    return DSDPV1_ERR_ARGUMENT;
-  }
-  if (!acyclic->device->initialised) {
-    return DSDPV1_ERR_NOT_INITIALISED;
-  }
-  if (acyclic->device->held || acyclic->polling) {
-    return DSDPV1_ERR_NESTED;
-  }
+  if (acyclic == NULL || acyclic->device == NULL) return DSDPV1_ERR_ARGUMENT;
+  if (!acyclic->device->initialised) return DSDPV1_ERR_NOT_INITIALISED;
+  if (acyclic->device->held || acyclic->polling) return DSDPV1_ERR_NESTED;
   dsdpv1_acyclic_result done = {0, 0, 0, 0, 0, 0};
   acyclic->polling = true;
   dsdpv1_forget_old_requests(acyclic, &done);
   unsigned fresh = 1;
   dsdpv1_error error = DSDPV1_OK;
-  for (int round = 0; round < kRounds && fresh != 0u && error == DSDPV1_OK; ++round) {
+  for (int round = 0; round < kRounds && fresh != 0u && error == DSDPV1_OK; ++round)
     error = poll_round(acyclic, &fresh, &done);
-  }
   done.open = (uint8_t)open_requests(acyclic);
   acyclic->polling = false;
-  if (result != NULL) {
-    *result = done;
-  }
+  if (result != NULL) *result = done;
   return error;
 }
 
-/* ------------------------------------------------------------------------------------------------------ late answers */
+/* ------------------------------------------------------------------------------------------------------ late answers
+ */
 
 /* Whether `ticket` names a request that waits for the application. */
 static dsdpv1_error check_ticket(dsdpv1_acyclic* acyclic, uint16_t ticket) {
-  if (acyclic->device->held || acyclic->polling) {
-    return DSDPV1_ERR_NESTED;
-  }
+  if (acyclic->device->held || acyclic->polling) return DSDPV1_ERR_NESTED;
   dsdpv1_acyclic_result ignored = {0, 0, 0, 0, 0, 0};
   dsdpv1_forget_old_requests(acyclic, &ignored);
   const dsdpv1_channel* channel = &acyclic->channels[ticket & 1u];
-  if (channel->ticket != ticket) {
-    return DSDPV1_ERR_ANSWER_STALE;
-  }
+  if (channel->ticket != ticket) return DSDPV1_ERR_ANSWER_STALE;
   return channel->state == DSDPV1_CHANNEL_OPEN ? DSDPV1_OK : DSDPV1_ERR_NO_REQUEST_OPEN;
 }
 
@@ -172,40 +145,26 @@ static dsdpv1_error send_late(dsdpv1_acyclic* acyclic, uint16_t ticket) {
   acyclic->polling = true;
   const dsdpv1_error error = dsdpv1_send_answers(acyclic, &done);
   acyclic->polling = false;
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   return (done.dropped & dsdpv1_class_of(ticket & 1u)) != 0u ? DSDPV1_ERR_ANSWER_STALE : DSDPV1_OK;
 }
 
 dsdpv1_error dsdpv1_acyclic_answer(dsdpv1_acyclic* acyclic, uint16_t ticket, const uint8_t* data, uint8_t length) {
-  if (acyclic == NULL || acyclic->device == NULL || (data == NULL && length != 0u)) {
-    return DSDPV1_ERR_ARGUMENT;
-  }
-  if (length > DSDPV1_MAX_ACYCLIC) {
-    return DSDPV1_ERR_ANSWER_LENGTH;
-  }
+  if (acyclic == NULL || acyclic->device == NULL || (data == NULL && length != 0u)) return DSDPV1_ERR_ARGUMENT;
+  if (length > DSDPV1_MAX_ACYCLIC) return DSDPV1_ERR_ANSWER_LENGTH;
   const dsdpv1_error error = check_ticket(acyclic, ticket);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   dsdpv1_channel* channel = &acyclic->channels[ticket & 1u];
-  if (length != 0u) {
-    memmove(channel->data, data, length); /* `data` may be the request's */
-  }
+  if (length != 0u) memmove(channel->data, data, length); /* `data` may be the request's */
   dsdpv1_answer_positive(channel, length);
   return send_late(acyclic, ticket);
 }
 
 dsdpv1_error dsdpv1_acyclic_refuse(dsdpv1_acyclic* acyclic, uint16_t ticket, uint8_t error_code_1,
                                    uint8_t error_code_2) {
-  if (acyclic == NULL || acyclic->device == NULL) {
-    return DSDPV1_ERR_ARGUMENT;
-  }
+  if (acyclic == NULL || acyclic->device == NULL) return DSDPV1_ERR_ARGUMENT;
   const dsdpv1_error error = check_ticket(acyclic, ticket);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   dsdpv1_answer_negative(&acyclic->channels[ticket & 1u], error_code_1, error_code_2);
   return send_late(acyclic, ticket);
 }

@@ -28,7 +28,8 @@ extern "C" {
 
 #define DSDPV1_MAX_ACYCLIC 240u /* data bytes of a request or an answer (table 2) */
 
-/* ------------------------------------------------------------------------------------------ what is on the telegrams */
+/* ------------------------------------------------------------------------------------------ what is on the telegrams
+ */
 
 /* Function_Num, B5D0 and B6D0: tables 26 and 31; with bit 7 set a negative answer, tables 27 and 32. */
 typedef enum dsdpv1_function {
@@ -69,7 +70,8 @@ typedef enum dsdpv1_error_code_1 {
   DSDPV1_EC_USER = 0xD0           /* ..0xFF */
 } dsdpv1_error_code_1;
 
-/* ------------------------------------------------------------------------------------------- slots, indexes, requests */
+/* ------------------------------------------------------------------------------------------- slots, indexes, requests
+ */
 
 /* Classes of masters, as bits; the same as in B00F and B011. */
 #define DSDPV1_CLASS_1 0x01u
@@ -143,7 +145,8 @@ typedef struct dsdpv1_im0 {
   uint16_t supported;                   /* bit n: I&Mn; bit 0: profile-specific ones. I&M0 alone: 0 */
 } dsdpv1_im0;
 
-/* ----------------------------------------------------------------------------------------------------------- polling */
+/* ----------------------------------------------------------------------------------------------------------- polling
+ */
 
 /* The table of an application. It and all it points to must live as long as the device is used. */
 typedef struct dsdpv1_table {

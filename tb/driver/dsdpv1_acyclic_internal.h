@@ -9,7 +9,8 @@ enum { kChannels = 2, kIm0Slot = 0, kIm0Index = 255 };
 /* DSDPV1_CLASS_ bit of channel 0 or 1. */
 static inline uint8_t dsdpv1_class_of(unsigned channel) { return (uint8_t)(1u << channel); }
 
-/* --------------------------------------------------------------------------------- finished answers (dsdpv1_answer.c) */
+/* --------------------------------------------------------------------------------- finished answers (dsdpv1_answer.c)
+ */
 
 /*
  * The positive answer with `length` bytes of the channel's data; more than a read asked for are cut, a write has none.
@@ -36,7 +37,8 @@ dsdpv1_error dsdpv1_check_table(const dsdpv1_table* table);
  */
 dsdpv1_error dsdpv1_dispatch(dsdpv1_acyclic* acyclic, unsigned number);
 
-/* ------------------------------------------------------------------------------------------------ I&M0 (dsdpv1_im0.c) */
+/* ------------------------------------------------------------------------------------------------ I&M0 (dsdpv1_im0.c)
+ */
 
 dsdpv1_error dsdpv1_check_im0(const dsdpv1_im0* im0);
 /* A request to slot 0, index 255. READY afterwards. */

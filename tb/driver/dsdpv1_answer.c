@@ -27,9 +27,8 @@ void dsdpv1_answer_positive(dsdpv1_channel* channel, uint8_t length) {
   const uint8_t asked = channel->request[3];
   const bool too_long = function == DSDPV1_DS_READ && length > asked;
   const uint8_t given = too_long ? asked : length;
-  for (unsigned i = 0; i < kAcyclicHeader; ++i) {
+  for (unsigned i = 0; i < kAcyclicHeader; ++i)
     channel->answer[i] = channel->request[i]; /* V6; a write answers with the length written (V5) */
-  }
   if (function == DSDPV1_DS_WRITE) {
     make_ready(channel, 0);
     return;
@@ -46,7 +45,8 @@ void dsdpv1_answer_negative(dsdpv1_channel* channel, uint8_t error_code_1, uint8
   make_ready(channel, 0);
 }
 
-/* ----------------------------------------------------------------------------------------------------- into the DPRAM */
+/* ----------------------------------------------------------------------------------------------------- into the DPRAM
+ */
 
 static bool any_in(const dsdpv1_acyclic* acyclic, dsdpv1_channel_state state) {
   return acyclic->channels[0].state == state || acyclic->channels[1].state == state;
@@ -61,9 +61,7 @@ static void write_answer(dsdpv1_acyclic* acyclic, unsigned i, dsdpv1_acyclic_res
   dsdpv1_put_word(acyclic->device, area->crc, channel->answer_crc);
   channel->state = DSDPV1_CHANNEL_SENT;
   note(&result->answered, i);
-  if ((channel->answer[0] & kErrorBit) != 0u) {
-    note(&result->refused, i);
-  }
+  if ((channel->answer[0] & kErrorBit) != 0u) note(&result->refused, i);
 }
 
 /* Inside a hold. Writes what is ready and returns the bits for B011. */
@@ -72,9 +70,7 @@ static unsigned write_answers(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* re
   unsigned written = 0;
   for (unsigned i = 0; i < kChannels; ++i) {
     dsdpv1_channel* channel = &acyclic->channels[i];
-    if (channel->state != DSDPV1_CHANNEL_READY) {
-      continue;
-    }
+    if (channel->state != DSDPV1_CHANNEL_READY) continue;
     if ((newer & dsdpv1_class_of(i)) != 0u) { /* writing would destroy the newer request */
       channel->state = DSDPV1_CHANNEL_IDLE;
       note(&result->dropped, i);
@@ -87,14 +83,10 @@ static unsigned write_answers(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* re
 }
 
 dsdpv1_error dsdpv1_send_answers(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* result) {
-  if (!any_in(acyclic, DSDPV1_CHANNEL_READY)) {
-    return DSDPV1_OK;
-  }
+  if (!any_in(acyclic, DSDPV1_CHANNEL_READY)) return DSDPV1_OK;
   dsdpv1_device* device = acyclic->device;
   const dsdpv1_error error = dsdpv1_hold(device);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   const unsigned written = write_answers(acyclic, result);
   if (written != 0u) {
     const unsigned command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_2);
@@ -105,21 +97,15 @@ dsdpv1_error dsdpv1_send_answers(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result*
 }
 
 void dsdpv1_look_at_sent(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* result) {
-  if (!any_in(acyclic, DSDPV1_CHANNEL_SENT)) {
-    return;
-  }
+  if (!any_in(acyclic, DSDPV1_CHANNEL_SENT)) return;
   const unsigned waiting = dsdpv1_get(acyclic->device, DSDPV1_REG_USER_COMMAND_2);
   const unsigned wrong = dsdpv1_get(acyclic->device, DSDPV1_REG_CHIP_STATUS_2);
   for (unsigned i = 0; i < kChannels; ++i) {
     dsdpv1_channel* channel = &acyclic->channels[i];
-    if (channel->state != DSDPV1_CHANNEL_SENT || (waiting & dsdpv1_class_of(i)) != 0u) {
-      continue;
-    }
+    if (channel->state != DSDPV1_CHANNEL_SENT || (waiting & dsdpv1_class_of(i)) != 0u) continue;
     const bool refused = (wrong & kAnswers[i].error_bit) != 0u;
     channel->state = refused ? DSDPV1_CHANNEL_READY : DSDPV1_CHANNEL_IDLE;
-    if (refused) {
-      note(&result->repeated, i);
-    }
+    if (refused) note(&result->repeated, i);
   }
 }
 
@@ -131,15 +117,11 @@ static void forget(dsdpv1_channel* channel) {
 }
 
 void dsdpv1_forget_old_requests(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* result) {
-  if (acyclic->generation == acyclic->device->generation) {
-    return;
-  }
+  if (acyclic->generation == acyclic->device->generation) return;
   acyclic->generation = acyclic->device->generation;
   for (unsigned i = 0; i < kChannels; ++i) {
     dsdpv1_channel* channel = &acyclic->channels[i];
-    if (channel->state == DSDPV1_CHANNEL_OPEN || channel->state == DSDPV1_CHANNEL_READY) {
-      note(&result->dropped, i);
-    }
+    if (channel->state == DSDPV1_CHANNEL_OPEN || channel->state == DSDPV1_CHANNEL_READY) note(&result->dropped, i);
     forget(channel);
   }
 }

@@ -12,9 +12,7 @@ static bool fits(const dsdpv1_area* area, const dsdpv1_copy* copy) {
 
 void dsdpv1_fetch(const dsdpv1_device* device, const dsdpv1_area* area, dsdpv1_copy* copy) {
   dsdpv1_get_block(device, area->address, copy->header, area->header);
-  if (!fits(area, copy)) {
-    return; /* no CRC can make an impossible length right */
-  }
+  if (!fits(area, copy)) return; /* no CRC can make an impossible length right */
   dsdpv1_get_block(device, (uint16_t)(area->address + area->header), copy->data, dsdpv1_copy_length(area, copy));
   copy->crc = dsdpv1_get_word(device, area->crc_address);
 }
@@ -32,9 +30,7 @@ static void put_user_status(dsdpv1_device* device, uint8_t value) {
 
 /* Costs a hold only after an earlier error. */
 static dsdpv1_error clear_error(dsdpv1_device* device, const dsdpv1_area* area) {
-  if ((device->user_status_2 & area->error_bit) == 0u) {
-    return DSDPV1_OK;
-  }
+  if ((device->user_status_2 & area->error_bit) == 0u) return DSDPV1_OK;
   const dsdpv1_error error = dsdpv1_hold(device);
   if (error == DSDPV1_OK) {
     put_user_status(device, (uint8_t)(device->user_status_2 & ~(unsigned)area->error_bit));
@@ -56,18 +52,10 @@ static dsdpv1_error tell_and_fetch_again(dsdpv1_device* device, const dsdpv1_are
 
 dsdpv1_error dsdpv1_confirm(dsdpv1_device* device, const dsdpv1_area* area, dsdpv1_copy* copy) {
   for (uint8_t retries = device->tuning.crc_retries;; --retries) {
-    if (!fits(area, copy)) {
-      return area->length_error;
-    }
-    if (is_right(area, copy)) {
-      return clear_error(device, area);
-    }
-    if (retries == 0u) {
-      return area->crc_error;
-    }
+    if (!fits(area, copy)) return area->length_error;
+    if (is_right(area, copy)) return clear_error(device, area);
+    if (retries == 0u) return area->crc_error;
     const dsdpv1_error error = tell_and_fetch_again(device, area, copy);
-    if (error != DSDPV1_OK) {
-      return error;
-    }
+    if (error != DSDPV1_OK) return error;
   }
 }

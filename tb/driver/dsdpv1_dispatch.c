@@ -6,7 +6,8 @@
 /* Error_Code_1 of nothing wrong; table 29 has no class 0. */
 enum { kAdmitted = 0 };
 
-/* ---------------------------------------------------------------------------------------------------------- checking */
+/* ---------------------------------------------------------------------------------------------------------- checking
+ */
 
 static bool may(const dsdpv1_object* object, unsigned service) { return (object->services & service) != 0u; }
 
@@ -31,32 +32,25 @@ static bool same_place(const dsdpv1_object* object, uint8_t slot, uint8_t index)
 
 static bool stands_before(const dsdpv1_table* table, size_t place) {
   const dsdpv1_object* object = &table->objects[place];
-  for (size_t i = 0; i < place; ++i) {
-    if (same_place(&table->objects[i], object->slot, object->index)) {
-      return true;
-    }
-  }
+  for (size_t i = 0; i < place; ++i)
+    if (same_place(&table->objects[i], object->slot, object->index)) return true;
   return table->im0 != NULL && same_place(object, kIm0Slot, kIm0Index);
 }
 
 dsdpv1_error dsdpv1_check_table(const dsdpv1_table* table) {
-  for (size_t i = 0; i < table->count; ++i) {
-    if (!object_is_right(&table->objects[i]) || stands_before(table, i)) {
-      return DSDPV1_ERR_TABLE;
-    }
-  }
+  for (size_t i = 0; i < table->count; ++i)
+    if (!object_is_right(&table->objects[i]) || stands_before(table, i)) return DSDPV1_ERR_TABLE;
   return table->im0 != NULL ? dsdpv1_check_im0(table->im0) : DSDPV1_OK;
 }
 
-/* --------------------------------------------------------------------------------------------------------- admitting */
+/* --------------------------------------------------------------------------------------------------------- admitting
+ */
 
 /* Null when there is none; `code` says then what is unknown. */
 static const dsdpv1_object* find(const dsdpv1_table* table, uint8_t slot, uint8_t index, uint8_t* code) {
   bool slot_known = table->im0 != NULL && slot == kIm0Slot;
   for (size_t i = 0; i < table->count; ++i) {
-    if (same_place(&table->objects[i], slot, index)) {
-      return &table->objects[i];
-    }
+    if (same_place(&table->objects[i], slot, index)) return &table->objects[i];
     slot_known = slot_known || table->objects[i].slot == slot;
   }
   *code = slot_known ? DSDPV1_EC_INVALID_INDEX : DSDPV1_EC_INVALID_SLOT;
@@ -64,9 +58,7 @@ static const dsdpv1_object* find(const dsdpv1_table* table, uint8_t slot, uint8_
 }
 
 static uint8_t admit_read(const dsdpv1_object* object, uint8_t length) {
-  if (!may(object, DSDPV1_MAY_READ)) {
-    return DSDPV1_EC_ACCESS_DENIED;
-  }
+  if (!may(object, DSDPV1_MAY_READ)) return DSDPV1_EC_ACCESS_DENIED;
   return length < object->min_length ? DSDPV1_EC_INVALID_PARAMETER : kAdmitted;
 }
 
@@ -75,9 +67,7 @@ static uint8_t admit_data(const dsdpv1_object* object, uint8_t length) {
 }
 
 static uint8_t admit(const dsdpv1_object* object, uint8_t master_class, uint8_t function, uint8_t length) {
-  if ((object->classes & master_class) == 0u) {
-    return DSDPV1_EC_ACCESS_DENIED;
-  }
+  if ((object->classes & master_class) == 0u) return DSDPV1_EC_ACCESS_DENIED;
   switch (function) {
     case DSDPV1_DS_READ: return admit_read(object, length);
     case DSDPV1_DS_WRITE: return may(object, DSDPV1_MAY_WRITE) ? admit_data(object, length) : DSDPV1_EC_ACCESS_DENIED;
@@ -92,7 +82,8 @@ static bool is_busy(const dsdpv1_channel* other, const dsdpv1_object* object) {
   return other->state == DSDPV1_CHANNEL_OPEN && other->object == object;
 }
 
-/* ------------------------------------------------------------------------------------------------------ carrying out */
+/* ------------------------------------------------------------------------------------------------------ carrying out
+ */
 
 static dsdpv1_handler handler_of(const dsdpv1_object* object, uint8_t function) {
   switch (function) {
@@ -166,12 +157,8 @@ dsdpv1_error dsdpv1_dispatch(dsdpv1_acyclic* acyclic, unsigned number) {
   }
   uint8_t code = kAdmitted;
   const dsdpv1_object* object = find(table, header[1], header[2], &code);
-  if (object != NULL) {
-    code = admit(object, dsdpv1_class_of(number), header[0], header[3]);
-  }
-  if (code == kAdmitted && is_busy(&acyclic->channels[1u - number], object)) {
-    code = DSDPV1_EC_RESOURCE_BUSY;
-  }
+  if (object != NULL) code = admit(object, dsdpv1_class_of(number), header[0], header[3]);
+  if (code == kAdmitted && is_busy(&acyclic->channels[1u - number], object)) code = DSDPV1_EC_RESOURCE_BUSY;
   if (object == NULL || code != kAdmitted) {
     dsdpv1_answer_negative(channel, code, 0);
     return DSDPV1_OK;

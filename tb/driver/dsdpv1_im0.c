@@ -12,7 +12,8 @@ enum {
   kIm0SubIndex = 65000 /* FI_Index of I&M0 */
 };
 
-/* --------------------------------------------------------------------------------------------------------- nameplate */
+/* --------------------------------------------------------------------------------------------------------- nameplate
+ */
 
 enum { kOrderLength = 20, kSerialLength = 16 };
 
@@ -34,9 +35,7 @@ static uint8_t* put_word(uint8_t* to, uint16_t value) {
 }
 
 static uint8_t* put_text(uint8_t* to, const char* text, size_t room) {
-  for (size_t i = 0; i < room; ++i) {
-    to[i] = (uint8_t)(*text != '\0' ? *text++ : ' ');
-  }
+  for (size_t i = 0; i < room; ++i) to[i] = (uint8_t)(*text != '\0' ? *text++ : ' ');
   return to + room;
 }
 
@@ -66,29 +65,20 @@ static uint8_t build_answer(uint8_t* data, const dsdpv1_im0* im0) {
 
 /* Error_Code_1, 0 when the call is right. */
 static uint8_t judge_call(const uint8_t* data, uint8_t length) {
-  if (length < kCallHeader) {
-    return DSDPV1_EC_WRITE_LENGTH;
-  }
-  if (data[0] != kCall) {
-    return DSDPV1_EC_FEATURE_NOT_SUPPORTED;
-  }
-  if (data[1] != 0u) {
-    return DSDPV1_EC_INVALID_PARAMETER;
-  }
-  if (((unsigned)data[2] << 8 | data[3]) != kIm0SubIndex) {
-    return DSDPV1_EC_INVALID_INDEX;
-  }
+  if (length < kCallHeader) return DSDPV1_EC_WRITE_LENGTH;
+  if (data[0] != kCall) return DSDPV1_EC_FEATURE_NOT_SUPPORTED;
+  if (data[1] != 0u) return DSDPV1_EC_INVALID_PARAMETER;
+  if (((unsigned)data[2] << 8 | data[3]) != kIm0SubIndex) return DSDPV1_EC_INVALID_INDEX;
   return length > kCallHeader ? DSDPV1_EC_ACCESS_DENIED : 0u; /* data behind the header: I&M0 is read-only */
 }
 
 static void serve_call(dsdpv1_channel* channel) {
   const uint8_t code = judge_call(channel->data, channel->request[3]);
   channel->im0_called = code == 0u;
-  if (channel->im0_called) {
+  if (channel->im0_called)
     dsdpv1_answer_positive(channel, 0);
-  } else {
+  else
     dsdpv1_answer_negative(channel, code, 0);
-  }
 }
 
 static void serve_read(const dsdpv1_im0* im0, dsdpv1_channel* channel) {

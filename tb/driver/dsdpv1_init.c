@@ -6,15 +6,11 @@
 enum { kHeadLength = DSDPV1_REG_INIT_CFG - DSDPV1_REG_INIT }; /* B020..B02E, before the configuration bytes */
 
 dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device) {
-  if (device == NULL) {
-    return DSDPV1_ERR_ARGUMENT;
-  }
+  if (device == NULL) return DSDPV1_ERR_ARGUMENT;
   dsdpv1_sync_pause(device); /* H6: a request that the chip meets as it leaves its reset keeps it from its start-up */
   for (uint32_t polls = device->tuning.ready_polls; polls != 0u; --polls) {
     const dsdpv1_error error = dsdpv1_hold_unjudged(device);
-    if (error != DSDPV1_OK) {
-      return error;
-    }
+    if (error != DSDPV1_OK) return error;
     const uint8_t flag = dsdpv1_get(device, DSDPV1_REG_VALID_FLAG);
     dsdpv1_release(device);
     if (flag == DSDPV1_REG_VALID_FLAG_VALID) {
@@ -27,37 +23,20 @@ dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device) {
 }
 
 static dsdpv1_error check_sizes(const dsdpv1_config* config) { /* D7 */
-  if (config->max_input > DSDPV1_MAX_IO) {
-    return DSDPV1_ERR_CONFIG_INPUT;
-  }
-  if (config->max_output > DSDPV1_MAX_IO) {
-    return DSDPV1_ERR_CONFIG_OUTPUT;
-  }
-  if (config->max_diag > DSDPV1_MAX_DIAG) {
-    return DSDPV1_ERR_CONFIG_DIAG;
-  }
-  if (config->max_prm > DSDPV1_MAX_PRM) {
-    return DSDPV1_ERR_CONFIG_PRM;
-  }
-  if (config->max_cfg == 0u || config->max_cfg > DSDPV1_MAX_CFG) {
-    return DSDPV1_ERR_CONFIG_CFG;
-  }
-  if (config->cfg == NULL || config->cfg_length == 0u || config->cfg_length > config->max_cfg) {
+  if (config->max_input > DSDPV1_MAX_IO) return DSDPV1_ERR_CONFIG_INPUT;
+  if (config->max_output > DSDPV1_MAX_IO) return DSDPV1_ERR_CONFIG_OUTPUT;
+  if (config->max_diag > DSDPV1_MAX_DIAG) return DSDPV1_ERR_CONFIG_DIAG;
+  if (config->max_prm > DSDPV1_MAX_PRM) return DSDPV1_ERR_CONFIG_PRM;
+  if (config->max_cfg == 0u || config->max_cfg > DSDPV1_MAX_CFG) return DSDPV1_ERR_CONFIG_CFG;
+  if (config->cfg == NULL || config->cfg_length == 0u || config->cfg_length > config->max_cfg)
     return DSDPV1_ERR_CONFIG_CFG_LENGTH;
-  }
   return DSDPV1_OK;
 }
 
 static dsdpv1_error check_config(const dsdpv1_config* config) {
-  if (config->address > DSDPV1_MAX_ADDRESS) {
-    return DSDPV1_ERR_CONFIG_ADDRESS;
-  }
-  if (config->prm_mode > DSDPV1_REG_PRM_MODE_USER) {
-    return DSDPV1_ERR_CONFIG_PRM_MODE;
-  }
-  if (config->cfg_mode > DSDPV1_REG_CFG_MODE_USER) {
-    return DSDPV1_ERR_CONFIG_CFG_MODE;
-  }
+  if (config->address > DSDPV1_MAX_ADDRESS) return DSDPV1_ERR_CONFIG_ADDRESS;
+  if (config->prm_mode > DSDPV1_REG_PRM_MODE_USER) return DSDPV1_ERR_CONFIG_PRM_MODE;
+  if (config->cfg_mode > DSDPV1_REG_CFG_MODE_USER) return DSDPV1_ERR_CONFIG_CFG_MODE;
   return check_sizes(config);
 }
 
@@ -88,9 +67,7 @@ static void build_head(uint8_t head[kHeadLength], const dsdpv1_config* config) {
       config->cfg_mode,
       config->cfg_length,
   };
-  for (size_t i = 0; i < kHeadLength; ++i) {
-    head[i] = values[i];
-  }
+  for (size_t i = 0; i < kHeadLength; ++i) head[i] = values[i];
 }
 
 /* The flags at `address` go to `aside` and are 0 afterwards; inside a hold. */
@@ -114,9 +91,8 @@ static void write_init(dsdpv1_device* device, const dsdpv1_config* config, const
   dsdpv1_put_block(device, DSDPV1_REG_INIT, head, kHeadLength);
   dsdpv1_put_block(device, DSDPV1_REG_INIT_CFG, config->cfg, config->cfg_length);
   dsdpv1_put_word(device, DSDPV1_REG_INIT_CRC, crc);
-  if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_1) & DSDPV1_REG_CHIP_STATUS_1_INITIALISED) != 0u) {
+  if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_1) & DSDPV1_REG_CHIP_STATUS_1_INITIALISED) != 0u)
     dsdpv1_put(device, DSDPV1_REG_CHIP_STATUS_1, 0);
-  }
   set_aside(device, DSDPV1_REG_CHIP_COMMAND_1, &device->aside.chip_command_1);
   set_aside(device, DSDPV1_REG_CHIP_COMMAND_2, &device->aside.chip_command_2);
   const unsigned verdicts = DSDPV1_REG_USER_COMMAND_1_PRM_VERDICT | DSDPV1_REG_USER_COMMAND_1_CFG_VERDICT;
@@ -132,13 +108,9 @@ static dsdpv1_error hand_over(dsdpv1_device* device, const dsdpv1_config* config
   const uint16_t crc =
       dsdpv1_crc(dsdpv1_crc(DSDPV1_CRC_START, head, kHeadLength), config->cfg, config->cfg_length); /* D3 */
   const dsdpv1_error error = dsdpv1_hold(device);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   const bool ready = dsdpv1_get(device, DSDPV1_REG_VALID_FLAG) == DSDPV1_REG_VALID_FLAG_VALID;
-  if (ready) {
-    write_init(device, config, head, crc);
-  }
+  if (ready) write_init(device, config, head, crc);
   dsdpv1_release(device);
   return ready ? DSDPV1_OK : DSDPV1_ERR_CHIP_NOT_READY;
 }
@@ -149,12 +121,10 @@ static dsdpv1_error read_answer(const dsdpv1_device* device) {
     dsdpv1_put(device, DSDPV1_REG_CHIP_STATUS_1, 0);
     return DSDPV1_OK;
   }
-  if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_2) & DSDPV1_REG_CHIP_STATUS_2_INIT_CRC) != 0u) {
+  if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_2) & DSDPV1_REG_CHIP_STATUS_2_INIT_CRC) != 0u)
     return DSDPV1_ERR_INIT_CRC;
-  }
-  if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_4) & DSDPV1_REG_CHIP_STATUS_4_INIT_LIMIT) != 0u) {
+  if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_4) & DSDPV1_REG_CHIP_STATUS_4_INIT_LIMIT) != 0u)
     return DSDPV1_ERR_INIT_LIMIT;
-  }
   return DSDPV1_ERR_INIT_REFUSED;
 }
 
@@ -180,25 +150,17 @@ static void remember(dsdpv1_device* device, const dsdpv1_config* config) {
 }
 
 dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* config) {
-  if (device == NULL || config == NULL) {
-    return DSDPV1_ERR_ARGUMENT;
-  }
+  if (device == NULL || config == NULL) return DSDPV1_ERR_ARGUMENT;
   dsdpv1_error error = check_config(config);
-  if (error == DSDPV1_OK) {
-    error = hand_over(device, config);
-  }
-  if (error == DSDPV1_OK) {
+  if (error == DSDPV1_OK) error = hand_over(device, config);
+  if (error == DSDPV1_OK)
     error = dsdpv1_hold_when_taken(device, DSDPV1_REG_USER_COMMAND_1_INIT, DSDPV1_ERR_INIT_TIMEOUT);
-  }
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   error = read_answer(device);
-  if (error == DSDPV1_OK) {
+  if (error == DSDPV1_OK)
     remember(device, config);
-  } else {
+  else
     resume(device);
-  }
   memset(&device->aside, 0, sizeof device->aside);
   dsdpv1_release(device);
   return error;

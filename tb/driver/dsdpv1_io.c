@@ -31,9 +31,7 @@ static dsdpv1_error give_inputs(const dsdpv1_device* device, dsdpv1_input_policy
 static bool take_outputs(const dsdpv1_device* device, dsdpv1_exchange_result* result, dsdpv1_copy* copy) {
   const uint8_t command = dsdpv1_get(device, DSDPV1_REG_CHIP_COMMAND_1);
   result->intr0_missed = (command & (DSDPV1_REG_CHIP_COMMAND_1_PRM | DSDPV1_REG_CHIP_COMMAND_1_CFG)) != 0u;
-  if (copy->data == NULL || (command & DSDPV1_REG_CHIP_COMMAND_1_OUTPUT) == 0u) {
-    return false;
-  }
+  if (copy->data == NULL || (command & DSDPV1_REG_CHIP_COMMAND_1_OUTPUT) == 0u) return false;
   dsdpv1_fetch(device, &kOutputs, copy);
   dsdpv1_put(device, DSDPV1_REG_CHIP_COMMAND_1, (uint8_t)(command & ~DSDPV1_REG_CHIP_COMMAND_1_OUTPUT));
   return true;
@@ -47,33 +45,23 @@ static dsdpv1_copy output_copy(const dsdpv1_exchange_result* result) {
 
 static dsdpv1_error check_exchange(const dsdpv1_device* device, const uint8_t* inputs, uint8_t input_length,
                                    const dsdpv1_exchange_result* result) {
-  if (device == NULL || result == NULL) {
-    return DSDPV1_ERR_ARGUMENT;
-  }
-  if (!device->initialised) {
-    return DSDPV1_ERR_NOT_INITIALISED;
-  }
+  if (device == NULL || result == NULL) return DSDPV1_ERR_ARGUMENT;
+  if (!device->initialised) return DSDPV1_ERR_NOT_INITIALISED;
   return inputs != NULL && input_length > device->max_input ? DSDPV1_ERR_INPUT_LENGTH : DSDPV1_OK;
 }
 
 dsdpv1_error dsdpv1_exchange(dsdpv1_device* device, dsdpv1_input_policy policy, const uint8_t* inputs,
                              uint8_t input_length, dsdpv1_exchange_result* result) {
   dsdpv1_error error = check_exchange(device, inputs, input_length, result);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   input_block block = {inputs, input_length, dsdpv1_crc_byte(DSDPV1_CRC_START, input_length)};
-  if (inputs != NULL) {
-    block.crc = dsdpv1_crc(block.crc, inputs, input_length);
-  }
+  if (inputs != NULL) block.crc = dsdpv1_crc(block.crc, inputs, input_length);
   dsdpv1_copy copy = output_copy(result);
   result->inputs_written = false;
   result->outputs_new = false;
 
   error = dsdpv1_hold(device);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   const dsdpv1_error input_error =
       inputs != NULL ? give_inputs(device, policy, &block, &result->inputs_written) : DSDPV1_OK;
   const bool fetched = take_outputs(device, result, &copy);
@@ -119,23 +107,15 @@ static bool type_is_known(dsdpv1_diag_type type) { /* D9 */
 
 static dsdpv1_error check_diagnosis(const dsdpv1_device* device, dsdpv1_diag_type type, const uint8_t* data,
                                     uint8_t length) {
-  if (device == NULL || (data == NULL && length != 0u)) {
-    return DSDPV1_ERR_ARGUMENT;
-  }
-  if (!device->initialised) {
-    return DSDPV1_ERR_NOT_INITIALISED;
-  }
-  if (!type_is_known(type)) {
-    return DSDPV1_ERR_DIAG_TYPE;
-  }
+  if (device == NULL || (data == NULL && length != 0u)) return DSDPV1_ERR_ARGUMENT;
+  if (!device->initialised) return DSDPV1_ERR_NOT_INITIALISED;
+  if (!type_is_known(type)) return DSDPV1_ERR_DIAG_TYPE;
   return length > device->max_diag ? DSDPV1_ERR_DIAG_LENGTH : DSDPV1_OK;
 }
 
 static dsdpv1_error write_diagnosis(dsdpv1_device* device, const uint8_t head[2], const uint8_t* data, uint16_t crc) {
   const dsdpv1_error error = dsdpv1_hold(device);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   dsdpv1_put_block(device, DSDPV1_REG_DIAG, head, 2);
   dsdpv1_put_block(device, DSDPV1_REG_DIAG_DATA, data, head[1]);
   dsdpv1_put_word(device, DSDPV1_REG_DIAG_CRC, crc);
@@ -147,9 +127,7 @@ static dsdpv1_error write_diagnosis(dsdpv1_device* device, const uint8_t head[2]
 
 static dsdpv1_error diagnosis_answer(dsdpv1_device* device) {
   const dsdpv1_error error = dsdpv1_hold_when_taken(device, DSDPV1_REG_USER_COMMAND_1_DIAG, DSDPV1_ERR_DIAG_TIMEOUT);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   const uint8_t status = dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_2);
   dsdpv1_release(device);
   return (status & DSDPV1_REG_CHIP_STATUS_2_DIAG_CRC) != 0u ? DSDPV1_ERR_DIAG_CRC : DSDPV1_OK;
@@ -157,18 +135,12 @@ static dsdpv1_error diagnosis_answer(dsdpv1_device* device) {
 
 dsdpv1_error dsdpv1_set_diagnosis(dsdpv1_device* device, dsdpv1_diag_type type, const uint8_t* data, uint8_t length) {
   dsdpv1_error error = check_diagnosis(device, type, data, length);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   const uint8_t head[2] = {(uint8_t)type, length};
   const uint16_t crc = dsdpv1_crc(dsdpv1_crc(DSDPV1_CRC_START, head, 2), data, length); /* D3: from B227 */
   for (uint8_t retries = device->tuning.crc_retries;; --retries) {
     error = write_diagnosis(device, head, data, crc);
-    if (error == DSDPV1_OK) {
-      error = diagnosis_answer(device);
-    }
-    if (error != DSDPV1_ERR_DIAG_CRC || retries == 0u) {
-      return error;
-    }
+    if (error == DSDPV1_OK) error = diagnosis_answer(device);
+    if (error != DSDPV1_ERR_DIAG_CRC || retries == 0u) return error;
   }
 }

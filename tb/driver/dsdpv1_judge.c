@@ -54,18 +54,12 @@ static dsdpv1_copy cfg_copy(dsdpv1_device* device) {
 /* One hold: copies what is new and clears its flags, so that a flag set afterwards means a newer block. */
 static dsdpv1_error take_blocks(dsdpv1_device* device, unsigned* fresh, dsdpv1_copy* prm, dsdpv1_copy* cfg) {
   const dsdpv1_error error = dsdpv1_hold(device);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   const uint8_t command = dsdpv1_get(device, DSDPV1_REG_CHIP_COMMAND_1);
   *fresh = fresh_blocks(command) | device->unread;
   device->unread = 0;
-  if ((*fresh & DSDPV1_VERDICT_PRM) != 0u) {
-    dsdpv1_fetch(device, &kPrm, prm);
-  }
-  if ((*fresh & DSDPV1_VERDICT_CFG) != 0u) {
-    dsdpv1_fetch(device, &kCfg, cfg);
-  }
+  if ((*fresh & DSDPV1_VERDICT_PRM) != 0u) dsdpv1_fetch(device, &kPrm, prm);
+  if ((*fresh & DSDPV1_VERDICT_CFG) != 0u) dsdpv1_fetch(device, &kCfg, cfg);
   if (*fresh != 0u) {
     dsdpv1_put(device, DSDPV1_REG_CHIP_COMMAND_1,
                (uint8_t)(command & ~(DSDPV1_REG_CHIP_COMMAND_1_PRM | DSDPV1_REG_CHIP_COMMAND_1_CFG)));
@@ -76,9 +70,7 @@ static dsdpv1_error take_blocks(dsdpv1_device* device, unsigned* fresh, dsdpv1_c
 }
 
 static void note(dsdpv1_device* device, verdicts* reached, unsigned kind, dsdpv1_verdict verdict) {
-  if ((user_judged(device) & kind) == 0u) {
-    return; /* modes 0 and 1: the chip has judged */
-  }
+  if ((user_judged(device) & kind) == 0u) return; /* modes 0 and 1: the chip has judged */
   if (verdict == DSDPV1_LATER) {
     device->verdicts_due = (uint8_t)(device->verdicts_due | kind);
     return;
@@ -90,17 +82,14 @@ static void note(dsdpv1_device* device, verdicts* reached, unsigned kind, dsdpv1
 /* A block whose repeated reading found no hold stays due: its flag is gone already. */
 static dsdpv1_error confirm(dsdpv1_device* device, const dsdpv1_area* area, dsdpv1_copy* copy, unsigned kind) {
   const dsdpv1_error error = dsdpv1_confirm(device, area, copy);
-  if (error != DSDPV1_OK && error != area->length_error && error != area->crc_error) {
+  if (error != DSDPV1_OK && error != area->length_error && error != area->crc_error)
     device->unread = (uint8_t)(device->unread | kind);
-  }
   return error;
 }
 
 static dsdpv1_error judge_prm(dsdpv1_device* device, dsdpv1_copy* copy, verdicts* reached) {
   const dsdpv1_error error = confirm(device, &kPrm, copy, DSDPV1_VERDICT_PRM);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   device->prm_length = dsdpv1_copy_length(&kPrm, copy);
   const dsdpv1_verdict verdict =
       device->judge.prm == NULL ? DSDPV1_ACCEPT : device->judge.prm(device->judge.ctx, device->prm, device->prm_length);
@@ -110,9 +99,7 @@ static dsdpv1_error judge_prm(dsdpv1_device* device, dsdpv1_copy* copy, verdicts
 
 static dsdpv1_error judge_cfg(dsdpv1_device* device, dsdpv1_copy* copy, verdicts* reached) {
   const dsdpv1_error error = confirm(device, &kCfg, copy, DSDPV1_VERDICT_CFG);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   device->cfg_output_length = copy->header[0];
   device->cfg_input_length = copy->header[1];
   device->cfg_length = dsdpv1_copy_length(&kCfg, copy);
@@ -138,9 +125,7 @@ static void write_verdicts(const dsdpv1_device* device, const verdicts* reached)
 /* One hold. Verdicts on blocks that the master has replaced meanwhile are kept back (H7); `fresh` tells which. */
 static dsdpv1_error hand_over(dsdpv1_device* device, const verdicts* reached, unsigned* fresh) {
   const dsdpv1_error error = dsdpv1_hold(device);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   *fresh = fresh_blocks(dsdpv1_get(device, DSDPV1_REG_CHIP_COMMAND_1));
   const verdicts current = {reached->given & ~*fresh, reached->wrong & ~*fresh};
   if (current.given != 0u) {
@@ -161,21 +146,11 @@ static dsdpv1_error service_round(dsdpv1_device* device, unsigned* fresh) {
   unsigned taken = 0;
   dsdpv1_error error = take_blocks(device, &taken, &prm, &cfg);
   *fresh = 0;
-  if (error != DSDPV1_OK) {
-    return error;
-  }
-  if ((taken & DSDPV1_VERDICT_PRM) != 0u) {
-    prm_error = judge_prm(device, &prm, &reached);
-  }
-  if ((taken & DSDPV1_VERDICT_CFG) != 0u) {
-    cfg_error = judge_cfg(device, &cfg, &reached);
-  }
-  if (reached.given != 0u) {
-    error = hand_over(device, &reached, fresh);
-  }
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
+  if ((taken & DSDPV1_VERDICT_PRM) != 0u) prm_error = judge_prm(device, &prm, &reached);
+  if ((taken & DSDPV1_VERDICT_CFG) != 0u) cfg_error = judge_cfg(device, &cfg, &reached);
+  if (reached.given != 0u) error = hand_over(device, &reached, fresh);
+  if (error != DSDPV1_OK) return error;
   return prm_error != DSDPV1_OK ? prm_error : cfg_error;
 }
 
@@ -184,12 +159,8 @@ void dsdpv1_on_intr0(dsdpv1_device* device) { device->intr0_pending = true; }
 bool dsdpv1_intr0_pending(const dsdpv1_device* device) { return device->intr0_pending; }
 
 dsdpv1_error dsdpv1_service(dsdpv1_device* device) {
-  if (device == NULL) {
-    return DSDPV1_ERR_ARGUMENT;
-  }
-  if (!device->initialised) {
-    return DSDPV1_ERR_NOT_INITIALISED;
-  }
+  if (device == NULL) return DSDPV1_ERR_ARGUMENT;
+  if (!device->initialised) return DSDPV1_ERR_NOT_INITIALISED;
   if (device->held || device->servicing) {
     device->intr0_pending = true; /* the interrupted program has to do it */
     return DSDPV1_ERR_NESTED;
@@ -198,29 +169,21 @@ dsdpv1_error dsdpv1_service(dsdpv1_device* device) {
   device->intr0_pending = false; /* before looking: an INTR0 from now on counts anew */
   unsigned fresh = 1;
   dsdpv1_error error = DSDPV1_OK;
-  for (int round = 0; round < kRounds && fresh != 0u && error == DSDPV1_OK; ++round) {
+  for (int round = 0; round < kRounds && fresh != 0u && error == DSDPV1_OK; ++round)
     error = service_round(device, &fresh);
-  }
-  if (fresh != 0u || error == DSDPV1_ERR_DPRAM_BUSY || error == DSDPV1_ERR_CHIP_SILENT) {
-    device->intr0_pending = true;
-  }
+  if (fresh != 0u || error == DSDPV1_ERR_DPRAM_BUSY || error == DSDPV1_ERR_CHIP_SILENT) device->intr0_pending = true;
   device->servicing = false;
   return error;
 }
 
 dsdpv1_error dsdpv1_send_verdict(dsdpv1_device* device, uint8_t which, uint8_t wrong) {
   if (device == NULL || which == 0u || (which & ~(DSDPV1_VERDICT_PRM | DSDPV1_VERDICT_CFG)) != 0u ||
-      (wrong & ~(unsigned)which) != 0u) {
+      (wrong & ~(unsigned)which) != 0u)
     return DSDPV1_ERR_ARGUMENT;
-  }
-  if ((which & ~(unsigned)device->verdicts_due) != 0u) {
-    return DSDPV1_ERR_NO_VERDICT_DUE;
-  }
+  if ((which & ~(unsigned)device->verdicts_due) != 0u) return DSDPV1_ERR_NO_VERDICT_DUE;
   const verdicts late = {which, wrong};
   unsigned fresh = 0;
   const dsdpv1_error error = hand_over(device, &late, &fresh);
-  if (error != DSDPV1_OK) {
-    return error;
-  }
+  if (error != DSDPV1_OK) return error;
   return (fresh & which) != 0u ? DSDPV1_ERR_VERDICT_STALE : DSDPV1_OK;
 }

@@ -5,8 +5,8 @@
 
 namespace tb {
 
-/// What a file is, as "allowed is ..." goes on, and how much of it is read at most: far beyond every right one, so that a wrong
-/// name (/dev/zero, an image of a disk) ends in one line and not in a full memory.
+/// What a file is, as "allowed is ..." goes on, and how much of it is read at most: far beyond every right one, so that
+/// a wrong name (/dev/zero, an image of a disk) ends in one line and not in a full memory.
 struct FileKind {
   const char* what;
   std::size_t most_mb;

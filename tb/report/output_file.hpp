@@ -1,6 +1,6 @@
 #pragma once
-// A file that is complete or absent: it is written under a temporary name beside its place and renamed by `commit`. Symbolic links
-// are followed; devices and FIFOs are written to as they are.
+// A file that is complete or absent: it is written under a temporary name beside its place and renamed by `commit`.
+// Symbolic links are followed; devices and FIFOs are written to as they are.
 #include <cstdio>
 #include <memory>
 #include <string>

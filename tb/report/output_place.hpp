@@ -18,7 +18,8 @@ struct OutputPlace {
 /// Throws InputError when nothing can be written there: a folder, a file without permission, a name that is too long.
 OutputPlace find_place(const std::string& path);
 
-/// A text that is the same for two names of one file, existing or not; none for devices, FIFOs, what cannot be looked at, and descriptors
+/// A text that is the same for two names of one file, existing or not; none for devices, FIFOs, what cannot be looked
+/// at, and descriptors
 /// (/dev/stdout): several options may name them.
 std::optional<std::string> output_identity(const std::string& path);
 /// Likewise of a file that is there, by whatever name (/dev/stdin).

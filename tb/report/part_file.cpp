@@ -18,7 +18,8 @@ namespace {
 
 constexpr mode_t kPermissions = 0777;
 
-/// Names of open temporary files; lock-free, for handlers. A name for which there is no slot is removed by its owner only.
+/// Names of open temporary files; lock-free, for handlers. A name for which there is no slot is removed by its owner
+/// only.
 std::array<std::atomic<const char*>, 64> slots{};
 
 int take_slot(const char* name) {
@@ -94,9 +95,8 @@ NameToRemove::~NameToRemove() {
 }
 
 void remove_parts() noexcept {
-  for (const std::atomic<const char*>& slot : slots) {
+  for (const std::atomic<const char*>& slot : slots)
     if (const char* const name = slot.load()) ::unlink(name);
-  }
 }
 
 PartFile::PartFile(const std::string& path) : place_(find_place(path)), part_(open_place(place_, descriptor_)) {}

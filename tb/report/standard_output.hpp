@@ -29,8 +29,8 @@ class StandardOutput : public std::streambuf {
   int error_ = 0;
 };
 
-/// Puts something that can neither be read nor written in the place of standard channels that are closed. Otherwise the first file
-/// that is opened would get their number, and what the program says would go into it.
+/// Puts something that can neither be read nor written in the place of standard channels that are closed. Otherwise the
+/// first file that is opened would get their number, and what the program says would go into it.
 void fill_closed_channels();
 
 }  // namespace tb

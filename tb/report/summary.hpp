@@ -5,7 +5,8 @@
 
 namespace tb {
 
-/// What the terminal shows at the end of a run: state changes with times, measurements of each slave, expectations, verdict.
+/// What the terminal shows at the end of a run: state changes with times, measurements of each slave, expectations,
+/// verdict.
 std::string summary(const RunResult& result);
 
 }  // namespace tb

@@ -46,9 +46,8 @@ class Checker {
     std::map<std::string, int> seen;
     const auto check = [&](const Name& name) {
       const auto good = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-      if (name.text.size() > 32 || !std::all_of(name.text.begin(), name.text.end(), good)) {
+      if (name.text.size() > 32 || !std::all_of(name.text.begin(), name.text.end(), good))
         fail(name.line, fmt::format("name is \"{}\", allowed are 1 to 32 letters, digits and _", name.text));
-      }
       if (name.text == "bus" || name.text == "script")
         fail(name.line, fmt::format("name {} is taken, allowed is any other", name.text));
       const auto [place, fresh] = seen.emplace(name.text, name.line);
@@ -184,15 +183,12 @@ class Checker {
 
   void check_master_slave(const MasterSlave& slave) const {
     check_slave_name(slave.slave);
-    if (slave.slave.empty() && slave.gsd.empty() && (!slave.ident || !slave.cfg)) {
+    if (slave.slave.empty() && slave.gsd.empty() && (!slave.ident || !slave.cfg))
       fail(slave.line, "a master's slave needs slave, gsd, or ident and cfg");
-    }
-    if (slave.gsd.empty() && slave.slave.empty() && !slave.modules.empty()) {
+    if (slave.gsd.empty() && slave.slave.empty() && !slave.modules.empty())
       fail(slave.modules.front().line, "modules without gsd, allowed are the modules of a GSD file");
-    }
-    for (const std::uint8_t group : slave.groups) {
+    for (const std::uint8_t group : slave.groups)
       if (group < 1 || group > 8) fail(slave.line, fmt::format("groups holds {}, allowed are 1 to 8", group));
-    }
   }
 
   void check_time(const std::optional<bus::Tick>& time, const char* key, int line) const {

@@ -5,7 +5,8 @@
 
 namespace tb {
 
-/// "file:line: text", or "file: text" when `line` is 0, or "text" when there is no file (command line). Lines count from 1.
+/// "file:line: text", or "file: text" when `line` is 0, or "text" when there is no file (command line). Lines count
+/// from 1.
 class InputError : public std::runtime_error {
  public:
   InputError(const std::string& file, int line, const std::string& text) : std::runtime_error(join(file, line, text)) {}

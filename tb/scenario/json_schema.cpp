@@ -135,9 +135,8 @@ class SchemaWriter {
     Json json = frame(described);
     json["description"] = choice.doc;
     json["properties"][described.selector] = {{"const", choice.word}};
-    for (const auto* group : {&described.always, &choice.required, &choice.optional}) {
+    for (const auto* group : {&described.always, &choice.required, &choice.optional})
       for (const std::string& key : *group) json["properties"][key] = property(*described.find(key));
-    }
     std::vector<std::string> required = choice.required;
     required.push_back(described.selector);
     json["required"] = required;

@@ -106,9 +106,8 @@ void check_groups(const Object& object, const std::set<std::string>& seen, const
       fail(source, node,
            fmt::format("{} has {} of {}, allowed is one at most", object.name, count(group), join(group)));
   }
-  for (const auto& group : object.at_least_one) {
+  for (const auto& group : object.at_least_one)
     if (count(group) == 0) fail(source, node, fmt::format("{} needs at least one of {}", object.name, join(group)));
-  }
 }
 
 void check_required(const Object& object, const Choice* choice, const std::set<std::string>& seen,
@@ -140,9 +139,8 @@ int line_of(const YAML::Node& node) { return node.Mark().line + 1; }
 std::int64_t read_integer(const Field& field, const YAML::Node& node, const Source& source) {
   const std::string allowed = integer_form(field);
   const std::optional<std::int64_t> value = parse_integer(scalar(field, node, source, allowed));
-  if (!value || *value < field.type.range.min || *value > field.type.range.max) {
+  if (!value || *value < field.type.range.min || *value > field.type.range.max)
     fail(source, node, fmt::format("{} is {}, allowed is {}", field.name, shown(node), allowed));
-  }
   return *value;
 }
 
@@ -152,9 +150,8 @@ double read_number(const Field& field, const YAML::Node& node, const Source& sou
   double value = 0;
   scalar(field, node, source, allowed);
   const bool good = YAML::convert<double>::decode(node, value) && std::isfinite(value);
-  if (!good || value < static_cast<double>(field.type.range.min) || value > static_cast<double>(field.type.range.max)) {
+  if (!good || value < static_cast<double>(field.type.range.min) || value > static_cast<double>(field.type.range.max))
     fail(source, node, fmt::format("{} is {}, allowed is {}", field.name, shown(node), allowed));
-  }
   return value;
 }
 

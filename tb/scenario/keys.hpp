@@ -1,6 +1,7 @@
 #pragma once
-// One description of a scenario's keys. From it come the parser, the JSON Schema and docs/scenarios.md, so that the three
-// cannot disagree. An `Object` is a mapping with fields; `ObjectOf<T>` binds its fields to the members of a struct.
+// One description of a scenario's keys. From it come the parser, the JSON Schema and docs/scenarios.md, so that the
+// three cannot disagree. An `Object` is a mapping with fields; `ObjectOf<T>` binds its fields to the members of a
+// struct.
 #include <yaml-cpp/yaml.h>
 
 #include <cstdint>
@@ -18,7 +19,8 @@ namespace tb::keys {
 
 enum class Kind : std::uint8_t { kInteger, kNumber, kBoolean, kText, kFile, kWord, kTime, kBytes, kObject, kList };
 
-/// Least and greatest allowed value: of an integer, of a time in ticks, of the number of bytes, items or (0: any) characters.
+/// Least and greatest allowed value: of an integer, of a time in ticks, of the number of bytes, items or (0: any)
+/// characters.
 struct Range {
   std::int64_t min = 0, max = 0;
 };

@@ -72,9 +72,11 @@ Scenario load(const std::string& path, const std::vector<Setting>& settings) {
 }
 
 bool allows(const Scenario& scenario, const std::string& code, const std::string& station) {
-  return std::any_of(scenario.allow.begin(), scenario.allow.end(), [&](const Allow& allow) {
-    return allow.event.text == code && (allow.slave.empty() || allow.slave.text == station);
-  });
+  return std::any_of(
+      scenario.allow.begin(), scenario.allow.end(),
+      [&](const Allow& allow) {
+        return allow.event.text == code && (allow.slave.empty() || allow.slave.text == station);
+      });
 }
 
 std::vector<std::string> files(const std::string& path, const std::vector<Setting>& settings) {

@@ -65,9 +65,8 @@ std::string default_cell(const Field& field) {
 
 std::string word_notes(const Field& field) {
   std::string text;
-  for (const keys::Word& word : field.type.words) {
+  for (const keys::Word& word : field.type.words)
     if (!word.doc.empty()) text += fmt::format(" `{}`: {};", word.text, word.doc);
-  }
   if (!text.empty()) text.back() = '.';
   return text;
 }
@@ -107,21 +106,18 @@ std::string section(const Object& object) {
   std::string text = fmt::format("\n## {}\n\n{}\n", object.name, object.doc);
   if (!object.selector.empty()) text += choice_table(object);
   text += "\n| key | allowed | default | meaning |\n|---|---|---|---|\n";
-  for (const Field& field : object.fields) {
+  for (const Field& field : object.fields)
     if (field.name != object.selector) text += row(field);
-  }
   return text + group_notes(object);
 }
 
 /// All objects below `object`, each once, in the order of their first mention.
 void collect(const Object& object, std::vector<const Object*>& found) {
-  for (const Object* known : found) {
+  for (const Object* known : found)
     if (known == &object) return;
-  }
   found.push_back(&object);
-  for (const Field& field : object.fields) {
+  for (const Field& field : object.fields)
     if (field.type.object != nullptr) collect(*field.type.object, found);
-  }
 }
 
 }  // namespace

@@ -230,7 +230,8 @@ const char* action_word(Do what);
 /// What the program on the user CPU has to carry out itself.
 constexpr bool is_for_user_cpu(Do what) { return what <= Do::kAnswerAcyclic && what != Do::kResetChip; }
 
-/// Something about a slave (or the telegrams of the bus) that is true or not at a point of time; all parts given must hold.
+/// Something about a slave (or the telegrams of the bus) that is true or not at a point of time; all parts given must
+/// hold.
 struct Condition {
   Name slave;
   std::optional<dsdpv1::DpState> dp_state;
@@ -324,7 +325,8 @@ struct Scenario {
   int line = 0;
 };
 
-/// Reads and checks a scenario; throws InputError. GSD files are not opened here. The settings replace keys of the file.
+/// Reads and checks a scenario; throws InputError. GSD files are not opened here. The settings replace keys of the
+/// file.
 Scenario load(const std::string& path, const std::vector<Setting>& settings = {});
 /// The same from text; `file` is used in errors and as the base of relative paths.
 Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings = {});

@@ -22,13 +22,11 @@ using Steps = std::vector<std::string>;
 
 Steps split(const std::string& path) {
   Steps steps(1);
-  for (const char c : path) {
-    if (c == '.') {
+  for (const char c : path)
+    if (c == '.')
       steps.emplace_back();
-    } else {
+    else
       steps.back() += c;
-    }
-  }
   return steps;
 }
 
@@ -121,9 +119,8 @@ YAML::Node value_of(const Field& field, const Setting& setting) {
 
 std::vector<std::string> item_names(const YAML::Node& list) {
   std::vector<std::string> names;
-  for (const YAML::Node& item : list) {
+  for (const YAML::Node& item : list)
     if (item.IsMap() && item["name"].IsDefined() && item["name"].IsScalar()) names.push_back(item["name"].Scalar());
-  }
   return names;
 }
 
@@ -158,11 +155,10 @@ class Writer {
  private:
   /// Text goes into the node that is there, which so keeps its line for errors; it counts as quoted.
   void put(YAML::Node slot) const {
-    if (value_.IsScalar()) {
+    if (value_.IsScalar())
       slot = value_.Scalar();
-    } else {
+    else
       slot = YAML::Clone(value_);
-    }
     mark(slot);
   }
   void mark(YAML::Node node) const { node.SetTag(keys::kOptionTag + setting_.origin); }

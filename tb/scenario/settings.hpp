@@ -15,8 +15,8 @@ namespace tb::scenario {
 ///   slaves.plant.init.dpv1      by name, in lists whose items have one
 ///   user_cpu.fsmc.datast        of every slave, when it begins with a key of a slave that the scenario itself has not
 ///
-/// Mappings on the way that the file leaves out come into being, items of lists do not. What the file shares through an anchor
-/// changes wherever it stands.
+/// Mappings on the way that the file leaves out come into being, items of lists do not. What the file shares through an
+/// anchor changes wherever it stands.
 struct Setting {
   std::string path, value;
   std::string origin;  ///< what its errors begin with: "--set user_cpu.cycle=40us"

@@ -79,9 +79,8 @@ std::optional<bus::Tick> parse_time(const std::string& text) {
   if (!scan_decimal(text, end, whole, fraction)) return std::nullopt;
   while (end < text.size() && text[end] == ' ') ++end;
   const std::string name = text.substr(end);
-  for (const Unit& unit : kUnits) {
+  for (const Unit& unit : kUnits)
     if (name == unit.name) return scale(whole, fraction, unit.ticks);
-  }
   return std::nullopt;
 }
 

@@ -15,7 +15,8 @@ std::optional<std::int64_t> parse_integer(const std::string& text);
 /// What a time may look like, for error messages.
 extern const char* const kTimeForm;
 
-/// "250ns", "1.5ms", "20us", "2s", "48cycles" (of 48 MHz) as ticks, rounded once to the nearest; nullopt for anything else.
+/// "250ns", "1.5ms", "20us", "2s", "48cycles" (of 48 MHz) as ticks, rounded once to the nearest; nullopt for anything
+/// else.
 std::optional<bus::Tick> parse_time(const std::string& text);
 
 /// The shortest way to write a time that `parse_time` reads back: "1.5ms".

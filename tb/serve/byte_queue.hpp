@@ -7,8 +7,9 @@
 
 namespace tb::serve {
 
-/// One piece of memory, so that what waits can be handed to a system call. What has gone is moved out of the way only when it is more than half,
-/// so that taking all that ever came costs time in proportion to it, however small the pieces.
+/// One piece of memory, so that what waits can be handed to a system call. What has gone is moved out of the way only
+/// when it is more than half, so that taking all that ever came costs time in proportion to it, however small the
+/// pieces.
 class ByteQueue {
  public:
   bool empty() const { return size() == 0; }

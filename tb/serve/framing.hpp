@@ -1,7 +1,7 @@
 #pragma once
-// From the bytes that a host writes to telegrams. An operating system hands over a telegram in one piece or in several, and a
-// pause between two pieces would be a gap on the line (S10: more than 1 bit time is refused), so a telegram is held back until
-// its length, known from the start delimiter and LE, has come.
+// From the bytes that a host writes to telegrams. An operating system hands over a telegram in one piece or in several,
+// and a pause between two pieces would be a gap on the line (S10: more than 1 bit time is refused), so a telegram is
+// held back until its length, known from the start delimiter and LE, has come.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -27,15 +27,16 @@ Frame frame_of(const std::uint8_t* bytes, std::size_t count);
 
 class Intake {
  public:
-  /// A telegram whose rest does not come for so long is handed over as it is: longer than the latency of USB adapters (16 ms).
+  /// A telegram whose rest does not come for so long is handed over as it is: longer than the latency of USB adapters
+  /// (16 ms).
   static constexpr std::chrono::milliseconds kPatience{50};
   /// One that comes in ever so small pieces, as a whole: three times what the longest takes at 9.6 kbit/s.
   static constexpr std::chrono::milliseconds kMostPatience{1000};
 
   /// The host has written `bytes`.
   void take(const bus::Bytes& bytes, WallTime now);
-  /// The next telegram that is complete, or bytes that are none: those that begin like no telegram, all that there are, at once;
-  /// a telegram that broke off, when it is given up. To be called until it returns nothing.
+  /// The next telegram that is complete, or bytes that are none: those that begin like no telegram, all that there are,
+  /// at once; a telegram that broke off, when it is given up. To be called until it returns nothing.
   std::optional<bus::Bytes> next(WallTime now);
   /// A telegram has begun and is not complete.
   bool holding() const { return !bytes_.empty(); }

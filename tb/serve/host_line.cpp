@@ -11,10 +11,9 @@ namespace {
 /// The telegram of `bytes` when they are one, else nothing.
 std::optional<bus::Telegram> telegram_of(const bus::Bytes& bytes) {
   bus::TelegramDecoder decoder;
-  for (const std::uint8_t byte : bytes) {
+  for (const std::uint8_t byte : bytes)
     if (const auto decoded = decoder.feed(byte))
       return decoded->readable ? std::optional(decoded->telegram) : std::nullopt;
-  }
   return std::nullopt;
 }
 

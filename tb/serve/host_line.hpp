@@ -21,9 +21,9 @@ struct HostLineStatistics {
   Tick longest_held_back = 0;
 };
 
-/// A host cannot keep bus times, so they are kept here: a telegram starts when the line has been idle for T_SYN (33 bit times; an
-/// answer of the host: min_TSDR, 11), and a request after one that wants an answer when the answer or the slot time has ended.
-/// The characters of a telegram follow each other without a gap.
+/// A host cannot keep bus times, so they are kept here: a telegram starts when the line has been idle for T_SYN (33 bit
+/// times; an answer of the host: min_TSDR, 11), and a request after one that wants an answer when the answer or the
+/// slot time has ended. The characters of a telegram follow each other without a gap.
 class HostLine : public bus::Agent, private bus::Listener {
  public:
   /// `baud` as in bus/baud.hpp. The segment must outlive the line.
@@ -36,15 +36,16 @@ class HostLine : public bus::Agent, private bus::Listener {
 
   /// Sends after what was handed over before, not before `at` (not in the past).
   void send(Tick at, bus::Bytes bytes);
-  /// The host has gone: what it handed over is still sent, what was heard for it is not handed over, and what answers it is for
-  /// nobody: nothing is heard until a later host's telegram or something new after T_SYN begins.
+  /// The host has gone: what it handed over is still sent, what was heard for it is not handed over, and what answers
+  /// it is for nobody: nothing is heard until a later host's telegram or something new after T_SYN begins.
   void forget();
   /// Handed over and not yet begun to be sent.
   std::size_t waiting_bytes() const { return waiting_bytes_; }
-  /// The bytes whose last stop bit has ended, in order; with `whole_only` nothing while more may follow without a gap, up to
-  /// kMostWhole.
+  /// The bytes whose last stop bit has ended, in order; with `whole_only` nothing while more may follow without a gap,
+  /// up to kMostWhole.
   bus::Bytes take_heard(Tick now, bool whole_only);
-  /// Something is on the line or about to be: a telegram of the host that waits or is sent, an awaited answer, a character.
+  /// Something is on the line or about to be: a telegram of the host that waits or is sent, an awaited answer, a
+  /// character.
   bool busy(Tick now) const;
   const HostLineStatistics& statistics() const { return statistics_; }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Where the host's bytes come from and go to: a file descriptor that is never waited for, with somebody at its other end or not.
+// Where the host's bytes come from and go to: a file descriptor that is never waited for, with somebody at its other
+// end or not.
 #include <poll.h>
 
 #include <cstddef>
@@ -29,12 +30,13 @@ class HostPort {
   /// A UART gives the characters their times, on both ways; else bytes have none.
   virtual bool timed() const { return false; }
 
-  /// What has come, at most `most` bytes: the rest waits where it is, with the peer in the end. Also looks after comings and goings of
-  /// the peer; of one that has gone, what can be read at once is the last.
+  /// What has come, at most `most` bytes: the rest waits where it is, with the peer in the end. Also looks after
+  /// comings and goings of the peer; of one that has gone, what can be read at once is the last.
   bus::Bytes receive(std::size_t most);
   /// Hands over to the peer, at once or as soon as it takes more; without a peer nobody hears it.
   void send(const bus::Bytes& bytes);
-  /// For poll(2): what to wait for, bytes of the peer only while `reading`; the descriptor is -1 while there is no peer.
+  /// For poll(2): what to wait for, bytes of the peer only while `reading`; the descriptor is -1 while there is no
+  /// peer.
   virtual pollfd watched(bool reading) const;
 
   /// One line for the user about comings, goings and losses.

@@ -1,6 +1,6 @@
 #pragma once
-// Simulated time held to real time. The computer is never ahead on purpose; when it is behind it catches up, and what it cannot
-// catch up is given up: simulated time then lags for good, by an amount that is reported.
+// Simulated time held to real time. The computer is never ahead on purpose; when it is behind it catches up, and what
+// it cannot catch up is given up: simulated time then lags for good, by an amount that is reported.
 #include <cstdint>
 #include <functional>
 #include <optional>

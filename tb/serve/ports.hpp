@@ -8,12 +8,12 @@
 
 namespace tb::serve {
 
-/// A pseudo-terminal; `link` is a symbolic link to it, removed at the end; empty: none. Warns when the host sets another speed
-/// than `bits_per_second`.
+/// A pseudo-terminal; `link` is a symbolic link to it, removed at the end; empty: none. Warns when the host sets
+/// another speed than `bits_per_second`.
 std::unique_ptr<HostPort> open_pty(const std::string& link, int bits_per_second);
 
-/// A TCP port at the numeric address `bind`, one host at a time: others are accepted, wait for their turn in the order in which they came
-/// and are not read from until then. More than 16 do not wait: their connections are reset.
+/// A TCP port at the numeric address `bind`, one host at a time: others are accepted, wait for their turn in the order
+/// in which they came and are not read from until then. More than 16 do not wait: their connections are reset.
 std::unique_ptr<HostPort> open_tcp(const std::string& bind, int port);
 
 struct SerialOptions {

@@ -13,18 +13,20 @@
 
 namespace tb::serve {
 
-/// Simulated time follows real time in slices of at most 1 ms, 0.1 ms while something is on the line, and sleeps in between. It
-/// stands still while a telegram of the host has begun and is not complete (Intake), and catches up afterwards; so a telegram that
-/// came slowly, from a real UART, ends on the segment when it ended on the wire. Behind a UART simulated time does not wait
-/// while the answer is awaited and sent: nothing can come from the host meanwhile, and the UART gives the answer its times.
+/// Simulated time follows real time in slices of at most 1 ms, 0.1 ms while something is on the line, and sleeps in
+/// between. It stands still while a telegram of the host has begun and is not complete (Intake), and catches up
+/// afterwards; so a telegram that came slowly, from a real UART, ends on the segment when it ended on the wire. Behind
+/// a UART simulated time does not wait while the answer is awaited and sent: nothing can come from the host meanwhile,
+/// and the UART gives the answer its times.
 ///
-/// No more is read from the host than waits for the line, up to kMostWaiting; what it writes faster than the line sends stays in the
-/// socket or pseudo-terminal, and in the end the host waits. After a hold longer than Intake::kPatience nothing is read until
-/// simulated time has caught up, or for as long as the hold was: so a host that sends ever so slowly cannot stop it.
+/// No more is read from the host than waits for the line, up to kMostWaiting; what it writes faster than the line sends
+/// stays in the socket or pseudo-terminal, and in the end the host waits. After a hold longer than Intake::kPatience
+/// nothing is read until simulated time has caught up, or for as long as the hold was: so a host that sends ever so
+/// slowly cannot stop it.
 class RealTimeExecution : public Execution {
  public:
-  /// Eight of the longest telegrams; at 12 Mbit/s nearly two slices of 1 ms, so that the line never waits for the program. The rest of
-  /// a telegram begun is read beyond that.
+  /// Eight of the longest telegrams; at 12 Mbit/s nearly two slices of 1 ms, so that the line never waits for the
+  /// program. The rest of a telegram begun is read beyond that.
   static constexpr std::size_t kMostWaiting = 8 * kLongestTelegram;
 
   /// `baud` as in bus/baud.hpp.

@@ -8,15 +8,15 @@ namespace tb {
 
 struct TcpOptions {
   int backlog = 4;  ///< connections that the system keeps until they are accepted
-  /// The system holds some 90 KB to 1 MB of what the other side sends and nobody has read, not 4 MB: the other side is made to wait sooner, and
-  /// when it is killed its end, which comes after all that it has sent, is heard of sooner.
+  /// The system holds some 90 KB to 1 MB of what the other side sends and nobody has read, not 4 MB: the other side is
+  /// made to wait sooner, and when it is killed its end, which comes after all that it has sent, is heard of sooner.
   bool little_buffered = false;
 };
 
 class TcpListener {
  public:
-  /// Listens at the numeric IPv4 address `bind`; port 0 is any free one. Throws InputError, which begins with `who`, when
-  /// that cannot be had.
+  /// Listens at the numeric IPv4 address `bind`; port 0 is any free one. Throws InputError, which begins with `who`,
+  /// when that cannot be had.
   TcpListener(const std::string& who, const std::string& bind, int port, const TcpOptions& options = {});
 
   /// Which port it has become.

@@ -31,7 +31,8 @@ constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
   _exit(kNotStarted);
 }
 
-/// In the child: dies with its parent (with the thread that called fork, which is the only one), also when that has died already.
+/// In the child: dies with its parent (with the thread that called fork, which is the only one), also when that has
+/// died already.
 void bind_to(pid_t parent) {
   if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) give_up();
   if (getppid() != parent) _exit(kNotStarted);

@@ -26,8 +26,8 @@ class Children {
   /// Ends those that still run.
   ~Children();
 
-  /// Starts this program with `arguments`; it writes nothing but its error channel. One that the system does not start has
-  /// ended at once.
+  /// Starts this program with `arguments`; it writes nothing but its error channel. One that the system does not start
+  /// has ended at once.
   void start(std::size_t point, const std::vector<std::string>& arguments);
   std::size_t running() const { return runs_.size() + not_started_.size(); }
   /// One that has ended; waits a moment when there is none, and returns nullopt then, so that the caller hears signals.

@@ -7,8 +7,8 @@
 namespace tb::sweep {
 
 std::string fingerprint(const std::string& text);
-/// Of a file's content; nullopt when there is no such file, it is a folder or may not be read. Throws InputError when it is no
-/// regular file (every run of a sweep reads it again), and when the machine refuses to read it now.
+/// Of a file's content; nullopt when there is no such file, it is a folder or may not be read. Throws InputError when
+/// it is no regular file (every run of a sweep reads it again), and when the machine refuses to read it now.
 std::optional<std::string> fingerprint_of_file(const std::string& path);
 
 /// The whole content, empty when it cannot be read.

@@ -58,7 +58,8 @@ std::string difference(const Json& before, const Json& now) {
   return before == now ? "" : "other settings";
 }
 
-/// What the result of a run says; nullopt when it is no result. Only these exit codes are about the point, see docs/sweep.md.
+/// What the result of a run says; nullopt when it is no result. Only these exit codes are about the point, see
+/// docs/sweep.md.
 std::optional<Point> statement(int exit, const std::string& error, const Json& result) {
   const bool ran = (exit == kPassed || exit == kFailed) && error.empty() && result.is_object();
   const bool refused = exit == kWrongInput && !error.empty() && result.is_null();
@@ -123,20 +124,17 @@ bool Folder::holds_something_else(bool swept) const {
 void Folder::clear() const {
   fs::remove_all(path_ / "points");
   fs::remove(path_ / "results.csv");
-  for (const auto& entry : fs::directory_iterator(path_)) {
+  for (const auto& entry : fs::directory_iterator(path_))
     if (is_picture(entry.path().filename().string())) fs::remove(entry.path());
-  }
 }
 
 /// Removes what a sweep that was killed has left half done.
 void Folder::tidy() const {
-  for (const auto& entry : fs::directory_iterator(path_)) {
+  for (const auto& entry : fs::directory_iterator(path_))
     if (is_left_over(entry.path().filename().string())) fs::remove(entry.path());
-  }
   if (!fs::exists(path_ / "points")) return;
-  for (const auto& entry : fs::directory_iterator(path_ / "points")) {
+  for (const auto& entry : fs::directory_iterator(path_ / "points"))
     if (is_remainder(entry.path().filename().string())) fs::remove(entry.path());
-  }
 }
 
 std::string Folder::point_file(std::size_t point, const std::string& ending) const {

@@ -173,9 +173,8 @@ class Map {
 
   std::string cells() const {
     std::string text;
-    for (std::size_t row = 0; row < rows_; ++row) {
+    for (std::size_t row = 0; row < rows_; ++row)
       for (std::size_t column = 0; column < columns_; ++column) text += cell(column, row);
-    }
     return text;
   }
 

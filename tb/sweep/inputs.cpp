@@ -55,9 +55,8 @@ Inputs::Inputs(const Plan& plan) : plan_(plan), common_{plan.scenario} {
 std::vector<std::string> Inputs::files_of(std::size_t point) const {
   std::vector<std::string> files = common_;
   const std::vector<std::string> values = plan_.values(point);
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < values.size(); ++i)
     if (names_files(plan_.parameters[i])) files.push_back(scenario::given_path(values[i]));
-  }
   return files;
 }
 

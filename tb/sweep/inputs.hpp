@@ -16,8 +16,8 @@ class Inputs {
   /// When each file was last written, or replaced by another; changes even when the content comes back to what it was.
   using Times = std::vector<std::vector<std::int64_t>>;
 
-  /// Reads the scenario, the files that it names and those that settings and parameters name. Throws InputError for a scenario
-  /// that cannot be read.
+  /// Reads the scenario, the files that it names and those that settings and parameters name. Throws InputError for a
+  /// scenario that cannot be read.
   explicit Inputs(const Plan& plan);
 
   /// Path and fingerprint of each; null where there is nothing to read.

@@ -10,8 +10,8 @@ class Lock {
  public:
   static constexpr const char* kName = ".sweep.lock";
 
-  /// Makes the folder when there is none. Throws InputError when another process has it, with its id, and when the system
-  /// refuses.
+  /// Makes the folder when there is none. Throws InputError when another process has it, with its id, and when the
+  /// system refuses.
   explicit Lock(const std::filesystem::path& folder);
   ~Lock();
   Lock(const Lock&) = delete;

@@ -22,13 +22,11 @@ constexpr std::size_t kMostValues = 10'000, kMostPoints = 100'000;
 
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == at) {
+  for (const char c : text)
+    if (c == at)
       parts.emplace_back();
-    } else {
+    else
       parts.back() += c;
-    }
-  }
   return parts;
 }
 
@@ -48,11 +46,10 @@ Bounds parse_range(Kind kind, const std::string& text, const std::string& origin
   const std::size_t length = slash == std::string::npos ? slash : slash - dots - 2;
   const auto first = parse(kind, text.substr(0, dots)), last = parse(kind, text.substr(dots + 2, length));
   std::optional<std::int64_t> step;
-  if (slash != std::string::npos) {
+  if (slash != std::string::npos)
     step = parse(kind, text.substr(slash + 1));
-  } else if (kind == Kind::kInteger) {
+  else if (kind == Kind::kInteger)
     step = 1;
-  }
   if (!first || !last || !step) fail(origin, fmt::format("range {} is not understood, allowed is {}", text, allowed));
   if (*last < *first) fail(origin, fmt::format("range {} ends before it begins", text));
   if (*step <= 0) fail(origin, fmt::format("range {} has no step forward, allowed is a step above 0", text));

@@ -47,9 +47,8 @@ void take_run(Point& point, const Json& run) {
     point.bad_reads += slave.at("user_cpu").at("bad_reads").get<std::int64_t>();
   take_events(point, run);
   for (const Json& check : run.value("checks", Json::array())) take_check(point, check);
-  for (const Json& each : run.at("expectations")) {
+  for (const Json& each : run.at("expectations"))
     if (point.unmet.empty() && each.at("passed") == false) point.unmet = each.at("text");
-  }
 }
 
 }  // namespace
@@ -66,9 +65,8 @@ const CheckSeen* Point::check(const std::string& id) const {
 
 const CheckSeen* Point::worst() const {
   const CheckSeen* worst = nullptr;
-  for (const CheckSeen& check : checks) {
+  for (const CheckSeen& check : checks)
     if (check.margin_ns && (worst == nullptr || *check.margin_ns < *worst->margin_ns)) worst = &check;
-  }
   return worst;
 }
 

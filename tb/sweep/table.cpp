@@ -161,9 +161,8 @@ std::string least_margin(const Plan& plan, const std::vector<Point>& points) {
 std::vector<std::string> check_ids(const std::vector<Point>& points) {
   std::vector<std::string> ids;
   for (const Point& point : points) {
-    for (const CheckSeen& check : point.checks) {
+    for (const CheckSeen& check : point.checks)
       if (std::find(ids.begin(), ids.end(), check.id) == ids.end()) ids.push_back(check.id);
-    }
   }
   return ids;
 }

@@ -26,11 +26,10 @@ void TimelineModule::run() {
 }
 
 void TimelineModule::sleep(bus::Tick due) {
-  if (due == bus::kNever) {
+  if (due == bus::kNever)
     wait(wake_);
-  } else {
+  else
     wait(to_time(due) - sc_core::sc_time_stamp(), wake_);
-  }
 }
 
 }  // namespace systemc_bench

@@ -1,5 +1,6 @@
 #pragma once
-// A chip in its TLM view as a station of the bench: RESET and the handshake as calls, the bus as a station of an RS-485 segment.
+// A chip in its TLM view as a station of the bench: RESET and the handshake as calls, the bus as a station of an RS-485
+// segment.
 #include <functional>
 #include <string>
 #include <systemc>
@@ -10,9 +11,9 @@
 
 namespace systemc_bench {
 
-/// The module and what it is wired to. The segment hears PBTXD and PBRTS at their exact ticks, also from inside the core; what the
-/// segment says arrives at PBRXD at its tick (one delta cycle later, which no rule of the chip can tell apart: P9).
-/// The phase of the chip must be 0: the bench counts the chip's ticks.
+/// The module and what it is wired to. The segment hears PBTXD and PBRTS at their exact ticks, also from inside the
+/// core; what the segment says arrives at PBRXD at its tick (one delta cycle later, which no rule of the chip can tell
+/// apart: P9). The phase of the chip must be 0: the bench counts the chip's ticks.
 class TlmChip : public sc_core::sc_module, private bus::Listener {
  public:
   TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::TlmOptions& options, bus::Segment& segment,

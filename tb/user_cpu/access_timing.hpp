@@ -18,9 +18,10 @@ using bus::Tick;
 ///   D in   ---------------|-------     read: sampled rd_sample after RD fell
 ///   D out  ---------<==========>--     write: data_setup before WR rises, data_hold after it
 ///
-/// The defaults are a CPU at 72 MHz (HCLK 13.9 ns) in the manner of an STM32F103. Writes are those of its FSMC with ADDSET = 1,
-/// DATAST = 5: 2 HCLK of address phase, WR low for 5 HCLK, 1 HCLK of hold. Reads have the same frame, RD low for 6 HCLK and
-/// sampled 1 HCLK before its rise, which no setting of the FSMC gives: its exact edges come from fsmc_timing.hpp.
+/// The defaults are a CPU at 72 MHz (HCLK 13.9 ns) in the manner of an STM32F103. Writes are those of its FSMC with
+/// ADDSET = 1, DATAST = 5: 2 HCLK of address phase, WR low for 5 HCLK, 1 HCLK of hold. Reads have the same frame, RD
+/// low for 6 HCLK and sampled 1 HCLK before its rise, which no setting of the FSMC gives: its exact edges come from
+/// fsmc_timing.hpp.
 struct AccessTiming {
   Tick address_setup = 333;  ///< Tc: >= 0; negative: A arrives after the strobe fell
   Tick cs_lead = 333;        ///< CSR falls before the strobe; >= 0

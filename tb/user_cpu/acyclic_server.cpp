@@ -61,7 +61,7 @@ void AcyclicServer::count(const dsdpv1_acyclic_result& result) {
   counters_.dropped += areas(result.dropped);
 }
 
-// --- answers --------------------------------------------------------------------------------------------------------------
+// --- answers ---------------------------------------------------------------------------------------------------------
 
 dsdpv1_outcome AcyclicServer::handle(void* ctx, const dsdpv1_request* request, dsdpv1_reply* reply) {
   const Entry& entry = *static_cast<const Entry*>(ctx);

@@ -1,6 +1,6 @@
 #pragma once
-// The DPV1 side of the standard user program: objects by slot and index with memory of their own, I&M0, and answers that come at
-// once, late, never, or as an error.
+// The DPV1 side of the standard user program: objects by slot and index with memory of their own, I&M0, and answers
+// that come at once, late, never, or as an error.
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -15,7 +15,8 @@ namespace user_cpu {
 
 using bus::Tick;
 
-/// One object. A read gives its bytes, a write replaces its first bytes, a transport writes and answers with what was there before.
+/// One object. A read gives its bytes, a write replaces its first bytes, a transport writes and answers with what was
+/// there before.
 struct AcyclicObject {
   std::uint8_t slot = 0, index = 0;
   std::uint8_t services = DSDPV1_MAY_READ | DSDPV1_MAY_WRITE;  ///< DSDPV1_MAY_ bits

@@ -25,9 +25,7 @@ void DriverPort::write(std::uint16_t address, std::uint8_t value) {
   const auto found = corruptions_.find(address);
   if (found != corruptions_.end()) {
     value = static_cast<std::uint8_t>(value ^ found->second.mask);
-    if (--found->second.times <= 0) {
-      corruptions_.erase(found);
-    }
+    if (--found->second.times <= 0) corruptions_.erase(found);
   }
   cpu_.write(address, value);
 }

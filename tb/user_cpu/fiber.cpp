@@ -37,9 +37,7 @@ void finish_switch([[maybe_unused]] void* fake, [[maybe_unused]] const void** st
 
 Fiber::Fiber(std::function<void()> body, std::size_t stack_bytes)
     : body_(std::move(body)), stack_bytes_(stack_bytes), stack_(new unsigned char[stack_bytes]) {
-  if (getcontext(&inside_) != 0) {
-    throw std::system_error(errno, std::generic_category(), "getcontext");
-  }
+  if (getcontext(&inside_) != 0) throw std::system_error(errno, std::generic_category(), "getcontext");
   inside_.uc_stack.ss_sp = stack_.get();
   inside_.uc_stack.ss_size = stack_bytes_;
   inside_.uc_link = nullptr;  // the body leaves through switch_out
@@ -59,19 +57,13 @@ Fiber::~Fiber() {
 void Fiber::resume() {
   begun_ = true;
   switch_in();
-  if (failure_) {
-    std::rethrow_exception(std::exchange(failure_, nullptr));
-  }
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void Fiber::suspend() {
-  if (unwinding_) {
-    return;  // a destructor on its way out may still call; nobody is going to resume
-  }
+  if (unwinding_) return;  // a destructor on its way out may still call; nobody is going to resume
   switch_out(false);
-  if (unwinding_) {
-    throw Unwind{};
-  }
+  if (unwinding_) throw Unwind{};
 }
 
 void Fiber::switch_in() {

@@ -1,7 +1,7 @@
 #pragma once
-// How the FSMC of an STM32F103 (bank 1, SRAM, 8 bits, asynchronous) moves its pins: from the fields of FSMC_BCR, FSMC_BTR
-// and FSMC_BWTR to the edges of an AccessTiming. Source: ST's RM0008, chapter FSMC, and the asynchronous SRAM timings of the
-// STM32F103xE datasheet, whose figures for ADDSET = 0, DATAST = 1 the test repeats.
+// How the FSMC of an STM32F103 (bank 1, SRAM, 8 bits, asynchronous) moves its pins: from the fields of FSMC_BCR,
+// FSMC_BTR and FSMC_BWTR to the edges of an AccessTiming. Source: ST's RM0008, chapter FSMC, and the asynchronous SRAM
+// timings of the STM32F103xE datasheet, whose figures for ADDSET = 0, DATAST = 1 the test repeats.
 #include <cstdint>
 #include <optional>
 
@@ -14,8 +14,8 @@ enum class FsmcMode : std::uint8_t {
   kA,  ///< EXTMOD = 1, ACCMOD = 00: RD falls ADDSET + 1 HCLK after CSR; writes have a register of their own
 };
 
-/// The fields of FSMC_BTR, or in mode A those of FSMC_BWTR for writes, in HCLK periods. The values are the model's for a CPU
-/// that sets nothing (p), not those after a reset (15, 255, 15).
+/// The fields of FSMC_BTR, or in mode A those of FSMC_BWTR for writes, in HCLK periods. The values are the model's for
+/// a CPU that sets nothing (p), not those after a reset (15, 255, 15).
 struct FsmcTiming {
   int addset = 1;   ///< 0..15
   int datast = 5;   ///< 0..255; RM0008 reserves 0: here writes have no low time of WR then, which violates Ts
@@ -46,8 +46,8 @@ struct FsmcAccess {
 ///   read           D is sampled at ADDSET + 1 + DATAST + 1; RD and CSR rise 2 later, A ends there
 ///   write          WR falls and D is driven at ADDSET + 1; WR rises DATAST later; D, CSR and A end 1 after that
 ///
-/// CSR then stays high for BUSTURN + 1 in mode 1 and BUSTURN + 2 in mode A at least. Every edge is its HCLK count in ticks,
-/// rounded once.
+/// CSR then stays high for BUSTURN + 1 in mode 1 and BUSTURN + 2 in mode A at least. Every edge is its HCLK count in
+/// ticks, rounded once.
 FsmcAccess access_timing(const FsmcBank& bank);
 
 FsmcBank with(FsmcBank bank, const FsmcOverride& given);

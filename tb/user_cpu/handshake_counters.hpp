@@ -10,7 +10,8 @@ namespace user_cpu {
 
 using bus::Tick;
 
-/// Times in ticks. A wait runs from R_REQ's rise to R_STA's, a hold from R_STA's rise to the time that both are low again (H1).
+/// Times in ticks. A wait runs from R_REQ's rise to R_STA's, a hold from R_STA's rise to the time that both are low
+/// again (H1).
 struct PortCounters {
   std::uint64_t holds = 0;
   std::uint64_t given_up = 0;  ///< both low again without having had the DPRAM
@@ -47,11 +48,10 @@ class HandshakeCounters {
   /// One of the two fell; they may fall in either order.
   void lowered(Tick at) {
     if (r_req_ || r_sta_) return;
-    if (std::exchange(held_, false)) {
+    if (std::exchange(held_, false))
       counters_.longest_hold = std::max(counters_.longest_hold, at - held_at_);
-    } else {
+    else
       ++counters_.given_up;
-    }
   }
 
   PortCounters counters_;

@@ -11,24 +11,16 @@ NativeCpu::NativeCpu(HostBus& bus, const CpuTiming& timing, Program program, Tic
 // ------------------------------------------------------------------------------------------------- the bench's side
 
 Tick NativeCpu::next() const {
-  if (fiber_.ended()) {
-    return bus::kNever;
-  }
-  if (request_.op == Op::kAccess) {
-    return std::min(bus_.next_edge(), ready_at_);
-  }
+  if (fiber_.ended()) return bus::kNever;
+  if (request_.op == Op::kAccess) return std::min(bus_.next_edge(), ready_at_);
   return request_.op == Op::kWait ? std::max(now_, std::min(ready_at_, break_tick())) : ready_at_;
 }
 
 void NativeCpu::run(Tick now) {
   now_ = now;
-  if (request_.op == Op::kAccess && bus_.next_edge() <= now) {
-    bus_.run_edges(now);
-  }
+  if (request_.op == Op::kAccess && bus_.next_edge() <= now) bus_.run_edges(now);
   while (!fiber_.ended() && next() <= now) {
-    if (request_.op == Op::kAccess) {
-      end_access();
-    }
+    if (request_.op == Op::kAccess) end_access();
     request_ = {};
     fiber_.resume();
     take_request();
@@ -70,22 +62,16 @@ void NativeCpu::begin_access() {
   const bool own_timing = request_.access.write && timing_.write_access;
   bus_.begin(now_, request_.access, own_timing ? *timing_.write_access : timing_.access);
   ready_at_ = bus_.end() + timing_.overhead;
-  if (bus_.next_edge() <= now_) {
-    bus_.run_edges(now_);
-  }
+  if (bus_.next_edge() <= now_) bus_.run_edges(now_);
 }
 
 void NativeCpu::end_access() {
   ++counters_.accesses;
-  if (!request_.access.write && bus_.last_read_was_bad()) {
-    ++counters_.bad_reads;
-  }
+  if (!request_.access.write && bus_.last_read_was_bad()) ++counters_.bad_reads;
 }
 
 void NativeCpu::intr0_changed(Tick at, bool level) {
-  if (level) {
-    return;
-  }
+  if (level) return;
   interrupt_at_ = std::min(interrupt_at_, at + timing_.interrupt_latency);
   intr0_at_ = std::min(intr0_at_, at);
 }
@@ -160,30 +146,20 @@ void NativeCpu::suspend_until(Tick at, Break reason) {
 }
 
 void NativeCpu::wait_until(Tick at) {
-  while (now_ < at) {
-    suspend_until(at, Break::kInterrupt);
-  }
+  while (now_ < at) suspend_until(at, Break::kInterrupt);
 }
 
 bool NativeCpu::wait_for_wake(Tick until) {
-  while (now_ < until && wake_at_ > now_) {
-    suspend_until(until, Break::kWake);
-  }
+  while (now_ < until && wake_at_ > now_) suspend_until(until, Break::kWake);
   const bool woken = wake_at_ <= now_;
-  if (woken) {
-    wake_at_ = bus::kNever;
-  }
+  if (woken) wake_at_ = bus::kNever;
   return woken;
 }
 
 bool NativeCpu::wait_intr0(Tick until) {
-  while (now_ < until && intr0_at_ > now_) {
-    suspend_until(until, Break::kIntr0);
-  }
+  while (now_ < until && intr0_at_ > now_) suspend_until(until, Break::kIntr0);
   const bool fell = intr0_at_ <= now_;
-  if (fell) {
-    intr0_at_ = bus::kNever;
-  }
+  if (fell) intr0_at_ = bus::kNever;
   return fell;
 }
 

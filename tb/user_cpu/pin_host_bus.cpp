@@ -28,9 +28,7 @@ bool PinHostBus::is_high(Tick at, Pin pin) {
 // Keeps the plan in order of time; edges at the same tick happen in the order in which they were added.
 void PinHostBus::insert(const Edge& edge) {
   std::size_t place = edges_.size++;
-  for (; place > 0 && edges_.at[place - 1].tick > edge.tick; --place) {
-    edges_.at[place] = edges_.at[place - 1];
-  }
+  for (; place > 0 && edges_.at[place - 1].tick > edge.tick; --place) edges_.at[place] = edges_.at[place - 1];
   edges_.at[place] = edge;
 }
 
@@ -61,20 +59,17 @@ void PinHostBus::plan_write(const Access& access, const AccessTiming& timing) {
 void PinHostBus::begin(Tick at, const Access& access, const AccessTiming& timing) {
   edges_.size = 0;
   add(-timing.address_setup, Pin::kA, static_cast<Level>(access.address));
-  if (access.write) {
+  if (access.write)
     plan_write(access, timing);
-  } else {
+  else
     plan_read(timing);
-  }
   sample_tick_ = place(at, timing.recovery) + sample_in_read(timing);
 }
 
 /// The tick of the strobe's fall.
 Tick PinHostBus::place(Tick start, Tick recovery) {
   const Tick shift = start - edges_.at[0].tick;
-  for (std::size_t i = 0; i < edges_.size; ++i) {
-    edges_.at[i].tick += shift;
-  }
+  for (std::size_t i = 0; i < edges_.size; ++i) edges_.at[i].tick += shift;
   edge_ = 0;
   end_ = edges_.at[edges_.size - 1].tick + recovery;
   return shift;
@@ -83,11 +78,10 @@ Tick PinHostBus::place(Tick start, Tick recovery) {
 void PinHostBus::run_edges(Tick now) {
   for (; next_edge() <= now; ++edge_) {
     const Edge& edge = edges_.at[edge_];
-    if (edge.sample) {
+    if (edge.sample)
       sample(edge.tick);
-    } else {
+    else
       chip_.set(edge.tick, edge.pin, edge.level);
-    }
   }
 }
 

@@ -53,20 +53,14 @@ void UserProgram::run_firmware(Cpu& cpu) {
     check(acyclic_->open(device_), "acyclic_open");
   }
   cpu.wait(options_.start_delay);
-  if (bring_up()) {
-    main_loop();
-  }
+  if (bring_up()) main_loop();
 }
 
 bool UserProgram::bring_up() {
   const auto station = options_.station;
   for (int attempt = 1;; ++attempt) {
-    if (check(dsdpv1_wait_ready(&device_), "wait_ready") && initialise(station)) {
-      break;
-    }
-    if (attempt == options_.init_attempts) {
-      return false;
-    }
+    if (check(dsdpv1_wait_ready(&device_), "wait_ready") && initialise(station)) break;
+    if (attempt == options_.init_attempts) return false;
     cpu_->wait(options_.retry_delay);
   }
   cpu_->on_intr0([this] { intr0(); });
@@ -76,9 +70,7 @@ bool UserProgram::bring_up() {
 
 bool UserProgram::initialise(const StationConfig& station) {
   const dsdpv1_config config = station.for_driver();
-  if (!check(dsdpv1_initialise(&device_, &config), "initialise")) {
-    return false;
-  }
+  if (!check(dsdpv1_initialise(&device_, &config), "initialise")) return false;
   ++counters_.initialisations;
   input_length_.reset();
   return true;
@@ -120,9 +112,7 @@ void UserProgram::exchange() {
     ++counters_.outputs_received;
     outputs_.assign(buffer, buffer + result.length);
   }
-  if (result.intr0_missed) {
-    service();
-  }
+  if (result.intr0_missed) service();
 }
 
 void UserProgram::poll_acyclic() {
@@ -145,33 +135,28 @@ std::vector<std::uint8_t> UserProgram::next_inputs() {
     inputs = options_.inputs == InputSource::kLoopBack ? outputs_ : options_.constant;
     inputs.resize(length);
   }
-  if (std::exchange(wrong_length_, false)) {
+  if (std::exchange(wrong_length_, false))
     inputs.resize(inputs.size() < device_.max_input ? inputs.size() + 1 : inputs.size() - 1);
-  }
   return inputs;
 }
 
 // ----------------------------------------------------------------------------------------------------------- judging
 
 void UserProgram::intr0() {
-  if (options_.judge_in_handler && !stopped_) {
+  if (options_.judge_in_handler && !stopped_)
     service();
-  } else {
+  else
     dsdpv1_on_intr0(&device_);
-  }
 }
 
 void UserProgram::service_if_pending() {
-  if (dsdpv1_intr0_pending(&device_)) {
-    service();
-  }
+  if (dsdpv1_intr0_pending(&device_)) service();
 }
 
 void UserProgram::service() {
   const dsdpv1_error error = dsdpv1_service(&device_);
-  if (error != DSDPV1_ERR_NESTED) {  // no failure: the interrupted program does it
+  if (error != DSDPV1_ERR_NESTED)  // no failure: the interrupted program does it
     check(error, "service");
-  }
 }
 
 dsdpv1_verdict UserProgram::judge(Judgement judgement) {
@@ -187,17 +172,11 @@ dsdpv1_verdict UserProgram::judge(Judgement judgement) {
 
 bool UserProgram::check(dsdpv1_error error, const char* during) {
   constexpr std::size_t kLogged = 1000;
-  if (error == DSDPV1_OK) {
-    return true;
-  }
+  if (error == DSDPV1_OK) return true;
   const DriverError entry{cpu_->now(), error, during};
   ++counters_.driver_errors;
-  if (errors_.size() < kLogged) {
-    errors_.push_back(entry);
-  }
-  if (on_error) {
-    on_error(entry);
-  }
+  if (errors_.size() < kLogged) errors_.push_back(entry);
+  if (on_error) on_error(entry);
   return false;
 }
 

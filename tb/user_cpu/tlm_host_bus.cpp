@@ -66,11 +66,10 @@ void TlmHostBus::begin(Tick at, const Access& access, const AccessTiming& timing
   if (!access.write && on_read) on_read(at + edges.sample());
   running_ = true;
   const Tick now = dsdpv1::systemc::current_tick();
-  if (at > now) {
+  if (at > now)
     start_.notify(dsdpv1::systemc::to_time(at) - sc_core::sc_time_stamp());
-  } else {
+  else
     start_.notify(sc_core::SC_ZERO_TIME);  // after the handshake pins that were set just now
-  }
 }
 
 void TlmHostBus::run_edges(Tick /*now*/) { running_ = false; }

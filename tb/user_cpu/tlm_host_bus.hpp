@@ -10,8 +10,9 @@
 
 namespace user_cpu {
 
-/// An access is one transaction, carried out by a thread of its own so that the timeline goes on meanwhile. The module moves the
-/// same pins at the same ticks as PinHostBus does. The one edge of an access is its end, where the result is there.
+/// An access is one transaction, carried out by a thread of its own so that the timeline goes on meanwhile. The module
+/// moves the same pins at the same ticks as PinHostBus does. The one edge of an access is its end, where the result is
+/// there.
 class TlmHostBus : public sc_core::sc_module, public HostBus {
  public:
   TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip);

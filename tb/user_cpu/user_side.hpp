@@ -1,5 +1,6 @@
 #pragma once
-// The user CPU of a station as the bench sees it, whatever runs on it: a C++ program (NativeUser) or firmware on an ARM board.
+// The user CPU of a station as the bench sees it, whatever runs on it: a C++ program (NativeUser) or firmware on an ARM
+// board.
 #include <cstdint>
 #include <functional>
 #include <optional>

@@ -1,5 +1,5 @@
-/* GTKWave's fstapi as Verilator carries it along, with input and output that keep errors (fst_io.h). Somebody else's code: compiled
- * without this project's warnings. */
+/* GTKWave's fstapi as Verilator carries it along, with input and output that keep errors (fst_io.h). Somebody else's
+ * code: compiled without this project's warnings. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -83,8 +83,8 @@ void FstFile::say(Handle variable, std::string_view word) {
   changed_ = true;
 }
 
-/// fstapi writes the block at the next change of time, which may be far away: so there is one now. Without a change of value it
-/// would spoil its table of times, so then there is no block.
+/// fstapi writes the block at the next change of time, which may be far away: so there is one now. Without a change of
+/// value it would spoil its table of times, so then there is no block.
 void FstFile::save(std::uint64_t time) {
   if (!changed_ || !time_) return;
   const bool block = steps_ > 1 && time_ != time;

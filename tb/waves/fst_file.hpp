@@ -1,5 +1,6 @@
 #pragma once
-// An FST file under construction: fstapi with its errors, a temporary name, and blocks that are on disk when the process is killed.
+// An FST file under construction: fstapi with its errors, a temporary name, and blocks that are on disk when the
+// process is killed.
 #include <cstdint>
 #include <optional>
 #include <string>

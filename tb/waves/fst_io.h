@@ -1,5 +1,6 @@
-/* Input and output for fstapi, which looks at no error itself: it goes on writing to a full disk, and maps files that are shorter than
- * it thinks, which ends in SIGBUS. fst_checked.c puts these functions in the place of the C library's. */
+/* Input and output for fstapi, which looks at no error itself: it goes on writing to a full disk, and maps files that
+ * are shorter than it thinks, which ends in SIGBUS. fst_checked.c puts these functions in the place of the C library's.
+ */
 #ifndef DSDPV1_TB_WAVES_FST_IO_H
 #define DSDPV1_TB_WAVES_FST_IO_H
 
@@ -12,8 +13,8 @@ extern "C" {
 
 /* --- For whoever writes a wave. */
 
-/* The next file that fstapi creates on this thread is this descriptor (which it will close): it was created already, under a name that
- * nobody else uses. */
+/* The next file that fstapi creates on this thread is this descriptor (which it will close): it was created already,
+ * under a name that nobody else uses. */
 void fst_io_create_on(int descriptor);
 
 /* The first error (errno) on this thread since this was last called; 0: none. */

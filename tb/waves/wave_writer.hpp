@@ -1,6 +1,6 @@
 #pragma once
-// Waves: a hierarchy of signals and their changes in order of time. The time scale of the files is 1 ps; each change is converted
-// from its absolute tick (1/12 ns) and rounded once, so nothing drifts.
+// Waves: a hierarchy of signals and their changes in order of time. The time scale of the files is 1 ps; each change is
+// converted from its absolute tick (1/12 ns) and rounded once, so nothing drifts.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -32,21 +32,21 @@ class WaveWriter {
   virtual void set(bus::Tick at, Signal signal, int level) = 0;
   virtual void say(bus::Tick at, Signal signal, std::string_view word) = 0;
 
-  /// What was written up to `at` is in the temporary file, where `dsdpv1-sim recover` finds it. `at` is not before any change so far,
-  /// and no later change is before it.
+  /// What was written up to `at` is in the temporary file, where `dsdpv1-sim recover` finds it. `at` is not before any
+  /// change so far, and no later change is before it.
   virtual void save(bus::Tick at) = 0;
   /// Whether something could not be written: there is no use in going on.
   virtual bool failed() const = 0;
   /// Throws InputError when it has.
   virtual void check() const = 0;
 
-  /// Finishes the file at `end` and gives it its name; throws InputError when it cannot be written. A writer that is destroyed
-  /// without it leaves no file.
+  /// Finishes the file at `end` and gives it its name; throws InputError when it cannot be written. A writer that is
+  /// destroyed without it leaves no file.
   virtual void finish(bus::Tick end) = 0;
 };
 
-/// The writer for the file's ending, .vcd or .fst; throws InputError for others, when the file cannot be created, and for .fst
-/// when this program was built without it.
+/// The writer for the file's ending, .vcd or .fst; throws InputError for others, when the file cannot be created, and
+/// for .fst when this program was built without it.
 std::unique_ptr<WaveWriter> open_wave(const std::string& path);
 
 /// Checks the ending alone, before a run is started: the same errors.

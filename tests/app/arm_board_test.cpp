@@ -1,5 +1,5 @@
-// Firmware on the ARM board in place of the native user CPU: the example firmware in every scenario, at every baud rate, and what the program
-// says of firmware that is wrong.
+// Firmware on the ARM board in place of the native user CPU: the example firmware in every scenario, at every baud
+// rate, and what the program says of firmware that is wrong.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,8 @@ const std::string kArm = " --set user_cpu.kind=arm --set user_cpu.elf=";
 
 std::string scenario(const std::string& name) { return std::string("scenarios/") + name + ".yaml --no-progress"; }
 
-/// What the bus has seen of a slave in the end. `counts`: its inputs count the exchanges, which hang on the CPU's speed.
+/// What the bus has seen of a slave in the end. `counts`: its inputs count the exchanges, which hang on the CPU's
+/// speed.
 Json on_the_bus(const Json& slave, bool counts) {
   Json seen;
   for (const char* key :
@@ -85,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(All, ArmBaudRates,
                                                           "45.45k", "19.2k", "9.6k"),
                                           testing::Values(FIRMWARE_O0, FIRMWARE_O2)));
 
-// --- firmware that is wrong -----------------------------------------------------------------------------------------------
+// --- firmware that is wrong ------------------------------------------------------------------------------------------
 
 TEST(ArmBoard, PlantedEarlyRStaIsCaughtWithTimeAndHistory) {
   const app_test::Folder folder;
@@ -113,7 +114,7 @@ TEST(ArmBoard, FilesThatAreNoFirmwareGiveOneLine) {
   EXPECT_THAT(refused("/dev/zero"), testing::StartsWith("/dev/zero: is larger than 64 MB, allowed is an executable"));
 }
 
-// --- firmware of somebody else: no mailbox -------------------------------------------------------------------------------
+// --- firmware of somebody else: no mailbox ---------------------------------------------------------------------------
 
 /// The first demand of each shipped scenario on the program of its user CPU.
 const std::map<std::string, std::string> kDemands = {
@@ -189,9 +190,8 @@ TEST(ArmBoard, SwitchesHoldInputPins) {
   EXPECT_THAT(run("[PA0=low, PA1=low, PA3=low, PA4=low, PA5=low, PA6=low]").out, HasSubstr("initialised: address 4"));
   EXPECT_THAT(run("[PA0=high]").out, HasSubstr("initialised: address 5"));
   for (const char* wrong :
-       {"PA0=up", "PA=low", "PA16=low", "PA00=low", "PA+1=low", "PH0=low", "QA0=low", "PA0=", "PA0"}) {
+       {"PA0=up", "PA=low", "PA16=low", "PA00=low", "PA+1=low", "PH0=low", "QA0=low", "PA0=", "PA0"})
     EXPECT_THAT(run("[" + std::string(wrong) + "]").err, HasSubstr("allowed are like PA0=low or PG15=high")) << wrong;
-  }
   EXPECT_THAT(run("[PG14=low]").err, HasSubstr("a pin that the board wires to the chip"));
   EXPECT_THAT(run("[PA0=low, PA0=high]").err, HasSubstr("a pin that is there twice"));
 }

@@ -1,5 +1,5 @@
-// Bad scenarios, GSD references, arguments and hexadecimal text: each has one line on the error channel and exit code 2, prints
-// nothing else and leaves no file. The cases are tests/bad/cases.json; the files beside it are their input.
+// Bad scenarios, GSD references, arguments and hexadecimal text: each has one line on the error channel and exit code
+// 2, prints nothing else and leaves no file. The cases are tests/bad/cases.json; the files beside it are their input.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -209,9 +209,8 @@ TEST_F(Outputs, WavesShowThePinsTheLineAndTheStates) {
   ASSERT_EQ(run("--wave w.vcd --quiet").status, 0);
   const std::string wave = read(folder_.file("w.vcd"));
   for (const char* part : {"$timescale 1 ps $end", " L_REQ $end", " D [7:0] $end", " A [10:0] $end", " PBTXD $end",
-                           " line $end", "sDATA_EXCH ", "bzzzzzzzz ", "bxxxxxxxx "}) {
+                           " line $end", "sDATA_EXCH ", "bzzzzzzzz ", "bxxxxxxxx "})
     EXPECT_NE(wave.find(part), std::string::npos) << part;
-  }
 }
 
 TEST_F(Outputs, SameRunGivesTheSameFiles) {

@@ -31,9 +31,8 @@ std::string read(const fs::path& path) {
 
 std::vector<std::string> shipped_scenarios() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(DSDPV1_SOURCE_DIR "/scenarios")) {
+  for (const auto& entry : fs::directory_iterator(DSDPV1_SOURCE_DIR "/scenarios"))
     if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
-  }
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -1,4 +1,5 @@
-// Every scenario that ships passes, the checks included, and is the same to the byte in step, skip and TLM: pin trace and log.
+// Every scenario that ships passes, the checks included, and is the same to the byte in step, skip and TLM: pin trace
+// and log.
 #include <gtest/gtest.h>
 
 #include <algorithm>

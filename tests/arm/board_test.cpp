@@ -1,4 +1,5 @@
-// The board's peripherals and wiring, seen from the pins: tests/arm/firmware/probe.c does things, the test looks at the host bus.
+// The board's peripherals and wiring, seen from the pins: tests/arm/firmware/probe.c does things, the test looks at the
+// host bus.
 #include "tb/user_cpu/arm/board.hpp"
 
 #include <gmock/gmock.h>

@@ -38,19 +38,14 @@ TEST(ExecutionTime, IsAMultipleOfThousandthsOfACycle) {
 
 TEST_F(Execution, AccessesArriveInOrderWithSizeAndTheCycleAtWhichTheyBegin) {
   system.access_cycles = 10;
-  for (std::uint8_t byte = 0; byte < 16; ++byte) {
+  for (std::uint8_t byte = 0; byte < 16; ++byte)
     system.memory[0x60000000U + byte] = static_cast<std::uint8_t>(0x80 + byte);
-  }
   run("accesses");
   std::vector<std::uint64_t> cycles;
-  for (std::size_t n = 0; n < 5; ++n) {
-    cycles.push_back(system.accesses[n].cycle);
-  }
+  for (std::size_t n = 0; n < 5; ++n) cycles.push_back(system.accesses[n].cycle);
   EXPECT_THAT(cycles, ElementsAre(1U, 12U, 23U, 34U, 45U));  // ten of its own and one of the instruction each
   std::vector<std::tuple<bool, std::uint32_t, unsigned>> seen;
-  for (const Access& access : system.accesses) {
-    seen.emplace_back(access.write, access.address, access.bytes);
-  }
+  for (const Access& access : system.accesses) seen.emplace_back(access.write, access.address, access.bytes);
   using A = std::tuple<bool, std::uint32_t, unsigned>;
   EXPECT_THAT(seen, ElementsAre(A{false, 0x60000001, 1}, A{false, 0x60000002, 2}, A{false, 0x60000004, 4},
                                 A{false, 0x60000008, 1}, A{false, 0x6000000A, 2}, A{false, 0x60000000, 4},
@@ -73,10 +68,9 @@ TEST_F(Execution, TheWorldIsCalledEveryQuantum) {
   std::copy_n(reinterpret_cast<const std::uint8_t*>(&once), 4, processor.ram() + 0x100);
   run("waiting");
   ASSERT_GT(system.kept_up_at.size(), 10U);
-  for (std::size_t n = 1; n < 10; ++n) {
-    EXPECT_EQ(system.kept_up_at[n] - system.kept_up_at[n - 1], Timing{}.quantum);
-  }
-  // Seen at 216, the first multiple of the quantum from 200 on; 12 cycles of entry, then the handler's third instruction notes it.
+  for (std::size_t n = 1; n < 10; ++n) EXPECT_EQ(system.kept_up_at[n] - system.kept_up_at[n - 1], Timing{}.quantum);
+  // Seen at 216, the first multiple of the quantum from 200 on; 12 cycles of entry, then the handler's third
+  // instruction notes it.
   EXPECT_EQ(system.note_cycles[1], 216 + 12 + 2U);
 }
 
@@ -149,9 +143,7 @@ TEST_F(Execution, AFiberIsSuspendedInsideOfALoad) {
   inside = &fiber;
   system.on_access = [&inside](const Access&) { inside->suspend(); };
   unsigned suspended = 0;
-  for (fiber.resume(); !fiber.ended(); fiber.resume()) {
-    ++suspended;
-  }
+  for (fiber.resume(); !fiber.ended(); fiber.resume()) ++suspended;
   EXPECT_EQ(suspended, 15U);
   EXPECT_EQ(system.accesses.size(), 15U);
 }
@@ -197,9 +189,7 @@ TEST_F(Execution, CodeLoadedDuringTheRunIsWhatIsExecuted) {
     const std::uint8_t routine[] = {number, 0x20, 0x70, 0x47};
     processor.load(kInFlash, routine, sizeof routine);
     processor.load(kInRam, routine, sizeof routine);
-    if (system.notes.size() == 8) {
-      processor.stop();
-    }
+    if (system.notes.size() == 8) processor.stop();
   };
   run("patched");
   EXPECT_THAT(system.notes, ElementsAre(1U, 1U, 2U, 3U, 4U, 5U, 6U, 7U));

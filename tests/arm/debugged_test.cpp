@@ -71,9 +71,7 @@ TEST_F(Debugged, HandlerThatWasGivenTheNumberOfNoExceptionCannotReturn) {
 TEST_F(Debugged, ExecutionGoesOnWhereTheProgramCounterWasSet) {
   unsigned steps = 0;
   debugger.before = [&](std::uint32_t pc) {
-    if (++steps == 3) {
-      target().write_register(Register::kPc, pc + 6);  // past the loop, at cmp
-    }
+    if (++steps == 3) target().write_register(Register::kPc, pc + 6);  // past the loop, at cmp
   };
   run("arithmetic");
   EXPECT_EQ(r(1), 0U);
@@ -93,11 +91,10 @@ TEST_F(Debugged, ItStateIsShownInXpsr) {
 
 TEST_F(Debugged, AccessesAreReportedOnceAskedFor) {
   debugger.before = [&](std::uint32_t) {
-    if (system.accesses.size() == 2) {
+    if (system.accesses.size() == 2)
       target().report_data_accesses(true);
-    } else if (system.accesses.size() == 4) {
+    else if (system.accesses.size() == 4)
       target().report_data_accesses(false);
-    }
   };
   run("accesses");
   ASSERT_EQ(debugger.accesses.size(), 2U);
@@ -133,11 +130,10 @@ TEST_F(Debugged, AnInstructionIsNotAnnouncedAgainBecauseMemoryWasWritten) {
 TEST_F(Debugged, AResetStartsAgainAndAnEndEnds) {
   unsigned steps = 0;
   debugger.before = [&](std::uint32_t) {
-    if (++steps == 10) {
+    if (++steps == 10)
       target().reset();
-    } else if (steps == 30) {
+    else if (steps == 30)
       target().end_run();
-    }
   };
   run("arithmetic");
   EXPECT_EQ(system.resets, 1U);
@@ -153,9 +149,7 @@ TEST_F(Debugged, IsToldOfTheFaultThatEndsTheRun) {
 
 TEST_F(Debugged, IsPolledNowAndThen) {
   system.on_keep_up = [this] {
-    if (debugger.polls == 3) {
-      processor.stop();
-    }
+    if (debugger.polls == 3) processor.stop();
   };
   processor.ram()[0x100] = 1;
   run("waiting");

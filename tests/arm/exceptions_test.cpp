@@ -51,11 +51,10 @@ TEST_F(Exceptions, ALevelSensitiveSourceComesAgainWhileItIsHigh) {
   const std::uint32_t times = 3;
   std::copy_n(reinterpret_cast<const std::uint8_t*>(&times), 4, processor.ram() + 0x100);
   system.on_access = [this](const Access& access) {
-    if (access.value == 1 && system.notes.size() == 1) {
+    if (access.value == 1 && system.notes.size() == 1)
       processor.set_interrupt_level(0, true);
-    } else if (system.notes.back() == 3) {
+    else if (system.notes.back() == 3)
       processor.set_interrupt_level(0, false);
-    }
   };
   run("waiting");
   EXPECT_THAT(system.notes, ElementsAre(1U, 1U, 2U, 3U, 2U));
@@ -130,9 +129,7 @@ class Faults : public ProcessorBench {
     const std::uint32_t words[] = {which, shcsr, fault_again};
     std::memcpy(processor.ram() + 0x100, words, sizeof words);
     system.on_access = [this](const Access& access) {
-      if (access.address == 0x40005000) {
-        processor.bus_error();
-      }
+      if (access.address == 0x40005000) processor.bus_error();
     };
   }
   Fault unhandled(Case which) {

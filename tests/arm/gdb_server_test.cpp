@@ -352,9 +352,7 @@ TEST_F(GdbServerTest, KillEndsTheRun) {
     run.start();
     RawGdb gdb(run.port());
     gdb.send(packet);
-    if (packet[0] == 'v') {
-      EXPECT_EQ(gdb.reply(), "OK");
-    }
+    if (packet[0] == 'v') EXPECT_EQ(gdb.reply(), "OK");
     EXPECT_TRUE(gdb.closed());
     run.end();
     EXPECT_TRUE(run.target.ended());

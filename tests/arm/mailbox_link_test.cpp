@@ -12,7 +12,8 @@ namespace {
 class MailboxLinkTest : public testing::Test {
  protected:
   bool look() {
-    return link.look(7, [this](const user_cpu::DriverError& error) { errors.push_back(error); });
+    return link.look(
+        7, [this](const user_cpu::DriverError& error) { errors.push_back(error); });
   }
   /// As the example firmware does it.
   void report_error(std::uint8_t error, std::uint8_t during) {

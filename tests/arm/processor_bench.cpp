@@ -8,14 +8,11 @@ namespace arm {
 
 std::uint32_t NotingSystem::load(std::uint32_t address, unsigned bytes) {
   std::uint32_t value = 0;
-  for (unsigned byte = 0; byte < bytes; ++byte) {
+  for (unsigned byte = 0; byte < bytes; ++byte)
     value |= static_cast<std::uint32_t>(memory[address + byte]) << (8 * byte);
-  }
   accesses.push_back({false, address, bytes, value, processor->cycles()});
   processor->advance_to(processor->cycles() + access_cycles);
-  if (on_access) {
-    on_access(accesses.back());
-  }
+  if (on_access) on_access(accesses.back());
   return value;
 }
 
@@ -30,13 +27,9 @@ void NotingSystem::store(std::uint32_t address, unsigned bytes, std::uint32_t va
   } else {
     accesses.push_back({true, address, bytes, value, processor->cycles()});
   }
-  for (unsigned byte = 0; byte < bytes; ++byte) {
-    memory[address + byte] = static_cast<std::uint8_t>(value >> (8 * byte));
-  }
+  for (unsigned byte = 0; byte < bytes; ++byte) memory[address + byte] = static_cast<std::uint8_t>(value >> (8 * byte));
   processor->advance_to(processor->cycles() + access_cycles);
-  if (on_access) {
-    on_access({true, address, bytes, value, processor->cycles()});
-  }
+  if (on_access) on_access({true, address, bytes, value, processor->cycles()});
 }
 
 void NotingSystem::keep_up() {
@@ -45,9 +38,7 @@ void NotingSystem::keep_up() {
     processor->set_interrupt(interrupts.begin()->second);
     interrupts.erase(interrupts.begin());
   }
-  if (on_keep_up) {
-    on_keep_up();
-  }
+  if (on_keep_up) on_keep_up();
 }
 
 void NotingSystem::sleep(std::uint64_t until) {
@@ -68,9 +59,7 @@ void NotingSystem::sleep(std::uint64_t until) {
 
 std::vector<std::uint8_t> read_program(const std::string& name) {
   std::ifstream file(PROGRAMS "/" + name + ".bin", std::ios::binary);
-  if (!file) {
-    throw std::runtime_error("no program " + name);
-  }
+  if (!file) throw std::runtime_error("no program " + name);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

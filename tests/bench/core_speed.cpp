@@ -1,5 +1,6 @@
-// How fast the core runs at a saturated 12 Mbit/s bus: data exchanges of one size, back to back at T_SYN, without any bench round it.
-// The edges of the requests are made beforehand, so that only the core is measured. counters: x_real_time = simulated time / CPU time.
+// How fast the core runs at a saturated 12 Mbit/s bus: data exchanges of one size, back to back at T_SYN, without any
+// bench round it. The edges of the requests are made beforehand, so that only the core is measured. counters:
+// x_real_time = simulated time / CPU time.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -55,9 +56,8 @@ class Slave {
     wait(1'000'000);
     for (const Bytes& request : {bus::encode(bus::make_telegram(100, 2, 0x49)),
                                  bus::encode(bus::make_telegram(5, 2, 0x6D, conformance::Prm().bytes(), 61, 62)),
-                                 bus::encode(bus::make_telegram(5, 2, 0x5D, init.cfg, 62, 62))}) {
+                                 bus::encode(bus::make_telegram(5, 2, 0x5D, init.cfg, 62, 62))})
       send(edges_of(request, length_), 100);
-    }
     for (const std::uint8_t fc : {std::uint8_t{0x5D}, std::uint8_t{0x7D}}) {
       exchange_.push_back(
           edges_of(bus::encode(bus::make_telegram(5, 2, fc, Bytes(static_cast<std::size_t>(io), 0x5A))), length_));

@@ -21,9 +21,8 @@ Telegram answer(std::uint8_t slave_sap, const Bytes& data, std::uint8_t fc = kAn
 
 std::vector<ExplainedByte> bytes_of(const Telegram& telegram) {
   TelegramDecoder decoder;
-  for (const std::uint8_t byte : encode(telegram)) {
+  for (const std::uint8_t byte : encode(telegram))
     if (const auto decoded = decoder.feed(byte)) return explain_bytes(*decoded);
-  }
   return {};
 }
 
@@ -69,9 +68,8 @@ TEST(ExplainLine, EveryServiceHasItsName) {
                                                   {58, "Global_Control"},    {59, "Get_Cfg"},     {60, "Slave_Diag"},
                                                   {61, "Set_Prm"},           {62, "Chk_Cfg"},     {51, "MSAC1"},
                                                   {49, "MSAC2 Initiate"},    {48, "MSAC2"},       {63, "SAP 63"}};
-  for (const auto& [sap, name] : services) {
+  for (const auto& [sap, name] : services)
     EXPECT_THAT(explain_line(request(static_cast<std::uint8_t>(sap), {})), HasSubstr(name)) << sap;
-  }
 }
 
 TEST(ExplainLine, ReadInputsAndOutputs) {
@@ -426,9 +424,8 @@ TEST(ExplainDpv1, AbortsInWords) {
                                                             {0x0F, "FDL: NA (no answer)"},
                                                             {0x25, "user: reason 5"},
                                                             {0x31, "reserved instance, reason 1"}};
-  for (const auto& [code, words] : reasons) {
+  for (const auto& [code, words] : reasons)
     EXPECT_THAT(explain_line(answer(48, {0x58, 0, static_cast<std::uint8_t>(code), 3})), HasSubstr("Abort, " + words));
-  }
   EXPECT_THAT(explain_line(request(48, {0x58, 1, 0x13, 3})), HasSubstr("local subnet, detail 3"));
   EXPECT_THAT(explain_line(request(48, {0x58, 2, 0x13, 3})), HasSubstr("remote subnet"));
   EXPECT_THAT(explain_line(request(48, {0x58, 9, 0x13, 3})), HasSubstr("subnet 9 (reserved)"));

@@ -14,12 +14,10 @@ namespace bus::test {
 /// Reads get bytes 0, 1, 2, ...; writes are acknowledged; transports come back inverted.
 inline Bytes obliging_user(const Bytes& request) {
   Bytes answer(request.begin(), request.begin() + 4);
-  if (request[0] == function_num::kRead) {
+  if (request[0] == function_num::kRead)
     for (int i = 0; i < request[3]; ++i) answer.push_back(static_cast<std::uint8_t>(i));
-  }
-  if (request[0] == function_num::kTransport) {
+  if (request[0] == function_num::kTransport)
     for (std::size_t i = 4; i < request.size(); ++i) answer.push_back(static_cast<std::uint8_t>(~request[i]));
-  }
   return answer;
 }
 
@@ -89,10 +87,9 @@ class FakeC2 {
   Telegram hear(const Telegram& request) {
     if (request.ssap != sap::kMs2Master) return short_answer(request, fc::kRs);
     if (request.dsap == sap::kMs2Rm) return manager(request);
-    for (Channel& channel : channels) {
+    for (Channel& channel : channels)
       if (request.dsap == channel.sap && channel.state != Channel::State::kFree && channel.master == request.sa)
         return serve(channel, request);
-    }
     return short_answer(request, fc::kRs);
   }
   /// SDN: only the abort counts.

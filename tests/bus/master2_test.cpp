@@ -428,7 +428,8 @@ TEST_F(Class2, ParametersOutOfTheirRangeAreRefused) {
   EXPECT_THROW(master.connect(77), std::out_of_range);
 }
 
-/// The plant: a class-1 master in data exchange with the slave, a class-2 master with two channels, the token between them.
+/// The plant: a class-1 master in data exchange with the slave, a class-2 master with two channels, the token between
+/// them.
 TEST_F(Class2, BesideAClassOneMasterNothingIsLostOrMixedUp) {
   MasterConfig cyclic = config(1);
   cyclic.bus.ring = true;

@@ -1,4 +1,5 @@
-// The masters of bus/ against the chip: a class-1 master with C1, a class-2 master with two channels, the token between them.
+// The masters of bus/ against the chip: a class-1 master with C1, a class-2 master with two channels, the token between
+// them.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -148,7 +149,8 @@ TEST_F(MastersWithChip, AUserWhoDoesNotAnswerEndsU) {
   const ConnectionId id = connected();
   user_answers = false;
   AcyclicResult lost;
-  class2.read(id, 0, 0, 1, [&](const AcyclicResult& result) { lost = result; });
+  class2.read(
+      id, 0, 0, 1, [&](const AcyclicResult& result) { lost = result; });
   ASSERT_TRUE(serve_until([this] { return !ends.empty(); }));
   EXPECT_EQ(ends[0].words, "aborted by the slave: MSAC_C2: ABT_TO (timeout of the connection), no subnet");
   EXPECT_EQ(bench.last(profibus::Reason::kC2Timeout).b, 3);
@@ -204,7 +206,8 @@ TEST_F(MastersWithChip, TheChipRefusesWhatTheMasterAsksWrongly) {
   AcyclicResult result;
   AcyclicRequest wrong = bus::read_request(0, 0, 4);
   wrong.function = 0x51;  // transport is C2's
-  class1.c1_request(kChip, wrong, [&](const AcyclicResult& each) { result = each; });
+  class1.c1_request(
+      kChip, wrong, [&](const AcyclicResult& each) { result = each; });
   ASSERT_TRUE(serve_until([&] { return result.done_at != 0; }));
   EXPECT_EQ(result.error_code_1, 0xA9);
 }

@@ -9,9 +9,8 @@ namespace {
 
 Decoded decode(const Bytes& bytes) {
   TelegramDecoder decoder;
-  for (const std::uint8_t byte : bytes) {
+  for (const std::uint8_t byte : bytes)
     if (auto decoded = decoder.feed(byte)) return *decoded;
-  }
   return *decoder.finish();
 }
 

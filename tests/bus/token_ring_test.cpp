@@ -81,10 +81,9 @@ struct Ring {
     return list;
   }
   bool all_in(const std::vector<std::uint8_t>& addresses) const {
-    for (const auto& master : masters) {
+    for (const auto& master : masters)
       if (master->running() && (!master->ring().in_ring() || master->ring().stations().addresses() != addresses))
         return false;
-    }
     return true;
   }
   /// A master without messages has the token only for its GAP poll and to pass it on.
@@ -276,7 +275,8 @@ TEST_F(TokenRingTest, ADeadMasterWithoutTheTokenIsPassedOverAfterThreeTokens) {
   for (const auto& [from, to] : tokens()) to_the_dead += to == 5 ? 1 : 0;
   EXPECT_EQ(to_the_dead, kTokenAttempts);
   EXPECT_EQ(masters[0]->ring().statistics().stations_dropped, 1U);
-  // Two to the dead one; one to master 9, which takes a token of a station that was not its previous one only when it is repeated.
+  // Two to the dead one; one to master 9, which takes a token of a station that was not its previous one only when it
+  // is repeated.
   EXPECT_EQ(masters[0]->ring().statistics().token_retries - retries, 3U);
   EXPECT_THAT(flags, IsEmpty());
 }
@@ -381,9 +381,7 @@ TEST_F(TokenRingTest, TokensKeepTheirIdleTimes) {
   run_bits(3000);
   for (std::size_t i = 1; i < telegrams.size(); ++i) {
     const Tick idle = telegrams[i].start - telegrams[i - 1].end;
-    if (telegrams[i - 1].decoded.telegram.kind == TelegramKind::kSd4) {
-      EXPECT_EQ(idle, bus_parameters().id1(0) * bit());
-    }
+    if (telegrams[i - 1].decoded.telegram.kind == TelegramKind::kSd4) EXPECT_EQ(idle, bus_parameters().id1(0) * bit());
   }
 }
 
@@ -474,22 +472,20 @@ TEST_F(TokenRingTest, WhateverStopsAndStartsTheRingComesTogetherAgain) {
     run_bits(draw(3000));
     const std::size_t which = draw(static_cast<std::uint32_t>(all.size()));
     on[which] = !on[which];
-    if (on[which]) {
+    if (on[which])
       masters[which]->start();
-    } else {
+    else
       masters[which]->stop();
-    }
     settle();
     if (round % 3 != 0) continue;  // two more before the ring has settled
     std::vector<std::uint8_t> expected;
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t i = 0; i < all.size(); ++i)
       if (on[i]) expected.push_back(all[i]);
-    }
     ASSERT_TRUE(run_until([&] { return all_in(expected); })) << "round " << round;
   }
 }
 
-// --- two class-1 masters ------------------------------------------------------------------------------------------------
+// --- two class-1 masters ---------------------------------------------------------------------------------------------
 
 struct TwoMasters : testing::Test, Ring {
   TwoMasters() : other(segment, timeline, 10) {
@@ -562,9 +558,7 @@ TEST_F(TwoMasters, WithoutTimeLeftOneHighPriorityMessageATokenIsSent) {
   for (const WireTelegram& wire : telegrams) {
     const Telegram& telegram = wire.decoded.telegram;
     if (telegram.kind == TelegramKind::kSd4) since_token = 0;
-    if (telegram.is_request() && telegram.sa == 7) {
-      EXPECT_EQ(++since_token, 1);
-    }
+    if (telegram.is_request() && telegram.sa == 7) EXPECT_EQ(++since_token, 1);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// A user CPU and a chip as nothing but levels: every pin of a chip's user side is moved by the test, so that each rule can be kept by a tick
-// and broken by a tick, also those that no program on the native CPU can break.
+// A user CPU and a chip as nothing but levels: every pin of a chip's user side is moved by the test, so that each rule
+// can be kept by a tick and broken by a tick, also those that no program on the native CPU can break.
 #include <algorithm>
 #include <map>
 #include <optional>

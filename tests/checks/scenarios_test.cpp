@@ -1,6 +1,7 @@
-// Each check that a user CPU can break, by a scenario built for it: found with --checks fail and the run fails, found and passed when
-// the scenario allows it, and nothing else is found. What the driver cannot break on the native user CPU, firmware on the ARM board does
-// (firmware/rude.c). What only the chip, or pins that move on their own, can break is in values_test.cpp and cells_test.cpp.
+// Each check that a user CPU can break, by a scenario built for it: found with --checks fail and the run fails, found
+// and passed when the scenario allows it, and nothing else is found. What the driver cannot break on the native user
+// CPU, firmware on the ARM board does (firmware/rude.c). What only the chip, or pins that move on their own, can break
+// is in values_test.cpp and cells_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -156,8 +157,9 @@ INSTANTIATE_TEST_SUITE_P(Checks, EachCheck, testing::ValuesIn(kCases),
                          [](const auto& each) { return each.param.name; });
 
 std::uint64_t events(const tb::RunResult& result, const char* code) {
-  return static_cast<std::uint64_t>(std::count_if(result.happenings.begin(), result.happenings.end(),
-                                                  [code](const tb::Happening& each) { return each.code == code; }));
+  return static_cast<std::uint64_t>(std::count_if(
+      result.happenings.begin(), result.happenings.end(),
+      [code](const tb::Happening& each) { return each.code == code; }));
 }
 
 std::uint64_t violations(const tb::RunResult& result, checks::Check check) {

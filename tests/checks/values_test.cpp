@@ -1,5 +1,6 @@
-// Every check that measures a time: kept at its limit, violated one tick beyond, and nothing else is found. The pins are driven directly,
-// because the native user CPU cannot break most of these rules by a tick, and some of them not at all.
+// Every check that measures a time: kept at its limit, violated one tick beyond, and nothing else is found. The pins
+// are driven directly, because the native user CPU cannot break most of these rules by a tick, and some of them not at
+// all.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -292,9 +292,8 @@ TEST_F(Fdl, RequestWithSsapAloneIsAnsweredToItWithoutDsap) {
 
 TEST_F(Fdl, EveryOtherFunctionCodeIsAnsweredRs) {
   bench.to_data_exch();
-  for (const int code : {0, 1, 2, 3, 5, 7, 8, 0xA, 0xB, 0xE, 0xF}) {
+  for (const int code : {0, 1, 2, 3, 5, 7, 8, 0xA, 0xB, 0xE, 0xF})
     EXPECT_TRUE(is_rs(send_fc(bench, static_cast<std::uint8_t>(0x40 | code), kNoSap, kNoSap, {}))) << code;
-  }
   EXPECT_TRUE(is_rs(ask(bench, 58, {0x08, 0x00}))) << "Global_Control is SDN only";
   EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
 }
@@ -485,9 +484,8 @@ TEST_F(Fdl, RepetitionKeepsTheTimeToTheAnswer) {
 
 TEST_F(Fdl, IdentAndLsapStatusAreRefused) {
   bench.to_data_exch();
-  for (const int fc : {0x4E, 0x4F}) {
+  for (const int fc : {0x4E, 0x4F})
     EXPECT_TRUE(is_rs(send_fc(bench, static_cast<std::uint8_t>(fc), kNoSap, kNoSap, {}))) << fc;
-  }
 }
 
 TEST_F(Fdl, SdaToADpSapIsRefusedAndNotExecuted) {

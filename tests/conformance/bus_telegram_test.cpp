@@ -412,9 +412,8 @@ TEST_F(Telegrams, FaultyOnesWithoutTSynAreCountedAndToldWhenTheNextBeginsAfterTS
     bench.requester.send(bench.timeline, bus::make_telegram(9, 2, kSrdFirst, {1}),
                          {.idle_bits = 60, .wants_answer = false});
     const std::size_t events = bench.chip.events().size();
-    for (const Characters& one : faulty) {
+    for (const Characters& one : faulty)
       bench.requester.send(bench.timeline, one, {.idle_bits = 20, .wants_answer = false});
-    }
     EXPECT_EQ(bench.chip.events().size(), events) << "not a line each";
     bench.run_for(60 * bit);
     EXPECT_EQ(bench.chip.events().size(), events);

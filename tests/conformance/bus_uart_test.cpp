@@ -24,9 +24,8 @@ class SamplingOracle {
   }
 
   bool accepts() const {
-    for (std::size_t first = 0; first < levels_.size(); first += bus::kCharacterBits) {
+    for (std::size_t first = 0; first < levels_.size(); first += bus::kCharacterBits)
       if (!accepts_character(first)) return false;
-    }
     return true;
   }
 
@@ -42,9 +41,8 @@ class SamplingOracle {
   }
   bool accepts_character(std::size_t first) const {
     const Tick base = profibus::first_edge_after(edge(first)) * kCycleTicks + bit_ / 2;
-    for (std::size_t i = 0; i < bus::kCharacterBits; ++i) {
+    for (std::size_t i = 0; i < bus::kCharacterBits; ++i)
       if (level_before(base + static_cast<Tick>(i) * bit_, first + i) != levels_[first + i]) return false;
-    }
     return true;
   }
 
@@ -198,17 +196,15 @@ class Transmitter : public testing::TestWithParam<int> {};
 
 /// Level of a pin at a tick from its changes.
 Level level_at(const std::vector<PinChange>& changes, Tick tick, Level before) {
-  for (const PinChange& change : changes) {
+  for (const PinChange& change : changes)
     if (change.at <= tick) before = change.level;
-  }
   return before;
 }
 
 std::vector<PinChange> since(const std::vector<PinChange>& changes, Tick tick) {
   std::vector<PinChange> found;
-  for (const PinChange& change : changes) {
+  for (const PinChange& change : changes)
     if (change.at >= tick) found.push_back(change);
-  }
   return found;
 }
 
@@ -284,11 +280,10 @@ TEST(Driver, IsOffAtOnceWhenAnInitialisationOrAResetComesInAnAnswer) {
     bench.requester.send(bench.timeline, bus::make_telegram(5, 2, kSrdFirst, {}, 60, 62), {.wants_answer = false});
     bench.run_for(bench.requester.bit() * 40);
     ASSERT_EQ(bench.chip.level(Pin::kPbrts), 1);
-    if (reset) {
+    if (reset)
       bench.chip.set(bench.now(), Pin::kReset, 0);
-    } else {
+    else
       ASSERT_TRUE(bench.initialise());
-    }
     EXPECT_EQ(bench.chip.level(Pin::kPbrts), 0);
     EXPECT_EQ(bench.chip.level(Pin::kPbtxd), 1);
     bench.run_ms(1);

@@ -127,10 +127,8 @@ TEST_F(CheckCfg, EmptySlotsCountNothing) {
 
 TEST_F(CheckCfg, IncompleteIdentifiersAreRefused) {
   bench.to_wait_cfg();
-  for (const Bytes& bytes :
-       {Bytes{0x40}, {0x80}, {0xC0}, {0xC0, 0x00}, {0x41, 0x00}, {0x10, 0x42, 0x01, 0x01}, {0x01}}) {
+  for (const Bytes& bytes : {Bytes{0x40}, {0x80}, {0xC0}, {0xC0, 0x00}, {0x41, 0x00}, {0x10, 0x42, 0x01, 0x01}, {0x01}})
     expect_refused(bytes, Reason::kCfgUndecodable);
-  }
 }
 
 TEST_F(CheckCfg, LengthsAboveB027AndB028AreRefused) {

@@ -165,9 +165,8 @@ TEST_F(GlobalControl, WithReservedBitsIsIgnoredWithAReason) {
 TEST_F(GlobalControl, OfAnotherLengthIsIgnoredWithAReason) {
   start(prm());
   exchange();
-  for (const Bytes& bytes : {Bytes{}, {kClear}, {kClear, 0, 0}, {kSync, 0, 0, 0}}) {
+  for (const Bytes& bytes : {Bytes{}, {kClear}, {kClear, 0, 0}, {kSync, 0, 0, 0}})
     tell(bench, bus::kBroadcast, 58, bytes);
-  }
   EXPECT_EQ(bench.count(Reason::kGcIgnored), 4);
   expect_model("all ignored");
 }

@@ -38,9 +38,7 @@ TEST_P(ExchangeOf, CarriesEveryByteBothWays) {
     EXPECT_EQ(exchange.answer().data, inputs);
     settle(bench);
     EXPECT_EQ(output_area(bench), outputs);
-    if (size.outputs > 0) {
-      EXPECT_EQ(bench.fetch_outputs(), outputs);
-    }
+    if (size.outputs > 0) EXPECT_EQ(bench.fetch_outputs(), outputs);
     const Exchange read_inputs = ask(bench, 56);
     EXPECT_EQ(kind_of(read_inputs), size.inputs > 0 ? "DL" : "SC");
     EXPECT_EQ(read_inputs.answer().data, inputs);

@@ -80,9 +80,8 @@ TEST_F(SetPrm, FirstFaultInTheOrderOfTheBytesCheckedIsTheReason) {
     EXPECT_TRUE(is_sc(prm(every)));
     ASSERT_GT(bench.chip.events().size(), before);
     EXPECT_STREQ(profibus::code(bench.chip.events()[before].reason), profibus::code(reason));
-    for (std::size_t i = before + 1; i < bench.chip.events().size(); ++i) {
+    for (std::size_t i = before + 1; i < bench.chip.events().size(); ++i)
       EXPECT_NE(severity(bench.chip.events()[i].reason), profibus::Severity::kRefusal) << "one reason a refusal";
-    }
   };
   expect(Reason::kPrmIdent);
   every.ident = 0x0CC9;

@@ -74,9 +74,7 @@ class RandomScript {
     const bool searching = bench_.chip.status().baud_index == 15;
     const Exchange exchange =
         send_fc(bench_, kCodes[below(5)], dsap, dsap == kNoSap ? kNoSap : 62, any_request(dsap), master);
-    if (!searching && bench_.chip.status().baud_index != 15) {
-      EXPECT_TRUE(exchange.answered()) << "SAP " << dsap;
-    }
+    if (!searching && bench_.chip.status().baud_index != 15) EXPECT_TRUE(exchange.answered()) << "SAP " << dsap;
   }
   /// A whole start-up by master 2, whatever the judging modes are; the flags it asks for may be refused.
   void bring_up() {

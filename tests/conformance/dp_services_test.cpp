@@ -175,11 +175,10 @@ TEST(Services, GlobalControlIsExecutedInDataExchangeForTheHolderOnly) {
       SCOPED_TRACE(std::to_string(static_cast<int>(situation)) + (other ? " other" : " holder"));
       const bool executed = situation == Situation::kDataExch && !other;
       EXPECT_EQ(bench.count(Reason::kGlobalControl), executed ? 1 : 0);
-      if (executed) {
+      if (executed)
         EXPECT_EQ(output_area(bench), (Bytes{0, 0}));
-      } else {
+      else
         EXPECT_EQ(output_area(bench), outputs);
-      }
       const bool explained =
           situation == Situation::kWaitPrm || situation == Situation::kWaitCfg || situation == Situation::kDataExch;
       EXPECT_EQ(bench.count(Reason::kGcIgnored), explained && !executed ? 1 : 0);

@@ -280,11 +280,10 @@ TEST_F(C1, EveryCoveredByteIsInTheCrcAndNoOther) {
     bench.write(0x011, kC1Area.flag);
     bench.release();
     bench.chip_accesses(3);
-    if (i == 3) {  // a length of 131: other bytes are read, the CRC cannot be right
+    if (i == 3)  // a length of 131: other bytes are read, the CRC cannot be right
       EXPECT_EQ(bench.peek(0x00B), kC1Area.crc_error);
-    } else {
+    else
       EXPECT_EQ(bench.peek(0x00B) != 0, i < 7) << "byte " << i;
-    }
     give(kC1Area, answer);
     c1({});
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Random acyclic operations on C1 and both C2 channels beside the cyclic exchange: every answer is that of its request, nothing is
-// lost, doubled or mixed up, whatever the user's delays, wrong answers and the masters' aborts are.
+// Random acyclic operations on C1 and both C2 channels beside the cyclic exchange: every answer is that of its request,
+// nothing is lost, doubled or mixed up, whatever the user's delays, wrong answers and the masters' aborts are.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
-// DPV1 in short words for the conformance tests: requests and polls on the SAPs of table 24, and a user that answers in the C1 and
-// C2 areas of the DPRAM. Numbers are the datasheet's (7.2, 7.3), written apart from the chip's.
+// DPV1 in short words for the conformance tests: requests and polls on the SAPs of table 24, and a user that answers in
+// the C1 and C2 areas of the DPRAM. Numbers are the datasheet's (7.2, 7.3), written apart from the chip's.
 #include <string>
 
 #include "tests/conformance/master_side.hpp"
@@ -87,7 +87,8 @@ class Dpv1Test : public testing::Test {
     bench.release();
     return pdu;
   }
-  /// The user's answer, and three accesses of the chip. As a good driver, nothing when a newer request has come (V13): false.
+  /// The user's answer, and three accesses of the chip. As a good driver, nothing when a newer request has come (V13):
+  /// false.
   static bool give(SlaveBench& bench, const Area& area, const Bytes& pdu, std::uint16_t crc_error = 0) {
     bench.acquire();
     const bool newer = (bench.read(0x00F) & area.flag) != 0;

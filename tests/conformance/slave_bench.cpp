@@ -66,7 +66,7 @@ void SlaveBench::run_until(Tick until) {
   chip.compare(until);
 }
 
-// --- the user ---------------------------------------------------------------------------------------------------------------
+// --- the user --------------------------------------------------------------------------------------------------------
 
 void SlaveBench::power_on() {
   run_cycles(10);
@@ -203,7 +203,7 @@ std::optional<Bytes> SlaveBench::fetch_outputs() {
   return Bytes(block.begin() + 1, block.end());
 }
 
-// --- the master ---------------------------------------------------------------------------------------------------------------
+// --- the master ------------------------------------------------------------------------------------------------------
 
 void SlaveBench::find_baud(int index) {
   constexpr std::uint8_t kNobody = 100;
@@ -264,7 +264,7 @@ void SlaveBench::to_data_exch(const Init& init, const Prm& prm, int baud) {
   ASSERT_EQ(dp_state(), dsdpv1::DpState::kDataExch);
 }
 
-// --- what happened --------------------------------------------------------------------------------------------------------------
+// --- what happened ---------------------------------------------------------------------------------------------------
 
 int SlaveBench::count(profibus::Reason reason) const {
   int found = 0;
@@ -274,18 +274,16 @@ int SlaveBench::count(profibus::Reason reason) const {
 
 const profibus::Event& SlaveBench::last(profibus::Reason reason) const {
   static const profibus::Event none{};
-  for (auto event = chip.events().rbegin(); event != chip.events().rend(); ++event) {
+  for (auto event = chip.events().rbegin(); event != chip.events().rend(); ++event)
     if (event->reason == reason) return *event;
-  }
   ADD_FAILURE() << "no event " << profibus::code(reason);
   return none;
 }
 
 std::vector<PinChange> SlaveBench::changes(Pin pin) const {
   std::vector<PinChange> found;
-  for (const PinChange& change : chip.trace()) {
+  for (const PinChange& change : chip.trace())
     if (change.pin == pin) found.push_back(change);
-  }
   return found;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// A bench for conformance tests: the chip (twice, see twin_chip.hpp) on a segment with a scripted requester, and a user at its pins.
-// Every call runs simulated time; every time is in ticks (1/12 ns) unless its name says otherwise.
+// A bench for conformance tests: the chip (twice, see twin_chip.hpp) on a segment with a scripted requester, and a user
+// at its pins. Every call runs simulated time; every time is in ticks (1/12 ns) unless its name says otherwise.
 #include <optional>
 #include <vector>
 
@@ -14,8 +14,8 @@ using bus::Bytes;
 
 constexpr Tick kCycleTicks = profibus::kTicksPerCycle;
 
-/// The initialisation block B020..; the defaults give a slave at 5 with 2 input and 2 output bytes, ident 0x0CC9, judged by
-/// the chip.
+/// The initialisation block B020..; the defaults give a slave at 5 with 2 input and 2 output bytes, ident 0x0CC9,
+/// judged by the chip.
 struct Init {
   std::uint8_t address = 5;
   std::uint16_t ident = 0x0CC9;

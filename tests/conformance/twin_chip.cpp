@@ -56,9 +56,7 @@ void TwinChip::set(Tick at, Pin pin, Level level) {
 
 Level TwinChip::sample(Tick at) {
   const Level level = skip_.sample(at);
-  if (twin_) {
-    EXPECT_EQ(step_.sample(at), level) << "at tick " << at;
-  }
+  if (twin_) EXPECT_EQ(step_.sample(at), level) << "at tick " << at;
   return level;
 }
 

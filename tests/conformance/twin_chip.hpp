@@ -1,6 +1,7 @@
 #pragma once
-// The chip under test, twice: one evaluated in every cycle (step), one sleeping between its actions (skip), fed with the same pins.
-// Every difference of pins or events fails the test, so each conformance test also proves that the two engines agree.
+// The chip under test, twice: one evaluated in every cycle (step), one sleeping between its actions (skip), fed with
+// the same pins. Every difference of pins or events fails the test, so each conformance test also proves that the two
+// engines agree.
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -41,7 +41,7 @@ TEST(Crc, ExampleOfTheDatasheet) {
   EXPECT_EQ(crc_at(bench, regs::kPrmCrc), document_crc({2, 7, 0})) << "high byte first";
 }
 
-// --- inputs ---------------------------------------------------------------------------------------------------------------------
+// --- inputs ----------------------------------------------------------------------------------------------------------
 
 TEST(UserInputs, AreZeroUntilTheFirstValidBlock) {
   SlaveBench bench;
@@ -134,7 +134,7 @@ TEST(UserInputs, EveryCoveredByteIsInTheCrcAndNoOther) {
   }
 }
 
-// --- error bits (D5, D13) -----------------------------------------------------------------------------------------------------------
+// --- error bits (D5, D13) --------------------------------------------------------------------------------------------
 
 TEST(UserErrorBits, AreIndependent) {
   SlaveBench bench;
@@ -179,7 +179,7 @@ TEST(UserErrorBits, OtherBitsOfB00BAreTheUsers) {
   EXPECT_EQ(bench.peek(regs::kChipStatus2), 0xC2 | regs::kChipStatus2InputCrc) << "D13: read, changed, written back";
 }
 
-// --- history of the inputs' bit (D16) -------------------------------------------------------------------------------------------
+// --- history of the inputs' bit (D16) --------------------------------------------------------------------------------
 
 constexpr std::uint8_t kHistory = 0x40, kClearOnce = 0x80, kInputWrong = 0x04;
 
@@ -273,7 +273,7 @@ TEST(UserErrorHistory, WorksBeforeTheInitialisationAndTheUserMayStillWriteZero) 
   EXPECT_EQ(bench.peek(0x00B), 0);
 }
 
-// --- diagnosis ------------------------------------------------------------------------------------------------------------------
+// --- diagnosis -------------------------------------------------------------------------------------------------------
 
 struct DiagType {
   std::uint8_t type;
@@ -406,7 +406,7 @@ TEST(UserDiagBlocks, EveryCoveredByteIsInTheCrcAndNoOther) {
   }
 }
 
-// --- outputs --------------------------------------------------------------------------------------------------------------------
+// --- outputs ---------------------------------------------------------------------------------------------------------
 
 TEST(UserOutputs, BlockHasLengthBytesAndCrc) {
   SlaveBench bench;
@@ -466,7 +466,7 @@ TEST(UserOutputs, ClearedWhenDataExchangeIsLeft) {
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{0, 0})) << "S18";
 }
 
-// --- parameters and configuration -------------------------------------------------------------------------------------------------
+// --- parameters and configuration ------------------------------------------------------------------------------------
 
 TEST(UserPrmCfg, ParameterBlock) {
   for (const std::size_t size : {0U, 1U, 3U, 237U}) {
@@ -522,7 +522,7 @@ TEST(UserPrmCfg, FlagsStayUntilTheUserClearsThem) {
       << "bits of the user stay";
 }
 
-// --- INTR0 ------------------------------------------------------------------------------------------------------------------------
+// --- INTR0 -----------------------------------------------------------------------------------------------------------
 
 /// The cycle at which B00E's `bit` becomes 1, watched cycle by cycle.
 Cycle flag_cycle(SlaveBench& bench, std::uint8_t bit) {
@@ -616,7 +616,7 @@ TEST(UserInterrupt, OutputsRaiseNone) {
   EXPECT_EQ(bench.changes(Pin::kIntr0).size(), before);
 }
 
-// --- B012, B008 -------------------------------------------------------------------------------------------------------------------
+// --- B012, B008 ------------------------------------------------------------------------------------------------------
 
 TEST(UserStatus3, ShowsEveryStateAndRate) {
   for (int baud = 0; baud < bus::kBaudCount; ++baud) {

@@ -54,7 +54,8 @@ TEST(UserHandshake, RequestHoldsTheChipOffAndReleaseLetsItInAtOnceAtEveryPhase) 
     const Tick asked = start * kCycleTicks + offset;
     const Tick released = asked + 100 * kCycleTicks + offset / 7;
     set(bench, asked, Pin::kRReq, 1);
-    // Due at start + 48; held off when the logic sees the request by then. Otherwise that access is made, and the next one waits.
+    // Due at start + 48; held off when the logic sees the request by then. Otherwise that access is made, and the next
+    // one waits.
     const bool held = seen_at(asked) <= start + kInterval;
     const Cycle due = held ? start + kInterval : start + 2 * kInterval;
     bench.run_until(released - 1);
@@ -320,10 +321,10 @@ TEST(UserHandshake, AccessCountShowsTwoHoldsWithoutTheChipBetween) {
   EXPECT_EQ(bench.read(regs::kAccessCount), 2);
 }
 
-// --- contention -----------------------------------------------------------------------------------------------------------------
+// --- contention ------------------------------------------------------------------------------------------------------
 
-/// A user that takes the DPRAM again and again at random times, keeps H2, gives one input block a hold, fetches outputs, and lowers
-/// the two pins in either order.
+/// A user that takes the DPRAM again and again at random times, keeps H2, gives one input block a hold, fetches
+/// outputs, and lowers the two pins in either order.
 class RandomUser : public bus::Agent {
  public:
   RandomUser(SlaveBench& bench, unsigned seed, Tick most_gap) : bench_(bench), random_(seed), most_gap_(most_gap) {

@@ -1,6 +1,6 @@
 #pragma once
-// What the tests of the user's side share: times of edges, accesses as they are seen at the pins, scripted pins, and a CRC-16 of
-// its own (steps 1 to 7 of chapter 4.2).
+// What the tests of the user's side share: times of edges, accesses as they are seen at the pins, scripted pins, and a
+// CRC-16 of its own (steps 1 to 7 of chapter 4.2).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,8 @@ struct Access {
   Cycle length() const { return fall - rise; }
 };
 
-/// All finished accesses so far. Fails when L_REQ and L_STA are not the same at all times, or change off a rising edge (H1).
+/// All finished accesses so far. Fails when L_REQ and L_STA are not the same at all times, or change off a rising edge
+/// (H1).
 inline std::vector<Access> accesses(const SlaveBench& bench) {
   const std::vector<PinChange> request = bench.changes(Pin::kLReq), state = bench.changes(Pin::kLSta);
   EXPECT_EQ(request.size(), state.size());
@@ -56,9 +57,8 @@ inline std::vector<Access> accesses(const SlaveBench& bench) {
 /// The cycle of the last rise of L_STA.
 inline Cycle last_rise(const SlaveBench& bench) {
   const std::vector<PinChange> state = bench.changes(Pin::kLSta);
-  for (auto change = state.rbegin(); change != state.rend(); ++change) {
+  for (auto change = state.rbegin(); change != state.rend(); ++change)
     if (change->level != 0) return change->at / kCycleTicks;
-  }
   ADD_FAILURE() << "L_STA never rose";
   return 0;
 }
@@ -81,9 +81,8 @@ inline Cycle run_to_l_sta(SlaveBench& bench, Level level, Cycle limit = 200'000)
 
 /// No rule of the user's bus was violated.
 inline void expect_no_violation(const SlaveBench& bench) {
-  for (const profibus::Event& event : bench.chip.events()) {
+  for (const profibus::Event& event : bench.chip.events())
     EXPECT_NE(profibus::severity(event.reason), profibus::Severity::kViolation) << profibus::describe(event);
-  }
 }
 
 /// Pins (or anything else) at planned ticks while others run the timeline.
@@ -93,7 +92,8 @@ class Script : public bus::Agent {
 
   void at(Tick tick, std::function<void(Tick)> action) { actions_.push_back({tick, std::move(action)}); }
   void set(Tick tick, Pin pin, Level level) {
-    at(tick, [this, pin, level](Tick now) { bench_.chip.set(now, pin, level); });
+    at(
+        tick, [this, pin, level](Tick now) { bench_.chip.set(now, pin, level); });
   }
   bool done() const { return actions_.empty(); }
 

@@ -228,7 +228,7 @@ TEST(UserInit, InputsOfTheSameHoldAreTakenAfterTheInitialisation) {
   EXPECT_EQ(exchange.answer().data, (Bytes{0x12, 0x34}));
 }
 
-// --- in operation ---------------------------------------------------------------------------------------------------------------
+// --- in operation ----------------------------------------------------------------------------------------------------
 
 Init other_init() {
   Init init;
@@ -394,7 +394,8 @@ INSTANTIATE_TEST_SUITE_P(UserInit, RefusedInOperation, testing::ValuesIn(kRefuse
                          [](const auto& at) { return at.param.name; });
 
 TEST(UserInit, WhileAnAnswerIsSentItIsStopped) {
-  // Micro-architecture 10: the transmitter is aborted. The user writes the block before and lets the chip in during the answer.
+  // Micro-architecture 10: the transmitter is aborted. The user writes the block before and lets the chip in during the
+  // answer.
   SlaveBench bench;
   bench.to_data_exch();
   bench.acquire();

@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(UserJudging, Modes, testing::Combine(testing::Range(0, 
                                   std::to_string(std::get<1>(at.param));
                          });
 
-// --- the user's verdict on parameters ----------------------------------------------------------------------------------------------
+// --- the user's verdict on parameters --------------------------------------------------------------------------------
 
 class ByUser : public testing::Test {
  protected:
@@ -293,7 +293,8 @@ TEST_F(ByUser, StatusBitsWithoutTheFlagAreNoVerdict) {
 }
 
 TEST_F(ByUser, BothVerdictsInOneHoldAreTakenParametersFirst) {
-  // Parameters awaited, configuration not: its verdict comes too early and is discarded, though both stand in one access (H4).
+  // Parameters awaited, configuration not: its verdict comes too early and is discarded, though both stand in one
+  // access (H4).
   wait_for_prm_verdict();
   bench.verdict(true, true);
   EXPECT_EQ(bench.dp_state(), DpState::kWaitCfg);

@@ -35,9 +35,8 @@ Recorded record_access(SlaveBench& bench) {
   for (Cycle cycle = 1; cycle < 5000; ++cycle) {
     run_to_cycle(bench, access.start + cycle);
     const Bytes now = bench.peek(0, regs::kDpramSize);
-    for (std::uint16_t cell = 0; cell < regs::kDpramSize; ++cell) {
+    for (std::uint16_t cell = 0; cell < regs::kDpramSize; ++cell)
       if (now[cell] != before[cell]) access.moves.push_back({cycle, cell, now[cell]});
-    }
     before = now;
     access.length = cycle;
     if (bench.chip.level(Pin::kLSta) == 0) return access;
@@ -318,7 +317,8 @@ TEST(UserOrder, BlocksOfTheUserInTheSameAccessReachTheAnswerOfTheSameCycle) {
 }
 
 TEST(UserOrder, OutputsAreTakenByTheFirstChoiceAfterTheDecision) {
-  // 9.2: mail is due at a choice when it was there before it. The decision is moved cycle by cycle past the choice s + 7.
+  // 9.2: mail is due at a choice when it was there before it. The decision is moved cycle by cycle past the choice s
+  // + 7.
   for (Cycle shift = 0; shift < 48; ++shift) {
     SlaveBench bench;
     bench.to_data_exch();
@@ -343,7 +343,8 @@ TEST(UserOrder, OutputsAreTakenByTheFirstChoiceAfterTheDecision) {
 }
 
 TEST(UserOrder, AFlagCountsFromTheEdgeAtWhichTheHeaderReadsIt) {
-  // The user writes B010 without owning: settled at the edge of s + 2 it is read there (chapter 3), one cycle later it waits.
+  // The user writes B010 without owning: settled at the edge of s + 2 it is read there (chapter 3), one cycle later it
+  // waits.
   for (const Cycle settles : {1, 2, 3, 4}) {
     SlaveBench bench;
     bench.to_data_exch();

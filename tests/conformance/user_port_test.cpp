@@ -1,4 +1,5 @@
-// The asynchronous host port: figure 6, table 15; rulings P5, P6, P8, P11, P12. Times in ticks: 12.5 ns are 150, 31.25 ns are 375.
+// The asynchronous host port: figure 6, table 15; rulings P5, P6, P8, P11, P12. Times in ticks: 12.5 ns are 150, 31.25
+// ns are 375.
 #include <map>
 #include <random>
 
@@ -68,7 +69,8 @@ class UserPort : public testing::Test {
     EXPECT_EQ(read_slowly(kCell), value);
     EXPECT_EQ(bench.chip.events().size(), events);
   }
-  /// The violation is reported once, the cell holds what was captured and reads X, with a report, until written correctly.
+  /// The violation is reported once, the cell holds what was captured and reads X, with a report, until written
+  /// correctly.
   void expect_violated(std::uint8_t value, const WriteShape& shape, Reason reason) {
     const int before = bench.count(reason);
     const std::size_t events = bench.chip.events().size();
@@ -231,7 +233,7 @@ TEST_F(UserPort, TheChipReadsWhatAViolatedWriteCaptured) {
   EXPECT_EQ(read_slowly(regs::kUserCommand1), 0) << "the chip's write makes the cell known";
 }
 
-// --- reading ------------------------------------------------------------------------------------------------------------------
+// --- reading ---------------------------------------------------------------------------------------------------------
 
 TEST_F(UserPort, ReadLatencyIsHalfToOneAndAHalfCyclesAtEveryPhase) {
   set(bench.now() + 10, Pin::kA, 0x003);
@@ -300,9 +302,7 @@ TEST_F(UserPort, ASampleBeforeTwIsXAndReportedOnceAtEveryPhase) {
       const bool early = after < kTw;
       EXPECT_EQ(bench.chip.sample(fall + after), early ? dsdpv1::kLevelX : 0x01) << after << " at phase " << phase;
       EXPECT_EQ(bench.count(Reason::kReadTooShort) - before, early ? 1 : 0) << after << " at phase " << phase;
-      if (early) {
-        EXPECT_EQ(bench.last(Reason::kReadTooShort).b, after);
-      }
+      if (early) EXPECT_EQ(bench.last(Reason::kReadTooShort).b, after);
       set(fall + after, Pin::kRd, 1);  // too short as well: the read has been reported
       EXPECT_EQ(bench.count(Reason::kReadTooShort) - before, early ? 1 : 0) << after << " at phase " << phase;
       EXPECT_EQ(bench.chip.sample(fall + after), dsdpv1::kLevelZ);
@@ -392,7 +392,7 @@ TEST_F(UserPort, FastestReadsWithAnUnlimitedHostAreCertainAfterTw) {
   expect_no_violation(bench);
 }
 
-// --- settling (P8) --------------------------------------------------------------------------------------------------------------
+// --- settling (P8) ---------------------------------------------------------------------------------------------------
 
 TEST_F(UserPort, AWriteTakesEffectAtTheThirdEdgeAtEveryPhase) {
   for (Tick phase = 0; phase < kCycleTicks; ++phase) {
@@ -451,8 +451,8 @@ TEST_F(UserPort, AReadOfAnotherCellIsNotDisturbedByAWriteInFlight) {
 }
 
 TEST_F(UserPort, FastestLegalWritesReachEveryAddressAtEveryPhase) {
-  // Ts and Td allow one write in 300 ticks: A and D change 150 after each rise, 150 before the next. 300 and 250 are out of
-  // step, so that 2048 writes meet every fifth phase; the odd start shifts them.
+  // Ts and Td allow one write in 300 ticks: A and D change 150 after each rise, 150 before the next. 300 and 250 are
+  // out of step, so that 2048 writes meet every fifth phase; the odd start shifts them.
   for (const Tick start : {0, 1, 2, 3, 4}) {
     std::mt19937 random(static_cast<unsigned>(start + 1));
     std::vector<std::uint16_t> order(regs::kDpramSize);
@@ -477,9 +477,8 @@ TEST_F(UserPort, FastestLegalWritesReachEveryAddressAtEveryPhase) {
     }
     EXPECT_EQ(bench.count(Reason::kWriteOverrun), 0);
     for (const Reason reason :
-         {Reason::kWriteSetup, Reason::kWriteHold, Reason::kWriteLowTooShort, Reason::kWriteFloating}) {
+         {Reason::kWriteSetup, Reason::kWriteHold, Reason::kWriteLowTooShort, Reason::kWriteFloating})
       EXPECT_EQ(bench.count(reason), 0) << profibus::code(reason);
-    }
   }
 }
 
@@ -498,7 +497,7 @@ TEST_F(UserPort, TheLastOfTwoWritesToTheSameCellWins) {
   expect_no_violation(bench);
 }
 
-// --- who may write, and when ------------------------------------------------------------------------------------------------------
+// --- who may write, and when -----------------------------------------------------------------------------------------
 
 TEST_F(UserPort, WritesToTheChipsCellsAreReportedAndCarriedOut) {
   for (const regs::Cell& cell : regs::kMap) {

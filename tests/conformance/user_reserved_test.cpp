@@ -1,5 +1,5 @@
-// Reserved bits of the bytes that both sides write (tables 6, 8 to 11): the chip gives them no meaning and leaves them as they are.
-// B011.6 and B011.7 are not among them (D16).
+// Reserved bits of the bytes that both sides write (tables 6, 8 to 11): the chip gives them no meaning and leaves them
+// as they are. B011.6 and B011.7 are not among them (D16).
 #include "tests/conformance/dpv1_side.hpp"
 
 namespace conformance {

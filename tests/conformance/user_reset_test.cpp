@@ -249,7 +249,7 @@ TEST(UserReset, ReadyCyclesAreAParameter) {
   EXPECT_EQ(bench.peek(regs::kValidFlag), 0xC5);
 }
 
-// --- a user who was not reset (H6) ---------------------------------------------------------------------------------------------
+// --- a user who was not reset (H6) -----------------------------------------------------------------------------------
 
 struct Held {
   Level r_req, r_sta;
@@ -390,7 +390,8 @@ TEST(UserReset, AResetInAStartUpLeavesTheRestOfTheRamAsItWas) {
   }
 }
 
-// The sampling edge of a read decides: the edge at which the start-up begins is still too early, then the chip owns the DPRAM.
+// The sampling edge of a read decides: the edge at which the start-up begins is still too early, then the chip owns the
+// DPRAM.
 TEST(UserReset, NoReadRoundTheBeginOfALateStartUpGivesAValue) {
   for (Cycle offset = -2; offset <= 2; ++offset) {
     SlaveBench bench;
@@ -446,7 +447,7 @@ TEST(UserReset, ACellWithAViolatedWriteIsKnownAgainAfterReset) {
   EXPECT_EQ(bench.read(0x130), 0);
 }
 
-// --- reset in every state -----------------------------------------------------------------------------------------------------
+// --- reset in every state --------------------------------------------------------------------------------------------
 
 struct State {
   const char* name;

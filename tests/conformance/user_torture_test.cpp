@@ -1,5 +1,5 @@
-// A user without manners: every pin of his at random times, with and without a reset, while the master works. Whatever he does,
-// step and skip agree in pins, events and DPRAM, the chip keeps its own rules, and it works again afterwards.
+// A user without manners: every pin of his at random times, with and without a reset, while the master works. Whatever
+// he does, step and skip agree in pins, events and DPRAM, the chip keeps its own rules, and it works again afterwards.
 #include <random>
 
 #include "tests/conformance/user_helpers.hpp"
@@ -50,9 +50,8 @@ void calm_down(SlaveBench& bench) {
 }
 
 void expect_same_dpram(const SlaveBench& bench) {
-  for (std::uint16_t cell = 0; cell < regs::kDpramSize; ++cell) {
+  for (std::uint16_t cell = 0; cell < regs::kDpramSize; ++cell)
     ASSERT_EQ(bench.chip.peek(cell), bench.chip.peek_step(cell)) << "B" << std::hex << cell;
-  }
 }
 
 /// H1 and H8 whatever the user does; accesses broken off by a reset are shorter, even than a cycle.

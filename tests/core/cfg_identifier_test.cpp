@@ -65,9 +65,8 @@ TEST(CfgIdentifier, IncompleteOnes) {
                                                  {0xC0, 0x00},
                                                  {0x41, 0x00},
                                                  {0xC1, 0x00, 0x00},
-                                                 {0x11, 0x02, 0x00}}) {
+                                                 {0x11, 0x02, 0x00}})
     EXPECT_FALSE(lengths(bytes).complete());
-  }
   EXPECT_TRUE(lengths({}).complete());
 }
 

@@ -1,4 +1,5 @@
-// Chapter 12 of the micro-architecture; table 15 at the pins of the whole chip is in tests/conformance/user_port_test.cpp.
+// Chapter 12 of the micro-architecture; table 15 at the pins of the whole chip is in
+// tests/conformance/user_port_test.cpp.
 #include "model/dsdpv1/host_port.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,8 @@
 namespace dsdpv1 {
 namespace {
 
-/// A port with its RAM; run() makes the edges and the driving half edges up to a tick, all of them or only the announced ones.
+/// A port with its RAM; run() makes the edges and the driving half edges up to a tick, all of them or only the
+/// announced ones.
 struct Bench {
   explicit Bench(bool evaluate_sparsely) : port(recorder.log, dpram), sparse(evaluate_sparsely) {
     port.reset();
@@ -120,9 +122,8 @@ TEST(HostPortBlock, EvaluatedOnlyAtNextItIsTheSame) {
       EXPECT_EQ(every.dpram.read(cell), sparse.dpram.read(cell));
       EXPECT_EQ(every.dpram.unknown(cell), sparse.dpram.unknown(cell));
     }
-    for (std::size_t i = 0; i < every.recorder.events.size(); ++i) {
+    for (std::size_t i = 0; i < every.recorder.events.size(); ++i)
       ASSERT_TRUE(core_test::same(every.recorder.events[i], sparse.recorder.events[i])) << "seed " << seed;
-    }
   }
 }
 

@@ -193,9 +193,8 @@ TEST(TelegramRxBlock, EvaluatedOnlyAtNextItIsTheSame) {
     EXPECT_EQ(every.decided, sparse.decided);
     EXPECT_EQ(every.telegrams, sparse.telegrams);
     ASSERT_EQ(every.recorder.events.size(), sparse.recorder.events.size());
-    for (std::size_t i = 0; i < every.recorder.events.size(); ++i) {
+    for (std::size_t i = 0; i < every.recorder.events.size(); ++i)
       ASSERT_TRUE(core_test::same(every.recorder.events[i], sparse.recorder.events[i]));
-    }
     EXPECT_GT(every.decided.size(), 200U);
   }
 }

@@ -32,9 +32,8 @@ std::vector<Received> receive(const std::vector<bool>& line, int bit) {
   UartRx rx;
   rx.restart(bit, 0, true);
   std::vector<Received> found;
-  for (std::size_t now = 0; now < line.size(); ++now) {
+  for (std::size_t now = 0; now < line.size(); ++now)
     if (rx.eval(static_cast<Cycle>(now), line[now])) found.push_back({static_cast<Cycle>(now), rx.character()});
-  }
   return found;
 }
 

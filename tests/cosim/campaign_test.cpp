@@ -1,4 +1,5 @@
-// Random campaigns on the reference RTL: a fault is found, shrunk to some lines and seen again; the result does not depend on threads.
+// Random campaigns on the reference RTL: a fault is found, shrunk to some lines and seen again; the result does not
+// depend on threads.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 #pragma once
-// "RTL" that is the model itself, with one defect that the test chooses: what the lockstep has to find is known exactly.
+// "RTL" that is the model itself, with one defect that the test chooses: what the lockstep has to find is known
+// exactly.
 #include <algorithm>
 #include <functional>
 #include <utility>
@@ -12,7 +13,8 @@ namespace cosim_test {
 /// Evaluated as RTL is: by edges of CLK, without any knowledge of time.
 class MadeUpTop : public cosim::RtlTop {
  public:
-  /// `spoil` sees the outputs of each evaluation and the number of the rising edge since power-on, which is 0 at tick 0.
+  /// `spoil` sees the outputs of each evaluation and the number of the rising edge since power-on, which is 0 at tick
+  /// 0.
   using Spoil = std::function<void(cosim::RtlOutputs& out, long cycle)>;
   explicit MadeUpTop(Spoil spoil = {}) : spoil_(std::move(spoil)) {}
 

@@ -1,5 +1,5 @@
-// Every scenario that ships on the reference RTL: in lockstep without a difference; the short ones also with the pin trace and log of
-// the model.
+// Every scenario that ships on the reference RTL: in lockstep without a difference; the short ones also with the pin
+// trace and log of the model.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,8 +56,8 @@ TEST_P(ShortRtlScenarios, TraceAndLogOfTheRtlAreThoseOfTheModel) {
         << ending;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RtlScenarios, testing::ValuesIn(shipped_scenarios()),
-                         [](const auto& each) { return each.param; });
+INSTANTIATE_TEST_SUITE_P(
+    All, RtlScenarios, testing::ValuesIn(shipped_scenarios()), [](const auto& each) { return each.param; });
 INSTANTIATE_TEST_SUITE_P(All, ShortRtlScenarios, testing::ValuesIn(short_scenarios()),
                          [](const auto& each) { return each.param; });
 

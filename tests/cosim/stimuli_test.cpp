@@ -1,4 +1,5 @@
-// The directed stimuli that coverage asks for: model and RTL do not differ, and the model tells that what they are there for has happened.
+// The directed stimuli that coverage asks for: model and RTL do not differ, and the model tells that what they are
+// there for has happened.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -47,9 +47,7 @@ class AcyclicTest : public DriverTest {
   dsdpv1_outcome handle(const dsdpv1_request& request, dsdpv1_reply& reply) {
     seen = request;
     seen_data = request.function == DSDPV1_DS_READ ? Bytes{} : Bytes(request.data, request.data + request.length);
-    if (while_handling) {
-      while_handling();
-    }
+    if (while_handling) while_handling();
     if (codes) {
       reply.error_code_1 = codes->first;
       reply.error_code_2 = codes->second;

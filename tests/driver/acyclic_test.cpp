@@ -67,9 +67,8 @@ TEST_P(AcyclicPoll, EveryLengthGoesThroughUnchanged) {
   open();
   for (int length = 0; length <= 240; ++length) {
     Bytes data(static_cast<std::size_t>(length));
-    for (std::size_t i = 0; i < data.size(); ++i) {
+    for (std::size_t i = 0; i < data.size(); ++i)
       data[i] = static_cast<std::uint8_t>(i * 7 + static_cast<std::size_t>(length));
-    }
     const auto byte = static_cast<std::uint8_t>(length);
     ASSERT_THAT(ask(cls(), with_data({0x5F, 1, 5, byte}, data)), ElementsAre(0x5F, 1, 5, byte));
     ASSERT_EQ(ask(cls(), {0x5E, 1, 5, byte}), with_data({0x5E, 1, 5, byte}, data));
@@ -117,9 +116,7 @@ TEST_P(AcyclicPoll, RequestReplacedWhileItIsReadAgainIsServedOnce) {
   chip.put_request(cls(), {0x5F, 2, 1, 1, 0xAA});
   spoil_crc();
   chip.before_access = [&, once = true]() mutable {
-    if (std::exchange(once, false)) {
-      chip.put_request(cls(), {0x5F, 2, 1, 1, 0xBB});
-    }
+    if (std::exchange(once, false)) chip.put_request(cls(), {0x5F, 2, 1, 1, 0xBB});
   };
   EXPECT_EQ(poll(), DSDPV1_OK);
   EXPECT_THAT(seen_data, ElementsAre(0xBB));
@@ -167,9 +164,7 @@ TEST_P(AcyclicPoll, AnswerRefusedForItsCrcIsWrittenAgain) {
   open();
   int errors = 2;
   chip.before_access = [&] {
-    if (chip.at(0x011) != 0 && errors-- > 0) {
-      spoil_crc();
-    }
+    if (chip.at(0x011) != 0 && errors-- > 0) spoil_crc();
   };
   EXPECT_THAT(ask(cls(), {0x5E, 1, 1, 4}), IsEmpty());
   EXPECT_EQ(poll(), DSDPV1_OK);
@@ -286,9 +281,8 @@ TEST_F(AcyclicBoth, AnswerThatTheChipHasNotTakenKeepsItsFlagWhenTheOtherFollows)
 TEST_F(AcyclicBoth, OnlyTheAnswerWithTheWrongCrcIsWrittenAgain) {
   open();
   chip.before_access = [&, once = true]() mutable {
-    if (chip.at(0x011) != 0 && std::exchange(once, false)) {
+    if (chip.at(0x011) != 0 && std::exchange(once, false))
       chip.at(0x6C4) = static_cast<std::uint8_t>(chip.at(0x6C4) ^ 1);
-    }
   };
   chip.put_request(1, {0x5E, 1, 1, 1});
   static_cast<void>(ask(2, {0x5E, 1, 1, 1}));

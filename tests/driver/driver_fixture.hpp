@@ -17,9 +17,7 @@ class DriverTest : public testing::Test {
     judge.prm = [](void* ctx, const std::uint8_t* bytes, std::uint8_t length) {
       auto& test = *static_cast<DriverTest*>(ctx);
       test.prm_seen.emplace_back(bytes, bytes + length);
-      if (test.while_judging) {
-        test.while_judging();
-      }
+      if (test.while_judging) test.while_judging();
       return test.prm_verdict;
     };
     judge.cfg = [](void* ctx, const dsdpv1_cfg_block* cfg) {

@@ -36,30 +36,20 @@ dsdpv1_port FakeChip::port() {
 
 void FakeChip::check_ownership(const char* what) {
   ++accesses;
-  if (!r_req_ || !r_sta_ || l_) {
-    violations.push_back(std::string(what) + " without ownership");
-  }
+  if (!r_req_ || !r_sta_ || l_) violations.push_back(std::string(what) + " without ownership");
 }
 
 void FakeChip::set_r_req(bool level) {
   const bool fell = r_req_ && !level;
   r_req_ = level;
   free_samples_ = 0;
-  if (on_r_req) {
-    on_r_req(level);
-  }
-  if (fell) {
-    lowered();
-  }
+  if (on_r_req) on_r_req(level);
+  if (fell) lowered();
 }
 
 void FakeChip::set_r_sta(bool level) {
-  if (level && !r_req_) {
-    violations.emplace_back("R_STA rose without R_REQ");
-  }
-  if (level && free_samples_ < 4) {
-    violations.emplace_back("R_STA rose after less than two looks at L_REQ and L_STA");
-  }
+  if (level && !r_req_) violations.emplace_back("R_STA rose without R_REQ");
+  if (level && free_samples_ < 4) violations.emplace_back("R_STA rose after less than two looks at L_REQ and L_STA");
   if (level) {
     ++holds;
     counted_ = 0;
@@ -68,18 +58,12 @@ void FakeChip::set_r_sta(bool level) {
   }
   const bool fell = r_sta_ && !level;
   r_sta_ = level;
-  if (fell) {
-    lowered();
-  }
+  if (fell) lowered();
 }
 
 void FakeChip::lowered() {
-  if (r_req_ || r_sta_) {
-    return;
-  }
-  if (before_access) {
-    before_access();
-  }
+  if (r_req_ || r_sta_) return;
+  if (before_access) before_access();
   access();
 }
 
@@ -95,9 +79,7 @@ bool FakeChip::l_sta() {
 }
 
 void FakeChip::access() {
-  if (!present) {
-    return;
-  }
+  if (!present) return;
   at(0x006) = 1;
   at(0x004) = not_ready_accesses > 0 && not_ready_accesses-- > 0 ? 0 : 0xC5;
   if (takes_commands) {
@@ -119,9 +101,7 @@ bool FakeChip::crc_is_right(std::uint16_t address, std::size_t count, std::uint1
 }
 
 void FakeChip::take_init() {
-  if ((at(0x010) & 0x04) == 0 || refuses_silently) {
-    return;
-  }
+  if ((at(0x010) & 0x04) == 0 || refuses_silently) return;
   const bool right = crc_is_right(0x020, at(0x020) + 1U, 0x0F7);
   const bool in_limits = at(0x021) <= 126;
   at(0x00B) = static_cast<std::uint8_t>((at(0x00B) & ~0x01) | (right ? 0 : 1));
@@ -132,51 +112,35 @@ void FakeChip::take_init() {
 
 void FakeChip::take_verdicts() {
   std::string verdict;
-  if ((at(0x010) & 0x80) != 0) {
-    verdict += (at(0x00C) & 1) != 0 ? "prm wrong" : "prm ok";
-  }
+  if ((at(0x010) & 0x80) != 0) verdict += (at(0x00C) & 1) != 0 ? "prm wrong" : "prm ok";
   if ((at(0x010) & 0x40) != 0) {
     verdict += verdict.empty() ? "" : ", ";
     verdict += (at(0x00C) & 2) != 0 ? "cfg wrong" : "cfg ok";
   }
-  if (!verdict.empty()) {
-    verdicts.push_back(verdict);
-  }
+  if (!verdict.empty()) verdicts.push_back(verdict);
 }
 
 void FakeChip::take_clearing() {
-  if ((at(0x011) & 0xC0) == 0xC0) {
-    at(0x00B) = static_cast<std::uint8_t>(at(0x00B) & ~0x04);
-  }
+  if ((at(0x011) & 0xC0) == 0xC0) at(0x00B) = static_cast<std::uint8_t>(at(0x00B) & ~0x04);
 }
 
 void FakeChip::take_inputs() {
-  if ((at(0x010) & 0x01) == 0) {
-    return;
-  }
+  if ((at(0x010) & 0x01) == 0) return;
   const bool right = crc_is_right(0x130, at(0x130) + 1U, 0x225);
   const bool history = (at(0x011) & 0x40) != 0;
   at(0x00B) = static_cast<std::uint8_t>((at(0x00B) & (history ? 0xFF : ~0x04)) | (right ? 0 : 4));
-  if (right) {
-    inputs = bytes(0x131, at(0x130));
-  }
+  if (right) inputs = bytes(0x131, at(0x130));
 }
 
 void FakeChip::take_diagnosis() {
-  if ((at(0x010) & 0x02) == 0) {
-    return;
-  }
+  if ((at(0x010) & 0x02) == 0) return;
   const bool right = crc_is_right(0x227, at(0x228) + 2U, 0x317);
   at(0x00B) = static_cast<std::uint8_t>((at(0x00B) & ~0x08) | (right ? 0 : 8));
-  if (right) {
-    diagnosis = bytes(0x227, at(0x228) + 2U);
-  }
+  if (right) diagnosis = bytes(0x227, at(0x228) + 2U);
 }
 
 void FakeChip::take_answer(int master_class) {
-  if ((at(0x011) & master_class) == 0) {
-    return;
-  }
+  if ((at(0x011) & master_class) == 0) return;
   ++answers_taken;
   const auto area = static_cast<std::uint16_t>(master_class == 1 ? 0x5D0 : 0x6D0);
   const bool data = at(area) == 0x5E || at(area) == 0x51;
@@ -184,9 +148,7 @@ void FakeChip::take_answer(int master_class) {
   const bool right = crc_is_right(area, count, static_cast<std::uint16_t>(area + 0xF4));
   const int bit = master_class == 1 ? 0x10 : 0x20;
   at(0x00B) = static_cast<std::uint8_t>((at(0x00B) & ~bit) | (right ? 0 : bit));
-  if (right) {
-    answers[master_class - 1] = bytes(area, count);
-  }
+  if (right) answers[master_class - 1] = bytes(area, count);
 }
 
 std::vector<std::uint8_t> FakeChip::bytes(std::uint16_t address, std::size_t count) const {
@@ -196,9 +158,7 @@ std::vector<std::uint8_t> FakeChip::bytes(std::uint16_t address, std::size_t cou
 
 void FakeChip::put_block(std::uint16_t address, const std::vector<std::uint8_t>& block, std::uint16_t crc,
                          std::uint8_t flag, std::uint16_t command) {
-  for (std::size_t i = 0; i < block.size(); ++i) {
-    memory.at(address + i) = block[i];
-  }
+  for (std::size_t i = 0; i < block.size(); ++i) memory.at(address + i) = block[i];
   const std::uint16_t value = crc_of(block);
   at(crc) = static_cast<std::uint8_t>(value >> 8);
   at(static_cast<std::uint16_t>(crc + 1)) = static_cast<std::uint8_t>(value & 0xFF);

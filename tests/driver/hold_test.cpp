@@ -27,9 +27,7 @@ TEST_F(Hold, WaitsWhileTheChipOwnsTheDpram) {
 TEST_F(Hold, FirstOneLeavesTheChipTheTimeToBeginAfterItsReset) {
   int pauses_before = -1;
   chip.on_r_req = [&](bool level) {
-    if (level && pauses_before < 0) {
-      pauses_before = chip.pauses;
-    }
+    if (level && pauses_before < 0) pauses_before = chip.pauses;
   };
   EXPECT_EQ(dsdpv1_wait_ready(&device), DSDPV1_OK);
   EXPECT_EQ(pauses_before, 1) << "H6";
@@ -67,9 +65,7 @@ TEST_F(Hold, CallFromAnInterruptDuringAHoldIsRefused) {
   initialise();
   dsdpv1_error nested = DSDPV1_OK;
   chip.on_r_req = [&](bool level) {
-    if (level) {
-      nested = dsdpv1_service(&device);
-    }
+    if (level) nested = dsdpv1_service(&device);
   };
   EXPECT_EQ(exchange({1}), DSDPV1_OK);
   EXPECT_EQ(nested, DSDPV1_ERR_NESTED);
@@ -80,9 +76,7 @@ TEST_F(Hold, ChipThatStaysAwayIsReported) {
   initialise();
   chip.present = false;
   int good = 0;
-  while (good < 100 && exchange({1}) == DSDPV1_OK) {
-    ++good;
-  }
+  while (good < 100 && exchange({1}) == DSDPV1_OK) ++good;
   EXPECT_EQ(good, device.tuning.silent_holds + 1);  // the first hold still finds the chip's 1
   EXPECT_EQ(exchange({1}), DSDPV1_ERR_CHIP_SILENT);
   chip.present = true;
@@ -93,12 +87,8 @@ TEST_F(Hold, ChipThatStaysAwayIsReported) {
 TEST_F(Hold, SilenceIsNotHiddenByTheCountWrappingRound) {
   initialise();
   chip.present = false;
-  for (int i = 0; i < 20; ++i) {
-    static_cast<void>(exchange({1}));
-  }
-  for (int i = 0; i < 600; ++i) {
-    EXPECT_EQ(exchange({1}), DSDPV1_ERR_CHIP_SILENT) << i;
-  }
+  for (int i = 0; i < 20; ++i) static_cast<void>(exchange({1}));
+  for (int i = 0; i < 600; ++i) EXPECT_EQ(exchange({1}), DSDPV1_ERR_CHIP_SILENT) << i;
 }
 
 TEST_F(Hold, FloatingBusLooksLikeASilentChip) {

@@ -233,9 +233,7 @@ TEST_F(Diagnosis, WrittenAgainAfterACrcError) {
   initialise();
   int errors = 2;
   chip.before_access = [&] {
-    if ((chip.at(0x010) & 2) != 0 && errors-- > 0) {
-      chip.at(0x318) = static_cast<std::uint8_t>(chip.at(0x318) ^ 1);
-    }
+    if ((chip.at(0x010) & 2) != 0 && errors-- > 0) chip.at(0x318) = static_cast<std::uint8_t>(chip.at(0x318) ^ 1);
   };
   EXPECT_EQ(dsdpv1_set_diagnosis(&device, DSDPV1_DIAG_STATIC, nullptr, 0), DSDPV1_OK);
   errors = 3;

@@ -97,9 +97,7 @@ TEST_F(Judge, BadVerdictArguments) {
 TEST_F(Judge, BlockReplacedWhileItIsJudgedIsJudgedAnew) {
   initialise(2, 0);
   while_judging = [&] {
-    if (prm_seen.size() == 1) {
-      chip.put_prm({2});
-    }
+    if (prm_seen.size() == 1) chip.put_prm({2});
   };
   chip.put_prm({1});
   EXPECT_EQ(dsdpv1_service(&device), DSDPV1_OK);

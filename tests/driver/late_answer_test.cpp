@@ -100,9 +100,7 @@ TEST_P(LateAnswer, RefusedForItsCrcIsWrittenAgainByThePoll) {
   open();
   const std::uint16_t ticket = defer(cls(), {0x5E, 2, 1, 1});
   chip.before_access = [&, once = true]() mutable {
-    if (chip.at(0x011) != 0 && std::exchange(once, false)) {
-      spoil_crc();
-    }
+    if (chip.at(0x011) != 0 && std::exchange(once, false)) spoil_crc();
   };
   EXPECT_EQ(answer(ticket, {7}), DSDPV1_OK);
   EXPECT_THAT(last_answer(cls()), IsEmpty());

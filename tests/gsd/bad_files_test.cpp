@@ -22,9 +22,8 @@ TEST_P(BadGsd, IsRefusedWithItsLine) {
   const bus::GsdResult result = parse(content(GetParam()), GetParam().filename().string());
   EXPECT_FALSE(result.gsd.has_value());
   std::vector<std::string> errors;
-  for (const auto& diagnostic : result.diagnostics) {
+  for (const auto& diagnostic : result.diagnostics)
     if (diagnostic.level == bus::GsdDiagnostic::Level::kError) errors.push_back(to_string(diagnostic));
-  }
   EXPECT_THAT(errors, testing::ElementsAre(expected_line(GetParam())));
 }
 

@@ -27,18 +27,16 @@ inline bus::GsdResult parse(const std::string& text, const std::string& name = "
 /// A sample by its name without ".gsd"; throws when it has errors.
 inline bus::Gsd sample(const std::string& name) {
   const bus::GsdResult result = parse(content(std::filesystem::path(GSD_SAMPLES) / (name + ".gsd")), name + ".gsd");
-  for (const auto& diagnostic : result.diagnostics) {
+  for (const auto& diagnostic : result.diagnostics)
     if (!result.gsd) throw std::runtime_error(to_string(diagnostic));
-  }
   return result.gsd.value();
 }
 
 /// All .gsd files of a folder, in the order of their names.
 inline std::vector<std::filesystem::path> files_of(const std::string& folder) {
   std::vector<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".gsd") paths.push_back(entry.path());
-  }
   std::sort(paths.begin(), paths.end());
   return paths;
 }

@@ -11,7 +11,8 @@ namespace dsdpv1::regs {
 namespace {
 
 const Cell& cell_at(Address address) {
-  return *std::find_if(std::begin(kMap), std::end(kMap), [address](const Cell& cell) { return address <= cell.last; });
+  return *std::find_if(
+      std::begin(kMap), std::end(kMap), [address](const Cell& cell) { return address <= cell.last; });
 }
 
 TEST(RegisterMap, EveryAddressIsNamedOnce) {

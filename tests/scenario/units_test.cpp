@@ -29,17 +29,15 @@ TEST(Time, MayBeNegative) {
 
 TEST(Time, WithoutUnitOrWithAWrongOneIsRefused) {
   for (const char* text : {"", "20", "us", "20 parsec", "1.us", ".5us", "1e3us", "1000000000s", "20us ",
-                           "99999999999999999999s", "1.0000000001s"}) {
+                           "99999999999999999999s", "1.0000000001s"})
     EXPECT_FALSE(tb::parse_time(text)) << text;
-  }
 }
 
 TEST(Time, TextReadsBackAsTheSameTime) {
   for (const bus::Tick ticks :
        {bus::Tick{0}, bus::Tick{12}, bus::Tick{3}, bus::Tick{250}, bus::Tick{-60}, bus::Tick{18'000'000},
-        bus::Tick{1'200'000'000}, bus::Tick{123'456'789}, bus::Tick{43'200'000'000'000}}) {
+        bus::Tick{1'200'000'000}, bus::Tick{123'456'789}, bus::Tick{43'200'000'000'000}})
     EXPECT_EQ(tb::parse_time(tb::time_text(ticks)), ticks) << tb::time_text(ticks);
-  }
   EXPECT_EQ(tb::time_text(18'000'000), "1.5ms");
 }
 

@@ -1,5 +1,5 @@
-// What a sweep keeps when it is killed, disturbed, or not alone. What it gives in the end is the same as that of a sweep that was
-// let alone.
+// What a sweep keeps when it is killed, disturbed, or not alone. What it gives in the end is the same as that of a
+// sweep that was let alone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -28,8 +28,9 @@ const char* const kScenario =
 const char* const kLong = "--param end=600us,3000s --jobs 1 --out out";
 const char* const kShort = "--param user_cpu.cycle=50us,60us,70us --param end=600us,20ms --out out";
 
-// start ARGUMENTS: a sweep of its own, which has finished its first point then. child [PID]: waits until a run is there that is
-// not PID. gone PID: waits until it lives no more, and fails when it does not die. finish: waits for the sweep's end.
+// start ARGUMENTS: a sweep of its own, which has finished its first point then. child [PID]: waits until a run is there
+// that is not PID. gone PID: waits until it lives no more, and fails when it does not die. finish: waits for the
+// sweep's end.
 const char* const kWords =
     "start() {\n"
     "  mkfifo bar; \"$SIM\" sweep s.yaml \"$@\" --progress 2>bar & sweep=$!\n"

@@ -29,9 +29,8 @@ using Changes = std::vector<Change>;
 
 inline Changes only(const Changes& all, dsdpv1::Pin pin) {
   Changes some;
-  for (const Change& change : all) {
+  for (const Change& change : all)
     if (change.pin == pin) some.push_back(change);
-  }
   return some;
 }
 
@@ -49,9 +48,8 @@ inline void collect_reports() {
 /// The texts of reports of a type that come from a module.
 inline std::vector<std::string> reports_of(const std::string& type, const std::string& module) {
   std::vector<std::string> texts;
-  for (const auto& [id, text] : reports()) {
+  for (const auto& [id, text] : reports())
     if (id == type && text.rfind(module + ":", 0) == 0) texts.push_back(text);
-  }
   return texts;
 }
 

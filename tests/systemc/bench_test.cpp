@@ -1,5 +1,5 @@
-// A user CPU with the C driver brings two chips up: one by its pins in a plain timeline, one through the TLM socket inside of SystemC.
-// Both must do the same at the same ticks. A third CPU is reset in the middle of an access.
+// A user CPU with the C driver brings two chips up: one by its pins in a plain timeline, one through the TLM socket
+// inside of SystemC. Both must do the same at the same ticks. A third CPU is reset in the middle of an access.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -36,7 +36,8 @@ struct World : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
     cpu.bind(chip.host_socket);
     chip.bus_out.bind(*this);
     chip.on_pin = [this](Tick at, Pin pin, dsdpv1::Level level) { changes.push_back({at, pin, level}); };
-    method_on(pbrts.value_changed_event(), [this] { rts_at.push_back(sc_core::sc_time_stamp()); });
+    method_on(
+        pbrts.value_changed_event(), [this] { rts_at.push_back(sc_core::sc_time_stamp()); });
     thread([this] { run(); });
   }
 
@@ -97,9 +98,8 @@ std::unique_ptr<World> world;
 /// The edges of PBRXD in [from, to), as offsets from `from`.
 std::vector<std::pair<Tick, int>> edges(Tick from, Tick to) {
   std::vector<std::pair<Tick, int>> found;
-  for (const Change& c : only(world->changes, Pin::kPbrxd)) {
+  for (const Change& c : only(world->changes, Pin::kPbrxd))
     if (c.at >= from && c.at < to) found.emplace_back(c.at - from, c.level);
-  }
   return found;
 }
 

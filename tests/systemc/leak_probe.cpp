@@ -1,5 +1,6 @@
-// What the sanitizer's search for leaks sees of a SystemC program: run by ctest with `held`, where it must find nothing, and with `lost`,
-// where it must find the block. `held` ends the program inside of sc_main, with the block on the main thread's stack.
+// What the sanitizer's search for leaks sees of a SystemC program: run by ctest with `held`, where it must find
+// nothing, and with `lost`, where it must find the block. `held` ends the program inside of sc_main, with the block on
+// the main thread's stack.
 #include <cstdlib>
 #include <cstring>
 #include <memory>

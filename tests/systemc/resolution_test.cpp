@@ -1,4 +1,5 @@
-// The time resolution is a property of the process: this one has fixed it at SystemC's default before the module is made.
+// The time resolution is a property of the process: this one has fixed it at SystemC's default before the module is
+// made.
 #include <gtest/gtest.h>
 
 #include "tests/systemc/bench.hpp"

@@ -1,5 +1,5 @@
-// One stimulus for the bare core, the pin module (CLK unbound, bound, another phase) and the TLM module, all in one simulation: every pin
-// must change at the same tick of the chip.
+// One stimulus for the bare core, the pin module (CLK unbound, bound, another phase) and the TLM module, all in one
+// simulation: every pin must change at the same tick of the chip.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_initiator_socket.h>
@@ -43,9 +43,8 @@ Tick add_accesses(Changes& stimulus) {
   Tick start = kFirstAccess;
   for (const Transaction& t : kTransactions) {
     const HostAccess access = access_of(t);
-    for (const auto& edge : access) {
+    for (const auto& edge : access)
       if (edge.pin != Pin::kDOut) stimulus.push_back({start + edge.at, edge.pin, edge.level});
-    }
     start += access.duration();
   }
   return start;
@@ -123,10 +122,12 @@ struct StimulatedPins : PinBench {
   }
 
   void record(sc_core::sc_signal<bool>& signal, Pin pin) {
-    method_on(signal.value_changed_event(), [this, &signal, pin] {
-      signals.push_back({dsdpv1::systemc::current_tick(), pin, static_cast<Level>(signal.read())});
-      off_time += sc_core::sc_time_stamp() != to_time(dsdpv1::systemc::current_tick());
-    });
+    method_on(
+        signal.value_changed_event(),
+        [this, &signal, pin] {
+          signals.push_back({dsdpv1::systemc::current_tick(), pin, static_cast<Level>(signal.read())});
+          off_time += sc_core::sc_time_stamp() != to_time(dsdpv1::systemc::current_tick());
+        });
   }
 
   Changes signals;
@@ -247,9 +248,8 @@ TEST(Views, PinsAndTransactionsMoveTheSameInputs) {
 TEST(Views, APhaseShiftsTheChipInSimulationTimeOnly) {
   EXPECT_EQ(sorted(world->shifted.changes), sorted(world->unbound.changes));
   ASSERT_EQ(world->shifted.signals.size(), world->unbound.signals.size());
-  for (std::size_t i = 0; i < world->shifted.signals.size(); ++i) {
+  for (std::size_t i = 0; i < world->shifted.signals.size(); ++i)
     EXPECT_EQ(world->shifted.signals[i].at, world->unbound.signals[i].at + kPhase);
-  }
 }
 
 TEST(Views, SignalsChangeAtTheExactTimes) {
@@ -267,9 +267,8 @@ TEST(Views, TransactionsReadWhatThePinsShow) {
 
 TEST(Views, TheDataBusIsReleasedThenUnknownThenDriven) {
   std::vector<std::string> seen;
-  for (const auto& [at, level] : world->unbound.data_bus) {
+  for (const auto& [at, level] : world->unbound.data_bus)
     if (at >= to_time(kFirstAccess)) seen.push_back(level);
-  }
   ASSERT_GE(seen.size(), 5U);
   seen.resize(5);
   // The user's write, then the chip's answer to the read of the same byte.

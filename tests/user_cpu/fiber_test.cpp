@@ -42,11 +42,10 @@ TEST(Fiber, SuspendsInTheDepthOfCalls) {
     std::function<void(int)> descend = [&](int levels) {
       volatile char stack[512] = {};
       stack[0] = 1;
-      if (levels == 0) {
+      if (levels == 0)
         fiber.suspend();
-      } else {
+      else
         descend(levels - 1);
-      }
       depth += stack[0];
     };
     descend(50);

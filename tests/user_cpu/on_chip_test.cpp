@@ -25,9 +25,7 @@ class OnChip : public testing::TestWithParam<dsdpv1::Engine>, private bus::Agent
   OnChip() : chip(config()), host(chip) {
     chip.watch({[](void* self, Tick at, Pin, dsdpv1::Level level) {
                   auto& test = *static_cast<OnChip*>(self);
-                  if (test.cpu) {
-                    test.cpu->intr0_changed(at, level == 1);
-                  }
+                  if (test.cpu) test.cpu->intr0_changed(at, level == 1);
                 },
                 this},
                mask(Pin::kIntr0));

@@ -37,9 +37,7 @@ class PinHostBus : public testing::Test {
 
   void run(bool write, Tick at = 1000) {
     host.begin(at, {write, 0x123, 0xA5}, timing);
-    while (host.next_edge() != bus::kNever) {
-      host.run_edges(host.next_edge());
-    }
+    while (host.next_edge() != bus::kNever) host.run_edges(host.next_edge());
   }
 
   dsdpv1::Chip chip;

@@ -35,11 +35,10 @@ class FakeChipBus : public user_cpu::HostBus {
   Tick next_edge() const override { return edge_; }
   void run_edges(Tick) override {
     edge_ = bus::kNever;
-    if (access_.write) {
+    if (access_.write)
       port_.write(port_.ctx, access_.address, access_.value);
-    } else {
+    else
       value_ = port_.read(port_.ctx, access_.address);
-    }
   }
   Tick end() const override { return end_; }
   std::uint8_t read_value() const override { return value_; }

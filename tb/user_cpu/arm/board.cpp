@@ -120,7 +120,8 @@ void Board::run_firmware(user_cpu::Cpu& cpu) {
   }
 }
 
-/// Also a fault that the firmware has a handler for ends the run: that handler is for products, here somebody wants to see it.
+/// Also a fault that the firmware has a handler for ends the run: that handler is for products, here somebody wants to
+/// see it.
 void Board::note_fault(const Fault& fault) {
   if (fault.outcome != FaultOutcome::kHandled) return;  // comes as FaultError
   fault_ = fault;
@@ -169,7 +170,8 @@ void Board::come_up() {
   take_intr0_edges();
 }
 
-/// The processor may stay ahead of the others as long as nobody has anything to do; the bench hears of news at the same time in any case.
+/// The processor may stay ahead of the others as long as nobody has anything to do; the bench hears of news at the same
+/// time in any case.
 void Board::keep_up() {
   const bool news = mailbox_ && mailbox_->has_news();
   if (news || !quiet_until || now() >= quiet_until()) come_up();
@@ -208,9 +210,8 @@ bool Board::take_intr0_edges() {
 void Board::update_interrupts() {
   const unsigned now = exti_.requests(), changed = now ^ requests_;
   requests_ = now;
-  for (std::size_t i = 0; changed >> i != 0; ++i) {
+  for (std::size_t i = 0; changed >> i != 0; ++i)
     if ((changed >> i & 1U) != 0) core_.set_interrupt_level(kExtiIrq.at(i), (now >> i & 1U) != 0);
-  }
 }
 
 void Board::update_pins() {

@@ -10,8 +10,9 @@
 //   FSMC bank 1, NE1      0x60000000..0x63FFFFFF: A10..A0, D7..D0, RD, WR, CSR; the 2 KB repeat
 //   USART1                a terminal
 //
-// HCLK follows the firmware's RCC, 8 MHz from the HSI at first; an instruction takes Timing::millicycles_per_instruction, an access to a peripheral two
-// cycles more (p: the bridge to APB), an access to the chip what the FSMC's registers say.
+// HCLK follows the firmware's RCC, 8 MHz from the HSI at first; an instruction takes
+// Timing::millicycles_per_instruction, an access to a peripheral two cycles more (p: the bridge to APB), an access to
+// the chip what the FSMC's registers say.
 #include <array>
 #include <bitset>
 #include <deque>

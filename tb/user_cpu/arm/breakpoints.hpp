@@ -68,9 +68,8 @@ class Watchpoints {
 
   /// The first that an access meets.
   std::optional<Watchpoint> met_by(std::uint32_t address, std::uint32_t size, bool write) const {
-    for (const Watchpoint& point : points_) {
+    for (const Watchpoint& point : points_)
       if (point.meets(address, size, write)) return point;
-    }
     return std::nullopt;
   }
 

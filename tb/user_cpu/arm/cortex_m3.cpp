@@ -24,7 +24,8 @@ constexpr Region kOutside[] = {
     {0xE0000000, 0x00100000},  // private peripheral bus
 };
 
-// Milliseconds of real time are what a debugger's poll needs; attend() comes every quarter of a microsecond of simulated time.
+// Milliseconds of real time are what a debugger's poll needs; attend() comes every quarter of a microsecond of
+// simulated time.
 constexpr unsigned kAttendsPerPoll = 4096;
 constexpr std::uint64_t kCyclesPerPoll = 720'000;  // while asleep: 10 ms at 72 MHz
 
@@ -46,26 +47,18 @@ void CortexM3::map_memory() {
   engine_.map(map_.flash_base, map_.flash_size, flash_, false);
   engine_.map(0, map_.flash_size, flash_, false);
   engine_.map(map_.ram_base, map_.ram_size, ram_, true);
-  for (const Region& region : kOutside) {
-    engine_.map_events(region.start, region.size);
-  }
+  for (const Region& region : kOutside) engine_.map_events(region.start, region.size);
 }
 
 const std::uint8_t* CortexM3::host(std::uint32_t address) const {
-  if (address - map_.flash_base < map_.flash_size) {
-    return flash_ + (address - map_.flash_base);
-  }
-  if (address - map_.ram_base < map_.ram_size) {
-    return ram_ + (address - map_.ram_base);
-  }
+  if (address - map_.flash_base < map_.flash_size) return flash_ + (address - map_.flash_base);
+  if (address - map_.ram_base < map_.ram_size) return ram_ + (address - map_.ram_base);
   return address < map_.flash_size ? flash_ + address : nullptr;
 }
 
 std::uint16_t CortexM3::opcode_at(std::uint32_t address) const {
   std::uint16_t opcode = 0;
-  if (const std::uint8_t* code = host(address)) {
-    std::memcpy(&opcode, code, sizeof opcode);
-  }
+  if (const std::uint8_t* code = host(address)) std::memcpy(&opcode, code, sizeof opcode);
   return opcode;
 }
 
@@ -78,14 +71,11 @@ bool CortexM3::in_ram(std::uint32_t address, std::uint32_t count) const {
 }
 
 void CortexM3::load(std::uint32_t address, const std::uint8_t* bytes, std::size_t count) {
-  if (count == 0) {
-    return;
-  }
+  if (count == 0) return;
   const std::uint8_t* first = host(address);
   const auto last = static_cast<std::uint32_t>(address + count - 1);
-  if (first == nullptr || last < address || host(last) != first + (count - 1)) {
+  if (first == nullptr || last < address || host(last) != first + (count - 1))
     throw std::out_of_range("CortexM3::load: outside of flash and RAM");
-  }
   std::memcpy(memory_.data() + (first - memory_.data()), bytes, count);
   forget_code();
 }
@@ -99,9 +89,7 @@ void CortexM3::forget_code() {
 void CortexM3::run() {
   stopped_ = false;
   reset_processor();
-  while (!stopped_) {
-    advance_run();
-  }
+  while (!stopped_) advance_run();
 }
 
 void CortexM3::stop() {
@@ -117,9 +105,7 @@ void CortexM3::reset_processor() {
   event_ = reset_requested_ = moved_ = announced_ = false;
   due_ = 0;
   keep_up_at_ = now_;
-  for (const Register mask : {Register::kPrimask, Register::kBasepri, Register::kFaultmask}) {
-    engine_.write(mask, 0);
-  }
+  for (const Register mask : {Register::kPrimask, Register::kBasepri, Register::kFaultmask}) engine_.write(mask, 0);
   enter_mode(kThumb, 0, word_at(scb_.vector_table()) & ~3U, 0);
   engine_.write(Register::kLr, 0xFFFFFFFF);  // B1.5.5
   continue_at(word_at(scb_.vector_table() + 4));
@@ -130,12 +116,9 @@ void CortexM3::advance_run() {
   hint_ = Sleep::kNone;
   check_at_ = 0;
   engine_.report_data(report_data_);
-  if (std::exchange(stale_code_, false)) {
-    engine_.forget_translations();
-  }
-  if (it_.open()) {  // Unicorn keeps ITSTATE of its own, not always that of the next instruction
+  if (std::exchange(stale_code_, false)) engine_.forget_translations();
+  if (it_.open())  // Unicorn keeps ITSTATE of its own, not always that of the next instruction
     engine_.write(Register::kXpsr, read_register(Register::kXpsr));
-  }
   translated_ = true;
   const Trap trap = engine_.run();
   switch (leaving_) {
@@ -163,11 +146,10 @@ void CortexM3::handle_trap(Trap trap) {
     case Trap::kNoCoprocessor: raise(FaultKind::kNoCoprocessor, pc, 0); break;
     case Trap::kInvalidState: raise(FaultKind::kInvalidState, pc, 0); break;
     case Trap::kUndefined:
-      if (hint_ == Sleep::kWfe) {
+      if (hint_ == Sleep::kWfe)
         doze();
-      } else {
+      else
         raise(FaultKind::kUndefinedInstruction, pc, 0);
-      }
       break;
     case Trap::kBadAccess:
       raise(bad_fetch_ ? FaultKind::kFetch : FaultKind::kData, bad_fetch_ ? bad_address_ : at_, bad_address_);
@@ -205,12 +187,11 @@ void CortexM3::leave(Leave why) {
   engine_.stop();
 }
 
-// Runs what may throw; the exception waits until Unicorn's frames are left. Until then the processor does nothing any more.
+// Runs what may throw; the exception waits until Unicorn's frames are left. Until then the processor does nothing any
+// more.
 template <typename Action>
 void CortexM3::guarded(Action action) noexcept {
-  if (leaving_ != Leave::kNo) {
-    return;
-  }
+  if (leaving_ != Leave::kNo) return;
   try {
     action();
   } catch (...) {
@@ -220,9 +201,7 @@ void CortexM3::guarded(Action action) noexcept {
 }
 
 void CortexM3::on_instruction(std::uint32_t address) noexcept {
-  if (leaving_ != Leave::kNo) {
-    return;
-  }
+  if (leaving_ != Leave::kNo) return;
   now_ += due_;
   due_ = timing_.millicycles_per_instruction;
   ++instructions_;
@@ -231,25 +210,20 @@ void CortexM3::on_instruction(std::uint32_t address) noexcept {
   inside_it_ = it_.open() && follow_it_block(address, opcode);
   if (now_ >= check_at_) {
     guarded([this] { attend(); });
-    if (leaving_ != Leave::kNo) {
-      return;
-    }
+    if (leaving_ != Leave::kNo) return;
   }
-  if ((opcode & 0xF000U) == 0xB000 || (opcode & 0xFFD0U) == 0xF380) {
-    note_hint(address, opcode);
-  }
+  if ((opcode & 0xF000U) == 0xB000 || (opcode & 0xFFD0U) == 0xF380) note_hint(address, opcode);
 }
 
-// True when the instruction at `address` belongs to the open block. Those before it, whose condition failed, are counted here.
+// True when the instruction at `address` belongs to the open block. Those before it, whose condition failed, are
+// counted here.
 bool CortexM3::follow_it_block(std::uint32_t address, std::uint16_t opcode) {
   while (it_.open() && it_.next() != address) {
     it_.pass(opcode_at(it_.next()));
     ++instructions_;
     now_ += timing_.millicycles_per_instruction;
   }
-  if (!it_.open()) {
-    return false;
-  }
+  if (!it_.open()) return false;
   it_.pass(opcode);
   return true;
 }
@@ -260,15 +234,14 @@ void CortexM3::note_hint(std::uint32_t address, std::uint16_t opcode) {
   const std::uint16_t hint =
       wide_hint ? static_cast<std::uint16_t>(0xBF00 | (opcode_at(address + 2) & 0xFU) << 4) : opcode;
   if ((hint & 0xFF00U) == 0xBF00) {
-    if ((hint & 0xFU) != 0) {
+    if ((hint & 0xFU) != 0)
       it_.begin(address + 2, static_cast<std::uint8_t>(hint), [this](std::uint32_t at) { return opcode_at(at); });
-    } else if (hint == 0xBF20) {
+    else if (hint == 0xBF20)
       hint_ = Sleep::kWfe;
-    } else if (hint == 0xBF30) {
+    else if (hint == 0xBF30)
       hint_ = Sleep::kWfi;
-    } else if (hint == 0xBF40) {
+    else if (hint == 0xBF40)
       event_ = true;  // SEV
-    }
   } else if ((opcode & 0xFFE8U) == 0xB660 || (opcode & 0xFFF0U) == 0xF380) {
     check_at_ = 0;  // CPS, MSR: a pending exception may be unmasked from the next instruction on
   }
@@ -276,28 +249,22 @@ void CortexM3::note_hint(std::uint32_t address, std::uint16_t opcode) {
 
 void CortexM3::attend() {
   catch_up();
-  if (debugger_ != nullptr && !stopped_ && !std::exchange(announced_, false)) {
-    attend_debugger();
-  }
-  if (!inside_it_ && (stopped_ || reset_requested_ || moved_ || stale_code_ || preempting() != kNoException)) {
+  if (debugger_ != nullptr && !stopped_ && !std::exchange(announced_, false)) attend_debugger();
+  if (!inside_it_ && (stopped_ || reset_requested_ || moved_ || stale_code_ || preempting() != kNoException))
     leave(Leave::kBetween);
-  } else {
+  else
     schedule();
-  }
 }
 
 void CortexM3::attend_debugger() {
-  if (debugger_->wanted()) {
+  if (debugger_->wanted())
     debugger_->before_instruction(at_);
-  } else if (++polls_ % kAttendsPerPoll == 0) {
+  else if (++polls_ % kAttendsPerPoll == 0)
     debugger_->poll();
-  }
 }
 
 void CortexM3::catch_up_systick() {
-  if (systick_.catch_up(cycles())) {
-    nvic_.set_pending(kSysTick);
-  }
+  if (systick_.catch_up(cycles())) nvic_.set_pending(kSysTick);
 }
 
 void CortexM3::catch_up() {
@@ -311,12 +278,11 @@ void CortexM3::catch_up() {
 void CortexM3::schedule() {
   const std::uint64_t tick = systick_.next();
   check_at_ = std::min(keep_up_at_, tick == kNever ? kNever : tick * kMillis);
-  if (inside_it_ || (debugger_ != nullptr && debugger_->wanted())) {
-    check_at_ = 0;
-  }
+  if (inside_it_ || (debugger_ != nullptr && debugger_->wanted())) check_at_ = 0;
 }
 
-// Entry, return and tail-chain. The world comes up to their end: an exception that arrives meanwhile may go first (B1.5.4).
+// Entry, return and tail-chain. The world comes up to their end: an exception that arrives meanwhile may go first
+// (B1.5.4).
 void CortexM3::spend(std::uint32_t cycles) {
   now_ += cycles * kMillis;
   keep_up_at_ = now_;
@@ -336,9 +302,7 @@ void CortexM3::doze() {
   };
   while (!woken()) {
     std::uint64_t until = systick_.next();
-    if (debugger_ != nullptr) {
-      until = std::min(until, cycles() + kCyclesPerPoll);
-    }
+    if (debugger_ != nullptr) until = std::min(until, cycles() + kCyclesPerPoll);
     system_.sleep(until);
     catch_up();
     if (debugger_ != nullptr) {
@@ -350,18 +314,14 @@ void CortexM3::doze() {
 }
 
 void CortexM3::set_interrupt(unsigned irq) {
-  if (irq >= Nvic::kInterrupts) {
-    throw std::out_of_range("CortexM3::set_interrupt: interrupts are 0 to 67");
-  }
+  if (irq >= Nvic::kInterrupts) throw std::out_of_range("CortexM3::set_interrupt: interrupts are 0 to 67");
   nvic_.set_pending(kFirstInterrupt + irq);
   event_ = event_ || scb_.event_on_pend();
   check_at_ = 0;
 }
 
 void CortexM3::set_interrupt_level(unsigned irq, bool high) {
-  if (irq >= Nvic::kInterrupts) {
-    throw std::out_of_range("CortexM3::set_interrupt_level: interrupts are 0 to 67");
-  }
+  if (irq >= Nvic::kInterrupts) throw std::out_of_range("CortexM3::set_interrupt_level: interrupts are 0 to 67");
   nvic_.set_level(kFirstInterrupt + irq, high);
   event_ = event_ || (high && scb_.event_on_pend());
   check_at_ = 0;

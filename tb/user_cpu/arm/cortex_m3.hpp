@@ -1,8 +1,9 @@
 #pragma once
-// A Cortex-M3 (ARMv7-M) in simulated time: Unicorn executes the instructions; exceptions, the system control space and the count of
-// cycles stand here. Every instruction is taken to last the same (p), accesses to the System last what the System says.
-// Not modelled: the MPU, unaligned-access and division-by-zero traps (CCR), ICI (LDM and STM are not interrupted); an unaligned access to the
-// System comes as Unicorn cuts it up: loads as two aligned words, stores as bytes.
+// A Cortex-M3 (ARMv7-M) in simulated time: Unicorn executes the instructions; exceptions, the system control space and
+// the count of cycles stand here. Every instruction is taken to last the same (p), accesses to the System last what the
+// System says. Not modelled: the MPU, unaligned-access and division-by-zero traps (CCR), ICI (LDM and STM are not
+// interrupted); an unaligned access to the System comes as Unicorn cuts it up: loads as two aligned words, stores as
+// bytes.
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -21,24 +22,27 @@
 
 namespace arm {
 
-/// What the processor finds outside of itself: everything that is neither flash, RAM nor its own registers: 0x1FFFF000 to 0x1FFFFFFF,
-/// 0x40000000 to 0xDFFFFFFF, and of 0xE0000000 to 0xE00FFFFF what the core does not have (DBGMCU, ITM). The functions may throw:
-/// the exception leaves CortexM3::run().
+/// What the processor finds outside of itself: everything that is neither flash, RAM nor its own registers: 0x1FFFF000
+/// to 0x1FFFFFFF, 0x40000000 to 0xDFFFFFFF, and of 0xE0000000 to 0xE00FFFFF what the core does not have (DBGMCU, ITM).
+/// The functions may throw: the exception leaves CortexM3::run().
 class System {
  public:
   virtual ~System() = default;
-  /// A load or store of `bytes` (1, 2 or 4) that begins at cycles(). The system spends what it takes with CortexM3::advance_to.
+  /// A load or store of `bytes` (1, 2 or 4) that begins at cycles(). The system spends what it takes with
+  /// CortexM3::advance_to.
   virtual std::uint32_t load(std::uint32_t address, unsigned bytes) = 0;
   virtual void store(std::uint32_t address, unsigned bytes, std::uint32_t value) = 0;
-  /// Called between two instructions at least every Timing::quantum cycles: the rest of the world comes up to cycles(); may call
-  /// set_interrupt.
+  /// Called between two instructions at least every Timing::quantum cycles: the rest of the world comes up to cycles();
+  /// may call set_interrupt.
   virtual void keep_up() = 0;
-  /// WFI or WFE with nothing pending: lets time pass until set_interrupt was called or cycle `until` (kNever: none) has come; the
-  /// system calls advance_to.
+  /// WFI or WFE with nothing pending: lets time pass until set_interrupt was called or cycle `until` (kNever: none) has
+  /// come; the system calls advance_to.
   virtual void sleep(std::uint64_t until) = 0;
-  /// AIRCR.SYSRESETREQ or a debugger's reset: the peripherals fall back to their state after reset; the processor starts again at its vector table.
+  /// AIRCR.SYSRESETREQ or a debugger's reset: the peripherals fall back to their state after reset; the processor
+  /// starts again at its vector table.
   virtual void reset() {}
-  /// The aligned word at `address` as a debugger sees it: no time passes, no pin moves, nothing is cleared. nullopt: nothing is there.
+  /// The aligned word at `address` as a debugger sees it: no time passes, no pin moves, nothing is cleared. nullopt:
+  /// nothing is there.
   virtual std::optional<std::uint32_t> peek(std::uint32_t /*address*/) const { return std::nullopt; }
   /// Where peek() finds something.
   virtual std::vector<MemoryRegion> regions() const { return {}; }
@@ -75,7 +79,8 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   /// Host memory of the RAM, for the bench's mailbox.
   std::uint8_t* ram() { return ram_; }
 
-  /// From reset (SP and PC from the vector table) until stop(). Throws FaultError when a fault ends the run, and what System throws.
+  /// From reset (SP and PC from the vector table) until stop(). Throws FaultError when a fault ends the run, and what
+  /// System throws.
   void run();
   /// The run ends before the next instruction. Callable from System's functions and on_fault.
   void stop();

@@ -1,6 +1,7 @@
 #pragma once
-// Where processor and debugger meet: the processor implements DebugTarget and calls Debugger. One thread; calls of either
-// kind, data_access() apart, are made between two instructions, when the registers are those of the one that comes next.
+// Where processor and debugger meet: the processor implements DebugTarget and calls Debugger. One thread; calls of
+// either kind, data_access() apart, are made between two instructions, when the registers are those of the one that
+// comes next.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -34,8 +35,8 @@ struct MemoryRegion {
   bool writable;       ///< false: flash, gdb sets hardware breakpoints in it and refuses `load`
 };
 
-/// The processor as a debugger wants it. No call takes simulated time and none has an effect on the run that is not asked for:
-/// reading a peripheral clears no flag and moves no pin. What cannot be read so counts as not readable.
+/// The processor as a debugger wants it. No call takes simulated time and none has an effect on the run that is not
+/// asked for: reading a peripheral clears no flag and moves no pin. What cannot be read so counts as not readable.
 class DebugTarget {
  public:
   virtual ~DebugTarget() = default;
@@ -47,15 +48,16 @@ class DebugTarget {
   virtual std::vector<MemoryRegion> memory_map() const = 0;
   /// Copies `count` bytes from `address`; returns how many could be read, from the first on.
   virtual std::size_t read_memory(std::uint32_t address, std::uint8_t* to, std::size_t count) const = 0;
-  /// False, and nothing written, when one of the bytes cannot be: flash is not writable, the run's firmware is that of the
-  /// scenario.
+  /// False, and nothing written, when one of the bytes cannot be: flash is not writable, the run's firmware is that of
+  /// the scenario.
   virtual bool write_memory(std::uint32_t address, const std::uint8_t* from, std::size_t count) = 0;
 
-  /// From now on data accesses are reported by Debugger::data_access(), or no longer. False: it cannot, there are no watchpoints.
+  /// From now on data accesses are reported by Debugger::data_access(), or no longer. False: it cannot, there are no
+  /// watchpoints.
   virtual bool report_data_accesses(bool on) = 0;
 
-  /// As a system reset of the processor and its peripherals (AIRCR.SYSRESETREQ) before the next instruction, which is then the
-  /// reset handler's first; the chip is not touched. False: it cannot.
+  /// As a system reset of the processor and its peripherals (AIRCR.SYSRESETREQ) before the next instruction, which is
+  /// then the reset handler's first; the chip is not touched. False: it cannot.
   virtual bool reset() = 0;
   /// Simulated time.
   virtual bus::Tick now() const = 0;
@@ -68,23 +70,24 @@ class Debugger {
  public:
   virtual ~Debugger() = default;
 
-  /// Whether before_instruction() must be called for every instruction. Changes only in calls of this class: look after each of
-  /// poll() and before_instruction(). While false, poll() now and then is enough and the processor may run as fast as it can;
-  /// while true, before_instruction() does what poll() does.
+  /// Whether before_instruction() must be called for every instruction. Changes only in calls of this class: look after
+  /// each of poll() and before_instruction(). While false, poll() now and then is enough and the processor may run as
+  /// fast as it can; while true, before_instruction() does what poll() does.
   virtual bool wanted() const = 0;
-  /// Before each instruction, those of handlers too; returns when it may be executed. Meanwhile registers (kPc!) and memory
-  /// may have been changed and end_run() or reset() called; with another kPc it may be called again before the instruction
-  /// there, or not. Costs a few nanoseconds when nothing stops the run.
+  /// Before each instruction, those of handlers too; returns when it may be executed. Meanwhile registers (kPc!) and
+  /// memory may have been changed and end_run() or reset() called; with another kPc it may be called again before the
+  /// instruction there, or not. Costs a few nanoseconds when nothing stops the run.
   virtual void before_instruction(std::uint32_t pc) = 0;
-  /// An access of the instruction that is being executed, after report_data_accesses(true). Never halts: the run stops before
-  /// the next instruction. `size` is 1, 2 or 4 bytes. Instruction fetches and the debugger's own accesses are not meant.
+  /// An access of the instruction that is being executed, after report_data_accesses(true). Never halts: the run stops
+  /// before the next instruction. `size` is 1, 2 or 4 bytes. Instruction fetches and the debugger's own accesses are
+  /// not meant.
   virtual void data_access(std::uint32_t address, std::uint32_t size, bool write) = 0;
-  /// Looks for gdb: whether it connects, wants a halt (Ctrl-C), has gone. To be called now and then between instructions,
-  /// about every 10 ms of real time, also while the processor sleeps (WFI); a system call. Returns at once unless gdb wants the
-  /// processor halted; then like before_instruction().
+  /// Looks for gdb: whether it connects, wants a halt (Ctrl-C), has gone. To be called now and then between
+  /// instructions, about every 10 ms of real time, also while the processor sleeps (WFI); a system call. Returns at
+  /// once unless gdb wants the processor halted; then like before_instruction().
   virtual void poll() = 0;
-  /// The processor cannot go on: a fault that nobody handles, in words. Halts so that the user can look, when gdb is attached;
-  /// the run ends when it returns.
+  /// The processor cannot go on: a fault that nobody handles, in words. Halts so that the user can look, when gdb is
+  /// attached; the run ends when it returns.
   virtual void fault(const std::string& what) = 0;
 };
 

@@ -14,13 +14,9 @@ std::uint32_t it_bits(std::uint8_t state) { return (state & 3U) << 25 | (state &
 }  // namespace
 
 std::uint32_t CortexM3::read_register(Register which) const {
-  if (which == Register::kPc) {
-    return at_;
-  }
+  if (which == Register::kPc) return at_;
   const std::uint32_t value = engine_.read(which);
-  if (which != Register::kXpsr) {
-    return value;
-  }
+  if (which != Register::kXpsr) return value;
   return (value & ~kItBits) | it_bits(it_.state_at(at_, [this](std::uint32_t at) { return opcode_at(at); }));
 }
 
@@ -36,9 +32,7 @@ void CortexM3::write_register(Register which, std::uint32_t value) {
 
 Registers CortexM3::registers() const {
   Registers all{};
-  for (std::size_t n = 0; n < all.r.size(); ++n) {
-    all.r[n] = engine_.read(static_cast<Register>(n));
-  }
+  for (std::size_t n = 0; n < all.r.size(); ++n) all.r[n] = engine_.read(static_cast<Register>(n));
   all.sp = engine_.read(Register::kSp);
   all.lr = engine_.read(Register::kLr);
   all.pc = at_;
@@ -64,21 +58,18 @@ std::size_t CortexM3::read_memory(std::uint32_t address, std::uint8_t* to, std::
   std::size_t done = 0;
   for (; done < count; ++done) {
     const std::uint32_t at = address + static_cast<std::uint32_t>(done);
-    if (const std::uint8_t* byte = host(at)) {
+    if (const std::uint8_t* byte = host(at))
       to[done] = *byte;
-    } else if (const std::optional<std::uint32_t> word = system_.peek(at & ~3U)) {
+    else if (const std::optional<std::uint32_t> word = system_.peek(at & ~3U))
       to[done] = static_cast<std::uint8_t>(*word >> at % 4 * 8);
-    } else {
+    else
       break;
-    }
   }
   return done;
 }
 
 bool CortexM3::write_memory(std::uint32_t address, const std::uint8_t* from, std::size_t count) {
-  if (count > map_.ram_size || !in_ram(address, static_cast<std::uint32_t>(count))) {
-    return false;
-  }
+  if (count > map_.ram_size || !in_ram(address, static_cast<std::uint32_t>(count))) return false;
   std::memcpy(ram_ + (address - map_.ram_base), from, count);
   forget_code();
   return true;

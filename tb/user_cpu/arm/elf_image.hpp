@@ -1,6 +1,6 @@
 #pragma once
-// The firmware: what of an ELF file (System V gABI chapters 4 and 5, ELF for the ARM Architecture) goes into the board's
-// memories.
+// The firmware: what of an ELF file (System V gABI chapters 4 and 5, ELF for the ARM Architecture) goes into the
+// board's memories.
 #include <cstdint>
 #include <map>
 #include <string>
@@ -24,7 +24,8 @@ struct FirmwareMemory {
   MemoryRange ram{0x2000'0000, 64 * 1024};
 };
 
-/// Bytes and where they are loaded to: the physical address (LMA), from which start-up code copies initialised data into RAM.
+/// Bytes and where they are loaded to: the physical address (LMA), from which start-up code copies initialised data
+/// into RAM.
 struct Segment {
   std::uint32_t address;
   std::vector<std::uint8_t> bytes;  ///< never empty
@@ -38,17 +39,16 @@ struct Symbol {
 
 struct ElfImage {
   std::vector<Segment> segments;
-  std::uint32_t entry;          ///< with Thumb bit
-  std::uint32_t initial_sp;     ///< first word of the vector table
-  std::uint32_t reset_handler;  ///< second word of the vector table, with Thumb bit
-  std::map<std::string, Symbol>
-      symbols;  ///< functions, objects and labels; empty when the file was stripped. Global ones before local ones
-                ///< of the same name
+  std::uint32_t entry;                    ///< with Thumb bit
+  std::uint32_t initial_sp;               ///< first word of the vector table
+  std::uint32_t reset_handler;            ///< second word of the vector table, with Thumb bit
+  std::map<std::string, Symbol> symbols;  ///< functions, objects and labels; empty when the file was stripped. Global
+                                          ///< ones before local ones of the same name
 };
 
-/// An executable for ARM, 32 bit, little endian, whose segments lie in the memories, with a vector table whose stack pointer
-/// lies in RAM or at its end and whose reset handler lies in flash. Throws tb::InputError, `path: what is wrong, what is
-/// allowed`, for every other file.
+/// An executable for ARM, 32 bit, little endian, whose segments lie in the memories, with a vector table whose stack
+/// pointer lies in RAM or at its end and whose reset handler lies in flash. Throws tb::InputError, `path: what is
+/// wrong, what is allowed`, for every other file.
 ElfImage load_elf(const std::string& path, const FirmwareMemory& memory = {});
 
 /// The same from the bytes of a file; `path` is for messages only.

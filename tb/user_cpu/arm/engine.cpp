@@ -89,13 +89,12 @@ struct Engine::Hooks {
   }
 };
 
-// Unicorn shows special registers to privileged code only and takes its user for the code at work: for a moment this is a handler.
+// Unicorn shows special registers to privileged code only and takes its user for the code at work: for a moment this is
+// a handler.
 class Engine::Privileged {
  public:
   Privileged(uc_engine* uc, Register which) : uc_(uc) {
-    if (which < Register::kMsp || which == Register::kControl) {
-      return;
-    }
+    if (which < Register::kMsp || which == Register::kControl) return;
     std::uint32_t control = 0;
     uc_reg_read(uc_, UC_ARM_REG_CONTROL, &control);
     uc_reg_read(uc_, UC_ARM_REG_XPSR, &xpsr_);
@@ -106,9 +105,7 @@ class Engine::Privileged {
     }
   }
   ~Privileged() {
-    if (lifted_) {
-      uc_reg_write(uc_, UC_ARM_REG_XPSR, &xpsr_);
-    }
+    if (lifted_) uc_reg_write(uc_, UC_ARM_REG_XPSR, &xpsr_);
   }
   Privileged(const Privileged&) = delete;
   Privileged& operator=(const Privileged&) = delete;
@@ -130,9 +127,8 @@ Engine::Engine(EngineEvents& events) : events_(events) {
 Engine::~Engine() { uc_close(uc_); }
 
 void Engine::check(int error, const char* what) const {
-  if (error != UC_ERR_OK) {
+  if (error != UC_ERR_OK)
     throw std::runtime_error(std::string("Unicorn: ") + what + ": " + uc_strerror(static_cast<uc_err>(error)));
-  }
 }
 
 void Engine::hook(int type, void* function) {
@@ -161,9 +157,7 @@ void Engine::forget_translations() {
 }
 
 void Engine::report_data(bool on) {
-  if (on == reports_data_) {
-    return;
-  }
+  if (on == reports_data_) return;
   if (on) {
     check(uc_hook_add(uc_, &data_hook_, UC_HOOK_MEM_READ | UC_HOOK_MEM_WRITE, reinterpret_cast<void*>(&Hooks::data),
                       this, 1, 0),
@@ -189,12 +183,9 @@ void Engine::write(Register which, std::uint32_t value) {
 Trap Engine::run() {
   trap_ = Trap::kNone;
   const uc_err error = uc_emu_start(uc_, read(Register::kPc) | 1U, kNoEnd, 0, 0);
-  if (error == UC_ERR_INSN_INVALID) {
+  if (error == UC_ERR_INSN_INVALID)
     return (read(Register::kXpsr) & kThumbState) != 0 ? Trap::kUndefined : Trap::kInvalidState;
-  }
-  if (trap_ == Trap::kNone) {
-    check(error, "uc_emu_start");
-  }
+  if (trap_ == Trap::kNone) check(error, "uc_emu_start");
   return trap_;
 }
 

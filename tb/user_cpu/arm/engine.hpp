@@ -1,6 +1,6 @@
 #pragma once
-// Unicorn with a Cortex-M3 in it: the only place that knows its programming interface. What Unicorn leaves to its user - exceptions, the
-// system control space, time - is CortexM3's.
+// Unicorn with a Cortex-M3 in it: the only place that knows its programming interface. What Unicorn leaves to its user
+// - exceptions, the system control space, time - is CortexM3's.
 #include <cstddef>
 #include <cstdint>
 #include <memory>

@@ -42,7 +42,8 @@ unsigned CortexM3::preempting() const {
 
 unsigned CortexM3::handler() const { return engine_.read(Register::kXpsr) & kExceptionBits; }
 
-// Stack pointers and CONTROL can be written in privileged mode only, SPSEL in thread mode only; so through both to the mode wanted.
+// Stack pointers and CONTROL can be written in privileged mode only, SPSEL in thread mode only; so through both to the
+// mode wanted.
 void CortexM3::enter_mode(std::uint32_t xpsr, std::uint32_t control, std::uint32_t msp, std::uint32_t psp) {
   engine_.write(Register::kXpsr, kThumb | kHardFault);
   engine_.write(Register::kControl, 0);
@@ -77,9 +78,7 @@ void CortexM3::write_frame(std::uint32_t sp, std::uint32_t return_address, std::
   }
   std::array<std::uint32_t, kFrameBytes / 4> frame{};
   std::size_t count = 0;
-  for (const Register which : kStacked) {
-    frame[count++] = engine_.read(which);
-  }
+  for (const Register which : kStacked) frame[count++] = engine_.read(which);
   frame[count++] = return_address;
   frame[count] = xpsr;
   std::memcpy(ram_ + (sp - map_.ram_base), frame.data(), kFrameBytes);
@@ -106,16 +105,12 @@ void CortexM3::activate(unsigned exception, std::uint32_t exc_return) {
 void CortexM3::continue_at(std::uint32_t target) {
   at_ = target & ~1U;
   engine_.write(Register::kPc, at_);
-  if ((target & 1U) == 0) {
-    raise(FaultKind::kInvalidState, at_, 0);
-  }
+  if ((target & 1U) == 0) raise(FaultKind::kInvalidState, at_, 0);
 }
 
 // B1.5.8: only these values, and thread mode only from the outermost handler unless CCR.NONBASETHRDENA.
 bool CortexM3::return_allowed(std::uint32_t exc_return) const {
-  if (handler() >= Nvic::kExceptions || !nvic_.active(handler())) {
-    return false;
-  }
+  if (handler() >= Nvic::kExceptions || !nvic_.active(handler())) return false;
   const bool outermost = nvic_.active_count() == 1;
   switch (exc_return) {
     case kToHandler: return !outermost;
@@ -129,12 +124,9 @@ void CortexM3::return_from_exception() {
   const std::uint32_t exc_return = engine_.read(Register::kPc) | 1U;
   const bool allowed = return_allowed(exc_return);
   const unsigned ended = handler();
-  if (ended < Nvic::kExceptions) {  // a debugger may have written any number into XPSR
+  if (ended < Nvic::kExceptions)  // a debugger may have written any number into XPSR
     nvic_.end(ended);
-  }
-  if (ended != kNmi) {
-    engine_.write(Register::kFaultmask, 0);
-  }
+  if (ended != kNmi) engine_.write(Register::kFaultmask, 0);
   event_ = true;
   if (!allowed) {
     chain_fault(FaultKind::kExceptionReturn, exc_return, exc_return);
@@ -176,9 +168,7 @@ void CortexM3::unstack(std::uint32_t exc_return) {
   const std::uint32_t control =
       (engine_.read(Register::kControl) & kNotPrivileged) | (to_thread && on_psp ? kSpSel : 0);
   enter_mode(xpsr & ~kAlignedBit, control, msp, psp);
-  for (std::uint32_t word = 0; word < 6; ++word) {
-    engine_.write(kStacked[word], word_at(frame + 4 * word));
-  }
+  for (std::uint32_t word = 0; word < 6; ++word) engine_.write(kStacked[word], word_at(frame + 4 * word));
   spend(timing_.exception_return);
   const std::uint32_t target = word_at(frame + 24) & ~1U;
   it_.begin(target, it_state(xpsr), [this](std::uint32_t at) { return opcode_at(at); });
@@ -187,11 +177,10 @@ void CortexM3::unstack(std::uint32_t exc_return) {
 
 void CortexM3::supervisor_call() {
   const std::uint32_t next = engine_.read(Register::kPc);
-  if (nvic_.group_priority(kSvCall) < nvic_.execution_priority(masks())) {
+  if (nvic_.group_priority(kSvCall) < nvic_.execution_priority(masks()))
     nvic_.set_pending(kSvCall);
-  } else {
+  else
     pend_fault(FaultKind::kSupervisorCall, at_, 0);
-  }
   take_exception(next);
 }
 
@@ -225,9 +214,7 @@ unsigned CortexM3::record(FaultKind kind, std::uint32_t address) {
 }
 
 FaultOutcome CortexM3::outcome(unsigned fault_handler, int priority) const {
-  if (priority <= -1) {
-    return FaultOutcome::kLockup;
-  }
+  if (priority <= -1) return FaultOutcome::kLockup;
   const std::uint32_t vector = word_at(scb_.vector_table() + 4 * fault_handler);
   return (vector & 1U) != 0 && executable(vector) ? FaultOutcome::kHandled : FaultOutcome::kNoHandler;
 }
@@ -238,20 +225,15 @@ void CortexM3::pend_fault(FaultKind kind, std::uint32_t pc, std::uint32_t addres
   fault.registers.pc = pc;
   const int priority = nvic_.execution_priority(masks());
   const unsigned own = record(kind, address);
-  if (own != kHardFault && scb_.handles(own) && nvic_.group_priority(own) < priority) {
+  if (own != kHardFault && scb_.handles(own) && nvic_.group_priority(own) < priority)
     fault.handler = own;
-  } else {
+  else
     scb_.record_hard_fault(kind == FaultKind::kBreakpoint ? kHfDebugEvt : kHfForced);
-  }
   fault.outcome = outcome(fault.handler, priority);
   fault.text = describe(fault);
-  if (report_fault_) {
-    report_fault_(fault);
-  }
+  if (report_fault_) report_fault_(fault);
   if (fault.outcome != FaultOutcome::kHandled) {
-    if (debugger_ != nullptr) {
-      debugger_->fault(fault.text);
-    }
+    if (debugger_ != nullptr) debugger_->fault(fault.text);
     throw FaultError(std::move(fault));
   }
   nvic_.set_pending(fault.handler);

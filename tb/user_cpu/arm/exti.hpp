@@ -1,11 +1,13 @@
 #pragma once
-// External interrupts of the STM32F103: AFIO chooses the port of each of the 16 GPIO lines, EXTI the edges (RM0008, chapters AFIO, EXTI).
+// External interrupts of the STM32F103: AFIO chooses the port of each of the 16 GPIO lines, EXTI the edges (RM0008,
+// chapters AFIO, EXTI).
 #include <array>
 #include <cstdint>
 
 namespace arm {
 
-/// Which interrupts of the NVIC the pending lines ask for: bit 0..4 lines 0..4, bit 5 lines 5 to 9, bit 6 lines 10 to 15.
+/// Which interrupts of the NVIC the pending lines ask for: bit 0..4 lines 0..4, bit 5 lines 5 to 9, bit 6 lines 10
+/// to 15.
 constexpr std::array<unsigned, 7> kExtiIrq = {6, 7, 8, 9, 10, 23, 40};
 
 class Exti {

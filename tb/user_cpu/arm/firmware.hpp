@@ -1,5 +1,6 @@
 #pragma once
-// Firmware as the board needs it: what is loaded, where it comes from in the source, and whether a scenario can talk to it.
+// Firmware as the board needs it: what is loaded, where it comes from in the source, and whether a scenario can talk to
+// it.
 #include <memory>
 #include <optional>
 #include <string>

@@ -35,9 +35,8 @@ user_cpu::FsmcBank Fsmc::bank() const {
   user_cpu::FsmcBank bank;
   if (written_[kBcr1 / 4] && (words_[kBcr1 / 4] & kExtmod) != 0) bank.mode = user_cpu::FsmcMode::kA;
   if (written_[kBtr1 / 4]) bank.read = bank.write = fields(words_[kBtr1 / 4]);
-  if (bank.mode == user_cpu::FsmcMode::kA) {
+  if (bank.mode == user_cpu::FsmcMode::kA)
     bank.write = written_[kBwtr1 / 4] ? fields(words_[kBwtr1 / 4]) : user_cpu::FsmcTiming();
-  }
   return bank;
 }
 

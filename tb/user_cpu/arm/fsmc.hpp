@@ -1,5 +1,6 @@
 #pragma once
-// The FSMC of the STM32F103, bank 1 region 1 (NE1), where the chip is (RM0008, chapter FSMC): its registers and what they make of an access.
+// The FSMC of the STM32F103, bank 1 region 1 (NE1), where the chip is (RM0008, chapter FSMC): its registers and what
+// they make of an access.
 #include <array>
 #include <cstdint>
 
@@ -17,7 +18,8 @@ class Fsmc {
   std::uint32_t read(std::uint32_t offset) const;
   void write(std::uint32_t offset, std::uint32_t value);
 
-  /// As the firmware's registers say, with the scenario's values on top. What the firmware never wrote is as FsmcBank's defaults.
+  /// As the firmware's registers say, with the scenario's values on top. What the firmware never wrote is as FsmcBank's
+  /// defaults.
   user_cpu::FsmcAccess timing(std::int64_t hclk_hz) const {
     user_cpu::FsmcBank made = bank();
     made.hclk_hz = hclk_hz;

@@ -7,7 +7,8 @@
 
 namespace arm {
 
-/// Features org.gnu.gdb.arm.m-profile and org.gnu.gdb.arm.m-system; the registers have the numbers of Register, each has 32 bits.
+/// Features org.gnu.gdb.arm.m-profile and org.gnu.gdb.arm.m-system; the registers have the numbers of Register, each
+/// has 32 bits.
 std::string target_description();
 
 /// The regions as `ram` and `rom`: gdb sets hardware breakpoints in the latter by itself.

@@ -11,8 +11,9 @@ constexpr char kInterrupt = '\x03';
 constexpr char kEscape = '\x7D';
 
 unsigned checksum(std::string_view payload) {
-  return std::accumulate(payload.begin(), payload.end(), 0U,
-                         [](unsigned sum, char c) { return (sum + static_cast<unsigned char>(c)) & 0xFFU; });
+  return std::accumulate(
+      payload.begin(), payload.end(), 0U,
+      [](unsigned sum, char c) { return (sum + static_cast<unsigned char>(c)) & 0xFFU; });
 }
 
 /// The value of all of `digits`.

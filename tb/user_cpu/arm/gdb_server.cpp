@@ -64,7 +64,8 @@ bool GdbServer::resumed_here(std::uint32_t pc) {
   return *std::exchange(resumed_at_, std::nullopt) == pc;
 }
 
-/// The run was let go at an instruction that before_instruction() is yet to be called for: it is not to stop there again.
+/// The run was let go at an instruction that before_instruction() is yet to be called for: it is not to stop there
+/// again.
 void GdbServer::expect_call_again() {
   if (!wanted()) return;
   resumed_at_ = target_.read_register(Register::kPc);

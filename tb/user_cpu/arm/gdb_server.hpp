@@ -1,10 +1,10 @@
 #pragma once
-// `--gdb PORT`: a processor under a gdb on the same machine, by the remote serial protocol. One thread: while the processor
-// is halted the server keeps the processor's call, hence simulated time stands still.
+// `--gdb PORT`: a processor under a gdb on the same machine, by the remote serial protocol. One thread: while the
+// processor is halted the server keeps the processor's call, hence simulated time stands still.
 //
-// The run waits at the first instruction until a gdb has connected and lets it go. gdb may leave (`detach`, `quit`, a broken
-// connection): the run goes on, and the next gdb may connect; `kill` ends the run. Only real time is lost, so a run with a
-// debugger has the result of a run without, unless the user changes registers or memory.
+// The run waits at the first instruction until a gdb has connected and lets it go. gdb may leave (`detach`, `quit`, a
+// broken connection): the run goes on, and the next gdb may connect; `kill` ends the run. Only real time is lost, so a
+// run with a debugger has the result of a run without, unless the user changes registers or memory.
 #include <functional>
 #include <optional>
 #include <string>
@@ -25,7 +25,8 @@ struct GdbOptions {
 
 class GdbServer final : public Debugger {
  public:
-  /// Throws tb::InputError in one line when the port cannot be had. `target` is used as long as the server lives, its end apart.
+  /// Throws tb::InputError in one line when the port cannot be had. `target` is used as long as the server lives, its
+  /// end apart.
   GdbServer(DebugTarget& target, GdbOptions options);
   /// Tells a gdb that waits for a stop that the run has ended.
   ~GdbServer() override;

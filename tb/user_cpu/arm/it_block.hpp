@@ -1,6 +1,6 @@
 #pragma once
-// Where the processor stands in an IT block (ARMv7-M, A7.3.2). Unicorn calls nobody for an instruction whose condition fails and does not
-// tell ITSTATE between two instructions, so it is followed here by addresses.
+// Where the processor stands in an IT block (ARMv7-M, A7.3.2). Unicorn calls nobody for an instruction whose condition
+// fails and does not tell ITSTATE between two instructions, so it is followed here by addresses.
 #include <cstdint>
 
 namespace arm {
@@ -15,14 +15,13 @@ class ItBlock {
   /// Address of the next instruction of an open block.
   std::uint32_t next() const { return next_; }
 
-  /// The block whose first instruction is at `first`, with ITSTATE as it is there (0: none). `opcode_at(address)` reads code.
+  /// The block whose first instruction is at `first`, with ITSTATE as it is there (0: none). `opcode_at(address)` reads
+  /// code.
   template <typename OpcodeAt>
   void begin(std::uint32_t first, std::uint8_t state, OpcodeAt opcode_at) {
     first_ = next_ = end_ = first;
     state_ = state;
-    for (; state != 0; state = following(state)) {
-      end_ += thumb_bytes(opcode_at(end_));
-    }
+    for (; state != 0; state = following(state)) end_ += thumb_bytes(opcode_at(end_));
   }
   /// The instruction at next() was passed, executed or not.
   void pass(std::uint16_t opcode) { next_ += thumb_bytes(opcode); }
@@ -33,17 +32,13 @@ class ItBlock {
   std::uint8_t state_at(std::uint32_t address, OpcodeAt opcode_at) const {
     std::uint8_t state = state_;
     std::uint32_t passed = first_;
-    for (; state != 0 && passed < address; state = following(state)) {
-      passed += thumb_bytes(opcode_at(passed));
-    }
+    for (; state != 0 && passed < address; state = following(state)) passed += thumb_bytes(opcode_at(passed));
     return passed == address ? state : 0;
   }
 
  private:
   static std::uint8_t following(std::uint8_t state) {
-    if ((state & 7U) == 0) {
-      return 0;
-    }
+    if ((state & 7U) == 0) return 0;
     return static_cast<std::uint8_t>((state & 0xE0U) | (state << 1U & 0x1FU));
   }
 

@@ -1,21 +1,23 @@
 #ifndef DSDPV1_BENCH_MAILBOX_H
 #define DSDPV1_BENCH_MAILBOX_H
 /*
- * How a scenario reaches firmware on the ARM board. Optional: firmware without it runs as it does on a real board, and only the
- * script's actions for the user CPU are refused.
+ * How a scenario reaches firmware on the ARM board. Optional: firmware without it runs as it does on a real board, and
+ * only the script's actions for the user CPU are refused.
  *
  * Firmware that wants it defines, in RAM that its start-up neither clears nor fills (section .noinit):
  *
  *   dsdpv1_mailbox dsdpv1_bench __attribute__((section(".noinit")));
  *
- * The bench finds the symbol in the ELF file. Before the first instruction it clears the mailbox and fills `magic`, `version`,
- * `size` and `settings`. Firmware that does not find magic, version and size as below runs on a real board and uses settings of
- * its own. Afterwards the bench writes `command` and then increments `posted`, when `done` equals it; the firmware carries the
- * command out, then sets `done` to `posted`. `report` is the firmware's: it writes the data first, the count that announces them last.
+ * The bench finds the symbol in the ELF file. Before the first instruction it clears the mailbox and fills `magic`,
+ * `version`, `size` and `settings`. Firmware that does not find magic, version and size as below runs on a real board
+ * and uses settings of its own. Afterwards the bench writes `command` and then increments `posted`, when `done` equals
+ * it; the firmware carries the command out, then sets `done` to `posted`. `report` is the firmware's: it writes the
+ * data first, the count that announces them last.
  *
  * Little endian, natural alignment; times in nanoseconds.
  */
-/* NOLINTBEGIN(modernize-deprecated-headers, modernize-use-using, readability-identifier-naming): C, also when included by C++ */
+/* NOLINTBEGIN(modernize-deprecated-headers, modernize-use-using, readability-identifier-naming): C, also when included
+ * by C++ */
 #include <stdint.h>
 
 #define DSDPV1_MAILBOX_SYMBOL "dsdpv1_bench"
@@ -37,7 +39,8 @@ typedef struct dsdpv1_mailbox_station {
   uint8_t cfg_length, cfg[200];
 } dsdpv1_mailbox_station;
 
-/* An object by slot and index: `services` are DSDPV1_MAY_ bits, `classes` DSDPV1_CLASS_ bits; `length` is also its greatest. */
+/* An object by slot and index: `services` are DSDPV1_MAY_ bits, `classes` DSDPV1_CLASS_ bits; `length` is also its
+ * greatest. */
 typedef struct dsdpv1_mailbox_object {
   uint8_t slot, index, services, classes, min_length, length, data[240];
 } dsdpv1_mailbox_object;

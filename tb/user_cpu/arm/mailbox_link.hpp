@@ -13,8 +13,8 @@ namespace arm {
 
 class MailboxLink {
  public:
-  /// `memory` is the mailbox in the processor's RAM; it is cleared and the settings filled in. At most DSDPV1_MAILBOX_OBJECTS
-  /// objects.
+  /// `memory` is the mailbox in the processor's RAM; it is cleared and the settings filled in. At most
+  /// DSDPV1_MAILBOX_OBJECTS objects.
   MailboxLink(std::uint8_t* memory, const user_cpu::ProgramOptions& options);
 
   void post(const user_cpu::Command& command) { commands_.push_back(command); }
@@ -23,12 +23,13 @@ class MailboxLink {
     return (!commands_.empty() && is_done()) || outputs_received_ != box_.report.outputs_received ||
            errors_seen_ != box_.report.error_count || !done_is_right();
   }
-  /// Hands over the next command when the firmware is done with the last, fetches outputs and errors: after each step of the
-  /// processor. True when it has handed one over. What the firmware has written is checked before it is used, see wrong().
+  /// Hands over the next command when the firmware is done with the last, fetches outputs and errors: after each step
+  /// of the processor. True when it has handed one over. What the firmware has written is checked before it is used,
+  /// see wrong().
   bool look(bus::Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error);
 
-  /// The first thing in the mailbox that the firmware cannot have meant: "report.output_length is 250, allowed are 0 to 244".
-  /// Empty: nothing. From then on look() does nothing.
+  /// The first thing in the mailbox that the firmware cannot have meant: "report.output_length is 250, allowed are 0 to
+  /// 244". Empty: nothing. From then on look() does nothing.
   const std::string& wrong() const { return wrong_; }
 
   /// As of the last look().

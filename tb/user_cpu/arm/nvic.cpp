@@ -17,9 +17,7 @@ unsigned first_of(std::uint32_t offset) { return kFirstInterrupt + (offset % kBl
 
 void Nvic::reset() {
   state_.fill(State{});
-  for (unsigned exception = 0; exception < kFirstInterrupt; ++exception) {
-    state_[exception].enabled = true;
-  }
+  for (unsigned exception = 0; exception < kFirstInterrupt; ++exception) state_[exception].enabled = true;
   grouping_ = 0;
   update_active();
   update_foremost();
@@ -39,9 +37,7 @@ void Nvic::clear_pending(unsigned exception) {
 void Nvic::set_level(unsigned exception, bool high) {
   State& state = state_[exception];
   state.level = high;
-  if (high && !state.active) {
-    set_pending(exception);
-  }
+  if (high && !state.active) set_pending(exception);
 }
 
 void Nvic::begin(unsigned exception) {
@@ -87,15 +83,9 @@ int Nvic::group_priority(unsigned exception) const {
 
 int Nvic::execution_priority(const Masks& masks) const {
   int priority = active_priority_;
-  if (masks.basepri != 0) {
-    priority = std::min(priority, masks.basepri & ~((2 << grouping_) - 1));
-  }
-  if (masks.primask) {
-    priority = std::min(priority, 0);
-  }
-  if (masks.faultmask) {
-    priority = std::min(priority, -1);
-  }
+  if (masks.basepri != 0) priority = std::min(priority, masks.basepri & ~((2 << grouping_) - 1));
+  if (masks.primask) priority = std::min(priority, 0);
+  if (masks.faultmask) priority = std::min(priority, -1);
   return priority;
 }
 
@@ -122,34 +112,28 @@ void Nvic::update_foremost() {
   foremost_ = kNoException;
   for (unsigned exception = kNmi; exception < kExceptions; ++exception) {
     const State& state = state_[exception];
-    if (state.pending && state.enabled && (foremost_ == kNoException || goes_before(exception, foremost_))) {
+    if (state.pending && state.enabled && (foremost_ == kNoException || goes_before(exception, foremost_)))
       foremost_ = exception;
-    }
   }
 }
 
 template <typename Test>
 std::uint32_t Nvic::collect(unsigned first, Test test) const {
   std::uint32_t bits = 0;
-  for (unsigned exception = first; exception < std::min(first + 32, kExceptions); ++exception) {
+  for (unsigned exception = first; exception < std::min(first + 32, kExceptions); ++exception)
     bits |= (test(state_[exception]) ? 1U : 0U) << (exception - first);
-  }
   return bits;
 }
 
 template <typename Action>
 void Nvic::for_each_bit(unsigned first, std::uint32_t bits, Action action) {
-  for (unsigned exception = first; exception < std::min(first + 32, kExceptions); ++exception) {
-    if ((bits >> (exception - first) & 1U) != 0) {
-      action(exception);
-    }
-  }
+  for (unsigned exception = first; exception < std::min(first + 32, kExceptions); ++exception)
+    if ((bits >> (exception - first) & 1U) != 0) action(exception);
 }
 
 std::uint32_t Nvic::load(std::uint32_t offset) const {
-  if (offset >= kPriorities) {
+  if (offset >= kPriorities)
     return offset < kPrioritiesEnd ? load_priorities(kFirstInterrupt + offset - kPriorities) : 0;
-  }
   switch (offset & ~(kBlock - 1)) {
     case kEnable:
     case kDisable: return collect(first_of(offset), [](const State& state) { return state.enabled; });
@@ -162,9 +146,7 @@ std::uint32_t Nvic::load(std::uint32_t offset) const {
 
 void Nvic::store(std::uint32_t offset, std::uint32_t value, std::uint32_t lanes) {
   if (offset >= kPriorities) {
-    if (offset < kPrioritiesEnd) {
-      store_priorities(kFirstInterrupt + offset - kPriorities, value, lanes);
-    }
+    if (offset < kPrioritiesEnd) store_priorities(kFirstInterrupt + offset - kPriorities, value, lanes);
     return;
   }
   const unsigned first = first_of(offset);
@@ -181,18 +163,14 @@ void Nvic::store(std::uint32_t offset, std::uint32_t value, std::uint32_t lanes)
 
 std::uint32_t Nvic::load_priorities(unsigned first) const {
   std::uint32_t value = 0;
-  for (unsigned byte = 0; byte < 4 && first + byte < kExceptions; ++byte) {
+  for (unsigned byte = 0; byte < 4 && first + byte < kExceptions; ++byte)
     value |= static_cast<std::uint32_t>(state_[first + byte].priority) << (8 * byte);
-  }
   return value;
 }
 
 void Nvic::store_priorities(unsigned first, std::uint32_t value, std::uint32_t lanes) {
-  for (unsigned byte = 0; byte < 4 && first + byte < kExceptions; ++byte) {
-    if ((lanes >> (8 * byte) & 0xFFU) != 0) {
-      set_priority(first + byte, static_cast<std::uint8_t>(value >> (8 * byte)));
-    }
-  }
+  for (unsigned byte = 0; byte < 4 && first + byte < kExceptions; ++byte)
+    if ((lanes >> (8 * byte) & 0xFFU) != 0) set_priority(first + byte, static_cast<std::uint8_t>(value >> (8 * byte)));
 }
 
 }  // namespace arm

@@ -1,5 +1,6 @@
 #pragma once
-// The nested vectored interrupt controller with the priorities of all exceptions (ARMv7-M, B1.5.4 and B3.4), as logic without a processor.
+// The nested vectored interrupt controller with the priorities of all exceptions (ARMv7-M, B1.5.4 and B3.4), as logic
+// without a processor.
 #include <array>
 #include <cstdint>
 
@@ -42,7 +43,8 @@ class Nvic {
   void set_pending(unsigned exception);
   /// Of a level-sensitive source that is still high, it stays pending.
   void clear_pending(unsigned exception);
-  /// The level of an external interrupt's source: while high, the interrupt is pending again whenever it is not active (B3.4.1).
+  /// The level of an external interrupt's source: while high, the interrupt is pending again whenever it is not active
+  /// (B3.4.1).
   void set_level(unsigned exception, bool high);
   bool pending(unsigned exception) const { return state_[exception].pending; }
   bool active(unsigned exception) const { return state_[exception].active; }
@@ -71,7 +73,8 @@ class Nvic {
   unsigned preempting(int execution_priority) const;
   int group_priority(unsigned exception) const;
 
-  /// Registers from 0xE000E100 to 0xE000E4EF, `offset` from 0xE000E000 and a multiple of 4. `lanes` has ones in the bytes that are written.
+  /// Registers from 0xE000E100 to 0xE000E4EF, `offset` from 0xE000E000 and a multiple of 4. `lanes` has ones in the
+  /// bytes that are written.
   std::uint32_t load(std::uint32_t offset) const;
   void store(std::uint32_t offset, std::uint32_t value, std::uint32_t lanes);
   /// Four priorities from exception `first` on, as SHPR and IPR hold them.

@@ -1,5 +1,6 @@
 #pragma once
-// Peripherals that the board does not have: they read 0 until written, keep what is written, and are listed at the end of the run.
+// Peripherals that the board does not have: they read 0 until written, keep what is written, and are listed at the end
+// of the run.
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -15,7 +16,8 @@ class OtherRegisters {
   void write(std::uint32_t address, std::uint32_t value, std::uint32_t pc);
   /// Without a use of it.
   std::uint32_t peek(std::uint32_t address) const;
-  /// One line for each block of 1 KB that was used: its name in the STM32F103, how often, and the first place in the firmware.
+  /// One line for each block of 1 KB that was used: its name in the STM32F103, how often, and the first place in the
+  /// firmware.
   std::vector<std::string> notes(const std::function<std::string(std::uint32_t pc)>& place) const;
 
  private:

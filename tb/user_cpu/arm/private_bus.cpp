@@ -1,5 +1,5 @@
-// Where loads and stores outside of flash and RAM go: bit-band (ARMv7-M, B3.1; Cortex-M3 reference manual, 3.7), the private peripheral
-// bus (B3.2), the System.
+// Where loads and stores outside of flash and RAM go: bit-band (ARMv7-M, B3.1; Cortex-M3 reference manual, 3.7), the
+// private peripheral bus (B3.2), the System.
 #include <cstring>
 
 #include "tb/user_cpu/arm/cortex_m3.hpp"
@@ -41,26 +41,21 @@ std::uint32_t mask_of(unsigned bytes) { return bytes == 4 ? ~0U : (1U << 8 * byt
 }  // namespace
 
 std::uint32_t CortexM3::load_outside(std::uint32_t address, unsigned bytes) {
-  if (within(address, kPrivate, kPrivateBytes)) {
-    return load_private(address, bytes);
-  }
+  if (within(address, kPrivate, kPrivateBytes)) return load_private(address, bytes);
   return bit_band(address) ? load_bit(address, bytes) : system_.load(address, bytes);
 }
 
 void CortexM3::store_outside(std::uint32_t address, unsigned bytes, std::uint32_t value) {
-  if (within(address, kPrivate, kPrivateBytes)) {
+  if (within(address, kPrivate, kPrivateBytes))
     store_private(address, bytes, value);
-  } else if (bit_band(address)) {
+  else if (bit_band(address))
     store_bit(address, bytes, (value & 1U) != 0);
-  } else {
+  else
     system_.store(address, bytes, value);
-  }
 }
 
 std::uint32_t CortexM3::load_band(std::uint32_t address, unsigned bytes) {
-  if (address >= kPeripheralAlias - kAliasToBand) {
-    return system_.load(address, bytes);
-  }
+  if (address >= kPeripheralAlias - kAliasToBand) return system_.load(address, bytes);
   if (!in_ram(address, bytes)) {
     bus_error();
     return 0;
@@ -71,11 +66,10 @@ std::uint32_t CortexM3::load_band(std::uint32_t address, unsigned bytes) {
 }
 
 void CortexM3::store_band(std::uint32_t address, unsigned bytes, std::uint32_t value) {
-  if (address >= kPeripheralAlias - kAliasToBand) {
+  if (address >= kPeripheralAlias - kAliasToBand)
     system_.store(address, bytes, value);
-  } else if (in_ram(address, bytes)) {
+  else if (in_ram(address, bytes))
     std::memcpy(ram_ + (address - map_.ram_base), &value, bytes);
-  }
 }
 
 std::uint32_t CortexM3::load_bit(std::uint32_t alias, unsigned bytes) {
@@ -86,9 +80,7 @@ std::uint32_t CortexM3::load_bit(std::uint32_t alias, unsigned bytes) {
 void CortexM3::store_bit(std::uint32_t alias, unsigned bytes, bool value) {
   const BandBit at = band_bit(alias, bytes);
   const std::uint32_t others = load_band(at.address, bytes) & ~(1U << at.bit);
-  if (leaving_ == Leave::kNo) {
-    store_band(at.address, bytes, others | (value ? 1U : 0U) << at.bit);
-  }
+  if (leaving_ == Leave::kNo) store_band(at.address, bytes, others | (value ? 1U : 0U) << at.bit);
 }
 
 // The system control space is for privileged code (B3.2.1).
@@ -100,12 +92,9 @@ std::uint32_t CortexM3::load_private(std::uint32_t address, unsigned bytes) {
     return 0;
   }
   const unsigned shift = 8 * (address & 3U);
-  if (within(address, kControlSpace, kPage)) {
+  if (within(address, kControlSpace, kPage))
     return load_control_word((address - kControlSpace) & ~3U) >> shift & mask_of(bytes);
-  }
-  if (within(address, kDwt, kPage)) {
-    return scb_.load_dwt((address - kDwt) & ~3U, cycles()) >> shift & mask_of(bytes);
-  }
+  if (within(address, kDwt, kPage)) return scb_.load_dwt((address - kDwt) & ~3U, cycles()) >> shift & mask_of(bytes);
   return system_.load(address, bytes);
 }
 
@@ -130,9 +119,7 @@ std::uint32_t CortexM3::load_control_word(std::uint32_t offset) {
     catch_up_systick();
     return systick_.load(offset, cycles());
   }
-  if (offset >= kNvicFirst && offset < kNvicEnd) {
-    return nvic_.load(offset);
-  }
+  if (offset >= kNvicFirst && offset < kNvicEnd) return nvic_.load(offset);
   return offset == kIctr ? kInterruptLines : scb_.load(offset, nvic_, handler());
 }
 
@@ -143,9 +130,7 @@ void CortexM3::store_control_word(std::uint32_t offset, std::uint32_t value, std
   } else if (offset >= kNvicFirst && offset < kNvicEnd) {
     nvic_.store(offset, value, lanes);
   } else if (offset == kStir) {
-    if ((value & kInterruptBits) < Nvic::kInterrupts) {
-      set_interrupt(value & kInterruptBits);
-    }
+    if ((value & kInterruptBits) < Nvic::kInterrupts) set_interrupt(value & kInterruptBits);
   } else {
     scb_.store(offset, value, lanes, nvic_);
     reset_requested_ = scb_.take_reset_request() || reset_requested_;

@@ -1,6 +1,6 @@
 #pragma once
-// Reset and clock control of the STM32F103 (RM0008, chapter RCC), as start-up code sees it: every oscillator is ready at once and the switch
-// follows at once, to a source that is on.
+// Reset and clock control of the STM32F103 (RM0008, chapter RCC), as start-up code sees it: every oscillator is ready
+// at once and the switch follows at once, to a source that is on.
 #include <array>
 #include <cstdint>
 #include <string>

@@ -74,9 +74,7 @@ std::uint32_t Scb::handler_control(const Nvic& nvic) const {
 }
 
 std::uint32_t Scb::load(std::uint32_t offset, const Nvic& nvic, unsigned handler) const {
-  if (offset >= kShpr && offset < kShprEnd) {
-    return nvic.load_priorities(kMemManage + offset - kShpr);
-  }
+  if (offset >= kShpr && offset < kShprEnd) return nvic.load_priorities(kMemManage + offset - kShpr);
   switch (offset) {
     case kCpuid: return kCortexM3R1p1;
     case kIcsr: return interrupt_control(nvic, handler);
@@ -95,25 +93,19 @@ std::uint32_t Scb::load(std::uint32_t offset, const Nvic& nvic, unsigned handler
 }
 
 void Scb::store_interrupt_control(std::uint32_t value, Nvic& nvic) {
-  if ((value & kIcsrNmiSet) != 0) {
-    nvic.set_pending(kNmi);
-  }
-  if ((value & kIcsrPendSvSet) != 0) {
+  if ((value & kIcsrNmiSet) != 0) nvic.set_pending(kNmi);
+  if ((value & kIcsrPendSvSet) != 0)
     nvic.set_pending(kPendSv);
-  } else if ((value & kIcsrPendSvClear) != 0) {
+  else if ((value & kIcsrPendSvClear) != 0)
     nvic.clear_pending(kPendSv);
-  }
-  if ((value & kIcsrPendStSet) != 0) {
+  if ((value & kIcsrPendStSet) != 0)
     nvic.set_pending(kSysTick);
-  } else if ((value & kIcsrPendStClear) != 0) {
+  else if ((value & kIcsrPendStClear) != 0)
     nvic.clear_pending(kSysTick);
-  }
 }
 
 void Scb::store_reset_control(std::uint32_t value, std::uint32_t lanes, Nvic& nvic) {
-  if ((value & lanes & kVectKeyBits) != kVectKey) {
-    return;  // without the key the write is ignored (B3.2.6)
-  }
+  if ((value & lanes & kVectKeyBits) != kVectKey) return;  // without the key the write is ignored (B3.2.6)
   nvic.set_grouping(value >> kPriGroup);
   reset_request_ = reset_request_ || (value & kSysResetReq) != 0;
 }
@@ -149,9 +141,7 @@ std::uint32_t Scb::load_dwt(std::uint32_t offset, std::uint64_t cycles) const {
 
 void Scb::store_dwt(std::uint32_t offset, std::uint32_t value, std::uint64_t cycles) {
   const std::uint32_t count = offset == kDwtCycCnt ? value : load_dwt(kDwtCycCnt, cycles);
-  if (offset == kDwtCtrl) {
-    dwt_control_ = value & kCycCntEna;
-  }
+  if (offset == kDwtCtrl) dwt_control_ = value & kCycCntEna;
   cycle_count_ = count;
   counts_from_ = cycles - count;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The system control block and the cycle counter of the debug unit (ARMv7-M, B3.2, C1.6.5, C1.8): what the processor remembers of them.
+// The system control block and the cycle counter of the debug unit (ARMv7-M, B3.2, C1.6.5, C1.8): what the processor
+// remembers of them.
 #include <cstdint>
 
 #include "tb/user_cpu/arm/nvic.hpp"

@@ -64,9 +64,8 @@ SourceLines::SourceLines(const ElfImage& image, std::vector<std::uint8_t> file) 
 }
 
 void SourceLines::read_functions(const ElfImage& image) {
-  for (const auto& [name, symbol] : image.symbols) {
+  for (const auto& [name, symbol] : image.symbols)
     if (symbol.function) functions_.push_back({symbol.address, symbol.size, name});
-  }
   std::sort(functions_.begin(), functions_.end(),
             [](const Function& a, const Function& b) { return a.address < b.address; });
 }
@@ -83,7 +82,8 @@ void SourceLines::read_lines(std::vector<std::uint8_t> file) {
     if (is_new) files_.push_back(number->first);
     lines_.push_back({row.address, number->second, row.line});
   });
-  // Where one sequence ends another may begin: its line counts. Of several rows for an address the last counts, as in gdb.
+  // Where one sequence ends another may begin: its line counts. Of several rows for an address the last counts, as in
+  // gdb.
   std::stable_sort(lines_.begin(), lines_.end(), [](const Line& a, const Line& b) {
     return std::make_tuple(a.address, a.line != 0) < std::make_tuple(b.address, b.line != 0);
   });

@@ -12,11 +12,12 @@ namespace arm {
 /// Everything is read once, at construction; a look-up is two binary searches.
 class SourceLines {
  public:
-  /// `file` is the ELF file (read_elf_file()) that `image` comes from. Without debug information, or where it is damaged,
-  /// there are symbols only.
+  /// `file` is the ELF file (read_elf_file()) that `image` comes from. Without debug information, or where it is
+  /// damaged, there are symbols only.
   SourceLines(const ElfImage& image, std::vector<std::uint8_t> file);
 
-  /// "main at main.c:42"; without a line "main+0x12"; without a symbol "0x08000124". Bit 0 (Thumb) of the address is ignored.
+  /// "main at main.c:42"; without a line "main+0x12"; without a symbol "0x08000124". Bit 0 (Thumb) of the address is
+  /// ignored.
   std::string at(std::uint32_t address) const;
 
   /// Whether there is any line at all.

@@ -11,9 +11,7 @@ constexpr std::uint32_t kCalibration = 9000;  // 1 ms of HCLK / 8 at 72 MHz (STM
 }  // namespace
 
 bool SysTick::catch_up(std::uint64_t now) {
-  if (now < zero_at_) {
-    return false;
-  }
+  if (now < zero_at_) return false;
   control_ |= kCountFlag;
   if (reload_ == 0) {
     zero_at_ = kNever;  // without a reload value it stays at zero (B3.3.1)
@@ -27,9 +25,7 @@ bool SysTick::catch_up(std::uint64_t now) {
 }
 
 std::uint32_t SysTick::value(std::uint64_t now) const {
-  if (zero_at_ == kNever) {
-    return stopped_value_;
-  }
+  if (zero_at_ == kNever) return stopped_value_;
   const std::uint64_t left = (zero_at_ - now + divider() - 1) / divider();
   return left > loaded_ ? 0 : static_cast<std::uint32_t>(left);  // zero for one count before the reload
 }
@@ -67,9 +63,7 @@ std::uint32_t SysTick::peek(std::uint32_t offset, std::uint64_t now) const {
 
 std::uint32_t SysTick::load(std::uint32_t offset, std::uint64_t now) {
   const std::uint32_t value = peek(offset, now);
-  if (offset == kCtrl) {
-    control_ &= ~kCountFlag;
-  }
+  if (offset == kCtrl) control_ &= ~kCountFlag;
   return value;
 }
 
@@ -80,9 +74,7 @@ void SysTick::store(std::uint32_t offset, std::uint32_t value, std::uint64_t now
     case kVal:  // any write clears the counter and COUNTFLAG, without an exception
       control_ &= ~kCountFlag;
       stopped_value_ = 0;
-      if ((control_ & kEnable) != 0) {
-        start(0, now);
-      }
+      if ((control_ & kEnable) != 0) start(0, now);
       break;
     default: break;
   }

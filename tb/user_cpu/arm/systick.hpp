@@ -13,13 +13,14 @@ class SysTick {
  public:
   void reset() { *this = SysTick(); }
 
-  /// Brings the counter up to `now`; true when it reached zero since the last time and the exception is wanted (TICKINT).
+  /// Brings the counter up to `now`; true when it reached zero since the last time and the exception is wanted
+  /// (TICKINT).
   bool catch_up(std::uint64_t now);
   /// The cycle at which the counter next reaches zero and asks for its exception; kNever when it does not.
   std::uint64_t next() const { return (control_ & (kEnable | kTickInt)) == (kEnable | kTickInt) ? zero_at_ : kNever; }
 
-  /// Registers at `offset` 0x10 CTRL, 0x14 LOAD, 0x18 VAL, 0x1C CALIB, whole words; after catch_up(now). A load of CTRL clears COUNTFLAG,
-  /// `peek` does not.
+  /// Registers at `offset` 0x10 CTRL, 0x14 LOAD, 0x18 VAL, 0x1C CALIB, whole words; after catch_up(now). A load of CTRL
+  /// clears COUNTFLAG, `peek` does not.
   std::uint32_t load(std::uint32_t offset, std::uint64_t now);
   std::uint32_t peek(std::uint32_t offset, std::uint64_t now) const;
   void store(std::uint32_t offset, std::uint32_t value, std::uint64_t now);

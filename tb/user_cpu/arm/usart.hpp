@@ -1,6 +1,6 @@
 #pragma once
-// USART1 of the STM32F103 (RM0008, chapter USART) as a terminal: what is sent comes out as lines; nothing is received. It is always ready:
-// the bit rate is not simulated.
+// USART1 of the STM32F103 (RM0008, chapter USART) as a terminal: what is sent comes out as lines; nothing is received.
+// It is always ready: the bit rate is not simulated.
 #include <array>
 #include <cstdint>
 #include <functional>

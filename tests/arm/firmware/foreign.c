@@ -1,6 +1,7 @@
-/* Firmware for the evaluation board as somebody outside of the project writes it: from the datasheet and ST's manuals alone. It includes nothing
-   of the project, has no mailbox and follows no scenario. A station of its own: address from seven switches at PA0 to PA6 (closed: 0; all
-   open: address 5), ident 0CC9, parameters and configuration judged here, inputs are the last outputs. */
+/* Firmware for the evaluation board as somebody outside of the project writes it: from the datasheet and ST's manuals
+   alone. It includes nothing of the project, has no mailbox and follows no scenario. A station of its own: address from
+   seven switches at PA0 to PA6 (closed: 0; all open: address 5), ident 0CC9, parameters and configuration judged here,
+   inputs are the last outputs. */
 #include <stdint.h>
 
 #define WORD(address) (*(volatile uint32_t*)(address))
@@ -75,9 +76,7 @@ static void take(void) {
   for (;;) {
     WORD(PORTC + SET) = 1u << 6;
     pause(4);
-    if ((WORD(PORTC + IN) & 3u << 8) == 0u) {
-      break;
-    }
+    if ((WORD(PORTC + IN) & 3u << 8) == 0u) break;
     WORD(PORTC + CLEAR) = 1u << 6;
     pause(4);
   }
@@ -93,23 +92,17 @@ static void give_back(void) {
 static uint16_t checksum(uint16_t crc, const uint8_t* bytes, unsigned count) {
   while (count-- != 0u) {
     crc ^= *bytes++;
-    for (unsigned i = 0; i < 8u; ++i) {
-      crc = (uint16_t)((crc & 1u) != 0u ? crc >> 1 ^ 0xA001u : crc >> 1);
-    }
+    for (unsigned i = 0; i < 8u; ++i) crc = (uint16_t)((crc & 1u) != 0u ? crc >> 1 ^ 0xA001u : crc >> 1);
   }
   return crc;
 }
 
 static void write(unsigned to, const uint8_t* bytes, unsigned count) {
-  for (unsigned i = 0; i < count; ++i) {
-    SHARED(to + i) = bytes[i];
-  }
+  for (unsigned i = 0; i < count; ++i) SHARED(to + i) = bytes[i];
 }
 
 static void read(uint8_t* bytes, unsigned from, unsigned count) {
-  for (unsigned i = 0; i < count; ++i) {
-    bytes[i] = SHARED(from + i);
-  }
+  for (unsigned i = 0; i < count; ++i) bytes[i] = SHARED(from + i);
 }
 
 static void write_checksum(unsigned to, uint16_t crc) {
@@ -147,9 +140,7 @@ static void initialise(void) {
   write_checksum(0x0F7, crc);
   SHARED(0x010) = 4;
   give_back();
-  while (!chip_has_begun()) {
-    pause(50);
-  }
+  while (!chip_has_begun()) pause(50);
 }
 
 /* Looks at what the master sent once, says yes, and learns the lengths from the configuration. */
@@ -175,9 +166,7 @@ static void judge(uint8_t news) {
 
 static void fetch_outputs(void) {
   const uint8_t length = SHARED(0x319);
-  if (length <= kMost) {
-    read(data + 1, 0x31A, length);
-  }
+  if (length <= kMost) read(data + 1, 0x31A, length);
   read(sum, 0x40E, 2);
   SHARED(0x00E) = (uint8_t)(SHARED(0x00E) & ~1u);
 }
@@ -193,23 +182,17 @@ static void exchange(void) {
     write_checksum(0x225, crc);
     SHARED(0x010) = (uint8_t)(SHARED(0x010) | 1u);
   }
-  if ((news & 1u) != 0u) {
-    fetch_outputs();
-  }
+  if ((news & 1u) != 0u) fetch_outputs();
   give_back();
 }
 
 void run(void);
 void run(void) {
   inputs = 0;
-  for (unsigned i = 0; i < sizeof data; ++i) {
-    data[i] = 0;
-  }
+  for (unsigned i = 0; i < sizeof data; ++i) data[i] = 0;
   start_72_mhz();
   start_pins();
-  while (!chip_works()) {
-    pause(100);
-  }
+  while (!chip_works()) pause(100);
   initialise();
   for (;;) {
     exchange();

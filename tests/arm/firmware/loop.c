@@ -1,4 +1,5 @@
-/* Firmware of the few instructions that the tests' processor (fake_target.cpp) knows: counts r0 up and keeps it in RAM. */
+/* Firmware of the few instructions that the tests' processor (fake_target.cpp) knows: counts r0 up and keeps it in RAM.
+ */
 unsigned counter; /* at 0x20000000, all that there is in RAM */
 
 __attribute__((naked)) void run(void) {

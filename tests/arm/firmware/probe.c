@@ -1,5 +1,5 @@
-/* Firmware for the tests of the board: one program for each thing that firmware does to it. The test chooses it by the word `program`. Results go
-   to the chip's DPRAM, where the test sees them. */
+/* Firmware for the tests of the board: one program for each thing that firmware does to it. The test chooses it by the
+   word `program`. Results go to the chip's DPRAM, where the test sees them. */
 #include <stdint.h>
 
 #include "../../../tb/user_cpu/arm/mailbox.h"
@@ -138,7 +138,8 @@ static void inputs(void) {
   CHIP(2) = (uint8_t)REG(GPIOE_IDR);
 }
 
-/* Ten accesses at each clock: HSI, crystal, PLL from half of the HSI times 16, PLL from the crystal times 9, half of it. */
+/* Ten accesses at each clock: HSI, crystal, PLL from half of the HSI times 16, PLL from the crystal times 9, half of
+ * it. */
 static void ten_accesses(void) {
   for (int i = 0; i < 10; ++i) CHIP(0) = (uint8_t)i;
 }

@@ -1,5 +1,5 @@
-/* Firmware that breaks one rule of the DPRAM, chosen by -DRUDE_...; without any of them it keeps all. For the checks that the driver cannot
-   break. Board, port and driver are those of examples/firmware. */
+/* Firmware that breaks one rule of the DPRAM, chosen by -DRUDE_...; without any of them it keeps all. For the checks
+   that the driver cannot break. Board, port and driver are those of examples/firmware. */
 #include <stddef.h>
 
 #include "examples/firmware/board.h"
@@ -90,9 +90,8 @@ int main(void) {
   board_release_chip();
   pins(false, false);
   if (dsdpv1_open(&chip, &port_stm32, NULL) != DSDPV1_OK || dsdpv1_wait_ready(&chip) != DSDPV1_OK ||
-      dsdpv1_initialise(&chip, &config) != DSDPV1_OK) {
+      dsdpv1_initialise(&chip, &config) != DSDPV1_OK)
     return 1;
-  }
   break_a_rule();
   while (!fetch_parameters()) board_wait(board_cycles(50000));
   for (;;) board_wait(board_cycles(1000000));
