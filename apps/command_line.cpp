@@ -9,8 +9,8 @@
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
-#include "tb/scenario/input_error.hpp"
-#include "tb/scenario/suggest.hpp"
+#include "tb/input/input_error.hpp"
+#include "tb/input/suggest.hpp"
 
 namespace app {
 namespace {

@@ -9,8 +9,8 @@
 #include "apps/printable_output.hpp"
 #include "apps/stack.hpp"
 #include "bus/printable.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/report/standard_output.hpp"
-#include "tb/scenario/input_error.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "tb/input/input_error.hpp"
 #include "tb/report/output_place.hpp"
-#include "tb/scenario/input_error.hpp"
 
 namespace app {
 namespace {

@@ -9,16 +9,16 @@
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
-#include "bus/monitor.hpp"
+#include "bus/monitor/monitor.hpp"
+#include "driver/dsdpv1.h"
 #include "model/profibus/event.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/checks/check.hpp"
 #include "tb/checks/markdown.hpp"
-#include "tb/driver/dsdpv1.h"
+#include "tb/input/input_error.hpp"
+#include "tb/input/suggest.hpp"
 #include "tb/report/output_file.hpp"
 #include "tb/scenario/event_codes.hpp"
-#include "tb/scenario/input_error.hpp"
-#include "tb/scenario/suggest.hpp"
 
 namespace app {
 namespace {

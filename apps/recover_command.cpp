@@ -8,7 +8,7 @@
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/waves/recover.hpp"
 #include "tb/waves/wave_writer.hpp"
 

@@ -20,9 +20,9 @@
 #include "tb/cosim/random_setup.hpp"
 #include "tb/cosim/random_stimulus.hpp"
 #include "tb/cosim/reference_rtl.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/report/output_file.hpp"
-#include "tb/scenario/input_error.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace app {

@@ -17,11 +17,11 @@
 #include "tb/cosim/lockstep_execution.hpp"
 #include "tb/cosim/reference_rtl.hpp"
 #include "tb/cosim/user_rtl.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/report/output_file.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"
-#include "tb/scenario/input_error.hpp"
 
 namespace app {
 namespace {

@@ -7,7 +7,7 @@
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "tb/bench/bench.hpp"
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace app {

@@ -8,11 +8,11 @@
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
-#include "bus/explain.hpp"
-#include "bus/gsd_report.hpp"
+#include "bus/gsd/report.hpp"
+#include "bus/telegram/explain.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/report/output_file.hpp"
-#include "tb/scenario/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace app {

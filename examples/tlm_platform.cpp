@@ -6,8 +6,8 @@
 #include <systemc>
 #include <vector>
 
+#include "driver/dsdpv1.h"
 #include "model/systemc/dsdpv1_tlm.hpp"
-#include "tb/driver/dsdpv1.h"
 
 using dsdpv1::systemc::BusCharacter;
 using dsdpv1::systemc::TlmModule;

@@ -6,7 +6,7 @@
  */
 #include <stdbool.h>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 
 /* Carries out the commands that the bench has posted, in order; all that there are. */
 void bench_run_commands(void);

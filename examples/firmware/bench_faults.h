@@ -3,7 +3,7 @@
 /* What firmware must not do, done on purpose because a scenario asks for it. */
 #include <stdint.h>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 
 /* The board's port, with a way to spoil CRCs. For dsdpv1_open. */
 extern const dsdpv1_port bench_port;

@@ -3,7 +3,7 @@
 /* Cyclic data: the inputs of the process to the master, the master's outputs to the process. */
 #include <stdbool.h>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 
 /* One exchange. True when parameters or configuration wait for judgement. */
 bool cyclic_exchange(dsdpv1_device* chip);

@@ -3,8 +3,8 @@
 /* The driver's port on the evaluation board (board.h): the DPRAM on the memory bus, the handshake on port C. */
 #include <stdint.h>
 
+#include "driver/dsdpv1.h"
 #include "examples/firmware/stm32f103.h"
-#include "tb/driver/dsdpv1.h"
 
 /* For dsdpv1_open; board_start first. */
 extern const dsdpv1_port port_stm32;

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "tb/driver/dsdpv1_acyclic.h"
+#include "driver/dsdpv1_acyclic.h"
 
 /* Keeps an answer until board_now() has reached `due`. False when too many wait already. */
 bool late_answers_put(uint64_t due, const dsdpv1_request* request, const dsdpv1_reply* reply, bool refuse);

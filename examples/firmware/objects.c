@@ -4,11 +4,11 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "driver/dsdpv1_acyclic.h"
 #include "examples/firmware/board.h"
 #include "examples/firmware/late_answers.h"
 #include "examples/firmware/report.h"
 #include "examples/firmware/settings.h"
-#include "tb/driver/dsdpv1_acyclic.h"
 
 static dsdpv1_acyclic acyclic;
 static dsdpv1_object table[DSDPV1_MAILBOX_OBJECTS];

@@ -3,7 +3,7 @@
 /* DPV1: what masters reach by slot and index, and the nameplate (I&M0). */
 #include <stdint.h>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 
 /* Makes the driver's table of the settings; nothing at all when they have no objects and no nameplate. */
 void objects_open(dsdpv1_device* chip);

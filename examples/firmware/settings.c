@@ -3,8 +3,8 @@
 
 #include <string.h>
 
+#include "driver/dsdpv1_acyclic.h"
 #include "examples/firmware/board.h"
-#include "tb/driver/dsdpv1_acyclic.h"
 
 dsdpv1_mailbox dsdpv1_bench __attribute__((section(".noinit")));
 

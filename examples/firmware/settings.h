@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 #include "tb/user_cpu/arm/mailbox.h"
 
 extern dsdpv1_mailbox dsdpv1_bench;

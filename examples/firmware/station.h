@@ -3,7 +3,7 @@
 /* The chip: bring-up, INTR0, judging of what the master sends, diagnosis. */
 #include <stdbool.h>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 #include "tb/user_cpu/arm/mailbox.h"
 
 /* Opens the driver with the board's port, or with another one that the bench puts before it. */

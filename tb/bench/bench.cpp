@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "bus/explain.hpp"
+#include "bus/telegram/explain.hpp"
 #include "tb/bench/script.hpp"
+#include "tb/input/input_error.hpp"
+#include "tb/input/units.hpp"
 #include "tb/scenario/event_codes.hpp"
-#include "tb/scenario/input_error.hpp"
-#include "tb/scenario/units.hpp"
 
 namespace tb {
 

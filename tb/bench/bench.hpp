@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "bus/master1.hpp"
-#include "bus/monitor.hpp"
+#include "bus/master/master1.hpp"
+#include "bus/monitor/monitor.hpp"
 #include "tb/bench/check_watch.hpp"
 #include "tb/bench/class2_station.hpp"
 #include "tb/bench/execution.hpp"

@@ -2,7 +2,7 @@
 // One chip as the bench drives and sees it, whichever way it is executed (pins of the core, TLM module).
 #include <functional>
 
-#include "bus/segment.hpp"
+#include "bus/wire/segment.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/user_cpu/host_bus.hpp"
 

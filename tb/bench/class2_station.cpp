@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "tb/bench/bench.hpp"
-#include "tb/scenario/input_error.hpp"
-#include "tb/scenario/units.hpp"
+#include "tb/input/input_error.hpp"
+#include "tb/input/units.hpp"
 
 namespace tb {
 

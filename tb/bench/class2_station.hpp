@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "bus/master2.hpp"
+#include "bus/master/master2.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace tb {

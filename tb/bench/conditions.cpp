@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "tb/bench/bench.hpp"
-#include "tb/scenario/units.hpp"
+#include "tb/input/units.hpp"
 
 namespace tb {
 namespace {

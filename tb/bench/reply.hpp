@@ -1,7 +1,7 @@
 #pragma once
 // What came of a request of the script, for the condition `reply_of`.
-#include "bus/acyclic.hpp"
 #include "bus/bytes.hpp"
+#include "bus/master/acyclic.hpp"
 
 namespace tb {
 

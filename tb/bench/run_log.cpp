@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bus/printable.hpp"
-#include "tb/scenario/units.hpp"
+#include "tb/input/units.hpp"
 
 namespace tb {
 namespace {

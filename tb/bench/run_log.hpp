@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "bus/bytes.hpp"
-#include "bus/monitor.hpp"
+#include "bus/monitor/monitor.hpp"
 #include "bus/time.hpp"
 #include "tb/report/output_file.hpp"
 

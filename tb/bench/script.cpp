@@ -7,7 +7,7 @@
 
 #include "tb/bench/bench.hpp"
 #include "tb/bench/conditions.hpp"
-#include "tb/scenario/units.hpp"
+#include "tb/input/units.hpp"
 
 namespace tb {
 

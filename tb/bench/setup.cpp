@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <sstream>
 
-#include "bus/gsd_cfg.hpp"
+#include "bus/gsd/cfg.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
-#include "tb/scenario/input_error.hpp"
-#include "tb/scenario/suggest.hpp"
+#include "tb/input/suggest.hpp"
 
 namespace tb {
 namespace {

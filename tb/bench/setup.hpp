@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "bus/gsd_setup.hpp"
-#include "bus/slave_parameters.hpp"
+#include "bus/gsd/setup.hpp"
+#include "bus/master/slave_parameters.hpp"
 #include "tb/scenario/scenario.hpp"
 #include "tb/user_cpu/station_config.hpp"
 

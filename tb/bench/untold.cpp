@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "tb/scenario/input_error.hpp"
-#include "tb/scenario/suggest.hpp"
+#include "tb/input/input_error.hpp"
+#include "tb/input/suggest.hpp"
 #include "tb/user_cpu/arm/mailbox.h"
 
 namespace tb {

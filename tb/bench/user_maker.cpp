@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "tb/bench/untold.hpp"
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/user_cpu/fsmc_timing.hpp"
 #include "tb/user_cpu/native_user.hpp"
 #ifdef DSDPV1_HAS_ARM_BOARD

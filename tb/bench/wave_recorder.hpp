@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/segment.hpp"
+#include "bus/wire/segment.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/waves/wave_writer.hpp"
 

@@ -2,7 +2,7 @@
 // Whether the user is quick enough: INTR0 (P7, 4.1.6), and holds against the bus cycle (H1, H5).
 #include <optional>
 
-#include "bus/monitor.hpp"
+#include "bus/monitor/monitor.hpp"
 #include "tb/checks/port_timing.hpp"
 #include "tb/checks/recorder.hpp"
 

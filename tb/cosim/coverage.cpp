@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "bus/telegram.hpp"
+#include "bus/telegram/telegram.hpp"
 
 namespace cosim {
 namespace {

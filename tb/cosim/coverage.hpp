@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/uart.hpp"
+#include "bus/wire/uart.hpp"
 #include "model/profibus/event.hpp"
 
 namespace cosim {

@@ -12,8 +12,8 @@
 
 #include "tb/cosim/random_setup.hpp"
 #include "tb/cosim/reference_rtl.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
-#include "tb/scenario/input_error.hpp"
 
 namespace cosim {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "bus/explain.hpp"
-#include "bus/telegram.hpp"
-#include "bus/uart.hpp"
+#include "bus/telegram/explain.hpp"
+#include "bus/telegram/telegram.hpp"
+#include "bus/wire/uart.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace cosim {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
-#include "tb/scenario/input_error.hpp"
-#include "tb/scenario/suggest.hpp"
+#include "tb/input/suggest.hpp"
 
 namespace cosim {
 namespace {

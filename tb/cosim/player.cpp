@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "bus/segment.hpp"
 #include "bus/timeline.hpp"
-#include "bus/uart.hpp"
+#include "bus/wire/segment.hpp"
+#include "bus/wire/uart.hpp"
 #include "model/dsdpv1/crc16.hpp"
 
 namespace cosim {

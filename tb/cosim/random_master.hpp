@@ -2,7 +2,7 @@
 // The master of a random case: DP services right and wrong, broken telegrams, idle times at their limits.
 #include <optional>
 
-#include "bus/telegram.hpp"
+#include "bus/telegram/telegram.hpp"
 #include "tb/cosim/random_setup.hpp"
 
 namespace cosim {

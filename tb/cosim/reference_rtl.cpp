@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace cosim {
 namespace {

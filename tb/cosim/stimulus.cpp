@@ -8,7 +8,7 @@
 #include <optional>
 #include <sstream>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace cosim {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/uart.hpp"
+#include "bus/wire/uart.hpp"
 #include "model/dsdpv1/pins.hpp"
 
 namespace cosim {

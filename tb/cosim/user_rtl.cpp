@@ -10,8 +10,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "tb/input/input_error.hpp"
 #include "tb/report/output_file.hpp"
-#include "tb/scenario/input_error.hpp"
 
 namespace cosim {
 namespace {

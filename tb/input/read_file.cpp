@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "tb/input/descriptor.hpp"
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace tb {
 namespace {

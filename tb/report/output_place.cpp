@@ -11,7 +11,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace tb {
 namespace {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/time.hpp"
-#include "tb/scenario/units.hpp"
+#include "tb/input/units.hpp"
 
 namespace tb {
 namespace {

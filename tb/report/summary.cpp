@@ -6,9 +6,9 @@
 #include <array>
 
 #include "bus/printable.hpp"
+#include "tb/input/units.hpp"
 #include "tb/report/check_report.hpp"
 #include "tb/report/text_table.hpp"
-#include "tb/scenario/units.hpp"
 
 namespace tb {
 namespace {

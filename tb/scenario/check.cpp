@@ -6,10 +6,10 @@
 #include <cctype>
 #include <map>
 
+#include "tb/input/input_error.hpp"
+#include "tb/input/suggest.hpp"
+#include "tb/input/units.hpp"
 #include "tb/scenario/event_codes.hpp"
-#include "tb/scenario/input_error.hpp"
-#include "tb/scenario/suggest.hpp"
-#include "tb/scenario/units.hpp"
 
 namespace tb::scenario {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "bus/monitor.hpp"
-#include "tb/driver/dsdpv1.h"
+#include "bus/monitor/monitor.hpp"
+#include "driver/dsdpv1.h"
 
 namespace tb::scenario {
 

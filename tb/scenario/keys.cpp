@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "tb/scenario/input_error.hpp"
-#include "tb/scenario/suggest.hpp"
-#include "tb/scenario/units.hpp"
+#include "tb/input/input_error.hpp"
+#include "tb/input/suggest.hpp"
+#include "tb/input/units.hpp"
 
 namespace tb::keys {
 namespace {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/scenario/check.hpp"
-#include "tb/scenario/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace tb::scenario {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "tb/input/units.hpp"
 #include "tb/scenario/scenario.hpp"
-#include "tb/scenario/units.hpp"
 
 namespace tb::scenario {
 namespace {

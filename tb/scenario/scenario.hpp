@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "bus/acyclic.hpp"
 #include "bus/bytes.hpp"
-#include "bus/master2_connection.hpp"
-#include "bus/slave_parameters.hpp"
+#include "bus/master/acyclic.hpp"
+#include "bus/master/master2_connection.hpp"
+#include "bus/master/slave_parameters.hpp"
 #include "bus/time.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/checks/check.hpp"

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "tb/input/input_error.hpp"
+#include "tb/input/suggest.hpp"
 #include "tb/scenario/describe.hpp"
-#include "tb/scenario/input_error.hpp"
-#include "tb/scenario/suggest.hpp"
 
 namespace tb::scenario {
 namespace {

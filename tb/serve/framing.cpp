@@ -1,6 +1,6 @@
 #include "tb/serve/framing.hpp"
 
-#include "bus/telegram.hpp"
+#include "bus/telegram/telegram.hpp"
 
 namespace tb::serve {
 namespace {

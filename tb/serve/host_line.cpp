@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bus/telegram.hpp"
+#include "bus/telegram/telegram.hpp"
 
 namespace tb::serve {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "bus/baud.hpp"
-#include "bus/segment.hpp"
 #include "bus/timeline.hpp"
-#include "bus/uart.hpp"
+#include "bus/wire/segment.hpp"
+#include "bus/wire/uart.hpp"
 
 namespace tb::serve {
 

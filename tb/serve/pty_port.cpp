@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "tb/input/input_error.hpp"
 #include "tb/report/part_file.hpp"
-#include "tb/scenario/input_error.hpp"
 #include "tb/serve/ports.hpp"
 #include "tb/serve/termios2.hpp"
 

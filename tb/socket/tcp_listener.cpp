@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace tb {
 namespace {

@@ -12,8 +12,8 @@
 #include <string_view>
 
 #include "tb/input/descriptor.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
-#include "tb/scenario/input_error.hpp"
 
 namespace tb::sweep {
 namespace {

@@ -7,8 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "tb/input/input_error.hpp"
 #include "tb/report/output_file.hpp"
-#include "tb/scenario/input_error.hpp"
 #include "tb/sweep/fingerprint.hpp"
 
 namespace tb::sweep {

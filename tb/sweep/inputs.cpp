@@ -1,6 +1,6 @@
 #include "tb/sweep/inputs.hpp"
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 #include "tb/sweep/fingerprint.hpp"
 

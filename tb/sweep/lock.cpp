@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace tb::sweep {
 namespace {

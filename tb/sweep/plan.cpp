@@ -7,9 +7,9 @@
 #include <optional>
 #include <set>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
+#include "tb/input/units.hpp"
 #include "tb/scenario/settings.hpp"
-#include "tb/scenario/units.hpp"
 
 namespace tb::sweep {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <systemc>
 
-#include "bus/segment.hpp"
+#include "bus/wire/segment.hpp"
 #include "model/systemc/dsdpv1_tlm.hpp"
 #include "tb/systemc/timeline_module.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bus/time.hpp"
-#include "tb/driver/dsdpv1_acyclic.h"
+#include "driver/dsdpv1_acyclic.h"
 
 namespace user_cpu {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <map>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 #include "tb/user_cpu/cpu.hpp"
 #include "tb/user_cpu/handshake_counters.hpp"
 

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 #include "tb/user_cpu/acyclic_server.hpp"
 #include "tb/user_cpu/driver_port.hpp"
 #include "tb/user_cpu/native_cpu.hpp"

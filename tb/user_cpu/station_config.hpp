@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 
 namespace user_cpu {
 

@@ -5,7 +5,7 @@
 
 #include <cerrno>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/waves/fst_io.h"
 #include "tb/waves/recover.hpp"
 

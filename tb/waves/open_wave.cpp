@@ -1,4 +1,4 @@
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/waves/vcd_writer.hpp"
 #include "tb/waves/wave_writer.hpp"
 #ifdef DSDPV1_WITH_FST

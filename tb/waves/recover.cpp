@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tb/input/input_error.hpp"
 #include "tb/report/output_file.hpp"
-#include "tb/scenario/input_error.hpp"
 
 namespace tb {
 namespace {

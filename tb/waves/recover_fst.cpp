@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
+#include "tb/input/input_error.hpp"
 #include "tb/report/output_place.hpp"
-#include "tb/scenario/input_error.hpp"
 #include "tb/waves/fst_file.hpp"
 #include "tb/waves/recover.hpp"
 

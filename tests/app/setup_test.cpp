@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tb/bench/setup.hpp"
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace {
 

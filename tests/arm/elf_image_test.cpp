@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "small_elf.hpp"
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace arm::test {
 namespace {

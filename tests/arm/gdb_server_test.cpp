@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "gdb_bench.hpp"
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace arm::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "bus/explain.hpp"
+#include "bus/telegram/explain.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

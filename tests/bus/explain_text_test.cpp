@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "bus/explain.hpp"
+#include "bus/telegram/explain.hpp"
 
 namespace bus {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "bus/acyclic.hpp"
-#include "bus/telegram.hpp"
+#include "bus/master/acyclic.hpp"
+#include "bus/telegram/telegram.hpp"
 
 namespace bus::test {
 

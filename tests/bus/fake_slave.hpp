@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "bus/segment.hpp"
-#include "bus/telegram.hpp"
+#include "bus/telegram/telegram.hpp"
 #include "bus/timeline.hpp"
-#include "bus/uart.hpp"
+#include "bus/wire/segment.hpp"
+#include "bus/wire/uart.hpp"
 
 namespace bus::test {
 

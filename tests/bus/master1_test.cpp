@@ -1,11 +1,11 @@
-#include "bus/master1.hpp"
+#include "bus/master/master1.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "bus/monitor.hpp"
+#include "bus/monitor/monitor.hpp"
 #include "tests/bus/fake_slave.hpp"
 
 namespace bus {

@@ -1,4 +1,4 @@
-#include "bus/master2.hpp"
+#include "bus/master/master2.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "bus/monitor.hpp"
+#include "bus/monitor/monitor.hpp"
 #include "tests/bus/fake_acyclic.hpp"
 #include "tests/bus/fake_slave.hpp"
 

@@ -1,13 +1,13 @@
-#include "bus/master_c1.hpp"
+#include "bus/master/c1.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "bus/gsd_setup.hpp"
-#include "bus/master1.hpp"
-#include "bus/monitor.hpp"
+#include "bus/gsd/setup.hpp"
+#include "bus/master/master1.hpp"
+#include "bus/monitor/monitor.hpp"
 #include "tests/bus/fake_acyclic.hpp"
 #include "tests/bus/fake_slave.hpp"
 

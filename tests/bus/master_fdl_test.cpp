@@ -1,4 +1,4 @@
-#include "bus/master_fdl.hpp"
+#include "bus/master/fdl.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "bus/master_slave.hpp"
+#include "bus/master/slave.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "bus/master1.hpp"
-#include "bus/master2.hpp"
-#include "bus/monitor.hpp"
+#include "bus/master/master1.hpp"
+#include "bus/master/master2.hpp"
+#include "bus/monitor/monitor.hpp"
 #include "tests/bus/fake_acyclic.hpp"
 #include "tests/conformance/dpv1_side.hpp"
 

@@ -1,9 +1,9 @@
-#include "bus/monitor.hpp"
+#include "bus/monitor/monitor.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/requester.hpp"
+#include "bus/master/requester.hpp"
 #include "tests/bus/fake_slave.hpp"
 
 namespace bus {

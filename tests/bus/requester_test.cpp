@@ -1,4 +1,4 @@
-#include "bus/requester.hpp"
+#include "bus/master/requester.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "bus/segment.hpp"
+#include "bus/wire/segment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "bus/telegram.hpp"
+#include "bus/telegram/telegram.hpp"
 
 #include <gtest/gtest.h>
 

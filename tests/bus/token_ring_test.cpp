@@ -1,15 +1,15 @@
-#include "bus/token_ring.hpp"
+#include "bus/master/token_ring.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
 
-#include "bus/master1.hpp"
-#include "bus/master2.hpp"
-#include "bus/monitor.hpp"
-#include "bus/requester.hpp"
-#include "bus/token_watch.hpp"
+#include "bus/master/master1.hpp"
+#include "bus/master/master2.hpp"
+#include "bus/master/requester.hpp"
+#include "bus/monitor/monitor.hpp"
+#include "bus/token/token_watch.hpp"
 #include "tests/bus/fake_slave.hpp"
 
 namespace bus {

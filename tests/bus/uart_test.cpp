@@ -1,4 +1,4 @@
-#include "bus/uart.hpp"
+#include "bus/wire/uart.hpp"
 
 #include <gtest/gtest.h>
 

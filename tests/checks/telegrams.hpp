@@ -1,6 +1,6 @@
 #pragma once
 // Data_Exchange on the line as the bus monitor tells it, for a station whose PBRTS the board moves.
-#include "bus/monitor.hpp"
+#include "bus/monitor/monitor.hpp"
 #include "tests/checks/board.hpp"
 
 namespace checks_test {

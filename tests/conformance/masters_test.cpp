@@ -1,8 +1,8 @@
 // The chip brought up by the two kinds of master that are in the field (chip.md, last fact: "Real masters differ").
 #include <gtest/gtest.h>
 
-#include "bus/master1.hpp"
-#include "bus/monitor.hpp"
+#include "bus/master/master1.hpp"
+#include "bus/monitor/monitor.hpp"
 #include "tests/conformance/master_side.hpp"
 
 namespace conformance {

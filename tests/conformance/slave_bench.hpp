@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "bus/requester.hpp"
+#include "bus/master/requester.hpp"
 #include "registers/dsdpv1_regs.hpp"
 #include "tests/conformance/twin_chip.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bus/segment.hpp"
 #include "bus/timeline.hpp"
+#include "bus/wire/segment.hpp"
 #include "model/dsdpv1/chip.hpp"
 
 namespace conformance {

@@ -8,9 +8,9 @@
 #include <iterator>
 #include <utility>
 
-#include "bus/segment.hpp"
 #include "bus/timeline.hpp"
-#include "bus/uart.hpp"
+#include "bus/wire/segment.hpp"
+#include "bus/wire/uart.hpp"
 #include "tb/cosim/lockstep.hpp"
 #include "tests/cosim/made_up_top.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "tb/cosim/pin_map.hpp"
 #include "tb/cosim/user_rtl.hpp"
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace {
 

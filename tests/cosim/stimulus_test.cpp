@@ -7,7 +7,7 @@
 #include "tb/cosim/faults.hpp"
 #include "tb/cosim/random_stimulus.hpp"
 #include "tb/cosim/stimulus.hpp"
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include <optional>
 #include <tuple>
 
-#include "tb/driver/dsdpv1_acyclic.h"
+#include "driver/dsdpv1_acyclic.h"
 #include "tests/driver/driver_fixture.hpp"
 
 /// A device with a table: slot 1 is plain data, slot 2 asks the test. Requests and answers are bytes as in the DPRAM.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 
 struct FakeChip {
   // ------------------------------------------------------------------------------------------------------ behaviour

@@ -1,8 +1,8 @@
 /* The public headers must stand alone in C99, twice included. */
-#include "tb/driver/dsdpv1_acyclic.h"
+#include "driver/dsdpv1_acyclic.h"
 
 /* Each again, behind the other. */
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 
 dsdpv1_error standalone(dsdpv1_acyclic* acyclic);
 

@@ -1,7 +1,7 @@
 // Each file of tests/bad/gsd has one fault, and beside it the one line that tells it.
 #include <gmock/gmock.h>
 
-#include "bus/gsd_report.hpp"
+#include "bus/gsd/report.hpp"
 #include "files.hpp"
 
 namespace {

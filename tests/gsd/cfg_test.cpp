@@ -1,7 +1,7 @@
 // Identifier bytes, tables A.3 to A.5.
 #include <gtest/gtest.h>
 
-#include "bus/gsd_cfg.hpp"
+#include "bus/gsd/cfg.hpp"
 
 namespace {
 

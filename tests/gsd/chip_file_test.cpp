@@ -1,7 +1,7 @@
 // scenarios/dsdpv1.gsd, the chip's own file.
 #include <gtest/gtest.h>
 
-#include "bus/gsd_setup.hpp"
+#include "bus/gsd/setup.hpp"
 #include "files.hpp"
 
 namespace {

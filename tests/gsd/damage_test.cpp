@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "bus/gsd_report.hpp"
+#include "bus/gsd/report.hpp"
 #include "files.hpp"
 
 namespace {

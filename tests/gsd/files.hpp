@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/gsd.hpp"
+#include "bus/gsd/gsd.hpp"
 
 namespace gsd_test {
 

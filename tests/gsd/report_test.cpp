@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bus/gsd_report.hpp"
+#include "bus/gsd/report.hpp"
 #include "files.hpp"
 
 namespace {

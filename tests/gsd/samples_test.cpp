@@ -1,7 +1,7 @@
 // Habits of real files, revisions 0 to 5, imitated in tests/gsd/samples.
 #include <gmock/gmock.h>
 
-#include "bus/gsd_cfg.hpp"
+#include "bus/gsd/cfg.hpp"
 #include "files.hpp"
 
 namespace {

@@ -1,7 +1,7 @@
 // From a file and a choice of modules to Set_Prm and Chk_Cfg.
 #include <gmock/gmock.h>
 
-#include "bus/gsd_setup.hpp"
+#include "bus/gsd/setup.hpp"
 #include "files.hpp"
 
 namespace {

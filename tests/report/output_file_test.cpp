@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace {
 

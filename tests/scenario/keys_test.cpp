@@ -1,9 +1,9 @@
 // Errors of the parser: file, line, what is wrong, what is allowed.
 #include <gtest/gtest.h>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
+#include "tb/input/suggest.hpp"
 #include "tb/scenario/scenario.hpp"
-#include "tb/scenario/suggest.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace {

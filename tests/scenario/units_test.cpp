@@ -1,7 +1,7 @@
 // Times and bytes as people write them.
 #include <gtest/gtest.h>
 
-#include "tb/scenario/units.hpp"
+#include "tb/input/units.hpp"
 
 namespace {
 

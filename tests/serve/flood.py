@@ -106,7 +106,7 @@ class Flood:
     def end(self):
         self.peak = peak_kb(self.serve.process.pid)
         asked = time.monotonic()
-        self.serve.end()
+        self.serve.end(read_log=False)
         self.end_s = time.monotonic() - asked
         self.wall_s = time.monotonic() - self.begin
         pacing = self.serve.result["pacing"]

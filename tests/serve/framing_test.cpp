@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/telegram.hpp"
+#include "bus/telegram/telegram.hpp"
 
 namespace {
 

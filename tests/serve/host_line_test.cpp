@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/monitor.hpp"
-#include "bus/telegram.hpp"
+#include "bus/monitor/monitor.hpp"
+#include "bus/telegram/telegram.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/sweep/fingerprint.hpp"
 
 namespace {

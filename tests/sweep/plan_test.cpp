@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 
 namespace {
 

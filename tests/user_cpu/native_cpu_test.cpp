@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "tb/driver/dsdpv1.h"
+#include "driver/dsdpv1.h"
 #include "tb/user_cpu/driver_port.hpp"
 #include "tb/user_cpu/native_cpu.hpp"
 #include "tests/user_cpu/recording_bus.hpp"

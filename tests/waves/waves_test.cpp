@@ -12,7 +12,7 @@
 #include <fstapi.h>
 #endif
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/waves/recover.hpp"
 #include "tb/waves/wave_writer.hpp"
 

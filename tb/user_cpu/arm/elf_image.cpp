@@ -9,8 +9,8 @@
 #include <optional>
 #include <string_view>
 
+#include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
-#include "tb/scenario/input_error.hpp"
 
 // The structures of elf.h are copied as they stand in the file: little endian on both sides.
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tb/scenario/input_error.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/user_cpu/arm/mailbox.h"
 
 namespace arm {

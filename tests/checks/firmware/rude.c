@@ -2,10 +2,10 @@
    that the driver cannot break. Board, port and driver are those of examples/firmware. */
 #include <stddef.h>
 
+#include "driver/dsdpv1.h"
 #include "examples/firmware/board.h"
 #include "examples/firmware/dsdpv1_port_stm32.h"
 #include "registers/dsdpv1_regs.h"
-#include "tb/driver/dsdpv1.h"
 
 static dsdpv1_device chip;
 

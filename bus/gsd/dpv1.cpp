@@ -1,0 +1,14 @@
+// DPV1 as a GSD file allows it.
+#include "bus/gsd/setup.hpp"
+
+namespace bus {
+
+std::string enable_dpv1(const Gsd& gsd, SlaveParameters& parameters) {
+  if (!gsd.dpv1) return "the GSD file does not say DPV1_Slave = 1";
+  if (!gsd.c1_read_write) return "the GSD file does not say C1_Read_Write_supp = 1";
+  parameters.dpv1 = true;
+  parameters.c1_response_timeout = gsd.c1_response_timeout.value_or(parameters.c1_response_timeout);
+  return {};
+}
+
+}  // namespace bus

@@ -1,0 +1,47 @@
+#pragma once
+// From the bytes of a GSD file to logical lines: encoding, comments, continuation, values wrapped over lines. Internal
+// to the GSD reader.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/gsd/gsd.hpp"
+
+namespace bus::gsd {
+
+/// Collects the remarks about one file.
+class Diagnostics {
+ public:
+  explicit Diagnostics(std::string file) : file_(std::move(file)) {}
+  void error(int line, std::string text) { add(GsdDiagnostic::Level::kError, line, std::move(text)); }
+  void warning(int line, std::string text) { add(GsdDiagnostic::Level::kWarning, line, std::move(text)); }
+  bool failed() const { return failed_; }
+  /// Takes the remarks out, ordered by line.
+  std::vector<GsdDiagnostic> take();
+
+ private:
+  void add(GsdDiagnostic::Level level, int line, std::string text);
+  std::string file_;
+  std::vector<GsdDiagnostic> list_;
+  bool failed_ = false;
+};
+
+struct Line {
+  int number = 0;    ///< of the first physical line
+  std::string text;  ///< without comment, trimmed, never empty
+};
+
+std::string_view trim(std::string_view text);
+std::string lower(std::string_view text);
+
+/// "UTF-8 text of the whole file"; reports bytes that no text file has. Empty when it is no text.
+std::string decode(std::string bytes, Diagnostics& diagnostics);
+
+/// Splits decoded text into logical lines. Reports unclosed strings (error) and the habits that the standard does not
+/// know (warning): `//` comments, values on the line behind a '=' or a comma.
+std::vector<Line> logical_lines(const std::string& text, Diagnostics& diagnostics);
+
+/// True for a text of numbers and commas only, as a wrapped list and a module reference number are.
+bool is_number_list(std::string_view text);
+
+}  // namespace bus::gsd

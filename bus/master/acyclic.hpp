@@ -1,0 +1,83 @@
+#pragma once
+// Acyclic services of DPV1 as a master sees them (datasheet 7.2, 7.3; rulings V1, V2): requests, their PDUs, and what
+// came of them. C1 and C2 have the same PDUs for reading and writing.
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "bus/bytes.hpp"
+#include "bus/telegram/dpv1_words.hpp"
+#include "bus/telegram/telegram.hpp"
+#include "bus/time.hpp"
+
+namespace bus {
+
+constexpr std::size_t kMaxAcyclicData = 240;  ///< bytes of data of one request or answer (7, first paragraph)
+constexpr Tick kTimeUnit10ms =
+    10 * kTicksPerMs;  ///< unit of Send_Timeout and of C1_Response_Timeout and C2_Response_Timeout in GSD files
+
+struct AcyclicRequest {
+  std::uint8_t function = function_num::kRead;  ///< kRead, kWrite, kTransport (C2 only)
+  std::uint8_t slot = 0, index = 0;
+  std::uint8_t length = 0;  ///< kRead: bytes asked for; a slave refuses more than 240. Others: that of `data`
+  Bytes data = {};          ///< kWrite, kTransport: at most 240 bytes
+};
+
+AcyclicRequest read_request(std::uint8_t slot, std::uint8_t index, std::uint8_t length);
+/// Throw std::invalid_argument for more than 240 bytes.
+AcyclicRequest write_request(std::uint8_t slot, std::uint8_t index, const Bytes& data);
+AcyclicRequest transport_request(std::uint8_t slot, std::uint8_t index, const Bytes& data);
+
+/// `fn, slot, index, length, data`.
+Bytes pdu_of(const AcyclicRequest& request);
+
+enum class AcyclicOutcome : std::uint8_t {
+  kPositive,     ///< the slave's user has answered; `data` holds what was read or transported
+  kNegative,     ///< answered with Error_Decode, Error_Code_1 and 2
+  kTimeout,      ///< acknowledged, but no answer within the response time
+  kRefused,      ///< the data link layer refused: UE, RR (one is open already), RS (SAP not enabled); see `refusal`
+  kNoAnswer,     ///< the station does not answer at all
+  kWrongAnswer,  ///< an answer that does not fit the request
+  kLost,         ///< data exchange was left, the connection ended or the master was stopped while it was open
+};
+/// "positive", "negative", ...
+const char* name(AcyclicOutcome outcome);
+
+struct AcyclicResult {
+  AcyclicOutcome outcome = AcyclicOutcome::kLost;
+  AcyclicRequest request = {};
+  Bytes data = {};                                                    ///< kPositive
+  std::uint8_t error_decode = 0, error_code_1 = 0, error_code_2 = 0;  ///< kNegative (tables 28, 29)
+  std::uint8_t refusal = 0;  ///< kRefused: the function code of the answer, fc::kUe, kRr or kRs
+  std::string reason = {};   ///< kLost, kWrongAnswer: in words
+  Tick queued_at = 0, sent_at = 0,
+       done_at = 0;  ///< sent_at: end of the request's acknowledgement, 0 when it was not sent
+  int polls = 0;     ///< without the one that fetched the answer
+
+  bool positive() const { return outcome == AcyclicOutcome::kPositive; }
+};
+/// "DS_Read slot 1 index 2: 3 bytes 01 02 03", "DS_Write slot 1 index 2 refused, access: invalid index".
+std::string describe(const AcyclicResult& result);
+
+using AcyclicCallback = std::function<void(const AcyclicResult&)>;
+
+/// Holds an answer PDU against the request: fills outcome (kPositive, kNegative, kWrongAnswer), data, codes and reason
+/// of `result`, whose `request` says what was asked.
+void judge_answer(const Bytes& pdu, AcyclicResult& result);
+
+/// The refusal in an answer of the data link layer (UE, RR, RS); nullopt when it is none.
+std::optional<std::uint8_t> refusal_of(const Telegram& answer);
+
+/// An operation that waits for its turn or for its answer.
+struct AcyclicOperation {
+  AcyclicOperation(Tick now, AcyclicRequest request, AcyclicCallback when_done);
+  /// Tells its user what came of it; the rest of `result` is filled already.
+  void finish(Tick now, AcyclicOutcome outcome);
+
+  AcyclicResult result;
+  AcyclicCallback done;
+};
+
+}  // namespace bus

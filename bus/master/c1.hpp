@@ -1,0 +1,52 @@
+#pragma once
+// MSAC_C1 of a class-1 master towards one slave (7.2, rulings V1, V8, V9): a queue of reads and writes, one of them at
+// work. No I/O; the master asks for the next telegram after each pass of the cyclic exchange.
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include "bus/master/acyclic.hpp"
+#include "bus/master/fdl.hpp"
+#include "bus/telegram/telegram.hpp"
+
+namespace bus {
+
+class C1Client {
+ public:
+  /// `response_timeout`: C1_Response_Timeout of the GSD file in ticks, from the acknowledgement of the request to its
+  /// answer.
+  C1Client(std::uint8_t slave, std::uint8_t master, Tick response_timeout)
+      : slave_(slave), master_(master), response_timeout_(response_timeout) {}
+
+  /// Queues an operation; it is sent when the slave is in data exchange and all earlier ones are done.
+  void push(Tick now, AcyclicRequest request, AcyclicCallback done);
+  /// Whether a telegram is to be sent now: the request of the next operation, a poll for the one at work. Ends the one
+  /// at work, and calls back, when its time is over. Only to be asked in data exchange.
+  bool due(Tick now);
+  /// The telegram that is due; SRD low, SAP 51 to 51.
+  Telegram next_request();
+  /// What came back to it. FdlOutcome::kAborted: the telegram is sent again.
+  void done(Tick now, const FdlResult& result);
+  /// The operation at work is lost; those that wait go on waiting.
+  void leave(Tick now, const std::string& reason);
+
+  /// Operations that wait or are at work.
+  std::size_t open() const { return operations_.size(); }
+
+ private:
+  void requested(Tick now, const FdlResult& result);
+  void polled(Tick now, const Telegram& answer);
+  void finish(Tick now, AcyclicOutcome outcome);
+  AcyclicResult& current() { return operations_.front().result; }
+
+  std::uint8_t slave_, master_;
+  Tick response_timeout_;
+  std::deque<AcyclicOperation> operations_;
+  bool at_work_ = false;       ///< the request of the operation in front has been sent
+  bool acknowledged_ = false;  ///< ... and acknowledged: it waits for its answer
+  bool stale_ = false;  ///< the slave may still hold the answer to an operation given up: a poll fetches it before the
+                        ///< next request
+  bool polling_ = false;  ///< the telegram under way is a poll
+};
+
+}  // namespace bus

@@ -1,0 +1,141 @@
+#pragma once
+// Data link layer of a master: one request at a time with its answer, times, repetitions and FCB.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/master/slave_parameters.hpp"
+#include "bus/master/telegram_listener.hpp"
+#include "bus/telegram/telegram.hpp"
+#include "bus/wire/uart.hpp"
+
+namespace bus {
+
+enum class FdlOutcome : std::uint8_t {
+  kSent,       ///< a telegram without answer has been sent
+  kAnswered,   ///< by a right telegram; it may be a refusal (UE, RR, RS)
+  kNoAnswer,   ///< nothing within the slot time, also not to the repetitions
+  kBadAnswer,  ///< the last attempt was answered by something wrong
+  kAborted,    ///< the master was stopped, or has lost the token before the request was done
+};
+
+struct FdlResult {
+  FdlOutcome outcome = FdlOutcome::kNoAnswer;
+  Telegram request = {};                    ///< with FCB and FCV as sent; empty for raw bytes that are no telegram
+  Telegram answer = {};                     ///< with kAnswered
+  Bytes raw = {};                           ///< bytes of the last answer, right or wrong
+  Tick request_start = 0, request_end = 0;  ///< of the last attempt
+  Tick answer_start = 0, answer_end = 0;    ///< with an answer
+  int retries = 0;                          ///< repetitions sent
+  int timeouts = 0;                         ///< attempts without any answer
+  int errors = 0;                           ///< attempts with a wrong answer
+  bool read_back = true;                    ///< of a token: the line carried what was sent; else somebody else talks
+
+  bool answered() const { return outcome == FdlOutcome::kAnswered; }
+  bool short_acknowledge() const { return answered() && answer.kind == TelegramKind::kSc; }
+};
+
+struct FdlRequest {
+  /// FC holds bit 6 and the function; FCB and FCV are added for SDA, SRD and MSRD.
+  Telegram telegram = {};
+  /// Sent instead of `telegram`, as it is and without repetition.
+  std::optional<std::vector<Character>> raw = {};
+  bool wants_answer = true;  ///< for `raw`
+  /// For a token: kSent only when its receiver (anybody) is heard within the slot time, else kNoAnswer.
+  bool await_activity = false;
+};
+
+class MasterFdl : public Listener {
+ public:
+  /// Attaches to the segment, which must outlive it. `address` 0..126.
+  MasterFdl(Segment& segment, const std::string& name, std::uint8_t address, const BusParameters& parameters);
+  MasterFdl(const MasterFdl&) = delete;
+  MasterFdl& operator=(const MasterFdl&) = delete;
+
+  /// 0..9. Only while idle.
+  void set_baud(int index);
+  bool idle() const { return state_ == State::kIdle; }
+  /// Sends as soon as the idle times allow. Only while idle.
+  void start(Tick now, FdlRequest request);
+  /// Falls silent at once; a request under way ends with kAborted.
+  void abort(Tick now);
+  /// The next request to `address` starts a new series (FCB = 1, FCV = 0).
+  void restart_series(std::uint8_t address) { series_.at(address) = {}; }
+  /// An answer of this station to a request that ended at `request_end`, sent min_TSDR later. Only while idle; no
+  /// on_done.
+  void respond(Tick request_end, const Telegram& answer);
+  /// No request starts before `at`.
+  void not_before(Tick at) { ready_at_ = std::max(ready_at_, at); }
+  /// End of the last character heard or sent.
+  Tick last_activity() const { return last_activity_; }
+
+  Tick next() const;
+  void run(Tick now);
+  void line_changed(Tick at, bool level) override;
+
+  /// Called once for every `start`; the layer is idle again by then.
+  std::function<void(const FdlResult&)> on_done;
+  /// Telegrams of others that are no answers to this station. With it set, a request or a token of another master that
+  /// comes instead of the answer ends the request with kAborted: two masters have the token.
+  std::function<void(const HeardTelegram&)> on_heard;
+
+ private:
+  enum class State : std::uint8_t {
+    kIdle,
+    kWaitBus,  ///< until the line was idle long enough
+    kSending,
+    kWaitAnswer,     ///< until the first character or the end of the slot time
+    kAwaitActivity,  ///< after a token: the same for anybody
+    kReceiving,
+    kResponding,  ///< until min_TSDR is over; then kSending
+    kDraining,    ///< behind a wrong answer, until the line was idle for T_SYN
+  };
+  struct Series {
+    bool started = false;
+    bool fcb = true;  ///< of the next request
+  };
+  Tick bits(Tick count) const { return count * bit_; }
+  Tick earliest_start() const;
+  Tick quiet_deadline() const { return last_activity_ + bits(kSynBits); }
+  void compose();
+  void send(Tick now);
+  void sent();
+  void character(const ReceivedCharacter& received);
+  void take(const Decoded& decoded);
+  void listen(const ReceivedCharacter& received);
+  bool reads_back() const { return on_heard && request_.telegram.kind == TelegramKind::kSd4 && !request_.raw; }
+  bool answers_request(const Telegram& answer) const;
+  void succeed();
+  void no_answer(Tick now);
+  void wrong_answer(Tick now);
+  void retry_or(FdlOutcome outcome, Tick now);
+  void finish(FdlOutcome outcome);
+  void deadline(Tick now);
+
+  std::uint8_t address_;
+  BusParameters parameters_;
+  Segment& segment_;
+  StationId station_;
+  UartSender sender_;
+  UartReceiver receiver_;
+  TelegramDecoder decoder_;
+  TelegramListener listener_;
+  int baud_ = 0;
+  Tick bit_ = 0;
+
+  State state_ = State::kIdle;
+  FdlRequest request_;
+  std::vector<Character> characters_;
+  Bytes echo_;  ///< of a token, as heard while it was sent
+  bool responding_ = false;
+  bool wants_answer_ = false;
+  FdlResult result_;
+  Tick last_activity_ = 0, ready_at_ = 0, slot_end_ = 0;
+  std::array<Series, 128> series_ = {};
+};
+
+}  // namespace bus

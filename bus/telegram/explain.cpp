@@ -1,0 +1,227 @@
+// The frame round the data: delimiters, addresses, function codes, SAPs, and which service a telegram belongs to.
+#include "bus/telegram/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "bus/telegram/explain_data.hpp"
+
+namespace bus {
+
+namespace {
+
+using detail::DataWords;
+
+const char* request_function(std::uint8_t function) {
+  switch (function) {
+    case fc::kSdaLow: return "SDA low";
+    case fc::kSdnLow: return "SDN low";
+    case fc::kSdaHigh: return "SDA high";
+    case fc::kSdnHigh: return "SDN high";
+    case fc::kMsrd: return "MSRD";
+    case fc::kFdlStatus: return "FDL status";
+    case fc::kSrdLow: return "SRD low";
+    case fc::kSrdHigh: return "SRD high";
+    case fc::kIdent: return "Ident";
+    case fc::kLsapStatus: return "LSAP status";
+    default: return "reserved function";
+  }
+}
+
+const char* response_function(std::uint8_t function) {
+  switch (function) {
+    case fc::kOk: return "OK";
+    case fc::kUe: return "UE (user error)";
+    case fc::kRr: return "RR (no resource)";
+    case fc::kRs: return "RS (SAP not enabled)";
+    case fc::kDl: return "DL (data low)";
+    case fc::kNr: return "NR (no data)";
+    case fc::kDh: return "DH (data high)";
+    case fc::kRdl: return "RDL (data low, no resource)";
+    case fc::kRdh: return "RDH (data high, no resource)";
+    default: return "reserved code";
+  }
+}
+
+const char* station_type(std::uint8_t fc) {
+  static constexpr const char* kTypes[4] = {"passive station", "active station, not ready", "active station, ready",
+                                            "active station, in the ring"};
+  return kTypes[(fc >> 4) & 3];
+}
+
+const char* service_name(std::uint8_t slave_sap) {
+  switch (slave_sap) {
+    case sap::kSetSlaveAddress: return "Set_Slave_Address";
+    case sap::kReadInputs: return "Read_Inputs";
+    case sap::kReadOutputs: return "Read_Outputs";
+    case sap::kGlobalControl: return "Global_Control";
+    case sap::kGetCfg: return "Get_Cfg";
+    case sap::kSlaveDiag: return "Slave_Diag";
+    case sap::kSetPrm: return "Set_Prm";
+    case sap::kChkCfg: return "Chk_Cfg";
+    case sap::kMs1: return "MSAC1";
+    case sap::kMs1Alarm: return "MSAC1 alarm";
+    case sap::kMs2Rm: return "MSAC2 Initiate";
+    default: return slave_sap < sap::kMs2Rm ? "MSAC2" : nullptr;
+  }
+}
+
+/// The slave's SAP, which decides on the service: DSAP of a request, SSAP of an answer.
+std::optional<std::uint8_t> slave_sap(const Telegram& t) { return t.is_request() ? t.dsap : t.ssap; }
+
+bool is_data_transfer(const Telegram& t) {
+  if (!t.is_request()) return t.function() >= fc::kDl || !t.data.empty();
+  return t.function() != fc::kFdlStatus && t.function() != fc::kIdent && t.function() != fc::kLsapStatus;
+}
+
+DataWords default_sap_words(const Telegram& t) {
+  return detail::plain_words(t.is_request() ? "output" : "input", t.data);
+}
+
+DataWords request_words(const Telegram& t, std::uint8_t sap) {
+  switch (sap) {
+    case sap::kSetPrm: return detail::set_prm_words(t.data);
+    case sap::kChkCfg: return detail::cfg_words(t.data);
+    case sap::kGlobalControl: return detail::global_control_words(t.data);
+    case sap::kSetSlaveAddress: return detail::set_slave_address_words(t.data);
+    default: return sap <= sap::kMs1 ? detail::dpv1_words(t.data, false) : detail::plain_words("data", t.data);
+  }
+}
+
+DataWords response_words(const Telegram& t, std::uint8_t sap, std::optional<bool> dpv1) {
+  switch (sap) {
+    case sap::kSlaveDiag: return detail::diag_words(t.data, dpv1);
+    case sap::kGetCfg: return detail::cfg_words(t.data);
+    case sap::kReadInputs: return detail::plain_words("input", t.data);
+    case sap::kReadOutputs: return detail::plain_words("output", t.data);
+    default: return sap <= sap::kMs1 ? detail::dpv1_words(t.data, true) : detail::plain_words("data", t.data);
+  }
+}
+
+DataWords data_words(const Telegram& t, std::optional<bool> dpv1 = {}) {
+  const std::optional<std::uint8_t> sap = slave_sap(t);
+  if (!sap) return default_sap_words(t);
+  return t.is_request() ? request_words(t, *sap) : response_words(t, *sap, dpv1);
+}
+
+std::string service_words(const Telegram& t) {
+  if (const auto sap = slave_sap(t)) {
+    const char* name = service_name(*sap);
+    return name != nullptr ? name : fmt::format("SAP {}", *sap);
+  }
+  return is_data_transfer(t) ? "Data_Exchange" : "";
+}
+
+/// Whether the summary of the data says something that the name of the service does not.
+bool has_essentials(const Telegram& t) {
+  if (!t.data.empty()) return true;
+  if (!slave_sap(t)) return is_data_transfer(t);
+  return *slave_sap(t) <= sap::kMs1 && t.is_request();
+}
+
+std::string sap_words(const char* name, std::uint8_t byte, bool slave) {
+  const char* service = slave ? service_name(byte) : nullptr;
+  return service != nullptr ? fmt::format("{}: {} ({})", name, byte, service) : fmt::format("{}: {}", name, byte);
+}
+
+std::string address_words(const char* name, std::uint8_t byte) {
+  const unsigned address = byte & 0x7FU;
+  return fmt::format("{}: {}{}{}", name, address, address == kBroadcast ? " (all stations)" : "",
+                     (byte & 0x80U) != 0 ? ", SAP byte follows" : "");
+}
+
+class ByteExplainer {
+ public:
+  ByteExplainer(const Decoded& decoded, std::optional<bool> dpv1)
+      : decoded_(decoded), telegram_(decoded.telegram), dpv1_(dpv1) {}
+
+  std::vector<ExplainedByte> explain() {
+    if (!decoded_.readable) return explain_unreadable();
+    explain_header();
+    if (telegram_.kind == TelegramKind::kSc) return std::move(result_);
+    say(address_words("DA", peek()));
+    say(address_words("SA", peek()));
+    if (telegram_.kind != TelegramKind::kSd4) explain_body();
+    return std::move(result_);
+  }
+
+ private:
+  void explain_header() {
+    switch (telegram_.kind) {
+      case TelegramKind::kSd1: return say("SD1: no data");
+      case TelegramKind::kSd3: return say("SD3: 8 bytes of data");
+      case TelegramKind::kSd4: return say("SD4: token");
+      case TelegramKind::kSc: return say("SC: short acknowledge");
+      case TelegramKind::kSd2: break;
+    }
+    say("SD2: data of variable length");
+    say(fmt::format("LE: {} bytes from DA to the data", peek()));
+    say(fmt::format("LEr: {}", peek()));
+    say("SD2 repeated");
+  }
+
+  void explain_body() {
+    say("FC: " + explain_fc(peek()));
+    if (telegram_.dsap) say(sap_words("DSAP", *telegram_.dsap, telegram_.is_request()));
+    if (telegram_.ssap) say(sap_words("SSAP", *telegram_.ssap, !telegram_.is_request()));
+    for (std::string& text : data_words(telegram_, dpv1_).bytes) say(std::move(text));
+    say(fcs_words());
+    say(decoded_.error == DecodeError::kEndDelimiter ? "ED: wrong, 16 is right" : "ED");
+  }
+
+  std::string fcs_words() const {
+    if (decoded_.error != DecodeError::kFcs) return "FCS";
+    const std::size_t body = telegram_.kind == TelegramKind::kSd2 ? 4 : 1;
+    return fmt::format("FCS: wrong, {:02X} is right", frame_check_sequence(&decoded_.bytes[body], at_ - body));
+  }
+
+  std::vector<ExplainedByte> explain_unreadable() {
+    static constexpr const char* kVariable[] = {"SD2", "LE", "LEr", "SD2 repeated", "DA", "SA", "FC"};
+    static constexpr const char* kFixed[] = {"start delimiter", "DA", "SA", "FC"};
+    const bool variable = decoded_.bytes[0] == sd::k2;
+    const std::size_t known = variable ? std::size(kVariable) : std::size(kFixed);
+    while (at_ < decoded_.bytes.size()) say(at_ >= known ? "not decoded" : variable ? kVariable[at_] : kFixed[at_]);
+    result_.back().meaning += fmt::format(": {}", describe(decoded_.error));
+    return std::move(result_);
+  }
+
+  std::uint8_t peek() const { return decoded_.bytes[at_]; }
+  void say(std::string text) {
+    result_.push_back({at_, peek(), std::move(text)});
+    ++at_;
+  }
+
+  const Decoded& decoded_;
+  const Telegram& telegram_;
+  std::optional<bool> dpv1_;
+  std::size_t at_ = 0;
+  std::vector<ExplainedByte> result_;
+};
+
+}  // namespace
+
+std::string explain_fc(std::uint8_t fc) {
+  const auto function = static_cast<std::uint8_t>(fc & fc::kFunction);
+  if ((fc & fc::kRequest) == 0) return fmt::format("response {}, {}", response_function(function), station_type(fc));
+  return fmt::format("request {} FCB={} FCV={}", request_function(function), (fc & fc::kFcb) != 0 ? 1 : 0,
+                     (fc & fc::kFcv) != 0 ? 1 : 0);
+}
+
+std::string explain_line(const Telegram& t) {
+  if (t.kind == TelegramKind::kSc) return "SC (short acknowledge)";
+  if (t.kind == TelegramKind::kSd4) return fmt::format("{} -> {}  token", t.sa, t.da);
+  std::string line = fmt::format("{} -> {}  {}", t.sa, t.da, explain_fc(t.fc));
+  const std::string service = service_words(t);
+  if (!service.empty()) line += "  " + service;
+  if (has_essentials(t)) line += ": " + data_words(t).summary;
+  return line;
+}
+
+std::vector<ExplainedByte> explain_bytes(const Decoded& decoded, std::optional<bool> dpv1) {
+  return ByteExplainer(decoded, dpv1).explain();
+}
+
+std::optional<bool> dpv1_enabled(const Telegram& telegram) { return detail::dpv1_enabled(telegram); }
+
+}  // namespace bus

@@ -1,0 +1,38 @@
+#pragma once
+// Inside of explain: the data of each service. One summary and one text for each byte of the data.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/bytes.hpp"
+#include "bus/telegram/telegram.hpp"
+
+namespace bus::detail {
+
+struct DataWords {
+  std::string summary;
+  std::vector<std::string> bytes;  ///< as many as there are data bytes
+};
+
+DataWords set_prm_words(const Bytes& data);
+DataWords global_control_words(const Bytes& data);
+DataWords set_slave_address_words(const Bytes& data);
+/// Chk_Cfg request and Get_Cfg answer.
+DataWords cfg_words(const Bytes& data);
+/// `dpv1`: whether the slave is parameterised for DPV1; unset: unknown, device related blocks are then read both ways.
+DataWords diag_words(const Bytes& data, std::optional<bool> dpv1);
+/// What a Set_Prm that locks its slave says about DPV1; nothing for any other telegram.
+std::optional<bool> dpv1_enabled(const Telegram& telegram);
+/// C1 and C2 PDUs, requests and answers.
+DataWords dpv1_words(const Bytes& data, bool response);
+/// Process data and everything without a structure: "<what> 0", "<what> 1", ...
+DataWords plain_words(const std::string& what, const Bytes& data);
+
+/// "Group_Ident: group 1, 3".
+std::string group_words(const char* name, std::uint8_t byte, const char* zero);
+/// The names of the bits set, least significant first: "Prm_Req, WD_On"; "none" when there are none. `names` has 8
+/// entries, an empty one is shown as "bit n".
+std::string bit_names(std::uint8_t byte, const char* const (&names)[8]);
+std::string hex(const Bytes& bytes);
+
+}  // namespace bus::detail

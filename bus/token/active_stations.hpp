@@ -1,0 +1,50 @@
+#pragma once
+// The list of active stations (LAS) of a master and how it is learnt from the tokens of others (EN 50170 part 2, FDL).
+#include <bitset>
+#include <cstdint>
+#include <vector>
+
+#include "bus/telegram/telegram.hpp"
+
+namespace bus {
+
+class ActiveStations {
+ public:
+  void clear() { stations_.reset(); }
+  void add(std::uint8_t address) { stations_.set(address); }
+  void remove(std::uint8_t address) { stations_.reset(address); }
+  bool contains(std::uint8_t address) const { return stations_.test(address); }
+  /// NS: the next in the order of addresses, behind the highest the lowest; `address` itself when there is no other.
+  std::uint8_t next_after(std::uint8_t address) const;
+  /// PS, likewise downwards.
+  std::uint8_t previous_of(std::uint8_t address) const;
+  /// A token from `sa` to `da`: both are in the ring, and nobody between them.
+  void token_passed(std::uint8_t sa, std::uint8_t da);
+  std::vector<std::uint8_t> addresses() const;
+
+  friend bool operator==(const ActiveStations& a, const ActiveStations& b) { return a.stations_ == b.stations_; }
+
+ private:
+  std::bitset<kBroadcast + 1> stations_;
+};
+
+/// Whether a token from `sa` to `da` goes past `address`. To itself: past everybody else.
+bool token_skips(std::uint8_t sa, std::uint8_t da, std::uint8_t address);
+
+/// Learns the LAS: it is valid when two rotations of the token in succession were the same. A rotation ends with the
+/// token that goes to the same or a lower address.
+class StationLearner {
+ public:
+  void reset() { *this = StationLearner(); }
+  void token_passed(std::uint8_t sa, std::uint8_t da);
+  bool valid() const { return valid_; }
+  const ActiveStations& stations() const { return earlier_; }
+
+ private:
+  enum class Stage : std::uint8_t { kSearching, kFirst, kLater };
+  Stage stage_ = Stage::kSearching;  ///< no rotation begun yet, the first, another
+  ActiveStations now_, earlier_;
+  bool valid_ = false;
+};
+
+}  // namespace bus

@@ -1,0 +1,175 @@
+#include "bus/wire/uart.hpp"
+
+#include <algorithm>
+
+namespace bus {
+
+namespace {
+
+constexpr std::int64_t kMillion = 1'000'000;
+constexpr int kMillibits = 1000;
+constexpr std::uint16_t kParityBit = 1U << 9;
+constexpr std::uint16_t kStopBit = 1U << 10;
+
+bool bit_of(std::uint16_t bits, int index) { return ((bits >> index) & 1U) != 0; }
+
+Character broken_character(std::uint8_t byte, std::size_t index, const WireFaults& faults) {
+  Character character = Character::of(byte);
+  if (faults.wrong_parity_at == index) character.bits ^= kParityBit;
+  if (faults.missing_stop_at == index) character.bits ^= kStopBit;
+  if (faults.gap_before == index) character.gap_millibits = faults.gap_millibits;
+  if (faults.glitch_at == index) character.glitch = faults.glitch;
+  return character;
+}
+
+}  // namespace
+
+bool even_parity(std::uint8_t byte) {
+  byte = static_cast<std::uint8_t>(byte ^ (byte >> 4));
+  byte = static_cast<std::uint8_t>(byte ^ (byte >> 2));
+  byte = static_cast<std::uint8_t>(byte ^ (byte >> 1));
+  return (byte & 1U) != 0;
+}
+
+Character Character::of(std::uint8_t byte) {
+  Character character;
+  character.bits = static_cast<std::uint16_t>((byte << 1) | (even_parity(byte) ? kParityBit : 0U) | kStopBit);
+  return character;
+}
+
+Character Character::wrong_parity(std::uint8_t byte) {
+  Character character = of(byte);
+  character.bits ^= kParityBit;
+  return character;
+}
+
+Character Character::without_stop(std::uint8_t byte) {
+  Character character = of(byte);
+  character.bits ^= kStopBit;
+  return character;
+}
+
+std::vector<Character> characters(const Bytes& bytes, const WireFaults& faults) {
+  std::vector<Character> result;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    Character character = broken_character(bytes[i], i, faults);
+    if (faults.truncate_after == i) {
+      character.bit_count = faults.truncate_bits;
+      if (character.bit_count > 0) result.push_back(character);
+      break;
+    }
+    result.push_back(character);
+  }
+  return result;
+}
+
+void UartSender::set_timing(Tick bit, std::int64_t ppm) {
+  bit_ = bit;
+  ppm_ = ppm;
+}
+
+void UartSender::set_driver_times(Tick lead, Tick trail) {
+  lead_ = lead;
+  trail_ = trail;
+}
+
+Tick UartSender::exact(std::int64_t millibits) const {
+  const std::int64_t nominal = millibits * bit_;  // 1/1000 tick
+  return (nominal + nominal * ppm_ / kMillion + kMillibits / 2) / kMillibits;
+}
+
+void UartSender::send(Tick start, const std::vector<Character>& characters) {
+  edges_.clear();
+  position_ = 0;
+  start_ = start;
+  edges_.push_back({start - lead_, true, true});
+  std::int64_t millibits = 0;
+  for (const Character& character : characters) {
+    millibits += character.gap_millibits;
+    add_character(millibits, character);
+    millibits += character.bit_count * kMillibits;
+  }
+  end_ = start_ + exact(millibits);
+  add_level(end_, true);
+  edges_.push_back({end_ + trail_, false, true});
+}
+
+void UartSender::add_character(std::int64_t start_millibits, const Character& character) {
+  const std::int64_t glitch_start = character.glitch ? character.glitch->start_millibits : -1;
+  const std::int64_t glitch_end = character.glitch ? glitch_start + character.glitch->length_millibits : -1;
+  std::vector<std::int64_t> instants;
+  instants.reserve(static_cast<std::size_t>(character.bit_count) + 2);
+  for (int i = 0; i < character.bit_count; ++i) instants.push_back(i * kMillibits);
+  if (character.glitch) instants.insert(instants.end(), {glitch_start, glitch_end});
+  std::sort(instants.begin(), instants.end());
+  if (character.gap_millibits > 0) add_level(start_ + exact(start_millibits - character.gap_millibits), true);
+  for (const std::int64_t instant : instants) {
+    const int bit = static_cast<int>(instant / kMillibits);
+    const bool inverted = instant >= glitch_start && instant < glitch_end;
+    add_level(start_ + exact(start_millibits + instant),
+              (bit >= character.bit_count || bit_of(character.bits, bit)) != inverted);
+  }
+}
+
+void UartSender::add_level(Tick at, bool level) {
+  if (edges_.back().level != level) edges_.push_back({at, true, level});
+}
+
+void UartSender::abort(Tick now) {
+  if (!busy()) return;
+  edges_.clear();
+  position_ = 0;
+  end_ = now;
+  segment_.drive(station_, now, false, true);
+}
+
+void UartSender::run(Tick now) {
+  while (busy() && edges_[position_].at <= now) {
+    const Edge edge = edges_[position_++];
+    segment_.drive(station_, edge.at, edge.enabled, edge.level);
+  }
+}
+
+void UartReceiver::reset(bool level) {
+  receiving_ = false;
+  level_ = level;
+}
+
+void UartReceiver::line_changed(Tick at, bool level) {
+  sample_until(at);
+  level_ = level;
+  if (receiving_ || level) return;
+  receiving_ = true;
+  start_ = at;
+  sampled_ = 0;
+  bits_ = 0;
+}
+
+void UartReceiver::run(Tick now) { sample_until(now + 1); }
+
+void UartReceiver::sample_until(Tick end) {
+  while (receiving_ && sample_at(sampled_) < end) sample();
+}
+
+void UartReceiver::sample() {
+  if (sampled_ == 0 && level_) {
+    receiving_ = false;
+    if (on_false_start) on_false_start(start_);
+    return;
+  }
+  if (level_) bits_ = static_cast<std::uint16_t>(bits_ | (1U << sampled_));
+  if (++sampled_ == kCharacterBits) finish();
+}
+
+void UartReceiver::finish() {
+  receiving_ = false;
+  ReceivedCharacter character;
+  character.byte = static_cast<std::uint8_t>(bits_ >> 1);
+  character.start = start_;
+  character.end = start_ + kCharacterBits * bit_;
+  character.parity_ok = even_parity(character.byte) == bit_of(bits_, 9);
+  character.stop_ok = bit_of(bits_, 10);
+  if (on_character) on_character(character);
+}
+
+}  // namespace bus
