@@ -7,7 +7,7 @@
 #include <initializer_list>
 
 #include "apps/command_line.hpp"
-#include "tb/report/part_file.hpp"
+#include "tb/output/part_file.hpp"
 
 namespace app {
 namespace {

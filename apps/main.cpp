@@ -10,7 +10,7 @@
 #include "apps/stack.hpp"
 #include "bus/printable.hpp"
 #include "tb/input/input_error.hpp"
-#include "tb/report/standard_output.hpp"
+#include "tb/output/standard_output.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "tb/input/input_error.hpp"
-#include "tb/report/output_place.hpp"
+#include "tb/output/output_place.hpp"
 
 namespace app {
 namespace {

@@ -17,7 +17,7 @@
 #include "tb/checks/markdown.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 #include "tb/scenario/event_codes.hpp"
 
 namespace app {

@@ -22,7 +22,7 @@
 #include "tb/cosim/reference_rtl.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace app {

@@ -18,7 +18,7 @@
 #include "tb/cosim/reference_rtl.hpp"
 #include "tb/cosim/user_rtl.hpp"
 #include "tb/input/input_error.hpp"
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"

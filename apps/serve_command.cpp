@@ -18,7 +18,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 #include "tb/input/units.hpp"
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/serve/ports.hpp"

@@ -15,7 +15,7 @@
 #include "apps/sweep_runner.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 #include "tb/scenario/scenario.hpp"
 #include "tb/sweep/fingerprint.hpp"
 #include "tb/sweep/folder.hpp"

@@ -12,7 +12,7 @@
 #include "bus/telegram/explain.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace app {

@@ -5,7 +5,7 @@
 
 #include "bus/time.hpp"
 #include "model/dsdpv1/chip.hpp"
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 
 namespace tb {
 

@@ -9,7 +9,7 @@
 #include "bus/bytes.hpp"
 #include "bus/monitor/monitor.hpp"
 #include "bus/time.hpp"
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 
 namespace tb {
 

@@ -10,7 +10,7 @@
 #include "model/systemc/main_stack.hpp"
 #include "model/systemc/sim_time.hpp"
 #include "tb/systemc/tlm_chip.hpp"
-#include "tb/user_cpu/tlm_host_bus.hpp"
+#include "tb/systemc/tlm_host_bus.hpp"
 
 namespace tb {
 namespace {

@@ -11,7 +11,7 @@
 #include <iterator>
 
 #include "tb/input/input_error.hpp"
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 
 namespace cosim {
 namespace {

@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "tb/input/input_error.hpp"
-#include "tb/report/part_file.hpp"
+#include "tb/output/part_file.hpp"
 #include "tb/serve/ports.hpp"
 #include "tb/serve/termios2.hpp"
 

@@ -15,7 +15,7 @@
 #include <cstring>
 #include <thread>
 
-#include "tb/report/signals_held.hpp"
+#include "tb/output/signals_held.hpp"
 
 namespace tb::sweep {
 namespace {

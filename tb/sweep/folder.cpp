@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "tb/input/input_error.hpp"
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 #include "tb/sweep/fingerprint.hpp"
 
 namespace tb::sweep {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "tb/report/part_file.hpp"
+#include "tb/output/part_file.hpp"
 
 namespace tb {
 

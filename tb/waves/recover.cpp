@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "tb/input/input_error.hpp"
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 
 namespace tb {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tb/input/input_error.hpp"
-#include "tb/report/output_place.hpp"
+#include "tb/output/output_place.hpp"
 #include "tb/waves/fst_file.hpp"
 #include "tb/waves/recover.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace tb {

@@ -3,6 +3,7 @@
 
     check_docs.py links            relative links and their anchors exist
     check_docs.py files            files named in backquotes exist
+    check_docs.py table            README.md's table names every document of docs/
     check_docs.py snippets         code in README.md is that of the example
     check_docs.py readme SIM       the demo's output in README.md is what dsdpv1-sim prints
     check_docs.py picture SIM      docs/img/power_on_12m.svg is drawn from what dsdpv1-sim writes
@@ -88,6 +89,14 @@ def check_files(root):
 
 
 # -------------------------------------------------------------------------------------------------------------- README
+def check_table(root):
+    text = (root / "README.md").read_text(encoding="utf-8")
+    rows = set(re.findall(r"^\| \[[^\]]+\]\((docs/[^)#]+)\) \|", text, re.M))
+    for path in sorted((root / "docs").glob("*.md")):
+        if f"docs/{path.name}" not in rows:
+            yield f"README.md:1: the table of documents has no row for docs/{path.name}"
+
+
 def check_snippets(root):
     path = root / "README.md"
     text = path.read_text(encoding="utf-8")
@@ -193,12 +202,12 @@ def main():
     here = pathlib.Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=here)
-    parser.add_argument("what", choices=["links", "files", "snippets", "readme", "picture", "sweep", "update"])
+    parser.add_argument("what", choices=["links", "files", "table", "snippets", "readme", "picture", "sweep", "update"])
     parser.add_argument("sim", nargs="?")
     arguments = parser.parse_args()
     with_sim = {"readme": check_readme, "picture": check_picture, "sweep": check_sweep,
                 "update": update}
-    without = {"links": check_links, "files": check_files, "snippets": check_snippets}
+    without = {"links": check_links, "files": check_files, "table": check_table, "snippets": check_snippets}
     if arguments.what in with_sim:
         if arguments.sim is None:
             parser.error(f"{arguments.what} needs the path of dsdpv1-sim")

@@ -10,7 +10,8 @@ RIGHT = {
                  "See [the chip](docs/chip.md#its-rulings), `model/core.cpp`, `core.cpp` and [far](https://a.org).\n"
                  "```\n[no](link.md) in code\n```\n"
                  "<!-- from examples/one.cpp -->\n```cpp\nint main() {}\n```\n"
-                 "<!-- demo: x -->\n```\nat 1.5 us\nin 0.5 s: 2.0 times real time\n```\n<!-- /demo -->\n",
+                 "<!-- demo: x -->\n```\nat 1.5 us\nin 0.5 s: 2.0 times real time\n```\n<!-- /demo -->\n"
+                 "| [docs/chip.md](docs/chip.md) | the chip |\n",
     "docs/chip.md": "# Chip\n## Its rulings\n- **P1** a\n- **V1** b\n",
     "model/core.cpp": "",
     "examples/one.cpp": "// one\nint main() {}\n",
@@ -39,7 +40,7 @@ class Project(unittest.TestCase):
 
     def faults(self):
         found = []
-        for check in (check_docs.check_links, check_docs.check_files, check_docs.check_snippets):
+        for check in (check_docs.check_links, check_docs.check_files, check_docs.check_table, check_docs.check_snippets):
             found += check(self.root)
         return found + list(check_docs.check_readme(self.root, str(self.root / "sim")))
 
@@ -66,6 +67,10 @@ class Project(unittest.TestCase):
     def test_a_bare_name_that_no_file_has(self):
         self.change("README.md", "`core.cpp`", "`heart.cpp`")
         self.expect("there is no heart.cpp")
+
+    def test_a_document_that_the_table_does_not_name(self):
+        self.write("docs/new.md", "# New\n")
+        self.expect("README.md:1: the table of documents has no row for docs/new.md")
 
     def test_a_snippet_that_the_example_has_no_more(self):
         self.change("examples/one.cpp", "int main() {}", "int main() { return 0; }")

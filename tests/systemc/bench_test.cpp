@@ -8,10 +8,10 @@
 #include "bus/timeline.hpp"
 #include "tb/systemc/timeline_module.hpp"
 #include "tb/systemc/tlm_chip.hpp"
+#include "tb/systemc/tlm_host_bus.hpp"
 #include "tb/user_cpu/native_cpu.hpp"
 #include "tb/user_cpu/pin_host_bus.hpp"
 #include "tb/user_cpu/programs.hpp"
-#include "tb/user_cpu/tlm_host_bus.hpp"
 #include "tests/systemc/bench.hpp"
 
 using dsdpv1::Level;

@@ -1,4 +1,4 @@
-#include "tb/report/part_file.hpp"
+#include "tb/output/part_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "tb/report/signals_held.hpp"
+#include "tb/output/signals_held.hpp"
 
 namespace tb {
 namespace {

@@ -1,4 +1,4 @@
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 
 #include <cerrno>
 

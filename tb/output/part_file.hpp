@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "tb/report/output_place.hpp"
+#include "tb/output/output_place.hpp"
 
 namespace tb {
 

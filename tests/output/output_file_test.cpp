@@ -1,5 +1,5 @@
 // Output files: complete or absent, and nothing replaced that is no output.
-#include "tb/report/output_file.hpp"
+#include "tb/output/output_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

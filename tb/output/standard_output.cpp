@@ -1,4 +1,4 @@
-#include "tb/report/standard_output.hpp"
+#include "tb/output/standard_output.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

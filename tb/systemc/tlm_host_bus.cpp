@@ -1,4 +1,4 @@
-#include "tb/user_cpu/tlm_host_bus.hpp"
+#include "tb/systemc/tlm_host_bus.hpp"
 
 #include "model/systemc/sim_time.hpp"
 

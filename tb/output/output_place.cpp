@@ -1,4 +1,4 @@
-#include "tb/report/output_place.hpp"
+#include "tb/output/output_place.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

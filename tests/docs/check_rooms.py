@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""The arrows between the rooms: what docs/architecture.md allows against what the sources include.
+
+    check_rooms.py [--root FOLDER]
+
+A row of the page's table is a room (a folder with C or C++ files) and the rooms that it includes; `bus/*` is bus and all rooms in it. A room
+includes only rooms that stand above it, so there is no circle. One line a fault, exit 1 when there is any.
+"""
+import argparse
+import pathlib
+import re
+import sys
+
+PAGE = "docs/architecture.md"
+TABLE = re.compile(r"<!-- arrows -->\n(.*?)<!-- /arrows -->", re.S)
+ROW = re.compile(r"^\| `([^`]+)` \| (.*?) ?\|", re.M)
+ENDINGS = {".c", ".cpp", ".h", ".hpp", ".inc"}
+NO_ROOMS = ("build/", "out/", "tests/", "rtl_ref/", ".")  # tests may look at everything; the RTL includes nothing of C++
+
+
+def rows_of(text):
+    """Room to the words of its cell, in the order of the page."""
+    table = TABLE.search(text)
+    return {room: re.findall(r"`([^`]+)`", cell) for room, cell in ROW.findall(table.group(1))} if table else {}
+
+
+def includes_of(root):
+    """Room to {room that it includes: one place where it does}."""
+    found = {}
+    for path in sorted(root.rglob("*")):
+        name = path.relative_to(root).as_posix()
+        if path.suffix not in ENDINGS or name.startswith(NO_ROOMS) or not path.is_file():
+            continue
+        room = found.setdefault(name.rpartition("/")[0], {})
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            included = re.match(r'#include "([^"]+)/[^"/]+"', line)
+            if included and (root / included.group(1)).is_dir() and included.group(1) != name.rpartition("/")[0]:
+                room.setdefault(included.group(1), f"{name}:{number}")
+    return found
+
+
+def stands_for(word, room):
+    return word == room or (word.endswith("/*") and (room + "/").startswith(word[:-1]))
+
+
+def check(root):
+    rows, found = rows_of((root / PAGE).read_text(encoding="utf-8")), includes_of(root)
+    order = list(rows)
+    for room in found:
+        if room not in rows:
+            yield f"{PAGE}:1: the table of arrows has no row for {room}"
+            continue
+        for other, place in found[room].items():
+            if not any(stands_for(word, other) for word in rows[room]):
+                yield f"{place}: {room} includes {other}, which {PAGE} does not allow"
+            elif other in order and order.index(other) > order.index(room):
+                yield f"{place}: {room} includes {other}, which stands below it in {PAGE}"
+        for word in rows[room]:
+            if not any(stands_for(word, other) for other in found[room]):
+                yield f"{PAGE}:1: {room} includes nothing of {word} any more"
+    for room in rows:
+        if room not in found:
+            yield f"{PAGE}:1: there is no room {room}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
+    faults = list(check(parser.parse_args().root))
+    print("\n".join(faults) if faults else "rooms: right")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
