@@ -46,11 +46,11 @@ cosim::MakeTop maker(const RtlRandomArguments& arguments) {
   return [seed] { return cosim::make_reference_rtl(cosim::quick_config(), seed); };
 }
 
-int replay(const RtlRandomArguments& arguments, const std::string& path) {
+int replay(const RtlRandomArguments& arguments, const cosim::Stimulus& stimulus, const std::string& path) {
   cosim::PlayOptions options;
   options.config = cosim::quick_config();
   options.wave = arguments.difference;
-  const cosim::PlayResult result = cosim::play(read_stimulus(path), maker(arguments), options);
+  const cosim::PlayResult result = cosim::play(stimulus, maker(arguments), options);
   std::cout << bus::printable(path) << ": " << counts_text(result.counts) << '\n' << result.coverage.text();
   if (!result.difference) return kPassed;
   std::cout << cosim::describe(*result.difference) << "wave              " << arguments.difference << '\n';
@@ -74,18 +74,19 @@ class ProgressLine {
   bool shown_ = isatty(STDERR_FILENO) != 0;
 };
 
-int shrink_and_replay(const RtlRandomArguments& arguments, const cosim::CampaignResult& result) {
+int shrink_and_replay(const RtlRandomArguments& arguments, const cosim::CampaignResult& result, tb::OutputFile& file) {
   std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", result.cases, result.difference->what)
             << std::flush;
   const cosim::Stimulus shrunk =
       cosim::shrink(cosim::random_stimulus(result.failed_seed), maker(arguments), kShrinkRuns);
-  tb::OutputFile file(arguments.stimulus);
-  file.write(cosim::to_text(shrunk));
+  const std::string text = cosim::to_text(shrunk);
+  file.write(text);
   file.commit();
   const std::string fault = arguments.fault == 0 ? "" : fmt::format(" --fault {}", arguments.fault);
   std::cout << fmt::format("{} actions, to be seen again with\n  dsdpv1-sim rtl-random{} --seed {} --replay {}\n",
                            shrunk.size(), fault, arguments.seed, arguments.stimulus);
-  return replay(arguments, arguments.stimulus);
+  // What the file says, not the file: a FIFO cannot be read here.
+  return replay(arguments, cosim::parse_stimulus(text, arguments.stimulus), arguments.stimulus);
 }
 
 std::vector<NamedFile> with_files_of(const std::string& folder, std::vector<NamedFile> inputs) {
@@ -102,7 +103,8 @@ int rtl_random(const RtlRandomArguments& arguments) {
   check_outputs(
       "dsdpv1-sim rtl-random", {{"--replay", arguments.replay}},
       {{"--stimulus", arguments.replay.empty() ? arguments.stimulus : ""}, {"--difference", arguments.difference}});
-  if (!arguments.replay.empty()) return replay(arguments, arguments.replay);
+  if (!arguments.replay.empty()) return replay(arguments, read_stimulus(arguments.replay), arguments.replay);
+  tb::OutputFile stimulus(arguments.stimulus);  // before hours of random cases, not after them
   const auto begin = std::chrono::steady_clock::now();
   const ProgressLine line;
   const cosim::CampaignResult result =
@@ -113,7 +115,7 @@ int rtl_random(const RtlRandomArguments& arguments) {
   std::cout << fmt::format("seed {}: {} cases, {} ({:.1f} M cycles/s)\n", arguments.seed, result.cases,
                            counts_text(result.counts), static_cast<double>(result.counts.cycles) / 1e6 / seconds)
             << result.coverage.text();
-  return result.difference ? shrink_and_replay(arguments, result) : kPassed;
+  return result.difference ? shrink_and_replay(arguments, result, stimulus) : kPassed;
 }
 
 int rtl_faults(const RtlFaultsArguments& arguments) {
@@ -124,6 +126,8 @@ int rtl_faults(const RtlFaultsArguments& arguments) {
   const std::vector<cosim::Fault> faults = cosim::read_faults(list);
   const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder);
   check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", arguments.tsv}});
+  std::optional<tb::OutputFile> tsv;
+  if (!arguments.tsv.empty()) tsv.emplace(arguments.tsv);
   const cosim::Kill none = cosim::hunt({0, "none", "the build for the faults, with none active"}, directed,
                                        arguments.seed, arguments.cycles / 10);
   std::cout << cosim::heading();
@@ -131,8 +135,6 @@ int rtl_faults(const RtlFaultsArguments& arguments) {
     std::cout << cosim::line_of(none) << "model and RTL differ without a fault; find that out first\n";
     return kFailed;
   }
-  std::optional<tb::OutputFile> tsv;
-  if (!arguments.tsv.empty()) tsv.emplace(arguments.tsv);
   const std::vector<cosim::Kill> kills =
       cosim::hunt_all(faults, directed, {arguments.seed, arguments.cycles, threads(arguments.jobs)},
                       [](const cosim::Kill& kill) { std::cout << cosim::line_of(kill) << std::flush; });

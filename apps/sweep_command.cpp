@@ -46,6 +46,21 @@ std::string folder_of(const SweepArguments& arguments) {
   return "sweep_" + std::filesystem::path(arguments.scenario).stem().string();
 }
 
+std::vector<NamedFile> inputs_of(const Plan& plan, const tb::sweep::Inputs& inputs) {
+  std::vector<std::string> named;
+  for (const auto& file : inputs.content().items())
+    if (file.key() != plan.scenario) named.push_back(file.key());
+  return scenario_inputs(plan.scenario, named);
+}
+
+/// What is written or removed there, of which what is there already can be an input or lead to one.
+std::vector<NamedFile> outputs_in(const std::string& folder) {
+  std::vector<NamedFile> outputs;
+  for (const std::filesystem::path& file : tb::sweep::own_files(folder))
+    outputs.push_back({file.lexically_relative(folder).string() + " of --out", file.string()});
+  return outputs;
+}
+
 void write(const std::string& path, const std::string& text) {
   tb::OutputFile file(path);
   file.write(text);
@@ -96,13 +111,9 @@ int sweep(const SweepArguments& arguments) {
   const Plan plan = plan_of(arguments);
   tb::sweep::fingerprint_of_file(plan.scenario);  // refuses what can be read only once, before it is read
   check_loads(plan);
-  check_outputs("dsdpv1-sim sweep",
-                scenario_inputs(arguments.scenario,
-                                tb::scenario::files(arguments.scenario, tb::scenario::parse_settings(arguments.set))),
-                {{"results.csv of --out", folder_of(arguments) + "/results.csv"},
-                 {"sweep.json of --out", folder_of(arguments) + "/sweep.json"}});
-  catch_signals();
   const tb::sweep::Inputs inputs(plan);
+  check_outputs("dsdpv1-sim sweep", inputs_of(plan, inputs), outputs_in(folder_of(arguments)));
+  catch_signals();
   const Folder folder(folder_of(arguments),
                       tb::sweep::identity(plan, inputs, tb::sweep::program_identity(DSDPV1_VERSION)));
   if (!folder.started_anew().empty())

@@ -43,7 +43,8 @@ void bind_to(pid_t parent) {
   bind_to(parent);
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
   if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(nothing, STDOUT_FILENO) < 0) give_up();
-  for (const int signal : kSignals) std::signal(signal, SIG_DFL);
+  for (const int signal : kSignals)  // held meanwhile; what is ignored (nohup) stays so
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
   signals.release();
   execv(kThisProgram, argv.data());
   give_up();

@@ -82,6 +82,26 @@ Json identity(const Plan& plan, const Inputs& inputs, const std::string& program
   return as_kept(json);
 }
 
+std::vector<fs::path> own_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  const auto add = [&files](const fs::path& in, const auto& is_own) {
+    if (!fs::is_directory(in)) return;
+    for (const auto& entry : fs::directory_iterator(in))
+      if (is_own(entry.path().filename().string())) files.push_back(entry.path());
+  };
+  try {
+    add(
+        folder,
+        [](const std::string& name) {
+          return name == "sweep.json" || name == "results.csv" || is_picture(name) || is_left_over(name);
+        });
+    add(folder / "points", [](const std::string& /*name*/) { return true; });
+  } catch (const fs::filesystem_error& error) {
+    throw InputError(folder.string(), 0, "cannot be used for a sweep: " + error.code().message());
+  }
+  return files;
+}
+
 Folder::Folder(fs::path path, const Json& identity)
     : path_(std::move(path)), identity_(fingerprint(text_of(identity))) {
   try {

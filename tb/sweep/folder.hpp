@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tb/sweep/inputs.hpp"
 #include "tb/sweep/lock.hpp"
@@ -19,6 +20,10 @@ nlohmann::ordered_json identity(const Plan& plan, const Inputs& inputs, const st
 
 /// "0.1.0 1f0c...": the version and what the program is made of, so that a program built anew counts as another one.
 std::string program_identity(const std::string& version);
+
+/// The files in a folder that a sweep there writes or removes, as far as they exist. Throws InputError when it cannot
+/// be read.
+std::vector<std::filesystem::path> own_files(const std::filesystem::path& folder);
 
 /// sweep.json says what the folder is about, points/00042.json is a finished point: settings, exit code, result. It
 /// belongs to one process at a time.

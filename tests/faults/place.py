@@ -11,17 +11,8 @@ import time
 from whole import BEFORE, ended_early, read, readable, same
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-DEADLINE = 60
-SCENARIO = """name: short
-baud: 12M
-end: 1ms
-slaves:
-  - {name: demo, address: 5, gsd: device.gsd, modules: ["2 bytes in, 2 bytes out"]}
-masters:
-  - {name: plc, address: 2, slaves: [{slave: demo, outputs: "01 02"}]}
-"""
+DEADLINE = 120
 FST_HEAD, FST_UNFINISHED = 330, 0xFF  # length of the first block, tag of one that is not finished
-ENDLESS = ["--set", "end=3000s", "--progress"]
 
 
 class Failure(Exception):
@@ -44,42 +35,16 @@ def has_changes(content):
     return len(content) > 2000 and (content[0] != 0 or content[FST_HEAD] != FST_UNFINISHED)
 
 
-class Output:
-    """One output: its name in the table, its file, and the command that writes it."""
-
-    def __init__(self, name, file, words):
-        self.name, self.file, self.words, self.reference = name, file, words, b""
-
-    @property
-    def of_run(self):
-        return self.words[0] == "run"
-
-    def command(self, path=None, more=()):
-        return [word for word in [*self.words, path or self.file, *more] if word]
-
-
-def of_run(name, file, option):
-    return Output(name, file, ["run", "s.yaml", "--quiet", option])
-
-
-OUTPUTS = [of_run("wave .fst", "o.fst", "--wave"), of_run("wave .vcd", "o.vcd", "--wave"), of_run("log", "o.log", "--log"),
-           of_run("log .jsonl", "o.jsonl", "--log"), of_run("result", "o.json", "--result"),
-           of_run("trace", "o.txt", "--trace"), Output("schema", "o.schema", ["schema", "--output"]),
-           Output("reasons", "o.md", ["reasons", "--markdown", "--output"]),
-           Output("recover", "o.fst", ["recover", "killed.fst.1.part", "--output"])]
-# What a run takes an output for that another one needs too.
-OTHER = {"--wave": "--log", "--log": "--result", "--result": "--trace", "--trace": "--log"}
-
-
 class Place:
-    """A folder with the inputs, where one fault is done to one output."""
+    """A folder with the inputs of `kept`, where one fault is done to one output."""
 
     def __init__(self, program, output, kept):
         self.program, self.output = program, output
         self.path = tempfile.mkdtemp(prefix="dsdpv1_faults_")
-        for name in os.listdir(kept):
-            shutil.copy(os.path.join(kept, name), self.path)
+        shutil.copytree(kept, self.path, symlinks=True, dirs_exist_ok=True)
         self.inputs = set(os.listdir(self.path))
+        self.started = []
+        self.heard = {}  # of processes, what they have said while they were waited for
 
     def file(self, name=None):
         return os.path.join(self.path, name or self.output.file)
@@ -90,21 +55,33 @@ class Place:
 
     def start(self, words, faults="", stdout=subprocess.DEVNULL):
         launcher = [sys.executable, "-S", os.path.join(HERE, "launch.py"), faults] if faults else []
-        return subprocess.Popen([*launcher, self.program, *words], cwd=self.path, stdout=stdout, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
+        self.started.append(subprocess.Popen([*launcher, self.program, *words], cwd=self.path, stdout=stdout, stderr=subprocess.PIPE,
+                                             stdin=subprocess.DEVNULL))
+        return self.started[-1]
+
+    def start_endless(self):
+        """The output's command without an end, when it runs."""
+        process = self.start(self.output.command(endless=True), stdout=subprocess.PIPE)
+        self.heard[process.pid] = self.output.wait_until_it_runs(process, self)
+        return process
 
     def do(self, path=None, faults="", more=()):
         return self.end(self.start(self.output.command(path, more), faults))
 
-    def end(self, process, already=b""):
+    def end(self, process, early=False, said=True):
+        """`early`: it was interrupted. `said`: its last line matters."""
         _, errors = process.communicate(timeout=DEADLINE)
-        return self.row(process.returncode, already + errors)
+        errors = self.heard.get(process.pid, b"") + errors
+        return [self.left(early), self.status(process.returncode), self.line(errors) if said else ""]
 
-    def row(self, status, errors):
-        status = signal.Signals(-status).name if status < 0 else str(status)
-        return [self.left(early=status == "130"), status, self.line(errors)]
+    def status(self, code):
+        if code < 0:
+            return signal.Signals(-code).name
+        return "usual" if code == self.output.usual else str(code)
 
     def line(self, errors):
         text = re.sub(r"\r[^\x1b]*\x1b\[K", "", errors.decode())
+        text = re.sub(r"serve: (the log grows as .*|this computer is too slow.*)\n", "", text)
         check(text.count("\n") <= 1, "more than one line: " + text)
         text = text.strip().replace(self.path + "/", "")
         text = re.sub(r"until [1-9]\d*\.\d{3} ns", "until TIME", text)
@@ -114,8 +91,8 @@ class Place:
         """Without what differs from output to output."""
         text = re.sub(r"n{100,}(\.\w+)?", "NAME", text)
         text = text.replace(self.output.file or "/", "FILE").replace("./FILE", "FILE")
-        text = re.sub(r"--(wave|log|result|trace|output)\b", "OPTION", text)
-        text = re.sub(r"dsdpv1-sim \w+:", "dsdpv1-sim COMMAND:", text)
+        text = re.sub(r"--(wave|log|result|trace|output|difference|stimulus|tsv|replay|list)\b", "OPTION", text)
+        text = re.sub(r"dsdpv1-sim [\w-]+:", "dsdpv1-sim COMMAND:", text)
         return re.sub(r"\.\d+(-\d+)?\.part", ".PID.part", text)
 
     def left(self, early=False):
@@ -130,7 +107,7 @@ class Place:
         if name.endswith(".hier"):
             return ""
         if name.endswith(".part"):
-            if self.output.file == "o.fst" and not has_changes(content):
+            if self.output.file.endswith(".fst") and self.output.simulates and not has_changes(content):
                 return " (no changes yet)"
             if not content:
                 return " (empty)"
@@ -142,14 +119,18 @@ class Place:
         check(whole, "%s is neither complete nor as before" % name)
         return " complete"
 
-    def part(self, something=False):
-        """The temporary file; `something`: once there is something to be read in it, of FST a block of changes."""
+    def part(self, something=False, of=""):
+        """The temporary file, of the process with this number; `something`: once there is something to be read in it, of FST a block of changes."""
         def there():
-            return [name for name in os.listdir(self.path) if name.endswith(".part") and name not in self.inputs
+            return [name for name in os.listdir(self.path) if name.endswith("%s.part" % of) and name not in self.inputs
                     and (not something or has_changes(read(self.file(name))))]
         wait_for(there, "the temporary file")
         return there()[0]
 
     def close(self):
+        """Also after a check that failed in between."""
+        for process in self.started:
+            process.kill()
+            process.wait()
         subprocess.run(["chmod", "-R", "u+w", self.path], check=False)
         shutil.rmtree(self.path)

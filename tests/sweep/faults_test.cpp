@@ -88,6 +88,16 @@ TEST_F(SweepFault, RunsEndWithASweepThatIsKilled) {
   EXPECT_EQ(bash(std::string("start ") + kLong + "\nchild; kill -KILL $sweep; gone $child\n"), 0);
 }
 
+// nohup: what the sweep ignores, its runs do, too. SIGHUP is the first bit.
+TEST_F(SweepFault, RunsIgnoreAHangUpThatTheSweepIgnores) {
+  EXPECT_EQ(bash(std::string("trap '' HUP; start ") + kLong +
+                 "\nchild; until tr '\\0' ' ' <\"/proc/$child/cmdline\" | grep -q '^dsdpv1-sim run '; do\n"
+                 "  [ $SECONDS -lt 30 ] || exit 97; done\n"
+                 "grep '^SigIgn:' /proc/$child/status >ignored; kill -TERM $sweep; finish\n"),
+            130);
+  EXPECT_THAT(file("ignored"), MatchesRegex("SigIgn:.*[13579bdf]\n"));
+}
+
 TEST_F(SweepFault, KilledOneGoesOnToTheSameResults) {
   // Long enough that the signal comes before the end on a busy machine too.
   const std::string jobs = "--jobs 2 --param user_cpu.cycle=50us,60us,70us --param end=600us,300ms --out out";
@@ -187,6 +197,27 @@ TEST_F(SweepFault, AnotherProgramIsNotAnsweredFromTheFolder) {
   EXPECT_EQ(bash("cp $SIM sim; ./sim" + arguments + "echo >>sim; ./sim" + arguments), 0);
   EXPECT_EQ(file("err"),
             "sweep: out is about another version of the program: its points are removed, the sweep starts again\n");
+}
+
+// Whatever the sweep would write or remove in its folder can be an input, or lead to one.
+TEST_F(SweepFault, InputInItsFolderIsNeitherReplacedNorRemoved) {
+  const std::string arguments = "--param user_cpu.cycle=50us,60us --out out";
+  ASSERT_EQ(sweep(arguments).status, 0);
+  const std::string gsd = file("a.gsd");
+  for (const char* link : {"out/map.svg", "out/points/00000.json", "out/results.csv"}) {
+    fs::remove(folder_.file(link));
+    fs::create_symlink(folder_.file("a.gsd"), folder_.file(link));
+    EXPECT_THAT(sweep(arguments).err, HasSubstr(" of --out would replace a file of the scenario, out/")) << link;
+    EXPECT_THAT(sweep("--param gsd=a.gsd --out out").err, HasSubstr(" of --out would replace a file of the ")) << link;
+    EXPECT_TRUE(file("a.gsd") == gsd) << link;
+    fs::remove(folder_.file(link));
+  }
+  for (const char* own : {"out/map_2.svg", "out/points/s.yaml"}) {  // a sweep that starts again removes them
+    write(own, kScenario);
+    EXPECT_THAT(call(std::string("sweep ") + own + " " + arguments, folder_.path()).err, HasSubstr("would replace"));
+    EXPECT_EQ(file(own), kScenario);
+    fs::remove(folder_.file(own));
+  }
 }
 
 TEST_F(SweepFault, DamagedPointsAreDoneAgain) {

@@ -1,0 +1,144 @@
+"""The outputs of dsdpv1-sim, each with the command that writes it."""
+import os
+import shutil
+import subprocess
+
+SCENARIO = """name: short
+baud: 12M
+end: 1ms
+slaves:
+  - {name: demo, address: 5, gsd: device.gsd, modules: ["2 bytes in, 2 bytes out"]}
+masters:
+  - {name: plc, address: 2, slaves: [{slave: demo, outputs: "01 02"}]}
+"""
+RTL_FAULT = "12"  # of rtl_ref/faults.txt, one that is quickly found and shrunk
+
+
+class Output:
+    """One output: its kind and file, and the words of its command, of which the last is the option for it."""
+
+    finite, endless = [], []  # what lets the command end soon or never
+    usual = 0                 # its exit code without a fault
+    other_input = ""          # a file that it reads, not the scenario
+    simulates = False         # a scenario, until it is interrupted
+    others = {}               # another option for an output
+
+    def __init__(self, kind, file, *words):
+        self.kind, self.file, self.words, self.reference = kind, file, list(words), b""
+        self.name = " ".join(filter(None, [words[0], kind]))
+
+    @property
+    def option(self):
+        return self.words[-1]
+
+    @property
+    def other(self):
+        return self.others.get(self.option)
+
+    def command(self, path=None, more=(), endless=False):
+        return [word for word in [*self.words, path or self.file, *(self.endless if endless else self.finite), *more] if word]
+
+    def wait_until_it_runs(self, process, place):
+        """What was read meanwhile of its error channel."""
+        place.part(of=".%d" % process.pid)
+        return b""
+
+
+class OfRun(Output):
+    endless = ["--set", "end=3000s", "--progress"]
+    other_input = "device.gsd"
+    simulates = True
+    others = {"--wave": "--log", "--log": "--result", "--result": "--trace", "--trace": "--log"}
+
+    def __init__(self, kind, file, option):
+        super().__init__(kind, file, "run", "s.yaml", "--quiet", option)
+
+    def held(self, name):
+        """The options for a file that is opened after the output; of the trace, which is the last, before it, and the result is there already."""
+        return ["--wave", name, "--result", "held.json"] if self.kind == "trace" else ["--trace", name]
+
+    def beside(self, name):
+        return ["--log" if self.kind == "trace" else "--trace", name]
+
+    def wait_until_it_runs(self, process, place):
+        return process.stderr.read(1)  # of the progress bar
+
+
+class OfServe(Output):
+    finite, endless = ["--for", "1ms"], ["--for", "3000s"]
+    other_input = "device.gsd"
+    simulates = True
+    others = {"--wave": "--log", "--log": "--result", "--result": "--log"}
+
+    def __init__(self, kind, file, option):
+        super().__init__(kind, file, "serve", "s.yaml", "--tcp", "0", "--quiet", option)
+
+    def held(self, name):
+        return ["--wave", name, "--result", "held.json"] if self.kind == "log" else ["--log", name]
+
+    def beside(self, name):
+        return ["--wave" if self.kind == "log" else "--log", name]
+
+    def wait_until_it_runs(self, process, place):
+        process.stdout.readline()  # where it serves
+        return b""
+
+
+class OfReplay(Output):
+    """The wave of a difference: of a case that is there already, which is quicker."""
+
+    usual = 1
+    other_input = "case.stimulus"
+
+    def __init__(self, kind, file):
+        super().__init__(kind, file, "rtl-random", "--replay", self.other_input, "--fault", RTL_FAULT, "--difference")
+
+
+class OfRandom(Output):
+    """Its other output is nowhere, except when it runs until it is interrupted."""
+
+    finite, endless = ["--fault", RTL_FAULT], ["--cycles", "1000000000000", "--difference", "d.vcd"]
+    usual = 1
+    others = {"--stimulus": "--difference"}
+
+    def __init__(self):
+        super().__init__("stimulus", "o.stimulus", "rtl-random", "--stimulus")
+
+    def command(self, path=None, more=(), endless=False):
+        nowhere = [] if endless or "--difference" in more else ["--difference", "nowhere.vcd"]
+        return super().command(path, [*nowhere, *more], endless)
+
+
+class OfFaults(Output):
+    finite, endless = ["--cycles", "1"], ["--cycles", "1000000000000"]
+    other_input = "list.txt"
+
+    def __init__(self):
+        super().__init__("tsv", "o.tsv", "rtl-faults", "--list", self.other_input, "--directed", "directed", "--tsv")
+
+
+class OfRecover(Output):
+    other_input = "killed.fst.1.part"
+
+    def __init__(self):
+        super().__init__("", "o.fst", "recover", self.other_input, "--output")
+
+
+WAVES = [("wave .fst", "o.fst", "--wave"), ("wave .vcd", "o.vcd", "--wave")]
+LOG, RESULT = ("log", "o.log", "--log"), ("result", "o.json", "--result")
+OUTPUTS = [*(OfRun(*each) for each in [*WAVES, LOG, ("log .jsonl", "o.jsonl", "--log"), RESULT, ("trace", "o.txt", "--trace")]),
+           *(OfServe(*each) for each in [*WAVES, LOG, RESULT]),
+           Output("", "o.schema", "schema", "--output"), Output("", "o.md", "reasons", "--markdown", "--output"), OfRecover()]
+OF_RTL = [OfReplay("difference .fst", "o.fst"), OfReplay("difference .vcd", "o.vcd"), OfRandom(), OfFaults()]
+SPEAKERS = [Output("", "o.log", "run", "s.yaml", "--log"), *(Output("", "", *words) for words in (
+    ["schema"], ["reasons"], ["gsd", "device.gsd"], ["decode", "whole.log"]))]
+
+
+def make_case(program, folder):
+    """The inputs of the commands for RTL."""
+    with open(os.path.join(folder, "list.txt"), "w", encoding="UTF-8") as file:
+        file.write(RTL_FAULT + " telegram_rx a fault\n")
+    words = ["rtl-random", "--fault", RTL_FAULT, "--stimulus", "case.stimulus", "--difference", "nowhere.vcd"]
+    subprocess.run([program, *words], cwd=folder, stdout=subprocess.DEVNULL, check=False)
+    os.mkdir(os.path.join(folder, "directed"))
+    shutil.copy(os.path.join(folder, "case.stimulus"), os.path.join(folder, "directed"))
