@@ -120,11 +120,11 @@ Level HostPort::sample(Cycle now, bool unreadable) {
     log_.at_tick(at, Reason::kReadInFlight, a_);
     return kLevelX;
   }
-  if (dpram_.unknown(a_)) {
+  if (ram_.unknown(a_)) {
     log_.at_tick(at, Reason::kReadUnknown, a_);
     return kLevelX;
   }
-  return dpram_.read(a_);
+  return ram_.read(a_);
 }
 
 bool HostPort::in_flight(regs::Address address) const {
@@ -177,8 +177,8 @@ void HostPort::lines_changed(Tick at) {
 }
 
 void HostPort::settle(const Write& write) {
-  dpram_.write(write.address, write.value);
-  if (!write.good) dpram_.mark_unknown(write.address);
+  ram_.write(write.address, write.value);
+  if (!write.good) ram_.mark_unknown(write.address);
 }
 
 // --- the rising edge -------------------------------------------------------------------------------------------------

@@ -35,7 +35,7 @@ struct Bench {
   }
 
   core_test::EventRecorder recorder;
-  Dpram dpram;
+  Ram dpram;
   HostPort port;
   bool sparse, chip_owns = false;
 
@@ -45,7 +45,7 @@ struct Bench {
 
 TEST(HostPortBlock, InResetItNeitherWritesNorReads) {
   core_test::EventRecorder recorder;
-  Dpram dpram;
+  Ram dpram;
   HostPort port(recorder.log, dpram);
   port.reset();
   port.set(1000, Pin::kA, 0x130);

@@ -1,5 +1,5 @@
 // Rulings D7, D11; order of the checks: chapter 10 of the micro-architecture.
-#include "model/dsdpv1/init_data.hpp"
+#include "model/dpram/init_data.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "model/profibus/cfg_identifier.hpp"
 #include "tests/core/event_recorder.hpp"
 
-namespace dsdpv1 {
+namespace dpram {
 namespace {
 
 using profibus::Reason;
@@ -108,4 +108,4 @@ TEST(InitData, RandomBlocksAreJudgedByTheLimits) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dpram

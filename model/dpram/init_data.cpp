@@ -1,9 +1,11 @@
-#include "model/dsdpv1/init_data.hpp"
+#include "model/dpram/init_data.hpp"
 
 #include "registers/dsdpv1_regs.hpp"
 
-namespace dsdpv1 {
+namespace dpram {
 namespace {
+
+namespace regs = dsdpv1::regs;
 
 using profibus::Cycle;
 using profibus::EventLog;
@@ -98,4 +100,4 @@ bool parse_init(const std::uint8_t* block, int size, Cycle now, EventLog& log, p
   return true;
 }
 
-}  // namespace dsdpv1
+}  // namespace dpram

@@ -1,10 +1,10 @@
-#include "model/dsdpv1/dpram_sequencer.hpp"
+#include "model/dpram/sequencer.hpp"
 
 #include <algorithm>
 
-#include "model/dsdpv1/crc16.hpp"
+#include "model/dpram/crc16.hpp"
 
-namespace dsdpv1 {
+namespace dpram {
 namespace {
 
 constexpr int kHeaderMoves = 6;
@@ -21,41 +21,38 @@ bool carries_data(std::uint8_t function) {
 
 }  // namespace
 
-void DpramSequencer::reset() {
+void Sequencer::reset() {
   goto_phase(Phase::kOff, profibus::kNever);
   initialised_ = valid_written_ = init_result_due1_ = init_result_due4_ = false;
   offline_written_ = 0;
   status3_written_ = chip_status1_ = chip_status4_ = status2_set_ = status2_clear_ = 0;
   accesses_ = outputs_overwritten_ = 0;
   longest_wait_ = 0;
+  told_user_ = profibus::kNever;
 }
 
-void DpramSequencer::start_up(Cycle now) {
+void Sequencer::start_up(Cycle now) {
   origin_ = due_ = now;
   phase_ = Phase::kDue;
 }
 
-void DpramSequencer::eval(Cycle now) {
-  r_req_.eval(now);
-  r_sta_.eval(now);
+void Sequencer::eval(Cycle now) {
   if (!waiting()) return catch_up(now);
-  if (now >= due_ && released()) return begin(now);
-  if (phase_ == Phase::kDue && now == origin_)
-    log_.at_cycle(now, profibus::Reason::kHeldThroughReset, r_req_.level(), r_sta_.level());
+  if (now >= due_ && !user_holds_) begin(now);
 }
 
-Cycle DpramSequencer::next() const {
-  const Cycle own = !waiting() ? visible_ : released() ? due_ : profibus::kNever;
-  return std::min({own, r_req_.next(), r_sta_.next()});
+Cycle Sequencer::next() const {
+  if (!waiting()) return visible_;
+  return user_holds_ ? profibus::kNever : due_;
 }
 
-void DpramSequencer::catch_up(Cycle until) {
+void Sequencer::catch_up(Cycle until) {
   while (owns() && op_ <= until) move(op_++);
 }
 
 // --- the access ------------------------------------------------------------------------------------------------------
 
-void DpramSequencer::begin(Cycle now) {
+void Sequencer::begin(Cycle now) {
   longest_wait_ = std::max(longest_wait_, now - due_);
   ++accesses_;
   start_ = now;
@@ -67,12 +64,12 @@ void DpramSequencer::begin(Cycle now) {
     goto_phase(Phase::kHeader, now + kHeaderMoves + 1);
 }
 
-void DpramSequencer::end(Cycle now) {
+void Sequencer::end(Cycle now) {
   due_ = std::max(start_ + interval_, now + 1);  // H1, H8
   goto_phase(Phase::kIdle, profibus::kNever);
 }
 
-void DpramSequencer::move(Cycle now) {
+void Sequencer::move(Cycle now) {
   switch (phase_) {
     case Phase::kOff:
     case Phase::kDue:
@@ -86,48 +83,48 @@ void DpramSequencer::move(Cycle now) {
     case Phase::kCheck: phase_ = Phase::kCommit; return;
     case Phase::kCommit: return commit(now);
     case Phase::kWrite:
-      dpram_.write(static_cast<regs::Address>(area(item_).base + index_), image_[static_cast<std::size_t>(index_)]);
+      ram_.write(static_cast<regs::Address>(area(item_).base + index_), image_[static_cast<std::size_t>(index_)]);
       if (++index_ == image_size_) phase_ = Phase::kCrcHigh;
       return;
     case Phase::kCrcHigh:
-      dpram_.write(area(item_).crc, static_cast<std::uint8_t>(image_crc_ >> 8));
+      ram_.write(area(item_).crc, static_cast<std::uint8_t>(image_crc_ >> 8));
       phase_ = Phase::kCrcLow;
       return;
     case Phase::kCrcLow:
-      dpram_.write(static_cast<regs::Address>(area(item_).crc + 1), static_cast<std::uint8_t>(image_crc_ & 0xFF));
+      ram_.write(static_cast<regs::Address>(area(item_).crc + 1), static_cast<std::uint8_t>(image_crc_ & 0xFF));
       phase_ = Phase::kFlag;
       return;
     case Phase::kFlag: return flag(now);
     case Phase::kStatus2:
-      dpram_.write(regs::kChipStatus2, static_cast<std::uint8_t>((status2_read_ & ~status2_clear_) | status2_set_));
+      ram_.write(regs::kChipStatus2, static_cast<std::uint8_t>((status2_read_ & ~status2_clear_) | status2_set_));
       status2_set_ = status2_clear_ = 0;
       return goto_phase(Phase::kChoose, now + 1);
   }
 }
 
-void DpramSequencer::move_start_up(Cycle now) {
+void Sequencer::move_start_up(Cycle now) {
   const int move = index_++;
   if (move < regs::kDpramSize) {
-    dpram_.write(static_cast<regs::Address>(move), 0);
+    ram_.write(static_cast<regs::Address>(move), 0);
   } else if (move < regs::kDpramSize + kVersionBytes) {
     const int i = move - regs::kDpramSize;
-    dpram_.write(static_cast<regs::Address>(regs::kVersion + i), kVersion[i]);
+    ram_.write(static_cast<regs::Address>(regs::kVersion + i), kVersion[i]);
   } else if (move < kStartUpMoves) {
-    dpram_.write(regs::kAccessCount, kChipWasHere);
+    ram_.write(regs::kAccessCount, kChipWasHere);
   } else {
     end(now);
   }
 }
 
-void DpramSequencer::move_header(Cycle now) {
+void Sequencer::move_header(Cycle now) {
   switch (index_++) {
-    case 0: dpram_.write(regs::kAccessCount, kChipWasHere); return;
-    case 1: user_command1_ = dpram_.read(regs::kUserCommand1); return;
-    case 2: user_command2_ = dpram_.read(regs::kUserCommand2); return;
-    case 3: chip_command1_ = dpram_.read(regs::kChipCommand1); return;
-    case 4: chip_command2_ = dpram_.read(regs::kChipCommand2); return;
+    case 0: ram_.write(regs::kAccessCount, kChipWasHere); return;
+    case 1: user_command1_ = ram_.read(regs::kUserCommand1); return;
+    case 2: user_command2_ = ram_.read(regs::kUserCommand2); return;
+    case 3: chip_command1_ = ram_.read(regs::kChipCommand1); return;
+    case 4: chip_command2_ = ram_.read(regs::kChipCommand2); return;
     default:
-      dpv1_ = dpram_.read(regs::kDpv1Enable);
+      dpv1_ = ram_.read(regs::kDpv1Enable);
       item_ = Item::kInit;
       return goto_phase(Phase::kChoose, now + 1);
   }
@@ -135,13 +132,13 @@ void DpramSequencer::move_header(Cycle now) {
 
 // --- choosing --------------------------------------------------------------------------------------------------------
 
-void DpramSequencer::choose(Cycle now) {
+void Sequencer::choose(Cycle now) {
   while (item_ != Item::kNone && !due(item_, now)) next_item();
   if (item_ == Item::kNone) return end(now);
   start(item_, now);
 }
 
-bool DpramSequencer::due(Item item, Cycle now) const {
+bool Sequencer::due(Item item, Cycle now) const {
   const profibus::DpSlave& slave = station_.slave();
   switch (item) {
     case Item::kInit: return (user_command1_ & regs::kUserCommand1Init) != 0;
@@ -169,7 +166,7 @@ bool DpramSequencer::due(Item item, Cycle now) const {
   return false;
 }
 
-const DpramSequencer::Area& DpramSequencer::area(Item item) {
+const Sequencer::Area& Sequencer::area(Item item) {
   static constexpr Area kInit = {regs::kInit, regs::kInitCrc, 1, regs::kInitSize - 1, regs::kUserCommand1Init};
   static constexpr Area kInput = {regs::kInput, regs::kInputCrc, 1, regs::kInputDataSize, regs::kUserCommand1Input};
   static constexpr Area kDiag = {regs::kDiag, regs::kDiagCrc, 2, regs::kDiagDataSize, regs::kUserCommand1Diag};
@@ -199,7 +196,7 @@ const DpramSequencer::Area& DpramSequencer::area(Item item) {
   }
 }
 
-void DpramSequencer::start(Item item, Cycle now) {
+void Sequencer::start(Item item, Cycle now) {
   if (item == Item::kInputClear) return clear_input_error(now);
   if (item <= Item::kC2Answer) return start_read(now, area(item));
   if (item <= Item::kC2Request) return start_write(now, item);
@@ -207,14 +204,14 @@ void DpramSequencer::start(Item item, Cycle now) {
 }
 
 // The first byte moves in the cycle of the choice.
-void DpramSequencer::start_read(Cycle now, const Area& area) {
+void Sequencer::start_read(Cycle now, const Area& area) {
   index_ = 0;
   image_size_ = area.header;
   goto_phase(Phase::kRead, now + area.header);
   read_byte();
 }
 
-void DpramSequencer::start_write(Cycle now, Item item) {
+void Sequencer::start_write(Cycle now, Item item) {
   profibus::UserMail& mail = station_.slave().mail();
   const auto load = [this](const std::uint8_t* bytes, int size) {
     image_[static_cast<std::size_t>(image_size_++)] = static_cast<std::uint8_t>(size);
@@ -248,43 +245,41 @@ void DpramSequencer::start_write(Cycle now, Item item) {
   move(now);
 }
 
-void DpramSequencer::status_byte(Item item, Cycle now) {
+void Sequencer::status_byte(Item item, Cycle now) {
   const std::uint16_t count = station_.slave().offline_count();
   next_item();
   goto_phase(Phase::kChoose, now + 1);
   switch (item) {
     case Item::kValidFlag:
-      dpram_.write(regs::kValidFlag, regs::kValidFlagValid);
+      ram_.write(regs::kValidFlag, regs::kValidFlagValid);
       valid_written_ = true;
       log_.at_cycle(now, profibus::Reason::kReadyFlag);
       return;
     case Item::kOfflineHigh:
-      dpram_.write(regs::kOfflineCount, static_cast<std::uint8_t>(count >> 8));
+      ram_.write(regs::kOfflineCount, static_cast<std::uint8_t>(count >> 8));
       offline_written_ = static_cast<std::uint16_t>((count & 0xFF00) | (offline_written_ & 0xFF));
       return;
     case Item::kOfflineLow:
-      dpram_.write(regs::kOfflineCount + 1, static_cast<std::uint8_t>(count & 0xFF));
+      ram_.write(regs::kOfflineCount + 1, static_cast<std::uint8_t>(count & 0xFF));
       offline_written_ = static_cast<std::uint16_t>((offline_written_ & 0xFF00) | (count & 0xFF));
       return;
     case Item::kChipStatus1:
-      dpram_.write(regs::kChipStatus1, chip_status1_);
+      ram_.write(regs::kChipStatus1, chip_status1_);
       init_result_due1_ = false;
       return;
-    case Item::kChipStatus2:
-      status2_read_ = dpram_.read(regs::kChipStatus2);
-      return goto_phase(Phase::kStatus2, now + 1);
+    case Item::kChipStatus2: status2_read_ = ram_.read(regs::kChipStatus2); return goto_phase(Phase::kStatus2, now + 1);
     case Item::kChipStatus3:
       status3_written_ = status3();
-      dpram_.write(regs::kChipStatus3, status3_written_);
+      ram_.write(regs::kChipStatus3, status3_written_);
       return;
     default:
-      dpram_.write(regs::kChipStatus4, chip_status4_);
+      ram_.write(regs::kChipStatus4, chip_status4_);
       init_result_due4_ = false;
       return;
   }
 }
 
-std::uint8_t DpramSequencer::status3() const {
+std::uint8_t Sequencer::status3() const {
   const int state = static_cast<int>(station_.slave().state());
   return static_cast<std::uint8_t>(station_.baud_index() << regs::kChipStatus3BaudRateShift |
                                    state << regs::kChipStatus3DpStateShift);
@@ -292,17 +287,17 @@ std::uint8_t DpramSequencer::status3() const {
 
 // --- moving blocks ---------------------------------------------------------------------------------------------------
 
-void DpramSequencer::read_byte() {
+void Sequencer::read_byte() {
   const Area& block = area(item_);
   const bool crc = index_ >= image_size_ && phase_ == Phase::kReadRest;
   const int address = crc ? block.crc + (index_ - image_size_) : block.base + index_;
-  image_[static_cast<std::size_t>(index_)] = dpram_.read(static_cast<regs::Address>(address));
+  image_[static_cast<std::size_t>(index_)] = ram_.read(static_cast<regs::Address>(address));
   ++index_;
   if (phase_ == Phase::kRead && index_ == image_size_) phase_ = Phase::kDecode;
   if (phase_ == Phase::kReadRest && index_ == image_size_ + 2) phase_ = Phase::kCheck;
 }
 
-void DpramSequencer::decode(Cycle now) {
+void Sequencer::decode(Cycle now) {
   const Area& block = area(item_);
   if (block.maximum == 0) return goto_phase(Phase::kCommit, now + 1);  // a verdict: nothing follows
   const int length =
@@ -316,11 +311,11 @@ void DpramSequencer::decode(Cycle now) {
   goto_phase(Phase::kReadRest, now + rest + 2);  // then the check cycle, then the commit
 }
 
-void DpramSequencer::commit(Cycle now) {
+void Sequencer::commit(Cycle now) {
   const bool acyclic = acyclic_answer(item_);
   std::uint8_t& command = acyclic ? user_command2_ : user_command1_;
   command = static_cast<std::uint8_t>(command & ~area(item_).flag);
-  dpram_.write(acyclic ? regs::kUserCommand2 : regs::kUserCommand1, command);
+  ram_.write(acyclic ? regs::kUserCommand2 : regs::kUserCommand1, command);
   goto_phase(Phase::kChoose, now + 1);
   const bool too_long = image_size_ == 0;
   switch (item_) {
@@ -334,14 +329,14 @@ void DpramSequencer::commit(Cycle now) {
   next_item();
 }
 
-void DpramSequencer::flag(Cycle now) {
+void Sequencer::flag(Cycle now) {
   const bool acyclic = item_ == Item::kC1Request || item_ == Item::kC2Request;
   std::uint8_t& command = acyclic ? chip_command2_ : chip_command1_;
   command = static_cast<std::uint8_t>(command | area(item_).flag);
-  dpram_.write(acyclic ? regs::kChipCommand2 : regs::kChipCommand1, command);
-  if (item_ == Item::kPrm || item_ == Item::kCfg) interrupt_.trigger(now);  // P7
+  ram_.write(acyclic ? regs::kChipCommand2 : regs::kChipCommand1, command);
+  if (item_ == Item::kPrm || item_ == Item::kCfg) told_user_ = now;  // P7
   next_item();
   goto_phase(Phase::kChoose, now + 1);
 }
 
-}  // namespace dsdpv1
+}  // namespace dpram
