@@ -1,13 +1,12 @@
 // What the user's blocks do when an access of the chip has read them (rulings D5, D7, D10 to D14, D16, D17, H7).
 #include "model/dpram/crc16.hpp"
 #include "model/dpram/init_data.hpp"
+#include "model/dpram/reasons.hpp"
 #include "model/dpram/sequencer.hpp"
 
 namespace dpram {
 
-using profibus::Reason;
-
-bool Sequencer::crc_right(Cycle now, Reason reason, std::uint8_t error_bit) {
+bool Sequencer::crc_right(Cycle now, profibus::Reason reason, std::uint8_t error_bit) {
   const auto* stored = &image_[static_cast<std::size_t>(image_size_)];
   const unsigned found = static_cast<unsigned>(stored[0]) << 8 | stored[1];
   const unsigned computed = crc16(image_.data(), image_size_);
@@ -36,8 +35,9 @@ void Sequencer::refuse_length(Cycle now) {
       log_.at_cycle(now, Reason::kInitLength, header[0], regs::kInitCfg - regs::kInit - 1);
       return init_result(false);
     case Item::kInput:
-      return log_.at_cycle(now, Reason::kInputLength, header[0], static_cast<unsigned>(station_.slave().input_size()));
-    case Item::kDiag: return log_.at_cycle(now, Reason::kDiagLength, header[1], regs::kDiagDataSize);
+      return log_.at_cycle(now, profibus::Reason::kInputLength, header[0],
+                           static_cast<unsigned>(station_.slave().input_size()));
+    case Item::kDiag: return log_.at_cycle(now, profibus::Reason::kDiagLength, header[1], regs::kDiagDataSize);
     default: return log_.at_cycle(now, Reason::kAcyclicLength, item_ == Item::kC1Answer ? 1 : 2, header[3]);
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/dpram/crc16.hpp"
+#include "model/dpram/reasons.hpp"
 
 namespace dpram {
 namespace {
@@ -253,7 +254,7 @@ void Sequencer::status_byte(Item item, Cycle now) {
     case Item::kValidFlag:
       ram_.write(regs::kValidFlag, regs::kValidFlagValid);
       valid_written_ = true;
-      log_.at_cycle(now, profibus::Reason::kReadyFlag);
+      log_.at_cycle(now, Reason::kReadyFlag);
       return;
     case Item::kOfflineHigh:
       ram_.write(regs::kOfflineCount, static_cast<std::uint8_t>(count >> 8));

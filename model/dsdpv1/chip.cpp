@@ -6,6 +6,7 @@
 #include "model/dsdpv1/handshake.hpp"
 #include "model/dsdpv1/host_port.hpp"
 #include "model/dsdpv1/interrupt.hpp"
+#include "model/dsdpv1/reasons.hpp"
 #include "model/profibus/station.hpp"
 
 namespace dsdpv1 {
@@ -14,7 +15,6 @@ namespace {
 using profibus::first_edge_after;
 using profibus::kNever;
 using profibus::kTicksPerCycle;
-using profibus::Reason;
 
 constexpr Cycle kResetSynchroniser = 2;  // P9, P10
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/dsdpv1/reasons.hpp"
+
 namespace dsdpv1 {
 namespace {
-
-using profibus::Reason;
 
 constexpr Cycle kWriteSettles = 2;  // P8: the third rising edge after WR's, two after the first
 
@@ -157,7 +157,7 @@ void HostPort::capture(Tick at) {
 
 bool HostPort::check_capture(Tick at) {
   bool good = true;
-  const auto report = [&](Reason reason, Tick seen) {
+  const auto report = [&](profibus::Reason reason, Tick seen) {
     log_.at_tick(at, reason, a_, static_cast<unsigned>(std::min<Tick>(seen, 0xFFFF)));
     good = false;
   };

@@ -7,7 +7,7 @@ Reply DpSlave::check_cfg(Cycle now, const Request& request) {
   if (state_ != DpState::kWaitCfg && state_ != DpState::kDataExch) return refuse_state(now, request, sap::kCheckCfg);
   if (held_by_other(request)) return refuse_master(now, request, sap::kCheckCfg);
   if (request.size > kMaxCfg) {
-    log_.at_cycle(now, Reason::kCfgTooLong, static_cast<unsigned>(request.size));
+    log_.at_cycle(now, Reason::kCfgTooLong, static_cast<unsigned>(request.size), kMaxCfg);
     return Reply::status(fc::kRr);
   }
   const CfgLengths lengths = cfg_lengths(request.data, request.size);
@@ -41,7 +41,7 @@ bool DpSlave::check_cfg_bytes(Cycle now, const Request& request, const CfgLength
   const int max_input = user ? kMaxIo : config_.max_input, max_output = user ? kMaxIo : config_.max_output;
   if (lengths.input() > max_input || lengths.output() > max_output) {
     refuse_cfg(now, Reason::kCfgIoLength, static_cast<unsigned>(lengths.input()),
-               static_cast<unsigned>(lengths.output()));
+               static_cast<unsigned>(lengths.output()), kMaxIo);
     return false;
   }
   return true;

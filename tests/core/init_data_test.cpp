@@ -6,13 +6,13 @@
 #include <random>
 #include <vector>
 
+#include "model/dpram/reasons.hpp"
 #include "model/profibus/cfg_identifier.hpp"
 #include "tests/core/event_recorder.hpp"
 
 namespace dpram {
 namespace {
 
-using profibus::Reason;
 using Block = std::vector<std::uint8_t>;
 
 /// B020.. with two configuration bytes: 2 inputs, 2 outputs.
