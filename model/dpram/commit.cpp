@@ -35,8 +35,7 @@ void Sequencer::refuse_length(Cycle now) {
       log_.at_cycle(now, Reason::kInitLength, header[0], regs::kInitCfg - regs::kInit - 1);
       return init_result(false);
     case Item::kInput:
-      return log_.at_cycle(now, profibus::Reason::kInputLength, header[0],
-                           static_cast<unsigned>(station_.slave().input_size()));
+      return log_.at_cycle(now, profibus::Reason::kInputLength, header[0], static_cast<unsigned>(user_.input_size()));
     case Item::kDiag: return log_.at_cycle(now, profibus::Reason::kDiagLength, header[1], regs::kDiagDataSize);
     default: return log_.at_cycle(now, Reason::kAcyclicLength, item_ == Item::kC1Answer ? 1 : 2, header[3]);
   }
@@ -52,7 +51,7 @@ void Sequencer::commit_init(Cycle now) {
   if (!good) return;
   config.dpv1 = dpv1_ == regs::kDpv1EnableOn;  // D17
   log_.at_cycle(now, Reason::kInitialised, config.address, config.ident, config.dpv1);
-  station_.initialise(now, config);
+  user_.initialise(now, config);
   initialised_ = true;
 }
 
@@ -65,13 +64,13 @@ void Sequencer::init_result(bool good) {
 void Sequencer::commit_input(Cycle now) {
   if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag, regs::kUserCommand1);
   if (!crc_right(now, Reason::kInputCrc, regs::kChipStatus2InputCrc)) return;
-  station_.slave().new_inputs(now, &image_[1], image_size_ - 1);
+  user_.new_inputs(now, &image_[1], image_size_ - 1);
 }
 
 void Sequencer::commit_diag(Cycle now) {
   if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag, regs::kUserCommand1);
   if (!crc_right(now, Reason::kDiagCrc, regs::kChipStatus2DiagCrc)) return;
-  station_.slave().new_diagnosis(now, image_[0], &image_[2], image_size_ - 2);
+  user_.new_diagnosis(now, image_[0], &image_[2], image_size_ - 2);
 }
 
 void Sequencer::commit_acyclic(Cycle now) {
@@ -80,17 +79,17 @@ void Sequencer::commit_acyclic(Cycle now) {
   const std::uint8_t error_bit = c1 ? regs::kChipStatus2C1Crc : regs::kChipStatus2C2Crc;
   if (!crc_right(now, c1 ? Reason::kC1Crc : Reason::kC2Crc, error_bit)) return;
   if (c1)
-    station_.slave().c1_answer(now, image_.data(), image_size_);
+    user_.c1_answer(now, image_.data(), image_size_);
   else
-    station_.slave().c2_answer(now, image_.data(), image_size_);
+    user_.c2_answer(now, image_.data(), image_size_);
 }
 
 void Sequencer::commit_verdict(Cycle now) {
   const std::uint8_t verdict = image_[0];  // B00C
   if (item_ == Item::kPrmVerdict)
-    station_.slave().prm_verdict(now, (verdict & regs::kUserStatus1PrmWrong) == 0);
+    user_.prm_verdict(now, (verdict & regs::kUserStatus1PrmWrong) == 0);
   else
-    station_.slave().cfg_verdict(now, (verdict & regs::kUserStatus1CfgWrong) == 0);
+    user_.cfg_verdict(now, (verdict & regs::kUserStatus1CfgWrong) == 0);
 }
 
 }  // namespace dpram

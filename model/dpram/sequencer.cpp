@@ -140,7 +140,7 @@ void Sequencer::choose(Cycle now) {
 }
 
 bool Sequencer::due(Item item, Cycle now) const {
-  const profibus::DpSlave& slave = station_.slave();
+  const profibus::UserMail& mail = user_.mail();
   switch (item) {
     case Item::kInit: return (user_command1_ & regs::kUserCommand1Init) != 0;
     case Item::kPrmVerdict: return (user_command1_ & regs::kUserCommand1PrmVerdict) != 0;
@@ -150,14 +150,14 @@ bool Sequencer::due(Item item, Cycle now) const {
     case Item::kDiag: return (user_command1_ & regs::kUserCommand1Diag) != 0;
     case Item::kC1Answer: return (user_command2_ & regs::kUserCommand2C1) != 0;
     case Item::kC2Answer: return (user_command2_ & regs::kUserCommand2C2) != 0;
-    case Item::kPrm: return slave.mail().prm_due.before(now);
-    case Item::kCfg: return slave.mail().cfg_due.before(now);
-    case Item::kOutput: return slave.mail().output_due.before(now);
-    case Item::kC1Request: return slave.mail().c1.due.before(now);
-    case Item::kC2Request: return slave.mail().c2.due.before(now);
+    case Item::kPrm: return mail.prm.due.before(now);
+    case Item::kCfg: return mail.cfg.due.before(now);
+    case Item::kOutput: return mail.output.due.before(now);
+    case Item::kC1Request: return mail.c1.due.before(now);
+    case Item::kC2Request: return mail.c2.due.before(now);
     case Item::kValidFlag: return !valid_written_ && start_ >= origin_ + ready_cycles_;
-    case Item::kOfflineHigh: return (slave.offline_count() ^ offline_written_) > 0xFF;
-    case Item::kOfflineLow: return ((slave.offline_count() ^ offline_written_) & 0xFF) != 0;
+    case Item::kOfflineHigh: return (mail.state.exchanges_left ^ offline_written_) > 0xFF;
+    case Item::kOfflineLow: return ((mail.state.exchanges_left ^ offline_written_) & 0xFF) != 0;
     case Item::kChipStatus1: return init_result_due1_;
     case Item::kChipStatus2: return (status2_set_ | status2_clear_) != 0;
     case Item::kChipStatus3: return status3() != status3_written_;
@@ -213,7 +213,7 @@ void Sequencer::start_read(Cycle now, const Area& area) {
 }
 
 void Sequencer::start_write(Cycle now, Item item) {
-  profibus::UserMail& mail = station_.slave().mail();
+  profibus::UserMail& mail = user_.mail();
   const auto load = [this](const std::uint8_t* bytes, int size) {
     image_[static_cast<std::size_t>(image_size_++)] = static_cast<std::uint8_t>(size);
     std::copy_n(bytes, size, image_.begin() + image_size_);
@@ -221,18 +221,18 @@ void Sequencer::start_write(Cycle now, Item item) {
   };
   image_size_ = 0;
   if (item == Item::kPrm) {
-    load(mail.prm.bytes.data(), mail.prm.size);
-    mail.prm_due.clear();
+    load(mail.prm.block.bytes.data(), mail.prm.block.size);
+    mail.prm.due.clear();
   } else if (item == Item::kCfg) {
-    image_[0] = static_cast<std::uint8_t>(mail.cfg_output);
-    image_[1] = static_cast<std::uint8_t>(mail.cfg_input);
+    image_[0] = static_cast<std::uint8_t>(mail.cfg.output);
+    image_[1] = static_cast<std::uint8_t>(mail.cfg.input);
     image_size_ = 2;
-    load(mail.cfg.bytes.data(), mail.cfg.size);
-    mail.cfg_due.clear();
+    load(mail.cfg.block.bytes.data(), mail.cfg.block.size);
+    mail.cfg.due.clear();
   } else if (item == Item::kOutput) {
-    const profibus::IoBlock& outputs = station_.slave().outputs();
+    const profibus::IoBlock& outputs = user_.outputs();
     load(outputs.bytes.data(), outputs.size);
-    mail.output_due.clear();
+    mail.output.due.clear();
     if ((chip_command1_ & regs::kChipCommand1Output) != 0) ++outputs_overwritten_;  // H5
   } else {
     profibus::AcyclicMail& acyclic = item == Item::kC1Request ? mail.c1 : mail.c2;
@@ -247,7 +247,7 @@ void Sequencer::start_write(Cycle now, Item item) {
 }
 
 void Sequencer::status_byte(Item item, Cycle now) {
-  const std::uint16_t count = station_.slave().offline_count();
+  const std::uint16_t count = user_.mail().state.exchanges_left;
   next_item();
   goto_phase(Phase::kChoose, now + 1);
   switch (item) {
@@ -281,8 +281,8 @@ void Sequencer::status_byte(Item item, Cycle now) {
 }
 
 std::uint8_t Sequencer::status3() const {
-  const int state = static_cast<int>(station_.slave().state());
-  return static_cast<std::uint8_t>(station_.baud_index() << regs::kChipStatus3BaudRateShift |
+  const int state = static_cast<int>(user_.mail().state.state);
+  return static_cast<std::uint8_t>(user_.mail().baud.index << regs::kChipStatus3BaudRateShift |
                                    state << regs::kChipStatus3DpStateShift);
 }
 

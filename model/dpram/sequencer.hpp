@@ -1,7 +1,7 @@
 #pragma once
 // The chip's side of the DPRAM (5.1, chapter 8; rulings H1 to H8, D1 to D17): one access a microsecond, one byte a
 // cycle, in the order that docs/microarchitecture.md defines. It carries blocks between the DPRAM and
-// profibus::Station. How the user comes to the DPRAM, by strobes or by telegrams, it does not know.
+// profibus::UserSide. How the user comes to the DPRAM, by strobes or by telegrams, it does not know.
 //
 // Bytes move lazily: `next()` is the next cycle whose effect somebody else can see, and the moves between are made up
 // for then (or earlier, by catch_up, when somebody looks at the DPRAM).
@@ -9,16 +9,20 @@
 
 #include "model/dpram/ram.hpp"
 #include "model/profibus/event_log.hpp"
-#include "model/profibus/station.hpp"
+#include "model/profibus/user_side.hpp"
 
 namespace dpram {
 
 using profibus::Cycle;
 
+/// What the areas of the DPRAM hold.
+constexpr profibus::Capacities kCapacities = {regs::kPrmDataSize, regs::kCfgDataSize, regs::kInputDataSize,
+                                              regs::kC1DataSize};
+
 class Sequencer {
  public:
-  Sequencer(profibus::EventLog& log, Ram& ram, profibus::Station& station, Cycle interval, Cycle ready_cycles)
-      : log_(log), ram_(ram), station_(station), interval_(interval), ready_cycles_(ready_cycles) {}
+  Sequencer(profibus::EventLog& log, Ram& ram, profibus::UserSide& user, Cycle interval, Cycle ready_cycles)
+      : log_(log), ram_(ram), user_(user), interval_(interval), ready_cycles_(ready_cycles) {}
 
   void reset();
   /// The logic leaves reset at `now` (cycle R): the start-up access is due (H6).
@@ -130,12 +134,12 @@ class Sequencer {
   void commit_acyclic(Cycle now);
   void refuse_length(Cycle now);
   void init_result(bool good);
-  bool offline() const { return station_.slave().state() == profibus::DpState::kOffline; }
+  bool offline() const { return user_.mail().state.state == profibus::DpState::kOffline; }
   std::uint8_t status3() const;
 
   profibus::EventLog& log_;
   Ram& ram_;
-  profibus::Station& station_;
+  profibus::UserSide& user_;
   const Cycle interval_, ready_cycles_;
   bool user_holds_ = false;
   Cycle told_user_ = profibus::kNever;

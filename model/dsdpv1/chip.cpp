@@ -23,14 +23,15 @@ constexpr std::uint32_t kEdgeOutputs = kOutputPins & ~mask(Pin::kDOut);
 
 constexpr std::uint32_t kResetLevels = mask(Pin::kIntr0) | mask(Pin::kPbtxd) | mask(Pin::kPbf);  // P10
 
-profibus::StationTiming timing_of(const Config& config) {
-  profibus::StationTiming timing;
-  timing.rts_lead = config.rts_lead;
-  timing.rts_trail = config.rts_trail;
-  timing.search_window = config.search_window_ms * profibus::kCyclesPerMs;
-  timing.search_window_bits = config.search_window_bits;
-  timing.baud_control = config.baud_control_ms * profibus::kCyclesPerMs;
-  return timing;
+profibus::StationConfig station_of(const Config& config) {
+  profibus::StationConfig station;
+  station.rts_lead = config.rts_lead;
+  station.rts_trail = config.rts_trail;
+  station.search_window = config.search_window_ms * profibus::kCyclesPerMs;
+  station.search_window_bits = config.search_window_bits;
+  station.baud_control = config.baud_control_ms * profibus::kCyclesPerMs;
+  station.capacities = dpram::kCapacities;
+  return station;
 }
 
 constexpr std::uint32_t bit(Pin pin, bool level) { return level ? mask(pin) : 0; }
@@ -40,10 +41,10 @@ constexpr std::uint32_t bit(Pin pin, bool level) { return level ? mask(pin) : 0;
 struct Chip::Impl {
   explicit Impl(const Config& config)
       : engine(config.engine),
-        station(log, timing_of(config)),
+        station(log, station_of(config)),
         host(log, ram),
         interrupt(config.intr_low, config.intr_gap),
-        sequencer(log, ram, station, config.access_interval, config.ready_cycles) {
+        sequencer(log, ram, station.user(), config.access_interval, config.ready_cycles) {
     interrupt.reset();
   }
 
