@@ -1,5 +1,5 @@
 #pragma once
-// The one narrow interface between a DP slave and its user's side, whatever that is (a DPRAM, registers, a serial
+// The one narrow interface between a DP slave and its user's side, whatever that is (a shared RAM, registers, a serial
 // port). The slave speaks by mail: what there is for the user, each with the cycle since which it waits. The user's
 // side looks at the mail when it comes to it, takes a block by copying it and clearing its `due`, and speaks by
 // commands. Mail that nobody takes is replaced by newer.

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "model/dsdpv1/chip.hpp"
 #include "model/dpram/crc16.hpp"
+#include "model/dsdpv1/chip.hpp"
 #include "tests/conformance/slave_bench.hpp"
 
 namespace {
