@@ -11,7 +11,7 @@
 #include "apps/outputs.hpp"
 #include "bus/monitor/monitor.hpp"
 #include "driver/dsdpv1.h"
-#include "model/profibus/event.hpp"
+#include "model/dsdpv1/reasons.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/checks/check.hpp"
 #include "tb/checks/markdown.hpp"
@@ -201,11 +201,9 @@ std::string as_text(const std::string& code) {
 
 std::vector<ReasonText> chip_reasons() {
   std::vector<ReasonText> list;
-  for (std::size_t i = 0; i < profibus::reason_count(); ++i) {
-    const auto reason = static_cast<profibus::Reason>(i);
-    list.push_back({profibus::code(reason), tb::name(profibus::severity(reason)), profibus::text_template(reason),
-                    profibus::advice(reason)});
-  }
+  for (const profibus::Reason reason : dsdpv1::reasons())
+    list.push_back({profibus::code(reason), tb::name(profibus::severity(reason)), dsdpv1::text_template(reason),
+                    dsdpv1::advice(reason)});
   return list;
 }
 

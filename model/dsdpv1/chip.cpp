@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
-#include "model/dsdpv1/dpram.hpp"
-#include "model/dsdpv1/dpram_sequencer.hpp"
+#include "model/dpram/sequencer.hpp"
+#include "model/dsdpv1/handshake.hpp"
 #include "model/dsdpv1/host_port.hpp"
 #include "model/dsdpv1/interrupt.hpp"
+#include "model/dsdpv1/reasons.hpp"
 #include "model/profibus/station.hpp"
 
 namespace dsdpv1 {
@@ -14,7 +15,6 @@ namespace {
 using profibus::first_edge_after;
 using profibus::kNever;
 using profibus::kTicksPerCycle;
-using profibus::Reason;
 
 constexpr Cycle kResetSynchroniser = 2;  // P9, P10
 
@@ -23,14 +23,15 @@ constexpr std::uint32_t kEdgeOutputs = kOutputPins & ~mask(Pin::kDOut);
 
 constexpr std::uint32_t kResetLevels = mask(Pin::kIntr0) | mask(Pin::kPbtxd) | mask(Pin::kPbf);  // P10
 
-profibus::StationTiming timing_of(const Config& config) {
-  profibus::StationTiming timing;
-  timing.rts_lead = config.rts_lead;
-  timing.rts_trail = config.rts_trail;
-  timing.search_window = config.search_window_ms * profibus::kCyclesPerMs;
-  timing.search_window_bits = config.search_window_bits;
-  timing.baud_control = config.baud_control_ms * profibus::kCyclesPerMs;
-  return timing;
+profibus::StationConfig station_of(const Config& config) {
+  profibus::StationConfig station;
+  station.rts_lead = config.rts_lead;
+  station.rts_trail = config.rts_trail;
+  station.search_window = config.search_window_ms * profibus::kCyclesPerMs;
+  station.search_window_bits = config.search_window_bits;
+  station.baud_control = config.baud_control_ms * profibus::kCyclesPerMs;
+  station.capacities = dpram::kCapacities;
+  return station;
 }
 
 constexpr std::uint32_t bit(Pin pin, bool level) { return level ? mask(pin) : 0; }
@@ -40,10 +41,10 @@ constexpr std::uint32_t bit(Pin pin, bool level) { return level ? mask(pin) : 0;
 struct Chip::Impl {
   explicit Impl(const Config& config)
       : engine(config.engine),
-        station(log, timing_of(config)),
-        host(log, dpram),
+        station(log, station_of(config)),
+        host(log, ram),
         interrupt(config.intr_low, config.intr_gap),
-        sequencer(log, dpram, station, interrupt, config.access_interval, config.ready_cycles) {
+        sequencer(log, ram, station.user(), config.access_interval, config.ready_cycles) {
     interrupt.reset();
   }
 
@@ -64,11 +65,12 @@ struct Chip::Impl {
 
   const Engine engine;
   profibus::EventLog log;
-  Dpram dpram;
+  Ram ram;
   profibus::Station station;
   HostPort host;
+  Handshake handshake;
   Interrupt interrupt;
-  DpramSequencer sequencer;
+  dpram::Sequencer sequencer;
 
   PinSink sink;
   std::uint32_t watched = 0;
@@ -96,12 +98,12 @@ void Chip::Impl::apply(Tick at, Pin pin, Level value) {
     case Pin::kRReq:
       r_req = high;
       host.set_handshake(r_req, r_sta);
-      return sequencer.set_r_req(at, high);
+      return handshake.set_r_req(at, high);
     case Pin::kRSta:
       if (r_sta == high) return;
       r_sta = high;
       host.set_handshake(r_req, r_sta);
-      sequencer.set_r_sta(at, high);
+      handshake.set_r_sta(at, high);
       return report_ownership(at);
     case Pin::kPbrxd: rxd = high; return station.set_rxd(at, high);
     default: break;
@@ -136,7 +138,8 @@ void Chip::Impl::enter_reset(Tick at) {
 
 // Asked far more often than changed, so it is kept: by everybody who calls a block.
 void Chip::Impl::plan() {
-  const Cycle cycle = std::min({release_at, station.next(), host.next(), interrupt.next(), sequencer.next()});
+  const Cycle cycle =
+      std::min({release_at, station.next(), host.next(), interrupt.next(), handshake.next(), sequencer.next()});
   planned_edge = cycle == kNever ? kNever : std::max(cycle, done + 1) * kTicksPerCycle;
 }
 
@@ -162,13 +165,19 @@ void Chip::Impl::rising_edge(Cycle cycle) {
     sequencer.catch_up(cycle - 1);
     host.eval(cycle, sequencer.owns() || !sequencer.started_up());
   }
-  if (cycle == release_at) {
+  const bool released = cycle == release_at;
+  if (released) {
     release_at = kNever;
     running = true;
     host.release();
     sequencer.start_up(cycle);
   }
+  handshake.eval(cycle);
+  sequencer.user_holds(handshake.user_holds());
   sequencer.eval(cycle);
+  if (released && !sequencer.started_up())
+    log.at_cycle(cycle, Reason::kHeldThroughReset, handshake.r_req(), handshake.r_sta());  // H6
+  if (sequencer.told_user() == cycle) interrupt.trigger(cycle);                            // P7
   station.eval(cycle);
   interrupt.eval(cycle);
   if (!running) return;
@@ -184,7 +193,7 @@ std::uint32_t Chip::Impl::edge_outputs() const {
   return bit(Pin::kLReq, owns) | bit(Pin::kLSta, owns) | bit(Pin::kIntr0, interrupt.level()) |
          bit(Pin::kPbtxd, station.txd()) | bit(Pin::kPbrts, station.rts()) |
          bit(Pin::kPbf, station.slave().state() != profibus::DpState::kDataExch) | bit(Pin::kBr, station.baud_found()) |
-         bit(Pin::kReady, sequencer.ready_led());
+         bit(Pin::kReady, sequencer.initialised());
 }
 
 void Chip::Impl::publish_edge_outputs(Tick at, std::uint32_t levels) {
@@ -246,12 +255,12 @@ void Chip::on_event(const profibus::EventSink& sink) { impl_->log.attach(sink); 
 
 std::uint8_t Chip::peek(std::uint16_t address) const {
   impl_->sequencer.catch_up(impl_->done);
-  return impl_->dpram.read(address);
+  return impl_->ram.read(address);
 }
 
 void Chip::poke(std::uint16_t address, std::uint8_t value) {
   impl_->sequencer.catch_up(impl_->done);
-  impl_->dpram.write(address, value);
+  impl_->ram.write(address, value);
 }
 
 Status Chip::status() const {

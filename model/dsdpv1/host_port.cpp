@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/dsdpv1/reasons.hpp"
+
 namespace dsdpv1 {
 namespace {
-
-using profibus::Reason;
 
 constexpr Cycle kWriteSettles = 2;  // P8: the third rising edge after WR's, two after the first
 
@@ -120,11 +120,11 @@ Level HostPort::sample(Cycle now, bool unreadable) {
     log_.at_tick(at, Reason::kReadInFlight, a_);
     return kLevelX;
   }
-  if (dpram_.unknown(a_)) {
+  if (ram_.unknown(a_)) {
     log_.at_tick(at, Reason::kReadUnknown, a_);
     return kLevelX;
   }
-  return dpram_.read(a_);
+  return ram_.read(a_);
 }
 
 bool HostPort::in_flight(regs::Address address) const {
@@ -157,7 +157,7 @@ void HostPort::capture(Tick at) {
 
 bool HostPort::check_capture(Tick at) {
   bool good = true;
-  const auto report = [&](Reason reason, Tick seen) {
+  const auto report = [&](profibus::Reason reason, Tick seen) {
     log_.at_tick(at, reason, a_, static_cast<unsigned>(std::min<Tick>(seen, 0xFFFF)));
     good = false;
   };
@@ -177,8 +177,8 @@ void HostPort::lines_changed(Tick at) {
 }
 
 void HostPort::settle(const Write& write) {
-  dpram_.write(write.address, write.value);
-  if (!write.good) dpram_.mark_unknown(write.address);
+  ram_.write(write.address, write.value);
+  if (!write.good) ram_.mark_unknown(write.address);
 }
 
 // --- the rising edge -------------------------------------------------------------------------------------------------

@@ -3,11 +3,13 @@
 // tick, the DPRAM by the cycle.
 #include <array>
 
-#include "model/dsdpv1/dpram.hpp"
+#include "model/dpram/ram.hpp"
 #include "model/dsdpv1/pins.hpp"
 #include "model/profibus/event_log.hpp"
 
 namespace dsdpv1 {
+
+using dpram::Ram;
 
 /// Table 15 in ticks.
 constexpr Tick kTs = 150;  ///< 12.5 ns, WR low
@@ -16,7 +18,7 @@ constexpr Tick kTw = 375;  ///< 31.25 ns, RD's fall to certain data
 
 class HostPort {
  public:
-  HostPort(profibus::EventLog& log, Dpram& dpram) : log_(log), dpram_(dpram) {}
+  HostPort(profibus::EventLog& log, Ram& ram) : log_(log), ram_(ram) {}
 
   /// In reset the port neither reads nor writes; `release` ends that.
   void reset();
@@ -67,7 +69,7 @@ class HostPort {
   const Write& write_at(unsigned i) const { return writes_[(first_write_ + i) % kWritesInFlight]; }
 
   profibus::EventLog& log_;
-  Dpram& dpram_;
+  Ram& ram_;
   bool enabled_ = false;
   bool csr_ = true, rd_ = true, wr_ = true;
   bool r_req_ = false, r_sta_ = false;

@@ -9,13 +9,14 @@ bool ssap_right(Cycle now, EventLog& log, const Request& request, int expected) 
   return false;
 }
 
-std::uint8_t request_fault(const std::uint8_t* pdu, int size, bool transport) {
+std::uint8_t request_fault(const std::uint8_t* pdu, int size, const AcyclicLimits& limits) {
   const std::uint8_t function = pdu[0];
   const bool read = function == dpv1::kRead;
-  const bool write = function == dpv1::kWrite || (transport && function == dpv1::kTransport);
+  const bool write = function == dpv1::kWrite || (limits.transport && function == dpv1::kTransport);
   if (!read && !write) return dpv1::kNotSupported;
   if (read) return size == dpv1::kHeader ? std::uint8_t{0} : dpv1::kInvalidParameter;
-  return size >= dpv1::kHeader && size == dpv1::kHeader + pdu[3] ? std::uint8_t{0} : dpv1::kWriteLength;
+  const bool fits = size >= dpv1::kHeader && size == dpv1::kHeader + pdu[3] && pdu[3] <= limits.data;
+  return fits ? std::uint8_t{0} : dpv1::kWriteLength;
 }
 
 void negative_answer(std::uint8_t function, std::uint8_t error_code1, Pdu& pdu) {

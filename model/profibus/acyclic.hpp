@@ -1,26 +1,23 @@
 #pragma once
 // What C1 and C2 have in common: the PDU (tables 26 to 32), the chip's own judgement of a request (V9), what waits for
 // the user, and whether the user's answer fits what was asked (V6, V14).
+#include "model/profibus/dpv1_pdu.hpp"
 #include "model/profibus/event_log.hpp"
 #include "model/profibus/request.hpp"
 #include "model/profibus/user_side.hpp"
 
 namespace profibus {
 
-namespace dpv1 {
-constexpr std::uint8_t kTransport = 0x51, kRead = 0x5E, kWrite = 0x5F;  // Function_Num
-constexpr std::uint8_t kIdle = 0x48, kInitiateNow = 0x56, kInitiate = 0x57, kAbort = 0x58;
-constexpr std::uint8_t kNegative = 0x80;                                                     // tables 27, 32
-constexpr std::uint8_t kErrorDecode = 0x80;                                                  // table 28
-constexpr std::uint8_t kNotSupported = 0xA9, kWriteLength = 0xB1, kInvalidParameter = 0xB8;  // 29
-constexpr int kHeader = 4;  ///< Function_Num, slot, index, length; or Function_Num and three error bytes
-}  // namespace dpv1
-
 /// True when the request comes from the SSAP of its service (table 24, V8); else the reason is logged.
 bool ssap_right(Cycle now, EventLog& log, const Request& request, int expected);
 
+/// What a connection takes.
+struct AcyclicLimits {
+  int data = kMaxAcyclic;  ///< bytes of a write or transport
+  bool transport = false;
+};
 /// What is wrong with a request for the chip itself: an Error_Code_1, or 0. `size` is at least 1.
-std::uint8_t request_fault(const std::uint8_t* pdu, int size, bool transport);
+std::uint8_t request_fault(const std::uint8_t* pdu, int size, const AcyclicLimits& limits);
 
 /// `Function_Num, Error_Decode, Error_Code_1, Error_Code_2` for a request with this Function_Num.
 void negative_answer(std::uint8_t function, std::uint8_t error_code1, Pdu& pdu);

@@ -6,8 +6,9 @@ namespace profibus {
 Reply DpSlave::check_cfg(Cycle now, const Request& request) {
   if (state_ != DpState::kWaitCfg && state_ != DpState::kDataExch) return refuse_state(now, request, sap::kCheckCfg);
   if (held_by_other(request)) return refuse_master(now, request, sap::kCheckCfg);
-  if (request.size > kMaxCfg) {
-    log_.at_cycle(now, Reason::kCfgTooLong, static_cast<unsigned>(request.size));
+  if (request.size > capacities_.cfg) {
+    log_.at_cycle(now, Reason::kCfgTooLong, static_cast<unsigned>(request.size),
+                  static_cast<unsigned>(capacities_.cfg));
     return Reply::status(fc::kRr);
   }
   const CfgLengths lengths = cfg_lengths(request.data, request.size);
@@ -38,10 +39,11 @@ bool DpSlave::check_cfg_bytes(Cycle now, const Request& request, const CfgLength
     refuse_cfg(now, Reason::kCfgUndecodable, static_cast<unsigned>(request.size));
     return false;
   }
-  const int max_input = user ? kMaxIo : config_.max_input, max_output = user ? kMaxIo : config_.max_output;
+  const int max_input = user ? capacities_.io : config_.max_input;
+  const int max_output = user ? capacities_.io : config_.max_output;
   if (lengths.input() > max_input || lengths.output() > max_output) {
     refuse_cfg(now, Reason::kCfgIoLength, static_cast<unsigned>(lengths.input()),
-               static_cast<unsigned>(lengths.output()));
+               static_cast<unsigned>(lengths.output()), static_cast<unsigned>(capacities_.io));
     return false;
   }
   return true;
@@ -59,10 +61,10 @@ bool DpSlave::check_cfg_equal(Cycle now, const Request& request, const Block<kMa
 }
 
 void DpSlave::mail_cfg(Cycle now, const Request& request, const CfgLengths& lengths) {
-  mail_.cfg.assign(request.data, request.size);
-  mail_.cfg_input = lengths.input();
-  mail_.cfg_output = lengths.output();
-  mail_.cfg_due.set(now);
+  mail_.cfg.block.assign(request.data, request.size);
+  mail_.cfg.input = lengths.input();
+  mail_.cfg.output = lengths.output();
+  mail_.cfg.due.set(now);
 }
 
 void DpSlave::refuse_cfg(Cycle now, Reason reason, unsigned a, unsigned b, unsigned c) {
@@ -79,12 +81,12 @@ void DpSlave::accept_cfg(Cycle now) {
   cfg_awaited_ = false;
   if (lengths.input() != inputs_.size()) inputs_.reset(lengths.input());  // D10: zeros until the first valid block
   outputs_.reset(lengths.output());
-  if (lengths.output() == 0) mail_.output_due.clear();
+  if (lengths.output() == 0) mail_.output.due.clear();
   enter(now, DpState::kDataExch);
 }
 
 void DpSlave::cfg_verdict(Cycle now, bool good) {
-  if (mail_.cfg_due.waiting())
+  if (mail_.cfg.due.waiting())
     log_.at_cycle(now, Reason::kVerdictSuperseded, 1);
   else if (!cfg_awaited_)
     log_.at_cycle(now, Reason::kVerdictUnexpected, 1);

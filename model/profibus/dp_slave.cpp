@@ -23,17 +23,16 @@ void DpSlave::reset() {
   mail_ = UserMail();
   msac1_.reset();
   msac2_.reset();
-  offline_count_ = 0;
   data_exchanges_ = outputs_replaced_ = 0;
 }
 
 void DpSlave::initialise(Cycle now, const SlaveConfig& config) {
   const bool left_exchange = state_ == DpState::kDataExch;
   enter(now, DpState::kOffline);
-  const std::uint16_t offline_count = offline_count_;
+  const std::uint16_t exchanges_left = mail_.state.exchanges_left;
   const std::uint64_t data_exchanges = data_exchanges_, outputs_replaced = outputs_replaced_;
   reset();
-  offline_count_ = offline_count;
+  mail_.state.exchanges_left = exchanges_left;
   data_exchanges_ = data_exchanges;
   outputs_replaced_ = outputs_replaced;
   config_ = config;
@@ -51,9 +50,10 @@ void DpSlave::enter(Cycle now, DpState state) {
   if (state == state_) return;
   log_.at_cycle(now, Reason::kDpState, static_cast<unsigned>(state_), static_cast<unsigned>(state));
   const bool left_exchange = state_ == DpState::kDataExch;
-  state_ = state;
+  state_ = mail_.state.state = state;
+  mail_.state.due.set(now);
   if (!left_exchange) return;
-  ++offline_count_;  // S18
+  ++mail_.state.exchanges_left;  // S18
   inputs_.release();
   outputs_.release();
   clear_outputs(now);
@@ -73,8 +73,8 @@ void DpSlave::watchdog_expired(Cycle now) {
 }
 
 void DpSlave::hand_outputs(Cycle now) {
-  if (mail_.output_due.waiting()) ++outputs_replaced_;
-  if (outputs_.size() > 0) mail_.output_due.set(now);
+  if (mail_.output.due.waiting()) ++outputs_replaced_;
+  if (outputs_.size() > 0) mail_.output.due.set(now);
 }
 
 void DpSlave::clear_outputs(Cycle now) {
@@ -239,6 +239,7 @@ Reply DpSlave::set_slave_address(Cycle now, const Request& request) {
   log_.at_cycle(now, Reason::kAddressChanged, address_, data[0], data[3]);
   address_ = data[0];
   address_locked_ = data[3] != 0;
+  mail_.address = {{now}, address_, address_locked_};
   return Reply::sc();
 }
 

@@ -21,8 +21,13 @@ constexpr std::uint8_t kNoMaster = 255;
 
 class DpSlave {
  public:
-  DpSlave(EventLog& log, Watchdog& watchdog)
-      : log_(log), watchdog_(watchdog), msac1_(log, mail_.c1), msac2_(log, mail_.c2) {}
+  DpSlave(EventLog& log, Watchdog& watchdog, const Capacities& capacities, UserMail& mail)
+      : log_(log),
+        watchdog_(watchdog),
+        capacities_(capacities),
+        mail_(mail),
+        msac1_(log, capacities.acyclic, mail.c1),
+        msac2_(log, capacities.acyclic, mail.c2) {}
 
   // --- from the bus -------------------------------------------------------------------------------------------------
   /// Executes a request at `now`. The reply's data are valid until the next call.
@@ -33,29 +38,23 @@ class DpSlave {
   /// The holding master's time is over (S1).
   void watchdog_expired(Cycle now);
 
-  // --- from the user's side ------------------------------------------------------------------------------------------
+  // --- from the user's side: see UserSide ----------------------------------------------------------------------------
   void reset();
   void initialise(Cycle now, const SlaveConfig& config);
-  /// `good`: the user found the parameters (configuration) right. See ruling H7.
   void prm_verdict(Cycle now, bool good);
   void cfg_verdict(Cycle now, bool good);
-  /// False with an event when refused (D10).
   bool new_inputs(Cycle now, const std::uint8_t* bytes, int size);
   bool new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size);
   void c1_answer(Cycle now, const std::uint8_t* pdu, int size) { msac1_.answer(now, pdu, size); }
   void c2_answer(Cycle now, const std::uint8_t* pdu, int size) { msac2_.answer(now, pdu, size); }
-  UserMail& mail() { return mail_; }
-  const UserMail& mail() const { return mail_; }
-  /// What the user is to see of the outputs (buffer 2).
   const IoBlock& outputs() const { return outputs_.shown(); }
 
   // --- what others need to know --------------------------------------------------------------------------------------
   DpState state() const { return state_; }
   std::uint8_t address() const { return address_; }
   std::uint8_t master() const { return master_; }
-  int input_size() const { return inputs_.size(); }  ///< configured, from the initialisation or Check_Cfg
+  int input_size() const { return inputs_.size(); }
   int min_tsdr() const { return min_tsdr_; }
-  std::uint16_t offline_count() const { return offline_count_; }  ///< B008/B009: times that data exchange was left
   std::uint64_t data_exchanges() const { return data_exchanges_; }
   std::uint64_t outputs_replaced() const { return outputs_replaced_; }  ///< before the user's side took them
   const SlaveConfig& config() const { return config_; }
@@ -111,6 +110,8 @@ class DpSlave {
 
   EventLog& log_;
   Watchdog& watchdog_;
+  const Capacities capacities_;
+  UserMail& mail_;
   SlaveConfig config_;
 
   DpState state_ = DpState::kOffline;
@@ -124,10 +125,8 @@ class DpSlave {
 
   DoubleBuffer outputs_, inputs_;
   Diagnosis diagnosis_;
-  UserMail mail_;
   Msac1 msac1_;
   Msac2 msac2_;
-  std::uint16_t offline_count_ = 0;
   std::uint64_t data_exchanges_ = 0, outputs_replaced_ = 0;
 };
 

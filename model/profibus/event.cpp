@@ -1,24 +1,19 @@
 #include "model/profibus/event.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 namespace profibus {
-namespace {
 
-struct Row {
-  Severity severity;
-  const char* code;
-  const char* text;
-  const char* advice;
-};
-
-constexpr Row kRows[] = {
+const ReasonRow detail::kReasonRows[] = {
 #define X(id, severity, code, text, advice) {Severity::severity, code, text, advice},
-#include "model/profibus/event_table.inc"
+#include "model/profibus/reasons.inc"
 #undef X
 };
 
-const Row& row(Reason reason) { return kRows[static_cast<std::size_t>(reason)]; }
+ReasonTable reasons() { return {detail::kReasonRows, std::size(detail::kReasonRows)}; }
+
+namespace {
 
 constexpr const char* kStates[] = {"OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH"};
 constexpr const char* kRates[] = {"12M", "6M", "3M", "1.5M", "500k", "187.5k", "93.75k", "45.45k", "19.2k", "9.6k"};
@@ -45,29 +40,59 @@ std::string field_text(std::uint16_t value, const std::string& format) {
   return digits;
 }
 
-}  // namespace
+struct NamedWord {
+  const char* name;
+  const char* Words::*word;
+};
+constexpr NamedWord kWords[] = {
+#define X(name, neutral) {#name, &Words::name},
+#include "model/profibus/words.inc"
+#undef X
+};
 
-const char* code(Reason reason) { return row(reason).code; }
-Severity severity(Reason reason) { return row(reason).severity; }
-const char* text_template(Reason reason) { return row(reason).text; }
-const char* advice(Reason reason) { return row(reason).advice; }
-std::size_t reason_count() { return std::size(kRows); }
+// "a", "b:4x": a number of the event; all others are names of words.
+bool is_value(const std::string& field) { return field.size() == 1 || field[1] == ':'; }
 
-std::string describe(const Event& event) {
-  const std::string pattern = row(event.reason).text;
-  std::string words;
+std::string word_text(const std::string& name, const Words& words) {
+  const auto* found =
+      std::find_if(std::begin(kWords), std::end(kWords), [&](const NamedWord& w) { return name == w.name; });
+  return found == std::end(kWords) ? "{" + name + "}" : words.*found->word;
+}
+
+/// `pattern` with each {field} replaced by what `text_of` says of it.
+template <class TextOf>
+std::string fill_in(const std::string& pattern, const TextOf& text_of) {
+  std::string filled;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
     if (pattern[i] != '{') {
-      words += pattern[i];
+      filled += pattern[i];
       continue;
     }
     const std::size_t close = pattern.find('}', i);
-    const std::string field = pattern.substr(i + 1, close - i - 1);
-    const std::uint16_t value = field[0] == 'a' ? event.a : field[0] == 'b' ? event.b : event.c;
-    words += field_text(value, field.size() > 2 ? field.substr(2) : "");
+    filled += text_of(pattern.substr(i + 1, close - i - 1));
     i = close;
   }
-  return words;
+  return filled;
+}
+
+std::string with_words(const char* text, const Words& words) {
+  return fill_in(
+      text, [&](const std::string& field) { return is_value(field) ? "{" + field + "}" : word_text(field, words); });
+}
+
+}  // namespace
+
+std::string text_template(Reason reason, const Words& words) { return with_words(reason.row().text, words); }
+std::string advice(Reason reason, const Words& words) { return with_words(reason.row().advice, words); }
+
+std::string describe(const Event& event, const Words& words) {
+  return fill_in(
+      event.reason.row().text,
+      [&](const std::string& field) {
+        if (!is_value(field)) return word_text(field, words);
+        const std::uint16_t value = field[0] == 'a' ? event.a : field[0] == 'b' ? event.b : event.c;
+        return field_text(value, field.size() > 2 ? field.substr(2) : "");
+      });
 }
 
 }  // namespace profibus

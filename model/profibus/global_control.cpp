@@ -21,6 +21,7 @@ void DpSlave::global_control(Cycle now, const Request& request) {
     return;
   }
   log_.at_cycle(now, Reason::kGlobalControl, command, group, request.sa);
+  mail_.control = {{now}, static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(group), request.sa};
   if ((command & kClearData) != 0) clear_outputs(now);
   sync_command(now, static_cast<std::uint8_t>(command));
   freeze_command(now, static_cast<std::uint8_t>(command));

@@ -15,7 +15,7 @@ Reply Msac1::handle(Cycle now, const Request& request) {
     log_.at_cycle(now, Reason::kAcyclicOpen, kSap, function);
     return Reply::status(fc::kRr);
   }
-  if (const std::uint8_t fault = request_fault(request.data, request.size, false); fault != 0) {
+  if (const std::uint8_t fault = request_fault(request.data, request.size, {capacity_, false}); fault != 0) {
     log_.at_cycle(now, Reason::kAcyclicRequestRefused, kSap, function, fault);
     negative_answer(function, fault, answer_);
     state_ = State::kAnswered;

@@ -6,7 +6,7 @@ namespace profibus {
 
 class Msac1 {
  public:
-  Msac1(EventLog& log, AcyclicMail& mail) : log_(log), mail_(mail) {}
+  Msac1(EventLog& log, int capacity, AcyclicMail& mail) : log_(log), capacity_(capacity), mail_(mail) {}
 
   void reset() { state_ = State::kIdle; }
   /// SAP 51: a request or a poll of the master that may. The reply's data are valid until the next call.
@@ -22,6 +22,7 @@ class Msac1 {
   Reply poll(Cycle now);
 
   EventLog& log_;
+  const int capacity_;  ///< data bytes of a request
   AcyclicMail& mail_;
   State state_ = State::kIdle;
   Pdu answer_;

@@ -12,7 +12,6 @@ constexpr int kLargestTimer = 0xFFFF;                // 16 bit, table 33
 // Initiate: Function_Num, 3 reserved, Send_Timeout, Features, Profile_Features, Profile_Ident, Add_Addr
 constexpr int kSendTimeout = 4, kFeatures = 6, kAddAddr = 12, kLeastInitiate = 14;
 constexpr std::uint8_t kReadWrite = 0x01;  // Features_Supported, first byte
-constexpr std::uint8_t kLargestPdu = 240;  // Max_Len_Data_Unit
 // The second byte of an abort PDU is the subnet, the third instance and reason (V11).
 constexpr std::uint8_t kNoSubnet = 0, kInstance = 0x10;
 constexpr std::uint8_t kSequenceError = 1, kInvalidPdu = 2, kTimeout = 3, kInvalidAddAddr = 7;
@@ -185,7 +184,7 @@ Reply Msac2::connect(Cycle now, int number) {
     log_.at_cycle(now, Reason::kC2Connected, sap_of(number), channel.master);
     enter(now, number, State::kOpen);
     channel.watch = now + channel.idle_timeout;
-    put(reply_, {dpv1::kInitiate, kLargestPdu, kReadWrite, 0, 0, 0, 0, 0});
+    put(reply_, {dpv1::kInitiate, static_cast<std::uint8_t>(capacity_), kReadWrite, 0, 0, 0, 0, 0});
     exchange_addresses(initiate + kAddAddr, addr_size, reply_);
   }
   return Reply::with_data(fc::kDl, reply_.bytes.data(), reply_.size);
@@ -206,7 +205,7 @@ Reply Msac2::request(Cycle now, int number, const Request& request) {
     enter(now, number, State::kAnswered);
   } else if (function == dpv1::kInitiate) {
     return abort_for_request(now, number, function, kSequenceError);
-  } else if (request_fault(request.data, request.size, true) != 0) {
+  } else if (request_fault(request.data, request.size, {capacity_, true}) != 0) {
     return abort_for_request(now, number, function, kInvalidPdu);
   } else {
     log_.at_cycle(now, Reason::kC2Request, sap_of(number) << 8 | function, request.data[1], request.data[2]);
@@ -291,7 +290,8 @@ void Msac2::free(Cycle now, int number) {
   end_turn(now, number);
 }
 
-// --- the DPRAM area that both channels share (V4) --------------------------------------------------------------------
+// --- the user's attention, which both channels share (V4)
+// -------------------------------------------------------------
 
 void Msac2::begin_turn(Cycle now, int number) {
   Channel& channel = channel_at(number);

@@ -10,7 +10,7 @@ class Msac2 {
  public:
   static constexpr int kManagerSap = 49;
 
-  Msac2(EventLog& log, AcyclicMail& mail) : log_(log), mail_(mail) {}
+  Msac2(EventLog& log, int capacity, AcyclicMail& mail) : log_(log), capacity_(capacity), mail_(mail) {}
 
   void reset();
   /// SAP 49: a channel for the sender, or RS. The reply's data are valid until the next call.
@@ -67,9 +67,10 @@ class Msac2 {
   void end_turn(Cycle now, int number);
 
   EventLog& log_;
+  const int capacity_;  ///< data bytes of a request or answer
   AcyclicMail& mail_;
   std::array<Channel, kC2Channels> channels_;
-  int turn_ = kNobody;  ///< the channel whose request has the DPRAM area
+  int turn_ = kNobody;  ///< the channel whose request is with the user
   Pdu reply_;           ///< what the chip itself says: immediate answers, initiate answers, aborts
 };
 

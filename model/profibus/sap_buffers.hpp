@@ -1,13 +1,16 @@
 #pragma once
-// The fixed buffers of figure 8. Outputs and inputs are double: buffer 1 is what the other side gave last, buffer 2
-// what is shown on (ruling S4: the user and Read_Outputs see output 2, the master and Read_Inputs see input 2).
+// The fixed buffers of figure 8, as large as the protocol allows. Outputs and inputs are double: buffer 1 is what the
+// other side gave last, buffer 2 what is shown on (ruling S4: the user and Read_Outputs see output 2, the master and
+// Read_Inputs see input 2).
 #include <array>
 #include <cstdint>
 #include <cstring>
 
 namespace profibus {
 
-constexpr int kMaxIo = 244, kMaxUserPrm = 237, kMaxCfg = 200, kMaxDiag = 238, kMaxAcyclic = 240;
+/// The most that a telegram carries: 244 bytes behind the SAP bytes, less what each service puts before the user's.
+/// A chip may hold less (Capacities).
+constexpr int kMaxIo = 244, kMaxCfg = 244, kMaxUserPrm = 244 - 7, kMaxDiag = 244 - 6, kMaxAcyclic = 244 - 4;
 
 /// A buffer of fixed size with the number of bytes in use.
 template <int N>

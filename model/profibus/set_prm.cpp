@@ -40,8 +40,8 @@ Reply DpSlave::set_prm(Cycle now, const Request& request) {
   PrmRequest prm;
   if (!check_prm(now, request, prm)) return Reply::sc();
 
-  mail_.prm.assign(data + kStandardSize, prm.user_size);
-  mail_.prm_due.set(now);
+  mail_.prm.block.assign(data + kStandardSize, prm.user_size);
+  mail_.prm.due.set(now);
   if (config_.prm_mode == Judging::kUser) {
     log_.at_cycle(now, Reason::kPrmJudged, request.sa, static_cast<unsigned>(prm.user_size));
     enter(now, DpState::kWaitPrm);  // who held the slave goes on holding it, the watchdog goes on watching (S15)
@@ -101,7 +101,7 @@ bool DpSlave::check_options(Cycle now, std::uint8_t status, std::uint8_t spec, i
 }
 
 bool DpSlave::check_user_length(Cycle now, int user_size) {
-  const int limit = config_.prm_mode == Judging::kUser ? kMaxUserPrm : config_.max_prm;
+  const int limit = config_.prm_mode == Judging::kUser ? capacities_.user_prm : config_.max_prm;
   const bool good = config_.prm_mode == Judging::kExact ? user_size == limit : user_size <= limit;
   if (good) return true;
   refuse_prm(now, Reason::kPrmUserLength, false, static_cast<unsigned>(user_size), static_cast<unsigned>(limit),
@@ -136,7 +136,7 @@ void DpSlave::set_min_tsdr(std::uint8_t bits) {
 }
 
 void DpSlave::prm_verdict(Cycle now, bool good) {
-  if (mail_.prm_due.waiting())
+  if (mail_.prm.due.waiting())
     log_.at_cycle(now, Reason::kVerdictSuperseded, 0);
   else if (!prm_awaited_)
     log_.at_cycle(now, Reason::kVerdictUnexpected, 0);

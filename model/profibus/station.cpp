@@ -10,13 +10,14 @@ constexpr Cycle kLoopDelay = 3;          // P9: an edge that the chip itself dri
 
 }  // namespace
 
-Station::Station(EventLog& log, const StationTiming& timing)
+Station::Station(EventLog& log, const StationConfig& config)
     : log_(log),
-      timing_(timing),
+      config_(config),
       telegrams_(log),
-      search_(timing.search_window, timing.search_window_bits),
-      watchdog_(timing.baud_control),
-      slave_(log, watchdog_),
+      search_(config.search_window, config.search_window_bits),
+      watchdog_(config.baud_control),
+      user_(*this),
+      slave_(log, watchdog_, config.capacities, user_.mail()),
       fdl_(log) {}
 
 void Station::reset() {
@@ -65,6 +66,7 @@ void Station::listen(Cycle now) {
 
 void Station::start_search(Cycle now) {
   log_.at_cycle(now, Reason::kBaudSearch);
+  user_.mail().baud = {{now}, kBaudUnknown};
   watchdog_.baud_search();
   search_.start(now);
   select_rate(now);
@@ -87,7 +89,7 @@ void Station::watchdog_expired(Cycle now) {
   if (watchdog_.state() == Watchdog::State::kDpControl) {
     slave_.watchdog_expired(now);
   } else {
-    log_.at_cycle(now, Reason::kBaudLost, static_cast<unsigned>(timing_.baud_control / kCyclesPerMs));
+    log_.at_cycle(now, Reason::kBaudLost, static_cast<unsigned>(config_.baud_control / kCyclesPerMs));
     start_search(now);
   }
 }
@@ -96,6 +98,7 @@ void Station::lock(Cycle now) {
   search_.lock();
   telegrams_.set_quiet(false);
   log_.at_cycle(now, Reason::kBaudFound, static_cast<unsigned>(search_.index()));
+  user_.mail().baud = {{now}, search_.index()};
   watchdog_.rate_found(now);
 }
 
@@ -117,7 +120,7 @@ void Station::decide(Cycle now, const Telegram& telegram) {
 void Station::answer(const Telegram& telegram, const Frame& frame) {
   const Cycle tsdr = std::min(slave_.min_tsdr(), search_.max_tsdr());  // S11
   const Cycle begin = telegram.end - kSynchroniserDelay + tsdr * search_.bit();
-  tx_.send(frame.bytes.data(), frame.size, search_.bit(), begin, timing_.rts_lead, timing_.rts_trail);
+  tx_.send(frame.bytes.data(), frame.size, search_.bit(), begin, config_.rts_lead, config_.rts_trail);
 }
 
 }  // namespace profibus

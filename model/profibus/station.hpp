@@ -8,26 +8,28 @@
 #include "model/profibus/telegram_rx.hpp"
 #include "model/profibus/uart_rx.hpp"
 #include "model/profibus/uart_tx.hpp"
+#include "model/profibus/user_side.hpp"
 
 namespace profibus {
 
-/// Parameters of the rulings, in cycles (bits where it says so).
-struct StationTiming {
+/// What a chip makes of its station: parameters of the rulings, in cycles (bits where it says so), and its capacities.
+struct StationConfig {
   Cycle rts_lead = 4, rts_trail = 4;
   Cycle search_window = 50 * kCyclesPerMs;
   Cycle search_window_bits = 4000;
   Cycle baud_control = 600 * kCyclesPerMs;
+  Capacities capacities;
 };
 
 class Station {
  public:
-  Station(EventLog& log, const StationTiming& timing);
+  Station(EventLog& log, const StationConfig& config);
+  Station(const Station&) = delete;  // its parts know each other
+  Station& operator=(const Station&) = delete;
 
   void set_rxd(Tick at, bool level) { rxd_.set(at, level); }
   /// Reset: everything as at power-on.
   void reset();
-  /// The user's initialisation: through OFFLINE to WAIT_PRM and baud search (D7, S1).
-  void initialise(Cycle now, const SlaveConfig& config);
   /// The rising edge of `now`.
   void eval(Cycle now);
   /// The next cycle at which eval() does something.
@@ -37,12 +39,15 @@ class Station {
   bool rts() const { return tx_.rts(); }
   bool baud_found() const { return running() && !search_.searching(); }
   int baud_index() const { return baud_found() ? search_.index() : kBaudUnknown; }
-  DpSlave& slave() { return slave_; }
+  /// All that the user's side may know and do.
+  UserSide& user() { return user_; }
   const DpSlave& slave() const { return slave_; }
   std::uint64_t telegrams_received() const { return received_; }
   std::uint64_t telegrams_answered() const { return answered_; }
 
  private:
+  friend class UserSide;  // carries out its commands
+  void initialise(Cycle now, const SlaveConfig& config);
   bool running() const { return slave_.state() != DpState::kOffline; }
   void listen(Cycle now);
   void select_rate(Cycle now);
@@ -54,12 +59,13 @@ class Station {
   void answer(const Telegram& telegram, const Frame& frame);
 
   EventLog& log_;
-  StationTiming timing_;
+  StationConfig config_;
   Synchroniser rxd_{true};
   UartRx rx_;
   TelegramRx telegrams_;
   BaudSearch search_;
   Watchdog watchdog_;
+  UserSide user_;
   DpSlave slave_;
   Fdl fdl_;
   UartTx tx_;

@@ -1,15 +1,31 @@
 #pragma once
-// The one narrow interface between a DP slave and its user's side (DPRAM sequencer here, SPI or registers in sister
-// chips): what the user tells the slave (calls of DpSlave), and what the slave has for the user (UserMail).
+// The one narrow interface between a DP slave and its user's side, whatever that is (a shared RAM, registers, a serial
+// port). The slave speaks by mail: what there is for the user, each with the cycle since which it waits. The user's
+// side looks at the mail when it comes to it, takes a block by copying it and clearing its `due`, and speaks by
+// commands. Mail that nobody takes is replaced by newer.
+#include "model/profibus/baud.hpp"
 #include "model/profibus/cfg_identifier.hpp"
+#include "model/profibus/dp_state.hpp"
+#include "model/profibus/dpv1_pdu.hpp"
 #include "model/profibus/sap_buffers.hpp"
 #include "model/profibus/time.hpp"
 
 namespace profibus {
 
-enum class Judging : std::uint8_t { kMaximum = 0, kExact = 1, kUser = 2 };  // B02B, B02D: tables 13 and 14
+class Station;
 
-/// The initialisation of the slave, already checked (D7, D11).
+/// The most that the chip's user side holds of each block; nothing above what the protocol allows (sap_buffers.hpp).
+struct Capacities {
+  int user_prm = kMaxUserPrm;  ///< Set_Prm behind its 7 standard bytes
+  int cfg = kMaxCfg;           ///< Check_Cfg; more is answered with RR
+  int io = kMaxIo;             ///< inputs, and outputs
+  int acyclic = kMaxAcyclic;   ///< data of a C1 or C2 request or answer
+};
+
+/// Who judges parameters or a configuration: the slave by their length (tables 13 and 14), by comparison, or the user.
+enum class Judging : std::uint8_t { kMaximum = 0, kExact = 1, kUser = 2 };
+
+/// The initialisation of the slave, already checked: every number within the chip's capacities.
 struct SlaveConfig {
   std::uint8_t address = 0;
   std::uint16_t ident = 0;
@@ -31,19 +47,89 @@ struct Due {
   bool before(Cycle now) const { return since < now; }
 };
 
+/// The user parameters of a Set_Prm.
+struct PrmMail {
+  Due due;
+  Block<kMaxUserPrm> block;
+};
+/// The identifiers of a Check_Cfg, and the lengths that they describe.
+struct CfgMail {
+  Due due;
+  Block<kMaxCfg> block;
+  int output = 0, input = 0;
+};
+/// New outputs; what they are at present: UserSide::outputs().
+struct OutputMail {
+  Due due;
+};
+/// A Global_Control that was carried out.
+struct ControlMail {
+  Due due;
+  std::uint8_t command = 0, group = 0, master = 0;
+};
+/// A Set_Slave_Address that was carried out.
+struct AddressMail {
+  Due due;
+  std::uint8_t address = 0;
+  bool locked = false;  ///< No_Add_Chg: no further change
+};
+/// The state of the slave, due when it changes, and how often data exchange was left since reset.
+struct StateMail {
+  Due due;
+  DpState state = DpState::kOffline;
+  std::uint16_t exchanges_left = 0;
+};
+/// The baud rate: found, or searched again.
+struct BaudMail {
+  Due due;
+  int index = kBaudUnknown;
+};
 /// A C1 or C2 request for the user. It stays in `pdu` after it was taken, until the next one.
 struct AcyclicMail {
   Due due;
   Pdu pdu;
 };
 
-/// What the slave has for the user. The user's side takes a block by copying it and clearing its `due`.
+/// What the user side hears.
 struct UserMail {
-  Due prm_due, cfg_due, output_due;
-  Block<kMaxUserPrm> prm;
-  Block<kMaxCfg> cfg;
-  int cfg_output = 0, cfg_input = 0;  ///< lengths that `cfg` describes
+  PrmMail prm;
+  CfgMail cfg;
+  OutputMail output;
+  ControlMail control;
+  AddressMail address;
+  StateMail state;
+  BaudMail baud;
   AcyclicMail c1, c2;
+};
+
+class UserSide {
+ public:
+  explicit UserSide(Station& station) : station_(station) {}
+
+  // --- what it hears ------------------------------------------------------------------------------------------------
+  UserMail& mail() { return mail_; }
+  const UserMail& mail() const { return mail_; }
+  /// What the user is to see of the outputs (buffer 2), as they are at present.
+  const IoBlock& outputs() const;
+  int input_size() const;  ///< configured, from the initialisation or Check_Cfg
+
+  // --- what it commands ---------------------------------------------------------------------------------------------
+  /// Through OFFLINE to WAIT_PRM and baud search (D7, S1).
+  void initialise(Cycle now, const SlaveConfig& config);
+  /// `good`: the user found the parameters (configuration) right. See ruling H7.
+  void prm_verdict(Cycle now, bool good);
+  void cfg_verdict(Cycle now, bool good);
+  /// False with an event when refused (D10).
+  bool new_inputs(Cycle now, const std::uint8_t* bytes, int size);
+  bool new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* bytes, int size);
+  /// The answer to a C1 (C2) request, at most 4 + Capacities::acyclic bytes; refused with an event when it does not fit
+  /// the request (V14).
+  void c1_answer(Cycle now, const std::uint8_t* pdu, int size);
+  void c2_answer(Cycle now, const std::uint8_t* pdu, int size);
+
+ private:
+  Station& station_;
+  UserMail mail_;
 };
 
 }  // namespace profibus

@@ -1,15 +1,22 @@
 #include "model/systemc/chip_module.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
+
+#include "model/dsdpv1/reasons.hpp"
 
 namespace dsdpv1::systemc {
 namespace {
 
-using profibus::Reason;
-
 /// Of the host port's violations, those after which the data of the access are not to be trusted.
-bool spoils_data(Reason reason) { return reason >= Reason::kWriteLowTooShort && reason <= Reason::kReadUnknown; }
+bool spoils_data(profibus::Reason reason) {
+  constexpr profibus::Reason kSpoiling[] = {
+      Reason::kWriteLowTooShort, Reason::kWriteSetup,   Reason::kWriteHold,          Reason::kWriteFloating,
+      Reason::kWriteDeselected,  Reason::kWriteOverrun, Reason::kReadAddressChanged, Reason::kReadTooShort,
+      Reason::kReadInFlight,     Reason::kReadUnknown};
+  return std::find(std::begin(kSpoiling), std::end(kSpoiling), reason) != std::end(kSpoiling);
+}
 
 /// True for as long as it lives, also when a report is made to throw.
 class WhileIn {
@@ -94,7 +101,7 @@ void ChipModule::event_happened(const profibus::Event& event) {
   broken_timing_ = broken_timing_ || spoils_data(event.reason);
   if (on_event) on_event(event);
   if (!options_.report_violations || profibus::severity(event.reason) != profibus::Severity::kViolation) return;
-  const std::string text = std::string(name()) + ": " + profibus::code(event.reason) + ": " + profibus::describe(event);
+  const std::string text = std::string(name()) + ": " + profibus::code(event.reason) + ": " + dsdpv1::describe(event);
   SC_REPORT_WARNING("/dsdpv1/violation", text.c_str());
 }
 

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "bus/telegram/explain.hpp"
+#include "model/dsdpv1/reasons.hpp"
 #include "tb/bench/script.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/units.hpp"
@@ -210,9 +211,9 @@ void Bench::chip_event(std::size_t index, const profibus::Event& event) {
   if (event.reason == profibus::Reason::kDpState && waves_)
     waves_->dp_state(index, event.at, name(static_cast<dsdpv1::DpState>(event.b)));
   if (event.reason == profibus::Reason::kRmEntry && waves_)
-    waves_->rm_entry(index, event.at, profibus::kC2FirstSap - event.a, profibus::describe(event));
+    waves_->rm_entry(index, event.at, profibus::kC2FirstSap - event.a, dsdpv1::describe(event));
   happened({event.at, slaves_[index]->name(), profibus::code(event.reason), profibus::severity(event.reason),
-            profibus::describe(event)});
+            dsdpv1::describe(event)});
   touch(event.at);
 }
 

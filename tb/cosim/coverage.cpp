@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bus/telegram/telegram.hpp"
+#include "model/dsdpv1/reasons.hpp"
 
 namespace cosim {
 namespace {
@@ -69,22 +70,27 @@ void Coverage::sent(const bus::Bytes& bytes, const bus::WireFaults& faults) {
   ++telegrams_[kind(bytes, faulty)];
 }
 
-void Coverage::happened(const profibus::Event& event) { ++reasons_.at(static_cast<std::size_t>(event.reason)); }
+void Coverage::happened(const profibus::Event& event) { ++reasons_[event.reason]; }
 
 void Coverage::add(const Coverage& other) {
   for (const auto& [name, count] : other.telegrams_) telegrams_[name] += count;
-  for (std::size_t i = 0; i < reasons_.size(); ++i) reasons_[i] += other.reasons_[i];
+  for (const auto& [reason, count] : other.reasons_) reasons_[reason] += count;
+}
+
+std::uint64_t Coverage::of(const Counts& counts, profibus::Reason reason) {
+  const auto found = counts.find(reason);
+  return found == counts.end() ? 0 : found->second;
 }
 
 std::string Coverage::text() const {
   Lines sent("telegrams"), states("states, services"), refused("refusals"), violated("violations"),
       missing("never seen");
   for (const auto& [name, count] : telegrams_) sent.add(fmt::format("{} {}", name, count));
-  for (std::size_t i = 0; i < reasons_.size(); ++i) {
-    const auto reason = static_cast<profibus::Reason>(i);
+  for (const profibus::Reason reason : dsdpv1::reasons()) {
     Lines* const lists[] = {&states, &refused, &violated};
-    Lines& list = reasons_[i] == 0 ? missing : *lists[static_cast<std::size_t>(profibus::severity(reason))];
-    list.add(reasons_[i] == 0 ? profibus::code(reason) : fmt::format("{} {}", profibus::code(reason), reasons_[i]));
+    const std::uint64_t times = count(reason);
+    Lines& list = times == 0 ? missing : *lists[static_cast<std::size_t>(profibus::severity(reason))];
+    list.add(times == 0 ? profibus::code(reason) : fmt::format("{} {}", profibus::code(reason), times));
   }
   return sent.text() + states.text() + refused.text() + violated.text() + missing.text();
 }

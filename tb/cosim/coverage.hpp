@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "bus/wire/uart.hpp"
 #include "model/profibus/event.hpp"
@@ -18,13 +17,16 @@ class Coverage {
   void add(const Coverage& other);
 
   const std::map<std::string, std::uint64_t>& telegrams() const { return telegrams_; }
-  std::uint64_t count(profibus::Reason reason) const { return reasons_.at(static_cast<std::size_t>(reason)); }
+  std::uint64_t count(profibus::Reason reason) const { return of(reasons_, reason); }
   /// Telegrams, refusals and states with their counts, then the codes that never occurred: some lines of text.
   std::string text() const;
 
  private:
+  using Counts = std::map<profibus::Reason, std::uint64_t>;
+  static std::uint64_t of(const Counts& counts, profibus::Reason reason);
+
   std::map<std::string, std::uint64_t> telegrams_;
-  std::vector<std::uint64_t> reasons_ = std::vector<std::uint64_t>(profibus::reason_count());
+  Counts reasons_;  ///< those that occurred
 };
 
 }  // namespace cosim

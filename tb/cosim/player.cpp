@@ -6,7 +6,7 @@
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
-#include "model/dsdpv1/crc16.hpp"
+#include "model/dpram/crc16.hpp"
 
 namespace cosim {
 namespace {
@@ -183,7 +183,7 @@ class UserLane : public Lane {
         end);
   }
   void block(const Action& action) {
-    const int crc = dsdpv1::crc16(action.bytes.data(), static_cast<int>(action.bytes.size())) ^ action.value;
+    const int crc = dpram::crc16(action.bytes.data(), static_cast<int>(action.bytes.size())) ^ action.value;
     for (std::size_t i = 0; i < action.bytes.size(); ++i)
       write(action, action.address + static_cast<int>(i), action.bytes[i]);
     write(action, action.crc_address, crc >> 8);

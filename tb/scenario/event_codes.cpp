@@ -2,6 +2,7 @@
 
 #include <cctype>
 
+#include "model/dsdpv1/reasons.hpp"
 #include "tb/checks/check.hpp"
 
 namespace tb::scenario {
@@ -26,11 +27,8 @@ std::string driver_error_code(dsdpv1_error error) {
 
 const std::vector<std::string>& all_codes() {
   static const std::vector<std::string> codes = [] {
-    std::vector<std::string> list = {
-#define X(id, severity, code, ...) code,
-#include "model/profibus/event_table.inc"
-#undef X
-    };
+    std::vector<std::string> list;
+    for (const profibus::Reason reason : dsdpv1::reasons()) list.emplace_back(profibus::code(reason));
 #define X(name, value, text) list.emplace_back(#name);
     DSDPV1_ERROR_TABLE(X)
 #undef X

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "model/dpram/crc16.hpp"
 #include "model/dsdpv1/chip.hpp"
-#include "model/dsdpv1/crc16.hpp"
 #include "tests/conformance/slave_bench.hpp"
 
 namespace {
@@ -49,7 +49,7 @@ class Slave {
     init.cfg = identifiers(io);
     const Bytes block = init.block();
     for (std::size_t i = 0; i < block.size(); ++i) poke(dsdpv1::regs::kInit + i, block[i]);
-    const unsigned crc = dsdpv1::crc16(block.data(), static_cast<int>(block.size()));
+    const unsigned crc = dpram::crc16(block.data(), static_cast<int>(block.size()));
     poke(dsdpv1::regs::kInitCrc, static_cast<std::uint8_t>(crc >> 8));
     poke(dsdpv1::regs::kInitCrc + 1, static_cast<std::uint8_t>(crc & 0xFF));
     poke(dsdpv1::regs::kUserCommand1, dsdpv1::regs::kUserCommand1Init);

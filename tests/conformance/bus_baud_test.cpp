@@ -24,7 +24,7 @@ class Search : public testing::Test {
   Cycle initialised(SlaveBench& bench) {
     bench.power_on();
     EXPECT_TRUE(bench.initialise());
-    return bench.last(Reason::kInitialised).at / kCycleTicks;
+    return bench.last(dpram::Reason::kInitialised).at / kCycleTicks;
   }
   static Cycle found_at(const SlaveBench& bench) {
     return bench.count(Reason::kBaudFound) == 0 ? -1 : bench.last(Reason::kBaudFound).at / kCycleTicks;

@@ -306,7 +306,7 @@ TEST_F(Diagnosis, WithAWrongCrcIsRefusedAndTheEarlierStays) {
   bench.give_diag(0x81, {7});
   const Bytes before = diag(bench);
   bench.give_diag(0x82, {8}, 0x0100);
-  EXPECT_EQ(bench.count(Reason::kDiagCrc), 1);
+  EXPECT_EQ(bench.count(dpram::Reason::kDiagCrc), 1);
   EXPECT_EQ(diag(bench), before);
   EXPECT_EQ(bench.peek(0x00B) & 0x08, 0x08);
   bench.give_diag(0x82, {8});

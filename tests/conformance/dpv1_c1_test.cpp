@@ -186,7 +186,7 @@ TEST_F(C1, B005HasToBeExactly1D) {
     bench.power_on();
     bench.poke(regs::kDpv1Enable, static_cast<std::uint8_t>(value));
     ASSERT_TRUE(bench.initialise());
-    EXPECT_EQ(bench.last(Reason::kInitialised).c, 0) << value;
+    EXPECT_EQ(bench.last(dpram::Reason::kInitialised).c, 0) << value;
     bench.find_baud(0);
     EXPECT_TRUE(is_rs(c2(kManagerSap, initiate_pdu()))) << value;
     bench.chip.set(bench.now() + 250, Pin::kReset, 0);
@@ -259,7 +259,7 @@ TEST_F(C1, WrongCrcIsShownInB00BUntilARightAnswerComes) {
   give(kC1Area, pdu_of(0x5E, 1, 2, 1, {5}), 0x0100);
   EXPECT_EQ(bench.peek(0x00B), kC1Area.crc_error);
   EXPECT_EQ(bench.peek(0x011), 0) << "H5";
-  EXPECT_EQ(bench.count(Reason::kC1Crc), 1);
+  EXPECT_EQ(bench.count(dpram::Reason::kC1Crc), 1);
   EXPECT_TRUE(is_sc(c1({})));
   give(kC1Area, pdu_of(0x5E, 1, 2, 1, {5}));
   EXPECT_EQ(bench.peek(0x00B), 0);
@@ -295,7 +295,7 @@ TEST_F(C1, LengthAbove240IsRefusedUnread) {
   bench.chip_accesses();
   fetch(kC1Area);
   give(kC1Area, pdu_of(0x5E, 1, 2, 241));
-  EXPECT_EQ(bench.last(Reason::kAcyclicLength).b, 241);
+  EXPECT_EQ(bench.last(dpram::Reason::kAcyclicLength).b, 241);
   EXPECT_EQ(bench.peek(0x00B), 0);
   EXPECT_TRUE(is_sc(c1({})));
 }
@@ -303,8 +303,8 @@ TEST_F(C1, LengthAbove240IsRefusedUnread) {
 TEST_F(C1, BeforeTheInitialisationAnAnswerIsDropped) {
   bench.power_on();
   give(kC1Area, pdu_of(0x5E, 1, 2, 0), 1);
-  EXPECT_EQ(bench.count(Reason::kBeforeInit), 1);
-  EXPECT_EQ(bench.last(Reason::kBeforeInit).b, 0x011);
+  EXPECT_EQ(bench.count(dpram::Reason::kBeforeInit), 1);
+  EXPECT_EQ(bench.last(dpram::Reason::kBeforeInit).b, 0x011);
   EXPECT_EQ(bench.peek(0x00B), 0);
   EXPECT_EQ(bench.peek(0x011), 0);
 }

@@ -42,7 +42,7 @@ TEST_F(C2, InitiateIsAnsweredAtOnceAndConnectedByTheFirstPoll) {
   EXPECT_EQ(poll.answer().ssap, kFirstChannel);
   EXPECT_TRUE(registry(0x30).connected);
   EXPECT_FALSE(registry(0x30).exchanging);
-  EXPECT_EQ(profibus::describe(bench.last(Reason::kRmEntry)), "RM registry: channel 48, master 1, in use, connected");
+  EXPECT_EQ(dsdpv1::describe(bench.last(Reason::kRmEntry)), "RM registry: channel 48, master 1, in use, connected");
   EXPECT_FALSE(registry(0x2F).in_use);
   EXPECT_TRUE(is_sc(c2(kFirstChannel))) << "nothing waits";
 }
@@ -429,9 +429,9 @@ TEST_F(C2, WrongCrcIsShownInB00BUntilARightAnswerComes) {
   to_user(kFirstChannel, read_request(1, 2, 3));
   give(kC2Area, pdu_of(0x5E, 1, 2, 1, {5}), 0x0001);
   EXPECT_EQ(bench.peek(0x00B), kC2Area.crc_error);
-  EXPECT_EQ(bench.count(Reason::kC2Crc), 1);
+  EXPECT_EQ(bench.count(dpram::Reason::kC2Crc), 1);
   give(kC2Area, pdu_of(0x5E, 1, 2, 241));
-  EXPECT_EQ(bench.last(Reason::kAcyclicLength).a, 2);
+  EXPECT_EQ(bench.last(dpram::Reason::kAcyclicLength).a, 2);
   EXPECT_EQ(bench.peek(0x00B), kC2Area.crc_error) << "D12: no CRC bit changes";
   give(kC2Area, pdu_of(0x5E, 1, 3, 1, {5}));
   EXPECT_EQ(bench.peek(0x00B), 0);

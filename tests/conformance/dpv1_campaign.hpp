@@ -32,8 +32,8 @@ class Campaign : public Dpv1Test {
     for (int i = 0; finished() < operations && !HasFailure(); ++i) act();
     std::size_t refused_by_user_side = 0;
     for (const profibus::Event& event : world_->chip.events())
-      refused_by_user_side += event.reason == Reason::kAcyclicAnswerDiffers || event.reason == Reason::kC1Crc ||
-                                      event.reason == Reason::kC2Crc
+      refused_by_user_side += event.reason == Reason::kAcyclicAnswerDiffers || event.reason == dpram::Reason::kC1Crc ||
+                                      event.reason == dpram::Reason::kC2Crc
                                   ? 1U
                                   : 0U;
     EXPECT_EQ(refused_by_user_side, wrong_answers_);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "model/dsdpv1/crc16.hpp"
+#include "model/dpram/crc16.hpp"
 
 namespace conformance {
 namespace {
@@ -17,7 +17,7 @@ constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr Tick kSetup = 240, kStrobe = 600, kHold = 240;  // 20 ns, 50 ns, 20 ns
 
 void put_crc(Bytes& block, std::uint16_t crc_error) {
-  const unsigned crc = dsdpv1::crc16(block.data(), static_cast<int>(block.size())) ^ crc_error;
+  const unsigned crc = dpram::crc16(block.data(), static_cast<int>(block.size())) ^ crc_error;
   block.push_back(static_cast<std::uint8_t>(crc >> 8));
   block.push_back(static_cast<std::uint8_t>(crc & 0xFF));
 }
@@ -197,7 +197,7 @@ std::optional<Bytes> SlaveBench::fetch_outputs() {
   Bytes block = {read(regs::kOutput)};
   for (int i = 1; i <= block[0]; ++i) block.push_back(read(static_cast<std::uint16_t>(regs::kOutput + i)));
   const int crc = read(regs::kOutputCrc) << 8 | read(regs::kOutputCrc + 1);
-  EXPECT_EQ(crc, dsdpv1::crc16(block.data(), static_cast<int>(block.size()))) << "CRC of the outputs";
+  EXPECT_EQ(crc, dpram::crc16(block.data(), static_cast<int>(block.size()))) << "CRC of the outputs";
   write(regs::kChipCommand1, static_cast<std::uint8_t>(flags & ~regs::kChipCommand1Output));
   release();
   return Bytes(block.begin() + 1, block.end());

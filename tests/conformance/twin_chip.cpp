@@ -17,7 +17,7 @@ std::string words(const PinChange& change) {
 
 std::string words(const profibus::Event& event) {
   return std::string(profibus::code(event.reason)) + " at tick " + std::to_string(event.at) + ": " +
-         profibus::describe(event);
+         dsdpv1::describe(event);
 }
 
 bool same(const PinChange& a, const PinChange& b) { return a == b; }

@@ -9,6 +9,7 @@
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "model/dsdpv1/chip.hpp"
+#include "model/dsdpv1/reasons.hpp"
 
 namespace conformance {
 

@@ -60,7 +60,7 @@ TEST(UserInputs, WrongCrcKeepsTheEarlierAndIsShown) {
   bench.give_inputs({3, 4}, 0x0100);
   EXPECT_EQ(bench.peek(regs::kChipStatus2), regs::kChipStatus2InputCrc);
   EXPECT_EQ(bench.peek(regs::kUserCommand1), 0) << "H5: cleared also when the CRC is wrong";
-  EXPECT_EQ(bench.count(Reason::kInputCrc), 1);
+  EXPECT_EQ(bench.count(dpram::Reason::kInputCrc), 1);
   EXPECT_EQ(inputs_seen(bench), (Bytes{1, 2}));
   bench.give_inputs({5, 6});
   EXPECT_EQ(bench.peek(regs::kChipStatus2), 0) << "D5";

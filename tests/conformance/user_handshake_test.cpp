@@ -179,12 +179,12 @@ TEST(UserHandshake, UserWhoRaisesStateWhileTheChipOwnsIsReported) {
   run_to_l_sta(bench, 1);
   bench.run_for(333);
   bench.chip.set(bench.now(), Pin::kRReq, 1);
-  EXPECT_EQ(bench.count(Reason::kBothOwn), 0);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kBothOwn), 0);
   bench.chip.set(bench.now(), Pin::kRSta, 1);
   const Tick both = bench.now();
   bench.run_cycles(20);
-  EXPECT_EQ(bench.count(Reason::kBothOwn), 1);
-  EXPECT_EQ(bench.last(Reason::kBothOwn).at, both);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kBothOwn), 1);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kBothOwn).at, both);
 }
 
 TEST(UserHandshake, ChipThatStartsOnAnImpatientUserIsReported) {
@@ -195,8 +195,8 @@ TEST(UserHandshake, ChipThatStartsOnAnImpatientUserIsReported) {
   bench.chip.set(bench.now(), Pin::kRSta, 1);  // sooner than H2 allows
   bench.run_cycles(20);
   EXPECT_EQ(last_rise(bench), due);
-  EXPECT_EQ(bench.count(Reason::kBothOwn), 1);
-  EXPECT_EQ(bench.last(Reason::kBothOwn).at, due * kCycleTicks);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kBothOwn), 1);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kBothOwn).at, due * kCycleTicks);
 }
 
 // H1, until an audit, read "with or without R_STA"; 5.1 releases with R_REQ = 0 and R_STA = 0.
@@ -207,7 +207,7 @@ TEST(UserHandshake, StateAloneHoldsTheChipOffAndReleaseLetsItInAtOnceAtEveryPhas
     const Cycle start = run_to_l_sta(bench, 1);
     const Tick raised = start * kCycleTicks + offset;
     const Tick lowered = raised + 100 * kCycleTicks + offset / 7;
-    const int overlaps = bench.count(Reason::kBothOwn);
+    const int overlaps = bench.count(dsdpv1::Reason::kBothOwn);
     set(bench, raised, Pin::kRSta, 1);  // nothing was asked for
     const bool held = seen_at(raised) <= start + kInterval;
     const Cycle due = held ? start + kInterval : start + 2 * kInterval;
@@ -216,7 +216,7 @@ TEST(UserHandshake, StateAloneHoldsTheChipOffAndReleaseLetsItInAtOnceAtEveryPhas
     run_to_cycle(bench, std::max(seen_at(lowered), due));
     EXPECT_EQ(last_rise(bench), std::max(seen_at(lowered), due)) << "offset " << offset;
     const bool in_access = raised < (start + kShortest) * kCycleTicks;
-    EXPECT_EQ(bench.count(Reason::kBothOwn) - overlaps, in_access || !held ? 1 : 0) << "offset " << offset;
+    EXPECT_EQ(bench.count(dsdpv1::Reason::kBothOwn) - overlaps, in_access || !held ? 1 : 0) << "offset " << offset;
   }
   EXPECT_GT(bench.chip.status().longest_wait, 90U) << "R_STA made it wait";
 }
@@ -469,7 +469,7 @@ TEST_P(Contention, NeverBothOwnNothingIsTornOrLost) {
   bench.chip_accesses(3);
   EXPECT_EQ(bench.fetch_outputs(), (Bytes{0x80, 0x7F})) << "the last outputs arrived";
   expect_no_violation(bench);
-  EXPECT_EQ(bench.count(Reason::kInputCrc), 0);
+  EXPECT_EQ(bench.count(dpram::Reason::kInputCrc), 0);
   EXPECT_EQ(user.refused, 0);
   EXPECT_GT(user.holds, 400);
   EXPECT_GT(user.given, 50);

@@ -82,7 +82,7 @@ inline Cycle run_to_l_sta(SlaveBench& bench, Level level, Cycle limit = 200'000)
 /// No rule of the user's bus was violated.
 inline void expect_no_violation(const SlaveBench& bench) {
   for (const profibus::Event& event : bench.chip.events())
-    EXPECT_NE(profibus::severity(event.reason), profibus::Severity::kViolation) << profibus::describe(event);
+    EXPECT_NE(profibus::severity(event.reason), profibus::Severity::kViolation) << dsdpv1::describe(event);
 }
 
 /// Pins (or anything else) at planned ticks while others run the timeline.

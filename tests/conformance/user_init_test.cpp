@@ -46,9 +46,9 @@ TEST(UserInit, RightDataInitialise) {
   EXPECT_EQ(bench.peek(regs::kUserCommand1), 0);
   EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
   EXPECT_EQ(bench.peek(regs::kChipStatus3), 0xF4) << "WAIT_PRM, searching";
-  EXPECT_EQ(bench.count(Reason::kInitialised), 1);
-  EXPECT_EQ(bench.last(Reason::kInitialised).a, 5);
-  EXPECT_EQ(bench.last(Reason::kInitialised).b, 0x0CC9);
+  EXPECT_EQ(bench.count(dpram::Reason::kInitialised), 1);
+  EXPECT_EQ(bench.last(dpram::Reason::kInitialised).a, 5);
+  EXPECT_EQ(bench.last(dpram::Reason::kInitialised).b, 0x0CC9);
   EXPECT_EQ(bench.chip.status().address, 5);
   EXPECT_EQ(bench.chip.level(Pin::kPbf), 1);
   EXPECT_EQ(bench.chip.level(Pin::kBr), 0);
@@ -73,63 +73,67 @@ TEST_P(UserInitCase, ShowsItAndLeavesTheFlagCleared) {
   EXPECT_EQ(bench.count(GetParam().reason), 1) << profibus::code(GetParam().reason);
   const bool good = GetParam().expected == kGood;
   EXPECT_EQ(bench.dp_state(), good ? DpState::kWaitPrm : DpState::kOffline);
-  EXPECT_EQ(bench.count(Reason::kInitialised), good ? 1 : 0);
+  EXPECT_EQ(bench.count(dpram::Reason::kInitialised), good ? 1 : 0);
   // And after a refusal a right one is accepted and clears the errors (D5).
   ASSERT_TRUE(bench.initialise());
   EXPECT_EQ(shown(bench), kGood);
 }
 
 const Case kCases[] = {
-    {"CrcLowWrong", with([](Init& i) { i.crc_error = 0x0001; }), kCrcWrong, Reason::kInitCrc},
-    {"CrcHighWrong", with([](Init& i) { i.crc_error = 0x8000; }), kCrcWrong, Reason::kInitCrc},
-    {"CrcIsLookedAtFirst", with([](Init& i) { i.crc_error = 1, i.address = 200; }), kCrcWrong, Reason::kInitCrc},
-    {"Address0", with([](Init& i) { i.address = 0; }), kGood, Reason::kInitialised},
-    {"Address126", with([](Init& i) { i.address = 126; }), kGood, Reason::kInitialised},
-    {"Address127", with([](Init& i) { i.address = 127; }), kLimitWrong, Reason::kInitAddress},
-    {"Address255", with([](Init& i) { i.address = 255; }), kLimitWrong, Reason::kInitAddress},
-    {"MaxInput244", with([](Init& i) { i.max_input = 244; }), kGood, Reason::kInitialised},
-    {"MaxInput245", with([](Init& i) { i.max_input = 245; }), kLimitWrong, Reason::kInitLimit},
-    {"MaxOutput244", with([](Init& i) { i.max_output = 244; }), kGood, Reason::kInitialised},
-    {"MaxOutput245", with([](Init& i) { i.max_output = 245; }), kLimitWrong, Reason::kInitLimit},
-    {"MaxDiag0", with([](Init& i) { i.max_diag = 0; }), kGood, Reason::kInitialised},
-    {"MaxDiag238", with([](Init& i) { i.max_diag = 238; }), kGood, Reason::kInitialised},
-    {"MaxDiag239", with([](Init& i) { i.max_diag = 239; }), kLimitWrong, Reason::kInitLimit},
-    {"MaxPrm0", with([](Init& i) { i.max_prm = 0; }), kGood, Reason::kInitialised},
-    {"MaxPrm237", with([](Init& i) { i.max_prm = 237; }), kGood, Reason::kInitialised},
-    {"MaxPrm238", with([](Init& i) { i.max_prm = 238; }), kLimitWrong, Reason::kInitLimit},
-    {"PrmMode2", with([](Init& i) { i.prm_mode = 2; }), kGood, Reason::kInitialised},
-    {"PrmMode3", with([](Init& i) { i.prm_mode = 3; }), kLimitWrong, Reason::kInitLimit},
-    {"CfgMode2", with([](Init& i) { i.cfg_mode = 2; }), kGood, Reason::kInitialised},
-    {"CfgMode3", with([](Init& i) { i.cfg_mode = 3; }), kLimitWrong, Reason::kInitLimit},
-    {"MaxCfg200", with([](Init& i) { i.max_cfg = 200; }), kGood, Reason::kInitialised},
-    {"MaxCfg201", with([](Init& i) { i.max_cfg = 201; }), kLimitWrong, Reason::kInitLimit},
-    {"CfgAsLongAsAllowed", with([](Init& i) { i.max_cfg = 2; }), kGood, Reason::kInitialised},
-    {"CfgLongerThanAllowed", with([](Init& i) { i.max_cfg = 1; }), kLimitWrong, Reason::kInitLimit},
-    {"Cfg200Bytes", with([](Init& i) { i.cfg = empty_places(200); }), kGood, Reason::kInitialised},
-    {"LengthUpToTheEnd", with([](Init& i) { i.length = 214; }), kGood, Reason::kInitialised},
-    {"Length215", with([](Init& i) { i.length = 215; }), kLimitWrong, Reason::kInitLength},
-    {"Length255", with([](Init& i) { i.length = 255; }), kLimitWrong, Reason::kInitLength},
-    {"LengthOneShortOfTheCfg", with([](Init& i) { i.length = 15; }), kLimitWrong, Reason::kInitLength},
-    {"LengthShortOfTheHeader", with([](Init& i) { i.length = 13; }), kLimitWrong, Reason::kInitLength},
-    {"Length0", with([](Init& i) { i.length = 0; }), kLimitWrong, Reason::kInitLength},
-    {"Length1", with([](Init& i) { i.length = 1; }), kLimitWrong, Reason::kInitLength},
-    {"CfgFillsTheInputs", with([](Init& i) { i.cfg = {0x1F}, i.max_input = 16; }), kGood, Reason::kInitialised},
-    {"CfgBeyondTheInputs", with([](Init& i) { i.cfg = {0x1F}, i.max_input = 15; }), kLimitWrong, Reason::kInitCfg},
-    {"CfgFillsTheOutputs", with([](Init& i) { i.cfg = {0x2F}, i.max_output = 16; }), kGood, Reason::kInitialised},
-    {"CfgBeyondTheOutputs", with([](Init& i) { i.cfg = {0x2F}, i.max_output = 15; }), kLimitWrong, Reason::kInitCfg},
+    {"CrcLowWrong", with([](Init& i) { i.crc_error = 0x0001; }), kCrcWrong, dpram::Reason::kInitCrc},
+    {"CrcHighWrong", with([](Init& i) { i.crc_error = 0x8000; }), kCrcWrong, dpram::Reason::kInitCrc},
+    {"CrcIsLookedAtFirst", with([](Init& i) { i.crc_error = 1, i.address = 200; }), kCrcWrong, dpram::Reason::kInitCrc},
+    {"Address0", with([](Init& i) { i.address = 0; }), kGood, dpram::Reason::kInitialised},
+    {"Address126", with([](Init& i) { i.address = 126; }), kGood, dpram::Reason::kInitialised},
+    {"Address127", with([](Init& i) { i.address = 127; }), kLimitWrong, dpram::Reason::kInitAddress},
+    {"Address255", with([](Init& i) { i.address = 255; }), kLimitWrong, dpram::Reason::kInitAddress},
+    {"MaxInput244", with([](Init& i) { i.max_input = 244; }), kGood, dpram::Reason::kInitialised},
+    {"MaxInput245", with([](Init& i) { i.max_input = 245; }), kLimitWrong, dpram::Reason::kInitLimit},
+    {"MaxOutput244", with([](Init& i) { i.max_output = 244; }), kGood, dpram::Reason::kInitialised},
+    {"MaxOutput245", with([](Init& i) { i.max_output = 245; }), kLimitWrong, dpram::Reason::kInitLimit},
+    {"MaxDiag0", with([](Init& i) { i.max_diag = 0; }), kGood, dpram::Reason::kInitialised},
+    {"MaxDiag238", with([](Init& i) { i.max_diag = 238; }), kGood, dpram::Reason::kInitialised},
+    {"MaxDiag239", with([](Init& i) { i.max_diag = 239; }), kLimitWrong, dpram::Reason::kInitLimit},
+    {"MaxPrm0", with([](Init& i) { i.max_prm = 0; }), kGood, dpram::Reason::kInitialised},
+    {"MaxPrm237", with([](Init& i) { i.max_prm = 237; }), kGood, dpram::Reason::kInitialised},
+    {"MaxPrm238", with([](Init& i) { i.max_prm = 238; }), kLimitWrong, dpram::Reason::kInitLimit},
+    {"PrmMode2", with([](Init& i) { i.prm_mode = 2; }), kGood, dpram::Reason::kInitialised},
+    {"PrmMode3", with([](Init& i) { i.prm_mode = 3; }), kLimitWrong, dpram::Reason::kInitLimit},
+    {"CfgMode2", with([](Init& i) { i.cfg_mode = 2; }), kGood, dpram::Reason::kInitialised},
+    {"CfgMode3", with([](Init& i) { i.cfg_mode = 3; }), kLimitWrong, dpram::Reason::kInitLimit},
+    {"MaxCfg200", with([](Init& i) { i.max_cfg = 200; }), kGood, dpram::Reason::kInitialised},
+    {"MaxCfg201", with([](Init& i) { i.max_cfg = 201; }), kLimitWrong, dpram::Reason::kInitLimit},
+    {"CfgAsLongAsAllowed", with([](Init& i) { i.max_cfg = 2; }), kGood, dpram::Reason::kInitialised},
+    {"CfgLongerThanAllowed", with([](Init& i) { i.max_cfg = 1; }), kLimitWrong, dpram::Reason::kInitLimit},
+    {"Cfg200Bytes", with([](Init& i) { i.cfg = empty_places(200); }), kGood, dpram::Reason::kInitialised},
+    {"LengthUpToTheEnd", with([](Init& i) { i.length = 214; }), kGood, dpram::Reason::kInitialised},
+    {"Length215", with([](Init& i) { i.length = 215; }), kLimitWrong, dpram::Reason::kInitLength},
+    {"Length255", with([](Init& i) { i.length = 255; }), kLimitWrong, dpram::Reason::kInitLength},
+    {"LengthOneShortOfTheCfg", with([](Init& i) { i.length = 15; }), kLimitWrong, dpram::Reason::kInitLength},
+    {"LengthShortOfTheHeader", with([](Init& i) { i.length = 13; }), kLimitWrong, dpram::Reason::kInitLength},
+    {"Length0", with([](Init& i) { i.length = 0; }), kLimitWrong, dpram::Reason::kInitLength},
+    {"Length1", with([](Init& i) { i.length = 1; }), kLimitWrong, dpram::Reason::kInitLength},
+    {"CfgFillsTheInputs", with([](Init& i) { i.cfg = {0x1F}, i.max_input = 16; }), kGood, dpram::Reason::kInitialised},
+    {"CfgBeyondTheInputs", with([](Init& i) { i.cfg = {0x1F}, i.max_input = 15; }), kLimitWrong,
+     dpram::Reason::kInitCfg},
+    {"CfgFillsTheOutputs", with([](Init& i) { i.cfg = {0x2F}, i.max_output = 16; }), kGood,
+     dpram::Reason::kInitialised},
+    {"CfgBeyondTheOutputs", with([](Init& i) { i.cfg = {0x2F}, i.max_output = 15; }), kLimitWrong,
+     dpram::Reason::kInitCfg},
     {"CfgIncomplete", with([](Init& i) {
        i.cfg = {0x11, 0x40};
      }),
-     kLimitWrong, Reason::kInitCfg},
+     kLimitWrong, dpram::Reason::kInitCfg},
     {"CfgManufacturerBytesMissing", with([](Init& i) {
        i.cfg = {0x03, 1, 2};
      }),
-     kLimitWrong, Reason::kInitCfg},
-    {"CfgFills244", with([](Init& i) { i.cfg = {0xC0, 0x7F, 0x7F, 0xC0, 0x79, 0x79}; }), kGood, Reason::kInitialised},
+     kLimitWrong, dpram::Reason::kInitCfg},
+    {"CfgFills244", with([](Init& i) { i.cfg = {0xC0, 0x7F, 0x7F, 0xC0, 0x79, 0x79}; }), kGood,
+     dpram::Reason::kInitialised},
     {"CfgNeeds245Inputs", with([](Init& i) { i.cfg = {0xC0, 0x7F, 0x7F, 0xC0, 0x79, 0x79, 0x10}; }), kLimitWrong,
-     Reason::kInitCfg},
+     dpram::Reason::kInitCfg},
     {"CfgNeeds245Outputs", with([](Init& i) { i.cfg = {0xC0, 0x7F, 0x7F, 0xC0, 0x79, 0x79, 0x20}; }), kLimitWrong,
-     Reason::kInitCfg},
+     dpram::Reason::kInitCfg},
 };
 
 INSTANTIATE_TEST_SUITE_P(UserInit, UserInitCase, testing::ValuesIn(kCases),
@@ -196,7 +200,7 @@ TEST(UserInit, BlocksBeforeTheInitialisationAreDroppedWithAReason) {
     bench.poke(regs::kUserCommand1, flag);
     bench.chip_accesses();
     EXPECT_EQ(bench.peek(regs::kUserCommand1), 0) << int{flag};
-    EXPECT_EQ(bench.count(Reason::kBeforeInit), 1) << int{flag};
+    EXPECT_EQ(bench.count(dpram::Reason::kBeforeInit), 1) << int{flag};
   }
   for (const std::uint8_t flag : {regs::kUserCommand1PrmVerdict, regs::kUserCommand1CfgVerdict}) {
     SlaveBench bench;
@@ -204,7 +208,7 @@ TEST(UserInit, BlocksBeforeTheInitialisationAreDroppedWithAReason) {
     bench.poke(regs::kUserCommand1, flag);
     bench.chip_accesses();
     EXPECT_EQ(bench.peek(regs::kUserCommand1), 0) << int{flag};
-    EXPECT_EQ(bench.count(Reason::kBeforeInit) + bench.count(Reason::kVerdictUnexpected), 1) << int{flag};
+    EXPECT_EQ(bench.count(dpram::Reason::kBeforeInit) + bench.count(Reason::kVerdictUnexpected), 1) << int{flag};
   }
 }
 
@@ -218,7 +222,7 @@ TEST(UserInit, InputsOfTheSameHoldAreTakenAfterTheInitialisation) {
   bench.chip_accesses();
   EXPECT_EQ(shown(bench), kGood);
   EXPECT_EQ(bench.peek(regs::kUserCommand1), 0);
-  EXPECT_EQ(bench.count(Reason::kBeforeInit), 0);
+  EXPECT_EQ(bench.count(dpram::Reason::kBeforeInit), 0);
   EXPECT_EQ(bench.count(Reason::kInputLength), 0);
   bench.find_baud();
   bench.set_prm({});
@@ -383,11 +387,11 @@ TEST_P(RefusedInOperation, ChangesNothingButTheStatusBytes) {
 }
 
 const Case kRefused[] = {
-    {"Crc", with([](Init& i) { i.crc_error = 1; }), kCrcWrong, Reason::kInitCrc},
-    {"Address", with([](Init& i) { i.address = 127; }), kLimitWrong, Reason::kInitAddress},
-    {"Length", with([](Init& i) { i.length = 250; }), kLimitWrong, Reason::kInitLength},
-    {"Cfg", with([](Init& i) { i.cfg = {0x40}; }), kLimitWrong, Reason::kInitCfg},
-    {"Mode", with([](Init& i) { i.cfg_mode = 9; }), kLimitWrong, Reason::kInitLimit},
+    {"Crc", with([](Init& i) { i.crc_error = 1; }), kCrcWrong, dpram::Reason::kInitCrc},
+    {"Address", with([](Init& i) { i.address = 127; }), kLimitWrong, dpram::Reason::kInitAddress},
+    {"Length", with([](Init& i) { i.length = 250; }), kLimitWrong, dpram::Reason::kInitLength},
+    {"Cfg", with([](Init& i) { i.cfg = {0x40}; }), kLimitWrong, dpram::Reason::kInitCfg},
+    {"Mode", with([](Init& i) { i.cfg_mode = 9; }), kLimitWrong, dpram::Reason::kInitLimit},
 };
 
 INSTANTIATE_TEST_SUITE_P(UserInit, RefusedInOperation, testing::ValuesIn(kRefused),
@@ -412,7 +416,7 @@ TEST(UserInit, WhileAnAnswerIsSentItIsStopped) {
   bench.run_ms(1);
   EXPECT_EQ(bench.chip.level(Pin::kPbrts), 0);
   const Tick fall = bench.changes(Pin::kPbrts).back().at;
-  EXPECT_EQ(bench.last(Reason::kInitialised).at, fall);
+  EXPECT_EQ(bench.last(dpram::Reason::kInitialised).at, fall);
   bench.address = 77;
   expect_new_values_work(bench);
 }

@@ -78,13 +78,13 @@ class UserPort : public testing::Test {
     EXPECT_EQ(bench.count(reason), before + 1);
     EXPECT_EQ(bench.chip.events().size(), events + 1) << "nothing else is reported";
     EXPECT_EQ(bench.last(reason).a, kCell);
-    const int unknown = bench.count(Reason::kReadUnknown);
+    const int unknown = bench.count(dsdpv1::Reason::kReadUnknown);
     EXPECT_EQ(read_slowly(kCell), dsdpv1::kLevelX);
     EXPECT_EQ(read_slowly(kCell), dsdpv1::kLevelX);
-    EXPECT_EQ(bench.count(Reason::kReadUnknown), unknown + 2);
+    EXPECT_EQ(bench.count(dsdpv1::Reason::kReadUnknown), unknown + 2);
     write_shaped(0x3C, {});
     EXPECT_EQ(read_slowly(kCell), 0x3C);
-    EXPECT_EQ(bench.count(Reason::kReadUnknown), unknown + 2);
+    EXPECT_EQ(bench.count(dsdpv1::Reason::kReadUnknown), unknown + 2);
   }
 
   SlaveBench bench;
@@ -95,8 +95,8 @@ TEST_F(UserPort, TsKeptAtTheLimitAndViolatedByOneTick) {
   shape.low = kTs;
   expect_kept(0x5A, shape);
   shape.low = kTs - 1;
-  expect_violated(0xA5, shape, Reason::kWriteLowTooShort);
-  EXPECT_EQ(bench.last(Reason::kWriteLowTooShort).b, kTs - 1);
+  expect_violated(0xA5, shape, dsdpv1::Reason::kWriteLowTooShort);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kWriteLowTooShort).b, kTs - 1);
   EXPECT_EQ(bench.peek(kCell), 0x3C);
 }
 
@@ -105,8 +105,8 @@ TEST_F(UserPort, TdSetupOfAKeptAtTheLimitAndViolatedByOneTick) {
   shape.a_before = kTd;
   expect_kept(0x5A, shape);
   shape.a_before = kTd - 1;
-  expect_violated(0xA5, shape, Reason::kWriteSetup);
-  EXPECT_EQ(bench.last(Reason::kWriteSetup).b, kTd - 1);
+  expect_violated(0xA5, shape, dsdpv1::Reason::kWriteSetup);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kWriteSetup).b, kTd - 1);
 }
 
 TEST_F(UserPort, TdSetupOfDKeptAtTheLimitAndViolatedByOneTick) {
@@ -114,7 +114,7 @@ TEST_F(UserPort, TdSetupOfDKeptAtTheLimitAndViolatedByOneTick) {
   shape.d_before = kTd;
   expect_kept(0x5A, shape);
   shape.d_before = kTd - 1;
-  expect_violated(0xA5, shape, Reason::kWriteSetup);
+  expect_violated(0xA5, shape, dsdpv1::Reason::kWriteSetup);
 }
 
 TEST_F(UserPort, TdHoldOfAKeptAtTheLimitAndViolatedByOneTick) {
@@ -122,8 +122,8 @@ TEST_F(UserPort, TdHoldOfAKeptAtTheLimitAndViolatedByOneTick) {
   shape.a_after = kTd;
   expect_kept(0x5A, shape);
   shape.a_after = kTd - 1;
-  expect_violated(0xA5, shape, Reason::kWriteHold);
-  EXPECT_EQ(bench.last(Reason::kWriteHold).b, kTd - 1);
+  expect_violated(0xA5, shape, dsdpv1::Reason::kWriteHold);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kWriteHold).b, kTd - 1);
 }
 
 TEST_F(UserPort, TdHoldOfDKeptAtTheLimitAndViolatedByOneTick) {
@@ -131,13 +131,13 @@ TEST_F(UserPort, TdHoldOfDKeptAtTheLimitAndViolatedByOneTick) {
   shape.d_after = kTd;
   expect_kept(0x5A, shape);
   shape.d_after = kTd - 1;
-  expect_violated(0xA5, shape, Reason::kWriteHold);
+  expect_violated(0xA5, shape, dsdpv1::Reason::kWriteHold);
   shape.d_after = 1;
-  expect_violated(0xA5, shape, Reason::kWriteHold);
+  expect_violated(0xA5, shape, dsdpv1::Reason::kWriteHold);
 }
 
 TEST_F(UserPort, TdHoldIsViolatedWhenDIsReleasedEarly) {
-  const int before = bench.count(Reason::kWriteHold);
+  const int before = bench.count(dsdpv1::Reason::kWriteHold);
   const Tick rise = next_rise();
   set(rise - 800, Pin::kA, kCell);
   set(rise - 800, Pin::kDIn, 0x42);
@@ -146,7 +146,7 @@ TEST_F(UserPort, TdHoldIsViolatedWhenDIsReleasedEarly) {
   set(rise, Pin::kWr, 1);
   set(rise + kTd - 1, Pin::kDIn, dsdpv1::kLevelZ);
   bench.run_cycles(4);
-  EXPECT_EQ(bench.count(Reason::kWriteHold), before + 1);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kWriteHold), before + 1);
   EXPECT_EQ(read_slowly(kCell), dsdpv1::kLevelX);
 }
 
@@ -154,13 +154,13 @@ TEST_F(UserPort, BothAAndDLateInTheHoldTimeAreOneViolation) {
   WriteShape shape;
   shape.a_after = 100;
   shape.d_after = 120;
-  expect_violated(0x11, shape, Reason::kWriteHold);
+  expect_violated(0x11, shape, dsdpv1::Reason::kWriteHold);
 }
 
 TEST_F(UserPort, FloatingDIsReported) {
   WriteShape shape;
   shape.drive = false;
-  expect_violated(0x00, shape, Reason::kWriteFloating);
+  expect_violated(0x00, shape, dsdpv1::Reason::kWriteFloating);
 }
 
 TEST_F(UserPort, ASettingOfTheSameLevelIsNoChange) {
@@ -185,7 +185,7 @@ TEST_F(UserPort, CsrEarlyWritesNothingAndIsReported) {
   shape.csr_after = -1;
   const std::size_t events = bench.chip.events().size();
   write_shaped(0x99, shape);
-  EXPECT_EQ(bench.count(Reason::kWriteDeselected), 1);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kWriteDeselected), 1);
   EXPECT_EQ(bench.chip.events().size(), events + 1);
   EXPECT_EQ(read_slowly(kCell), 0x77);
 }
@@ -226,7 +226,7 @@ TEST_F(UserPort, TheChipReadsWhatAViolatedWriteCaptured) {
   WriteShape shape;
   shape.low = kTs - 1;
   write_shaped(next_rise(), regs::kUserCommand1, regs::kUserCommand1Input, shape);
-  EXPECT_EQ(bench.count(Reason::kWriteLowTooShort), 1);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kWriteLowTooShort), 1);
   bench.chip_accesses();
   EXPECT_EQ(bench.peek(regs::kUserCommand1), 0) << "the chip has seen the flag";
   bench.acquire();
@@ -276,24 +276,24 @@ TEST_F(UserPort, TwKeptAtTheLimitAndViolatedByOneTickAtEveryPhase) {
   set(bench.now(), Pin::kCsr, 0);
   for (Tick phase = 0; phase < kCycleTicks; phase += 7) {
     for (const Tick low : {kTw, kTw - 1}) {
-      const int before = bench.count(Reason::kReadTooShort);
+      const int before = bench.count(dsdpv1::Reason::kReadTooShort);
       const Tick fall = (bench.now() / kCycleTicks + 3) * kCycleTicks + phase;
       set(fall, Pin::kRd, 0);
       bench.run_until(fall + low);
       const Level data = bench.chip.level(Pin::kDOut);
       EXPECT_TRUE(data == 0x01 || low < kTw) << "certain after Tw, phase " << phase;
       set(fall + low, Pin::kRd, 1);
-      EXPECT_EQ(bench.count(Reason::kReadTooShort) - before, low < kTw ? 1 : 0) << "phase " << phase;
+      EXPECT_EQ(bench.count(dsdpv1::Reason::kReadTooShort) - before, low < kTw ? 1 : 0) << "phase " << phase;
     }
   }
-  EXPECT_EQ(bench.last(Reason::kReadTooShort).b, kTw - 1);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kReadTooShort).b, kTw - 1);
 }
 
 TEST_F(UserPort, ASampleBeforeTwIsXAndReportedOnceAtEveryPhase) {
   set(bench.now() + 10, Pin::kA, 0x003);
   for (Tick phase = 0; phase < kCycleTicks; ++phase) {
     for (const Tick after : {Tick{0}, kTw - 100, kTw - 1, kTw}) {
-      const int before = bench.count(Reason::kReadTooShort);
+      const int before = bench.count(dsdpv1::Reason::kReadTooShort);
       const Tick fall = (bench.now() / kCycleTicks + 3) * kCycleTicks + phase;
       const bool by_csr = phase % 2 == 1;  // the later of RD's and CSR's fall begins the read
       set(fall - 60, by_csr ? Pin::kRd : Pin::kCsr, 0);
@@ -301,10 +301,10 @@ TEST_F(UserPort, ASampleBeforeTwIsXAndReportedOnceAtEveryPhase) {
       bench.run_until(fall + after);
       const bool early = after < kTw;
       EXPECT_EQ(bench.chip.sample(fall + after), early ? dsdpv1::kLevelX : 0x01) << after << " at phase " << phase;
-      EXPECT_EQ(bench.count(Reason::kReadTooShort) - before, early ? 1 : 0) << after << " at phase " << phase;
-      if (early) EXPECT_EQ(bench.last(Reason::kReadTooShort).b, after);
+      EXPECT_EQ(bench.count(dsdpv1::Reason::kReadTooShort) - before, early ? 1 : 0) << after << " at phase " << phase;
+      if (early) EXPECT_EQ(bench.last(dsdpv1::Reason::kReadTooShort).b, after);
       set(fall + after, Pin::kRd, 1);  // too short as well: the read has been reported
-      EXPECT_EQ(bench.count(Reason::kReadTooShort) - before, early ? 1 : 0) << after << " at phase " << phase;
+      EXPECT_EQ(bench.count(dsdpv1::Reason::kReadTooShort) - before, early ? 1 : 0) << after << " at phase " << phase;
       EXPECT_EQ(bench.chip.sample(fall + after), dsdpv1::kLevelZ);
       set(fall + after, Pin::kCsr, 1);
     }
@@ -344,12 +344,12 @@ TEST_F(UserPort, TcViolatedByOneTickYieldsX) {
   set(fall + 1, Pin::kA, 0x003);
   bench.run_for(1000);
   EXPECT_EQ(bench.chip.level(Pin::kDOut), dsdpv1::kLevelX);
-  EXPECT_EQ(bench.count(Reason::kReadAddressChanged), 1);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kReadAddressChanged), 1);
 }
 
 TEST_F(UserPort, ChangeOfAAtTheLastTickBeforeTheSamplingEdgeYieldsXAndAfterItDoesNot) {
   for (const Tick after : {-1, 0, 1, 100}) {
-    const int before = bench.count(Reason::kReadAddressChanged);
+    const int before = bench.count(dsdpv1::Reason::kReadAddressChanged);
     set(bench.now() + 10, Pin::kA, 0x003);
     set(bench.now(), Pin::kCsr, 0);
     const Tick edge = (bench.now() / kCycleTicks + 4) * kCycleTicks;
@@ -357,7 +357,7 @@ TEST_F(UserPort, ChangeOfAAtTheLastTickBeforeTheSamplingEdgeYieldsXAndAfterItDoe
     set(edge + after, Pin::kA, 0x123);
     bench.run_until(edge + 500);
     EXPECT_EQ(bench.chip.level(Pin::kDOut), after < 0 ? dsdpv1::kLevelX : Level{0x01}) << after;
-    EXPECT_EQ(bench.count(Reason::kReadAddressChanged) - before, after < 0 ? 1 : 0) << after;
+    EXPECT_EQ(bench.count(dsdpv1::Reason::kReadAddressChanged) - before, after < 0 ? 1 : 0) << after;
     set(bench.now(), Pin::kRd, 1);
   }
 }
@@ -416,7 +416,7 @@ TEST_F(UserPort, AWriteTakesEffectAtTheThirdEdgeAtEveryPhase) {
 TEST_F(UserPort, AReadSampledNoLaterThanTheSettlingEdgeYieldsXAndOneLaterTheValue) {
   for (const int late : {0, 1, 2, 3, 4}) {  // the sampling edge of the read counted from the first edge after WR's rise
     for (const Tick phase : {0, 1, 100, 249}) {
-      const int before = bench.count(Reason::kReadInFlight);
+      const int before = bench.count(dsdpv1::Reason::kReadInFlight);
       const Tick rise = (bench.now() / kCycleTicks + 8) * kCycleTicks + phase;
       const auto value = static_cast<std::uint8_t>(16 * late + phase % 7);
       set(rise - 400, Pin::kA, kCell);
@@ -429,7 +429,7 @@ TEST_F(UserPort, AReadSampledNoLaterThanTheSettlingEdgeYieldsXAndOneLaterTheValu
       bench.run_until(sampling + 1000);
       const bool in_flight = late <= 2;
       EXPECT_EQ(bench.chip.level(Pin::kDOut), in_flight ? dsdpv1::kLevelX : Level{value}) << late << " phase " << phase;
-      EXPECT_EQ(bench.count(Reason::kReadInFlight) - before, in_flight ? 1 : 0) << late << " phase " << phase;
+      EXPECT_EQ(bench.count(dsdpv1::Reason::kReadInFlight) - before, in_flight ? 1 : 0) << late << " phase " << phase;
       set(bench.now(), Pin::kRd, 1);
       set(bench.now(), Pin::kDIn, dsdpv1::kLevelZ);
     }
@@ -475,9 +475,9 @@ TEST_F(UserPort, FastestLegalWritesReachEveryAddressAtEveryPhase) {
       ASSERT_EQ(bench.peek(static_cast<std::uint16_t>(cell)), values[static_cast<std::size_t>(cell)])
           << std::hex << cell;
     }
-    EXPECT_EQ(bench.count(Reason::kWriteOverrun), 0);
-    for (const Reason reason :
-         {Reason::kWriteSetup, Reason::kWriteHold, Reason::kWriteLowTooShort, Reason::kWriteFloating})
+    EXPECT_EQ(bench.count(dsdpv1::Reason::kWriteOverrun), 0);
+    for (const Reason reason : {dsdpv1::Reason::kWriteSetup, dsdpv1::Reason::kWriteHold,
+                                dsdpv1::Reason::kWriteLowTooShort, dsdpv1::Reason::kWriteFloating})
       EXPECT_EQ(bench.count(reason), 0) << profibus::code(reason);
   }
 }
@@ -501,15 +501,15 @@ TEST_F(UserPort, TheLastOfTwoWritesToTheSameCellWins) {
 
 TEST_F(UserPort, WritesToTheChipsCellsAreReportedAndCarriedOut) {
   for (const regs::Cell& cell : regs::kMap) {
-    const int before = bench.count(Reason::kReadOnlyWritten);
+    const int before = bench.count(dsdpv1::Reason::kReadOnlyWritten);
     bench.write(cell.first, 0xE7);
     bench.run_cycles(4);
     EXPECT_EQ(bench.peek(cell.first), 0xE7) << cell.name;
     const bool reported = cell.chip_writes && !cell.user_writes;  // P6; reserved cells are nobody's (P13)
-    EXPECT_EQ(bench.count(Reason::kReadOnlyWritten) - before, reported ? 1 : 0) << cell.name;
+    EXPECT_EQ(bench.count(dsdpv1::Reason::kReadOnlyWritten) - before, reported ? 1 : 0) << cell.name;
   }
-  EXPECT_EQ(bench.last(Reason::kReadOnlyWritten).a, 0x5CB);
-  EXPECT_EQ(bench.last(Reason::kReadOnlyWritten).b, 0xE7);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kReadOnlyWritten).a, 0x5CB);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kReadOnlyWritten).b, 0xE7);
 }
 
 TEST_F(UserPort, AnAccessWithoutOwnershipIsReportedAndCarriedOut) {
@@ -519,16 +519,16 @@ TEST_F(UserPort, AnAccessWithoutOwnershipIsReportedAndCarriedOut) {
     run_to_l_sta(bench, 0);  // the first may have been running
     bench.chip.set(bench.now(), Pin::kRReq, request);
     bench.chip.set(bench.now(), Pin::kRSta, state);
-    const int before = bench.count(Reason::kAccessNotOwned);
+    const int before = bench.count(dsdpv1::Reason::kAccessNotOwned);
     bench.write(kCell, static_cast<std::uint8_t>(0x40 + 2 * request + state));
-    EXPECT_EQ(bench.count(Reason::kAccessNotOwned), before + 1);
-    EXPECT_EQ(bench.last(Reason::kAccessNotOwned).a, kCell);
-    EXPECT_EQ(bench.last(Reason::kAccessNotOwned).b, request);
-    EXPECT_EQ(bench.last(Reason::kAccessNotOwned).c, state);
+    EXPECT_EQ(bench.count(dsdpv1::Reason::kAccessNotOwned), before + 1);
+    EXPECT_EQ(bench.last(dsdpv1::Reason::kAccessNotOwned).a, kCell);
+    EXPECT_EQ(bench.last(dsdpv1::Reason::kAccessNotOwned).b, request);
+    EXPECT_EQ(bench.last(dsdpv1::Reason::kAccessNotOwned).c, state);
     bench.run_cycles(4);
     EXPECT_EQ(bench.peek(kCell), 0x40 + 2 * request + state);
     EXPECT_EQ(bench.read(kCell), 0x40 + 2 * request + state);
-    EXPECT_EQ(bench.count(Reason::kAccessNotOwned), before + 2);
+    EXPECT_EQ(bench.count(dsdpv1::Reason::kAccessNotOwned), before + 2);
   }
 }
 
@@ -536,7 +536,7 @@ TEST_F(UserPort, AReadWhileTheChipOwnsYieldsX) {
   bench.release();
   for (int offset = -3; offset < 12; ++offset) {
     const Cycle start = run_to_l_sta(bench, 1) + 48;
-    const int before = bench.count(Reason::kAccessNotOwned);
+    const int before = bench.count(dsdpv1::Reason::kAccessNotOwned);
     set((start - 6) * kCycleTicks, Pin::kA, 0x003);
     set(bench.now(), Pin::kCsr, 0);
     const Cycle sampling = start + offset;
@@ -544,7 +544,7 @@ TEST_F(UserPort, AReadWhileTheChipOwnsYieldsX) {
     bench.run_until(sampling * kCycleTicks + 200);
     const bool owned = offset >= 1 && offset <= 7;  // L_STA was 1 before the sampling edge
     EXPECT_EQ(bench.chip.level(Pin::kDOut), owned ? dsdpv1::kLevelX : Level{0x01}) << offset;
-    EXPECT_EQ(bench.count(Reason::kAccessNotOwned), before + 1) << "never silent";
+    EXPECT_EQ(bench.count(dsdpv1::Reason::kAccessNotOwned), before + 1) << "never silent";
     set(bench.now() + 100, Pin::kRd, 1);
   }
 }
@@ -552,9 +552,9 @@ TEST_F(UserPort, AReadWhileTheChipOwnsYieldsX) {
 TEST_F(UserPort, AWriteWhileTheChipOwnsIsReportedAndCarriedOut) {
   bench.release();
   run_to_l_sta(bench, 1);
-  const int before = bench.count(Reason::kAccessNotOwned);
+  const int before = bench.count(dsdpv1::Reason::kAccessNotOwned);
   bench.write(kCell, 0x5C);
-  EXPECT_EQ(bench.count(Reason::kAccessNotOwned), before + 1);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kAccessNotOwned), before + 1);
   bench.run_cycles(4);
   EXPECT_EQ(bench.peek(kCell), 0x5C);
 }

@@ -262,7 +262,7 @@ class HeldThroughReset : public testing::TestWithParam<Held> {
     bench.chip.set(bench.now(), Pin::kRReq, held ? GetParam().r_req : Level{0});
     bench.chip.set(bench.now(), Pin::kRSta, held ? GetParam().r_sta : Level{0});
   }
-  int reports() const { return bench.count(Reason::kHeldThroughReset); }
+  int reports() const { return bench.count(dsdpv1::Reason::kHeldThroughReset); }
 
   SlaveBench bench;
 };
@@ -276,9 +276,9 @@ TEST_P(HeldThroughReset, StartUpWaitsIsReportedOnceAndComesAtOnceWithTheRelease)
   EXPECT_EQ(bench.chip.status().accesses, 0U);
   expect_reset_levels(bench);
   ASSERT_EQ(reports(), 1);
-  EXPECT_EQ(bench.last(Reason::kHeldThroughReset).at, r * kCycleTicks);
-  EXPECT_EQ(bench.last(Reason::kHeldThroughReset).a, GetParam().r_req);
-  EXPECT_EQ(bench.last(Reason::kHeldThroughReset).b, GetParam().r_sta);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kHeldThroughReset).at, r * kCycleTicks);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kHeldThroughReset).a, GetParam().r_req);
+  EXPECT_EQ(bench.last(dsdpv1::Reason::kHeldThroughReset).b, GetParam().r_sta);
   hold(false);
   const Cycle start = seen_at((r + 10'000) * kCycleTicks);
   run_to_cycle(bench, start + kStartUpHigh + 48);
@@ -306,7 +306,7 @@ TEST_P(HeldThroughReset, ReleaseSeenAtTheFirstActiveEdgeIsInTimeAndOneTickLaterI
     const Cycle start = std::max(r, seen_at(last + late));
     run_to_cycle(held, start + 10);
     EXPECT_EQ(last_rise(held), start) << "late " << late;
-    EXPECT_EQ(held.count(Reason::kHeldThroughReset), start == r ? 0 : 1) << "late " << late;
+    EXPECT_EQ(held.count(dsdpv1::Reason::kHeldThroughReset), start == r ? 0 : 1) << "late " << late;
   }
 }
 
@@ -363,7 +363,7 @@ TEST(UserReset, ReadsBeforeTheStartUpYieldXAndWritesAreClearedWithTheRest) {
     bench.chip.set(bench.now(), Pin::kRd, 1);
     bench.chip.set(bench.now(), Pin::kCsr, 1);
   }
-  EXPECT_EQ(bench.count(Reason::kAccessNotOwned), 0);
+  EXPECT_EQ(bench.count(dsdpv1::Reason::kAccessNotOwned), 0);
   bench.release();
   run_to_l_sta(bench, 0);
   EXPECT_EQ(bench.peek(0x130, 2), (Bytes{0, 0}));
@@ -440,7 +440,7 @@ TEST(UserReset, ACellWithAViolatedWriteIsKnownAgainAfterReset) {
   bench.chip.set(bench.now(), Pin::kWr, 1);  // nobody drives D
   bench.run_for(600);
   bench.chip.set(bench.now(), Pin::kCsr, 1);
-  ASSERT_EQ(bench.count(Reason::kWriteFloating), 1);
+  ASSERT_EQ(bench.count(dsdpv1::Reason::kWriteFloating), 1);
   reset_now(bench);
   bench.power_on();
   bench.acquire();

@@ -1,12 +1,12 @@
 // Ruling D2, chapter 4.2.
-#include "model/dsdpv1/crc16.hpp"
+#include "model/dpram/crc16.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-namespace dsdpv1 {
+namespace dpram {
 namespace {
 
 /// Steps 1 to 7 of chapter 4.2, literally.
@@ -52,4 +52,4 @@ TEST(Crc16, EverySingleBitFlipIsSeen) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dpram

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "model/dsdpv1/reasons.hpp"
 #include "tests/core/event_recorder.hpp"
 
 namespace dsdpv1 {
@@ -35,7 +36,7 @@ struct Bench {
   }
 
   core_test::EventRecorder recorder;
-  Dpram dpram;
+  Ram dpram;
   HostPort port;
   bool sparse, chip_owns = false;
 
@@ -45,7 +46,7 @@ struct Bench {
 
 TEST(HostPortBlock, InResetItNeitherWritesNorReads) {
   core_test::EventRecorder recorder;
-  Dpram dpram;
+  Ram dpram;
   HostPort port(recorder.log, dpram);
   port.reset();
   port.set(1000, Pin::kA, 0x130);
@@ -73,7 +74,7 @@ TEST(HostPortBlock, FourWritesAreBufferedAndAFifthIsReported) {
     bench.set(now + 21, Pin::kWr, 1);
     now += 42;
   }
-  EXPECT_EQ(bench.recorder.count(profibus::Reason::kWriteOverrun), 1);
+  EXPECT_EQ(bench.recorder.count(Reason::kWriteOverrun), 1);
   bench.run(5000);
   for (regs::Address i = 0; i < 4; ++i) EXPECT_EQ(bench.dpram.read(static_cast<regs::Address>(0x130 + i)), 0x10 + i);
   EXPECT_EQ(bench.dpram.read(0x134), 0);

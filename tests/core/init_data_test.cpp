@@ -1,18 +1,18 @@
 // Rulings D7, D11; order of the checks: chapter 10 of the micro-architecture.
-#include "model/dsdpv1/init_data.hpp"
+#include "model/dpram/init_data.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
+#include "model/dpram/reasons.hpp"
 #include "model/profibus/cfg_identifier.hpp"
 #include "tests/core/event_recorder.hpp"
 
-namespace dsdpv1 {
+namespace dpram {
 namespace {
 
-using profibus::Reason;
 using Block = std::vector<std::uint8_t>;
 
 /// B020.. with two configuration bytes: 2 inputs, 2 outputs.
@@ -108,4 +108,4 @@ TEST(InitData, RandomBlocksAreJudgedByTheLimits) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dpram

@@ -31,7 +31,7 @@ class Msac2Block : public testing::Test {
   }
   core_test::EventRecorder recorder;
   AcyclicMail mail;
-  Msac2 msac2{recorder.log, mail};
+  Msac2 msac2{recorder.log, kMaxAcyclic, mail};
 };
 
 TEST_F(Msac2Block, IEndsAtTwiceTheSendTimeout) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <memory>
 
+#include "model/dsdpv1/reasons.hpp"
 #include "tests/systemc/bench.hpp"
 
 using dsdpv1::Tick;
@@ -219,7 +220,7 @@ struct World : sc_core::sc_module {
       before_tw.push_back(read(374));
       at_the_fall.push_back(read(phase == 0 ? -10 : 0));
     }
-    reported_early = std::count(events.begin(), events.end(), profibus::Reason::kReadTooShort);
+    reported_early = std::count(events.begin(), events.end(), dsdpv1::Reason::kReadTooShort);
   }
 
   void do_violations() {
@@ -337,19 +338,19 @@ TEST(HostSocket, AReadBeforeAStartUpThatTheUserHoldsOffIsAGenericErrorAndReporte
 
 TEST(HostSocket, AWriteThatViolatesTable15IsAGenericErrorAndReported) {
   EXPECT_EQ(world->short_strobe.response, tlm::TLM_GENERIC_ERROR_RESPONSE);
-  EXPECT_THAT(world->events, testing::Contains(profibus::Reason::kWriteLowTooShort));
+  EXPECT_THAT(world->events, testing::Contains(dsdpv1::Reason::kWriteLowTooShort));
   EXPECT_THAT(reports_of("/dsdpv1/violation", "world.chip"), testing::Contains(testing::HasSubstr("HOST_TS")));
 }
 
 TEST(HostSocket, AccessWithoutOwnershipIsCarriedOutAndReported) {
   EXPECT_EQ(world->unowned.response, tlm::TLM_OK_RESPONSE);
   EXPECT_EQ(world->unowned.data[0], 0x01);
-  EXPECT_THAT(world->events, testing::Contains(profibus::Reason::kAccessNotOwned));
+  EXPECT_THAT(world->events, testing::Contains(dsdpv1::Reason::kAccessNotOwned));
   EXPECT_THAT(reports_of("/dsdpv1/violation", "world.chip"), testing::Contains(testing::HasSubstr("HOST_NOT_OWNER")));
 }
 
 TEST(HostSocket, ReportsOfViolationsCanBeSwitchedOffTheCallbackStays) {
-  EXPECT_THAT(world->quiet_events, testing::Contains(profibus::Reason::kAccessNotOwned));
+  EXPECT_THAT(world->quiet_events, testing::Contains(dsdpv1::Reason::kAccessNotOwned));
   EXPECT_TRUE(reports_of("/dsdpv1/violation", "world.quiet").empty());
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "model/dsdpv1/chip.hpp"
+#include "model/dsdpv1/reasons.hpp"
 #include "tb/user_cpu/pin_host_bus.hpp"
 #include "tb/user_cpu/programs.hpp"
 
@@ -31,7 +32,7 @@ class OnChip : public testing::TestWithParam<dsdpv1::Engine>, private bus::Agent
                mask(Pin::kIntr0));
     chip.on_event({[](void* self, const profibus::Event& event) {
                      if (profibus::severity(event.reason) != profibus::Severity::kInfo) {
-                       static_cast<OnChip*>(self)->complaints.push_back(describe(event));
+                       static_cast<OnChip*>(self)->complaints.push_back(dsdpv1::describe(event));
                      }
                    },
                    this});

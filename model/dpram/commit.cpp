@@ -1,13 +1,12 @@
 // What the user's blocks do when an access of the chip has read them (rulings D5, D7, D10 to D14, D16, D17, H7).
-#include "model/dsdpv1/crc16.hpp"
-#include "model/dsdpv1/dpram_sequencer.hpp"
-#include "model/dsdpv1/init_data.hpp"
+#include "model/dpram/crc16.hpp"
+#include "model/dpram/init_data.hpp"
+#include "model/dpram/reasons.hpp"
+#include "model/dpram/sequencer.hpp"
 
-namespace dsdpv1 {
+namespace dpram {
 
-using profibus::Reason;
-
-bool DpramSequencer::crc_right(Cycle now, Reason reason, std::uint8_t error_bit) {
+bool Sequencer::crc_right(Cycle now, profibus::Reason reason, std::uint8_t error_bit) {
   const auto* stored = &image_[static_cast<std::size_t>(image_size_)];
   const unsigned found = static_cast<unsigned>(stored[0]) << 8 | stored[1];
   const unsigned computed = crc16(image_.data(), image_size_);
@@ -18,31 +17,31 @@ bool DpramSequencer::crc_right(Cycle now, Reason reason, std::uint8_t error_bit)
   return right;
 }
 
-bool DpramSequencer::input_history() const { return (user_command2_ & regs::kUserCommand2InputHistory) != 0; }
+bool Sequencer::input_history() const { return (user_command2_ & regs::kUserCommand2InputHistory) != 0; }
 
 // The user asks for it with B011.7; without history there is nothing to clear.
-void DpramSequencer::clear_input_error(Cycle now) {
+void Sequencer::clear_input_error(Cycle now) {
   user_command2_ = static_cast<std::uint8_t>(user_command2_ & ~regs::kUserCommand2InputClear);
-  dpram_.write(regs::kUserCommand2, user_command2_);
+  ram_.write(regs::kUserCommand2, user_command2_);
   if (input_history()) status2_clear_ |= regs::kChipStatus2InputCrc;
   next_item();
   goto_phase(Phase::kChoose, now + 1);
 }
 
-void DpramSequencer::refuse_length(Cycle now) {
+void Sequencer::refuse_length(Cycle now) {
   const std::uint8_t* header = image_.data();
   switch (item_) {
     case Item::kInit:
       log_.at_cycle(now, Reason::kInitLength, header[0], regs::kInitCfg - regs::kInit - 1);
       return init_result(false);
     case Item::kInput:
-      return log_.at_cycle(now, Reason::kInputLength, header[0], static_cast<unsigned>(station_.slave().input_size()));
-    case Item::kDiag: return log_.at_cycle(now, Reason::kDiagLength, header[1], regs::kDiagDataSize);
+      return log_.at_cycle(now, profibus::Reason::kInputLength, header[0], static_cast<unsigned>(user_.input_size()));
+    case Item::kDiag: return log_.at_cycle(now, profibus::Reason::kDiagLength, header[1], regs::kDiagDataSize);
     default: return log_.at_cycle(now, Reason::kAcyclicLength, item_ == Item::kC1Answer ? 1 : 2, header[3]);
   }
 }
 
-void DpramSequencer::commit_init(Cycle now) {
+void Sequencer::commit_init(Cycle now) {
   init_result_due1_ = true;
   chip_status1_ = 0;
   if (!crc_right(now, Reason::kInitCrc, regs::kChipStatus2InitCrc)) return;
@@ -52,45 +51,45 @@ void DpramSequencer::commit_init(Cycle now) {
   if (!good) return;
   config.dpv1 = dpv1_ == regs::kDpv1EnableOn;  // D17
   log_.at_cycle(now, Reason::kInitialised, config.address, config.ident, config.dpv1);
-  station_.initialise(now, config);
+  user_.initialise(now, config);
   initialised_ = true;
 }
 
-void DpramSequencer::init_result(bool good) {
+void Sequencer::init_result(bool good) {
   chip_status1_ = good ? regs::kChipStatus1Initialised : std::uint8_t{0};
   chip_status4_ = good ? std::uint8_t{0} : regs::kChipStatus4InitLimit;
   init_result_due1_ = init_result_due4_ = true;
 }
 
-void DpramSequencer::commit_input(Cycle now) {
+void Sequencer::commit_input(Cycle now) {
   if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag, regs::kUserCommand1);
   if (!crc_right(now, Reason::kInputCrc, regs::kChipStatus2InputCrc)) return;
-  station_.slave().new_inputs(now, &image_[1], image_size_ - 1);
+  user_.new_inputs(now, &image_[1], image_size_ - 1);
 }
 
-void DpramSequencer::commit_diag(Cycle now) {
+void Sequencer::commit_diag(Cycle now) {
   if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag, regs::kUserCommand1);
   if (!crc_right(now, Reason::kDiagCrc, regs::kChipStatus2DiagCrc)) return;
-  station_.slave().new_diagnosis(now, image_[0], &image_[2], image_size_ - 2);
+  user_.new_diagnosis(now, image_[0], &image_[2], image_size_ - 2);
 }
 
-void DpramSequencer::commit_acyclic(Cycle now) {
+void Sequencer::commit_acyclic(Cycle now) {
   const bool c1 = item_ == Item::kC1Answer;
   if (offline()) return log_.at_cycle(now, Reason::kBeforeInit, area(item_).flag, regs::kUserCommand2);
   const std::uint8_t error_bit = c1 ? regs::kChipStatus2C1Crc : regs::kChipStatus2C2Crc;
   if (!crc_right(now, c1 ? Reason::kC1Crc : Reason::kC2Crc, error_bit)) return;
   if (c1)
-    station_.slave().c1_answer(now, image_.data(), image_size_);
+    user_.c1_answer(now, image_.data(), image_size_);
   else
-    station_.slave().c2_answer(now, image_.data(), image_size_);
+    user_.c2_answer(now, image_.data(), image_size_);
 }
 
-void DpramSequencer::commit_verdict(Cycle now) {
+void Sequencer::commit_verdict(Cycle now) {
   const std::uint8_t verdict = image_[0];  // B00C
   if (item_ == Item::kPrmVerdict)
-    station_.slave().prm_verdict(now, (verdict & regs::kUserStatus1PrmWrong) == 0);
+    user_.prm_verdict(now, (verdict & regs::kUserStatus1PrmWrong) == 0);
   else
-    station_.slave().cfg_verdict(now, (verdict & regs::kUserStatus1CfgWrong) == 0);
+    user_.cfg_verdict(now, (verdict & regs::kUserStatus1CfgWrong) == 0);
 }
 
-}  // namespace dsdpv1
+}  // namespace dpram

@@ -1,14 +1,16 @@
 #pragma once
-// The 2 KB dual-port RAM. A cell that the user wrote with violated timing keeps what was captured and is marked unknown
-// until somebody writes it properly (ruling P11).
+// The 2 KB dual-port RAM of the family. A cell that the user wrote with violated timing keeps what was captured and is
+// marked unknown until somebody writes it properly (ruling P11).
 #include <array>
 #include <bitset>
 
 #include "registers/dsdpv1_regs.hpp"
 
-namespace dsdpv1 {
+namespace dpram {
 
-class Dpram {
+namespace regs = dsdpv1::regs;  // the map of the family
+
+class Ram {
  public:
   std::uint8_t read(regs::Address address) const { return cells_[index(address)]; }
   void write(regs::Address address, std::uint8_t value) {
@@ -25,4 +27,4 @@ class Dpram {
   std::bitset<regs::kDpramSize> unknown_;
 };
 
-}  // namespace dsdpv1
+}  // namespace dpram

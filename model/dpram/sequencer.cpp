@@ -1,10 +1,11 @@
-#include "model/dsdpv1/dpram_sequencer.hpp"
+#include "model/dpram/sequencer.hpp"
 
 #include <algorithm>
 
-#include "model/dsdpv1/crc16.hpp"
+#include "model/dpram/crc16.hpp"
+#include "model/dpram/reasons.hpp"
 
-namespace dsdpv1 {
+namespace dpram {
 namespace {
 
 constexpr int kHeaderMoves = 6;
@@ -21,41 +22,38 @@ bool carries_data(std::uint8_t function) {
 
 }  // namespace
 
-void DpramSequencer::reset() {
+void Sequencer::reset() {
   goto_phase(Phase::kOff, profibus::kNever);
   initialised_ = valid_written_ = init_result_due1_ = init_result_due4_ = false;
   offline_written_ = 0;
   status3_written_ = chip_status1_ = chip_status4_ = status2_set_ = status2_clear_ = 0;
   accesses_ = outputs_overwritten_ = 0;
   longest_wait_ = 0;
+  told_user_ = profibus::kNever;
 }
 
-void DpramSequencer::start_up(Cycle now) {
+void Sequencer::start_up(Cycle now) {
   origin_ = due_ = now;
   phase_ = Phase::kDue;
 }
 
-void DpramSequencer::eval(Cycle now) {
-  r_req_.eval(now);
-  r_sta_.eval(now);
+void Sequencer::eval(Cycle now) {
   if (!waiting()) return catch_up(now);
-  if (now >= due_ && released()) return begin(now);
-  if (phase_ == Phase::kDue && now == origin_)
-    log_.at_cycle(now, profibus::Reason::kHeldThroughReset, r_req_.level(), r_sta_.level());
+  if (now >= due_ && !user_holds_) begin(now);
 }
 
-Cycle DpramSequencer::next() const {
-  const Cycle own = !waiting() ? visible_ : released() ? due_ : profibus::kNever;
-  return std::min({own, r_req_.next(), r_sta_.next()});
+Cycle Sequencer::next() const {
+  if (!waiting()) return visible_;
+  return user_holds_ ? profibus::kNever : due_;
 }
 
-void DpramSequencer::catch_up(Cycle until) {
+void Sequencer::catch_up(Cycle until) {
   while (owns() && op_ <= until) move(op_++);
 }
 
 // --- the access ------------------------------------------------------------------------------------------------------
 
-void DpramSequencer::begin(Cycle now) {
+void Sequencer::begin(Cycle now) {
   longest_wait_ = std::max(longest_wait_, now - due_);
   ++accesses_;
   start_ = now;
@@ -67,12 +65,12 @@ void DpramSequencer::begin(Cycle now) {
     goto_phase(Phase::kHeader, now + kHeaderMoves + 1);
 }
 
-void DpramSequencer::end(Cycle now) {
+void Sequencer::end(Cycle now) {
   due_ = std::max(start_ + interval_, now + 1);  // H1, H8
   goto_phase(Phase::kIdle, profibus::kNever);
 }
 
-void DpramSequencer::move(Cycle now) {
+void Sequencer::move(Cycle now) {
   switch (phase_) {
     case Phase::kOff:
     case Phase::kDue:
@@ -86,48 +84,48 @@ void DpramSequencer::move(Cycle now) {
     case Phase::kCheck: phase_ = Phase::kCommit; return;
     case Phase::kCommit: return commit(now);
     case Phase::kWrite:
-      dpram_.write(static_cast<regs::Address>(area(item_).base + index_), image_[static_cast<std::size_t>(index_)]);
+      ram_.write(static_cast<regs::Address>(area(item_).base + index_), image_[static_cast<std::size_t>(index_)]);
       if (++index_ == image_size_) phase_ = Phase::kCrcHigh;
       return;
     case Phase::kCrcHigh:
-      dpram_.write(area(item_).crc, static_cast<std::uint8_t>(image_crc_ >> 8));
+      ram_.write(area(item_).crc, static_cast<std::uint8_t>(image_crc_ >> 8));
       phase_ = Phase::kCrcLow;
       return;
     case Phase::kCrcLow:
-      dpram_.write(static_cast<regs::Address>(area(item_).crc + 1), static_cast<std::uint8_t>(image_crc_ & 0xFF));
+      ram_.write(static_cast<regs::Address>(area(item_).crc + 1), static_cast<std::uint8_t>(image_crc_ & 0xFF));
       phase_ = Phase::kFlag;
       return;
     case Phase::kFlag: return flag(now);
     case Phase::kStatus2:
-      dpram_.write(regs::kChipStatus2, static_cast<std::uint8_t>((status2_read_ & ~status2_clear_) | status2_set_));
+      ram_.write(regs::kChipStatus2, static_cast<std::uint8_t>((status2_read_ & ~status2_clear_) | status2_set_));
       status2_set_ = status2_clear_ = 0;
       return goto_phase(Phase::kChoose, now + 1);
   }
 }
 
-void DpramSequencer::move_start_up(Cycle now) {
+void Sequencer::move_start_up(Cycle now) {
   const int move = index_++;
   if (move < regs::kDpramSize) {
-    dpram_.write(static_cast<regs::Address>(move), 0);
+    ram_.write(static_cast<regs::Address>(move), 0);
   } else if (move < regs::kDpramSize + kVersionBytes) {
     const int i = move - regs::kDpramSize;
-    dpram_.write(static_cast<regs::Address>(regs::kVersion + i), kVersion[i]);
+    ram_.write(static_cast<regs::Address>(regs::kVersion + i), kVersion[i]);
   } else if (move < kStartUpMoves) {
-    dpram_.write(regs::kAccessCount, kChipWasHere);
+    ram_.write(regs::kAccessCount, kChipWasHere);
   } else {
     end(now);
   }
 }
 
-void DpramSequencer::move_header(Cycle now) {
+void Sequencer::move_header(Cycle now) {
   switch (index_++) {
-    case 0: dpram_.write(regs::kAccessCount, kChipWasHere); return;
-    case 1: user_command1_ = dpram_.read(regs::kUserCommand1); return;
-    case 2: user_command2_ = dpram_.read(regs::kUserCommand2); return;
-    case 3: chip_command1_ = dpram_.read(regs::kChipCommand1); return;
-    case 4: chip_command2_ = dpram_.read(regs::kChipCommand2); return;
+    case 0: ram_.write(regs::kAccessCount, kChipWasHere); return;
+    case 1: user_command1_ = ram_.read(regs::kUserCommand1); return;
+    case 2: user_command2_ = ram_.read(regs::kUserCommand2); return;
+    case 3: chip_command1_ = ram_.read(regs::kChipCommand1); return;
+    case 4: chip_command2_ = ram_.read(regs::kChipCommand2); return;
     default:
-      dpv1_ = dpram_.read(regs::kDpv1Enable);
+      dpv1_ = ram_.read(regs::kDpv1Enable);
       item_ = Item::kInit;
       return goto_phase(Phase::kChoose, now + 1);
   }
@@ -135,14 +133,14 @@ void DpramSequencer::move_header(Cycle now) {
 
 // --- choosing --------------------------------------------------------------------------------------------------------
 
-void DpramSequencer::choose(Cycle now) {
+void Sequencer::choose(Cycle now) {
   while (item_ != Item::kNone && !due(item_, now)) next_item();
   if (item_ == Item::kNone) return end(now);
   start(item_, now);
 }
 
-bool DpramSequencer::due(Item item, Cycle now) const {
-  const profibus::DpSlave& slave = station_.slave();
+bool Sequencer::due(Item item, Cycle now) const {
+  const profibus::UserMail& mail = user_.mail();
   switch (item) {
     case Item::kInit: return (user_command1_ & regs::kUserCommand1Init) != 0;
     case Item::kPrmVerdict: return (user_command1_ & regs::kUserCommand1PrmVerdict) != 0;
@@ -152,14 +150,14 @@ bool DpramSequencer::due(Item item, Cycle now) const {
     case Item::kDiag: return (user_command1_ & regs::kUserCommand1Diag) != 0;
     case Item::kC1Answer: return (user_command2_ & regs::kUserCommand2C1) != 0;
     case Item::kC2Answer: return (user_command2_ & regs::kUserCommand2C2) != 0;
-    case Item::kPrm: return slave.mail().prm_due.before(now);
-    case Item::kCfg: return slave.mail().cfg_due.before(now);
-    case Item::kOutput: return slave.mail().output_due.before(now);
-    case Item::kC1Request: return slave.mail().c1.due.before(now);
-    case Item::kC2Request: return slave.mail().c2.due.before(now);
+    case Item::kPrm: return mail.prm.due.before(now);
+    case Item::kCfg: return mail.cfg.due.before(now);
+    case Item::kOutput: return mail.output.due.before(now);
+    case Item::kC1Request: return mail.c1.due.before(now);
+    case Item::kC2Request: return mail.c2.due.before(now);
     case Item::kValidFlag: return !valid_written_ && start_ >= origin_ + ready_cycles_;
-    case Item::kOfflineHigh: return (slave.offline_count() ^ offline_written_) > 0xFF;
-    case Item::kOfflineLow: return ((slave.offline_count() ^ offline_written_) & 0xFF) != 0;
+    case Item::kOfflineHigh: return (mail.state.exchanges_left ^ offline_written_) > 0xFF;
+    case Item::kOfflineLow: return ((mail.state.exchanges_left ^ offline_written_) & 0xFF) != 0;
     case Item::kChipStatus1: return init_result_due1_;
     case Item::kChipStatus2: return (status2_set_ | status2_clear_) != 0;
     case Item::kChipStatus3: return status3() != status3_written_;
@@ -169,7 +167,7 @@ bool DpramSequencer::due(Item item, Cycle now) const {
   return false;
 }
 
-const DpramSequencer::Area& DpramSequencer::area(Item item) {
+const Sequencer::Area& Sequencer::area(Item item) {
   static constexpr Area kInit = {regs::kInit, regs::kInitCrc, 1, regs::kInitSize - 1, regs::kUserCommand1Init};
   static constexpr Area kInput = {regs::kInput, regs::kInputCrc, 1, regs::kInputDataSize, regs::kUserCommand1Input};
   static constexpr Area kDiag = {regs::kDiag, regs::kDiagCrc, 2, regs::kDiagDataSize, regs::kUserCommand1Diag};
@@ -199,7 +197,7 @@ const DpramSequencer::Area& DpramSequencer::area(Item item) {
   }
 }
 
-void DpramSequencer::start(Item item, Cycle now) {
+void Sequencer::start(Item item, Cycle now) {
   if (item == Item::kInputClear) return clear_input_error(now);
   if (item <= Item::kC2Answer) return start_read(now, area(item));
   if (item <= Item::kC2Request) return start_write(now, item);
@@ -207,15 +205,15 @@ void DpramSequencer::start(Item item, Cycle now) {
 }
 
 // The first byte moves in the cycle of the choice.
-void DpramSequencer::start_read(Cycle now, const Area& area) {
+void Sequencer::start_read(Cycle now, const Area& area) {
   index_ = 0;
   image_size_ = area.header;
   goto_phase(Phase::kRead, now + area.header);
   read_byte();
 }
 
-void DpramSequencer::start_write(Cycle now, Item item) {
-  profibus::UserMail& mail = station_.slave().mail();
+void Sequencer::start_write(Cycle now, Item item) {
+  profibus::UserMail& mail = user_.mail();
   const auto load = [this](const std::uint8_t* bytes, int size) {
     image_[static_cast<std::size_t>(image_size_++)] = static_cast<std::uint8_t>(size);
     std::copy_n(bytes, size, image_.begin() + image_size_);
@@ -223,18 +221,18 @@ void DpramSequencer::start_write(Cycle now, Item item) {
   };
   image_size_ = 0;
   if (item == Item::kPrm) {
-    load(mail.prm.bytes.data(), mail.prm.size);
-    mail.prm_due.clear();
+    load(mail.prm.block.bytes.data(), mail.prm.block.size);
+    mail.prm.due.clear();
   } else if (item == Item::kCfg) {
-    image_[0] = static_cast<std::uint8_t>(mail.cfg_output);
-    image_[1] = static_cast<std::uint8_t>(mail.cfg_input);
+    image_[0] = static_cast<std::uint8_t>(mail.cfg.output);
+    image_[1] = static_cast<std::uint8_t>(mail.cfg.input);
     image_size_ = 2;
-    load(mail.cfg.bytes.data(), mail.cfg.size);
-    mail.cfg_due.clear();
+    load(mail.cfg.block.bytes.data(), mail.cfg.block.size);
+    mail.cfg.due.clear();
   } else if (item == Item::kOutput) {
-    const profibus::IoBlock& outputs = station_.slave().outputs();
+    const profibus::IoBlock& outputs = user_.outputs();
     load(outputs.bytes.data(), outputs.size);
-    mail.output_due.clear();
+    mail.output.due.clear();
     if ((chip_command1_ & regs::kChipCommand1Output) != 0) ++outputs_overwritten_;  // H5
   } else {
     profibus::AcyclicMail& acyclic = item == Item::kC1Request ? mail.c1 : mail.c2;
@@ -248,61 +246,59 @@ void DpramSequencer::start_write(Cycle now, Item item) {
   move(now);
 }
 
-void DpramSequencer::status_byte(Item item, Cycle now) {
-  const std::uint16_t count = station_.slave().offline_count();
+void Sequencer::status_byte(Item item, Cycle now) {
+  const std::uint16_t count = user_.mail().state.exchanges_left;
   next_item();
   goto_phase(Phase::kChoose, now + 1);
   switch (item) {
     case Item::kValidFlag:
-      dpram_.write(regs::kValidFlag, regs::kValidFlagValid);
+      ram_.write(regs::kValidFlag, regs::kValidFlagValid);
       valid_written_ = true;
-      log_.at_cycle(now, profibus::Reason::kReadyFlag);
+      log_.at_cycle(now, Reason::kReadyFlag);
       return;
     case Item::kOfflineHigh:
-      dpram_.write(regs::kOfflineCount, static_cast<std::uint8_t>(count >> 8));
+      ram_.write(regs::kOfflineCount, static_cast<std::uint8_t>(count >> 8));
       offline_written_ = static_cast<std::uint16_t>((count & 0xFF00) | (offline_written_ & 0xFF));
       return;
     case Item::kOfflineLow:
-      dpram_.write(regs::kOfflineCount + 1, static_cast<std::uint8_t>(count & 0xFF));
+      ram_.write(regs::kOfflineCount + 1, static_cast<std::uint8_t>(count & 0xFF));
       offline_written_ = static_cast<std::uint16_t>((offline_written_ & 0xFF00) | (count & 0xFF));
       return;
     case Item::kChipStatus1:
-      dpram_.write(regs::kChipStatus1, chip_status1_);
+      ram_.write(regs::kChipStatus1, chip_status1_);
       init_result_due1_ = false;
       return;
-    case Item::kChipStatus2:
-      status2_read_ = dpram_.read(regs::kChipStatus2);
-      return goto_phase(Phase::kStatus2, now + 1);
+    case Item::kChipStatus2: status2_read_ = ram_.read(regs::kChipStatus2); return goto_phase(Phase::kStatus2, now + 1);
     case Item::kChipStatus3:
       status3_written_ = status3();
-      dpram_.write(regs::kChipStatus3, status3_written_);
+      ram_.write(regs::kChipStatus3, status3_written_);
       return;
     default:
-      dpram_.write(regs::kChipStatus4, chip_status4_);
+      ram_.write(regs::kChipStatus4, chip_status4_);
       init_result_due4_ = false;
       return;
   }
 }
 
-std::uint8_t DpramSequencer::status3() const {
-  const int state = static_cast<int>(station_.slave().state());
-  return static_cast<std::uint8_t>(station_.baud_index() << regs::kChipStatus3BaudRateShift |
+std::uint8_t Sequencer::status3() const {
+  const int state = static_cast<int>(user_.mail().state.state);
+  return static_cast<std::uint8_t>(user_.mail().baud.index << regs::kChipStatus3BaudRateShift |
                                    state << regs::kChipStatus3DpStateShift);
 }
 
 // --- moving blocks ---------------------------------------------------------------------------------------------------
 
-void DpramSequencer::read_byte() {
+void Sequencer::read_byte() {
   const Area& block = area(item_);
   const bool crc = index_ >= image_size_ && phase_ == Phase::kReadRest;
   const int address = crc ? block.crc + (index_ - image_size_) : block.base + index_;
-  image_[static_cast<std::size_t>(index_)] = dpram_.read(static_cast<regs::Address>(address));
+  image_[static_cast<std::size_t>(index_)] = ram_.read(static_cast<regs::Address>(address));
   ++index_;
   if (phase_ == Phase::kRead && index_ == image_size_) phase_ = Phase::kDecode;
   if (phase_ == Phase::kReadRest && index_ == image_size_ + 2) phase_ = Phase::kCheck;
 }
 
-void DpramSequencer::decode(Cycle now) {
+void Sequencer::decode(Cycle now) {
   const Area& block = area(item_);
   if (block.maximum == 0) return goto_phase(Phase::kCommit, now + 1);  // a verdict: nothing follows
   const int length =
@@ -316,11 +312,11 @@ void DpramSequencer::decode(Cycle now) {
   goto_phase(Phase::kReadRest, now + rest + 2);  // then the check cycle, then the commit
 }
 
-void DpramSequencer::commit(Cycle now) {
+void Sequencer::commit(Cycle now) {
   const bool acyclic = acyclic_answer(item_);
   std::uint8_t& command = acyclic ? user_command2_ : user_command1_;
   command = static_cast<std::uint8_t>(command & ~area(item_).flag);
-  dpram_.write(acyclic ? regs::kUserCommand2 : regs::kUserCommand1, command);
+  ram_.write(acyclic ? regs::kUserCommand2 : regs::kUserCommand1, command);
   goto_phase(Phase::kChoose, now + 1);
   const bool too_long = image_size_ == 0;
   switch (item_) {
@@ -334,14 +330,14 @@ void DpramSequencer::commit(Cycle now) {
   next_item();
 }
 
-void DpramSequencer::flag(Cycle now) {
+void Sequencer::flag(Cycle now) {
   const bool acyclic = item_ == Item::kC1Request || item_ == Item::kC2Request;
   std::uint8_t& command = acyclic ? chip_command2_ : chip_command1_;
   command = static_cast<std::uint8_t>(command | area(item_).flag);
-  dpram_.write(acyclic ? regs::kChipCommand2 : regs::kChipCommand1, command);
-  if (item_ == Item::kPrm || item_ == Item::kCfg) interrupt_.trigger(now);  // P7
+  ram_.write(acyclic ? regs::kChipCommand2 : regs::kChipCommand1, command);
+  if (item_ == Item::kPrm || item_ == Item::kCfg) told_user_ = now;  // P7
   next_item();
   goto_phase(Phase::kChoose, now + 1);
 }
 
-}  // namespace dsdpv1
+}  // namespace dpram

@@ -1,39 +1,35 @@
 #pragma once
 // The chip's side of the DPRAM (5.1, chapter 8; rulings H1 to H8, D1 to D17): one access a microsecond, one byte a
 // cycle, in the order that docs/microarchitecture.md defines. It carries blocks between the DPRAM and
-// profibus::Station.
+// profibus::UserSide. How the user comes to the DPRAM, by strobes or by telegrams, it does not know.
 //
 // Bytes move lazily: `next()` is the next cycle whose effect somebody else can see, and the moves between are made up
 // for then (or earlier, by catch_up, when somebody looks at the DPRAM).
 #include <array>
 
-#include "model/dsdpv1/dpram.hpp"
-#include "model/dsdpv1/interrupt.hpp"
+#include "model/dpram/ram.hpp"
 #include "model/profibus/event_log.hpp"
-#include "model/profibus/station.hpp"
-#include "model/profibus/synchroniser.hpp"
+#include "model/profibus/user_side.hpp"
 
-namespace dsdpv1 {
+namespace dpram {
 
 using profibus::Cycle;
-using profibus::Tick;
 
-class DpramSequencer {
+/// What the areas of the DPRAM hold.
+constexpr profibus::Capacities kCapacities = {regs::kPrmDataSize, regs::kCfgDataSize, regs::kInputDataSize,
+                                              regs::kC1DataSize};
+
+class Sequencer {
  public:
-  DpramSequencer(profibus::EventLog& log, Dpram& dpram, profibus::Station& station, Interrupt& interrupt,
-                 Cycle interval, Cycle ready_cycles)
-      : log_(log),
-        dpram_(dpram),
-        station_(station),
-        interrupt_(interrupt),
-        interval_(interval),
-        ready_cycles_(ready_cycles) {}
+  Sequencer(profibus::EventLog& log, Ram& ram, profibus::UserSide& user, Cycle interval, Cycle ready_cycles)
+      : log_(log), ram_(ram), user_(user), interval_(interval), ready_cycles_(ready_cycles) {}
 
   void reset();
   /// The logic leaves reset at `now` (cycle R): the start-up access is due (H6).
   void start_up(Cycle now);
-  void set_r_req(Tick at, bool level) { r_req_.set(at, level); }
-  void set_r_sta(Tick at, bool level) { r_sta_.set(at, level); }
+  /// Whether the user holds the DPRAM, or asks for it, as the logic sees it from the coming eval() on (H1). No access
+  /// begins meanwhile; one that has begun goes on to its end.
+  void user_holds(bool holds) { user_holds_ = holds; }
 
   /// The rising edge of `now`.
   void eval(Cycle now);
@@ -41,9 +37,12 @@ class DpramSequencer {
   void catch_up(Cycle until);
   Cycle next() const;
 
-  bool owns() const { return phase_ > Phase::kIdle; }       ///< L_REQ and L_STA
+  bool owns() const { return phase_ > Phase::kIdle; }       ///< an access of the chip is under way
   bool started_up() const { return phase_ > Phase::kDue; }  ///< the start-up access of this reset has begun
-  bool ready_led() const { return initialised_; }           ///< READY: an initialisation has succeeded
+  bool initialised() const { return initialised_; }         ///< an initialisation has succeeded
+  /// The cycle at which new parameters or a new configuration were last flagged for the user (P7); kNever: not since
+  /// reset. Whoever calls the user's attention asks after eval().
+  Cycle told_user() const { return told_user_; }
   std::uint64_t accesses() const { return accesses_; }
   Cycle longest_wait() const { return longest_wait_; }
   std::uint64_t outputs_overwritten() const { return outputs_overwritten_; }  ///< in the DPRAM, B00E.0 still set
@@ -76,7 +75,7 @@ class DpramSequencer {
   enum class Phase : std::uint8_t {
     kOff,       // reset
     kDue,       // the start-up access waits for the user
-    kIdle,      // L_REQ and L_STA low
+    kIdle,      // the DPRAM is nobody's or the user's
     kStartUp,   // clearing the RAM
     kHeader,    // B006 := 1, reading B010, B011, B00E, B00F, B005
     kChoose,    // the next item begins, or the access ends
@@ -102,7 +101,6 @@ class DpramSequencer {
 
   // access
   bool waiting() const { return phase_ == Phase::kIdle || phase_ == Phase::kDue; }
-  bool released() const { return !r_req_.level() && !r_sta_.level(); }  // H1
   void begin(Cycle now);
   void end(Cycle now);
   void move(Cycle now);  // the byte move of one cycle
@@ -136,15 +134,15 @@ class DpramSequencer {
   void commit_acyclic(Cycle now);
   void refuse_length(Cycle now);
   void init_result(bool good);
-  bool offline() const { return station_.slave().state() == profibus::DpState::kOffline; }
+  bool offline() const { return user_.mail().state.state == profibus::DpState::kOffline; }
   std::uint8_t status3() const;
 
   profibus::EventLog& log_;
-  Dpram& dpram_;
-  profibus::Station& station_;
-  Interrupt& interrupt_;
+  Ram& ram_;
+  profibus::UserSide& user_;
   const Cycle interval_, ready_cycles_;
-  profibus::Synchroniser r_req_{false}, r_sta_{false};
+  bool user_holds_ = false;
+  Cycle told_user_ = profibus::kNever;
 
   Phase phase_ = Phase::kOff;
   Item item_ = Item::kNone;  // in work, or the last one done in this access
@@ -171,4 +169,4 @@ class DpramSequencer {
   Cycle longest_wait_ = 0;
 };
 
-}  // namespace dsdpv1
+}  // namespace dpram

@@ -1,13 +1,15 @@
-#include "model/dsdpv1/init_data.hpp"
+#include "model/dpram/init_data.hpp"
 
+#include "model/dpram/reasons.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
-namespace dsdpv1 {
+namespace dpram {
 namespace {
+
+namespace regs = dsdpv1::regs;
 
 using profibus::Cycle;
 using profibus::EventLog;
-using profibus::Reason;
 
 constexpr std::uint8_t kMaxMode = 2;
 
@@ -67,7 +69,7 @@ class InitBlock {
   std::uint8_t at(regs::Address address) const { return block_[address - regs::kInit]; }
   const std::uint8_t* cfg() const { return block_ + (regs::kInitCfg - regs::kInit); }
 
-  bool refuse(Reason reason, unsigned a, unsigned b = 0, unsigned c = 0) const {
+  bool refuse(profibus::Reason reason, unsigned a, unsigned b = 0, unsigned c = 0) const {
     log_.at_cycle(now_, reason, a, b, c);
     return false;
   }
@@ -98,4 +100,4 @@ bool parse_init(const std::uint8_t* block, int size, Cycle now, EventLog& log, p
   return true;
 }
 
-}  // namespace dsdpv1
+}  // namespace dpram

@@ -1,0 +1,17 @@
+#include "model/dpram/reasons.hpp"
+
+#include <iterator>
+
+namespace dpram {
+
+using profibus::Severity;
+
+const profibus::ReasonRow detail::kReasonRows[] = {
+#define X(id, severity, code, text, advice) {Severity::severity, code, text, advice},
+#include "model/dpram/reasons.inc"
+#undef X
+};
+
+profibus::ReasonTable reasons() { return {detail::kReasonRows, std::size(detail::kReasonRows)}; }
+
+}  // namespace dpram

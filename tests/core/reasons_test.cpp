@@ -1,0 +1,51 @@
+// The tables of reasons, one a room, and the words that a chip gives to those of every DP slave.
+#include "model/dsdpv1/reasons.hpp"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+namespace {
+
+using profibus::Reason;
+using profibus::Words;
+
+/// What the placeholders of events may look like; a name that is none of words.inc stays as it is.
+const std::regex kValue("\\{[abc](:(2x|3x|4x|state|rate|sap|rm|high|low|low2x))?\\}");
+
+std::string without_values(const std::string& text) { return std::regex_replace(text, kValue, ""); }
+
+TEST(ReasonTables, EveryReasonOfTheChipHasACodeOfItsOwn) {
+  std::set<std::string> codes;
+  for (const Reason reason : dsdpv1::reasons()) EXPECT_TRUE(codes.insert(code(reason)).second) << code(reason);
+  EXPECT_EQ(codes.count("HOST_TS") + codes.count("INIT_CRC") + codes.count("PRM_IDENT"), 3U) << "a room is missing";
+}
+
+TEST(ReasonTables, NoPlaceholderIsLeftInTheWordsOfTheChipNorInTheNeutralOnes) {
+  for (const Reason reason : dsdpv1::reasons()) {
+    EXPECT_EQ(without_values(dsdpv1::text_template(reason)).find('{'), std::string::npos) << code(reason);
+    EXPECT_EQ(dsdpv1::advice(reason).find('{'), std::string::npos) << code(reason);
+    EXPECT_EQ(without_values(text_template(reason, Words())).find('{'), std::string::npos) << code(reason);
+    EXPECT_EQ(advice(reason, Words()).find('{'), std::string::npos) << code(reason);
+  }
+}
+
+TEST(ReasonTables, ASlaveWithoutWordsOfItsOwnSpeaksOfNoRegister) {
+  const std::regex cell("B[0-7][0-9A-F]{2}");
+  for (const profibus::ReasonRow& row : profibus::reasons()) {
+    EXPECT_FALSE(std::regex_search(text_template(Reason(row), Words()), cell)) << row.code;
+    EXPECT_FALSE(std::regex_search(advice(Reason(row), Words()), cell)) << row.code;
+  }
+}
+
+TEST(ReasonTables, AChipsWordStandsWhereTheTextNamesIt) {
+  Words words;
+  words.sync = "MODE_REG0.3";
+  EXPECT_EQ(describe({0, Reason::kGcSync, 1}, words),
+            "Sync ignored: not asked for in Set_Prm (MODE_REG0.3 = 1; 0: Not_Supported)");
+  EXPECT_EQ(dsdpv1::describe({0, Reason::kGcSync, 1}),
+            "Sync ignored: not asked for in Set_Prm (B024.2 = 1; 0: Not_Supported)");
+}
+
+}  // namespace

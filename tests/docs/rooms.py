@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+"""What a room of the project must not know: one line a fault, exit 1 when there is any.
+
+    rooms.py    looks for the words of FORBIDDEN in the source of each room
+
+--root FOLDER: another project than the one this file is in. Python's standard library only.
+"""
+import argparse
+import pathlib
+import re
+import sys
+
+SOURCES = {".c", ".cpp", ".h", ".hpp", ".inc", ".sv", ".svh"}
+
+# Room, what it must not name, and why. Names are regular expressions; comments and texts count as well.
+FORBIDDEN = [
+    ("model/profibus", r"\bB[0-7][0-9A-F]{2}\b", "no address of a chip's cells"),
+    ("model/profibus", r"(?i)dsdpv1|dpram", "no chip, no family"),
+    ("model/profibus", r"registers/|\bregs::", "no register"),
+    ("model/profibus", r"\b(CSR|RD|WR|R_REQ|R_STA|L_REQ|L_STA|INTR0|PBF|BR|READY)\b", "no pin of the user's side"),
+    ("model/profibus", r'#include "(?!model/profibus/)', "nothing but itself"),
+    ("model/dpram", r"\b(CSR|RD|WR|R_REQ|R_STA|L_REQ|L_STA|INTR0)\b", "no pin of a port"),
+    ("model/dpram", r"\b(HostPort|Handshake|Interrupt|Chip)\b", "no block of a chip that has it"),
+    ("model/dpram", r"\bstation_|\b(Station|DpSlave)\b|profibus/(station|dp_slave)", "the slave by its user side only"),
+    ("model/dpram", r'#include "(?!model/(dpram|profibus)/|registers/)', "the DP slave, the map and itself only"),
+    ("model/dsdpv1", r'#include "(?!model/|registers/)', "the model only"),
+    ("bus", r'#include "model/', "nothing of the model: each finds the other's mistakes"),
+    ("driver", r'#include "(model|bus|tb)/', "nothing of the bench: it goes into products"),
+]
+
+
+def sources(root, room):
+    return sorted(path for path in (root / room).rglob("*") if path.suffix in SOURCES)
+
+
+def faults(root, forbidden):
+    for room, pattern, why in forbidden:
+        files = sources(root, room)
+        if not files:
+            yield f"{room}: no such room, correct the table in tests/docs/rooms.py"
+        for path in files:
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+                if found := re.search(pattern, line):
+                    yield f"{path.relative_to(root)}:{number}: {found.group()}, but {room} knows {why}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
+    found = list(faults(parser.parse_args().root, FORBIDDEN))
+    print("\n".join(found), end="\n" if found else "")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,54 @@
+"""Puts a forbidden word into each room of a made-up project, to see that rooms.py finds it there and nowhere else."""
+import pathlib
+import tempfile
+import unittest
+
+import rooms
+
+# A line for each row of rooms.FORBIDDEN, in its order, that breaks that row.
+BREACHES = [
+    'X(kPrmSync, "Sync_Req, B024.2 is 0")',
+    "// The DPRAM of the DSDPV1.",
+    "int size = regs::kCfgDataSize;",
+    "// Until INTR0 falls.",
+    '#include "bus/wire/uart.hpp"',
+    "void set(bool R_REQ);",
+    "Interrupt& interrupt_;",
+    "station_.slave().mail();",
+    '#include "tb/bench/bench.hpp"',
+    '#include "tests/core/event_recorder.hpp"',
+    '#include "model/profibus/time.hpp"',
+    '#include "bus/wire/uart.hpp"',
+]
+
+
+class Rooms(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        for room, _, _ in rooms.FORBIDDEN:
+            self.write(room, "// Right.")
+
+    def write(self, room, text):
+        (self.root / room).mkdir(parents=True, exist_ok=True)
+        (self.root / room / "block.hpp").write_text(text + "\n", encoding="utf-8")
+
+    def test_a_right_project_has_no_fault(self):
+        self.assertEqual(list(rooms.faults(self.root, rooms.FORBIDDEN)), [])
+
+    def test_every_row_finds_its_breach_with_file_and_line(self):
+        self.assertEqual(len(BREACHES), len(rooms.FORBIDDEN))
+        for row, breach in zip(rooms.FORBIDDEN, BREACHES):
+            with self.subTest(breach):
+                self.write(row[0], "// Right.\n" + breach)
+                found = list(rooms.faults(self.root, [row]))
+                self.assertEqual(len(found), 1, found)
+                self.assertTrue(found[0].startswith(f"{row[0]}/block.hpp:2: "), found[0])
+
+    def test_a_room_that_is_gone_is_a_fault(self):
+        self.assertIn("no such room", next(rooms.faults(self.root, [("model/gone", "x", "nothing")])))
+
+
+if __name__ == "__main__":
+    unittest.main()
