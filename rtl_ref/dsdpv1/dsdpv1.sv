@@ -90,62 +90,25 @@ module dsdpv1 #(
     .chip_wdata_i(chip_wdata), .rdata_o(rdata));
   assign l_sta_o = l_sta;
 
-  logic init, inputs, diag, verdict_prm, verdict_cfg, verdict_wrong, dpv1_on, interrupt_flag;
-  logic c1_answer, c2_answer, c1_mail, c2_mail, take_c1, take_c2, stage_c1, stage_c2, stage_msac_we;
-  logic [7:0] c1_function, c2_function, c1_length, c2_length;
-  logic stage_inputs, stage_diag, stage_we, initialised, prm_mail, cfg_mail, output_mail, take_prm, take_cfg, take_output;
-  logic [1:0] init_prm_mode, init_cfg_mode, stage_pool;
-  logic [3:0] init_command;
-  logic [6:0] init_address;
-  logic [15:0] init_ident, count;
-  logic [7:0] init_max_input, init_max_output, init_max_diag, init_max_prm, init_max_cfg, init_cfg_length;
-  logic [7:0] init_input_length, init_output_length;
-  logic [7:0] block_length, diag_type, stage_index, stage_data, status;
-  logic [7:0] prm_length, cfg_length, cfg_input_length, cfg_output_length, output_length, transfer_index, transfer_data;
+  // ---- the seam between the two halves
+  user_commands_t commands;
+  user_hears_t hears;
+  logic interrupt_flag;
 
   dpram_sequencer u_sequencer (
     `FAULT_CONNECT
-    .access_interval_i(access_interval[12:0]), .ready_cycles_i(ready_cycles[20:0]),
-    .clk_i(clk_i), .rst_ni(rst_n), .r_req_i(r_req), .r_sta_i(r_sta), .l_req_o(l_req_o), .l_sta_o(l_sta), .interrupt_o(interrupt_flag),
-    .we_o(chip_we), .addr_o(chip_addr), .wdata_o(chip_wdata), .rdata_i(rdata),
-    .init_o(init), .init_address_o(init_address), .init_ident_o(init_ident), .init_command_o(init_command),
-    .init_max_input_o(init_max_input), .init_max_output_o(init_max_output), .init_max_diag_o(init_max_diag),
-    .init_max_prm_o(init_max_prm), .init_prm_mode_o(init_prm_mode), .init_max_cfg_o(init_max_cfg),
-    .init_cfg_mode_o(init_cfg_mode), .init_cfg_length_o(init_cfg_length), .init_input_length_o(init_input_length),
-    .init_output_length_o(init_output_length), .inputs_o(inputs), .diag_o(diag), .c1_answer_o(c1_answer), .c2_answer_o(c2_answer),
-    .block_length_o(block_length), .diag_type_o(diag_type), .verdict_prm_o(verdict_prm), .verdict_cfg_o(verdict_cfg),
-    .verdict_wrong_o(verdict_wrong), .dpv1_on_o(dpv1_on), .stage_inputs_o(stage_inputs),
-    .stage_diag_o(stage_diag), .stage_c1_o(stage_c1), .stage_c2_o(stage_c2), .stage_we_o(stage_we), .stage_msac_we_o(stage_msac_we),
-    .stage_pool_o(stage_pool), .stage_index_o(stage_index),
-    .stage_data_o(stage_data), .initialised_i(initialised), .status_i(status), .count_i(count), .prm_mail_i(prm_mail),
-    .cfg_mail_i(cfg_mail), .output_mail_i(output_mail), .c1_mail_i(c1_mail), .c2_mail_i(c2_mail), .prm_length_i(prm_length), .cfg_length_i(cfg_length),
-    .cfg_input_length_i(cfg_input_length), .cfg_output_length_i(cfg_output_length), .output_length_i(output_length),
-    .c1_function_i(c1_function), .c2_function_i(c2_function), .c1_length_i(c1_length), .c2_length_i(c2_length),
-    .take_prm_o(take_prm), .take_cfg_o(take_cfg), .take_output_o(take_output), .take_c1_o(take_c1), .take_c2_o(take_c2), .transfer_index_o(transfer_index),
-    .transfer_data_i(transfer_data));
+    .access_interval_i(access_interval[12:0]), .ready_cycles_i(ready_cycles[20:0]), .clk_i(clk_i), .rst_ni(rst_n),
+    .r_req_i(r_req), .r_sta_i(r_sta), .l_req_o(l_req_o), .l_sta_o(l_sta), .interrupt_o(interrupt_flag), .we_o(chip_we),
+    .addr_o(chip_addr), .wdata_o(chip_wdata), .rdata_i(rdata), .commands_o(commands), .hears_i(hears));
 
-  station u_station (
+  station #(
+    .MAX_DATA(DSDPV1_REG_INIT_MAX_INPUT_LIMIT), .MAX_PRM(DSDPV1_REG_INIT_MAX_PRM_LIMIT), .MAX_CFG(DSDPV1_REG_INIT_MAX_CFG_LIMIT)
+  ) u_station (
     `FAULT_CONNECT
     .rts_lead_i(rts_lead[5:0]), .rts_trail_i(rts_trail[5:0]), .search_window_ms_i(search_window_ms),
-    .search_window_bits_i(search_window_bits), .baud_control_ms_i(baud_control_ms),
-    .clk_i(clk_i), .rst_ni(rst_n), .pbrxd_i(pbrxd_i), .pbtxd_o(pbtxd_o), .pbrts_o(pbrts_o), .br_o(br_o), .pbf_o(pbf_o),
-    .ready_o(ready_o), .init_i(init), .init_address_i(init_address), .init_ident_i(init_ident),
-    .init_command_i(init_command), .init_max_input_i(init_max_input), .init_max_output_i(init_max_output),
-    .init_max_diag_i(init_max_diag), .init_max_prm_i(init_max_prm), .init_prm_mode_i(init_prm_mode),
-    .init_max_cfg_i(init_max_cfg), .init_cfg_mode_i(init_cfg_mode), .init_cfg_length_i(init_cfg_length),
-    .init_input_length_i(init_input_length), .init_output_length_i(init_output_length),
-    .inputs_i(inputs), .inputs_length_i(block_length), .diag_i(diag), .diag_type_i(diag_type),
-    .diag_length_i(block_length), .verdict_prm_i(verdict_prm), .verdict_cfg_i(verdict_cfg),
-    .verdict_wrong_i(verdict_wrong), .dpv1_on_i(dpv1_on), .c1_answer_i(c1_answer), .c2_answer_i(c2_answer),
-    .answer_length_i(block_length), .stage_inputs_i(stage_inputs),
-    .stage_diag_i(stage_diag), .stage_c1_i(stage_c1), .stage_c2_i(stage_c2), .stage_we_i(stage_we), .stage_msac_we_i(stage_msac_we),
-    .stage_pool_i(stage_pool), .stage_index_i(stage_index),
-    .stage_data_i(stage_data), .initialised_o(initialised), .status_o(status), .count_o(count), .prm_mail_o(prm_mail),
-    .cfg_mail_o(cfg_mail), .output_mail_o(output_mail), .c1_mail_o(c1_mail), .c2_mail_o(c2_mail), .prm_length_o(prm_length), .cfg_length_o(cfg_length),
-    .cfg_input_length_o(cfg_input_length), .cfg_output_length_o(cfg_output_length), .output_length_o(output_length),
-    .c1_function_o(c1_function), .c2_function_o(c2_function), .c1_length_o(c1_length), .c2_length_o(c2_length),
-    .take_prm_i(take_prm), .take_cfg_i(take_cfg), .take_output_i(take_output), .take_c1_i(take_c1), .take_c2_i(take_c2), .transfer_index_i(transfer_index),
-    .transfer_data_o(transfer_data));
+    .search_window_bits_i(search_window_bits), .baud_control_ms_i(baud_control_ms), .clk_i(clk_i), .rst_ni(rst_n),
+    .pbrxd_i(pbrxd_i), .pbtxd_o(pbtxd_o), .pbrts_o(pbrts_o), .br_o(br_o), .pbf_o(pbf_o), .ready_o(ready_o),
+    .commands_i(commands), .hears_o(hears));
 
   interrupt u_interrupt (
     `FAULT_CONNECT

@@ -1,8 +1,10 @@
-// Bound into dp_slave: its states and what may hold in each (S13, S15, S18).
-reg init_before = 1'b0, initialised_before = 1'b0;
+// Bound into dp_slave: its states and what may hold in each (S13, S15, S18), and that Global_Control is heard only
+// from the holder in DATA_EXCH.
+reg init_before = 1'b0, initialised_before = 1'b0, control_before = 1'b0;
 always @(posedge clk_i) begin
-  init_before <= init_i;
+  init_before <= init;
   initialised_before <= initialised_q;
+  control_before <= rst_ni && service_i.execute && service_i.sdn && in_data_exch && from_holder;
 end
 initial assume (!rst_ni);
 always @* begin
@@ -14,5 +16,6 @@ always @* begin
   if (state_q == DP_WAIT_CFG || state_q == DP_DATA_EXCH) assert (held_q);
   if (state_q == DP_WAIT_PRM && held_q) assert (await_prm_q);
   if (state_q == DP_OFFLINE) assert (!held_q);
+  if (status_o.global_control) assert (control_before);
   if (sync_q || freeze_q) assert (state_q == DP_DATA_EXCH);
 end

@@ -1,17 +1,17 @@
 // Bound into dpram_sequencer: states, and the items that each may work on.
-wire reads = state_q == READ_LOOK || state_q == READ_BYTES || state_q == READ_CRC_HIGH || state_q == READ_CRC_LOW ||
-             state_q == READ_LAST;
-wire writes = state_q == WRITE_BYTES || state_q == WRITE_CRC_HIGH || state_q == WRITE_CRC_LOW || state_q == FLAG;
+wire reads = state_q == SEQ_READ_LOOK || state_q == SEQ_READ_BYTES || state_q == SEQ_READ_CRC_HIGH || state_q == SEQ_READ_CRC_LOW ||
+             state_q == SEQ_READ_LAST;
+wire writes = state_q == SEQ_WRITE_BYTES || state_q == SEQ_WRITE_CRC_HIGH || state_q == SEQ_WRITE_CRC_LOW || state_q == SEQ_FLAG;
 wire long_header = item_q == ITEM_DIAG || item_q == ITEM_C1_ANSWER || item_q == ITEM_C2_ANSWER;
 initial assume (!rst_ni);
 always @* begin
-  assert (state_q <= ERRORS);
-  assert (own_q == (state_q != IDLE && state_q != RELEASED));
+  assert (state_q <= SEQ_ERRORS);
+  assert (own_q == (state_q != SEQ_IDLE && state_q != SEQ_RELEASED));
   if (reads) assert (item_q == ITEM_INIT || item_q == ITEM_INPUTS || long_header);
-  if (state_q == READ_HEADER) assert (long_header && header_q <= 2'd2);
-  if (state_q == VERDICT) assert (item_q == ITEM_VERDICT_PRM || item_q == ITEM_VERDICT_CFG);
-  if (state_q == COMMIT) assert (item_q <= ITEM_C2_ANSWER);
-  if (state_q == WRITE_INPUT_LENGTH || state_q == WRITE_LENGTH) assert (item_q == ITEM_CFG);
+  if (state_q == SEQ_READ_HEADER) assert (long_header && header_q <= 2'd2);
+  if (state_q == SEQ_VERDICT) assert (item_q == ITEM_VERDICT_PRM || item_q == ITEM_VERDICT_CFG);
+  if (state_q == SEQ_COMMIT) assert (item_q <= ITEM_C2_ANSWER);
+  if (state_q == SEQ_WRITE_INPUT_LENGTH || state_q == SEQ_WRITE_LENGTH) assert (item_q == ITEM_CFG);
   if (writes) assert (item_q >= ITEM_PRM && item_q <= ITEM_C2_REQUEST);
-  if (state_q == ERRORS) assert (item_q == ITEM_STATUS_2);
+  if (state_q == SEQ_ERRORS) assert (item_q == ITEM_STATUS_2);
 end

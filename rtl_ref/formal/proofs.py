@@ -2,7 +2,7 @@
 import dataclasses
 
 CHIP = "dsdpv1/dsdpv1.sv"
-SEQUENCER = "dsdpv1/dpram_sequencer.sv"
+SEQUENCER = "dpram/dpram_sequencer.sv"
 ANY_PARAMETERS = ("DSDPV1_RUN_TIME_LIMITS",)
 
 
@@ -47,7 +47,7 @@ PROOFS = (
         cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt"),
         cut_wires=("w:u_sequencer.boot_q",),
         defines=ANY_PARAMETERS,
-        edit=(SEQUENCER, "assign l_req_o = own_q;", "assign l_req_o = own_q && state_q != COMMIT;"),
+        edit=(SEQUENCER, "assign l_req_o = own_q;", "assign l_req_o = own_q && state_q != SEQ_COMMIT;"),
     ),
     Proof(
         name="intr0_low",
@@ -99,13 +99,13 @@ PROOFS = (
            ("value = 8'h16;\n        state_d = IDLE;", "value = 8'h16;\n        state_d = state_q + 4'd1;")),
     states("cfg_identifier", "profibus/cfg_identifier.sv",
            ("byte_i[3:0] == 4'd15 ? 4'd0 : byte_i[3:0]", "byte_i[3:0]")),
-    states("dpram_sequencer", SEQUENCER, ("COMMIT, FLAG, ERRORS: state_d = CHOICE;", "COMMIT, FLAG: state_d = CHOICE;"),
+    states("dpram_sequencer", SEQUENCER, ("SEQ_COMMIT, SEQ_FLAG, SEQ_ERRORS: state_d = SEQ_CHOICE;", "SEQ_COMMIT, SEQ_FLAG: state_d = SEQ_CHOICE;"),
            cut_wires=("w:boot_q",)),
     states("dp_slave", "profibus/dp_slave.sv", ("if (leave) begin\n      sync_d = 1'b0;", "if (leave) begin"),
            top="station",
            cut_cells=("c:u_uart_rx", "c:u_uart_tx", "c:u_telegram_rx", "fdl/c:u_builder", "fdl/c:u_answers",
-                      "dp_slave/c:u_buffers", "dp_slave/c:u_set_prm", "dp_slave/c:u_check_cfg",
-                      "dp_slave/c:u_global_control", "dp_slave/c:u_diagnosis"),
+                      "*dp_slave*/c:u_buffers", "*dp_slave*/c:u_set_prm", "*dp_slave*/c:u_check_cfg",
+                      "dp_service/c:u_global_control", "*dp_slave*/c:u_diagnosis"),
            cut_wires=("w:u_baud_search.window_of_rate", "w:u_watchdog.last_q")),
     states("msac1", "profibus/msac1.sv",
            ("state_b == ANSWERED && !`FAULT(66)) state_d = IDLE;", "state_b == ANSWERED) state_d = state_b + 2'd1;")),

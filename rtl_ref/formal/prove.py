@@ -17,6 +17,7 @@ from proofs import PROOFS
 FORMAL = pathlib.Path(__file__).resolve().parent
 RTL = FORMAL.parent
 SOURCES = (RTL / "files.txt").read_text(encoding="utf-8").split()
+HEADERS = [path.name for path in RTL.glob("*.svh")]
 HOLDS, VIOLATED, UNKNOWN = "holds", "violated", "unknown"
 LIMIT_SECONDS = 120  # for one run of a tool
 ROW = "{:70} | {:9} | {:8} | {:>7} | {}"
@@ -39,12 +40,12 @@ def defects(proof):
 
 def sources(proof, defect):
     """Texts by name: the RTL, bound properties, and the defect if there is one."""
-    texts = {name: (RTL / name).read_text(encoding="utf-8") for name in SOURCES + ["dsdpv1_types.svh"]}
+    texts = {name: (RTL / name).read_text(encoding="utf-8") for name in SOURCES + HEADERS}
     for block, properties in proof.bind.items():
         text = (FORMAL / f"{properties}.svh").read_text(encoding="utf-8")
         texts[block] = replace_once(texts[block], "\nendmodule", f"\n{text}endmodule", block)
     if isinstance(defect, int):
-        name = "dsdpv1_types.svh"
+        name = "profibus_types.svh"
         texts[name] = replace_once(texts[name], "`define FAULT(n) 1'b0", f"`define FAULT(n) (n == {defect})", name)
     elif defect:
         name, old, new = defect

@@ -1,6 +1,6 @@
 // Writes the answer's characters into the answer memory, one a cycle. The decision only fixes what the answer is; at least 37 cycles
 // lie between it and the first start bit, and the sender needs a character every 44, so that it never overtakes.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module answer_builder (
   `FAULT_PORT

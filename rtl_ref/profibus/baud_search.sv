@@ -1,5 +1,5 @@
 // Search for the baud rate (8.1; S1, S9): from 12 Mbit/s downwards, wrapping, until a telegram without error is decided.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module baud_search (
   `FAULT_PORT

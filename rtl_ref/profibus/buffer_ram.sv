@@ -1,6 +1,6 @@
 // Memory of bytes with one write and one read port, both synchronous: inferred as block RAM. A byte that is written and read at the
 // same edge is read as it was before.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module buffer_ram #(
   parameter integer ADDRESS_BITS = 9,

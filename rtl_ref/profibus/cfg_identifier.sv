@@ -1,5 +1,5 @@
 // Decodes configuration identifiers byte by byte (D11, S17): input and output lengths, and whether the bytes end with an identifier.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module cfg_identifier (
   `FAULT_PORT

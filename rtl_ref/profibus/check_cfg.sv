@@ -1,8 +1,11 @@
 // Checks Check_Cfg (SAP 62; 6.2.3, D8, S16, S17) while the bytes arrive: decodes the identifiers, and compares them with the
 // configuration of the initialisation, the one in use and the last one that was sent (which a verdict may put in use meanwhile).
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
-module check_cfg (
+module check_cfg #(
+  parameter logic [7:0] MAX_CFG = MOST_DATA,   // bytes of a configuration that the buffers and the user's side can take
+  parameter logic [7:0] MAX_DATA = MOST_DATA   // ... of inputs, of outputs
+) (
   `FAULT_PORT
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -14,11 +17,9 @@ module check_cfg (
   input  logic       accept_commit_i,  // a verdict puts the last one sent in use, at this edge
   input  logic [7:0] last_length_i,
   input  logic [7:0] in_use_length_i,
-  input  logic [7:0] init_length_i,
-  input  logic [7:0] max_length_i,     // B02C
-  input  logic [7:0] max_input_i,      // B027
-  input  logic [7:0] max_output_i,     // B028
-  input  logic [1:0] mode_i,           // B02D
+  /* verilator lint_off UNUSEDSIGNAL */
+  input  initialise_t initial_i,       // the initialisation in force: its configuration's length, limits, mode
+  /* verilator lint_on UNUSEDSIGNAL */
   output logic [7:0] peek_index_o,     // for sap_buffers: bytes to compare with
   output logic       peek_last_o,
   input  logic [7:0] peek_bus_i,
@@ -81,13 +82,14 @@ module check_cfg (
 
   // Outside DATA_EXCH nothing but bytes and initialisation counts: through a register
   logic right_q, mode_right, decoded, fits;
-  assign mode_right = mode_i == 2'd0 ? length_i != 8'd0 && (length_i <= max_length_i || `FAULT(23))
-                                     : mode_i != 2'd1 || (same_init_q && length_i == init_length_i);
-  assign decoded = complete && input_length <= 13'd244 && output_length <= 13'd244;
-  assign fits = mode_i == 2'd2 || (input_length <= {5'd0, max_input_i} && output_length <= {5'd0, max_output_i});
+  assign mode_right = initial_i.cfg_mode == 2'd0 ? length_i != 8'd0 && (length_i <= initial_i.max_cfg || `FAULT(23))
+                                              : initial_i.cfg_mode != 2'd1 || (same_init_q && length_i == initial_i.cfg_length);
+  assign decoded = complete && input_length <= {5'd0, MAX_DATA} && output_length <= {5'd0, MAX_DATA};
+  assign fits = initial_i.cfg_mode == 2'd2 || (input_length <= {5'd0, initial_i.max_input} &&
+                                               output_length <= {5'd0, initial_i.max_output});
   always_ff @(posedge clk_i) right_q <= mode_right && decoded && fits;
 
-  assign too_long_o = length_i > 8'd200;
+  assign too_long_o = length_i > MAX_CFG;
   assign right_o = right_q;
   assign input_length_o = input_length[7:0];
   assign output_length_o = output_length[7:0];

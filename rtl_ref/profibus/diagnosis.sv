@@ -1,16 +1,14 @@
 // Diagnosis of the user (6.2.4; D9, D14, S23): its type's bits, its length and whether it waits to be read. The bytes are in
 // sap_buffers. Outputs with _now include a commit at this edge.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module diagnosis (
   `FAULT_PORT
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       init_i,       // an initialisation is committed
-  input  logic       commit_i,     // a block with right CRC is committed
-  input  logic [7:0] type_i,
-  input  logic [7:0] length_i,
-  input  logic [7:0] max_length_i, // B029
+  input  diagnosis_t diagnosis_i,  // a block of the user is committed
+  input  logic [7:0] max_length_i, // of the initialisation
   input  logic       read_i,       // the holding master is sent it
   output logic       store_o,      // the commit's block is taken
   output logic       ext_diag_now_o,
@@ -22,15 +20,15 @@ module diagnosis (
   logic [7:0] length_q;
   logic external, static_diag, legal;
 
-  assign external = type_i == DSDPV1_REG_DIAG_TYPE_EXTERNAL_GONE || type_i == DSDPV1_REG_DIAG_TYPE_EXTERNAL_PRESENT;
-  assign static_diag = type_i == DSDPV1_REG_DIAG_TYPE_STATIC_GONE || type_i == DSDPV1_REG_DIAG_TYPE_STATIC_PRESENT;
-  assign legal = external || static_diag || type_i == DSDPV1_REG_DIAG_TYPE_EXTENDED;
-  assign store_o = commit_i && legal && length_i <= max_length_i;
+  assign external = diagnosis_i.kind == DIAG_EXTERNAL;
+  assign static_diag = diagnosis_i.kind == DIAG_STATIC;
+  assign legal = diagnosis_i.kind != DIAG_UNKNOWN;
+  assign store_o = diagnosis_i.commit && legal && diagnosis_i.length <= max_length_i;
 
-  assign ext_diag_now_o = store_o && external ? type_i[7] : ext_q;
-  assign stat_diag_now_o = store_o && static_diag && !`FAULT(26) ? type_i[7] : stat_q;
+  assign ext_diag_now_o = store_o && external ? diagnosis_i.present : ext_q;
+  assign stat_diag_now_o = store_o && static_diag && !`FAULT(26) ? diagnosis_i.present : stat_q;
   assign waiting_now_o = waiting_q || (store_o && (external || static_diag));
-  assign length_now_o = store_o ? length_i : length_q;
+  assign length_now_o = store_o ? diagnosis_i.length : length_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

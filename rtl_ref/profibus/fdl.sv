@@ -1,6 +1,6 @@
 // FDL (8.2; S3, S20, S26, S32): which telegrams are for this station, repetitions, and the memory of the last answer. The answer itself
 // is written by answer_builder while the wait for TSDR runs.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module fdl (
   `FAULT_PORT
@@ -25,16 +25,8 @@ module fdl (
   output logic        any_telegram_o,    // a synced SD1, SD2 or SD3 is decided
   output logic        trigger_o,         // one to the own address
   output logic        trigger_holder_o,
-  output logic        execute_o,
-  output logic        refuse_o,
-  output logic        fdl_status_o,
-  output logic        srd_o,
-  output logic        sdn_o,
-  output logic        default_sap_o,
-  input  logic [2:0]  answer_i,
-  input  logic [7:0]  answer_fc_i,
-  input  logic [2:0]  answer_source_i,
-  input  logic [7:0]  answer_length_i,
+  output service_t    service_o,
+  input  answer_t     answer_i,
   input  logic [31:0] answer_diag_i,
   input  logic [15:0] ident_i,
   output logic        builder_busy_o,
@@ -96,18 +88,19 @@ module fdl (
     repetition_q <= own_q && (fcv_q || `FAULT(118)) && memory_valid_q && same_saps_q && same_rest_q;
   end
 
-  logic legal, sends;
+  logic legal, execute, sends;
   assign any_telegram_o = decide_i && kind_q && synced_i && !(from_nobody_q && `FAULT(110));
   assign legal = decide_i && !searching_i && legal_q;
   assign trigger_o = (legal && own_q) || (decide_i && !searching_i && ignored_q && `FAULT(108));
   assign trigger_holder_o = trigger_o && (from_holder_i || `FAULT(108));
-  assign execute_o = legal && !repetition_q;
-  assign refuse_o = refuse_q;
-  assign fdl_status_o = fdl_status_q;
-  assign srd_o = srd_q;
-  assign sdn_o = sdn_q;
-  assign default_sap_o = default_sap_q;
-  assign sends = execute_o && answer_i != ANS_NONE;
+  assign execute = legal && !repetition_q;
+  assign service_o.execute = execute;
+  assign service_o.refuse = refuse_q;
+  assign service_o.fdl_status = fdl_status_q;
+  assign service_o.srd = srd_q;
+  assign service_o.sdn = sdn_q;
+  assign service_o.default_sap = default_sap_q;
+  assign sends = execute && answer_i.kind != ANS_NONE;
   assign send_o = (legal && repetition_q) || sends;
 
   logic [7:0] built_length;
@@ -140,7 +133,7 @@ module fdl (
       end
       built_q <= sends;
       if (built_q) length_q <= built_length;
-      if (execute_o && sdn_q && `FAULT(119)) memory_valid_q <= 1'b0;
+      if (execute && sdn_q && `FAULT(119)) memory_valid_q <= 1'b0;
       if (forget_i && !`FAULT(41)) memory_valid_q <= 1'b0;
       if (decide_i && ignored_q && `FAULT(109)) memory_valid_q <= 1'b0;
     end
@@ -150,9 +143,9 @@ module fdl (
   logic [7:0] builder_waddr, builder_wdata;
   answer_builder u_builder (
     `FAULT_CONNECT
-    .clk_i(clk_i), .rst_ni(rst_ni), .abort_i(abort_i), .start_i(sends), .kind_i(answer_i), .da_i(sa_i[6:0]),
-    .sa_i(address_i), .fc_i(answer_fc_i), .to_ssap_i(to_ssap), .ssap_i(ssap_i), .from_dsap_i(from_dsap), .dsap_i(dsap_i),
-    .source_i(answer_source_i), .length_i(answer_length_i), .diag_i(answer_diag_i), .ident_i(ident_i),
+    .clk_i(clk_i), .rst_ni(rst_ni), .abort_i(abort_i), .start_i(sends), .kind_i(answer_i.kind), .da_i(sa_i[6:0]),
+    .sa_i(address_i), .fc_i(answer_i.fc), .to_ssap_i(to_ssap), .ssap_i(ssap_i), .from_dsap_i(from_dsap), .dsap_i(dsap_i),
+    .source_i(answer_i.source), .length_i(answer_i.length), .diag_i(answer_diag_i), .ident_i(ident_i),
     .characters_o(built_length), .busy_o(builder_busy_o), .index_o(builder_index_o), .data_i(builder_data_i),
     .we_o(builder_we), .waddr_o(builder_waddr), .wdata_o(builder_wdata));
 

@@ -1,5 +1,5 @@
 // Decodes Global_Control (SAP 58; 6.2.6, S4, S24): what it asks of this slave. All 0 when it is to be ignored.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module global_control (
   `FAULT_PORT
@@ -9,8 +9,9 @@ module global_control (
   input  logic [7:0] group_ident_i,  // of Set_Prm
   input  logic       sync_req_i,     // of Set_Prm
   input  logic       freeze_req_i,
-  input  logic       can_sync_i,     // B024
+  input  logic       can_sync_i,     // of the initialisation
   input  logic       can_freeze_i,
+  output logic       acts_o,         // it is for this slave
   output logic       clear_o,
   output logic       unsync_o,
   output logic       sync_o,
@@ -22,6 +23,7 @@ module global_control (
   assign legal = length_i == 8'd2 && (command_i & 8'hC1) == 8'h00;
   assign addressed = group_select_i == 8'h00 || (group_select_i & group_ident_i) != 8'h00 || `FAULT(24);
   assign acts = legal && addressed;
+  assign acts_o = acts;
   assign clear_o = acts && command_i[1];
   assign unsync_o = acts && command_i[4];
   assign asks_sync = acts && command_i[5] && !command_i[4];

@@ -1,5 +1,5 @@
 // Checks Initiate (SAP 49; 15.2, V2, V10) while its bytes arrive. All results are registers that stand still before the decision.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module initiate_check (
   `FAULT_PORT

@@ -1,7 +1,7 @@
 // MSAC_C1 (15.1; V1, V7 to V9, V14): one request at a time, from the holding master.
 //
 // At an edge: the user's answer, then the telegram, then DATA_EXCH being left by whatever happened at it.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module msac1 (
   `FAULT_PORT
@@ -11,7 +11,7 @@ module msac1 (
   // the user's answer
   input  logic        answer_i,       // is committed, fits the request and has a right CRC
   input  logic [7:0]  answer_length_i,  // bytes of the PDU
-  input  logic        take_i,         // the sequencer takes the mail
+  input  logic        take_i,         // the user's side takes the mail
   output logic        mail_o,
   output logic        with_user_o,
   // the telegram

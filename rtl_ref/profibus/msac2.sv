@@ -1,7 +1,7 @@
-// MSAC_C2 (15.2; V2 to V13): Initiate on SAP 49, the two channels on SAPs 48 and 47, and whose turn it is in the DPRAM.
+// MSAC_C2 (15.2; V2 to V13): Initiate on SAP 49, the two channels on SAPs 48 and 47, and whose turn it is with the user.
 //
 // Of two vectors bit 0 is the channel of SAP 48 (30), bit 1 that of SAP 47 (2F).
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module msac2 (
   `FAULT_PORT
@@ -11,7 +11,7 @@ module msac2 (
   // the user's answer
   input  logic        answer_i,         // is committed, fits the request and has a right CRC
   input  logic [7:0]  answer_length_i,  // bytes of the PDU
-  input  logic        take_i,           // the sequencer takes the mail
+  input  logic        take_i,           // the user's side takes the mail
   output logic        mail_o,
   output logic        with_user_o,
   output logic        owner_2f_o,       // the channel that the request with the user, or on its way to him, is of
@@ -50,9 +50,6 @@ module msac2 (
   output logic [7:0]  reply_s_length_o,
   output logic [7:0]  reply_d_length_o
 );
-  localparam logic [7:0] SAP_30 = 8'h30;
-  localparam logic [7:0] SAP_2F = 8'h2F;
-
   logic [1:0] initiate, answer, accept, reply_user, is_free, busy, long_form, turn;
   logic [1:0] owner_q, owner_d;  // of the area; no bit: no one
   logic mail_q, taken_q;
@@ -83,8 +80,8 @@ module msac2 (
   /* verilator lint_off UNUSEDSIGNAL */
   logic [17:0] rm_30, rm_2f;
   /* verilator lint_on UNUSEDSIGNAL */
-  assign rm_30 = {registry[9:3], SAP_30, registry[2:0]};
-  assign rm_2f = {registry[19:13], SAP_2F, registry[12:10]};
+  assign rm_30 = {registry[9:3], SAP_MSAC_30, registry[2:0]};
+  assign rm_2f = {registry[19:13], SAP_MSAC_2F, registry[12:10]};
 
   // ---- Initiate: the first free row of the registry
   logic may_initiate, initiate_ok, takes_2f;
@@ -123,7 +120,7 @@ module msac2 (
   assign reply_o = initiate_sap_i ? initiate_reply : channel_2f_i ? reply[5:3] : reply[2:0];
   assign reply_fc_o = initiate_sap_i ? (initiate_ok ? FC_DL : FC_RS) : channel_2f_i ? reply_fc[15:8] : reply_fc[7:0];
   assign reply_user_o = !initiate_sap_i && (channel_2f_i ? reply_user[1] : reply_user[0]);
-  assign reply_head_o = initiate_sap_i ? {timeout_i[7:0], timeout_i[15:8], takes_2f ? SAP_2F : SAP_30, MSAC_IMMEDIATE} :
+  assign reply_head_o = initiate_sap_i ? {timeout_i[7:0], timeout_i[15:8], takes_2f ? SAP_MSAC_2F : SAP_MSAC_30, MSAC_IMMEDIATE} :
                         channel_2f_i ? reply_head[63:32] : reply_head[31:0];
   assign reply_length_o = initiate_sap_i ? 8'd4 : channel_2f_i ? reply_length[15:8] : reply_length[7:0];
   assign reply_long_o = channel_2f_i ? long_form[1] : long_form[0];

@@ -2,7 +2,7 @@
 //
 // At an edge: the user's answer, then the end of a timer, then the telegram: _q before the edge, _b behind the timers, _d behind
 // the telegram.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module msac2_channel (
   `FAULT_PORT

@@ -1,6 +1,6 @@
 // A timer of a C2 channel (15.2; V3, V12): units x 480 000 cycles from its start. It is loaded one edge behind the start, and its end
 // is seen one edge ahead, so that neither lengthens the path through a decision.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module msac2_timer (
   input  logic        clk_i,

@@ -4,7 +4,7 @@
 // Nothing is copied at a decision. Every telegram's bytes go into the spare one of four banks; where they become a request, that bank
 // and the requester's change places. A block of the user is read into its requester's answer, but only while that one has a request with the
 // user: neither an answer that waits nor one that is being sent can change.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module msac_buffers (
   `FAULT_PORT

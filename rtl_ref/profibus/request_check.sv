@@ -1,6 +1,6 @@
 // Looks at a telegram to SAP 51, 48 or 47 (15; V9, V11): what it is, and whether a request is right. The bytes stand still long before
 // the decision: all results are registers.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module request_check (
   `FAULT_PORT
@@ -16,10 +16,10 @@ module request_check (
   output logic        c2_right_o      // for class 2
 );
   logic is_read, is_write, is_transport, read_wrong, write_wrong;
-  assign is_read = function_i == DSDPV1_REG_FUNCTION_NUM_READ;
-  assign is_write = function_i == DSDPV1_REG_FUNCTION_NUM_WRITE;
-  assign is_transport = function_i == DSDPV1_REG_FUNCTION_NUM_TRANSPORT;
-  assign read_wrong = length_i != 8'd4 || (data_length_i > MSAC_MAX_DATA && `FAULT(67));
+  assign is_read = function_i == MSAC_READ;
+  assign is_write = function_i == MSAC_WRITE;
+  assign is_transport = function_i == MSAC_TRANSPORT;
+  assign read_wrong = length_i != 8'd4 || (data_length_i > MOST_ACYCLIC && `FAULT(67));
   assign write_wrong = length_i < 8'd4 || ({1'b0, length_i} != {1'b0, data_length_i} + 9'd4 && !`FAULT(68));
 
   logic [1:0] read_code, write_code;

@@ -2,8 +2,8 @@
 //
 // Nothing is copied at a decision: bytes are received into a free bank, and a decision only changes which bank is which buffer. So a
 // transfer or an answer keeps its bytes while newer ones arrive. Events of one edge act in the order of section 3: the
-// sequencer's commits, the end of DP_CONTROL, the telegram. Outputs with _now include the first two.
-`include "dsdpv1_types.svh"
+// user's side's commits, the end of DP_CONTROL, the telegram. Outputs with _now include the first two.
+`include "profibus_types.svh"
 
 module sap_buffers (
   `FAULT_PORT
@@ -14,18 +14,15 @@ module sap_buffers (
   input  logic       data_valid_i,
   input  logic [7:0] data_index_i,
   input  logic [7:0] data_i,
-  // bytes from the user, read by the sequencer into spare banks
-  input  logic       stage_inputs_i,  // a block begins
-  input  logic       stage_diag_i,
-  input  logic       stage_we_i,
-  input  logic [1:0] stage_pool_i,
-  input  logic [7:0] stage_index_i,
-  input  logic [7:0] stage_data_i,
+  // bytes from the user, on their way into spare banks
+  /* verilator lint_off UNUSEDSIGNAL */
+  input  stage_t     stage_i,
+  /* verilator lint_on UNUSEDSIGNAL */
   // commits
-  input  logic       init_i,
+  /* verilator lint_off UNUSEDSIGNAL */
+  input  initialise_t init_i,
+  /* verilator lint_on UNUSEDSIGNAL */
   input  logic       init_leave_i,
-  input  logic [7:0] init_input_length_i,
-  input  logic [7:0] init_output_length_i,
   input  logic       commit_inputs_i,
   input  logic       commit_diag_i,
   input  logic       commit_accept_cfg_i,
@@ -35,14 +32,10 @@ module sap_buffers (
   input  logic       hold_outputs_i,  // sync holds
   input  logic       hold_inputs_i,   // freeze holds, before the edge
   input  logic       leave_i,
-  input  logic       store_i,
-  input  logic       clear_i,
-  input  logic       copy_outputs_i,
-  input  logic       copy_inputs_i,
-  input  logic       mail_prm_i,
+  /* verilator lint_off UNUSEDSIGNAL */
+  input  decision_t  decision_i,
+  /* verilator lint_on UNUSEDSIGNAL */
   input  logic [7:0] mail_prm_length_i,
-  input  logic       mail_cfg_i,
-  input  logic       accept_cfg_i,
   input  logic [7:0] cfg_length_i,
   input  logic [7:0] cfg_input_length_i,
   input  logic [7:0] cfg_output_length_i,
@@ -62,21 +55,22 @@ module sap_buffers (
   input  logic       answer_busy_i,
   input  logic [7:0] answer_index_i,
   output logic [7:0] answer_data_o,
-  // mail, taken by the sequencer
-  output logic       prm_mail_o,
-  output logic       cfg_mail_o,
-  output logic       output_mail_o,
-  output logic [7:0] prm_length_o,
-  output logic [7:0] cfg_length_o,
-  output logic [7:0] cfg_input_length_o,
-  output logic [7:0] cfg_output_length_o,
-  output logic [7:0] output_length_o,
-  input  logic       take_prm_i,
-  input  logic       take_cfg_i,
-  input  logic       take_output_i,
-  input  logic [7:0] transfer_index_i,
-  output logic [7:0] transfer_data_o
+  // mail for the user
+  output dp_mail_t   mail_o,
+  /* verilator lint_off UNUSEDSIGNAL */
+  input  take_t      take_i,
+  /* verilator lint_on UNUSEDSIGNAL */
+  output logic [7:0] mail_data_o
 );
+  logic store, clear, copy_outputs, copy_inputs, mail_prm, mail_cfg, accept_cfg;
+  assign store = decision_i.store;
+  assign clear = decision_i.clear;
+  assign copy_outputs = decision_i.copy_outputs;
+  assign copy_inputs = decision_i.copy_inputs;
+  assign mail_prm = decision_i.good_prm;
+  assign mail_cfg = decision_i.good_cfg;
+  assign accept_cfg = decision_i.accept_cfg;
+
   // ---- banks of the bus side: outputs 1 and 2, parameters, the last configuration, the one in use, the transfer, the telegram
   logic [2:0] out1_q, out2_q, prm_q, last_q, in_use_q, transfer_q, receive_q;
   logic [2:0] out1_d, out2_d, in_use_d;
@@ -142,11 +136,11 @@ module sap_buffers (
     input_length_d = input_length_now_o;
     output_length_d = output_length_now_o;
     in_use_length_d = cfg_length_now_o;
-    if (leave_i || (copy_inputs_i && !`FAULT(29))) begin
+    if (leave_i || (copy_inputs && !`FAULT(29))) begin
       in2_d = in1_b;
       in2_zero_d = in1_zero_b;
     end
-    if (accept_cfg_i) begin
+    if (accept_cfg) begin
       in_use_d = receive_q;
       input_length_d = cfg_input_length_i;
       output_length_d = cfg_output_length_i;
@@ -158,23 +152,26 @@ module sap_buffers (
     end
   end
 
+  logic take_output;
+  assign take_output = take_i.outputs;
+
   // Outputs. What was taken at this edge is gone before anything new arrives.
   always_comb begin
     out1_d = out1_q;
     out2_d = out2_q;
     out1_zero_d = out1_zero_q;
     out2_zero_d = out2_zero_q;
-    output_mail_d = output_mail_q && !take_output_i;
-    if (commit_accept_cfg_i || end_leave_i || leave_i || clear_i || accept_cfg_i) begin
+    output_mail_d = output_mail_q && !take_output;
+    if (commit_accept_cfg_i || end_leave_i || leave_i || clear || accept_cfg) begin
       out1_zero_d = !`FAULT(30);
       out2_zero_d = !`FAULT(30);
     end
-    if ((end_leave_i || leave_i || clear_i) && output_length_now_o != 8'd0) output_mail_d = 1'b1;
-    if (store_i) begin
+    if ((end_leave_i || leave_i || clear) && output_length_now_o != 8'd0) output_mail_d = 1'b1;
+    if (store) begin
       out1_d = receive_q;
       out1_zero_d = 1'b0;
     end
-    if ((store_i && (!hold_outputs_i || `FAULT(31))) || copy_outputs_i) begin
+    if ((store && (!hold_outputs_i || `FAULT(31))) || copy_outputs) begin
       out2_d = out1_d;
       out2_zero_d = out1_zero_d;
       if (output_length_now_o != 8'd0) output_mail_d = 1'b1;
@@ -239,13 +236,13 @@ module sap_buffers (
       source_zero_q <= 1'b0;
     end else begin
       if (begin_i) receive_q <= free;
-      if (stage_inputs_i) stage_inputs_q <= free_inputs;
-      if (stage_diag_i) stage_diag_q <= free_diag;
-      if (take_prm_i) transfer_q <= prm_q;
-      if (take_cfg_i) transfer_q <= last_q;
-      if (take_output_i) transfer_q <= `FAULT(32) ? out1_q : out2_q;
-      if (take_prm_i || take_cfg_i || take_output_i) begin
-        transfer_is_output_q <= take_output_i;
+      if (stage_i.inputs) stage_inputs_q <= free_inputs;
+      if (stage_i.diagnosis) stage_diag_q <= free_diag;
+      if (take_i.parameters) transfer_q <= prm_q;
+      if (take_i.configuration) transfer_q <= last_q;
+      if (take_i.outputs) transfer_q <= `FAULT(32) ? out1_q : out2_q;
+      if (take_i.parameters || take_i.configuration || take_i.outputs) begin
+        transfer_is_output_q <= take_i.outputs;
         transfer_zero_q <= out2_zero_q;
       end
 
@@ -263,13 +260,13 @@ module sap_buffers (
       input_length_q <= input_length_d;
       output_length_q <= output_length_d;
       output_mail_q <= output_mail_d;
-      prm_mail_q <= mail_prm_i || (prm_mail_q && !take_prm_i);
-      cfg_mail_q <= mail_cfg_i || (cfg_mail_q && !take_cfg_i);
-      if (mail_prm_i) begin
+      prm_mail_q <= mail_prm || (prm_mail_q && !take_i.parameters);
+      cfg_mail_q <= mail_cfg || (cfg_mail_q && !take_i.configuration);
+      if (mail_prm) begin
         prm_q <= receive_q;
         prm_length_q <= mail_prm_length_i;
       end
-      if (mail_cfg_i) begin
+      if (mail_cfg) begin
         last_q <= receive_q;
         last_length_q <= cfg_length_i;
         last_input_q <= cfg_input_length_i;
@@ -284,14 +281,14 @@ module sap_buffers (
                          (answer_source_i == SRC_OUTPUTS && (out2_zero_q || commit_accept_cfg_i || end_leave_i));
       end
 
-      if (init_i) begin
+      if (init_i.commit) begin
         init_q <= !init_q;
         {out1_zero_q, out2_zero_q, in1_zero_q, in2_zero_q} <= 4'b1111;
         {prm_mail_q, cfg_mail_q} <= 2'b00;
-        output_mail_q <= init_leave_i && init_output_length_i != 8'd0;
+        output_mail_q <= init_leave_i && init_i.output_length != 8'd0;
         in_use_length_q <= 8'd0;
-        input_length_q <= init_input_length_i;
-        output_length_q <= init_output_length_i;
+        input_length_q <= init_i.input_length;
+        output_length_q <= init_i.output_length;
       end
     end
   end
@@ -301,8 +298,9 @@ module sap_buffers (
   logic [2:0] transfer_bank;
   logic [7:0] bus_answer_data, bus_transfer_data;
   assign bus_write = {receive_q, data_index_i};
-  assign transfer_bank = take_prm_i ? prm_q : take_cfg_i ? last_q : take_output_i ? (`FAULT(32) ? out1_q : out2_q) : transfer_q;
-  assign bus_transfer = {transfer_bank, transfer_index_i};
+  assign transfer_bank = take_i.parameters ? prm_q : take_i.configuration ? last_q :
+                         take_output ? (`FAULT(32) ? out1_q : out2_q) : transfer_q;
+  assign bus_transfer = {transfer_bank, take_i.index};
   assign bus_answer = answer_busy_i ? {source_bus_q, answer_index_i} : {peek_last_i ? last_q : in_use_q, peek_index_i};
 
   buffer_ram #(.ADDRESS_BITS(11), .BYTES(2048)) u_bus_transfer (
@@ -315,27 +313,22 @@ module sap_buffers (
   logic [11:0] user_write, user_read;
   logic [1:0] stage_bank, source_pool;
   logic [7:0] user_data;
-  assign stage_bank = stage_pool_i == POOL_INPUTS ? stage_inputs_q : stage_pool_i == POOL_DIAG ? stage_diag_q : {1'b0, !init_q};
+  assign stage_bank = stage_i.pool == POOL_INPUTS ? stage_inputs_q : stage_i.pool == POOL_DIAG ? stage_diag_q : {1'b0, !init_q};
   assign source_pool = source_q == SRC_INPUTS ? POOL_INPUTS : source_q == SRC_DIAG ? POOL_DIAG : POOL_INIT;
-  assign user_write = {stage_pool_i, stage_bank, stage_index_i};
+  assign user_write = {stage_i.pool, stage_bank, stage_i.index};
   assign user_read = answer_busy_i ? {source_pool, source_user_q, answer_index_i} : {POOL_INIT, 1'b0, init_q, peek_index_i};
 
   buffer_ram #(.ADDRESS_BITS(12), .BYTES(2560)) u_user (
-    .clk_i(clk_i), .we_i(stage_we_i), .waddr_i(user_write), .wdata_i(stage_data_i),
+    .clk_i(clk_i), .we_i(stage_i.we), .waddr_i(user_write), .wdata_i(stage_i.data),
     .raddr_i(user_read), .rdata_o(user_data));
 
   assign answer_data_o = source_zero_q ? 8'd0 : source_q == SRC_OUTPUTS || source_q == SRC_CFG ? bus_answer_data : user_data;
   assign peek_bus_o = bus_answer_data;
   assign peek_init_o = user_data;
-  assign transfer_data_o = transfer_is_output_q && transfer_zero_q ? 8'd0 : bus_transfer_data;
-  assign prm_mail_o = prm_mail_q;
-  assign cfg_mail_o = cfg_mail_q;
-  assign output_mail_o = output_mail_q;
-  assign prm_length_o = prm_length_q;
-  assign cfg_length_o = last_length_q;
-  assign cfg_input_length_o = last_input_q;
-  assign cfg_output_length_o = last_output_q;
+  assign mail_data_o = transfer_is_output_q && transfer_zero_q ? 8'd0 : bus_transfer_data;
+  assign mail_o.parameters = {prm_mail_q, prm_length_q};
+  assign mail_o.configuration = {cfg_mail_q, last_length_q, last_input_q, last_output_q};
+  assign mail_o.outputs = {output_mail_q, output_length_q};
   assign input_length_o = input_length_q;
-  assign output_length_o = output_length_q;
   assign last_cfg_length_o = last_length_q;
 endmodule

@@ -1,5 +1,5 @@
 // Two-stage synchroniser (P9): what edge m sampled is seen by the logic at edge m+2. It runs during reset, too.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module synchroniser #(
   parameter logic POWER_ON = 1'b0

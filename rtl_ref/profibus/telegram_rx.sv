@@ -2,7 +2,7 @@
 //
 // Fields are kept until the next telegram begins. The bytes behind the SAPs are handed on as they arrive; the first eight are
 // also kept.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module telegram_rx (
   `FAULT_PORT

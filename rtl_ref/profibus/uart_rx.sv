@@ -2,7 +2,7 @@
 //
 // A character that is complete at edge C is handed on registered, that is, telegram_rx uses it at edge C+1; nothing can be decided
 // before C+7. Also here, because they start from C: the idle time, the deadline of the telegram and the clock of the answer.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module uart_rx (
   `FAULT_PORT

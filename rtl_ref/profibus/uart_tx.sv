@@ -1,5 +1,5 @@
 // Sends the answer (8.3; P2, S3, S11): waits until T, then PBRTS and the characters without a gap.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module uart_tx (
   `FAULT_PORT

@@ -2,7 +2,7 @@
 //
 // One timer of three nested counters, base time x WD_Fact_1 x WD_Fact_2; BAUD_CONTROL uses the innermost only. It is loaded one edge
 // behind its start, and its end is seen one edge ahead, so that neither lengthens the path through a decision.
-`include "dsdpv1_types.svh"
+`include "profibus_types.svh"
 
 module watchdog (
   `FAULT_PORT

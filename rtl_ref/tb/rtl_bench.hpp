@@ -62,7 +62,7 @@ struct Pin {
 class Bench {
  public:
   explicit Bench([[maybe_unused]] unsigned fault = 0) {
-#ifdef DSDPV1_FAULTS
+#ifdef SINGLE_FAULTS
     top_.fault_i = static_cast<uint8_t>(fault);
 #endif
 #ifdef DSDPV1_RUN_TIME_LIMITS

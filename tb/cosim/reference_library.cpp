@@ -49,7 +49,7 @@ extern "C" cosim::RtlTop* dsdpv1_rtl_make(const cosim::RtlLimits* limits, [[mayb
   model.search_window_ms_i = limits->search_window_ms;
   model.search_window_bits_i = limits->search_window_bits;
   model.baud_control_ms_i = limits->baud_control_ms;
-#ifdef DSDPV1_FAULTS
+#ifdef SINGLE_FAULTS
   model.fault_i = static_cast<CData>(fault);
 #endif
   return top.release();

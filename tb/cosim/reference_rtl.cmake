@@ -6,6 +6,7 @@ set(rtl_dir ${DSDPV1_RTL_DIR})
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rtl_dir}/files.txt)
 file(STRINGS ${rtl_dir}/files.txt rtl_sources)
 list(TRANSFORM rtl_sources PREPEND ${rtl_dir}/)
+set(rtl_headers ${rtl_dir}/profibus_types.svh ${rtl_dir}/dpram_types.svh ${rtl_dir}/dsdpv1_types.svh)
 
 # dsdpv1_rtl_library(TARGET LIBRARY OPTIMISATION ARGUMENTS...): a part of TARGET, RTL and adapter with these arguments for Verilator and
 # the macros (-D) among them. Verilator's own make keeps it out of the configuration, which every `./run` waits for.
@@ -25,7 +26,7 @@ function(dsdpv1_rtl_library target library optimisation)
             --top-module dsdpv1 --Mdir ${sources_folder} -CFLAGS ${compile} -LDFLAGS -shared
             -MAKEFLAGS "-s CXX=${CMAKE_CXX_COMPILER} OBJCACHE=${CMAKE_CXX_COMPILER_LAUNCHER} OPT_FAST= OPT_GLOBAL=" -o ${library} ${ARGN}
             ${CMAKE_CURRENT_SOURCE_DIR}/public.vlt ${rtl_sources} ${adapter}
-    DEPENDS ${rtl_sources} ${rtl_dir}/dsdpv1_types.svh ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter}
+    DEPENDS ${rtl_sources} ${rtl_headers} ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter}
             ${CMAKE_CURRENT_SOURCE_DIR}/public.vlt ${CMAKE_CURRENT_SOURCE_DIR}/rtl_top.hpp ${CMAKE_CURRENT_SOURCE_DIR}/verilated_top.hpp
     COMMENT "Verilating ${name}"
     VERBATIM)
@@ -34,7 +35,7 @@ endfunction()
 
 set(rtl_folder ${PROJECT_BINARY_DIR}/rtl)
 dsdpv1_rtl_library(dsdpv1_rtl_libraries ${rtl_folder}/libdsdpv1_rtl.so -O3)
-dsdpv1_rtl_library(dsdpv1_rtl_libraries ${rtl_folder}/libdsdpv1_rtl_faults.so -O3 -DDSDPV1_FAULTS)
+dsdpv1_rtl_library(dsdpv1_rtl_libraries ${rtl_folder}/libdsdpv1_rtl_faults.so -O3 -DSINGLE_FAULTS)
 
 # The RTL as it is once more, counting lines and toggles, and the program beside it, which therefore loads this one: ./run rtl-coverage.
 # Far slower, so it is no part of `all`. It writes what it has counted into the folder of the environment's DSDPV1_RTL_COVERAGE. All

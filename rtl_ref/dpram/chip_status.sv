@@ -1,5 +1,5 @@
 // Notes of what the chip's status bytes are to say (9.2, section 10; D1, D5, D7, D16): which of them have to be written, and what.
-`include "dsdpv1_types.svh"
+`include "dpram_types.svh"
 
 module chip_status (
   input  logic        clk_i,

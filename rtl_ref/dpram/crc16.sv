@@ -1,5 +1,5 @@
 // CRC-16 of blocks in the DPRAM (4.2, D2): polynomial A001 reflected, one byte a cycle.
-`include "dsdpv1_types.svh"
+`include "dpram_types.svh"
 
 module crc16 (
   input  logic [15:0] crc_i,

@@ -1,5 +1,5 @@
 // The initialisation block while it is read (chapter 8; D7, D11): its values, and whether any is beyond its limit.
-`include "dsdpv1_types.svh"
+`include "dpram_types.svh"
 
 module init_block (
   `FAULT_PORT
@@ -10,20 +10,8 @@ module init_block (
   input  logic [7:0]  index_i,   // its number, from 0
   input  logic [7:0]  byte_i,
   input  logic        last_i,    // the edge before the commit
-  output logic        wrong_o,
-  output logic [6:0]  address_o,
-  output logic [15:0] ident_o,
-  output logic [3:0]  command_o,
-  output logic [7:0]  max_input_o,
-  output logic [7:0]  max_output_o,
-  output logic [7:0]  max_diag_o,
-  output logic [7:0]  max_prm_o,
-  output logic [1:0]  prm_mode_o,
-  output logic [7:0]  max_cfg_o,
-  output logic [1:0]  cfg_mode_o,
-  output logic [7:0]  cfg_length_o,
-  output logic [7:0]  input_length_o,   // that the configuration describes
-  output logic [7:0]  output_length_o
+  input  logic        crc_right_i,  // the edge of the commit, and its CRC is right
+  output initialise_t initialise_o
 );
   logic [6:0] address_byte_q;
   logic [15:0] ident_q;
@@ -104,18 +92,18 @@ module init_block (
     end
   end
 
-  assign wrong_o = limits_wrong_q;
-  assign address_o = address_byte_q;
-  assign ident_o = ident_q;
-  assign command_o = command_q;
-  assign max_input_o = max_input_q;
-  assign max_output_o = max_output_q;
-  assign max_diag_o = max_diag_q;
-  assign max_prm_o = max_prm_q;
-  assign prm_mode_o = prm_mode_q;
-  assign max_cfg_o = max_cfg_q;
-  assign cfg_mode_o = cfg_mode_q;
-  assign cfg_length_o = cfg_length_q;
-  assign input_length_o = cfg_input_length[7:0];
-  assign output_length_o = cfg_output_length[7:0];
+  assign initialise_o.commit = crc_right_i && !limits_wrong_q;
+  assign initialise_o.address = address_byte_q;
+  assign initialise_o.ident = ident_q;
+  assign {initialise_o.fail_safe, initialise_o.sync, initialise_o.freeze, initialise_o.set_address} = command_q;
+  assign initialise_o.max_input = max_input_q;
+  assign initialise_o.max_output = max_output_q;
+  assign initialise_o.max_diag = max_diag_q;
+  assign initialise_o.max_prm = max_prm_q;
+  assign initialise_o.prm_mode = prm_mode_q;
+  assign initialise_o.max_cfg = max_cfg_q;
+  assign initialise_o.cfg_mode = cfg_mode_q;
+  assign initialise_o.cfg_length = cfg_length_q;
+  assign initialise_o.input_length = cfg_input_length[7:0];
+  assign initialise_o.output_length = cfg_output_length[7:0];
 endmodule

@@ -1,14 +1,13 @@
 // What the sequencer does next in an access (9.2; H4): the first item that is due, and its first move.
-`include "dsdpv1_types.svh"
+`include "dpram_types.svh"
 
 module dpram_choice (
   `FAULT_PORT
   input  logic [ITEMS-1:0] candidates_i,  // due and behind the item done last; the first lowest
   input  logic [6:0]  command_2_i,        // B011 as it was read, without bit 7
-  input  logic [7:0]  prm_length_i,
-  input  logic [7:0]  cfg_input_length_i,
-  input  logic [7:0]  cfg_output_length_i,
-  input  logic [7:0]  output_length_i,
+  /* verilator lint_off UNUSEDSIGNAL */
+  input  dp_mail_t    mail_i,             // what each item of mail begins with; candidates_i says whether it waits
+  /* verilator lint_on UNUSEDSIGNAL */
   input  logic [7:0]  c1_function_i,
   input  logic [7:0]  c2_function_i,
   input  logic [15:0] count_i,            // B008, B009
@@ -22,6 +21,10 @@ module dpram_choice (
 );
   logic [7:0] count_high, count_low;
   assign {count_high, count_low} = count_i;
+  logic [7:0] prm_length, cfg_first, output_length;
+  assign prm_length = mail_i.parameters.length;
+  assign cfg_first = `FAULT(52) ? mail_i.configuration.input_length : mail_i.configuration.output_length;
+  assign output_length = mail_i.outputs.length;
 
   always_comb begin
     casez (candidates_i)
@@ -68,17 +71,17 @@ module dpram_choice (
       ITEM_PRM: begin
         we_o = 1'b1;
         addr_o = DSDPV1_REG_PRM_LENGTH;
-        wdata_o = prm_length_i;
+        wdata_o = prm_length;
       end
       ITEM_CFG: begin
         we_o = 1'b1;
         addr_o = DSDPV1_REG_CFG_OUTPUT_LENGTH;
-        wdata_o = `FAULT(52) ? cfg_input_length_i : cfg_output_length_i;
+        wdata_o = cfg_first;
       end
       ITEM_OUTPUTS: begin
         we_o = 1'b1;
         addr_o = DSDPV1_REG_OUTPUT_LENGTH;
-        wdata_o = output_length_i;
+        wdata_o = output_length;
       end
       ITEM_C1_REQUEST: begin
         we_o = 1'b1;
