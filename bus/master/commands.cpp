@@ -9,16 +9,21 @@
 
 namespace bus {
 
-void Master1::start() { start_requested_ = true; }
+void Master1::start() {
+  start_requested_ = true;
+  announce();
+}
 
 void Master1::stop() {
   start_requested_ = false;
   stop_requested_ = true;
+  announce();
 }
 
 void Master1::change_baud(int index) {
   bus::baud(index);  // throws when there is no such rate
   new_baud_ = index;
+  announce();
 }
 
 void Master1::set_mode(bool clear) {
@@ -68,6 +73,7 @@ std::vector<std::uint8_t> Master1::slave_addresses() const {
 
 void Master1::push(FdlRequest request, AnswerCallback done) {
   commands_.push_back({std::move(request), std::move(done)});
+  announce();
 }
 
 void Master1::request(const Telegram& telegram, AnswerCallback done) {

@@ -38,6 +38,7 @@ void MasterFdl::set_baud(int index) {
   receiver_.set_bit(bit_);
   listener_.set_bit(bit_);
   receiver_.reset(segment_.level_at(station_));
+  plan_changed();
 }
 
 void MasterFdl::start(Tick now, FdlRequest request) {
@@ -46,6 +47,7 @@ void MasterFdl::start(Tick now, FdlRequest request) {
   compose();
   state_ = State::kWaitBus;
   ready_at_ = std::max(ready_at_, now);
+  plan_changed();
 }
 
 void MasterFdl::respond(Tick request_end, const Telegram& answer) {
@@ -55,6 +57,7 @@ void MasterFdl::respond(Tick request_end, const Telegram& answer) {
   responding_ = true;
   slot_end_ = request_end + bits(kMinTsdrBits);
   state_ = State::kResponding;
+  plan_changed();
 }
 
 void MasterFdl::compose() {
@@ -77,6 +80,7 @@ void MasterFdl::compose() {
 }
 
 void MasterFdl::abort(Tick now) {
+  plan_changed();
   sender_.abort(now);
   decoder_ = {};
   listener_.reset();
@@ -128,7 +132,8 @@ void MasterFdl::deadline(Tick now) {
 }
 
 void MasterFdl::line_changed(Tick at, bool level) {
-  if (state_ != State::kSending || reads_back()) receiver_.line_changed(at, level);  // else it would hear itself
+  if (state_ == State::kSending && !reads_back()) return;  // it would hear itself
+  if (receiver_.line_changed(at, level)) plan_changed();
 }
 
 void MasterFdl::send(Tick now) {

@@ -69,7 +69,10 @@ class MasterFdl : public Listener {
   /// on_done.
   void respond(Tick request_end, const Telegram& answer);
   /// No request starts before `at`.
-  void not_before(Tick at) { ready_at_ = std::max(ready_at_, at); }
+  void not_before(Tick at) {
+    ready_at_ = std::max(ready_at_, at);
+    plan_changed();
+  }
   /// End of the last character heard or sent.
   Tick last_activity() const { return last_activity_; }
 
@@ -82,6 +85,8 @@ class MasterFdl : public Listener {
   /// Telegrams of others that are no answers to this station. With it set, a request or a token of another master that
   /// comes instead of the answer ends the request with kAborted: two masters have the token.
   std::function<void(const HeardTelegram&)> on_heard;
+  /// Another call than `run` may have changed `next()`.
+  std::function<void()> on_plan;
 
  private:
   enum class State : std::uint8_t {
@@ -107,6 +112,9 @@ class MasterFdl : public Listener {
   void character(const ReceivedCharacter& received);
   void take(const Decoded& decoded);
   void listen(const ReceivedCharacter& received);
+  void plan_changed() const {
+    if (on_plan) on_plan();
+  }
   bool reads_back() const { return on_heard && request_.telegram.kind == TelegramKind::kSd4 && !request_.raw; }
   bool answers_request(const Telegram& answer) const;
   void succeed();

@@ -26,6 +26,7 @@ Master1::Master1(Segment& segment, const MasterConfig& config)
   if (ring_) ring_->set_baud(config.baud);
   fdl_.set_baud(config.baud);
   fdl_.on_done = [this](const FdlResult& result) { finished(result); };
+  fdl_.on_plan = [this] { announce(); };
 }
 
 void Master1::add_slave(const SlaveParameters& parameters) {

@@ -15,11 +15,18 @@ Master2::Master2(Segment& segment, const MasterConfig& config)
   fdl_.set_baud(config.baud);
   ring_.set_baud(config.baud);
   fdl_.on_done = [this](const FdlResult& result) { finished(result); };
+  fdl_.on_plan = [this] { announce(); };
+}
+
+void Master2::start() {
+  start_requested_ = true;
+  announce();
 }
 
 void Master2::stop() {
   start_requested_ = false;
   stop_requested_ = true;
+  announce();
 }
 
 void Master2::change_baud(int index) {

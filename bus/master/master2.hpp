@@ -29,7 +29,7 @@ class Master2 : public Agent {
 
   // --- Operation. Everything takes effect between two requests, at the timeline's present time at the earliest.
   /// Learns the ring and waits to be let in, or claims the token of a dead bus.
-  void start() { start_requested_ = true; }
+  void start();
   /// Falls silent at once: a dead master. Its connections are closed on this side without a word on the wire.
   void stop();
   bool running() const { return running_; }

@@ -24,6 +24,7 @@ void Requester::set_baud(int index, std::int64_t ppm) {
   sender_.set_timing(bit_, ppm);
   receiver_.set_bit(bit_);
   receiver_.reset(segment_.level_at(station_));
+  announce();
 }
 
 Exchange Requester::send(Timeline& timeline, const Bytes& bytes, const ExchangeOptions& options) {
@@ -39,6 +40,7 @@ Exchange Requester::send(Timeline& timeline, const std::vector<Character>& chara
   exchange_.bit = bit_;
   exchange_.request_start = start_time(timeline, options);
   sender_.send(exchange_.request_start, characters);
+  announce();
   send_all(timeline);
   if (options.wants_answer) await_answer(timeline, options);
   return std::move(exchange_);
@@ -55,6 +57,7 @@ void Requester::send_all(Timeline& timeline) {
   timeline.run_until(sender_.end());
   last_activity_ = sender_.end();
   receiver_.reset(segment_.level_at(station_));
+  announce();
 }
 
 void Requester::await_answer(Timeline& timeline, const ExchangeOptions& options) {
@@ -86,7 +89,8 @@ void Requester::receive_until(Timeline& timeline, Tick limit, std::size_t charac
 }
 
 void Requester::line_changed(Tick at, bool level) {
-  if (!sender_.busy()) receiver_.line_changed(at, level);  // while sending it would hear itself
+  if (sender_.busy()) return;  // it would hear itself
+  if (receiver_.line_changed(at, level)) announce();
 }
 
 void Requester::run(Tick now) {

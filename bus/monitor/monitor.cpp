@@ -65,6 +65,7 @@ void Monitor::set_baud(int index) {
   decoder_ = {};
   skipping_ = false;
   pending_.reset();
+  announce();
 }
 
 Tick Monitor::next() const {

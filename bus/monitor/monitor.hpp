@@ -92,7 +92,10 @@ class Monitor : public Listener, public Agent {
   void set_limits(std::uint8_t station, const TsdrLimits& limits) { station_limits_[station] = limits; }
   void set_limits(const TsdrLimits& limits) { limits_ = limits; }
   /// Slot time after which a request counts as unanswered, bit times; default that of the baud rate.
-  void set_slot_bits(std::optional<int> bits) { slot_bits_ = bits; }
+  void set_slot_bits(std::optional<int> bits) {
+    slot_bits_ = bits;
+    announce();
+  }
   /// Idle time between characters that is still no gap, 1/1000 bit. Default 1000 (ruling S10).
   void set_gap_tolerance(int millibits) { gap_tolerance_ = millibits; }
 
@@ -103,7 +106,9 @@ class Monitor : public Listener, public Agent {
   /// T_RR of each master, by its address.
   const std::map<std::uint8_t, RotationStatistics>& rotations() const { return token_.rotations(); }
 
-  void line_changed(Tick at, bool level) override { receiver_.line_changed(at, level); }
+  void line_changed(Tick at, bool level) override {
+    if (receiver_.line_changed(at, level)) announce();
+  }
   Tick next() const override;
   void run(Tick now) override;
 

@@ -135,10 +135,15 @@ void UartReceiver::reset(bool level) {
   level_ = level;
 }
 
-void UartReceiver::line_changed(Tick at, bool level) {
+bool UartReceiver::line_changed(Tick at, bool level) {
+  const Tick before = next();
   sample_until(at);
   level_ = level;
-  if (receiving_ || level) return;
+  if (!receiving_ && !level) begin(at);
+  return next() != before;
+}
+
+void UartReceiver::begin(Tick at) {
   receiving_ = true;
   start_ = at;
   sampled_ = 0;

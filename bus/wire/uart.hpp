@@ -103,7 +103,8 @@ class UartReceiver {
   void set_bit(Tick bit) { bit_ = bit; }
   /// Forgets a character begun; the line has this level now.
   void reset(bool level);
-  void line_changed(Tick at, bool level);
+  /// Whether `next()` is another now: a character has begun or ended.
+  bool line_changed(Tick at, bool level);
   /// The middle of the stop bit of a character begun, where it is reported.
   Tick next() const { return receiving_ ? sample_at(kCharacterBits - 1) : kNever; }
   void run(Tick now);
@@ -116,6 +117,7 @@ class UartReceiver {
 
  private:
   Tick sample_at(int bit) const { return start_ + bit * bit_ + bit_ / 2; }
+  void begin(Tick at);
   void sample_until(Tick end);
   void sample();
   void finish();

@@ -20,7 +20,7 @@ class Execution {
   virtual void run(Tick end, const std::function<bool()>& stopped) = 0;
 
   /// Nothing happens to `agent` before this tick unless it acts itself; 0: not known.
-  virtual Tick quiet_until(const bus::Agent& /*agent*/) const { return 0; }
+  virtual Tick quiet_until(const bus::Agent& /*agent*/) { return 0; }
 
   bus::Segment& segment() { return segment_; }
   bus::Timeline& timeline() { return timeline_; }

@@ -35,7 +35,7 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
 Tick PinChip::next() const { return driven_ < drives_due_.size() ? drives_due_[driven_].at : chip_.next_event(); }
 
 void PinChip::run(Tick now) {
-  chip_.advance(now);
+  device().advance(now);
   drive_line();
 }
 
@@ -60,36 +60,37 @@ void PinChip::line_changed(Tick at, bool level) { set(at, Pin::kPbrxd, level ? 1
 void PinChip::set_reset(Tick at, bool level) { set(at, Pin::kReset, level ? 1 : 0); }
 
 void PinChip::set(Tick at, Pin pin, Level level) {
-  chip_.set(at, pin, level);
+  device().set(at, pin, level);
   report_inputs(at, pin, pin);
 }
 
 void PinChip::reset_host(Tick at) {
   pins_.emplace(chip_);
-  for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) chip_.set(at, pin, 1);
-  for (const Pin pin : {Pin::kRSta, Pin::kRReq}) chip_.set(at, pin, 0);
-  chip_.set(at, Pin::kDIn, dsdpv1::kLevelZ);
-  chip_.set(at, Pin::kA, user_cpu::PinHostBus::kIdleAddress);
+  PinDevice& chip = device();
+  for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) chip.set(at, pin, 1);
+  for (const Pin pin : {Pin::kRSta, Pin::kRReq}) chip.set(at, pin, 0);
+  chip.set(at, Pin::kDIn, dsdpv1::kLevelZ);
+  chip.set(at, Pin::kA, user_cpu::PinHostBus::kIdleAddress);
   report_inputs(at, Pin::kRReq, Pin::kDIn);
 }
 
 void PinChip::set_r_req(Tick at, bool level) {
-  pins_->set_r_req(at, level);
+  pins().set_r_req(at, level);
   report_inputs(at, Pin::kRReq, Pin::kRReq);
 }
 
 void PinChip::set_r_sta(Tick at, bool level) {
-  pins_->set_r_sta(at, level);
+  pins().set_r_sta(at, level);
   report_inputs(at, Pin::kRSta, Pin::kRSta);
 }
 
 void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) {
-  pins_->begin(at, access, timing);
+  pins().begin(at, access, timing);
   if (!access.write && on_read) on_read(pins_->sample_tick());
 }
 
 void PinChip::run_edges(Tick now) {
-  pins_->run_edges(now);
+  pins().run_edges(now);
   // Strobes that rise with CSR are told before it, as the TLM module does.
   if (chip_.level(Pin::kCsr) != 0) report_inputs(now, Pin::kRd, Pin::kWr);
   report_inputs(now, Pin::kCsr, Pin::kDIn);
@@ -115,7 +116,7 @@ class PinExecution : public Execution {
     return chip;
   }
 
-  Tick quiet_until(const bus::Agent& agent) const override { return timeline_.next_except(agent); }
+  Tick quiet_until(const bus::Agent& agent) override { return timeline_.next_except(agent); }
 
   void run(Tick end, const std::function<bool()>& stopped) override {
     while (!stopped() && timeline_.step(end)) {

@@ -36,6 +36,15 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener, priva
     Tick at;
     bool enabled, level;
   };
+  /// Whoever moves the chip takes it from here.
+  PinDevice& device() {
+    announce();
+    return chip_;
+  }
+  user_cpu::PinHostBus& pins() {
+    announce();
+    return *pins_;
+  }
   void line_changed(Tick at, bool level) override;
   void pin_changed(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void set(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
@@ -46,10 +55,10 @@ class PinChip : public ChipView, public bus::Agent, private bus::Listener, priva
   // The host bus is that of the pins; what it does to the input pins is reported.
   void set_r_req(Tick at, bool level) override;
   void set_r_sta(Tick at, bool level) override;
-  bool l_req(Tick at) override { return pins_->l_req(at); }
-  bool l_sta(Tick at) override { return pins_->l_sta(at); }
-  bool intr0(Tick at) override { return pins_->intr0(at); }
-  unsigned lamps(Tick at) override { return pins_->lamps(at); }
+  bool l_req(Tick at) override { return pins().l_req(at); }
+  bool l_sta(Tick at) override { return pins().l_sta(at); }
+  bool intr0(Tick at) override { return pins().intr0(at); }
+  unsigned lamps(Tick at) override { return pins().lamps(at); }
   void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) override;
   Tick next_edge() const override { return pins_->next_edge(); }
   void run_edges(Tick now) override;

@@ -15,7 +15,10 @@ class Pulse : public bus::Agent {
     next_ = now + kPeriod;
     stopped_ = poll && !poll(now);
   }
-  void stop() { stopped_ = true; }
+  void stop() {
+    stopped_ = true;
+    announce();
+  }
   bool stopped() const { return stopped_; }
 
   std::function<bool(bus::Tick now)> poll;  ///< false: the run ends

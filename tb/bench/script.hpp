@@ -18,7 +18,10 @@ class Script : public bus::Agent {
   explicit Script(Bench& bench);
 
   /// Conditions are looked at again at `at`.
-  void touch(Tick at) { touched_at_ = at; }
+  void touch(Tick at) {
+    touched_at_ = at;
+    announce();
+  }
   Tick next() const override;
   void run(Tick now) override;
   /// Judges what is to be judged at the end; an expectation whose time did not come has failed, when interrupted also

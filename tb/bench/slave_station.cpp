@@ -14,6 +14,7 @@ void SlaveStation::hold_in_reset(Tick now) {
     board_before_reset_ = user_->board();
   }
   user_.reset();
+  announce();
   outputs_seen_ = 0;
   chip_->reset_host(now);
   chip_->set_reset(now, false);
@@ -22,6 +23,7 @@ void SlaveStation::hold_in_reset(Tick now) {
 void SlaveStation::release_reset(Tick now) {
   chip_->set_reset(now, true);
   user_ = make_user_(station_, now);
+  announce();
   tells_ = user_->tells();
   user_->quiet_until = quiet_until;
   user_->on_driver_error = [this](const user_cpu::DriverError& error) {
@@ -39,7 +41,9 @@ void SlaveStation::release_reset(Tick now) {
 }
 
 void SlaveStation::command(Tick now, const user_cpu::Command& command) {
-  if (user_) user_->command(now, command);  // held in reset: nobody listens
+  if (!user_) return;  // held in reset: nobody listens
+  user_->command(now, command);
+  announce();
 }
 
 void SlaveStation::reinitialise(Tick now, std::optional<int> address, const std::optional<bus::Bytes>& cfg) {
@@ -49,7 +53,9 @@ void SlaveStation::reinitialise(Tick now, std::optional<int> address, const std:
 }
 
 void SlaveStation::intr0_changed(Tick at, bool level) {
-  if (user_) user_->intr0_changed(at, level);
+  if (!user_) return;
+  user_->intr0_changed(at, level);
+  announce();
 }
 
 void SlaveStation::run(Tick now) {

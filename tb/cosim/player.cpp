@@ -31,6 +31,11 @@ class ChipAgent : public bus::Agent, private bus::Listener {
     tell();
   }
   Lockstep& lockstep() { return lockstep_; }
+  Level level(Pin pin) const { return lockstep_.level(pin); }
+  void set(Tick at, Pin pin, Level level) {
+    lockstep_.set(at, pin, level);
+    announce();
+  }
 
  private:
   struct Drive {
@@ -49,7 +54,7 @@ class ChipAgent : public bus::Agent, private bus::Listener {
     }
     due_.clear();
   }
-  void line_changed(Tick at, bool level) override { lockstep_.set(at, Pin::kPbrxd, level ? 1 : 0); }
+  void line_changed(Tick at, bool level) override { set(at, Pin::kPbrxd, level ? 1 : 0); }
 
   Lockstep lockstep_;
   bus::Segment& segment_;
@@ -63,17 +68,23 @@ class Lane : public bus::Agent {
  public:
   virtual bool takes(Verb verb) const = 0;
   /// The action begins at `at`.
-  virtual void begin(Tick at, const Action& action) = 0;
+  void begin(Tick at, const Action& action) {
+    plan(at, action);
+    announce();
+  }
   bool idle() const { return next() == bus::kNever; }
+
+ private:
+  virtual void plan(Tick at, const Action& action) = 0;
 };
 
 class BusLane : public Lane {
  public:
-  BusLane(bus::Segment& segment, const Lockstep& chip)
+  BusLane(bus::Segment& segment, const ChipAgent& chip)
       : segment_(segment), sender_(segment, segment.attach("master", nullptr)), chip_(chip) {}
 
   bool takes(Verb verb) const override { return verb == Verb::kSend || verb == Verb::kSpike; }
-  void begin(Tick at, const Action& action) override {
+  void plan(Tick at, const Action& action) override {
     if (action.verb == Verb::kSpike) {
       spike_ = at;
       spike_end_ = at + action.low;
@@ -106,16 +117,16 @@ class BusLane : public Lane {
 
   bus::Segment& segment_;
   bus::UartSender sender_;
-  const Lockstep& chip_;
+  const ChipAgent& chip_;
   Tick bit_ = 0, answer_by_ = -1, look_ = bus::kNever, spike_ = bus::kNever, spike_end_ = bus::kNever;
 };
 
 class UserLane : public Lane {
  public:
-  explicit UserLane(Lockstep& chip) : chip_(chip) {}
+  explicit UserLane(ChipAgent& chip) : chip_(chip) {}
 
   bool takes(Verb verb) const override { return verb >= Verb::kTake && verb <= Verb::kPin; }
-  void begin(Tick at, const Action& action) override {
+  void plan(Tick at, const Action& action) override {
     edges_.clear();
     edge_ = 0;
     end_ = at;
@@ -190,7 +201,7 @@ class UserLane : public Lane {
     write(action, action.crc_address + 1, crc & 0xFF);
   }
 
-  Lockstep& chip_;
+  ChipAgent& chip_;
   std::vector<Edge> edges_;
   std::size_t edge_ = 0;
   Tick end_ = 0, poll_every_ = 0;
@@ -199,9 +210,9 @@ class UserLane : public Lane {
 
 class BoardLane : public Lane {
  public:
-  explicit BoardLane(Lockstep& chip) : chip_(chip) {}
+  explicit BoardLane(ChipAgent& chip) : chip_(chip) {}
   bool takes(Verb verb) const override { return verb == Verb::kReset; }
-  void begin(Tick at, const Action& action) override {
+  void plan(Tick at, const Action& action) override {
     fall_ = at;
     rise_ = at + action.low;
   }
@@ -217,7 +228,7 @@ class BoardLane : public Lane {
   }
 
  private:
-  Lockstep& chip_;
+  ChipAgent& chip_;
   Tick fall_ = bus::kNever, rise_ = bus::kNever;
 };
 
@@ -227,9 +238,9 @@ class Player {
       : stimulus_(stimulus),
         options_(options),
         chip_(options, make(), segment_),
-        bus_(segment_, chip_.lockstep()),
-        user_(chip_.lockstep()),
-        board_(chip_.lockstep()) {
+        bus_(segment_, chip_),
+        user_(chip_),
+        board_(chip_) {
     timeline_.add(chip_);
     for (Place& place : places_) timeline_.add(*place.lane);
     lockstep().on_event(

@@ -36,6 +36,7 @@ void HostLine::send(Tick at, bus::Bytes bytes) {
   ++statistics_.telegrams;
   waiting_bytes_ += bytes.size();
   waiting_.push_back({at, std::move(bytes), answer, wants_answer, false});
+  announce();
 }
 
 void HostLine::forget() {
@@ -95,7 +96,7 @@ void HostLine::start(Tick now) {
 
 /// Like a transceiver whose receiver is off while it sends, the host does not hear itself.
 void HostLine::line_changed(Tick at, bool level) {
-  if (!sender_.busy()) receiver_.line_changed(at, level);
+  if (!sender_.busy() && receiver_.line_changed(at, level)) announce();
 }
 
 void HostLine::heard(const bus::ReceivedCharacter& character) {

@@ -1,7 +1,5 @@
 #include "tb/user_cpu/fiber.hpp"
 
-#include <cstdint>
-#include <system_error>
 #include <utility>
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -18,6 +16,10 @@
 namespace user_cpu {
 
 namespace {
+
+using boost::context::detail::jump_fcontext;
+using boost::context::detail::make_fcontext;
+using boost::context::detail::transfer_t;
 
 void start_switch([[maybe_unused]] void** save, [[maybe_unused]] const void* stack,
                   [[maybe_unused]] std::size_t bytes) {
@@ -36,16 +38,10 @@ void finish_switch([[maybe_unused]] void* fake, [[maybe_unused]] const void** st
 }  // namespace
 
 Fiber::Fiber(std::function<void()> body, std::size_t stack_bytes)
-    : body_(std::move(body)), stack_bytes_(stack_bytes), stack_(new unsigned char[stack_bytes]) {
-  if (getcontext(&inside_) != 0) throw std::system_error(errno, std::generic_category(), "getcontext");
-  inside_.uc_stack.ss_sp = stack_.get();
-  inside_.uc_stack.ss_size = stack_bytes_;
-  inside_.uc_link = nullptr;  // the body leaves through switch_out
-  const auto self = reinterpret_cast<std::uintptr_t>(this);
-  // makecontext passes ints only.
-  makecontext(&inside_, reinterpret_cast<void (*)()>(&Fiber::enter), 2, static_cast<unsigned>(self >> 32),
-              static_cast<unsigned>(self & 0xFFFFFFFFU));
-}
+    : body_(std::move(body)),
+      stack_bytes_(stack_bytes),
+      stack_(new unsigned char[stack_bytes]),
+      inside_(make_fcontext(stack_.get() + stack_bytes_, stack_bytes_, &Fiber::enter)) {}
 
 Fiber::~Fiber() {
   if (begun_ && !ended_) {
@@ -68,20 +64,21 @@ void Fiber::suspend() {
 
 void Fiber::switch_in() {
   start_switch(&fake_outside_, stack_.get(), stack_bytes_);
-  swapcontext(&outside_, &inside_);
+  inside_ = jump_fcontext(inside_, this).fctx;
   finish_switch(fake_outside_, nullptr, nullptr);
 }
 
 void Fiber::switch_out(bool last) {
   // A null pointer tells the sanitizer that this stack is left for good.
   start_switch(last ? nullptr : &fake_inside_, outside_stack_, outside_bytes_);
-  swapcontext(&inside_, &outside_);
+  outside_ = jump_fcontext(outside_, nullptr).fctx;
   finish_switch(fake_inside_, &outside_stack_, &outside_bytes_);
 }
 
-void Fiber::enter(unsigned high, unsigned low) {
-  const auto self = static_cast<std::uintptr_t>(high) << 32 | low;
-  reinterpret_cast<Fiber*>(self)->run_body();
+void Fiber::enter(transfer_t from) {
+  auto* const self = static_cast<Fiber*>(from.data);
+  self->outside_ = from.fctx;
+  self->run_body();
 }
 
 void Fiber::run_body() {

@@ -1,8 +1,10 @@
 #pragma once
 // A program on a stack of its own, so that code written as one thread of control (the driver, its application) can be
-// suspended inside of a call and go on later. POSIX ucontext; announces its stacks to AddressSanitizer.
-#include <ucontext.h>
-
+// suspended inside of a call and go on later. The switch itself is Boost.Context's jump_fcontext: it exchanges
+// registers and stack pointer without a system call, where POSIX swapcontext makes two for the signal mask. The layer
+// is named `detail` because it does not unwind; that is done here, and so are the announcements of the stacks to
+// AddressSanitizer, which Debian's Boost is built without.
+#include <boost/context/detail/fcontext.hpp>
 #include <cstddef>
 #include <exception>
 #include <functional>
@@ -28,7 +30,7 @@ class Fiber {
 
  private:
   struct Unwind {};
-  static void enter(unsigned high, unsigned low);
+  static void enter(boost::context::detail::transfer_t from);
   void run_body();
   void switch_in();
   void switch_out(bool last);
@@ -36,7 +38,7 @@ class Fiber {
   std::function<void()> body_;
   std::size_t stack_bytes_;
   std::unique_ptr<unsigned char[]> stack_;
-  ucontext_t inside_{}, outside_{};
+  boost::context::detail::fcontext_t inside_, outside_ = nullptr;  ///< where the two stacks go on
   std::exception_ptr failure_;
   bool begun_ = false, ended_ = false, unwinding_ = false;
   // AddressSanitizer's bookkeeping of the two stacks; unused without it.

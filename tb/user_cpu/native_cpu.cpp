@@ -74,9 +74,13 @@ void NativeCpu::intr0_changed(Tick at, bool level) {
   if (level) return;
   interrupt_at_ = std::min(interrupt_at_, at + timing_.interrupt_latency);
   intr0_at_ = std::min(intr0_at_, at);
+  announce();
 }
 
-void NativeCpu::wake(Tick at) { wake_at_ = std::min(wake_at_, at); }
+void NativeCpu::wake(Tick at) {
+  wake_at_ = std::min(wake_at_, at);
+  announce();
+}
 
 Tick NativeCpu::break_tick() const {
   const Tick interrupt = interrupts_open() ? interrupt_at_ : bus::kNever;

@@ -16,10 +16,14 @@ class NativeUser : public UserSide {
 
   Tick next() const override { return cpu_.next(); }
   void run(Tick now) override { cpu_.run(now); }
-  void intr0_changed(Tick at, bool level) override { cpu_.intr0_changed(at, level); }
+  void intr0_changed(Tick at, bool level) override {
+    cpu_.intr0_changed(at, level);
+    announce();
+  }
   void command(Tick now, const Command& command) override {
     program_.post(command);
     cpu_.wake(now);
+    announce();
   }
   UserCounters counters() const override { return {program_.port_counters(), program_.counters(), cpu_.counters()}; }
   std::uint64_t outputs_received() const override { return program_.counters().outputs_received; }

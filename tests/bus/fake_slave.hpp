@@ -27,6 +27,7 @@ class FakeStation : public Listener, public Agent {
   FakeStation(Segment& segment, Timeline& timeline, std::string name = "slave")
       : station(segment.attach(std::move(name), this)), sender_(segment, station) {
     receiver_.on_character = [this](const ReceivedCharacter& received) { character(received); };
+    timeline.check_announcements();
     timeline.add(*this);
   }
 
@@ -34,10 +35,11 @@ class FakeStation : public Listener, public Agent {
     bit_ = baud(index).bit;
     sender_.set_timing(bit_);
     receiver_.set_bit(bit_);
+    announce();
   }
 
   void line_changed(Tick at, bool level) override {
-    if (!sending_) receiver_.line_changed(at, level);
+    if (!sending_ && receiver_.line_changed(at, level)) announce();
   }
   Tick next() const override { return sending_ ? sender_.next() : receiver_.next(); }
   void run(Tick now) override {

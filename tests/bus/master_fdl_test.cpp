@@ -11,7 +11,9 @@ using test::FakeStation;
 using test::Reply;
 
 struct FdlAgent : Agent {
-  explicit FdlAgent(MasterFdl& layer) : fdl(layer) {}
+  explicit FdlAgent(MasterFdl& layer) : fdl(layer) {
+    fdl.on_plan = [this] { announce(); };
+  }
   Tick next() const override { return fdl.next(); }
   void run(Tick now) override { fdl.run(now); }
   MasterFdl& fdl;

@@ -19,7 +19,7 @@ struct Wire : Listener, Agent {
   }
   void line_changed(Tick at, bool level) override {
     edges.push_back(at);
-    receiver.line_changed(at, level);
+    if (receiver.line_changed(at, level)) announce();
   }
   Tick next() const override { return std::min(sender.next(), receiver.next()); }
   void run(Tick now) override {
@@ -28,6 +28,7 @@ struct Wire : Listener, Agent {
   }
   void send(const std::vector<Character>& what, Tick start = 1000) {
     sender.send(start, what);
+    announce();
     timeline.run_until(sender.end() + 20 * bit);
   }
   Bytes bytes() const {

@@ -8,6 +8,7 @@
 #include <ostream>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tb/bench/bench.hpp"
@@ -116,7 +117,9 @@ tb::RunResult run(const Case& each, bool allowed, tb::ChecksMode mode) {
   const tb::scenario::Scenario scenario = tb::scenario::parse(text_of(each, allowed), "check.yaml");
   tb::RunOptions options;
   options.checks = mode;
-  tb::Bench bench(scenario, options, tb::make_pin_execution());
+  auto execution = tb::make_pin_execution();
+  execution->timeline().check_announcements();
+  tb::Bench bench(scenario, options, std::move(execution));
   return bench.run([](tb::Tick) { return true; });
 }
 
@@ -198,7 +201,9 @@ tb::RunResult run_lossy(const char* user_cpu, const char* script) {
   const tb::scenario::Scenario scenario = tb::scenario::parse(text, "lost.yaml");
   tb::RunOptions options;
   options.checks = tb::ChecksMode::kReport;
-  tb::Bench bench(scenario, options, tb::make_pin_execution());
+  auto execution = tb::make_pin_execution();
+  execution->timeline().check_announcements();
+  tb::Bench bench(scenario, options, std::move(execution));
   return bench.run([](tb::Tick) { return true; });
 }
 

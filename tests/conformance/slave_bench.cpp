@@ -57,6 +57,7 @@ Bytes Prm::bytes() const {
 
 SlaveBench::SlaveBench(const dsdpv1::Config& config, Engines engines)
     : chip(segment, config, engines), requester(segment) {
+  timeline.check_announcements();
   timeline.add(chip);
   timeline.add(requester);
 }

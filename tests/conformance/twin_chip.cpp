@@ -50,11 +50,13 @@ TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines
 }
 
 void TwinChip::set(Tick at, Pin pin, Level level) {
+  announce();
   skip_.set(at, pin, level);
   if (twin_) step_.set(at, pin, level);
 }
 
 Level TwinChip::sample(Tick at) {
+  announce();
   const Level level = skip_.sample(at);
   if (twin_) EXPECT_EQ(step_.sample(at), level) << "at tick " << at;
   return level;
@@ -63,6 +65,7 @@ Level TwinChip::sample(Tick at) {
 void TwinChip::run(Tick now) { skip_.advance(now); }
 
 void TwinChip::compare(Tick at) {
+  announce();
   skip_.advance(at);
   if (!twin_) return;
   step_.advance(at);

@@ -351,6 +351,7 @@ class RandomUser : public bus::Agent {
   void wait(Tick time, Step step) {
     at_ = now_ + time;
     step_ = step;
+    announce();
   }
   void ask() {
     bench_.chip.set(now_, Pin::kRReq, 1);

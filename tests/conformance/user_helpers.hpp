@@ -90,7 +90,10 @@ class Script : public bus::Agent {
  public:
   explicit Script(SlaveBench& bench) : bench_(bench) { bench.timeline.add(*this); }
 
-  void at(Tick tick, std::function<void(Tick)> action) { actions_.push_back({tick, std::move(action)}); }
+  void at(Tick tick, std::function<void(Tick)> action) {
+    actions_.push_back({tick, std::move(action)});
+    announce();
+  }
   void set(Tick tick, Pin pin, Level level) {
     at(
         tick, [this, pin, level](Tick now) { bench_.chip.set(now, pin, level); });

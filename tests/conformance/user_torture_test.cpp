@@ -14,7 +14,10 @@ class RudeUser : public bus::Agent {
       : bench_(bench), random_(seed), resets_(resets), at_(bench.now() + 1) {
     bench.timeline.add(*this);
   }
-  void stop() { at_ = bus::kNever; }
+  void stop() {
+    at_ = bus::kNever;
+    announce();
+  }
 
   Tick next() const override { return at_; }
   void run(Tick now) override {

@@ -25,6 +25,7 @@ class HostLineTest : public testing::Test {
     monitor_.set_baud(kBaud);
     monitor_.on_telegram = [this](const bus::WireTelegram& telegram) { heard_.push_back(telegram); };
     monitor_.on_flag = [this](const bus::Flag& flag) { flags_.push_back(flag.kind); };
+    timeline_.check_announcements();
     timeline_.add(monitor_);
     timeline_.add(line_);
   }

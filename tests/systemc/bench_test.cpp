@@ -13,6 +13,7 @@
 #include "tb/user_cpu/pin_host_bus.hpp"
 #include "tb/user_cpu/programs.hpp"
 #include "tests/systemc/bench.hpp"
+#include "tests/user_cpu/chip_agent.hpp"
 
 using dsdpv1::Level;
 using dsdpv1::Pin;
@@ -46,32 +47,29 @@ class Once : public bus::Agent {
   std::function<void()> action_;
 };
 
-/// The core as an agent, its output changes recorded.
-class CoreAgent : public bus::Agent {
+/// The core, its output changes recorded.
+class RecordedCore : public ChipAgent {
  public:
-  CoreAgent() {
-    chip.watch({[](void* self, Tick at, Pin pin, Level level) {
-                  static_cast<Changes*>(self)->push_back({at, pin, level});
-                },
-                &changes},
-               dsdpv1::kOutputPins);
+  RecordedCore() {
+    chip().watch({[](void* self, Tick at, Pin pin, Level level) {
+                    static_cast<Changes*>(self)->push_back({at, pin, level});
+                  },
+                  &changes},
+                 dsdpv1::kOutputPins);
   }
-  Tick next() const override { return chip.next_event(); }
-  void run(Tick now) override { chip.advance(now); }
-
-  dsdpv1::Chip chip;
   Changes changes;
 };
 
 struct PinRun {
   bus::Timeline timeline;
-  CoreAgent core;
-  Once reset{kReset, [this] { core.chip.set(kReset, Pin::kReset, 1); }};
-  user_cpu::PinHostBus host{core.chip};
+  RecordedCore core;
+  Once reset{kReset, [this] { core.set(kReset, Pin::kReset, 1); }};
+  user_cpu::PinHostBus host{core};
   UserProgram program{options()};
   NativeCpu cpu{host, {}, program.entry()};
 
   PinRun() {
+    timeline.check_announcements();
     timeline.add(core);
     timeline.add(reset);
     timeline.add(cpu);
@@ -94,6 +92,7 @@ struct TlmRun {
   Changes changes, aborted_changes;
 
   TlmRun() {
+    timeline.check_announcements();
     for (bus::Agent* agent : std::initializer_list<bus::Agent*>{&reset, &begin, &abort, &again, &cpu})
       timeline.add(*agent);
     chip.on_pin = [this](Tick at, Pin pin, Level level) {

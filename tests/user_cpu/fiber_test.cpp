@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -84,6 +85,26 @@ TEST(Fiber, ExceptionOfTheBodyReachesTheOwner) {
   co.fiber.resume();
   EXPECT_THROW(co.fiber.resume(), std::runtime_error);
   EXPECT_TRUE(co.fiber.ended());
+}
+
+/// So it makes no system call.
+TEST(Fiber, ASwitchLeavesTheSignalMaskAlone) {
+  sigset_t mask;
+  sigemptyset(&mask);
+  sigaddset(&mask, SIGUSR1);
+  Coroutine co([&](Fiber& fiber) {
+    sigprocmask(SIG_BLOCK, &mask, nullptr);
+    fiber.suspend();
+    sigset_t inside;
+    sigprocmask(SIG_BLOCK, nullptr, &inside);
+    EXPECT_EQ(sigismember(&inside, SIGUSR1), 0);
+  });
+  co.fiber.resume();
+  sigset_t outside;
+  sigprocmask(SIG_BLOCK, nullptr, &outside);
+  EXPECT_EQ(sigismember(&outside, SIGUSR1), 1);
+  sigprocmask(SIG_UNBLOCK, &mask, nullptr);
+  co.fiber.resume();
 }
 
 TEST(Fiber, AbandonedBodyIsUnwound) {

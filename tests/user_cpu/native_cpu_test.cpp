@@ -27,6 +27,7 @@ class NativeCpu : public testing::Test {
 
   void start(user_cpu::NativeCpu::Program program, Tick at = 0) {
     cpu = std::make_unique<user_cpu::NativeCpu>(bus, timing, std::move(program), at);
+    timeline.check_announcements();
     timeline.add(*cpu);
   }
 

@@ -9,6 +9,7 @@
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/user_cpu/pin_host_bus.hpp"
 #include "tb/user_cpu/programs.hpp"
+#include "tests/user_cpu/chip_agent.hpp"
 
 namespace {
 
@@ -18,25 +19,26 @@ using testing::IsEmpty;
 using testing::Not;
 namespace command = user_cpu::command;
 
-class OnChip : public testing::TestWithParam<dsdpv1::Engine>, private bus::Agent {
+class OnChip : public testing::TestWithParam<dsdpv1::Engine> {
  protected:
   static constexpr Tick kUs = bus::kTicksPerUs;
   static constexpr Tick kReleaseReset = 10 * kUs;
 
   OnChip() : chip(config()), host(chip) {
-    chip.watch({[](void* self, Tick at, Pin, dsdpv1::Level level) {
-                  auto& test = *static_cast<OnChip*>(self);
-                  if (test.cpu) test.cpu->intr0_changed(at, level == 1);
-                },
-                this},
-               mask(Pin::kIntr0));
-    chip.on_event({[](void* self, const profibus::Event& event) {
-                     if (profibus::severity(event.reason) != profibus::Severity::kInfo) {
-                       static_cast<OnChip*>(self)->complaints.push_back(dsdpv1::describe(event));
-                     }
-                   },
-                   this});
-    timeline.add(*this);
+    chip.chip().watch({[](void* self, Tick at, Pin, dsdpv1::Level level) {
+                         auto& test = *static_cast<OnChip*>(self);
+                         if (test.cpu) test.cpu->intr0_changed(at, level == 1);
+                       },
+                       this},
+                      mask(Pin::kIntr0));
+    chip.chip().on_event({[](void* self, const profibus::Event& event) {
+                            if (profibus::severity(event.reason) != profibus::Severity::kInfo) {
+                              static_cast<OnChip*>(self)->complaints.push_back(dsdpv1::describe(event));
+                            }
+                          },
+                          this});
+    timeline.check_announcements();
+    timeline.add(chip);
   }
 
   void start() {
@@ -57,10 +59,8 @@ class OnChip : public testing::TestWithParam<dsdpv1::Engine>, private bus::Agent
     config.engine = GetParam();
     return config;
   }
-  Tick next() const override { return chip.next_event(); }
-  void run(Tick now) override { chip.advance(now); }
 
-  dsdpv1::Chip chip;
+  ChipAgent chip;
   user_cpu::PinHostBus host;
   user_cpu::CpuTiming timing;
   user_cpu::ProgramOptions options;

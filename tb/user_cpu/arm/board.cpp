@@ -84,12 +84,14 @@ void Board::look_at_mailbox(Tick now) {
 void Board::intr0_changed(Tick at, bool level) {
   intr0_edges_.push_back({at, level});
   cpu_.wake(at);
+  announce();
 }
 
 void Board::command(Tick now, const user_cpu::Command& command) {
   if (!mailbox_) return;
   mailbox_->post(command);
   look_at_mailbox(now);
+  announce();
 }
 
 user_cpu::UserCounters Board::counters() const {
