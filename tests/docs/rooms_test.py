@@ -11,14 +11,12 @@ BREACHES = [
     "// The DPRAM of the DSDPV1.",
     "int size = regs::kCfgDataSize;",
     "// Until INTR0 falls.",
-    '#include "bus/wire/uart.hpp"',
     "void set(bool R_REQ);",
     "Interrupt& interrupt_;",
     "station_.slave().mail();",
-    '#include "tb/bench/bench.hpp"',
-    '#include "tests/core/event_recorder.hpp"',
-    '#include "model/profibus/time.hpp"',
-    '#include "bus/wire/uart.hpp"',
+    "assign a = b; // B024.2",
+    '`include "dsdpv1_types.svh"',
+    "input logic csr_i,",
 ]
 
 

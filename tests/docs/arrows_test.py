@@ -1,9 +1,9 @@
-"""Breaks a small project on purpose, to see that check_rooms.py finds each kind of fault and nothing else."""
+"""Breaks a small project on purpose, to see that arrows.py finds each kind of fault and nothing else."""
 import pathlib
 import tempfile
 import unittest
 
-import check_rooms
+import arrows
 
 PAGE = """<!-- arrows -->
 | room | includes |
@@ -37,7 +37,7 @@ class Rooms(unittest.TestCase):
         path.write_text(text, encoding="utf-8")
 
     def expect(self, *faults):
-        self.assertEqual(list(check_rooms.check(self.root)), list(faults))
+        self.assertEqual(list(arrows.check(self.root)), list(faults))
 
     def test_a_right_project_has_no_fault(self):
         self.expect()

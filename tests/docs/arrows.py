@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The arrows between the rooms: what docs/architecture.md allows against what the sources include.
 
-    check_rooms.py [--root FOLDER]
+    arrows.py [--root FOLDER]
 
 A row of the page's table is a room (a folder with C or C++ files) and the rooms that it includes; `bus/*` is bus and all rooms in it. A room
 includes only rooms that stand above it, so there is no circle. One line a fault, exit 1 when there is any.
@@ -67,7 +67,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
     faults = list(check(parser.parse_args().root))
-    print("\n".join(faults) if faults else "rooms: right")
+    print("\n".join(faults) if faults else "arrows: right")
     return 1 if faults else 0
 
 
