@@ -143,23 +143,23 @@ HEAD = """| flood | for | bytes offered | of them sent on the line | memory afte
 |---|---|---|---|---|---|---|---|---|---|"""
 
 
-def floods(program, kind, ports, seconds):
-    """All ports at the same time: the rows, and what does not hold."""
+def floods(program, pairs, seconds):
+    """Each pair of kind and port, all at the same time: the rows, and what does not hold."""
     rows, wrong = {}, []
 
-    def one(port):
+    def one(kind, port):
         try:
             flood = Flood(program, port, kind, seconds)
-            rows[port] = flood.row()
+            rows[kind, port] = flood.row()
             flood.judge()
         except Exception as error:  # handed to the thread that waits
             wrong.append(str(error))
-    threads = [threading.Thread(target=one, args=(port,)) for port in ports]
+    threads = [threading.Thread(target=one, args=pair) for pair in pairs]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    return [rows[port] for port in sorted(rows)], wrong
+    return [rows[pair] for pair in sorted(rows)], wrong
 
 
 def main():
@@ -174,7 +174,7 @@ def main():
     ports = [arguments.port] if arguments.port else ["pty", "tcp"]
     table, wrong = [HEAD], []
     for kind in kinds:
-        rows, failures = floods(os.path.abspath(arguments.program), kind, ports, arguments.minutes * 60)
+        rows, failures = floods(os.path.abspath(arguments.program), [(kind, port) for port in ports], arguments.minutes * 60)
         table += rows
         wrong += failures
     table = "\n".join(table)
