@@ -7,16 +7,21 @@
 #include <typeinfo>
 
 namespace bus {
+namespace {
+
+#ifdef NDEBUG
+constexpr bool kDebugBuild = false;
+#else
+constexpr bool kDebugBuild = true;
+#endif
+
+}  // namespace
 
 Agent::~Agent() {
   if (timeline_ != nullptr) timeline_->leave(place_);
 }
 
-Timeline::Timeline() {
-#ifndef NDEBUG
-  checks_ = true;
-#endif
-}
+Timeline::Timeline() : checks_(kDebugBuild) {}
 
 Timeline::~Timeline() {
   for (const Entry& entry : agents_)

@@ -47,7 +47,7 @@ class Reason {
   friend constexpr bool operator==(Reason a, Reason b) { return a.row_ == b.row_; }
   friend constexpr bool operator!=(Reason a, Reason b) { return a.row_ != b.row_; }
   /// Some order, for containers.
-  friend bool operator<(Reason a, Reason b) { return std::less<const ReasonRow*>()(a.row_, b.row_); }
+  friend bool operator<(Reason a, Reason b) { return std::less<>()(a.row_, b.row_); }
 
  private:
   const ReasonRow* row_ = nullptr;
