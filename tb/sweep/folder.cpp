@@ -34,6 +34,9 @@ bool is_picture(const std::string& name) {
   return begins_with(name, "map") && name.size() > 4 && name.substr(name.size() - 4) == ".svg";
 }
 
+/// A file that a sweep leaves beside its points.
+bool is_result(const std::string& name) { return name == "sweep.json" || name == "results.csv" || is_picture(name); }
+
 /// A temporary name of a file that a sweep writes: left by one that was killed.
 bool is_left_over(std::string name) {
   if (begins_with(name, ".")) name.erase(0, 1);
@@ -84,18 +87,14 @@ Json identity(const Plan& plan, const Inputs& inputs, const std::string& program
 
 std::vector<fs::path> own_files(const fs::path& folder) {
   std::vector<fs::path> files;
-  const auto add = [&files](const fs::path& in, const auto& is_own) {
-    if (!fs::is_directory(in)) return;
-    for (const auto& entry : fs::directory_iterator(in))
-      if (is_own(entry.path().filename().string())) files.push_back(entry.path());
-  };
   try {
-    add(
-        folder,
-        [](const std::string& name) {
-          return name == "sweep.json" || name == "results.csv" || is_picture(name) || is_left_over(name);
-        });
-    add(folder / "points", [](const std::string& /*name*/) { return true; });
+    if (!fs::is_directory(folder)) return files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      if (is_result(name) || is_left_over(name)) files.push_back(entry.path());
+    }
+    if (!fs::is_directory(folder / "points")) return files;
+    for (const auto& entry : fs::directory_iterator(folder / "points")) files.push_back(entry.path());
   } catch (const fs::filesystem_error& error) {
     throw InputError(folder.string(), 0, "cannot be used for a sweep: " + error.code().message());
   }
@@ -135,7 +134,7 @@ bool Folder::holds_something_else(bool swept) const {
   const auto is_else = [swept](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename().string();
     if (name == Lock::kName || is_left_over(name)) return false;
-    return !swept || !(name == "sweep.json" || name == "points" || name == "results.csv" || is_picture(name));
+    return !swept || !(name == "points" || is_result(name));
   };
   return std::any_of(fs::directory_iterator(path_), fs::directory_iterator(), is_else);
 }

@@ -44,7 +44,7 @@ FAULTS = [
     ("SIGINT while running", signals.interrupted, RUNNING),
     ("SIGTERM while running", signals.terminated, RUNNING),
     ("SIGHUP while running", signals.hung_up, RUNNING),
-    ("SIGKILL while running", signals.killed, RUNNING),
+    ("SIGKILL while running", signals.kill, RUNNING),
     ("... and then `recover FILE.PID.part`", signals.killed_and_recovered, of_kinds(SIMULATING, "wave .fst", "wave .vcd")),
     ("SIGINT during start-up", signals.interrupted_at_start, SIMULATING),
     ("SIGTERM during start-up", signals.terminated_at_start, SIMULATING),

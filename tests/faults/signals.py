@@ -32,10 +32,6 @@ def kill(place):
     return place.end(process, said=False)
 
 
-def killed(place):
-    return kill(place)
-
-
 def killed_and_recovered(place):
     kill(place)
     part = place.part()
