@@ -290,8 +290,7 @@ void Msac2::free(Cycle now, int number) {
   end_turn(now, number);
 }
 
-// --- the user's attention, which both channels share (V4)
-// -------------------------------------------------------------
+// --- the user's attention, which both channels share (V4) ------------------------------------------------------------
 
 void Msac2::begin_turn(Cycle now, int number) {
   Channel& channel = channel_at(number);
