@@ -50,7 +50,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   options.trace = arguments.trace;
   if (arguments.gdb) {
     const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
-    options.gdb = tb::GdbWish{*arguments.gdb, say, interrupted};
+    options.gdb = tb::GdbRequest{*arguments.gdb, say, interrupted};
   }
   if (!arguments.quiet) {
     options.on_text = [](const std::string& station, const std::string& line) {

@@ -73,7 +73,7 @@ void Bench::add_slave(const scenario::Slave& slave) {
   connect(*slaves_.back(), slaves_.size() - 1);
 }
 
-const GdbWish* Bench::gdb_of(const scenario::Slave& slave) const {
+const GdbRequest* Bench::gdb_of(const scenario::Slave& slave) const {
   const auto& slaves = scenario_.slaves;
   const auto first = std::find_if(slaves.begin(), slaves.end(), [](const scenario::Slave& each) {
     return each.user_cpu.kind == scenario::CpuKind::kArm;
@@ -95,13 +95,13 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
     log(at, station.name(), "text", line);
     if (options_.on_text) options_.on_text(station.name(), line);
   };
-  station.on_killed = [this] { pulse_.stop(); };
+  station.on_killed = [this] { periodic_poll_.stop(); };
   station.on_failure = [this, &station](Tick at, const std::string& why, const std::string& registers) {
     user_failed(station, at, why, registers);
   };
   station.on_outputs = [this, &station](Tick at, bool changed) {
     if (changed) log({at, station.name(), "user", "outputs", {}, station.outputs()});
-    touch();
+    conditions_changed();
   };
 }
 
@@ -162,11 +162,11 @@ void Bench::connect(Master& entry) {
         fmt::format("{} (address {}): {} to {}{}", slaves.at(address), address, bus::name(from), bus::name(to),
                     reason.empty() ? "" : ", " + reason));
     if (waves_) waves_->master_state(name, slaves.at(address), now(), bus::name(to));
-    touch();
+    conditions_changed();
   };
   master.on_inputs = [this, &master, &name, slaves = entry.slaves](Tick at, std::uint8_t address) {
     log({at, name, "inputs", slaves.at(address), {}, master.slave(address).inputs});
-    touch();
+    conditions_changed();
   };
 }
 
@@ -178,7 +178,7 @@ void Bench::add_agents() {
   for (const auto& each : masters2_) timeline.add(each->master());
   for (const auto& slave : slaves_) timeline.add(*slave);
   timeline.add(*script_);
-  timeline.add(pulse_);
+  timeline.add(periodic_poll_);
 }
 
 // --- what happens ----------------------------------------------------------------------------------------------------
@@ -195,10 +195,10 @@ void Bench::log(LogEntry entry) {
 
 std::string Bench::in_log(const bus::Bytes& bytes) const { return bytes_text(bytes, log_form_.most_bytes()); }
 
-void Bench::touch() { touch(now()); }
+void Bench::conditions_changed() { conditions_changed(now()); }
 
 /// In the TLM view chips act before the timeline has come to their tick.
-void Bench::touch(Tick at) { script_->touch(std::max(at, now())); }
+void Bench::conditions_changed(Tick at) { script_->conditions_changed(std::max(at, now())); }
 
 void Bench::pin_changed(std::size_t index, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
   if (pin == dsdpv1::Pin::kIntr0) slaves_[index]->intr0_changed(at, level != 0);
@@ -214,7 +214,7 @@ void Bench::chip_event(std::size_t index, const profibus::Event& event) {
     waves_->rm_entry(index, event.at, profibus::kC2FirstSap - event.a, dsdpv1::describe(event));
   happened({event.at, slaves_[index]->name(), profibus::code(event.reason), profibus::severity(event.reason),
             dsdpv1::describe(event)});
-  touch(event.at);
+  conditions_changed(event.at);
 }
 
 void Bench::check_violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
@@ -225,13 +225,13 @@ void Bench::check_violated(const std::string& slave, const checks::Violation& vi
         {std::max(violation.found, now()), slave, kind,
          fmt::format("at {} ns: {}  [{}]", nanoseconds(violation.at), violation.text, checks::history_text(violation)),
          id});
-  touch(violation.found);
+  conditions_changed(violation.found);
 }
 
 void Bench::driver_error(const SlaveStation& station, const user_cpu::DriverError& error) {
   const std::string text = fmt::format("the driver's {} failed: {}", error.during, dsdpv1_error_text(error.error));
   happened({error.at, station.name(), scenario::driver_error_code(error.error), profibus::Severity::kRefusal, text});
-  touch();
+  conditions_changed();
 }
 
 void Bench::user_failed(const SlaveStation& station, Tick at, const std::string& why, const std::string& registers) {
@@ -239,7 +239,7 @@ void Bench::user_failed(const SlaveStation& station, Tick at, const std::string&
   registers_ = registers;
 }
 
-bool Bench::stopped() const { return pulse_.stopped() || !registers_.empty(); }
+bool Bench::stopped() const { return periodic_poll_.stopped() || !registers_.empty(); }
 
 void Bench::telegram(const bus::WireTelegram& telegram) {
   const std::string words = telegram.decoded.readable ? bus::explain_line(telegram.decoded.telegram) : "not readable";
@@ -250,7 +250,7 @@ void Bench::telegram(const bus::WireTelegram& telegram) {
     for (const auto& slave : slaves_)
       if (slave->chip().chip().status().address == telegram.station) slave->tsdr().add(telegram.tsdr_bits());
   }
-  touch();
+  conditions_changed();
 }
 
 void Bench::flagged(const bus::Flag& flag) {
@@ -258,21 +258,21 @@ void Bench::flagged(const bus::Flag& flag) {
   const bool wrong = flag.kind != bus::FlagKind::kUnanswered;
   happened({flag.at, "bus", scenario::flag_code(flag.kind),
             wrong ? profibus::Severity::kViolation : profibus::Severity::kInfo, flag.text});
-  touch();
+  conditions_changed();
 }
 
-void Bench::happened(Happening happening) {
-  ++counts_[happening.station][happening.code];
-  happening.allowed =
-      happening.severity == profibus::Severity::kViolation && allows(scenario_, happening.code, happening.station);
-  if (happening.severity == profibus::Severity::kViolation && !happening.allowed) ++violations_;
-  if (happening.severity == profibus::Severity::kRefusal) refusals_.count(happening);
-  log({happening.at, happening.station, happening.allowed ? "allowed" : name(happening.severity), happening.text,
-       happening.code});
-  if (happenings_.size() < RunResult::kKept)
-    happenings_.push_back(std::move(happening));
+void Bench::happened(Occurrence occurrence) {
+  ++counts_[occurrence.station][occurrence.code];
+  occurrence.allowed =
+      occurrence.severity == profibus::Severity::kViolation && allows(scenario_, occurrence.code, occurrence.station);
+  if (occurrence.severity == profibus::Severity::kViolation && !occurrence.allowed) ++violations_;
+  if (occurrence.severity == profibus::Severity::kRefusal) refusals_.count(occurrence);
+  log({occurrence.at, occurrence.station, occurrence.allowed ? "allowed" : name(occurrence.severity), occurrence.text,
+       occurrence.code});
+  if (occurrences_.size() < RunResult::kKept)
+    occurrences_.push_back(std::move(occurrence));
   else
-    ++happenings_dropped_;
+    ++occurrences_dropped_;
 }
 
 // --- for the script --------------------------------------------------------------------------------------------------
@@ -331,16 +331,16 @@ std::uint64_t Bench::count(const std::string& slave, const std::string& code) co
   return entry == station->second.end() ? 0 : entry->second;
 }
 
-const Reply* Bench::last_reply(const std::string& asker, scenario::Do service) const {
+const Reply* Bench::last_reply(const std::string& asker, scenario::ActionKind service) const {
   const auto replies = replies_.find(asker);
   if (replies == replies_.end()) return nullptr;
   const auto reply = replies->second.find(service);
   return reply == replies->second.end() ? nullptr : &reply->second;
 }
 
-void Bench::keep_reply(const std::string& asker, scenario::Do service, Reply reply) {
+void Bench::keep_reply(const std::string& asker, scenario::ActionKind service, Reply reply) {
   replies_[asker][service] = std::move(reply);
-  touch();
+  conditions_changed();
 }
 
 void Bench::change_baud(int index) {
@@ -352,7 +352,7 @@ void Bench::change_baud(int index) {
 
 RunResult Bench::run(const std::function<bool(Tick)>& poll) {
   const auto begin = std::chrono::steady_clock::now();
-  pulse_.poll = [&](Tick at) {
+  periodic_poll_.poll = [&](Tick at) {
     if (log_) log_->flush(at - 1);
     return keep_outputs(at) && poll(at);
   };
@@ -369,7 +369,7 @@ RunResult Bench::collect() {
   result.file = scenario_.file;
   result.engine = options_.engine_name;
   result.view = options_.view_name;
-  result.interrupted = pulse_.stopped() && !options_.open_ended;
+  result.interrupted = periodic_poll_.stopped() && !options_.open_ended;
   result.simulated = stopped() ? now() : scenario_.end;
   result.fault_registers = registers_;
   result.telegrams = monitor_->statistics().telegrams;
@@ -392,11 +392,11 @@ RunResult Bench::collect() {
   result.checks = checks_.results();
   result.violations = violations_ + checks_.failures();
   result.expectations = script_->finish(result.simulated, result.interrupted);
-  result.happenings = happenings_;
-  std::stable_sort(result.happenings.begin(), result.happenings.end(), [](const Happening& a, const Happening& b) {
+  result.occurrences = occurrences_;
+  std::stable_sort(result.occurrences.begin(), result.occurrences.end(), [](const Occurrence& a, const Occurrence& b) {
     return std::tie(a.at, a.station) < std::tie(b.at, b.station);
   });
-  result.happenings_dropped = happenings_dropped_;
+  result.occurrences_dropped = occurrences_dropped_;
   result.refused = refusals_.list();
   const bool met = std::all_of(result.expectations.begin(), result.expectations.end(),
                                [](const ExpectationResult& each) { return each.passed || each.left_out; });

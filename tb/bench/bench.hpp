@@ -16,7 +16,7 @@
 #include "tb/bench/class2_station.hpp"
 #include "tb/bench/execution.hpp"
 #include "tb/bench/pin_trace.hpp"
-#include "tb/bench/pulse.hpp"
+#include "tb/bench/periodic_poll.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/bench/reply.hpp"
 #include "tb/bench/run_log.hpp"
@@ -35,7 +35,7 @@ struct RunOptions {
   std::string engine_name = "skip", view_name = "pins";
   std::string wave, log, trace;  ///< paths, empty: not wanted
   bool log_whole = false;        ///< no bytes are left out in the log
-  std::optional<GdbWish> gdb;    ///< debugger of the first ARM board
+  std::optional<GdbRequest> gdb;    ///< debugger of the first ARM board
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
   ChecksMode checks = ChecksMode::kOff;
   bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
@@ -75,8 +75,8 @@ class Bench {
   bool leaves_out(const void* what) const { return left_out_.count(what) != 0; }
   std::uint64_t count(const std::string& slave, const std::string& code) const;
   /// `asker`: the master's name as the script gives it, or a connection's.
-  const Reply* last_reply(const std::string& asker, scenario::Do service) const;
-  void keep_reply(const std::string& asker, scenario::Do service, Reply reply);
+  const Reply* last_reply(const std::string& asker, scenario::ActionKind service) const;
+  void keep_reply(const std::string& asker, scenario::ActionKind service, Reply reply);
   void connection_changed(const std::string& master, const std::string& connection, const std::string& state);
   void change_baud(int index);
   void log(Tick at, const std::string& station, const std::string& kind, const std::string& text);
@@ -84,8 +84,8 @@ class Bench {
   /// Bytes as the log shows them inside of a text.
   std::string in_log(const bus::Bytes& bytes) const;
   /// Something has changed: conditions are looked at again in this tick.
-  void touch();
-  void touch(Tick at);
+  void conditions_changed();
+  void conditions_changed(Tick at);
 
  private:
   struct Master {
@@ -107,14 +107,14 @@ class Bench {
   void begin_waves();
   void pin_changed(std::size_t index, Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void chip_event(std::size_t index, const profibus::Event& event);
-  const GdbWish* gdb_of(const scenario::Slave& slave) const;
+  const GdbRequest* gdb_of(const scenario::Slave& slave) const;
   void user_failed(const SlaveStation& station, Tick at, const std::string& why, const std::string& registers);
   bool stopped() const;
   void check_violated(const std::string& slave, const checks::Violation& violation, const char* kind);
   void driver_error(const SlaveStation& station, const user_cpu::DriverError& error);
   void telegram(const bus::WireTelegram& telegram);
   void flagged(const bus::Flag& flag);
-  void happened(Happening happening);
+  void happened(Occurrence occurrence);
   RunResult collect();
   bool keep_outputs(Tick at);
   void finish_outputs();
@@ -131,19 +131,19 @@ class Bench {
   std::unique_ptr<BaudFollower> baud_follower_;
   std::unique_ptr<bus::Monitor> monitor_;
   std::unique_ptr<Script> script_;
-  Pulse pulse_;
+  PeriodicPoll periodic_poll_;
   LogForm log_form_;
   std::optional<RunLog> log_;
   std::optional<PinTrace> trace_;
   std::optional<WaveRecorder> waves_;
   std::chrono::steady_clock::time_point next_save_ = {};
 
-  std::vector<Happening> happenings_;
-  std::uint64_t happenings_dropped_ = 0, violations_ = 0;
+  std::vector<Occurrence> occurrences_;
+  std::uint64_t occurrences_dropped_ = 0, violations_ = 0;
   Refusals refusals_;
   std::string registers_;  ///< of the processor that cannot go on; the run ends with it
   std::map<std::string, std::map<std::string, std::uint64_t>> counts_;  ///< by station and code
-  std::map<std::string, std::map<scenario::Do, Reply>> replies_;        ///< by master and service
+  std::map<std::string, std::map<scenario::ActionKind, Reply>> replies_;        ///< by master and service
 };
 
 }  // namespace tb

@@ -10,7 +10,7 @@
 
 namespace tb {
 
-using scenario::Do;
+using scenario::ActionKind;
 
 namespace {
 
@@ -75,7 +75,7 @@ void Class2Station::listen() {
                                         bus::ConnectionState to) {
     bench_.log(at, name(), "state", fmt::format("{}: {} to {}", connection(id), bus::name(from), bus::name(to)));
     bench_.connection_changed(name(), connection(id), bus::name(to));
-    bench_.touch();
+    bench_.conditions_changed();
   };
   master_.on_end = [this, connection](Tick at, bus::ConnectionId id, const bus::ConnectionEnd& end) {
     bench_.log(at, name(), "state", fmt::format("{} {}", connection(id), end.words));
@@ -91,10 +91,10 @@ void Class2Station::act(const scenario::Action& action) {
     bench_.log(bench_.now(), name(), "script", fmt::format("{}: {}", action.connection.text, text));
   };
   switch (action.what) {
-    case Do::kC2Connect: say("connects"); return master_.connect(id);
-    case Do::kC2Abort: say("aborts"); return master_.abort(id);
-    case Do::kC2Behaviour: say("behaves otherwise"); return master_.set_behaviour(id, action.behaviour);
-    case Do::kC2Raw: {
+    case ActionKind::kC2Connect: say("connects"); return master_.connect(id);
+    case ActionKind::kC2Abort: say("aborts"); return master_.abort(id);
+    case ActionKind::kC2Behaviour: say("behaves otherwise"); return master_.set_behaviour(id, action.behaviour);
+    case ActionKind::kC2Raw: {
       say("sends " + bench_.in_log(action.bytes));
       bus::RawAcyclic raw;
       raw.pdu = action.bytes;
@@ -113,8 +113,8 @@ void Class2Station::ask(const scenario::Action& action, bus::ConnectionId id) {
     return bench_.keep_reply(action.connection.text, action.what, Reply{});
   const auto slot = static_cast<std::uint8_t>(action.slot), index = static_cast<std::uint8_t>(action.index);
   switch (action.what) {
-    case Do::kC2Read: return master_.read(id, slot, index, static_cast<std::uint8_t>(action.length), keep);
-    case Do::kC2Write: return master_.write(id, slot, index, action.bytes, keep);
+    case ActionKind::kC2Read: return master_.read(id, slot, index, static_cast<std::uint8_t>(action.length), keep);
+    case ActionKind::kC2Write: return master_.write(id, slot, index, action.bytes, keep);
     default: return master_.transport(id, slot, index, action.bytes, keep);
   }
 }

@@ -33,17 +33,17 @@ class Parts {
 
 std::string shown(const bus::Bytes& bytes) { return bytes.empty() ? "none" : bytes_text(bytes, kShownBytes); }
 
-const char* service_word(scenario::Do service) {
+const char* service_word(scenario::ActionKind service) {
   switch (service) {
-    case scenario::Do::kReadInputs: return "read_inputs";
-    case scenario::Do::kReadOutputs: return "read_outputs";
-    case scenario::Do::kGetCfg: return "get_cfg";
-    case scenario::Do::kSlaveDiag: return "slave_diag";
-    case scenario::Do::kC1Read: return "c1_read";
-    case scenario::Do::kC1Write: return "c1_write";
-    case scenario::Do::kC2Read: return "c2_read";
-    case scenario::Do::kC2Write: return "c2_write";
-    case scenario::Do::kC2Transport: return "c2_transport";
+    case scenario::ActionKind::kReadInputs: return "read_inputs";
+    case scenario::ActionKind::kReadOutputs: return "read_outputs";
+    case scenario::ActionKind::kGetCfg: return "get_cfg";
+    case scenario::ActionKind::kSlaveDiag: return "slave_diag";
+    case scenario::ActionKind::kC1Read: return "c1_read";
+    case scenario::ActionKind::kC1Write: return "c1_write";
+    case scenario::ActionKind::kC2Read: return "c2_read";
+    case scenario::ActionKind::kC2Write: return "c2_write";
+    case scenario::ActionKind::kC2Transport: return "c2_transport";
     default: return "set_slave_address";
   }
 }

@@ -25,10 +25,10 @@ const char* name(dsdpv1::DpState state) {
   return "";
 }
 
-void Refusals::count(const Happening& happening) {
-  Refused& entry = entries_[{happening.station, happening.code}];
-  if (entry.count++ == 0) entry = {happening.station, happening.code, happening.text, happening.at, happening.at, 1};
-  entry.last = std::max(entry.last, happening.at);
+void Refusals::count(const Occurrence& occurrence) {
+  Refused& entry = entries_[{occurrence.station, occurrence.code}];
+  if (entry.count++ == 0) entry = {occurrence.station, occurrence.code, occurrence.text, occurrence.at, occurrence.at, 1};
+  entry.last = std::max(entry.last, occurrence.at);
 }
 
 std::vector<Refused> Refusals::list() const {

@@ -11,14 +11,14 @@
 #include "bus/time.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/checks/recorder.hpp"
-#include "tb/user_cpu/user_side.hpp"
+#include "tb/user_cpu/station_cpu.hpp"
 
 namespace tb {
 
 using bus::Tick;
 
 /// Something that happened: an event of a chip, an error of a driver, a flag of the bus monitor.
-struct Happening {
+struct Occurrence {
   Tick at = 0;
   std::string station;  ///< name of the slave, "bus" for the monitor
   std::string code;     ///< stable: "PRM_IDENT", "DSDPV1_ERR_INIT_CRC", "BUS_COLLISION"
@@ -40,7 +40,7 @@ struct Refused {
 
 class Refusals {
  public:
-  void count(const Happening& happening);
+  void count(const Occurrence& occurrence);
   /// By the first time.
   std::vector<Refused> list() const;
 
@@ -122,8 +122,8 @@ struct RunResult {
   std::uint64_t violations = 0;       ///< those that are not allowed, and with ChecksMode::kFail those of checks
   std::vector<MasterResult> masters;  ///< of class 1
   std::vector<SlaveResult> slaves;
-  std::vector<Happening> happenings;
-  std::uint64_t happenings_dropped = 0;  ///< beyond the first kKept
+  std::vector<Occurrence> occurrences;
+  std::uint64_t occurrences_dropped = 0;  ///< beyond the first kKept
   std::vector<Refused> refused;          ///< by the first time
   std::vector<ExpectationResult> expectations;
   std::vector<CheckResult> checks;  ///< by slave, then in the order of checks::Check

@@ -12,7 +12,7 @@
 namespace tb {
 
 using scenario::Action;
-using scenario::Do;
+using scenario::ActionKind;
 
 Script::Script(Bench& bench) : bench_(bench) {
   const scenario::Scenario& scenario = bench.scenario();
@@ -43,10 +43,10 @@ void Script::plan(Tick at, Kind kind, std::size_t index) {
   agenda_.insert(std::find_if_not(agenda_.begin(), agenda_.end(), later), {at, kind, index});
 }
 
-Tick Script::next() const { return std::min(touched_at_, agenda_.empty() ? bus::kNever : agenda_.back().at); }
+Tick Script::next() const { return std::min(changed_at_, agenda_.empty() ? bus::kNever : agenda_.back().at); }
 
 void Script::run(Tick now) {
-  touched_at_ = bus::kNever;
+  changed_at_ = bus::kNever;
   look(now);
   while (!agenda_.empty() && agenda_.back().at <= now) {
     const Due due = agenda_.back();
@@ -133,8 +133,8 @@ std::vector<ExpectationResult> Script::finish(Tick now, bool interrupted) {
 void Script::act(const Action& action, Tick now) {
   if (!action.connection.empty()) return bench_.owner_of(action.connection.text).act(action);
   if (Class2Station* station = bench_.class2(action.master.text)) return act_on_class2(action, *station, now);
-  if (action.what >= Do::kSetOutputs && action.what <= Do::kTelegram) return act_on_master(action, now);
-  if (action.what == Do::kGlitch || action.what == Do::kPlug || action.what == Do::kUnplug)
+  if (action.what >= ActionKind::kSetOutputs && action.what <= ActionKind::kTelegram) return act_on_master(action, now);
+  if (action.what == ActionKind::kGlitch || action.what == ActionKind::kPlug || action.what == ActionKind::kUnplug)
     return act_on_bus(action, now);
   act_on_user(action, now);
 }
@@ -154,26 +154,26 @@ void Script::act_on_user(const Action& action, Tick now) {
     slave.command(now, what);
   };
   switch (action.what) {
-    case Do::kSetInputs: return order("inputs " + bench_.in_log(action.bytes), command::SetInputs{action.bytes});
-    case Do::kSetDiagnosis:
+    case ActionKind::kSetInputs: return order("inputs " + bench_.in_log(action.bytes), command::SetInputs{action.bytes});
+    case ActionKind::kSetDiagnosis:
       return order(fmt::format("diagnosis {:02X}: {}", static_cast<int>(action.diagnosis), bench_.in_log(action.bytes)),
                    command::SetDiagnosis{action.diagnosis, action.bytes});
-    case Do::kHoldDpram:
+    case ActionKind::kHoldDpram:
       return order("holds the DPRAM for " + time_text(*action.duration), command::Hold{*action.duration});
-    case Do::kWrongCrc: return order("wrong CRC", command::WrongCrc{action.area, action.times});
-    case Do::kEarlyRSta:
+    case ActionKind::kWrongCrc: return order("wrong CRC", command::WrongCrc{action.area, action.times});
+    case ActionKind::kEarlyRSta:
       for (int i = 0; i < action.times; ++i) order("R_STA without a look at L_REQ and L_STA", command::EarlyRSta{});
       return;
-    case Do::kWrongLength: return order("inputs of a wrong length", command::WrongLength{});
-    case Do::kAnswerAcyclic:
+    case ActionKind::kWrongLength: return order("inputs of a wrong length", command::WrongLength{});
+    case ActionKind::kAnswerAcyclic:
       return order("answers acyclic requests otherwise", command::SetAnswering{action.answering});
-    case Do::kVerdict:
+    case ActionKind::kVerdict:
       return order(action.refuse ? "verdict: wrong" : "verdict: right",
                    command::SendVerdict{action.of == scenario::Verdict::kCfg, action.refuse});
-    case Do::kPauseUser:
+    case ActionKind::kPauseUser:
       order("pauses for " + time_text(*action.duration), command::Stop{});
       return plan(now + *action.duration, Kind::kResumeUser, slave_index(slave.name()));
-    case Do::kReinitialise:
+    case ActionKind::kReinitialise:
       bench_.log(now, slave.name(), "script", "initialises the chip again");
       return slave.reinitialise(now, action.new_address, action.cfg);
     default: return reset_chip(action, now);
@@ -188,13 +188,13 @@ void Script::reset_chip(const Action& action, Tick now) {
 }
 
 void Script::act_on_bus(const Action& action, Tick now) {
-  if (action.what == Do::kGlitch) {
+  if (action.what == ActionKind::kGlitch) {
     bench_.log(now, "bus", "script",
                fmt::format("line forced {} for {}", action.level ? "high" : "low", time_text(*action.duration)));
     bench_.segment().force(now, action.level);
     return plan(now + *action.duration, Kind::kEndGlitch, 0);
   }
-  const bool plugged = action.what == Do::kPlug;
+  const bool plugged = action.what == ActionKind::kPlug;
   SlaveStation& slave = bench_.slave(action.slave.text);
   bench_.log(now, slave.name(), "script", plugged ? "plugged in" : "unplugged");
   bench_.segment().plug(slave.chip().station(), now, plugged);
@@ -207,28 +207,28 @@ void Script::act_on_master(const Action& action, Tick now) {
                text);
   };
   switch (action.what) {
-    case Do::kSetOutputs: {
+    case ActionKind::kSetOutputs: {
       const std::uint8_t address = target(action);
       bus::Bytes outputs = action.bytes;
       outputs.resize(static_cast<std::size_t>(master.parameters(address).output_length));
       say(fmt::format("outputs of {}: {}", action.slave.text, bench_.in_log(outputs)));
       return master.set_outputs(address, outputs);
     }
-    case Do::kGlobalControl: return global_control(action);
-    case Do::kOperate: say("Operate"); return master.operate();
-    case Do::kClear: say("Clear"); return master.clear();
-    case Do::kStopMaster: say("stops"); return master.stop();
-    case Do::kStartMaster: say("starts"); return master.start();
-    case Do::kChangeBaud: say("baud rate " + baud_text(action.baud)); return bench_.change_baud(action.baud);
-    case Do::kTelegram: say("telegram " + bench_.in_log(action.bytes)); return send_telegram(action);
-    case Do::kC1Read:
-    case Do::kC1Write: return ask_acyclic(action);
+    case ActionKind::kGlobalControl: return global_control(action);
+    case ActionKind::kOperate: say("Operate"); return master.operate();
+    case ActionKind::kClear: say("Clear"); return master.clear();
+    case ActionKind::kStopMaster: say("stops"); return master.stop();
+    case ActionKind::kStartMaster: say("starts"); return master.start();
+    case ActionKind::kChangeBaud: say("baud rate " + baud_text(action.baud)); return bench_.change_baud(action.baud);
+    case ActionKind::kTelegram: say("telegram " + bench_.in_log(action.bytes)); return send_telegram(action);
+    case ActionKind::kC1Read:
+    case ActionKind::kC1Write: return ask_acyclic(action);
     default: return ask(action);
   }
 }
 
 void Script::act_on_class2(const Action& action, Class2Station& station, Tick now) {
-  const bool start = action.what == Do::kStartMaster;
+  const bool start = action.what == ActionKind::kStartMaster;
   bench_.log(now, station.name(), "script", start ? "starts" : "stops");
   start ? station.master().start() : station.master().stop();
 }
@@ -245,14 +245,14 @@ void Script::ask(const Action& action) {
   const auto keep = [this, name = action.master.text, what = action.what](const bus::FdlResult& result) {
     bench_.keep_reply(name, what, {result.answered() && !result.short_acknowledge(), result.answer.data, {}});
   };
-  const std::uint8_t address = action.what == Do::kSetSlaveAddress && !action.address
+  const std::uint8_t address = action.what == ActionKind::kSetSlaveAddress && !action.address
                                    ? bench_.slave(action.slave.text).chip().chip().status().address
                                    : target(action);
   switch (action.what) {
-    case Do::kReadInputs: return master.read_inputs(address, keep);
-    case Do::kReadOutputs: return master.read_outputs(address, keep);
-    case Do::kGetCfg: return master.get_cfg(address, keep);
-    case Do::kSlaveDiag: return master.slave_diag(address, keep);
+    case ActionKind::kReadInputs: return master.read_inputs(address, keep);
+    case ActionKind::kReadOutputs: return master.read_outputs(address, keep);
+    case ActionKind::kGetCfg: return master.get_cfg(address, keep);
+    case ActionKind::kSlaveDiag: return master.slave_diag(address, keep);
     default: break;
   }
   const int ident = action.ident.value_or(action.slave.empty() ? 0 : bench_.slave(action.slave.text).station().ident);
@@ -267,7 +267,7 @@ void Script::ask_acyclic(const Action& action) {
     bench_.keep_reply(name, what, reply_of(result));
   };
   const std::uint8_t address = target(action);
-  if (action.what == Do::kC1Read)
+  if (action.what == ActionKind::kC1Read)
     return master.c1_read(address, slot, index, static_cast<std::uint8_t>(action.length), keep);
   master.c1_write(address, slot, index, action.bytes, keep);
 }

@@ -18,8 +18,8 @@ class Script : public bus::Agent {
   explicit Script(Bench& bench);
 
   /// Conditions are looked at again at `at`.
-  void touch(Tick at) {
-    touched_at_ = at;
+  void conditions_changed(Tick at) {
+    changed_at_ = at;
     announce();
   }
   Tick next() const override;
@@ -68,7 +68,7 @@ class Script : public bus::Agent {
   std::vector<std::size_t> waiting_;  ///< actions whose condition has not come true
   std::vector<ExpectationResult> expectations_;
   std::vector<bool> judged_;
-  Tick touched_at_ = bus::kNever;
+  Tick changed_at_ = bus::kNever;
 };
 
 }  // namespace tb

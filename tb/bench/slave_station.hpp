@@ -9,12 +9,12 @@
 #include "tb/bench/chip_view.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/scenario/scenario.hpp"
-#include "tb/user_cpu/user_side.hpp"
+#include "tb/user_cpu/station_cpu.hpp"
 
 namespace tb {
 
 /// Makes the user CPU that starts at `start` with these initialisation data.
-using MakeUser = std::function<std::unique_ptr<user_cpu::UserSide>(const user_cpu::StationConfig& station, Tick start)>;
+using MakeUser = std::function<std::unique_ptr<user_cpu::StationCpu>(const user_cpu::StationConfig& station, Tick start)>;
 
 /// The agent is the user CPU; the chip is the execution's business.
 class SlaveStation : public bus::Agent {
@@ -48,7 +48,7 @@ class SlaveStation : public bus::Agent {
   /// Everything but the master's side.
   SlaveResult result() const;
 
-  /// As user_cpu::UserSide has them.
+  /// As user_cpu::StationCpu has them.
   std::function<Tick()> quiet_until;
   std::function<void(const user_cpu::DriverError&)> on_driver_error;
   std::function<void(Tick at, const std::string& line)> on_text;
@@ -62,7 +62,7 @@ class SlaveStation : public bus::Agent {
   user_cpu::StationConfig station_;
   std::unique_ptr<ChipView> chip_;
   MakeUser make_user_;
-  std::unique_ptr<user_cpu::UserSide> user_;
+  std::unique_ptr<user_cpu::StationCpu> user_;
   user_cpu::UserCounters before_reset_;  ///< of user CPUs that a reset has ended
   std::optional<user_cpu::BoardReport> board_before_reset_;
   bool tells_ = true;  ///< the user CPU: what its program does

@@ -89,7 +89,7 @@ void check_objects(const scenario::Scenario& scenario, const scenario::Slave& sl
                      fmt::format("dpv1 has {} objects, allowed on an ARM board are {}", count, DSDPV1_MAILBOX_OBJECTS));
 }
 
-MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip, const GdbWish* gdb,
+MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip, const GdbRequest* gdb,
                   std::set<const void*>& left_out) {
   const scenario::UserCpu& user = slave.user_cpu;
   arm::BoardOptions options;
@@ -124,12 +124,12 @@ MakeUser arm_user(const scenario::Scenario& scenario, const scenario::Slave& sla
 
 #ifdef DSDPV1_HAS_ARM_BOARD
 MakeUser user_maker(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip,
-                    const GdbWish* gdb, std::set<const void*>& left_out) {
+                    const GdbRequest* gdb, std::set<const void*>& left_out) {
   return slave.user_cpu.kind == scenario::CpuKind::kArm ? arm_user(scenario, slave, chip, gdb, left_out)
                                                         : native_user(slave.user_cpu, chip);
 }
 #else
-MakeUser user_maker(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip, const GdbWish*,
+MakeUser user_maker(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip, const GdbRequest*,
                     std::set<const void*>&) {
   if (slave.user_cpu.kind == scenario::CpuKind::kArm)
     throw InputError(scenario.file, slave.user_cpu.line,

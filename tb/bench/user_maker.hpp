@@ -7,7 +7,7 @@
 namespace tb {
 
 /// `--gdb`: the debugger of an ARM board.
-struct GdbWish {
+struct GdbRequest {
   int port = 0;
   std::function<void(const std::string&)> say;  ///< a line for the user
   std::function<bool()> stopped;                ///< whether the run is to end
@@ -17,6 +17,6 @@ struct GdbWish {
 /// them must outlive the result; `gdb` is null without a debugger. What firmware without a mailbox cannot do of the
 /// scenario is added to `left_out`, see untold.hpp.
 MakeUser user_maker(const scenario::Scenario& scenario, const scenario::Slave& slave, ChipView& chip,
-                    const GdbWish* gdb, std::set<const void*>& left_out);
+                    const GdbRequest* gdb, std::set<const void*>& left_out);
 
 }  // namespace tb

@@ -143,9 +143,9 @@ Json check_of(const CheckResult& result) {
   return json;
 }
 
-Json event_of(const Happening& happening) {
-  return {{"at_ns", nanoseconds_of(happening.at)}, {"slave", happening.station},   {"code", happening.code},
-          {"severity", name(happening.severity)},  {"allowed", happening.allowed}, {"text", happening.text}};
+Json event_of(const Occurrence& occurrence) {
+  return {{"at_ns", nanoseconds_of(occurrence.at)}, {"slave", occurrence.station},   {"code", occurrence.code},
+          {"severity", name(occurrence.severity)},  {"allowed", occurrence.allowed}, {"text", occurrence.text}};
 }
 
 Json master_of(const MasterResult& master) {
@@ -200,8 +200,8 @@ std::string result_json(const RunResult& result) {
   json["refused"] = Json::array();
   for (const Refused& each : result.refused) json["refused"].push_back(refused_of(each));
   json["events"] = Json::array();
-  for (const Happening& each : result.happenings) json["events"].push_back(event_of(each));
-  json["events_dropped"] = result.happenings_dropped;
+  for (const Occurrence& each : result.occurrences) json["events"].push_back(event_of(each));
+  json["events_dropped"] = result.occurrences_dropped;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

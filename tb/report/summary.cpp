@@ -18,7 +18,7 @@ std::string microseconds(Tick tick) {
 }
 
 /// The steps from power-on to data exchange, and whatever went wrong.
-bool is_step(const Happening& each) {
+bool is_step(const Occurrence& each) {
   static constexpr std::array<const char*, 9> kSteps = {"READY_FLAG", "INITIALISED", "BAUD_SEARCH",
                                                         "BAUD_FOUND", "BAUD_LOST",   "DP_STATE",
                                                         "WD_ON",      "WD_EXPIRED",  "ADDRESS"};
@@ -30,7 +30,7 @@ std::string steps(const RunResult& result) {
   constexpr std::size_t kMost = 40;
   TextTable table({"time / us", "station", "what"});
   std::size_t shown = 0, hidden = 0;
-  for (const Happening& each : result.happenings) {
+  for (const Occurrence& each : result.occurrences) {
     if (!is_step(each)) continue;
     if (shown == kMost) {
       ++hidden;

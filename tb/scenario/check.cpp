@@ -229,17 +229,17 @@ class Checker {
 
   void check_action(const Action& action) const {
     check_slave_name(action.slave);
-    const bool any_class = action.what == Do::kStopMaster || action.what == Do::kStartMaster;
+    const bool any_class = action.what == ActionKind::kStopMaster || action.what == ActionKind::kStartMaster;
     any_class ? check_any_master_name(action.master) : check_master_name(action.master);
     check_connection_name(action.connection);
     check_time(action.at, "at", action.line);
     if (action.when) check_condition(*action.when);
     switch (action.what) {
-      case Do::kReadInputs:
-      case Do::kReadOutputs:
-      case Do::kGetCfg:
-      case Do::kSlaveDiag:
-      case Do::kSetSlaveAddress: check_target(action); break;
+      case ActionKind::kReadInputs:
+      case ActionKind::kReadOutputs:
+      case ActionKind::kGetCfg:
+      case ActionKind::kSlaveDiag:
+      case ActionKind::kSetSlaveAddress: check_target(action); break;
       default: break;
     }
     const bool named_class2 = any_class && !action.master.empty();
@@ -250,13 +250,13 @@ class Checker {
   void check_target(const Action& action) const {
     if (action.slave.empty() == !action.address.has_value())
       fail(action.line, "exactly one of slave and address is needed");
-    if (action.what == Do::kSetSlaveAddress && action.slave.empty() && !action.ident)
+    if (action.what == ActionKind::kSetSlaveAddress && action.slave.empty() && !action.ident)
       fail(action.line, "ident is missing, it can only be left out where slave is named");
   }
 
-  static bool class2(Do what) { return what >= Do::kC2Connect && what <= Do::kC2Raw; }
-  static bool acyclic(Do what) { return what == Do::kC1Read || what == Do::kC1Write || class2(what); }
-  static bool needs_master(Do what) { return what >= Do::kSetOutputs && what <= Do::kTelegram; }
+  static bool class2(ActionKind what) { return what >= ActionKind::kC2Connect && what <= ActionKind::kC2Raw; }
+  static bool acyclic(ActionKind what) { return what == ActionKind::kC1Read || what == ActionKind::kC1Write || class2(what); }
+  static bool needs_master(ActionKind what) { return what >= ActionKind::kSetOutputs && what <= ActionKind::kTelegram; }
 
   const Scenario& scenario_;
   std::vector<std::string> slaves_, masters_, masters2_, connections_;

@@ -34,16 +34,16 @@ void describe_condition(ObjectOf<T>& o) {
   o.name_of("connection", &C::connection, "Name of the connection that `connection_state` or a C2 service is about.");
   o.word("connection_state", &C::connection_state, connection_state_words(), "What the class 2 master makes of it.");
   o.word("reply_of", &C::reply_of,
-         std::vector<WordFor<Do>>{{Do::kReadInputs, "read_inputs", ""},
-                                  {Do::kReadOutputs, "read_outputs", ""},
-                                  {Do::kGetCfg, "get_cfg", ""},
-                                  {Do::kSlaveDiag, "slave_diag", ""},
-                                  {Do::kSetSlaveAddress, "set_slave_address", ""},
-                                  {Do::kC1Read, "c1_read", ""},
-                                  {Do::kC1Write, "c1_write", ""},
-                                  {Do::kC2Read, "c2_read", ""},
-                                  {Do::kC2Write, "c2_write", ""},
-                                  {Do::kC2Transport, "c2_transport", ""}},
+         std::vector<WordFor<ActionKind>>{{ActionKind::kReadInputs, "read_inputs", ""},
+                                  {ActionKind::kReadOutputs, "read_outputs", ""},
+                                  {ActionKind::kGetCfg, "get_cfg", ""},
+                                  {ActionKind::kSlaveDiag, "slave_diag", ""},
+                                  {ActionKind::kSetSlaveAddress, "set_slave_address", ""},
+                                  {ActionKind::kC1Read, "c1_read", ""},
+                                  {ActionKind::kC1Write, "c1_write", ""},
+                                  {ActionKind::kC2Read, "c2_read", ""},
+                                  {ActionKind::kC2Write, "c2_write", ""},
+                                  {ActionKind::kC2Transport, "c2_transport", ""}},
          "The service whose last answer `reply` and `outcome` are about.");
   o.bytes("reply", &C::reply, {0, 244},
           "Data of the last answer of that service; of an acyclic one that was refused Error_Decode, Error_Code_1 and "

@@ -21,43 +21,43 @@ const ObjectOf<Faults>& fault_keys() {
   return keys;
 }
 
-const std::vector<WordFor<Do>>& action_words() {
-  static const std::vector<WordFor<Do>> words = {{Do::kSetInputs, "set_inputs", ""},
-                                                 {Do::kSetDiagnosis, "set_diagnosis", ""},
-                                                 {Do::kReinitialise, "reinitialise", ""},
-                                                 {Do::kResetChip, "reset_chip", ""},
-                                                 {Do::kHoldDpram, "hold_dpram", ""},
-                                                 {Do::kWrongCrc, "wrong_crc", ""},
-                                                 {Do::kEarlyRSta, "early_r_sta", ""},
-                                                 {Do::kWrongLength, "wrong_length", ""},
-                                                 {Do::kPauseUser, "pause_user", ""},
-                                                 {Do::kVerdict, "verdict", ""},
-                                                 {Do::kAnswerAcyclic, "answer_acyclic", ""},
-                                                 {Do::kUnplug, "unplug", ""},
-                                                 {Do::kPlug, "plug", ""},
-                                                 {Do::kSetOutputs, "set_outputs", ""},
-                                                 {Do::kReadInputs, "read_inputs", ""},
-                                                 {Do::kReadOutputs, "read_outputs", ""},
-                                                 {Do::kGetCfg, "get_cfg", ""},
-                                                 {Do::kSlaveDiag, "slave_diag", ""},
-                                                 {Do::kSetSlaveAddress, "set_slave_address", ""},
-                                                 {Do::kC1Read, "c1_read", ""},
-                                                 {Do::kC1Write, "c1_write", ""},
-                                                 {Do::kGlobalControl, "global_control", ""},
-                                                 {Do::kOperate, "operate", ""},
-                                                 {Do::kClear, "clear", ""},
-                                                 {Do::kStopMaster, "stop_master", ""},
-                                                 {Do::kStartMaster, "start_master", ""},
-                                                 {Do::kChangeBaud, "change_baud", ""},
-                                                 {Do::kTelegram, "telegram", ""},
-                                                 {Do::kC2Connect, "c2_connect", ""},
-                                                 {Do::kC2Read, "c2_read", ""},
-                                                 {Do::kC2Write, "c2_write", ""},
-                                                 {Do::kC2Transport, "c2_transport", ""},
-                                                 {Do::kC2Abort, "c2_abort", ""},
-                                                 {Do::kC2Behaviour, "c2_behaviour", ""},
-                                                 {Do::kC2Raw, "c2_raw", ""},
-                                                 {Do::kGlitch, "glitch", ""}};
+const std::vector<WordFor<ActionKind>>& action_words() {
+  static const std::vector<WordFor<ActionKind>> words = {{ActionKind::kSetInputs, "set_inputs", ""},
+                                                 {ActionKind::kSetDiagnosis, "set_diagnosis", ""},
+                                                 {ActionKind::kReinitialise, "reinitialise", ""},
+                                                 {ActionKind::kResetChip, "reset_chip", ""},
+                                                 {ActionKind::kHoldDpram, "hold_dpram", ""},
+                                                 {ActionKind::kWrongCrc, "wrong_crc", ""},
+                                                 {ActionKind::kEarlyRSta, "early_r_sta", ""},
+                                                 {ActionKind::kWrongLength, "wrong_length", ""},
+                                                 {ActionKind::kPauseUser, "pause_user", ""},
+                                                 {ActionKind::kVerdict, "verdict", ""},
+                                                 {ActionKind::kAnswerAcyclic, "answer_acyclic", ""},
+                                                 {ActionKind::kUnplug, "unplug", ""},
+                                                 {ActionKind::kPlug, "plug", ""},
+                                                 {ActionKind::kSetOutputs, "set_outputs", ""},
+                                                 {ActionKind::kReadInputs, "read_inputs", ""},
+                                                 {ActionKind::kReadOutputs, "read_outputs", ""},
+                                                 {ActionKind::kGetCfg, "get_cfg", ""},
+                                                 {ActionKind::kSlaveDiag, "slave_diag", ""},
+                                                 {ActionKind::kSetSlaveAddress, "set_slave_address", ""},
+                                                 {ActionKind::kC1Read, "c1_read", ""},
+                                                 {ActionKind::kC1Write, "c1_write", ""},
+                                                 {ActionKind::kGlobalControl, "global_control", ""},
+                                                 {ActionKind::kOperate, "operate", ""},
+                                                 {ActionKind::kClear, "clear", ""},
+                                                 {ActionKind::kStopMaster, "stop_master", ""},
+                                                 {ActionKind::kStartMaster, "start_master", ""},
+                                                 {ActionKind::kChangeBaud, "change_baud", ""},
+                                                 {ActionKind::kTelegram, "telegram", ""},
+                                                 {ActionKind::kC2Connect, "c2_connect", ""},
+                                                 {ActionKind::kC2Read, "c2_read", ""},
+                                                 {ActionKind::kC2Write, "c2_write", ""},
+                                                 {ActionKind::kC2Transport, "c2_transport", ""},
+                                                 {ActionKind::kC2Abort, "c2_abort", ""},
+                                                 {ActionKind::kC2Behaviour, "c2_behaviour", ""},
+                                                 {ActionKind::kC2Raw, "c2_raw", ""},
+                                                 {ActionKind::kGlitch, "glitch", ""}};
   return words;
 }
 
@@ -217,8 +217,8 @@ void describe_global_control(ObjectOf<Action>& o) {
 
 }  // namespace
 
-const char* action_word(Do what) {
-  for (const WordFor<Do>& word : action_words())
+const char* action_word(ActionKind what) {
+  for (const WordFor<ActionKind>& word : action_words())
     if (word.value == what) return word.text;
   return "";
 }

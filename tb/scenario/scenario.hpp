@@ -177,7 +177,7 @@ struct Slave {
   int line = 0;
 };
 
-enum class Do : std::uint8_t {
+enum class ActionKind : std::uint8_t {
   kSetInputs,
   kSetDiagnosis,
   kReinitialise,
@@ -225,10 +225,10 @@ struct Switch {
 std::optional<Switch> parse_switch(const std::string& text);
 
 /// The word for it in a scenario.
-const char* action_word(Do what);
+const char* action_word(ActionKind what);
 
 /// What the program on the user CPU has to carry out itself.
-constexpr bool is_for_user_cpu(Do what) { return what <= Do::kAnswerAcyclic && what != Do::kResetChip; }
+constexpr bool is_for_user_cpu(ActionKind what) { return what <= ActionKind::kAnswerAcyclic && what != ActionKind::kResetChip; }
 
 /// Something about a slave (or the telegrams of the bus) that is true or not at a point of time; all parts given must
 /// hold.
@@ -246,7 +246,7 @@ struct Condition {
   std::optional<bus::Tick> longest_wait_at_most;
   Name master, connection;
   std::optional<bus::ConnectionState> connection_state;
-  std::optional<Do> reply_of;
+  std::optional<ActionKind> reply_of;
   std::optional<bus::Bytes> reply;
   std::optional<bus::AcyclicOutcome> outcome;
   int line = 0;
@@ -274,7 +274,7 @@ struct Faults {
 struct Action {
   std::optional<bus::Tick> at;
   std::optional<When> when;
-  Do what = Do::kSetInputs;
+  Do what = ActionKind::kSetInputs;
   Name slave, master, connection;
   bus::Bytes bytes;
   dsdpv1_diag_type diagnosis = DSDPV1_DIAG_EXTENDED;

@@ -4,23 +4,23 @@
 #include <string>
 
 #include "tb/serve/framing.hpp"
-#include "tb/serve/host_port.hpp"
+#include "tb/serve/host_connection.hpp"
 
 namespace tb::serve {
 
 /// A pseudo-terminal; `link` is a symbolic link to it, removed at the end; empty: none. Warns when the host sets
 /// another speed than `bits_per_second`.
-std::unique_ptr<HostPort> open_pty(const std::string& link, int bits_per_second);
+std::unique_ptr<HostConnection> open_pty(const std::string& link, int bits_per_second);
 
 /// A TCP port at the numeric address `bind`, one host at a time: others are accepted, wait for their turn in the order
 /// in which they came and are not read from until then. More than 16 do not wait: their connections are reset.
-std::unique_ptr<HostPort> open_tcp(const std::string& bind, int port);
+std::unique_ptr<HostConnection> open_tcp(const std::string& bind, int port);
 
 struct SerialOptions {
   std::string device;
   int bits_per_second = 19200;
   bool rts = false;  ///< RTS switches the RS-485 driver; else the adapter does it by itself
 };
-std::unique_ptr<HostPort> open_serial(const SerialOptions& options);
+std::unique_ptr<HostConnection> open_serial(const SerialOptions& options);
 
 }  // namespace tb::serve

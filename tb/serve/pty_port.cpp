@@ -60,7 +60,7 @@ std::string slave_name(int master) {
   return name.data();
 }
 
-class PtyPort : public HostPort {
+class PtyPort : public HostConnection {
  public:
   PtyPort(const std::string& link, int bits_per_second)
       : master_(open_master()),
@@ -117,7 +117,7 @@ class PtyPort : public HostPort {
 
 }  // namespace
 
-std::unique_ptr<HostPort> open_pty(const std::string& link, int bits_per_second) {
+std::unique_ptr<HostConnection> open_pty(const std::string& link, int bits_per_second) {
   return std::make_unique<PtyPort>(link, bits_per_second);
 }
 

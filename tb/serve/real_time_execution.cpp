@@ -17,7 +17,7 @@ constexpr std::chrono::seconds kBetweenComplaints{5};
 
 }  // namespace
 
-RealTimeExecution::RealTimeExecution(std::unique_ptr<HostPort> port, int baud)
+RealTimeExecution::RealTimeExecution(std::unique_ptr<HostConnection> port, int baud)
     : port_(std::move(port)), line_(segment_, baud) {
   port_->say = [this](const std::string& text) { tell_about_port(text); };
   port_->on_gone = [this] {

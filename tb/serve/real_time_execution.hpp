@@ -7,7 +7,7 @@
 #include "tb/bench/record.hpp"
 #include "tb/serve/framing.hpp"
 #include "tb/serve/host_line.hpp"
-#include "tb/serve/host_port.hpp"
+#include "tb/serve/host_connection.hpp"
 #include "tb/serve/line_limit.hpp"
 #include "tb/serve/pace.hpp"
 
@@ -30,7 +30,7 @@ class RealTimeExecution : public Execution {
   static constexpr std::size_t kMostWaiting = 8 * kLongestTelegram;
 
   /// `baud` as in bus/baud.hpp.
-  RealTimeExecution(std::unique_ptr<HostPort> port, int baud);
+  RealTimeExecution(std::unique_ptr<HostConnection> port, int baud);
 
   std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config,
                                       std::uint32_t watched) override;
@@ -54,7 +54,7 @@ class RealTimeExecution : public Execution {
   void sleep();
   void tell(const Pace::Loss& loss);
 
-  std::unique_ptr<HostPort> port_;
+  std::unique_ptr<HostConnection> port_;
   HostLine line_;
   Intake intake_;
   std::optional<Pace> pace_;

@@ -14,7 +14,7 @@
 namespace tb::serve {
 namespace {
 
-class SerialPort : public HostPort {
+class SerialPort : public HostConnection {
  public:
   explicit SerialPort(SerialOptions options) : options_(std::move(options)) {
     const std::string error = open();
@@ -83,6 +83,6 @@ class SerialPort : public HostPort {
 
 }  // namespace
 
-std::unique_ptr<HostPort> open_serial(const SerialOptions& options) { return std::make_unique<SerialPort>(options); }
+std::unique_ptr<HostConnection> open_serial(const SerialOptions& options) { return std::make_unique<SerialPort>(options); }
 
 }  // namespace tb::serve

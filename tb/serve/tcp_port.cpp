@@ -23,13 +23,13 @@ void reset_at_close(int connection) {
   ::setsockopt(connection, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
 }
 
-class TcpPort : public HostPort {
+class TcpPort : public HostConnection {
  public:
   TcpPort(const std::string& bind, int port) : listener_("dsdpv1-sim serve", bind, port, {kBacklog, true}) {}
 
   std::string name() const override { return "TCP port " + listener_.address(); }
   pollfd watched(bool reading) const override {
-    return has_peer() ? HostPort::watched(reading) : pollfd{listener_.descriptor(), POLLIN, 0};
+    return has_peer() ? HostConnection::watched(reading) : pollfd{listener_.descriptor(), POLLIN, 0};
   }
 
  protected:
@@ -104,6 +104,6 @@ class TcpPort : public HostPort {
 
 }  // namespace
 
-std::unique_ptr<HostPort> open_tcp(const std::string& bind, int port) { return std::make_unique<TcpPort>(bind, port); }
+std::unique_ptr<HostConnection> open_tcp(const std::string& bind, int port) { return std::make_unique<TcpPort>(bind, port); }
 
 }  // namespace tb::serve

@@ -1,11 +1,11 @@
 #pragma once
 // The standard user program on the native CPU.
 #include "tb/user_cpu/native_cpu.hpp"
-#include "tb/user_cpu/user_side.hpp"
+#include "tb/user_cpu/station_cpu.hpp"
 
 namespace user_cpu {
 
-class NativeUser : public UserSide {
+class NativeUser : public StationCpu {
  public:
   NativeUser(HostBus& bus, const CpuTiming& timing, ProgramOptions options, Tick start)
       : program_(std::move(options)), cpu_(bus, timing, program_.entry(), start) {

@@ -35,7 +35,7 @@ TEST(Scenario, HoldsWhatTheFileSays) {
   ASSERT_EQ(scenario.masters.size(), 1U);
   EXPECT_EQ(scenario.masters[0].slaves.at(0).groups, (bus::Bytes{1, 3}));
   ASSERT_EQ(scenario.script.size(), 2U);
-  EXPECT_EQ(scenario.script[0].what, sc::Do::kSetOutputs);
+  EXPECT_EQ(scenario.script[0].what, sc::ActionKind::kSetOutputs);
   EXPECT_EQ(scenario.script[1].when->after, bus::kTicksPerUs);
   EXPECT_TRUE(scenario.script[1].sync);
   EXPECT_EQ(scenario.expect.at(0).data_exchanges, 10);

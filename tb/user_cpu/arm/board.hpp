@@ -31,7 +31,7 @@
 #include "tb/user_cpu/arm/rcc.hpp"
 #include "tb/user_cpu/arm/usart.hpp"
 #include "tb/user_cpu/native_cpu.hpp"
-#include "tb/user_cpu/user_side.hpp"
+#include "tb/user_cpu/station_cpu.hpp"
 
 namespace arm {
 
@@ -55,7 +55,7 @@ struct BoardOptions {
   std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
 };
 
-class Board : public user_cpu::UserSide, private System {
+class Board : public user_cpu::StationCpu, private System {
  public:
   /// Its processor leaves reset at `start`. `set_chip_reset` moves the chip's RESET pin; both must outlive the board.
   Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick at, bool level)> set_chip_reset,

@@ -16,14 +16,14 @@ namespace tb::serve {
 /// The other end has gone, whatever it has left to be read.
 bool hung_up(int fd);
 
-class HostPort {
+class HostConnection {
  public:
   /// Output that a host has not read is kept up to this size.
   static constexpr std::size_t kMostKept = 1U << 20;
 
-  virtual ~HostPort() = default;
-  HostPort(const HostPort&) = delete;
-  HostPort& operator=(const HostPort&) = delete;
+  virtual ~HostConnection() = default;
+  HostConnection(const HostConnection&) = delete;
+  HostConnection& operator=(const HostConnection&) = delete;
 
   /// "pseudo-terminal /dev/pts/3", for messages.
   virtual std::string name() const = 0;
@@ -45,7 +45,7 @@ class HostPort {
   std::function<void()> on_gone = [] {};
 
  protected:
-  HostPort() = default;
+  HostConnection() = default;
   /// Accepts, reopens, and whatever else is due.
   virtual void look() = 0;
   /// The peer has gone, `why` in words; the port waits for the next one.

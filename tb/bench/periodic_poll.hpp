@@ -6,7 +6,7 @@
 
 namespace tb {
 
-class Pulse : public bus::Agent {
+class PeriodicPoll : public bus::Agent {
  public:
   static constexpr bus::Tick kPeriod = 100 * bus::kTicksPerUs;
 

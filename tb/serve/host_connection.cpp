@@ -1,4 +1,4 @@
-#include "tb/serve/host_port.hpp"
+#include "tb/serve/host_connection.hpp"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -28,19 +28,19 @@ bool hung_up(int fd) {
   return ::poll(&other, 1, 0) > 0;
 }
 
-void HostPort::set_peer(int fd) {
+void HostConnection::set_peer(int fd) {
   peer_ = fd;
   heard_ = last_read_ = told_of_loss_ = false;
   kept_.clear();
 }
 
-void HostPort::forget_peer(const std::string& why) {
+void HostConnection::forget_peer(const std::string& why) {
   set_peer(-1);
   lost(why);
   on_gone();
 }
 
-bus::Bytes HostPort::receive(std::size_t most) {
+bus::Bytes HostConnection::receive(std::size_t most) {
   look();
   const bool gone = has_peer() && hung_up(peer_);
   if (!gone) last_read_ = false;
@@ -52,7 +52,7 @@ bus::Bytes HostPort::receive(std::size_t most) {
   return bytes;
 }
 
-bus::Bytes HostPort::read(std::size_t most) {
+bus::Bytes HostConnection::read(std::size_t most) {
   bus::Bytes bytes(most);
   std::size_t got = 0;
   while (has_peer() && got < most) {
@@ -67,11 +67,11 @@ bus::Bytes HostPort::read(std::size_t most) {
   return bytes;
 }
 
-void HostPort::check_peer() {
+void HostConnection::check_peer() {
   if (has_peer() && hung_up(peer_) && (last_read_ || !left_to_read(peer_))) forget_peer("");
 }
 
-void HostPort::send(const bus::Bytes& bytes) {
+void HostConnection::send(const bus::Bytes& bytes) {
   if (!has_peer() || bytes.empty() || told_of_loss_) return;
   if (kept_.size() + bytes.size() > kMostKept) {
     told_of_loss_ = true;
@@ -81,7 +81,7 @@ void HostPort::send(const bus::Bytes& bytes) {
   flush();
 }
 
-void HostPort::flush() {
+void HostConnection::flush() {
   if (!has_peer() || kept_.empty()) return;
   before_write();
   std::size_t written = 0;
@@ -96,7 +96,7 @@ void HostPort::flush() {
   after_write();
 }
 
-pollfd HostPort::watched(bool reading) const {
+pollfd HostConnection::watched(bool reading) const {
   return {peer_, static_cast<short>((reading ? POLLIN : 0) | (kept_.empty() ? 0 : POLLOUT)), 0};
 }
 

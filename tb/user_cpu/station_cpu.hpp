@@ -37,7 +37,7 @@ struct BoardReport {
 };
 
 /// Lives from the release of the board's reset to the next reset.
-class UserSide : public bus::Agent {
+class StationCpu : public bus::Agent {
  public:
   /// INTR0 changed at `at`; also callable while the chip runs ahead of this agent's turn.
   virtual void intr0_changed(Tick at, bool level) = 0;

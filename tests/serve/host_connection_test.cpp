@@ -1,5 +1,5 @@
 // What goes in and out of a port is bounded, and nothing of one peer is left for the next.
-#include "tb/serve/host_port.hpp"
+#include "tb/serve/host_connection.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -15,7 +15,7 @@ using bus::Bytes;
 using tb::Descriptor;
 
 /// A port whose other end is in the test.
-class Port : public tb::serve::HostPort {
+class Port : public tb::serve::HostConnection {
  public:
   std::string name() const override { return "port"; }
   /// The host that has the port from now on.
@@ -35,9 +35,9 @@ class Port : public tb::serve::HostPort {
   Descriptor own_;
 };
 
-class HostPortTest : public testing::Test {
+class HostConnectionTest : public testing::Test {
  protected:
-  HostPortTest() {
+  HostConnectionTest() {
     port_.say = [this](const std::string& text) { said_.push_back(text); };
     port_.on_gone = [this] { ++gone_; };
   }
@@ -55,7 +55,7 @@ class HostPortTest : public testing::Test {
   int gone_ = 0;
 };
 
-TEST_F(HostPortTest, NoMoreIsReceivedThanAskedForAndTheRestStays) {
+TEST_F(HostConnectionTest, NoMoreIsReceivedThanAskedForAndTheRestStays) {
   const Descriptor host = port_.connect();
   ASSERT_EQ(::write(host.get(), "123456", 6), 6);
   EXPECT_EQ(port_.receive(4), (Bytes{'1', '2', '3', '4'}));
@@ -63,13 +63,13 @@ TEST_F(HostPortTest, NoMoreIsReceivedThanAskedForAndTheRestStays) {
   EXPECT_EQ(port_.receive(4), (Bytes{'5', '6'}));
 }
 
-TEST_F(HostPortTest, BytesAreNotWaitedForWhileNothingIsRead) {
+TEST_F(HostConnectionTest, BytesAreNotWaitedForWhileNothingIsRead) {
   const Descriptor host = port_.connect();
   EXPECT_EQ(port_.watched(true).events, POLLIN);
   EXPECT_EQ(port_.watched(false).events, 0);
 }
 
-TEST_F(HostPortTest, WhatAHostDoesNotReadIsKeptUpToALimitAndThenThrownAway) {
+TEST_F(HostConnectionTest, WhatAHostDoesNotReadIsKeptUpToALimitAndThenThrownAway) {
   const Descriptor host = port_.connect();
   const Bytes answer(1000, 7);
   for (int i = 0; i < 3000; ++i) port_.send(answer);
@@ -81,7 +81,7 @@ TEST_F(HostPortTest, WhatAHostDoesNotReadIsKeptUpToALimitAndThenThrownAway) {
   EXPECT_LT(got, 3000U * answer.size());
 }
 
-TEST_F(HostPortTest, AHostThatHangsUpIsNoticedThoughItIsNotReadFrom) {
+TEST_F(HostConnectionTest, AHostThatHangsUpIsNoticedThoughItIsNotReadFrom) {
   {
     const Descriptor host = port_.connect();
     ASSERT_EQ(::write(host.get(), "1", 1), 1);
@@ -90,7 +90,7 @@ TEST_F(HostPortTest, AHostThatHangsUpIsNoticedThoughItIsNotReadFrom) {
   EXPECT_EQ(gone_, 1);
 }
 
-TEST_F(HostPortTest, HostThatHungUpIsReadOnceMore) {
+TEST_F(HostConnectionTest, HostThatHungUpIsReadOnceMore) {
   {
     const Descriptor host = port_.connect();
     ASSERT_EQ(::write(host.get(), "123", 3), 3);
@@ -101,7 +101,7 @@ TEST_F(HostPortTest, HostThatHungUpIsReadOnceMore) {
   EXPECT_EQ(gone_, 1);
 }
 
-TEST_F(HostPortTest, HostThatHungUpIsNotReadWhenThereIsNoRoom) {
+TEST_F(HostConnectionTest, HostThatHungUpIsNotReadWhenThereIsNoRoom) {
   {
     const Descriptor host = port_.connect();
     ASSERT_EQ(::write(host.get(), "1", 1), 1);
@@ -110,7 +110,7 @@ TEST_F(HostPortTest, HostThatHungUpIsNotReadWhenThereIsNoRoom) {
   EXPECT_EQ(gone_, 1);
 }
 
-TEST_F(HostPortTest, WhatWasKeptForAHostIsNotForTheNext) {
+TEST_F(HostConnectionTest, WhatWasKeptForAHostIsNotForTheNext) {
   {
     const Descriptor slow = port_.connect();
     for (int i = 0; i < 1000; ++i) port_.send(Bytes(1000, 7));
