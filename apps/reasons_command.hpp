@@ -1,7 +1,6 @@
 #pragma once
 // reasons: every code that logs, scenarios and result files may hold, with what to do about it.
 #include <string>
-#include <vector>
 
 namespace app {
 
@@ -11,18 +10,6 @@ struct ReasonsArguments {
   bool checks = false;  ///< docs/checks.md
   std::string output;   ///< empty: standard output
 };
-
-/// One code as a user reads it.
-struct ReasonText {
-  std::string code, severity, text, advice;
-};
-
-/// Those of the chip, of the driver's calls, of the bus monitor, of the ARM board, of the checks.
-std::vector<ReasonText> chip_reasons();
-std::vector<ReasonText> driver_reasons();
-std::vector<ReasonText> bus_reasons();
-std::vector<ReasonText> board_reasons();
-std::vector<ReasonText> check_reasons();
 
 int reasons(const ReasonsArguments& arguments);
 

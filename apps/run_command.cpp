@@ -1,6 +1,7 @@
 // run: a scenario from its file to the verdict.
 #include <unistd.h>
 
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -13,10 +14,10 @@
 #include "apps/rtl_commands.hpp"
 #include "bus/printable.hpp"
 #include "tb/bench/bench.hpp"
-#include "tb/bench/tlm_execution.hpp"
-#include "tb/cosim/lockstep_execution.hpp"
-#include "tb/cosim/reference_rtl.hpp"
-#include "tb/cosim/user_rtl.hpp"
+#include "tb/dsdpv1/cosim/lockstep_execution.hpp"
+#include "tb/dsdpv1/cosim/reference_rtl.hpp"
+#include "tb/dsdpv1/cosim/user_rtl.hpp"
+#include "tb/dsdpv1/systemc/tlm_execution.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/output/output_file.hpp"
 #include "tb/report/progress.hpp"
@@ -41,7 +42,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   if (!arguments.difference.empty()) tb::check_wave_name(arguments.difference);
   if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
   tb::RunOptions options;
-  options.engine = arguments.engine == "step" ? dsdpv1::Engine::kStep : dsdpv1::Engine::kSkip;
+  options.engine = arguments.engine == "step" ? tb::Engine::kStep : tb::Engine::kSkip;
   options.engine_name = arguments.engine;
   options.view_name = arguments.view;
   options.wave = arguments.wave;
@@ -83,8 +84,6 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
   return result.passed ? kPassed : kFailed;
 }
 
-std::unique_ptr<cosim::RtlTop> reference_rtl(const dsdpv1::Config& config) { return cosim::make_reference_rtl(config); }
-
 int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options,
                  cosim::MakeRtl make, const cosim::LockstepOptions& lockstep = {}) {
   auto made = std::make_unique<cosim::LockstepExecution>(std::move(make), lockstep);
@@ -100,8 +99,10 @@ int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arg
 }
 
 void check_has_board(const tb::scenario::Scenario& scenario) {
-  for (const tb::scenario::Slave& slave : scenario.slaves)
-    if (slave.user_cpu.kind == tb::scenario::CpuKind::kArm) return;
+  const tb::ChipMaker& maker = tb::chip_maker(scenario);
+  if (std::any_of(scenario.slaves.begin(), scenario.slaves.end(),
+                  [&maker](const tb::scenario::Slave& slave) { return maker.has_debugger(slave); }))
+    return;
   throw tb::InputError("dsdpv1-sim run: --gdb needs a slave whose user_cpu has kind: arm, " + scenario.file +
                        " has none");
 }
@@ -124,9 +125,9 @@ int run(const RunArguments& arguments) {
       tb::scenario::load(arguments.scenario, tb::scenario::parse_settings(arguments.set));
   check_outputs_of(arguments, scenario);
   if (arguments.gdb) check_has_board(scenario);
-  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, reference_rtl);
+  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, cosim::reference_rtl());
   if (arguments.engine == "rtl")
-    return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(reference_rtl));
+    return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(cosim::reference_rtl()));
   if (arguments.view == "pins") return run_scenario(scenario, arguments, options, tb::make_pin_execution());
   return tb::inside_systemc([&] { return run_scenario(scenario, arguments, options, tb::make_tlm_execution()); });
 }

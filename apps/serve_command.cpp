@@ -48,7 +48,7 @@ tb::Tick chosen_end(const std::string& text) {
   return *time;
 }
 
-std::unique_ptr<tb::serve::HostPort> open_port(const ServeArguments& arguments, int baud) {
+std::unique_ptr<tb::serve::HostConnection> open_port(const ServeArguments& arguments, int baud) {
   const int bits_per_second = static_cast<int>(bus::kTicksPerSecond / bus::baud(baud).bit);
   if (!arguments.serial.empty()) return tb::serve::open_serial({arguments.serial, bits_per_second, arguments.rts});
   if (arguments.tcp >= 0) return tb::serve::open_tcp(arguments.bind, arguments.tcp);

@@ -18,7 +18,8 @@
 namespace app {
 
 int schema(const SchemaArguments& arguments) {
-  const std::string text = arguments.markdown ? tb::scenario::markdown() : tb::scenario::json_schema();
+  const tb::ChipKind& kind = *tb::chip_kinds().front();
+  const std::string text = arguments.markdown ? tb::scenario::markdown(kind) : tb::scenario::json_schema(kind);
   if (arguments.output.empty()) {
     std::cout << text;
     return kPassed;

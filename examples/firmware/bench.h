@@ -1,7 +1,7 @@
 #ifndef BENCH_H
 #define BENCH_H
 /*
- * The bench's side door (tb/user_cpu/arm/mailbox.h): what a scenario's script wants of the user CPU. A product leaves
+ * The bench's side door (tb/dsdpv1/user_cpu/arm/mailbox.h): what a scenario's script wants of the user CPU. A product leaves
  * out bench.c and bench_faults.c, and their calls in main.c.
  */
 #include <stdbool.h>

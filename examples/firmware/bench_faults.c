@@ -6,7 +6,7 @@
 #include "examples/firmware/board.h"
 #include "examples/firmware/dsdpv1_port_stm32.h"
 #include "registers/dsdpv1_regs.h"
-#include "tb/user_cpu/arm/mailbox.h"
+#include "tb/dsdpv1/user_cpu/arm/mailbox.h"
 
 /* ------------------------------------------------------------------------------------------------------- wrong CRCs */
 

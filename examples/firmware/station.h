@@ -4,7 +4,7 @@
 #include <stdbool.h>
 
 #include "driver/dsdpv1.h"
-#include "tb/user_cpu/arm/mailbox.h"
+#include "tb/dsdpv1/user_cpu/arm/mailbox.h"
 
 /* Opens the driver with the board's port, or with another one that the bench puts before it. */
 dsdpv1_device* station_open(const dsdpv1_port* port);

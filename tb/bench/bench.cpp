@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "bus/telegram/explain.hpp"
-#include "model/dsdpv1/reasons.hpp"
 #include "tb/bench/script.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/units.hpp"
@@ -35,6 +34,7 @@ class Bench::BaudFollower : private bus::Listener {
 
 Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std::unique_ptr<Execution> execution)
     : scenario_(scenario),
+      maker_(chip_maker(scenario)),
       options_(options),
       execution_(std::move(execution)),
       setup_(scenario),
@@ -58,39 +58,37 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
 
 Bench::~Bench() = default;
 
-std::uint32_t Bench::watched_pins() const {
+/// What the bench itself needs a chip watches anyway.
+PinMask Bench::watched_pins() const {
   const bool all = !options_.wave.empty() || !options_.trace.empty();
-  return all ? kInputPins | dsdpv1::kOutputPins : kBusPins | checks_.pins();
+  return all ? all_of(maker_.pins()) : checks_.pins();
 }
 
 void Bench::add_slave(const scenario::Slave& slave) {
-  auto config = static_cast<const dsdpv1::Config&>(scenario_.chip);
-  config.engine = options_.engine;
   user_cpu::StationConfig station = setup_.station(slave);
-  std::unique_ptr<ChipView> chip = execution_->make_chip(slave.name.text, config, watched_pins());
-  MakeUser make_user = user_maker(scenario_, slave, *chip, gdb_of(slave), left_out_);
+  std::unique_ptr<ChipView> chip =
+      execution_->make_chip(maker_, {slave.name.text, *scenario_.chip, options_.engine, watched_pins()});
+  MakeUser make_user = maker_.make_user({scenario_, slave, *chip, gdb_of(slave), left_out_});
   slaves_.push_back(std::make_unique<SlaveStation>(slave, std::move(station), std::move(chip), std::move(make_user)));
   connect(*slaves_.back(), slaves_.size() - 1);
 }
 
 const GdbRequest* Bench::gdb_of(const scenario::Slave& slave) const {
   const auto& slaves = scenario_.slaves;
-  const auto first = std::find_if(slaves.begin(), slaves.end(), [](const scenario::Slave& each) {
-    return each.user_cpu.kind == scenario::CpuKind::kArm;
-  });
+  const auto first = std::find_if(slaves.begin(), slaves.end(),
+                                  [this](const scenario::Slave& each) { return maker_.has_debugger(each); });
   return options_.gdb && first != slaves.end() && &*first == &slave ? &*options_.gdb : nullptr;
 }
 
 void Bench::connect(SlaveStation& station, std::size_t index) {
   checks_.add(station.name());
-  if (waves_) waves_->add_chip(station.name(), station.chip().chip());
-  station.chip().on_pin = [this, index](Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
-    pin_changed(index, at, pin, level);
-  };
+  if (waves_) waves_->add_chip(station.name(), maker_.pins(), station.chip());
+  station.chip().on_pin = [this, index](Tick at, PinNumber pin, Level level) { pin_changed(index, at, pin, level); };
+  station.chip().on_interrupt = [&station](Tick at, bool level) { station.interrupt_changed(at, level); };
   station.chip().on_event = [this, index](const profibus::Event& event) { chip_event(index, event); };
   station.chip().on_read = [this, index](Tick sample) { checks_.read(index, sample); };
   station.quiet_until = [this, &station] { return execution_->quiet_until(station); };
-  station.on_driver_error = [this, &station](const user_cpu::DriverError& error) { driver_error(station, error); };
+  station.on_error = [this, &station](const user_cpu::ProgramError& error) { program_error(station, error); };
   station.on_text = [this, &station](Tick at, const std::string& line) {
     log(at, station.name(), "text", line);
     if (options_.on_text) options_.on_text(station.name(), line);
@@ -200,25 +198,25 @@ void Bench::conditions_changed() { conditions_changed(now()); }
 /// In the TLM view chips act before the timeline has come to their tick.
 void Bench::conditions_changed(Tick at) { script_->conditions_changed(std::max(at, now())); }
 
-void Bench::pin_changed(std::size_t index, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
-  if (pin == dsdpv1::Pin::kIntr0) slaves_[index]->intr0_changed(at, level != 0);
+void Bench::pin_changed(std::size_t index, Tick at, PinNumber pin, Level level) {
   checks_.pin(index, at, pin, level);
-  if (trace_ && !dsdpv1::is_input(pin)) trace_->change(index, slaves_[index]->name(), at, pin, level);
+  const PinInfo& info = maker_.pins()[pin];
+  if (trace_ && !info.input) trace_->change(index, slaves_[index]->name(), at, info, level);
   if (waves_) waves_->pin(index, at, pin, level);
 }
 
 void Bench::chip_event(std::size_t index, const profibus::Event& event) {
   if (event.reason == profibus::Reason::kDpState && waves_)
-    waves_->dp_state(index, event.at, name(static_cast<dsdpv1::DpState>(event.b)));
+    waves_->dp_state(index, event.at, name(static_cast<profibus::DpState>(event.b)));
   if (event.reason == profibus::Reason::kRmEntry && waves_)
-    waves_->rm_entry(index, event.at, profibus::kC2FirstSap - event.a, dsdpv1::describe(event));
+    waves_->rm_entry(index, event.at, profibus::kC2FirstSap - event.a, maker_.describe(event));
   happened({event.at, slaves_[index]->name(), profibus::code(event.reason), profibus::severity(event.reason),
-            dsdpv1::describe(event)});
+            maker_.describe(event)});
   conditions_changed(event.at);
 }
 
 void Bench::check_violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
-  const std::string id = checks::rule(violation.check).id;
+  const std::string id = maker_.rules()[violation.check.index].id;
   ++counts_[slave][id];
   if (log_)
     log_->finding(
@@ -228,9 +226,8 @@ void Bench::check_violated(const std::string& slave, const checks::Violation& vi
   conditions_changed(violation.found);
 }
 
-void Bench::driver_error(const SlaveStation& station, const user_cpu::DriverError& error) {
-  const std::string text = fmt::format("the driver's {} failed: {}", error.during, dsdpv1_error_text(error.error));
-  happened({error.at, station.name(), scenario::driver_error_code(error.error), profibus::Severity::kRefusal, text});
+void Bench::program_error(const SlaveStation& station, const user_cpu::ProgramError& error) {
+  happened({error.at, station.name(), error.code, profibus::Severity::kRefusal, error.text});
   conditions_changed();
 }
 
@@ -248,7 +245,7 @@ void Bench::telegram(const bus::WireTelegram& telegram) {
   checks_.telegram(now(), telegram);
   if (telegram.tsdr) {
     for (const auto& slave : slaves_)
-      if (slave->chip().chip().status().address == telegram.station) slave->tsdr().add(telegram.tsdr_bits());
+      if (slave->chip().status().address == telegram.station) slave->tsdr().add(telegram.tsdr_bits());
   }
   conditions_changed();
 }

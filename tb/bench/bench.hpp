@@ -15,14 +15,13 @@
 #include "tb/bench/check_watch.hpp"
 #include "tb/bench/class2_station.hpp"
 #include "tb/bench/execution.hpp"
-#include "tb/bench/pin_trace.hpp"
 #include "tb/bench/periodic_poll.hpp"
+#include "tb/bench/pin_trace.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/bench/reply.hpp"
 #include "tb/bench/run_log.hpp"
 #include "tb/bench/setup.hpp"
 #include "tb/bench/slave_station.hpp"
-#include "tb/bench/user_maker.hpp"
 #include "tb/bench/wave_recorder.hpp"
 #include "tb/scenario/scenario.hpp"
 
@@ -31,11 +30,11 @@ namespace tb {
 class Script;
 
 struct RunOptions {
-  dsdpv1::Engine engine = dsdpv1::Engine::kSkip;
+  Engine engine = Engine::kSkip;
   std::string engine_name = "skip", view_name = "pins";
-  std::string wave, log, trace;  ///< paths, empty: not wanted
-  bool log_whole = false;        ///< no bytes are left out in the log
-  std::optional<GdbRequest> gdb;    ///< debugger of the first ARM board
+  std::string wave, log, trace;   ///< paths, empty: not wanted
+  bool log_whole = false;         ///< no bytes are left out in the log
+  std::optional<GdbRequest> gdb;  ///< debugger of the first user CPU that takes one
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
   ChecksMode checks = ChecksMode::kOff;
   bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
@@ -95,7 +94,7 @@ class Bench {
   };
   class BaudFollower;
 
-  std::uint32_t watched_pins() const;
+  PinMask watched_pins() const;
   const std::unique_ptr<SlaveStation>& find_slave(const std::string& name) const;
   void add_slave(const scenario::Slave& slave);
   void connect(SlaveStation& station, std::size_t index);
@@ -105,13 +104,13 @@ class Bench {
   void add_monitor();
   void add_agents();
   void begin_waves();
-  void pin_changed(std::size_t index, Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void pin_changed(std::size_t index, Tick at, PinNumber pin, Level level);
   void chip_event(std::size_t index, const profibus::Event& event);
   const GdbRequest* gdb_of(const scenario::Slave& slave) const;
   void user_failed(const SlaveStation& station, Tick at, const std::string& why, const std::string& registers);
   bool stopped() const;
   void check_violated(const std::string& slave, const checks::Violation& violation, const char* kind);
-  void driver_error(const SlaveStation& station, const user_cpu::DriverError& error);
+  void program_error(const SlaveStation& station, const user_cpu::ProgramError& error);
   void telegram(const bus::WireTelegram& telegram);
   void flagged(const bus::Flag& flag);
   void happened(Occurrence occurrence);
@@ -120,6 +119,7 @@ class Bench {
   void finish_outputs();
 
   const scenario::Scenario& scenario_;
+  const ChipMaker& maker_;
   RunOptions options_;
   std::unique_ptr<Execution> execution_;
   Setup setup_;
@@ -142,8 +142,8 @@ class Bench {
   std::uint64_t occurrences_dropped_ = 0, violations_ = 0;
   Refusals refusals_;
   std::string registers_;  ///< of the processor that cannot go on; the run ends with it
-  std::map<std::string, std::map<std::string, std::uint64_t>> counts_;  ///< by station and code
-  std::map<std::string, std::map<scenario::ActionKind, Reply>> replies_;        ///< by master and service
+  std::map<std::string, std::map<std::string, std::uint64_t>> counts_;    ///< by station and code
+  std::map<std::string, std::map<scenario::ActionKind, Reply>> replies_;  ///< by master and service
 };
 
 }  // namespace tb

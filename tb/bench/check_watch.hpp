@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tb/bench/record.hpp"
-#include "tb/checks/checks.hpp"
+#include "tb/checks/chip_checks.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace tb {
@@ -18,17 +18,17 @@ class CheckWatch {
   CheckWatch(const CheckWatch&) = delete;
   CheckWatch& operator=(const CheckWatch&) = delete;
 
-  bool on() const { return mode_ != ChecksMode::kOff; }
+  bool on() const { return mode_ != ChecksMode::kOff && !scenario_.kind->rules().empty(); }
   /// The pins that must be watched, none when off.
-  std::uint32_t pins() const;
+  PinMask pins() const;
 
   /// Slaves are numbered in the order in which they are added. Nothing happens when off.
   void add(const std::string& slave);
-  void pin(std::size_t slave, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
-    if (on()) slaves_[slave]->checks.pin(at, pin, level);
+  void pin(std::size_t slave, Tick at, PinNumber pin, Level level) {
+    if (on()) slaves_[slave]->checks->pin(at, pin, level);
   }
   void read(std::size_t slave, Tick sample) {
-    if (on()) slaves_[slave]->checks.read(sample);
+    if (on()) slaves_[slave]->checks->read(sample);
   }
   void telegram(Tick now, const bus::WireTelegram& telegram);
   void finish(Tick end);
@@ -42,12 +42,11 @@ class CheckWatch {
 
  private:
   struct Slave {
-    Slave(std::string slave_name, const checks::Limits& limits) : name(std::move(slave_name)), checks(limits) {}
     std::string name;
-    checks::Checks checks;
+    std::unique_ptr<checks::ChipChecks> checks;
     std::vector<checks::Violation> listed;
-    std::array<std::uint64_t, checks::kCheckCount> allowed{};
-    std::array<std::size_t, checks::kCheckCount> listed_of{};
+    std::vector<std::uint64_t> allowed;  ///< by check
+    std::vector<std::size_t> listed_of;
   };
   void violated(Slave& slave, const checks::Violation& violation);
 

@@ -1,14 +1,33 @@
 #pragma once
-// One chip as the bench drives and sees it, whichever way it is executed (pins of the core, TLM module).
+// One chip as the bench drives and sees it, whichever kind it is and whichever way it is executed (pins of the core,
+// TLM module, RTL).
+#include <cstdint>
 #include <functional>
 
 #include "bus/wire/segment.hpp"
-#include "model/dsdpv1/chip.hpp"
-#include "tb/user_cpu/host_bus.hpp"
+#include "model/profibus/dp_state.hpp"
+#include "model/profibus/event.hpp"
+#include "model/profibus/rm_registry.hpp"
+#include "tb/pins/pins.hpp"
 
 namespace tb {
 
 using bus::Tick;
+
+/// What every slave chip can say of itself.
+struct ChipStatus {
+  profibus::DpState dp_state = profibus::DpState::kOffline;
+  int baud_index = 15;                   ///< bus/baud.hpp, 15 = searching
+  std::uint8_t address = 0;              ///< the station's present address, 0 before the initialisation
+  std::uint8_t master = 255;             ///< the parameterising master, 255 = none
+  std::uint64_t telegrams_received = 0;  ///< error-free telegrams of all stations
+  std::uint64_t telegrams_answered = 0;  ///< answers sent
+  std::uint64_t data_exchanges = 0;      ///< executed data exchanges, repetitions not counted
+  std::uint64_t outputs_missed = 0;      ///< outputs that newer ones replaced before the user had fetched them
+  profibus::RmRegistry c2 = {};          ///< table 30: who has the C2 channels
+  std::uint64_t accesses = 0;            ///< of the chip to the memory that it shares with the user, if it does
+  Tick longest_wait = 0;                 ///< longest time that it waited there for the user
+};
 
 class ChipView {
  public:
@@ -17,24 +36,20 @@ class ChipView {
   virtual void set_reset(Tick at, bool level) = 0;
   /// The user CPU was reset at `at`: its bus is idle again, an access begun is forgotten.
   virtual void reset_host(Tick at) = 0;
-  virtual user_cpu::HostBus& host_bus() = 0;
   virtual bus::StationId station() const = 0;
-  /// Status and levels as of the last evaluation; `sync` brings it to the present time.
-  virtual const dsdpv1::Chip& chip() const = 0;
+  /// Status and levels as of the last evaluation; `sync` brings them to the present time.
+  virtual ChipStatus status() const = 0;
+  virtual Level level(PinNumber pin) const = 0;
   virtual void sync(Tick now) = 0;
 
   /// Changes of the watched pins, in order of time.
-  std::function<void(Tick at, dsdpv1::Pin pin, dsdpv1::Level level)> on_pin;
+  std::function<void(Tick at, PinNumber pin, Level level)> on_pin;
+  /// The pin that interrupts the user CPU, told before `on_pin`.
+  std::function<void(Tick at, bool level)> on_interrupt;
   std::function<void(const profibus::Event&)> on_event;
-  /// The user CPU begins a read, whose first edge is still to come, and samples D at `sample`: no pin shows that.
+  /// The user CPU begins a read, whose first edge is still to come, and samples the data at `sample`: no pin shows
+  /// that.
   std::function<void(Tick sample)> on_read;
 };
-
-/// All input pins.
-constexpr std::uint32_t kInputPins = dsdpv1::mask(dsdpv1::Pin::kLReq) - 1;
-
-/// The output pins that the bench itself needs.
-constexpr std::uint32_t kBusPins =
-    dsdpv1::mask(dsdpv1::Pin::kPbtxd) | dsdpv1::mask(dsdpv1::Pin::kPbrts) | dsdpv1::mask(dsdpv1::Pin::kIntr0);
 
 }  // namespace tb

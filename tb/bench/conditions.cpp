@@ -50,7 +50,7 @@ const char* service_word(scenario::ActionKind service) {
 
 // Each function handles one group of keys; `bench` is null when only the words are wanted.
 
-void add_state(Parts& parts, const Condition& c, const dsdpv1::Status& status) {
+void add_state(Parts& parts, const Condition& c, const ChipStatus& status) {
   if (c.dp_state)
     parts.add(fmt::format("dp_state {}", name(*c.dp_state)), fmt::format("dp_state {}", name(status.dp_state)),
               status.dp_state == *c.dp_state);
@@ -64,7 +64,7 @@ void add_state(Parts& parts, const Condition& c, const dsdpv1::Status& status) {
   }
 }
 
-void add_counts(Parts& parts, const Condition& c, const dsdpv1::Status& status) {
+void add_counts(Parts& parts, const Condition& c, const ChipStatus& status) {
   const auto exchanges = static_cast<std::int64_t>(status.data_exchanges);
   const std::string seen = fmt::format("data_exchanges {}", exchanges);
   if (c.data_exchanges)
@@ -73,7 +73,7 @@ void add_counts(Parts& parts, const Condition& c, const dsdpv1::Status& status) 
     parts.add(fmt::format("data_exchanges <= {}", *c.data_exchanges_at_most), seen,
               exchanges <= *c.data_exchanges_at_most);
   if (c.longest_wait_at_most) {
-    const auto wait = static_cast<Tick>(status.longest_wait) * profibus::kTicksPerCycle;
+    const Tick wait = status.longest_wait;
     parts.add("longest wait <= " + time_text(*c.longest_wait_at_most), "longest wait " + time_text(wait),
               wait <= *c.longest_wait_at_most);
   }
@@ -139,7 +139,7 @@ void add_connection(Parts& parts, const Condition& c, const Bench* bench) {
 Parts examine(const Condition& c, const Bench* bench) {
   Parts parts;
   const SlaveStation* slave = bench != nullptr && !c.slave.empty() ? &bench->slave(c.slave.text) : nullptr;
-  const dsdpv1::Status status = slave != nullptr ? slave->chip().chip().status() : dsdpv1::Status{};
+  const ChipStatus status = slave != nullptr ? slave->chip().status() : ChipStatus{};
   add_state(parts, c, status);
   add_counts(parts, c, status);
   add_data(parts, c, bench, slave != nullptr ? slave->outputs() : bus::Bytes{});

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bus/timeline.hpp"
+#include "tb/bench/chip_maker.hpp"
 #include "tb/bench/chip_view.hpp"
 
 namespace tb {
@@ -12,10 +13,8 @@ namespace tb {
 class Execution {
  public:
   virtual ~Execution() = default;
-  /// `watched`: the pins whose changes are wanted; of the inputs all (kInputPins) or none. Chips are made before
-  /// anything else is added to the timeline.
-  virtual std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config,
-                                              std::uint32_t watched) = 0;
+  /// Chips are made before anything else is added to the timeline.
+  virtual std::unique_ptr<ChipView> make_chip(const ChipMaker& maker, const ChipRequest& request) = 0;
   /// Runs the timeline up to and including `end`, or until `stopped` says so.
   virtual void run(Tick end, const std::function<bool()>& stopped) = 0;
 
@@ -30,7 +29,7 @@ class Execution {
   bus::Timeline timeline_;
 };
 
-/// The pins of the core, no SystemC.
+/// By the pins of the cores, no SystemC.
 std::unique_ptr<Execution> make_pin_execution();
 
 }  // namespace tb

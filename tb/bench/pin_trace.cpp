@@ -2,24 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "model/profibus/time.hpp"
+
 namespace tb {
-namespace {
-
-std::string level_text(dsdpv1::Pin pin, dsdpv1::Level level) {
-  if (level == dsdpv1::kLevelZ) return "z";
-  if (level == dsdpv1::kLevelX) return "x";
-  return dsdpv1::width(pin) == 1 ? fmt::format("{}", level) : fmt::format("{:02X}", level);
-}
-
-}  // namespace
-
-void PinTrace::change(std::size_t number, const std::string& slave, bus::Tick at, dsdpv1::Pin pin,
-                      dsdpv1::Level level) {
+void PinTrace::change(std::size_t number, const std::string& slave, bus::Tick at, const PinInfo& pin, Level level) {
   if (at != at_) flush();
   at_ = at;
   const bus::Tick cycle = at / profibus::kTicksPerCycle, rest = at % profibus::kTicksPerCycle;
   const std::string time = rest == 0 ? fmt::format("{}", cycle) : fmt::format("{}+{}", cycle, rest);
-  lines_[number] += fmt::format("{} {} {} {}\n", time, slave, dsdpv1::name(pin), level_text(pin, level));
+  lines_[number] += fmt::format("{} {} {} {}\n", time, slave, pin.name, level_text(pin, level));
 }
 
 void PinTrace::flush() {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "bus/time.hpp"
-#include "model/dsdpv1/chip.hpp"
 #include "tb/output/output_file.hpp"
+#include "tb/pins/pins.hpp"
 
 namespace tb {
 
@@ -14,7 +14,7 @@ namespace tb {
 class PinTrace {
  public:
   explicit PinTrace(const std::string& path) : file_(path) {}
-  void change(std::size_t number, const std::string& slave, bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void change(std::size_t number, const std::string& slave, bus::Tick at, const PinInfo& pin, Level level);
   void save() { file_.flush(); }
   bool failed() const { return file_.failed(); }
   void check() const { file_.check(); }

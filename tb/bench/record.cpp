@@ -15,19 +15,20 @@ const char* name(profibus::Severity severity) {
   return "";
 }
 
-const char* name(dsdpv1::DpState state) {
+const char* name(profibus::DpState state) {
   switch (state) {
-    case dsdpv1::DpState::kOffline: return "OFFLINE";
-    case dsdpv1::DpState::kWaitPrm: return "WAIT_PRM";
-    case dsdpv1::DpState::kWaitCfg: return "WAIT_CFG";
-    case dsdpv1::DpState::kDataExch: return "DATA_EXCH";
+    case profibus::DpState::kOffline: return "OFFLINE";
+    case profibus::DpState::kWaitPrm: return "WAIT_PRM";
+    case profibus::DpState::kWaitCfg: return "WAIT_CFG";
+    case profibus::DpState::kDataExch: return "DATA_EXCH";
   }
   return "";
 }
 
 void Refusals::count(const Occurrence& occurrence) {
   Refused& entry = entries_[{occurrence.station, occurrence.code}];
-  if (entry.count++ == 0) entry = {occurrence.station, occurrence.code, occurrence.text, occurrence.at, occurrence.at, 1};
+  if (entry.count++ == 0)
+    entry = {occurrence.station, occurrence.code, occurrence.text, occurrence.at, occurrence.at, 1};
   entry.last = std::max(entry.last, occurrence.at);
 }
 

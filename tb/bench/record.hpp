@@ -9,7 +9,8 @@
 
 #include "bus/bytes.hpp"
 #include "bus/time.hpp"
-#include "model/dsdpv1/chip.hpp"
+#include "model/profibus/dp_state.hpp"
+#include "tb/bench/chip_view.hpp"
 #include "tb/checks/recorder.hpp"
 #include "tb/user_cpu/station_cpu.hpp"
 
@@ -57,12 +58,12 @@ struct Tsdr {
 
 struct SlaveResult {
   std::string name;
-  dsdpv1::Status status;
+  ChipStatus status;
   std::string master_state;  ///< what its master makes of it, empty without one
   std::string master_reason;
   Tsdr tsdr;
   user_cpu::UserCounters user;
-  std::optional<user_cpu::BoardReport> board;  ///< of an ARM board
+  std::optional<user_cpu::BoardReport> board;  ///< of a board with a processor of its own
   bus::Bytes inputs;
   std::optional<bus::Bytes> outputs;  ///< absent: its program does not tell
 };
@@ -85,7 +86,7 @@ enum class ChecksMode : std::uint8_t {
 /// A check on one slave.
 struct CheckResult {
   std::string slave;
-  checks::Check check{};
+  const checks::Rule* rule = nullptr;
   checks::Limit limit;
   checks::Record record;
   std::uint64_t allowed = 0;              ///< violations that the scenario lists
@@ -124,11 +125,11 @@ struct RunResult {
   std::vector<SlaveResult> slaves;
   std::vector<Occurrence> occurrences;
   std::uint64_t occurrences_dropped = 0;  ///< beyond the first kKept
-  std::vector<Refused> refused;          ///< by the first time
+  std::vector<Refused> refused;           ///< by the first time
   std::vector<ExpectationResult> expectations;
-  std::vector<CheckResult> checks;  ///< by slave, then in the order of checks::Check
+  std::vector<CheckResult> checks;  ///< by slave, then in the order of the chip's rules
   std::optional<Pacing> pacing;
-  std::string fault_registers;  ///< of the ARM board whose fault ended the run, a few lines; else empty
+  std::string fault_registers;  ///< of the processor whose fault ended the run, a few lines; else empty
 
   static constexpr std::size_t kKept = 10'000;
   /// Simulated time over wall time, 0 when nothing was measured.
@@ -138,6 +139,6 @@ struct RunResult {
 /// The word for a baud index of Status: "12M" ... "9.6k", "searching".
 std::string baud_text(int baud_index);
 /// "OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH".
-const char* name(dsdpv1::DpState state);
+const char* name(profibus::DpState state);
 
 }  // namespace tb

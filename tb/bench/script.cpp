@@ -128,6 +128,23 @@ std::vector<ExpectationResult> Script::finish(Tick now, bool interrupted) {
   return expectations_;
 }
 
+namespace {
+
+/// As the log has always had it: bit 7 for a diagnosis that comes, the low bits for its kind.
+int diagnosis_code(user_cpu::DiagnosisKind kind) {
+  using user_cpu::DiagnosisKind;
+  switch (kind) {
+    case DiagnosisKind::kExtended: return 0x00;
+    case DiagnosisKind::kExternal: return 0x81;
+    case DiagnosisKind::kExternalGone: return 0x01;
+    case DiagnosisKind::kStatic: return 0x82;
+    case DiagnosisKind::kStaticGone: return 0x02;
+  }
+  return 0;
+}
+
+}  // namespace
+
 // --- actions ---------------------------------------------------------------------------------------------------------
 
 void Script::act(const Action& action, Tick now) {
@@ -154,16 +171,12 @@ void Script::act_on_user(const Action& action, Tick now) {
     slave.command(now, what);
   };
   switch (action.what) {
-    case ActionKind::kSetInputs: return order("inputs " + bench_.in_log(action.bytes), command::SetInputs{action.bytes});
+    case ActionKind::kSetInputs:
+      return order("inputs " + bench_.in_log(action.bytes), command::SetInputs{action.bytes});
     case ActionKind::kSetDiagnosis:
-      return order(fmt::format("diagnosis {:02X}: {}", static_cast<int>(action.diagnosis), bench_.in_log(action.bytes)),
+      return order(fmt::format("diagnosis {:02X}: {}", diagnosis_code(action.diagnosis), bench_.in_log(action.bytes)),
                    command::SetDiagnosis{action.diagnosis, action.bytes});
-    case ActionKind::kHoldDpram:
-      return order("holds the DPRAM for " + time_text(*action.duration), command::Hold{*action.duration});
-    case ActionKind::kWrongCrc: return order("wrong CRC", command::WrongCrc{action.area, action.times});
-    case ActionKind::kEarlyRSta:
-      for (int i = 0; i < action.times; ++i) order("R_STA without a look at L_REQ and L_STA", command::EarlyRSta{});
-      return;
+    case ActionKind::kOfChip: return order_of_chip(action, now);
     case ActionKind::kWrongLength: return order("inputs of a wrong length", command::WrongLength{});
     case ActionKind::kAnswerAcyclic:
       return order("answers acyclic requests otherwise", command::SetAnswering{action.answering});
@@ -177,6 +190,18 @@ void Script::act_on_user(const Action& action, Tick now) {
       bench_.log(now, slave.name(), "script", "initialises the chip again");
       return slave.reinitialise(now, action.new_address, action.cfg);
     default: return reset_chip(action, now);
+  }
+}
+
+void Script::order_of_chip(const Action& action, Tick now) {
+  const auto& orders = bench_.scenario().kind->orders();
+  const Order& order = *std::find_if(orders.begin(), orders.end(),
+                                     [&action](const Order& each) { return each.choice.word == action.word; });
+  const user_cpu::command::OfChip command{action.word, action.duration.value_or(0), action.block, action.times};
+  SlaveStation& slave = bench_.slave(action.slave.text);
+  for (int i = 0; i < (order.one_by_one ? action.times : 1); ++i) {
+    bench_.log(now, slave.name(), "script", order.said(command));
+    slave.command(now, command);
   }
 }
 
@@ -236,7 +261,7 @@ void Script::act_on_class2(const Action& action, Class2Station& station, Tick no
 std::uint8_t Script::target(const Action& action) const {
   if (action.address) return static_cast<std::uint8_t>(*action.address);
   const std::optional<std::uint8_t> listed = bench_.listed_address(action.slave.text);
-  return listed.value_or(bench_.slave(action.slave.text).chip().chip().status().address);
+  return listed.value_or(bench_.slave(action.slave.text).chip().status().address);
 }
 
 /// A service out of the cycle; its answer is kept for `reply`.
@@ -246,7 +271,7 @@ void Script::ask(const Action& action) {
     bench_.keep_reply(name, what, {result.answered() && !result.short_acknowledge(), result.answer.data, {}});
   };
   const std::uint8_t address = action.what == ActionKind::kSetSlaveAddress && !action.address
-                                   ? bench_.slave(action.slave.text).chip().chip().status().address
+                                   ? bench_.slave(action.slave.text).chip().status().address
                                    : target(action);
   switch (action.what) {
     case ActionKind::kReadInputs: return master.read_inputs(address, keep);

@@ -55,6 +55,7 @@ class Script : public bus::Agent {
   void act_on_master(const scenario::Action& action, Tick now);
   void act_on_class2(const scenario::Action& action, Class2Station& station, Tick now);
   void act_on_bus(const scenario::Action& action, Tick now);
+  void order_of_chip(const scenario::Action& action, Tick now);
   void reset_chip(const scenario::Action& action, Tick now);
   void ask(const scenario::Action& action);
   void ask_acyclic(const scenario::Action& action);

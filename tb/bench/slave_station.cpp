@@ -26,8 +26,8 @@ void SlaveStation::release_reset(Tick now) {
   announce();
   tells_ = user_->tells();
   user_->quiet_until = quiet_until;
-  user_->on_driver_error = [this](const user_cpu::DriverError& error) {
-    if (on_driver_error) on_driver_error(error);
+  user_->on_error = [this](const user_cpu::ProgramError& error) {
+    if (on_error) on_error(error);
   };
   user_->on_text = [this](Tick at, const std::string& line) {
     if (on_text) on_text(at, line);
@@ -52,9 +52,9 @@ void SlaveStation::reinitialise(Tick now, std::optional<int> address, const std:
   command(now, user_cpu::command::Reinitialise{station_});
 }
 
-void SlaveStation::intr0_changed(Tick at, bool level) {
+void SlaveStation::interrupt_changed(Tick at, bool level) {
   if (!user_) return;
-  user_->intr0_changed(at, level);
+  user_->interrupt_changed(at, level);
   announce();
 }
 
@@ -74,7 +74,7 @@ SlaveResult SlaveStation::result() const {
   if (user_) result.user += user_->counters();
   result.board = user_ ? user_->board() : board_before_reset_;
   result.name = name();
-  result.status = chip_->chip().status();
+  result.status = chip_->status();
   result.tsdr = tsdr_;
   if (tells_) result.outputs = outputs_;
   return result;

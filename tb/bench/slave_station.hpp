@@ -6,15 +6,13 @@
 #include <string>
 
 #include "bus/timeline.hpp"
+#include "tb/bench/chip_maker.hpp"
 #include "tb/bench/chip_view.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/scenario/scenario.hpp"
 #include "tb/user_cpu/station_cpu.hpp"
 
 namespace tb {
-
-/// Makes the user CPU that starts at `start` with these initialisation data.
-using MakeUser = std::function<std::unique_ptr<user_cpu::StationCpu>(const user_cpu::StationConfig& station, Tick start)>;
 
 /// The agent is the user CPU; the chip is the execution's business.
 class SlaveStation : public bus::Agent {
@@ -36,7 +34,7 @@ class SlaveStation : public bus::Agent {
   /// Hands a command to the user program and wakes it.
   void command(Tick now, const user_cpu::Command& command);
   void reinitialise(Tick now, std::optional<int> address, const std::optional<bus::Bytes>& cfg);
-  void intr0_changed(Tick at, bool level);
+  void interrupt_changed(Tick at, bool level);
 
   Tick next() const override { return user_ ? user_->next() : bus::kNever; }
   void run(Tick now) override;
@@ -50,7 +48,7 @@ class SlaveStation : public bus::Agent {
 
   /// As user_cpu::StationCpu has them.
   std::function<Tick()> quiet_until;
-  std::function<void(const user_cpu::DriverError&)> on_driver_error;
+  std::function<void(const user_cpu::ProgramError&)> on_error;
   std::function<void(Tick at, const std::string& line)> on_text;
   std::function<void(Tick at, const std::string& why, const std::string& registers)> on_failure;
   std::function<void()> on_killed;

@@ -1,16 +1,24 @@
 #include "tb/bench/wave_recorder.hpp"
 
-namespace tb {
+#include <string_view>
 
-using dsdpv1::Level;
-using dsdpv1::Pin;
+namespace tb {
 
 namespace {
 
-/// The data bus as everybody on it sees it: two drivers at once are X.
+/// A bus as everybody on it sees it: two drivers at once are X.
 Level resolved(Level user, Level chip) {
-  if (user == dsdpv1::kLevelZ) return chip;
-  return chip == dsdpv1::kLevelZ || chip == user ? user : dsdpv1::kLevelX;
+  if (user == kLevelZ) return chip;
+  return chip == kLevelZ || chip == user ? user : kLevelX;
+}
+
+/// The pin of the same bus, `pin` itself when it is of none.
+std::size_t other_direction(const PinTable& pins, std::size_t pin) {
+  for (std::size_t i = 0; i < pins.size(); ++i)
+    if (i != pin && pins[pin].bus != nullptr && pins[i].bus != nullptr &&
+        std::string_view(pins[i].bus) == pins[pin].bus)
+      return i;
+  return pin;
 }
 
 }  // namespace
@@ -23,15 +31,18 @@ WaveRecorder::WaveRecorder(const std::string& path, bus::Segment& segment) : wri
   segment.attach("waves", this);
 }
 
-std::size_t WaveRecorder::add_chip(const std::string& name, const dsdpv1::Chip& chip) {
+std::size_t WaveRecorder::add_chip(const std::string& name, const PinTable& pins, const ChipView& chip) {
   ChipSignals signals;
   signals.chip = &chip;
+  signals.pins.resize(pins.size());
   writer_->open_scope(name);
-  for (int i = 0; i < dsdpv1::kPinCount; ++i) {
-    const Pin pin = static_cast<Pin>(i);
-    if (pin == Pin::kDOut) continue;  // D is one bus: both directions are shown as D
-    signals.pins.at(static_cast<std::size_t>(i)) =
-        writer_->wire(pin == Pin::kDIn ? "D" : dsdpv1::name(pin), dsdpv1::width(pin));
+  for (std::size_t i = 0; i < pins.size(); ++i) {
+    PinSignal& own = signals.pins[i];
+    own.pin = &pins[i];
+    const std::size_t other = other_direction(pins, i);
+    own.other = static_cast<PinNumber>(other);
+    own.signal = other < i ? signals.pins[other].signal
+                           : writer_->wire(own.pin->bus != nullptr ? own.pin->bus : own.pin->name, own.pin->width);
   }
   signals.dp_state = writer_->words("dp_state");
   signals.rm_entries = {writer_->words("rm_30"), writer_->words("rm_2F")};
@@ -52,23 +63,24 @@ void WaveRecorder::begin() {
   writer_->set(0, line_, 1);
   writer_->say(0, telegram_, "-");
   for (std::size_t chip = 0; chip < chips_.size(); ++chip) {
-    for (int i = 0; i < dsdpv1::kPinCount; ++i)
-      pin(chip, 0, static_cast<Pin>(i), chips_[chip].chip->level(static_cast<Pin>(i)));
+    for (std::size_t i = 0; i < chips_[chip].pins.size(); ++i) {
+      const auto number = static_cast<PinNumber>(i);
+      pin(chip, 0, number, chips_[chip].chip->level(number));
+    }
     dp_state(chip, 0, "OFFLINE");
     for (int channel = 0; channel < profibus::kC2Channels; ++channel) rm_entry(chip, 0, channel, "not in use");
   }
   for (const auto& [name, state] : master_states_) writer_->say(0, state.signal, state.initial);
 }
 
-void WaveRecorder::pin(std::size_t chip, bus::Tick at, Pin pin, Level level) {
-  ChipSignals& signals = chips_[chip];
-  if (pin != Pin::kDIn && pin != Pin::kDOut) {
-    writer_->set(at, signals.pins.at(static_cast<std::size_t>(pin)), level);
-    return;
-  }
-  (pin == Pin::kDIn ? signals.user_data : signals.chip_data) = level;
-  writer_->set(at, signals.pins.at(static_cast<std::size_t>(Pin::kDIn)),
-               resolved(signals.user_data, signals.chip_data));
+void WaveRecorder::pin(std::size_t chip, bus::Tick at, PinNumber pin, Level level) {
+  std::vector<PinSignal>& pins = chips_[chip].pins;
+  PinSignal& own = pins[pin];
+  own.level = level;
+  const Level shown = own.other == pin ? level
+                      : own.pin->input ? resolved(level, pins[own.other].level)
+                                       : resolved(pins[own.other].level, level);
+  writer_->set(at, own.signal, shown);
 }
 
 void WaveRecorder::dp_state(std::size_t chip, bus::Tick at, const std::string& word) {

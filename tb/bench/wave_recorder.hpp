@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bus/wire/segment.hpp"
-#include "model/dsdpv1/chip.hpp"
+#include "tb/bench/chip_view.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace tb {
@@ -19,13 +19,13 @@ class WaveRecorder : private bus::Listener {
 
   // Declarations, before `begin`.
   /// Returns the chip's number for `pin` and `dp_state`.
-  std::size_t add_chip(const std::string& name, const dsdpv1::Chip& chip);
+  std::size_t add_chip(const std::string& name, const PinTable& pins, const ChipView& chip);
   /// `members`: its slaves or connections, all in the state `initial`.
   void add_master(const std::string& master, const std::vector<std::string>& members, const std::string& initial);
   /// Writes the first values.
   void begin();
 
-  void pin(std::size_t chip, bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void pin(std::size_t chip, bus::Tick at, PinNumber pin, Level level);
   void dp_state(std::size_t chip, bus::Tick at, const std::string& word);
   /// A row of the RM registry (table 30) has changed; `channel` 0 or 1.
   void rm_entry(std::size_t chip, bus::Tick at, int channel, const std::string& words);
@@ -40,12 +40,18 @@ class WaveRecorder : private bus::Listener {
 
  private:
   using Signal = WaveWriter::Signal;
+  /// The two directions of a bus are one signal.
+  struct PinSignal {
+    Signal signal = 0;
+    const PinInfo* pin = nullptr;
+    PinNumber other = 0;  ///< of a bus: the pin of the other direction
+    Level level = kLevelZ;
+  };
   struct ChipSignals {
-    const dsdpv1::Chip* chip = nullptr;
-    std::array<Signal, dsdpv1::kPinCount> pins{};
+    const ChipView* chip = nullptr;
+    std::vector<PinSignal> pins;
     Signal dp_state = 0;
     std::array<Signal, profibus::kC2Channels> rm_entries{};
-    dsdpv1::Level user_data = dsdpv1::kLevelZ, chip_data = dsdpv1::kLevelZ;
   };
   void line_changed(bus::Tick at, bool level) override { writer_->set(at, line_, level ? 1 : 0); }
 

@@ -1,28 +1,15 @@
 #pragma once
-// The checks as a table: what each one asks for, where that stands, what it measures, and its limit.
-#include <array>
+// A check as a row of its chip's table: what it asks for, where that stands, what it measures, and its limit.
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
+#include <type_traits>
+#include <vector>
 
 #include "bus/time.hpp"
 
 namespace checks {
 
 using bus::Tick;
-
-enum class Check : std::uint8_t {
-#define X(enumerator, ...) enumerator,
-#include "tb/checks/check_table.inc"
-#undef X
-};
-/// All of them, in the order of the table.
-constexpr Check kAllChecks[] = {
-#define X(enumerator, ...) Check::enumerator,
-#include "tb/checks/check_table.inc"
-#undef X
-};
-constexpr std::size_t kCheckCount = std::size(kAllChecks);
 
 /// What the limit is.
 enum class Bound : std::uint8_t {
@@ -38,17 +25,29 @@ struct Rule {
   const char* id;  ///< stable: in scenarios, logs and result files
   Bound bound;
   Tick limit;          ///< default, in ticks of 1/12 ns; kNoLimit, or 0 for Bound::kRule
-  std::uint32_t pins;  ///< whose history is shown with a violation
+  std::uint32_t pins;  ///< whose history is shown with a violation, a bit for each pin of the chip
   const char* rule;    ///< what must hold, one sentence without its stop
-  const char* clause;  ///< of the datasheet, and rulings of docs/chip.md
+  const char* clause;  ///< of the datasheet, and rulings
   const char* formula;
   const char* source;  ///< of the default limit
   const char* advice;  ///< what to do about a violation
 };
 
-const Rule& rule(Check check);
+/// The checks of a chip, in the order in which they are reported.
+using RuleTable = std::vector<Rule>;
 
-/// The limits of a run: the defaults, or what a scenario says.
+/// The place of a check in its chip's table; made from the enumerators of that chip.
+struct CheckId {
+  std::size_t index = 0;
+
+  CheckId() = default;
+  explicit constexpr CheckId(std::size_t place) : index(place) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): the enumerators of a chip stand for it
+  template <class E, class = std::enable_if_t<std::is_enum_v<E>>>
+  constexpr CheckId(E check) : index(static_cast<std::size_t>(check)) {}
+};
+
+/// The limit of a run: the default, or what a scenario says.
 struct Limit {
   bool on = true;
   Tick value = 0;  ///< of Bound::kMin and Bound::kMax, ticks
@@ -56,12 +55,15 @@ struct Limit {
 
 class Limits {
  public:
-  Limits();
-  Limit& operator[](Check check) { return limits_.at(static_cast<std::size_t>(check)); }
-  const Limit& operator[](Check check) const { return limits_.at(static_cast<std::size_t>(check)); }
+  Limits() = default;
+  explicit Limits(const RuleTable& rules) {
+    for (const Rule& rule : rules) limits_.push_back({true, rule.limit});
+  }
+  Limit& operator[](CheckId check) { return limits_.at(check.index); }
+  const Limit& operator[](CheckId check) const { return limits_.at(check.index); }
 
  private:
-  std::array<Limit, kCheckCount> limits_;
+  std::vector<Limit> limits_;
 };
 
 }  // namespace checks

@@ -14,18 +14,18 @@ std::string ns_text(Tick ticks) {
 std::string history_text(const Violation& violation) {
   std::string text;
   for (const PinChange& change : violation.history)
-    text += fmt::format("{}{}={} {}", text.empty() ? "" : ", ", dsdpv1::name(change.pin),
-                        level_text(change.pin, change.level), ns_text(change.at - violation.at));
+    text += fmt::format("{}{}={} {}", text.empty() ? "" : ", ", change.pin->name,
+                        tb::level_text(*change.pin, change.level), ns_text(change.at - violation.at));
   return text;
 }
 
-Tick Recorder::margin(Check check, Tick measured) const {
+Tick Recorder::margin(CheckId check, Tick measured) const {
   const Tick limit = limits_[check].value;
   return rule(check).bound == Bound::kMin ? measured - limit : limit - measured;
 }
 
-bool Recorder::add(Check check, Tick at, Tick measured) {
-  Record& record = records_.at(static_cast<std::size_t>(check));
+bool Recorder::add(CheckId check, Tick at, Tick measured) {
+  Record& record = records_.at(check.index);
   ++record.count;
   if (limits_[check].value == kNoLimit) {
     if (!record.worst_value || measured > *record.worst_value) {
@@ -45,15 +45,15 @@ bool Recorder::add(Check check, Tick at, Tick measured) {
   return left >= 0;
 }
 
-bool Recorder::add_outcome(Check check, Tick at, bool is_kept) {
-  Record& record = records_.at(static_cast<std::size_t>(check));
+bool Recorder::add_outcome(CheckId check, Tick at, bool is_kept) {
+  Record& record = records_.at(check.index);
   ++record.count;
   if (is_kept) return true;
   if (record.violations++ == 0) record.at = at;
   return false;
 }
 
-void Recorder::report_value(Check check, Tick at, Tick measured, const std::string& context) {
+void Recorder::report_value(CheckId check, Tick at, Tick measured, const std::string& context) {
   const Tick left = margin(check, measured);
   std::string text =
       fmt::format("{} of {} {}", ns_text(measured), rule(check).bound == Bound::kMin ? "at least" : "at most",
@@ -62,7 +62,7 @@ void Recorder::report_value(Check check, Tick at, Tick measured, const std::stri
   report(check, at, left, std::move(text));
 }
 
-void Recorder::report(Check check, Tick at, std::optional<Tick> margin, std::string text) {
+void Recorder::report(CheckId check, Tick at, std::optional<Tick> margin, std::string text) {
   if (!on_violation) return;
   on_violation({check, at, std::max(now_, history_.now()), margin, std::move(text), history_.last(rule(check).pins)});
 }

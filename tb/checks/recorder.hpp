@@ -1,6 +1,5 @@
 #pragma once
 // Where the checks put what they found: counts, worst margins, histograms, and the violations in words.
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -23,7 +22,7 @@ struct Record {
 };
 
 struct Violation {
-  Check check{};
+  CheckId check;
   Tick at = 0;     ///< where the rule was broken
   Tick found = 0;  ///< when that could be seen, not before `at`
   std::optional<Tick> margin;
@@ -39,38 +38,42 @@ std::string ns_text(Tick ticks);
 
 class Recorder {
  public:
-  Recorder(const Limits& limits, const PinHistory& history) : limits_(limits), history_(history) {}
+  /// `rules` and `history` must outlive it.
+  Recorder(const RuleTable& rules, const Limits& limits, const PinHistory& history)
+      : rules_(rules), limits_(limits), history_(history), records_(rules.size()) {}
 
   /// A measured value of a check with Bound::kMin or kMax; `context()` names what it was about, asked for when it is
   /// violated.
   template <class Context>
-  void value(Check check, Tick at, Tick measured, const Context& context) {
+  void value(CheckId check, Tick at, Tick measured, const Context& context) {
     if (limits_[check].on && !add(check, at, measured)) report_value(check, at, measured, context());
   }
   /// The outcome of a check with Bound::kRule; `text()` says what was wrong.
   template <class Text>
-  void kept(Check check, Tick at, bool is_kept, const Text& text) {
+  void kept(CheckId check, Tick at, bool is_kept, const Text& text) {
     if (limits_[check].on && !add_outcome(check, at, is_kept)) report(check, at, std::nullopt, text());
   }
 
-  const Record& record(Check check) const { return records_.at(static_cast<std::size_t>(check)); }
-  const Limit& limit(Check check) const { return limits_[check]; }
+  const Record& record(CheckId check) const { return records_.at(check.index); }
+  const Limit& limit(CheckId check) const { return limits_[check]; }
   /// Time goes on without a change of a pin (a telegram, the end of the run).
   void now(Tick at) { now_ = at; }
 
   std::function<void(const Violation&)> on_violation;
 
  private:
-  bool add(Check check, Tick at, Tick measured);
-  bool add_outcome(Check check, Tick at, bool is_kept);
-  void report_value(Check check, Tick at, Tick measured, const std::string& context);
-  void report(Check check, Tick at, std::optional<Tick> margin, std::string text);
-  Tick margin(Check check, Tick measured) const;
+  bool add(CheckId check, Tick at, Tick measured);
+  bool add_outcome(CheckId check, Tick at, bool is_kept);
+  void report_value(CheckId check, Tick at, Tick measured, const std::string& context);
+  void report(CheckId check, Tick at, std::optional<Tick> margin, std::string text);
+  Tick margin(CheckId check, Tick measured) const;
+  const Rule& rule(CheckId check) const { return rules_.at(check.index); }
 
+  const RuleTable& rules_;
   Limits limits_;
   const PinHistory& history_;
   Tick now_ = 0;
-  std::array<Record, kCheckCount> records_{};
+  std::vector<Record> records_;
 };
 
 }  // namespace checks

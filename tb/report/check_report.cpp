@@ -11,8 +11,6 @@
 namespace tb {
 namespace {
 
-using checks::Check;
-
 /// One check on all slaves.
 struct Row {
   std::uint64_t count = 0, violations = 0, allowed = 0;
@@ -26,10 +24,10 @@ bool is_worse(const CheckResult& a, const CheckResult& b) {
   return x.at && (!y.at || *x.at < *y.at);
 }
 
-Row row_of(const RunResult& result, Check check) {
+Row row_of(const RunResult& result, const checks::Rule* rule) {
   Row row;
   for (const CheckResult& each : result.checks) {
-    if (each.check != check) continue;
+    if (each.rule != rule) continue;
     row.count += each.record.count;
     row.violations += each.record.violations;
     row.allowed += each.allowed;
@@ -56,9 +54,9 @@ std::string violations_text(const Row& row) {
 
 std::string first_violation(const CheckResult& result) {
   const checks::Violation& first = result.listed.front();
-  std::string text = fmt::format("  {} at {:.3f} us ({}): {}\n    {}\n    pins: {}\n", checks::rule(result.check).id,
+  std::string text = fmt::format("  {} at {:.3f} us ({}): {}\n    {}\n    pins: {}\n", result.rule->id,
                                  static_cast<double>(first.at) / static_cast<double>(bus::kTicksPerUs), result.slave,
-                                 first.text, checks::rule(result.check).rule, checks::history_text(first));
+                                 first.text, result.rule->rule, checks::history_text(first));
   if (result.record.violations > 1)
     text += fmt::format("    ... and {} more, see --log and --result\n", result.record.violations - 1);
   return text;
@@ -69,11 +67,12 @@ std::string first_violation(const CheckResult& result) {
 std::string check_report(const RunResult& result) {
   if (result.checks.empty()) return "";
   TextTable table({"check", "count", "violations", "worst margin", "when"});
-  for (const Check check : checks::kAllChecks) {
-    const Row row = row_of(result, check);
+  for (const CheckResult& first : result.checks) {
+    if (first.slave != result.checks.front().slave) break;  // every slave has the same checks
+    const Row row = row_of(result, first.rule);
     if (row.count == 0) continue;
-    table.add({checks::rule(check).id, fmt::format("{}", row.count), violations_text(row),
-               worst_text(row.worst->record), at_text(*row.worst)});
+    table.add({first.rule->id, fmt::format("{}", row.count), violations_text(row), worst_text(row.worst->record),
+               at_text(*row.worst)});
   }
   std::string text = "\n" + table.text();
   for (const CheckResult& each : result.checks)

@@ -22,13 +22,12 @@ Json tsdr_of(const SlaveResult& slave) {
 }
 
 Json handshake_of(const SlaveResult& slave) {
-  return {
-      {"chip_accesses", slave.status.accesses},
-      {"chip_longest_wait_ns", nanoseconds_of(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle)},
-      {"user_holds", slave.user.port.holds},
-      {"user_given_up", slave.user.port.given_up},
-      {"user_longest_wait_ns", nanoseconds_of(slave.user.port.longest_wait)},
-      {"user_longest_hold_ns", nanoseconds_of(slave.user.port.longest_hold)}};
+  return {{"chip_accesses", slave.status.accesses},
+          {"chip_longest_wait_ns", nanoseconds_of(slave.status.longest_wait)},
+          {"user_holds", slave.user.port.holds},
+          {"user_given_up", slave.user.port.given_up},
+          {"user_longest_wait_ns", nanoseconds_of(slave.user.port.longest_wait)},
+          {"user_longest_hold_ns", nanoseconds_of(slave.user.port.longest_hold)}};
 }
 
 Json user_of(const SlaveResult& slave) {
@@ -101,8 +100,8 @@ Json history_of(const checks::Violation& violation) {
   Json changes = Json::array();
   for (const checks::PinChange& change : violation.history)
     changes.push_back({{"at_ns", nanoseconds_of(change.at)},
-                       {"pin", dsdpv1::name(change.pin)},
-                       {"level", checks::level_text(change.pin, change.level)}});
+                       {"pin", change.pin->name},
+                       {"level", level_text(*change.pin, change.level)}});
   return changes;
 }
 
@@ -119,7 +118,7 @@ Json histogram_of(const checks::Histogram& histogram) {
 }
 
 Json check_of(const CheckResult& result) {
-  const checks::Rule& rule = checks::rule(result.check);
+  const checks::Rule& rule = *result.rule;
   const auto time = [](const std::optional<Tick>& tick) { return tick ? nanoseconds_of(*tick) : Json(nullptr); };
   const bool limited = rule.bound != checks::Bound::kRule && result.limit.value != checks::kNoLimit;
   Json json = {{"id", rule.id},

@@ -71,8 +71,7 @@ std::string slaves(const RunResult& result) {
   for (const SlaveResult& slave : result.slaves) {
     table.add({slave.name, fmt::format("{}", slave.status.address), name(slave.status.dp_state),
                baud_text(slave.status.baud_index), fmt::format("{}", slave.status.data_exchanges),
-               fmt::format("{}", slave.status.outputs_missed), tsdr(slave),
-               microseconds(static_cast<Tick>(slave.status.longest_wait) * profibus::kTicksPerCycle),
+               fmt::format("{}", slave.status.outputs_missed), tsdr(slave), microseconds(slave.status.longest_wait),
                microseconds(slave.user.port.longest_wait), microseconds(slave.user.port.longest_hold)});
   }
   return table.text() + "\n";

@@ -79,7 +79,7 @@ class Checker {
   }
 
   void check_code(const Name& code) const {
-    const std::vector<std::string>& codes = all_codes();
+    const std::vector<std::string>& codes = all_codes(*scenario_.kind);
     if (code.empty() || std::find(codes.begin(), codes.end(), code.text) != codes.end()) return;
     fail(code.line, fmt::format("event {} does not exist{}, allowed are the codes of docs/reasons.md", code.text,
                                 did_you_mean(code.text, codes)));
@@ -87,7 +87,7 @@ class Checker {
 
   void check_slave(const Slave& slave) const {
     check_objects(slave.user_cpu.dpv1);
-    check_cpu(slave);
+    scenario_.kind->check_user(*slave.user_cpu.own, {scenario_.file}, slave.name.text, slave.line);
     if (slave.gsd.empty() && !slave.modules.empty())
       fail(slave.modules.front().line, "modules without gsd, allowed are the modules of a GSD file");
     if (!slave.gsd.empty()) return;
@@ -103,39 +103,6 @@ class Checker {
     need(init.cfg.has_value(), "cfg");
   }
 
-  void check_cpu(const Slave& slave) const {
-    const UserCpu& user = slave.user_cpu;
-    const bool arm = user.kind == CpuKind::kArm;
-    if (arm && user.elf.empty())
-      fail(slave.line, fmt::format("elf is missing, slave {} has an ARM board that runs it", slave.name.text));
-    if (!arm && !user.elf.empty()) fail(user.elf.line, "elf without kind: arm, allowed is firmware of an ARM board");
-    check_switches(user, arm);
-    if (arm && user.timing)
-      fail(user.timing->line, "timing is that of kind: native, allowed with arm are cpi, fsmc and access");
-  }
-
-  void check_switches(const UserCpu& user, bool arm) const {
-    std::map<std::pair<unsigned, unsigned>, std::string> seen;
-    for (const Name& text : user.switches) {
-      if (!arm) fail(text.line, "switches without kind: arm, allowed are those of an ARM board");
-      const std::optional<Switch> one = parse_switch(text.text);
-      if (!one) fail(text.line, fmt::format("switches holds {}, allowed are like PA0=low or PG15=high", text.text));
-      if (is_wired(*one))
-        fail(text.line, fmt::format("switches holds {}, a pin that the board wires to the chip; allowed are the others "
-                                    "of PA0 to PG15",
-                                    text.text));
-      if (!seen.emplace(std::pair(one->port, one->pin), text.text).second)
-        fail(text.line, fmt::format("switches holds {}, a pin that is there twice, allowed is once", text.text));
-    }
-  }
-
-  /// L_REQ, L_STA, R_REQ, R_STA; RESET; INTR0, PBF, BR, READY.
-  static bool is_wired(const Switch& one) {
-    const std::map<unsigned, unsigned> wired = {{2, 0x03C0}, {4, 0x0010}, {6, 0x7040}};
-    const auto port = wired.find(one.port);
-    return port != wired.end() && (port->second >> one.pin & 1U) != 0;
-  }
-
   void check_objects(const Dpv1User& user) const {
     std::map<std::pair<int, int>, int> seen;
     if (user.im0) seen[{0, 255}] = user.im0->line;
@@ -149,7 +116,7 @@ class Checker {
       if (object.min_length > static_cast<int>(object.data.size()))
         fail(object.line, fmt::format("min_length is {}, allowed is up to the length of data, {}", object.min_length,
                                       object.data.size()));
-      if (object.transport && object.classes == DSDPV1_CLASS_1)
+      if (object.transport && object.classes == user_cpu::kClass1)
         fail(object.line, "transport is a service of C2, allowed with classes: both or class_2");
     }
   }
@@ -255,7 +222,9 @@ class Checker {
   }
 
   static bool class2(ActionKind what) { return what >= ActionKind::kC2Connect && what <= ActionKind::kC2Raw; }
-  static bool acyclic(ActionKind what) { return what == ActionKind::kC1Read || what == ActionKind::kC1Write || class2(what); }
+  static bool acyclic(ActionKind what) {
+    return what == ActionKind::kC1Read || what == ActionKind::kC1Write || class2(what);
+  }
   static bool needs_master(ActionKind what) { return what >= ActionKind::kSetOutputs && what <= ActionKind::kTelegram; }
 
   const Scenario& scenario_;
@@ -263,20 +232,6 @@ class Checker {
 };
 
 }  // namespace
-
-std::optional<Switch> parse_switch(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals < 3 || equals > 4 || text[0] != 'P') return std::nullopt;
-  const std::string level = text.substr(equals + 1);
-  if (text[1] < 'A' || text[1] > 'G' || (level != "low" && level != "high")) return std::nullopt;
-  // 0 to 15, without a leading zero
-  const std::string number = text.substr(2, equals - 2);
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  if (!std::all_of(number.begin(), number.end(), digit) || (number.size() > 1 && number[0] == '0')) return std::nullopt;
-  const auto bit = static_cast<unsigned>(std::stoi(number));
-  if (bit > 15) return std::nullopt;
-  return Switch{static_cast<unsigned>(text[1] - 'A'), bit, level == "high"};
-}
 
 void check(const Scenario& scenario) { Checker(scenario).run(); }
 

@@ -1,6 +1,8 @@
 // The scenario itself and the chip's parameters.
 #include "tb/scenario/describe.hpp"
 
+#include <map>
+
 #include "bus/baud.hpp"
 
 namespace tb::scenario {
@@ -13,29 +15,47 @@ std::vector<WordFor<int>> baud_words(bool searching) {
   return words;
 }
 
-const ObjectOf<ChipParameters>& chip_keys() {
-  static const ObjectOf<ChipParameters> keys = [] {
-    using C = ChipParameters;
-    ObjectOf<C> o("chip", "The parameters of the chip that the rulings mark (p), for all slaves of the scenario.");
-    o.integer("access_interval", &C::access_interval, {16, 4800}, "cycles",
-              "From the start of one DPRAM access of the chip to the next (H1).");
-    o.integer("ready_cycles", &C::ready_cycles, {1, 1000000}, "cycles",
-              "From the release of RESET to B004 = 0xC5 (D1).");
-    o.integer("rts_lead", &C::rts_lead, {0, 32}, "cycles", "PBRTS high before the first start bit (P2).");
-    o.integer("rts_trail", &C::rts_trail, {0, 32}, "cycles", "PBRTS high after the last stop bit (P2).");
-    o.integer("intr_low", &C::intr_low, {1, 10000}, "cycles", "How long INTR0 stays low (P7).");
-    o.integer("intr_gap", &C::intr_gap, {1, 10000}, "cycles",
-              "How long INTR0 stays high between two pulses at least (P7).");
-    o.integer("search_window_ms", &C::search_window_ms, {1, 10000}, "ms",
-              "Least time at one baud rate of the search (S1).");
-    o.integer("search_window_bits", &C::search_window_bits, {100, 100000}, "bit times",
-              "Least bit times at one baud rate of the search (S1).");
-    o.integer("baud_control_ms", &C::baud_control_ms, {1, 60000}, "ms",
-              "Silence after which the baud rate is searched again (S1).");
-    return o;
-  }();
-  return keys;
+namespace {
+
+keys::Field kind_field() {
+  keys::Field field;
+  field.name = "kind";
+  field.type.kind = keys::Kind::kWord;
+  for (const ChipKind* each : chip_kinds()) field.type.words.push_back({each->name(), ""});
+  field.default_text = chip_kinds().front()->name();
+  field.doc =
+      "Which chip it is. The other keys, some keys of `user_cpu`, the checks and some actions are those of this chip.";
+  field.read = [self = field](void*, const YAML::Node& node, const keys::Source& source) {
+    keys::read_word(self, node, source);  // `kind_of` has taken it
+  };
+  return field;
 }
+
+const keys::Object& chip_keys(const ChipKind& kind) {
+  static std::map<const ChipKind*, keys::Object> all;
+  auto found = all.find(&kind);
+  if (found == all.end()) {
+    found = all.emplace(&kind, kind.chip_keys()).first;
+    found->second.fields.insert(found->second.fields.begin(), kind_field());
+  }
+  return found->second;
+}
+
+keys::Field chip_field(const ChipKind& kind) {
+  keys::Field field;
+  field.name = "chip";
+  field.type.kind = keys::Kind::kObject;
+  field.type.object = &chip_keys(kind);
+  field.doc = "Which chip the slaves are, and parameters other than its defaults.";
+  field.read = [&kind, keys = field.type.object](void* owner, const YAML::Node& node, const keys::Source& source) {
+    std::unique_ptr<OwnSettings> settings = kind.make_chip_settings();
+    keys::read_object(*keys, dynamic_cast<void*>(settings.get()), node, source);
+    static_cast<Scenario*>(owner)->chip = std::move(settings);
+  };
+  return field;
+}
+
+}  // namespace
 
 const ObjectOf<Allow>& allow_keys() {
   static const ObjectOf<Allow> keys = [] {
@@ -50,30 +70,27 @@ const ObjectOf<Allow>& allow_keys() {
 
 namespace {
 
-ObjectOf<Scenario> describe_scenario() {
+ObjectOf<Scenario> describe_scenario(const ChipKind& kind) {
   ObjectOf<Scenario> o("scenario", "A bus with its masters and slaves, what happens on it, and what is expected.");
   o.text("name", &Scenario::name, "What the scenario shows, one line.").required = true;
   o.word("baud", &Scenario::baud, baud_words(), "Baud rate of the masters; the chips find it themselves.").required =
       true;
   o.time("end", &Scenario::end, {bus::kTicksPerUs, kLongestTime}, "When the run ends.").required = true;
-  o.object("chip", &Scenario::chip, chip_keys(), "Parameters of the chip other than its defaults.");
+  o.fields.push_back(chip_field(kind));
   o.list("masters", &Scenario::masters, master_keys(), {0, 4},
          "The DP masters class 1. Several at a time, and those beside masters of class 2, need `bus: {ring: true}`.");
   o.list("masters2", &Scenario::masters2, master2_keys(), {0, 4}, "The DP masters class 2.");
-  o.list("slaves", &Scenario::slaves, slave_keys(), {1, 32}, "The chips, each with its user CPU.").required = true;
-  o.list("script", &Scenario::script, action_keys(), kItems, "What happens during the run.");
+  o.list("slaves", &Scenario::slaves, slave_keys(kind), {1, 32}, "The chips, each with its user CPU.").required = true;
+  o.list("script", &Scenario::script, action_keys(kind), kItems, "What happens during the run.");
   o.list("expect", &Scenario::expect, expectation_keys(), kItems, "What must be true, else the run fails (exit 1).");
   o.list("allow", &Scenario::allow, allow_keys(), kItems,
          "Violations that are expected. Every other one fails the run.");
-  o.object("checks", &Scenario::checks, check_keys(), "Limits of the checks other than their defaults.");
+  o.object("checks", &Scenario::checks, check_keys(kind), "Limits of the checks other than their defaults.");
   return o;
 }
 
 }  // namespace
 
-const keys::Object& description() {
-  static const ObjectOf<Scenario> keys = describe_scenario();
-  return keys;
-}
+const keys::Object& description(const ChipKind& kind) { return per_kind<Scenario>(kind, describe_scenario); }
 
 }  // namespace tb::scenario

@@ -1,6 +1,8 @@
 #pragma once
 // The parts of the description of a scenario's keys, one function for each mapping.
-#include "tb/scenario/keys.hpp"
+#include <map>
+
+#include "tb/keys/keys.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace tb::scenario {
@@ -10,19 +12,26 @@ using keys::ObjectOf;
 using keys::Range;
 using keys::WordFor;
 
-const ObjectOf<ChipParameters>& chip_keys();
+/// What `describe` makes for this kind of chip, made once.
+template <class T>
+const ObjectOf<T>& per_kind(const ChipKind& kind, ObjectOf<T> (*describe)(const ChipKind& kind)) {
+  static std::map<const ChipKind*, ObjectOf<T>> all;
+  const auto found = all.find(&kind);
+  return found != all.end() ? found->second : all.emplace(&kind, describe(kind)).first->second;
+}
+
 const ObjectOf<Master>& master_keys();
 const ObjectOf<BusParameters>& bus_keys();
 const ObjectOf<Master2>& master2_keys();
-const ObjectOf<Slave>& slave_keys();
+const ObjectOf<Slave>& slave_keys(const ChipKind& kind);
 const std::vector<WordFor<bus::ConnectionState>>& connection_state_words();
 const ObjectOf<Dpv1User>& dpv1_keys();
 const std::vector<WordFor<Answering>>& answering_words();
-const ObjectOf<Action>& action_keys();
+const ObjectOf<Action>& action_keys(const ChipKind& kind);
 const ObjectOf<When>& when_keys();
 const ObjectOf<Expectation>& expectation_keys();
 const ObjectOf<Allow>& allow_keys();
-const ObjectOf<CheckLimits>& check_keys();
+const ObjectOf<CheckLimits>& check_keys(const ChipKind& kind);
 
 /// The ten baud rates, fastest first; with `searching` also the word for no baud rate (-1).
 std::vector<WordFor<int>> baud_words(bool searching = false);

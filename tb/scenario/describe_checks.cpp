@@ -1,11 +1,10 @@
-// Keys of the checks: a key a check of tb/checks, with what can be said about it.
+// Keys of the checks: a key a check of the chip, with what can be said about it.
 #include "tb/scenario/describe.hpp"
 
 namespace tb::scenario {
 namespace {
 
 using checks::Bound;
-using checks::Check;
 
 /// What a scenario says about one check.
 struct CheckLimit {
@@ -57,8 +56,7 @@ const ObjectOf<CheckLimit>& keys_of(Bound bound) {
   return rule_keys();
 }
 
-keys::Field field_of(Check check) {
-  const checks::Rule& rule = checks::rule(check);
+keys::Field field_of(const checks::Rule& rule, checks::CheckId check) {
   keys::Field field;
   field.name = rule.id;
   field.type.kind = keys::Kind::kObject;
@@ -76,15 +74,15 @@ keys::Field field_of(Check check) {
   return field;
 }
 
+ObjectOf<CheckLimits> describe_checks(const ChipKind& kind) {
+  ObjectOf<CheckLimits> o("checks", "Limits of the checks on the user's side, see docs/checks.md. A key a check.");
+  const checks::RuleTable& rules = kind.rules();
+  for (std::size_t i = 0; i < rules.size(); ++i) o.fields.push_back(field_of(rules[i], checks::CheckId(i)));
+  return o;
+}
+
 }  // namespace
 
-const ObjectOf<CheckLimits>& check_keys() {
-  static const ObjectOf<CheckLimits> keys = [] {
-    ObjectOf<CheckLimits> o("checks", "Limits of the checks on the user's side, see docs/checks.md. A key a check.");
-    for (const Check check : checks::kAllChecks) o.fields.push_back(field_of(check));
-    return o;
-  }();
-  return keys;
-}
+const ObjectOf<CheckLimits>& check_keys(const ChipKind& kind) { return per_kind<CheckLimits>(kind, describe_checks); }
 
 }  // namespace tb::scenario

@@ -19,9 +19,9 @@ const ObjectOf<Dpv1Object>& object_keys() {
     o.boolean("transport", &D::transport,
               "DS_Transport is allowed; it replaces the first bytes and is answered with what was there before.");
     o.word("classes", &D::classes,
-           std::vector<WordFor<std::uint8_t>>{{DSDPV1_CLASS_BOTH, "both", ""},
-                                              {DSDPV1_CLASS_1, "class_1", "only the master of class 1, on C1"},
-                                              {DSDPV1_CLASS_2, "class_2", "only masters of class 2, on C2"}},
+           std::vector<WordFor<std::uint8_t>>{{user_cpu::kBothClasses, "both", ""},
+                                              {user_cpu::kClass1, "class_1", "only the master of class 1, on C1"},
+                                              {user_cpu::kClass2, "class_2", "only masters of class 2, on C2"}},
            "Which masters may use it.");
     return o;
   }();

@@ -9,11 +9,11 @@ void describe_condition(ObjectOf<T>& o) {
   using C = Condition;
   o.name_of("slave", &C::slave, "Name of the slave that the other keys are about.");
   o.word("dp_state", &C::dp_state,
-         std::vector<WordFor<dsdpv1::DpState>>{
-             {dsdpv1::DpState::kOffline, "offline", "not initialised"},
-             {dsdpv1::DpState::kWaitPrm, "wait_prm", "waits for Set_Prm, or for the user's verdict on it"},
-             {dsdpv1::DpState::kWaitCfg, "wait_cfg", "waits for Chk_Cfg, or for the user's verdict on it"},
-             {dsdpv1::DpState::kDataExch, "data_exch", "exchanges data"}},
+         std::vector<WordFor<profibus::DpState>>{
+             {profibus::DpState::kOffline, "offline", "not initialised"},
+             {profibus::DpState::kWaitPrm, "wait_prm", "waits for Set_Prm, or for the user's verdict on it"},
+             {profibus::DpState::kWaitCfg, "wait_cfg", "waits for Chk_Cfg, or for the user's verdict on it"},
+             {profibus::DpState::kDataExch, "data_exch", "exchanges data"}},
          "State of the DP state machine.");
   o.word("baud", &C::baud, baud_words(true), "Baud rate that the chip has found.");
   o.integer("station_address", &C::station_address, kAddresses, "", "The chip's present station address.");
@@ -29,21 +29,21 @@ void describe_condition(ObjectOf<T>& o) {
   o.number("tsdr_min", &C::tsdr_min, {0, 100000}, "bit times", "No answer of the slave came sooner.");
   o.number("tsdr_max", &C::tsdr_max, {0, 100000}, "bit times", "No answer of the slave came later.");
   o.time("longest_wait_at_most", &C::longest_wait_at_most, kAnyTime,
-         "No due DPRAM access of the chip waited longer for the user CPU.");
+         "The chip never waited longer for the user CPU to give back the memory that they share.");
   o.name_of("master", &C::master, "Name of the master whose answers `reply` is about; left out: the first one.");
   o.name_of("connection", &C::connection, "Name of the connection that `connection_state` or a C2 service is about.");
   o.word("connection_state", &C::connection_state, connection_state_words(), "What the class 2 master makes of it.");
   o.word("reply_of", &C::reply_of,
          std::vector<WordFor<ActionKind>>{{ActionKind::kReadInputs, "read_inputs", ""},
-                                  {ActionKind::kReadOutputs, "read_outputs", ""},
-                                  {ActionKind::kGetCfg, "get_cfg", ""},
-                                  {ActionKind::kSlaveDiag, "slave_diag", ""},
-                                  {ActionKind::kSetSlaveAddress, "set_slave_address", ""},
-                                  {ActionKind::kC1Read, "c1_read", ""},
-                                  {ActionKind::kC1Write, "c1_write", ""},
-                                  {ActionKind::kC2Read, "c2_read", ""},
-                                  {ActionKind::kC2Write, "c2_write", ""},
-                                  {ActionKind::kC2Transport, "c2_transport", ""}},
+                                          {ActionKind::kReadOutputs, "read_outputs", ""},
+                                          {ActionKind::kGetCfg, "get_cfg", ""},
+                                          {ActionKind::kSlaveDiag, "slave_diag", ""},
+                                          {ActionKind::kSetSlaveAddress, "set_slave_address", ""},
+                                          {ActionKind::kC1Read, "c1_read", ""},
+                                          {ActionKind::kC1Write, "c1_write", ""},
+                                          {ActionKind::kC2Read, "c2_read", ""},
+                                          {ActionKind::kC2Write, "c2_write", ""},
+                                          {ActionKind::kC2Transport, "c2_transport", ""}},
          "The service whose last answer `reply` and `outcome` are about.");
   o.bytes("reply", &C::reply, {0, 244},
           "Data of the last answer of that service; of an acyclic one that was refused Error_Decode, Error_Code_1 and "

@@ -21,43 +21,41 @@ const ObjectOf<Faults>& fault_keys() {
   return keys;
 }
 
+/// Without the orders of the kind of chip.
 const std::vector<WordFor<ActionKind>>& action_words() {
   static const std::vector<WordFor<ActionKind>> words = {{ActionKind::kSetInputs, "set_inputs", ""},
-                                                 {ActionKind::kSetDiagnosis, "set_diagnosis", ""},
-                                                 {ActionKind::kReinitialise, "reinitialise", ""},
-                                                 {ActionKind::kResetChip, "reset_chip", ""},
-                                                 {ActionKind::kHoldDpram, "hold_dpram", ""},
-                                                 {ActionKind::kWrongCrc, "wrong_crc", ""},
-                                                 {ActionKind::kEarlyRSta, "early_r_sta", ""},
-                                                 {ActionKind::kWrongLength, "wrong_length", ""},
-                                                 {ActionKind::kPauseUser, "pause_user", ""},
-                                                 {ActionKind::kVerdict, "verdict", ""},
-                                                 {ActionKind::kAnswerAcyclic, "answer_acyclic", ""},
-                                                 {ActionKind::kUnplug, "unplug", ""},
-                                                 {ActionKind::kPlug, "plug", ""},
-                                                 {ActionKind::kSetOutputs, "set_outputs", ""},
-                                                 {ActionKind::kReadInputs, "read_inputs", ""},
-                                                 {ActionKind::kReadOutputs, "read_outputs", ""},
-                                                 {ActionKind::kGetCfg, "get_cfg", ""},
-                                                 {ActionKind::kSlaveDiag, "slave_diag", ""},
-                                                 {ActionKind::kSetSlaveAddress, "set_slave_address", ""},
-                                                 {ActionKind::kC1Read, "c1_read", ""},
-                                                 {ActionKind::kC1Write, "c1_write", ""},
-                                                 {ActionKind::kGlobalControl, "global_control", ""},
-                                                 {ActionKind::kOperate, "operate", ""},
-                                                 {ActionKind::kClear, "clear", ""},
-                                                 {ActionKind::kStopMaster, "stop_master", ""},
-                                                 {ActionKind::kStartMaster, "start_master", ""},
-                                                 {ActionKind::kChangeBaud, "change_baud", ""},
-                                                 {ActionKind::kTelegram, "telegram", ""},
-                                                 {ActionKind::kC2Connect, "c2_connect", ""},
-                                                 {ActionKind::kC2Read, "c2_read", ""},
-                                                 {ActionKind::kC2Write, "c2_write", ""},
-                                                 {ActionKind::kC2Transport, "c2_transport", ""},
-                                                 {ActionKind::kC2Abort, "c2_abort", ""},
-                                                 {ActionKind::kC2Behaviour, "c2_behaviour", ""},
-                                                 {ActionKind::kC2Raw, "c2_raw", ""},
-                                                 {ActionKind::kGlitch, "glitch", ""}};
+                                                         {ActionKind::kSetDiagnosis, "set_diagnosis", ""},
+                                                         {ActionKind::kReinitialise, "reinitialise", ""},
+                                                         {ActionKind::kResetChip, "reset_chip", ""},
+                                                         {ActionKind::kWrongLength, "wrong_length", ""},
+                                                         {ActionKind::kPauseUser, "pause_user", ""},
+                                                         {ActionKind::kVerdict, "verdict", ""},
+                                                         {ActionKind::kAnswerAcyclic, "answer_acyclic", ""},
+                                                         {ActionKind::kUnplug, "unplug", ""},
+                                                         {ActionKind::kPlug, "plug", ""},
+                                                         {ActionKind::kSetOutputs, "set_outputs", ""},
+                                                         {ActionKind::kReadInputs, "read_inputs", ""},
+                                                         {ActionKind::kReadOutputs, "read_outputs", ""},
+                                                         {ActionKind::kGetCfg, "get_cfg", ""},
+                                                         {ActionKind::kSlaveDiag, "slave_diag", ""},
+                                                         {ActionKind::kSetSlaveAddress, "set_slave_address", ""},
+                                                         {ActionKind::kC1Read, "c1_read", ""},
+                                                         {ActionKind::kC1Write, "c1_write", ""},
+                                                         {ActionKind::kGlobalControl, "global_control", ""},
+                                                         {ActionKind::kOperate, "operate", ""},
+                                                         {ActionKind::kClear, "clear", ""},
+                                                         {ActionKind::kStopMaster, "stop_master", ""},
+                                                         {ActionKind::kStartMaster, "start_master", ""},
+                                                         {ActionKind::kChangeBaud, "change_baud", ""},
+                                                         {ActionKind::kTelegram, "telegram", ""},
+                                                         {ActionKind::kC2Connect, "c2_connect", ""},
+                                                         {ActionKind::kC2Read, "c2_read", ""},
+                                                         {ActionKind::kC2Write, "c2_write", ""},
+                                                         {ActionKind::kC2Transport, "c2_transport", ""},
+                                                         {ActionKind::kC2Abort, "c2_abort", ""},
+                                                         {ActionKind::kC2Behaviour, "c2_behaviour", ""},
+                                                         {ActionKind::kC2Raw, "c2_raw", ""},
+                                                         {ActionKind::kGlitch, "glitch", ""}};
   return words;
 }
 
@@ -73,16 +71,6 @@ std::vector<Choice> user_choices() {
        {"slave"},
        {"new_address", "cfg"}},
       {"reset_chip", "RESET goes low for a while; the user CPU starts again with it.", {"slave"}, {"for"}},
-      {"hold_dpram", "The user CPU takes the DPRAM and keeps it.", {"slave", "for"}, {}},
-      {"wrong_crc",
-       "The next blocks of this kind that the user CPU writes have a wrong CRC.",
-       {"slave", "area"},
-       {"times"}},
-      {"early_r_sta",
-       "The user CPU raises R_STA one cycle after R_REQ without a look at L_REQ and L_STA (against H2), and holds for "
-       "1 us, so often.",
-       {"slave"},
-       {"times"}},
       {"wrong_length",
        "The next inputs are one byte longer than configured, shorter where that is impossible.",
        {"slave"},
@@ -149,28 +137,30 @@ std::vector<Choice> class2_choices() {
   };
 }
 
-/// What each word of `do` means and takes, in the order of action_words().
-std::vector<Choice> action_choices() {
+/// What each word of `do` means and takes, in the order of the words.
+std::vector<Choice> action_choices(const ChipKind& kind) {
   std::vector<Choice> choices = user_choices();
   for (const std::vector<Choice>& more : {master_choices(), class2_choices()})
     choices.insert(choices.end(), more.begin(), more.end());
   choices.push_back({"glitch", "The line is forced to a level for a while.", {"for"}, {"level"}});
+  for (const Order& order : kind.orders()) choices.push_back(order.choice);
   return choices;
 }
 
 void describe_values(ObjectOf<Action>& o) {
   using A = Action;
+  using user_cpu::DiagnosisKind;
   o.name_of("slave", &A::slave, "Name of the slave.");
   o.name_of("master", &A::master, "Name of the master; left out: the first one.");
   o.name_of("connection", &A::connection, "Name of a connection of a class 2 master.");
   o.bytes("bytes", &A::bytes, {0, 255}, "Data, or all bytes of a telegram.");
   o.word("type", &A::diagnosis,
-         std::vector<WordFor<dsdpv1_diag_type>>{{DSDPV1_DIAG_EXTENDED, "extended", "B227 = 00, low priority"},
-                                                {DSDPV1_DIAG_EXTERNAL, "external", "81, Ext_Diag"},
-                                                {DSDPV1_DIAG_EXTERNAL_GONE, "external_gone", "01"},
-                                                {DSDPV1_DIAG_STATIC, "static", "82, Stat_Diag"},
-                                                {DSDPV1_DIAG_STATIC_GONE, "static_gone", "02"}},
-         "Kind of the diagnosis (D9).");
+         std::vector<WordFor<DiagnosisKind>>{{DiagnosisKind::kExtended, "extended", "low priority"},
+                                             {DiagnosisKind::kExternal, "external", "Ext_Diag"},
+                                             {DiagnosisKind::kExternalGone, "external_gone", "no more Ext_Diag"},
+                                             {DiagnosisKind::kStatic, "static", "Stat_Diag"},
+                                             {DiagnosisKind::kStaticGone, "static_gone", "no more Stat_Diag"}},
+         "Kind of the diagnosis.");
   o.integer("address", &A::address, kAddresses, "",
             "Station address, where it is not that of the slave in the scenario.");
   o.integer("new_address", &A::new_address, {0, 255}, "", "The new station address.");
@@ -178,13 +168,6 @@ void describe_values(ObjectOf<Action>& o) {
   o.boolean("lock", &A::lock, "No_Add_Chg: no further change of the address.");
   o.bytes("cfg", &A::cfg, {1, 200}, "The new configuration.");
   o.time("for", &A::duration, {1, 10 * bus::kTicksPerSecond}, "How long; of reset_chip left out: 10us.");
-  o.word("area", &A::area,
-         std::vector<WordFor<Area>>{{Area::kInit, "init", "initialisation"},
-                                    {Area::kInputs, "inputs", ""},
-                                    {Area::kDiagnosis, "diagnosis", ""},
-                                    {Area::kC1Answer, "c1_answer", ""},
-                                    {Area::kC2Answer, "c2_answer", ""}},
-         "Which block.");
   o.integer("times", &A::times, {1, 1000}, "", "How many.");
   o.word("of", &A::of,
          std::vector<WordFor<Verdict>>{{Verdict::kPrm, "prm", "parameters"}, {Verdict::kCfg, "cfg", "configuration"}},
@@ -215,29 +198,41 @@ void describe_global_control(ObjectOf<Action>& o) {
   o.integer("group", &Action::group, {0, 255}, "", "Group_Select, a bit for each group; 0 means all.");
 }
 
+/// The word itself is kept: all orders of a kind of chip are one ActionKind.
+void describe_action(ObjectOf<Action>& o, const ChipKind& kind) {
+  std::vector<WordFor<ActionKind>> words = action_words();
+  for (const Order& order : kind.orders()) words.push_back({ActionKind::kOfChip, order.choice.word.c_str(), ""});
+  keys::Field& field = o.word("do", &Action::what, words, "What happens.");
+  field.read = [read = field.read](void* owner, const YAML::Node& node, const keys::Source& source) {
+    read(owner, node, source);
+    static_cast<Action*>(owner)->word = node.Scalar();
+  };
+}
+
+void describe_blocks(ObjectOf<Action>& o, const ChipKind& kind) {
+  if (kind.blocks().empty()) return;
+  std::vector<WordFor<std::string>> words;
+  for (const keys::Word& each : kind.blocks()) words.push_back({each.text, each.text.c_str(), each.doc.c_str()});
+  o.word("area", &Action::block, words, "Which block.");
+}
+
+ObjectOf<Action> describe_actions(const ChipKind& kind) {
+  ObjectOf<Action> o("action", "One thing that happens, at a time or when a condition has become true.");
+  o.time("at", &Action::at, kAnyTime, "When, from the start of the run.");
+  o.object("when", &Action::when, when_keys(), "Once, as soon as this is true.");
+  describe_action(o, kind);
+  describe_values(o);
+  describe_blocks(o, kind);
+  describe_global_control(o);
+  o.selector = "do";
+  o.choices = action_choices(kind);
+  o.always = {"at", "when"};
+  o.exactly_one = {{"at", "when"}};
+  return o;
+}
+
 }  // namespace
 
-const char* action_word(ActionKind what) {
-  for (const WordFor<ActionKind>& word : action_words())
-    if (word.value == what) return word.text;
-  return "";
-}
-
-const ObjectOf<Action>& action_keys() {
-  static const ObjectOf<Action> keys = [] {
-    ObjectOf<Action> o("action", "One thing that happens, at a time or when a condition has become true.");
-    o.time("at", &Action::at, kAnyTime, "When, from the start of the run.");
-    o.object("when", &Action::when, when_keys(), "Once, as soon as this is true.");
-    o.word("do", &Action::what, action_words(), "What happens.");
-    describe_values(o);
-    describe_global_control(o);
-    o.selector = "do";
-    o.choices = action_choices();
-    o.always = {"at", "when"};
-    o.exactly_one = {{"at", "when"}};
-    return o;
-  }();
-  return keys;
-}
+const ObjectOf<Action>& action_keys(const ChipKind& kind) { return per_kind<Action>(kind, describe_actions); }
 
 }  // namespace tb::scenario

@@ -1,9 +1,7 @@
 #include "tb/scenario/event_codes.hpp"
 
 #include <cctype>
-
-#include "model/dsdpv1/reasons.hpp"
-#include "tb/checks/check.hpp"
+#include <map>
 
 namespace tb::scenario {
 
@@ -17,28 +15,16 @@ std::string flag_code(bus::FlagKind kind) {
   return code;
 }
 
-std::string driver_error_code(dsdpv1_error error) {
-#define X(name, value, text) \
-  if (error == (name)) return #name;
-  DSDPV1_ERROR_TABLE(X)
-#undef X
-  return "DSDPV1_ERR_UNKNOWN";
-}
-
-const std::vector<std::string>& all_codes() {
-  static const std::vector<std::string> codes = [] {
-    std::vector<std::string> list;
-    for (const profibus::Reason reason : dsdpv1::reasons()) list.emplace_back(profibus::code(reason));
-#define X(name, value, text) list.emplace_back(#name);
-    DSDPV1_ERROR_TABLE(X)
-#undef X
-    for (std::size_t kind = 0; kind < bus::kFlagKinds; ++kind)
-      list.push_back(flag_code(static_cast<bus::FlagKind>(kind)));
-    list.emplace_back(kFirmwareFault);
-    for (const checks::Check check : checks::kAllChecks) list.emplace_back(checks::rule(check).id);
-    return list;
-  }();
-  return codes;
+const std::vector<std::string>& all_codes(const ChipKind& kind) {
+  static std::map<const ChipKind*, std::vector<std::string>> all;
+  std::vector<std::string>& list = all[&kind];
+  if (!list.empty()) return list;
+  for (const CodeTable& table : kind.codes())
+    for (const CodeText& each : table.codes) list.push_back(each.code);
+  for (std::size_t flag = 0; flag < bus::kFlagKinds; ++flag)
+    list.push_back(flag_code(static_cast<bus::FlagKind>(flag)));
+  for (const checks::Rule& rule : kind.rules()) list.emplace_back(rule.id);
+  return list;
 }
 
 }  // namespace tb::scenario

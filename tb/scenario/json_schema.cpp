@@ -161,6 +161,6 @@ class SchemaWriter {
 
 }  // namespace
 
-std::string json_schema() { return SchemaWriter().write(description()).dump(2) + "\n"; }
+std::string json_schema(const ChipKind& kind) { return SchemaWriter().write(description(kind)).dump(2) + "\n"; }
 
 }  // namespace tb::scenario

@@ -1,9 +1,12 @@
 // From a file to a checked scenario.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
+#include "tb/input/suggest.hpp"
 #include "tb/scenario/check.hpp"
 #include "tb/scenario/scenario.hpp"
 
@@ -40,16 +43,29 @@ void collect_files(const keys::Object& object, const YAML::Node& node, std::vect
   }
 }
 
+/// The kind of chip that a scenario is about. What is no word is left to the reader of the key.
+const ChipKind& kind_of(const YAML::Node& root, const std::string& file) {
+  const YAML::Node chip = root.IsMap() ? root["chip"] : YAML::Node();
+  const YAML::Node name = chip.IsDefined() && chip.IsMap() ? chip["kind"] : YAML::Node();
+  if (!name.IsDefined() || !name.IsScalar()) return *chip_kinds().front();
+  if (const ChipKind* kind = find_chip_kind(name.Scalar())) return *kind;
+  std::vector<std::string> names;
+  for (const ChipKind* each : chip_kinds()) names.emplace_back(each->name());
+  throw InputError(
+      file, keys::line_of(name),
+      fmt::format("kind is {}{}, allowed is {}", name.Scalar(), did_you_mean(name.Scalar(), names), join(names)));
+}
+
 std::vector<std::string> files_of(const YAML::Node& root, const std::string& scenario) {
   std::vector<std::string> found;
-  collect_files(description(), root, found);
+  collect_files(description(kind_of(root, scenario)), root, found);
   for (std::string& file : found) file = beside(scenario, file);
   return found;
 }
 
 YAML::Node root_of(const std::string& text, const std::string& file, const std::vector<Setting>& settings) {
   YAML::Node root = parse_yaml(text, file);
-  for (const Setting& setting : settings) apply(setting, root);
+  for (const Setting& setting : settings) apply(setting, kind_of(root, file), root);
   return root;
 }
 
@@ -59,8 +75,14 @@ std::string read_file(const std::string& path) { return tb::read_file(path, kSce
 
 Scenario parse(const std::string& text, const std::string& file, const std::vector<Setting>& settings) {
   const YAML::Node root = root_of(text, file, settings);
+  const ChipKind& kind = kind_of(root, file);
   Scenario scenario;
-  keys::read_object(description(), &scenario, root, {file});
+  scenario.kind = &kind;
+  scenario.chip = kind.make_chip_settings();
+  static_cast<checks::Limits&>(scenario.checks) = checks::Limits(kind.rules());
+  keys::read_object(description(kind), &scenario, root, {file});
+  for (Slave& slave : scenario.slaves)
+    if (!slave.user_cpu.own) slave.user_cpu.own = kind.make_user_settings();
   scenario.file = file;
   scenario.files = files_of(root, file);
   check(scenario);

@@ -122,9 +122,9 @@ void collect(const Object& object, std::vector<const Object*>& found) {
 
 }  // namespace
 
-std::string markdown() {
+std::string markdown(const ChipKind& kind) {
   std::vector<const Object*> objects;
-  collect(description(), objects);
+  collect(description(kind), objects);
   std::string text = kIntroduction;
   for (const Object* object : objects) text += section(*object);
   return text;

@@ -1,6 +1,7 @@
 #pragma once
 // A scenario as typed values. What each key means, with unit, range and default, is said once, in describe.cpp.
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,20 +11,16 @@
 #include "bus/master/master2_connection.hpp"
 #include "bus/master/slave_parameters.hpp"
 #include "bus/time.hpp"
-#include "model/dsdpv1/chip.hpp"
+#include "model/profibus/dp_state.hpp"
 #include "tb/checks/check.hpp"
-#include "tb/scenario/keys.hpp"
+#include "tb/chip/chip_kind.hpp"
+#include "tb/keys/keys.hpp"
 #include "tb/scenario/settings.hpp"
-#include "tb/user_cpu/fsmc_timing.hpp"
-#include "tb/user_cpu/programs.hpp"
+#include "tb/user_cpu/program.hpp"
 
 namespace tb::scenario {
 
 using keys::Name;
-
-struct ChipParameters : dsdpv1::Config {
-  int line = 0;
-};
 
 /// Values that a master takes from the baud rate (bus/baud.hpp) when they are absent.
 struct BusParameters {
@@ -103,23 +100,11 @@ struct InitData {
 using Behaviour = user_cpu::InputSource;
 using user_cpu::Judgement;
 
-struct AccessTimes : user_cpu::AccessTiming {
-  int line = 0;
-};
-
-struct Fsmc : user_cpu::FsmcOverride {
-  int line = 0;
-};
-
-struct CpuTimes : user_cpu::CpuTiming {
-  int line = 0;
-};
-
 /// An object of the user CPU that masters reach by slot and index.
 struct Dpv1Object {
   int slot = 0, index = 0, min_length = 0;
   bool read = true, write = true, transport = false;
-  std::uint8_t classes = DSDPV1_CLASS_BOTH;
+  std::uint8_t classes = user_cpu::kBothClasses;
   bus::Bytes data;
   int line = 0;
 };
@@ -135,34 +120,24 @@ struct Dpv1User {
   std::optional<Im0> im0;
   Answering answering = Answering::kNormal;
   bus::Tick delay = 0;
-  int error_code_1 = DSDPV1_EC_INVALID_PARAMETER, error_code_2 = 0;
+  int error_code_1 = user_cpu::kInvalidParameter, error_code_2 = 0;
   int line = 0;
 };
 
-enum class CpuKind : std::uint8_t { kNative, kArm };
-/// What becomes of that part of a scenario that only firmware with a mailbox can carry out or tell.
-enum class WithoutMailbox : std::uint8_t { kRefuse, kLeaveOut };
-
+/// The program of the user CPU; what it runs on, and how that reaches the chip, is said with keys of the kind of chip.
 struct UserCpu {
-  CpuKind kind = CpuKind::kNative;
   Behaviour behaviour = Behaviour::kLoopBack;
   Judgement judge_prm = Judgement::kAccept, judge_cfg = Judgement::kAccept;
-  bool overwrite_inputs = true;  ///< DSDPV1_INPUT_NEWEST
+  bool overwrite_inputs = true;
   bool judge_in_handler = true;
   int line = 0;
-  Name elf;                                                  ///< kArm
-  WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
-  std::vector<Name> switches;                                ///< kArm: "PA0=low"
-  double cpi = 1.5;                                          ///< kArm: cycles of HCLK per instruction
   bus::Bytes constant;
   bus::Tick start_delay = 0;
   bus::Tick cycle = 50 * bus::kTicksPerUs;
   bus::Tick judge_delay = 0;
   bus::Tick retry_delay = bus::kTicksPerMs;
-  std::optional<CpuTimes> timing;  ///< kNative; its `access` is left alone: that is the next member
-  std::optional<AccessTimes> access;
-  std::optional<Fsmc> fsmc;
   Dpv1User dpv1;
+  std::shared_ptr<OwnSettings> own;  ///< of ChipKind::make_user_settings
   std::vector<keys::Given> given;
 };
 
@@ -182,9 +157,7 @@ enum class ActionKind : std::uint8_t {
   kSetDiagnosis,
   kReinitialise,
   kResetChip,
-  kHoldDpram,
-  kWrongCrc,
-  kEarlyRSta,
+  kOfChip,  ///< ChipKind::orders
   kWrongLength,
   kPauseUser,
   kVerdict,
@@ -216,25 +189,16 @@ enum class ActionKind : std::uint8_t {
   kGlitch,
 };
 
-/// A switch of an ARM board that holds an input pin.
-struct Switch {
-  unsigned port = 0, pin = 0;  ///< port A is 0
-  bool high = false;
-};
-/// "PA0=low"; nullopt for other text, and for pins of ports beyond G.
-std::optional<Switch> parse_switch(const std::string& text);
-
-/// The word for it in a scenario.
-const char* action_word(ActionKind what);
-
 /// What the program on the user CPU has to carry out itself.
-constexpr bool is_for_user_cpu(ActionKind what) { return what <= ActionKind::kAnswerAcyclic && what != ActionKind::kResetChip; }
+constexpr bool is_for_user_cpu(ActionKind what) {
+  return what <= ActionKind::kAnswerAcyclic && what != ActionKind::kResetChip;
+}
 
 /// Something about a slave (or the telegrams of the bus) that is true or not at a point of time; all parts given must
 /// hold.
 struct Condition {
   Name slave;
-  std::optional<dsdpv1::DpState> dp_state;
+  std::optional<profibus::DpState> dp_state;
   std::optional<int> baud;  ///< index of bus/baud.hpp, -1 = searching
   std::optional<int> station_address;
   std::optional<std::int64_t> data_exchanges, data_exchanges_at_most;
@@ -260,7 +224,6 @@ struct When : Condition {
   bus::Tick after = 0;
 };
 
-using user_cpu::command::Area;
 enum class Verdict : std::uint8_t { kPrm, kCfg };
 
 /// What is broken in a telegram on the wire; byte positions count from 0.
@@ -274,17 +237,18 @@ struct Faults {
 struct Action {
   std::optional<bus::Tick> at;
   std::optional<When> when;
-  Do what = ActionKind::kSetInputs;
+  ActionKind what = ActionKind::kSetInputs;
+  std::string word;  ///< of `do`
   Name slave, master, connection;
   bus::Bytes bytes;
-  dsdpv1_diag_type diagnosis = DSDPV1_DIAG_EXTENDED;
+  user_cpu::DiagnosisKind diagnosis = user_cpu::DiagnosisKind::kExtended;
   std::optional<int> address, new_address, ident;
   std::optional<bus::Bytes> cfg;
   bool lock = false, refuse = false, level = false;
   bool sync = false, unsync = false, freeze = false, unfreeze = false, clear = false;
   int group = 0;
   std::optional<bus::Tick> duration;
-  Area area = Area::kInputs;
+  std::string block;  ///< kOfChip
   int times = 1;
   Verdict of = Verdict::kPrm;
   Answering answering = Answering::kNormal;
@@ -314,7 +278,8 @@ struct Scenario {
   std::string name;
   int baud = 0;  ///< index of bus/baud.hpp
   bus::Tick end = 0;
-  ChipParameters chip;
+  const ChipKind* kind = nullptr;           ///< of all slaves
+  std::shared_ptr<const OwnSettings> chip;  ///< of ChipKind::make_chip_settings
   std::vector<Master> masters;
   std::vector<Master2> masters2;
   std::vector<Slave> slaves;
@@ -340,11 +305,11 @@ std::string resolve(const Scenario& scenario, const Name& path);
 /// Whether the scenario lists this violation of `station` (a slave's name, "bus").
 bool allows(const Scenario& scenario, const std::string& code, const std::string& station);
 
-/// The description of a whole scenario.
-const keys::Object& description();
+/// The description of a whole scenario with chips of this kind.
+const keys::Object& description(const ChipKind& kind);
 /// JSON Schema (draft 2020-12) of the scenario, indented, with a line end.
-std::string json_schema();
+std::string json_schema(const ChipKind& kind);
 /// docs/scenarios.md.
-std::string markdown();
+std::string markdown(const ChipKind& kind);
 
 }  // namespace tb::scenario

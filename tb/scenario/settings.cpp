@@ -37,17 +37,17 @@ std::vector<std::string> names_of(const Object& object) {
 }
 
 /// Whether a path with this first step is meant for every slave.
-bool of_every_slave(const std::string& first) {
-  return description().find(first) == nullptr && slave_keys().find(first) != nullptr;
+bool of_every_slave(const std::string& first, const ChipKind& kind) {
+  return description(kind).find(first) == nullptr && slave_keys(kind).find(first) != nullptr;
 }
 
-const Field& find(const Object& object, const std::string& step, const std::string& origin) {
+const Field& find(const Object& object, const std::string& step, const ChipKind& kind, const std::string& origin) {
   if (const Field* field = object.find(step)) return *field;
   std::vector<std::string> names = names_of(object);
   const std::string allowed = join(names);
   std::string more;
-  if (&object == &description()) {
-    const std::vector<std::string> of_slave = names_of(slave_keys());
+  if (&object == &description(kind)) {
+    const std::vector<std::string> of_slave = names_of(slave_keys(kind));
     more = "; of every slave " + join(of_slave);
     names.insert(names.end(), of_slave.begin(), of_slave.end());
   }
@@ -74,8 +74,9 @@ void check_middle(const Field& field, const std::string& next, const std::string
   fail(origin, fmt::format("{} is one value, allowed is no key {} below it", field.name, next));
 }
 
-const Field& walk(const Object& object, const Steps& steps, std::size_t at, const std::string& origin) {
-  const Field& field = find(object, steps[at], origin);
+const Field& walk(const Object& object, const Steps& steps, std::size_t at, const ChipKind& kind,
+                  const std::string& origin) {
+  const Field& field = find(object, steps[at], kind, origin);
   if (at + 1 == steps.size()) {
     check_end(field, origin);
     return field;
@@ -83,7 +84,7 @@ const Field& walk(const Object& object, const Steps& steps, std::size_t at, cons
   check_middle(field, steps[at + 1], origin);
   const std::size_t next = at + (has_items(field) ? 2 : 1);
   if (next >= steps.size()) check_end(field, origin);
-  return walk(*field.type.object, steps, std::min(next, steps.size() - 1), origin);
+  return walk(*field.type.object, steps, std::min(next, steps.size() - 1), kind, origin);
 }
 
 void check_value(const Field& field, const YAML::Node& value, const std::string& origin) {
@@ -135,12 +136,12 @@ std::optional<std::size_t> item_number(const YAML::Node& list, const std::string
 
 class Writer {
  public:
-  Writer(const Setting& setting, const Steps& steps, const YAML::Node& value)
-      : setting_(setting), steps_(steps), value_(value) {}
+  Writer(const Setting& setting, const ChipKind& kind, const Steps& steps, const YAML::Node& value)
+      : setting_(setting), kind_(kind), steps_(steps), value_(value) {}
 
   void write(YAML::Node node, const Object& object, std::size_t at) const {
     if (!node.IsMap()) fail(setting_.origin, fmt::format("{} is no mapping in the scenario", object.name));
-    const Field& field = find(object, steps_[at], setting_.origin);
+    const Field& field = find(object, steps_[at], kind_, setting_.origin);
     if (at + 1 == steps_.size()) {
       put(node[field.name]);
     } else if (has_items(field)) {
@@ -174,6 +175,7 @@ class Writer {
   }
 
   const Setting& setting_;
+  const ChipKind& kind_;
   const Steps& steps_;
   const YAML::Node& value_;
 };
@@ -196,22 +198,33 @@ std::vector<Setting> parse_settings(const std::vector<std::string>& texts) {
   return settings;
 }
 
-const Field& field_of(const std::string& path, const std::string& origin) {
+const Field& field_of(const std::string& path, const ChipKind& kind, const std::string& origin) {
   const Steps steps = split(path);
-  return walk(of_every_slave(steps[0]) ? slave_keys() : description(), steps, 0, origin);
+  return walk(of_every_slave(steps[0], kind) ? slave_keys(kind) : description(kind), steps, 0, kind, origin);
 }
 
-void check(const Setting& setting) { value_of(field_of(setting.path, setting.origin), setting); }
+const Field& field_of_any(const std::string& path, const std::string& origin) {
+  for (const ChipKind* kind : chip_kinds()) {
+    try {
+      return field_of(path, *kind, origin);
+    } catch (const InputError&) {
+      if (kind == chip_kinds().back()) break;
+    }
+  }
+  return field_of(path, *chip_kinds().front(), origin);  // which says what is wrong
+}
 
-void apply(const Setting& setting, YAML::Node& root) {
-  const Field& field = field_of(setting.path, setting.origin);
+void check(const Setting& setting) { value_of(field_of_any(setting.path, setting.origin), setting); }
+
+void apply(const Setting& setting, const ChipKind& kind, YAML::Node& root) {
+  const Field& field = field_of(setting.path, kind, setting.origin);
   const YAML::Node value = value_of(field, setting);
   const Steps steps = split(setting.path);
-  const Writer writer(setting, steps, value);
-  if (!of_every_slave(steps[0])) return writer.write(root, description(), 0);
+  const Writer writer(setting, kind, steps, value);
+  if (!of_every_slave(steps[0], kind)) return writer.write(root, description(kind), 0);
   const YAML::Node slaves = root.IsMap() ? root["slaves"] : YAML::Node();
   if (!slaves.IsDefined() || !slaves.IsSequence()) return;  // the reader says what is wrong with it
-  for (const YAML::Node& slave : slaves) writer.write(slave, slave_keys(), 0);
+  for (const YAML::Node& slave : slaves) writer.write(slave, slave_keys(kind), 0);
 }
 
 }  // namespace tb::scenario

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tb/scenario/keys.hpp"
+#include "tb/chip/chip_kind.hpp"
+#include "tb/keys/keys.hpp"
 
 namespace tb::scenario {
 
@@ -29,7 +30,9 @@ Setting parse_setting(const std::string& option, const std::string& text);
 std::vector<Setting> parse_settings(const std::vector<std::string>& texts);
 
 /// The key that a path names, whatever items the scenario has. Throws InputError, beginning with `origin`.
-const keys::Field& field_of(const std::string& path, const std::string& origin);
+const keys::Field& field_of(const std::string& path, const ChipKind& kind, const std::string& origin);
+/// The same where the kind of chip is not known: that of the first kind that has such a key.
+const keys::Field& field_of_any(const std::string& path, const std::string& origin);
 
 /// Throws InputError when no scenario could have the setting; whether it has the item of a list is left open.
 void check(const Setting& setting);
@@ -38,6 +41,6 @@ void check(const Setting& setting);
 std::string given_path(const std::string& path);
 
 /// Writes the setting into a scenario's YAML. Throws InputError for a path or value that is wrong.
-void apply(const Setting& setting, YAML::Node& root);
+void apply(const Setting& setting, const ChipKind& kind, YAML::Node& root);
 
 }  // namespace tb::scenario

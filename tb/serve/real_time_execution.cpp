@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "tb/bench/pin_chip.hpp"
-
 namespace tb::serve {
 namespace {
 
@@ -26,11 +24,8 @@ RealTimeExecution::RealTimeExecution(std::unique_ptr<HostConnection> port, int b
   };
 }
 
-std::unique_ptr<ChipView> RealTimeExecution::make_chip(const std::string& name, const dsdpv1::Config& config,
-                                                       std::uint32_t watched) {
-  auto chip = std::make_unique<PinChip>(name, config, watched, segment_);
-  timeline_.add(*chip);
-  return chip;
+std::unique_ptr<ChipView> RealTimeExecution::make_chip(const ChipMaker& maker, const ChipRequest& request) {
+  return maker.make_pin_chip(request, segment_, timeline_);
 }
 
 void RealTimeExecution::join() { timeline_.add(line_); }

@@ -6,8 +6,8 @@
 #include "tb/bench/execution.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/serve/framing.hpp"
-#include "tb/serve/host_line.hpp"
 #include "tb/serve/host_connection.hpp"
+#include "tb/serve/host_line.hpp"
 #include "tb/serve/line_limit.hpp"
 #include "tb/serve/pace.hpp"
 
@@ -32,8 +32,7 @@ class RealTimeExecution : public Execution {
   /// `baud` as in bus/baud.hpp.
   RealTimeExecution(std::unique_ptr<HostConnection> port, int baud);
 
-  std::unique_ptr<ChipView> make_chip(const std::string& name, const dsdpv1::Config& config,
-                                      std::uint32_t watched) override;
+  std::unique_ptr<ChipView> make_chip(const ChipMaker& maker, const ChipRequest& request) override;
   /// Call after the last make_chip and before `run`: the host acts behind the chips.
   void join();
   void run(Tick end, const std::function<bool()>& stopped) override;

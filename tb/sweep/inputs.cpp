@@ -10,7 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 bool names_files(const Parameter& parameter) {
-  return scenario::field_of(parameter.path, "--param").type.kind == keys::Kind::kFile;
+  return scenario::field_of_any(parameter.path, "--param").type.kind == keys::Kind::kFile;
 }
 
 Json fingerprint_json(const std::string& file) {

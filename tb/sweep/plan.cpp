@@ -76,7 +76,7 @@ std::string last_step(const std::string& path) { return path.substr(path.rfind('
 
 Parameter parse_parameter(const std::string& text) {
   const scenario::Setting given = scenario::parse_setting("--param", text);
-  const Kind kind = scenario::field_of(given.path, given.origin).type.kind;
+  const Kind kind = scenario::field_of_any(given.path, given.origin).type.kind;
   Parameter parameter{given.path, {}};
   std::set<std::string> seen;
   for (const std::string& item : split(given.value, ',')) {

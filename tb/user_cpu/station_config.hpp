@@ -3,23 +3,20 @@
 #include <cstdint>
 #include <vector>
 
-#include "driver/dsdpv1.h"
-
 namespace user_cpu {
 
-/// The members mean what those of dsdpv1_config mean, with the same limits. Defaults: a station with one byte in, one
-/// byte out.
+/// What the user CPU tells its chip. Defaults: a station with one byte in, one byte out.
 struct StationConfig {
-  std::uint8_t address = 3;
+  std::uint8_t address = 3;  ///< 0..126
   std::uint16_t ident = 0x0CC9;
   bool address_change = false, freeze = true, sync = true, fail_safe = true;
   bool dpv1 = false;
-  std::uint8_t max_input = 244, max_output = 244, max_diag = 238, max_prm = 237, max_cfg = 200;
-  std::uint8_t prm_mode = 0, cfg_mode = 0;
-  std::vector<std::uint8_t> cfg = {0x10, 0x20};  ///< at most 200 bytes
-
-  /// Valid as long as this object lives unchanged.
-  dsdpv1_config for_driver() const;
+  std::uint8_t max_input = 244, max_output = 244;  ///< bytes of cyclic data, 0..244
+  std::uint8_t max_diag = 238;                     ///< user diagnosis, 0..238
+  std::uint8_t max_prm = 237;                      ///< user parameters, 0..237
+  std::uint8_t max_cfg = 200;                      ///< 1..200
+  std::uint8_t prm_mode = 0, cfg_mode = 0;         ///< who judges: 0 length, 1 equality, 2 the user
+  std::vector<std::uint8_t> cfg = {0x10, 0x20};    ///< at most 200 bytes
 };
 
 }  // namespace user_cpu

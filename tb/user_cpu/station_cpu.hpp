@@ -1,6 +1,6 @@
 #pragma once
-// The user CPU of a station as the bench sees it, whatever runs on it: a C++ program (NativeUser) or firmware on an ARM
-// board.
+// The user CPU of a station as the bench sees it, whatever chip it serves and whatever runs on it: a C++ program or
+// firmware on a board.
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -8,24 +8,9 @@
 #include <vector>
 
 #include "bus/timeline.hpp"
-#include "tb/user_cpu/programs.hpp"
+#include "tb/user_cpu/program.hpp"
 
 namespace user_cpu {
-
-/// What a user CPU has done since its start.
-struct UserCounters {
-  PortCounters port;
-  std::optional<ProgramCounters> program = ProgramCounters();  ///< absent: the program does not tell
-  CpuCounters cpu;
-
-  UserCounters& operator+=(const UserCounters& other) {
-    port += other.port;
-    if (program && other.program) *program += *other.program;
-    if (!other.program) program.reset();
-    cpu += other.cpu;
-    return *this;
-  }
-};
 
 /// What a board with a processor of its own tells at the end.
 struct BoardReport {
@@ -39,8 +24,8 @@ struct BoardReport {
 /// Lives from the release of the board's reset to the next reset.
 class StationCpu : public bus::Agent {
  public:
-  /// INTR0 changed at `at`; also callable while the chip runs ahead of this agent's turn.
-  virtual void intr0_changed(Tick at, bool level) = 0;
+  /// The chip's interrupt changed at `at`; also callable while the chip runs ahead of this agent's turn.
+  virtual void interrupt_changed(Tick at, bool level) = 0;
   /// Carried out in order, each as soon as the program has finished what it is at.
   virtual void command(Tick now, const Command& command) = 0;
   virtual UserCounters counters() const = 0;
@@ -56,7 +41,7 @@ class StationCpu : public bus::Agent {
   /// Nothing reaches this CPU before that tick: it may compute up to there in one go. Absent: not known.
   std::function<Tick()> quiet_until;
 
-  std::function<void(const DriverError&)> on_driver_error;
+  std::function<void(const ProgramError&)> on_error;
   /// A line of text that the program printed.
   std::function<void(Tick at, const std::string& line)> on_text;
   /// The processor cannot go on: why, in one line, and its registers in several.

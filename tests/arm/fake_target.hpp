@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tb/user_cpu/arm/debug_target.hpp"
-#include "tb/user_cpu/arm/elf_image.hpp"
+#include "tb/dsdpv1/user_cpu/arm/debug_target.hpp"
+#include "tb/dsdpv1/user_cpu/arm/elf_image.hpp"
 
 namespace arm::test {
 

@@ -9,7 +9,7 @@
 
 #include "fake_target.hpp"
 #include "tb/input/descriptor.hpp"
-#include "tb/user_cpu/arm/gdb_server.hpp"
+#include "tb/dsdpv1/user_cpu/arm/gdb_server.hpp"
 
 namespace arm::test {
 

@@ -1,4 +1,4 @@
-#include "tb/user_cpu/arm/nvic.hpp"
+#include "tb/dsdpv1/user_cpu/arm/nvic.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "tb/user_cpu/arm/cortex_m3.hpp"
+#include "tb/dsdpv1/user_cpu/arm/cortex_m3.hpp"
 
 namespace arm {
 

@@ -1,4 +1,4 @@
-#include "tb/user_cpu/arm/systick.hpp"
+#include "tb/dsdpv1/user_cpu/arm/systick.hpp"
 
 #include <gtest/gtest.h>
 

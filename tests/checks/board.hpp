@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tb/checks/checks.hpp"
+#include "tb/dsdpv1/checks/checks.hpp"
 
 namespace checks_test {
 

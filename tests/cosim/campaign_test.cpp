@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <fstream>
 
-#include "tb/cosim/campaign.hpp"
-#include "tb/cosim/random_setup.hpp"
-#include "tb/cosim/reference_rtl.hpp"
+#include "tb/dsdpv1/cosim/campaign.hpp"
+#include "tb/dsdpv1/cosim/random_setup.hpp"
+#include "tb/dsdpv1/cosim/reference_rtl.hpp"
 #include "tests/app/program.hpp"
 
 namespace {

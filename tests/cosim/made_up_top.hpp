@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "model/dsdpv1/chip.hpp"
-#include "tb/cosim/rtl_top.hpp"
+#include "tb/dsdpv1/cosim/rtl_top.hpp"
 
 namespace cosim_test {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tb/cosim/pin_map.hpp"
-#include "tb/cosim/user_rtl.hpp"
+#include "tb/dsdpv1/cosim/pin_map.hpp"
+#include "tb/dsdpv1/cosim/user_rtl.hpp"
 #include "tb/input/input_error.hpp"
 
 namespace {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tb/cosim/faults.hpp"
-#include "tb/cosim/random_stimulus.hpp"
-#include "tb/cosim/stimulus.hpp"
+#include "tb/dsdpv1/cosim/faults.hpp"
+#include "tb/dsdpv1/cosim/random_stimulus.hpp"
+#include "tb/dsdpv1/cosim/stimulus.hpp"
 #include "tb/input/input_error.hpp"
 
 namespace {

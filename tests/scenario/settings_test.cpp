@@ -104,7 +104,7 @@ TEST(Settings, WhatTheyMakeOfTheScenarioIsCheckedLikeTheFile) {
 }
 
 TEST(Settings, BusTimesAndFsmcRegistersTogetherAreRefused) {
-  EXPECT_EQ(tb::scenario::field_of("user_cpu.fsmc.datast", "").name, "datast");
+  EXPECT_EQ(tb::scenario::field_of_any("user_cpu.fsmc.datast", "").name, "datast");
   std::string text = kScenario;
   text.replace(text.find("cycle: 70us"), 11, "fsmc: {addset: 2}");
   const std::vector<tb::scenario::Setting> settings = {

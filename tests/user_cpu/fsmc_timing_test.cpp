@@ -1,5 +1,5 @@
 // The FSMC's edges against the figures of the STM32F103xE datasheet and against its own HCLK counts.
-#include "tb/user_cpu/fsmc_timing.hpp"
+#include "tb/dsdpv1/user_cpu/fsmc_timing.hpp"
 
 #include <gtest/gtest.h>
 

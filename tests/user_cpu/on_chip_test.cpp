@@ -7,8 +7,8 @@
 
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/reasons.hpp"
-#include "tb/user_cpu/pin_host_bus.hpp"
-#include "tb/user_cpu/programs.hpp"
+#include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
+#include "tb/dsdpv1/user_cpu/programs.hpp"
 #include "tests/user_cpu/chip_agent.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "tb/user_cpu/pin_host_bus.hpp"
+#include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "tb/user_cpu/cpu.hpp"
+#include "tb/dsdpv1/user_cpu/cpu.hpp"
 #include "tests/user_cpu/fake_pins.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tb/user_cpu/host_bus.hpp"
+#include "tb/dsdpv1/user_cpu/host_bus.hpp"
 
 class RecordingBus : public user_cpu::HostBus {
  public:

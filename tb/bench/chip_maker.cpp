@@ -1,0 +1,55 @@
+#include "tb/bench/chip_maker.hpp"
+
+#include <fmt/format.h>
+
+#include "tb/input/input_error.hpp"
+
+namespace tb {
+namespace {
+
+user_cpu::AcyclicObject object_of(const scenario::Dpv1Object& object) {
+  const auto bit = [](bool wanted, unsigned value) { return wanted ? value : 0U; };
+  const unsigned services = bit(object.read, user_cpu::kMayRead) | bit(object.write, user_cpu::kMayWrite) |
+                            bit(object.transport, user_cpu::kMayTransport);
+  return {static_cast<std::uint8_t>(object.slot),       static_cast<std::uint8_t>(object.index),
+          static_cast<std::uint8_t>(services),          object.classes,
+          static_cast<std::uint8_t>(object.min_length), object.data};
+}
+
+user_cpu::AcyclicOptions acyclic_options(const scenario::Dpv1User& user) {
+  user_cpu::AcyclicOptions options;
+  for (const scenario::Dpv1Object& object : user.objects) options.objects.push_back(object_of(object));
+  if (user.im0) options.im0 = *user.im0;
+  options.answering = user.answering;
+  options.delay = user.delay;
+  options.error_code_1 = static_cast<std::uint8_t>(user.error_code_1);
+  options.error_code_2 = static_cast<std::uint8_t>(user.error_code_2);
+  return options;
+}
+
+}  // namespace
+
+const ChipMaker& chip_maker(const scenario::Scenario& scenario) {
+  if (const auto* maker = dynamic_cast<const ChipMaker*>(scenario.kind)) return *maker;
+  throw InputError(scenario.file, scenario.chip->line,
+                   fmt::format("kind is {}, which the bench cannot make", scenario.kind->name()));
+}
+
+user_cpu::ProgramOptions program_options(const scenario::UserCpu& user, const user_cpu::StationConfig& station) {
+  user_cpu::ProgramOptions options;
+  options.station = station;
+  options.start_delay = user.start_delay;
+  options.period = user.cycle;
+  options.inputs = user.behaviour;
+  options.constant = user.constant;
+  options.overwrite_inputs = user.overwrite_inputs;
+  options.prm = user.judge_prm;
+  options.cfg = user.judge_cfg;
+  options.judge_delay = user.judge_delay;
+  options.judge_in_handler = user.judge_in_handler;
+  options.retry_delay = user.retry_delay;
+  options.acyclic = acyclic_options(user.dpv1);
+  return options;
+}
+
+}  // namespace tb

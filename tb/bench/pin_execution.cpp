@@ -1,0 +1,25 @@
+// Chips by the pins of their cores.
+#include "tb/bench/execution.hpp"
+
+namespace tb {
+namespace {
+
+class PinExecution : public Execution {
+ public:
+  std::unique_ptr<ChipView> make_chip(const ChipMaker& maker, const ChipRequest& request) override {
+    return maker.make_pin_chip(request, segment_, timeline_);
+  }
+
+  Tick quiet_until(const bus::Agent& agent) override { return timeline_.next_except(agent); }
+
+  void run(Tick end, const std::function<bool()>& stopped) override {
+    while (!stopped() && timeline_.step(end)) {
+    }
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Execution> make_pin_execution() { return std::make_unique<PinExecution>(); }
+
+}  // namespace tb

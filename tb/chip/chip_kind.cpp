@@ -1,0 +1,41 @@
+#include "tb/chip/chip_kind.hpp"
+
+#include <algorithm>
+
+namespace tb {
+namespace {
+
+std::vector<const ChipKind*>& all_kinds() {
+  static std::vector<const ChipKind*> kinds = built_in_chip_kinds();
+  return kinds;
+}
+
+}  // namespace
+
+const std::vector<Order>& ChipKind::orders() const {
+  static const std::vector<Order> none;
+  return none;
+}
+
+const std::vector<keys::Word>& ChipKind::blocks() const {
+  static const std::vector<keys::Word> none;
+  return none;
+}
+
+const checks::RuleTable& ChipKind::rules() const {
+  static const checks::RuleTable none;
+  return none;
+}
+
+const std::vector<const ChipKind*>& chip_kinds() { return all_kinds(); }
+
+const ChipKind* find_chip_kind(const std::string& name) {
+  const auto& kinds = all_kinds();
+  const auto found =
+      std::find_if(kinds.begin(), kinds.end(), [&name](const ChipKind* kind) { return name == kind->name(); });
+  return found == kinds.end() ? nullptr : *found;
+}
+
+void add_chip_kind(const ChipKind& kind) { all_kinds().push_back(&kind); }
+
+}  // namespace tb

@@ -1,0 +1,88 @@
+#pragma once
+// A kind of slave chip as scenarios, logs and reports know it: what its pins, events, checks and keys are called. What
+// puts such a chip on the bench is tb/bench/chip_maker.hpp.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/profibus/event.hpp"
+#include "tb/checks/check.hpp"
+#include "tb/checks/chip_checks.hpp"
+#include "tb/keys/keys.hpp"
+#include "tb/pins/pins.hpp"
+#include "tb/user_cpu/program.hpp"
+
+namespace tb {
+
+/// What a scenario says with the keys of one kind of chip. Each kind derives its own.
+struct OwnSettings {
+  virtual ~OwnSettings() = default;
+  int line = 0;
+};
+
+/// A code that logs, result files and scenarios may hold, what it says and what to do about it.
+struct CodeText {
+  std::string code, severity, text, advice;
+};
+
+/// Codes of one origin, in the order of their table.
+struct CodeTable {
+  std::string title, introduction;
+  std::vector<CodeText> codes;
+};
+
+/// Something that a script can order the user program to do, and only programs for this kind of chip know.
+struct Order {
+  keys::Choice choice;  ///< its word under `do`, and the keys that it takes
+  /// What the log says when it is given.
+  std::string (*said)(const user_cpu::command::OfChip& order);
+  bool one_by_one = false;  ///< `times`: so many orders
+};
+
+class ChipKind {
+ public:
+  virtual ~ChipKind() = default;
+
+  /// As scenarios write it, "dsdpv1".
+  virtual const char* name() const = 0;
+  /// As documents call it.
+  virtual const char* title() const = 0;
+  virtual const PinTable& pins() const = 0;
+
+  // --- Scenarios. Objects are those of `ObjectOf<S>` with S the settings that the next function makes.
+  /// Parameters of the chip itself, under `chip`.
+  virtual const keys::Object& chip_keys() const = 0;
+  virtual std::unique_ptr<OwnSettings> make_chip_settings() const = 0;
+  /// The processor and its bus to the chip, under `user_cpu`.
+  virtual const keys::Object& user_keys() const = 0;
+  virtual std::unique_ptr<OwnSettings> make_user_settings() const = 0;
+  /// Throws InputError for settings that do not fit each other; `where` is the line of the slave.
+  virtual void check_user(const OwnSettings& /*settings*/, const keys::Source& /*source*/, const std::string& /*slave*/,
+                          int /*where*/) const {}
+  virtual const std::vector<Order>& orders() const;
+  /// Words of command::OfChip::block, for the key `area`.
+  virtual const std::vector<keys::Word>& blocks() const;
+
+  // --- What happens.
+  /// In words.
+  virtual std::string describe(const profibus::Event& event) const = 0;
+  /// Codes of the chip's events; of what its user program reports; of what else its user's side can meet.
+  virtual const std::vector<CodeTable>& codes() const = 0;
+
+  // --- Checks of its user's side; none by default.
+  virtual const checks::RuleTable& rules() const;
+  /// Output pins that the checks need; the inputs are all needed.
+  virtual PinMask checked_pins() const { return 0; }
+  virtual std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& /*limits*/) const { return nullptr; }
+};
+
+/// All kinds that this program knows, the default of scenarios first.
+const std::vector<const ChipKind*>& chip_kinds();
+/// Null when there is none with this name.
+const ChipKind* find_chip_kind(const std::string& name);
+/// Adds one, which must outlive the program's use of scenarios. Not from several threads.
+void add_chip_kind(const ChipKind& kind);
+/// Those that are built in: defined by the room that knows them (tb/kinds).
+std::vector<const ChipKind*> built_in_chip_kinds();
+
+}  // namespace tb

@@ -1,0 +1,91 @@
+#include "tb/dsdpv1/checks/checks.hpp"
+
+#include <utility>
+
+namespace checks {
+
+using dsdpv1::Level;
+using dsdpv1::Pin;
+
+void Checks::pin(Tick at, Pin pin, Level level) {
+  constexpr std::uint32_t kInputs = ~dsdpv1::kOutputPins & ~dsdpv1::mask(Pin::kPbrxd);  // the monitor hears the line
+  if ((dsdpv1::mask(pin) & (kPins | kInputs)) == 0) return;
+  history_.add(at, static_cast<tb::PinNumber>(pin), level);
+  end_hold_before(at);
+  switch (pin) {
+    case Pin::kReset: return reset_pin(at, level != 0);
+    case Pin::kRReq:
+    case Pin::kRSta: return handshake(at, pin, level != 0);
+    case Pin::kLSta: return ownership_.l_sta(at, level != 0);
+    case Pin::kIntr0: return service_.intr0(at, level != 0);
+    case Pin::kPbrts: return service_.pbrts(at, level != 0);
+    case Pin::kCsr:
+    case Pin::kRd:
+    case Pin::kWr:
+    case Pin::kA:
+    case Pin::kDIn:
+    case Pin::kDOut: return port_.pin(at, pin, level);
+    default: return;
+  }
+}
+
+/// In reset the port neither reads nor writes (P10), and whatever was going on is over.
+void Checks::reset_pin(Tick at, bool level) {
+  in_reset_ = !level;
+  holding_ = false;
+  hold_end_.reset();
+  ownership_.reset(at, in_reset_);
+  port_.reset();
+  cells_.reset();
+  service_.reset();
+}
+
+void Checks::handshake(Tick at, Pin pin, bool level) {
+  const std::optional<Tick> since = ownership_.held_off_since();
+  pin == Pin::kRReq ? ownership_.r_req(at, level) : ownership_.r_sta(at, level);
+  if (in_reset_) return;
+  if (pin == Pin::kRSta && level && !std::exchange(holding_, true)) cells_.hold_began();
+  if (ownership_.held_off_since()) {
+    hold_end_.reset();  // a release that lasted no time is none
+  } else {
+    if (since) service_.held_off(*since, at);
+    if (holding_) hold_end_ = at;
+  }
+}
+
+void Checks::end_hold_before(Tick at) {
+  if (!hold_end_ || *hold_end_ >= at) return;
+  cells_.hold_ended(*hold_end_);
+  hold_end_.reset();
+  holding_ = false;
+}
+
+void Checks::access_began(Tick at) {
+  if (!in_reset_) ownership_.access_began(at);
+}
+
+void Checks::access_ended(Tick at) {
+  if (!in_reset_) ownership_.access_ended(at);
+}
+
+void Checks::accessed(const Access& access) {
+  if (in_reset_) return;
+  cells_.accessed(access);
+  service_.accessed(access);
+}
+
+void Checks::telegram(Tick now, const bus::WireTelegram& telegram) {
+  recorder_.now(now);
+  end_hold_before(now);
+  service_.telegram(now, telegram, ownership_.held_off_since());
+}
+
+void Checks::finish(Tick end) {
+  recorder_.now(end);
+  if (in_reset_) return;
+  end_hold_before(end + 1);
+  service_.finish(end, ownership_.held_off_since());
+  ownership_.finish(end);
+}
+
+}  // namespace checks

@@ -1,0 +1,75 @@
+#pragma once
+// The rules of the DSDPV1's user side: handshake, host port, cells of the DPRAM, service.
+//
+//   checks::Checks checks(limits);
+//   checks.on_violation = ...;
+//   checks.pin(at, pin, level);    // every change of the pins in kPins and of all inputs, in order of time
+//   checks.telegram(telegram);     // from bus::Monitor
+//   checks.finish(end);
+//   checks.record(Check::kTs).worst_margin
+//
+// docs/checks.md has the table of the checks.
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "tb/checks/chip_checks.hpp"
+#include "tb/checks/recorder.hpp"
+#include "tb/dsdpv1/checks/cell_rules.hpp"
+#include "tb/dsdpv1/checks/check.hpp"
+#include "tb/dsdpv1/checks/ownership.hpp"
+#include "tb/dsdpv1/checks/port_timing.hpp"
+#include "tb/dsdpv1/checks/service.hpp"
+#include "tb/dsdpv1/pin_table.hpp"
+
+namespace checks {
+
+class Checks : public ChipChecks, private AccessSink {
+ public:
+  /// The output pins that must be watched; the inputs are all needed.
+  static constexpr std::uint32_t kPins = dsdpv1::mask(dsdpv1::Pin::kLReq) | dsdpv1::mask(dsdpv1::Pin::kLSta) |
+                                         dsdpv1::mask(dsdpv1::Pin::kDOut) | dsdpv1::mask(dsdpv1::Pin::kIntr0) |
+                                         dsdpv1::mask(dsdpv1::Pin::kPbrts);
+
+  explicit Checks(const Limits& limits = Limits(rules()))
+      : history_(tb::dsdpv1_pins()),
+        recorder_(rules(), limits, history_),
+        ownership_(recorder_),
+        port_(recorder_, *this),
+        cells_(recorder_),
+        service_(recorder_) {}
+  Checks(const Checks&) = delete;
+  Checks& operator=(const Checks&) = delete;
+
+  void pin(Tick at, tb::PinNumber pin, tb::Level level) override {
+    this->pin(at, static_cast<dsdpv1::Pin>(pin), level);
+  }
+  void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void read(Tick sample) override { port_.read(sample); }
+  void telegram(Tick now, const bus::WireTelegram& telegram) override;
+  void finish(Tick end) override;
+
+  const Record& record(CheckId check) const override { return recorder_.record(check); }
+  const Limit& limit(CheckId check) const override { return recorder_.limit(check); }
+  void on_violation(std::function<void(const Violation&)> sink) override { recorder_.on_violation = std::move(sink); }
+
+ private:
+  void reset_pin(Tick at, bool level);
+  void end_hold_before(Tick at);
+  void handshake(Tick at, dsdpv1::Pin pin, bool level);
+  void access_began(Tick at) override;
+  void access_ended(Tick at) override;
+  void accessed(const Access& access) override;
+
+  PinHistory history_;
+  Recorder recorder_;
+  Ownership ownership_;
+  PortTiming port_;
+  CellRules cells_;
+  Service service_;
+  bool in_reset_ = true;
+  bool holding_ = false;          ///< a hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again
+  std::optional<Tick> hold_end_;  ///< judged when time goes on: a RESET at the same tick makes it void
+};
+
+}  // namespace checks

@@ -1,0 +1,45 @@
+#pragma once
+// Many random cases, on several threads; and the shrinking of one that fails.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tb/dsdpv1/cosim/coverage.hpp"
+#include "tb/dsdpv1/cosim/player.hpp"
+
+namespace cosim {
+
+struct CampaignOptions {
+  std::uint64_t seed = 1, cycles = 0;  ///< cases are begun until so many cycles are compared
+  unsigned jobs = 1;                   ///< threads
+};
+
+/// The same for the same seed and cycles, however many threads there are.
+struct CampaignResult {
+  MatchCounts counts;
+  Coverage coverage;
+  std::uint64_t cases = 0;               ///< up to and including the one with the difference
+  std::uint64_t failed_seed = 0;         ///< of the case with the difference
+  std::optional<Difference> difference;  ///< of the first case that has one
+};
+
+/// What is compared so far, for a progress line; called by one thread at a time.
+using CampaignProgress = std::function<void(std::uint64_t cases, std::uint64_t cycles)>;
+
+/// The seed of case `number` of a campaign.
+std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number);
+
+/// Cases until so many cycles are compared, or one differs. `make` is called by all threads; `progress` may be empty.
+CampaignResult run_campaign(const CampaignOptions& options, const MakeTop& make, const CampaignProgress& progress = {});
+
+/// A shorter stimulus that still differs: actions are left out, then delays and faults, as long as there is a
+/// difference. At most `runs` runs.
+Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs);
+
+/// How random cases and directed stimuli are played.
+PlayOptions quick_options();
+
+/// Calls `work` on so many threads, each until it returns false; throws what the first of them threw.
+void in_parallel(unsigned jobs, const std::function<bool()>& work);
+
+}  // namespace cosim

@@ -1,0 +1,188 @@
+#include "tb/dsdpv1/cosim/lockstep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace cosim {
+namespace {
+
+constexpr Tick kCycle = profibus::kTicksPerCycle;
+constexpr Tick kShortAccess = 7 * kCycle;  // 9.1: nothing was due, B006 := 01 is all
+constexpr Tick kSettles = 4 * kCycle;      // P8: longer than a user's write is on its way
+constexpr unsigned kImageEvery = 256;      // ... the DPRAM is compared all the same from time to time
+
+std::string level_text(Pin pin, const std::optional<Level>& level) {
+  if (!level) return "no such change within the tolerance";
+  if (*level == dsdpv1::kLevelZ) return "Z";
+  if (*level == dsdpv1::kLevelX) return "X";
+  return dsdpv1::width(pin) == 1 ? fmt::format("{}", *level) : fmt::format("{:02X}", *level);
+}
+
+std::string time_text(Tick at) {
+  const Tick rest = at % kCycle;
+  const std::string cycle =
+      rest == 0 ? fmt::format("{}", at / kCycle) : fmt::format("{} + {} ticks", at / kCycle, rest);
+  return fmt::format("cycle {} ({:.3f} us)", cycle, static_cast<double>(at) / (1000.0 * profibus::kTicksPerNs));
+}
+
+}  // namespace
+
+std::string describe(const Difference& difference) {
+  return fmt::format(
+      "first difference  {}\n"
+      "                  {}\n"
+      "last telegram     {}\n"
+      "last access       {}\n"
+      "DPRAM             {}\n",
+      time_text(difference.at), difference.what, difference.last_telegram, difference.last_access,
+      difference.dpram_accesses);
+}
+
+Lockstep::Lockstep(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, const LockstepOptions& options)
+    : model_(config),
+      rtl_(std::move(top)),
+      options_(options),
+      comparator_(options.tolerances),
+      history_(options.history_cycles) {
+  for (int i = 0; i < dsdpv1::kPinCount; ++i) {
+    const Pin pin = static_cast<Pin>(i);
+    history_.begin(Side::kInput, pin, model_.level(pin));
+    history_.begin(Side::kModel, pin, model_.level(pin));
+    history_.begin(Side::kRtl, pin, rtl_.level(pin));
+    if (!dsdpv1::is_input(pin)) comparator_.begin(pin, model_.level(pin), rtl_.level(pin));
+  }
+  model_.watch(
+      {[](void* self, Tick at, Pin pin, Level level) { static_cast<Lockstep*>(self)->model_changed(at, pin, level); },
+       this},
+      dsdpv1::kOutputPins);
+  rtl_.watch(
+      {[](void* self, Tick at, Pin pin, Level level) { static_cast<Lockstep*>(self)->rtl_changed(at, pin, level); },
+       this},
+      dsdpv1::kOutputPins);
+}
+
+void Lockstep::watch(const dsdpv1::PinSink& sink, std::uint32_t pins) {
+  sink_ = sink;
+  watched_ = pins;
+}
+
+void Lockstep::set(Tick at, Pin pin, Level level) {
+  advance(at);
+  if (model_.level(pin) == level) return;
+  history_.add(at, Side::kInput, pin, level);
+  note_access(at, pin, level);
+  model_.set(at, pin, level);
+  rtl_.set(at, pin, level);
+}
+
+void Lockstep::note_access(Tick at, Pin pin, Level level) {
+  const bool write = pin == Pin::kWr && level != 0, read = pin == Pin::kRd && level == 0;
+  if (write) {
+    user_wrote_ = true;
+    last_write_ = at;
+  }
+  if ((write || read) && model_.level(Pin::kCsr) == 0)
+    last_access_ = {at, write, model_.level(Pin::kA), model_.level(Pin::kDIn)};
+}
+
+/// The model is stopped wherever one of its accesses ends, because the RTL's DPRAM can be seen at its present time
+/// only.
+void Lockstep::advance(Tick to) {
+  for (Tick next = model_.next_event(); next <= to && !difference_; next = model_.next_event()) {
+    model_.advance(next);
+    if (ended_) access_ended(*std::exchange(ended_, std::nullopt));
+  }
+  model_.advance(to);
+  rtl_.advance(to);
+  settle(to);
+}
+
+void Lockstep::model_changed(Tick at, Pin pin, Level level) {
+  history_.add(at, Side::kModel, pin, level);
+  if (!difference_) comparator_.model_changed(at, pin, level);
+  if (pin == Pin::kLReq) {
+    (level != 0 ? access_start_ : access_end_) = at;
+    if (level == 0 && model_.level(Pin::kReset) != 0) ended_ = at;
+  }
+  if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, pin, level);
+}
+
+void Lockstep::rtl_changed(Tick at, Pin pin, Level level) {
+  history_.add(at, Side::kRtl, pin, level);
+  if (!difference_) comparator_.rtl_changed(at, pin, level);
+}
+
+void Lockstep::access_ended(Tick at) {
+  if (!dpram_may_have_changed(at)) return;
+  rtl_.advance(at);
+  settle(at);
+  if (!difference_) compare_dpram(at);
+}
+
+bool Lockstep::dpram_may_have_changed(Tick at) {
+  const bool chip_wrote = at - access_start_ > kShortAccess;
+  return (chip_wrote || user_wrote_ || ++accesses_ % kImageEvery == 0) && options_.compare_dpram;
+}
+
+void Lockstep::compare_dpram(Tick at) {
+  DpramImage image;
+  if (!rtl_.top().dpram(image)) return;
+  user_wrote_ = last_write_ > at - kSettles;
+  ++counts_.dpram_images;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const auto address = static_cast<std::uint16_t>(i);
+    const std::uint8_t model = model_.peek(address);
+    if (model == image[i]) continue;
+    return found(at, fmt::format("DPRAM B{:03X}: model {:02X}, RTL {:02X}", address, model, image[i]));
+  }
+}
+
+void Lockstep::settle(Tick horizon) {
+  if (difference_) return;
+  const std::optional<PinDifference> pin = comparator_.settle(horizon);
+  compared_to_ = horizon;
+  if (!pin) return;
+  compared_to_ = pin->at;
+  found(pin->at, fmt::format("pin {}: model {}, RTL {}", dsdpv1::name(pin->pin), level_text(pin->pin, pin->model),
+                             level_text(pin->pin, pin->rtl)));
+}
+
+void Lockstep::found(Tick at, std::string what) {
+  const LineTelegram telegram = history_.last_telegram(model_.status().baud_index);
+  difference_ = Difference{
+      at, std::move(what),
+      telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, time_text(telegram.start)),
+      access_text(), dpram_text()};
+}
+
+std::string Lockstep::access_text() const {
+  if (last_access_.at < 0) return "none";
+  if (!last_access_.write) return fmt::format("read B{:03X} at {}", last_access_.address, time_text(last_access_.at));
+  return fmt::format("write B{:03X} := {} at {}", last_access_.address, level_text(Pin::kDIn, last_access_.data),
+                     time_text(last_access_.at));
+}
+
+std::string Lockstep::dpram_text() const {
+  if (access_start_ < 0) return "no access of the chip yet";
+  if (access_end_ < access_start_) return fmt::format("in an access since {}", time_text(access_start_));
+  return fmt::format("last access from {} to {}", time_text(access_start_), time_text(access_end_));
+}
+
+const MatchCounts& Lockstep::counts() const {
+  counts_.cycles = static_cast<std::uint64_t>(compared_to_ / kCycle);
+  counts_.pin_changes = comparator_.matched();
+  return counts_;
+}
+
+void Lockstep::write_wave(const std::string& path) {
+  constexpr Tick kAfterwards = 200 * kCycle;
+  const Tick end = std::max(model_.now(), rtl_.now()) + kAfterwards;
+  sink_ = {};
+  model_.advance(end);
+  rtl_.advance(end);
+  history_.write_wave(path, end);
+}
+
+}  // namespace cosim

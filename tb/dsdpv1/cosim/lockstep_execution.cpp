@@ -1,0 +1,128 @@
+#include "tb/dsdpv1/cosim/lockstep_execution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tb/dsdpv1/cosim/reference_rtl.hpp"
+#include "tb/dsdpv1/cosim/rtl_device.hpp"
+#include "tb/dsdpv1/kind.hpp"
+#include "tb/dsdpv1/pin_chip.hpp"
+#include "tb/dsdpv1/settings.hpp"
+#include "tb/input/input_error.hpp"
+
+namespace cosim {
+namespace {
+
+/// The parameters of the chip; other kinds than the DSDPV1 have no RTL here.
+dsdpv1::Config config_with_rtl(const tb::ChipMaker& maker, const tb::ChipRequest& request) {
+  if (&maker != &tb::dsdpv1_kind())
+    throw tb::InputError(fmt::format("--engine rtl and lockstep are for chips of the kind {}, the scenario has {}",
+                                     tb::dsdpv1_kind().name(), maker.name()));
+  return tb::config_of(request);
+}
+
+class LockstepDevice : public tb::PinDevice {
+ public:
+  LockstepDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, const LockstepOptions& options)
+      : lockstep_(config, std::move(top), options) {}
+
+  void set(Tick at, Pin pin, Level level) override { lockstep_.set(at, pin, level); }
+  void advance(Tick to) override { lockstep_.advance(to); }
+  Level level(Pin pin) const override { return lockstep_.level(pin); }
+  Level sample(Tick at) override { return lockstep_.sample(at); }
+  Tick next_event() const override { return lockstep_.next_event(); }
+  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { lockstep_.watch(sink, pins); }
+  void on_event(const profibus::EventSink& sink) override { lockstep_.on_event(sink); }
+  const dsdpv1::Chip& core() const override { return lockstep_.model(); }
+  Lockstep& lockstep() { return lockstep_; }
+
+ private:
+  Lockstep lockstep_;
+};
+
+class RtlExecution : public tb::Execution {
+ public:
+  explicit RtlExecution(MakeRtl make) : make_(std::move(make)) {}
+
+  std::unique_ptr<tb::ChipView> make_chip(const tb::ChipMaker& maker, const tb::ChipRequest& request) override {
+    const dsdpv1::Config config = config_with_rtl(maker, request);
+    auto chip = std::make_unique<tb::PinChip>(request.name, std::make_unique<RtlDevice>(config, make_(config)),
+                                              request.watched, segment_);
+    timeline_.add(*chip);
+    return chip;
+  }
+  void run(tb::Tick end, const std::function<bool()>& stopped) override {
+    while (!stopped() && timeline_.step(end)) {
+    }
+  }
+
+ private:
+  MakeRtl make_;
+};
+
+}  // namespace
+
+MakeRtl reference_rtl() {
+  return [](const dsdpv1::Config& config) { return make_reference_rtl(config); };
+}
+
+std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make) {
+  return std::make_unique<RtlExecution>(std::move(make));
+}
+
+std::unique_ptr<tb::ChipView> LockstepExecution::make_chip(const tb::ChipMaker& maker, const tb::ChipRequest& request) {
+  const dsdpv1::Config config = config_with_rtl(maker, request);
+  auto device = std::make_unique<LockstepDevice>(config, make_(config), options_);
+  chips_.push_back({request.name, &device->lockstep()});
+  auto chip = std::make_unique<tb::PinChip>(request.name, std::move(device), request.watched, segment_);
+  timeline_.add(*chip);
+  return chip;
+}
+
+void LockstepExecution::run(tb::Tick end, const std::function<bool()>& stopped) {
+  while (!stopped() && different() == nullptr && timeline_.step(end)) {
+  }
+  const Tick reached = stopped() || different() != nullptr ? timeline_.now() : std::max(end, timeline_.now());
+  for (const Chip& chip : chips_) chip.lockstep->advance(reached);
+}
+
+Lockstep* LockstepExecution::different() {
+  const auto found = std::find_if(chips_.begin(), chips_.end(),
+                                  [](const Chip& chip) { return chip.lockstep->difference().has_value(); });
+  return found == chips_.end() ? nullptr : found->lockstep;
+}
+
+const std::string& LockstepExecution::different_name() {
+  return std::find_if(
+             chips_.begin(), chips_.end(), [](const Chip& chip) { return chip.lockstep->difference().has_value(); })
+      ->name;
+}
+
+MatchCounts LockstepExecution::counts() const {
+  MatchCounts sum;
+  for (const Chip& chip : chips_) {
+    const MatchCounts& one = chip.lockstep->counts();
+    sum.cycles = std::max(sum.cycles, one.cycles);
+    sum.pin_changes += one.pin_changes;
+    sum.dpram_images += one.dpram_images;
+  }
+  return sum;
+}
+
+bool report(LockstepExecution& execution, const std::string& wave, std::string& text) {
+  MatchCounts counts = execution.counts();
+  Lockstep* different = execution.different();
+  if (different != nullptr) counts.cycles = different->counts().cycles;
+  text = fmt::format("lockstep          {} cycles, {} pin changes and {} DPRAM images of model and RTL are the same\n",
+                     counts.cycles, counts.pin_changes, counts.dpram_images);
+  if (different == nullptr) return true;
+  text += fmt::format("chip              {}\n{}", execution.different_name(), describe(*different->difference()));
+  if (!wave.empty()) {
+    different->write_wave(wave);
+    text += fmt::format("wave              {}\n", wave);
+  }
+  return false;
+}
+
+}  // namespace cosim

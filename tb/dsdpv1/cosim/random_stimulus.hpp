@@ -1,0 +1,14 @@
+#pragma once
+// Constrained-random stimulus: telegrams right and wrong, a user with and without manners, resets, changes of the baud
+// rate.
+#include <cstdint>
+
+#include "tb/dsdpv1/cosim/stimulus.hpp"
+
+namespace cosim {
+
+/// One case from power-on, the same for the same seed. Meant for `quick_config()`: what has to be waited for is waited
+/// for with its times. Runs for a few hundred thousand cycles, some for two millions (slow rates).
+Stimulus random_stimulus(std::uint64_t seed);
+
+}  // namespace cosim

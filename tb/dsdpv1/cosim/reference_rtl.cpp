@@ -1,0 +1,68 @@
+#include "tb/dsdpv1/cosim/reference_rtl.hpp"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tb/input/input_error.hpp"
+
+namespace cosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Layout = std::uint32_t (*)();
+using Make = RtlTop* (*)(const RtlLimits* limits, std::uint32_t fault, std::uint32_t seed);
+
+[[noreturn]] void fail(const std::string& what) {
+  throw tb::InputError(what +
+                       ", allowed is a complete build: ./run build (Verilator 5.006 or later), without it the engines "
+                       "step and skip");
+}
+
+/// The folder rtl/ of the build that this program belongs to: beside one of the folders above the program.
+fs::path find(const std::string& name) {
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  for (fs::path folder = program.parent_path(); folder != folder.root_path(); folder = folder.parent_path())
+    if (fs::exists(folder / "rtl" / name)) return folder / "rtl" / name;
+  fail("the reference RTL is not built");
+}
+
+template <class Function>
+Function symbol(void* library, const char* name) {
+  return reinterpret_cast<Function>(dlsym(library, name));  // the way POSIX gives for functions
+}
+
+/// Stays loaded to the end of the program: designs may live as long.
+Make load(const std::string& name) {
+  const fs::path path = find(name);
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) fail(std::string("the reference RTL cannot be loaded: ") + dlerror());
+  const auto layout = symbol<Layout>(library, "dsdpv1_rtl_layout");
+  if (layout == nullptr || layout() != DSDPV1_RTL_LAYOUT)
+    fail(path.string() + " is of another build than this program");
+  return symbol<Make>(library, "dsdpv1_rtl_make");
+}
+
+RtlLimits limits(const dsdpv1::Config& config) {
+  return {config.access_interval,  config.ready_cycles,       config.rts_lead,
+          config.rts_trail,        config.intr_low,           config.intr_gap,
+          config.search_window_ms, config.search_window_bits, config.baud_control_ms};
+}
+
+}  // namespace
+
+std::unique_ptr<RtlTop> make_reference_rtl(const dsdpv1::Config& config, std::uint32_t seed) {
+  static const Make make = load("libdsdpv1_rtl.so");
+  const RtlLimits parameters = limits(config);
+  return std::unique_ptr<RtlTop>(make(&parameters, 0, seed));
+}
+
+std::unique_ptr<RtlTop> make_faulty_rtl(const dsdpv1::Config& config, unsigned fault, std::uint32_t seed) {
+  static const Make make = load("libdsdpv1_rtl_faults.so");
+  const RtlLimits parameters = limits(config);
+  return std::unique_ptr<RtlTop>(make(&parameters, fault, seed));
+}
+
+}  // namespace cosim

@@ -1,0 +1,20 @@
+#pragma once
+// The reference RTL (rtl_ref/) under Verilator. It is no part of the program: it stands in two shared libraries, the
+// RTL as it is and the RTL with single faults, which are loaded when somebody asks for them. `./run build` builds them,
+// `./run sim` need not wait for it.
+#include <cstdint>
+#include <memory>
+
+#include "model/dsdpv1/chip.hpp"
+#include "tb/dsdpv1/cosim/rtl_top.hpp"
+
+namespace cosim {
+
+/// The RTL with the parameters of `config`. What is not reset in it begins with values that depend on `seed`. Throws
+/// tb::InputError when it was not built.
+std::unique_ptr<RtlTop> make_reference_rtl(const dsdpv1::Config& config, std::uint32_t seed = 1);
+
+/// The RTL with the single fault `fault` of rtl_ref/faults.txt; 0: none. Throws likewise.
+std::unique_ptr<RtlTop> make_faulty_rtl(const dsdpv1::Config& config, unsigned fault, std::uint32_t seed = 1);
+
+}  // namespace cosim

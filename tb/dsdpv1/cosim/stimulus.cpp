@@ -1,0 +1,280 @@
+#include "tb/dsdpv1/cosim/stimulus.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "tb/input/input_error.hpp"
+
+namespace cosim {
+namespace {
+
+const std::map<std::string, Verb> kVerbs = {{"send", Verb::kSend},   {"spike", Verb::kSpike}, {"take", Verb::kTake},
+                                            {"give", Verb::kGive},   {"write", Verb::kWrite}, {"read", Verb::kRead},
+                                            {"block", Verb::kBlock}, {"pin", Verb::kPin},     {"reset", Verb::kReset},
+                                            {"sync", Verb::kSync}};
+
+constexpr Tick kLongest = Tick{1} << 40;
+constexpr int kLastCell = 0x7FF;
+
+/// One `key=value` of an action: where it is kept, and what it may be. Decimal, addresses and values hexadecimal.
+struct Field {
+  const char* key;
+  Tick (*get)(const Action&);
+  void (*set)(Action&, Tick);
+  Tick least, most;
+  bool hex;
+};
+
+#define FIELD(member)                                          \
+  [](const Action& a) { return static_cast<Tick>(a.member); }, \
+      [](Action& a, Tick v) { a.member = static_cast<decltype(a.member)>(v); }
+
+const Field kRate = {"rate", FIELD(rate), 0, 9, false};
+const Field kReply = {"reply", FIELD(reply_bits), 0, 2000, false};
+const Field kAt = {"at", FIELD(address), 0, kLastCell, true};
+const Field kCrc = {"crc", FIELD(crc_address), 0, kLastCell, true};
+const Field kXor = {"xor", FIELD(value), 0, 0xFFFF, true};
+const Field kByte = {"value", FIELD(value), 0, 0xFF, true};
+const Field kLevel = {"level", FIELD(value), -1, kLastCell, false};
+const Field kSetup = {"setup", FIELD(setup), 0, kLongest, false};
+const Field kLow = {"low", FIELD(low), 1, kLongest, false};
+const Field kHold = {"hold", FIELD(hold), 0, kLongest, false};
+const Field kPoll = {"poll", FIELD(low), 1, kLongest, false};
+#undef FIELD
+
+const std::vector<Field>& fields(Verb verb) {
+  static const std::map<Verb, std::vector<Field>> table = {{Verb::kSend, {kRate, kReply}},
+                                                           {Verb::kSpike, {kLow}},
+                                                           {Verb::kTake, {kPoll}},
+                                                           {Verb::kGive, {}},
+                                                           {Verb::kWrite, {kAt, kByte, kSetup, kLow, kHold}},
+                                                           {Verb::kRead, {kAt, kSetup, kLow, kHold}},
+                                                           {Verb::kBlock, {kAt, kCrc, kXor, kSetup, kLow, kHold}},
+                                                           {Verb::kPin, {kLevel}},
+                                                           {Verb::kReset, {kLow}},
+                                                           {Verb::kSync, {}}};
+  return table.at(verb);
+}
+
+/// Faults on the wire, `key=position` or `key=position:number:number`.
+struct FaultField {
+  const char* key;
+  std::size_t numbers;  ///< behind the position
+  std::optional<std::vector<long>> (*get)(const bus::WireFaults&);
+  void (*set)(bus::WireFaults&, const std::vector<long>&);
+};
+
+std::optional<std::vector<long>> numbers(const std::optional<std::size_t>& at, std::vector<long> more = {}) {
+  if (!at) return std::nullopt;
+  more.insert(more.begin(), static_cast<long>(*at));
+  return more;
+}
+
+const FaultField kFaults[] = {
+    {"parity", 0, [](const bus::WireFaults& f) { return numbers(f.wrong_parity_at); },
+     [](bus::WireFaults& f, const std::vector<long>& n) { f.wrong_parity_at = static_cast<std::size_t>(n[0]); }},
+    {"stop", 0, [](const bus::WireFaults& f) { return numbers(f.missing_stop_at); },
+     [](bus::WireFaults& f, const std::vector<long>& n) { f.missing_stop_at = static_cast<std::size_t>(n[0]); }},
+    {"gap", 1, [](const bus::WireFaults& f) { return numbers(f.gap_before, {f.gap_millibits}); },
+     [](bus::WireFaults& f, const std::vector<long>& n) {
+       f.gap_before = static_cast<std::size_t>(n[0]);
+       f.gap_millibits = static_cast<int>(n[1]);
+     }},
+    {"cut", 1, [](const bus::WireFaults& f) { return numbers(f.truncate_after, {f.truncate_bits}); },
+     [](bus::WireFaults& f, const std::vector<long>& n) {
+       f.truncate_after = static_cast<std::size_t>(n[0]);
+       f.truncate_bits = static_cast<int>(n[1]);
+     }},
+    {"glitch", 2,
+     [](const bus::WireFaults& f) {
+       return numbers(f.glitch_at, {f.glitch.start_millibits, f.glitch.length_millibits});
+     },
+     [](bus::WireFaults& f, const std::vector<long>& n) {
+       f.glitch_at = static_cast<std::size_t>(n[0]);
+       f.glitch = {static_cast<int>(n[1]), static_cast<int>(n[2])};
+     }}};
+
+std::string faults_text(const bus::WireFaults& faults) {
+  std::string text;
+  for (const FaultField& field : kFaults) {
+    const auto values = field.get(faults);
+    if (!values) continue;
+    text += fmt::format(" {}={}", field.key, fmt::join(*values, ":"));
+  }
+  return text;
+}
+
+std::string line_of(const Action& action) {
+  const auto verb =
+      std::find_if(kVerbs.begin(), kVerbs.end(), [&](const auto& each) { return each.second == action.verb; });
+  std::string line = verb->first;
+  if (action.verb == Verb::kSync) return line;
+  line += fmt::format(" +{}", action.delay);
+  if (action.verb == Verb::kPin) line += fmt::format(" {}", dsdpv1::name(action.pin));
+  for (const Field& field : fields(action.verb)) {
+    const Tick value = field.get(action);
+    line += field.hex ? fmt::format(" {}={:X}", field.key, value) : fmt::format(" {}={}", field.key, value);
+  }
+  line += faults_text(action.faults);
+  for (std::size_t i = 0; i < action.bytes.size(); ++i)
+    line += fmt::format("{}{:02X}", i == 0 ? " : " : " ", action.bytes[i]);
+  return line;
+}
+
+/// Reads one line, word by word.
+class LineParser {
+ public:
+  LineParser(const std::string& line, const std::string& file, int number)
+      : words_(line), file_(file), number_(number) {}
+
+  /// Nothing for an empty line or a comment.
+  std::optional<Action> parse() {
+    std::string word;
+    if (!(words_ >> word) || word[0] == '#') return std::nullopt;
+    const auto verb = kVerbs.find(word);
+    if (verb == kVerbs.end())
+      fail("unknown action " + word, "send, spike, take, give, write, read, block, pin, reset, sync, repeat, end");
+    Action action;
+    action.verb = verb->second;
+    while (words_ >> word)
+      if (word == ":")
+        bytes(action);
+      else
+        argument(action, word);
+    return action;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what, const std::string& allowed) const {
+    throw tb::InputError(file_, number_, what + ", allowed: " + allowed);
+  }
+  long number(const std::string& text, int base, Tick least, Tick most) const {
+    std::size_t used = 0;
+    long value = 0;
+    try {
+      value = std::stol(text, &used, base);
+    } catch (const std::exception&) {
+      used = 0;
+    }
+    if (used == 0 || used != text.size() || value < least || value > most)
+      fail("wrong number " + text,
+           base == 16 ? fmt::format("{:X} to {:X}, hexadecimal", least, most) : fmt::format("{} to {}", least, most));
+    return value;
+  }
+  void argument(Action& action, const std::string& word) {
+    const std::size_t equals = word.find('=');
+    if (word[0] == '+')
+      action.delay = number(word.substr(1), 10, 0, kLongest);
+    else if (equals != std::string::npos)
+      assign(action, word.substr(0, equals), word.substr(equals + 1));
+    else
+      pin(action, word);
+  }
+  void assign(Action& action, const std::string& key, const std::string& text) const {
+    std::string allowed = "+DELAY";
+    for (const Field& field : fields(action.verb)) {
+      if (key == field.key) return field.set(action, number(text, field.hex ? 16 : 10, field.least, field.most));
+      allowed += fmt::format(", {}=", field.key);
+    }
+    for (const FaultField& field : kFaults) {
+      if (action.verb != Verb::kSend) break;
+      if (key == field.key) return field.set(action.faults, split(text, field.numbers + 1));
+      allowed += fmt::format(", {}=", field.key);
+    }
+    fail("unknown argument " + key, allowed);
+  }
+  std::vector<long> split(const std::string& text, std::size_t count) const {
+    std::vector<long> values;
+    std::istringstream parts(text);
+    for (std::string part; std::getline(parts, part, ':');) values.push_back(number(part, 10, 0, 1'000'000));
+    if (values.size() != count) fail("wrong fault " + text, fmt::format("{} numbers with : between them", count));
+    return values;
+  }
+  void pin(Action& action, const std::string& word) const {
+    for (int i = 0; i < dsdpv1::kPinCount && action.verb == Verb::kPin; ++i) {
+      const Pin each = static_cast<Pin>(i);
+      if (!dsdpv1::is_input(each) || word != dsdpv1::name(each)) continue;
+      action.pin = each;
+      return;
+    }
+    fail("unknown word " + word, "+DELAY, KEY=VALUE, : BYTES, and the name of an input pin behind pin");
+  }
+  void bytes(Action& action) {
+    for (std::string word; words_ >> word;)
+      action.bytes.push_back(static_cast<std::uint8_t>(number(word, 16, 0, 0xFF)));
+  }
+
+  std::istringstream words_;
+  const std::string& file_;
+  int number_;
+};
+
+/// The lines of a file; those between `repeat COUNT` and `end` several times.
+class FileParser {
+ public:
+  explicit FileParser(const std::string& file) : file_(file) {}
+
+  Stimulus parse(const std::string& text) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      ++number_;
+      std::istringstream words(line);
+      std::string verb, argument, more;
+      words >> verb >> argument >> more;
+      if (verb == "repeat")
+        repeat(more.empty() ? argument : fmt::format("{} {}", argument, more));
+      else if (verb == "end")
+        end(argument);
+      else if (auto action = LineParser(line, file_, number_).parse())
+        stimulus_.push_back(std::move(*action));
+    }
+    if (count_ != 0) fail(repeat_line_, "repeat without its end", "end behind the lines that are repeated");
+    return std::move(stimulus_);
+  }
+
+ private:
+  static constexpr int kMostRepeats = 1000;
+  [[noreturn]] void fail(int line, const std::string& what, const std::string& allowed) const {
+    throw tb::InputError(file_, line, what + ", allowed: " + allowed);
+  }
+  void repeat(const std::string& argument) {
+    if (count_ != 0) fail(number_, "repeat within repeat", fmt::format("end first, of line {}", repeat_line_));
+    const bool digits =
+        !argument.empty() && argument.size() <= 4 && argument.find_first_not_of("0123456789") == std::string::npos;
+    count_ = digits ? std::stoi(argument) : 0;
+    if (count_ < 1 || count_ > kMostRepeats)
+      fail(number_, "wrong count " + argument, fmt::format("repeat 1 to repeat {}", kMostRepeats));
+    first_ = stimulus_.size();
+    repeat_line_ = number_;
+  }
+  void end(const std::string& argument) {
+    if (count_ == 0) fail(number_, "end without repeat", "repeat COUNT before it");
+    if (!argument.empty()) fail(number_, "unknown word " + argument, "end alone");
+    const Stimulus lines(stimulus_.begin() + static_cast<std::ptrdiff_t>(first_), stimulus_.end());
+    for (; count_ > 1; --count_) stimulus_.insert(stimulus_.end(), lines.begin(), lines.end());
+    count_ = 0;
+  }
+
+  const std::string& file_;
+  Stimulus stimulus_;
+  int number_ = 0, count_ = 0, repeat_line_ = 0;
+  std::size_t first_ = 0;
+};
+
+}  // namespace
+
+std::string to_text(const Stimulus& stimulus) {
+  std::string text =
+      "# Stimulus for the lockstep of model and RTL, see docs/cosim.md. Times are ticks of 1/12 ns, 250 a cycle.\n";
+  for (const Action& action : stimulus) text += line_of(action) + "\n";
+  return text;
+}
+
+Stimulus parse_stimulus(const std::string& text, const std::string& file) { return FileParser(file).parse(text); }
+
+}  // namespace cosim

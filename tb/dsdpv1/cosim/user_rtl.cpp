@@ -1,0 +1,203 @@
+#include "tb/dsdpv1/cosim/user_rtl.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tb/input/input_error.hpp"
+#include "tb/output/output_file.hpp"
+
+namespace cosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Bytes that go to and come from the library, in this order.
+constexpr const char* kInputs[] = {"CLK", "RESET", "R_REQ", "R_STA", "CSR", "RD", "WR", "PBRXD"};
+constexpr const char* kOutputs[] = {"L_REQ", "L_STA", "INTR0", "PBTXD", "PBRTS", "PBF", "BR", "READY", "D_OE"};
+constexpr std::size_t kInputBytes = std::size(kInputs) + 3, kOutputBytes = std::size(kOutputs) + 1;
+constexpr std::size_t kD = std::size(kInputs), kALow = kD + 1, kAHigh = kD + 2;
+
+const Port& port(const PinMap& map, const std::string& name) { return name == "CLK" ? map.clock : map.pins.at(name); }
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+/// Runs a command; what it says goes to a file, whose first lines with an error are the message when it fails.
+void call(const std::string& command, const std::string& log, const std::string& what) {
+  if (std::system((command + " >" + quoted(log) + " 2>&1").c_str()) == 0) return;
+  std::ifstream file(log);
+  std::string first;
+  for (std::string line; first.empty() && std::getline(file, line);)
+    if (line.find("rror:") != std::string::npos || line.find("%Error") != std::string::npos) first = line;
+  throw tb::InputError(
+      fmt::format("dsdpv1-sim cosim: {}: {} (all of it in {}), allowed is RTL that Verilator 5.006 builds", what,
+                  first.empty() ? "failed" : first, log));
+}
+
+std::vector<std::string> sources(const UserRtl& rtl, const PinMap& map) {
+  std::vector<std::string> files;
+  for (const std::string& file : map.files) files.push_back(fs::absolute(fs::path(rtl.folder) / file).string());
+  if (!files.empty()) return files;
+  for (const auto& entry : fs::directory_iterator(rtl.folder)) {
+    const std::string ending = entry.path().extension().string();
+    if (ending == ".sv" || ending == ".v") files.push_back(fs::absolute(entry.path()).string());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) throw tb::InputError(rtl.folder, 0, "holds no RTL, allowed are .sv and .v files");
+  return files;
+}
+
+using Create = void* (*)(int start);
+using Destroy = void (*)(void* self);
+using Eval = void (*)(void* self, const std::uint8_t* in, std::uint8_t* out);
+
+struct Library {
+  Create create = nullptr;
+  Destroy destroy = nullptr;
+  Eval eval = nullptr;
+};
+
+template <class Function>
+Function symbol(void* handle, const char* name) {
+  return reinterpret_cast<Function>(dlsym(handle, name));  // the way POSIX gives for functions
+}
+
+/// Stays loaded to the end of the program: designs may live as long.
+Library load(const std::string& path) {
+  void* handle = dlopen(fs::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) throw tb::InputError(path, 0, fmt::format("cannot be loaded: {}", dlerror()));
+  return {symbol<Create>(handle, "dsdpv1_rtl_create"), symbol<Destroy>(handle, "dsdpv1_rtl_destroy"),
+          symbol<Eval>(handle, "dsdpv1_rtl_eval")};
+}
+
+/// Three designs that begin with zeros, with ones and with random values wherever nothing is initialised or reset
+/// (Verilator's randReset).
+class UserTop : public RtlTop {
+ public:
+  explicit UserTop(const Library& library)
+      : library_(library), designs_{library.create(0), library.create(1), library.create(2)} {}
+  ~UserTop() override {
+    for (void* design : designs_) library_.destroy(design);
+  }
+  UserTop(const UserTop&) = delete;
+  UserTop& operator=(const UserTop&) = delete;
+
+  void eval() override {
+    const std::array<std::uint8_t, kInputBytes> levels = {in.clk,
+                                                          in.reset,
+                                                          in.r_req,
+                                                          in.r_sta,
+                                                          in.csr,
+                                                          in.rd,
+                                                          in.wr,
+                                                          in.pbrxd,
+                                                          in.d,
+                                                          static_cast<std::uint8_t>(in.a & 0xFF),
+                                                          static_cast<std::uint8_t>(in.a >> 8)};
+    out.word = word(0, levels);
+    out.unknown = (out.word ^ word(1, levels)) | (out.word ^ word(2, levels));
+  }
+  bool dpram(DpramImage&) const override { return false; }
+
+ private:
+  std::uint32_t word(std::size_t design, const std::array<std::uint8_t, kInputBytes>& levels) {
+    std::array<std::uint8_t, kOutputBytes> bytes{};
+    library_.eval(designs_.at(design), levels.data(), bytes.data());
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < std::size(kOutputs); ++i) word |= (bytes.at(i) & 1U) << (kWireLReq + i);
+    return (word >> kWireDriven & 1U) != 0 ? word | bytes.back() : word;
+  }
+
+  Library library_;
+  std::array<void*, 3> designs_;
+};
+
+}  // namespace
+
+std::string adapter_source(const std::string& top, const PinMap& map) {
+  std::string text = fmt::format(
+      "// Generated: the pins of {0} for the co-simulation.\n"
+      "#include \"V{0}.h\"\n#include \"verilated.h\"\n#include <memory>\n\nnamespace {{\nstruct Design {{\n"
+      "  VerilatedContext context;\n  std::unique_ptr<V{0}> model;\n}};\n}}  // namespace\n\n"
+      "extern \"C\" void* dsdpv1_rtl_create(int start) {{\n  auto* design = new Design;\n"
+      "  design->context.randReset(start);\n  design->context.randSeed(1);\n"
+      "  design->model = std::make_unique<V{0}>(&design->context);\n  return design;\n}}\n\n"
+      "extern \"C\" void dsdpv1_rtl_destroy(void* self) {{ delete static_cast<Design*>(self); }}\n\n"
+      "extern \"C\" void dsdpv1_rtl_eval(void* self, const unsigned char* in, unsigned char* out) {{\n"
+      "  V{0}& model = *static_cast<Design*>(self)->model;\n",
+      top);
+  for (std::size_t i = 0; i < std::size(kInputs); ++i)
+    text += fmt::format("  model.{} = {}in[{}];\n", port(map, kInputs[i]).name,
+                        port(map, kInputs[i]).inverted ? "!" : "", i);
+  const auto inverted = [&map](const char* name) { return port(map, name).inverted ? "~" : ""; };
+  text += fmt::format("  model.{} = ({}in[{}]) & 0xFF;\n", port(map, "D_IN").name, inverted("D_IN"), kD);
+  text += fmt::format("  model.{} = ({}(in[{}] | in[{}] << 8)) & 0x7FF;\n", port(map, "A").name, inverted("A"), kALow,
+                      kAHigh);
+  text += "  model.eval();\n";
+  for (std::size_t i = 0; i < std::size(kOutputs); ++i)
+    text += fmt::format("  out[{}] = {}model.{};\n", i, port(map, kOutputs[i]).inverted ? "!" : "",
+                        port(map, kOutputs[i]).name);
+  text += fmt::format("  out[{}] = {}model.{};\n}}\n", std::size(kOutputs), inverted("D_OUT"), port(map, "D_OUT").name);
+  return text;
+}
+
+namespace {
+
+std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::string& build,
+                              const std::string& adapter) {
+  std::string command =
+      "verilator --cc --exe -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS '-O2 -fPIC' -LDFLAGS -shared";
+  command += fmt::format(" --top-module {} --prefix V{} --Mdir {} -I{} -o librtl.so", quoted(rtl.top), rtl.top,
+                         quoted(build), quoted(fs::absolute(rtl.folder).string()));
+  for (const std::string& folder : map.include)
+    command += " -I" + quoted(fs::absolute(fs::path(rtl.folder) / folder).string());
+  for (const auto& [name, value] : map.parameters)
+    command.append(" ").append(quoted(fmt::format("-G{}={}", name, value)));
+  for (const std::string& source : sources(rtl, map)) command += " " + quoted(source);
+  return command + " " + quoted(adapter);
+}
+
+/// Every port that the map names is one of the Verilated top, whose header declares them as VL_IN8(&name,7,0).
+void check_ports(const std::string& top, const PinMap& map, const std::string& build) {
+  std::ifstream file(fmt::format("{}/V{}.h", build, top));
+  const std::string header{std::istreambuf_iterator<char>(file), {}};
+  const auto check = [&](const std::string& pin, const std::string& name) {
+    if (header.find("(&" + name + ",") != std::string::npos) return;
+    throw tb::InputError(fmt::format(
+        "dsdpv1-sim cosim: {} has no port {} for {}, allowed are its ports, named in --pins", top, name, pin));
+  };
+  check("CLK", map.clock.name);
+  for (const auto& [pin, port] : map.pins) check(pin, port.name);
+}
+
+}  // namespace
+
+MakeRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
+  if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, allowed is one with RTL");
+  if (std::system("command -v verilator >/dev/null 2>&1") != 0)
+    throw tb::InputError("dsdpv1-sim cosim: Verilator is missing, allowed is version 5.006 or later in PATH");
+  fs::create_directories(rtl.build);
+  const std::string adapter = fs::absolute(fs::path(rtl.build) / "adapter.cpp").string();
+  tb::OutputFile file(adapter);
+  file.write(adapter_source(rtl.top, map));
+  file.commit();
+
+  const std::string build = fs::absolute(rtl.build).string();
+  call(verilator_command(rtl, map, build, adapter), build + "/verilator.log", rtl.top);
+  check_ports(rtl.top, map, build);
+  call(fmt::format("make -s -C {} -f V{}.mk", quoted(build), rtl.top), build + "/compiler.log", rtl.top);
+  const Library library = load((fs::path(rtl.build) / "librtl.so").string());
+  return [library](const dsdpv1::Config&) { return std::make_unique<UserTop>(library); };
+}
+
+}  // namespace cosim

@@ -1,0 +1,26 @@
+#pragma once
+// A DSDPV1 on the bench, whichever way it is executed.
+#include "model/dsdpv1/chip.hpp"
+#include "tb/bench/chip_view.hpp"
+#include "tb/dsdpv1/user_cpu/host_bus.hpp"
+
+namespace tb {
+
+class Dsdpv1View : public ChipView {
+ public:
+  virtual user_cpu::HostBus& host_bus() = 0;
+  /// The core that tells states, counters and events: the chip itself, or one beside it on the same inputs.
+  virtual const dsdpv1::Chip& core() const = 0;
+
+  ChipStatus status() const final;
+  Level level(PinNumber pin) const final { return core().level(static_cast<dsdpv1::Pin>(pin)); }
+
+ protected:
+  /// Tells a change of a pin to whoever listens.
+  void tell(Tick at, dsdpv1::Pin pin, dsdpv1::Level level) const {
+    if (pin == dsdpv1::Pin::kIntr0 && on_interrupt) on_interrupt(at, level != 0);
+    if (on_pin) on_pin(at, static_cast<PinNumber>(pin), level);
+  }
+};
+
+}  // namespace tb

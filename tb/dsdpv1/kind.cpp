@@ -1,0 +1,96 @@
+#include "tb/dsdpv1/kind.hpp"
+
+#include <fmt/format.h>
+
+#include "model/dsdpv1/reasons.hpp"
+#include "tb/dsdpv1/checks/checks.hpp"
+#include "tb/dsdpv1/codes.hpp"
+#include "tb/dsdpv1/pin_chip.hpp"
+#include "tb/dsdpv1/pin_table.hpp"
+#include "tb/dsdpv1/settings.hpp"
+#include "tb/dsdpv1/user_cpu/orders.hpp"
+#include "tb/dsdpv1/user_maker.hpp"
+#include "tb/input/units.hpp"
+
+namespace tb {
+namespace {
+
+using user_cpu::command::OfChip;
+
+std::string said_hold(const OfChip& order) { return "holds the DPRAM for " + time_text(order.duration); }
+std::string said_wrong_crc(const OfChip&) { return "wrong CRC"; }
+std::string said_early_r_sta(const OfChip&) { return "R_STA without a look at L_REQ and L_STA"; }
+
+class Dsdpv1Kind : public ChipMaker {
+ public:
+  const char* name() const override { return "dsdpv1"; }
+  const char* title() const override { return "DSDPV1"; }
+  const PinTable& pins() const override { return dsdpv1_pins(); }
+
+  const keys::Object& chip_keys() const override { return dsdpv1_chip_keys(); }
+  std::unique_ptr<OwnSettings> make_chip_settings() const override { return std::make_unique<Dsdpv1Settings>(); }
+  const keys::Object& user_keys() const override { return dsdpv1_user_keys(); }
+  std::unique_ptr<OwnSettings> make_user_settings() const override { return std::make_unique<Dsdpv1User>(); }
+  void check_user(const OwnSettings& settings, const keys::Source& source, const std::string& slave,
+                  int where) const override {
+    check_dsdpv1_user(static_cast<const Dsdpv1User&>(settings), source.file, slave, where);
+  }
+  const std::vector<Order>& orders() const override;
+  const std::vector<keys::Word>& blocks() const override;
+
+  std::string describe(const profibus::Event& event) const override { return dsdpv1::describe(event); }
+  const std::vector<CodeTable>& codes() const override { return dsdpv1_codes(); }
+
+  const checks::RuleTable& rules() const override { return checks::rules(); }
+  PinMask checked_pins() const override { return checks::Checks::kPins; }
+  std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits) const override {
+    return std::make_unique<checks::Checks>(limits);
+  }
+
+  std::unique_ptr<ChipView> make_pin_chip(const ChipRequest& request, bus::Segment& segment,
+                                          bus::Timeline& timeline) const override {
+    auto chip = std::make_unique<PinChip>(request.name, config_of(request), request.watched, segment);
+    timeline.add(*chip);
+    return chip;
+  }
+  MakeUser make_user(const UserRequest& request) const override { return make_dsdpv1_user(request); }
+  bool has_debugger(const scenario::Slave& slave) const override { return own(slave.user_cpu).kind == CpuKind::kArm; }
+};
+
+const std::vector<Order>& Dsdpv1Kind::orders() const {
+  static const std::vector<Order> orders = {
+      {{user_cpu::kHoldDpram, "The user CPU takes the DPRAM and keeps it.", {"slave", "for"}, {}}, said_hold},
+      {{user_cpu::kWrongCrc,
+        "The next blocks of this kind that the user CPU writes have a wrong CRC.",
+        {"slave", "area"},
+        {"times"}},
+       said_wrong_crc},
+      {{user_cpu::kEarlyRSta,
+        "The user CPU raises R_STA one cycle after R_REQ without a look at L_REQ and L_STA (against H2), and holds for "
+        "1 us, so often.",
+        {"slave"},
+        {"times"}},
+       said_early_r_sta,
+       true},
+  };
+  return orders;
+}
+
+const std::vector<keys::Word>& Dsdpv1Kind::blocks() const {
+  static const std::vector<keys::Word> words = [] {
+    std::vector<keys::Word> list;
+    for (const std::string& word : user_cpu::block_words())
+      list.push_back({word, word == "init" ? "initialisation" : ""});
+    return list;
+  }();
+  return words;
+}
+
+}  // namespace
+
+const ChipMaker& dsdpv1_kind() {
+  static const Dsdpv1Kind kind;
+  return kind;
+}
+
+}  // namespace tb

@@ -1,0 +1,114 @@
+#include "tb/dsdpv1/pin_chip.hpp"
+
+#include <utility>
+
+namespace tb {
+
+using dsdpv1::Level;
+using dsdpv1::Pin;
+
+namespace {
+
+constexpr PinMask kInputPins = dsdpv1::mask(Pin::kLReq) - 1;
+/// The output pins that the bench needs in any case.
+constexpr PinMask kBusPins = dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts) | dsdpv1::mask(Pin::kIntr0);
+
+}  // namespace
+
+PinChip::PinChip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched, bus::Segment& segment)
+    : PinChip(name, std::make_unique<CoreDevice>(config), watched, segment) {}
+
+PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std::uint32_t watched,
+                 bus::Segment& segment)
+    : device_(std::move(device)),
+      chip_(*device_),
+      pins_(std::in_place, chip_),
+      segment_(segment),
+      station_(segment.attach(name, this)),
+      reports_inputs_((watched & kInputPins) != 0) {
+  chip_.watch(
+      {[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); },
+       this},
+      (watched & dsdpv1::kOutputPins) | kBusPins);
+  chip_.on_event({[](void* self, const profibus::Event& event) {
+                    const auto& view = *static_cast<PinChip*>(self);
+                    if (view.on_event) view.on_event(event);
+                  },
+                  this});
+  for (std::size_t pin = 0; pin < inputs_.size(); ++pin) inputs_.at(pin) = chip_.level(static_cast<Pin>(pin));
+}
+
+Tick PinChip::next() const { return driven_ < drives_due_.size() ? drives_due_[driven_].at : chip_.next_event(); }
+
+void PinChip::run(Tick now) {
+  device().advance(now);
+  drive_line();
+}
+
+void PinChip::pin_changed(Tick at, Pin pin, Level level) {
+  tell(at, pin, level);
+  if (pin != Pin::kPbtxd && pin != Pin::kPbrts) return;
+  (pin == Pin::kPbtxd ? drives_ : enabled_) = level != 0;
+  drives_due_.push_back({at, enabled_, drives_});
+}
+
+void PinChip::drive_line() {
+  // The line may change an input of this chip, which may add to the list.
+  for (; driven_ < drives_due_.size(); ++driven_) {
+    const Drive due = drives_due_[driven_];
+    segment_.drive(station_, due.at, due.enabled, due.level);
+  }
+  drives_due_.clear();
+  driven_ = 0;
+}
+
+void PinChip::line_changed(Tick at, bool level) { set(at, Pin::kPbrxd, level ? 1 : 0); }
+void PinChip::set_reset(Tick at, bool level) { set(at, Pin::kReset, level ? 1 : 0); }
+
+void PinChip::set(Tick at, Pin pin, Level level) {
+  device().set(at, pin, level);
+  report_inputs(at, pin, pin);
+}
+
+void PinChip::reset_host(Tick at) {
+  pins_.emplace(chip_);
+  PinDevice& chip = device();
+  for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) chip.set(at, pin, 1);
+  for (const Pin pin : {Pin::kRSta, Pin::kRReq}) chip.set(at, pin, 0);
+  chip.set(at, Pin::kDIn, dsdpv1::kLevelZ);
+  chip.set(at, Pin::kA, user_cpu::PinHostBus::kIdleAddress);
+  report_inputs(at, Pin::kRReq, Pin::kDIn);
+}
+
+void PinChip::set_r_req(Tick at, bool level) {
+  pins().set_r_req(at, level);
+  report_inputs(at, Pin::kRReq, Pin::kRReq);
+}
+
+void PinChip::set_r_sta(Tick at, bool level) {
+  pins().set_r_sta(at, level);
+  report_inputs(at, Pin::kRSta, Pin::kRSta);
+}
+
+void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) {
+  pins().begin(at, access, timing);
+  if (!access.write && on_read) on_read(pins_->sample_tick());
+}
+
+void PinChip::run_edges(Tick now) {
+  pins().run_edges(now);
+  // Strobes that rise with CSR are told before it, as the TLM module does.
+  if (chip_.level(Pin::kCsr) != 0) report_inputs(now, Pin::kRd, Pin::kWr);
+  report_inputs(now, Pin::kCsr, Pin::kDIn);
+}
+
+void PinChip::report_inputs(Tick at, Pin first, Pin last) {
+  if (!reports_inputs_) return;
+  for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
+    const Pin pin = static_cast<Pin>(i);
+    const Level level = chip_.level(pin);
+    if (std::exchange(inputs_.at(i), level) != level) tell(at, pin, level);
+  }
+}
+
+}  // namespace tb

@@ -1,0 +1,82 @@
+#pragma once
+// A chip driven by its pins, the core or RTL, as a station of the segment.
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/timeline.hpp"
+#include "tb/dsdpv1/dsdpv1_view.hpp"
+#include "tb/dsdpv1/pin_device.hpp"
+#include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
+
+namespace tb {
+
+/// Wired as on a board with an RS-485 driver: PBRTS enables it, PBTXD is what it drives, PBRXD hears the line at all
+/// times.
+class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, private user_cpu::HostBus {
+ public:
+  /// The core itself.
+  PinChip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched, bus::Segment& segment);
+  PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std::uint32_t watched, bus::Segment& segment);
+
+  void set_reset(Tick at, bool level) override;
+  void reset_host(Tick at) override;
+  user_cpu::HostBus& host_bus() override { return *this; }
+  bus::StationId station() const override { return station_; }
+  const dsdpv1::Chip& core() const override { return device_->core(); }
+  void sync(Tick now) override { run(now); }
+
+  Tick next() const override;
+  void run(Tick now) override;
+
+ private:
+  struct Drive {
+    Tick at;
+    bool enabled, level;
+  };
+  /// Whoever moves the chip takes it from here.
+  PinDevice& device() {
+    announce();
+    return chip_;
+  }
+  user_cpu::PinHostBus& pins() {
+    announce();
+    return *pins_;
+  }
+  void line_changed(Tick at, bool level) override;
+  void pin_changed(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void set(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void drive_line();
+  /// Those of the inputs from `first` to `last` that have changed.
+  void report_inputs(Tick at, dsdpv1::Pin first, dsdpv1::Pin last);
+
+  // The host bus is that of the pins; what it does to the input pins is reported.
+  void set_r_req(Tick at, bool level) override;
+  void set_r_sta(Tick at, bool level) override;
+  bool l_req(Tick at) override { return pins().l_req(at); }
+  bool l_sta(Tick at) override { return pins().l_sta(at); }
+  bool intr0(Tick at) override { return pins().intr0(at); }
+  unsigned lamps(Tick at) override { return pins().lamps(at); }
+  void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) override;
+  Tick next_edge() const override { return pins_->next_edge(); }
+  void run_edges(Tick now) override;
+  Tick end() const override { return pins_->end(); }
+  std::uint8_t read_value() const override { return pins_->read_value(); }
+  bool last_read_was_bad() const override { return pins_->last_read_was_bad(); }
+
+  std::unique_ptr<PinDevice> device_;
+  PinDevice& chip_;
+  std::optional<user_cpu::PinHostBus> pins_;
+  bus::Segment& segment_;
+  bus::StationId station_;
+  bool reports_inputs_;
+  std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
+  bool enabled_ = false, drives_ = true;
+  std::vector<Drive>
+      drives_due_;  ///< what the chip did to the line inside of a call; told after it, because the line answers
+  std::size_t driven_ = 0;
+};
+
+}  // namespace tb

@@ -1,0 +1,34 @@
+#pragma once
+// What stands behind a chip's pins on the bench: the core, or RTL (tb/dsdpv1/cosim).
+#include "model/dsdpv1/chip.hpp"
+#include "tb/dsdpv1/user_cpu/host_pins.hpp"
+
+namespace tb {
+
+class PinDevice : public user_cpu::HostPins {
+ public:
+  virtual dsdpv1::Tick next_event() const = 0;
+  virtual void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) = 0;
+  virtual void on_event(const profibus::EventSink& sink) = 0;
+  /// The core that tells states, counters and events; the device itself, or one beside it on the same inputs.
+  virtual const dsdpv1::Chip& core() const = 0;
+};
+
+/// The core itself.
+class CoreDevice : public PinDevice {
+ public:
+  explicit CoreDevice(const dsdpv1::Config& config) : chip_(config) {}
+  void set(dsdpv1::Tick at, dsdpv1::Pin pin, dsdpv1::Level level) override { chip_.set(at, pin, level); }
+  void advance(dsdpv1::Tick to) override { chip_.advance(to); }
+  dsdpv1::Level level(dsdpv1::Pin pin) const override { return chip_.level(pin); }
+  dsdpv1::Level sample(dsdpv1::Tick at) override { return chip_.sample(at); }
+  dsdpv1::Tick next_event() const override { return chip_.next_event(); }
+  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { chip_.watch(sink, pins); }
+  void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }
+  const dsdpv1::Chip& core() const override { return chip_; }
+
+ private:
+  dsdpv1::Chip chip_;
+};
+
+}  // namespace tb

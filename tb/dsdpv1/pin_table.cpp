@@ -1,0 +1,20 @@
+#include "tb/dsdpv1/pin_table.hpp"
+
+namespace tb {
+
+static_assert(kLevelZ == dsdpv1::kLevelZ && kLevelX == dsdpv1::kLevelX);
+
+const PinTable& dsdpv1_pins() {
+  static const PinTable pins = [] {
+    PinTable table;
+    for (int i = 0; i < dsdpv1::kPinCount; ++i) {
+      const auto pin = static_cast<dsdpv1::Pin>(i);
+      const bool data = pin == dsdpv1::Pin::kDIn || pin == dsdpv1::Pin::kDOut;
+      table.push_back({dsdpv1::name(pin), dsdpv1::width(pin), dsdpv1::is_input(pin), data ? "D" : nullptr});
+    }
+    return table;
+  }();
+  return pins;
+}
+
+}  // namespace tb

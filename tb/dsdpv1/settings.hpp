@@ -1,0 +1,68 @@
+#pragma once
+// What a scenario says with the keys of the DSDPV1: parameters of the chip, and the user CPU with its bus.
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/dsdpv1/chip.hpp"
+#include "tb/bench/chip_maker.hpp"
+#include "tb/chip/chip_kind.hpp"
+#include "tb/dsdpv1/user_cpu/cpu.hpp"
+#include "tb/dsdpv1/user_cpu/fsmc_timing.hpp"
+
+namespace tb {
+
+using keys::Name;
+
+struct Dsdpv1Settings : OwnSettings, dsdpv1::Config {};
+
+struct AccessTimes : user_cpu::AccessTiming {
+  int line = 0;
+};
+
+struct Fsmc : user_cpu::FsmcOverride {
+  int line = 0;
+};
+
+struct CpuTimes : user_cpu::CpuTiming {
+  int line = 0;
+};
+
+enum class CpuKind : std::uint8_t { kNative, kArm };
+/// What becomes of that part of a scenario that only firmware with a mailbox can carry out or tell.
+enum class WithoutMailbox : std::uint8_t { kRefuse, kLeaveOut };
+
+struct Dsdpv1User : OwnSettings {
+  CpuKind kind = CpuKind::kNative;
+  Name elf;                                                  ///< kArm
+  WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
+  std::vector<Name> switches;                                ///< kArm: "PA0=low"
+  double cpi = 1.5;                                          ///< kArm: cycles of HCLK per instruction
+  std::optional<CpuTimes> timing;  ///< kNative; its `access` is left alone: that is the next member
+  std::optional<AccessTimes> access;
+  std::optional<Fsmc> fsmc;
+};
+
+/// A switch of an ARM board that holds an input pin.
+struct Switch {
+  unsigned port = 0, pin = 0;  ///< port A is 0
+  bool high = false;
+};
+/// "PA0=low"; nullopt for other text, and for pins of ports beyond G.
+std::optional<Switch> parse_switch(const std::string& text);
+
+inline const Dsdpv1User& own(const scenario::UserCpu& user) { return static_cast<const Dsdpv1User&>(*user.own); }
+
+/// The chip's parameters, with the engine of the request.
+dsdpv1::Config config_of(const ChipRequest& request);
+
+// The keys (ChipKind::chip_keys, user_keys).
+const keys::Object& dsdpv1_chip_keys();
+const keys::Object& dsdpv1_user_keys();
+
+/// ChipKind::check_user.
+void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const std::string& slave, int line);
+
+}  // namespace tb

@@ -1,0 +1,117 @@
+#include "tb/dsdpv1/systemc/tlm_execution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "model/systemc/main_stack.hpp"
+#include "model/systemc/sim_time.hpp"
+#include "tb/dsdpv1/dsdpv1_view.hpp"
+#include "tb/dsdpv1/kind.hpp"
+#include "tb/dsdpv1/pin_table.hpp"
+#include "tb/dsdpv1/settings.hpp"
+#include "tb/dsdpv1/systemc/tlm_chip.hpp"
+#include "tb/dsdpv1/systemc/tlm_host_bus.hpp"
+#include "tb/input/input_error.hpp"
+
+namespace tb {
+namespace {
+
+using dsdpv1::Pin;
+
+class TlmChipView : public Dsdpv1View {
+ public:
+  TlmChipView(const std::string& name, const dsdpv1::systemc::TlmOptions& options, std::uint32_t watched,
+              bus::Segment& segment, systemc_bench::TimelineModule& timeline)
+      : chip_(name.c_str(), options, segment, timeline), bus_((name + "_host").c_str(), chip_) {
+    const bool inputs = (watched & inputs_of(dsdpv1_pins())) != 0;
+    chip_.on_pin = [this, inputs, &timeline](Tick at, Pin pin, dsdpv1::Level level) {
+      if (inputs || !dsdpv1::is_input(pin)) tell(at, pin, level);
+      if (pin == Pin::kIntr0) timeline.wake();  // the user CPU has a new plan
+    };
+    chip_.module().on_event = [this, &timeline](const profibus::Event& event) {
+      if (on_event) on_event(event);
+      timeline.wake();  // the script may have waited for it
+    };
+    bus_.on_read = [this](Tick sample) {
+      if (on_read) on_read(sample);
+    };
+  }
+
+  void set_reset(Tick, bool level) override { chip_.set_reset(level); }
+  void reset_host(Tick) override {
+    chip_.set_r_sta(false);
+    chip_.set_r_req(false);
+  }
+  user_cpu::HostBus& host_bus() override { return bus_; }
+  bus::StationId station() const override { return chip_.station(); }
+  const dsdpv1::Chip& core() const override { return chip_.module().chip(); }
+  void sync(Tick) override {}
+
+ private:
+  systemc_bench::TlmChip chip_;
+  user_cpu::TlmHostBus bus_;
+};
+
+class TlmExecution : public Execution {
+ public:
+  std::unique_ptr<ChipView> make_chip(const ChipMaker& maker, const ChipRequest& request) override {
+    if (&maker != &dsdpv1_kind())
+      throw InputError(fmt::format("--view tlm is for chips of the kind {}, the scenario has {}", dsdpv1_kind().name(),
+                                   maker.name()));
+    dsdpv1::systemc::TlmOptions options;
+    options.chip = config_of(request);
+    options.report_violations = false;  // the bench reports them
+    return std::make_unique<TlmChipView>(request.name, options, request.watched, segment_, module_);
+  }
+
+  void run(Tick end, const std::function<bool()>& stopped) override {
+    // In slices, so that a stop takes effect; the last one ends a tick behind `end`, which SystemC itself would leave
+    // out.
+    constexpr Tick kSlice = bus::kTicksPerMs;
+    for (Tick to = std::min(kSlice, end + 1); !stopped(); to = std::min(to + kSlice, end + 1)) {
+      sc_core::sc_start(dsdpv1::systemc::to_time(to) - sc_core::sc_time_stamp());
+      dsdpv1::systemc::announce_main_stack();
+      if (to > end) return;
+    }
+  }
+
+ private:
+  systemc_bench::TimelineModule module_{"timeline", timeline_};
+};
+
+const std::function<int()>* body_of_sc_main = nullptr;
+std::exception_ptr failure_of_sc_main;
+
+}  // namespace
+
+std::unique_ptr<Execution> make_tlm_execution() { return std::make_unique<TlmExecution>(); }
+
+int inside_systemc(const std::function<int()>& body) {
+  setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
+  body_of_sc_main = &body;
+  char name[] = "dsdpv1-sim";
+  char* arguments[] = {name, nullptr};
+  const int status = sc_core::sc_elab_and_sim(1, arguments);
+  if (failure_of_sc_main) std::rethrow_exception(std::exchange(failure_of_sc_main, nullptr));
+  return status;
+}
+
+/// SystemC would print an exception in words of its own.
+int run_body() {
+  try {
+    return (*body_of_sc_main)();
+  } catch (...) {
+    failure_of_sc_main = std::current_exception();
+    return 1;
+  }
+}
+
+}  // namespace tb
+
+int sc_main(int, char**) { return tb::run_body(); }

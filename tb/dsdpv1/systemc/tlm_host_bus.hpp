@@ -1,0 +1,56 @@
+#pragma once
+// The HostBus on the TLM socket of a chip in SystemC.
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <functional>
+#include <systemc>
+
+#include "tb/dsdpv1/systemc/tlm_chip.hpp"
+#include "tb/dsdpv1/user_cpu/host_bus.hpp"
+
+namespace user_cpu {
+
+/// An access is one transaction, carried out by a thread of its own so that the timeline goes on meanwhile. The module
+/// moves the same pins at the same ticks as PinHostBus does. The one edge of an access is its end, where the result is
+/// there.
+class TlmHostBus : public sc_core::sc_module, public HostBus {
+ public:
+  TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip);
+
+  /// A read begins, which samples D at `sample`.
+  std::function<void(Tick sample)> on_read;
+
+  /// The user CPU is reset: an access begun is forgotten, the pins are released. From a SystemC process.
+  void reset();
+
+  void set_r_req(Tick at, bool level) override;
+  void set_r_sta(Tick at, bool level) override;
+  bool l_req(Tick at) override;
+  bool l_sta(Tick at) override;
+  bool intr0(Tick at) override;
+  unsigned lamps(Tick at) override;
+  void begin(Tick at, const Access& access, const AccessTiming& timing) override;
+  Tick next_edge() const override { return running_ ? end_ : bus::kNever; }
+  void run_edges(Tick now) override;
+  Tick end() const override { return end_; }
+  std::uint8_t read_value() const override { return value_; }
+  bool last_read_was_bad() const override { return bad_; }
+
+ private:
+  void initiate();
+  bool is_high(dsdpv1::Pin pin);
+
+  systemc_bench::TlmChip& chip_;
+  tlm_utils::simple_initiator_socket<TlmHostBus> socket_{"socket"};
+  sc_core::sc_process_handle initiator_;
+  sc_core::sc_event start_{"start"};
+  Access access_;
+  tlm::tlm_generic_payload payload_;
+  dsdpv1::systemc::AccessTimingExtension* timing_ = new dsdpv1::systemc::AccessTimingExtension;  ///< owned by payload_
+  bool running_ = false;
+  Tick end_ = 0;
+  std::uint8_t value_ = 0xFF;
+  bool bad_ = false;
+};
+
+}  // namespace user_cpu

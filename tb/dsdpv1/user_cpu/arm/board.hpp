@@ -1,0 +1,153 @@
+#pragma once
+// An evaluation board with an STM32F103 as a station's user CPU: it runs the firmware that is meant for the real board.
+//
+//   PC6 R_REQ, PC7 R_STA  outputs; low while the firmware has not made them outputs (pull-down on the board)
+//   PC8 L_REQ, PC9 L_STA  inputs
+//   PE4 RESET             of the chip; high while it is no output (pull-up on the board)
+//   PG6 INTR0             through AFIO, EXTI line 6, IRQ 23
+//   PG12, PG13, PG14      inputs: PBF, BR, READY (p)
+//   other pins            inputs: what BoardOptions::switches holds; else their own pull-up or pull-down
+//   FSMC bank 1, NE1      0x60000000..0x63FFFFFF: A10..A0, D7..D0, RD, WR, CSR; the 2 KB repeat
+//   USART1                a terminal
+//
+// HCLK follows the firmware's RCC, 8 MHz from the HSI at first; an instruction takes
+// Timing::millicycles_per_instruction, an access to a peripheral two cycles more (p: the bridge to APB), an access to
+// the chip what the FSMC's registers say.
+#include <array>
+#include <bitset>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/dsdpv1/chip.hpp"
+#include "tb/dsdpv1/user_cpu/arm/cortex_m3.hpp"
+#include "tb/dsdpv1/user_cpu/arm/exti.hpp"
+#include "tb/dsdpv1/user_cpu/arm/firmware.hpp"
+#include "tb/dsdpv1/user_cpu/arm/fsmc.hpp"
+#include "tb/dsdpv1/user_cpu/arm/gpio.hpp"
+#include "tb/dsdpv1/user_cpu/arm/mailbox_link.hpp"
+#include "tb/dsdpv1/user_cpu/arm/other_registers.hpp"
+#include "tb/dsdpv1/user_cpu/arm/rcc.hpp"
+#include "tb/dsdpv1/user_cpu/arm/usart.hpp"
+#include "tb/dsdpv1/user_cpu/native_cpu.hpp"
+#include "tb/dsdpv1/user_cpu/programs.hpp"
+#include "tb/user_cpu/station_cpu.hpp"
+
+namespace arm {
+
+using bus::Tick;
+
+/// Switches that hold input pins.
+struct Switches {
+  std::array<std::uint16_t, 7> held{}, levels{};  ///< of ports A to G
+};
+
+struct BoardOptions {
+  std::shared_ptr<const Firmware> firmware;
+  user_cpu::ProgramOptions program;  ///< for the mailbox, when the firmware has one
+  user_cpu::FsmcOverride fsmc;
+  std::optional<user_cpu::AccessTiming> access;  ///< edges in place of those that the FSMC makes
+  Timing timing;
+  Switches switches;
+  const dsdpv1::Chip* chip =
+      nullptr;  ///< for a debugger, which sees it as it is without a call of it; null: it sees none
+  std::function<std::unique_ptr<Debugger>(DebugTarget&)> make_debugger;  ///< null: none
+  std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
+};
+
+class Board : public user_cpu::StationCpu, private System {
+ public:
+  /// Its processor leaves reset at `start`. `set_chip_reset` moves the chip's RESET pin; both must outlive the board.
+  Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick at, bool level)> set_chip_reset,
+        Tick start);
+
+  Tick next() const override { return cpu_.next(); }
+  void run(Tick now) override;
+  void interrupt_changed(Tick at, bool level) override;
+  void command(Tick now, const user_cpu::Command& command) override;
+  user_cpu::UserCounters counters() const override;
+  bool tells() const override { return mailbox_.has_value(); }
+  std::uint64_t outputs_received() const override { return mailbox_ ? mailbox_->outputs_received() : 0; }
+  const std::vector<std::uint8_t>& outputs() const override { return mailbox_ ? mailbox_->outputs() : no_outputs_; }
+  std::optional<user_cpu::BoardReport> board() const override;
+
+ private:
+  struct Intr0Edge {
+    Tick at;
+    bool level;
+  };
+  /// What somebody outside of the processor does to the pins of a port.
+  struct Levels {
+    std::uint16_t driven, levels;
+  };
+  enum Port : unsigned { kA, kB, kC, kD, kE, kF, kG, kPorts };
+  /// What is said once only; the first are the clocks of the ports.
+  enum class Noted : unsigned { kFsmcClock = kPorts, kAfioClock, kUsartClock, kWideBus, kClockTooFast, kCount };
+
+  // System
+  std::uint32_t load(std::uint32_t address, unsigned bytes) override;
+  void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
+  void keep_up() override;
+  std::optional<std::uint32_t> peek(std::uint32_t address) const override;
+  std::vector<MemoryRegion> regions() const override;
+  void sleep(std::uint64_t until) override;
+  void reset() override;
+  Tick now() const override { return tick_of(core_.cycles()); }
+
+  void look_at_mailbox(Tick now);
+  void run_firmware(user_cpu::Cpu& cpu);
+  void note_fault(const Fault& fault);
+  void failed(const Fault& fault);
+  void ended_by_debugger();
+  Tick tick_of(std::uint64_t cycle) const;
+  std::uint64_t cycle_of(Tick tick) const;
+  void come_up();
+  bool take_intr0_edges();
+  void update_interrupts();
+  void update_pins();
+  void follow_clock();
+  std::int64_t hclk_hz() const;
+
+  std::uint32_t load_chip(std::uint32_t address, unsigned bytes);
+  void store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  void set_access_timing();
+  bool may_access(std::uint32_t address, bool write);
+  std::uint32_t load_word(std::uint32_t address);
+  void store_word(std::uint32_t address, std::uint32_t value);
+  std::uint32_t load_port(unsigned port, std::uint32_t offset);
+  Levels outside(unsigned port);
+  Levels wired(unsigned port, unsigned handshake, unsigned lamps) const;
+  std::uint32_t peek_port(unsigned port, std::uint32_t offset) const;
+  void look_at_clock(std::uint32_t address);
+  void note_clock(const char* peripheral, const char* reg, Noted which);
+  void note(const std::string& text, Noted which);
+
+  BoardOptions options_;
+  std::function<void(Tick at, bool level)> set_chip_reset_;
+  // `since_` is the tick of cycle `since_cycle_`; from there a cycle takes `cycle_ticks_` / `cycle_parts_` ticks.
+  Tick since_, cycle_ticks_ = 1, cycle_parts_ = 1;
+  std::uint64_t since_cycle_ = 0;
+  std::array<Gpio, kPorts> ports_;
+  Exti exti_;
+  Rcc rcc_;
+  Usart usart_;
+  Fsmc fsmc_;
+  OtherRegisters others_;
+  std::deque<Intr0Edge> intr0_edges_;  ///< that the processor has not come to
+  bool intr0_ = true;
+  bool r_req_ = false, r_sta_ = false, chip_reset_ = true, chip_reset_due_ = false;
+  user_cpu::HandshakeCounters handshake_;
+  unsigned requests_ = 0;  ///< of exti_, as the processor knows them
+  std::bitset<static_cast<std::size_t>(Noted::kCount)> noted_;
+  std::vector<std::string> notes_;
+  std::optional<Fault> fault_;  ///< that the firmware would have handled
+  CortexM3 core_;
+  std::unique_ptr<Debugger> debugger_;
+  std::optional<MailboxLink> mailbox_;
+  std::vector<std::uint8_t> no_outputs_;  ///< of firmware without mailbox
+  user_cpu::Cpu* pins_ = nullptr;         ///< of cpu_, while the processor runs
+  user_cpu::NativeCpu cpu_;               // ends before everything that its fiber uses
+};
+
+}  // namespace arm

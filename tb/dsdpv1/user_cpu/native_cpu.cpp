@@ -1,0 +1,180 @@
+#include "tb/dsdpv1/user_cpu/native_cpu.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace user_cpu {
+
+NativeCpu::NativeCpu(HostBus& bus, const CpuTiming& timing, Program program, Tick start)
+    : bus_(bus), timing_(timing), ready_at_(start), fiber_([this, program = std::move(program)] { program(*this); }) {}
+
+// ------------------------------------------------------------------------------------------------- the bench's side
+
+Tick NativeCpu::next() const {
+  if (fiber_.ended()) return bus::kNever;
+  if (request_.op == Op::kAccess) return std::min(bus_.next_edge(), ready_at_);
+  return request_.op == Op::kWait ? std::max(now_, std::min(ready_at_, break_tick())) : ready_at_;
+}
+
+void NativeCpu::run(Tick now) {
+  now_ = now;
+  if (request_.op == Op::kAccess && bus_.next_edge() <= now) bus_.run_edges(now);
+  while (!fiber_.ended() && next() <= now) {
+    if (request_.op == Op::kAccess) end_access();
+    request_ = {};
+    fiber_.resume();
+    take_request();
+  }
+}
+
+/// Starts what the program asked for before it suspended.
+void NativeCpu::take_request() {
+  switch (request_.op) {
+    case Op::kNone:
+      ready_at_ = bus::kNever;  // ended
+      break;
+    case Op::kAccess: begin_access(); break;
+    case Op::kSetRReq:
+      bus_.set_r_req(now_, request_.level);
+      ready_at_ = now_ + timing_.pin_write;
+      break;
+    case Op::kSetRSta:
+      bus_.set_r_sta(now_, request_.level);
+      ready_at_ = now_ + timing_.pin_write;
+      break;
+    case Op::kLReq:
+      sampled_ = bus_.l_req(now_);
+      ready_at_ = now_ + timing_.pin_sample;
+      break;
+    case Op::kLSta:
+      sampled_ = bus_.l_sta(now_);
+      ready_at_ = now_ + timing_.pin_sample;
+      break;
+    case Op::kLamps:
+      lamps_ = bus_.lamps(now_);
+      ready_at_ = now_ + timing_.pin_sample;
+      break;
+    case Op::kWait: ready_at_ = request_.until; break;
+  }
+}
+
+void NativeCpu::begin_access() {
+  const bool own_timing = request_.access.write && timing_.write_access;
+  bus_.begin(now_, request_.access, own_timing ? *timing_.write_access : timing_.access);
+  ready_at_ = bus_.end() + timing_.overhead;
+  if (bus_.next_edge() <= now_) bus_.run_edges(now_);
+}
+
+void NativeCpu::end_access() {
+  ++counters_.accesses;
+  if (!request_.access.write && bus_.last_read_was_bad()) ++counters_.bad_reads;
+}
+
+void NativeCpu::intr0_changed(Tick at, bool level) {
+  if (level) return;
+  interrupt_at_ = std::min(interrupt_at_, at + timing_.interrupt_latency);
+  intr0_at_ = std::min(intr0_at_, at);
+  announce();
+}
+
+void NativeCpu::wake(Tick at) {
+  wake_at_ = std::min(wake_at_, at);
+  announce();
+}
+
+Tick NativeCpu::break_tick() const {
+  const Tick interrupt = interrupts_open() ? interrupt_at_ : bus::kNever;
+  switch (break_) {
+    case Break::kWake: return std::min(interrupt, wake_at_);
+    case Break::kIntr0: return std::min(interrupt, intr0_at_);
+    case Break::kInterrupt: break;
+  }
+  return interrupt;
+}
+
+// ------------------------------------------------------------------------------------------------- the program's side
+
+void NativeCpu::perform(const Request& request) {
+  request_ = request;
+  fiber_.suspend();
+  serve_interrupt();
+}
+
+void NativeCpu::serve_interrupt() {
+  while (interrupt_is_due()) {
+    interrupt_at_ = bus::kNever;
+    in_handler_ = true;
+    ++counters_.interrupts;
+    const bool sampled = sampled_;
+    handler_();
+    sampled_ = sampled;
+    in_handler_ = false;
+  }
+}
+
+std::uint8_t NativeCpu::read(std::uint16_t address) {
+  request_ = {Op::kAccess, {false, address, 0}, false, 0};
+  fiber_.suspend();
+  const std::uint8_t value = bus_.read_value();  // before a handler reads something else
+  serve_interrupt();
+  return value;
+}
+
+void NativeCpu::write(std::uint16_t address, std::uint8_t value) {
+  perform({Op::kAccess, {true, address, value}, false, 0});
+}
+
+void NativeCpu::set_r_req(bool level) { perform({Op::kSetRReq, {}, level, 0}); }
+
+void NativeCpu::set_r_sta(bool level) { perform({Op::kSetRSta, {}, level, 0}); }
+
+bool NativeCpu::l_req() {
+  perform({Op::kLReq, {}, false, 0});
+  return sampled_;
+}
+
+bool NativeCpu::l_sta() {
+  perform({Op::kLSta, {}, false, 0});
+  return sampled_;
+}
+
+unsigned NativeCpu::lamps() {
+  perform({Op::kLamps, {}, false, 0});
+  return lamps_;
+}
+
+/// Suspends until `at` or an earlier break; interrupts due then have been served on return.
+void NativeCpu::suspend_until(Tick at, Break reason) {
+  break_ = reason;
+  perform({Op::kWait, {}, false, at});
+}
+
+void NativeCpu::wait_until(Tick at) {
+  while (now_ < at) suspend_until(at, Break::kInterrupt);
+}
+
+bool NativeCpu::wait_for_wake(Tick until) {
+  while (now_ < until && wake_at_ > now_) suspend_until(until, Break::kWake);
+  const bool woken = wake_at_ <= now_;
+  if (woken) wake_at_ = bus::kNever;
+  return woken;
+}
+
+bool NativeCpu::wait_intr0(Tick until) {
+  while (now_ < until && intr0_at_ > now_) suspend_until(until, Break::kIntr0);
+  const bool fell = intr0_at_ <= now_;
+  if (fell) intr0_at_ = bus::kNever;
+  return fell;
+}
+
+void NativeCpu::on_intr0(std::function<void()> handler) {
+  handler_ = std::move(handler);
+  interrupt_at_ = bus::kNever;
+}
+
+void NativeCpu::enable_interrupts(bool enabled) {
+  enabled_ = enabled;
+  serve_interrupt();
+}
+
+}  // namespace user_cpu

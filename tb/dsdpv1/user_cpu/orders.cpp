@@ -1,0 +1,46 @@
+#include "tb/dsdpv1/user_cpu/orders.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <variant>
+
+namespace user_cpu {
+namespace {
+
+command::Area area_of(const std::string& word) {
+  const auto& words = block_words();
+  const auto found = std::find(words.begin(), words.end(), word);
+  return static_cast<command::Area>(found - words.begin());
+}
+
+struct ToDriver {
+  template <class Same>
+  DriverCommand operator()(const Same& same) const {
+    return same;
+  }
+  DriverCommand operator()(const command::OfChip& of_chip) const {
+    if (of_chip.order == kHoldDpram) return command::Hold{of_chip.duration};
+    if (of_chip.order == kWrongCrc) return command::WrongCrc{area_of(of_chip.block), of_chip.times};
+    if (of_chip.order == kEarlyRSta) return command::EarlyRSta{};
+    throw std::logic_error("no order of this chip: " + of_chip.order);
+  }
+};
+
+}  // namespace
+
+const std::vector<std::string>& block_words() {
+  static const std::vector<std::string> words = {"init", "inputs", "diagnosis", "c1_answer", "c2_answer"};
+  return words;
+}
+
+DriverCommand driver_command(const Command& command) { return std::visit(ToDriver{}, command); }
+
+std::string driver_error_code(dsdpv1_error error) {
+#define X(name, value, text) \
+  if (error == (name)) return #name;
+  DSDPV1_ERROR_TABLE(X)
+#undef X
+  return "DSDPV1_ERR_UNKNOWN";
+}
+
+}  // namespace user_cpu

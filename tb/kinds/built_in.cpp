@@ -1,0 +1,9 @@
+// The kinds of chips that this program has.
+#include "tb/chip/chip_kind.hpp"
+#include "tb/dsdpv1/kind.hpp"
+
+namespace tb {
+
+std::vector<const ChipKind*> built_in_chip_kinds() { return {&dsdpv1_kind()}; }
+
+}  // namespace tb

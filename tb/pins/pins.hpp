@@ -1,0 +1,45 @@
+#pragma once
+// The pins of a chip as the bench knows them: numbered, with a name and a width. What each of them means is the
+// business of the chip's own room.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tb {
+
+/// Its place in the chip's PinTable.
+using PinNumber = std::uint8_t;
+/// Bit n: the pin with number n.
+using PinMask = std::uint32_t;
+/// 0 or 1 for a single wire, the value for several.
+using Level = std::int16_t;
+constexpr Level kLevelZ = -1;  ///< released
+constexpr Level kLevelX = -2;  ///< unknown
+
+struct PinInfo {
+  const char* name;  ///< the datasheet's
+  int width;         ///< number of wires, 1..15
+  bool input;
+  const char* bus = nullptr;  ///< of two pins that are the two directions of one bus: its name, shown in waves
+};
+
+/// At most 32 pins.
+using PinTable = std::vector<PinInfo>;
+
+constexpr PinMask mask_of(PinNumber pin) { return PinMask{1} << pin; }
+/// All inputs of a chip.
+inline PinMask inputs_of(const PinTable& pins) {
+  PinMask mask = 0;
+  for (std::size_t pin = 0; pin < pins.size(); ++pin)
+    if (pins[pin].input) mask |= mask_of(static_cast<PinNumber>(pin));
+  return mask;
+}
+/// All pins of a chip.
+inline PinMask all_of(const PinTable& pins) {
+  return pins.size() >= 32 ? ~PinMask{0} : (PinMask{1} << pins.size()) - 1;
+}
+
+/// "1", "7FF", "z", "x".
+std::string level_text(const PinInfo& pin, Level level);
+
+}  // namespace tb
