@@ -20,8 +20,8 @@ void CheckWatch::add(const std::string& slave) {
   entry.checks->on_violation([this, &entry](const checks::Violation& violation) { violated(entry, violation); });
 }
 
-void CheckWatch::telegram(Tick now, const bus::WireTelegram& telegram) {
-  for (const auto& slave : slaves_) slave->checks->telegram(now, telegram);
+void CheckWatch::telegram(const HeardTelegram& telegram) {
+  for (const auto& slave : slaves_) slave->checks->telegram(telegram.now, telegram.telegram);
 }
 
 void CheckWatch::finish(Tick end) {

@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "tb/bench/observer.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/checks/chip_checks.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace tb {
 
-class CheckWatch {
+class CheckWatch : public Observer {
  public:
   /// `scenario` must outlive it.
   CheckWatch(const scenario::Scenario& scenario, ChecksMode mode) : scenario_(scenario), mode_(mode) {}
@@ -24,13 +25,13 @@ class CheckWatch {
 
   /// Slaves are numbered in the order in which they are added. Nothing happens when off.
   void add(const std::string& slave);
-  void pin(std::size_t slave, Tick at, PinNumber pin, Level level) {
+  void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
     if (on()) slaves_[slave]->checks->pin(at, pin, level);
   }
-  void read(std::size_t slave, Tick sample) {
+  void read(std::size_t slave, Tick sample) override {
     if (on()) slaves_[slave]->checks->read(sample);
   }
-  void telegram(Tick now, const bus::WireTelegram& telegram);
+  void telegram(const HeardTelegram& telegram) override;
   void finish(Tick end);
 
   /// Violations that fail the run.

@@ -4,7 +4,9 @@
 
 #include <stdexcept>
 
-#include "tb/bench/bench.hpp"
+#include "tb/bench/journal.hpp"
+#include "tb/bench/reply.hpp"
+#include "tb/bench/stations.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/units.hpp"
 
@@ -41,23 +43,25 @@ bus::BusParameters bus_parameters(const scenario::BusParameters& bus) {
   return parameters;
 }
 
-Class2Station::Class2Station(Bench& bench, const scenario::Master2& spec)
-    : bench_(bench), spec_(spec), master_(bench.segment(), config_of(spec, bench.scenario().baud)) {
-  for (const scenario::Connection& connection : spec.connections) add(connection);
+Class2Station::Class2Station(const scenario::Scenario& scenario, const scenario::Master2& spec, const Stations& slaves,
+                             bus::Segment& segment, Journal& journal, Replies& replies)
+    : journal_(journal), replies_(replies), spec_(spec), master_(segment, config_of(spec, scenario.baud)) {
+  for (const scenario::Connection& connection : spec.connections) add(scenario, connection, slaves);
   listen();
 }
 
-void Class2Station::add(const scenario::Connection& connection) {
+void Class2Station::add(const scenario::Scenario& scenario, const scenario::Connection& connection,
+                        const Stations& slaves) {
   bus::ConnectionParameters parameters;
   parameters.slave = static_cast<std::uint8_t>(connection.address.value_or(
-      connection.slave.empty() ? 0 : bench_.slave(connection.slave.text).station().address));
+      connection.slave.empty() ? 0 : slaves.slave(connection.slave.text).station().address));
   parameters.send_timeout = static_cast<std::uint16_t>(connection.send_timeout);
   parameters.add_addr = connection.add_addr;
   parameters.poll_interval_us = connection.poll_interval / bus::kTicksPerUs;
   try {
     ids_[connection.name.text] = master_.add_connection(parameters);
   } catch (const std::invalid_argument& error) {
-    throw InputError(bench_.scenario().file, connection.line, error.what());
+    throw InputError(scenario.file, connection.line, error.what());
   }
 }
 
@@ -73,29 +77,28 @@ void Class2Station::listen() {
   };
   master_.on_state = [this, connection](Tick at, bus::ConnectionId id, bus::ConnectionState from,
                                         bus::ConnectionState to) {
-    bench_.log(at, name(), "state", fmt::format("{}: {} to {}", connection(id), bus::name(from), bus::name(to)));
-    bench_.connection_changed(name(), connection(id), bus::name(to));
-    bench_.conditions_changed();
+    journal_.log(at, name(), "state", fmt::format("{}: {} to {}", connection(id), bus::name(from), bus::name(to)));
+    if (on_state) on_state(connection(id), bus::name(to));
   };
   master_.on_end = [this, connection](Tick at, bus::ConnectionId id, const bus::ConnectionEnd& end) {
-    bench_.log(at, name(), "state", fmt::format("{} {}", connection(id), end.words));
+    journal_.log(at, name(), "state", fmt::format("{} {}", connection(id), end.words));
   };
   master_.on_acyclic = [this, connection](Tick at, bus::ConnectionId id, const bus::AcyclicResult& result) {
-    bench_.log(at, name(), "acyclic", fmt::format("{}: {}", connection(id), bus::describe(result)));
+    journal_.log(at, name(), "acyclic", fmt::format("{}: {}", connection(id), bus::describe(result)));
   };
 }
 
-void Class2Station::act(const scenario::Action& action) {
+void Class2Station::act(const scenario::Action& action, Tick now) {
   const bus::ConnectionId id = ids_.at(action.connection.text);
   const auto say = [&](const std::string& text) {
-    bench_.log(bench_.now(), name(), "script", fmt::format("{}: {}", action.connection.text, text));
+    journal_.log(now, name(), "script", fmt::format("{}: {}", action.connection.text, text));
   };
   switch (action.what) {
     case ActionKind::kC2Connect: say("connects"); return master_.connect(id);
     case ActionKind::kC2Abort: say("aborts"); return master_.abort(id);
     case ActionKind::kC2Behaviour: say("behaves otherwise"); return master_.set_behaviour(id, action.behaviour);
     case ActionKind::kC2Raw: {
-      say("sends " + bench_.in_log(action.bytes));
+      say("sends " + journal_.in_log(action.bytes));
       bus::RawAcyclic raw;
       raw.pdu = action.bytes;
       if (action.sap) raw.dsap = static_cast<std::uint8_t>(*action.sap);
@@ -107,10 +110,10 @@ void Class2Station::act(const scenario::Action& action) {
 
 void Class2Station::ask(const scenario::Action& action, bus::ConnectionId id) {
   const auto keep = [this, connection = action.connection.text, what = action.what](const bus::AcyclicResult& result) {
-    bench_.keep_reply(connection, what, reply_of(result));
+    replies_.keep(connection, what, reply_of(result));
   };
   if (connection(action.connection.text).state() == bus::ConnectionState::kClosed)
-    return bench_.keep_reply(action.connection.text, action.what, Reply{});
+    return replies_.keep(action.connection.text, action.what, Reply{});
   const auto slot = static_cast<std::uint8_t>(action.slot), index = static_cast<std::uint8_t>(action.index);
   switch (action.what) {
     case ActionKind::kC2Read: return master_.read(id, slot, index, static_cast<std::uint8_t>(action.length), keep);

@@ -1,19 +1,28 @@
 #pragma once
 // A class 2 master of the scenario with its connections, by their names.
+#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "bus/master/master2.hpp"
+#include "bus/wire/segment.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace tb {
 
-class Bench;
+using bus::Tick;
+
+class Journal;
+class Replies;
+struct Stations;
 
 class Class2Station {
  public:
-  /// `bench` and `spec` must outlive it. Throws InputError for values that the bus refuses.
-  Class2Station(Bench& bench, const scenario::Master2& spec);
+  /// All of them must outlive it. `slaves` has those of the scenario. Throws InputError for values that the bus
+  /// refuses.
+  Class2Station(const scenario::Scenario& scenario, const scenario::Master2& spec, const Stations& slaves,
+                bus::Segment& segment, Journal& journal, Replies& replies);
   Class2Station(const Class2Station&) = delete;
   Class2Station& operator=(const Class2Station&) = delete;
 
@@ -25,14 +34,17 @@ class Class2Station {
     return master_.connection(ids_.at(connection));
   }
   /// Carries out an action of the script that is about one of the connections.
-  void act(const scenario::Action& action);
+  void act(const scenario::Action& action, Tick now);
+
+  std::function<void(const std::string& connection, const char* state)> on_state;
 
  private:
-  void add(const scenario::Connection& connection);
+  void add(const scenario::Scenario& scenario, const scenario::Connection& connection, const Stations& slaves);
   void listen();
   void ask(const scenario::Action& action, bus::ConnectionId id);
 
-  Bench& bench_;
+  Journal& journal_;
+  Replies& replies_;
   const scenario::Master2& spec_;
   bus::Master2 master_;
   std::map<std::string, bus::ConnectionId> ids_;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tb/bench/bench.hpp"
+#include "bus/baud.hpp"
 #include "tb/input/units.hpp"
 
 namespace tb {
@@ -48,7 +48,7 @@ const char* service_word(scenario::ActionKind service) {
   }
 }
 
-// Each function handles one group of keys; `bench` is null when only the words are wanted.
+// Each function handles one group of keys; `facts` is null when only the words are wanted.
 
 void add_state(Parts& parts, const Condition& c, const ChipStatus& status) {
   if (c.dp_state)
@@ -79,9 +79,10 @@ void add_counts(Parts& parts, const Condition& c, const ChipStatus& status) {
   }
 }
 
-void add_event(Parts& parts, const Condition& c, const Bench* bench) {
+void add_event(Parts& parts, const Condition& c, const Facts* facts) {
   if (c.event.empty()) return;
-  const std::int64_t count = bench != nullptr ? static_cast<std::int64_t>(bench->count(c.slave.text, c.event.text)) : 0;
+  const std::int64_t count =
+      facts != nullptr ? static_cast<std::int64_t>(facts->journal.count(c.slave.text, c.event.text)) : 0;
   const bool bounded = c.count_at_most.has_value();
   const std::string wanted = bounded ? fmt::format("event {} {} to {} times", c.event.text,
                                                    std::min(c.count, *c.count_at_most), *c.count_at_most)
@@ -101,23 +102,23 @@ void add_tsdr(Parts& parts, const Condition& c, const Tsdr& tsdr) {
               tsdr.answers != 0 && tsdr.max_bits <= *c.tsdr_max);
 }
 
-bus::Bytes inputs_at_master(const Bench* bench, const std::string& slave) {
-  const bus::Master1* master = bench != nullptr ? bench->master_of(slave) : nullptr;
-  return master != nullptr ? master->slave(*bench->listed_address(slave)).inputs : bus::Bytes{};
+bus::Bytes inputs_at_master(const Facts* facts, const std::string& slave) {
+  const bus::Master1* master = facts != nullptr ? facts->stations.master_of(slave) : nullptr;
+  return master != nullptr ? master->slave(*facts->stations.listed_address(slave)).inputs : bus::Bytes{};
 }
 
-void add_data(Parts& parts, const Condition& c, const Bench* bench, const bus::Bytes& outputs) {
+void add_data(Parts& parts, const Condition& c, const Facts* facts, const bus::Bytes& outputs) {
   if (c.inputs) {
-    const bus::Bytes inputs = inputs_at_master(bench, c.slave.text);
+    const bus::Bytes inputs = inputs_at_master(facts, c.slave.text);
     parts.add("inputs " + shown(*c.inputs), "inputs " + shown(inputs), inputs == *c.inputs);
   }
   if (c.outputs) parts.add("outputs " + shown(*c.outputs), "outputs " + shown(outputs), outputs == *c.outputs);
 }
 
-void add_reply(Parts& parts, const Condition& c, const Bench* bench) {
+void add_reply(Parts& parts, const Condition& c, const Facts* facts) {
   if (!c.reply_of) return;
   const std::string& asker = c.connection.empty() ? c.master.text : c.connection.text;
-  const Reply* reply = bench != nullptr ? bench->last_reply(asker, *c.reply_of) : nullptr;
+  const Reply* reply = facts != nullptr ? facts->replies.last(asker, *c.reply_of) : nullptr;
   const std::string seen = reply == nullptr ? "nothing" : reply->answered ? shown(reply->data) : "no answer";
   const char* service = service_word(*c.reply_of);
   if (c.reply)
@@ -129,30 +130,31 @@ void add_reply(Parts& parts, const Condition& c, const Bench* bench) {
               reply != nullptr && reply->outcome == *c.outcome);
 }
 
-void add_connection(Parts& parts, const Condition& c, const Bench* bench) {
+void add_connection(Parts& parts, const Condition& c, const Facts* facts) {
   if (!c.connection_state) return;
-  const auto state = bench != nullptr ? bench->connection(c.connection.text).state() : bus::ConnectionState::kClosed;
+  const auto state =
+      facts != nullptr ? facts->stations.connection(c.connection.text).state() : bus::ConnectionState::kClosed;
   parts.add(fmt::format("connection {}", bus::name(*c.connection_state)),
             fmt::format("connection {}", bus::name(state)), state == *c.connection_state);
 }
 
-Parts examine(const Condition& c, const Bench* bench) {
+Parts examine(const Condition& c, const Facts* facts) {
   Parts parts;
-  const SlaveStation* slave = bench != nullptr && !c.slave.empty() ? &bench->slave(c.slave.text) : nullptr;
+  const SlaveStation* slave = facts != nullptr && !c.slave.empty() ? &facts->stations.slave(c.slave.text) : nullptr;
   const ChipStatus status = slave != nullptr ? slave->chip().status() : ChipStatus{};
   add_state(parts, c, status);
   add_counts(parts, c, status);
-  add_data(parts, c, bench, slave != nullptr ? slave->outputs() : bus::Bytes{});
-  add_event(parts, c, bench);
+  add_data(parts, c, facts, slave != nullptr ? slave->outputs() : bus::Bytes{});
+  add_event(parts, c, facts);
   add_tsdr(parts, c, slave != nullptr ? slave->tsdr() : Tsdr{});
-  add_reply(parts, c, bench);
-  add_connection(parts, c, bench);
+  add_reply(parts, c, facts);
+  add_connection(parts, c, facts);
   return parts;
 }
 
 }  // namespace
 
-Judged judge(const scenario::Condition& condition, const Bench& bench) { return examine(condition, &bench).judged(); }
+Judged judge(const scenario::Condition& condition, const Facts& facts) { return examine(condition, &facts).judged(); }
 
 std::string describe(const scenario::Condition& condition) {
   const std::string& asker = condition.connection.empty() ? condition.master.text : condition.connection.text;

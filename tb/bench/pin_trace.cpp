@@ -5,12 +5,15 @@
 #include "model/profibus/time.hpp"
 
 namespace tb {
-void PinTrace::change(std::size_t number, const std::string& slave, bus::Tick at, const PinInfo& pin, Level level) {
+void PinTrace::pin(std::size_t slave, bus::Tick at, PinNumber pin, Level level) {
+  const PinInfo& info = scenario_.kind->pins()[pin];
+  if (info.input) return;
   if (at != at_) flush();
   at_ = at;
   const bus::Tick cycle = at / profibus::kTicksPerCycle, rest = at % profibus::kTicksPerCycle;
   const std::string time = rest == 0 ? fmt::format("{}", cycle) : fmt::format("{}+{}", cycle, rest);
-  lines_[number] += fmt::format("{} {} {} {}\n", time, slave, pin.name, level_text(pin, level));
+  lines_[slave] +=
+      fmt::format("{} {} {} {}\n", time, scenario_.slaves[slave].name.text, info.name, level_text(info, level));
 }
 
 void PinTrace::flush() {

@@ -4,17 +4,19 @@
 #include <string>
 
 #include "bus/time.hpp"
+#include "tb/bench/observer.hpp"
 #include "tb/output/output_file.hpp"
-#include "tb/pins/pins.hpp"
+#include "tb/scenario/scenario.hpp"
 
 namespace tb {
 
 /// Lines "cycle slave pin level", in order of time and at equal times of the slaves' numbers, so that it does not
 /// matter which chip was evaluated first; D with its ticks behind the cycle: "cycle+ticks".
-class PinTrace {
+class PinTrace : public Observer {
  public:
-  explicit PinTrace(const std::string& path) : file_(path) {}
-  void change(std::size_t number, const std::string& slave, bus::Tick at, const PinInfo& pin, Level level);
+  /// `scenario` must outlive it.
+  PinTrace(const std::string& path, const scenario::Scenario& scenario) : file_(path), scenario_(scenario) {}
+  void pin(std::size_t slave, bus::Tick at, PinNumber pin, Level level) override;
   void save() { file_.flush(); }
   bool failed() const { return file_.failed(); }
   void check() const { file_.check(); }
@@ -24,6 +26,7 @@ class PinTrace {
   void flush();
 
   OutputFile file_;
+  const scenario::Scenario& scenario_;
   bus::Tick at_ = 0;
   std::map<std::size_t, std::string> lines_;  ///< of `at_`, by the number of the slave
 };

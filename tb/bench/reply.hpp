@@ -1,7 +1,12 @@
 #pragma once
 // What came of a request of the script, for the condition `reply_of`.
+#include <functional>
+#include <map>
+#include <string>
+
 #include "bus/bytes.hpp"
 #include "bus/master/acyclic.hpp"
+#include "tb/scenario/scenario.hpp"
 
 namespace tb {
 
@@ -14,5 +19,19 @@ struct Reply {
 
 /// Of an acyclic service.
 Reply reply_of(const bus::AcyclicResult& result);
+
+/// The last answer to each service that the script asked for.
+class Replies {
+ public:
+  /// `asker`: the master's name as the script gives it, or a connection's.
+  void keep(const std::string& asker, scenario::ActionKind service, Reply reply);
+  /// Null when there is none.
+  const Reply* last(const std::string& asker, scenario::ActionKind service) const;
+
+  std::function<void()> on_change;
+
+ private:
+  std::map<std::string, std::map<scenario::ActionKind, Reply>> replies_;  ///< by asker and service
+};
 
 }  // namespace tb

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tb/bench/bench.hpp"
+#include "bus/baud.hpp"
 #include "tb/bench/conditions.hpp"
 #include "tb/input/units.hpp"
 
@@ -14,14 +14,16 @@ namespace tb {
 using scenario::Action;
 using scenario::ActionKind;
 
-Script::Script(Bench& bench) : bench_(bench) {
-  const scenario::Scenario& scenario = bench.scenario();
+Script::Script(const scenario::Scenario& scenario, Stations& stations, bus::Segment& segment, Journal& journal,
+               Replies& replies, const std::set<const void*>& left_out)
+    : scenario_(scenario), stations_(stations), segment_(segment), journal_(journal), replies_(replies) {
+  const auto is_left_out = [&left_out](const void* what) { return left_out.count(what) != 0; };
   for (std::size_t i = 0; i < scenario.slaves.size(); ++i)
     plan(scenario.slaves[i].release_reset, Kind::kReleaseReset, i);
   for (std::size_t i = 0; i < scenario.masters.size(); ++i) plan(scenario.masters[i].start, Kind::kStartMaster, i);
   for (std::size_t i = 0; i < scenario.masters2.size(); ++i) plan(scenario.masters2[i].start, Kind::kStartMaster2, i);
   for (std::size_t i = 0; i < scenario.script.size(); ++i) {
-    if (bench.leaves_out(&scenario.script[i])) continue;
+    if (is_left_out(&scenario.script[i])) continue;
     if (scenario.script[i].at)
       plan(*scenario.script[i].at, Kind::kAction, i);
     else
@@ -29,7 +31,7 @@ Script::Script(Bench& bench) : bench_(bench) {
   }
   for (std::size_t i = 0; i < scenario.expect.size(); ++i) {
     const scenario::Expectation& expectation = scenario.expect[i];
-    expectations_.push_back({describe(expectation), expectation.line, false, "", bench.leaves_out(&expectation)});
+    expectations_.push_back({describe(expectation), expectation.line, false, "", is_left_out(&expectation)});
     plan(expectation.at.value_or(expectation.by.value_or(scenario.end)), Kind::kExpectation, i);
   }
   for (ExpectationResult& each : expectations_) {
@@ -56,31 +58,31 @@ void Script::run(Tick now) {
 }
 
 void Script::carry_out(const Due& due, Tick now) {
-  const scenario::Scenario& scenario = bench_.scenario();
+  const scenario::Scenario& scenario = scenario_;
   switch (due.kind) {
     case Kind::kReleaseReset: {
       const std::string& name = scenario.slaves[due.index].name.text;
-      bench_.log(now, name, "script", "RESET rises, the user CPU starts");
-      bench_.slave(name).release_reset(now);
+      journal_.log(now, name, "script", "RESET rises, the user CPU starts");
+      stations_.slave(name).release_reset(now);
       break;
     }
     case Kind::kStartMaster: {
       const std::string& name = scenario.masters[due.index].name.text;
-      bench_.log(now, name, "script", "starts");
-      bench_.master(name).start();
+      journal_.log(now, name, "script", "starts");
+      stations_.master(name).start();
       break;
     }
     case Kind::kStartMaster2: {
       const std::string& name = scenario.masters2[due.index].name.text;
-      bench_.log(now, name, "script", "starts");
-      bench_.class2(name)->master().start();
+      journal_.log(now, name, "script", "starts");
+      stations_.class2(name)->master().start();
       break;
     }
     case Kind::kAction: act(scenario.script[due.index], now); break;
     case Kind::kResumeUser:
-      bench_.slave(scenario.slaves[due.index].name.text).command(now, user_cpu::command::Resume{});
+      stations_.slave(scenario.slaves[due.index].name.text).command(now, user_cpu::command::Resume{});
       break;
-    case Kind::kEndGlitch: bench_.segment().force(now, std::nullopt); break;
+    case Kind::kEndGlitch: segment_.force(now, std::nullopt); break;
     case Kind::kExpectation: judge(due.index, now, true); break;
   }
 }
@@ -89,15 +91,15 @@ void Script::carry_out(const Due& due, Tick now) {
 
 void Script::look(Tick now) {
   look_at_actions(now);
-  const auto& expect = bench_.scenario().expect;
+  const auto& expect = scenario_.expect;
   for (std::size_t i = 0; i < expect.size(); ++i)
     if (expect[i].by && !judged_[i]) judge(i, now, false);
 }
 
 void Script::look_at_actions(Tick now) {
   const auto has_come_true = [this, now](std::size_t index) {
-    const scenario::When& when = *bench_.scenario().script[index].when;
-    if (!tb::judge(when, bench_).holds) return false;
+    const scenario::When& when = *scenario_.script[index].when;
+    if (!tb::judge(when, {stations_, journal_, replies_}).holds) return false;
     plan(now + when.after, Kind::kAction, index);
     return true;
   };
@@ -106,21 +108,21 @@ void Script::look_at_actions(Tick now) {
 
 void Script::judge(std::size_t index, Tick now, bool last_chance) {
   if (judged_[index]) return;
-  const scenario::Expectation& expectation = bench_.scenario().expect[index];
-  const Judged judged = tb::judge(expectation, bench_);
+  const scenario::Expectation& expectation = scenario_.expect[index];
+  const Judged judged = tb::judge(expectation, {stations_, journal_, replies_});
   if (!judged.holds && !last_chance) return;
   ExpectationResult& result = expectations_[index];
   result.passed = judged.holds;
   result.seen = fmt::format("{} at {} ns", judged.seen, nanoseconds(now));
   judged_[index] = true;
   const std::string& station = expectation.slave.empty() ? "bus" : expectation.slave.text;
-  bench_.log(now, station, "expect",
-             fmt::format("{}: {}, seen {}", judged.holds ? "met" : "FAILED", result.text, judged.seen));
+  journal_.log(now, station, "expect",
+               fmt::format("{}: {}, seen {}", judged.holds ? "met" : "FAILED", result.text, judged.seen));
 }
 
 std::vector<ExpectationResult> Script::finish(Tick now, bool interrupted) {
   for (std::size_t i = 0; i < expectations_.size(); ++i) {
-    const scenario::Expectation& expectation = bench_.scenario().expect[i];
+    const scenario::Expectation& expectation = scenario_.expect[i];
     if (!interrupted && !expectation.at && !expectation.by) judge(i, now, true);
     if (judged_[i]) continue;
     expectations_[i].seen = fmt::format("the run ended at {} ns", nanoseconds(now));
@@ -148,8 +150,8 @@ int diagnosis_code(user_cpu::DiagnosisKind kind) {
 // --- actions ---------------------------------------------------------------------------------------------------------
 
 void Script::act(const Action& action, Tick now) {
-  if (!action.connection.empty()) return bench_.owner_of(action.connection.text).act(action);
-  if (Class2Station* station = bench_.class2(action.master.text)) return act_on_class2(action, *station, now);
+  if (!action.connection.empty()) return stations_.owner_of(action.connection.text).act(action, now);
+  if (Class2Station* station = stations_.class2(action.master.text)) return act_on_class2(action, *station, now);
   if (action.what >= ActionKind::kSetOutputs && action.what <= ActionKind::kTelegram) return act_on_master(action, now);
   if (action.what == ActionKind::kGlitch || action.what == ActionKind::kPlug || action.what == ActionKind::kUnplug)
     return act_on_bus(action, now);
@@ -157,7 +159,7 @@ void Script::act(const Action& action, Tick now) {
 }
 
 std::size_t Script::slave_index(const std::string& name) const {
-  const auto& slaves = bench_.scenario().slaves;
+  const auto& slaves = scenario_.slaves;
   const auto found = std::find_if(slaves.begin(), slaves.end(),
                                   [&name](const scenario::Slave& slave) { return slave.name.text == name; });
   return static_cast<std::size_t>(found - slaves.begin());
@@ -165,16 +167,16 @@ std::size_t Script::slave_index(const std::string& name) const {
 
 void Script::act_on_user(const Action& action, Tick now) {
   namespace command = user_cpu::command;
-  SlaveStation& slave = bench_.slave(action.slave.text);
+  SlaveStation& slave = stations_.slave(action.slave.text);
   const auto order = [&](const std::string& text, const user_cpu::Command& what) {
-    bench_.log(now, slave.name(), "script", text);
+    journal_.log(now, slave.name(), "script", text);
     slave.command(now, what);
   };
   switch (action.what) {
     case ActionKind::kSetInputs:
-      return order("inputs " + bench_.in_log(action.bytes), command::SetInputs{action.bytes});
+      return order("inputs " + journal_.in_log(action.bytes), command::SetInputs{action.bytes});
     case ActionKind::kSetDiagnosis:
-      return order(fmt::format("diagnosis {:02X}: {}", diagnosis_code(action.diagnosis), bench_.in_log(action.bytes)),
+      return order(fmt::format("diagnosis {:02X}: {}", diagnosis_code(action.diagnosis), journal_.in_log(action.bytes)),
                    command::SetDiagnosis{action.diagnosis, action.bytes});
     case ActionKind::kOfChip: return order_of_chip(action, now);
     case ActionKind::kWrongLength: return order("inputs of a wrong length", command::WrongLength{});
@@ -187,56 +189,55 @@ void Script::act_on_user(const Action& action, Tick now) {
       order("pauses for " + time_text(*action.duration), command::Stop{});
       return plan(now + *action.duration, Kind::kResumeUser, slave_index(slave.name()));
     case ActionKind::kReinitialise:
-      bench_.log(now, slave.name(), "script", "initialises the chip again");
+      journal_.log(now, slave.name(), "script", "initialises the chip again");
       return slave.reinitialise(now, action.new_address, action.cfg);
     default: return reset_chip(action, now);
   }
 }
 
 void Script::order_of_chip(const Action& action, Tick now) {
-  const auto& orders = bench_.scenario().kind->orders();
+  const auto& orders = scenario_.kind->orders();
   const Order& order = *std::find_if(orders.begin(), orders.end(),
                                      [&action](const Order& each) { return each.choice.word == action.word; });
   const user_cpu::command::OfChip command{action.word, action.duration.value_or(0), action.block, action.times};
-  SlaveStation& slave = bench_.slave(action.slave.text);
+  SlaveStation& slave = stations_.slave(action.slave.text);
   for (int i = 0; i < (order.one_by_one ? action.times : 1); ++i) {
-    bench_.log(now, slave.name(), "script", order.said(command));
+    journal_.log(now, slave.name(), "script", order.said(command));
     slave.command(now, command);
   }
 }
 
 void Script::reset_chip(const Action& action, Tick now) {
   constexpr Tick kUsual = 10 * bus::kTicksPerUs;
-  bench_.log(now, action.slave.text, "script", "RESET falls");
-  bench_.slave(action.slave.text).hold_in_reset(now);
+  journal_.log(now, action.slave.text, "script", "RESET falls");
+  stations_.slave(action.slave.text).hold_in_reset(now);
   plan(now + action.duration.value_or(kUsual), Kind::kReleaseReset, slave_index(action.slave.text));
 }
 
 void Script::act_on_bus(const Action& action, Tick now) {
   if (action.what == ActionKind::kGlitch) {
-    bench_.log(now, "bus", "script",
-               fmt::format("line forced {} for {}", action.level ? "high" : "low", time_text(*action.duration)));
-    bench_.segment().force(now, action.level);
+    journal_.log(now, "bus", "script",
+                 fmt::format("line forced {} for {}", action.level ? "high" : "low", time_text(*action.duration)));
+    segment_.force(now, action.level);
     return plan(now + *action.duration, Kind::kEndGlitch, 0);
   }
   const bool plugged = action.what == ActionKind::kPlug;
-  SlaveStation& slave = bench_.slave(action.slave.text);
-  bench_.log(now, slave.name(), "script", plugged ? "plugged in" : "unplugged");
-  bench_.segment().plug(slave.chip().station(), now, plugged);
+  SlaveStation& slave = stations_.slave(action.slave.text);
+  journal_.log(now, slave.name(), "script", plugged ? "plugged in" : "unplugged");
+  segment_.plug(slave.chip().station(), now, plugged);
 }
 
 void Script::act_on_master(const Action& action, Tick now) {
-  bus::Master1& master = bench_.master(action.master.text);
+  bus::Master1& master = stations_.master(action.master.text);
   const auto say = [&](const std::string& text) {
-    bench_.log(now, action.master.empty() ? bench_.scenario().masters.front().name.text : action.master.text, "script",
-               text);
+    journal_.log(now, action.master.empty() ? scenario_.masters.front().name.text : action.master.text, "script", text);
   };
   switch (action.what) {
     case ActionKind::kSetOutputs: {
       const std::uint8_t address = target(action);
       bus::Bytes outputs = action.bytes;
       outputs.resize(static_cast<std::size_t>(master.parameters(address).output_length));
-      say(fmt::format("outputs of {}: {}", action.slave.text, bench_.in_log(outputs)));
+      say(fmt::format("outputs of {}: {}", action.slave.text, journal_.in_log(outputs)));
       return master.set_outputs(address, outputs);
     }
     case ActionKind::kGlobalControl: return global_control(action);
@@ -244,8 +245,8 @@ void Script::act_on_master(const Action& action, Tick now) {
     case ActionKind::kClear: say("Clear"); return master.clear();
     case ActionKind::kStopMaster: say("stops"); return master.stop();
     case ActionKind::kStartMaster: say("starts"); return master.start();
-    case ActionKind::kChangeBaud: say("baud rate " + baud_text(action.baud)); return bench_.change_baud(action.baud);
-    case ActionKind::kTelegram: say("telegram " + bench_.in_log(action.bytes)); return send_telegram(action);
+    case ActionKind::kChangeBaud: say("baud rate " + baud_text(action.baud)); return stations_.change_baud(action.baud);
+    case ActionKind::kTelegram: say("telegram " + journal_.in_log(action.bytes)); return send_telegram(action);
     case ActionKind::kC1Read:
     case ActionKind::kC1Write: return ask_acyclic(action);
     default: return ask(action);
@@ -254,24 +255,24 @@ void Script::act_on_master(const Action& action, Tick now) {
 
 void Script::act_on_class2(const Action& action, Class2Station& station, Tick now) {
   const bool start = action.what == ActionKind::kStartMaster;
-  bench_.log(now, station.name(), "script", start ? "starts" : "stops");
+  journal_.log(now, station.name(), "script", start ? "starts" : "stops");
   start ? station.master().start() : station.master().stop();
 }
 
 std::uint8_t Script::target(const Action& action) const {
   if (action.address) return static_cast<std::uint8_t>(*action.address);
-  const std::optional<std::uint8_t> listed = bench_.listed_address(action.slave.text);
-  return listed.value_or(bench_.slave(action.slave.text).chip().status().address);
+  const std::optional<std::uint8_t> listed = stations_.listed_address(action.slave.text);
+  return listed.value_or(stations_.slave(action.slave.text).chip().status().address);
 }
 
 /// A service out of the cycle; its answer is kept for `reply`.
 void Script::ask(const Action& action) {
-  bus::Master1& master = bench_.master(action.master.text);
+  bus::Master1& master = stations_.master(action.master.text);
   const auto keep = [this, name = action.master.text, what = action.what](const bus::FdlResult& result) {
-    bench_.keep_reply(name, what, {result.answered() && !result.short_acknowledge(), result.answer.data, {}});
+    replies_.keep(name, what, {result.answered() && !result.short_acknowledge(), result.answer.data, {}});
   };
   const std::uint8_t address = action.what == ActionKind::kSetSlaveAddress && !action.address
-                                   ? bench_.slave(action.slave.text).chip().status().address
+                                   ? stations_.slave(action.slave.text).chip().status().address
                                    : target(action);
   switch (action.what) {
     case ActionKind::kReadInputs: return master.read_inputs(address, keep);
@@ -280,16 +281,17 @@ void Script::ask(const Action& action) {
     case ActionKind::kSlaveDiag: return master.slave_diag(address, keep);
     default: break;
   }
-  const int ident = action.ident.value_or(action.slave.empty() ? 0 : bench_.slave(action.slave.text).station().ident);
+  const int ident =
+      action.ident.value_or(action.slave.empty() ? 0 : stations_.slave(action.slave.text).station().ident);
   master.set_slave_address(address, static_cast<std::uint8_t>(*action.new_address), static_cast<std::uint16_t>(ident),
                            action.lock, keep);
 }
 
 void Script::ask_acyclic(const Action& action) {
-  bus::Master1& master = bench_.master(action.master.text);
+  bus::Master1& master = stations_.master(action.master.text);
   const auto slot = static_cast<std::uint8_t>(action.slot), index = static_cast<std::uint8_t>(action.index);
   const auto keep = [this, name = action.master.text, what = action.what](const bus::AcyclicResult& result) {
-    bench_.keep_reply(name, what, reply_of(result));
+    replies_.keep(name, what, reply_of(result));
   };
   const std::uint8_t address = target(action);
   if (action.what == ActionKind::kC1Read)
@@ -303,7 +305,7 @@ void Script::global_control(const Action& action) {
   const unsigned command = bit(action.sync, gc::kSync) | bit(action.unsync, gc::kUnsync) |
                            bit(action.freeze, gc::kFreeze) | bit(action.unfreeze, gc::kUnfreeze) |
                            bit(action.clear, gc::kClearData);
-  bench_.master(action.master.text)
+  stations_.master(action.master.text)
       .global_control(static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(action.group));
 }
 
@@ -321,7 +323,7 @@ void Script::send_telegram(const Action& action) {
   faults.truncate_after = place(f.truncate_after);
   faults.glitch_at = place(f.glitch_at);
   faults.glitch = {millibits(f.glitch_start_bits), millibits(f.glitch_bits)};
-  bench_.master(action.master.text).send_raw(action.bytes, faults);
+  stations_.master(action.master.text).send_raw(action.bytes, faults);
 }
 
 }  // namespace tb

@@ -2,23 +2,29 @@
 // The scenario's script and expectations as the last agent of the timeline: it acts when everybody else has acted at a
 // tick.
 #include <cstddef>
+#include <set>
 #include <vector>
 
 #include "bus/timeline.hpp"
+#include "bus/wire/segment.hpp"
+#include "tb/bench/journal.hpp"
+#include "tb/bench/observer.hpp"
 #include "tb/bench/record.hpp"
+#include "tb/bench/reply.hpp"
+#include "tb/bench/stations.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace tb {
 
-class Bench;
-class Class2Station;
-
-class Script : public bus::Agent {
+class Script : public bus::Agent, public Observer {
  public:
-  explicit Script(Bench& bench);
+  /// All of them must outlive it. `left_out`: actions and expectations, by address, that are neither carried out nor
+  /// judged.
+  Script(const scenario::Scenario& scenario, Stations& stations, bus::Segment& segment, Journal& journal,
+         Replies& replies, const std::set<const void*>& left_out);
 
   /// Conditions are looked at again at `at`.
-  void conditions_changed(Tick at) {
+  void changed(Tick at) override {
     changed_at_ = at;
     announce();
   }
@@ -64,7 +70,11 @@ class Script : public bus::Agent {
   std::size_t slave_index(const std::string& name) const;
   std::uint8_t target(const scenario::Action& action) const;
 
-  Bench& bench_;
+  const scenario::Scenario& scenario_;
+  Stations& stations_;
+  bus::Segment& segment_;
+  Journal& journal_;
+  Replies& replies_;
   std::vector<Due> agenda_;           ///< latest first; equal times in the order of planning
   std::vector<std::size_t> waiting_;  ///< actions whose condition has not come true
   std::vector<ExpectationResult> expectations_;

@@ -23,7 +23,8 @@ std::size_t other_direction(const PinTable& pins, std::size_t pin) {
 
 }  // namespace
 
-WaveRecorder::WaveRecorder(const std::string& path, bus::Segment& segment) : writer_(open_wave(path)) {
+WaveRecorder::WaveRecorder(const std::string& path, bus::Segment& segment, const ChipKind& kind)
+    : kind_(kind), writer_(open_wave(path)) {
   writer_->open_scope("bus");
   line_ = writer_->wire("line", 1);
   telegram_ = writer_->words("telegram");
@@ -31,7 +32,8 @@ WaveRecorder::WaveRecorder(const std::string& path, bus::Segment& segment) : wri
   segment.attach("waves", this);
 }
 
-std::size_t WaveRecorder::add_chip(const std::string& name, const PinTable& pins, const ChipView& chip) {
+void WaveRecorder::add_chip(const std::string& name, const ChipView& chip) {
+  const PinTable& pins = kind_.pins();
   ChipSignals signals;
   signals.chip = &chip;
   signals.pins.resize(pins.size());
@@ -48,7 +50,6 @@ std::size_t WaveRecorder::add_chip(const std::string& name, const PinTable& pins
   signals.rm_entries = {writer_->words("rm_30"), writer_->words("rm_2F")};
   writer_->close_scope();
   chips_.push_back(signals);
-  return chips_.size() - 1;
 }
 
 void WaveRecorder::add_master(const std::string& master, const std::vector<std::string>& members,
@@ -67,8 +68,8 @@ void WaveRecorder::begin() {
       const auto number = static_cast<PinNumber>(i);
       pin(chip, 0, number, chips_[chip].chip->level(number));
     }
-    dp_state(chip, 0, "OFFLINE");
-    for (int channel = 0; channel < profibus::kC2Channels; ++channel) rm_entry(chip, 0, channel, "not in use");
+    writer_->say(0, chips_[chip].dp_state, "OFFLINE");
+    for (const Signal row : chips_[chip].rm_entries) writer_->say(0, row, "not in use");
   }
   for (const auto& [name, state] : master_states_) writer_->say(0, state.signal, state.initial);
 }
@@ -83,19 +84,18 @@ void WaveRecorder::pin(std::size_t chip, bus::Tick at, PinNumber pin, Level leve
   writer_->set(at, own.signal, shown);
 }
 
-void WaveRecorder::dp_state(std::size_t chip, bus::Tick at, const std::string& word) {
-  writer_->say(at, chips_[chip].dp_state, word);
+void WaveRecorder::event(std::size_t slave, const profibus::Event& event) {
+  const ChipSignals& chip = chips_[slave];
+  if (event.reason == profibus::Reason::kDpState)
+    writer_->say(event.at, chip.dp_state, name(static_cast<profibus::DpState>(event.b)));
+  if (event.reason == profibus::Reason::kRmEntry)
+    writer_->say(event.at, chip.rm_entries.at(static_cast<std::size_t>(profibus::kC2FirstSap - event.a)),
+                 kind_.describe(event));
 }
 
-void WaveRecorder::rm_entry(std::size_t chip, bus::Tick at, int channel, const std::string& words) {
-  writer_->say(at, chips_[chip].rm_entries.at(static_cast<std::size_t>(channel)), words);
+void WaveRecorder::master_state(bus::Tick now, const std::string& master, const std::string& member,
+                                const std::string& state) {
+  writer_->say(now, master_states_.at(master + "." + member).signal, state);
 }
-
-void WaveRecorder::master_state(const std::string& master, const std::string& member, bus::Tick at,
-                                const std::string& word) {
-  writer_->say(at, master_states_.at(master + "." + member).signal, word);
-}
-
-void WaveRecorder::telegram(bus::Tick at, const std::string& words) { writer_->say(at, telegram_, words); }
 
 }  // namespace tb

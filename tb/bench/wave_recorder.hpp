@@ -8,30 +8,30 @@
 
 #include "bus/wire/segment.hpp"
 #include "tb/bench/chip_view.hpp"
+#include "tb/bench/observer.hpp"
+#include "tb/chip/chip_kind.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace tb {
 
-class WaveRecorder : private bus::Listener {
+class WaveRecorder : public Observer, private bus::Listener {
  public:
-  /// Listens to the line as a station of its own.
-  WaveRecorder(const std::string& path, bus::Segment& segment);
+  /// Listens to the line as a station of its own. `kind` must outlive it.
+  WaveRecorder(const std::string& path, bus::Segment& segment, const ChipKind& kind);
 
   // Declarations, before `begin`.
-  /// Returns the chip's number for `pin` and `dp_state`.
-  std::size_t add_chip(const std::string& name, const PinTable& pins, const ChipView& chip);
+  /// Slaves are numbered in the order in which they are added.
+  void add_chip(const std::string& name, const ChipView& chip);
   /// `members`: its slaves or connections, all in the state `initial`.
   void add_master(const std::string& master, const std::vector<std::string>& members, const std::string& initial);
   /// Writes the first values.
   void begin();
 
-  void pin(std::size_t chip, bus::Tick at, PinNumber pin, Level level);
-  void dp_state(std::size_t chip, bus::Tick at, const std::string& word);
-  /// A row of the RM registry (table 30) has changed; `channel` 0 or 1.
-  void rm_entry(std::size_t chip, bus::Tick at, int channel, const std::string& words);
-  void master_state(const std::string& master, const std::string& member, bus::Tick at, const std::string& word);
-  /// The telegram that has just ended, in words.
-  void telegram(bus::Tick at, const std::string& words);
+  void pin(std::size_t slave, bus::Tick at, PinNumber pin, Level level) override;
+  void event(std::size_t slave, const profibus::Event& event) override;
+  void telegram(const HeardTelegram& telegram) override { writer_->say(telegram.now, telegram_, telegram.words()); }
+  void master_state(bus::Tick now, const std::string& master, const std::string& member,
+                    const std::string& state) override;
   // See WaveWriter.
   void save(bus::Tick at) { writer_->save(at); }
   bool failed() const { return writer_->failed(); }
@@ -55,6 +55,7 @@ class WaveRecorder : private bus::Listener {
   };
   void line_changed(bus::Tick at, bool level) override { writer_->set(at, line_, level ? 1 : 0); }
 
+  const ChipKind& kind_;
   std::unique_ptr<WaveWriter> writer_;
   Signal line_ = 0, telegram_ = 0;
   std::vector<ChipSignals> chips_;

@@ -47,6 +47,9 @@ struct CheckId {
   constexpr CheckId(E check) : index(static_cast<std::size_t>(check)) {}
 };
 
+inline bool operator==(CheckId a, CheckId b) { return a.index == b.index; }
+inline bool operator!=(CheckId a, CheckId b) { return a.index != b.index; }
+
 /// The limit of a run: the default, or what a scenario says.
 struct Limit {
   bool on = true;

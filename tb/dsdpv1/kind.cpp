@@ -6,7 +6,7 @@
 #include "tb/dsdpv1/checks/checks.hpp"
 #include "tb/dsdpv1/codes.hpp"
 #include "tb/dsdpv1/pin_chip.hpp"
-#include "tb/dsdpv1/pin_table.hpp"
+#include "tb/dsdpv1/pins/pin_table.hpp"
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/dsdpv1/user_cpu/orders.hpp"
 #include "tb/dsdpv1/user_maker.hpp"

@@ -23,8 +23,8 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
     : device_(std::move(device)),
       chip_(*device_),
       pins_(std::in_place, chip_),
-      segment_(segment),
       station_(segment.attach(name, this)),
+      line_(segment, station_),
       reports_inputs_((watched & kInputPins) != 0) {
   chip_.watch(
       {[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); },
@@ -38,28 +38,17 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
   for (std::size_t pin = 0; pin < inputs_.size(); ++pin) inputs_.at(pin) = chip_.level(static_cast<Pin>(pin));
 }
 
-Tick PinChip::next() const { return driven_ < drives_due_.size() ? drives_due_[driven_].at : chip_.next_event(); }
+Tick PinChip::next() const { return line_.waits() ? line_.since() : chip_.next_event(); }
 
 void PinChip::run(Tick now) {
   device().advance(now);
-  drive_line();
+  line_.pass_on();
 }
 
 void PinChip::pin_changed(Tick at, Pin pin, Level level) {
   tell(at, pin, level);
-  if (pin != Pin::kPbtxd && pin != Pin::kPbrts) return;
-  (pin == Pin::kPbtxd ? drives_ : enabled_) = level != 0;
-  drives_due_.push_back({at, enabled_, drives_});
-}
-
-void PinChip::drive_line() {
-  // The line may change an input of this chip, which may add to the list.
-  for (; driven_ < drives_due_.size(); ++driven_) {
-    const Drive due = drives_due_[driven_];
-    segment_.drive(station_, due.at, due.enabled, due.level);
-  }
-  drives_due_.clear();
-  driven_ = 0;
+  if (pin == Pin::kPbtxd) line_.drive(at, level != 0);
+  if (pin == Pin::kPbrts) line_.enable(at, level != 0);
 }
 
 void PinChip::line_changed(Tick at, bool level) { set(at, Pin::kPbrxd, level ? 1 : 0); }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bus/timeline.hpp"
+#include "tb/bench/line_driver.hpp"
 #include "tb/dsdpv1/dsdpv1_view.hpp"
 #include "tb/dsdpv1/pin_device.hpp"
 #include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
@@ -32,10 +33,6 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   void run(Tick now) override;
 
  private:
-  struct Drive {
-    Tick at;
-    bool enabled, level;
-  };
   /// Whoever moves the chip takes it from here.
   PinDevice& device() {
     announce();
@@ -48,7 +45,6 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   void line_changed(Tick at, bool level) override;
   void pin_changed(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void set(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
-  void drive_line();
   /// Those of the inputs from `first` to `last` that have changed.
   void report_inputs(Tick at, dsdpv1::Pin first, dsdpv1::Pin last);
 
@@ -69,14 +65,10 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   std::unique_ptr<PinDevice> device_;
   PinDevice& chip_;
   std::optional<user_cpu::PinHostBus> pins_;
-  bus::Segment& segment_;
   bus::StationId station_;
+  LineDriver line_;
   bool reports_inputs_;
   std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
-  bool enabled_ = false, drives_ = true;
-  std::vector<Drive>
-      drives_due_;  ///< what the chip did to the line inside of a call; told after it, because the line answers
-  std::size_t driven_ = 0;
 };
 
 }  // namespace tb

@@ -19,7 +19,7 @@ TEST(Nanoseconds, AreRoundedOnceFromTheTick) {
 TEST(Expectation, IsDescribedInWords) {
   tb::scenario::Expectation expectation;
   expectation.slave.text = "demo";
-  expectation.dp_state = dsdpv1::DpState::kDataExch;
+  expectation.dp_state = profibus::DpState::kDataExch;
   expectation.data_exchanges = 10;
   expectation.by = 9 * bus::kTicksPerMs;
   EXPECT_EQ(tb::describe(expectation), "demo: dp_state DATA_EXCH, data_exchanges >= 10 by 9ms");

@@ -139,7 +139,7 @@ TEST_F(BoardTest, PortCIsTheHandshake) {
 
 TEST_F(BoardTest, NonsenseInTheMailboxIsAFaultOfTheFirmware) {
   start(kNonsense, at_72_mhz(), {}, 0x20008000);
-  board->on_driver_error = [](const user_cpu::DriverError&) { ADD_FAILURE() << "no error of the driver"; };
+  board->on_error = [](const user_cpu::ProgramError&) { ADD_FAILURE() << "no error of the driver"; };
   run();
   EXPECT_EQ(failure.first,
             "the firmware has written nonsense into its mailbox (dsdpv1_bench): report.errors[0].error is 200, allowed "
@@ -203,8 +203,8 @@ TEST_F(BoardTest, Intr0RunsTheHandlerThroughExtiLine6) {
   const Tick fall = kStart + 100 * bus::kTicksPerUs;
   run_until(fall - 1);
   EXPECT_TRUE(pins.written.empty());
-  board->intr0_changed(fall, false);
-  board->intr0_changed(fall + 64 * 250, true);
+  board->interrupt_changed(fall, false);
+  board->interrupt_changed(fall + 64 * 250, true);
   run();
   EXPECT_THAT(pins.written,
               ElementsAre(std::pair(0x7FF, 0), std::pair(0, 1)));  // the handler, then the main loop; once
@@ -216,10 +216,10 @@ TEST_F(BoardTest, Intr0RunsTheHandlerThroughExtiLine6) {
 TEST_F(BoardTest, MaskedLineIsPendingOnItsChosenEdgeOnly) {
   start(kMaskedAndRising);
   const Tick fall = kStart + 50 * bus::kTicksPerUs;
-  board->intr0_changed(fall, false);
+  board->interrupt_changed(fall, false);
   run_until(fall + 10 * bus::kTicksPerUs);
   EXPECT_TRUE(pins.written.empty());
-  board->intr0_changed(fall + 20 * bus::kTicksPerUs, true);
+  board->interrupt_changed(fall + 20 * bus::kTicksPerUs, true);
   run();
   EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 1), std::pair(1, 0)));  // PG6 high; PR cleared by writing 1
 }

@@ -24,7 +24,7 @@ struct Timing {
 
 class Board {
  public:
-  explicit Board(const checks::Limits& limits = {}) : checks_(limits) {
+  explicit Board(const checks::Limits& limits = checks::Limits(checks::rules())) : checks_(limits) {
     checks_.on_violation([this](const checks::Violation& violation) { violations.push_back(violation); });
     set(Pin::kA, 0x7FF);
     wait(5000);

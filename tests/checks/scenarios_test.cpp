@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tb/bench/bench.hpp"
+#include "tb/dsdpv1/checks/check.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace {
@@ -126,7 +127,7 @@ tb::RunResult run(const Case& each, bool allowed, tb::ChecksMode mode) {
 std::set<std::string> broken(const tb::RunResult& result) {
   std::set<std::string> ids;
   for (const tb::CheckResult& check : result.checks)
-    if (check.record.violations != 0) ids.insert(checks::rule(check.check).id);
+    if (check.record.violations != 0) ids.insert(check.rule->id);
   return ids;
 }
 
@@ -161,13 +162,13 @@ INSTANTIATE_TEST_SUITE_P(Checks, EachCheck, testing::ValuesIn(kCases),
 
 std::uint64_t events(const tb::RunResult& result, const char* code) {
   return static_cast<std::uint64_t>(std::count_if(
-      result.happenings.begin(), result.happenings.end(),
-      [code](const tb::Happening& each) { return each.code == code; }));
+      result.occurrences.begin(), result.occurrences.end(),
+      [code](const tb::Occurrence& each) { return each.code == code; }));
 }
 
 std::uint64_t violations(const tb::RunResult& result, checks::Check check) {
   for (const tb::CheckResult& each : result.checks)
-    if (each.check == check) return each.record.violations;
+    if (each.rule == &checks::rule(check)) return each.record.violations;
   return 0;
 }
 

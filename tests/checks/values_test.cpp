@@ -283,7 +283,7 @@ void PrintTo(const Case& each, std::ostream* out) {
 class EachValue : public testing::TestWithParam<Case> {
  protected:
   checks::Limits limits() const {
-    checks::Limits limits;
+    checks::Limits limits(checks::rules());
     if (GetParam().limit != checks::kNoLimit) limits[GetParam().check].value = GetParam().limit;
     return limits;
   }
@@ -390,7 +390,7 @@ TEST(Intr0Service, WithoutALimitItIsOnlyMeasured) {
 }
 
 TEST(Intr0Service, OneThatNobodyServesIsJudgedAtTheEnd) {
-  checks::Limits limits;
+  checks::Limits limits(checks::rules());
   limits[Check::kIntr0Service].value = kIntr0Limit;
   Board board(limits);
   board.set(Pin::kIntr0, 0);

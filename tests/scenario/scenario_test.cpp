@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tb/dsdpv1/settings.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
@@ -45,10 +46,10 @@ TEST(Scenario, HoldsWhatTheFileSays) {
 
 TEST(Scenario, LeavesDefaultsWhereKeysAreMissing) {
   const sc::Scenario scenario = sc::parse(kSmall, "s.yaml");
-  EXPECT_EQ(scenario.chip.access_interval, dsdpv1::Config{}.access_interval);
-  EXPECT_EQ(scenario.slaves[0].user_cpu.kind, sc::CpuKind::kNative);
+  EXPECT_EQ(static_cast<const tb::Dsdpv1Settings&>(*scenario.chip).access_interval, dsdpv1::Config{}.access_interval);
+  EXPECT_EQ(tb::own(scenario.slaves[0].user_cpu).kind, tb::CpuKind::kNative);
   EXPECT_EQ(scenario.slaves[0].user_cpu.judge_delay, 0);
-  EXPECT_FALSE(scenario.slaves[0].user_cpu.access);
+  EXPECT_FALSE(tb::own(scenario.slaves[0].user_cpu).access);
 }
 
 TEST(Scenario, PathsAreRelativeToItsFolder) {
@@ -59,19 +60,19 @@ TEST(Scenario, PathsAreRelativeToItsFolder) {
 }
 
 TEST(JsonSchema, IsJsonAndKnowsEveryKeyOfTheDescription) {
-  const auto schema = nlohmann::json::parse(sc::json_schema());
-  for (const auto& field : sc::description().fields)
+  const auto schema = nlohmann::json::parse(sc::json_schema(*tb::chip_kinds().front()));
+  for (const auto& field : sc::description(*tb::chip_kinds().front()).fields)
     EXPECT_TRUE(schema["properties"].contains(field.name)) << field.name;
   EXPECT_FALSE(schema["additionalProperties"]);
   EXPECT_EQ(schema["required"], (nlohmann::json{"name", "baud", "end", "slaves"}));
-  EXPECT_EQ(schema["$defs"]["action"]["oneOf"].size(), sc::description().find("script")->type.object->choices.size());
+  EXPECT_EQ(schema["$defs"]["action"]["oneOf"].size(), sc::description(*tb::chip_kinds().front()).find("script")->type.object->choices.size());
 }
 
 TEST(Markdown, IsTheCheckedInFile) {
   std::ifstream in(DSDPV1_SOURCE_DIR "/docs/scenarios.md");
   std::ostringstream text;
   text << in.rdbuf();
-  EXPECT_TRUE(text.str() == sc::markdown())
+  EXPECT_TRUE(text.str() == sc::markdown(*tb::chip_kinds().front()))
       << "docs/scenarios.md is stale: dsdpv1-sim schema --markdown > docs/scenarios.md";
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tb/dsdpv1/settings.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
@@ -44,9 +45,9 @@ TEST(Settings, BeginningWithAKeyOfASlaveMeanEverySlave) {
   const Scenario scenario = with({"user_cpu.cycle=40us", "user_cpu.fsmc.datast=3"});
   for (const tb::scenario::Slave& slave : scenario.slaves) {
     EXPECT_EQ(slave.user_cpu.cycle, 40 * bus::kTicksPerUs);
-    ASSERT_TRUE(slave.user_cpu.fsmc);
-    EXPECT_EQ(slave.user_cpu.fsmc->datast, 3);
-    EXPECT_FALSE(slave.user_cpu.fsmc->addset);
+    ASSERT_TRUE(tb::own(slave.user_cpu).fsmc);
+    EXPECT_EQ(tb::own(slave.user_cpu).fsmc->datast, 3);
+    EXPECT_FALSE(tb::own(slave.user_cpu).fsmc->addset);
   }
 }
 

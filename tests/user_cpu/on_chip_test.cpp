@@ -49,7 +49,7 @@ class OnChip : public testing::TestWithParam<dsdpv1::Engine> {
     chip.set(kReleaseReset, Pin::kReset, 1);
   }
   void run_for(Tick ticks) { timeline.run_until(timeline.now() + ticks); }
-  void post(const user_cpu::Command& what) {
+  void post(const user_cpu::DriverCommand& what) {
     program->post(what);
     cpu->wake(timeline.now());
   }

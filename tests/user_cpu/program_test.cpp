@@ -63,7 +63,7 @@ class Program : public testing::Test {
   }
   void run_for(Tick ticks) { timeline.run_until(timeline.now() + ticks); }
   void intr0() { cpu->intr0_changed(timeline.now(), false); }
-  void post(const user_cpu::Command& what) {
+  void post(const user_cpu::DriverCommand& what) {
     program->post(what);
     cpu->wake(timeline.now());
   }
@@ -185,7 +185,7 @@ TEST_F(Program, SetInputsOverridesTheSource) {
 
 TEST_F(Program, SetDiagnosis) {
   bring_up(1, 1);
-  post(command::SetDiagnosis{DSDPV1_DIAG_EXTERNAL, {0x02, 0x55}});
+  post(command::SetDiagnosis{user_cpu::DiagnosisKind::kExternal, {0x02, 0x55}});
   run_for(kMs);
   EXPECT_EQ(chip.diagnosis, (Bytes{0x81, 2, 0x02, 0x55}));
 }

@@ -26,6 +26,6 @@ const RuleTable& rules() {
   return table;
 }
 
-const Rule& rule(Check check) { return rules().at(static_cast<std::size_t>(check)); }
+const Rule& rule(CheckId check) { return rules().at(check.index); }
 
 }  // namespace checks

@@ -22,6 +22,6 @@ constexpr Check kAllChecks[] = {
 constexpr std::size_t kCheckCount = std::size(kAllChecks);
 
 const RuleTable& rules();
-const Rule& rule(Check check);
+const Rule& rule(CheckId check);
 
 }  // namespace checks

@@ -20,7 +20,7 @@
 #include "tb/dsdpv1/checks/ownership.hpp"
 #include "tb/dsdpv1/checks/port_timing.hpp"
 #include "tb/dsdpv1/checks/service.hpp"
-#include "tb/dsdpv1/pin_table.hpp"
+#include "tb/dsdpv1/pins/pin_table.hpp"
 
 namespace checks {
 

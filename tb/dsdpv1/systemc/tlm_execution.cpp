@@ -13,7 +13,7 @@
 #include "model/systemc/sim_time.hpp"
 #include "tb/dsdpv1/dsdpv1_view.hpp"
 #include "tb/dsdpv1/kind.hpp"
-#include "tb/dsdpv1/pin_table.hpp"
+#include "tb/dsdpv1/pins/pin_table.hpp"
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/dsdpv1/systemc/tlm_chip.hpp"
 #include "tb/dsdpv1/systemc/tlm_host_bus.hpp"

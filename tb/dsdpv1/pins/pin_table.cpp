@@ -1,4 +1,4 @@
-#include "tb/dsdpv1/pin_table.hpp"
+#include "tb/dsdpv1/pins/pin_table.hpp"
 
 namespace tb {
 

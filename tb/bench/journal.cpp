@@ -1,0 +1,70 @@
+#include "tb/bench/journal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "tb/input/units.hpp"
+
+namespace tb {
+
+void Journal::log(LogEntry entry) {
+  if (!log_) return;
+  entry.at = std::max(entry.at, clock_.now());
+  log_->add(entry);
+}
+
+std::string Journal::in_log(const bus::Bytes& bytes) const { return bytes_text(bytes, form_.most_bytes()); }
+
+void Journal::happened(Occurrence occurrence) {
+  ++counts_[occurrence.station][occurrence.code];
+  const bool violation = occurrence.severity == profibus::Severity::kViolation;
+  occurrence.allowed = violation && scenario::allows(scenario_, occurrence.code, occurrence.station);
+  if (violation && !occurrence.allowed) ++violations_;
+  if (occurrence.severity == profibus::Severity::kRefusal) refusals_.count(occurrence);
+  log({occurrence.at, occurrence.station, occurrence.allowed ? "allowed" : name(occurrence.severity), occurrence.text,
+       occurrence.code});
+  if (occurrences_.size() < RunResult::kKept)
+    occurrences_.push_back(std::move(occurrence));
+  else
+    ++occurrences_dropped_;
+}
+
+void Journal::check_violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
+  const std::string id = scenario_.kind->rules()[violation.check.index].id;
+  ++counts_[slave][id];
+  if (!log_) return;
+  log_->finding(
+      {std::max(violation.found, clock_.now()), slave, kind,
+       fmt::format("at {} ns: {}  [{}]", nanoseconds(violation.at), violation.text, checks::history_text(violation)),
+       id});
+}
+
+void Journal::event(std::size_t slave, const profibus::Event& event) {
+  happened({event.at, scenario_.slaves[slave].name.text, profibus::code(event.reason), profibus::severity(event.reason),
+            scenario_.kind->describe(event)});
+}
+
+void Journal::telegram(const HeardTelegram& telegram) {
+  if (log_) log(log_entry(telegram.telegram, telegram.words()));
+}
+
+std::uint64_t Journal::count(const std::string& station, const std::string& code) const {
+  const auto codes = counts_.find(station);
+  if (codes == counts_.end()) return 0;
+  const auto entry = codes->second.find(code);
+  return entry == codes->second.end() ? 0 : entry->second;
+}
+
+void Journal::fill(RunResult& result) const {
+  result.occurrences = occurrences_;
+  std::stable_sort(result.occurrences.begin(), result.occurrences.end(), [](const Occurrence& a, const Occurrence& b) {
+    return std::tie(a.at, a.station) < std::tie(b.at, b.station);
+  });
+  result.occurrences_dropped = occurrences_dropped_;
+  result.refused = refusals_.list();
+}
+
+}  // namespace tb

@@ -1,0 +1,60 @@
+#pragma once
+// Who hears what happens on the bench: log, waves, checks, trace, script. The bench tells all of them the same, in the
+// order in which they were added, and knows none of them otherwise.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/monitor/monitor.hpp"
+#include "model/profibus/event.hpp"
+#include "tb/bench/record.hpp"
+#include "tb/pins/pins.hpp"
+
+namespace tb {
+
+/// A telegram that has ended, heard at `now`; its words are made for the first who asks.
+class HeardTelegram {
+ public:
+  HeardTelegram(Tick at, const bus::WireTelegram& wire) : now(at), telegram(wire) {}
+  const std::string& words() const;
+
+  const Tick now;
+  const bus::WireTelegram& telegram;
+
+ private:
+  mutable std::optional<std::string> words_;
+};
+
+/// Overrides what concerns it. Slaves are numbered as in the scenario.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+
+  virtual void pin(std::size_t /*slave*/, Tick /*at*/, PinNumber /*pin*/, Level /*level*/) {}
+  /// The slave's user CPU begins a read and samples the data then, see ChipView::on_read.
+  virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}
+  virtual void event(std::size_t /*slave*/, const profibus::Event& /*event*/) {}
+  virtual void telegram(const HeardTelegram& /*telegram*/) {}
+  /// What a master makes of a slave (class 1), or the state of a connection (class 2): `member` is its name.
+  virtual void master_state(Tick /*now*/, const std::string& /*master*/, const std::string& /*member*/,
+                            const std::string& /*state*/) {}
+  /// Something that a condition of the scenario may be about has changed.
+  virtual void changed(Tick /*at*/) {}
+};
+
+class Observers {
+ public:
+  /// It must outlive the calls of `tell`.
+  void add(Observer& observer) { all_.push_back(&observer); }
+
+  /// tell(&Observer::pin, slave, at, pin, level)
+  template <class... Parameters, class... Arguments>
+  void tell(void (Observer::*what)(Parameters...), const Arguments&... arguments) const {
+    for (Observer* each : all_) (each->*what)(arguments...);
+  }
+
+ private:
+  std::vector<Observer*> all_;
+};
+
+}  // namespace tb

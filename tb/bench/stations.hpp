@@ -1,0 +1,44 @@
+#pragma once
+// Who is on the bench's segment, by the names that the scenario gives them.
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/master/master1.hpp"
+#include "tb/bench/class2_station.hpp"
+#include "tb/bench/slave_station.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace tb {
+
+/// A class 1 master.
+struct MasterStation {
+  const scenario::Master* spec = nullptr;
+  std::unique_ptr<bus::Master1> master;
+  std::map<std::uint8_t, std::string> slaves;  ///< names by address
+};
+
+struct Stations {
+  std::vector<std::unique_ptr<SlaveStation>> slaves;
+  std::vector<MasterStation> masters;
+  std::vector<std::unique_ptr<Class2Station>> masters2;
+
+  SlaveStation& slave(const std::string& name) const;
+  /// The first one for an empty name.
+  bus::Master1& master(const std::string& name) const;
+  /// The class 2 master with this name, null when there is none; and the one that has this connection.
+  Class2Station* class2(const std::string& name) const;
+  Class2Station& owner_of(const std::string& connection) const;
+  const bus::Connection& connection(const std::string& name) const { return owner_of(name).connection(name); }
+  /// The master that exchanges data with a slave, null when none does.
+  const bus::Master1* master_of(const std::string& slave) const;
+  /// What masters call the slave: the address in their lists.
+  std::optional<std::uint8_t> listed_address(const std::string& slave) const;
+  /// All masters go on with this rate (bus/baud.hpp).
+  void change_baud(int index);
+};
+
+}  // namespace tb
