@@ -1,6 +1,5 @@
 #pragma once
-// The ten baud rates and the times of EN 50170 that depend on them. The index is that of table 5 of the datasheet
-// (B013).
+// The ten baud rates and the times of EN 50170 that depend on them. The index is that of table 5 of the datasheet.
 #include <array>
 #include <optional>
 #include <string_view>

@@ -30,7 +30,7 @@ struct Violation {
   std::vector<PinChange> history;  ///< the last changes of the pins that the check is about
 };
 
-/// "R_REQ=1 -62.500 ns, R_STA=1 0.000 ns": the violation's history, times counted from it.
+/// "SCK=1 -62.500 ns, XSS=1 0.000 ns": the violation's history, times counted from it.
 std::string history_text(const Violation& violation);
 
 /// "12.500 ns".

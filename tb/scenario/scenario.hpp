@@ -86,7 +86,7 @@ struct Master2 {
   int line = 0;
 };
 
-/// What the user CPU hands to the chip at the initialisation (table 2, B020..).
+/// What the user CPU hands to the chip at the initialisation (table 2).
 struct InitData {
   std::optional<int> ident, max_inputs, max_outputs, max_diag, max_prm, max_cfg;
   std::optional<bus::Bytes> cfg;

@@ -26,6 +26,15 @@ FORBIDDEN = [
     ("rtl_ref/dpram", r"(?i)\b(csr|rd|wr|intr0)(_[io])?\b", "no strobe of a port"),
 ]
 
+# The bench and the bus serve any kind of chip: they name no chip's types, pins or registers. A chip's own rooms are CHIP_ROOMS.
+CHIP_ROOMS = ["tb/dsdpv1", "tb/kinds"]
+GENERAL_ROOMS = ["bus", "tb/bench", "tb/checks", "tb/chip", "tb/input", "tb/keys", "tb/output", "tb/pins", "tb/report", "tb/scenario", "tb/serve",
+                 "tb/socket", "tb/sweep", "tb/systemc", "tb/user_cpu", "tb/waves", "apps"]
+A_CHIP = r"\b(dsdpv1|dpram)::(?!systemc)|\bmailbox::|model/(dsdpv1|dpram)|\bPin::k|\bAccessTiming|\bregs::|registers/dsdpv1"
+ITS_CELLS = r"\bB[0-7][0-9A-F]{2}\b|\b(CSR|RD|WR|R_REQ|R_STA|L_REQ|L_STA|INTR0)\b"
+FORBIDDEN += [(room, A_CHIP, "no chip by name") for room in GENERAL_ROOMS]
+FORBIDDEN += [(room, ITS_CELLS, "no chip's pins and cells") for room in GENERAL_ROOMS]
+
 
 def sources(root, room):
     return sorted(path for path in (root / room).rglob("*") if path.suffix in SOURCES)
@@ -42,10 +51,19 @@ def faults(root, forbidden):
                     yield f"{path.relative_to(root)}:{number}: {found.group()}, but {room} knows {why}"
 
 
+def unknown_rooms(root):
+    """Rooms of tb/ that are neither a chip's own nor held to know none."""
+    for path in sorted((root / "tb").iterdir()):
+        room = f"tb/{path.name}"
+        if path.is_dir() and room not in GENERAL_ROOMS + CHIP_ROOMS:
+            yield f"{room}: neither in GENERAL_ROOMS nor in CHIP_ROOMS of tests/docs/rooms.py"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
-    found = list(faults(parser.parse_args().root, FORBIDDEN))
+    root = parser.parse_args().root
+    found = list(faults(root, FORBIDDEN)) + list(unknown_rooms(root))
     print("\n".join(found), end="\n" if found else "")
     return 1 if found else 0
 

@@ -17,7 +17,9 @@ BREACHES = [
     "assign a = b; // B024.2",
     '`include "dsdpv1_types.svh"',
     "input logic csr_i,",
-]
+] + ["dsdpv1::Chip chip;", "void pin(mailbox::Pin pin);", "case Pin::kCsr:", '#include "model/dpram/ram.hpp"', "regs::Address at;"] * 3 + [
+    "user_cpu::AccessTiming access;", "dsdpv1::Level level;", "// As INTR0 falls.", "// B006 counts.",
+] + ["if (R_REQ) return;"] * 15
 
 
 class Rooms(unittest.TestCase):
@@ -43,6 +45,11 @@ class Rooms(unittest.TestCase):
                 found = list(rooms.faults(self.root, [row]))
                 self.assertEqual(len(found), 1, found)
                 self.assertTrue(found[0].startswith(f"{row[0]}/block.hpp:2: "), found[0])
+
+    def test_a_room_of_the_bench_that_nobody_judges_is_a_fault(self):
+        (self.root / "tb" / "new").mkdir(parents=True)
+        (self.root / "tb" / "dsdpv1").mkdir()
+        self.assertEqual([fault.split(":")[0] for fault in rooms.unknown_rooms(self.root)], ["tb/new"])
 
     def test_a_room_that_is_gone_is_a_fault(self):
         self.assertIn("no such room", next(rooms.faults(self.root, [("model/gone", "x", "nothing")])))

@@ -19,7 +19,7 @@ TEST(Reasons, DocumentIsWhatTheProgramPrints) {
 
 TEST(Reasons, EveryCodeOfScenariosAndLogsHasATextAndAnAdvice) {
   const std::string document = read(DSDPV1_SOURCE_DIR "/docs/reasons.md");
-  for (const std::string& code : tb::scenario::all_codes()) {
+  for (const std::string& code : tb::scenario::all_codes(*tb::chip_kinds().front())) {
     const std::size_t row = document.find("| `" + code + "` |");
     ASSERT_NE(row, std::string::npos) << code;
     const std::string line = document.substr(row, document.find('\n', row) - row);
