@@ -1,0 +1,97 @@
+#pragma once
+// A mailbox on a segment: PBRTS enables the driver, PBTXD is what it drives, PBRXD hears the line at all times. Keeps
+// what the chip did.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "bus/timeline.hpp"
+#include "bus/wire/segment.hpp"
+#include "tests/mailbox/chip.hpp"
+#include "tests/mailbox/reasons.hpp"
+#include "tests/mailbox/user.hpp"
+
+namespace mailbox {
+
+struct PinChange {
+  Tick at;
+  Pin pin;
+  Level level;
+};
+inline bool operator==(const PinChange& a, const PinChange& b) {
+  return a.at == b.at && a.pin == b.pin && a.level == b.level;
+}
+
+class Board : public bus::Agent, public SpiPins, private bus::Listener {
+ public:
+  Board(bus::Segment& segment, Engine engine) : chip_({engine}), segment_(segment) {
+    station_ = segment.attach("mailbox", this);
+    chip_.watch({&on_pin, this}, kOutputPins);
+    chip_.on_event({&on_event, this});
+  }
+
+  const Chip& chip() const { return chip_; }
+  const std::vector<PinChange>& pin_changes() const { return pin_changes_; }
+  const std::vector<profibus::Event>& events() const { return events_; }
+  std::size_t count(profibus::Reason reason) const {
+    std::size_t found = 0;
+    for (const profibus::Event& event : events_) found += event.reason == reason ? 1 : 0;
+    return found;
+  }
+  std::size_t count(Pin pin, Level level) const {
+    std::size_t found = 0;
+    for (const PinChange& change : pin_changes_) found += change.pin == pin && change.level == level ? 1 : 0;
+    return found;
+  }
+
+  void set(Tick at, Pin pin, Level level) override {
+    announce();
+    chip_.set(at, pin, level);
+  }
+  Level level(Pin pin) const override { return chip_.level(pin); }
+
+  Tick next() const override { return driven_ < drives_.size() ? drives_[driven_].at : chip_.next_event(); }
+  void run(Tick now) override {
+    chip_.advance(now);
+    drive_line();
+  }
+
+ private:
+  struct Drive {
+    Tick at;
+    bool enabled, level;
+  };
+  void line_changed(Tick at, bool level) override { set(at, Pin::kPbrxd, level ? 1 : 0); }
+
+  // Told to the line behind the call in which it happened, because the line answers; the answer may add to the list.
+  void drive_line() {
+    for (; driven_ < drives_.size(); ++driven_) {
+      const Drive due = drives_[driven_];
+      segment_.drive(station_, due.at, due.enabled, due.level);
+    }
+    drives_.clear();
+    driven_ = 0;
+  }
+
+  static void on_pin(void* self, Tick at, Pin pin, Level level) {
+    auto& board = *static_cast<Board*>(self);
+    board.pin_changes_.push_back({at, pin, level});
+    if (pin != Pin::kPbtxd && pin != Pin::kPbrts) return;
+    (pin == Pin::kPbtxd ? board.high_ : board.enabled_) = level != 0;
+    board.drives_.push_back({at, board.enabled_, board.high_});
+  }
+  static void on_event(void* self, const profibus::Event& event) {
+    static_cast<Board*>(self)->events_.push_back(event);
+  }
+
+  Chip chip_;
+  bus::Segment& segment_;
+  bus::StationId station_ = 0;
+  bool enabled_ = false, high_ = true;
+  std::vector<Drive> drives_;
+  std::size_t driven_ = 0;
+  std::vector<PinChange> pin_changes_;
+  std::vector<profibus::Event> events_;
+};
+
+}  // namespace mailbox

@@ -1,0 +1,145 @@
+#include "tests/mailbox/spi_port.hpp"
+
+#include "tests/mailbox/reasons.hpp"
+
+namespace mailbox {
+namespace {
+
+constexpr unsigned kByteBits = 8;
+constexpr unsigned kMostBits = 0xFFFF;  // an event's number has 16 bits; no frame comes near them
+constexpr Cycle kFrameDelay = 1;        // the second rising edge after XSS's: one after the first
+constexpr int kHighestAddress = 125;    // 126 would be for Set_Slave_Address, which this chip has not
+
+/// The bits of a whole frame; 0: no command.
+unsigned frame_size(std::uint8_t code) {
+  switch (code) {
+    case command::kWriteInputs:
+    case command::kReadOutputs: return kDataFrame * kByteBits;
+    case command::kStart: return kStartFrame * kByteBits;
+    default: return 0;
+  }
+}
+
+/// Who starts says address and ident; all else is fixed. Nothing is left to the user's judgement: the parameters must
+/// have no user bytes and the configuration must be kConfiguration.
+profibus::SlaveConfig slave_config(std::uint8_t address, std::uint16_t ident) {
+  profibus::SlaveConfig config;
+  config.address = address;
+  config.ident = ident;
+  config.max_input = config.max_output = kDataBytes;
+  config.max_cfg = static_cast<int>(kConfiguration.size());
+  config.prm_mode = config.cfg_mode = profibus::Judging::kExact;
+  config.cfg.assign(kConfiguration.data(), static_cast<int>(kConfiguration.size()));
+  return config;
+}
+
+}  // namespace
+
+void SpiPort::reset() {
+  enabled_ = selected_ = unread_ = false;
+  acts_at_ = profibus::kNever;
+}
+
+bool SpiPort::level(Pin pin) const {
+  switch (pin) {
+    case Pin::kXss: return xss_;
+    case Pin::kSck: return sck_;
+    default: return mosi_;
+  }
+}
+
+// --- the edges -------------------------------------------------------------------------------------------------------
+
+void SpiPort::set(Tick at, Pin pin, bool high) {
+  if (high == level(pin)) return;
+  switch (pin) {
+    case Pin::kXss: return chip_select(at, high);
+    case Pin::kSck:
+      sck_ = high;
+      if (!selected_) return;
+      return high ? shift_in() : shift_out();
+    default: mosi_ = high; return;
+  }
+}
+
+void SpiPort::chip_select(Tick at, bool high) {
+  xss_ = high;
+  if (!high && enabled_) begin();
+  if (high && selected_) end(at);
+}
+
+void SpiPort::begin() {
+  selected_ = true;
+  bits_ = 0;
+  shift_.fill(0);
+  to_send_ = 0;
+  miso_ = 0;
+}
+
+// A select without any bit is no frame.
+void SpiPort::end(Tick at) {
+  selected_ = false;
+  if (bits_ == 0 || acts_at_ != profibus::kNever) return;
+  frame_ = shift_;
+  frame_bits_ = bits_;
+  acts_at_ = profibus::first_edge_after(at) + kFrameDelay;
+}
+
+void SpiPort::shift_in() {
+  const std::size_t byte = bits_ / kByteBits;
+  if (byte < shift_.size()) shift_[byte] = static_cast<std::uint8_t>(shift_[byte] << 1 | (mosi_ ? 1 : 0));
+  if (bits_ < kMostBits) ++bits_;
+  if (bits_ == kByteBits && shift_[0] == command::kReadOutputs) load_outputs();
+}
+
+void SpiPort::shift_out() {
+  miso_ = static_cast<Level>(to_send_ >> 63);
+  to_send_ <<= 1;
+}
+
+// All 8 bytes at once: what comes from the master later is for the next frame, and keeps INT low.
+void SpiPort::load_outputs() {
+  const profibus::IoBlock& outputs = user_.outputs();
+  for (std::size_t i = 0; i < kDataBytes; ++i) to_send_ = to_send_ << kByteBits | outputs.bytes[i];
+  profibus::Due& due = user_.mail().output.due;
+  unread_ = unread_ || due.waiting();
+  due.clear();
+}
+
+// --- the frame -------------------------------------------------------------------------------------------------------
+
+void SpiPort::eval(Cycle now) {
+  if (now != acts_at_) return;
+  acts_at_ = profibus::kNever;
+  const std::uint8_t code = frame_bits_ < kByteBits ? std::uint8_t{0} : frame_[0];
+  const unsigned size = frame_bits_ < kByteBits ? kByteBits : frame_size(code);
+  if (size == 0)
+    log_.at_cycle(now, Reason::kCommandUnknown, code, frame_bits_);
+  else if (frame_bits_ != size)
+    log_.at_cycle(now, Reason::kFrameLength, frame_bits_, size, code);
+  else
+    execute(now);
+}
+
+void SpiPort::execute(Cycle now) {
+  switch (frame_[0]) {
+    case command::kWriteInputs: user_.new_inputs(now, frame_.data() + 1, kDataBytes); return;
+    case command::kReadOutputs: unread_ = false; return;
+    default: return start(now);
+  }
+}
+
+void SpiPort::start(Cycle now) {
+  const std::uint8_t address = frame_[1], flags = frame_[4];
+  if (address > kHighestAddress || flags != 0) {
+    log_.at_cycle(now, Reason::kStartRefused, address, flags);
+    return;
+  }
+  const auto ident = static_cast<std::uint16_t>(frame_[2] << 8 | frame_[3]);
+  log_.at_cycle(now, Reason::kStarted, address, ident);
+  // The slave forgets its mail: its outputs are news all the same.
+  unread_ = unread_ || user_.mail().output.due.waiting();
+  user_.initialise(now, slave_config(address, ident));
+}
+
+}  // namespace mailbox
