@@ -130,6 +130,7 @@ TEST_F(MailboxPins, AStartActsAtTheSecondRisingEdgeBehindXss) {
     frame(kStart);
     ASSERT_EQ(deselected % kCycle, phase);
     const std::size_t before = board.events().size() - said().size();
+    ASSERT_LT(before, board.events().size());
     ASSERT_EQ(board.events()[before].reason, Reason::kStarted);
     EXPECT_EQ(board.events()[before].at, (deselected / kCycle + 2) * kCycle);
     EXPECT_EQ(describe(board.events()[before]), "started: address 5, ident 0B0C");
@@ -161,7 +162,7 @@ TEST_F(MailboxPins, FramesOfAWrongLengthAreDropped) {
     bytes[0] = code;
     for (const std::size_t bits : {std::size_t{8}, right - 8, right - 1, right + 1, right + 8, std::size_t{200}}) {
       shift(bytes, bits);
-      EXPECT_THAT(said(), ElementsAre(Reason::kFrameLength)) << int{code} << ", " << bits << " bits";
+      ASSERT_THAT(said(), ElementsAre(Reason::kFrameLength)) << int{code} << ", " << bits << " bits";
       EXPECT_EQ(board.events().back().a, bits);
       EXPECT_EQ(board.events().back().b, right);
     }
@@ -178,7 +179,7 @@ TEST_F(MailboxPins, LessThanACommandIsDropped) {
 TEST_F(MailboxPins, UnknownCommandsAreDropped) {
   for (const int code : {0x00, 0x04, 0x81, 0xFF}) {
     frame({static_cast<std::uint8_t>(code), 1, 2, 3, 0});
-    EXPECT_THAT(said(), ElementsAre(Reason::kCommandUnknown)) << code;
+    ASSERT_THAT(said(), ElementsAre(Reason::kCommandUnknown)) << code;
   }
   EXPECT_EQ(describe(board.events().back()), "frame dropped: FF is no command (40 bits)");
 }

@@ -137,8 +137,8 @@ void SpiPort::start(Cycle now) {
   }
   const auto ident = static_cast<std::uint16_t>(frame_[2] << 8 | frame_[3]);
   log_.at_cycle(now, Reason::kStarted, address, ident);
-  unread_ =
-      unread_ || user_.mail().output.due.waiting();  // the slave forgets its mail: the outputs are news all the same
+  // The slave forgets its mail: its outputs are news all the same.
+  unread_ = unread_ || user_.mail().output.due.waiting();
   user_.initialise(now, slave_config(address, ident));
 }
 
