@@ -280,9 +280,11 @@ void Sequencer::status_byte(Item item, Cycle now) {
   }
 }
 
+static_assert(profibus::kBaudUnknown.code() == regs::kBaudSearching && profibus::kBaudCount == regs::kBaudRate9k6 + 1);
+
 std::uint8_t Sequencer::status3() const {
   const int state = static_cast<int>(user_.mail().state.state);
-  return static_cast<std::uint8_t>(user_.mail().baud.index << regs::kChipStatus3BaudRateShift |
+  return static_cast<std::uint8_t>(user_.mail().baud.index.code() << regs::kChipStatus3BaudRateShift |
                                    state << regs::kChipStatus3DpStateShift);
 }
 

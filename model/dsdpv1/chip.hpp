@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "model/dsdpv1/pins.hpp"
+#include "model/profibus/baud.hpp"
 #include "model/profibus/dp_state.hpp"
 #include "model/profibus/event.hpp"
 #include "model/profibus/rm_registry.hpp"
@@ -39,12 +40,13 @@ struct Config {
   std::uint32_t baud_control_ms = 600;      ///< S1: silence after which the baud rate is searched again
 };
 
-using profibus::DpState;  ///< coding of B012, table 5
+using profibus::BaudIndex;  ///< coding of B012, table 5
+using profibus::DpState;    ///< likewise
 
 /// Counters and states for benches and results; reading it changes nothing.
 struct Status {
   DpState dp_state = DpState::kOffline;
-  int baud_index = 15;                   ///< table 5: 0 = 12 M ... 9 = 9.6 k, 15 = searching
+  BaudIndex baud_index;                  ///< none while searching
   std::uint8_t address = 0;              ///< the station's present address, 0 before the initialisation
   std::uint8_t master = 255;             ///< the parameterising master, 255 = none
   std::uint64_t telegrams_received = 0;  ///< error-free telegrams of all stations

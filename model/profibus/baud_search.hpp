@@ -13,7 +13,7 @@ class BaudSearch {
 
   void start(Cycle now) {
     searching_ = true;
-    select(0, now);
+    select(BaudIndex::fastest(), now);
   }
   /// The present rate is the right one.
   void lock() {
@@ -23,25 +23,25 @@ class BaudSearch {
   /// The edge of `now`. True when the window of the present rate has passed and the next rate is selected.
   bool eval(Cycle now) {
     if (now < deadline_) return false;
-    select((index_ + 1) % kBaudCount, now);
+    select(index_.next(), now);
     return true;
   }
   Cycle next() const { return deadline_; }
 
   bool searching() const { return searching_; }
-  int index() const { return index_; }  ///< the rate that the receiver uses, found or tried
-  int bit() const { return kBitCycles[static_cast<std::size_t>(index_)]; }
-  int max_tsdr() const { return kMaxTsdr[static_cast<std::size_t>(index_)]; }
+  BaudIndex index() const { return index_; }  ///< the rate that the receiver uses, found or tried
+  int bit() const { return index_.bit_cycles(); }
+  int max_tsdr() const { return index_.max_tsdr(); }
 
  private:
-  void select(int index, Cycle now) {
+  void select(BaudIndex index, Cycle now) {
     index_ = index;
     deadline_ = now + std::max(window_, bits_ * bit());
   }
 
   Cycle window_, bits_;
   Cycle deadline_ = kNever;
-  int index_ = 0;
+  BaudIndex index_ = BaudIndex::fastest();
   bool searching_ = false;
 };
 

@@ -97,7 +97,7 @@ void Station::watchdog_expired(Cycle now) {
 void Station::lock(Cycle now) {
   search_.lock();
   telegrams_.set_quiet(false);
-  log_.at_cycle(now, Reason::kBaudFound, static_cast<unsigned>(search_.index()));
+  log_.at_cycle(now, Reason::kBaudFound, static_cast<unsigned>(search_.index().code()));
   user_.mail().baud = {{now}, search_.index()};
   watchdog_.rate_found(now);
 }

@@ -38,7 +38,7 @@ class Station {
   bool txd() const { return tx_.txd(); }
   bool rts() const { return tx_.rts(); }
   bool baud_found() const { return running() && !search_.searching(); }
-  int baud_index() const { return baud_found() ? search_.index() : kBaudUnknown; }
+  BaudIndex baud_index() const { return baud_found() ? search_.index() : kBaudUnknown; }
   /// All that the user's side may know and do.
   UserSide& user() { return user_; }
   const DpSlave& slave() const { return slave_; }

@@ -82,7 +82,7 @@ struct StateMail {
 /// The baud rate: found, or searched again.
 struct BaudMail {
   Due due;
-  int index = kBaudUnknown;
+  BaudIndex index;
 };
 /// A C1 or C2 request for the user. It stays in `pdu` after it was taken, until the next one.
 struct AcyclicMail {

@@ -229,9 +229,9 @@ void TlmModule::plan() {
 void TlmModule::output_changed(Tick at, Pin pin, Level level) {
   if (pin != Pin::kPbtxd) return;
   collect_character(at);
-  const int baud = chip().status().baud_index;
+  const BaudIndex baud = chip().status().baud_index;
   // Without a baud rate the chip does not send; an edge then is RESET cutting a character off.
-  const int cycles = baud < profibus::kBaudCount ? profibus::kBitCycles.at(static_cast<std::size_t>(baud)) : 1;
+  const int cycles = baud.known() ? baud.bit_cycles() : 1;
   from_chip_.edge(at, level != 0, cycles * profibus::kTicksPerCycle);
 }
 

@@ -44,7 +44,7 @@ TEST_P(SearchWindow, LocksATelegramDecidedInItsLastCycle) {
   SlaveBench bench;
   const Cycle last = begin(initialised(bench), GetParam() + 1) - 1;
   send_decided_at(bench, last, GetParam(), kToNobody);
-  EXPECT_EQ(bench.chip.status().baud_index, GetParam());
+  EXPECT_EQ(bench.chip.status().baud_index.code(), GetParam());
   EXPECT_EQ(found_at(bench), last);
 }
 
@@ -52,7 +52,7 @@ TEST_P(SearchWindow, HasEndedInTheCycleBehindIt) {
   SlaveBench bench;
   const Cycle next = begin(initialised(bench), GetParam() + 1);
   send_decided_at(bench, next, GetParam(), kToNobody);
-  EXPECT_EQ(bench.chip.status().baud_index, 15);
+  EXPECT_EQ(bench.chip.status().baud_index.code(), 15);
   EXPECT_EQ(found_at(bench), -1);
 }
 
@@ -99,7 +99,7 @@ TEST_F(Search, NeedsTSynBeforeTheTelegram) {
     bench.requester.send(bench.timeline, Bytes{0xE5}, {.wants_answer = false});
     bench.requester.send(bench.timeline, kToNobody, {.idle_bits = enough ? 33 : 32, .wants_answer = false});
     bench.run_cycles(20);
-    EXPECT_EQ(bench.chip.status().baud_index, enough ? 0 : 15);
+    EXPECT_EQ(bench.chip.status().baud_index.code(), enough ? 0 : 15);
   }
 }
 
@@ -108,7 +108,7 @@ TEST_F(Search, DoesNotExecuteOrAnswerTheTelegramThatLocks) {
   initialised(bench);
   bench.run_cycles(33 * 4);
   EXPECT_TRUE(ask(bench, 61, Prm{}.bytes()).silent());
-  EXPECT_EQ(bench.chip.status().baud_index, 0);
+  EXPECT_EQ(bench.chip.status().baud_index.code(), 0);
   EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
   EXPECT_EQ(bench.count(Reason::kPrmAccepted), 0);
   EXPECT_TRUE(bench.fdl_status().answered());
@@ -125,7 +125,7 @@ TEST_F(Search, LocksOnSd1Sd2AndSd3OfAnybody) {
     initialised(bench);
     bench.run_cycles(33 * 4);
     bench.requester.send(bench.timeline, telegram);
-    EXPECT_EQ(bench.chip.status().baud_index, 0) << static_cast<int>(telegram.kind);
+    EXPECT_EQ(bench.chip.status().baud_index.code(), 0) << static_cast<int>(telegram.kind);
     EXPECT_EQ(bench.chip.status().telegrams_answered, 0U);
   }
 }
@@ -142,7 +142,7 @@ TEST_F(Search, DoesNotLockOnTokensShortAcknowledgesAndWrongTelegrams) {
   bus::WireFaults faults;
   faults.wrong_parity_at = 2;
   bench.requester.send(bench.timeline, bus::encode(kToNobody), {.faults = faults});
-  EXPECT_EQ(bench.chip.status().baud_index, 15);
+  EXPECT_EQ(bench.chip.status().baud_index.code(), 15);
 }
 
 TEST_F(Search, DoesNotLockOnTrafficAtAnotherRate) {
@@ -150,7 +150,7 @@ TEST_F(Search, DoesNotLockOnTrafficAtAnotherRate) {
   initialised(bench);
   bench.requester.set_baud(5);  // while the chip listens at 12M, 6M ...
   for (int i = 0; i < 3; ++i) bench.requester.send(bench.timeline, kToNobody, {.wants_answer = false});
-  EXPECT_EQ(bench.chip.status().baud_index, 15);
+  EXPECT_EQ(bench.chip.status().baud_index.code(), 15);
 }
 
 // --- BAUD_CONTROL
@@ -174,7 +174,7 @@ TEST_F(BaudControl, EndsSixHundredMillisecondsBehindTheLastTelegramToTheStation)
   bench.run_cycles(1);
   EXPECT_EQ(bench.chip.level(Pin::kBr), 0);
   EXPECT_EQ(bench.last(Reason::kBaudLost).at, (decision + 600 * kMs) * kCycleTicks);
-  EXPECT_EQ(bench.chip.status().baud_index, 15);
+  EXPECT_EQ(bench.chip.status().baud_index.code(), 15);
 }
 
 TEST_F(BaudControl, RunsFromTheLockingTelegramOn) {
@@ -194,7 +194,7 @@ TEST_F(BaudControl, IsKeptAliveInItsLastCycleAndNotInTheNext) {
     EXPECT_EQ(bench.count(Reason::kBaudLost), in_time ? 0 : 1);
     // S22: the time is first. S9: the same telegram then only begins the search anew; it came before the restart and
     // locks nothing.
-    EXPECT_EQ(bench.chip.status().baud_index, in_time ? 0 : 15);
+    EXPECT_EQ(bench.chip.status().baud_index.code(), in_time ? 0 : 15);
   }
 }
 

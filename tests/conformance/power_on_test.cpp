@@ -23,7 +23,7 @@ class PowerOnAtBaud : public testing::TestWithParam<int> {};
 TEST_P(PowerOnAtBaud, ReachesDataExchangeAfterTheSearch) {
   SlaveBench bench;
   bench.to_data_exch({}, {}, GetParam());
-  EXPECT_EQ(bench.chip.status().baud_index, GetParam());
+  EXPECT_EQ(bench.chip.status().baud_index.code(), GetParam());
   EXPECT_TRUE(bench.data_exchange({1, 2}).answered());
 }
 

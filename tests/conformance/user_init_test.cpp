@@ -245,7 +245,7 @@ Init other_init() {
 void expect_new_values_work(SlaveBench& bench) {
   EXPECT_EQ(shown(bench), kGood);
   EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
-  EXPECT_EQ(bench.chip.status().baud_index, 15);
+  EXPECT_EQ(bench.chip.status().baud_index.code(), 15);
   EXPECT_EQ(bench.chip.level(Pin::kBr), 0);
   EXPECT_EQ(bench.chip.level(Pin::kPbf), 1);
   EXPECT_EQ(bench.chip.status().address, 77);

@@ -412,7 +412,7 @@ TEST_F(ByUser, VerdictWhileTheRateIsSearchedStartsNoWatchdog) {
   watched.wd1 = watched.wd2 = 1;
   ASSERT_TRUE(lost.set_prm(watched).short_acknowledge());
   lost.run_ms(10);
-  ASSERT_EQ(lost.chip.status().baud_index, 15);
+  ASSERT_EQ(lost.chip.status().baud_index.code(), 15);
   lost.verdict(true, std::nullopt);
   EXPECT_EQ(lost.dp_state(), DpState::kWaitCfg);
   lost.run_ms(20);

@@ -520,7 +520,7 @@ TEST_P(InState, ResetLevelsAtOnceAndFullFunctionAfterwards) {
   bench.run_for(93);
   reset_now(bench);
   EXPECT_EQ(bench.dp_state(), DpState::kOffline);
-  EXPECT_EQ(bench.chip.status().baud_index, 15);
+  EXPECT_EQ(bench.chip.status().baud_index.code(), 15);
   EXPECT_EQ(bench.chip.status().master, 255);
   EXPECT_EQ(bench.chip.status().address, 0);
   expect_full_function(bench);
