@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-from bench import BITS_PER_SECOND, ROOT, Failure, Master, Serve, check
+from bench import BITS_PER_SECOND, DEADLINE, ROOT, Failure, Master, Serve, check
 
 PYTHON = os.path.join(ROOT, ".venv", "bin", "python")
 ATTEMPTS = 3
@@ -259,7 +259,7 @@ def documented_commands(program):
         serve = Serve(program, folder, text)
         try:
             master = subprocess.run([PYTHON, os.path.join(ROOT, "tests", "serve", "first_master.py"), serve.port, "30"],
-                                    capture_output=True, text=True, check=False, timeout=60)
+                                    capture_output=True, text=True, check=False, timeout=DEADLINE)
             serve.end()
             Run.was_too_busy = serve.was_late()
             check(master.returncode == 0, master.stdout[-300:] + master.stderr[-300:])
