@@ -10,6 +10,7 @@ something was found.
 import argparse
 import hashlib
 import json
+import re
 import shlex
 import subprocess
 import sys
@@ -23,11 +24,22 @@ def output_of(*command):
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
+def sources_of(entry):
+    """What is compiled: the file, or those that a unity source of CMake's includes."""
+    file = Path(entry["file"])
+    if not file.name.startswith("unity_"):
+        return [file.resolve()]
+    names = re.findall('^#include "(.*)"$', file.read_text(encoding="utf-8"), re.MULTILINE)
+    return [Path(name).resolve() for name in names]
+
+
 def read_commands(build):
-    """Source -> its entry in the compile database; of a source that is compiled twice, the first."""
+    """Source -> its entry in the compile database, as if compiled alone; of one that is compiled twice, the first."""
     commands = {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
-        commands.setdefault(Path(entry["file"]).resolve(), entry)
+        for source in sources_of(entry):
+            command = entry["command"].replace(entry["file"], str(source))
+            commands.setdefault(source, dict(entry, file=str(source), command=command))
     return commands
 
 
@@ -64,10 +76,16 @@ def digest_of(settings, command, files):
     return digest.hexdigest()
 
 
-def look_at(build, source, clean):
+def files_of(source, commands, dependencies):
+    """The source and the headers of its object, of which it may be only a part: then they are more than it includes."""
+    made_from = dependencies.get(object_of(commands[source]), [])
+    return {source} | {path for path in made_from if path not in commands}
+
+
+def look_at(database, source, clean):
     """Prints what clang-tidy finds; `clean` is made when it finds nothing."""
     result = subprocess.run(
-        ["clang-tidy", "--quiet", "-p", str(build), source], capture_output=True, text=True, check=False
+        ["clang-tidy", "--quiet", "-p", str(database), source], capture_output=True, text=True, check=False
     )
     if result.returncode == 0:
         clean.touch()
@@ -87,18 +105,19 @@ def main():
     commands, dependencies, settings = read_commands(build), read_dependencies(build), settings_digest()
     cache = build / "tidy-clean"
     cache.mkdir(exist_ok=True)
+    (cache / "compile_commands.json").write_text(json.dumps(list(commands.values())), encoding="utf-8")
 
     due = []
     for source in (Path(name).resolve() for name in arguments.files):
         if source not in commands:
             continue  # not a part of this build, as the projects of tests/install
         entry = commands[source]
-        clean = cache / digest_of(settings, entry["command"], dependencies.get(object_of(entry), [source]))
+        clean = cache / digest_of(settings, entry["command"], files_of(source, commands, dependencies))
         if not clean.exists():
             due.append((entry["file"], clean))
     print(f"clang-tidy: {len(due)} of {len(arguments.files)} files to look at", flush=True)
     with ThreadPoolExecutor(arguments.jobs) as pool:
-        results = list(pool.map(lambda item: look_at(build, *item), due))
+        results = list(pool.map(lambda item: look_at(cache, *item), due))
     return 0 if all(results) else 1
 
 

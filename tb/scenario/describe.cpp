@@ -55,6 +55,19 @@ keys::Field chip_field(const ChipKind& kind) {
   return field;
 }
 
+/// What is left out keeps the chip's own limit.
+keys::Field checks_field(const ChipKind& kind) {
+  keys::Field field;
+  field.name = "checks";
+  field.type.kind = keys::Kind::kObject;
+  field.type.object = &check_keys(kind);
+  field.doc = "Limits of the checks other than their defaults.";
+  field.read = [keys = field.type.object](void* owner, const YAML::Node& node, const keys::Source& source) {
+    keys::read_object(*keys, &static_cast<Scenario*>(owner)->checks, node, source);
+  };
+  return field;
+}
+
 }  // namespace
 
 const ObjectOf<Allow>& allow_keys() {
@@ -85,7 +98,7 @@ ObjectOf<Scenario> describe_scenario(const ChipKind& kind) {
   o.list("expect", &Scenario::expect, expectation_keys(), kItems, "What must be true, else the run fails (exit 1).");
   o.list("allow", &Scenario::allow, allow_keys(), kItems,
          "Violations that are expected. Every other one fails the run.");
-  o.object("checks", &Scenario::checks, check_keys(kind), "Limits of the checks other than their defaults.");
+  o.fields.push_back(checks_field(kind));
   return o;
 }
 

@@ -11,7 +11,7 @@ import time
 from whole import BEFORE, ended_early, read, readable, same
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-DEADLINE = 120
+DEADLINE = 300  # seconds for one wait; far more than a busy machine needs
 FST_HEAD, FST_UNFINISHED = 330, 0xFF  # length of the first block, tag of one that is not finished
 
 

@@ -33,7 +33,7 @@ using profibus::DpState;
 /// Counters and states; reading it changes nothing.
 struct Status {
   DpState dp_state = DpState::kOffline;
-  int baud_index = profibus::kBaudUnknown;  ///< 0 = 12 M ... 9 = 9.6 k, 15 = searching
+  profibus::BaudIndex baud_index;          ///< none while searching
   std::uint8_t address = 0;                 ///< 0 before the start
   std::uint8_t master = 255;                ///< the parameterising master, 255 = none
   std::uint64_t telegrams_received = 0;     ///< error-free telegrams of all stations

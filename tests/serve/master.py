@@ -15,6 +15,8 @@ import pyprofibus.phy
 import pyprofibus.phy_serial
 import pyprofibus.util
 
+import lateness
+
 
 def write_configuration(plan):
     lines = ["[PROFIBUS]", "debug=%d" % plan.get("debug", 1),
@@ -89,6 +91,7 @@ def run(plan):
     master = config.makeDPM()
     for description in describe(config, plan):
         master.addSlave(description)
+    lateness.watch(plan["late"])
     master.initialize()
     cycles = Cycles(master, plan)
     while not cycles.finished():

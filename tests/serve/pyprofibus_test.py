@@ -4,7 +4,7 @@
     pyprofibus_test.py DSDPV1_SIM CASE      CASE: one of the functions below, or `list`
 
 Exit code 77 (skipped) when pyprofibus is not in .venv: ./run test installs it. A case is tried again only when the machine was too
-busy to keep up with real time, which serve itself measures, and then with a slower clock for pyprofibus.
+busy to keep up with real time, which serve and the master themselves measure, and then with a slower clock for pyprofibus.
 """
 import os
 import re
@@ -12,11 +12,19 @@ import subprocess
 import sys
 import tempfile
 
-from bench import BITS_PER_SECOND, ROOT, Failure, Master, Serve, check
+import lateness
+from bench import BITS_PER_SECOND, DEADLINE, HERE, LATE_MS, ROOT, Master, Serve, check, exit_code
 
 PYTHON = os.path.join(ROOT, ".venv", "bin", "python")
-ATTEMPTS = 3
 AFTER_THE_END = {"WD_EXPIRED", "BAUD_LOST"}  # what a slave says when its master has gone
+
+# first_master.py as it is, its lateness watched and its clock slower.
+FIRST_MASTER = """import sys
+import first_master, lateness, master
+lateness.watch(sys.argv[1])
+master.slow_down(%d)
+first_master.main(sys.argv[2], int(sys.argv[3]))
+"""
 
 IO2 = {"modules": ["2 bytes in, 2 bytes out"], "inputs": 2, "outputs": 2}
 
@@ -35,8 +43,8 @@ def scenario(baud, slaves, script=""):
 class Run:
     """Serve and master together; both are gone afterwards."""
 
-    was_too_busy = False  # the last run: the machine did not keep up with real time
-    slower = 1            # how much slower pyprofibus's clock goes; 4: its requests still come in every window of the baud search
+    late_ms = 0, 0  # of the last run: by how much serve and the master came late
+    slower = 1      # how much slower pyprofibus's clock goes; 4: its requests still come in every window of the baud search
 
     def __init__(self, program, baud, stations, script="", **plan):
         self.folder = tempfile.TemporaryDirectory(prefix="dsdpv1_serve_")
@@ -50,10 +58,9 @@ class Run:
         return self
 
     def __exit__(self, *_):
-        Run.was_too_busy = self.serve is not None and self.serve.was_late()
-        for process in (self.master, self.serve):
-            if process is not None:
-                process.kill()
+        self.master.kill()
+        self.serve.settle()
+        Run.late_ms = self.serve.late_ms(), self.master.late_ms()
         self.folder.cleanup()
 
     def codes(self, *kinds):
@@ -257,16 +264,17 @@ def documented_commands(program):
         with open(os.path.join(ROOT, "scenarios", "serve_19k2.yaml"), encoding="UTF-8") as file:
             text = file.read().replace("dsdpv1.gsd", os.path.join(ROOT, "scenarios", "dsdpv1.gsd"))
         serve = Serve(program, folder, text)
+        late = os.path.join(folder, "late_ms")
         try:
-            master = subprocess.run([PYTHON, os.path.join(ROOT, "tests", "serve", "first_master.py"), serve.port, "30"],
-                                    capture_output=True, text=True, check=False, timeout=60)
+            master = subprocess.run([PYTHON, "-c", FIRST_MASTER % Run.slower, late, serve.port, "30"], cwd=HERE,
+                                    capture_output=True, text=True, check=False, timeout=DEADLINE)
             serve.end()
-            Run.was_too_busy = serve.was_late()
             check(master.returncode == 0, master.stdout[-300:] + master.stderr[-300:])
             check(master.stdout.count("received") == 30 and "sent 1d00 received 1c00" in master.stdout, master.stdout[-300:])
             check(serve.status == 0, serve.said())
         finally:
-            serve.kill()
+            serve.settle()
+            Run.late_ms = serve.late_ms(), lateness.greatest_ms(late)
 
 
 CASES = [documented_commands, exchange_19k2, exchange_45k45, exchange_500k, exchange_1m5, two_slaves, sync_freeze, diagnosis, unplug_and_replug,
@@ -279,6 +287,13 @@ def installed():
     return subprocess.run([PYTHON, "-c", "import pyprofibus, serial"], capture_output=True, check=False).returncode == 0
 
 
+def was_too_busy():
+    """If so, the next run has a slower clock."""
+    print("late at most: serve %.1f ms, the master %.1f ms; above %d ms it is the machine's fault" % (*Run.late_ms, LATE_MS))
+    busy, Run.late_ms, Run.slower = max(Run.late_ms) > LATE_MS, (0, 0), 4
+    return busy
+
+
 def main(program, name):
     cases = {case.__name__: case for case in CASES}
     if name == "list":
@@ -287,16 +302,7 @@ def main(program, name):
     if not installed():
         print("skipped: pyprofibus is not in .venv, ./run test installs it")
         return 77
-    for attempt in range(1, ATTEMPTS + 1):
-        try:
-            cases[name](program)
-            return 0
-        except Failure as failure:
-            print("attempt %d: %s" % (attempt, failure))
-            if not Run.was_too_busy:
-                return 1
-            Run.slower = 4
-    return 1
+    return exit_code(lambda: cases[name](program), was_too_busy)
 
 
 if __name__ == "__main__":

@@ -42,7 +42,7 @@ const char* const kWords =
     "}\n"
     "gone() {\n"
     "  until ! [ -e /proc/$1 ] || grep -q '^State:.Z' /proc/$1/status; do\n"
-    "    [ $SECONDS -lt 30 ] || { kill -KILL $1; exit 97; }; done 2>/dev/null\n"
+    "    [ $SECONDS -lt 300 ] || { kill -KILL $1; exit 97; }; done 2>/dev/null\n"
     "}\n"
     "finish() { cat <&3 >err; wait $sweep; }\n";
 
@@ -92,7 +92,7 @@ TEST_F(SweepFault, RunsEndWithASweepThatIsKilled) {
 TEST_F(SweepFault, RunsIgnoreAHangUpThatTheSweepIgnores) {
   EXPECT_EQ(bash(std::string("trap '' HUP; start ") + kLong +
                  "\nchild; until tr '\\0' ' ' <\"/proc/$child/cmdline\" | grep -q '^dsdpv1-sim run '; do\n"
-                 "  [ $SECONDS -lt 30 ] || exit 97; done\n"
+                 "  [ $SECONDS -lt 300 ] || exit 97; done\n"
                  "grep '^SigIgn:' /proc/$child/status >ignored; kill -TERM $sweep; finish\n"),
             130);
   EXPECT_THAT(file("ignored"), MatchesRegex("SigIgn:.*[13579bdf]\n"));
@@ -110,7 +110,7 @@ TEST_F(SweepFault, KilledOneGoesOnToTheSameResults) {
 
 TEST_F(SweepFault, SecondOneInItsFolderSaysWhoHasIt) {
   EXPECT_EQ(bash(std::string("start ") + kLong +
-                 "\ntimeout 20 $SIM sweep s.yaml --param end=600us,3000s --out out 2>second; echo $? >status\n"
+                 "\ntimeout 300 $SIM sweep s.yaml --param end=600us,3000s --out out 2>second; echo $? >status\n"
                  "echo \"out: a sweep with process id $sweep is using it, allowed is one sweep at a time\" >expected\n"
                  "kill -TERM $sweep; finish\n"),
             130);

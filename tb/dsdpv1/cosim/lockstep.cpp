@@ -150,7 +150,7 @@ void Lockstep::settle(Tick horizon) {
 }
 
 void Lockstep::found(Tick at, std::string what) {
-  const LineTelegram telegram = history_.last_telegram(model_.status().baud_index);
+  const LineTelegram telegram = history_.last_telegram(model_.status().baud_index.code());
   difference_ = Difference{
       at, std::move(what),
       telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, time_text(telegram.start)),

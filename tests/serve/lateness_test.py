@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""What the cases with pyprofibus are tried again for: that a process was late is noticed, and nothing else is forgiven.
+
+    lateness_test.py DSDPV1_SIM CASE      CASE: one of the functions below
+"""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import lateness
+from bench import ATTEMPTS, DEADLINE, HERE, Failure, check, exit_code
+
+STOPPED_MS = 200
+WATCHED = "import lateness, sys; lateness.watch(sys.argv[1]); input()"
+
+
+def wait_for_lateness(path, least_ms):
+    end = time.monotonic() + DEADLINE
+    while lateness.greatest_ms(path) < least_ms:
+        check(time.monotonic() < end, "not noticed: %.1f ms of %.1f ms" % (lateness.greatest_ms(path), least_ms))
+        time.sleep(0.01)  # polls; nothing depends on how long
+
+
+def stopped_process_was_late():
+    with tempfile.TemporaryDirectory(prefix="dsdpv1_late_") as folder:
+        late = os.path.join(folder, "late_ms")
+        check(lateness.greatest_ms(late) == 0, "late before it was watched")
+        with subprocess.Popen([sys.executable, "-c", WATCHED, late], cwd=HERE, stdin=subprocess.PIPE) as watched:
+            wait_for_lateness(late, 0.001)
+            watched.send_signal(signal.SIGSTOP)
+            time.sleep(STOPPED_MS / 1000)  # this is how long it is late
+            watched.send_signal(signal.SIGCONT)
+            wait_for_lateness(late, 0.9 * STOPPED_MS)
+            watched.communicate(b"\n")
+        check(watched.returncode == 0, "it did not come to its end")
+
+
+def only_a_busy_machine_gets_another_try():
+    def tries(busy, succeeds_at=ATTEMPTS + 1):
+        done = []
+
+        def case():
+            done.append(case)
+            check(len(done) >= succeeds_at, "made up, attempt %d" % len(done))
+        return exit_code(case, lambda: busy), len(done)
+    check(tries(busy=False) == (1, 1), "a failure on a machine that was not busy was tried again")
+    check(tries(busy=True) == (1, ATTEMPTS), "not tried again, or too often")
+    check(tries(busy=True, succeeds_at=2) == (0, 2), "the second try does not count")
+
+
+CASES = [stopped_process_was_late, only_a_busy_machine_gets_another_try]
+
+if __name__ == "__main__":
+    try:
+        {case.__name__: case for case in CASES}[sys.argv[2]]()
+    except Failure as failure:
+        sys.exit(str(failure))
