@@ -17,11 +17,14 @@
 #include <systemc>
 #include <vector>
 
+#include "model/dsdpv1/host_access.hpp"
 #include "model/systemc/character_line.hpp"
 #include "model/systemc/chip_module.hpp"
-#include "model/systemc/host_access.hpp"
 
 namespace dsdpv1::systemc {
+
+using dsdpv1::AccessTiming;
+using dsdpv1::HostAccess;
 
 /// Gives one transaction another timing than TlmOptions::access. A payload frees the extensions that it still has in
 /// the end: clear one that is not on the heap.

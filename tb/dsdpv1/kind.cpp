@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/dsdpv1/checks/checks.hpp"
 #include "tb/dsdpv1/codes.hpp"
@@ -35,6 +37,7 @@ class Dsdpv1Kind : public ChipMaker {
                   int where) const override {
     check_dsdpv1_user(static_cast<const Dsdpv1User&>(settings), source.file, slave, where);
   }
+  std::string place_of(const std::string& init_key) const override;
   const std::vector<Order>& orders() const override;
   const std::vector<keys::Word>& blocks() const override;
 
@@ -56,6 +59,18 @@ class Dsdpv1Kind : public ChipMaker {
   MakeUser make_user(const UserRequest& request) const override { return make_dsdpv1_user(request); }
   bool has_debugger(const scenario::Slave& slave) const override { return own(slave.user_cpu).kind == CpuKind::kArm; }
 };
+
+std::string Dsdpv1Kind::place_of(const std::string& init_key) const {
+  static const std::map<std::string, const char*> places = {{"ident", "B022, B023"}, {"max_inputs", "B027"},
+                                                            {"max_outputs", "B028"}, {"max_diag", "B029"},
+                                                            {"max_prm", "B02A"},     {"max_cfg", "B02C"},
+                                                            {"cfg", "B02F.."},       {"prm_mode", "B02B"},
+                                                            {"cfg_mode", "B02D"},    {"set_slave_address", "B024.0"},
+                                                            {"freeze", "B024.1"},    {"sync", "B024.2"},
+                                                            {"fail_safe", "B024.3"}, {"dpv1", "B005 = 0x1D"}};
+  const auto found = places.find(init_key);
+  return found == places.end() ? "" : found->second;
+}
 
 const std::vector<Order>& Dsdpv1Kind::orders() const {
   static const std::vector<Order> orders = {

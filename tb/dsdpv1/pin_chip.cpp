@@ -65,7 +65,7 @@ void PinChip::reset_host(Tick at) {
   for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) chip.set(at, pin, 1);
   for (const Pin pin : {Pin::kRSta, Pin::kRReq}) chip.set(at, pin, 0);
   chip.set(at, Pin::kDIn, dsdpv1::kLevelZ);
-  chip.set(at, Pin::kA, user_cpu::PinHostBus::kIdleAddress);
+  chip.set(at, Pin::kA, dsdpv1::HostAccess::kIdleAddress);
   report_inputs(at, Pin::kRReq, Pin::kDIn);
 }
 

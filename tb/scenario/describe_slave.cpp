@@ -12,35 +12,35 @@ const std::vector<WordFor<Judgement>>& judgement_words() {
   return words;
 }
 
-const ObjectOf<InitData>& init_keys() {
-  static const ObjectOf<InitData> keys = [] {
-    using I = InitData;
-    ObjectOf<I> o("init",
-                  "What the user CPU tells the chip at the initialisation (table 2). With a GSD, what is left "
-                  "out comes from there.");
-    o.integer("ident", &I::ident, {0, 0xFFFF}, "", "Ident number.");
-    o.integer("max_inputs", &I::max_inputs, {0, 255}, "bytes",
-              "Most input bytes, slave to master; above 244 the chip refuses.");
-    o.integer("max_outputs", &I::max_outputs, {0, 255}, "bytes",
-              "Most output bytes, master to slave; above 244 the chip refuses.");
-    o.integer("max_diag", &I::max_diag, {0, 255}, "bytes",
-              "User diagnosis without the standard 6 bytes; above 238 the chip refuses.");
-    o.integer("max_prm", &I::max_prm, {0, 255}, "bytes",
-              "User parameters without the standard 7 bytes; above 237 the chip refuses.");
-    o.integer("max_cfg", &I::max_cfg, {0, 255}, "bytes", "Most configuration bytes; above 200 the chip refuses.");
-    o.bytes("cfg", &I::cfg, {1, 200}, "Initial configuration; left out: that of the modules.");
-    o.integer("prm_mode", &I::prm_mode, {0, 255}, "",
-              "Who judges parameters (table 13): 0 length at most max_prm, 1 length equal, 2 the user.");
-    o.integer("cfg_mode", &I::cfg_mode, {0, 255}, "",
-              "Who judges the configuration (table 14): 0 length, 1 equal to cfg, 2 the user.");
-    o.boolean("set_slave_address", &I::set_slave_address, "Whether a master may change the address.");
-    o.boolean("freeze", &I::freeze, "Whether Freeze is supported.");
-    o.boolean("sync", &I::sync, "Whether Sync is supported.");
-    o.boolean("fail_safe", &I::fail_safe, "Whether fail-safe is supported.");
-    o.boolean("dpv1", &I::dpv1, "Whether DPV1 is switched on.");
-    return o;
-  }();
-  return keys;
+ObjectOf<InitData> describe_init(const ChipKind& kind) {
+  using I = InitData;
+  ObjectOf<I> o("init",
+                "What the user CPU tells the chip at the initialisation (table 2). With a GSD, what is left "
+                "out comes from there.");
+  o.integer("ident", &I::ident, {0, 0xFFFF}, "", "Ident number.");
+  o.integer("max_inputs", &I::max_inputs, {0, 255}, "bytes",
+            "Most input bytes, slave to master; above 244 the chip refuses.");
+  o.integer("max_outputs", &I::max_outputs, {0, 255}, "bytes",
+            "Most output bytes, master to slave; above 244 the chip refuses.");
+  o.integer("max_diag", &I::max_diag, {0, 255}, "bytes",
+            "User diagnosis without the standard 6 bytes; above 238 the chip refuses.");
+  o.integer("max_prm", &I::max_prm, {0, 255}, "bytes",
+            "User parameters without the standard 7 bytes; above 237 the chip refuses.");
+  o.integer("max_cfg", &I::max_cfg, {0, 255}, "bytes", "Most configuration bytes; above 200 the chip refuses.");
+  o.bytes("cfg", &I::cfg, {1, 200}, "Initial configuration; left out: that of the modules.");
+  o.integer("prm_mode", &I::prm_mode, {0, 255}, "",
+            "Who judges parameters (table 13): 0 length at most max_prm, 1 length equal, 2 the user.");
+  o.integer("cfg_mode", &I::cfg_mode, {0, 255}, "",
+            "Who judges the configuration (table 14): 0 length, 1 equal to cfg, 2 the user.");
+  o.boolean("set_slave_address", &I::set_slave_address, "Whether a master may change the address.");
+  o.boolean("freeze", &I::freeze, "Whether Freeze is supported.");
+  o.boolean("sync", &I::sync, "Whether Sync is supported.");
+  o.boolean("fail_safe", &I::fail_safe, "Whether fail-safe is supported.");
+  o.boolean("dpv1", &I::dpv1, "Whether DPV1 is switched on.");
+  for (keys::Field& field : o.fields)
+    if (const std::string place = kind.place_of(field.name); !place.empty())
+      field.doc += std::string(" ") + kind.title() + ": " + place + ".";
+  return o;
 }
 
 /// The chip's keys are read into settings of its own.
@@ -98,7 +98,8 @@ ObjectOf<Slave> describe_slave(const ChipKind& kind) {
       .required = true;
   o.file("gsd", &Slave::gsd, "GSD file that the initialisation follows, relative to the scenario's folder.");
   o.names("modules", &Slave::modules, {0, 64}, "Names of the GSD's modules that are plugged in.");
-  o.object("init", &Slave::init, init_keys(), "Initialisation data other than those of the GSD.");
+  o.object("init", &Slave::init, per_kind<InitData>(kind, describe_init),
+           "Initialisation data other than those of the GSD.");
   o.object("user_cpu", &Slave::user_cpu, per_kind<UserCpu>(kind, describe_user_cpu),
            "What the user CPU does, and how fast.");
   o.time("release_reset", &Slave::release_reset, kAnyTime, "When RESET rises.");

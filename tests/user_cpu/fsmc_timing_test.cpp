@@ -1,6 +1,8 @@
 // The FSMC's edges against the figures of the STM32F103xE datasheet and against its own HCLK counts.
 #include "tb/dsdpv1/user_cpu/fsmc_timing.hpp"
 
+#include "bus/time.hpp"
+
 #include <gtest/gtest.h>
 
 namespace {

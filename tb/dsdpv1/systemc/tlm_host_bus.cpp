@@ -5,14 +5,9 @@
 namespace user_cpu {
 namespace {
 
-using dsdpv1::systemc::HostAccess;
+using dsdpv1::HostAccess;
 
-dsdpv1::systemc::AccessTiming of_module(const AccessTiming& t) {
-  return {t.address_setup, t.cs_lead,   t.rd_low,       t.rd_sample, t.wr_low,
-          t.data_setup,    t.data_hold, t.address_hold, t.cs_trail,  t.recovery};
-}
-
-HostAccess edges_of(const Access& access, const dsdpv1::systemc::AccessTiming& timing) {
+HostAccess edges_of(const Access& access, const AccessTiming& timing) {
   return access.write ? HostAccess::write(access.address, access.value, timing)
                       : HostAccess::read(access.address, timing);
 }
@@ -60,8 +55,8 @@ bool TlmHostBus::is_high(dsdpv1::Pin pin) {
 
 void TlmHostBus::begin(Tick at, const Access& access, const AccessTiming& timing) {
   access_ = access;
-  timing_->timing = of_module(timing);
-  const HostAccess edges = edges_of(access, timing_->timing);
+  timing_->timing = timing;
+  const HostAccess edges = edges_of(access, timing);
   end_ = at + edges.duration();
   if (!access.write && on_read) on_read(at + edges.sample());
   running_ = true;

@@ -1,17 +1,16 @@
 #pragma once
 // The HostBus on the pins of a chip: A, D, CSR, RD, WR with exact edges.
-#include <array>
 #include <cstddef>
 #include <optional>
 
 #include "model/dsdpv1/chip.hpp"
+#include "model/dsdpv1/host_access.hpp"
 #include "tb/dsdpv1/user_cpu/host_bus.hpp"
 #include "tb/dsdpv1/user_cpu/host_pins.hpp"
 
 namespace user_cpu {
 
-/// Drives a chip, which must outlive it. Between accesses CSR, RD and WR are high, D is released and A is 0x7FF, so
-/// that an address taken away too early is never masked by a bus that happens to hold it.
+/// Drives a chip, which must outlive it. Between accesses CSR, RD and WR are high, D and A as HostAccess leaves them.
 class PinHostBus : public HostBus {
  public:
   explicit PinHostBus(dsdpv1::Chip& chip) : core_(std::in_place, chip), chip_(*core_) {}
@@ -26,7 +25,7 @@ class PinHostBus : public HostBus {
   bool intr0(Tick at) override;
   unsigned lamps(Tick at) override;
   void begin(Tick at, const Access& access, const AccessTiming& timing) override;
-  Tick next_edge() const override { return edge_ < edges_.size ? edges_.at[edge_].tick : bus::kNever; }
+  Tick next_edge() const override { return edge_ < access_.size() ? begin_ + access_[edge_].at : bus::kNever; }
   void run_edges(Tick now) override;
   Tick end() const override { return end_; }
   std::uint8_t read_value() const override { return value_; }
@@ -34,31 +33,14 @@ class PinHostBus : public HostBus {
   /// The tick at which the read begun last samples D.
   Tick sample_tick() const { return sample_tick_; }
 
-  static constexpr dsdpv1::Level kIdleAddress = 0x7FF;
-
  private:
-  struct Edge {
-    Tick tick = 0;
-    bool sample = false;
-    dsdpv1::Pin pin = dsdpv1::Pin::kA;
-    dsdpv1::Level level = 0;
-  };
-  struct Edges {
-    std::array<Edge, 8> at{};
-    std::size_t size = 0;
-  };
-  void insert(const Edge& edge);
-  void add(Tick offset, dsdpv1::Pin pin, dsdpv1::Level level);
-  void add_sample(Tick offset);
-  void plan_read(const AccessTiming& timing);
-  void plan_write(const Access& access, const AccessTiming& timing);
-  Tick place(Tick start, Tick recovery);
   void sample(Tick at);
   bool is_high(Tick at, dsdpv1::Pin pin);
 
   std::optional<CoreHostPins> core_;
   HostPins& chip_;
-  Edges edges_;
+  dsdpv1::HostAccess access_;
+  Tick begin_ = 0;  ///< of its first edge
   std::size_t edge_ = 0;
   Tick end_ = 0, sample_tick_ = 0;
   std::uint8_t value_ = 0xFF;

@@ -1,8 +1,8 @@
-#include "model/systemc/host_access.hpp"
+#include "model/dsdpv1/host_access.hpp"
 
 #include <algorithm>
 
-namespace dsdpv1::systemc {
+namespace dsdpv1 {
 namespace {
 
 /// Of edges at one tick, what prepares a strobe comes before it and what ends an access after it; D is sampled in
@@ -62,4 +62,4 @@ void HostAccess::order(Tick recovery) {
   duration_ = (last - 1)->at + std::max<Tick>(recovery, 0);
 }
 
-}  // namespace dsdpv1::systemc
+}  // namespace dsdpv1

@@ -1,0 +1,73 @@
+#pragma once
+// One access of the user CPU to the host port as edges of the pins: for user CPUs of the bench and for whoever turns
+// transactions into pins.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "model/dsdpv1/pins.hpp"
+
+namespace dsdpv1 {
+
+/// When the pins move during one access, in ticks of 1/12 ns (table 15, rulings P5 and P11). The strobe is RD or WR.
+///
+///   A      --<=================>--     address_setup before the strobe falls, address_hold after it rises
+///   CSR    ---\_______________/---     cs_lead before, cs_trail after
+///   RD/WR  ------\_________/------     rd_low or wr_low
+///   D in   ---------------|-------     read: sampled rd_sample after RD fell
+///   D out  ---------<==========>--     write: data_setup before WR rises, data_hold after it
+///
+/// Values may be negative where that makes sense, so that each limit can be kept exactly, kept with margin, or
+/// violated. The defaults are a CPU at 72 MHz (HCLK 13.9 ns) in the manner of an STM32F103. Writes are those of its
+/// FSMC with ADDSET = 1, DATAST = 5: 2 HCLK of address phase, WR low for 5 HCLK, 1 HCLK of hold. Reads have the same
+/// frame, RD low for 6 HCLK and sampled 1 HCLK before its rise, which no setting of the FSMC gives. Between accesses A
+/// is 0x7FF and D released, so that an address taken away too early is never masked by a bus that happens to hold it.
+/// From the rise of WR to the next fall of RD 750 ticks must pass before a byte just written may be read (P8).
+struct AccessTiming {
+  Tick address_setup = 333;  ///< Tc: >= 0; negative: A arrives after the strobe fell
+  Tick cs_lead = 333;        ///< CSR falls before the strobe
+  Tick rd_low = 1000;        ///< > 0
+  Tick rd_sample = 833;      ///< Tw: >= 375 (31.25 ns) to be certain of the data
+  Tick wr_low = 833;         ///< Ts: >= 150 (12.5 ns)
+  Tick data_setup = 833;     ///< Td: >= 150; negative: D arrives after WR rose
+  Tick data_hold = 167;      ///< Td: >= 150; 0: D is released together with WR
+  Tick address_hold = 167;   ///< after the strobe rose; Td for writes
+  Tick cs_trail = 167;       ///< CSR rises after the strobe
+  Tick recovery = 333;       ///< from the last edge to the next access; >= 0
+};
+
+/// The edges of one access in order of time. Ticks count from the first edge.
+class HostAccess {
+ public:
+  static constexpr Level kIdleAddress = 0x7FF;  ///< A between accesses
+
+  struct Edge {
+    Tick at = 0;
+    Pin pin = Pin::kA;  ///< kDOut: D is sampled
+    Level level = 0;
+  };
+
+  HostAccess() = default;  ///< no edges
+  static HostAccess read(std::uint16_t address, const AccessTiming& timing);
+  static HostAccess write(std::uint16_t address, std::uint8_t value, const AccessTiming& timing);
+
+  std::size_t size() const { return size_; }
+  const Edge& operator[](std::size_t number) const { return edges_.at(number); }
+  const Edge* begin() const { return edges_.data(); }
+  const Edge* end() const { return edges_.data() + size_; }
+  /// From the first edge to the end of the recovery time.
+  Tick duration() const { return duration_; }
+  /// From the first edge to the sampling of D; of a read.
+  Tick sample() const;
+
+ private:
+  void frame(Pin strobe, std::uint16_t address, Tick low, const AccessTiming& timing);
+  void add(Tick at, Pin pin, Level level) { edges_.at(size_++) = {at, pin, level}; }
+  void order(Tick recovery);
+
+  std::array<Edge, 8> edges_{};
+  std::size_t size_ = 0;
+  Tick duration_ = 0;
+};
+
+}  // namespace dsdpv1
