@@ -59,7 +59,7 @@ class ChipKind {
   /// Throws InputError for settings that do not fit each other; `where` is the line of the slave.
   virtual void check_user(const OwnSettings& /*settings*/, const keys::Source& /*source*/, const std::string& /*slave*/,
                           int /*where*/) const {}
-  /// Where the chip has the value of a key of `init`, "B022, B023"; empty: nowhere.
+  /// Where the chip keeps the value of a key of `init`, as its documents say it; empty: nowhere.
   virtual std::string place_of(const std::string& /*init_key*/) const { return ""; }
   virtual const std::vector<Order>& orders() const;
   /// Words of command::OfChip::block, for the key `area`.
