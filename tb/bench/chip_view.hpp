@@ -3,6 +3,7 @@
 // TLM module, RTL).
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "bus/wire/segment.hpp"
 #include "model/profibus/dp_state.hpp"
@@ -17,7 +18,7 @@ using bus::Tick;
 /// What every slave chip can say of itself.
 struct ChipStatus {
   profibus::DpState dp_state = profibus::DpState::kOffline;
-  int baud_index = 15;                   ///< bus/baud.hpp, 15 = searching
+  std::optional<int> baud;               ///< index of bus/baud.hpp, absent while it searches
   std::uint8_t address = 0;              ///< the station's present address, 0 before the initialisation
   std::uint8_t master = 255;             ///< the parameterising master, 255 = none
   std::uint64_t telegrams_received = 0;  ///< error-free telegrams of all stations

@@ -54,10 +54,7 @@ void add_state(Parts& parts, const Condition& c, const ChipStatus& status) {
   if (c.dp_state)
     parts.add(fmt::format("dp_state {}", name(*c.dp_state)), fmt::format("dp_state {}", name(status.dp_state)),
               status.dp_state == *c.dp_state);
-  if (c.baud) {
-    const bool same = *c.baud < 0 ? status.baud_index >= bus::kBaudCount : status.baud_index == *c.baud;
-    parts.add("baud " + baud_text(*c.baud), "baud " + baud_text(status.baud_index), same);
-  }
+  if (c.baud) parts.add("baud " + baud_text(*c.baud), "baud " + baud_text(status.baud), status.baud == *c.baud);
   if (c.station_address) {
     parts.add(fmt::format("station_address {}", *c.station_address), fmt::format("station_address {}", status.address),
               status.address == *c.station_address);

@@ -50,8 +50,6 @@ double RunResult::real_time_factor() const {
   return wall_s > 0 ? static_cast<double>(simulated) / static_cast<double>(bus::kTicksPerSecond) / wall_s : 0;
 }
 
-std::string baud_text(int baud_index) {
-  return baud_index >= 0 && baud_index < bus::kBaudCount ? std::string(bus::baud(baud_index).name) : "searching";
-}
+std::string baud_text(std::optional<int> baud) { return baud ? std::string(bus::baud(*baud).name) : "searching"; }
 
 }  // namespace tb

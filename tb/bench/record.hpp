@@ -137,7 +137,7 @@ struct RunResult {
 };
 
 /// The word for a baud index of Status: "12M" ... "9.6k", "searching".
-std::string baud_text(int baud_index);
+std::string baud_text(std::optional<int> baud);
 /// "OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH".
 const char* name(profibus::DpState state);
 

@@ -6,7 +6,7 @@ ChipStatus Dsdpv1View::status() const {
   const dsdpv1::Status own = core().status();
   ChipStatus status;
   status.dp_state = own.dp_state;
-  status.baud_index = own.baud_index.code();
+  if (own.baud_index.known()) status.baud = own.baud_index.code();
   status.address = own.address;
   status.master = own.master;
   status.telegrams_received = own.telegrams_received;

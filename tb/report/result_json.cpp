@@ -65,7 +65,7 @@ Json slave_of(const SlaveResult& slave) {
   json["name"] = slave.name;
   json["address"] = slave.status.address;
   json["dp_state"] = name(slave.status.dp_state);
-  json["baud"] = baud_text(slave.status.baud_index);
+  json["baud"] = baud_text(slave.status.baud);
   json["master"] = slave.status.master == 255 ? Json(nullptr) : Json(slave.status.master);
   json["data_exchanges"] = slave.status.data_exchanges;
   json["outputs_overwritten"] = slave.status.outputs_missed;

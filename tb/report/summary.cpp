@@ -70,7 +70,7 @@ std::string slaves(const RunResult& result) {
                    "chip waited / us", "user waited / us", "longest hold / us"});
   for (const SlaveResult& slave : result.slaves) {
     table.add({slave.name, fmt::format("{}", slave.status.address), name(slave.status.dp_state),
-               baud_text(slave.status.baud_index), fmt::format("{}", slave.status.data_exchanges),
+               baud_text(slave.status.baud), fmt::format("{}", slave.status.data_exchanges),
                fmt::format("{}", slave.status.outputs_missed), tsdr(slave), microseconds(slave.status.longest_wait),
                microseconds(slave.user.port.longest_wait), microseconds(slave.user.port.longest_hold)});
   }

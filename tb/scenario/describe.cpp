@@ -7,11 +7,18 @@
 
 namespace tb::scenario {
 
-std::vector<WordFor<int>> baud_words(bool searching) {
+std::vector<WordFor<int>> baud_words() {
   std::vector<WordFor<int>> words;
-  words.reserve(bus::kBaudCount + 1);
+  words.reserve(bus::kBaudCount);
   for (int i = 0; i < bus::kBaudCount; ++i) words.push_back({i, bus::baud(i).name.data(), ""});
-  if (searching) words.push_back({-1, "searching", "the chip looks for the baud rate"});
+  return words;
+}
+
+std::vector<WordFor<std::optional<int>>> found_baud_words() {
+  std::vector<WordFor<std::optional<int>>> words;
+  words.reserve(bus::kBaudCount + 1);
+  for (const WordFor<int>& each : baud_words()) words.push_back({each.value, each.text, each.doc});
+  words.push_back({std::nullopt, "searching", "the chip looks for the baud rate"});
   return words;
 }
 

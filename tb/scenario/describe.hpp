@@ -33,8 +33,10 @@ const ObjectOf<Expectation>& expectation_keys();
 const ObjectOf<Allow>& allow_keys();
 const ObjectOf<CheckLimits>& check_keys(const ChipKind& kind);
 
-/// The ten baud rates, fastest first; with `searching` also the word for no baud rate (-1).
-std::vector<WordFor<int>> baud_words(bool searching = false);
+/// The ten baud rates, fastest first.
+std::vector<WordFor<int>> baud_words();
+/// ... and the word for a chip that has found none.
+std::vector<WordFor<std::optional<int>>> found_baud_words();
 
 constexpr bus::Tick kLongestTime = 3600 * bus::kTicksPerSecond;
 constexpr Range kAnyTime = {0, kLongestTime};

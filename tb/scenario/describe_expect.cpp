@@ -15,7 +15,7 @@ void describe_condition(ObjectOf<T>& o) {
              {profibus::DpState::kWaitCfg, "wait_cfg", "waits for Chk_Cfg, or for the user's verdict on it"},
              {profibus::DpState::kDataExch, "data_exch", "exchanges data"}},
          "State of the DP state machine.");
-  o.word("baud", &C::baud, baud_words(true), "Baud rate that the chip has found.");
+  o.word("baud", &C::baud, found_baud_words(), "Baud rate that the chip has found.");
   o.integer("station_address", &C::station_address, kAddresses, "", "The chip's present station address.");
   o.integer("data_exchanges", &C::data_exchanges, {0, 1'000'000'000}, "",
             "At least so many data exchanges, repetitions not counted.");

@@ -199,7 +199,7 @@ constexpr bool is_for_user_cpu(ActionKind what) {
 struct Condition {
   Name slave;
   std::optional<profibus::DpState> dp_state;
-  std::optional<int> baud;  ///< index of bus/baud.hpp, -1 = searching
+  std::optional<std::optional<int>> baud;  ///< the inner one: index of bus/baud.hpp, absent while the chip searches
   std::optional<int> station_address;
   std::optional<std::int64_t> data_exchanges, data_exchanges_at_most;
   std::optional<bus::Bytes> inputs, outputs;

@@ -55,7 +55,7 @@ class View : public tb::ChipView, public bus::Agent, public SpiPins, private bus
     const Status own = chip_.status();
     tb::ChipStatus status;
     status.dp_state = own.dp_state;
-    status.baud_index = own.baud_index.code();
+    if (own.baud_index.known()) status.baud = own.baud_index.code();
     status.address = own.address;
     status.master = own.master;
     status.telegrams_received = own.telegrams_received;
