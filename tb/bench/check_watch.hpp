@@ -15,11 +15,12 @@ namespace tb {
 class CheckWatch : public Observer {
  public:
   /// `scenario` must outlive it.
-  CheckWatch(const scenario::Scenario& scenario, ChecksMode mode) : scenario_(scenario), mode_(mode) {}
+  CheckWatch(const scenario::Scenario& scenario, ChecksMode mode)
+      : scenario_(scenario), mode_(mode), on_(mode != ChecksMode::kOff && !scenario.kind->rules().empty()) {}
   CheckWatch(const CheckWatch&) = delete;
   CheckWatch& operator=(const CheckWatch&) = delete;
 
-  bool on() const { return mode_ != ChecksMode::kOff && !scenario_.kind->rules().empty(); }
+  bool on() const { return on_; }
   /// The pins that must be watched, none when off.
   PinMask pins() const;
 
@@ -53,6 +54,7 @@ class CheckWatch : public Observer {
 
   const scenario::Scenario& scenario_;
   ChecksMode mode_;
+  bool on_;  ///< asked at every change of a pin
   std::vector<std::unique_ptr<Slave>> slaves_;
   std::uint64_t failures_ = 0;
 };

@@ -30,6 +30,21 @@ struct ChipStatus {
   Tick longest_wait = 0;                 ///< longest time that it waited there for the user
 };
 
+/// What the status of any chip on the blocks of model/profibus has in common.
+template <class Status>
+ChipStatus common_status(const Status& own) {
+  ChipStatus status;
+  status.dp_state = own.dp_state;
+  if (own.baud_index.known()) status.baud = own.baud_index.code();
+  status.address = own.address;
+  status.master = own.master;
+  status.telegrams_received = own.telegrams_received;
+  status.telegrams_answered = own.telegrams_answered;
+  status.data_exchanges = own.data_exchanges;
+  status.outputs_missed = own.outputs_missed;
+  return status;
+}
+
 class ChipView {
  public:
   virtual ~ChipView() = default;

@@ -2,7 +2,6 @@
 // What has happened in a run: counted, kept for the report, written into the log.
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -16,9 +15,10 @@ namespace tb {
 
 class Journal : public Observer {
  public:
-  /// An empty `path`: no log. Both must outlive it. Throws InputError when the log cannot be created.
+  /// `scenario` and `clock` must outlive it.
   Journal(const scenario::Scenario& scenario, const bus::Timeline& clock, const LogForm& form)
       : scenario_(scenario), clock_(clock), form_(form) {}
+  /// From now on there is a log; throws InputError when it cannot be created.
   void open(const std::string& path) { log_.emplace(path, form_); }
 
   void log(Tick at, const std::string& station, const std::string& kind, const std::string& text) {

@@ -82,7 +82,7 @@ class ChipKind {
 const std::vector<const ChipKind*>& chip_kinds();
 /// Null when there is none with this name.
 const ChipKind* find_chip_kind(const std::string& name);
-/// Adds one, which must outlive the program's use of scenarios. Not from several threads.
+/// Adds one, which must outlive the program's use of scenarios, before the first scenario is read or described.
 void add_chip_kind(const ChipKind& kind);
 /// Those that are built in: defined by the room that knows them (tb/kinds).
 std::vector<const ChipKind*> built_in_chip_kinds();

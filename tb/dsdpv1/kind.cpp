@@ -1,7 +1,5 @@
 #include "tb/dsdpv1/kind.hpp"
 
-#include <fmt/format.h>
-
 #include <map>
 
 #include "model/dsdpv1/reasons.hpp"

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "tb/dsdpv1/pins/pin_table.hpp"
+
 namespace tb {
 
 using dsdpv1::Level;
@@ -9,7 +11,6 @@ using dsdpv1::Pin;
 
 namespace {
 
-constexpr PinMask kInputPins = dsdpv1::mask(Pin::kLReq) - 1;
 /// The output pins that the bench needs in any case.
 constexpr PinMask kBusPins = dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts) | dsdpv1::mask(Pin::kIntr0);
 
@@ -25,7 +26,7 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
       pins_(std::in_place, chip_),
       station_(segment.attach(name, this)),
       line_(segment, station_),
-      reports_inputs_((watched & kInputPins) != 0) {
+      reports_inputs_((watched & inputs_of(dsdpv1_pins())) != 0) {
   chip_.watch(
       {[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); },
        this},

@@ -7,6 +7,7 @@
 
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
+#include "tb/bench/line_driver.hpp"
 #include "tests/mailbox/chip.hpp"
 #include "tests/mailbox/reasons.hpp"
 #include "tests/mailbox/user.hpp"
@@ -24,8 +25,7 @@ inline bool operator==(const PinChange& a, const PinChange& b) {
 
 class Board : public bus::Agent, public SpiPins, private bus::Listener {
  public:
-  Board(bus::Segment& segment, Engine engine) : chip_({engine}), segment_(segment) {
-    station_ = segment.attach("mailbox", this);
+  Board(bus::Segment& segment, Engine engine) : chip_({engine}), line_(segment, segment.attach("mailbox", this)) {
     chip_.watch({&on_pin, this}, kOutputPins);
     chip_.on_event({&on_event, this});
   }
@@ -50,46 +50,27 @@ class Board : public bus::Agent, public SpiPins, private bus::Listener {
   }
   Level level(Pin pin) const override { return chip_.level(pin); }
 
-  Tick next() const override { return driven_ < drives_.size() ? drives_[driven_].at : chip_.next_event(); }
+  Tick next() const override { return line_.waits() ? line_.since() : chip_.next_event(); }
   void run(Tick now) override {
     chip_.advance(now);
-    drive_line();
+    line_.pass_on();
   }
 
  private:
-  struct Drive {
-    Tick at;
-    bool enabled, level;
-  };
   void line_changed(Tick at, bool level) override { set(at, Pin::kPbrxd, level ? 1 : 0); }
-
-  // Told to the line behind the call in which it happened, because the line answers; the answer may add to the list.
-  void drive_line() {
-    for (; driven_ < drives_.size(); ++driven_) {
-      const Drive due = drives_[driven_];
-      segment_.drive(station_, due.at, due.enabled, due.level);
-    }
-    drives_.clear();
-    driven_ = 0;
-  }
 
   static void on_pin(void* self, Tick at, Pin pin, Level level) {
     auto& board = *static_cast<Board*>(self);
     board.pin_changes_.push_back({at, pin, level});
-    if (pin != Pin::kPbtxd && pin != Pin::kPbrts) return;
-    (pin == Pin::kPbtxd ? board.high_ : board.enabled_) = level != 0;
-    board.drives_.push_back({at, board.enabled_, board.high_});
+    if (pin == Pin::kPbtxd) board.line_.drive(at, level != 0);
+    if (pin == Pin::kPbrts) board.line_.enable(at, level != 0);
   }
   static void on_event(void* self, const profibus::Event& event) {
     static_cast<Board*>(self)->events_.push_back(event);
   }
 
   Chip chip_;
-  bus::Segment& segment_;
-  bus::StationId station_ = 0;
-  bool enabled_ = false, high_ = true;
-  std::vector<Drive> drives_;
-  std::size_t driven_ = 0;
+  tb::LineDriver line_;
   std::vector<PinChange> pin_changes_;
   std::vector<profibus::Event> events_;
 };

@@ -33,10 +33,10 @@ using profibus::DpState;
 /// Counters and states; reading it changes nothing.
 struct Status {
   DpState dp_state = DpState::kOffline;
-  profibus::BaudIndex baud_index;          ///< none while searching
-  std::uint8_t address = 0;                 ///< 0 before the start
-  std::uint8_t master = 255;                ///< the parameterising master, 255 = none
-  std::uint64_t telegrams_received = 0;     ///< error-free telegrams of all stations
+  profibus::BaudIndex baud_index;        ///< none while searching
+  std::uint8_t address = 0;              ///< 0 before the start
+  std::uint8_t master = 255;             ///< the parameterising master, 255 = none
+  std::uint64_t telegrams_received = 0;  ///< error-free telegrams of all stations
   std::uint64_t telegrams_answered = 0;
   std::uint64_t data_exchanges = 0;  ///< repetitions not counted
   std::uint64_t outputs_missed = 0;  ///< blocks that newer ones replaced before a frame had loaded them

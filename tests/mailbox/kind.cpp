@@ -51,19 +51,7 @@ class View : public tb::ChipView, public bus::Agent, public SpiPins, private bus
     set(at, Pin::kMosi, 0);
   }
   bus::StationId station() const override { return station_; }
-  tb::ChipStatus status() const override {
-    const Status own = chip_.status();
-    tb::ChipStatus status;
-    status.dp_state = own.dp_state;
-    if (own.baud_index.known()) status.baud = own.baud_index.code();
-    status.address = own.address;
-    status.master = own.master;
-    status.telegrams_received = own.telegrams_received;
-    status.telegrams_answered = own.telegrams_answered;
-    status.data_exchanges = own.data_exchanges;
-    status.outputs_missed = own.outputs_missed;
-    return status;
-  }
+  tb::ChipStatus status() const override { return tb::common_status(chip_.status()); }
   tb::Level level(PinNumber pin) const override { return chip_.level(static_cast<Pin>(pin)); }
   void sync(Tick now) override { run(now); }
 
