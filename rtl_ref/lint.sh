@@ -1,7 +1,7 @@
 #!/bin/sh
 # Lints the reference RTL with all three tools in all its builds (normal, with faults, with limits of run time, with both), compares
 # the numbers of the faults in the sources with faults.txt, and looks for names that do not belong where they stand: a chip's, its
-# addresses' and registers' in profibus/, the strobe pins in dpram/. Silent when all is well.
+# addresses' and registers' in profibus/, pins of a port in dpram/. Silent when all is well.
 set -eu
 cd "$(dirname "$0")"
 files=$(cat files.txt)
@@ -19,7 +19,8 @@ stranger() {
   ! grep -nE "$pattern" "$@" || { echo "$what"; exit 1; }
 }
 stranger '[Dd][Ss][Dd][Pp][Vv]1|\bB0[0-9A-F]{2}' "a chip, its addresses or registers named where every DP slave's blocks are" profibus_types.svh profibus/*.sv
-stranger '\b(csr|rd|wr|d_oe)_[io]\b|CSR|RD\b|WR\b' "a strobe pin named where the DPRAM's blocks are" dpram_types.svh dpram/*.sv
+stranger '\b(csr|rd|wr|d_oe|[rl]_(req|sta))(_[io])?\b|CSR|RD\b|WR\b|[RL]_(REQ|STA)\b' \
+  "a pin of a port named where the DPRAM's blocks are" dpram_types.svh dpram/*.sv
 
 for define in "" -DSINGLE_FAULTS -DDSDPV1_RUN_TIME_LIMITS "-DSINGLE_FAULTS -DDSDPV1_RUN_TIME_LIMITS"; do
   quiet verilator --lint-only -Wall $define -I. -I../registers --top-module dsdpv1 $files

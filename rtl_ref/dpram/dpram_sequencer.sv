@@ -9,10 +9,8 @@ module dpram_sequencer (
   input  logic [20:0] ready_cycles_i,     // D1
   input  logic        clk_i,
   input  logic        rst_ni,
-  input  logic        r_req_i,          // each after its synchroniser
-  input  logic        r_sta_i,
-  output logic        l_req_o,
-  output logic        l_sta_o,
+  input  logic        user_holds_i,     // or asks for the DPRAM; by whatever port, in step with clk_i
+  output logic        owns_o,           // from the cycle behind the start to the last of an access
   output logic        interrupt_o,      // a flag of parameters or configuration is written at this edge
   // DPRAM
   output logic        we_o,
@@ -66,8 +64,8 @@ module dpram_sequencer (
   // ---- due accesses
   logic access_due, starts, boot_starts;
   assign access_due = since_q >= access_interval_i + (`FAULT(48) ? 13'd1 : 13'd0);
-  assign starts = state_q == SEQ_IDLE && access_due && (!r_req_i || `FAULT(49)) && (!r_sta_i || `FAULT(95));
-  assign boot_starts = state_q == SEQ_RELEASED && (!r_req_i || `FAULT(97)) && (!r_sta_i || `FAULT(98));
+  assign starts = state_q == SEQ_IDLE && access_due && (!user_holds_i || `FAULT(97));
+  assign boot_starts = state_q == SEQ_RELEASED && (!user_holds_i || `FAULT(98));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -360,8 +358,7 @@ module dpram_sequencer (
   end
 
   assign interrupt_o = state_q == SEQ_FLAG && (item_q == ITEM_PRM || item_q == ITEM_CFG || (item_q == ITEM_OUTPUTS && `FAULT(58)));
-  assign l_req_o = own_q;
-  assign l_sta_o = own_q;
+  assign owns_o = own_q;
 
   // ---- transfer from the station: parameters begin behind the seven standard bytes; of a request the choice writes the first
   logic [7:0] transfer_q, transfer_start, transfer_index;

@@ -70,12 +70,13 @@ module dsdpv1 #(
   assign search_window_bits = `LIMIT(SEARCH_WINDOW_BITS, search_window_bits_i);
   assign baud_control_ms = `LIMIT(BAUD_CONTROL_MS, baud_control_ms_i);
 
-  logic r_req, r_sta, r_sta_seen;
-  synchroniser #(.POWER_ON(1'b0)) u_r_req (.clk_i(clk_i), .d_i(r_req_i), .q_o(r_req));
-  synchroniser #(.POWER_ON(1'b0)) u_r_sta (.clk_i(clk_i), .d_i(r_sta_i), .q_o(r_sta_seen));
-  assign r_sta = `FAULT(96) ? r_sta_i : r_sta_seen;
+  logic user_holds, chip_owns;
+  handshake u_handshake (
+    `FAULT_CONNECT
+    .clk_i(clk_i), .r_req_i(r_req_i), .r_sta_i(r_sta_i), .l_req_o(l_req_o), .l_sta_o(l_sta_o), .user_holds_o(user_holds),
+    .owns_i(chip_owns));
 
-  logic user_we, chip_we, l_sta;
+  logic user_we, chip_we;
   logic [10:0] user_waddr, user_raddr, chip_addr;
   logic [7:0] user_wdata, chip_wdata, rdata;
 
@@ -86,9 +87,8 @@ module dsdpv1 #(
 
   dpram u_dpram (
     .clk_i(clk_i), .rst_ni(rst_n), .user_we_i(user_we), .user_waddr_i(user_waddr), .user_wdata_i(user_wdata),
-    .user_raddr_i(user_raddr), .chip_owns_i(l_sta), .chip_we_i(chip_we), .chip_addr_i(chip_addr),
+    .user_raddr_i(user_raddr), .chip_owns_i(chip_owns), .chip_we_i(chip_we), .chip_addr_i(chip_addr),
     .chip_wdata_i(chip_wdata), .rdata_o(rdata));
-  assign l_sta_o = l_sta;
 
   // ---- the seam between the two halves
   user_commands_t commands;
@@ -98,8 +98,8 @@ module dsdpv1 #(
   dpram_sequencer u_sequencer (
     `FAULT_CONNECT
     .access_interval_i(access_interval[12:0]), .ready_cycles_i(ready_cycles[20:0]), .clk_i(clk_i), .rst_ni(rst_n),
-    .r_req_i(r_req), .r_sta_i(r_sta), .l_req_o(l_req_o), .l_sta_o(l_sta), .interrupt_o(interrupt_flag), .we_o(chip_we),
-    .addr_o(chip_addr), .wdata_o(chip_wdata), .rdata_i(rdata), .commands_o(commands), .hears_i(hears));
+    .user_holds_i(user_holds), .owns_o(chip_owns), .interrupt_o(interrupt_flag), .we_o(chip_we), .addr_o(chip_addr),
+    .wdata_o(chip_wdata), .rdata_i(rdata), .commands_o(commands), .hears_i(hears));
 
   station #(
     .MAX_DATA(DSDPV1_REG_INIT_MAX_INPUT_LIMIT), .MAX_PRM(DSDPV1_REG_INIT_MAX_PRM_LIMIT), .MAX_CFG(DSDPV1_REG_INIT_MAX_CFG_LIMIT)

@@ -2,6 +2,7 @@
 import dataclasses
 
 CHIP = "dsdpv1/dsdpv1.sv"
+HANDSHAKE = "dsdpv1/handshake.sv"
 SEQUENCER = "dpram/dpram_sequencer.sv"
 ANY_PARAMETERS = ("DSDPV1_RUN_TIME_LIMITS",)
 
@@ -47,7 +48,7 @@ PROOFS = (
         cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt"),
         cut_wires=("w:u_sequencer.boot_q",),
         defines=ANY_PARAMETERS,
-        edit=(SEQUENCER, "assign l_req_o = own_q;", "assign l_req_o = own_q && state_q != SEQ_COMMIT;"),
+        edit=(HANDSHAKE, "assign l_req_o = owns_i;", "assign l_req_o = owns_i && !user_holds_o;"),
     ),
     Proof(
         name="intr0_low",

@@ -54,6 +54,8 @@ module telegram_rx (
   logic [2:0] sd_q;
   logic synced_q, fcs_ok_q;
   logic [7:0] le_q, data_length_q, data_count_q, sum_q;
+  // Always data_length_q - sap_count: both are known long before a decision, so no subtraction stands in its path
+  logic [7:0] length_q;
   logic [6:0] fc_q;
   logic [7:0] da_q, sa_q, dsap_q, ssap_q;
   logic [63:0] head_q;
@@ -93,6 +95,7 @@ module telegram_rx (
       fcs_ok_q <= 1'b0;
       le_q <= 8'd0;
       data_length_q <= 8'd0;
+      length_q <= 8'd0;
       data_count_q <= 8'd0;
       sum_q <= 8'd0;
       da_q <= 8'd0;
@@ -109,6 +112,7 @@ module telegram_rx (
       sum_q <= 8'd0;
       data_count_q <= 8'd0;
       data_length_q <= char_i == 8'hA2 ? 8'd8 : 8'd0;
+      length_q <= (char_i == 8'hA2 ? 8'd8 : 8'd0) - sap_count;
       case (char_i)
         8'h10: sd_q <= SD_SD1;
         8'h68: sd_q <= SD_SD2;
@@ -129,6 +133,7 @@ module telegram_rx (
           LER: begin
             if ((char_i != le_q && !`FAULT(14)) || le_q < 8'd4 || le_q > 8'd249) state_q <= NONE;
             data_length_q <= le_q - 8'd3;
+            length_q <= le_q - 8'd3 - sap_count;
             field_q <= SD2;
           end
           SD2: begin
@@ -137,10 +142,12 @@ module telegram_rx (
           end
           DA: begin
             da_q <= char_i;
+            length_q <= data_length_q - {6'd0, {1'b0, char_i[7]} + {1'b0, sa_q[7]}};
             field_q <= SA;
           end
           SA: begin
             sa_q <= char_i;
+            length_q <= data_length_q - {6'd0, {1'b0, da_q[7]} + {1'b0, char_i[7]}};
             field_q <= FC;
             if (sd_q == SD_SD4) state_q <= COMPLETE;
           end
@@ -189,7 +196,7 @@ module telegram_rx (
   assign dsap_o = dsap_q;
   assign ssap_o = ssap_q;
   assign saps_ok_o = data_length_q >= sap_count;
-  assign length_o = data_length_q - sap_count;
+  assign length_o = length_q;
   assign fcs_o = sum_q;
   assign head_o = head_q;
 endmodule

@@ -23,7 +23,7 @@ FORBIDDEN = [
     ("model/dpram", r"\bstation_|\b(Station|DpSlave)\b|profibus/(station|dp_slave)", "the slave by its user side only"),
     ("rtl_ref/profibus", r"\bB[0-7][0-9A-F]{2}\b", "no address of a chip's cells"),
     ("rtl_ref/profibus", r"(?i)dsdpv1|dpram", "no chip, no family"),
-    ("rtl_ref/dpram", r"(?i)\b(csr|rd|wr|intr0)(_[io])?\b", "no strobe of a port"),
+    ("rtl_ref/dpram", r"(?i)\b(csr|rd|wr|r_req|r_sta|l_req|l_sta|intr0)(_[io])?\b", "no pin of a port"),
 ]
 
 # The bench and the bus serve any kind of chip: they name no chip's types, pins or registers. A chip's own rooms are CHIP_ROOMS.
