@@ -1,7 +1,7 @@
 """Starts a program on a machine with a fault: launch.py FAULTS PROGRAM ARGUMENTS...
 
-FAULTS, with commas: fsize=N, no file may be longer than N bytes (as on a full disk); user, files that may not be written are not, also for
-root; closed, there is no standard output.
+FAULTS, with commas: fsize=N, no file may be longer than N bytes (as on a full disk); nofile=N, no more than N files may be open; user, files
+that may not be written are not, also for root; closed, there is no standard output.
 """
 import ctypes
 import os
@@ -11,6 +11,7 @@ import sys
 
 PR_CAPBSET_DROP = 24
 CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH = 1, 2
+LIMITS = {"fsize": resource.RLIMIT_FSIZE, "nofile": resource.RLIMIT_NOFILE}
 
 
 def keep_to_permissions():
@@ -26,8 +27,8 @@ for fault in filter(None, sys.argv[1].split(",")):
     elif fault == "closed":
         os.close(1)
     else:
-        size = int(fault.split("=")[1])
-        resource.setrlimit(resource.RLIMIT_FSIZE, (size, resource.getrlimit(resource.RLIMIT_FSIZE)[1]))
+        limit, number = fault.split("=")
+        resource.setrlimit(LIMITS[limit], (int(number), resource.getrlimit(LIMITS[limit])[1]))
 for number in (signal.SIGPIPE, signal.SIGXFSZ):  # Python ignores them, and what is ignored stays so
     signal.signal(number, signal.SIG_DFL)
 os.execv(sys.argv[2], sys.argv[2:])

@@ -78,14 +78,6 @@ TEST_F(SweepCommand, GoesOnWithTheMissingPoints) {
   EXPECT_EQ(file("out/results.csv"), before);
 }
 
-TEST_F(SweepCommand, ChangedScenarioStartsAnewWithAMessage) {
-  const std::string arguments = "--param user_cpu.cycle=50us,60us --out out";
-  ASSERT_EQ(sweep(arguments).status, 0);
-  write("s.yaml", std::string(kScenario) + "# changed\n");
-  EXPECT_THAT(sweep(arguments).err, HasSubstr("out is about another scenario or other content of its files: its points "
-                                              "are removed, the sweep starts again\n"));
-}
-
 TEST_F(SweepCommand, InterruptedItKeepsFinishedPointsOnlyAndExits130) {
   // The first point is short, the others would take hours; the signal comes when the bar has grown for the first.
   write("interrupt.sh",
