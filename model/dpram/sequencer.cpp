@@ -9,6 +9,8 @@ namespace dpram {
 namespace {
 
 constexpr int kHeaderMoves = 6;
+constexpr Cycle kQuietAccess =
+    kHeaderMoves + 1;  // cycles from the start of an access that finds nothing to do to its end
 constexpr int kVersionBytes = 4;
 constexpr std::uint8_t kVersion[kVersionBytes] = {regs::kVersionReset, regs::kVersionYearReset,
                                                   regs::kVersionMonthReset, regs::kVersionDayReset};
@@ -24,12 +26,12 @@ bool carries_data(std::uint8_t function) {
 
 void Sequencer::reset() {
   goto_phase(Phase::kOff, profibus::kNever);
-  initialised_ = valid_written_ = init_result_due1_ = init_result_due4_ = false;
+  initialised_ = dozing_ = valid_written_ = init_result_due1_ = init_result_due4_ = false;
   offline_written_ = 0;
   status3_written_ = chip_status1_ = chip_status4_ = status2_set_ = status2_clear_ = 0;
   accesses_ = outputs_overwritten_ = 0;
   longest_wait_ = 0;
-  told_user_ = profibus::kNever;
+  told_user_ = effect_ = profibus::kNever;
 }
 
 void Sequencer::start_up(Cycle now) {
@@ -37,18 +39,53 @@ void Sequencer::start_up(Cycle now) {
   phase_ = Phase::kDue;
 }
 
-void Sequencer::eval(Cycle now) {
-  if (!waiting()) return catch_up(now);
-  if (now >= due_ && !user_holds_) begin(now);
+bool Sequencer::eval(Cycle now) {
+  if (!waiting())
+    catch_up(now);
+  else if (now >= due_ && !user_holds_)
+    begin(now);
+  return effect_ == now;
 }
 
 Cycle Sequencer::next() const {
+  if (dozing_) return profibus::kNever;
   if (!waiting()) return visible_;
   return user_holds_ ? profibus::kNever : due_;
 }
 
 void Sequencer::catch_up(Cycle until) {
+  if (dozing_) make_up_accesses(until);
+  if (phase_ == Phase::kHeader && index_ == 0 && op_ + kHeaderMoves - 1 <= until) header_at_once();
   while (owns() && op_ <= until) move(op_++);
+}
+
+// --- dozing ----------------------------------------------------------------------------------------------------------
+
+bool Sequencer::may_doze() const {
+  constexpr std::uint8_t kUserCommands1 = regs::kUserCommand1Init | regs::kUserCommand1PrmVerdict |
+                                          regs::kUserCommand1CfgVerdict | regs::kUserCommand1Input |
+                                          regs::kUserCommand1Diag;
+  constexpr std::uint8_t kUserCommands2 = regs::kUserCommand2InputClear | regs::kUserCommand2C1 | regs::kUserCommand2C2;
+  return phase_ == Phase::kIdle && !user_holds_ && valid_written_ && nothing_due() &&
+         (ram_.read(regs::kUserCommand1) & kUserCommands1) == 0 &&
+         (ram_.read(regs::kUserCommand2) & kUserCommands2) == 0;
+}
+
+// The last one, of which `until` may see only a part, is carried out byte by byte.
+void Sequencer::make_up_accesses(Cycle until) {
+  while (owns() && op_ <= until) move(op_++);
+  if (owns() || due_ > until) return;
+  const Cycle period = std::max(interval_, kQuietAccess + 1);
+  const Cycle whole = (until - due_) / period;
+  accesses_ += static_cast<std::uint64_t>(whole);
+  if (whole > 0) ram_.write(regs::kAccessCount, kChipWasHere);
+  due_ += whole * period;
+  begin(due_);
+}
+
+void Sequencer::wake(Cycle now) {
+  catch_up(now);
+  dozing_ = false;
 }
 
 // --- the access ------------------------------------------------------------------------------------------------------
@@ -62,7 +99,7 @@ void Sequencer::begin(Cycle now) {
   if (phase_ == Phase::kDue)
     goto_phase(Phase::kStartUp, now + kStartUpMoves + 1);
   else
-    goto_phase(Phase::kHeader, now + kHeaderMoves + 1);
+    goto_phase(Phase::kHeader, now + kQuietAccess);
 }
 
 void Sequencer::end(Cycle now) {
@@ -118,53 +155,58 @@ void Sequencer::move_start_up(Cycle now) {
 }
 
 void Sequencer::move_header(Cycle now) {
-  switch (index_++) {
+  read_header(index_++);
+  if (index_ < kHeaderMoves) return;
+  item_ = Item::kInit;
+  goto_phase(Phase::kChoose, now + 1);
+}
+
+void Sequencer::read_header(int index) {
+  switch (index) {
     case 0: ram_.write(regs::kAccessCount, kChipWasHere); return;
     case 1: user_command1_ = ram_.read(regs::kUserCommand1); return;
     case 2: user_command2_ = ram_.read(regs::kUserCommand2); return;
     case 3: chip_command1_ = ram_.read(regs::kChipCommand1); return;
     case 4: chip_command2_ = ram_.read(regs::kChipCommand2); return;
-    default:
-      dpv1_ = ram_.read(regs::kDpv1Enable);
-      item_ = Item::kInit;
-      return goto_phase(Phase::kChoose, now + 1);
+    default: dpv1_ = ram_.read(regs::kDpv1Enable); return;
   }
+}
+
+// Nobody has looked meanwhile.
+void Sequencer::header_at_once() {
+  for (int index = 0; index < kHeaderMoves; ++index) read_header(index);
+  op_ += kHeaderMoves;
+  item_ = Item::kInit;
+  goto_phase(Phase::kChoose, op_);
 }
 
 // --- choosing --------------------------------------------------------------------------------------------------------
 
 void Sequencer::choose(Cycle now) {
-  while (item_ != Item::kNone && !due(item_, now)) next_item();
-  if (item_ == Item::kNone) return end(now);
+  const unsigned left = due_items(now) & ~(mask(item_) - 1);
+  if (left == 0) return end(now);
+  item_ = static_cast<Item>(__builtin_ctz(left));
   start(item_, now);
 }
 
-bool Sequencer::due(Item item, Cycle now) const {
+// What an access that chooses at `now` finds to do, as far as it has read the user's commands.
+unsigned Sequencer::due_items(Cycle now) const {
   const profibus::UserMail& mail = user_.mail();
-  switch (item) {
-    case Item::kInit: return (user_command1_ & regs::kUserCommand1Init) != 0;
-    case Item::kPrmVerdict: return (user_command1_ & regs::kUserCommand1PrmVerdict) != 0;
-    case Item::kCfgVerdict: return (user_command1_ & regs::kUserCommand1CfgVerdict) != 0;
-    case Item::kInputClear: return (user_command2_ & regs::kUserCommand2InputClear) != 0;
-    case Item::kInput: return (user_command1_ & regs::kUserCommand1Input) != 0;
-    case Item::kDiag: return (user_command1_ & regs::kUserCommand1Diag) != 0;
-    case Item::kC1Answer: return (user_command2_ & regs::kUserCommand2C1) != 0;
-    case Item::kC2Answer: return (user_command2_ & regs::kUserCommand2C2) != 0;
-    case Item::kPrm: return mail.prm.due.before(now);
-    case Item::kCfg: return mail.cfg.due.before(now);
-    case Item::kOutput: return mail.output.due.before(now);
-    case Item::kC1Request: return mail.c1.due.before(now);
-    case Item::kC2Request: return mail.c2.due.before(now);
-    case Item::kValidFlag: return !valid_written_ && start_ >= origin_ + ready_cycles_;
-    case Item::kOfflineHigh: return (mail.state.exchanges_left ^ offline_written_) > 0xFF;
-    case Item::kOfflineLow: return ((mail.state.exchanges_left ^ offline_written_) & 0xFF) != 0;
-    case Item::kChipStatus1: return init_result_due1_;
-    case Item::kChipStatus2: return (status2_set_ | status2_clear_) != 0;
-    case Item::kChipStatus3: return status3() != status3_written_;
-    case Item::kChipStatus4: return init_result_due4_;
-    case Item::kNone: return false;
-  }
-  return false;
+  const auto when = [](Item item, bool due) { return due ? mask(item) : 0U; };
+  const auto command1 = [&](Item item, unsigned flag) { return when(item, (user_command1_ & flag) != 0); };
+  const auto command2 = [&](Item item, unsigned flag) { return when(item, (user_command2_ & flag) != 0); };
+  const unsigned offline = static_cast<unsigned>(mail.state.exchanges_left ^ offline_written_);
+  return command1(Item::kInit, regs::kUserCommand1Init) | command1(Item::kPrmVerdict, regs::kUserCommand1PrmVerdict) |
+         command1(Item::kCfgVerdict, regs::kUserCommand1CfgVerdict) |
+         command2(Item::kInputClear, regs::kUserCommand2InputClear) | command1(Item::kInput, regs::kUserCommand1Input) |
+         command1(Item::kDiag, regs::kUserCommand1Diag) | command2(Item::kC1Answer, regs::kUserCommand2C1) |
+         command2(Item::kC2Answer, regs::kUserCommand2C2) | when(Item::kPrm, mail.prm.due.before(now)) |
+         when(Item::kCfg, mail.cfg.due.before(now)) | when(Item::kOutput, mail.output.due.before(now)) |
+         when(Item::kC1Request, mail.c1.due.before(now)) | when(Item::kC2Request, mail.c2.due.before(now)) |
+         when(Item::kValidFlag, !valid_written_ && start_ >= origin_ + ready_cycles_) |
+         when(Item::kOfflineHigh, offline > 0xFF) | when(Item::kOfflineLow, (offline & 0xFF) != 0) |
+         when(Item::kChipStatus1, init_result_due1_) | when(Item::kChipStatus2, (status2_set_ | status2_clear_) != 0) |
+         when(Item::kChipStatus3, status3() != status3_written_) | when(Item::kChipStatus4, init_result_due4_);
 }
 
 const Sequencer::Area& Sequencer::area(Item item) {
@@ -320,6 +362,7 @@ void Sequencer::commit(Cycle now) {
   command = static_cast<std::uint8_t>(command & ~area(item_).flag);
   ram_.write(acyclic ? regs::kUserCommand2 : regs::kUserCommand1, command);
   goto_phase(Phase::kChoose, now + 1);
+  effect_ = now;
   const bool too_long = image_size_ == 0;
   switch (item_) {
     case Item::kInit: too_long ? refuse_length(now) : commit_init(now); break;
@@ -337,6 +380,7 @@ void Sequencer::flag(Cycle now) {
   std::uint8_t& command = acyclic ? chip_command2_ : chip_command1_;
   command = static_cast<std::uint8_t>(command | area(item_).flag);
   ram_.write(acyclic ? regs::kChipCommand2 : regs::kChipCommand1, command);
+  effect_ = now;
   if (item_ == Item::kPrm || item_ == Item::kCfg) told_user_ = now;  // P7
   next_item();
   goto_phase(Phase::kChoose, now + 1);

@@ -4,7 +4,8 @@
 // profibus::UserSide. How the user comes to the DPRAM, by strobes or by telegrams, it does not know.
 //
 // Bytes move lazily: `next()` is the next cycle whose effect somebody else can see, and the moves between are made up
-// for then (or earlier, by catch_up, when somebody looks at the DPRAM).
+// for then (or earlier, by catch_up, when somebody looks at the DPRAM). Where nobody sees owns(), whole accesses that
+// find nothing to do are made up, too: the sequencer dozes.
 #include <array>
 
 #include "model/dpram/ram.hpp"
@@ -31,11 +32,22 @@ class Sequencer {
   /// begins meanwhile; one that has begun goes on to its end.
   void user_holds(bool holds) { user_holds_ = holds; }
 
-  /// The rising edge of `now`.
-  void eval(Cycle now);
-  /// Makes up for the byte moves up to and including `until`.
+  /// The rising edge of `now`. True when the station or the user has something from it.
+  bool eval(Cycle now);
+  /// Makes up for the byte moves, and the accesses while dozing, up to and including `until`.
   void catch_up(Cycle until);
   Cycle next() const;
+
+  /// Between two accesses, with nothing for the next ones to do: only the user or the station changes that.
+  bool may_doze() const;
+  /// Neither the station's mail nor a status byte waits for an access.
+  bool nothing_due() const { return due_items(profibus::kNever) == 0; }
+  /// No access is an event until wake(). The caller sees to it that nobody looks at owns() and that catch_up() goes
+  /// before every act of the user or the station; only when may_doze().
+  void doze() { dozing_ = true; }
+  bool dozing() const { return dozing_; }
+  /// Everything up to and including `now` is made up, and accesses are events again.
+  void wake(Cycle now);
 
   bool owns() const { return phase_ > Phase::kIdle; }       ///< an access of the chip is under way
   bool started_up() const { return phase_ > Phase::kDue; }  ///< the start-up access of this reset has begun
@@ -101,14 +113,18 @@ class Sequencer {
 
   // access
   bool waiting() const { return phase_ == Phase::kIdle || phase_ == Phase::kDue; }
+  void make_up_accesses(Cycle until);
   void begin(Cycle now);
   void end(Cycle now);
   void move(Cycle now);  // the byte move of one cycle
   void move_start_up(Cycle now);
   void move_header(Cycle now);
+  void read_header(int index);
+  void header_at_once();
   // choosing
   void choose(Cycle now);
-  bool due(Item item, Cycle now) const;
+  unsigned due_items(Cycle now) const;
+  static constexpr unsigned mask(Item item) { return 1U << static_cast<unsigned>(item); }
   void start(Item item, Cycle now);
   void next_item() { item_ = static_cast<Item>(static_cast<int>(item_) + 1); }
   void start_read(Cycle now, const Area& area);
@@ -141,7 +157,7 @@ class Sequencer {
   Ram& ram_;
   profibus::UserSide& user_;
   const Cycle interval_, ready_cycles_;
-  bool user_holds_ = false;
+  bool user_holds_ = false, dozing_ = false;
   Cycle told_user_ = profibus::kNever;
 
   Phase phase_ = Phase::kOff;
@@ -150,6 +166,7 @@ class Sequencer {
   Cycle start_ = 0, due_ = 0;
   Cycle op_ = 0;  // the cycle of the next byte move
   Cycle visible_ = profibus::kNever;
+  Cycle effect_ = profibus::kNever;  // the last cycle at which a block took effect or was flagged
   int index_ = 0;
   std::array<std::uint8_t, 256> image_{};  // the block in work, from its first byte
   int image_size_ = 0;                     // without the CRC

@@ -36,9 +36,21 @@ profibus::StationConfig station_of(const Config& config) {
 
 constexpr std::uint32_t bit(Pin pin, bool level) { return level ? mask(pin) : 0; }
 
+constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
+
 }  // namespace
 
 struct Chip::Impl {
+  // When each block does something next, kept by whoever calls it: asked far more often than changed. A block that is
+  // called where it says that nothing happens does nothing, so Engine::kSkip calls those that are due, and
+  // Engine::kStep, which trusts none of these, all of them.
+  struct Plan {
+    Cycle release = kNever;  // cycle R
+    Cycle host = kNever, handshake = kNever, sequencer = kNever, station = kNever, interrupt = kNever;
+
+    Cycle earliest() const { return std::min({release, host, handshake, sequencer, station, interrupt}); }
+  };
+
   explicit Impl(const Config& config)
       : engine(config.engine),
         station(log, station_of(config)),
@@ -52,10 +64,20 @@ struct Chip::Impl {
   void set_reset(Tick at, bool high);
   void advance(Tick to);
   Tick next_event() const { return std::min(next_edge(), host.drive_at()); }
-  Tick next_edge() const { return engine == Engine::kStep ? (done + 1) * kTicksPerCycle : planned_edge; }
+  Tick next_edge() const { return engine == Engine::kStep ? next_cycle() : planned_edge; }
+  Tick next_cycle() const { return first_edge_after(now) * kTicksPerCycle; }
+  Cycle done() const { return now / kTicksPerCycle; }  // the last rising edge that is over
+  bool due(Cycle next, Cycle cycle) const { return next <= cycle || engine == Engine::kStep; }
   void plan();
-  void apply(Tick at, Pin pin, Level value);
+  bool apply(Tick at, Pin pin, Level value);
+  void set_handshake(Tick at, bool req, bool sta);
   void rising_edge(Cycle cycle);
+  void release(Cycle cycle);
+  void eval_sequencer(Cycle cycle);
+  void eval_station(Cycle cycle);
+  void doze_if_unseen();
+  void wake();
+  void catch_up();
   void enter_reset(Tick at);
   std::uint32_t edge_outputs() const;
   void publish_edge_outputs(Tick at, std::uint32_t levels);
@@ -75,10 +97,9 @@ struct Chip::Impl {
   PinSink sink;
   std::uint32_t watched = 0;
   Tick now = 0;
-  Cycle done = 0;  // the last rising edge that was evaluated
   Tick planned_edge = kNever;
+  Plan plans;
   bool reset_pin = false, running = false, r_req = false, r_sta = false, rxd = true;
-  Cycle release_at = kNever;  // cycle R
   std::uint32_t outputs = kResetLevels;
   Level d_out = kLevelZ;
 };
@@ -87,60 +108,68 @@ struct Chip::Impl {
 
 void Chip::Impl::set(Tick at, Pin pin, Level value) {
   advance(at);
-  apply(at, pin, value);
-  plan();
+  if (apply(at, pin, value)) plan();
 }
 
-void Chip::Impl::apply(Tick at, Pin pin, Level value) {
+// False: no block has another plan now.
+bool Chip::Impl::apply(Tick at, Pin pin, Level value) {
   const bool high = value != 0;
   switch (pin) {
-    case Pin::kReset: return set_reset(at, high);
-    case Pin::kRReq:
-      r_req = high;
-      host.set_handshake(r_req, r_sta);
-      return handshake.set_r_req(at, high);
-    case Pin::kRSta:
-      if (r_sta == high) return;
-      r_sta = high;
-      host.set_handshake(r_req, r_sta);
-      handshake.set_r_sta(at, high);
-      return report_ownership(at);
-    case Pin::kPbrxd: rxd = high; return station.set_rxd(at, high);
+    case Pin::kPbrxd:
+      rxd = high;
+      if (!station.set_rxd(at, high)) return false;
+      plans.station = station.next();
+      return true;
+    case Pin::kReset: set_reset(at, high); return true;
+    case Pin::kRReq: set_handshake(at, high, r_sta); return true;
+    case Pin::kRSta: set_handshake(at, r_req, high); return true;
     default: break;
   }
-  if (value == host.level(pin)) return;
+  if (value == host.level(pin)) return false;
   host.set(at, pin, value);
+  plans.host = host.next();
   publish_data(at);
+  return true;
+}
+
+void Chip::Impl::set_handshake(Tick at, bool req, bool sta) {
+  wake();
+  const bool sta_changes = sta != r_sta;
+  r_req = req;
+  r_sta = sta;
+  host.set_handshake(r_req, r_sta);
+  handshake.set_r_req(at, r_req);
+  handshake.set_r_sta(at, r_sta);
+  plans.handshake = handshake.next();
+  if (sta_changes) report_ownership(at);
 }
 
 void Chip::Impl::set_reset(Tick at, bool high) {
   if (high == reset_pin) return;
   reset_pin = high;
   if (high)
-    release_at = first_edge_after(at) + kResetSynchroniser;
+    plans.release = first_edge_after(at) + kResetSynchroniser;
   else
     enter_reset(at);
 }
 
 void Chip::Impl::enter_reset(Tick at) {
   running = false;
-  release_at = kNever;
-  sequencer.catch_up(done);  // the RAM keeps what was written before RESET fell (H6)
+  sequencer.catch_up(done());  // the RAM keeps what was written before RESET fell (H6)
   sequencer.reset();
   station.reset();
   interrupt.reset();
   host.reset();
+  plans = {kNever, host.next(), handshake.next(), sequencer.next(), station.next(), interrupt.next()};
   publish_edge_outputs(at, kResetLevels);
   publish_data(at);
 }
 
 // --- time ------------------------------------------------------------------------------------------------------------
 
-// Asked far more often than changed, so it is kept: by everybody who calls a block.
 void Chip::Impl::plan() {
-  const Cycle cycle =
-      std::min({release_at, station.next(), host.next(), interrupt.next(), handshake.next(), sequencer.next()});
-  planned_edge = cycle == kNever ? kNever : std::max(cycle, done + 1) * kTicksPerCycle;
+  const Cycle cycle = plans.earliest();
+  planned_edge = cycle == kNever ? kNever : std::max(cycle * kTicksPerCycle, next_cycle());
 }
 
 void Chip::Impl::advance(Tick to) {
@@ -155,35 +184,82 @@ void Chip::Impl::advance(Tick to) {
     }
   }
   now = std::max(now, to);
-  done = std::max(done, now / kTicksPerCycle);
 }
 
 // The order of the blocks within one cycle: docs/microarchitecture.md.
 void Chip::Impl::rising_edge(Cycle cycle) {
-  done = cycle;
-  if (host.next() <= cycle) {
-    sequencer.catch_up(cycle - 1);
+  if (due(plans.host, cycle)) {
+    sequencer.wake(cycle - 1);  // what the user writes may be a command
     host.eval(cycle, sequencer.owns() || !sequencer.started_up());
+    plans.host = host.next();
+    plans.sequencer = sequencer.next();
   }
-  const bool released = cycle == release_at;
-  if (released) {
-    release_at = kNever;
-    running = true;
-    host.release();
-    sequencer.start_up(cycle);
-  }
-  handshake.eval(cycle);
-  sequencer.user_holds(handshake.user_holds());
-  sequencer.eval(cycle);
+  const bool released = cycle == plans.release;
+  if (released) release(cycle);
+  if (due(std::min(plans.handshake, plans.sequencer), cycle)) eval_sequencer(cycle);
   if (released && !sequencer.started_up())
     log.at_cycle(cycle, Reason::kHeldThroughReset, handshake.r_req(), handshake.r_sta());  // H6
-  if (sequencer.told_user() == cycle) interrupt.trigger(cycle);                            // P7
-  station.eval(cycle);
-  interrupt.eval(cycle);
+  if (due(plans.station, cycle)) eval_station(cycle);
+  if (due(plans.interrupt, cycle)) {
+    interrupt.eval(cycle);
+    plans.interrupt = interrupt.next();
+  }
   if (!running) return;
   const bool owned = (outputs & mask(Pin::kLSta)) != 0;
   publish_edge_outputs(cycle * kTicksPerCycle, edge_outputs());
   if (!owned) report_ownership(cycle * kTicksPerCycle);
+}
+
+void Chip::Impl::release(Cycle cycle) {
+  running = true;
+  host.release();
+  sequencer.start_up(cycle);
+  plans.release = kNever;
+  plans.sequencer = cycle;
+}
+
+void Chip::Impl::eval_sequencer(Cycle cycle) {
+  if (due(plans.handshake, cycle)) {
+    handshake.eval(cycle);
+    sequencer.user_holds(handshake.user_holds());
+    plans.handshake = handshake.next();
+  }
+  if (sequencer.eval(cycle)) {
+    if (sequencer.told_user() == cycle) interrupt.trigger(cycle);  // P7
+    plans.interrupt = interrupt.next();
+    plans.station = station.next();
+  }
+  doze_if_unseen();
+  plans.sequencer = sequencer.next();
+}
+
+// The sequencer acts before the station: what it dozes through up to this edge has not seen what the station does now.
+void Chip::Impl::eval_station(Cycle cycle) {
+  if (sequencer.dozing()) sequencer.catch_up(cycle);
+  station.eval(cycle);
+  plans.station = station.next();
+  if (!sequencer.dozing() || sequencer.nothing_due()) return;
+  sequencer.wake(cycle);
+  plans.sequencer = sequencer.next();
+}
+
+// An access that finds nothing to do is seen on L_REQ and L_STA only, and by who asks for the DPRAM.
+void Chip::Impl::doze_if_unseen() {
+  if (engine == Engine::kSkip && (watched & kAccessPins) == 0 && !r_req && !r_sta && handshake.next() == kNever &&
+      sequencer.may_doze())
+    sequencer.doze();
+}
+
+void Chip::Impl::wake() {
+  if (!sequencer.dozing()) return;
+  sequencer.wake(done());
+  plans.sequencer = sequencer.next();
+  outputs = edge_outputs();
+}
+
+void Chip::Impl::catch_up() {
+  sequencer.catch_up(done());
+  if (sequencer.dozing()) outputs = edge_outputs();
 }
 
 // --- outputs ---------------------------------------------------------------------------------------------------------
@@ -244,9 +320,14 @@ Level Chip::sample(Tick at) {
 }
 Tick Chip::next_event() const { return impl_->next_event(); }
 Tick Chip::now() const { return impl_->now; }
-Level Chip::level(Pin pin) const { return impl_->level(pin); }
+Level Chip::level(Pin pin) const {
+  if ((mask(pin) & kAccessPins) != 0) impl_->catch_up();
+  return impl_->level(pin);
+}
 
 void Chip::watch(const PinSink& sink, std::uint32_t pins) {
+  impl_->wake();
+  impl_->plan();
   impl_->sink = sink;
   impl_->watched = sink.call != nullptr ? pins & kOutputPins : 0;
 }
@@ -254,16 +335,19 @@ void Chip::watch(const PinSink& sink, std::uint32_t pins) {
 void Chip::on_event(const profibus::EventSink& sink) { impl_->log.attach(sink); }
 
 std::uint8_t Chip::peek(std::uint16_t address) const {
-  impl_->sequencer.catch_up(impl_->done);
+  impl_->catch_up();
   return impl_->ram.read(address);
 }
 
 void Chip::poke(std::uint16_t address, std::uint8_t value) {
-  impl_->sequencer.catch_up(impl_->done);
+  impl_->wake();
+  impl_->plan();
+  impl_->catch_up();
   impl_->ram.write(address, value);
 }
 
 Status Chip::status() const {
+  impl_->catch_up();
   const profibus::Station& station = impl_->station;
   Status status;
   status.dp_state = station.slave().state();

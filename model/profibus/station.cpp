@@ -28,38 +28,51 @@ void Station::reset() {
   fdl_.forget();
   tx_.abort();
   received_ = answered_ = 0;
+  plan_timers();
 }
 
 void Station::initialise(Cycle now, const SlaveConfig& config) {
-  rxd_.eval(now);  // the sequencer acts before the station, and the receiver restarts with the level of this very edge
   tx_.abort();
   slave_.initialise(now, config);
   start_search(now);
 }
 
 Cycle Station::next() const {
-  Cycle next = std::min(rxd_.next(), tx_.next());
-  if (!running()) return next;
-  next = std::min({next, search_.next(), watchdog_.next(), slave_.next_timer()});
-  return tx_.rts() ? next : std::min({next, rx_.next(), telegrams_.next(rx_.receiving())});
+  if (!running()) return tx_.next();
+  const Cycle next = std::min(tx_.next(), timers_);
+  if (tx_.rts()) return next;
+  const Cycle decision = telegrams_.deadline();
+  return std::min({next, rx_.next(), rx_.receiving(decision) ? kNever : decision});
+}
+
+void Station::plan_timers() { timers_ = std::min({search_.next(), watchdog_.next(), slave_.next_timer()}); }
+
+/// Nothing is lost: the edges up to now are those of a character in progress, or nobody listens.
+void Station::make_room(Tick at) {
+  const Cycle now = at / kTicksPerCycle;
+  if (listening())
+    rx_.eval(now);
+  else
+    rx_.skip(now);
 }
 
 void Station::eval(Cycle now) {
-  rxd_.eval(now);
   if (running()) {
     if (!tx_.rts()) listen(now);
     watch(now);
-    if (!tx_.rts() && telegrams_.eval(now, rx_.receiving())) decide(now, telegrams_.telegram());
+    const bool decided = !tx_.rts() && telegrams_.eval(now, rx_.receiving(now));
+    if (decided) decide(now, telegrams_.telegram());
+    if (decided || now >= timers_) plan_timers();
   }
   const bool was_sending = tx_.rts();
-  if (tx_.eval(now)) rx_.restart(search_.bit(), tx_.end() + kLoopDelay, rxd_.level());
+  if (tx_.eval(now)) rx_.restart(search_.bit(), now, tx_.end() + kLoopDelay);
   if (was_sending || !tx_.rts()) return;
   ++answered_;
   telegrams_.cut(now);  // half duplex: what comes now is our own echo
 }
 
 void Station::listen(Cycle now) {
-  if (rx_.eval(now, rxd_.level())) telegrams_.character(now, rx_.character(), rx_.bit());
+  if (rx_.eval(now)) telegrams_.character(now, rx_.character(), rx_.bit());
 }
 
 // --- baud rate and watchdog (S1) -------------------------------------------------------------------------------------
@@ -73,7 +86,7 @@ void Station::start_search(Cycle now) {
 }
 
 void Station::select_rate(Cycle now) {
-  rx_.restart(search_.bit(), now, rxd_.level());
+  rx_.restart(search_.bit(), now, now);
   telegrams_.restart();
   telegrams_.set_quiet(search_.searching());
   fdl_.forget();

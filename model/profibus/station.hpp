@@ -4,7 +4,6 @@
 #include "model/profibus/baud_search.hpp"
 #include "model/profibus/dp_slave.hpp"
 #include "model/profibus/fdl.hpp"
-#include "model/profibus/synchroniser.hpp"
 #include "model/profibus/telegram_rx.hpp"
 #include "model/profibus/uart_rx.hpp"
 #include "model/profibus/uart_tx.hpp"
@@ -27,7 +26,11 @@ class Station {
   Station(const Station&) = delete;  // its parts know each other
   Station& operator=(const Station&) = delete;
 
-  void set_rxd(Tick at, bool level) { rxd_.set(at, level); }
+  /// PBRXD changes at `at`; every rising edge up to then has been evaluated. False: next() is what it was.
+  bool set_rxd(Tick at, bool level) {
+    if (rx_.full()) make_room(at);
+    return rx_.set_line(at, level);
+  }
   /// Reset: everything as at power-on.
   void reset();
   /// The rising edge of `now`.
@@ -49,6 +52,9 @@ class Station {
   friend class UserSide;  // carries out its commands
   void initialise(Cycle now, const SlaveConfig& config);
   bool running() const { return slave_.state() != DpState::kOffline; }
+  bool listening() const { return running() && !tx_.rts(); }
+  void make_room(Tick at);
+  void plan_timers();
   void listen(Cycle now);
   void select_rate(Cycle now);
   void watch(Cycle now);
@@ -60,7 +66,6 @@ class Station {
 
   EventLog& log_;
   StationConfig config_;
-  Synchroniser rxd_{true};
   UartRx rx_;
   TelegramRx telegrams_;
   BaudSearch search_;
@@ -69,6 +74,8 @@ class Station {
   DpSlave slave_;
   Fdl fdl_;
   UartTx tx_;
+  Cycle timers_ =
+      kNever;  // when search, watchdog or a timer of C2 is over next: kept, as it is asked at every bit sent
   std::uint64_t received_ = 0, answered_ = 0;
 };
 

@@ -39,7 +39,8 @@ class TelegramRx {
   /// The edge of `now`; `receiving`: a character is being sampled. True when a telegram is decided (S10): see
   /// telegram().
   bool eval(Cycle now, bool receiving);
-  Cycle next(bool receiving) const { return receiving || !in_telegram() ? kNever : deadline_; }
+  /// When the telegram in progress is decided if no character begins until then, kNever without one.
+  Cycle deadline() const { return in_telegram() ? deadline_ : kNever; }
   const Telegram& telegram() const { return telegram_; }
 
  private:

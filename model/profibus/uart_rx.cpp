@@ -3,61 +3,89 @@
 namespace profibus {
 namespace {
 
-constexpr int kParityIndex = 9;
+constexpr Cycle kSynchroniser = 2;  // P9: what edge m sampled, the logic uses at edge m+2
 constexpr int kStopIndex = 10;
 
 bool odd_ones(unsigned bits) { return (__builtin_popcount(bits) & 1) != 0; }
 
 }  // namespace
 
-void UartRx::restart(int bit, Cycle idle_since, bool line) {
-  state_ = line ? State::kIdle : State::kBreak;
-  line_ = line;
+bool UartRx::set_line(Tick at, bool level) {
+  if (level == input_) return false;
+  input_ = level;
+  const Cycle visible = first_edge_after(at) + kSynchroniser;
+  const unsigned last = (first_ + count_ - 1) % kDepth;
+  if (count_ > 0 && edges_[last] == visible)
+    --count_;  // there and back between two edges
+  else
+    edges_[(first_ + count_++) % kDepth] = visible;
+  return count_ <= 2;  // nobody looks at more than the first two
+}
+
+void UartRx::skip(Cycle now) {
+  while (edge() <= now) drop_edge();
+}
+
+void UartRx::restart(int bit, Cycle now, Cycle idle_since) {
+  skip(now);
+  state_ = line_ ? State::kIdle : State::kBreak;
   bit_ = bit;
   idle_since_ = idle_since;
 }
 
-bool UartRx::eval(Cycle now, bool line) {
-  const bool fell = line_ && !line;
-  line_ = line;
-  switch (state_) {
-    case State::kIdle:
-      if (fell) start(now);
-      return false;
-    case State::kReceiving: return now == sample_ && sample(line);
-    case State::kBreak:
-      if (line) {
-        state_ = State::kIdle;
-        idle_since_ = now;
-      }
-      return false;
+Cycle UartRx::next() const {
+  const Cycle half = bit_ / 2, to_stop = Cycle{kStopIndex} * bit_;
+  if (state_ == State::kReceiving && index_ == 0 && (line_ || edge() <= sample_)) return sample_;
+  if (state_ == State::kReceiving) return sample_ + to_stop - Cycle{index_} * bit_;
+  if (state_ == State::kBreak || second_edge() - half <= edge()) return edge();  // maybe no start bit, or none at all
+  return edge() + half + to_stop;
+}
+
+// Edges and sampling points in their order; at one cycle the edge comes first.
+bool UartRx::eval(Cycle now) {
+  for (;;) {
+    const Cycle change = edge();
+    if (state_ == State::kReceiving && sample_ < change) {
+      if (sample_ > now) return false;
+      if (sample()) return true;
+    } else {
+      if (change > now) return false;
+      take_edge();
+    }
   }
-  return false;
 }
 
-void UartRx::start(Cycle now) {
-  state_ = State::kReceiving;
-  character_.start = now;
-  character_.idle = now - idle_since_;
-  index_ = 0;
-  shift_ = 0;
-  sample_ = now + bit_ / 2;
+void UartRx::take_edge() {
+  const Cycle now = edge();
+  drop_edge();
+  if (state_ == State::kIdle) {
+    state_ = State::kReceiving;
+    character_.start = now;
+    character_.idle = now - idle_since_;
+    index_ = 0;
+    shift_ = 0;
+    sample_ = now + bit_ / 2;
+  } else if (state_ == State::kBreak) {
+    state_ = State::kIdle;
+    idle_since_ = now;
+  }
 }
 
-bool UartRx::sample(bool line) {
+bool UartRx::sample() {
   sample_ += bit_;
-  if (index_ == 0 && line) {  // the start bit is gone at its middle: a glitch, idle goes on (S10)
+  if (index_ == 0 && line_) {  // the start bit is gone at its middle: a glitch, idle goes on (S10)
     state_ = State::kIdle;
     return false;
   }
-  if (index_ >= 1 && index_ <= kParityIndex) shift_ |= static_cast<unsigned>(line) << (index_ - 1);
-  if (index_++ < kStopIndex) return false;
-
-  character_.value = static_cast<std::uint8_t>(shift_ & 0xFF);
+  if (index_ < kStopIndex) {
+    shift_ |= static_cast<unsigned>(line_) << index_++;
+    return false;
+  }
+  character_.value = static_cast<std::uint8_t>(shift_ >> 1);
   character_.parity_ok = !odd_ones(shift_);
-  character_.stop_ok = line;
+  character_.stop_ok = line_;
   idle_since_ = character_.start + Cycle{kBitsPerCharacter} * bit_;
-  state_ = line ? State::kIdle : State::kBreak;
+  state_ = line_ ? State::kIdle : State::kBreak;
   return true;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
-// The receiving half of the UART bit engine: start bit search, mid-bit sampling, even parity, stop bit (rulings S2,
-// S10).
+// The receiving half of the UART bit engine: two flip-flops, start bit search, mid-bit sampling, even parity, stop bit
+// (rulings P9, S2, S10). An edge of the line is only noted; a character is decided once, at its last sampling point,
+// from the edges noted until then.
+#include <array>
+
 #include "model/profibus/baud.hpp"
 
 namespace profibus {
@@ -16,28 +19,50 @@ struct Character {
 
 class UartRx {
  public:
-  /// Forgets a character in progress and samples with `bit` cycles a bit from now on. Idle counts from `idle_since` if
-  /// the line is high, else from its next rise.
-  void restart(int bit, Cycle idle_since, bool line);
-  /// The edge of `now` with the synchronised line. True when a character is complete: see character().
-  bool eval(Cycle now, bool line);
-  /// The next sampling point, kNever while waiting for an edge of the line.
-  Cycle next() const { return state_ == State::kReceiving ? sample_ : kNever; }
+  /// The line changes at `at`, not before an earlier call's. Pulses that no rising edge samples vanish. Not when
+  /// full(). False: next() and receiving() are what they were, as with most edges within a character.
+  bool set_line(Tick at, bool level);
+  /// No room for a further edge: those that the logic has seen are to be used by eval() or dropped by skip().
+  bool full() const { return count_ == kDepth; }
+  /// The line as the logic sees it at `now`, without receiving.
+  void skip(Cycle now);
+
+  /// Forgets a character in progress and samples with `bit` cycles a bit from `now` on. Idle counts from `idle_since`
+  /// if the line is high, else from its next rise.
+  void restart(int bit, Cycle now, Cycle idle_since);
+  /// The edge of `now`. True when a character is complete: see character().
+  bool eval(Cycle now);
+  /// The next edge at which eval() does something that others see.
+  Cycle next() const;
+  /// A character is being sampled at `at` or begins then, as far as the edges noted say. eval() was called up to now.
+  bool receiving(Cycle at) const { return state_ == State::kReceiving || (state_ == State::kIdle && edge() <= at); }
 
   const Character& character() const { return character_; }
-  bool receiving() const { return state_ == State::kReceiving; }
   int bit() const { return bit_; }
 
  private:
   enum class State : std::uint8_t { kIdle, kReceiving, kBreak };
-  void start(Cycle now);
-  bool sample(bool line);
+  // A break has no end, so edges are consumed as they come; within a character there are at most ten that count. More
+  // are noise: set_line's caller makes room.
+  static constexpr unsigned kDepth = 16;
+  Cycle edge() const { return count_ > 0 ? edges_[first_] : kNever; }
+  Cycle second_edge() const { return count_ > 1 ? edges_[(first_ + 1) % kDepth] : kNever; }
+  void drop_edge() {
+    first_ = (first_ + 1) % kDepth;
+    --count_;
+    line_ = !line_;
+  }
+  void take_edge();
+  bool sample();
 
-  State state_ = State::kIdle;
-  bool line_ = true;
+  std::array<Cycle, kDepth> edges_{};  // at which the logic sees the line change, from line_ on
+  unsigned first_ = 0, count_ = 0;
+  bool line_ = true, input_ = true;
+
+  State state_ = State::kIdle;  // kIdle: line_ is high
   int bit_ = kBitCycles[0];
   int index_ = 0;       // 0 start bit, 1..8 data, 9 parity, 10 stop
-  unsigned shift_ = 0;  // data and parity, first bit lowest
+  unsigned shift_ = 0;  // start bit, data and parity, first bit lowest
   Cycle sample_ = kNever;
   Cycle idle_since_ = 0;
   Character character_;

@@ -57,8 +57,8 @@ void UartTx::shift() {
     return;
   }
   txd_ = (frame_ & 1U) != 0;
-  int run = 1;
-  while (run < frame_bits_ && ((frame_ >> run) & 1U) == (frame_ & 1U)) ++run;
+  const unsigned other = txd_ ? ~frame_ : frame_;  // its lowest one is the next bit of the other level
+  const int run = __builtin_ctz(other | 1U << frame_bits_);
   frame_ >>= run;
   frame_bits_ -= run;
   next_ += static_cast<Cycle>(run) * bit_;

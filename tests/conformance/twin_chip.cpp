@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "registers/dsdpv1_regs.hpp"
+
 namespace conformance {
 namespace {
 
@@ -26,14 +28,16 @@ bool same(const profibus::Event& a, const profibus::Event& b) {
 }
 
 template <typename T>
-void compare_lists(const std::vector<T>& skip, const std::vector<T>& step, std::size_t& compared) {
-  for (; compared < skip.size() && compared < step.size(); ++compared) {
-    ASSERT_TRUE(same(skip[compared], step[compared]))
-        << "skip: " << words(skip[compared]) << "\nstep: " << words(step[compared]);
+void compare_lists(const std::vector<T>& skip, const std::vector<T>& other, std::size_t& compared, const char* name) {
+  for (; compared < skip.size() && compared < other.size(); ++compared) {
+    ASSERT_TRUE(same(skip[compared], other[compared])) << "skip: " << words(skip[compared]) << "\n"
+                                                       << name << ": " << words(other[compared]);
   }
-  ASSERT_EQ(skip.size(), step.size()) << "one engine did more, first: "
-                                      << words(skip.size() > step.size() ? skip[compared] : step[compared]);
+  ASSERT_EQ(skip.size(), other.size()) << "skip or " << name << " did more, first: "
+                                       << words(skip.size() > other.size() ? skip[compared] : other[compared]);
 }
+
+constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
 
 }  // namespace
 
@@ -42,23 +46,29 @@ TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines
       station_(segment.attach("chip", this)),
       twin_(engines == Engines::kStepAndSkip),
       skip_(with_engine(config, dsdpv1::Engine::kSkip)),
-      step_(with_engine(config, dsdpv1::Engine::kStep)) {
+      step_(with_engine(config, dsdpv1::Engine::kStep)),
+      doze_(with_engine(config, dsdpv1::Engine::kSkip)) {
   skip_.watch({&on_skip_pin, this}, twin_ ? dsdpv1::kOutputPins : mask(Pin::kPbtxd) | mask(Pin::kPbrts));
   step_.watch({&on_step_pin, this}, dsdpv1::kOutputPins);
+  doze_.watch({&on_doze_pin, this}, dsdpv1::kOutputPins & ~kAccessPins);
   skip_.on_event({&on_skip_event, this});
   step_.on_event({&on_step_event, this});
+  doze_.on_event({&on_doze_event, this});
 }
 
 void TwinChip::set(Tick at, Pin pin, Level level) {
   announce();
   skip_.set(at, pin, level);
-  if (twin_) step_.set(at, pin, level);
+  if (!twin_) return;
+  step_.set(at, pin, level);
+  doze_.set(at, pin, level);
 }
 
 Level TwinChip::sample(Tick at) {
   announce();
   const Level level = skip_.sample(at);
   if (twin_) EXPECT_EQ(step_.sample(at), level) << "at tick " << at;
+  if (twin_) EXPECT_EQ(doze_.sample(at), level) << "at tick " << at;
   return level;
 }
 
@@ -69,19 +79,39 @@ void TwinChip::compare(Tick at) {
   skip_.advance(at);
   if (!twin_) return;
   step_.advance(at);
-  compare_lists(trace_, step_trace_, compared_pins_);
-  compare_lists(events_, step_events_, compared_events_);
+  doze_.advance(at);
+  compare_lists(trace_, step_trace_, compared_pins_, "step");
+  compare_lists(events_, step_events_, compared_events_, "step");
+  compare_lists(unwatched_trace_, doze_trace_, compared_doze_pins_, "doze");
+  compare_lists(events_, doze_events_, compared_doze_events_, "doze");
+  compare_state();
+}
+
+// To look at the dozing chip must not wake it, and what it made up must be what the others did.
+void TwinChip::compare_state() const {
+  for (const Pin pin : {Pin::kLReq, Pin::kLSta}) ASSERT_EQ(doze_.level(pin), step_.level(pin)) << dsdpv1::name(pin);
+  ASSERT_EQ(doze_.status().accesses, step_.status().accesses);
+  ASSERT_EQ(doze_.peek(dsdpv1::regs::kAccessCount), step_.peek(dsdpv1::regs::kAccessCount));
 }
 
 void TwinChip::on_skip_pin(void* self, Tick at, Pin pin, Level level) {
   auto& twin = *static_cast<TwinChip*>(self);
   if (twin.twin_) twin.trace_.push_back({at, pin, level});
+  if (twin.twin_ && (mask(pin) & kAccessPins) == 0) twin.unwatched_trace_.push_back({at, pin, level});
   if (pin != Pin::kPbtxd && pin != Pin::kPbrts) return;
   twin.segment_.drive(twin.station_, at, twin.skip_.level(Pin::kPbrts) != 0, twin.skip_.level(Pin::kPbtxd) != 0);
 }
 
 void TwinChip::on_step_pin(void* self, Tick at, Pin pin, Level level) {
   static_cast<TwinChip*>(self)->step_trace_.push_back({at, pin, level});
+}
+
+void TwinChip::on_doze_pin(void* self, Tick at, Pin pin, Level level) {
+  static_cast<TwinChip*>(self)->doze_trace_.push_back({at, pin, level});
+}
+
+void TwinChip::on_doze_event(void* self, const profibus::Event& event) {
+  static_cast<TwinChip*>(self)->doze_events_.push_back(event);
 }
 
 void TwinChip::on_skip_event(void* self, const profibus::Event& event) {

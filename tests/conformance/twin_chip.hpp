@@ -1,7 +1,7 @@
 #pragma once
-// The chip under test, twice: one evaluated in every cycle (step), one sleeping between its actions (skip), fed with
-// the same pins. Every difference of pins or events fails the test, so each conformance test also proves that the two
-// engines agree.
+// The chip under test, three times: one evaluated in every cycle (step), one sleeping between its actions (skip), and
+// one whose L_REQ and L_STA nobody watches, so that it sleeps through quiet accesses, too (doze); fed with the same
+// pins. Every difference of pins or events fails the test, so each conformance test also proves that they agree.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -24,7 +24,7 @@ struct PinChange {
   bool operator==(const PinChange& other) const { return at == other.at && pin == other.pin && level == other.level; }
 };
 
-/// Whether the chip has its twin. Alone, in skip, it keeps no trace either: for long campaigns.
+/// Whether the chip has its twins. Alone, in skip, it keeps no trace either: for long campaigns.
 enum class Engines : std::uint8_t { kStepAndSkip, kSkipAlone };
 
 class TwinChip : public bus::Agent, public bus::Listener {
@@ -53,14 +53,17 @@ class TwinChip : public bus::Agent, public bus::Listener {
   static void on_step_pin(void* self, Tick at, Pin pin, Level level);
   static void on_skip_event(void* self, const profibus::Event& event);
   static void on_step_event(void* self, const profibus::Event& event);
+  static void on_doze_pin(void* self, Tick at, Pin pin, Level level);
+  static void on_doze_event(void* self, const profibus::Event& event);
+  void compare_state() const;
 
   bus::Segment& segment_;
   bus::StationId station_;
   const bool twin_;
-  dsdpv1::Chip skip_, step_;
-  std::vector<PinChange> trace_, step_trace_;
-  std::vector<profibus::Event> events_, step_events_;
-  std::size_t compared_pins_ = 0, compared_events_ = 0;
+  dsdpv1::Chip skip_, step_, doze_;
+  std::vector<PinChange> trace_, step_trace_, unwatched_trace_, doze_trace_;  // unwatched: trace_ without L_REQ, L_STA
+  std::vector<profibus::Event> events_, step_events_, doze_events_;
+  std::size_t compared_pins_ = 0, compared_events_ = 0, compared_doze_pins_ = 0, compared_doze_events_ = 0;
 };
 
 }  // namespace conformance

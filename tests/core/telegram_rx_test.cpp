@@ -52,7 +52,7 @@ struct Bench {
         rx.character(now, {sent.start, sent.idle, sent.value, sent.parity_ok, sent.stop_ok}, bit);
       }
       const bool receiving = i < line.size() && now >= line[i].start;
-      if (sparse && !complete && now < rx.next(receiving)) continue;
+      if (sparse && !complete && (receiving || now < rx.deadline())) continue;
       if (!rx.eval(now, receiving)) continue;
       decided.push_back(now);
       const Telegram& telegram = rx.telegram();

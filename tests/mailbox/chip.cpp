@@ -73,7 +73,10 @@ void Chip::Impl::set(Tick at, Pin pin, Level value) {
 void Chip::Impl::apply(Tick at, Pin pin, bool high) {
   switch (pin) {
     case Pin::kReset: return set_reset(at, high);
-    case Pin::kPbrxd: rxd = high; return station.set_rxd(at, high);
+    case Pin::kPbrxd:
+      rxd = high;
+      station.set_rxd(at, high);
+      return;
     case Pin::kXss:
     case Pin::kSck:
     case Pin::kMosi: port.set(at, pin, high); return publish_miso(at);
