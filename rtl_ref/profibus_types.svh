@@ -68,7 +68,7 @@ localparam logic [7:0] SAP_SET_PRM = 8'd61;
 localparam logic [7:0] SAP_CHECK_CFG = 8'd62;
 
 // Most that a telegram to or from a SAP carries: data bytes behind the two SAPs; user parameters behind the standard bytes of Set_Prm;
-// data of a DPV1 PDU behind its four bytes. What a chip holds of each is a parameter of station, these at most.
+// data of a DPV1 PDU behind its four bytes. What a chip holds of the first two is a parameter of station, these at most.
 localparam logic [7:0] MOST_DATA = 8'd244;
 localparam logic [7:0] MOST_PRM = 8'd237;
 localparam logic [7:0] MOST_ACYCLIC = 8'd240;

@@ -9,7 +9,7 @@ module handshake (
   input  logic r_sta_i,
   output logic l_req_o,
   output logic l_sta_o,
-  output logic user_holds_o,  // asks for the DPRAM or holds it: either pin is enough (H2)
+  output logic user_holds_o,  // asks for the DPRAM or holds it: either pin is enough (H1)
   input  logic owns_i         // the chip; from a register, as the pins are
 );
   logic r_req, r_sta, r_sta_seen;

@@ -1,6 +1,6 @@
 #pragma once
-// Who hears what happens on the bench: log, waves, checks, trace, script. The bench tells all of them the same, in the
-// order in which they were added, and knows none of them otherwise.
+// Who hears what happens at chips and on the line: log, waves, checks, trace, script. The bench tells all of them the
+// same, in the order in which they were added. It builds and finishes them, and what is only for the log it says there.
 #include <optional>
 #include <string>
 #include <vector>

@@ -48,6 +48,8 @@ class ChipKind {
   /// As documents call it.
   virtual const char* title() const = 0;
   virtual const PinTable& pins() const = 0;
+  /// Bytes of the longest configuration that it holds; by default all that the protocol has.
+  virtual int most_cfg() const { return 244; }
 
   // --- Scenarios. Objects are those of `ObjectOf<S>` with S the settings that the next function makes.
   /// Parameters of the chip itself, under `chip`.

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "driver/dsdpv1.h"
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/dsdpv1/checks/checks.hpp"
 #include "tb/dsdpv1/codes.hpp"
@@ -26,6 +27,7 @@ class Dsdpv1Kind : public ChipMaker {
   const char* name() const override { return "dsdpv1"; }
   const char* title() const override { return "DSDPV1"; }
   const PinTable& pins() const override { return dsdpv1_pins(); }
+  int most_cfg() const override { return DSDPV1_MAX_CFG; }
 
   const keys::Object& chip_keys() const override { return dsdpv1_chip_keys(); }
   std::unique_ptr<OwnSettings> make_chip_settings() const override { return std::make_unique<Dsdpv1Settings>(); }

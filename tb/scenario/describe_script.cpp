@@ -147,7 +147,7 @@ std::vector<Choice> action_choices(const ChipKind& kind) {
   return choices;
 }
 
-void describe_values(ObjectOf<Action>& o) {
+void describe_values(ObjectOf<Action>& o, const ChipKind& kind) {
   using A = Action;
   using user_cpu::DiagnosisKind;
   o.name_of("slave", &A::slave, "Name of the slave.");
@@ -166,7 +166,7 @@ void describe_values(ObjectOf<Action>& o) {
   o.integer("new_address", &A::new_address, {0, 255}, "", "The new station address.");
   o.integer("ident", &A::ident, {0, 0xFFFF}, "", "Ident number in the telegram; left out: the right one.");
   o.boolean("lock", &A::lock, "No_Add_Chg: no further change of the address.");
-  o.bytes("cfg", &A::cfg, {1, 200}, "The new configuration.");
+  o.bytes("cfg", &A::cfg, {1, kind.most_cfg()}, "The new configuration.");
   o.time("for", &A::duration, {1, 10 * bus::kTicksPerSecond}, "How long; of reset_chip left out: 10us.");
   o.integer("times", &A::times, {1, 1000}, "", "How many.");
   o.word("of", &A::of,
@@ -221,7 +221,7 @@ ObjectOf<Action> describe_actions(const ChipKind& kind) {
   o.time("at", &Action::at, kAnyTime, "When, from the start of the run.");
   o.object("when", &Action::when, when_keys(), "Once, as soon as this is true.");
   describe_action(o, kind);
-  describe_values(o);
+  describe_values(o, kind);
   describe_blocks(o, kind);
   describe_global_control(o);
   o.selector = "do";

@@ -26,8 +26,10 @@ ObjectOf<InitData> describe_init(const ChipKind& kind) {
             "User diagnosis without the standard 6 bytes; above 238 the chip refuses.");
   o.integer("max_prm", &I::max_prm, {0, 255}, "bytes",
             "User parameters without the standard 7 bytes; above 237 the chip refuses.");
-  o.integer("max_cfg", &I::max_cfg, {0, 255}, "bytes", "Most configuration bytes; above 200 the chip refuses.");
-  o.bytes("cfg", &I::cfg, {1, 200}, "Initial configuration; left out: that of the modules.");
+  const int most_cfg = kind.most_cfg();
+  o.integer("max_cfg", &I::max_cfg, {0, 255}, "bytes",
+            ("Most configuration bytes; above " + std::to_string(most_cfg) + " the chip refuses.").c_str());
+  o.bytes("cfg", &I::cfg, {1, most_cfg}, "Initial configuration; left out: that of the modules.");
   o.integer("prm_mode", &I::prm_mode, {0, 255}, "",
             "Who judges parameters (table 13): 0 length at most max_prm, 1 length equal, 2 the user.");
   o.integer("cfg_mode", &I::cfg_mode, {0, 255}, "",

@@ -14,9 +14,9 @@ struct StationConfig {
   std::uint8_t max_input = 244, max_output = 244;  ///< bytes of cyclic data, 0..244
   std::uint8_t max_diag = 238;                     ///< user diagnosis, 0..238
   std::uint8_t max_prm = 237;                      ///< user parameters, 0..237
-  std::uint8_t max_cfg = 200;                      ///< 1..200
+  std::uint8_t max_cfg = 244;                      ///< 1..244; many a chip holds less
   std::uint8_t prm_mode = 0, cfg_mode = 0;         ///< who judges: 0 length, 1 equality, 2 the user
-  std::vector<std::uint8_t> cfg = {0x10, 0x20};    ///< at most 200 bytes
+  std::vector<std::uint8_t> cfg = {0x10, 0x20};    ///< at most max_cfg bytes
 };
 
 }  // namespace user_cpu

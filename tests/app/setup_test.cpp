@@ -22,14 +22,16 @@ TEST(Setup, StationFollowsTheGsdAndItsModules) {
   EXPECT_EQ(station.cfg, (bus::Bytes{0x17, 0x61}));
   EXPECT_EQ(station.max_input, 244);
   EXPECT_EQ(station.max_diag, 238);
+  EXPECT_EQ(station.max_cfg, 200) << "the chip's, the GSD does not say it";
   EXPECT_TRUE(station.sync);
 }
 
 TEST(Setup, InitOverridesTheGsd) {
-  const auto scenario =
-      parse("gsd: dsdpv1.gsd, init: {max_inputs: 8, sync: false, ident: 0x1234, cfg: \"30\"}", "slave: demo");
+  const auto scenario = parse(
+      "gsd: dsdpv1.gsd, init: {max_inputs: 8, max_cfg: 3, sync: false, ident: 0x1234, cfg: \"30\"}", "slave: demo");
   const auto station = tb::Setup(scenario).station(scenario.slaves[0]);
   EXPECT_EQ(station.max_input, 8);
+  EXPECT_EQ(station.max_cfg, 3);
   EXPECT_FALSE(station.sync);
   EXPECT_EQ(station.ident, 0x1234);
   EXPECT_EQ(station.cfg, bus::Bytes{0x30});

@@ -9,6 +9,7 @@
 #include "tb/bench/record.hpp"
 #include "tests/mailbox/chip.hpp"
 #include "tests/mailbox/reasons.hpp"
+#include "tests/mailbox/spi_port.hpp"
 #include "tests/mailbox/user.hpp"
 
 namespace mailbox {
@@ -127,6 +128,7 @@ class Kind : public tb::ChipMaker {
  public:
   const char* name() const override { return "mailbox"; }
   const char* title() const override { return "8-byte mailbox"; }
+  int most_cfg() const override { return kCapacities.cfg; }
   const tb::PinTable& pins() const override {
     static const tb::PinTable table = [] {
       tb::PinTable pins;

@@ -27,6 +27,7 @@ constexpr Tick kReset = 1'007, kEnd = 2000 * kUs, kAbortAt = 200 * kUs, kAbort =
 
 user_cpu::ProgramOptions options() {
   user_cpu::ProgramOptions options;
+  options.station.max_cfg = DSDPV1_MAX_CFG;
   options.inputs = user_cpu::InputSource::kCount;
   options.start_delay = 2 * kReset;  // sooner, and he holds off the chip's start-up (H6)
   return options;

@@ -39,6 +39,7 @@ class OnChip : public testing::TestWithParam<dsdpv1::Engine> {
                           this});
     timeline.check_announcements();
     timeline.add(chip);
+    options.station.max_cfg = DSDPV1_MAX_CFG;
   }
 
   void start() {

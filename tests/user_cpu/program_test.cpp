@@ -56,6 +56,7 @@ class Program : public testing::Test {
   using Bytes = std::vector<std::uint8_t>;
   static constexpr Tick kMs = bus::kTicksPerMs;
 
+  Program() { options.station.max_cfg = DSDPV1_MAX_CFG; }
   void start() {
     program = std::make_unique<user_cpu::UserProgram>(options);
     cpu = std::make_unique<user_cpu::NativeCpu>(host, user_cpu::CpuTiming{}, program->entry());

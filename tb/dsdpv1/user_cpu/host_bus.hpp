@@ -14,8 +14,8 @@ struct Access {
   std::uint8_t value = 0;     ///< of a write
 };
 
-/// Implemented by PinHostBus on the pins of the core, and by whoever has a socket instead: such a bus has one edge, at
-/// the tick at which the chip carries the access out (RD's sampling, WR's rise), and does its transport call there.
+/// Implemented by PinHostBus on the pins of the core, and by whoever has a socket instead: such a bus has one edge, the
+/// end of the access.
 ///
 /// Calls come in order of time. All of them are made from `bus::Agent::run` of the CPU, on the stack of the bench.
 class HostBus {
