@@ -100,7 +100,7 @@ ObjectOf<Scenario> describe_scenario(const ChipKind& kind) {
   o.list("masters", &Scenario::masters, master_keys(), {0, 4},
          "The DP masters class 1. Several at a time, and those beside masters of class 2, need `bus: {ring: true}`.");
   o.list("masters2", &Scenario::masters2, master2_keys(), {0, 4}, "The DP masters class 2.");
-  o.list("slaves", &Scenario::slaves, slave_keys(kind), {1, 32}, "The chips, each with its user CPU.").required = true;
+  o.list("slaves", &Scenario::slaves, slave_keys(kind), {1, 125}, "The chips, each with its user CPU.").required = true;
   o.list("script", &Scenario::script, action_keys(kind), kItems, "What happens during the run.");
   o.list("expect", &Scenario::expect, expectation_keys(), kItems, "What must be true, else the run fails (exit 1).");
   o.list("allow", &Scenario::allow, allow_keys(), kItems,
