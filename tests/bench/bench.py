@@ -156,12 +156,12 @@ def run(arguments):
         folder = pathlib.Path(name)
         scenarios.write_all(folder)
         outcomes, times = measure(arguments.rows, arguments.rounds, arguments.clock, folder)
+        print("\n".join([*table.lines(outcomes), "", table.calibration_line(times)]), flush=True)
         if arguments.document:
             write_whole(PAGE, page.performance_page(outcomes, times, arguments.rounds, arguments.clock, machine(),
                                                        hot_spots.profile(folder)))
     if arguments.json:
         write_whole(arguments.json, json.dumps(table.report(outcomes, times, arguments.rounds, arguments.clock, machine()), indent=2) + "\n")
-    print("\n".join([*table.lines(outcomes), "", table.calibration_line(times)]))
     return 0 if all(outcome.met for outcome in outcomes) else 1
 
 

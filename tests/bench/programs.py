@@ -31,7 +31,7 @@ def call(command, cwd=None):
     except OSError as error:
         raise Failed(f"{pathlib.Path(command[0]).name} cannot be run: {error.strerror}") from error
     if done.returncode != 0:
-        raise Failed(first_line(done.stderr, done.stdout) or f"{pathlib.Path(command[0]).name} ended with {done.returncode}")
+        raise Failed(first_line(done.stderr, done.stdout).replace(f"{ROOT}/", "") or f"{pathlib.Path(command[0]).name} ended with {done.returncode}")
     return done.stdout
 
 
