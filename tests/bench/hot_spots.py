@@ -20,8 +20,8 @@ def sampled(folder):
 
 
 def blocks():
-    """File name to its block: folder of model/ and name without ending, so that a block's header and source are one."""
-    return {path.name: f"{path.parent.name}/{path.stem}" for path in (ROOT / "model").glob("*/*.[ch]pp") if path.parent.name != "systemc"}
+    """File name to its block, of which header and source are one: model/profibus/uart_rx.*"""
+    return {path.name: f"model/{path.parent.name}/{path.stem}.*" for path in (ROOT / "model").glob("*/*.[ch]pp") if path.parent.name != "systemc"}
 
 
 def shares(printed, names):
