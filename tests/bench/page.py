@@ -33,12 +33,12 @@ of its rows, and `--json FILE` leaves it for programs. The goals are those of th
 """
 
 CLOCKS = {"wall": "wall time (`wall_s` of its result) where `dsdpv1-sim` runs",
-          "cpu": "and CPU time, the start of the program included, where `dsdpv1-sim` runs (`--clock cpu`; the default is wall time, which counts what "
-                 "others do on the machine)"}
+          "cpu": "and CPU time, the start of the program included, where `dsdpv1-sim` runs (`--clock cpu`; the default is wall time, which counts "
+                 "what others do on the machine)"}
 
-METHOD = ("Speeds are simulated time by the time that it took: CPU time where a program of `tests/bench/` measures, {clock}. A value is the median of "
-          "{rounds} rounds, behind it the least and the greatest. In each round every row is measured once, and the two sides of a ratio follow each "
-          "other. Ratios travel from one machine to another, times do not.")
+METHOD = ("Speeds are simulated time by the time that it took: CPU time where a program of `tests/bench/` measures, {clock}. A value is the median "
+          "of {rounds} rounds, behind it the least and the greatest. In each round every row is measured once, and the two sides of a ratio follow "
+          "each other. Ratios travel from one machine to another, times do not.")
 
 TIME = """
 ## Where the time goes
@@ -84,6 +84,7 @@ def where_time_goes(shares, note):
 
 def performance_page(outcomes, times, rounds, clock, description, profile):
     method = METHOD.format(clock=CLOCKS[clock], rounds=rounds)
-    text = HEAD.format(method=paragraph(method), machine=machine(description), calibration=paragraph(calibration(times)), rows="\n".join(map(table_row, outcomes)), met=sum(each.met for each in outcomes), count=len(outcomes),
+    text = HEAD.format(method=paragraph(method), machine=machine(description), calibration=paragraph(calibration(times)),
+                       rows="\n".join(map(table_row, outcomes)), met=sum(each.met for each in outcomes), count=len(outcomes),
                        meanings="\n".join(markdown_row([f"`{each.row.name}`", each.row.what]) for each in outcomes))
     return text + where_time_goes(*profile)
