@@ -85,7 +85,8 @@ ROWS = (
            real_time("arm_board_12m", *OFF), targets=("dsdpv1_firmware",)),
     of_sim("fst", 1.5, "demo with an FST wave against demo without.", time_ratio(DEMO, WAVE, OFF), unit="times as long", at_most=True),
     Row("lockstep", 80, "%", "Random lockstep as `rtl-random --seed 1 --jobs 1` does it: its cycles per second as a share of those of the same "
-        "Verilated RTL alone, which gets the same inputs from a recording; in turns, in one process, in CPU time.", in_program("bench_rtl", "lockstep"), RTL),
+        "Verilated RTL alone, which gets the same inputs from a recording; in turns, in one process, in CPU time.",
+        in_program("bench_rtl", "lockstep"), RTL),
     of_sim("start", 50, "`dsdpv1-sim --version`, from the call to the end.", lambda turn: turn.start(), unit="ms", at_most=True),
     Row("chip", 64, "KB", "All the memory that one chip has.", in_program("bench_core", "chip"), ("bench_core",), at_most=True),
 )
