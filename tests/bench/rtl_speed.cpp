@@ -5,6 +5,7 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/cosim/campaign.hpp"
 #include "tb/dsdpv1/cosim/random_setup.hpp"
+#include "tb/dsdpv1/cosim/random_stimulus.hpp"
 #include "tb/dsdpv1/cosim/reference_rtl.hpp"
 #include "tests/bench/programs.hpp"
 #include "tests/bench/rtl_alone.hpp"
@@ -59,7 +60,7 @@ double core_vs_rtl() {
 }
 
 // ----------------------------------------------------------------------------------------------------------- lockstep
-constexpr std::uint64_t kSeed = 1, kCycles = 400'000;
+constexpr std::uint64_t kSeed = 1, kCycles = 1'000'000;
 
 /// What was at the inputs of one RTL: evaluations in a row with nothing new but the clock, then other levels.
 struct Recording {
@@ -99,10 +100,18 @@ class RecordingTop : public cosim::RtlTop {
 
 std::unique_ptr<cosim::RtlTop> make_rtl() { return cosim::make_reference_rtl(cosim::quick_config(), kSeed); }
 
-std::uint64_t campaign(const cosim::MakeTop& make) {
-  const cosim::CampaignResult result = cosim::run_campaign({kSeed, kCycles, 1}, make);
+/// A case as the campaign of rtl-random plays it.
+std::uint64_t play_case(std::uint64_t number, const cosim::MakeTop& make) {
+  const cosim::Stimulus stimulus = cosim::random_stimulus(cosim::case_seed(kSeed, number));
+  const cosim::PlayResult result = cosim::play(stimulus, make, cosim::quick_options());
   if (result.difference) throw Failure("model and RTL differ: " + result.difference->what);
   return result.counts.cycles;
+}
+
+Recording record_case(std::uint64_t number) {
+  Recording recording;
+  play_case(number, [&recording] { return std::make_unique<RecordingTop>(make_rtl(), recording); });
+  return recording;
 }
 
 void play_alone(const Recording& recording) {
@@ -117,18 +126,24 @@ void play_alone(const Recording& recording) {
   }
 }
 
+/// The sides take turns with each case, and who is first changes as well.
 double lockstep() {
-  std::vector<std::unique_ptr<Recording>> recordings;
-  campaign([&recordings] {
-    recordings.push_back(std::make_unique<Recording>());
-    return std::make_unique<RecordingTop>(make_rtl(), *recordings.back());
-  });
-  const Stopwatch first;
-  for (const auto& recording : recordings) play_alone(*recording);
-  const double alone = first.seconds();
-  const Stopwatch second;
-  campaign(make_rtl);
-  return 100 * alone / second.seconds();
+  double alone = 0, together = 0;
+  std::uint64_t cycles = 0;
+  const auto play_together = [&](std::uint64_t number) {
+    const Stopwatch watch;
+    cycles += play_case(number, make_rtl);
+    together += watch.seconds();
+  };
+  for (std::uint64_t number = 0; cycles < kCycles; ++number) {
+    const Recording recording = record_case(number);
+    if (number % 2 == 0) play_together(number);
+    const Stopwatch watch;
+    play_alone(recording);
+    alone += watch.seconds();
+    if (number % 2 != 0) play_together(number);
+  }
+  return 100 * alone / together;
 }
 
 }  // namespace
