@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""The speed table: what has been asked for, measured in rounds, judged, printed. ./run bench builds the programs and calls it."""
+import argparse
+import json
+import os
+import pathlib
+import re
+import sys
+import tempfile
+
+import hot_spots
+import page
+import programs
+import rows
+import scenarios
+import table
+
+EXAMPLES = """examples:
+  ./run bench
+  ./run bench --only core_16,demo --rounds 9
+  ./run bench --json out/bench.json
+  ./run bench --clock cpu           # others work on this machine
+  ./run bench --list
+  ./run bench --document            # writes docs/performance.md
+
+The table is tab-separated: row, value, goal, met or not, min..max. Exit codes: 0 every measured row meets its goal, 1 one does not or cannot be
+measured, 2 wrong input.
+"""
+PAGE = programs.ROOT / "docs" / "performance.md"
+MOST_ROUNDS = 1000
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        self.exit(2, f"bench: {message}\n")
+
+
+def some_rows(text):
+    names = [name for name in text.split(",") if name]
+    unknown = [name for name in names if name not in rows.NAMES]
+    if unknown or not names:
+        raise argparse.ArgumentTypeError(f"unknown row {unknown[0] if unknown else '(none)'}, allowed are {', '.join(rows.NAMES)}")
+    return [row for row in rows.ROWS if row.name in names]
+
+
+def some_rounds(text):
+    if not re.fullmatch(r"[0-9]{1,9}", text) or not 1 <= int(text) <= MOST_ROUNDS:
+        raise argparse.ArgumentTypeError(f"{text} is no number of rounds, allowed are 1 to {MOST_ROUNDS}")
+    return int(text)
+
+
+def some_file(text):
+    path = pathlib.Path(text)
+    if path.exists() and not path.is_file():
+        raise argparse.ArgumentTypeError(f"{text} is no file that can be replaced")
+    if not os.access(path.parent, os.W_OK | os.X_OK):
+        raise argparse.ArgumentTypeError(f"{text} cannot be written: its folder is not there or not writable")
+    return path
+
+
+def parse(words):
+    parser = Parser(prog="./run bench", description="Measures how fast the project is, and judges it by its goals.", epilog=EXAMPLES,
+                    formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
+    parser.add_argument("--json", type=some_file, metavar="FILE", help="also writes the table, with every round's values, as JSON")
+    parser.add_argument("--only", type=some_rows, metavar="ROW[,ROW]", help="measures these rows only")
+    parser.add_argument("--rounds", type=some_rounds, default=5, metavar="N", help="rounds whose median is taken; default 5")
+    parser.add_argument("--clock", choices=("wall", "cpu"), default="wall",
+                        help="which time of dsdpv1-sim counts: wall (default), or CPU time where others use the machine; start is always wall")
+    parser.add_argument("--list", action="store_true", help="prints the rows, their goals and what they do")
+    parser.add_argument("--document", action="store_true", help="also writes docs/performance.md; all rows are measured")
+    parser.add_argument("--targets", action="store_true", help=argparse.SUPPRESS)  # for ./run: what to build
+    arguments = parser.parse_args(words)
+    if arguments.document and (arguments.only or arguments.rounds < 5):
+        parser.error("--document needs all rows and at least 5 rounds, so --only and fewer --rounds are not allowed with it")
+    arguments.rows = arguments.only or list(rows.ROWS)
+    return arguments
+
+
+# ------------------------------------------------------------------------------------------------------------ measuring
+class Progress:
+    """On a terminal one line that is written over itself, else a line a round."""
+
+    def __init__(self, rounds):
+        self.rounds = rounds
+        self.terminal = sys.stderr.isatty()
+
+    def row(self, turn, name):
+        if self.terminal:
+            print(f"\rbench: round {turn} of {self.rounds}, {name:20}", end="", file=sys.stderr, flush=True)
+
+    def round(self, turn):
+        if not self.terminal:
+            print(f"bench: round {turn} of {self.rounds}", file=sys.stderr, flush=True)
+
+    def end(self):
+        if self.terminal:
+            print(f"\r{'':60}\r", end="", file=sys.stderr, flush=True)
+
+
+def measure_row(outcome, turn):
+    """A row that has failed once is not tried again."""
+    if outcome.error:
+        return
+    try:
+        outcome.values.append(outcome.row.measure(turn))
+    except programs.Failed as failure:
+        outcome.error = str(failure)
+
+
+def measure(chosen, rounds, clock, folder):
+    """Outcomes, and the calibration's times before, between and after the rows."""
+    outcomes, times, progress = [table.Outcome(row, []) for row in chosen], [], Progress(rounds)
+    for number in range(1, rounds + 1):
+        progress.round(number)
+        turn = programs.Round(folder, clock)
+        for outcome in outcomes:
+            progress.row(number, outcome.row.name)
+            times.append(programs.calibration())
+            measure_row(outcome, turn)
+    times.append(programs.calibration())
+    progress.end()
+    return outcomes, times
+
+
+# -------------------------------------------------------------------------------------------------------------- results
+def machine():
+    """In general words."""
+    try:
+        text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        text = ""
+    model = re.search(r"^model name\s*:\s*(.+)$", text, re.M)
+    return {"cpu": model.group(1).strip() if model else "an unknown processor", "cores": os.cpu_count() or 1}
+
+
+def write_whole(path, text):
+    """Complete or not at all."""
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.chmod(name, 0o644)
+        os.replace(name, path)
+    except BaseException:
+        os.unlink(name)
+        raise
+
+
+def describe_rows(chosen):
+    for row in chosen:
+        print(f"{row.name}\t{table.goal(row)}\t{row.what}")
+
+
+def run(arguments):
+    with tempfile.TemporaryDirectory(prefix="bench-") as name:
+        folder = pathlib.Path(name)
+        scenarios.write_all(folder)
+        outcomes, times = measure(arguments.rows, arguments.rounds, arguments.clock, folder)
+        print("\n".join([*table.lines(outcomes), "", table.calibration_line(times)]), flush=True)
+        if arguments.document:
+            write_whole(PAGE, page.performance_page(outcomes, times, arguments.rounds, arguments.clock, machine(),
+                                                       hot_spots.profile(folder)))
+    if arguments.json:
+        write_whole(arguments.json, json.dumps(table.report(outcomes, times, arguments.rounds, arguments.clock, machine()), indent=2) + "\n")
+    return 0 if all(outcome.met for outcome in outcomes) else 1
+
+
+def main(words):
+    arguments = parse(words)
+    if arguments.targets:
+        print("\n".join(rows.targets_of(arguments.rows) + (["bench_profile"] if arguments.document else [])))
+        return 0
+    if arguments.list:
+        describe_rows(arguments.rows)
+        return 0
+    try:
+        return run(arguments)
+    except programs.Failed as failure:  # of the calibration
+        print(f"bench: {failure}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"bench: {error.filename}: {error.strerror}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

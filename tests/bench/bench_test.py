@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""The logic of the speed table on made-up measurements: what is met, what is written, what is refused. Nothing is measured here."""
+import contextlib
+import io
+import json
+import pathlib
+import tempfile
+import unittest
+from unittest import mock
+
+import bench
+import hot_spots
+import page
+import programs
+import rows
+import scenarios
+import table
+
+
+def row(name="speed", goal=10, at_most=False, measure=None):
+    return rows.Row(name, goal, "x real time", "What it does.", measure, ("bench_core",), at_most)
+
+
+def outcome(*values, error="", **others):
+    return table.Outcome(row(**others), list(values), error)
+
+
+def called(*words):
+    """Exit code, standard output, standard error of ./run bench."""
+    out, errors = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
+        try:
+            status = bench.main(list(words))
+        except SystemExit as end:
+            status = end.code
+    return status, out.getvalue(), errors.getvalue()
+
+
+class Judging(unittest.TestCase):
+    def test_the_value_is_the_median(self):
+        self.assertEqual(outcome(9, 1, 5).value, 5)
+        self.assertEqual(outcome(1, 2, 4, 9).value, 3)
+
+    def test_a_goal_is_met_from_its_number_on(self):
+        self.assertEqual([outcome(value).met for value in (9.99, 10, 11)], [False, True, True])
+
+    def test_a_goal_that_is_at_most_is_met_up_to_its_number(self):
+        self.assertEqual([outcome(value, at_most=True).met for value in (9.99, 10, 11)], [True, True, False])
+
+    def test_a_failed_row_is_not_met_and_shows_why(self):
+        failed = outcome(11, error="no such thing")
+        self.assertFalse(failed.met)
+        self.assertEqual(table.cells(failed), ["speed", "failed", "at least 10 x real time", "not met", "no such thing"])
+
+    def test_cells_are_row_value_goal_met_and_range(self):
+        self.assertEqual(table.cells(outcome(12.345, 11, 1234)), ["speed", "12.3", "at least 10 x real time", "met", "11..1234"])
+        self.assertEqual(table.cells(outcome(0.5, at_most=True))[2], "at most 10 x real time")
+
+    def test_a_spread_of_more_than_a_tenth_is_busy(self):
+        self.assertFalse(table.is_busy([100, 110]))
+        self.assertTrue(table.is_busy([100, 111]))
+        self.assertIn("the machine was busy", table.calibration_line([100, 120]))
+
+
+class Measuring(unittest.TestCase):
+    """The whole program with rows and a calibration of its own."""
+
+    def bench(self, *words, measured=(), times=lambda: 20.0):
+        with mock.patch.object(rows, "ROWS", tuple(measured)), mock.patch.object(rows, "NAMES", tuple(each.name for each in measured)), \
+                mock.patch.object(programs, "calibration", times):
+            return called(*words)
+
+    def test_every_row_is_measured_in_every_round(self):
+        values = iter([3, 30, 4, 40, 5, 50])
+        measured = [row("slow", measure=lambda turn: next(values)), row("quick", measure=lambda turn: next(values))]
+        status, out, _ = self.bench("--rounds", "3", measured=measured)
+        self.assertEqual(status, 1)
+        self.assertEqual(out.splitlines()[:3], ["row\tvalue\tgoal\tmet\tmin..max", "slow\t4\tat least 10 x real time\tnot met\t3..5",
+                                                "quick\t40\tat least 10 x real time\tmet\t30..50"])
+
+    def test_all_met_is_exit_0(self):
+        self.assertEqual(self.bench(measured=[row(measure=lambda turn: 11)])[0], 0)
+
+    def test_the_calibration_stands_before_between_and_after_the_rows(self):
+        calls = []
+        measured = [row(name, measure=lambda turn, name=name: calls.append(name) or 11) for name in ("one", "two")]
+        self.bench("--rounds", "1", measured=measured, times=lambda: calls.append("time") or 20.0)
+        self.assertEqual(calls, ["time", "one", "time", "two", "time"])
+
+    def test_a_row_that_fails_is_said_and_is_exit_1(self):
+        def fail(turn):
+            raise programs.Failed("slaves has 125 items")
+
+        status, out, _ = self.bench(measured=[row("bad", measure=fail), row("good", measure=lambda turn: 11)])
+        self.assertEqual(status, 1)
+        self.assertIn("bad\tfailed\tat least 10 x real time\tnot met\tslaves has 125 items\n", out)
+        self.assertIn("good\t11\t", out)
+
+    def test_json_has_every_value(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "table.json")
+            self.bench("--json", str(file), "--rounds", "2", measured=[row(measure=lambda turn: 11)])
+            report = json.loads(file.read_text(encoding="utf-8"))
+            self.assertEqual([each.name for each in pathlib.Path(folder).iterdir()], ["table.json"])
+        self.assertEqual(report["rows"], [{"name": "speed", "goal": 10, "at_most": False, "unit": "x real time", "met": True, "value": 11, "min": 11,
+                                           "max": 11, "values": [11, 11]}])
+        self.assertEqual((report["rounds"], report["clock"], report["calibration"]["busy"]), (2, "wall", False))
+
+    def test_json_is_left_as_it_was_when_writing_fails(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "table.json")
+            file.write_text("before", encoding="utf-8")
+            with mock.patch("os.replace", side_effect=OSError(28, "No space left on device", str(file))):
+                status, _, errors = self.bench("--json", str(file), measured=[row(measure=lambda turn: 11)])
+            self.assertEqual((status, errors.count("\n")), (2, 6))  # a line a round, and the error
+            self.assertTrue(errors.endswith("table.json: No space left on device\n"))
+            self.assertEqual([each.read_text(encoding="utf-8") for each in pathlib.Path(folder).iterdir()], ["before"])
+
+    def test_only_the_asked_rows_are_measured(self):
+        measured = [row("one", measure=lambda turn: 11), row("two", measure=lambda turn: 11)]
+        self.assertNotIn("one", self.bench("--only", "two", measured=measured)[1])
+
+    def test_a_run_is_shared_in_a_round_and_made_again_in_the_next(self):
+        count = []
+        turn = programs.Round(pathlib.Path())
+        for _ in range(2):
+            turn.once("demo", lambda: count.append(1))
+        programs.Round(pathlib.Path()).once("demo", lambda: count.append(1))
+        self.assertEqual(len(count), 2)
+
+    def test_a_program_that_is_not_there_fails_its_row_in_one_line(self):
+        with self.assertRaisesRegex(programs.Failed, "^no_such_program cannot be run: No such file or directory$"):
+            programs.call(["/nowhere/no_such_program"])
+
+
+class CommandLine(unittest.TestCase):
+    def refuses(self, words, *arguments):
+        status, out, errors = called(*arguments)
+        self.assertEqual((status, out, errors.count("\n")), (2, "", 1), errors)
+        self.assertIn(words, errors)
+
+    def test_what_it_does_not_know_is_one_line_and_exit_2(self):
+        self.refuses("unknown row core_3, allowed are core_2, ", "--only", "core_2,core_3")
+        self.refuses("unknown row (none)", "--only", ",")
+        for rounds in ("0", "-1", "1001", "many", "²"):
+            self.refuses("is no number of rounds, allowed are 1 to 1000", f"--rounds={rounds}")
+        self.refuses("its folder is not there", "--json", "/nowhere/table.json")
+        self.refuses("is no file that can be replaced", "--json", "/")
+        self.refuses("--document needs all rows", "--document", "--only", "demo")
+        self.refuses("--document needs all rows", "--document", "--rounds", "4")
+        self.refuses("invalid choice: 'sun'", "--clock", "sun")
+        self.refuses("unrecognized arguments: --quick", "--quick")
+
+    def test_help_has_examples(self):
+        status, out, _ = called("--help")
+        self.assertEqual(status, 0)
+        self.assertIn("examples:\n  ./run bench\n", out)
+
+    def test_list_has_every_row_with_its_goal(self):
+        status, out, _ = called("--list")
+        self.assertEqual((status, [line.split("\t")[0] for line in out.splitlines()]), (0, list(rows.NAMES)))
+        self.assertIn("chip\tat most 64 KB\t", out)
+
+    def test_only_what_the_rows_need_is_built(self):
+        self.assertEqual(called("--targets", "--only", "core_2")[1].split(), ["bench_core"])
+        self.assertEqual(called("--targets", "--only", "arm")[1].split(), ["bench_core", "dsdpv1-sim", "dsdpv1_firmware"])
+
+
+class Scenarios(unittest.TestCase):
+    def test_all_stations_have_addresses_of_their_own_besides_the_masters(self):
+        slaves = scenarios.SCENARIOS["slaves_125"]["slaves"]
+        self.assertEqual([each["address"] for each in slaves], list(range(1, 126)))
+
+    def test_configuration_is_for_all_bytes(self):
+        for io in (2, 8, 16, 32, 244):
+            self.assertEqual(sum((each & 0x0F) + 1 for each in scenarios.identifiers(io)), io)
+
+    def test_idle_slaves_are_served_by_nobody(self):
+        idle = scenarios.SCENARIOS["with_idle"]
+        self.assertEqual((len(idle["slaves"]), len(idle["masters"][0]["slaves"])), (scenarios.IDLE + 1, 1))
+
+
+class Page(unittest.TestCase):
+    def test_samples_go_to_the_block_of_their_file(self):
+        printed = ("# Overhead  Source File\n    40.00%  chip.cpp\n    30.50%  uart_rx.cpp\n     4.50%  uart_rx.hpp\n"
+                   "    24.30%  array\n     0.70%  fdl.cpp\n")
+        names = {"chip.cpp": "dsdpv1/chip", "uart_rx.cpp": "profibus/uart_rx", "uart_rx.hpp": "profibus/uart_rx", "fdl.cpp": "profibus/fdl"}
+        self.assertEqual([(block, round(share, 1)) for block, share in hot_spots.shares(printed, names)],
+                         [("dsdpv1/chip", 40), ("profibus/uart_rx", 35), ("elsewhere", 25)])
+
+    def test_every_source_of_the_core_is_in_a_block(self):
+        self.assertEqual(hot_spots.blocks()["uart_rx.hpp"], "model/profibus/uart_rx.*")
+        self.assertNotIn("dsdpv1_tlm.cpp", hot_spots.blocks())
+
+    def test_without_perf_the_page_says_so(self):
+        with mock.patch("shutil.which", return_value=None):
+            profile = hot_spots.profile(pathlib.Path())
+        text = page.performance_page([outcome(11)], [20.0, 30.0], 5, "wall", {"cpu": "A | B", "cores": 2}, profile)
+        self.assertIn("No profile was made: perf is not installed.", text)
+        self.assertIn("| `speed` | 11 | at least 10 x real time | met | 11..11 |", text)
+        self.assertIn("1 of 1 rows meet their goals.", text)
+        self.assertIn("the machine was busy", text)
+
+    def test_the_document_names_every_row(self):
+        text = bench.PAGE.read_text(encoding="utf-8")
+        for each in rows.ROWS:
+            self.assertIn(f"\n| `{each.name}` | ", text)
+            self.assertIn(f" | {table.goal(each)} | ", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,44 @@
+"""Where the core's time goes: samples of perf, each given to the file of the line that it was in, inlined or not."""
+import collections
+import re
+import shutil
+
+from programs import FOLDER, ROOT, Failed, call
+
+PROGRAM = FOLDER / "bench_profile"
+LINE = re.compile(r"^\s*([\d.]+)%\s+(\S*)\s*$")
+REST = "elsewhere"
+
+
+def sampled(folder):
+    """What perf prints: a share and a source file a line."""
+    if shutil.which("perf") is None:
+        raise Failed("perf is not installed")
+    data = folder / "perf.data"
+    call(["perf", "record", "-q", "-F", "2000", "-o", data, PROGRAM, "profile"])
+    return call(["perf", "report", "-i", data, "--stdio", "--no-children", "-s", "srcfile"])
+
+
+def blocks():
+    """File name to its block, of which header and source are one: model/profibus/uart_rx.*"""
+    return {path.name: f"model/{path.parent.name}/{path.stem}.*" for path in (ROOT / "model").glob("*/*.[ch]pp") if path.parent.name != "systemc"}
+
+
+def shares(printed, names):
+    """(block, percent), greatest first. Standard library, the bus and what is below one percent is 'elsewhere'."""
+    total = collections.Counter()
+    for line in printed.splitlines():
+        match = LINE.match(line)
+        if match:
+            total[names.get(match.group(2), REST)] += float(match.group(1))
+    for block in [block for block, share in total.items() if share < 1 and block != REST]:
+        total[REST] += total.pop(block)
+    return sorted(total.items(), key=lambda each: (each[0] == REST, -each[1]))
+
+
+def profile(folder):
+    """The shares, and a note where there are none."""
+    try:
+        return shares(sampled(folder), blocks()), ""
+    except Failed as failure:
+        return [], str(failure)

@@ -1,0 +1,96 @@
+"""Calls what the build has made, and takes the numbers out of it."""
+import json
+import os
+import pathlib
+import resource
+import subprocess
+import time
+
+import scenarios
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = ROOT / "build" / "default"
+SIM = BUILD / "apps" / "dsdpv1-sim"
+FOLDER = BUILD / "tests" / "bench"
+QUIET = {**os.environ, "SYSTEMC_DISABLE_COPYRIGHT_MESSAGE": "1"}
+
+
+class Failed(Exception):
+    """A row cannot be measured; the text is one line."""
+
+
+def first_line(*texts):
+    lines = [line.strip() for text in texts for line in text.splitlines() if line.strip()]
+    return lines[0] if lines else ""
+
+
+def call(command, cwd=None):
+    """Standard output of a program that has succeeded."""
+    try:
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, cwd=cwd, env=QUIET)
+    except OSError as error:
+        raise Failed(f"{pathlib.Path(command[0]).name} cannot be run: {error.strerror}") from error
+    if done.returncode != 0:
+        raise Failed(first_line(done.stderr, done.stdout).replace(f"{ROOT}/", "") or f"{pathlib.Path(command[0]).name} ended with {done.returncode}")
+    return done.stdout
+
+
+def cpu_of_children():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def row_of(program, name):
+    """The number that one of the programs of this folder prints for a row."""
+    printed = call([FOLDER / program, name])
+    for line in printed.splitlines():
+        row, tab, value = line.partition("\t")
+        if tab and row == name:
+            return float(value)
+    raise Failed(f"{program} has printed no value for {name}")
+
+
+def calibration():
+    """Milliseconds that the machine takes for work that never changes."""
+    return row_of("bench_core", "calibration")
+
+
+class Round:
+    """One round of measurements: each run is made once, whoever asks for it, so that both sides of a ratio follow each other."""
+
+    def __init__(self, folder, clock="wall"):
+        self.folder = folder
+        self.clock = clock
+        self.done = {}
+
+    def once(self, key, measure):
+        if key not in self.done:
+            try:
+                self.done[key] = measure()
+            except Failed as failure:
+                self.done[key] = failure
+        if isinstance(self.done[key], Failed):
+            raise self.done[key]
+        return self.done[key]
+
+    def program(self, program, name):
+        return self.once((program, name), lambda: row_of(program, name))
+
+    def simulate(self, scenario, *options):
+        """Simulated and taken seconds of a run of dsdpv1-sim; `scenario` is one of scenarios/ or of scenarios.py."""
+        return self.once((scenario, options), lambda: self._simulate(scenario, options))
+
+    def _simulate(self, scenario, options):
+        file = f"{scenario}.yaml"  # of its own folder, so that an error names no place of this machine
+        path = file if scenario in scenarios.SCENARIOS else ROOT / "scenarios" / file
+        before = cpu_of_children()
+        call([SIM, "run", path, "--quiet", "--no-progress", "--result", "result.json", *options], cwd=self.folder)
+        taken = cpu_of_children() - before
+        result = json.loads((self.folder / "result.json").read_text(encoding="utf-8"))
+        return {"simulated_s": result["simulated_ns"] / 1e9, "taken_s": taken if self.clock == "cpu" else result["wall_s"]}
+
+    def start(self):
+        """Milliseconds from the call of the program to its end."""
+        begin = time.perf_counter()
+        call([SIM, "--version"])
+        return (time.perf_counter() - begin) * 1000

@@ -1,0 +1,98 @@
+"""The rows of the speed table: what each does, what is wanted, and how one round of it is measured."""
+import dataclasses
+import typing
+
+import scenarios
+
+OFF = ("--checks", "off")
+TIMES = "x real time"
+
+
+@dataclasses.dataclass(frozen=True)
+class Row:
+    name: str
+    goal: float
+    unit: str
+    what: str
+    measure: typing.Callable
+    targets: tuple
+    at_most: bool = False
+
+
+def in_program(program, name):
+    return lambda turn: turn.program(program, name)
+
+
+def real_time(scenario, *options):
+    def measure(turn):
+        run = turn.simulate(scenario, *options)
+        return run["simulated_s"] / run["taken_s"]
+
+    return measure
+
+
+def time_ratio(scenario, one, other):
+    """How often as long as with the options `other` a run with the options `one` takes."""
+    return lambda turn: turn.simulate(scenario, *one)["taken_s"] / turn.simulate(scenario, *other)["taken_s"]
+
+
+def idle_station(turn):
+    alone, together = (turn.simulate(name, *OFF)["taken_s"] for name in ("one_busy", "with_idle"))
+    return 100 * (together - alone) / scenarios.IDLE / alone
+
+
+def core(io):
+    return Row(f"core_{io}", 10, TIMES, f"The core alone: data exchange with {io} bytes each way, back to back at 12 Mbit/s; L_REQ and PBTXD are "
+               "watched and their changes counted.", in_program("bench_core", f"core_{io}"), ("bench_core",))
+
+
+def of_sim(name, goal, what, measure, **others):
+    return Row(name, goal, others.pop("unit", TIMES), what, measure, ("dsdpv1-sim", *others.pop("targets", ())), **others)
+
+
+DEMO = "power_on_12m"
+FULL = ("--log", "full.log", "--wave", "full.fst")
+TLM = (*OFF, "--view", "tlm")
+WAVE = (*OFF, "--wave", "demo.fst")
+RTL = ("bench_rtl",)
+
+ROWS = (
+    core(2), core(16), core(64), core(244),
+    Row("core_vs_rtl", 200, "times as fast", "The core against the Verilated RTL on the stimulus of core_16, neither with a bench round it: in "
+        "turns, in one process, in CPU time. The RTL is built with -O3, --x-assign fast, --x-initial fast and without limits of run time.",
+        in_program("bench_rtl", "core_vs_rtl"), RTL),
+    of_sim("demo", 3, "The scenario power_on_12m, checks off, no files.", real_time(DEMO, *OFF)),
+    of_sim("demo_full", 1.5, "The same with checks, log and FST wave.", real_time(DEMO, *FULL)),
+    of_sim("demo_tlm", 2, "As demo, with `--view tlm`.", real_time(DEMO, *TLM)),
+    of_sim("tlm_vs_demo", 1, "demo_tlm against demo of the same round: TLM is never slower.", time_ratio(DEMO, OFF, TLM), unit="times as fast"),
+    Row("systemc_tlm", 5, TIMES, "The TLM module in a SystemC platform: an idle user, L_REQ, L_STA and INTR0 bound, 16 bytes each way back to back "
+        "at 12 Mbit/s as characters.", in_program("bench_systemc", "systemc_tlm"), ("bench_systemc",)),
+    Row("systemc_pins", 2, TIMES, "The pin module in a SystemC platform, all pins bound, the same exchanges edge by edge.",
+        in_program("bench_systemc", "systemc_pins"), ("bench_systemc",)),
+    of_sim("1m5", 30, "A slave with 32 bytes each way at 1.5 Mbit/s; its user CPU exchanges data every millisecond. Checks off.",
+           real_time("1m5", *OFF)),
+    of_sim("power_on_9k6", 100, "The scenario power_on_9k6, checks off.", real_time("power_on_9k6", *OFF)),
+    Row("search_9k6", 1000, TIMES, "The core alone: the baud rate search from 12 Mbit/s to the end of 9.6 kbit/s on a silent line; no pin "
+        "is watched.",
+        in_program("bench_core", "search_9k6"), ("bench_core",)),
+    of_sim("slaves_32", 1, "One master and 32 slaves with 8 bytes each way, all in data exchange at 12 Mbit/s; user CPUs exchange data every "
+           "millisecond. Checks off.", real_time("slaves_32", *OFF)),
+    of_sim("slaves_125", 0.25, "The same with 125 slaves.", real_time("slaves_125", *OFF)),
+    of_sim("idle_station", 2, f"One more slave that nobody addresses on a saturated 12 Mbit/s bus, on the bench: what {scenarios.IDLE} of them add "
+           "to the run with one busy slave, divided by their number, as a share of that run. Their user CPUs do nothing once they have initialised.",
+           idle_station, unit="%", at_most=True),
+    of_sim("arm", 0.5, "The scenario arm_board_12m, checks off: the example firmware on the ARM board looks for data every 40 us.",
+           real_time("arm_board_12m", *OFF), targets=("dsdpv1_firmware",)),
+    of_sim("fst", 1.5, "demo with an FST wave against demo without.", time_ratio(DEMO, WAVE, OFF), unit="times as long", at_most=True),
+    Row("lockstep", 80, "%", "Random lockstep as `rtl-random --seed 1 --jobs 1` does it: its cycles per second as a share of those of the same "
+        "Verilated RTL alone, which gets the same inputs from a recording; in turns, in one process, in CPU time.",
+        in_program("bench_rtl", "lockstep"), RTL),
+    of_sim("start", 50, "`dsdpv1-sim --version`, from the call to the end.", lambda turn: turn.start(), unit="ms", at_most=True),
+    Row("chip", 64, "KB", "All the memory that one chip has.", in_program("bench_core", "chip"), ("bench_core",), at_most=True),
+)
+NAMES = tuple(row.name for row in ROWS)
+
+
+def targets_of(rows):
+    """What has to be built for these rows; the calibration is in bench_core."""
+    return sorted({"bench_core", *(target for row in rows for target in row.targets)})

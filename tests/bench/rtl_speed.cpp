@@ -1,0 +1,153 @@
+// The core against the Verilated reference RTL, and their lockstep against that RTL alone. Both sides of a ratio are
+// measured in turns, in CPU time.
+#include <utility>
+
+#include "model/dsdpv1/chip.hpp"
+#include "tb/dsdpv1/cosim/campaign.hpp"
+#include "tb/dsdpv1/cosim/random_setup.hpp"
+#include "tb/dsdpv1/cosim/random_stimulus.hpp"
+#include "tb/dsdpv1/cosim/reference_rtl.hpp"
+#include "tests/bench/programs.hpp"
+#include "tests/bench/rtl_alone.hpp"
+#include "tests/bench/saturated_bus.hpp"
+#include "tests/bench/stopwatch.hpp"
+
+namespace {
+
+using profibus::Tick;
+using speed::Failure;
+using speed::Stopwatch;
+
+constexpr Tick kMillisecond = 12'000'000;
+constexpr int kTurns = 5;
+
+// ------------------------------------------------------------------------------------------------------- core and RTL
+/// CPU seconds for exchanges of so much simulated time.
+template <class Device>
+double time_exchanges(speed::SaturatedBus<Device>& bus, Tick duration) {
+  const Stopwatch watch;
+  bus.exchange_for(duration);
+  return watch.seconds();
+}
+
+/// The same exchanges, the same changes at L_REQ and PBTXD: else one side has not done its work.
+double core_vs_rtl() {
+  constexpr int kIo = 16;
+  constexpr Tick kRtlSlice = 2 * kMillisecond, kCoreSlice = 20 * kMillisecond;
+  dsdpv1::Chip chip;
+  speed::RtlAlone rtl;
+  speed::PinCounter counter;
+  chip.watch(counter.sink(), speed::PinCounter::kWatched);
+  speed::SaturatedBus<dsdpv1::Chip> core_bus(chip, kIo);
+  speed::SaturatedBus<speed::RtlAlone> rtl_bus(rtl, kIo);
+  core_bus.start();
+  rtl_bus.start();
+  const speed::PinCounter after_start = counter;
+  if (!(after_start == speed::PinCounter{rtl.line_changes(), rtl.request_changes()}))
+    throw Failure("core and RTL differ in the bring-up");
+  double core = 0, reference = 0;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    reference += time_exchanges(rtl_bus, kRtlSlice);
+    core += time_exchanges(core_bus, kCoreSlice);
+  }
+  if (chip.status().data_exchanges != core_bus.exchanges()) throw Failure("exchanges were lost");
+  const double line_per_exchange =
+      static_cast<double>(counter.line - after_start.line) / static_cast<double>(core_bus.exchanges());
+  const double of_rtl =
+      static_cast<double>(rtl.line_changes() - after_start.line) / static_cast<double>(rtl_bus.exchanges());
+  if (line_per_exchange < of_rtl || line_per_exchange > of_rtl) throw Failure("the RTL's answers are not the core's");
+  return (reference / kRtlSlice) / (core / kCoreSlice);
+}
+
+// ----------------------------------------------------------------------------------------------------------- lockstep
+constexpr std::uint64_t kSeed = 1, kCycles = 1'000'000;
+
+/// What was at the inputs of one RTL: evaluations in a row with nothing new but the clock, then other levels.
+struct Recording {
+  struct Span {
+    cosim::RtlInputs in;  ///< at the first evaluation
+    std::uint64_t evaluations = 0;
+  };
+  std::vector<Span> spans;
+};
+
+bool only_clock_differs(const cosim::RtlInputs& a, const cosim::RtlInputs& b) {
+  return a.clk != b.clk && a.reset == b.reset && a.r_req == b.r_req && a.r_sta == b.r_sta && a.csr == b.csr &&
+         a.rd == b.rd && a.wr == b.wr && a.pbrxd == b.pbrxd && a.a == b.a && a.d == b.d;
+}
+
+/// The RTL, with its inputs written down.
+class RecordingTop : public cosim::RtlTop {
+ public:
+  RecordingTop(std::unique_ptr<cosim::RtlTop> top, Recording& recording)
+      : top_(std::move(top)), recording_(recording) {}
+
+  void eval() override {
+    if (!recording_.spans.empty() && only_clock_differs(in, top_->in))
+      ++recording_.spans.back().evaluations;
+    else
+      recording_.spans.push_back({in, 1});
+    top_->in = in;
+    top_->eval();
+    out = top_->out;
+  }
+  bool dpram(cosim::DpramImage& image) const override { return top_->dpram(image); }
+
+ private:
+  std::unique_ptr<cosim::RtlTop> top_;
+  Recording& recording_;
+};
+
+std::unique_ptr<cosim::RtlTop> make_rtl() { return cosim::make_reference_rtl(cosim::quick_config(), kSeed); }
+
+/// A case as the campaign of rtl-random plays it.
+std::uint64_t play_case(std::uint64_t number, const cosim::MakeTop& make) {
+  const cosim::Stimulus stimulus = cosim::random_stimulus(cosim::case_seed(kSeed, number));
+  const cosim::PlayResult result = cosim::play(stimulus, make, cosim::quick_options());
+  if (result.difference) throw Failure("model and RTL differ: " + result.difference->what);
+  return result.counts.cycles;
+}
+
+Recording record_case(std::uint64_t number) {
+  Recording recording;
+  play_case(number, [&recording] { return std::make_unique<RecordingTop>(make_rtl(), recording); });
+  return recording;
+}
+
+void play_alone(const Recording& recording) {
+  const std::unique_ptr<cosim::RtlTop> top = make_rtl();
+  for (const Recording::Span& span : recording.spans) {
+    top->in = span.in;
+    top->eval();
+    for (std::uint64_t i = 1; i < span.evaluations; ++i) {
+      top->in.clk = !top->in.clk;
+      top->eval();
+    }
+  }
+}
+
+/// The sides take turns with each case, and who is first changes as well.
+double lockstep() {
+  double alone = 0, together = 0;
+  std::uint64_t cycles = 0;
+  const auto play_together = [&](std::uint64_t number) {
+    const Stopwatch watch;
+    cycles += play_case(number, make_rtl);
+    together += watch.seconds();
+  };
+  for (std::uint64_t number = 0; cycles < kCycles; ++number) {
+    const Recording recording = record_case(number);
+    if (number % 2 == 0) play_together(number);
+    const Stopwatch watch;
+    play_alone(recording);
+    alone += watch.seconds();
+    if (number % 2 != 0) play_together(number);
+  }
+  return 100 * alone / together;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return speed::run_rows(argc, argv, {{"core_vs_rtl", core_vs_rtl}, {"lockstep", lockstep}});
+}

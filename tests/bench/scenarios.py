@@ -1,0 +1,52 @@
+"""The scenarios of the speed table that are in no file of scenarios/: as JSON, which is YAML."""
+import json
+
+IDENT = 0x0CC9
+IDLE = 8  # slaves that nobody addresses, beside the busy one
+
+
+def identifiers(io):
+    """Configuration for as many inputs as outputs, at most 16 of each in one byte."""
+    return [0x30 | (min(16, io - done) - 1) for done in range(0, io, 16)]
+
+
+def slave(address, io, **user_cpu):
+    cfg = identifiers(io)
+    return {"name": f"s{address}", "address": address, "user_cpu": user_cpu,
+            "init": {"ident": IDENT, "max_inputs": io, "max_outputs": io, "max_prm": 10, "max_cfg": len(cfg), "cfg": cfg}}
+
+
+def scenario(name, baud, end, slaves, served):
+    """One master, as fast as the bus allows, that brings up and serves the slaves `served`; at the end they are in data exchange."""
+    names = [each["name"] for each in served]
+    return {"name": name, "baud": baud, "end": end, "slaves": slaves,
+            "masters": [{"name": "plc", "address": 0, "bus": {"min_slave_interval": 0, "gap_factor": 0},
+                         "slaves": [{"slave": each} for each in names]}],
+            "expect": [{"slave": each, "dp_state": "data_exch"} for each in names]}
+
+
+def many(count, end):
+    slaves = [slave(address, 8, behaviour="loop_back", cycle="1ms") for address in range(1, count + 1)]
+    return scenario(f"{count} slaves in data exchange", "12M", end, slaves, slaves)
+
+
+def slow_line():
+    slaves = [slave(5, 32, behaviour="loop_back", cycle="1ms")]
+    return scenario("32 bytes each way at 1.5 Mbit/s", "1.5M", "300ms", slaves, slaves)
+
+
+def with_idle(count):
+    """A busy slave, and others that are initialised and hear everything but are never addressed; their user CPUs do nothing."""
+    busy = slave(1, 16, behaviour="loop_back", cycle="1ms")
+    idle = [slave(address, 16, behaviour="idle", cycle="10s") for address in range(2, count + 2)]
+    return scenario(f"A busy slave and {count} that nobody addresses", "12M", "40ms", [busy, *idle], [busy])
+
+
+SCENARIOS = {"1m5": slow_line(), "slaves_32": many(32, "40ms"), "slaves_125": many(125, "100ms"),
+             "one_busy": with_idle(0), "with_idle": with_idle(IDLE)}
+
+
+def write_all(folder):
+    """Each as FOLDER/NAME.yaml."""
+    for name, content in SCENARIOS.items():
+        (folder / f"{name}.yaml").write_text(json.dumps(content), encoding="utf-8")

@@ -1,0 +1,172 @@
+// A module in a SystemC platform: an idle user, and a saturated 12 Mbit/s bus with 16 bytes each way. A simulation
+// happens once in a program, so one row a call. Speeds are simulated time by CPU time.
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <systemc>
+
+#include "tests/bench/programs.hpp"
+#include "tests/bench/saturated_bus.hpp"
+#include "tests/bench/stopwatch.hpp"
+#include "tests/systemc/bench.hpp"
+
+namespace {
+
+using dsdpv1::systemc::BusCharacter;
+using dsdpv1::systemc::ChipModule;
+using dsdpv1::systemc::to_time;
+using speed::Bytes;
+using speed::Failure;
+using speed::Tick;
+
+constexpr int kIo = 16;
+constexpr Tick kMillisecond = 12'000'000, kSlice = 5 * kMillisecond;
+constexpr double kMeasured = 0.3;  // seconds
+constexpr Tick kReady = kMillisecond, kInitialised = 2 * kMillisecond;
+
+/// The requests of the bus, one after another: when the next one begins, and which it is.
+class Requests {
+ public:
+  const Bytes& next() {
+    if (begun_ < bring_up_.size()) return bring_up_[begun_++];
+    ++exchanges_;
+    return cyclic_[exchanges_ & 1U];
+  }
+  /// From the begin of the request that `next` has given to that of the one behind it.
+  Tick period(const Bytes& request) const {
+    const int idle = exchanges_ > 0 ? speed::answer_and_syn_bits(kIo) : 1000;
+    return (static_cast<int>(request.size()) * bus::kCharacterBits + idle) * speed::kBit;
+  }
+  std::uint64_t exchanges() const { return exchanges_; }
+
+ private:
+  std::vector<Bytes> bring_up_ = speed::bring_up(kIo), cyclic_ = speed::exchange_requests(kIo);
+  std::size_t begun_ = 0;
+  std::uint64_t exchanges_ = 0;
+};
+
+/// Sends requests as characters.
+struct CharacterMaster : sc_core::sc_module, private tlm::tlm_analysis_if<BusCharacter> {
+  sc_core::sc_port<tlm::tlm_analysis_if<BusCharacter>> send{"send"};
+  sc_core::sc_export<tlm::tlm_analysis_if<BusCharacter>> receive{"receive"};
+  Requests requests;
+  std::uint64_t received = 0;
+
+  explicit CharacterMaster(const sc_core::sc_module_name& name) : sc_module(name) {
+    receive.bind(*this);
+    SC_HAS_PROCESS(CharacterMaster);
+    SC_METHOD(run);
+    dont_initialize();
+    sensitive << start_;
+    start_.notify(to_time(kInitialised));
+  }
+  void run() {
+    const Bytes& request = requests.next();
+    sc_core::sc_time start = sc_core::sc_time_stamp();
+    for (const std::uint8_t byte : request) {
+      send->write({start, bit_, byte, true, true});
+      start += character_;
+    }
+    next_trigger(to_time(requests.period(request)));
+  }
+  void write(const BusCharacter& /*character*/) override { ++received; }
+
+ private:
+  sc_core::sc_event start_;
+  const sc_core::sc_time bit_ = to_time(speed::kBit), character_ = to_time(bus::kCharacterBits * speed::kBit);
+};
+
+/// Sends requests edge by edge.
+struct EdgeMaster : sc_core::sc_module {
+  sc_core::sc_signal<bool>& line;
+  Requests requests;
+
+  EdgeMaster(const sc_core::sc_module_name& name, sc_core::sc_signal<bool>& pbrxd) : sc_module(name), line(pbrxd) {
+    SC_HAS_PROCESS(EdgeMaster);
+    SC_METHOD(run);
+    dont_initialize();
+    sensitive << start_;
+    start_.notify(to_time(kInitialised));
+  }
+  void run() {
+    if (edge_ == wave_.edges.size()) begin();
+    const Tick at = wave_.edges[edge_].at;
+    line.write(wave_.edges[edge_].level);
+    const Tick next = ++edge_ < wave_.edges.size() ? wave_.edges[edge_].at : period_;
+    next_trigger(to_time(next - at));
+  }
+
+ private:
+  void begin() {
+    const Bytes& request = requests.next();
+    wave_ = speed::wave_of(request);
+    period_ = requests.period(request);
+    edge_ = 0;
+  }
+  sc_core::sc_event start_;
+  speed::Wave wave_;
+  std::size_t edge_ = 0;
+  Tick period_ = 0;
+};
+
+/// The user's side of the TLM module: he accesses nothing.
+struct IdleCpu : sc_core::sc_module {
+  tlm_utils::simple_initiator_socket<IdleCpu> socket{"socket"};
+  explicit IdleCpu(const sc_core::sc_module_name& name) : sc_module(name) {}
+};
+
+/// The user writes past the pins: he is idle, and what he does before is not measured.
+void initialise(ChipModule& chip) {
+  for (const speed::Cell& cell : speed::initialisation(kIo)) chip.poke(cell.address, cell.value);
+}
+
+void run_for(Tick duration) { sc_core::sc_start(to_time(duration)); }
+
+double measure(ChipModule& chip, const Requests& requests) {
+  run_for(kReady);
+  initialise(chip);
+  run_for(kInitialised - kReady + kMillisecond);
+  const std::uint64_t exchanged = chip.chip().status().data_exchanges, sent = requests.exchanges();
+  Tick simulated = 0;
+  const speed::Stopwatch watch;
+  for (; watch.seconds() < kMeasured; simulated += kSlice) run_for(kSlice);
+  const double taken = watch.seconds();
+  const std::uint64_t answers = chip.chip().status().data_exchanges - exchanged, asked = requests.exchanges() - sent;
+  if (answers + 1 < asked || answers == 0) throw Failure("exchanges were lost");  // one may be on its way
+  return static_cast<double>(simulated) / speed::kTicksPerSecond / taken;
+}
+
+double systemc_tlm() {
+  dsdpv1::systemc::TlmModule chip("chip");
+  CharacterMaster master("master");
+  IdleCpu cpu("cpu");
+  cpu.socket.bind(chip.host_socket);
+  sc_core::sc_signal<bool> reset("reset"), r_req("r_req"), r_sta("r_sta"), l_req("l_req"), l_sta("l_sta");
+  sc_core::sc_signal<bool> intr0("intr0");
+  chip.RESET(reset), chip.R_REQ(r_req), chip.R_STA(r_sta);
+  chip.L_REQ(l_req), chip.L_STA(l_sta), chip.INTR0(intr0);
+  master.send.bind(chip.bus_in);
+  chip.bus_out.bind(master.receive);
+  reset.write(true);
+  const double value = measure(chip, master.requests);
+  if (master.received < master.requests.exchanges()) throw Failure("the master has got no answers");
+  return value;
+}
+
+double systemc_pins() {
+  PinBench pins("chip");
+  pins.chip.on_pin = {};  // nobody records the changes
+  EdgeMaster master("master", pins.pbrxd);
+  pins.reset.write(true);
+  return measure(pins.chip, master.requests);
+}
+
+}  // namespace
+
+int sc_main(int argc, char* argv[]) {
+  dsdpv1::systemc::require_femtoseconds();
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: %s ROW\n", argv[0]);
+    return 2;
+  }
+  return speed::run_rows(argc, argv, {{"systemc_tlm", systemc_tlm}, {"systemc_pins", systemc_pins}});
+}
