@@ -4,48 +4,62 @@
 
 namespace bus {
 
-std::size_t PlanQueue::add() {
-  const std::size_t place = size_++;
-  if (size_ == leaves_) grow();
-  return place;
+Tick PlanQueue::smallest(const Tick* group) {
+  Tick earliest = group[0];
+  for (std::size_t i = 1; i < kWidth; ++i) earliest = std::min(earliest, group[i]);
+  return earliest;
 }
 
+std::size_t PlanQueue::add() {
+  if (size_ == rows_[0].size()) grow();
+  return size_++;
+}
+
+/// One group more in the lowest row, and what that needs above.
 void PlanQueue::grow() {
-  const std::vector<Tick> before = std::move(nodes_);
-  const std::size_t leaves = leaves_;
-  leaves_ *= 2;
-  nodes_.assign(2 * leaves_, kNever);
-  for (std::size_t place = 0; place < leaves; ++place) set(place, before[leaves + place]);
+  for (std::size_t row = 0;; ++row) {
+    rows_[row].resize(rows_[row].size() + kWidth, kNever);
+    if (row + 1 == rows_.size()) rows_.emplace_back(kWidth, kNever);
+    std::vector<Tick>& above = rows_[row + 1];
+    const std::size_t groups = rows_[row].size() / kWidth;
+    for (std::size_t i = 0; i < std::min(groups, above.size()); ++i) above[i] = smallest(&rows_[row][i * kWidth]);
+    if (groups <= above.size()) return;
+  }
 }
 
 void PlanQueue::set(std::size_t place, Tick at) {
-  std::size_t node = leaves_ + place;
-  nodes_[node] = at;
-  while ((node /= 2) != 0) {
-    const Tick earliest = std::min(nodes_[2 * node], nodes_[2 * node + 1]);
-    if (nodes_[node] == earliest) return;
-    nodes_[node] = earliest;
+  rows_[0][place] = at;
+  for (std::size_t row = 1; row < rows_.size(); ++row) {
+    place /= kWidth;
+    const Tick earliest = smallest(&rows_[row - 1][place * kWidth]);
+    if (rows_[row][place] == earliest) return;
+    rows_[row][place] = earliest;
   }
 }
 
 Tick PlanQueue::earliest_except(std::size_t place) const {
   Tick earliest = kNever;
-  for (std::size_t node = leaves_ + place; node > 1; node /= 2) earliest = std::min(earliest, nodes_[node ^ 1U]);
+  for (const std::vector<Tick>& row : rows_) {
+    const std::size_t first = place / kWidth * kWidth;
+    for (std::size_t i = first; i < first + kWidth; ++i)
+      if (i != place) earliest = std::min(earliest, row[i]);
+    place /= kWidth;
+  }
   return earliest;
 }
 
 std::size_t PlanQueue::first_due(std::size_t from, Tick now) const {
-  std::size_t node = leaves_ + from;
-  while (nodes_[node] > now) {
-    while (node % 2 != 0) node /= 2;  // the right child: what follows it follows its parent
-    if (node == 0) return kNone;
-    ++node;
+  std::size_t row = 0, i = from;
+  for (;;) {  // up and to the right until somebody below is due
+    const std::size_t end = std::min((i + kWidth) / kWidth * kWidth, rows_[row].size());
+    while (i < end && rows_[row][i] > now) ++i;
+    if (i < end) break;
+    if (++row == rows_.size()) return kNone;
+    i = (i + kWidth - 1) / kWidth;
   }
-  while (node < leaves_) {
-    node *= 2;
-    if (nodes_[node] > now) ++node;
-  }
-  return node - leaves_;
+  for (; row > 0; --row)  // down to the first of them
+    for (i *= kWidth; rows_[row - 1][i] > now;) ++i;
+  return i;
 }
 
 }  // namespace bus

@@ -1,7 +1,7 @@
 #pragma once
-// When each of several parties wants to act next, as a tournament: each inner node holds the smaller of its two
-// children, so a change, the earliest of all and the next in order cost the logarithm of their number. The parties are
-// places 0, 1, ...: the order in which they were added.
+// When each of several parties wants to act next, as a tournament: each inner node holds the smallest of its eight
+// children, so a change, the earliest of all and the next in order cost the logarithm of their number; up to eight are
+// one look at a row. The parties are places 0, 1, ...: the order in which they were added.
 #include <cstddef>
 #include <vector>
 
@@ -17,20 +17,23 @@ class PlanQueue {
   /// The new last place, which plans nothing yet.
   std::size_t add();
   void set(std::size_t place, Tick at);
-  Tick at(std::size_t place) const { return nodes_[leaves_ + place]; }
+  Tick at(std::size_t place) const { return rows_[0][place]; }
 
   /// The earliest of all, kNever when nothing is planned.
-  Tick earliest() const { return nodes_[1]; }
+  Tick earliest() const { return smallest(&rows_.back()[0]); }
   Tick earliest_except(std::size_t place) const;
   /// The first place from `from` on, at most one after the last, that is due at `now` or before; else kNone.
   std::size_t first_due(std::size_t from, Tick now) const;
 
  private:
+  static constexpr std::size_t kWidth = 8;
+  static Tick smallest(const Tick* group);
   void grow();
 
-  // nodes_[1] is the root, the children of i are 2 i and 2 i + 1. There is always a leaf without a place.
-  std::size_t size_ = 0, leaves_ = 1;
-  std::vector<Tick> nodes_ = {kNever, kNever};
+  // rows_[0] are the places; element i of a higher row is the smallest of elements 8 i to 8 i + 7 of the row below. The
+  // highest row is one group. Rows are filled up with kNever.
+  std::size_t size_ = 0;
+  std::vector<std::vector<Tick>> rows_ = {std::vector<Tick>(kWidth, kNever)};
 };
 
 }  // namespace bus

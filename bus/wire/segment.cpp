@@ -9,6 +9,7 @@ StationId Segment::attach(std::string name, Listener* listener) {
   station.name = std::move(name);
   station.listener = listener;
   station.heard = level_;
+  station.next_change = changes_.size();
   stations_.push_back(std::move(station));
   return stations_.size() - 1;
 }
@@ -29,8 +30,11 @@ void Segment::force(Tick at, std::optional<bool> level) {
 
 void Segment::plug(StationId station, Tick at, bool plugged) {
   Station& changed = stations_.at(station);
+  hear(station);
   const bool was_on_wire = on_wire(changed);
   changed.plugged = plugged;
+  changed.next_change = changes_.size();
+  changed.deafness = {};
   if (!was_on_wire && on_wire(changed)) report_collision(at, station);
   settle(at);
 }
@@ -48,21 +52,51 @@ void Segment::settle(Tick at) {
   level_ = driven_level();
   if (telling_) return;  // the outer call goes on telling until everybody has heard the last level
   telling_ = true;
-  while (tell_changes(at)) {
-  }
+  do note_change(at);
+  while (tell_changes(at));
   telling_ = false;
+}
+
+void Segment::note_change(Tick at) {
+  if (level_ == noted_) return;
+  noted_ = level_;
+  if (changes_.size() == kMostMissed) forget_changes();
+  changes_.push_back({at, level_});
+}
+
+void Segment::forget_changes() {
+  for (StationId i = 0; i < stations_.size(); ++i) hear(i);
+  for (Station& station : stations_) station.next_change = 0;
+  changes_.clear();
 }
 
 bool Segment::tell_changes(Tick at) {
   bool told = false;
-  for (StationId i = 0; i < stations_.size(); ++i) {
-    const bool level = level_at(i);
-    if (stations_[i].heard == level) continue;
-    stations_[i].heard = level;
-    if (Listener* listener = stations_[i].listener) listener->line_changed(at, level);
-    told = true;
+  for (Station& station : stations_) {
+    if (station.plugged && station.deafness.at(at)) continue;
+    if (station.plugged) tell_missed(station, at);
+    station.next_change = changes_.size();
+    told |= tell(station, at, !station.plugged || level_);
   }
   return told;
+}
+
+void Segment::hear(StationId station) {
+  if (stations_[station].plugged) tell_missed(stations_[station], kNever);
+}
+
+void Segment::tell_missed(Station& station, Tick before) {
+  while (station.next_change < changes_.size() && changes_[station.next_change].at < before) {
+    const Change change = changes_[station.next_change++];
+    tell(station, change.at, change.level);
+  }
+}
+
+bool Segment::tell(Station& station, Tick at, bool level) {
+  if (station.heard == level) return false;
+  station.heard = level;
+  if (station.listener != nullptr) station.listener->line_changed(at, level);
+  return true;
 }
 
 void Segment::report_collision(Tick at, StationId newcomer) {

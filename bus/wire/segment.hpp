@@ -19,6 +19,13 @@ class Listener {
   virtual void line_changed(Tick at, bool level) = 0;
 };
 
+/// A time, from `from` on and before `until`, in which a listener need not hear a change at once.
+struct Deafness {
+  Tick from = kNever, until = kNever;
+
+  bool at(Tick tick) const { return tick >= from && tick < until; }
+};
+
 using StationId = std::size_t;
 
 /// Two drivers on the line at once, from the tick on which the second was enabled.
@@ -34,6 +41,12 @@ class Segment {
   /// What a station's driver does from `at` on: enabled (RTS) and the level that it drives when enabled.
   /// While two drivers fight, low wins, so that no receiver sees an undisturbed telegram.
   void drive(StationId station, Tick at, bool enabled, bool level);
+  /// The station's listener is told a change within this time late: before the next one that it hears at once, or by
+  /// `hear`. For receivers that know where in a character they are; replaces what was said before.
+  void set_deafness(StationId station, const Deafness& deafness) { stations_[station].deafness = deafness; }
+  /// Tells a deaf listener what it has not heard yet, each change with its own tick.
+  void hear(StationId station);
+
   /// A fault on the wire: forces the level (short circuit, glitch) until called with nullopt.
   void force(Tick at, std::optional<bool> level);
   /// A station unplugged hears an idle line and its driver does not reach the wire.
@@ -50,16 +63,30 @@ class Segment {
     Listener* listener = nullptr;
     bool enabled = false, drives = true, plugged = true;
     bool heard = true;  ///< the level that the listener was told last
+    Deafness deafness = {};
+    std::size_t next_change = 0;  ///< in changes_, the first that it has not heard
+  };
+  struct Change {
+    Tick at;
+    bool level;
   };
   static bool on_wire(const Station& station) { return station.enabled && station.plugged; }
   bool driven_level() const;
   void settle(Tick at);
   bool tell_changes(Tick at);
+  void note_change(Tick at);
+  static bool tell(Station& station, Tick at, bool level);
+  void tell_missed(Station& station, Tick before);
+  void forget_changes();
   void report_collision(Tick at, StationId newcomer);
 
+  // What the deaf have missed, in order; all hear it before it grows beyond this.
+  static constexpr std::size_t kMostMissed = 4096;
+
   std::vector<Station> stations_;
+  std::vector<Change> changes_;
   std::optional<bool> forced_;
-  bool level_ = true;
+  bool level_ = true, noted_ = true;
   bool telling_ = false;  ///< a listener that drives the line while it is being told must not be told out of order
 };
 

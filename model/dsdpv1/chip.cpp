@@ -70,6 +70,7 @@ struct Chip::Impl {
   bool due(Cycle next, Cycle cycle) const { return next <= cycle || engine == Engine::kStep; }
   void plan();
   bool apply(Tick at, Pin pin, Level value);
+  bool hear(Tick at, bool level);
   void set_handshake(Tick at, bool req, bool sta);
   void rising_edge(Cycle cycle);
   void release(Cycle cycle);
@@ -115,11 +116,7 @@ void Chip::Impl::set(Tick at, Pin pin, Level value) {
 bool Chip::Impl::apply(Tick at, Pin pin, Level value) {
   const bool high = value != 0;
   switch (pin) {
-    case Pin::kPbrxd:
-      rxd = high;
-      if (!station.set_rxd(at, high)) return false;
-      plans.station = station.next();
-      return true;
+    case Pin::kPbrxd: return hear(at, high);
     case Pin::kReset: set_reset(at, high); return true;
     case Pin::kRReq: set_handshake(at, high, r_sta); return true;
     case Pin::kRSta: set_handshake(at, r_req, high); return true;
@@ -129,6 +126,13 @@ bool Chip::Impl::apply(Tick at, Pin pin, Level value) {
   host.set(at, pin, value);
   plans.host = host.next();
   publish_data(at);
+  return true;
+}
+
+bool Chip::Impl::hear(Tick at, bool level) {
+  rxd = level;
+  if (!station.set_rxd(at, level)) return false;
+  plans.station = station.next();
   return true;
 }
 
@@ -235,10 +239,11 @@ void Chip::Impl::eval_sequencer(Cycle cycle) {
 
 // The sequencer acts before the station: what it dozes through up to this edge has not seen what the station does now.
 void Chip::Impl::eval_station(Cycle cycle) {
-  if (sequencer.dozing()) sequencer.catch_up(cycle);
+  const bool changes_mail = station.may_act(cycle);
+  if (sequencer.dozing() && changes_mail) sequencer.catch_up(cycle);
   station.eval(cycle);
   plans.station = station.next();
-  if (!sequencer.dozing() || sequencer.nothing_due()) return;
+  if (!sequencer.dozing() || !changes_mail || sequencer.nothing_due()) return;
   sequencer.wake(cycle);
   plans.sequencer = sequencer.next();
 }
@@ -320,6 +325,10 @@ Level Chip::sample(Tick at) {
 }
 Tick Chip::next_event() const { return impl_->next_event(); }
 Tick Chip::now() const { return impl_->now; }
+profibus::Unheard Chip::unheard() const { return impl_->station.unheard(); }
+void Chip::hear(Tick at, bool level) {
+  if (impl_->hear(at, level)) impl_->plan();
+}
 Level Chip::level(Pin pin) const {
   if ((mask(pin) & kAccessPins) != 0) impl_->catch_up();
   return impl_->level(pin);

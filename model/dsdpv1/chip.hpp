@@ -18,6 +18,7 @@
 #include "model/profibus/dp_state.hpp"
 #include "model/profibus/event.hpp"
 #include "model/profibus/rm_registry.hpp"
+#include "model/profibus/uart_rx.hpp"
 
 namespace dsdpv1 {
 
@@ -74,6 +75,11 @@ class Chip {
   /// driven); never before `now()`. With Engine::kStep the next rising edge.
   Tick next_event() const;
   Tick now() const;
+  /// Changes of PBRXD at a tick from `from` on and before `until` need not be set at once: hear() in their order,
+  /// before the chip is advanced to its next_event() or another pin is set, is early enough. For benches with many
+  /// chips on a line.
+  profibus::Unheard unheard() const;
+  void hear(Tick at, bool level);
   /// The present level of a pin, input or output.
   Level level(Pin pin) const;
   /// The user samples D at tick `at` (>= every earlier call's): its level then. Earlier than Tw after RD and CSR fell

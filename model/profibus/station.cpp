@@ -45,6 +45,11 @@ Cycle Station::next() const {
   return std::min({next, rx_.next(), rx_.receiving(decision) ? kNever : decision});
 }
 
+Unheard Station::unheard() const {
+  if (!running()) return {0, kNever};
+  return tx_.rts() ? Unheard{0, tx_.released() * kTicksPerCycle} : rx_.unheard();
+}
+
 void Station::plan_timers() { timers_ = std::min({search_.next(), watchdog_.next(), slave_.next_timer()}); }
 
 /// Nothing is lost: the edges up to now are those of a character in progress, or nobody listens.

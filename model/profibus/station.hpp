@@ -31,12 +31,20 @@ class Station {
     if (rx_.full()) make_room(at);
     return rx_.set_line(at, level);
   }
+  /// Changes of PBRXD within this time may be told late, before the rising edge at `until` or an earlier one at which
+  /// next() has something.
+  Unheard unheard() const;
   /// Reset: everything as at power-on.
   void reset();
   /// The rising edge of `now`.
   void eval(Cycle now);
   /// The next cycle at which eval() does something.
   Cycle next() const;
+
+  /// Whether eval(now) may do more than take a character or send a bit: change what the user's side hears, or a state.
+  bool may_act(Cycle now) const {
+    return now >= timers_ || (!tx_.rts() && now >= telegrams_.deadline() && !rx_.completes(now));
+  }
 
   bool txd() const { return tx_.txd(); }
   bool rts() const { return tx_.rts(); }

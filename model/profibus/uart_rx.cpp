@@ -1,5 +1,7 @@
 #include "model/profibus/uart_rx.hpp"
 
+#include <algorithm>
+
 namespace profibus {
 namespace {
 
@@ -41,13 +43,25 @@ Cycle UartRx::next() const {
   return edge() + half + to_stop;
 }
 
+// Once the start bit stands, all that counts is the level at the sampling points, and that is asked at the last one.
+Unheard UartRx::unheard() const {
+  const Cycle to_stop = Cycle{kStopIndex} * bit_;
+  if (state_ == State::kReceiving && index_ > 0)
+    return {0, (sample_ + to_stop - Cycle{index_} * bit_) * kTicksPerCycle};
+  const bool starts = state_ == State::kIdle ? count_ > 0 : state_ == State::kReceiving && !line_;
+  const Cycle start_sample = state_ == State::kIdle ? edge() + bit_ / 2 : sample_;
+  const Cycle rise = state_ == State::kIdle ? second_edge() : edge();
+  if (!starts || rise <= start_sample) return {};
+  return {(start_sample - kSynchroniser) * kTicksPerCycle, (start_sample + to_stop) * kTicksPerCycle};
+}
+
 // Edges and sampling points in their order; at one cycle the edge comes first.
 bool UartRx::eval(Cycle now) {
   for (;;) {
     const Cycle change = edge();
     if (state_ == State::kReceiving && sample_ < change) {
       if (sample_ > now) return false;
-      if (sample()) return true;
+      if (sample(std::min(change, now + 1))) return true;
     } else {
       if (change > now) return false;
       take_edge();
@@ -71,16 +85,17 @@ void UartRx::take_edge() {
   }
 }
 
-bool UartRx::sample() {
-  sample_ += bit_;
+// The sampling points before `end`, up to which the line does not change.
+bool UartRx::sample(Cycle end) {
   if (index_ == 0 && line_) {  // the start bit is gone at its middle: a glitch, idle goes on (S10)
     state_ = State::kIdle;
     return false;
   }
-  if (index_ < kStopIndex) {
-    shift_ |= static_cast<unsigned>(line_) << index_++;
-    return false;
+  for (; index_ < kStopIndex; ++index_, sample_ += bit_) {
+    if (sample_ >= end) return false;
+    shift_ |= static_cast<unsigned>(line_) << index_;
   }
+  if (sample_ >= end) return false;
   character_.value = static_cast<std::uint8_t>(shift_ >> 1);
   character_.parity_ok = !odd_ones(shift_);
   character_.stop_ok = line_;

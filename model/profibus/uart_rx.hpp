@@ -17,6 +17,11 @@ struct Character {
   bool stop_ok = false;
 };
 
+/// Times of changes of the line that need not be told at once; none when `from` is kNever.
+struct Unheard {
+  Tick from = kNever, until = kNever;
+};
+
 class UartRx {
  public:
   /// The line changes at `at`, not before an earlier call's. Pulses that no rising edge samples vanish. Not when
@@ -37,6 +42,11 @@ class UartRx {
   /// A character is being sampled at `at` or begins then, as far as the edges noted say. eval() was called up to now.
   bool receiving(Cycle at) const { return state_ == State::kReceiving || (state_ == State::kIdle && edge() <= at); }
 
+  /// From when on, and before when, edges of the line may be told late: before eval() is called for `until`'s cycle.
+  Unheard unheard() const;
+  /// The last sampling point of a character is at `now`.
+  bool completes(Cycle now) const { return unheard().until == now * kTicksPerCycle; }
+
   const Character& character() const { return character_; }
   int bit() const { return bit_; }
 
@@ -53,7 +63,7 @@ class UartRx {
     line_ = !line_;
   }
   void take_edge();
-  bool sample();
+  bool sample(Cycle end);
 
   std::array<Cycle, kDepth> edges_{};  // at which the logic sees the line change, from line_ on
   unsigned first_ = 0, count_ = 0;

@@ -29,7 +29,7 @@ void UartTx::abort() {
 
 bool UartTx::eval(Cycle now) {
   if (now != next_) return false;
-  if (now == end_ + trail_) {
+  if (now == released()) {
     abort();
     return true;
   }
@@ -53,7 +53,7 @@ void UartTx::load() {
 // Puts the next run of equal bits on the line, so that only level changes and character ends need an evaluation.
 void UartTx::shift() {
   if (frame_bits_ == 0) {
-    next_ = end_ + trail_;
+    next_ = released();
     return;
   }
   txd_ = (frame_ & 1U) != 0;

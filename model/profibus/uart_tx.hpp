@@ -19,6 +19,7 @@ class UartTx {
   bool rts() const { return rts_; }
   bool planned() const { return next_ != kNever; }  ///< from send() until PBRTS has fallen
   Cycle end() const { return end_; }                ///< end of the last stop bit
+  Cycle released() const { return end_ + trail_; }  ///< PBRTS falls
 
  private:
   void load();

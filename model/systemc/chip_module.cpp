@@ -82,13 +82,24 @@ bool ChipModule::take_broken_timing() {
   return broken;
 }
 
+// A notification that is no longer needed is left to fire: the kernel keeps cancelled ones in its queue until their
+// time has come, and a watchdog that every telegram moves on would leave thousands there. For the same reason none is
+// made for a time far ahead.
 void ChipModule::schedule(Tick other) {
-  due_.cancel();
+  constexpr Tick kFarthest = 100'000 * profibus::kTicksPerNs;
   const Tick due = std::min(chip_.next_event(), other);
   if (due == profibus::kNever) return;
+  const Tick now = chip_now();
   // Everything of this tick is done; asking for it again would stop simulation time.
-  const sc_core::sc_time at = to_time(std::max(due, chip_now() + 1) + options_.phase);
-  due_.notify(at - sc_core::sc_time_stamp());
+  const Tick at = std::min(std::max(due, now + 1), now + kFarthest);
+  if (scheduled_ > now && scheduled_ <= at) return;
+  scheduled_ = at;
+  due_.notify(to_time(at + options_.phase) - sc_core::sc_time_stamp());
+}
+
+void ChipModule::schedule_now() {
+  scheduled_ = 0;
+  due_.notify(sc_core::SC_ZERO_TIME);
 }
 
 void ChipModule::pin_changed(Tick at, Pin pin, Level level) {

@@ -52,8 +52,11 @@ class ChipModule : public sc_core::sc_module {
   /// Called from inside the core for every output that is watched.
   virtual void output_changed(Tick, Pin, Level) {}
 
-  /// Notifies `due_` at the chip's next event, or at `other` (a tick of the chip) when that is earlier.
+  /// `due_` will fire at the chip's next event, or at `other` (a tick of the chip) when that is earlier; maybe more
+  /// often.
   void schedule(Tick other = profibus::kNever);
+  /// `due_` fires in the next delta cycle.
+  void schedule_now();
   sc_core::sc_event due_;
 
  private:
@@ -62,6 +65,7 @@ class ChipModule : public sc_core::sc_module {
 
   ChipOptions options_;
   Chip chip_;
+  Tick scheduled_ = 0;                   ///< of the chip; up to now: no notification is pending
   std::uint32_t changed_ = kOutputPins;  ///< the first drive is of all of them
   bool broken_timing_ = false;
   bool in_core_ = false;

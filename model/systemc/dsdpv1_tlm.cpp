@@ -219,7 +219,7 @@ void TlmModule::drive_outputs() {
 /// cycle.
 void TlmModule::plan() {
   if (has_changed() || to_chip_.next() <= chip_now())
-    due_.notify(sc_core::SC_ZERO_TIME);
+    schedule_now();
   else
     schedule(std::min(to_chip_.next(), from_chip_.next()));
 }

@@ -14,19 +14,27 @@ using scenario::Condition;
 
 constexpr std::size_t kShownBytes = 16;
 
-/// Collects the parts of a condition: what is wanted, what is there, whether they agree.
+/// Collects the parts of a condition: whether they hold, or in words what is wanted and what is there.
 class Parts {
  public:
-  void add(const std::string& wanted, const std::string& seen, bool holds) {
-    append(wanted_, wanted);
-    append(seen_, seen);
+  enum class In : std::uint8_t { kTruth, kWords };
+  explicit Parts(In in) : in_(in) {}
+
+  /// `wanted` and `seen` make the words, and are called for these only.
+  template <class Wanted, class Seen>
+  void add(bool holds, const Wanted& wanted, const Seen& seen) {
     holds_ = holds_ && holds;
+    if (in_ == In::kTruth) return;
+    append(wanted_, wanted());
+    append(seen_, seen());
   }
+  bool hold() const { return holds_; }
   const std::string& wanted() const { return wanted_; }
-  Judged judged() const { return {holds_, seen_}; }
+  const std::string& seen() const { return seen_; }
 
  private:
   static void append(std::string& text, const std::string& part) { text += (text.empty() ? "" : ", ") + part; }
+  const In in_;
   std::string wanted_, seen_;
   bool holds_ = true;
 };
@@ -52,28 +60,34 @@ const char* service_word(scenario::ActionKind service) {
 
 void add_state(Parts& parts, const Condition& c, const ChipStatus& status) {
   if (c.dp_state)
-    parts.add(fmt::format("dp_state {}", name(*c.dp_state)), fmt::format("dp_state {}", name(status.dp_state)),
-              status.dp_state == *c.dp_state);
-  if (c.baud) parts.add("baud " + baud_text(*c.baud), "baud " + baud_text(status.baud), status.baud == *c.baud);
-  if (c.station_address) {
-    parts.add(fmt::format("station_address {}", *c.station_address), fmt::format("station_address {}", status.address),
-              status.address == *c.station_address);
-  }
+    parts.add(
+        status.dp_state == *c.dp_state, [&] { return fmt::format("dp_state {}", name(*c.dp_state)); },
+        [&] { return fmt::format("dp_state {}", name(status.dp_state)); });
+  if (c.baud)
+    parts.add(
+        status.baud == *c.baud, [&] { return "baud " + baud_text(*c.baud); },
+        [&] { return "baud " + baud_text(status.baud); });
+  if (c.station_address)
+    parts.add(
+        status.address == *c.station_address, [&] { return fmt::format("station_address {}", *c.station_address); },
+        [&] { return fmt::format("station_address {}", status.address); });
 }
 
 void add_counts(Parts& parts, const Condition& c, const ChipStatus& status) {
   const auto exchanges = static_cast<std::int64_t>(status.data_exchanges);
-  const std::string seen = fmt::format("data_exchanges {}", exchanges);
+  const auto seen = [&] { return fmt::format("data_exchanges {}", exchanges); };
   if (c.data_exchanges)
-    parts.add(fmt::format("data_exchanges >= {}", *c.data_exchanges), seen, exchanges >= *c.data_exchanges);
+    parts.add(
+        exchanges >= *c.data_exchanges, [&] { return fmt::format("data_exchanges >= {}", *c.data_exchanges); }, seen);
   if (c.data_exchanges_at_most)
-    parts.add(fmt::format("data_exchanges <= {}", *c.data_exchanges_at_most), seen,
-              exchanges <= *c.data_exchanges_at_most);
-  if (c.longest_wait_at_most) {
-    const Tick wait = status.longest_wait;
-    parts.add("longest wait <= " + time_text(*c.longest_wait_at_most), "longest wait " + time_text(wait),
-              wait <= *c.longest_wait_at_most);
-  }
+    parts.add(
+        exchanges <= *c.data_exchanges_at_most,
+        [&] { return fmt::format("data_exchanges <= {}", *c.data_exchanges_at_most); }, seen);
+  if (c.longest_wait_at_most)
+    parts.add(
+        status.longest_wait <= *c.longest_wait_at_most,
+        [&] { return "longest wait <= " + time_text(*c.longest_wait_at_most); },
+        [&] { return "longest wait " + time_text(status.longest_wait); });
 }
 
 void add_event(Parts& parts, const Condition& c, const Facts* facts) {
@@ -81,67 +95,84 @@ void add_event(Parts& parts, const Condition& c, const Facts* facts) {
   const std::int64_t count =
       facts != nullptr ? static_cast<std::int64_t>(facts->journal.count(c.slave.text, c.event.text)) : 0;
   const bool bounded = c.count_at_most.has_value();
-  const std::string wanted = bounded ? fmt::format("event {} {} to {} times", c.event.text,
-                                                   std::min(c.count, *c.count_at_most), *c.count_at_most)
-                                     : fmt::format("event {} at least {} times", c.event.text, c.count);
-  const bool enough = count >= (bounded ? std::min(c.count, *c.count_at_most) : c.count);
-  parts.add(wanted, fmt::format("{} times", count), enough && (!bounded || count <= *c.count_at_most));
+  const std::int64_t least = bounded ? std::min(c.count, *c.count_at_most) : c.count;
+  parts.add(
+      count >= least && (!bounded || count <= *c.count_at_most),
+      [&] {
+        return bounded ? fmt::format("event {} {} to {} times", c.event.text, least, *c.count_at_most)
+                       : fmt::format("event {} at least {} times", c.event.text, least);
+      },
+      [&] { return fmt::format("{} times", count); });
 }
 
 void add_tsdr(Parts& parts, const Condition& c, const Tsdr& tsdr) {
-  const std::string seen =
-      tsdr.answers == 0 ? "no answers" : fmt::format("TSDR {:.2f} to {:.2f}", tsdr.min_bits, tsdr.max_bits);
+  const bool answered = tsdr.answers != 0;
+  const auto seen = [&] {
+    return answered ? fmt::format("TSDR {:.2f} to {:.2f}", tsdr.min_bits, tsdr.max_bits) : std::string("no answers");
+  };
   if (c.tsdr_min)
-    parts.add(fmt::format("TSDR >= {} bit times", *c.tsdr_min), seen,
-              tsdr.answers != 0 && tsdr.min_bits >= *c.tsdr_min);
+    parts.add(
+        answered && tsdr.min_bits >= *c.tsdr_min, [&] { return fmt::format("TSDR >= {} bit times", *c.tsdr_min); },
+        seen);
   if (c.tsdr_max)
-    parts.add(fmt::format("TSDR <= {} bit times", *c.tsdr_max), seen,
-              tsdr.answers != 0 && tsdr.max_bits <= *c.tsdr_max);
+    parts.add(
+        answered && tsdr.max_bits <= *c.tsdr_max, [&] { return fmt::format("TSDR <= {} bit times", *c.tsdr_max); },
+        seen);
 }
 
-bus::Bytes inputs_at_master(const Facts* facts, const std::string& slave) {
+const bus::Bytes* inputs_at_master(const Facts* facts, const std::string& slave) {
   const bus::Master1* master = facts != nullptr ? facts->stations.master_of(slave) : nullptr;
-  return master != nullptr ? master->slave(*facts->stations.listed_address(slave)).inputs : bus::Bytes{};
+  return master != nullptr ? &master->slave(*facts->stations.listed_address(slave)).inputs : nullptr;
 }
 
-void add_data(Parts& parts, const Condition& c, const Facts* facts, const bus::Bytes& outputs) {
-  if (c.inputs) {
-    const bus::Bytes inputs = inputs_at_master(facts, c.slave.text);
-    parts.add("inputs " + shown(*c.inputs), "inputs " + shown(inputs), inputs == *c.inputs);
-  }
-  if (c.outputs) parts.add("outputs " + shown(*c.outputs), "outputs " + shown(outputs), outputs == *c.outputs);
+void add_bytes(Parts& parts, const char* what, const bus::Bytes& wanted, const bus::Bytes* there) {
+  static const bus::Bytes kNone;
+  const bus::Bytes& seen = there != nullptr ? *there : kNone;
+  parts.add(
+      seen == wanted, [&] { return fmt::format("{} {}", what, shown(wanted)); },
+      [&] { return fmt::format("{} {}", what, shown(seen)); });
+}
+
+void add_data(Parts& parts, const Condition& c, const Facts* facts, const SlaveStation* slave) {
+  if (c.inputs) add_bytes(parts, "inputs", *c.inputs, inputs_at_master(facts, c.slave.text));
+  if (c.outputs) add_bytes(parts, "outputs", *c.outputs, slave != nullptr ? &slave->outputs() : nullptr);
 }
 
 void add_reply(Parts& parts, const Condition& c, const Facts* facts) {
   if (!c.reply_of) return;
   const std::string& asker = c.connection.empty() ? c.master.text : c.connection.text;
   const Reply* reply = facts != nullptr ? facts->replies.last(asker, *c.reply_of) : nullptr;
-  const std::string seen = reply == nullptr ? "nothing" : reply->answered ? shown(reply->data) : "no answer";
   const char* service = service_word(*c.reply_of);
   if (c.reply)
-    parts.add(fmt::format("reply to {} {}", service, shown(*c.reply)), fmt::format("reply {}", seen),
-              reply != nullptr && reply->answered && reply->data == *c.reply);
+    parts.add(
+        reply != nullptr && reply->answered && reply->data == *c.reply,
+        [&] { return fmt::format("reply to {} {}", service, shown(*c.reply)); },
+        [&] {
+          return "reply " + (reply == nullptr ? "nothing" : reply->answered ? shown(reply->data) : "no answer");
+        });
   if (c.outcome)
-    parts.add(fmt::format("outcome of {} {}", service, bus::name(*c.outcome)),
-              fmt::format("outcome {}", reply == nullptr ? "nothing" : bus::name(reply->outcome)),
-              reply != nullptr && reply->outcome == *c.outcome);
+    parts.add(
+        reply != nullptr && reply->outcome == *c.outcome,
+        [&] { return fmt::format("outcome of {} {}", service, bus::name(*c.outcome)); },
+        [&] { return fmt::format("outcome {}", reply == nullptr ? "nothing" : bus::name(reply->outcome)); });
 }
 
 void add_connection(Parts& parts, const Condition& c, const Facts* facts) {
   if (!c.connection_state) return;
   const auto state =
       facts != nullptr ? facts->stations.connection(c.connection.text).state() : bus::ConnectionState::kClosed;
-  parts.add(fmt::format("connection {}", bus::name(*c.connection_state)),
-            fmt::format("connection {}", bus::name(state)), state == *c.connection_state);
+  parts.add(
+      state == *c.connection_state, [&] { return fmt::format("connection {}", bus::name(*c.connection_state)); },
+      [&] { return fmt::format("connection {}", bus::name(state)); });
 }
 
-Parts examine(const Condition& c, const Facts* facts) {
-  Parts parts;
+Parts examine(const Condition& c, const Facts* facts, Parts::In in) {
+  Parts parts(in);
   const SlaveStation* slave = facts != nullptr && !c.slave.empty() ? &facts->stations.slave(c.slave.text) : nullptr;
   const ChipStatus status = slave != nullptr ? slave->chip().status() : ChipStatus{};
   add_state(parts, c, status);
   add_counts(parts, c, status);
-  add_data(parts, c, facts, slave != nullptr ? slave->outputs() : bus::Bytes{});
+  add_data(parts, c, facts, slave);
   add_event(parts, c, facts);
   add_tsdr(parts, c, slave != nullptr ? slave->tsdr() : Tsdr{});
   add_reply(parts, c, facts);
@@ -151,12 +182,18 @@ Parts examine(const Condition& c, const Facts* facts) {
 
 }  // namespace
 
-Judged judge(const scenario::Condition& condition, const Facts& facts) { return examine(condition, &facts).judged(); }
+bool holds(const scenario::Condition& condition, const Facts& facts) {
+  return examine(condition, &facts, Parts::In::kTruth).hold();
+}
+
+std::string seen(const scenario::Condition& condition, const Facts& facts) {
+  return examine(condition, &facts, Parts::In::kWords).seen();
+}
 
 std::string describe(const scenario::Condition& condition) {
   const std::string& asker = condition.connection.empty() ? condition.master.text : condition.connection.text;
   const std::string& subject = condition.slave.empty() ? asker : condition.slave.text;
-  return (subject.empty() ? "" : subject + ": ") + examine(condition, nullptr).wanted();
+  return (subject.empty() ? "" : subject + ": ") + examine(condition, nullptr, Parts::In::kWords).wanted();
 }
 
 std::string describe(const scenario::Expectation& expectation) {

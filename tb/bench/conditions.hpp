@@ -16,12 +16,10 @@ struct Facts {
   const Replies& replies;
 };
 
-struct Judged {
-  bool holds = false;
-  std::string seen;  ///< what is there instead or as well: "dp_state WAIT_CFG, data_exchanges 0"
-};
-
-Judged judge(const scenario::Condition& condition, const Facts& facts);
+/// Asked at every change of anything, so it makes no words.
+bool holds(const scenario::Condition& condition, const Facts& facts);
+/// What is there instead or as well: "dp_state WAIT_CFG, data_exchanges 0".
+std::string seen(const scenario::Condition& condition, const Facts& facts);
 
 /// The condition in words: "demo: dp_state DATA_EXCH, data_exchanges >= 10".
 std::string describe(const scenario::Condition& condition);

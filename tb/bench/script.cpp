@@ -99,7 +99,7 @@ void Script::look(Tick now) {
 void Script::look_at_actions(Tick now) {
   const auto has_come_true = [this, now](std::size_t index) {
     const scenario::When& when = *scenario_.script[index].when;
-    if (!tb::judge(when, {stations_, journal_, replies_}).holds) return false;
+    if (!holds(when, {stations_, journal_, replies_})) return false;
     plan(now + when.after, Kind::kAction, index);
     return true;
   };
@@ -109,15 +109,16 @@ void Script::look_at_actions(Tick now) {
 void Script::judge(std::size_t index, Tick now, bool last_chance) {
   if (judged_[index]) return;
   const scenario::Expectation& expectation = scenario_.expect[index];
-  const Judged judged = tb::judge(expectation, {stations_, journal_, replies_});
-  if (!judged.holds && !last_chance) return;
+  const Facts facts = {stations_, journal_, replies_};
+  const bool passed = holds(expectation, facts);
+  if (!passed && !last_chance) return;
   ExpectationResult& result = expectations_[index];
-  result.passed = judged.holds;
-  result.seen = fmt::format("{} at {} ns", judged.seen, nanoseconds(now));
+  const std::string there = seen(expectation, facts);
+  result.passed = passed;
+  result.seen = fmt::format("{} at {} ns", there, nanoseconds(now));
   judged_[index] = true;
   const std::string& station = expectation.slave.empty() ? "bus" : expectation.slave.text;
-  journal_.log(now, station, "expect",
-               fmt::format("{}: {}, seen {}", judged.holds ? "met" : "FAILED", result.text, judged.seen));
+  journal_.log(now, station, "expect", fmt::format("{}: {}, seen {}", passed ? "met" : "FAILED", result.text, there));
 }
 
 std::vector<ExpectationResult> Script::finish(Tick now, bool interrupted) {

@@ -24,6 +24,7 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
     : device_(std::move(device)),
       chip_(*device_),
       pins_(std::in_place, chip_),
+      segment_(segment),
       station_(segment.attach(name, this)),
       line_(segment, station_),
       reports_inputs_((watched & inputs_of(dsdpv1_pins())) != 0) {
@@ -44,6 +45,7 @@ Tick PinChip::next() const { return line_.waits() ? line_.since() : chip_.next_e
 void PinChip::run(Tick now) {
   device().advance(now);
   line_.pass_on();
+  update_deafness();
 }
 
 void PinChip::pin_changed(Tick at, Pin pin, Level level) {
@@ -52,7 +54,21 @@ void PinChip::pin_changed(Tick at, Pin pin, Level level) {
   if (pin == Pin::kPbrts) line_.enable(at, level != 0);
 }
 
-void PinChip::line_changed(Tick at, bool level) { set(at, Pin::kPbrxd, level ? 1 : 0); }
+void PinChip::line_changed(Tick at, bool level) {
+  if (catching_up_) return chip_.hear(at, level);
+  announce();
+  chip_.set(at, Pin::kPbrxd, level ? 1 : 0);
+  report_inputs(at, Pin::kPbrxd, Pin::kPbrxd);
+  update_deafness();
+}
+
+// Who shows the pin wants each change of it in time.
+void PinChip::update_deafness() {
+  if (reports_inputs_) return;
+  const profibus::Unheard unheard = chip_.unheard();
+  segment_.set_deafness(station_, {unheard.from, unheard.until});
+}
+
 void PinChip::set_reset(Tick at, bool level) { set(at, Pin::kReset, level ? 1 : 0); }
 
 void PinChip::set(Tick at, Pin pin, Level level) {

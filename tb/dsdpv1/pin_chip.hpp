@@ -33,16 +33,20 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   void run(Tick now) override;
 
  private:
-  /// Whoever moves the chip takes it from here.
+  /// Whoever moves the chip takes it from here: what it was not told of the line comes first.
   PinDevice& device() {
     announce();
+    catching_up_ = true;
+    segment_.hear(station_);
+    catching_up_ = false;
     return chip_;
   }
   user_cpu::PinHostBus& pins() {
-    announce();
+    device();
     return *pins_;
   }
   void line_changed(Tick at, bool level) override;
+  void update_deafness();
   void pin_changed(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void set(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   /// Those of the inputs from `first` to `last` that have changed.
@@ -65,9 +69,10 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   std::unique_ptr<PinDevice> device_;
   PinDevice& chip_;
   std::optional<user_cpu::PinHostBus> pins_;
+  bus::Segment& segment_;
   bus::StationId station_;
   LineDriver line_;
-  bool reports_inputs_;
+  bool reports_inputs_, catching_up_ = false;
   std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
 };
 

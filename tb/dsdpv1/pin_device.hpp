@@ -8,6 +8,10 @@ namespace tb {
 class PinDevice : public user_cpu::HostPins {
  public:
   virtual dsdpv1::Tick next_event() const = 0;
+  /// See dsdpv1::Chip::unheard.
+  virtual profibus::Unheard unheard() const { return {}; }
+  /// See dsdpv1::Chip::hear; of a device that hears all, a change as any other.
+  virtual void hear(dsdpv1::Tick at, bool level) { set(at, dsdpv1::Pin::kPbrxd, level ? 1 : 0); }
   virtual void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) = 0;
   virtual void on_event(const profibus::EventSink& sink) = 0;
   /// The core that tells states, counters and events; the device itself, or one beside it on the same inputs.
@@ -23,6 +27,8 @@ class CoreDevice : public PinDevice {
   dsdpv1::Level level(dsdpv1::Pin pin) const override { return chip_.level(pin); }
   dsdpv1::Level sample(dsdpv1::Tick at) override { return chip_.sample(at); }
   dsdpv1::Tick next_event() const override { return chip_.next_event(); }
+  profibus::Unheard unheard() const override { return chip_.unheard(); }
+  void hear(dsdpv1::Tick at, bool level) override { chip_.hear(at, level); }
   void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { chip_.watch(sink, pins); }
   void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }
   const dsdpv1::Chip& core() const override { return chip_; }

@@ -1,8 +1,16 @@
 #include "tb/systemc/timeline_module.hpp"
 
+#include <algorithm>
+
 #include "model/systemc/sim_time.hpp"
 
 namespace systemc_bench {
+namespace {
+
+// A wait that is woken stays in the kernel's queue until its time has come: few do when none is long.
+constexpr bus::Tick kFarthest = 100 * bus::kTicksPerUs;
+
+}  // namespace
 
 using dsdpv1::systemc::to_time;
 
@@ -29,7 +37,7 @@ void TimelineModule::sleep(bus::Tick due) {
   if (due == bus::kNever)
     wait(wake_);
   else
-    wait(to_time(due) - sc_core::sc_time_stamp(), wake_);
+    wait(to_time(std::min(due, dsdpv1::systemc::current_tick() + kFarthest)) - sc_core::sc_time_stamp(), wake_);
 }
 
 }  // namespace systemc_bench

@@ -128,5 +128,67 @@ TEST(Segment, AListenerThatDrivesAtOnceKeepsTheOrderForTheOthers) {
   EXPECT_TRUE(after.changes.empty());
 }
 
+// --- listeners that hear late ----------------------------------------------------------------------------------------
+
+TEST_F(SegmentTest, TheDeafHearAllWhenTheyAskEachChangeWithItsTick) {
+  segment.set_deafness(b, {10, 30});
+  for (const Tick at : {10, 20, 29}) segment.drive(a, at, true, at == 20);
+  EXPECT_TRUE(ear_b.changes.empty());
+  segment.hear(b);
+  EXPECT_EQ(ear_b.changes, (Changes{{10, false}, {20, true}, {29, false}}));
+  EXPECT_EQ(ear_a.changes, ear_b.changes);
+  segment.hear(b);
+  EXPECT_EQ(ear_b.changes.size(), 3U);
+}
+
+TEST_F(SegmentTest, BeforeTheNextChangeTheDeafHearWhatTheyMissed) {
+  segment.set_deafness(b, {10, 30});
+  segment.drive(a, 9, true, false);
+  segment.drive(a, 15, true, true);
+  segment.drive(a, 30, true, false);
+  EXPECT_EQ(ear_b.changes, (Changes{{9, false}, {15, true}, {30, false}}));
+}
+
+TEST_F(SegmentTest, WhoIsPluggedOutHasHeardWhatWasBefore) {
+  segment.set_deafness(b, {0, kNever});
+  segment.drive(a, 10, true, false);
+  segment.plug(b, 20, false);
+  EXPECT_EQ(ear_b.changes, (Changes{{10, false}, {20, true}}));
+  segment.drive(a, 30, true, true);
+  segment.drive(a, 40, true, false);
+  segment.hear(b);
+  EXPECT_EQ(ear_b.changes.size(), 2U);
+  segment.plug(b, 50, true);
+  EXPECT_EQ(ear_b.changes, (Changes{{10, false}, {20, true}, {50, false}}));
+}
+
+TEST_F(SegmentTest, HoweverLongTheDeafAreTheyMissNothing) {
+  segment.set_deafness(b, {0, kNever});
+  for (Tick at = 0; at < 20'000; ++at) segment.drive(a, at, true, at % 2 != 0);
+  segment.hear(b);
+  EXPECT_EQ(ear_b.changes.size(), 20'000U);
+  EXPECT_EQ(ear_b.changes, ear_a.changes);
+}
+
+/// Answers a low line by driving it, inside the call.
+struct Echo : Listener {
+  void line_changed(Tick at, bool level) override {
+    if (!level) segment->force(at, true);
+  }
+  Segment* segment = nullptr;
+};
+
+TEST(Segment, WhatComesAndGoesAtOneTickIsHeardByNobodyBehind) {
+  Segment segment;
+  Echo first;
+  Recorder second;
+  const StationId driver = segment.attach("driver", nullptr);
+  segment.attach("first", &first);
+  segment.attach("second", &second);
+  first.segment = &segment;
+  segment.drive(driver, 10, true, false);
+  EXPECT_TRUE(second.changes.empty());
+}
+
 }  // namespace
 }  // namespace bus

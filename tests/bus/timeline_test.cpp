@@ -53,7 +53,7 @@ struct Asked {
 TEST(PlanQueue, SaysWhatAskingEverybodySays) {
   std::mt19937 random(7);
   const auto draw = [&random](Tick most) { return std::uniform_int_distribution<Tick>(0, most)(random); };
-  for (const std::size_t size : {1U, 2U, 3U, 4U, 7U, 8U, 33U, 100U}) {
+  for (const std::size_t size : {1U, 2U, 7U, 8U, 9U, 33U, 64U, 65U, 100U, 513U}) {
     PlanQueue queue;
     Asked asked{std::vector<Tick>(size, kNever)};
     for (std::size_t i = 0; i < size; ++i) queue.add();

@@ -61,25 +61,48 @@ void TwinChip::set(Tick at, Pin pin, Level level) {
   skip_.set(at, pin, level);
   if (!twin_) return;
   step_.set(at, pin, level);
-  doze_.set(at, pin, level);
+  doze().set(at, pin, level);
+}
+
+void TwinChip::line_changed(Tick at, bool level) {
+  const Level value = level ? 1 : 0;
+  announce();
+  skip_.set(at, Pin::kPbrxd, value);
+  if (!twin_) return;
+  step_.set(at, Pin::kPbrxd, value);
+  const profibus::Unheard may_wait = doze_.unheard();
+  if (at >= may_wait.from && at < may_wait.until)
+    unheard_.push_back({at, level});
+  else
+    doze().set(at, Pin::kPbrxd, value);
+}
+
+/// With what it has not been told of the line.
+dsdpv1::Chip& TwinChip::doze() {
+  for (const Unheard& change : unheard_) doze_.hear(change.at, change.level);
+  unheard_.clear();
+  return doze_;
 }
 
 Level TwinChip::sample(Tick at) {
   announce();
   const Level level = skip_.sample(at);
   if (twin_) EXPECT_EQ(step_.sample(at), level) << "at tick " << at;
-  if (twin_) EXPECT_EQ(doze_.sample(at), level) << "at tick " << at;
+  if (twin_) EXPECT_EQ(doze().sample(at), level) << "at tick " << at;
   return level;
 }
 
-void TwinChip::run(Tick now) { skip_.advance(now); }
+void TwinChip::run(Tick now) {
+  skip_.advance(now);
+  if (twin_) doze().advance(now);
+}
 
 void TwinChip::compare(Tick at) {
   announce();
   skip_.advance(at);
   if (!twin_) return;
   step_.advance(at);
-  doze_.advance(at);
+  doze().advance(at);
   compare_lists(trace_, step_trace_, compared_pins_, "step");
   compare_lists(events_, step_events_, compared_events_, "step");
   compare_lists(unwatched_trace_, doze_trace_, compared_doze_pins_, "doze");

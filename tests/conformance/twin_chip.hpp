@@ -1,7 +1,8 @@
 #pragma once
 // The chip under test, three times: one evaluated in every cycle (step), one sleeping between its actions (skip), and
-// one whose L_REQ and L_STA nobody watches, so that it sleeps through quiet accesses, too (doze); fed with the same
-// pins. Every difference of pins or events fails the test, so each conformance test also proves that they agree.
+// one whose L_REQ and L_STA nobody watches, so that it sleeps through quiet accesses, too, and which hears the line as
+// late as it may (doze); fed with the same pins. Every difference of pins or events fails the test, so each conformance
+// test also proves that they agree.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -40,7 +41,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
 
   Tick next() const override { return skip_.next_event(); }
   void run(Tick now) override;
-  void line_changed(Tick at, bool level) override { set(at, Pin::kPbrxd, level ? Level{1} : Level{0}); }
+  void line_changed(Tick at, bool level) override;
 
   /// Everything that left the chip so far, in order.
   const std::vector<PinChange>& trace() const { return trace_; }
@@ -55,12 +56,18 @@ class TwinChip : public bus::Agent, public bus::Listener {
   static void on_step_event(void* self, const profibus::Event& event);
   static void on_doze_pin(void* self, Tick at, Pin pin, Level level);
   static void on_doze_event(void* self, const profibus::Event& event);
+  dsdpv1::Chip& doze();
   void compare_state() const;
 
+  struct Unheard {
+    Tick at;
+    bool level;
+  };
   bus::Segment& segment_;
   bus::StationId station_;
   const bool twin_;
   dsdpv1::Chip skip_, step_, doze_;
+  std::vector<Unheard> unheard_;  // changes of the line that doze_ has not been told yet
   std::vector<PinChange> trace_, step_trace_, unwatched_trace_, doze_trace_;  // unwatched: trace_ without L_REQ, L_STA
   std::vector<profibus::Event> events_, step_events_, doze_events_;
   std::size_t compared_pins_ = 0, compared_events_ = 0, compared_doze_pins_ = 0, compared_doze_events_ = 0;
