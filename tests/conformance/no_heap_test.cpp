@@ -1,0 +1,89 @@
+// The core takes memory when it is made and at no other time: start-up, baud rate search, bring-up, data exchange and
+// a reset go by without a single allocation. A program of its own, because it replaces operator new.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "tests/bench/saturated_bus.hpp"
+
+namespace {
+std::size_t allocations = 0;
+
+void* counted(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new[](std::size_t size) { return counted(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace {
+
+using dsdpv1::Level;
+using dsdpv1::Pin;
+using profibus::Tick;
+
+/// A chip that counts what is allocated while it is in a call.
+class Counted {
+ public:
+  explicit Counted(dsdpv1::Engine engine) : chip_(with(engine)) {
+    chip_.watch(pins_.sink(), speed::PinCounter::kWatched);
+    chip_.on_event({[](void* self, const profibus::Event&) { ++static_cast<Counted*>(self)->events_; }, this});
+  }
+  void set(Tick at, Pin pin, Level level) {
+    during([&] { chip_.set(at, pin, level); });
+  }
+  void advance(Tick to) {
+    during([&] { chip_.advance(to); });
+  }
+  Level level(Pin pin) { return chip_.level(pin); }
+  dsdpv1::Status status() const { return chip_.status(); }
+  std::size_t allocated() const { return allocated_; }
+  std::size_t events() const { return events_; }
+
+ private:
+  static dsdpv1::Config with(dsdpv1::Engine engine) {
+    dsdpv1::Config config;
+    config.engine = engine;
+    return config;
+  }
+  template <class Call>
+  void during(const Call& call) {
+    const std::size_t before = allocations;
+    call();
+    allocated_ += allocations - before;
+  }
+  speed::PinCounter pins_;
+  dsdpv1::Chip chip_;
+  std::size_t allocated_ = 0, events_ = 0;
+};
+
+class NoHeap : public testing::TestWithParam<dsdpv1::Engine> {};
+INSTANTIATE_TEST_SUITE_P(Engines, NoHeap, testing::Values(dsdpv1::Engine::kStep, dsdpv1::Engine::kSkip),
+                         [](const auto& tested) { return tested.param == dsdpv1::Engine::kStep ? "Step" : "Skip"; });
+
+TEST_P(NoHeap, FromResetToDataExchangeAndAgain) {
+  Counted chip(GetParam());
+  speed::SaturatedBus<Counted> bus(chip, 64);
+  for (int round = 0; round < 2; ++round) {
+    bus.start();
+    for (int i = 0; i < 20; ++i) bus.exchange();
+    EXPECT_EQ(chip.status().data_exchanges, 20U);
+    chip.set(bus.now(), Pin::kReset, 0);
+  }
+  EXPECT_GT(chip.events(), 10U);
+  EXPECT_EQ(chip.allocated(), 0U);
+  const std::size_t before = allocations;
+  int* volatile one = new int;
+  delete one;
+  EXPECT_GT(allocations, before) << "the counter itself counts";
+}
+
+}  // namespace
