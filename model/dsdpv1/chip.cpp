@@ -79,6 +79,8 @@ struct Chip::Impl {
   void doze_if_unseen();
   void wake();
   void catch_up();
+  void update_access_pins();
+  std::uint32_t access_pins() const { return sequencer.owns() ? kAccessPins : 0; }
   void enter_reset(Tick at);
   std::uint32_t edge_outputs() const;
   void publish_edge_outputs(Tick at, std::uint32_t levels);
@@ -259,22 +261,23 @@ void Chip::Impl::wake() {
   if (!sequencer.dozing()) return;
   sequencer.wake(done());
   plans.sequencer = sequencer.next();
-  outputs = edge_outputs();
+  update_access_pins();
 }
 
 void Chip::Impl::catch_up() {
   sequencer.catch_up(done());
-  if (sequencer.dozing()) outputs = edge_outputs();
+  if (sequencer.dozing()) update_access_pins();
 }
+
+// Only these: in the middle of an edge, when an event's listener asks for something, the others are yet to be told.
+void Chip::Impl::update_access_pins() { outputs = (outputs & ~kAccessPins) | access_pins(); }
 
 // --- outputs ---------------------------------------------------------------------------------------------------------
 
 std::uint32_t Chip::Impl::edge_outputs() const {
-  const bool owns = sequencer.owns();
-  return bit(Pin::kLReq, owns) | bit(Pin::kLSta, owns) | bit(Pin::kIntr0, interrupt.level()) |
-         bit(Pin::kPbtxd, station.txd()) | bit(Pin::kPbrts, station.rts()) |
-         bit(Pin::kPbf, station.slave().state() != profibus::DpState::kDataExch) | bit(Pin::kBr, station.baud_found()) |
-         bit(Pin::kReady, sequencer.initialised());
+  return access_pins() | bit(Pin::kIntr0, interrupt.level()) | bit(Pin::kPbtxd, station.txd()) |
+         bit(Pin::kPbrts, station.rts()) | bit(Pin::kPbf, station.slave().state() != profibus::DpState::kDataExch) |
+         bit(Pin::kBr, station.baud_found()) | bit(Pin::kReady, sequencer.initialised());
 }
 
 void Chip::Impl::publish_edge_outputs(Tick at, std::uint32_t levels) {

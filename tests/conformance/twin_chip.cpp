@@ -134,7 +134,10 @@ void TwinChip::on_doze_pin(void* self, Tick at, Pin pin, Level level) {
 }
 
 void TwinChip::on_doze_event(void* self, const profibus::Event& event) {
-  static_cast<TwinChip*>(self)->doze_events_.push_back(event);
+  auto& twin = *static_cast<TwinChip*>(self);
+  twin.doze_events_.push_back(event);
+  twin.doze_.status();  // to ask in the middle of something disturbs nothing
+  twin.doze_.level(Pin::kLReq);
 }
 
 void TwinChip::on_skip_event(void* self, const profibus::Event& event) {
