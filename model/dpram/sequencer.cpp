@@ -195,7 +195,7 @@ unsigned Sequencer::due_items(Cycle now) const {
   const auto when = [](Item item, bool due) { return due ? mask(item) : 0U; };
   const auto command1 = [&](Item item, unsigned flag) { return when(item, (user_command1_ & flag) != 0); };
   const auto command2 = [&](Item item, unsigned flag) { return when(item, (user_command2_ & flag) != 0); };
-  const unsigned offline = static_cast<unsigned>(mail.state.exchanges_left ^ offline_written_);
+  const auto offline = static_cast<unsigned>(mail.state.exchanges_left ^ offline_written_);
   return command1(Item::kInit, regs::kUserCommand1Init) | command1(Item::kPrmVerdict, regs::kUserCommand1PrmVerdict) |
          command1(Item::kCfgVerdict, regs::kUserCommand1CfgVerdict) |
          command2(Item::kInputClear, regs::kUserCommand2InputClear) | command1(Item::kInput, regs::kUserCommand1Input) |

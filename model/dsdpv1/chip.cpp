@@ -48,7 +48,7 @@ struct Chip::Impl {
     Cycle release = kNever;  // cycle R
     Cycle host = kNever, handshake = kNever, sequencer = kNever, station = kNever, interrupt = kNever;
 
-    Cycle earliest() const { return std::min({release, host, handshake, sequencer, station, interrupt}); }
+    Cycle but_the_stations() const { return std::min({release, host, handshake, sequencer, interrupt}); }
   };
 
   explicit Impl(const Config& config)
@@ -68,11 +68,16 @@ struct Chip::Impl {
   Tick next_cycle() const { return first_edge_after(now) * kTicksPerCycle; }
   Cycle done() const { return now / kTicksPerCycle; }  // the last rising edge that is over
   bool due(Cycle next, Cycle cycle) const { return next <= cycle || engine == Engine::kStep; }
+  void plan_edge(Cycle cycle) {
+    planned_edge = cycle == kNever ? kNever : std::max(cycle * kTicksPerCycle, next_cycle());
+  }
   void plan();
   bool apply(Tick at, Pin pin, Level value);
   bool hear(Tick at, bool level);
   void set_handshake(Tick at, bool req, bool sta);
   void rising_edge(Cycle cycle);
+  bool only_sends(Cycle cycle) const;
+  void send_bit(Cycle cycle);
   void release(Cycle cycle);
   void eval_sequencer(Cycle cycle);
   void eval_station(Cycle cycle);
@@ -102,6 +107,7 @@ struct Chip::Impl {
   Tick now = 0;
   Tick planned_edge = kNever;
   Plan plans;
+  Cycle other_plans = kNever;  // but the station's, as plan() found them
   bool reset_pin = false, running = false, r_req = false, r_sta = false, rxd = true;
   std::uint32_t outputs = kResetLevels;
   Level d_out = kLevelZ;
@@ -174,8 +180,8 @@ void Chip::Impl::enter_reset(Tick at) {
 // --- time ------------------------------------------------------------------------------------------------------------
 
 void Chip::Impl::plan() {
-  const Cycle cycle = plans.earliest();
-  planned_edge = cycle == kNever ? kNever : std::max(cycle * kTicksPerCycle, next_cycle());
+  other_plans = plans.but_the_stations();
+  plan_edge(std::min(other_plans, plans.station));
 }
 
 void Chip::Impl::advance(Tick to) {
@@ -184,8 +190,10 @@ void Chip::Impl::advance(Tick to) {
     if (event == host.drive_at()) {
       host.drive();
       publish_data(event);
+    } else if (const Cycle cycle = event / kTicksPerCycle; only_sends(cycle)) {
+      send_bit(cycle);
     } else {
-      rising_edge(event / kTicksPerCycle);
+      rising_edge(cycle);
       plan();
     }
   }
@@ -214,6 +222,18 @@ void Chip::Impl::rising_edge(Cycle cycle) {
   const bool owned = (outputs & mask(Pin::kLSta)) != 0;
   publish_edge_outputs(cycle * kTicksPerCycle, edge_outputs());
   if (!owned) report_ownership(cycle * kTicksPerCycle);
+}
+
+// Most edges of a chip that answers move PBTXD and nothing else.
+bool Chip::Impl::only_sends(Cycle cycle) const {
+  return engine == Engine::kSkip && cycle < other_plans && station.only_sends(cycle);
+}
+
+void Chip::Impl::send_bit(Cycle cycle) {
+  plans.station = station.send_bit(cycle);
+  const std::uint32_t levels = (outputs & ~mask(Pin::kPbtxd)) | bit(Pin::kPbtxd, station.txd());
+  publish_edge_outputs(cycle * kTicksPerCycle, levels);
+  plan_edge(std::min(other_plans, plans.station));
 }
 
 void Chip::Impl::release(Cycle cycle) {

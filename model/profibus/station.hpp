@@ -1,6 +1,8 @@
 #pragma once
 // A PROFIBUS DP slave station between PBRXD and PBTXD: receiver, baud search, watchdog, FDL and the DP services,
 // evaluated in the order that docs/microarchitecture.md fixes. Nothing here knows how the user's side looks.
+#include <algorithm>
+
 #include "model/profibus/baud_search.hpp"
 #include "model/profibus/dp_slave.hpp"
 #include "model/profibus/fdl.hpp"
@@ -44,6 +46,14 @@ class Station {
   /// Whether eval(now) may do more than take a character or send a bit: change what the user's side hears, or a state.
   bool may_act(Cycle now) const {
     return now >= timers_ || (!tx_.rts() && now >= telegrams_.deadline() && !rx_.completes(now));
+  }
+
+  /// Whether eval(now) sends a bit of an answer and does nothing else.
+  bool only_sends(Cycle now) const { return tx_.rts() && now < tx_.end() && now < timers_; }
+  /// The same as eval() where only_sends(); next().
+  Cycle send_bit(Cycle now) {
+    tx_.eval(now);
+    return std::min(tx_.next(), timers_);
   }
 
   bool txd() const { return tx_.txd(); }

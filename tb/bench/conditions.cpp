@@ -126,8 +126,8 @@ const bus::Bytes* inputs_at_master(const Facts* facts, const std::string& slave)
 }
 
 void add_bytes(Parts& parts, const char* what, const bus::Bytes& wanted, const bus::Bytes* there) {
-  static const bus::Bytes kNone;
-  const bus::Bytes& seen = there != nullptr ? *there : kNone;
+  static const bus::Bytes none;
+  const bus::Bytes& seen = there != nullptr ? *there : none;
   parts.add(
       seen == wanted, [&] { return fmt::format("{} {}", what, shown(wanted)); },
       [&] { return fmt::format("{} {}", what, shown(seen)); });

@@ -62,14 +62,14 @@ const bus::Gsd& Setup::gsd(const scenario::Name& path) {
   const std::string file = scenario::resolve(scenario_, path);
   const auto known = files_.find(file);
   if (known != files_.end()) return known->second;
-  ReadFile read = try_read_file(file, kGsdFile.most_mb);
+  const ReadFile read = try_read_file(file, kGsdFile.most_mb);
   if (!read.wrong.empty()) {
     // Of the command line it is absolute: relative to where the user stands.
     const bool of_scenario = std::filesystem::path(path.text).is_relative();
     fail(path.line, fmt::format("gsd {}: {}, allowed is {}{}", path.text, read.wrong, kGsdFile.what,
                                 of_scenario ? ", its path relative to the scenario" : ""));
   }
-  std::istringstream in(std::move(read.text));
+  std::istringstream in(read.text);
   bus::GsdResult result = bus::parse_gsd(in, file);
   if (!result.gsd) {
     const auto error =

@@ -42,8 +42,9 @@ struct CheckId {
 
   CheckId() = default;
   explicit constexpr CheckId(std::size_t place) : index(place) {}
-  // NOLINTNEXTLINE(google-explicit-constructor): the enumerators of a chip stand for it
+  /// The enumerators of a chip stand for it.
   template <class E, class = std::enable_if_t<std::is_enum_v<E>>>
+  // NOLINTNEXTLINE(google-explicit-constructor)
   constexpr CheckId(E check) : index(static_cast<std::size_t>(check)) {}
 };
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tb/checks/check.hpp"
@@ -39,8 +40,8 @@ std::string ns_text(Tick ticks);
 class Recorder {
  public:
   /// `rules` and `history` must outlive it.
-  Recorder(const RuleTable& rules, const Limits& limits, const PinHistory& history)
-      : rules_(rules), limits_(limits), history_(history), records_(rules.size()) {}
+  Recorder(const RuleTable& rules, Limits limits, const PinHistory& history)
+      : rules_(rules), limits_(std::move(limits)), history_(history), records_(rules.size()) {}
 
   /// A measured value of a check with Bound::kMin or kMax; `context()` names what it was about, asked for when it is
   /// violated.

@@ -35,7 +35,7 @@ struct CodeTable {
 struct Order {
   keys::Choice choice;  ///< its word under `do`, and the keys that it takes
   /// What the log says when it is given.
-  std::string (*said)(const user_cpu::command::OfChip& order);
+  std::string (*said)(const user_cpu::command::OfChip& order) = nullptr;
   bool one_by_one = false;  ///< `times`: so many orders
 };
 

@@ -17,9 +17,9 @@ constexpr Level kLevelZ = -1;  ///< released
 constexpr Level kLevelX = -2;  ///< unknown
 
 struct PinInfo {
-  const char* name;  ///< the datasheet's
-  int width;         ///< number of wires, 1..15
-  bool input;
+  const char* name = nullptr;  ///< the datasheet's
+  int width = 1;               ///< number of wires, 1..15
+  bool input = false;
   const char* bus = nullptr;  ///< of two pins that are the two directions of one bus: its name, shown in waves
 };
 
