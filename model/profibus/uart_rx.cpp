@@ -48,10 +48,11 @@ Unheard UartRx::unheard() const {
   const Cycle to_stop = Cycle{kStopIndex} * bit_;
   if (state_ == State::kReceiving && index_ > 0)
     return {0, (sample_ + to_stop - Cycle{index_} * bit_) * kTicksPerCycle};
-  const bool starts = state_ == State::kIdle ? count_ > 0 : state_ == State::kReceiving && !line_;
-  const Cycle start_sample = state_ == State::kIdle ? edge() + bit_ / 2 : sample_;
-  const Cycle rise = state_ == State::kIdle ? second_edge() : edge();
-  if (!starts || rise <= start_sample) return {};
+  const bool begun = state_ == State::kReceiving && !line_, begins = state_ == State::kIdle && count_ > 0;
+  if (!begun && !begins) return {};
+  const Cycle start_sample = begun ? sample_ : edge() + bit_ / 2;
+  const Cycle rise = begun ? edge() : second_edge();
+  if (rise <= start_sample) return {};
   return {(start_sample - kSynchroniser) * kTicksPerCycle, (start_sample + to_stop) * kTicksPerCycle};
 }
 
