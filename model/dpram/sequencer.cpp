@@ -54,7 +54,13 @@ Cycle Sequencer::next() const {
 }
 
 void Sequencer::catch_up(Cycle until) {
-  if (dozing_) make_up_accesses(until);
+  make_moves(until);
+  if (!dozing_ || owns() || due_ > until) return;
+  make_up_accesses(until);
+  make_moves(until);
+}
+
+void Sequencer::make_moves(Cycle until) {
   if (phase_ == Phase::kHeader && index_ == 0 && op_ + kHeaderMoves - 1 <= until) header_at_once();
   while (owns() && op_ <= until) move(op_++);
 }
@@ -73,8 +79,6 @@ bool Sequencer::may_doze() const {
 
 // The last one, of which `until` may see only a part, is carried out byte by byte.
 void Sequencer::make_up_accesses(Cycle until) {
-  while (owns() && op_ <= until) move(op_++);
-  if (owns() || due_ > until) return;
   const Cycle period = std::max(interval_, kQuietAccess + 1);
   const Cycle whole = (until - due_) / period;
   accesses_ += static_cast<std::uint64_t>(whole);

@@ -113,6 +113,7 @@ class Sequencer {
 
   // access
   bool waiting() const { return phase_ == Phase::kIdle || phase_ == Phase::kDue; }
+  void make_moves(Cycle until);
   void make_up_accesses(Cycle until);
   void begin(Cycle now);
   void end(Cycle now);

@@ -92,8 +92,8 @@ class Station {
   DpSlave slave_;
   Fdl fdl_;
   UartTx tx_;
-  Cycle timers_ =
-      kNever;  // when search, watchdog or a timer of C2 is over next: kept, as it is asked at every bit sent
+  // When search, watchdog or a timer of C2 is over next: kept, as it is asked at every bit sent.
+  Cycle timers_ = kNever;
   std::uint64_t received_ = 0, answered_ = 0;
 };
 

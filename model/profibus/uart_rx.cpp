@@ -35,25 +35,32 @@ void UartRx::restart(int bit, Cycle now, Cycle idle_since) {
   idle_since_ = idle_since;
 }
 
+Cycle UartRx::start_sample() const {
+  const bool begun = state_ == State::kReceiving && !line_, begins = state_ == State::kIdle && count_ > 0;
+  if (!begun && !begins) return kNever;
+  const Cycle at = begun ? sample_ : edge() + bit_ / 2;
+  const Cycle rise = begun ? edge() : second_edge();
+  return rise > at ? at : kNever;
+}
+
+Cycle UartRx::stop_sample() const {
+  if (state_ == State::kReceiving && index_ > 0) return sample_ + Cycle{kStopIndex - index_} * bit_;
+  const Cycle start = start_sample();
+  return start == kNever ? kNever : start + Cycle{kStopIndex} * bit_;
+}
+
 Cycle UartRx::next() const {
-  const Cycle half = bit_ / 2, to_stop = Cycle{kStopIndex} * bit_;
-  if (state_ == State::kReceiving && index_ == 0 && (line_ || edge() <= sample_)) return sample_;
-  if (state_ == State::kReceiving) return sample_ + to_stop - Cycle{index_} * bit_;
-  if (state_ == State::kBreak || second_edge() - half <= edge()) return edge();  // maybe no start bit, or none at all
-  return edge() + half + to_stop;
+  const Cycle stop = stop_sample();
+  if (stop != kNever) return stop;
+  return state_ == State::kReceiving ? sample_ : edge();  // maybe no start bit, or none at all
 }
 
 // Once the start bit stands, all that counts is the level at the sampling points, and that is asked at the last one.
 Unheard UartRx::unheard() const {
-  const Cycle to_stop = Cycle{kStopIndex} * bit_;
-  if (state_ == State::kReceiving && index_ > 0)
-    return {0, (sample_ + to_stop - Cycle{index_} * bit_) * kTicksPerCycle};
-  const bool begun = state_ == State::kReceiving && !line_, begins = state_ == State::kIdle && count_ > 0;
-  if (!begun && !begins) return {};
-  const Cycle start_sample = begun ? sample_ : edge() + bit_ / 2;
-  const Cycle rise = begun ? edge() : second_edge();
-  if (rise <= start_sample) return {};
-  return {(start_sample - kSynchroniser) * kTicksPerCycle, (start_sample + to_stop) * kTicksPerCycle};
+  const Cycle stop = stop_sample();
+  if (stop == kNever) return {};
+  const bool stands = state_ == State::kReceiving && index_ > 0;
+  return {stands ? 0 : (start_sample() - kSynchroniser) * kTicksPerCycle, stop * kTicksPerCycle};
 }
 
 // Edges and sampling points in their order; at one cycle the edge comes first.

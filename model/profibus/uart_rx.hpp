@@ -45,7 +45,7 @@ class UartRx {
   /// From when on, and before when, edges of the line may be told late: before eval() is called for `until`'s cycle.
   Unheard unheard() const;
   /// The last sampling point of a character is at `now`.
-  bool completes(Cycle now) const { return unheard().until == now * kTicksPerCycle; }
+  bool completes(Cycle now) const { return stop_sample() == now; }
 
   const Character& character() const { return character_; }
   int bit() const { return bit_; }
@@ -62,6 +62,10 @@ class UartRx {
     --count_;
     line_ = !line_;
   }
+  // Of the character that is being received or begins: the middle of its start bit while that is to come, and the last
+  // sampling point; kNever as long as the edges noted do not say that the start bit stands.
+  Cycle start_sample() const;
+  Cycle stop_sample() const;
   void take_edge();
   bool sample(Cycle end);
 
