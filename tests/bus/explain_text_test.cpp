@@ -18,7 +18,7 @@ struct Result {
   std::string text, error;
 };
 
-Result decode(const std::string& input) {
+Result decoded(const std::string& input) {
   std::istringstream in(input);
   std::ostringstream out;
   std::string error;
@@ -26,56 +26,56 @@ Result decode(const std::string& input) {
   return {code, out.str(), error};
 }
 
-const std::string kStatus = "10 03 01 49 4D 16";
+const std::string kStatusText = "10 03 01 49 4D 16";
 
 TEST(DecodeText, AnySpacingPrefixesCommasAndComments) {
   for (const std::string input : {"10 03 01 49 4D 16", "10030149 4d16", "0x10,0x03, 0x01,0X49 4D\t16\r\n",
                                   "10 03 # first\n01 49 ; rest\n4D 16", "\n\n  10 03 01 49 4D 16"}) {
-    const Result result = decode(input);
+    const Result result = decoded(input);
     EXPECT_EQ(result.code, 0) << input;
     EXPECT_THAT(result.text, HasSubstr("1 -> 3  request FDL status")) << input;
   }
 }
 
 TEST(DecodeText, PrintsOffsetHexAndMeaning) {
-  EXPECT_EQ(decode("E5").text, "telegram 1, line 1: SC (short acknowledge)\n     0  E5  SC: short acknowledge\n");
+  EXPECT_EQ(decoded("E5").text, "telegram 1, line 1: SC (short acknowledge)\n     0  E5  SC: short acknowledge\n");
 }
 
 TEST(DecodeText, AStreamOfSeveralTelegrams) {
-  const Result result = decode(kStatus + " E5 DC 01 01 " + kStatus);
+  const Result result = decoded(kStatusText + " E5 DC 01 01 " + kStatusText);
   EXPECT_EQ(result.code, 0);
   EXPECT_THAT(result.text, HasSubstr("telegram 4, line 1"));
 }
 
 TEST(DecodeText, GarbageBetweenTelegramsIsReportedAndSkipped) {
-  const Result result = decode(kStatus + "\n00 FF 12\nE5\n");
+  const Result result = decoded(kStatusText + "\n00 FF 12\nE5\n");
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.text, HasSubstr("garbage, line 2: 3 bytes between telegrams"));
   EXPECT_THAT(result.text, HasSubstr("telegram 2, line 3: SC"));
 }
 
 TEST(DecodeText, AWrongTelegramDoesNotSwallowTheNext) {
-  const Result result = decode("68 05 05 68 83 81 6D 3C 3E EB\n" + kStatus);  // ED is missing
+  const Result result = decoded("68 05 05 68 83 81 6D 3C 3E EB\n" + kStatusText);  // ED is missing
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.text, HasSubstr("wrong telegram, line 1: truncated"));
   EXPECT_THAT(result.text, HasSubstr("telegram 1, line 2"));
 }
 
 TEST(DecodeText, DataThatLookLikeDelimitersAreNotBelievedInsideAWrongTelegram) {
-  const Result result = decode("68 07 07 68 03 01 7D E5 DC E5 E5 00 16");
+  const Result result = decoded("68 07 07 68 03 01 7D E5 DC E5 E5 00 16");
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.text, HasSubstr("wrong FCS"));
   EXPECT_THAT(result.text, Not(HasSubstr("telegram 1")));
 }
 
 TEST(DecodeText, EveryErrorIsNamed) {
-  EXPECT_THAT(decode("10 03 01 49 4E 16").text, HasSubstr("FCS: wrong, 4D is right"));
-  EXPECT_THAT(decode("10 03 01 49 4D 17").text, HasSubstr("ED: wrong, 16 is right"));
-  EXPECT_THAT(decode("68 05 06 68").text, HasSubstr("LE and LEr differ"));
-  EXPECT_THAT(decode("68 FF FF 68").text, HasSubstr("LE out of range"));
-  EXPECT_THAT(decode("68 05 05 00").text, HasSubstr("second start delimiter"));
-  EXPECT_THAT(decode("10 83 01 49 CD 16").text, HasSubstr("SAP byte that is not there"));
-  EXPECT_THAT(decode("10 03").text, HasSubstr("truncated"));
+  EXPECT_THAT(decoded("10 03 01 49 4E 16").text, HasSubstr("FCS: wrong, 4D is right"));
+  EXPECT_THAT(decoded("10 03 01 49 4D 17").text, HasSubstr("ED: wrong, 16 is right"));
+  EXPECT_THAT(decoded("68 05 06 68").text, HasSubstr("LE and LEr differ"));
+  EXPECT_THAT(decoded("68 FF FF 68").text, HasSubstr("LE out of range"));
+  EXPECT_THAT(decoded("68 05 05 00").text, HasSubstr("second start delimiter"));
+  EXPECT_THAT(decoded("10 83 01 49 CD 16").text, HasSubstr("SAP byte that is not there"));
+  EXPECT_THAT(decoded("10 03").text, HasSubstr("truncated"));
 }
 
 const std::string kLog =
@@ -85,7 +85,7 @@ const std::string kLog =
     "        1362100.917 ns  bus          telegram  SC (short acknowledge)  [TSDR 11.25]  E5\n";
 
 TEST(DecodeText, TheTelegramsOfALogWithTheirTimes) {
-  const Result result = decode(kLog);
+  const Result result = decoded(kLog);
   EXPECT_EQ(result.code, 0) << result.error;
   EXPECT_THAT(result.text, HasSubstr("telegram 1, line 2, 1362000.000 ns: 1 -> 3  request FDL status"));
   EXPECT_THAT(result.text, HasSubstr("telegram 2, line 4, 1362100.917 ns: SC"));
@@ -93,19 +93,19 @@ TEST(DecodeText, TheTelegramsOfALogWithTheirTimes) {
 }
 
 TEST(DecodeText, ALogOfJsonLines) {
-  const Result result = decode(
+  const Result result = decoded(
       "{\"at_ns\":1362.5,\"station\":\"demo\",\"kind\":\"info\",\"text\":\"bytes\",\"bytes\":\"00\"}\n"
       "{\"at_ns\":1400.0,\"station\":\"bus\",\"kind\":\"telegram\",\"text\":\"x\",\"bytes\":\"10 03 01 49 4D 16\"}\n");
   EXPECT_EQ(result.code, 0) << result.error;
   EXPECT_THAT(result.text, HasSubstr("telegram 1, line 2, 1400.000 ns: 1 -> 3  request FDL status"));
-  EXPECT_THAT(decode("{\"at_ns\": 3}\n").error,
+  EXPECT_THAT(decoded("{\"at_ns\": 3}\n").error,
               "bus.txt:1: is no line of a log, allowed are JSON objects with at_ns and kind, or bytes of two digits 00 "
               "to FF");
-  EXPECT_EQ(decode("{not json\n").code, 2);
+  EXPECT_EQ(decoded("{not json\n").code, 2);
 }
 
 TEST(DecodeText, AWrongTelegramOfALogEndsWithItsLine) {
-  const Result result = decode(
+  const Result result = decoded(
       "  1.000 ns  bus  telegram  not readable  [wrong: truncated]  68 05 05 68 83\n"
       "  2.000 ns  bus  telegram  SC (short acknowledge)  E5\n");
   EXPECT_EQ(result.code, 1);
@@ -114,7 +114,7 @@ TEST(DecodeText, AWrongTelegramOfALogEndsWithItsLine) {
 }
 
 TEST(DecodeText, BytesThatTheLogHasCutAreNamed) {
-  const Result result = decode("  1.000 ns  bus  telegram  words  68 1D 1D 68 03 ... (35 bytes)\n");
+  const Result result = decoded("  1.000 ns  bus  telegram  words  68 1D 1D 68 03 ... (35 bytes)\n");
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.text,
               HasSubstr("the log has 5 of its 35 bytes, all of them with --log-whole or --log FILE.jsonl"));
@@ -132,22 +132,22 @@ TEST(DecodeText, ASetPrmDecidesHowLaterDiagnosesOfItsSlaveAreRead) {
     return hex_of(make_telegram(3, 1, 0x7D, {0x80, 0, 0, 11, 0, 0, 0, user, 0, 0}, sap::kSetPrm, sap::kMaster));
   };
   const std::string manufacturers = "device related byte 1: 0x81", dpv1 = "Status_Type: status message";
-  EXPECT_THAT(decode(diagnosis).text, HasSubstr(manufacturers + ", in DPV1 " + dpv1));
-  EXPECT_THAT(decode(set_prm(0x80) + diagnosis).text, AllOf(HasSubstr(dpv1), Not(HasSubstr(manufacturers))));
-  EXPECT_THAT(decode(set_prm(0x00) + diagnosis).text, AllOf(HasSubstr(manufacturers), Not(HasSubstr(dpv1))));
+  EXPECT_THAT(decoded(diagnosis).text, HasSubstr(manufacturers + ", in DPV1 " + dpv1));
+  EXPECT_THAT(decoded(set_prm(0x80) + diagnosis).text, AllOf(HasSubstr(dpv1), Not(HasSubstr(manufacturers))));
+  EXPECT_THAT(decoded(set_prm(0x00) + diagnosis).text, AllOf(HasSubstr(manufacturers), Not(HasSubstr(dpv1))));
 }
 
 TEST(DecodeText, NothingIsNoTelegram) {
-  EXPECT_EQ(decode("# only a comment\n").code, 1);
-  EXPECT_EQ(decode("").text, "no telegram\n");
+  EXPECT_EQ(decoded("# only a comment\n").code, 1);
+  EXPECT_EQ(decoded("").text, "no telegram\n");
 }
 
 TEST(DecodeText, WhatIsNotHexadecimalIsAnErrorWithItsLineAndNoOutput) {
-  const Result word = decode("E5\nE5 XY\n");
+  const Result word = decoded("E5\nE5 XY\n");
   EXPECT_EQ(word.code, 2);
   EXPECT_EQ(word.error, "bus.txt:2: 'XY' is no hexadecimal number, allowed are bytes of two digits 00 to FF");
   EXPECT_EQ(word.text, "");
-  const Result odd = decode("123");
+  const Result odd = decoded("123");
   EXPECT_EQ(odd.code, 2);
   EXPECT_EQ(odd.error, "bus.txt:1: '123' has an odd number of digits, a byte has two: 00 to FF");
 }

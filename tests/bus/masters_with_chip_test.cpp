@@ -18,7 +18,7 @@ using conformance::kC1Area;
 using conformance::kC2Area;
 
 constexpr std::uint8_t kChip = 5;
-constexpr std::uint16_t kSendTimeout = 2;  // 20 ms: F and U; I is 40 ms
+constexpr std::uint16_t kShortSendTimeout = 2;  // 20 ms: F and U; I is 40 ms
 constexpr Tick kUserPeriod = 30 * kTicksPerUs;
 
 struct MastersWithChip : conformance::Dpv1Test {
@@ -56,8 +56,8 @@ struct MastersWithChip : conformance::Dpv1Test {
   ConnectionId connected(std::optional<ConnectionState> silent_from = {}) {
     ConnectionParameters how;
     how.slave = kChip;
-    how.send_timeout = kSendTimeout;
-    how.response_timeout = 3 * kSendTimeout;
+    how.send_timeout = kShortSendTimeout;
+    how.response_timeout = 3 * kShortSendTimeout;
     how.silent_from = silent_from;
     const ConnectionId id = class2.add_connection(how);
     class2.connect(id);

@@ -21,7 +21,7 @@ using testing::IsEmpty;
 
 constexpr std::uint8_t kHighest = 12;
 
-SlaveParameters parameters(std::uint8_t address) {
+SlaveParameters slave_at(std::uint8_t address) {
   SlaveParameters slave;
   slave.address = address;
   slave.ident = 0x0B9A;
@@ -493,8 +493,8 @@ struct TwoMasters : testing::Test, Ring {
       cyclic.push_back(std::make_unique<Master1>(segment, config(static_cast<std::uint8_t>(address))));
       timeline.add(*cyclic.back());
     }
-    cyclic[0]->add_slave(parameters(11));
-    cyclic[1]->add_slave(parameters(10));
+    cyclic[0]->add_slave(slave_at(11));
+    cyclic[1]->add_slave(slave_at(10));
   }
   bool exchanging() const {
     return cyclic[0]->slave(11).state == SlaveState::kDataExchange &&

@@ -8,8 +8,6 @@ namespace {
 
 using profibus::Cycle;
 
-constexpr Cycle kMs = profibus::kCyclesPerMs;
-
 Cycle cycles_of_bit(int index) { return bus::baud(index).bit / kCycleTicks; }
 Cycle window(int index) { return std::max<Cycle>(50 * kMs, 4000 * cycles_of_bit(index)); }
 

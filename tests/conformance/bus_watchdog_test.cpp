@@ -8,8 +8,6 @@ namespace {
 
 using profibus::Cycle;
 
-constexpr Cycle kMs = profibus::kCyclesPerMs;
-
 class Watchdog : public testing::Test {
  protected:
   static Prm prm(int wd1, int wd2, bool one_ms) {

@@ -13,6 +13,7 @@ namespace conformance {
 using bus::Bytes;
 
 constexpr Tick kCycleTicks = profibus::kTicksPerCycle;
+constexpr profibus::Cycle kMs = profibus::kCyclesPerMs;
 
 /// The initialisation block B020..; the defaults give a slave at 5 with 2 input and 2 output bytes, ident 0x0CC9,
 /// judged by the chip.

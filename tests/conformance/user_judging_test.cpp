@@ -29,7 +29,7 @@ struct Diag {
   int master;
 };
 
-Diag diag(SlaveBench& bench) {
+Diag diagnosis(SlaveBench& bench) {
   const Bytes bytes = bench.slave_diag();
   EXPECT_GE(bytes.size(), 6U);
   if (bytes.size() < 6) return {};
@@ -38,7 +38,7 @@ Diag diag(SlaveBench& bench) {
 }
 
 void expect_judging(SlaveBench& bench) {
-  const Diag seen = diag(bench);
+  const Diag seen = diagnosis(bench);
   EXPECT_TRUE(seen.not_ready);
   EXPECT_FALSE(seen.prm_req) << "S15: not while the user judges";
   EXPECT_FALSE(seen.prm_fault);
@@ -47,7 +47,7 @@ void expect_judging(SlaveBench& bench) {
 
 void expect_refused(SlaveBench& bench, bool prm_fault) {
   EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
-  const Diag seen = diag(bench);
+  const Diag seen = diagnosis(bench);
   EXPECT_EQ(seen.prm_fault, prm_fault);
   EXPECT_EQ(seen.cfg_fault, !prm_fault);
   EXPECT_TRUE(seen.not_ready);
@@ -92,7 +92,7 @@ TEST_P(Modes, RightParametersAndConfigurationReachDataExchange) {
     bench.verdict(std::nullopt, true);
   }
   EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
-  EXPECT_FALSE(diag(bench).not_ready);
+  EXPECT_FALSE(diagnosis(bench).not_ready);
   EXPECT_TRUE(bench.data_exchange({1, 2}).answered());
 }
 
@@ -213,24 +213,24 @@ TEST_F(ByUser, WrongConfigurationIsCfgFault) {
 TEST_F(ByUser, FaultsFallWithTheNextGoodOnes) {
   wait_for_prm_verdict();
   bench.verdict(false, std::nullopt);
-  ASSERT_TRUE(diag(bench).prm_fault);
+  ASSERT_TRUE(diagnosis(bench).prm_fault);
   bench.set_prm(with_user({}));
   bench.chip_accesses(3);
-  EXPECT_TRUE(diag(bench).prm_fault) << "S17: not yet good";
+  EXPECT_TRUE(diagnosis(bench).prm_fault) << "S17: not yet good";
   bench.verdict(true, std::nullopt);
-  EXPECT_FALSE(diag(bench).prm_fault);
+  EXPECT_FALSE(diagnosis(bench).prm_fault);
   bench.check_cfg();
   bench.chip_accesses(3);
   bench.verdict(std::nullopt, false);
-  ASSERT_TRUE(diag(bench).cfg_fault);
+  ASSERT_TRUE(diagnosis(bench).cfg_fault);
   bench.set_prm(with_user({}));
   bench.chip_accesses(3);
   bench.verdict(true, std::nullopt);
-  EXPECT_TRUE(diag(bench).cfg_fault) << "S17: until the next good Check_Cfg";
+  EXPECT_TRUE(diagnosis(bench).cfg_fault) << "S17: until the next good Check_Cfg";
   bench.check_cfg();
   bench.chip_accesses(3);
   bench.verdict(std::nullopt, true);
-  EXPECT_FALSE(diag(bench).cfg_fault);
+  EXPECT_FALSE(diagnosis(bench).cfg_fault);
   EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
 }
 
@@ -427,7 +427,7 @@ TEST_F(ByUser, CheckCfgInDataExchangeNeedsNoVerdict) {
   EXPECT_EQ(bench.dp_state(), DpState::kDataExch) << "S16: the configuration in use";
   ASSERT_TRUE(bench.check_cfg({0x11, 0x20}).short_acknowledge());
   EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
-  EXPECT_TRUE(diag(bench).cfg_fault);
+  EXPECT_TRUE(diagnosis(bench).cfg_fault);
 }
 
 TEST_F(ByUser, WhatTheUserMayNotJudgeIsACfgFault) {
@@ -468,7 +468,7 @@ TEST_F(ByUser, UnlockEndsTheJudging) {
   bench.verdict(true, std::nullopt);
   EXPECT_EQ(bench.count(Reason::kVerdictUnexpected), 1);
   EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
-  EXPECT_TRUE(diag(bench).prm_req);
+  EXPECT_TRUE(diagnosis(bench).prm_req);
 }
 
 }  // namespace
