@@ -139,7 +139,8 @@ TEST_P(Scripts, KeepStepAndSkipTogether) {
   EXPECT_GT(script.times_in_data_exchange(), 10) << "the script does not reach far enough to prove anything";
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Scripts, testing::Range(1U, 9U));
+INSTANTIATE_TEST_SUITE_P(Seeds, Scripts, testing::Values(1U));
+INSTANTIATE_TEST_SUITE_P(MoreSeeds, Scripts, testing::Range(2U, 9U));
 
 }  // namespace
 }  // namespace conformance
