@@ -128,7 +128,7 @@ int rtl_faults(const RtlFaultsArguments& arguments) {
   check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", arguments.tsv}});
   std::optional<tb::OutputFile> tsv;
   if (!arguments.tsv.empty()) tsv.emplace(arguments.tsv);
-  const cosim::Kill none = cosim::hunt({0, "none", "the build for the faults, with none active"}, directed,
+  const cosim::Kill none = cosim::hunt({0, "none", "", "the build for the faults, with none active"}, directed,
                                        arguments.seed, arguments.cycles / 10);
   std::cout << cosim::heading();
   if (none.found) {

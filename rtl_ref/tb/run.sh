@@ -17,28 +17,31 @@ build() {
     $(cat files.txt) "$(pwd)/tb/rtl_test.cpp" "$(pwd)/tb/ownership_test.cpp" "$(pwd)/tb/user_rules_test.cpp" "$(pwd)/tb/service_rules_test.cpp" "$(pwd)/tb/dpv1_test.cpp" -o rtl_test > "$folder/build.log" 2>&1 || { tail -n 30 "$folder/build.log"; exit 1; }
 }
 
-# check BUILD [NAME=NUMBER...]: prints the results and keeps them in BUILD.txt
+# check RESULT BUILD [NAME=NUMBER...]: keeps what the test prints in RESULT.txt, and prints it when it fails
 check() {
-  name=$1
-  shift
-  echo "$name $*"
-  "$out/$name/rtl_test" "$@" > "$out/$name.txt" || { cat "$out/$name.txt"; exit 1; }
-  cat "$out/$name.txt"
+  result=$out/$1.txt
+  name=$2
+  shift 2
+  "$out/$name/rtl_test" "$@" > "$result" || { echo "$name $*"; cat "$result"; exit 1; }
 }
 
-# same BUILD: whether the build with limits of run time has just done what this one has
+# same RESULT RESULT: the build with limits of run time does what the one without them does
 same() {
-  cmp -s "$out/$1.txt" "$out/run_time_limits.txt" || { echo "run_time_limits differs from $1"; exit 1; }
+  cmp -s "$out/$1.txt" "$out/$2.txt" || { echo "$2 differs from $1"; exit 1; }
 }
 
 others="rts_lead=0 rts_trail=32 search_window_ms=3"
 build parameters "$@"
 build other_parameters -GRTS_LEAD=0 -GRTS_TRAIL=32 -GSEARCH_WINDOW_MS=3 "$@"
 build run_time_limits -DDSDPV1_RUN_TIME_LIMITS -CFLAGS -DDSDPV1_RUN_TIME_LIMITS "$@"
-check parameters
-check run_time_limits
-same parameters
-check other_parameters $others
-check run_time_limits $others
-same other_parameters
-check run_time_limits rts_lead=32 rts_trail=0
+
+check defaults parameters &
+check defaults_at_run_time run_time_limits
+wait $!
+check others other_parameters $others &
+check others_at_run_time run_time_limits $others
+wait $!
+check long_lead run_time_limits rts_lead=32 rts_trail=0
+same defaults defaults_at_run_time
+same others others_at_run_time
+cat "$out/defaults.txt"

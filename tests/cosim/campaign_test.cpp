@@ -7,13 +7,16 @@
 #include <fstream>
 
 #include "tb/dsdpv1/cosim/campaign.hpp"
+#include "tb/dsdpv1/cosim/faults.hpp"
 #include "tb/dsdpv1/cosim/random_setup.hpp"
 #include "tb/dsdpv1/cosim/reference_rtl.hpp"
 #include "tests/app/program.hpp"
 
 namespace {
 
+namespace fs = std::filesystem;
 using app_test::call;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 
 cosim::MakeTop faulty(unsigned fault) {
@@ -60,13 +63,32 @@ TEST(RtlRandom, ShrinksAFaultToAFewLinesThatShowItAgain) {
 TEST(RtlFaults, OneThatCannotBeFoundIsCountedAndExitIs1) {
   const app_test::Folder folder;
   std::ofstream(folder.file("faults.txt"))
-      << "# no such fault in the RTL\n255 uart_rx nothing is wrong\n46 interrupt INTR0 is low for 63 cycles\n";
+      << "# no such fault in the RTL\n255 uart_rx - nothing is wrong\n46 interrupt - INTR0 is low for 63 cycles\n";
   const app_test::Called called =
       call("rtl-faults --list faults.txt --directed . --cycles 3000000 --tsv kills.tsv", folder.path());
   EXPECT_EQ(called.status, 1);
   EXPECT_THAT(called.out, HasSubstr("ALIVE"));
   EXPECT_THAT(called.out, HasSubstr("1 of 2 faults found\n"));
   EXPECT_THAT(app_test::read(folder.file("kills.tsv")), HasSubstr("46\tinterrupt\tINTR0 is low for 63 cycles\tyes\t"));
+}
+
+TEST(RtlFaults, StimulusThatAFaultNamesIsPlayedFirst) {
+  const app_test::Folder folder;
+  for (const std::string name : {"c1", "check_cfg"})
+    fs::copy(DSDPV1_SOURCE_DIR "/tests/cosim/stimuli/" + name + ".stimulus", folder.file(name + ".stimulus"));
+  std::ofstream(folder.file("faults.txt")) << "46 interrupt c1 INTR0 is low for 63 cycles\n"
+                                           << "46 interrupt check_cfg INTR0 is low for 63 cycles\n";
+  const app_test::Called called = call("rtl-faults --list faults.txt --directed . --cycles 10000", folder.path());
+  EXPECT_EQ(called.status, 0) << called.out << called.err;
+  EXPECT_THAT(called.out, ContainsRegex(" c1: pin INTR0.*\n.* check_cfg: pin INTR0"));
+}
+
+TEST(RtlFaults, StimuliOfTheListAreThere) {
+  const std::vector<cosim::NamedStimulus> stimuli = cosim::read_stimuli(DSDPV1_SOURCE_DIR "/tests/cosim/stimuli");
+  for (const cosim::Fault& fault : cosim::read_faults(DSDPV1_SOURCE_DIR "/rtl_ref/faults.txt")) {
+    const auto named = [&fault](const cosim::NamedStimulus& each) { return each.name == fault.stimulus; };
+    EXPECT_TRUE(std::any_of(stimuli.begin(), stimuli.end(), named)) << fault.number << " names " << fault.stimulus;
+  }
 }
 
 }  // namespace

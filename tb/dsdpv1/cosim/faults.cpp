@@ -70,8 +70,8 @@ std::vector<Fault> read_faults(const std::string& path) {
     if (line.empty() || line[0] == '#') continue;
     std::istringstream words(line);
     Fault fault;
-    if (!(words >> fault.number >> fault.block) || !std::getline(words >> std::ws, fault.text))
-      throw tb::InputError(path, number, "is no fault, allowed is: number, block, what is wrong");
+    if (!(words >> fault.number >> fault.block >> fault.stimulus) || !std::getline(words >> std::ws, fault.text))
+      throw tb::InputError(path, number, "is no fault, allowed is: number, block, stimulus, what is wrong");
     faults.push_back(std::move(fault));
   }
   return faults;
@@ -93,7 +93,11 @@ std::vector<NamedStimulus> read_stimuli(const std::string& folder) {
 
 Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, std::uint64_t seed, std::uint64_t cycles) {
   Hunt hunt(fault);
-  if (std::none_of(directed.begin(), directed.end(), [&hunt](const auto& each) { return hunt.directed(each); }))
+  const auto named = [&fault](const NamedStimulus& each) { return each.name == fault.stimulus; };
+  const auto finds = [&hunt](const NamedStimulus& each) { return hunt.directed(each); };
+  const auto finds_unnamed = [&](const NamedStimulus& each) { return !named(each) && finds(each); };
+  const auto first = std::find_if(directed.begin(), directed.end(), named);
+  if (!(first != directed.end() && finds(*first)) && std::none_of(directed.begin(), directed.end(), finds_unnamed))
     hunt.random(seed, cycles);
   return hunt.end();
 }

@@ -9,7 +9,7 @@ namespace cosim {
 
 struct Fault {
   unsigned number = 0;
-  std::string block, text;
+  std::string block, stimulus, text;  ///< the directed stimulus that is played first
 };
 /// rtl_ref/faults.txt; throws tb::InputError.
 std::vector<Fault> read_faults(const std::string& path);
@@ -30,7 +30,7 @@ struct Kill {
   std::string what;  ///< the difference
 };
 
-/// Directed stimuli first, then random cases until `cycles` are compared.
+/// Directed stimuli, first the one that the fault names, then random cases until `cycles` are compared.
 Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, std::uint64_t seed, std::uint64_t cycles);
 
 /// All of them, on several threads; `found` is called in the order of `faults`, by one thread at a time.

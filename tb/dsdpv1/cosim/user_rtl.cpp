@@ -180,11 +180,21 @@ void check_ports(const std::string& top, const PinMap& map, const std::string& b
   for (const auto& [pin, port] : map.pins) check(pin, port.name);
 }
 
+bool installed(const char* program) {
+  return std::system(fmt::format("command -v {} >/dev/null 2>&1", program).c_str()) == 0;
+}
+
+/// With ccache, where there is one: RTL that has been built before is not compiled again.
+std::string make_command(const UserRtl& rtl, const std::string& build) {
+  return fmt::format("{}make -s -j2 -C {} -f V{}.mk", installed("ccache") ? "OBJCACHE=ccache " : "", quoted(build),
+                     rtl.top);
+}
+
 }  // namespace
 
 MakeRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
   if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, allowed is one with RTL");
-  if (std::system("command -v verilator >/dev/null 2>&1") != 0)
+  if (!installed("verilator"))
     throw tb::InputError("dsdpv1-sim cosim: Verilator is missing, allowed is version 5.006 or later in PATH");
   fs::create_directories(rtl.build);
   const std::string adapter = fs::absolute(fs::path(rtl.build) / "adapter.cpp").string();
@@ -195,7 +205,7 @@ MakeRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
   const std::string build = fs::absolute(rtl.build).string();
   call(verilator_command(rtl, map, build, adapter), build + "/verilator.log", rtl.top);
   check_ports(rtl.top, map, build);
-  call(fmt::format("make -s -C {} -f V{}.mk", quoted(build), rtl.top), build + "/compiler.log", rtl.top);
+  call(make_command(rtl, build), build + "/compiler.log", rtl.top);
   const Library library = load((fs::path(rtl.build) / "librtl.so").string());
   return [library](const dsdpv1::Config&) { return std::make_unique<UserTop>(library); };
 }
