@@ -18,7 +18,8 @@ GSD = os.path.join(ROOT, "scenarios", "dsdpv1.gsd")
 BITS_PER_SECOND = {"19.2k": 19200, "45.45k": 45450, "187.5k": 187500, "500k": 500000, "1.5M": 1500000}
 DEADLINE = 300  # seconds for one wait; far more than a busy machine needs
 LATE_MS = 25    # half of pyprofibus's shortest time limit that matters: 50 ms for an answer
-ATTEMPTS = 3
+ATTEMPTS = 5
+PAUSE_S = 5   # before the second one, twice as long before the third, ...: a machine is busy for a while
 
 
 class Failure(Exception):
@@ -30,7 +31,7 @@ def check(holds, text):
         raise Failure(text)
 
 
-def exit_code(case, was_busy):
+def exit_code(case, was_busy, pause_s=PAUSE_S):
     """Of a case that is tried again as long as `was_busy()` says that the machine was to blame, ATTEMPTS times in all."""
     for attempt in range(1, ATTEMPTS + 1):
         try:
@@ -41,6 +42,8 @@ def exit_code(case, was_busy):
             traceback.print_exc(file=sys.stdout)
         if not was_busy():
             return 1
+        if attempt < ATTEMPTS:
+            time.sleep(pause_s * attempt)
     return 1
 
 

@@ -45,7 +45,7 @@ def only_a_busy_machine_gets_another_try():
         def case():
             done.append(case)
             check(len(done) >= succeeds_at, "made up, attempt %d" % len(done))
-        return exit_code(case, lambda: busy), len(done)
+        return exit_code(case, lambda: busy, pause_s=0), len(done)
     check(tries(busy=False) == (1, 1), "a failure on a machine that was not busy was tried again")
     check(tries(busy=True) == (1, ATTEMPTS), "not tried again, or too often")
     check(tries(busy=True, succeeds_at=2) == (0, 2), "the second try does not count")
