@@ -93,12 +93,10 @@ std::vector<NamedStimulus> read_stimuli(const std::string& folder) {
 
 Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, std::uint64_t seed, std::uint64_t cycles) {
   Hunt hunt(fault);
-  const auto named = [&fault](const NamedStimulus& each) { return each.name == fault.stimulus; };
-  const auto finds = [&hunt](const NamedStimulus& each) { return hunt.directed(each); };
-  const auto finds_unnamed = [&](const NamedStimulus& each) { return !named(each) && finds(each); };
-  const auto first = std::find_if(directed.begin(), directed.end(), named);
-  if (!(first != directed.end() && finds(*first)) && std::none_of(directed.begin(), directed.end(), finds_unnamed))
-    hunt.random(seed, cycles);
+  for (const bool named : {true, false})
+    for (const NamedStimulus& each : directed)
+      if ((each.name == fault.stimulus) == named && hunt.directed(each)) return hunt.end();
+  hunt.random(seed, cycles);
   return hunt.end();
 }
 
