@@ -136,6 +136,19 @@ void MasterFdl::line_changed(Tick at, bool level) {
   if (receiver_.line_changed(at, level)) plan_changed();
 }
 
+bool MasterFdl::run_begins(const CharacterRun& run) {
+  if (state_ == State::kSending) return !reads_back();  // it would hear itself
+  if (!receiver_.set_run(run)) return false;
+  plan_changed();
+  return true;
+}
+
+void MasterFdl::run_cut(Tick at, bool /*level*/) {
+  sender_.run_cut(at);
+  receiver_.cut_run(at);
+  plan_changed();
+}
+
 void MasterFdl::send(Tick now) {
   state_ = State::kSending;
   result_.request_start = now;

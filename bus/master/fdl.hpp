@@ -79,6 +79,8 @@ class MasterFdl : public Listener {
   Tick next() const;
   void run(Tick now);
   void line_changed(Tick at, bool level) override;
+  bool run_begins(const CharacterRun& run) override;
+  void run_cut(Tick at, bool level) override;
 
   /// Called once for every `start`; the layer is idle again by then.
   std::function<void(const FdlResult&)> on_done;

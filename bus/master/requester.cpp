@@ -93,6 +93,17 @@ void Requester::line_changed(Tick at, bool level) {
   if (receiver_.line_changed(at, level)) announce();
 }
 
+bool Requester::run_begins(const CharacterRun& run) {
+  announce();
+  return sender_.busy() || receiver_.set_run(run);
+}
+
+void Requester::run_cut(Tick at, bool /*level*/) {
+  announce();
+  sender_.run_cut(at);
+  receiver_.cut_run(at);
+}
+
 void Requester::run(Tick now) {
   if (sender_.busy()) return sender_.run(now);
   receiver_.run(now);

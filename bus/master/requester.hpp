@@ -62,6 +62,8 @@ class Requester : public Listener, public Agent {
   Exchange send(Timeline& timeline, const std::vector<Character>& characters, const ExchangeOptions& options = {});
 
   void line_changed(Tick at, bool level) override;
+  bool run_begins(const CharacterRun& run) override;
+  void run_cut(Tick at, bool level) override;
   Tick next() const override { return sender_.busy() ? sender_.next() : receiver_.next(); }
   void run(Tick now) override;
 

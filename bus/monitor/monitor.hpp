@@ -109,6 +109,11 @@ class Monitor : public Listener, public Agent {
   void line_changed(Tick at, bool level) override {
     if (receiver_.line_changed(at, level)) announce();
   }
+  bool run_begins(const CharacterRun& run) override;
+  void run_cut(Tick at, bool /*level*/) override {
+    announce();
+    receiver_.cut_run(at);
+  }
   Tick next() const override;
   void run(Tick now) override;
 

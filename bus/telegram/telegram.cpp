@@ -204,4 +204,11 @@ Decoded TelegramDecoder::take(DecodeError error) {
   return result;
 }
 
+bool is_telegram(const std::uint8_t* bytes, std::size_t size) {
+  TelegramDecoder decoder;
+  for (std::size_t i = 0; i < size; ++i)
+    if (const auto decoded = decoder.feed(bytes[i])) return i + 1 == size && decoded->error == DecodeError::kNone;
+  return false;
+}
+
 }  // namespace bus

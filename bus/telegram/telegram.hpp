@@ -95,6 +95,9 @@ struct Decoded {
   Bytes bytes = {};  ///< what was received
 };
 
+/// One right telegram and nothing else.
+bool is_telegram(const std::uint8_t* bytes, std::size_t size);
+
 /// Takes the bytes of one telegram after the other.
 class TelegramDecoder {
  public:

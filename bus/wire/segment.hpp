@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bus/time.hpp"
+#include "bus/wire/character_run.hpp"
 
 namespace bus {
 
@@ -17,6 +18,11 @@ class Listener {
  public:
   virtual ~Listener() = default;
   virtual void line_changed(Tick at, bool level) = 0;
+  /// A run begins now, of another station or the listener's own; its bytes are there for the call only. True: the
+  /// listener does not want its changes; it is told nothing until the end of the run, or until run_cut.
+  virtual bool run_begins(const CharacterRun& /*run*/) { return false; }
+  /// What changed up to `at` has changed, the line is at `level` now, and what comes behind it is told.
+  virtual void run_cut(Tick /*at*/, bool /*level*/) {}
 };
 
 /// A time, from `from` on and before `until`, in which a listener need not hear a change at once.
@@ -44,6 +50,13 @@ class Segment {
   /// The station's listener is told a change within this time late: before the next one that it hears at once, or by
   /// `hear`. For receivers that know where in a character they are; replaces what was said before.
   void set_deafness(StationId station, const Deafness& deafness) { stations_[station].deafness = deafness; }
+  /// From now on, run.start, `station` sends this run, its driver enabled. True: nobody needs its changes, so that
+  /// nothing is driven until its end, or until the station's listener hears run_cut; the bytes have to stay until then.
+  /// False: they are to be driven;
+  /// listeners that have taken the run are not told.
+  bool send_run(StationId station, const CharacterRun& run);
+  /// Everybody hears changes again from `at` on; nothing when no run is sent.
+  void cut_run(Tick at);
   /// Tells a deaf listener what it has not heard yet, each change with its own tick.
   void hear(StationId station);
 
@@ -63,6 +76,7 @@ class Segment {
     Listener* listener = nullptr;
     bool enabled = false, drives = true, plugged = true;
     bool heard = true;  ///< the level that the listener was told last
+    bool in_run = false;
     Deafness deafness = {};
     std::size_t next_change = 0;  ///< in changes_, the first that it has not heard
   };
@@ -71,6 +85,13 @@ class Segment {
     bool level;
   };
   static bool on_wire(const Station& station) { return station.enabled && station.plugged; }
+  struct Run {
+    CharacterRun characters = {};
+    StationId sender = 0;
+    bool driven = false;  ///< somebody wants the changes
+  };
+  bool may_send_run(const Station& sender) const;
+  void end_run();
   bool driven_level() const;
   void settle(Tick at);
   bool tell_changes(Tick at);
@@ -86,6 +107,7 @@ class Segment {
   std::vector<Station> stations_;
   std::vector<Change> changes_;
   std::optional<bool> forced_;
+  std::optional<Run> run_;
   bool level_ = true, noted_ = true;
   bool telling_ = false;  ///< a listener that drives the line while it is being told must not be told out of order
 };

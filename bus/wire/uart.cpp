@@ -1,6 +1,7 @@
 #include "bus/wire/uart.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace bus {
 
@@ -24,16 +25,9 @@ Character broken_character(std::uint8_t byte, std::size_t index, const WireFault
 
 }  // namespace
 
-bool even_parity(std::uint8_t byte) {
-  byte = static_cast<std::uint8_t>(byte ^ (byte >> 4));
-  byte = static_cast<std::uint8_t>(byte ^ (byte >> 2));
-  byte = static_cast<std::uint8_t>(byte ^ (byte >> 1));
-  return (byte & 1U) != 0;
-}
-
 Character Character::of(std::uint8_t byte) {
   Character character;
-  character.bits = static_cast<std::uint16_t>((byte << 1) | (even_parity(byte) ? kParityBit : 0U) | kStopBit);
+  character.bits = frame_of(byte);
   return character;
 }
 
@@ -47,6 +41,10 @@ Character Character::without_stop(std::uint8_t byte) {
   Character character = of(byte);
   character.bits ^= kStopBit;
   return character;
+}
+
+bool Character::right() const {
+  return bits == frame_of(byte()) && bit_count == kCharacterBits && gap_millibits == 0 && !glitch;
 }
 
 std::vector<Character> characters(const Bytes& bytes, const WireFaults& faults) {
@@ -80,6 +78,10 @@ Tick UartSender::exact(std::int64_t millibits) const {
 
 void UartSender::send(Tick start, const std::vector<Character>& characters) {
   edges_.clear();
+  run_.clear();
+  const auto right = [](const Character& character) { return character.right(); };
+  if (ppm_ == 0 && std::all_of(characters.begin(), characters.end(), right))
+    for (const Character& character : characters) run_.push_back(character.byte());
   position_ = 0;
   start_ = start;
   edges_.push_back({start - lead_, true, true});
@@ -115,8 +117,21 @@ void UartSender::add_level(Tick at, bool level) {
   if (edges_.back().level != level) edges_.push_back({at, true, level});
 }
 
+/// The first edge is that of the driver, the second the first start bit.
+bool UartSender::sends_run() {
+  if (position_ != 1 || run_.empty()) return false;
+  return segment_.send_run(station_, {start_, bit_, run_.data(), run_.size()});
+}
+
+void UartSender::run_cut(Tick at) {
+  if (!std::exchange(in_run_, false)) return;
+  const auto happened = [at](const Edge& edge) { return edge.at <= at; };
+  position_ = static_cast<std::size_t>(std::find_if_not(edges_.begin(), edges_.end(), happened) - edges_.begin());
+}
+
 void UartSender::abort(Tick now) {
   if (!busy()) return;
+  in_run_ = false;
   edges_.clear();
   position_ = 0;
   end_ = now;
@@ -125,18 +140,23 @@ void UartSender::abort(Tick now) {
 
 void UartSender::run(Tick now) {
   while (busy() && edges_[position_].at <= now) {
+    in_run_ = sends_run();
+    if (in_run_) position_ = edges_.size() - 1;
+    if (in_run_) continue;
     const Edge edge = edges_[position_++];
     segment_.drive(station_, edge.at, edge.enabled, edge.level);
   }
 }
 
 void UartReceiver::reset(bool level) {
+  in_run_ = false;
   receiving_ = false;
   level_ = level;
 }
 
 bool UartReceiver::line_changed(Tick at, bool level) {
   const Tick before = next();
+  end_run(at);
   sample_until(at);
   level_ = level;
   if (!receiving_ && !level) begin(at);
@@ -150,7 +170,41 @@ void UartReceiver::begin(Tick at) {
   bits_ = 0;
 }
 
-void UartReceiver::run(Tick now) { sample_until(now + 1); }
+void UartReceiver::run(Tick now) {
+  end_run(now + 1);
+  sample_until(now + 1);
+}
+
+bool UartReceiver::set_run(const CharacterRun& run) {
+  end_run(run.start);
+  sample_until(run.start);
+  if (receiving() || run.bit != bit_) return false;
+  run_bytes_.assign(run.bytes, run.bytes + run.size);
+  run_ = run;
+  run_.bytes = run_bytes_.data();
+  in_run_ = true;
+  return true;
+}
+
+void UartReceiver::end_run(Tick before) {
+  if (in_run_ && next() < before) report_run(run_.end());
+}
+
+/// Those that are complete at `until`; how many.
+std::size_t UartReceiver::report_run(Tick until) {
+  in_run_ = false;
+  std::size_t index = 0;
+  for (; index < run_.size && run_.character(index + 1) - bit_ / 2 <= until; ++index)
+    if (on_character) on_character({run_.bytes[index], run_.character(index), run_.character(index + 1), true, true});
+  return index;
+}
+
+void UartReceiver::cut_run(Tick at) {
+  if (!in_run_) return;
+  level_ = true;
+  for (Tick edge = run_.character(report_run(at)); edge <= at; edge += bit_)
+    if (run_.level(edge) != level_) line_changed(edge, !level_);
+}
 
 void UartReceiver::sample_until(Tick end) {
   while (receiving_ && sample_at(sampled_) < end) sample();

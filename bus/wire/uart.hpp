@@ -13,9 +13,6 @@
 
 namespace bus {
 
-/// True when the number of ones in `byte` is odd: the value of the even parity bit.
-bool even_parity(std::uint8_t byte);
-
 /// The line inverted for a while, measured from the start of the character.
 struct Glitch {
   int start_millibits = 0;
@@ -33,6 +30,9 @@ struct Character {
   static Character wrong_parity(std::uint8_t byte);
   /// The stop bit is low (a framing error).
   static Character without_stop(std::uint8_t byte);
+  /// Nothing is broken.
+  bool right() const;
+  std::uint8_t byte() const { return static_cast<std::uint8_t>(bits >> 1); }
 };
 
 /// What is broken in a telegram on the wire; nothing by default. Positions count bytes from 0; those behind the end
@@ -50,7 +50,8 @@ struct WireFaults {
 
 std::vector<Character> characters(const Bytes& bytes, const WireFaults& faults = {});
 
-/// Sends characters back to back. Edges are rounded from the exact time since the first start bit, so nothing drifts.
+/// Sends characters back to back; right ones as a run where everybody on the segment takes it. Edges are rounded from
+/// the exact time since the first start bit, so nothing drifts.
 class UartSender {
  public:
   /// Sends as `station` of `segment`, which must outlive the sender.
@@ -62,6 +63,8 @@ class UartSender {
   void set_driver_times(Tick lead, Tick trail);
   /// The first start bit falls at `start` (not before now + lead). Not while busy.
   void send(Tick start, const std::vector<Character>& characters);
+  /// The station's listener hears that: the rest is sent by changes. Moves `next()`.
+  void run_cut(Tick at);
   /// Releases the line at once and forgets the rest.
   void abort(Tick now);
 
@@ -79,6 +82,7 @@ class UartSender {
   Tick exact(std::int64_t millibits) const;
   void add_character(std::int64_t start_millibits, const Character& character);
   void add_level(Tick at, bool level);
+  bool sends_run();
 
   Segment& segment_;
   StationId station_;
@@ -86,6 +90,8 @@ class UartSender {
   std::int64_t ppm_ = 0;
   std::vector<Edge> edges_;
   std::size_t position_ = 0;
+  Bytes run_;            ///< the characters, when they may be sent as a run
+  bool in_run_ = false;  ///< they are
 };
 
 struct ReceivedCharacter {
@@ -105,10 +111,15 @@ class UartReceiver {
   void reset(bool level);
   /// Whether `next()` is another now: a character has begun or ended.
   bool line_changed(Tick at, bool level);
+  /// In the place of the changes of a run, which begins now; false: the changes are wanted. Its characters are reported
+  /// in the middle of the last one's stop bit.
+  bool set_run(const CharacterRun& run);
+  /// What comes behind `at` is told by line_changed.
+  void cut_run(Tick at);
   /// The middle of the stop bit of a character begun, where it is reported.
-  Tick next() const { return receiving_ ? sample_at(kCharacterBits - 1) : kNever; }
+  Tick next() const { return in_run_ ? run_.end() - bit_ / 2 : receiving_ ? sample_at(kCharacterBits - 1) : kNever; }
   void run(Tick now);
-  bool receiving() const { return receiving_; }
+  bool receiving() const { return receiving_ || in_run_; }
 
   /// A character, right or wrong, in the middle of its stop bit.
   std::function<void(const ReceivedCharacter&)> on_character;
@@ -118,6 +129,8 @@ class UartReceiver {
  private:
   Tick sample_at(int bit) const { return start_ + bit * bit_ + bit_ / 2; }
   void begin(Tick at);
+  std::size_t report_run(Tick until);
+  void end_run(Tick before);
   void sample_until(Tick end);
   void sample();
   void finish();
@@ -126,6 +139,9 @@ class UartReceiver {
   bool level_ = true, receiving_ = false;
   int sampled_ = 0;
   std::uint16_t bits_ = 0;
+  CharacterRun run_;
+  Bytes run_bytes_;
+  bool in_run_ = false;
 };
 
 }  // namespace bus

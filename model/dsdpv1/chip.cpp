@@ -167,6 +167,7 @@ void Chip::Impl::set_reset(Tick at, bool high) {
 
 void Chip::Impl::enter_reset(Tick at) {
   running = false;
+  station.leave_run(at);
   sequencer.catch_up(done());  // the RAM keeps what was written before RESET fell (H6)
   sequencer.reset();
   station.reset();
@@ -352,6 +353,37 @@ profibus::Unheard Chip::unheard() const { return impl_->station.unheard(); }
 void Chip::hear(Tick at, bool level) {
   if (impl_->hear(at, level)) impl_->plan();
 }
+bool Chip::hear(Tick at, const profibus::CharacterRun& run) {
+  impl_->advance(at);
+  if (impl_->engine != Engine::kSkip || !impl_->station.set_run(run)) return false;
+  impl_->plans.station = impl_->station.next();
+  impl_->plan();
+  return true;
+}
+void Chip::leave_run(Tick at) {
+  impl_->advance(at);
+  impl_->station.leave_run(at);
+  impl_->station.forget_run();
+  impl_->plans.station = impl_->station.next();
+  impl_->plan();
+}
+bool Chip::begins_to_send() const {
+  return impl_->now % kTicksPerCycle == 0 && impl_->station.begins_to_send(impl_->done());
+}
+profibus::CharacterRun Chip::hide_txd() {
+  const profibus::CharacterRun run = impl_->station.hide_txd();
+  impl_->plans.station = impl_->station.next();
+  impl_->plan();
+  return run;
+}
+void Chip::show_txd(Tick at) {
+  impl_->advance(at);
+  impl_->station.show_txd(impl_->done());
+  impl_->outputs = (impl_->outputs & ~mask(Pin::kPbtxd)) | bit(Pin::kPbtxd, impl_->station.txd());
+  impl_->plans.station = impl_->station.next();
+  impl_->plan();
+}
+bool Chip::left_run() const { return impl_->station.left_run(); }
 Level Chip::level(Pin pin) const {
   if ((mask(pin) & kAccessPins) != 0) impl_->catch_up();
   return impl_->level(pin);

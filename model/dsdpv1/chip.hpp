@@ -80,6 +80,20 @@ class Chip {
   /// chips on a line.
   profibus::Unheard unheard() const;
   void hear(Tick at, bool level);
+  /// In the place of the changes of PBRXD that `run` comes to: called at tick `at`, at the run's start or in the idle
+  /// time before it. False: the chip wants the changes. True: PBRXD is not set until the end of the run, unless it is
+  /// left before. By leave_run(): changes up to `at` have happened, those behind it are set as ever. By the chip, which
+  /// searches a baud rate from this tick on or is in RESET: left_run() says so until leave_run() is called, at that
+  /// tick. Engine::kSkip only.
+  bool hear(Tick at, const profibus::CharacterRun& run);
+  void leave_run(Tick at);
+  bool left_run() const;
+  /// At now() the first start bit of an answer falls. Then, hide_txd() gives its characters in the place of the changes
+  /// of PBTXD, which stays where it is until PBRTS falls, unless show_txd() is called before, within the characters: at
+  /// tick `at` it has, without a report, the level of then, and goes on as ever.
+  bool begins_to_send() const;
+  profibus::CharacterRun hide_txd();
+  void show_txd(Tick at);
   /// The present level of a pin, input or output.
   Level level(Pin pin) const;
   /// The user samples D at tick `at` (>= every earlier call's): its level then. Earlier than Tw after RD and CSR fell

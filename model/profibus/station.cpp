@@ -50,6 +50,17 @@ Unheard Station::unheard() const {
   return tx_.rts() ? Unheard{0, tx_.released() * kTicksPerCycle} : rx_.unheard();
 }
 
+// While a rate is searched, or an answer of this chip comes, who knows what becomes of it.
+bool Station::set_run(const CharacterRun& run) {
+  const bool hears = listening() && !search_.searching() && !tx_.planned();
+  return hears && rx_.set_run(run, telegrams_.is_whole(run.bytes, run.size));
+}
+
+void Station::leave_run(Tick at) {
+  if (listening()) listen(at / kTicksPerCycle);
+  rx_.leave_run(at);
+}
+
 void Station::plan_timers() { timers_ = std::min({search_.next(), watchdog_.next(), slave_.next_timer()}); }
 
 /// Nothing is lost: the edges up to now are those of a character in progress, or nobody listens.
@@ -77,7 +88,7 @@ void Station::eval(Cycle now) {
 }
 
 void Station::listen(Cycle now) {
-  if (rx_.eval(now)) telegrams_.character(now, rx_.character(), rx_.bit());
+  while (rx_.eval(now)) telegrams_.character(rx_.completed(), rx_.character(), rx_.bit());
 }
 
 // --- baud rate and watchdog (S1) -------------------------------------------------------------------------------------

@@ -33,6 +33,11 @@ class Station {
     if (rx_.full()) make_room(at);
     return rx_.set_line(at, level);
   }
+  /// See UartRx::set_run. False: the edges have to be told.
+  bool set_run(const CharacterRun& run);
+  void leave_run(Tick at);
+  bool left_run() const { return rx_.left_run(); }
+  void forget_run() { rx_.forget_run(); }
   /// Changes of PBRXD within this time may be told late, before the rising edge at `until` or an earlier one at which
   /// next() has something.
   Unheard unheard() const;
@@ -55,6 +60,11 @@ class Station {
     tx_.eval(now);
     return std::min(tx_.next(), timers_);
   }
+
+  /// See UartTx.
+  bool begins_to_send(Cycle now) const { return tx_.begins(now); }
+  CharacterRun hide_txd() { return tx_.hide(); }
+  void show_txd(Cycle now) { tx_.show(now); }
 
   bool txd() const { return tx_.txd(); }
   bool rts() const { return tx_.rts(); }

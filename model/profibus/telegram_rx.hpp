@@ -34,6 +34,9 @@ class TelegramRx {
   /// While `quiet`, faulty telegrams are neither events nor counted: at a wrong baud rate everything is faulty. What
   /// was counted is forgotten.
   void set_quiet(bool quiet);
+  /// Characters that are one right telegram, and nothing is under way or to be reported: character() for each of them,
+  /// however late, is all that it takes, up to the edge behind the last.
+  bool is_whole(const std::uint8_t* bytes, int size) const;
   /// A character was completed at `now`.
   void character(Cycle now, const Character& character, int bit);
   /// The edge of `now`; `receiving`: a character is being sampled. True when a telegram is decided (S10): see

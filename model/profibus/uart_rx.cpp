@@ -6,7 +6,6 @@ namespace profibus {
 namespace {
 
 constexpr Cycle kSynchroniser = 2;  // P9: what edge m sampled, the logic uses at edge m+2
-constexpr int kStopIndex = 10;
 
 bool odd_ones(unsigned bits) { return (__builtin_popcount(bits) & 1) != 0; }
 
@@ -15,13 +14,16 @@ bool odd_ones(unsigned bits) { return (__builtin_popcount(bits) & 1) != 0; }
 bool UartRx::set_line(Tick at, bool level) {
   if (level == input_) return false;
   input_ = level;
-  const Cycle visible = first_edge_after(at) + kSynchroniser;
+  note(first_edge_after(at) + kSynchroniser);
+  return count_ <= 2;  // nobody looks at more than the first two
+}
+
+void UartRx::note(Cycle visible) {
   const unsigned last = (first_ + count_ - 1) % kDepth;
   if (count_ > 0 && edges_[last] == visible)
     --count_;  // there and back between two edges
   else
     edges_[(first_ + count_++) % kDepth] = visible;
-  return count_ <= 2;  // nobody looks at more than the first two
 }
 
 void UartRx::skip(Cycle now) {
@@ -29,6 +31,7 @@ void UartRx::skip(Cycle now) {
 }
 
 void UartRx::restart(int bit, Cycle now, Cycle idle_since) {
+  leave_run(now * kTicksPerCycle);
   skip(now);
   state_ = line_ ? State::kIdle : State::kBreak;
   bit_ = bit;
@@ -44,12 +47,14 @@ Cycle UartRx::start_sample() const {
 }
 
 Cycle UartRx::stop_sample() const {
+  if (in_run()) return run_start_ + to_stop();
   if (state_ == State::kReceiving && index_ > 0) return sample_ + Cycle{kStopIndex - index_} * bit_;
   const Cycle start = start_sample();
   return start == kNever ? kNever : start + Cycle{kStopIndex} * bit_;
 }
 
 Cycle UartRx::next() const {
+  if (in_run() && at_once_) return stop_sample() + Cycle{run_size_ - 1 - run_index_} * kBitsPerCharacter * bit_;
   const Cycle stop = stop_sample();
   if (stop != kNever) return stop;
   return state_ == State::kReceiving ? sample_ : edge();  // maybe no start bit, or none at all
@@ -58,13 +63,18 @@ Cycle UartRx::next() const {
 // Once the start bit stands, all that counts is the level at the sampling points, and that is asked at the last one.
 Unheard UartRx::unheard() const {
   const Cycle stop = stop_sample();
-  if (stop == kNever) return {};
+  if (stop == kNever || in_run()) return {};
   const bool stands = state_ == State::kReceiving && index_ > 0;
   return {stands ? 0 : (start_sample() - kSynchroniser) * kTicksPerCycle, stop * kTicksPerCycle};
 }
 
 // Edges and sampling points in their order; at one cycle the edge comes first.
 bool UartRx::eval(Cycle now) {
+  if (in_run()) {
+    if (stop_sample() > now) return false;
+    take_from_run();
+    return true;
+  }
   for (;;) {
     const Cycle change = edge();
     if (state_ == State::kReceiving && sample_ < change) {
@@ -76,6 +86,46 @@ bool UartRx::eval(Cycle now) {
     }
   }
 }
+
+// --- runs: what the same edges would have come to --------------------------------------------------------------------
+
+bool UartRx::set_run(const CharacterRun& run, bool at_once) {
+  if (state_ != State::kIdle || count_ > 0 || in_run() || run.bit != bit_ || run.size > kLongestRun) return false;
+  std::copy_n(run.bytes, run.size, run_.begin());
+  run_size_ = run.size;
+  run_index_ = 0;
+  left_run_ = false;
+  at_once_ = at_once;
+  run_edge_ = run.start;
+  run_start_ = first_edge_after(run.start) + kSynchroniser;
+  return true;
+}
+
+void UartRx::take_from_run() {
+  character_ = {run_start_, run_start_ - idle_since_, run_[static_cast<std::size_t>(run_index_)], true, true};
+  run_start_ += Cycle{kBitsPerCharacter} * bit_;
+  run_edge_ += Cycle{kBitsPerCharacter} * bit_ * kTicksPerCycle;
+  idle_since_ = run_start_;
+  ++run_index_;
+}
+
+// The edges until `at` of the characters that are not complete: of one, and the first of the next.
+void UartRx::leave_run(Tick at) {
+  while (in_run() && stop_sample() <= at / kTicksPerCycle) take_from_run();
+  left_run_ |= in_run();
+  Tick edge = run_edge_;
+  for (bool level = true; in_run(); ++run_index_) {
+    const unsigned frame = frame_of(run_[static_cast<std::size_t>(run_index_)]);
+    for (int i = 0; i < kBitsPerCharacter; ++i, edge += bit_ * kTicksPerCycle) {
+      const bool next = ((frame >> i) & 1U) != 0;
+      if (edge <= at && next != level) note(first_edge_after(edge) + kSynchroniser);
+      if (edge <= at) level = next;
+    }
+    input_ = level;
+  }
+}
+
+// --- edges -----------------------------------------------------------------------------------------------------------
 
 void UartRx::take_edge() {
   const Cycle now = edge();

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "model/profibus/baud.hpp"
+#include "model/profibus/character_run.hpp"
 
 namespace profibus {
 
@@ -32,15 +33,29 @@ class UartRx {
   /// The line as the logic sees it at `now`, without receiving.
   void skip(Cycle now);
 
+  /// Instead of set_line from now on, until the run is over or left: what comes is `run`, at this receiver's bit
+  /// length. False: not now, or not at all, as it is too long or of another bit length. With `at_once` next() is where
+  /// its last character is complete.
+  bool set_run(const CharacterRun& run, bool at_once);
+  /// The rest of the run, after `at`, is told by set_line, or does not come at all.
+  void leave_run(Tick at);
+  bool in_run() const { return run_index_ < run_size_; }
+  /// A run was left, by restart() or leave_run(), and forget_run() not called since.
+  bool left_run() const { return left_run_; }
+  void forget_run() { left_run_ = false; }
+
   /// Forgets a character in progress and samples with `bit` cycles a bit from `now` on. Idle counts from `idle_since`
   /// if the line is high, else from its next rise.
   void restart(int bit, Cycle now, Cycle idle_since);
-  /// The edge of `now`. True when a character is complete: see character().
+  /// The edge of `now`. True when a character is complete: see character(). To be called again then, of a run that was
+  /// to be heard at once there may be more.
   bool eval(Cycle now);
   /// The next edge at which eval() does something that others see.
   Cycle next() const;
   /// A character is being sampled at `at` or begins then, as far as the edges noted say. eval() was called up to now.
-  bool receiving(Cycle at) const { return state_ == State::kReceiving || (state_ == State::kIdle && edge() <= at); }
+  bool receiving(Cycle at) const {
+    return state_ == State::kReceiving || (state_ == State::kIdle && edge() <= at) || (in_run() && run_start_ <= at);
+  }
 
   /// From when on, and before when, edges of the line may be told late: before eval() is called for `until`'s cycle.
   Unheard unheard() const;
@@ -48,9 +63,12 @@ class UartRx {
   bool completes(Cycle now) const { return stop_sample() == now; }
 
   const Character& character() const { return character_; }
+  /// Where the present character() was complete.
+  Cycle completed() const { return character_.start + to_stop(); }
   int bit() const { return bit_; }
 
  private:
+  static constexpr int kStopIndex = 10;
   enum class State : std::uint8_t { kIdle, kReceiving, kBreak };
   // A break has no end, so edges are consumed as they come; within a character there are at most ten that count. More
   // are noise: set_line's caller makes room.
@@ -68,6 +86,9 @@ class UartRx {
   Cycle stop_sample() const;
   void take_edge();
   bool sample(Cycle end);
+  Cycle to_stop() const { return bit_ / 2 + Cycle{kStopIndex} * bit_; }
+  void note(Cycle visible);
+  void take_from_run();
 
   std::array<Cycle, kDepth> edges_{};  // at which the logic sees the line change, from line_ on
   unsigned first_ = 0, count_ = 0;
@@ -80,6 +101,14 @@ class UartRx {
   Cycle sample_ = kNever;
   Cycle idle_since_ = 0;
   Character character_;
+
+  // The last character of a run is complete when its sender has long forgotten it.
+  static constexpr int kLongestRun = 256;
+  std::array<std::uint8_t, kLongestRun> run_{};
+  int run_size_ = 0, run_index_ = 0;  // the first character that is not complete; all of them are: no run
+  Cycle run_start_ = 0;               // the cycle at which the logic sees it begin ...
+  Tick run_edge_ = 0;                 // ... and its start bit on the line
+  bool at_once_ = false, left_run_ = false;
 };
 
 }  // namespace profibus

@@ -1,18 +1,10 @@
 #include "model/profibus/uart_tx.hpp"
 
 namespace profibus {
-namespace {
-
-unsigned frame_of(std::uint8_t value) {
-  const unsigned parity = static_cast<unsigned>(__builtin_popcount(value)) & 1U;
-  return (1U << 10) | (parity << 9) | (static_cast<unsigned>(value) << 1);
-}
-
-}  // namespace
 
 void UartTx::send(const std::uint8_t* bytes, int size, int bit, Cycle begin, Cycle lead, Cycle trail) {
-  bytes_ = bytes;
-  left_ = size;
+  frames_ = bytes_ = bytes;
+  size_ = left_ = size;
   bit_ = bit;
   begin_ = begin;
   end_ = begin + static_cast<Cycle>(size) * kBitsPerCharacter * bit;
@@ -25,6 +17,19 @@ void UartTx::abort() {
   next_ = kNever;
   txd_ = true;
   rts_ = false;
+}
+
+CharacterRun UartTx::hide() {
+  next_ = released();
+  return {begin_ * kTicksPerCycle, bit_, frames_, size_};
+}
+
+void UartTx::show(Cycle now) {
+  bytes_ = frames_;
+  left_ = size_;
+  frame_bits_ = 0;
+  next_ = begin_;
+  while (next_ <= now) eval(next_);
 }
 
 bool UartTx::eval(Cycle now) {

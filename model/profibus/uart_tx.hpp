@@ -1,6 +1,7 @@
 #pragma once
 // The sending half of the UART bit engine: characters without a gap, PBRTS round them (rulings P2, S2).
 #include "model/profibus/baud.hpp"
+#include "model/profibus/character_run.hpp"
 
 namespace profibus {
 
@@ -15,6 +16,13 @@ class UartTx {
   bool eval(Cycle now);
   Cycle next() const { return next_; }
 
+  /// While the first start bit begins: what is being sent. PBTXD is not shown any more, until show() is called, within
+  /// the characters, or they are over.
+  CharacterRun hide();
+  bool begins(Cycle now) const { return rts_ && now == begin_; }
+  /// PBTXD is at `now` what it is without hide().
+  void show(Cycle now);
+
   bool txd() const { return txd_; }
   bool rts() const { return rts_; }
   bool planned() const { return next_ != kNever; }  ///< from send() until PBRTS has fallen
@@ -25,8 +33,8 @@ class UartTx {
   void load();
   void shift();
 
-  const std::uint8_t* bytes_ = nullptr;
-  int left_ = 0;  // characters not yet loaded
+  const std::uint8_t *frames_ = nullptr, *bytes_ = nullptr;
+  int size_ = 0, left_ = 0;  // characters not yet loaded
   int bit_ = 0;
   Cycle begin_ = 0, end_ = 0, trail_ = 0;
   Cycle next_ = kNever;

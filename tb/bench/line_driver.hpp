@@ -23,6 +23,15 @@ class LineDriver {
   /// Whether something has not been told yet, and since when.
   bool waits() const { return next_ < due_.size(); }
   bus::Tick since() const { return due_[next_].at; }
+  /// What the chip does to the line from now on is told otherwise, up to a `resume` with the level of then, or the end:
+  /// the one change that waits, of the level, is not told.
+  bool only_level_waits() const { return waits() && next_ + 1 == due_.size() && enabled_; }
+  void forget_level() {
+    due_.clear();
+    next_ = 0;
+    level_ = true;
+  }
+  void resume(bool level) { level_ = level; }
   /// Tells the line; the list may grow meanwhile.
   void pass_on() {
     for (; next_ < due_.size(); ++next_) {

@@ -27,7 +27,8 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
       segment_(segment),
       station_(segment.attach(name, this)),
       line_(segment, station_),
-      reports_inputs_((watched & inputs_of(dsdpv1_pins())) != 0) {
+      reports_inputs_((watched & inputs_of(dsdpv1_pins())) != 0),
+      reports_txd_((watched & dsdpv1::mask(Pin::kPbtxd)) != 0) {
   chip_.watch(
       {[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); },
        this},
@@ -40,18 +41,40 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
   for (std::size_t pin = 0; pin < inputs_.size(); ++pin) inputs_.at(pin) = chip_.level(static_cast<Pin>(pin));
 }
 
-Tick PinChip::next() const { return line_.waits() ? line_.since() : chip_.next_event(); }
+Tick PinChip::next() const {
+  if (line_.waits()) return line_.since();
+  return chip_.left_run() ? core().now() : chip_.next_event();
+}
 
 void PinChip::run(Tick now) {
   device().advance(now);
+  if (chip_.left_run()) {
+    segment_.cut_run(now);
+    chip_.leave_run(now);
+  }
+  send_run();
   line_.pass_on();
   update_deafness();
+}
+
+// An answer begins: its first start bit waits to be told, or the whole of it is told in its place.
+void PinChip::send_run() {
+  if (reports_txd_ || !line_.only_level_waits() || !chip_.begins_to_send()) return;
+  const profibus::CharacterRun run = chip_.hide_txd();
+  own_run_ = true;
+  hides_txd_ = segment_.send_run(
+      station_, {run.start, run.bit * bus::kTicksPerCycle, run.bytes, static_cast<std::size_t>(run.size)});
+  if (hides_txd_)
+    line_.forget_level();
+  else
+    chip_.show_txd(run.start);
 }
 
 void PinChip::pin_changed(Tick at, Pin pin, Level level) {
   tell(at, pin, level);
   if (pin == Pin::kPbtxd) line_.drive(at, level != 0);
   if (pin == Pin::kPbrts) line_.enable(at, level != 0);
+  if (pin == Pin::kPbrts) own_run_ = hides_txd_ = false;
 }
 
 void PinChip::line_changed(Tick at, bool level) {
@@ -59,6 +82,27 @@ void PinChip::line_changed(Tick at, bool level) {
   announce();
   chip_.set(at, Pin::kPbrxd, level ? 1 : 0);
   report_inputs(at, Pin::kPbrxd, Pin::kPbrxd);
+  update_deafness();
+}
+
+bool PinChip::run_begins(const bus::CharacterRun& run) {
+  if (reports_inputs_) return false;
+  if (own_run_) return true;  // while it sends, it does not listen
+  if (run.bit % bus::kTicksPerCycle != 0) return false;
+  announce();
+  return chip_.hear(run.start, {run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
+}
+
+void PinChip::run_cut(Tick at, bool level) {
+  announce();
+  if (std::exchange(hides_txd_, false)) {
+    chip_.show_txd(at);
+    line_.resume(level);
+  }
+  if (std::exchange(own_run_, false))
+    chip_.set(at, Pin::kPbrxd, level ? 1 : 0);
+  else
+    chip_.leave_run(at);
   update_deafness();
 }
 

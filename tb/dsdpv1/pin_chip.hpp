@@ -46,7 +46,10 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
     return *pins_;
   }
   void line_changed(Tick at, bool level) override;
+  bool run_begins(const bus::CharacterRun& run) override;
+  void run_cut(Tick at, bool level) override;
   void update_deafness();
+  void send_run();
   void pin_changed(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void set(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   /// Those of the inputs from `first` to `last` that have changed.
@@ -72,7 +75,8 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   bus::Segment& segment_;
   bus::StationId station_;
   LineDriver line_;
-  bool reports_inputs_, catching_up_ = false;
+  bool reports_inputs_, reports_txd_, catching_up_ = false;
+  bool own_run_ = false, hides_txd_ = false;
   std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
 };
 

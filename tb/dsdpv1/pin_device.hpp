@@ -12,6 +12,14 @@ class PinDevice : public user_cpu::HostPins {
   virtual profibus::Unheard unheard() const { return {}; }
   /// See dsdpv1::Chip::hear; of a device that hears all, a change as any other.
   virtual void hear(dsdpv1::Tick at, bool level) { set(at, dsdpv1::Pin::kPbrxd, level ? 1 : 0); }
+  /// See dsdpv1::Chip::hear, leave_run and left_run; a device that hears all takes no run.
+  virtual bool hear(dsdpv1::Tick /*at*/, const profibus::CharacterRun& /*run*/) { return false; }
+  virtual void leave_run(dsdpv1::Tick /*at*/) {}
+  virtual bool left_run() const { return false; }
+  /// See dsdpv1::Chip::begins_to_send, hide_txd and show_txd; a device that shows all never says that it begins.
+  virtual bool begins_to_send() const { return false; }
+  virtual profibus::CharacterRun hide_txd() { return {}; }
+  virtual void show_txd(dsdpv1::Tick /*at*/) {}
   virtual void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) = 0;
   virtual void on_event(const profibus::EventSink& sink) = 0;
   /// The core that tells states, counters and events; the device itself, or one beside it on the same inputs.
@@ -29,6 +37,12 @@ class CoreDevice : public PinDevice {
   dsdpv1::Tick next_event() const override { return chip_.next_event(); }
   profibus::Unheard unheard() const override { return chip_.unheard(); }
   void hear(dsdpv1::Tick at, bool level) override { chip_.hear(at, level); }
+  bool hear(dsdpv1::Tick at, const profibus::CharacterRun& run) override { return chip_.hear(at, run); }
+  void leave_run(dsdpv1::Tick at) override { chip_.leave_run(at); }
+  bool left_run() const override { return chip_.left_run(); }
+  bool begins_to_send() const override { return chip_.begins_to_send(); }
+  profibus::CharacterRun hide_txd() override { return chip_.hide_txd(); }
+  void show_txd(dsdpv1::Tick at) override { chip_.show_txd(at); }
   void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { chip_.watch(sink, pins); }
   void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }
   const dsdpv1::Chip& core() const override { return chip_; }

@@ -54,6 +54,7 @@ TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines
   skip_.on_event({&on_skip_event, this});
   step_.on_event({&on_step_event, this});
   doze_.on_event({&on_doze_event, this});
+  if (twin_) segment.attach("doze", &ear_);
 }
 
 void TwinChip::set(Tick at, Pin pin, Level level) {
@@ -62,6 +63,7 @@ void TwinChip::set(Tick at, Pin pin, Level level) {
   if (!twin_) return;
   step_.set(at, pin, level);
   doze().set(at, pin, level);
+  leave_run_with_doze(at);
 }
 
 void TwinChip::line_changed(Tick at, bool level) {
@@ -70,11 +72,25 @@ void TwinChip::line_changed(Tick at, bool level) {
   skip_.set(at, Pin::kPbrxd, value);
   if (!twin_) return;
   step_.set(at, Pin::kPbrxd, value);
-  const profibus::Unheard may_wait = doze_.unheard();
+}
+
+void TwinChip::Ear::line_changed(Tick at, bool level) {
+  const profibus::Unheard may_wait = twin_.doze_.unheard();
   if (at >= may_wait.from && at < may_wait.until)
-    unheard_.push_back({at, level});
+    twin_.unheard_.push_back({at, level});
   else
-    doze().set(at, Pin::kPbrxd, value);
+    twin_.doze().set(at, Pin::kPbrxd, level ? 1 : 0);
+}
+
+bool TwinChip::Ear::run_begins(const bus::CharacterRun& run) {
+  return twin_.doze().hear(run.start,
+                           {run.start, run.bit / profibus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
+}
+
+void TwinChip::leave_run_with_doze(Tick at) {
+  if (!doze_.left_run()) return;
+  segment_.cut_run(at);
+  doze_.leave_run(at);
 }
 
 /// With what it has not been told of the line.
@@ -94,7 +110,9 @@ Level TwinChip::sample(Tick at) {
 
 void TwinChip::run(Tick now) {
   skip_.advance(now);
-  if (twin_) doze().advance(now);
+  if (!twin_) return;
+  doze().advance(now);
+  leave_run_with_doze(now);
 }
 
 void TwinChip::compare(Tick at) {
@@ -103,6 +121,7 @@ void TwinChip::compare(Tick at) {
   if (!twin_) return;
   step_.advance(at);
   doze().advance(at);
+  leave_run_with_doze(at);
   compare_lists(trace_, step_trace_, compared_pins_, "step");
   compare_lists(events_, step_events_, compared_events_, "step");
   compare_lists(unwatched_trace_, doze_trace_, compared_doze_pins_, "doze");

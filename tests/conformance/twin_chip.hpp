@@ -1,8 +1,8 @@
 #pragma once
 // The chip under test, three times: one evaluated in every cycle (step), one sleeping between its actions (skip), and
-// one whose L_REQ and L_STA nobody watches, so that it sleeps through quiet accesses, too, and which hears the line as
-// late as it may (doze); fed with the same pins. Every difference of pins or events fails the test, so each conformance
-// test also proves that they agree.
+// one whose L_REQ and L_STA nobody watches, so that it sleeps through quiet accesses, too, and which hears whole runs
+// of characters, or else the line as late as it may (doze); fed with the same pins. Every difference of pins or events
+// fails the test, so each conformance test also proves that they agree.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -57,7 +57,20 @@ class TwinChip : public bus::Agent, public bus::Listener {
   static void on_doze_pin(void* self, Tick at, Pin pin, Level level);
   static void on_doze_event(void* self, const profibus::Event& event);
   dsdpv1::Chip& doze();
+  void leave_run_with_doze(Tick at);
   void compare_state() const;
+
+  /// Hears for doze_.
+  class Ear : public bus::Listener {
+   public:
+    explicit Ear(TwinChip& twin) : twin_(twin) {}
+    void line_changed(Tick at, bool level) override;
+    bool run_begins(const bus::CharacterRun& run) override;
+    void run_cut(Tick at, bool /*level*/) override { twin_.doze().leave_run(at); }
+
+   private:
+    TwinChip& twin_;
+  };
 
   struct Unheard {
     Tick at;
@@ -66,6 +79,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
   bus::Segment& segment_;
   bus::StationId station_;
   const bool twin_;
+  Ear ear_{*this};
   dsdpv1::Chip skip_, step_, doze_;
   std::vector<Unheard> unheard_;  // changes of the line that doze_ has not been told yet
   std::vector<PinChange> trace_, step_trace_, unwatched_trace_, doze_trace_;  // unwatched: trace_ without L_REQ, L_STA

@@ -160,5 +160,119 @@ TEST(UartRxBlock, EvaluatedOnlyAtNextAndAtEdgesItIsTheSame) {
   }
 }
 
+// --- runs ------------------------------------------------------------------------------------------------------------
+
+struct Told {
+  Tick at;
+  bool level;
+};
+
+/// The changes of a run.
+std::vector<Told> changes_of(const CharacterRun& run) {
+  std::vector<Told> changes;
+  bool last = true;
+  for (int i = 0; i < run.size * kBitsPerCharacter; ++i) {
+    const unsigned frame = frame_of(run.bytes[i / kBitsPerCharacter]);
+    const bool level = ((frame >> (i % kBitsPerCharacter)) & 1U) != 0;
+    if (level != last) changes.push_back({run.start + i * run.bit * kTicksPerCycle, level});
+    last = level;
+  }
+  return changes;
+}
+
+/// What a receiver makes of a run that is cut at `cut`, from where on the line is low for five bits.
+class RunListener {
+ public:
+  RunListener(const CharacterRun& run, bool as_run, Tick cut) : run_(run), as_run_(as_run), cut_(cut) {
+    for (const Told& change : changes_of(run))
+      if (change.at <= cut && !as_run) told_.push_back(change);
+    told_.push_back({cut, false});
+    told_.push_back({cut + 5 * run.bit * kTicksPerCycle, true});
+  }
+
+  std::vector<Character> listen(bool at_once) {
+    rx_.restart(static_cast<int>(run_.bit), 0, 0);
+    if (as_run_) EXPECT_TRUE(rx_.set_run(run_, at_once));
+    const Cycle end = (cut_ + 40 * run_.bit * kTicksPerCycle) / kTicksPerCycle;
+    for (Cycle now = 1; now < end; ++now) {
+      if (as_run_ && first_edge_after(cut_) == now) rx_.leave_run(cut_);
+      for (; next_ < told_.size() && first_edge_after(told_[next_].at) == now; ++next_)
+        rx_.set_line(told_[next_].at, told_[next_].level);
+      while (rx_.eval(now)) found_.push_back(rx_.character());
+    }
+    return found_;
+  }
+
+ private:
+  CharacterRun run_;
+  bool as_run_;
+  Tick cut_;
+  UartRx rx_;
+  std::vector<Told> told_;
+  std::size_t next_ = 0;
+  std::vector<Character> found_;
+};
+
+bool same(const std::vector<Character>& a, const std::vector<Character>& b) {
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](const Character& x, const Character& y) {
+        return x.start == y.start && x.idle == y.idle && x.value == y.value && x.parity_ok == y.parity_ok &&
+               x.stop_ok == y.stop_ok;
+      });
+}
+
+TEST(UartRxBlock, RunCutAtAnyTickIsWhatItsChangesAre) {
+  const std::vector<std::uint8_t> bytes = {0x68, 0x00, 0xFF, 0x35};
+  for (const int bit : {4, 8}) {
+    for (const Tick start : {Tick{50'000}, Tick{50'001}, Tick{50'249}}) {
+      const CharacterRun run{start, bit, bytes.data(), static_cast<int>(bytes.size())};
+      for (Tick cut = start; cut < start + 46 * bit * kTicksPerCycle; cut += 83) {
+        const std::vector<Character> expected = RunListener(run, false, cut).listen(false);
+        for (const bool at_once : {false, true})
+          ASSERT_TRUE(same(RunListener(run, true, cut).listen(at_once), expected)) << bit << " " << start << " " << cut;
+      }
+    }
+  }
+}
+
+TEST(UartRxBlock, RunThatIsHeardAtOnceHasOneNext) {
+  const std::vector<std::uint8_t> bytes = {0x10, 0x05, 0x02};
+  const CharacterRun run{50'000, 4, bytes.data(), 3};
+  UartRx by_character, at_once;
+  for (UartRx* rx : {&by_character, &at_once}) {
+    rx->restart(4, 0, 0);
+    ASSERT_TRUE(rx->set_run(run, rx == &at_once));
+  }
+  const Cycle first = 203 + 42;
+  EXPECT_EQ(by_character.next(), first);
+  EXPECT_EQ(at_once.next(), first + 2 * 44);
+  int characters = 0;
+  while (at_once.eval(first + 2 * 44)) EXPECT_EQ(at_once.completed(), first + 44 * characters++);
+  EXPECT_EQ(characters, 3);
+}
+
+TEST(UartRxBlock, RunOfAnotherRateOrIntoACharacterIsRefused) {
+  const std::uint8_t byte = 0;
+  UartRx rx;
+  rx.restart(4, 0, 0);
+  EXPECT_FALSE(rx.set_run({50'000, 8, &byte, 1}, false));
+  rx.set_line(40'000, false);
+  EXPECT_FALSE(rx.set_run({50'000, 4, &byte, 1}, false));
+}
+
+TEST(UartRxBlock, RestartLeavesARunAndSaysSo) {
+  const std::vector<std::uint8_t> bytes = {0x00, 0x55};
+  const CharacterRun run{50'000, 4, bytes.data(), 2};
+  UartRx rx;
+  rx.restart(4, 0, 0);
+  ASSERT_TRUE(rx.set_run(run, false));
+  EXPECT_FALSE(rx.left_run());
+  rx.restart(8, 210, 210);
+  EXPECT_TRUE(rx.left_run());
+  rx.forget_run();
+  EXPECT_FALSE(rx.left_run());
+}
+
 }  // namespace
 }  // namespace profibus
