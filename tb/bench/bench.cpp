@@ -12,13 +12,18 @@
 
 namespace tb {
 
-/// Keeps the monitor at the rate of the masters. It hears each edge before the monitor does.
+/// Keeps the monitor at the rate of the masters. It hears of each edge, or of a run, before the monitor does.
 class Bench::BaudFollower : private bus::Listener {
  public:
   explicit BaudFollower(Bench& bench) : bench_(bench) { bench.execution_->segment().attach("baud follower", this); }
 
  private:
-  void line_changed(Tick, bool) override {
+  void line_changed(Tick, bool) override { follow(); }
+  bool run_begins(const bus::CharacterRun&) override {
+    follow();
+    return true;
+  }
+  void follow() {
     for (const MasterStation& each : bench_.stations_.masters)
       if (each.master->running() && each.master->baud() != bench_.monitor_->baud())
         bench_.monitor_->set_baud(each.master->baud());
