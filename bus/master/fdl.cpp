@@ -28,10 +28,11 @@ MasterFdl::MasterFdl(Segment& segment, const std::string& name, std::uint8_t add
       station_(segment.attach(name, this)),
       sender_(segment, station_) {
   receiver_.on_character = [this](const ReceivedCharacter& received) { character(received); };
-  set_baud(0);
+  set_baud(0, 0);
 }
 
-void MasterFdl::set_baud(int index) {
+void MasterFdl::set_baud(Tick now, int index) {
+  segment_.cut_run(now);
   bit_ = baud(index).bit;
   baud_ = index;
   sender_.set_timing(bit_, parameters_.clock_ppm);

@@ -56,8 +56,8 @@ class MasterFdl : public Listener {
   MasterFdl(const MasterFdl&) = delete;
   MasterFdl& operator=(const MasterFdl&) = delete;
 
-  /// 0..9. Only while idle.
-  void set_baud(int index);
+  /// 0..9. Only while idle. What another station sends meanwhile is heard from `now` on at the new rate.
+  void set_baud(Tick now, int index);
   bool idle() const { return state_ == State::kIdle; }
   /// Sends as soon as the idle times allow. Only while idle.
   void start(Tick now, FdlRequest request);

@@ -24,7 +24,7 @@ Master1::Master1(Segment& segment, const MasterConfig& config)
     throw std::invalid_argument(fmt::format("master address {}, allowed are 0 to 125", config.address));
   if (config.bus.ring) ring_ = std::make_unique<TokenRing>(fdl_, config.address, config.bus);
   if (ring_) ring_->set_baud(config.baud);
-  fdl_.set_baud(config.baud);
+  fdl_.set_baud(now_, config.baud);
   fdl_.on_done = [this](const FdlResult& result) { finished(result); };
   fdl_.on_plan = [this] { announce(); };
 }
@@ -104,7 +104,7 @@ void Master1::begin_operation() {
 bool Master1::start_next() {
   if (new_baud_) {
     baud_ = *std::exchange(new_baud_, std::nullopt);
-    fdl_.set_baud(baud_);
+    fdl_.set_baud(now_, baud_);
     if (ring_) ring_->set_baud(baud_);
   }
   if (ring_) return start_in_ring();

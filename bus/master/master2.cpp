@@ -12,7 +12,7 @@ Master2::Master2(Segment& segment, const MasterConfig& config)
     : config_(config), fdl_(segment, config.name, config.address, config.bus), ring_(fdl_, config.address, config.bus) {
   if (config.address >= kHighestAddress)
     throw std::invalid_argument(fmt::format("master address {}, allowed are 0 to 125", config.address));
-  fdl_.set_baud(config.baud);
+  fdl_.set_baud(now_, config.baud);
   ring_.set_baud(config.baud);
   fdl_.on_done = [this](const FdlResult& result) { finished(result); };
   fdl_.on_plan = [this] { announce(); };
@@ -100,7 +100,7 @@ void Master2::run(Tick now) {
 bool Master2::start_next() {
   if (new_baud_) {
     const int index = *std::exchange(new_baud_, std::nullopt);
-    fdl_.set_baud(index);
+    fdl_.set_baud(now_, index);
     ring_.set_baud(index);
   }
   if (ring_.holds_token()) return use_token();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "bus/master/fdl.hpp"
 #include "bus/timeline.hpp"
 #include "bus/wire/uart.hpp"
 
@@ -195,6 +196,25 @@ TEST(CharacterRun, IsCutByWhateverElseHappensToTheLine) {
   EXPECT_EQ(cut_by([](RunBench& bench) { bench.segment.drive(2, kNow, true, true); }), false);
   EXPECT_EQ(cut_by([](RunBench& bench) { bench.sends.sender.abort(kNow); }), false);
   EXPECT_EQ(cut_by([](RunBench&) {}), std::nullopt);
+}
+
+// A master that changes its rate while another station sends hears the rest at the new one, as nothing that fits.
+TEST(CharacterRun, IsCutByAMasterThatChangesItsRate) {
+  for (const bool takes_runs : {false, true}) {
+    RunBench bench(takes_runs);
+    MasterFdl fdl(bench.segment, "master", 1, {});
+    std::vector<Telegram> heard;
+    fdl.on_heard = [&heard](const HeardTelegram& telegram) { heard.push_back(telegram.telegram); };
+    bench.send(encode(make_telegram(3, 2, fc::kRequest | fc::kFdlStatus)));
+    const Tick change = kRunStart + 20 * kRunBit;
+    bench.timeline.run_until(change);
+    fdl.set_baud(change, 1);
+    bench.run();
+    fdl.run(bench.timeline.now());
+    EXPECT_TRUE(heard.empty());
+    EXPECT_EQ(bench.hears.cut.has_value(), takes_runs);
+    EXPECT_EQ(bench.hears.got.size(), 6U);
+  }
 }
 
 TEST(CharacterRun, ALineThatIsDisturbedIsToldChanges) {

@@ -42,7 +42,7 @@ struct FdlTest : testing::Test {
   }
   void set_baud(int index) {
     slave.set_baud(index);
-    fdl.set_baud(index);
+    fdl.set_baud(timeline.now(), index);
     bit = baud(index).bit;
   }
   const FdlResult& ask(const Telegram& telegram) {
