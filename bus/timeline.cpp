@@ -64,7 +64,8 @@ Tick Timeline::next() {
 
 Tick Timeline::next_except(const Agent& agent) {
   hear_news(&agent);
-  return plans_.earliest_except(agent.place_);
+  const Tick behind = limit_ == kNever ? kNever : limit_ + 1;
+  return std::min(plans_.earliest_except(agent.place_), behind);
 }
 
 bool Timeline::step(Tick limit) {
@@ -72,6 +73,7 @@ bool Timeline::step(Tick limit) {
   if (checks_)
     for (std::size_t place = 0; place < agents_.size(); ++place) compare(place);
   if (due == kNever || due > limit) return false;
+  limit_ = limit;
   now_ = std::max(now_, due);
   for (std::size_t place = next_turn(0); place != PlanQueue::kNone; place = next_turn(place + 1)) {
     announced(place);

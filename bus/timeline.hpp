@@ -53,8 +53,8 @@ class Timeline {
 
   /// The tick of the earliest planned action of any agent.
   Tick next();
-  /// The same of everybody but `agent`, who is one of them: as long as it does nothing to others, nothing happens
-  /// before that tick.
+  /// The same of everybody but `agent`, who is one of them, and not after the limit of a step under way: as long as it
+  /// does nothing to others, nothing happens before that tick.
   Tick next_except(const Agent& agent);
   /// Runs every action due up to and including `until`; `now()` is then `until`.
   void run_until(Tick until);
@@ -82,6 +82,7 @@ class Timeline {
   PlanQueue plans_;
   std::vector<std::size_t> news_;  ///< who has announced something that was not asked for yet
   Tick now_ = 0;
+  Tick limit_ = kNever;  ///< of the step under way
   bool checks_ = false;
 };
 

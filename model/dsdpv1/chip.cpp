@@ -364,6 +364,7 @@ void Chip::leave_run(Tick at) {
   impl_->advance(at);
   impl_->station.leave_run(at);
   impl_->station.forget_run();
+  impl_->rxd = impl_->station.rxd();
   impl_->plans.station = impl_->station.next();
   impl_->plan();
 }

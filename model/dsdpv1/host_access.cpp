@@ -1,6 +1,7 @@
 #include "model/dsdpv1/host_access.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace dsdpv1 {
 namespace {
@@ -19,27 +20,37 @@ int rank(const HostAccess::Edge& edge) {
 
 }  // namespace
 
+bool operator==(const AccessTiming& a, const AccessTiming& b) {
+  const auto fields = [](const AccessTiming& t) {
+    return std::tie(t.address_setup, t.cs_lead, t.rd_low, t.rd_sample, t.wr_low, t.data_setup, t.data_hold,
+                    t.address_hold, t.cs_trail, t.recovery);
+  };
+  return fields(a) == fields(b);
+}
+
 HostAccess HostAccess::read(std::uint16_t address, const AccessTiming& timing) {
   HostAccess access;
-  access.frame(Pin::kRd, address, timing.rd_low, timing);
+  access.frame(Pin::kRd, timing.rd_low, timing);
   // Before RD and CSR are low there is nothing to sample.
   access.add(std::max({timing.rd_sample, Tick{0}, -timing.cs_lead}), Pin::kDOut, 0);
   access.order(timing.recovery);
+  access.aim(address, 0);
   return access;
 }
 
 HostAccess HostAccess::write(std::uint16_t address, std::uint8_t value, const AccessTiming& timing) {
   HostAccess access;
-  access.frame(Pin::kWr, address, timing.wr_low, timing);
-  access.add(timing.wr_low - timing.data_setup, Pin::kDIn, value);
+  access.frame(Pin::kWr, timing.wr_low, timing);
+  access.add(timing.wr_low - timing.data_setup, Pin::kDIn, 0);
   access.add(timing.wr_low + timing.data_hold, Pin::kDIn, kLevelZ);
   access.order(timing.recovery);
+  access.aim(address, value);
   return access;
 }
 
 /// What reads and writes have in common, counted from the fall of the strobe.
-void HostAccess::frame(Pin strobe, std::uint16_t address, Tick low, const AccessTiming& timing) {
-  add(-timing.address_setup, Pin::kA, static_cast<Level>(address));
+void HostAccess::frame(Pin strobe, Tick low, const AccessTiming& timing) {
+  add(-timing.address_setup, Pin::kA, 0);
   add(-timing.cs_lead, Pin::kCsr, 0);
   add(0, strobe, 0);
   add(low, strobe, 1);
@@ -47,10 +58,17 @@ void HostAccess::frame(Pin strobe, std::uint16_t address, Tick low, const Access
   add(low + timing.address_hold, Pin::kA, kIdleAddress);
 }
 
-Tick HostAccess::sample() const {
-  return std::find_if(
-             begin(), end(), [](const Edge& edge) { return edge.pin == Pin::kDOut; })
-      ->at;
+void HostAccess::aim(std::uint16_t address, std::uint8_t value) {
+  edges_[address_].level = static_cast<Level>(address);
+  if (value_ < size_) edges_[value_].level = value;
+}
+
+Tick HostAccess::sample() const { return edges_[edge_of(Pin::kDOut, 0)].at; }
+
+/// Its place among the edges, behind the last when there is none.
+std::size_t HostAccess::edge_of(Pin pin, Level level) const {
+  const auto searched = [pin, level](const Edge& edge) { return edge.pin == pin && edge.level == level; };
+  return static_cast<std::size_t>(std::find_if(begin(), end(), searched) - begin());
 }
 
 void HostAccess::order(Tick recovery) {
@@ -60,6 +78,8 @@ void HostAccess::order(Tick recovery) {
   const Tick first = edges_.front().at;
   std::for_each(edges_.begin(), last, [first](Edge& edge) { edge.at -= first; });
   duration_ = (last - 1)->at + std::max<Tick>(recovery, 0);
+  address_ = edge_of(Pin::kA, 0);
+  value_ = edge_of(Pin::kDIn, 0);
 }
 
 }  // namespace dsdpv1

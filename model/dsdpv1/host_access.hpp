@@ -35,6 +35,7 @@ struct AccessTiming {
   Tick cs_trail = 167;       ///< CSR rises after the strobe
   Tick recovery = 333;       ///< from the last edge to the next access; >= 0
 };
+bool operator==(const AccessTiming& a, const AccessTiming& b);
 
 /// The edges of one access in order of time. Ticks count from the first edge.
 class HostAccess {
@@ -51,6 +52,9 @@ class HostAccess {
   static HostAccess read(std::uint16_t address, const AccessTiming& timing);
   static HostAccess write(std::uint16_t address, std::uint8_t value, const AccessTiming& timing);
 
+  /// The same access to another cell; `value` counts in a write only.
+  void aim(std::uint16_t address, std::uint8_t value);
+
   std::size_t size() const { return size_; }
   const Edge& operator[](std::size_t number) const { return edges_.at(number); }
   const Edge* begin() const { return edges_.data(); }
@@ -61,12 +65,14 @@ class HostAccess {
   Tick sample() const;
 
  private:
-  void frame(Pin strobe, std::uint16_t address, Tick low, const AccessTiming& timing);
+  void frame(Pin strobe, Tick low, const AccessTiming& timing);
   void add(Tick at, Pin pin, Level level) { edges_.at(size_++) = {at, pin, level}; }
   void order(Tick recovery);
+  std::size_t edge_of(Pin pin, Level level) const;
 
   std::array<Edge, 8> edges_{};
   std::size_t size_ = 0;
+  std::size_t address_ = 0, value_ = 0;  ///< the edges that bring them; a read has no second one: size_
   Tick duration_ = 0;
 };
 

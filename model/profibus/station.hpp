@@ -36,6 +36,7 @@ class Station {
   /// See UartRx::set_run. False: the edges have to be told.
   bool set_run(const CharacterRun& run);
   void leave_run(Tick at);
+  bool rxd() const { return rx_.input(); }
   bool left_run() const { return rx_.left_run(); }
   void forget_run() { rx_.forget_run(); }
   /// Changes of PBRXD within this time may be told late, before the rising edge at `until` or an earlier one at which

@@ -39,6 +39,8 @@ class UartRx {
   bool set_run(const CharacterRun& run, bool at_once);
   /// The rest of the run, after `at`, is told by set_line, or does not come at all.
   void leave_run(Tick at);
+  /// The line as it was told last.
+  bool input() const { return input_; }
   bool in_run() const { return run_index_ < run_size_; }
   /// A run was left, by restart() or leave_run(), and forget_run() not called since.
   bool left_run() const { return left_run_; }

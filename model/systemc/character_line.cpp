@@ -1,5 +1,7 @@
 #include "model/systemc/character_line.hpp"
 
+#include <algorithm>
+
 namespace dsdpv1::systemc {
 namespace {
 
@@ -24,6 +26,11 @@ std::uint16_t frame_of(std::uint8_t data, bool parity_ok, bool stop_ok) {
 void EdgeQueue::push(Edge edge) {
   while (!edges_.empty() && edges_.back().at >= edge.at) edges_.pop_back();
   edges_.push_back(edge);
+}
+
+void EdgeQueue::insert(Edge edge) {
+  const auto later = [&edge](const Edge& other) { return other.at > edge.at; };
+  edges_.insert(std::find_if(edges_.begin(), edges_.end(), later), edge);
 }
 
 Edge EdgeQueue::take() {

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "model/profibus/baud.hpp"
+#include "model/profibus/character_run.hpp"
 #include "model/profibus/time.hpp"
 
 namespace dsdpv1::systemc {
@@ -31,11 +33,28 @@ struct Edge {
   bool level;
 };
 
+/// Right characters that follow each other without a gap.
+struct LineRun {
+  Tick start = 0, bit = profibus::kTicksPerCycle;
+  std::vector<std::uint8_t> bytes = {};
+
+  Tick character(std::size_t index) const {
+    return start + static_cast<Tick>(index) * profibus::kBitsPerCharacter * bit;
+  }
+  Tick end() const { return character(bytes.size()); }
+  /// As the core is told it; `bit` is a whole number of cycles. Valid as long as the bytes are.
+  profibus::CharacterRun told() const {
+    return {start, bit / profibus::kTicksPerCycle, bytes.data(), static_cast<int>(bytes.size())};
+  }
+};
+
 /// The changes of a line that characters are put on, in order of time. The line idles high.
 class EdgeQueue {
  public:
   /// Appends a change. A change planned for the same tick or later is dropped: whoever comes later wins.
   void push(Edge edge);
+  /// A change before, or between, those that wait.
+  void insert(Edge edge);
   /// Tick of the earliest change, kNever when there is none.
   Tick next() const { return edges_.empty() ? profibus::kNever : edges_.front().at; }
   Edge take();

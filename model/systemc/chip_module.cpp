@@ -70,6 +70,26 @@ Level ChipModule::sample(Tick at) {
   return chip_.sample(at);
 }
 
+bool ChipModule::hear(Tick at, const profibus::CharacterRun& run) {
+  const WhileIn core(in_core_);
+  return chip_.hear(at, run);
+}
+
+void ChipModule::leave_run(Tick at) {
+  const WhileIn core(in_core_);
+  chip_.leave_run(at);
+}
+
+profibus::CharacterRun ChipModule::hide_txd() {
+  const WhileIn core(in_core_);
+  return chip_.hide_txd();
+}
+
+void ChipModule::show_txd(Tick at) {
+  const WhileIn core(in_core_);
+  chip_.show_txd(at);
+}
+
 std::uint32_t ChipModule::take_changed() {
   const std::uint32_t pins = changed_;
   changed_ = 0;
@@ -103,8 +123,8 @@ void ChipModule::schedule_now() {
 }
 
 void ChipModule::pin_changed(Tick at, Pin pin, Level level) {
+  if (!output_changed(at, pin, level)) return;
   changed_ |= mask(pin);
-  output_changed(at, pin, level);
   if (on_pin) on_pin(at, pin, level);
 }
 

@@ -46,11 +46,17 @@ class ChipModule : public sc_core::sc_module {
   bool is_in_core() const { return in_core_; }
   /// Outputs that changed since the last call.
   std::uint32_t take_changed();
-  bool has_changed() const { return changed_ != 0; }
+  bool has_changed(std::uint32_t pins) const { return (changed_ & pins) != 0; }
   /// True when the user's access has violated the timing of table 15 or P8 since the last call.
   bool take_broken_timing();
-  /// Called from inside the core for every output that is watched.
-  virtual void output_changed(Tick, Pin, Level) {}
+  /// Called from inside the core for every output that is watched. False: nobody is to hear it.
+  virtual bool output_changed(Tick /*at*/, Pin /*pin*/, Level /*level*/) { return true; }
+
+  /// See Chip.
+  bool hear(Tick at, const profibus::CharacterRun& run);
+  void leave_run(Tick at);
+  profibus::CharacterRun hide_txd();
+  void show_txd(Tick at);
 
   /// `due_` will fire at the chip's next event, or at `other` (a tick of the chip) when that is earlier; maybe more
   /// often.

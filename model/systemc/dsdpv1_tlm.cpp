@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace dsdpv1::systemc {
 namespace {
@@ -35,15 +36,8 @@ tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload) {
 
 }  // namespace
 
-std::ostream& operator<<(std::ostream& out, const BusCharacter& character) {
-  const std::ios_base::fmtflags flags = out.flags();
-  out << character.start << " " << std::hex << std::uppercase << unsigned{character.data};
-  out.flags(flags);
-  return out << (character.parity_ok ? "" : " parity error") << (character.stop_ok ? "" : " framing error");
-}
-
 TlmModule::TlmModule(const sc_core::sc_module_name& name, const TlmOptions& options)
-    : ChipModule(name, options), access_(options.access), observed_(options.observed) {
+    : ChipModule(name, options), timing_(options.access), observed_(options.observed) {
   host_socket.register_b_transport(this, &TlmModule::b_transport);
   host_socket.register_transport_dbg(this, &TlmModule::transport_dbg);
   bus_in.bind(*this);
@@ -56,12 +50,15 @@ void TlmModule::start_of_simulation() {
   const struct {
     Pin pin;
     OptionalOut& port;
-  } wires[] = {{Pin::kLReq, L_REQ}, {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbrts, PBRTS},
-               {Pin::kPbf, PBF},    {Pin::kBr, BR},      {Pin::kReady, READY}};
-  std::uint32_t watched = mask(Pin::kPbtxd);
+  } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbrts, PBRTS},
+               {Pin::kPbtxd, PBTXD}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
   for (const auto& wire : wires)
-    if (wire.port.size() > 0) watched |= mask(wire.pin);
-  watch(on_pin ? watched | observed_ : watched);
+    if (wire.port.size() > 0) bound_ |= mask(wire.pin);
+  std::uint32_t watched = bound_ | mask(Pin::kPbtxd) | mask(Pin::kPbrts);
+  if (on_pin) watched |= observed_;
+  const bool told = on_pin && (observed_ & mask(Pin::kPbtxd)) != 0 && !on_answer;
+  may_hide_ = PBTXD.size() == 0 && !told;
+  watch(watched);
 }
 
 void TlmModule::sync() {
@@ -110,7 +107,7 @@ void TlmModule::carry_out(Payload& payload) {
 
 const AccessTiming& TlmModule::timing_of(const Payload& payload) const {
   const auto* extension = payload.get_extension<AccessTimingExtension>();
-  return extension != nullptr ? extension->timing : access_;
+  return extension != nullptr ? extension->timing : timing_;
 }
 
 bool TlmModule::read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte) {
@@ -129,6 +126,7 @@ bool TlmModule::write_byte(std::uint16_t address, const AccessTiming& timing, un
 /// do.
 void TlmModule::release_host_pins() {
   catch_up();
+  access_ = nullptr;
   const Tick now = chip_now();
   for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) set(now, pin, 1);
   set(now, Pin::kDIn, kLevelZ);
@@ -136,20 +134,35 @@ void TlmModule::release_host_pins() {
   plan();
 }
 
-/// Moves the pins at the exact ticks of the access. The level of D when it was sampled, X for an access without a
-/// sample.
+/// The level of D when it was sampled, X for an access without a sample. As long as the user owns the DPRAM and nobody
+/// hears the pins, only he sees what an access does, so they are moved late: when something else happens, or at its
+/// end.
 Level TlmModule::perform(const HostAccess& access) {
-  Level sampled = kLevelX;
-  for (const HostAccess::Edge& edge : access) {
-    wait_until(access_start_ + edge.at);
-    if (edge.pin == Pin::kDOut)
-      sampled = sample(chip_now());
-    else
-      set(chip_now(), edge.pin, edge.level);
-  }
-  access_start_ += access.duration();
   wait_until(access_start_);
-  return sampled;
+  access_ = &access;
+  moved_ = 0;
+  sampled_ = kLevelX;
+  if (hears_host() || !R_REQ.read() || !R_STA.read())
+    for (const HostAccess::Edge& edge : access) wait_until(access_start_ + edge.at);
+  const Tick end = access_start_ + access.duration();
+  wait_until(end);
+  access_ = nullptr;
+  access_start_ = end;
+  plan();
+  return sampled_;
+}
+
+/// Moves the pins of the running access at their ticks, up to `now`.
+void TlmModule::move_access(Tick now) {
+  if (access_ == nullptr) return;
+  const Tick start = chip_tick(access_start_);
+  for (; moved_ < access_->size() && start + (*access_)[moved_].at <= now; ++moved_) {
+    const HostAccess::Edge& edge = (*access_)[moved_];
+    if (edge.pin == Pin::kDOut)
+      sampled_ = sample(start + edge.at);
+    else
+      set(start + edge.at, edge.pin, edge.level);
+  }
 }
 
 void TlmModule::wait_until(Tick tick) {
@@ -185,9 +198,12 @@ void TlmModule::evaluate() {
 
 void TlmModule::catch_up() {
   const Tick now = chip_now();
+  move_access(now);
   advance(now);
+  offer_answer();
   apply_line(now);
   apply_inputs(now);
+  if (chip().left_run()) stop_run(now);
   collect_character(now);
   emit_characters();
 }
@@ -196,12 +212,6 @@ void TlmModule::apply_inputs(Tick now) {
   set(now, Pin::kRReq, R_REQ.read());
   set(now, Pin::kRSta, R_STA.read());
   set(now, Pin::kReset, RESET.read());
-}
-
-void TlmModule::apply_line(Tick now) {
-  while (to_chip_.next() <= now) characters_level_ = to_chip_.take().level;
-  const bool raw = PBRXD.size() == 0 || PBRXD->read();
-  set(now, Pin::kPbrxd, raw && characters_level_);
 }
 
 void TlmModule::drive_outputs() {
@@ -218,69 +228,11 @@ void TlmModule::drive_outputs() {
 /// Signals are written by `evaluate` only (SystemC allows one writer), characters for now take effect in the next delta
 /// cycle.
 void TlmModule::plan() {
-  if (has_changed() || to_chip_.next() <= chip_now())
+  const Tick line = std::min(to_chip_.next(), runs_.empty() ? profibus::kNever : runs_.front().start);
+  if (has_changed(bound_) || line <= chip_now())
     schedule_now();
   else
-    schedule(std::min(to_chip_.next(), from_chip_.next()));
-}
-
-// ---------------------------------------------------------------------------------------------------------------- bus
-
-void TlmModule::output_changed(Tick at, Pin pin, Level level) {
-  if (pin != Pin::kPbtxd) return;
-  collect_character(at);
-  const BaudIndex baud = chip().status().baud_index;
-  // Without a baud rate the chip does not send; an edge then is RESET cutting a character off.
-  const int cycles = baud.known() ? baud.bit_cycles() : 1;
-  from_chip_.edge(at, level != 0, cycles * profibus::kTicksPerCycle);
-}
-
-void TlmModule::collect_character(Tick now) {
-  if (const auto character = from_chip_.take(now)) complete_.push_back(*character);
-}
-
-void TlmModule::emit_characters() {
-  if (complete_.empty()) return;
-  std::vector<LineCharacter> complete;
-  complete.swap(complete_);  // a listener may call back
-  for (const LineCharacter& c : complete)
-    bus_out.write({to_time(c.start + phase()), to_time(c.bit), c.data, c.parity_ok, c.stop_ok});
-}
-
-void TlmModule::write(const BusCharacter& character) {
-  if (!is_sendable(character)) return;
-  put_on_line(character);
-  plan();
-}
-
-bool TlmModule::is_sendable(const BusCharacter& character) {
-  const char* fault = nullptr;
-  if (character.start < sc_core::sc_time_stamp()) fault = "begins in the past, it is not sent";
-  if (to_tick(character.bit) <= 0) fault = "has no bit time, it is not sent";
-  if (fault == nullptr) return true;
-  const std::string text = std::string(name()) + ": character at " + character.start.to_string() + " " + fault;
-  SC_REPORT_WARNING("/dsdpv1/bus", text.c_str());
-  return false;
-}
-
-void TlmModule::put_on_line(const BusCharacter& character) {
-  const auto tick_of_bit = [&](unsigned int bit) {
-    return chip_tick(to_tick(sc_core::sc_time::from_value(character.start.value() + bit * character.bit.value())));
-  };
-  if (tick_of_bit(0) < line_busy_until_) {
-    const std::string text = std::string(name()) + ": character at " + character.start.to_string() +
-                             " begins before the previous one has ended";
-    SC_REPORT_WARNING("/dsdpv1/bus", text.c_str());
-  }
-  const std::uint16_t frame = frame_of(character.data, character.parity_ok, character.stop_ok);
-  bool level = true;
-  for (unsigned int bit = 0; bit < profibus::kBitsPerCharacter; ++bit) {
-    const bool next = ((frame >> bit) & 1U) != 0;
-    if (next != level) to_chip_.push({tick_of_bit(bit), next});
-    level = next;
-  }
-  line_busy_until_ = tick_of_bit(profibus::kBitsPerCharacter);
-  if (!level) to_chip_.push({line_busy_until_, true});
+    schedule(std::min({line, from_chip_.next(), next_answered()}));
 }
 
 }  // namespace dsdpv1::systemc

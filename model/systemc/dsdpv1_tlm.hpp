@@ -12,7 +12,10 @@
 #include <tlm.h>
 #include <tlm_utils/simple_target_socket.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <ostream>
 #include <systemc>
 #include <vector>
@@ -46,10 +49,28 @@ struct BusCharacter {
 };
 std::ostream& operator<<(std::ostream& out, const BusCharacter& character);
 
+constexpr std::uint32_t kHostPins = mask(Pin::kA) | mask(Pin::kDIn) | mask(Pin::kCsr) | mask(Pin::kRd) | mask(Pin::kWr);
+
 struct TlmOptions : ChipOptions {
   AccessTiming access{};
-  /// The output pins that `on_pin` hears (dsdpv1::mask); each change of one costs an event. Inputs are always heard.
-  std::uint32_t observed = kOutputPins;
+  /// The pins that `on_pin` hears (dsdpv1::mask). Of the outputs each change costs an event. Of the inputs it always
+  /// hears RESET, R_REQ and R_STA. Where nobody hears PBRXD or PBTXD, a telegram of right characters costs a few
+  /// events, not six a character; where nobody hears A, D, CSR, RD and WR, an access of the DPRAM's owner costs one.
+  std::uint32_t observed = kOutputPins | mask(Pin::kPbrxd) | kHostPins;
+};
+
+/// Knows whether somebody listens.
+class CharacterPort : public tlm::tlm_analysis_port<BusCharacter> {
+ public:
+  using tlm_analysis_port::tlm_analysis_port;
+  void bind(tlm::tlm_analysis_if<BusCharacter>& listener) override {
+    tlm_analysis_port::bind(listener);
+    bound_ = true;
+  }
+  bool bound() const { return bound_; }
+
+ private:
+  bool bound_ = false;
 };
 
 class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> {
@@ -80,7 +101,7 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   /// /dsdpv1/bus.
   sc_core::sc_export<tlm::tlm_analysis_if<BusCharacter>> bus_in{"bus_in"};
   /// Characters from the chip, each at the end of its stop bit.
-  tlm::tlm_analysis_port<BusCharacter> bus_out{"bus_out"};
+  CharacterPort bus_out{"bus_out"};
   OptionalOut PBRTS{"PBRTS"};  ///< the RS-485 driver's enable (P2)
   /// The raw line, beside the characters. A bound PBRXD and the characters of `bus_in` are both on the wire: a low of
   /// either wins.
@@ -88,6 +109,22 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   OptionalOut PBTXD{"PBTXD"};
 
   explicit TlmModule(const sc_core::sc_module_name& name, const TlmOptions& options = {});
+
+  /// In the place of the changes of PBRXD that the characters of `run` come to, from the present time on, which is the
+  /// run's start. False: the changes are wanted. True: PBRXD stays high until the run's end, or until it is left: by
+  /// leave_run at the present time, what comes then is on PBRXD; or by the module, which tells `on_left_run`.
+  bool hear_run(const profibus::CharacterRun& run);
+  void leave_run();
+  std::function<void(Tick at)> on_left_run;
+  /// An answer begins, in the place of the changes of PBTXD. Return true and PBTXD is not told until PBRTS falls, or
+  /// until show_txd is called, before the run's end: at the present time it has its level, without being told. Not with
+  /// PBTXD bound. Set it before the simulation starts.
+  std::function<bool(const profibus::CharacterRun& run)> on_answer;
+  void show_txd();
+
+  /// An access of the host is under way. Its edges are moved at their ticks, but later, when something else happens or
+  /// it ends; sync() moves those up to now.
+  bool in_access() const { return access_ != nullptr; }
 
   /// Brings the core to the present time; signals follow in the next delta cycle. For users that read levels through
   /// `chip()`. Does nothing when called from `on_pin` or `on_event`: the core is on its way then.
@@ -106,29 +143,55 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   bool read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte);
   bool write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte);
   Level perform(const HostAccess& access);
+  void move_access(Tick now);
   void release_host_pins();
   void wait_until(Tick tick);
 
   void evaluate();
   void catch_up();
   void apply_line(Tick now);
+  bool hears_host() const { return on_pin && (observed_ & kHostPins) != 0; }
+  bool tells_runs() const { return !on_pin || (observed_ & mask(Pin::kPbrxd)) == 0; }
+  bool in_run(Tick now) const { return now < run_end_; }
+  void begin_run(Tick now);
+  void stop_run(Tick now);
+  void spell_out(const LineRun& run, Tick behind);
   void apply_inputs(Tick now);
   void drive_outputs();
   void plan();
 
-  void output_changed(Tick at, Pin pin, Level level) override;
+  bool output_changed(Tick at, Pin pin, Level level) override;
+  void txd_changed(Tick at, bool level);
+  void offer_answer();
+  void end_answer(Tick at);
+  Tick bit_time() const;
+  Tick next_answered() const;
   void collect_character(Tick now);
   void emit_characters();
   bool is_sendable(const BusCharacter& character);
   void put_on_line(const BusCharacter& character);
+  bool put_in_run(const BusCharacter& character);
+  void put_as_edges(const BusCharacter& character);
+  void take_back_last_run();
 
-  AccessTiming access_;
-  std::uint32_t observed_;
-  sc_core::sc_mutex host_bus_;  ///< accesses of several initiators follow each other
-  Tick access_start_ = 0;       ///< simulation tick of the running access' first edge
+  AccessTiming timing_;
+  std::uint32_t observed_, bound_ = 0;  ///< pins
+  sc_core::sc_mutex host_bus_;          ///< accesses of several initiators follow each other
+  Tick access_start_ = 0;               ///< simulation tick of the running access' first edge
+  const HostAccess* access_ = nullptr;  ///< the running access ...
+  std::size_t moved_ = 0;               ///< ... how many of its edges have happened ...
+  Level sampled_ = kLevelX;             ///< ... and what D was
+
   EdgeQueue to_chip_;
+  std::deque<LineRun> runs_;      ///< characters of `bus_in` that have not begun and are not in `to_chip_`
+  LineRun run_;                   ///< the last of them that has begun, and is heard as a run while `run_is_own_`
+  bool run_is_own_ = false;       ///< else it is that of hear_run
+  Tick run_end_ = 0;              ///< of the run that the core hears or heard
   Tick line_busy_until_ = 0;      ///< chip tick of the end of the last character in `to_chip_`
   bool characters_level_ = true;  ///< what the characters of `bus_in` drive now
+  bool may_hide_ = false, answer_waits_ = false;
+  LineRun answer_;            ///< of the chip, while PBTXD is not told
+  std::size_t answered_ = 0;  ///< how many of its characters are over
   CharacterCollector from_chip_;
   std::vector<LineCharacter> complete_;  ///< collected, not yet sent through `bus_out`
 };

@@ -34,7 +34,8 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
        this},
       (watched & dsdpv1::kOutputPins) | kBusPins);
   chip_.on_event({[](void* self, const profibus::Event& event) {
-                    const auto& view = *static_cast<PinChip*>(self);
+                    auto& view = *static_cast<PinChip*>(self);
+                    view.has_told_ = true;
                     if (view.on_event) view.on_event(event);
                   },
                   this});
@@ -71,6 +72,7 @@ void PinChip::send_run() {
 }
 
 void PinChip::pin_changed(Tick at, Pin pin, Level level) {
+  has_told_ = true;
   tell(at, pin, level);
   if (pin == Pin::kPbtxd) line_.drive(at, level != 0);
   if (pin == Pin::kPbrts) line_.enable(at, level != 0);
@@ -145,11 +147,20 @@ void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::Acc
   if (!access.write && on_read) on_read(pins_->sample_tick());
 }
 
-void PinChip::run_edges(Tick now) {
-  pins().run_edges(now);
-  // Strobes that rise with CSR are told before it, as the TLM module does.
-  if (chip_.level(Pin::kCsr) != 0) report_inputs(now, Pin::kRd, Pin::kWr);
-  report_inputs(now, Pin::kCsr, Pin::kDIn);
+// Whoever is told something acts before the next edge.
+void PinChip::run_edges(Tick until) {
+  user_cpu::PinHostBus& host = pins();
+  has_told_ = false;
+  for (Tick at = host.next_edge(); at <= until && !has_told_; at = host.next_edge()) {
+    host.run_edges(at);
+    if (reports_inputs_) report_access(at);
+  }
+}
+
+// Strobes that rise with CSR are told before it, as the TLM module does.
+void PinChip::report_access(Tick at) {
+  if (chip_.level(Pin::kCsr) != 0) report_inputs(at, Pin::kRd, Pin::kWr);
+  report_inputs(at, Pin::kCsr, Pin::kDIn);
 }
 
 void PinChip::report_inputs(Tick at, Pin first, Pin last) {

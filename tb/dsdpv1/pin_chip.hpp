@@ -52,6 +52,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   void send_run();
   void pin_changed(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void set(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void report_access(Tick at);
   /// Those of the inputs from `first` to `last` that have changed.
   void report_inputs(Tick at, dsdpv1::Pin first, dsdpv1::Pin last);
 
@@ -64,7 +65,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   unsigned lamps(Tick at) override { return pins().lamps(at); }
   void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) override;
   Tick next_edge() const override { return pins_->next_edge(); }
-  void run_edges(Tick now) override;
+  void run_edges(Tick until) override;
   Tick end() const override { return pins_->end(); }
   std::uint8_t read_value() const override { return pins_->read_value(); }
   bool last_read_was_bad() const override { return pins_->last_read_was_bad(); }
@@ -77,6 +78,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   LineDriver line_;
   bool reports_inputs_, reports_txd_, catching_up_ = false;
   bool own_run_ = false, hides_txd_ = false;
+  bool has_told_ = false;  ///< of a pin or an event, since an edge of an access
   std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
 };
 

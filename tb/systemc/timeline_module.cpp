@@ -29,6 +29,7 @@ void TimelineModule::run() {
       continue;
     }
     wait(sc_core::SC_ZERO_TIME);  // every process that this time has woken goes first
+    if (on_turn) on_turn();
     timeline_.run_until(dsdpv1::systemc::current_tick());
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Runs a bus::Timeline (masters, user CPUs, scripts) inside a SystemC simulation, so that they and chips in SystemC
 // views share time.
+#include <functional>
 #include <systemc>
 
 #include "bus/timeline.hpp"
@@ -14,6 +15,9 @@ class TimelineModule : public sc_core::sc_module {
  public:
   /// `timeline` must outlive the simulation; nobody else runs it.
   TimelineModule(const sc_core::sc_module_name& name, bus::Timeline& timeline);
+
+  /// Called before the agents act: brings what keeps a time of its own up to the present.
+  std::function<void()> on_turn;
 
   /// To be called when something other than the timeline's own agents may have changed an agent's plan (a chip drove
   /// the bus).

@@ -69,8 +69,30 @@ TEST_F(NativeCpu, OthersActBetweenTheEdges) {
   other.log = &bus.log;
   timeline.add(other);
   start([](Cpu& c) { c.read(0); });
+  cpu->quiet_until = [&] { return timeline.next_except(*cpu); };
   timeline.run_until(2000);
   EXPECT_THAT(bus.log, ElementsAre("0 read", "other", "1000 edge 2"));
+}
+
+TEST_F(NativeCpu, AnAccessIsOneTurnWhenNobodyElseHasOneBeforeItsEnd) {
+  int turns = 0;
+  start([](Cpu& c) {
+    c.read(0);
+    c.write(1, 2);
+  });
+  cpu->quiet_until = [&] { return timeline.next_except(*cpu); };
+  while (timeline.step(5000)) ++turns;
+  EXPECT_EQ(turns, 3);  // the last is the end of the program
+  EXPECT_THAT(bus.log, ElementsAre("0 read", "1000 edge 2", "1150 write", "2150 edge 2"));
+}
+
+TEST_F(NativeCpu, AnAccessGoesNotBeyondTheEndOfTheRun) {
+  start([](Cpu& c) { c.read(0); });
+  cpu->quiet_until = [&] { return timeline.next_except(*cpu); };
+  timeline.run_until(999);
+  EXPECT_THAT(bus.log, ElementsAre("0 read"));
+  timeline.run_until(1000);
+  EXPECT_THAT(bus.log, ElementsAre("0 read", "1000 edge 2"));
 }
 
 TEST_F(NativeCpu, PinsAreMovedAndSampledAtOnce) {

@@ -30,9 +30,9 @@ class RecordingBus : public user_cpu::HostBus {
     last_ = at + kLength;
   }
   Tick next_edge() const override { return edge_; }
-  void run_edges(Tick now) override {
-    note(now, now == last_ ? "edge 2" : (access_.write ? "write" : "read"));
-    edge_ = now == last_ ? bus::kNever : last_;
+  void run_edges(Tick until) override {
+    for (; edge_ <= until; edge_ = edge_ == last_ ? bus::kNever : last_)
+      note(edge_, edge_ == last_ ? "edge 2" : (access_.write ? "write" : "read"));
   }
   Tick end() const override { return last_ + kRecovery; }
   std::uint8_t read_value() const override { return bad ? 0xFF : static_cast<std::uint8_t>(access_.address & 0xFF); }

@@ -1,5 +1,7 @@
 #include "tb/dsdpv1/systemc/tlm_chip.hpp"
 
+#include <utility>
+
 namespace systemc_bench {
 
 using dsdpv1::Level;
@@ -11,20 +13,48 @@ TlmChip::TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::Tlm
       segment_(segment),
       timeline_(timeline),
       module_("chip", options),
-      station_(segment.attach(sc_module::name(), this)) {
+      station_(segment.attach(sc_module::name(), this)),
+      shows_txd_((options.observed & dsdpv1::mask(Pin::kPbtxd)) != 0) {
   module_.RESET(reset_);
   module_.R_REQ(r_req_);
   module_.R_STA(r_sta_);
   module_.PBRXD(rxd_);
   module_.on_pin = [this](bus::Tick at, Pin pin, Level level) { pin_changed(at, pin, level); };
+  module_.on_answer = [this](const profibus::CharacterRun& run) { return answer_begins(run); };
+  module_.on_left_run = [this](bus::Tick at) { segment_.cut_run(at); };
 }
 
 void TlmChip::line_changed(bus::Tick /*at*/, bool level) { rxd_.write(level); }
+
+bool TlmChip::run_begins(const bus::CharacterRun& run) {
+  if (own_run_) return true;  // while it sends, it does not listen
+  if (run.bit % bus::kTicksPerCycle != 0) return false;
+  return module_.hear_run({run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
+}
+
+void TlmChip::run_cut(bus::Tick /*at*/, bool level) {
+  if (std::exchange(hides_txd_, false)) {
+    module_.show_txd();
+    drives_ = level;
+  }
+  if (!std::exchange(own_run_, false)) module_.leave_run();
+  rxd_.write(level);
+}
+
+bool TlmChip::answer_begins(const profibus::CharacterRun& run) {
+  if (shows_txd_) return false;
+  own_run_ = true;
+  hides_txd_ = segment_.send_run(
+      station_, {run.start, run.bit * bus::kTicksPerCycle, run.bytes, static_cast<std::size_t>(run.size)});
+  timeline_.wake();
+  return hides_txd_;
+}
 
 void TlmChip::pin_changed(bus::Tick at, Pin pin, Level level) {
   if (on_pin) on_pin(at, pin, level);
   if (pin != Pin::kPbtxd && pin != Pin::kPbrts) return;
   (pin == Pin::kPbtxd ? drives_ : enabled_) = level != 0;
+  if (pin == Pin::kPbrts) own_run_ = hides_txd_ = false;
   segment_.drive(station_, at, enabled_, drives_);
   timeline_.wake();
 }

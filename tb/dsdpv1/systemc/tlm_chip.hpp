@@ -16,6 +16,7 @@ namespace systemc_bench {
 /// apart: P9). The phase of the chip must be 0: the bench counts the chip's ticks.
 class TlmChip : public sc_core::sc_module, private bus::Listener {
  public:
+  /// Telegrams are told as runs in the direction whose pin `options.observed` leaves out.
   TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::TlmOptions& options, bus::Segment& segment,
           TimelineModule& timeline);
 
@@ -35,6 +36,9 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
   using Signal = sc_core::sc_signal<bool, sc_core::SC_MANY_WRITERS>;  // the timeline's thread and the chip's process
 
   void line_changed(bus::Tick at, bool level) override;
+  bool run_begins(const bus::CharacterRun& run) override;
+  void run_cut(bus::Tick at, bool level) override;
+  bool answer_begins(const profibus::CharacterRun& run);
   void pin_changed(bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
 
   bus::Segment& segment_;
@@ -43,6 +47,8 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
   Signal reset_{"reset"}, r_req_{"r_req"}, r_sta_{"r_sta"}, rxd_{"rxd", true};
   bus::StationId station_;
   bool enabled_ = false, drives_ = true;
+  bool own_run_ = false, hides_txd_ = false;
+  const bool shows_txd_;
 };
 
 }  // namespace systemc_bench

@@ -52,6 +52,10 @@ class TlmChipView : public Dsdpv1View {
   bus::StationId station() const override { return chip_.station(); }
   const dsdpv1::Chip& core() const override { return chip_.module().chip(); }
   void sync(Tick) override {}
+  /// What an access under way has done up to now is told before others act.
+  void follow_access() {
+    if (chip_.module().in_access()) chip_.module().sync();
+  }
 
  private:
   systemc_bench::TlmChip chip_;
@@ -67,7 +71,13 @@ class TlmExecution : public Execution {
     dsdpv1::systemc::TlmOptions options;
     options.chip = config_of(request);
     options.report_violations = false;  // the bench reports them
-    return std::make_unique<TlmChipView>(request.name, options, request.watched, segment_, module_);
+    options.observed = request.watched | dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kPbrts);
+    auto chip = std::make_unique<TlmChipView>(request.name, options, request.watched, segment_, module_);
+    module_.on_turn = [earlier = std::move(module_.on_turn), view = chip.get()] {
+      if (earlier) earlier();
+      view->follow_access();
+    };
+    return chip;
   }
 
   void run(Tick end, const std::function<bool()>& stopped) override {

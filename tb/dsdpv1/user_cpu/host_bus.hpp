@@ -35,8 +35,9 @@ class HostBus {
   virtual void begin(Tick at, const Access& access, const AccessTiming& timing) = 0;
   /// The tick of the running access' next edge, `bus::kNever` when all are done.
   virtual Tick next_edge() const = 0;
-  /// Carries out every edge due at `now`, which is `next_edge()`.
-  virtual void run_edges(Tick now) = 0;
+  /// Carries out the edges due up to `until`, which is not before `next_edge()`, each at its tick; only those up to one
+  /// that somebody is told of.
+  virtual void run_edges(Tick until) = 0;
   /// The tick at which the next access may begin: the last edge plus the recovery time.
   virtual Tick end() const = 0;
 

@@ -62,7 +62,10 @@ void NativeCpu::begin_access() {
   const bool own_timing = request_.access.write && timing_.write_access;
   bus_.begin(now_, request_.access, own_timing ? *timing_.write_access : timing_.access);
   ready_at_ = bus_.end() + timing_.overhead;
-  if (bus_.next_edge() <= now_) bus_.run_edges(now_);
+  // Its edges have one turn each, unless nobody else has one before the last: then all of them are this one.
+  const bool in_one_go = quiet_until && quiet_until() > bus_.end();
+  const Tick until = in_one_go ? bus_.end() : now_;
+  if (bus_.next_edge() <= until) bus_.run_edges(until);
 }
 
 void NativeCpu::end_access() {

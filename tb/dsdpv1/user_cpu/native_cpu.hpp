@@ -23,6 +23,9 @@ class NativeCpu : public bus::Agent, private Cpu {
   Tick next() const override;
   void run(Tick now) override;
 
+  /// As StationCpu has it.
+  std::function<Tick()> quiet_until;
+
   /// INTR0 changed at `at`; for the bench that watches the pin. Callable while the chip runs ahead of this agent's
   /// turn.
   void intr0_changed(Tick at, bool level);

@@ -11,6 +11,7 @@ class NativeUser : public StationCpu {
  public:
   NativeUser(HostBus& bus, const CpuTiming& timing, ProgramOptions options, Tick start)
       : program_(std::move(options)), cpu_(bus, timing, program_.entry(), start) {
+    cpu_.quiet_until = [this] { return quiet_until ? quiet_until() : 0; };
     program_.on_error = [this](const DriverError& error) {
       if (on_error) on_error(program_error(error));
     };

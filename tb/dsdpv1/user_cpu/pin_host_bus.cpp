@@ -27,17 +27,20 @@ bool PinHostBus::is_high(Tick at, Pin pin) {
 
 void PinHostBus::begin(Tick at, const Access& access, const AccessTiming& timing) {
   using dsdpv1::HostAccess;
-  access_ =
-      access.write ? HostAccess::write(access.address, access.value, timing) : HostAccess::read(access.address, timing);
+  Shape& shape = shapes_[access.write ? 1 : 0];
+  if (shape.access.size() == 0 || !(shape.timing == timing))
+    shape = {timing, access.write ? HostAccess::write(0, 0, timing) : HostAccess::read(0, timing)};
+  shape.access.aim(access.address, access.value);
+  access_ = &shape.access;
   begin_ = at;
   edge_ = 0;
-  end_ = at + access_.duration();
-  if (!access.write) sample_tick_ = at + access_.sample();
+  end_ = at + access_->duration();
+  if (!access.write) sample_tick_ = at + access_->sample();
 }
 
-void PinHostBus::run_edges(Tick now) {
-  for (; next_edge() <= now; ++edge_) {
-    const dsdpv1::HostAccess::Edge& edge = access_[edge_];
+void PinHostBus::run_edges(Tick until) {
+  for (; next_edge() <= until; ++edge_) {
+    const dsdpv1::HostAccess::Edge& edge = (*access_)[edge_];
     if (edge.pin == Pin::kDOut)
       sample(begin_ + edge.at);
     else

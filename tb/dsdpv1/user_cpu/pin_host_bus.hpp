@@ -25,8 +25,8 @@ class PinHostBus : public HostBus {
   bool intr0(Tick at) override;
   unsigned lamps(Tick at) override;
   void begin(Tick at, const Access& access, const AccessTiming& timing) override;
-  Tick next_edge() const override { return edge_ < access_.size() ? begin_ + access_[edge_].at : bus::kNever; }
-  void run_edges(Tick now) override;
+  Tick next_edge() const override { return edge_ < access_->size() ? begin_ + (*access_)[edge_].at : bus::kNever; }
+  void run_edges(Tick until) override;
   Tick end() const override { return end_; }
   std::uint8_t read_value() const override { return value_; }
   bool last_read_was_bad() const override { return bad_; }
@@ -34,13 +34,19 @@ class PinHostBus : public HostBus {
   Tick sample_tick() const { return sample_tick_; }
 
  private:
+  /// As long as the timing stays, accesses differ in address and value only.
+  struct Shape {
+    AccessTiming timing;
+    dsdpv1::HostAccess access;
+  };
   void sample(Tick at);
   bool is_high(Tick at, dsdpv1::Pin pin);
 
   std::optional<CoreHostPins> core_;
   HostPins& chip_;
-  dsdpv1::HostAccess access_;
-  Tick begin_ = 0;  ///< of its first edge
+  Shape shapes_[2];                                  ///< of reads, of writes
+  dsdpv1::HostAccess* access_ = &shapes_[0].access;  ///< the one that runs or ran last
+  Tick begin_ = 0;                                   ///< of its first edge
   std::size_t edge_ = 0;
   Tick end_ = 0, sample_tick_ = 0;
   std::uint8_t value_ = 0xFF;

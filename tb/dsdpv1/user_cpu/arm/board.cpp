@@ -47,6 +47,7 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
       core_(*this, MemoryMap(), options_.timing),
       cpu_(
           bus, no_overhead(), [this](user_cpu::Cpu& cpu) { run_firmware(cpu); }, start) {
+  cpu_.quiet_until = [this] { return quiet_until ? quiet_until() : 0; };
   for (const Segment& segment : options_.firmware->image.segments)
     core_.load(segment.address, segment.bytes.data(), segment.bytes.size());
   if (options_.firmware->mailbox)

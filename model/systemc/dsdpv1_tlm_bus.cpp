@@ -1,0 +1,245 @@
+// The bus side of the TLM module: characters to and from PBRXD and PBTXD, as runs where nobody hears the pins.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "model/systemc/dsdpv1_tlm.hpp"
+
+namespace dsdpv1::systemc {
+
+std::ostream& operator<<(std::ostream& out, const BusCharacter& character) {
+  const std::ios_base::fmtflags flags = out.flags();
+  out << character.start << " " << std::hex << std::uppercase << unsigned{character.data};
+  out.flags(flags);
+  return out << (character.parity_ok ? "" : " parity error") << (character.stop_ok ? "" : " framing error");
+}
+
+// --- characters to the line ------------------------------------------------------------------------------------------
+
+void TlmModule::write(const BusCharacter& character) {
+  if (!is_sendable(character)) return;
+  put_on_line(character);
+  plan();
+}
+
+bool TlmModule::is_sendable(const BusCharacter& character) {
+  const char* fault = nullptr;
+  if (character.start < sc_core::sc_time_stamp()) fault = "begins in the past, it is not sent";
+  if (to_tick(character.bit) <= 0) fault = "has no bit time, it is not sent";
+  if (fault == nullptr) return true;
+  const std::string text = std::string(name()) + ": character at " + character.start.to_string() + " " + fault;
+  SC_REPORT_WARNING("/dsdpv1/bus", text.c_str());
+  return false;
+}
+
+void TlmModule::put_on_line(const BusCharacter& character) {
+  const Tick start = chip_tick(to_tick(character.start));
+  if (start < line_busy_until_) {
+    const std::string text = std::string(name()) + ": character at " + character.start.to_string() +
+                             " begins before the previous one has ended";
+    SC_REPORT_WARNING("/dsdpv1/bus", text.c_str());
+    take_back_last_run();
+  }
+  if (!put_in_run(character)) put_as_edges(character);
+}
+
+/// A right character that begins at a tick and whose bits are whole cycles goes on with the run before it, or begins
+/// one.
+bool TlmModule::put_in_run(const BusCharacter& character) {
+  const Tick start = chip_tick(to_tick(character.start)), bit = to_tick(character.bit);
+  const bool exact = to_time(start + phase()) == character.start && to_time(bit) == character.bit &&
+                     bit % profibus::kTicksPerCycle == 0;
+  if (!tells_runs() || !exact || !character.parity_ok || !character.stop_ok || start < line_busy_until_) return false;
+  if (runs_.empty() || runs_.back().end() != start || runs_.back().bit != bit) runs_.push_back({start, bit, {}});
+  runs_.back().bytes.push_back(character.data);
+  line_busy_until_ = runs_.back().end();
+  return true;
+}
+
+/// What comes last on the line is broken into: its changes are wanted.
+void TlmModule::take_back_last_run() {
+  if (!runs_.empty() && runs_.back().end() == line_busy_until_) {
+    spell_out(runs_.back(), 0);
+    runs_.pop_back();
+  } else if (run_is_own_ && run_.end() == line_busy_until_) {
+    stop_run(chip_now());
+  }
+}
+
+void TlmModule::put_as_edges(const BusCharacter& character) {
+  const auto tick_of_bit = [&](unsigned int bit) {
+    return chip_tick(to_tick(sc_core::sc_time::from_value(character.start.value() + bit * character.bit.value())));
+  };
+  const std::uint16_t frame = frame_of(character.data, character.parity_ok, character.stop_ok);
+  bool level = true;
+  for (unsigned int bit = 0; bit < profibus::kBitsPerCharacter; ++bit) {
+    const bool next = ((frame >> bit) & 1U) != 0;
+    if (next != level) to_chip_.push({tick_of_bit(bit), next});
+    level = next;
+  }
+  line_busy_until_ = tick_of_bit(profibus::kBitsPerCharacter);
+  if (!level) to_chip_.push({line_busy_until_, true});
+}
+
+// --- the line to the core --------------------------------------------------------------------------------------------
+
+void TlmModule::apply_line(Tick now) {
+  const bool raw = PBRXD.size() == 0 || PBRXD->read();
+  const auto take_edges = [&] {
+    while (to_chip_.next() <= now) characters_level_ = to_chip_.take().level;
+    if (in_run(now) && raw && characters_level_) return;
+    if (in_run(now)) stop_run(now);
+    set(now, Pin::kPbrxd, raw && characters_level_);
+  };
+  take_edges();
+  if (runs_.empty() || runs_.front().start > now) return;
+  begin_run(now);
+  take_edges();
+}
+
+void TlmModule::begin_run(Tick now) {
+  run_ = std::move(runs_.front());
+  runs_.pop_front();
+  const bool idle = !in_run(now) && chip().level(Pin::kPbrxd) == 1;
+  run_is_own_ = idle && run_.start == now && hear(now, run_.told());
+  if (run_is_own_)
+    run_end_ = run_.end();
+  else
+    spell_out(run_, now - 1);
+}
+
+/// The changes of a run behind `behind`.
+void TlmModule::spell_out(const LineRun& run, Tick behind) {
+  bool level = true;
+  for (std::size_t i = 0; i < run.bytes.size(); ++i) {
+    const unsigned frame = profibus::frame_of(run.bytes[i]);
+    for (int bit = 0; bit < profibus::kBitsPerCharacter; ++bit) {
+      const bool before = std::exchange(level, ((frame >> bit) & 1U) != 0);
+      const Tick at = run.character(i) + bit * run.bit;
+      if (level != before && at > behind) to_chip_.insert({at, level});
+    }
+  }
+}
+
+/// The core hears changes again from `now` on; those of a run of `bus_in` behind it wait from now on.
+void TlmModule::stop_run(Tick now) {
+  ChipModule::leave_run(now);
+  if (!in_run(now)) return;
+  run_end_ = now;
+  if (!run_is_own_) {
+    if (on_left_run) on_left_run(now);
+    return;
+  }
+  characters_level_ = chip().level(Pin::kPbrxd) != 0;
+  spell_out(run_, now);
+}
+
+bool TlmModule::hear_run(const profibus::CharacterRun& run) {
+  catch_up();
+  const Tick now = chip_now();
+  const bool hears = tells_runs() && !in_run(now) && chip().level(Pin::kPbrxd) == 1 && hear(now, run);
+  if (hears) {
+    run_is_own_ = false;
+    run_end_ = now + static_cast<Tick>(run.size) * profibus::kBitsPerCharacter * run.bit * profibus::kTicksPerCycle;
+  }
+  plan();
+  return hears;
+}
+
+void TlmModule::leave_run() {
+  catch_up();
+  const Tick now = chip_now();
+  if (in_run(now) && !run_is_own_) {
+    ChipModule::leave_run(now);
+    run_end_ = now;
+  }
+  plan();
+}
+
+// --- characters of the chip ------------------------------------------------------------------------------------------
+
+bool TlmModule::output_changed(Tick at, Pin pin, Level level) {
+  if (pin == Pin::kPbrts && level == 0) {
+    end_answer(at);
+    txd_changed(at, true);  // RESET takes both away
+  }
+  if (pin == Pin::kPbrts) return ((bound_ | observed_) & mask(pin)) != 0;
+  if (pin != Pin::kPbtxd) return true;
+  if (may_hide_ && chip().begins_to_send()) {
+    answer_waits_ = true;  // until the core is at rest
+    return false;
+  }
+  txd_changed(at, level != 0);
+  return true;
+}
+
+void TlmModule::txd_changed(Tick at, bool level) {
+  collect_character(at);
+  from_chip_.edge(at, level, bit_time());
+}
+
+// Without a baud rate the chip does not send; an edge then is RESET cutting a character off.
+Tick TlmModule::bit_time() const {
+  const BaudIndex baud = chip().status().baud_index;
+  return (baud.known() ? baud.bit_cycles() : 1) * profibus::kTicksPerCycle;
+}
+
+void TlmModule::collect_character(Tick now) {
+  if (const auto character = from_chip_.take(now)) complete_.push_back(*character);
+  for (; next_answered() <= now; ++answered_)
+    complete_.push_back({answer_.character(answered_), answer_.bit, answer_.bytes[answered_], true, true});
+}
+
+void TlmModule::emit_characters() {
+  if (complete_.empty()) return;
+  std::vector<LineCharacter> complete;
+  complete.swap(complete_);  // a listener may call back
+  for (const LineCharacter& c : complete)
+    bus_out.write({to_time(c.start + phase()), to_time(c.bit), c.data, c.parity_ok, c.stop_ok});
+}
+
+// --- answers as runs -------------------------------------------------------------------------------------------------
+
+/// The end of a character of the answer, which is told then if anybody listens.
+Tick TlmModule::next_answered() const {
+  const bool more = bus_out.bound() && answered_ < answer_.bytes.size();
+  return more ? answer_.character(answered_ + 1) : profibus::kNever;
+}
+
+/// PBTXD has fallen, and nobody was told yet.
+void TlmModule::offer_answer() {
+  if (!std::exchange(answer_waits_, false)) return;
+  const profibus::CharacterRun run = hide_txd();
+  if (on_answer && !on_answer(run)) {
+    ChipModule::show_txd(run.start);
+    if (on_pin) on_pin(run.start, Pin::kPbtxd, 0);
+    txd_changed(run.start, false);
+    return;
+  }
+  answer_.start = run.start;
+  answer_.bit = run.bit * profibus::kTicksPerCycle;
+  answer_.bytes.assign(run.bytes, run.bytes + run.size);
+  answered_ = 0;
+}
+
+/// PBTXD is told again, or rises for good, maybe in the middle of a character: what of that was on the line.
+void TlmModule::end_answer(Tick at) {
+  collect_character(at);
+  if (answered_ < answer_.bytes.size() && bus_out.bound()) {
+    const unsigned frame = profibus::frame_of(answer_.bytes[answered_]);
+    for (int bit = 0; bit < profibus::kBitsPerCharacter; ++bit)
+      if (const Tick edge = answer_.character(answered_) + bit * answer_.bit; edge <= at)
+        from_chip_.edge(edge, ((frame >> bit) & 1U) != 0, answer_.bit);
+  }
+  answer_.bytes.clear();
+  answered_ = 0;
+}
+
+void TlmModule::show_txd() {
+  catch_up();
+  ChipModule::show_txd(chip_now());
+  end_answer(chip_now());
+  plan();
+}
+
+}  // namespace dsdpv1::systemc
