@@ -126,7 +126,7 @@ bool TlmModule::write_byte(std::uint16_t address, const AccessTiming& timing, un
 /// do.
 void TlmModule::release_host_pins() {
   catch_up();
-  access_ = nullptr;
+  access_ = {};
   const Tick now = chip_now();
   for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) set(now, pin, 1);
   set(now, Pin::kDIn, kLevelZ);
@@ -139,14 +139,14 @@ void TlmModule::release_host_pins() {
 /// end.
 Level TlmModule::perform(const HostAccess& access) {
   wait_until(access_start_);
-  access_ = &access;
+  access_ = access;
   moved_ = 0;
   sampled_ = kLevelX;
   if (hears_host() || !R_REQ.read() || !R_STA.read())
     for (const HostAccess::Edge& edge : access) wait_until(access_start_ + edge.at);
   const Tick end = access_start_ + access.duration();
   wait_until(end);
-  access_ = nullptr;
+  access_ = {};
   access_start_ = end;
   plan();
   return sampled_;
@@ -154,10 +154,9 @@ Level TlmModule::perform(const HostAccess& access) {
 
 /// Moves the pins of the running access at their ticks, up to `now`.
 void TlmModule::move_access(Tick now) {
-  if (access_ == nullptr) return;
   const Tick start = chip_tick(access_start_);
-  for (; moved_ < access_->size() && start + (*access_)[moved_].at <= now; ++moved_) {
-    const HostAccess::Edge& edge = (*access_)[moved_];
+  for (; moved_ < access_.size() && start + access_[moved_].at <= now; ++moved_) {
+    const HostAccess::Edge& edge = access_[moved_];
     if (edge.pin == Pin::kDOut)
       sampled_ = sample(start + edge.at);
     else

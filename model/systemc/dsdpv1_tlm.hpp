@@ -124,7 +124,7 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
 
   /// An access of the host is under way. Its edges are moved at their ticks, but later, when something else happens or
   /// it ends; sync() moves those up to now.
-  bool in_access() const { return access_ != nullptr; }
+  bool in_access() const { return access_.size() > 0; }
 
   /// Brings the core to the present time; signals follow in the next delta cycle. For users that read levels through
   /// `chip()`. Does nothing when called from `on_pin` or `on_event`: the core is on its way then.
@@ -178,7 +178,7 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   std::uint32_t observed_, bound_ = 0;  ///< pins
   sc_core::sc_mutex host_bus_;          ///< accesses of several initiators follow each other
   Tick access_start_ = 0;               ///< simulation tick of the running access' first edge
-  const HostAccess* access_ = nullptr;  ///< the running access ...
+  HostAccess access_;                   ///< the running access, without edges when there is none ...
   std::size_t moved_ = 0;               ///< ... how many of its edges have happened ...
   Level sampled_ = kLevelX;             ///< ... and what D was
 
