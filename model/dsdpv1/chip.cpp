@@ -73,6 +73,7 @@ struct Chip::Impl {
   }
   void plan();
   bool apply(Tick at, Pin pin, Level value);
+  bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
   bool hear(Tick at, bool level);
   void set_handshake(Tick at, bool req, bool sta);
   void rising_edge(Cycle cycle);
@@ -81,6 +82,7 @@ struct Chip::Impl {
   void release(Cycle cycle);
   void eval_sequencer(Cycle cycle);
   void eval_station(Cycle cycle);
+  void catch_up_line(Cycle upto);
   void doze_if_unseen();
   void wake();
   void catch_up();
@@ -137,7 +139,21 @@ bool Chip::Impl::apply(Tick at, Pin pin, Level value) {
   return true;
 }
 
+bool Chip::Impl::carry_out(Tick begin, const HostAccess& access, Level& sampled) {
+  if (engine != Engine::kSkip || (watched & mask(Pin::kDOut)) != 0) return false;
+  advance(begin);
+  const Tick last = begin + access.last();
+  const Cycle others = std::min({plans.release, plans.handshake, plans.sequencer, plans.station, plans.interrupt});
+  if (others <= last / kTicksPerCycle || sequencer.owns() || !sequencer.started_up()) return false;
+  if (!host.carry_out(begin, access, sampled)) return false;
+  plans.host = host.next();
+  plan();
+  advance(last);
+  return true;
+}
+
 bool Chip::Impl::hear(Tick at, bool level) {
+  catch_up_line(done());
   rxd = level;
   if (!station.set_rxd(at, level)) return false;
   plans.station = station.next();
@@ -167,6 +183,7 @@ void Chip::Impl::set_reset(Tick at, bool high) {
 
 void Chip::Impl::enter_reset(Tick at) {
   running = false;
+  catch_up_line(done());
   station.leave_run(at);
   sequencer.catch_up(done());  // the RAM keeps what was written before RESET fell (H6)
   sequencer.reset();
@@ -203,6 +220,8 @@ void Chip::Impl::advance(Tick to) {
 
 // The order of the blocks within one cycle: docs/microarchitecture.md.
 void Chip::Impl::rising_edge(Cycle cycle) {
+  catch_up_line(cycle - 1);
+  plans.station = std::min(plans.station, station.unseen());
   if (due(plans.host, cycle)) {
     sequencer.wake(cycle - 1);  // what the user writes may be a command
     host.eval(cycle, sequencer.owns() || !sequencer.started_up());
@@ -258,6 +277,14 @@ void Chip::Impl::eval_sequencer(Cycle cycle) {
   }
   doze_if_unseen();
   plans.sequencer = sequencer.next();
+}
+
+// What telegrams for others have come to.
+void Chip::Impl::catch_up_line(Cycle upto) {
+  for (Cycle cycle = station.unseen(); cycle <= upto; cycle = station.unseen()) {
+    station.eval(cycle);
+    plans.station = station.next();
+  }
 }
 
 // The sequencer acts before the station: what it dozes through up to this edge has not seen what the station does now.
@@ -347,6 +374,9 @@ Level Chip::sample(Tick at) {
   impl_->advance(at);
   return impl_->host.user_samples(at);
 }
+bool Chip::carry_out(Tick begin, const HostAccess& access, Level& sampled) {
+  return impl_->carry_out(begin, access, sampled);
+}
 Tick Chip::next_event() const { return impl_->next_event(); }
 Tick Chip::now() const { return impl_->now; }
 profibus::Unheard Chip::unheard() const { return impl_->station.unheard(); }
@@ -355,6 +385,7 @@ void Chip::hear(Tick at, bool level) {
 }
 bool Chip::hear(Tick at, const profibus::CharacterRun& run) {
   impl_->advance(at);
+  impl_->catch_up_line(impl_->done());
   if (impl_->engine != Engine::kSkip || !impl_->station.set_run(run)) return false;
   impl_->plans.station = impl_->station.next();
   impl_->plan();
@@ -362,6 +393,7 @@ bool Chip::hear(Tick at, const profibus::CharacterRun& run) {
 }
 void Chip::leave_run(Tick at) {
   impl_->advance(at);
+  impl_->catch_up_line(impl_->done());
   impl_->station.leave_run(at);
   impl_->station.forget_run();
   impl_->rxd = impl_->station.rxd();
@@ -411,8 +443,11 @@ void Chip::poke(std::uint16_t address, std::uint8_t value) {
   impl_->ram.write(address, value);
 }
 
+std::uint8_t Chip::address() const { return impl_->station.slave().address(); }
+
 Status Chip::status() const {
   impl_->catch_up();
+  impl_->catch_up_line(impl_->done());
   const profibus::Station& station = impl_->station;
   Status status;
   status.dp_state = station.slave().state();

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "model/dsdpv1/host_access.hpp"
 #include "model/dsdpv1/pins.hpp"
 #include "model/profibus/baud.hpp"
 #include "model/profibus/dp_state.hpp"
@@ -71,6 +72,11 @@ class Chip {
   void set(Tick at, Pin pin, Level level);
   /// Evaluates everything up to and including tick `to`; pin changes and events leave through the sinks on the way.
   void advance(Tick to);
+  /// A whole access of the host, its first edge at tick `begin`, in the place of set() and sample() for each of its
+  /// edges; of a read, what was `sampled`. The chip is at the last edge then. False: to be done edge by edge, as
+  /// something else happens before the last, it reports something or somebody watches D; the chip may have advanced to
+  /// `begin`.
+  bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
   /// The tick of the next thing that the chip does by itself (a rising CLK edge, or the falling edge at which D is
   /// driven); never before `now()`. With Engine::kStep the next rising edge.
   Tick next_event() const;
@@ -94,6 +100,8 @@ class Chip {
   bool begins_to_send() const;
   profibus::CharacterRun hide_txd();
   void show_txd(Tick at);
+  /// The station's present address, 0 before the initialisation.
+  std::uint8_t address() const;
   /// The present level of a pin, input or output.
   Level level(Pin pin) const;
   /// The user samples D at tick `at` (>= every earlier call's): its level then. Earlier than Tw after RD and CSR fell

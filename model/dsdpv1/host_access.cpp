@@ -41,6 +41,7 @@ HostAccess HostAccess::read(std::uint16_t address, const AccessTiming& timing) {
 HostAccess HostAccess::write(std::uint16_t address, std::uint8_t value, const AccessTiming& timing) {
   HostAccess access;
   access.frame(Pin::kWr, timing.wr_low, timing);
+  access.write_ = true;
   access.add(timing.wr_low - timing.data_setup, Pin::kDIn, 0);
   access.add(timing.wr_low + timing.data_hold, Pin::kDIn, kLevelZ);
   access.order(timing.recovery);
@@ -80,6 +81,33 @@ void HostAccess::order(Tick recovery) {
   duration_ = (last - 1)->at + std::max<Tick>(recovery, 0);
   address_ = edge_of(Pin::kA, 0);
   value_ = edge_of(Pin::kDIn, 0);
+  times_ = find_times();
+  right_ = keeps_limits();
+}
+
+HostAccess::Times HostAccess::find_times() const {
+  const auto time = [this](Pin pin, Level level) { return edges_[edge_of(pin, level)].at; };
+  const Pin strobe = write_ ? Pin::kWr : Pin::kRd;
+  return {time(Pin::kA, 0),
+          time(Pin::kA, kIdleAddress),
+          time(Pin::kCsr, 0),
+          time(Pin::kCsr, 1),
+          time(strobe, 0),
+          time(strobe, 1),
+          write_ ? time(Pin::kDIn, 0) : sample(),
+          write_ ? time(Pin::kDIn, kLevelZ) : sample()};
+}
+
+// A read needs A from the fall of the later strobe to the next rising edge of CLK.
+bool HostAccess::keeps_limits() const {
+  const Times& t = times_;
+  if (write_)
+    return t.strobe_end - t.strobe >= kTs && t.select <= t.strobe_end && t.select_end >= t.strobe_end &&
+           std::max(t.address, t.data) <= t.strobe_end - kTd &&
+           std::min(t.address_end, t.data_end) >= t.strobe_end + kTd;
+  const Tick begin = std::max(t.select, t.strobe);
+  return t.address <= begin && t.address_end >= begin + profibus::kTicksPerCycle && t.data >= begin + kTw &&
+         std::min(t.select_end, t.strobe_end) >= t.data;
 }
 
 }  // namespace dsdpv1

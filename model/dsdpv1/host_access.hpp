@@ -9,6 +9,11 @@
 
 namespace dsdpv1 {
 
+/// Table 15 in ticks.
+constexpr Tick kTs = 150;  ///< 12.5 ns, WR low
+constexpr Tick kTd = 150;  ///< 12.5 ns, A and D stable before and after WR rises
+constexpr Tick kTw = 375;  ///< 31.25 ns, RD's fall to certain data
+
 /// When the pins move during one access, in ticks of 1/12 ns (table 15, rulings P5 and P11). The strobe is RD or WR.
 ///
 ///   A      --<=================>--     address_setup before the strobe falls, address_hold after it rises
@@ -59,21 +64,38 @@ class HostAccess {
   const Edge& operator[](std::size_t number) const { return edges_.at(number); }
   const Edge* begin() const { return edges_.data(); }
   const Edge* end() const { return edges_.data() + size_; }
+  /// From the first edge to the last.
+  Tick last() const { return edges_[size_ - 1].at; }
   /// From the first edge to the end of the recovery time.
   Tick duration() const { return duration_; }
   /// From the first edge to the sampling of D; of a read.
   Tick sample() const;
+
+  /// When, from the first edge on, each pin is moved and moved back. D of a read: when it is sampled.
+  struct Times {
+    Tick address, address_end, select, select_end, strobe, strobe_end, data, data_end;
+  };
+  const Times& times() const { return times_; }
+  bool is_write() const { return write_; }
+  std::uint16_t address() const { return static_cast<std::uint16_t>(edges_[address_].level); }
+  std::uint8_t value() const { return static_cast<std::uint8_t>(edges_[value_].level); }
+  /// It keeps table 15, and A, D and CSR stand as long as they are needed: by itself it violates nothing.
+  bool is_right() const { return right_; }
 
  private:
   void frame(Pin strobe, Tick low, const AccessTiming& timing);
   void add(Tick at, Pin pin, Level level) { edges_.at(size_++) = {at, pin, level}; }
   void order(Tick recovery);
   std::size_t edge_of(Pin pin, Level level) const;
+  Times find_times() const;
+  bool keeps_limits() const;
 
   std::array<Edge, 8> edges_{};
   std::size_t size_ = 0;
   std::size_t address_ = 0, value_ = 0;  ///< the edges that bring them; a read has no second one: size_
   Tick duration_ = 0;
+  Times times_ = {};
+  bool write_ = false, right_ = false;
 };
 
 }  // namespace dsdpv1

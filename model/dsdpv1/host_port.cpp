@@ -10,10 +10,19 @@ namespace {
 
 constexpr Cycle kWriteSettles = 2;  // P8: the third rising edge after WR's, two after the first
 
-bool chips_own(regs::Address address) {
+constexpr std::size_t kCells = 0x800;
+
+std::array<bool, kCells> cells_of_chip() {
+  std::array<bool, kCells> cells{};
   for (const regs::Cell& cell : regs::kMap)
-    if (address <= cell.last) return cell.chip_writes && !cell.user_writes;
-  return false;
+    for (std::size_t address = cell.first; address <= cell.last; ++address)
+      cells.at(address) = cell.chip_writes && !cell.user_writes;
+  return cells;
+}
+
+bool chips_own(regs::Address address) {
+  static const std::array<bool, kCells> cells = cells_of_chip();
+  return cells[address];
 }
 
 }  // namespace
@@ -179,6 +188,45 @@ void HostPort::lines_changed(Tick at) {
 void HostPort::settle(const Write& write) {
   ram_.write(write.address, write.value);
   if (!write.good) ram_.mark_unknown(write.address);
+}
+
+// --- accesses as a whole ---------------------------------------------------------------------------------------------
+
+bool HostPort::carry_out(Tick begin, const HostAccess& access, Level& sampled) {
+  if (!is_plain(begin, access)) return false;
+  access.is_write() ? write_at_once(begin, access) : read_at_once(begin, access);
+  a_ = static_cast<regs::Address>(HostAccess::kIdleAddress);
+  sampled = sampled_;
+  return true;
+}
+
+bool HostPort::is_plain(Tick begin, const HostAccess& access) const {
+  const bool at_rest = enabled_ && r_req_ && r_sta_ && csr_ && rd_ && wr_ && d_in_ == kLevelZ;
+  if (!at_rest || !access.is_right()) return false;
+  const HostAccess::Times& times = access.times();
+  const Tick change = begin + (access.is_write() ? std::min(times.address, times.data) : times.address);
+  if (!hold_reported_ && change - captured_ < kTd) return false;
+  if (access.is_write()) return write_count_ < kWritesInFlight && !chips_own(access.address());
+  return !in_flight(access.address()) && !ram_.unknown(access.address());
+}
+
+void HostPort::write_at_once(Tick begin, const HostAccess& access) {
+  const HostAccess::Times& times = access.times();
+  wr_fell_ = begin + times.strobe;
+  captured_ = begin + times.strobe_end;
+  captured_address_ = access.address();
+  write_at(write_count_++) = {profibus::first_edge_after(captured_) + kWriteSettles, captured_address_, access.value(),
+                              true};
+  hold_reported_ = false;
+  lines_changed_ = begin + std::max(times.address_end, times.data_end);
+}
+
+void HostPort::read_at_once(Tick begin, const HostAccess& access) {
+  const HostAccess::Times& times = access.times();
+  read_began_ = begin + std::max(times.select, times.strobe);
+  read_spoilt_ = tw_reported_ = false;
+  sampled_ = ram_.read(access.address());
+  lines_changed_ = begin + times.address_end;
 }
 
 // --- the rising edge -------------------------------------------------------------------------------------------------

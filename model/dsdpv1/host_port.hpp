@@ -4,17 +4,13 @@
 #include <array>
 
 #include "model/dpram/ram.hpp"
+#include "model/dsdpv1/host_access.hpp"
 #include "model/dsdpv1/pins.hpp"
 #include "model/profibus/event_log.hpp"
 
 namespace dsdpv1 {
 
 using dpram::Ram;
-
-/// Table 15 in ticks.
-constexpr Tick kTs = 150;  ///< 12.5 ns, WR low
-constexpr Tick kTd = 150;  ///< 12.5 ns, A and D stable before and after WR rises
-constexpr Tick kTw = 375;  ///< 31.25 ns, RD's fall to certain data
 
 class HostPort {
  public:
@@ -30,6 +26,9 @@ class HostPort {
     r_sta_ = r_sta;
   }
   Level level(Pin pin) const;
+  /// A whole access whose first edge is at `begin`, in the place of its edges, when it is certain to report nothing and
+  /// nothing of an earlier one reaches into it: then also what a read has `sampled`. False: nothing has happened.
+  bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
 
   /// The rising edge of `now`: writes that have settled, the address of a read. `unreadable`, as it was before the
   /// edge: L_STA is high, or the start-up has not begun (P12, H6).
@@ -64,6 +63,9 @@ class HostPort {
   void settle(const Write& write);
   Level sample(Cycle now, bool unreadable);
   bool in_flight(regs::Address address) const;
+  bool is_plain(Tick begin, const HostAccess& access) const;
+  void write_at_once(Tick begin, const HostAccess& access);
+  void read_at_once(Tick begin, const HostAccess& access);
   void check_owner(Tick at);
   Write& write_at(unsigned i) { return writes_[(first_write_ + i) % kWritesInFlight]; }
   const Write& write_at(unsigned i) const { return writes_[(first_write_ + i) % kWritesInFlight]; }

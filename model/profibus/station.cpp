@@ -27,6 +27,7 @@ void Station::reset() {
   telegrams_.reset();
   fdl_.forget();
   tx_.abort();
+  for_others_ = false;
   received_ = answered_ = 0;
   plan_timers();
 }
@@ -40,9 +41,12 @@ void Station::initialise(Cycle now, const SlaveConfig& config) {
 Cycle Station::next() const {
   if (!running()) return tx_.next();
   const Cycle next = std::min(tx_.next(), timers_);
-  if (tx_.rts()) return next;
+  return tx_.rts() || for_others_ ? next : std::min(next, next_of_line());
+}
+
+Cycle Station::next_of_line() const {
   const Cycle decision = telegrams_.deadline();
-  return std::min({next, rx_.next(), rx_.receiving(decision) ? kNever : decision});
+  return std::min(rx_.next(), rx_.receiving(decision) ? kNever : decision);
 }
 
 Unheard Station::unheard() const {
@@ -52,13 +56,17 @@ Unheard Station::unheard() const {
 
 // While a rate is searched, or an answer of this chip comes, who knows what becomes of it.
 bool Station::set_run(const CharacterRun& run) {
-  const bool hears = listening() && !search_.searching() && !tx_.planned();
-  return hears && rx_.set_run(run, telegrams_.is_whole(run.bytes, run.size));
+  if (!listening() || search_.searching() || tx_.planned()) return false;
+  const bool whole = telegrams_.is_whole(run.bytes, run.size);
+  if (!rx_.set_run(run, whole)) return false;
+  for_others_ = whole && !concerns(run.bytes, slave_.address());
+  return true;
 }
 
 void Station::leave_run(Tick at) {
   if (listening()) listen(at / kTicksPerCycle);
   rx_.leave_run(at);
+  for_others_ = false;
 }
 
 void Station::plan_timers() { timers_ = std::min({search_.next(), watchdog_.next(), slave_.next_timer()}); }
@@ -77,6 +85,7 @@ void Station::eval(Cycle now) {
     if (!tx_.rts()) listen(now);
     watch(now);
     const bool decided = !tx_.rts() && telegrams_.eval(now, rx_.receiving(now));
+    if (!rx_.in_run() && telegrams_.deadline() == kNever) for_others_ = false;
     if (decided) decide(now, telegrams_.telegram());
     if (decided || now >= timers_) plan_timers();
   }
@@ -88,6 +97,9 @@ void Station::eval(Cycle now) {
 }
 
 void Station::listen(Cycle now) {
+  const bool whole = rx_.whole_run(now);
+  if (whole && telegrams_.take_whole(rx_.run_bytes(), rx_.run_size(), rx_.run_idle(), rx_.run_end(), rx_.bit()))
+    rx_.take_run();
   while (rx_.eval(now)) telegrams_.character(rx_.completed(), rx_.character(), rx_.bit());
 }
 
@@ -102,6 +114,7 @@ void Station::start_search(Cycle now) {
 }
 
 void Station::select_rate(Cycle now) {
+  for_others_ = false;
   rx_.restart(search_.bit(), now, now);
   telegrams_.restart();
   telegrams_.set_quiet(search_.searching());

@@ -2,6 +2,7 @@
 // A PROFIBUS DP slave station between PBRXD and PBTXD: receiver, baud search, watchdog, FDL and the DP services,
 // evaluated in the order that docs/microarchitecture.md fixes. Nothing here knows how the user's side looks.
 #include <algorithm>
+#include <utility>
 
 #include "model/profibus/baud_search.hpp"
 #include "model/profibus/dp_slave.hpp"
@@ -31,7 +32,8 @@ class Station {
   /// PBRXD changes at `at`; every rising edge up to then has been evaluated. False: next() is what it was.
   bool set_rxd(Tick at, bool level) {
     if (rx_.full()) make_room(at);
-    return rx_.set_line(at, level);
+    const bool seen_again = std::exchange(for_others_, false);
+    return rx_.set_line(at, level) || seen_again;
   }
   /// See UartRx::set_run. False: the edges have to be told.
   bool set_run(const CharacterRun& run);
@@ -46,8 +48,12 @@ class Station {
   void reset();
   /// The rising edge of `now`.
   void eval(Cycle now);
-  /// The next cycle at which eval() does something.
+  /// The next cycle at which eval() does something, but for unseen().
   Cycle next() const;
+  /// The next cycle at which eval() has something to do with a telegram for others, told as a run: nobody sees it but
+  /// in telegrams_received(), so that it may be called late, before anything else concerns this station. kNever:
+  /// nothing.
+  Cycle unseen() const { return for_others_ ? next_of_line() : kNever; }
 
   /// Whether eval(now) may do more than take a character or send a bit: change what the user's side hears, or a state.
   bool may_act(Cycle now) const {
@@ -82,6 +88,7 @@ class Station {
   void initialise(Cycle now, const SlaveConfig& config);
   bool running() const { return slave_.state() != DpState::kOffline; }
   bool listening() const { return running() && !tx_.rts(); }
+  Cycle next_of_line() const;
   void make_room(Tick at);
   void plan_timers();
   void listen(Cycle now);
@@ -105,6 +112,7 @@ class Station {
   UartTx tx_;
   // When search, watchdog or a timer of C2 is over next: kept, as it is asked at every bit sent.
   Cycle timers_ = kNever;
+  bool for_others_ = false;  // what is heard, and waits for nobody
   std::uint64_t received_ = 0, answered_ = 0;
 };
 

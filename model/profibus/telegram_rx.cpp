@@ -1,5 +1,7 @@
 #include "model/profibus/telegram_rx.hpp"
 
+#include <algorithm>
+
 namespace profibus {
 namespace {
 
@@ -20,6 +22,8 @@ int expected_size(std::uint8_t delimiter) {
 
 int address_offset(std::uint8_t delimiter) { return delimiter == sd::kSd2 ? kSd2Header : 1; }
 
+bool is_syn(Cycle idle, int bit) { return idle >= static_cast<Cycle>(kSynBits) * bit - 1; }
+
 std::uint8_t fcs_of(const std::uint8_t* bytes, int size) {
   unsigned sum = 0;
   for (int i = 0; i < size; ++i) sum += bytes[i];
@@ -27,6 +31,13 @@ std::uint8_t fcs_of(const std::uint8_t* bytes, int size) {
 }
 
 }  // namespace
+
+bool concerns(const std::uint8_t* bytes, std::uint8_t address) {
+  constexpr std::uint8_t kSapBit = 0x80;
+  if (bytes[0] == sd::kSc || bytes[0] == sd::kSd4) return false;  // answers of others, tokens
+  const unsigned da = bytes[address_offset(bytes[0])] & ~unsigned{kSapBit};
+  return da == address || da == kBroadcast;
+}
 
 bool TelegramRx::is_whole(const std::uint8_t* bytes, int size) const {
   if (in_telegram() || unsynced_ > 0) return false;
@@ -60,7 +71,7 @@ void TelegramRx::cut(Cycle now) {
 }
 
 void TelegramRx::character(Cycle now, const Character& character, int bit) {
-  const bool after_syn = character.idle >= static_cast<Cycle>(kSynBits) * bit - 1;
+  const bool after_syn = is_syn(character.idle, bit);
   const bool after_gap = character.idle > bit;
   if (in_telegram() && !after_syn) {
     if (state_ == State::kComplete) return fail(now, Reason::kOversized);
@@ -72,12 +83,7 @@ void TelegramRx::character(Cycle now, const Character& character, int bit) {
     if (!given_up_) count_unsynced();
     return;
   }
-  if (first) {
-    count_ = 0;
-    given_up_ = false;
-    telegram_.synced = after_syn;
-    telegram_.idle_bits = static_cast<int>(character.idle / bit);
-  }
+  if (first) begin_telegram(character.idle, bit);
   if (!character.parity_ok) return fail(now, Reason::kParity, static_cast<unsigned>(count_), character.value);
   if (!character.stop_ok) return fail(now, Reason::kFraming, static_cast<unsigned>(count_), character.value);
 
@@ -87,6 +93,24 @@ void TelegramRx::character(Cycle now, const Character& character, int bit) {
     begin(now, character.value);
   else
     take(now, character.value);
+}
+
+bool TelegramRx::take_whole(const std::uint8_t* bytes, int size, Cycle idle, Cycle end, int bit) {
+  if (idle <= bit) return false;
+  begin_telegram(idle, bit);
+  telegram_.end = end;
+  deadline_ = end + bit + 1;
+  std::copy_n(bytes, size, bytes_.begin());
+  count_ = expected_ = size;
+  check_end(end);
+  return true;
+}
+
+void TelegramRx::begin_telegram(Cycle idle, int bit) {
+  count_ = 0;
+  given_up_ = false;
+  telegram_.synced = is_syn(idle, bit);
+  telegram_.idle_bits = static_cast<int>(idle / bit);
 }
 
 void TelegramRx::begin(Cycle now, std::uint8_t value) {

@@ -21,6 +21,9 @@ struct Telegram {
   int idle_bits = 0;    ///< whole bit times of idle before it; a large number says little
 };
 
+/// Whether a right telegram of these bytes is one that `address` may be meant by.
+bool concerns(const std::uint8_t* bytes, std::uint8_t address);
+
 class TelegramRx {
  public:
   explicit TelegramRx(EventLog& log) : log_(log) {}
@@ -37,6 +40,9 @@ class TelegramRx {
   /// Characters that are one right telegram, and nothing is under way or to be reported: character() for each of them,
   /// however late, is all that it takes, up to the edge behind the last.
   bool is_whole(const std::uint8_t* bytes, int size) const;
+  /// character() for each of them: the first came behind `idle` cycles, the last has ended at `end`. False: `idle` is
+  /// none before a telegram, and nothing was done.
+  bool take_whole(const std::uint8_t* bytes, int size, Cycle idle, Cycle end, int bit);
   /// A character was completed at `now`.
   void character(Cycle now, const Character& character, int bit);
   /// The edge of `now`; `receiving`: a character is being sampled. True when a telegram is decided (S10): see
@@ -49,6 +55,7 @@ class TelegramRx {
  private:
   enum class State : std::uint8_t { kWaitSyn, kReceiving, kComplete };
   bool in_telegram() const { return state_ != State::kWaitSyn; }
+  void begin_telegram(Cycle idle, int bit);
   void begin(Cycle now, std::uint8_t value);
   void take(Cycle now, std::uint8_t value);
   bool check_sd2_header(Cycle now, std::uint8_t value);

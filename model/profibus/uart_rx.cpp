@@ -103,10 +103,20 @@ bool UartRx::set_run(const CharacterRun& run, bool at_once) {
 
 void UartRx::take_from_run() {
   character_ = {run_start_, run_start_ - idle_since_, run_[static_cast<std::size_t>(run_index_)], true, true};
-  run_start_ += Cycle{kBitsPerCharacter} * bit_;
-  run_edge_ += Cycle{kBitsPerCharacter} * bit_ * kTicksPerCycle;
-  idle_since_ = run_start_;
-  ++run_index_;
+  pass_characters(1);
+}
+
+void UartRx::take_run() {
+  pass_characters(run_size_ - 1);
+  take_from_run();
+}
+
+void UartRx::pass_characters(int count) {
+  const Cycle length = Cycle{count} * kBitsPerCharacter * bit_;
+  run_start_ += length;
+  run_edge_ += length * kTicksPerCycle;
+  if (count > 0) idle_since_ = run_start_;
+  run_index_ += count;
 }
 
 // The edges until `at` of the characters that are not complete: of one, and the first of the next.

@@ -42,6 +42,15 @@ class UartRx {
   /// The line as it was told last.
   bool input() const { return input_; }
   bool in_run() const { return run_index_ < run_size_; }
+  /// A run that was to be heard at once is complete at `now`, none of its characters was taken by eval(): take_run() is
+  /// all of them.
+  bool whole_run(Cycle now) const { return in_run() && at_once_ && run_index_ == 0 && next() <= now; }
+  const std::uint8_t* run_bytes() const { return run_.data(); }
+  int run_size() const { return run_size_; }
+  /// Idle time before it and its end, as the logic sees them, in cycles.
+  Cycle run_idle() const { return run_start_ - idle_since_; }
+  Cycle run_end() const { return run_start_ + Cycle{run_size_ - run_index_} * kBitsPerCharacter * bit_; }
+  void take_run();
   /// A run was left, by restart() or leave_run(), and forget_run() not called since.
   bool left_run() const { return left_run_; }
   void forget_run() { left_run_ = false; }
@@ -91,6 +100,7 @@ class UartRx {
   Cycle to_stop() const { return bit_ / 2 + Cycle{kStopIndex} * bit_; }
   void note(Cycle visible);
   void take_from_run();
+  void pass_characters(int count);
 
   std::array<Cycle, kDepth> edges_{};  // at which the logic sees the line change, from line_ on
   unsigned first_ = 0, count_ = 0;

@@ -70,6 +70,11 @@ Level ChipModule::sample(Tick at) {
   return chip_.sample(at);
 }
 
+bool ChipModule::carry_out(Tick begin, const HostAccess& access, Level& sampled) {
+  const WhileIn core(in_core_);
+  return chip_.carry_out(begin, access, sampled);
+}
+
 bool ChipModule::hear(Tick at, const profibus::CharacterRun& run) {
   const WhileIn core(in_core_);
   return chip_.hear(at, run);

@@ -42,6 +42,7 @@ class ChipModule : public sc_core::sc_module {
   void set(Tick at, Pin pin, Level level);
   void advance(Tick to);
   Level sample(Tick at);
+  bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
   /// True while the core runs, that is inside of `on_pin` and `on_event`.
   bool is_in_core() const { return in_core_; }
   /// Outputs that changed since the last call.

@@ -49,6 +49,7 @@ void PinModule::evaluate() {
 }
 
 void PinModule::begin() {
+  user_d_ = user_level(D.read());
   drive(kOutputPins);
   due_.notify(sc_core::sc_time(1, sc_core::SC_FS));  // when the delta cycles of time 0 are over
 }
@@ -83,7 +84,8 @@ void PinModule::apply_inputs(Tick at) {
   if (R_REQ.read()) set(at, Pin::kRReq, 1);
   if (R_STA.read()) set(at, Pin::kRSta, 1);
   set(at, Pin::kA, static_cast<Level>(A.read().to_uint()));
-  set(at, Pin::kDIn, user_drives_d ? user_level(D.read()) : kLevelZ);
+  if (D.event()) user_d_ = user_level(D.read());  // dear: four-valued
+  set(at, Pin::kDIn, user_drives_d ? user_d_ : kLevelZ);
   if (!CSR.read()) set(at, Pin::kCsr, 0);
   set(at, Pin::kRd, RD.read());
   set(at, Pin::kWr, WR.read());

@@ -61,6 +61,7 @@ class PinModule : public ChipModule {
 
   double clock_tolerance_ppm_;
   std::unique_ptr<BoundClock> clock_;  ///< only while CLK is bound
+  Level user_d_ = kLevelZ;             ///< D as it was when it changed last
 };
 
 }  // namespace dsdpv1::systemc

@@ -154,7 +154,10 @@ Level TlmModule::perform(const HostAccess& access) {
 
 /// Moves the pins of the running access at their ticks, up to `now`.
 void TlmModule::move_access(Tick now) {
+  if (!in_access()) return;
   const Tick start = chip_tick(access_start_);
+  const bool over = start + access_.last() <= now && !hears_host();
+  if (moved_ == 0 && over && ChipModule::carry_out(start, access_, sampled_)) moved_ = access_.size();
   for (; moved_ < access_.size() && start + access_[moved_].at <= now; ++moved_) {
     const HostAccess::Edge& edge = access_[moved_];
     if (edge.pin == Pin::kDOut)

@@ -220,7 +220,7 @@ void Bench::telegram(const bus::WireTelegram& telegram) {
   observers_.tell(&Observer::telegram, HeardTelegram(now(), telegram));
   if (telegram.tsdr) {
     for (const auto& slave : stations_.slaves)
-      if (slave->chip().status().address == telegram.station) slave->tsdr().add(telegram.tsdr_bits());
+      if (slave->chip().address() == telegram.station) slave->tsdr().add(telegram.tsdr_bits());
   }
   changed();
 }

@@ -55,6 +55,8 @@ class ChipView {
   virtual bus::StationId station() const = 0;
   /// Status and levels as of the last evaluation; `sync` brings them to the present time.
   virtual ChipStatus status() const = 0;
+  /// Of the station, as in `status`.
+  virtual std::uint8_t address() const = 0;
   virtual Level level(PinNumber pin) const = 0;
   virtual void sync(Tick now) = 0;
 

@@ -13,6 +13,7 @@ class Dsdpv1View : public ChipView {
   virtual const dsdpv1::Chip& core() const = 0;
 
   ChipStatus status() const final;
+  std::uint8_t address() const final { return core().address(); }
   Level level(PinNumber pin) const final { return core().level(static_cast<dsdpv1::Pin>(pin)); }
 
  protected:

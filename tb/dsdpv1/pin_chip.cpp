@@ -151,6 +151,7 @@ void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::Acc
 void PinChip::run_edges(Tick until) {
   user_cpu::PinHostBus& host = pins();
   has_told_ = false;
+  if (!reports_inputs_ && until >= host.last_edge() && host.run_whole()) return;
   for (Tick at = host.next_edge(); at <= until && !has_told_; at = host.next_edge()) {
     host.run_edges(at);
     if (reports_inputs_) report_access(at);

@@ -40,6 +40,9 @@ class CoreDevice : public PinDevice {
   bool hear(dsdpv1::Tick at, const profibus::CharacterRun& run) override { return chip_.hear(at, run); }
   void leave_run(dsdpv1::Tick at) override { chip_.leave_run(at); }
   bool left_run() const override { return chip_.left_run(); }
+  bool carry_out(dsdpv1::Tick begin, const dsdpv1::HostAccess& access, dsdpv1::Level& sampled) override {
+    return chip_.carry_out(begin, access, sampled);
+  }
   bool begins_to_send() const override { return chip_.begins_to_send(); }
   profibus::CharacterRun hide_txd() override { return chip_.hide_txd(); }
   void show_txd(dsdpv1::Tick at) override { chip_.show_txd(at); }

@@ -43,7 +43,7 @@ def idle_station(turn):
 
 def core(io):
     return Row(f"core_{io}", 10, TIMES, f"The core alone: data exchange with {io} bytes each way, back to back at 12 Mbit/s; L_REQ and PBTXD are "
-               "watched and their changes counted.", in_program("bench_core", f"core_{io}"), ("bench_core",))
+               "watched and their changes counted. Requests are told as runs of characters (`Chip::hear`).", in_program("bench_core", f"core_{io}"), ("bench_core",))
 
 
 def of_sim(name, goal, what, measure, **others):

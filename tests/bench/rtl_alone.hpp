@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "model/dsdpv1/pins.hpp"
+#include "model/profibus/character_run.hpp"
 
 namespace speed {
 
@@ -22,6 +23,8 @@ class [[gnu::visibility("default")]] RtlAlone {
   RtlAlone& operator=(const RtlAlone&) = delete;
 
   void set(Tick at, Pin pin, Level level);
+  /// RTL hears changes.
+  bool hear(Tick /*at*/, const profibus::CharacterRun& /*run*/) { return false; }
   void advance(Tick to);
   /// Of L_REQ, L_STA and PBTXD; others are not asked for.
   Level level(Pin pin) const;

@@ -1,7 +1,7 @@
 #pragma once
 // A saturated 12 Mbit/s bus for one chip and nothing round it: data exchanges of one size, back to back at T_SYN. The
 // edges of the requests are made beforehand and the user is idle, so that a measurement has the chip in it and little
-// else. Everything goes through the pins: model and RTL get the same.
+// else. The core is told its requests as runs of characters, the RTL the changes of PBRXD that they are.
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
@@ -9,6 +9,7 @@
 
 #include "model/dpram/crc16.hpp"
 #include "model/dsdpv1/pins.hpp"
+#include "model/profibus/character_run.hpp"
 #include "registers/dsdpv1_regs.hpp"
 #include "tests/conformance/slave_bench.hpp"
 
@@ -46,6 +47,13 @@ inline Wave wave_of(const Bytes& telegram) {
   }
   return wave;
 }
+
+/// A request, whichever way it is told.
+struct Request {
+  explicit Request(const Bytes& bytes) : telegram(bytes), wave(wave_of(bytes)) {}
+  Bytes telegram;
+  Wave wave;
+};
 
 /// Identifiers for as many inputs as outputs, at most 16 of each in one.
 inline Bytes identifiers(int io) {
@@ -94,19 +102,19 @@ inline int answer_and_syn_bits(int io) {
   return kTsdr + bus::kCharacterBits * (io + kFrame) + kSynBits;
 }
 
-/// `Device`: set(Tick, Pin, Level), advance(Tick), level(Pin), like dsdpv1::Chip.
+/// `Device`: set(Tick, Pin, Level), hear(Tick, CharacterRun), advance(Tick), level(Pin), like dsdpv1::Chip.
 template <class Device>
 class SaturatedBus {
  public:
   SaturatedBus(Device& device, int io) : device_(device), io_(io) {
-    for (const Bytes& request : exchange_requests(io)) requests_.push_back(wave_of(request));
+    for (const Bytes& request : exchange_requests(io)) requests_.emplace_back(request);
   }
 
   /// From power-on to data exchange.
   void start() {
     reset();
     initialise();
-    for (const Bytes& request : bring_up(io_)) send(wave_of(request), kBringUpIdle);
+    for (const Bytes& request : bring_up(io_)) send(Request(request), kBringUpIdle);
   }
   void exchange() {
     send(requests_[toggle_ ^= 1U], answer_and_syn_bits(io_));
@@ -158,15 +166,21 @@ class SaturatedBus {
     set(0, Pin::kDIn, dsdpv1::kLevelZ);
     wait(kHold);
   }
-  void send(const Wave& wave, int idle_bits) {
-    for (const LineEdge& edge : wave.edges) device_.set(now_ + edge.at, Pin::kPbrxd, edge.level ? 1 : 0);
-    wait(wave.length + idle_bits * kBit);
+  void send(const Request& request, int idle_bits) {
+    if (!hears(request.telegram))
+      for (const LineEdge& edge : request.wave.edges) device_.set(now_ + edge.at, Pin::kPbrxd, edge.level ? 1 : 0);
+    wait(request.wave.length + idle_bits * kBit);
+  }
+  bool hears(const Bytes& telegram) {
+    const profibus::CharacterRun run{now_, kBit / profibus::kTicksPerCycle, telegram.data(),
+                                     static_cast<int>(telegram.size())};
+    return device_.hear(now_, run);
   }
 
   Device& device_;
   int io_;
   Tick now_ = 0;
-  std::vector<Wave> requests_;
+  std::vector<Request> requests_;
   unsigned toggle_ = 0;
   std::uint64_t exchanges_ = 0;
 };

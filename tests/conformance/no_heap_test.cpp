@@ -33,7 +33,7 @@ using profibus::Tick;
 /// A chip that counts what is allocated while it is in a call.
 class Counted {
  public:
-  explicit Counted(dsdpv1::Engine engine) : chip_(with(engine)) {
+  Counted(dsdpv1::Engine engine, bool takes_runs) : takes_runs_(takes_runs), chip_(with(engine)) {
     chip_.watch(pins_.sink(), speed::PinCounter::kWatched);
     chip_.on_event({[](void* self, const profibus::Event&) { ++static_cast<Counted*>(self)->events_; }, this});
   }
@@ -42,6 +42,11 @@ class Counted {
   }
   void advance(Tick to) {
     during([&] { chip_.advance(to); });
+  }
+  bool hear(Tick at, const profibus::CharacterRun& run) {
+    bool taken = false;
+    during([&] { taken = takes_runs_ && chip_.hear(at, run); });
+    return taken;
   }
   Level level(Pin pin) { return chip_.level(pin); }
   dsdpv1::Status status() const { return chip_.status(); }
@@ -60,17 +65,26 @@ class Counted {
     call();
     allocated_ += allocations - before;
   }
+  bool takes_runs_;
   speed::PinCounter pins_;
   dsdpv1::Chip chip_;
   std::size_t allocated_ = 0, events_ = 0;
 };
 
-class NoHeap : public testing::TestWithParam<dsdpv1::Engine> {};
-INSTANTIATE_TEST_SUITE_P(Engines, NoHeap, testing::Values(dsdpv1::Engine::kStep, dsdpv1::Engine::kSkip),
-                         [](const auto& tested) { return tested.param == dsdpv1::Engine::kStep ? "Step" : "Skip"; });
+struct Way {
+  const char* name;
+  dsdpv1::Engine engine;
+  bool takes_runs;
+};
+class NoHeap : public testing::TestWithParam<Way> {};
+INSTANTIATE_TEST_SUITE_P(Engines, NoHeap,
+                         testing::Values(Way{"Step", dsdpv1::Engine::kStep, false},
+                                         Way{"Skip", dsdpv1::Engine::kSkip, false},
+                                         Way{"SkipWithRuns", dsdpv1::Engine::kSkip, true}),
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST_P(NoHeap, FromResetToDataExchangeAndAgain) {
-  Counted chip(GetParam());
+  Counted chip(GetParam().engine, GetParam().takes_runs);
   speed::SaturatedBus<Counted> bus(chip, 64);
   for (int round = 0; round < 2; ++round) {
     bus.start();

@@ -53,6 +53,7 @@ class View : public tb::ChipView, public bus::Agent, public SpiPins, private bus
   }
   bus::StationId station() const override { return station_; }
   tb::ChipStatus status() const override { return tb::common_status(chip_.status()); }
+  std::uint8_t address() const override { return chip_.status().address; }
   tb::Level level(PinNumber pin) const override { return chip_.level(static_cast<Pin>(pin)); }
   void sync(Tick now) override { run(now); }
 

@@ -21,7 +21,10 @@ TlmChip::TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::Tlm
   module_.PBRXD(rxd_);
   module_.on_pin = [this](bus::Tick at, Pin pin, Level level) { pin_changed(at, pin, level); };
   module_.on_answer = [this](const profibus::CharacterRun& run) { return answer_begins(run); };
-  module_.on_left_run = [this](bus::Tick at) { segment_.cut_run(at); };
+  module_.on_left_run = [this](bus::Tick at) {
+    segment_.cut_run(at);
+    timeline_.wake();
+  };
 }
 
 void TlmChip::line_changed(bus::Tick /*at*/, bool level) { rxd_.write(level); }

@@ -12,6 +12,10 @@ class HostPins {
   virtual void advance(dsdpv1::Tick to) = 0;
   virtual dsdpv1::Level level(dsdpv1::Pin pin) const = 0;
   virtual dsdpv1::Level sample(dsdpv1::Tick at) = 0;
+  /// See dsdpv1::Chip; who wants each edge carries nothing out.
+  virtual bool carry_out(dsdpv1::Tick /*begin*/, const dsdpv1::HostAccess& /*access*/, dsdpv1::Level& /*sampled*/) {
+    return false;
+  }
 };
 
 /// Those of the core.
@@ -22,6 +26,9 @@ class CoreHostPins : public HostPins {
   void advance(dsdpv1::Tick to) override { chip_.advance(to); }
   dsdpv1::Level level(dsdpv1::Pin pin) const override { return chip_.level(pin); }
   dsdpv1::Level sample(dsdpv1::Tick at) override { return chip_.sample(at); }
+  bool carry_out(dsdpv1::Tick begin, const dsdpv1::HostAccess& access, dsdpv1::Level& sampled) override {
+    return chip_.carry_out(begin, access, sampled);
+  }
 
  private:
   dsdpv1::Chip& chip_;

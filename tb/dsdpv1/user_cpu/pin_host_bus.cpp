@@ -48,8 +48,17 @@ void PinHostBus::run_edges(Tick until) {
   }
 }
 
-void PinHostBus::sample(Tick at) {
-  const Level level = chip_.sample(at);
+bool PinHostBus::run_whole() {
+  Level sampled = 0;
+  if (edge_ > 0 || !chip_.carry_out(begin_, *access_, sampled)) return false;
+  edge_ = access_->size();
+  if (!access_->is_write()) take(sampled);
+  return true;
+}
+
+void PinHostBus::sample(Tick at) { take(chip_.sample(at)); }
+
+void PinHostBus::take(Level level) {
   bad_ = level < 0;
   value_ = bad_ ? std::uint8_t{0xFF} : static_cast<std::uint8_t>(level);
 }

@@ -27,6 +27,9 @@ class PinHostBus : public HostBus {
   void begin(Tick at, const Access& access, const AccessTiming& timing) override;
   Tick next_edge() const override { return edge_ < access_->size() ? begin_ + (*access_)[edge_].at : bus::kNever; }
   void run_edges(Tick until) override;
+  /// The running access at once, if that comes to the same and it has not begun.
+  bool run_whole();
+  Tick last_edge() const { return begin_ + access_->last(); }
   Tick end() const override { return end_; }
   std::uint8_t read_value() const override { return value_; }
   bool last_read_was_bad() const override { return bad_; }
@@ -40,6 +43,7 @@ class PinHostBus : public HostBus {
     dsdpv1::HostAccess access;
   };
   void sample(Tick at);
+  void take(dsdpv1::Level level);
   bool is_high(Tick at, dsdpv1::Pin pin);
 
   std::optional<CoreHostPins> core_;
