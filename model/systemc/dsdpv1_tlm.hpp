@@ -170,6 +170,7 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   void emit_characters();
   bool is_sendable(const BusCharacter& character);
   void put_on_line(const BusCharacter& character);
+  Tick tick_of_bit(const BusCharacter& character, unsigned int bit) const;
   bool put_in_run(const BusCharacter& character);
   void put_as_edges(const BusCharacter& character);
   void take_back_last_run();

@@ -43,11 +43,16 @@ void TlmModule::put_on_line(const BusCharacter& character) {
   if (!put_in_run(character)) put_as_edges(character);
 }
 
-/// A right character that begins at a tick and whose bits are whole cycles goes on with the run before it, or begins
-/// one.
+/// The chip's tick nearest to the start of a bit, or of what comes behind the last.
+Tick TlmModule::tick_of_bit(const BusCharacter& character, unsigned int bit) const {
+  return chip_tick(to_tick(sc_core::sc_time::from_value(character.start.value() + bit * character.bit.value())));
+}
+
+/// A right character whose bits are whole cycles goes on with the run before it, or begins one. Who adds up rounded
+/// times is some femtoseconds beside the ticks; as long as the nearest tick is right at both ends, it is in between.
 bool TlmModule::put_in_run(const BusCharacter& character) {
-  const Tick start = chip_tick(to_tick(character.start)), bit = to_tick(character.bit);
-  const bool exact = to_time(start + phase()) == character.start && to_time(bit) == character.bit &&
+  const Tick start = tick_of_bit(character, 0), bit = to_tick(character.bit);
+  const bool exact = tick_of_bit(character, profibus::kBitsPerCharacter) == start + profibus::kBitsPerCharacter * bit &&
                      bit % profibus::kTicksPerCycle == 0;
   if (!tells_runs() || !exact || !character.parity_ok || !character.stop_ok || start < line_busy_until_) return false;
   if (runs_.empty() || runs_.back().end() != start || runs_.back().bit != bit) runs_.push_back({start, bit, {}});
@@ -67,17 +72,14 @@ void TlmModule::take_back_last_run() {
 }
 
 void TlmModule::put_as_edges(const BusCharacter& character) {
-  const auto tick_of_bit = [&](unsigned int bit) {
-    return chip_tick(to_tick(sc_core::sc_time::from_value(character.start.value() + bit * character.bit.value())));
-  };
   const std::uint16_t frame = frame_of(character.data, character.parity_ok, character.stop_ok);
   bool level = true;
   for (unsigned int bit = 0; bit < profibus::kBitsPerCharacter; ++bit) {
     const bool next = ((frame >> bit) & 1U) != 0;
-    if (next != level) to_chip_.push({tick_of_bit(bit), next});
+    if (next != level) to_chip_.push({tick_of_bit(character, bit), next});
     level = next;
   }
-  line_busy_until_ = tick_of_bit(profibus::kBitsPerCharacter);
+  line_busy_until_ = tick_of_bit(character, profibus::kBitsPerCharacter);
   if (!level) to_chip_.push({line_busy_until_, true});
 }
 

@@ -55,9 +55,18 @@ void check_objects(const scenario::Scenario& scenario, const scenario::Slave& sl
                      fmt::format("dpv1 has {} objects, allowed on an ARM board are {}", count, DSDPV1_MAILBOX_OBJECTS));
 }
 
+void check_engine(const UserRequest& request) {
+  try {
+    arm::load_engine();
+  } catch (const std::runtime_error& error) {
+    throw InputError(request.scenario.file, request.slave.user_cpu.line, std::string("kind is arm, ") + error.what());
+  }
+}
+
 MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
   const scenario::UserCpu& user = request.slave.user_cpu;
   const Dsdpv1User& own = tb::own(user);
+  check_engine(request);
   arm::BoardOptions options;
   options.firmware = arm::load_firmware(scenario::resolve(request.scenario, own.elf));
   if (!options.firmware->mailbox) {
