@@ -210,6 +210,11 @@ void TlmModule::catch_up() {
   emit_characters();
 }
 
+/// The core knows another level: a run was left in the middle of a character, and PBRXD has been high all the time.
+bool TlmModule::line_is_stale() const {
+  return !in_run(chip_now()) && chip().level(Pin::kPbrxd) != Level{line_level()};
+}
+
 void TlmModule::apply_inputs(Tick now) {
   set(now, Pin::kRReq, R_REQ.read());
   set(now, Pin::kRSta, R_STA.read());
@@ -231,7 +236,7 @@ void TlmModule::drive_outputs() {
 /// cycle.
 void TlmModule::plan() {
   const Tick line = std::min(to_chip_.next(), runs_.empty() ? profibus::kNever : runs_.front().start);
-  if (has_changed(bound_) || line <= chip_now())
+  if (has_changed(bound_) || line <= chip_now() || line_is_stale())
     schedule_now();
   else
     schedule(std::min({line, from_chip_.next(), next_answered()}));

@@ -153,6 +153,8 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   bool hears_host() const { return on_pin && (observed_ & kHostPins) != 0; }
   bool tells_runs() const { return !on_pin || (observed_ & mask(Pin::kPbrxd)) == 0; }
   bool in_run(Tick now) const { return now < run_end_; }
+  bool line_level() const { return characters_level_ && (PBRXD.size() == 0 || PBRXD->read()); }
+  bool line_is_stale() const;
   void begin_run(Tick now);
   void stop_run(Tick now);
   void spell_out(const LineRun& run, Tick behind);

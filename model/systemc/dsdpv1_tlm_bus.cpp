@@ -86,12 +86,11 @@ void TlmModule::put_as_edges(const BusCharacter& character) {
 // --- the line to the core --------------------------------------------------------------------------------------------
 
 void TlmModule::apply_line(Tick now) {
-  const bool raw = PBRXD.size() == 0 || PBRXD->read();
   const auto take_edges = [&] {
     while (to_chip_.next() <= now) characters_level_ = to_chip_.take().level;
-    if (in_run(now) && raw && characters_level_) return;
+    if (in_run(now) && line_level()) return;
     if (in_run(now)) stop_run(now);
-    set(now, Pin::kPbrxd, raw && characters_level_);
+    set(now, Pin::kPbrxd, line_level());
   };
   take_edges();
   if (runs_.empty() || runs_.front().start > now) return;

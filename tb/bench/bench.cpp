@@ -42,6 +42,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
       checks_(scenario, options.checks),
       journal_(scenario, execution_->timeline(), log_form(options.log, options.log_whole, options.open_ended)) {
   checks_.on_violation = [this](const std::string& slave, const checks::Violation& violation, const char* kind) {
+    stations_.slave(slave).chip().pause_access();
     journal_.check_violated(slave, violation, kind);
     changed(violation.found);
   };

@@ -5,7 +5,7 @@
 namespace tb {
 
 PinMask CheckWatch::pins() const {
-  return on() ? scenario_.kind->checked_pins() | inputs_of(scenario_.kind->pins()) : 0;
+  return on() ? scenario_.kind->checked_pins() : 0;
 }
 
 void CheckWatch::add(const std::string& slave) {

@@ -25,7 +25,7 @@ struct ChipRequest {
   std::string name;
   const OwnSettings& settings;  ///< of ChipKind::make_chip_settings
   Engine engine = Engine::kSkip;
-  PinMask watched = 0;  ///< pins whose changes are wanted; of the inputs all or none
+  PinMask watched = 0;  ///< pins whose changes are wanted; of the inputs of the host bus all or none
 };
 
 /// `--gdb`: the debugger of a processor that runs firmware.

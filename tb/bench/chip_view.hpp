@@ -60,6 +60,9 @@ class ChipView {
   virtual Level level(PinNumber pin) const = 0;
   virtual void sync(Tick now) = 0;
 
+  /// Somebody else acts before the next edge of an access under way.
+  virtual void pause_access() {}
+
   /// Changes of the watched pins, in order of time.
   std::function<void(Tick at, PinNumber pin, Level level)> on_pin;
   /// The pin that interrupts the user CPU, told before `on_pin`.

@@ -75,7 +75,7 @@ class ChipKind {
 
   // --- Checks of its user's side; none by default.
   virtual const checks::RuleTable& rules() const;
-  /// Output pins that the checks need; the inputs are all needed.
+  /// Pins that the checks need.
   virtual PinMask checked_pins() const { return 0; }
   virtual std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& /*limits*/) const { return nullptr; }
 };

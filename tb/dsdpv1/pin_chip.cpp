@@ -27,7 +27,8 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
       segment_(segment),
       station_(segment.attach(name, this)),
       line_(segment, station_),
-      reports_inputs_((watched & inputs_of(dsdpv1_pins())) != 0),
+      reports_host_((watched & inputs_of(dsdpv1_pins()) & ~dsdpv1::mask(Pin::kPbrxd)) != 0),
+      reports_rxd_((watched & dsdpv1::mask(Pin::kPbrxd)) != 0),
       reports_txd_((watched & dsdpv1::mask(Pin::kPbtxd)) != 0) {
   chip_.watch(
       {[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); },
@@ -35,7 +36,7 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
       (watched & dsdpv1::kOutputPins) | kBusPins);
   chip_.on_event({[](void* self, const profibus::Event& event) {
                     auto& view = *static_cast<PinChip*>(self);
-                    view.has_told_ = true;
+                    view.pause_access();
                     if (view.on_event) view.on_event(event);
                   },
                   this});
@@ -72,7 +73,7 @@ void PinChip::send_run() {
 }
 
 void PinChip::pin_changed(Tick at, Pin pin, Level level) {
-  has_told_ = true;
+  if (pin != Pin::kDOut) pause_access();  // D is recorded and checked, nobody else looks at it
   tell(at, pin, level);
   if (pin == Pin::kPbtxd) line_.drive(at, level != 0);
   if (pin == Pin::kPbrts) line_.enable(at, level != 0);
@@ -83,12 +84,12 @@ void PinChip::line_changed(Tick at, bool level) {
   if (catching_up_) return chip_.hear(at, level);
   announce();
   chip_.set(at, Pin::kPbrxd, level ? 1 : 0);
-  report_inputs(at, Pin::kPbrxd, Pin::kPbrxd);
+  if (reports_rxd_) report_inputs(at, Pin::kPbrxd, Pin::kPbrxd);
   update_deafness();
 }
 
 bool PinChip::run_begins(const bus::CharacterRun& run) {
-  if (reports_inputs_) return false;
+  if (reports_rxd_) return false;
   if (own_run_) return true;  // while it sends, it does not listen
   if (run.bit % bus::kTicksPerCycle != 0) return false;
   announce();
@@ -110,16 +111,14 @@ void PinChip::run_cut(Tick at, bool level) {
 
 // Who shows the pin wants each change of it in time.
 void PinChip::update_deafness() {
-  if (reports_inputs_) return;
+  if (reports_rxd_) return;
   const profibus::Unheard unheard = chip_.unheard();
   segment_.set_deafness(station_, {unheard.from, unheard.until});
 }
 
-void PinChip::set_reset(Tick at, bool level) { set(at, Pin::kReset, level ? 1 : 0); }
-
-void PinChip::set(Tick at, Pin pin, Level level) {
-  device().set(at, pin, level);
-  report_inputs(at, pin, pin);
+void PinChip::set_reset(Tick at, bool level) {
+  device().set(at, Pin::kReset, level ? 1 : 0);
+  report_host(at, Pin::kReset, Pin::kReset);
 }
 
 void PinChip::reset_host(Tick at) {
@@ -129,17 +128,17 @@ void PinChip::reset_host(Tick at) {
   for (const Pin pin : {Pin::kRSta, Pin::kRReq}) chip.set(at, pin, 0);
   chip.set(at, Pin::kDIn, dsdpv1::kLevelZ);
   chip.set(at, Pin::kA, dsdpv1::HostAccess::kIdleAddress);
-  report_inputs(at, Pin::kRReq, Pin::kDIn);
+  report_host(at, Pin::kRReq, Pin::kDIn);
 }
 
 void PinChip::set_r_req(Tick at, bool level) {
   pins().set_r_req(at, level);
-  report_inputs(at, Pin::kRReq, Pin::kRReq);
+  report_host(at, Pin::kRReq, Pin::kRReq);
 }
 
 void PinChip::set_r_sta(Tick at, bool level) {
   pins().set_r_sta(at, level);
-  report_inputs(at, Pin::kRSta, Pin::kRSta);
+  report_host(at, Pin::kRSta, Pin::kRSta);
 }
 
 void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) {
@@ -150,11 +149,11 @@ void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::Acc
 // Whoever is told something acts before the next edge.
 void PinChip::run_edges(Tick until) {
   user_cpu::PinHostBus& host = pins();
-  has_told_ = false;
-  if (!reports_inputs_ && until >= host.last_edge() && host.run_whole()) return;
-  for (Tick at = host.next_edge(); at <= until && !has_told_; at = host.next_edge()) {
+  pauses_ = false;
+  if (!reports_host_ && until >= host.last_edge() && host.run_whole()) return;
+  for (Tick at = host.next_edge(); at <= until && !pauses_; at = host.next_edge()) {
     host.run_edges(at);
-    if (reports_inputs_) report_access(at);
+    if (reports_host_) report_access(at);
   }
 }
 
@@ -164,8 +163,11 @@ void PinChip::report_access(Tick at) {
   report_inputs(at, Pin::kCsr, Pin::kDIn);
 }
 
+void PinChip::report_host(Tick at, Pin first, Pin last) {
+  if (reports_host_) report_inputs(at, first, last);
+}
+
 void PinChip::report_inputs(Tick at, Pin first, Pin last) {
-  if (!reports_inputs_) return;
   for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
     const Pin pin = static_cast<Pin>(i);
     const Level level = chip_.level(pin);

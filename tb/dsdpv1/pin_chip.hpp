@@ -28,6 +28,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   bus::StationId station() const override { return station_; }
   const dsdpv1::Chip& core() const override { return device_->core(); }
   void sync(Tick now) override { run(now); }
+  void pause_access() override { pauses_ = true; }
 
   Tick next() const override;
   void run(Tick now) override;
@@ -51,9 +52,9 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   void update_deafness();
   void send_run();
   void pin_changed(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
-  void set(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void report_access(Tick at);
-  /// Those of the inputs from `first` to `last` that have changed.
+  /// Those of the inputs from `first` to `last` that have changed; of all but PBRXD, if they are wanted.
+  void report_host(Tick at, dsdpv1::Pin first, dsdpv1::Pin last);
   void report_inputs(Tick at, dsdpv1::Pin first, dsdpv1::Pin last);
 
   // The host bus is that of the pins; what it does to the input pins is reported.
@@ -76,9 +77,9 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   bus::Segment& segment_;
   bus::StationId station_;
   LineDriver line_;
-  bool reports_inputs_, reports_txd_, catching_up_ = false;
+  bool reports_host_, reports_rxd_, reports_txd_, catching_up_ = false;
   bool own_run_ = false, hides_txd_ = false;
-  bool has_told_ = false;  ///< of a pin or an event, since an edge of an access
+  bool pauses_ = false;  ///< since an edge of an access, somebody was told something on which he may act
   std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
 };
 

@@ -1,9 +1,10 @@
-// Every scenario that ships passes, the checks included, and is the same to the byte in step, skip and TLM: pin trace
-// and log; and the log without a pin trace, when nobody needs the changes of the line.
+// Every scenario that ships passes, the checks included, and is the same to the byte in step, skip and TLM: pin trace,
+// log and result; and log and result without a pin trace, when nobody needs the changes of the line.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "tests/app/program.hpp"
 
@@ -17,20 +18,27 @@ class Scenarios : public testing::TestWithParam<std::string> {
  protected:
   /// Runs the scenario and says whether it passed.
   bool run(const std::string& engine, const std::string& view, bool trace = true) const {
-    const std::string name = engine + "_" + view;
+    const std::string name = engine + "_" + view + (trace ? "" : "_untraced");
     const std::string traced = trace ? " --trace '" + folder_.file(name + ".trace") + "'" : "";
-    const app_test::Called called =
-        call("run scenarios/" + GetParam() + ".yaml --no-progress --checks fail --engine " + engine + " --view " +
-                 view + traced + " --log '" + folder_.file(name + ".log") + "'",
-             DSDPV1_SOURCE_DIR);
+    const app_test::Called called = call(
+        "run scenarios/" + GetParam() + ".yaml --no-progress --checks fail --engine " + engine + " --view " + view +
+            traced + " --log '" + folder_.file(name + ".log") + "' --result '" + folder_.file(name + ".json") + "'",
+        DSDPV1_SOURCE_DIR);
     if (called.status != 0) std::cout << called.out << called.err;
     return called.status == 0;
   }
-  void expect_same(const std::string& a, const std::string& b) const {
-    for (const char* ending : {".trace", ".log"}) {
-      EXPECT_TRUE(read(folder_.file(a + ending)) == read(folder_.file(b + ending)))
-          << a << " and " << b << " differ in " << ending;
-    }
+  void expect_same(const std::string& name, const std::string& ending) const {
+    EXPECT_TRUE(read(folder_.file("skip_pins" + ending)) == read(folder_.file(name + ending))) << name << ending;
+  }
+  void expect_same(const std::string& name) const {
+    expect_same(name, ".log");
+    EXPECT_EQ(result("skip_pins"), result(name)) << name;
+  }
+  /// Without what names the run itself.
+  nlohmann::json result(const std::string& name) const {
+    nlohmann::json result = nlohmann::json::parse(read(folder_.file(name + ".json")));
+    for (const char* key : {"engine", "view", "wall_s", "real_time_factor"}) result.erase(key);
+    return result;
   }
   app_test::Folder folder_;
 };
@@ -38,11 +46,15 @@ class Scenarios : public testing::TestWithParam<std::string> {
 TEST_P(Scenarios, PassesAndStepSkipAndTlmAreTheSame) {
   ASSERT_TRUE(run("skip", "pins"));
   ASSERT_TRUE(run("step", "pins"));
-  expect_same("skip_pins", "step_pins");
   ASSERT_TRUE(run("skip", "tlm"));
-  expect_same("skip_pins", "skip_tlm");
-  ASSERT_TRUE(run("skip", "pins", false));
-  EXPECT_TRUE(read(folder_.file("skip_pins.log")) == read(folder_.file("step_pins.log"))) << "without a trace";
+  for (const char* name : {"step_pins", "skip_tlm"}) {
+    expect_same(name, ".trace");
+    expect_same(name);
+  }
+  for (const char* view : {"pins", "tlm"}) {
+    ASSERT_TRUE(run("skip", view, false));
+    expect_same(std::string("skip_") + view + "_untraced");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Scenarios, testing::ValuesIn(shipped_scenarios()),

@@ -68,27 +68,28 @@ struct Station : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
 
 struct Line : sc_core::sc_module {
   Station told{"told", true}, untold{"untold", false};
-  sc_core::sc_signal<bool> reset, r_req, r_sta, raw{"raw", true};
-  int cuts = 0, resets = 0, collisions = 0;
+  sc_core::sc_signal<bool> reset, r_req, r_sta, raw{"raw", true}, raw_of_told{"raw_of_told", true};
+  int cuts = 0, resets = 0, collisions = 0, stops = 0;
 
   explicit Line(const sc_core::sc_module_name& name) : sc_module(name) {
-    for (Station* each : {&told, &untold})
-      each->chip.RESET(reset), each->chip.R_REQ(r_req), each->chip.R_STA(r_sta), each->chip.PBRXD(raw);
+    for (Station* each : {&told, &untold}) each->chip.RESET(reset), each->chip.R_REQ(r_req), each->chip.R_STA(r_sta);
+    told.chip.PBRXD(raw_of_told), untold.chip.PBRXD(raw);
     thread([this] { run(); });
   }
 
   void run() {
     power_on();
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 400; ++i) {
       const auto& telegram = choose(3) == 0 ? kToAnother : choose(4) == 0 ? kNoTelegram : kFdlStatus;
       const Tick start = dsdpv1::systemc::current_tick() + choose(3) * 250;
       const Tick end = start + static_cast<Tick>(telegram.size()) * kCharacter;
-      switch (choose(8)) {
+      switch (choose(9)) {
         case 0: send_one_by_one(telegram); break;
         case 1: send(start, telegram), break_in(start, end); break;
         case 2: send(start, telegram), collide(start, end); break;
         case 3: send_broken(start, telegram); break;
         case 4: send(start, telegram), reset_during_answer(end); break;
+        case 5: stop_sending(telegram); break;
         default: send(start, telegram); break;
       }
       wait_until(std::max(end, dsdpv1::systemc::current_tick()) + 20 * kCharacter + kPause + choose(250));
@@ -131,9 +132,26 @@ struct Line : sc_core::sc_module {
   void break_in(Tick start, Tick end) {
     ++cuts;
     wait_until(start + choose(static_cast<int>(end - start)));
-    raw.write(false);
+    raw.write(false), raw_of_told.write(false);
     wait_until(dsdpv1::systemc::current_tick() + 1 + choose(3 * kBit));
-    raw.write(true);
+    raw.write(true), raw_of_told.write(true);
+  }
+  /// The sender stops anywhere, and the line idles: one chip has heard a run that is left, the other the changes.
+  void stop_sending(const std::vector<std::uint8_t>& telegram) {
+    const Tick start = dsdpv1::systemc::current_tick(), end = start + static_cast<Tick>(telegram.size()) * kCharacter;
+    const profibus::CharacterRun run{start, kBit / profibus::kTicksPerCycle, telegram.data(),
+                                     static_cast<int>(telegram.size())};
+    if (!untold.chip.hear_run(run)) return;
+    ++stops;
+    const Tick stop = start + 1 + choose(static_cast<int>(end - start) - 1);
+    for (Tick bit = start; bit < stop; bit += kBit) {
+      wait_until(bit);
+      const auto index = static_cast<std::size_t>((bit - start) / kCharacter);
+      raw_of_told.write((profibus::frame_of(telegram[index]) >> ((bit - start) % kCharacter / kBit) & 1U) != 0);
+    }
+    wait_until(stop);
+    raw_of_told.write(true);
+    untold.chip.leave_run();
   }
   void collide(Tick start, Tick end) {
     ++collisions;
@@ -164,7 +182,7 @@ void simulate() {
   dsdpv1::systemc::require_femtoseconds();
   collect_reports();
   line = std::make_unique<Line>("line");
-  sc_core::sc_start(60, sc_core::SC_MS);
+  sc_core::sc_start(80, sc_core::SC_MS);
 }
 
 namespace {
@@ -173,6 +191,7 @@ TEST(Runs, WhatBreaksInHasHappened) {
   EXPECT_GT(line->cuts, 10);
   EXPECT_GT(line->resets, 10);
   EXPECT_GT(line->collisions, 10);
+  EXPECT_GT(line->stops, 10);
 }
 
 TEST(Runs, TheCharactersOfTheChipAreTheSame) {

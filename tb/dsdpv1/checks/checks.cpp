@@ -8,8 +8,7 @@ using dsdpv1::Level;
 using dsdpv1::Pin;
 
 void Checks::pin(Tick at, Pin pin, Level level) {
-  constexpr std::uint32_t kInputs = ~dsdpv1::kOutputPins & ~dsdpv1::mask(Pin::kPbrxd);  // the monitor hears the line
-  if ((dsdpv1::mask(pin) & (kPins | kInputs)) == 0) return;
+  if ((dsdpv1::mask(pin) & kPins) == 0) return;
   history_.add(at, static_cast<tb::PinNumber>(pin), level);
   end_hold_before(at);
   switch (pin) {

@@ -3,7 +3,7 @@
 //
 //   checks::Checks checks(limits);
 //   checks.on_violation = ...;
-//   checks.pin(at, pin, level);    // every change of the pins in kPins and of all inputs, in order of time
+//   checks.pin(at, pin, level);    // every change of the pins in kPins, in order of time
 //   checks.telegram(telegram);     // from bus::Monitor
 //   checks.finish(end);
 //   checks.record(Check::kTs).worst_margin
@@ -26,10 +26,14 @@ namespace checks {
 
 class Checks : public ChipChecks, private AccessSink {
  public:
-  /// The output pins that must be watched; the inputs are all needed.
+  /// Of the outputs these, and all inputs but PBRXD: the monitor hears the line.
   static constexpr std::uint32_t kPins = dsdpv1::mask(dsdpv1::Pin::kLReq) | dsdpv1::mask(dsdpv1::Pin::kLSta) |
                                          dsdpv1::mask(dsdpv1::Pin::kDOut) | dsdpv1::mask(dsdpv1::Pin::kIntr0) |
-                                         dsdpv1::mask(dsdpv1::Pin::kPbrts);
+                                         dsdpv1::mask(dsdpv1::Pin::kPbrts) | dsdpv1::mask(dsdpv1::Pin::kReset) |
+                                         dsdpv1::mask(dsdpv1::Pin::kRReq) | dsdpv1::mask(dsdpv1::Pin::kRSta) |
+                                         dsdpv1::mask(dsdpv1::Pin::kA) | dsdpv1::mask(dsdpv1::Pin::kDIn) |
+                                         dsdpv1::mask(dsdpv1::Pin::kCsr) | dsdpv1::mask(dsdpv1::Pin::kRd) |
+                                         dsdpv1::mask(dsdpv1::Pin::kWr);
 
   explicit Checks(const Limits& limits = Limits(rules()))
       : history_(tb::dsdpv1_pins()),

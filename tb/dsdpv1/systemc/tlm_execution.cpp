@@ -29,9 +29,8 @@ class TlmChipView : public Dsdpv1View {
   TlmChipView(const std::string& name, const dsdpv1::systemc::TlmOptions& options, std::uint32_t watched,
               bus::Segment& segment, systemc_bench::TimelineModule& timeline)
       : chip_(name.c_str(), options, segment, timeline), bus_((name + "_host").c_str(), chip_) {
-    const bool inputs = (watched & inputs_of(dsdpv1_pins())) != 0;
-    chip_.on_pin = [this, inputs, &timeline](Tick at, Pin pin, dsdpv1::Level level) {
-      if (inputs || !dsdpv1::is_input(pin)) tell(at, pin, level);
+    chip_.on_pin = [this, watched, &timeline](Tick at, Pin pin, dsdpv1::Level level) {
+      if (!dsdpv1::is_input(pin) || (watched & dsdpv1::mask(pin)) != 0) tell(at, pin, level);
       if (pin == Pin::kIntr0) timeline.wake();  // the user CPU has a new plan
     };
     chip_.module().on_event = [this, &timeline](const profibus::Event& event) {
@@ -51,7 +50,7 @@ class TlmChipView : public Dsdpv1View {
   user_cpu::HostBus& host_bus() override { return bus_; }
   bus::StationId station() const override { return chip_.station(); }
   const dsdpv1::Chip& core() const override { return chip_.module().chip(); }
-  void sync(Tick) override {}
+  void sync(Tick) override { chip_.module().sync(); }
   /// What an access under way has done up to now is told before others act.
   void follow_access() {
     if (chip_.module().in_access()) chip_.module().sync();
