@@ -68,6 +68,15 @@ Tick Timeline::next_except(const Agent& agent) {
   return std::min(plans_.earliest_except(agent.place_), behind);
 }
 
+bool Timeline::go_on(const Agent& agent, Tick tick) {
+  if (next_except(agent) <= tick) return false;
+  if (checks_)
+    for (std::size_t place = 0; place < agents_.size(); ++place)
+      if (place != agent.place_) compare(place);
+  now_ = std::max(now_, tick);
+  return true;
+}
+
 bool Timeline::step(Tick limit) {
   const Tick due = next();
   if (checks_)

@@ -56,6 +56,9 @@ class Timeline {
   /// The same of everybody but `agent`, who is one of them, and not after the limit of a step under way: as long as it
   /// does nothing to others, nothing happens before that tick.
   Tick next_except(const Agent& agent);
+  /// `agent`, who has his turn, would act next at `tick`: when nobody else has a turn up to then, the step goes on to
+  /// that tick, and he has acted as if this were his turn there. False: he is to wait for it.
+  bool go_on(const Agent& agent, Tick tick);
   /// Runs every action due up to and including `until`; `now()` is then `until`.
   void run_until(Tick until);
   /// Runs the actions of one tick, the earliest, if it is not after `limit`. False when there is none.

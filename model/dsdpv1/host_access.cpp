@@ -49,6 +49,15 @@ HostAccess HostAccess::write(std::uint16_t address, std::uint8_t value, const Ac
   return access;
 }
 
+const HostAccess& HostAccessMaker::make(bool write, std::uint16_t address, std::uint8_t value,
+                                        const AccessTiming& timing) {
+  Shape& shape = shapes_.at(write ? 1 : 0);
+  if (shape.access.size() == 0 || !(shape.timing == timing))
+    shape = {timing, write ? HostAccess::write(0, 0, timing) : HostAccess::read(0, timing)};
+  shape.access.aim(address, value);
+  return shape.access;
+}
+
 /// What reads and writes have in common, counted from the fall of the strobe.
 void HostAccess::frame(Pin strobe, Tick low, const AccessTiming& timing) {
   add(-timing.address_setup, Pin::kA, 0);

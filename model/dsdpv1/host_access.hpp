@@ -98,4 +98,19 @@ class HostAccess {
   bool write_ = false, right_ = false;
 };
 
+/// Makes one access after the other. Those of one timing differ in address and value only, so that their edges are put
+/// in order once.
+class HostAccessMaker {
+ public:
+  /// Valid until the next call. `value` of a write.
+  const HostAccess& make(bool write, std::uint16_t address, std::uint8_t value, const AccessTiming& timing);
+
+ private:
+  struct Shape {
+    AccessTiming timing;
+    HostAccess access;
+  };
+  std::array<Shape, 2> shapes_;  ///< of reads, of writes
+};
+
 }  // namespace dsdpv1

@@ -111,14 +111,14 @@ const AccessTiming& TlmModule::timing_of(const Payload& payload) const {
 }
 
 bool TlmModule::read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte) {
-  const Level level = perform(HostAccess::read(address, timing));
-  if (level >= 0) byte = static_cast<unsigned char>(level);
-  return level >= 0;
+  perform(false, address, 0, timing);
+  if (sampled_ >= 0) byte = static_cast<unsigned char>(sampled_);
+  return sampled_ >= 0;
 }
 
 bool TlmModule::write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte) {
   take_broken_timing();
-  perform(HostAccess::write(address, byte, timing));
+  perform(true, address, byte, timing);
   return !take_broken_timing();
 }
 
@@ -134,22 +134,21 @@ void TlmModule::release_host_pins() {
   plan();
 }
 
-/// The level of D when it was sampled, X for an access without a sample. As long as the user owns the DPRAM and nobody
-/// hears the pins, only he sees what an access does, so they are moved late: when something else happens, or at its
-/// end.
-Level TlmModule::perform(const HostAccess& access) {
+/// `sampled_` is then the level of D when it was sampled, X without a sample. As long as the user owns the DPRAM and
+/// nobody hears the pins, only he sees what an access does, so they are moved late: when something else happens, or at
+/// its end.
+void TlmModule::perform(bool write, std::uint16_t address, std::uint8_t value, const AccessTiming& timing) {
   wait_until(access_start_);
-  access_ = access;
+  access_ = maker_.make(write, address, value, timing);
   moved_ = 0;
   sampled_ = kLevelX;
   if (hears_host() || !R_REQ.read() || !R_STA.read())
-    for (const HostAccess::Edge& edge : access) wait_until(access_start_ + edge.at);
-  const Tick end = access_start_ + access.duration();
+    for (std::size_t edge = 0; edge < access_.size(); ++edge) wait_until(access_start_ + access_[edge].at);
+  const Tick end = access_start_ + access_.duration();
   wait_until(end);
   access_ = {};
   access_start_ = end;
   plan();
-  return sampled_;
 }
 
 /// Moves the pins of the running access at their ticks, up to `now`.

@@ -28,6 +28,7 @@ namespace dsdpv1::systemc {
 
 using dsdpv1::AccessTiming;
 using dsdpv1::HostAccess;
+using dsdpv1::HostAccessMaker;
 
 /// Gives one transaction another timing than TlmOptions::access. A payload frees the extensions that it still has in
 /// the end: clear one that is not on the heap.
@@ -142,7 +143,7 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   const AccessTiming& timing_of(const Payload& payload) const;
   bool read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte);
   bool write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte);
-  Level perform(const HostAccess& access);
+  void perform(bool write, std::uint16_t address, std::uint8_t value, const AccessTiming& timing);
   void move_access(Tick now);
   void release_host_pins();
   void wait_until(Tick tick);
@@ -180,10 +181,11 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   AccessTiming timing_;
   std::uint32_t observed_, bound_ = 0;  ///< pins
   sc_core::sc_mutex host_bus_;          ///< accesses of several initiators follow each other
-  Tick access_start_ = 0;               ///< simulation tick of the running access' first edge
-  HostAccess access_;                   ///< the running access, without edges when there is none ...
-  std::size_t moved_ = 0;               ///< ... how many of its edges have happened ...
-  Level sampled_ = kLevelX;             ///< ... and what D was
+  HostAccessMaker maker_;
+  Tick access_start_ = 0;    ///< simulation tick of the running access' first edge
+  HostAccess access_;        ///< the running access, without edges when there is none ...
+  std::size_t moved_ = 0;    ///< ... how many of its edges have happened ...
+  Level sampled_ = kLevelX;  ///< ... and what D was
 
   EdgeQueue to_chip_;
   std::deque<LineRun> runs_;      ///< characters of `bus_in` that have not begun and are not in `to_chip_`
@@ -196,7 +198,8 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   LineRun answer_;            ///< of the chip, while PBTXD is not told
   std::size_t answered_ = 0;  ///< how many of its characters are over
   CharacterCollector from_chip_;
-  std::vector<LineCharacter> complete_;  ///< collected, not yet sent through `bus_out`
+  std::vector<LineCharacter> complete_;  ///< collected, to be sent through `bus_out` ...
+  std::size_t emitted_ = 0;              ///< ... from this one on
 };
 
 }  // namespace dsdpv1::systemc

@@ -192,11 +192,12 @@ void TlmModule::collect_character(Tick now) {
 }
 
 void TlmModule::emit_characters() {
-  if (complete_.empty()) return;
-  std::vector<LineCharacter> complete;
-  complete.swap(complete_);  // a listener may call back
-  for (const LineCharacter& c : complete)
+  while (emitted_ < complete_.size()) {  // a listener may call back, and goes on here
+    const LineCharacter c = complete_[emitted_++];
     bus_out.write({to_time(c.start + phase()), to_time(c.bit), c.data, c.parity_ok, c.stop_ok});
+  }
+  complete_.clear();
+  emitted_ = 0;
 }
 
 // --- answers as runs -------------------------------------------------------------------------------------------------

@@ -100,6 +100,7 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
   };
   chip.on_read = [this, index](Tick sample) { observers_.tell(&Observer::read, index, sample); };
   station.quiet_until = [this, &station] { return execution_->quiet_until(station); };
+  station.go_on = [this, &station](Tick tick) { return execution_->go_on(station, tick); };
   station.on_error = [this, &station](const user_cpu::ProgramError& error) {
     journal_.happened({error.at, station.name(), error.code, profibus::Severity::kRefusal, error.text});
     changed();

@@ -20,6 +20,8 @@ class Execution {
 
   /// Nothing happens to `agent` before this tick unless it acts itself; 0: not known.
   virtual Tick quiet_until(const bus::Agent& /*agent*/) { return 0; }
+  /// As bus::Timeline has it; false: each action has a turn of its own.
+  virtual bool go_on(const bus::Agent& /*agent*/, Tick /*tick*/) { return false; }
 
   bus::Segment& segment() { return segment_; }
   bus::Timeline& timeline() { return timeline_; }

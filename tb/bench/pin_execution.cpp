@@ -11,6 +11,7 @@ class PinExecution : public Execution {
   }
 
   Tick quiet_until(const bus::Agent& agent) override { return timeline_.next_except(agent); }
+  bool go_on(const bus::Agent& agent, Tick tick) override { return timeline_.go_on(agent, tick); }
 
   void run(Tick end, const std::function<bool()>& stopped) override {
     while (!stopped() && timeline_.step(end)) {

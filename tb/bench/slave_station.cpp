@@ -26,6 +26,7 @@ void SlaveStation::release_reset(Tick now) {
   announce();
   tells_ = user_->tells();
   user_->quiet_until = quiet_until;
+  user_->go_on = [this](Tick tick) { return goes_on(tick); };
   user_->on_error = [this](const user_cpu::ProgramError& error) {
     if (on_error) on_error(error);
   };
@@ -58,14 +59,22 @@ void SlaveStation::interrupt_changed(Tick at, bool level) {
   announce();
 }
 
+/// Outputs that the user CPU has fetched are told before it does something else.
+bool SlaveStation::goes_on(Tick tick) {
+  if (user_->outputs_received() != outputs_seen_ || !go_on || !go_on(tick)) return false;
+  now_ = tick;
+  return true;
+}
+
 void SlaveStation::run(Tick now) {
+  now_ = now;
   user_->run(now);
   const std::uint64_t received = user_->outputs_received();
   if (received == outputs_seen_) return;
   outputs_seen_ = received;
   const bool changed = outputs_ != user_->outputs();
   outputs_ = user_->outputs();
-  if (on_outputs) on_outputs(now, changed);
+  if (on_outputs) on_outputs(now_, changed);
 }
 
 SlaveResult SlaveStation::result() const {

@@ -48,6 +48,7 @@ class SlaveStation : public bus::Agent {
 
   /// As user_cpu::StationCpu has them.
   std::function<Tick()> quiet_until;
+  std::function<bool(Tick tick)> go_on;
   std::function<void(const user_cpu::ProgramError&)> on_error;
   std::function<void(Tick at, const std::string& line)> on_text;
   std::function<void(Tick at, const std::string& why, const std::string& registers)> on_failure;
@@ -56,6 +57,8 @@ class SlaveStation : public bus::Agent {
   std::function<void(Tick at, bool changed)> on_outputs;
 
  private:
+  bool goes_on(Tick tick);
+
   const scenario::Slave& slave_;
   user_cpu::StationConfig station_;
   std::unique_ptr<ChipView> chip_;
@@ -64,6 +67,7 @@ class SlaveStation : public bus::Agent {
   user_cpu::UserCounters before_reset_;  ///< of user CPUs that a reset has ended
   std::optional<user_cpu::BoardReport> board_before_reset_;
   bool tells_ = true;  ///< the user CPU: what its program does
+  Tick now_ = 0;       ///< of the user CPU's turn
   std::uint64_t outputs_seen_ = 0;
   bus::Bytes outputs_;
   Tsdr tsdr_;

@@ -40,6 +40,8 @@ class StationCpu : public bus::Agent {
 
   /// Nothing reaches this CPU before that tick: it may compute up to there in one go. Absent: not known.
   std::function<Tick()> quiet_until;
+  /// Asked in this CPU's turn: true makes what it does at `tick` part of this turn, as nobody else has one up to then.
+  std::function<bool(Tick tick)> go_on;
 
   std::function<void(const ProgramError&)> on_error;
   /// A line of text that the program printed.

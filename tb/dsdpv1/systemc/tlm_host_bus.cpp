@@ -3,16 +3,6 @@
 #include "model/systemc/sim_time.hpp"
 
 namespace user_cpu {
-namespace {
-
-using dsdpv1::HostAccess;
-
-HostAccess edges_of(const Access& access, const AccessTiming& timing) {
-  return access.write ? HostAccess::write(access.address, access.value, timing)
-                      : HostAccess::read(access.address, timing);
-}
-
-}  // namespace
 
 TlmHostBus::TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip)
     : sc_module(name), chip_(chip) {
@@ -56,7 +46,7 @@ bool TlmHostBus::is_high(dsdpv1::Pin pin) {
 void TlmHostBus::begin(Tick at, const Access& access, const AccessTiming& timing) {
   access_ = access;
   timing_->timing = timing;
-  const HostAccess edges = edges_of(access, timing);
+  const dsdpv1::HostAccess& edges = maker_.make(access.write, access.address, access.value, timing);
   end_ = at + edges.duration();
   if (!access.write && on_read) on_read(at + edges.sample());
   running_ = true;

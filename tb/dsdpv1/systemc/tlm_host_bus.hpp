@@ -47,6 +47,7 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
   Access access_;
   tlm::tlm_generic_payload payload_;
   dsdpv1::systemc::AccessTimingExtension* timing_ = new dsdpv1::systemc::AccessTimingExtension;  ///< owned by payload_
+  dsdpv1::HostAccessMaker maker_;
   bool running_ = false;
   Tick end_ = 0;
   std::uint8_t value_ = 0xFF;

@@ -18,13 +18,27 @@ Tick NativeCpu::next() const {
 
 void NativeCpu::run(Tick now) {
   now_ = now;
-  if (request_.op == Op::kAccess && bus_.next_edge() <= now) bus_.run_edges(now);
-  while (!fiber_.ended() && next() <= now) {
+  do act();
+  while (goes_on());
+}
+
+/// What is due.
+void NativeCpu::act() {
+  if (request_.op == Op::kAccess && bus_.next_edge() <= now_) bus_.run_edges(now_);
+  while (!fiber_.ended() && next() <= now_) {
     if (request_.op == Op::kAccess) end_access();
     request_ = {};
     fiber_.resume();
     take_request();
   }
+}
+
+/// Nobody else has a turn before the next one of this CPU: that is this one.
+bool NativeCpu::goes_on() {
+  const Tick at = next();
+  if (at == bus::kNever || !go_on || !go_on(at)) return false;
+  now_ = at;
+  return true;
 }
 
 /// Starts what the program asked for before it suspended.

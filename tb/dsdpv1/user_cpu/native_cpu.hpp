@@ -22,9 +22,12 @@ class NativeCpu : public bus::Agent, private Cpu {
 
   Tick next() const override;
   void run(Tick now) override;
+  /// Of the last action: behind a turn that went on, the last of its ticks.
+  Tick now() const override { return now_; }
 
   /// As StationCpu has it.
   std::function<Tick()> quiet_until;
+  std::function<bool(Tick tick)> go_on;
 
   /// INTR0 changed at `at`; for the bench that watches the pin. Callable while the chip runs ahead of this agent's
   /// turn.
@@ -46,7 +49,6 @@ class NativeCpu : public bus::Agent, private Cpu {
   /// What may end a kWait before its time.
   enum class Break : std::uint8_t { kInterrupt, kWake, kIntr0 };
 
-  Tick now() const override { return now_; }
   const CpuTiming& timing() const override { return timing_; }
   void set_access_timing(const AccessTiming& read, const AccessTiming& write) override {
     timing_.access = read;
@@ -70,6 +72,8 @@ class NativeCpu : public bus::Agent, private Cpu {
   void serve_interrupt();
   bool interrupt_is_due() const { return interrupts_open() && interrupt_at_ <= now_; }
   bool interrupts_open() const { return handler_ && enabled_ && !in_handler_; }
+  void act();
+  bool goes_on();
   void take_request();
   void begin_access();
   void end_access();

@@ -12,6 +12,7 @@ class NativeUser : public StationCpu {
   NativeUser(HostBus& bus, const CpuTiming& timing, ProgramOptions options, Tick start)
       : program_(std::move(options)), cpu_(bus, timing, program_.entry(), start) {
     cpu_.quiet_until = [this] { return quiet_until ? quiet_until() : 0; };
+    cpu_.go_on = [this](Tick tick) { return go_on && go_on(tick); };
     program_.on_error = [this](const DriverError& error) {
       if (on_error) on_error(program_error(error));
     };

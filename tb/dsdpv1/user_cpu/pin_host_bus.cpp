@@ -26,12 +26,7 @@ bool PinHostBus::is_high(Tick at, Pin pin) {
 }
 
 void PinHostBus::begin(Tick at, const Access& access, const AccessTiming& timing) {
-  using dsdpv1::HostAccess;
-  Shape& shape = shapes_[access.write ? 1 : 0];
-  if (shape.access.size() == 0 || !(shape.timing == timing))
-    shape = {timing, access.write ? HostAccess::write(0, 0, timing) : HostAccess::read(0, timing)};
-  shape.access.aim(access.address, access.value);
-  access_ = &shape.access;
+  access_ = &maker_.make(access.write, access.address, access.value, timing);
   begin_ = at;
   edge_ = 0;
   end_ = at + access_->duration();

@@ -37,20 +37,15 @@ class PinHostBus : public HostBus {
   Tick sample_tick() const { return sample_tick_; }
 
  private:
-  /// As long as the timing stays, accesses differ in address and value only.
-  struct Shape {
-    AccessTiming timing;
-    dsdpv1::HostAccess access;
-  };
   void sample(Tick at);
   void take(dsdpv1::Level level);
   bool is_high(Tick at, dsdpv1::Pin pin);
 
   std::optional<CoreHostPins> core_;
   HostPins& chip_;
-  Shape shapes_[2];                                  ///< of reads, of writes
-  dsdpv1::HostAccess* access_ = &shapes_[0].access;  ///< the one that runs or ran last
-  Tick begin_ = 0;                                   ///< of its first edge
+  dsdpv1::HostAccessMaker maker_;
+  const dsdpv1::HostAccess* access_ = &maker_.make(false, 0, 0, {});  ///< the one that runs or ran last
+  Tick begin_ = 0;                                                    ///< of its first edge
   std::size_t edge_ = 0;
   Tick end_ = 0, sample_tick_ = 0;
   std::uint8_t value_ = 0xFF;

@@ -48,6 +48,7 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
       cpu_(
           bus, no_overhead(), [this](user_cpu::Cpu& cpu) { run_firmware(cpu); }, start) {
   cpu_.quiet_until = [this] { return quiet_until ? quiet_until() : 0; };
+  cpu_.go_on = [this](Tick tick) { return !has_news() && !chip_reset_due_ && go_on && go_on(tick); };
   for (const Segment& segment : options_.firmware->image.segments)
     core_.load(segment.address, segment.bytes.data(), segment.bytes.size());
   if (options_.firmware->mailbox)
@@ -67,7 +68,7 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
 void Board::run(Tick now) {
   if (mailbox_) look_at_mailbox(now);
   cpu_.run(now);
-  if (std::exchange(chip_reset_due_, false)) set_chip_reset_(now, chip_reset_);
+  if (std::exchange(chip_reset_due_, false)) set_chip_reset_(cpu_.now(), chip_reset_);
 }
 
 /// Firmware may sleep until an event comes (WFE): a command is one.
@@ -180,8 +181,7 @@ void Board::come_up() {
 /// The processor may stay ahead of the others as long as nobody has anything to do; the bench hears of news at the same
 /// time in any case.
 void Board::keep_up() {
-  const bool news = mailbox_ && mailbox_->has_news();
-  if (news || !quiet_until || now() >= quiet_until()) come_up();
+  if (has_news() || !quiet_until || now() >= quiet_until()) come_up();
 }
 
 void Board::sleep(std::uint64_t until) {

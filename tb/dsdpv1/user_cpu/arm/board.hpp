@@ -95,6 +95,7 @@ class Board : public user_cpu::StationCpu, private System {
   void reset() override;
   Tick now() const override { return tick_of(core_.cycles()); }
 
+  bool has_news() const { return mailbox_ && mailbox_->has_news(); }
   void look_at_mailbox(Tick now);
   void run_firmware(user_cpu::Cpu& cpu);
   void note_fault(const Fault& fault);
