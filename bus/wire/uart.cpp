@@ -77,23 +77,37 @@ Tick UartSender::exact(std::int64_t millibits) const {
 }
 
 void UartSender::send(Tick start, const std::vector<Character>& characters) {
-  edges_.clear();
   run_.clear();
   const auto right = [](const Character& character) { return character.right(); };
   if (ppm_ == 0 && std::all_of(characters.begin(), characters.end(), right))
     for (const Character& character : characters) run_.push_back(character.byte());
+  run_state_ = run_.empty() ? Run::kNone : Run::kOffered;
   position_ = 0;
   start_ = start;
-  edges_.push_back({start - lead_, true, true});
+  std::int64_t millibits = 0;
+  for (const Character& each : characters) millibits += each.gap_millibits + each.bit_count * kMillibits;
+  end_ = start_ + exact(millibits);
+  edges_.assign({{start - lead_, true, true}, {end_ + trail_, false, true}});
+  if (run_state_ == Run::kNone) spell_out(characters);
+}
+
+/// Between the driver's edges those of the characters.
+void UartSender::spell_out(const std::vector<Character>& characters) {
+  const Edge released = edges_.back();
+  edges_.pop_back();
   std::int64_t millibits = 0;
   for (const Character& character : characters) {
     millibits += character.gap_millibits;
     add_character(millibits, character);
     millibits += character.bit_count * kMillibits;
   }
-  end_ = start_ + exact(millibits);
   add_level(end_, true);
-  edges_.push_back({end_ + trail_, false, true});
+  edges_.push_back(released);
+}
+
+void UartSender::spell_out_run() {
+  run_state_ = Run::kNone;
+  spell_out(characters(run_));
 }
 
 void UartSender::add_character(std::int64_t start_millibits, const Character& character) {
@@ -117,21 +131,23 @@ void UartSender::add_level(Tick at, bool level) {
   if (edges_.back().level != level) edges_.push_back({at, true, level});
 }
 
-/// The first edge is that of the driver, the second the first start bit.
-bool UartSender::sends_run() {
-  if (position_ != 1 || run_.empty()) return false;
-  return segment_.send_run(station_, {start_, bit_, run_.data(), run_.size()});
+void UartSender::offer_run() {
+  if (segment_.send_run(station_, {start_, bit_, run_.data(), run_.size()}))
+    run_state_ = Run::kUnderWay;
+  else
+    spell_out_run();
 }
 
 void UartSender::run_cut(Tick at) {
-  if (!std::exchange(in_run_, false)) return;
+  if (run_state_ != Run::kUnderWay) return;
+  spell_out_run();
   const auto happened = [at](const Edge& edge) { return edge.at <= at; };
   position_ = static_cast<std::size_t>(std::find_if_not(edges_.begin(), edges_.end(), happened) - edges_.begin());
 }
 
 void UartSender::abort(Tick now) {
   if (!busy()) return;
-  in_run_ = false;
+  run_state_ = Run::kNone;
   edges_.clear();
   position_ = 0;
   end_ = now;
@@ -139,10 +155,11 @@ void UartSender::abort(Tick now) {
 }
 
 void UartSender::run(Tick now) {
-  while (busy() && edges_[position_].at <= now) {
-    in_run_ = sends_run();
-    if (in_run_) position_ = edges_.size() - 1;
-    if (in_run_) continue;
+  while (busy() && next() <= now) {
+    if (offers_run()) {
+      offer_run();
+      continue;
+    }
     const Edge edge = edges_[position_++];
     segment_.drive(station_, edge.at, edge.enabled, edge.level);
   }

@@ -71,7 +71,7 @@ class UartSender {
   bool busy() const { return position_ < edges_.size(); }
   /// End of the last bit of the last `send`.
   Tick end() const { return end_; }
-  Tick next() const { return busy() ? edges_[position_].at : kNever; }
+  Tick next() const { return !busy() ? kNever : offers_run() ? start_ : edges_[position_].at; }
   void run(Tick now);
 
  private:
@@ -79,19 +79,27 @@ class UartSender {
     Tick at;
     bool enabled, level;
   };
+  enum class Run : std::uint8_t {
+    kNone,      ///< sent by edges
+    kOffered,   ///< at the first start bit
+    kUnderWay,  ///< taken
+  };
   Tick exact(std::int64_t millibits) const;
+  bool offers_run() const { return run_state_ == Run::kOffered && position_ > 0; }
+  void offer_run();
+  void spell_out(const std::vector<Character>& characters);
+  void spell_out_run();
   void add_character(std::int64_t start_millibits, const Character& character);
   void add_level(Tick at, bool level);
-  bool sends_run();
 
   Segment& segment_;
   StationId station_;
   Tick bit_ = baud(0).bit, lead_ = 0, trail_ = 0, start_ = 0, end_ = 0;
   std::int64_t ppm_ = 0;
-  std::vector<Edge> edges_;
+  std::vector<Edge> edges_;  ///< the driver's and, but for a run, those of the characters
   std::size_t position_ = 0;
-  Bytes run_;            ///< the characters, when they may be sent as a run
-  bool in_run_ = false;  ///< they are
+  Bytes run_;  ///< the characters, when they may be sent as a run
+  Run run_state_ = Run::kNone;
 };
 
 struct ReceivedCharacter {

@@ -64,6 +64,7 @@ struct Chip::Impl {
   void set_reset(Tick at, bool high);
   void advance(Tick to);
   Tick next_event() const { return std::min(next_edge(), host.drive_at()); }
+  Tick next_seen() const;
   Tick next_edge() const { return engine == Engine::kStep ? next_cycle() : planned_edge; }
   Tick next_cycle() const { return first_edge_after(now) * kTicksPerCycle; }
   Cycle done() const { return now / kTicksPerCycle; }  // the last rising edge that is over
@@ -200,6 +201,16 @@ void Chip::Impl::enter_reset(Tick at) {
 void Chip::Impl::plan() {
   other_plans = plans.but_the_stations();
   plan_edge(std::min(other_plans, plans.station));
+}
+
+// Nobody hears when the writes of a user who owns the DPRAM settle: he reads them or gives the DPRAM back, and either
+// is a call.
+Tick Chip::Impl::next_seen() const {
+  if (engine == Engine::kStep || sequencer.owns() || host.next_seen() == plans.host) return next_event();
+  Plan seen = plans;
+  seen.host = host.next_seen();
+  const Cycle cycle = std::min(seen.but_the_stations(), seen.station);
+  return std::min(cycle == kNever ? kNever : std::max(cycle * kTicksPerCycle, next_cycle()), host.drive_at());
 }
 
 void Chip::Impl::advance(Tick to) {
@@ -377,7 +388,7 @@ Level Chip::sample(Tick at) {
 bool Chip::carry_out(Tick begin, const HostAccess& access, Level& sampled) {
   return impl_->carry_out(begin, access, sampled);
 }
-Tick Chip::next_event() const { return impl_->next_event(); }
+Tick Chip::next_event() const { return impl_->next_seen(); }
 Tick Chip::now() const { return impl_->now; }
 profibus::Unheard Chip::unheard() const { return impl_->station.unheard(); }
 void Chip::hear(Tick at, bool level) {

@@ -34,6 +34,8 @@ class HostPort {
   /// edge: L_STA is high, or the start-up has not begun (P12, H6).
   void eval(Cycle now, bool unreadable);
   Cycle next() const;
+  /// The same without writes that settle while the user owns the DPRAM.
+  Cycle next_seen() const { return r_req_ && r_sta_ ? sample_at_ : next(); }
   /// The falling edge at which D is driven.
   Tick drive_at() const { return drive_at_; }
   void drive();
