@@ -179,8 +179,11 @@ DecodeError TelegramDecoder::check_header() {
 }
 
 std::optional<Decoded> TelegramDecoder::feed(std::uint8_t byte) {
+  constexpr std::size_t kShort = 16;  // most are, and have one piece of memory then
+  if (bytes_.empty()) bytes_.reserve(kShort);
   bytes_.push_back(byte);
   const DecodeError header = check_header();
+  if (bytes_.capacity() < expected_) bytes_.reserve(expected_);
   if (header != DecodeError::kNone) return take(header);
   if (bytes_.size() != expected_) return std::nullopt;
   const bool has_frame = bytes_[0] != sd::k4 && bytes_[0] != sd::kSc;

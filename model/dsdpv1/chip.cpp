@@ -80,6 +80,8 @@ struct Chip::Impl {
   void rising_edge(Cycle cycle);
   bool only_sends(Cycle cycle) const;
   void send_bit(Cycle cycle);
+  bool only_settles(Cycle cycle) const;
+  void settle_writes(Cycle cycle);
   void release(Cycle cycle);
   void eval_sequencer(Cycle cycle);
   void eval_station(Cycle cycle);
@@ -221,6 +223,8 @@ void Chip::Impl::advance(Tick to) {
       publish_data(event);
     } else if (const Cycle cycle = event / kTicksPerCycle; only_sends(cycle)) {
       send_bit(cycle);
+    } else if (only_settles(cycle)) {
+      settle_writes(cycle);
     } else {
       rising_edge(cycle);
       plan();
@@ -265,6 +269,19 @@ void Chip::Impl::send_bit(Cycle cycle) {
   const std::uint32_t levels = (outputs & ~mask(Pin::kPbtxd)) | bit(Pin::kPbtxd, station.txd());
   publish_edge_outputs(cycle * kTicksPerCycle, levels);
   plan_edge(std::min(other_plans, plans.station));
+}
+
+// Most edges while the user owns the DPRAM settle a write and nothing else.
+bool Chip::Impl::only_settles(Cycle cycle) const {
+  return engine == Engine::kSkip && plans.host <= cycle && host.next_seen() > cycle && !sequencer.owns() &&
+         !sequencer.dozing() &&
+         cycle < std::min({plans.release, plans.handshake, plans.sequencer, plans.station, plans.interrupt});
+}
+
+void Chip::Impl::settle_writes(Cycle cycle) {
+  host.eval(cycle, !sequencer.started_up());
+  plans.host = host.next();
+  plan();
 }
 
 void Chip::Impl::release(Cycle cycle) {
