@@ -37,15 +37,14 @@ void PlanQueue::set(std::size_t place, Tick at) {
   }
 }
 
-Tick PlanQueue::earliest_except(std::size_t place) const {
-  Tick earliest = kNever;
+bool PlanQueue::others_due(std::size_t place, Tick at) const {
   for (const std::vector<Tick>& row : rows_) {
     const std::size_t first = place / kWidth * kWidth;
     for (std::size_t i = first; i < first + kWidth; ++i)
-      if (i != place) earliest = std::min(earliest, row[i]);
+      if (row[i] <= at && i != place) return true;
     place /= kWidth;
   }
-  return earliest;
+  return false;
 }
 
 std::size_t PlanQueue::first_due(std::size_t from, Tick now) const {

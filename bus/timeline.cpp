@@ -62,14 +62,13 @@ Tick Timeline::next() {
   return plans_.earliest();
 }
 
-Tick Timeline::next_except(const Agent& agent) {
+bool Timeline::quiet(const Agent& agent, Tick tick) {
   hear_news(&agent);
-  const Tick behind = limit_ == kNever ? kNever : limit_ + 1;
-  return std::min(plans_.earliest_except(agent.place_), behind);
+  return tick <= limit_ && !plans_.others_due(agent.place_, tick);
 }
 
 bool Timeline::go_on(const Agent& agent, Tick tick) {
-  if (next_except(agent) <= tick) return false;
+  if (!quiet(agent, tick)) return false;
   if (checks_)
     for (std::size_t place = 0; place < agents_.size(); ++place)
       if (place != agent.place_) compare(place);

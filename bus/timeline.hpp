@@ -53,11 +53,11 @@ class Timeline {
 
   /// The tick of the earliest planned action of any agent.
   Tick next();
-  /// The same of everybody but `agent`, who is one of them, and not after the limit of a step under way: as long as it
-  /// does nothing to others, nothing happens before that tick.
-  Tick next_except(const Agent& agent);
-  /// `agent`, who has his turn, would act next at `tick`: when nobody else has a turn up to then, the step goes on to
-  /// that tick, and he has acted as if this were his turn there. False: he is to wait for it.
+  /// Nobody but `agent`, who has his turn, has one up to and including `tick`, which is not after the limit of the
+  /// step: as long as he does nothing to others, nothing happens until then.
+  bool quiet(const Agent& agent, Tick tick);
+  /// It is quiet up to `tick`, where `agent` would act next: the step goes on to that tick, and this is his turn there.
+  /// False: he is to wait for it.
   bool go_on(const Agent& agent, Tick tick);
   /// Runs every action due up to and including `until`; `now()` is then `until`.
   void run_until(Tick until);

@@ -75,7 +75,8 @@ void Bench::add_slave(const scenario::Slave& slave) {
       execution_->make_chip(maker_, {slave.name.text, *scenario_.chip, options_.engine, watched_pins()});
   MakeUser make_user = maker_.make_user({scenario_, slave, *chip, gdb_of(slave), left_out_});
   auto& slaves = stations_.slaves;
-  slaves.push_back(std::make_unique<SlaveStation>(slave, std::move(station), std::move(chip), std::move(make_user)));
+  slaves.push_back(
+      std::make_unique<SlaveStation>(slave, std::move(station), std::move(chip), std::move(make_user), *execution_));
   connect(*slaves.back(), slaves.size() - 1);
 }
 
@@ -99,8 +100,6 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
     changed(event.at);
   };
   chip.on_read = [this, index](Tick sample) { observers_.tell(&Observer::read, index, sample); };
-  station.quiet_until = [this, &station] { return execution_->quiet_until(station); };
-  station.go_on = [this, &station](Tick tick) { return execution_->go_on(station, tick); };
   station.on_error = [this, &station](const user_cpu::ProgramError& error) {
     journal_.happened({error.at, station.name(), error.code, profibus::Severity::kRefusal, error.text});
     changed();

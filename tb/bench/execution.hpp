@@ -18,9 +18,8 @@ class Execution {
   /// Runs the timeline up to and including `end`, or until `stopped` says so.
   virtual void run(Tick end, const std::function<bool()>& stopped) = 0;
 
-  /// Nothing happens to `agent` before this tick unless it acts itself; 0: not known.
-  virtual Tick quiet_until(const bus::Agent& /*agent*/) { return 0; }
-  /// As bus::Timeline has it; false: each action has a turn of its own.
+  /// As bus::Timeline has them; false: each action has a turn of its own.
+  virtual bool quiet(const bus::Agent& /*agent*/, Tick /*tick*/) { return false; }
   virtual bool go_on(const bus::Agent& /*agent*/, Tick /*tick*/) { return false; }
 
   bus::Segment& segment() { return segment_; }

@@ -10,7 +10,7 @@ class PinExecution : public Execution {
     return maker.make_pin_chip(request, segment_, timeline_);
   }
 
-  Tick quiet_until(const bus::Agent& agent) override { return timeline_.next_except(agent); }
+  bool quiet(const bus::Agent& agent, Tick tick) override { return timeline_.quiet(agent, tick); }
   bool go_on(const bus::Agent& agent, Tick tick) override { return timeline_.go_on(agent, tick); }
 
   void run(Tick end, const std::function<bool()>& stopped) override {

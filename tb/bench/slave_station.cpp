@@ -5,8 +5,12 @@
 namespace tb {
 
 SlaveStation::SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig station,
-                           std::unique_ptr<ChipView> chip, MakeUser make_user)
-    : slave_(slave), station_(std::move(station)), chip_(std::move(chip)), make_user_(std::move(make_user)) {}
+                           std::unique_ptr<ChipView> chip, MakeUser make_user, Execution& execution)
+    : slave_(slave),
+      station_(std::move(station)),
+      chip_(std::move(chip)),
+      make_user_(std::move(make_user)),
+      execution_(execution) {}
 
 void SlaveStation::hold_in_reset(Tick now) {
   if (user_) {
@@ -25,8 +29,7 @@ void SlaveStation::release_reset(Tick now) {
   user_ = make_user_(station_, now);
   announce();
   tells_ = user_->tells();
-  user_->quiet_until = quiet_until;
-  user_->go_on = [this](Tick tick) { return goes_on(tick); };
+  user_->set_others(this);
   user_->on_error = [this](const user_cpu::ProgramError& error) {
     if (on_error) on_error(error);
   };
@@ -60,8 +63,8 @@ void SlaveStation::interrupt_changed(Tick at, bool level) {
 }
 
 /// Outputs that the user CPU has fetched are told before it does something else.
-bool SlaveStation::goes_on(Tick tick) {
-  if (user_->outputs_received() != outputs_seen_ || !go_on || !go_on(tick)) return false;
+bool SlaveStation::go_on(Tick tick) {
+  if (user_->outputs_received() != outputs_seen_ || !execution_.go_on(*this, tick)) return false;
   now_ = tick;
   return true;
 }

@@ -8,6 +8,7 @@
 #include "bus/timeline.hpp"
 #include "tb/bench/chip_maker.hpp"
 #include "tb/bench/chip_view.hpp"
+#include "tb/bench/execution.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/scenario/scenario.hpp"
 #include "tb/user_cpu/station_cpu.hpp"
@@ -15,10 +16,11 @@
 namespace tb {
 
 /// The agent is the user CPU; the chip is the execution's business.
-class SlaveStation : public bus::Agent {
+class SlaveStation : public bus::Agent, private user_cpu::Others {
  public:
+  /// `execution` must outlive it.
   SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig station, std::unique_ptr<ChipView> chip,
-               MakeUser make_user);
+               MakeUser make_user, Execution& execution);
   SlaveStation(const SlaveStation&) = delete;
   SlaveStation& operator=(const SlaveStation&) = delete;
 
@@ -47,8 +49,6 @@ class SlaveStation : public bus::Agent {
   SlaveResult result() const;
 
   /// As user_cpu::StationCpu has them.
-  std::function<Tick()> quiet_until;
-  std::function<bool(Tick tick)> go_on;
   std::function<void(const user_cpu::ProgramError&)> on_error;
   std::function<void(Tick at, const std::string& line)> on_text;
   std::function<void(Tick at, const std::string& why, const std::string& registers)> on_failure;
@@ -57,12 +57,14 @@ class SlaveStation : public bus::Agent {
   std::function<void(Tick at, bool changed)> on_outputs;
 
  private:
-  bool goes_on(Tick tick);
+  bool quiet(Tick tick) override { return execution_.quiet(*this, tick); }
+  bool go_on(Tick tick) override;
 
   const scenario::Slave& slave_;
   user_cpu::StationConfig station_;
   std::unique_ptr<ChipView> chip_;
   MakeUser make_user_;
+  Execution& execution_;
   std::unique_ptr<user_cpu::StationCpu> user_;
   user_cpu::UserCounters before_reset_;  ///< of user CPUs that a reset has ended
   std::optional<user_cpu::BoardReport> board_before_reset_;

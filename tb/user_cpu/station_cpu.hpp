@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bus/timeline.hpp"
+#include "tb/user_cpu/others.hpp"
 #include "tb/user_cpu/program.hpp"
 
 namespace user_cpu {
@@ -38,10 +39,8 @@ class StationCpu : public bus::Agent {
   /// Absent where there is no such board.
   virtual std::optional<BoardReport> board() const { return std::nullopt; }
 
-  /// Nothing reaches this CPU before that tick: it may compute up to there in one go. Absent: not known.
-  std::function<Tick()> quiet_until;
-  /// Asked in this CPU's turn: true makes what it does at `tick` part of this turn, as nobody else has one up to then.
-  std::function<bool(Tick tick)> go_on;
+  /// To be set before the first turn; null, as at first: nothing is known, each action has a turn of its own.
+  virtual void set_others(Others* others) { others_ = others; }
 
   std::function<void(const ProgramError&)> on_error;
   /// A line of text that the program printed.
@@ -50,6 +49,12 @@ class StationCpu : public bus::Agent {
   std::function<void(Tick at, const std::string& why, const std::string& registers)> on_failure;
   /// A debugger wants the run to end.
   std::function<void()> on_killed;
+
+ protected:
+  Others* others() const { return others_; }
+
+ private:
+  Others* others_ = nullptr;
 };
 
 }  // namespace user_cpu

@@ -21,7 +21,7 @@ TEST(PlanQueue, PlansNothingAtFirst) {
   EXPECT_EQ(queue.first_due(0, 1'000'000), PlanQueue::kNone);
   EXPECT_EQ(queue.add(), 0U);
   EXPECT_EQ(queue.earliest(), kNever);
-  EXPECT_EQ(queue.earliest_except(0), kNever);
+  EXPECT_FALSE(queue.others_due(0, kNever - 1));
 }
 
 TEST(PlanQueue, KeepsItsPlansWhenPlacesAreAdded) {
@@ -62,9 +62,9 @@ TEST(PlanQueue, SaysWhatAskingEverybodySays) {
       asked.plans[place] = draw(4) == 0 ? kNever : draw(30);
       queue.set(place, asked.plans[place]);
       ASSERT_EQ(queue.earliest(), asked.earliest_except(size));
-      ASSERT_EQ(queue.earliest_except(place), asked.earliest_except(place));
       const auto from = static_cast<std::size_t>(draw(static_cast<Tick>(size)));
       const Tick now = draw(30);
+      ASSERT_EQ(queue.others_due(place, now), asked.earliest_except(place) <= now);
       ASSERT_EQ(queue.first_due(from, now), asked.first_due(from, now)) << size << " places from " << from;
     }
   }
@@ -192,22 +192,52 @@ TEST_F(TimelineTest, WhatLiesInThePastIsDueNow) {
   EXPECT_EQ(a.last, 100);
 }
 
-TEST_F(TimelineTest, NextOfTheOthersIsKnownInTheMiddleOfATurn) {
-  std::vector<Tick> seen;
+TEST_F(TimelineTest, WhetherItIsQuietIsKnownInTheMiddleOfATurn) {
   a.plan(10);
   b.plan(30);
   a.act = [&](Tick) {
-    seen.push_back(timeline.next_except(a));
+    EXPECT_TRUE(timeline.quiet(a, 25));
+    EXPECT_FALSE(timeline.quiet(a, 26)) << "behind the end of the run is nobody";
     c.plan(20);
-    seen.push_back(timeline.next_except(a));
+    EXPECT_TRUE(timeline.quiet(a, 19));
+    EXPECT_FALSE(timeline.quiet(a, 20));
     a.plan(12);
-    seen.push_back(timeline.next_except(a));
+    EXPECT_TRUE(timeline.quiet(a, 19)) << "its own plans do not count";
     a.act = nullptr;
   };
-  timeline.run_until(25);  // behind that there is nobody
-  EXPECT_EQ(seen, (std::vector<Tick>{26, 20, 20}));
+  timeline.run_until(25);
   EXPECT_EQ(trace, "aac");
   EXPECT_EQ(a.last, 12);
+}
+
+TEST_F(TimelineTest, ATurnGoesOnAsLongAsItIsQuiet) {
+  a.plan(10);
+  b.plan(30);
+  a.act = [&](Tick) {
+    EXPECT_TRUE(timeline.go_on(a, 29));
+    EXPECT_EQ(timeline.now(), 29);
+    EXPECT_FALSE(timeline.go_on(a, 30)) << "b has a turn then";
+    EXPECT_EQ(timeline.now(), 29);
+    c.plan(29);
+    EXPECT_FALSE(timeline.go_on(a, 29)) << "c has one now";
+  };
+  EXPECT_TRUE(timeline.step(40));
+  EXPECT_EQ(trace, "ac") << "who comes behind a acts in the same step, at the tick to which that went on";
+  EXPECT_EQ(c.last, 29);
+  a.act = nullptr;
+  timeline.run_until(40);
+  EXPECT_EQ(trace, "acb");
+}
+
+TEST_F(TimelineTest, NobodyGoesOnPastSomebodyWhoHasNotAnnouncedHisPlan) {
+  timeline.check_announcements();
+  a.plan(10);
+  b.plan(30);
+  a.act = [&](Tick) {
+    b.plan_in_silence(11);
+    timeline.go_on(a, 20);
+  };
+  EXPECT_THROW(timeline.step(40), std::logic_error);
 }
 
 TEST_F(TimelineTest, AFailureIsTheCallersAndTheOthersGoOn) {

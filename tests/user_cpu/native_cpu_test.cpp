@@ -31,8 +31,19 @@ class NativeCpu : public testing::Test {
     timeline.add(*cpu);
   }
 
+  void let_it_ask() { cpu->others = &others; }
+
+  /// As a bench tells them.
+  struct OnTimeline : user_cpu::Others {
+    explicit OnTimeline(NativeCpu& of) : test(of) {}
+    bool quiet(Tick tick) override { return test.timeline.quiet(*test.cpu, tick); }
+    bool go_on(Tick tick) override { return test.timeline.go_on(*test.cpu, tick); }
+    NativeCpu& test;
+  };
+
   RecordingBus bus;
   CpuTiming timing;
+  OnTimeline others{*this};
   bus::Timeline timeline;
   std::unique_ptr<user_cpu::NativeCpu> cpu;
 };
@@ -69,26 +80,52 @@ TEST_F(NativeCpu, OthersActBetweenTheEdges) {
   other.log = &bus.log;
   timeline.add(other);
   start([](Cpu& c) { c.read(0); });
-  cpu->quiet_until = [&] { return timeline.next_except(*cpu); };
+  let_it_ask();
   timeline.run_until(2000);
   EXPECT_THAT(bus.log, ElementsAre("0 read", "other", "1000 edge 2"));
 }
 
-TEST_F(NativeCpu, AnAccessIsOneTurnWhenNobodyElseHasOneBeforeItsEnd) {
+TEST_F(NativeCpu, AllThatItDoesIsOneTurnAsLongAsNobodyElseHasOne) {
+  int turns = 0;
+  std::vector<Tick> times;
+  start([&](Cpu& c) {
+    c.read(0);
+    times.push_back(timeline.now());
+    c.write(1, 2);
+    times.push_back(timeline.now());
+    c.wait_until(4000);
+    times.push_back(timeline.now());
+  });
+  let_it_ask();
+  while (timeline.step(5000)) ++turns;
+  EXPECT_EQ(turns, 1);
+  EXPECT_THAT(bus.log, ElementsAre("0 read", "1000 edge 2", "1150 write", "2150 edge 2"));
+  EXPECT_THAT(times, ElementsAre(1150, 2300, 4000));
+  EXPECT_TRUE(cpu->ended());
+}
+
+TEST_F(NativeCpu, AnAccessIsOneTurnWhenSomebodyElseHasOneAtItsEnd) {
+  struct Other : bus::Agent {
+    Tick next() const override { return acted < 0 ? 1150 : bus::kNever; }
+    void run(Tick now) override { acted = now; }
+    Tick acted = -1;
+  } other;
   int turns = 0;
   start([](Cpu& c) {
     c.read(0);
-    c.write(1, 2);
+    c.read(1);
   });
-  cpu->quiet_until = [&] { return timeline.next_except(*cpu); };
-  while (timeline.step(5000)) ++turns;
-  EXPECT_EQ(turns, 3);  // the last is the end of the program
-  EXPECT_THAT(bus.log, ElementsAre("0 read", "1000 edge 2", "1150 write", "2150 edge 2"));
+  timeline.add(other);
+  let_it_ask();
+  while (timeline.step(1150)) ++turns;
+  EXPECT_EQ(turns, 2);
+  EXPECT_EQ(other.acted, 1150);
+  EXPECT_THAT(bus.log, ElementsAre("0 read", "1000 edge 2", "1150 read"));
 }
 
 TEST_F(NativeCpu, AnAccessGoesNotBeyondTheEndOfTheRun) {
   start([](Cpu& c) { c.read(0); });
-  cpu->quiet_until = [&] { return timeline.next_except(*cpu); };
+  let_it_ask();
   timeline.run_until(999);
   EXPECT_THAT(bus.log, ElementsAre("0 read"));
   timeline.run_until(1000);

@@ -36,7 +36,7 @@ void NativeCpu::act() {
 /// Nobody else has a turn before the next one of this CPU: that is this one.
 bool NativeCpu::goes_on() {
   const Tick at = next();
-  if (at == bus::kNever || !go_on || !go_on(at)) return false;
+  if (at == bus::kNever || others == nullptr || !others->go_on(at)) return false;
   now_ = at;
   return true;
 }
@@ -77,7 +77,7 @@ void NativeCpu::begin_access() {
   bus_.begin(now_, request_.access, own_timing ? *timing_.write_access : timing_.access);
   ready_at_ = bus_.end() + timing_.overhead;
   // Its edges have one turn each, unless nobody else has one before the last: then all of them are this one.
-  const bool in_one_go = quiet_until && quiet_until() > bus_.end();
+  const bool in_one_go = others != nullptr && others->quiet(bus_.end());
   const Tick until = in_one_go ? bus_.end() : now_;
   if (bus_.next_edge() <= until) bus_.run_edges(until);
 }

@@ -8,6 +8,7 @@
 #include "bus/timeline.hpp"
 #include "tb/dsdpv1/user_cpu/cpu.hpp"
 #include "tb/user_cpu/fiber.hpp"
+#include "tb/user_cpu/others.hpp"
 #include "tb/user_cpu/program.hpp"
 
 namespace user_cpu {
@@ -26,8 +27,7 @@ class NativeCpu : public bus::Agent, private Cpu {
   Tick now() const override { return now_; }
 
   /// As StationCpu has it.
-  std::function<Tick()> quiet_until;
-  std::function<bool(Tick tick)> go_on;
+  Others* others = nullptr;
 
   /// INTR0 changed at `at`; for the bench that watches the pin. Callable while the chip runs ahead of this agent's
   /// turn.

@@ -11,8 +11,6 @@ class NativeUser : public StationCpu {
  public:
   NativeUser(HostBus& bus, const CpuTiming& timing, ProgramOptions options, Tick start)
       : program_(std::move(options)), cpu_(bus, timing, program_.entry(), start) {
-    cpu_.quiet_until = [this] { return quiet_until ? quiet_until() : 0; };
-    cpu_.go_on = [this](Tick tick) { return go_on && go_on(tick); };
     program_.on_error = [this](const DriverError& error) {
       if (on_error) on_error(program_error(error));
     };
@@ -20,6 +18,7 @@ class NativeUser : public StationCpu {
 
   Tick next() const override { return cpu_.next(); }
   void run(Tick now) override { cpu_.run(now); }
+  void set_others(Others* others) override { cpu_.others = others; }
   void interrupt_changed(Tick at, bool level) override {
     cpu_.intr0_changed(at, level);
     announce();

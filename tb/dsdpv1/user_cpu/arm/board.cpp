@@ -47,8 +47,7 @@ Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Ti
       core_(*this, MemoryMap(), options_.timing),
       cpu_(
           bus, no_overhead(), [this](user_cpu::Cpu& cpu) { run_firmware(cpu); }, start) {
-  cpu_.quiet_until = [this] { return quiet_until ? quiet_until() : 0; };
-  cpu_.go_on = [this](Tick tick) { return !has_news() && !chip_reset_due_ && go_on && go_on(tick); };
+  cpu_.others = this;
   for (const Segment& segment : options_.firmware->image.segments)
     core_.load(segment.address, segment.bytes.data(), segment.bytes.size());
   if (options_.firmware->mailbox)
@@ -181,7 +180,14 @@ void Board::come_up() {
 /// The processor may stay ahead of the others as long as nobody has anything to do; the bench hears of news at the same
 /// time in any case.
 void Board::keep_up() {
-  if (has_news() || !quiet_until || now() >= quiet_until()) come_up();
+  if (has_news() || !quiet(now())) come_up();
+}
+
+bool Board::quiet(Tick tick) { return others() != nullptr && others()->quiet(tick); }
+
+/// What is looked at between two turns is looked at first.
+bool Board::go_on(Tick tick) {
+  return !has_news() && !chip_reset_due_ && others() != nullptr && others()->go_on(tick);
 }
 
 void Board::sleep(std::uint64_t until) {

@@ -56,7 +56,7 @@ struct BoardOptions {
   std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
 };
 
-class Board : public user_cpu::StationCpu, private System {
+class Board : public user_cpu::StationCpu, private user_cpu::Others, private System {
  public:
   /// Its processor leaves reset at `start`. `set_chip_reset` moves the chip's RESET pin; both must outlive the board.
   Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick at, bool level)> set_chip_reset,
@@ -84,6 +84,10 @@ class Board : public user_cpu::StationCpu, private System {
   enum Port : unsigned { kA, kB, kC, kD, kE, kF, kG, kPorts };
   /// What is said once only; the first are the clocks of the ports.
   enum class Noted : unsigned { kFsmcClock = kPorts, kAfioClock, kUsartClock, kWideBus, kClockTooFast, kCount };
+
+  // Others, for the CPU that moves the pins
+  bool quiet(Tick tick) override;
+  bool go_on(Tick tick) override;
 
   // System
   std::uint32_t load(std::uint32_t address, unsigned bytes) override;
