@@ -83,7 +83,10 @@ struct Chip::Impl {
   bool only_settles(Cycle cycle) const;
   void settle_writes(Cycle cycle);
   void release(Cycle cycle);
-  void eval_sequencer(Cycle cycle);
+  bool eval_sequencer(Cycle cycle);
+  void end_edge(Cycle cycle);
+  bool only_accesses(Cycle cycle) const;
+  void access_edge(Cycle cycle);
   void eval_station(Cycle cycle);
   void catch_up_line(Cycle upto);
   void doze_if_unseen();
@@ -223,10 +226,13 @@ void Chip::Impl::advance(Tick to) {
       publish_data(event);
     } else if (const Cycle cycle = event / kTicksPerCycle; only_sends(cycle)) {
       send_bit(cycle);
-    } else if (only_settles(cycle)) {
-      settle_writes(cycle);
     } else {
-      rising_edge(cycle);
+      if (only_settles(cycle))
+        settle_writes(cycle);
+      else if (only_accesses(cycle))
+        access_edge(cycle);
+      else
+        rising_edge(cycle);
       plan();
     }
   }
@@ -248,6 +254,10 @@ void Chip::Impl::rising_edge(Cycle cycle) {
   if (due(std::min(plans.handshake, plans.sequencer), cycle)) eval_sequencer(cycle);
   if (released && !sequencer.started_up())
     log.at_cycle(cycle, Reason::kHeldThroughReset, handshake.r_req(), handshake.r_sta());  // H6
+  end_edge(cycle);
+}
+
+void Chip::Impl::end_edge(Cycle cycle) {
   if (due(plans.station, cycle)) eval_station(cycle);
   if (due(plans.interrupt, cycle)) {
     interrupt.eval(cycle);
@@ -281,7 +291,19 @@ bool Chip::Impl::only_settles(Cycle cycle) const {
 void Chip::Impl::settle_writes(Cycle cycle) {
   host.eval(cycle, !sequencer.started_up());
   plans.host = host.next();
-  plan();
+}
+
+// As long as nobody asks for anything, what happens is that accesses of the chip begin and end.
+bool Chip::Impl::only_accesses(Cycle cycle) const {
+  return engine == Engine::kSkip && running && station.unseen() >= cycle &&
+         cycle < std::min({plans.release, plans.host, plans.handshake, plans.station, plans.interrupt});
+}
+
+void Chip::Impl::access_edge(Cycle cycle) {
+  if (eval_sequencer(cycle)) return end_edge(cycle);
+  const bool owned = (outputs & mask(Pin::kLSta)) != 0;
+  publish_edge_outputs(cycle * kTicksPerCycle, (outputs & ~kAccessPins) | access_pins());
+  if (!owned) report_ownership(cycle * kTicksPerCycle);
 }
 
 void Chip::Impl::release(Cycle cycle) {
@@ -292,19 +314,22 @@ void Chip::Impl::release(Cycle cycle) {
   plans.sequencer = cycle;
 }
 
-void Chip::Impl::eval_sequencer(Cycle cycle) {
+// Whether something has come of it that others are told.
+bool Chip::Impl::eval_sequencer(Cycle cycle) {
   if (due(plans.handshake, cycle)) {
     handshake.eval(cycle);
     sequencer.user_holds(handshake.user_holds());
     plans.handshake = handshake.next();
   }
-  if (sequencer.eval(cycle)) {
+  const bool has_effect = sequencer.eval(cycle);
+  if (has_effect) {
     if (sequencer.told_user() == cycle) interrupt.trigger(cycle);  // P7
     plans.interrupt = interrupt.next();
     plans.station = station.next();
   }
   doze_if_unseen();
   plans.sequencer = sequencer.next();
+  return has_effect;
 }
 
 // What telegrams for others have come to.
