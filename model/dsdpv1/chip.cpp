@@ -430,7 +430,8 @@ Level Chip::sample(Tick at) {
 bool Chip::carry_out(Tick begin, const HostAccess& access, Level& sampled) {
   return impl_->carry_out(begin, access, sampled);
 }
-Tick Chip::next_event() const { return impl_->next_seen(); }
+Tick Chip::next_event() const { return impl_->next_event(); }
+Tick Chip::next_seen() const { return impl_->next_seen(); }
 Tick Chip::now() const { return impl_->now; }
 profibus::Unheard Chip::unheard() const { return impl_->station.unheard(); }
 void Chip::hear(Tick at, bool level) {

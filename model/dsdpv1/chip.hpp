@@ -77,9 +77,12 @@ class Chip {
   /// something else happens before the last, it reports something or somebody watches D; the chip may have advanced to
   /// `begin`.
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
-  /// The tick of the next thing that the chip does by itself and that may be seen (a rising CLK edge, or the falling
-  /// edge at which D is driven); never before `now()`. With Engine::kStep the next rising edge.
+  /// The tick of the next thing that the chip does by itself (a rising CLK edge, or the falling edge at which D is
+  /// driven); never before `now()`. With Engine::kStep the next rising edge.
   Tick next_event() const;
+  /// The same without what nobody sees who looks at pins and events only: writes of the DPRAM's owner settle. peek()
+  /// wants the chip to be advanced then.
+  Tick next_seen() const;
   Tick now() const;
   /// Changes of PBRXD at a tick from `from` on and before `until` need not be set at once: hear() in their order,
   /// before the chip is advanced to its next_event() or another pin is set, is early enough. For benches with many

@@ -1,6 +1,7 @@
 #include "model/systemc/dsdpv1_pins.hpp"
 
 #include <string>
+#include <utility>
 
 namespace dsdpv1::systemc {
 namespace {
@@ -79,24 +80,33 @@ void PinModule::check_clock() {
 
 Tick PinModule::present() const { return clock_ ? clock_->chip_tick(sc_core::sc_time_stamp()) : chip_now(); }
 
+/// Each pin that has changed is told, the host's all together: their order matters.
 void PinModule::apply_inputs(Tick at) {
+  const bool first = !std::exchange(applied_, true);
   const bool user_drives_d = chip().level(Pin::kDOut) == kLevelZ;
+  const bool access = CSR.event() || RD.event() || WR.event() || A.event() || D.event();
+  const bool releases_d = std::exchange(user_drives_d_, user_drives_d) != user_drives_d;
+  if (first || access || releases_d || R_REQ.event() || R_STA.event()) apply_host(at);
+  if (first || PBRXD.event()) set(at, Pin::kPbrxd, PBRXD.read());
+  if (first || RESET.event()) set(at, Pin::kReset, RESET.read());
+}
+
+void PinModule::apply_host(Tick at) {
   if (R_REQ.read()) set(at, Pin::kRReq, 1);
   if (R_STA.read()) set(at, Pin::kRSta, 1);
   set(at, Pin::kA, static_cast<Level>(A.read().to_uint()));
   if (D.event()) user_d_ = user_level(D.read());  // dear: four-valued
-  set(at, Pin::kDIn, user_drives_d ? user_d_ : kLevelZ);
+  set(at, Pin::kDIn, user_drives_d_ ? user_d_ : kLevelZ);
   if (!CSR.read()) set(at, Pin::kCsr, 0);
   set(at, Pin::kRd, RD.read());
   set(at, Pin::kWr, WR.read());
   set(at, Pin::kCsr, CSR.read());
   set(at, Pin::kRSta, R_STA.read());
   set(at, Pin::kRReq, R_REQ.read());
-  set(at, Pin::kPbrxd, PBRXD.read());
-  set(at, Pin::kReset, RESET.read());
 }
 
 void PinModule::drive(std::uint32_t pins) {
+  if (pins == 0) return;
   const struct {
     Pin pin;
     Out& port;

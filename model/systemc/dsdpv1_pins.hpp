@@ -56,11 +56,14 @@ class PinModule : public ChipModule {
   void check_clock();
   Tick present() const;
   void apply_inputs(Tick at);
+  void apply_host(Tick at);
   void drive(std::uint32_t pins);
   void drive_data();
 
   double clock_tolerance_ppm_;
   std::unique_ptr<BoundClock> clock_;  ///< only while CLK is bound
+  bool applied_ = false;               ///< the initial levels
+  bool user_drives_d_ = true;          ///< the chip does not
   Level user_d_ = kLevelZ;             ///< D as it was when it changed last
 };
 

@@ -226,9 +226,10 @@ void TlmModule::drive_outputs() {
     OptionalOut& port;
   } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
                {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
-  const std::uint32_t pins = take_changed();
+  const std::uint32_t pins = take_changed() & bound_;
+  if (pins == 0) return;
   for (const auto& wire : wires)
-    if ((pins & mask(wire.pin)) != 0 && wire.port.size() > 0) wire.port->write(chip().level(wire.pin) != 0);
+    if ((pins & mask(wire.pin)) != 0) wire.port->write(chip().level(wire.pin) != 0);
 }
 
 /// Signals are written by `evaluate` only (SystemC allows one writer), characters for now take effect in the next delta

@@ -34,7 +34,7 @@ class CoreDevice : public PinDevice {
   void advance(dsdpv1::Tick to) override { chip_.advance(to); }
   dsdpv1::Level level(dsdpv1::Pin pin) const override { return chip_.level(pin); }
   dsdpv1::Level sample(dsdpv1::Tick at) override { return chip_.sample(at); }
-  dsdpv1::Tick next_event() const override { return chip_.next_event(); }
+  dsdpv1::Tick next_event() const override { return chip_.next_seen(); }
   profibus::Unheard unheard() const override { return chip_.unheard(); }
   void hear(dsdpv1::Tick at, bool level) override { chip_.hear(at, level); }
   bool hear(dsdpv1::Tick at, const profibus::CharacterRun& run) override { return chip_.hear(at, run); }

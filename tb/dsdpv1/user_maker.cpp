@@ -87,7 +87,10 @@ MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
   return [&user, &chip, options](const user_cpu::StationConfig& station, Tick start) {
     arm::BoardOptions now = options;
     now.program = program_options(user, station);
-    now.chip = &chip.core();
+    now.chip = [&chip](Tick at) -> const dsdpv1::Chip& {
+      chip.sync(at);
+      return chip.core();
+    };
     const auto set_chip_reset = [&chip](Tick at, bool level) { chip.set_reset(at, level); };
     return std::make_unique<arm::Board>(chip.host_bus(), std::move(now), set_chip_reset, start);
   };

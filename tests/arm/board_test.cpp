@@ -293,7 +293,11 @@ TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
   arm::BoardOptions options;
   options.firmware = with(kAccesses);
   options.fsmc = at_72_mhz();
-  options.chip = &chip;
+  Tick asked_at = -1;
+  options.chip = [&](Tick now) -> const dsdpv1::Chip& {
+    asked_at = now;
+    return chip;
+  };
   std::size_t looks = 0;
   const auto look = [&](arm::DebugTarget& target) {
     const Tick before = target.now();
@@ -308,6 +312,8 @@ TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
     EXPECT_EQ(target.read_memory(0x5000'0000, &byte, 1), 0U);
     EXPECT_EQ(target.now(), before);
     EXPECT_EQ(pins.changes.size(), changes);
+    EXPECT_GT(asked_at, kStart);
+    EXPECT_LE(asked_at, before);
   };
   options.make_debugger = [&](arm::DebugTarget& target) { return std::make_unique<Looker>(target, look); };
   board = std::make_unique<arm::Board>(

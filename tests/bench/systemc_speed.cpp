@@ -2,6 +2,7 @@
 // happens once in a program, so one row a call. Speeds are simulated time by CPU time.
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include <array>
 #include <systemc>
 
 #include "tests/bench/programs.hpp"
@@ -135,7 +136,8 @@ double measure(ChipModule& chip, const Requests& requests) {
   return static_cast<double>(simulated) / speed::kTicksPerSecond / taken;
 }
 
-double systemc_tlm() {
+/// `handshake`: L_REQ and L_STA are bound, for a user who looks at them.
+double tlm_module(bool handshake) {
   dsdpv1::systemc::TlmModule chip("chip");
   CharacterMaster master("master");
   IdleCpu cpu("cpu");
@@ -143,7 +145,8 @@ double systemc_tlm() {
   sc_core::sc_signal<bool> reset("reset"), r_req("r_req"), r_sta("r_sta"), l_req("l_req"), l_sta("l_sta");
   sc_core::sc_signal<bool> intr0("intr0");
   chip.RESET(reset), chip.R_REQ(r_req), chip.R_STA(r_sta);
-  chip.L_REQ(l_req), chip.L_STA(l_sta), chip.INTR0(intr0);
+  chip.INTR0(intr0);
+  if (handshake) chip.L_REQ(l_req), chip.L_STA(l_sta);
   master.send.bind(chip.bus_in);
   chip.bus_out.bind(master.receive);
   reset.write(true);
@@ -160,6 +163,78 @@ double systemc_pins() {
   return measure(pins.chip, master.requests);
 }
 
+// --- what SystemC alone takes for it ---------------------------------------------------------------------------------
+
+/// The core, its outputs noted.
+struct Noted {
+  struct Change {
+    Tick at;
+    dsdpv1::Pin pin;
+    bool level;
+  };
+  Noted() {
+    chip.watch({[](void* self, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
+                  static_cast<Noted*>(self)->changes.push_back({at, pin, level != 0});
+                },
+                this},
+               dsdpv1::kOutputPins);
+  }
+  void set(Tick at, dsdpv1::Pin pin, dsdpv1::Level level) { chip.set(at, pin, level); }
+  bool hear(Tick at, const profibus::CharacterRun& run) { return chip.hear(at, run); }
+  void advance(Tick to) { chip.advance(to); }
+  dsdpv1::Level level(dsdpv1::Pin pin) const { return chip.level(pin); }
+
+  dsdpv1::Chip chip;
+  std::vector<Change> changes;
+};
+
+/// Moves the signals of a chip's outputs as that does in some exchanges, again and again, and computes nothing.
+struct Replay : sc_core::sc_module {
+  std::array<sc_core::sc_signal<bool>, dsdpv1::kPinCount> signals;
+
+  explicit Replay(const sc_core::sc_module_name& name) : sc_module(name) {
+    constexpr int kExchanges = 20;
+    speed::SaturatedBus<Noted> bus(noted_, kIo);
+    bus.start();
+    noted_.changes.clear();
+    begin_ = bus.now();
+    for (int i = 0; i < kExchanges; ++i) bus.exchange();
+    period_ = bus.now() - begin_;
+    SC_HAS_PROCESS(Replay);
+    SC_METHOD(run);
+  }
+  void run() {
+    const Tick at = time_of(next_);
+    for (; time_of(next_) == at; ++next_) {
+      const Noted::Change& change = noted_.changes[next_ % noted_.changes.size()];
+      signals.at(static_cast<std::size_t>(change.pin)).write(change.level);
+    }
+    next_trigger(to_time(time_of(next_) - at));
+  }
+
+ private:
+  Tick time_of(std::size_t change) const {
+    const std::size_t count = noted_.changes.size();
+    return static_cast<Tick>(change / count) * period_ + noted_.changes[change % count].at - begin_;
+  }
+  Noted noted_;
+  Tick begin_ = 0, period_ = 0;
+  std::size_t next_ = 0;
+};
+
+/// Signals and changes of systemc_pins, nobody behind them.
+double kernel_pins() {
+  sc_core::sc_signal<bool> pbrxd("pbrxd");
+  EdgeMaster master("master", pbrxd);
+  Replay chip("chip");
+  run_for(kInitialised + kMillisecond);
+  Tick simulated = 0;
+  const speed::Stopwatch watch;
+  for (; watch.seconds() < kMeasured; simulated += kSlice) run_for(kSlice);
+  const double taken = watch.seconds();
+  return static_cast<double>(simulated) / speed::kTicksPerSecond / taken;
+}
+
 }  // namespace
 
 int sc_main(int argc, char* argv[]) {
@@ -168,5 +243,9 @@ int sc_main(int argc, char* argv[]) {
     std::fprintf(stderr, "usage: %s ROW\n", argv[0]);
     return 2;
   }
-  return speed::run_rows(argc, argv, {{"systemc_tlm", systemc_tlm}, {"systemc_pins", systemc_pins}});
+  return speed::run_rows(argc, argv,
+                         {{"systemc_tlm", [] { return tlm_module(false); }},
+                          {"systemc_tlm_handshake", [] { return tlm_module(true); }},
+                          {"systemc_pins", systemc_pins},
+                          {"kernel_pins", kernel_pins}});
 }

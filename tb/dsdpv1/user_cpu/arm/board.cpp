@@ -186,9 +186,7 @@ void Board::keep_up() {
 bool Board::quiet(Tick tick) { return others() != nullptr && others()->quiet(tick); }
 
 /// What is looked at between two turns is looked at first.
-bool Board::go_on(Tick tick) {
-  return !has_news() && !chip_reset_due_ && others() != nullptr && others()->go_on(tick);
-}
+bool Board::go_on(Tick tick) { return !has_news() && !chip_reset_due_ && others() != nullptr && others()->go_on(tick); }
 
 void Board::sleep(std::uint64_t until) {
   const Tick end = until == kNever ? bus::kNever : tick_of(until);
@@ -343,15 +341,16 @@ Board::Levels Board::wired(unsigned port, unsigned handshake, unsigned lamps) co
 
 std::vector<MemoryRegion> Board::regions() const {
   std::vector<MemoryRegion> all = {{kPeripherals, kPeripheralsSize, false}, {Fsmc::kBase, kFsmcBlock, false}};
-  if (options_.chip != nullptr) all.push_back({kBank1, kRegionSize, false});
+  if (options_.chip) all.push_back({kBank1, kRegionSize, false});
   return all;
 }
 
 std::optional<std::uint32_t> Board::peek(std::uint32_t address) const {
-  if (options_.chip != nullptr && address - kBank1 < kRegionSize) {
+  if (options_.chip && address - kBank1 < kRegionSize) {
+    const dsdpv1::Chip& chip = options_.chip(pins_->now());
     std::uint32_t word = 0;
     for (unsigned i = 0; i < 4; ++i)
-      word |= std::uint32_t{options_.chip->peek(static_cast<std::uint16_t>((address + i) & kChipMask))} << i * 8;
+      word |= std::uint32_t{chip.peek(static_cast<std::uint16_t>((address + i) & kChipMask))} << i * 8;
     return word;
   }
   if (address - Fsmc::kBase < kFsmcBlock) return fsmc_.read(address - Fsmc::kBase);
@@ -365,8 +364,9 @@ std::optional<std::uint32_t> Board::peek(std::uint32_t address) const {
 }
 
 std::uint32_t Board::peek_port(unsigned port, std::uint32_t offset) const {
-  const auto level = [this](dsdpv1::Pin pin) {
-    return static_cast<unsigned>(options_.chip != nullptr && options_.chip->level(pin) == 1);
+  const dsdpv1::Chip* const chip = options_.chip ? &options_.chip(pins_->now()) : nullptr;
+  const auto level = [chip](dsdpv1::Pin pin) {
+    return static_cast<unsigned>(chip != nullptr && chip->level(pin) == 1);
   };
   using dsdpv1::Pin;
   const Levels there = wired(port, level(Pin::kLReq) | level(Pin::kLSta) << 1U,

@@ -50,8 +50,7 @@ struct BoardOptions {
   std::optional<user_cpu::AccessTiming> access;  ///< edges in place of those that the FSMC makes
   Timing timing;
   Switches switches;
-  const dsdpv1::Chip* chip =
-      nullptr;  ///< for a debugger, which sees it as it is without a call of it; null: it sees none
+  std::function<const dsdpv1::Chip&(Tick now)> chip;  ///< as it is `now`, for a debugger; null: that sees none
   std::function<std::unique_ptr<Debugger>(DebugTarget&)> make_debugger;  ///< null: none
   std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
 };
