@@ -4,6 +4,7 @@ import contextlib
 import io
 import json
 import pathlib
+import re
 import tempfile
 import unittest
 from unittest import mock
@@ -198,8 +199,24 @@ class Page(unittest.TestCase):
         text = page.performance_page([outcome(11)], [20.0, 30.0], 5, "wall", {"cpu": "A | B", "cores": 2}, profile)
         self.assertIn("No profile was made: perf is not installed.", text)
         self.assertIn("| `speed` | 11 | at least 10 x real time | met | 11..11 |", text)
-        self.assertIn("1 of 1 rows meet their goals.", text)
+        self.assertIn("1 of 1 goals are met.", text)
+        self.assertNotIn("What bounds the others", text)
         self.assertIn("the machine was busy", text)
+
+    def test_a_goal_that_is_missed_has_its_limit_on_the_page(self):
+        missed = table.Outcome(rows.Row("slow", 10, "x", "What.", None, (), limit="Because."), [9.0])
+        comparison = table.Outcome(rows.Row("other", None, "x", "What.", None, ()), [1.0])
+        text = page.performance_page([missed, comparison], [20, 21, 20], 5, "wall", {"cpu": "A", "cores": 2}, ([], "perf is not installed"))
+        self.assertIn("0 of 1 goals are met.", text)
+        self.assertIn("| `slow` | Because. |", text)
+        self.assertIn("| `other` | 1 | for comparison, x | - | 1..1 |", text)
+        self.assertTrue(comparison.met)
+
+    def test_every_goal_that_the_document_says_is_missed_has_a_reason(self):
+        text = bench.PAGE.read_text(encoding="utf-8")
+        for each in rows.ROWS:
+            if re.search(rf"\| `{each.name}` \|.*\| not met \|", text):
+                self.assertTrue(each.limit, each.name)
 
     def test_the_document_names_every_row(self):
         text = bench.PAGE.read_text(encoding="utf-8")

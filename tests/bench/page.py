@@ -23,8 +23,8 @@ of its rows, and `--json FILE` leaves it for programs. The goals are those of th
 |---|---|---|---|---|
 {rows}
 
-{met} of {count} rows meet their goals.
-
+{met} of {count} goals are met.
+{limits}
 ## Rows
 
 | row | what it does |
@@ -71,6 +71,15 @@ def calibration(times):
     return words + ": the machine was quiet."
 
 
+def limits(outcomes):
+    """What bounds the rows that do not meet their goals."""
+    missed = [each for each in outcomes if not each.met and not each.error]
+    if not missed:
+        return ""
+    rows = [markdown_row([f"`{each.row.name}`", each.row.limit]) for each in missed]
+    return "\n".join(["", "What bounds the others:", "", "| row | limit |", "|---|---|", *rows, ""])
+
+
 def machine(description):
     return f"{description['cpu']}, {description['cores']} cores."
 
@@ -85,6 +94,8 @@ def where_time_goes(shares, note):
 def performance_page(outcomes, times, rounds, clock, description, profile):
     method = METHOD.format(clock=CLOCKS[clock], rounds=rounds)
     text = HEAD.format(method=paragraph(method), machine=machine(description), calibration=paragraph(calibration(times)),
-                       rows="\n".join(map(table_row, outcomes)), met=sum(each.met for each in outcomes), count=len(outcomes),
+                       rows="\n".join(map(table_row, outcomes)), limits=limits(outcomes),
+                       met=sum(each.met for each in outcomes if each.row.goal is not None),
+                       count=sum(each.row.goal is not None for each in outcomes),
                        meanings="\n".join(markdown_row([f"`{each.row.name}`", each.row.what]) for each in outcomes))
     return text + where_time_goes(*profile)

@@ -11,12 +11,13 @@ TIMES = "x real time"
 @dataclasses.dataclass(frozen=True)
 class Row:
     name: str
-    goal: float
+    goal: typing.Optional[float]  # None: only for comparison
     unit: str
     what: str
     measure: typing.Callable
     targets: tuple
     at_most: bool = False
+    limit: str = ""  # what bounds it, said where its goal is not met
 
 
 def in_program(program, name):
@@ -43,50 +44,75 @@ def idle_station(turn):
 
 def core(io):
     return Row(f"core_{io}", 10, TIMES, f"The core alone: data exchange with {io} bytes each way, back to back at 12 Mbit/s; L_REQ and PBTXD are "
-               "watched and their changes counted. Requests are told as runs of characters (`Chip::hear`).", in_program("bench_core", f"core_{io}"), ("bench_core",))
+               "watched and their changes counted. Requests are told as runs of characters (`Chip::hear`).", in_program("bench_core", f"core_{io}"),
+               ("bench_core",), limit=CORE_LIMIT)
 
 
 def of_sim(name, goal, what, measure, **others):
     return Row(name, goal, others.pop("unit", TIMES), what, measure, ("dsdpv1-sim", *others.pop("targets", ())), **others)
 
 
+CORE_LIMIT = ("Every change of a watched pin is an edge that the core evaluates: two a microsecond on L_REQ and five or six a character on PBTXD leave "
+              "some 28 ns for each at ten times real time. Who does not watch PBTXD gets answers as runs; who does not watch L_REQ lets the chip doze.")
 DEMO = "power_on_12m"
 FULL = ("--log", "full.log", "--wave", "full.fst")
 TLM = (*OFF, "--view", "tlm")
 WAVE = (*OFF, "--wave", "demo.fst")
-RTL = ("bench_rtl",)
+RTL, SYSTEMC = ("bench_rtl",), ("bench_systemc",)
+TLM_LIMIT = ("The view `pins` of the bench needs no SystemC; in the TLM view each access of the user CPU is a transaction, for which the kernel makes "
+             "three events and switches between two threads.")
+SLAVES_LIMIT = ("Each telegram is told to every station, and all user CPUs exchange their data in the same microseconds, so that their accesses, unlike "
+                "those of one slave, take turns edge by edge.")
 
 ROWS = (
     core(2), core(16), core(64), core(244),
     Row("core_vs_rtl", 200, "times as fast", "The core against the Verilated RTL on the stimulus of core_16, neither with a bench round it: in "
         "turns, in one process, in CPU time. The RTL is built with -O3, --x-assign fast, --x-initial fast and without limits of run time.",
-        in_program("bench_rtl", "core_vs_rtl"), RTL),
-    of_sim("demo", 3, "The scenario power_on_12m, checks off, no files.", real_time(DEMO, *OFF)),
-    of_sim("demo_full", 1.5, "The same with checks, log and FST wave.", real_time(DEMO, *FULL)),
-    of_sim("demo_tlm", 2, "As demo, with `--view tlm`.", real_time(DEMO, *TLM)),
-    of_sim("tlm_vs_demo", 1, "demo_tlm against demo of the same round: TLM is never slower.", time_ratio(DEMO, OFF, TLM), unit="times as fast"),
-    Row("systemc_tlm", 5, TIMES, "The TLM module in a SystemC platform: an idle user, L_REQ, L_STA and INTR0 bound, 16 bytes each way back to back "
-        "at 12 Mbit/s as characters.", in_program("bench_systemc", "systemc_tlm"), ("bench_systemc",)),
+        in_program("bench_rtl", "core_vs_rtl"), RTL, limit="The core's limit, see core_16."),
+    of_sim("demo", 3, "The scenario power_on_12m, checks off, no files.", real_time(DEMO, *OFF),
+           limit="A saturated bus and a user CPU that exchanges data every 40 us: half of the time goes to its accesses, one a turn of a coroutine "
+                 "that runs the driver, a fifth to master and monitor, which decode each character of the telegrams on their own, as they are there to "
+                 "check the chip."),
+    of_sim("demo_full", 1.5, "The same with checks, log and FST wave.", real_time(DEMO, *FULL),
+           limit="The wave takes two thirds of it: 19 changes a microsecond, each of which has to be made, told and written (see fst)."),
+    of_sim("demo_tlm", 2, "As demo, with `--view tlm`.", real_time(DEMO, *TLM), limit=TLM_LIMIT),
+    of_sim("tlm_vs_demo", 1, "demo_tlm against demo of the same round: TLM is never slower.", time_ratio(DEMO, OFF, TLM), unit="times as fast",
+           limit=TLM_LIMIT),
+    Row("systemc_tlm", 5, TIMES, "The TLM module in a SystemC platform: an idle user, INTR0 bound, 16 bytes each way back to back at 12 Mbit/s as "
+        "characters.", in_program("bench_systemc", "systemc_tlm"), SYSTEMC,
+        limit="An event of SystemC for each character of the answer, which `bus_out` tells at its end."),
+    Row("systemc_tlm_handshake", 5, TIMES, "The same with L_REQ and L_STA bound, as a user who accesses the DPRAM needs them.",
+        in_program("bench_systemc", "systemc_tlm_handshake"), SYSTEMC,
+        limit="L_REQ and L_STA change twice a microsecond: a timed event, a process and two signals of SystemC each time."),
     Row("systemc_pins", 2, TIMES, "The pin module in a SystemC platform, all pins bound, the same exchanges edge by edge.",
-        in_program("bench_systemc", "systemc_pins"), ("bench_systemc",)),
+        in_program("bench_systemc", "systemc_pins"), SYSTEMC,
+        limit="The kernel: kernel_pins is what remains when nobody computes anything."),
+    Row("kernel_pins", None, TIMES, "The SystemC kernel alone: the same changes of the same signals as in systemc_pins, replayed, nobody behind them.",
+        in_program("bench_systemc", "kernel_pins"), SYSTEMC),
     of_sim("1m5", 30, "A slave with 32 bytes each way at 1.5 Mbit/s; its user CPU exchanges data every millisecond. Checks off.",
-           real_time("1m5", *OFF)),
-    of_sim("power_on_9k6", 100, "The scenario power_on_9k6, checks off.", real_time("power_on_9k6", *OFF)),
+           real_time("1m5", *OFF), limit="The user CPU's accesses, and master and monitor, which decode each character on their own."),
+    of_sim("power_on_9k6", 100, "The scenario power_on_9k6, checks off.", real_time("power_on_9k6", *OFF),
+           limit="The start of the program is a third of the run."),
     Row("search_9k6", 1000, TIMES, "The core alone: the baud rate search from 12 Mbit/s to the end of 9.6 kbit/s on a silent line; no pin "
         "is watched.",
         in_program("bench_core", "search_9k6"), ("bench_core",)),
     of_sim("slaves_32", 1, "One master and 32 slaves with 8 bytes each way, all in data exchange at 12 Mbit/s; user CPUs exchange data every "
-           "millisecond. Checks off.", real_time("slaves_32", *OFF)),
-    of_sim("slaves_125", 0.25, "The same with 125 slaves.", real_time("slaves_125", *OFF)),
+           "millisecond. Checks off.", real_time("slaves_32", *OFF), limit=SLAVES_LIMIT),
+    of_sim("slaves_125", 0.25, "The same with 125 slaves.", real_time("slaves_125", *OFF), limit=SLAVES_LIMIT),
     of_sim("idle_station", 2, f"One more slave that nobody addresses on a saturated 12 Mbit/s bus, on the bench: what {scenarios.IDLE} of them add "
            "to the run with one busy slave, divided by their number, as a share of that run. Their user CPUs do nothing once they have initialised.",
-           idle_station, unit="%", at_most=True),
+           idle_station, unit="%", at_most=True,
+           limit="A telegram for others costs a station one call, in which it looks at each byte once; the run that it is compared with has become so "
+                 "short that this is more than its fiftieth part."),
     of_sim("arm", 0.5, "The scenario arm_board_12m, checks off: the example firmware on the ARM board looks for data every 40 us.",
-           real_time("arm_board_12m", *OFF), targets=("dsdpv1_firmware",)),
-    of_sim("fst", 1.5, "demo with an FST wave against demo without.", time_ratio(DEMO, WAVE, OFF), unit="times as long", at_most=True),
+           real_time("arm_board_12m", *OFF), targets=("dsdpv1_firmware",),
+           limit="850 thousand instructions in 20 ms, for each of which Unicorn calls back, as their times are counted one by one."),
+    of_sim("fst", 1.5, "demo with an FST wave against demo without.", time_ratio(DEMO, WAVE, OFF), unit="times as long", at_most=True,
+           limit="The demo without a wave does not make the changes that a wave shows: telegrams and accesses cost one step each. With one, 2.3 million "
+                 "changes in 120 ms of simulated time are made; the FST library alone takes more for them than the whole demo without."),
     Row("lockstep", 80, "%", "Random lockstep as `rtl-random --seed 1 --jobs 1` does it: its cycles per second as a share of those of the same "
         "Verilated RTL alone, which gets the same inputs from a recording; in turns, in one process, in CPU time.",
-        in_program("bench_rtl", "lockstep"), RTL),
+        in_program("bench_rtl", "lockstep"), RTL, limit="What makes the stimulus and compares the pins."),
     of_sim("start", 50, "`dsdpv1-sim --version`, from the call to the end.", lambda turn: turn.start(), unit="ms", at_most=True),
     Row("chip", 64, "KB", "All the memory that one chip has.", in_program("bench_core", "chip"), ("bench_core",), at_most=True),
 )

@@ -32,7 +32,7 @@ def many(count, end):
 
 def slow_line():
     slaves = [slave(5, 32, behaviour="loop_back", cycle="1ms")]
-    return scenario("32 bytes each way at 1.5 Mbit/s", "1.5M", "300ms", slaves, slaves)
+    return scenario("32 bytes each way at 1.5 Mbit/s", "1.5M", "2s", slaves, slaves)
 
 
 def with_idle(count):

@@ -20,6 +20,8 @@ class Outcome:
     def met(self):
         if self.error:
             return False
+        if self.row.goal is None:
+            return True
         return self.value <= self.row.goal if self.row.at_most else self.value >= self.row.goal
 
 
@@ -37,6 +39,8 @@ def number(value):
 
 
 def goal(row):
+    if row.goal is None:
+        return f"for comparison, {row.unit}"
     return f"at {'most' if row.at_most else 'least'} {number(row.goal)} {row.unit}"
 
 
@@ -45,7 +49,8 @@ def cells(outcome):
     row = outcome.row
     if outcome.error:
         return [row.name, "failed", goal(row), "not met", outcome.error]
-    return [row.name, number(outcome.value), goal(row), "met" if outcome.met else "not met",
+    met = "-" if row.goal is None else "met" if outcome.met else "not met"
+    return [row.name, number(outcome.value), goal(row), met,
             f"{number(min(outcome.values))}..{number(max(outcome.values))}"]
 
 
