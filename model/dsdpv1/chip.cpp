@@ -334,6 +334,7 @@ bool Chip::Impl::eval_sequencer(Cycle cycle) {
 
 // What telegrams for others have come to.
 void Chip::Impl::catch_up_line(Cycle upto) {
+  if (station.pass_unseen(upto)) return;
   for (Cycle cycle = station.unseen(); cycle <= upto; cycle = station.unseen()) {
     station.eval(cycle);
     plans.station = station.next();

@@ -49,6 +49,16 @@ Cycle Station::next_of_line() const {
   return std::min(rx_.next(), rx_.receiving(decision) ? kNever : decision);
 }
 
+bool Station::pass_unseen(Cycle upto) {
+  const bool passes = for_others_ && rx_.whole_run(upto) && telegrams_.decided(rx_.run_end(), rx_.bit()) <= upto &&
+                      telegrams_.pass_whole(rx_.run_idle(), rx_.bit());
+  if (!passes) return false;
+  count(*rx_.run_bytes());
+  rx_.take_run();
+  for_others_ = false;
+  return true;
+}
+
 Unheard Station::unheard() const {
   if (!running()) return {0, kNever};
   return tx_.rts() ? Unheard{0, tx_.released() * kTicksPerCycle} : rx_.unheard();
@@ -146,9 +156,15 @@ void Station::lock(Cycle now) {
 
 // --- telegrams -------------------------------------------------------------------------------------------------------
 
+/// False: a telegram without a function, which is not counted.
+bool Station::count(std::uint8_t sd) {
+  const bool counts = sd != sd::kSc && sd != sd::kSd4;
+  if (counts) ++received_;
+  return counts;
+}
+
 void Station::decide(Cycle now, const Telegram& telegram) {
-  if (telegram.sd == sd::kSc || telegram.sd == sd::kSd4) return;
-  ++received_;
+  if (!count(telegram.sd)) return;
   if (search_.searching()) {
     if (telegram.synced) lock(now);
     return;  // S9: the telegram that locks the rate is not executed

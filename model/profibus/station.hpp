@@ -54,6 +54,9 @@ class Station {
   /// in telegrams_received(), so that it may be called late, before anything else concerns this station. kNever:
   /// nothing.
   Cycle unseen() const { return for_others_ ? next_of_line() : kNever; }
+  /// Where that telegram has been heard and decided by the edge of `upto`: all that comes of it, in the place of
+  /// eval().
+  bool pass_unseen(Cycle upto);
 
   /// Whether eval(now) may do more than take a character or send a bit: change what the user's side hears, or a state.
   bool may_act(Cycle now) const {
@@ -96,6 +99,7 @@ class Station {
   void watch(Cycle now);
   void watchdog_expired(Cycle now);
   void start_search(Cycle now);
+  bool count(std::uint8_t sd);
   void decide(Cycle now, const Telegram& telegram);
   void lock(Cycle now);
   void answer(const Telegram& telegram, const Frame& frame);

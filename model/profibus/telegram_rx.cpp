@@ -88,7 +88,7 @@ void TelegramRx::character(Cycle now, const Character& character, int bit) {
   if (!character.stop_ok) return fail(now, Reason::kFraming, static_cast<unsigned>(count_), character.value);
 
   telegram_.end = character.start + static_cast<Cycle>(kBitsPerCharacter) * bit;
-  deadline_ = telegram_.end + bit + 1;
+  deadline_ = decided(telegram_.end, bit);
   if (first)
     begin(now, character.value);
   else
@@ -99,10 +99,16 @@ bool TelegramRx::take_whole(const std::uint8_t* bytes, int size, Cycle idle, Cyc
   if (idle <= bit) return false;
   begin_telegram(idle, bit);
   telegram_.end = end;
-  deadline_ = end + bit + 1;
+  deadline_ = decided(end, bit);
   std::copy_n(bytes, size, bytes_.begin());
   count_ = expected_ = size;
   check_end(end);
+  return true;
+}
+
+bool TelegramRx::pass_whole(Cycle idle, int bit) {
+  if (idle <= bit) return false;
+  begin_telegram(idle, bit);
   return true;
 }
 

@@ -43,6 +43,11 @@ class TelegramRx {
   /// character() for each of them: the first came behind `idle` cycles, the last has ended at `end`. False: `idle` is
   /// none before a telegram, and nothing was done.
   bool take_whole(const std::uint8_t* bytes, int size, Cycle idle, Cycle end, int bit);
+  /// The same of a telegram whose content nobody wants, and the edge of decided() in addition, when no character begins
+  /// until then.
+  bool pass_whole(Cycle idle, int bit);
+  /// When a telegram is decided that has ended at `end`, if no character begins until then.
+  static Cycle decided(Cycle end, int bit) { return end + bit + 1; }
   /// A character was completed at `now`.
   void character(Cycle now, const Character& character, int bit);
   /// The edge of `now`; `receiving`: a character is being sampled. True when a telegram is decided (S10): see
