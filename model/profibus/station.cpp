@@ -50,7 +50,7 @@ Cycle Station::next_of_line() const {
 }
 
 bool Station::pass_unseen(Cycle upto) {
-  const bool passes = for_others_ && rx_.whole_run(upto) && telegrams_.decided(rx_.run_end(), rx_.bit()) <= upto &&
+  const bool passes = for_others_ && rx_.whole_run(upto) && TelegramRx::decided(rx_.run_end(), rx_.bit()) <= upto &&
                       telegrams_.pass_whole(rx_.run_idle(), rx_.bit());
   if (!passes) return false;
   count(*rx_.run_bytes());

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/profibus/request.hpp"
+
 namespace profibus {
 namespace {
 

@@ -143,7 +143,7 @@ void TlmModule::perform(bool write, std::uint16_t address, std::uint8_t value, c
   moved_ = 0;
   sampled_ = kLevelX;
   if (hears_host() || !R_REQ.read() || !R_STA.read())
-    for (std::size_t edge = 0; edge < access_.size(); ++edge) wait_until(access_start_ + access_[edge].at);
+    for (const HostAccess::Edge& edge : access_) wait_until(access_start_ + edge.at);
   const Tick end = access_start_ + access_.duration();
   wait_until(end);
   access_ = {};

@@ -4,9 +4,7 @@
 
 namespace tb {
 
-PinMask CheckWatch::pins() const {
-  return on() ? scenario_.kind->checked_pins() : 0;
-}
+PinMask CheckWatch::pins() const { return on() ? scenario_.kind->checked_pins() : 0; }
 
 void CheckWatch::add(const std::string& slave) {
   if (!on()) return;

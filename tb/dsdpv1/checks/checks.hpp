@@ -27,13 +27,12 @@ namespace checks {
 class Checks : public ChipChecks, private AccessSink {
  public:
   /// Of the outputs these, and all inputs but PBRXD: the monitor hears the line.
-  static constexpr std::uint32_t kPins = dsdpv1::mask(dsdpv1::Pin::kLReq) | dsdpv1::mask(dsdpv1::Pin::kLSta) |
-                                         dsdpv1::mask(dsdpv1::Pin::kDOut) | dsdpv1::mask(dsdpv1::Pin::kIntr0) |
-                                         dsdpv1::mask(dsdpv1::Pin::kPbrts) | dsdpv1::mask(dsdpv1::Pin::kReset) |
-                                         dsdpv1::mask(dsdpv1::Pin::kRReq) | dsdpv1::mask(dsdpv1::Pin::kRSta) |
-                                         dsdpv1::mask(dsdpv1::Pin::kA) | dsdpv1::mask(dsdpv1::Pin::kDIn) |
-                                         dsdpv1::mask(dsdpv1::Pin::kCsr) | dsdpv1::mask(dsdpv1::Pin::kRd) |
-                                         dsdpv1::mask(dsdpv1::Pin::kWr);
+  static constexpr std::uint32_t kPins =
+      dsdpv1::mask(dsdpv1::Pin::kLReq) | dsdpv1::mask(dsdpv1::Pin::kLSta) | dsdpv1::mask(dsdpv1::Pin::kDOut) |
+      dsdpv1::mask(dsdpv1::Pin::kIntr0) | dsdpv1::mask(dsdpv1::Pin::kPbrts) | dsdpv1::mask(dsdpv1::Pin::kReset) |
+      dsdpv1::mask(dsdpv1::Pin::kRReq) | dsdpv1::mask(dsdpv1::Pin::kRSta) | dsdpv1::mask(dsdpv1::Pin::kA) |
+      dsdpv1::mask(dsdpv1::Pin::kDIn) | dsdpv1::mask(dsdpv1::Pin::kCsr) | dsdpv1::mask(dsdpv1::Pin::kRd) |
+      dsdpv1::mask(dsdpv1::Pin::kWr);
 
   explicit Checks(const Limits& limits = Limits(rules()))
       : history_(tb::dsdpv1_pins()),
