@@ -29,7 +29,7 @@ grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
 refuses "allowed are demo test sim" dmeo
 refuses "allowed is --quick" test --fast
 refuses "allowed is --quick" test --quick again
-refuses "allowed is default debug coverage" build release
+refuses "allowed is default fast debug coverage" build release
 refuses "allowed is --record" conformance now
 refuses "allowed is none" demo now
 refuses "allowed is none" rtl-formal quickly
