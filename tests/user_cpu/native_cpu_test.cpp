@@ -34,7 +34,7 @@ class NativeCpu : public testing::Test {
   void let_it_ask() { cpu->others = &others; }
 
   /// As a bench tells them.
-  struct OnTimeline : user_cpu::Others {
+  struct OnTimeline final : user_cpu::Others {
     explicit OnTimeline(NativeCpu& of) : test(of) {}
     bool quiet(Tick tick) override { return test.timeline.quiet(*test.cpu, tick); }
     bool go_on(Tick tick) override { return test.timeline.go_on(*test.cpu, tick); }

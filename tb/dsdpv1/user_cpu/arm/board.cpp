@@ -317,7 +317,7 @@ Board::Levels Board::outside(unsigned port) {
   if (port != kC && port != kG) return wired(port, 0, 0);
   come_up();
   if (port == kG) return wired(port, 0, pins_->lamps());
-  const unsigned l_req = static_cast<unsigned>(pins_->l_req());
+  const auto l_req = static_cast<unsigned>(pins_->l_req());
   return wired(port, l_req | static_cast<unsigned>(pins_->l_sta()) << 1U, 0);
 }
 

@@ -55,7 +55,7 @@ struct BoardOptions {
   std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
 };
 
-class Board : public user_cpu::StationCpu, private user_cpu::Others, private System {
+class Board final : public user_cpu::StationCpu, private user_cpu::Others, private System {
  public:
   /// Its processor leaves reset at `start`. `set_chip_reset` moves the chip's RESET pin; both must outlive the board.
   Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick at, bool level)> set_chip_reset,
