@@ -49,6 +49,7 @@ struct Chip::Impl {
     Cycle host = kNever, handshake = kNever, sequencer = kNever, station = kNever, interrupt = kNever;
 
     Cycle but_the_stations() const { return std::min({release, host, handshake, sequencer, interrupt}); }
+    Cycle but_the_hosts() const { return std::min({release, handshake, sequencer, station, interrupt}); }
   };
 
   explicit Impl(const Config& config)
@@ -69,9 +70,8 @@ struct Chip::Impl {
   Tick next_cycle() const { return first_edge_after(now) * kTicksPerCycle; }
   Cycle done() const { return now / kTicksPerCycle; }  // the last rising edge that is over
   bool due(Cycle next, Cycle cycle) const { return next <= cycle || engine == Engine::kStep; }
-  void plan_edge(Cycle cycle) {
-    planned_edge = cycle == kNever ? kNever : std::max(cycle * kTicksPerCycle, next_cycle());
-  }
+  Tick edge_of(Cycle cycle) const { return cycle == kNever ? kNever : std::max(cycle * kTicksPerCycle, next_cycle()); }
+  void plan_edge(Cycle cycle) { planned_edge = edge_of(cycle); }
   void plan();
   bool apply(Tick at, Pin pin, Level value);
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
@@ -96,6 +96,7 @@ struct Chip::Impl {
   std::uint32_t access_pins() const { return sequencer.owns() ? kAccessPins : 0; }
   void enter_reset(Tick at);
   std::uint32_t edge_outputs() const;
+  void publish_edge(Cycle cycle, std::uint32_t levels);
   void publish_edge_outputs(Tick at, std::uint32_t levels);
   void publish_data(Tick at);
   void report_ownership(Tick at);
@@ -149,8 +150,7 @@ bool Chip::Impl::carry_out(Tick begin, const HostAccess& access, Level& sampled)
   if (engine != Engine::kSkip || (watched & mask(Pin::kDOut)) != 0) return false;
   advance(begin);
   const Tick last = begin + access.last();
-  const Cycle others = std::min({plans.release, plans.handshake, plans.sequencer, plans.station, plans.interrupt});
-  if (others <= last / kTicksPerCycle || sequencer.owns() || !sequencer.started_up()) return false;
+  if (plans.but_the_hosts() <= last / kTicksPerCycle || sequencer.owns() || !sequencer.started_up()) return false;
   if (!host.carry_out(begin, access, sampled)) return false;
   plans.host = host.next();
   plan();
@@ -212,10 +212,7 @@ void Chip::Impl::plan() {
 // is a call.
 Tick Chip::Impl::next_seen() const {
   if (engine == Engine::kStep || sequencer.owns() || host.next_seen() == plans.host) return next_event();
-  Plan seen = plans;
-  seen.host = host.next_seen();
-  const Cycle cycle = std::min(seen.but_the_stations(), seen.station);
-  return std::min(cycle == kNever ? kNever : std::max(cycle * kTicksPerCycle, next_cycle()), host.drive_at());
+  return std::min(edge_of(std::min(plans.but_the_hosts(), host.next_seen())), host.drive_at());
 }
 
 void Chip::Impl::advance(Tick to) {
@@ -263,10 +260,7 @@ void Chip::Impl::end_edge(Cycle cycle) {
     interrupt.eval(cycle);
     plans.interrupt = interrupt.next();
   }
-  if (!running) return;
-  const bool owned = (outputs & mask(Pin::kLSta)) != 0;
-  publish_edge_outputs(cycle * kTicksPerCycle, edge_outputs());
-  if (!owned) report_ownership(cycle * kTicksPerCycle);
+  if (running) publish_edge(cycle, edge_outputs());
 }
 
 // Most edges of a chip that answers move PBTXD and nothing else.
@@ -284,8 +278,7 @@ void Chip::Impl::send_bit(Cycle cycle) {
 // Most edges while the user owns the DPRAM settle a write and nothing else.
 bool Chip::Impl::only_settles(Cycle cycle) const {
   return engine == Engine::kSkip && plans.host <= cycle && host.next_seen() > cycle && !sequencer.owns() &&
-         !sequencer.dozing() &&
-         cycle < std::min({plans.release, plans.handshake, plans.sequencer, plans.station, plans.interrupt});
+         !sequencer.dozing() && cycle < plans.but_the_hosts();
 }
 
 void Chip::Impl::settle_writes(Cycle cycle) {
@@ -300,10 +293,10 @@ bool Chip::Impl::only_accesses(Cycle cycle) const {
 }
 
 void Chip::Impl::access_edge(Cycle cycle) {
-  if (eval_sequencer(cycle)) return end_edge(cycle);
-  const bool owned = (outputs & mask(Pin::kLSta)) != 0;
-  publish_edge_outputs(cycle * kTicksPerCycle, (outputs & ~kAccessPins) | access_pins());
-  if (!owned) report_ownership(cycle * kTicksPerCycle);
+  if (eval_sequencer(cycle))
+    end_edge(cycle);
+  else
+    publish_edge(cycle, (outputs & ~kAccessPins) | access_pins());
 }
 
 void Chip::Impl::release(Cycle cycle) {
@@ -380,6 +373,12 @@ std::uint32_t Chip::Impl::edge_outputs() const {
   return access_pins() | bit(Pin::kIntr0, interrupt.level()) | bit(Pin::kPbtxd, station.txd()) |
          bit(Pin::kPbrts, station.rts()) | bit(Pin::kPbf, station.slave().state() != profibus::DpState::kDataExch) |
          bit(Pin::kBr, station.baud_found()) | bit(Pin::kReady, sequencer.initialised());
+}
+
+void Chip::Impl::publish_edge(Cycle cycle, std::uint32_t levels) {
+  const bool owned = (outputs & mask(Pin::kLSta)) != 0;
+  publish_edge_outputs(cycle * kTicksPerCycle, levels);
+  if (!owned) report_ownership(cycle * kTicksPerCycle);
 }
 
 void Chip::Impl::publish_edge_outputs(Tick at, std::uint32_t levels) {

@@ -10,10 +10,8 @@ namespace {
 
 constexpr Cycle kWriteSettles = 2;  // P8: the third rising edge after WR's, two after the first
 
-constexpr std::size_t kCells = 0x800;
-
-std::array<bool, kCells> cells_of_chip() {
-  std::array<bool, kCells> cells{};
+std::array<bool, regs::kDpramSize> cells_of_chip() {
+  std::array<bool, regs::kDpramSize> cells{};
   for (const regs::Cell& cell : regs::kMap)
     for (std::size_t address = cell.first; address <= cell.last; ++address)
       cells.at(address) = cell.chip_writes && !cell.user_writes;
@@ -21,7 +19,7 @@ std::array<bool, kCells> cells_of_chip() {
 }
 
 bool chips_own(regs::Address address) {
-  static const std::array<bool, kCells> cells = cells_of_chip();
+  static const std::array<bool, regs::kDpramSize> cells = cells_of_chip();
   return cells[address];
 }
 

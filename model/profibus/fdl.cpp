@@ -1,11 +1,6 @@
 #include "model/profibus/fdl.hpp"
 
 namespace profibus {
-namespace {
-
-constexpr std::uint8_t kSapBit = 0x80, kAddressMask = 0x7F;
-
-}  // namespace
 
 bool Fdl::addressed(Cycle now, const Telegram& telegram, std::uint8_t address, Request& request) {
   request.da = telegram.da & kAddressMask;

@@ -7,8 +7,6 @@
 namespace profibus {
 namespace {
 
-constexpr std::uint8_t kSapBit = 0x80;
-
 void put(Frame& frame, unsigned byte) {
   frame.bytes[static_cast<std::size_t>(frame.size++)] = static_cast<std::uint8_t>(byte);
 }

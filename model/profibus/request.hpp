@@ -15,6 +15,7 @@ constexpr std::uint8_t kOk = 0, kRr = 2, kRs = 3, kDl = 8, kDh = 0xA;
 }  // namespace fc
 
 constexpr int kNoSap = -1;
+constexpr std::uint8_t kSapBit = 0x80, kAddressMask = 0x7F;  ///< of DA and SA
 constexpr std::uint8_t kBroadcast = 127;
 
 struct Request {

@@ -35,9 +35,8 @@ std::uint8_t fcs_of(const std::uint8_t* bytes, int size) {
 }  // namespace
 
 bool concerns(const std::uint8_t* bytes, std::uint8_t address) {
-  constexpr std::uint8_t kSapBit = 0x80;
   if (bytes[0] == sd::kSc || bytes[0] == sd::kSd4) return false;  // answers of others, tokens
-  const unsigned da = bytes[address_offset(bytes[0])] & ~unsigned{kSapBit};
+  const unsigned da = bytes[address_offset(bytes[0])] & kAddressMask;
   return da == address || da == kBroadcast;
 }
 

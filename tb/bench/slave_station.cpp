@@ -64,20 +64,17 @@ void SlaveStation::interrupt_changed(Tick at, bool level) {
 
 /// Outputs that the user CPU has fetched are told before it does something else.
 bool SlaveStation::go_on(Tick tick) {
-  if (user_->outputs_received() != outputs_seen_ || !execution_.go_on(*this, tick)) return false;
-  now_ = tick;
-  return true;
+  return user_->outputs_received() == outputs_seen_ && execution_.go_on(*this, tick);
 }
 
 void SlaveStation::run(Tick now) {
-  now_ = now;
   user_->run(now);
   const std::uint64_t received = user_->outputs_received();
   if (received == outputs_seen_) return;
   outputs_seen_ = received;
   const bool changed = outputs_ != user_->outputs();
   outputs_ = user_->outputs();
-  if (on_outputs) on_outputs(now_, changed);
+  if (on_outputs) on_outputs(execution_.timeline().now(), changed);  // the turn may have gone on
 }
 
 SlaveResult SlaveStation::result() const {

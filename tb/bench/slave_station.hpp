@@ -69,7 +69,6 @@ class SlaveStation : public bus::Agent, private user_cpu::Others {
   user_cpu::UserCounters before_reset_;  ///< of user CPUs that a reset has ended
   std::optional<user_cpu::BoardReport> board_before_reset_;
   bool tells_ = true;  ///< the user CPU: what its program does
-  Tick now_ = 0;       ///< of the user CPU's turn
   std::uint64_t outputs_seen_ = 0;
   bus::Bytes outputs_;
   Tsdr tsdr_;

@@ -122,18 +122,23 @@ void initialise(ChipModule& chip) {
 
 void run_for(Tick duration) { sc_core::sc_start(to_time(duration)); }
 
+/// Simulated time by CPU time.
+double speed_from_now() {
+  Tick simulated = 0;
+  const speed::Stopwatch watch;
+  for (; watch.seconds() < kMeasured; simulated += kSlice) run_for(kSlice);
+  return static_cast<double>(simulated) / speed::kTicksPerSecond / watch.seconds();
+}
+
 double measure(ChipModule& chip, const Requests& requests) {
   run_for(kReady);
   initialise(chip);
   run_for(kInitialised - kReady + kMillisecond);
   const std::uint64_t exchanged = chip.chip().status().data_exchanges, sent = requests.exchanges();
-  Tick simulated = 0;
-  const speed::Stopwatch watch;
-  for (; watch.seconds() < kMeasured; simulated += kSlice) run_for(kSlice);
-  const double taken = watch.seconds();
+  const double speed = speed_from_now();
   const std::uint64_t answers = chip.chip().status().data_exchanges - exchanged, asked = requests.exchanges() - sent;
   if (answers + 1 < asked || answers == 0) throw Failure("exchanges were lost");  // one may be on its way
-  return static_cast<double>(simulated) / speed::kTicksPerSecond / taken;
+  return speed;
 }
 
 /// `handshake`: L_REQ and L_STA are bound, for a user who looks at them.
@@ -165,38 +170,20 @@ double systemc_pins() {
 
 // --- what SystemC alone takes for it ---------------------------------------------------------------------------------
 
-/// The core, its outputs noted.
-struct Noted {
-  struct Change {
-    Tick at;
-    dsdpv1::Pin pin;
-    bool level;
-  };
-  Noted() {
-    chip.watch({[](void* self, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
-                  static_cast<Noted*>(self)->changes.push_back({at, pin, level != 0});
-                },
-                this},
-               dsdpv1::kOutputPins);
-  }
-  void set(Tick at, dsdpv1::Pin pin, dsdpv1::Level level) { chip.set(at, pin, level); }
-  bool hear(Tick at, const profibus::CharacterRun& run) { return chip.hear(at, run); }
-  void advance(Tick to) { chip.advance(to); }
-  dsdpv1::Level level(dsdpv1::Pin pin) const { return chip.level(pin); }
-
-  dsdpv1::Chip chip;
-  std::vector<Change> changes;
-};
-
 /// Moves the signals of a chip's outputs as that does in some exchanges, again and again, and computes nothing.
 struct Replay : sc_core::sc_module {
   std::array<sc_core::sc_signal<bool>, dsdpv1::kPinCount> signals;
 
   explicit Replay(const sc_core::sc_module_name& name) : sc_module(name) {
     constexpr int kExchanges = 20;
-    speed::SaturatedBus<Noted> bus(noted_, kIo);
+    dsdpv1::Chip chip;
+    speed::SaturatedBus<dsdpv1::Chip> bus(chip, kIo);
     bus.start();
-    noted_.changes.clear();
+    chip.watch({[](void* self, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
+                  static_cast<Replay*>(self)->changes_.push_back({at, pin, level != 0});
+                },
+                this},
+               dsdpv1::kOutputPins);
     begin_ = bus.now();
     for (int i = 0; i < kExchanges; ++i) bus.exchange();
     period_ = bus.now() - begin_;
@@ -206,18 +193,23 @@ struct Replay : sc_core::sc_module {
   void run() {
     const Tick at = time_of(next_);
     for (; time_of(next_) == at; ++next_) {
-      const Noted::Change& change = noted_.changes[next_ % noted_.changes.size()];
+      const Change& change = changes_[next_ % changes_.size()];
       signals.at(static_cast<std::size_t>(change.pin)).write(change.level);
     }
     next_trigger(to_time(time_of(next_) - at));
   }
 
  private:
+  struct Change {
+    Tick at;
+    dsdpv1::Pin pin;
+    bool level;
+  };
   Tick time_of(std::size_t change) const {
-    const std::size_t count = noted_.changes.size();
-    return static_cast<Tick>(change / count) * period_ + noted_.changes[change % count].at - begin_;
+    const std::size_t count = changes_.size();
+    return static_cast<Tick>(change / count) * period_ + changes_[change % count].at - begin_;
   }
-  Noted noted_;
+  std::vector<Change> changes_;  ///< of the core's outputs
   Tick begin_ = 0, period_ = 0;
   std::size_t next_ = 0;
 };
@@ -228,11 +220,7 @@ double kernel_pins() {
   EdgeMaster master("master", pbrxd);
   Replay chip("chip");
   run_for(kInitialised + kMillisecond);
-  Tick simulated = 0;
-  const speed::Stopwatch watch;
-  for (; watch.seconds() < kMeasured; simulated += kSlice) run_for(kSlice);
-  const double taken = watch.seconds();
-  return static_cast<double>(simulated) / speed::kTicksPerSecond / taken;
+  return speed_from_now();
 }
 
 }  // namespace
