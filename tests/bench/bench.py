@@ -10,6 +10,7 @@ import tempfile
 
 import hot_spots
 import page
+import parts
 import programs
 import rows
 import scenarios
@@ -159,7 +160,7 @@ def run(arguments):
         print("\n".join([*table.lines(outcomes), "", table.calibration_line(times)]), flush=True)
         if arguments.document:
             write_whole(PAGE, page.performance_page(outcomes, times, arguments.rounds, arguments.clock, machine(),
-                                                       hot_spots.profile(folder)))
+                                                    hot_spots.profile(folder), parts.profiles(folder)))
     if arguments.json:
         write_whole(arguments.json, json.dumps(table.report(outcomes, times, arguments.rounds, arguments.clock, machine()), indent=2) + "\n")
     return 0 if all(outcome.met for outcome in outcomes) else 1

@@ -12,6 +12,7 @@ from unittest import mock
 import bench
 import hot_spots
 import page
+import parts
 import programs
 import rows
 import scenarios
@@ -193,10 +194,40 @@ class Page(unittest.TestCase):
         self.assertEqual(hot_spots.blocks()["uart_rx.hpp"], "model/profibus/uart_rx.*")
         self.assertNotIn("dsdpv1_tlm.cpp", hot_spots.blocks())
 
+    def test_samples_of_a_run_go_to_the_part_of_their_function(self):
+        printed = """# Overhead  Shared Object  Symbol
+            20.00%  dsdpv1-sim                [.] dsdpv1::Chip::Impl::advance
+             5.00%  dsdpv1-sim                [.] non-virtual thunk to tb::PinChip::next() const
+             4.00%  dsdpv1-sim                [.] std::_Function_handler<void (bus::ReceivedCharacter const&), bus::Monitor::Monitor(bus::Segment&)>::_M_invoke
+             3.00%  dsdpv1-sim                [.] fstWriterEmitValueChange
+             2.00%  libsystemc-2.3.4.so       [.] sc_core::sc_event::trigger
+             1.00%  dsdpv1-sim                [.] sc_core::sc_signal<bool, (sc_core::sc_writer_policy)0>::write
+             6.00%  libunicorn.so.2           [.] cpu_exec_arm
+             7.00%  [JIT] tid 29453           [.] 0x00007f2c4c0021c0
+             8.00%  libc.so.6                 [.] malloc
+             9.00%  [kernel.kallsyms]         [k] clear_page_erms
+            10.00%  dsdpv1-sim                [.] dsdpv1_crc
+            11.00%  dsdpv1-sim                [.] jump_over"""
+        self.assertEqual(parts.shares(printed), {"chip": 20, "bench": 5, "bus": 4, "FST library": 3, "SystemC": 3, "Unicorn": 13, "libraries": 8,
+                                                 "kernel": 9, "driver": 10, "elsewhere": 11})
+
+    def test_a_measured_limit_is_what_the_part_that_bounds_a_row_would_leave(self):
+        speed = table.Outcome(rows.Row("speed", 2, "x", "What.", None, (), bound="SystemC"), [0.5])
+        ratio = table.Outcome(rows.Row("ratio", 2, "x", "What.", None, (), at_most=True, bound="FST library"), [4.0])
+        self.assertEqual(page.measured_limit(speed, {"SystemC": 50}), "1 (SystemC, 50 %)")
+        self.assertEqual(page.measured_limit(ratio, {"FST library": 40}), "1.6 (FST library, 40 %)")
+
+    def test_every_bound_is_a_part_of_a_run_that_is_looked_into(self):
+        for each in rows.ROWS:
+            if each.bound:
+                self.assertIn(each.name, rows.PROFILED)
+                self.assertIn(each.bound, parts.NAMES)
+
     def test_without_perf_the_page_says_so(self):
         with mock.patch("shutil.which", return_value=None):
             profile = hot_spots.profile(pathlib.Path())
-        text = page.performance_page([outcome(11)], [20.0, 30.0], 5, "wall", {"cpu": "A | B", "cores": 2}, profile)
+            profiles = parts.profiles(pathlib.Path())
+        text = page.performance_page([outcome(11)], [20.0, 30.0], 5, "wall", {"cpu": "A | B", "cores": 2}, profile, profiles)
         self.assertIn("No profile was made: perf is not installed.", text)
         self.assertIn("| `speed` | 11 | at least 10 x real time | met | 11..11 |", text)
         self.assertIn("1 of 1 goals are met.", text)
@@ -206,9 +237,9 @@ class Page(unittest.TestCase):
     def test_a_goal_that_is_missed_has_its_limit_on_the_page(self):
         missed = table.Outcome(rows.Row("slow", 10, "x", "What.", None, (), limit="Because."), [9.0])
         comparison = table.Outcome(rows.Row("other", None, "x", "What.", None, ()), [1.0])
-        text = page.performance_page([missed, comparison], [20, 21, 20], 5, "wall", {"cpu": "A", "cores": 2}, ([], "perf is not installed"))
+        text = page.performance_page([missed, comparison], [20, 21, 20], 5, "wall", {"cpu": "A", "cores": 2}, ([], "perf is not installed"), {})
         self.assertIn("0 of 1 goals are met.", text)
-        self.assertIn("| `slow` | Because. |", text)
+        self.assertIn("| `slow` | - | Because. |", text)
         self.assertIn("| `other` | 1 | for comparison, x | - | 1..1 |", text)
         self.assertTrue(comparison.met)
 

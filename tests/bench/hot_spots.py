@@ -1,22 +1,12 @@
 """Where the core's time goes: samples of perf, each given to the file of the line that it was in, inlined or not."""
 import collections
 import re
-import shutil
 
-from programs import FOLDER, ROOT, Failed, call
+from programs import FOLDER, ROOT, Failed, samples
 
 PROGRAM = FOLDER / "bench_profile"
 LINE = re.compile(r"^\s*([\d.]+)%\s+(\S*)\s*$")
 REST = "elsewhere"
-
-
-def sampled(folder):
-    """What perf prints: a share and a source file a line."""
-    if shutil.which("perf") is None:
-        raise Failed("perf is not installed")
-    data = folder / "perf.data"
-    call(["perf", "record", "-q", "-F", "2000", "-o", data, PROGRAM, "profile"])
-    return call(["perf", "report", "-i", data, "--stdio", "--no-children", "-s", "srcfile"])
 
 
 def blocks():
@@ -39,6 +29,6 @@ def shares(printed, names):
 def profile(folder):
     """The shares, and a note where there are none."""
     try:
-        return shares(sampled(folder), blocks()), ""
+        return shares(samples(folder, [PROGRAM, "profile"], "srcfile"), blocks()), ""
     except Failed as failure:
         return [], str(failure)

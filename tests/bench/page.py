@@ -2,6 +2,7 @@
 import statistics
 import textwrap
 
+import parts
 import table
 
 HEAD = """# Performance
@@ -48,6 +49,15 @@ that were inlined into others included. A block's header and source are one.
 
 """
 
+LIMITS = ("What bounds the others. The measured limit is what would remain of a row if all but one part of its run cost nothing; the part's share of "
+          "the time is that of the profile at the end of this page.")
+
+RUNS = """
+Runs of `dsdpv1-sim`, by the part that a function belongs to: the chip (`model/`), the driver, masters, monitor and line (`bus/`), the bench with user
+CPU, checks and waves (`tb/`), and what they call.
+
+"""
+
 
 def paragraph(words):
     return textwrap.fill(words, 150, break_on_hyphens=False, break_long_words=False)
@@ -71,17 +81,33 @@ def calibration(times):
     return words + ": the machine was quiet."
 
 
-def limits(outcomes):
+def measured_limit(outcome, profile):
+    """What would remain of a row if all but the part that bounds it cost nothing."""
+    share = profile.get(outcome.row.bound, 0) / 100
+    if share == 0:
+        return "-"
+    remains = outcome.value * share if outcome.row.at_most else outcome.value / share
+    return f"{table.number(remains)} ({outcome.row.bound}, {100 * share:.0f} %)"
+
+
+def limits(outcomes, profiles):
     """What bounds the rows that do not meet their goals."""
     missed = [each for each in outcomes if not each.met and not each.error]
     if not missed:
         return ""
-    rows = [markdown_row([f"`{each.row.name}`", each.row.limit]) for each in missed]
-    return "\n".join(["", "What bounds the others:", "", "| row | limit |", "|---|---|", *rows, ""])
+    rows = [markdown_row([f"`{each.row.name}`", measured_limit(each, profiles.get(each.row.name, {})), each.row.limit]) for each in missed]
+    return "\n".join(["", paragraph(LIMITS), "", "| row | measured limit | reason |", "|---|---|---|", *rows, ""])
 
 
 def machine(description):
     return f"{description['cpu']}, {description['cores']} cores."
+
+
+def profile_table(profiles):
+    """A column for each part that has a share of any run."""
+    names = [name for name in parts.NAMES if any(profile[name] >= 0.5 for profile in profiles.values())]
+    rows = [markdown_row([f"`{row}`", *(f"{profile[name]:.0f} %" for name in names)]) for row, profile in profiles.items()]
+    return "\n".join([markdown_row(["row", *names]), "|---" * (len(names) + 1) + "|", *rows])
 
 
 def where_time_goes(shares, note):
@@ -91,11 +117,11 @@ def where_time_goes(shares, note):
     return TIME + "\n".join(["| block | share |", "|---|---|", *rows]) + "\n"
 
 
-def performance_page(outcomes, times, rounds, clock, description, profile):
+def performance_page(outcomes, times, rounds, clock, description, profile, profiles):
     method = METHOD.format(clock=CLOCKS[clock], rounds=rounds)
     text = HEAD.format(method=paragraph(method), machine=machine(description), calibration=paragraph(calibration(times)),
-                       rows="\n".join(map(table_row, outcomes)), limits=limits(outcomes),
+                       rows="\n".join(map(table_row, outcomes)), limits=limits(outcomes, profiles),
                        met=sum(each.met for each in outcomes if each.row.goal is not None),
                        count=sum(each.row.goal is not None for each in outcomes),
                        meanings="\n".join(markdown_row([f"`{each.row.name}`", each.row.what]) for each in outcomes))
-    return text + where_time_goes(*profile)
+    return text + where_time_goes(*profile) + (RUNS + profile_table(profiles) + "\n" if profiles else "")

@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import resource
+import shutil
 import subprocess
 import time
 
@@ -50,6 +51,22 @@ def row_of(program, name):
     raise Failed(f"{program} has printed no value for {name}")
 
 
+def samples(folder, command, keys):
+    """What perf prints of a run: a share and what `keys` name a line."""
+    if shutil.which("perf") is None:
+        raise Failed("perf is not installed")
+    data = folder / "perf.data"
+    call(["perf", "record", "-q", "-F", "2000", "-o", data, *command], cwd=folder)
+    return call(["perf", "report", "-i", data, "--stdio", "--no-children", "-s", keys])
+
+
+def run_command(scenario, *options):
+    """A quiet run of dsdpv1-sim; `scenario` is one of scenarios/ or of scenarios.py."""
+    file = f"{scenario}.yaml"  # of its own folder, so that an error names no place of this machine
+    path = file if scenario in scenarios.SCENARIOS else ROOT / "scenarios" / file
+    return [SIM, "run", path, "--quiet", "--no-progress", *options]
+
+
 def calibration():
     """Milliseconds that the machine takes for work that never changes."""
     return row_of("bench_core", "calibration")
@@ -77,14 +94,12 @@ class Round:
         return self.once((program, name), lambda: row_of(program, name))
 
     def simulate(self, scenario, *options):
-        """Simulated and taken seconds of a run of dsdpv1-sim; `scenario` is one of scenarios/ or of scenarios.py."""
+        """Simulated and taken seconds of a run of dsdpv1-sim."""
         return self.once((scenario, options), lambda: self._simulate(scenario, options))
 
     def _simulate(self, scenario, options):
-        file = f"{scenario}.yaml"  # of its own folder, so that an error names no place of this machine
-        path = file if scenario in scenarios.SCENARIOS else ROOT / "scenarios" / file
         before = cpu_of_children()
-        call([SIM, "run", path, "--quiet", "--no-progress", "--result", "result.json", *options], cwd=self.folder)
+        call(run_command(scenario, "--result", "result.json", *options), cwd=self.folder)
         taken = cpu_of_children() - before
         result = json.loads((self.folder / "result.json").read_text(encoding="utf-8"))
         return {"simulated_s": result["simulated_ns"] / 1e9, "taken_s": taken if self.clock == "cpu" else result["wall_s"]}

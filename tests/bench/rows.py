@@ -18,6 +18,7 @@ class Row:
     targets: tuple
     at_most: bool = False
     limit: str = ""  # what bounds it, said where its goal is not met
+    bound: str = ""  # the part of its profile (parts.py) that would remain if all else cost nothing: the limit that is measured
 
 
 def in_program(program, name):
@@ -58,6 +59,8 @@ DEMO = "power_on_12m"
 FULL = ("--log", "full.log", "--wave", "full.fst")
 TLM = (*OFF, "--view", "tlm")
 WAVE = (*OFF, "--wave", "demo.fst")
+PROFILED = {"demo": (DEMO, *OFF), "demo_full": (DEMO, *FULL), "demo_tlm": (DEMO, *TLM), "1m5": ("1m5", *OFF), "slaves_32": ("slaves_32", *OFF),
+            "slaves_125": ("slaves_125", *OFF), "arm": ("arm_board_12m", *OFF), "fst": (DEMO, *WAVE)}  # row to the run whose time is looked into
 RTL, SYSTEMC = ("bench_rtl",), ("bench_systemc",)
 TLM_LIMIT = ("The view `pins` of the bench needs no SystemC; in the TLM view each access of the user CPU is a transaction, for which the kernel makes "
              "three events and switches between two threads.")
@@ -72,10 +75,12 @@ ROWS = (
     of_sim("demo", 3, "The scenario power_on_12m, checks off, no files.", real_time(DEMO, *OFF),
            limit="A saturated bus and a user CPU that exchanges data every 40 us: half of the time goes to its accesses, one a turn of a coroutine "
                  "that runs the driver, a fifth to master and monitor, which decode each character of the telegrams on their own, as they are there to "
-                 "check the chip."),
+                 "check the chip.", bound="chip"),
     of_sim("demo_full", 1.5, "The same with checks, log and FST wave.", real_time(DEMO, *FULL),
-           limit="The wave takes two thirds of it: 19 changes a microsecond, each of which has to be made, told and written (see fst)."),
-    of_sim("demo_tlm", 2, "As demo, with `--view tlm`.", real_time(DEMO, *TLM), limit=TLM_LIMIT),
+           limit="The wave takes two thirds of it: 19 changes a microsecond, each of which has to be made, told and written (see fst).",
+           bound="FST library"),
+    of_sim("demo_tlm", 2, "As demo, with `--view tlm`.", real_time(DEMO, *TLM), limit=TLM_LIMIT,
+           bound="SystemC"),
     of_sim("tlm_vs_demo", 1, "demo_tlm against demo of the same round: TLM is never slower.", time_ratio(DEMO, OFF, TLM), unit="times as fast",
            limit=TLM_LIMIT),
     Row("systemc_tlm", 5, TIMES, "The TLM module in a SystemC platform: an idle user, INTR0 bound, 16 bytes each way back to back at 12 Mbit/s as "
@@ -90,15 +95,17 @@ ROWS = (
     Row("kernel_pins", None, TIMES, "The SystemC kernel alone: the same changes of the same signals as in systemc_pins, replayed, nobody behind them.",
         in_program("bench_systemc", "kernel_pins"), SYSTEMC),
     of_sim("1m5", 30, "A slave with 32 bytes each way at 1.5 Mbit/s; its user CPU exchanges data every millisecond. Checks off.",
-           real_time("1m5", *OFF), limit="The user CPU's accesses, and master and monitor, which decode each character on their own."),
+           real_time("1m5", *OFF), limit="The user CPU's accesses, and master and monitor, which decode each character on their own.",
+           bound="chip"),
     of_sim("power_on_9k6", 100, "The scenario power_on_9k6, checks off.", real_time("power_on_9k6", *OFF),
            limit="The start of the program is a third of the run."),
     Row("search_9k6", 1000, TIMES, "The core alone: the baud rate search from 12 Mbit/s to the end of 9.6 kbit/s on a silent line; no pin "
         "is watched.",
         in_program("bench_core", "search_9k6"), ("bench_core",)),
     of_sim("slaves_32", 1, "One master and 32 slaves with 8 bytes each way, all in data exchange at 12 Mbit/s; user CPUs exchange data every "
-           "millisecond. Checks off.", real_time("slaves_32", *OFF), limit=SLAVES_LIMIT),
-    of_sim("slaves_125", 0.25, "The same with 125 slaves.", real_time("slaves_125", *OFF), limit=SLAVES_LIMIT),
+           "millisecond. Checks off.", real_time("slaves_32", *OFF), limit=SLAVES_LIMIT, bound="chip"),
+    of_sim("slaves_125", 0.25, "The same with 125 slaves.", real_time("slaves_125", *OFF), limit=SLAVES_LIMIT,
+           bound="chip"),
     of_sim("idle_station", 2, f"One more slave that nobody addresses on a saturated 12 Mbit/s bus, on the bench: what {scenarios.IDLE} of them add "
            "to the run with one busy slave, divided by their number, as a share of that run. Their user CPUs do nothing once they have initialised.",
            idle_station, unit="%", at_most=True,
@@ -106,10 +113,11 @@ ROWS = (
                  "short that this is more than its fiftieth part."),
     of_sim("arm", 0.5, "The scenario arm_board_12m, checks off: the example firmware on the ARM board looks for data every 40 us.",
            real_time("arm_board_12m", *OFF), targets=("dsdpv1_firmware",),
-           limit="850 thousand instructions in 20 ms, for each of which Unicorn calls back, as their times are counted one by one."),
+           limit="850 thousand instructions in 20 ms, for each of which Unicorn calls back, as their times are counted one by one.",
+           bound="Unicorn"),
     of_sim("fst", 1.5, "demo with an FST wave against demo without.", time_ratio(DEMO, WAVE, OFF), unit="times as long", at_most=True,
            limit="The demo without a wave does not make the changes that a wave shows: telegrams and accesses cost one step each. With one, 2.3 million "
-                 "changes in 120 ms of simulated time are made; the FST library alone takes more for them than the whole demo without."),
+                 "changes in 120 ms of simulated time are made; each of which the library encodes and packs.", bound="FST library"),
     Row("lockstep", 80, "%", "Random lockstep as `rtl-random --seed 1 --jobs 1` does it: its cycles per second as a share of those of the same "
         "Verilated RTL alone, which gets the same inputs from a recording; in turns, in one process, in CPU time.",
         in_program("bench_rtl", "lockstep"), RTL, limit="What makes the stimulus and compares the pins."),

@@ -1,0 +1,47 @@
+"""Whose time a run of dsdpv1-sim is: samples of perf, each given to the part of the house, or the library, that its function belongs to."""
+import collections
+import re
+
+from programs import Failed, run_command, samples
+from rows import PROFILED
+
+LINE = re.compile(r"^\s*([\d.]+)%\s+(\S.*?)\s+\[[.kgu]\]\s+(\S.*?)\s*$")
+REST = "elsewhere"
+PROGRAM = r"^dsdpv1-sim$"
+# Part, its file (program, library, kernel), its functions: the first that fits. Types in the arguments of a template come last.
+OWNERS = tuple((part, re.compile(file), re.compile(function)) for part, file, function in (
+    ("kernel", r"^\[(kernel|vdso)", ""),
+    ("SystemC", "systemc", ""),
+    ("Unicorn", r"unicorn|^\[JIT\]", ""),
+    ("libraries", rf"^(?!{PROGRAM[1:]})", ""),
+    ("FST library", PROGRAM, r"^(fst|LZ4_|fastlz|jenkins)"),
+    ("driver", PROGRAM, "^dsdpv1_"),
+    ("SystemC", PROGRAM, r"^([a-z]+ thunk to )?(sc_core|sc_dt|tlm|tlm_utils)::"),
+    ("chip", PROGRAM, r"^([a-z-]+ thunk to )?(dsdpv1|dpram|profibus)::"),
+    ("bus", PROGRAM, r"^([a-z-]+ thunk to )?bus::"),
+    ("bench", PROGRAM, r"\b(tb|user_cpu|checks|arm|systemc_bench|app)::"),
+    ("bus", PROGRAM, r"\bbus::"),
+    ("chip", PROGRAM, r"\b(dsdpv1|dpram|profibus)::")))
+NAMES = ("chip", "driver", "bus", "bench", "FST library", "SystemC", "Unicorn", "libraries", "kernel", REST)
+
+
+def owner(file, function):
+    return next((part for part, of, named in OWNERS if of.search(file) and named.search(function)), REST)
+
+
+def shares(printed):
+    """Part to percent of what was sampled."""
+    total = collections.Counter()
+    for line in printed.splitlines():
+        match = LINE.match(line)
+        if match:
+            total[owner(match.group(2), match.group(3))] += float(match.group(1))
+    return total
+
+
+def profiles(folder):
+    """Row to the shares of its run; none where there is no perf, which the profile of the core says."""
+    try:
+        return {name: shares(samples(folder, run_command(*run), "dso,sym")) for name, run in PROFILED.items()}
+    except Failed:
+        return {}
