@@ -41,9 +41,9 @@ def cpu_of_children():
     return used.ru_utime + used.ru_stime
 
 
-def row_of(program, name):
-    """The number that one of the programs of this folder prints for a row."""
-    printed = call([FOLDER / program, name])
+def row_of(program, name, *words):
+    """The number that one of the programs of this folder prints for a row, which it is called with unless there are other words."""
+    printed = call([FOLDER / program, *(words or (name,))])
     for line in printed.splitlines():
         row, tab, value = line.partition("\t")
         if tab and row == name:
