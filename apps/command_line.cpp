@@ -52,7 +52,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
       ->capture_default_str();
   command->add_option("--view", arguments.view, "How the user CPUs reach them: pins, tlm (SystemC)")
       ->capture_default_str();
-  command->add_option("--wave", arguments.wave, "Waves of all pins, the line and the states: FILE.vcd or FILE.fst");
+  add_wave_options(*command, arguments.wave);
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
@@ -75,15 +75,18 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
       ->check(CLI::Range(0, 65535));
   add_output_options(*command, arguments.progress, arguments.quiet);
   command->footer(
-      std::string("\nExamples:\n"
-                  "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
-                  "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
-                  "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
-                  "  dsdpv1-sim run my.yaml --log my.jsonl\n"
-                  "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
-                  "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
-                  "  dsdpv1-sim run scenarios/arm_board_12m.yaml --gdb 3333\n"
-                  "  dsdpv1-sim run my.yaml --engine lockstep --difference both.vcd\n") +
+      std::string(
+          "\nExamples:\n"
+          "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
+          "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
+          "  dsdpv1-sim run my.yaml --wave bad.fst --wave-on violation --wave-around 50us --wave-clk\n"
+          "  dsdpv1-sim run my.yaml --wave bus.vcd --wave-signals 'bus.*' --wave-signals '*.PB?XD' --wave-from 2ms\n"
+          "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
+          "  dsdpv1-sim run my.yaml --log my.jsonl\n"
+          "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
+          "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
+          "  dsdpv1-sim run scenarios/arm_board_12m.yaml --gdb 3333\n"
+          "  dsdpv1-sim run my.yaml --engine lockstep --difference both.vcd\n") +
       kExitCodes);
 }
 
@@ -145,7 +148,7 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
       ->needs(serial);
   command->add_option("--baud", arguments.baud, "Baud rate; left out: that of the scenario");
   command->add_option("--for", arguments.duration, "Ends after this time, for example 10s; left out: Ctrl-C");
-  command->add_option("--wave", arguments.wave, "As of run");
+  add_wave_options(*command, arguments.wave);
   CLI::Option* log = command->add_option("--log", arguments.log, "As of run; where it grows is said at the start");
   command->add_flag("--log-whole", arguments.log_whole, "As of run")->needs(log);
   command->add_option("--result", arguments.result, "As of run, and how well real time was kept");

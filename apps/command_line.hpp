@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/wave_options.hpp"
+
 namespace app {
 
 // Exit codes of every command.
@@ -14,7 +16,8 @@ constexpr int kInterrupted = 130;  ///< SIGINT or SIGTERM; all files are complet
 
 struct RunArguments {
   std::string scenario, engine = "skip", view = "pins", checks = "report";
-  std::string wave, log, result, trace;
+  WaveArguments wave;
+  std::string log, result, trace;
   std::string difference = "lockstep.vcd";  ///< wave of a lockstep run's first difference
   std::optional<bool> progress;             ///< absent: on a terminal
   std::vector<std::string> set;             ///< PATH=VALUE: keys other than in the file

@@ -40,12 +40,10 @@ tb::RunOptions options_of(const RunArguments& arguments) {
     throw tb::InputError("dsdpv1-sim run: --engine " + arguments.engine +
                          " is about pins, allowed with it is --view pins");
   if (!arguments.difference.empty()) tb::check_wave_name(arguments.difference);
-  if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
   tb::RunOptions options;
   options.engine = arguments.engine == "step" ? tb::Engine::kStep : tb::Engine::kSkip;
   options.engine_name = arguments.engine;
   options.view_name = arguments.view;
-  options.wave = arguments.wave;
   options.log = arguments.log;
   options.log_whole = arguments.log_whole;
   options.trace = arguments.trace;
@@ -78,6 +76,7 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
     result_file->write(tb::result_json(result));
     result_file->commit();
   }
+  if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
   const bool ran_through = !afterwards || afterwards();  // while the bench still stands
   if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << std::flush;
   if (result.interrupted) return kInterrupted;
@@ -109,7 +108,7 @@ void check_has_board(const tb::scenario::Scenario& scenario) {
 
 void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
   check_outputs("dsdpv1-sim run", scenario_inputs(arguments.scenario, scenario.files),
-                {{"--wave", arguments.wave},
+                {{"--wave", arguments.wave.file},
                  {"--log", arguments.log},
                  {"--result", arguments.result},
                  {"--trace", arguments.trace},
@@ -120,9 +119,10 @@ void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenari
 
 int run(const RunArguments& arguments) {
   leave_nothing_on_signals();
-  const tb::RunOptions options = options_of(arguments);
+  tb::RunOptions options = options_of(arguments);
   const tb::scenario::Scenario scenario =
       tb::scenario::load(arguments.scenario, tb::scenario::parse_settings(arguments.set));
+  options.wave = wave_options("dsdpv1-sim run", arguments.wave, *scenario.kind);
   check_outputs_of(arguments, scenario);
   if (arguments.gdb) check_has_board(scenario);
   if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, cosim::reference_rtl());

@@ -55,10 +55,9 @@ std::unique_ptr<tb::serve::HostConnection> open_port(const ServeArguments& argum
   return tb::serve::open_pty(arguments.link, bits_per_second);
 }
 
-tb::RunOptions options_of(const ServeArguments& arguments) {
-  if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
+tb::RunOptions options_of(const ServeArguments& arguments, const tb::ChipKind& kind) {
   tb::RunOptions options;
-  options.wave = arguments.wave;
+  options.wave = wave_options("dsdpv1-sim serve", arguments.wave, kind);
   options.log = arguments.log;
   options.log_whole = arguments.log_whole;
   options.open_ended = true;
@@ -72,9 +71,9 @@ int serve(const ServeArguments& arguments) {
   tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
   scenario.baud = chosen_baud(scenario, arguments.baud);
   scenario.end = chosen_end(arguments.duration);
-  const tb::RunOptions options = options_of(arguments);
+  const tb::RunOptions options = options_of(arguments, *scenario.kind);
   check_outputs("dsdpv1-sim serve", scenario_inputs(arguments.scenario, scenario.files),
-                {{"--wave", arguments.wave}, {"--log", arguments.log}, {"--result", arguments.result}});
+                {{"--wave", arguments.wave.file}, {"--log", arguments.log}, {"--result", arguments.result}});
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
 
@@ -94,6 +93,7 @@ int serve(const ServeArguments& arguments) {
             << name << "; Ctrl-C ends" << std::endl;
 
   tb::RunResult result = bench.run([](tb::Tick) { return !interrupted(); });
+  if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
   result.pacing = execution.pacing();
   if (result_file) {
     result_file->write(tb::result_json(result));

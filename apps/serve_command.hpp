@@ -2,6 +2,8 @@
 // serve: the simulated segment goes on in the real world.
 #include <string>
 
+#include "apps/wave_options.hpp"
+
 namespace app {
 
 struct ServeArguments {
@@ -13,7 +15,8 @@ struct ServeArguments {
   bool rts = false;
   std::string baud;      ///< empty: that of the scenario
   std::string duration;  ///< empty: until interrupted
-  std::string wave, log, result;
+  WaveArguments wave;
+  std::string log, result;
   bool log_whole = false, quiet = false;
 };
 

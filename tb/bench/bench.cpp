@@ -47,7 +47,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
     changed(violation.found);
   };
   replies_.on_change = [this] { changed(); };
-  if (!options.wave.empty()) waves_.emplace(options.wave, execution_->segment(), maker_);
+  if (!options.wave.path.empty()) waves_.emplace(options.wave, execution_->segment(), maker_);
   for (const scenario::Slave& slave : scenario.slaves) add_slave(slave);
   baud_follower_ = std::make_unique<BaudFollower>(*this);
   add_monitor();
@@ -58,14 +58,17 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
   if (!options.log.empty()) journal_.open(options.log);
   if (!options.trace.empty()) trace_.emplace(options.trace, scenario_);
   add_observers();
-  if (waves_) waves_->begin();
+  if (!waves_) return;
+  waves_->begin();
+  journal_.on_code = [this](Tick at, const std::string& station, const std::string& code, bool violation,
+                            std::uint64_t count) { waves_->happened(at, station, code, violation, count); };
 }
 
 Bench::~Bench() = default;
 
 /// What the bench itself needs a chip watches anyway.
 PinMask Bench::watched_pins() const {
-  const bool all = !options_.wave.empty() || !options_.trace.empty();
+  const bool all = !options_.wave.path.empty() || !options_.trace.empty();
   return all ? all_of(maker_.pins()) : checks_.pins();
 }
 

@@ -30,7 +30,8 @@ class Script;
 struct RunOptions {
   Engine engine = Engine::kSkip;
   std::string engine_name = "skip", view_name = "pins";
-  std::string wave, log, trace;   ///< paths, empty: not wanted
+  WaveOptions wave;
+  std::string log, trace;         ///< paths, empty: not wanted
   bool log_whole = false;         ///< no bytes are left out in the log
   std::optional<GdbRequest> gdb;  ///< debugger of the first user CPU that takes one
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
@@ -55,6 +56,8 @@ class Bench {
   }
   /// Where the log grows until the run ends; empty without a log.
   std::string log_grows_at() const { return journal_.run_log() != nullptr ? journal_.run_log()->grows_at() : ""; }
+  /// There is a wave, but nothing opened a window of it.
+  bool wave_is_empty() const { return waves_ && waves_->is_empty(); }
 
  private:
   class BaudFollower;

@@ -18,9 +18,14 @@ void Journal::log(LogEntry entry) {
 
 std::string Journal::in_log(const bus::Bytes& bytes) const { return bytes_text(bytes, form_.most_bytes()); }
 
+void Journal::count_one(Tick at, const std::string& station, const std::string& code, bool violation) {
+  const std::uint64_t count = ++counts_[station][code];
+  if (on_code) on_code(at, station, code, violation, count);
+}
+
 void Journal::happened(Occurrence occurrence) {
-  ++counts_[occurrence.station][occurrence.code];
   const bool violation = occurrence.severity == profibus::Severity::kViolation;
+  count_one(occurrence.at, occurrence.station, occurrence.code, violation);
   occurrence.allowed = violation && scenario::allows(scenario_, occurrence.code, occurrence.station);
   if (violation && !occurrence.allowed) ++violations_;
   if (occurrence.severity == profibus::Severity::kRefusal) refusals_.count(occurrence);
@@ -34,7 +39,7 @@ void Journal::happened(Occurrence occurrence) {
 
 void Journal::check_violated(const std::string& slave, const checks::Violation& violation, const char* kind) {
   const std::string id = scenario_.kind->rules()[violation.check.index].id;
-  ++counts_[slave][id];
+  count_one(violation.found, slave, id, true);
   if (!log_) return;
   log_->finding(
       {std::max(violation.found, clock_.now()), slave, kind,

@@ -1,5 +1,6 @@
 #pragma once
 // What has happened in a run: counted, kept for the report, written into the log.
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -36,6 +37,10 @@ class Journal : public Observer {
   void event(std::size_t slave, const profibus::Event& event) override;
   void telegram(const HeardTelegram& telegram) override;
 
+  /// Told of each code when it is counted: the how manieth of its station. Null: nobody wants to know.
+  std::function<void(Tick at, const std::string& station, const std::string& code, bool violation, std::uint64_t count)>
+      on_code;
+
   std::uint64_t count(const std::string& station, const std::string& code) const;
   /// Violations that the scenario does not allow, those of checks apart.
   std::uint64_t violations() const { return violations_; }
@@ -46,6 +51,8 @@ class Journal : public Observer {
   const RunLog* run_log() const { return log_ ? &*log_ : nullptr; }
 
  private:
+  void count_one(Tick at, const std::string& station, const std::string& code, bool violation);
+
   const scenario::Scenario& scenario_;
   const bus::Timeline& clock_;
   LogForm form_;

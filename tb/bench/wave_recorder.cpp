@@ -1,5 +1,7 @@
 #include "tb/bench/wave_recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <string_view>
 
 namespace tb {
@@ -21,13 +23,24 @@ std::size_t other_direction(const PinTable& pins, std::size_t pin) {
   return pin;
 }
 
+constexpr const char* kBus = "bus";  // a station of the log
+
+WaveSelection selection_of(const WaveOptions& options) {
+  WaveSelection selection = options.selection;
+  selection.on_trigger = !options.on.empty();
+  return selection;
+}
+
 }  // namespace
 
-WaveRecorder::WaveRecorder(const std::string& path, bus::Segment& segment, const ChipKind& kind)
-    : kind_(kind), writer_(open_wave(path)) {
-  writer_->open_scope("bus");
+WaveRecorder::WaveRecorder(const WaveOptions& options, bus::Segment& segment, const ChipKind& kind)
+    : kind_(kind),
+      on_(options.on),
+      writer_(std::make_unique<SelectedWave>(open_wave(options.path), selection_of(options))) {
+  writer_->open_scope(kBus);
   line_ = writer_->wire("line", 1);
   telegram_ = writer_->words("telegram");
+  event_signals_[kBus] = writer_->words("flag");
   writer_->close_scope();
   segment.attach("waves", this);
 }
@@ -47,6 +60,7 @@ void WaveRecorder::add_chip(const std::string& name, const ChipView& chip) {
                            : writer_->wire(own.pin->bus != nullptr ? own.pin->bus : own.pin->name, own.pin->width);
   }
   signals.dp_state = writer_->words("dp_state");
+  event_signals_[name] = writer_->words("event");
   signals.rm_entries = {writer_->words("rm_30"), writer_->words("rm_2F")};
   writer_->close_scope();
   chips_.push_back(signals);
@@ -61,17 +75,19 @@ void WaveRecorder::add_master(const std::string& master, const std::vector<std::
 }
 
 void WaveRecorder::begin() {
-  writer_->set(0, line_, 1);
-  writer_->say(0, telegram_, "-");
+  writer_->check_patterns();
+  set(0, line_, 1);
+  say(0, telegram_, "-");
+  for (const auto& [station, signal] : event_signals_) say(0, signal, "-");
   for (std::size_t chip = 0; chip < chips_.size(); ++chip) {
     for (std::size_t i = 0; i < chips_[chip].pins.size(); ++i) {
       const auto number = static_cast<PinNumber>(i);
       pin(chip, 0, number, chips_[chip].chip->level(number));
     }
-    writer_->say(0, chips_[chip].dp_state, "OFFLINE");
-    for (const Signal row : chips_[chip].rm_entries) writer_->say(0, row, "not in use");
+    say(0, chips_[chip].dp_state, "OFFLINE");
+    for (const Signal row : chips_[chip].rm_entries) say(0, row, "not in use");
   }
-  for (const auto& [name, state] : master_states_) writer_->say(0, state.signal, state.initial);
+  for (const auto& [name, state] : master_states_) say(0, state.signal, state.initial);
 }
 
 void WaveRecorder::pin(std::size_t chip, bus::Tick at, PinNumber pin, Level level) {
@@ -81,21 +97,33 @@ void WaveRecorder::pin(std::size_t chip, bus::Tick at, PinNumber pin, Level leve
   const Level shown = own.other == pin ? level
                       : own.pin->input ? resolved(level, pins[own.other].level)
                                        : resolved(pins[own.other].level, level);
-  writer_->set(at, own.signal, shown);
+  set(at, own.signal, shown);
 }
 
 void WaveRecorder::event(std::size_t slave, const profibus::Event& event) {
   const ChipSignals& chip = chips_[slave];
   if (event.reason == profibus::Reason::kDpState)
-    writer_->say(event.at, chip.dp_state, name(static_cast<profibus::DpState>(event.b)));
+    say(event.at, chip.dp_state, name(static_cast<profibus::DpState>(event.b)));
   if (event.reason == profibus::Reason::kRmEntry)
-    writer_->say(event.at, chip.rm_entries.at(static_cast<std::size_t>(profibus::kC2FirstSap - event.a)),
-                 kind_.describe(event));
+    say(event.at, chip.rm_entries.at(static_cast<std::size_t>(profibus::kC2FirstSap - event.a)), kind_.describe(event));
 }
 
 void WaveRecorder::master_state(bus::Tick now, const std::string& master, const std::string& member,
                                 const std::string& state) {
-  writer_->say(now, master_states_.at(master + "." + member).signal, state);
+  say(now, master_states_.at(master + "." + member).signal, state);
+}
+
+bool WaveRecorder::opens_window(const std::string& code, bool violation) const {
+  return std::any_of(
+      on_.begin(), on_.end(),
+      [&](const std::string& wanted) { return wanted == code || (violation && wanted == kAnyViolation); });
+}
+
+void WaveRecorder::happened(bus::Tick at, const std::string& station, const std::string& code, bool violation,
+                            std::uint64_t count) {
+  const auto signal = event_signals_.find(station);
+  if (signal != event_signals_.end()) say(at, signal->second, fmt::format("{} {}", code, count));
+  if (opens_window(code, violation)) writer_->trigger(at);
 }
 
 }  // namespace tb

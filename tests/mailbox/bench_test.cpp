@@ -43,7 +43,7 @@ class MailboxOnTheBench : public testing::Test {
     tb::RunOptions options;
     options.engine = engine;
     options.checks = tb::ChecksMode::kReport;
-    options.wave = path(name + ".vcd");
+    options.wave.path = path(name + ".vcd");
     options.log = path(name + ".log");
     options.trace = path(name + ".trace");
     tb::Bench bench(scenario, options, tb::make_pin_execution());

@@ -1,0 +1,80 @@
+#include "apps/wave_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <optional>
+
+#include "tb/input/input_error.hpp"
+#include "tb/input/suggest.hpp"
+#include "tb/input/units.hpp"
+#include "tb/scenario/event_codes.hpp"
+
+namespace app {
+namespace {
+
+bus::Tick time_of(const std::string& command, const char* option, const std::string& text) {
+  const std::optional<bus::Tick> time = tb::parse_time(text);
+  if (!time || *time < 0)
+    throw tb::InputError(fmt::format("{}: {} is {}, allowed is {}", command, option, text, tb::kTimeForm));
+  return *time;
+}
+
+void check_code(const std::string& command, const std::string& code, const tb::ChipKind& kind) {
+  std::vector<std::string> allowed = tb::scenario::all_codes(kind);
+  allowed.insert(allowed.begin(), tb::kAnyViolation);
+  if (std::find(allowed.begin(), allowed.end(), code) != allowed.end()) return;
+  throw tb::InputError(fmt::format("{}: --wave-on is {}{}, allowed are {} and the codes of dsdpv1-sim reasons", command,
+                                   code, tb::did_you_mean(code, allowed), tb::kAnyViolation));
+}
+
+}  // namespace
+
+void add_wave_options(CLI::App& command, WaveArguments& arguments) {
+  CLI::Option* wave = command.add_option("--wave", arguments.file,
+                                         "Waves of all pins, the line, states and events: FILE.vcd or FILE.fst");
+  command
+      .add_option("--wave-signals", arguments.signals,
+                  "Only signals that fit: patterns of \"station.signal\" with * and ?, once for each")
+      ->allow_extra_args(false)
+      ->needs(wave);
+  CLI::Option* from = command.add_option("--wave-from", arguments.from, "Only from this time on")->needs(wave);
+  CLI::Option* to = command.add_option("--wave-to", arguments.to, "Only up to this time")->needs(wave);
+  CLI::Option* on = command
+                        .add_option("--wave-on", arguments.on,
+                                    "Only round each event with this code of the log, or each violation; once for each")
+                        ->allow_extra_args(false)
+                        ->needs(wave)
+                        ->excludes(from)
+                        ->excludes(to);
+  command.add_option("--wave-around", arguments.around, "Up to this long before and behind it")
+      ->capture_default_str()
+      ->needs(on);
+  command.add_flag("--wave-clk", arguments.clock, "CLK as well, which changes 96 times a microsecond")->needs(wave);
+}
+
+tb::WaveOptions wave_options(const std::string& command, const WaveArguments& arguments, const tb::ChipKind& kind) {
+  if (!arguments.file.empty()) tb::check_wave_name(arguments.file);
+  tb::WaveOptions options;
+  options.path = arguments.file;
+  options.on = arguments.on;
+  options.selection.signals = arguments.signals;
+  options.selection.clock = arguments.clock;
+  options.selection.around = time_of(command, "--wave-around", arguments.around);
+  if (!arguments.from.empty()) options.selection.from = time_of(command, "--wave-from", arguments.from);
+  if (!arguments.to.empty()) options.selection.to = time_of(command, "--wave-to", arguments.to);
+  if (options.selection.to < options.selection.from)
+    throw tb::InputError(fmt::format("{}: --wave-to is {}, allowed is a time not before --wave-from, {}", command,
+                                     arguments.to, arguments.from));
+  for (const std::string& code : arguments.on) check_code(command, code, kind);
+  return options;
+}
+
+std::string nothing_recorded(const WaveArguments& arguments) {
+  const std::string why = arguments.on.empty() ? fmt::format("the run was over before {}", arguments.from)
+                                               : fmt::format("nothing of {} happened", tb::join(arguments.on));
+  return fmt::format("dsdpv1-sim: {} shows nothing: {}", arguments.file, why);
+}
+
+}  // namespace app

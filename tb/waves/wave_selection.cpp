@@ -1,0 +1,176 @@
+#include "tb/waves/wave_selection.hpp"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "tb/input/input_error.hpp"
+#include "tb/input/suggest.hpp"
+
+namespace tb {
+namespace {
+
+constexpr bus::Tick kHalfCycle = 125;          // of 48 MHz
+constexpr bus::Tick kLate = bus::kTicksPerMs;  // what a trigger may be told late
+constexpr std::string_view kNotRecorded = "(not recorded)";
+
+}  // namespace
+
+SelectedWave::SelectedWave(std::unique_ptr<WaveWriter> writer, WaveSelection selection)
+    : writer_(std::move(writer)), selection_(std::move(selection)) {
+  if (!selection_.clock) return;
+  writer_->open_scope("clock");
+  clock_ = writer_->wire("CLK", 1);
+  writer_->close_scope();
+}
+
+// --- declarations ----------------------------------------------------------------------------------------------------
+
+void SelectedWave::open_scope(const std::string& name) {
+  scopes_.push_back(name);
+  writer_->open_scope(name);
+}
+
+void SelectedWave::close_scope() {
+  scopes_.pop_back();
+  writer_->close_scope();
+}
+
+WaveWriter::Signal SelectedWave::wire(const std::string& name, int width) { return declare(name, false, width); }
+WaveWriter::Signal SelectedWave::words(const std::string& name) { return declare(name, true, 0); }
+
+bool SelectedWave::fits(const std::string& pattern, const std::string& path) const {
+  return ::fnmatch(pattern.c_str(), path.c_str(), FNM_CASEFOLD) == 0;
+}
+
+WaveWriter::Signal SelectedWave::declare(const std::string& name, bool is_word, int width) {
+  std::string path;
+  for (const std::string& scope : scopes_) path += scope + ".";
+  path += name;
+  Declared declared;
+  declared.is_word = is_word;
+  declared.selected =
+      selection_.signals.empty() || std::any_of(selection_.signals.begin(), selection_.signals.end(),
+                                                [&](const std::string& pattern) { return fits(pattern, path); });
+  if (declared.selected) declared.signal = is_word ? writer_->words(name) : writer_->wire(name, width);
+  signals_.push_back(std::move(declared));
+  names_.push_back(std::move(path));
+  return static_cast<Signal>(signals_.size() - 1);
+}
+
+void SelectedWave::check_patterns() const {
+  for (const std::string& pattern : selection_.signals)
+    if (std::none_of(names_.begin(), names_.end(), [&](const std::string& name) { return fits(pattern, name); }))
+      throw InputError(fmt::format("--wave-signals {} fits no signal{}, allowed are patterns of {}", pattern,
+                                   did_you_mean(pattern, names_), join(names_)));
+}
+
+// --- windows ---------------------------------------------------------------------------------------------------------
+
+void SelectedWave::set(bus::Tick at, Signal signal, int level) { change({at, signal, {level, {}}}); }
+
+void SelectedWave::say(bus::Tick at, Signal signal, std::string_view word) {
+  change({at, signal, {0, std::string(word)}});
+}
+
+void SelectedWave::change(Change change) {
+  if (!signals_.at(change.signal).selected) return;
+  advance(change.at);
+  if (open_)
+    write(change);
+  else
+    keep(std::move(change));
+}
+
+/// A window that begins or ends up to `at` does so.
+void SelectedWave::advance(bus::Tick at) {
+  if (open_ && at > end_of_window()) close();
+  const bool begins = !selection_.on_trigger && closed_at_ < 0 && at >= selection_.from;
+  if (!open_ && begins) open(selection_.from);
+}
+
+void SelectedWave::keep(Change change) {
+  const bus::Tick at = change.at;
+  kept_.push_back(std::move(change));
+  forget_before(selection_.on_trigger ? at - selection_.around - kLate : at + 1);
+}
+
+void SelectedWave::forget_before(bus::Tick at) {
+  for (; !kept_.empty() && kept_.front().at < at; kept_.pop_front())
+    signals_[kept_.front().signal].value = std::move(kept_.front().value);
+}
+
+void SelectedWave::trigger(bus::Tick at) {
+  if (!selection_.on_trigger) return;
+  advance(at);
+  until_ = std::max(until_, at + selection_.around);
+  if (!open_) open(std::max(at - selection_.around, closed_at_ + 1));
+}
+
+/// Every signal has its value of `at`; then come the changes since.
+void SelectedWave::open(bus::Tick at) {
+  at = std::max<bus::Tick>(at, 0);
+  forget_before(at);
+  open_ = true;
+  next_clock_ = (at + kHalfCycle - 1) / kHalfCycle * kHalfCycle;
+  if (selection_.clock) writer_->set(at, clock_, at / kHalfCycle % 2 == 0 ? 1 : 0);
+  for (const Declared& signal : signals_)
+    if (signal.selected) write_value(at, signal, signal.value);
+  for (; !kept_.empty() && kept_.front().at <= end_of_window(); kept_.pop_front()) write(kept_.front());
+  if (!kept_.empty()) close();  // told late: it is over
+}
+
+/// What follows belongs to no window, and would look as if nothing happened.
+void SelectedWave::close() {
+  closed_at_ = end_of_window();
+  tick_to(closed_at_);
+  open_ = false;
+  if (!selection_.on_trigger) return;
+  if (selection_.clock) writer_->set(closed_at_, clock_, kUnknown);
+  for (const Declared& signal : signals_)
+    if (signal.selected) write_value(closed_at_, signal, {kUnknown, std::string(kNotRecorded)});
+}
+
+void SelectedWave::write(const Change& change) {
+  Declared& signal = signals_[change.signal];
+  tick_to(change.at);
+  write_value(change.at, signal, change.value);
+  signal.value = change.value;
+}
+
+void SelectedWave::write_value(bus::Tick at, const Declared& signal, const Value& value) {
+  if (signal.is_word)
+    writer_->say(at, signal.signal, value.word);
+  else
+    writer_->set(at, signal.signal, value.level);
+}
+
+/// CLK up to and including `at`.
+void SelectedWave::tick_to(bus::Tick at) {
+  if (!selection_.clock) return;
+  for (; next_clock_ <= at; next_clock_ += kHalfCycle)
+    writer_->set(next_clock_, clock_, next_clock_ / kHalfCycle % 2 == 0);
+}
+
+// --- the file --------------------------------------------------------------------------------------------------------
+
+void SelectedWave::save(bus::Tick at) {
+  advance(at);
+  if (open_) writer_->save(at);
+}
+
+void SelectedWave::finish(bus::Tick end) {
+  advance(end);
+  if (!has_window()) {
+    if (selection_.clock) writer_->set(0, clock_, kUnknown);
+    for (const Declared& signal : signals_)
+      if (signal.selected) write_value(0, signal, {kUnknown, std::string(kNotRecorded)});
+  }
+  if (open_) tick_to(end);
+  writer_->finish(open_ || selection_.on_trigger || !has_window() ? end : selection_.to);
+}
+
+}  // namespace tb

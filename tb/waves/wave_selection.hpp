@@ -1,0 +1,93 @@
+#pragma once
+// What of a run goes into its wave: which signals, from when to when, or round what happens; and CLK, which nobody else
+// writes.
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tb/waves/wave_writer.hpp"
+
+namespace tb {
+
+struct WaveSelection {
+  /// Patterns of the shell (* ? [..]) on "scope.signal", in any case of letters; none: every signal.
+  std::vector<std::string> signals;
+  /// The window, both ends in it.
+  bus::Tick from = 0, to = bus::kNever;
+  /// Windows round what is told to `trigger` in the place of a single one: up to this long before and behind.
+  bool on_trigger = false;
+  bus::Tick around = 0;
+  /// A signal clock.CLK: 48 MHz, rising at every cycle.
+  bool clock = false;
+};
+
+/// A writer that passes on what is selected. What a signal was before a window is its first value there; behind a
+/// window, in the same file, it is unknown.
+class SelectedWave : public WaveWriter {
+ public:
+  SelectedWave(std::unique_ptr<WaveWriter> writer, WaveSelection selection);
+
+  void open_scope(const std::string& name) override;
+  void close_scope() override;
+  Signal wire(const std::string& name, int width) override;
+  Signal words(const std::string& name) override;
+  void set(bus::Tick at, Signal signal, int level) override;
+  void say(bus::Tick at, Signal signal, std::string_view word) override;
+  void save(bus::Tick at) override;
+  bool failed() const override { return writer_->failed(); }
+  void check() const override { writer_->check(); }
+  /// With `on_trigger` and no trigger all signals are unknown from 0 to `end`.
+  void finish(bus::Tick end) override;
+
+  /// To be called once all signals are declared: throws InputError for a pattern that fits none of them.
+  void check_patterns() const;
+  /// Something happened at `at`, at most a millisecond before the last change.
+  void trigger(bus::Tick at);
+  /// Whether anything has been written.
+  bool has_window() const { return closed_at_ >= 0 || open_; }
+
+ private:
+  struct Value {
+    int level = kUnknown;
+    std::string word;
+  };
+  struct Declared {
+    Signal signal = 0;  ///< of the writer
+    bool selected = false, is_word = false;
+    Value value;  ///< before the changes that are kept
+  };
+  struct Change {
+    bus::Tick at;
+    Signal signal;
+    Value value;
+  };
+
+  Signal declare(const std::string& name, bool is_word, int width);
+  bool fits(const std::string& pattern, const std::string& path) const;
+  void change(Change change);
+  void keep(Change change);
+  void forget_before(bus::Tick at);
+  void open(bus::Tick at);
+  void close();
+  void advance(bus::Tick at);
+  void write(const Change& change);
+  void write_value(bus::Tick at, const Declared& signal, const Value& value);
+  void tick_to(bus::Tick at);
+  bus::Tick end_of_window() const { return selection_.on_trigger ? until_ : selection_.to; }
+
+  std::unique_ptr<WaveWriter> writer_;
+  WaveSelection selection_;
+  std::vector<std::string> scopes_, names_;
+  std::vector<Declared> signals_;
+  std::deque<Change> kept_;  ///< the last ones, while no window is open
+  bool open_ = false;
+  bus::Tick until_ = 0;       ///< of the window that a trigger has opened
+  bus::Tick closed_at_ = -1;  ///< end of the last window
+  Signal clock_ = 0;
+  bus::Tick next_clock_ = 0;  ///< the next change of CLK
+};
+
+}  // namespace tb
