@@ -39,6 +39,10 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   if (arguments.view == "tlm" && arguments.engine != "step" && arguments.engine != "skip")
     throw tb::InputError("dsdpv1-sim run: --engine " + arguments.engine +
                          " is about pins, allowed with it is --view pins");
+  const bool model = arguments.view == "pins" && (arguments.engine == "step" || arguments.engine == "skip");
+  if (arguments.wave.inside && !model)
+    throw tb::InputError(
+        "dsdpv1-sim run: --wave-inside is about the model, allowed with it are --view pins and --engine step or skip");
   if (!arguments.difference.empty()) tb::check_wave_name(arguments.difference);
   tb::RunOptions options;
   options.engine = arguments.engine == "step" ? tb::Engine::kStep : tb::Engine::kSkip;

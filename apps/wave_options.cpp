@@ -52,6 +52,11 @@ void add_wave_options(CLI::App& command, WaveArguments& arguments) {
       ->capture_default_str()
       ->needs(on);
   command.add_flag("--wave-clk", arguments.clock, "CLK as well, which changes 96 times a microsecond")->needs(wave);
+  command
+      .add_flag("--wave-inside", arguments.inside,
+                "Inner signals of the chips as well: owner of the DPRAM, item and byte that is moved, flags, CRC "
+                "verdicts, baud and watchdog states; every cycle is evaluated then")
+      ->needs(wave);
 }
 
 tb::WaveOptions wave_options(const std::string& command, const WaveArguments& arguments, const tb::ChipKind& kind) {
@@ -59,6 +64,7 @@ tb::WaveOptions wave_options(const std::string& command, const WaveArguments& ar
   tb::WaveOptions options;
   options.path = arguments.file;
   options.on = arguments.on;
+  options.inside = arguments.inside;
   options.selection.signals = arguments.signals;
   options.selection.clock = arguments.clock;
   options.selection.around = time_of(command, "--wave-around", arguments.around);

@@ -99,6 +99,7 @@ void Monitor::run(Tick now) {
 }
 
 void Monitor::character(const ReceivedCharacter& received) {
+  if (on_character) on_character(received);
   const bool after_syn = !last_end_ || received.start - *last_end_ >= bits(kSynBits);
   if (after_syn) idle();
   if (!decoder_.begun() && !skipping_) begin_telegram(received);

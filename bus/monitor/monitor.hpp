@@ -101,6 +101,8 @@ class Monitor : public Listener, public Agent {
 
   std::function<void(const WireTelegram&)> on_telegram;
   std::function<void(const Flag&)> on_flag;
+  /// Each character, before what comes of it; null: nobody wants to know.
+  std::function<void(const ReceivedCharacter&)> on_character;
 
   const MonitorStatistics& statistics() const { return statistics_; }
   /// T_RR of each master, by its address.

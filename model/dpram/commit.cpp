@@ -11,6 +11,8 @@ bool Sequencer::crc_right(Cycle now, profibus::Reason reason, std::uint8_t error
   const unsigned found = static_cast<unsigned>(stored[0]) << 8 | stored[1];
   const unsigned computed = crc16(image_.data(), image_size_);
   const bool right = found == computed;
+  crc_item_ = item_;
+  crc_right_ = right;
   if (right && !(item_ == Item::kInput && input_history())) status2_clear_ |= error_bit;
   if (!right) status2_set_ |= error_bit;
   if (!right) log_.at_cycle(now, reason, found, computed);
@@ -22,7 +24,7 @@ bool Sequencer::input_history() const { return (user_command2_ & regs::kUserComm
 // The user asks for it with B011.7; without history there is nothing to clear.
 void Sequencer::clear_input_error(Cycle now) {
   user_command2_ = static_cast<std::uint8_t>(user_command2_ & ~regs::kUserCommand2InputClear);
-  ram_.write(regs::kUserCommand2, user_command2_);
+  put(regs::kUserCommand2, user_command2_);
   if (input_history()) status2_clear_ |= regs::kChipStatus2InputCrc;
   next_item();
   goto_phase(Phase::kChoose, now + 1);

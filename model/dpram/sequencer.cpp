@@ -32,6 +32,7 @@ void Sequencer::reset() {
   accesses_ = outputs_overwritten_ = 0;
   longest_wait_ = 0;
   told_user_ = effect_ = profibus::kNever;
+  crc_item_ = Item::kNone;
 }
 
 void Sequencer::start_up(Cycle now) {
@@ -125,21 +126,22 @@ void Sequencer::move(Cycle now) {
     case Phase::kCheck: phase_ = Phase::kCommit; return;
     case Phase::kCommit: return commit(now);
     case Phase::kWrite:
-      ram_.write(static_cast<regs::Address>(area(item_).base + index_), image_[static_cast<std::size_t>(index_)]);
+      put(static_cast<regs::Address>(area(item_).base + index_), image_[static_cast<std::size_t>(index_)]);
       if (++index_ == image_size_) phase_ = Phase::kCrcHigh;
       return;
     case Phase::kCrcHigh:
-      ram_.write(area(item_).crc, static_cast<std::uint8_t>(image_crc_ >> 8));
+      put(area(item_).crc, static_cast<std::uint8_t>(image_crc_ >> 8));
       phase_ = Phase::kCrcLow;
       return;
     case Phase::kCrcLow:
-      ram_.write(static_cast<regs::Address>(area(item_).crc + 1), static_cast<std::uint8_t>(image_crc_ & 0xFF));
+      put(static_cast<regs::Address>(area(item_).crc + 1), static_cast<std::uint8_t>(image_crc_ & 0xFF));
       phase_ = Phase::kFlag;
       return;
     case Phase::kFlag: return flag(now);
     case Phase::kStatus2:
-      ram_.write(regs::kChipStatus2, static_cast<std::uint8_t>((status2_read_ & ~status2_clear_) | status2_set_));
+      put(regs::kChipStatus2, static_cast<std::uint8_t>((status2_read_ & ~status2_clear_) | status2_set_));
       status2_set_ = status2_clear_ = 0;
+      next_item();
       return goto_phase(Phase::kChoose, now + 1);
   }
 }
@@ -147,12 +149,12 @@ void Sequencer::move(Cycle now) {
 void Sequencer::move_start_up(Cycle now) {
   const int move = index_++;
   if (move < regs::kDpramSize) {
-    ram_.write(static_cast<regs::Address>(move), 0);
+    put(static_cast<regs::Address>(move), 0);
   } else if (move < regs::kDpramSize + kVersionBytes) {
     const int i = move - regs::kDpramSize;
-    ram_.write(static_cast<regs::Address>(regs::kVersion + i), kVersion[i]);
+    put(static_cast<regs::Address>(regs::kVersion + i), kVersion[i]);
   } else if (move < kStartUpMoves) {
-    ram_.write(regs::kAccessCount, kChipWasHere);
+    put(regs::kAccessCount, kChipWasHere);
   } else {
     end(now);
   }
@@ -167,19 +169,21 @@ void Sequencer::move_header(Cycle now) {
 
 void Sequencer::read_header(int index) {
   switch (index) {
-    case 0: ram_.write(regs::kAccessCount, kChipWasHere); return;
-    case 1: user_command1_ = ram_.read(regs::kUserCommand1); return;
-    case 2: user_command2_ = ram_.read(regs::kUserCommand2); return;
-    case 3: chip_command1_ = ram_.read(regs::kChipCommand1); return;
-    case 4: chip_command2_ = ram_.read(regs::kChipCommand2); return;
-    default: dpv1_ = ram_.read(regs::kDpv1Enable); return;
+    case 0: put(regs::kAccessCount, kChipWasHere); return;
+    case 1: user_command1_ = get(regs::kUserCommand1); return;
+    case 2: user_command2_ = get(regs::kUserCommand2); return;
+    case 3: chip_command1_ = get(regs::kChipCommand1); return;
+    case 4: chip_command2_ = get(regs::kChipCommand2); return;
+    default: dpv1_ = get(regs::kDpv1Enable); return;
   }
 }
 
 // Nobody has looked meanwhile.
 void Sequencer::header_at_once() {
-  for (int index = 0; index < kHeaderMoves; ++index) read_header(index);
-  op_ += kHeaderMoves;
+  for (int index = 0; index < kHeaderMoves; ++index) {
+    ++op_;
+    read_header(index);
+  }
   item_ = Item::kInit;
   goto_phase(Phase::kChoose, op_);
 }
@@ -293,34 +297,39 @@ void Sequencer::start_write(Cycle now, Item item) {
 }
 
 void Sequencer::status_byte(Item item, Cycle now) {
-  const std::uint16_t count = user_.mail().state.exchanges_left;
+  move_status(item, now);
+  if (item == Item::kChipStatus2) return goto_phase(Phase::kStatus2, now + 1);
   next_item();
   goto_phase(Phase::kChoose, now + 1);
+}
+
+void Sequencer::move_status(Item item, Cycle now) {
+  const std::uint16_t count = user_.mail().state.exchanges_left;
   switch (item) {
     case Item::kValidFlag:
-      ram_.write(regs::kValidFlag, regs::kValidFlagValid);
+      put(regs::kValidFlag, regs::kValidFlagValid);
       valid_written_ = true;
       log_.at_cycle(now, Reason::kReadyFlag);
       return;
     case Item::kOfflineHigh:
-      ram_.write(regs::kOfflineCount, static_cast<std::uint8_t>(count >> 8));
+      put(regs::kOfflineCount, static_cast<std::uint8_t>(count >> 8));
       offline_written_ = static_cast<std::uint16_t>((count & 0xFF00) | (offline_written_ & 0xFF));
       return;
     case Item::kOfflineLow:
-      ram_.write(regs::kOfflineCount + 1, static_cast<std::uint8_t>(count & 0xFF));
+      put(regs::kOfflineCount + 1, static_cast<std::uint8_t>(count & 0xFF));
       offline_written_ = static_cast<std::uint16_t>((offline_written_ & 0xFF00) | (count & 0xFF));
       return;
     case Item::kChipStatus1:
-      ram_.write(regs::kChipStatus1, chip_status1_);
+      put(regs::kChipStatus1, chip_status1_);
       init_result_due1_ = false;
       return;
-    case Item::kChipStatus2: status2_read_ = ram_.read(regs::kChipStatus2); return goto_phase(Phase::kStatus2, now + 1);
+    case Item::kChipStatus2: status2_read_ = get(regs::kChipStatus2); return;
     case Item::kChipStatus3:
       status3_written_ = status3();
-      ram_.write(regs::kChipStatus3, status3_written_);
+      put(regs::kChipStatus3, status3_written_);
       return;
     default:
-      ram_.write(regs::kChipStatus4, chip_status4_);
+      put(regs::kChipStatus4, chip_status4_);
       init_result_due4_ = false;
       return;
   }
@@ -340,7 +349,7 @@ void Sequencer::read_byte() {
   const Area& block = area(item_);
   const bool crc = index_ >= image_size_ && phase_ == Phase::kReadRest;
   const int address = crc ? block.crc + (index_ - image_size_) : block.base + index_;
-  image_[static_cast<std::size_t>(index_)] = ram_.read(static_cast<regs::Address>(address));
+  image_[static_cast<std::size_t>(index_)] = get(static_cast<regs::Address>(address));
   ++index_;
   if (phase_ == Phase::kRead && index_ == image_size_) phase_ = Phase::kDecode;
   if (phase_ == Phase::kReadRest && index_ == image_size_ + 2) phase_ = Phase::kCheck;
@@ -364,7 +373,7 @@ void Sequencer::commit(Cycle now) {
   const bool acyclic = acyclic_answer(item_);
   std::uint8_t& command = acyclic ? user_command2_ : user_command1_;
   command = static_cast<std::uint8_t>(command & ~area(item_).flag);
-  ram_.write(acyclic ? regs::kUserCommand2 : regs::kUserCommand1, command);
+  put(acyclic ? regs::kUserCommand2 : regs::kUserCommand1, command);
   goto_phase(Phase::kChoose, now + 1);
   effect_ = now;
   const bool too_long = image_size_ == 0;
@@ -383,7 +392,7 @@ void Sequencer::flag(Cycle now) {
   const bool acyclic = item_ == Item::kC1Request || item_ == Item::kC2Request;
   std::uint8_t& command = acyclic ? chip_command2_ : chip_command1_;
   command = static_cast<std::uint8_t>(command | area(item_).flag);
-  ram_.write(acyclic ? regs::kChipCommand2 : regs::kChipCommand1, command);
+  put(acyclic ? regs::kChipCommand2 : regs::kChipCommand1, command);
   effect_ = now;
   if (item_ == Item::kPrm || item_ == Item::kCfg) told_user_ = now;  // P7
   next_item();

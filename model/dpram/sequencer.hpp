@@ -8,6 +8,7 @@
 // find nothing to do are made up, too: the sequencer dozes.
 #include <array>
 
+#include "model/dpram/inside.hpp"
 #include "model/dpram/ram.hpp"
 #include "model/profibus/event_log.hpp"
 #include "model/profibus/user_side.hpp"
@@ -58,6 +59,8 @@ class Sequencer {
   std::uint64_t accesses() const { return accesses_; }
   Cycle longest_wait() const { return longest_wait_; }
   std::uint64_t outputs_overwritten() const { return outputs_overwritten_; }  ///< in the DPRAM, B00E.0 still set
+  /// As of the edge of `now`, the last that was evaluated; right where every edge is.
+  Inside inside(Cycle now) const;
 
  private:
   // What one access may have to do, in the order of ruling H4, then the changed status bytes by address.
@@ -102,6 +105,15 @@ class Sequencer {
     kFlag,     // its flag is set
     kStatus2,  // B00B, second cycle: written back
   };
+  struct ByteMove {
+    Cycle at = profibus::kNever;
+    regs::Address address = 0;
+    std::uint8_t byte = 0;
+    bool writes = false;
+    Phase phase = Phase::kOff;
+    Item item = Item::kNone;
+  };
+  static const char* name(Phase phase, Item item);
   struct Area {
     regs::Address base, crc;
     int header;   // bytes up to and including the length
@@ -131,6 +143,17 @@ class Sequencer {
   void start_read(Cycle now, const Area& area);
   void start_write(Cycle now, Item item);
   void status_byte(Item item, Cycle now);
+  void move_status(Item item, Cycle now);
+  // moving bytes; the next move's cycle has been counted on when one is made
+  std::uint8_t get(regs::Address address) {
+    const std::uint8_t byte = ram_.read(address);
+    moved_ = {op_ - 1, address, byte, false, phase_, item_};
+    return byte;
+  }
+  void put(regs::Address address, std::uint8_t byte) {
+    ram_.write(address, byte);
+    moved_ = {op_ - 1, address, byte, true, phase_, item_};
+  }
   // moving blocks
   void read_byte();
   void decode(Cycle now);
@@ -184,6 +207,10 @@ class Sequencer {
   std::uint8_t status2_set_ = 0, status2_clear_ = 0, status2_read_ = 0;
   bool initialised_ = false;
   std::uint64_t accesses_ = 0, outputs_overwritten_ = 0;
+  // for inside()
+  ByteMove moved_;
+  Item crc_item_ = Item::kNone;
+  bool crc_right_ = false;
   Cycle longest_wait_ = 0;
 };
 

@@ -518,4 +518,8 @@ Status Chip::status() const {
   return status;
 }
 
+Inside Chip::inside() const {
+  return {impl_->sequencer.inside(impl_->done()), impl_->station.tried(), impl_->station.watchdog()};
+}
+
 }  // namespace dsdpv1

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "model/dpram/inside.hpp"
 #include "model/dsdpv1/host_access.hpp"
 #include "model/dsdpv1/pins.hpp"
 #include "model/profibus/baud.hpp"
@@ -20,6 +21,7 @@
 #include "model/profibus/event.hpp"
 #include "model/profibus/rm_registry.hpp"
 #include "model/profibus/uart_rx.hpp"
+#include "model/profibus/watchdog.hpp"
 
 namespace dsdpv1 {
 
@@ -58,6 +60,13 @@ struct Status {
   std::uint64_t accesses = 0;            ///< DPRAM accesses of the chip
   profibus::RmRegistry c2 = {};          ///< table 30: who has the C2 channels 0x30 and 0x2F
   std::uint64_t longest_wait = 0;        ///< H1: most cycles that a due access waited for R_REQ and R_STA
+};
+
+/// What no pin shows, for waves and debuggers.
+struct Inside {
+  dpram::Inside access;
+  BaudIndex tried;  ///< while searching: the rate that is listened at
+  profibus::Watchdog::State watchdog = profibus::Watchdog::State::kBaudSearch;
 };
 
 class Chip {
@@ -121,6 +130,8 @@ class Chip {
   void poke(std::uint16_t address, std::uint8_t value);
 
   Status status() const;
+  /// As of the last rising edge; Engine::kStep only, as others leave edges out.
+  Inside inside() const;
 
  private:
   struct Impl;

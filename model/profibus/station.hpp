@@ -83,6 +83,9 @@ class Station {
   /// All that the user's side may know and do.
   UserSide& user() { return user_; }
   const DpSlave& slave() const { return slave_; }
+  /// Searching: the rate that is tried.
+  BaudIndex tried() const { return search_.index(); }
+  Watchdog::State watchdog() const { return watchdog_.state(); }
   std::uint64_t telegrams_received() const { return received_; }
   std::uint64_t telegrams_answered() const { return answered_; }
 

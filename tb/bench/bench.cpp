@@ -74,8 +74,8 @@ PinMask Bench::watched_pins() const {
 
 void Bench::add_slave(const scenario::Slave& slave) {
   user_cpu::StationConfig station = setup_.station(slave);
-  std::unique_ptr<ChipView> chip =
-      execution_->make_chip(maker_, {slave.name.text, *scenario_.chip, options_.engine, watched_pins()});
+  std::unique_ptr<ChipView> chip = execution_->make_chip(
+      maker_, {slave.name.text, *scenario_.chip, options_.engine, options_.wave.inside, watched_pins()});
   MakeUser make_user = maker_.make_user({scenario_, slave, *chip, gdb_of(slave), left_out_});
   auto& slaves = stations_.slaves;
   slaves.push_back(
@@ -102,6 +102,14 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
     observers_.tell(&Observer::event, index, event);
     changed(event.at);
   };
+  if (waves_) {  // what nobody else listens to
+    chip.on_inside = [this, index](Tick at, std::size_t signal, Level level, const std::string& word) {
+      observers_.tell(&Observer::inside, index, at, signal, level, word);
+    };
+    chip.on_action = [this, index](Tick at, const std::string& words) {
+      observers_.tell(&Observer::action, index, at, words);
+    };
+  }
   chip.on_read = [this, index](Tick sample) { observers_.tell(&Observer::read, index, sample); };
   station.on_error = [this, &station](const user_cpu::ProgramError& error) {
     journal_.happened({error.at, station.name(), error.code, profibus::Severity::kRefusal, error.text});
@@ -125,6 +133,10 @@ void Bench::add_monitor() {
   monitor_ = std::make_unique<bus::Monitor>(execution_->segment());
   monitor_->set_baud(scenario_.baud);
   monitor_->on_telegram = [this](const bus::WireTelegram& each) { telegram(each); };
+  if (waves_)
+    monitor_->on_character = [this](const bus::ReceivedCharacter& each) {
+      observers_.tell(&Observer::character, now(), each);
+    };
   monitor_->on_flag = [this](const bus::Flag& each) { flagged(each); };
 }
 

@@ -25,6 +25,7 @@ struct ChipRequest {
   std::string name;
   const OwnSettings& settings;  ///< of ChipKind::make_chip_settings
   Engine engine = Engine::kSkip;
+  bool inside = false;  ///< inner signals are wanted; Engine::kStep
   PinMask watched = 0;  ///< pins whose changes are wanted; of the inputs of the host bus all or none
 };
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "bus/wire/segment.hpp"
 #include "model/profibus/dp_state.hpp"
@@ -71,6 +72,10 @@ class ChipView {
   /// The user CPU begins a read, whose first edge is still to come, and samples the data at `sample`: no pin shows
   /// that.
   std::function<void(Tick sample)> on_read;
+  /// An inner signal (ChipKind::inner_signals) has changed; told when ChipRequest::inside wants it.
+  std::function<void(Tick at, std::size_t signal, Level level, const std::string& word)> on_inside;
+  /// What the user CPU does at the chip's pins, in words: "write B010 01".
+  std::function<void(Tick at, const std::string& words)> on_action;
 };
 
 }  // namespace tb

@@ -35,6 +35,12 @@ class Observer {
   virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}
   virtual void event(std::size_t /*slave*/, const profibus::Event& /*event*/) {}
   virtual void telegram(const HeardTelegram& /*telegram*/) {}
+  /// Right or not.
+  virtual void character(Tick /*now*/, const bus::ReceivedCharacter& /*heard*/) {}
+  /// See ChipView::on_inside and on_action.
+  virtual void inside(std::size_t /*slave*/, Tick /*at*/, std::size_t /*signal*/, Level /*level*/,
+                      const std::string& /*word*/) {}
+  virtual void action(std::size_t /*slave*/, Tick /*at*/, const std::string& /*words*/) {}
   /// What a master makes of a slave (class 1), or the state of a connection (class 2): `member` is its name.
   virtual void master_state(Tick /*now*/, const std::string& /*master*/, const std::string& /*member*/,
                             const std::string& /*state*/) {}

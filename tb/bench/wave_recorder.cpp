@@ -25,6 +25,13 @@ std::size_t other_direction(const PinTable& pins, std::size_t pin) {
 
 constexpr const char* kBus = "bus";  // a station of the log
 
+bool concerns(const bus::WireTelegram& telegram, std::uint8_t station) {
+  if (telegram.station == station) return true;
+  const bus::Decoded& decoded = telegram.decoded;
+  return decoded.readable && decoded.telegram.is_request() &&
+         (decoded.telegram.da == station || decoded.telegram.da == bus::kBroadcast);
+}
+
 WaveSelection selection_of(const WaveOptions& options) {
   WaveSelection selection = options.selection;
   selection.on_trigger = !options.on.empty();
@@ -36,9 +43,11 @@ WaveSelection selection_of(const WaveOptions& options) {
 WaveRecorder::WaveRecorder(const WaveOptions& options, bus::Segment& segment, const ChipKind& kind)
     : kind_(kind),
       on_(options.on),
+      inside_(options.inside),
       writer_(std::make_unique<SelectedWave>(open_wave(options.path), selection_of(options))) {
   writer_->open_scope(kBus);
   line_ = writer_->wire("line", 1);
+  character_ = writer_->words("character");
   telegram_ = writer_->words("telegram");
   event_signals_[kBus] = writer_->words("flag");
   writer_->close_scope();
@@ -60,10 +69,22 @@ void WaveRecorder::add_chip(const std::string& name, const ChipView& chip) {
                            : writer_->wire(own.pin->bus != nullptr ? own.pin->bus : own.pin->name, own.pin->width);
   }
   signals.dp_state = writer_->words("dp_state");
+  signals.service = writer_->words("service");
+  signals.user = writer_->words("user");
   event_signals_[name] = writer_->words("event");
   signals.rm_entries = {writer_->words("rm_30"), writer_->words("rm_2F")};
+  if (inside_) signals.inside = add_inside();
   writer_->close_scope();
   chips_.push_back(signals);
+}
+
+std::vector<WaveRecorder::Signal> WaveRecorder::add_inside() {
+  std::vector<Signal> signals;
+  writer_->open_scope("inside");
+  for (const InnerSignal& each : kind_.inner_signals())
+    signals.push_back(each.width == 0 ? writer_->words(each.name) : writer_->wire(each.name, each.width));
+  writer_->close_scope();
+  return signals;
 }
 
 void WaveRecorder::add_master(const std::string& master, const std::vector<std::string>& members,
@@ -77,7 +98,7 @@ void WaveRecorder::add_master(const std::string& master, const std::vector<std::
 void WaveRecorder::begin() {
   writer_->check_patterns();
   set(0, line_, 1);
-  say(0, telegram_, "-");
+  for (const Signal each : {character_, telegram_}) say(0, each, "-");
   for (const auto& [station, signal] : event_signals_) say(0, signal, "-");
   for (std::size_t chip = 0; chip < chips_.size(); ++chip) {
     for (std::size_t i = 0; i < chips_[chip].pins.size(); ++i) {
@@ -85,6 +106,7 @@ void WaveRecorder::begin() {
       pin(chip, 0, number, chips_[chip].chip->level(number));
     }
     say(0, chips_[chip].dp_state, "OFFLINE");
+    for (const Signal each : {chips_[chip].service, chips_[chip].user}) say(0, each, "-");
     for (const Signal row : chips_[chip].rm_entries) say(0, row, "not in use");
   }
   for (const auto& [name, state] : master_states_) say(0, state.signal, state.initial);
@@ -98,6 +120,26 @@ void WaveRecorder::pin(std::size_t chip, bus::Tick at, PinNumber pin, Level leve
                       : own.pin->input ? resolved(level, pins[own.other].level)
                                        : resolved(pins[own.other].level, level);
   set(at, own.signal, shown);
+}
+
+void WaveRecorder::inside(std::size_t slave, bus::Tick at, std::size_t signal, Level level, const std::string& word) {
+  const Signal own = chips_[slave].inside[signal];
+  if (kind_.inner_signals()[signal].width == 0)
+    say(at, own, word);
+  else
+    set(at, own, level);
+}
+
+void WaveRecorder::character(bus::Tick now, const bus::ReceivedCharacter& heard) {
+  const char* const wrong = !heard.stop_ok ? " no stop bit" : !heard.parity_ok ? " wrong parity" : "";
+  say(now, character_, fmt::format("{:02X}{}", heard.byte, wrong));
+}
+
+/// A service is shown at the slave that is asked for it, or that answers.
+void WaveRecorder::telegram(const HeardTelegram& heard) {
+  say(heard.now, telegram_, heard.words());
+  for (const ChipSignals& chip : chips_)
+    if (concerns(heard.telegram, chip.chip->address())) say(heard.now, chip.service, heard.words());
 }
 
 void WaveRecorder::event(std::size_t slave, const profibus::Event& event) {

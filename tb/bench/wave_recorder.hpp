@@ -25,6 +25,7 @@ struct WaveOptions {
   WaveSelection selection;
   /// Codes that open a window, "violation" for any violation; empty: `selection` has one window.
   std::vector<std::string> on;
+  bool inside = false;  ///< inner signals of the chips, too
 };
 
 class WaveRecorder : public Observer, private bus::Listener {
@@ -42,7 +43,12 @@ class WaveRecorder : public Observer, private bus::Listener {
 
   void pin(std::size_t slave, bus::Tick at, PinNumber pin, Level level) override;
   void event(std::size_t slave, const profibus::Event& event) override;
-  void telegram(const HeardTelegram& telegram) override { say(telegram.now, telegram_, telegram.words()); }
+  void character(bus::Tick now, const bus::ReceivedCharacter& heard) override;
+  void inside(std::size_t slave, bus::Tick at, std::size_t signal, Level level, const std::string& word) override;
+  void action(std::size_t slave, bus::Tick at, const std::string& words) override {
+    say(at, chips_[slave].user, words);
+  }
+  void telegram(const HeardTelegram& telegram) override;
   void master_state(bus::Tick now, const std::string& master, const std::string& member,
                     const std::string& state) override;
   /// A code of the log: `station` is a chip, or "bus". The how manieth of its kind is shown, as each is a change.
@@ -67,7 +73,8 @@ class WaveRecorder : public Observer, private bus::Listener {
   struct ChipSignals {
     const ChipView* chip = nullptr;
     std::vector<PinSignal> pins;
-    Signal dp_state = 0;
+    std::vector<Signal> inside;
+    Signal dp_state = 0, service = 0, user = 0;
     std::array<Signal, profibus::kC2Channels> rm_entries{};
   };
   void line_changed(bus::Tick at, bool level) override { set(at, line_, level ? 1 : 0); }
@@ -80,13 +87,15 @@ class WaveRecorder : public Observer, private bus::Listener {
     last_ = std::max(at, last_);
     writer_->say(last_, signal, word);
   }
+  std::vector<Signal> add_inside();
   bool opens_window(const std::string& code, bool violation) const;
 
   const ChipKind& kind_;
   const std::vector<std::string> on_;
+  const bool inside_;
   std::unique_ptr<SelectedWave> writer_;
   bus::Tick last_ = 0;  ///< of the last change
-  Signal line_ = 0, telegram_ = 0;
+  Signal line_ = 0, telegram_ = 0, character_ = 0;
   std::map<std::string, Signal> event_signals_;  ///< by station
   std::vector<ChipSignals> chips_;
   struct MasterState {

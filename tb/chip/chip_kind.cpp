@@ -22,6 +22,11 @@ const std::vector<keys::Word>& ChipKind::blocks() const {
   return none;
 }
 
+const std::vector<InnerSignal>& ChipKind::inner_signals() const {
+  static const std::vector<InnerSignal> none;
+  return none;
+}
+
 const checks::RuleTable& ChipKind::rules() const {
   static const checks::RuleTable none;
   return none;

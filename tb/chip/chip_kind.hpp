@@ -39,6 +39,12 @@ struct Order {
   bool one_by_one = false;  ///< `times`: so many orders
 };
 
+/// A signal inside of the chip that waves can show.
+struct InnerSignal {
+  const char* name;
+  int width;  ///< 0: its values are words
+};
+
 class ChipKind {
  public:
   virtual ~ChipKind() = default;
@@ -72,6 +78,9 @@ class ChipKind {
   virtual std::string describe(const profibus::Event& event) const = 0;
   /// Codes of the chip's events; of what its user program reports; of what else its user's side can meet.
   virtual const std::vector<CodeTable>& codes() const = 0;
+
+  /// Those that ChipView::on_inside tells; none by default.
+  virtual const std::vector<InnerSignal>& inner_signals() const;
 
   // --- Checks of its user's side; none by default.
   virtual const checks::RuleTable& rules() const;

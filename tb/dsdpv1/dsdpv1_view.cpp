@@ -1,5 +1,7 @@
 #include "tb/dsdpv1/dsdpv1_view.hpp"
 
+#include <fmt/format.h>
+
 namespace tb {
 
 ChipStatus Dsdpv1View::status() const {
@@ -9,6 +11,16 @@ ChipStatus Dsdpv1View::status() const {
   status.accesses = own.accesses;
   status.longest_wait = static_cast<Tick>(own.longest_wait) * profibus::kTicksPerCycle;
   return status;
+}
+
+void Dsdpv1View::tell_action(Tick at, const user_cpu::Access& access) const {
+  if (!on_action) return;
+  on_action(at, access.write ? fmt::format("write B{:03X} {:02X}", access.address, access.value)
+                             : fmt::format("read B{:03X}", access.address));
+}
+
+void Dsdpv1View::tell_action(Tick at, const char* pin, bool level) const {
+  if (on_action) on_action(at, fmt::format("{} {}", pin, level ? 1 : 0));
 }
 
 }  // namespace tb

@@ -22,6 +22,9 @@ class Dsdpv1View : public ChipView {
     if (pin == dsdpv1::Pin::kIntr0 && on_interrupt) on_interrupt(at, level != 0);
     if (on_pin) on_pin(at, static_cast<PinNumber>(pin), level);
   }
+  /// What the user CPU does, to whoever listens.
+  void tell_action(Tick at, const user_cpu::Access& access) const;
+  void tell_action(Tick at, const char* pin, bool level) const;
 };
 
 }  // namespace tb

@@ -142,7 +142,7 @@ const keys::Object& dsdpv1_user_keys() {
 
 dsdpv1::Config config_of(const ChipRequest& request) {
   dsdpv1::Config config = static_cast<const Dsdpv1Settings&>(request.settings);
-  config.engine = request.engine == Engine::kStep ? dsdpv1::Engine::kStep : dsdpv1::Engine::kSkip;
+  config.engine = request.engine == Engine::kStep || request.inside ? dsdpv1::Engine::kStep : dsdpv1::Engine::kSkip;
   return config;
 }
 

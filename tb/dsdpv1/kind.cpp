@@ -6,6 +6,7 @@
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/dsdpv1/checks/checks.hpp"
 #include "tb/dsdpv1/codes.hpp"
+#include "tb/dsdpv1/inside_watch.hpp"
 #include "tb/dsdpv1/pin_chip.hpp"
 #include "tb/dsdpv1/pins/pin_table.hpp"
 #include "tb/dsdpv1/settings.hpp"
@@ -44,6 +45,8 @@ class Dsdpv1Kind : public ChipMaker {
   std::string describe(const profibus::Event& event) const override { return dsdpv1::describe(event); }
   const std::vector<CodeTable>& codes() const override { return dsdpv1_codes(); }
 
+  const std::vector<InnerSignal>& inner_signals() const override { return InsideWatch::signals(); }
+
   const checks::RuleTable& rules() const override { return checks::rules(); }
   PinMask checked_pins() const override { return checks::Checks::kPins; }
   std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits) const override {
@@ -53,6 +56,7 @@ class Dsdpv1Kind : public ChipMaker {
   std::unique_ptr<ChipView> make_pin_chip(const ChipRequest& request, bus::Segment& segment,
                                           bus::Timeline& timeline) const override {
     auto chip = std::make_unique<PinChip>(request.name, config_of(request), request.watched, segment);
+    if (request.inside) chip->watch_inside();
     timeline.add(*chip);
     return chip;
   }

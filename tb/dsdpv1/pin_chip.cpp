@@ -50,6 +50,7 @@ Tick PinChip::next() const {
 
 void PinChip::run(Tick now) {
   device().advance(now);
+  if (inside_ && on_inside) inside_->look(now, core(), on_inside);
   if (chip_.left_run()) {
     segment_.cut_run(now);
     chip_.leave_run(now);
@@ -132,17 +133,20 @@ void PinChip::reset_host(Tick at) {
 }
 
 void PinChip::set_r_req(Tick at, bool level) {
+  tell_action(at, "R_REQ", level);
   pins().set_r_req(at, level);
   report_host(at, Pin::kRReq, Pin::kRReq);
 }
 
 void PinChip::set_r_sta(Tick at, bool level) {
+  tell_action(at, "R_STA", level);
   pins().set_r_sta(at, level);
   report_host(at, Pin::kRSta, Pin::kRSta);
 }
 
 void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) {
   pins().begin(at, access, timing);
+  tell_action(at, access);
   if (!access.write && on_read) on_read(pins_->sample_tick());
 }
 

@@ -9,6 +9,7 @@
 #include "bus/timeline.hpp"
 #include "tb/bench/line_driver.hpp"
 #include "tb/dsdpv1/dsdpv1_view.hpp"
+#include "tb/dsdpv1/inside_watch.hpp"
 #include "tb/dsdpv1/pin_device.hpp"
 #include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
 
@@ -29,6 +30,9 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   const dsdpv1::Chip& core() const override { return device_->core(); }
   void sync(Tick now) override { run(now); }
   void pause_access() override { pauses_ = true; }
+
+  /// From now on inner signals are told: of a core with Engine::kStep.
+  void watch_inside() { inside_.emplace(); }
 
   Tick next() const override;
   void run(Tick now) override;
@@ -77,6 +81,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   bus::Segment& segment_;
   bus::StationId station_;
   LineDriver line_;
+  std::optional<InsideWatch> inside_;
   bool reports_host_, reports_rxd_, reports_txd_, catching_up_ = false;
   bool own_run_ = false, hides_txd_ = false;
   bool pauses_ = false;  ///< since an edge of an access, somebody was told something on which he may act

@@ -37,6 +37,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
   Level sample(Tick at);
   dsdpv1::Status status() const { return skip_.status(); }
   std::uint8_t peek(std::uint16_t address) const { return skip_.peek(address); }
+  dsdpv1::Inside inside() const { return step_.inside(); }
   std::uint8_t peek_step(std::uint16_t address) const { return step_.peek(address); }
 
   Tick next() const override { return skip_.next_event(); }

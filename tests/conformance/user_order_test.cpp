@@ -25,7 +25,17 @@ std::ostream& operator<<(std::ostream& out, const Move& move) {
 struct Recorded {
   Cycle start = 0, length = 0;
   std::vector<Move> moves;
+  std::vector<std::string> items;  ///< what waves show of the access, one after another
 };
+
+/// What waves show of this cycle is what happened: a cell that changed is the byte that was written.
+void check_inside(const SlaveBench& bench, const Bytes& before, const Bytes& now) {
+  const dpram::Inside seen = bench.chip.inside().access;
+  Bytes expected = before;
+  if (seen.moves && seen.writes) expected.at(seen.address) = seen.byte;
+  EXPECT_EQ(now, expected);
+  if (seen.moves) EXPECT_EQ(now.at(seen.address), seen.byte);
+}
 
 /// Runs the next access cycle by cycle and notes every cell that changes.
 Recorded record_access(SlaveBench& bench) {
@@ -37,6 +47,9 @@ Recorded record_access(SlaveBench& bench) {
     const Bytes now = bench.peek(0, regs::kDpramSize);
     for (std::uint16_t cell = 0; cell < regs::kDpramSize; ++cell)
       if (now[cell] != before[cell]) access.moves.push_back({cycle, cell, now[cell]});
+    check_inside(bench, before, now);
+    const std::string item = bench.chip.inside().access.item;
+    if (access.items.empty() || access.items.back() != item) access.items.push_back(item);
     before = now;
     access.length = cycle;
     if (bench.chip.level(Pin::kLSta) == 0) return access;
@@ -104,6 +117,8 @@ TEST(UserOrder, ReadBlockWithAWrongCrc) {
   release_and_align(bench);
   const Recorded access = record_access(bench);
   EXPECT_EQ(access.moves, (std::vector<Move>{{14, 0x010, 0}, {16, 0x00B, regs::kChipStatus2InputCrc}}));
+  EXPECT_STREQ(bench.chip.inside().access.crc_of, "inputs");
+  EXPECT_FALSE(bench.chip.inside().access.crc_right);
   EXPECT_EQ(access.length, 17);
 }
 
@@ -176,6 +191,9 @@ TEST(UserOrder, InitialisationVerdictsAndInputsInOneAccess) {
   };
   EXPECT_EQ(access.moves, expected);
   EXPECT_EQ(access.length, 56);
+  EXPECT_EQ(access.items, (std::vector<std::string>{"commands", "initialisation", "Set_Prm verdict", "Chk_Cfg verdict",
+                                                    "inputs", "diagnosis", "status B00A", "status B00B", "status B012",
+                                                    "status B013", "-"}));
   EXPECT_EQ(bench.count(Reason::kVerdictUnexpected), 2);
   EXPECT_EQ(bench.chip.level(Pin::kReady), 1);
   EXPECT_EQ(bench.changes(Pin::kReady).back().at / kCycleTicks, access.start + 28) << "READY with the commit";
@@ -260,6 +278,11 @@ TEST(UserOrder, FromTheUserThenToTheUserThenStatusBytes) {
   };
   EXPECT_EQ(access.moves, expected);
   EXPECT_EQ(access.length, 48) << "B012 is as it was";
+  EXPECT_EQ(access.items,
+            (std::vector<std::string>{"commands", "inputs", "diagnosis", "Set_Prm", "Chk_Cfg", "outputs",
+                                      "offline count", "status B00B", "-"}));
+  EXPECT_STREQ(bench.chip.inside().access.crc_of, "diagnosis");
+  EXPECT_TRUE(bench.chip.inside().access.crc_right);
   const std::vector<PinChange> interrupt = bench.changes(Pin::kIntr0);
   EXPECT_EQ(interrupt.back().level, 0);
   EXPECT_EQ(interrupt.back().at / kCycleTicks, access.start + 31);

@@ -37,9 +37,11 @@ class TlmChipView : public Dsdpv1View {
       if (on_event) on_event(event);
       timeline.wake();  // the script may have waited for it
     };
-    bus_.on_read = [this](Tick sample) {
-      if (on_read) on_read(sample);
+    bus_.on_begin = [this](Tick at, const user_cpu::Access& access, Tick sample) {
+      tell_action(at, access);
+      if (!access.write && on_read) on_read(sample);
     };
+    bus_.on_handshake = [this](Tick at, const char* pin, bool level) { tell_action(at, pin, level); };
   }
 
   void set_reset(Tick, bool level) override { chip_.set_reset(level); }

@@ -23,9 +23,15 @@ void TlmHostBus::reset() {
   if (sc_core::sc_is_running()) initiator_.reset();
 }
 
-void TlmHostBus::set_r_req(Tick /*at*/, bool level) { chip_.set_r_req(level); }
+void TlmHostBus::set_r_req(Tick at, bool level) {
+  if (on_handshake) on_handshake(at, "R_REQ", level);
+  chip_.set_r_req(level);
+}
 
-void TlmHostBus::set_r_sta(Tick /*at*/, bool level) { chip_.set_r_sta(level); }
+void TlmHostBus::set_r_sta(Tick at, bool level) {
+  if (on_handshake) on_handshake(at, "R_STA", level);
+  chip_.set_r_sta(level);
+}
 
 bool TlmHostBus::l_req(Tick /*at*/) { return is_high(dsdpv1::Pin::kLReq); }
 
@@ -48,7 +54,7 @@ void TlmHostBus::begin(Tick at, const Access& access, const AccessTiming& timing
   timing_->timing = timing;
   const dsdpv1::HostAccess& edges = maker_.make(access.write, access.address, access.value, timing);
   end_ = at + edges.duration();
-  if (!access.write && on_read) on_read(at + edges.sample());
+  if (on_begin) on_begin(at, access, at + edges.sample());
   running_ = true;
   const Tick now = dsdpv1::systemc::current_tick();
   if (at > now)

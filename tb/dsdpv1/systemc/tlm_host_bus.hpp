@@ -17,8 +17,10 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
  public:
   TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip);
 
-  /// A read begins, which samples D at `sample`.
-  std::function<void(Tick sample)> on_read;
+  /// An access begins, which samples D at `sample` if it is a read.
+  std::function<void(Tick at, const Access& access, Tick sample)> on_begin;
+  /// R_REQ or R_STA is moved.
+  std::function<void(Tick at, const char* pin, bool level)> on_handshake;
 
   /// The user CPU is reset: an access begun is forgotten, the pins are released. From a SystemC process.
   void reset();

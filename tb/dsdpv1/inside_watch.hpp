@@ -1,0 +1,41 @@
+#pragma once
+// The inner signals of a DSDPV1: what waves show beside the pins.
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/dsdpv1/chip.hpp"
+#include "tb/chip/chip_kind.hpp"
+
+namespace tb {
+
+/// Looks at a chip after each of its rising edges, and tells what has changed.
+class InsideWatch {
+ public:
+  /// In the order of `signals()`; a signal of words has no level, any other no word.
+  using Tell = std::function<void(Tick at, std::size_t signal, Level level, const std::string& word)>;
+
+  static const std::vector<InnerSignal>& signals();
+  void look(Tick at, const dsdpv1::Chip& chip, const Tell& tell);
+
+ private:
+  /// What the signals are made of; cheap to compare, as it is done in every cycle.
+  struct Seen {
+    dsdpv1::Inside inside;
+    bool chip_owns = false, user_owns = false, offline = false;
+    std::array<std::uint8_t, 4> flags{};  ///< B00E, B00F, B010, B011
+  };
+  static Seen see(const dsdpv1::Chip& chip);
+  static bool same(const Seen& a, const Seen& b);
+  struct Value {
+    Level level = kLevelZ;
+    std::string word;
+  };
+  static std::vector<Value> values(const Seen& seen);
+
+  Seen last_;
+  std::vector<Value> told_;
+};
+
+}  // namespace tb
