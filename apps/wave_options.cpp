@@ -51,6 +51,10 @@ void add_wave_options(CLI::App& command, WaveArguments& arguments) {
   command.add_option("--wave-around", arguments.around, "Up to this long before and behind it")
       ->capture_default_str()
       ->needs(on);
+  command
+      .add_flag("--wave-wires", arguments.wires_only,
+                "No words, and each wire of a bus as a signal of its own: for sigrok and PulseView")
+      ->needs(wave);
   command.add_flag("--wave-clk", arguments.clock, "CLK as well, which changes 96 times a microsecond")->needs(wave);
   command
       .add_flag("--wave-inside", arguments.inside,
@@ -66,6 +70,7 @@ tb::WaveOptions wave_options(const std::string& command, const WaveArguments& ar
   options.on = arguments.on;
   options.inside = arguments.inside;
   options.selection.signals = arguments.signals;
+  options.selection.wires_only = arguments.wires_only;
   options.selection.clock = arguments.clock;
   options.selection.around = time_of(command, "--wave-around", arguments.around);
   if (!arguments.from.empty()) options.selection.from = time_of(command, "--wave-from", arguments.from);

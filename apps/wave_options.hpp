@@ -18,7 +18,7 @@ struct WaveArguments {
   std::string from, to;              ///< times; empty: start and end of the run
   std::vector<std::string> on;       ///< codes
   std::string around = "100us";
-  bool clock = false, inside = false;
+  bool wires_only = false, clock = false, inside = false;
 };
 
 void add_wave_options(CLI::App& command, WaveArguments& arguments);

@@ -11,12 +11,17 @@
 namespace tb {
 namespace {
 
-/// The short name of a signal: base 94 in the printable characters ! to ~.
-std::string identifier(WaveWriter::Signal signal) {
-  std::string text;
+// Readers that do not know `string` variables (sigrok) skip their values, and take the short name behind for something
+// of its own: it must not look like a change, a time ('#') or a command ('$').
+constexpr char kWordsBegin = '~', kFirst = '%', kLast = '}';
+
+/// The short name of a signal, in the characters % to }; those of words begin with ~.
+std::string identifier(WaveWriter::Signal signal, bool words) {
+  constexpr unsigned kBase = kLast - kFirst + 1;
+  std::string text = words ? std::string(1, kWordsBegin) : "";
   do {
-    text += static_cast<char>('!' + signal % 94);
-    signal /= 94;
+    text += static_cast<char>(kFirst + signal % kBase);
+    signal /= kBase;
   } while (signal != 0);
   return text;
 }
@@ -33,13 +38,14 @@ void VcdWriter::close_scope() { file_.write("$upscope $end\n"); }
 WaveWriter::Signal VcdWriter::declare(const char* type, const std::string& name, int width) {
   const auto signal = static_cast<Signal>(widths_.size());
   widths_.push_back(width);
+  names_.push_back(identifier(signal, width == kWords));
   const std::string range = width > 1 ? fmt::format(" [{}:0]", width - 1) : "";
-  file_.write(fmt::format("$var {} {} {} {}{} $end\n", type, width, identifier(signal), name, range));
+  file_.write(fmt::format("$var {} {} {} {}{} $end\n", type, std::max(width, 1), names_.back(), name, range));
   return signal;
 }
 
 WaveWriter::Signal VcdWriter::wire(const std::string& name, int width) { return declare("wire", name, width); }
-WaveWriter::Signal VcdWriter::words(const std::string& name) { return declare("string", name, 1); }
+WaveWriter::Signal VcdWriter::words(const std::string& name) { return declare("string", name, kWords); }
 
 void VcdWriter::move_to(bus::Tick at) {
   if (at < now_) throw std::logic_error("wave changes out of order");
@@ -52,15 +58,15 @@ void VcdWriter::set(bus::Tick at, Signal signal, int level) {
   move_to(at);
   const int width = widths_.at(signal);
   const auto text = level_text(level, width);
-  file_.write(width == 1 ? fmt::format("{}{}\n", text.data(), identifier(signal))
-                         : fmt::format("b{} {}\n", text.data(), identifier(signal)));
+  file_.write(width == 1 ? fmt::format("{}{}\n", text.data(), names_[signal])
+                         : fmt::format("b{} {}\n", text.data(), names_[signal]));
 }
 
 void VcdWriter::say(bus::Tick at, Signal signal, std::string_view word) {
   move_to(at);
   std::string text(word);
   std::replace(text.begin(), text.end(), ' ', '_');  // the value ends at the first blank
-  file_.write(fmt::format("s{} {}\n", text, identifier(signal)));
+  file_.write(fmt::format("s{} {}\n", text, names_.at(signal)));
 }
 
 void VcdWriter::finish(bus::Tick end) {

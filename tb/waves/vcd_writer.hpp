@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <vector>
 
 #include "tb/output/output_file.hpp"
@@ -27,8 +28,10 @@ class VcdWriter : public WaveWriter {
   void move_to(bus::Tick at);
 
   OutputFile file_;
+  static constexpr int kWords = 0;  ///< in the place of a width
   std::vector<int> widths_;
-  bus::Tick now_ = -1;  // -1: still declaring
+  std::vector<std::string> names_;  ///< in the file
+  bus::Tick now_ = -1;              // -1: still declaring
 };
 
 }  // namespace tb

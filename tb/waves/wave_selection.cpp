@@ -46,19 +46,39 @@ bool SelectedWave::fits(const std::string& pattern, const std::string& path) con
   return ::fnmatch(pattern.c_str(), path.c_str(), FNM_CASEFOLD) == 0;
 }
 
-WaveWriter::Signal SelectedWave::declare(const std::string& name, bool is_word, int width) {
+std::string SelectedWave::path_of(const std::string& name) const {
   std::string path;
   for (const std::string& scope : scopes_) path += scope + ".";
-  path += name;
+  return path + name;
+}
+
+bool SelectedWave::wants(const std::string& path, bool is_word) const {
+  if (is_word && selection_.wires_only) return false;
+  const std::vector<std::string>& patterns = selection_.signals;
+  return patterns.empty() ||
+         std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) { return fits(pattern, path); });
+}
+
+WaveWriter::Signal SelectedWave::declare(const std::string& name, bool is_word, int width) {
+  names_.push_back(path_of(name));
   Declared declared;
   declared.is_word = is_word;
-  declared.selected =
-      selection_.signals.empty() || std::any_of(selection_.signals.begin(), selection_.signals.end(),
-                                                [&](const std::string& pattern) { return fits(pattern, path); });
-  if (declared.selected) declared.signal = is_word ? writer_->words(name) : writer_->wire(name, width);
+  declared.selected = wants(names_.back(), is_word);
+  if (declared.selected && is_word) declared.signal = writer_->words(name);
+  if (declared.selected && !is_word) declare_wires(declared, name, width);
   signals_.push_back(std::move(declared));
-  names_.push_back(std::move(path));
   return static_cast<Signal>(signals_.size() - 1);
+}
+
+/// Handles of a writer follow each other.
+void SelectedWave::declare_wires(Declared& declared, const std::string& name, int width) {
+  if (!selection_.wires_only || width == 1) {
+    declared.signal = writer_->wire(name, width);
+    return;
+  }
+  declared.wires = width;
+  declared.signal = writer_->wire(name + "[0]", 1);
+  for (int i = 1; i < width; ++i) writer_->wire(fmt::format("{}[{}]", name, i), 1);
 }
 
 void SelectedWave::check_patterns() const {
@@ -99,8 +119,11 @@ void SelectedWave::keep(Change change) {
 }
 
 void SelectedWave::forget_before(bus::Tick at) {
-  for (; !kept_.empty() && kept_.front().at < at; kept_.pop_front())
-    signals_[kept_.front().signal].value = std::move(kept_.front().value);
+  for (; !kept_.empty() && kept_.front().at < at; kept_.pop_front()) {
+    Declared& signal = signals_[kept_.front().signal];
+    signal.value = std::move(kept_.front().value);
+    signal.told = true;
+  }
 }
 
 void SelectedWave::trigger(bus::Tick at) {
@@ -118,7 +141,7 @@ void SelectedWave::open(bus::Tick at) {
   next_clock_ = (at + kHalfCycle - 1) / kHalfCycle * kHalfCycle;
   if (selection_.clock) writer_->set(at, clock_, at / kHalfCycle % 2 == 0 ? 1 : 0);
   for (const Declared& signal : signals_)
-    if (signal.selected) write_value(at, signal, signal.value);
+    if (signal.selected && signal.told) write_value(at, signal, signal.value);
   for (; !kept_.empty() && kept_.front().at <= end_of_window(); kept_.pop_front()) write(kept_.front());
   if (!kept_.empty()) close();  // told late: it is over
 }
@@ -139,13 +162,14 @@ void SelectedWave::write(const Change& change) {
   tick_to(change.at);
   write_value(change.at, signal, change.value);
   signal.value = change.value;
+  signal.told = true;
 }
 
 void SelectedWave::write_value(bus::Tick at, const Declared& signal, const Value& value) {
-  if (signal.is_word)
-    writer_->say(at, signal.signal, value.word);
-  else
-    writer_->set(at, signal.signal, value.level);
+  if (signal.is_word) return writer_->say(at, signal.signal, value.word);
+  if (signal.wires == 1) return writer_->set(at, signal.signal, value.level);
+  for (int i = 0; i < signal.wires; ++i)
+    writer_->set(at, signal.signal + static_cast<Signal>(i), value.level < 0 ? value.level : (value.level >> i) & 1);
 }
 
 /// CLK up to and including `at`.

@@ -20,6 +20,8 @@ struct WaveSelection {
   /// Windows round what is told to `trigger` in the place of a single one: up to this long before and behind.
   bool on_trigger = false;
   bus::Tick around = 0;
+  /// Only single wires, a bus as one for each of its wires, "A[10]": for readers that know nothing else (sigrok).
+  bool wires_only = false;
   /// A signal clock.CLK: 48 MHz, rising at every cycle.
   bool clock = false;
 };
@@ -55,8 +57,10 @@ class SelectedWave : public WaveWriter {
     std::string word;
   };
   struct Declared {
-    Signal signal = 0;  ///< of the writer
+    Signal signal = 0;  ///< of the writer; of several wires the lowest
+    int wires = 1;      ///< that it is written as
     bool selected = false, is_word = false;
+    bool told = false;  ///< has a value
     Value value;  ///< before the changes that are kept
   };
   struct Change {
@@ -66,6 +70,9 @@ class SelectedWave : public WaveWriter {
   };
 
   Signal declare(const std::string& name, bool is_word, int width);
+  std::string path_of(const std::string& name) const;
+  bool wants(const std::string& path, bool is_word) const;
+  void declare_wires(Declared& declared, const std::string& name, int width);
   bool fits(const std::string& pattern, const std::string& path) const;
   void change(Change change);
   void keep(Change change);

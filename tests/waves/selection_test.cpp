@@ -70,8 +70,7 @@ TEST(WaveSelection, PassesEverythingWhenNothingIsSelected) {
   Example run({});
   run.wave.set(5, run.level, 1);
   run.wave.finish(9);
-  EXPECT_EQ(run.lines,
-            Lines({"0 plc.LEVEL=-2", "0 plc.state=", "0 plc.LEVEL=0", "0 plc.state=off", "5 plc.LEVEL=1", "9 end"}));
+  EXPECT_EQ(run.lines, Lines({"0 plc.LEVEL=0", "0 plc.state=off", "5 plc.LEVEL=1", "9 end"}));
 }
 
 TEST(WaveSelection, TakesSignalsThatFitOneOfThePatternsInAnyCaseOfLetters) {
@@ -80,7 +79,7 @@ TEST(WaveSelection, TakesSignalsThatFitOneOfThePatternsInAnyCaseOfLetters) {
   Example run(selection);
   run.wave.say(5, run.state, "on");
   run.wave.finish(9);
-  EXPECT_EQ(run.lines, Lines({"0 plc.LEVEL=-2", "0 plc.LEVEL=0", "9 end"}));
+  EXPECT_EQ(run.lines, Lines({"0 plc.LEVEL=0", "9 end"}));
 }
 
 TEST(WaveSelection, RefusesAPatternThatFitsNoSignalAndNamesThem) {
@@ -170,6 +169,21 @@ TEST(WaveSelection, AWindowDoesNotReachIntoTheOneBeforeIt) {
   run.wave.finish(70);
   EXPECT_EQ(run.lines, Lines({"40 plc.LEVEL=0", "40 plc.state=off", "60 plc.LEVEL=-2", "60 plc.state=(not recorded)",
                               "61 plc.LEVEL=0", "61 plc.state=off", "61 plc.LEVEL=1", "70 end"}));
+}
+
+TEST(WaveSelection, WiresOnlyAreSingleOnesWithoutWords) {
+  tb::WaveSelection selection;
+  selection.wires_only = true;
+  Lines lines;
+  tb::SelectedWave wave(std::make_unique<Notes>(lines), selection);
+  const auto bus = wave.wire("D", 3), state = wave.words("state"), single = wave.wire("CSR", 1);
+  wave.set(1, bus, 5);
+  wave.say(2, state, "on");
+  wave.set(3, bus, tb::WaveWriter::kReleased);
+  wave.set(4, single, 1);
+  wave.finish(5);
+  EXPECT_EQ(lines,
+            Lines({"1 D[0]=1", "1 D[1]=0", "1 D[2]=1", "3 D[0]=-1", "3 D[1]=-1", "3 D[2]=-1", "4 CSR=1", "5 end"}));
 }
 
 TEST(WaveSelection, ClkRisesAtEveryCycleWithinTheWindowOnly) {

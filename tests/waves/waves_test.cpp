@@ -65,9 +65,9 @@ TEST_F(Waves, VcdHoldsDeclarationsAndChanges) {
   wave->finish(750);
   EXPECT_EQ(read(path("w.vcd")),
             "$version dsdpv1-sim $end\n$timescale 1 ps $end\n$scope module demo $end\n"
-            "$var wire 1 ! L_REQ $end\n$var wire 8 \" D [7:0] $end\n$var string 1 # dp_state $end\n$upscope $end\n"
-            "$enddefinitions $end\n#0\n0!\nbzzzzzzzz \"\nsOFFLINE #\n#20833\n1!\n#31250\nbxxxxxxxx \"\n#41667\n"
-            "b10100101 \"\nsWAIT_PRM #\n#62500\n");
+            "$var wire 1 % L_REQ $end\n$var wire 8 & D [7:0] $end\n$var string 1 ~' dp_state $end\n$upscope $end\n"
+            "$enddefinitions $end\n#0\n0%\nbzzzzzzzz &\nsOFFLINE ~'\n#20833\n1%\n#31250\nbxxxxxxxx &\n#41667\n"
+            "b10100101 &\nsWAIT_PRM ~'\n#62500\n");
 }
 
 TEST_F(Waves, UnfinishedFileIsAbsent) {
