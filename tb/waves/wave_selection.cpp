@@ -43,7 +43,7 @@ WaveWriter::Signal SelectedWave::wire(const std::string& name, int width) { retu
 WaveWriter::Signal SelectedWave::words(const std::string& name) { return declare(name, true, 0); }
 
 bool SelectedWave::fits(const std::string& pattern, const std::string& path) const {
-  return ::fnmatch(pattern.c_str(), path.c_str(), FNM_CASEFOLD) == 0;
+  return ::fnmatch(pattern.c_str(), path.c_str(), 0) == 0;
 }
 
 std::string SelectedWave::path_of(const std::string& name) const {
@@ -107,9 +107,9 @@ void SelectedWave::change(Change change) {
 
 /// A window that begins or ends up to `at` does so.
 void SelectedWave::advance(bus::Tick at) {
-  if (open_ && at > end_of_window()) close();
   const bool begins = !selection_.on_trigger && closed_at_ < 0 && at >= selection_.from;
   if (!open_ && begins) open(selection_.from);
+  if (open_ && at > end_of_window()) close();
 }
 
 void SelectedWave::keep(Change change) {
@@ -138,7 +138,7 @@ void SelectedWave::open(bus::Tick at) {
   at = std::max<bus::Tick>(at, 0);
   forget_before(at);
   open_ = true;
-  next_clock_ = (at + kHalfCycle - 1) / kHalfCycle * kHalfCycle;
+  next_clock_ = (at / kHalfCycle + 1) * kHalfCycle;
   if (selection_.clock) writer_->set(at, clock_, at / kHalfCycle % 2 == 0 ? 1 : 0);
   for (const Declared& signal : signals_)
     if (signal.selected && signal.told) write_value(at, signal, signal.value);

@@ -13,7 +13,7 @@
 namespace tb {
 
 struct WaveSelection {
-  /// Patterns of the shell (* ? [..]) on "scope.signal", in any case of letters; none: every signal.
+  /// Patterns of the shell (* ? [..]) on "scope.signal"; none: every signal.
   std::vector<std::string> signals;
   /// The window, both ends in it.
   bus::Tick from = 0, to = bus::kNever;

@@ -73,9 +73,9 @@ TEST(WaveSelection, PassesEverythingWhenNothingIsSelected) {
   EXPECT_EQ(run.lines, Lines({"0 plc.LEVEL=0", "0 plc.state=off", "5 plc.LEVEL=1", "9 end"}));
 }
 
-TEST(WaveSelection, TakesSignalsThatFitOneOfThePatternsInAnyCaseOfLetters) {
+TEST(WaveSelection, TakesSignalsThatFitOneOfThePatterns) {
   tb::WaveSelection selection;
-  selection.signals = {"bus.*", "*.lev?l"};
+  selection.signals = {"bus.*", "*.LEV?L"};
   Example run(selection);
   run.wave.say(5, run.state, "on");
   run.wave.finish(9);
@@ -115,6 +115,10 @@ TEST(WaveSelection, AWindowInWhichNothingChangesHasItsValuesToo) {
   Example run(selection);
   run.wave.finish(15);
   EXPECT_EQ(run.lines, Lines({"10 plc.LEVEL=0", "10 plc.state=off", "15 end"}));
+  Example longer(selection);
+  longer.wave.set(25, longer.level, 1);
+  longer.wave.finish(30);
+  EXPECT_EQ(longer.lines, Lines({"10 plc.LEVEL=0", "10 plc.state=off", "20 end"}));
 }
 
 TEST(WaveSelection, AWindowBehindTheEndOfTheRunIsUnknown) {
