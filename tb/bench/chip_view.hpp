@@ -74,7 +74,7 @@ class ChipView {
   std::function<void(Tick sample)> on_read;
   /// An inner signal (ChipKind::inner_signals) has changed; told when ChipRequest::inside wants it.
   std::function<void(Tick at, std::size_t signal, Level level, const std::string& word)> on_inside;
-  /// What the user CPU does at the chip's pins, in words: "write B010 01".
+  /// What the user CPU does at the chip's pins, in words: an access, a pin that it moves.
   std::function<void(Tick at, const std::string& words)> on_action;
 };
 
