@@ -42,9 +42,12 @@ std::string folder_of(const TracesArguments& arguments) {
 fs::path scenario_folder() { return fs::path(kRoot) / "scenarios"; }
 
 std::vector<std::string> own_scenarios() {
+  std::error_code error;
   std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(scenario_folder()))
+  for (const auto& entry : fs::directory_iterator(scenario_folder(), error))
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  if (error)
+    throw tb::InputError(scenario_folder(), 0, "is no folder of scenarios, allowed are scenarios by their paths");
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -188,6 +191,7 @@ class Regeneration {
 
 int regenerate(const TracesArguments& arguments) {
   const std::string folder = folder_of(arguments);
+  tb::traces::golden_names(folder);  // refuses what is no folder before anything is run
   catch_signals();
   return for_scenarios(arguments, [&](const std::string& file) {
     const tb::scenario::Scenario scenario = tb::scenario::load(file);
@@ -243,7 +247,9 @@ int traces(const TracesArguments& arguments) {
   leave_nothing_on_signals();
   if (arguments.action == "check") return check(arguments);
   if (arguments.action == "regenerate") return regenerate(arguments);
-  return arguments.action == "list" ? list(arguments) : wave(arguments);
+  if (arguments.action == "list") return list(arguments);
+  if (arguments.action == "wave") return wave(arguments);
+  throw tb::InputError("dsdpv1-sim traces: an action is missing, allowed are check, regenerate, list, wave");
 }
 
 }  // namespace app

@@ -25,7 +25,7 @@ void add_scenarios(CLI::App& action, TracesArguments& arguments) {
 
 void describe_traces(CLI::App& app, TracesArguments& arguments) {
   CLI::App* traces = app.add_subcommand("traces", "Golden traces of all pins: what a chip has to do in each scenario");
-  traces->require_subcommand(1);
+  traces->require_subcommand(0, 1);  // traces() says in its own words what is missing
   CLI::App* check = add_action(*traces, arguments, "check", "Runs scenarios and compares every change of every pin");
   add_scenarios(*check, arguments);
   check->add_option("--engine", arguments.engine, "As of run: step, skip, rtl, lockstep")->capture_default_str();
@@ -34,15 +34,16 @@ void describe_traces(CLI::App& app, TracesArguments& arguments) {
   CLI::App* regenerate = add_action(*traces, arguments, "regenerate",
                                     "Makes goldens again, writes those that are others, and says what changed");
   add_scenarios(*regenerate, arguments);
-  add_action(*traces, arguments, "list", "What there is");
+  CLI::App* list = add_action(*traces, arguments, "list", "What there is");
   CLI::App* wave = add_action(*traces, arguments, "wave", "Writes a golden as a wave");
   wave->add_option("SCENARIO", arguments.golden, "Its name, or the scenario's path")->required();
   wave->add_option("FILE", arguments.output, "FILE.vcd or FILE.fst")->required();
-  traces->footer(
+  const char* const footer =
       "\nExamples:\n  dsdpv1-sim traces check\n  dsdpv1-sim traces check power_on_12m --engine rtl\n"
       "  dsdpv1-sim traces regenerate scenarios/power_on_12m.yaml\n  dsdpv1-sim traces wave power_on_12m golden.fst\n"
       "docs/traces.md says what they are.\n"
-      "\nExit codes: 0 no difference, 1 a difference, 2 wrong input, 130 interrupted.\n");
+      "\nExit codes: 0 no difference, 1 a difference, 2 wrong input, 130 interrupted.\n";
+  for (CLI::App* each : {traces, check, regenerate, list, wave}) each->footer(footer);
 }
 
 }  // namespace app

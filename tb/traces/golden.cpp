@@ -112,7 +112,6 @@ Written write_golden(const std::string& folder, const std::string& name, const N
   Written written;
   written.trace = present_trace(trace_path(folder, name)) != golden.trace;
   written.manifest = try_read_file(manifest_path(folder, name), kManifest.most_mb).text != manifest;
-  fs::create_directories(folder);
   if (written.trace) write(trace_path(folder, name), compress(golden.trace));
   if (written.manifest) write(manifest_path(folder, name), manifest);
   return written;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <map>
 #include <numeric>
 #include <sstream>
 
@@ -13,6 +12,7 @@ namespace tb::traces {
 namespace {
 
 constexpr const char* kMagic = "golden trace 1";
+constexpr int kMostWires = 15;  // of a pin
 constexpr const char* kData = "data";
 constexpr std::array<const char*, 3> kKinds = {"input", "output", "line"};  // by Signal::Kind
 
@@ -84,6 +84,17 @@ bool read_kind(const std::string& word, Signal::Kind& kind) {
   return false;
 }
 
+struct Sizes {
+  std::size_t times = 0, levels = 0;  ///< bytes
+};
+
+bool read_signal(std::istringstream& line, Signal& signal, std::uint64_t& entries, Sizes& sizes) {
+  std::string word, kind;
+  line >> word >> signal.slave >> signal.name >> signal.width >> kind >> entries >> sizes.times >> sizes.levels;
+  return line && word == "signal" && read_kind(kind, signal.kind) && signal.width >= 1 && signal.width <= kMostWires &&
+         entries > 0 && entries <= sizes.times && entries <= sizes.levels;
+}
+
 }  // namespace
 
 void TraceWriter::change(std::size_t signal, Tick at, Level level) {
@@ -114,7 +125,13 @@ void Cursor::step() {
     return;
   }
   --left_;
-  at_ += static_cast<Tick>(take(times_));
+  const std::uint64_t delta = take(times_);
+  if (delta >= static_cast<std::uint64_t>(bus::kNever - at_)) {  // no run is so long
+    left_ = 0;
+    at_ = bus::kNever;
+    return;
+  }
+  at_ += static_cast<Tick>(delta);
   level_ = level_of(take(levels_));
 }
 
@@ -122,25 +139,13 @@ Trace::Trace(std::string content, const std::string& file) : content_(std::move(
   Head head(content_, file);
   if (head.line().str() != kMagic) head.fail();
   std::string word;
-  if (!(head.line() >> word >> end_) || word != "end") head.fail();
-  struct Sizes {
-    std::size_t times = 0, levels = 0;
-  };
+  if (!(head.line() >> word >> end_) || word != "end" || end_ < 0) head.fail();
   std::vector<Sizes> sizes;
-  for (;;) {
-    std::istringstream line = head.line();
-    if (line.str() == kData) break;
-    Signal signal;
-    Sizes size;
-    Column column;
-    std::string kind;
-    line >> word >> signal.slave >> signal.name >> signal.width >> kind >> column.entries >> size.times >> size.levels;
-    const bool right = line && word == "signal" && read_kind(kind, signal.kind) && column.entries > 0 &&
-                       column.entries <= size.times && column.entries <= size.levels;
-    if (!right) head.fail();
-    signals_.push_back(signal);
-    columns_.push_back(column);
-    sizes.push_back(size);
+  for (std::istringstream line = head.line(); line.str() != kData; line = head.line()) {
+    signals_.emplace_back();
+    columns_.emplace_back();
+    sizes.emplace_back();
+    if (!read_signal(line, signals_.back(), columns_.back().entries, sizes.back())) head.fail();
   }
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     columns_[i].times = head.column(sizes[i].times);

@@ -11,7 +11,7 @@
 namespace tb::traces {
 
 /// Largest trace that is read.
-constexpr std::size_t kMostBytes = 512U << 20U;
+constexpr std::size_t kMostBytes = 256U << 20U;
 
 /// Builds a trace from a run.
 class TraceWriter : public Sink {

@@ -284,6 +284,11 @@ TEST_F(TracesCommand, OptionsThatDoNotFitAreRefused) {
   EXPECT_EQ(fault.status, 2);
   EXPECT_THAT(fault.err, HasSubstr("--fault is one of the RTL, allowed with it is --engine rtl or lockstep"));
   EXPECT_EQ(traces("check", "--engine fast").status, 2);
+  for (const char* none : {"", " chek", " --help-me"})
+    EXPECT_EQ(call(std::string("traces") + none, folder_.path()).status, 2);
+  EXPECT_THAT(call("traces", folder_.path()).err, HasSubstr("allowed are check, regenerate, list, wave"));
+  EXPECT_THAT(call("traces regenerate --folder nowhere", folder_.path()).err,
+              HasSubstr("nowhere: is no folder of golden traces, allowed is one like traces"));
 }
 
 }  // namespace

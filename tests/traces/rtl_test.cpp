@@ -46,6 +46,11 @@ INSTANTIATE_TEST_SUITE_P(All, PlantedFaults,
                                          Planted{"58", "INTR0"}),
                          [](const auto& each) { return std::string("Fault") + each.param.fault; });
 
+TEST(TracesDocument, ShowsARealDifference) {
+  const Called golden = call("traces check bus_timing --engine rtl --no-progress --fault 46", DSDPV1_SOURCE_DIR);
+  EXPECT_THAT(app_test::read(DSDPV1_SOURCE_DIR "/docs/traces.md"), testing::HasSubstr("```\n" + golden.out + "```\n"));
+}
+
 TEST(NoFault, IsFoundWhereNoneIsActive) {
   EXPECT_EQ(call("traces check bus_timing --engine rtl --no-progress", DSDPV1_SOURCE_DIR).status, 0);
   EXPECT_EQ(call("traces check bus_timing --engine lockstep --no-progress", DSDPV1_SOURCE_DIR).status, 0);

@@ -65,7 +65,8 @@ TEST_F(Traces, ThatAreCutOrForeignAreRefusedInOneLine) {
   for (const std::size_t size : {data + 20, data + 5, data, data / 2, std::size_t{20}, content.size() - 1})
     wrong.push_back(content.substr(0, size));
   for (const char* line :
-       {"signal io A 11 input 0 1 1\n", "signal io A 11 both 1 1 1\n", "signal io A 11 input 2 1 1\n",
+       {"signal io A 11 input 0 1 1\n", "signal io A 11 both 1 1 1\n", "signal io A 16 input 1 1 1\n",
+        "signal io A 0 input 1 1 1\n", "signal io A 11 input 2 1 1\n",
         "signal io A 11 input 1 99999999999999999999 1\n", "nothing\n"})
     wrong.push_back("golden trace 1\nend 5\n" + std::string(line) + "data\n\1\1");
   for (const std::string& each : wrong) {
