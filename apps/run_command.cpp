@@ -74,11 +74,6 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   return options;
 }
 
-int verdict(const tb::RunResult& result, const tb::traces::GoldenRun& golden) {
-  if (interrupted()) return kInterrupted;
-  return result.passed && golden.same() ? kPassed : kFailed;
-}
-
 int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, tb::RunOptions options,
                  std::unique_ptr<tb::Execution> execution, const std::function<bool()>& afterwards = {}) {
   tb::traces::GoldenRun golden(arguments.golden, scenario, execution->segment(), options);
@@ -98,8 +93,9 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
   }
   const bool ran_through = !afterwards || afterwards();  // while the bench still stands
   if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << std::flush;
-  if (!interrupted()) std::cout << golden.report() << std::flush;
-  return verdict(result, golden);
+  if (result.interrupted && golden.same()) return kInterrupted;
+  if (ran_through) std::cout << golden.report() << std::flush;
+  return result.passed && golden.same() ? kPassed : kFailed;
 }
 
 int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options,
@@ -143,7 +139,8 @@ int run(const RunArguments& arguments) {
       tb::scenario::load(arguments.scenario, tb::scenario::parse_settings(arguments.set));
   check_outputs_of(arguments, scenario);
   if (arguments.gdb) check_has_board(scenario);
-  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, cosim::reference_rtl(arguments.fault));
+  if (arguments.engine == "lockstep")
+    return run_lockstep(scenario, arguments, options, cosim::reference_rtl(arguments.fault));
   if (arguments.engine == "rtl")
     return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(cosim::reference_rtl(arguments.fault)));
   if (arguments.view == "pins") return run_scenario(scenario, arguments, options, tb::make_pin_execution());

@@ -217,9 +217,7 @@ int list(const TracesArguments& arguments) {
   tb::TextTable table({"golden", "slaves", "cycles", "changes", "KB", "rulings"});
   for (const std::string& name : tb::traces::golden_names(folder)) {
     const tb::traces::Json manifest = tb::traces::read_manifest(folder, name);
-    const auto number = [&manifest](const char* key) {
-      return fmt::format("{}", manifest.value(key, std::uint64_t{0}));
-    };
+    const auto number = [&manifest](const char* key) { return manifest.contains(key) ? manifest[key].dump() : "?"; };
     std::error_code error;
     const auto bytes = fs::file_size(tb::traces::trace_path(folder, name), error);
     table.add({name, fmt::format("{}", manifest.value("slaves", tb::traces::Json::object()).size()), number("cycles"),

@@ -18,8 +18,10 @@ class GoldenRun {
 
   /// Asked from time to time: whether a difference was found and the run need not go on.
   bool over(Tick now);
-  /// After the run, unless it was interrupted: in words what was found; empty when nothing was compared.
+  /// After a run that went on to its end, or to the difference: in words what was found; empty when nothing was
+  /// compared.
   std::string report();
+  /// No difference was found so far.
   bool same() const { return !check_ || !check_->difference(); }
 
  private:

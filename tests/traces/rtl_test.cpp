@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <regex>
 
 #include "tests/app/program.hpp"
@@ -17,6 +18,9 @@ struct Planted {
   const char* pin;
 };
 
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for it
+void PrintTo(const Planted& each, std::ostream* out) { *out << each.fault; }
+
 std::string matched(const std::string& text, const char* pattern) {
   std::smatch found;
   return std::regex_search(text, found, std::regex(pattern)) ? found[1].str() : "not in: " + text;
@@ -28,11 +32,12 @@ TEST_P(PlantedFaults, AreFoundByTheGoldenAtTheCycleThatLockstepNames) {
   const app_test::Folder folder;
   const std::string fault = std::string(" --no-progress --fault ") + GetParam().fault;
   const Called golden = call("traces check bus_timing --engine rtl" + fault, DSDPV1_SOURCE_DIR);
-  const Called lockstep = call(
-      "run scenarios/bus_timing.yaml -q --engine lockstep --difference '" + folder.file("difference.vcd") + "'" + fault,
-      DSDPV1_SOURCE_DIR);
+  const Called lockstep = call("run scenarios/bus_timing.yaml -q --golden traces --engine lockstep --difference '" +
+                                   folder.file("difference.vcd") + "'" + fault,
+                               DSDPV1_SOURCE_DIR);
   EXPECT_EQ(golden.status, 1) << golden.err;
   EXPECT_EQ(lockstep.status, 1) << lockstep.err;
+  EXPECT_THAT(lockstep.out, testing::Not(testing::HasSubstr("golden")));  // it has said what differs
   const char* const first = "first difference  (cycle .*)\n";
   EXPECT_EQ(matched(golden.out, first), matched(lockstep.out, first));
   const char* const access = "last access       (.*)\n";
