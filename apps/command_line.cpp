@@ -9,6 +9,7 @@
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
+#include "apps/traces_command.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 
@@ -67,6 +68,11 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
       ->add_option("--difference", arguments.difference,
                    "Wave of both sides, written when --engine lockstep finds a difference")
       ->capture_default_str();
+  command->add_option("--golden", arguments.golden,
+                      "Folder of golden traces (traces): every change of every pin is compared, the first difference "
+                      "ends the run (docs/traces.md)");
+  command->add_option("--fault", arguments.fault, "With this single fault of rtl_ref/faults.txt in the reference RTL")
+      ->check(CLI::Range(0, 255));
   add_set_option(*command, arguments.set);
   command
       ->add_option(
@@ -322,6 +328,8 @@ int command_line(int argc, char** argv) {
   describe_rtl_faults(app, rtl_faults_arguments);
   CosimArguments cosim_arguments;
   describe_cosim(app, cosim_arguments);
+  TracesArguments traces_arguments;
+  describe_traces(app, traces_arguments);
   RecoverArguments recover_arguments;
   describe_recover(app, recover_arguments);
   try {
@@ -336,6 +344,7 @@ int command_line(int argc, char** argv) {
   if (app.got_subcommand("rtl-random")) return rtl_random(rtl_random_arguments);
   if (app.got_subcommand("rtl-faults")) return rtl_faults(rtl_faults_arguments);
   if (app.got_subcommand("cosim")) return cosim_own_rtl(cosim_arguments);
+  if (app.got_subcommand("traces")) return traces(traces_arguments);
   if (app.got_subcommand("recover")) return recover(recover_arguments);
   if (app.got_subcommand("schema")) return schema(schema_arguments);
   if (app.got_subcommand("gsd")) return gsd(gsd_arguments);

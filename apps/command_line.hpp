@@ -18,6 +18,8 @@ struct RunArguments {
   std::string scenario, engine = "skip", view = "pins", checks = "report";
   WaveArguments wave;
   std::string log, result, trace;
+  std::string golden;                       ///< folder of golden traces, empty: not compared with them
+  unsigned fault = 0;                       ///< of rtl_ref/faults.txt, 0: none
   std::string difference = "lockstep.vcd";  ///< wave of a lockstep run's first difference
   std::optional<bool> progress;             ///< absent: on a terminal
   std::vector<std::string> set;             ///< PATH=VALUE: keys other than in the file

@@ -68,7 +68,7 @@ Bench::~Bench() = default;
 
 /// What the bench itself needs a chip watches anyway.
 PinMask Bench::watched_pins() const {
-  const bool all = !options_.wave.path.empty() || !options_.trace.empty();
+  const bool all = !options_.wave.path.empty() || !options_.trace.empty() || !options_.observers.empty();
   return all ? all_of(maker_.pins()) : checks_.pins();
 }
 
@@ -216,6 +216,7 @@ void Bench::add_observers() {
   observers_.add(checks_);
   if (trace_) observers_.add(*trace_);
   if (waves_) observers_.add(*waves_);
+  for (Observer* each : options_.observers) observers_.add(*each);
   observers_.add(journal_);
   observers_.add(*script_);
 }
@@ -257,6 +258,10 @@ RunResult Bench::run(const std::function<bool(Tick)>& poll) {
     if (journal_.run_log() != nullptr) journal_.run_log()->flush(at - 1);
     return keep_outputs(at) && poll(at);
   };
+  for (std::size_t slave = 0; slave < stations_.slaves.size(); ++slave) {
+    const ChipView& chip = stations_.slaves[slave]->chip();
+    observers_.tell(&Observer::begins, slave, chip);
+  }
   execution_->run(scenario_.end, [this] { return stopped(); });
   RunResult result = collect();
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -36,6 +36,7 @@ struct RunOptions {
   std::optional<GdbRequest> gdb;  ///< debugger of the first user CPU that takes one
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
   ChecksMode checks = ChecksMode::kOff;
+  std::vector<Observer*> observers;  ///< more of them, told of all pins; they must outlive the bench
   bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
 };
 

@@ -30,6 +30,8 @@ class Observer {
  public:
   virtual ~Observer() = default;
 
+  /// The run begins, `chip` has the levels of power-on.
+  virtual void begins(std::size_t /*slave*/, const ChipView& /*chip*/) {}
   virtual void pin(std::size_t /*slave*/, Tick /*at*/, PinNumber /*pin*/, Level /*level*/) {}
   /// The slave's user CPU begins a read and samples the data then, see ChipView::on_read.
   virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}

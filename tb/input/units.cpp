@@ -10,6 +10,8 @@
 namespace tb {
 namespace {
 
+constexpr bus::Tick kCycle = 250;  // of 48 MHz
+
 struct Unit {
   const char* name;
   bus::Tick ticks;
@@ -18,7 +20,7 @@ constexpr std::array<Unit, 5> kUnits = {{{"s", bus::kTicksPerSecond},
                                          {"ms", bus::kTicksPerMs},
                                          {"us", bus::kTicksPerUs},
                                          {"ns", bus::kTicksPerNs},
-                                         {"cycles", 250}}};
+                                         {"cycles", kCycle}}};
 
 constexpr std::int64_t kLongest = 100'000'000;  // seconds; keeps every product below 2^63
 
@@ -96,6 +98,13 @@ std::string time_text(bus::Tick ticks) {
     return text + unit.name;
   }
   return fmt::format("{:.3f}ns", static_cast<double>(ticks) / static_cast<double>(bus::kTicksPerNs));
+}
+
+std::string cycle_text(bus::Tick at) {
+  const bus::Tick rest = at % kCycle;
+  const std::string cycle =
+      rest == 0 ? fmt::format("{}", at / kCycle) : fmt::format("{} + {} ticks", at / kCycle, rest);
+  return fmt::format("cycle {} ({:.3f} us)", cycle, static_cast<double>(at) / (1000.0 * bus::kTicksPerNs));
 }
 
 std::optional<bus::Bytes> parse_bytes(const std::string& text) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "tb/input/units.hpp"
+
 namespace cosim {
 namespace {
 
@@ -20,13 +22,6 @@ std::string level_text(Pin pin, const std::optional<Level>& level) {
   return dsdpv1::width(pin) == 1 ? fmt::format("{}", *level) : fmt::format("{:02X}", *level);
 }
 
-std::string time_text(Tick at) {
-  const Tick rest = at % kCycle;
-  const std::string cycle =
-      rest == 0 ? fmt::format("{}", at / kCycle) : fmt::format("{} + {} ticks", at / kCycle, rest);
-  return fmt::format("cycle {} ({:.3f} us)", cycle, static_cast<double>(at) / (1000.0 * profibus::kTicksPerNs));
-}
-
 }  // namespace
 
 std::string describe(const Difference& difference) {
@@ -36,7 +31,7 @@ std::string describe(const Difference& difference) {
       "last telegram     {}\n"
       "last access       {}\n"
       "DPRAM             {}\n",
-      time_text(difference.at), difference.what, difference.last_telegram, difference.last_access,
+      tb::cycle_text(difference.at), difference.what, difference.last_telegram, difference.last_access,
       difference.dpram_accesses);
 }
 
@@ -72,19 +67,16 @@ void Lockstep::set(Tick at, Pin pin, Level level) {
   advance(at);
   if (model_.level(pin) == level) return;
   history_.add(at, Side::kInput, pin, level);
-  note_access(at, pin, level);
+  note_write(at, pin, level);
+  last_access_.pin(at, pin, level);
   model_.set(at, pin, level);
   rtl_.set(at, pin, level);
 }
 
-void Lockstep::note_access(Tick at, Pin pin, Level level) {
-  const bool write = pin == Pin::kWr && level != 0, read = pin == Pin::kRd && level == 0;
-  if (write) {
-    user_wrote_ = true;
-    last_write_ = at;
-  }
-  if ((write || read) && model_.level(Pin::kCsr) == 0)
-    last_access_ = {at, write, model_.level(Pin::kA), model_.level(Pin::kDIn)};
+void Lockstep::note_write(Tick at, Pin pin, Level level) {
+  if (pin != Pin::kWr || level == 0) return;
+  user_wrote_ = true;
+  last_write_ = at;
 }
 
 /// The model is stopped wherever one of its accesses ends, because the RTL's DPRAM can be seen at its present time
@@ -153,21 +145,14 @@ void Lockstep::found(Tick at, std::string what) {
   const LineTelegram telegram = history_.last_telegram(model_.status().baud_index.code());
   difference_ = Difference{
       at, std::move(what),
-      telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, time_text(telegram.start)),
-      access_text(), dpram_text()};
-}
-
-std::string Lockstep::access_text() const {
-  if (last_access_.at < 0) return "none";
-  if (!last_access_.write) return fmt::format("read B{:03X} at {}", last_access_.address, time_text(last_access_.at));
-  return fmt::format("write B{:03X} := {} at {}", last_access_.address, level_text(Pin::kDIn, last_access_.data),
-                     time_text(last_access_.at));
+      telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, tb::cycle_text(telegram.start)),
+      last_access_.words(), dpram_text()};
 }
 
 std::string Lockstep::dpram_text() const {
   if (access_start_ < 0) return "no access of the chip yet";
-  if (access_end_ < access_start_) return fmt::format("in an access since {}", time_text(access_start_));
-  return fmt::format("last access from {} to {}", time_text(access_start_), time_text(access_end_));
+  if (access_end_ < access_start_) return fmt::format("in an access since {}", tb::cycle_text(access_start_));
+  return fmt::format("last access from {} to {}", tb::cycle_text(access_start_), tb::cycle_text(access_end_));
 }
 
 const MatchCounts& Lockstep::counts() const {

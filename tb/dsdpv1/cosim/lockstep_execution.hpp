@@ -13,8 +13,8 @@ namespace cosim {
 /// Makes the RTL of a chip with these parameters; may throw tb::InputError.
 using MakeRtl = std::function<std::unique_ptr<RtlTop>(const dsdpv1::Config& config)>;
 
-/// The reference RTL of rtl_ref/.
-MakeRtl reference_rtl();
+/// The reference RTL of rtl_ref/, with the single fault `fault` of its faults.txt unless it is 0.
+MakeRtl reference_rtl(unsigned fault = 0);
 
 /// The RTL drives the pins. A core beside it, on the same inputs, tells states and events, which pins do not show.
 std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make);
