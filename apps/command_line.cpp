@@ -41,6 +41,20 @@ void add_output_options(CLI::App& command, std::optional<bool>& progress, bool& 
   command.add_flag("--quiet,-q", quiet, "No table at the end");
 }
 
+/// What sweep and regress have in common.
+void add_campaign_options(CLI::App& command, CampaignArguments& arguments, const std::string& usual_folder) {
+  command.add_option("--out", arguments.out, "Folder for the runs and results; left out: " + usual_folder);
+  command.add_option("--jobs", arguments.jobs, "Processes at a time; left out: one a processor")
+      ->check(CLI::Range(1, 256));
+  CLI::Option* slurm = command.add_flag(
+      "--slurm", arguments.slurm, "As a job array of a Slurm cluster (sbatch); the folder must be seen by its nodes");
+  command
+      .add_option("--slurm-options", arguments.slurm_options, "More options for sbatch: \"--partition=x --time=10\"")
+      ->needs(slurm);
+  command.add_option("--slurm-task", arguments.slurm_task)->group("");  // what the tasks of an array call
+  add_output_options(command, arguments.progress, arguments.quiet);
+}
+
 void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* command = app.add_subcommand("run", "Carries out a scenario and judges it");
   command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md")->required();
@@ -169,11 +183,7 @@ void describe_sweep(CLI::App& app, SweepArguments& arguments) {
   add_set_option(*command, arguments.set);
   command->add_option("--checks", arguments.checks, "As of run, report or fail; left out: as run does");
   command->add_option("--map", arguments.map, "Check whose margin the pictures show; left out: the worst of all");
-  command->add_option("--out", arguments.out,
-                      "Folder for the points and results; left out: sweep_ and the scenario's name");
-  command->add_option("--jobs", arguments.jobs, "Processes at a time; left out: one a processor")
-      ->check(CLI::Range(1, 256));
-  add_output_options(*command, arguments.progress, arguments.quiet);
+  add_campaign_options(*command, arguments.campaign, "sweep_ and the scenario's name");
   command->footer(
       "\nExamples:\n"
       "  dsdpv1-sim sweep scenarios/power_on_12m.yaml --param user_cpu.fsmc.datast=0..15 --param "
@@ -327,6 +337,7 @@ int command_line(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     throw tb::InputError(in_one_line(app, error, argc, argv));
   }
+  sweep_arguments.campaign.words.assign(argv + 1, argv + argc);
   if (app.got_subcommand("run")) return run(run_arguments);
   if (app.got_subcommand("serve")) return serve(serve_arguments);
   if (app.got_subcommand("sweep")) return sweep(sweep_arguments);
