@@ -6,6 +6,7 @@
 
 #include "apps/reasons_command.hpp"
 #include "apps/recover_command.hpp"
+#include "apps/regress_command.hpp"
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
@@ -81,6 +82,8 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
       ->add_option("--difference", arguments.difference,
                    "Wave of both sides, written when --engine lockstep finds a difference")
       ->capture_default_str();
+  command->add_option("--seed", arguments.seed,
+                      "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
   add_set_option(*command, arguments.set);
   command
       ->add_option(
@@ -193,6 +196,49 @@ void describe_sweep(CLI::App& app, SweepArguments& arguments) {
       "4\n"
       "The same command again goes on with an interrupted sweep. docs/sweep.md explains the results.\n"
       "\nExit codes: 0 all points were run, whatever they showed, 2 wrong input, 130 interrupted.\n");
+}
+
+void describe_regress(CLI::App& app, RegressArguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("regress", "Runs scenarios by engines, views and settings, and judges each run");
+  CLI::Option* scenarios = command->add_option("SCENARIO", arguments.scenarios,
+                                               "Scenarios, and folders of them (.yaml, .yml); left out: ./scenarios");
+  CLI::Option* engine =
+      command->add_option("--engine", arguments.engines, "Of run, several with commas; left out: skip")->delimiter(',');
+  CLI::Option* view =
+      command->add_option("--view", arguments.views, "Of run, several with commas; left out: pins")->delimiter(',');
+  CLI::Option* seed =
+      command->add_option("--seed", arguments.seeds, "Of run with RTL: 1..4,7; left out: the usual one");
+  CLI::Option* set = command
+                         ->add_option("--set", arguments.set,
+                                      "PATH=VALUES, once for each key, lists and ranges as --param of sweep: "
+                                      "user_cpu.fsmc.datast=2..5")
+                         ->allow_extra_args(false);
+  CLI::Option* checks = command->add_option("--checks", arguments.checks, "As of run");
+  CLI::Option* shard =
+      command->add_option("--shard", arguments.shard, "2/5: the second fifth of the runs, always the same");
+  CLI::Option* wave = command->add_option("--wave", arguments.wave, "Each run writes waves: vcd, fst; left out: none");
+  CLI::Option* keep = command->add_option(
+      "--keep", arguments.keep, "Of which runs log, result and waves are kept: none, failed, all; left out: failed");
+  CLI::Option* failed =
+      command->add_flag("--failed", arguments.failed, "Again what has not passed the last time in --out");
+  for (CLI::Option* other : {scenarios, engine, view, seed, set, checks, shard, wave, keep}) failed->excludes(other);
+  command
+      ->add_option("--time-limit", arguments.time_limit, "Seconds after which a run is killed and has failed; 0: none")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command->add_option("--junit", arguments.junit, "The report for CI as JUnit's XML");
+  command->add_flag("--json", arguments.json, "The table as JSON");
+  add_campaign_options(*command, arguments.campaign, "regression");
+  command->footer(
+      "\nExamples:\n"
+      "  dsdpv1-sim regress\n"
+      "  dsdpv1-sim regress scenarios my.yaml --engine step,skip,lockstep --view pins,tlm --junit report.xml\n"
+      "  dsdpv1-sim regress my.yaml --set user_cpu.fsmc.datast=2..5 --set baud=12M,6M --wave fst\n"
+      "  dsdpv1-sim regress --engine rtl --seed 1..8 --shard 2/5 --out part_2\n"
+      "  dsdpv1-sim regress --failed\n"
+      "The same command again goes on with an interrupted regression. docs/regress.md explains the results.\n"
+      "\nExit codes: 0 all runs passed, 1 some did not, 2 wrong input, 130 interrupted.\n");
 }
 
 void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
@@ -323,6 +369,8 @@ int command_line(int argc, char** argv) {
   describe_reasons(app, reasons_arguments);
   SweepArguments sweep_arguments;
   describe_sweep(app, sweep_arguments);
+  RegressArguments regress_arguments;
+  describe_regress(app, regress_arguments);
   RtlRandomArguments rtl_random_arguments;
   RtlFaultsArguments rtl_faults_arguments;
   describe_rtl_random(app, rtl_random_arguments);
@@ -337,10 +385,12 @@ int command_line(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     throw tb::InputError(in_one_line(app, error, argc, argv));
   }
-  sweep_arguments.campaign.words.assign(argv + 1, argv + argc);
+  for (CampaignArguments* each : {&sweep_arguments.campaign, &regress_arguments.campaign})
+    each->words.assign(argv + 1, argv + argc);
   if (app.got_subcommand("run")) return run(run_arguments);
   if (app.got_subcommand("serve")) return serve(serve_arguments);
   if (app.got_subcommand("sweep")) return sweep(sweep_arguments);
+  if (app.got_subcommand("regress")) return regress(regress_arguments);
   if (app.got_subcommand("rtl-random")) return rtl_random(rtl_random_arguments);
   if (app.got_subcommand("rtl-faults")) return rtl_faults(rtl_faults_arguments);
   if (app.got_subcommand("cosim")) return cosim_own_rtl(cosim_arguments);

@@ -39,6 +39,8 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   if (arguments.view == "tlm" && arguments.engine != "step" && arguments.engine != "skip")
     throw tb::InputError("dsdpv1-sim run: --engine " + arguments.engine +
                          " is about pins, allowed with it is --view pins");
+  if (arguments.seed && (arguments.engine == "step" || arguments.engine == "skip"))
+    throw tb::InputError("dsdpv1-sim run: --seed is for RTL, allowed with it is --engine rtl, lockstep");
   if (!arguments.difference.empty()) tb::check_wave_name(arguments.difference);
   if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
   tb::RunOptions options;
@@ -125,9 +127,9 @@ int run(const RunArguments& arguments) {
       tb::scenario::load(arguments.scenario, tb::scenario::parse_settings(arguments.set));
   check_outputs_of(arguments, scenario);
   if (arguments.gdb) check_has_board(scenario);
-  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, cosim::reference_rtl());
-  if (arguments.engine == "rtl")
-    return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(cosim::reference_rtl()));
+  const cosim::MakeRtl rtl = cosim::reference_rtl(arguments.seed.value_or(cosim::kUsualSeed));
+  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, rtl);
+  if (arguments.engine == "rtl") return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(rtl));
   if (arguments.view == "pins") return run_scenario(scenario, arguments, options, tb::make_pin_execution());
   return tb::inside_systemc([&] { return run_scenario(scenario, arguments, options, tb::make_tlm_execution()); });
 }

@@ -63,8 +63,8 @@ class RtlExecution : public tb::Execution {
 
 }  // namespace
 
-MakeRtl reference_rtl() {
-  return [](const dsdpv1::Config& config) { return make_reference_rtl(config); };
+MakeRtl reference_rtl(std::uint32_t seed) {
+  return [seed](const dsdpv1::Config& config) { return make_reference_rtl(config, seed); };
 }
 
 std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make) {
