@@ -105,11 +105,12 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
 }
 
 void describe_schema(CLI::App& app, SchemaArguments& arguments) {
-  CLI::App* command = app.add_subcommand("schema", "Prints the scenario's JSON Schema");
-  command->add_flag("--markdown", arguments.markdown, "Prints docs/scenarios.md instead");
+  CLI::App* command = app.add_subcommand("schema", "Prints the JSON Schema of a scenario, or of a result");
+  command->add_flag("--result", arguments.result, "Of the file that run --result writes");
+  command->add_flag("--markdown", arguments.markdown, "Prints docs/scenarios.md, or docs/result.md, instead");
   command->add_option("--output,-o", arguments.output, "Into this file");
   command->footer(
-      "\nExamples:\n  dsdpv1-sim schema > scenario.schema.json\n"
+      "\nExamples:\n  dsdpv1-sim schema > scenario.schema.json\n  dsdpv1-sim schema --result > result.schema.json\n"
       "  and in the first line of a scenario, for editors with the YAML language server:\n"
       "  # yaml-language-server: $schema=scenario.schema.json\n");
 }

@@ -26,7 +26,8 @@ struct RunArguments {
 
 struct SchemaArguments {
   bool markdown = false;
-  std::string output;  ///< empty: standard output
+  bool result = false;  ///< that of a result; else of a scenario
+  std::string output;   ///< empty: standard output
 };
 
 struct GsdArguments {

@@ -104,6 +104,17 @@ def go_on(sweep, lost):
     return out
 
 
+def regress(sweep):
+    """Runs of a regression go the same way."""
+    words = ["regress", "s.yaml", "--set", "user_cpu.fsmc.datast=2..5", "--no-progress", "--out"]
+    verdicts = []
+    for more in (["regress_here"], ["regress_out", "--slurm"]):
+        done = subprocess.run([sweep.program, *words, *more], cwd=sweep.folder, env=sweep.cluster.environment, capture_output=True, text=True,
+                              check=True)
+        verdicts.append([line.split("\t")[:7] for line in done.stdout.splitlines()])
+    check(verdicts[0] == verdicts[1] and len(verdicts[0]) == 5, "regress says something else: %s" % verdicts)
+
+
 def main(program):
     with tempfile.TemporaryDirectory(prefix="dsdpv1_slurm_") as folder:
         with open(os.path.join(folder, "s.yaml"), "w", encoding="UTF-8") as file:
@@ -116,6 +127,7 @@ def main(program):
             check(out == here.replace(b"here/", b"out/"), "it says something else than a sweep that was carried out here")
             for name in ("results.csv", "map.svg"):
                 check(read(folder, "out", name) == read(folder, "here", name), name + " is another one")
+            regress(sweep)
             left = sorted(os.listdir(os.path.join(folder, "out")))
             check(left == ["map.svg", "points", "results.csv", "sweep.json"], "left: %s" % left)
             check(sweep.points() == set(range(POINTS)) and len(os.listdir(os.path.join(folder, "out", "points"))) == POINTS, "points")
