@@ -29,11 +29,14 @@ void say_interrupted(const Kind& kind, std::size_t done, std::size_t all) {
                            done, all, kind.items);
 }
 
+/// A task looks at its own jobs only: of many tasks each would read what all have kept.
 bool run_task(const CampaignArguments& arguments, Carrying carrying, tb::campaign::Jobs& jobs,
               const tb::campaign::Folder& folder) {
   carrying.at_a_time = 1;  // the cluster has counted a task as one
   carrying.progress = false;
-  return tb::campaign::Runner(jobs, carrying, tb::campaign::jobs_of_task(folder.path(), arguments.slurm_task)).run();
+  const std::vector<std::size_t> own = tb::campaign::jobs_of_task(folder.path(), arguments.slurm_task, jobs.size());
+  for (const std::size_t job : own) jobs.look(job);
+  return tb::campaign::Runner(jobs, carrying, own).run();
 }
 
 template <typename Runner>
@@ -57,6 +60,7 @@ bool carry_out(const CampaignArguments& arguments, const Kind& kind, tb::campaig
                std::optional<std::chrono::duration<double>> limit) {
   const Carrying carrying = carrying_of(arguments, kind, limit);
   if (arguments.is_task()) return run_task(arguments, carrying, jobs, folder);
+  for (const std::size_t job : all_of(jobs)) jobs.look(job);
   if (const std::size_t kept = count_finished(jobs); kept != 0)
     std::cerr << fmt::format("{}: {} of {} {} are there already\n", kind.word, kept, jobs.size(), kind.items);
   if (!arguments.slurm) return run_all(tb::campaign::Runner(jobs, carrying), kind, jobs.size());

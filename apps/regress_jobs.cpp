@@ -58,9 +58,7 @@ RegressInputs::RegressInputs(const Description& description, const std::string& 
 }
 
 RegressJobs::RegressJobs(const Plan& plan, const RegressInputs& inputs, const tb::regress::Folder& folder, bool anyhow)
-    : plan_(plan), inputs_(inputs), folder_(folder), anyhow_(anyhow), outcomes_(plan.runs.size()) {
-  for (std::size_t i = 0; i < size(); ++i) look(i);
-}
+    : plan_(plan), inputs_(inputs), folder_(folder), anyhow_(anyhow), outcomes_(plan.runs.size()) {}
 
 bool RegressJobs::look(std::size_t job) {
   outcomes_[job] = folder_.finished(plan_.runs[job], anyhow_ ? "" : inputs_.key(job));

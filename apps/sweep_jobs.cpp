@@ -36,9 +36,7 @@ std::string refusal(const Plan& plan, std::size_t point) {
 }  // namespace
 
 SweepJobs::SweepJobs(const Plan& plan, const tb::sweep::Inputs& inputs, const tb::sweep::Folder& folder)
-    : plan_(plan), inputs_(inputs), folder_(folder), points_(plan.points()) {
-  for (std::size_t i = 0; i < plan.points(); ++i) look(i);
-}
+    : plan_(plan), inputs_(inputs), folder_(folder), points_(plan.points()) {}
 
 bool SweepJobs::look(std::size_t job) {
   points_[job] = folder_.finished(job, plan_);

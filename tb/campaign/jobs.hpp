@@ -16,9 +16,9 @@ class Jobs {
   virtual ~Jobs() = default;
 
   virtual std::size_t size() const = 0;
-  /// Whether the folder has what the job has shown.
+  /// Whether the folder had what the job has shown when it was looked at last.
   virtual bool finished(std::size_t job) const = 0;
-  /// Looks into the folder again: a task of a cluster may have finished it. True when it is finished now.
+  /// Looks into the folder: an earlier process, or a task of a cluster, may have finished it. True when it is finished.
   virtual bool look(std::size_t job) = 0;
   /// A run of this program begins; returns its arguments.
   virtual std::vector<std::string> begin(std::size_t job) = 0;

@@ -136,13 +136,16 @@ void Slurm::forget(const Submission& submission) const {
   fs::remove(folder_, ignored);  // when it is empty
 }
 
-std::vector<std::size_t> jobs_of_task(const fs::path& folder, int number) {
+std::vector<std::size_t> jobs_of_task(const fs::path& folder, int number, std::size_t jobs) {
   const char* const variable = std::getenv("SLURM_ARRAY_TASK_ID");  // NOLINT(concurrency-mt-unsafe): one thread
   const auto task = parse_integer(variable != nullptr ? variable : "");
   const auto submission = submission_of(folder / kSlurmFolder / (std::to_string(number) + ".json"));
-  if (!task || *task < 0 || !submission || static_cast<std::size_t>(*task) >= submission->tasks.size())
-    throw InputError("dsdpv1-sim: --slurm-task is for the tasks that --slurm has submitted, this is none of them");
-  return submission->tasks[static_cast<std::size_t>(*task)];
+  const auto is_there = [jobs](std::size_t job) { return job < jobs; };
+  if (task && *task >= 0 && submission && static_cast<std::size_t>(*task) < submission->tasks.size()) {
+    const std::vector<std::size_t>& own = submission->tasks[static_cast<std::size_t>(*task)];
+    if (std::all_of(own.begin(), own.end(), is_there)) return own;
+  }
+  throw InputError("dsdpv1-sim: --slurm-task is for the tasks that --slurm has submitted, this is none of them");
 }
 
 Tasks in_tasks(const std::vector<std::size_t>& jobs, std::size_t most) {

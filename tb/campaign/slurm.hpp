@@ -50,8 +50,8 @@ class Slurm {
 };
 
 /// What this process has to do as a task of an array: `number` of --slurm-task, and SLURM_ARRAY_TASK_ID. Throws
-/// InputError when it is none.
-std::vector<std::size_t> jobs_of_task(const std::filesystem::path& folder, int number);
+/// InputError when it is none, or has a job that is not below `jobs`.
+std::vector<std::size_t> jobs_of_task(const std::filesystem::path& folder, int number, std::size_t jobs);
 
 /// At most so many tasks an array (Slurm's usual limit is 1001): of more jobs a task has several.
 Tasks in_tasks(const std::vector<std::size_t>& jobs, std::size_t most = 1000);

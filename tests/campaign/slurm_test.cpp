@@ -66,7 +66,7 @@ TEST_F(SlurmCommands, SubmissionIsAnArrayWhoseTasksCallTheProgramBack) {
   EXPECT_THAT(tb::campaign::content((base_ / "slurm/1.sh").string()),
               HasSubstr("'sweep' 'it'\\''s.yaml' --slurm-task 1\n"));
   setenv("SLURM_ARRAY_TASK_ID", "1", 1);
-  EXPECT_THAT(tb::campaign::jobs_of_task(base_, 1), ElementsAre(5));
+  EXPECT_THAT(tb::campaign::jobs_of_task(base_, 1, 6), ElementsAre(5));
 }
 
 TEST_F(SlurmCommands, SubmissionsAreFoundAgainAndForgotten) {
@@ -112,10 +112,11 @@ TEST_F(SlurmCommands, OnlyATaskOfASubmissionHasJobs) {
   Slurm(base_, "").submit("id", {{3}, {5}}, {"sweep"});
   for (const char* task : {"", "2", "-1", "x"}) {
     setenv("SLURM_ARRAY_TASK_ID", task, 1);
-    EXPECT_THROW(tb::campaign::jobs_of_task(base_, 1), tb::InputError) << task;
+    EXPECT_THROW(tb::campaign::jobs_of_task(base_, 1, 6), tb::InputError) << task;
   }
   setenv("SLURM_ARRAY_TASK_ID", "0", 1);
-  EXPECT_THROW(tb::campaign::jobs_of_task(base_, 2), tb::InputError);
+  EXPECT_THROW(tb::campaign::jobs_of_task(base_, 1, 3), tb::InputError);
+  EXPECT_THROW(tb::campaign::jobs_of_task(base_, 2, 6), tb::InputError);
 }
 
 }  // namespace
