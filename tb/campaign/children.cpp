@@ -119,7 +119,7 @@ void Children::kill_the_late() {
 Ended Children::ended(const Run& run, int status) {
   const int exit = WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status);
   const bool killed = run.too_long && !WIFEXITED(status);  // it may have ended in the same moment
-  const Ended ended{run.job, exit, end_of(run.output), Seconds(Clock::now() - run.begin).count(), killed};
+  Ended ended{run.job, exit, end_of(run.output), Seconds(Clock::now() - run.begin).count(), killed};
   close(run.output);
   return ended;
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tb/campaign/folder.hpp"
@@ -14,7 +15,7 @@ class Contents {
   /// When each file was last written, or replaced by another; changes even when the content comes back to what it was.
   using Times = std::vector<std::vector<std::int64_t>>;
 
-  explicit Contents(const Kind& kind) : kind_(kind) {}
+  explicit Contents(Kind kind) : kind_(std::move(kind)) {}
   /// Reads a file. Throws InputError for one that can be read only once, and when the machine refuses to read it now.
   void add(const std::string& file);
   /// A scenario must be there: throws InputError when it cannot be read.
