@@ -47,6 +47,8 @@ touch "$folder/compiler"
 for command in run sweep serve compare; do builds " dsdpv1_firmware" "$command" scenarios/arm_board_12m.yaml; done
 builds " dsdpv1_firmware" run scenarios/power_on_12m.yaml --set user_cpu.elf=build/default/examples/firmware/device_O0.elf
 builds " dsdpv1_rtl_libraries dsdpv1_firmware" run scenarios/arm_board_12m.yaml --engine lockstep
+builds " dsdpv1_firmware" regress
+for engines in skip,rtl rtl,skip step,rtl,skip skip,lockstep; do builds " dsdpv1_rtl_libraries dsdpv1_firmware" regress --engine "$engines"; done
 echo '# elf: build/default/examples/firmware/device_O2.elf' >"$folder/mine.yaml"
 builds "" run mine.yaml
 
