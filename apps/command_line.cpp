@@ -6,6 +6,7 @@
 
 #include "apps/reasons_command.hpp"
 #include "apps/recover_command.hpp"
+#include "apps/regress_command.hpp"
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
@@ -42,6 +43,20 @@ void add_output_options(CLI::App& command, std::optional<bool>& progress, bool& 
   command.add_flag("--quiet,-q", quiet, "No table at the end");
 }
 
+/// What sweep and regress have in common.
+void add_campaign_options(CLI::App& command, CampaignArguments& arguments, const std::string& usual_folder) {
+  command.add_option("--out", arguments.out, "Folder for the runs and results; left out: " + usual_folder);
+  command.add_option("--jobs", arguments.jobs, "Processes at a time; left out: one a processor")
+      ->check(CLI::Range(1, 256));
+  CLI::Option* slurm = command.add_flag(
+      "--slurm", arguments.slurm, "As a job array of a Slurm cluster (sbatch); the folder must be seen by its nodes");
+  command
+      .add_option("--slurm-options", arguments.slurm_options, "More options for sbatch: \"--partition=x --time=10\"")
+      ->needs(slurm);
+  command.add_option("--slurm-task", arguments.slurm_task)->group("");  // what the tasks of an array call
+  add_output_options(command, arguments.progress, arguments.quiet);
+}
+
 void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* command = app.add_subcommand("run", "Carries out a scenario and judges it");
   command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md")->required();
@@ -73,6 +88,8 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
                       "ends the run (docs/traces.md)");
   command->add_option("--fault", arguments.fault, "With this single fault of rtl_ref/faults.txt in the reference RTL")
       ->check(CLI::Range(0, 255));
+  command->add_option("--seed", arguments.seed,
+                      "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
   add_set_option(*command, arguments.set);
   command
       ->add_option(
@@ -97,11 +114,12 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
 }
 
 void describe_schema(CLI::App& app, SchemaArguments& arguments) {
-  CLI::App* command = app.add_subcommand("schema", "Prints the scenario's JSON Schema");
-  command->add_flag("--markdown", arguments.markdown, "Prints docs/scenarios.md instead");
+  CLI::App* command = app.add_subcommand("schema", "Prints the JSON Schema of a scenario, or of a result");
+  command->add_flag("--result", arguments.result, "Of the file that run --result writes");
+  command->add_flag("--markdown", arguments.markdown, "Prints docs/scenarios.md, or docs/result.md, instead");
   command->add_option("--output,-o", arguments.output, "Into this file");
   command->footer(
-      "\nExamples:\n  dsdpv1-sim schema > scenario.schema.json\n"
+      "\nExamples:\n  dsdpv1-sim schema > scenario.schema.json\n  dsdpv1-sim schema --result > result.schema.json\n"
       "  and in the first line of a scenario, for editors with the YAML language server:\n"
       "  # yaml-language-server: $schema=scenario.schema.json\n");
 }
@@ -178,11 +196,7 @@ void describe_sweep(CLI::App& app, SweepArguments& arguments) {
   add_set_option(*command, arguments.set);
   command->add_option("--checks", arguments.checks, "As of run, report or fail; left out: as run does");
   command->add_option("--map", arguments.map, "Check whose margin the pictures show; left out: the worst of all");
-  command->add_option("--out", arguments.out,
-                      "Folder for the points and results; left out: sweep_ and the scenario's name");
-  command->add_option("--jobs", arguments.jobs, "Processes at a time; left out: one a processor")
-      ->check(CLI::Range(1, 256));
-  add_output_options(*command, arguments.progress, arguments.quiet);
+  add_campaign_options(*command, arguments.campaign, "sweep_ and the scenario's name");
   command->footer(
       "\nExamples:\n"
       "  dsdpv1-sim sweep scenarios/power_on_12m.yaml --param user_cpu.fsmc.datast=0..15 --param "
@@ -192,6 +206,49 @@ void describe_sweep(CLI::App& app, SweepArguments& arguments) {
       "4\n"
       "The same command again goes on with an interrupted sweep. docs/sweep.md explains the results.\n"
       "\nExit codes: 0 all points were run, whatever they showed, 2 wrong input, 130 interrupted.\n");
+}
+
+void describe_regress(CLI::App& app, RegressArguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("regress", "Runs scenarios by engines, views and settings, and judges each run");
+  CLI::Option* scenarios = command->add_option("SCENARIO", arguments.scenarios,
+                                               "Scenarios, and folders of them (.yaml, .yml); left out: ./scenarios");
+  CLI::Option* engine =
+      command->add_option("--engine", arguments.engines, "Of run, several with commas; left out: skip")->delimiter(',');
+  CLI::Option* view =
+      command->add_option("--view", arguments.views, "Of run, several with commas; left out: pins")->delimiter(',');
+  CLI::Option* seed =
+      command->add_option("--seed", arguments.seeds, "Of run with RTL: 1..4,7; left out: the usual one");
+  CLI::Option* set = command
+                         ->add_option("--set", arguments.set,
+                                      "PATH=VALUES, once for each key, lists and ranges as --param of sweep: "
+                                      "user_cpu.fsmc.datast=2..5")
+                         ->allow_extra_args(false);
+  CLI::Option* checks = command->add_option("--checks", arguments.checks, "As of run");
+  CLI::Option* shard =
+      command->add_option("--shard", arguments.shard, "2/5: the second fifth of the runs, always the same");
+  CLI::Option* wave = command->add_option("--wave", arguments.wave, "Each run writes waves: vcd, fst; left out: none");
+  CLI::Option* keep = command->add_option(
+      "--keep", arguments.keep, "Of which runs log, result and waves are kept: none, failed, all; left out: failed");
+  CLI::Option* failed =
+      command->add_flag("--failed", arguments.failed, "Again what has not passed the last time in --out");
+  for (CLI::Option* other : {scenarios, engine, view, seed, set, checks, shard, wave, keep}) failed->excludes(other);
+  command
+      ->add_option("--time-limit", arguments.time_limit, "Seconds after which a run is killed and has failed; 0: none")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command->add_option("--junit", arguments.junit, "The report for CI as JUnit's XML");
+  command->add_flag("--json", arguments.json, "The table as JSON");
+  add_campaign_options(*command, arguments.campaign, "regression");
+  command->footer(
+      "\nExamples:\n"
+      "  dsdpv1-sim regress\n"
+      "  dsdpv1-sim regress scenarios my.yaml --engine step,skip,lockstep --view pins,tlm --junit report.xml\n"
+      "  dsdpv1-sim regress my.yaml --set user_cpu.fsmc.datast=2..5 --set baud=12M,6M --wave fst\n"
+      "  dsdpv1-sim regress --engine rtl --seed 1..8 --shard 2/5 --out part_2\n"
+      "  dsdpv1-sim regress --failed\n"
+      "The same command again goes on with an interrupted regression. docs/regress.md explains the results.\n"
+      "\nExit codes: 0 all runs passed, 1 some did not, 2 wrong input, 130 interrupted.\n");
 }
 
 void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
@@ -322,6 +379,8 @@ int command_line(int argc, char** argv) {
   describe_reasons(app, reasons_arguments);
   SweepArguments sweep_arguments;
   describe_sweep(app, sweep_arguments);
+  RegressArguments regress_arguments;
+  describe_regress(app, regress_arguments);
   RtlRandomArguments rtl_random_arguments;
   RtlFaultsArguments rtl_faults_arguments;
   describe_rtl_random(app, rtl_random_arguments);
@@ -338,9 +397,12 @@ int command_line(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     throw tb::InputError(in_one_line(app, error, argc, argv));
   }
+  for (CampaignArguments* each : {&sweep_arguments.campaign, &regress_arguments.campaign})
+    each->words.assign(argv + 1, argv + argc);
   if (app.got_subcommand("run")) return run(run_arguments);
   if (app.got_subcommand("serve")) return serve(serve_arguments);
   if (app.got_subcommand("sweep")) return sweep(sweep_arguments);
+  if (app.got_subcommand("regress")) return regress(regress_arguments);
   if (app.got_subcommand("rtl-random")) return rtl_random(rtl_random_arguments);
   if (app.got_subcommand("rtl-faults")) return rtl_faults(rtl_faults_arguments);
   if (app.got_subcommand("cosim")) return cosim_own_rtl(cosim_arguments);

@@ -1,5 +1,6 @@
 #pragma once
 // The options of dsdpv1-sim as values.
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,13 +24,15 @@ struct RunArguments {
   std::string difference = "lockstep.vcd";  ///< wave of a lockstep run's first difference
   std::optional<bool> progress;             ///< absent: on a terminal
   std::vector<std::string> set;             ///< PATH=VALUE: keys other than in the file
+  std::optional<std::uint32_t> seed;        ///< of RTL
   std::optional<int> gdb;                   ///< TCP port for the debugger of the first ARM board
   bool log_whole = false, quiet = false;
 };
 
 struct SchemaArguments {
   bool markdown = false;
-  std::string output;  ///< empty: standard output
+  bool result = false;  ///< that of a result; else of a scenario
+  std::string output;   ///< empty: standard output
 };
 
 struct GsdArguments {

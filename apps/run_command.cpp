@@ -55,6 +55,8 @@ tb::RunOptions options_of(const RunArguments& arguments) {
     throw tb::InputError(
         "dsdpv1-sim run: --wave-inside is about the model, allowed with it are --view pins and --engine step or skip");
   check_golden(arguments);
+  if (arguments.seed && (arguments.engine == "step" || arguments.engine == "skip"))
+    throw tb::InputError("dsdpv1-sim run: --seed is for RTL, allowed with it is --engine rtl, lockstep");
   if (!arguments.difference.empty()) tb::check_wave_name(arguments.difference);
   tb::RunOptions options;
   options.engine = arguments.engine == "step" ? tb::Engine::kStep : tb::Engine::kSkip;
@@ -143,10 +145,9 @@ int run(const RunArguments& arguments) {
   options.wave = wave_options("dsdpv1-sim run", arguments.wave, *scenario.kind);
   check_outputs_of(arguments, scenario);
   if (arguments.gdb) check_has_board(scenario);
-  if (arguments.engine == "lockstep")
-    return run_lockstep(scenario, arguments, options, cosim::reference_rtl(arguments.fault));
-  if (arguments.engine == "rtl")
-    return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(cosim::reference_rtl(arguments.fault)));
+  const cosim::MakeRtl rtl = cosim::reference_rtl(arguments.fault, arguments.seed.value_or(cosim::kUsualSeed));
+  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, rtl);
+  if (arguments.engine == "rtl") return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(rtl));
   if (arguments.view == "pins") return run_scenario(scenario, arguments, options, tb::make_pin_execution());
   return tb::inside_systemc([&] { return run_scenario(scenario, arguments, options, tb::make_tlm_execution()); });
 }

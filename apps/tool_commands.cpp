@@ -13,13 +13,23 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/output/output_file.hpp"
+#include "tb/report/result_schema.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace app {
 
-int schema(const SchemaArguments& arguments) {
+namespace {
+
+std::string schema_text(const SchemaArguments& arguments) {
+  if (arguments.result) return arguments.markdown ? tb::result_markdown() : tb::result_schema();
   const tb::ChipKind& kind = *tb::chip_kinds().front();
-  const std::string text = arguments.markdown ? tb::scenario::markdown(kind) : tb::scenario::json_schema(kind);
+  return arguments.markdown ? tb::scenario::markdown(kind) : tb::scenario::json_schema(kind);
+}
+
+}  // namespace
+
+int schema(const SchemaArguments& arguments) {
+  const std::string text = schema_text(arguments);
   if (arguments.output.empty()) {
     std::cout << text;
     return kPassed;

@@ -51,6 +51,8 @@ for action in check regenerate; do builds " dsdpv1_firmware" traces "$action"; d
 builds " dsdpv1_firmware" traces check arm_board_12m
 builds " dsdpv1_rtl_libraries" traces check power_on_12m --engine rtl
 builds "" traces list
+builds " dsdpv1_firmware" regress
+for engines in skip,rtl rtl,skip step,rtl,skip skip,lockstep; do builds " dsdpv1_rtl_libraries dsdpv1_firmware" regress --engine "$engines"; done
 echo '# elf: build/default/examples/firmware/device_O2.elf' >"$folder/mine.yaml"
 builds "" run mine.yaml
 

@@ -1,4 +1,4 @@
-#include "tb/sweep/fingerprint.hpp"
+#include "tb/campaign/fingerprint.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,11 +14,12 @@
 #include "tb/input/descriptor.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
+#include "tb/output/output_file.hpp"
 
-namespace tb::sweep {
+namespace tb::campaign {
 namespace {
 
-constexpr std::size_t kMostMb = 1024;  // of a point's result
+constexpr std::size_t kMostMb = 1024;  // of a result
 
 class Hash {
  public:
@@ -49,6 +50,10 @@ std::string fingerprint(const std::string& text) {
   return hash.text();
 }
 
+std::string program_identity(const std::string& version) {
+  return version + " " + fingerprint_of_file("/proc/self/exe").value_or("");
+}
+
 std::optional<std::string> fingerprint_of_file(const std::string& path) {
   const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // does not wait for a FIFO's writer
   struct stat status {};
@@ -56,7 +61,7 @@ std::optional<std::string> fingerprint_of_file(const std::string& path) {
   if (file.get() < 0 || fstat(file.get(), &status) != 0) fail(path);
   if (S_ISDIR(status.st_mode)) return std::nullopt;
   if (!S_ISREG(status.st_mode))
-    throw InputError(path, 0, "is no regular file, allowed in a sweep is one that every run can read again");
+    throw InputError(path, 0, "is no regular file, allowed here is one that every run can read again");
   Hash hash;
   std::array<char, 65536> block{};
   for (;;) {
@@ -67,7 +72,24 @@ std::optional<std::string> fingerprint_of_file(const std::string& path) {
   }
 }
 
+std::string last_line(const std::string& text) {
+  const std::size_t end = text.find_last_not_of('\n');
+  if (end == std::string::npos) return "";
+  const std::size_t before = text.rfind('\n', end);  // npos + 1 is the beginning
+  return text.substr(before + 1, end - before);
+}
+
 std::string content(const std::string& path) { return try_read_file(path, kMostMb).text; }
+
+nlohmann::ordered_json read_json(const std::string& path) {
+  return nlohmann::ordered_json::parse(content(path), nullptr, false);
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
 
 std::string text_of(const nlohmann::ordered_json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -77,4 +99,4 @@ nlohmann::ordered_json as_kept(const nlohmann::ordered_json& json) {
   return nlohmann::ordered_json::parse(text_of(json));
 }
 
-}  // namespace tb::sweep
+}  // namespace tb::campaign

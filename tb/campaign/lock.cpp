@@ -1,4 +1,4 @@
-#include "tb/sweep/lock.hpp"
+#include "tb/campaign/lock.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -13,7 +13,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb::sweep {
+namespace tb::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,7 +37,8 @@ bool is_at(const std::string& path, int file) {
 
 }  // namespace
 
-Lock::Lock(const fs::path& folder) : folder_(folder.string()), path_((folder / kName).string()) {
+Lock::Lock(const fs::path& folder, const std::string& word)
+    : folder_(folder.string()), word_(word), path_((folder / name(word)).string()) {
   fs::create_directories(folder);
   while (!take()) {
   }
@@ -59,8 +60,8 @@ bool Lock::take() {
   const std::string owner = file_ >= 0 ? owner_of(file_) : "";
   if (file_ >= 0) close(file_);
   if (error == EWOULDBLOCK)
-    throw InputError(folder_, 0, "a sweep " + owner + "is using it, allowed is one sweep at a time");
-  throw InputError(folder_, 0, std::string("cannot be used for a sweep: ") + std::strerror(error));
+    throw InputError(folder_, 0, "a " + word_ + " " + owner + "is using it, allowed is one " + word_ + " at a time");
+  throw InputError(folder_, 0, "cannot be used for a " + word_ + ": " + std::strerror(error));
 }
 
 Lock::~Lock() {
@@ -68,4 +69,4 @@ Lock::~Lock() {
   close(file_);
 }
 
-}  // namespace tb::sweep
+}  // namespace tb::campaign
