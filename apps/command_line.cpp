@@ -292,13 +292,14 @@ void describe_compare(CLI::App& app, CompareArguments& arguments) {
        "SIGNAL=VALUE or SIGNAL!=VALUE: nothing is compared while it is so; with @SIGNAL after it, that one is not");
   command->add_option("--wave", arguments.wave, "Both sides and where they differ: FILE.vcd or FILE.fst");
   command->add_option("--json", arguments.json, "The result for programs");
+  command->add_option("--junit", arguments.junit, "The result in JUnit's XML, a case for each signal");
   add_output_options(*command, arguments.progress, arguments.quiet);
   command->footer(
       "\nExamples:\n"
       "  dsdpv1-sim compare model.fst icarus.vcd --scope-a demo --scope-b bench.dut --pins rtl_ref\n"
       "  dsdpv1-sim compare golden.vcd tonight.vcd --tolerance 10ns --mask 'tb.reset=0' --wave both.fst\n"
       "  dsdpv1-sim compare a.fst b.vcd --clock tb.clk --from 100us --to 3ms --json result.json\n"
-      "  dsdpv1-sim compare a.vcd <(zcat b.vcd.gz) --signal demo.INTR0=!tb.irq\n"
+      "  dsdpv1-sim compare a.vcd <(zcat b.vcd.gz) --signal bus.line=!tb.line_n\n"
       "docs/compare.md explains them.\n"
       "\nExit codes: 0 equal, 1 different, 2 wrong input, 130 interrupted.\n");
 }

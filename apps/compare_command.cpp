@@ -118,6 +118,7 @@ int compare(const CompareArguments& arguments) {
   const tb::compare::Result result = comparison.run();
   progress.clear();
   write(arguments.json, tb::compare::json(result));
+  write(arguments.junit, tb::compare::junit(result));
   if (!arguments.quiet) std::cout << tb::compare::text(result);
   return result.equal() ? kPassed : kFailed;
 }

@@ -59,11 +59,11 @@ struct Options {
   std::vector<Mask> masks;
 };
 
-/// "CSR=1", "state!=IDLE@D": throws InputError.
+/// "ready=0", "state!=IDLE@bus": throws InputError.
 Mask parse_mask(const std::string& text);
 /// "clk", "clk:rise", "clk:fall".
 Clock parse_clock(const std::string& text);
-/// "INTR0=irq", "INTR0=!irq"; throws InputError.
+/// "irq=irq_n", "irq=!irq_n"; throws InputError.
 NamedPair parse_pair(const std::string& text);
 
 }  // namespace tb::compare

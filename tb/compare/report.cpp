@@ -7,6 +7,7 @@
 
 #include "tb/input/suggest.hpp"
 #include "tb/input/units.hpp"
+#include "tb/report/junit.hpp"
 #include "tb/report/text_table.hpp"
 
 namespace tb::compare {
@@ -43,6 +44,16 @@ std::string when(const Result& result, Time at) {
   return fmt::format("{}, {}", cycle_text(result.scale.tick(at)), result.scale.text(at));
 }
 
+/// Of a signal that differs.
+std::string found_text(const Result& result, const SignalResult& signal) {
+  return fmt::format("{}: A {}, B {}", cycle_text(result.scale.tick(signal.first->at)), signal.first->a,
+                     signal.first->b);
+}
+
+std::string too_early_text(const Result& result) {
+  return fmt::format("at {}, --to is {}", result.scale.text(result.to), result.scale.text(*result.wanted));
+}
+
 std::string first_text(const Result& result) {
   const SignalResult& signal = result.signals[*result.first];
   const auto together = std::count_if(result.signals.begin(), result.signals.end(), [&](const SignalResult& other) {
@@ -68,16 +79,15 @@ std::string table(const Result& result) {
   TextTable table({"signal", "compared", "differences", "first"});
   for (const SignalResult* signal : rows(result))
     table.add({signal->name, fmt::format("{}", signal->compared), fmt::format("{}", signal->differences),
-               signal->first ? fmt::format("{}: A {}, B {}", cycle_text(result.scale.tick(signal->first->at)),
-                                           signal->first->a, signal->first->b)
-                             : "-"});
+               signal->first ? found_text(result, *signal) : "-"});
   const std::size_t left = result.signals.size() - std::min(result.signals.size(), kMostRows);
   return "\n" + table.text() + (left != 0 ? fmt::format("  and {} more signals\n", left) : "") + "\n";
 }
 
 std::string window(const Result& result) {
-  return fmt::format("{} signals from {} to {}: {} values{}", result.signals.size(), microseconds(result, result.from),
-                     microseconds(result, result.to), compared(result),
+  const std::size_t count = result.signals.size();
+  return fmt::format("{} signal{} from {} to {}: {} values{}", count, count == 1 ? "" : "s",
+                     microseconds(result, result.from), microseconds(result, result.to), compared(result),
                      result.tolerance != 0 ? ", tolerance " + result.scale.text(result.tolerance) : "");
 }
 
@@ -106,9 +116,7 @@ std::string text(const Result& result) {
   text += line("compared", window(result));
   if (!result.only_a.empty()) text += line("not compared of A", names_text(result.only_a));
   if (!result.only_b.empty()) text += line("not compared of B", names_text(result.only_b));
-  if (result.short_of_end())
-    text += line("ends too early",
-                 fmt::format("at {}, --to is {}", result.scale.text(result.to), result.scale.text(*result.wanted)));
+  if (result.short_of_end()) text += line("ends too early", too_early_text(result));
   if (result.first) text += first_text(result);
   return text + table(result) + (result.equal() ? "EQUAL\n" : "DIFFERENT\n");
 }
@@ -138,6 +146,19 @@ std::string json(const Result& result) {
                                       {"only_a", result.only_a},
                                       {"only_b", result.only_b}};
   return all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string junit(const Result& result) {
+  const std::string suite = result.a.path + " and " + result.b.path;
+  std::vector<JunitCase> cases;
+  for (const SignalResult& signal : result.signals) {
+    cases.push_back({suite, signal.name, 0, {}, fmt::format("{} values compared", signal.compared)});
+    if (signal.first) cases.back().failure = found_text(result, signal);
+  }
+  if (result.first) cases[*result.first].output = first_text(result);
+  if (result.wanted) cases.push_back({suite, "both reach --to", 0, {}, ""});
+  if (result.short_of_end()) cases.back().failure = too_early_text(result);
+  return tb::junit("dsdpv1-sim compare", cases);
 }
 
 }  // namespace tb::compare

@@ -10,5 +10,7 @@ namespace tb::compare {
 std::string text(const Result& result);
 /// docs/compare.md describes it.
 std::string json(const Result& result);
+/// JUnit's XML: a case for each signal.
+std::string junit(const Result& result);
 
 }  // namespace tb::compare

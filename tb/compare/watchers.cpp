@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kMostPins = 4096;  // of all chips: who has more is looking at something else
 
-/// "csr" for "CSR" and "csr_i".
+/// "strobe" for "STROBE" and "strobe_i".
 std::string plain(const std::string& leaf) {
   std::string name = lower(leaf);
   if (name.size() > 2 && (name.compare(name.size() - 2, 2, "_i") == 0 || name.compare(name.size() - 2, 2, "_o") == 0))

@@ -25,7 +25,6 @@ void count(FstBlocks& blocks, int tag) {
     case FST_BL_HIER:
     case FST_BL_HIER_LZ4:
     case FST_BL_HIER_LZ4DUO: blocks.names = true; break;
-    case FST_BL_ZWRAPPER: blocks.packed = true; break;
     default: break;
   }
 }
@@ -50,6 +49,7 @@ FstBlocks fst_blocks(const std::string& path) {
     if (!in || tag == FST_BL_SKIP || length < 8 || length > size - at - 1) return blocks;
     count(blocks, tag);
     if (tag == FST_BL_HDR) blocks.variables = variables(in);
+    if (tag == FST_BL_ZWRAPPER) blocks.unpacked = big_endian(in);
     at += 1 + length;
   }
   blocks.whole = in && at == size;

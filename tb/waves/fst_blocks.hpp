@@ -8,10 +8,10 @@ namespace tb {
 struct FstBlocks {
   unsigned changes = 0;
   bool header = false, geometry = false, names = false;
-  bool packed = false;          ///< all of it is compressed once more
+  std::uint64_t unpacked = 0;   ///< all of it is compressed once more: how large it is in truth; 0: it is not
   bool whole = false;           ///< the last block ends where the file does
   std::uint64_t variables = 0;  ///< that the header speaks of
-  bool complete() const { return whole && changes != 0 && geometry && names; }
+  bool complete() const { return whole && (unpacked != 0 || (changes != 0 && geometry && names)); }
 };
 
 FstBlocks fst_blocks(const std::string& path);

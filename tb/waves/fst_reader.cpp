@@ -1,5 +1,7 @@
 #include "tb/waves/fst_reader.hpp"
 
+#include <fmt/format.h>
+
 #include "tb/input/input_error.hpp"
 #include "tb/waves/fst_blocks.hpp"
 #include "tb/waves/fst_handle.hpp"
@@ -8,6 +10,9 @@
 
 namespace tb {
 namespace {
+
+/// Of a file that is compressed as a whole (GHDL; vvp -fst-space): it is unpacked in memory.
+constexpr std::uint64_t kMostUnpacked = std::uint64_t{1} << 30U;
 
 // ------------------------------------------------------------------------------------ in the process that has fstapi
 struct Heading {
@@ -122,11 +127,11 @@ FstReader::FstReader(const std::string& path) : path_(path) {
 
 void FstReader::check_file() const {
   const FstBlocks blocks = fst_blocks(path_);
-  if (!blocks.header && !blocks.packed) throw InputError(path_, 0, "is no wave, allowed are VCD and FST");
-  if (blocks.packed)
-    throw InputError(
-        path_, 0,
-        "is an FST that is compressed as a whole, allowed is one that is not (vvp: -fst in the place of -fst-space)");
+  if (!blocks.header && blocks.unpacked == 0) throw InputError(path_, 0, "is no wave, allowed are VCD and FST");
+  if (blocks.unpacked > kMostUnpacked)
+    throw InputError(path_, 0,
+                     fmt::format("is an FST of {} MB that is compressed as a whole, allowed are {} MB",
+                                 blocks.unpacked >> 20U, kMostUnpacked >> 20U));
   if (!blocks.complete())
     throw InputError(path_, 0,
                      "is an FST that was cut, allowed is a complete one: was the simulator stopped while it wrote?");
