@@ -11,7 +11,7 @@ class BothWave {
  public:
   /// Scopes a, b and differs, in each the signals by A's names; `differs.any` marks all. Throws InputError.
   BothWave(const std::string& path, const std::vector<Pair>& pairs);
-  void set(const Scale& scale, Time at, std::uint32_t pair, std::string_view a, std::string_view b, bool differs);
+  void set(const Scale& scale, Time time, std::uint32_t pair, std::string_view a, std::string_view b, bool differs);
   /// Gives the file its name.
   void finish(const Scale& scale, Time end);
 

@@ -1,5 +1,7 @@
 #include "tb/compare/clock_edges.hpp"
 
+#include <filesystem>
+
 #include "tb/input/input_error.hpp"
 
 namespace tb::compare {
@@ -10,10 +12,17 @@ const Side& side_of(const Clock& clock, const Side& a, const Side& b) {
   return b.nets().knows(clock.signal) && !a.nets().knows(clock.signal) ? b : a;
 }
 
+/// A FIFO gives its bytes once.
+Side once_more(const Side& side) {
+  if (!std::filesystem::is_regular_file(side.path()))
+    throw InputError(side.path(), 0, "has the clock and is no regular file, allowed is one: it is read twice");
+  return {side.path(), side.scope()};
+}
+
 }  // namespace
 
 ClockEdges::ClockEdges(const Clock& clock, const Side& a, const Side& b, const Scale& scale, Time shift_of_b)
-    : rising_(clock.rising), side_(side_of(clock, a, b).path(), side_of(clock, a, b).scope()), touched_(1) {
+    : rising_(clock.rising), side_(once_more(side_of(clock, a, b))), touched_(1) {
   const Net& net = side_.nets().find(clock.signal);
   if (net.kind != WaveKind::kBits || net.width != 1)
     throw InputError(side_.path(), 0, net.name() + " is no clock, allowed is a signal of one bit");

@@ -20,6 +20,7 @@ FileResult file_result(const Side& side) {
 
 std::vector<SignalResult> unseen(const std::vector<Pair>& pairs) {
   std::vector<SignalResult> results;
+  results.reserve(pairs.size());
   for (const Pair& pair : pairs) results.push_back({pair.name, 0, 0, {}});
   return results;
 }

@@ -17,6 +17,9 @@ class Comparison {
   /// Reads the declarations of both files and finds the pairs. Throws InputError.
   Comparison(const std::string& a, const std::string& b, Options options, const MakeSurroundings& make = {});
 
+  Comparison(const Comparison&) = delete;
+  Comparison& operator=(const Comparison&) = delete;
+
   /// Before `run`: all that is compared also goes into this wave.
   void write_wave(const std::string& path) { wave_.emplace(path, pairs_.pairs); }
   /// Called again and again while it runs, with how much of the files has been read, 0 to 1.

@@ -133,6 +133,7 @@ const Net& Nets::find(const std::string& name) const {
     if (ends_with_part(net.name(), name) && found.size() <= kNamed && !alias(net)) found.push_back(&net);
   if (found.size() == 1) return *found[0];
   std::vector<std::string> names;
+  names.reserve(found.size());
   for (const Net* net : found) names.push_back(net->name());
   if (!found.empty()) throw InputError(file_, 0, name + " is more than one signal, allowed are " + join(names));
   if (const Net* net = with_leaf(name)) return *net;

@@ -20,8 +20,8 @@ class Watchers {
 
  private:
   struct Pin {
-    Surroundings* of;
-    std::size_t number;
+    Surroundings* of = nullptr;
+    std::size_t number = 0;
     Probe probe;
   };
   Side& side_;

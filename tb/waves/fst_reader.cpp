@@ -119,7 +119,7 @@ void tell_changes(const std::string& path, const std::vector<bool>& selected, st
 }  // namespace
 
 // ------------------------------------------------------------------------------------------------------- in this one
-FstReader::FstReader(const std::string& path) : path_(path) {
+FstReader::FstReader(std::string path) : path_(std::move(path)) {
   check_file();
   read_declarations();
   selected_.assign(declarations_.signals.size(), true);
@@ -151,24 +151,36 @@ void FstReader::read_declarations() {
   last_ = heading.end;
   declarations_.exponent = heading.exponent;
   WaveScopes scopes(declarations_);
-  std::size_t names = 0;
-  for (;;) {
-    HierarchyRecord record{};
-    if (!told.read(record) || (names += record.name) > kMostWaveNames) damaged();
-    std::string name(record.name, '\0');
-    if (!told.read(name.data(), name.size())) damaged();
-    if (record.handle > kMostWaveVariables || record.width > kMostWaveWidth) damaged();
-    if (record.handle > declarations_.signals.size()) declarations_.signals.resize(record.handle);
-    if (record.entry == Entry::kEnd) return;
-    if (record.entry == Entry::kScope) scopes.open(name);
-    if (record.entry == Entry::kUpscope && !scopes.close()) damaged();
-    if (record.entry != Entry::kVariable) continue;
-    if (record.handle == 0) damaged();
-    const bool bits = record.kind == WaveKind::kBits;
-    declarations_.signals[record.handle - 1] = {record.kind, bits ? record.width : 0U};
-    WaveName parsed = parse_wave_name(name, record.width);
-    declarations_.variables.push_back({scopes.current(), std::move(parsed.name), parsed.range, record.handle - 1});
+  while (read_entry(told, scopes)) {
   }
+}
+
+/// One of the hierarchy; false at its end.
+bool FstReader::read_entry(ChildStream& told, WaveScopes& scopes) {
+  HierarchyRecord record{};
+  if (!told.read(record) || (names_ += record.name) > kMostWaveNames) damaged();
+  if (record.handle > kMostWaveVariables || record.width > kMostWaveWidth) damaged();
+  std::string name(record.name, '\0');
+  if (!told.read(name.data(), name.size())) damaged();
+  if (record.handle > declarations_.signals.size()) declarations_.signals.resize(record.handle);
+  switch (record.entry) {
+    case Entry::kScope: scopes.open(name); break;
+    case Entry::kUpscope:
+      if (!scopes.close()) damaged();
+      break;
+    case Entry::kVariable: add_variable(scopes.current(), name, {record.kind, record.width}, record.handle); break;
+    case Entry::kEnd: return false;
+  }
+  return true;
+}
+
+void FstReader::add_variable(std::uint32_t scope, const std::string& name, const WaveSignal& signal,
+                             std::uint32_t handle) {
+  if (handle == 0) damaged();
+  const bool bits = signal.kind == WaveKind::kBits;
+  declarations_.signals[handle - 1] = {signal.kind, bits ? signal.width : 0U};
+  WaveName parsed = parse_wave_name(name, signal.width);
+  declarations_.variables.push_back({scope, std::move(parsed.name), parsed.range, handle - 1});
 }
 
 bool FstReader::next(WaveEvent& event) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tb/waves/child_stream.hpp"
+#include "tb/waves/wave_name.hpp"
 #include "tb/waves/wave_reader.hpp"
 
 namespace tb {
@@ -11,7 +12,7 @@ namespace tb {
 class FstReader : public WaveReader {
  public:
   /// Reads the declarations; throws InputError.
-  explicit FstReader(const std::string& path);
+  explicit FstReader(std::string path);
 
   const WaveDeclarations& declarations() const override { return declarations_; }
   void select(const std::vector<bool>& signals) override { selected_ = signals; }
@@ -23,6 +24,8 @@ class FstReader : public WaveReader {
  private:
   void check_file() const;
   void read_declarations();
+  bool read_entry(ChildStream& told, WaveScopes& scopes);
+  void add_variable(std::uint32_t scope, const std::string& name, const WaveSignal& signal, std::uint32_t handle);
   bool normalise(const WaveSignal& declared);
   [[noreturn]] void damaged() const;
 
@@ -31,6 +34,7 @@ class FstReader : public WaveReader {
   std::vector<bool> selected_;
   std::optional<ChildStream> changes_;
   std::string value_;
+  std::size_t names_ = 0;  ///< bytes of them
   std::uint64_t begin_ = 0, last_ = 0, now_ = 0;
 };
 

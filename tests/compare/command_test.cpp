@@ -103,6 +103,11 @@ TEST_F(OwnWaves, AFifoIsAWave) {
   std::thread writer([&pipe] { std::ofstream(pipe, std::ios::binary) << app_test::read(waves_->path("a.vcd")); });
   EXPECT_EQ(compare("b.fst pipe -q").status, 0);
   writer.join();
+  std::thread again([&pipe] { std::ofstream(pipe, std::ios::binary) << app_test::read(waves_->path("a.vcd")); });
+  const Called called = compare("pipe b.fst --clock io.PBRXD");
+  again.join();
+  EXPECT_EQ(called.status, 2);
+  EXPECT_THAT(called.err, HasSubstr("pipe: has the clock and is no regular file"));
 }
 
 }  // namespace
