@@ -115,10 +115,12 @@ void Comparison::go_by_clock() {
     if (*edge <= from_) continue;
     a_.advance(*edge - 1);
     b_.advance(*edge - 1);
-    if (passed(*edge)) return;
+    if (passed(*edge)) break;
     compare_at(*edge);
     tell_progress();
   }
+  a_.advance(to_);  // where the files end
+  b_.advance(to_);
 }
 
 void Comparison::compare_at(Time now) {

@@ -165,6 +165,7 @@ TEST_F(Compare, AtAClockEdgeOnlyWhatWasThereBeforeItCounts) {
   options_.clock = tb::compare::parse_clock("clk");
   const Result result = compare(vcd(clocked, clock_a), b);
   EXPECT_EQ(first(result), "t.a@40: 1 0");
+  EXPECT_EQ(result.to, 50);
   options_.clock = tb::compare::parse_clock("clk:fall");
   EXPECT_EQ(first(compare(vcd(clocked, clock_a), b)), "t.a@35: 1 0");
   EXPECT_EQ(first(compare(b, vcd(clocked, clock_a))), "t.a@35: 0 1") << "the clock is B's alone";
