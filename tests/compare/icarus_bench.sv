@@ -1,6 +1,6 @@
-// The reference RTL under Icarus, driven by recorded inputs: the file named by +inputs= has a line for each time at which one of them changes, PS and the bits of RESET R_REQ R_STA CSR RD WR A D
-// PBRXD" for each time at which one of them changes. The wave, named by +wave=, begins 250 ns (12 cycles) after the simulation does: before
-// that the chip is clocked out of reset and in it, as the lockstep does before its time begins.
+// The reference RTL under Icarus, driven by recorded inputs: the file named by +inputs= has a line for each time at which one of them
+// changes, picoseconds and the bits of RESET, R_REQ, R_STA, CSR, RD, WR, A, D, PBRXD. The wave, named by +wave=, begins 250 ns (12 cycles)
+// after the simulation does: before that the chip is clocked out of reset and in it, as the lockstep does before its time begins.
 `timescale 1ps / 1ps
 `include "dsdpv1_types.svh"
 
