@@ -5,7 +5,7 @@
 namespace tb::compare {
 namespace {
 
-std::string plain(std::string name) {
+std::string without_blanks(std::string name) {
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }
@@ -19,14 +19,14 @@ BothWave::BothWave(const std::string& path, const std::vector<Pair>& pairs)
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const Net& net = pairs[i].a.net;
       signals_[i].text = net.kind != WaveKind::kBits;
-      signals_[i].*side = signals_[i].text ? writer_->words(plain(pairs[i].name))
-                                           : writer_->wire(plain(pairs[i].name), static_cast<int>(net.width));
+      signals_[i].*side = signals_[i].text ? writer_->words(without_blanks(pairs[i].name))
+                                           : writer_->wire(without_blanks(pairs[i].name), static_cast<int>(net.width));
     }
     writer_->close_scope();
   }
   writer_->open_scope("differs");
   any_ = writer_->wire("any", 1);
-  for (std::size_t i = 0; i < pairs.size(); ++i) signals_[i].differs = writer_->wire(plain(pairs[i].name), 1);
+  for (std::size_t i = 0; i < pairs.size(); ++i) signals_[i].differs = writer_->wire(without_blanks(pairs[i].name), 1);
   writer_->close_scope();
 }
 
