@@ -10,7 +10,6 @@
 namespace tb {
 namespace {
 
-constexpr bus::Tick kCycle = 250;  // of 48 MHz
 
 struct Unit {
   const char* name;
@@ -20,7 +19,7 @@ constexpr std::array<Unit, 5> kUnits = {{{"s", bus::kTicksPerSecond},
                                          {"ms", bus::kTicksPerMs},
                                          {"us", bus::kTicksPerUs},
                                          {"ns", bus::kTicksPerNs},
-                                         {"cycles", kCycle}}};
+                                         {"cycles", kTicksPerCycle}}};
 
 constexpr std::int64_t kLongest = 100'000'000;  // seconds; keeps every product below 2^63
 
@@ -101,10 +100,10 @@ std::string time_text(bus::Tick ticks) {
 }
 
 std::string cycle_text(bus::Tick at) {
-  const bus::Tick rest = at % kCycle;
-  const std::string cycle =
-      rest == 0 ? fmt::format("{}", at / kCycle) : fmt::format("{} + {} ticks", at / kCycle, rest);
-  return fmt::format("cycle {} ({:.3f} us)", cycle, static_cast<double>(at) / (1000.0 * bus::kTicksPerNs));
+  const bus::Tick rest = at % kTicksPerCycle;
+  const std::string within = rest == 0 ? "" : fmt::format(" + {} ticks", rest);
+  return fmt::format("cycle {}{} ({:.3f} us)", at / kTicksPerCycle, within,
+                     static_cast<double>(at) / static_cast<double>(bus::kTicksPerUs));
 }
 
 std::optional<bus::Bytes> parse_bytes(const std::string& text) {

@@ -22,7 +22,10 @@ std::optional<bus::Tick> parse_time(const std::string& text);
 /// The shortest way to write a time that `parse_time` reads back: "1.5ms".
 std::string time_text(bus::Tick ticks);
 
-/// A time as designers of the chip read it: "cycle 84795 + 122 ticks (1766.573 us)", cycles of 48 MHz.
+/// Ticks of a cycle of 48 MHz.
+constexpr bus::Tick kTicksPerCycle = 250;
+
+/// Where a time stands among the cycles of 48 MHz: "cycle 84797 + 122 ticks (1766.604 us)".
 std::string cycle_text(bus::Tick at);
 
 /// "01 a0 FF*10": hexadecimal bytes, `*n` repeats one n times; nullopt for anything else. Blank text is no bytes.

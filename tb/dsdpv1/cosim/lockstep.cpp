@@ -15,11 +15,8 @@ constexpr Tick kShortAccess = 7 * kCycle;  // 9.1: nothing was due, B006 := 01 i
 constexpr Tick kSettles = 4 * kCycle;      // P8: longer than a user's write is on its way
 constexpr unsigned kImageEvery = 256;      // ... the DPRAM is compared all the same from time to time
 
-std::string level_text(Pin pin, const std::optional<Level>& level) {
-  if (!level) return "no such change within the tolerance";
-  if (*level == dsdpv1::kLevelZ) return "Z";
-  if (*level == dsdpv1::kLevelX) return "X";
-  return dsdpv1::width(pin) == 1 ? fmt::format("{}", *level) : fmt::format("{:02X}", *level);
+std::string text(Pin pin, const std::optional<Level>& level) {
+  return level ? level_text(pin, *level) : "no such change within the tolerance";
 }
 
 }  // namespace
@@ -67,13 +64,13 @@ void Lockstep::set(Tick at, Pin pin, Level level) {
   advance(at);
   if (model_.level(pin) == level) return;
   history_.add(at, Side::kInput, pin, level);
-  note_write(at, pin, level);
-  last_access_.pin(at, pin, level);
+  note_input(at, pin, level);
   model_.set(at, pin, level);
   rtl_.set(at, pin, level);
 }
 
-void Lockstep::note_write(Tick at, Pin pin, Level level) {
+void Lockstep::note_input(Tick at, Pin pin, Level level) {
+  watch_.change(at, pin, level);
   if (pin != Pin::kWr || level == 0) return;
   user_wrote_ = true;
   last_write_ = at;
@@ -94,10 +91,8 @@ void Lockstep::advance(Tick to) {
 void Lockstep::model_changed(Tick at, Pin pin, Level level) {
   history_.add(at, Side::kModel, pin, level);
   if (!difference_) comparator_.model_changed(at, pin, level);
-  if (pin == Pin::kLReq) {
-    (level != 0 ? access_start_ : access_end_) = at;
-    if (level == 0 && model_.level(Pin::kReset) != 0) ended_ = at;
-  }
+  watch_.change(at, pin, level);
+  if (pin == Pin::kLReq && level == 0 && model_.level(Pin::kReset) != 0) ended_ = at;
   if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, pin, level);
 }
 
@@ -114,7 +109,7 @@ void Lockstep::access_ended(Tick at) {
 }
 
 bool Lockstep::dpram_may_have_changed(Tick at) {
-  const bool chip_wrote = at - access_start_ > kShortAccess;
+  const bool chip_wrote = at - watch_.chip_access_start() > kShortAccess;
   return (chip_wrote || user_wrote_ || ++accesses_ % kImageEvery == 0) && options_.compare_dpram;
 }
 
@@ -137,8 +132,8 @@ void Lockstep::settle(Tick horizon) {
   compared_to_ = horizon;
   if (!pin) return;
   compared_to_ = pin->at;
-  found(pin->at, fmt::format("pin {}: model {}, RTL {}", dsdpv1::name(pin->pin), level_text(pin->pin, pin->model),
-                             level_text(pin->pin, pin->rtl)));
+  found(pin->at, fmt::format("pin {}: model {}, RTL {}", dsdpv1::name(pin->pin), text(pin->pin, pin->model),
+                             text(pin->pin, pin->rtl)));
 }
 
 void Lockstep::found(Tick at, std::string what) {
@@ -146,13 +141,7 @@ void Lockstep::found(Tick at, std::string what) {
   difference_ = Difference{
       at, std::move(what),
       telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, tb::cycle_text(telegram.start)),
-      last_access_.words(), dpram_text()};
-}
-
-std::string Lockstep::dpram_text() const {
-  if (access_start_ < 0) return "no access of the chip yet";
-  if (access_end_ < access_start_) return fmt::format("in an access since {}", tb::cycle_text(access_start_));
-  return fmt::format("last access from {} to {}", tb::cycle_text(access_start_), tb::cycle_text(access_end_));
+      watch_.user_text(), watch_.chip_text()};
 }
 
 const MatchCounts& Lockstep::counts() const {

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "model/dsdpv1/chip.hpp"
+#include "tb/dsdpv1/cosim/access_watch.hpp"
 #include "tb/dsdpv1/cosim/history.hpp"
 #include "tb/dsdpv1/cosim/pin_comparator.hpp"
 #include "tb/dsdpv1/cosim/rtl_chip.hpp"
-#include "tb/dsdpv1/last_access.hpp"
 
 namespace cosim {
 
@@ -69,13 +69,12 @@ class Lockstep {
  private:
   void model_changed(Tick at, Pin pin, Level level);
   void rtl_changed(Tick at, Pin pin, Level level);
-  void note_write(Tick at, Pin pin, Level level);
+  void note_input(Tick at, Pin pin, Level level);
   void access_ended(Tick at);
   bool dpram_may_have_changed(Tick at);
   void compare_dpram(Tick at);
   void settle(Tick horizon);
   void found(Tick at, std::string what);
-  std::string dpram_text() const;
 
   dsdpv1::Chip model_;
   RtlChip rtl_;
@@ -84,8 +83,8 @@ class Lockstep {
   History history_;
   dsdpv1::PinSink sink_;
   std::uint32_t watched_ = 0;
-  tb::LastAccess last_access_;
-  Tick access_start_ = -1, access_end_ = -1, last_write_ = -1;
+  AccessWatch watch_;
+  Tick last_write_ = -1;
   std::optional<Tick> ended_;  ///< an access of the model has ended, the DPRAM is not compared yet
   bool user_wrote_ = true;     ///< since the DPRAM was compared
   unsigned accesses_ = 0;
