@@ -9,6 +9,7 @@
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
+#include "bus/capture/link_type.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 
@@ -31,6 +32,18 @@ void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
                   "PATH=VALUE instead of what the scenario says, once for each key: slaves.0.user_cpu.cycle=40us, "
                   "slaves.plant.init.dpv1=true, or of every slave user_cpu.fsmc.datast=3")
       ->allow_extra_args(false);
+}
+
+const char* const kCaptureHelp =
+    "Every telegram with its time as FILE.pcapng, for Wireshark and tshark (docs/captures.md)";
+
+void add_capture_options(CLI::App& command, std::string& capture, std::string& link) {
+  CLI::Option* option = command.add_option("--capture", capture, kCaptureHelp);
+  command
+      .add_option("--capture-link", link,
+                  "Its link type: profibus (257), or user0 to user15 for a Wireshark that does not know 257")
+      ->capture_default_str()
+      ->needs(option);
 }
 
 void add_output_options(CLI::App& command, std::optional<bool>& progress, bool& quiet) {
@@ -56,6 +69,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
+  add_capture_options(*command, arguments.capture, arguments.capture_link);
   command
       ->add_option(
           "--checks", arguments.checks,
@@ -80,6 +94,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
                   "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
                   "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
                   "  dsdpv1-sim run my.yaml --log my.jsonl\n"
+                  "  dsdpv1-sim run my.yaml --capture my.pcapng --capture-link user0\n"
                   "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
                   "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
                   "  dsdpv1-sim run scenarios/arm_board_12m.yaml --gdb 3333\n"
@@ -149,6 +164,7 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, "As of run; where it grows is said at the start");
   command->add_flag("--log-whole", arguments.log_whole, "As of run")->needs(log);
   command->add_option("--result", arguments.result, "As of run, and how well real time was kept");
+  add_capture_options(*command, arguments.capture, arguments.capture_link);
   command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
   command->footer(std::string("\nExamples:\n"
                               "  dsdpv1-sim serve scenarios/serve_19k2.yaml --pty dp --log serve.log\n"
@@ -288,6 +304,13 @@ void check_word(const std::string& option, const std::string& word, const std::v
   if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return;
   throw tb::InputError("dsdpv1-sim " + option + " is " + word + tb::did_you_mean(word, allowed) + ", allowed are " +
                        tb::join(allowed));
+}
+
+tb::CaptureRequest capture_request(const std::string& command, const std::string& path, const std::string& link) {
+  const std::optional<std::uint16_t> number = bus::capture::link_type(link);
+  if (!number)
+    throw tb::InputError(command + ": --capture-link is " + link + ", allowed are " + bus::capture::kLinkWords);
+  return {path, *number, "dsdpv1-sim " DSDPV1_VERSION};
 }
 
 int command_line(int argc, char** argv) {

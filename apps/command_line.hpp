@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tb/bench/capture_recorder.hpp"
+
 namespace app {
 
 // Exit codes of every command.
@@ -15,6 +17,7 @@ constexpr int kInterrupted = 130;  ///< SIGINT or SIGTERM; all files are complet
 struct RunArguments {
   std::string scenario, engine = "skip", view = "pins", checks = "report";
   std::string wave, log, result, trace;
+  std::string capture, capture_link = "profibus";
   std::string difference = "lockstep.vcd";  ///< wave of a lockstep run's first difference
   std::optional<bool> progress;             ///< absent: on a terminal
   std::vector<std::string> set;             ///< PATH=VALUE: keys other than in the file
@@ -44,6 +47,9 @@ int decode(const DecodeArguments& arguments);
 
 /// Throws tb::InputError unless `word` is one of `allowed`; `option` is the command and its option, "run: --engine".
 void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed);
+
+/// What --capture and --capture-link ask for; `command` as "dsdpv1-sim run". Throws tb::InputError.
+tb::CaptureRequest capture_request(const std::string& command, const std::string& path, const std::string& link);
 
 /// Parses the command line and carries it out; returns the exit code.
 int command_line(int argc, char** argv);

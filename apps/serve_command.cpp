@@ -61,6 +61,7 @@ tb::RunOptions options_of(const ServeArguments& arguments) {
   options.wave = arguments.wave;
   options.log = arguments.log;
   options.log_whole = arguments.log_whole;
+  options.capture = capture_request("dsdpv1-sim serve", arguments.capture, arguments.capture_link);
   options.open_ended = true;
   return options;
 }
@@ -74,7 +75,10 @@ int serve(const ServeArguments& arguments) {
   scenario.end = chosen_end(arguments.duration);
   const tb::RunOptions options = options_of(arguments);
   check_outputs("dsdpv1-sim serve", scenario_inputs(arguments.scenario, scenario.files),
-                {{"--wave", arguments.wave}, {"--log", arguments.log}, {"--result", arguments.result}});
+                {{"--wave", arguments.wave},
+                 {"--log", arguments.log},
+                 {"--result", arguments.result},
+                 {"--capture", arguments.capture}});
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
 

@@ -14,6 +14,7 @@ struct ServeArguments {
   std::string baud;      ///< empty: that of the scenario
   std::string duration;  ///< empty: until interrupted
   std::string wave, log, result;
+  std::string capture, capture_link = "profibus";
   bool log_whole = false, quiet = false;
 };
 

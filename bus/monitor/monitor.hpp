@@ -101,6 +101,8 @@ class Monitor : public Listener, public Agent {
 
   std::function<void(const WireTelegram&)> on_telegram;
   std::function<void(const Flag&)> on_flag;
+  /// A character after a wrong telegram, before the line was idle for T_SYN: it is taken for a part of it.
+  std::function<void(const ReceivedCharacter&)> on_skipped;
 
   const MonitorStatistics& statistics() const { return statistics_; }
   /// T_RR of each master, by its address.

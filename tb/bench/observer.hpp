@@ -35,6 +35,10 @@ class Observer {
   virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}
   virtual void event(std::size_t /*slave*/, const profibus::Event& /*event*/) {}
   virtual void telegram(const HeardTelegram& /*telegram*/) {}
+  /// What the monitor flags; what is flagged of a telegram comes before it.
+  virtual void flag(const bus::Flag& /*flag*/) {}
+  /// A character after a wrong telegram, see bus::Monitor::on_skipped.
+  virtual void skipped(const bus::ReceivedCharacter& /*character*/) {}
   /// What a master makes of a slave (class 1), or the state of a connection (class 2): `member` is its name.
   virtual void master_state(Tick /*now*/, const std::string& /*master*/, const std::string& /*member*/,
                             const std::string& /*state*/) {}
