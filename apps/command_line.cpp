@@ -9,6 +9,7 @@
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
+#include "bus/baud.hpp"
 #include "bus/capture/link_type.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
@@ -127,15 +128,22 @@ void describe_gsd(CLI::App& app, GsdArguments& arguments) {
 
 void describe_decode(CLI::App& app, DecodeArguments& arguments) {
   CLI::App* command =
-      app.add_subcommand("decode", "Reads telegrams as hexadecimal text, or a log, and explains every byte");
-  command->add_option("FILE", arguments.file, "Text file, or a log of run or serve; left out or -: standard input");
+      app.add_subcommand("decode", "Explains every byte of telegrams: text, logs, captures, recordings of the line");
+  command->add_option("FILE", arguments.file,
+                      "Hexadecimal text, a log of run or serve, pcapng, pcap, a session of sigrok, CSV of a logic "
+                      "analyser, known by what is in it; left out or -: standard input");
+  command->add_option("--baud", arguments.baud, "Baud rate of a recording of the line; left out: it is found");
+  command->add_option("--signal", arguments.signal,
+                      "Which signal of a recording is the line; left out: the only one, or line, PBRXD, PBTXD");
+  command->add_flag("--invert", arguments.inverted, "The recording's idle level is low");
   command->footer(
       "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
       "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes "
       "(--log-whole).\n"
-      "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  echo 68 05 05 68 85 82 6D 3C 3E "
+      "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  dsdpv1-sim decode my.pcapng\n  "
+      "dsdpv1-sim decode logic.sr --signal D2 --invert\n  echo 68 05 05 68 85 82 6D 3C 3E "
       "EE 16 | dsdpv1-sim decode\n"
-      "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 not hexadecimal.\n");
+      "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 wrong input.\n");
 }
 
 void describe_serve(CLI::App& app, ServeArguments& arguments) {
@@ -304,6 +312,13 @@ void check_word(const std::string& option, const std::string& word, const std::v
   if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return;
   throw tb::InputError("dsdpv1-sim " + option + " is " + word + tb::did_you_mean(word, allowed) + ", allowed are " +
                        tb::join(allowed));
+}
+
+int baud_index(const std::string& option, const std::string& word) {
+  std::vector<std::string> allowed;
+  for (const bus::Baud& baud : bus::kBauds) allowed.emplace_back(baud.name);
+  check_word(option, word, allowed);
+  return *bus::baud_index(word);
 }
 
 tb::CaptureRequest capture_request(const std::string& command, const std::string& path, const std::string& link) {

@@ -37,7 +37,9 @@ struct GsdArguments {
 };
 
 struct DecodeArguments {
-  std::string file;  ///< empty or "-": standard input
+  std::string file;          ///< empty or "-": standard input
+  std::string baud, signal;  ///< of levels; empty: found
+  bool inverted = false;
 };
 
 int run(const RunArguments& arguments);
@@ -47,6 +49,9 @@ int decode(const DecodeArguments& arguments);
 
 /// Throws tb::InputError unless `word` is one of `allowed`; `option` is the command and its option, "run: --engine".
 void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed);
+
+/// The index of a baud rate of bus/baud.hpp; throws tb::InputError; `option` as above.
+int baud_index(const std::string& option, const std::string& word);
 
 /// What --capture and --capture-link ask for; `command` as "dsdpv1-sim run". Throws tb::InputError.
 tb::CaptureRequest capture_request(const std::string& command, const std::string& path, const std::string& link);

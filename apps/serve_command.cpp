@@ -32,12 +32,7 @@ constexpr tb::Tick kOpenEnd = 5LL * 365 * 24 * 3600 * bus::kTicksPerSecond;
 
 int chosen_baud(const tb::scenario::Scenario& scenario, const std::string& word) {
   if (word.empty()) return scenario.baud;
-  if (const std::optional<int> index = bus::baud_index(word)) return *index;
-  std::vector<std::string> allowed;
-  allowed.reserve(bus::kBauds.size());
-  for (const bus::Baud& baud : bus::kBauds) allowed.emplace_back(baud.name);
-  throw tb::InputError(fmt::format("dsdpv1-sim serve: --baud is {}{}, allowed are {}", word,
-                                   tb::did_you_mean(word, allowed), tb::join(allowed)));
+  return baud_index("serve: --baud", word);
 }
 
 tb::Tick chosen_end(const std::string& text) {

@@ -79,7 +79,7 @@ void Collector::finish() {
 /// Those up to its end; later ones are of the telegram that is on the line now.
 void Collector::take_flags() {
   const auto later = std::stable_partition(
-      flags_.begin(), flags_.end(), [this](const Flag& flag) { return flag.at < open_->end; });
+      flags_.begin(), flags_.end(), [this](const Flag& flag) { return flag.at <= open_->end; });
   std::for_each(flags_.begin(), later, [this](const Flag& flag) { add(flag); });
   flags_.erase(flags_.begin(), later);
 }

@@ -20,4 +20,7 @@ std::optional<std::uint16_t> link_type(const std::string& word);
 /// The words that `link_type` knows, for error lines.
 constexpr const char* kLinkWords = "profibus, user0 to user15";
 
+/// Throws CaptureError unless packets of this type may be telegrams.
+void check_link(std::uint32_t link);
+
 }  // namespace bus::capture
