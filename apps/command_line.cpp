@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/compare_command.hpp"
 #include "apps/reasons_command.hpp"
 #include "apps/recover_command.hpp"
 #include "apps/rtl_commands.hpp"
@@ -282,6 +283,50 @@ void describe_recover(CLI::App& app, RecoverArguments& arguments) {
       "\nExit codes: 0 recovered, 2 wrong input or nothing to recover, 130 interrupted.\n");
 }
 
+void describe_compare(CLI::App& app, CompareArguments& arguments) {
+  CLI::App* command = app.add_subcommand("compare", "Holds a simulator's wave against another's: VCD and FST of any");
+  const auto list = [&](const char* name, std::vector<std::string>& to, const char* help) {
+    command->add_option(name, to, help)->allow_extra_args(false);
+  };
+  command->add_option("A", arguments.a, "Wave of what is expected, such as the model's")->required();
+  command->add_option("B", arguments.b, "Wave that is held to it")->required();
+  command->add_option("--scope", arguments.scope, "Only signals in this scope and below it; left out: all");
+  command->add_option("--scope-a", arguments.scope_a, "The same for A alone");
+  command->add_option("--scope-b", arguments.scope_b, "The same for B alone");
+  command->add_option("--pins", arguments.pins,
+                      "The pins of the chip, B's by this map (docs/cosim.md) or, with rtl_ref, as the reference RTL "
+                      "calls them; left out: all signals of one name");
+  list("--signal", arguments.signals, "A=B: this signal of A and that of B, A=!B when B has the other level");
+  command->add_option("--from", arguments.from, "Compare from this time on, such as 100us; left out: what both have");
+  command->add_option("--to", arguments.to, "... and up to this one, which both must reach");
+  command->add_option("--shift", arguments.shift, "Added to B's times: 20ns, -3cycles");
+  command->add_option("--tolerance", arguments.tolerance,
+                      "What differs for no longer is no difference; left out: the coarser time scale's unit where the "
+                      "two are not the same, else 0");
+  command->add_option("--clock", arguments.clock,
+                      "SIGNAL, SIGNAL:fall: compare what there is just before its rising (falling) edges");
+  command
+      ->add_option("--x", arguments.x,
+                   "What an unknown bit matches: expected (A's anything, B's only X), any (either side's anything), "
+                   "equal (X), never (nothing)")
+      ->capture_default_str();
+  command->add_option("--z", arguments.z, "What a released bit matches: equal (Z), expected and any as of --x")
+      ->capture_default_str();
+  list("--mask", arguments.masks,
+       "SIGNAL=VALUE or SIGNAL!=VALUE: nothing is compared while it is so; with @SIGNAL after it, that one is not");
+  command->add_option("--wave", arguments.wave, "Both sides and where they differ: FILE.vcd or FILE.fst");
+  command->add_option("--json", arguments.json, "The result for programs");
+  add_output_options(*command, arguments.progress, arguments.quiet);
+  command->footer(
+      "\nExamples:\n"
+      "  dsdpv1-sim compare model.fst icarus.vcd --scope-a demo --scope-b bench.dut --pins rtl_ref\n"
+      "  dsdpv1-sim compare golden.vcd tonight.vcd --tolerance 10ns --mask 'tb.reset=0' --wave both.fst\n"
+      "  dsdpv1-sim compare a.fst b.vcd --clock tb.clk --from 100us --to 3ms --json result.json\n"
+      "  dsdpv1-sim compare a.vcd <(zcat b.vcd.gz) --signal demo.INTR0=!tb.irq\n"
+      "docs/compare.md explains them.\n"
+      "\nExit codes: 0 equal, 1 different, 2 wrong input, 130 interrupted.\n");
+}
+
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -357,6 +402,8 @@ int command_line(int argc, char** argv) {
   describe_rtl_faults(app, rtl_faults_arguments);
   CosimArguments cosim_arguments;
   describe_cosim(app, cosim_arguments);
+  CompareArguments compare_arguments;
+  describe_compare(app, compare_arguments);
   RecoverArguments recover_arguments;
   describe_recover(app, recover_arguments);
   try {
@@ -371,6 +418,7 @@ int command_line(int argc, char** argv) {
   if (app.got_subcommand("rtl-random")) return rtl_random(rtl_random_arguments);
   if (app.got_subcommand("rtl-faults")) return rtl_faults(rtl_faults_arguments);
   if (app.got_subcommand("cosim")) return cosim_own_rtl(cosim_arguments);
+  if (app.got_subcommand("compare")) return compare(compare_arguments);
   if (app.got_subcommand("recover")) return recover(recover_arguments);
   if (app.got_subcommand("schema")) return schema(schema_arguments);
   if (app.got_subcommand("gsd")) return gsd(gsd_arguments);

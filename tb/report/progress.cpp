@@ -38,6 +38,24 @@ void Progress::clear() {
   drawn_ = false;
 }
 
+std::string share_text(double done, double wall_s) {
+  const double left = done > 0 ? wall_s / done - wall_s : 0;
+  return fmt::format("[{:<{}}] {:3.0f} %  {:.0f} s left", bar_of(done), kWidth, done * 100, left);
+}
+
+void ShareProgress::show(double done) {
+  using namespace std::chrono_literals;
+  const Clock::time_point time = Clock::now();
+  if (!wanted_ || time - last_ < 100ms) return;
+  last_ = time;
+  fmt::print(stderr, "\r{}\033[K", share_text(done, std::chrono::duration<double>(time - begin_).count()));
+  std::fflush(stderr);
+}
+
+void ShareProgress::clear() const {
+  if (wanted_) fmt::print(stderr, "\r\033[K");
+}
+
 std::string count_text(std::size_t done, std::size_t all, double wall_s) {
   const double part = static_cast<double>(done) / static_cast<double>(all);
   return fmt::format("[{:<{}}] {} of {} points  {:.0f} s", bar_of(part), kWidth, done, all, wall_s);

@@ -39,6 +39,22 @@ class CountProgress {
   Clock::time_point begin_ = Clock::now(), last_ = begin_;
 };
 
+/// The same for work of which the part that is done is known.
+class ShareProgress {
+ public:
+  explicit ShareProgress(bool wanted) : wanted_(wanted) {}
+  /// `done` from 0 to 1; redraws when the last drawing is a tenth of a second old.
+  void show(double done);
+  void clear() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool wanted_;
+  Clock::time_point begin_ = Clock::now(), last_ = begin_;
+};
+
+/// "[#####     ]  16 %  5 s left".
+std::string share_text(double done, double wall_s);
 /// The bar's text: "[#####     ]  50 %  60ms of 120ms  0.85 x real time  2 s left".
 std::string progress_text(bus::Tick now, bus::Tick end, double wall_s);
 /// "[#####     ]  32 of 64 points  5 s".

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "tb/output/output_file.hpp"
@@ -21,14 +22,19 @@ class VcdWriter : public WaveWriter {
   bool failed() const override { return file_.failed(); }
   void check() const override { file_.check(); }
   void finish(bus::Tick end) override;
+  void set(Picoseconds at, Signal signal, std::string_view levels) override;
+  void say(Picoseconds at, Signal signal, std::string_view word) override;
+  void finish(Picoseconds end) override;
 
  private:
   Signal declare(const char* type, const std::string& name, int width);
-  void move_to(bus::Tick at);
+  void move_to(Picoseconds at);
+  Picoseconds in_order(bus::Tick at);
 
   OutputFile file_;
   std::vector<int> widths_;
-  bus::Tick now_ = -1;  // -1: still declaring
+  bus::Tick now_ = 0;
+  std::optional<std::uint64_t> time_;  ///< the last in the file; nullopt: still declaring
 };
 
 }  // namespace tb
