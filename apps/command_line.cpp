@@ -131,7 +131,8 @@ void describe_decode(CLI::App& app, DecodeArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("decode", "Explains every byte of telegrams: text, logs, captures, recordings of the line");
   command->add_option("FILE", arguments.file,
-                      "Hexadecimal text, a log of run or serve, pcapng, pcap, a session of sigrok, CSV of a logic "
+                      "Hexadecimal text, a log of run or serve, pcapng, pcap, VCD or FST of any simulator, a session "
+                      "of sigrok, CSV of a logic "
                       "analyser, known by what is in it; left out or -: standard input");
   command->add_option("--baud", arguments.baud, "Baud rate of a recording of the line; left out: it is found");
   command->add_option("--signal", arguments.signal,

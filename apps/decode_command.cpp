@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "apps/command_line.hpp"
 #include "apps/rewound_input.hpp"
+#include "apps/wave_line.hpp"
 #include "bus/baud.hpp"
 #include "bus/capture/csv_reader.hpp"
 #include "bus/capture/pcap_reader.hpp"
@@ -110,22 +112,38 @@ int decode_text(std::istream& in, const std::string& name) {
   return status;
 }
 
-int decode_stream(std::istream& in, std::string_view beginning, const std::string& name,
-                  const DecodeArguments& arguments) {
-  CapturePrinter printer(!capture::begins_as_zip(beginning) && !capture::begins_as_csv(beginning));
-  const capture::TakeTelegram take = [&printer](const capture::CapturedTelegram& telegram) { printer.take(telegram); };
+enum class Form : std::uint8_t { kText, kPcapng, kPcap, kSigrok, kCsv, kWave };
+
+Form form_of(std::string_view beginning) {
+  if (capture::begins_as_pcapng(beginning)) return Form::kPcapng;
+  if (capture::begins_as_pcap(beginning)) return Form::kPcap;
+  if (capture::begins_as_zip(beginning)) return Form::kSigrok;
+  if (capture::begins_as_csv(beginning)) return Form::kCsv;
+  return begins_as_wave(beginning) ? Form::kWave : Form::kText;
+}
+
+/// The signal of a recording; nothing for packets.
+std::optional<capture::LogicSource> read(Form form, std::istream& in, const DecodeArguments& arguments,
+                                         const capture::TakeTelegram& take) {
   const capture::LogicSettings settings = logic_settings(arguments);
+  switch (form) {
+    case Form::kPcapng: capture::read_pcapng(in, take); return std::nullopt;
+    case Form::kPcap: capture::read_pcap(in, take); return std::nullopt;
+    case Form::kSigrok: return capture::read_sigrok(read_archive(in), settings, take);
+    case Form::kCsv: return capture::read_csv(in, settings, take);
+    case Form::kWave: return read_wave_line(arguments.file, settings, take);
+    case Form::kText: break;
+  }
+  return std::nullopt;
+}
+
+int decode_stream(std::istream& in, Form form, const std::string& name, const DecodeArguments& arguments) {
+  if (form == Form::kText) return decode_text(in, name);
+  CapturePrinter printer(form == Form::kPcapng || form == Form::kPcap);
   try {
-    if (capture::begins_as_pcapng(beginning))
-      capture::read_pcapng(in, take);
-    else if (capture::begins_as_pcap(beginning))
-      capture::read_pcap(in, take);
-    else if (capture::begins_as_zip(beginning))
-      say_source(capture::read_sigrok(read_archive(in), settings, take));
-    else if (capture::begins_as_csv(beginning))
-      say_source(capture::read_csv(in, settings, take));
-    else
-      return decode_text(in, name);
+    const auto source =
+        read(form, in, arguments, [&printer](const capture::CapturedTelegram& telegram) { printer.take(telegram); });
+    if (source) say_source(*source);
   } catch (const capture::CaptureError& error) {
     throw tb::InputError(name, 0, error.what());
   }
@@ -146,7 +164,7 @@ int decode(const DecodeArguments& arguments) {
                                ", allowed is a file of telegrams: hexadecimal text, a log, a capture, a recording");
   }
   RewoundInput input(standard_input ? std::cin : file);
-  return decode_stream(input.stream(), input.beginning(), standard_input ? "standard input" : arguments.file,
+  return decode_stream(input.stream(), form_of(input.beginning()), standard_input ? "standard input" : arguments.file,
                        arguments);
 }
 

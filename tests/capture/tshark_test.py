@@ -8,10 +8,12 @@ import pathlib
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
+from random import Random
 
 from wireshark import DISSECTOR, ROOT, SIM, capture, expect, failures, fields, sim, tshark
 
@@ -160,7 +162,56 @@ def killed(folder):
     expect("telegrams are decoded", len(told) > 100, True)
 
 
-CASES = {case.__name__: case for case in (shipped_scenarios, services, damage, link_types, installed, statistics, same_bytes, killed)}
+def telegram(da, sa, fc, data, dsap=None, ssap=None):
+    body = bytes([da | (0x80 if dsap else 0), sa | (0x80 if ssap else 0), fc, *([dsap] if dsap else []), *([ssap] if ssap else []), *data])
+    return bytes([0x68, len(body), len(body), 0x68]) + body + bytes([sum(body) % 256, 0x16])
+
+
+def as_pcap(folder, packets):
+    file = struct.pack("<IHHiIII", 0xA1B23C4D, 2, 4, 0, 0, 65535, 147)
+    for number, packet in enumerate(packets):
+        file += struct.pack("<IIII", 0, number * 100_000, len(packet), len(packet)) + packet
+    (folder / "made.pcap").write_bytes(file)
+    return folder / "made.pcap"
+
+
+def any_bytes(folder):
+    """Whatever the bytes of a service are, and however few, the dissector has no error of its own."""
+    random = Random(1)
+    packets = []
+    for sap in (*range(47, 63), None):
+        for size in (*range(16), 40, 100, 240):
+            for fc, dsap, ssap in ((0x6D, sap, 62), (0x08, 62, sap)):
+                packets.append(telegram(5, 2, fc, random.randbytes(size), sap and dsap, sap and ssap))
+    for function in (0x48, 0x51, 0x56, 0x57, 0x58, 0x5C, 0x5E, 0x5F, 0xD7, 0xDE):
+        for size in (*range(16), 240):
+            data = bytes([function]) + random.randbytes(size)
+            packets += [telegram(5, 2, 0x6D, data, 51, 51), telegram(2, 5, 0x08, data, 51, 51)]
+    packets += [packet[:random.randrange(1, len(packet))] for packet in packets]
+    packets += [random.randbytes(random.randrange(1, 40)) for _ in range(300)]
+    rows = fields(folder, as_pcap(folder, packets), "pbdl.type", "_ws.malformed", "_ws.lua.error")
+    expect("packets", len(rows), len(packets))
+    expect("errors", [(number, packets[number].hex()) for number, row in enumerate(rows) if any(row[1:])], [])
+    expect("all are PROFIBUS", all(row[0] for row in rows), True)
+
+
+def rare_services(folder):
+    """What no scenario sends: alarms, channel diagnosis, special identifiers, structured parameters, repeated requests."""
+    read = telegram(2, 5, 0x08, bytes([0x10, 0x04, 0, 2, 0x0C, 0xC9, 0x84, 0xC3, 0xA6, 0x42, 0x05]), 62, 60)
+    packets = as_pcap(folder, [
+        telegram(5, 2, 0x6D, bytes([0x5C, 3, 2, 0x0C]), 50, 51),
+        telegram(5, 2, 0x6D, bytes([0xC2, 0x81, 0x40, 0x11, 0x22, 0x57]), 62, 62),
+        telegram(5, 2, 0x5D, bytes([0x88, 10, 20, 11, 0x0C, 0xC9, 1, 0x84, 0x40, 0x0B, 6, 129, 0, 0, 7, 8]), 61, 62),
+        telegram(5, 2, 0x5D, b"", 60, 62), read, telegram(5, 2, 0x5D, b"", 60, 62),
+        bytes([0xA2, 5, 2, 0x6D, *range(8), (5 + 2 + 0x6D + 28) % 256, 0x16])])
+    text = tshark(folder, packets, "-V")
+    for words in ("Alarm_Ack slot 3, process", "Sequence number: 1", "Special format: output and input (3)", "Manufacturer data: 1122",
+                  "[Watchdog / ms: 200]", "Structure_Type: User_Prm_Data (129)", "Error: line break (6)", "Modules with diagnosis: 0x05",
+                  "A request again, with the same FCB", "Start delimiter: SD3, 8 bytes of data", "Outputs: 0001020304050607"):
+        expect(f"'{words}' is said", words in text, True)
+
+
+CASES = {case.__name__: case for case in (shipped_scenarios, services, damage, link_types, installed, statistics, any_bytes, rare_services, same_bytes, killed)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_tshark_") as name:
     CASES[sys.argv[2]](pathlib.Path(name))

@@ -1,5 +1,5 @@
 -- The data of DPV0's services.
-local fields, Reader = ...
+local fields, Reader, words = ...
 if type(fields) ~= "table" then return end
 
 local f, e = fields.f, fields.e
@@ -137,20 +137,14 @@ local function diag_block(r, dpv1)
     block:rest("pbdp.diag.user")
 end
 
--- The names of the flags of a byte that are set.
-local function set_flags(names, value)
+-- The names of the bits of a byte that are set.
+local function names_of_set(bits, value)
     local set = {}
-    for mask, name in pairs(names) do
-        if bit.band(value, mask) ~= 0 then set[#set + 1] = name end
+    for _, each in ipairs(bits) do
+        if bit.band(value, each[1]) ~= 0 then set[#set + 1] = each[2] end
     end
-    table.sort(set)
     return table.concat(set, ", ")
 end
-
-local faults = {
-    [0x80] = "Master_Lock", [0x40] = "Prm_Fault", [0x20] = "Invalid_Slave_Response", [0x10] = "Not_Supported",
-    [0x08] = "Ext_Diag", [0x04] = "Cfg_Fault", [0x02] = "Station_Not_Ready", [0x01] = "Station_Non_Existent",
-}
 
 function dp.diagnosis(r, dpv1)
     local status_1, _, item = r:add_flags("pbdp.diag.status_1")
@@ -160,7 +154,7 @@ function dp.diagnosis(r, dpv1)
     r:add("pbdp.ident", 2)
     while r:left() > 0 do diag_block(r, dpv1) end
     if not status_1 or status_1 == 0 then return "" end
-    local set = set_flags(faults, status_1)
+    local set = names_of_set(words.diag_status_1, status_1)
     item:add_proto_expert_info(e.diagnosis, "Diagnosis: " .. set)
     return set
 end
@@ -170,8 +164,7 @@ function dp.global_control(r)
     local groups = r:add_flags("pbdp.control.groups")
     if r:left() > 0 then r:rest("pbdp.data") end
     if not groups then return "" end
-    local names = {[0x20] = "Sync", [0x10] = "Unsync", [0x08] = "Freeze", [0x04] = "Unfreeze", [0x02] = "Clear_Data"}
-    local set = set_flags(names, command)
+    local set = names_of_set(words.control_command, command)
     return (set == "" and "operate" or set) .. (groups == 0 and ", all groups" or string.format(", groups 0x%02X", groups))
 end
 

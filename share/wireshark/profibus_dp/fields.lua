@@ -128,10 +128,7 @@ bytes("pbdp.cfg.specific", "Manufacturer data")
 u16("pbdp.cfg.input_bytes", "Input bytes in all")
 u16("pbdp.cfg.output_bytes", "Output bytes in all")
 
-flags(dp, "pbdp.diag.status_1", "Station_status_1", {
-    {0x80, "Master_Lock"}, {0x40, "Prm_Fault"}, {0x20, "Invalid_Slave_Response"}, {0x10, "Not_Supported"},
-    {0x08, "Ext_Diag"}, {0x04, "Cfg_Fault"}, {0x02, "Station_Not_Ready"}, {0x01, "Station_Non_Existent"},
-})
+flags(dp, "pbdp.diag.status_1", "Station_status_1", words.diag_status_1)
 flags(dp, "pbdp.diag.status_2", "Station_status_2", {
     {0x80, "Deactivated"}, {0x20, "Sync_Mode"}, {0x10, "Freeze_Mode"}, {0x08, "WD_On"}, {0x04, "DP slave"},
     {0x02, "Stat_Diag"}, {0x01, "Prm_Req"},
@@ -155,9 +152,7 @@ bool("pbdp.diag.add_ack", "Add_Ack", 0x04)
 u8("pbdp.diag.sequence", "Sequence number", nil, nil, 0xF8)
 bytes("pbdp.diag.user", "Diagnosis_User_Data")
 
-flags(dp, "pbdp.control.command", "Control_Command", {
-    {0x20, "Sync"}, {0x10, "Unsync"}, {0x08, "Freeze"}, {0x04, "Unfreeze"}, {0x02, "Clear_Data"},
-})
+flags(dp, "pbdp.control.command", "Control_Command", words.control_command)
 flags(dp, "pbdp.control.groups", "Group_Select (0: all)", groups)
 u8("pbdp.new_address", "New_Slave_Address")
 bool("pbdp.no_change", "No_Add_Chg (no later change)")

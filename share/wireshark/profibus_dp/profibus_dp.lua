@@ -5,7 +5,7 @@ local function load(name, ...) return assert(loadfile(__DIR__ .. "/" .. name .. 
 local words = load("words")
 local fields = load("fields", words)
 local Reader = load("reader", fields)
-local dp = load("dp", fields, Reader)
+local dp = load("dp", fields, Reader, words)
 local dpv1 = load("dpv1", fields, words)
 local pairing = load("pairing")
 local f, e = fields.f, fields.e
@@ -243,6 +243,7 @@ local function dissect_service(t, info, tvb, tree, root)
         local known = (t.request and dp.requests or dp.responses)[sap] or dp.other
         said = known(reader, info.dpv1)
     end
+    if said ~= "" then item:append_text(": " .. said) end
     return name, said
 end
 

@@ -53,6 +53,15 @@ words.cfg_special = { [0] = "empty slot", [1] = "input", [2] = "output", [3] = "
 words.cfg_unit = { [0] = "bytes", [1] = "words" }
 words.cfg_consistency = { [0] = "over a byte or word", [1] = "over the whole module" }
 
+-- Bits with their names.
+words.diag_status_1 = {
+    {0x80, "Master_Lock"}, {0x40, "Prm_Fault"}, {0x20, "Invalid_Slave_Response"}, {0x10, "Not_Supported"},
+    {0x08, "Ext_Diag"}, {0x04, "Cfg_Fault"}, {0x02, "Station_Not_Ready"}, {0x01, "Station_Non_Existent"},
+}
+words.control_command = {
+    {0x20, "Sync"}, {0x10, "Unsync"}, {0x08, "Freeze"}, {0x04, "Unfreeze"}, {0x02, "Clear_Data"},
+}
+
 words.diag_block = {
     [0] = "device related", [1] = "identifier related", [2] = "channel related", [3] = "revision number",
 }
