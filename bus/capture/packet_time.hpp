@@ -1,5 +1,6 @@
 #pragma once
 // Times of packets as ticks.
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -22,7 +23,7 @@ class PacketClock {
     const std::int64_t since = seconds - *first_s_;
     if (since > kMostApart || since < -kMostApart) fail();
     const double part = static_cast<double>(units % per_second) / static_cast<double>(per_second);
-    return since * kTicksPerSecond + static_cast<Tick>(part * static_cast<double>(kTicksPerSecond) + 0.5);
+    return since * kTicksPerSecond + std::llround(part * static_cast<double>(kTicksPerSecond));
   }
 
  private:

@@ -40,20 +40,20 @@ bool begins_as_pcap(std::string_view beginning) {
   return magic.size() == 4 && (is_magic(number_in(magic, true)) || is_magic(number_in(magic, false)));
 }
 
-void read_pcap(std::istream& stream, const TakeTelegram& take) {
-  ByteReader in(stream);
-  const Form form = read_header(in);
+void read_pcap(std::istream& in, const TakeTelegram& take) {
+  ByteReader file(in);
+  const Form form = read_header(file);
   PacketClock clock;
   std::string header, bytes;
-  while (in.read(kPacketHeader, header)) {
+  while (file.read(kPacketHeader, header)) {
     const auto field = [&](std::size_t at) {
       return number_in(std::string_view(header).substr(at, 4), form.big_endian);
     };
     const std::uint64_t size = field(8);
     if (size > kLongestPacket)
       throw CaptureError(
-          fmt::format("a packet of {} bytes before byte {}, allowed are up to {}", size, in.at(), kLongestPacket));
-    in.need(size, bytes);
+          fmt::format("a packet of {} bytes before byte {}, allowed are up to {}", size, file.at(), kLongestPacket));
+    file.need(size, bytes);
     CapturedTelegram telegram;
     telegram.start = telegram.end = clock.at(field(0) * form.per_second + field(4), form.per_second);
     telegram.bytes.assign(bytes.begin(), bytes.end());

@@ -137,14 +137,14 @@ bool add_member(zip_t* archive, const std::string& name, Samples& samples) {
 
 }  // namespace
 
-LogicSource read_sigrok(const std::string& bytes, const LogicSettings& settings, const TakeTelegram& take) {
-  const Archive archive = open_archive(bytes);
-  const Session session = session_of(device_of(metadata_of(archive.get())));
+LogicSource read_sigrok(const std::string& archive, const LogicSettings& settings, const TakeTelegram& take) {
+  const Archive opened = open_archive(archive);
+  const Session session = session_of(device_of(metadata_of(opened.get())));
   const std::size_t signal = choose_signal(session.names, settings.signal);
   LogicDecoder decoder(settings, take);
   Samples samples(session, session.bits[signal], decoder);
-  if (!add_member(archive.get(), session.member, samples))
-    for (int part = 1; add_member(archive.get(), fmt::format("{}-{}", session.member, part), samples); ++part) {
+  if (!add_member(opened.get(), session.member, samples))
+    for (int part = 1; add_member(opened.get(), fmt::format("{}-{}", session.member, part), samples); ++part) {
     }
   if (!samples.any()) throw CaptureError("has no samples, allowed is a session of sigrok");
   decoder.finish(samples.end());

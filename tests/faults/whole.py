@@ -39,7 +39,7 @@ def ended_early(program, path, content):
         result = json.loads(content)
         return result["interrupted"] is ("pacing" not in result)  # serve has no end of its own
     if ending == ".pcapng":
-        return packets(content)[0] > 2 and packets(content)[1] == 0
+        return packets(content)[0] >= 2 and packets(content)[1] == 0
     if not content.endswith(b"\n"):
         return False
     if ending == ".vcd":
@@ -57,7 +57,7 @@ def readable(path, content):
     if ending == ".fst":
         return True
     if ending == ".pcapng":
-        return packets(content)[0] > 2
+        return packets(content)[0] >= 2
     lines = content.decode().split("\n")[:-1]
     if ending == ".jsonl":
         return bool(lines) and all("at_ns" in json.loads(line) for line in lines)
