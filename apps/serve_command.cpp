@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
@@ -16,7 +15,6 @@
 #include "bus/printable.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
 #include "tb/input/units.hpp"
 #include "tb/output/output_file.hpp"
 #include "tb/report/result_json.hpp"

@@ -25,8 +25,6 @@ class TelegramPrinter {
 
   /// There was something, and all of it was right.
   bool all_right() const { return right_ && count_ > 0; }
-  /// Nothing was printed.
-  bool empty() const { return right_ && count_ == 0; }
 
  private:
   void print(const std::string& what, const std::string& where, const std::string& line,

@@ -43,6 +43,22 @@ allow:
   - {event: BUS_T_SYN_VIOLATED}
   - {event: BUS_TWO_MASTERS}
 """
+COLLISION = """
+name: Two slaves at one address
+baud: 1.5M
+end: 60ms
+chip: {search_window_ms: 5}
+slaves:
+  - {name: a, address: 5, init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: "31"}}
+  - {name: b, address: 7, init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: "31", set_slave_address: true}}
+masters:
+  - {name: plc, address: 2, start: 1ms, slaves: []}
+script:
+  - {at: 40ms, do: set_slave_address, master: plc, slave: b, new_address: 5}
+  - {at: 50ms, do: slave_diag, master: plc, slave: a}
+allow:
+  - {event: BUS_COLLISION}
+"""
 
 
 def of_log(entry):
@@ -106,6 +122,15 @@ def damage(folder):
     counts = {name: sum(value == "1" for value in column) for name, column in flags.items()}
     # After the low stop bit the receiver begins its characters at other edges: a wrong FCS and gaps, too.
     expect("packets with each flag", counts, {"crc": 2, "symbol": 2, "short": 1, "unaligned": 2, "gap": 2, "start": 1})
+
+
+def collision(folder):
+    """Two slaves that answer at once, here with the same bits."""
+    scenario = folder / "collision.yaml"
+    scenario.write_text(COLLISION, encoding="utf-8")
+    packets, _ = capture(folder, scenario)
+    damaged = [row for row in fields(folder, packets, "frame.packet_flags", "frame.comment", "pbdp.service", "pbdl.damaged") if row[3]]
+    expect("damaged", damaged, [["0x80000000", "collision: b drives while a does", "Slave_Diag", "1"]])
 
 
 def link_types(folder):
@@ -211,7 +236,7 @@ def rare_services(folder):
         expect(f"'{words}' is said", words in text, True)
 
 
-CASES = {case.__name__: case for case in (shipped_scenarios, services, damage, link_types, installed, statistics, any_bytes, rare_services, same_bytes, killed)}
+CASES = {case.__name__: case for case in (shipped_scenarios, services, damage, collision, link_types, installed, statistics, any_bytes, rare_services, same_bytes, killed)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_tshark_") as name:
     CASES[sys.argv[2]](pathlib.Path(name))
