@@ -12,6 +12,8 @@
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
 #include "apps/traces_command.hpp"
+#include "bus/baud.hpp"
+#include "bus/capture/link_type.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 
@@ -34,6 +36,18 @@ void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
                   "PATH=VALUE instead of what the scenario says, once for each key: slaves.0.user_cpu.cycle=40us, "
                   "slaves.plant.init.dpv1=true, or of every slave user_cpu.fsmc.datast=3")
       ->allow_extra_args(false);
+}
+
+const char* const kCaptureHelp =
+    "Every telegram with its time as FILE.pcapng, for Wireshark and tshark (docs/captures.md)";
+
+void add_capture_options(CLI::App& command, std::string& capture, std::string& link) {
+  CLI::Option* option = command.add_option("--capture", capture, kCaptureHelp);
+  command
+      .add_option("--capture-link", link,
+                  "Its link type: profibus (257), or user0 to user15 for a Wireshark that does not know 257")
+      ->capture_default_str()
+      ->needs(option);
 }
 
 void add_output_options(CLI::App& command, std::optional<bool>& progress, bool& quiet) {
@@ -73,6 +87,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
+  add_capture_options(*command, arguments.capture, arguments.capture_link);
   command
       ->add_option(
           "--checks", arguments.checks,
@@ -107,6 +122,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
           "  dsdpv1-sim run my.yaml --wave bus.vcd --wave-signals 'bus.*' --wave-signals '*.PB?XD' --wave-from 2ms\n"
           "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
           "  dsdpv1-sim run my.yaml --log my.jsonl\n"
+          "  dsdpv1-sim run my.yaml --capture my.pcapng --capture-link user0\n"
           "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
           "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
           "  dsdpv1-sim run scenarios/arm_board_12m.yaml --gdb 3333\n"
@@ -140,15 +156,23 @@ void describe_gsd(CLI::App& app, GsdArguments& arguments) {
 
 void describe_decode(CLI::App& app, DecodeArguments& arguments) {
   CLI::App* command =
-      app.add_subcommand("decode", "Reads telegrams as hexadecimal text, or a log, and explains every byte");
-  command->add_option("FILE", arguments.file, "Text file, or a log of run or serve; left out or -: standard input");
+      app.add_subcommand("decode", "Explains every byte of telegrams: text, logs, captures, recordings of the line");
+  command->add_option("FILE", arguments.file,
+                      "Hexadecimal text, a log of run or serve, pcapng, pcap, VCD or FST of any simulator, a session "
+                      "of sigrok, CSV of a logic "
+                      "analyser, known by what is in it; left out or -: standard input");
+  command->add_option("--baud", arguments.baud, "Baud rate of a recording of the line; left out: it is found");
+  command->add_option("--signal", arguments.signal,
+                      "Which signal of a recording is the line; left out: the only one, or line, PBRXD, PBTXD");
+  command->add_flag("--invert", arguments.inverted, "The recording's idle level is low");
   command->footer(
       "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
       "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes "
       "(--log-whole).\n"
-      "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  echo 68 05 05 68 85 82 6D 3C 3E "
+      "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  dsdpv1-sim decode my.pcapng\n  "
+      "dsdpv1-sim decode logic.sr --signal D2 --invert\n  echo 68 05 05 68 85 82 6D 3C 3E "
       "EE 16 | dsdpv1-sim decode\n"
-      "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 not hexadecimal.\n");
+      "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 wrong input.\n");
 }
 
 void describe_serve(CLI::App& app, ServeArguments& arguments) {
@@ -177,6 +201,7 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, "As of run; where it grows is said at the start");
   command->add_flag("--log-whole", arguments.log_whole, "As of run")->needs(log);
   command->add_option("--result", arguments.result, "As of run, and how well real time was kept");
+  add_capture_options(*command, arguments.capture, arguments.capture_link);
   command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
   command->footer(std::string("\nExamples:\n"
                               "  dsdpv1-sim serve scenarios/serve_19k2.yaml --pty dp --log serve.log\n"
@@ -400,6 +425,20 @@ void check_word(const std::string& option, const std::string& word, const std::v
   if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) return;
   throw tb::InputError("dsdpv1-sim " + option + " is " + word + tb::did_you_mean(word, allowed) + ", allowed are " +
                        tb::join(allowed));
+}
+
+int baud_index(const std::string& option, const std::string& word) {
+  std::vector<std::string> allowed;
+  for (const bus::Baud& baud : bus::kBauds) allowed.emplace_back(baud.name);
+  check_word(option, word, allowed);
+  return *bus::baud_index(word);
+}
+
+tb::CaptureRequest capture_request(const std::string& command, const std::string& path, const std::string& link) {
+  const std::optional<std::uint16_t> number = bus::capture::link_type(link);
+  if (!number)
+    throw tb::InputError(command + ": --capture-link is " + link + ", allowed are " + bus::capture::kLinkWords);
+  return {path, *number, "dsdpv1-sim " DSDPV1_VERSION};
 }
 
 int command_line(int argc, char** argv) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/wave_options.hpp"
+#include "tb/bench/capture_recorder.hpp"
 
 namespace app {
 
@@ -19,6 +20,7 @@ struct RunArguments {
   std::string scenario, engine = "skip", view = "pins", checks = "report";
   WaveArguments wave;
   std::string log, result, trace;
+  std::string capture, capture_link = "profibus";
   std::string golden;                       ///< folder of golden traces, empty: not compared with them
   unsigned fault = 0;                       ///< of rtl_ref/faults.txt, 0: none
   std::string difference = "lockstep.vcd";  ///< wave of a lockstep run's first difference
@@ -42,7 +44,9 @@ struct GsdArguments {
 };
 
 struct DecodeArguments {
-  std::string file;  ///< empty or "-": standard input
+  std::string file;          ///< empty or "-": standard input
+  std::string baud, signal;  ///< of levels; empty: found
+  bool inverted = false;
 };
 
 int run(const RunArguments& arguments);
@@ -52,6 +56,12 @@ int decode(const DecodeArguments& arguments);
 
 /// Throws tb::InputError unless `word` is one of `allowed`; `option` is the command and its option, "run: --engine".
 void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed);
+
+/// The index of a baud rate of bus/baud.hpp; throws tb::InputError; `option` as above.
+int baud_index(const std::string& option, const std::string& word);
+
+/// What --capture and --capture-link ask for; `command` as "dsdpv1-sim run". Throws tb::InputError.
+tb::CaptureRequest capture_request(const std::string& command, const std::string& path, const std::string& link);
 
 /// Parses the command line and carries it out; returns the exit code.
 int command_line(int argc, char** argv);

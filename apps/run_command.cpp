@@ -65,6 +65,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   options.log = arguments.log;
   options.log_whole = arguments.log_whole;
   options.trace = arguments.trace;
+  options.capture = capture_request("dsdpv1-sim run", arguments.capture, arguments.capture_link);
   if (arguments.gdb) {
     const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
     options.gdb = tb::GdbRequest{*arguments.gdb, say, interrupted};
@@ -132,6 +133,7 @@ void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenari
                  {"--log", arguments.log},
                  {"--result", arguments.result},
                  {"--trace", arguments.trace},
+                 {"--capture", arguments.capture},
                  {"--difference", arguments.engine == "lockstep" ? arguments.difference : ""}});
 }
 

@@ -37,6 +37,10 @@ class Observer {
   virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}
   virtual void event(std::size_t /*slave*/, const profibus::Event& /*event*/) {}
   virtual void telegram(const HeardTelegram& /*telegram*/) {}
+  /// What the monitor flags; what is flagged of a telegram comes before it.
+  virtual void flag(const bus::Flag& /*flag*/) {}
+  /// A character after a wrong telegram, see bus::Monitor::on_skipped.
+  virtual void skipped(const bus::ReceivedCharacter& /*character*/) {}
   /// Right or not.
   virtual void character(Tick /*now*/, const bus::ReceivedCharacter& /*heard*/) {}
   /// See ChipView::on_inside and on_action.
