@@ -59,6 +59,8 @@ class Sequencer {
   std::uint64_t accesses() const { return accesses_; }
   Cycle longest_wait() const { return longest_wait_; }
   std::uint64_t outputs_overwritten() const { return outputs_overwritten_; }  ///< in the DPRAM, B00E.0 still set
+  /// From now on each byte move is noted for inside().
+  void note_moves() { notes_moves_ = true; }
   /// As of the edge of `now`, the last that was evaluated; right where every edge is.
   Inside inside(Cycle now) const;
 
@@ -147,12 +149,12 @@ class Sequencer {
   // moving bytes; the next move's cycle has been counted on when one is made
   std::uint8_t get(regs::Address address) {
     const std::uint8_t byte = ram_.read(address);
-    moved_ = {op_ - 1, address, byte, false, phase_, item_};
+    if (notes_moves_) moved_ = {op_ - 1, address, byte, false, phase_, item_};
     return byte;
   }
   void put(regs::Address address, std::uint8_t byte) {
     ram_.write(address, byte);
-    moved_ = {op_ - 1, address, byte, true, phase_, item_};
+    if (notes_moves_) moved_ = {op_ - 1, address, byte, true, phase_, item_};
   }
   // moving blocks
   void read_byte();
@@ -208,6 +210,7 @@ class Sequencer {
   bool initialised_ = false;
   std::uint64_t accesses_ = 0, outputs_overwritten_ = 0;
   // for inside()
+  bool notes_moves_ = false;
   ByteMove moved_;
   Item crc_item_ = Item::kNone;
   bool crc_right_ = false;

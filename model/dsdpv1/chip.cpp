@@ -59,6 +59,7 @@ struct Chip::Impl {
         interrupt(config.intr_low, config.intr_gap),
         sequencer(log, ram, station.user(), config.access_interval, config.ready_cycles) {
     interrupt.reset();
+    if (engine == Engine::kStep) sequencer.note_moves();  // where inside() is asked for
   }
 
   void set(Tick at, Pin pin, Level value);
