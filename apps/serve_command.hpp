@@ -17,7 +17,6 @@ struct ServeArguments {
   std::string duration;  ///< empty: until interrupted
   WaveArguments wave;
   std::string log, result;
-  std::string capture, capture_link = "profibus";
   bool log_whole = false, quiet = false;
 };
 
