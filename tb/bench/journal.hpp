@@ -37,7 +37,7 @@ class Journal : public Observer {
   void event(std::size_t slave, const profibus::Event& event) override;
   void telegram(const HeardTelegram& telegram) override;
 
-  /// Told of each code when it is counted: the how manieth of its station. Null: nobody wants to know.
+  /// Told of each code when it is counted; `count`: how often at its station so far. Null: nobody wants to know.
   std::function<void(Tick at, const std::string& station, const std::string& code, bool violation, std::uint64_t count)>
       on_code;
 

@@ -51,7 +51,7 @@ class WaveRecorder : public Observer, private bus::Listener {
   void telegram(const HeardTelegram& telegram) override;
   void master_state(bus::Tick now, const std::string& master, const std::string& member,
                     const std::string& state) override;
-  /// A code of the log: `station` is a chip, or "bus". The how manieth of its kind is shown, as each is a change.
+  /// A code of the log: `station` is a chip, or "bus". `count` is shown with it, so that each is a change.
   void happened(bus::Tick at, const std::string& station, const std::string& code, bool violation, std::uint64_t count);
   /// Nothing has opened a window.
   bool is_empty() const { return !writer_->has_window(); }

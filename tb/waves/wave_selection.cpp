@@ -7,13 +7,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bus/baud.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 
 namespace tb {
 namespace {
 
-constexpr bus::Tick kHalfCycle = 125;          // of 48 MHz
+constexpr bus::Tick kHalfCycle = bus::kTicksPerCycle / 2;
 constexpr bus::Tick kLate = bus::kTicksPerMs;  // what a trigger may be told late
 constexpr std::string_view kNotRecorded = "(not recorded)";
 

@@ -61,7 +61,7 @@ class SelectedWave : public WaveWriter {
     int wires = 1;      ///< that it is written as
     bool selected = false, is_word = false;
     bool told = false;  ///< has a value
-    Value value;  ///< before the changes that are kept
+    Value value;        ///< before the changes that are kept
   };
   struct Change {
     bus::Tick at;

@@ -191,9 +191,9 @@ TEST(UserOrder, InitialisationVerdictsAndInputsInOneAccess) {
   };
   EXPECT_EQ(access.moves, expected);
   EXPECT_EQ(access.length, 56);
-  EXPECT_EQ(access.items, (std::vector<std::string>{"commands", "initialisation", "Set_Prm verdict", "Chk_Cfg verdict",
-                                                    "inputs", "diagnosis", "status B00A", "status B00B", "status B012",
-                                                    "status B013", "-"}));
+  EXPECT_EQ(access.items,
+            (std::vector<std::string>{"commands", "initialisation", "Set_Prm verdict", "Chk_Cfg verdict", "inputs",
+                                      "diagnosis", "status B00A", "status B00B", "status B012", "status B013", "-"}));
   EXPECT_EQ(bench.count(Reason::kVerdictUnexpected), 2);
   EXPECT_EQ(bench.chip.level(Pin::kReady), 1);
   EXPECT_EQ(bench.changes(Pin::kReady).back().at / kCycleTicks, access.start + 28) << "READY with the commit";
@@ -278,9 +278,8 @@ TEST(UserOrder, FromTheUserThenToTheUserThenStatusBytes) {
   };
   EXPECT_EQ(access.moves, expected);
   EXPECT_EQ(access.length, 48) << "B012 is as it was";
-  EXPECT_EQ(access.items,
-            (std::vector<std::string>{"commands", "inputs", "diagnosis", "Set_Prm", "Chk_Cfg", "outputs",
-                                      "offline count", "status B00B", "-"}));
+  EXPECT_EQ(access.items, (std::vector<std::string>{"commands", "inputs", "diagnosis", "Set_Prm", "Chk_Cfg", "outputs",
+                                                    "offline count", "status B00B", "-"}));
   EXPECT_STREQ(bench.chip.inside().access.crc_of, "diagnosis");
   EXPECT_TRUE(bench.chip.inside().access.crc_right);
   const std::vector<PinChange> interrupt = bench.changes(Pin::kIntr0);
