@@ -4,11 +4,16 @@
 
 #include <algorithm>
 
+#include "apps/compare_command.hpp"
 #include "apps/reasons_command.hpp"
 #include "apps/recover_command.hpp"
+#include "apps/regress_command.hpp"
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
+#include "apps/traces_command.hpp"
+#include "bus/baud.hpp"
+#include "bus/capture/link_type.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 
@@ -33,12 +38,38 @@ void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
       ->allow_extra_args(false);
 }
 
+const char* const kCaptureHelp =
+    "Every telegram with its time as FILE.pcapng, for Wireshark and tshark (docs/captures.md)";
+
+void add_capture_options(CLI::App& command, std::string& capture, std::string& link) {
+  CLI::Option* option = command.add_option("--capture", capture, kCaptureHelp);
+  command
+      .add_option("--capture-link", link,
+                  "Its link type: profibus (257), or user0 to user15 for a Wireshark that does not know 257")
+      ->capture_default_str()
+      ->needs(option);
+}
+
 void add_output_options(CLI::App& command, std::optional<bool>& progress, bool& quiet) {
   command.add_flag_callback(
       "--progress", [&progress] { progress = true; }, "Show a progress bar (on a terminal it is shown anyway)");
   command.add_flag_callback(
       "--no-progress", [&progress] { progress = false; }, "Show none");
   command.add_flag("--quiet,-q", quiet, "No table at the end");
+}
+
+/// What sweep and regress have in common.
+void add_campaign_options(CLI::App& command, CampaignArguments& arguments, const std::string& usual_folder) {
+  command.add_option("--out", arguments.out, "Folder for the runs and results; left out: " + usual_folder);
+  command.add_option("--jobs", arguments.jobs, "Processes at a time; left out: one a processor")
+      ->check(CLI::Range(1, 256));
+  CLI::Option* slurm = command.add_flag(
+      "--slurm", arguments.slurm, "As a job array of a Slurm cluster (sbatch); the folder must be seen by its nodes");
+  command
+      .add_option("--slurm-options", arguments.slurm_options, "More options for sbatch: \"--partition=x --time=10\"")
+      ->needs(slurm);
+  command.add_option("--slurm-task", arguments.slurm_task)->group("");  // what the tasks of an array call
+  add_output_options(command, arguments.progress, arguments.quiet);
 }
 
 void describe_run(CLI::App& app, RunArguments& arguments) {
@@ -56,6 +87,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
+  add_capture_options(*command, arguments.capture, arguments.capture_link);
   command
       ->add_option(
           "--checks", arguments.checks,
@@ -67,6 +99,13 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
       ->add_option("--difference", arguments.difference,
                    "Wave of both sides, written when --engine lockstep finds a difference")
       ->capture_default_str();
+  command->add_option("--golden", arguments.golden,
+                      "Folder of golden traces (traces): every change of every pin is compared, the first difference "
+                      "ends the run (docs/traces.md)");
+  command->add_option("--fault", arguments.fault, "With this single fault of rtl_ref/faults.txt in the reference RTL")
+      ->check(CLI::Range(0, 255));
+  command->add_option("--seed", arguments.seed,
+                      "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
   add_set_option(*command, arguments.set);
   command
       ->add_option(
@@ -83,6 +122,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
           "  dsdpv1-sim run my.yaml --wave bus.vcd --wave-signals 'bus.*' --wave-signals '*.PB?XD' --wave-from 2ms\n"
           "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
           "  dsdpv1-sim run my.yaml --log my.jsonl\n"
+          "  dsdpv1-sim run my.yaml --capture my.pcapng --capture-link user0\n"
           "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
           "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
           "  dsdpv1-sim run scenarios/arm_board_12m.yaml --gdb 3333\n"
@@ -91,11 +131,12 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
 }
 
 void describe_schema(CLI::App& app, SchemaArguments& arguments) {
-  CLI::App* command = app.add_subcommand("schema", "Prints the scenario's JSON Schema");
-  command->add_flag("--markdown", arguments.markdown, "Prints docs/scenarios.md instead");
+  CLI::App* command = app.add_subcommand("schema", "Prints the JSON Schema of a scenario, or of a result");
+  command->add_flag("--result", arguments.result, "Of the file that run --result writes");
+  command->add_flag("--markdown", arguments.markdown, "Prints docs/scenarios.md, or docs/result.md, instead");
   command->add_option("--output,-o", arguments.output, "Into this file");
   command->footer(
-      "\nExamples:\n  dsdpv1-sim schema > scenario.schema.json\n"
+      "\nExamples:\n  dsdpv1-sim schema > scenario.schema.json\n  dsdpv1-sim schema --result > result.schema.json\n"
       "  and in the first line of a scenario, for editors with the YAML language server:\n"
       "  # yaml-language-server: $schema=scenario.schema.json\n");
 }
@@ -115,15 +156,23 @@ void describe_gsd(CLI::App& app, GsdArguments& arguments) {
 
 void describe_decode(CLI::App& app, DecodeArguments& arguments) {
   CLI::App* command =
-      app.add_subcommand("decode", "Reads telegrams as hexadecimal text, or a log, and explains every byte");
-  command->add_option("FILE", arguments.file, "Text file, or a log of run or serve; left out or -: standard input");
+      app.add_subcommand("decode", "Explains every byte of telegrams: text, logs, captures, recordings of the line");
+  command->add_option("FILE", arguments.file,
+                      "Hexadecimal text, a log of run or serve, pcapng, pcap, VCD or FST of any simulator, a session "
+                      "of sigrok, CSV of a logic "
+                      "analyser, known by what is in it; left out or -: standard input");
+  command->add_option("--baud", arguments.baud, "Baud rate of a recording of the line; left out: it is found");
+  command->add_option("--signal", arguments.signal,
+                      "Which signal of a recording is the line; left out: the only one, or line, PBRXD, PBTXD");
+  command->add_flag("--invert", arguments.inverted, "The recording's idle level is low");
   command->footer(
       "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
       "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes "
       "(--log-whole).\n"
-      "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  echo 68 05 05 68 85 82 6D 3C 3E "
+      "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  dsdpv1-sim decode my.pcapng\n  "
+      "dsdpv1-sim decode logic.sr --signal D2 --invert\n  echo 68 05 05 68 85 82 6D 3C 3E "
       "EE 16 | dsdpv1-sim decode\n"
-      "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 not hexadecimal.\n");
+      "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 wrong input.\n");
 }
 
 void describe_serve(CLI::App& app, ServeArguments& arguments) {
@@ -152,6 +201,7 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, "As of run; where it grows is said at the start");
   command->add_flag("--log-whole", arguments.log_whole, "As of run")->needs(log);
   command->add_option("--result", arguments.result, "As of run, and how well real time was kept");
+  add_capture_options(*command, arguments.capture, arguments.capture_link);
   command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
   command->footer(std::string("\nExamples:\n"
                               "  dsdpv1-sim serve scenarios/serve_19k2.yaml --pty dp --log serve.log\n"
@@ -172,11 +222,7 @@ void describe_sweep(CLI::App& app, SweepArguments& arguments) {
   add_set_option(*command, arguments.set);
   command->add_option("--checks", arguments.checks, "As of run, report or fail; left out: as run does");
   command->add_option("--map", arguments.map, "Check whose margin the pictures show; left out: the worst of all");
-  command->add_option("--out", arguments.out,
-                      "Folder for the points and results; left out: sweep_ and the scenario's name");
-  command->add_option("--jobs", arguments.jobs, "Processes at a time; left out: one a processor")
-      ->check(CLI::Range(1, 256));
-  add_output_options(*command, arguments.progress, arguments.quiet);
+  add_campaign_options(*command, arguments.campaign, "sweep_ and the scenario's name");
   command->footer(
       "\nExamples:\n"
       "  dsdpv1-sim sweep scenarios/power_on_12m.yaml --param user_cpu.fsmc.datast=0..15 --param "
@@ -186,6 +232,49 @@ void describe_sweep(CLI::App& app, SweepArguments& arguments) {
       "4\n"
       "The same command again goes on with an interrupted sweep. docs/sweep.md explains the results.\n"
       "\nExit codes: 0 all points were run, whatever they showed, 2 wrong input, 130 interrupted.\n");
+}
+
+void describe_regress(CLI::App& app, RegressArguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("regress", "Runs scenarios by engines, views and settings, and judges each run");
+  CLI::Option* scenarios = command->add_option("SCENARIO", arguments.scenarios,
+                                               "Scenarios, and folders of them (.yaml, .yml); left out: ./scenarios");
+  CLI::Option* engine =
+      command->add_option("--engine", arguments.engines, "Of run, several with commas; left out: skip")->delimiter(',');
+  CLI::Option* view =
+      command->add_option("--view", arguments.views, "Of run, several with commas; left out: pins")->delimiter(',');
+  CLI::Option* seed =
+      command->add_option("--seed", arguments.seeds, "Of run with RTL: 1..4,7; left out: the usual one");
+  CLI::Option* set = command
+                         ->add_option("--set", arguments.set,
+                                      "PATH=VALUES, once for each key, lists and ranges as --param of sweep: "
+                                      "user_cpu.fsmc.datast=2..5")
+                         ->allow_extra_args(false);
+  CLI::Option* checks = command->add_option("--checks", arguments.checks, "As of run");
+  CLI::Option* shard =
+      command->add_option("--shard", arguments.shard, "2/5: the second fifth of the runs, always the same");
+  CLI::Option* wave = command->add_option("--wave", arguments.wave, "Each run writes waves: vcd, fst; left out: none");
+  CLI::Option* keep = command->add_option(
+      "--keep", arguments.keep, "Of which runs log, result and waves are kept: none, failed, all; left out: failed");
+  CLI::Option* failed =
+      command->add_flag("--failed", arguments.failed, "Again what has not passed the last time in --out");
+  for (CLI::Option* other : {scenarios, engine, view, seed, set, checks, shard, wave, keep}) failed->excludes(other);
+  command
+      ->add_option("--time-limit", arguments.time_limit, "Seconds after which a run is killed and has failed; 0: none")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command->add_option("--junit", arguments.junit, "The report for CI as JUnit's XML");
+  command->add_flag("--json", arguments.json, "The table as JSON");
+  add_campaign_options(*command, arguments.campaign, "regression");
+  command->footer(
+      "\nExamples:\n"
+      "  dsdpv1-sim regress\n"
+      "  dsdpv1-sim regress scenarios my.yaml --engine step,skip,lockstep --view pins,tlm --junit report.xml\n"
+      "  dsdpv1-sim regress my.yaml --set user_cpu.fsmc.datast=2..5 --set baud=12M,6M --wave fst\n"
+      "  dsdpv1-sim regress --engine rtl --seed 1..8 --shard 2/5 --out part_2\n"
+      "  dsdpv1-sim regress --failed\n"
+      "The same command again goes on with an interrupted regression. docs/regress.md explains the results.\n"
+      "\nExit codes: 0 all runs passed, 1 some did not, 2 wrong input, 130 interrupted.\n");
 }
 
 void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
@@ -261,6 +350,51 @@ void describe_recover(CLI::App& app, RecoverArguments& arguments) {
       "\nExit codes: 0 recovered, 2 wrong input or nothing to recover, 130 interrupted.\n");
 }
 
+void describe_compare(CLI::App& app, CompareArguments& arguments) {
+  CLI::App* command = app.add_subcommand("compare", "Holds a simulator's wave against another's: VCD and FST of any");
+  const auto list = [&](const char* name, std::vector<std::string>& to, const char* help) {
+    command->add_option(name, to, help)->allow_extra_args(false);
+  };
+  command->add_option("A", arguments.a, "Wave of what is expected, such as the model's")->required();
+  command->add_option("B", arguments.b, "Wave that is held to it")->required();
+  command->add_option("--scope", arguments.scope, "Only signals in this scope and below it; left out: all");
+  command->add_option("--scope-a", arguments.scope_a, "The same for A alone");
+  command->add_option("--scope-b", arguments.scope_b, "The same for B alone");
+  command->add_option("--pins", arguments.pins,
+                      "The pins of the chip, B's by this map (docs/cosim.md) or, with rtl_ref, as the reference RTL "
+                      "calls them; left out: all signals of one name");
+  list("--signal", arguments.signals, "A=B: this signal of A and that of B, A=!B when B has the other level");
+  command->add_option("--from", arguments.from, "Compare from this time on, such as 100us; left out: what both have");
+  command->add_option("--to", arguments.to, "... and up to this one, which both must reach");
+  command->add_option("--shift", arguments.shift, "Added to B's times: 20ns, -3cycles");
+  command->add_option("--tolerance", arguments.tolerance,
+                      "What differs for no longer is no difference; left out: the coarser time scale's unit where the "
+                      "two are not the same, else 0");
+  command->add_option("--clock", arguments.clock,
+                      "SIGNAL, SIGNAL:fall: compare what there is just before its rising (falling) edges");
+  command
+      ->add_option("--x", arguments.x,
+                   "What an unknown bit matches: expected (A's anything, B's only X), any (either side's anything), "
+                   "equal (X), never (nothing)")
+      ->capture_default_str();
+  command->add_option("--z", arguments.z, "What a released bit matches: equal (Z), expected and any as of --x")
+      ->capture_default_str();
+  list("--mask", arguments.masks,
+       "SIGNAL=VALUE or SIGNAL!=VALUE: nothing is compared while it is so; with @SIGNAL after it, that one is not");
+  command->add_option("--wave", arguments.wave, "Both sides and where they differ: FILE.vcd or FILE.fst");
+  command->add_option("--json", arguments.json, "The result for programs");
+  command->add_option("--junit", arguments.junit, "The result in JUnit's XML, a case for each signal");
+  add_output_options(*command, arguments.progress, arguments.quiet);
+  command->footer(
+      "\nExamples:\n"
+      "  dsdpv1-sim compare model.fst icarus.vcd --scope-a demo --scope-b bench.dut --pins rtl_ref\n"
+      "  dsdpv1-sim compare golden.vcd tonight.vcd --tolerance 10ns --mask 'tb.reset=0' --wave both.fst\n"
+      "  dsdpv1-sim compare a.fst b.vcd --clock tb.clk --from 100us --to 3ms --json result.json\n"
+      "  dsdpv1-sim compare a.vcd <(zcat b.vcd.gz) --signal bus.line=!tb.line_n\n"
+      "docs/compare.md explains them.\n"
+      "\nExit codes: 0 equal, 1 different, 2 wrong input, 130 interrupted.\n");
+}
+
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -293,6 +427,20 @@ void check_word(const std::string& option, const std::string& word, const std::v
                        tb::join(allowed));
 }
 
+int baud_index(const std::string& option, const std::string& word) {
+  std::vector<std::string> allowed;
+  for (const bus::Baud& baud : bus::kBauds) allowed.emplace_back(baud.name);
+  check_word(option, word, allowed);
+  return *bus::baud_index(word);
+}
+
+tb::CaptureRequest capture_request(const std::string& command, const std::string& path, const std::string& link) {
+  const std::optional<std::uint16_t> number = bus::capture::link_type(link);
+  if (!number)
+    throw tb::InputError(command + ": --capture-link is " + link + ", allowed are " + bus::capture::kLinkWords);
+  return {path, *number, "dsdpv1-sim " DSDPV1_VERSION};
+}
+
 int command_line(int argc, char** argv) {
   CLI::App app("Cycle-accurate simulation of the DSDPV1 PROFIBUS-DP slave chip with its bus and its user CPU.",
                "dsdpv1-sim");
@@ -316,12 +464,18 @@ int command_line(int argc, char** argv) {
   describe_reasons(app, reasons_arguments);
   SweepArguments sweep_arguments;
   describe_sweep(app, sweep_arguments);
+  RegressArguments regress_arguments;
+  describe_regress(app, regress_arguments);
   RtlRandomArguments rtl_random_arguments;
   RtlFaultsArguments rtl_faults_arguments;
   describe_rtl_random(app, rtl_random_arguments);
   describe_rtl_faults(app, rtl_faults_arguments);
   CosimArguments cosim_arguments;
   describe_cosim(app, cosim_arguments);
+  CompareArguments compare_arguments;
+  describe_compare(app, compare_arguments);
+  TracesArguments traces_arguments;
+  describe_traces(app, traces_arguments);
   RecoverArguments recover_arguments;
   describe_recover(app, recover_arguments);
   try {
@@ -330,12 +484,17 @@ int command_line(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     throw tb::InputError(in_one_line(app, error, argc, argv));
   }
+  for (CampaignArguments* each : {&sweep_arguments.campaign, &regress_arguments.campaign})
+    each->words.assign(argv + 1, argv + argc);
   if (app.got_subcommand("run")) return run(run_arguments);
   if (app.got_subcommand("serve")) return serve(serve_arguments);
   if (app.got_subcommand("sweep")) return sweep(sweep_arguments);
+  if (app.got_subcommand("regress")) return regress(regress_arguments);
   if (app.got_subcommand("rtl-random")) return rtl_random(rtl_random_arguments);
   if (app.got_subcommand("rtl-faults")) return rtl_faults(rtl_faults_arguments);
   if (app.got_subcommand("cosim")) return cosim_own_rtl(cosim_arguments);
+  if (app.got_subcommand("compare")) return compare(compare_arguments);
+  if (app.got_subcommand("traces")) return traces(traces_arguments);
   if (app.got_subcommand("recover")) return recover(recover_arguments);
   if (app.got_subcommand("schema")) return schema(schema_arguments);
   if (app.got_subcommand("gsd")) return gsd(gsd_arguments);

@@ -1,10 +1,12 @@
 #pragma once
 // The options of dsdpv1-sim as values.
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/wave_options.hpp"
+#include "tb/bench/capture_recorder.hpp"
 
 namespace app {
 
@@ -18,16 +20,21 @@ struct RunArguments {
   std::string scenario, engine = "skip", view = "pins", checks = "report";
   WaveArguments wave;
   std::string log, result, trace;
+  std::string capture, capture_link = "profibus";
+  std::string golden;                       ///< folder of golden traces, empty: not compared with them
+  unsigned fault = 0;                       ///< of rtl_ref/faults.txt, 0: none
   std::string difference = "lockstep.vcd";  ///< wave of a lockstep run's first difference
   std::optional<bool> progress;             ///< absent: on a terminal
   std::vector<std::string> set;             ///< PATH=VALUE: keys other than in the file
+  std::optional<std::uint32_t> seed;        ///< of RTL
   std::optional<int> gdb;                   ///< TCP port for the debugger of the first ARM board
   bool log_whole = false, quiet = false;
 };
 
 struct SchemaArguments {
   bool markdown = false;
-  std::string output;  ///< empty: standard output
+  bool result = false;  ///< that of a result; else of a scenario
+  std::string output;   ///< empty: standard output
 };
 
 struct GsdArguments {
@@ -37,7 +44,9 @@ struct GsdArguments {
 };
 
 struct DecodeArguments {
-  std::string file;  ///< empty or "-": standard input
+  std::string file;          ///< empty or "-": standard input
+  std::string baud, signal;  ///< of levels; empty: found
+  bool inverted = false;
 };
 
 int run(const RunArguments& arguments);
@@ -47,6 +56,12 @@ int decode(const DecodeArguments& arguments);
 
 /// Throws tb::InputError unless `word` is one of `allowed`; `option` is the command and its option, "run: --engine".
 void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed);
+
+/// The index of a baud rate of bus/baud.hpp; throws tb::InputError; `option` as above.
+int baud_index(const std::string& option, const std::string& word);
+
+/// What --capture and --capture-link ask for; `command` as "dsdpv1-sim run". Throws tb::InputError.
+tb::CaptureRequest capture_request(const std::string& command, const std::string& path, const std::string& link);
 
 /// Parses the command line and carries it out; returns the exit code.
 int command_line(int argc, char** argv);

@@ -23,6 +23,7 @@
 #include "tb/report/progress.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"
+#include "tb/traces/golden_run.hpp"
 
 namespace app {
 namespace {
@@ -30,6 +31,16 @@ namespace {
 tb::ChecksMode checks_mode(const std::string& word) {
   if (word == "off") return tb::ChecksMode::kOff;
   return word == "fail" ? tb::ChecksMode::kFail : tb::ChecksMode::kReport;
+}
+
+void check_golden(const RunArguments& arguments) {
+  if (arguments.fault != 0 && arguments.engine != "rtl" && arguments.engine != "lockstep")
+    throw tb::InputError("dsdpv1-sim run: --fault is one of the RTL, allowed with it is --engine rtl or lockstep");
+  if (arguments.golden.empty()) return;
+  if (arguments.view != "pins")
+    throw tb::InputError("dsdpv1-sim run: --golden is about pins, allowed with it is --view pins");
+  if (!arguments.set.empty())
+    throw tb::InputError("dsdpv1-sim run: --golden is about the scenario as it stands, allowed with it is no --set");
 }
 
 tb::RunOptions options_of(const RunArguments& arguments) {
@@ -43,6 +54,9 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   if (arguments.wave.inside && !model)
     throw tb::InputError(
         "dsdpv1-sim run: --wave-inside is about the model, allowed with it are --view pins and --engine step or skip");
+  check_golden(arguments);
+  if (arguments.seed && (arguments.engine == "step" || arguments.engine == "skip"))
+    throw tb::InputError("dsdpv1-sim run: --seed is for RTL, allowed with it is --engine rtl, lockstep");
   if (!arguments.difference.empty()) tb::check_wave_name(arguments.difference);
   tb::RunOptions options;
   options.engine = arguments.engine == "step" ? tb::Engine::kStep : tb::Engine::kSkip;
@@ -51,6 +65,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   options.log = arguments.log;
   options.log_whole = arguments.log_whole;
   options.trace = arguments.trace;
+  options.capture = capture_request("dsdpv1-sim run", arguments.capture, arguments.capture_link);
   if (arguments.gdb) {
     const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
     options.gdb = tb::GdbRequest{*arguments.gdb, say, interrupted};
@@ -64,16 +79,17 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   return options;
 }
 
-int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options,
+int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, tb::RunOptions options,
                  std::unique_ptr<tb::Execution> execution, const std::function<bool()>& afterwards = {}) {
+  tb::traces::GoldenRun golden(arguments.golden, scenario, execution->segment(), options);
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
   tb::Bench bench(scenario, options, std::move(execution));
   tb::Progress progress(scenario.end, arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
   catch_signals();
-  const tb::RunResult result = bench.run([&progress](tb::Tick now) {
+  const tb::RunResult result = bench.run([&](tb::Tick now) {
     progress.show(now);
-    return !interrupted();
+    return !interrupted() && !golden.over(now);
   });
   progress.clear();
   if (result_file) {
@@ -83,8 +99,9 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
   if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
   const bool ran_through = !afterwards || afterwards();  // while the bench still stands
   if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << std::flush;
-  if (result.interrupted) return kInterrupted;
-  return result.passed ? kPassed : kFailed;
+  if (result.interrupted && golden.same()) return kInterrupted;
+  if (ran_through) std::cout << golden.report() << std::flush;
+  return result.passed && golden.same() ? kPassed : kFailed;
 }
 
 int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options,
@@ -116,6 +133,7 @@ void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenari
                  {"--log", arguments.log},
                  {"--result", arguments.result},
                  {"--trace", arguments.trace},
+                 {"--capture", arguments.capture},
                  {"--difference", arguments.engine == "lockstep" ? arguments.difference : ""}});
 }
 
@@ -129,9 +147,9 @@ int run(const RunArguments& arguments) {
   options.wave = wave_options("dsdpv1-sim run", arguments.wave, *scenario.kind);
   check_outputs_of(arguments, scenario);
   if (arguments.gdb) check_has_board(scenario);
-  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, cosim::reference_rtl());
-  if (arguments.engine == "rtl")
-    return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(cosim::reference_rtl()));
+  const cosim::MakeRtl rtl = cosim::reference_rtl(arguments.fault, arguments.seed.value_or(cosim::kUsualSeed));
+  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, rtl);
+  if (arguments.engine == "rtl") return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(rtl));
   if (arguments.view == "pins") return run_scenario(scenario, arguments, options, tb::make_pin_execution());
   return tb::inside_systemc([&] { return run_scenario(scenario, arguments, options, tb::make_tlm_execution()); });
 }

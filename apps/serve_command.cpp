@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
@@ -16,7 +15,6 @@
 #include "bus/printable.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
 #include "tb/input/units.hpp"
 #include "tb/output/output_file.hpp"
 #include "tb/report/result_json.hpp"
@@ -32,12 +30,7 @@ constexpr tb::Tick kOpenEnd = 5LL * 365 * 24 * 3600 * bus::kTicksPerSecond;
 
 int chosen_baud(const tb::scenario::Scenario& scenario, const std::string& word) {
   if (word.empty()) return scenario.baud;
-  if (const std::optional<int> index = bus::baud_index(word)) return *index;
-  std::vector<std::string> allowed;
-  allowed.reserve(bus::kBauds.size());
-  for (const bus::Baud& baud : bus::kBauds) allowed.emplace_back(baud.name);
-  throw tb::InputError(fmt::format("dsdpv1-sim serve: --baud is {}{}, allowed are {}", word,
-                                   tb::did_you_mean(word, allowed), tb::join(allowed)));
+  return baud_index("serve: --baud", word);
 }
 
 tb::Tick chosen_end(const std::string& text) {
@@ -60,6 +53,7 @@ tb::RunOptions options_of(const ServeArguments& arguments, const tb::ChipKind& k
   options.wave = wave_options("dsdpv1-sim serve", arguments.wave, kind);
   options.log = arguments.log;
   options.log_whole = arguments.log_whole;
+  options.capture = capture_request("dsdpv1-sim serve", arguments.capture, arguments.capture_link);
   options.open_ended = true;
   return options;
 }
@@ -73,7 +67,10 @@ int serve(const ServeArguments& arguments) {
   scenario.end = chosen_end(arguments.duration);
   const tb::RunOptions options = options_of(arguments, *scenario.kind);
   check_outputs("dsdpv1-sim serve", scenario_inputs(arguments.scenario, scenario.files),
-                {{"--wave", arguments.wave.file}, {"--log", arguments.log}, {"--result", arguments.result}});
+                {{"--wave", arguments.wave.file},
+                 {"--log", arguments.log},
+                 {"--result", arguments.result},
+                 {"--capture", arguments.capture}});
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
 

@@ -17,6 +17,7 @@ struct ServeArguments {
   std::string duration;  ///< empty: until interrupted
   WaveArguments wave;
   std::string log, result;
+  std::string capture, capture_link = "profibus";
   bool log_whole = false, quiet = false;
 };
 

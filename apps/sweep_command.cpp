@@ -1,23 +1,18 @@
 // sweep: the points of a plan in child processes, then the tables and pictures.
 #include "apps/sweep_command.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <thread>
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
-#include "apps/sweep_runner.hpp"
+#include "apps/sweep_jobs.hpp"
+#include "tb/campaign/fingerprint.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
-#include "tb/output/output_file.hpp"
 #include "tb/scenario/scenario.hpp"
-#include "tb/sweep/fingerprint.hpp"
 #include "tb/sweep/folder.hpp"
 #include "tb/sweep/heat_map.hpp"
 #include "tb/sweep/inputs.hpp"
@@ -42,7 +37,7 @@ Plan plan_of(const SweepArguments& arguments) {
 }
 
 std::string folder_of(const SweepArguments& arguments) {
-  if (!arguments.out.empty()) return arguments.out;
+  if (!arguments.campaign.out.empty()) return arguments.campaign.out;
   return "sweep_" + std::filesystem::path(arguments.scenario).stem().string();
 }
 
@@ -51,20 +46,6 @@ std::vector<NamedFile> inputs_of(const Plan& plan, const tb::sweep::Inputs& inpu
   for (const auto& file : inputs.content().items())
     if (file.key() != plan.scenario) named.push_back(file.key());
   return scenario_inputs(plan.scenario, named);
-}
-
-/// What is written or removed there, of which what is there already can be an input or lead to one.
-std::vector<NamedFile> outputs_in(const std::string& folder) {
-  std::vector<NamedFile> outputs;
-  for (const std::filesystem::path& file : tb::sweep::own_files(folder))
-    outputs.push_back({file.lexically_relative(folder).string() + " of --out", file.string()});
-  return outputs;
-}
-
-void write(const std::string& path, const std::string& text) {
-  tb::OutputFile file(path);
-  file.write(text);
-  file.commit();
 }
 
 /// A scenario that cannot be read at any point is wrong itself: then nothing is run and no folder made.
@@ -95,13 +76,9 @@ void check_map(const std::string& check, const std::vector<Point>& points) {
 }
 
 void write_results(const Plan& plan, const std::vector<Point>& points, const Folder& folder, const std::string& map) {
-  write(folder.file("results.csv"), tb::sweep::csv(plan, points));
+  tb::campaign::write_file(folder.file("results.csv"), tb::sweep::csv(plan, points));
   for (const tb::sweep::Picture& picture : tb::sweep::heat_maps(plan, points, map))
-    write(folder.file(picture.name), picture.svg);
-}
-
-unsigned jobs_of(const SweepArguments& arguments) {
-  return arguments.jobs != 0 ? arguments.jobs : std::max(1U, std::thread::hardware_concurrency());
+    tb::campaign::write_file(folder.file(picture.name), picture.svg);
 }
 
 }  // namespace
@@ -109,29 +86,27 @@ unsigned jobs_of(const SweepArguments& arguments) {
 int sweep(const SweepArguments& arguments) {
   leave_nothing_on_signals();
   const Plan plan = plan_of(arguments);
-  tb::sweep::fingerprint_of_file(plan.scenario);  // refuses what can be read only once, before it is read
+  tb::campaign::fingerprint_of_file(plan.scenario);  // refuses what can be read only once, before it is read
   check_loads(plan);
   const tb::sweep::Inputs inputs(plan);
-  check_outputs("dsdpv1-sim sweep", inputs_of(plan, inputs), outputs_in(folder_of(arguments)));
+  const std::string out = folder_of(arguments);
+  if (!arguments.campaign.is_task())  // its own output is in the folder
+    check_outputs("dsdpv1-sim sweep", inputs_of(plan, inputs), outputs_in(out, tb::sweep::kind()));
   catch_signals();
-  const Folder folder(folder_of(arguments),
-                      tb::sweep::identity(plan, inputs, tb::sweep::program_identity(DSDPV1_VERSION)));
+  const tb::campaign::Json identity = tb::sweep::identity(plan, inputs, tb::campaign::program_identity(DSDPV1_VERSION));
+  const Folder folder(out, identity, arguments.campaign.access());
   if (!folder.started_anew().empty())
-    std::cerr << "sweep: " << folder_of(arguments) << " is about " << folder.started_anew()
+    std::cerr << "sweep: " << out << " is about " << folder.started_anew()
               << ": its points are removed, the sweep starts again\n";
-  SweepRunner runner(plan, inputs, folder, jobs_of(arguments), arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
-  if (runner.kept() != 0)
-    std::cerr << fmt::format("sweep: {} of {} points are there already\n", runner.kept(), plan.points());
-  if (!runner.run()) {
-    std::cerr << fmt::format("sweep: interrupted, {} of {} points are kept; the same command goes on from there\n",
-                             runner.done(), plan.points());
-    return kInterrupted;
-  }
-  const std::vector<Point> points = runner.points();
+  SweepJobs jobs(plan, inputs, folder);
+  const std::string all_inputs = tb::campaign::fingerprint(tb::campaign::text_of(identity));
+  if (!carry_out(arguments.campaign, tb::sweep::kind(), jobs, folder.base(), all_inputs)) return kInterrupted;
+  if (arguments.campaign.is_task()) return kPassed;
+  const std::vector<Point> points = jobs.points();
   check_possible(points);
   check_map(arguments.map, points);
   write_results(plan, points, folder, arguments.map);
-  if (!arguments.quiet)
+  if (!arguments.campaign.quiet)
     std::cout << tb::sweep::summary(plan, points) << "  written: " << folder.file("results.csv") << " and map*.svg\n"
               << std::flush;
   return kPassed;

@@ -1,8 +1,9 @@
 #pragma once
 // sweep: a scenario over the product of some of its keys' values.
-#include <optional>
 #include <string>
 #include <vector>
+
+#include "apps/campaign.hpp"
 
 namespace app {
 
@@ -12,10 +13,7 @@ struct SweepArguments {
   std::vector<std::string> set;         ///< PATH=VALUE, at every point
   std::string checks;                   ///< of run; empty: what is usual there
   std::string map;                      ///< the check whose margin the pictures show; empty: the worst
-  std::string out;                      ///< folder; empty: sweep_ and the scenario's name
-  unsigned jobs = 0;                    ///< processes; 0: as many as there are processors
-  std::optional<bool> progress;         ///< absent: on a terminal
-  bool quiet = false;
+  CampaignArguments campaign;           ///< its folder is sweep_ and the scenario's name, when none is given
 };
 
 int sweep(const SweepArguments& arguments);

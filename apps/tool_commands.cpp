@@ -1,7 +1,4 @@
-// schema, gsd, decode: commands without a simulation.
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
+// schema, gsd: commands without a simulation.
 #include <iostream>
 #include <sstream>
 
@@ -9,17 +6,25 @@
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/gsd/report.hpp"
-#include "bus/telegram/explain.hpp"
-#include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/output/output_file.hpp"
+#include "tb/report/result_schema.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace app {
 
-int schema(const SchemaArguments& arguments) {
+namespace {
+
+std::string schema_text(const SchemaArguments& arguments) {
+  if (arguments.result) return arguments.markdown ? tb::result_markdown() : tb::result_schema();
   const tb::ChipKind& kind = *tb::chip_kinds().front();
-  const std::string text = arguments.markdown ? tb::scenario::markdown(kind) : tb::scenario::json_schema(kind);
+  return arguments.markdown ? tb::scenario::markdown(kind) : tb::scenario::json_schema(kind);
+}
+
+}  // namespace
+
+int schema(const SchemaArguments& arguments) {
+  const std::string text = schema_text(arguments);
   if (arguments.output.empty()) {
     std::cout << text;
     return kPassed;
@@ -38,24 +43,6 @@ int gsd(const GsdArguments& arguments) {
   command.format = arguments.json ? bus::GsdFormat::kJson : bus::GsdFormat::kText;
   std::istringstream in(tb::read_file(arguments.file, tb::kGsdFile));
   return bus::gsd_command(in, arguments.file, command, std::cout, std::cerr);
-}
-
-int decode(const DecodeArguments& arguments) {
-  const bool standard_input = arguments.file.empty() || arguments.file == "-";
-  std::ifstream file;
-  if (!standard_input) {
-    const bool folder = std::filesystem::is_directory(arguments.file);
-    file.open(arguments.file);
-    if (folder || !file)
-      throw tb::InputError(
-          arguments.file, 0,
-          tb::what_is_wrong(folder ? EISDIR : errno) + ", allowed is a text file of hexadecimal bytes");
-  }
-  std::string error;
-  const int status = bus::decode_text(standard_input ? std::cin : file,
-                                      standard_input ? "standard input" : arguments.file, std::cout, error);
-  if (!error.empty()) throw tb::InputError(error);
-  return status;
 }
 
 }  // namespace app

@@ -103,6 +103,7 @@ void Monitor::character(const ReceivedCharacter& received) {
   const bool after_syn = !last_end_ || received.start - *last_end_ >= bits(kSynBits);
   if (after_syn) idle();
   if (!decoder_.begun() && !skipping_) begin_telegram(received);
+  if (skipping_ && on_skipped) on_skipped(received);
   check_character(received);
   last_end_ = received.end;
   active_ = true;

@@ -103,6 +103,8 @@ class Monitor : public Listener, public Agent {
   std::function<void(const Flag&)> on_flag;
   /// Each character, before what comes of it; null: nobody wants to know.
   std::function<void(const ReceivedCharacter&)> on_character;
+  /// A character after a wrong telegram, before the line was idle for T_SYN: it is taken for a part of it.
+  std::function<void(const ReceivedCharacter&)> on_skipped;
 
   const MonitorStatistics& statistics() const { return statistics_; }
   /// T_RR of each master, by its address.

@@ -1,12 +1,11 @@
 // Telegrams as hexadecimal text: what `dsdpv1-sim decode` reads and prints.
 #include <fmt/format.h>
 
-#include <array>
 #include <istream>
-#include <optional>
 #include <ostream>
 
 #include "bus/telegram/explain.hpp"
+#include "bus/telegram/telegram_printer.hpp"
 #include "bus/telegram/telegram_text.hpp"
 
 namespace bus {
@@ -15,14 +14,14 @@ namespace {
 
 class TextDecoder {
  public:
-  TextDecoder(const TelegramText& text, std::ostream& out) : text_(text), out_(out) {}
+  TextDecoder(const TelegramText& text, std::ostream& out) : text_(text), printer_(out), out_(out) {}
 
   /// True when everything was right and there was something.
   bool decode() {
     std::size_t at = 0;
     while (at < text_.bytes.size()) at = decode_one(at);
     if (text_.bytes.empty()) out_ << "no telegram\n";
-    return right_ && !text_.bytes.empty();
+    return printer_.all_right();
   }
 
  private:
@@ -36,23 +35,16 @@ class TextDecoder {
   std::size_t decode_one(std::size_t at) {
     Decoded decoded = decode_at(at);
     if (decoded.error == DecodeError::kNone) {
-      const Telegram& telegram = decoded.telegram;
-      if (const std::optional<bool> dpv1 = dpv1_enabled(telegram)) dpv1_.at(telegram.da) = dpv1;
-      print(at, fmt::format("telegram {}", ++count_), explain_line(telegram),
-            explain_bytes(decoded, dpv1_of(telegram)));
+      printer_.right(where(at), decoded);
       return at + decoded.bytes.size();
     }
-    right_ = false;
     const std::size_t end = end_of_wrong(at, decoded);
     if (decoded.error == DecodeError::kStartDelimiter)
-      print_garbage(at, end);
+      printer_.garbage(where(at), bytes(at, end));
     else
       print_wrong(at, end, decoded);
     return end;
   }
-
-  /// Of the slave that has sent the telegram, as far as its Set_Prm was seen.
-  std::optional<bool> dpv1_of(const Telegram& telegram) const { return dpv1_.at(telegram.sa); }
 
   std::size_t end_of_stream(std::size_t at) const {
     std::size_t end = at + 1;
@@ -86,9 +78,7 @@ class TextDecoder {
       decoded.error = DecodeError::kTruncated;
       decoded.readable = false;
     }
-    std::vector<ExplainedByte> bytes = explain_bytes(decoded);
-    for (std::size_t i = bytes.size(); i < end - at; ++i) bytes.push_back({i, text_.bytes[at + i], "not decoded"});
-    print(at, "wrong telegram", what_is_wrong(at, decoded), bytes);
+    printer_.wrong(where(at), what_is_wrong(at, decoded), decoded, bytes(at, end));
   }
 
   std::string what_is_wrong(std::size_t at, const Decoded& decoded) const {
@@ -98,25 +88,19 @@ class TextDecoder {
                        decoded.bytes.size(), log->whole_length);
   }
 
-  void print_garbage(std::size_t at, std::size_t end) {
-    std::vector<ExplainedByte> bytes;
-    for (std::size_t i = at; i < end; ++i) bytes.push_back({i - at, text_.bytes[i], "garbage"});
-    print(at, "garbage", fmt::format("{} {} between telegrams", end - at, end - at == 1 ? "byte" : "bytes"), bytes);
+  Bytes bytes(std::size_t from, std::size_t to) const {
+    const auto at = [this](std::size_t i) { return text_.bytes.begin() + static_cast<std::ptrdiff_t>(i); };
+    return {at(from), at(to)};
   }
 
-  void print(std::size_t at, const std::string& what, const std::string& line,
-             const std::vector<ExplainedByte>& bytes) {
+  std::string where(std::size_t at) const {
     const LoggedTelegram* log = text_.log_of(at);
-    out_ << fmt::format("{}, line {}{}: {}\n", what, text_.lines[at], log ? ", " + log->at_ns + " ns" : "", line);
-    for (const ExplainedByte& byte : bytes)
-      out_ << fmt::format("  {:4}  {:02X}  {}\n", byte.offset, byte.byte, byte.meaning);
+    return fmt::format("line {}{}", text_.lines[at], log != nullptr ? ", " + log->at_ns + " ns" : "");
   }
 
   const TelegramText& text_;
-  std::array<std::optional<bool>, 128> dpv1_ = {};  ///< by slave
+  TelegramPrinter printer_;
   std::ostream& out_;
-  int count_ = 0;
-  bool right_ = true;
 };
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <optional>
 #include <sstream>
 
+#include "bus/printable.hpp"
+
 namespace bus {
 namespace {
 
@@ -21,7 +23,7 @@ bool is_separator(char c) { return std::isspace(static_cast<unsigned char>(c)) !
 /// A word as an error line quotes it.
 std::string shortened(const std::string& word) {
   constexpr std::size_t kMost = 40;
-  return word.size() <= kMost ? word : word.substr(0, kMost) + "...";
+  return word.size() <= kMost ? printable(word) : printable(word.substr(0, kMost)) + "...";
 }
 
 /// Appends the bytes of one word; what is wrong with it, or empty.

@@ -27,6 +27,11 @@ const char* Sequencer::name(Phase phase, Item item) {
   }
 }
 
+// Not inline: where nobody asks, a move costs one test more.
+void Sequencer::note(regs::Address address, std::uint8_t byte, bool writes) {
+  moved_ = {op_ - 1, address, byte, writes, phase_, item_};
+}
+
 /// A status byte is written in the cycle of the choice; the move, not the phase behind it, says what it was.
 Inside Sequencer::inside(Cycle now) const {
   Inside seen;

@@ -16,6 +16,11 @@ constexpr std::uint8_t kVersion[kVersionBytes] = {regs::kVersionReset, regs::kVe
                                                   regs::kVersionMonthReset, regs::kVersionDayReset};
 constexpr int kStartUpMoves = regs::kDpramSize + kVersionBytes + 1;  // the RAM, the version, B006
 constexpr std::uint8_t kChipWasHere = 1;                             // B006
+// All that the user may ask for with B010 and B011.
+constexpr std::uint8_t kUserCommands1 = regs::kUserCommand1Init | regs::kUserCommand1PrmVerdict |
+                                        regs::kUserCommand1CfgVerdict | regs::kUserCommand1Input |
+                                        regs::kUserCommand1Diag;
+constexpr std::uint8_t kUserCommands2 = regs::kUserCommand2InputClear | regs::kUserCommand2C1 | regs::kUserCommand2C2;
 
 // An acyclic answer is as long as its length byte says only when it carries data (V14).
 bool carries_data(std::uint8_t function) {
@@ -69,10 +74,6 @@ void Sequencer::make_moves(Cycle until) {
 // --- dozing ----------------------------------------------------------------------------------------------------------
 
 bool Sequencer::may_doze() const {
-  constexpr std::uint8_t kUserCommands1 = regs::kUserCommand1Init | regs::kUserCommand1PrmVerdict |
-                                          regs::kUserCommand1CfgVerdict | regs::kUserCommand1Input |
-                                          regs::kUserCommand1Diag;
-  constexpr std::uint8_t kUserCommands2 = regs::kUserCommand2InputClear | regs::kUserCommand2C1 | regs::kUserCommand2C2;
   return phase_ == Phase::kIdle && !user_holds_ && valid_written_ && nothing_due() &&
          (ram_.read(regs::kUserCommand1) & kUserCommands1) == 0 &&
          (ram_.read(regs::kUserCommand2) & kUserCommands2) == 0;
@@ -161,7 +162,12 @@ void Sequencer::move_start_up(Cycle now) {
 }
 
 void Sequencer::move_header(Cycle now) {
+  static constexpr std::array<regs::Address, kHeaderMoves> kCells = {regs::kAccessCount,  regs::kUserCommand1,
+                                                                     regs::kUserCommand2, regs::kChipCommand1,
+                                                                     regs::kChipCommand2, regs::kDpv1Enable};
+  const auto index = static_cast<std::size_t>(index_);
   read_header(index_++);
+  if (notes_moves_) note(kCells[index], ram_.read(kCells[index]), index == 0);
   if (index_ < kHeaderMoves) return;
   item_ = Item::kInit;
   goto_phase(Phase::kChoose, now + 1);
@@ -169,21 +175,19 @@ void Sequencer::move_header(Cycle now) {
 
 void Sequencer::read_header(int index) {
   switch (index) {
-    case 0: put(regs::kAccessCount, kChipWasHere); return;
-    case 1: user_command1_ = get(regs::kUserCommand1); return;
-    case 2: user_command2_ = get(regs::kUserCommand2); return;
-    case 3: chip_command1_ = get(regs::kChipCommand1); return;
-    case 4: chip_command2_ = get(regs::kChipCommand2); return;
-    default: dpv1_ = get(regs::kDpv1Enable); return;
+    case 0: ram_.write(regs::kAccessCount, kChipWasHere); return;
+    case 1: user_command1_ = ram_.read(regs::kUserCommand1); return;
+    case 2: user_command2_ = ram_.read(regs::kUserCommand2); return;
+    case 3: chip_command1_ = ram_.read(regs::kChipCommand1); return;
+    case 4: chip_command2_ = ram_.read(regs::kChipCommand2); return;
+    default: dpv1_ = ram_.read(regs::kDpv1Enable); return;
   }
 }
 
-// Nobody has looked meanwhile.
+// Nobody has looked meanwhile, so nothing is noted.
 void Sequencer::header_at_once() {
-  for (int index = 0; index < kHeaderMoves; ++index) {
-    ++op_;
-    read_header(index);
-  }
+  for (int index = 0; index < kHeaderMoves; ++index) read_header(index);
+  op_ += kHeaderMoves;
   item_ = Item::kInit;
   goto_phase(Phase::kChoose, op_);
 }
@@ -198,20 +202,30 @@ void Sequencer::choose(Cycle now) {
 }
 
 // What an access that chooses at `now` finds to do, as far as it has read the user's commands.
-unsigned Sequencer::due_items(Cycle now) const {
-  const profibus::UserMail& mail = user_.mail();
-  const auto when = [](Item item, bool due) { return due ? mask(item) : 0U; };
-  const auto command1 = [&](Item item, unsigned flag) { return when(item, (user_command1_ & flag) != 0); };
-  const auto command2 = [&](Item item, unsigned flag) { return when(item, (user_command2_ & flag) != 0); };
-  const auto offline = static_cast<unsigned>(mail.state.exchanges_left ^ offline_written_);
+unsigned Sequencer::due_items(Cycle now) const { return due_commands() | due_mail(now) | due_status(); }
+
+// Most accesses find none of them.
+unsigned Sequencer::due_commands() const {
+  if ((user_command1_ & kUserCommands1) == 0 && (user_command2_ & kUserCommands2) == 0) return 0;
+  const auto command1 = [this](Item item, unsigned flag) { return when(item, (user_command1_ & flag) != 0); };
+  const auto command2 = [this](Item item, unsigned flag) { return when(item, (user_command2_ & flag) != 0); };
   return command1(Item::kInit, regs::kUserCommand1Init) | command1(Item::kPrmVerdict, regs::kUserCommand1PrmVerdict) |
          command1(Item::kCfgVerdict, regs::kUserCommand1CfgVerdict) |
          command2(Item::kInputClear, regs::kUserCommand2InputClear) | command1(Item::kInput, regs::kUserCommand1Input) |
          command1(Item::kDiag, regs::kUserCommand1Diag) | command2(Item::kC1Answer, regs::kUserCommand2C1) |
-         command2(Item::kC2Answer, regs::kUserCommand2C2) | when(Item::kPrm, mail.prm.due.before(now)) |
-         when(Item::kCfg, mail.cfg.due.before(now)) | when(Item::kOutput, mail.output.due.before(now)) |
-         when(Item::kC1Request, mail.c1.due.before(now)) | when(Item::kC2Request, mail.c2.due.before(now)) |
-         when(Item::kValidFlag, !valid_written_ && start_ >= origin_ + ready_cycles_) |
+         command2(Item::kC2Answer, regs::kUserCommand2C2);
+}
+
+unsigned Sequencer::due_mail(Cycle now) const {
+  const profibus::UserMail& mail = user_.mail();
+  return when(Item::kPrm, mail.prm.due.before(now)) | when(Item::kCfg, mail.cfg.due.before(now)) |
+         when(Item::kOutput, mail.output.due.before(now)) | when(Item::kC1Request, mail.c1.due.before(now)) |
+         when(Item::kC2Request, mail.c2.due.before(now));
+}
+
+unsigned Sequencer::due_status() const {
+  const auto offline = static_cast<unsigned>(user_.mail().state.exchanges_left ^ offline_written_);
+  return when(Item::kValidFlag, !valid_written_ && start_ >= origin_ + ready_cycles_) |
          when(Item::kOfflineHigh, offline > 0xFF) | when(Item::kOfflineLow, (offline & 0xFF) != 0) |
          when(Item::kChipStatus1, init_result_due1_) | when(Item::kChipStatus2, (status2_set_ | status2_clear_) != 0) |
          when(Item::kChipStatus3, status3() != status3_written_) | when(Item::kChipStatus4, init_result_due4_);

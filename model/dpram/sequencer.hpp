@@ -139,7 +139,11 @@ class Sequencer {
   // choosing
   void choose(Cycle now);
   unsigned due_items(Cycle now) const;
+  unsigned due_commands() const;
+  unsigned due_mail(Cycle now) const;
+  unsigned due_status() const;
   static constexpr unsigned mask(Item item) { return 1U << static_cast<unsigned>(item); }
+  static constexpr unsigned when(Item item, bool due) { return due ? mask(item) : 0U; }
   void start(Item item, Cycle now);
   void next_item() { item_ = static_cast<Item>(static_cast<int>(item_) + 1); }
   void start_read(Cycle now, const Area& area);
@@ -147,14 +151,15 @@ class Sequencer {
   void status_byte(Item item, Cycle now);
   void move_status(Item item, Cycle now);
   // moving bytes; the next move's cycle has been counted on when one is made
+  void note(regs::Address address, std::uint8_t byte, bool writes);
   std::uint8_t get(regs::Address address) {
     const std::uint8_t byte = ram_.read(address);
-    if (notes_moves_) moved_ = {op_ - 1, address, byte, false, phase_, item_};
+    if (notes_moves_) note(address, byte, false);
     return byte;
   }
   void put(regs::Address address, std::uint8_t byte) {
     ram_.write(address, byte);
-    if (notes_moves_) moved_ = {op_ - 1, address, byte, true, phase_, item_};
+    if (notes_moves_) note(address, byte, true);
   }
   // moving blocks
   void read_byte();

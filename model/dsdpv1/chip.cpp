@@ -71,7 +71,11 @@ struct Chip::Impl {
   Tick next_cycle() const { return first_edge_after(now) * kTicksPerCycle; }
   Cycle done() const { return now / kTicksPerCycle; }  // the last rising edge that is over
   bool due(Cycle next, Cycle cycle) const { return next <= cycle || engine == Engine::kStep; }
-  Tick edge_of(Cycle cycle) const { return cycle == kNever ? kNever : std::max(cycle * kTicksPerCycle, next_cycle()); }
+  Tick edge_of(Cycle cycle) const {
+    if (cycle == kNever) return kNever;
+    const Tick edge = cycle * kTicksPerCycle;
+    return edge > now ? edge : next_cycle();
+  }
   void plan_edge(Cycle cycle) { planned_edge = edge_of(cycle); }
   void plan();
   bool apply(Tick at, Pin pin, Level value);
@@ -80,7 +84,7 @@ struct Chip::Impl {
   void set_handshake(Tick at, bool req, bool sta);
   void rising_edge(Cycle cycle);
   bool only_sends(Cycle cycle) const;
-  void send_bit(Cycle cycle);
+  void send_bits(Cycle cycle, Tick to);
   bool only_settles(Cycle cycle) const;
   void settle_writes(Cycle cycle);
   void release(Cycle cycle);
@@ -223,7 +227,7 @@ void Chip::Impl::advance(Tick to) {
       host.drive();
       publish_data(event);
     } else if (const Cycle cycle = event / kTicksPerCycle; only_sends(cycle)) {
-      send_bit(cycle);
+      send_bits(cycle, to);
     } else {
       if (only_settles(cycle))
         settle_writes(cycle);
@@ -269,11 +273,15 @@ bool Chip::Impl::only_sends(Cycle cycle) const {
   return engine == Engine::kSkip && cycle < other_plans && station.only_sends(cycle);
 }
 
-void Chip::Impl::send_bit(Cycle cycle) {
-  plans.station = station.send_bit(cycle);
-  const std::uint32_t levels = (outputs & ~mask(Pin::kPbtxd)) | bit(Pin::kPbtxd, station.txd());
-  publish_edge_outputs(cycle * kTicksPerCycle, levels);
-  plan_edge(std::min(other_plans, plans.station));
+// One after the other, as long as nothing else is due.
+void Chip::Impl::send_bits(Cycle cycle, Tick to) {
+  do {
+    now = cycle * kTicksPerCycle;
+    plans.station = station.send_bit(cycle);
+    publish_edge_outputs(now, (outputs & ~mask(Pin::kPbtxd)) | bit(Pin::kPbtxd, station.txd()));
+    cycle = plans.station;
+  } while (only_sends(cycle) && cycle * kTicksPerCycle <= std::min(to, host.drive_at() - 1));
+  plan_edge(std::min(other_plans, cycle));
 }
 
 // Most edges while the user owns the DPRAM settle a write and nothing else.

@@ -57,6 +57,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
   add_agents();
   if (!options.log.empty()) journal_.open(options.log);
   if (!options.trace.empty()) trace_.emplace(options.trace, scenario_);
+  if (!options.capture.path.empty()) capture_.emplace(options.capture, scenario_.baud);
   add_observers();
   if (!waves_) return;
   waves_->begin();
@@ -68,7 +69,7 @@ Bench::~Bench() = default;
 
 /// What the bench itself needs a chip watches anyway.
 PinMask Bench::watched_pins() const {
-  const bool all = !options_.wave.path.empty() || !options_.trace.empty();
+  const bool all = !options_.wave.path.empty() || !options_.trace.empty() || !options_.observers.empty();
   return all ? all_of(maker_.pins()) : checks_.pins();
 }
 
@@ -138,6 +139,7 @@ void Bench::add_monitor() {
       observers_.tell(&Observer::character, now(), each);
     };
   monitor_->on_flag = [this](const bus::Flag& each) { flagged(each); };
+  monitor_->on_skipped = [this](const bus::ReceivedCharacter& each) { observers_.tell(&Observer::skipped, each); };
 }
 
 void Bench::add_master(const scenario::Master& spec) {
@@ -216,6 +218,8 @@ void Bench::add_observers() {
   observers_.add(checks_);
   if (trace_) observers_.add(*trace_);
   if (waves_) observers_.add(*waves_);
+  if (capture_) observers_.add(*capture_);
+  for (Observer* each : options_.observers) observers_.add(*each);
   observers_.add(journal_);
   observers_.add(*script_);
 }
@@ -242,6 +246,7 @@ void Bench::telegram(const bus::WireTelegram& telegram) {
 }
 
 void Bench::flagged(const bus::Flag& flag) {
+  observers_.tell(&Observer::flag, flag);
   // An unanswered request is how masters find out that nobody is there.
   const bool wrong = flag.kind != bus::FlagKind::kUnanswered;
   journal_.happened({flag.at, "bus", scenario::flag_code(flag.kind),
@@ -257,6 +262,10 @@ RunResult Bench::run(const std::function<bool(Tick)>& poll) {
     if (journal_.run_log() != nullptr) journal_.run_log()->flush(at - 1);
     return keep_outputs(at) && poll(at);
   };
+  for (std::size_t slave = 0; slave < stations_.slaves.size(); ++slave) {
+    const ChipView& chip = stations_.slaves[slave]->chip();
+    observers_.tell(&Observer::begins, slave, chip);
+  }
   execution_->run(scenario_.end, [this] { return stopped(); });
   RunResult result = collect();
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -312,8 +321,10 @@ bool Bench::keep_outputs(Tick at) {
     if (waves_) waves_->save(at);
     if (log != nullptr) log->save();
     if (trace_) trace_->save();
+    if (capture_) capture_->save();
   }
-  return !(waves_ && waves_->failed()) && !(log != nullptr && log->failed()) && !(trace_ && trace_->failed());
+  return !(waves_ && waves_->failed()) && !(log != nullptr && log->failed()) && !(trace_ && trace_->failed()) &&
+         !(capture_ && capture_->failed());
 }
 
 /// A run that one of them has ended early leaves none of them.
@@ -322,9 +333,11 @@ void Bench::finish_outputs() {
   if (waves_) waves_->check();
   if (log != nullptr) log->check();
   if (trace_) trace_->check();
+  if (capture_) capture_->check();
   if (waves_) waves_->finish(std::max(now(), stopped() ? now() : scenario_.end));
   if (log != nullptr) log->finish();
   if (trace_) trace_->finish();
+  if (capture_) capture_->finish();
 }
 
 }  // namespace tb

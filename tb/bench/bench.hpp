@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bus/monitor/monitor.hpp"
+#include "tb/bench/capture_recorder.hpp"
 #include "tb/bench/check_watch.hpp"
 #include "tb/bench/execution.hpp"
 #include "tb/bench/journal.hpp"
@@ -33,9 +34,11 @@ struct RunOptions {
   WaveOptions wave;
   std::string log, trace;         ///< paths, empty: not wanted
   bool log_whole = false;         ///< no bytes are left out in the log
+  CaptureRequest capture;         ///< of the telegrams
   std::optional<GdbRequest> gdb;  ///< debugger of the first user CPU that takes one
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
   ChecksMode checks = ChecksMode::kOff;
+  std::vector<Observer*> observers;  ///< more of them, told of all pins; they must outlive the bench
   bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
 };
 
@@ -101,6 +104,7 @@ class Bench {
   PeriodicPoll periodic_poll_;
   std::optional<PinTrace> trace_;
   std::optional<WaveRecorder> waves_;
+  std::optional<CaptureRecorder> capture_;
   std::chrono::steady_clock::time_point next_save_ = {};
   std::string registers_;  ///< of the processor that cannot go on; the run ends with it
 };

@@ -30,11 +30,17 @@ class Observer {
  public:
   virtual ~Observer() = default;
 
+  /// The run begins, `chip` has the levels of power-on.
+  virtual void begins(std::size_t /*slave*/, const ChipView& /*chip*/) {}
   virtual void pin(std::size_t /*slave*/, Tick /*at*/, PinNumber /*pin*/, Level /*level*/) {}
   /// The slave's user CPU begins a read and samples the data then, see ChipView::on_read.
   virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}
   virtual void event(std::size_t /*slave*/, const profibus::Event& /*event*/) {}
   virtual void telegram(const HeardTelegram& /*telegram*/) {}
+  /// What the monitor flags; what is flagged of a telegram comes before it.
+  virtual void flag(const bus::Flag& /*flag*/) {}
+  /// A character after a wrong telegram, see bus::Monitor::on_skipped.
+  virtual void skipped(const bus::ReceivedCharacter& /*character*/) {}
   /// Right or not.
   virtual void character(Tick /*now*/, const bus::ReceivedCharacter& /*heard*/) {}
   /// See ChipView::on_inside and on_action.

@@ -45,6 +45,16 @@ struct InnerSignal {
   int width;  ///< 0: its values are words
 };
 
+/// What a user CPU did last at its chip, from the pins.
+class AccessReader {
+ public:
+  virtual ~AccessReader() = default;
+  /// In order of time; of inputs at one tick in the order of the pins' numbers.
+  virtual void pin(bus::Tick at, PinNumber pin, Level level) = 0;
+  /// Its cell, value and time; "none" when there was none.
+  virtual std::string words() const = 0;
+};
+
 class ChipKind {
  public:
   virtual ~ChipKind() = default;
@@ -76,6 +86,8 @@ class ChipKind {
   // --- What happens.
   /// In words.
   virtual std::string describe(const profibus::Event& event) const = 0;
+  /// By default null: its accesses are not put into words.
+  virtual std::unique_ptr<AccessReader> make_access_reader() const { return nullptr; }
   /// Codes of the chip's events; of what its user program reports; of what else its user's side can meet.
   virtual const std::vector<CodeTable>& codes() const = 0;
 

@@ -7,6 +7,7 @@
 #include "tb/dsdpv1/checks/checks.hpp"
 #include "tb/dsdpv1/codes.hpp"
 #include "tb/dsdpv1/inside_watch.hpp"
+#include "tb/dsdpv1/last_access.hpp"
 #include "tb/dsdpv1/pin_chip.hpp"
 #include "tb/dsdpv1/pins/pin_table.hpp"
 #include "tb/dsdpv1/settings.hpp"
@@ -22,6 +23,15 @@ using user_cpu::command::OfChip;
 std::string said_hold(const OfChip& order) { return "holds the DPRAM for " + time_text(order.duration); }
 std::string said_wrong_crc(const OfChip&) { return "wrong CRC"; }
 std::string said_early_r_sta(const OfChip&) { return "R_STA without a look at L_REQ and L_STA"; }
+
+class Dsdpv1AccessReader : public AccessReader {
+ public:
+  void pin(bus::Tick at, PinNumber pin, Level level) override { last_.pin(at, static_cast<dsdpv1::Pin>(pin), level); }
+  std::string words() const override { return last_.words(); }
+
+ private:
+  LastAccess last_;
+};
 
 class Dsdpv1Kind : public ChipMaker {
  public:
@@ -43,6 +53,7 @@ class Dsdpv1Kind : public ChipMaker {
   const std::vector<keys::Word>& blocks() const override;
 
   std::string describe(const profibus::Event& event) const override { return dsdpv1::describe(event); }
+  std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<Dsdpv1AccessReader>(); }
   const std::vector<CodeTable>& codes() const override { return dsdpv1_codes(); }
 
   const std::vector<InnerSignal>& inner_signals() const override { return InsideWatch::signals(); }

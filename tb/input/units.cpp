@@ -10,6 +10,7 @@
 namespace tb {
 namespace {
 
+
 struct Unit {
   const char* name;
   bus::Tick ticks;
@@ -18,7 +19,7 @@ constexpr std::array<Unit, 5> kUnits = {{{"s", bus::kTicksPerSecond},
                                          {"ms", bus::kTicksPerMs},
                                          {"us", bus::kTicksPerUs},
                                          {"ns", bus::kTicksPerNs},
-                                         {"cycles", 250}}};
+                                         {"cycles", kTicksPerCycle}}};
 
 constexpr std::int64_t kLongest = 100'000'000;  // seconds; keeps every product below 2^63
 
@@ -96,6 +97,13 @@ std::string time_text(bus::Tick ticks) {
     return text + unit.name;
   }
   return fmt::format("{:.3f}ns", static_cast<double>(ticks) / static_cast<double>(bus::kTicksPerNs));
+}
+
+std::string cycle_text(bus::Tick at) {
+  const bus::Tick rest = at % kTicksPerCycle;
+  const std::string within = rest == 0 ? "" : fmt::format(" + {} ticks", rest);
+  return fmt::format("cycle {}{} ({:.3f} us)", at / kTicksPerCycle, within,
+                     static_cast<double>(at) / static_cast<double>(bus::kTicksPerUs));
 }
 
 std::optional<bus::Bytes> parse_bytes(const std::string& text) {

@@ -22,6 +22,12 @@ std::optional<bus::Tick> parse_time(const std::string& text);
 /// The shortest way to write a time that `parse_time` reads back: "1.5ms".
 std::string time_text(bus::Tick ticks);
 
+/// Ticks of a cycle of 48 MHz.
+constexpr bus::Tick kTicksPerCycle = 250;
+
+/// Where a time stands among the cycles of 48 MHz: "cycle 84797 + 122 ticks (1766.604 us)".
+std::string cycle_text(bus::Tick at);
+
 /// "01 a0 FF*10": hexadecimal bytes, `*n` repeats one n times; nullopt for anything else. Blank text is no bytes.
 std::optional<bus::Bytes> parse_bytes(const std::string& text);
 

@@ -38,9 +38,32 @@ void Progress::clear() {
   drawn_ = false;
 }
 
-std::string count_text(std::size_t done, std::size_t all, double wall_s) {
-  const double part = static_cast<double>(done) / static_cast<double>(all);
-  return fmt::format("[{:<{}}] {} of {} points  {:.0f} s", bar_of(part), kWidth, done, all, wall_s);
+std::string share_text(double done, double wall_s) {
+  const double left = done > 0 ? wall_s / done - wall_s : 0;
+  return fmt::format("[{:<{}}] {:3.0f} %  {:.0f} s left", bar_of(done), kWidth, done * 100, left);
+}
+
+void ShareProgress::show(double done) {
+  using namespace std::chrono_literals;
+  const Clock::time_point time = Clock::now();
+  if (!wanted_ || time - last_ < 100ms) return;
+  last_ = time;
+  fmt::print(stderr, "\r{}\033[K", share_text(done, std::chrono::duration<double>(time - begin_).count()));
+  std::fflush(stderr);
+}
+
+void ShareProgress::clear() const {
+  if (wanted_) fmt::print(stderr, "\r\033[K");
+}
+
+std::string count_text(const Count& count, const std::string& what, double wall_s) {
+  const auto number = [](std::size_t of) { return static_cast<double>(of); };
+  const double part = count.all == 0 ? 1 : number(count.done) / number(count.all);
+  const std::string bar =
+      fmt::format("[{:<{}}] {} of {} {}  {:.0f} s", bar_of(part), kWidth, count.done, count.all, what, wall_s);
+  if (count.done == count.before) return bar;
+  const double each = wall_s / number(count.done - count.before);
+  return bar + fmt::format(", {:.0f} s left", each * number(count.all - count.done));
 }
 
 void CountProgress::show(std::size_t done) {
@@ -50,7 +73,7 @@ void CountProgress::show(std::size_t done) {
   shown_ = done;
   last_ = time;
   const double wall_s = std::chrono::duration<double>(time - begin_).count();
-  fmt::print(stderr, "\r{}\033[K", count_text(done, all_, wall_s));
+  fmt::print(stderr, "\r{}\033[K", count_text({done, all_, before_}, what_, wall_s));
   std::fflush(stderr);
 }
 

@@ -4,6 +4,7 @@
 
 #include "bus/time.hpp"
 #include "tb/input/units.hpp"
+#include "tb/report/result_schema.hpp"
 
 namespace tb {
 namespace {
@@ -168,7 +169,7 @@ Json refused_of(const Refused& refused) {
 }  // namespace
 
 std::string result_json(const RunResult& result) {
-  Json json;
+  Json json = {{"schema", kResultSchema}, {"version", kResultVersion}};
   json["scenario"] = result.scenario;
   json["file"] = result.file;
   json["passed"] = result.passed;

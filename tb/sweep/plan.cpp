@@ -74,20 +74,24 @@ std::string last_step(const std::string& path) { return path.substr(path.rfind('
 
 }  // namespace
 
-Parameter parse_parameter(const std::string& text) {
-  const scenario::Setting given = scenario::parse_setting("--param", text);
-  const Kind kind = scenario::field_of_any(given.path, given.origin).type.kind;
-  Parameter parameter{given.path, {}};
+std::vector<std::string> values_of(Kind kind, const std::string& list, const std::string& origin) {
+  std::vector<std::string> values;
   std::set<std::string> seen;
-  for (const std::string& item : split(given.value, ',')) {
-    for (const std::string& value : expand(kind, item, given.origin)) {
-      scenario::check({given.path, value, given.origin});
-      if (!seen.insert(value).second) fail(given.origin, fmt::format("{} is there twice, allowed is once", value));
-      parameter.values.push_back(value);
+  for (const std::string& item : split(list, ',')) {
+    for (const std::string& value : expand(kind, item, origin)) {
+      if (!seen.insert(value).second) fail(origin, fmt::format("{} is there twice, allowed is once", value));
+      values.push_back(value);
     }
   }
-  if (parameter.values.size() > kMostValues)
-    fail(given.origin, fmt::format("{} values, allowed are {}", parameter.values.size(), kMostValues));
+  if (values.size() > kMostValues) fail(origin, fmt::format("{} values, allowed are {}", values.size(), kMostValues));
+  return values;
+}
+
+Parameter parse_parameter(const std::string& text, const std::string& option) {
+  const scenario::Setting given = scenario::parse_setting(option, text);
+  const Kind kind = scenario::field_of_any(given.path, given.origin).type.kind;
+  const Parameter parameter{given.path, values_of(kind, given.value, given.origin)};
+  for (const std::string& value : parameter.values) scenario::check({given.path, value, given.origin});
   return parameter;
 }
 

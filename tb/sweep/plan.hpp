@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tb/keys/keys.hpp"
+
 namespace tb::sweep {
 
 /// A key of the scenario and the values that it takes, as `run --set` understands them.
@@ -12,7 +14,7 @@ struct Parameter {
   std::vector<std::string> values;
 };
 
-/// "PATH=VALUES". VALUES are separated by commas; of whole numbers and times, ranges as well:
+/// "PATH=VALUES" of `option`. VALUES are separated by commas; of whole numbers and times, ranges as well:
 ///
 ///   user_cpu.fsmc.datast=0..15     every whole number from 0 to 15
 ///   user_cpu.cycle=40us..100us/20us   40us, 60us, 80us, 100us; times need a step
@@ -20,7 +22,10 @@ struct Parameter {
 ///
 /// The end of a range belongs to it when a step meets it. Throws InputError for a path that no scenario has, a value
 /// that the key does not allow, one that is there twice, and more than 10 000 values.
-Parameter parse_parameter(const std::string& text);
+Parameter parse_parameter(const std::string& text, const std::string& option = "--param");
+
+/// A list of values and ranges, each value once. Throws InputError, `origin` is where they stand.
+std::vector<std::string> values_of(keys::Kind kind, const std::string& list, const std::string& origin);
 
 struct Plan {
   std::string scenario;

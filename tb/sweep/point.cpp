@@ -13,11 +13,9 @@ void take_first(std::optional<FirstViolation>& first, const FirstViolation& seen
   if (!first || seen.at_ns < first->at_ns) first = seen;
 }
 
-bool allowed(const Json& json) { return json.contains("allowed") && json["allowed"] == true; }
-
 void take_events(Point& point, const Json& run) {
   for (const Json& event : run.value("events", Json::array())) {
-    if (event.at("severity") != "violation" || allowed(event)) continue;
+    if (event.at("severity") != "violation" || event.at("allowed") == true) continue;
     take_first(point.first, {event.at("at_ns"), event.at("slave"), event.at("code"), event.at("text")});
   }
 }
@@ -34,8 +32,8 @@ void take_check(Point& point, const Json& json) {
   check.count += json.value("count", std::int64_t{0});
   const Json margin = json.value("worst_margin_ns", Json());
   if (margin.is_number()) check.margin_ns = std::min(check.margin_ns.value_or(margin), margin.get<double>());
-  const std::int64_t violations = json.value("violations", std::int64_t{0});
-  if (violations == 0 || allowed(json)) return;
+  const std::int64_t violations = json.value("violations", std::int64_t{0}) - json.value("allowed", std::int64_t{0});
+  if (violations <= 0) return;
   check.violations += violations;
   for (const Json& each : json.value("listed", Json::array()))
     take_first(point.first, {each.at("at_ns"), json.value("slave", ""), check.id, each.at("text")});

@@ -44,4 +44,19 @@ void FstWriter::finish(bus::Tick end) {
   file_.finish();
 }
 
+void FstWriter::set(Picoseconds at, Signal signal, std::string_view levels) {
+  file_.move_to(at.count);
+  file_.set(signal, std::string(levels).c_str());
+}
+
+void FstWriter::say(Picoseconds at, Signal signal, std::string_view word) {
+  file_.move_to(at.count);
+  file_.say(signal, word);
+}
+
+void FstWriter::finish(Picoseconds end) {
+  file_.move_to(end.count);
+  file_.finish();
+}
+
 }  // namespace tb

@@ -22,6 +22,9 @@ class FstWriter : public WaveWriter {
   bool failed() const override { return file_.failed(); }
   void check() const override { file_.check(); }
   void finish(bus::Tick end) override;
+  void set(Picoseconds at, Signal signal, std::string_view levels) override;
+  void say(Picoseconds at, Signal signal, std::string_view word) override;
+  void finish(Picoseconds end) override;
 
  private:
   void move_to(bus::Tick at);

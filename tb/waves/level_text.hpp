@@ -18,4 +18,27 @@ inline std::array<char, 33> level_text(int level, int width) {
   return text;
 }
 
+/// 0, 1, x or z for a level as simulators spell it, VHDL's nine among them (U, W and - are x, H is 1, L is 0); a zero
+/// byte for anything else.
+constexpr char level_of(char c) {
+  switch (c) {
+    case '0':
+    case 'L':
+    case 'l': return '0';
+    case '1':
+    case 'H':
+    case 'h': return '1';
+    case 'z':
+    case 'Z': return 'z';
+    case 'x':
+    case 'X':
+    case 'u':
+    case 'U':
+    case 'w':
+    case 'W':
+    case '-': return 'x';
+    default: return '\0';
+  }
+}
+
 }  // namespace tb

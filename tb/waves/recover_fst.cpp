@@ -1,63 +1,19 @@
-// FST: the blocks of a file, and a complete file from what is readable of one.
+// A complete FST file from what is readable of one.
 #include <fcntl.h>
-#include <fstapi.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <memory>
 #include <vector>
 
 #include "tb/input/input_error.hpp"
 #include "tb/output/output_place.hpp"
+#include "tb/waves/fst_blocks.hpp"
 #include "tb/waves/fst_file.hpp"
+#include "tb/waves/fst_handle.hpp"
 #include "tb/waves/recover.hpp"
 
 namespace tb {
 namespace {
-
-struct Blocks {
-  unsigned changes = 0;
-  bool geometry = false, names = false;
-  bool whole = false;  ///< the last block ends where the file does
-};
-
-std::uint64_t big_endian(std::istream& in) {
-  std::uint64_t value = 0;
-  for (int i = 0; i < 8; ++i) value = value << 8U | static_cast<std::uint64_t>(in.get() & 0xFF);
-  return value;
-}
-
-void count(Blocks& blocks, int tag) {
-  if (tag == FST_BL_VCDATA_DYN_ALIAS2) ++blocks.changes;
-  if (tag == FST_BL_GEOM) blocks.geometry = true;
-  if (tag == FST_BL_HIER_LZ4 || tag == FST_BL_HIER_LZ4DUO) blocks.names = true;
-}
-
-/// Each is a tag and its length, which counts itself. The first that is not finished has the tag "skip".
-Blocks blocks_of(const std::string& path) {
-  Blocks blocks;
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  const auto size = static_cast<std::uint64_t>(in.tellg());
-  std::uint64_t at = 0;
-  while (in && at < size) {
-    in.seekg(static_cast<std::streamoff>(at));
-    const int tag = in.get();
-    const std::uint64_t length = big_endian(in);
-    if (!in || tag == FST_BL_SKIP || length < 8 || length > size - at - 1) return blocks;
-    count(blocks, tag);
-    at += 1 + length;
-  }
-  blocks.whole = in && at == size;
-  return blocks;
-}
-
-struct CloseReader {
-  void operator()(void* reader) const { fstReaderClose(reader); }
-};
-using Reader = std::unique_ptr<void, CloseReader>;
-
-Reader open_reader(const std::string& path) { return Reader(fstReaderOpen(path.c_str())); }
 
 void ignore(void* /*file*/, std::uint64_t /*time*/, fstHandle /*signal*/, const unsigned char* /*value*/) {}
 
@@ -66,7 +22,7 @@ bool readable(const std::string& path) {
   const pid_t child = ::fork();
   if (child == 0) {
     ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
-    const Reader reader = open_reader(path);
+    const FstHandle reader = open_fst(path);
     if (!reader) ::_exit(1);
     fstReaderSetFacProcessMaskAll(reader.get());
     ::_exit(fstReaderIterBlocks(reader.get(), ignore, nullptr, nullptr) == 1 ? 0 : 1);
@@ -105,7 +61,7 @@ void change_of_word(void* to, std::uint64_t time, fstHandle signal, const unsign
 }
 
 void check_recoverable(const std::string& part) {
-  const Blocks blocks = blocks_of(part);
+  const FstBlocks blocks = fst_blocks(part);
   if (blocks.names)
     throw InputError(part, 0, "is complete, so there is nothing to recover: give it the name that it should have");
   if (blocks.changes == 0) throw InputError(part, 0, "holds no changes yet, so there is nothing to recover");
@@ -116,15 +72,11 @@ void check_recoverable(const std::string& part) {
 
 }  // namespace
 
-bool fst_is_complete(const std::string& path) {
-  const Blocks blocks = blocks_of(path);
-  if (!blocks.whole || blocks.changes == 0 || !blocks.geometry || !blocks.names) return false;
-  return open_reader(path) != nullptr;
-}
+bool fst_is_complete(const std::string& path) { return fst_blocks(path).complete() && open_fst(path) != nullptr; }
 
 std::uint64_t recover_fst(const std::string& part, const std::string& output) {
   check_recoverable(part);
-  const Reader reader = open_reader(part);
+  const FstHandle reader = open_fst(part);
   if (!reader) throw InputError(part, 0, "cannot be read");
   const std::uint64_t end = fstReaderGetEndTime(reader.get());
   Copy copy(output);

@@ -47,30 +47,43 @@ WaveWriter::Signal VcdWriter::declare(const char* type, const std::string& name,
 WaveWriter::Signal VcdWriter::wire(const std::string& name, int width) { return declare("wire", name, width); }
 WaveWriter::Signal VcdWriter::words(const std::string& name) { return declare("string", name, kWords); }
 
-void VcdWriter::move_to(bus::Tick at) {
+Picoseconds VcdWriter::in_order(bus::Tick at) {
   if (at < now_) throw std::logic_error("wave changes out of order");
-  if (now_ < 0) file_.write("$enddefinitions $end\n");
-  if (now_ < 0 || picoseconds(at) != picoseconds(now_)) file_.write(fmt::format("#{}\n", picoseconds(at)));
   now_ = at;
+  return {picoseconds(at)};
+}
+
+void VcdWriter::move_to(Picoseconds at) {
+  if (!time_) file_.write("$enddefinitions $end\n");
+  if (time_ != at.count) file_.write(fmt::format("#{}\n", at.count));
+  time_ = at.count;
 }
 
 void VcdWriter::set(bus::Tick at, Signal signal, int level) {
-  move_to(at);
   const int width = widths_.at(signal);
   const auto text = level_text(level, width);
-  file_.write(width == 1 ? fmt::format("{}{}\n", text.data(), names_[signal])
-                         : fmt::format("b{} {}\n", text.data(), names_[signal]));
+  set(in_order(at), signal, {text.data(), static_cast<std::size_t>(width)});
 }
 
-void VcdWriter::say(bus::Tick at, Signal signal, std::string_view word) {
+void VcdWriter::set(Picoseconds at, Signal signal, std::string_view levels) {
+  move_to(at);
+  file_.write(levels.size() == 1 ? fmt::format("{}{}\n", levels, names_.at(signal))
+                                 : fmt::format("b{} {}\n", levels, names_.at(signal)));
+}
+
+void VcdWriter::say(bus::Tick at, Signal signal, std::string_view word) { say(in_order(at), signal, word); }
+
+void VcdWriter::say(Picoseconds at, Signal signal, std::string_view word) {
   move_to(at);
   std::string text(word);
   std::replace(text.begin(), text.end(), ' ', '_');  // the value ends at the first blank
   file_.write(fmt::format("s{} {}\n", text, names_.at(signal)));
 }
 
-void VcdWriter::finish(bus::Tick end) {
-  move_to(std::max(end, now_));
+void VcdWriter::finish(bus::Tick end) { finish(in_order(std::max(end, now_))); }
+
+void VcdWriter::finish(Picoseconds end) {
+  move_to(end);
   file_.commit();
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,16 +23,21 @@ class VcdWriter : public WaveWriter {
   bool failed() const override { return file_.failed(); }
   void check() const override { file_.check(); }
   void finish(bus::Tick end) override;
+  void set(Picoseconds at, Signal signal, std::string_view levels) override;
+  void say(Picoseconds at, Signal signal, std::string_view word) override;
+  void finish(Picoseconds end) override;
 
  private:
   Signal declare(const char* type, const std::string& name, int width);
-  void move_to(bus::Tick at);
+  void move_to(Picoseconds at);
+  Picoseconds in_order(bus::Tick at);
 
   OutputFile file_;
   static constexpr int kWords = 0;  ///< in the place of a width
   std::vector<int> widths_;
   std::vector<std::string> names_;  ///< in the file
-  bus::Tick now_ = -1;              // -1: still declaring
+  bus::Tick now_ = 0;
+  std::optional<std::uint64_t> time_;  ///< the last in the file; nullopt: still declaring
 };
 
 }  // namespace tb

@@ -40,8 +40,8 @@ void SelectedWave::close_scope() {
   writer_->close_scope();
 }
 
-WaveWriter::Signal SelectedWave::wire(const std::string& name, int width) { return declare(name, false, width); }
-WaveWriter::Signal SelectedWave::words(const std::string& name) { return declare(name, true, 0); }
+SelectedWave::Signal SelectedWave::wire(const std::string& name, int width) { return declare(name, false, width); }
+SelectedWave::Signal SelectedWave::words(const std::string& name) { return declare(name, true, 0); }
 
 bool SelectedWave::fits(const std::string& pattern, const std::string& path) const {
   return ::fnmatch(pattern.c_str(), path.c_str(), 0) == 0;
@@ -60,7 +60,7 @@ bool SelectedWave::wants(const std::string& path, bool is_word) const {
          std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) { return fits(pattern, path); });
 }
 
-WaveWriter::Signal SelectedWave::declare(const std::string& name, bool is_word, int width) {
+SelectedWave::Signal SelectedWave::declare(const std::string& name, bool is_word, int width) {
   names_.push_back(path_of(name));
   Declared declared;
   declared.is_word = is_word;
@@ -153,9 +153,9 @@ void SelectedWave::close() {
   tick_to(closed_at_);
   open_ = false;
   if (!selection_.on_trigger) return;
-  if (selection_.clock) writer_->set(closed_at_, clock_, kUnknown);
+  if (selection_.clock) writer_->set(closed_at_, clock_, WaveWriter::kUnknown);
   for (const Declared& signal : signals_)
-    if (signal.selected) write_value(closed_at_, signal, {kUnknown, std::string(kNotRecorded)});
+    if (signal.selected) write_value(closed_at_, signal, {WaveWriter::kUnknown, std::string(kNotRecorded)});
 }
 
 void SelectedWave::write(const Change& change) {
@@ -190,9 +190,9 @@ void SelectedWave::save(bus::Tick at) {
 void SelectedWave::finish(bus::Tick end) {
   advance(end);
   if (!has_window()) {
-    if (selection_.clock) writer_->set(0, clock_, kUnknown);
+    if (selection_.clock) writer_->set(0, clock_, WaveWriter::kUnknown);
     for (const Declared& signal : signals_)
-      if (signal.selected) write_value(0, signal, {kUnknown, std::string(kNotRecorded)});
+      if (signal.selected) write_value(0, signal, {WaveWriter::kUnknown, std::string(kNotRecorded)});
   }
   if (open_) tick_to(end);
   writer_->finish(open_ || selection_.on_trigger || !has_window() ? end : selection_.to);

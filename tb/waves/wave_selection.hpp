@@ -26,23 +26,25 @@ struct WaveSelection {
   bool clock = false;
 };
 
-/// A writer that passes on what is selected. What a signal was before a window is its first value there; behind a
-/// window, in the same file, it is unknown.
-class SelectedWave : public WaveWriter {
+/// Passes on to a writer what is selected; for its functions see WaveWriter. What a signal was before a window is its
+/// first value there; behind a window, in the same file, it is unknown.
+class SelectedWave {
  public:
+  using Signal = WaveWriter::Signal;
+
   SelectedWave(std::unique_ptr<WaveWriter> writer, WaveSelection selection);
 
-  void open_scope(const std::string& name) override;
-  void close_scope() override;
-  Signal wire(const std::string& name, int width) override;
-  Signal words(const std::string& name) override;
-  void set(bus::Tick at, Signal signal, int level) override;
-  void say(bus::Tick at, Signal signal, std::string_view word) override;
-  void save(bus::Tick at) override;
-  bool failed() const override { return writer_->failed(); }
-  void check() const override { writer_->check(); }
+  void open_scope(const std::string& name);
+  void close_scope();
+  Signal wire(const std::string& name, int width);
+  Signal words(const std::string& name);
+  void set(bus::Tick at, Signal signal, int level);
+  void say(bus::Tick at, Signal signal, std::string_view word);
+  void save(bus::Tick at);
+  bool failed() const { return writer_->failed(); }
+  void check() const { writer_->check(); }
   /// With `on_trigger` and no trigger all signals are unknown from 0 to `end`.
-  void finish(bus::Tick end) override;
+  void finish(bus::Tick end);
 
   /// To be called once all signals are declared: throws InputError for a pattern that fits none of them.
   void check_patterns() const;
@@ -53,7 +55,7 @@ class SelectedWave : public WaveWriter {
 
  private:
   struct Value {
-    int level = kUnknown;
+    int level = WaveWriter::kUnknown;
     std::string word;
   };
   struct Declared {

@@ -13,6 +13,11 @@ namespace tb {
 /// Picoseconds since the start, rounded to the nearest.
 constexpr std::uint64_t picoseconds(bus::Tick tick) { return (static_cast<std::uint64_t>(tick) * 500 + 3) / 6; }
 
+/// A time that is no whole tick: of a wave that comes from elsewhere.
+struct Picoseconds {
+  std::uint64_t count = 0;
+};
+
 class WaveWriter {
  public:
   using Signal = std::uint32_t;
@@ -21,7 +26,8 @@ class WaveWriter {
 
   virtual ~WaveWriter() = default;
 
-  // Declarations, all before the first change. Names are plain words; `width` is 1 to 32 wires.
+  // Declarations, all before the first change. Names are plain words; `width` is 1 to 32 wires, any number where the
+  // values are levels.
   virtual void open_scope(const std::string& name) = 0;
   virtual void close_scope() = 0;
   virtual Signal wire(const std::string& name, int width) = 0;
@@ -31,6 +37,12 @@ class WaveWriter {
   // Changes; `at` never decreases (std::logic_error).
   virtual void set(bus::Tick at, Signal signal, int level) = 0;
   virtual void say(bus::Tick at, Signal signal, std::string_view word) = 0;
+
+  // The same for values as a WaveReader has them: `levels` are as many of 0, 1, x, z as the signal is wide. A writer
+  // gets all its times either so or as ticks.
+  virtual void set(Picoseconds at, Signal signal, std::string_view levels) = 0;
+  virtual void say(Picoseconds at, Signal signal, std::string_view word) = 0;
+  virtual void finish(Picoseconds end) = 0;
 
   /// What was written up to `at` is in the temporary file, where `dsdpv1-sim recover` finds it. `at` is not before any
   /// change so far, and no later change is before it.

@@ -1,8 +1,10 @@
-// Every scenario that ships passes, the checks included, and is the same to the byte in step, skip and TLM: pin trace,
-// log and result; and log and result without a pin trace, when nobody needs the changes of the line.
+// Every scenario that ships passes, the checks included, with the pins of its golden trace in step and skip, and is the
+// same to the byte in step, skip and TLM: log and result, with TLM the trace of the outputs; and log and result without
+// a trace, when nobody needs the changes of the line. The results are what the schema says.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -14,19 +16,22 @@ using app_test::call;
 using app_test::read;
 using app_test::shipped_scenarios;
 
+const std::string kGolden = " --golden traces";
+
 class Scenarios : public testing::TestWithParam<std::string> {
  protected:
-  /// Runs the scenario and says whether it passed.
-  bool run(const std::string& engine, const std::string& view, bool trace = true) const {
-    const std::string name = engine + "_" + view + (trace ? "" : "_untraced");
-    const std::string traced = trace ? " --trace '" + folder_.file(name + ".trace") + "'" : "";
+  /// Runs the scenario and says whether it passed. Its files are called engine_view and `suffix`.
+  bool run(const std::string& engine, const std::string& view, const std::string& options = "",
+           const std::string& suffix = "") const {
+    const std::string name = engine + "_" + view + suffix;
     const app_test::Called called = call(
         "run scenarios/" + GetParam() + ".yaml --no-progress --checks fail --engine " + engine + " --view " + view +
-            traced + " --log '" + folder_.file(name + ".log") + "' --result '" + folder_.file(name + ".json") + "'",
+            options + " --log '" + folder_.file(name + ".log") + "' --result '" + folder_.file(name + ".json") + "'",
         DSDPV1_SOURCE_DIR);
     if (called.status != 0) std::cout << called.out << called.err;
     return called.status == 0;
   }
+  std::string trace(const std::string& name) const { return " --trace '" + folder_.file(name + ".trace") + "'"; }
   void expect_same(const std::string& name, const std::string& ending) const {
     EXPECT_TRUE(read(folder_.file("skip_pins" + ending)) == read(folder_.file(name + ending))) << name << ending;
   }
@@ -40,21 +45,26 @@ class Scenarios : public testing::TestWithParam<std::string> {
     for (const char* key : {"engine", "view", "wall_s", "real_time_factor"}) result.erase(key);
     return result;
   }
+  void expect_result_as_the_schema_says(const std::string& name) const {
+    const std::string command = "'" DSDPV1_SOURCE_DIR "/.venv/bin/python' -B '" DSDPV1_SOURCE_DIR
+                                "/tests/report/validate.py' '" DSDPV1_SIM "' '" +
+                                folder_.file(name + ".json") + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+  }
   app_test::Folder folder_;
 };
 
 TEST_P(Scenarios, PassesAndStepSkipAndTlmAreTheSame) {
-  ASSERT_TRUE(run("skip", "pins"));
-  ASSERT_TRUE(run("step", "pins"));
-  ASSERT_TRUE(run("skip", "tlm"));
-  for (const char* name : {"step_pins", "skip_tlm"}) {
-    expect_same(name, ".trace");
-    expect_same(name);
-  }
+  ASSERT_TRUE(run("skip", "pins", kGolden + trace("skip_pins")));
+  ASSERT_TRUE(run("step", "pins", kGolden));
+  ASSERT_TRUE(run("skip", "tlm", trace("skip_tlm")));
+  expect_same("skip_tlm", ".trace");
+  for (const char* name : {"step_pins", "skip_tlm"}) expect_same(name);
   for (const char* view : {"pins", "tlm"}) {
-    ASSERT_TRUE(run("skip", view, false));
+    ASSERT_TRUE(run("skip", view, "", "_untraced"));
     expect_same(std::string("skip_") + view + "_untraced");
   }
+  expect_result_as_the_schema_says("skip_pins");  // and so are those that are the same
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Scenarios, testing::ValuesIn(shipped_scenarios()),

@@ -186,6 +186,41 @@ def update_sweep(root, sim):
     (root / SWEEP_PICTURE).write_bytes(picture)
 
 
+# ------------------------------------------------------------------------------------------------------------- regress
+REGRESS = ["scenarios/bus_timing.yaml", "--set", "user_cpu.fsmc.mode=A", "--set", "user_cpu.fsmc.datast=0..3"]
+REGRESS_BLOCK = re.compile(r"(<!-- regress -->\n```\n)(.*?)(```\n<!-- /regress -->)", re.S)
+
+
+def regress(root, sim):
+    """The table of docs/regress.md, from a run of its command; some runs of it fail."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder, "out")
+        return subprocess.run([sim, "regress", *REGRESS, "--no-progress", "--out", out], cwd=root, check=False, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout
+
+
+def without_seconds(table):
+    return re.sub(r"\t\d+\.\d{3}\t", "\t0\t", table)
+
+
+def check_regress(root, sim):
+    path = root / "docs/regress.md"
+    text = path.read_text(encoding="utf-8")
+    if "dsdpv1-sim regress " + " ".join(REGRESS) + "\n" not in text:
+        yield "docs/regress.md:1: the command of the table is missing"
+    block = REGRESS_BLOCK.search(text)
+    if without_seconds(block.group(2)) != without_seconds(regress(root, sim)):
+        yield fault(root, path, text, block.start(2), "stale; ./run generate writes it anew")
+
+
+def update_regress(root, sim):
+    path = root / "docs/regress.md"
+    text = path.read_text(encoding="utf-8")
+    table, block = regress(root, sim), REGRESS_BLOCK.search(text)
+    if without_seconds(table) != without_seconds(block.group(2)):  # else the seconds alone would change the file
+        path.write_text(text[:block.start(2)] + table + text[block.end(2):], encoding="utf-8")
+
+
 def update(root, sim):
     readme = root / "README.md"
     output = simulate(root, sim).strip("\n") + "\n"
@@ -195,6 +230,7 @@ def update(root, sim):
         readme.write_text(text[:block.start(2)] + output + text[block.end(2):], encoding="utf-8")
     draw(root, sim, root / PICTURE)
     update_sweep(root, sim)
+    update_regress(root, sim)
     return []
 
 
@@ -202,10 +238,11 @@ def main():
     here = pathlib.Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=here)
-    parser.add_argument("what", choices=["links", "files", "table", "snippets", "readme", "picture", "sweep", "update"])
+    parser.add_argument("what", choices=["links", "files", "table", "snippets", "readme", "picture", "sweep", "regress",
+                                         "update"])
     parser.add_argument("sim", nargs="?")
     arguments = parser.parse_args()
-    with_sim = {"readme": check_readme, "picture": check_picture, "sweep": check_sweep,
+    with_sim = {"readme": check_readme, "picture": check_picture, "sweep": check_sweep, "regress": check_regress,
                 "update": update}
     without = {"links": check_links, "files": check_files, "table": check_table, "snippets": check_snippets}
     if arguments.what in with_sim:

@@ -1,4 +1,5 @@
 """Puts a forbidden word into each room of a made-up project, to see that rooms.py finds it there and nowhere else."""
+import itertools
 import pathlib
 import tempfile
 import unittest
@@ -17,9 +18,12 @@ BREACHES = [
     "assign a = b; // B024.2",
     '`include "dsdpv1_types.svh"',
     "input logic csr_i,",
-] + ["dsdpv1::Chip chip;", "void pin(mailbox::Pin pin);", "case Pin::kCsr:", '#include "model/dpram/ram.hpp"', "regs::Address at;"] * 3 + [
-    "user_cpu::AccessTiming access;", "dsdpv1::Level level;", "// As INTR0 falls.", "// B006 counts.",
-] + ["if (R_REQ) return;"] * 15
+]
+A_CHIP = ["dsdpv1::Chip chip;", "void pin(mailbox::Pin pin);", "case Pin::kCsr:", '#include "model/dpram/ram.hpp"', "regs::Address at;",
+          "user_cpu::AccessTiming access;", "dsdpv1::Level level;"]
+ITS_CELLS = ["// As INTR0 falls.", "// B006 counts.", "if (R_REQ) return;"]
+for breaches in (A_CHIP, ITS_CELLS):  # each in one general room, then again from the first
+    BREACHES += itertools.islice(itertools.cycle(breaches), len(rooms.GENERAL_ROOMS))
 
 
 class Rooms(unittest.TestCase):

@@ -48,14 +48,14 @@ class OfRun(Output):
     endless = ["--set", "end=3000s", "--progress"]
     other_input = "device.gsd"
     simulates = True
-    others = {"--wave": "--log", "--log": "--result", "--result": "--trace", "--trace": "--log"}
+    others = {"--wave": "--log", "--log": "--result", "--result": "--trace", "--trace": "--log", "--capture": "--log"}
 
     def __init__(self, kind, file, option):
         super().__init__(kind, file, "run", "s.yaml", "--quiet", option)
 
     def held(self, name):
-        """The options for a file that is opened after the output; of the trace, which is the last, before it, and the result is there already."""
-        return ["--wave", name, "--result", "held.json"] if self.kind == "trace" else ["--trace", name]
+        """The options for a file that is opened after the output; of trace and capture, which are the last, before it, and the result is there already."""
+        return ["--wave", name, "--result", "held.json"] if self.kind in ("trace", "capture") else ["--trace", name]
 
     def beside(self, name):
         return ["--log" if self.kind == "trace" else "--trace", name]
@@ -68,13 +68,13 @@ class OfServe(Output):
     finite, endless = ["--for", "1ms"], ["--for", "3000s"]
     other_input = "device.gsd"
     simulates = True
-    others = {"--wave": "--log", "--log": "--result", "--result": "--log"}
+    others = {"--wave": "--log", "--log": "--result", "--result": "--log", "--capture": "--log"}
 
     def __init__(self, kind, file, option):
         super().__init__(kind, file, "serve", "s.yaml", "--tcp", "0", "--quiet", option)
 
     def held(self, name):
-        return ["--wave", name, "--result", "held.json"] if self.kind == "log" else ["--log", name]
+        return ["--wave", name, "--result", "held.json"] if self.kind in ("log", "capture") else ["--log", name]
 
     def beside(self, name):
         return ["--wave" if self.kind == "log" else "--log", name]
@@ -125,9 +125,9 @@ class OfRecover(Output):
 
 
 WAVES = [("wave .fst", "o.fst", "--wave"), ("wave .vcd", "o.vcd", "--wave")]
-LOG, RESULT = ("log", "o.log", "--log"), ("result", "o.json", "--result")
-OUTPUTS = [*(OfRun(*each) for each in [*WAVES, LOG, ("log .jsonl", "o.jsonl", "--log"), RESULT, ("trace", "o.txt", "--trace")]),
-           *(OfServe(*each) for each in [*WAVES, LOG, RESULT]),
+LOG, RESULT, CAPTURE = ("log", "o.log", "--log"), ("result", "o.json", "--result"), ("capture", "o.pcapng", "--capture")
+OUTPUTS = [*(OfRun(*each) for each in [*WAVES, LOG, ("log .jsonl", "o.jsonl", "--log"), RESULT, ("trace", "o.txt", "--trace"), CAPTURE]),
+           *(OfServe(*each) for each in [*WAVES, LOG, RESULT, CAPTURE]),
            Output("", "o.schema", "schema", "--output"), Output("", "o.md", "reasons", "--markdown", "--output"), OfRecover()]
 OF_RTL = [OfReplay("difference .fst", "o.fst"), OfReplay("difference .vcd", "o.vcd"), OfRandom(), OfFaults()]
 SPEAKERS = [Output("", "o.log", "run", "s.yaml", "--log"), *(Output("", "", *words) for words in (

@@ -58,7 +58,7 @@ FAULTS = [
     ("links to /dev/null, another output too", streams.null_twice, SIMULATING),
     ("is a FIFO", streams.fifo, ALL),
     ("is a FIFO whose reader goes away while running", streams.fifo_reader_gone,
-     of_kinds(SIMULATING, "wave .vcd", "log", "log .jsonl", "trace")),
+     of_kinds(SIMULATING, "wave .vcd", "log", "log .jsonl", "trace", "capture")),
     ("SIGINT while another output is a FIFO whose reader does not read", streams.full_pipe_and_interrupted, SIMULATING),
     ("links to a file in another folder", files.link, QUICK),
     ("links to a file that is not there yet", files.dangling_link, QUICK),

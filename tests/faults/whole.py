@@ -2,6 +2,7 @@
 import json
 import os
 import re
+import struct
 import subprocess
 
 BEFORE = b"what was there before\n"
@@ -17,6 +18,17 @@ def last_line(content):
     return lines[-1] if lines else ""
 
 
+def packets(content):
+    """How many blocks of a pcapng file are whole, and how many bytes are behind them."""
+    at, count = 0, 0
+    while at + 12 <= len(content):
+        length = struct.unpack_from("<I", content, at + 4)[0]
+        if length < 12 or content[at + length - 4:at + length] != content[at + 4:at + 8]:
+            break
+        at, count = at + length, count + 1
+    return count, len(content) - at
+
+
 def ended_early(program, path, content):
     """The output of an interrupted run by its ending."""
     ending = os.path.splitext(path)[1]
@@ -26,6 +38,8 @@ def ended_early(program, path, content):
     if ending == ".json":
         result = json.loads(content)
         return result["interrupted"] is ("pacing" not in result)  # serve has no end of its own
+    if ending == ".pcapng":
+        return packets(content)[0] >= 2 and packets(content)[1] == 0
     if not content.endswith(b"\n"):
         return False
     if ending == ".vcd":
@@ -42,6 +56,8 @@ def readable(path, content):
     ending = os.path.splitext(re.sub(r"\.\d+\.part$", "", path))[1]
     if ending == ".fst":
         return True
+    if ending == ".pcapng":
+        return packets(content)[0] >= 2
     lines = content.decode().split("\n")[:-1]
     if ending == ".jsonl":
         return bool(lines) and all("at_ns" in json.loads(line) for line in lines)

@@ -20,7 +20,7 @@ refuses() {
 }
 
 help=$("$run" --help) || fail "--help: exit $?"
-for command in demo test sim rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal bench cosim build format lint generate conformance deps; do
+for command in demo test sim rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal bench traces cosim build format lint generate conformance deps; do
   grep -q "^  $command " <<<"$help" || fail "--help does not explain $command"
 done
 grep -q '^Examples:' <<<"$help" || fail "--help has no examples"

@@ -47,6 +47,12 @@ touch "$folder/compiler"
 for command in run sweep serve compare; do builds " dsdpv1_firmware" "$command" scenarios/arm_board_12m.yaml; done
 builds " dsdpv1_firmware" run scenarios/power_on_12m.yaml --set user_cpu.elf=build/default/examples/firmware/device_O0.elf
 builds " dsdpv1_rtl_libraries dsdpv1_firmware" run scenarios/arm_board_12m.yaml --engine lockstep
+for action in check regenerate; do builds " dsdpv1_firmware" traces "$action"; done
+builds " dsdpv1_firmware" traces check arm_board_12m
+builds " dsdpv1_rtl_libraries" traces check power_on_12m --engine rtl
+builds "" traces list
+builds " dsdpv1_firmware" regress
+for engines in skip,rtl rtl,skip step,rtl,skip skip,lockstep; do builds " dsdpv1_rtl_libraries dsdpv1_firmware" regress --engine "$engines"; done
 echo '# elf: build/default/examples/firmware/device_O2.elf' >"$folder/mine.yaml"
 builds "" run mine.yaml
 

@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "tb/input/input_error.hpp"
-#include "tb/sweep/fingerprint.hpp"
+#include "tb/campaign/fingerprint.hpp"
 
 namespace {
 
@@ -89,7 +89,7 @@ TEST_F(SweepFolder, OnlyAResultThatSaysSomethingAboutThePointIsKept) {
 TEST_F(SweepFolder, PointCutShortAnywhereIsDoneAgain) {
   const Folder folder = open();
   finish(folder, 0);
-  const std::string whole = tb::sweep::content(point_file("00000"));
+  const std::string whole = tb::campaign::content(point_file("00000"));
   for (std::size_t length = 0; length + 1 < whole.size(); ++length) {  // the last byte is a line end
     write(point_file("00000"), whole.substr(0, length));
     EXPECT_FALSE(folder.finished(0, plan_)) << length;
@@ -101,7 +101,7 @@ TEST_F(SweepFolder, PointCutShortAnywhereIsDoneAgain) {
 TEST_F(SweepFolder, PointOfAnotherFormOrWithAnotherByteIsDoneAgain) {
   const Folder folder = open();
   finish(folder, 0);
-  const std::string whole = tb::sweep::content(point_file("00000"));
+  const std::string whole = tb::campaign::content(point_file("00000"));
   for (const char* text : {"{}", "[]", "null", "7", R"({"sum": 1})", R"({"exit": 0, "error": "", "result": null})"}) {
     write(point_file("00000"), text);
     EXPECT_FALSE(folder.finished(0, plan_)) << text;
@@ -160,15 +160,15 @@ TEST_F(SweepFolder, FolderWithSomethingElseIsLeftAlone) {
   EXPECT_THROW(open(), tb::InputError);
   write(base_ / "out/sweep.json", "{");
   EXPECT_THROW(open(), tb::InputError);
-  EXPECT_EQ(tb::sweep::content((base_ / "out/thesis.txt").string()), "x");
-  EXPECT_FALSE(fs::exists(base_ / "out" / tb::sweep::Lock::kName));
+  EXPECT_EQ(tb::campaign::content((base_ / "out/thesis.txt").string()), "x");
+  EXPECT_FALSE(fs::exists(base_ / "out" / tb::campaign::Lock::name("sweep")));
 }
 
 TEST_F(SweepFolder, ResultsThatNoSweepHasWrittenAreSomethingElse) {
   fs::create_directories(base_ / "out");
   write(base_ / "out/results.csv", "mine");
   EXPECT_THROW(open(), tb::InputError);
-  EXPECT_EQ(tb::sweep::content((base_ / "out/results.csv").string()), "mine");
+  EXPECT_EQ(tb::campaign::content((base_ / "out/results.csv").string()), "mine");
 }
 
 TEST_F(SweepFolder, DamagedDescriptionStartsAnew) {
@@ -185,7 +185,7 @@ TEST_F(SweepFolder, DamagedDescriptionStartsAnew) {
 
 TEST_F(SweepFolder, OneThatWasKilledBeforeItsDescriptionWasWrittenIsTakenOver) {
   fs::create_directories(base_ / "out");
-  write(base_ / "out" / tb::sweep::Lock::kName, "1");
+  write(base_ / "out" / tb::campaign::Lock::name("sweep"), "1");
   write(base_ / "out/sweep.json.part", "{");
   EXPECT_EQ(open().started_anew(), "");
   EXPECT_FALSE(fs::exists(base_ / "out/sweep.json.part"));

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "tb/input/input_error.hpp"
-#include "tb/sweep/fingerprint.hpp"
+#include "tb/campaign/fingerprint.hpp"
 
 namespace {
 
@@ -84,8 +84,8 @@ TEST_F(SweepInputs, PathIsTheOneThatARunOpens) {
   const std::string relative = fs::relative(base_ / "b.gsd").string();
   plan_.parameters = {{"slaves.0.gsd", {file("link") + "/../a.gsd", relative}}};
   const Inputs inputs(plan_);
-  EXPECT_EQ(inputs.content().value(file("a.gsd"), ""), tb::sweep::fingerprint("a"));
-  EXPECT_EQ(inputs.content().value(file("b.gsd"), ""), tb::sweep::fingerprint("b"));
+  EXPECT_EQ(inputs.content().value(file("a.gsd"), ""), tb::campaign::fingerprint("a"));
+  EXPECT_EQ(inputs.content().value(file("b.gsd"), ""), tb::campaign::fingerprint("b"));
   write("a.gsd", "A");
   EXPECT_EQ(error_of(inputs, 0), changed("a.gsd"));
   EXPECT_EQ(error_of(inputs, 1), "no error");
@@ -104,7 +104,7 @@ TEST_F(SweepInputs, FileThatIsNotThereOrAFolderHasNoContent) {
   EXPECT_EQ(inputs.content()[file("none")], nullptr);
   EXPECT_EQ(inputs.content()[base_.string()], nullptr);
   EXPECT_EQ(inputs.content()[file("a.gsd") + "/x"], nullptr);
-  EXPECT_EQ(inputs.content()[file("a.gsd")], tb::sweep::fingerprint("a"));
+  EXPECT_EQ(inputs.content()[file("a.gsd")], tb::campaign::fingerprint("a"));
 }
 
 }  // namespace

@@ -45,8 +45,10 @@ TEST(SweepPoint, ViolatedCheckDoesNotHoldThoughTheRunPassed) {
   EXPECT_FALSE(with_margin(-3.5).holds());
   json allowed = run();
   allowed["checks"] = {check("HOST_TW", -1, 3)};
-  allowed["checks"][0]["allowed"] = true;
+  allowed["checks"][0]["allowed"] = 3;  // a count, as in the result of a run
   EXPECT_TRUE(point_of(0, "", allowed).holds());
+  allowed["checks"][0]["allowed"] = 2;
+  EXPECT_FALSE(point_of(0, "", allowed).holds());
 }
 
 TEST(SweepPoint, WorstMarginIsTheLeastOfAllChecksAndSlaves) {

@@ -35,6 +35,10 @@ class Notes : public tb::WaveWriter {
   bool failed() const override { return false; }
   void check() const override {}
   void finish(bus::Tick end) override { lines_.push_back(fmt::format("{} end", end)); }
+  // The times of a run are ticks.
+  void set(tb::Picoseconds /*at*/, Signal /*signal*/, std::string_view /*levels*/) override { FAIL(); }
+  void say(tb::Picoseconds /*at*/, Signal /*signal*/, std::string_view /*word*/) override { FAIL(); }
+  void finish(tb::Picoseconds /*end*/) override { FAIL(); }
 
  private:
   Lines& lines_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "tb/input/units.hpp"
+
 namespace cosim {
 namespace {
 
@@ -13,18 +15,8 @@ constexpr Tick kShortAccess = 7 * kCycle;  // 9.1: nothing was due, B006 := 01 i
 constexpr Tick kSettles = 4 * kCycle;      // P8: longer than a user's write is on its way
 constexpr unsigned kImageEvery = 256;      // ... the DPRAM is compared all the same from time to time
 
-std::string level_text(Pin pin, const std::optional<Level>& level) {
-  if (!level) return "no such change within the tolerance";
-  if (*level == dsdpv1::kLevelZ) return "Z";
-  if (*level == dsdpv1::kLevelX) return "X";
-  return dsdpv1::width(pin) == 1 ? fmt::format("{}", *level) : fmt::format("{:02X}", *level);
-}
-
-std::string time_text(Tick at) {
-  const Tick rest = at % kCycle;
-  const std::string cycle =
-      rest == 0 ? fmt::format("{}", at / kCycle) : fmt::format("{} + {} ticks", at / kCycle, rest);
-  return fmt::format("cycle {} ({:.3f} us)", cycle, static_cast<double>(at) / (1000.0 * profibus::kTicksPerNs));
+std::string text(Pin pin, const std::optional<Level>& level) {
+  return level ? level_text(pin, *level) : "no such change within the tolerance";
 }
 
 }  // namespace
@@ -36,7 +28,7 @@ std::string describe(const Difference& difference) {
       "last telegram     {}\n"
       "last access       {}\n"
       "DPRAM             {}\n",
-      time_text(difference.at), difference.what, difference.last_telegram, difference.last_access,
+      tb::cycle_text(difference.at), difference.what, difference.last_telegram, difference.last_access,
       difference.dpram_accesses);
 }
 
@@ -72,19 +64,16 @@ void Lockstep::set(Tick at, Pin pin, Level level) {
   advance(at);
   if (model_.level(pin) == level) return;
   history_.add(at, Side::kInput, pin, level);
-  note_access(at, pin, level);
+  note_input(at, pin, level);
   model_.set(at, pin, level);
   rtl_.set(at, pin, level);
 }
 
-void Lockstep::note_access(Tick at, Pin pin, Level level) {
-  const bool write = pin == Pin::kWr && level != 0, read = pin == Pin::kRd && level == 0;
-  if (write) {
-    user_wrote_ = true;
-    last_write_ = at;
-  }
-  if ((write || read) && model_.level(Pin::kCsr) == 0)
-    last_access_ = {at, write, model_.level(Pin::kA), model_.level(Pin::kDIn)};
+void Lockstep::note_input(Tick at, Pin pin, Level level) {
+  watch_.change(at, pin, level);
+  if (pin != Pin::kWr || level == 0) return;
+  user_wrote_ = true;
+  last_write_ = at;
 }
 
 /// The model is stopped wherever one of its accesses ends, because the RTL's DPRAM can be seen at its present time
@@ -102,10 +91,8 @@ void Lockstep::advance(Tick to) {
 void Lockstep::model_changed(Tick at, Pin pin, Level level) {
   history_.add(at, Side::kModel, pin, level);
   if (!difference_) comparator_.model_changed(at, pin, level);
-  if (pin == Pin::kLReq) {
-    (level != 0 ? access_start_ : access_end_) = at;
-    if (level == 0 && model_.level(Pin::kReset) != 0) ended_ = at;
-  }
+  watch_.change(at, pin, level);
+  if (pin == Pin::kLReq && level == 0 && model_.level(Pin::kReset) != 0) ended_ = at;
   if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, pin, level);
 }
 
@@ -122,7 +109,7 @@ void Lockstep::access_ended(Tick at) {
 }
 
 bool Lockstep::dpram_may_have_changed(Tick at) {
-  const bool chip_wrote = at - access_start_ > kShortAccess;
+  const bool chip_wrote = at - watch_.chip_access_start() > kShortAccess;
   return (chip_wrote || user_wrote_ || ++accesses_ % kImageEvery == 0) && options_.compare_dpram;
 }
 
@@ -145,29 +132,16 @@ void Lockstep::settle(Tick horizon) {
   compared_to_ = horizon;
   if (!pin) return;
   compared_to_ = pin->at;
-  found(pin->at, fmt::format("pin {}: model {}, RTL {}", dsdpv1::name(pin->pin), level_text(pin->pin, pin->model),
-                             level_text(pin->pin, pin->rtl)));
+  found(pin->at, fmt::format("pin {}: model {}, RTL {}", dsdpv1::name(pin->pin), text(pin->pin, pin->model),
+                             text(pin->pin, pin->rtl)));
 }
 
 void Lockstep::found(Tick at, std::string what) {
   const LineTelegram telegram = history_.last_telegram(model_.status().baud_index.code());
   difference_ = Difference{
       at, std::move(what),
-      telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, time_text(telegram.start)),
-      access_text(), dpram_text()};
-}
-
-std::string Lockstep::access_text() const {
-  if (last_access_.at < 0) return "none";
-  if (!last_access_.write) return fmt::format("read B{:03X} at {}", last_access_.address, time_text(last_access_.at));
-  return fmt::format("write B{:03X} := {} at {}", last_access_.address, level_text(Pin::kDIn, last_access_.data),
-                     time_text(last_access_.at));
-}
-
-std::string Lockstep::dpram_text() const {
-  if (access_start_ < 0) return "no access of the chip yet";
-  if (access_end_ < access_start_) return fmt::format("in an access since {}", time_text(access_start_));
-  return fmt::format("last access from {} to {}", time_text(access_start_), time_text(access_end_));
+      telegram.text.empty() ? "none" : fmt::format("{}, began at {}", telegram.text, tb::cycle_text(telegram.start)),
+      watch_.user_text(), watch_.chip_text()};
 }
 
 const MatchCounts& Lockstep::counts() const {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "model/dsdpv1/chip.hpp"
+#include "tb/dsdpv1/cosim/access_watch.hpp"
 #include "tb/dsdpv1/cosim/history.hpp"
 #include "tb/dsdpv1/cosim/pin_comparator.hpp"
 #include "tb/dsdpv1/cosim/rtl_chip.hpp"
@@ -66,21 +67,14 @@ class Lockstep {
   void write_wave(const std::string& path);
 
  private:
-  struct UserAccess {
-    Tick at = -1;
-    bool write = false;
-    Level address = 0, data = 0;
-  };
   void model_changed(Tick at, Pin pin, Level level);
   void rtl_changed(Tick at, Pin pin, Level level);
-  void note_access(Tick at, Pin pin, Level level);
+  void note_input(Tick at, Pin pin, Level level);
   void access_ended(Tick at);
   bool dpram_may_have_changed(Tick at);
   void compare_dpram(Tick at);
   void settle(Tick horizon);
   void found(Tick at, std::string what);
-  std::string access_text() const;
-  std::string dpram_text() const;
 
   dsdpv1::Chip model_;
   RtlChip rtl_;
@@ -89,8 +83,8 @@ class Lockstep {
   History history_;
   dsdpv1::PinSink sink_;
   std::uint32_t watched_ = 0;
-  UserAccess last_access_;
-  Tick access_start_ = -1, access_end_ = -1, last_write_ = -1;
+  AccessWatch watch_;
+  Tick last_write_ = -1;
   std::optional<Tick> ended_;  ///< an access of the model has ended, the DPRAM is not compared yet
   bool user_wrote_ = true;     ///< since the DPRAM was compared
   unsigned accesses_ = 0;

@@ -63,8 +63,9 @@ class RtlExecution : public tb::Execution {
 
 }  // namespace
 
-MakeRtl reference_rtl() {
-  return [](const dsdpv1::Config& config) { return make_reference_rtl(config); };
+MakeRtl reference_rtl(unsigned fault, std::uint32_t seed) {
+  if (fault == 0) return [seed](const dsdpv1::Config& config) { return make_reference_rtl(config, seed); };
+  return [fault, seed](const dsdpv1::Config& config) { return make_faulty_rtl(config, fault, seed); };
 }
 
 std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make) {

@@ -1,0 +1,25 @@
+#pragma once
+// regress: scenarios by engines, views, seeds and settings, each with a verdict.
+#include <string>
+#include <vector>
+
+#include "apps/campaign.hpp"
+
+namespace app {
+
+struct RegressArguments {
+  std::vector<std::string> scenarios;       ///< files and folders; none: scenarios
+  std::vector<std::string> engines, views;  ///< none: skip, pins
+  std::string seeds;                        ///< a range; empty: the usual one
+  std::vector<std::string> set;             ///< PATH=VALUES
+  std::string checks, wave, keep, shard;    ///< empty: as run does, none, failed, all of it
+  std::string junit;                        ///< file; empty: none
+  double time_limit = 600;                  ///< seconds for a run; 0: none
+  bool failed = false;                      ///< what has not passed the last time
+  bool json = false;                        ///< the table as JSON
+  CampaignArguments campaign;               ///< its folder is regression, when none is given
+};
+
+int regress(const RegressArguments& arguments);
+
+}  // namespace app

@@ -1,0 +1,40 @@
+#pragma once
+// The points of a sweep as runs of this program.
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tb/campaign/jobs.hpp"
+#include "tb/sweep/folder.hpp"
+#include "tb/sweep/inputs.hpp"
+#include "tb/sweep/plan.hpp"
+#include "tb/sweep/point.hpp"
+
+namespace app {
+
+class SweepJobs : public tb::campaign::Jobs {
+ public:
+  SweepJobs(const tb::sweep::Plan& plan, const tb::sweep::Inputs& inputs, const tb::sweep::Folder& folder);
+
+  std::size_t size() const override { return points_.size(); }
+  bool finished(std::size_t job) const override { return points_[job].has_value(); }
+  bool look(std::size_t job) override;
+  std::vector<std::string> begin(std::size_t job) override;
+  std::string end(const tb::campaign::Ended& ended) override;
+  void forget(std::size_t job) override;
+  std::string name(std::size_t job) const override;
+
+  /// Of all points, when all are finished.
+  std::vector<tb::sweep::Point> points() const;
+
+ private:
+  const tb::sweep::Plan& plan_;
+  const tb::sweep::Inputs& inputs_;
+  const tb::sweep::Folder& folder_;
+  std::vector<std::optional<tb::sweep::Point>> points_;
+  std::map<std::size_t, tb::sweep::Inputs::Times> read_;  ///< of the runs under way: their files when they began
+};
+
+}  // namespace app

@@ -1,0 +1,59 @@
+#pragma once
+// Telegrams out of the levels of the line, as a logic analyser or a simulator records them.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/capture/captured_telegram.hpp"
+
+namespace bus::capture {
+
+struct LogicSettings {
+  std::optional<int> baud = {};  ///< index of the table in bus/baud.hpp; absent: the rate is found
+  bool inverted = false;         ///< idle is low
+  std::string signal = {};       ///< which of several; empty: see choose_signal
+};
+
+/// The signal that is the line: the only one, or the one that is wanted; else the first whose name is, in this order,
+/// line, PBRXD, PBTXD or holds rxd, or txd. Throws CaptureError with the names. Names of scopes are before a dot.
+std::size_t choose_signal(const std::vector<std::string>& names, const std::string& wanted);
+
+class LogicDecoder {
+ public:
+  LogicDecoder(const LogicSettings& settings, TakeTelegram take);
+  ~LogicDecoder();
+  LogicDecoder(const LogicDecoder&) = delete;
+  LogicDecoder& operator=(const LogicDecoder&) = delete;
+
+  /// The line has this level from `at` on; in order of time. The same level again is allowed.
+  void level(Tick at, bool level);
+  /// The recording ends. Throws CaptureError when the rate cannot be found.
+  void finish(Tick end);
+  /// The rate, once it is known.
+  std::optional<int> baud() const { return baud_; }
+
+  /// The rate is judged by so many changes at the beginning, which are kept until then.
+  static constexpr std::size_t kTrialChanges = 100'000;
+
+ private:
+  struct Change {
+    Tick at;
+    bool level;
+  };
+  class Line;
+
+  void change(const Change& change);
+  void decide(Tick end);
+  int best_rate(Tick end) const;
+  std::uint64_t worth(int baud, Tick end, bool inverted) const;
+
+  std::optional<int> baud_;
+  bool inverted_;
+  TakeTelegram take_;
+  std::optional<bool> level_;
+  std::vector<Change> waiting_;
+  std::unique_ptr<Line> line_;
+};
+
+}  // namespace bus::capture

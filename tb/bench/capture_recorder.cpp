@@ -1,0 +1,21 @@
+#include "tb/bench/capture_recorder.hpp"
+
+namespace tb {
+
+CaptureRecorder::CaptureRecorder(const CaptureRequest& request, int baud)
+    : file_(request.path),
+      writer_({request.link, request.application, baud}, [this](std::string_view bytes) { file_.write(bytes); }),
+      collector_([this](const bus::capture::CapturedTelegram& telegram) { writer_.telegram(telegram); }),
+      baud_(baud) {}
+
+void CaptureRecorder::telegram(const HeardTelegram& telegram) {
+  baud_ = telegram.telegram.baud;
+  collector_.telegram(telegram.telegram);
+}
+
+void CaptureRecorder::finish() {
+  collector_.finish();
+  file_.commit();
+}
+
+}  // namespace tb

@@ -1,0 +1,40 @@
+#pragma once
+// The telegrams of a run as a pcapng file (docs/captures.md).
+#include <cstdint>
+#include <string>
+
+#include "bus/capture/collector.hpp"
+#include "bus/capture/pcapng_writer.hpp"
+#include "tb/bench/observer.hpp"
+#include "tb/output/output_file.hpp"
+
+namespace tb {
+
+struct CaptureRequest {
+  std::string path;  ///< empty: not wanted
+  std::uint16_t link = 257;
+  std::string application;
+};
+
+class CaptureRecorder : public Observer {
+ public:
+  /// `baud`: of the line at the start; throws InputError when the file cannot be created.
+  CaptureRecorder(const CaptureRequest& request, int baud);
+
+  void telegram(const HeardTelegram& telegram) override;
+  void flag(const bus::Flag& flag) override { collector_.flagged(flag); }
+  void skipped(const bus::ReceivedCharacter& character) override { collector_.skipped(character, baud_); }
+  void save() { file_.flush(); }
+  bool failed() const { return file_.failed(); }
+  void check() const { file_.check(); }
+  /// Writes the last telegram and gives the file its name.
+  void finish();
+
+ private:
+  OutputFile file_;
+  bus::capture::PcapngWriter writer_;
+  bus::capture::Collector collector_;
+  int baud_;
+};
+
+}  // namespace tb

@@ -1,0 +1,64 @@
+#pragma once
+// Runs of this program in child processes.
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tb::campaign {
+
+constexpr int kSignalled = 128;  ///< an exit code above it: killed by the signal that is the difference
+
+/// A run that has come to its end.
+struct Ended {
+  std::size_t job = 0;
+  int exit = 0;           ///< kSignalled + signal when it was killed, 127 when it could not be started
+  std::string output;     ///< what it has written on its output and error channels, the last 4 KB
+  double seconds = 0;     ///< how long it ran
+  bool too_long = false;  ///< it was killed because its time was over
+
+  /// Its own word is the last: a library's warnings come before.
+  std::string last_line() const;
+};
+
+/// The process has no other children than these, and no other threads. They end with it, also when it is killed.
+class Children {
+ public:
+  using Seconds = std::chrono::duration<double>;
+
+  Children() = default;
+  Children(const Children&) = delete;
+  Children& operator=(const Children&) = delete;
+  /// Ends those that still run.
+  ~Children();
+
+  /// Starts this program with `arguments`; it writes nothing but its channels. One that the system does not start has
+  /// ended at once. After `limit` it is killed.
+  void start(std::size_t job, const std::vector<std::string>& arguments, std::optional<Seconds> limit = std::nullopt);
+  std::size_t running() const { return runs_.size() + not_started_.size(); }
+  /// One that has ended; waits a moment when there is none, and returns nullopt then, so that the caller hears signals.
+  std::optional<Ended> wait();
+  /// Asks all to end.
+  void terminate() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Run {
+    std::size_t job = 0;
+    int output = -1;  ///< file in memory: a full disk does not silence the run
+    Clock::time_point begin;
+    std::optional<Seconds> limit;
+    bool too_long = false;
+  };
+  void kill_the_late();
+  static Ended ended(const Run& run, int status);
+
+  std::map<pid_t, Run> runs_;
+  std::vector<Ended> not_started_;
+};
+
+}  // namespace tb::campaign

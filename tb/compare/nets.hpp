@@ -1,0 +1,52 @@
+#pragma once
+// The signals of one side by their names: aliases are one, a vector that was split into bits is a vector again.
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "tb/waves/wave_reader.hpp"
+
+namespace tb::compare {
+
+struct Net {
+  std::string scope;  ///< without the prefix of the side
+  std::string leaf;
+  WaveKind kind = WaveKind::kBits;
+  std::uint32_t width = 1;             ///< of bits
+  std::vector<std::uint32_t> signals;  ///< of the file: one for most, or the pieces, the leftmost first
+  std::string name() const { return scope.empty() ? leaf : scope + "." + leaf; }
+};
+
+class Nets {
+ public:
+  /// Those in the scope `prefix` and below it; empty: all. `file` is for messages. Throws InputError when there is no
+  /// such scope.
+  Nets(const WaveDeclarations& declarations, const std::string& prefix, std::string file);
+
+  const std::vector<Net>& all() const { return nets_; }
+  /// The one with this name; nullptr when there is none.
+  const Net* at(const std::string& name) const;
+  /// The one with this last part of its name, in capitals or not; nullptr when there is none or there are several.
+  const Net* with_leaf(const std::string& leaf) const;
+  /// Whether `find` has something to say about it: one signal, or several.
+  bool knows(const std::string& name) const;
+  /// By its whole name or by the end of it ("dut.irq"); throws InputError when it is none or several.
+  const Net& find(const std::string& name) const;
+  const std::string& file() const { return file_; }
+
+ private:
+  void add_pieces(std::vector<const WaveVariable*>& pieces, const std::string& scope);
+  void index();
+
+  const WaveDeclarations& declarations_;
+  std::string file_;
+  std::vector<Net> nets_;
+  std::unordered_map<std::string, std::size_t> by_name_;
+  std::unordered_map<std::string, std::vector<std::size_t>> by_leaf_;  ///< in small letters
+};
+
+/// In small letters.
+std::string lower(std::string text);
+
+}  // namespace tb::compare

@@ -1,0 +1,36 @@
+#pragma once
+// The user's last access and the chip's, as the pins show them.
+#include <array>
+#include <string>
+
+#include "model/dsdpv1/pins.hpp"
+#include "tb/dsdpv1/last_access.hpp"
+
+namespace cosim {
+
+using dsdpv1::Level;
+using dsdpv1::Pin;
+using dsdpv1::Tick;
+
+/// A level in words: "1", "3F", "Z", "X".
+std::string level_text(Pin pin, Level level);
+
+class AccessWatch {
+ public:
+  AccessWatch();
+  /// A pin has a new level; in order of time. D is what the user drives.
+  void change(Tick at, Pin pin, Level level);
+  /// When the chip's last access began, -1: there was none yet.
+  Tick chip_access_start() const { return chip_start_; }
+  std::string user_text() const { return user_.words(); }
+  std::string chip_text() const;
+
+ private:
+  Level& level(Pin pin) { return levels_.at(static_cast<std::size_t>(pin)); }
+
+  std::array<Level, dsdpv1::kPinCount> levels_{};
+  tb::LastAccess user_;
+  Tick chip_start_ = -1, chip_end_ = -1;
+};
+
+}  // namespace cosim

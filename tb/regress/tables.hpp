@@ -1,0 +1,28 @@
+#pragma once
+// A regression as text: for programs, for CI, in one line.
+#include <string>
+#include <vector>
+
+#include "tb/regress/outcome.hpp"
+#include "tb/regress/plan.hpp"
+
+namespace tb::regress {
+
+/// The runs of a plan with what each has come to.
+struct Report {
+  Plan plan;
+  std::vector<Outcome> outcomes;  ///< of the runs, in their order
+
+  bool passed() const;
+};
+
+/// A line a run with a heading, its fields separated by tabs. Control characters in them are shown as escapes.
+std::string tsv(const Report& report);
+/// One JSON object with counts and runs.
+std::string json(const Report& report);
+/// JUnit's XML: a suite a scenario.
+std::string junit(const Report& report);
+/// "57 of 60 runs passed, 2 failed, 1 crashed; 20 combinations that cannot be are left out".
+std::string summary(const Report& report);
+
+}  // namespace tb::regress

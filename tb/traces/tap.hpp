@@ -1,0 +1,39 @@
+#pragma once
+// All signals of a run as it goes on, for those who write a trace or compare with one.
+#include <vector>
+
+#include "bus/wire/segment.hpp"
+#include "tb/bench/observer.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace tb::traces {
+
+/// Hears signals, numbered as in signals_of.
+class Sink {
+ public:
+  virtual ~Sink() = default;
+  /// In order of time; each signal begins with its level of power-on, at tick 0.
+  virtual void change(std::size_t signal, Tick at, Level level) = 0;
+};
+
+class Tap : public Observer, private bus::Listener {
+ public:
+  /// Listens to the line as a station of its own. Scenario and sinks must outlive it, it the run.
+  Tap(const scenario::Scenario& scenario, bus::Segment& segment);
+  void add(Sink& sink) { sinks_.push_back(&sink); }
+
+  void begins(std::size_t slave, const ChipView& chip) override;
+  void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override { tell(slave * pins_ + pin, at, level); }
+
+ private:
+  void line_changed(Tick at, bool level) override { tell(line_, at, level ? 1 : 0); }
+  void tell(std::size_t signal, Tick at, Level level) const {
+    for (Sink* each : sinks_) each->change(signal, at, level);
+  }
+
+  bus::Segment& segment_;
+  std::size_t pins_, line_;  ///< number of pins of a slave; of the line among the signals
+  std::vector<Sink*> sinks_;
+};
+
+}  // namespace tb::traces

@@ -1,0 +1,18 @@
+#pragma once
+// The .xz format, by liblzma.
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace tb::traces {
+
+std::string compress(std::string_view content);
+
+struct Decompressed {
+  std::string content;
+  std::string wrong;  ///< empty, or why there is no content: "is no .xz file"
+};
+/// At most `most` bytes.
+Decompressed decompress(std::string_view file, std::size_t most);
+
+}  // namespace tb::traces

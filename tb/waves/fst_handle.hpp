@@ -1,0 +1,17 @@
+#pragma once
+// fstapi's reader, closed at the end. Only where a crash of it is provided for: see ChildStream.
+#include <fstapi.h>
+
+#include <memory>
+#include <string>
+
+namespace tb {
+
+struct CloseFst {
+  void operator()(void* reader) const { fstReaderClose(reader); }
+};
+using FstHandle = std::unique_ptr<void, CloseFst>;
+
+inline FstHandle open_fst(const std::string& path) { return FstHandle(fstReaderOpen(path.c_str())); }
+
+}  // namespace tb

@@ -1,0 +1,248 @@
+#!/usr/bin/env python3
+"""What `dsdpv1-sim decode` makes of captures and of recordings of the line, against the capture or log of the same run.
+
+    decode_test.py SIM CASE
+"""
+import pathlib
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import zipfile
+
+from wireshark import ROOT, SIM, capture, expect, failures, sim
+
+RATES = {"12M": 12_000_000, "6M": 6_000_000, "3M": 3_000_000, "1.5M": 1_500_000, "500k": 500_000, "187.5k": 187_500, "93.75k": 93_750,
+         "45.45k": 45_454.5, "19.2k": 19_200, "9.6k": 9_600}
+EXCHANGE = """
+name: Start-up and exchange
+baud: {baud}
+end: {end}us
+chip: {{search_window_ms: 1}}
+slaves:
+  - {{name: demo, address: 5, init: {{ident: 1, max_inputs: 2, max_outputs: 2, cfg: "31"}}}}
+masters:
+  - {{name: plc, address: 2, start: 100us, slaves: [{{slave: demo}}]}}
+"""
+
+
+def telegrams(text):
+    """(bytes, words) of every telegram that was printed, right or wrong."""
+    found = []
+    for block in re.split(r"^(?=telegram |wrong telegram)", text, flags=re.M):
+        if block.startswith(("telegram", "wrong")):
+            found.append((" ".join(re.findall(r"^ +\d+  ([0-9A-F]{2})  ", block, re.M)), block.split(" ns: ")[1].split("\n")[0]))
+    return found
+
+
+def times(text):
+    return [float(time) for time in re.findall(r" ([0-9.]+) ns: ", text)]
+
+
+def decoded(folder, file, *options, status=0):
+    return sim(folder, "decode", file, *options, status=status).stdout
+
+
+def as_the_log(folder):
+    """A capture decodes to the same telegrams as the log of its run, whatever its link type."""
+    for name, link, status in (("dpv1_c1", "profibus", 0), ("read_services", "user7", 1), ("baud_change", "user0", None)):
+        packets, log = capture(folder, ROOT / f"scenarios/{name}.yaml", link=link)
+        text = decoded(folder, packets, status=status)
+        expect(f"{name}: bytes", [each[0] for each in telegrams(text)], [entry["bytes"] for entry in log])
+        expect(f"{name}: words", telegrams(text) == telegrams(decoded(folder, folder / "log.jsonl", status=None)) or name == "read_services",
+               True)
+
+
+def classic(folder):
+    """The same as pcap of either byte order, micro- and nanoseconds."""
+    packets, _ = capture(folder, ROOT / "scenarios/dpv1_c1.yaml")
+    wanted = decoded(folder, packets)
+    data = [bytes.fromhex(each[0].replace(" ", "")) for each in telegrams(wanted)]
+    for order, magic, unit in (("<", 0xA1B2C3D4, 1000), (">", 0xA1B2C3D4, 1000), ("<", 0xA1B23C4D, 1), (">", 0xA1B23C4D, 1)):
+        file = struct.pack(order + "IHHiIII", magic, 2, 4, 0, 0, 65535, 257)
+        for ns, telegram in zip(times(wanted), data):
+            file += struct.pack(order + "IIII", 0, int(ns) // unit, len(telegram), len(telegram)) + telegram
+        (folder / "classic.pcap").write_bytes(file)
+        text = decoded(folder, "classic.pcap")
+        expect(f"{order} {magic:X}: telegrams", telegrams(text) == telegrams(wanted), True)
+        late = max(abs(a - b) for a, b in zip(times(text), times(wanted)))
+        expect(f"{order} {magic:X}: times", late < unit, True)
+
+
+def rewritten(folder):
+    """What another program has made of it: editcap's pcapng and pcap, with times of today."""
+    packets, _ = capture(folder, ROOT / "scenarios/dpv1_c1.yaml")
+    wanted = decoded(folder, packets)
+    first = times(wanted)[0]
+    for form in ("pcapng", "nsecpcap"):
+        subprocess.run(["editcap", "-F", form, "-t", "1700000000", packets, "other"], cwd=folder, check=True, capture_output=True)
+        text = decoded(folder, "other")
+        expect(f"{form}: telegrams", telegrams(text) == telegrams(wanted), True)
+        start = times(text)[0]
+        expect(f"{form}: times", all(abs((a - start) - (b - first)) < 1 for a, b in zip(times(text), times(wanted))), True)
+
+
+# ------------------------------------------------------------------------------------------------- recordings of the line
+def changes_of(wave):
+    """(ps, level) of the line in a VCD of this program."""
+    code, changes, now = None, [], 0
+    for line in wave.read_text(encoding="utf-8").splitlines():
+        if match := re.match(r"\$var wire 1 (\S+) line ", line):
+            code = match.group(1)
+        elif line.startswith("#"):
+            now = int(line[1:])
+        elif code and line[1:] == code and line[0] in "01":
+            changes.append((now, int(line[0])))
+    return changes
+
+
+def characters_of(text, bits):
+    """(ps, level) of the line as the telegrams of a capture were sent: start bit, eight bits, even parity, stop bit."""
+    changes = [(0, 1)]
+    for start, (data, _) in zip(times(text), telegrams(text)):
+        for number, byte in enumerate(bytes.fromhex(data.replace(" ", ""))):
+            frame = [0] + [byte >> bit & 1 for bit in range(8)] + [byte.bit_count() & 1, 1]
+            for bit, level in enumerate(frame):
+                if level != changes[-1][1]:
+                    changes.append((int(start * 1000 + (number * 11 + bit) * 1e12 / bits), level))
+    return changes
+
+
+def vcd(changes, end):
+    """As a simulator writes it, in units of 10 ps, the line among others."""
+    head = ("$timescale 10 ps $end\n$scope module top $end\n$var wire 1 ! clk $end\n$scope module dut $end\n"
+            "$var wire 8 \" PBRXD_count $end\n$var wire 1 # PBRXD $end\n$upscope $end\n$upscope $end\n$enddefinitions $end\n")
+    return head + "#0\nb0 \"\n0!\n" + "".join(f"#{ps // 10}\n{level}#\n" for ps, level in changes) + f"#{end // 10}\n1!\n"
+
+
+def saleae(changes, end):
+    del end
+    return "Time [s],Channel 0,Channel 1\n" + "".join(f"{ps / 1e12:.9f},0,{level}\n" for ps, level in changes)
+
+
+def levels(changes, end, rate):
+    """Samples at a fixed rate."""
+    result = bytearray()
+    for (ps, level), (until, _) in zip(changes, changes[1:] + [(end, None)]):
+        del ps
+        result += bytes([level]) * (int(until * rate / 1e12) - len(result))
+    return bytes(result)
+
+
+def write_sigrok(path, samples, rate):
+    """As libsigrok: in pieces, the line is the second of two channels."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("version", "2")
+        archive.writestr("metadata", "[global]\nsigrok version=0.5.2\n\n[device 1]\ncapturefile=logic-1\ntotal probes=2\n"
+                         f"samplerate={rate}\ntotal analog=0\nprobe1=clock\nprobe2=RxD\nunitsize=1\n")
+        size = len(samples) // 3 + 1
+        for part in range(3):
+            archive.writestr(f"logic-1-{part + 1}", bytes(2 * level for level in samples[part * size:(part + 1) * size]))
+
+
+def expect_same(what, got, wanted):
+    """The telegram under way when the run ends is in the recording alone, cut off."""
+    count = len(wanted)
+    differ = [(a, b) for a, b in zip(got, wanted) if a != b]
+    expect(what, (differ[:1], len(got) in (count, count + 1)), ([], True))
+
+
+def at_rate(folder, name):
+    bits = RATES[name]
+    scenario = folder / "exchange.yaml"
+    scenario.write_text(EXCHANGE.format(baud=name, end=int(30e9 / bits)), encoding="utf-8")
+    # At the slow rates the wave of a run holds some 200 MB of pins, and the line is made from the capture.
+    wave = folder / "wave.vcd"
+    packets, log = capture(folder, scenario, *(["--wave", wave] if bits > 1e6 else []))
+    wanted = decoded(folder, packets, status=None)
+    changes, end = changes_of(wave) if bits > 1e6 else characters_of(wanted, bits), int(30e9 / bits) * 1_000_000
+    inverted = [(ps, 1 - level) for ps, level in changes]
+    rate = int(bits * 8)
+    (folder / "saleae.csv").write_text(saleae(changes, end), encoding="utf-8")
+    (folder / "inverted.csv").write_text(saleae(inverted, end), encoding="utf-8")
+    (folder / "simulator.vcd").write_text(vcd(changes, end), encoding="utf-8")
+    samples = levels(changes, end, rate)
+    write_sigrok(folder / "session.sr", samples, rate)
+    rows = "\n".join(f"{level}" for level in samples)
+    (folder / "sigrok.csv").write_text(f"; CSV generated by libsigrok 0.5.2\n; Channels (1/1): D0\nMETA samplerate: {rate}\nlogic\n{rows}\n",
+                                       encoding="utf-8")
+    for what, options in (("saleae.csv", ["--signal", "Channel 1"]), ("inverted.csv", ["--signal", "Channel 1", "--invert"]),
+                          ("session.sr", []), ("simulator.vcd", []), ("sigrok.csv", [])):
+        text = decoded(folder, what, *options, status=None)
+        expect(f"{name}, {what}: the rate is found", f" at {name}\n" in text, True)
+        expect_same(f"{name}, {what}", telegrams(text), telegrams(wanted))
+    if bits > 1e6:
+        expect_same(f"{name}, wave of the run", telegrams(decoded(folder, wave, status=None)), telegrams(wanted))
+    given = decoded(folder, "session.sr", "--baud", name, status=None)
+    expect_same(f"{name}, given", telegrams(given), telegrams(wanted))
+    expect(f"{name}: something was sent", len(log) > 20, True)
+
+
+def every_rate(folder):
+    """A recording decodes to what the capture of the run decodes to, at each of the ten rates."""
+    for name in RATES:
+        at_rate(folder, name)
+
+
+def by_pipe(folder):
+    """Standard input and pipes are read like files."""
+    packets, _ = capture(folder, ROOT / "scenarios/read_services.yaml")
+    wanted = decoded(folder, packets, status=1)
+    for way in (packets.open("rb"), subprocess.PIPE):
+        done = subprocess.run([SIM, "decode"], capture_output=True, text=False, check=False,
+                              **({"stdin": way} if way != subprocess.PIPE else {"input": packets.read_bytes()}))
+        expect("the same", done.stdout.decode() == wanted, True)
+
+
+def archive_of(folder, **members):
+    with zipfile.ZipFile(folder / "made.sr", "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in members.items():
+            archive.writestr(name.replace("_", "-"), content)
+    return (folder / "made.sr").read_bytes()
+
+
+def metadata(**others):
+    keys = {"capturefile": "logic-1", "samplerate": "1 MHz", "unitsize": "1", "probe1": "D0"} | others
+    return "[device 1]\n" + "".join(f"{key}={value}\n" for key, value in keys.items())
+
+
+def bad_files(folder):
+    """One line and exit code 2, and no more memory than usual, whatever the file is."""
+    packets, _ = capture(folder, ROOT / "scenarios/dpv1_c1.yaml")
+    good = packets.read_bytes()
+    ethernet = struct.pack("<IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 1)
+    huge = struct.pack("<IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 257) + struct.pack("<IIII", 0, 0, 2**31, 2**31)
+    idle = archive_of(folder, metadata=metadata(), logic_1_1=bytes([1]) * 300_000_000)
+    bad = {
+        "cut_off.pcapng": (good[:5000], "ends in the middle of a packet, at byte 5000, allowed are whole packets; it was cut off"),
+        "ethernet.pcap": (ethernet, "packets of link type 1, allowed are 257 (PROFIBUS) and 147 to 162 (USER0 to USER15)"),
+        "huge.pcap": (huge, "a packet of 2147483648 bytes before byte 40, allowed are up to 262144"),
+        "header.pcap": (huge[:20], "ends in the middle of a packet, at byte 20, allowed are whole packets; it was cut off"),
+        "no.sr": (b"PK\x03\x04" + bytes(1000), "is no whole ZIP archive ("),
+        "other.zip": (archive_of(folder, readme="hello"), "has no metadata, allowed is a session of sigrok"),
+        "empty.sr": (archive_of(folder, metadata=metadata()), "has no samples, allowed is a session of sigrok"),
+        "rate.sr": (archive_of(folder, metadata=metadata(samplerate="often")), "its metadata has no logic samples"),
+        "idle.sr": (idle, "no right telegram at any of the ten baud rates, allowed is a recording of the line"),
+        "cut_off.vcd": (b"$timescale 1 ns $end\n$scope mod", ""),
+        "no_wire.vcd": (b"$timescale 1 ns $end\n$enddefinitions $end\n", "no signal of one bit, allowed is a recording of the line"),
+        "cut_off.fst": (b"\0" + (329).to_bytes(8, "big") + bytes(100), ""),
+        "binary": (bytes(range(256)) * 4096, ""),
+    }
+    for name, (content, words) in bad.items():
+        (folder / name).write_bytes(content)
+        done = subprocess.run(["sh", "-c", f"ulimit -v 600000; exec {SIM} decode {name}"], cwd=folder, capture_output=True,
+                              text=True, check=False)
+        expect(f"{name}: exit code", done.returncode, 2)
+        expect(f"{name}: one line", (done.stderr.count("\n"), done.stderr.startswith(f"{name}: {words}") or words == ""), (1, True))
+    expect("an empty file is no telegram", sim(folder, "decode", "/dev/null", status=1).stdout, "no telegram\n")
+    endless = subprocess.run(["sh", "-c", f"ulimit -v 600000; exec {SIM} decode /dev/zero"], capture_output=True, text=True, check=False)
+    expect("/dev/zero", (endless.returncode, endless.stderr.count("\n")), (2, 1))
+
+
+CASES = {case.__name__: case for case in (as_the_log, classic, rewritten, every_rate, by_pipe, bad_files)}
+
+with tempfile.TemporaryDirectory(prefix="dsdpv1_decode_") as folder_name:
+    CASES[sys.argv[2]](pathlib.Path(folder_name))
+print(f"{len(failures)} failures")
+sys.exit(1 if failures else 0)

@@ -1,0 +1,18 @@
+// The page about results is the one that the program prints.
+#include "tb/report/result_schema.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+TEST(ResultDocument, IsTheCheckedInFile) {
+  std::ifstream file(DSDPV1_SOURCE_DIR "/docs/result.md");
+  std::ostringstream text;
+  text << file.rdbuf();
+  EXPECT_EQ(text.str(), tb::result_markdown()) << "./run generate writes it again";
+}
+
+}  // namespace

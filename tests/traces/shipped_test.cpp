@@ -1,0 +1,54 @@
+// The goldens that ship: one for each scenario, small, and each as its manifest says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tb/scenario/scenario.hpp"
+#include "tb/traces/golden.hpp"
+#include "tests/app/program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kFolder = DSDPV1_SOURCE_DIR "/traces";
+constexpr std::uintmax_t kMostBytes = 1U << 20U;  // it lives in git, where every regeneration is a new copy
+
+TEST(ShippedGoldens, AreThoseOfTheScenarios) {
+  EXPECT_EQ(tb::traces::golden_names(kFolder), app_test::shipped_scenarios());
+}
+
+TEST(ShippedGoldens, AreSmallAndNothingElseIsInTheirFolder) {
+  std::uintmax_t bytes = 0;
+  std::vector<std::string> allowed, found;
+  for (const std::string& name : app_test::shipped_scenarios()) {
+    allowed.push_back(name + ".json");
+    allowed.push_back(name + ".trace.xz");
+  }
+  for (const auto& entry : fs::directory_iterator(kFolder)) {
+    found.push_back(entry.path().filename());
+    bytes += entry.file_size();
+  }
+  EXPECT_THAT(found, testing::UnorderedElementsAreArray(allowed));
+  EXPECT_LT(bytes, kMostBytes);
+}
+
+class ShippedGolden : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedGolden, IsMadeFromItsScenarioAndFitsItsManifest) {
+  const auto scenario = tb::scenario::load(DSDPV1_SOURCE_DIR "/scenarios/" + GetParam() + ".yaml");
+  const tb::traces::Golden golden = tb::traces::read_golden(kFolder, scenario);
+  EXPECT_EQ(golden.trace->end(), scenario.end);
+  for (std::size_t i = 0; i < golden.trace->signals().size(); ++i) {
+    tb::Tick last = 0;
+    std::uint64_t entries = 0;
+    for (tb::traces::Cursor each = golden.trace->cursor(i); each.at() != bus::kNever; each.step(), ++entries)
+      last = each.at();
+    EXPECT_EQ(entries, golden.trace->changes(i) + 1);
+    EXPECT_LE(last, scenario.end);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedGolden, testing::ValuesIn(app_test::shipped_scenarios()),
+                         [](const auto& each) { return each.param; });
+
+}  // namespace
