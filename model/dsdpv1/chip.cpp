@@ -284,7 +284,7 @@ void Chip::Impl::send_bits(Cycle cycle, Tick to) {
   const Cycle act = std::min({other_plans, station.only_sends_until(), unheard_until(to)});
   do {
     now = cycle * kTicksPerCycle;
-    plans.station = station.send_bit();
+    plans.station = station.send_bit(cycle);
     publish_edge_outputs(now, (outputs & ~mask(Pin::kPbtxd)) | bit(Pin::kPbtxd, station.txd()));
     cycle = plans.station;
   } while (cycle < act);

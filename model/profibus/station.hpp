@@ -66,8 +66,8 @@ class Station {
   /// Before this cycle eval() sends bits of an answer and does nothing else.
   Cycle only_sends_until() const { return tx_.rts() ? std::min(tx_.end(), timers_) : 0; }
   /// The same as eval() before only_sends_until(); next().
-  Cycle send_bit() {
-    tx_.next_run();
+  Cycle send_bit(Cycle now) {
+    if (now == tx_.next()) tx_.next_run();  // something else was planned that has nothing to do any more
     return std::min(tx_.next(), timers_);
   }
 
