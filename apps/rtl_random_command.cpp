@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
@@ -18,17 +17,12 @@
 #include "tb/dsdpv1/cosim/campaign.hpp"
 #include "tb/dsdpv1/cosim/joined_wave.hpp"
 #include "tb/dsdpv1/cosim/play_log.hpp"
+#include "tb/dsdpv1/cosim/play_options.hpp"
 #include "tb/dsdpv1/cosim/play_wave.hpp"
-#include "tb/dsdpv1/cosim/random_setup.hpp"
 #include "tb/dsdpv1/cosim/random_stimulus.hpp"
-#include "tb/dsdpv1/cosim/reference_rtl.hpp"
 #include "tb/dsdpv1/cosim/stimulus_result.hpp"
-#include "tb/dsdpv1/kind.hpp"
-#include "tb/dsdpv1/settings.hpp"
-#include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/output/output_file.hpp"
-#include "tb/scenario/settings.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace app {
@@ -36,7 +30,7 @@ namespace {
 
 constexpr int kShrinkRuns = 600;
 constexpr const char* kCommand = "dsdpv1-sim rtl-random";
-constexpr const char* kChip = "chip";  // its scope in waves, and where its keys stand
+constexpr const char* kChip = "chip";  // its scope in waves
 
 cosim::Stimulus read_stimulus(const std::string& path) {
   return cosim::parse_stimulus(tb::read_file(path, tb::kStimulusFile), path);
@@ -47,47 +41,26 @@ std::string counts_text(const cosim::MatchCounts& counts) {
                      counts.dpram_images);
 }
 
-/// `config` with the keys of --set chip.KEY=VALUE, as a scenario has them.
-dsdpv1::Config with_settings(const dsdpv1::Config& config, const std::vector<std::string>& texts) {
-  const tb::ChipKind& kind = tb::dsdpv1_kind();
-  YAML::Node keys(YAML::NodeType::Map);
-  for (const tb::scenario::Setting& each : tb::scenario::parse_settings(texts)) {
-    if (each.path.rfind(std::string(kChip) + ".", 0) != 0)
-      throw tb::InputError(each.origin, 0, "is no parameter of the chip, allowed is like chip.search_window_ms=1");
-    tb::scenario::apply(each, kind, keys);
-  }
-  tb::Dsdpv1Settings settings;
-  static_cast<dsdpv1::Config&>(settings) = config;
-  if (keys[kChip].IsDefined()) tb::keys::read_object(kind.chip_keys(), &settings, keys[kChip], {"--set"});
-  return settings;
-}
-
 /// The RTL that is played to, and how.
 struct Bench {
-  std::optional<OwnRtl> own;
   cosim::PlayOptions options;
   cosim::MakeTop make;
+  cosim::MakeUserRtl make_own;  ///< null: it is the reference RTL
 };
 
 Bench bench_of(const RtlRandomArguments& arguments) {
   Bench bench;
-  bench.options = cosim::quick_options();
-  const bool own = !arguments.own.rtl.empty();
-  const dsdpv1::Config config = with_settings(own ? dsdpv1::Config() : bench.options.config, arguments.set);
-  bench.options.config = config;
-  if (own) {
-    bench.own = build_own_rtl(arguments.own, kCommand, !arguments.wave.empty());
-    bench.options.lockstep.tolerances = bench.own->map.tolerances;
-    bench.make = [make = bench.own->make] { return make(std::nullopt); };
-  } else if (const unsigned fault = arguments.fault; fault != 0) {
-    bench.make = [fault, config, seed = static_cast<std::uint32_t>(arguments.seed)] {
-      return cosim::make_faulty_rtl(config, fault, seed);
-    };
-  } else {
-    bench.make = [config, seed = static_cast<std::uint32_t>(arguments.seed)] {
-      return cosim::make_reference_rtl(config, seed);
-    };
+  if (arguments.own.rtl.empty()) {
+    bench.options = cosim::quick_options();
+    cosim::set_parameters(bench.options, arguments.set);
+    bench.make = cosim::reference_top(bench.options, arguments.fault, static_cast<std::uint32_t>(arguments.seed));
+    return bench;
   }
+  const OwnRtl own = build_own_rtl(arguments.own, kCommand, !arguments.wave.empty());
+  bench.options = cosim::own_rtl_options(own.map.tolerances);
+  cosim::set_parameters(bench.options, arguments.set);
+  bench.make_own = own.make;
+  bench.make = [make = own.make] { return make(std::nullopt); };
   return bench;
 }
 
@@ -108,11 +81,10 @@ class StimulusOutputs {
     if (arguments_.wave.empty()) return cosim::play(stimulus, bench.make, options);
     cosim::JoinedWave wave(arguments_.wave, arguments_.own.build);
     cosim::PlayWave model(wave.model(), kChip);
-    options.listeners.push_back(&model);
-    options.config.engine = dsdpv1::Engine::kStep;
+    model.listen(options);
     const cosim::RtlTrace trace = wave.trace(kChip);
-    cosim::PlayResult result = cosim::play(
-        stimulus, [&] { return bench.own->make(trace); }, options);
+    const cosim::MakeTop traced = [&] { return bench.make_own(trace); };
+    cosim::PlayResult result = cosim::play(stimulus, traced, options);
     wave.finish(result.difference);
     return result;
   }

@@ -195,7 +195,7 @@ int run_own_rtl(const tb::scenario::Scenario& scenario, const CosimArguments& ar
   cosim::JoinedWave wave(arguments.wave.file, arguments.own.build);
   const tb::WaveSelection window = options.wave.selection;
   options.wave.path = wave.model();
-  const auto make = [&](const std::string& name, const dsdpv1::Config&) {
+  const auto make = [&](const std::string& name, const auto& /*parameters*/) {
     return own.make(wave.trace(name, window.from, window.to));
   };
   const LockstepOutcome outcome = run_lockstep(scenario, run, options, make, lockstep);

@@ -88,12 +88,18 @@ TEST(Adapter, InvertsWhereTheMapSaysSo) {
   map.pins["CSR"] = {"cs", true};
   map.pins["INTR0"] = {"irq", true};
   map.pins["D_OUT"] = {"q", true};
-  const std::string text = cosim::adapter_source("chip", map);
+  const std::string text = cosim::adapter_source("chip", map, false);
   EXPECT_THAT(text, HasSubstr("model.cs = !in["));
   EXPECT_THAT(text, HasSubstr("= !model.irq;"));
   EXPECT_THAT(text, HasSubstr("= ~model.q;"));
   EXPECT_THAT(text, HasSubstr("model.rd_i = in["));
   EXPECT_THAT(text, HasSubstr("= model.l_req_o;"));
+}
+
+TEST(Adapter, HasATraceWhereItIsWantedOnly) {
+  const cosim::PinMap map = cosim::default_pin_map();
+  EXPECT_THAT(cosim::adapter_source("chip", map, false), testing::Not(HasSubstr("race")));
+  EXPECT_THAT(cosim::adapter_source("chip", map, true), HasSubstr("dsdpv1_rtl_trace("));
 }
 
 }  // namespace

@@ -28,6 +28,11 @@ PlayWave::PlayWave(const std::string& path, const std::string& chip) : writer_(t
   writer_->close_scope();
 }
 
+void PlayWave::listen(PlayOptions& options) {
+  options.config.engine = dsdpv1::Engine::kStep;
+  options.listeners.push_back(this);
+}
+
 void PlayWave::begins(const Lockstep& lockstep) {
   writer_->say(0, telegram_, "-");
   for (std::size_t i = 0; i < pins_.size(); ++i) writer_->set(0, pins_.at(i), lockstep.level(static_cast<Pin>(i)));

@@ -7,17 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "tb/dsdpv1/cosim/play_listener.hpp"
+#include "tb/dsdpv1/cosim/player.hpp"
 #include "tb/dsdpv1/inside_watch.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace cosim {
 
-/// Of a model with Engine::kStep.
 class PlayWave : public PlayListener {
  public:
   /// Scopes `bus` and `chip`, as in the waves of scenarios; both directions of D by themselves. Throws tb::InputError.
   PlayWave(const std::string& path, const std::string& chip);
+  /// From now on every cycle of the model is evaluated, and this listens.
+  void listen(PlayOptions& options);
 
   void begins(const Lockstep& lockstep) override;
   void pin(Tick at, Side side, Pin pin, Level level) override;
