@@ -119,6 +119,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
           "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
           "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
           "  dsdpv1-sim run my.yaml --wave bad.fst --wave-on violation --wave-around 50us --wave-clk\n"
+          "  dsdpv1-sim run my.yaml --wave my.fst --wave-inside --wave-save\n"
           "  dsdpv1-sim run my.yaml --wave bus.vcd --wave-signals 'bus.*' --wave-signals '*.PB?XD' --wave-from 2ms\n"
           "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
           "  dsdpv1-sim run my.yaml --log my.jsonl\n"
@@ -295,10 +296,12 @@ void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
       ->allow_extra_args(false);
   command->add_option("--stimulus", arguments.stimulus, "File for a case that differs, shrunk")->capture_default_str();
   command->add_option("--difference", arguments.difference, "Wave of both sides' pins for it")->capture_default_str();
-  command
-      ->add_option("--wave", arguments.wave,
-                   "Wave of it with the inside of your RTL beside the model's: FILE.vcd or FILE.fst")
-      ->needs("--rtl");
+  CLI::Option* wave =
+      command
+          ->add_option("--wave", arguments.wave,
+                       "Wave of it with the inside of your RTL beside the model's: FILE.vcd or FILE.fst")
+          ->needs("--rtl");
+  add_wave_save_option(*command, arguments.wave_save, wave);
   command->add_option("--log", arguments.log,
                       "Log of it: every change of every pin, events, telegrams; FILE.jsonl: for programs");
   command->add_option("--result", arguments.result, "The result as JSON, also when nothing differs (docs/cosim.md)");
@@ -341,6 +344,7 @@ void describe_cosim(CLI::App& app, CosimArguments& arguments) {
                           "Wave of the run with the inside of your RTL beside the model's: FILE.vcd or FILE.fst");
   command->add_option("--wave-from", arguments.wave.from, "Only from this time on")->needs(wave);
   command->add_option("--wave-to", arguments.wave.to, "Only up to this time")->needs(wave);
+  add_wave_save_option(*command, arguments.wave.save, wave);
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command->add_option("--result", arguments.result, "Result, measurements and the first difference as JSON");

@@ -19,6 +19,7 @@ struct RtlRandomArguments {
   OwnRtlArguments own;                         ///< without a folder: the reference RTL
   std::vector<std::string> set;                ///< chip.KEY=VALUE: parameters of the model
   std::string wave, log, result;               ///< empty: none
+  bool wave_save = false;
 };
 
 struct RtlFaultsArguments {

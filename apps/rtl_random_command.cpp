@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
@@ -86,6 +87,7 @@ class StimulusOutputs {
     const cosim::MakeTop traced = [&] { return bench.make_own(trace); };
     cosim::PlayResult result = cosim::play(stimulus, traced, options);
     wave.finish(result.difference);
+    if (arguments_.wave_save) write_save_files(arguments_.wave, cosim::chip_kind());
     return result;
   }
   void finish(const cosim::StimulusResult& result) {
@@ -204,12 +206,12 @@ int random_cases(const RtlRandomArguments& arguments, const Bench& bench, Stimul
 void check_files(const RtlRandomArguments& arguments) {
   tb::check_wave_name(arguments.difference);
   if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
-  check_outputs(kCommand, {{"--replay", arguments.replay}, {"--pins", arguments.own.pins}},
-                {{"--stimulus", arguments.replay.empty() ? arguments.stimulus : ""},
-                 {"--difference", arguments.difference},
-                 {"--wave", arguments.wave},
-                 {"--log", arguments.log},
-                 {"--result", arguments.result}});
+  std::vector<NamedFile> outputs = wave_files(kCommand, arguments.wave, arguments.wave_save);
+  outputs.push_back({"--stimulus", arguments.replay.empty() ? arguments.stimulus : ""});
+  outputs.push_back({"--difference", arguments.difference});
+  outputs.push_back({"--log", arguments.log});
+  outputs.push_back({"--result", arguments.result});
+  check_outputs(kCommand, {{"--replay", arguments.replay}, {"--pins", arguments.own.pins}}, outputs);
 }
 
 }  // namespace

@@ -103,6 +103,7 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
     result_file->write(tb::result_json(result));
     result_file->commit();
   }
+  if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
   if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
   const bool ran_through = !lockstep.report || lockstep.report();
   if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << std::flush;
@@ -148,13 +149,13 @@ void check_has_board(const tb::scenario::Scenario& scenario) {
 }
 
 void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
-  check_outputs("dsdpv1-sim run", scenario_inputs(arguments.scenario, scenario.files),
-                {{"--wave", arguments.wave.file},
-                 {"--log", arguments.log},
-                 {"--result", arguments.result},
-                 {"--trace", arguments.trace},
-                 {"--capture", arguments.capture},
-                 {"--difference", arguments.engine == "lockstep" ? arguments.difference : ""}});
+  std::vector<NamedFile> outputs = wave_files("dsdpv1-sim run", arguments.wave.file, arguments.wave.save);
+  outputs.push_back({"--log", arguments.log});
+  outputs.push_back({"--result", arguments.result});
+  outputs.push_back({"--trace", arguments.trace});
+  outputs.push_back({"--capture", arguments.capture});
+  outputs.push_back({"--difference", arguments.engine == "lockstep" ? arguments.difference : ""});
+  check_outputs("dsdpv1-sim run", scenario_inputs(arguments.scenario, scenario.files), outputs);
 }
 
 constexpr const char* kCosim = "dsdpv1-sim cosim";
@@ -169,17 +170,18 @@ RunArguments run_arguments_of(const CosimArguments& arguments) {
   run.result = arguments.result;
   run.set = arguments.set;
   run.wave = arguments.wave;
+  run.wave.save = false;  // once it has both sides
   return run;
 }
 
 void check_outputs_of(const CosimArguments& arguments, const tb::scenario::Scenario& scenario) {
   std::vector<NamedFile> inputs = scenario_inputs(arguments.scenario, scenario.files);
   inputs.push_back({"--pins", arguments.own.pins});
-  check_outputs(kCosim, inputs,
-                {{"--difference", arguments.difference},
-                 {"--wave", arguments.wave.file},
-                 {"--log", arguments.log},
-                 {"--result", arguments.result}});
+  std::vector<NamedFile> outputs = wave_files(kCosim, arguments.wave.file, arguments.wave.save);
+  outputs.push_back({"--difference", arguments.difference});
+  outputs.push_back({"--log", arguments.log});
+  outputs.push_back({"--result", arguments.result});
+  check_outputs(kCosim, inputs, outputs);
 }
 
 /// In lockstep with the user's RTL; with a wave, its inside goes beside the model's.
@@ -200,6 +202,7 @@ int run_own_rtl(const tb::scenario::Scenario& scenario, const CosimArguments& ar
   };
   const LockstepOutcome outcome = run_lockstep(scenario, run, options, make, lockstep);
   wave.finish(outcome.difference);
+  if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
   std::cout << "with the inside   " << arguments.wave.file << std::endl;
   return outcome.status;
 }

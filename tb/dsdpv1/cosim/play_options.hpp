@@ -3,9 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "tb/chip/chip_kind.hpp"
 #include "tb/dsdpv1/cosim/player.hpp"
 
 namespace cosim {
+
+/// The kind of chip that stimuli are for.
+const tb::ChipKind& chip_kind();
 
 /// For RTL of a user's own: the parameters that scenarios have. For the reference RTL see quick_options().
 PlayOptions own_rtl_options(const Tolerances& tolerances);
