@@ -119,6 +119,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
           "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
           "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
           "  dsdpv1-sim run my.yaml --wave bad.fst --wave-on violation --wave-around 50us --wave-clk\n"
+          "  dsdpv1-sim run my.yaml --wave my.fst --wave-inside --wave-save\n"
           "  dsdpv1-sim run my.yaml --wave bus.vcd --wave-signals 'bus.*' --wave-signals '*.PB?XD' --wave-from 2ms\n"
           "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
           "  dsdpv1-sim run my.yaml --log my.jsonl\n"
@@ -278,18 +279,39 @@ void describe_regress(CLI::App& app, RegressArguments& arguments) {
 }
 
 void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
-  CLI::App* command = app.add_subcommand("rtl-random", "Random stimulus for model and reference RTL in lockstep");
+  CLI::App* command =
+      app.add_subcommand("rtl-random", "Random stimulus for model and RTL in lockstep, the reference RTL or your own");
   command->add_option("--cycles", arguments.cycles, "How many cycles to compare")->capture_default_str();
   command->add_option("--seed", arguments.seed, "The same cases for the same seed")->capture_default_str();
   command->add_option("--jobs", arguments.jobs, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
   command->add_option("--replay", arguments.replay, "This stimulus file instead of random cases");
-  command->add_option("--fault", arguments.fault, "With this single fault of rtl_ref/faults.txt")
-      ->check(CLI::Range(0, 255));
+  add_own_rtl_options(*command, arguments.own, false);
+  command->add_option("--fault", arguments.fault, "With this single fault of rtl_ref/faults.txt in the reference RTL")
+      ->check(CLI::Range(0, 255))
+      ->excludes("--rtl");
+  command
+      ->add_option("--set", arguments.set,
+                   "chip.KEY=VALUE, once for each: a parameter of the model, as a scenario has it; left out: those of "
+                   "scenarios, with the reference RTL short times")
+      ->allow_extra_args(false);
   command->add_option("--stimulus", arguments.stimulus, "File for a case that differs, shrunk")->capture_default_str();
-  command->add_option("--difference", arguments.difference, "Wave of both sides for it")->capture_default_str();
+  command->add_option("--difference", arguments.difference, "Wave of both sides' pins for it")->capture_default_str();
+  CLI::Option* wave =
+      command
+          ->add_option("--wave", arguments.wave,
+                       "Wave of it with the inside of your RTL beside the model's: FILE.vcd or FILE.fst")
+          ->needs("--rtl");
+  add_wave_save_option(*command, arguments.wave_save, wave);
+  command->add_option("--log", arguments.log,
+                      "Log of it: every change of every pin, events, telegrams; FILE.jsonl: for programs");
+  command->add_option("--result", arguments.result, "The result as JSON, also when nothing differs (docs/cosim.md)");
   command->footer(
+      "\n--wave and --log are written of the case that differs, and of a stimulus that --replay plays.\n"
       "\nExamples:\n  dsdpv1-sim rtl-random --cycles 100000000 --seed 7\n"
-      "  dsdpv1-sim rtl-random --replay lockstep.stimulus --difference both.fst\n"
+      "  dsdpv1-sim rtl-random --replay lockstep.stimulus --difference both.fst --log case.log\n"
+      "  dsdpv1-sim rtl-random --rtl my_chip --top chip --pins pins.yaml --set chip.search_window_ms=1 --result "
+      "r.json\n"
+      "  dsdpv1-sim rtl-random --rtl my_chip --top chip --replay lockstep.stimulus --wave inside.fst\n"
       "\nExit codes: 0 no difference, 1 a difference, 2 wrong input, 130 interrupted.\n");
 }
 
@@ -314,15 +336,24 @@ void describe_cosim(CLI::App& app, CosimArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("cosim", "Builds RTL of your own with Verilator and holds it against the model");
   command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML")->required();
-  command->add_option("--rtl", arguments.rtl, "Folder of the RTL")->required();
-  command->add_option("--top", arguments.top, "Its top module")->required();
-  command->add_option("--pins", arguments.pins, "Names, polarities and tolerances of its pins, see docs/cosim.md");
-  command->add_option("--build", arguments.build, "Folder for what is built")->capture_default_str();
-  command->add_option("--difference", arguments.difference, "Wave of both sides, written when they differ")
+  add_own_rtl_options(*command, arguments.own, true);
+  command->add_option("--difference", arguments.difference, "Wave of both sides' pins, written when they differ")
       ->capture_default_str();
+  CLI::Option* wave =
+      command->add_option("--wave", arguments.wave.file,
+                          "Wave of the run with the inside of your RTL beside the model's: FILE.vcd or FILE.fst");
+  command->add_option("--wave-from", arguments.wave.from, "Only from this time on")->needs(wave);
+  command->add_option("--wave-to", arguments.wave.to, "Only up to this time")->needs(wave);
+  add_wave_save_option(*command, arguments.wave.save, wave);
+  CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
+  command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
+  command->add_option("--result", arguments.result, "Result, measurements and the first difference as JSON");
+  add_set_option(*command, arguments.set);
   command->footer(
       "\nExamples:\n  dsdpv1-sim cosim --rtl examples/own_rtl --top board_chip --pins examples/own_rtl/pins.yaml "
       "scenarios/two_slaves.yaml\n"
+      "  dsdpv1-sim cosim --rtl my_chip --top chip my.yaml --wave inside.fst --wave-from 1.6ms --log my.log --result "
+      "my.json\n"
       "\nExit codes: 0 no difference and the scenario passed, 1 otherwise, 2 wrong input, 130 "
       "interrupted.\n");
 }

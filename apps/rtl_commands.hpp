@@ -2,6 +2,10 @@
 // rtl-random, rtl-faults: model and reference RTL in lockstep without a scenario. cosim: RTL of the user's own.
 #include <cstdint>
 #include <string>
+#include <vector>
+
+#include "apps/own_rtl.hpp"
+#include "apps/wave_options.hpp"
 
 namespace app {
 
@@ -12,6 +16,10 @@ struct RtlRandomArguments {
   unsigned fault = 0;                          ///< of rtl_ref/faults.txt, to see one found
   std::string stimulus = "lockstep.stimulus";  ///< where a shrunk failing case goes
   std::string difference = "lockstep.vcd";     ///< ... and its wave
+  OwnRtlArguments own;                         ///< without a folder: the reference RTL
+  std::vector<std::string> set;                ///< chip.KEY=VALUE: parameters of the model
+  std::string wave, log, result;               ///< empty: none
+  bool wave_save = false;
 };
 
 struct RtlFaultsArguments {
@@ -22,8 +30,16 @@ struct RtlFaultsArguments {
 };
 
 struct CosimArguments {
-  std::string scenario, rtl, top, pins, build = "build/cosim", difference = "lockstep.vcd";
+  OwnRtlArguments own;
+  std::string scenario, difference = "lockstep.vcd";
+  WaveArguments wave;  ///< file, from and to; its inside is always there
+  std::string log, result;
+  bool log_whole = false;
+  std::vector<std::string> set;  ///< as of RunArguments
 };
+
+/// Threads for --jobs; 0: one a processor.
+unsigned threads_of(unsigned jobs);
 
 int rtl_random(const RtlRandomArguments& arguments);
 int rtl_faults(const RtlFaultsArguments& arguments);

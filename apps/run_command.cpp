@@ -14,9 +14,9 @@
 #include "apps/rtl_commands.hpp"
 #include "bus/printable.hpp"
 #include "tb/bench/bench.hpp"
+#include "tb/dsdpv1/cosim/joined_wave.hpp"
 #include "tb/dsdpv1/cosim/lockstep_execution.hpp"
 #include "tb/dsdpv1/cosim/reference_rtl.hpp"
-#include "tb/dsdpv1/cosim/user_rtl.hpp"
 #include "tb/dsdpv1/systemc/tlm_execution.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/output/output_file.hpp"
@@ -50,10 +50,10 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   if (arguments.view == "tlm" && arguments.engine != "step" && arguments.engine != "skip")
     throw tb::InputError("dsdpv1-sim run: --engine " + arguments.engine +
                          " is about pins, allowed with it is --view pins");
-  const bool model = arguments.view == "pins" && (arguments.engine == "step" || arguments.engine == "skip");
-  if (arguments.wave.inside && !model)
+  if (arguments.wave.inside && (arguments.view != "pins" || arguments.engine == "rtl"))
     throw tb::InputError(
-        "dsdpv1-sim run: --wave-inside is about the model, allowed with it are --view pins and --engine step or skip");
+        "dsdpv1-sim run: --wave-inside is about the model, allowed with it are --view pins and --engine step, skip or "
+        "lockstep");
   check_golden(arguments);
   if (arguments.seed && (arguments.engine == "step" || arguments.engine == "skip"))
     throw tb::InputError("dsdpv1-sim run: --seed is for RTL, allowed with it is --engine rtl, lockstep");
@@ -79,43 +79,64 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   return options;
 }
 
+/// What a run in lockstep has more than others.
+struct LockstepSteps {
+  std::function<void(tb::RunResult&)> judge;  ///< before the result is written
+  std::function<bool()> report;               ///< while the bench still stands; false: they differ
+};
+
 int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, tb::RunOptions options,
-                 std::unique_ptr<tb::Execution> execution, const std::function<bool()>& afterwards = {}) {
+                 std::unique_ptr<tb::Execution> execution, const LockstepSteps& lockstep = {}) {
   tb::traces::GoldenRun golden(arguments.golden, scenario, execution->segment(), options);
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
   tb::Bench bench(scenario, options, std::move(execution));
   tb::Progress progress(scenario.end, arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
   catch_signals();
-  const tb::RunResult result = bench.run([&](tb::Tick now) {
+  tb::RunResult result = bench.run([&](tb::Tick now) {
     progress.show(now);
     return !interrupted() && !golden.over(now);
   });
   progress.clear();
+  if (lockstep.judge) lockstep.judge(result);
   if (result_file) {
     result_file->write(tb::result_json(result));
     result_file->commit();
   }
+  if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
   if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
-  const bool ran_through = !afterwards || afterwards();  // while the bench still stands
+  const bool ran_through = !lockstep.report || lockstep.report();
   if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << std::flush;
   if (result.interrupted && golden.same()) return kInterrupted;
   if (ran_through) std::cout << golden.report() << std::flush;
   return result.passed && golden.same() ? kPassed : kFailed;
 }
 
-int run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arguments, const tb::RunOptions& options,
-                 cosim::MakeRtl make, const cosim::LockstepOptions& lockstep = {}) {
+struct LockstepOutcome {
+  int status = kPassed;
+  std::optional<cosim::Difference> difference;
+};
+
+LockstepOutcome run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arguments,
+                             const tb::RunOptions& options, cosim::MakeRtl make,
+                             const cosim::LockstepOptions& lockstep = {}) {
   auto made = std::make_unique<cosim::LockstepExecution>(std::move(make), lockstep);
   cosim::LockstepExecution& execution = *made;
-  bool same = true;
-  const int status = run_scenario(scenario, arguments, options, std::move(made), [&] {
+  LockstepOutcome outcome;
+  LockstepSteps steps;
+  steps.judge = [&](tb::RunResult& result) {
+    result.lockstep = execution.result();
+    result.passed = result.passed && !result.lockstep->difference;
+  };
+  steps.report = [&] {
     std::string text;
-    same = cosim::report(execution, arguments.difference, text);
+    const bool same = cosim::report(execution, arguments.difference, text);
     std::cout << text << std::flush;
+    if (!same) outcome.difference = execution.different()->difference();
     return same;
-  });
-  return status == kPassed && !same ? kFailed : status;
+  };
+  outcome.status = run_scenario(scenario, arguments, options, std::move(made), steps);
+  return outcome;
 }
 
 void check_has_board(const tb::scenario::Scenario& scenario) {
@@ -128,13 +149,62 @@ void check_has_board(const tb::scenario::Scenario& scenario) {
 }
 
 void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenario& scenario) {
-  check_outputs("dsdpv1-sim run", scenario_inputs(arguments.scenario, scenario.files),
-                {{"--wave", arguments.wave.file},
-                 {"--log", arguments.log},
-                 {"--result", arguments.result},
-                 {"--trace", arguments.trace},
-                 {"--capture", arguments.capture},
-                 {"--difference", arguments.engine == "lockstep" ? arguments.difference : ""}});
+  std::vector<NamedFile> outputs = wave_files("dsdpv1-sim run", arguments.wave.file, arguments.wave.save);
+  outputs.push_back({"--log", arguments.log});
+  outputs.push_back({"--result", arguments.result});
+  outputs.push_back({"--trace", arguments.trace});
+  outputs.push_back({"--capture", arguments.capture});
+  outputs.push_back({"--difference", arguments.engine == "lockstep" ? arguments.difference : ""});
+  check_outputs("dsdpv1-sim run", scenario_inputs(arguments.scenario, scenario.files), outputs);
+}
+
+constexpr const char* kCosim = "dsdpv1-sim cosim";
+
+RunArguments run_arguments_of(const CosimArguments& arguments) {
+  RunArguments run;
+  run.scenario = arguments.scenario;
+  run.engine = "lockstep";
+  run.difference = arguments.difference;
+  run.log = arguments.log;
+  run.log_whole = arguments.log_whole;
+  run.result = arguments.result;
+  run.set = arguments.set;
+  run.wave = arguments.wave;
+  run.wave.save = false;  // once it has both sides
+  return run;
+}
+
+void check_outputs_of(const CosimArguments& arguments, const tb::scenario::Scenario& scenario) {
+  std::vector<NamedFile> inputs = scenario_inputs(arguments.scenario, scenario.files);
+  inputs.push_back({"--pins", arguments.own.pins});
+  std::vector<NamedFile> outputs = wave_files(kCosim, arguments.wave.file, arguments.wave.save);
+  outputs.push_back({"--difference", arguments.difference});
+  outputs.push_back({"--log", arguments.log});
+  outputs.push_back({"--result", arguments.result});
+  check_outputs(kCosim, inputs, outputs);
+}
+
+/// In lockstep with the user's RTL; with a wave, its inside goes beside the model's.
+int run_own_rtl(const tb::scenario::Scenario& scenario, const CosimArguments& arguments, tb::RunOptions options,
+                const OwnRtl& own) {
+  cosim::LockstepOptions lockstep;
+  lockstep.tolerances = own.map.tolerances;
+  const RunArguments run = run_arguments_of(arguments);
+  if (arguments.wave.file.empty())
+    return run_lockstep(
+               scenario, run, options, [&own](auto&&...) { return own.make(std::nullopt); }, lockstep)
+        .status;
+  cosim::JoinedWave wave(arguments.wave.file, arguments.own.build);
+  const tb::WaveSelection window = options.wave.selection;
+  options.wave.path = wave.model();
+  const auto make = [&](const std::string& name, const auto& /*parameters*/) {
+    return own.make(wave.trace(name, window.from, window.to));
+  };
+  const LockstepOutcome outcome = run_lockstep(scenario, run, options, make, lockstep);
+  wave.finish(outcome.difference);
+  if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
+  std::cout << "with the inside   " << arguments.wave.file << std::endl;
+  return outcome.status;
 }
 
 }  // namespace
@@ -148,7 +218,7 @@ int run(const RunArguments& arguments) {
   check_outputs_of(arguments, scenario);
   if (arguments.gdb) check_has_board(scenario);
   const cosim::MakeRtl rtl = cosim::reference_rtl(arguments.fault, arguments.seed.value_or(cosim::kUsualSeed));
-  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, rtl);
+  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, rtl).status;
   if (arguments.engine == "rtl") return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(rtl));
   if (arguments.view == "pins") return run_scenario(scenario, arguments, options, tb::make_pin_execution());
   return tb::inside_systemc([&] { return run_scenario(scenario, arguments, options, tb::make_tlm_execution()); });
@@ -156,20 +226,15 @@ int run(const RunArguments& arguments) {
 
 int cosim_own_rtl(const CosimArguments& arguments) {
   leave_nothing_on_signals();
-  RunArguments run_arguments;
-  run_arguments.scenario = arguments.scenario;
-  run_arguments.difference = arguments.difference;
-  run_arguments.engine = "lockstep";
-  const tb::RunOptions options = options_of(run_arguments);
-  const tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
-  std::vector<NamedFile> inputs = scenario_inputs(arguments.scenario, scenario.files);
-  inputs.push_back({"--pins", arguments.pins});
-  check_outputs("dsdpv1-sim cosim", inputs, {{"--difference", arguments.difference}});
-  const cosim::PinMap map = arguments.pins.empty() ? cosim::default_pin_map() : cosim::load_pin_map(arguments.pins);
-  cosim::LockstepOptions lockstep;
-  lockstep.tolerances = map.tolerances;
-  cosim::MakeRtl make = cosim::build_user_rtl({arguments.rtl, arguments.top, arguments.build}, map);
-  return run_lockstep(scenario, run_arguments, options, std::move(make), lockstep);
+  const RunArguments run_arguments = run_arguments_of(arguments);
+  tb::RunOptions options = options_of(run_arguments);
+  const tb::scenario::Scenario scenario =
+      tb::scenario::load(arguments.scenario, tb::scenario::parse_settings(arguments.set));
+  options.wave = wave_options(kCosim, arguments.wave, *scenario.kind);
+  options.wave.inside = true;
+  check_outputs_of(arguments, scenario);
+  const OwnRtl own = build_own_rtl(arguments.own, kCosim, !arguments.wave.file.empty());
+  return run_own_rtl(scenario, arguments, options, own);
 }
 
 }  // namespace app

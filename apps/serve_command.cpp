@@ -66,11 +66,11 @@ int serve(const ServeArguments& arguments) {
   scenario.baud = chosen_baud(scenario, arguments.baud);
   scenario.end = chosen_end(arguments.duration);
   const tb::RunOptions options = options_of(arguments, *scenario.kind);
-  check_outputs("dsdpv1-sim serve", scenario_inputs(arguments.scenario, scenario.files),
-                {{"--wave", arguments.wave.file},
-                 {"--log", arguments.log},
-                 {"--result", arguments.result},
-                 {"--capture", arguments.capture}});
+  std::vector<NamedFile> outputs = wave_files("dsdpv1-sim serve", arguments.wave.file, arguments.wave.save);
+  outputs.push_back({"--log", arguments.log});
+  outputs.push_back({"--result", arguments.result});
+  outputs.push_back({"--capture", arguments.capture});
+  check_outputs("dsdpv1-sim serve", scenario_inputs(arguments.scenario, scenario.files), outputs);
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
 
@@ -90,6 +90,7 @@ int serve(const ServeArguments& arguments) {
             << name << "; Ctrl-C ends" << std::endl;
 
   tb::RunResult result = bench.run([](tb::Tick) { return !interrupted(); });
+  if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
   if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
   result.pacing = execution.pacing();
   if (result_file) {

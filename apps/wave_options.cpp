@@ -9,7 +9,9 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 #include "tb/input/units.hpp"
+#include "tb/output/output_place.hpp"
 #include "tb/scenario/event_codes.hpp"
+#include "tb/waves/save_files.hpp"
 
 namespace app {
 namespace {
@@ -51,16 +53,44 @@ void add_wave_options(CLI::App& command, WaveArguments& arguments) {
   command.add_option("--wave-around", arguments.around, "Up to this long before and behind it")
       ->capture_default_str()
       ->needs(on);
-  command
-      .add_flag("--wave-wires", arguments.wires_only,
-                "No words, and each wire of a bus as a signal of its own: for sigrok and PulseView")
-      ->needs(wave);
+  CLI::Option* wires =
+      command
+          .add_flag("--wave-wires", arguments.wires_only,
+                    "No words, and each wire of a bus as a signal of its own: for sigrok and PulseView")
+          ->needs(wave);
   command.add_flag("--wave-clk", arguments.clock, "CLK as well, which changes 96 times a microsecond")->needs(wave);
   command
       .add_flag("--wave-inside", arguments.inside,
                 "Inner signals of the chips as well: owner of the DPRAM, item and byte that is moved, flags, CRC "
                 "verdicts, baud and watchdog states; every cycle is evaluated then")
       ->needs(wave);
+  add_wave_save_option(command, arguments.save, wave)->excludes(wires);
+}
+
+CLI::Option* add_wave_save_option(CLI::App& command, bool& save, CLI::Option* wave) {
+  return command
+      .add_flag(
+          "--wave-save", save,
+          "Beside the wave also NAME.gtkw for GTKWave and NAME.sucl for Surfer: its signals in groups and in order")
+      ->needs(wave);
+}
+
+std::vector<NamedFile> wave_files(const std::string& command, const std::string& wave, bool save) {
+  std::vector<NamedFile> files = {{"--wave", wave}};
+  if (!save) return files;
+  if (tb::find_place(wave).direct)
+    throw tb::InputError(command + ": --wave-save reads the wave, allowed for --wave is a regular file, not " + wave);
+  const tb::SaveFiles beside = tb::save_files_of(wave);
+  files.push_back({"the save file for GTKWave", beside.gtkwave});
+  files.push_back({"the command file for Surfer", beside.surfer});
+  return files;
+}
+
+void write_save_files(const std::string& wave, const tb::ChipKind& kind) {
+  std::vector<tb::SignalGroup> groups;
+  for (const tb::PinGroup& each : kind.pin_groups())
+    groups.push_back({each.title, {each.pins.begin(), each.pins.end()}});
+  tb::write_save_files(wave, groups);
 }
 
 tb::WaveOptions wave_options(const std::string& command, const WaveArguments& arguments, const tb::ChipKind& kind) {

@@ -3,12 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "apps/outputs.hpp"
 #include "tb/bench/wave_recorder.hpp"
 #include "tb/chip/chip_kind.hpp"
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace app {
 
@@ -18,10 +20,18 @@ struct WaveArguments {
   std::string from, to;              ///< times; empty: start and end of the run
   std::vector<std::string> on;       ///< codes
   std::string around = "100us";
-  bool wires_only = false, clock = false, inside = false;
+  bool wires_only = false, clock = false, inside = false, save = false;
 };
 
 void add_wave_options(CLI::App& command, WaveArguments& arguments);
+/// --wave-save alone; `wave`: the option --wave of the command.
+CLI::Option* add_wave_save_option(CLI::App& command, bool& save, CLI::Option* wave);
+
+/// The wave and the files that --wave-save writes beside it. Throws tb::InputError, which begins with `command`: they
+/// are made of the wave, which can be read again only if it is a regular file.
+std::vector<NamedFile> wave_files(const std::string& command, const std::string& wave, bool save);
+/// Writes those files, once the wave is complete; throws tb::InputError.
+void write_save_files(const std::string& wave, const tb::ChipKind& kind);
 
 /// Throws tb::InputError, which begins with `command`, "dsdpv1-sim run".
 tb::WaveOptions wave_options(const std::string& command, const WaveArguments& arguments, const tb::ChipKind& kind);

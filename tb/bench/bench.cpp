@@ -234,7 +234,7 @@ void Bench::user_failed(const SlaveStation& station, Tick at, const std::string&
   registers_ = registers;
 }
 
-bool Bench::stopped() const { return periodic_poll_.stopped() || !registers_.empty(); }
+bool Bench::stopped() const { return periodic_poll_.stopped() || !registers_.empty() || execution_->broken_off(); }
 
 void Bench::telegram(const bus::WireTelegram& telegram) {
   observers_.tell(&Observer::telegram, HeardTelegram(now(), telegram));
@@ -291,7 +291,7 @@ RunResult Bench::collect() {
   checks_.finish(result.simulated);
   result.checks = checks_.results();
   result.violations = journal_.violations() + checks_.failures();
-  result.expectations = script_->finish(result.simulated, result.interrupted);
+  result.expectations = script_->finish(result.simulated, result.interrupted || execution_->broken_off());
   journal_.fill(result);
   const bool met = std::all_of(result.expectations.begin(), result.expectations.end(),
                                [](const ExpectationResult& each) { return each.passed || each.left_out; });

@@ -18,6 +18,9 @@ class Execution {
   /// Runs the timeline up to and including `end`, or until `stopped` says so.
   virtual void run(Tick end, const std::function<bool()>& stopped) = 0;
 
+  /// It has ended the run before its time, by itself.
+  virtual bool broken_off() { return false; }
+
   /// As bus::Timeline has them; false: each action has a turn of its own.
   virtual bool quiet(const bus::Agent& /*agent*/, Tick /*tick*/) { return false; }
   virtual bool go_on(const bus::Agent& /*agent*/, Tick /*tick*/) { return false; }

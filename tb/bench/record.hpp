@@ -114,6 +114,17 @@ struct Pacing {
   Tick lost = 0;                               ///< simulated time given up because of that
 };
 
+/// Model and RTL side by side: what was the same, and where they first differ.
+struct LockstepResult {
+  std::uint64_t cycles = 0, pin_changes = 0, dpram_images = 0;
+  struct Difference {
+    std::string slave;
+    Tick at = 0;
+    std::string what, last_telegram, last_access, dpram;  ///< in words
+  };
+  std::optional<Difference> difference;
+};
+
 struct RunResult {
   std::string scenario, file, engine, view;
   bool passed = false, interrupted = false;
@@ -129,7 +140,8 @@ struct RunResult {
   std::vector<ExpectationResult> expectations;
   std::vector<CheckResult> checks;  ///< by slave, then in the order of the chip's rules
   std::optional<Pacing> pacing;
-  std::string fault_registers;  ///< of the processor whose fault ended the run, a few lines; else empty
+  std::optional<LockstepResult> lockstep;  ///< engine lockstep
+  std::string fault_registers;             ///< of the processor whose fault ended the run, a few lines; else empty
 
   static constexpr std::size_t kKept = 10'000;
   /// Simulated time over wall time, 0 when nothing was measured.

@@ -22,6 +22,11 @@ const std::vector<keys::Word>& ChipKind::blocks() const {
   return none;
 }
 
+const std::vector<PinGroup>& ChipKind::pin_groups() const {
+  static const std::vector<PinGroup> none;
+  return none;
+}
+
 const std::vector<InnerSignal>& ChipKind::inner_signals() const {
   static const std::vector<InnerSignal> none;
   return none;

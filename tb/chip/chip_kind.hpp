@@ -91,6 +91,8 @@ class ChipKind {
   /// Codes of the chip's events; of what its user program reports; of what else its user's side can meet.
   virtual const std::vector<CodeTable>& codes() const = 0;
 
+  /// In the order in which they are shown; none by default: all pins as the table has them.
+  virtual const std::vector<PinGroup>& pin_groups() const;
   /// Those that ChipView::on_inside tells; none by default.
   virtual const std::vector<InnerSignal>& inner_signals() const;
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/time.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/chip/chip_kind.hpp"
 
@@ -14,10 +15,10 @@ namespace tb {
 class InsideWatch {
  public:
   /// In the order of `signals()`; a signal of words has no level, any other no word.
-  using Tell = std::function<void(Tick at, std::size_t signal, Level level, const std::string& word)>;
+  using Tell = std::function<void(bus::Tick at, std::size_t signal, Level level, const std::string& word)>;
 
   static const std::vector<InnerSignal>& signals();
-  void look(Tick at, const dsdpv1::Chip& chip, const Tell& tell);
+  void look(bus::Tick at, const dsdpv1::Chip& chip, const Tell& tell);
 
  private:
   /// What the signals are made of; cheap to compare, as it is done in every cycle.

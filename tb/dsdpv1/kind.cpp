@@ -56,6 +56,7 @@ class Dsdpv1Kind : public ChipMaker {
   std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<Dsdpv1AccessReader>(); }
   const std::vector<CodeTable>& codes() const override { return dsdpv1_codes(); }
 
+  const std::vector<PinGroup>& pin_groups() const override { return dsdpv1_pin_groups(); }
   const std::vector<InnerSignal>& inner_signals() const override { return InsideWatch::signals(); }
 
   const checks::RuleTable& rules() const override { return checks::rules(); }

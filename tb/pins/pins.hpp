@@ -26,6 +26,12 @@ struct PinInfo {
 /// At most 32 pins.
 using PinTable = std::vector<PinInfo>;
 
+/// Pins that a viewer of waves shows together, by the names that they have in waves.
+struct PinGroup {
+  const char* title;  ///< one word
+  std::vector<const char*> pins;
+};
+
 constexpr PinMask mask_of(PinNumber pin) { return PinMask{1} << pin; }
 /// All inputs of a chip.
 inline PinMask inputs_of(const PinTable& pins) {

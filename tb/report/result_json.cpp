@@ -97,6 +97,21 @@ Json pacing_of(const Pacing& pacing) {
           {"time_lost_ns", nanoseconds_of(pacing.lost)}};
 }
 
+Json lockstep_of(const LockstepResult& lockstep) {
+  Json json = {{"cycles", lockstep.cycles},
+               {"pin_changes", lockstep.pin_changes},
+               {"dpram_images", lockstep.dpram_images},
+               {"difference", nullptr}};
+  if (const std::optional<LockstepResult::Difference>& found = lockstep.difference)
+    json["difference"] = {{"slave", found->slave},
+                          {"at_ns", nanoseconds_of(found->at)},
+                          {"what", found->what},
+                          {"last_telegram", found->last_telegram},
+                          {"last_access", found->last_access},
+                          {"dpram", found->dpram}};
+  return json;
+}
+
 Json history_of(const checks::Violation& violation) {
   Json changes = Json::array();
   for (const checks::PinChange& change : violation.history)
@@ -184,6 +199,7 @@ std::string result_json(const RunResult& result) {
   json["wrong_telegrams"] = result.wrong_telegrams;
   json["violations"] = result.violations;
   if (result.pacing) json["pacing"] = pacing_of(*result.pacing);
+  if (result.lockstep) json["lockstep"] = lockstep_of(*result.lockstep);
   json["masters"] = Json::array();
   for (const MasterResult& master : result.masters) json["masters"].push_back(master_of(master));
   json["slaves"] = Json::array();

@@ -145,6 +145,21 @@ Json slave() {
                 "a slave at the end of the run");
 }
 
+Json lockstep() {
+  const Json difference = object({{"slave", text("at which")},
+                                  {"at_ns", number("when")},
+                                  {"what", text("pin or cell of the DPRAM, and both values")},
+                                  {"last_telegram", text("on the line")},
+                                  {"last_access", text("of the user CPU")},
+                                  {"dpram", text("the chip's last access")}},
+                                 "the first difference; null: model and RTL are the same");
+  return object({{"cycles", count("that were compared")},
+                 {"pin_changes", count("that both sides made")},
+                 {"dpram_images", count("of the DPRAM that were compared")},
+                 {"difference", or_null(difference)}},
+                "engine lockstep only: model and RTL side by side");
+}
+
 Json expectation() {
   return object({{"text", text("in words")},
                  {"line", count("where it stands in the scenario")},
@@ -209,30 +224,32 @@ Json event() {
 }
 
 Json root() {
-  return object({{"schema", constant(kResultSchema, "what this file is")},
-                 {"version", constant(kResultVersion, "of what it holds")},
-                 {"scenario", text("its name")},
-                 {"file", text("where it was read")},
-                 {"passed", boolean("nothing was violated that is not allowed, and all expectations were met")},
-                 {"interrupted", boolean("it was ended by a signal before its time")},
-                 {"engine", text("step, skip, rtl, lockstep")},
-                 {"view", text("pins, tlm")},
-                 {"simulated_ns", number("simulated time")},
-                 {"chip_cycles", count("of all chips together")},
-                 {"wall_s", number("how long it took")},
-                 {"real_time_factor", number("simulated time over that; 0: not measured")},
-                 {"telegrams", count("on the line")},
-                 {"wrong_telegrams", count("of them with an error")},
-                 {"violations", count("that the scenario does not allow; of checks with --checks fail only")},
-                 {"pacing", pacing(), false},
-                 {"masters", list(master(), "of class 1")},
-                 {"slaves", list(slave(), "in the order of the scenario")},
-                 {"expectations", list(expectation(), "in the order of the scenario")},
-                 {"checks", list(check(), "empty with --checks off")},
-                 {"refused", list(refused(), "by the first time")},
-                 {"events", list(event(), "the first 10 000, in order of time")},
-                 {"events_dropped", count("events beyond those")}},
-                "the result of a run");
+  return object(
+      {{"schema", constant(kResultSchema, "what this file is")},
+       {"version", constant(kResultVersion, "of what it holds")},
+       {"scenario", text("its name")},
+       {"file", text("where it was read")},
+       {"passed", boolean("nothing was violated that is not allowed, all expectations were met, and no RTL differed")},
+       {"interrupted", boolean("it was ended by a signal before its time")},
+       {"engine", text("step, skip, rtl, lockstep")},
+       {"view", text("pins, tlm")},
+       {"simulated_ns", number("simulated time")},
+       {"chip_cycles", count("of all chips together")},
+       {"wall_s", number("how long it took")},
+       {"real_time_factor", number("simulated time over that; 0: not measured")},
+       {"telegrams", count("on the line")},
+       {"wrong_telegrams", count("of them with an error")},
+       {"violations", count("that the scenario does not allow; of checks with --checks fail only")},
+       {"pacing", pacing(), false},
+       {"lockstep", lockstep(), false},
+       {"masters", list(master(), "of class 1")},
+       {"slaves", list(slave(), "in the order of the scenario")},
+       {"expectations", list(expectation(), "in the order of the scenario")},
+       {"checks", list(check(), "empty with --checks off")},
+       {"refused", list(refused(), "by the first time")},
+       {"events", list(event(), "the first 10 000, in order of time")},
+       {"events_dropped", count("events beyond those")}},
+      "the result of a run");
 }
 
 std::string type_of(const Json& schema) {

@@ -58,9 +58,9 @@ void FstFile::open_scope(const std::string& name) {
 
 void FstFile::close_scope() { fstWriterSetUpscope(context_); }
 
-FstFile::Handle FstFile::variable(const std::string& name, std::uint32_t width) {
+FstFile::Handle FstFile::variable(const std::string& name, std::uint32_t width, Handle alias) {
   const fstVarType type = width != 0 ? FST_VT_VCD_WIRE : FST_VT_GEN_STRING;
-  return fstWriterCreateVar(context_, type, FST_VD_IMPLICIT, width, name.c_str(), 0);
+  return fstWriterCreateVar(context_, type, FST_VD_IMPLICIT, width, name.c_str(), alias);
 }
 
 void FstFile::move_to(std::uint64_t time) {

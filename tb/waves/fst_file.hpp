@@ -23,8 +23,8 @@ class FstFile {
 
   void open_scope(const std::string& name);
   void close_scope();
-  /// `width` 0: values are words.
-  Handle variable(const std::string& name, std::uint32_t width);
+  /// `width` 0: values are words. `alias`: one more name for this one.
+  Handle variable(const std::string& name, std::uint32_t width, Handle alias = 0);
   /// Time of the changes that follow, in ps; never decreases.
   void move_to(std::uint64_t time);
   /// `levels`: as many characters 0, 1, x, z as the variable is wide.

@@ -7,15 +7,27 @@
 
 namespace tb {
 
+namespace {
+
+std::string with_range(const std::string& name, int width) {
+  return width > 1 ? name + " [" + std::to_string(width - 1) + ":0]" : name;
+}
+
+}  // namespace
+
 WaveWriter::Signal FstWriter::wire(const std::string& name, int width) {
   widths_.push_back(width);
-  const std::string range = width > 1 ? " [" + std::to_string(width - 1) + ":0]" : "";
-  return file_.variable(name + range, static_cast<std::uint32_t>(width));
+  return file_.variable(with_range(name, width), static_cast<std::uint32_t>(width));
 }
 
 WaveWriter::Signal FstWriter::words(const std::string& name) {
   widths_.push_back(0);
   return file_.variable(name, 0);
+}
+
+void FstWriter::alias(const std::string& name, Signal of) {
+  const int width = widths_.at(of - 1);
+  file_.variable(with_range(name, width), static_cast<std::uint32_t>(width), of);
 }
 
 void FstWriter::move_to(bus::Tick at) {

@@ -16,6 +16,7 @@ class FstWriter : public WaveWriter {
   void close_scope() override { file_.close_scope(); }
   Signal wire(const std::string& name, int width) override;
   Signal words(const std::string& name) override;
+  void alias(const std::string& name, Signal of) override;
   void set(bus::Tick at, Signal signal, int level) override;
   void say(bus::Tick at, Signal signal, std::string_view word) override;
   void save(bus::Tick at) override;

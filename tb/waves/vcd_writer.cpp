@@ -35,17 +35,24 @@ VcdWriter::VcdWriter(const std::string& path) : file_(path) {
 void VcdWriter::open_scope(const std::string& name) { file_.write(fmt::format("$scope module {} $end\n", name)); }
 void VcdWriter::close_scope() { file_.write("$upscope $end\n"); }
 
-WaveWriter::Signal VcdWriter::declare(const char* type, const std::string& name, int width) {
+WaveWriter::Signal VcdWriter::add(const std::string& name, int width) {
   const auto signal = static_cast<Signal>(widths_.size());
   widths_.push_back(width);
   names_.push_back(identifier(signal, width == kWords));
-  const std::string range = width > 1 ? fmt::format(" [{}:0]", width - 1) : "";
-  file_.write(fmt::format("$var {} {} {} {}{} $end\n", type, std::max(width, 1), names_.back(), name, range));
+  declare(name, signal);
   return signal;
 }
 
-WaveWriter::Signal VcdWriter::wire(const std::string& name, int width) { return declare("wire", name, width); }
-WaveWriter::Signal VcdWriter::words(const std::string& name) { return declare("string", name, kWords); }
+void VcdWriter::declare(const std::string& name, Signal signal) {
+  const int width = widths_.at(signal);
+  const std::string range = width > 1 ? fmt::format(" [{}:0]", width - 1) : "";
+  const char* const type = width == kWords ? "string" : "wire";
+  file_.write(fmt::format("$var {} {} {} {}{} $end\n", type, std::max(width, 1), names_.at(signal), name, range));
+}
+
+WaveWriter::Signal VcdWriter::wire(const std::string& name, int width) { return add(name, width); }
+WaveWriter::Signal VcdWriter::words(const std::string& name) { return add(name, kWords); }
+void VcdWriter::alias(const std::string& name, Signal of) { declare(name, of); }
 
 Picoseconds VcdWriter::in_order(bus::Tick at) {
   if (at < now_) throw std::logic_error("wave changes out of order");

@@ -17,6 +17,7 @@ class VcdWriter : public WaveWriter {
   void close_scope() override;
   Signal wire(const std::string& name, int width) override;
   Signal words(const std::string& name) override;
+  void alias(const std::string& name, Signal of) override;
   void set(bus::Tick at, Signal signal, int level) override;
   void say(bus::Tick at, Signal signal, std::string_view word) override;
   void save(bus::Tick /*at*/) override { file_.flush(); }
@@ -28,7 +29,8 @@ class VcdWriter : public WaveWriter {
   void finish(Picoseconds end) override;
 
  private:
-  Signal declare(const char* type, const std::string& name, int width);
+  Signal add(const std::string& name, int width);
+  void declare(const std::string& name, Signal signal);
   void move_to(Picoseconds at);
   Picoseconds in_order(bus::Tick at);
 

@@ -23,7 +23,7 @@ constexpr std::string_view kNotRecorded = "(not recorded)";
 SelectedWave::SelectedWave(std::unique_ptr<WaveWriter> writer, WaveSelection selection)
     : writer_(std::move(writer)), selection_(std::move(selection)) {
   if (!selection_.clock) return;
-  writer_->open_scope("clock");
+  writer_->open_scope(kClockScope);
   clock_ = writer_->wire("CLK", 1);
   writer_->close_scope();
 }

@@ -12,6 +12,9 @@
 
 namespace tb {
 
+/// The scope of CLK.
+constexpr const char* kClockScope = "clock";
+
 struct WaveSelection {
   /// Patterns of the shell (* ? [..]) on "scope.signal"; none: every signal.
   std::vector<std::string> signals;

@@ -33,6 +33,8 @@ class WaveWriter {
   virtual Signal wire(const std::string& name, int width) = 0;
   /// A signal whose values are words, like a state.
   virtual Signal words(const std::string& name) = 0;
+  /// One more name, in the scope that is open, for a signal that is declared already.
+  virtual void alias(const std::string& name, Signal of) = 0;
 
   // Changes; `at` never decreases (std::logic_error).
   virtual void set(bus::Tick at, Signal signal, int level) = 0;

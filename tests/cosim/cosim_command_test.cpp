@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
 
+#include "tb/waves/wave_reader.hpp"
 #include "tests/app/program.hpp"
 
 namespace {
@@ -13,6 +18,11 @@ using app_test::call;
 using testing::HasSubstr;
 
 constexpr const char* kSource = DSDPV1_SOURCE_DIR;
+
+/// examples/own_rtl in the folder of the test.
+void copy_example(const app_test::Folder& folder) {
+  std::filesystem::copy(kSource + std::string("/examples/own_rtl"), folder.file("own_rtl"));
+}
 
 std::string example(const app_test::Folder& folder, const std::string& pins) {
   return "cosim --rtl examples/own_rtl --top board_chip --pins " + pins + " --build '" + folder.file("build") +
@@ -36,9 +46,13 @@ TEST(RtlRandom, ProgressIsOneLineWrittenOverItself) {
   EXPECT_THAT(called.out, testing::Not(HasSubstr("\\r")));
 }
 
-TEST(Cosim, ExampleWithoutAResetValueHasAnUnknownPin) {
+/// As it stands, in a folder that has nothing of this project round it.
+TEST(Cosim, CopiedExampleBuildsUnchangedAndHasAnUnknownPin) {
   const app_test::Folder folder;
-  const app_test::Called called = call(example(folder, "examples/own_rtl/pins.yaml"), kSource);
+  copy_example(folder);
+  const app_test::Called called = call("cosim --rtl own_rtl --top board_chip --pins own_rtl/pins.yaml '" +
+                                           std::string(kSource) + "/scenarios/two_slaves.yaml'",
+                                       folder.path());
   EXPECT_EQ(called.status, 1) << called.err;
   EXPECT_THAT(called.out, HasSubstr("pin INTR0: model 1, RTL X"));
   EXPECT_THAT(called.out, HasSubstr("first difference  cycle 0 "));
@@ -88,6 +102,78 @@ TEST(Cosim, FolderWithoutRtlIsNamed) {
       call("cosim --rtl . --top chip '" + std::string(kSource) + "/scenarios/two_slaves.yaml'", folder.path());
   EXPECT_EQ(called.status, 2);
   EXPECT_EQ(called.err, ".: holds no RTL, allowed are .sv and .v files\n");
+}
+
+/// A wave's changes by the names of the signals.
+struct Wave {
+  using Changes = std::vector<std::pair<std::uint64_t, std::string>>;
+  std::map<std::string, Changes> signals;
+
+  explicit Wave(const std::string& path) {
+    const auto reader = tb::read_wave(path);
+    const tb::WaveDeclarations& declared = reader->declarations();
+    std::vector<Changes> changes(declared.signals.size());
+    for (tb::WaveEvent event; reader->next(event);) changes[event.signal].emplace_back(event.time, event.value);
+    for (const tb::WaveVariable& each : declared.variables)
+      signals[declared.scopes[each.scope] + "." + each.name] = changes[each.signal];
+  }
+  bool has(const std::string& name) const { return signals.count(name) != 0; }
+};
+
+std::string line_with(const std::string& text, const std::string& word) {
+  const std::size_t at = text.find(word);
+  return at == std::string::npos ? "none" : text.substr(at, text.find('\n', at) - at);
+}
+
+/// One build for all of it: the pulse of INTR0 is 60 cycles long, P7 asks for 64.
+TEST(OwnRtl, DefectIsFoundAtRandomShownFromInsideAndPlayedAgainExactly) {
+  const app_test::Folder folder;
+  copy_example(folder);
+  std::ofstream(folder.file("own_rtl/pins.yaml"), std::ios::app)
+      << "parameters: {RESET_VALUE: 1, SEARCH_WINDOW_MS: 1}\n";
+  const std::string rtl =
+      " --rtl own_rtl --top board_chip --pins own_rtl/pins.yaml --set chip.search_window_ms=1 --wave inside.fst ";
+
+  const app_test::Called found =
+      call("rtl-random" + rtl + "--seed 3 --stimulus short.stimulus --log case.log --result found.json", folder.path());
+  EXPECT_EQ(found.status, 1) << found.err;
+  EXPECT_THAT(found.out, HasSubstr("dsdpv1-sim rtl-random --rtl own_rtl --top board_chip --pins own_rtl/pins.yaml "
+                                   "--set chip.search_window_ms=1 --seed 3 --replay short.stimulus\n"));
+  const auto json = nlohmann::json::parse(app_test::read(folder.file("found.json")));
+  EXPECT_EQ(json["verdict"], "different");
+  EXPECT_EQ(json["difference"]["what"], "pin INTR0: model no such change within the tolerance, RTL 1");
+  const std::uint64_t cycle = json["difference"]["cycle"], picoseconds = (cycle * 125'000 + 3) / 6;
+  EXPECT_THAT(app_test::read(folder.file("case.log")), HasSubstr("lockstep     difference pin INTR0"));
+
+  const Wave wave(folder.file("inside.fst"));
+  for (const char* name : {"bus.telegram", "chip.INTR0", "chip.inside.owner", "chip.rtl.board_chip.count_q",
+                           "chip.rtl.board_chip.u_chip.clk_i"})
+    EXPECT_TRUE(wave.has(name)) << name;
+  const Wave::Changes& marker = wave.signals.at("lockstep.difference");
+  EXPECT_EQ(marker.back().first, picoseconds);
+  const Wave::Changes& interrupt = wave.signals.at("chip.rtl.irq");
+  EXPECT_THAT(interrupt, testing::Contains(std::make_pair(picoseconds, std::string("0"))));
+
+  const app_test::Called again =
+      call("rtl-random" + rtl + "--replay short.stimulus --result again.json", folder.path());
+  EXPECT_EQ(again.status, 1) << again.err;
+  EXPECT_EQ(line_with(again.out, "first difference"), line_with(found.out, "first difference"));
+  EXPECT_EQ(nlohmann::json::parse(app_test::read(folder.file("again.json")))["difference"], json["difference"]);
+
+  const app_test::Called run = call(
+      "cosim" + rtl + "--log run.log --result run.json '" + kSource + "/scenarios/two_slaves.yaml'", folder.path());
+  EXPECT_EQ(run.status, 1) << run.err;
+  const auto result = nlohmann::json::parse(app_test::read(folder.file("run.json")));
+  EXPECT_FALSE(result["passed"]);
+  EXPECT_EQ(result["lockstep"]["difference"]["slave"], "large");
+  EXPECT_LT(result["simulated_ns"], result["lockstep"]["difference"]["at_ns"].get<double>() + 1e4);
+  EXPECT_THAT(app_test::read(folder.file("run.log")), testing::Not(HasSubstr("FAILED")));
+  const Wave both(folder.file("inside.fst"));
+  for (const char* name : {"bus.line", "io.dp_state", "io.inside.item", "io.rtl.irq", "large.rtl.board_chip.count_q",
+                           "lockstep.difference"})
+    EXPECT_TRUE(both.has(name)) << name;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.file("build/cosim")))
+    EXPECT_EQ(entry.path().filename(), "traced") << "a part of a wave is left";
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST_F(PinMapFile, WithoutKeysHasTheNamesOfTheReferenceRtl) {
 TEST_F(PinMapFile, NamesPolaritiesAndTolerancesAreRead) {
   const cosim::PinMap map = load(
       "clock: clk48\npins:\n  CSR: {port: cs, inverted: true}\n  RD: rd_n\ntolerance: {PBTXD: 3}\n"
-      "parameters: {WIDTH: 8}\nfiles: [a.sv]\ninclude: [lib]\n");
+      "parameters: {WIDTH: 8}\nfiles: [a.sv]\ninclude: [lib]\nreference: true\n");
   EXPECT_EQ(map.clock.name, "clk48");
   EXPECT_EQ(map.pins.at("CSR").name, "cs");
   EXPECT_TRUE(map.pins.at("CSR").inverted);
@@ -59,12 +59,13 @@ TEST_F(PinMapFile, NamesPolaritiesAndTolerancesAreRead) {
   EXPECT_EQ(map.tolerances.at(static_cast<std::size_t>(Pin::kIntr0)), 0);
   EXPECT_EQ(map.parameters.at("WIDTH"), "8");
   EXPECT_THAT(map.files, testing::ElementsAre("a.sv"));
+  EXPECT_TRUE(map.reference);
 }
 
 TEST_F(PinMapFile, WrongContentIsNamedWithItsLineAndWhatIsAllowed) {
-  EXPECT_EQ(
-      error_of("clock: c\npinns: {}\n"),
-      ":2: unknown name pinns (did you mean pins?), allowed are clock, pins, tolerance, parameters, files, include");
+  EXPECT_EQ(error_of("clock: c\npinns: {}\n"),
+            ":2: unknown name pinns (did you mean pins?), allowed are clock, pins, tolerance, parameters, files, "
+            "include, reference");
   EXPECT_THAT(error_of("pins:\n  L_RQE: x\n"),
               HasSubstr(":2: unknown name L_RQE (did you mean L_REQ?), allowed are A,"));
   EXPECT_EQ(error_of("pins:\n  RD: {port: r, inverted: maybe}\n"), ":2: is maybe, allowed are true, false");
@@ -72,9 +73,11 @@ TEST_F(PinMapFile, WrongContentIsNamedWithItsLineAndWhatIsAllowed) {
             ":2: is no port, allowed are NAME and {port: NAME, inverted: true}");
   EXPECT_EQ(error_of("tolerance:\n  INTR0: 1001\n"), ":2: is 1001, allowed are 0 to 1000 cycles");
   EXPECT_THAT(error_of("tolerance: {RD: 1}\n"), HasSubstr(":1: unknown name RD"));
-  EXPECT_EQ(error_of("- a\n"), ":1: is no map, allowed are clock, pins, tolerance, parameters, files, include");
+  EXPECT_EQ(error_of("- a\n"),
+            ":1: is no map, allowed are clock, pins, tolerance, parameters, files, include, reference");
   EXPECT_THAT(error_of("pins: {\n"), HasSubstr("allowed is YAML"));
   EXPECT_THAT(error_of("pins: 5\n"), HasSubstr(":1: pins is no map"));
+  EXPECT_EQ(error_of("reference: yes\n"), ":1: is yes, allowed are true, false");
   EXPECT_THAT(error_of("files: a.sv\n"), HasSubstr(":1: files is no list"));
 }
 
@@ -85,12 +88,18 @@ TEST(Adapter, InvertsWhereTheMapSaysSo) {
   map.pins["CSR"] = {"cs", true};
   map.pins["INTR0"] = {"irq", true};
   map.pins["D_OUT"] = {"q", true};
-  const std::string text = cosim::adapter_source("chip", map);
+  const std::string text = cosim::adapter_source("chip", map, false);
   EXPECT_THAT(text, HasSubstr("model.cs = !in["));
   EXPECT_THAT(text, HasSubstr("= !model.irq;"));
   EXPECT_THAT(text, HasSubstr("= ~model.q;"));
   EXPECT_THAT(text, HasSubstr("model.rd_i = in["));
   EXPECT_THAT(text, HasSubstr("= model.l_req_o;"));
+}
+
+TEST(Adapter, HasATraceWhereItIsWantedOnly) {
+  const cosim::PinMap map = cosim::default_pin_map();
+  EXPECT_THAT(cosim::adapter_source("chip", map, false), testing::Not(HasSubstr("race")));
+  EXPECT_THAT(cosim::adapter_source("chip", map, true), HasSubstr("dsdpv1_rtl_trace("));
 }
 
 }  // namespace

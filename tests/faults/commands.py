@@ -85,13 +85,16 @@ class OfServe(Output):
 
 
 class OfReplay(Output):
-    """The wave of a difference: of a case that is there already, which is quicker."""
+    """What a difference leaves: of a case that is there already, which is quicker."""
 
     usual = 1
     other_input = "case.stimulus"
 
-    def __init__(self, kind, file):
-        super().__init__(kind, file, "rtl-random", "--replay", self.other_input, "--fault", RTL_FAULT, "--difference")
+    others = {"--log": "--result", "--result": "--log"}
+
+    def __init__(self, kind, file, option="--difference"):
+        nowhere = [] if option == "--difference" else ["--difference", "nowhere.vcd"]
+        super().__init__(kind, file, "rtl-random", "--replay", self.other_input, "--fault", RTL_FAULT, *nowhere, option)
 
 
 class OfRandom(Output):
@@ -129,7 +132,7 @@ LOG, RESULT, CAPTURE = ("log", "o.log", "--log"), ("result", "o.json", "--result
 OUTPUTS = [*(OfRun(*each) for each in [*WAVES, LOG, ("log .jsonl", "o.jsonl", "--log"), RESULT, ("trace", "o.txt", "--trace"), CAPTURE]),
            *(OfServe(*each) for each in [*WAVES, LOG, RESULT, CAPTURE]),
            Output("", "o.schema", "schema", "--output"), Output("", "o.md", "reasons", "--markdown", "--output"), OfRecover()]
-OF_RTL = [OfReplay("difference .fst", "o.fst"), OfReplay("difference .vcd", "o.vcd"), OfRandom(), OfFaults()]
+OF_RTL = [OfReplay("difference .fst", "o.fst"), OfReplay("difference .vcd", "o.vcd"), OfReplay(*LOG), OfReplay(*RESULT), OfRandom(), OfFaults()]
 SPEAKERS = [Output("", "o.log", "run", "s.yaml", "--log"), *(Output("", "", *words) for words in (
     ["schema"], ["reasons"], ["gsd", "device.gsd"], ["decode", "whole.log"]))]
 

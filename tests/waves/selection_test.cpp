@@ -25,6 +25,7 @@ class Notes : public tb::WaveWriter {
     names_.push_back(scope_ + name);
     return static_cast<Signal>(names_.size() - 1);
   }
+  void alias(const std::string& /*name*/, Signal /*of*/) override { FAIL(); }
   void set(bus::Tick at, Signal signal, int level) override { say(at, signal, std::to_string(level)); }
   void say(bus::Tick at, Signal signal, std::string_view word) override {
     EXPECT_GE(at, now_);

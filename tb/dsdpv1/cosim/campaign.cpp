@@ -40,7 +40,7 @@ class Campaign {
       number = played_.size();
       played_.emplace_back();
     }
-    PlayResult result = play(random_stimulus(case_seed(options_.seed, number)), make_, quick_options());
+    PlayResult result = play(random_stimulus(case_seed(options_.seed, number)), make_, options_.play);
     const std::lock_guard<std::mutex> lock(mutex_);
     cycles_ += result.counts.cycles;
     differs_ = differs_ || result.difference;

@@ -9,9 +9,13 @@
 
 namespace cosim {
 
+/// How random cases and directed stimuli are played on the reference RTL.
+PlayOptions quick_options();
+
 struct CampaignOptions {
   std::uint64_t seed = 1, cycles = 0;  ///< cases are begun until so many cycles are compared
   unsigned jobs = 1;                   ///< threads
+  PlayOptions play = quick_options();
 };
 
 /// The same for the same seed and cycles, however many threads there are.
@@ -33,11 +37,8 @@ std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number);
 CampaignResult run_campaign(const CampaignOptions& options, const MakeTop& make, const CampaignProgress& progress = {});
 
 /// A shorter stimulus that still differs: actions are left out, then delays and faults, as long as there is a
-/// difference. At most `runs` runs.
-Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs);
-
-/// How random cases and directed stimuli are played.
-PlayOptions quick_options();
+/// difference. At most `runs` runs, each with `options`.
+Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs, const PlayOptions& options = quick_options());
 
 /// Calls `work` on so many threads, each until it returns false; throws what the first of them threw.
 void in_parallel(unsigned jobs, const std::function<bool()>& work);

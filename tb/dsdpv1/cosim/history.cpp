@@ -14,6 +14,8 @@ bool belongs(Side side, Pin pin) { return dsdpv1::is_input(pin) == (side == Side
 
 }  // namespace
 
+const char* name(Side side) { return kScopes.at(static_cast<std::size_t>(side)); }
+
 void History::add(Tick at, Side side, Pin pin, Level level) {
   changes_.push_back({at, side, pin, level});
   forget_before(at - span_);

@@ -17,6 +17,8 @@ using dsdpv1::Tick;
 
 enum class Side : std::uint8_t { kInput, kModel, kRtl };
 constexpr std::size_t kSides = 3;
+/// "inputs", "model", "rtl".
+const char* name(Side side);
 
 class History {
  public:

@@ -63,10 +63,15 @@ void Lockstep::watch(const dsdpv1::PinSink& sink, std::uint32_t pins) {
 void Lockstep::set(Tick at, Pin pin, Level level) {
   advance(at);
   if (model_.level(pin) == level) return;
-  history_.add(at, Side::kInput, pin, level);
+  note(at, Side::kInput, pin, level);
   note_input(at, pin, level);
   model_.set(at, pin, level);
   rtl_.set(at, pin, level);
+}
+
+void Lockstep::note(Tick at, Side side, Pin pin, Level level) {
+  history_.add(at, side, pin, level);
+  if (on_pin_) on_pin_(at, side, pin, level);
 }
 
 void Lockstep::note_input(Tick at, Pin pin, Level level) {
@@ -89,7 +94,7 @@ void Lockstep::advance(Tick to) {
 }
 
 void Lockstep::model_changed(Tick at, Pin pin, Level level) {
-  history_.add(at, Side::kModel, pin, level);
+  note(at, Side::kModel, pin, level);
   if (!difference_) comparator_.model_changed(at, pin, level);
   watch_.change(at, pin, level);
   if (pin == Pin::kLReq && level == 0 && model_.level(Pin::kReset) != 0) ended_ = at;
@@ -97,7 +102,7 @@ void Lockstep::model_changed(Tick at, Pin pin, Level level) {
 }
 
 void Lockstep::rtl_changed(Tick at, Pin pin, Level level) {
-  history_.add(at, Side::kRtl, pin, level);
+  note(at, Side::kRtl, pin, level);
   if (!difference_) comparator_.rtl_changed(at, pin, level);
 }
 
@@ -154,6 +159,8 @@ void Lockstep::write_wave(const std::string& path) {
   constexpr Tick kAfterwards = 200 * kCycle;
   const Tick end = std::max(model_.now(), rtl_.now()) + kAfterwards;
   sink_ = {};
+  on_pin_ = {};
+  model_.on_event({});
   model_.advance(end);
   rtl_.advance(end);
   history_.write_wave(path, end);

@@ -1,9 +1,11 @@
 #pragma once
 // Model and RTL side by side on the same inputs: every change of every output pin is compared, and the DPRAM at the end
 // of each access that can have changed it. Whoever drives the chip sees the model's outputs.
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/cosim/access_watch.hpp"
@@ -58,17 +60,22 @@ class Lockstep {
   }
   void watch(const dsdpv1::PinSink& sink, std::uint32_t pins);
   void on_event(const profibus::EventSink& sink) { model_.on_event(sink); }
+  /// Told each change at the pins of all sides: of each side in order of time, the sides in turns.
+  using PinListener = std::function<void(Tick at, Side side, Pin pin, Level level)>;
+  void on_pin(PinListener listener) { on_pin_ = std::move(listener); }
 
   const dsdpv1::Chip& model() const { return model_; }
   /// The first difference; nothing is compared after it.
   const std::optional<Difference>& difference() const { return difference_; }
   const MatchCounts& counts() const;
   /// The last cycles of both sides; they are run some cycles further, so that the wave shows what follows a difference.
+  /// Nobody else is told of that.
   void write_wave(const std::string& path);
 
  private:
   void model_changed(Tick at, Pin pin, Level level);
   void rtl_changed(Tick at, Pin pin, Level level);
+  void note(Tick at, Side side, Pin pin, Level level);
   void note_input(Tick at, Pin pin, Level level);
   void access_ended(Tick at);
   bool dpram_may_have_changed(Tick at);
@@ -82,6 +89,7 @@ class Lockstep {
   PinComparator comparator_;
   History history_;
   dsdpv1::PinSink sink_;
+  PinListener on_pin_;
   std::uint32_t watched_ = 0;
   AccessWatch watch_;
   Tick last_write_ = -1;

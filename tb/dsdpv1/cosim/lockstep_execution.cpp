@@ -47,8 +47,8 @@ class RtlExecution : public tb::Execution {
 
   std::unique_ptr<tb::ChipView> make_chip(const tb::ChipMaker& maker, const tb::ChipRequest& request) override {
     const dsdpv1::Config config = config_with_rtl(maker, request);
-    auto chip = std::make_unique<tb::PinChip>(request.name, std::make_unique<RtlDevice>(config, make_(config)),
-                                              request.watched, segment_);
+    auto chip = std::make_unique<tb::PinChip>(
+        request.name, std::make_unique<RtlDevice>(config, make_(request.name, config)), request.watched, segment_);
     timeline_.add(*chip);
     return chip;
   }
@@ -64,8 +64,10 @@ class RtlExecution : public tb::Execution {
 }  // namespace
 
 MakeRtl reference_rtl(unsigned fault, std::uint32_t seed) {
-  if (fault == 0) return [seed](const dsdpv1::Config& config) { return make_reference_rtl(config, seed); };
-  return [fault, seed](const dsdpv1::Config& config) { return make_faulty_rtl(config, fault, seed); };
+  if (fault == 0)
+    return [seed](const std::string&, const dsdpv1::Config& config) { return make_reference_rtl(config, seed); };
+  return
+      [fault, seed](const std::string&, const dsdpv1::Config& config) { return make_faulty_rtl(config, fault, seed); };
 }
 
 std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make) {
@@ -74,17 +76,18 @@ std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make) {
 
 std::unique_ptr<tb::ChipView> LockstepExecution::make_chip(const tb::ChipMaker& maker, const tb::ChipRequest& request) {
   const dsdpv1::Config config = config_with_rtl(maker, request);
-  auto device = std::make_unique<LockstepDevice>(config, make_(config), options_);
+  auto device = std::make_unique<LockstepDevice>(config, make_(request.name, config), options_);
   chips_.push_back({request.name, &device->lockstep()});
   auto chip = std::make_unique<tb::PinChip>(request.name, std::move(device), request.watched, segment_);
+  if (request.inside) chip->watch_inside();
   timeline_.add(*chip);
   return chip;
 }
 
 void LockstepExecution::run(tb::Tick end, const std::function<bool()>& stopped) {
-  while (!stopped() && different() == nullptr && timeline_.step(end)) {
+  while (!stopped() && !broken_off() && timeline_.step(end)) {
   }
-  const Tick reached = stopped() || different() != nullptr ? timeline_.now() : std::max(end, timeline_.now());
+  const Tick reached = stopped() || broken_off() ? timeline_.now() : std::max(end, timeline_.now());
   for (const Chip& chip : chips_) chip.lockstep->advance(reached);
 }
 
@@ -111,12 +114,23 @@ MatchCounts LockstepExecution::counts() const {
   return sum;
 }
 
+tb::LockstepResult LockstepExecution::result() {
+  const MatchCounts sum = counts();
+  tb::LockstepResult result{sum.cycles, sum.pin_changes, sum.dpram_images, {}};
+  const Lockstep* found = different();
+  if (found == nullptr) return result;
+  const Difference& difference = *found->difference();
+  result.cycles = found->counts().cycles;
+  result.difference = {different_name(),         difference.at,          difference.what,
+                       difference.last_telegram, difference.last_access, difference.dpram_accesses};
+  return result;
+}
+
 bool report(LockstepExecution& execution, const std::string& wave, std::string& text) {
-  MatchCounts counts = execution.counts();
+  const tb::LockstepResult result = execution.result();
   Lockstep* different = execution.different();
-  if (different != nullptr) counts.cycles = different->counts().cycles;
   text = fmt::format("lockstep          {} cycles, {} pin changes and {} DPRAM images of model and RTL are the same\n",
-                     counts.cycles, counts.pin_changes, counts.dpram_images);
+                     result.cycles, result.pin_changes, result.dpram_images);
   if (different == nullptr) return true;
   text += fmt::format("chip              {}\n{}", execution.different_name(), describe(*different->difference()));
   if (!wave.empty()) {

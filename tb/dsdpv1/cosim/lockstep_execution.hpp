@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "tb/bench/execution.hpp"
+#include "tb/bench/record.hpp"
 #include "tb/dsdpv1/cosim/lockstep.hpp"
 
 namespace cosim {
 
-/// Makes the RTL of a chip with these parameters; may throw tb::InputError.
-using MakeRtl = std::function<std::unique_ptr<RtlTop>(const dsdpv1::Config& config)>;
+/// Makes the RTL of the chip with this name and these parameters; may throw tb::InputError.
+using MakeRtl = std::function<std::unique_ptr<RtlTop>(const std::string& name, const dsdpv1::Config& config)>;
 
 constexpr std::uint32_t kUsualSeed = 1;
 
@@ -31,11 +32,14 @@ class LockstepExecution : public tb::Execution {
   std::unique_ptr<tb::ChipView> make_chip(const tb::ChipMaker& maker, const tb::ChipRequest& request) override;
   void run(tb::Tick end, const std::function<bool()>& stopped) override;
 
+  bool broken_off() override { return different() != nullptr; }
   /// The chip with the first difference, null when there was none.
   Lockstep* different();
   const std::string& different_name();
   /// Of all chips together; cycles of the one compared furthest.
   MatchCounts counts() const;
+  /// Counts up to the first difference, and that.
+  tb::LockstepResult result();
 
  private:
   struct Chip {

@@ -20,7 +20,7 @@ class Reader {
 
   PinMap read() {
     const YAML::Node root = load();
-    check_keys(root, {"clock", "pins", "tolerance", "parameters", "files", "include"});
+    check_keys(root, {"clock", "pins", "tolerance", "parameters", "files", "include", "reference"});
     for (const char* key : {"pins", "tolerance", "parameters"})
       if (root[key] && !root[key].IsMap()) fail(root[key], std::string(key) + " is no map, allowed is NAME: VALUE");
     for (const char* key : {"files", "include"})
@@ -32,6 +32,7 @@ class Reader {
     for (const auto& each : root["parameters"]) map_.parameters[text(each.first)] = text(each.second);
     for (const auto& each : root["files"]) map_.files.push_back(text(each));
     for (const auto& each : root["include"]) map_.include.push_back(text(each));
+    if (root["reference"]) map_.reference = truth(root["reference"]);
     return map_;
   }
 
@@ -43,7 +44,7 @@ class Reader {
     try {
       YAML::Node root = YAML::Load(tb::read_file(path_, tb::kPinMapFile));
       if (!root.IsMap() && !root.IsNull())
-        fail(root, "is no map, allowed are clock, pins, tolerance, parameters, files, include");
+        fail(root, "is no map, allowed are clock, pins, tolerance, parameters, files, include, reference");
       return root;
     } catch (const YAML::ParserException& error) {
       throw tb::InputError(path_, error.mark.line + 1, error.msg + ", allowed is YAML");
@@ -66,11 +67,13 @@ class Reader {
     if (!node.IsMap() || !node["port"]) fail(node, "is no port, allowed are NAME and {port: NAME, inverted: true}");
     check_keys(node, {"port", "inverted"});
     Port port{text(node["port"]), false};
-    if (!node["inverted"]) return port;
-    const std::string value = text(node["inverted"]);
-    if (value != "true" && value != "false") fail(node["inverted"], "is " + value + ", allowed are true, false");
-    port.inverted = value == "true";
+    if (node["inverted"]) port.inverted = truth(node["inverted"]);
     return port;
+  }
+  bool truth(const YAML::Node& node) const {
+    const std::string value = text(node);
+    if (value != "true" && value != "false") fail(node, "is " + value + ", allowed are true, false");
+    return value == "true";
   }
   std::vector<std::string> names() const {
     std::vector<std::string> names;

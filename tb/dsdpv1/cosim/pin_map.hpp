@@ -9,6 +9,7 @@
 //   parameters: {SEARCH_WINDOW_MS: 5}
 //   files: [chip.sv, uart.sv]         # left out: every .sv and .v of the folder
 //   include: [../lib]                 # folders for `include and for modules that no file holds
+//   reference: true                   # ... and those of the reference RTL after them
 #include <map>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct PinMap {
   Tolerances tolerances{};
   std::map<std::string, std::string> parameters;
   std::vector<std::string> files, include;  ///< relative to the folder of the RTL
+  bool reference = false;                   ///< modules that neither has are those of the reference RTL
 };
 
 /// The names of rtl_ref/: table 1's in lower case, _i and _o.

@@ -1,8 +1,10 @@
 #include "tb/dsdpv1/cosim/player.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "bus/monitor/monitor.hpp"
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
@@ -19,6 +21,7 @@ class ChipAgent : public bus::Agent, private bus::Listener {
  public:
   ChipAgent(const PlayOptions& options, std::unique_ptr<RtlTop> top, bus::Segment& segment)
       : lockstep_(options.config, std::move(top), options.lockstep),
+        listeners_(options.listeners),
         segment_(segment),
         station_(segment.attach("chip", this)) {
     lockstep_.watch(
@@ -29,6 +32,7 @@ class ChipAgent : public bus::Agent, private bus::Listener {
   void run(Tick now) override {
     lockstep_.advance(now);
     tell();
+    for (PlayListener* each : listeners_) each->evaluated(now, lockstep_.model());
   }
   Lockstep& lockstep() { return lockstep_; }
   Level level(Pin pin) const { return lockstep_.level(pin); }
@@ -57,6 +61,7 @@ class ChipAgent : public bus::Agent, private bus::Listener {
   void line_changed(Tick at, bool level) override { set(at, Pin::kPbrxd, level ? 1 : 0); }
 
   Lockstep lockstep_;
+  const std::vector<PlayListener*>& listeners_;
   bus::Segment& segment_;
   bus::StationId station_;
   bool enabled_ = false, level_ = true;
@@ -243,14 +248,20 @@ class Player {
         board_(chip_) {
     timeline_.add(chip_);
     for (Place& place : places_) timeline_.add(*place.lane);
-    lockstep().on_event(
-        {[](void* self, const profibus::Event& event) { static_cast<Coverage*>(self)->happened(event); }, &coverage_});
+    lockstep().on_event({[](void* self, const profibus::Event& event) {
+                           auto& player = *static_cast<Player*>(self);
+                           player.coverage_.happened(event);
+                           for (PlayListener* each : player.options_.listeners) each->event(event);
+                         },
+                         this});
+    if (!options.listeners.empty()) listen();
   }
 
   PlayResult run() {
     while (!lockstep().difference() && timeline_.now() < options_.limit && (hand_out() || !all_idle()))
       if (!timeline_.step(options_.limit)) break;
     finish();
+    for (PlayListener* each : options_.listeners) each->ends(timeline_.now(), lockstep());
     PlayResult result{lockstep().difference(), lockstep().counts(), begun_, coverage_};
     if (result.difference && !options_.wave.empty()) lockstep().write_wave(options_.wave);
     return result;
@@ -262,6 +273,18 @@ class Player {
     std::size_t next = 0;  ///< of the stimulus
   };
   Lockstep& lockstep() { return chip_.lockstep(); }
+  /// Somebody wants to know what happens: pins of all sides, and telegrams, which nobody else here reads.
+  void listen() {
+    lockstep().on_pin([this](Tick at, Side side, Pin pin, Level level) {
+      for (PlayListener* each : options_.listeners) each->pin(at, side, pin, level);
+    });
+    monitor_.emplace(segment_);
+    monitor_->on_telegram = [this](const bus::WireTelegram& telegram) {
+      for (PlayListener* each : options_.listeners) each->telegram(timeline_.now(), telegram);
+    };
+    timeline_.add(*monitor_);
+    for (PlayListener* each : options_.listeners) each->begins(lockstep());
+  }
 
   /// Gives every idle lane its next action before the next `sync`; when there is none for any, `sync` is over.
   bool hand_out() {
@@ -278,6 +301,7 @@ class Player {
       if (!place.lane->takes(action.verb)) continue;
       place.lane->begin(timeline_.now() + action.delay, action);
       if (action.verb == Verb::kSend) coverage_.sent(action.bytes, action.faults);
+      if (action.verb == Verb::kSend && monitor_ && monitor_->baud() != action.rate) monitor_->set_baud(action.rate);
       begun_ = std::max(begun_, ++place.next);
       return true;
     }
@@ -312,6 +336,7 @@ class Player {
   BusLane bus_;
   UserLane user_;
   BoardLane board_;
+  std::optional<bus::Monitor> monitor_;
   Place places_[3] = {{&bus_}, {&user_}, {&board_}};
   std::size_t sync_ = 0, passed_ = 0, begun_ = 0;
   Coverage coverage_;

@@ -3,9 +3,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tb/dsdpv1/cosim/coverage.hpp"
 #include "tb/dsdpv1/cosim/lockstep.hpp"
+#include "tb/dsdpv1/cosim/play_listener.hpp"
 #include "tb/dsdpv1/cosim/stimulus.hpp"
 
 namespace cosim {
@@ -18,6 +21,7 @@ struct PlayOptions {
   LockstepOptions lockstep;
   std::string wave;            ///< for the wave of a difference; empty: none
   Tick limit = Tick{1} << 50;  ///< the run ends here at the latest
+  std::vector<PlayListener*> listeners = {};
 };
 
 struct PlayResult {

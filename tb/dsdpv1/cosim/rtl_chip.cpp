@@ -37,7 +37,9 @@ bool acts_at_once(Pin pin) { return pin == Pin::kReset || pin == Pin::kCsr || pi
 
 }  // namespace
 
-RtlChip::RtlChip(std::unique_ptr<RtlTop> top) : top_(std::move(top)) { power_up(); }
+RtlChip::RtlChip(std::unique_ptr<RtlTop> top) : top_(std::move(top)), timed_(dynamic_cast<TimedTop*>(top_.get())) {
+  power_up();
+}
 
 /// Before time begins: some cycles out of reset and some in it, so that every asynchronous reset has had its edge.
 void RtlChip::power_up() {
@@ -87,6 +89,7 @@ void RtlChip::advance(Tick to) {
 }
 
 void RtlChip::eval(Tick at) {
+  if (timed_ != nullptr) timed_->moment(at);
   top_->eval();
   if (top_->out == last_) return;
   const RtlOutputs before = last_;

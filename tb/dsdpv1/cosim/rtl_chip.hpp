@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "model/dsdpv1/pins.hpp"
-#include "tb/dsdpv1/cosim/rtl_top.hpp"
+#include "tb/dsdpv1/cosim/rtl_trace.hpp"
 
 namespace cosim {
 
@@ -39,6 +39,7 @@ class RtlChip {
   void report(Tick at, const RtlOutputs& before);
 
   std::unique_ptr<RtlTop> top_;
+  TimedTop* timed_;  ///< null: the design does not want to know the time
   dsdpv1::PinSink sink_;
   std::uint32_t watched_ = 0;
   RtlOutputs last_;

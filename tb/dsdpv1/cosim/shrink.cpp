@@ -7,8 +7,8 @@ namespace {
 
 class Shrinker {
  public:
-  Shrinker(Stimulus stimulus, const MakeTop& make, int runs)
-      : best_(std::move(stimulus)), make_(make), options_(quick_options()), runs_(runs) {
+  Shrinker(Stimulus stimulus, const MakeTop& make, int runs, const PlayOptions& options)
+      : best_(std::move(stimulus)), make_(make), options_(options), runs_(runs) {
     cut_behind_difference();
   }
 
@@ -64,8 +64,8 @@ class Shrinker {
 
 }  // namespace
 
-Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs) {
-  return Shrinker(std::move(stimulus), make, runs).run();
+Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs, const PlayOptions& options) {
+  return Shrinker(std::move(stimulus), make, runs, options).run();
 }
 
 }  // namespace cosim

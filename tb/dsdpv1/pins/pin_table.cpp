@@ -17,4 +17,13 @@ const PinTable& dsdpv1_pins() {
   return pins;
 }
 
+const std::vector<PinGroup>& dsdpv1_pin_groups() {
+  // D_IN and D_OUT: of waves that show the two directions of D by themselves
+  static const std::vector<PinGroup> groups = {{"handshake", {"R_REQ", "L_REQ", "R_STA", "L_STA", "INTR0"}},
+                                               {"host", {"CSR", "RD", "WR", "A", "D", "D_IN", "D_OUT"}},
+                                               {"line", {"PBRXD", "PBTXD", "PBRTS"}},
+                                               {"status", {"RESET", "READY", "BR", "PBF"}}};
+  return groups;
+}
+
 }  // namespace tb

@@ -6,5 +6,7 @@
 namespace tb {
 
 const PinTable& dsdpv1_pins();
+/// In the order in which viewers of waves show them.
+const std::vector<PinGroup>& dsdpv1_pin_groups();
 
 }  // namespace tb

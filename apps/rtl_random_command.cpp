@@ -1,0 +1,240 @@
+// rtl-random: model and RTL in lockstep on random cases, or on a stimulus that is played again.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "apps/command_line.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/outputs.hpp"
+#include "apps/rtl_commands.hpp"
+#include "bus/printable.hpp"
+#include "tb/dsdpv1/cosim/campaign.hpp"
+#include "tb/dsdpv1/cosim/joined_wave.hpp"
+#include "tb/dsdpv1/cosim/play_log.hpp"
+#include "tb/dsdpv1/cosim/play_options.hpp"
+#include "tb/dsdpv1/cosim/play_wave.hpp"
+#include "tb/dsdpv1/cosim/random_stimulus.hpp"
+#include "tb/dsdpv1/cosim/stimulus_result.hpp"
+#include "tb/input/read_file.hpp"
+#include "tb/output/output_file.hpp"
+#include "tb/waves/wave_writer.hpp"
+
+namespace app {
+namespace {
+
+constexpr int kShrinkRuns = 600;
+constexpr const char* kCommand = "dsdpv1-sim rtl-random";
+constexpr const char* kChip = "chip";  // its scope in waves
+
+cosim::Stimulus read_stimulus(const std::string& path) {
+  return cosim::parse_stimulus(tb::read_file(path, tb::kStimulusFile), path);
+}
+
+std::string counts_text(const cosim::MatchCounts& counts) {
+  return fmt::format("{} cycles, {} pin changes, {} DPRAM images the same", counts.cycles, counts.pin_changes,
+                     counts.dpram_images);
+}
+
+/// The RTL that is played to, and how.
+struct Bench {
+  cosim::PlayOptions options;
+  cosim::MakeTop make;
+  cosim::MakeUserRtl make_own;  ///< null: it is the reference RTL
+};
+
+Bench bench_of(const RtlRandomArguments& arguments) {
+  Bench bench;
+  if (arguments.own.rtl.empty()) {
+    bench.options = cosim::quick_options();
+    cosim::set_parameters(bench.options, arguments.set);
+    bench.make = cosim::reference_top(bench.options, arguments.fault, static_cast<std::uint32_t>(arguments.seed));
+    return bench;
+  }
+  const OwnRtl own = build_own_rtl(arguments.own, kCommand, !arguments.wave.empty());
+  bench.options = cosim::own_rtl_options(own.map.tolerances);
+  cosim::set_parameters(bench.options, arguments.set);
+  bench.make_own = own.make;
+  bench.make = [make = own.make] { return make(std::nullopt); };
+  return bench;
+}
+
+/// What a stimulus that is played leaves. Opened before hours of random cases, not after them; without such a stimulus
+/// there is none.
+class StimulusOutputs {
+ public:
+  explicit StimulusOutputs(const RtlRandomArguments& arguments) : arguments_(arguments) {
+    if (!arguments.log.empty()) log_.emplace(arguments.log);
+    if (!arguments.result.empty()) result_.emplace(arguments.result);
+    if (!arguments.wave.empty() && !tb::find_place(arguments.wave).direct) const tb::OutputFile probe(arguments.wave);
+  }
+
+  cosim::PlayResult play(const cosim::Stimulus& stimulus, const Bench& bench) {
+    cosim::PlayOptions options = bench.options;
+    options.wave = arguments_.difference;
+    if (log_) options.listeners.push_back(&*log_);
+    if (arguments_.wave.empty()) return cosim::play(stimulus, bench.make, options);
+    cosim::JoinedWave wave(arguments_.wave, arguments_.own.build);
+    cosim::PlayWave model(wave.model(), kChip);
+    model.listen(options);
+    const cosim::RtlTrace trace = wave.trace(kChip);
+    const cosim::MakeTop traced = [&] { return bench.make_own(trace); };
+    cosim::PlayResult result = cosim::play(stimulus, traced, options);
+    wave.finish(result.difference);
+    if (arguments_.wave_save) write_save_files(arguments_.wave, cosim::chip_kind());
+    return result;
+  }
+  void finish(const cosim::StimulusResult& result) {
+    if (!result_) return;
+    result_->write(cosim::result_json(result));
+    result_->commit();
+  }
+
+ private:
+  const RtlRandomArguments& arguments_;
+  std::optional<cosim::PlayLog> log_;
+  std::optional<tb::OutputFile> result_;
+};
+
+/// The waves that were written.
+std::string files_text(const RtlRandomArguments& arguments, bool differs) {
+  std::string text;
+  if (differs) text += fmt::format("wave              {}\n", arguments.difference);
+  if (!arguments.wave.empty()) text += fmt::format("with the inside   {}\n", arguments.wave);
+  return text;
+}
+
+/// Plays it, says what came of it and notes that in `result`.
+int play_stimulus(const RtlRandomArguments& arguments, const cosim::Stimulus& stimulus, const std::string& path,
+                  const Bench& bench, StimulusOutputs& outputs, cosim::StimulusResult& result) {
+  const cosim::PlayResult played = outputs.play(stimulus, bench);
+  std::cout << bus::printable(path) << ": " << counts_text(played.counts) << '\n' << played.coverage.text();
+  if (played.difference) std::cout << cosim::describe(*played.difference);
+  std::cout << files_text(arguments, played.difference.has_value());
+  result.difference = played.difference;
+  if (!arguments.replay.empty()) {
+    result.counts = played.counts;
+    result.coverage = played.coverage;
+  }
+  return played.difference ? kFailed : kPassed;
+}
+
+/// How far a campaign is, in one line that is written over itself: not by std::cerr, where control characters are
+/// escaped.
+class ProgressLine {
+ public:
+  void show(std::uint64_t cases, std::uint64_t cycles) const {
+    if (shown_) fmt::print(stderr, "\r{} cases, {:.1f} M cycles", cases, static_cast<double>(cycles) / 1e6);
+  }
+  void clear() const {
+    if (shown_) fmt::print(stderr, "\r{:60}\r", "");
+  }
+
+ private:
+  bool shown_ = isatty(STDERR_FILENO) != 0;
+};
+
+/// As a word of a shell.
+std::string word(const std::string& text) {
+  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string quoted;
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return "'" + quoted + "'";
+}
+
+/// The command that plays the case again.
+std::string command_text(const RtlRandomArguments& arguments) {
+  std::string text = kCommand;
+  const auto add = [&text](const char* option, const std::string& value) {
+    if (!value.empty()) text += fmt::format(" {} {}", option, word(value));
+  };
+  const bool own = !arguments.own.rtl.empty();
+  add("--rtl", arguments.own.rtl);
+  add("--top", arguments.own.top);
+  add("--pins", arguments.own.pins);
+  add("--build", own && arguments.own.build != OwnRtlArguments().build ? arguments.own.build : "");
+  for (const std::string& each : arguments.set) add("--set", each);
+  add("--fault", arguments.fault == 0 ? "" : std::to_string(arguments.fault));
+  return text + fmt::format(" --seed {} --replay {}", arguments.seed, word(arguments.stimulus));
+}
+
+int shrink_and_play(const RtlRandomArguments& arguments, const cosim::CampaignResult& campaign, tb::OutputFile& file,
+                    const Bench& bench, StimulusOutputs& outputs, cosim::StimulusResult& result) {
+  std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", campaign.cases, campaign.difference->what)
+            << std::flush;
+  const cosim::Stimulus shrunk =
+      cosim::shrink(cosim::random_stimulus(campaign.failed_seed), bench.make, kShrinkRuns, bench.options);
+  const std::string text = cosim::to_text(shrunk);
+  file.write(text);
+  file.commit();
+  result.case_seed = campaign.failed_seed;
+  result.stimulus = arguments.stimulus;
+  result.actions = shrunk.size();
+  std::cout << fmt::format("{} actions, to be seen again with\n  {}\n", shrunk.size(), command_text(arguments));
+  // What the file says, not the file: a FIFO cannot be read here.
+  return play_stimulus(arguments, cosim::parse_stimulus(text, arguments.stimulus), arguments.stimulus, bench, outputs,
+                       result);
+}
+
+int random_cases(const RtlRandomArguments& arguments, const Bench& bench, StimulusOutputs& outputs,
+                 cosim::StimulusResult& result) {
+  tb::OutputFile stimulus(arguments.stimulus);
+  const auto begin = std::chrono::steady_clock::now();
+  const ProgressLine line;
+  const cosim::CampaignResult campaign =
+      cosim::run_campaign({arguments.seed, arguments.cycles, threads_of(arguments.jobs), bench.options}, bench.make,
+                          [&line](std::uint64_t cases, std::uint64_t cycles) { line.show(cases, cycles); });
+  line.clear();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::cout << fmt::format("seed {}: {} cases, {} ({:.1f} M cycles/s)\n", arguments.seed, campaign.cases,
+                           counts_text(campaign.counts), static_cast<double>(campaign.counts.cycles) / 1e6 / seconds)
+            << campaign.coverage.text();
+  result.cases = campaign.cases;
+  result.counts = campaign.counts;
+  result.coverage = campaign.coverage;
+  if (!campaign.difference) return kPassed;
+  return shrink_and_play(arguments, campaign, stimulus, bench, outputs, result);
+}
+
+void check_files(const RtlRandomArguments& arguments) {
+  tb::check_wave_name(arguments.difference);
+  if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
+  std::vector<NamedFile> outputs = wave_files(kCommand, arguments.wave, arguments.wave_save);
+  outputs.push_back({"--stimulus", arguments.replay.empty() ? arguments.stimulus : ""});
+  outputs.push_back({"--difference", arguments.difference});
+  outputs.push_back({"--log", arguments.log});
+  outputs.push_back({"--result", arguments.result});
+  check_outputs(kCommand, {{"--replay", arguments.replay}, {"--pins", arguments.own.pins}}, outputs);
+}
+
+}  // namespace
+
+unsigned threads_of(unsigned jobs) { return jobs != 0 ? jobs : std::max(1U, std::thread::hardware_concurrency()); }
+
+int rtl_random(const RtlRandomArguments& arguments) {
+  leave_nothing_on_signals();
+  check_files(arguments);
+  cosim::Stimulus stimulus;
+  if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay);
+  const Bench bench = bench_of(arguments);
+  StimulusOutputs outputs(arguments);
+  cosim::StimulusResult result;
+  result.rtl = arguments.own.rtl;
+  result.fault = arguments.fault;
+  result.seed = arguments.seed;
+  result.replayed = arguments.replay;
+  const int status = arguments.replay.empty()
+                         ? random_cases(arguments, bench, outputs, result)
+                         : play_stimulus(arguments, stimulus, arguments.replay, bench, outputs, result);
+  outputs.finish(result);
+  return status;
+}
+
+}  // namespace app
