@@ -28,7 +28,7 @@ class CapturePrinter {
     ++count_;
     const std::string at = tb::nanoseconds(telegram.start) + " ns";
     const std::string where = packets_ ? fmt::format("packet {}, {}", count_, at) : at;
-    const bus::Decoded decoded = decode(telegram.bytes);
+    const bus::Decoded decoded = bus::decode(telegram.bytes);
     const std::string why = what_is_wrong(telegram, decoded);
     if (telegram.bytes.empty())
       printer_.garbage(where, {});
@@ -45,13 +45,6 @@ class CapturePrinter {
   }
 
  private:
-  static bus::Decoded decode(const bus::Bytes& bytes) {
-    bus::TelegramDecoder decoder;
-    for (const std::uint8_t byte : bytes)
-      if (auto decoded = decoder.feed(byte)) return *decoded;
-    return decoder.finish().value_or(bus::Decoded{});
-  }
-
   /// Empty for a right telegram.
   static std::string what_is_wrong(const capture::CapturedTelegram& telegram, const bus::Decoded& decoded) {
     std::string why;

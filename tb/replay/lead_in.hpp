@@ -1,0 +1,38 @@
+#pragma once
+// Before a replay: requests at the capture's rate to a station that is not there, until the model has found the rate.
+#include <functional>
+
+#include "bus/timeline.hpp"
+#include "bus/wire/segment.hpp"
+#include "bus/wire/uart.hpp"
+
+namespace tb::replay {
+
+using bus::Tick;
+
+class LeadIn : public bus::Agent {
+ public:
+  /// `avoid`: the address of the model. With `wanted` false it ends at once. `found` is asked before each request. The
+  /// segment must outlive it.
+  LeadIn(bus::Segment& segment, int baud, std::uint8_t avoid, bool wanted, std::function<bool()> found);
+
+  /// Told once, with the time from which on the line is free.
+  std::function<void(Tick free)> on_end;
+
+  Tick next() const override;
+  void run(Tick now) override;
+
+  /// Time enough for the model's user CPU to initialise it.
+  static constexpr Tick kStart = 500 * bus::kTicksPerUs;
+  /// After that the capture is played, found or not: a search tries each rate in some 1.2 s.
+  static constexpr Tick kLongest = 6 * bus::kTicksPerSecond;
+
+ private:
+  bus::UartSender sender_;
+  bus::Bytes request_;
+  Tick pause_, due_ = kStart;
+  bool wanted_, ended_ = false;
+  std::function<bool()> found_;
+};
+
+}  // namespace tb::replay
