@@ -423,7 +423,8 @@ void describe_replay(CLI::App& app, ReplayArguments& arguments) {
   command->add_option("--baud", arguments.baud, "Baud rate; left out: the capture's, or found in a recording");
   command->add_option("--signal", arguments.signal, "As of decode");
   command->add_flag("--invert", arguments.inverted, "As of decode");
-  command->add_flag("--no-lead-in", arguments.no_lead_in, "The model has to find the baud rate in the capture");
+  command->add_flag("--no-lead-in", arguments.no_lead_in,
+                    "Nothing before the capture: the model has to find its baud rate and its parameters there");
   command->add_option("--engine", arguments.engine, "step or skip, as of run")->capture_default_str();
   command->add_option("--table", arguments.table, "Each request with both answers, separated by tabs");
   command->add_option("--json", arguments.json, "The result for programs");

@@ -5,60 +5,21 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
-#include "bus/telegram/explain.hpp"
 #include "tb/input/input_error.hpp"
+#include "tb/replay/services.hpp"
+#include "tb/replay/start_up.hpp"
 
 namespace tb::replay {
 namespace {
 
 namespace sap = bus::sap;
 
-// Bits of the first two bytes of Slave_Diag (table 22).
-constexpr std::uint8_t kCfgFault = 0x04, kExtDiag = 0x08, kPrmReq = 0x01, kStatDiag = 0x02;
-constexpr std::size_t kDiagHead = 6;
 constexpr std::uint8_t kRead = 0x5E, kWrite = 0x5F, kTransport = 0x51;
 
-bool is_service(const bus::Telegram& request, std::uint8_t wanted) { return request.dsap == wanted; }
-
-bool is_data_exchange(const bus::Telegram& request) {
-  return !request.dsap && bus::explain_service(request) == "Data_Exchange";
-}
-
-bool acknowledged(const RecordedTelegram* answer) {
-  return answer != nullptr && answer->right() && answer->decoded.telegram.kind == bus::TelegramKind::kSc;
-}
-
-bool refused(const bus::Telegram& answer) {
-  return answer.kind == bus::TelegramKind::kSd1 &&
-         (answer.function() == bus::fc::kRs || answer.function() == bus::fc::kRr);
-}
-
-/// Data were exchanged.
-bool exchanged(const bus::Telegram& request, const RecordedTelegram* answer) {
-  return is_data_exchange(request) && answer != nullptr && answer->right() && !refused(answer->decoded.telegram);
-}
-
-const bus::Telegram* right_answer(const RecordedTelegram* answer) {
-  return answer != nullptr && answer->right() ? &answer->decoded.telegram : nullptr;
-}
-
-/// The bytes of a Slave_Diag answer; null when it is none.
-const bus::Bytes* diagnosis_of(const bus::Telegram& request, const RecordedTelegram* answer) {
-  const bus::Telegram* telegram = right_answer(answer);
-  if (!is_service(request, sap::kSlaveDiag) || telegram == nullptr || telegram->data.size() < kDiagHead) return nullptr;
-  return &telegram->data;
-}
-
 int ident_at(const bus::Bytes& bytes, std::size_t at) { return bytes[at] << 8 | bytes[at + 1]; }
-
-/// Walks over the requests with their answers, in order.
-template <class Take>
-void for_each(const Recording& recording, const Take& take) {
-  for (const RecordedRequest& each : recording.requests)
-    take(recording.request(each).decoded.telegram, recording.answer(each));
-}
 
 // --- initialisation data ---------------------------------------------------------------------------------------------
 
@@ -123,7 +84,7 @@ class ObjectReader {
     object.slot = pdu[1];
     object.index = pdu[2];
     object.transport = object.transport || pdu[0] == kTransport;
-    if (has_data && object.data.empty()) object.data.assign(pdu.begin() + 4, pdu.end());
+    if (has_data && read_.insert({pdu[1], pdu[2]}).second) object.data.assign(pdu.begin() + 4, pdu.end());
     if (!has_data && object.data.size() < pdu[3]) object.data.resize(pdu[3]);
   }
   std::vector<scenario::Dpv1Object> finish() {
@@ -133,13 +94,18 @@ class ObjectReader {
   }
 
  private:
-  std::map<std::pair<int, int>, scenario::Dpv1Object> objects_;  ///< by slot and index
+  using Place = std::pair<int, int>;  ///< slot and index
+  std::map<Place, scenario::Dpv1Object> objects_;
+  std::set<Place> read_;
 };
 
 // --- inputs and diagnoses --------------------------------------------------------------------------------------------
 
 class SupplyReader {
  public:
+  /// `begin`: of the capture.
+  explicit SupplyReader(Tick begin) : before_(begin) {}
+
   void take(const bus::Telegram& request, const RecordedTelegram* answer) {
     if (const bus::Bytes* inputs = inputs_of(request, answer)) take_inputs(*inputs);
     if (exchanged(request, answer)) take_priority(answer->decoded.telegram);
@@ -188,7 +154,7 @@ class SupplyReader {
   }
 
   std::vector<Supply> supplies_;
-  Tick before_ = 0;  ///< end of the last answer
+  Tick before_;  ///< end of the last answer
   std::optional<bus::Bytes> first_inputs_;
   bus::Bytes inputs_, own_;
   std::uint8_t flags_ = 0;
@@ -226,27 +192,20 @@ const bus::Bytes* inputs_of(const bus::Telegram& request, const RecordedTelegram
 Firmware firmware_of(const Recording& recording) {
   InitReader init;
   ObjectReader objects;
-  SupplyReader supplies;
-  for_each(recording, [&](const bus::Telegram& request, const RecordedTelegram* answer) {
+  SupplyReader supplies(recording.telegrams.front().start);
+  for_each_request(recording, [&](const bus::Telegram& request, const RecordedTelegram* answer) {
     init.take(request, answer);
     objects.take(request, answer);
     supplies.take(request, answer);
   });
   Firmware firmware;
   firmware.init = init.finish();
+  if (!firmware.init.cfg && begins_in_the_middle(recording)) firmware.init.cfg = cfg_of_exchange(recording);
   firmware.inputs = supplies.first_inputs().value_or(bus::Bytes{});
   firmware.objects = objects.finish();
   firmware.supplies = supplies.finish();
   firmware.cycle = cycle_for(recording, firmware.supplies);
   return firmware;
-}
-
-void check_comparable(const Recording& recording) {
-  if (beginning_of(recording).comparable < recording.requests.size()) return;
-  throw InputError(recording.name, 0,
-                   fmt::format("station {} is in data exchange where it begins, and no Set_Prm and Chk_Cfg follow, so "
-                               "that nothing can be compared, allowed is a capture with them",
-                               recording.slave));
 }
 
 Beginning beginning_of(const Recording& recording) {
@@ -257,15 +216,10 @@ Beginning beginning_of(const Recording& recording) {
   const auto first_prm = std::find_if(requests.begin(), requests.end(), [&](const RecordedRequest& each) {
     return is_service(telegram_of(each), sap::kSetPrm) && acknowledged(recording.answer(each));
   });
-  const bool in_the_middle = std::any_of(requests.begin(), first_prm, [&](const RecordedRequest& each) {
-    const bus::Telegram& request = telegram_of(each);
-    const bus::Bytes* diagnosis = diagnosis_of(request, recording.answer(each));
-    return exchanged(request, recording.answer(each)) || (diagnosis != nullptr && ((*diagnosis)[1] & kPrmReq) == 0);
-  });
   Beginning beginning;
   beginning.first_answer = static_cast<std::size_t>(first_answer - requests.begin());
   beginning.comparable = beginning.first_answer;
-  if (!in_the_middle) return beginning;
+  if (!begins_in_the_middle(recording)) return beginning;
   // A Set_Prm alone may leave a slave in data exchange, which the model never was in.
   auto prm = requests.end();
   for (auto each = first_prm; each != requests.end(); ++each) {
@@ -277,6 +231,14 @@ Beginning beginning_of(const Recording& recording) {
   }
   beginning.comparable = static_cast<std::size_t>(prm - requests.begin());
   return beginning;
+}
+
+void check_comparable(const Recording& recording) {
+  if (beginning_of(recording).comparable < recording.requests.size()) return;
+  throw InputError(recording.name, 0,
+                   fmt::format("station {} is in data exchange where it begins, and no Set_Prm and Chk_Cfg follow, so "
+                               "that nothing can be compared without the lead-in, allowed is a capture with them",
+                               recording.slave));
 }
 
 }  // namespace tb::replay

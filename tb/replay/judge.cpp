@@ -34,6 +34,7 @@ std::string meaning_of(const bus::Bytes& bytes, std::size_t at, std::optional<bo
 
 Judge::Judge(const Recording& recording, const Firmware& firmware, const JudgeOptions& options)
     : recording_(recording), firmware_(firmware), options_(options), beginning_(beginning_of(recording)) {
+  if (options.started) beginning_.comparable = beginning_.first_answer;
   supplied_.now = supplied_.before = firmware.inputs;
 }
 

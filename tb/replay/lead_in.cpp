@@ -1,9 +1,6 @@
 #include "tb/replay/lead_in.hpp"
 
-#include <utility>
-
 #include "bus/baud.hpp"
-#include "bus/telegram/telegram.hpp"
 
 namespace tb::replay {
 namespace {
@@ -15,12 +12,11 @@ std::uint8_t other_than(std::uint8_t avoid) {
 
 }  // namespace
 
-LeadIn::LeadIn(bus::Segment& segment, int baud, std::uint8_t avoid, bool wanted, std::function<bool()> found)
+LeadIn::LeadIn(bus::Segment& segment, int baud, std::uint8_t avoid, std::function<bool()> found)
     : sender_(segment, segment.attach("lead-in", nullptr)),
       request_(bus::encode(bus::make_telegram(other_than(avoid), static_cast<std::uint8_t>(avoid == 0 ? 1 : 0),
                                               bus::fc::kRequest | bus::fc::kFdlStatus))),
       pause_((bus::baud(baud).slot_bits + bus::kSynBits) * bus::baud(baud).bit),
-      wanted_(wanted),
       found_(std::move(found)) {
   sender_.set_timing(bus::baud(baud).bit);
 }
@@ -32,11 +28,19 @@ Tick LeadIn::next() const {
 
 void LeadIn::run(Tick now) {
   if (sender_.busy()) return sender_.run(now);
-  if (!wanted_ || found_() || now >= kLongest) {
-    ended_ = true;
-    return on_end(now);
+  constexpr Tick kForUser = 5 * bus::kTicksPerMs;
+  if (wanted_ && next_telegram_ == 0 && !found_() && now < kLongest) return send(now, request_);
+  if (wanted_ && next_telegram_ < telegrams_.size()) {
+    send(now, bus::encode(telegrams_[next_telegram_++]));
+    due_ += kForUser;
+    return;
   }
-  sender_.send(now, bus::characters(request_));
+  ended_ = true;
+  on_end(now);
+}
+
+void LeadIn::send(Tick now, const bus::Bytes& bytes) {
+  sender_.send(now, bus::characters(bytes));
   sender_.run(now);
   due_ = sender_.end() + pause_;
 }

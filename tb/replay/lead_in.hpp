@@ -1,7 +1,12 @@
 #pragma once
-// Before a replay: requests at the capture's rate to a station that is not there, until the model has found the rate.
+// Before a replay: requests at the capture's rate to a station that is not there, until the model has found the rate;
+// then what brings it into the data exchange in which the capture begins.
+#include <cstddef>
 #include <functional>
+#include <utility>
+#include <vector>
 
+#include "bus/telegram/telegram.hpp"
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
@@ -12,9 +17,12 @@ using bus::Tick;
 
 class LeadIn : public bus::Agent {
  public:
-  /// `avoid`: the address of the model. With `wanted` false it ends at once. `found` is asked before each request. The
-  /// segment must outlive it.
-  LeadIn(bus::Segment& segment, int baud, std::uint8_t avoid, bool wanted, std::function<bool()> found);
+  /// `avoid`: the address of the model. `found` is asked before each request. The segment must outlive it.
+  LeadIn(bus::Segment& segment, int baud, std::uint8_t avoid, std::function<bool()> found);
+  /// It ends at once.
+  void leave_out() { wanted_ = false; }
+  /// To be sent once the rate is found, each with time for the model's user CPU after it.
+  void then_send(std::vector<bus::Telegram> telegrams) { telegrams_ = std::move(telegrams); }
 
   /// Told once, with the time from which on the line is free.
   std::function<void(Tick free)> on_end;
@@ -28,10 +36,14 @@ class LeadIn : public bus::Agent {
   static constexpr Tick kLongest = 6 * bus::kTicksPerSecond;
 
  private:
+  void send(Tick now, const bus::Bytes& bytes);
+
   bus::UartSender sender_;
   bus::Bytes request_;
   Tick pause_, due_ = kStart;
-  bool wanted_, ended_ = false;
+  bool wanted_ = true, ended_ = false;
+  std::vector<bus::Telegram> telegrams_;
+  std::size_t next_telegram_ = 0;
   std::function<bool()> found_;
 };
 

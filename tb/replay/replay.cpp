@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "bus/baud.hpp"
+#include "tb/bench/setup.hpp"
+#include "tb/replay/start_up.hpp"
 
 namespace tb::replay {
 namespace {
@@ -16,7 +18,7 @@ RunOptions open_ended(RunOptions options) {
 }  // namespace
 
 Tick Replay::Supplier::next() const {
-  return shift_ && next_ < supplies_.size() ? std::max<Tick>(supplies_[next_].at + *shift_, 0) : bus::kNever;
+  return shift_ && next_ < supplies_.size() ? std::max(supplies_[next_].at + *shift_, begin_) : bus::kNever;
 }
 
 void Replay::Supplier::run(Tick now) {
@@ -34,16 +36,23 @@ Replay::Replay(const Recording& recording, const Firmware& firmware, const scena
       made_(make_pin_execution()),
       execution_(*made_),
       line_(make_line(execution_.segment(), recording, placed_)),
-      lead_in_(execution_.segment(), recording.baud, recording.slave, options.lead_in,
-               [this] { return listener_.model_has_rate(); }),
+      lead_in_(execution_.segment(), recording.baud, recording.slave, [this] { return listener_.model_has_rate(); }),
       bench_(scenario_, open_ended(std::move(run)), std::move(made_)),
       supplier_(bench_, scenario_, options.judge.supplied ? firmware.supplies : nothing_) {
+  prepare_lead_in();
   lead_in_.on_end = [this](Tick free) { begin(free); };
   bench_.add_observer(listener_);
   bus::Timeline& timeline = execution_.timeline();
   timeline.add(lead_in_);
   timeline.add(*line_);
   timeline.add(supplier_);
+}
+
+void Replay::prepare_lead_in() {
+  if (!options_.lead_in) return lead_in_.leave_out();
+  std::vector<bus::Telegram> telegrams = start_up_of(recording_, Setup(scenario_).station(scenario_.slaves.front()));
+  options_.judge.started = !telegrams.empty();
+  lead_in_.then_send(std::move(telegrams));
 }
 
 /// The line has been idle for the lead-in's pause; the capture may begin with an answer.
@@ -53,7 +62,7 @@ void Replay::begin(Tick free) {
   const Tick at = free + kIdle * bus::baud(recording_.baud).bit;
   shift_ = at - first;
   listener_.begin(*shift_);
-  supplier_.begin(*shift_);
+  supplier_.begin(*shift_, at);
   line_->begin(first, at);
 }
 
@@ -88,6 +97,7 @@ Result Replay::result(bool interrupted) {
   result.end = recording_.end();
   result.lead_in = shift_ ? *shift_ + result.begin : 0;
   result.station = describe_station(scenario_);
+  result.started = options_.judge.started;
   result.inputs_recorded = options_.judge.supplied;
   result.rule = options_.judge.tsdr;
   result.requests = Judge(recording_, firmware_, options_.judge).judge(listener_);

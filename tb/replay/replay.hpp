@@ -16,7 +16,7 @@ namespace tb::replay {
 
 struct ReplayOptions {
   JudgeOptions judge;
-  bool lead_in = true;  ///< false: the model has to find the rate in the capture
+  bool lead_in = true;  ///< false: the model has to find the rate, and its parameters, in the capture
   std::string gsd;      ///< absolute path, empty: none
 };
 
@@ -47,8 +47,10 @@ class Replay {
    public:
     Supplier(Bench& bench, const scenario::Scenario& scenario, const std::vector<Supply>& supplies)
         : bench_(bench), slave_(scenario.slaves.front().name.text), supplies_(supplies) {}
-    void begin(Tick shift) {
+    /// `at`: where the capture begins, nothing is given before.
+    void begin(Tick shift, Tick at) {
       shift_ = shift;
+      begin_ = at;
       announce();
     }
     Tick next() const override;
@@ -59,9 +61,11 @@ class Replay {
     std::string slave_;
     const std::vector<Supply>& supplies_;
     std::optional<Tick> shift_;
+    Tick begin_ = 0;
     std::size_t next_ = 0;
   };
 
+  void prepare_lead_in();
   void begin(Tick free);
   bool over(Tick now) const;
   Result result(bool interrupted);

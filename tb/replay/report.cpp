@@ -20,6 +20,8 @@ namespace tb::replay {
 namespace {
 
 constexpr std::size_t kMostBytes = 32;
+constexpr const char* kStarted =
+    ", with a Set_Prm and Chk_Cfg of its own: the capture begins in the middle of a data exchange";
 
 std::string line(const std::string& heading, const std::string& what) {
   return fmt::format("{:<17} {}\n", heading, what);
@@ -212,7 +214,7 @@ std::string text(const Result& result) {
   text += line("model", result.station);
   text += line("inputs", result.inputs_recorded ? "the recorded ones, and the recorded diagnoses"
                                                 : "those of the scenario's user CPU");
-  text += line("lead-in", microseconds(result.lead_in));
+  text += line("lead-in", microseconds(result.lead_in) + (result.started ? kStarted : ""));
   text += line("TSDR / bit times", fmt::format("recorded {}, model {} (min / median / max); {}",
                                                spread_text(result, recorded_spread(result)),
                                                spread_text(result, model_spread(result)), rule_text(result)));
@@ -234,6 +236,7 @@ std::string json(const Result& result) {
   root["baud"] = bus::baud(result.baud).name;
   root["resolution_ns"] = nanoseconds_of(result.resolution);
   root["station"] = result.station;
+  root["parameterised_by_lead_in"] = result.started;
   root["lead_in_ns"] = nanoseconds_of(result.lead_in);
   root["compared"] = result.compared();
   for (std::size_t i = 0; i < kVerdicts; ++i)

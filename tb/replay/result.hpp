@@ -65,6 +65,7 @@ struct Result {
   Tick begin = 0, end = 0;  ///< of the capture
   Tick lead_in = 0;         ///< time that the model had to find the rate before
   std::string station;      ///< what the model's user CPU gave to it
+  bool started = false;     ///< the lead-in has brought the model into data exchange
   bool inputs_recorded = false;
   TsdrRule rule;
   std::vector<RequestResult> requests;

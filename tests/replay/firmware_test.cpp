@@ -114,6 +114,7 @@ TEST(Firmware, ObjectsAreWhatWasReadAndWritten) {
     capture.add(to_slave(sap::kMs1));
     capture.add(from_slave(sap::kMs1, pdu));
   };
+  talk({0x5F, 1, 2, 2});
   talk({0x5E, 1, 2, 3, 7, 8, 9});
   talk({0x5F, 1, 4, 5});
   talk({0xDE, 0x80, 0xB2, 0});  // refused

@@ -249,22 +249,30 @@ def other_ident(folder):
 
 # --- what is not compared ---------------------------------------------------------------------------------------------
 def in_the_middle(folder):
-    """A capture that begins in data exchange shows no start of the slave; a later one is compared from there on."""
+    """A capture that begins in data exchange: the lead-in brings the model into one. Without it, it is compared from the slave's next
+    start on, and where there is none, not at all."""
     head, packets = pcapng.read(record(folder))
     middle = packets[answers(packets)[5] - 1:]
     pcapng.write(folder / "middle.pcapng", head, middle)
-    alone = sim(folder, "replay", "middle.pcapng", "--as", "5", status=2)
+    result, text = replayed(folder, "middle.pcapng")
+    expect("with the lead-in: equal", (result["equal"], result["parameterised_by_lead_in"]), (True, True))
+    expect("with the lead-in: all of it", result["verdicts"]["equal"] >= len(answers(middle)) - 1, True)
+    expect("with the lead-in: said", "with a Set_Prm and Chk_Cfg of its own" in text, True)
+    at = answers(middle)[20]
+    silent = middle[:at] + middle[at + 1:]
+    pcapng.write(folder / "planted.pcapng", head, silent)
+    expect("with the lead-in: a difference is found", first(folder)[0]["telegram"], at)
+    alone = sim(folder, "replay", "middle.pcapng", "--as", "5", "--no-lead-in", status=2)
     expect("nothing to compare", alone.stderr,
            "middle.pcapng: station 5 is in data exchange where it begins, and no Set_Prm and Chk_Cfg follow, so that nothing can be "
-           "compared, allowed is a capture with them\n")
-    later = max(packet.ns for packet in middle) + 1_000_000
-    shift = later - packets[0].ns
+           "compared without the lead-in, allowed is a capture with them\n")
+    later = max(packet.ns for packet in middle) + 60_000_000  # time to find the rate, 12M
     again = [pcapng.Packet(packet.block()[8:-4]) for packet in packets]
     for packet in again:
-        packet.ns += shift
+        packet.ns += later - packets[0].ns
     pcapng.write(folder / "both.pcapng", head, middle + again)
-    result, _ = replayed(folder, "both.pcapng")
-    before = sum(1 for packet in middle if is_exchange_answer(packet))
+    result, _ = replayed(folder, "both.pcapng", "--no-lead-in")
+    before = len(answers(middle))
     expect("the first part is not", result["verdicts"]["before the slave is parameterised"] >= before, True)
     expect("the second is", (result["equal"], result["compared"] > 30), (True, True))
 
