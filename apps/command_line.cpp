@@ -166,12 +166,16 @@ void describe_decode(CLI::App& app, DecodeArguments& arguments) {
   command->add_option("--signal", arguments.signal,
                       "Which signal of a recording is the line; left out: the only one, or line, PBRXD, PBTXD");
   command->add_flag("--invert", arguments.inverted, "The recording's idle level is low");
+  command->add_option("--table", arguments.table, "Of a capture or recording: a line a telegram, separated by tabs");
+  command->add_option("--json", arguments.json, "The same as JSON, with words");
+  command->add_flag("--quiet,-q", arguments.quiet, "Nothing is printed");
   command->footer(
       "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
       "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes "
       "(--log-whole).\n"
       "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  dsdpv1-sim decode my.pcapng\n  "
-      "dsdpv1-sim decode logic.sr --signal D2 --invert\n  echo 68 05 05 68 85 82 6D 3C 3E "
+      "dsdpv1-sim decode logic.sr --signal D2 --invert\n  dsdpv1-sim decode my.pcapng --quiet --table my.tsv\n  echo "
+      "68 05 05 68 85 82 6D 3C 3E "
       "EE 16 | dsdpv1-sim decode\n"
       "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 wrong input.\n");
 }
@@ -418,8 +422,9 @@ void describe_replay(CLI::App& app, ReplayArguments& arguments) {
       ->add_option("--tsdr-tolerance", arguments.tolerance,
                    "TSDR of both at most so many bit times apart; left out: both from min_TSDR to max_TSDR")
       ->check(CLI::Range(0.0, 10'000.0));
-  command->add_option("--from", arguments.from, "Compare from this time of the capture on; all of it is played");
-  command->add_option("--to", arguments.to, "... and up to this one");
+  command->add_option("--from", arguments.from,
+                      "Compare from this time of the capture on; what is before is played, too");
+  command->add_option("--to", arguments.to, "End at this time of the capture");
   command->add_option("--baud", arguments.baud, "Baud rate; left out: the capture's, or found in a recording");
   command->add_option("--signal", arguments.signal, "As of decode");
   command->add_flag("--invert", arguments.inverted, "As of decode");

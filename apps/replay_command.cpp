@@ -46,8 +46,13 @@ Recording record(const ReplayArguments& arguments) {
   settings.baud = baud;
   settings.signal = arguments.signal;
   settings.inverted = arguments.inverted;
-  settings.on_change = [&recorder](bus::Tick at, bool level) { recorder.level(at, level); };
-  file.read(settings, [&recorder](const bus::capture::CapturedTelegram& telegram) { recorder.telegram(telegram); });
+  const bus::Tick end = time_of("--to", arguments.to).value_or(bus::kNever);  // what is after it need not be kept
+  settings.on_change = [&recorder, end](bus::Tick at, bool level) {
+    if (at <= end) recorder.level(at, level);
+  };
+  file.read(settings, [&recorder, end](const bus::capture::CapturedTelegram& telegram) {
+    if (telegram.start <= end) recorder.telegram(telegram);
+  });
   Recording recording = recorder.finish();
   if (arguments.no_lead_in) tb::replay::check_comparable(recording);
   return recording;
@@ -68,7 +73,6 @@ tb::replay::ReplayOptions options_of(const ReplayArguments& arguments) {
   tb::replay::ReplayOptions options;
   options.judge.tsdr.tolerance_bits = arguments.tolerance;
   options.judge.from = time_of("--from", arguments.from);
-  options.judge.to = time_of("--to", arguments.to);
   options.judge.supplied = arguments.inputs.empty() ? arguments.scenario.empty() : arguments.inputs == "recorded";
   options.lead_in = !arguments.no_lead_in;
   return options;

@@ -42,10 +42,7 @@ class InitReader {
 
   scenario::InitData finish() {
     const Sent& sent = in_force_ ? *in_force_ : sent_;
-    if (in_force_)
-      init_.ident = ident_at(sent.prm->data, 4);
-    else if (!init_.ident && sent.prm)
-      init_.ident = ident_at(sent.prm->data, 4);
+    if (sent.prm && (in_force_ || !init_.ident)) init_.ident = ident_at(sent.prm->data, 4);
     if (!init_.cfg) init_.cfg = sent.cfg;
     if (sent.prm && bus::dpv1_enabled(*sent.prm).value_or(false)) init_.dpv1 = true;
     return std::move(init_);

@@ -74,8 +74,7 @@ Verdict Judge::verdict(std::size_t index, RequestResult& result, const Heard* he
   if (!heard->has_rate) return Verdict::kNoRate;
   if (capture_ends_after(recording_.requests[index])) return Verdict::kCaptureEnds;
   const Verdict found = compare(result);
-  const bool outside = (options_.from && result.start < *options_.from) || (options_.to && result.start > *options_.to);
-  return outside ? Verdict::kOutsideWindow : found;
+  return options_.from && result.start < *options_.from ? Verdict::kBeforeWindow : found;
 }
 
 bool Judge::capture_ends_after(const RecordedRequest& request) const {

@@ -11,9 +11,9 @@ namespace tb::replay {
 
 struct JudgeOptions {
   TsdrRule tsdr;
-  std::optional<Tick> from = {}, to = {};  ///< times of the capture
-  bool started = false;                    ///< the model was brought into the data exchange in which the capture begins
-  bool supplied = true;                    ///< the user CPU gives the recorded inputs and diagnoses
+  std::optional<Tick> from = {};  ///< time of the capture
+  bool started = false;           ///< the model was brought into the data exchange in which the capture begins
+  bool supplied = true;           ///< the user CPU gives the recorded inputs and diagnoses
 };
 
 class Judge {

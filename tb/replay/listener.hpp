@@ -24,7 +24,7 @@ class Listener : public Observer {
   Listener(const Recording& recording, const std::vector<PlacedTelegram>& placed);
 
   void begins(std::size_t /*slave*/, const ChipView& chip) override { chip_ = &chip; }
-  void telegram(const HeardTelegram& telegram) override;
+  void telegram(const HeardTelegram& heard) override;
   /// From now on the capture is played, its times shifted by so much.
   void begin(Tick shift) { shift_ = shift; }
 

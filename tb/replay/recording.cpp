@@ -146,6 +146,7 @@ std::string Recorder::stations() const {
     before = each.right() && each.decoded.telegram.is_request() ? &each : nullptr;
   }
   std::vector<std::string> words;
+  words.reserve(answering.size());
   for (const std::uint8_t station : answering) words.push_back(std::to_string(station));
   if (words.empty()) return "and nobody else answers, allowed is a capture with a slave that does";
   return "allowed are the stations that answer: " + join(words);

@@ -17,7 +17,7 @@ const char* name(Verdict verdict) {
     case Verdict::kNoRate: return "before the model has the baud rate";
     case Verdict::kDisturbed: return "disturbed by an answer that only the model gave";
     case Verdict::kCaptureEnds: return "at the end of the capture";
-    case Verdict::kOutsideWindow: return "outside of the window";
+    case Verdict::kBeforeWindow: return "before --from";
     case Verdict::kUserLate: return "the user CPU was not as quick";
     case Verdict::kUserDpv1: return "DPV1, the user CPU's own";
   }

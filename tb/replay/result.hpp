@@ -23,7 +23,7 @@ enum class Verdict : std::uint8_t {
   kNoRate,             ///< the model searched its baud rate
   kDisturbed,          ///< an answer of the model that the slave did not give reached into it
   kCaptureEnds,        ///< before the slave could answer
-  kOutsideWindow,
+  kBeforeWindow,
   kUserLate,  ///< the user CPU had not yet brought the inputs or the diagnosis, or judged in another time
   kUserDpv1,  ///< DPV1: the user CPU answered at another poll, or refused for another reason
 };

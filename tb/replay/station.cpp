@@ -69,6 +69,7 @@ scenario::Scenario alone(scenario::Scenario scenario, const Recording& recording
   if (slave == slaves.end() && slaves.size() == 1) slave = slaves.begin();
   if (slave == slaves.end()) {
     std::vector<std::string> addresses;
+    addresses.reserve(slaves.size());
     for (const scenario::Slave& each : slaves) addresses.push_back(std::to_string(each.address));
     throw InputError(scenario.file, 0,
                      fmt::format("no slave has address {} (--as), allowed are {}", recording.slave, join(addresses)));
