@@ -405,7 +405,8 @@ void describe_replay(CLI::App& app, ReplayArguments& arguments) {
       app.add_subcommand("replay", "Plays a capture to the model as one of its slaves, and compares the answers");
   command
       ->add_option("CAPTURE", arguments.capture,
-                   "pcapng, pcap, VCD or FST of any simulator, a session of sigrok, CSV of a logic analyser")
+                   "pcapng, pcap, VCD or FST of any simulator, a session of sigrok, CSV of a logic analyser, a log "
+                   "of run or serve with all bytes")
       ->required();
   command->add_option("--as", arguments.slave, "Address of the slave whose part the model takes")
       ->required()
@@ -430,7 +431,8 @@ void describe_replay(CLI::App& app, ReplayArguments& arguments) {
   command->add_flag("--invert", arguments.inverted, "As of decode");
   command->add_flag("--no-lead-in", arguments.no_lead_in,
                     "Nothing before the capture: the model has to find its baud rate and its parameters there");
-  command->add_option("--engine", arguments.engine, "step or skip, as of run")->capture_default_str();
+  command->add_option("--engine", arguments.engine, "step, skip or rtl (the reference RTL), as of run")
+      ->capture_default_str();
   command->add_option("--table", arguments.table, "Each request with both answers, separated by tabs");
   command->add_option("--json", arguments.json, "The result for programs");
   add_wave_options(*command, arguments.wave);

@@ -3,15 +3,20 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <utility>
 
 #include "apps/capture_file.hpp"
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
+#include "bus/baud.hpp"
 #include "bus/printable.hpp"
+#include "bus/telegram/telegram_text.hpp"
+#include "tb/dsdpv1/cosim/lockstep_execution.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/input/units.hpp"
@@ -34,11 +39,34 @@ std::optional<bus::Tick> time_of(const std::string& option, const std::string& t
   throw tb::InputError(std::string(kCommand) + ": " + option + " is " + text + ", allowed is " + tb::kTimeForm);
 }
 
+/// The telegrams of a log, which tells each when it has ended.
+void read_log(CaptureFile& file, const bus::capture::TakeTelegram& take, std::optional<int> baud) {
+  bus::TelegramText text;
+  std::string error;
+  if (!bus::read_telegram_text(file.stream(), file.name(), text, error)) throw tb::InputError(error);
+  if (text.logged.empty())
+    throw tb::InputError(
+        file.name(), 0,
+        "is no capture with times, allowed are pcapng, pcap, VCD, FST, a session of sigrok, CSV, a log");
+  if (!baud) throw tb::InputError(file.name(), 0, "is a log, which does not say its baud rate, name it with --baud");
+  std::size_t byte = 0;
+  for (const auto& [line, logged] : text.logged) {
+    bus::capture::CapturedTelegram telegram;
+    while (text.lines[byte] < line) ++byte;
+    for (; byte < text.bytes.size() && text.lines[byte] == line; ++byte) telegram.bytes.push_back(text.bytes[byte]);
+    if (telegram.bytes.size() < logged.whole_length)
+      throw tb::InputError(file.name(), line,
+                           "has not all bytes, allowed is a log with all of them (--log-whole, .jsonl)");
+    telegram.baud = baud;
+    telegram.end = std::llround(std::stod(logged.at_ns) * static_cast<double>(bus::kTicksPerNs));
+    telegram.start =
+        telegram.end - static_cast<bus::Tick>(telegram.bytes.size()) * bus::kCharacterBits * bus::baud(*baud).bit;
+    take(telegram);
+  }
+}
+
 Recording record(const ReplayArguments& arguments) {
   CaptureFile file(arguments.capture);
-  if (file.form() == CaptureForm::kText)
-    throw tb::InputError(file.name(), 0,
-                         "is no capture with times, allowed are pcapng, pcap, VCD, FST, a session of sigrok, CSV");
   std::optional<int> baud;
   if (!arguments.baud.empty()) baud = baud_index("replay: --baud", arguments.baud);
   tb::replay::Recorder recorder(file.name(), static_cast<std::uint8_t>(arguments.slave), baud);
@@ -50,9 +78,13 @@ Recording record(const ReplayArguments& arguments) {
   settings.on_change = [&recorder, end](bus::Tick at, bool level) {
     if (at <= end) recorder.level(at, level);
   };
-  file.read(settings, [&recorder, end](const bus::capture::CapturedTelegram& telegram) {
+  const auto take = [&recorder, end](const bus::capture::CapturedTelegram& telegram) {
     if (telegram.start <= end) recorder.telegram(telegram);
-  });
+  };
+  if (file.form() == CaptureForm::kText)
+    read_log(file, take, baud);
+  else
+    file.read(settings, take);
   Recording recording = recorder.finish();
   if (arguments.no_lead_in) tb::replay::check_comparable(recording);
   return recording;
@@ -79,7 +111,10 @@ tb::replay::ReplayOptions options_of(const ReplayArguments& arguments) {
 }
 
 tb::RunOptions run_options(const ReplayArguments& arguments, const tb::ChipKind& kind) {
-  check_word("replay: --engine", arguments.engine, {"step", "skip"});
+  check_word("replay: --engine", arguments.engine, {"step", "skip", "rtl"});
+  if (arguments.wave.inside && arguments.engine == "rtl")
+    throw tb::InputError(std::string(kCommand) +
+                         ": --wave-inside is about the model, allowed with it is --engine step or skip");
   tb::RunOptions options;
   options.engine = arguments.engine == "step" ? tb::Engine::kStep : tb::Engine::kSkip;
   options.engine_name = arguments.engine;
@@ -88,6 +123,11 @@ tb::RunOptions run_options(const ReplayArguments& arguments, const tb::ChipKind&
   options.log_whole = arguments.log_whole;
   options.capture = capture_request(kCommand, arguments.capture_out, arguments.capture_link);
   return options;
+}
+
+std::unique_ptr<tb::Execution> execution_of(const ReplayArguments& arguments) {
+  if (arguments.engine == "rtl") return cosim::make_rtl_execution(cosim::reference_rtl());
+  return tb::make_pin_execution();
 }
 
 void check_files(const ReplayArguments& arguments, const tb::scenario::Scenario& scenario) {
@@ -126,7 +166,7 @@ int replay(const ReplayArguments& arguments) {
   const tb::scenario::Scenario scenario = scenario_of(arguments, recording, firmware);
   tb::RunOptions run = run_options(arguments, *scenario.kind);
   check_files(arguments, scenario);
-  tb::replay::Replay replay(recording, firmware, scenario, options, std::move(run));
+  tb::replay::Replay replay(recording, firmware, scenario, options, std::move(run), execution_of(arguments));
   tb::ShareProgress progress(arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
   catch_signals();
   const tb::replay::Result result = replay.run([&progress](double share) {

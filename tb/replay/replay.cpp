@@ -26,14 +26,14 @@ void Replay::Supplier::run(Tick now) {
 }
 
 Replay::Replay(const Recording& recording, const Firmware& firmware, const scenario::Scenario& scenario,
-               const ReplayOptions& options, RunOptions run)
+               const ReplayOptions& options, RunOptions run, std::unique_ptr<Execution> execution)
     : recording_(recording),
       firmware_(firmware),
       scenario_(scenario),
       options_(options),
       placed_(place(recording)),
       listener_(recording, placed_),
-      made_(make_pin_execution()),
+      made_(std::move(execution)),
       execution_(*made_),
       line_(make_line(execution_.segment(), recording, placed_)),
       lead_in_(execution_.segment(), recording.baud, recording.slave, [this] { return listener_.model_has_rate(); }),

@@ -31,7 +31,7 @@ class Replay {
  public:
   /// All that is given must outlive it; `scenario` has one slave. Throws InputError.
   Replay(const Recording& recording, const Firmware& firmware, const scenario::Scenario& scenario,
-         const ReplayOptions& options, RunOptions run);
+         const ReplayOptions& options, RunOptions run, std::unique_ptr<Execution> execution);
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 

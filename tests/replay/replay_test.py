@@ -141,6 +141,20 @@ def coarse_times(folder):
     expect("no rate", missing.stderr, "us.pcap: does not say its baud rate, name it with --baud, allowed are 12M to 9.6k\n")
 
 
+def logs(folder):
+    """A log with all bytes can be played; one that is cut, or has no rate, ends in one line."""
+    record(folder, "1.5M", log="run.jsonl")
+    is_equal(folder, "JSON lines", "run.jsonl", "--baud", "1.5M")
+    text = sim(folder, "run", "run.yaml", "-q", "--no-progress", "--log", "whole.log", "--log-whole")
+    expect("nothing is said", text.stdout, "")
+    is_equal(folder, "text", "whole.log", "--baud", "1.5M")
+    expect("no rate", sim(folder, "replay", "run.jsonl", "--as", "5", status=2).stderr,
+           "run.jsonl: is a log, which does not say its baud rate, name it with --baud\n")
+    (folder / "cut.log").write_text("   1.000 ns  bus  telegram  words  68 05 ... (49 bytes)\n", encoding="utf-8")
+    expect("cut", sim(folder, "replay", "cut.log", "--as", "5", "--baud", "1.5M", status=2).stderr,
+           "cut.log:1: has not all bytes, allowed is a log with all of them (--log-whole, .jsonl)\n")
+
+
 # --- different --------------------------------------------------------------------------------------------------------
 def is_exchange_answer(packet):
     return packet.data[0] == 0x68 and packet.data[4:6] == b"\x02\x05"
@@ -323,7 +337,7 @@ def outputs(folder):
            "dsdpv1-sim replay: --json would replace the capture, run.pcapng, allowed is a file of its own\n")
 
 
-CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, changed_byte, missing_answer, answer_without_syn,
+CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, changed_byte, missing_answer, answer_without_syn,
                                           shifted_answer, other_ident, in_the_middle, without_lead_in, window, outputs)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_replay_") as folder_name:
