@@ -22,6 +22,8 @@ class CaptureFile {
   CaptureForm form() const { return form_; }
   /// Its telegrams stand in packets, each with its time.
   bool packets() const { return form_ == CaptureForm::kPcapng || form_ == CaptureForm::kPcap; }
+  /// Empty: standard input.
+  std::string path() const { return standard_input_ ? "" : path_; }
   /// For messages.
   const std::string& name() const { return name_; }
   std::istream& stream() { return input_.stream(); }

@@ -8,6 +8,7 @@
 #include "apps/reasons_command.hpp"
 #include "apps/recover_command.hpp"
 #include "apps/regress_command.hpp"
+#include "apps/replay_command.hpp"
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
@@ -166,12 +167,16 @@ void describe_decode(CLI::App& app, DecodeArguments& arguments) {
   command->add_option("--signal", arguments.signal,
                       "Which signal of a recording is the line; left out: the only one, or line, PBRXD, PBTXD");
   command->add_flag("--invert", arguments.inverted, "The recording's idle level is low");
+  command->add_option("--table", arguments.table, "Of a capture or recording: a line a telegram, separated by tabs");
+  command->add_option("--json", arguments.json, "The same as JSON, with words");
+  command->add_flag("--quiet,-q", arguments.quiet, "Nothing is printed");
   command->footer(
       "\nAny spacing, 0x and commas allowed; one telegram a line or a continuous stream; # begins a comment.\n"
       "A log is known by its lines, text or JSON; its telegrams are taken, best from one with all bytes "
       "(--log-whole).\n"
       "\nExamples:\n  dsdpv1-sim decode capture.txt\n  dsdpv1-sim decode my.jsonl\n  dsdpv1-sim decode my.pcapng\n  "
-      "dsdpv1-sim decode logic.sr --signal D2 --invert\n  echo 68 05 05 68 85 82 6D 3C 3E "
+      "dsdpv1-sim decode logic.sr --signal D2 --invert\n  dsdpv1-sim decode my.pcapng --quiet --table my.tsv\n  echo "
+      "68 05 05 68 85 82 6D 3C 3E "
       "EE 16 | dsdpv1-sim decode\n"
       "\nExit codes: 0 all right, 1 some bytes are no right telegram, 2 wrong input.\n");
 }
@@ -426,6 +431,57 @@ void describe_compare(CLI::App& app, CompareArguments& arguments) {
       "\nExit codes: 0 equal, 1 different, 2 wrong input, 130 interrupted.\n");
 }
 
+void describe_replay(CLI::App& app, ReplayArguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("replay", "Plays a capture to the model as one of its slaves, and compares the answers");
+  command
+      ->add_option("CAPTURE", arguments.capture,
+                   "pcapng, pcap, VCD or FST of any simulator, a session of sigrok, CSV of a logic analyser, a log "
+                   "of run or serve with all bytes")
+      ->required();
+  command->add_option("--as", arguments.slave, "Address of the slave whose part the model takes")
+      ->required()
+      ->check(CLI::Range(0, 126));
+  command->add_option("--gsd", arguments.gsd, "The slave's GSD file: ident number and limits as it says");
+  command->add_option("--scenario", arguments.scenario,
+                      "Take its slave with this address (or the only one), with its user CPU, in place of what the "
+                      "capture shows");
+  command->add_option(
+      "--inputs", arguments.inputs,
+      "What the user CPU gives: recorded (inputs and diagnoses as the slave answered them) or scenario; "
+      "left out: scenario with --scenario, else recorded");
+  command
+      ->add_option("--tsdr-tolerance", arguments.tolerance,
+                   "TSDR of both at most so many bit times apart; left out: both from min_TSDR to max_TSDR")
+      ->check(CLI::Range(0.0, 10'000.0));
+  command->add_option("--from", arguments.from,
+                      "Compare from this time of the capture on; what is before is played, too");
+  command->add_option("--to", arguments.to, "End at this time of the capture");
+  command->add_option("--baud", arguments.baud, "Baud rate; left out: the capture's, or found in a recording");
+  command->add_option("--signal", arguments.signal, "As of decode");
+  command->add_flag("--invert", arguments.inverted, "As of decode");
+  command->add_flag("--no-lead-in", arguments.no_lead_in,
+                    "Nothing before the capture: the model has to find its baud rate and its parameters there");
+  command->add_option("--engine", arguments.engine, "step, skip or rtl (the reference RTL), as of run")
+      ->capture_default_str();
+  command->add_option("--table", arguments.table, "Each request with both answers, separated by tabs");
+  command->add_option("--json", arguments.json, "The result for programs");
+  add_wave_options(*command, arguments.wave);
+  CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
+  command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
+  command->add_option("--result", arguments.result, "Measurements of the run as JSON, as of run");
+  add_capture_options(*command, arguments.capture_out, arguments.capture_link);
+  add_output_options(*command, arguments.progress, arguments.quiet);
+  command->footer(
+      "\nExamples:\n"
+      "  dsdpv1-sim replay plant.pcapng --as 5\n"
+      "  dsdpv1-sim replay plant.sr --signal D2 --as 5 --gsd my_device.gsd --table plant.tsv\n"
+      "  dsdpv1-sim replay board.csv --as 5 --tsdr-tolerance 1 --log board.log --wave board.fst\n"
+      "  dsdpv1-sim replay plant.pcapng --as 5 --scenario my.yaml --from 2s --to 3s --json plant.json\n"
+      "docs/replay.md explains them.\n"
+      "\nExit codes: 0 equal, 1 different, 2 wrong input, 130 interrupted.\n");
+}
+
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -505,6 +561,8 @@ int command_line(int argc, char** argv) {
   describe_cosim(app, cosim_arguments);
   CompareArguments compare_arguments;
   describe_compare(app, compare_arguments);
+  ReplayArguments replay_arguments;
+  describe_replay(app, replay_arguments);
   TracesArguments traces_arguments;
   describe_traces(app, traces_arguments);
   RecoverArguments recover_arguments;
@@ -525,6 +583,7 @@ int command_line(int argc, char** argv) {
   if (app.got_subcommand("rtl-faults")) return rtl_faults(rtl_faults_arguments);
   if (app.got_subcommand("cosim")) return cosim_own_rtl(cosim_arguments);
   if (app.got_subcommand("compare")) return compare(compare_arguments);
+  if (app.got_subcommand("replay")) return replay(replay_arguments);
   if (app.got_subcommand("traces")) return traces(traces_arguments);
   if (app.got_subcommand("recover")) return recover(recover_arguments);
   if (app.got_subcommand("schema")) return schema(schema_arguments);

@@ -47,6 +47,8 @@ struct DecodeArguments {
   std::string file;          ///< empty or "-": standard input
   std::string baud, signal;  ///< of levels; empty: found
   bool inverted = false;
+  std::string table, json;  ///< files for programs, of captures
+  bool quiet = false;
 };
 
 int run(const RunArguments& arguments);

@@ -6,6 +6,9 @@
 
 #include "apps/capture_file.hpp"
 #include "apps/command_line.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/outputs.hpp"
+#include "apps/telegram_files.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/explain.hpp"
@@ -22,14 +25,28 @@ namespace capture = bus::capture;
 class CapturePrinter {
  public:
   /// `packets`: the telegrams are packets of a file, and numbered as such.
-  explicit CapturePrinter(bool packets) : packets_(packets) {}
+  CapturePrinter(bool packets, const DecodeArguments& arguments)
+      : packets_(packets), quiet_(arguments.quiet), files_(arguments.table, arguments.json) {}
 
   void take(const capture::CapturedTelegram& telegram) {
     ++count_;
+    const bus::Decoded decoded = bus::decode(telegram.bytes);
+    const std::string why = telegram.bytes.empty() ? "no character" : what_is_wrong(telegram, decoded);
+    files_.take(telegram, decoded, why);
+    if (!why.empty()) right_ = false;
+    if (!quiet_) print(telegram, decoded, why);
+  }
+
+  int finish() {
+    files_.finish();
+    if (count_ == 0 && !quiet_) std::cout << "no telegram\n";
+    return right_ && count_ > 0 ? kPassed : kFailed;
+  }
+
+ private:
+  void print(const capture::CapturedTelegram& telegram, const bus::Decoded& decoded, const std::string& why) {
     const std::string at = tb::nanoseconds(telegram.start) + " ns";
     const std::string where = packets_ ? fmt::format("packet {}, {}", count_, at) : at;
-    const bus::Decoded decoded = decode(telegram.bytes);
-    const std::string why = what_is_wrong(telegram, decoded);
     if (telegram.bytes.empty())
       printer_.garbage(where, {});
     else if (why.empty())
@@ -37,19 +54,6 @@ class CapturePrinter {
     else
       printer_.wrong(where, why, decoded, telegram.bytes);
     for (const std::string& remark : telegram.remarks) std::cout << "        " << bus::printable(remark) << "\n";
-  }
-
-  int finish() const {
-    if (count_ == 0) std::cout << "no telegram\n";
-    return printer_.all_right() ? kPassed : kFailed;
-  }
-
- private:
-  static bus::Decoded decode(const bus::Bytes& bytes) {
-    bus::TelegramDecoder decoder;
-    for (const std::uint8_t byte : bytes)
-      if (auto decoded = decoder.feed(byte)) return *decoded;
-    return decoder.finish().value_or(bus::Decoded{});
   }
 
   /// Empty for a right telegram.
@@ -64,7 +68,8 @@ class CapturePrinter {
   }
 
   bus::TelegramPrinter printer_{std::cout};
-  bool packets_;
+  bool packets_, quiet_, right_ = true;
+  TelegramFiles files_;
   std::uint64_t count_ = 0;
 };
 
@@ -88,10 +93,13 @@ int decode_text(std::istream& in, const std::string& name) {
 }
 
 int decode_capture(CaptureFile& file, const DecodeArguments& arguments) {
-  CapturePrinter printer(file.packets());
+  leave_nothing_on_signals();
+  check_outputs("dsdpv1-sim decode", {{"the capture", file.path()}},
+                {{"--table", arguments.table}, {"--json", arguments.json}});
+  CapturePrinter printer(file.packets(), arguments);
   const auto source = file.read(logic_settings(arguments),
                                 [&printer](const capture::CapturedTelegram& telegram) { printer.take(telegram); });
-  if (source) say_source(*source);
+  if (source && !arguments.quiet) say_source(*source);
   return printer.finish();
 }
 
@@ -99,6 +107,10 @@ int decode_capture(CaptureFile& file, const DecodeArguments& arguments) {
 
 int decode(const DecodeArguments& arguments) {
   CaptureFile file(arguments.file);
+  const bool wants_files = !arguments.table.empty() || !arguments.json.empty() || arguments.quiet;
+  if (file.form() == CaptureForm::kText && wants_files)
+    throw tb::InputError(file.name(), 0,
+                         "is text, allowed with --table, --json and --quiet are captures and recordings of the line");
   if (file.form() == CaptureForm::kText) return decode_text(file.stream(), file.name());
   return decode_capture(file, arguments);
 }

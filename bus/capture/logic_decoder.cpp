@@ -96,7 +96,7 @@ class LogicDecoder::Line {
 };
 
 LogicDecoder::LogicDecoder(const LogicSettings& settings, TakeTelegram take)
-    : baud_(settings.baud), inverted_(settings.inverted), take_(std::move(take)) {
+    : baud_(settings.baud), inverted_(settings.inverted), take_(std::move(take)), on_change_(settings.on_change) {
   if (baud_) line_ = std::make_unique<Line>(*baud_, inverted_, take_);
 }
 
@@ -105,6 +105,7 @@ LogicDecoder::~LogicDecoder() = default;
 void LogicDecoder::level(Tick at, bool level) {
   if (level_ == level) return;
   level_ = level;
+  if (on_change_) on_change_(at, level != inverted_);
   change({at, level});
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // Telegrams out of the levels of the line, as a logic analyser or a simulator records them.
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,8 @@ struct LogicSettings {
   std::optional<int> baud = {};  ///< index of the table in bus/baud.hpp; absent: the rate is found
   bool inverted = false;         ///< idle is low
   std::string signal = {};       ///< which of several; empty: see choose_signal
+  /// Told of each change of the line, idle high; may be null.
+  std::function<void(Tick at, bool level)> on_change = {};
 };
 
 /// The signal that is the line: the only one, or the one that is wanted; else the first whose name is, in this order,
@@ -51,6 +54,7 @@ class LogicDecoder {
   std::optional<int> baud_;
   bool inverted_;
   TakeTelegram take_;
+  std::function<void(Tick, bool)> on_change_;
   std::optional<bool> level_;
   std::vector<Change> waiting_;
   std::unique_ptr<Line> line_;

@@ -105,14 +105,6 @@ DataWords data_words(const Telegram& t, std::optional<bool> dpv1 = {}) {
   return t.is_request() ? request_words(t, *sap) : response_words(t, *sap, dpv1);
 }
 
-std::string service_words(const Telegram& t) {
-  if (const auto sap = slave_sap(t)) {
-    const char* name = service_name(*sap);
-    return name != nullptr ? name : fmt::format("SAP {}", *sap);
-  }
-  return is_data_transfer(t) ? "Data_Exchange" : "";
-}
-
 /// Whether the summary of the data says something that the name of the service does not.
 bool has_essentials(const Telegram& t) {
   if (!t.data.empty()) return true;
@@ -208,11 +200,19 @@ std::string explain_fc(std::uint8_t fc) {
                      (fc & fc::kFcv) != 0 ? 1 : 0);
 }
 
+std::string explain_service(const Telegram& t) {
+  if (const auto sap = slave_sap(t)) {
+    const char* name = service_name(*sap);
+    return name != nullptr ? name : fmt::format("SAP {}", *sap);
+  }
+  return is_data_transfer(t) ? "Data_Exchange" : "";
+}
+
 std::string explain_line(const Telegram& t) {
   if (t.kind == TelegramKind::kSc) return "SC (short acknowledge)";
   if (t.kind == TelegramKind::kSd4) return fmt::format("{} -> {}  token", t.sa, t.da);
   std::string line = fmt::format("{} -> {}  {}", t.sa, t.da, explain_fc(t.fc));
-  const std::string service = service_words(t);
+  const std::string service = explain_service(t);
   if (!service.empty()) line += "  " + service;
   if (has_essentials(t)) line += ": " + data_words(t).summary;
   return line;

@@ -20,6 +20,8 @@ struct ExplainedByte {
 
 /// "1 -> 3  SRD high FCB=1 FCV=1  Slave_Diag request": addresses, function code, service and its essentials.
 std::string explain_line(const Telegram& telegram);
+/// The service that a telegram with an address belongs to: "Slave_Diag"; empty for FDL status and the like.
+std::string explain_service(const Telegram& telegram);
 /// Every byte of one telegram. A wrong telegram is explained as far as it was understood; its last line says what is
 /// wrong. `dpv1`: whether the answering slave is parameterised for DPV1, which decides how a device related diagnosis
 /// is read; unset: both ways.

@@ -138,6 +138,13 @@ Bytes encode(const Telegram& telegram) {
   return bytes;
 }
 
+Decoded decode(const Bytes& bytes) {
+  TelegramDecoder decoder;
+  for (const std::uint8_t byte : bytes)
+    if (const auto decoded = decoder.feed(byte)) return *decoded;
+  return decoder.finish().value_or(Decoded{});
+}
+
 std::uint8_t frame_check_sequence(const std::uint8_t* first, std::size_t count) {
   unsigned sum = 0;
   for (std::size_t i = 0; i < count; ++i) sum += first[i];

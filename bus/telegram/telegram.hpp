@@ -117,6 +117,9 @@ class TelegramDecoder {
   std::size_t expected_ = 0;  ///< length of the telegram as far as the header tells, 0 = not known
 };
 
+/// The first telegram of `bytes`; kTruncated when they end inside of it.
+Decoded decode(const Bytes& bytes);
+
 /// The sum of DA..data modulo 256.
 std::uint8_t frame_check_sequence(const std::uint8_t* first, std::size_t count);
 

@@ -57,6 +57,12 @@ class Bench {
   void log(Tick at, const std::string& station, const std::string& kind, const std::string& text) {
     journal_.log(at, station, kind, text);
   }
+  /// Hands a command to the user CPU of a slave of the scenario, which does it as soon as it can.
+  void command(const std::string& slave, const user_cpu::Command& command) {
+    stations_.slave(slave).command(now(), command);
+  }
+  /// Told, after all others, of what is watched anyway; RunOptions::observers are told of all pins, which costs time.
+  void add_observer(Observer& observer) { observers_.add(observer); }
   /// Where the log grows until the run ends; empty without a log.
   std::string log_grows_at() const { return journal_.run_log() != nullptr ? journal_.run_log()->grows_at() : ""; }
   /// There is a wave, but nothing opened a window of it.

@@ -3,6 +3,8 @@
 
     decode_test.py SIM CASE
 """
+import csv
+import json
 import pathlib
 import re
 import struct
@@ -195,6 +197,30 @@ def by_pipe(folder):
         expect("the same", done.stdout.decode() == wanted, True)
 
 
+def for_programs(folder):
+    """--table and --json hold the telegrams that are printed, right and wrong ones."""
+    packets, log = capture(folder, ROOT / "scenarios/read_services.yaml")
+    text = decoded(folder, packets, "--table", "all.tsv", "--json", "all.json", status=1)
+    wanted = telegrams(text)
+    rows = list(csv.DictReader((folder / "all.tsv").open(encoding="utf-8"), delimiter="\t"))
+    objects = json.loads((folder / "all.json").read_text(encoding="utf-8"))
+    expect("table: bytes", [row["bytes"] for row in rows], [each[0] for each in wanted])
+    expect("json: bytes", [each["bytes"] for each in objects], [each[0] for each in wanted])
+    expect("json: words, or why not", [each.get("wrong", each.get("words")) for each in objects], [each[1] for each in wanted])
+    expect("times", [float(row["at_ns"]) for row in rows], times(text))
+    expect("numbers", ([row["number"] for row in rows], [each["number"] for each in objects]),
+           ([str(i + 1) for i in range(len(log))], [i + 1 for i in range(len(log))]))
+    diagnosis = next(row for row in rows if row["service"] == "Slave_Diag" and row["sa"] == "5")
+    expect("a row", {key: diagnosis[key] for key in ("baud", "type", "sa", "da", "fc", "dsap", "ssap", "wrong")},
+           {"baud": "3M", "type": "SD2", "sa": "5", "da": "2", "fc": "08", "dsap": "62", "ssap": "60", "wrong": ""})
+    expect("something is wrong", any(row["wrong"] for row in rows), True)
+    quiet = decoded(folder, packets, "--quiet", "--table", "quiet.tsv", status=1)
+    expect("quiet", (quiet, (folder / "quiet.tsv").read_bytes() == (folder / "all.tsv").read_bytes()), ("", True))
+    (folder / "cut_off.pcapng").write_bytes(packets.read_bytes()[:-10])
+    sim(folder, "decode", "cut_off.pcapng", "--table", "cut_off.tsv", status=2)
+    expect("nothing half-written", sorted(path.name for path in folder.glob("cut_off*")), ["cut_off.pcapng"])
+
+
 def archive_of(folder, **members):
     with zipfile.ZipFile(folder / "made.sr", "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in members.items():
@@ -240,7 +266,7 @@ def bad_files(folder):
     expect("/dev/zero", (endless.returncode, endless.stderr.count("\n")), (2, 1))
 
 
-CASES = {case.__name__: case for case in (as_the_log, classic, rewritten, every_rate, by_pipe, bad_files)}
+CASES = {case.__name__: case for case in (as_the_log, classic, rewritten, every_rate, by_pipe, for_programs, bad_files)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_decode_") as folder_name:
     CASES[sys.argv[2]](pathlib.Path(folder_name))

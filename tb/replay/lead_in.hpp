@@ -1,0 +1,50 @@
+#pragma once
+// Before a replay: requests at the capture's rate to a station that is not there, until the model has found the rate;
+// then what brings it into the data exchange in which the capture begins.
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "bus/telegram/telegram.hpp"
+#include "bus/timeline.hpp"
+#include "bus/wire/segment.hpp"
+#include "bus/wire/uart.hpp"
+
+namespace tb::replay {
+
+using bus::Tick;
+
+class LeadIn : public bus::Agent {
+ public:
+  /// `avoid`: the address of the model. `found` is asked before each request. The segment must outlive it.
+  LeadIn(bus::Segment& segment, int baud, std::uint8_t avoid, std::function<bool()> found);
+  /// It ends at once.
+  void leave_out() { wanted_ = false; }
+  /// To be sent once the rate is found, each with time for the model's user CPU after it.
+  void then_send(std::vector<bus::Telegram> telegrams) { telegrams_ = std::move(telegrams); }
+
+  /// Told once, with the time from which on the line is free.
+  std::function<void(Tick free)> on_end;
+
+  Tick next() const override;
+  void run(Tick now) override;
+
+  /// Time enough for the model's user CPU to initialise it.
+  static constexpr Tick kStart = 500 * bus::kTicksPerUs;
+  /// After that the capture is played, found or not: a search tries each rate in some 1.2 s.
+  static constexpr Tick kLongest = 6 * bus::kTicksPerSecond;
+
+ private:
+  void send(Tick now, const bus::Bytes& bytes);
+
+  bus::UartSender sender_;
+  bus::Bytes request_;
+  Tick pause_, due_ = kStart;
+  bool wanted_ = true, ended_ = false;
+  std::vector<bus::Telegram> telegrams_;
+  std::size_t next_telegram_ = 0;
+  std::function<bool()> found_;
+};
+
+}  // namespace tb::replay

@@ -1,0 +1,97 @@
+#pragma once
+// A capture of the line, divided into what one slave has sent and what all others have.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/capture/captured_telegram.hpp"
+#include "bus/telegram/telegram.hpp"
+
+namespace tb::replay {
+
+using bus::Tick;
+
+/// A telegram of the capture. Times are the capture's own.
+struct RecordedTelegram {
+  Tick start = 0, end = 0;
+  std::uint32_t damage = 0;  ///< bits of bus::capture::damage
+  bus::Bytes bytes = {};     ///< all characters
+  bus::Decoded decoded = {};
+  bool of_slave = false;
+
+  bool right() const {
+    return decoded.error == bus::DecodeError::kNone && (damage & ~bus::capture::damage::kGap) == 0 &&
+           decoded.bytes.size() == bytes.size();
+  }
+};
+
+/// A change of the line, idle high.
+struct LevelChange {
+  Tick at;
+  bool level;
+};
+
+/// A request to the slave that it has to answer; positions in Recording::telegrams.
+struct RecordedRequest {
+  std::size_t telegram = 0;
+  std::optional<std::size_t> answer = {};
+};
+
+struct Recording {
+  std::string name;          ///< of the file, for messages
+  std::uint8_t slave = 0;    ///< its address where the capture begins
+  int baud = 0;              ///< index of bus/baud.hpp
+  Tick resolution = 1;       ///< of the times
+  std::size_t left_out = 0;  ///< telegrams of other rates
+  std::vector<RecordedTelegram> telegrams;
+  std::vector<RecordedRequest> requests;
+  std::vector<LevelChange> levels;  ///< empty: a capture of telegrams
+
+  const RecordedTelegram& request(const RecordedRequest& request) const { return telegrams[request.telegram]; }
+  /// Null where the slave was silent.
+  const RecordedTelegram* answer(const RecordedRequest& request) const {
+    return request.answer ? &telegrams[*request.answer] : nullptr;
+  }
+  /// End of what it holds.
+  Tick end() const { return telegrams.empty() ? 0 : telegrams.back().end; }
+};
+
+/// Takes the telegrams of a capture in the order of time.
+class Recorder {
+ public:
+  /// `slave`: the station address, 0 to 126. `baud`: telegrams of other rates are left out; absent: all must be of one
+  /// rate.
+  Recorder(std::string name, std::uint8_t slave, std::optional<int> baud);
+
+  void telegram(const bus::capture::CapturedTelegram& telegram);
+  void level(Tick at, bool level) { recording_.levels.push_back({at, level}); }
+  /// Throws InputError where nothing can be replayed: no rate, several rates, no request to the slave, no answer.
+  Recording finish();
+
+ private:
+  struct Pending {
+    std::size_t request;  ///< position of its telegram
+    std::uint8_t da;
+    bool of_slave;  ///< it is in Recording::requests
+  };
+  void take(const bus::capture::CapturedTelegram& telegram);
+  void divide();
+  void divide(std::size_t index);
+  void right(std::size_t index);
+  void wrong(std::size_t index);
+  void answered(std::size_t index);
+  void follow_address(const RecordedTelegram& answer);
+  void check() const;
+  /// What to do where this one is of no use.
+  std::string stations() const;
+
+  Recording recording_;
+  std::optional<int> baud_;
+  bool chosen_;           ///< by the user
+  std::uint8_t address_;  ///< of the slave, which Set_Slave_Address changes
+  std::optional<Pending> pending_;
+};
+
+}  // namespace tb::replay
