@@ -69,8 +69,8 @@ class SelectedWave {
     Value value;        ///< before the changes that are kept
   };
   struct Change {
-    bus::Tick at;
-    Signal signal;
+    bus::Tick at = 0;
+    Signal signal = 0;
     Value value;
   };
 
