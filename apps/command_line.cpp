@@ -340,18 +340,20 @@ void describe_rtl_faults(CLI::App& app, RtlFaultsArguments& arguments) {
 void describe_cosim(CLI::App& app, CosimArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("cosim", "Builds RTL of your own with Verilator and holds it against the model");
-  command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML")->required();
+  command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML");
+  CLI::Option* replay = command->add_option("--replay", arguments.replay,
+                                            "A stimulus file in its place: a case of rtl-random, with its --set");
   add_own_rtl_options(*command, arguments.own, true);
   command->add_option("--difference", arguments.difference, "Wave of both sides' pins, written when they differ")
       ->capture_default_str();
   CLI::Option* wave =
       command->add_option("--wave", arguments.wave.file,
                           "Wave of the run with the inside of your RTL beside the model's: FILE.vcd or FILE.fst");
-  command->add_option("--wave-from", arguments.wave.from, "Only from this time on")->needs(wave);
-  command->add_option("--wave-to", arguments.wave.to, "Only up to this time")->needs(wave);
+  command->add_option("--wave-from", arguments.wave.from, "Only from this time on")->needs(wave)->excludes(replay);
+  command->add_option("--wave-to", arguments.wave.to, "Only up to this time")->needs(wave)->excludes(replay);
   add_wave_save_option(*command, arguments.wave.save, wave);
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
-  command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
+  command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log)->excludes(replay);
   command->add_option("--result", arguments.result, "Result, measurements and the first difference as JSON");
   add_set_option(*command, arguments.set);
   command->footer(
@@ -359,6 +361,7 @@ void describe_cosim(CLI::App& app, CosimArguments& arguments) {
       "scenarios/two_slaves.yaml\n"
       "  dsdpv1-sim cosim --rtl my_chip --top chip my.yaml --wave inside.fst --wave-from 1.6ms --log my.log --result "
       "my.json\n"
+      "  dsdpv1-sim cosim --rtl my_chip --top chip --replay lockstep.stimulus --wave inside.fst\n"
       "\nExit codes: 0 no difference and the scenario passed, 1 otherwise, 2 wrong input, 130 "
       "interrupted.\n");
 }

@@ -5,7 +5,7 @@
 #include "tb/dsdpv1/cosim/pin_map.hpp"
 #include "tb/dsdpv1/cosim/user_rtl.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): its library's
 class App;
 }
 

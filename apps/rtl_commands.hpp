@@ -10,6 +10,7 @@
 namespace app {
 
 struct RtlRandomArguments {
+  std::string command = "dsdpv1-sim rtl-random";  ///< for messages
   std::uint64_t cycles = 10'000'000, seed = 1;
   unsigned jobs = 0;                           ///< threads; 0: as many as there are processors
   std::string replay;                          ///< a stimulus file instead of random cases
@@ -31,7 +32,8 @@ struct RtlFaultsArguments {
 
 struct CosimArguments {
   OwnRtlArguments own;
-  std::string scenario, difference = "lockstep.vcd";
+  std::string scenario, replay;  ///< one of them: a stimulus file, as of RtlRandomArguments
+  std::string difference = "lockstep.vcd";
   WaveArguments wave;  ///< file, from and to; its inside is always there
   std::string log, result;
   bool log_whole = false;

@@ -30,7 +30,6 @@ namespace app {
 namespace {
 
 constexpr int kShrinkRuns = 600;
-constexpr const char* kCommand = "dsdpv1-sim rtl-random";
 constexpr const char* kChip = "chip";  // its scope in waves
 
 cosim::Stimulus read_stimulus(const std::string& path) {
@@ -57,7 +56,7 @@ Bench bench_of(const RtlRandomArguments& arguments) {
     bench.make = cosim::reference_top(bench.options, arguments.fault, static_cast<std::uint32_t>(arguments.seed));
     return bench;
   }
-  const OwnRtl own = build_own_rtl(arguments.own, kCommand, !arguments.wave.empty());
+  const OwnRtl own = build_own_rtl(arguments.own, arguments.command, !arguments.wave.empty());
   bench.options = cosim::own_rtl_options(own.map.tolerances);
   cosim::set_parameters(bench.options, arguments.set);
   bench.make_own = own.make;
@@ -151,7 +150,7 @@ std::string word(const std::string& text) {
 
 /// The command that plays the case again.
 std::string command_text(const RtlRandomArguments& arguments) {
-  std::string text = kCommand;
+  std::string text = arguments.command;
   const auto add = [&text](const char* option, const std::string& value) {
     if (!value.empty()) text += fmt::format(" {} {}", option, word(value));
   };
@@ -206,12 +205,12 @@ int random_cases(const RtlRandomArguments& arguments, const Bench& bench, Stimul
 void check_files(const RtlRandomArguments& arguments) {
   tb::check_wave_name(arguments.difference);
   if (!arguments.wave.empty()) tb::check_wave_name(arguments.wave);
-  std::vector<NamedFile> outputs = wave_files(kCommand, arguments.wave, arguments.wave_save);
+  std::vector<NamedFile> outputs = wave_files(arguments.command, arguments.wave, arguments.wave_save);
   outputs.push_back({"--stimulus", arguments.replay.empty() ? arguments.stimulus : ""});
   outputs.push_back({"--difference", arguments.difference});
   outputs.push_back({"--log", arguments.log});
   outputs.push_back({"--result", arguments.result});
-  check_outputs(kCommand, {{"--replay", arguments.replay}, {"--pins", arguments.own.pins}}, outputs);
+  check_outputs(arguments.command, {{"--replay", arguments.replay}, {"--pins", arguments.own.pins}}, outputs);
 }
 
 }  // namespace

@@ -174,6 +174,21 @@ RunArguments run_arguments_of(const CosimArguments& arguments) {
   return run;
 }
 
+/// The stimulus of --replay, as rtl-random plays it.
+RtlRandomArguments stimulus_arguments_of(const CosimArguments& arguments) {
+  RtlRandomArguments stimulus;
+  stimulus.command = kCosim;
+  stimulus.replay = arguments.replay;
+  stimulus.own = arguments.own;
+  stimulus.set = arguments.set;
+  stimulus.difference = arguments.difference;
+  stimulus.wave = arguments.wave.file;
+  stimulus.wave_save = arguments.wave.save;
+  stimulus.log = arguments.log;
+  stimulus.result = arguments.result;
+  return stimulus;
+}
+
 void check_outputs_of(const CosimArguments& arguments, const tb::scenario::Scenario& scenario) {
   std::vector<NamedFile> inputs = scenario_inputs(arguments.scenario, scenario.files);
   inputs.push_back({"--pins", arguments.own.pins});
@@ -225,6 +240,9 @@ int run(const RunArguments& arguments) {
 }
 
 int cosim_own_rtl(const CosimArguments& arguments) {
+  if (arguments.scenario.empty() == arguments.replay.empty())
+    throw tb::InputError(std::string(kCosim) + ": allowed is one of SCENARIO and --replay");
+  if (!arguments.replay.empty()) return rtl_random(stimulus_arguments_of(arguments));
   leave_nothing_on_signals();
   const RunArguments run_arguments = run_arguments_of(arguments);
   tb::RunOptions options = options_of(run_arguments);

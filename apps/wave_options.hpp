@@ -7,7 +7,7 @@
 #include "tb/bench/wave_recorder.hpp"
 #include "tb/chip/chip_kind.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): its library's
 class App;
 class Option;
 }  // namespace CLI

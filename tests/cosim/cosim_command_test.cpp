@@ -160,6 +160,10 @@ TEST(OwnRtl, DefectIsFoundAtRandomShownFromInsideAndPlayedAgainExactly) {
   EXPECT_EQ(line_with(again.out, "first difference"), line_with(found.out, "first difference"));
   EXPECT_EQ(nlohmann::json::parse(app_test::read(folder.file("again.json")))["difference"], json["difference"]);
 
+  const app_test::Called third = call("cosim" + rtl + "--replay short.stimulus --result third.json", folder.path());
+  EXPECT_EQ(third.status, 1) << third.err;
+  EXPECT_EQ(app_test::read(folder.file("third.json")), app_test::read(folder.file("again.json")));
+
   const app_test::Called run = call(
       "cosim" + rtl + "--log run.log --result run.json '" + kSource + "/scenarios/two_slaves.yaml'", folder.path());
   EXPECT_EQ(run.status, 1) << run.err;

@@ -2,10 +2,12 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -36,9 +38,17 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+/// Ctrl-C, which the command has got as well.
+bool was_interrupted(int status) {
+  constexpr int kByShell = 128 + SIGINT;
+  return (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) || (WIFEXITED(status) && WEXITSTATUS(status) == kByShell);
+}
+
 /// Runs a command; what it says goes to a file, whose first lines with an error are the message when it fails.
 void call(const std::string& command, const std::string& log, const UserRtl& rtl) {
-  if (std::system((command + " >" + quoted(log) + " 2>&1").c_str()) == 0) return;
+  const int status = std::system((command + " >" + quoted(log) + " 2>&1").c_str());
+  if (status == 0) return;
+  if (was_interrupted(status)) std::raise(SIGINT);  // which system() has kept from this process
   std::ifstream file(log);
   std::string first;
   for (std::string line; first.empty() && std::getline(file, line);)
