@@ -1,6 +1,8 @@
 // regress: many runs in child processes or on a cluster, then the tables and the page.
 #include "apps/regress_command.hpp"
 
+#include <fmt/format.h>
+
 #include <iostream>
 #include <set>
 
@@ -31,7 +33,7 @@ std::vector<std::string> words_of(const std::string& option, const std::vector<s
   for (const std::string& word : given) {
     check_word("regress: " + option, word, allowed);
     if (!seen.insert(word).second)
-      throw tb::InputError("dsdpv1-sim regress: " + option + " has " + word + " twice, allowed is once");
+      throw tb::InputError(fmt::format("dsdpv1-sim regress: {} has {} twice, allowed is once", option, word));
   }
   return given;
 }

@@ -27,7 +27,6 @@ namespace app {
 namespace {
 
 namespace fs = std::filesystem;
-using tb::traces::Golden;
 using tb::traces::golden_name;
 
 constexpr const char* kRoot = DSDPV1_SOURCE_DIR;

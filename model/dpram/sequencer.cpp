@@ -8,9 +8,6 @@
 namespace dpram {
 namespace {
 
-constexpr int kHeaderMoves = 6;
-constexpr Cycle kQuietAccess =
-    kHeaderMoves + 1;  // cycles from the start of an access that finds nothing to do to its end
 constexpr int kVersionBytes = 4;
 constexpr std::uint8_t kVersion[kVersionBytes] = {regs::kVersionReset, regs::kVersionYearReset,
                                                   regs::kVersionMonthReset, regs::kVersionDayReset};
@@ -92,6 +89,11 @@ void Sequencer::make_up_accesses(Cycle until) {
 void Sequencer::wake(Cycle now) {
   catch_up(now);
   dozing_ = false;
+}
+
+void Sequencer::end_quietly() {
+  header_at_once();
+  end(op_++);
 }
 
 // --- the access ------------------------------------------------------------------------------------------------------

@@ -49,6 +49,14 @@ class Sequencer {
   bool dozing() const { return dozing_; }
   /// Everything up to and including `now` is made up, and accesses are events again.
   void wake(Cycle now);
+  /// The next access begins, at next(), and ends after kQuietAccess cycles: for a caller who knows from may_doze() that
+  /// it finds nothing to do, as nobody acts meanwhile.
+  void begin_quietly() { begin(due_); }
+  void end_quietly();
+
+  static constexpr int kHeaderMoves = 6;
+  /// Cycles from the start of an access that finds nothing to do to its end.
+  static constexpr Cycle kQuietAccess = kHeaderMoves + 1;
 
   bool owns() const { return phase_ > Phase::kIdle; }       ///< an access of the chip is under way
   bool started_up() const { return phase_ > Phase::kDue; }  ///< the start-up access of this reset has begun

@@ -91,6 +91,12 @@ struct Chip::Impl {
   bool eval_sequencer(Cycle cycle);
   void end_edge(Cycle cycle);
   bool only_accesses(Cycle cycle) const;
+  void access_edges(Cycle cycle, Tick to);
+  bool unasked() const;
+  Cycle last_quiet(Tick to) const;
+  // The first edge that is behind `to`, or not before the host's next drive.
+  Cycle unheard_until(Tick to) const { return first_edge_after(std::min(to, host.drive_at() - 1)); }
+  void quiet_access();
   void access_edge(Cycle cycle);
   void eval_station(Cycle cycle);
   void catch_up_line(Cycle upto);
@@ -232,7 +238,7 @@ void Chip::Impl::advance(Tick to) {
       if (only_settles(cycle))
         settle_writes(cycle);
       else if (only_accesses(cycle))
-        access_edge(cycle);
+        access_edges(cycle, to);
       else
         rising_edge(cycle);
       plan();
@@ -270,17 +276,18 @@ void Chip::Impl::end_edge(Cycle cycle) {
 
 // Most edges of a chip that answers move PBTXD and nothing else.
 bool Chip::Impl::only_sends(Cycle cycle) const {
-  return engine == Engine::kSkip && cycle < other_plans && station.only_sends(cycle);
+  return engine == Engine::kSkip && cycle < std::min(other_plans, station.only_sends_until());
 }
 
 // One after the other, as long as nothing else is due.
 void Chip::Impl::send_bits(Cycle cycle, Tick to) {
+  const Cycle act = std::min({other_plans, station.only_sends_until(), unheard_until(to)});
   do {
     now = cycle * kTicksPerCycle;
     plans.station = station.send_bit(cycle);
     publish_edge_outputs(now, (outputs & ~mask(Pin::kPbtxd)) | bit(Pin::kPbtxd, station.txd()));
     cycle = plans.station;
-  } while (only_sends(cycle) && cycle * kTicksPerCycle <= std::min(to, host.drive_at() - 1));
+  } while (cycle < act);
   plan_edge(std::min(other_plans, cycle));
 }
 
@@ -300,6 +307,33 @@ bool Chip::Impl::only_accesses(Cycle cycle) const {
   return engine == Engine::kSkip && running && station.unseen() >= cycle &&
          cycle < std::min({plans.release, plans.host, plans.handshake, plans.station, plans.interrupt});
 }
+
+// One after the other, as long as they find nothing to do and nothing else is due.
+void Chip::Impl::access_edges(Cycle cycle, Tick to) {
+  const Cycle last = last_quiet(to);
+  if (cycle > last || !unasked()) return access_edge(cycle);
+  for (; sequencer.next() <= last; plans.sequencer = sequencer.next()) quiet_access();
+}
+
+// The last cycle at which an access may begin and be over before anybody acts.
+Cycle Chip::Impl::last_quiet(Tick to) const {
+  const Cycle act = std::min({plans.release, plans.host, plans.handshake, plans.station, plans.interrupt,
+                              station.unseen(), unheard_until(to)});
+  return act - dpram::Sequencer::kQuietAccess - 1;
+}
+
+void Chip::Impl::quiet_access() {
+  const Cycle begin = sequencer.next();
+  now = begin * kTicksPerCycle;
+  sequencer.begin_quietly();
+  publish_edge_outputs(now, outputs | kAccessPins);
+  now += dpram::Sequencer::kQuietAccess * kTicksPerCycle;
+  sequencer.end_quietly();
+  publish_edge_outputs(now, outputs & ~kAccessPins);
+}
+
+// Nobody asks for the DPRAM, or for anything in it.
+bool Chip::Impl::unasked() const { return !r_req && !r_sta && handshake.next() == kNever && sequencer.may_doze(); }
 
 void Chip::Impl::access_edge(Cycle cycle) {
   if (eval_sequencer(cycle))
@@ -356,9 +390,7 @@ void Chip::Impl::eval_station(Cycle cycle) {
 
 // An access that finds nothing to do is seen on L_REQ and L_STA only, and by who asks for the DPRAM.
 void Chip::Impl::doze_if_unseen() {
-  if (engine == Engine::kSkip && (watched & kAccessPins) == 0 && !r_req && !r_sta && handshake.next() == kNever &&
-      sequencer.may_doze())
-    sequencer.doze();
+  if (engine == Engine::kSkip && (watched & kAccessPins) == 0 && unasked()) sequencer.doze();
 }
 
 void Chip::Impl::wake() {

@@ -63,11 +63,11 @@ class Station {
     return now >= timers_ || (!tx_.rts() && now >= telegrams_.deadline() && !rx_.completes(now));
   }
 
-  /// Whether eval(now) sends a bit of an answer and does nothing else.
-  bool only_sends(Cycle now) const { return tx_.rts() && now < tx_.end() && now < timers_; }
-  /// The same as eval() where only_sends(); next().
+  /// Before this cycle eval() sends bits of an answer and does nothing else.
+  Cycle only_sends_until() const { return tx_.rts() ? std::min(tx_.end(), timers_) : 0; }
+  /// The same as eval() before only_sends_until(); next().
   Cycle send_bit(Cycle now) {
-    tx_.eval(now);
+    if (now == tx_.next()) tx_.next_run();  // something else was planned that has nothing to do any more
     return std::min(tx_.next(), timers_);
   }
 

@@ -14,6 +14,17 @@ class UartTx {
   void abort();
   /// The edge of `now`. True at the edge at which PBRTS falls.
   bool eval(Cycle now);
+  /// The same at next() from the first start bit to end(): puts the next run of equal bits on the line, so that only
+  /// level changes and character ends need an evaluation.
+  void next_run() {
+    if (frame_bits_ == 0) load();
+    txd_ = (frame_ & 1U) != 0;
+    const unsigned other = txd_ ? ~frame_ : frame_;  // its lowest one is the next bit of the other level
+    const int run = __builtin_ctz(other | 1U << frame_bits_);
+    frame_ >>= run;
+    frame_bits_ -= run;
+    next_ += static_cast<Cycle>(run) * bit_;
+  }
   Cycle next() const { return next_; }
 
   /// While the first start bit begins: what is being sent. PBTXD is not shown any more, until show() is called, within
@@ -31,10 +42,9 @@ class UartTx {
 
  private:
   void load();
-  void shift();
 
   const std::uint8_t *frames_ = nullptr, *bytes_ = nullptr;
-  int size_ = 0, left_ = 0;  // characters not yet loaded
+  int size_ = 0;
   int bit_ = 0;
   Cycle begin_ = 0, end_ = 0, trail_ = 0;
   Cycle next_ = kNever;

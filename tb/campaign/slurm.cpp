@@ -64,7 +64,7 @@ std::string this_program() {
 
 }  // namespace
 
-Slurm::Slurm(fs::path folder, std::string options)
+Slurm::Slurm(const fs::path& folder, std::string options)
     : folder_(fs::absolute(folder) / kSlurmFolder), options_(std::move(options)) {}
 
 std::string Slurm::file(int submission, const std::string& ending) const {

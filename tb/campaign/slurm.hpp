@@ -26,7 +26,7 @@ struct Submission {
 class Slurm {
  public:
   /// `folder`: of the campaign, seen by all nodes under the same name; `options`: more words for sbatch.
-  Slurm(std::filesystem::path folder, std::string options);
+  Slurm(const std::filesystem::path& folder, std::string options);
 
   /// Those whose files are in the folder; what is damaged is left out.
   std::vector<Submission> submissions() const;

@@ -24,10 +24,10 @@ SlurmRunner::SlurmRunner(Jobs& jobs, const Folder& folder, Carrying carrying, On
       carrying_(std::move(carrying)),
       cluster_(std::move(cluster)),
       slurm_(folder.path(), cluster_.options),
-      bar_(jobs.size(), carrying_.kind.items, carrying_.progress) {
+      bar_(jobs.size(), carrying_.kind.items, carrying_.progress),
+      done_(count_finished(jobs)) {
   for (const std::size_t job : all_of(jobs))
     if (!jobs.finished(job)) missing_.insert(job);
-  done_ = jobs.size() - missing_.size();
   bar_.begin(done_);
 }
 

@@ -53,7 +53,7 @@ class SlurmRunner {
   std::set<std::size_t> under_way_;  ///< jobs of tasks that wait or run
   std::set<std::size_t> not_seen_;   ///< jobs that were neither when Slurm was asked last
   std::map<std::size_t, int> tries_;
-  std::size_t done_ = 0;
+  std::size_t done_;
 };
 
 }  // namespace tb::campaign

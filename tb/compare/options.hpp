@@ -29,8 +29,8 @@ struct NamedPair {
   bool inverted = false;    ///< B has the other level
   std::string driven;       ///< of B: while it does not say so, `released` stands in b's place; empty: b alone
   bool driven_low = false;  ///< it says so with 0
-  std::string released;
-  bool required = true;  ///< else it is left out where a side lacks it
+  std::string released;     ///< empty: nobody drives, Z
+  bool required = true;     ///< else it is left out where a side lacks it
   std::optional<Femtoseconds> tolerance;
 };
 

@@ -50,23 +50,29 @@ class Matcher {
   void add(const NamedPair& names) {
     const Net* const a = look_for(a_, names.a, names.required);
     const Net* const b = look_for(b_, names.b, names.required);
-    const bool whole = names.driven.empty() || names.required || (b_.knows(names.driven) && b_.knows(names.released));
-    if (a == nullptr || b == nullptr || !whole) return;
+    if (a == nullptr || b == nullptr || lacks_a_side(names)) return;
     if (!comparable(*a, *b))
       throw InputError(a_.file(), 0,
                        fmt::format("{} is {}, but {} of {} is {}, allowed are signals of one width", a->name(),
                                    form(*a), b->name(), b_.file(), form(*b)));
     Pair pair{a->name(), {*a}, {*b, names.inverted}, names.tolerance};
-    if (!names.driven.empty()) {
-      pair.b.driven = b_.find(names.driven);
-      pair.b.released = b_.find(names.released);
-      pair.b.driven_low = names.driven_low;
-      used_b_.insert(pair.b.driven->name());
-      used_b_.insert(pair.b.released->name());
-    }
+    pair.b.driven = side_of(names.driven);
+    pair.b.released = side_of(names.released);
+    pair.b.driven_low = names.driven_low;
     used_a_.insert(a->name());
     used_b_.insert(b->name());
     found_.pairs.push_back(std::move(pair));
+  }
+  /// Of a signal of B that is driven only at times.
+  bool lacks_a_side(const NamedPair& names) const {
+    const auto lacks = [this](const std::string& name) { return !name.empty() && !b_.knows(name); };
+    return !names.required && (lacks(names.driven) || lacks(names.released));
+  }
+  std::optional<Net> side_of(const std::string& name) {
+    if (name.empty()) return std::nullopt;
+    const Net& net = b_.find(name);
+    used_b_.insert(net.name());
+    return net;
   }
   Pairs finish() {
     for (const Net& net : a_.all())

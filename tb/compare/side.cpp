@@ -42,11 +42,12 @@ std::vector<std::uint32_t> Side::places(const Net& net, Touched& list, std::uint
 Probe Side::watch(const Source& source, Touched& list, std::uint32_t which) {
   Probe probe;
   probe.pieces = places(source.net, list, which);
+  probe.width = source.net.width;
   probe.inverted = source.inverted;
   if (!source.driven) return probe;
   probe.driven = places(*source.driven, list, which);
   probe.driven_low = source.driven_low;
-  probe.released = places(*source.released, list, which);
+  if (source.released) probe.released = places(*source.released, list, which);
   return probe;
 }
 
@@ -89,6 +90,7 @@ void Side::put_together(const std::vector<std::uint32_t>& pieces) {
 std::string_view Side::value(const Probe& probe) {
   const bool split = !probe.driven.empty(),
              driven = split && values_[probe.driven[0]] == (probe.driven_low ? "0" : "1");
+  if (split && !driven && probe.released.empty()) return scratch_.assign(probe.width, 'z');
   const std::vector<std::uint32_t>& pieces = split && !driven ? probe.released : probe.pieces;
   if (pieces.size() == 1 && !probe.inverted) return values_[pieces[0]];
   put_together(pieces);

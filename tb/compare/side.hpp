@@ -16,6 +16,7 @@ namespace tb::compare {
 /// A source as the side that it belongs to reads it: places of its values.
 struct Probe {
   std::vector<std::uint32_t> pieces, driven, released;
+  std::uint32_t width = 1;
   bool inverted = false, driven_low = false;
 };
 

@@ -22,7 +22,7 @@ class GoldenCheck : public Sink, public Observer {
   GoldenCheck(const Trace& golden, const scenario::Scenario& scenario);
 
   void change(std::size_t signal, Tick at, Level level) override;
-  void telegram(const HeardTelegram& telegram) override;
+  void telegram(const HeardTelegram& heard) override;
 
   /// All changes before `now` were told.
   void reached(Tick now);

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The reference RTL under Icarus, driven by the pins that the model had, and its wave against the model's.
+"""The reference RTL under Icarus, driven by the pins of a golden trace, and its wave against the golden.
 
     icarus_test.py SIM
 
-The inputs are read from the model's VCD by a reader of this script's own. A scenario's wave must be equal; with a fault in the RTL
-`compare` must name the cycle that the lockstep names.
+The inputs are read from the golden's VCD by a reader of this script's own. The wave must be equal; with a fault in the RTL `compare` must
+name the cycle, pin and levels that `traces check` names for the same RTL under Verilator.
 """
 import json
 import pathlib
@@ -14,24 +14,11 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENARIO = """
-name: From power-on to the first answers
-baud: 12M
-end: 1150us
-slaves:
-  - name: io
-    address: 5
-    gsd: %s/scenarios/dsdpv1.gsd
-    modules: ["8 bytes in, 8 bytes out"]
-    user_cpu: {behaviour: loop_back, cycle: 40us}
-    release_reset: 20us
-masters:
-  - {name: plc, address: 2, start: 150us, slaves: [{slave: io}]}
-"""
+GOLDEN, SLAVE = "bus_timing", "demo"
+END = 2_000_000_000  # ps; from power-on to data exchange
 INPUTS = {"RESET": 1, "R_REQ": 1, "R_STA": 1, "CSR": 1, "RD": 1, "WR": 1, "A": 11, "D": 8, "PBRXD": 1}
 BEGIN = "-250ns"  # of the wave of icarus_bench.sv
-FAULT, STIMULUS = 44, "check_cfg"  # of rtl_ref/faults.txt; it shows within the 5000 cycles that the lockstep's wave has
-QUICK = {"SEARCH_WINDOW_MS": 1, "SEARCH_WINDOW_BITS": 150, "BAUD_CONTROL_MS": 2}  # parameters of rtl-random
+FAULT = 46  # of rtl_ref/faults.txt
 
 
 def changes(vcd, scope):
@@ -53,21 +40,20 @@ def changes(vcd, scope):
             yield now, names[line[1:]], line[0]
 
 
-def write_inputs(vcd, scope, data, path):
-    """A line for each time at which an input changes. `data` is what the wave calls D."""
+def write_inputs(vcd, path):
+    """A line for each time at which an input changes."""
     levels = {name: "0" for name in INPUTS}
     lines = {}
 
     def bits():
         return "".join(levels[each].rjust(width, "0") for each, width in INPUTS.items())
 
-    for now, name, value in changes(vcd, scope):
-        name = "D" if name == data else name
-        if name in levels:
+    for now, name, value in changes(vcd, SLAVE):
+        name = "D" if name == "D_IN" else name
+        if name in levels and now < END:
             levels[name] = value
             lines[now] = bits()
-    last = vcd.read_text(encoding="utf-8").rpartition("\n#")[2].split()[0]
-    lines[int(last)] = bits()  # the simulation goes on to the end of the wave
+    lines[END] = bits()
     path.write_text("".join(f"{now} {bits}\n" for now, bits in lines.items()), encoding="ascii")
 
 
@@ -81,60 +67,56 @@ def expect(what, condition, said=""):
         sys.exit(f"{what}\n{said}")
 
 
-def simulate(folder, inputs, name, parameters, fault=0, fst=False):
-    """Under Icarus; the wave is name."""
+def simulate(folder, wave, fault=0):
+    """Under Icarus."""
     rtl = ROOT / "rtl_ref"
     sources = [rtl / line for line in (rtl / "files.txt").read_text(encoding="ascii").split()]
-    set_parameters = [f"-Pbench.{key}={value}" for key, value in {**parameters, "FAULT": fault}.items()]
-    status, said = run(["iverilog", "-g2012", "-DSINGLE_FAULTS", "-I", rtl, "-I", ROOT / "registers", *set_parameters, "-s", "bench", "-o",
+    status, said = run(["iverilog", "-g2012", "-DSINGLE_FAULTS", "-I", rtl, "-I", ROOT / "registers", f"-Pbench.FAULT={fault}", "-s", "bench", "-o",
                         "bench.vvp", ROOT / "tests/compare/icarus_bench.sv", *sources], folder)
     expect("iverilog", status == 0, said)
-    status, said = run(["vvp", "bench.vvp", *(["-fst"] if fst else []), f"+inputs={inputs}", f"+wave={name}"], folder)
+    status, said = run(["vvp", "bench.vvp", *(["-fst"] if wave.endswith(".fst") else []), "+inputs=inputs.txt", f"+wave={wave}"], folder)
     expect("vvp", status == 0, said)
 
 
-def compare(sim, folder, *arguments):
-    status, said = run([sim, "compare", *arguments, "--shift", BEGIN, "--json", "result.json"], folder)
-    expect(f"compare {arguments}", status in (0, 1), said)
+def compare(sim, folder, wave):
+    """What it found, and its text."""
+    status, said = run([sim, "compare", "golden.vcd", wave, "--scope-a", SLAVE, "--scope-b", "bench.dut", "--pins", "rtl_ref", "--shift", BEGIN,
+                        "--to", f"{END}ps", "--json", "result.json"], folder)
+    expect(f"compare {wave}", status in (0, 1), said)
     return json.loads((folder / "result.json").read_text(encoding="utf-8")), said
 
 
-def scenario(sim, folder):
-    (folder / "short.yaml").write_text(SCENARIO % ROOT, encoding="utf-8")
-    status, said = run([sim, "run", "short.yaml", "--quiet", "--wave", "model.vcd"], folder)
-    expect("run", status == 0, said)
-    write_inputs(folder / "model.vcd", "io", "D", folder / "inputs.txt")
-    simulate(folder, "inputs.txt", "icarus.vcd", {})
-    result, said = compare(sim, folder, "model.vcd", "icarus.vcd", "--scope-a", "io", "--pins", "rtl_ref")
-    expect("the scenario differs", result["equal"], said)
+def no_difference(sim, folder):
+    simulate(folder, "icarus.vcd")
+    result, said = compare(sim, folder, "icarus.vcd")
+    expect("the RTL differs", result["equal"], said)
     compared = {each["signal"]: each["compared"] for each in result["signals"]}
     expect("not all pins of table 1 were compared", len(compared) == 17, said)
-    expect("nothing happened on the pins", compared["D"] > 300 and compared["PBTXD"] > 50 and compared["L_REQ"] > 1000, said)
+    expect("nothing happened on the pins", compared["D_OUT"] > 100 and compared["PBTXD"] > 50 and compared["L_REQ"] > 1000, said)
 
 
-def fault(sim, folder):
-    status, told = run([sim, "rtl-random", "--replay", ROOT / f"tests/cosim/stimuli/{STIMULUS}.stimulus", "--fault", FAULT, "--difference",
-                        "lockstep.vcd"], folder)
-    found = re.search(r"first difference  (cycle (\d+).*)\n +pin (\w+): model (\w), RTL (\w)", told)
-    expect("the lockstep does not find the fault", status == 1 and found, told)
-    write_inputs(folder / "lockstep.vcd", "inputs", "D_IN", folder / "inputs.txt")
-    outputs = ["--scope-a", "model", "--scope-b", "bench.dut", "--pins", "rtl_ref"]
-    simulate(folder, "inputs.txt", "right.vcd", QUICK)
-    result, said = compare(sim, folder, "lockstep.vcd", "right.vcd", *outputs)
-    expect("without the fault it differs", result["equal"], said)
-    simulate(folder, "inputs.txt", "fault.fst", QUICK, FAULT, fst=True)
-    result, said = compare(sim, folder, "lockstep.vcd", "fault.fst", *outputs)
-    first = result["first"]
-    expect("the fault is not found", first, said)
-    expect(f"the lockstep says\n{found[0]}", first["cycle"] == int(found[2]) and first["signal"] == found[3], said)
-    expect(f"the lockstep says\n{found[0]}", (first["a"], first["b"]) == (found[4], found[5]) and found[1] in said, said)
+def the_same_difference(sim, folder):
+    status, told = run([sim, "traces", "check", GOLDEN, "--engine", "rtl", "--fault", FAULT, "--no-progress"], ROOT)
+    found = re.search(r"first difference  (cycle (\d+).*)\n +pin (\w+) of \w+: golden (?:still )?(\w), here (\w)\n", told)
+    expect("the golden does not find the fault", status == 1 and found, told)
+    for wave in ("fault.vcd", "fault.fst"):
+        simulate(folder, wave, FAULT)
+        result, said = compare(sim, folder, wave)
+        first = result["first"]
+        expect("the fault is not found", first, said)
+        named = str(first["cycle"]), first["signal"], first["a"], first["b"]
+        expect(f"the golden says\n{told}", named == found.groups()[1:] and found[1] in said, said)
 
 
 def main():
     sim = pathlib.Path(sys.argv[1]).resolve()
-    for part in (scenario, fault):
-        with tempfile.TemporaryDirectory(prefix="dsdpv1_icarus_") as folder:
-            part(sim, pathlib.Path(folder))
+    with tempfile.TemporaryDirectory(prefix="dsdpv1_icarus_") as name:
+        folder = pathlib.Path(name)
+        status, said = run([sim, "traces", "wave", GOLDEN, folder / "golden.vcd"], ROOT)
+        expect("traces wave", status == 0, said)
+        write_inputs(folder / "golden.vcd", folder / "inputs.txt")
+        no_difference(sim, folder)
+        the_same_difference(sim, folder)
 
 
 main()

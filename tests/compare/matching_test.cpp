@@ -106,6 +106,20 @@ TEST_F(Matching, TheOtherLevelAndABusWithItsDriver) {
   EXPECT_EQ(first(waves_.compare(a, b, options_)), "t.D@0: z 3");
 }
 
+TEST_F(Matching, ASideOfABusIsReleasedWhereItsDriverSaysSo) {
+  const std::string a = compare_test::vcd("wire 2 ! D_OUT [1:0]", "#0\nbz !\n#10\nb10 !\n#20\nbz !\n#30\n");
+  const std::string b =
+      compare_test::vcd("wire 2 o d_o [1:0]\nwire 1 e oe", "#0\nb11 o\n0e\n#10\n1e\nb10 o\n#20\n0e\n#30\n");
+  tb::compare::NamedPair driven;
+  driven.a = "D_OUT";
+  driven.b = "d_o";
+  driven.driven = "oe";
+  options_.pairs = {driven};
+  EXPECT_EQ(first(waves_.compare(a, b, options_)), "equal");
+  options_.pairs[0].driven_low = true;
+  EXPECT_EQ(first(waves_.compare(a, b, options_)), "t.D_OUT@0: z 3");
+}
+
 TEST(CompareOptions, WhatPeopleWrite) {
   EXPECT_EQ(tb::compare::parse_duration("10ns"), 10'000'000);
   EXPECT_EQ(tb::compare::parse_duration("-1.5us"), -1'500'000'000);

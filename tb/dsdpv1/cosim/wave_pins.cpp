@@ -19,15 +19,34 @@ std::vector<Pin> pins_of_waves() {
 
 std::string wave_name(Pin pin) { return pin == Pin::kDIn ? "D" : dsdpv1::name(pin); }
 
-tb::compare::NamedPair data_pair(const PinMap& map) {
-  const Port &out = map.pins.at("D_OUT"), &in = map.pins.at("D_IN"), &drives = map.pins.at("D_OE");
+/// What the chip drives, Z when it does not: D_OUT of a golden trace.
+tb::compare::NamedPair driven_pair(const PinMap& map) {
+  const Port &out = map.pins.at("D_OUT"), &drives = map.pins.at("D_OE");
   tb::compare::NamedPair pair;
-  pair.a = "D";
+  pair.a = dsdpv1::name(Pin::kDOut);
   pair.b = out.name;
   pair.inverted = out.inverted;
   pair.driven = drives.name;
   pair.driven_low = drives.inverted;
-  pair.released = in.name;
+  return pair;
+}
+
+/// The bus: D of a run's wave.
+tb::compare::NamedPair data_pair(const PinMap& map) {
+  tb::compare::NamedPair pair = driven_pair(map);
+  pair.a = "D";
+  pair.released = map.pins.at("D_IN").name;
+  return pair;
+}
+
+tb::compare::NamedPair pair_of(const PinMap& map, Pin pin) {
+  if (pin == Pin::kDIn) return data_pair(map);
+  if (pin == Pin::kDOut) return driven_pair(map);
+  const Port& port = map.pins.at(dsdpv1::name(pin));
+  tb::compare::NamedPair pair;
+  pair.a = dsdpv1::name(pin);
+  pair.b = port.name;
+  pair.inverted = port.inverted;
   return pair;
 }
 
@@ -50,16 +69,9 @@ std::string telegram_text(const LineHistory& line, Tick now) {
 
 std::vector<tb::compare::NamedPair> pairs_of(const PinMap& map) {
   std::vector<tb::compare::NamedPair> pairs;
-  for (const Pin pin : pins_of_waves()) {
-    tb::compare::NamedPair pair;
-    if (pin == Pin::kDIn) {
-      pair = data_pair(map);
-    } else {
-      const Port& port = map.pins.at(dsdpv1::name(pin));
-      pair.a = dsdpv1::name(pin);
-      pair.b = port.name;
-      pair.inverted = port.inverted;
-    }
+  for (int i = 0; i < dsdpv1::kPinCount; ++i) {
+    const auto pin = static_cast<Pin>(i);
+    tb::compare::NamedPair pair = pair_of(map, pin);
     pair.required = false;
     if (const int cycles = map.tolerances.at(static_cast<std::size_t>(pin)); cycles != 0)
       pair.tolerance = cycles * kThreeCycles / 3;

@@ -20,7 +20,7 @@ std::vector<tb::compare::NamedPair> pairs_of(const PinMap& map);
 class PinSurroundings : public tb::compare::Surroundings {
  public:
   const std::vector<std::string>& pins() const override;
-  void change(Tick at, std::size_t pin, std::string_view value) override;
+  void change(Tick at, std::size_t number, std::string_view value) override;
   std::vector<tb::compare::Line> lines(Tick now) const override;
 
  private:
