@@ -135,6 +135,7 @@ Part* earliest(const std::vector<std::unique_ptr<Part>>& parts) {
 
 void join_waves(const std::vector<WavePart>& parts, const std::string& to) {
   std::vector<std::unique_ptr<Part>> open;
+  open.reserve(parts.size());
   for (const WavePart& each : parts) open.push_back(std::make_unique<Part>(each));
   Scope root;
   for (const std::unique_ptr<Part>& part : open)

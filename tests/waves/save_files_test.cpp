@@ -14,9 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 
 class SaveFiles : public testing::Test {
- protected:
+ public:
   SaveFiles() { fs::create_directories(folder_); }
   ~SaveFiles() override { fs::remove_all(folder_); }
+
+ protected:
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   std::string read(const std::string& name) const {
     std::ifstream in(path(name));

@@ -4,6 +4,7 @@
 
 #include "bus/telegram/explain.hpp"
 #include "model/dsdpv1/reasons.hpp"
+#include "tb/bench/record.hpp"
 
 namespace cosim {
 

@@ -29,7 +29,7 @@ void set_parameters(PlayOptions& options, const std::vector<std::string>& settin
   static_cast<dsdpv1::Config&>(chip) = options.config;
   if (const YAML::Node keys = scenario["chip"]; keys.IsDefined())
     tb::keys::read_object(chip_kind().chip_keys(), &chip, keys, {"--set"});
-  options.config = chip;
+  options.config = static_cast<const dsdpv1::Config&>(chip);
 }
 
 MakeTop reference_top(const PlayOptions& options, unsigned fault, std::uint32_t seed) {
