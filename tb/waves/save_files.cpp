@@ -14,6 +14,9 @@
 namespace tb {
 namespace {
 
+/// 2^31 ps for 200 points of the screen, some 10 ms in a window: GTKWave knows no "all of it", as Surfer does.
+constexpr double kZoom = -31;
+
 /// One signal as the viewers name it.
 struct Shown {
   std::string path;   ///< "demo.A"
@@ -139,8 +142,8 @@ SaveFiles save_files_of(const std::string& wave) {
 void write_save_files(const std::string& wave, const std::vector<SignalGroup>& groups) {
   const std::unique_ptr<WaveReader> reader = read_wave(wave);
   const std::vector<Section> sections = sections_of(reader->declarations(), groups);
-  std::string gtkwave = fmt::format("[*] dsdpv1-sim\n[dumpfile] \"{}\"\n[timestart] 0\n",
-                                    std::filesystem::absolute(wave).lexically_normal().string());
+  std::string gtkwave = fmt::format("[*] dsdpv1-sim\n[dumpfile] \"{}\"\n[timestart] 0\n*{:.1f} -1\n",
+                                    std::filesystem::absolute(wave).lexically_normal().string(), kZoom);
   std::string surfer;
   for (const Section& each : sections) {
     gtkwave += gtkwave_text(each);

@@ -48,7 +48,7 @@ constexpr const char* kStation =
 TEST_F(SaveFiles, GroupsComeInTheirOrderThenWhatIsInNoneThenScopes) {
   write(kStation);
   EXPECT_EQ(gtkwave(),
-            "[timestart] 0\n@800200\n-demo\n@200\n-handshake\n@28\ndemo.R_REQ\n@28\ndemo.L_REQ\n@200\n-host\n"
+            "[timestart] 0\n*-31.0 -1\n@800200\n-demo\n@200\n-handshake\n@28\ndemo.R_REQ\n@28\ndemo.L_REQ\n@200\n-host\n"
             "@22\ndemo.A[10:0]\n@200\n-states\n@28\ndemo.dp_state\n@800200\n-rtl\n@22\ndemo.rtl.count_q[7:0]\n"
             "@1000200\n-rtl\n@1000200\n-demo\n");
   EXPECT_EQ(read("my.sucl"),
@@ -62,7 +62,7 @@ TEST_F(SaveFiles, ClockIsFirstAndScopeWithoutGroupsIsAsDeclared) {
       "$scope module plc $end\n$var string 1 ! b $end\n$var string 1 # a $end\n$upscope $end\n"
       "$scope module clock $end\n$var wire 1 $ CLK $end\n$upscope $end\n");
   EXPECT_EQ(gtkwave(),
-            "[timestart] 0\n@800200\n-clock\n@28\nclock.CLK\n@1000200\n-clock\n"
+            "[timestart] 0\n*-31.0 -1\n@800200\n-clock\n@28\nclock.CLK\n@1000200\n-clock\n"
             "@800200\n-plc\n@28\nplc.b\n@28\nplc.a\n@1000200\n-plc\n");
 }
 
