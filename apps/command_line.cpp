@@ -38,6 +38,9 @@ void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
       ->allow_extra_args(false);
 }
 
+const char* const kReportHelp =
+    "The run as one HTML page with its charts and timing diagrams, which needs no network (docs/report.md)";
+
 const char* const kCaptureHelp =
     "Every telegram with its time as FILE.pcapng, for Wireshark and tshark (docs/captures.md)";
 
@@ -87,6 +90,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
+  command->add_option("--report", arguments.report, kReportHelp);
   add_capture_options(*command, arguments.capture, arguments.capture_link);
   command
       ->add_option(
@@ -122,6 +126,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
           "  dsdpv1-sim run my.yaml --wave bus.vcd --wave-signals 'bus.*' --wave-signals '*.PB?XD' --wave-from 2ms\n"
           "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
           "  dsdpv1-sim run my.yaml --log my.jsonl\n"
+          "  dsdpv1-sim run my.yaml --report my.html\n"
           "  dsdpv1-sim run my.yaml --capture my.pcapng --capture-link user0\n"
           "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
           "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"

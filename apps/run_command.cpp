@@ -20,6 +20,7 @@
 #include "tb/dsdpv1/systemc/tlm_execution.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/output/output_file.hpp"
+#include "tb/report/html/report_file.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"
@@ -84,6 +85,8 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
   tb::traces::GoldenRun golden(arguments.golden, scenario, execution->segment(), options);
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
+  std::optional<tb::html::ReportFile> report_file;
+  if (!arguments.report.empty()) report_file.emplace(arguments.report, scenario, options);
   tb::Bench bench(scenario, options, std::move(execution));
   tb::Progress progress(scenario.end, arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
   catch_signals();
@@ -96,6 +99,7 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
     result_file->write(tb::result_json(result));
     result_file->commit();
   }
+  if (report_file) report_file->write(result, DSDPV1_VERSION);
   if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
   const bool ran_through = !afterwards || afterwards();  // while the bench still stands
   if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << std::flush;
@@ -132,6 +136,7 @@ void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenari
                 {{"--wave", arguments.wave.file},
                  {"--log", arguments.log},
                  {"--result", arguments.result},
+                 {"--report", arguments.report},
                  {"--trace", arguments.trace},
                  {"--capture", arguments.capture},
                  {"--difference", arguments.engine == "lockstep" ? arguments.difference : ""}});
