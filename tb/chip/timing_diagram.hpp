@@ -10,7 +10,12 @@
 
 namespace tb {
 
-enum class Turn : std::uint8_t { kRise, kFall, kChange };
+enum class Turn : std::uint8_t {
+  kRise,
+  kFall,
+  kChange,
+  kValue,  ///< to a level that somebody drives and that is known
+};
 
 /// A change of a pin. With `where`, only while that pin has that level.
 struct DiagramEdge {
@@ -45,10 +50,10 @@ struct DiagramSpan {
 struct TimingDiagram {
   const char* id = "";
   const char* title = "";
-  const char* text = "";          ///< what is shown, one sentence
+  const char* text = "";             ///< what is shown, one sentence
   std::vector<DiagramEdge> anchors;  ///< each of them is an instance; none: each answer of the slave, as it begins
   std::vector<DiagramSpan> spans;
-  bus::Tick patience = 0;  ///< how long moments after the anchor are waited for
+  bus::Tick patience = 0;       ///< how long moments after the anchor are waited for
   std::vector<PinNumber> pins;  ///< drawn, from above
 };
 

@@ -12,9 +12,8 @@ constexpr PinNumber number(Pin pin) { return static_cast<PinNumber>(pin); }
 DiagramEdge rise(Pin pin) { return {number(pin), Turn::kRise, false, 0, 0}; }
 DiagramEdge fall(Pin pin) { return {number(pin), Turn::kFall, false, 0, 0}; }
 DiagramEdge change(Pin pin) { return {number(pin), Turn::kChange, false, 0, 0}; }
-DiagramEdge only(DiagramEdge edge, Pin where, Level level) {
-  return {edge.pin, edge.turn, true, number(where), level};
-}
+DiagramEdge value(Pin pin) { return {number(pin), Turn::kValue, false, 0, 0}; }
+DiagramEdge only(DiagramEdge edge, Pin where, Level level) { return {edge.pin, edge.turn, true, number(where), level}; }
 
 Moment here() { return {}; }
 Moment before(Edges edges) { return {Moment::Of::kBefore, std::move(edges)}; }
@@ -60,7 +59,7 @@ TimingDiagram read() {
           {rise(Pin::kRd)},
           {{"Tc", before({change(Pin::kA)}), before({fall(Pin::kRd)}), "TIMING_TC"},
            {"Tw", before({fall(Pin::kRd)}), sample(), "TIMING_TW"},
-           {"RD to the chip's data", before({fall(Pin::kRd)}), before({change(Pin::kDOut)})}},
+           {"RD to the chip's data", before({fall(Pin::kRd)}), before({value(Pin::kDOut)})}},
           0,
           pins({Pin::kCsr, Pin::kRd, Pin::kWr, Pin::kA, Pin::kDIn, Pin::kDOut})};
 }

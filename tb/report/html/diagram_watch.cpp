@@ -123,13 +123,15 @@ void DiagramWatch::judge(const Instance& instance) {
   candidate_ = instance;
 }
 
-/// Less margin than all before; where nothing is limited, the longest first span.
+/// Less margin than all before, or the same within a shorter time, which shows it larger; where nothing is limited, the
+/// longest.
 bool DiagramWatch::is_worse(const Instance& instance) const {
   const Instance* const before = candidate_ ? &*candidate_ : worst_ ? &worst_->instance : nullptr;
   const std::optional<Tick> margin = instance.margin();
   if (before == nullptr) return true;
-  if (margin || before->margin()) return margin && (!before->margin() || *margin < *before->margin());
-  return instance.last() - instance.first() > before->last() - before->first();
+  const Tick longer = (instance.last() - instance.first()) - (before->last() - before->first());
+  if (!margin || !before->margin()) return margin || (!before->margin() && longer > 0);
+  return *margin < *before->margin() || (*margin == *before->margin() && longer < 0);
 }
 
 void DiagramWatch::take_picture() {

@@ -10,7 +10,7 @@ function histogramUnit(times) {
 function binsOf(times, unit) {
   const values = times.values.map(([value, count]) => [value / unit, count]);
   const least = times.least / unit, greatest = times.greatest / unit;
-  if (greatest === least) return {scale: d3.scaleLinear().domain([least * 0.9, greatest * 1.1 || 1]), bins: [{from: least, to: least, count: times.count}]};
+  if (greatest === least) return {scale: d3.scaleLinear().domain([least * 0.98, greatest * 1.02 || 1]), bins: [{from: least, to: least, count: times.count}]};
   const grows = least > 0 && greatest / least > 100;
   const scale = (grows ? d3.scaleLog() : d3.scaleLinear()).domain([least, greatest]).range([0, BINS]);
   const bins = d3.range(BINS).map(bin => ({from: scale.invert(bin), to: scale.invert(bin + 1), count: 0}));
@@ -18,12 +18,25 @@ function binsOf(times, unit) {
   return {scale, bins: bins.filter(each => each.count)};
 }
 
+// The least time allowed is in the picture, the greatest where it happens to be.
+function withLimit(scale, times, unit) {
+  const [least, greatest] = scale.domain();
+  if (!times.limits.length || times.limits[0] / unit > least) return scale;
+  return scale.domain([times.limits[0] / unit - (greatest - times.limits[0] / unit) / 20, greatest]);
+}
+
+function drawLimit(svg, x, limit, top) {
+  if (limit < x.domain()[0] || limit > x.domain()[1]) return;
+  svg.append("line").attr("class", "limit-line").attr("x1", x(limit)).attr("x2", x(limit)).attr("y1", top).attr("y2", top + PLOT);
+  svg.append("text").attr("class", "small").attr("x", x(limit) + 4).attr("y", top + 10).text("limit");
+}
+
 function drawHistogram(svg, width, times) {
   const [unit, name] = histogramUnit(times);
   const {scale, bins} = binsOf(times, unit);
   const left = 44, right = width - 16, top = 8;
   setHeight(svg, width, top + PLOT + 40);
-  const x = scale.copy().range([left, right]);
+  const x = withLimit(scale.copy(), times, unit).range([left, right]);
   const y = d3.scaleSymlog().constant(1).domain([0, d3.max(bins, each => each.count)]).range([top + PLOT, top]);
   const barWidth = each => Math.max(3, x(each.to) - x(each.from) - 1);
   const bars = svg.selectAll("rect.bin").data(bins).join("rect").attr("class", "bin").attr("data-count", each => each.count)
@@ -33,6 +46,7 @@ function drawHistogram(svg, width, times) {
   const most = d3.max(bins, each => each.count);
   const powers = d3.range(0, Math.ceil(Math.log10(most + 1)) + 1).map(each => 10 ** each).filter(each => each <= most);
   svg.append("g").attr("class", "axis").attr("transform", `translate(${left},0)`).call(d3.axisLeft(y).tickValues([0, ...powers]).tickFormat(d3.format("~s")));
+  for (const limit of times.limits) drawLimit(svg, x, limit / unit, top);
   const ticks = Math.max(2, Math.floor((right - left) / 70));
   const axis = d3.axisBottom(x).ticks(ticks);
   if (x.base) axis.tickFormat(x.tickFormat(ticks, "~g"));

@@ -26,10 +26,10 @@ function drawMargins(svg, width, checks) {
     .text(each => each.id.length > room ? "…" + each.id.slice(-room + 1) : each.id);
   rows.append("line").attr("class", "rule").attr("x1", left).attr("x2", right).attr("y1", ROW).attr("y2", ROW);
   rows.each(function (check) {
+    const begin = each => each.from_ns === null ? check.worst_margin_ns : each.from_ns;  // violations are one part
     const most = d3.max(check.histogram, each => each.count);
     d3.select(this).selectAll("rect").data(check.histogram).join("rect").attr("class", "strip").attr("y", 5).attr("height", ROW - 10)
-      .attr("x", each => x(each.from_ns === null ? least : each.from_ns))
-      .attr("width", each => Math.max(2, x(each.to_ns === null ? FARTHEST : each.to_ns) - x(each.from_ns === null ? least : each.from_ns)))
+      .attr("x", each => x(begin(each))).attr("width", each => Math.max(2, x(each.to_ns === null ? FARTHEST : each.to_ns) - x(begin(each))))
       .attr("fill-opacity", each => 0.2 + 0.6 * Math.log(1 + each.count) / Math.log(1 + most));
   });
   rows.append("path").attr("class", "worst").attr("d", `M0,2 L0,${ROW - 2}`).attr("transform", each => `translate(${x(each.worst_margin_ns)},0)`);

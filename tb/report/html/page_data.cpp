@@ -17,15 +17,23 @@ Json telegrams_of(const TelegramList& list) {
     rows.push_back({each.start, each.end, each.lane, static_cast<int>(each.group), each.words, optional_of(each.tsdr)});
   Json groups = Json::array();
   for (std::size_t i = 0; i < kTelegramGroups; ++i) groups.push_back(name(static_cast<TelegramGroup>(i)));
-  return {{"count", list.count()}, {"groups", groups}, {"lanes", list.lanes()}, {"texts", list.texts()}, {"rows", rows}};
+  return {
+      {"count", list.count()}, {"groups", groups}, {"lanes", list.lanes()}, {"texts", list.texts()}, {"rows", rows}};
 }
 
 Json times_of(const TimesOf& of) {
   const Distribution& times = of.times;
   Json values = Json::array();
   for (const auto& [value, count] : times.values()) values.push_back({value, count});
-  return {{"title", of.title},       {"whose", of.whose},           {"bit", of.unit},     {"count", times.count()},
-          {"least", times.least()},  {"greatest", times.greatest()}, {"mean", times.mean()}, {"step", times.step()},
+  return {{"title", of.title},
+          {"whose", of.whose},
+          {"bit", of.unit},
+          {"limits", of.limits},
+          {"count", times.count()},
+          {"least", times.least()},
+          {"greatest", times.greatest()},
+          {"mean", times.mean()},
+          {"step", times.step()},
           {"values", values}};
 }
 
@@ -55,6 +63,7 @@ Json span_of(const ChipKind& kind, const DiagramSpan& span, const MeasuredSpan& 
           {"clause", rule != nullptr ? Json(rule->clause) : Json()},
           {"from", optional_of(measured.from)},
           {"to", optional_of(measured.to)},
+          {"is_tsdr", span.tsdr},
           {"least", optional_of(measured.limits.least)},
           {"greatest", optional_of(measured.limits.greatest)},
           {"margin", optional_of(measured.margin())}};
@@ -62,12 +71,8 @@ Json span_of(const ChipKind& kind, const DiagramSpan& span, const MeasuredSpan& 
 
 Json diagram_of(const ChipKind& kind, const std::string& slave, const DiagramWatch& watch) {
   const TimingDiagram& diagram = watch.diagram();
-  Json json = {{"id", diagram.id},
-               {"title", diagram.title},
-               {"text", diagram.text},
-               {"slave", slave},
-               {"instances", watch.instances()},
-               {"picture", nullptr}};
+  Json json = {{"id", diagram.id}, {"title", diagram.title},         {"text", diagram.text},
+               {"slave", slave},   {"instances", watch.instances()}, {"picture", nullptr}};
   if (!watch.worst()) return json;
   const DiagramPicture& worst = *watch.worst();
   Json spans = Json::array();
@@ -103,12 +108,11 @@ std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::e
 std::string without_tags(const std::string& json) {
   std::string text;
   text.reserve(json.size());
-  for (const char c : json) {
+  for (const char c : json)
     if (c == '<')
       text += "\\u003c";
     else
       text += c;
-  }
   return text;
 }
 

@@ -5,9 +5,7 @@
 namespace tb::html {
 namespace {
 
-bool turns(Turn turn, Level level) {
-  return turn == Turn::kChange || (turn == Turn::kRise ? level == 1 : level == 0);
-}
+bool turns(Turn turn, Level level) { return turn == Turn::kChange || (turn == Turn::kRise ? level == 1 : level == 0); }
 
 }  // namespace
 
@@ -30,9 +28,8 @@ bool PinMemory::is(const DiagramEdge& edge, PinNumber pin, Level level) const {
 
 std::optional<Tick> PinMemory::last(const DiagramEdge& edge, Tick at) const {
   const std::deque<PinStep>& steps = pins_.at(edge.pin).steps;
-  const auto found = std::find_if(steps.rbegin(), steps.rend(), [&](const PinStep& step) {
-    return step.at <= at && turns(edge.turn, step.level);
-  });
+  const auto found = std::find_if(steps.rbegin(), steps.rend(),
+                                  [&](const PinStep& step) { return step.at <= at && turns(edge.turn, step.level); });
   if (found == steps.rend()) return std::nullopt;
   return found->at;
 }

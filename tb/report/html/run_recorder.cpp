@@ -10,7 +10,7 @@ namespace tb::html {
 namespace {
 
 constexpr Tick kBefore = 2 * bus::kTicksPerUs, kAfter = bus::kTicksPerUs;  ///< shown round a violation
-constexpr Tick kLongest = 100 * bus::kTicksPerUs;                          ///< ... from where it was to where it was seen
+constexpr Tick kLongest = 100 * bus::kTicksPerUs;  ///< ... from where it was to where it was seen
 
 SpanLimits limits_of(const scenario::Scenario& scenario, const char* check) {
   const checks::RuleTable& rules = scenario.kind->rules();
@@ -41,7 +41,7 @@ RunRecorder::RunRecorder(const scenario::Scenario& scenario) : scenario_(scenari
     Slave& slave = slaves_.emplace_back(kind.pins().size());
     for (const TimingDiagram& diagram : kind.timing_diagrams())
       slave.diagrams.emplace_back(diagram, limits_of(scenario, diagram), slave.memory);
-    for (const BusyTime& busy : kind.busy_times()) slave.busy.push_back({{}, {busy.title, each.name.text, {}, 0}});
+    for (const BusyTime& busy : kind.busy_times()) slave.busy.push_back({{}, {busy.title, each.name.text, {}, 0, {}}});
   }
 }
 
@@ -90,7 +90,8 @@ void RunRecorder::telegram(const HeardTelegram& heard) {
   if (!is_data_exchange(wire)) return;
   const std::uint8_t address = wire.decoded.telegram.da;
   Station& station = stations_[address];
-  if (!station.cycle) station.cycle = TimesOf{"From Data_Exchange to Data_Exchange", telegrams_.station(address), {}, 0};
+  if (!station.cycle)
+    station.cycle = TimesOf{"From Data_Exchange to Data_Exchange", telegrams_.station(address), {}, 0, {}};
   if (station.last_exchange) station.cycle->times.add(wire.start - *station.last_exchange);
   station.last_exchange = wire.start;
 }
@@ -99,13 +100,13 @@ void RunRecorder::telegram(const HeardTelegram& heard) {
 void RunRecorder::answer(const bus::WireTelegram& wire) {
   Station& station = stations_[wire.station];
   const Tick bit = bus::baud(wire.baud).bit;
+  const SpanLimits limits = tsdr_limits(wire.baud);
   if (!station.tsdr || station.tsdr->unit != bit)
-    station.tsdr = TimesOf{"TSDR", telegrams_.station(wire.station), {}, bit};
+    station.tsdr = TimesOf{"TSDR", telegrams_.station(wire.station), {}, bit, {*limits.least, *limits.greatest}};
   station.tsdr->times.add(*wire.tsdr);
   for (Slave& slave : slaves_)
     if (slave.chip != nullptr && slave.chip->address() == wire.station)
-      for (DiagramWatch& each : slave.diagrams)
-        each.answered(wire.start - *wire.tsdr, wire.start, tsdr_limits(wire.baud));
+      for (DiagramWatch& each : slave.diagrams) each.answered(wire.start - *wire.tsdr, wire.start, limits);
 }
 
 // --- violations ------------------------------------------------------------------------------------------------------

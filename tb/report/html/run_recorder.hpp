@@ -30,7 +30,8 @@ struct TimesOf {
   std::string title;  ///< "Holds of the user"
   std::string whose;  ///< a station
   Distribution times;
-  Tick unit = 0;  ///< a bit time where it is counted in these; 0: a time
+  Tick unit = 0;             ///< a bit time where it is counted in these; 0: a time
+  std::vector<Tick> limits;  ///< the least and the greatest allowed, or none
 };
 
 class RunRecorder : public Observer {

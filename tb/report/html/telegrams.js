@@ -1,6 +1,6 @@
 // The telegrams of the run over time: a lane a sender, a bar a telegram. Bars that would be narrower than a pixel and
 // follow each other are drawn as one, whose data-count says how many they are.
-const LANE = 30, LANE_LEFT = 110, OVERVIEW = 46;
+const LANE = 30, LANE_LEFT = 110, LANE_RIGHT = 26, OVERVIEW = 46;
 
 function telegramsOf(data) {
   return data.rows.map(([start, end, lane, group, words, tsdr]) => ({start, end, lane, group, words, tsdr}));
@@ -86,16 +86,16 @@ function telegramChart(parent, data, flags, end) {
   picture(parent, "telegrams", (svg, width) => {
     const bottom = 14 + lanes * LANE;
     setHeight(svg, width, bottom + 24 + OVERVIEW + 4);
-    const scale = d3.scaleLinear().domain([0, end]).range([LANE_LEFT, width - 12]);
+    const scale = d3.scaleLinear().domain([0, end]).range([LANE_LEFT, width - LANE_RIGHT]);
     const clip = svg.append("clipPath").attr("id", "telegrams-clip");
-    clip.append("rect").attr("x", LANE_LEFT).attr("y", -14).attr("width", width - 12 - LANE_LEFT).attr("height", bottom + 14);
+    clip.append("rect").attr("x", LANE_LEFT).attr("y", -14).attr("width", width - LANE_RIGHT - LANE_LEFT).attr("height", bottom + 14);
     const names = svg.append("g").attr("transform", "translate(0,14)").selectAll("g").data(data.lanes).join("g")
       .attr("transform", (_, lane) => `translate(0,${lane * LANE})`);
     names.append("text").attr("class", "label").attr("x", LANE_LEFT - 8).attr("y", LANE / 2 + 4)
       .text(each => each.length > 15 ? each.slice(0, 14) + "…" : each).append("title").text(each => each);
-    names.append("line").attr("class", "rule").attr("x1", LANE_LEFT).attr("x2", width - 12).attr("y1", LANE).attr("y2", LANE);
+    names.append("line").attr("class", "rule").attr("x1", LANE_LEFT).attr("x2", width - LANE_RIGHT).attr("y1", LANE).attr("y2", LANE);
     const plot = svg.append("g").attr("transform", "translate(0,14)").append("g").attr("clip-path", "url(#telegrams-clip)");
-    plot.append("rect").attr("class", "ground").attr("x", LANE_LEFT).attr("width", width - 12 - LANE_LEFT).attr("height", lanes * LANE);
+    plot.append("rect").attr("class", "ground").attr("x", LANE_LEFT).attr("width", width - LANE_RIGHT - LANE_LEFT).attr("height", lanes * LANE);
     const axis = svg.append("g").attr("class", "axis main").attr("transform", `translate(0,${bottom})`);
     let showPart = () => {};
     const redraw = shown => {
