@@ -206,6 +206,7 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, "As of run; where it grows is said at the start");
   command->add_flag("--log-whole", arguments.log_whole, "As of run")->needs(log);
   command->add_option("--result", arguments.result, "As of run, and how well real time was kept");
+  command->add_option("--report", arguments.report, kReportHelp);
   add_capture_options(*command, arguments.capture, arguments.capture_link);
   command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
   command->footer(std::string("\nExamples:\n"

@@ -45,7 +45,7 @@ function drawHistogram(svg, width, times) {
   hinted(bars, each => `${range(each)} ${name}: ${countText(each.count)}`);
   const most = d3.max(bins, each => each.count);
   const powers = d3.range(0, Math.ceil(Math.log10(most + 1)) + 1).map(each => 10 ** each).filter(each => each <= most);
-  svg.append("g").attr("class", "axis").attr("transform", `translate(${left},0)`).call(d3.axisLeft(y).tickValues([0, ...powers]).tickFormat(d3.format("~s")));
+  svg.append("g").attr("class", "axis").attr("transform", `translate(${left},0)`).call(d3.axisLeft(y).tickValues(powers).tickFormat(d3.format("~s")));
   for (const limit of times.limits) drawLimit(svg, x, limit / unit, top);
   const ticks = Math.max(2, Math.floor((right - left) / 70));
   const axis = d3.axisBottom(x).ticks(ticks);

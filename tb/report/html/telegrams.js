@@ -31,8 +31,9 @@ function barsOf(telegrams, scale) {
   return bars;
 }
 
+// What a telegram is about stands last: "2 -> 5  request SRD low FCB=1 FCV=1  Set_Prm: ...".
 function barText(data, bar) {
-  const text = data.texts[bar.first.words], room = Math.floor((bar.width - 6) / 6.2);
+  const text = data.texts[bar.first.words].split("  ").pop(), room = Math.floor((bar.width - 6) / 6.2);
   if (bar.count > 1 || room < 5) return "";
   return text.length <= room ? text : text.slice(0, room - 1) + "…";
 }
