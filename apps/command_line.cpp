@@ -39,6 +39,9 @@ void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
       ->allow_extra_args(false);
 }
 
+const char* const kReportHelp =
+    "The run as one HTML page with its charts and timing diagrams, which needs no network (docs/report.md)";
+
 const char* const kCaptureHelp =
     "Every telegram with its time as FILE.pcapng, for Wireshark and tshark (docs/captures.md)";
 
@@ -88,6 +91,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
+  command->add_option("--report", arguments.report, kReportHelp);
   add_capture_options(*command, arguments.capture, arguments.capture_link);
   command
       ->add_option(
@@ -124,6 +128,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
           "  dsdpv1-sim run my.yaml --wave bus.vcd --wave-signals 'bus.*' --wave-signals '*.PB?XD' --wave-from 2ms\n"
           "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
           "  dsdpv1-sim run my.yaml --log my.jsonl\n"
+          "  dsdpv1-sim run my.yaml --report my.html\n"
           "  dsdpv1-sim run my.yaml --capture my.pcapng --capture-link user0\n"
           "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
           "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
@@ -207,6 +212,7 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, "As of run; where it grows is said at the start");
   command->add_flag("--log-whole", arguments.log_whole, "As of run")->needs(log);
   command->add_option("--result", arguments.result, "As of run, and how well real time was kept");
+  command->add_option("--report", arguments.report, kReportHelp);
   add_capture_options(*command, arguments.capture, arguments.capture_link);
   command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
   command->footer(std::string("\nExamples:\n"

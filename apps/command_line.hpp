@@ -19,7 +19,7 @@ constexpr int kInterrupted = 130;  ///< SIGINT or SIGTERM; all files are complet
 struct RunArguments {
   std::string scenario, engine = "skip", view = "pins", checks = "report";
   WaveArguments wave;
-  std::string log, result, trace;
+  std::string log, result, trace, report;
   std::string capture, capture_link = "profibus";
   std::string golden;                       ///< folder of golden traces, empty: not compared with them
   unsigned fault = 0;                       ///< of rtl_ref/faults.txt, 0: none

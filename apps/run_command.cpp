@@ -20,6 +20,7 @@
 #include "tb/dsdpv1/systemc/tlm_execution.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/output/output_file.hpp"
+#include "tb/report/html/report_file.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"
@@ -90,6 +91,8 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
   tb::traces::GoldenRun golden(arguments.golden, scenario, execution->segment(), options);
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
+  std::optional<tb::html::ReportFile> report_file;
+  if (!arguments.report.empty()) report_file.emplace(arguments.report, scenario, options);
   tb::Bench bench(scenario, options, std::move(execution));
   tb::Progress progress(scenario.end, arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
   catch_signals();
@@ -104,6 +107,7 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
     result_file->commit();
   }
   if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
+  if (report_file) report_file->write(result, DSDPV1_VERSION);
   if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
   const bool ran_through = !lockstep.report || lockstep.report();
   if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << std::flush;
@@ -152,6 +156,7 @@ void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenari
   std::vector<NamedFile> outputs = wave_files("dsdpv1-sim run", arguments.wave.file, arguments.wave.save);
   outputs.push_back({"--log", arguments.log});
   outputs.push_back({"--result", arguments.result});
+  outputs.push_back({"--report", arguments.report});
   outputs.push_back({"--trace", arguments.trace});
   outputs.push_back({"--capture", arguments.capture});
   outputs.push_back({"--difference", arguments.engine == "lockstep" ? arguments.difference : ""});

@@ -17,6 +17,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/units.hpp"
 #include "tb/output/output_file.hpp"
+#include "tb/report/html/report_file.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/serve/ports.hpp"
@@ -65,14 +66,17 @@ int serve(const ServeArguments& arguments) {
   tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
   scenario.baud = chosen_baud(scenario, arguments.baud);
   scenario.end = chosen_end(arguments.duration);
-  const tb::RunOptions options = options_of(arguments, *scenario.kind);
+  tb::RunOptions options = options_of(arguments, *scenario.kind);
   std::vector<NamedFile> outputs = wave_files("dsdpv1-sim serve", arguments.wave.file, arguments.wave.save);
   outputs.push_back({"--log", arguments.log});
   outputs.push_back({"--result", arguments.result});
+  outputs.push_back({"--report", arguments.report});
   outputs.push_back({"--capture", arguments.capture});
   check_outputs("dsdpv1-sim serve", scenario_inputs(arguments.scenario, scenario.files), outputs);
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
+  std::optional<tb::html::ReportFile> report_file;
+  if (!arguments.report.empty()) report_file.emplace(arguments.report, scenario, options);
 
   auto port = open_port(arguments, scenario.baud);
   const std::string name = port->name();
@@ -97,6 +101,7 @@ int serve(const ServeArguments& arguments) {
     result_file->write(tb::result_json(result));
     result_file->commit();
   }
+  if (report_file) report_file->write(result, DSDPV1_VERSION);
   if (!arguments.quiet) std::cout << tb::summary(result) << std::flush;
   return result.passed ? kPassed : kFailed;
 }

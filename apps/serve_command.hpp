@@ -16,7 +16,7 @@ struct ServeArguments {
   std::string baud;      ///< empty: that of the scenario
   std::string duration;  ///< empty: until interrupted
   WaveArguments wave;
-  std::string log, result;
+  std::string log, result, report;
   std::string capture, capture_link = "profibus";
   bool log_whole = false, quiet = false;
 };

@@ -44,6 +44,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
   checks_.on_violation = [this](const std::string& slave, const checks::Violation& violation, const char* kind) {
     stations_.slave(slave).chip().pause_access();
     journal_.check_violated(slave, violation, kind);
+    observers_.tell(&Observer::violated, slave, violation);
     changed(violation.found);
   };
   replies_.on_change = [this] { changed(); };

@@ -37,6 +37,16 @@ const checks::RuleTable& ChipKind::rules() const {
   return none;
 }
 
+const std::vector<TimingDiagram>& ChipKind::timing_diagrams() const {
+  static const std::vector<TimingDiagram> none;
+  return none;
+}
+
+const std::vector<BusyTime>& ChipKind::busy_times() const {
+  static const std::vector<BusyTime> none;
+  return none;
+}
+
 const std::vector<const ChipKind*>& chip_kinds() { return all_kinds(); }
 
 const ChipKind* find_chip_kind(const std::string& name) {

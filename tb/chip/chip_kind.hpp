@@ -8,6 +8,7 @@
 #include "model/profibus/event.hpp"
 #include "tb/checks/check.hpp"
 #include "tb/checks/chip_checks.hpp"
+#include "tb/chip/timing_diagram.hpp"
 #include "tb/keys/keys.hpp"
 #include "tb/pins/pins.hpp"
 #include "tb/user_cpu/program.hpp"
@@ -101,6 +102,10 @@ class ChipKind {
   /// Pins that the checks need.
   virtual PinMask checked_pins() const { return 0; }
   virtual std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& /*limits*/) const { return nullptr; }
+
+  // --- What a report of a run shows of its pins; none by default.
+  virtual const std::vector<TimingDiagram>& timing_diagrams() const;
+  virtual const std::vector<BusyTime>& busy_times() const;
 };
 
 /// All kinds that this program knows, the default of scenarios first.

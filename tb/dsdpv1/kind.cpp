@@ -6,6 +6,7 @@
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/dsdpv1/checks/checks.hpp"
 #include "tb/dsdpv1/codes.hpp"
+#include "tb/dsdpv1/diagrams.hpp"
 #include "tb/dsdpv1/inside_watch.hpp"
 #include "tb/dsdpv1/last_access.hpp"
 #include "tb/dsdpv1/pin_chip.hpp"
@@ -64,6 +65,8 @@ class Dsdpv1Kind : public ChipMaker {
   std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits) const override {
     return std::make_unique<checks::Checks>(limits);
   }
+  const std::vector<TimingDiagram>& timing_diagrams() const override { return dsdpv1_timing_diagrams(); }
+  const std::vector<BusyTime>& busy_times() const override { return dsdpv1_busy_times(); }
 
   std::unique_ptr<ChipView> make_pin_chip(const ChipRequest& request, bus::Segment& segment,
                                           bus::Timeline& timeline) const override {

@@ -1,0 +1,10 @@
+# cmake -D OUTPUT=file.cpp -D NAMESPACE=ns -D FILES="name=path;..." -P embed.cmake: each file as a constant text of C++.
+set(text "// Made by cmake/embed.cmake from the files named below.\n#include <string_view>\n\nnamespace ${NAMESPACE} {\n")
+foreach(each ${FILES})
+  string(REGEX REPLACE "=.*" "" name "${each}")
+  string(REGEX REPLACE "^[^=]*=" "" path "${each}")
+  file(READ "${path}" content)
+  string(APPEND text "extern const std::string_view ${name};\nconst std::string_view ${name} = R\"embedded(${content})embedded\";\n")
+endforeach()
+string(APPEND text "}  // namespace ${NAMESPACE}\n")
+file(WRITE "${OUTPUT}" "${text}")

@@ -1,0 +1,12 @@
+#pragma once
+// What reports show of the DSDPV1's pins: handshake (5.1), accesses (5.2, table 15), INTR0, and the answer on the line.
+#include <vector>
+
+#include "tb/chip/timing_diagram.hpp"
+
+namespace tb {
+
+const std::vector<TimingDiagram>& dsdpv1_timing_diagrams();
+const std::vector<BusyTime>& dsdpv1_busy_times();
+
+}  // namespace tb

@@ -1,0 +1,75 @@
+#include "tb/report/html/page.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string_view>
+
+#include "bus/printable.hpp"
+#include "tb/report/html/page_data.hpp"
+#include "tb/report/summary.hpp"
+
+namespace tb::html {
+
+// The files of this folder, made by cmake/embed.cmake.
+extern const std::string_view kPageHtml, kPageCss, kD3, kD3Licence;
+extern const std::string_view kScript_numbers, kScript_picture, kScript_telegrams, kScript_histogram, kScript_margins,
+    kScript_timing, kScript_page;
+
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : bus::printable_lines(text)) {
+    switch (c) {
+      case '&': result += "&amp;"; break;
+      case '<': result += "&lt;"; break;
+      case '>': result += "&gt;"; break;
+      case '"': result += "&quot;"; break;
+      default: result += c;
+    }
+  }
+  return result;
+}
+
+std::string title_of(const RunResult& result, const std::string& version) {
+  const char* const verdict = result.interrupted ? "interrupted" : result.passed ? "passed" : "failed";
+  return fmt::format("{}: {} (dsdpv1-sim {})", result.scenario, verdict, version);
+}
+
+std::string scripts() {
+  std::string text;
+  for (const std::string_view each : {kScript_numbers, kScript_picture, kScript_telegrams, kScript_histogram,
+                                      kScript_margins, kScript_timing, kScript_page})
+    text += each;
+  return text;
+}
+
+using Pieces = std::map<std::string, std::string, std::less<>>;
+
+/// Puts the pieces into their places, @LIKE_THIS@, of which each stands alone; what they bring is not looked into.
+std::string filled(std::string_view page, const Pieces& pieces) {
+  std::string text;
+  while (true) {
+    const std::size_t begin = page.find('@');
+    text += page.substr(0, begin);
+    if (begin == std::string_view::npos) return text;
+    const std::size_t end = page.find('@', begin + 1);
+    text += pieces.at(std::string(page.substr(begin + 1, end - begin - 1)));
+    page.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+std::string page(const RunResult& result, const RunRecorder& recorder, const std::string& version) {
+  return filled(kPageHtml, {{"TITLE", escaped(title_of(result, version))},
+                            {"STYLE", std::string(kPageCss)},
+                            {"TEXT", escaped(summary(result))},
+                            {"DATA", page_data(result, recorder, version)},
+                            {"D3_LICENCE", std::string(kD3Licence)},
+                            {"D3", std::string(kD3)},
+                            {"SCRIPT", scripts()}});
+}
+
+}  // namespace tb::html

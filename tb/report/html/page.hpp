@@ -1,0 +1,13 @@
+#pragma once
+// The report of a run as one HTML page that loads nothing from anywhere.
+#include <string>
+
+#include "tb/bench/record.hpp"
+#include "tb/report/html/run_recorder.hpp"
+
+namespace tb::html {
+
+/// `recorder` has heard the whole run and is finished; `version`: of the program.
+std::string page(const RunResult& result, const RunRecorder& recorder, const std::string& version);
+
+}  // namespace tb::html

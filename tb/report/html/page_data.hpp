@@ -1,0 +1,13 @@
+#pragma once
+// The data of the page as JSON. Times are ticks of 1/12 ns but in the result, which stands there as --result writes it.
+#include <string>
+
+#include "tb/bench/record.hpp"
+#include "tb/report/html/run_recorder.hpp"
+
+namespace tb::html {
+
+/// It can stand within a script element: without '<'.
+std::string page_data(const RunResult& result, const RunRecorder& recorder, const std::string& version);
+
+}  // namespace tb::html

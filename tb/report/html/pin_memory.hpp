@@ -1,0 +1,50 @@
+#pragma once
+// The last changes of each pin of a chip, enough for a picture.
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "bus/time.hpp"
+#include "tb/chip/timing_diagram.hpp"
+#include "tb/pins/pins.hpp"
+
+namespace tb::html {
+
+using bus::Tick;
+
+struct PinStep {
+  Tick at = 0;
+  Level level = 0;
+};
+
+/// A pin from one time to another.
+struct PinTrace {
+  PinNumber pin = 0;
+  Level first = 0;  ///< the level at the begin
+  std::vector<PinStep> steps;
+};
+
+class PinMemory {
+ public:
+  static constexpr std::size_t kDepth = 4096;  ///< changes a pin: an answer of 255 characters and the request before it
+
+  explicit PinMemory(std::size_t pins) : pins_(pins) {}
+  void begin(PinNumber pin, Level level) { pins_.at(pin).before = level; }
+  void add(Tick at, PinNumber pin, Level level);
+
+  Level level(PinNumber pin) const;
+  /// Whether a change of `pin` to `level`, now, is this edge.
+  bool is(const DiagramEdge& edge, PinNumber pin, Level level) const;
+  /// The last such edge at or before `at`. A condition on another pin is not looked at.
+  std::optional<Tick> last(const DiagramEdge& edge, Tick at) const;
+  PinTrace trace(PinNumber pin, Tick from, Tick to) const;
+
+ private:
+  struct Pin {
+    Level before = 0;  ///< the first of `steps`
+    std::deque<PinStep> steps;
+  };
+  std::vector<Pin> pins_;
+};
+
+}  // namespace tb::html
