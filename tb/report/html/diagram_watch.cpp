@@ -47,13 +47,20 @@ Tick Instance::last() const {
   return last;
 }
 
-void DiagramWatch::pin(Tick at, PinNumber pin, Level level) {
-  if (candidate_ && at > candidate_->last() + beside(*candidate_)) take_picture();
-  for (Instance& each : open_) resolve_later(each, at, pin, level);
-  while (!open_.empty() && (is_complete(open_.front()) || at > open_.front().anchor + diagram_.patience)) {
+/// Judges the oldest open ones as long as they are `done`.
+template <class Done>
+void DiagramWatch::close(const Done& done) {
+  while (!open_.empty() && done(open_.front())) {
     judge(open_.front());
     open_.pop_front();
   }
+}
+
+void DiagramWatch::pin(Tick at, PinNumber pin, Level level) {
+  if (candidate_ && at > candidate_->last() + beside(*candidate_)) take_picture();
+  close([&](const Instance& each) { return at > each.anchor + diagram_.patience; });
+  for (Instance& each : open_) resolve_later(each, at, pin, level);
+  close([&](const Instance& each) { return is_complete(each); });
   const auto is_this = [&](const DiagramEdge& edge) { return memory_.is(edge, pin, level); };
   if (std::any_of(diagram_.anchors.begin(), diagram_.anchors.end(), is_this)) anchored(at);
 }

@@ -59,6 +59,8 @@ class DiagramWatch {
   std::uint64_t instances() const { return instances_; }
 
  private:
+  template <class Done>
+  void close(const Done& done);
   void anchored(Tick at);
   std::optional<Tick> resolved(const Moment& moment, Tick anchor, std::optional<Tick> request_end) const;
   void resolve_later(Instance& instance, Tick at, PinNumber pin, Level level) const;

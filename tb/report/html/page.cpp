@@ -13,8 +13,8 @@ namespace tb::html {
 
 // The files of this folder, made by cmake/embed.cmake.
 extern const std::string_view kPageHtml, kPageCss, kD3, kD3Licence;
-extern const std::string_view kScript_numbers, kScript_picture, kScript_telegrams, kScript_histogram, kScript_margins,
-    kScript_timing, kScript_page;
+extern const std::string_view kScriptNumbers, kScriptPicture, kScriptTelegrams, kScriptHistogram, kScriptMargins,
+    kScriptTiming, kScriptPage;
 
 namespace {
 
@@ -39,8 +39,8 @@ std::string title_of(const RunResult& result, const std::string& version) {
 
 std::string scripts() {
   std::string text;
-  for (const std::string_view each : {kScript_numbers, kScript_picture, kScript_telegrams, kScript_histogram,
-                                      kScript_margins, kScript_timing, kScript_page})
+  for (const std::string_view each :
+       {kScriptNumbers, kScriptPicture, kScriptTelegrams, kScriptHistogram, kScriptMargins, kScriptTiming, kScriptPage})
     text += each;
   return text;
 }

@@ -67,8 +67,10 @@ void RunRecorder::busy_changed(Slave& slave, Tick at, PinNumber changed) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if ((all[i].pins & mask_of(changed)) == 0) continue;
     bool is_busy = false;
-    for (PinNumber pin = 0; pin < scenario_.kind->pins().size(); ++pin)
-      is_busy = is_busy || ((all[i].pins & mask_of(pin)) != 0 && slave.memory.level(pin) == 1);
+    for (std::size_t pin = 0; pin < scenario_.kind->pins().size(); ++pin) {
+      const auto number = static_cast<PinNumber>(pin);
+      is_busy = is_busy || ((all[i].pins & mask_of(number)) != 0 && slave.memory.level(number) == 1);
+    }
     Busy& busy = slave.busy[i];
     if (is_busy && !busy.since) busy.since = at;
     if (is_busy || !busy.since) continue;
@@ -139,9 +141,10 @@ void RunRecorder::take_pictures(Slave& slave, Tick now) {
 void RunRecorder::take(const Slave& slave, ViolationPicture& picture) {
   const PinMask of_rule = scenario_.kind->rules()[picture.violation.check.index].pins;
   std::vector<PinTrace> others;
-  for (PinNumber pin = 0; pin < scenario_.kind->pins().size(); ++pin) {
-    PinTrace trace = slave.memory.trace(pin, picture.from, picture.to);
-    const bool belongs = (of_rule & mask_of(pin)) != 0;
+  for (std::size_t pin = 0; pin < scenario_.kind->pins().size(); ++pin) {
+    const auto number = static_cast<PinNumber>(pin);
+    PinTrace trace = slave.memory.trace(number, picture.from, picture.to);
+    const bool belongs = (of_rule & mask_of(number)) != 0;
     if (belongs || !trace.steps.empty()) (belongs ? picture.pins : others).push_back(std::move(trace));
   }
   picture.of_rule = picture.pins.size();

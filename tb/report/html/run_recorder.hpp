@@ -47,7 +47,7 @@ class RunRecorder : public Observer {
   void begins(std::size_t slave, const ChipView& chip) override;
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override;
   void read(std::size_t slave, Tick sample) override;
-  void telegram(const HeardTelegram& telegram) override;
+  void telegram(const HeardTelegram& heard) override;
   void violated(const std::string& slave, const checks::Violation& violation) override;
   /// The run is over: what waited for more of it is taken as it is.
   void finish();
@@ -79,8 +79,8 @@ class RunRecorder : public Observer {
     std::optional<Tick> last_exchange;
     std::optional<TimesOf> tsdr, cycle;
   };
-  void busy_changed(Slave& slave, Tick at, PinNumber pin);
-  void answer(const bus::WireTelegram& telegram);
+  void busy_changed(Slave& slave, Tick at, PinNumber changed);
+  void answer(const bus::WireTelegram& wire);
   void take_pictures(Slave& slave, Tick now);
   void take(const Slave& slave, ViolationPicture& picture);
 

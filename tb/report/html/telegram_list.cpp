@@ -16,10 +16,9 @@ TelegramGroup group_of_sap(const bus::Telegram& telegram) {
 }
 
 bool is_fdl(const bus::Telegram& telegram) {
-  using namespace bus::fc;
   if (!telegram.is_request()) return telegram.kind == bus::TelegramKind::kSd1;
   const std::uint8_t function = telegram.function();
-  return function == kFdlStatus || function == kIdent || function == kLsapStatus;
+  return function == bus::fc::kFdlStatus || function == bus::fc::kIdent || function == bus::fc::kLsapStatus;
 }
 
 TelegramGroup group_of(const bus::WireTelegram& wire) {

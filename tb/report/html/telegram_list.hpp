@@ -46,7 +46,7 @@ class TelegramList {
     std::vector<std::string> list;
     std::uint32_t number(const std::string& text);
   };
-  std::string sender(const bus::WireTelegram& telegram) const;
+  std::string sender(const bus::WireTelegram& wire) const;
 
   std::map<std::uint8_t, std::string> names_;
   Words lanes_, texts_;
