@@ -155,6 +155,15 @@ def logs(folder):
            "cut.log:1: has not all bytes, allowed is a log with all of them (--log-whole, .jsonl)\n")
 
 
+def reference_rtl(folder):
+    """The reference RTL in the model's place answers as it does."""
+    capture = record(folder, "1.5M")
+    is_equal(folder, "the reference RTL", capture, "--engine", "rtl")
+    refused = sim(folder, "replay", capture, "--as", "5", "--engine", "rtl", "--wave", "x.vcd", "--wave-inside", status=2)
+    expect("no inside", refused.stderr,
+           "dsdpv1-sim replay: --wave-inside is about the model, allowed with it is --engine step or skip\n")
+
+
 # --- different --------------------------------------------------------------------------------------------------------
 def is_exchange_answer(packet):
     return packet.data[0] == 0x68 and packet.data[4:6] == b"\x02\x05"
@@ -337,7 +346,7 @@ def outputs(folder):
            "dsdpv1-sim replay: --json would replace the capture, run.pcapng, allowed is a file of its own\n")
 
 
-CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, changed_byte, missing_answer, answer_without_syn,
+CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, reference_rtl, changed_byte, missing_answer, answer_without_syn,
                                           shifted_answer, other_ident, in_the_middle, without_lead_in, window, outputs)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_replay_") as folder_name:
