@@ -6,6 +6,15 @@
 namespace calibrate {
 namespace {
 
+/// A telegram that the capture has only a part of, at its beginning or end, is none.
+void leave_out_cut(std::vector<LineTelegram>& telegrams, const Trace& trace, Tick end) {
+  const auto syn = [](const LineTelegram& telegram) { return bus::kSynBits * bus::baud(telegram.baud).bit; };
+  if (!telegrams.empty() && !telegrams.back().right && trace.edges.back() + syn(telegrams.back()) > end)
+    telegrams.pop_back();
+  if (!telegrams.empty() && !telegrams.front().right && telegrams.front().start < syn(telegrams.front()))
+    telegrams.erase(telegrams.begin());
+}
+
 /// What the chip hears of its own: PBRXD is the line, and its answers are on it.
 void leave_out_own(std::vector<LineTelegram>& received, const std::vector<LineTelegram>& sent, const TimeBase& time) {
   const Tick about = time.margin() + 8 * bus::kTicksPerCycle;
@@ -86,6 +95,8 @@ void fill(Scene& scene) {
   if (scene.record.sees(Wire::kPbrxd)) scene.received = telegrams_of(scene.record[Wire::kPbrxd], scene.time);
   if (scene.record.sees(Wire::kPbtxd))
     scene.sent = telegrams_of(scene.record[Wire::kPbtxd], scene.time, scene.received);
+  leave_out_cut(scene.received, scene.record[Wire::kPbrxd], scene.record.end);
+  leave_out_cut(scene.sent, scene.record[Wire::kPbtxd], scene.record.end);
   leave_out_own(scene.received, scene.sent, scene.time);
   if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd})) pair_up(scene), keep_own(scene);
   find_accesses(scene);
