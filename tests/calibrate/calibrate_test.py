@@ -194,7 +194,7 @@ def contradictions(folder):
     for wire, ruling in (("PBRTS", "P2"), ("L_STA", "H1")):
         edited, at = analyser.shifted(pins, wire, after, round(5 * CYCLE))
         planted(edited, ruling, at, 5 if wire == "PBRTS" else None)
-    late = {**pins, "PBRTS": shift_all(pins["PBRTS"], begin, finish, round(9 * CYCLE)), "PBTXD": shift_all(pins["PBTXD"], begin, finish, round(9 * CYCLE))}
+    late = {**pins, **{pin: shift_all(pins[pin], begin, finish, round(9 * CYCLE)) for pin in ("PBRTS", "PBTXD", "PBRXD")}}
     planted(late, "S3", begin, 8)
     dropped = analyser.without(analyser.without(pins, "PBTXD", begin, finish), "PBRTS", begin, finish)
     dropped = analyser.without(dropped, "PBRXD", begin, finish)

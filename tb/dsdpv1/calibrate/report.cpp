@@ -103,7 +103,11 @@ std::array<std::size_t, 3> counted(const Result& result) {
 
 std::string summary(const Result& result) {
   const auto [confirmed, contradicted, hidden] = counted(result);
-  return fmt::format("{} rulings confirmed, {} contradicted, {} not shown", confirmed, contradicted, hidden);
+  std::size_t other = 0;
+  for (const ParameterResult& each : result.parameters)
+    if (each.verdict == Verdict::kContradicted) ++other;
+  return fmt::format("{} rulings confirmed, {} contradicted, {} not shown; {} of {} parameters differ from their default",
+                     confirmed, contradicted, hidden, other, result.parameters.size());
 }
 
 nlohmann::ordered_json clock_json(const Estimate& clock) {
