@@ -91,7 +91,7 @@ void narrow_by_chains(const Scene& scene, Estimate& interval) {
     instances.push_back(
         {chain.to, {all.lo / chain.count, all.hi / chain.count}, scene.time.best(chain.from, chain.to) / chain.count});
   }
-  const Estimate narrow = estimate(std::move(instances));
+  const Estimate narrow = estimate(instances);
   if (narrow.count != 0 && overlap(narrow.span, interval.span)) interval.span = common(narrow.span, interval.span);
 }
 
@@ -109,7 +109,7 @@ Estimate clock_of(const Scene& scene, const std::vector<Chain>& chains, double i
     if (seen > 2 * doubt)
       instances.push_back({chain.to, {right / (seen + doubt), right / (seen - doubt)}, right / seen});
   }
-  Estimate clock = estimate(std::move(instances));
+  Estimate clock = estimate(instances);
   if (clock.count == 0) return clock;
   const double ratio = right_sum / seen_sum;
   for (const Chain& chain : chains) {
@@ -136,7 +136,7 @@ void fit_interval(Scene& scene, Found& found) {
   for (std::size_t i = 0; i + 1 < scene.accesses.size(); ++i)
     if (undisturbed(scene, i)) instances.push_back(interval_of(scene, i));
   Fit& fit = found.fit(Parameter::kAccessInterval);
-  fit.estimate = estimate(std::move(instances));
+  fit.estimate = estimate(instances);
   if (fit.estimate.count == 0) {
     fit.not_shown = "no two accesses without the user between them";
     return;
@@ -319,7 +319,7 @@ void fit_ready(const Scene& scene, Found& found) {
     bound_by_length(scene, starts[i], until, bound);
     if (bound.lo > 0 && bound.hi < kFar) instances.push_back({scene.accesses[starts[i]].start, bound, bound.middle()});
   }
-  fit.estimate = estimate(std::move(instances));
+  fit.estimate = estimate(instances);
   if (fit.estimate.count == 0)
     fit.not_shown = starts.empty() ? "no start-up access" : "the access that writes B004 is not to be told from others";
 }

@@ -41,7 +41,7 @@ void fit_driver(const Scene& scene, Found& found) {
   }
   const auto fit = [&](Parameter parameter, const Claim& claim, std::vector<Instance>& instances) {
     Fit& to = found.fit(parameter);
-    to.estimate = estimate(std::move(instances), &scene.time);
+    to.estimate = estimate(instances, &scene.time);
     to.estimate.span.lo = std::max(to.estimate.span.lo, 0.0);
     if (to.estimate.count == 0) to.not_shown = "no answer with an edge of PBRTS beside it";
     for (const Outlier& outlier : to.estimate.outliers)

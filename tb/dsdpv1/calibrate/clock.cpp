@@ -29,7 +29,7 @@ Estimate clock_of(const std::vector<LineTelegram>& telegrams, const Trace& trace
     if (seen <= 2 * time.doubt()) continue;
     instances.push_back({telegram.start, {right / (seen + time.doubt()), right / (seen - time.doubt())}, right / seen});
   }
-  return estimate(std::move(instances));
+  return estimate(instances);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ std::optional<long long> Estimate::whole() const {
   return low;
 }
 
-Estimate estimate(std::vector<Instance> instances, const TimeBase* time) {
+Estimate estimate(const std::vector<Instance>& instances, const TimeBase* time) {
   Estimate result;
   result.count = instances.size();
   if (instances.empty()) return result;

@@ -32,6 +32,6 @@ struct Estimate {
 
 /// The values that most instances agree with. With `time` their mean narrows that down, where the chip's edges drift
 /// past the samples, so that the errors of sampling are spread. No instances: count 0.
-Estimate estimate(std::vector<Instance> instances, const TimeBase* time = nullptr);
+Estimate estimate(const std::vector<Instance>& instances, const TimeBase* time = nullptr);
 
 }  // namespace calibrate

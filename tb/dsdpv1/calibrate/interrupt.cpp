@@ -37,7 +37,7 @@ void fit_low(const Scene& scene, const std::vector<Pulse>& pulses, Found& found)
     instances.push_back(
         {pulse.fall, scene.time.between(pulse.fall, pulse.rise), scene.time.best(pulse.fall, pulse.rise)});
   Fit& fit = found.fit(Parameter::kIntrLow);
-  fit.estimate = estimate(std::move(instances), &scene.time);
+  fit.estimate = estimate(instances, &scene.time);
   if (pulses.empty()) fit.not_shown = "INTR0 has no pulse";
   for (const Outlier& outlier : fit.estimate.outliers)
     found.judge.fails(kPulses, outlier.at, fmt::format("{:+.1f} cycles from the others", outlier.by));

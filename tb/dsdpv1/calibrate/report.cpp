@@ -106,8 +106,9 @@ std::string summary(const Result& result) {
   std::size_t other = 0;
   for (const ParameterResult& each : result.parameters)
     if (each.verdict == Verdict::kContradicted) ++other;
-  return fmt::format("{} rulings confirmed, {} contradicted, {} not shown; {} of {} parameters differ from their default",
-                     confirmed, contradicted, hidden, other, result.parameters.size());
+  return fmt::format(
+      "{} rulings confirmed, {} contradicted, {} not shown; {} of {} parameters differ from their default", confirmed,
+      contradicted, hidden, other, result.parameters.size());
 }
 
 nlohmann::ordered_json clock_json(const Estimate& clock) {

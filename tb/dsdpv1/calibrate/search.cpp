@@ -265,7 +265,7 @@ void fit_baud_control(const Scene& scene, Found& found) {
     const double whole = std::round(ms.middle());
     if (whole >= 1 && ms.lo - kNear <= whole && whole <= ms.hi + kNear) instances.push_back({at, ms, ms.middle()});
   }
-  fit.estimate = estimate(std::move(instances));
+  fit.estimate = estimate(instances);
   if (fit.estimate.count == 0) fit.not_shown = "BR does not fall after silence";
 }
 
