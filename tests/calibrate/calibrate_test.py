@@ -226,7 +226,17 @@ def chip_block(folder):
         assert again[pin] == pins[pin], f"{pin} of the run is not that of the capture\n{block}"
 
 
-CASES = {case.__name__: case for case in (fast_parameters, slow_parameters, forms_and_names, contradictions, chip_block)}
+def shipped_scenarios(folder):
+    """The model's own waves contradict nothing, and show the parameters of their scenarios."""
+    for scenario, station, window in (("watchdog", "demo", 5), ("baud_change", "demo", 10), ("dpv1_c1", "demo", 5), ("set_slave_address", "demo", None)):
+        sim("run", str(ROOT / "scenarios" / (scenario + ".yaml")), "-q", "--wave", "own.fst", folder=folder)
+        result = calibrate(folder, "own.fst", "--scope", station)
+        assert not contradicted(result), (scenario, contradicted(result))
+        if window:
+            assert_is(parameters(result)["search_window_ms"], window)
+
+
+CASES = {case.__name__: case for case in (fast_parameters, slow_parameters, forms_and_names, contradictions, chip_block, shipped_scenarios)}
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory(prefix="dsdpv1_calibrate_") as name:
