@@ -104,7 +104,7 @@ class WaveLevels {
     taker_.finish(clock_.at(wave_->end()));
   }
   double unit() const {
-    double unit = static_cast<double>(bus::kTicksPerSecond);
+    auto unit = static_cast<double>(bus::kTicksPerSecond);
     for (int i = wave_->declarations().exponent; i < 0; ++i) unit /= 10;
     return unit;
   }

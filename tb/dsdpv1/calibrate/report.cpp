@@ -26,7 +26,7 @@ std::string wires_text(std::vector<std::string> wires) {
     const auto is_bus = [bus = bus](const std::string& wire) { return wire[0] == bus; };
     if (std::count_if(wires.begin(), wires.end(), is_bus) != static_cast<std::ptrdiff_t>(count)) continue;
     wires.erase(std::remove_if(wires.begin(), wires.end(), is_bus), wires.end());
-    wires.push_back(std::string(1, bus));
+    wires.emplace_back(1, bus);
   }
   return tb::join(wires);
 }
