@@ -78,4 +78,19 @@ std::optional<capture::LogicSource> CaptureFile::read(const capture::LogicSettin
   return std::nullopt;
 }
 
+Sampling CaptureFile::read_levels(capture::LevelTaker& taker) {
+  try {
+    switch (form_) {
+      case CaptureForm::kSigrok: return {capture::read_sigrok_levels(read_archive(stream()), taker)};
+      case CaptureForm::kCsv: return {capture::read_csv_levels(stream(), taker), static_cast<double>(bus::kTicksPerNs)};
+      case CaptureForm::kWave: return {{}, read_wave_levels(path_, taker)};
+      default: break;
+    }
+  } catch (const capture::CaptureError& error) {
+    throw tb::InputError(name_, 0, error.what());
+  }
+  throw tb::InputError(name_, 0,
+                       "has no levels of pins, allowed are VCD, FST, a session of sigrok, CSV of a logic analyser");
+}
+
 }  // namespace app

@@ -13,6 +13,12 @@ namespace app {
 
 enum class CaptureForm : std::uint8_t { kText, kPcapng, kPcap, kSigrok, kCsv, kWave };
 
+/// How exact a recording's times are, as far as it says so itself.
+struct Sampling {
+  std::optional<std::uint64_t> rate = {};  ///< samples a second
+  double unit = 0;                         ///< without a rate: ticks to which times were rounded
+};
+
 /// What it is, is known by how it begins.
 class CaptureFile {
  public:
@@ -32,6 +38,9 @@ class CaptureFile {
   /// packets. Throws tb::InputError.
   std::optional<bus::capture::LogicSource> read(const bus::capture::LogicSettings& settings,
                                                 const bus::capture::TakeTelegram& take);
+  /// Gives `taker` the levels of a recording: a wave, a session of sigrok, a table. Throws tb::InputError, also for
+  /// another form.
+  Sampling read_levels(bus::capture::LevelTaker& taker);
 
  private:
   bool standard_input_;

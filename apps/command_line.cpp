@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/calibrate_command.hpp"
 #include "apps/compare_command.hpp"
 #include "apps/reasons_command.hpp"
 #include "apps/recover_command.hpp"
@@ -491,6 +492,50 @@ void describe_replay(CLI::App& app, ReplayArguments& arguments) {
       "\nExit codes: 0 equal, 1 different, 2 wrong input, 130 interrupted.\n");
 }
 
+void describe_calibrate(CLI::App& app, CalibrateArguments& arguments) {
+  constexpr double kMostJitter = 1000, kMostPpm = 20'000;  // ns; 2 %
+  constexpr int kMostStation = 126;
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "Holds a capture of a real chip's pins against the rulings and fits the chip's parameters");
+  command
+      ->add_option(
+          "CAPTURE", arguments.file,
+          "Logic analyser's session (sigrok), CSV, VCD, FST with any of the chip's pins, known by what is in it")
+      ->required();
+  command
+      ->add_option("--signal", arguments.signals,
+                   "PIN=NAME: the pin of table 1 (A0 to A10, D0 to D7, or A and D as vectors) is called NAME, "
+                   "PIN=!NAME when it is inverted; left "
+                   "out: as the pin")
+      ->allow_extra_args(false);
+  command->add_option("--map", arguments.map, "The same as a map of pins (docs/cosim.md)");
+  command->add_option("--scope", arguments.scope, "Only signals in this scope of a wave: the station of a wave of run");
+  command->add_option("--station", arguments.station, "The chip's address; left out: the one that is answered")
+      ->check(CLI::Range(0, kMostStation));
+  command->add_option("--rate", arguments.rate,
+                      "Samples a second, such as 24MHz; left out: what the file says, or its changes show");
+  command
+      ->add_option("--jitter", arguments.jitter_ns,
+                   "How far an edge may be off besides the sampling, skew between channels included, ns")
+      ->check(CLI::Range(0.0, kMostJitter))
+      ->capture_default_str();
+  command->add_option("--ppm", arguments.clock_ppm, "How far the clocks of chip and capture may differ")
+      ->check(CLI::Range(0.0, kMostPpm))
+      ->capture_default_str();
+  command->add_option("--chip", arguments.chip, "The parameters as a chip: block for scenarios");
+  command->add_option("--json", arguments.json, "The result for programs");
+  command->add_option("--table", arguments.table, "What is printed with --all, into this file");
+  command->add_flag("--all", arguments.all, "Also the claims that the capture does not show, and why");
+  command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
+  command->footer(
+      "\nExamples:\n"
+      "  dsdpv1-sim calibrate board.sr --signal PBRXD=D0 --signal PBTXD=D1 --signal PBRTS=D2\n"
+      "  dsdpv1-sim calibrate board.csv --map pins.yaml --jitter 10 --chip chip.yaml --json board.json\n"
+      "  dsdpv1-sim calibrate model.fst --scope demo --all\n"
+      "docs/calibrate.md explains them.\n"
+      "\nExit codes: 0 all is confirmed or not shown, 1 something is contradicted, 2 wrong input, 130 interrupted.\n");
+}
+
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -572,6 +617,8 @@ int command_line(int argc, char** argv) {
   describe_compare(app, compare_arguments);
   ReplayArguments replay_arguments;
   describe_replay(app, replay_arguments);
+  CalibrateArguments calibrate_arguments;
+  describe_calibrate(app, calibrate_arguments);
   TracesArguments traces_arguments;
   describe_traces(app, traces_arguments);
   RecoverArguments recover_arguments;
@@ -593,6 +640,7 @@ int command_line(int argc, char** argv) {
   if (app.got_subcommand("cosim")) return cosim_own_rtl(cosim_arguments);
   if (app.got_subcommand("compare")) return compare(compare_arguments);
   if (app.got_subcommand("replay")) return replay(replay_arguments);
+  if (app.got_subcommand("calibrate")) return calibrate(calibrate_arguments);
   if (app.got_subcommand("traces")) return traces(traces_arguments);
   if (app.got_subcommand("recover")) return recover(recover_arguments);
   if (app.got_subcommand("schema")) return schema(schema_arguments);

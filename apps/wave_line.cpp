@@ -2,10 +2,11 @@
 
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "bus/capture/byte_reader.hpp"
-#include "bus/capture/logic_decoder.hpp"
+#include "bus/capture/signal_decoder.hpp"
 #include "tb/waves/wave_reader.hpp"
 
 namespace app {
@@ -34,22 +35,101 @@ class WaveClock {
   std::uint64_t ns_ = 1, per_ns_ = 1;
 };
 
-/// The signals of one bit with their names.
-struct Wires {
-  std::vector<std::string> names;
-  std::vector<std::uint32_t> signals;
+/// A bit of a signal of the wave.
+struct Wire {
+  std::uint32_t signal = 0;
+  std::size_t place = 0;  ///< in its value, the leftmost bit is 0
 };
 
-Wires wires_of(const tb::WaveDeclarations& declared) {
+/// As declared, or counted down to 0.
+int index_of(const tb::WaveVariable& variable, const tb::WaveSignal& signal, std::uint32_t place) {
+  const int at = static_cast<int>(place);
+  if (!variable.range) return static_cast<int>(signal.width) - 1 - at;
+  const auto& [left, right] = *variable.range;
+  return left >= right ? left - at : left + at;
+}
+
+/// What can be chosen: signals of one bit and, with `vectors`, the bits of others.
+struct Wires {
+  std::vector<std::string> names;
+  std::vector<Wire> wires;
+
+  void add(const std::string& name, Wire wire) {
+    names.push_back(name);
+    wires.push_back(wire);
+  }
+};
+
+Wires wires_of(const tb::WaveDeclarations& declared, bool vectors) {
+  constexpr std::uint32_t kWidest = 64;
   Wires wires;
   for (const tb::WaveVariable& variable : declared.variables) {
     const tb::WaveSignal& signal = declared.signals[variable.signal];
-    if (signal.kind != tb::WaveKind::kBits || signal.width != 1) continue;
+    if (signal.kind != tb::WaveKind::kBits || signal.width > (vectors ? kWidest : 1)) continue;
     const std::string& scope = declared.scopes[variable.scope];
-    wires.names.push_back(scope.empty() ? variable.name : scope + "." + variable.name);
-    wires.signals.push_back(variable.signal);
+    const std::string name = scope.empty() ? variable.name : scope + "." + variable.name;
+    const bool one = signal.width == 1;
+    for (std::uint32_t bit = 0; bit < signal.width; ++bit)
+      wires.add(one && !(vectors && variable.range)
+                    ? name
+                    : name + "[" + std::to_string(index_of(variable, signal, bit)) + "]",
+                {variable.signal, bit});
   }
   return wires;
+}
+
+/// Tells a wave's chosen wires.
+class WaveLevels {
+ public:
+  WaveLevels(const std::string& path, capture::LevelTaker& taker, bool vectors)
+      : wave_(tb::read_wave(path)),
+        taker_(taker),
+        clock_(wave_->declarations().exponent),
+        wires_(wires_of(wave_->declarations(), vectors)) {
+    const std::size_t count = wave_->declarations().signals.size();
+    by_signal_.resize(count);
+    std::vector<bool> selected(count);
+    std::size_t which = 0;
+    for (const std::size_t chosen : taker_.choose(wires_.names)) {
+      const Wire& wire = wires_.wires[chosen];
+      selected[wire.signal] = true;
+      by_signal_[wire.signal].push_back({wire.place, which++});
+    }
+    wave_->select(selected);
+  }
+
+  void tell() {
+    for (tb::WaveEvent event; wave_->next(event);)
+      if (event.kind == tb::WaveEvent::Kind::kChange) change(event);
+    taker_.finish(clock_.at(wave_->end()));
+  }
+  double unit() const {
+    auto unit = static_cast<double>(bus::kTicksPerSecond);
+    for (int i = wave_->declarations().exponent; i < 0; ++i) unit /= 10;
+    return unit;
+  }
+
+ private:
+  struct Chosen {
+    std::size_t place, which;
+  };
+  void change(const tb::WaveEvent& event) {
+    for (const Chosen& chosen : by_signal_[event.signal]) {
+      const char bit = chosen.place < event.value.size() ? event.value[chosen.place] : 'x';
+      if (bit == '0' || bit == '1') taker_.level(clock_.at(event.time), chosen.which, bit == '1');
+    }
+  }
+
+  std::unique_ptr<tb::WaveReader> wave_;
+  capture::LevelTaker& taker_;
+  WaveClock clock_;
+  Wires wires_;
+  std::vector<std::vector<Chosen>> by_signal_;
+};
+
+void check_is_file(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path))
+    throw capture::CaptureError("is a wave by a pipe or standard input, allowed for a wave is the name of a file");
 }
 
 }  // namespace
@@ -64,23 +144,19 @@ bool begins_as_wave(std::string_view beginning) {
   return compressed || (beginning[0] == 0 && capture::number_in(beginning.substr(1, 8), true) == kFstHeaderLength);
 }
 
+double read_wave_levels(const std::string& path, capture::LevelTaker& taker) {
+  check_is_file(path);
+  WaveLevels levels(path, taker, true);
+  levels.tell();
+  return levels.unit();
+}
+
 capture::LogicSource read_wave_line(const std::string& path, const capture::LogicSettings& settings,
                                     const capture::TakeTelegram& take) {
-  if (!std::filesystem::is_regular_file(path))
-    throw capture::CaptureError("is a wave by a pipe or standard input, allowed for a wave is the name of a file");
-  const auto wave = tb::read_wave(path);
-  const Wires wires = wires_of(wave->declarations());
-  const std::size_t chosen = capture::choose_signal(wires.names, settings.signal);
-  std::vector<bool> selected(wave->declarations().signals.size());
-  selected[wires.signals[chosen]] = true;
-  wave->select(selected);
-  const WaveClock clock(wave->declarations().exponent);
-  capture::LogicDecoder decoder(settings, take);
-  for (tb::WaveEvent event; wave->next(event);)
-    if (event.kind == tb::WaveEvent::Kind::kChange && (event.value == "0" || event.value == "1"))
-      decoder.level(clock.at(event.time), event.value == "1");  // with x and z the level stays
-  decoder.finish(clock.at(wave->end()));
-  return {wires.names[chosen], *decoder.baud()};
+  check_is_file(path);
+  capture::SignalDecoder decoder(settings, take);
+  WaveLevels(path, decoder, false).tell();
+  return decoder.source();
 }
 
 }  // namespace app

@@ -9,7 +9,11 @@ namespace app {
 
 bool begins_as_wave(std::string_view beginning);
 
-/// `path` is a file: a pipe has given its beginning away. Throws tb::InputError, and CaptureError as other readers.
+/// Gives `taker` the signals that it wants, the wires of a vector as "A[3]"; with x and z a level stays. Returns the
+/// wave's unit of time in ticks. `path` as below.
+double read_wave_levels(const std::string& path, bus::capture::LevelTaker& taker);
+/// The telegrams of one signal of a single bit. `path` is a file: a pipe has given its beginning away. Throws
+/// tb::InputError, and CaptureError as other readers.
 bus::capture::LogicSource read_wave_line(const std::string& path, const bus::capture::LogicSettings& settings,
                                          const bus::capture::TakeTelegram& take);
 

@@ -9,6 +9,7 @@
 
 #include "bus/baud.hpp"
 #include "bus/capture/sample_clock.hpp"
+#include "bus/capture/signal_decoder.hpp"
 
 namespace bus::capture {
 namespace {
@@ -71,20 +72,19 @@ double seconds_of(const std::string& heading) {
 
 class Table {
  public:
-  Table(std::istream& in, const LogicSettings& settings, const TakeTelegram& take)
-      : in_(in), settings_(settings), decoder_(settings, take) {}
+  Table(std::istream& in, LevelTaker& taker) : in_(in), taker_(taker) {}
 
-  LogicSource read() {
+  std::optional<std::uint64_t> read() {
     for (std::string line; next(line);)
       if (is_remark(line))
         remark(line);
-      else if (!signal_)
+      else if (!begun_)
         begin(cells_of(line));
       else
         row(cells_of(line));
-    if (!signal_) fail("is empty, allowed is a table of levels");
-    decoder_.finish(last_);
-    return {names_[*signal_], *decoder_.baud()};
+    if (!begun_) fail("is empty, allowed is a table of levels");
+    taker_.finish(last_);
+    return rate_;
   }
 
  private:
@@ -113,6 +113,7 @@ class Table {
       const auto rate = sample_rate(value);
       if (!rate) fail(fmt::format("samplerate {}, allowed are a number and Hz, kHz, MHz or GHz", value.substr(0, 40)));
       clock_.emplace(*rate);
+      rate_ = rate;
     }
     if (name.find("channels") != std::string::npos) names_ = cells_of(value);
   }
@@ -128,7 +129,8 @@ class Table {
     if (time_unit_ == 0 && !clock_)
       fail("neither a time in the first column nor a samplerate before, allowed is one of them");
     name_signals(cells, row_already);
-    signal_ = choose_signal(names_, settings_.signal);
+    chosen_ = taker_.choose(names_);
+    begun_ = true;
     if (row_already) row(cells);
   }
 
@@ -143,12 +145,15 @@ class Table {
   void row(const std::vector<std::string>& cells) {
     if (cells.size() != columns_)
       fail(fmt::format("has {} columns, allowed are {} as in the first", cells.size(), columns_));
-    const std::optional<bool> now = level(cells[first_ + *signal_]);
-    if (!now) fail(fmt::format("level {}, allowed are 0 and 1", cells[first_ + *signal_].substr(0, 40)));
     const Tick at = time_of(cells);
     if (at < last_) fail("goes back in time, allowed is the order of time");
     last_ = at;
-    decoder_.level(at, *now);
+    for (std::size_t which = 0; which < chosen_.size(); ++which) {
+      const std::string& cell = cells[first_ + chosen_[which]];
+      const std::optional<bool> now = level(cell);
+      if (!now) fail(fmt::format("level {}, allowed are 0 and 1", cell.substr(0, 40)));
+      taker_.level(at, which, *now);
+    }
   }
 
   Tick time_of(const std::vector<std::string>& cells) {
@@ -163,11 +168,12 @@ class Table {
   }
 
   std::istream& in_;
-  const LogicSettings& settings_;
-  LogicDecoder decoder_;
+  LevelTaker& taker_;
   std::optional<SampleClock> clock_;
   std::vector<std::string> names_;
-  std::optional<std::size_t> signal_;
+  std::optional<std::uint64_t> rate_;
+  std::vector<std::size_t> chosen_;
+  bool begun_ = false;
   std::size_t columns_ = 0, first_ = 0;
   double time_unit_ = 0;  ///< seconds of a unit in the first column; 0: samples of the clock
   bool counted_ = false;  ///< the first column is the number of the sample
@@ -194,8 +200,12 @@ bool begins_as_csv(std::string_view beginning) {
   return false;
 }
 
+std::optional<std::uint64_t> read_csv_levels(std::istream& in, LevelTaker& taker) { return Table(in, taker).read(); }
+
 LogicSource read_csv(std::istream& in, const LogicSettings& settings, const TakeTelegram& take) {
-  return Table(in, settings, take).read();
+  SignalDecoder decoder(settings, take);
+  read_csv_levels(in, decoder);
+  return decoder.source();
 }
 
 }  // namespace bus::capture

@@ -18,6 +18,12 @@ struct LogicSettings {
   std::function<void(Tick at, bool level)> on_change = {};
 };
 
+/// What was read, for the user.
+struct LogicSource {
+  std::string signal;
+  int baud = 0;
+};
+
 /// The signal that is the line: the only one, or the one that is wanted; else the first whose name is, in this order,
 /// line, PBRXD, PBTXD or holds rxd, or txd. Throws CaptureError with the names. Names of scopes are before a dot.
 std::size_t choose_signal(const std::vector<std::string>& names, const std::string& wanted);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bus/capture/sample_clock.hpp"
+#include "bus/capture/signal_decoder.hpp"
 
 namespace bus::capture {
 namespace {
@@ -70,6 +71,7 @@ std::map<std::string, std::string> device_of(const std::string& metadata) {
 
 struct Session {
   std::string member;  ///< of the samples; in pieces it is followed by -1, -2, ...
+  std::uint64_t rate = 1;
   SampleClock clock{1};
   std::size_t unit = 1;  ///< bytes of a sample
   std::vector<std::string> names;
@@ -89,6 +91,7 @@ Session session_of(const std::map<std::string, std::string>& device) {
     throw CaptureError(
         "its metadata has no logic samples (capturefile, samplerate, unitsize 1 to 16), allowed is a session of "
         "sigrok");
+  session.rate = *rate;
   session.clock = SampleClock(*rate);
   for (std::size_t probe = 1; probe <= std::min(kMostProbes, 8 * session.unit); ++probe) {
     const std::string name = value(fmt::format("probe{}", probe));
@@ -99,18 +102,18 @@ Session session_of(const std::map<std::string, std::string>& device) {
   return session;
 }
 
-/// Tells the levels of one bit of the samples, which may begin in one piece and end in the next.
+/// Tells the levels of some bits of the samples, which may begin in one piece and end in the next.
 class Samples {
  public:
-  Samples(const Session& session, std::size_t bit, LogicDecoder& decoder)
-      : session_(session), byte_(bit / 8), mask_(static_cast<char>(1U << bit % 8U)), decoder_(decoder) {}
+  Samples(const Session& session, std::vector<std::size_t> bits, LevelTaker& taker)
+      : session_(session), bits_(std::move(bits)), taker_(taker), now_(session.unit), before_(session.unit) {}
 
   void add(const char* bytes, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i, at_ = at_ + 1 == session_.unit ? 0 : at_ + 1) {
-      if (at_ != byte_) continue;
-      const bool level = (bytes[i] & mask_) != 0;
-      if (count_ == 0 || level != level_) decoder_.level(session_.clock.at(count_), level);
-      level_ = level;
+    for (std::size_t i = 0; i < size; ++i) {
+      now_[at_] = bytes[i];
+      if (++at_ < session_.unit) continue;
+      at_ = 0;
+      if (count_ == 0 || now_ != before_) tell();
       ++count_;
     }
   }
@@ -118,12 +121,23 @@ class Samples {
   bool any() const { return count_ > 0; }
 
  private:
+  static bool level(const std::vector<char>& sample, std::size_t bit) {
+    return (static_cast<unsigned char>(sample[bit / 8]) >> bit % 8U & 1U) != 0;
+  }
+  void tell() {
+    const Tick at = session_.clock.at(count_);
+    for (std::size_t which = 0; which < bits_.size(); ++which)
+      if (count_ == 0 || level(now_, bits_[which]) != level(before_, bits_[which]))
+        taker_.level(at, which, level(now_, bits_[which]));
+    before_ = now_;
+  }
+
   const Session& session_;
-  std::size_t byte_, at_ = 0;
-  char mask_;
-  LogicDecoder& decoder_;
+  std::vector<std::size_t> bits_;
+  LevelTaker& taker_;
+  std::vector<char> now_, before_;
+  std::size_t at_ = 0;
   std::uint64_t count_ = 0;
-  bool level_ = true;
 };
 
 /// False when there is no such member.
@@ -137,18 +151,24 @@ bool add_member(zip_t* archive, const std::string& name, Samples& samples) {
 
 }  // namespace
 
-LogicSource read_sigrok(const std::string& archive, const LogicSettings& settings, const TakeTelegram& take) {
+std::uint64_t read_sigrok_levels(const std::string& archive, LevelTaker& taker) {
   const Archive opened = open_archive(archive);
   const Session session = session_of(device_of(metadata_of(opened.get())));
-  const std::size_t signal = choose_signal(session.names, settings.signal);
-  LogicDecoder decoder(settings, take);
-  Samples samples(session, session.bits[signal], decoder);
+  std::vector<std::size_t> bits;
+  for (const std::size_t chosen : taker.choose(session.names)) bits.push_back(session.bits[chosen]);
+  Samples samples(session, bits, taker);
   if (!add_member(opened.get(), session.member, samples))
     for (int part = 1; add_member(opened.get(), fmt::format("{}-{}", session.member, part), samples); ++part) {
     }
   if (!samples.any()) throw CaptureError("has no samples, allowed is a session of sigrok");
-  decoder.finish(samples.end());
-  return {session.names[signal], *decoder.baud()};
+  taker.finish(samples.end());
+  return session.rate;
+}
+
+LogicSource read_sigrok(const std::string& archive, const LogicSettings& settings, const TakeTelegram& take) {
+  SignalDecoder decoder(settings, take);
+  read_sigrok_levels(archive, decoder);
+  return decoder.source();
 }
 
 }  // namespace bus::capture

@@ -12,7 +12,10 @@ inline bool begins_as_zip(std::string_view beginning) {
   return beginning.substr(0, 4) == std::string_view("PK\x03\x04", 4);
 }
 
-/// `archive`: all of the file. Its samples are unpacked piece by piece. Throws CaptureError.
+/// Gives `taker` the channels that it wants; returns the samples a second. `archive`: all of the file. Its samples are
+/// unpacked piece by piece. Throws CaptureError.
+std::uint64_t read_sigrok_levels(const std::string& archive, LevelTaker& taker);
+/// The telegrams of one channel.
 LogicSource read_sigrok(const std::string& archive, const LogicSettings& settings, const TakeTelegram& take);
 
 }  // namespace bus::capture

@@ -1,0 +1,344 @@
+// H1, H3, H6, H8: when the chip takes the DPRAM, and for how long.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tb/dsdpv1/calibrate/found.hpp"
+
+namespace calibrate {
+namespace {
+
+constexpr double kFrame = 7, kStartUp = 2054, kLongAccess = 1500;  ///< cycles: micro-architecture, 9.1, 9.7
+
+const Claim kTogether = {"H1", "L_REQ and L_STA rise and fall together", {Wire::kLReq, Wire::kLSta}};
+const Claim kHeldOff = {"H1", "the chip waits while R_REQ or R_STA is high", {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
+const Claim kAtOnce = {"H1",
+                       "an access that waited starts when both have fallen, 2 to 3 cycles later",
+                       {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
+const Claim kInterval = {"H1", "accesses start one interval after the other, never earlier", {Wire::kLReq}};
+const Claim kRace = {
+    "H2", "the chip starts no access later than 3 cycles after R_REQ rose", {Wire::kLReq, Wire::kRReq}};
+const Claim kEmpty = {"H3", "an access with nothing to do takes 7 cycles, none less", {Wire::kLReq}};
+const Claim kStartUpAccess = {"H6", "the start-up access takes 2054 cycles", {Wire::kLReq}};
+const Claim kOverdue = {"H8", "an overdue access starts one cycle after the end of the one before", {Wire::kLReq}};
+
+std::string cycles_text(const Span& span) { return fmt::format("{:.1f} to {:.1f} cycles", span.lo, span.hi); }
+
+bool is_long(const Scene& scene, const ChipAccess& access) {
+  return scene.time.between(access.start, access.end).hi > kLongAccess;
+}
+
+// --- L_REQ against L_STA
+
+void judge_together(const Scene& scene, Found& found) {
+  const Trace &req = scene.record[Wire::kLReq], &sta = scene.record[Wire::kLSta];
+  if (!req.seen || !sta.seen) return;
+  const Tick near = scene.time.margin();
+  for (std::size_t edge = 0; edge < req.edges.size(); ++edge) {
+    const Tick at = req.edges[edge];
+    const bool level = req.level(edge + 1);
+    const std::size_t other = sta.next(at - near, level);
+    const bool with = other != Trace::kNone && sta.edges[other] <= at + near;
+    if (with || at + near > scene.record.end || at < near)
+      found.judge.holds(kTogether);
+    else
+      found.judge.fails(kTogether, at, fmt::format("L_REQ {}, L_STA does not", level ? "rises" : "falls"));
+  }
+}
+
+// --- the interval
+
+/// Whether the access at `i` + 1 comes when it is due, without the user and without being overdue.
+bool undisturbed(const Scene& scene, std::size_t i) {
+  const ChipAccess &one = scene.accesses[i], &two = scene.accesses[i + 1];
+  if (!one.whole || is_long(scene, one) || scene.in_reset(one.start, two.start)) return false;
+  if (scene.time.between(one.end, two.start).lo <= 2) return false;  // perhaps overdue
+  return scene.user_lets(one.start - 4 * bus::kTicksPerCycle - scene.time.margin(), two.start);
+}
+
+Instance interval_of(const Scene& scene, std::size_t i) {
+  const Tick from = scene.accesses[i].start, to = scene.accesses[i + 1].start;
+  return {to, scene.time.between(from, to), scene.time.best(from, to)};
+}
+
+/// Runs of accesses of which each is one interval after the one before: `count` intervals from `from` to `to`.
+struct Chain {
+  Tick from = 0, to = 0;
+  double count = 0;
+};
+
+std::vector<Chain> chains_of(const Scene& scene, const Span& interval) {
+  std::vector<Chain> chains;
+  bool open = false;
+  for (std::size_t i = 0; i + 1 < scene.accesses.size(); ++i) {
+    const bool goes_on = undisturbed(scene, i) && overlap(interval_of(scene, i).span, interval);
+    if (!goes_on) {
+      open = false;
+      continue;
+    }
+    if (!open) chains.push_back({scene.accesses[i].start, 0, 0});
+    open = true;
+    chains.back().to = scene.accesses[i + 1].start;
+    ++chains.back().count;
+  }
+  return chains;
+}
+
+void narrow_by_chains(const Scene& scene, Estimate& interval) {
+  std::vector<Instance> instances;
+  for (const Chain& chain : chains_of(scene, interval.span)) {
+    const Span all = scene.time.between(chain.from, chain.to);
+    instances.push_back(
+        {chain.to, {all.lo / chain.count, all.hi / chain.count}, scene.time.best(chain.from, chain.to) / chain.count});
+  }
+  const Estimate narrow = estimate(instances);
+  if (narrow.count != 0 && overlap(narrow.span, interval.span)) interval.span = common(narrow.span, interval.span);
+}
+
+/// A whole number of cycles between far edges says how the clocks differ: bounds of each chain, and, since the errors
+/// of sampling spread as the clocks drift, the sum of all.
+Estimate clock_of(const Scene& scene, const std::vector<Chain>& chains, double interval) {
+  constexpr double kSigmas = 4;
+  const double doubt = scene.time.doubt();
+  std::vector<Instance> instances;
+  double right_sum = 0, seen_sum = 0, squares = 0;
+  for (const Chain& chain : chains) {
+    const double right = chain.count * interval, seen = TimeBase::nominal(chain.to - chain.from);
+    right_sum += right;
+    seen_sum += seen;
+    if (seen > 2 * doubt)
+      instances.push_back({chain.to, {right / (seen + doubt), right / (seen - doubt)}, right / seen});
+  }
+  Estimate clock = estimate(instances);
+  if (clock.count == 0) return clock;
+  const double ratio = right_sum / seen_sum;
+  for (const Chain& chain : chains) {
+    const double off = TimeBase::nominal(chain.to - chain.from) - chain.count * interval / ratio;
+    squares += off * off;
+  }
+  const double half = (kSigmas * std::sqrt(squares) + 2 * doubt) / seen_sum;
+  const Span by_sum{ratio - half, ratio + half};
+  if (overlap(by_sum, clock.span)) clock.span = common(by_sum, clock.span);
+  return clock;
+}
+
+void narrow_clock(Scene& scene, double interval, Found& found) {
+  Estimate clock = clock_of(scene, chains_of(scene, {interval, interval}), interval);
+  if (clock.count == 0 || !overlap(clock.span, scene.time.scale)) return;
+  clock.span = common(clock.span, scene.time.scale);
+  scene.time.scale = clock.span;
+  clock.count += found.clock.count;
+  found.clock = clock;
+}
+
+void fit_interval(Scene& scene, Found& found) {
+  std::vector<Instance> instances;
+  for (std::size_t i = 0; i + 1 < scene.accesses.size(); ++i)
+    if (undisturbed(scene, i)) instances.push_back(interval_of(scene, i));
+  Fit& fit = found.fit(Parameter::kAccessInterval);
+  fit.estimate = estimate(instances);
+  if (fit.estimate.count == 0) {
+    fit.not_shown = "no two accesses without the user between them";
+    return;
+  }
+  if (!scene.sees_user()) return;
+  narrow_by_chains(scene, fit.estimate);
+  if (const auto whole = fit.estimate.whole()) narrow_clock(scene, static_cast<double>(*whole), found);
+}
+
+/// What comes too early is against the ruling; what comes late too, where the user's pins show that it did not ask.
+void judge_interval(const Scene& scene, Found& found) {
+  Estimate& interval = found.fit(Parameter::kAccessInterval).estimate;
+  if (interval.count == 0) return;
+  std::vector<Outlier> real;
+  for (const Outlier& outlier : interval.outliers) {
+    if (outlier.by > 0 && !scene.sees_user()) continue;
+    real.push_back(outlier);
+    found.judge.fails(kInterval, outlier.at, fmt::format("{:+.1f} cycles from the others", outlier.by));
+  }
+  interval.outliers = real;
+  for (std::size_t i = real.size(); i < interval.count; ++i) found.judge.holds(kInterval);
+}
+
+// --- the user's pins
+
+/// When both had fallen last before `at`; nothing when one is high or nobody asked.
+std::optional<Tick> released_before(const Scene& scene, Tick at) {
+  Tick released = -1;
+  for (const Wire wire : {Wire::kRReq, Wire::kRSta}) {
+    const Trace& trace = scene.record[wire];
+    if (trace.at(at)) return std::nullopt;
+    const std::size_t edge = trace.last(at, false);
+    if (edge != Trace::kNone) released = std::max(released, trace.edges[edge]);
+  }
+  return released < 0 ? std::nullopt : std::optional<Tick>(released);
+}
+
+/// How long one of the user's pins had been high when the chip looked, 2 cycles before `at`; 0 when none was.
+bool held_when_looked(const Scene& scene, Tick at) {
+  const Tick doubt = scene.time.ticks(scene.time.doubt() + 0.5), looked = at - scene.time.ticks(2);
+  return scene.record[Wire::kRReq].high(looked - doubt - bus::kTicksPerCycle, looked + doubt) ||
+         scene.record[Wire::kRSta].high(looked - doubt - bus::kTicksPerCycle, looked + doubt);
+}
+
+void judge_start(const Scene& scene, std::size_t i, const Fit& interval, Found& found) {
+  const Tick at = scene.accesses[i].start;
+  found.judge.judge(kHeldOff, !held_when_looked(scene, at), at, "an access starts while the user holds the DPRAM");
+  const Trace& request = scene.record[Wire::kRReq];
+  if (const std::size_t rose = request.last(at, true); request.at(at) && rose != Trace::kNone) {
+    const Span after = scene.time.between(request.edges[rose], at);
+    found.judge.judge(kRace, after.lo <= 3, at, "an access starts long after R_REQ rose");
+  }
+  const std::optional<Tick> released = released_before(scene, at);
+  if (!released || i == 0 || interval.estimate.count == 0 || is_long(scene, scene.accesses[i])) return;
+  const ChipAccess& before = scene.accesses[i - 1];
+  const double due = TimeBase::nominal(*released - before.start) - interval.estimate.span.hi - scene.time.doubt();
+  if (due <= 0 || *released <= before.end) return;
+  const Span after = scene.time.between(*released, at);
+  if (overlap(after, {2, 3}))
+    found.judge.holds(kAtOnce);
+  else
+    found.judge.fails(kAtOnce, at, "starts " + cycles_text(after) + " after the release");
+}
+
+void judge_user_pins(const Scene& scene, Found& found) {
+  if (!scene.sees_user()) return;
+  for (std::size_t i = 0; i < scene.accesses.size(); ++i)
+    if (!scene.in_reset(scene.accesses[i].start - scene.time.ticks(8), scene.accesses[i].start))
+      judge_start(scene, i, found.fit(Parameter::kAccessInterval), found);
+}
+
+// --- lengths
+
+/// Most accesses find nothing to do.
+void judge_lengths(const Scene& scene, Found& found) {
+  std::size_t empty = 0, all = 0;
+  double sum = 0;
+  for (const ChipAccess& access : scene.accesses) {
+    if (!access.whole || is_long(scene, access) || scene.in_reset(access.start, access.end)) continue;
+    const Span length = scene.time.between(access.start, access.end);
+    ++all;
+    sum += length.middle();
+    if (length.contains(kFrame)) ++empty;
+    if (length.hi < kFrame) found.judge.fails(kEmpty, access.start, "an access of " + cycles_text(length));
+  }
+  if (all > 0 && 3 * empty < 2 * all)
+    found.judge.fails(kEmpty, scene.accesses.front().start,
+                      fmt::format("{} of {} take another time, all together {:.1f} cycles on average", all - empty, all,
+                                  sum / static_cast<double>(all)));
+  else
+    for (std::size_t i = 0; i < empty; ++i) found.judge.holds(kEmpty);
+}
+
+/// With long samples the gap of one cycle behind it is not seen, and it seems to be one with the next.
+void judge_start_up(const Scene& scene, Found& found) {
+  constexpr double kNext = 1 + kFrame + 1;
+  for (const ChipAccess& access : scene.accesses) {
+    if (!access.whole || !is_long(scene, access) || scene.in_reset(access.start, access.end)) continue;
+    const Span length = scene.time.between(access.start, access.end);
+    const bool merged = scene.time.doubt() >= 1 && length.contains(kStartUp + kNext);
+    if (length.contains(kStartUp))
+      found.judge.holds(kStartUpAccess);
+    else if (merged)
+      found.judge.coarse(kStartUpAccess);
+    else
+      found.judge.fails(kStartUpAccess, access.start, cycles_text(length));
+  }
+}
+
+void judge_overdue(const Scene& scene, Found& found) {
+  const Fit& interval = found.fit(Parameter::kAccessInterval);
+  if (interval.estimate.count == 0) return;
+  for (std::size_t i = 0; i + 1 < scene.accesses.size(); ++i) {
+    const ChipAccess &one = scene.accesses[i], &two = scene.accesses[i + 1];
+    if (!one.whole || scene.in_reset(one.start, two.start)) continue;
+    const bool overdue = scene.time.between(one.start, one.end).lo > interval.estimate.span.hi;
+    if (!overdue || !scene.sees_user() ||
+        !scene.user_lets(one.end - scene.time.ticks(4) - scene.time.margin(), two.start))
+      continue;
+    const Span gap = scene.time.between(one.end, two.start);
+    if (gap.contains(1))
+      found.judge.holds(kOverdue);
+    else if (scene.time.doubt() >= 1)
+      found.judge.coarse(kOverdue);
+    else
+      found.judge.fails(kOverdue, two.start, cycles_text(gap) + " after the end");
+  }
+}
+
+// --- B004
+
+/// When the start-up access of a reset begins: cycle R, if the user lets the chip.
+std::vector<std::size_t> start_ups(const Scene& scene) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < scene.accesses.size(); ++i)
+    if (scene.accesses[i].whole && is_long(scene, scene.accesses[i])) found.push_back(i);
+  return found;
+}
+
+/// The access that has written B004 by what the user has read.
+void bound_by_reads(const Scene& scene, std::size_t start_up, std::size_t until, Span& bound) {
+  constexpr std::uint32_t kB004 = 4;
+  const Tick from = scene.accesses[start_up].end,
+             to = until < scene.accesses.size() ? scene.accesses[until].start : bus::kNever;
+  for (const UserAccess& access : scene.user) {
+    if (access.write || access.address != kB004 || access.start < from || access.start > to) continue;
+    std::size_t before = start_up;
+    while (before + 1 < scene.accesses.size() && scene.accesses[before + 1].start < access.start) ++before;
+    if (before == start_up) continue;
+    const Span since = scene.time.between(scene.accesses[start_up].start, scene.accesses[before].start);
+    if (access.data == 0) bound.lo = std::max(bound.lo, since.lo);
+    if (access.data == 0xC5) bound.hi = std::min(bound.hi, since.hi);
+  }
+}
+
+/// ... and by length: it is the first behind the one that writes B012 that takes a cycle more than an empty one, as
+/// long as the user has written nothing.
+void bound_by_length(const Scene& scene, std::size_t start_up, std::size_t until, Span& bound) {
+  const Span empty{kFrame, kFrame}, one_byte{kFrame + 1, kFrame + 1};
+  for (std::size_t i = start_up + 2; i < until && scene.accesses[i].whole; ++i) {
+    const Span length = scene.time.between(scene.accesses[i].start, scene.accesses[i].end);
+    if (overlap(length, empty) && overlap(length, one_byte)) return;  // too coarse to tell
+    if (overlap(length, empty)) continue;
+    if (!overlap(length, one_byte)) return;
+    bound.lo = std::max(bound.lo, scene.time.between(scene.accesses[start_up].start, scene.accesses[i - 1].start).lo);
+    bound.hi = std::min(bound.hi, scene.time.between(scene.accesses[start_up].start, scene.accesses[i].start).hi);
+    return;
+  }
+}
+
+void fit_ready(const Scene& scene, Found& found) {
+  constexpr double kFar = 1e12;
+  Fit& fit = found.fit(Parameter::kReadyCycles);
+  std::vector<Instance> instances;
+  const std::vector<std::size_t> starts = start_ups(scene);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const std::size_t until = i + 1 < starts.size() ? starts[i + 1] : scene.accesses.size();
+    Span bound{0, kFar};
+    bound_by_reads(scene, starts[i], until, bound);
+    bound_by_length(scene, starts[i], until, bound);
+    if (bound.lo > 0 && bound.hi < kFar) instances.push_back({scene.accesses[starts[i]].start, bound, bound.middle()});
+  }
+  fit.estimate = estimate(instances);
+  if (fit.estimate.count == 0)
+    fit.not_shown = starts.empty() ? "no start-up access" : "the access that writes B004 is not to be told from others";
+}
+
+}  // namespace
+
+void measure_access(Scene& scene, Found& found) {
+  judge_together(scene, found);
+  fit_interval(scene, found);
+  judge_interval(scene, found);
+  judge_user_pins(scene, found);
+  judge_lengths(scene, found);
+  judge_start_up(scene, found);
+  judge_overdue(scene, found);
+  fit_ready(scene, found);
+}
+
+Claims access_claims() {
+  return {&kInterval, &kTogether, &kHeldOff, &kAtOnce, &kRace, &kEmpty, &kStartUpAccess, &kOverdue};
+}
+
+}  // namespace calibrate

@@ -1,0 +1,238 @@
+// P2, S2, S3: PBTXD and PBRTS of the chip's answers.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bus/wire/uart.hpp"
+#include "tb/dsdpv1/calibrate/found.hpp"
+
+namespace calibrate {
+namespace {
+
+constexpr double kMostLead = 40;  ///< cycles: what is further from the answer is not its PBRTS
+
+const Claim kLead = {"P2", "PBRTS rises the same time before each answer", {Wire::kPbtxd, Wire::kPbrts}};
+const Claim kTrail = {"P2", "PBRTS falls the same time after each answer", {Wire::kPbtxd, Wire::kPbrts}};
+const Claim kDriven = {"P2", "PBTXD is low only while PBRTS is high", {Wire::kPbtxd, Wire::kPbrts}};
+const Claim kBits = {"S2", "every edge of an answer is a whole number of bit times from its start", {Wire::kPbtxd}};
+const Claim kTsdr = {
+    "S3", "an answer begins min_TSDR after the request, and at most a cycle more", {Wire::kPbrxd, Wire::kPbtxd}};
+const Claim kMinTsdr = {
+    "S11", "min_TSDR of Set_Prm counts from the answer to it on, 11 at least", {Wire::kPbrxd, Wire::kPbtxd}};
+const Claim kAnswered = {"S3", "a right request to the station is answered", {Wire::kPbrxd, Wire::kPbtxd}};
+const Claim kAsked = {"S3", "nothing is sent that nobody asked for", {Wire::kPbrxd, Wire::kPbtxd}};
+const Claim kSyn = {
+    "S3", "a request after less than 33 bit times of idle is not answered", {Wire::kPbrxd, Wire::kPbtxd}};
+
+// --- PBRTS
+
+void fit_driver(const Scene& scene, Found& found) {
+  const Trace& rts = scene.record[Wire::kPbrts];
+  std::vector<Instance> leads, trails;
+  for (const LineTelegram& sent : scene.sent) {
+    if (!sent.right) continue;
+    const std::size_t rise = rts.last(sent.start + scene.time.margin(), true);
+    if (rise == Trace::kNone || rise + 1 >= rts.edges.size()) continue;
+    const Tick up = rts.edges[rise], down = rts.edges[rise + 1];
+    const double length = static_cast<double>(sent.bytes.size()) * bus::kCharacterBits * sent.bit();
+    const Span lead = scene.time.between(up, sent.start), trail = scene.time.between(sent.start, down) + -length;
+    if (lead.lo < kMostLead) leads.push_back({sent.start, lead, scene.time.best(up, sent.start)});
+    if (trail.lo < kMostLead) trails.push_back({sent.start, trail, scene.time.best(sent.start, down) - length});
+  }
+  const auto fit = [&](Parameter parameter, const Claim& claim, std::vector<Instance>& instances) {
+    Fit& to = found.fit(parameter);
+    to.estimate = estimate(instances, &scene.time);
+    to.estimate.span.lo = std::max(to.estimate.span.lo, 0.0);
+    if (to.estimate.count == 0) to.not_shown = "no answer with an edge of PBRTS beside it";
+    for (const Outlier& outlier : to.estimate.outliers)
+      found.judge.fails(claim, outlier.at, fmt::format("{:+.1f} cycles from the others", outlier.by));
+    for (std::size_t i = to.estimate.outliers.size(); i < to.estimate.count; ++i) found.judge.holds(claim);
+  };
+  fit(Parameter::kRtsLead, kLead, leads);
+  fit(Parameter::kRtsTrail, kTrail, trails);
+}
+
+void judge_driven(const Scene& scene, Found& found) {
+  const Trace &txd = scene.record[Wire::kPbtxd], &rts = scene.record[Wire::kPbrts];
+  for (std::size_t edge = txd.next(0, false); edge < txd.edges.size(); edge += 2) {
+    const Tick at = txd.edges[edge], about = scene.time.margin();
+    found.judge.judge(kDriven, !rts.low(at - about, at + about), at, "PBTXD falls while PBRTS is low");
+  }
+}
+
+// --- bits
+
+/// The levels of a telegram change where its bits do.
+void judge_bits(const Scene& scene, const LineTelegram& sent, Found& found) {
+  const Trace& txd = scene.record[Wire::kPbtxd];
+  std::size_t edge = txd.count_until(sent.start);
+  bool level = false;
+  for (std::size_t i = 1; i < sent.bytes.size() * bus::kCharacterBits; ++i) {
+    const bool bit =
+        (bus::Character::of(sent.bytes[i / bus::kCharacterBits]).bits >> i % bus::kCharacterBits & 1U) != 0;
+    if (bit == level) continue;
+    level = bit;
+    if (edge >= txd.edges.size()) return;
+    const Span at = scene.time.between(sent.start, txd.edges[edge]);
+    const double right = static_cast<double>(i) * sent.bit();
+    if (!at.contains(right)) {
+      const double by = at.lo > right ? at.lo - right : at.hi - right;
+      found.judge.fails(kBits, txd.edges[edge], fmt::format("an edge {:+.1f} cycles from its place", by));
+      return;
+    }
+    ++edge;
+  }
+  found.judge.holds(kBits);
+}
+
+// --- TSDR
+
+/// What Set_Prm asks for; 0 for other telegrams, and where it leaves it.
+int asked_tsdr(const LineTelegram& request) {
+  constexpr std::size_t kPlace = 3;
+  const bus::Telegram& telegram = request.telegram;
+  const bool set_prm = request.right && telegram.dsap == bus::sap::kSetPrm && telegram.data.size() > kPlace;
+  if (!set_prm || telegram.data[kPlace] == 0) return 0;
+  const int least = bus::kMinTsdrBits, most = bus::baud(request.baud).max_tsdr_bits;
+  return std::min(std::max<int>(telegram.data[kPlace], least), most);
+}
+
+class TsdrJudge {
+ public:
+  TsdrJudge(const Scene& scene, Found& found) : scene_(scene), found_(found) {}
+
+  void judge(const Exchange& exchange) {
+    const LineTelegram& request = *exchange.request;
+    const int asked = asked_tsdr(request);
+    if (asked != 0) pending_ = asked;
+    if (exchange.answer == nullptr || !request.right) return;
+    const Span cycles =
+        scene_.time.between(request.last_start, exchange.answer->start) + -(bus::kCharacterBits * request.bit());
+    const Tick at = exchange.answer->start;
+    if (pending_ != 0 && fits(cycles, request, pending_)) {
+      if (pending_ != now_ && asked != 0) found_.judge.holds(kMinTsdr);
+      now_ = pending_;
+    } else if (!fits(cycles, request, now_)) {
+      if (!fits(cycles, request, bus::kMinTsdrBits)) return fail(cycles, request, at);
+      now_ = bus::kMinTsdrBits;  // a new initialisation
+    }
+    found_.judge.holds(kTsdr);
+  }
+
+ private:
+  int wanted() const { return pending_ != 0 ? pending_ : now_; }
+  static double right(const LineTelegram& request, int bits) { return bits * request.bit(); }
+  static bool fits(const Span& cycles, const LineTelegram& request, int bits) {
+    return overlap(cycles, {right(request, bits), right(request, bits) + 1});
+  }
+  void fail(const Span& cycles, const LineTelegram& request, Tick at) {
+    const double expected = right(request, wanted());
+    const double by = cycles.lo > expected + 1 ? cycles.lo - expected - 1 : cycles.hi - expected;
+    found_.judge.fails(kTsdr, at,
+                       fmt::format("TSDR {:.2f} bit times, {:+.1f} cycles from min_TSDR {}",
+                                   cycles.middle() / request.bit(), by, wanted()));
+  }
+
+  const Scene& scene_;
+  Found& found_;
+  int now_ = bus::kMinTsdrBits;
+  int pending_ = 0;  ///< what Set_Prm asked for; 0: none did
+};
+
+// --- answered or not
+
+/// Bit times of idle before a request on PBRXD or PBTXD; nothing for the first.
+std::vector<std::optional<double>> idle_before(const Scene& scene) {
+  std::vector<std::optional<double>> idle;
+  std::size_t sent = 0;
+  std::optional<Tick> end;
+  std::size_t received = 0;
+  for (const Exchange& exchange : scene.exchanges) {
+    for (; received < scene.received.size() && scene.received[received].start < exchange.request->start; ++received)
+      end = std::max(end.value_or(0), scene.received[received].end());
+    for (; sent < scene.sent.size() && scene.sent[sent].start < exchange.request->start; ++sent)
+      end = std::max(end.value_or(0), scene.sent[sent].end());
+    if (end)
+      idle.emplace_back(TimeBase::nominal(exchange.request->start - *end) / exchange.request->bit());
+    else
+      idle.emplace_back();
+  }
+  return idle;
+}
+
+bool wants_answer(const Exchange& exchange) {
+  return exchange.request->right && exchange.request->telegram.wants_answer() &&
+         exchange.request->telegram.sa < bus::kBroadcast;
+}
+
+/// Whether the exchanges before and behind show that the chip answers requests like this one.
+bool chip_listens(const Scene& scene, std::size_t i) {
+  const auto& all = scene.exchanges;
+  const LineTelegram& request = *all[i].request;
+  const auto same = [&](const Exchange& other) {
+    return other.answer != nullptr && other.request->telegram.da == request.telegram.da &&
+           other.request->baud == request.baud;
+  };
+  std::size_t before = i, behind = i + 1;
+  while (before > 0 && !wants_answer(all[before - 1])) --before;
+  while (behind < all.size() && !wants_answer(all[behind])) ++behind;
+  if (before == 0 || behind >= all.size() || !same(all[before - 1]) || !same(all[behind])) return false;
+  const Tick from = request.start, to = request.end();
+  return !scene.in_reset(from, to) && (!scene.record.sees(Wire::kBr) || scene.record[Wire::kBr].high(from, to)) &&
+         (!scene.record.sees(Wire::kReady) || scene.record[Wire::kReady].high(from, to));
+}
+
+void judge_answered(const Scene& scene, Found& found) {
+  constexpr double kSynDoubt = 0.5;
+  const std::vector<std::optional<double>> idle = idle_before(scene);
+  for (std::size_t i = 0; i < scene.exchanges.size(); ++i) {
+    const Exchange& exchange = scene.exchanges[i];
+    if (!wants_answer(exchange)) continue;
+    const double doubt = kSynDoubt + scene.time.doubt() / exchange.request->bit();
+    const bool soon = idle[i] && *idle[i] < bus::kSynBits - doubt, late = idle[i] && *idle[i] > bus::kSynBits + doubt;
+    if (soon)
+      found.judge.judge(kSyn, exchange.answer == nullptr, exchange.request->start,
+                        "a request after too little idle is answered");
+    if (!late) continue;
+    if (exchange.answer != nullptr)
+      found.judge.holds(kAnswered);
+    else if (chip_listens(scene, i))
+      found.judge.fails(kAnswered, exchange.request->end(),
+                        "a request is not answered, those before and behind it are");
+  }
+}
+
+/// An answer belongs to a request that is right, for the station and wants one.
+void judge_asked(const Scene& scene, Found& found) {
+  for (const LineTelegram* sent : scene.unasked) found.judge.fails(kAsked, sent->start, "no request before it");
+  for (const Exchange& exchange : scene.exchanges) {
+    if (exchange.answer == nullptr) continue;
+    if (!exchange.request->right && exchange.request->coarse(scene.time)) {
+      found.judge.coarse(kAsked);
+      continue;
+    }
+    const bool asked = exchange.request->right && exchange.request->telegram.wants_answer();
+    found.judge.judge(kAsked, asked, exchange.answer->start, "what is before it is no request that wants an answer");
+  }
+}
+
+}  // namespace
+
+void measure_answers(const Scene& scene, Found& found) {
+  if (scene.record.sees({Wire::kPbtxd, Wire::kPbrts})) fit_driver(scene, found), judge_driven(scene, found);
+  for (const LineTelegram& sent : scene.sent)
+    if (sent.right)
+      judge_bits(scene, sent, found);
+    else if (sent.coarse(scene.time))
+      found.judge.coarse(kBits);
+    else
+      found.judge.fails(kBits, sent.start, "what is sent is no right telegram");
+  TsdrJudge tsdr(scene, found);
+  for (const Exchange& exchange : scene.exchanges) tsdr.judge(exchange);
+  judge_answered(scene, found);
+  judge_asked(scene, found);
+}
+
+Claims answer_claims() { return {&kLead, &kTrail, &kDriven, &kBits, &kTsdr, &kAnswered, &kAsked, &kSyn, &kMinTsdr}; }
+
+}  // namespace calibrate

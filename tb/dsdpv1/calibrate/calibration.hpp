@@ -1,0 +1,61 @@
+#pragma once
+// dsdpv1-sim calibrate: a capture of a real chip's pins held against the rulings and their parameters.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tb/dsdpv1/calibrate/rulings.hpp"
+
+namespace calibrate {
+
+enum class Verdict : std::uint8_t { kConfirmed, kContradicted, kNotShown };
+const char* word(Verdict verdict);
+
+/// How the capture's times are to be taken.
+struct Sampling {
+  std::optional<double> rate = {};  ///< samples a second; absent: found, else `unit`
+  double unit = 0;                  ///< ticks to which times were rounded
+  double jitter_ns = 5;             ///< of an edge, and skew between channels
+  double clock_ppm = 1000;          ///< chip and analyser may differ by so much
+};
+
+struct ParameterResult {
+  const ParameterRow* row = nullptr;
+  Verdict verdict = Verdict::kNotShown;
+  Fit fit;
+  std::optional<long long> value;  ///< when only one fits
+  long long chosen = 0;            ///< for the `chip` block: `value`, the default if it fits, else the middle
+  std::string words;               ///< "48", "4090 to 4138", or why it is not shown
+};
+
+struct ClaimResult {
+  std::string ruling, says;
+  Verdict verdict = Verdict::kNotShown;
+  Tally tally;
+  std::string words;  ///< why it is not shown
+};
+
+struct Result {
+  std::string file;
+  Tick end = 0;
+  double sample_ns = 0, jitter_ns = 0;
+  bool rate_found = false;         ///< by the times alone
+  std::vector<std::string> wires;  ///< "PBTXD (D3)"
+  std::size_t requests = 0, answers = 0, accesses = 0, user_accesses = 0;
+  Found found;
+  std::vector<ParameterResult> parameters;
+  std::vector<ClaimResult> claims;  ///< in the order of docs/chip.md
+
+  /// Nothing is contradicted.
+  bool agrees() const;
+};
+
+Result calibrate(const std::string& file, const Record& record, const Sampling& sampling, std::optional<int> station);
+
+// How it is told.
+std::string text(const Result& result, bool all);
+std::string json(const Result& result);
+/// A `chip` block for scenarios.
+std::string chip_block(const Result& result);
+
+}  // namespace calibrate

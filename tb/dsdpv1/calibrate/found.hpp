@@ -1,0 +1,72 @@
+#pragma once
+// What the measurements find: parameters, claims of rulings, clocks.
+#include <array>
+#include <string>
+
+#include "tb/dsdpv1/calibrate/estimate.hpp"
+#include "tb/dsdpv1/calibrate/judge.hpp"
+#include "tb/dsdpv1/calibrate/scene.hpp"
+
+namespace calibrate {
+
+/// The chip's parameters: those that docs/chip.md marks (p) and a scenario's `chip` sets.
+enum class Parameter : std::uint8_t {
+  kAccessInterval,
+  kReadyCycles,
+  kRtsLead,
+  kRtsTrail,
+  kIntrLow,
+  kIntrGap,
+  kSearchWindowMs,
+  kSearchWindowBits,
+  kBaudControlMs,
+};
+constexpr std::size_t kParameterCount = 9;
+
+struct Fit {
+  Estimate estimate;      ///< in the parameter's unit
+  bool at_least = false;  ///< only its lower end is known
+  bool at_most = false;   ///< only its upper end is known
+  std::string not_shown;  ///< why there is none
+};
+
+struct Found {
+  Judge judge;
+  std::array<Fit, kParameterCount> fits;
+  Estimate clock;         ///< cycles of the chip in a nominal cycle of the capture
+  Estimate master_clock;  ///< likewise of who sends the requests
+
+  Fit& fit(Parameter parameter) { return fits.at(static_cast<std::size_t>(parameter)); }
+  const Fit& fit(Parameter parameter) const { return fits.at(static_cast<std::size_t>(parameter)); }
+};
+
+using Claims = std::vector<const Claim*>;
+
+// Each measures its part of the scene; its claims stand in the table of rulings.
+
+/// P1: the clocks, from the bits of telegrams; sets the scale of the scene's time.
+void measure_clock(Scene& scene, double limit_ppm, Found& found);
+Claims clock_claims();
+/// H1, H3, H6, H8: L_REQ and L_STA. Makes the scale of the scene's time finer.
+void measure_access(Scene& scene, Found& found);
+Claims access_claims();
+/// P7, D7, D15: INTR0 and READY.
+void measure_interrupt(const Scene& scene, Found& found);
+Claims interrupt_claims();
+/// P2, S2, S3: PBTXD and PBRTS.
+void measure_answers(const Scene& scene, Found& found);
+Claims answer_claims();
+/// S1, S9: BR and PBF.
+void measure_search(const Scene& scene, Found& found);
+Claims search_claims();
+/// What telegrams say.
+void measure_telegrams(const Scene& scene, Found& found);
+Claims telegram_claims();
+/// The user's accesses.
+void measure_user(const Scene& scene, Found& found);
+Claims user_claims();
+/// P9, P10: RESET and levels.
+void measure_reset(const Scene& scene, Found& found);
+Claims reset_claims();
+
+}  // namespace calibrate

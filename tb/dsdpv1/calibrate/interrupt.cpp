@@ -1,0 +1,100 @@
+// P7, D7, D15: INTR0 and READY.
+#include <fmt/format.h>
+
+#include "tb/dsdpv1/calibrate/found.hpp"
+
+namespace calibrate {
+namespace {
+
+const Claim kPulses = {"P7", "every pulse of INTR0 is as long as the others", {Wire::kIntr0}};
+const Claim kInAccess = {
+    "D15", "INTR0 falls when the chip has written to the DPRAM, at the end of a block", {Wire::kIntr0, Wire::kLReq}};
+const Claim kReady = {"D7", "READY rises while the chip reads the DPRAM", {Wire::kReady, Wire::kLReq}};
+
+struct Pulse {
+  Tick fall = 0, rise = 0;
+};
+
+std::vector<Pulse> pulses_of(const Scene& scene) {
+  std::vector<Pulse> pulses;
+  const Trace& trace = scene.record[Wire::kIntr0];
+  for (std::size_t edge = trace.next(0, false); edge + 1 < trace.edges.size(); edge += 2)
+    if (!scene.in_reset(trace.edges[edge], trace.edges[edge + 1]))
+      pulses.push_back({trace.edges[edge], trace.edges[edge + 1]});
+  return pulses;
+}
+
+/// Whether the chip has the DPRAM at `at`, or had it just before.
+bool owned(const Scene& scene, Tick at) {
+  const Trace& trace = scene.record[Wire::kLReq];
+  const Tick about = scene.time.ticks(1) + scene.time.margin();
+  return !trace.low(at - about, at + about);
+}
+
+void fit_low(const Scene& scene, const std::vector<Pulse>& pulses, Found& found) {
+  std::vector<Instance> instances;
+  for (const Pulse& pulse : pulses)
+    instances.push_back(
+        {pulse.fall, scene.time.between(pulse.fall, pulse.rise), scene.time.best(pulse.fall, pulse.rise)});
+  Fit& fit = found.fit(Parameter::kIntrLow);
+  fit.estimate = estimate(instances, &scene.time);
+  if (pulses.empty()) fit.not_shown = "INTR0 has no pulse";
+  for (const Outlier& outlier : fit.estimate.outliers)
+    found.judge.fails(kPulses, outlier.at, fmt::format("{:+.1f} cycles from the others", outlier.by));
+  for (std::size_t i = fit.estimate.outliers.size(); i < fit.estimate.count; ++i) found.judge.holds(kPulses);
+}
+
+/// A pulse that begins while the chip does not have the DPRAM had to wait for the end of the gap; others only say that
+/// the gap is not longer.
+void fit_gap(const Scene& scene, const std::vector<Pulse>& pulses, Found& found) {
+  std::vector<Instance> waited;
+  double shortest = 1e12;
+  for (std::size_t i = 1; i < pulses.size(); ++i) {
+    const Tick from = pulses[i - 1].rise, to = pulses[i].fall;
+    const Span gap = scene.time.between(from, to);
+    if (scene.in_reset(from, to)) continue;
+    shortest = std::min(shortest, gap.hi);
+    if (scene.record.sees(Wire::kLReq) && !owned(scene, to)) waited.push_back({to, gap, scene.time.best(from, to)});
+  }
+  Fit& fit = found.fit(Parameter::kIntrGap);
+  fit.estimate = estimate(waited, &scene.time);
+  if (!waited.empty()) return;
+  if (shortest >= 1e12) {
+    fit.not_shown = "no two pulses of INTR0";
+    return;
+  }
+  fit.estimate.count = 1;
+  fit.estimate.span = {1, shortest};
+  fit.at_most = true;
+}
+
+void judge_falls(const Scene& scene, const std::vector<Pulse>& pulses, Found& found) {
+  const Fit& gap = found.fit(Parameter::kIntrGap);
+  for (std::size_t i = 0; i < pulses.size(); ++i) {
+    const bool waited =
+        i > 0 && !gap.at_most && overlap(scene.time.between(pulses[i - 1].rise, pulses[i].fall), gap.estimate.span);
+    if (!waited)
+      found.judge.judge(kInAccess, owned(scene, pulses[i].fall), pulses[i].fall,
+                        "INTR0 falls without an access of the chip");
+  }
+}
+
+void judge_ready(const Scene& scene, Found& found) {
+  const Trace& ready = scene.record[Wire::kReady];
+  for (std::size_t edge = ready.next(0, true); edge < ready.edges.size(); edge += 2)
+    found.judge.judge(kReady, owned(scene, ready.edges[edge]), ready.edges[edge],
+                      "READY rises without an access of the chip");
+}
+
+}  // namespace
+
+void measure_interrupt(const Scene& scene, Found& found) {
+  const std::vector<Pulse> pulses = pulses_of(scene);
+  fit_low(scene, pulses, found);
+  fit_gap(scene, pulses, found);
+  if (scene.record.sees(Wire::kLReq)) judge_falls(scene, pulses, found), judge_ready(scene, found);
+}
+
+Claims interrupt_claims() { return {&kPulses, &kInAccess, &kReady}; }
+
+}  // namespace calibrate

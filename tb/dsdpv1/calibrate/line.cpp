@@ -1,0 +1,144 @@
+#include "tb/dsdpv1/calibrate/line.hpp"
+
+#include <array>
+
+#include "bus/wire/uart.hpp"
+
+namespace calibrate {
+namespace {
+
+/// Where a bit may be sampled: with two samples a bit one of them may be just before or behind an edge.
+constexpr std::array<double, 5> kPlaces = {0.5, 0.4, 0.6, 0.3, 0.7};
+
+class LineReader {
+ public:
+  LineReader(const Trace& trace, const TimeBase& time, const std::vector<LineTelegram>& rates)
+      : trace_(trace), time_(time), rates_(rates) {}
+
+  std::vector<LineTelegram> read() {
+    std::vector<LineTelegram> found;
+    for (std::size_t edge = trace_.next(0, false); edge < trace_.edges.size();) {
+      LineTelegram telegram = telegram_at(edge);
+      const Tick from = telegram.right ? telegram.last_start + stop_bit(telegram.baud) : silence_behind(telegram);
+      found.push_back(std::move(telegram));
+      edge = trace_.next(from, false);
+    }
+    return found;
+  }
+
+ private:
+  static Tick stop_bit(int baud) { return static_cast<Tick>(10.5 * static_cast<double>(bus::baud(baud).bit)); }
+
+  LineTelegram telegram_at(std::size_t edge) {
+    const Tick at = trace_.edges[edge];
+    take_rate_of_others(at);
+    std::vector<int> order;
+    if (baud_) order.push_back(*baud_);
+    for (int baud = 0; baud < bus::kBaudCount; ++baud)
+      if (baud != baud_) order.push_back(baud);
+    for (const int baud : order) {
+      LineTelegram telegram = try_at(edge, baud);
+      const bool alone = telegram.right && telegram.telegram.kind == bus::TelegramKind::kSc && baud != baud_;
+      if (!telegram.right || alone) continue;  // a short acknowledgement alone shows no rate
+      baud_ = baud;
+      return telegram;
+    }
+    LineTelegram none;
+    none.start = none.last_start = at;
+    none.baud = baud_.value_or(0);
+    return none;
+  }
+
+  void take_rate_of_others(Tick at) {
+    while (other_ < rates_.size() && rates_[other_].start <= at) {
+      if (rates_[other_].right) baud_ = rates_[other_].baud;
+      ++other_;
+    }
+  }
+
+  LineTelegram try_at(std::size_t edge, int baud) const {
+    LineTelegram telegram;
+    telegram.start = trace_.edges[edge];
+    telegram.baud = baud;
+    bus::TelegramDecoder decoder;
+    for (; edge < trace_.edges.size();
+         edge = trace_.next(telegram.last_start + stop_bit(baud) - time_.margin() / 2, false)) {
+      const Tick start = trace_.edges[edge];
+      if (!telegram.bytes.empty() && gap(telegram, start)) return telegram;
+      telegram.last_start = start;
+      const int byte = character(edge, baud);
+      if (byte < 0) return telegram;
+      telegram.bytes.push_back(static_cast<std::uint8_t>(byte));
+      if (const auto decoded = decoder.feed(static_cast<std::uint8_t>(byte))) {
+        telegram.right = decoded->error == bus::DecodeError::kNone;
+        telegram.telegram = decoded->telegram;
+        return telegram;
+      }
+    }
+    return telegram;
+  }
+
+  bool gap(const LineTelegram& telegram, Tick start) const {
+    const Tick bit = bus::baud(telegram.baud).bit;
+    return start > telegram.last_start + 12 * bit + time_.margin();
+  }
+
+  /// The right character that the edges fit best; -1 when there is none.
+  int character(std::size_t edge, int baud) const {
+    const auto bit = static_cast<double>(bus::baud(baud).bit);
+    const Tick start = trace_.edges[edge];
+    double best = most_spread();
+    int found = -1;
+    for (const double place : kPlaces) {
+      unsigned bits = 0;
+      for (int i = 0; i < bus::kCharacterBits; ++i)
+        bits |= (trace_.at(start + static_cast<Tick>((i + place) * bit)) ? 1U : 0U) << static_cast<unsigned>(i);
+      const auto byte = static_cast<std::uint8_t>(bits >> 1U);
+      if (bits != bus::Character::of(byte).bits) continue;
+      const double spread = spread_of(edge, bits, bit);
+      if (spread >= best) continue;
+      best = spread;
+      found = byte;
+    }
+    return found;
+  }
+
+  /// Edges of a right character are late by the same, but for the sampling and jitter; ticks, with some room.
+  double most_spread() const { return (time_.doubt() + 1) * static_cast<double>(bus::kTicksPerCycle); }
+  /// From the edge that is least late to the one that is most, when the character has these bits; ticks.
+  double spread_of(std::size_t edge, unsigned bits, double bit) const {
+    double least = 0, most = 0;
+    const Tick start = trace_.edges[edge];
+    for (unsigned i = 1; i < bus::kCharacterBits; ++i) {
+      if ((bits >> i & 1U) == (bits >> (i - 1) & 1U)) continue;
+      if (++edge >= trace_.edges.size()) return most_spread();
+      const double late = static_cast<double>(trace_.edges[edge] - start) - i * bit;
+      least = std::min(least, late);
+      most = std::max(most, late);
+    }
+    return most - least;
+  }
+
+  /// What is no telegram ends where the line is idle for a character.
+  Tick silence_behind(const LineTelegram& wrong) const {
+    const Tick idle = (bus::kCharacterBits + 1) * bus::baud(wrong.baud).bit;
+    std::size_t edge = trace_.count_until(wrong.start);
+    while (edge < trace_.edges.size() && trace_.edges[edge] - trace_.edges[edge - 1] < idle) ++edge;
+    return edge < trace_.edges.size() ? trace_.edges[edge - 1] + 1 : bus::kNever;
+  }
+
+  const Trace& trace_;
+  const TimeBase& time_;
+  const std::vector<LineTelegram>& rates_;
+  std::size_t other_ = 0;
+  std::optional<int> baud_;
+};
+
+}  // namespace
+
+std::vector<LineTelegram> telegrams_of(const Trace& trace, const TimeBase& time,
+                                       const std::vector<LineTelegram>& rates) {
+  return LineReader(trace, time, rates).read();
+}
+
+}  // namespace calibrate

@@ -1,0 +1,34 @@
+#pragma once
+// The table of what docs/chip.md rules, and the table of its parameters: what pins can show of each.
+#include <string>
+#include <vector>
+
+#include "tb/dsdpv1/calibrate/found.hpp"
+#include "tb/keys/keys.hpp"
+
+namespace calibrate {
+
+struct Ruling {
+  const char* id;      ///< "S3"; "facts"
+  const char* hidden;  ///< why there is no claim; nullptr: `claims` has some
+};
+
+/// All of docs/chip.md, in its order.
+const std::vector<Ruling>& rulings();
+/// All claims, in no order.
+Claims all_claims();
+
+struct ParameterRow {
+  Parameter parameter;
+  const char* key;  ///< in a scenario's `chip`; unit, default and range stand there
+  const char* ruling;
+  const char* measured;  ///< from what
+  std::vector<Wire> needs;
+};
+
+const std::vector<ParameterRow>& parameters();
+/// The scenario's description of it.
+const tb::keys::Field& field_of(const ParameterRow& row);
+long long default_of(const ParameterRow& row);
+
+}  // namespace calibrate

@@ -1,0 +1,110 @@
+#include "tb/dsdpv1/calibrate/scene.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace calibrate {
+namespace {
+
+/// A telegram that the capture has only a part of, at its beginning or end, is none.
+void leave_out_cut(std::vector<LineTelegram>& telegrams, const Trace& trace, Tick end) {
+  const auto syn = [](const LineTelegram& telegram) { return bus::kSynBits * bus::baud(telegram.baud).bit; };
+  if (!telegrams.empty() && !telegrams.back().right && trace.edges.back() + syn(telegrams.back()) > end)
+    telegrams.pop_back();
+  if (!telegrams.empty() && !telegrams.front().right && telegrams.front().start < syn(telegrams.front()))
+    telegrams.erase(telegrams.begin());
+}
+
+/// What the chip hears of its own: PBRXD is the line, and its answers are on it.
+void leave_out_own(std::vector<LineTelegram>& received, const std::vector<LineTelegram>& sent, const TimeBase& time) {
+  const Tick about = time.margin() + 8 * bus::kTicksPerCycle;
+  const auto own = [&](const LineTelegram& telegram) {
+    const auto near = std::lower_bound(sent.begin(), sent.end(), telegram.start - about,
+                                       [](const LineTelegram& each, Tick at) { return each.start < at; });
+    return near != sent.end() && near->start <= telegram.start + about;
+  };
+  received.erase(std::remove_if(received.begin(), received.end(), own), received.end());
+}
+
+/// Requests with the chip's answer, if there is one before the line is used again.
+void pair_up(Scene& scene) {
+  std::size_t sent = 0;
+  for (std::size_t i = 0; i < scene.received.size(); ++i) {
+    const LineTelegram& request = scene.received[i];
+    const Tick until = i + 1 < scene.received.size() ? scene.received[i + 1].start : bus::kNever;
+    for (; sent < scene.sent.size() && scene.sent[sent].start < request.start; ++sent)
+      scene.unasked.push_back(&scene.sent[sent]);
+    Exchange exchange{&request, nullptr};
+    if (sent < scene.sent.size() && scene.sent[sent].start < until) exchange.answer = &scene.sent[sent++];
+    for (; sent < scene.sent.size() && scene.sent[sent].start < until; ++sent)
+      scene.unasked.push_back(&scene.sent[sent]);
+    scene.exchanges.push_back(exchange);
+  }
+  for (; sent < scene.sent.size(); ++sent) scene.unasked.push_back(&scene.sent[sent]);
+}
+
+/// Of others' telegrams only those to a station that answers on PBTXD, to all, and what is none stay.
+void keep_own(Scene& scene) {
+  std::set<int> stations;
+  if (scene.station) stations.insert(*scene.station);
+  for (const Exchange& exchange : scene.exchanges)
+    if (!scene.station && exchange.answer != nullptr && exchange.request->right)
+      stations.insert(exchange.request->telegram.da);
+  const auto other = [&](const Exchange& exchange) {
+    const bus::Telegram& telegram = exchange.request->telegram;
+    const bool ours = exchange.request->right && telegram.is_request() &&
+                      (stations.count(telegram.da) != 0 || telegram.da == bus::kBroadcast);
+    return exchange.answer == nullptr && !ours;
+  };
+  scene.exchanges.erase(std::remove_if(scene.exchanges.begin(), scene.exchanges.end(), other), scene.exchanges.end());
+}
+
+void find_accesses(Scene& scene) {
+  const Trace& trace = scene.record[Wire::kLReq].seen ? scene.record[Wire::kLReq] : scene.record[Wire::kLSta];
+  for (std::size_t edge = trace.next(0, true); edge < trace.edges.size(); edge += 2) {
+    const bool ends = edge + 1 < trace.edges.size();
+    scene.accesses.push_back({trace.edges[edge], ends ? trace.edges[edge + 1] : bus::kNever, ends});
+  }
+}
+
+void find_user_accesses(Scene& scene, Wire strobe) {
+  const Record& record = scene.record;
+  const Trace& trace = record[strobe];
+  const Tick sample =
+      std::max<Tick>(1, static_cast<Tick>(scene.time.period * static_cast<double>(bus::kTicksPerCycle)));
+  for (std::size_t edge = trace.next(0, false); edge + 1 < trace.edges.size(); edge += 2) {
+    const Tick start = trace.edges[edge], end = trace.edges[edge + 1], before = std::max(start, end - sample);
+    if (record[Wire::kCsr].at(before)) continue;
+    scene.user.push_back(
+        {start, end, strobe == Wire::kWr, record.address(before), static_cast<std::uint8_t>(record.data(before))});
+  }
+}
+
+}  // namespace
+
+bool Scene::user_lets(Tick from, Tick to) const {
+  return (!record.sees(Wire::kRReq) || record[Wire::kRReq].low(from, to)) &&
+         (!record.sees(Wire::kRSta) || record[Wire::kRSta].low(from, to));
+}
+
+bool Scene::in_reset(Tick from, Tick to) const {
+  return record.sees(Wire::kReset) && !record[Wire::kReset].high(from, to);
+}
+
+void fill(Scene& scene) {
+  if (scene.record.sees(Wire::kPbrxd)) scene.received = telegrams_of(scene.record[Wire::kPbrxd], scene.time);
+  if (scene.record.sees(Wire::kPbtxd))
+    scene.sent = telegrams_of(scene.record[Wire::kPbtxd], scene.time, scene.received);
+  leave_out_cut(scene.received, scene.record[Wire::kPbrxd], scene.record.end);
+  leave_out_cut(scene.sent, scene.record[Wire::kPbtxd], scene.record.end);
+  leave_out_own(scene.received, scene.sent, scene.time);
+  if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd})) pair_up(scene), keep_own(scene);
+  find_accesses(scene);
+  if (!scene.record.sees_accesses()) return;
+  find_user_accesses(scene, Wire::kRd);
+  find_user_accesses(scene, Wire::kWr);
+  std::sort(scene.user.begin(), scene.user.end(),
+            [](const UserAccess& a, const UserAccess& b) { return a.end < b.end; });
+}
+
+}  // namespace calibrate

@@ -1,0 +1,53 @@
+#pragma once
+// A capture as all measurements see it: its wires, its time, and what they add up to.
+#include <optional>
+#include <vector>
+
+#include "tb/dsdpv1/calibrate/line.hpp"
+
+namespace calibrate {
+
+/// A request, and the chip's answer to it.
+struct Exchange {
+  const LineTelegram* request = nullptr;
+  const LineTelegram* answer = nullptr;  ///< nullptr: none
+};
+
+/// L_REQ high.
+struct ChipAccess {
+  Tick start = 0, end = 0;
+  bool whole = false;  ///< its beginning and end are both in the capture
+};
+
+/// A byte that the user read or wrote.
+struct UserAccess {
+  Tick start = 0;  ///< RD or WR falls
+  Tick end = 0;    ///< ... rises
+  bool write = false;
+  std::uint32_t address = 0;
+  std::uint8_t data = 0;
+};
+
+struct Scene {
+  const Record& record;
+  TimeBase time;
+  std::optional<int> station = {};  ///< its address, when it was said
+
+  std::vector<LineTelegram> received = {};        ///< on PBRXD, without the chip's own
+  std::vector<LineTelegram> sent = {};            ///< on PBTXD
+  std::vector<Exchange> exchanges = {};           ///< requests to the chip, answered or not
+  std::vector<const LineTelegram*> unasked = {};  ///< sent without a request before them
+  std::vector<ChipAccess> accesses = {};
+  std::vector<UserAccess> user = {};
+
+  /// Whether the user's request pins are low, as far as they are seen, from `from` to `to`.
+  bool user_lets(Tick from, Tick to) const;
+  /// Whether both of them are in the capture.
+  bool sees_user() const { return record.sees({Wire::kRReq, Wire::kRSta}); }
+  bool in_reset(Tick from, Tick to) const;
+};
+
+/// Reads the telegrams and accesses out of the record.
+void fill(Scene& scene);
+
+}  // namespace calibrate

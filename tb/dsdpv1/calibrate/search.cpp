@@ -1,0 +1,325 @@
+// S1, S9, P3: the baud search, the watchdog, and the pins that show them.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "model/dsdpv1/chip.hpp"
+#include "tb/dsdpv1/calibrate/found.hpp"
+
+namespace calibrate {
+namespace {
+
+constexpr double kCyclesPerMs = 48'000;
+
+const Claim kLocks = {"S1", "BR rises at the decision of a right telegram", {Wire::kPbrxd, Wire::kBr}};
+const Claim kSilent = {
+    "S9", "the telegram that ends the search is not answered", {Wire::kPbrxd, Wire::kPbtxd, Wire::kBr}};
+const Claim kFoundFirst = {
+    "P3", "an answer is sent only while BR and READY are high", {Wire::kPbtxd, Wire::kBr, Wire::kReady}};
+const Claim kExchange = {
+    "P3", "outputs are taken, and inputs sent, only while PBF is low", {Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}};
+const Claim kWatchdog = {
+    "S1", "the watchdog of Set_Prm ends DATA_EXCH after its time", {Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}};
+
+/// From the start bit of the last character to the decision: 12 bit times, the synchroniser, the edge (3 to 4 cycles).
+Span decision(const LineTelegram& telegram) { return {12 * telegram.bit() + 3, 12 * telegram.bit() + 4}; }
+
+bool locks(const LineTelegram& telegram) {
+  using Kind = bus::TelegramKind;
+  const Kind kind = telegram.telegram.kind;
+  return telegram.right && (kind == Kind::kSd1 || kind == Kind::kSd2 || kind == Kind::kSd3);
+}
+
+// --- windows of the search
+
+/// The rate of index `baud` was found between these cycles behind the beginning of the search.
+struct Lock {
+  Tick at = 0;
+  int baud = 0;
+  Span cycles;
+};
+
+/// Cycles from the beginning of the search to the window of this rate.
+double windows_before(int baud, double ms, double bits) {
+  double sum = 0;
+  for (int i = 0; i < baud; ++i) sum += std::max(ms * kCyclesPerMs, bits * TimeBase::nominal(bus::baud(i).bit));
+  return sum;
+}
+
+std::optional<Tick> search_start(const Scene& scene, Tick found_at) {
+  const Trace &br = scene.record[Wire::kBr], &ready = scene.record[Wire::kReady];
+  const std::size_t fell = br.last(found_at - 1, false), rose = ready.last(found_at - 1, true);
+  Tick start = -1;
+  if (fell != Trace::kNone) start = br.edges[fell];
+  if (rose != Trace::kNone) start = std::max(start, ready.edges[rose]);
+  return start < 0 ? std::nullopt : std::optional<Tick>(start);
+}
+
+/// The telegram whose decision is at `at`.
+std::size_t telegram_decided(const Scene& scene, Tick at) {
+  for (std::size_t i = 0; i < scene.received.size(); ++i) {
+    const LineTelegram& telegram = scene.received[i];
+    if (telegram.last_start > at) break;
+    if (locks(telegram) && overlap(scene.time.between(telegram.last_start, at), decision(telegram))) return i;
+  }
+  return Trace::kNone;
+}
+
+/// A telegram that comes whole, T_SYN included, in the window of its rate locks it: one that did not came too early. So
+/// with telegrams during most of the search, close to each other; it is taken for the first round of the rates then.
+Lock lock_of(const Scene& scene, Tick start, std::size_t by) {
+  const LineTelegram& telegram = scene.received[by];
+  const double syn = bus::kSynBits * telegram.bit(), doubt = 8;
+  Lock lock{telegram.start, telegram.baud, {0, scene.time.between(start, telegram.start).hi - syn + doubt}};
+  std::optional<Tick> first, before;
+  double widest = 0;
+  for (std::size_t i = 0; i <= by; ++i) {
+    const LineTelegram& each = scene.received[i];
+    if (each.start < start || !locks(each) || each.baud != telegram.baud) continue;
+    if (!first) first = each.start;
+    if (before) widest = std::max(widest, TimeBase::nominal(each.start - *before));
+    if (i < by) before = each.start;
+  }
+  const double all = TimeBase::nominal(telegram.start - start), silent = TimeBase::nominal(*first - start);
+  const bool dense = before && silent * 2 < all && widest * 2 * (telegram.baud + 1) < all;
+  if (dense) lock.cycles.lo = std::max(0.0, scene.time.between(start, *before).lo - syn - doubt);
+  return lock;
+}
+
+std::vector<Lock> locks_of(const Scene& scene, Found& found) {
+  std::vector<Lock> all;
+  const Trace& br = scene.record[Wire::kBr];
+  for (std::size_t edge = br.next(0, true); edge < br.edges.size(); edge += 2) {
+    const Tick at = br.edges[edge];
+    const std::size_t by = telegram_decided(scene, at);
+    if (by == Trace::kNone) {
+      found.judge.fails(kLocks, at, "BR rises without a telegram before it");
+      continue;
+    }
+    found.judge.holds(kLocks);
+    const auto start = search_start(scene, at);
+    if (start && scene.received[by].baud > 0) all.push_back(lock_of(scene, *start, by));
+  }
+  return all;
+}
+
+/// The least and greatest value of 1 .. most for which `fits` holds at some value of the other parameter.
+struct Range {
+  double lo = 0, hi = 0;
+  bool any = false;
+
+  void add(double value) {
+    lo = any ? std::min(lo, value) : value;
+    hi = any ? std::max(hi, value) : value;
+    any = true;
+  }
+  void add(const Range& other) {
+    if (!other.any) return;
+    add(other.lo), add(other.hi);
+  }
+};
+
+constexpr int kMostMs = 10'000, kLeastBits = 100, kMostBits = 100'000;
+
+/// The bit times that fit all locks when the least time is `ms`; the sum of windows only grows with either.
+Range bits_for(const std::vector<Lock>& all, int ms) {
+  int lo = kLeastBits, hi = kMostBits;
+  for (const Lock& lock : all) {
+    const auto sum = [&](int bits) { return windows_before(lock.baud, ms, bits); };
+    int low = lo, high = hi + 1;
+    while (low < high) {
+      const int middle = (low + high) / 2;
+      if (sum(middle) >= lock.cycles.lo)
+        high = middle;
+      else
+        low = middle + 1;
+    }
+    lo = low;
+    low = lo, high = hi + 1;
+    while (low < high) {
+      const int middle = (low + high) / 2;
+      if (sum(middle) > lock.cycles.hi)
+        high = middle;
+      else
+        low = middle + 1;
+    }
+    hi = low - 1;
+  }
+  Range range;
+  if (lo <= hi) range.add(lo), range.add(hi);
+  return range;
+}
+
+/// What fits all locks. Either time may explain much in the place of the other, so that the one that is not needed is
+/// taken to be the default; only where neither is, both are left open.
+struct Windows {
+  Range ms, bits;
+};
+
+Windows windows_of(const std::vector<Lock>& all) {
+  const dsdpv1::Config usual;
+  const auto usual_ms = static_cast<int>(usual.search_window_ms),
+             usual_bits = static_cast<int>(usual.search_window_bits);
+  Windows by_ms, by_bits, both;
+  for (int ms = 1; ms <= kMostMs; ++ms) {
+    const Range bits = bits_for(all, ms);
+    if (!bits.any) continue;
+    both.ms.add(ms), both.bits.add(bits);
+    if (ms == usual_ms) by_bits.ms.add(ms), by_bits.bits.add(bits);
+    if (bits.lo <= usual_bits && usual_bits <= bits.hi) by_ms.ms.add(ms), by_ms.bits.add(bits);
+  }
+  return by_ms.ms.any ? by_ms : by_bits.ms.any ? by_bits : both;
+}
+
+void set_window(Fit& fit, const Range& range, double least, double most, std::size_t count) {
+  fit.at_most = range.lo <= least;
+  fit.at_least = range.hi >= most;
+  if (fit.at_most && fit.at_least) {
+    fit.not_shown = "the other least time decides";
+    return;
+  }
+  fit.estimate.count = count;
+  fit.estimate.span = {range.lo, range.hi};
+}
+
+void fit_windows(const Scene& scene, Found& found) {
+  std::vector<Lock> all = locks_of(scene, found);
+  if (std::none_of(all.begin(), all.end(), [](const Lock& lock) { return lock.cycles.lo > 0; })) all.clear();
+  Fit &ms_fit = found.fit(Parameter::kSearchWindowMs), &bits_fit = found.fit(Parameter::kSearchWindowBits);
+  const Windows windows = all.empty() ? Windows{} : windows_of(all);
+  if (!windows.ms.any) {
+    ms_fit.not_shown = bits_fit.not_shown = all.empty() ? "no search with telegrams at 6M or slower during most of it"
+                                                        : "the searches contradict each other";
+    return;
+  }
+  set_window(ms_fit, windows.ms, 1, kMostMs, all.size());
+  set_window(bits_fit, windows.bits, kLeastBits, kMostBits, all.size());
+}
+
+// --- watchdog
+
+/// Set_Prm's watchdog, cycles; 0: none. Nothing when it sets none (other telegrams, min_TSDR only, Unlock).
+std::optional<double> watchdog_of(const LineTelegram& request) {
+  const bus::Telegram& telegram = request.telegram;
+  constexpr std::size_t kLeast = 7;
+  if (!request.right || telegram.dsap != bus::sap::kSetPrm || telegram.data.size() < kLeast) return std::nullopt;
+  const std::uint8_t status = telegram.data[0];
+  if ((status & 0xC0U) != 0x80U) return std::nullopt;
+  if ((status & 0x08U) == 0) return 0;
+  const bool base = telegram.data.size() > kLeast && (telegram.data[kLeast] & 0x04U) != 0;
+  return telegram.data[1] * telegram.data[2] * (base ? 1 : 10) * kCyclesPerMs;
+}
+
+/// What the chip last heard of its master before `at`.
+struct Heard {
+  const LineTelegram* last = nullptr;  ///< to the station
+  double watchdog = 0;                 ///< cycles, 0: none
+};
+
+Heard heard_before(const Scene& scene, Tick at) {
+  Heard heard;
+  for (const Exchange& exchange : scene.exchanges) {
+    if (exchange.request->end() > at) break;
+    if (!exchange.request->right || exchange.request->telegram.da == bus::kBroadcast) continue;
+    heard.last = exchange.request;
+    if (exchange.answer == nullptr) continue;
+    if (const auto watchdog = watchdog_of(*exchange.request)) heard.watchdog = *watchdog;
+  }
+  return heard;
+}
+
+/// Cycles from the decision of the telegram to `at`.
+Span since_decision(const Scene& scene, const LineTelegram& telegram, Tick at) {
+  const Span since = scene.time.between(telegram.last_start, at), decided = decision(telegram);
+  return {since.lo - decided.hi, since.hi - decided.lo};
+}
+
+void judge_watchdog(const Scene& scene, Found& found) {
+  const Trace& pbf = scene.record[Wire::kPbf];
+  for (std::size_t edge = pbf.next(0, true); edge < pbf.edges.size(); edge += 2) {
+    const Tick at = pbf.edges[edge];
+    if (scene.in_reset(at - scene.time.margin(), at)) continue;
+    const Heard heard = heard_before(scene, at);
+    if (heard.last == nullptr || heard.watchdog == 0) continue;
+    const Span since = since_decision(scene, *heard.last, at);
+    if (since.contains(heard.watchdog))
+      found.judge.holds(kWatchdog);
+    else if (since.lo > heard.watchdog || since.lo > heard.watchdog / 2)
+      found.judge.fails(kWatchdog, at, fmt::format("{:+.1f} cycles from its end", since.middle() - heard.watchdog));
+  }
+}
+
+/// BR falls that long after the last telegram, or after the watchdog that ran before.
+void fit_baud_control(const Scene& scene, Found& found) {
+  constexpr double kNear = 0.05;  ///< ms
+  Fit& fit = found.fit(Parameter::kBaudControlMs);
+  std::vector<Instance> instances;
+  const Trace& br = scene.record[Wire::kBr];
+  for (std::size_t edge = br.next(0, false); edge < br.edges.size(); edge += 2) {
+    const Tick at = br.edges[edge];
+    if (scene.in_reset(at - scene.time.margin(), at)) continue;
+    const Heard heard = heard_before(scene, at);
+    if (heard.last == nullptr) continue;
+    Span ms = since_decision(scene, *heard.last, at) + -heard.watchdog;
+    ms = {ms.lo / kCyclesPerMs, ms.hi / kCyclesPerMs};
+    const double whole = std::round(ms.middle());
+    if (whole >= 1 && ms.lo - kNear <= whole && whole <= ms.hi + kNear) instances.push_back({at, ms, ms.middle()});
+  }
+  fit.estimate = estimate(instances);
+  if (fit.estimate.count == 0) fit.not_shown = "BR does not fall after silence";
+}
+
+// --- other pins
+
+void judge_pins(const Scene& scene, Found& found) {
+  const Record& record = scene.record;
+  const Tick about = scene.time.margin();
+  if (record.sees({Wire::kBr, Wire::kReady}))
+    for (const LineTelegram& sent : scene.sent)
+      found.judge.judge(kFoundFirst,
+                        !record[Wire::kBr].low(sent.start - about, sent.start + about) &&
+                            !record[Wire::kReady].low(sent.start - about, sent.start + about),
+                        sent.start, "an answer while BR or READY is low");
+  if (!record.sees(Wire::kPbf)) return;
+  for (const Exchange& exchange : scene.exchanges) {
+    if (exchange.answer == nullptr || !exchange.request->right || exchange.request->telegram.dsap ||
+        !exchange.answer->right)
+      continue;
+    const bool srd = exchange.request->telegram.function() == bus::fc::kSrdLow ||
+                     exchange.request->telegram.function() == bus::fc::kSrdHigh;
+    const bool data = exchange.answer->telegram.kind == bus::TelegramKind::kSd2 ||
+                      exchange.answer->telegram.kind == bus::TelegramKind::kSc;
+    if (!srd || !data) continue;
+    const Tick at = exchange.request->end();
+    found.judge.judge(kExchange, !record[Wire::kPbf].high(at - about, exchange.answer->start), exchange.answer->start,
+                      "a data exchange is answered while PBF is high");
+  }
+}
+
+void judge_silence(const Scene& scene, Found& found) {
+  const Trace& br = scene.record[Wire::kBr];
+  for (const Exchange& exchange : scene.exchanges) {
+    const LineTelegram& request = *exchange.request;
+    const std::size_t rise = br.next(request.last_start, true);
+    if (rise == Trace::kNone || !request.right) continue;
+    if (!overlap(scene.time.between(request.last_start, br.edges[rise]), decision(request))) continue;
+    found.judge.judge(kSilent, exchange.answer == nullptr, br.edges[rise], "it is answered");
+  }
+}
+
+}  // namespace
+
+void measure_search(const Scene& scene, Found& found) {
+  const Record& record = scene.record;
+  if (record.sees({Wire::kPbrxd, Wire::kBr})) {
+    fit_windows(scene, found);
+    fit_baud_control(scene, found);
+    judge_silence(scene, found);
+  }
+  if (record.sees({Wire::kPbrxd, Wire::kPbf})) judge_watchdog(scene, found);
+  judge_pins(scene, found);
+}
+
+Claims search_claims() { return {&kLocks, &kSilent, &kWatchdog, &kFoundFirst, &kExchange}; }
+
+}  // namespace calibrate

@@ -1,0 +1,128 @@
+#pragma once
+// The wires of the chip that a capture shows: any subset of table 1, each with its edges.
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bus/capture/level_taker.hpp"
+#include "bus/time.hpp"
+
+namespace calibrate {
+
+using bus::Tick;
+
+/// Single pins; A0 to A10 and D0 to D7 follow kA and kD.
+enum class Wire : std::uint8_t {
+  kReset,
+  kRReq,
+  kRSta,
+  kCsr,
+  kRd,
+  kWr,
+  kPbrxd,
+  kLReq,
+  kLSta,
+  kIntr0,
+  kPbtxd,
+  kPbrts,
+  kPbf,
+  kBr,
+  kReady,
+  kA,
+  kD = kA + 11,
+};
+constexpr std::size_t kAddressWires = 11, kDataWires = 8;
+constexpr std::size_t kWireCount = static_cast<std::size_t>(Wire::kD) + kDataWires;
+
+/// Table 1's name: "L_REQ", "A10".
+std::string name(Wire wire);
+
+/// What one wire did.
+struct Trace {
+  bool seen = false;
+  bool first = false;       ///< level at the beginning
+  std::vector<Tick> edges;  ///< when the level was another for the first time, in order
+
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  /// The level behind edge `edge` - 1.
+  bool level(std::size_t edge) const { return first != (edge % 2 == 1); }
+  /// How many edges are not later than `at`.
+  std::size_t count_until(Tick at) const;
+  bool at(Tick at) const { return level(count_until(at)); }
+  /// Whether it was low from `from` to `to`; false when it was not seen.
+  bool low(Tick from, Tick to) const;
+  bool high(Tick from, Tick to) const;
+  /// The first edge to `level` at or behind `from`, by its place; kNone when there is none.
+  std::size_t next(Tick from, bool level) const;
+  /// The last edge to `level` at or before `until`.
+  std::size_t last(Tick until, bool level) const;
+};
+
+/// What a capture shows.
+struct Record {
+  std::array<Trace, kWireCount> traces;
+  std::array<std::string, kWireCount> names;  ///< in the capture
+  Tick end = 0;
+
+  const Trace& operator[](Wire wire) const { return traces.at(static_cast<std::size_t>(wire)); }
+  bool sees(Wire wire) const { return (*this)[wire].seen; }
+  bool sees(const std::vector<Wire>& wires) const;
+  /// CSR, RD, WR, all of A and D.
+  bool sees_accesses() const;
+  std::uint32_t address(Tick at) const { return number(Wire::kA, kAddressWires, at); }
+  std::uint32_t data(Tick at) const { return number(Wire::kD, kDataWires, at); }
+
+ private:
+  std::uint32_t number(Wire first, std::size_t count, Tick at) const;
+};
+
+/// How the signals of a capture are called.
+struct Names {
+  std::string scope;  ///< only signals in it; empty: any
+  struct Given {
+    std::string signal;
+    bool inverted = false;
+  };
+  std::map<std::string, Given> given;  ///< by the pin's name: table 1, A and D as vectors, A0.., D0..
+  bool only_given = false;
+};
+
+/// Takes from a recording the wires of the chip.
+class RecordTaker : public bus::capture::LevelTaker {
+ public:
+  explicit RecordTaker(Names names) : names_(std::move(names)) {}
+
+  /// Throws CaptureError when no pin of the chip is there, one is there twice, or one that was given is missing.
+  std::vector<std::size_t> choose(const std::vector<std::string>& signals) override;
+  void level(Tick at, std::size_t which, bool level) override;
+  void finish(Tick end) override { record_.end = end; }
+
+  Record& record() { return record_; }
+
+  /// More changes than this are refused: a capture is held in memory.
+  static constexpr std::size_t kMostChanges = 100'000'000;
+
+ private:
+  struct Chosen {
+    Wire wire;
+    bool inverted;
+  };
+  void look_for(Wire wire, const std::vector<std::string>& signals);
+  std::size_t given_place(Wire wire, const Names::Given& given, const std::string& suffix,
+                          const std::vector<std::string>& signals) const;
+  std::size_t named_place(Wire wire, const std::vector<std::string>& signals) const;
+  void leave_out_lone_data();
+
+  Names names_;
+  Record record_;
+  std::vector<std::size_t> places_;
+  std::vector<Chosen> chosen_;
+  std::array<bool, kWireCount> begun_{};
+  std::size_t changes_ = 0;
+};
+
+}  // namespace calibrate
