@@ -21,7 +21,7 @@ exit
 
 def rows(save_file):
     """The lines that are shown: -TITLE, or the path of a signal."""
-    return [line for line in save_file.read_text(encoding="utf-8").splitlines() if line[:1] not in "[@"]
+    return [line for line in save_file.read_text(encoding="utf-8").splitlines() if line[:1] not in "[@*"]
 
 
 def as_shown(row):
