@@ -48,7 +48,7 @@ class OfRun(Output):
     endless = ["--set", "end=3000s", "--progress"]
     other_input = "device.gsd"
     simulates = True
-    others = {"--wave": "--log", "--log": "--result", "--result": "--trace", "--trace": "--log", "--capture": "--log"}
+    others = {"--wave": "--log", "--log": "--result", "--result": "--trace", "--trace": "--log", "--capture": "--log", "--report": "--log"}
 
     def __init__(self, kind, file, option):
         super().__init__(kind, file, "run", "s.yaml", "--quiet", option)
@@ -68,7 +68,7 @@ class OfServe(Output):
     finite, endless = ["--for", "1ms"], ["--for", "3000s"]
     other_input = "device.gsd"
     simulates = True
-    others = {"--wave": "--log", "--log": "--result", "--result": "--log", "--capture": "--log"}
+    others = {"--wave": "--log", "--log": "--result", "--result": "--log", "--capture": "--log", "--report": "--log"}
 
     def __init__(self, kind, file, option):
         super().__init__(kind, file, "serve", "s.yaml", "--tcp", "0", "--quiet", option)
@@ -129,8 +129,9 @@ class OfRecover(Output):
 
 WAVES = [("wave .fst", "o.fst", "--wave"), ("wave .vcd", "o.vcd", "--wave")]
 LOG, RESULT, CAPTURE = ("log", "o.log", "--log"), ("result", "o.json", "--result"), ("capture", "o.pcapng", "--capture")
-OUTPUTS = [*(OfRun(*each) for each in [*WAVES, LOG, ("log .jsonl", "o.jsonl", "--log"), RESULT, ("trace", "o.txt", "--trace"), CAPTURE]),
-           *(OfServe(*each) for each in [*WAVES, LOG, RESULT, CAPTURE]),
+REPORT = ("report", "o.html", "--report")
+OUTPUTS = [*(OfRun(*each) for each in [*WAVES, LOG, ("log .jsonl", "o.jsonl", "--log"), RESULT, ("trace", "o.txt", "--trace"), CAPTURE, REPORT]),
+           *(OfServe(*each) for each in [*WAVES, LOG, RESULT, CAPTURE, REPORT]),
            Output("", "o.schema", "schema", "--output"), Output("", "o.md", "reasons", "--markdown", "--output"), OfRecover()]
 OF_RTL = [OfReplay("difference .fst", "o.fst"), OfReplay("difference .vcd", "o.vcd"), OfReplay(*LOG), OfReplay(*RESULT), OfRandom(), OfFaults()]
 SPEAKERS = [Output("", "o.log", "run", "s.yaml", "--log"), *(Output("", "", *words) for words in (

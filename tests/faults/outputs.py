@@ -26,7 +26,7 @@ ALL = OUTPUTS + OF_RTL
 SIMULATING = [output for output in ALL if output.simulates]
 RUNNING = [output for output in ALL if output.endless]
 QUICK = [output for output in ALL if output.kind != "stimulus"]  # which takes a second of random cases
-VARYING = ("result", "tsv")  # in length
+VARYING = ("result", "tsv", "report")  # in length
 
 
 def of_kinds(outputs, *kinds):

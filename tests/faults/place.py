@@ -91,7 +91,7 @@ class Place:
         """Without what differs from output to output."""
         text = re.sub(r"n{100,}(\.\w+)?", "NAME", text)
         text = text.replace(self.output.file or "/", "FILE").replace("./FILE", "FILE")
-        text = re.sub(r"--(wave|log|result|trace|output|difference|stimulus|tsv|replay|list|capture)\b", "OPTION", text)
+        text = re.sub(r"--(wave|log|result|trace|output|difference|stimulus|tsv|replay|list|capture|report)\b", "OPTION", text)
         text = re.sub(r"dsdpv1-sim [\w-]+:", "dsdpv1-sim COMMAND:", text)
         return re.sub(r"\.\d+(-\d+)?\.part", ".PID.part", text)
 

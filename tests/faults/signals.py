@@ -27,7 +27,7 @@ def hung_up(place):
 def kill(place):
     """When there is something to be read, if there is before the end; of FST, more than its head."""
     process = place.start_endless()
-    place.part(something=place.output.simulates and place.output.kind != "result")
+    place.part(something=place.output.simulates and place.output.kind not in ("result", "report"))
     process.kill()
     return place.end(process, said=False)
 
