@@ -4,8 +4,8 @@
     pyprofibus_test.py DSDPV1_SIM CASE      CASE: one of the functions below, or `list`
 
 Exit code 77 (skipped) when pyprofibus is not in .venv: ./run test installs it. A case is tried again only when the machine was too
-busy to keep up with real time, which serve and the master themselves measure, or when the line shows that pyprofibus has taken an answer
-for another slave's, and then with a slower clock for pyprofibus.
+busy to keep up with real time, which serve and the master themselves measure, and then with a slower clock for pyprofibus; or when the
+line shows that pyprofibus has taken an answer for another slave's.
 """
 import os
 import re
@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 import lateness
-from bench import BITS_PER_SECOND, DEADLINE, HERE, LATE_MS, ROOT, Master, Serve, check, exit_code
+from bench import BITS_PER_SECOND, DEADLINE, HERE, LATE_MS, ROOT, Failure, Master, Serve, check, exit_code
 
 PYTHON = os.path.join(ROOT, ".venv", "bin", "python")
 AFTER_THE_END = {"WD_EXPIRED", "BAUD_LOST"}  # what a slave says when its master has gone
@@ -29,6 +29,8 @@ lateness.watch(sys.argv[1])
 master.slow_down(%d)
 first_master.main(sys.argv[2], int(sys.argv[3]))
 """
+
+MIX_UPS = 20         # of pyprofibus in a row: on a machine whose processors are taken away for ms at a time every second run has one
 
 IO2 = {"modules": ["2 bytes in, 2 bytes out"], "inputs": 2, "outputs": 2}
 
@@ -313,11 +315,19 @@ def installed():
 def was_too_busy():
     """If so, the next run has a slower clock."""
     print("late at most: serve %.1f ms, the master %.1f ms; above %.1f ms it is the machine's fault" % (*Run.late_ms, Run.limit_ms))
-    if Run.mixed_up:
-        print("pyprofibus has sent a Chk_Cfg without a Set_Prm: it took another slave's short acknowledge for this one's")
-    busy = Run.mixed_up or max(Run.late_ms) > Run.limit_ms
-    Run.late_ms, Run.mixed_up, Run.slower = (0, 0), False, SLOWER
+    busy, Run.late_ms, Run.slower = max(Run.late_ms) > Run.limit_ms, (0, 0), SLOWER
     return busy
+
+
+def untangled(case, program):
+    """The case, again when pyprofibus has mixed up its slaves: a few ms between an answer and its next look at the port are enough for that."""
+    for _ in range(MIX_UPS):
+        try:
+            return case(program)
+        except Exception:
+            if not Run.mixed_up:
+                raise
+    raise Failure("pyprofibus has sent a Chk_Cfg without a Set_Prm %d times: it takes each short acknowledge for another slave's" % MIX_UPS)
 
 
 def main(program, name):
@@ -328,7 +338,7 @@ def main(program, name):
     if not installed():
         print("skipped: pyprofibus is not in .venv, ./run test installs it")
         return 77
-    return exit_code(lambda: cases[name](program), was_too_busy)
+    return exit_code(lambda: untangled(cases[name], program), was_too_busy)
 
 
 if __name__ == "__main__":
