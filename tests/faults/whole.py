@@ -42,6 +42,8 @@ def ended_early(program, path, content):
         return packets(content)[0] >= 2 and packets(content)[1] == 0
     if not content.endswith(b"\n"):
         return False
+    if ending == ".html":
+        return (b'"interrupted": true' in content) is (b'"pacing": ' not in content) and content.endswith(b"</html>\n")
     if ending == ".vcd":
         return re.fullmatch(r"#\d+", last_line(content)) is not None
     if ending == ".jsonl":
@@ -74,7 +76,7 @@ def without_wall_time(content):
     if content.startswith(b"number\t"):  # kills of faults: the seconds
         return [line.split(b"\t")[:5] + line.split(b"\t")[6:] for line in content.splitlines()]
     if content.startswith(b"<!DOCTYPE html>"):
-        return re.sub(rb'"(wall_s|real_time_factor)":[^,}]*', b"", content)
+        return re.sub(rb'"(wall_s|real_time_factor)": [^,}]*|"pacing": {[^}]*}|\n  (simulated|host|pacing|served) .*', b"", content)
     return re.sub(rb".* host .* this computer is too slow.*\n", b"", content)
 
 
