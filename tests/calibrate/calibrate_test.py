@@ -194,6 +194,8 @@ def contradictions(folder):
     for wire, ruling in (("PBRTS", "P2"), ("L_STA", "H1")):
         edited, at = analyser.shifted(pins, wire, after, round(5 * CYCLE))
         planted(edited, ruling, at, 5 if wire == "PBRTS" else None)
+    alone = idle_between(pins["L_STA"], after)
+    planted({**pins, "L_STA": with_pulse(pins["L_STA"], alone, round(7 * CYCLE))}, "H1", alone)
     late = {**pins, **{pin: shift_all(pins[pin], begin, finish, round(9 * CYCLE)) for pin in ("PBRTS", "PBTXD", "PBRXD")}}
     planted(late, "S3", begin, 8)
     dropped = analyser.without(analyser.without(pins, "PBTXD", begin, finish), "PBRTS", begin, finish)
@@ -204,6 +206,16 @@ def contradictions(folder):
     edited, at = analyser.shifted(pins, "INTR0", 0, -round(9 * CYCLE))
     found = contradicted(calibrate(folder, take(folder, edited, end, 100e6, ppm=30, jitter_ns=2)))
     assert {each[0] for each in found} <= {"P7", "D15"} and found, found
+
+
+def idle_between(trace, after):
+    """The middle of the first pause between two pulses behind `after`, ps."""
+    falls = [(edge, following) for i, (edge, following) in enumerate(zip(trace[1], trace[1][1:])) if edge > after and i % 2 == 1 - trace[0]]
+    return sum(falls[0]) // 2
+
+
+def with_pulse(trace, at, length):
+    return trace[0], sorted([*trace[1], at, at + length])
 
 
 def shift_all(trace, begin, finish, by):

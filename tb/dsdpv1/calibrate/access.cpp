@@ -30,20 +30,26 @@ bool is_long(const Scene& scene, const ChipAccess& access) {
 
 // --- L_REQ against L_STA
 
-void judge_together(const Scene& scene, Found& found) {
-  const Trace &req = scene.record[Wire::kLReq], &sta = scene.record[Wire::kLSta];
-  if (!req.seen || !sta.seen) return;
+/// Each edge of `one` has its like on `other`. `names`: the words where it has not.
+void judge_edges(const Scene& scene, Found& found, Wire one, Wire other, const char* names) {
+  const Trace &edges = scene.record[one], &others = scene.record[other];
   const Tick near = scene.time.margin();
-  for (std::size_t edge = 0; edge < req.edges.size(); ++edge) {
-    const Tick at = req.edges[edge];
-    const bool level = req.level(edge + 1);
-    const std::size_t other = sta.next(at - near, level);
-    const bool with = other != Trace::kNone && sta.edges[other] <= at + near;
+  for (std::size_t edge = 0; edge < edges.edges.size(); ++edge) {
+    const Tick at = edges.edges[edge];
+    const bool level = edges.level(edge + 1);
+    const std::size_t like = others.next(at - near, level);
+    const bool with = like != Trace::kNone && others.edges[like] <= at + near;
     if (with || at + near > scene.record.end || at < near)
       found.judge.holds(kTogether);
     else
-      found.judge.fails(kTogether, at, fmt::format("L_REQ {}, L_STA does not", level ? "rises" : "falls"));
+      found.judge.fails(kTogether, at, fmt::format(fmt::runtime(names), level ? "rises" : "falls"));
   }
+}
+
+void judge_together(const Scene& scene, Found& found) {
+  if (!scene.record[Wire::kLReq].seen || !scene.record[Wire::kLSta].seen) return;
+  judge_edges(scene, found, Wire::kLReq, Wire::kLSta, "L_REQ {}, L_STA does not");
+  judge_edges(scene, found, Wire::kLSta, Wire::kLReq, "L_STA {}, L_REQ does not");
 }
 
 // --- the interval
