@@ -1,4 +1,4 @@
-// P7, D7, D15: INTR0 and READY.
+// P7, D7: INTR0 and READY.
 #include <fmt/format.h>
 
 #include "tb/dsdpv1/calibrate/found.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 const Claim kPulses = {"P7", "every pulse of INTR0 is as long as the others", {Wire::kIntr0}};
 const Claim kInAccess = {
-    "D15", "INTR0 falls when the chip has written to the DPRAM, at the end of a block", {Wire::kIntr0, Wire::kLReq}};
+    "P7", "INTR0 falls while the chip has the DPRAM, or when the gap ends", {Wire::kIntr0, Wire::kLReq}};
 const Claim kReady = {"D7", "READY rises while the chip reads the DPRAM", {Wire::kReady, Wire::kLReq}};
 
 struct Pulse {

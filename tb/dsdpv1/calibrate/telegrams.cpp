@@ -150,7 +150,7 @@ const std::vector<Rule> kRules = {
 const Claim kRepeated = {"S26", "a request that is repeated gets the same answer", line()};
 const Claim kSdn = {"S20", "SDN is not answered", line()};
 const Claim kNobody = {"S32", "a request of master 127 is not answered", line()};
-const Claim kGlobal = {"S24", "Global_Control is not answered", line()};
+const Claim kGlobal = {"S20", "Global_Control is not answered", line()};
 
 std::string words_of(const Telegram& answer, const bus::Bytes& bytes) {
   constexpr std::size_t kMost = 12;
