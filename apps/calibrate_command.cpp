@@ -11,7 +11,6 @@
 #include "tb/dsdpv1/cosim/pin_map.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
-#include "tb/output/output_file.hpp"
 
 namespace app {
 namespace {
@@ -73,13 +72,6 @@ calibrate::Sampling sampling_of(const CalibrateArguments& arguments, const Sampl
   return sampling;
 }
 
-void write(const std::string& path, const std::string& text) {
-  if (path.empty()) return;
-  tb::OutputFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 }  // namespace
 
 int calibrate(const CalibrateArguments& arguments) {
@@ -92,9 +84,9 @@ int calibrate(const CalibrateArguments& arguments) {
   const Sampling sampling = file.read_levels(taker);
   const calibrate::Result result =
       calibrate::calibrate(file.name(), taker.record(), sampling_of(arguments, sampling), arguments.station);
-  write(arguments.chip, calibrate::chip_block(result));
-  write(arguments.json, calibrate::json(result));
-  write(arguments.table, calibrate::text(result, true));
+  write_wanted(arguments.chip, calibrate::chip_block(result));
+  write_wanted(arguments.json, calibrate::json(result));
+  write_wanted(arguments.table, calibrate::text(result, true));
   if (!arguments.quiet) std::cout << calibrate::text(result, arguments.all);
   return result.agrees() ? kPassed : kFailed;
 }

@@ -14,7 +14,6 @@
 #include "tb/compare/report.hpp"
 #include "tb/dsdpv1/cosim/wave_pins.hpp"
 #include "tb/input/input_error.hpp"
-#include "tb/output/output_file.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/waves/wave_writer.hpp"
 
@@ -98,13 +97,6 @@ void check_files(const CompareArguments& arguments) {
                 {{"--wave", arguments.wave}, {"--json", arguments.json}, {"--junit", arguments.junit}});
 }
 
-void write(const std::string& path, const std::string& text) {
-  if (path.empty()) return;
-  tb::OutputFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 }  // namespace
 
 int compare(const CompareArguments& arguments) {
@@ -118,8 +110,8 @@ int compare(const CompareArguments& arguments) {
   comparison.on_progress([&progress](double share) { progress.show(share); });
   const tb::compare::Result result = comparison.run();
   progress.clear();
-  write(arguments.json, tb::compare::json(result));
-  write(arguments.junit, tb::compare::junit(result));
+  write_wanted(arguments.json, tb::compare::json(result));
+  write_wanted(arguments.junit, tb::compare::junit(result));
   if (!arguments.quiet) std::cout << tb::compare::text(result);
   return result.equal() ? kPassed : kFailed;
 }

@@ -7,6 +7,7 @@
 
 #include "tb/input/input_error.hpp"
 #include "tb/output/output_place.hpp"
+#include "tb/output/write_file.hpp"
 
 namespace app {
 namespace {
@@ -41,6 +42,10 @@ void check_outputs(const std::string& command, const std::vector<NamedFile>& inp
     throw tb::InputError(command + ": " + output.what + " would replace " + owner->second + ", " + output.path +
                          ", allowed is a file of its own");
   }
+}
+
+void write_wanted(const std::string& path, const std::string& text) {
+  if (!path.empty()) tb::write_file(path, text);
 }
 
 }  // namespace app

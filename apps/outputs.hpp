@@ -18,4 +18,7 @@ std::vector<NamedFile> scenario_inputs(const std::string& scenario, const std::v
 void check_outputs(const std::string& command, const std::vector<NamedFile>& inputs,
                    const std::vector<NamedFile>& outputs);
 
+/// The whole file; nothing where the path is empty. Throws InputError when it cannot be written.
+void write_wanted(const std::string& path, const std::string& text);
+
 }  // namespace app

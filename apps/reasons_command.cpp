@@ -14,7 +14,7 @@
 #include "tb/dsdpv1/checks/markdown.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
-#include "tb/output/output_file.hpp"
+#include "tb/output/write_file.hpp"
 #include "tb/scenario/event_codes.hpp"
 
 namespace app {
@@ -167,9 +167,7 @@ int reasons(const ReasonsArguments& arguments) {
   }
   leave_nothing_on_signals();
   check_outputs("dsdpv1-sim reasons", {}, {{"--output", arguments.output}});
-  tb::OutputFile file(arguments.output);
-  file.write(text);
-  file.commit();
+  tb::write_file(arguments.output, text);
   return kPassed;
 }
 

@@ -13,6 +13,7 @@
 #include "tb/campaign/fingerprint.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/output/output_file.hpp"
+#include "tb/output/write_file.hpp"
 #include "tb/regress/page.hpp"
 #include "tb/regress/tables.hpp"
 
@@ -87,7 +88,7 @@ void check_files(const RegressArguments& arguments, const RegressInputs& inputs)
 void write_report(const RegressArguments& arguments, const Report& report, const Folder& folder,
                   std::optional<tb::OutputFile>& junit) {
   const std::string index = folder.base().file("index.html");
-  tb::campaign::write_file(index, tb::regress::page(report));
+  tb::write_file(index, tb::regress::page(report));
   if (junit) {
     junit->write(tb::regress::junit(report));
     junit->commit();

@@ -20,7 +20,6 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/input/units.hpp"
-#include "tb/output/output_file.hpp"
 #include "tb/replay/replay.hpp"
 #include "tb/replay/report.hpp"
 #include "tb/report/progress.hpp"
@@ -144,13 +143,6 @@ void check_files(const ReplayArguments& arguments, const tb::scenario::Scenario&
                  {"--table", arguments.table}});
 }
 
-void write(const std::string& path, const std::string& text) {
-  if (path.empty()) return;
-  tb::OutputFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 int status_of(const tb::replay::Result& result) {
   if (!result.equal()) return kFailed;
   return result.interrupted ? kInterrupted : kPassed;
@@ -174,9 +166,9 @@ int replay(const ReplayArguments& arguments) {
     return !interrupted();
   });
   progress.clear();
-  write(arguments.json, tb::replay::json(result));
-  write(arguments.table, tb::replay::table(result));
-  write(arguments.result, tb::result_json(replay.bench_result()));
+  write_wanted(arguments.json, tb::replay::json(result));
+  write_wanted(arguments.table, tb::replay::table(result));
+  write_wanted(arguments.result, tb::result_json(replay.bench_result()));
   if (replay.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
   if (!arguments.quiet) std::cout << tb::replay::text(result) << std::flush;
   return status_of(result);

@@ -12,6 +12,7 @@
 #include "tb/campaign/fingerprint.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
+#include "tb/output/write_file.hpp"
 #include "tb/scenario/scenario.hpp"
 #include "tb/sweep/folder.hpp"
 #include "tb/sweep/heat_map.hpp"
@@ -76,9 +77,9 @@ void check_map(const std::string& check, const std::vector<Point>& points) {
 }
 
 void write_results(const Plan& plan, const std::vector<Point>& points, const Folder& folder, const std::string& map) {
-  tb::campaign::write_file(folder.file("results.csv"), tb::sweep::csv(plan, points));
+  tb::write_file(folder.file("results.csv"), tb::sweep::csv(plan, points));
   for (const tb::sweep::Picture& picture : tb::sweep::heat_maps(plan, points, map))
-    tb::campaign::write_file(folder.file(picture.name), picture.svg);
+    tb::write_file(folder.file(picture.name), picture.svg);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "apps/outputs.hpp"
 #include "bus/gsd/report.hpp"
 #include "tb/input/read_file.hpp"
-#include "tb/output/output_file.hpp"
+#include "tb/output/write_file.hpp"
 #include "tb/report/result_schema.hpp"
 #include "tb/scenario/scenario.hpp"
 
@@ -31,9 +31,7 @@ int schema(const SchemaArguments& arguments) {
   }
   leave_nothing_on_signals();
   check_outputs("dsdpv1-sim schema", {}, {{"--output", arguments.output}});
-  tb::OutputFile file(arguments.output);
-  file.write(text);
-  file.commit();
+  tb::write_file(arguments.output, text);
   return kPassed;
 }
 

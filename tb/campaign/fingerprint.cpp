@@ -14,7 +14,6 @@
 #include "tb/input/descriptor.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
-#include "tb/output/output_file.hpp"
 
 namespace tb::campaign {
 namespace {
@@ -83,12 +82,6 @@ std::string content(const std::string& path) { return try_read_file(path, kMostM
 
 nlohmann::ordered_json read_json(const std::string& path) {
   return nlohmann::ordered_json::parse(content(path), nullptr, false);
-}
-
-void write_file(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.commit();
 }
 
 std::string text_of(const nlohmann::ordered_json& json) {

@@ -19,8 +19,6 @@ std::string last_line(const std::string& text);
 std::string content(const std::string& path);
 /// Its JSON; discarded when it has none.
 nlohmann::ordered_json read_json(const std::string& path);
-/// Replaces the file as a whole. Throws InputError when it cannot be written.
-void write_file(const std::string& path, const std::string& text);
 /// One line without a line end. What is not UTF-8 (a file name may be so) is replaced.
 std::string text_of(const nlohmann::ordered_json& json);
 /// As it comes back from a file.

@@ -7,6 +7,7 @@
 #include "tb/campaign/slurm.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/output/part_file.hpp"
+#include "tb/output/write_file.hpp"
 
 namespace tb::campaign {
 namespace {

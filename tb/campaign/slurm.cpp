@@ -14,6 +14,7 @@
 #include "tb/campaign/fingerprint.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/units.hpp"
+#include "tb/output/write_file.hpp"
 
 namespace tb::campaign {
 namespace {

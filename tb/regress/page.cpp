@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bus/printable.hpp"
+#include "tb/report/markup.hpp"
 
 namespace tb::regress {
 namespace {
@@ -54,19 +55,7 @@ document.querySelector("input").oninput = event => {
 </html>
 )";
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : bus::printable_lines(text)) {
-    switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
-    }
-  }
-  return result;
-}
+std::string escaped(const std::string& text) { return markup_escaped(bus::printable_lines(text)); }
 
 std::string cell(const std::string& text) { return "<td>" + escaped(text) + "</td>"; }
 

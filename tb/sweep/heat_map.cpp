@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "tb/report/markup.hpp"
+
 namespace tb::sweep {
 namespace {
 
@@ -32,22 +34,8 @@ std::string hex(const Colour& colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue);
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
-    }
-  }
-  return result;
-}
-
 std::string text_at(double x, double y, const std::string& style, const std::string& text) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, escaped(text));
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, markup_escaped(text));
 }
 
 std::string number(double ns) {
@@ -184,7 +172,7 @@ class Map {
     std::string text = fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\" fill=\"{}\" "
         "stroke=\"white\"><title>{}</title></rect>\n",
-        x(column), y(row), cell_, kHeight, fill, escaped(title(column, row)));
+        x(column), y(row), cell_, kHeight, fill, markup_escaped(title(column, row)));
     if (cell_ >= kTextWidth)
       text += text_at(x(column) + cell_ / 2, y(row) + kHeight / 2.0 + 4, "text-anchor=\"middle\"", scale_.text(point));
     return text;

@@ -7,7 +7,7 @@
 
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
-#include "tb/output/output_file.hpp"
+#include "tb/output/write_file.hpp"
 #include "tb/traces/xz.hpp"
 
 namespace tb::traces {
@@ -38,12 +38,6 @@ std::optional<std::string> present_trace(const std::string& path) {
   if (!file.wrong.empty()) return std::nullopt;
   Decompressed result = decompress(file.text, kMostBytes);
   return result.wrong.empty() ? std::optional(std::move(result.content)) : std::nullopt;
-}
-
-void write(const std::string& path, const std::string& content) {
-  OutputFile file(path);
-  file.write(content);
-  file.commit();
 }
 
 }  // namespace
@@ -112,8 +106,8 @@ Written write_golden(const std::string& folder, const std::string& name, const N
   Written written;
   written.trace = present_trace(trace_path(folder, name)) != golden.trace;
   written.manifest = try_read_file(manifest_path(folder, name), kManifest.most_mb).text != manifest;
-  if (written.trace) write(trace_path(folder, name), compress(golden.trace));
-  if (written.manifest) write(manifest_path(folder, name), manifest);
+  if (written.trace) write_file(trace_path(folder, name), compress(golden.trace));
+  if (written.manifest) write_file(manifest_path(folder, name), manifest);
   return written;
 }
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "tb/output/output_file.hpp"
+#include "tb/output/write_file.hpp"
 #include "tb/waves/wave_reader.hpp"
 #include "tb/waves/wave_selection.hpp"
 
@@ -123,12 +123,6 @@ std::string surfer_text(const Section& section, const std::string& prefix) {
   return text;
 }
 
-void write(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 }  // namespace
 
 SaveFiles save_files_of(const std::string& wave) {
@@ -150,8 +144,8 @@ void write_save_files(const std::string& wave, const std::vector<SignalGroup>& g
     surfer += surfer_text(each, "");
   }
   const SaveFiles files = save_files_of(wave);
-  write(files.gtkwave, gtkwave);
-  write(files.surfer, surfer + "zoom_fit\n");
+  write_file(files.gtkwave, gtkwave);
+  write_file(files.surfer, surfer + "zoom_fit\n");
 }
 
 }  // namespace tb

@@ -5,16 +5,14 @@
     docs_example.py SIM --write    writes it
 """
 import pathlib
-import re
 import subprocess
 import sys
-import tempfile
 
 import analyser
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/calibrate.md"
-SHOWN = re.compile(r"(<!-- calibrate: ([^\n]*) -->\n```\n)(.*?)(```)", re.S)
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
+from shown import ROOT, check
+
 SCENARIO = """
 name: A board whose chip is not quite the model's
 baud: 12M
@@ -48,22 +46,4 @@ def prepare(sim, folder):
     analyser.write_sigrok(folder / "board.sr", sampled, count, 24e6)
 
 
-def main():
-    sim, write = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:] == ["--write"]
-    with tempfile.TemporaryDirectory(prefix="dsdpv1_calibrate_page_") as name:
-        folder = pathlib.Path(name)
-        prepare(sim, folder)
-
-        def real(shown):
-            done = subprocess.run([sim, "calibrate", *shown.group(2).split()], cwd=folder, capture_output=True, text=True, check=False)
-            return shown.group(1) + done.stdout + done.stderr + shown.group(4)
-
-        page = PAGE.read_text(encoding="utf-8")
-        right = SHOWN.sub(real, page)
-    if write:
-        PAGE.write_text(right, encoding="utf-8")
-    elif right != page:
-        sys.exit(f"docs/calibrate.md shows something else than\n{right}")
-
-
-main()
+check("docs/calibrate.md", "calibrate", prepare, ["calibrate"])

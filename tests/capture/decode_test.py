@@ -13,6 +13,7 @@ import sys
 import tempfile
 import zipfile
 
+from vcd_line import changes_of
 from wireshark import ROOT, SIM, capture, expect, failures, sim
 
 RATES = {"12M": 12_000_000, "6M": 6_000_000, "3M": 3_000_000, "1.5M": 1_500_000, "500k": 500_000, "187.5k": 187_500, "93.75k": 93_750,
@@ -86,19 +87,6 @@ def rewritten(folder):
 
 
 # ------------------------------------------------------------------------------------------------- recordings of the line
-def changes_of(wave):
-    """(ps, level) of the line in a VCD of this program."""
-    code, changes, now = None, [], 0
-    for line in wave.read_text(encoding="utf-8").splitlines():
-        if match := re.match(r"\$var wire 1 (\S+) line ", line):
-            code = match.group(1)
-        elif line.startswith("#"):
-            now = int(line[1:])
-        elif code and line[1:] == code and line[0] in "01":
-            changes.append((now, int(line[0])))
-    return changes
-
-
 def characters_of(text, bits):
     """(ps, level) of the line as the telegrams of a capture were sent: start bit, eight bits, even parity, stop bit."""
     changes = [(0, 1)]

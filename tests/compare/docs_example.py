@@ -8,11 +8,10 @@ import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/compare.md"
-SHOWN = re.compile(r"(<!-- compare: ([^\n]*) -->\n```\n)(.*?)(```)", re.S)
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
+from shown import ROOT, check
+
 SCENARIO = """
 name: Up to the first parameters
 baud: 12M
@@ -51,22 +50,4 @@ def prepare(sim, folder):
     (folder / "tonight.vcd").write_text(late_interrupt((folder / "model.vcd").read_text(encoding="utf-8")), encoding="utf-8")
 
 
-def main():
-    sim, write = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:] == ["--write"]
-    with tempfile.TemporaryDirectory(prefix="dsdpv1_compare_page_") as name:
-        folder = pathlib.Path(name)
-        prepare(sim, folder)
-
-        def real(shown):
-            done = subprocess.run([sim, "compare", *shown.group(2).split()], cwd=folder, capture_output=True, text=True, check=False)
-            return shown.group(1) + done.stdout + done.stderr + shown.group(4)
-
-        page = PAGE.read_text(encoding="utf-8")
-        right = SHOWN.sub(real, page)
-    if write:
-        PAGE.write_text(right, encoding="utf-8")
-    elif right != page:
-        sys.exit(f"docs/compare.md shows something else than\n{right}")
-
-
-main()
+check("docs/compare.md", "compare", prepare, ["compare"])

@@ -5,16 +5,13 @@
     docs_example.py SIM --write    writes it
 """
 import pathlib
-import re
 import subprocess
 import sys
-import tempfile
 
 import pcapng
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/replay.md"
-SHOWN = re.compile(r"(<!-- replay: ([^\n]*) -->\n```\n)(.*?)(```)", re.S)
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
+from shown import ROOT, check
 
 
 def prepare(sim, folder):
@@ -25,22 +22,4 @@ def prepare(sim, folder):
     pcapng.write(folder / "silent.pcapng", head, packets)
 
 
-def main():
-    sim, write = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:] == ["--write"]
-    with tempfile.TemporaryDirectory(prefix="dsdpv1_replay_page_") as name:
-        folder = pathlib.Path(name)
-        prepare(sim, folder)
-
-        def real(shown):
-            done = subprocess.run([sim, *shown.group(2).split()], cwd=folder, capture_output=True, text=True, check=False)
-            return shown.group(1) + done.stdout + done.stderr + shown.group(4)
-
-        page = PAGE.read_text(encoding="utf-8")
-        right = SHOWN.sub(real, page)
-    if write:
-        PAGE.write_text(right, encoding="utf-8")
-    elif right != page:
-        sys.exit(f"docs/replay.md shows something else than\n{right}")
-
-
-main()
+check("docs/replay.md", "replay", prepare)

@@ -14,6 +14,9 @@ import tempfile
 
 import pcapng
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "capture"))
+from vcd_line import changes_of
+
 SIM = str(pathlib.Path(sys.argv[1]).resolve())
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # The windows of the search are short, so that slow rates are found soon. The inputs change with nearly every exchange.
@@ -80,19 +83,6 @@ def is_equal(folder, what, capture, *options):
 
 
 # --- equal ------------------------------------------------------------------------------------------------------------
-def line_of(wave):
-    """(ps, level) of the line in a VCD of this program."""
-    code, changes, now = None, [], 0
-    for line in wave.read_text(encoding="utf-8").splitlines():
-        if match := re.match(r"\$var wire 1 (\S+) line ", line):
-            code = match.group(1)
-        elif line.startswith("#"):
-            now = int(line[1:])
-        elif code and line[1:] == code and line[0] in "01":
-            changes.append((now, int(line[0])))
-    return changes
-
-
 def analyser_csv(changes, bits, inverted=False, jitter=0.12, seed=1):
     """As a logic analyser exports it, each edge off by up to `jitter` of a bit."""
     shaken, now = random.Random(seed), 0
@@ -107,7 +97,7 @@ def every_rate(folder):
     """The capture of a run, the wave of its line and a logic analyser's table of it, with jitter: all are equal, at each rate."""
     for baud, bits in pcapng.BITS.items():
         capture = record(folder, baud, wave="line.vcd", wave_signals="bus.line")
-        (folder / "line.csv").write_text(analyser_csv(line_of(folder / "line.vcd"), bits, inverted=True), encoding="utf-8")
+        (folder / "line.csv").write_text(analyser_csv(changes_of(folder / "line.vcd"), bits, inverted=True), encoding="utf-8")
         result = is_equal(folder, f"{baud}, telegrams", capture)
         expect(f"{baud}: TSDR of the model", 10.9 <= result["tsdr_bits"]["model"]["min"] <= 11.3, True)
         is_equal(folder, f"{baud}, wave", "line.vcd")

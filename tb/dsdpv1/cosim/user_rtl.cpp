@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "tb/input/input_error.hpp"
-#include "tb/output/output_file.hpp"
+#include "tb/output/write_file.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace cosim {
@@ -277,9 +277,7 @@ MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
   const std::string build = fs::absolute(rtl.traced ? fs::path(rtl.build) / "traced" : fs::path(rtl.build)).string();
   create_folder(build);
   const std::string adapter = build + "/adapter.cpp";
-  tb::OutputFile file(adapter);
-  file.write(adapter_source(rtl.top, map, rtl.traced));
-  file.commit();
+  tb::write_file(adapter, adapter_source(rtl.top, map, rtl.traced));
 
   call(verilator_command(rtl, map, build, adapter), build + "/verilator.log", rtl);
   check_ports(rtl, map, build);

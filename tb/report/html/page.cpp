@@ -7,6 +7,7 @@
 
 #include "bus/printable.hpp"
 #include "tb/report/html/page_data.hpp"
+#include "tb/report/markup.hpp"
 #include "tb/report/summary.hpp"
 
 namespace tb::html {
@@ -18,19 +19,7 @@ extern const std::string_view kScriptNumbers, kScriptPicture, kScriptTelegrams, 
 
 namespace {
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : bus::printable_lines(text)) {
-    switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
-    }
-  }
-  return result;
-}
+std::string escaped(const std::string& text) { return markup_escaped(bus::printable_lines(text)); }
 
 std::string title_of(const RunResult& result, const std::string& version) {
   const char* const verdict = result.interrupted ? "interrupted" : result.passed ? "passed" : "failed";

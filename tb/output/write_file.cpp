@@ -1,0 +1,13 @@
+#include "tb/output/write_file.hpp"
+
+#include "tb/output/output_file.hpp"
+
+namespace tb {
+
+void write_file(const std::string& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace tb

@@ -1,0 +1,11 @@
+#pragma once
+// A file of one text, complete or absent.
+#include <string>
+#include <string_view>
+
+namespace tb {
+
+/// Replaces what is there. Throws InputError when it cannot be written.
+void write_file(const std::string& path, std::string_view text);
+
+}  // namespace tb

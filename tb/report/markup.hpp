@@ -1,0 +1,11 @@
+#pragma once
+// Text in HTML and SVG.
+#include <string>
+#include <string_view>
+
+namespace tb {
+
+/// Also fit for the value of an attribute in double quotes.
+std::string markup_escaped(std::string_view text);
+
+}  // namespace tb
