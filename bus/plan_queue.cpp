@@ -1,6 +1,7 @@
 #include "bus/plan_queue.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace bus {
 
@@ -28,23 +29,28 @@ void PlanQueue::grow() {
 }
 
 void PlanQueue::set(std::size_t place, Tick at) {
-  rows_[0][place] = at;
+  Tick before = std::exchange(rows_[0][place], at);
   for (std::size_t row = 1; row < rows_.size(); ++row) {
     place /= kWidth;
-    const Tick earliest = smallest(&rows_[row - 1][place * kWidth]);
-    if (rows_[row][place] == earliest) return;
-    rows_[row][place] = earliest;
+    Tick& earliest = rows_[row][place];
+    if (at > earliest) {
+      if (before != earliest) return;  // neither was nor is the smallest of its group
+      at = smallest(&rows_[row - 1][place * kWidth]);
+    }
+    before = std::exchange(earliest, at);
   }
 }
 
-bool PlanQueue::others_due(std::size_t place, Tick at) const {
+Tick PlanQueue::earliest_other(std::size_t place, Tick at) const {
+  Tick earliest = kNever;
   for (const std::vector<Tick>& row : rows_) {
     const std::size_t first = place / kWidth * kWidth;
     for (std::size_t i = first; i < first + kWidth; ++i)
-      if (row[i] <= at && i != place) return true;
+      if (i != place) earliest = std::min(earliest, row[i]);
+    if (earliest <= at) return earliest;
     place /= kWidth;
   }
-  return false;
+  return earliest;
 }
 
 std::size_t PlanQueue::first_due(std::size_t from, Tick now) const {

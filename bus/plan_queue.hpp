@@ -21,8 +21,9 @@ class PlanQueue {
 
   /// The earliest of all, kNever when nothing is planned.
   Tick earliest() const { return smallest(&rows_.back()[0]); }
-  /// Whether any other than `place` is due at `at` or before.
-  bool others_due(std::size_t place, Tick at) const;
+  /// The earliest of all but `place`, kNever when they plan nothing; or any of them that is due at `at` or before, where
+  /// somebody is.
+  Tick earliest_other(std::size_t place, Tick at) const;
   /// The first place from `from` on, at most one after the last, that is due at `now` or before; else kNone.
   std::size_t first_due(std::size_t from, Tick now) const;
 

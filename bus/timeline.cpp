@@ -40,6 +40,7 @@ void Timeline::add(Agent& agent) {
 void Timeline::leave(std::size_t place) {
   agents_[place].agent = nullptr;
   plans_.set(place, kNever);
+  asked_by_ = PlanQueue::kNone;
 }
 
 /// Asks those who have announced something, all but `except`, which is in the middle of its turn.
@@ -55,6 +56,7 @@ void Timeline::hear_news(const Agent* except) {
     if (entry.agent != nullptr) plans_.set(place, entry.agent->next());
   }
   news_.resize(kept);
+  asked_by_ = PlanQueue::kNone;
 }
 
 Tick Timeline::next() {
@@ -62,9 +64,18 @@ Tick Timeline::next() {
   return plans_.earliest();
 }
 
+bool Timeline::has_news_of_others(std::size_t place) const {
+  return news_.size() > 1 || (news_.size() == 1 && news_.front() != place);
+}
+
 bool Timeline::quiet(const Agent& agent, Tick tick) {
-  hear_news(&agent);
-  return tick <= limit_ && !plans_.others_due(agent.place_, tick);
+  if (asked_by_ != agent.place_ || has_news_of_others(agent.place_)) {
+    hear_news(&agent);
+    others_at_ = plans_.earliest_other(agent.place_, tick);
+    if (others_at_ <= tick) return false;  // perhaps not the earliest
+    asked_by_ = agent.place_;
+  }
+  return tick <= limit_ && tick < others_at_;
 }
 
 bool Timeline::go_on(const Agent& agent, Tick tick) {

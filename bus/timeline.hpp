@@ -34,6 +34,8 @@ class Agent {
   /// after the change: the timeline does not ask at once, but when the one who acts has had his turn. Costs little, and
   /// nothing outside of a timeline.
   void announce();
+  /// The same by one who knows: `next()` is `plan` now.
+  void announce(Tick plan);
 
  private:
   friend class Timeline;
@@ -78,6 +80,7 @@ class Timeline {
   void announced(std::size_t place);
   void hear_news(const Agent* except = nullptr);
   std::size_t next_turn(std::size_t from);
+  bool has_news_of_others(std::size_t place) const;
   void leave(std::size_t place);
   void compare(std::size_t place) const;
 
@@ -86,6 +89,9 @@ class Timeline {
   std::vector<std::size_t> news_;  ///< who has announced something that was not asked for yet
   Tick now_ = 0;
   Tick limit_ = kNever;  ///< of the step under way
+  // What `quiet` has found out stands until somebody else's plan is another.
+  std::size_t asked_by_ = PlanQueue::kNone;
+  Tick others_at_ = kNever;  ///< when all but that place have their next turn
   bool checks_ = false;
 };
 
@@ -98,6 +104,10 @@ inline void Timeline::announced(std::size_t place) {
 
 inline void Agent::announce() {
   if (timeline_ != nullptr) timeline_->announced(place_);
+}
+
+inline void Agent::announce(Tick plan) {
+  if (timeline_ != nullptr && timeline_->plans_.at(place_) != plan) timeline_->announced(place_);
 }
 
 }  // namespace bus

@@ -28,6 +28,7 @@ MasterFdl::MasterFdl(Segment& segment, const std::string& name, std::uint8_t add
       station_(segment.attach(name, this)),
       sender_(segment, station_) {
   receiver_.on_character = [this](const ReceivedCharacter& received) { character(received); };
+  receiver_.on_run = [this](const CharacterRun& run) { return take_run(run); };
   set_baud(0, 0);
 }
 
@@ -53,7 +54,7 @@ void MasterFdl::start(Tick now, FdlRequest request) {
 
 void MasterFdl::respond(Tick request_end, const Telegram& answer) {
   request_ = {};
-  characters_ = characters(encode(answer));
+  bytes_ = encode(answer);
   wants_answer_ = false;
   responding_ = true;
   slot_end_ = request_end + bits(kMinTsdrBits);
@@ -63,7 +64,6 @@ void MasterFdl::respond(Tick request_end, const Telegram& answer) {
 
 void MasterFdl::compose() {
   if (request_.raw) {
-    characters_ = *request_.raw;
     wants_answer_ = request_.wants_answer;
     result_.request = request_.telegram;
     restart_series(request_.telegram.da);
@@ -75,7 +75,7 @@ void MasterFdl::compose() {
     const unsigned count = !series.started ? fc::kFcb : series.fcb ? fc::kFcb | fc::kFcv : fc::kFcv;
     telegram.fc = static_cast<std::uint8_t>(telegram.fc | count);
   }
-  characters_ = characters(encode(telegram));
+  bytes_ = encode(telegram);
   wants_answer_ = telegram.wants_answer();
   result_.request = telegram;
 }
@@ -157,7 +157,10 @@ void MasterFdl::send(Tick now) {
   echo_.clear();
   receiver_.reset(segment_.level_at(station_));
   listener_.reset();
-  sender_.send(now, characters_);
+  if (request_.raw)
+    sender_.send(now, *request_.raw);
+  else
+    sender_.send(now, bytes_);
   sender_.run(now);
 }
 
@@ -169,7 +172,7 @@ void MasterFdl::sent() {
     state_ = State::kIdle;
     return;
   }
-  if (reads_back()) result_.read_back = echo_ == encode(request_.telegram);
+  if (reads_back()) result_.read_back = echo_ == bytes_;
   if (wants_answer_ || request_.await_activity) {
     state_ = wants_answer_ ? State::kWaitAnswer : State::kAwaitActivity;
     slot_end_ = last_activity_ + bits(parameters_.slot(baud_));
@@ -201,6 +204,16 @@ void MasterFdl::character(const ReceivedCharacter& received) {
     return;
   }
   if (const auto decoded = decoder_.feed(received.byte)) take(*decoded);
+}
+
+/// The awaited answer as a whole: one right telegram.
+bool MasterFdl::take_run(const CharacterRun& run) {
+  if (state_ != State::kWaitAnswer || decoder_.begun() || !is_telegram(run.bytes, run.size)) return false;
+  state_ = State::kReceiving;
+  result_.answer_start = run.start;
+  result_.answer_end = last_activity_ = run.end();
+  take(decode(Bytes(run.bytes, run.bytes + run.size)));
+  return true;
 }
 
 void MasterFdl::listen(const ReceivedCharacter& received) {

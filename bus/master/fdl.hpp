@@ -113,6 +113,7 @@ class MasterFdl : public Listener {
   void sent();
   void character(const ReceivedCharacter& received);
   void take(const Decoded& decoded);
+  bool take_run(const CharacterRun& run);
   void listen(const ReceivedCharacter& received);
   void plan_changed() const {
     if (on_plan) on_plan();
@@ -139,7 +140,7 @@ class MasterFdl : public Listener {
 
   State state_ = State::kIdle;
   FdlRequest request_;
-  std::vector<Character> characters_;
+  Bytes bytes_;  ///< of the telegram as sent
   Bytes echo_;  ///< of a token, as heard while it was sent
   bool responding_ = false;
   bool wants_answer_ = false;

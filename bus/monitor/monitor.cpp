@@ -50,6 +50,7 @@ double WireTelegram::tsdr_bits() const {
 Monitor::Monitor(Segment& segment) {
   segment.attach("monitor", this);
   receiver_.on_character = [this](const ReceivedCharacter& received) { character(received); };
+  receiver_.on_run = [this](const CharacterRun& run) { return take_run(run); };
   receiver_.on_false_start = [this](Tick at) { flag(FlagKind::kGlitch, at, "low for less than half a bit"); };
   segment.on_collision = [this, earlier = std::move(segment.on_collision)](const Collision& collision) {
     if (earlier) earlier(collision);
@@ -100,21 +101,35 @@ void Monitor::run(Tick now) {
 
 void Monitor::character(const ReceivedCharacter& received) {
   if (on_character) on_character(received);
-  const bool after_syn = !last_end_ || received.start - *last_end_ >= bits(kSynBits);
-  if (after_syn) idle();
-  if (!decoder_.begun() && !skipping_) begin_telegram(received);
+  idle_before(received.start);
+  if (!decoder_.begun() && !skipping_) begin_telegram(received.start);
   if (skipping_ && on_skipped) on_skipped(received);
   check_character(received);
   last_end_ = received.end;
   active_ = true;
   if (skipping_) return;
   current_.end = received.end;
-  if (const auto decoded = decoder_.feed(received.byte)) finish_telegram(*decoded);
+  if (auto decoded = decoder_.feed(received.byte)) finish_telegram(std::move(*decoded));
 }
 
-void Monitor::begin_telegram(const ReceivedCharacter& first) {
+/// A right telegram, at which nothing can be flagged before its end.
+bool Monitor::take_run(const CharacterRun& run) {
+  if (on_character) return false;
+  idle_before(run.start);
+  begin_telegram(run.start);
+  last_end_ = current_.end = run.end();
+  active_ = true;
+  finish_telegram(decode(Bytes(run.bytes, run.bytes + run.size)));
+  return true;
+}
+
+void Monitor::idle_before(Tick start) {
+  if (!last_end_ || start - *last_end_ >= bits(kSynBits)) idle();
+}
+
+void Monitor::begin_telegram(Tick start) {
   current_ = {};
-  current_.start = first.start;
+  current_.start = start;
   current_.baud = baud_;
   quiet_from_ = last_end_;
 }
@@ -133,10 +148,10 @@ void Monitor::check_character(const ReceivedCharacter& received) {
                    received.byte));
 }
 
-void Monitor::finish_telegram(const Decoded& decoded) {
+void Monitor::finish_telegram(Decoded decoded) {
   WireTelegram telegram = std::move(current_);
   current_ = {};
-  telegram.decoded = decoded;
+  telegram.decoded = std::move(decoded);
   classify(telegram);
   count(telegram);
   if (on_telegram) on_telegram(telegram);
@@ -223,7 +238,7 @@ void Monitor::count(const WireTelegram& telegram) {
 void Monitor::idle() {
   active_ = false;
   skipping_ = false;
-  if (const auto decoded = decoder_.finish()) finish_telegram(*decoded);
+  if (auto decoded = decoder_.finish()) finish_telegram(std::move(*decoded));
 }
 
 void Monitor::give_up_waiting(Tick now) {

@@ -130,9 +130,11 @@ class Monitor : public Listener, public Agent {
   Tick idle_at() const;
   Tick slot_end() const;
   void character(const ReceivedCharacter& received);
-  void begin_telegram(const ReceivedCharacter& first);
+  bool take_run(const CharacterRun& run);
+  void idle_before(Tick start);
+  void begin_telegram(Tick start);
   void check_character(const ReceivedCharacter& received);
-  void finish_telegram(const Decoded& decoded);
+  void finish_telegram(Decoded decoded);
   void classify(WireTelegram& telegram);
   void request(const WireTelegram& wire);
   void answer(WireTelegram& wire);

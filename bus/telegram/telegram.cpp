@@ -52,19 +52,36 @@ void append_header(Bytes& out, const Telegram& t) {
 std::size_t body_offset(std::uint8_t start) { return start == sd::k2 ? 4 : 1; }
 
 /// Whether every SAP byte that DA and SA announce is in front of FCS.
-bool saps_present(const Bytes& bytes) {
+bool saps_present(const std::uint8_t* bytes, std::size_t size) {
   const std::size_t body = body_offset(bytes[0]);
   const std::size_t saps = (bytes[body] >> 7) + (bytes[body + 1] >> 7);
-  return bytes.size() - 2 - body - 3 >= saps;
+  return size - 2 - body - 3 >= saps;
 }
 
-DecodeError check_frame(const Bytes& bytes) {
+DecodeError check_frame(const std::uint8_t* bytes, std::size_t size) {
   const std::size_t body = body_offset(bytes[0]);
-  const std::size_t fcs = bytes.size() - 2;
-  if (frame_check_sequence(&bytes[body], fcs - body) != bytes[fcs]) return DecodeError::kFcs;
-  if (bytes.back() != sd::kEnd) return DecodeError::kEndDelimiter;
-  return saps_present(bytes) ? DecodeError::kNone : DecodeError::kMissingSap;
+  const std::size_t fcs = size - 2;
+  if (frame_check_sequence(bytes + body, fcs - body) != bytes[fcs]) return DecodeError::kFcs;
+  if (bytes[size - 1] != sd::kEnd) return DecodeError::kEndDelimiter;
+  return saps_present(bytes, size) ? DecodeError::kNone : DecodeError::kMissingSap;
 }
+
+/// The lengths and delimiters at the front say that so many bytes are a telegram.
+bool header_fits(const std::uint8_t* bytes, std::size_t size) {
+  switch (bytes[0]) {
+    case sd::k1: return size == kSd1Size;
+    case sd::k3: return size == kSd3Size;
+    case sd::k4: return size == kSd4Size;
+    case sd::kSc: return size == 1;
+    case sd::k2: break;
+    default: return false;
+  }
+  return size >= kMinLe + kSd2Overhead && bytes[1] >= kMinLe && bytes[1] <= kMaxLe && bytes[2] == bytes[1] &&
+         bytes[3] == sd::k2 && size == bytes[1] + kSd2Overhead;
+}
+
+/// SD4 and SC have neither FCS nor ED.
+bool has_frame(std::uint8_t start) { return start != sd::k4 && start != sd::kSc; }
 
 TelegramKind kind_of(std::uint8_t start) {
   switch (start) {
@@ -139,6 +156,7 @@ Bytes encode(const Telegram& telegram) {
 }
 
 Decoded decode(const Bytes& bytes) {
+  if (is_telegram(bytes.data(), bytes.size())) return {DecodeError::kNone, true, parse(bytes), bytes};
   TelegramDecoder decoder;
   for (const std::uint8_t byte : bytes)
     if (const auto decoded = decoder.feed(byte)) return *decoded;
@@ -193,8 +211,7 @@ std::optional<Decoded> TelegramDecoder::feed(std::uint8_t byte) {
   if (bytes_.capacity() < expected_) bytes_.reserve(expected_);
   if (header != DecodeError::kNone) return take(header);
   if (bytes_.size() != expected_) return std::nullopt;
-  const bool has_frame = bytes_[0] != sd::k4 && bytes_[0] != sd::kSc;
-  return take(has_frame ? check_frame(bytes_) : DecodeError::kNone);
+  return take(has_frame(bytes_[0]) ? check_frame(bytes_.data(), bytes_.size()) : DecodeError::kNone);
 }
 
 std::optional<Decoded> TelegramDecoder::finish() {
@@ -206,7 +223,7 @@ Decoded TelegramDecoder::take(DecodeError error) {
   Decoded result;
   result.error = error;
   const bool only_sum_or_end = error == DecodeError::kFcs || error == DecodeError::kEndDelimiter;
-  result.readable = error == DecodeError::kNone || (only_sum_or_end && saps_present(bytes_));
+  result.readable = error == DecodeError::kNone || (only_sum_or_end && saps_present(bytes_.data(), bytes_.size()));
   if (result.readable) result.telegram = parse(bytes_);
   result.bytes = std::move(bytes_);
   bytes_.clear();
@@ -215,10 +232,8 @@ Decoded TelegramDecoder::take(DecodeError error) {
 }
 
 bool is_telegram(const std::uint8_t* bytes, std::size_t size) {
-  TelegramDecoder decoder;
-  for (std::size_t i = 0; i < size; ++i)
-    if (const auto decoded = decoder.feed(bytes[i])) return i + 1 == size && decoded->error == DecodeError::kNone;
-  return false;
+  if (size == 0 || !header_fits(bytes, size)) return false;
+  return !has_frame(bytes[0]) || check_frame(bytes, size) == DecodeError::kNone;
 }
 
 }  // namespace bus

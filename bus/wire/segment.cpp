@@ -86,7 +86,7 @@ bool Segment::tell_changes(Tick at) {
   return told;
 }
 
-void Segment::hear(StationId station) {
+void Segment::tell_missed(StationId station) {
   if (stations_[station].plugged && !stations_[station].in_run) tell_missed(stations_[station], kNever);
 }
 

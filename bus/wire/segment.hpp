@@ -58,7 +58,9 @@ class Segment {
   /// Everybody hears changes again from `at` on; nothing when no run is sent.
   void cut_run(Tick at);
   /// Tells a deaf listener what it has not heard yet, each change with its own tick.
-  void hear(StationId station);
+  void hear(StationId station) {
+    if (stations_[station].next_change < changes_.size()) tell_missed(station);
+  }
 
   /// A fault on the wire: forces the level (short circuit, glitch) until called with nullopt.
   void force(Tick at, std::optional<bool> level);
@@ -97,6 +99,7 @@ class Segment {
   bool tell_changes(Tick at);
   void note_change(Tick at);
   static bool tell(Station& station, Tick at, bool level);
+  void tell_missed(StationId station);
   void tell_missed(Station& station, Tick before);
   void forget_changes();
   void report_collision(Tick at, StationId newcomer);

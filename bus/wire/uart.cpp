@@ -81,14 +81,25 @@ void UartSender::send(Tick start, const std::vector<Character>& characters) {
   const auto right = [](const Character& character) { return character.right(); };
   if (ppm_ == 0 && std::all_of(characters.begin(), characters.end(), right))
     for (const Character& character : characters) run_.push_back(character.byte());
+  std::int64_t millibits = 0;
+  for (const Character& each : characters) millibits += each.gap_millibits + each.bit_count * kMillibits;
+  begin(start, millibits);
+  if (run_state_ == Run::kNone) spell_out(characters);
+}
+
+void UartSender::send(Tick start, const Bytes& bytes) {
+  if (ppm_ != 0) return send(start, characters(bytes));
+  run_ = bytes;
+  begin(start, static_cast<std::int64_t>(bytes.size()) * kCharacterBits * kMillibits);
+}
+
+/// The driver's edges round so many bits, which are a run if there is one.
+void UartSender::begin(Tick start, std::int64_t millibits) {
   run_state_ = run_.empty() ? Run::kNone : Run::kOffered;
   position_ = 0;
   start_ = start;
-  std::int64_t millibits = 0;
-  for (const Character& each : characters) millibits += each.gap_millibits + each.bit_count * kMillibits;
   end_ = start_ + exact(millibits);
   edges_.assign({{start - lead_, true, true}, {end_ + trail_, false, true}});
-  if (run_state_ == Run::kNone) spell_out(characters);
 }
 
 /// Between the driver's edges those of the characters.
@@ -204,7 +215,9 @@ bool UartReceiver::set_run(const CharacterRun& run) {
 }
 
 void UartReceiver::end_run(Tick before) {
-  if (in_run_ && next() < before) report_run(run_.end());
+  if (!in_run_ || next() >= before) return;
+  in_run_ = false;
+  if (!on_run || !on_run(run_)) report_run(run_.end());
 }
 
 /// Those that are complete at `until`; how many.

@@ -63,6 +63,8 @@ class UartSender {
   void set_driver_times(Tick lead, Tick trail);
   /// The first start bit falls at `start` (not before now + lead). Not while busy.
   void send(Tick start, const std::vector<Character>& characters);
+  /// The same with right characters.
+  void send(Tick start, const Bytes& bytes);
   /// The station's listener hears that: the rest is sent by changes. Moves `next()`.
   void run_cut(Tick at);
   /// Releases the line at once and forgets the rest.
@@ -85,6 +87,7 @@ class UartSender {
     kUnderWay,  ///< taken
   };
   Tick exact(std::int64_t millibits) const;
+  void begin(Tick start, std::int64_t millibits);
   bool offers_run() const { return run_state_ == Run::kOffered && position_ > 0; }
   void offer_run();
   void spell_out(const std::vector<Character>& characters);
@@ -131,6 +134,8 @@ class UartReceiver {
 
   /// A character, right or wrong, in the middle of its stop bit.
   std::function<void(const ReceivedCharacter&)> on_character;
+  /// A run that nobody has cut, there as well. False, or without it: its characters are reported one by one.
+  std::function<bool(const CharacterRun&)> on_run;
   /// A start bit that was high again in its middle; `at` is its falling edge.
   std::function<void(Tick at)> on_false_start;
 

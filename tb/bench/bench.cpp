@@ -112,7 +112,8 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
       observers_.tell(&Observer::action, index, at, words);
     };
   }
-  chip.on_read = [this, index](Tick sample) { observers_.tell(&Observer::read, index, sample); };
+  if (checks_.on() || !options_.observers.empty())  // nobody else wants to know
+    chip.on_read = [this, index](Tick sample) { observers_.tell(&Observer::read, index, sample); };
   station.on_error = [this, &station](const user_cpu::ProgramError& error) {
     journal_.happened({error.at, station.name(), error.code, profibus::Severity::kRefusal, error.text});
     changed();

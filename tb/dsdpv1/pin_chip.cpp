@@ -83,8 +83,8 @@ void PinChip::pin_changed(Tick at, Pin pin, Level level) {
 
 void PinChip::line_changed(Tick at, bool level) {
   if (catching_up_) return chip_.hear(at, level);
-  announce();
   chip_.set(at, Pin::kPbrxd, level ? 1 : 0);
+  announce(next());
   if (reports_rxd_) report_inputs(at, Pin::kPbrxd, Pin::kPbrxd);
   update_deafness();
 }
@@ -93,8 +93,10 @@ bool PinChip::run_begins(const bus::CharacterRun& run) {
   if (reports_rxd_) return false;
   if (own_run_) return true;  // while it sends, it does not listen
   if (run.bit % bus::kTicksPerCycle != 0) return false;
-  announce();
-  return chip_.hear(run.start, {run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
+  const bool taken =
+      chip_.hear(run.start, {run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
+  announce(next());  // the same as before, as long as the telegram is not for this station
+  return taken;
 }
 
 void PinChip::run_cut(Tick at, bool level) {
@@ -145,20 +147,22 @@ void PinChip::set_r_sta(Tick at, bool level) {
 }
 
 void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) {
-  pins().begin(at, access, timing);
+  pins_->begin(at, access, timing);  // no edge yet: the chip is not concerned
   tell_action(at, access);
   if (!access.write && on_read) on_read(pins_->sample_tick());
 }
 
 // Whoever is told something acts before the next edge.
 void PinChip::run_edges(Tick until) {
-  user_cpu::PinHostBus& host = pins();
+  user_cpu::PinHostBus& host = *pins_;
+  hear_line();
   pauses_ = false;
-  if (!reports_host_ && until >= host.last_edge() && host.run_whole()) return;
+  if (!reports_host_ && until >= host.last_edge() && host.run_whole()) return announce(next());
   for (Tick at = host.next_edge(); at <= until && !pauses_; at = host.next_edge()) {
     host.run_edges(at);
     if (reports_host_) report_access(at);
   }
+  announce(next());
 }
 
 // Strobes that rise with CSR are told before it, as the TLM module does.

@@ -41,10 +41,13 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   /// Whoever moves the chip takes it from here: what it was not told of the line comes first.
   PinDevice& device() {
     announce();
+    hear_line();
+    return chip_;
+  }
+  void hear_line() {
     catching_up_ = true;
     segment_.hear(station_);
     catching_up_ = false;
-    return chip_;
   }
   user_cpu::PinHostBus& pins() {
     device();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <random>
 #include <stdexcept>
 
 namespace bus {
@@ -46,6 +48,48 @@ TEST(TelegramEncode, RefusesDataThatDoNotFit) {
   Telegram sd3 = make_telegram(3, 1, 0x5D, counting(7));
   sd3.kind = TelegramKind::kSd3;
   EXPECT_THROW(encode(sd3), std::invalid_argument);
+}
+
+/// Telegrams of every kind, most of them with something broken.
+Bytes perhaps_broken(std::mt19937& random) {
+  const auto draw = [&random](std::size_t most) { return std::uniform_int_distribution<std::size_t>(0, most)(random); };
+  const auto sap = [&draw] { return draw(1) == 0 ? std::nullopt : std::optional<std::uint8_t>(61); };
+  Bytes bytes;
+  switch (draw(3)) {
+    case 0: bytes = encode(make_sc()); break;
+    case 1: bytes = encode(make_token(3, 4)); break;
+    default: bytes = encode(prefer_sd3(make_telegram(3, 1, 0x5D, counting(draw(9)), sap(), sap())));
+  }
+  for (std::size_t faults = draw(2); faults > 0; --faults) {
+    const std::size_t at = draw(bytes.size() - 1);
+    switch (draw(3)) {
+      case 0: bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ (1U << draw(7))); break;
+      case 1: bytes.resize(at + 1); break;
+      case 2: bytes.push_back(0x16); break;
+      default: bytes[0] = std::array<std::uint8_t, 6>{0x10, 0x68, 0xA2, 0xDC, 0xE5, 0x00}.at(draw(5));
+    }
+  }
+  return bytes;
+}
+
+TEST(TelegramCodec, ATelegramAsAWholeIsWhatItIsByteByByte) {
+  std::mt19937 random(5);
+  int right = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Bytes bytes = perhaps_broken(random);
+    const Decoded one_by_one = decode(bytes);
+    const bool whole = one_by_one.error == DecodeError::kNone && one_by_one.bytes.size() == bytes.size();
+    ASSERT_EQ(is_telegram(bytes.data(), bytes.size()), whole) << i;
+    right += whole ? 1 : 0;
+    const Decoded at_once = bus::decode(bytes);
+    ASSERT_EQ(at_once.error, one_by_one.error) << i;
+    ASSERT_EQ(at_once.readable, one_by_one.readable) << i;
+    ASSERT_EQ(at_once.telegram, one_by_one.telegram) << i;
+    ASSERT_EQ(at_once.bytes, one_by_one.bytes) << i;
+  }
+  EXPECT_GT(right, 5000);
+  EXPECT_LT(right, 15000);
+  EXPECT_FALSE(is_telegram(nullptr, 0));
 }
 
 TEST(TelegramCodec, EveryLengthAndSapCombinationComesBack) {

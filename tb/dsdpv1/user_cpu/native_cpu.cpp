@@ -17,29 +17,23 @@ Tick NativeCpu::next() const {
 }
 
 void NativeCpu::run(Tick now) {
-  now_ = now;
-  do act();
-  while (goes_on());
+  Tick at = now;
+  do {
+    now_ = at;
+    if (request_.op == Op::kAccess && bus_.next_edge() <= now_) bus_.run_edges(now_);
+    for (at = next(); at <= now_; at = next()) go_on_program();
+  } while (goes_on(at));
 }
 
-/// What is due.
-void NativeCpu::act() {
-  if (request_.op == Op::kAccess && bus_.next_edge() <= now_) bus_.run_edges(now_);
-  while (!fiber_.ended() && next() <= now_) {
-    if (request_.op == Op::kAccess) end_access();
-    request_ = {};
-    fiber_.resume();
-    take_request();
-  }
+void NativeCpu::go_on_program() {
+  if (request_.op == Op::kAccess) end_access();
+  request_.op = Op::kNone;
+  fiber_.resume();
+  take_request();
 }
 
-/// Nobody else has a turn before the next one of this CPU: that is this one.
-bool NativeCpu::goes_on() {
-  const Tick at = next();
-  if (at == bus::kNever || others == nullptr || !others->go_on(at)) return false;
-  now_ = at;
-  return true;
-}
+/// Nobody else has a turn before `at`, the next one of this CPU: that is this one.
+bool NativeCpu::goes_on(Tick at) { return at != bus::kNever && others != nullptr && others->go_on(at); }
 
 /// Starts what the program asked for before it suspended.
 void NativeCpu::take_request() {

@@ -72,8 +72,8 @@ class NativeCpu : public bus::Agent, private Cpu {
   void serve_interrupt();
   bool interrupt_is_due() const { return interrupts_open() && interrupt_at_ <= now_; }
   bool interrupts_open() const { return handler_ && enabled_ && !in_handler_; }
-  void act();
-  bool goes_on();
+  void go_on_program();
+  bool goes_on(Tick at);
   void take_request();
   void begin_access();
   void end_access();
