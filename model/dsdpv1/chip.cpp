@@ -80,6 +80,7 @@ struct Chip::Impl {
   void plan();
   bool apply(Tick at, Pin pin, Level value);
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
+  bool is_private(Tick begin, const HostAccess& access);
   bool hear(Tick at, bool level);
   void set_handshake(Tick at, bool req, bool sta);
   void rising_edge(Cycle cycle);
@@ -169,6 +170,14 @@ bool Chip::Impl::carry_out(Tick begin, const HostAccess& access, Level& sampled)
   return true;
 }
 
+// The chip takes no access while the user holds the DPRAM, and nothing that the station does makes it.
+bool Chip::Impl::is_private(Tick begin, const HostAccess& access) {
+  if (engine != Engine::kSkip || (watched & mask(Pin::kDOut)) != 0) return false;
+  advance(begin);
+  const Cycle last = (begin + access.last()) / kTicksPerCycle;
+  if (std::min({plans.release, plans.handshake, plans.sequencer}) <= last) return false;
+  return !sequencer.owns() && sequencer.started_up() && host.is_plain(begin, access);
+}
 bool Chip::Impl::hear(Tick at, bool level) {
   catch_up_line(done());
   rxd = level;
@@ -471,6 +480,7 @@ Level Chip::sample(Tick at) {
 bool Chip::carry_out(Tick begin, const HostAccess& access, Level& sampled) {
   return impl_->carry_out(begin, access, sampled);
 }
+bool Chip::is_private(Tick begin, const HostAccess& access) { return impl_->is_private(begin, access); }
 Tick Chip::next_event() const { return impl_->next_event(); }
 Tick Chip::next_seen() const { return impl_->next_seen(); }
 Tick Chip::now() const { return impl_->now; }

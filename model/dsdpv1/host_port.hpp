@@ -26,8 +26,11 @@ class HostPort {
     r_sta_ = r_sta;
   }
   Level level(Pin pin) const;
-  /// A whole access whose first edge is at `begin`, in the place of its edges, when it is certain to report nothing and
-  /// nothing of an earlier one reaches into it: then also what a read has `sampled`. False: nothing has happened.
+  /// An access whose first edge is at `begin` is certain to report nothing, and nothing of an earlier one reaches into
+  /// it, as long as the user keeps R_REQ and R_STA.
+  bool is_plain(Tick begin, const HostAccess& access) const;
+  /// A whole access that is plain, in the place of its edges; of a read, what it has `sampled`. False: it is not plain,
+  /// and nothing has happened.
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
 
   /// The rising edge of `now`: writes that have settled, the address of a read. `unreadable`, as it was before the
@@ -65,7 +68,6 @@ class HostPort {
   void settle(const Write& write);
   Level sample(Cycle now, bool unreadable);
   bool in_flight(regs::Address address) const;
-  bool is_plain(Tick begin, const HostAccess& access) const;
   void write_at_once(Tick begin, const HostAccess& access);
   void read_at_once(Tick begin, const HostAccess& access);
   void check_owner(Tick at);

@@ -49,7 +49,9 @@ Tick PinChip::next() const {
 }
 
 void PinChip::run(Tick now) {
-  device().advance(now);
+  PinDevice& chip = device();
+  catch_up_access(now);
+  chip.advance(now);
   if (inside_ && on_inside) inside_->look(now, core(), on_inside);
   if (chip_.left_run()) {
     segment_.cut_run(now);
@@ -83,6 +85,7 @@ void PinChip::pin_changed(Tick at, Pin pin, Level level) {
 
 void PinChip::line_changed(Tick at, bool level) {
   if (catching_up_) return chip_.hear(at, level);
+  catch_up_access(at);
   chip_.set(at, Pin::kPbrxd, level ? 1 : 0);
   announce(next());
   if (reports_rxd_) report_inputs(at, Pin::kPbrxd, Pin::kPbrxd);
@@ -93,6 +96,7 @@ bool PinChip::run_begins(const bus::CharacterRun& run) {
   if (reports_rxd_) return false;
   if (own_run_) return true;  // while it sends, it does not listen
   if (run.bit % bus::kTicksPerCycle != 0) return false;
+  catch_up_access(run.start);
   const bool taken =
       chip_.hear(run.start, {run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
   announce(next());  // the same as before, as long as the telegram is not for this station
@@ -101,6 +105,7 @@ bool PinChip::run_begins(const bus::CharacterRun& run) {
 
 void PinChip::run_cut(Tick at, bool level) {
   announce();
+  catch_up_access(at);
   if (std::exchange(hides_txd_, false)) {
     chip_.show_txd(at);
     line_.resume(level);
@@ -125,6 +130,8 @@ void PinChip::set_reset(Tick at, bool level) {
 }
 
 void PinChip::reset_host(Tick at) {
+  catch_up_access(at + 1);
+  put_off_ = false;
   pins_.emplace(chip_);
   PinDevice& chip = device();
   for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) chip.set(at, pin, 1);
@@ -152,11 +159,21 @@ void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::Acc
   if (!access.write && on_read) on_read(pins_->sample_tick());
 }
 
+bool PinChip::put_off() {
+  put_off_ = !reports_host_ && pins().put_off();
+  return put_off_;
+}
+
+// The chip is about to act at `at`, or to hear something.
+void PinChip::catch_up_access(Tick at) {
+  if (put_off_ && pins_->next_edge() < at) pins_->run_edges(at - 1);
+}
+
 // Whoever is told something acts before the next edge.
 void PinChip::run_edges(Tick until) {
   user_cpu::PinHostBus& host = *pins_;
   hear_line();
-  pauses_ = false;
+  pauses_ = put_off_ = false;
   if (!reports_host_ && until >= host.last_edge() && host.run_whole()) return announce(next());
   for (Tick at = host.next_edge(); at <= until && !pauses_; at = host.next_edge()) {
     host.run_edges(at);

@@ -49,6 +49,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
     segment_.hear(station_);
     catching_up_ = false;
   }
+  void catch_up_access(Tick at);
   user_cpu::PinHostBus& pins() {
     device();
     return *pins_;
@@ -73,6 +74,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   unsigned lamps(Tick at) override { return pins().lamps(at); }
   void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) override;
   Tick next_edge() const override { return pins_->next_edge(); }
+  bool put_off() override;
   void run_edges(Tick until) override;
   Tick end() const override { return pins_->end(); }
   std::uint8_t read_value() const override { return pins_->read_value(); }
@@ -87,6 +89,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   std::optional<InsideWatch> inside_;
   bool reports_host_, reports_rxd_, reports_txd_, catching_up_ = false;
   bool own_run_ = false, hides_txd_ = false;
+  bool put_off_ = false;  ///< an access is under way whose edges are set when the chip goes beyond them
   bool pauses_ = false;  ///< since an edge of an access, somebody was told something on which he may act
   std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
 };

@@ -43,6 +43,9 @@ class CoreDevice : public PinDevice {
   bool carry_out(dsdpv1::Tick begin, const dsdpv1::HostAccess& access, dsdpv1::Level& sampled) override {
     return chip_.carry_out(begin, access, sampled);
   }
+  bool is_private(dsdpv1::Tick begin, const dsdpv1::HostAccess& access) override {
+    return chip_.is_private(begin, access);
+  }
   bool begins_to_send() const override { return chip_.begins_to_send(); }
   profibus::CharacterRun hide_txd() override { return chip_.hide_txd(); }
   void show_txd(dsdpv1::Tick at) override { chip_.show_txd(at); }

@@ -123,6 +123,29 @@ TEST_F(NativeCpu, AnAccessIsOneTurnWhenSomebodyElseHasOneAtItsEnd) {
   EXPECT_THAT(bus.log, ElementsAre("0 read", "1000 edge 2", "1150 read"));
 }
 
+TEST_F(NativeCpu, AnAccessThatIsPutOffIsDoneAtItsEnd) {
+  struct Other : bus::Agent {
+    Tick next() const override { return acted ? bus::kNever : 700; }
+    void run(Tick) override {
+      acted = true;
+      log->push_back("other");
+    }
+    bool acted = false;
+    std::vector<std::string>* log = nullptr;
+  } other;
+  other.log = &bus.log;
+  bus.puts_off = true;
+  timeline.add(other);
+  start([](Cpu& c) {
+    c.read(0);
+    c.read(1);
+  });
+  let_it_ask();
+  timeline.run_until(5000);
+  EXPECT_THAT(bus.log, ElementsAre("other", "0 read", "1000 edge 2", "1150 read", "2150 edge 2"));
+  EXPECT_EQ(cpu->counters().accesses, 2U);
+}
+
 TEST_F(NativeCpu, AnAccessGoesNotBeyondTheEndOfTheRun) {
   start([](Cpu& c) { c.read(0); });
   let_it_ask();

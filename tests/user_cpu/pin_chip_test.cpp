@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
 #include <vector>
 
 namespace {
@@ -61,6 +63,94 @@ TEST_F(PinChipTest, AReadInOneTurnBringsTheByte) {
   host.run_edges(host.end());
   EXPECT_FALSE(host.last_read_was_bad());
   EXPECT_EQ(host.read_value(), kWrite.value);
+}
+
+// --- accesses that are put off ---------------------------------------------------------------------------------------
+
+/// Two users with a chip each on one line make the same accesses; the second sets each edge at its time.
+struct PutOffTest : testing::Test {
+  struct User {
+    User(const char* name, bus::Segment& segment) : chip(name, dsdpv1::Config(), 0, segment) {
+      chip.on_event = [this](const profibus::Event& event) { events.push_back(event.at); };
+      chip.set_reset(1000, true);
+      chip.run(200 * bus::kTicksPerUs);
+      host.set_r_req(200 * bus::kTicksPerUs, true);
+      chip.run(202 * bus::kTicksPerUs);
+      host.set_r_sta(202 * bus::kTicksPerUs, true);
+    }
+    tb::PinChip chip;
+    user_cpu::HostBus& host = chip.host_bus();
+    std::vector<Tick> events;
+  };
+
+  /// Chips act when they plan to, the line moves at `line_at`; up to the end of the access.
+  void carry_out(Tick at, const Access& access, Tick line_at) {
+    for (User* user : {&late, &exact}) user->host.begin(at, access, AccessTiming());
+    const bool put_off = late.host.put_off();
+    puts_off += put_off ? 1 : 0;
+    bool line_moves = true;
+    for (;;) {
+      const Tick line = line_moves ? line_at : bus::kNever;
+      const Tick chips = std::min(late.chip.next(), exact.chip.next());
+      const Tick now = std::min({line, chips, exact.host.next_edge(), put_off ? bus::kNever : late.host.next_edge()});
+      if (now > exact.host.end()) break;
+      for (User* user : {&late, &exact})
+        if (user->chip.next() <= now) user->chip.run(now);
+      if (line <= now) {
+        level = !level;
+        segment.force(now, level);
+        line_moves = false;
+      }
+      if (exact.host.next_edge() <= now) exact.host.run_edges(now);
+      if (!put_off && late.host.next_edge() <= now) late.host.run_edges(now);
+    }
+    if (put_off) late.host.run_edges(late.host.end());
+  }
+
+  bus::Segment segment;
+  User late{"late", segment}, exact{"exact", segment};
+  int puts_off = 0;
+  bool level = true;
+};
+
+TEST_F(PutOffTest, WhatTheUserAndTheChipDoIsTheSame) {
+  std::mt19937 random(3);
+  const auto draw = [&random](int most) { return std::uniform_int_distribution<int>(0, most)(random); };
+  Tick now = 203 * bus::kTicksPerUs;
+  for (int i = 0; i < 3000; ++i) {
+    const Access access = {draw(2) == 0, static_cast<std::uint16_t>(0x12C + draw(3)),
+                           static_cast<std::uint8_t>(draw(255))};
+    carry_out(now, access, now + draw(4000));
+    ASSERT_EQ(late.host.read_value(), exact.host.read_value()) << i;
+    ASSERT_EQ(late.host.last_read_was_bad(), exact.host.last_read_was_bad()) << i;
+    now = exact.host.end() + draw(3) * 700;
+  }
+  for (User* user : {&late, &exact}) user->chip.run(now);
+  EXPECT_EQ(late.events, exact.events);
+  EXPECT_EQ(late.chip.status().accesses, exact.chip.status().accesses);
+  EXPECT_GT(puts_off, 2000) << "most are right accesses of the owner";
+}
+
+TEST_F(PutOffTest, AnAccessThatSomebodyHearsOfIsNot) {
+  const Tick at = 203 * bus::kTicksPerUs;
+  AccessTiming late_data;
+  late_data.data_setup = 149;
+  late.host.begin(at, kWrite, late_data);
+  EXPECT_FALSE(late.host.put_off()) << "Td is violated";
+  late.host.run_edges(late.host.end());
+  late.host.run_edges(late.host.end());
+  late.host.set_r_sta(at + 10'000, false);
+  late.host.begin(at + 20'000, kWrite, AccessTiming());
+  EXPECT_FALSE(late.host.put_off()) << "the user does not own the DPRAM";
+}
+
+TEST_F(PutOffTest, AResetInTheMiddleForgetsTheRest) {
+  const Tick at = 203 * bus::kTicksPerUs;
+  late.host.begin(at, kWrite, AccessTiming());
+  ASSERT_TRUE(late.host.put_off());
+  late.chip.reset_host(at + 400);
+  EXPECT_EQ(late.chip.level(static_cast<tb::PinNumber>(dsdpv1::Pin::kWr)), 1);
+  EXPECT_EQ(late.chip.core().now(), at + 400);
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ class RecordingBus : public user_cpu::HostBus {
     last_ = at + kLength;
   }
   Tick next_edge() const override { return edge_; }
+  bool put_off() override { return puts_off; }
   void run_edges(Tick until) override {
     for (; edge_ <= until; edge_ = edge_ == last_ ? bus::kNever : last_)
       note(edge_, edge_ == last_ ? "edge 2" : (access_.write ? "write" : "read"));
@@ -38,7 +39,7 @@ class RecordingBus : public user_cpu::HostBus {
   std::uint8_t read_value() const override { return bad ? 0xFF : static_cast<std::uint8_t>(access_.address & 0xFF); }
   bool last_read_was_bad() const override { return bad; }
 
-  bool chip_busy = false, bad = false;
+  bool chip_busy = false, bad = false, puts_off = false;
   std::vector<std::string> log;
 
  private:

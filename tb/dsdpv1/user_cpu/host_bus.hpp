@@ -35,6 +35,9 @@ class HostBus {
   virtual void begin(Tick at, const Access& access, const AccessTiming& timing) = 0;
   /// The tick of the running access' next edge, `bus::kNever` when all are done.
   virtual Tick next_edge() const = 0;
+  /// The access just begun is nobody else's business until its end: `run_edges` need not be called before `end()`, though
+  /// others act meanwhile. False: each edge at its time.
+  virtual bool put_off() { return false; }
   /// Carries out the edges due up to `until`, which is not before `next_edge()`, each at its tick; only those up to one
   /// that somebody is told of.
   virtual void run_edges(Tick until) = 0;

@@ -16,6 +16,8 @@ class HostPins {
   virtual bool carry_out(dsdpv1::Tick /*begin*/, const dsdpv1::HostAccess& /*access*/, dsdpv1::Level& /*sampled*/) {
     return false;
   }
+  /// See dsdpv1::Chip::is_private.
+  virtual bool is_private(dsdpv1::Tick /*begin*/, const dsdpv1::HostAccess& /*access*/) { return false; }
 };
 
 /// Those of the core.
@@ -28,6 +30,9 @@ class CoreHostPins : public HostPins {
   dsdpv1::Level sample(dsdpv1::Tick at) override { return chip_.sample(at); }
   bool carry_out(dsdpv1::Tick begin, const dsdpv1::HostAccess& access, dsdpv1::Level& sampled) override {
     return chip_.carry_out(begin, access, sampled);
+  }
+  bool is_private(dsdpv1::Tick begin, const dsdpv1::HostAccess& access) override {
+    return chip_.is_private(begin, access);
   }
 
  private:

@@ -12,7 +12,7 @@ NativeCpu::NativeCpu(HostBus& bus, const CpuTiming& timing, Program program, Tic
 
 Tick NativeCpu::next() const {
   if (fiber_.ended()) return bus::kNever;
-  if (request_.op == Op::kAccess) return std::min(bus_.next_edge(), ready_at_);
+  if (request_.op == Op::kAccess) return put_off_ ? ready_at_ : std::min(bus_.next_edge(), ready_at_);
   return request_.op == Op::kWait ? std::max(now_, std::min(ready_at_, break_tick())) : ready_at_;
 }
 
@@ -20,7 +20,7 @@ void NativeCpu::run(Tick now) {
   Tick at = now;
   do {
     now_ = at;
-    if (request_.op == Op::kAccess && bus_.next_edge() <= now_) bus_.run_edges(now_);
+    if (request_.op == Op::kAccess && !put_off_ && bus_.next_edge() <= now_) bus_.run_edges(now_);
     for (at = next(); at <= now_; at = next()) go_on_program();
   } while (goes_on(at));
 }
@@ -70,13 +70,17 @@ void NativeCpu::begin_access() {
   const bool own_timing = request_.access.write && timing_.write_access;
   bus_.begin(now_, request_.access, own_timing ? *timing_.write_access : timing_.access);
   ready_at_ = bus_.end() + timing_.overhead;
-  // Its edges have one turn each, unless nobody else has one before the last: then all of them are this one.
+  // Its edges have one turn each, unless nobody else has one before the last: then all of them are this one; or unless
+  // nobody else hears of them: then they are its last.
   const bool in_one_go = others != nullptr && others->quiet(bus_.end());
+  put_off_ = others != nullptr && !in_one_go && bus_.put_off();
+  if (put_off_) return;
   const Tick until = in_one_go ? bus_.end() : now_;
   if (bus_.next_edge() <= until) bus_.run_edges(until);
 }
 
 void NativeCpu::end_access() {
+  if (std::exchange(put_off_, false)) bus_.run_edges(bus_.end());
   ++counters_.accesses;
   if (!request_.access.write && bus_.last_read_was_bad()) ++counters_.bad_reads;
 }

@@ -89,6 +89,7 @@ class NativeCpu : public bus::Agent, private Cpu {
   Tick wake_at_ = bus::kNever;
   Request request_;
   Break break_ = Break::kInterrupt;
+  bool put_off_ = false;  ///< the access under way, up to its end
   Tick now_ = 0;
   Tick ready_at_;  ///< when the program goes on
   bool sampled_ = false;

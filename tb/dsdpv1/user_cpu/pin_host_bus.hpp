@@ -26,6 +26,7 @@ class PinHostBus : public HostBus {
   unsigned lamps(Tick at) override;
   void begin(Tick at, const Access& access, const AccessTiming& timing) override;
   Tick next_edge() const override { return edge_ < access_->size() ? begin_ + (*access_)[edge_].at : bus::kNever; }
+  bool put_off() override { return edge_ == 0 && chip_.is_private(begin_, *access_); }
   void run_edges(Tick until) override;
   /// The running access at once, if that comes to the same and it has not begun.
   bool run_whole();
