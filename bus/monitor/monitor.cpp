@@ -85,9 +85,11 @@ Tick Monitor::slot_end() const {
 Tick Monitor::slot() const { return bits(slot_bits_.value_or(bus::baud(baud_).slot_bits)); }
 
 // What is wrong is flagged when it is, so a run may only be heard at its end when nothing is: a telegram, behind no
-// broken one.
+// broken one. Who wants characters gets each in time.
 bool Monitor::run_begins(const CharacterRun& run) {
-  if (skipping_ || decoder_.begun() || !is_telegram(run.bytes, run.size) || !receiver_.set_run(run)) return false;
+  if (skipping_ || decoder_.begun() || !is_telegram(run.bytes, run.size) ||
+      !receiver_.set_run(run, on_character != nullptr))
+    return false;
   announce();
   return true;
 }

@@ -203,7 +203,7 @@ void UartReceiver::run(Tick now) {
   sample_until(now + 1);
 }
 
-bool UartReceiver::set_run(const CharacterRun& run) {
+bool UartReceiver::set_run(const CharacterRun& run, bool each) {
   end_run(run.start);
   sample_until(run.start);
   if (receiving() || run.bit != bit_) return false;
@@ -211,28 +211,32 @@ bool UartReceiver::set_run(const CharacterRun& run) {
   run_ = run;
   run_.bytes = run_bytes_.data();
   in_run_ = true;
+  each_ = each;
+  reported_ = 0;
   return true;
 }
 
 void UartReceiver::end_run(Tick before) {
   if (!in_run_ || next() >= before) return;
-  in_run_ = false;
-  if (!on_run || !on_run(run_)) report_run(run_.end());
+  in_run_ = complete_at(run_.size - 1) >= before;
+  const bool whole = !in_run_ && reported_ == 0;
+  if (!whole || !on_run || !on_run(run_)) report_run(before - 1);
 }
 
-/// Those that are complete at `until`; how many.
-std::size_t UartReceiver::report_run(Tick until) {
-  in_run_ = false;
-  std::size_t index = 0;
-  for (; index < run_.size && run_.character(index + 1) - bit_ / 2 <= until; ++index)
+/// Those that are complete at `until`.
+void UartReceiver::report_run(Tick until) {
+  while (reported_ < run_.size && complete_at(reported_) <= until) {
+    const std::size_t index = reported_++;
     if (on_character) on_character({run_.bytes[index], run_.character(index), run_.character(index + 1), true, true});
-  return index;
+  }
 }
 
 void UartReceiver::cut_run(Tick at) {
   if (!in_run_) return;
+  in_run_ = false;
+  report_run(at);
   level_ = true;
-  for (Tick edge = run_.character(report_run(at)); edge <= at; edge += bit_)
+  for (Tick edge = run_.character(reported_); edge <= at; edge += bit_)
     if (run_.level(edge) != level_) line_changed(edge, !level_);
 }
 

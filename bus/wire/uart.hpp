@@ -123,12 +123,12 @@ class UartReceiver {
   /// Whether `next()` is another now: a character has begun or ended.
   bool line_changed(Tick at, bool level);
   /// In the place of the changes of a run, which begins now; false: the changes are wanted. Its characters are reported
-  /// in the middle of the last one's stop bit.
-  bool set_run(const CharacterRun& run);
+  /// in the middle of the last one's stop bit, `each` in the middle of its own.
+  bool set_run(const CharacterRun& run, bool each = false);
   /// What comes behind `at` is told by line_changed.
   void cut_run(Tick at);
   /// The middle of the stop bit of a character begun, where it is reported.
-  Tick next() const { return in_run_ ? run_.end() - bit_ / 2 : receiving_ ? sample_at(kCharacterBits - 1) : kNever; }
+  Tick next() const { return in_run_ ? next_report() : receiving_ ? sample_at(kCharacterBits - 1) : kNever; }
   void run(Tick now);
   bool receiving() const { return receiving_ || in_run_; }
 
@@ -142,7 +142,9 @@ class UartReceiver {
  private:
   Tick sample_at(int bit) const { return start_ + bit * bit_ + bit_ / 2; }
   void begin(Tick at);
-  std::size_t report_run(Tick until);
+  Tick complete_at(std::size_t index) const { return run_.character(index + 1) - bit_ / 2; }
+  Tick next_report() const { return complete_at(each_ ? reported_ : run_.size - 1); }
+  void report_run(Tick until);
   void end_run(Tick before);
   void sample_until(Tick end);
   void sample();
@@ -154,7 +156,8 @@ class UartReceiver {
   std::uint16_t bits_ = 0;
   CharacterRun run_;
   Bytes run_bytes_;
-  bool in_run_ = false;
+  bool in_run_ = false, each_ = false;
+  std::size_t reported_ = 0;  ///< characters of the run
 };
 
 }  // namespace bus

@@ -13,6 +13,10 @@ namespace tb {
 
 namespace {
 
+// Of a block, which fstapi keeps in memory until it writes it: in the processor's cache rather than in the 128 MB that
+// it would fill otherwise. Saves a fourteenth of the time of a run, for a file that is 6 % larger.
+constexpr unsigned kMostChanges = 1U << 18;
+
 /// Looked at before it is opened: to open a FIFO is to wait for its reader.
 const std::string& regular(const std::string& path) {
   if (!find_place(path).direct) return path;
@@ -67,32 +71,47 @@ void FstFile::move_to(std::uint64_t time) {
   if (time_ == time || failed()) return;
   fstWriterEmitTimeChange(context_, time);
   keep_error();
-  if (time_) ++steps_;
+  if (ends_block_)
+    begin_block();
+  else if (time_)
+    ++steps_;
   time_ = time;
+}
+
+void FstFile::begin_block() {
+  ends_block_ = false;
+  changes_ = 0;
+  steps_ = 1;
+}
+
+/// fstapi writes a block at the next change of time.
+void FstFile::end_block() {
+  fstWriterFlushContext(context_);
+  ends_block_ = true;
+}
+
+void FstFile::count_change() {
+  if (++changes_ >= kMostChanges && steps_ > 1) end_block();
 }
 
 void FstFile::set(Handle variable, const char* levels) {
   if (failed()) return;
   fstWriterEmitValueChange(context_, variable, levels);
-  changed_ = true;
+  count_change();
 }
 
 void FstFile::say(Handle variable, std::string_view word) {
   if (failed()) return;
   fstWriterEmitVariableLengthValueChange(context_, variable, word.data(), static_cast<std::uint32_t>(word.size()));
-  changed_ = true;
+  count_change();
 }
 
-/// fstapi writes the block at the next change of time, which may be far away: so there is one now. Without a change of
-/// value it would spoil its table of times, so then there is no block.
+/// The next change of time may be far away: so there is one now. Without a change of value the block would spoil
+/// fstapi's table of times, so then there is none.
 void FstFile::save(std::uint64_t time) {
-  if (!changed_ || !time_) return;
-  const bool block = steps_ > 1 && time_ != time;
-  fstWriterFlushContext(context_);
+  if (changes_ == 0 || !time_) return;
+  if (steps_ > 1) end_block();
   move_to(time);
-  if (!block) return;
-  changed_ = false;
-  steps_ = 1;
 }
 
 void FstFile::check() const {

@@ -44,14 +44,18 @@ class FstFile {
   void* create();
   void close();
   void keep_error();
+  void begin_block();
+  void end_block();
+  void count_change();
 
   PartFile part_;
   NameToRemove declarations_;  ///< the second file of fstapi, until this one is closed
   int error_ = 0;
   void* context_;
   std::optional<std::uint64_t> time_;
-  bool changed_ = false;  ///< since the last block
-  int steps_ = 0;         ///< changes of time since then, more than one of which fstapi wants for a block
+  unsigned changes_ = 0;     ///< of the block
+  unsigned steps_ = 0;       ///< changes of time in it, more than one of which fstapi wants
+  bool ends_block_ = false;  ///< at the next change of time
 };
 
 }  // namespace tb

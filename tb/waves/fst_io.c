@@ -53,14 +53,15 @@ int fst_io_close(FILE* file) {
   return result;
 }
 
+/* A file is written by one thread, so that no lock is needed for each change of time, which are a few bytes. */
 size_t fst_io_write(const void* data, size_t size, size_t count, FILE* file) {
-  const size_t written = fwrite(data, size, count, file);
+  const size_t written = fwrite_unlocked(data, size, count, file);
   keep(written != count && size != 0);
   return written;
 }
 
 int fst_io_put(int character, FILE* file) {
-  const int result = fputc(character, file);
+  const int result = putc_unlocked(character, file);
   keep(result == EOF);
   return result;
 }

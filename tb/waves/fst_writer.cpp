@@ -32,8 +32,9 @@ void FstWriter::alias(const std::string& name, Signal of) {
 
 void FstWriter::move_to(bus::Tick at) {
   if (at < now_) throw std::logic_error("wave changes out of order");
+  if (at == moved_to_) return;
   file_.move_to(picoseconds(at));
-  now_ = at;
+  now_ = moved_to_ = at;
 }
 
 void FstWriter::set(bus::Tick at, Signal signal, int level) {

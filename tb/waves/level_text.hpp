@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "tb/waves/wave_writer.hpp"
 
@@ -8,13 +10,13 @@ namespace tb {
 /// The wires of a level as characters 0, 1, x, z, the highest first, ended by a zero byte.
 inline std::array<char, 33> level_text(int level, int width) {
   std::array<char, 33> text{};
-  for (int i = 0; i < width; ++i) {
-    const auto bit = static_cast<unsigned>(width - 1 - i);
-    const char driven = ((static_cast<unsigned>(level) >> bit) & 1U) != 0 ? '1' : '0';
-    text[static_cast<std::size_t>(i)] = level == WaveWriter::kReleased  ? 'z'
-                                        : level == WaveWriter::kUnknown ? 'x'
-                                                                        : driven;
+  const auto wires = static_cast<std::size_t>(width);
+  if (level == WaveWriter::kReleased || level == WaveWriter::kUnknown) {
+    std::fill_n(text.begin(), wires, level == WaveWriter::kReleased ? 'z' : 'x');
+    return text;
   }
+  auto rest = static_cast<unsigned>(level);
+  for (std::size_t i = wires; i-- > 0; rest >>= 1U) text[i] = (rest & 1U) != 0 ? '1' : '0';
   return text;
 }
 

@@ -91,23 +91,27 @@ void SelectedWave::check_patterns() const {
 
 // --- windows ---------------------------------------------------------------------------------------------------------
 
-void SelectedWave::set(bus::Tick at, Signal signal, int level) { change({at, signal, {level, {}}}); }
-
-void SelectedWave::say(bus::Tick at, Signal signal, std::string_view word) {
-  change({at, signal, {0, std::string(word)}});
+void SelectedWave::set(bus::Tick at, Signal signal, int level) {
+  Declared& declared = signals_.at(signal);
+  if (!declared.selected) return;
+  advance(at);
+  if (!open_) return keep({at, signal, {level, {}}});
+  declared.value.level = level;
+  write(at, declared);
 }
 
-void SelectedWave::change(Change change) {
-  if (!signals_.at(change.signal).selected) return;
-  advance(change.at);
-  if (open_)
-    write(change);
-  else
-    keep(std::move(change));
+void SelectedWave::say(bus::Tick at, Signal signal, std::string_view word) {
+  Declared& declared = signals_.at(signal);
+  if (!declared.selected) return;
+  advance(at);
+  if (!open_) return keep({at, signal, {0, std::string(word)}});
+  declared.value.word = word;
+  write(at, declared);
 }
 
 /// A window that begins or ends up to `at` does so.
 void SelectedWave::advance(bus::Tick at) {
+  if (open_ && at <= end_of_window()) return;
   const bool begins = !selection_.on_trigger && closed_at_ < 0 && at >= selection_.from;
   if (!open_ && begins) open(selection_.from);
   if (open_ && at > end_of_window()) close();
@@ -143,7 +147,7 @@ void SelectedWave::open(bus::Tick at) {
   if (selection_.clock) writer_->set(at, clock_, at / kHalfCycle % 2 == 0 ? 1 : 0);
   for (const Declared& signal : signals_)
     if (signal.selected && signal.told) write_value(at, signal, signal.value);
-  for (; !kept_.empty() && kept_.front().at <= end_of_window(); kept_.pop_front()) write(kept_.front());
+  for (; !kept_.empty() && kept_.front().at <= end_of_window(); kept_.pop_front()) write_kept(kept_.front());
   if (!kept_.empty()) close();  // told late: it is over
 }
 
@@ -158,12 +162,16 @@ void SelectedWave::close() {
     if (signal.selected) write_value(closed_at_, signal, {WaveWriter::kUnknown, std::string(kNotRecorded)});
 }
 
-void SelectedWave::write(const Change& change) {
+void SelectedWave::write_kept(Change& change) {
   Declared& signal = signals_[change.signal];
-  tick_to(change.at);
-  write_value(change.at, signal, change.value);
-  signal.value = change.value;
+  signal.value = std::move(change.value);
+  write(change.at, signal);
+}
+
+void SelectedWave::write(bus::Tick at, Declared& signal) {
   signal.told = true;
+  tick_to(at);
+  write_value(at, signal, signal.value);
 }
 
 void SelectedWave::write_value(bus::Tick at, const Declared& signal, const Value& value) {

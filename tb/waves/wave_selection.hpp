@@ -79,13 +79,14 @@ class SelectedWave {
   bool wants(const std::string& path, bool is_word) const;
   void declare_wires(Declared& declared, const std::string& name, int width);
   bool fits(const std::string& pattern, const std::string& path) const;
-  void change(Change change);
   void keep(Change change);
   void forget_before(bus::Tick at);
   void open(bus::Tick at);
   void close();
   void advance(bus::Tick at);
-  void write(const Change& change);
+  void write_kept(Change& change);
+  /// Its value, which is new.
+  void write(bus::Tick at, Declared& signal);
   void write_value(bus::Tick at, const Declared& signal, const Value& value);
   void tick_to(bus::Tick at);
   bus::Tick end_of_window() const { return selection_.on_trigger ? until_ : selection_.to; }

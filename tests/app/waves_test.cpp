@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <set>
@@ -114,6 +115,24 @@ TEST(WaveOptions, CharactersServicesActionsAndEventsAreWords) {
   EXPECT_THAT(wave.values("demo.user"), Contains("R_REQ_1"));
   EXPECT_THAT(wave.values("demo.event"), Contains("INITIALISED_1"));
   EXPECT_THAT(wave.values("bus.flag"), Contains("BUS_UNANSWERED_1"));
+}
+
+/// A character lasts 11 bits of 83.333 ns, so each of a telegram without gaps is shown 916.667 ns after the one before.
+TEST(WaveOptions, EachCharacterIsShownInTheMiddleOfItsStopBit) {
+  const Vcd wave = wave_of("");
+  const auto& shown = wave.signals.at("bus.character");
+  const auto first =
+      std::find_if(shown.begin(), shown.end(), [](const Vcd::Change& each) { return each.value == "68"; });
+  std::string bytes;
+  for (auto each = first; each != shown.end() && each < first + 11; ++each) {
+    bytes += each->value + " ";
+    EXPECT_NEAR(static_cast<double>(each->ps - first->ps), 916'666.7 * static_cast<double>(each - first), 1.0);
+  }
+  EXPECT_EQ(bytes, "68 05 05 68 85 82 6D 3C 3E EE 16 ");  // Get_Diag
+  const auto& line = wave.signals.at("bus.line");
+  EXPECT_TRUE(std::any_of(line.begin(), line.end(), [&](const Vcd::Change& each) {
+    return each.value == "0" && each.ps + 875'000 - first->ps + 1 <= 2;
+  })) << "no start bit 10.5 bits before it";
 }
 
 TEST(WaveOptions, AWindowIsRecordedRoundEachViolation) {

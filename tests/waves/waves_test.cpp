@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +14,7 @@
 #endif
 
 #include "tb/input/input_error.hpp"
+#include "tb/waves/fst_blocks.hpp"
 #include "tb/waves/recover.hpp"
 #include "tb/waves/wave_writer.hpp"
 
@@ -186,6 +188,18 @@ TEST_F(Waves, FstInBlocksHoldsTheSameChanges) {
   }
   EXPECT_EQ(changes_of(path("one.fst")), changes_of(path("many.fst")));
   EXPECT_GT(changes_of(path("one.fst")).size(), 100'000U);
+}
+
+TEST_F(Waves, LargeFstIsWrittenInBlocksAsItGrows) {
+  constexpr unsigned kChanges = 600'000;
+  auto wave = tb::open_wave(path("w.fst"));
+  const auto wire = wave->wire("wire", 1);
+  for (unsigned i = 0; i < kChanges; ++i) wave->set(12 * static_cast<bus::Tick>(i), wire, static_cast<int>(i % 2));
+  wave->finish(12 * kChanges);
+  EXPECT_EQ(tb::fst_blocks(path("w.fst")).changes, 3U);
+  const std::string changes = changes_of(path("w.fst"));
+  EXPECT_GE(std::count(changes.begin(), changes.end(), '\n'), static_cast<long>(kChanges));
+  EXPECT_NE(changes.find("until 600000000"), std::string::npos) << "in ps";
 }
 
 TEST_F(Waves, RecoveredIsEverythingUpToTheLastSave) {
