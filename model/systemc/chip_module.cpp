@@ -110,16 +110,15 @@ bool ChipModule::take_broken_timing() {
 // A notification that is no longer needed is left to fire: the kernel keeps cancelled ones in its queue until their
 // time has come, and a watchdog that every telegram moves on would leave thousands there. For the same reason none is
 // made for a time far ahead.
-void ChipModule::schedule(Tick other) {
+void ChipModule::schedule(Tick due) {
   constexpr Tick kFarthest = 100'000 * profibus::kTicksPerNs;
-  const Tick due = std::min(chip_.next_event(), other);
   if (due == profibus::kNever) return;
   const Tick now = chip_now();
   // Everything of this tick is done; asking for it again would stop simulation time.
   const Tick at = std::min(std::max(due, now + 1), now + kFarthest);
   if (scheduled_ > now && scheduled_ <= at) return;
   scheduled_ = at;
-  due_.notify(to_time(at + options_.phase) - sc_core::sc_time_stamp());
+  due_.notify(time_until(at + options_.phase));
 }
 
 void ChipModule::schedule_now() {

@@ -1,5 +1,6 @@
 #pragma once
 // What the two SystemC views of the chip share: the core, its place in simulation time, and what is reported about it.
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <systemc>
@@ -36,7 +37,8 @@ class ChipModule : public sc_core::sc_module {
 
   /// The chip's tick at simulation tick `tick`; 0 until the first rising edge.
   Tick chip_tick(Tick tick) const { return tick > options_.phase ? tick - options_.phase : 0; }
-  Tick chip_now() const { return chip_tick(current_tick()); }
+  /// That of the core, when it was brought ahead of simulation time.
+  Tick chip_now() const { return std::max(chip_tick(current_tick()), chip_.now()); }
 
   void watch(std::uint32_t pins);
   void set(Tick at, Pin pin, Level level);
@@ -59,9 +61,8 @@ class ChipModule : public sc_core::sc_module {
   profibus::CharacterRun hide_txd();
   void show_txd(Tick at);
 
-  /// `due_` will fire at the chip's next event, or at `other` (a tick of the chip) when that is earlier; maybe more
-  /// often.
-  void schedule(Tick other = profibus::kNever);
+  /// `due_` will fire at `due`, a tick of the chip; maybe more often.
+  void schedule(Tick due);
   /// `due_` fires in the next delta cycle.
   void schedule_now();
   sc_core::sc_event due_;

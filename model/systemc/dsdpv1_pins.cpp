@@ -44,7 +44,7 @@ void PinModule::evaluate() {
   apply_inputs(now);
   drive(take_changed());
   if (!clock_)
-    schedule();
+    schedule(chip().next_event());
   else if (due_.triggered())
     check_clock();
 }

@@ -61,8 +61,9 @@ void TlmModule::start_of_simulation() {
   watch(watched);
 }
 
-void TlmModule::sync() {
+void TlmModule::sync(const sc_core::sc_time& ahead) {
   if (is_in_core()) return;
+  if (ahead > sc_core::SC_ZERO_TIME) advance(chip_tick(to_tick(sc_core::sc_time_stamp() + ahead)));
   catch_up();
   plan();
 }
@@ -74,6 +75,10 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
   const tlm::tlm_response_status judgement = judge(payload);
   if (judgement != tlm::TLM_OK_RESPONSE) {
     payload.set_response_status(judgement);
+    return;
+  }
+  if (const auto* extension = payload.get_extension<AccessTimingExtension>(); extension != nullptr && extension->ahead) {
+    carry_out_ahead(payload, delay);
     return;
   }
   // The chip lives in simulation time: an initiator that runs ahead of it (quantum) is brought back to it here.
@@ -88,6 +93,31 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
     throw;
   }
   host_bus_.unlock();
+}
+
+/// Until the end of the access the kernel has nothing to do and the user owns the DPRAM, so that nobody can tell when it
+/// was carried out; the core is ahead of simulation time then, and whatever comes next finds it at the tick it is at.
+void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
+  payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+  if (payload.get_data_length() != 1 || !is_enabled(payload, 0)) return;
+  unsigned char& byte = *payload.get_data_ptr();
+  const auto address = static_cast<std::uint16_t>(payload.get_address());
+  const HostAccess& access = maker_.make(payload.is_write(), address, byte, timing_of(payload));
+  const Tick begin = to_tick(sc_core::sc_time_stamp() + delay), end = begin + access.duration();
+  Level sampled = kLevelX;
+  if (!is_alone(begin, end) || !ChipModule::carry_out(chip_tick(begin), access, sampled)) return;
+  plan();
+  delay = time_until(end);
+  if (payload.is_read() && sampled >= 0) byte = static_cast<unsigned char>(sampled);
+  payload.set_response_status(payload.is_write() || sampled >= 0 ? tlm::TLM_OK_RESPONSE
+                                                                 : tlm::TLM_GENERIC_ERROR_RESPONSE);
+}
+
+bool TlmModule::is_alone(Tick begin, Tick end) {
+  if (hears_host() || !R_REQ.read() || !R_STA.read() || chip_tick(begin) < chip().now()) return false;
+  if (!kernel_is_quiet(end) || host_bus_.trylock() != 0) return false;
+  host_bus_.unlock();
+  return true;
 }
 
 void TlmModule::carry_out(Payload& payload) {
@@ -168,8 +198,7 @@ void TlmModule::move_access(Tick now) {
 
 void TlmModule::wait_until(Tick tick) {
   plan();
-  const sc_core::sc_time until = to_time(tick);
-  if (until > sc_core::sc_time_stamp()) wait(until - sc_core::sc_time_stamp());
+  if (const sc_core::sc_time rest = time_until(tick); rest > sc_core::SC_ZERO_TIME) wait(rest);
   catch_up();
 }
 
@@ -239,7 +268,7 @@ void TlmModule::plan() {
   if (has_changed(bound_) || line <= chip_now() || line_is_stale())
     schedule_now();
   else
-    schedule(std::min({line, from_chip_.next(), next_answered()}));
+    schedule(std::min({chip().next_seen(), line, from_chip_.next(), next_answered()}));
 }
 
 }  // namespace dsdpv1::systemc

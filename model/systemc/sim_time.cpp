@@ -38,6 +38,13 @@ Tick to_tick(const sc_core::sc_time& time) {
   return static_cast<Tick>(fs / kFsPerThreeTicks * 3 + rest);
 }
 
+sc_core::sc_time time_until(Tick tick) {
+  const sc_core::sc_time time = to_time(tick), now = sc_core::sc_time_stamp();
+  return time > now ? time - now : sc_core::SC_ZERO_TIME;
+}
+
+bool kernel_is_quiet(Tick tick) { return sc_core::sc_time_to_pending_activity() > time_until(tick); }
+
 void require_femtoseconds() {
   announce_main_stack_at_exit();  // here, as every program with a simulation comes by
 

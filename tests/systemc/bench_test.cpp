@@ -85,9 +85,9 @@ struct TlmRun {
   systemc_bench::TlmChip chip{"slave", {}, segment, timeline_module}, aborted{"aborted", {}, segment, timeline_module};
   user_cpu::TlmHostBus host{"host", chip}, aborted_host{"aborted_host", aborted};
   Once reset{kReset, [this] { chip.set_reset(true), aborted.set_reset(true); }};
-  Once begin{kAbortAt, [this] { aborted_host.begin(kAbortAt, {false, 0x000, 0}, {}); }};
+  Once begin{kAbortAt, [this] { begin_access(kAbortAt, 0x000); }};
   Once abort{kAbort, [this] { aborted_host.reset(); }};
-  Once again{kAbort + 5000, [this] { aborted_host.begin(kAbort + 5000, {false, 0x001, 0}, {}); }};
+  Once again{kAbort + 5000, [this] { begin_access(kAbort + 5000, 0x001); }};
   UserProgram program{options()};
   NativeCpu cpu{host, {}, program.entry()};
   Changes changes, aborted_changes;
@@ -100,6 +100,10 @@ struct TlmRun {
       if (!is_input(pin)) changes.push_back({at, pin, level});
     };
     aborted.on_pin = [this](Tick at, Pin pin, Level level) { aborted_changes.push_back({at, pin, level}); };
+  }
+  void begin_access(Tick at, std::uint16_t address) {
+    aborted_host.begin(at, {false, address, 0}, {});
+    aborted_host.run_edges(at);
   }
 };
 

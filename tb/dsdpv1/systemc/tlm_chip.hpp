@@ -24,10 +24,10 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
   const dsdpv1::systemc::TlmModule& module() const { return module_; }
   bus::StationId station() const { return station_; }
 
-  /// Pins that the bench drives, at the present time only.
-  void set_reset(bool level) { reset_.write(level); }
-  void set_r_req(bool level) { r_req_.write(level); }
-  void set_r_sta(bool level) { r_sta_.write(level); }
+  /// Pins that the bench drives, at the timeline's present time only.
+  void set_reset(bool level) { write(reset_, level); }
+  void set_r_req(bool level) { write(r_req_, level); }
+  void set_r_sta(bool level) { write(r_sta_, level); }
 
   /// Every pin change, as ChipModule::on_pin. Set before the simulation starts.
   std::function<void(bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level)> on_pin;
@@ -35,6 +35,7 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
  private:
   using Signal = sc_core::sc_signal<bool, sc_core::SC_MANY_WRITERS>;  // the timeline's thread and the chip's process
 
+  void write(Signal& signal, bool level);
   void line_changed(bus::Tick at, bool level) override;
   bool run_begins(const bus::CharacterRun& run) override;
   void run_cut(bus::Tick at, bool level) override;
