@@ -52,8 +52,10 @@ void TlmModule::start_of_simulation() {
     OptionalOut& port;
   } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbrts, PBRTS},
                {Pin::kPbtxd, PBTXD}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
-  for (const auto& wire : wires)
+  for (const auto& wire : wires) {
+    connect(wire.pin, wire.port);
     if (wire.port.size() > 0) bound_ |= mask(wire.pin);
+  }
   std::uint32_t watched = bound_ | mask(Pin::kPbtxd) | mask(Pin::kPbrts);
   if (on_pin) watched |= observed_;
   const bool told = on_pin && (observed_ & mask(Pin::kPbtxd)) != 0 && !on_answer;
@@ -222,7 +224,7 @@ unsigned int TlmModule::transport_dbg(Payload& payload) {
 
 void TlmModule::evaluate() {
   catch_up();
-  drive_outputs();
+  drive(take_changed());
   plan();
 }
 
@@ -235,40 +237,35 @@ void TlmModule::catch_up() {
   apply_inputs(now);
   if (chip().left_run()) stop_run(now);
   collect_character(now);
-  emit_characters();
+  if (!complete_.empty()) emit_characters();
 }
 
 /// The core knows another level: a run was left in the middle of a character, and PBRXD has been high all the time.
-bool TlmModule::line_is_stale() const {
-  return !in_run(chip_now()) && chip().level(Pin::kPbrxd) != Level{line_level()};
+bool TlmModule::line_is_stale(Tick now) const {
+  return !in_run(now) && chip().level(Pin::kPbrxd) != Level{line_level()};
 }
 
 void TlmModule::apply_inputs(Tick now) {
-  set(now, Pin::kRReq, R_REQ.read());
-  set(now, Pin::kRSta, R_STA.read());
-  set(now, Pin::kReset, RESET.read());
+  apply(now, Pin::kRReq, R_REQ.read());
+  apply(now, Pin::kRSta, R_STA.read());
+  apply(now, Pin::kReset, RESET.read());
 }
 
-void TlmModule::drive_outputs() {
-  const struct {
-    Pin pin;
-    OptionalOut& port;
-  } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
-               {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
-  const std::uint32_t pins = take_changed() & bound_;
-  if (pins == 0) return;
-  for (const auto& wire : wires)
-    if ((pins & mask(wire.pin)) != 0) wire.port->write(chip().level(wire.pin) != 0);
+void TlmModule::apply(Tick now, Pin pin, bool level) {
+  if (((applied_ & mask(pin)) != 0) == level) return;
+  applied_ ^= mask(pin);
+  set(now, pin, level);
 }
 
 /// Signals are written by `evaluate` only (SystemC allows one writer), characters for now take effect in the next delta
 /// cycle.
 void TlmModule::plan() {
+  const Tick now = chip_now();
   const Tick line = std::min(to_chip_.next(), runs_.empty() ? profibus::kNever : runs_.front().start);
-  if (has_changed(bound_) || line <= chip_now() || line_is_stale())
+  if (has_changed(bound_) || line <= now || line_is_stale(now))
     schedule_now();
   else
-    schedule(std::min({chip().next_seen(), line, from_chip_.next(), next_answered()}));
+    schedule(now, std::min({chip().next_seen(), line, from_chip_.next(), next_answered()}));
 }
 
 }  // namespace dsdpv1::systemc

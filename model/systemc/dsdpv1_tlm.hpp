@@ -162,12 +162,12 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   bool tells_runs() const { return !on_pin || (observed_ & mask(Pin::kPbrxd)) == 0; }
   bool in_run(Tick now) const { return now < run_end_; }
   bool line_level() const { return characters_level_ && (PBRXD.size() == 0 || PBRXD->read()); }
-  bool line_is_stale() const;
+  bool line_is_stale(Tick now) const;
   void begin_run(Tick now);
   void stop_run(Tick now);
   void spell_out(const LineRun& run, Tick behind);
   void apply_inputs(Tick now);
-  void drive_outputs();
+  void apply(Tick now, Pin pin, bool level);
   void plan();
 
   bool output_changed(Tick at, Pin pin, Level level) override;
@@ -187,6 +187,7 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
 
   AccessTiming timing_;
   std::uint32_t observed_, bound_ = 0;  ///< pins
+  std::uint32_t applied_ = 0;           ///< of RESET, R_REQ, R_STA those that the core knows as high
   sc_core::sc_mutex host_bus_;          ///< accesses of several initiators follow each other
   HostAccessMaker maker_;
   Tick access_start_ = 0;    ///< simulation tick of the running access' first edge

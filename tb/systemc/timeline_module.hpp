@@ -27,6 +27,8 @@ class TimelineModule : public sc_core::sc_module {
   /// with the timeline's time, is ahead of simulation time from then on.
   bool quiet(const bus::Agent& agent, bus::Tick tick);
   bool go_on(const bus::Agent& agent, bus::Tick tick);
+  /// By how much the timeline is ahead of simulation time.
+  sc_core::sc_time ahead() const { return dsdpv1::systemc::time_until(timeline_.now()); }
   /// Simulation time comes up with an agent that has gone on, before it touches what lives in simulation time.
   void catch_up();
 

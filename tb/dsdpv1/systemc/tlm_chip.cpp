@@ -28,6 +28,11 @@ TlmChip::TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::Tlm
   };
 }
 
+void TlmChip::move(HandshakePin& pin, bool level) {
+  pin.set(level);
+  module_.sync(timeline_.ahead());
+}
+
 void TlmChip::write(Signal& signal, bool level) {
   timeline_.catch_up();
   signal.write(level);
