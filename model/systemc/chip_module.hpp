@@ -81,7 +81,7 @@ class ChipModule : public sc_core::sc_module {
 
   ChipOptions options_;
   Chip chip_;
-  Tick scheduled_ = 0;                   ///< of the chip; up to now: no notification is pending
+  Tick scheduled_ = 0;  ///< of the chip; up to now: no notification is pending
   struct Wire {
     std::uint32_t pin;
     sc_core::sc_signal_inout_if<bool>* signal;

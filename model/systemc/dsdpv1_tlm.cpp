@@ -79,7 +79,8 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
     payload.set_response_status(judgement);
     return;
   }
-  if (const auto* extension = payload.get_extension<AccessTimingExtension>(); extension != nullptr && extension->ahead) {
+  if (const auto* extension = payload.get_extension<AccessTimingExtension>();
+      extension != nullptr && extension->ahead) {
     carry_out_ahead(payload, delay);
     return;
   }
@@ -97,8 +98,9 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
   host_bus_.unlock();
 }
 
-/// Until the end of the access the kernel has nothing to do and the user owns the DPRAM, so that nobody can tell when it
-/// was carried out; the core is ahead of simulation time then, and whatever comes next finds it at the tick it is at.
+/// Until the end of the access the kernel has nothing to do and the user owns the DPRAM, so that nobody can tell when
+/// it was carried out; the core is ahead of simulation time then, and whatever comes next finds it at the tick it is
+/// at.
 void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
   payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
   if (payload.get_data_length() != 1 || !is_enabled(payload, 0)) return;
@@ -108,7 +110,7 @@ void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
   const Tick begin = to_tick(sc_core::sc_time_stamp() + delay), end = begin + access.duration();
   Level sampled = kLevelX;
   if (!is_alone(begin, end) || !ChipModule::carry_out(chip_tick(begin), access, sampled)) return;
-  plan();
+  plan(chip_now(), chip().next_seen());  // that a write settles is no event of its own
   delay = time_until(end);
   if (payload.is_read() && sampled >= 0) byte = static_cast<unsigned char>(sampled);
   payload.set_response_status(payload.is_write() || sampled >= 0 ? tlm::TLM_OK_RESPONSE
@@ -223,12 +225,13 @@ unsigned int TlmModule::transport_dbg(Payload& payload) {
 // ------------------------------------------------------------------------------------------------------ pins and core
 
 void TlmModule::evaluate() {
-  catch_up();
+  const Tick now = catch_up();
   drive(take_changed());
-  plan();
+  plan(now, chip().next_event());
 }
 
-void TlmModule::catch_up() {
+/// Up to the present tick, which it returns.
+Tick TlmModule::catch_up() {
   const Tick now = chip_now();
   move_access(now);
   advance(now);
@@ -238,6 +241,7 @@ void TlmModule::catch_up() {
   if (chip().left_run()) stop_run(now);
   collect_character(now);
   if (!complete_.empty()) emit_characters();
+  return now;
 }
 
 /// The core knows another level: a run was left in the middle of a character, and PBRXD has been high all the time.
@@ -259,13 +263,12 @@ void TlmModule::apply(Tick now, Pin pin, bool level) {
 
 /// Signals are written by `evaluate` only (SystemC allows one writer), characters for now take effect in the next delta
 /// cycle.
-void TlmModule::plan() {
-  const Tick now = chip_now();
+void TlmModule::plan(Tick now, Tick core) {
   const Tick line = std::min(to_chip_.next(), runs_.empty() ? profibus::kNever : runs_.front().start);
   if (has_changed(bound_) || line <= now || line_is_stale(now))
     schedule_now();
   else
-    schedule(now, std::min({chip().next_seen(), line, from_chip_.next(), next_answered()}));
+    schedule(now, std::min({core, line, from_chip_.next(), next_answered()}));
 }
 
 }  // namespace dsdpv1::systemc

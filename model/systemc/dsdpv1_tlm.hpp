@@ -156,7 +156,7 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   void wait_until(Tick tick);
 
   void evaluate();
-  void catch_up();
+  Tick catch_up();
   void apply_line(Tick now);
   bool hears_host() const { return on_pin && (observed_ & kHostPins) != 0; }
   bool tells_runs() const { return !on_pin || (observed_ & mask(Pin::kPbrxd)) == 0; }
@@ -168,7 +168,9 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   void spell_out(const LineRun& run, Tick behind);
   void apply_inputs(Tick now);
   void apply(Tick now, Pin pin, bool level);
-  void plan();
+  void plan() { plan(chip_now(), chip().next_event()); }
+  /// `core`: when that is to be evaluated next.
+  void plan(Tick now, Tick core);
 
   bool output_changed(Tick at, Pin pin, Level level) override;
   void txd_changed(Tick at, bool level);

@@ -36,7 +36,8 @@ void TimelineModule::run() {
 }
 
 bool TimelineModule::in_access() const {
-  return std::any_of(chips_.begin(), chips_.end(), [](const auto* chip) { return chip->in_access(); });
+  return std::any_of(
+      chips_.begin(), chips_.end(), [](const auto* chip) { return chip->in_access(); });
 }
 
 void TimelineModule::follow_accesses() {

@@ -24,10 +24,11 @@ class Scenarios : public testing::TestWithParam<std::string> {
   bool run(const std::string& engine, const std::string& view, const std::string& options = "",
            const std::string& suffix = "", const std::string& checks = "fail") const {
     const std::string name = engine + "_" + view + suffix;
-    const app_test::Called called = call(
-        "run scenarios/" + GetParam() + ".yaml --no-progress --checks " + checks + " --engine " + engine + " --view " + view +
-            options + " --log '" + folder_.file(name + ".log") + "' --result '" + folder_.file(name + ".json") + "'",
-        DSDPV1_SOURCE_DIR);
+    const app_test::Called called =
+        call("run scenarios/" + GetParam() + ".yaml --no-progress --checks " + checks + " --engine " + engine +
+                 " --view " + view + options + " --log '" + folder_.file(name + ".log") + "' --result '" +
+                 folder_.file(name + ".json") + "'",
+             DSDPV1_SOURCE_DIR);
     if (called.status != 0) std::cout << called.out << called.err;
     return called.status == 0;
   }

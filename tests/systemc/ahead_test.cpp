@@ -37,7 +37,8 @@ struct World : sc_core::sc_module {
   Changes changes;
   std::vector<profibus::Reason> events;
 
-  Outcome unowned, written, read, burst, before_the_chip, at_another, before_another, waited, violating, violating_waited;
+  Outcome unowned, written, read, burst, before_the_chip, at_another, before_another, waited, violating,
+      violating_waited;
   Tick others_end = 0, released = 0, synchronised = 0;
   std::size_t events_before = 0, events_ahead = 0;
 
@@ -68,6 +69,7 @@ struct World : sc_core::sc_module {
     meet_another();
     wait_until(120 * kUs);
     violate();
+    wait_until(130 * kUs);  // what was written settles
     release();
   }
   void run_ahead() {

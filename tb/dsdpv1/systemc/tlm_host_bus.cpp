@@ -70,7 +70,7 @@ void TlmHostBus::run_edges(Tick until) {
     return;
   }
   state_ = State::kRunning;
-  start_.notify(dsdpv1::systemc::time_until(begin_));  // a delta cycle later: after handshake pins that were set just now
+  start_.notify(dsdpv1::systemc::time_until(begin_));  // at least a delta cycle later
 }
 
 bool TlmHostBus::run_ahead() {

@@ -12,8 +12,8 @@
 namespace user_cpu {
 
 /// An access is one transaction. It has two edges: the first begins it, at the second its result is there. As long as
-/// nobody else has a turn until then it is carried out ahead of simulation time, in the timeline's thread; otherwise by a
-/// thread of its own, so that the timeline goes on meanwhile. The module moves the same pins at the same ticks as
+/// nobody else has a turn until then it is carried out ahead of simulation time, in the timeline's thread; otherwise by
+/// a thread of its own, so that the timeline goes on meanwhile. The module moves the same pins at the same ticks as
 /// PinHostBus does.
 class TlmHostBus : public sc_core::sc_module, public HostBus {
  public:
