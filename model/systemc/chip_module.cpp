@@ -39,6 +39,8 @@ ChipModule::ChipModule(const sc_core::sc_module_name& name, const ChipOptions& o
     const std::string text = "phase is " + std::to_string(options.phase) + " ticks, allowed is 0 to 249";
     SC_REPORT_ERROR("/dsdpv1/phase", text.c_str());
   }
+  for (int pin = 0; pin < kPinCount; ++pin)
+    if (chip_.level(static_cast<Pin>(pin)) == 1) high_ |= mask(static_cast<Pin>(pin));
   chip_.on_event(
       {[](void* self, const profibus::Event& event) { static_cast<ChipModule*>(self)->event_happened(event); }, this});
 }
@@ -101,6 +103,14 @@ std::uint32_t ChipModule::take_changed() {
   return pins;
 }
 
+void ChipModule::drive(std::uint32_t pins) {
+  for (auto wire = wires_.begin(); wire != wires_.end() && pins != 0; ++wire) {
+    if ((pins & wire->pin) == 0) continue;
+    wire->signal->write((high_ & wire->pin) != 0);
+    pins &= ~wire->pin;
+  }
+}
+
 bool ChipModule::take_broken_timing() {
   const bool broken = broken_timing_;
   broken_timing_ = false;
@@ -110,16 +120,14 @@ bool ChipModule::take_broken_timing() {
 // A notification that is no longer needed is left to fire: the kernel keeps cancelled ones in its queue until their
 // time has come, and a watchdog that every telegram moves on would leave thousands there. For the same reason none is
 // made for a time far ahead.
-void ChipModule::schedule(Tick other) {
+void ChipModule::schedule(Tick now, Tick due) {
   constexpr Tick kFarthest = 100'000 * profibus::kTicksPerNs;
-  const Tick due = std::min(chip_.next_event(), other);
   if (due == profibus::kNever) return;
-  const Tick now = chip_now();
   // Everything of this tick is done; asking for it again would stop simulation time.
   const Tick at = std::min(std::max(due, now + 1), now + kFarthest);
   if (scheduled_ > now && scheduled_ <= at) return;
   scheduled_ = at;
-  due_.notify(to_time(at + options_.phase) - sc_core::sc_time_stamp());
+  due_.notify(time_until(at + options_.phase));
 }
 
 void ChipModule::schedule_now() {
@@ -130,6 +138,7 @@ void ChipModule::schedule_now() {
 void ChipModule::pin_changed(Tick at, Pin pin, Level level) {
   if (!output_changed(at, pin, level)) return;
   changed_ |= mask(pin);
+  high_ = level == 1 ? high_ | mask(pin) : high_ & ~mask(pin);
   if (on_pin) on_pin(at, pin, level);
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 // What the two SystemC views of the chip share: the core, its place in simulation time, and what is reported about it.
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <systemc>
+#include <vector>
 
 #include "model/dsdpv1/chip.hpp"
 #include "model/systemc/sim_time.hpp"
@@ -36,7 +38,8 @@ class ChipModule : public sc_core::sc_module {
 
   /// The chip's tick at simulation tick `tick`; 0 until the first rising edge.
   Tick chip_tick(Tick tick) const { return tick > options_.phase ? tick - options_.phase : 0; }
-  Tick chip_now() const { return chip_tick(current_tick()); }
+  /// That of the core, when it was brought ahead of simulation time.
+  Tick chip_now() const { return std::max(chip_tick(current_tick()), chip_.now()); }
 
   void watch(std::uint32_t pins);
   void set(Tick at, Pin pin, Level level);
@@ -47,6 +50,13 @@ class ChipModule : public sc_core::sc_module {
   bool is_in_core() const { return in_core_; }
   /// Outputs that changed since the last call.
   std::uint32_t take_changed();
+  /// `drive` writes this output to the port's signal, if it is bound. After elaboration.
+  template <class Port>
+  void connect(Pin pin, Port& port) {
+    if (port.size() > 0) wires_.push_back({mask(pin), port[0]});
+  }
+  /// Writes those of `pins` that are connected, as they were told last.
+  void drive(std::uint32_t pins);
   bool has_changed(std::uint32_t pins) const { return (changed_ & pins) != 0; }
   /// True when the user's access has violated the timing of table 15 or P8 since the last call.
   bool take_broken_timing();
@@ -59,9 +69,8 @@ class ChipModule : public sc_core::sc_module {
   profibus::CharacterRun hide_txd();
   void show_txd(Tick at);
 
-  /// `due_` will fire at the chip's next event, or at `other` (a tick of the chip) when that is earlier; maybe more
-  /// often.
-  void schedule(Tick other = profibus::kNever);
+  /// `due_` will fire at `due`, a tick of the chip, whose present one is `now`; maybe more often.
+  void schedule(Tick now, Tick due);
   /// `due_` fires in the next delta cycle.
   void schedule_now();
   sc_core::sc_event due_;
@@ -72,8 +81,14 @@ class ChipModule : public sc_core::sc_module {
 
   ChipOptions options_;
   Chip chip_;
-  Tick scheduled_ = 0;                   ///< of the chip; up to now: no notification is pending
+  Tick scheduled_ = 0;  ///< of the chip; up to now: no notification is pending
+  struct Wire {
+    std::uint32_t pin;
+    sc_core::sc_signal_inout_if<bool>* signal;
+  };
+  std::vector<Wire> wires_;
   std::uint32_t changed_ = kOutputPins;  ///< the first drive is of all of them
+  std::uint32_t high_ = 0;               ///< ... and the levels that were told
   bool broken_timing_ = false;
   bool in_core_ = false;
 };

@@ -30,6 +30,12 @@ PinModule::PinModule(const sc_core::sc_module_name& name, const PinOptions& opti
 }
 
 void PinModule::end_of_elaboration() {
+  const struct {
+    Pin pin;
+    Out& port;
+  } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kPbtxd, PBTXD}, {Pin::kIntr0, INTR0},
+               {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
+  for (const auto& wire : wires) connect(wire.pin, wire.port);
   if (CLK.size() > 0) clock_ = std::make_unique<BoundClock>(clock_tolerance_ppm_);
 }
 
@@ -42,16 +48,16 @@ void PinModule::evaluate() {
   const Tick now = present();
   advance(now);
   apply_inputs(now);
-  drive(take_changed());
+  drive_pins(take_changed());
   if (!clock_)
-    schedule();
+    schedule(now, chip().next_event());
   else if (due_.triggered())
     check_clock();
 }
 
 void PinModule::begin() {
   user_d_ = user_level(D.read());
-  drive(kOutputPins);
+  drive_pins(kOutputPins);
   due_.notify(sc_core::sc_time(1, sc_core::SC_FS));  // when the delta cycles of time 0 are over
 }
 
@@ -105,18 +111,9 @@ void PinModule::apply_host(Tick at) {
   set(at, Pin::kRReq, R_REQ.read());
 }
 
-void PinModule::drive(std::uint32_t pins) {
-  if (pins == 0) return;
-  const struct {
-    Pin pin;
-    Out& port;
-  } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
-               {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
-  for (const auto& wire : wires)
-    if (pins & mask(wire.pin)) wire.port.write(chip().level(wire.pin) != 0);
-  if (pins & mask(Pin::kDOut)) drive_data();
+void PinModule::drive_pins(std::uint32_t pins) {
+  drive(pins);
+  if ((pins & mask(Pin::kDOut)) != 0) D.write(wires(chip().level(Pin::kDOut)));
 }
-
-void PinModule::drive_data() { D.write(wires(chip().level(Pin::kDOut))); }
 
 }  // namespace dsdpv1::systemc

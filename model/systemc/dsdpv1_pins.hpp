@@ -57,8 +57,7 @@ class PinModule : public ChipModule {
   Tick present() const;
   void apply_inputs(Tick at);
   void apply_host(Tick at);
-  void drive(std::uint32_t pins);
-  void drive_data();
+  void drive_pins(std::uint32_t pins);
 
   double clock_tolerance_ppm_;
   std::unique_ptr<BoundClock> clock_;  ///< only while CLK is bound

@@ -52,8 +52,10 @@ void TlmModule::start_of_simulation() {
     OptionalOut& port;
   } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbrts, PBRTS},
                {Pin::kPbtxd, PBTXD}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
-  for (const auto& wire : wires)
+  for (const auto& wire : wires) {
+    connect(wire.pin, wire.port);
     if (wire.port.size() > 0) bound_ |= mask(wire.pin);
+  }
   std::uint32_t watched = bound_ | mask(Pin::kPbtxd) | mask(Pin::kPbrts);
   if (on_pin) watched |= observed_;
   const bool told = on_pin && (observed_ & mask(Pin::kPbtxd)) != 0 && !on_answer;
@@ -61,8 +63,9 @@ void TlmModule::start_of_simulation() {
   watch(watched);
 }
 
-void TlmModule::sync() {
+void TlmModule::sync(const sc_core::sc_time& ahead) {
   if (is_in_core()) return;
+  if (ahead > sc_core::SC_ZERO_TIME) advance(chip_tick(to_tick(sc_core::sc_time_stamp() + ahead)));
   catch_up();
   plan();
 }
@@ -74,6 +77,11 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
   const tlm::tlm_response_status judgement = judge(payload);
   if (judgement != tlm::TLM_OK_RESPONSE) {
     payload.set_response_status(judgement);
+    return;
+  }
+  if (const auto* extension = payload.get_extension<AccessTimingExtension>();
+      extension != nullptr && extension->ahead) {
+    carry_out_ahead(payload, delay);
     return;
   }
   // The chip lives in simulation time: an initiator that runs ahead of it (quantum) is brought back to it here.
@@ -88,6 +96,32 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
     throw;
   }
   host_bus_.unlock();
+}
+
+/// Until the end of the access the kernel has nothing to do and the user owns the DPRAM, so that nobody can tell when
+/// it was carried out; the core is ahead of simulation time then, and whatever comes next finds it at the tick it is
+/// at.
+void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
+  payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+  if (payload.get_data_length() != 1 || !is_enabled(payload, 0)) return;
+  unsigned char& byte = *payload.get_data_ptr();
+  const auto address = static_cast<std::uint16_t>(payload.get_address());
+  const HostAccess& access = maker_.make(payload.is_write(), address, byte, timing_of(payload));
+  const Tick begin = to_tick(sc_core::sc_time_stamp() + delay), end = begin + access.duration();
+  Level sampled = kLevelX;
+  if (!is_alone(begin, end) || !ChipModule::carry_out(chip_tick(begin), access, sampled)) return;
+  plan(chip_now(), chip().next_seen());  // that a write settles is no event of its own
+  delay = time_until(end);
+  if (payload.is_read() && sampled >= 0) byte = static_cast<unsigned char>(sampled);
+  payload.set_response_status(payload.is_write() || sampled >= 0 ? tlm::TLM_OK_RESPONSE
+                                                                 : tlm::TLM_GENERIC_ERROR_RESPONSE);
+}
+
+bool TlmModule::is_alone(Tick begin, Tick end) {
+  if (hears_host() || !R_REQ.read() || !R_STA.read() || chip_tick(begin) < chip().now()) return false;
+  if (!kernel_is_quiet(end) || host_bus_.trylock() != 0) return false;
+  host_bus_.unlock();
+  return true;
 }
 
 void TlmModule::carry_out(Payload& payload) {
@@ -168,8 +202,7 @@ void TlmModule::move_access(Tick now) {
 
 void TlmModule::wait_until(Tick tick) {
   plan();
-  const sc_core::sc_time until = to_time(tick);
-  if (until > sc_core::sc_time_stamp()) wait(until - sc_core::sc_time_stamp());
+  if (const sc_core::sc_time rest = time_until(tick); rest > sc_core::SC_ZERO_TIME) wait(rest);
   catch_up();
 }
 
@@ -192,12 +225,13 @@ unsigned int TlmModule::transport_dbg(Payload& payload) {
 // ------------------------------------------------------------------------------------------------------ pins and core
 
 void TlmModule::evaluate() {
-  catch_up();
-  drive_outputs();
-  plan();
+  const Tick now = catch_up();
+  drive(take_changed());
+  plan(now, chip().next_event());
 }
 
-void TlmModule::catch_up() {
+/// Up to the present tick, which it returns.
+Tick TlmModule::catch_up() {
   const Tick now = chip_now();
   move_access(now);
   advance(now);
@@ -206,40 +240,35 @@ void TlmModule::catch_up() {
   apply_inputs(now);
   if (chip().left_run()) stop_run(now);
   collect_character(now);
-  emit_characters();
+  if (!complete_.empty()) emit_characters();
+  return now;
 }
 
 /// The core knows another level: a run was left in the middle of a character, and PBRXD has been high all the time.
-bool TlmModule::line_is_stale() const {
-  return !in_run(chip_now()) && chip().level(Pin::kPbrxd) != Level{line_level()};
+bool TlmModule::line_is_stale(Tick now) const {
+  return !in_run(now) && chip().level(Pin::kPbrxd) != Level{line_level()};
 }
 
 void TlmModule::apply_inputs(Tick now) {
-  set(now, Pin::kRReq, R_REQ.read());
-  set(now, Pin::kRSta, R_STA.read());
-  set(now, Pin::kReset, RESET.read());
+  apply(now, Pin::kRReq, R_REQ.read());
+  apply(now, Pin::kRSta, R_STA.read());
+  apply(now, Pin::kReset, RESET.read());
 }
 
-void TlmModule::drive_outputs() {
-  const struct {
-    Pin pin;
-    OptionalOut& port;
-  } wires[] = {{Pin::kLReq, L_REQ},  {Pin::kLSta, L_STA}, {Pin::kIntr0, INTR0}, {Pin::kPbtxd, PBTXD},
-               {Pin::kPbrts, PBRTS}, {Pin::kPbf, PBF},    {Pin::kBr, BR},       {Pin::kReady, READY}};
-  const std::uint32_t pins = take_changed() & bound_;
-  if (pins == 0) return;
-  for (const auto& wire : wires)
-    if ((pins & mask(wire.pin)) != 0) wire.port->write(chip().level(wire.pin) != 0);
+void TlmModule::apply(Tick now, Pin pin, bool level) {
+  if (((applied_ & mask(pin)) != 0) == level) return;
+  applied_ ^= mask(pin);
+  set(now, pin, level);
 }
 
 /// Signals are written by `evaluate` only (SystemC allows one writer), characters for now take effect in the next delta
 /// cycle.
-void TlmModule::plan() {
+void TlmModule::plan(Tick now, Tick core) {
   const Tick line = std::min(to_chip_.next(), runs_.empty() ? profibus::kNever : runs_.front().start);
-  if (has_changed(bound_) || line <= chip_now() || line_is_stale())
+  if (has_changed(bound_) || line <= now || line_is_stale(now))
     schedule_now();
   else
-    schedule(std::min({line, from_chip_.next(), next_answered()}));
+    schedule(now, std::min({core, line, from_chip_.next(), next_answered()}));
 }
 
 }  // namespace dsdpv1::systemc

@@ -30,13 +30,17 @@ using dsdpv1::AccessTiming;
 using dsdpv1::HostAccess;
 using dsdpv1::HostAccessMaker;
 
-/// Gives one transaction another timing than TlmOptions::access. A payload frees the extensions that it still has in
-/// the end: clear one that is not on the heap.
+/// Gives one transaction another timing than TlmOptions::access, and makes it one of a decoupled initiator. A payload
+/// frees the extensions that it still has in the end: clear one that is not on the heap.
 struct AccessTimingExtension : tlm::tlm_extension<AccessTimingExtension> {
   AccessTiming timing;
+  /// b_transport does not wait: it carries the access out ahead of simulation time, at the annotated delay, which it
+  /// moves on to the end of the access. Where that would come to something else than waiting, nothing is done and the
+  /// response is TLM_INCOMPLETE_RESPONSE. The chip is in that future then: inputs that are moved before are seen there.
+  bool ahead = false;
   tlm::tlm_extension_base* clone() const override { return new AccessTimingExtension(*this); }
   void copy_from(const tlm::tlm_extension_base& other) override {
-    timing = static_cast<const AccessTimingExtension&>(other).timing;
+    *this = static_cast<const AccessTimingExtension&>(other);
   }
 };
 
@@ -128,8 +132,9 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   bool in_access() const { return access_.size() > 0; }
 
   /// Brings the core to the present time; signals follow in the next delta cycle. For users that read levels through
-  /// `chip()`. Does nothing when called from `on_pin` or `on_event`: the core is on its way then.
-  void sync();
+  /// `chip()`. Does nothing when called from `on_pin` or `on_event`: the core is on its way then. `ahead`: to so much
+  /// later, for a decoupled initiator; the kernel must be quiet until then.
+  void sync(const sc_core::sc_time& ahead = sc_core::SC_ZERO_TIME);
 
  private:
   using Payload = tlm::tlm_generic_payload;
@@ -139,6 +144,8 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   void b_transport(Payload& payload, sc_core::sc_time& delay);
   unsigned int transport_dbg(Payload& payload);
 
+  void carry_out_ahead(Payload& payload, sc_core::sc_time& delay);
+  bool is_alone(Tick begin, Tick end);
   void carry_out(Payload& payload);
   const AccessTiming& timing_of(const Payload& payload) const;
   bool read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte);
@@ -149,19 +156,21 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   void wait_until(Tick tick);
 
   void evaluate();
-  void catch_up();
+  Tick catch_up();
   void apply_line(Tick now);
   bool hears_host() const { return on_pin && (observed_ & kHostPins) != 0; }
   bool tells_runs() const { return !on_pin || (observed_ & mask(Pin::kPbrxd)) == 0; }
   bool in_run(Tick now) const { return now < run_end_; }
   bool line_level() const { return characters_level_ && (PBRXD.size() == 0 || PBRXD->read()); }
-  bool line_is_stale() const;
+  bool line_is_stale(Tick now) const;
   void begin_run(Tick now);
   void stop_run(Tick now);
   void spell_out(const LineRun& run, Tick behind);
   void apply_inputs(Tick now);
-  void drive_outputs();
-  void plan();
+  void apply(Tick now, Pin pin, bool level);
+  void plan() { plan(chip_now(), chip().next_event()); }
+  /// `core`: when that is to be evaluated next.
+  void plan(Tick now, Tick core);
 
   bool output_changed(Tick at, Pin pin, Level level) override;
   void txd_changed(Tick at, bool level);
@@ -180,6 +189,7 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
 
   AccessTiming timing_;
   std::uint32_t observed_, bound_ = 0;  ///< pins
+  std::uint32_t applied_ = 0;           ///< of RESET, R_REQ, R_STA those that the core knows as high
   sc_core::sc_mutex host_bus_;          ///< accesses of several initiators follow each other
   HostAccessMaker maker_;
   Tick access_start_ = 0;    ///< simulation tick of the running access' first edge

@@ -186,6 +186,7 @@ Tick TlmModule::bit_time() const {
 }
 
 void TlmModule::collect_character(Tick now) {
+  if (now < std::min(from_chip_.next(), next_answered())) return;
   if (const auto character = from_chip_.take(now)) complete_.push_back(*character);
   for (; next_answered() <= now; ++answered_)
     complete_.push_back({answer_.character(answered_), answer_.bit, answer_.bytes[answered_], true, true});

@@ -9,6 +9,12 @@ namespace {
 
 constexpr std::uint64_t kFsPerThreeTicks = 250'000;
 
+std::uint64_t femtoseconds(Tick tick) {
+  const auto count = static_cast<std::uint64_t>(tick);
+  const std::uint64_t rest = (count % 3 * kFsPerThreeTicks + 1) / 3;  // thirds of a femtosecond, rounded
+  return count / 3 * kFsPerThreeTicks + rest;
+}
+
 /// Asking SystemC for its resolution fixes it, so this is for after an attempt to set it.
 bool resolution_is_femtosecond() { return sc_core::sc_get_time_resolution().to_seconds() < 2e-15; }
 
@@ -26,17 +32,20 @@ void try_to_set_resolution() {
 
 }  // namespace
 
-sc_core::sc_time to_time(Tick tick) {
-  const auto count = static_cast<std::uint64_t>(tick);
-  const std::uint64_t rest = (count % 3 * kFsPerThreeTicks + 1) / 3;  // thirds of a femtosecond, rounded
-  return sc_core::sc_time::from_value(count / 3 * kFsPerThreeTicks + rest);
-}
+sc_core::sc_time to_time(Tick tick) { return sc_core::sc_time::from_value(femtoseconds(tick)); }
 
 Tick to_tick(const sc_core::sc_time& time) {
   const std::uint64_t fs = time.value();
   const std::uint64_t rest = (fs % kFsPerThreeTicks * 3 + kFsPerThreeTicks / 2) / kFsPerThreeTicks;
   return static_cast<Tick>(fs / kFsPerThreeTicks * 3 + rest);
 }
+
+sc_core::sc_time time_until(Tick tick) {
+  const std::uint64_t time = femtoseconds(tick), now = sc_core::sc_time_stamp().value();
+  return sc_core::sc_time::from_value(time > now ? time - now : 0);
+}
+
+bool kernel_is_quiet(Tick tick) { return sc_core::sc_time_to_pending_activity() > time_until(tick); }
 
 void require_femtoseconds() {
   announce_main_stack_at_exit();  // here, as every program with a simulation comes by

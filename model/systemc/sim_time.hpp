@@ -20,6 +20,13 @@ Tick to_tick(const sc_core::sc_time& time);
 /// The tick nearest to the present simulation time.
 inline Tick current_tick() { return to_tick(sc_core::sc_time_stamp()); }
 
+/// From the present simulation time to `tick`, zero when that is over.
+sc_core::sc_time time_until(Tick tick);
+
+/// But for the process that asks, the kernel has nothing to do up to and including `tick`: no process to run, no signal
+/// to update, no event to notify.
+bool kernel_is_quiet(Tick tick);
+
 /// Makes 1 fs the time resolution of the simulation. Reports the error /dsdpv1/time_resolution (which SystemC throws as
 /// sc_core::sc_report) when another one is fixed already, because an sc_time was made before. Every module of this
 /// library calls it when it is constructed; a program that makes an sc_time or sc_clock earlier calls it first in

@@ -12,8 +12,6 @@ constexpr bus::Tick kFarthest = 100 * bus::kTicksPerUs;
 
 }  // namespace
 
-using dsdpv1::systemc::to_time;
-
 TimelineModule::TimelineModule(const sc_core::sc_module_name& name, bus::Timeline& timeline)
     : sc_module(name), timeline_(timeline) {
   dsdpv1::systemc::require_femtoseconds();
@@ -28,17 +26,45 @@ void TimelineModule::run() {
       sleep(due);
       continue;
     }
-    wait(sc_core::SC_ZERO_TIME);  // every process that this time has woken goes first
-    if (on_turn) on_turn();
-    timeline_.run_until(dsdpv1::systemc::current_tick());
+    if (sc_core::sc_pending_activity_at_current_time())
+      wait(sc_core::SC_ZERO_TIME);  // every process that this time has woken goes first
+    follow_accesses();
+    in_turn_ = true;
+    while (timeline_.next() <= dsdpv1::systemc::current_tick()) timeline_.step(limit);
+    in_turn_ = false;
   }
+}
+
+bool TimelineModule::in_access() const {
+  return std::any_of(
+      chips_.begin(), chips_.end(), [](const auto* chip) { return chip->in_access(); });
+}
+
+void TimelineModule::follow_accesses() {
+  for (dsdpv1::systemc::TlmModule* chip : chips_)
+    if (chip->in_access()) chip->sync();
+}
+
+bool TimelineModule::quiet(const bus::Agent& agent, bus::Tick tick) {
+  return !in_access() && dsdpv1::systemc::kernel_is_quiet(tick) && timeline_.quiet(agent, tick);
+}
+
+bool TimelineModule::go_on(const bus::Agent& agent, bus::Tick tick) {
+  return !in_access() && dsdpv1::systemc::kernel_is_quiet(tick) && timeline_.go_on(agent, tick);
+}
+
+void TimelineModule::catch_up() {
+  if (!in_turn_ || timeline_.now() <= dsdpv1::systemc::current_tick()) return;
+  in_turn_ = false;
+  wait(dsdpv1::systemc::time_until(timeline_.now()));
+  in_turn_ = true;
 }
 
 void TimelineModule::sleep(bus::Tick due) {
   if (due == bus::kNever)
     wait(wake_);
   else
-    wait(to_time(std::min(due, dsdpv1::systemc::current_tick() + kFarthest)) - sc_core::sc_time_stamp(), wake_);
+    wait(dsdpv1::systemc::time_until(std::min(due, dsdpv1::systemc::current_tick() + kFarthest)), wake_);
 }
 
 }  // namespace systemc_bench

@@ -1,10 +1,11 @@
 #pragma once
 // Runs a bus::Timeline (masters, user CPUs, scripts) inside a SystemC simulation, so that they and chips in SystemC
 // views share time.
-#include <functional>
 #include <systemc>
+#include <vector>
 
 #include "bus/timeline.hpp"
+#include "model/systemc/dsdpv1_tlm.hpp"
 
 namespace systemc_bench {
 
@@ -16,8 +17,20 @@ class TimelineModule : public sc_core::sc_module {
   /// `timeline` must outlive the simulation; nobody else runs it.
   TimelineModule(const sc_core::sc_module_name& name, bus::Timeline& timeline);
 
-  /// Called before the agents act: brings what keeps a time of its own up to the present.
-  std::function<void()> on_turn;
+  /// A chip on the timeline, for the whole of its life. What an access under way has done is told before agents act.
+  void add(dsdpv1::systemc::TlmModule& chip) { chips_.push_back(&chip); }
+
+  /// The last tick to which an agent's turn may go on (Timeline::go_on).
+  bus::Tick limit = bus::kNever;
+
+  /// As bus::Timeline has them: neither an agent nor the kernel does anything until then. The agent, and what it calls
+  /// with the timeline's time, is ahead of simulation time from then on.
+  bool quiet(const bus::Agent& agent, bus::Tick tick);
+  bool go_on(const bus::Agent& agent, bus::Tick tick);
+  /// By how much the timeline is ahead of simulation time.
+  sc_core::sc_time ahead() const { return dsdpv1::systemc::time_until(timeline_.now()); }
+  /// Simulation time comes up with an agent that has gone on, before it touches what lives in simulation time.
+  void catch_up();
 
   /// To be called when something other than the timeline's own agents may have changed an agent's plan (a chip drove
   /// the bus).
@@ -25,9 +38,13 @@ class TimelineModule : public sc_core::sc_module {
 
  private:
   void run();
+  bool in_access() const;
+  void follow_accesses();
   void sleep(bus::Tick due);
 
   bus::Timeline& timeline_;
+  std::vector<dsdpv1::systemc::TlmModule*> chips_;
+  bool in_turn_ = false;  ///< an agent acts, none of the kernel's processes
   sc_core::sc_event wake_{"wake"};
 };
 

@@ -70,8 +70,9 @@ WAVE = (*OFF, "--wave", "demo.fst")
 PROFILED = {"demo": (DEMO, *OFF), "demo_full": (DEMO, *FULL), "demo_tlm": (DEMO, *TLM), "1m5": ("1m5", *OFF), "slaves_32": ("slaves_32", *OFF),
             "slaves_125": ("slaves_125", *OFF), "arm": ("arm_board_12m", *OFF)}  # row to the run whose time is looked into
 RTL, SYSTEMC = ("bench_rtl",), ("bench_systemc",)
-TLM_LIMIT = ("The view `pins` of the bench needs no SystemC; in the TLM view each access of the user CPU is a transaction, for which the kernel makes "
-             "three events and switches between two threads.")
+TLM_LIMIT = ("The view `pins` of the bench needs no SystemC. In the TLM view accesses of the user CPU run ahead of the kernel, but for one in fourteen, during "
+             "which the chip or an agent does something. Each event of the chip, though, is an event and a process of the kernel, what agents do "
+             "between them takes a switch to their thread, and whether the kernel has nothing to do is asked three times an access.")
 SLAVES_LIMIT = ("Each telegram is told to every station, and all user CPUs exchange their data in the same microseconds, so that their accesses, unlike "
                 "those of one slave, take turns edge by edge.")
 
@@ -95,10 +96,12 @@ ROWS = (
         limit="An event of SystemC for each character of the answer, which `bus_out` tells at its end."),
     Row("systemc_tlm_handshake", 5, TIMES, "The same with L_REQ and L_STA bound, as a user who accesses the DPRAM needs them.",
         in_program("bench_systemc", "systemc_tlm_handshake"), SYSTEMC,
-        limit="L_REQ and L_STA change twice a microsecond: a timed event, a process and two signals of SystemC each time."),
+        limit="L_REQ and L_STA change twice a microsecond: a timed event, a process and two signals of SystemC each time, which are nearly half of the "
+              "instructions. Kernel and core together are two thirds: a module that took none would make it half as fast again."),
     Row("systemc_pins", 2, TIMES, "The pin module in a SystemC platform, all pins bound, the same exchanges edge by edge.",
         in_program("bench_systemc", "systemc_pins"), SYSTEMC,
-        limit="The kernel: kernel_pins is what remains when nobody computes anything."),
+        limit="The kernel: kernel_pins is what remains when nobody computes anything. More than half of the instructions are the kernel's, and each change "
+              "of PBRXD calls one process more than in kernel_pins."),
     Row("kernel_pins", None, TIMES, "The SystemC kernel alone: the same changes of the same signals as in systemc_pins, replayed, nobody behind them.",
         in_program("bench_systemc", "kernel_pins"), SYSTEMC),
     of_sim("1m5", 30, "A slave with 32 bytes each way at 1.5 Mbit/s; its user CPU exchanges data every millisecond. Checks off.",

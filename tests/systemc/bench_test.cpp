@@ -1,23 +1,26 @@
 // A user CPU with the C driver brings two chips up: one by its pins in a plain timeline, one through the TLM socket
-// inside of SystemC. Both must do the same at the same ticks. A third CPU is reset in the middle of an access.
+// inside of SystemC. Both must do the same at the same ticks. Then one that runs ahead of simulation time does it once
+// more. Another CPU is reset in the middle of an access.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <optional>
 
 #include "bus/timeline.hpp"
-#include "tb/systemc/timeline_module.hpp"
 #include "tb/dsdpv1/systemc/tlm_chip.hpp"
 #include "tb/dsdpv1/systemc/tlm_host_bus.hpp"
 #include "tb/dsdpv1/user_cpu/native_cpu.hpp"
 #include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
 #include "tb/dsdpv1/user_cpu/programs.hpp"
+#include "tb/systemc/timeline_module.hpp"
 #include "tests/systemc/bench.hpp"
 #include "tests/user_cpu/chip_agent.hpp"
 
 using dsdpv1::Level;
 using dsdpv1::Pin;
 using dsdpv1::Tick;
+using dsdpv1::systemc::TlmOptions;
 using user_cpu::NativeCpu;
 using user_cpu::UserProgram;
 
@@ -25,12 +28,15 @@ namespace {
 
 constexpr Tick kReset = 1'007, kEnd = 2000 * kUs, kAbortAt = 200 * kUs, kAbort = kAbortAt + 700;
 
-user_cpu::ProgramOptions options() {
-  user_cpu::ProgramOptions options;
-  options.station.max_cfg = DSDPV1_MAX_CFG;
-  options.inputs = user_cpu::InputSource::kCount;
-  options.start_delay = 2 * kReset;  // sooner, and he holds off the chip's start-up (H6)
-  return options;
+const user_cpu::ProgramOptions& options() {
+  static const user_cpu::ProgramOptions kOptions = [] {
+    user_cpu::ProgramOptions options;
+    options.station.max_cfg = DSDPV1_MAX_CFG;
+    options.inputs = user_cpu::InputSource::kCount;
+    options.start_delay = 2 * kReset;  // sooner, and he holds off the chip's start-up (H6)
+    return options;
+  }();
+  return kOptions;
 }
 
 /// An action at one tick.
@@ -78,6 +84,48 @@ struct PinRun {
   }
 };
 
+/// Who hears the host's pins wants each edge of an access at its time.
+TlmOptions without_host_pins() {
+  TlmOptions options;
+  options.observed = dsdpv1::kOutputPins & ~dsdpv1::mask(Pin::kDOut);
+  return options;
+}
+
+Changes without_data(const Changes& all) {
+  Changes some;
+  for (const Change& change : all)
+    if (change.pin != Pin::kDOut) some.push_back(change);
+  return some;
+}
+
+/// From kEnd on, when nobody else does anything any more.
+struct DecoupledRun : private user_cpu::Others {
+  bus::Timeline& timeline;
+  systemc_bench::TimelineModule& timeline_module;
+  systemc_bench::TlmChip chip;
+  user_cpu::TlmHostBus host{"decoupled_host", chip};
+  Once reset{kEnd + kReset, [this] { chip.set_reset(true); }};
+  UserProgram program{options()};
+  NativeCpu cpu{host, {}, program.entry(), kEnd};
+  Changes changes;
+  std::size_t begun_ahead = 0;
+
+  DecoupledRun(bus::Timeline& time, systemc_bench::TimelineModule& module, bus::Segment& segment)
+      : timeline(time), timeline_module(module), chip("decoupled", without_host_pins(), segment, module) {
+    cpu.others = this;
+    host.on_begin = [this](Tick at, const user_cpu::Access&, Tick) {
+      if (at > dsdpv1::systemc::current_tick()) ++begun_ahead;
+    };
+    chip.on_pin = [this](Tick at, Pin pin, Level level) {
+      if (!is_input(pin)) changes.push_back({at - kEnd, pin, level});
+    };
+  }
+
+ private:
+  bool quiet(Tick tick) override { return timeline_module.quiet(cpu, tick); }
+  bool go_on(Tick tick) override { return timeline_module.go_on(cpu, tick); }
+};
+
 struct TlmRun {
   bus::Timeline timeline;
   bus::Segment segment;
@@ -85,21 +133,33 @@ struct TlmRun {
   systemc_bench::TlmChip chip{"slave", {}, segment, timeline_module}, aborted{"aborted", {}, segment, timeline_module};
   user_cpu::TlmHostBus host{"host", chip}, aborted_host{"aborted_host", aborted};
   Once reset{kReset, [this] { chip.set_reset(true), aborted.set_reset(true); }};
-  Once begin{kAbortAt, [this] { aborted_host.begin(kAbortAt, {false, 0x000, 0}, {}); }};
+  Once begin{kAbortAt, [this] { begin_access(kAbortAt, 0x000); }};
   Once abort{kAbort, [this] { aborted_host.reset(); }};
-  Once again{kAbort + 5000, [this] { aborted_host.begin(kAbort + 5000, {false, 0x001, 0}, {}); }};
+  Once again{kAbort + 5000, [this] { begin_access(kAbort + 5000, 0x001); }};
   UserProgram program{options()};
-  NativeCpu cpu{host, {}, program.entry()};
+  std::optional<NativeCpu> cpu{std::in_place, host, user_cpu::CpuTiming(), program.entry()};
+  Once stop{kEnd + 1, [this] {
+              counters = cpu->counters();
+              cpu.reset();
+              chip.set_reset(false), aborted.set_reset(false);
+            }};
+  user_cpu::CpuCounters counters;
   Changes changes, aborted_changes;
+  DecoupledRun decoupled{timeline, timeline_module, segment};
 
   TlmRun() {
     timeline.check_announcements();
-    for (bus::Agent* agent : std::initializer_list<bus::Agent*>{&reset, &begin, &abort, &again, &cpu})
+    for (bus::Agent* agent : std::initializer_list<bus::Agent*>{&reset, &begin, &abort, &again, &stop, &*cpu,
+                                                                &decoupled.reset, &decoupled.cpu})
       timeline.add(*agent);
     chip.on_pin = [this](Tick at, Pin pin, Level level) {
-      if (!is_input(pin)) changes.push_back({at, pin, level});
+      if (!is_input(pin) && at <= kEnd) changes.push_back({at, pin, level});
     };
     aborted.on_pin = [this](Tick at, Pin pin, Level level) { aborted_changes.push_back({at, pin, level}); };
+  }
+  void begin_access(Tick at, std::uint16_t address) {
+    aborted_host.begin(at, {false, address, 0}, {});
+    aborted_host.run_edges(at);
   }
 };
 
@@ -111,7 +171,7 @@ void simulate() {
   dsdpv1::systemc::require_femtoseconds();
   collect_reports();
   tlm_run = std::make_unique<TlmRun>();
-  sc_core::sc_start(dsdpv1::systemc::to_time(kEnd));
+  sc_core::sc_start(dsdpv1::systemc::to_time(2 * kEnd));
 }
 
 namespace {
@@ -120,11 +180,22 @@ TEST(SystemcBench, TheUserCpuBehindTheSocketDoesWhatTheOneAtThePinsDoes) {
   const PinRun pins;
   EXPECT_TRUE(pins.program.initialised());
   EXPECT_TRUE(tlm_run->program.initialised());
-  EXPECT_EQ(tlm_run->cpu.counters().accesses, pins.cpu.counters().accesses);
-  EXPECT_EQ(tlm_run->cpu.counters().bad_reads, 0U);
+  EXPECT_EQ(tlm_run->counters.accesses, pins.cpu.counters().accesses);
+  EXPECT_EQ(tlm_run->counters.bad_reads, 0U);
   EXPECT_EQ(tlm_run->program.counters().exchanges, pins.program.counters().exchanges);
   EXPECT_GT(pins.core.changes.size(), 1000U);
   EXPECT_EQ(tlm_run->changes, pins.core.changes);
+}
+
+TEST(SystemcBench, AUserCpuThatRunsAheadOfSimulationTimeDoesTheSame) {
+  const PinRun pins;
+  const DecoupledRun& decoupled = tlm_run->decoupled;
+  EXPECT_TRUE(decoupled.program.initialised());
+  EXPECT_GT(decoupled.begun_ahead, decoupled.cpu.counters().accesses / 2);
+  EXPECT_EQ(decoupled.cpu.counters().accesses, pins.cpu.counters().accesses);
+  EXPECT_EQ(decoupled.cpu.counters().bad_reads, 0U);
+  EXPECT_EQ(decoupled.program.counters().exchanges, pins.program.counters().exchanges);
+  EXPECT_EQ(decoupled.changes, without_data(pins.core.changes));
 }
 
 TEST(SystemcBench, AResetOfTheUserCpuReleasesThePinsAtOnce) {

@@ -15,6 +15,7 @@ TlmChip::TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::Tlm
       module_("chip", options),
       station_(segment.attach(sc_module::name(), this)),
       shows_txd_((options.observed & dsdpv1::mask(Pin::kPbtxd)) != 0) {
+  timeline_.add(module_);
   module_.RESET(reset_);
   module_.R_REQ(r_req_);
   module_.R_STA(r_sta_);
@@ -27,15 +28,27 @@ TlmChip::TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::Tlm
   };
 }
 
-void TlmChip::line_changed(bus::Tick /*at*/, bool level) { rxd_.write(level); }
+void TlmChip::move(HandshakePin& pin, bool level) {
+  pin.set(level);
+  module_.sync(timeline_.ahead());
+}
+
+void TlmChip::write(Signal& signal, bool level) {
+  timeline_.catch_up();
+  signal.write(level);
+}
+
+void TlmChip::line_changed(bus::Tick /*at*/, bool level) { write(rxd_, level); }
 
 bool TlmChip::run_begins(const bus::CharacterRun& run) {
   if (own_run_) return true;  // while it sends, it does not listen
   if (run.bit % bus::kTicksPerCycle != 0) return false;
+  timeline_.catch_up();
   return module_.hear_run({run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
 }
 
 void TlmChip::run_cut(bus::Tick /*at*/, bool level) {
+  timeline_.catch_up();
   if (std::exchange(hides_txd_, false)) {
     module_.show_txd();
     drives_ = level;

@@ -7,6 +7,7 @@
 
 #include "bus/wire/segment.hpp"
 #include "model/systemc/dsdpv1_tlm.hpp"
+#include "tb/dsdpv1/systemc/handshake_pin.hpp"
 #include "tb/systemc/timeline_module.hpp"
 
 namespace systemc_bench {
@@ -24,10 +25,10 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
   const dsdpv1::systemc::TlmModule& module() const { return module_; }
   bus::StationId station() const { return station_; }
 
-  /// Pins that the bench drives, at the present time only.
-  void set_reset(bool level) { reset_.write(level); }
-  void set_r_req(bool level) { r_req_.write(level); }
-  void set_r_sta(bool level) { r_sta_.write(level); }
+  /// Pins that the bench drives, at the timeline's present time only.
+  void set_reset(bool level) { write(reset_, level); }
+  void set_r_req(bool level) { move(r_req_, level); }
+  void set_r_sta(bool level) { move(r_sta_, level); }
 
   /// Every pin change, as ChipModule::on_pin. Set before the simulation starts.
   std::function<void(bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level)> on_pin;
@@ -35,6 +36,8 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
  private:
   using Signal = sc_core::sc_signal<bool, sc_core::SC_MANY_WRITERS>;  // the timeline's thread and the chip's process
 
+  void move(HandshakePin& pin, bool level);
+  void write(Signal& signal, bool level);
   void line_changed(bus::Tick at, bool level) override;
   bool run_begins(const bus::CharacterRun& run) override;
   void run_cut(bus::Tick at, bool level) override;
@@ -44,7 +47,8 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
   bus::Segment& segment_;
   TimelineModule& timeline_;
   dsdpv1::systemc::TlmModule module_;
-  Signal reset_{"reset"}, r_req_{"r_req"}, r_sta_{"r_sta"}, rxd_{"rxd", true};
+  Signal reset_{"reset"}, rxd_{"rxd", true};
+  HandshakePin r_req_{"r_req"}, r_sta_{"r_sta"};
   bus::StationId station_;
   bool enabled_ = false, drives_ = true;
   bool own_run_ = false, hides_txd_ = false;

@@ -52,11 +52,7 @@ class TlmChipView : public Dsdpv1View {
   user_cpu::HostBus& host_bus() override { return bus_; }
   bus::StationId station() const override { return chip_.station(); }
   const dsdpv1::Chip& core() const override { return chip_.module().chip(); }
-  void sync(Tick) override { chip_.module().sync(); }
-  /// What an access under way has done up to now is told before others act.
-  void follow_access() {
-    if (chip_.module().in_access()) chip_.module().sync();
-  }
+  void sync(Tick now) override { chip_.module().sync(dsdpv1::systemc::time_until(now)); }
 
  private:
   systemc_bench::TlmChip chip_;
@@ -73,15 +69,14 @@ class TlmExecution : public Execution {
     options.chip = config_of(request);
     options.report_violations = false;  // the bench reports them
     options.observed = request.watched | dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kPbrts);
-    auto chip = std::make_unique<TlmChipView>(request.name, options, request.watched, segment_, module_);
-    module_.on_turn = [earlier = std::move(module_.on_turn), view = chip.get()] {
-      if (earlier) earlier();
-      view->follow_access();
-    };
-    return chip;
+    return std::make_unique<TlmChipView>(request.name, options, request.watched, segment_, module_);
   }
 
+  bool quiet(const bus::Agent& agent, Tick tick) override { return module_.quiet(agent, tick); }
+  bool go_on(const bus::Agent& agent, Tick tick) override { return module_.go_on(agent, tick); }
+
   void run(Tick end, const std::function<bool()>& stopped) override {
+    module_.limit = end;
     // In slices, so that a stop takes effect; the last one ends a tick behind `end`, which SystemC itself would leave
     // out.
     constexpr Tick kSlice = bus::kTicksPerMs;

@@ -16,7 +16,7 @@ TlmHostBus::TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmCh
 }
 
 void TlmHostBus::reset() {
-  running_ = false;
+  state_ = State::kIdle;
   start_.cancel();
   chip_.set_r_req(false);
   chip_.set_r_sta(false);
@@ -33,19 +33,19 @@ void TlmHostBus::set_r_sta(Tick at, bool level) {
   chip_.set_r_sta(level);
 }
 
-bool TlmHostBus::l_req(Tick /*at*/) { return is_high(dsdpv1::Pin::kLReq); }
+bool TlmHostBus::l_req(Tick at) { return is_high(at, dsdpv1::Pin::kLReq); }
 
-bool TlmHostBus::l_sta(Tick /*at*/) { return is_high(dsdpv1::Pin::kLSta); }
+bool TlmHostBus::l_sta(Tick at) { return is_high(at, dsdpv1::Pin::kLSta); }
 
-bool TlmHostBus::intr0(Tick /*at*/) { return is_high(dsdpv1::Pin::kIntr0); }
+bool TlmHostBus::intr0(Tick at) { return is_high(at, dsdpv1::Pin::kIntr0); }
 
-unsigned TlmHostBus::lamps(Tick /*at*/) {
-  const auto bit = [this](dsdpv1::Pin pin) { return static_cast<unsigned>(is_high(pin)); };
+unsigned TlmHostBus::lamps(Tick at) {
+  const auto bit = [&](dsdpv1::Pin pin) { return static_cast<unsigned>(is_high(at, pin)); };
   return bit(dsdpv1::Pin::kPbf) | bit(dsdpv1::Pin::kBr) << 1U | bit(dsdpv1::Pin::kReady) << 2U;
 }
 
-bool TlmHostBus::is_high(dsdpv1::Pin pin) {
-  chip_.module().sync();
+bool TlmHostBus::is_high(Tick at, dsdpv1::Pin pin) {
+  chip_.module().sync(dsdpv1::systemc::time_until(at));
   return chip_.module().chip().level(pin) == 1;
 }
 
@@ -53,32 +53,52 @@ void TlmHostBus::begin(Tick at, const Access& access, const AccessTiming& timing
   access_ = access;
   timing_->timing = timing;
   const dsdpv1::HostAccess& edges = maker_.make(access.write, access.address, access.value, timing);
+  begin_ = at;
   end_ = at + edges.duration();
+  state_ = State::kBegun;
   if (on_begin) on_begin(at, access, at + edges.sample());
-  running_ = true;
-  const Tick now = dsdpv1::systemc::current_tick();
-  if (at > now)
-    start_.notify(dsdpv1::systemc::to_time(at) - sc_core::sc_time_stamp());
-  else
-    start_.notify(sc_core::SC_ZERO_TIME);  // after the handshake pins that were set just now
 }
 
-void TlmHostBus::run_edges(Tick /*now*/) { running_ = false; }
+Tick TlmHostBus::next_edge() const {
+  if (state_ == State::kIdle) return bus::kNever;
+  return state_ == State::kBegun ? begin_ : end_;
+}
+
+void TlmHostBus::run_edges(Tick until) {
+  if (state_ == State::kRunning || (until >= end_ && run_ahead())) {
+    state_ = State::kIdle;
+    return;
+  }
+  state_ = State::kRunning;
+  start_.notify(dsdpv1::systemc::time_until(begin_));  // at least a delta cycle later
+}
+
+bool TlmHostBus::run_ahead() {
+  sc_core::sc_time delay = dsdpv1::systemc::time_until(begin_);
+  timing_->ahead = true;
+  transport(delay);
+  timing_->ahead = false;
+  return payload_.get_response_status() != tlm::TLM_INCOMPLETE_RESPONSE;
+}
 
 void TlmHostBus::initiate() {
   for (;;) {
     wait(start_);
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-    std::uint8_t byte = access_.write ? access_.value : std::uint8_t{0xFF};
-    payload_.set_command(access_.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
-    payload_.set_address(access_.address);
-    payload_.set_data_ptr(&byte);
-    socket_->b_transport(payload_, delay);
-    if (!access_.write) {
-      value_ = byte;
-      bad_ = payload_.is_response_error();
-    }
+    transport(delay);
   }
+}
+
+void TlmHostBus::transport(sc_core::sc_time& delay) {
+  std::uint8_t byte = access_.write ? access_.value : std::uint8_t{0xFF};
+  payload_.set_command(access_.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
+  payload_.set_address(access_.address);
+  payload_.set_data_ptr(&byte);
+  payload_.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+  socket_->b_transport(payload_, delay);
+  if (access_.write) return;
+  value_ = byte;
+  bad_ = payload_.is_response_error();
 }
 
 }  // namespace user_cpu

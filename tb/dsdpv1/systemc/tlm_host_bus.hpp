@@ -2,6 +2,7 @@
 // The HostBus on the TLM socket of a chip in SystemC.
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include <cstdint>
 #include <functional>
 #include <systemc>
 
@@ -10,9 +11,10 @@
 
 namespace user_cpu {
 
-/// An access is one transaction, carried out by a thread of its own so that the timeline goes on meanwhile. The module
-/// moves the same pins at the same ticks as PinHostBus does. The one edge of an access is its end, where the result is
-/// there.
+/// An access is one transaction. It has two edges: the first begins it, at the second its result is there. As long as
+/// nobody else has a turn until then it is carried out ahead of simulation time, in the timeline's thread; otherwise by
+/// a thread of its own, so that the timeline goes on meanwhile. The module moves the same pins at the same ticks as
+/// PinHostBus does.
 class TlmHostBus : public sc_core::sc_module, public HostBus {
  public:
   TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip);
@@ -32,15 +34,19 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
   bool intr0(Tick at) override;
   unsigned lamps(Tick at) override;
   void begin(Tick at, const Access& access, const AccessTiming& timing) override;
-  Tick next_edge() const override { return running_ ? end_ : bus::kNever; }
-  void run_edges(Tick now) override;
+  Tick next_edge() const override;
+  void run_edges(Tick until) override;
   Tick end() const override { return end_; }
   std::uint8_t read_value() const override { return value_; }
   bool last_read_was_bad() const override { return bad_; }
 
  private:
+  enum class State : std::uint8_t { kIdle, kBegun, kRunning };
+
   void initiate();
-  bool is_high(dsdpv1::Pin pin);
+  bool run_ahead();
+  void transport(sc_core::sc_time& delay);
+  bool is_high(Tick at, dsdpv1::Pin pin);
 
   systemc_bench::TlmChip& chip_;
   tlm_utils::simple_initiator_socket<TlmHostBus> socket_{"socket"};
@@ -50,8 +56,8 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
   tlm::tlm_generic_payload payload_;
   dsdpv1::systemc::AccessTimingExtension* timing_ = new dsdpv1::systemc::AccessTimingExtension;  ///< owned by payload_
   dsdpv1::HostAccessMaker maker_;
-  bool running_ = false;
-  Tick end_ = 0;
+  State state_ = State::kIdle;
+  Tick begin_ = 0, end_ = 0;
   std::uint8_t value_ = 0xFF;
   bool bad_ = false;
 };
