@@ -10,6 +10,7 @@ namespace {
 const char* const kNoPin = "no pin shows it";
 const char* const kInside = "it needs the chip's state beside the pins";
 const char* const kUsers = "it is about what the user does: docs/checks.md";
+const char* const kWithD2 = "it is judged with D2";
 const char* const kModels = "it is about the model";
 
 }  // namespace
@@ -19,7 +20,7 @@ const std::vector<Ruling>& rulings() {
       {"P1", nullptr},  {"P2", nullptr},  {"P3", nullptr},  {"P4", kNoPin},    {"P5", nullptr},  {"P6", nullptr},
       {"P7", nullptr},  {"P8", kUsers},   {"P9", nullptr},  {"P10", nullptr},  {"P11", kUsers},  {"P12", kUsers},
       {"P13", kNoPin},  {"H1", nullptr},  {"H2", nullptr},  {"H3", nullptr},   {"H4", kInside},  {"H5", nullptr},
-      {"H6", nullptr},  {"H7", kInside},  {"H8", nullptr},  {"D1", nullptr},   {"D2", nullptr},  {"D3", nullptr},
+      {"H6", nullptr},  {"H7", kInside},  {"H8", nullptr},  {"D1", nullptr},   {"D2", nullptr},  {"D3", kWithD2},
       {"D4", kInside},  {"D5", kInside},  {"D6", kInside},  {"D7", nullptr},   {"D8", kInside},  {"D9", kInside},
       {"D10", kInside}, {"D11", kInside}, {"D12", kInside}, {"D13", kInside},  {"D14", kInside}, {"D15", kInside},
       {"D16", kInside}, {"D17", kInside}, {"D18", kNoPin},  {"S1", nullptr},   {"S2", nullptr},  {"S3", nullptr},
@@ -54,7 +55,11 @@ const std::vector<ParameterRow>& parameters() {
       {Parameter::kIntrLow, "intr_low", "P7", "INTR0 low", {W::kIntr0}},
       {Parameter::kIntrGap, "intr_gap", "P7", "INTR0 high before a pulse that waited", {W::kIntr0}},
       {Parameter::kAccessInterval, "access_interval", "H1", "rises of L_REQ, the user's pins low", {W::kLReq}},
-      {Parameter::kReadyCycles, "ready_cycles", "D1", "start-up to the access that writes B004", {W::kLReq}},
+      {Parameter::kReadyCycles,
+       "ready_cycles",
+       "D1",
+       "release of RESET (R) to the access that writes B004",
+       {W::kLReq}},
       {Parameter::kSearchWindowMs,
        "search_window_ms",
        "S1",

@@ -67,16 +67,28 @@ void find_accesses(Scene& scene) {
   }
 }
 
+/// The first edge to `level` at or behind `from`; bus::kNever when there is none.
+Tick edge_behind(const Trace& trace, Tick from, bool level) {
+  const std::size_t edge = trace.next(from, level);
+  return edge == Trace::kNone ? bus::kNever : trace.edges[edge];
+}
+
+/// P5, P11: an access is where CSR and the strobe are both low. Where CSR rises before WR nothing is written.
 void find_user_accesses(Scene& scene, Wire strobe) {
   const Record& record = scene.record;
-  const Trace& trace = record[strobe];
+  const Trace &trace = record[strobe], &select = record[Wire::kCsr];
   const Tick sample =
       std::max<Tick>(1, static_cast<Tick>(scene.time.period * static_cast<double>(bus::kTicksPerCycle)));
   for (std::size_t edge = trace.next(0, false); edge + 1 < trace.edges.size(); edge += 2) {
-    const Tick start = trace.edges[edge], end = trace.edges[edge + 1], before = std::max(start, end - sample);
-    if (record[Wire::kCsr].at(before)) continue;
-    scene.user.push_back(
-        {start, end, strobe == Wire::kWr, record.address(before), static_cast<std::uint8_t>(record.data(before))});
+    const Tick fall = trace.edges[edge], rise = trace.edges[edge + 1];
+    Tick start = select.at(fall) ? edge_behind(select, fall, false) : fall;
+    for (; start < rise; start = edge_behind(select, start, false)) {
+      const Tick end = std::min(rise, edge_behind(select, start + 1, true)), before = std::max(start, end - sample);
+      if (strobe == Wire::kRd || end == rise)
+        scene.user.push_back(
+            {start, end, strobe == Wire::kWr, record.address(before), static_cast<std::uint8_t>(record.data(before))});
+      start = end;
+    }
   }
 }
 

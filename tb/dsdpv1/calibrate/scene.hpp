@@ -21,8 +21,8 @@ struct ChipAccess {
 
 /// A byte that the user read or wrote.
 struct UserAccess {
-  Tick start = 0;  ///< RD or WR falls
-  Tick end = 0;    ///< ... rises
+  Tick start = 0;  ///< the later of CSR and RD (WR) falls
+  Tick end = 0;    ///< of a read the earlier of them rises, of a write WR
   bool write = false;
   std::uint32_t address = 0;
   std::uint8_t data = 0;
