@@ -17,10 +17,12 @@ const Claim kAtOnce = {"H1",
                        {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
 const Claim kInterval = {"H1", "accesses start one interval after the other, never earlier", {Wire::kLReq}};
 const Claim kRace = {
-    "H2", "the chip starts no access later than 3 cycles after R_REQ rose", {Wire::kLReq, Wire::kRReq}};
+    "H2", "the chip starts no access later than 2 cycles after R_REQ rose", {Wire::kLReq, Wire::kRReq}};
 const Claim kEmpty = {"H3", "an access with nothing to do takes 7 cycles, none less", {Wire::kLReq}};
 const Claim kStartUpAccess = {"H6", "the start-up access takes 2054 cycles", {Wire::kLReq}};
-const Claim kOverdue = {"H8", "an overdue access starts one cycle after the end of the one before", {Wire::kLReq}};
+const Claim kOverdue = {"H8",
+                        "an overdue access starts one cycle after the end of the one before",
+                        {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
 
 std::string cycles_text(const Span& span) { return fmt::format("{:.1f} to {:.1f} cycles", span.lo, span.hi); }
 
@@ -193,7 +195,7 @@ void judge_start(const Scene& scene, std::size_t i, const Fit& interval, Found& 
   const Trace& request = scene.record[Wire::kRReq];
   if (const std::size_t rose = request.last(at, true); request.at(at) && rose != Trace::kNone) {
     const Span after = scene.time.between(request.edges[rose], at);
-    found.judge.judge(kRace, after.lo <= 3, at, "an access starts long after R_REQ rose");
+    found.judge.judge(kRace, after.lo <= 2, at, "an access starts long after R_REQ rose");
   }
   const std::optional<Tick> released = released_before(scene, at);
   if (!released || i == 0 || interval.estimate.count == 0 || is_long(scene, scene.accesses[i])) return;
@@ -216,24 +218,42 @@ void judge_user_pins(const Scene& scene, Found& found) {
 
 // --- lengths
 
-/// Most accesses find nothing to do.
-void judge_lengths(const Scene& scene, Found& found) {
+bool has_length(const Scene& scene, const ChipAccess& access) {
+  return access.whole && !is_long(scene, access) && !scene.in_reset(access.start, access.end);
+}
+
+/// None is shorter than one with nothing to do.
+void judge_shortest(const Scene& scene, Found& found) {
+  for (const ChipAccess& access : scene.accesses) {
+    if (!has_length(scene, access)) continue;
+    const Span length = scene.time.between(access.start, access.end);
+    if (length.contains(kFrame))
+      found.judge.holds(kEmpty);
+    else if (length.hi < kFrame)
+      found.judge.fails(kEmpty, access.start, "an access of " + cycles_text(length));
+  }
+}
+
+/// Most accesses find nothing to do where the user did not have the DPRAM since the one before, and no master can bring
+/// something for every third.
+void judge_share(const Scene& scene, Found& found) {
+  constexpr std::size_t kEnough = 20;
+  constexpr double kExchange = 660;  // cycles: one byte of outputs and a short answer at 12 Mbit/s, with TSDR and T_SYN
+  if (!scene.sees_user() || 3 * found.fit(Parameter::kAccessInterval).estimate.span.hi > kExchange) return;
   std::size_t empty = 0, all = 0;
   double sum = 0;
-  for (const ChipAccess& access : scene.accesses) {
-    if (!access.whole || is_long(scene, access) || scene.in_reset(access.start, access.end)) continue;
+  for (std::size_t i = 1; i < scene.accesses.size(); ++i) {
+    const ChipAccess& access = scene.accesses[i];
+    if (!has_length(scene, access) || !scene.user_lets(scene.accesses[i - 1].start, access.start)) continue;
     const Span length = scene.time.between(access.start, access.end);
     ++all;
     sum += length.middle();
     if (length.contains(kFrame)) ++empty;
-    if (length.hi < kFrame) found.judge.fails(kEmpty, access.start, "an access of " + cycles_text(length));
   }
-  if (all > 0 && 3 * empty < 2 * all)
+  if (all >= kEnough && 3 * empty < 2 * all)
     found.judge.fails(kEmpty, scene.accesses.front().start,
                       fmt::format("{} of {} take another time, all together {:.1f} cycles on average", all - empty, all,
                                   sum / static_cast<double>(all)));
-  else
-    for (std::size_t i = 0; i < empty; ++i) found.judge.holds(kEmpty);
 }
 
 /// With long samples the gap of one cycle behind it is not seen, and it seems to be one with the next.
@@ -274,7 +294,7 @@ void judge_overdue(const Scene& scene, Found& found) {
 
 // --- B004
 
-/// When the start-up access of a reset begins: cycle R, if the user lets the chip.
+/// The accesses of start-ups, by their places.
 std::vector<std::size_t> start_ups(const Scene& scene) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < scene.accesses.size(); ++i)
@@ -282,8 +302,35 @@ std::vector<std::size_t> start_ups(const Scene& scene) {
   return found;
 }
 
+/// Cycles to an access from cycle R of the start-up before it.
+class SinceRelease {
+ public:
+  /// R is 2 to 3 cycles after RESET rose; without RESET it is where the start-up access begins, if the user did not ask
+  /// before the chip looked.
+  static std::optional<SinceRelease> of(const Scene& scene, const ChipAccess& start_up) {
+    const Trace& reset = scene.record[Wire::kReset];
+    const std::size_t rose = reset.last(start_up.start, true);
+    if (reset.seen && rose != Trace::kNone) return SinceRelease{scene, reset.edges[rose], {2, 3}};
+    const Tick before = start_up.start - scene.time.ticks(4) - scene.time.margin();
+    if (scene.sees_user() && scene.user_lets(before, before)) return SinceRelease{scene, start_up.start, {0, 0}};
+    return std::nullopt;
+  }
+  Span operator()(const ChipAccess& access) const {
+    const Span since = scene_.time.between(from_, access.start);
+    return {since.lo - behind_.hi, since.hi - behind_.lo};
+  }
+
+ private:
+  SinceRelease(const Scene& scene, Tick from, Span behind) : scene_(scene), from_(from), behind_(behind) {}
+
+  const Scene& scene_;
+  Tick from_;
+  Span behind_;  ///< R is so many cycles behind it
+};
+
 /// The access that has written B004 by what the user has read.
-void bound_by_reads(const Scene& scene, std::size_t start_up, std::size_t until, Span& bound) {
+void bound_by_reads(const Scene& scene, std::size_t start_up, std::size_t until, const SinceRelease& since,
+                    Span& bound) {
   constexpr std::uint32_t kB004 = 4;
   const Tick from = scene.accesses[start_up].end,
              to = until < scene.accesses.size() ? scene.accesses[until].start : bus::kNever;
@@ -292,23 +339,23 @@ void bound_by_reads(const Scene& scene, std::size_t start_up, std::size_t until,
     std::size_t before = start_up;
     while (before + 1 < scene.accesses.size() && scene.accesses[before + 1].start < access.start) ++before;
     if (before == start_up) continue;
-    const Span since = scene.time.between(scene.accesses[start_up].start, scene.accesses[before].start);
-    if (access.data == 0) bound.lo = std::max(bound.lo, since.lo);
-    if (access.data == 0xC5) bound.hi = std::min(bound.hi, since.hi);
+    if (access.data == 0) bound.lo = std::max(bound.lo, since(scene.accesses[before]).lo);
+    if (access.data == 0xC5) bound.hi = std::min(bound.hi, since(scene.accesses[before]).hi);
   }
 }
 
 /// ... and by length: it is the first behind the one that writes B012 that takes a cycle more than an empty one, as
 /// long as the user has written nothing.
-void bound_by_length(const Scene& scene, std::size_t start_up, std::size_t until, Span& bound) {
+void bound_by_length(const Scene& scene, std::size_t start_up, std::size_t until, const SinceRelease& since,
+                     Span& bound) {
   const Span empty{kFrame, kFrame}, one_byte{kFrame + 1, kFrame + 1};
   for (std::size_t i = start_up + 2; i < until && scene.accesses[i].whole; ++i) {
     const Span length = scene.time.between(scene.accesses[i].start, scene.accesses[i].end);
     if (overlap(length, empty) && overlap(length, one_byte)) return;  // too coarse to tell
     if (overlap(length, empty)) continue;
     if (!overlap(length, one_byte)) return;
-    bound.lo = std::max(bound.lo, scene.time.between(scene.accesses[start_up].start, scene.accesses[i - 1].start).lo);
-    bound.hi = std::min(bound.hi, scene.time.between(scene.accesses[start_up].start, scene.accesses[i].start).hi);
+    bound.lo = std::max(bound.lo, since(scene.accesses[i - 1]).lo);
+    bound.hi = std::min(bound.hi, since(scene.accesses[i]).hi);
     return;
   }
 }
@@ -318,16 +365,22 @@ void fit_ready(const Scene& scene, Found& found) {
   Fit& fit = found.fit(Parameter::kReadyCycles);
   std::vector<Instance> instances;
   const std::vector<std::size_t> starts = start_ups(scene);
+  bool any_release = false;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const std::size_t until = i + 1 < starts.size() ? starts[i + 1] : scene.accesses.size();
+    const std::optional<SinceRelease> since = SinceRelease::of(scene, scene.accesses[starts[i]]);
+    if (!since) continue;
+    any_release = true;
     Span bound{0, kFar};
-    bound_by_reads(scene, starts[i], until, bound);
-    bound_by_length(scene, starts[i], until, bound);
+    bound_by_reads(scene, starts[i], until, *since, bound);
+    bound_by_length(scene, starts[i], until, *since, bound);
     if (bound.lo > 0 && bound.hi < kFar) instances.push_back({scene.accesses[starts[i]].start, bound, bound.middle()});
   }
   fit.estimate = estimate(instances);
-  if (fit.estimate.count == 0)
-    fit.not_shown = starts.empty() ? "no start-up access" : "the access that writes B004 is not to be told from others";
+  if (fit.estimate.count != 0) return;
+  fit.not_shown = starts.empty() ? "no start-up access"
+                  : any_release  ? "the access that writes B004 is not to be told from others"
+                                 : "no RESET, and no start-up access that certainly did not wait";
 }
 
 }  // namespace
@@ -337,7 +390,8 @@ void measure_access(Scene& scene, Found& found) {
   fit_interval(scene, found);
   judge_interval(scene, found);
   judge_user_pins(scene, found);
-  judge_lengths(scene, found);
+  judge_shortest(scene, found);
+  judge_share(scene, found);
   judge_start_up(scene, found);
   judge_overdue(scene, found);
   fit_ready(scene, found);
