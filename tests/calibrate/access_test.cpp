@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/calibrate/made_capture.hpp"
+#include "tests/calibrate/made_pins.hpp"
 
 namespace {
 
@@ -13,7 +13,7 @@ using calibrate_test::contradicted;
 using calibrate_test::parameter;
 using testing::IsEmpty;
 
-class MadeAccesses : public calibrate_test::MadeCapture {
+class MadeAccesses : public calibrate_test::MadePins {
  public:
   MadeAccesses() { show({Wire::kLReq, Wire::kLSta}); }
 };

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/calibrate/made_capture.hpp"
+#include "tests/calibrate/made_pins.hpp"
 
 namespace {
 
@@ -13,7 +13,7 @@ using calibrate_test::contradicted;
 using testing::IsEmpty;
 
 /// The chip has the DPRAM every 48 cycles until 388; the user holds it from 410 to 2000.
-class MadeHold : public calibrate_test::MadeCapture {
+class MadeHold : public calibrate_test::MadePins {
  public:
   explicit MadeHold(bool request = true) {
     show({Wire::kLReq, Wire::kLSta, Wire::kRReq, Wire::kRSta});

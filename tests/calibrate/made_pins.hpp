@@ -12,7 +12,7 @@ namespace calibrate_test {
 using calibrate::Wire;
 
 /// Times are cycles of 48 MHz.
-class MadeCapture {
+class MadePins {
  public:
   /// These wires are in the capture, with this level at its beginning.
   void show(const std::vector<Wire>& wires, bool level = false) {
