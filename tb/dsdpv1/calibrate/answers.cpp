@@ -141,25 +141,6 @@ class TsdrJudge {
 
 // --- answered or not
 
-/// Bit times of idle before a request on PBRXD or PBTXD; nothing for the first.
-std::vector<std::optional<double>> idle_before(const Scene& scene) {
-  std::vector<std::optional<double>> idle;
-  std::size_t sent = 0;
-  std::optional<Tick> end;
-  std::size_t received = 0;
-  for (const Exchange& exchange : scene.exchanges) {
-    for (; received < scene.received.size() && scene.received[received].start < exchange.request->start; ++received)
-      end = std::max(end.value_or(0), scene.received[received].end());
-    for (; sent < scene.sent.size() && scene.sent[sent].start < exchange.request->start; ++sent)
-      end = std::max(end.value_or(0), scene.sent[sent].end());
-    if (end)
-      idle.emplace_back(TimeBase::nominal(exchange.request->start - *end) / exchange.request->bit());
-    else
-      idle.emplace_back();
-  }
-  return idle;
-}
-
 bool wants_answer(const Exchange& exchange) {
   return exchange.request->right && exchange.request->telegram.wants_answer() &&
          exchange.request->telegram.sa < bus::kBroadcast;
@@ -184,12 +165,12 @@ bool chip_listens(const Scene& scene, std::size_t i) {
 
 void judge_answered(const Scene& scene, Found& found) {
   constexpr double kSynDoubt = 0.5;
-  const std::vector<std::optional<double>> idle = idle_before(scene);
   for (std::size_t i = 0; i < scene.exchanges.size(); ++i) {
     const Exchange& exchange = scene.exchanges[i];
     if (!wants_answer(exchange)) continue;
     const double doubt = kSynDoubt + scene.time.doubt() / exchange.request->bit();
-    const bool soon = idle[i] && *idle[i] < bus::kSynBits - doubt, late = idle[i] && *idle[i] > bus::kSynBits + doubt;
+    const bool soon = exchange.idle && *exchange.idle < bus::kSynBits - doubt,
+               late = exchange.idle && *exchange.idle > bus::kSynBits + doubt;
     if (soon)
       found.judge.judge(kSyn, exchange.answer == nullptr, exchange.request->start,
                         "a request after too little idle is answered");

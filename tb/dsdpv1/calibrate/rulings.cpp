@@ -37,7 +37,7 @@ const std::vector<Ruling>& rulings() {
 Claims all_claims() {
   Claims all;
   for (const Claims& claims : {clock_claims(), access_claims(), interrupt_claims(), answer_claims(), search_claims(),
-                               telegram_claims(), user_claims(), reset_claims()})
+                               watchdog_claims(), telegram_claims(), user_claims(), reset_claims()})
     all.insert(all.end(), claims.begin(), claims.end());
   return all;
 }
