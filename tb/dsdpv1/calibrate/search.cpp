@@ -202,14 +202,7 @@ void judge_pins(const Scene& scene, Found& found) {
                         sent.start, "an answer while BR or READY is low");
   if (!record.sees(Wire::kPbf)) return;
   for (const Exchange& exchange : scene.exchanges) {
-    if (exchange.answer == nullptr || !exchange.request->right || exchange.request->telegram.dsap ||
-        !exchange.answer->right)
-      continue;
-    const bool srd = exchange.request->telegram.function() == bus::fc::kSrdLow ||
-                     exchange.request->telegram.function() == bus::fc::kSrdHigh;
-    const bool data = exchange.answer->telegram.kind == bus::TelegramKind::kSd2 ||
-                      exchange.answer->telegram.kind == bus::TelegramKind::kSc;
-    if (!srd || !data) continue;
+    if (exchange.repeats || !exchange.exchanged()) continue;  // S26
     const Tick at = exchange.request->end();
     found.judge.judge(kExchange, !record[Wire::kPbf].high(at - about, exchange.answer->start), exchange.answer->start,
                       "a data exchange is answered while PBF is high");

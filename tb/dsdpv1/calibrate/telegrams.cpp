@@ -16,7 +16,7 @@ struct Asked {
   const Telegram& request;
   const Telegram& answer;
   const Scene& scene;
-  Tick end;  ///< of the request
+  const Exchange& exchange;
 
   bool to(std::uint8_t sap) const { return request.dsap == sap; }
   bool is_srd() const { return request.function() == bus::fc::kSrdLow || request.function() == bus::fc::kSrdHigh; }
@@ -26,8 +26,10 @@ struct Asked {
   bool no_resource() const { return is_status(bus::fc::kRr); }
   bool has_data() const { return answer.kind == TelegramKind::kSd2 || answer.kind == TelegramKind::kSd3; }
   bool data_from(std::uint8_t sap) const { return has_data() && answer.ssap == sap; }
+  /// The state counts where the request is decided, between its end and the answer, but for a repetition (S26).
   bool outside_exchange() const {
-    return scene.record[Wire::kPbf].high(end - scene.time.margin(), end + scene.time.margin());
+    const Tick from = exchange.request->end() - scene.time.margin();
+    return !exchange.repeats && scene.record[Wire::kPbf].high(from, exchange.answer->start);
   }
 };
 
@@ -160,7 +162,7 @@ std::string words_of(const Telegram& answer, const bus::Bytes& bytes) {
 }
 
 void judge_rules(const Scene& scene, const Exchange& exchange, Found& found) {
-  const Asked asked{exchange.request->telegram, exchange.answer->telegram, scene, exchange.request->end()};
+  const Asked asked{exchange.request->telegram, exchange.answer->telegram, scene, exchange};
   for (const Rule& rule : kRules) {
     if (!rule.applies(asked)) continue;
     if (rule.holds(asked))
