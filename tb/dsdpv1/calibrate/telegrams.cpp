@@ -49,9 +49,12 @@ namespace sap = bus::sap;
 namespace fc = bus::fc;
 
 const std::vector<Rule> kRules = {
-    {{"S5", "SAP 55: SC, RS or RR", line()},
+    {{"S5", "SAP 55 answers SC, beyond 4 bytes RR, or RS", line()},
      [](const Asked& a) { return a.is_srd() && a.to(sap::kSetSlaveAddress); },
-     [](const Asked& a) { return a.acknowledged() || a.refused() || a.no_resource(); }},
+     [](const Asked& a) {
+       constexpr std::size_t kMost = 4;
+       return a.refused() || (a.request.data.size() > kMost ? a.no_resource() : a.acknowledged());
+     }},
     {{"S13",
       "outside of data exchange the default SAP and SAP 56 are refused",
       {Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}},
@@ -60,11 +63,14 @@ const std::vector<Rule> kRules = {
               a.outside_exchange();
      },
      [](const Asked& a) { return a.refused(); }},
-    {{"S13", "SAPs 56, 57, 59 and 60 answer requests with data RR, or RS", line()},
+    {{"S13", "SAPs 57, 59 and 60 answer requests with data RR", line()},
      [](const Asked& a) {
        return a.is_srd() && !a.request.data.empty() &&
-              (a.to(sap::kReadInputs) || a.to(sap::kReadOutputs) || a.to(sap::kGetCfg) || a.to(sap::kSlaveDiag));
+              (a.to(sap::kReadOutputs) || a.to(sap::kGetCfg) || a.to(sap::kSlaveDiag));
      },
+     [](const Asked& a) { return a.no_resource(); }},
+    {{"S13", "SAP 56 answers requests with data RR, or RS", line()},
+     [](const Asked& a) { return a.is_srd() && !a.request.data.empty() && a.to(sap::kReadInputs); },
      [](const Asked& a) { return a.refused() || a.no_resource(); }},
     {{"S13", "Slave_Diag and Get_Cfg are always answered with data", line()},
      [](const Asked& a) {
@@ -88,6 +94,9 @@ const std::vector<Rule> kRules = {
     {{"S20", "answers with data have FC 08, a data exchange also 0A", line()},
      [](const Asked& a) { return a.has_data(); },
      [](const Asked& a) { return a.answer.fc == fc::kDl || (a.answer.fc == fc::kDh && !a.request.dsap); }},
+    {{"S20", "answers with data are SD2", line()},
+     [](const Asked& a) { return a.has_data(); },
+     [](const Asked& a) { return a.answer.kind == TelegramKind::kSd2; }},
     {{"S20", "station type bits are 0", line()},
      [](const Asked& a) { return !a.acknowledged(); },
      [](const Asked& a) { return (a.answer.fc & ~kResponseFunctions) == 0; }},
@@ -105,7 +114,7 @@ const std::vector<Rule> kRules = {
     {{"S21", "an answer goes to the SAP that asked, from the one that was asked", line()},
      [](const Asked& a) { return a.has_data(); },
      [](const Asked& a) {
-       return a.answer.dsap == a.request.ssap && (!a.request.ssap || a.answer.ssap == a.request.dsap);
+       return a.answer.dsap == a.request.ssap && a.answer.ssap == (a.request.ssap ? a.request.dsap : std::nullopt);
      }},
     {{"S21", "an answer goes to the master that asked, from the station that was asked", line()},
      [](const Asked& a) { return !a.acknowledged(); },
@@ -142,14 +151,15 @@ const std::vector<Rule> kRules = {
     {{"facts", "Slave_Diag: status bits that the chip never sets are 0, status 2 bit 2 is 1", line()},
      [](const Asked& a) { return a.to(sap::kSlaveDiag) && a.has_data(); },
      [](const Asked& a) {
-       constexpr std::uint8_t kNever1 = 0xA1, kNever2 = 0xC0, kAlways2 = 0x04;
+       constexpr std::uint8_t kNever1 = 0xA1, kNever2 = 0xC0, kAlways2 = 0x04;  // of status 3 all
        const bus::Bytes& data = a.answer.data;
        return data.size() >= kShortestDiagnosis && (data[0] & kNever1) == 0 && (data[1] & kNever2) == 0 &&
-              (data[1] & kAlways2) != 0;
+              (data[1] & kAlways2) != 0 && data[2] == 0;
      }},
 };
 
-const Claim kRepeated = {"S26", "a request that is repeated gets the same answer", line()};
+const Claim kRepeated = {
+    "S26", "a request that is repeated gets the same answer", {Wire::kPbrxd, Wire::kPbtxd, Wire::kBr}};
 const Claim kSdn = {"S20", "SDN is not answered", line()};
 const Claim kNobody = {"S32", "a request of master 127 is not answered", line()};
 const Claim kGlobal = {"S20", "Global_Control is not answered", line()};
