@@ -11,7 +11,8 @@ using bus::Telegram;
 using bus::Tick;
 using calibrate::Wire;
 
-constexpr std::uint8_t kStation = 5, kMaster = 2, kOther = 3;  ///< kOther: a second master
+constexpr std::uint8_t kStation = 5, kMaster = 2, kOther = 3;       ///< kOther: a second master
+constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40, kWdOn = 0x08;  ///< of table 19
 constexpr int k12M = 0, k1M5 = 3;
 
 // Requests to the station, and answers of it. `fcb`: fc::kFcb, fc::kFcv, or both.

@@ -8,16 +8,15 @@ namespace {
 using namespace calibrate_test;
 using calibrate::Verdict;
 
-constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40, kWatchdog = 0x08;
 const Bytes kOutputs = {1, 2};
 
 /// A station that found its rate, with BR, READY and PBF.
-class Station : public MadeCapture {
+class WatchedStation : public MadeCapture {
  public:
-  Station() : MadeCapture(k1M5, {Wire::kBr, Wire::kPbf, Wire::kLReq}) { find_rate(); }
+  WatchedStation() : MadeCapture(k1M5, {Wire::kBr, Wire::kPbf, Wire::kLReq}) { find_rate(); }
   /// Set_Prm, Chk_Cfg and a data exchange; PBF falls.
   void start_up(std::uint8_t wd) {
-    exchange(set_prm(kLock | (wd != 0 ? kWatchdog : 0), wd), bus::make_sc());
+    exchange(set_prm(kLock | (wd != 0 ? kWdOn : 0), wd), bus::make_sc());
     exchange(srd(bus::sap::kChkCfg, {0x11, 0x21}), bus::make_sc());
     set(Wire::kPbf, false);
     exchange(data_exchange(kOutputs), data_answer({3, 4}));
@@ -47,7 +46,7 @@ void expect_600(const calibrate::Result& result) {
 }
 
 TEST(CalibrateWatchdog, BrFallsAfterTheWatchdogsEndAndItsTime) {
-  Station station;
+  WatchedStation station;
   station.start_up(4);
   const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
   station.end_exchange(last, 40);
@@ -58,7 +57,7 @@ TEST(CalibrateWatchdog, BrFallsAfterTheWatchdogsEndAndItsTime) {
 }
 
 TEST(CalibrateWatchdog, UnlockEndsIt) {
-  Station station;
+  WatchedStation station;
   station.start_up(4);
   const Tick last = station.decided(set_prm(kUnlock), bus::make_sc());
   station.end_exchange(last, 0.001);
@@ -67,7 +66,7 @@ TEST(CalibrateWatchdog, UnlockEndsIt) {
 }
 
 TEST(CalibrateWatchdog, ASetPrmThatIsTooShortEndsIt) {
-  Station station;
+  WatchedStation station;
   station.start_up(4);
   const Tick last = station.decided(srd(bus::sap::kSetPrm, {kLock, 4, 1}), bus::make_sc());
   station.end_exchange(last, 0.001);
@@ -76,9 +75,9 @@ TEST(CalibrateWatchdog, ASetPrmThatIsTooShortEndsIt) {
 }
 
 TEST(CalibrateWatchdog, ASetPrmThatIsRefusedEndsItAsTheDiagnosisShows) {
-  Station station;
+  WatchedStation station;
   station.start_up(4);
-  const Tick prm = station.decided(srd(bus::sap::kSetPrm, {kLock | kWatchdog, 9, 1, 0, 0xBA, 0xD0, 0}), bus::make_sc());
+  const Tick prm = station.decided(srd(bus::sap::kSetPrm, {kLock | kWdOn, 9, 1, 0, 0xBA, 0xD0, 0}), bus::make_sc());
   station.end_exchange(prm, 0.001);
   const Tick last = station.decided(srd(bus::sap::kSlaveDiag), diagnosis(0x42, 0x01));
   station.fall_of_br(last, 600);
@@ -86,10 +85,10 @@ TEST(CalibrateWatchdog, ASetPrmThatIsRefusedEndsItAsTheDiagnosisShows) {
 }
 
 TEST(CalibrateWatchdog, ASetPrmOfAnotherMasterThatIsRefusedChangesNothing) {
-  Station station;
+  WatchedStation station;
   station.start_up(4);
   const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
-  station.exchange(set_prm(kLock | kWatchdog, 99, 0, kOther), status(bus::fc::kRs, kOther));
+  station.exchange(set_prm(kLock | kWdOn, 99, 0, kOther), status(bus::fc::kRs, kOther));
   station.end_exchange(last, 40);
   station.fall_of_br(last, 640);
   const calibrate::Result result = station.judge();
@@ -98,7 +97,7 @@ TEST(CalibrateWatchdog, ASetPrmOfAnotherMasterThatIsRefusedChangesNothing) {
 }
 
 TEST(CalibrateWatchdog, ARequestAfterItsEndStartsTheTimeOfBrAnew) {
-  Station station;
+  WatchedStation station;
   station.start_up(4);
   const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
   station.end_exchange(last, 40);
@@ -109,7 +108,7 @@ TEST(CalibrateWatchdog, ARequestAfterItsEndStartsTheTimeOfBrAnew) {
 }
 
 TEST(CalibrateWatchdog, OnlyTheHolderKeepsDataExchangeAlive) {
-  Station station;
+  WatchedStation station;
   station.start_up(4);
   const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
   station.wait_ms(30);
@@ -123,7 +122,7 @@ TEST(CalibrateWatchdog, OnlyTheHolderKeepsDataExchangeAlive) {
 }
 
 TEST(CalibrateWatchdog, AnotherMasterThatKeepsItAliveIsContradicted) {
-  Station station;
+  WatchedStation station;
   station.start_up(4);
   station.decided(data_exchange(kOutputs), data_answer({3, 4}));
   station.wait_ms(30);
@@ -133,7 +132,7 @@ TEST(CalibrateWatchdog, AnotherMasterThatKeepsItAliveIsContradicted) {
 }
 
 TEST(CalibrateWatchdog, WithoutATelegramToTheStationBrFallsAfterItsRise) {
-  Station station;
+  WatchedStation station;
   const Tick rise = station.now();
   station.wait_ms(300);
   station.request(fdl_status(kMaster, kStation + 1));
@@ -152,7 +151,7 @@ TEST(CalibrateWatchdog, OfWhatRanBeforeTheCaptureNothingIsSaid) {
 
 /// BR falls so long after the last telegram, in an access of so many cycles.
 calibrate::Result after(double ms, double access) {
-  Station station;
+  WatchedStation station;
   station.start_up(0);
   const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
   station.wait_ms(100);

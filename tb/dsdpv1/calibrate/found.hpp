@@ -56,6 +56,9 @@ Claims interrupt_claims();
 /// P2, S2, S3: PBTXD and PBRTS.
 void measure_answers(const Scene& scene, Found& found);
 Claims answer_claims();
+/// S3, S11: when answers begin.
+void measure_tsdr(const Scene& scene, Found& found);
+Claims tsdr_claims();
 /// S1, S9: the search, BR and PBF.
 void measure_search(const Scene& scene, Found& found);
 Claims search_claims();

@@ -1,26 +1,18 @@
 #include "tb/dsdpv1/calibrate/supervision.hpp"
 
+#include "tb/dsdpv1/calibrate/dp_service.hpp"
+
 namespace calibrate {
 namespace {
 
 using State = Supervised::State;
 
-constexpr std::size_t kPrmSize = 7;  ///< bytes of Set_Prm without those of the user
-constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40, kWdOn = 0x08, kWdBase1ms = 0x04;
-
 /// Cycles; 0: none.
 double watchdog_of(const bus::Bytes& prm) {
+  constexpr std::uint8_t kWdOn = 0x08, kWdBase1ms = 0x04;
   if ((prm[0] & kWdOn) == 0) return 0;
   const bool base = prm.size() > kPrmSize && (prm[kPrmSize] & kWdBase1ms) != 0;
   return prm[1] * prm[2] * (base ? 1 : 10) * kCyclesPerMs;
-}
-
-/// In WAIT_PRM, and nobody judges parameters.
-bool shows_prm_req(const Exchange& exchange) {
-  constexpr std::size_t kStatus2 = 1;
-  constexpr std::uint8_t kPrmReq = 0x01;
-  return exchange.is_srd(bus::sap::kSlaveDiag) && exchange.answer != nullptr && exchange.answer->right &&
-         exchange.answer->telegram.data.size() > kStatus2 && (exchange.answer->telegram.data[kStatus2] & kPrmReq) != 0;
 }
 
 /// The chip takes it for an error-free telegram to itself: whom it answers, and SDN after T_SYN.
@@ -80,26 +72,19 @@ void Supervision::trigger(std::uint8_t master, const Moment& now) {
 }
 
 void Supervision::execute(const Exchange& exchange, const Moment& now) {
-  if (exchange.is_srd(bus::sap::kSetPrm) && exchange.acknowledged()) {
-    set_prm(exchange, now);
+  const PrmKind prm = prm_kind(exchange);
+  const bool no_watchdog = prm == PrmKind::kShort || prm == PrmKind::kUnlock || diagnosis_has(exchange, 0, kPrmReq) ||
+                           (exchange.is_srd(std::nullopt) && exchange.refused(bus::fc::kRr));  // S19
+  if (no_watchdog) {
+    baud_control(now);
+    now_.prm.reset();
+  } else if (prm == PrmKind::kLock) {
+    now_.prm = {watchdog_of(exchange.request->telegram.data), exchange.request->telegram.sa, now};
+    now_.state = State::kUnknown;
   } else if (exchange.is_srd(bus::sap::kChkCfg) && exchange.acknowledged()) {
     if (now_.state == State::kDpControl) now_.state = State::kUnknown;  // it may have been refused
-  } else if (shows_prm_req(exchange) || (exchange.is_srd(std::nullopt) && exchange.refused(bus::fc::kRr))) {
-    baud_control(now);
-    now_.prm.reset();
   } else if (exchange.exchanged() && now_.prm && now_.prm->master == exchange.request->telegram.sa) {
     in_exchange(now);
-  }
-}
-
-void Supervision::set_prm(const Exchange& exchange, const Moment& now) {
-  const bus::Bytes& prm = exchange.request->telegram.data;
-  if (prm.size() < kPrmSize || (prm[0] & kUnlock) != 0) {
-    baud_control(now);
-    now_.prm.reset();
-  } else if ((prm[0] & kLock) != 0) {  // accepted, refused or judged by the user
-    now_.prm = {watchdog_of(prm), exchange.request->telegram.sa, now};
-    now_.state = State::kUnknown;
   }
 }
 

@@ -44,7 +44,6 @@ class Supervision {
   void end_watchdog(const Moment& now);
   void trigger(std::uint8_t master, const Moment& now);
   void execute(const Exchange& exchange, const Moment& now);
-  void set_prm(const Exchange& exchange, const Moment& now);
   void in_exchange(const Moment& now);
   void baud_control(const Moment& now);
   void rate_found(Tick at);
