@@ -42,11 +42,11 @@ TEST(CalibrateAccess, WithNothingToDoOfAnotherLengthIsAgainstH3) {
   MadeAccesses made;
   made.show({Wire::kRReq, Wire::kRSta});
   made.accesses(100, 5'000, 8);
-  EXPECT_EQ(claim(made.judged(6'000), "H3").verdict, Verdict::kContradicted);
+  EXPECT_EQ(claim(made.judged(6'000), "H3", "").verdict, Verdict::kContradicted);
   MadeAccesses held;
   held.show({Wire::kRReq, Wire::kRSta});
   add_long_holds(held);
-  EXPECT_EQ(claim(held.judged(31'000), "H3").tally.holds, 60U);
+  EXPECT_EQ(claim(held.judged(31'000), "H3", "").tally.holds, 60U);
 }
 
 TEST(CalibrateAccess, OfAChipThatLooksSeldomMayAlwaysHaveSomethingToDo) {
@@ -59,10 +59,10 @@ TEST(CalibrateAccess, OfAChipThatLooksSeldomMayAlwaysHaveSomethingToDo) {
 TEST(CalibrateAccess, WithoutTheUsersPinsMayAlwaysHaveSomethingToDo) {
   MadeAccesses longer;
   longer.accesses(100, 5'000, 25);
-  EXPECT_NE(claim(longer.judged(6'000), "H3").verdict, Verdict::kContradicted);
+  EXPECT_NE(claim(longer.judged(6'000), "H3", "").verdict, Verdict::kContradicted);
   MadeAccesses shorter;
   shorter.accesses(100, 5'000, 6);
-  EXPECT_EQ(claim(shorter.judged(6'000), "H3").verdict, Verdict::kContradicted);
+  EXPECT_EQ(claim(shorter.judged(6'000), "H3", "").verdict, Verdict::kContradicted);
 }
 
 /// R is cycle 102, B004 is written 4096 cycles later, at the earliest.
@@ -114,7 +114,7 @@ TEST(CalibrateHandshake, ChipThatStartsMoreThanTwoCyclesAfterTheRequestIsAgainst
     made.access(1'012, 7);
     made.access(1'060, 7);
     const calibrate::Result result = made.judged(2'000);
-    EXPECT_EQ(claim(result, "H2").verdict, late < 2 ? Verdict::kConfirmed : Verdict::kContradicted) << late;
+    EXPECT_EQ(claim(result, "H2", "").verdict, late < 2 ? Verdict::kConfirmed : Verdict::kContradicted) << late;
   }
 }
 

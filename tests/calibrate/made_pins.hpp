@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "tb/dsdpv1/calibrate/calibration.hpp"
+#include "tests/calibrate/made_capture.hpp"
 
 namespace calibrate_test {
-
-using calibrate::Wire;
 
 /// Times are cycles of 48 MHz.
 class MadePins {
@@ -80,28 +79,5 @@ class MadePins {
 
   calibrate::Record record_;
 };
-
-/// The claim of this ruling that begins so; one without a verdict when there is none.
-inline calibrate::ClaimResult claim(const calibrate::Result& result, const std::string& ruling,
-                                    const std::string& begin = "") {
-  for (const calibrate::ClaimResult& each : result.claims)
-    if (each.ruling == ruling && each.says.rfind(begin, 0) == 0) return each;
-  return {ruling, begin + " is no claim", calibrate::Verdict::kNotShown, {}, "no such claim"};
-}
-
-inline const calibrate::ParameterResult& parameter(const calibrate::Result& result, const std::string& key) {
-  std::size_t place = 0;
-  while (result.parameters.at(place).row->key != key) ++place;
-  return result.parameters[place];
-}
-
-/// "H1: claim (why)" of each claim that is contradicted.
-inline std::vector<std::string> contradicted(const calibrate::Result& result) {
-  std::vector<std::string> found;
-  for (const calibrate::ClaimResult& each : result.claims)
-    if (each.verdict == calibrate::Verdict::kContradicted)
-      found.push_back(each.ruling + ": " + each.says + " (" + each.tally.contradictions.front().how + ")");
-  return found;
-}
 
 }  // namespace calibrate_test

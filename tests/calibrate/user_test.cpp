@@ -36,8 +36,8 @@ TEST(CalibrateUserAccess, BeginsWithTheLaterOfTheStrobesAndEndsWithTheEarlier) {
   const calibrate::Result result = made.judged(3'000);
   EXPECT_THAT(contradicted(result), IsEmpty());
   EXPECT_EQ(result.user_accesses, 1U);
-  EXPECT_EQ(claim(result, "P5").tally.holds, 1U);
-  EXPECT_EQ(claim(result, "D1").tally.holds, 1U);
+  EXPECT_EQ(claim(result, "P5", "").tally.holds, 1U);
+  EXPECT_EQ(claim(result, "D1", "").tally.holds, 1U);
 }
 
 TEST(CalibrateUserAccess, IsOneForEachTimeThatCsrFallsWhileRdIsLow) {
@@ -50,7 +50,7 @@ TEST(CalibrateUserAccess, IsOneForEachTimeThatCsrFallsWhileRdIsLow) {
     made.low(Wire::kCsr, 600 + 20 * address, 610 + 20 * address);
   }
   made.set(800, Wire::kRd, true);
-  EXPECT_EQ(claim(made.judged(3'000), "D1").tally.holds, 4U);
+  EXPECT_EQ(claim(made.judged(3'000), "D1", "").tally.holds, 4U);
 }
 
 TEST(CalibrateUserAccess, WritesNothingWhereCsrRisesBeforeWr) {
@@ -71,8 +71,8 @@ TEST(CalibrateRead, ThatBringsSomethingElseIsContradicted) {
   made.read(600, 0x130, 0x12);
   made.read(620, 0x001, 0x55);
   const calibrate::Result result = made.judged(3'000);
-  EXPECT_EQ(claim(result, "P6").tally.fails, 1U);
-  EXPECT_EQ(claim(result, "D1").tally.fails, 1U);
+  EXPECT_EQ(claim(result, "P6", "").tally.fails, 1U);
+  EXPECT_EQ(claim(result, "D1", "").tally.fails, 1U);
 }
 
 TEST(CalibrateRead, OfACellThatIsJustWrittenIsNotJudged) {
@@ -83,7 +83,7 @@ TEST(CalibrateRead, OfACellThatIsJustWrittenIsNotJudged) {
   MadeHold later;
   later.write(500, 0x130, 0x11);
   later.read(509.1, 0x130, 0x00);
-  EXPECT_EQ(claim(later.judged(3'000), "P6").tally.fails, 1U);
+  EXPECT_EQ(claim(later.judged(3'000), "P6", "").tally.fails, 1U);
 }
 
 TEST(CalibrateRead, WithoutTheDpramIsNotJudged) {
@@ -97,7 +97,7 @@ TEST(CalibrateRead, WithoutTheDpramIsNotJudged) {
   collision.access(500, 7);
   collision.read(501, 0x001, 0x55);
   const calibrate::Result result = collision.judged(3'000);
-  EXPECT_EQ(claim(result, "D1").tally.fails, 0U) << "P12: X, the chip has it";
+  EXPECT_EQ(claim(result, "D1", "").tally.fails, 0U) << "P12: X, the chip has it";
 }
 
 TEST(CalibrateRead, InResetAndBeforeTheStartUpIsNotJudged) {
@@ -112,8 +112,8 @@ TEST(CalibrateRead, InResetAndBeforeTheStartUpIsNotJudged) {
   made.high(Wire::kRSta, 4'080, 5'000);
   made.read(4'100, 0x001, 0x0D);
   const calibrate::Result result = made.judged(6'000);
-  EXPECT_EQ(claim(result, "D1").tally.fails, 0U);
-  EXPECT_EQ(claim(result, "D1").tally.holds, 1U);
+  EXPECT_EQ(claim(result, "D1", "").tally.fails, 0U);
+  EXPECT_EQ(claim(result, "D1", "").tally.holds, 1U);
 }
 
 TEST(CalibrateRead, OfACellThatTheUserHasEverWrittenShowsNoVersion) {
@@ -142,8 +142,8 @@ TEST(CalibrateRead, OfABlockShowsItsCrc) {
     made.read(540, 0x40E, 0xE2);
     made.read(560, 0x40F, low);
     const calibrate::Result result = made.judged(3'000);
-    EXPECT_EQ(claim(result, "D2").verdict, low == 0x41 ? Verdict::kConfirmed : Verdict::kContradicted);
-    EXPECT_EQ(claim(result, "D3").tally.holds + claim(result, "D3").tally.fails, 0U) << "one claim, under D2";
+    EXPECT_EQ(claim(result, "D2", "").verdict, low == 0x41 ? Verdict::kConfirmed : Verdict::kContradicted);
+    EXPECT_EQ(claim(result, "D3", "").tally.holds + claim(result, "D3", "").tally.fails, 0U) << "one claim, under D2";
   }
 }
 
@@ -155,7 +155,7 @@ TEST(CalibrateFlags, ThatAreReservedStayAsTheUserSetThem) {
     made.high(Wire::kRReq, 2'110, 3'000);
     made.high(Wire::kRSta, 2'120, 3'000);
     made.read(2'200, 0x010, read);
-    EXPECT_EQ(claim(made.judged(4'000), "H5").verdict, read == 0x38 ? Verdict::kConfirmed : Verdict::kContradicted);
+    EXPECT_EQ(claim(made.judged(4'000), "H5", "").verdict, read == 0x38 ? Verdict::kConfirmed : Verdict::kContradicted);
   }
 }
 

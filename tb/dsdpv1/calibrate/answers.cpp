@@ -15,10 +15,6 @@ const Claim kLead = {"P2", "PBRTS rises the same time before each answer", {Wire
 const Claim kTrail = {"P2", "PBRTS falls the same time after each answer", {Wire::kPbtxd, Wire::kPbrts}};
 const Claim kDriven = {"P2", "PBTXD is low only while PBRTS is high", {Wire::kPbtxd, Wire::kPbrts}};
 const Claim kBits = {"S2", "every edge of an answer is a whole number of bit times from its start", {Wire::kPbtxd}};
-const Claim kTsdr = {
-    "S3", "an answer begins min_TSDR after the request, and at most a cycle more", {Wire::kPbrxd, Wire::kPbtxd}};
-const Claim kMinTsdr = {
-    "S11", "min_TSDR of Set_Prm counts from the answer to it on, 11 at least", {Wire::kPbrxd, Wire::kPbtxd}};
 const Claim kAnswered = {"S3", "a right request to the station is answered", {Wire::kPbrxd, Wire::kPbtxd}};
 const Claim kAsked = {"S3", "nothing is sent that nobody asked for", {Wire::kPbrxd, Wire::kPbtxd}};
 const Claim kSyn = {
@@ -85,80 +81,7 @@ void judge_bits(const Scene& scene, const LineTelegram& sent, Found& found) {
   found.judge.holds(kBits);
 }
 
-// --- TSDR
-
-/// What Set_Prm asks for; 0 for other telegrams, and where it leaves it.
-int asked_tsdr(const LineTelegram& request) {
-  constexpr std::size_t kPlace = 3;
-  const bus::Telegram& telegram = request.telegram;
-  const bool set_prm = request.right && telegram.dsap == bus::sap::kSetPrm && telegram.data.size() > kPlace;
-  if (!set_prm || telegram.data[kPlace] == 0) return 0;
-  const int least = bus::kMinTsdrBits, most = bus::baud(request.baud).max_tsdr_bits;
-  return std::min(std::max<int>(telegram.data[kPlace], least), most);
-}
-
-class TsdrJudge {
- public:
-  TsdrJudge(const Scene& scene, Found& found) : scene_(scene), found_(found) {}
-
-  void judge(const Exchange& exchange) {
-    const LineTelegram& request = *exchange.request;
-    const int asked = asked_tsdr(request);
-    if (asked != 0) pending_ = asked;
-    if (exchange.answer == nullptr || !request.right) return;
-    const Span cycles =
-        scene_.time.between(request.last_start, exchange.answer->start) + -(bus::kCharacterBits * request.bit());
-    const Tick at = exchange.answer->start;
-    if (pending_ != 0 && fits(cycles, request, pending_)) {
-      if (pending_ != now_ && asked != 0) found_.judge.holds(kMinTsdr);
-      now_ = pending_;
-    } else if (!fits(cycles, request, now_)) {
-      if (!fits(cycles, request, bus::kMinTsdrBits)) return fail(cycles, request, at);
-      now_ = bus::kMinTsdrBits;  // a new initialisation
-    }
-    found_.judge.holds(kTsdr);
-  }
-
- private:
-  int wanted() const { return pending_ != 0 ? pending_ : now_; }
-  static double right(const LineTelegram& request, int bits) { return bits * request.bit(); }
-  static bool fits(const Span& cycles, const LineTelegram& request, int bits) {
-    return overlap(cycles, {right(request, bits), right(request, bits) + 1});
-  }
-  void fail(const Span& cycles, const LineTelegram& request, Tick at) {
-    const double expected = right(request, wanted());
-    const double by = cycles.lo > expected + 1 ? cycles.lo - expected - 1 : cycles.hi - expected;
-    found_.judge.fails(kTsdr, at,
-                       fmt::format("TSDR {:.2f} bit times, {:+.1f} cycles from min_TSDR {}",
-                                   cycles.middle() / request.bit(), by, wanted()));
-  }
-
-  const Scene& scene_;
-  Found& found_;
-  int now_ = bus::kMinTsdrBits;
-  int pending_ = 0;  ///< what Set_Prm asked for; 0: none did
-};
-
 // --- answered or not
-
-/// Bit times of idle before a request on PBRXD or PBTXD; nothing for the first.
-std::vector<std::optional<double>> idle_before(const Scene& scene) {
-  std::vector<std::optional<double>> idle;
-  std::size_t sent = 0;
-  std::optional<Tick> end;
-  std::size_t received = 0;
-  for (const Exchange& exchange : scene.exchanges) {
-    for (; received < scene.received.size() && scene.received[received].start < exchange.request->start; ++received)
-      end = std::max(end.value_or(0), scene.received[received].end());
-    for (; sent < scene.sent.size() && scene.sent[sent].start < exchange.request->start; ++sent)
-      end = std::max(end.value_or(0), scene.sent[sent].end());
-    if (end)
-      idle.emplace_back(TimeBase::nominal(exchange.request->start - *end) / exchange.request->bit());
-    else
-      idle.emplace_back();
-  }
-  return idle;
-}
 
 bool wants_answer(const Exchange& exchange) {
   return exchange.request->right && exchange.request->telegram.wants_answer() &&
@@ -184,12 +107,12 @@ bool chip_listens(const Scene& scene, std::size_t i) {
 
 void judge_answered(const Scene& scene, Found& found) {
   constexpr double kSynDoubt = 0.5;
-  const std::vector<std::optional<double>> idle = idle_before(scene);
   for (std::size_t i = 0; i < scene.exchanges.size(); ++i) {
     const Exchange& exchange = scene.exchanges[i];
     if (!wants_answer(exchange)) continue;
     const double doubt = kSynDoubt + scene.time.doubt() / exchange.request->bit();
-    const bool soon = idle[i] && *idle[i] < bus::kSynBits - doubt, late = idle[i] && *idle[i] > bus::kSynBits + doubt;
+    const bool soon = exchange.idle && *exchange.idle < bus::kSynBits - doubt,
+               late = exchange.idle && *exchange.idle > bus::kSynBits + doubt;
     if (soon)
       found.judge.judge(kSyn, exchange.answer == nullptr, exchange.request->start,
                         "a request after too little idle is answered");
@@ -227,12 +150,10 @@ void measure_answers(const Scene& scene, Found& found) {
       found.judge.coarse(kBits);
     else
       found.judge.fails(kBits, sent.start, "what is sent is no right telegram");
-  TsdrJudge tsdr(scene, found);
-  for (const Exchange& exchange : scene.exchanges) tsdr.judge(exchange);
   judge_answered(scene, found);
   judge_asked(scene, found);
 }
 
-Claims answer_claims() { return {&kLead, &kTrail, &kDriven, &kBits, &kTsdr, &kAnswered, &kAsked, &kSyn, &kMinTsdr}; }
+Claims answer_claims() { return {&kLead, &kTrail, &kDriven, &kBits, &kAnswered, &kAsked, &kSyn}; }
 
 }  // namespace calibrate

@@ -170,7 +170,9 @@ Result calibrate(const std::string& file, const Record& record, const Sampling& 
   measure_access(scene, found);
   measure_interrupt(scene, found);
   measure_answers(scene, found);
+  measure_tsdr(scene, found);
   measure_search(scene, found);
+  measure_watchdog(scene, found);
   measure_telegrams(scene, found);
   measure_user(scene, found);
   measure_reset(scene, found);

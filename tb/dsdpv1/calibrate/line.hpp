@@ -20,6 +20,9 @@ struct LineTelegram {
   double bit() const { return TimeBase::nominal(bus::baud(baud).bit); }
   /// Whether fewer than four samples make a bit: what is not right may be so only in the capture.
   bool coarse(const TimeBase& time) const { return time.period * 4 > bit() + 0.01; }
+  /// Cycles from the start bit of the last character to the decision: 12 bit times, the synchroniser, the edge (3 to
+  /// 4).
+  Span decision() const { return {12 * bit() + 3, 12 * bit() + 4}; }
   Tick end() const { return last_start + bus::kCharacterBits * bus::baud(baud).bit; }
 };
 

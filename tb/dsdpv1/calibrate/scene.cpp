@@ -59,6 +59,36 @@ void keep_own(Scene& scene) {
   scene.exchanges.erase(std::remove_if(scene.exchanges.begin(), scene.exchanges.end(), other), scene.exchanges.end());
 }
 
+void measure_idle(Scene& scene) {
+  std::size_t received = 0, sent = 0;
+  std::optional<Tick> end;
+  for (Exchange& exchange : scene.exchanges) {
+    for (; received < scene.received.size() && scene.received[received].start < exchange.request->start; ++received)
+      end = std::max(end.value_or(0), scene.received[received].end());
+    for (; sent < scene.sent.size() && scene.sent[sent].start < exchange.request->start; ++sent)
+      end = std::max(end.value_or(0), scene.sent[sent].end());
+    if (end) exchange.idle = TimeBase::nominal(exchange.request->start - *end) / exchange.request->bit();
+  }
+}
+
+/// What the chip compares (S26), the FCS included.
+bool same_frame(const LineTelegram& a, const LineTelegram& b) {
+  const bus::Telegram &first = a.telegram, &second = b.telegram;
+  const auto fcs = [](const LineTelegram& each) { return each.bytes[each.bytes.size() - 2]; };
+  return first.sa == second.sa && first.fc == second.fc && first.dsap == second.dsap && first.ssap == second.ssap &&
+         first.data.size() == second.data.size() && fcs(a) == fcs(b);
+}
+
+/// A request whose answer cannot be known from others than the one before; one that was not read may be the one before.
+void find_repetitions(Scene& scene) {
+  const Exchange* before = nullptr;
+  for (Exchange& exchange : scene.exchanges) {
+    if (exchange.is_request() && (exchange.request->telegram.fc & bus::fc::kFcv) != 0 && before != nullptr)
+      exchange.repeats = !before->request->right || same_frame(*before->request, *exchange.request);
+    if (exchange.answer != nullptr) before = &exchange;
+  }
+}
+
 void find_accesses(Scene& scene) {
   const Trace& trace = scene.record[Wire::kLReq].seen ? scene.record[Wire::kLReq] : scene.record[Wire::kLSta];
   for (std::size_t edge = trace.next(0, true); edge < trace.edges.size(); edge += 2) {
@@ -94,6 +124,25 @@ void find_user_accesses(Scene& scene, Wire strobe) {
 
 }  // namespace
 
+bool Exchange::is_srd(std::optional<std::uint8_t> dsap) const {
+  const std::uint8_t function = request->telegram.function();
+  return is_request() && (function == bus::fc::kSrdLow || function == bus::fc::kSrdHigh) &&
+         request->telegram.dsap == dsap;
+}
+
+bool Exchange::acknowledged() const {
+  return answer != nullptr && answer->right && answer->telegram.kind == bus::TelegramKind::kSc;
+}
+
+bool Exchange::refused(std::uint8_t fc) const {
+  return answer != nullptr && answer->right && answer->telegram.kind == bus::TelegramKind::kSd1 &&
+         answer->telegram.fc == fc;
+}
+
+bool Exchange::exchanged() const {
+  return is_srd(std::nullopt) && answer != nullptr && answer->right && !refused(bus::fc::kRs) && !refused(bus::fc::kRr);
+}
+
 bool Scene::user_lets(Tick from, Tick to) const {
   return (!record.sees(Wire::kRReq) || record[Wire::kRReq].low(from, to)) &&
          (!record.sees(Wire::kRSta) || record[Wire::kRSta].low(from, to));
@@ -110,7 +159,12 @@ void fill(Scene& scene) {
   leave_out_cut(scene.received, scene.record[Wire::kPbrxd], scene.record.end);
   leave_out_cut(scene.sent, scene.record[Wire::kPbtxd], scene.record.end);
   leave_out_own(scene.received, scene.sent, scene.time);
-  if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd})) pair_up(scene), keep_own(scene);
+  if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd})) {
+    pair_up(scene);
+    keep_own(scene);
+    measure_idle(scene);
+    find_repetitions(scene);
+  }
   find_accesses(scene);
   if (!scene.record.sees_accesses()) return;
   find_user_accesses(scene, Wire::kRd);

@@ -11,6 +11,20 @@ namespace calibrate {
 struct Exchange {
   const LineTelegram* request = nullptr;
   const LineTelegram* answer = nullptr;  ///< nullptr: none
+  std::optional<double> idle = {};       ///< bit times of silence on PBRXD and PBTXD before it; nothing: not known
+  bool repeats = false;                  ///< the chip may answer it from memory (S26)
+
+  /// A right request to the station alone: data exchanges and other SRD, FDL status, SDN ...
+  bool is_request() const {
+    return request->right && request->telegram.is_request() && request->telegram.da != bus::kBroadcast;
+  }
+  /// SRD to this SAP; nothing: to the default SAP.
+  bool is_srd(std::optional<std::uint8_t> dsap) const;
+  /// A right answer of this kind.
+  bool acknowledged() const;
+  bool refused(std::uint8_t fc) const;
+  /// A data exchange that was carried out.
+  bool exchanged() const;
 };
 
 /// L_REQ high.
