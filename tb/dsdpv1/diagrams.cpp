@@ -1,5 +1,6 @@
 #include "tb/dsdpv1/diagrams.hpp"
 
+#include "bus/baud.hpp"
 #include "model/dsdpv1/pins.hpp"
 
 namespace tb {
@@ -33,7 +34,7 @@ Edges either(Edges one, const Edges& other) {
 }
 
 /// The last tick at which A may change before the chip samples it: P5, the first edge of CLK after `begun` (P9).
-Tick last_before_sampling(Tick begun) { return (begun / bus::kTicksPerCycle + 1) * bus::kTicksPerCycle - 1; }
+bus::Tick last_before_sampling(bus::Tick begun) { return (begun / bus::kTicksPerCycle + 1) * bus::kTicksPerCycle - 1; }
 
 Moment here() { return {}; }
 Moment before(Edges edges) { return {Moment::Of::kBefore, std::move(edges)}; }
