@@ -7,7 +7,14 @@
 
 namespace {
 
-using namespace replay_test;
+using bus::Bytes;
+using bus::Telegram;
+using replay_test::inputs;
+using replay_test::kBaud;
+using replay_test::kMaster;
+using replay_test::kSlave;
+using replay_test::outputs;
+using replay_test::to_slave;
 
 constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40;
 
