@@ -20,7 +20,7 @@ class MadeAccesses : public calibrate_test::MadePins {
 
 /// Holds of 400 cycles; each leaves the chip something to do, and 60 cycles behind it an access without.
 void add_long_holds(MadeAccesses& made) {
-  for (double at = 100; at < 30'000; at += 500) {
+  for (int at = 100; at < 30'000; at += 500) {
     made.high(Wire::kRReq, at, at + 400);
     made.access(at + 403, 25);
     made.access(at + 451, 7);
@@ -30,7 +30,7 @@ void add_long_holds(MadeAccesses& made) {
 TEST(CalibrateAccess, AfterAHoldOfTheUserHasSomethingToDo) {
   MadeAccesses made;
   made.show({Wire::kRReq, Wire::kRSta});
-  for (double at = 100; at < 30'000; at += 500) {
+  for (int at = 100; at < 30'000; at += 500) {
     made.high(Wire::kRReq, at, at + 400);
     made.access(at + 403, 25);
     if (at == 100) made.access(at + 451, 7);
@@ -52,7 +52,7 @@ TEST(CalibrateAccess, WithNothingToDoOfAnotherLengthIsAgainstH3) {
 TEST(CalibrateAccess, OfAChipThatLooksSeldomMayAlwaysHaveSomethingToDo) {
   MadeAccesses made;
   made.show({Wire::kRReq, Wire::kRSta});
-  for (double at = 100; at < 30'000; at += 600) made.access(at, 25);
+  for (int at = 100; at < 30'000; at += 600) made.access(at, 25);
   EXPECT_THAT(contradicted(made.judged(31'000)), IsEmpty());
 }
 
@@ -70,8 +70,9 @@ MadeAccesses with_start_up(double start) {
   MadeAccesses made;
   made.access(start, 2'054);
   made.access(start + 2'055, 8);  // B012
-  double at = start + 2'055 + 48;
-  for (; at < 102 + 4'096; at += 48) made.access(at, 7);
+  const double second = start + 2'055 + 48;
+  const double at = second + 48 * std::ceil((102 + 4'096 - second) / 48);
+  made.accesses(second, at);
   made.access(at, 8);
   made.accesses(at + 48, at + 1'000);
   return made;

@@ -40,7 +40,7 @@ class MadePins {
   }
   /// Accesses one interval of 48 cycles after the other, from `from` on as long as they begin before `to`.
   void accesses(double from, double to, double cycles = 7) {
-    for (double at = from; at < to; at += 48) access(at, cycles);
+    for (int i = 0; from + 48 * i < to; ++i) access(from + 48 * i, cycles);
   }
   void show_host_port() {
     show({Wire::kCsr, Wire::kRd, Wire::kWr}, true);

@@ -8,7 +8,7 @@
 namespace calibrate {
 namespace {
 
-constexpr double kFrame = 7, kStartUp = 2054, kLongAccess = 1500;  ///< cycles: micro-architecture, 9.1, 9.7
+constexpr double kStartUp = 2054;  ///< cycles: micro-architecture, 9.7
 
 const Claim kTogether = {"H1", "L_REQ and L_STA rise and fall together", {Wire::kLReq, Wire::kLSta}};
 const Claim kHeldOff = {"H1", "the chip waits while R_REQ or R_STA is high", {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
@@ -25,10 +25,6 @@ const Claim kOverdue = {"H8",
                         {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
 
 std::string cycles_text(const Span& span) { return fmt::format("{:.1f} to {:.1f} cycles", span.lo, span.hi); }
-
-bool is_long(const Scene& scene, const ChipAccess& access) {
-  return scene.time.between(access.start, access.end).hi > kLongAccess;
-}
 
 // --- L_REQ against L_STA
 
@@ -59,7 +55,7 @@ void judge_together(const Scene& scene, Found& found) {
 /// Whether the access at `i` + 1 comes when it is due, without the user and without being overdue.
 bool undisturbed(const Scene& scene, std::size_t i) {
   const ChipAccess &one = scene.accesses[i], &two = scene.accesses[i + 1];
-  if (!one.whole || is_long(scene, one) || scene.in_reset(one.start, two.start)) return false;
+  if (!one.whole || scene.is_start_up(one) || scene.in_reset(one.start, two.start)) return false;
   if (scene.time.between(one.end, two.start).lo <= 2) return false;  // perhaps overdue
   return scene.user_lets(one.start - 4 * bus::kTicksPerCycle - scene.time.margin(), two.start);
 }
@@ -198,7 +194,7 @@ void judge_start(const Scene& scene, std::size_t i, const Fit& interval, Found& 
     found.judge.judge(kRace, after.lo <= 2, at, "an access starts long after R_REQ rose");
   }
   const std::optional<Tick> released = released_before(scene, at);
-  if (!released || i == 0 || interval.estimate.count == 0 || is_long(scene, scene.accesses[i])) return;
+  if (!released || i == 0 || interval.estimate.count == 0 || scene.is_start_up(scene.accesses[i])) return;
   const ChipAccess& before = scene.accesses[i - 1];
   const double due = TimeBase::nominal(*released - before.start) - interval.estimate.span.hi - scene.time.doubt();
   if (due <= 0 || *released <= before.end) return;
@@ -219,7 +215,7 @@ void judge_user_pins(const Scene& scene, Found& found) {
 // --- lengths
 
 bool has_length(const Scene& scene, const ChipAccess& access) {
-  return access.whole && !is_long(scene, access) && !scene.in_reset(access.start, access.end);
+  return access.whole && !scene.is_start_up(access) && !scene.in_reset(access.start, access.end);
 }
 
 /// None is shorter than one with nothing to do.
@@ -227,9 +223,9 @@ void judge_shortest(const Scene& scene, Found& found) {
   for (const ChipAccess& access : scene.accesses) {
     if (!has_length(scene, access)) continue;
     const Span length = scene.time.between(access.start, access.end);
-    if (length.contains(kFrame))
+    if (length.contains(kEmptyAccess))
       found.judge.holds(kEmpty);
-    else if (length.hi < kFrame)
+    else if (length.hi < kEmptyAccess)
       found.judge.fails(kEmpty, access.start, "an access of " + cycles_text(length));
   }
 }
@@ -248,7 +244,7 @@ void judge_share(const Scene& scene, Found& found) {
     const Span length = scene.time.between(access.start, access.end);
     ++all;
     sum += length.middle();
-    if (length.contains(kFrame)) ++empty;
+    if (length.contains(kEmptyAccess)) ++empty;
   }
   if (all >= kEnough && 3 * empty < 2 * all)
     found.judge.fails(kEmpty, scene.accesses.front().start,
@@ -258,9 +254,9 @@ void judge_share(const Scene& scene, Found& found) {
 
 /// With long samples the gap of one cycle behind it is not seen, and it seems to be one with the next.
 void judge_start_up(const Scene& scene, Found& found) {
-  constexpr double kNext = 1 + kFrame + 1;
+  constexpr double kNext = 1 + kEmptyAccess + 1;
   for (const ChipAccess& access : scene.accesses) {
-    if (!access.whole || !is_long(scene, access) || scene.in_reset(access.start, access.end)) continue;
+    if (!access.whole || !scene.is_start_up(access) || scene.in_reset(access.start, access.end)) continue;
     const Span length = scene.time.between(access.start, access.end);
     const bool merged = scene.time.doubt() >= 1 && length.contains(kStartUp + kNext);
     if (length.contains(kStartUp))
@@ -292,97 +288,6 @@ void judge_overdue(const Scene& scene, Found& found) {
   }
 }
 
-// --- B004
-
-/// The accesses of start-ups, by their places.
-std::vector<std::size_t> start_ups(const Scene& scene) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < scene.accesses.size(); ++i)
-    if (scene.accesses[i].whole && is_long(scene, scene.accesses[i])) found.push_back(i);
-  return found;
-}
-
-/// Cycles to an access from cycle R of the start-up before it.
-class SinceRelease {
- public:
-  /// R is 2 to 3 cycles after RESET rose; without RESET it is where the start-up access begins, if the user did not ask
-  /// before the chip looked.
-  static std::optional<SinceRelease> of(const Scene& scene, const ChipAccess& start_up) {
-    const Trace& reset = scene.record[Wire::kReset];
-    const std::size_t rose = reset.last(start_up.start, true);
-    if (reset.seen && rose != Trace::kNone) return SinceRelease{scene, reset.edges[rose], {2, 3}};
-    const Tick before = start_up.start - scene.time.ticks(4) - scene.time.margin();
-    if (scene.sees_user() && scene.user_lets(before, before)) return SinceRelease{scene, start_up.start, {0, 0}};
-    return std::nullopt;
-  }
-  Span operator()(const ChipAccess& access) const {
-    const Span since = scene_.time.between(from_, access.start);
-    return {since.lo - behind_.hi, since.hi - behind_.lo};
-  }
-
- private:
-  SinceRelease(const Scene& scene, Tick from, Span behind) : scene_(scene), from_(from), behind_(behind) {}
-
-  const Scene& scene_;
-  Tick from_;
-  Span behind_;  ///< R is so many cycles behind it
-};
-
-/// The access that has written B004 by what the user has read.
-void bound_by_reads(const Scene& scene, std::size_t start_up, std::size_t until, const SinceRelease& since,
-                    Span& bound) {
-  constexpr std::uint32_t kB004 = 4;
-  const Tick from = scene.accesses[start_up].end,
-             to = until < scene.accesses.size() ? scene.accesses[until].start : bus::kNever;
-  for (const UserAccess& access : scene.user) {
-    if (access.write || access.address != kB004 || access.start < from || access.start > to) continue;
-    std::size_t before = start_up;
-    while (before + 1 < scene.accesses.size() && scene.accesses[before + 1].start < access.start) ++before;
-    if (before == start_up) continue;
-    if (access.data == 0) bound.lo = std::max(bound.lo, since(scene.accesses[before]).lo);
-    if (access.data == 0xC5) bound.hi = std::min(bound.hi, since(scene.accesses[before]).hi);
-  }
-}
-
-/// ... and by length: it is the first behind the one that writes B012 that takes a cycle more than an empty one, as
-/// long as the user has written nothing.
-void bound_by_length(const Scene& scene, std::size_t start_up, std::size_t until, const SinceRelease& since,
-                     Span& bound) {
-  const Span empty{kFrame, kFrame}, one_byte{kFrame + 1, kFrame + 1};
-  for (std::size_t i = start_up + 2; i < until && scene.accesses[i].whole; ++i) {
-    const Span length = scene.time.between(scene.accesses[i].start, scene.accesses[i].end);
-    if (overlap(length, empty) && overlap(length, one_byte)) return;  // too coarse to tell
-    if (overlap(length, empty)) continue;
-    if (!overlap(length, one_byte)) return;
-    bound.lo = std::max(bound.lo, since(scene.accesses[i - 1]).lo);
-    bound.hi = std::min(bound.hi, since(scene.accesses[i]).hi);
-    return;
-  }
-}
-
-void fit_ready(const Scene& scene, Found& found) {
-  constexpr double kFar = 1e12;
-  Fit& fit = found.fit(Parameter::kReadyCycles);
-  std::vector<Instance> instances;
-  const std::vector<std::size_t> starts = start_ups(scene);
-  bool any_release = false;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    const std::size_t until = i + 1 < starts.size() ? starts[i + 1] : scene.accesses.size();
-    const std::optional<SinceRelease> since = SinceRelease::of(scene, scene.accesses[starts[i]]);
-    if (!since) continue;
-    any_release = true;
-    Span bound{0, kFar};
-    bound_by_reads(scene, starts[i], until, *since, bound);
-    bound_by_length(scene, starts[i], until, *since, bound);
-    if (bound.lo > 0 && bound.hi < kFar) instances.push_back({scene.accesses[starts[i]].start, bound, bound.middle()});
-  }
-  fit.estimate = estimate(instances);
-  if (fit.estimate.count != 0) return;
-  fit.not_shown = starts.empty() ? "no start-up access"
-                  : any_release  ? "the access that writes B004 is not to be told from others"
-                                 : "no RESET, and no start-up access that certainly did not wait";
-}
-
 }  // namespace
 
 void measure_access(Scene& scene, Found& found) {
@@ -394,7 +299,6 @@ void measure_access(Scene& scene, Found& found) {
   judge_share(scene, found);
   judge_start_up(scene, found);
   judge_overdue(scene, found);
-  fit_ready(scene, found);
 }
 
 Claims access_claims() {

@@ -168,6 +168,7 @@ Result calibrate(const std::string& file, const Record& record, const Sampling& 
   Found& found = result.found;
   measure_clock(scene, sampling.clock_ppm, found);
   measure_access(scene, found);
+  measure_ready(scene, found);
   measure_interrupt(scene, found);
   measure_answers(scene, found);
   measure_tsdr(scene, found);

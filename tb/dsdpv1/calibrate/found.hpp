@@ -50,6 +50,8 @@ Claims clock_claims();
 /// H1, H3, H6, H8: L_REQ and L_STA. Makes the scale of the scene's time finer.
 void measure_access(Scene& scene, Found& found);
 Claims access_claims();
+/// D1: when B004 is written; after measure_access, no claims.
+void measure_ready(const Scene& scene, Found& found);
 /// P7, D7, D15: INTR0 and READY.
 void measure_interrupt(const Scene& scene, Found& found);
 Claims interrupt_claims();

@@ -33,6 +33,8 @@ struct ChipAccess {
   bool whole = false;  ///< its beginning and end are both in the capture
 };
 
+constexpr double kEmptyAccess = 7;  ///< cycles of one that finds nothing to do: micro-architecture, 9.1
+
 /// A byte that the user read or wrote.
 struct UserAccess {
   Tick start = 0;  ///< the later of CSR and RD (WR) falls
@@ -59,6 +61,8 @@ struct Scene {
   /// Whether both of them are in the capture.
   bool sees_user() const { return record.sees({Wire::kRReq, Wire::kRSta}); }
   bool in_reset(Tick from, Tick to) const;
+  /// It is longer than any other access can be (H6).
+  bool is_start_up(const ChipAccess& access) const;
 };
 
 /// Reads the telegrams and accesses out of the record.
