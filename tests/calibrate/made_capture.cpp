@@ -83,6 +83,11 @@ void MadeCapture::answer(const Telegram& telegram, double tsdr) {
   set_at(Wire::kPbrts, now_ + static_cast<Tick>(trail_ * bus::kTicksPerCycle), false);
 }
 
+void MadeCapture::answer_undriven(const Telegram& telegram, double tsdr) {
+  wait_bits(tsdr), wait_cycles(0.5);
+  send(Wire::kPbtxd, bus::encode(telegram));
+}
+
 void MadeCapture::cut_answer(const Telegram& telegram, std::size_t characters, int bits) {
   wait_bits(11), wait_cycles(0.5);
   set_at(Wire::kPbrts, now_ - static_cast<Tick>(lead_ * bus::kTicksPerCycle), true);

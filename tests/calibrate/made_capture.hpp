@@ -52,6 +52,8 @@ class MadeCapture {
   void request(const Bytes& bytes, double idle = 40);
   /// The chip's answer to it.
   void answer(const Telegram& telegram, double tsdr = 11);
+  /// ... with no edge of PBRTS.
+  void answer_undriven(const Telegram& telegram, double tsdr = 11);
   /// Only the first characters of it and some bits of the next one, then idle.
   void cut_answer(const Telegram& telegram, std::size_t characters, int bits);
   void exchange(const Telegram& asked, const Telegram& answered, double tsdr = 11) {

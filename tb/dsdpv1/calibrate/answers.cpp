@@ -9,8 +9,6 @@
 namespace calibrate {
 namespace {
 
-constexpr double kMostLead = 40;  ///< cycles: what is further from the answer is not its PBRTS
-
 const Claim kLead = {"P2", "PBRTS rises the same time before each answer", {Wire::kPbtxd, Wire::kPbrts}};
 const Claim kTrail = {"P2", "PBRTS falls the same time after each answer", {Wire::kPbtxd, Wire::kPbrts}};
 const Claim kDriven = {"P2", "PBTXD is low only while PBRTS is high", {Wire::kPbtxd, Wire::kPbrts}};
@@ -22,30 +20,47 @@ const Claim kSyn = {
 
 // --- PBRTS
 
-void fit_driver(const Scene& scene, Found& found) {
-  const Trace& rts = scene.record[Wire::kPbrts];
+struct Driver {
   std::vector<Instance> leads, trails;
-  for (const LineTelegram& sent : scene.sent) {
-    if (!sent.right) continue;
-    const std::size_t rise = rts.last(sent.start + scene.time.margin(), true);
-    if (rise == Trace::kNone || rise + 1 >= rts.edges.size()) continue;
-    const Tick up = rts.edges[rise], down = rts.edges[rise + 1];
-    const double length = static_cast<double>(sent.bytes.size()) * bus::kCharacterBits * sent.bit();
-    const Span lead = scene.time.between(up, sent.start), trail = scene.time.between(sent.start, down) + -length;
-    if (lead.lo < kMostLead) leads.push_back({sent.start, lead, scene.time.best(up, sent.start)});
-    if (trail.lo < kMostLead) trails.push_back({sent.start, trail, scene.time.best(sent.start, down) - length});
+};
+
+/// PBRTS round answer `i`: its rise behind the beginning of the answer before, its fall before the next one.
+void measure_driver(const Scene& scene, std::size_t i, Driver& driver, Found& found) {
+  const Trace& rts = scene.record[Wire::kPbrts];
+  const LineTelegram& sent = scene.sent[i];
+  const Tick begun = sent.start + scene.time.margin(), before = i > 0 ? scene.sent[i - 1].start : -1,
+             next = i + 1 < scene.sent.size() ? scene.sent[i + 1].start : scene.record.end;
+  if (!rts.at(begun)) return;
+  if (const std::size_t rise = rts.last(begun, true); rise != Trace::kNone && rts.edges[rise] > before) {
+    const Tick up = rts.edges[rise];
+    driver.leads.push_back({sent.start, scene.time.between(up, sent.start), scene.time.best(up, sent.start)});
   }
+  const double length = static_cast<double>(sent.bytes.size()) * bus::kCharacterBits * sent.bit();
+  const std::size_t fall = rts.next(begun, false);
+  if (fall != Trace::kNone && rts.edges[fall] < next) {
+    const Tick down = rts.edges[fall];
+    driver.trails.push_back(
+        {sent.start, scene.time.between(sent.start, down) + -length, scene.time.best(sent.start, down) - length});
+  } else if (i + 1 < scene.sent.size()) {
+    found.judge.fails(kTrail, sent.end(), "PBRTS is high until the next answer");
+  }
+}
+
+void fit_driver(const Scene& scene, Found& found) {
+  Driver driver;
+  for (std::size_t i = 0; i < scene.sent.size(); ++i)
+    if (scene.sent[i].right) measure_driver(scene, i, driver, found);
   const auto fit = [&](Parameter parameter, const Claim& claim, std::vector<Instance>& instances) {
     Fit& to = found.fit(parameter);
     to.estimate = estimate(instances, &scene.time);
-    to.estimate.span.lo = std::max(to.estimate.span.lo, 0.0);
+    if (to.estimate.span.hi >= 0) to.estimate.span.lo = std::max(to.estimate.span.lo, 0.0);
     if (to.estimate.count == 0) to.not_shown = "no answer with an edge of PBRTS beside it";
     for (const Outlier& outlier : to.estimate.outliers)
       found.judge.fails(claim, outlier.at, fmt::format("{:+.1f} cycles from the others", outlier.by));
     for (std::size_t i = to.estimate.outliers.size(); i < to.estimate.count; ++i) found.judge.holds(claim);
   };
-  fit(Parameter::kRtsLead, kLead, leads);
-  fit(Parameter::kRtsTrail, kTrail, trails);
+  fit(Parameter::kRtsLead, kLead, driver.leads);
+  fit(Parameter::kRtsTrail, kTrail, driver.trails);
 }
 
 void judge_driven(const Scene& scene, Found& found) {
@@ -81,14 +96,28 @@ void judge_bits(const Scene& scene, const LineTelegram& sent, Found& found) {
   found.judge.holds(kBits);
 }
 
+/// A reset or a new initialisation ends an answer at once; without BR what breaks off may have been ended so.
+bool is_cut(const Scene& scene, const LineTelegram& sent) {
+  const Tick from = sent.last_edge - scene.time.margin(), to = sent.idle_until() + scene.time.margin();
+  const auto falls = [&](Wire wire) {
+    const Trace& trace = scene.record[wire];
+    const std::size_t fall = trace.next(std::max(from, sent.start), false);
+    return trace.seen && fall != Trace::kNone && trace.edges[fall] <= to;
+  };
+  return falls(Wire::kReset) || falls(Wire::kBr) || (!scene.record.sees(Wire::kBr) && sent.breaks_off());
+}
+
 // --- answered or not
+
+constexpr Tick kLongestSilence = 50 * bus::kTicksPerMs;
 
 bool wants_answer(const Exchange& exchange) {
   return exchange.request->right && exchange.request->telegram.wants_answer() &&
          exchange.request->telegram.sa < bus::kBroadcast;
 }
 
-/// Whether the exchanges before and behind show that the chip answers requests like this one.
+/// Whether the exchanges before and behind show that the chip answers requests like this one. Without BR one after a
+/// silence may have ended a search (S1, S9).
 bool chip_listens(const Scene& scene, std::size_t i) {
   const auto& all = scene.exchanges;
   const LineTelegram& request = *all[i].request;
@@ -101,7 +130,9 @@ bool chip_listens(const Scene& scene, std::size_t i) {
   while (behind < all.size() && !wants_answer(all[behind])) ++behind;
   if (before == 0 || behind >= all.size() || !same(all[before - 1]) || !same(all[behind])) return false;
   const Tick from = request.start, to = request.end();
-  return !scene.in_reset(from, to) && (!scene.record.sees(Wire::kBr) || scene.record[Wire::kBr].high(from, to)) &&
+  const bool found = scene.record.sees(Wire::kBr) ? scene.record[Wire::kBr].high(from, to)
+                                                  : request.start - all[before - 1].answer->end() < kLongestSilence;
+  return !scene.in_reset(from, to) && found &&
          (!scene.record.sees(Wire::kReady) || scene.record[Wire::kReady].high(from, to));
 }
 
@@ -111,8 +142,8 @@ void judge_answered(const Scene& scene, Found& found) {
     const Exchange& exchange = scene.exchanges[i];
     if (!wants_answer(exchange)) continue;
     const double doubt = kSynDoubt + scene.time.doubt() / exchange.request->bit();
-    const bool soon = exchange.idle && *exchange.idle < bus::kSynBits - doubt,
-               late = exchange.idle && *exchange.idle > bus::kSynBits + doubt;
+    const bool soon = exchange.idle && exchange.idle->hi < bus::kSynBits - doubt,
+               late = exchange.idle && exchange.idle->lo > bus::kSynBits + doubt;
     if (soon)
       found.judge.judge(kSyn, exchange.answer == nullptr, exchange.request->start,
                         "a request after too little idle is answered");
@@ -148,7 +179,7 @@ void measure_answers(const Scene& scene, Found& found) {
       judge_bits(scene, sent, found);
     else if (sent.coarse(scene.time))
       found.judge.coarse(kBits);
-    else
+    else if (!is_cut(scene, sent))
       found.judge.fails(kBits, sent.start, "what is sent is no right telegram");
   judge_answered(scene, found);
   judge_asked(scene, found);

@@ -11,6 +11,7 @@ const char* const kNoPin = "no pin shows it";
 const char* const kInside = "it needs the chip's state beside the pins";
 const char* const kUsers = "it is about what the user does: docs/checks.md";
 const char* const kWithD2 = "it is judged with D2";
+const char* const kWithS1 = "it is judged with S1";
 const char* const kWithS11 = "it is judged with S11";
 const char* const kModels = "it is about the model";
 
@@ -26,9 +27,9 @@ const std::vector<Ruling>& rulings() {
       {"D10", kInside}, {"D11", kInside}, {"D12", kInside},  {"D13", kInside},  {"D14", kInside}, {"D15", kInside},
       {"D16", kInside}, {"D17", kInside}, {"D18", kNoPin},   {"S1", nullptr},   {"S2", nullptr},  {"S3", nullptr},
       {"S4", kInside},  {"S5", nullptr},  {"S6", kInside},   {"S7", kInside},   {"S8", kModels},  {"S9", nullptr},
-      {"S10", kInside}, {"S11", nullptr}, {"S12", kInside},  {"S13", nullptr},  {"S14", nullptr}, {"S15", kInside},
+      {"S10", nullptr}, {"S11", nullptr}, {"S12", kInside},  {"S13", nullptr},  {"S14", nullptr}, {"S15", kInside},
       {"S16", kInside}, {"S17", kInside}, {"S18", kInside},  {"S19", nullptr},  {"S20", nullptr}, {"S21", nullptr},
-      {"S22", kInside}, {"S23", kInside}, {"S24", kInside},  {"S25", kInside},  {"S26", nullptr}, {"S27", kInside},
+      {"S22", kWithS1}, {"S23", kInside}, {"S24", kInside},  {"S25", kInside},  {"S26", nullptr}, {"S27", kInside},
       {"S28", kInside}, {"S29", nullptr}, {"S30", kWithS11}, {"S31", kInside},  {"S32", nullptr}, {"S33", kInside},
       {"V1", nullptr},  {"V2", nullptr},  {"V3", kInside},   {"V4", kInside},   {"V5", kInside},  {"V6", kInside},
       {"V7", kInside},  {"V8", nullptr},  {"V9", kInside},   {"V10", kInside},  {"V11", kInside}, {"V12", kInside},

@@ -60,14 +60,21 @@ void keep_own(Scene& scene) {
 }
 
 void measure_idle(Scene& scene) {
+  std::optional<Tick> from, until;
+  const auto take = [&](const std::vector<LineTelegram>& telegrams, std::size_t& next, Tick before) {
+    for (; next < telegrams.size() && telegrams[next].start < before; ++next) {
+      from = std::max(from.value_or(0), telegrams[next].idle_from());
+      until = std::max(until.value_or(0), telegrams[next].idle_until());
+    }
+  };
   std::size_t received = 0, sent = 0;
-  std::optional<Tick> end;
   for (Exchange& exchange : scene.exchanges) {
-    for (; received < scene.received.size() && scene.received[received].start < exchange.request->start; ++received)
-      end = std::max(end.value_or(0), scene.received[received].end());
-    for (; sent < scene.sent.size() && scene.sent[sent].start < exchange.request->start; ++sent)
-      end = std::max(end.value_or(0), scene.sent[sent].end());
-    if (end) exchange.idle = TimeBase::nominal(exchange.request->start - *end) / exchange.request->bit();
+    const LineTelegram& request = *exchange.request;
+    take(scene.received, received, request.start);
+    take(scene.sent, sent, request.start);
+    if (from)
+      exchange.idle = {TimeBase::nominal(request.start - *until) / request.bit(),
+                       TimeBase::nominal(request.start - *from) / request.bit()};
   }
 }
 
@@ -158,9 +165,9 @@ bool Scene::is_start_up(const ChipAccess& access) const {
 }
 
 void fill(Scene& scene) {
-  if (scene.record.sees(Wire::kPbrxd)) scene.received = telegrams_of(scene.record[Wire::kPbrxd], scene.time);
+  if (scene.record.sees(Wire::kPbrxd)) scene.received = telegrams_received(scene.record[Wire::kPbrxd], scene.time);
   if (scene.record.sees(Wire::kPbtxd))
-    scene.sent = telegrams_of(scene.record[Wire::kPbtxd], scene.time, scene.received);
+    scene.sent = telegrams_sent(scene.record[Wire::kPbtxd], scene.time, scene.received);
   leave_out_cut(scene.received, scene.record[Wire::kPbrxd], scene.record.end);
   leave_out_cut(scene.sent, scene.record[Wire::kPbtxd], scene.record.end);
   leave_out_own(scene.received, scene.sent, scene.time);

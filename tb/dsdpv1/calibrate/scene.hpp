@@ -11,7 +11,7 @@ namespace calibrate {
 struct Exchange {
   const LineTelegram* request = nullptr;
   const LineTelegram* answer = nullptr;  ///< nullptr: none
-  std::optional<double> idle = {};       ///< bit times of silence on PBRXD and PBTXD before it; nothing: not known
+  std::optional<Span> idle = {};         ///< bit times of silence on PBRXD and PBTXD before it; nothing: not known
   bool repeats = false;                  ///< the chip may answer it from memory (S26)
 
   /// A right request to the station alone: data exchanges and other SRD, FDL status, SDN ...

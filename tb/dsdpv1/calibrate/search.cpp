@@ -1,4 +1,4 @@
-// S1, S9, P3: the baud search, and the pins that show the states.
+// S1, S9, S10, P3: the baud search, and the pins that show the states.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,7 +9,9 @@
 namespace calibrate {
 namespace {
 
-const Claim kLocks = {"S1", "BR rises at the decision of a right telegram", {Wire::kPbrxd, Wire::kBr}};
+const Claim kLocks = {"S1", "a right SD1, SD2 or SD3 ends the search", {Wire::kPbrxd, Wire::kBr}};
+const Claim kDecided = {
+    "S10", "BR rises at the decision of a telegram, 1 bit time after it", {Wire::kPbrxd, Wire::kBr}};
 const Claim kSilent = {
     "S9", "the telegram that ends the search is not answered", {Wire::kPbrxd, Wire::kPbtxd, Wire::kBr}};
 const Claim kFoundFirst = {
@@ -48,14 +50,23 @@ std::optional<Tick> search_start(const Scene& scene, Tick found_at) {
   return start < 0 ? std::nullopt : std::optional<Tick>(start);
 }
 
-/// The telegram whose decision is at `at`.
-std::size_t telegram_decided(const Scene& scene, Tick at) {
-  for (std::size_t i = 0; i < scene.received.size(); ++i) {
-    const LineTelegram& telegram = scene.received[i];
-    if (telegram.last_start > at) break;
-    if (locks(telegram) && overlap(scene.time.between(telegram.last_start, at), telegram.decision())) return i;
-  }
-  return Trace::kNone;
+/// The telegram that ends the search at `at`: its last character is not long before.
+std::size_t telegram_ending(const Scene& scene, Tick at) {
+  std::size_t last = Trace::kNone;
+  for (std::size_t i = 0; i < scene.received.size() && scene.received[i].last_start <= at; ++i)
+    if (locks(scene.received[i])) last = i;
+  if (last == Trace::kNone) return last;
+  const LineTelegram& telegram = scene.received[last];
+  const double near = 2 * bus::kCharacterBits * telegram.bit();
+  return scene.time.between(telegram.last_start, at).lo < near ? last : Trace::kNone;
+}
+
+void judge_decision(const Scene& scene, const LineTelegram& telegram, Tick at, Found& found) {
+  const Span seen = scene.time.between(telegram.last_start, at), right = telegram.decision();
+  if (overlap(seen, right))
+    found.judge.holds(kDecided);
+  else
+    found.judge.fails(kDecided, at, fmt::format("{:+.1f} cycles from it", seen.middle() - right.middle()));
 }
 
 /// A telegram that comes whole, T_SYN included, in the window of its rate locks it: one that did not came too early. So
@@ -84,12 +95,13 @@ std::vector<Lock> locks_of(const Scene& scene, Found& found) {
   const Trace& br = scene.record[Wire::kBr];
   for (std::size_t edge = br.next(0, true); edge < br.edges.size(); edge += 2) {
     const Tick at = br.edges[edge];
-    const std::size_t by = telegram_decided(scene, at);
+    const std::size_t by = telegram_ending(scene, at);
     if (by == Trace::kNone) {
       found.judge.fails(kLocks, at, "BR rises without a telegram before it");
       continue;
     }
     found.judge.holds(kLocks);
+    judge_decision(scene, scene.received[by], at, found);
     const auto start = search_start(scene, at);
     if (start && scene.received[by].baud > 0) all.push_back(lock_of(scene, *start, by));
   }
@@ -231,6 +243,6 @@ void measure_search(const Scene& scene, Found& found) {
   judge_pins(scene, found);
 }
 
-Claims search_claims() { return {&kLocks, &kSilent, &kFoundFirst, &kExchange}; }
+Claims search_claims() { return {&kLocks, &kDecided, &kSilent, &kFoundFirst, &kExchange}; }
 
 }  // namespace calibrate

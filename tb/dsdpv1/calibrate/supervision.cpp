@@ -19,7 +19,7 @@ double watchdog_of(const bus::Bytes& prm) {
 bool is_heard(const Exchange& exchange) {
   if (exchange.answer != nullptr) return true;
   return !exchange.request->telegram.wants_answer() && exchange.request->telegram.sa != bus::kBroadcast &&
-         (!exchange.idle || *exchange.idle >= bus::kSynBits);
+         (!exchange.idle || exchange.idle->lo >= bus::kSynBits);
 }
 
 }  // namespace
