@@ -1,6 +1,8 @@
 #pragma once
 // What is worth a timing diagram at a chip's pins: which edges, what is measured between them, which check limits it. A
 // kind of chip declares them; who watches a run looks for the instance with the least margin (tb/report/html).
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,26 +19,33 @@ enum class Turn : std::uint8_t {
   kValue,  ///< to a level that somebody drives and that is known
 };
 
-/// A change of a pin. With `where`, only while that pin has that level.
+struct PinLevel {
+  PinNumber pin = 0;
+  Level level = 0;
+};
+
+/// A change of a pin; only where the first `conditions` of `where` hold, just before it or at its tick.
 struct DiagramEdge {
   PinNumber pin = 0;
   Turn turn = Turn::kChange;
-  bool conditional = false;
-  PinNumber where = 0;
-  Level level = 0;
+  std::array<PinLevel, 2> where = {};
+  std::size_t conditions = 0;
 };
 
 /// A moment of an instance, seen from its anchor.
 struct Moment {
   enum class Of : std::uint8_t {
     kAnchor,
-    kBefore,        ///< the last of `edges` up to the anchor
+    kBefore,        ///< the last of `edges` up to the anchor, or up to `until`
+    kSince,         ///< the first of `edges` from the last of `begun` to the anchor
     kAfter,         ///< the first of `edges` after it
     kReadSample,    ///< when the user CPU sampled the data of the read that ends at the anchor; else the anchor
     kRequestEnded,  ///< of the request whose answer begins at the anchor
   };
   Of of = Of::kAnchor;
   std::vector<DiagramEdge> edges;
+  std::vector<DiagramEdge> begun = {};            ///< the last of them up to the anchor
+  bus::Tick (*until)(bus::Tick begun) = nullptr;  ///< of kBefore: not later than this, seen from `begun`
 };
 
 /// From one moment to the other.
@@ -50,8 +59,9 @@ struct DiagramSpan {
 struct TimingDiagram {
   const char* id = "";
   const char* title = "";
-  const char* text = "";             ///< what is shown, one sentence
-  std::vector<DiagramEdge> anchors;  ///< each of them is an instance; none: each answer of the slave, as it begins
+  const char* text = "";  ///< what is shown, one sentence
+  std::vector<DiagramEdge>
+      anchors;  ///< each tick with one of them is an instance; none: each answer of the slave, as it begins
   std::vector<DiagramSpan> spans;
   bus::Tick patience = 0;       ///< how long moments after the anchor are waited for
   std::vector<PinNumber> pins;  ///< drawn, from above

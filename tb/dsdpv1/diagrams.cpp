@@ -1,5 +1,6 @@
 #include "tb/dsdpv1/diagrams.hpp"
 
+#include "bus/baud.hpp"
 #include "model/dsdpv1/pins.hpp"
 
 namespace tb {
@@ -9,14 +10,38 @@ using dsdpv1::Pin;
 using Edges = std::vector<DiagramEdge>;
 
 constexpr PinNumber number(Pin pin) { return static_cast<PinNumber>(pin); }
-DiagramEdge rise(Pin pin) { return {number(pin), Turn::kRise, false, 0, 0}; }
-DiagramEdge fall(Pin pin) { return {number(pin), Turn::kFall, false, 0, 0}; }
-DiagramEdge change(Pin pin) { return {number(pin), Turn::kChange, false, 0, 0}; }
-DiagramEdge value(Pin pin) { return {number(pin), Turn::kValue, false, 0, 0}; }
-DiagramEdge only(DiagramEdge edge, Pin where, Level level) { return {edge.pin, edge.turn, true, number(where), level}; }
+DiagramEdge rise(Pin pin) { return {number(pin), Turn::kRise}; }
+DiagramEdge fall(Pin pin) { return {number(pin), Turn::kFall}; }
+DiagramEdge change(Pin pin) { return {number(pin), Turn::kChange}; }
+DiagramEdge value(Pin pin) { return {number(pin), Turn::kValue}; }
+DiagramEdge only(DiagramEdge edge, Pin where, Level level) {
+  edge.where.at(edge.conditions++) = {number(where), level};
+  return edge;
+}
+
+/// P5: an access is where CSR and the strobe are both low.
+Edges begin(Pin strobe) { return {only(fall(strobe), Pin::kCsr, 0), only(fall(Pin::kCsr), strobe, 0)}; }
+/// The later of them has begun an access that is still running.
+Edges falls(Pin strobe) { return {fall(strobe), fall(Pin::kCsr)}; }
+Edges end(Pin strobe) { return {only(rise(strobe), Pin::kCsr, 0), only(rise(Pin::kCsr), strobe, 0)}; }
+Edges at(Edges edges, Level address) {
+  for (DiagramEdge& edge : edges) edge = only(edge, Pin::kA, address);
+  return edges;
+}
+Edges either(Edges one, const Edges& other) {
+  one.insert(one.end(), other.begin(), other.end());
+  return one;
+}
+
+/// The last tick at which A may change before the chip samples it: P5, the first edge of CLK after `begun` (P9).
+bus::Tick last_before_sampling(bus::Tick begun) { return (begun / bus::kTicksPerCycle + 1) * bus::kTicksPerCycle - 1; }
 
 Moment here() { return {}; }
 Moment before(Edges edges) { return {Moment::Of::kBefore, std::move(edges)}; }
+Moment before_sampling(Edges edges) {
+  return {Moment::Of::kBefore, std::move(edges), falls(Pin::kRd), last_before_sampling};
+}
+Moment in_read(Edges edges) { return {Moment::Of::kSince, std::move(edges), falls(Pin::kRd)}; }
 Moment after(Edges edges) { return {Moment::Of::kAfter, std::move(edges)}; }
 Moment sample() { return {Moment::Of::kReadSample, {}}; }
 Moment request_end() { return {Moment::Of::kRequestEnded, {}}; }
@@ -27,39 +52,41 @@ std::vector<PinNumber> pins(std::initializer_list<Pin> list) {
   return numbers;
 }
 
-/// Figure 4: R_REQ, a look at L_REQ and L_STA, R_STA, the first access.
+/// Figures 4 and 5: R_REQ, a look at L_REQ and L_STA, R_STA, the first access.
 TimingDiagram take() {
-  return {"take",
-          "The user takes the DPRAM",
-          "R_REQ, the chip goes away (L_REQ and L_STA low), R_STA, the first access (5.1, figure 4).",
-          {rise(Pin::kRSta)},
-          {{"request to ownership", before({rise(Pin::kRReq)}), here(), "OWNERSHIP_SYNC_WINDOW"},
-           {"chip away to ownership", before({rise(Pin::kRReq), fall(Pin::kLSta)}), here(), "OWNERSHIP_BOTH_OWN"},
-           {"ownership to first access", here(), after({fall(Pin::kRd), fall(Pin::kWr)}), "OWNERSHIP_NOT_OWNER"}},
-          20 * bus::kTicksPerUs,
-          pins({Pin::kRReq, Pin::kRSta, Pin::kLReq, Pin::kLSta, Pin::kCsr, Pin::kRd, Pin::kWr})};
+  return {
+      "take",
+      "The user takes the DPRAM",
+      "R_REQ, the chip goes away (L_REQ and L_STA low), R_STA, the first access (5.1, figures 4 and 5).",
+      {rise(Pin::kRSta)},
+      {{"request to ownership", before({rise(Pin::kRReq)}), here(), "OWNERSHIP_SYNC_WINDOW"},
+       {"chip away to ownership", before({rise(Pin::kRReq), fall(Pin::kLSta)}), here(), "OWNERSHIP_BOTH_OWN"},
+       {"ownership to first access", here(), after(either(begin(Pin::kRd), begin(Pin::kWr))), "OWNERSHIP_NOT_OWNER"}},
+      20 * bus::kTicksPerUs,
+      pins({Pin::kRReq, Pin::kRSta, Pin::kLReq, Pin::kLSta, Pin::kCsr, Pin::kRd, Pin::kWr})};
 }
 
 /// Figure 5: the first of the two that falls ends the ownership.
 TimingDiagram give_back() {
-  return {"give_back",
-          "The user gives the DPRAM back",
-          "The last access ends, R_STA and R_REQ fall, the chip comes (5.1, figure 5).",
-          {only(fall(Pin::kRSta), Pin::kRReq, 1), only(fall(Pin::kRReq), Pin::kRSta, 1)},
-          {{"last access to release", before({rise(Pin::kRd), rise(Pin::kWr)}), here(), "OWNERSHIP_RELEASED_IN_ACCESS"},
-           {"release to the chip's request", here(), after({rise(Pin::kLReq)})}},
-          20 * bus::kTicksPerUs,
-          pins({Pin::kRReq, Pin::kRSta, Pin::kLReq, Pin::kLSta, Pin::kCsr, Pin::kRd, Pin::kWr})};
+  return {
+      "give_back",
+      "The user gives the DPRAM back",
+      "The last access ends, R_STA and R_REQ fall, the chip comes (5.1, figure 5).",
+      {only(fall(Pin::kRSta), Pin::kRReq, 1), only(fall(Pin::kRReq), Pin::kRSta, 1)},
+      {{"last access to release", before(either(end(Pin::kRd), end(Pin::kWr))), here(), "OWNERSHIP_RELEASED_IN_ACCESS"},
+       {"release to the chip's request", here(), after({rise(Pin::kLReq)})}},
+      20 * bus::kTicksPerUs,
+      pins({Pin::kRReq, Pin::kRSta, Pin::kLReq, Pin::kLSta, Pin::kCsr, Pin::kRd, Pin::kWr})};
 }
 
 TimingDiagram read() {
   return {"read",
           "A read of the user",
-          "A valid before RD falls; D is sampled, then RD rises (table 15).",
-          {rise(Pin::kRd)},
-          {{"Tc", before({change(Pin::kA)}), before({fall(Pin::kRd)}), "TIMING_TC"},
-           {"Tw", before({fall(Pin::kRd)}), sample(), "TIMING_TW"},
-           {"RD to the chip's data", before({fall(Pin::kRd)}), before({value(Pin::kDOut)})}},
+          "A valid before RD and CSR are low; D is sampled, then one of them rises (table 15, P11).",
+          end(Pin::kRd),
+          {{"Tc", before_sampling({change(Pin::kA)}), before(falls(Pin::kRd)), "TIMING_TC"},
+           {"Tw", before(falls(Pin::kRd)), sample(), "TIMING_TW"},
+           {"RD to the chip's data", before(falls(Pin::kRd)), in_read({value(Pin::kDOut)})}},
           0,
           pins({Pin::kCsr, Pin::kRd, Pin::kWr, Pin::kA, Pin::kDIn, Pin::kDOut})};
 }
@@ -67,8 +94,8 @@ TimingDiagram read() {
 TimingDiagram write() {
   return {"write",
           "A write of the user",
-          "A and D valid, WR low, and both held after WR rose (table 15).",
-          {rise(Pin::kWr)},
+          "A and D valid, WR low, and both held after WR rose (table 15, P11).",
+          {only(rise(Pin::kWr), Pin::kCsr, 0)},
           {{"Ts", before({fall(Pin::kWr)}), here(), "TIMING_TS"},
            {"Td before", before({change(Pin::kA), change(Pin::kDIn)}), here(), "TIMING_TD"},
            {"Td after, A", here(), after({change(Pin::kA)}), "TIMING_ADDRESS_HOLD"},
@@ -82,11 +109,11 @@ TimingDiagram interrupt() {
   constexpr Level kB00e = 0x00E;  // P7: what has come stands there
   return {"intr0",
           "INTR0 and who serves it",
-          "INTR0 falls, the user takes the DPRAM and reads B00E (4.1.6).",
+          "INTR0 falls, the user takes the DPRAM and reads B00E (4.1.6, 5.2, table 16).",
           {fall(Pin::kIntr0)},
-          {{"INTR0 low", here(), after({rise(Pin::kIntr0)})},
+          {{"Tb, INTR0 low", here(), after({rise(Pin::kIntr0)})},
            {"INTR0 to request", here(), after({rise(Pin::kRReq)})},
-           {"INTR0 to the read of B00E", here(), after({only(fall(Pin::kRd), Pin::kA, kB00e)}), "INTR0_SERVICE"}},
+           {"INTR0 to the read of B00E", here(), after(at(begin(Pin::kRd), kB00e)), "INTR0_SERVICE"}},
           100 * bus::kTicksPerMs,
           pins({Pin::kIntr0, Pin::kRReq, Pin::kRSta, Pin::kLReq, Pin::kLSta, Pin::kRd, Pin::kA})};
 }

@@ -33,7 +33,11 @@ std::string meaning_of(const bus::Bytes& bytes, std::size_t at, std::optional<bo
 }  // namespace
 
 Judge::Judge(const Recording& recording, const Firmware& firmware, const JudgeOptions& options)
-    : recording_(recording), firmware_(firmware), options_(options), beginning_(beginning_of(recording)) {
+    : recording_(recording),
+      firmware_(firmware),
+      options_(options),
+      beginning_(beginning_of(recording)),
+      min_tsdr_(recording.baud) {
   if (options.started) beginning_.comparable = beginning_.first_answer;
   supplied_.now = supplied_.before = firmware.inputs;
 }
@@ -47,7 +51,8 @@ std::vector<RequestResult> Judge::judge(const Listener& listener) {
     results.push_back(result_of(request, heard));
     request_end_ = recording_.request(request).end;
     follow_supplies(request_end_);
-    follow_min_tsdr(results.back());
+    min_tsdr_.take(recording_.request(request).decoded.telegram, recording_.answer(request));
+    follow_dpv1(results.back());
     results.back().verdict = verdict(i, results.back(), heard);
   }
   return results;
@@ -116,11 +121,11 @@ Verdict Judge::compare_tsdr(RequestResult& result) const {
                              *options_.tsdr.tolerance_bits);
     return Verdict::kTsdr;
   }
-  const int max_tsdr = bus::baud(recording_.baud).max_tsdr_bits;
-  const auto right = [&](double tsdr) { return tsdr >= min_tsdr_ - unsure && tsdr <= max_tsdr + unsure; };
+  const int min_tsdr = min_tsdr_.least(), max_tsdr = bus::baud(recording_.baud).max_tsdr_bits;
+  const auto right = [&](double tsdr) { return tsdr >= min_tsdr - unsure && tsdr <= max_tsdr + unsure; };
   if (right(recorded) && right(model)) return Verdict::kEqual;
   result.why = fmt::format("TSDR: recorded {:.2f} bit times, model {:.2f}, allowed are min_TSDR {} to max_TSDR {}",
-                           recorded, model, min_tsdr_, max_tsdr);
+                           recorded, model, min_tsdr, max_tsdr);
   return Verdict::kTsdr;
 }
 
@@ -169,13 +174,9 @@ void Judge::follow_supplies(Tick until) {
 }
 
 /// From the answer to a Set_Prm on.
-void Judge::follow_min_tsdr(const RequestResult& result) {
+void Judge::follow_dpv1(const RequestResult& result) {
   if (result.service != "Set_Prm") return;
-  const bus::Telegram request = telegram_of(result.request);
-  if (const auto dpv1 = bus::dpv1_enabled(request)) dpv1_ = dpv1;
-  constexpr std::size_t kMinTsdr = 3;
-  if (request.data.size() > kMinTsdr && request.data[kMinTsdr] != 0)
-    min_tsdr_ = std::clamp<int>(request.data[kMinTsdr], bus::kMinTsdrBits, bus::baud(recording_.baud).max_tsdr_bits);
+  if (const auto dpv1 = bus::dpv1_enabled(telegram_of(result.request))) dpv1_ = dpv1;
 }
 
 std::string Judge::difference_words(const RequestResult& result) const {

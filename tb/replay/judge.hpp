@@ -5,6 +5,7 @@
 
 #include "tb/replay/firmware.hpp"
 #include "tb/replay/listener.hpp"
+#include "tb/replay/min_tsdr.hpp"
 #include "tb/replay/result.hpp"
 
 namespace tb::replay {
@@ -39,7 +40,7 @@ class Judge {
   bool user_was_late(const RequestResult& result) const;
   bool is_users_dpv1(const RequestResult& result);
   void follow_supplies(Tick until);
-  void follow_min_tsdr(const RequestResult& result);
+  void follow_dpv1(const RequestResult& result);
   std::string difference_words(const RequestResult& result) const;
   double bits(Tick ticks) const;
 
@@ -50,7 +51,7 @@ class Judge {
   std::size_t next_supply_ = 0;
   Supplied supplied_;
   Tick request_end_ = 0;  ///< of the request that is judged
-  int min_tsdr_ = 11;
+  MinTsdr min_tsdr_;
   std::optional<bool> dpv1_;
   bool dpv1_out_of_step_ = false;
 };

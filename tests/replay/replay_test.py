@@ -247,6 +247,36 @@ def shifted_answer(folder):
            bool(re.match(r"TSDR: recorded 5\.2\d bit times, model 11\.2\d, allowed are min_TSDR 11 to max_TSDR 800", found["why"])), True)
 
 
+def unlock(folder):
+    """A Set_Prm that unlocks the slave does not change its min_TSDR (S17): it goes on answering after 11 bit times. One with neither
+    Lock nor Unlock does (S28)."""
+    def at_end(packets, *telegrams):
+        """Behind the last packet, each 60 bit times after the one before, answers 11.2."""
+        now = packets[-1].ns + len(packets[-1].data) * 11e9 / 12e6
+        for telegram, pause in telegrams:
+            packet = pcapng.Packet(telegram.block()[8:-4])
+            packet.ns = round(now + pause * 1e9 / 12e6)
+            now = packet.ns + len(packet.data) * 11e9 / 12e6
+            packets.append(packet)
+
+    def first_to(packets, sap):
+        return next(i for i, packet in enumerate(packets) if packet.data[4:6] == b"\x85\x82" and packet.data[7] == sap)
+
+    for lock, verdicts in ((0x40, []), (0x00, ["other TSDR"])):
+        head, packets = pcapng.read(record(folder))
+        del packets[answers(packets)[-1] + 1:]
+        prm, diag = first_to(packets, 61), first_to(packets, 60)
+        request = pcapng.Packet(packets[prm].block()[8:-4])
+        request.change(9, lock)
+        request.change(9 + 3, 100)
+        # Unlocked it shows the diagnosis of before the start; with another min_TSDR only it goes on exchanging.
+        asked, answer = packets[diag:diag + 2] if lock else packets[-2:]
+        at_end(packets, (request, 60), (packets[prm + 1], 11.2 if lock else 100.2), (asked, 60), (answer, 11.2))
+        pcapng.write(folder / "planted.pcapng", head, packets)
+        result, _ = replayed(folder, "planted.pcapng", status=None)
+        expect(f"Set_Prm with {lock:02X}", [each["verdict"] for each in result["differences"]], verdicts)
+
+
 def other_ident(folder):
     """A diagnosis with another ident number than the one that the slave was parameterised with."""
     def plant(packets):
@@ -337,7 +367,7 @@ def outputs(folder):
 
 
 CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, reference_rtl, changed_byte, missing_answer, answer_without_syn,
-                                          shifted_answer, other_ident, in_the_middle, without_lead_in, window, outputs)}
+                                          shifted_answer, unlock, other_ident, in_the_middle, without_lead_in, window, outputs)}
 
 with tempfile.TemporaryDirectory(prefix="dsdpv1_replay_") as folder_name:
     CASES[sys.argv[2]](pathlib.Path(folder_name))

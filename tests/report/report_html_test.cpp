@@ -17,8 +17,7 @@ using tb::html::PinMemory;
 using tb::html::SpanLimits;
 
 constexpr tb::PinNumber kStrobe = 0, kData = 1;
-constexpr DiagramEdge kFall{kStrobe, Turn::kFall, false, 0, 0}, kRise{kStrobe, Turn::kRise, false, 0, 0},
-    kChange{kData, Turn::kChange, false, 0, 0};
+constexpr DiagramEdge kFall{kStrobe, Turn::kFall}, kRise{kStrobe, Turn::kRise}, kChange{kData, Turn::kChange};
 
 TEST(ReportDistribution, KeepsExactLimitsAndAllCountsInBoundedMemory) {
   Distribution times;

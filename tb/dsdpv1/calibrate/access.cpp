@@ -8,7 +8,7 @@
 namespace calibrate {
 namespace {
 
-constexpr double kFrame = 7, kStartUp = 2054, kLongAccess = 1500;  ///< cycles: micro-architecture, 9.1, 9.7
+constexpr double kStartUp = 2054;  ///< cycles: micro-architecture, 9.7
 
 const Claim kTogether = {"H1", "L_REQ and L_STA rise and fall together", {Wire::kLReq, Wire::kLSta}};
 const Claim kHeldOff = {"H1", "the chip waits while R_REQ or R_STA is high", {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
@@ -17,16 +17,14 @@ const Claim kAtOnce = {"H1",
                        {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
 const Claim kInterval = {"H1", "accesses start one interval after the other, never earlier", {Wire::kLReq}};
 const Claim kRace = {
-    "H2", "the chip starts no access later than 3 cycles after R_REQ rose", {Wire::kLReq, Wire::kRReq}};
+    "H2", "the chip starts no access later than 2 cycles after R_REQ rose", {Wire::kLReq, Wire::kRReq}};
 const Claim kEmpty = {"H3", "an access with nothing to do takes 7 cycles, none less", {Wire::kLReq}};
 const Claim kStartUpAccess = {"H6", "the start-up access takes 2054 cycles", {Wire::kLReq}};
-const Claim kOverdue = {"H8", "an overdue access starts one cycle after the end of the one before", {Wire::kLReq}};
+const Claim kOverdue = {"H8",
+                        "an overdue access starts one cycle after the end of the one before",
+                        {Wire::kLReq, Wire::kRReq, Wire::kRSta}};
 
 std::string cycles_text(const Span& span) { return fmt::format("{:.1f} to {:.1f} cycles", span.lo, span.hi); }
-
-bool is_long(const Scene& scene, const ChipAccess& access) {
-  return scene.time.between(access.start, access.end).hi > kLongAccess;
-}
 
 // --- L_REQ against L_STA
 
@@ -57,7 +55,7 @@ void judge_together(const Scene& scene, Found& found) {
 /// Whether the access at `i` + 1 comes when it is due, without the user and without being overdue.
 bool undisturbed(const Scene& scene, std::size_t i) {
   const ChipAccess &one = scene.accesses[i], &two = scene.accesses[i + 1];
-  if (!one.whole || is_long(scene, one) || scene.in_reset(one.start, two.start)) return false;
+  if (!one.whole || scene.is_start_up(one) || scene.in_reset(one.start, two.start)) return false;
   if (scene.time.between(one.end, two.start).lo <= 2) return false;  // perhaps overdue
   return scene.user_lets(one.start - 4 * bus::kTicksPerCycle - scene.time.margin(), two.start);
 }
@@ -193,10 +191,10 @@ void judge_start(const Scene& scene, std::size_t i, const Fit& interval, Found& 
   const Trace& request = scene.record[Wire::kRReq];
   if (const std::size_t rose = request.last(at, true); request.at(at) && rose != Trace::kNone) {
     const Span after = scene.time.between(request.edges[rose], at);
-    found.judge.judge(kRace, after.lo <= 3, at, "an access starts long after R_REQ rose");
+    found.judge.judge(kRace, after.lo <= 2, at, "an access starts long after R_REQ rose");
   }
   const std::optional<Tick> released = released_before(scene, at);
-  if (!released || i == 0 || interval.estimate.count == 0 || is_long(scene, scene.accesses[i])) return;
+  if (!released || i == 0 || interval.estimate.count == 0 || scene.is_start_up(scene.accesses[i])) return;
   const ChipAccess& before = scene.accesses[i - 1];
   const double due = TimeBase::nominal(*released - before.start) - interval.estimate.span.hi - scene.time.doubt();
   if (due <= 0 || *released <= before.end) return;
@@ -216,31 +214,49 @@ void judge_user_pins(const Scene& scene, Found& found) {
 
 // --- lengths
 
-/// Most accesses find nothing to do.
-void judge_lengths(const Scene& scene, Found& found) {
+bool has_length(const Scene& scene, const ChipAccess& access) {
+  return access.whole && !scene.is_start_up(access) && !scene.in_reset(access.start, access.end);
+}
+
+/// None is shorter than one with nothing to do.
+void judge_shortest(const Scene& scene, Found& found) {
+  for (const ChipAccess& access : scene.accesses) {
+    if (!has_length(scene, access)) continue;
+    const Span length = scene.time.between(access.start, access.end);
+    if (length.contains(kEmptyAccess))
+      found.judge.holds(kEmpty);
+    else if (length.hi < kEmptyAccess)
+      found.judge.fails(kEmpty, access.start, "an access of " + cycles_text(length));
+  }
+}
+
+/// Most accesses find nothing to do where the user did not have the DPRAM since the one before, and no master can bring
+/// something for every third.
+void judge_share(const Scene& scene, Found& found) {
+  constexpr std::size_t kEnough = 20;
+  constexpr double kExchange = 660;  // cycles: one byte of outputs and a short answer at 12 Mbit/s, with TSDR and T_SYN
+  if (!scene.sees_user() || 3 * found.fit(Parameter::kAccessInterval).estimate.span.hi > kExchange) return;
   std::size_t empty = 0, all = 0;
   double sum = 0;
-  for (const ChipAccess& access : scene.accesses) {
-    if (!access.whole || is_long(scene, access) || scene.in_reset(access.start, access.end)) continue;
+  for (std::size_t i = 1; i < scene.accesses.size(); ++i) {
+    const ChipAccess& access = scene.accesses[i];
+    if (!has_length(scene, access) || !scene.user_lets(scene.accesses[i - 1].start, access.start)) continue;
     const Span length = scene.time.between(access.start, access.end);
     ++all;
     sum += length.middle();
-    if (length.contains(kFrame)) ++empty;
-    if (length.hi < kFrame) found.judge.fails(kEmpty, access.start, "an access of " + cycles_text(length));
+    if (length.contains(kEmptyAccess)) ++empty;
   }
-  if (all > 0 && 3 * empty < 2 * all)
+  if (all >= kEnough && 3 * empty < 2 * all)
     found.judge.fails(kEmpty, scene.accesses.front().start,
                       fmt::format("{} of {} take another time, all together {:.1f} cycles on average", all - empty, all,
                                   sum / static_cast<double>(all)));
-  else
-    for (std::size_t i = 0; i < empty; ++i) found.judge.holds(kEmpty);
 }
 
 /// With long samples the gap of one cycle behind it is not seen, and it seems to be one with the next.
 void judge_start_up(const Scene& scene, Found& found) {
-  constexpr double kNext = 1 + kFrame + 1;
+  constexpr double kNext = 1 + kEmptyAccess + 1;
   for (const ChipAccess& access : scene.accesses) {
-    if (!access.whole || !is_long(scene, access) || scene.in_reset(access.start, access.end)) continue;
+    if (!access.whole || !scene.is_start_up(access) || scene.in_reset(access.start, access.end)) continue;
     const Span length = scene.time.between(access.start, access.end);
     const bool merged = scene.time.doubt() >= 1 && length.contains(kStartUp + kNext);
     if (length.contains(kStartUp))
@@ -272,64 +288,6 @@ void judge_overdue(const Scene& scene, Found& found) {
   }
 }
 
-// --- B004
-
-/// When the start-up access of a reset begins: cycle R, if the user lets the chip.
-std::vector<std::size_t> start_ups(const Scene& scene) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < scene.accesses.size(); ++i)
-    if (scene.accesses[i].whole && is_long(scene, scene.accesses[i])) found.push_back(i);
-  return found;
-}
-
-/// The access that has written B004 by what the user has read.
-void bound_by_reads(const Scene& scene, std::size_t start_up, std::size_t until, Span& bound) {
-  constexpr std::uint32_t kB004 = 4;
-  const Tick from = scene.accesses[start_up].end,
-             to = until < scene.accesses.size() ? scene.accesses[until].start : bus::kNever;
-  for (const UserAccess& access : scene.user) {
-    if (access.write || access.address != kB004 || access.start < from || access.start > to) continue;
-    std::size_t before = start_up;
-    while (before + 1 < scene.accesses.size() && scene.accesses[before + 1].start < access.start) ++before;
-    if (before == start_up) continue;
-    const Span since = scene.time.between(scene.accesses[start_up].start, scene.accesses[before].start);
-    if (access.data == 0) bound.lo = std::max(bound.lo, since.lo);
-    if (access.data == 0xC5) bound.hi = std::min(bound.hi, since.hi);
-  }
-}
-
-/// ... and by length: it is the first behind the one that writes B012 that takes a cycle more than an empty one, as
-/// long as the user has written nothing.
-void bound_by_length(const Scene& scene, std::size_t start_up, std::size_t until, Span& bound) {
-  const Span empty{kFrame, kFrame}, one_byte{kFrame + 1, kFrame + 1};
-  for (std::size_t i = start_up + 2; i < until && scene.accesses[i].whole; ++i) {
-    const Span length = scene.time.between(scene.accesses[i].start, scene.accesses[i].end);
-    if (overlap(length, empty) && overlap(length, one_byte)) return;  // too coarse to tell
-    if (overlap(length, empty)) continue;
-    if (!overlap(length, one_byte)) return;
-    bound.lo = std::max(bound.lo, scene.time.between(scene.accesses[start_up].start, scene.accesses[i - 1].start).lo);
-    bound.hi = std::min(bound.hi, scene.time.between(scene.accesses[start_up].start, scene.accesses[i].start).hi);
-    return;
-  }
-}
-
-void fit_ready(const Scene& scene, Found& found) {
-  constexpr double kFar = 1e12;
-  Fit& fit = found.fit(Parameter::kReadyCycles);
-  std::vector<Instance> instances;
-  const std::vector<std::size_t> starts = start_ups(scene);
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    const std::size_t until = i + 1 < starts.size() ? starts[i + 1] : scene.accesses.size();
-    Span bound{0, kFar};
-    bound_by_reads(scene, starts[i], until, bound);
-    bound_by_length(scene, starts[i], until, bound);
-    if (bound.lo > 0 && bound.hi < kFar) instances.push_back({scene.accesses[starts[i]].start, bound, bound.middle()});
-  }
-  fit.estimate = estimate(instances);
-  if (fit.estimate.count == 0)
-    fit.not_shown = starts.empty() ? "no start-up access" : "the access that writes B004 is not to be told from others";
-}
-
 }  // namespace
 
 void measure_access(Scene& scene, Found& found) {
@@ -337,10 +295,10 @@ void measure_access(Scene& scene, Found& found) {
   fit_interval(scene, found);
   judge_interval(scene, found);
   judge_user_pins(scene, found);
-  judge_lengths(scene, found);
+  judge_shortest(scene, found);
+  judge_share(scene, found);
   judge_start_up(scene, found);
   judge_overdue(scene, found);
-  fit_ready(scene, found);
 }
 
 Claims access_claims() {

@@ -9,16 +9,10 @@
 namespace calibrate {
 namespace {
 
-constexpr double kMostLead = 40;  ///< cycles: what is further from the answer is not its PBRTS
-
 const Claim kLead = {"P2", "PBRTS rises the same time before each answer", {Wire::kPbtxd, Wire::kPbrts}};
 const Claim kTrail = {"P2", "PBRTS falls the same time after each answer", {Wire::kPbtxd, Wire::kPbrts}};
 const Claim kDriven = {"P2", "PBTXD is low only while PBRTS is high", {Wire::kPbtxd, Wire::kPbrts}};
 const Claim kBits = {"S2", "every edge of an answer is a whole number of bit times from its start", {Wire::kPbtxd}};
-const Claim kTsdr = {
-    "S3", "an answer begins min_TSDR after the request, and at most a cycle more", {Wire::kPbrxd, Wire::kPbtxd}};
-const Claim kMinTsdr = {
-    "S11", "min_TSDR of Set_Prm counts from the answer to it on, 11 at least", {Wire::kPbrxd, Wire::kPbtxd}};
 const Claim kAnswered = {"S3", "a right request to the station is answered", {Wire::kPbrxd, Wire::kPbtxd}};
 const Claim kAsked = {"S3", "nothing is sent that nobody asked for", {Wire::kPbrxd, Wire::kPbtxd}};
 const Claim kSyn = {
@@ -26,30 +20,47 @@ const Claim kSyn = {
 
 // --- PBRTS
 
-void fit_driver(const Scene& scene, Found& found) {
-  const Trace& rts = scene.record[Wire::kPbrts];
+struct Driver {
   std::vector<Instance> leads, trails;
-  for (const LineTelegram& sent : scene.sent) {
-    if (!sent.right) continue;
-    const std::size_t rise = rts.last(sent.start + scene.time.margin(), true);
-    if (rise == Trace::kNone || rise + 1 >= rts.edges.size()) continue;
-    const Tick up = rts.edges[rise], down = rts.edges[rise + 1];
-    const double length = static_cast<double>(sent.bytes.size()) * bus::kCharacterBits * sent.bit();
-    const Span lead = scene.time.between(up, sent.start), trail = scene.time.between(sent.start, down) + -length;
-    if (lead.lo < kMostLead) leads.push_back({sent.start, lead, scene.time.best(up, sent.start)});
-    if (trail.lo < kMostLead) trails.push_back({sent.start, trail, scene.time.best(sent.start, down) - length});
+};
+
+/// PBRTS round answer `i`: its rise behind the beginning of the answer before, its fall before the next one.
+void measure_driver(const Scene& scene, std::size_t i, Driver& driver, Found& found) {
+  const Trace& rts = scene.record[Wire::kPbrts];
+  const LineTelegram& sent = scene.sent[i];
+  const Tick begun = sent.start + scene.time.margin(), before = i > 0 ? scene.sent[i - 1].start : -1,
+             next = i + 1 < scene.sent.size() ? scene.sent[i + 1].start : scene.record.end;
+  if (!rts.at(begun)) return;
+  if (const std::size_t rise = rts.last(begun, true); rise != Trace::kNone && rts.edges[rise] > before) {
+    const Tick up = rts.edges[rise];
+    driver.leads.push_back({sent.start, scene.time.between(up, sent.start), scene.time.best(up, sent.start)});
   }
+  const double length = static_cast<double>(sent.bytes.size()) * bus::kCharacterBits * sent.bit();
+  const std::size_t fall = rts.next(begun, false);
+  if (fall != Trace::kNone && rts.edges[fall] < next) {
+    const Tick down = rts.edges[fall];
+    driver.trails.push_back(
+        {sent.start, scene.time.between(sent.start, down) + -length, scene.time.best(sent.start, down) - length});
+  } else if (i + 1 < scene.sent.size()) {
+    found.judge.fails(kTrail, sent.end(), "PBRTS is high until the next answer");
+  }
+}
+
+void fit_driver(const Scene& scene, Found& found) {
+  Driver driver;
+  for (std::size_t i = 0; i < scene.sent.size(); ++i)
+    if (scene.sent[i].right) measure_driver(scene, i, driver, found);
   const auto fit = [&](Parameter parameter, const Claim& claim, std::vector<Instance>& instances) {
     Fit& to = found.fit(parameter);
     to.estimate = estimate(instances, &scene.time);
-    to.estimate.span.lo = std::max(to.estimate.span.lo, 0.0);
+    if (to.estimate.span.hi >= 0) to.estimate.span.lo = std::max(to.estimate.span.lo, 0.0);
     if (to.estimate.count == 0) to.not_shown = "no answer with an edge of PBRTS beside it";
     for (const Outlier& outlier : to.estimate.outliers)
       found.judge.fails(claim, outlier.at, fmt::format("{:+.1f} cycles from the others", outlier.by));
     for (std::size_t i = to.estimate.outliers.size(); i < to.estimate.count; ++i) found.judge.holds(claim);
   };
-  fit(Parameter::kRtsLead, kLead, leads);
-  fit(Parameter::kRtsTrail, kTrail, trails);
+  fit(Parameter::kRtsLead, kLead, driver.leads);
+  fit(Parameter::kRtsTrail, kTrail, driver.trails);
 }
 
 void judge_driven(const Scene& scene, Found& found) {
@@ -85,87 +96,28 @@ void judge_bits(const Scene& scene, const LineTelegram& sent, Found& found) {
   found.judge.holds(kBits);
 }
 
-// --- TSDR
-
-/// What Set_Prm asks for; 0 for other telegrams, and where it leaves it.
-int asked_tsdr(const LineTelegram& request) {
-  constexpr std::size_t kPlace = 3;
-  const bus::Telegram& telegram = request.telegram;
-  const bool set_prm = request.right && telegram.dsap == bus::sap::kSetPrm && telegram.data.size() > kPlace;
-  if (!set_prm || telegram.data[kPlace] == 0) return 0;
-  const int least = bus::kMinTsdrBits, most = bus::baud(request.baud).max_tsdr_bits;
-  return std::min(std::max<int>(telegram.data[kPlace], least), most);
+/// A reset or a new initialisation ends an answer at once; without BR what breaks off may have been ended so.
+bool is_cut(const Scene& scene, const LineTelegram& sent) {
+  const Tick from = sent.last_edge - scene.time.margin(), to = sent.idle_until() + scene.time.margin();
+  const auto falls = [&](Wire wire) {
+    const Trace& trace = scene.record[wire];
+    const std::size_t fall = trace.next(std::max(from, sent.start), false);
+    return trace.seen && fall != Trace::kNone && trace.edges[fall] <= to;
+  };
+  return falls(Wire::kReset) || falls(Wire::kBr) || (!scene.record.sees(Wire::kBr) && sent.breaks_off());
 }
-
-class TsdrJudge {
- public:
-  TsdrJudge(const Scene& scene, Found& found) : scene_(scene), found_(found) {}
-
-  void judge(const Exchange& exchange) {
-    const LineTelegram& request = *exchange.request;
-    const int asked = asked_tsdr(request);
-    if (asked != 0) pending_ = asked;
-    if (exchange.answer == nullptr || !request.right) return;
-    const Span cycles =
-        scene_.time.between(request.last_start, exchange.answer->start) + -(bus::kCharacterBits * request.bit());
-    const Tick at = exchange.answer->start;
-    if (pending_ != 0 && fits(cycles, request, pending_)) {
-      if (pending_ != now_ && asked != 0) found_.judge.holds(kMinTsdr);
-      now_ = pending_;
-    } else if (!fits(cycles, request, now_)) {
-      if (!fits(cycles, request, bus::kMinTsdrBits)) return fail(cycles, request, at);
-      now_ = bus::kMinTsdrBits;  // a new initialisation
-    }
-    found_.judge.holds(kTsdr);
-  }
-
- private:
-  int wanted() const { return pending_ != 0 ? pending_ : now_; }
-  static double right(const LineTelegram& request, int bits) { return bits * request.bit(); }
-  static bool fits(const Span& cycles, const LineTelegram& request, int bits) {
-    return overlap(cycles, {right(request, bits), right(request, bits) + 1});
-  }
-  void fail(const Span& cycles, const LineTelegram& request, Tick at) {
-    const double expected = right(request, wanted());
-    const double by = cycles.lo > expected + 1 ? cycles.lo - expected - 1 : cycles.hi - expected;
-    found_.judge.fails(kTsdr, at,
-                       fmt::format("TSDR {:.2f} bit times, {:+.1f} cycles from min_TSDR {}",
-                                   cycles.middle() / request.bit(), by, wanted()));
-  }
-
-  const Scene& scene_;
-  Found& found_;
-  int now_ = bus::kMinTsdrBits;
-  int pending_ = 0;  ///< what Set_Prm asked for; 0: none did
-};
 
 // --- answered or not
 
-/// Bit times of idle before a request on PBRXD or PBTXD; nothing for the first.
-std::vector<std::optional<double>> idle_before(const Scene& scene) {
-  std::vector<std::optional<double>> idle;
-  std::size_t sent = 0;
-  std::optional<Tick> end;
-  std::size_t received = 0;
-  for (const Exchange& exchange : scene.exchanges) {
-    for (; received < scene.received.size() && scene.received[received].start < exchange.request->start; ++received)
-      end = std::max(end.value_or(0), scene.received[received].end());
-    for (; sent < scene.sent.size() && scene.sent[sent].start < exchange.request->start; ++sent)
-      end = std::max(end.value_or(0), scene.sent[sent].end());
-    if (end)
-      idle.emplace_back(TimeBase::nominal(exchange.request->start - *end) / exchange.request->bit());
-    else
-      idle.emplace_back();
-  }
-  return idle;
-}
+constexpr Tick kLongestSilence = 50 * bus::kTicksPerMs;
 
 bool wants_answer(const Exchange& exchange) {
   return exchange.request->right && exchange.request->telegram.wants_answer() &&
          exchange.request->telegram.sa < bus::kBroadcast;
 }
 
-/// Whether the exchanges before and behind show that the chip answers requests like this one.
+/// Whether the exchanges before and behind show that the chip answers requests like this one. Without BR one after a
+/// silence may have ended a search (S1, S9).
 bool chip_listens(const Scene& scene, std::size_t i) {
   const auto& all = scene.exchanges;
   const LineTelegram& request = *all[i].request;
@@ -178,18 +130,20 @@ bool chip_listens(const Scene& scene, std::size_t i) {
   while (behind < all.size() && !wants_answer(all[behind])) ++behind;
   if (before == 0 || behind >= all.size() || !same(all[before - 1]) || !same(all[behind])) return false;
   const Tick from = request.start, to = request.end();
-  return !scene.in_reset(from, to) && (!scene.record.sees(Wire::kBr) || scene.record[Wire::kBr].high(from, to)) &&
+  const bool found = scene.record.sees(Wire::kBr) ? scene.record[Wire::kBr].high(from, to)
+                                                  : request.start - all[before - 1].answer->end() < kLongestSilence;
+  return !scene.in_reset(from, to) && found &&
          (!scene.record.sees(Wire::kReady) || scene.record[Wire::kReady].high(from, to));
 }
 
 void judge_answered(const Scene& scene, Found& found) {
   constexpr double kSynDoubt = 0.5;
-  const std::vector<std::optional<double>> idle = idle_before(scene);
   for (std::size_t i = 0; i < scene.exchanges.size(); ++i) {
     const Exchange& exchange = scene.exchanges[i];
     if (!wants_answer(exchange)) continue;
     const double doubt = kSynDoubt + scene.time.doubt() / exchange.request->bit();
-    const bool soon = idle[i] && *idle[i] < bus::kSynBits - doubt, late = idle[i] && *idle[i] > bus::kSynBits + doubt;
+    const bool soon = exchange.idle && exchange.idle->hi < bus::kSynBits - doubt,
+               late = exchange.idle && exchange.idle->lo > bus::kSynBits + doubt;
     if (soon)
       found.judge.judge(kSyn, exchange.answer == nullptr, exchange.request->start,
                         "a request after too little idle is answered");
@@ -225,14 +179,12 @@ void measure_answers(const Scene& scene, Found& found) {
       judge_bits(scene, sent, found);
     else if (sent.coarse(scene.time))
       found.judge.coarse(kBits);
-    else
+    else if (!is_cut(scene, sent))
       found.judge.fails(kBits, sent.start, "what is sent is no right telegram");
-  TsdrJudge tsdr(scene, found);
-  for (const Exchange& exchange : scene.exchanges) tsdr.judge(exchange);
   judge_answered(scene, found);
   judge_asked(scene, found);
 }
 
-Claims answer_claims() { return {&kLead, &kTrail, &kDriven, &kBits, &kTsdr, &kAnswered, &kAsked, &kSyn, &kMinTsdr}; }
+Claims answer_claims() { return {&kLead, &kTrail, &kDriven, &kBits, &kAnswered, &kAsked, &kSyn}; }
 
 }  // namespace calibrate

@@ -88,10 +88,11 @@ ParameterResult result_of(const ParameterRow& row, const Record& record, const F
     result.words = !pins.empty() ? pins : fit.not_shown.empty() ? "did not occur" : fit.not_shown;
     return result;
   }
-  if (!fit.at_most && !fit.at_least) result.value = fit.estimate.whole();
+  const bool bounded = !fit.at_most && !fit.at_least;
+  if (bounded) result.value = fit.estimate.whole();
   const tb::keys::Range range = field_of(row).type.range;
   const bool fits = fit.estimate.span.contains(static_cast<double>(usual));
-  result.verdict = fits ? Verdict::kConfirmed : Verdict::kContradicted;
+  result.verdict = !fits ? Verdict::kContradicted : bounded ? Verdict::kConfirmed : Verdict::kNotContradicted;
   if (!fits) {
     const double wanted = fit.at_most    ? fit.estimate.span.hi
                           : fit.at_least ? fit.estimate.span.lo
@@ -146,6 +147,7 @@ const char* word(Verdict verdict) {
   switch (verdict) {
     case Verdict::kConfirmed: return "confirmed";
     case Verdict::kContradicted: return "CONTRADICTED";
+    case Verdict::kNotContradicted: return "not contradicted";
     case Verdict::kNotShown: break;
   }
   return "not shown";
@@ -166,9 +168,12 @@ Result calibrate(const std::string& file, const Record& record, const Sampling& 
   Found& found = result.found;
   measure_clock(scene, sampling.clock_ppm, found);
   measure_access(scene, found);
+  measure_ready(scene, found);
   measure_interrupt(scene, found);
   measure_answers(scene, found);
+  measure_tsdr(scene, found);
   measure_search(scene, found);
+  measure_watchdog(scene, found);
   measure_telegrams(scene, found);
   measure_user(scene, found);
   measure_reset(scene, found);

@@ -8,7 +8,12 @@
 
 namespace calibrate {
 
-enum class Verdict : std::uint8_t { kConfirmed, kContradicted, kNotShown };
+enum class Verdict : std::uint8_t {
+  kConfirmed,
+  kContradicted,
+  kNotShown,
+  kNotContradicted,  ///< of a parameter of which only a bound is seen: the default is on its right side
+};
 const char* word(Verdict verdict);
 
 /// How the capture's times are to be taken.

@@ -50,15 +50,23 @@ Claims clock_claims();
 /// H1, H3, H6, H8: L_REQ and L_STA. Makes the scale of the scene's time finer.
 void measure_access(Scene& scene, Found& found);
 Claims access_claims();
+/// D1: when B004 is written; after measure_access, no claims.
+void measure_ready(const Scene& scene, Found& found);
 /// P7, D7, D15: INTR0 and READY.
 void measure_interrupt(const Scene& scene, Found& found);
 Claims interrupt_claims();
 /// P2, S2, S3: PBTXD and PBRTS.
 void measure_answers(const Scene& scene, Found& found);
 Claims answer_claims();
-/// S1, S9: BR and PBF.
+/// S3, S11: when answers begin.
+void measure_tsdr(const Scene& scene, Found& found);
+Claims tsdr_claims();
+/// S1, S9: the search, BR and PBF.
 void measure_search(const Scene& scene, Found& found);
 Claims search_claims();
+/// S1, S22: the watchdog and the end of BAUD_CONTROL.
+void measure_watchdog(const Scene& scene, Found& found);
+Claims watchdog_claims();
 /// What telegrams say.
 void measure_telegrams(const Scene& scene, Found& found);
 Claims telegram_claims();

@@ -12,16 +12,25 @@ constexpr std::array<double, 5> kPlaces = {0.5, 0.4, 0.6, 0.3, 0.7};
 
 class LineReader {
  public:
-  LineReader(const Trace& trace, const TimeBase& time, const std::vector<LineTelegram>& rates)
-      : trace_(trace), time_(time), rates_(rates) {}
+  /// `glitches`: those of less than half a bit are left out.
+  LineReader(const Trace& trace, const TimeBase& time, const std::vector<LineTelegram>& rates, bool glitches)
+      : trace_(trace), time_(time), rates_(rates), glitches_(glitches) {}
 
   std::vector<LineTelegram> read() {
     std::vector<LineTelegram> found;
     for (std::size_t edge = trace_.next(0, false); edge < trace_.edges.size();) {
+      if (glitches_ && is_glitch(edge)) {
+        edge += 2;
+        continue;
+      }
       LineTelegram telegram = telegram_at(edge);
-      const Tick from = telegram.right ? telegram.last_start + stop_bit(telegram.baud) : silence_behind(telegram);
+      if (telegram.right) {
+        edge = trace_.next(telegram.last_start + stop_bit(telegram.baud), false);
+      } else {
+        edge = after_silence(telegram);
+        telegram.last_edge = trace_.edges[edge - 1];
+      }
       found.push_back(std::move(telegram));
-      edge = trace_.next(from, false);
     }
     return found;
   }
@@ -43,10 +52,17 @@ class LineReader {
       baud_ = baud;
       return telegram;
     }
-    LineTelegram none;
-    none.start = none.last_start = at;
-    none.baud = baud_.value_or(0);
+    LineTelegram none = try_at(edge, baud_.value_or(0));
+    none.right = false;
+    none.telegram = {};
     return none;
+  }
+
+  /// The receiver looks again in the middle of the start bit.
+  bool is_glitch(std::size_t edge) const {
+    if (edge + 1 >= trace_.edges.size()) return false;
+    const double low = TimeBase::nominal(trace_.edges[edge + 1] - trace_.edges[edge]);
+    return low + time_.doubt() + 1 < TimeBase::nominal(bus::baud(baud_.value_or(0)).bit) / 2;
   }
 
   void take_rate_of_others(Tick at) {
@@ -119,26 +135,33 @@ class LineReader {
     return most - least;
   }
 
-  /// What is no telegram ends where the line is idle for a character.
-  Tick silence_behind(const LineTelegram& wrong) const {
+  /// What is no telegram ends where the line is idle for a character: the edge that comes then.
+  std::size_t after_silence(const LineTelegram& wrong) const {
     const Tick idle = (bus::kCharacterBits + 1) * bus::baud(wrong.baud).bit;
     std::size_t edge = trace_.count_until(wrong.start);
-    while (edge < trace_.edges.size() && trace_.edges[edge] - trace_.edges[edge - 1] < idle) ++edge;
-    return edge < trace_.edges.size() ? trace_.edges[edge - 1] + 1 : bus::kNever;
+    while (edge < trace_.edges.size() &&
+           (trace_.level(edge) == false || trace_.edges[edge] - trace_.edges[edge - 1] < idle))
+      ++edge;
+    return edge;
   }
 
   const Trace& trace_;
   const TimeBase& time_;
   const std::vector<LineTelegram>& rates_;
+  const bool glitches_;
   std::size_t other_ = 0;
   std::optional<int> baud_;
 };
 
 }  // namespace
 
-std::vector<LineTelegram> telegrams_of(const Trace& trace, const TimeBase& time,
-                                       const std::vector<LineTelegram>& rates) {
-  return LineReader(trace, time, rates).read();
+std::vector<LineTelegram> telegrams_received(const Trace& trace, const TimeBase& time) {
+  return LineReader(trace, time, {}, true).read();
+}
+
+std::vector<LineTelegram> telegrams_sent(const Trace& trace, const TimeBase& time,
+                                         const std::vector<LineTelegram>& received) {
+  return LineReader(trace, time, received, false).read();
 }
 
 }  // namespace calibrate

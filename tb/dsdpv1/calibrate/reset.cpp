@@ -4,7 +4,9 @@
 namespace calibrate {
 namespace {
 
-const Claim kRelease = {"P9", "the start-up access begins 2 to 3 cycles after RESET rose", {Wire::kReset, Wire::kLReq}};
+const Claim kRelease = {"P9",
+                        "the start-up access begins 2 to 3 cycles after RESET rose",
+                        {Wire::kReset, Wire::kLReq, Wire::kRReq, Wire::kRSta}};
 const Claim kLevels = {"P10", "outputs have their levels of reset while RESET is low", {Wire::kReset}};
 
 struct ResetLevel {

@@ -59,6 +59,43 @@ void keep_own(Scene& scene) {
   scene.exchanges.erase(std::remove_if(scene.exchanges.begin(), scene.exchanges.end(), other), scene.exchanges.end());
 }
 
+void measure_idle(Scene& scene) {
+  std::optional<Tick> from, until;
+  const auto take = [&](const std::vector<LineTelegram>& telegrams, std::size_t& next, Tick before) {
+    for (; next < telegrams.size() && telegrams[next].start < before; ++next) {
+      from = std::max(from.value_or(0), telegrams[next].idle_from());
+      until = std::max(until.value_or(0), telegrams[next].idle_until());
+    }
+  };
+  std::size_t received = 0, sent = 0;
+  for (Exchange& exchange : scene.exchanges) {
+    const LineTelegram& request = *exchange.request;
+    take(scene.received, received, request.start);
+    take(scene.sent, sent, request.start);
+    if (from)
+      exchange.idle = {TimeBase::nominal(request.start - *until) / request.bit(),
+                       TimeBase::nominal(request.start - *from) / request.bit()};
+  }
+}
+
+/// What the chip compares (S26), the FCS included.
+bool same_frame(const LineTelegram& a, const LineTelegram& b) {
+  const bus::Telegram &first = a.telegram, &second = b.telegram;
+  const auto fcs = [](const LineTelegram& each) { return each.bytes[each.bytes.size() - 2]; };
+  return first.sa == second.sa && first.fc == second.fc && first.dsap == second.dsap && first.ssap == second.ssap &&
+         first.data.size() == second.data.size() && fcs(a) == fcs(b);
+}
+
+/// A request whose answer cannot be known from others than the one before; one that was not read may be the one before.
+void find_repetitions(Scene& scene) {
+  const Exchange* before = nullptr;
+  for (Exchange& exchange : scene.exchanges) {
+    if (exchange.is_request() && (exchange.request->telegram.fc & bus::fc::kFcv) != 0 && before != nullptr)
+      exchange.repeats = !before->request->right || same_frame(*before->request, *exchange.request);
+    if (exchange.answer != nullptr) before = &exchange;
+  }
+}
+
 void find_accesses(Scene& scene) {
   const Trace& trace = scene.record[Wire::kLReq].seen ? scene.record[Wire::kLReq] : scene.record[Wire::kLSta];
   for (std::size_t edge = trace.next(0, true); edge < trace.edges.size(); edge += 2) {
@@ -67,20 +104,51 @@ void find_accesses(Scene& scene) {
   }
 }
 
+/// The first edge to `level` at or behind `from`; bus::kNever when there is none.
+Tick edge_behind(const Trace& trace, Tick from, bool level) {
+  const std::size_t edge = trace.next(from, level);
+  return edge == Trace::kNone ? bus::kNever : trace.edges[edge];
+}
+
+/// P5, P11: an access is where CSR and the strobe are both low. Where CSR rises before WR nothing is written.
 void find_user_accesses(Scene& scene, Wire strobe) {
   const Record& record = scene.record;
-  const Trace& trace = record[strobe];
+  const Trace &trace = record[strobe], &select = record[Wire::kCsr];
   const Tick sample =
       std::max<Tick>(1, static_cast<Tick>(scene.time.period * static_cast<double>(bus::kTicksPerCycle)));
   for (std::size_t edge = trace.next(0, false); edge + 1 < trace.edges.size(); edge += 2) {
-    const Tick start = trace.edges[edge], end = trace.edges[edge + 1], before = std::max(start, end - sample);
-    if (record[Wire::kCsr].at(before)) continue;
-    scene.user.push_back(
-        {start, end, strobe == Wire::kWr, record.address(before), static_cast<std::uint8_t>(record.data(before))});
+    const Tick fall = trace.edges[edge], rise = trace.edges[edge + 1];
+    Tick start = select.at(fall) ? edge_behind(select, fall, false) : fall;
+    for (; start < rise; start = edge_behind(select, start, false)) {
+      const Tick end = std::min(rise, edge_behind(select, start + 1, true)), before = std::max(start, end - sample);
+      if (strobe == Wire::kRd || end == rise)
+        scene.user.push_back(
+            {start, end, strobe == Wire::kWr, record.address(before), static_cast<std::uint8_t>(record.data(before))});
+      start = end;
+    }
   }
 }
 
 }  // namespace
+
+bool Exchange::is_srd(std::optional<std::uint8_t> dsap) const {
+  const std::uint8_t function = request->telegram.function();
+  return is_request() && (function == bus::fc::kSrdLow || function == bus::fc::kSrdHigh) &&
+         request->telegram.dsap == dsap;
+}
+
+bool Exchange::acknowledged() const {
+  return answer != nullptr && answer->right && answer->telegram.kind == bus::TelegramKind::kSc;
+}
+
+bool Exchange::refused(std::uint8_t fc) const {
+  return answer != nullptr && answer->right && answer->telegram.kind == bus::TelegramKind::kSd1 &&
+         answer->telegram.fc == fc;
+}
+
+bool Exchange::exchanged() const {
+  return is_srd(std::nullopt) && answer != nullptr && answer->right && !refused(bus::fc::kRs) && !refused(bus::fc::kRr);
+}
 
 bool Scene::user_lets(Tick from, Tick to) const {
   return (!record.sees(Wire::kRReq) || record[Wire::kRReq].low(from, to)) &&
@@ -91,14 +159,24 @@ bool Scene::in_reset(Tick from, Tick to) const {
   return record.sees(Wire::kReset) && !record[Wire::kReset].high(from, to);
 }
 
+bool Scene::is_start_up(const ChipAccess& access) const {
+  constexpr double kLonger = 1500;  // cycles
+  return time.between(access.start, access.end).hi > kLonger;
+}
+
 void fill(Scene& scene) {
-  if (scene.record.sees(Wire::kPbrxd)) scene.received = telegrams_of(scene.record[Wire::kPbrxd], scene.time);
+  if (scene.record.sees(Wire::kPbrxd)) scene.received = telegrams_received(scene.record[Wire::kPbrxd], scene.time);
   if (scene.record.sees(Wire::kPbtxd))
-    scene.sent = telegrams_of(scene.record[Wire::kPbtxd], scene.time, scene.received);
+    scene.sent = telegrams_sent(scene.record[Wire::kPbtxd], scene.time, scene.received);
   leave_out_cut(scene.received, scene.record[Wire::kPbrxd], scene.record.end);
   leave_out_cut(scene.sent, scene.record[Wire::kPbtxd], scene.record.end);
   leave_out_own(scene.received, scene.sent, scene.time);
-  if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd})) pair_up(scene), keep_own(scene);
+  if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd})) {
+    pair_up(scene);
+    keep_own(scene);
+    measure_idle(scene);
+    find_repetitions(scene);
+  }
   find_accesses(scene);
   if (!scene.record.sees_accesses()) return;
   find_user_accesses(scene, Wire::kRd);

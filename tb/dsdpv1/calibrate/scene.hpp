@@ -11,6 +11,20 @@ namespace calibrate {
 struct Exchange {
   const LineTelegram* request = nullptr;
   const LineTelegram* answer = nullptr;  ///< nullptr: none
+  std::optional<Span> idle = {};         ///< bit times of silence on PBRXD and PBTXD before it; nothing: not known
+  bool repeats = false;                  ///< the chip may answer it from memory (S26)
+
+  /// A right request to the station alone: data exchanges and other SRD, FDL status, SDN ...
+  bool is_request() const {
+    return request->right && request->telegram.is_request() && request->telegram.da != bus::kBroadcast;
+  }
+  /// SRD to this SAP; nothing: to the default SAP.
+  bool is_srd(std::optional<std::uint8_t> dsap) const;
+  /// A right answer of this kind.
+  bool acknowledged() const;
+  bool refused(std::uint8_t fc) const;
+  /// A data exchange that was carried out.
+  bool exchanged() const;
 };
 
 /// L_REQ high.
@@ -19,10 +33,12 @@ struct ChipAccess {
   bool whole = false;  ///< its beginning and end are both in the capture
 };
 
+constexpr double kEmptyAccess = 7;  ///< cycles of one that finds nothing to do: micro-architecture, 9.1
+
 /// A byte that the user read or wrote.
 struct UserAccess {
-  Tick start = 0;  ///< RD or WR falls
-  Tick end = 0;    ///< ... rises
+  Tick start = 0;  ///< the later of CSR and RD (WR) falls
+  Tick end = 0;    ///< of a read the earlier of them rises, of a write WR
   bool write = false;
   std::uint32_t address = 0;
   std::uint8_t data = 0;
@@ -45,6 +61,8 @@ struct Scene {
   /// Whether both of them are in the capture.
   bool sees_user() const { return record.sees({Wire::kRReq, Wire::kRSta}); }
   bool in_reset(Tick from, Tick to) const;
+  /// It is longer than any other access can be (H6).
+  bool is_start_up(const ChipAccess& access) const;
 };
 
 /// Reads the telegrams and accesses out of the record.

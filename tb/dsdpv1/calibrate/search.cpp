@@ -1,4 +1,4 @@
-// S1, S9, P3: the baud search, the watchdog, and the pins that show them.
+// S1, S9, S10, P3: the baud search, and the pins that show the states.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,20 +9,15 @@
 namespace calibrate {
 namespace {
 
-constexpr double kCyclesPerMs = 48'000;
-
-const Claim kLocks = {"S1", "BR rises at the decision of a right telegram", {Wire::kPbrxd, Wire::kBr}};
+const Claim kLocks = {"S1", "a right SD1, SD2 or SD3 ends the search", {Wire::kPbrxd, Wire::kBr}};
+const Claim kDecided = {
+    "S10", "BR rises at the decision of a telegram, 1 bit time after it", {Wire::kPbrxd, Wire::kBr}};
 const Claim kSilent = {
     "S9", "the telegram that ends the search is not answered", {Wire::kPbrxd, Wire::kPbtxd, Wire::kBr}};
 const Claim kFoundFirst = {
     "P3", "an answer is sent only while BR and READY are high", {Wire::kPbtxd, Wire::kBr, Wire::kReady}};
 const Claim kExchange = {
     "P3", "outputs are taken, and inputs sent, only while PBF is low", {Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}};
-const Claim kWatchdog = {
-    "S1", "the watchdog of Set_Prm ends DATA_EXCH after its time", {Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}};
-
-/// From the start bit of the last character to the decision: 12 bit times, the synchroniser, the edge (3 to 4 cycles).
-Span decision(const LineTelegram& telegram) { return {12 * telegram.bit() + 3, 12 * telegram.bit() + 4}; }
 
 bool locks(const LineTelegram& telegram) {
   using Kind = bus::TelegramKind;
@@ -55,14 +50,23 @@ std::optional<Tick> search_start(const Scene& scene, Tick found_at) {
   return start < 0 ? std::nullopt : std::optional<Tick>(start);
 }
 
-/// The telegram whose decision is at `at`.
-std::size_t telegram_decided(const Scene& scene, Tick at) {
-  for (std::size_t i = 0; i < scene.received.size(); ++i) {
-    const LineTelegram& telegram = scene.received[i];
-    if (telegram.last_start > at) break;
-    if (locks(telegram) && overlap(scene.time.between(telegram.last_start, at), decision(telegram))) return i;
-  }
-  return Trace::kNone;
+/// The telegram that ends the search at `at`: its last character is not long before.
+std::size_t telegram_ending(const Scene& scene, Tick at) {
+  std::size_t last = Trace::kNone;
+  for (std::size_t i = 0; i < scene.received.size() && scene.received[i].last_start <= at; ++i)
+    if (locks(scene.received[i])) last = i;
+  if (last == Trace::kNone) return last;
+  const LineTelegram& telegram = scene.received[last];
+  const double near = 2 * bus::kCharacterBits * telegram.bit();
+  return scene.time.between(telegram.last_start, at).lo < near ? last : Trace::kNone;
+}
+
+void judge_decision(const Scene& scene, const LineTelegram& telegram, Tick at, Found& found) {
+  const Span seen = scene.time.between(telegram.last_start, at), right = telegram.decision();
+  if (overlap(seen, right))
+    found.judge.holds(kDecided);
+  else
+    found.judge.fails(kDecided, at, fmt::format("{:+.1f} cycles from it", seen.middle() - right.middle()));
 }
 
 /// A telegram that comes whole, T_SYN included, in the window of its rate locks it: one that did not came too early. So
@@ -91,12 +95,13 @@ std::vector<Lock> locks_of(const Scene& scene, Found& found) {
   const Trace& br = scene.record[Wire::kBr];
   for (std::size_t edge = br.next(0, true); edge < br.edges.size(); edge += 2) {
     const Tick at = br.edges[edge];
-    const std::size_t by = telegram_decided(scene, at);
+    const std::size_t by = telegram_ending(scene, at);
     if (by == Trace::kNone) {
       found.judge.fails(kLocks, at, "BR rises without a telegram before it");
       continue;
     }
     found.judge.holds(kLocks);
+    judge_decision(scene, scene.received[by], at, found);
     const auto start = search_start(scene, at);
     if (start && scene.received[by].baud > 0) all.push_back(lock_of(scene, *start, by));
   }
@@ -196,79 +201,6 @@ void fit_windows(const Scene& scene, Found& found) {
   set_window(bits_fit, windows.bits, kLeastBits, kMostBits, all.size());
 }
 
-// --- watchdog
-
-/// Set_Prm's watchdog, cycles; 0: none. Nothing when it sets none (other telegrams, min_TSDR only, Unlock).
-std::optional<double> watchdog_of(const LineTelegram& request) {
-  const bus::Telegram& telegram = request.telegram;
-  constexpr std::size_t kLeast = 7;
-  if (!request.right || telegram.dsap != bus::sap::kSetPrm || telegram.data.size() < kLeast) return std::nullopt;
-  const std::uint8_t status = telegram.data[0];
-  if ((status & 0xC0U) != 0x80U) return std::nullopt;
-  if ((status & 0x08U) == 0) return 0;
-  const bool base = telegram.data.size() > kLeast && (telegram.data[kLeast] & 0x04U) != 0;
-  return telegram.data[1] * telegram.data[2] * (base ? 1 : 10) * kCyclesPerMs;
-}
-
-/// What the chip last heard of its master before `at`.
-struct Heard {
-  const LineTelegram* last = nullptr;  ///< to the station
-  double watchdog = 0;                 ///< cycles, 0: none
-};
-
-Heard heard_before(const Scene& scene, Tick at) {
-  Heard heard;
-  for (const Exchange& exchange : scene.exchanges) {
-    if (exchange.request->end() > at) break;
-    if (!exchange.request->right || exchange.request->telegram.da == bus::kBroadcast) continue;
-    heard.last = exchange.request;
-    if (exchange.answer == nullptr) continue;
-    if (const auto watchdog = watchdog_of(*exchange.request)) heard.watchdog = *watchdog;
-  }
-  return heard;
-}
-
-/// Cycles from the decision of the telegram to `at`.
-Span since_decision(const Scene& scene, const LineTelegram& telegram, Tick at) {
-  const Span since = scene.time.between(telegram.last_start, at), decided = decision(telegram);
-  return {since.lo - decided.hi, since.hi - decided.lo};
-}
-
-void judge_watchdog(const Scene& scene, Found& found) {
-  const Trace& pbf = scene.record[Wire::kPbf];
-  for (std::size_t edge = pbf.next(0, true); edge < pbf.edges.size(); edge += 2) {
-    const Tick at = pbf.edges[edge];
-    if (scene.in_reset(at - scene.time.margin(), at)) continue;
-    const Heard heard = heard_before(scene, at);
-    if (heard.last == nullptr || heard.watchdog == 0) continue;
-    const Span since = since_decision(scene, *heard.last, at);
-    if (since.contains(heard.watchdog))
-      found.judge.holds(kWatchdog);
-    else if (since.lo > heard.watchdog || since.lo > heard.watchdog / 2)
-      found.judge.fails(kWatchdog, at, fmt::format("{:+.1f} cycles from its end", since.middle() - heard.watchdog));
-  }
-}
-
-/// BR falls that long after the last telegram, or after the watchdog that ran before.
-void fit_baud_control(const Scene& scene, Found& found) {
-  constexpr double kNear = 0.05;  ///< ms
-  Fit& fit = found.fit(Parameter::kBaudControlMs);
-  std::vector<Instance> instances;
-  const Trace& br = scene.record[Wire::kBr];
-  for (std::size_t edge = br.next(0, false); edge < br.edges.size(); edge += 2) {
-    const Tick at = br.edges[edge];
-    if (scene.in_reset(at - scene.time.margin(), at)) continue;
-    const Heard heard = heard_before(scene, at);
-    if (heard.last == nullptr) continue;
-    Span ms = since_decision(scene, *heard.last, at) + -heard.watchdog;
-    ms = {ms.lo / kCyclesPerMs, ms.hi / kCyclesPerMs};
-    const double whole = std::round(ms.middle());
-    if (whole >= 1 && ms.lo - kNear <= whole && whole <= ms.hi + kNear) instances.push_back({at, ms, ms.middle()});
-  }
-  fit.estimate = estimate(instances);
-  if (fit.estimate.count == 0) fit.not_shown = "BR does not fall after silence";
-}
-
 // --- other pins
 
 void judge_pins(const Scene& scene, Found& found) {
@@ -282,14 +214,7 @@ void judge_pins(const Scene& scene, Found& found) {
                         sent.start, "an answer while BR or READY is low");
   if (!record.sees(Wire::kPbf)) return;
   for (const Exchange& exchange : scene.exchanges) {
-    if (exchange.answer == nullptr || !exchange.request->right || exchange.request->telegram.dsap ||
-        !exchange.answer->right)
-      continue;
-    const bool srd = exchange.request->telegram.function() == bus::fc::kSrdLow ||
-                     exchange.request->telegram.function() == bus::fc::kSrdHigh;
-    const bool data = exchange.answer->telegram.kind == bus::TelegramKind::kSd2 ||
-                      exchange.answer->telegram.kind == bus::TelegramKind::kSc;
-    if (!srd || !data) continue;
+    if (exchange.repeats || !exchange.exchanged()) continue;  // S26
     const Tick at = exchange.request->end();
     found.judge.judge(kExchange, !record[Wire::kPbf].high(at - about, exchange.answer->start), exchange.answer->start,
                       "a data exchange is answered while PBF is high");
@@ -302,7 +227,7 @@ void judge_silence(const Scene& scene, Found& found) {
     const LineTelegram& request = *exchange.request;
     const std::size_t rise = br.next(request.last_start, true);
     if (rise == Trace::kNone || !request.right) continue;
-    if (!overlap(scene.time.between(request.last_start, br.edges[rise]), decision(request))) continue;
+    if (!overlap(scene.time.between(request.last_start, br.edges[rise]), request.decision())) continue;
     found.judge.judge(kSilent, exchange.answer == nullptr, br.edges[rise], "it is answered");
   }
 }
@@ -313,13 +238,11 @@ void measure_search(const Scene& scene, Found& found) {
   const Record& record = scene.record;
   if (record.sees({Wire::kPbrxd, Wire::kBr})) {
     fit_windows(scene, found);
-    fit_baud_control(scene, found);
     judge_silence(scene, found);
   }
-  if (record.sees({Wire::kPbrxd, Wire::kPbf})) judge_watchdog(scene, found);
   judge_pins(scene, found);
 }
 
-Claims search_claims() { return {&kLocks, &kSilent, &kWatchdog, &kFoundFirst, &kExchange}; }
+Claims search_claims() { return {&kLocks, &kDecided, &kSilent, &kFoundFirst, &kExchange}; }
 
 }  // namespace calibrate

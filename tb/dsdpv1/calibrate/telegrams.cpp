@@ -16,7 +16,7 @@ struct Asked {
   const Telegram& request;
   const Telegram& answer;
   const Scene& scene;
-  Tick end;  ///< of the request
+  const Exchange& exchange;
 
   bool to(std::uint8_t sap) const { return request.dsap == sap; }
   bool is_srd() const { return request.function() == bus::fc::kSrdLow || request.function() == bus::fc::kSrdHigh; }
@@ -26,8 +26,10 @@ struct Asked {
   bool no_resource() const { return is_status(bus::fc::kRr); }
   bool has_data() const { return answer.kind == TelegramKind::kSd2 || answer.kind == TelegramKind::kSd3; }
   bool data_from(std::uint8_t sap) const { return has_data() && answer.ssap == sap; }
+  /// The state counts where the request is decided, between its end and the answer, but for a repetition (S26).
   bool outside_exchange() const {
-    return scene.record[Wire::kPbf].high(end - scene.time.margin(), end + scene.time.margin());
+    const Tick from = exchange.request->end() - scene.time.margin();
+    return !exchange.repeats && scene.record[Wire::kPbf].high(from, exchange.answer->start);
   }
 };
 
@@ -47,9 +49,12 @@ namespace sap = bus::sap;
 namespace fc = bus::fc;
 
 const std::vector<Rule> kRules = {
-    {{"S5", "SAP 55: SC, RS or RR", line()},
+    {{"S5", "SAP 55 answers SC, beyond 4 bytes RR, or RS", line()},
      [](const Asked& a) { return a.is_srd() && a.to(sap::kSetSlaveAddress); },
-     [](const Asked& a) { return a.acknowledged() || a.refused() || a.no_resource(); }},
+     [](const Asked& a) {
+       constexpr std::size_t kMost = 4;
+       return a.refused() || (a.request.data.size() > kMost ? a.no_resource() : a.acknowledged());
+     }},
     {{"S13",
       "outside of data exchange the default SAP and SAP 56 are refused",
       {Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}},
@@ -58,11 +63,14 @@ const std::vector<Rule> kRules = {
               a.outside_exchange();
      },
      [](const Asked& a) { return a.refused(); }},
-    {{"S13", "SAPs 56, 57, 59 and 60 answer requests with data RR, or RS", line()},
+    {{"S13", "SAPs 57, 59 and 60 answer requests with data RR", line()},
      [](const Asked& a) {
        return a.is_srd() && !a.request.data.empty() &&
-              (a.to(sap::kReadInputs) || a.to(sap::kReadOutputs) || a.to(sap::kGetCfg) || a.to(sap::kSlaveDiag));
+              (a.to(sap::kReadOutputs) || a.to(sap::kGetCfg) || a.to(sap::kSlaveDiag));
      },
+     [](const Asked& a) { return a.no_resource(); }},
+    {{"S13", "SAP 56 answers requests with data RR, or RS", line()},
+     [](const Asked& a) { return a.is_srd() && !a.request.data.empty() && a.to(sap::kReadInputs); },
      [](const Asked& a) { return a.refused() || a.no_resource(); }},
     {{"S13", "Slave_Diag and Get_Cfg are always answered with data", line()},
      [](const Asked& a) {
@@ -86,6 +94,9 @@ const std::vector<Rule> kRules = {
     {{"S20", "answers with data have FC 08, a data exchange also 0A", line()},
      [](const Asked& a) { return a.has_data(); },
      [](const Asked& a) { return a.answer.fc == fc::kDl || (a.answer.fc == fc::kDh && !a.request.dsap); }},
+    {{"S20", "answers with data are SD2", line()},
+     [](const Asked& a) { return a.has_data(); },
+     [](const Asked& a) { return a.answer.kind == TelegramKind::kSd2; }},
     {{"S20", "station type bits are 0", line()},
      [](const Asked& a) { return !a.acknowledged(); },
      [](const Asked& a) { return (a.answer.fc & ~kResponseFunctions) == 0; }},
@@ -103,7 +114,7 @@ const std::vector<Rule> kRules = {
     {{"S21", "an answer goes to the SAP that asked, from the one that was asked", line()},
      [](const Asked& a) { return a.has_data(); },
      [](const Asked& a) {
-       return a.answer.dsap == a.request.ssap && (!a.request.ssap || a.answer.ssap == a.request.dsap);
+       return a.answer.dsap == a.request.ssap && a.answer.ssap == (a.request.ssap ? a.request.dsap : std::nullopt);
      }},
     {{"S21", "an answer goes to the master that asked, from the station that was asked", line()},
      [](const Asked& a) { return !a.acknowledged(); },
@@ -140,14 +151,15 @@ const std::vector<Rule> kRules = {
     {{"facts", "Slave_Diag: status bits that the chip never sets are 0, status 2 bit 2 is 1", line()},
      [](const Asked& a) { return a.to(sap::kSlaveDiag) && a.has_data(); },
      [](const Asked& a) {
-       constexpr std::uint8_t kNever1 = 0xA1, kNever2 = 0xC0, kAlways2 = 0x04;
+       constexpr std::uint8_t kNever1 = 0xA1, kNever2 = 0xC0, kAlways2 = 0x04;  // of status 3 all
        const bus::Bytes& data = a.answer.data;
        return data.size() >= kShortestDiagnosis && (data[0] & kNever1) == 0 && (data[1] & kNever2) == 0 &&
-              (data[1] & kAlways2) != 0;
+              (data[1] & kAlways2) != 0 && data[2] == 0;
      }},
 };
 
-const Claim kRepeated = {"S26", "a request that is repeated gets the same answer", line()};
+const Claim kRepeated = {
+    "S26", "a request that is repeated gets the same answer", {Wire::kPbrxd, Wire::kPbtxd, Wire::kBr}};
 const Claim kSdn = {"S20", "SDN is not answered", line()};
 const Claim kNobody = {"S32", "a request of master 127 is not answered", line()};
 const Claim kGlobal = {"S20", "Global_Control is not answered", line()};
@@ -160,7 +172,7 @@ std::string words_of(const Telegram& answer, const bus::Bytes& bytes) {
 }
 
 void judge_rules(const Scene& scene, const Exchange& exchange, Found& found) {
-  const Asked asked{exchange.request->telegram, exchange.answer->telegram, scene, exchange.request->end()};
+  const Asked asked{exchange.request->telegram, exchange.answer->telegram, scene, exchange};
   for (const Rule& rule : kRules) {
     if (!rule.applies(asked)) continue;
     if (rule.holds(asked))

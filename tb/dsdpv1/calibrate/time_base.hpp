@@ -9,6 +9,8 @@ namespace calibrate {
 
 using bus::Tick;
 
+constexpr double kCyclesPerMs = 48'000;
+
 /// From `lo` to `hi`, both in it.
 struct Span {
   double lo = 0, hi = 0;

@@ -1,6 +1,7 @@
 // What the user reads: version, RAM, CRCs, flags.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "registers/dsdpv1_regs.hpp"
@@ -9,11 +10,10 @@
 namespace calibrate {
 namespace {
 
-const Claim kData = {"P5", "D stands 31.25 ns after RD fell, until it rises", {}, true};
+const Claim kData = {"P5", "D stands 31.25 ns after RD and CSR fell, until one of them rises", {}, true};
 const Claim kRam = {"P6", "what the user wrote is there while it holds the DPRAM", {Wire::kLReq}, true};
 const Claim kVersion = {"D1", "B000 to B003 are 01 0D 07 01, B004 is 00 or C5", {}, true};
-const Claim kCrc = {"D2", "a block that the user reads has the right CRC", {}, true};
-const Claim kCover = {"D3", "it covers what D3 says", {}, true};
+const Claim kCrc = {"D2", "a block that the user reads has the right CRC of what D3 says", {}, true};
 const Claim kTaken = {"H5", "flags of B010 that the user set are 0 after an access of the chip", {Wire::kLReq}, true};
 
 std::uint16_t crc_of(const bus::Bytes& bytes) {
@@ -25,6 +25,11 @@ std::uint16_t crc_of(const bus::Bytes& bytes) {
   }
   return static_cast<std::uint16_t>(crc);
 }
+
+/// The bits that the chip clears (table 10).
+constexpr std::uint8_t kFlags = dsdpv1::regs::kUserCommand1Input | dsdpv1::regs::kUserCommand1Diag |
+                                dsdpv1::regs::kUserCommand1Init | dsdpv1::regs::kUserCommand1CfgVerdict |
+                                dsdpv1::regs::kUserCommand1PrmVerdict;
 
 /// A block that the chip writes: its length byte stands last of the header.
 struct Area {
@@ -63,10 +68,13 @@ class UserJudge {
   }
   void write(const UserAccess& access) {
     written_[access.address] = access.data;
+    written_at_[access.address] = access.end;
     read_.erase(access.address);
-    if (access.address == dsdpv1::regs::kUserCommand1) flags_now_ = access.data, flags_before_ = 0;
+    if (access.address == dsdpv1::regs::kUserCommand1) flags_now_ = access.data & kFlags, flags_before_ = 0;
   }
   void read(const UserAccess& access) {
+    read_.erase(access.address);
+    if (!is_known(access)) return;
     judge_data(access);
     judge_version(access);
     if (const auto found = written_.find(access.address); found != written_.end() && scene_.record.sees(Wire::kLReq))
@@ -80,6 +88,35 @@ class UserJudge {
       if (access.address == area.crc + 1) judge_crc(area, access);
   }
 
+  /// Whether the rulings say what it brings: it has the DPRAM (P12), which a reset takes (P10, H6), and no write of the
+  /// same cell is on its way (P8). What is not in the capture is taken to be right.
+  bool is_known(const UserAccess& access) const {
+    return !in_reset(access) && !before_start_up(access) && has_dpram(access) && !in_flight(access);
+  }
+  bool in_reset(const UserAccess& access) const {
+    return scene_.in_reset(access.start - scene_.time.ticks(3) - scene_.time.margin(), access.end);
+  }
+  bool before_start_up(const UserAccess& access) const {
+    const Trace& reset = scene_.record[Wire::kReset];
+    const std::size_t rose = reset.last(access.start, true);
+    if (rose == Trace::kNone || !scene_.record.sees(Wire::kLReq)) return false;
+    return next_ == 0 || scene_.accesses[next_ - 1].start < reset.edges[rose];
+  }
+  bool has_dpram(const UserAccess& access) const {
+    const auto is = [this](Wire wire, bool level, Tick from, Tick to) {
+      const Trace& trace = scene_.record[wire];
+      return !trace.seen || (level ? trace.high(from, to) : trace.low(from, to));
+    };
+    const Tick from = access.start - scene_.time.margin(), to = access.start + scene_.time.margin();
+    return is(Wire::kRReq, true, access.start, access.end) && is(Wire::kRSta, true, access.start, access.end) &&
+           is(Wire::kLReq, false, from, to) && is(Wire::kLSta, false, from, to);
+  }
+  /// A write takes effect at the third edge of CLK after WR rose, a read samples at the first.
+  bool in_flight(const UserAccess& access) const {
+    const auto write = written_at_.find(access.address);
+    return write != written_at_.end() && scene_.time.between(write->second, access.start).lo < 3;
+  }
+
   void check(const Claim& claim, const UserAccess& access, unsigned right) {
     if (access.data == right)
       found_.judge.holds(claim);
@@ -90,7 +127,7 @@ class UserJudge {
   void judge_version(const UserAccess& access) {
     constexpr std::array<unsigned, 4> kVersion4 = {0x01, 0x0D, 0x07, 0x01};
     constexpr unsigned kValid = 0xC5;
-    if (written_.count(access.address) != 0) return;
+    if (written_at_.count(access.address) != 0) return;  // P6: it holds that until the chip rewrites it
     if (access.address < kVersion4.size()) check(kVersion, access, kVersion4.at(access.address));
     if (access.address == dsdpv1::regs::kValidFlag && access.data != 0) check(kVersion, access, kValid);
   }
@@ -120,18 +157,20 @@ class UserJudge {
     const auto high = read_.find(area.crc);
     if (high == read_.end()) return;
     const unsigned seen = static_cast<unsigned>(high->second) << 8U | access.data, right = crc_of(bytes);
-    for (const Claim* claim : {&kCrc, &kCover})
-      if (seen == right)
-        found_.judge.holds(*claim);
-      else
-        found_.judge.fails(*claim, access.end,
-                           fmt::format("the CRC of the {} is {:04X}, {:04X} is right", area.what, seen, right));
+    const bool empty = std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t byte) { return byte == 0; });
+    if (seen == 0 && empty) return;  // as the start-up has left it
+    if (seen == right)
+      found_.judge.holds(kCrc);
+    else
+      found_.judge.fails(kCrc, access.end,
+                         fmt::format("the CRC of the {} is {:04X}, {:04X} is right", area.what, seen, right));
   }
 
   const Scene& scene_;
   Found& found_;
   std::size_t next_ = 0;                                  ///< the chip's access that is looked at
   std::map<std::uint32_t, std::uint8_t> written_, read_;  ///< in this hold
+  std::map<std::uint32_t, Tick> written_at_;              ///< by the user, the last time
   std::uint8_t flags_now_ = 0, flags_before_ = 0;
 };
 
@@ -139,6 +178,6 @@ class UserJudge {
 
 void measure_user(const Scene& scene, Found& found) { UserJudge(scene, found).judge(); }
 
-Claims user_claims() { return {&kData, &kRam, &kVersion, &kCrc, &kCover, &kTaken}; }
+Claims user_claims() { return {&kData, &kRam, &kVersion, &kCrc, &kTaken}; }
 
 }  // namespace calibrate

@@ -61,11 +61,12 @@ void DiagramWatch::pin(Tick at, PinNumber pin, Level level) {
   close([&](const Instance& each) { return at > each.anchor + diagram_.patience; });
   for (Instance& each : open_) resolve_later(each, at, pin, level);
   close([&](const Instance& each) { return is_complete(each); });
-  const auto is_this = [&](const DiagramEdge& edge) { return memory_.is(edge, pin, level); };
-  if (std::any_of(diagram_.anchors.begin(), diagram_.anchors.end(), is_this)) anchored(at);
+  const auto is_this = [&](const DiagramEdge& edge) { return memory_.is(edge, at, pin, level); };
+  if (anchored_ != at && std::any_of(diagram_.anchors.begin(), diagram_.anchors.end(), is_this)) anchored(at);
 }
 
 void DiagramWatch::anchored(Tick at) {
+  anchored_ = at;
   Instance instance{at, {}};
   for (std::size_t i = 0; i < diagram_.spans.size(); ++i) {
     const DiagramSpan& span = diagram_.spans[i];
@@ -95,18 +96,33 @@ std::optional<Tick> DiagramWatch::resolved(const Moment& moment, Tick anchor, st
     case Moment::Of::kRequestEnded: return request_end;
     case Moment::Of::kReadSample: return sample_ && *sample_ <= anchor ? sample_ : anchor;
     case Moment::Of::kAfter: return std::nullopt;
-    case Moment::Of::kBefore: break;
+    case Moment::Of::kBefore:
+    case Moment::Of::kSince: break;
   }
+  if (moment.begun.empty()) return last_of(moment.edges, anchor);
+  const std::optional<Tick> begun = last_of(moment.begun, anchor);
+  if (!begun) return std::nullopt;
+  if (moment.of == Moment::Of::kSince) return first_of(moment.edges, *begun, anchor);
+  return last_of(moment.edges, std::min(anchor, moment.until(*begun)));
+}
+
+std::optional<Tick> DiagramWatch::last_of(const std::vector<DiagramEdge>& edges, Tick until) const {
   std::optional<Tick> last;
-  for (const DiagramEdge& edge : moment.edges) last = better(last, memory_.last(edge, anchor), std::greater<>());
+  for (const DiagramEdge& edge : edges) last = better(last, memory_.last(edge, until), std::greater<>());
   return last;
+}
+
+std::optional<Tick> DiagramWatch::first_of(const std::vector<DiagramEdge>& edges, Tick from, Tick to) const {
+  std::optional<Tick> first;
+  for (const DiagramEdge& edge : edges) first = better(first, memory_.first(edge, from, to), std::less<>());
+  return first;
 }
 
 void DiagramWatch::resolve_later(Instance& instance, Tick at, PinNumber pin, Level level) const {
   const auto look = [&](const Moment& moment, std::optional<Tick>& time) {
     if (time || moment.of != Moment::Of::kAfter) return;
     for (const DiagramEdge& edge : moment.edges)
-      if (memory_.is(edge, pin, level)) time = at;
+      if (memory_.is(edge, at, pin, level)) time = at;
   };
   for (std::size_t i = 0; i < instance.spans.size(); ++i) {
     look(diagram_.spans[i].from, instance.spans[i].from);

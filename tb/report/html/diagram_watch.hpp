@@ -63,6 +63,8 @@ class DiagramWatch {
   void close(const Done& done);
   void anchored(Tick at);
   std::optional<Tick> resolved(const Moment& moment, Tick anchor, std::optional<Tick> request_end) const;
+  std::optional<Tick> last_of(const std::vector<DiagramEdge>& edges, Tick until) const;
+  std::optional<Tick> first_of(const std::vector<DiagramEdge>& edges, Tick from, Tick to) const;
   void resolve_later(Instance& instance, Tick at, PinNumber pin, Level level) const;
   bool is_complete(const Instance& instance) const;
   void judge(const Instance& instance);
@@ -72,7 +74,7 @@ class DiagramWatch {
   const TimingDiagram& diagram_;
   std::vector<SpanLimits> limits_;
   const PinMemory& memory_;
-  std::optional<Tick> sample_;
+  std::optional<Tick> sample_, anchored_;
   std::deque<Instance> open_;          ///< wait for moments after their anchor
   std::optional<Instance> candidate_;  ///< waits for what its picture shows after it
   std::optional<DiagramPicture> worst_;

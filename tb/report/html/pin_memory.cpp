@@ -5,7 +5,15 @@
 namespace tb::html {
 namespace {
 
-bool turns(Turn turn, Level level) { return turn == Turn::kChange || (turn == Turn::kRise ? level == 1 : level == 0); }
+bool turns(Turn turn, Level level) {
+  switch (turn) {
+    case Turn::kRise: return level == 1;
+    case Turn::kFall: return level == 0;
+    case Turn::kValue: return level >= 0;
+    case Turn::kChange: break;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -22,16 +30,46 @@ Level PinMemory::level(PinNumber pin) const {
   return own.steps.empty() ? own.before : own.steps.back().level;
 }
 
-bool PinMemory::is(const DiagramEdge& edge, PinNumber pin, Level level) const {
-  return edge.pin == pin && turns(edge.turn, level) && (!edge.conditional || this->level(edge.where) == edge.level);
+bool PinMemory::is(const DiagramEdge& edge, Tick at, PinNumber pin, Level level) const {
+  return edge.pin == pin && turns(edge.turn, level) && holds(edge, at);
+}
+
+bool PinMemory::holds(const DiagramEdge& edge, Tick at) const {
+  return std::all_of(
+      edge.where.begin(), edge.where.begin() + static_cast<std::ptrdiff_t>(edge.conditions),
+      [&](const PinLevel& wanted) { return had(wanted, at); });
+}
+
+/// Just before `at` or at it: pins that change at one tick are told in any order.
+bool PinMemory::had(const PinLevel& wanted, Tick at) const {
+  const Pin& own = pins_.at(wanted.pin);
+  auto step = std::upper_bound(own.steps.begin(), own.steps.end(), at,
+                               [](Tick time, const PinStep& each) { return time < each.at; });
+  while (step != own.steps.begin()) {
+    --step;
+    if (step->level == wanted.level) return true;
+    if (step->at < at) return false;
+  }
+  return own.before == wanted.level;
 }
 
 std::optional<Tick> PinMemory::last(const DiagramEdge& edge, Tick at) const {
   const std::deque<PinStep>& steps = pins_.at(edge.pin).steps;
-  const auto found = std::find_if(steps.rbegin(), steps.rend(),
-                                  [&](const PinStep& step) { return step.at <= at && turns(edge.turn, step.level); });
-  if (found == steps.rend()) return std::nullopt;
+  const std::size_t looked = edge.conditions == 0 ? steps.size() : std::min(kLooked, steps.size());
+  const auto end = steps.rbegin() + static_cast<std::ptrdiff_t>(looked);
+  const auto found = std::find_if(steps.rbegin(), end, [&](const PinStep& step) {
+    return step.at <= at && turns(edge.turn, step.level) && holds(edge, step.at);
+  });
+  if (found == end) return std::nullopt;
   return found->at;
+}
+
+std::optional<Tick> PinMemory::first(const DiagramEdge& edge, Tick from, Tick to) const {
+  std::optional<Tick> found;
+  const std::deque<PinStep>& steps = pins_.at(edge.pin).steps;
+  for (auto step = steps.rbegin(); step != steps.rend() && step->at >= from; ++step)
+    if (step->at <= to && turns(edge.turn, step->level) && holds(edge, step->at)) found = step->at;
+  return found;
 }
 
 PinTrace PinMemory::trace(PinNumber pin, Tick from, Tick to) const {

@@ -28,15 +28,19 @@ class PinMemory {
  public:
   static constexpr std::size_t kDepth = 4096;  ///< changes a pin: an answer of 255 characters and the request before it
 
+  static constexpr std::size_t kLooked = 64;
+
   explicit PinMemory(std::size_t pins) : pins_(pins) {}
   void begin(PinNumber pin, Level level) { pins_.at(pin).before = level; }
   void add(Tick at, PinNumber pin, Level level);
 
   Level level(PinNumber pin) const;
-  /// Whether a change of `pin` to `level`, now, is this edge.
-  bool is(const DiagramEdge& edge, PinNumber pin, Level level) const;
-  /// The last such edge at or before `at`. A condition on another pin is not looked at.
+  /// Whether a change of `pin` to `level` at `at`, the last that was added, is this edge.
+  bool is(const DiagramEdge& edge, Tick at, PinNumber pin, Level level) const;
+  /// The last such edge at or before `at`. With conditions only the last kLooked changes are looked at.
   std::optional<Tick> last(const DiagramEdge& edge, Tick at) const;
+  /// The first such edge from `from` to `to`.
+  std::optional<Tick> first(const DiagramEdge& edge, Tick from, Tick to) const;
   PinTrace trace(PinNumber pin, Tick from, Tick to) const;
 
  private:
@@ -44,6 +48,9 @@ class PinMemory {
     Level before = 0;  ///< the first of `steps`
     std::deque<PinStep> steps;
   };
+  bool holds(const DiagramEdge& edge, Tick at) const;
+  bool had(const PinLevel& wanted, Tick at) const;
+
   std::vector<Pin> pins_;
 };
 

@@ -1,0 +1,23 @@
+#pragma once
+// What Set_Prm and Slave_Diag say of the chip's state.
+#include "tb/dsdpv1/calibrate/scene.hpp"
+
+namespace calibrate {
+
+constexpr std::size_t kPrmSize = 7;                       ///< bytes of Set_Prm without those of the user
+constexpr std::uint8_t kPrmFault = 0x40, kPrmReq = 0x01;  ///< of status 1 and 2
+
+/// What an acknowledged Set_Prm asks for (S14, S28).
+enum class PrmKind : std::uint8_t {
+  kNone,     ///< it is no Set_Prm, was not acknowledged, or may have been answered from memory
+  kShort,    ///< a fault
+  kMinTsdr,  ///< changes min_TSDR
+  kUnlock,   ///< releases the master, or is a fault
+  kLock,     ///< accepted, a fault, or judged by the user
+};
+
+PrmKind prm_kind(const Exchange& exchange);
+/// Slave_Diag was answered, all of these bits set.
+bool diagnosis_has(const Exchange& exchange, std::uint8_t status1, std::uint8_t status2);
+
+}  // namespace calibrate

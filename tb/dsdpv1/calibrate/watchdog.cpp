@@ -1,0 +1,133 @@
+// S1, S22: what ends DATA_EXCH, and what BR falls after.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tb/dsdpv1/calibrate/found.hpp"
+#include "tb/dsdpv1/calibrate/supervision.hpp"
+
+namespace calibrate {
+namespace {
+
+const Claim kWatchdog = {
+    "S1", "the watchdog of Set_Prm ends DATA_EXCH after its time", {Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}};
+const Claim kBrFalls = {"S1",
+                        "BR falls the same whole number of ms after the last telegram, or the watchdog's end",
+                        {Wire::kPbrxd, Wire::kPbtxd, Wire::kBr, Wire::kLReq}};
+
+/// A new initialisation may be taken there: an access of the chip that has read more than its flags.
+bool long_access(const Scene& scene, Tick at) {
+  constexpr double kLeast = 10;
+  if (!scene.record.sees(Wire::kLReq)) return true;
+  const Tick about = scene.time.margin() + scene.time.ticks(1);
+  const auto after = std::upper_bound(scene.accesses.begin(), scene.accesses.end(), at + about,
+                                      [](Tick when, const ChipAccess& access) { return when < access.start; });
+  if (after == scene.accesses.begin()) return false;
+  const ChipAccess& access = *(after - 1);
+  return access.end >= at - about && (!access.whole || scene.time.between(access.start, access.end).hi >= kLeast);
+}
+
+/// PBF rises by something else than the watchdog: a request decided just before, or a new initialisation.
+bool ended_otherwise(const Scene& scene, Tick at) {
+  constexpr Span kJustBefore = {-1, 16};
+  const auto decided = [&](const Exchange& exchange) {
+    return overlap(since(scene, decision_of(*exchange.request), at), kJustBefore);
+  };
+  const Tick about = scene.time.margin();
+  const bool initialised =
+      scene.record.sees(Wire::kBr) ? !scene.record[Wire::kBr].high(at - about, at + about) : long_access(scene, at);
+  return initialised || std::any_of(scene.exchanges.begin(), scene.exchanges.end(), decided);
+}
+
+void judge_watchdog(const Scene& scene, Found& found) {
+  Supervision supervision(scene);
+  const Trace& pbf = scene.record[Wire::kPbf];
+  for (std::size_t edge = pbf.next(0, true); edge < pbf.edges.size(); edge += 2) {
+    const Tick at = pbf.edges[edge];
+    const auto& prm = supervision.before(at).prm;  // in force, since PBF was low
+    if (scene.in_reset(at - scene.time.margin(), at) || !prm || !prm->heard || prm->watchdog == 0) continue;
+    const Span passed = since(scene, *prm->heard, at);
+    const bool late = passed.lo > prm->watchdog, early = passed.lo > prm->watchdog / 2 && !ended_otherwise(scene, at);
+    if (passed.contains(prm->watchdog))
+      found.judge.holds(kWatchdog);
+    else if (late || early)
+      found.judge.fails(kWatchdog, at, fmt::format("{:+.1f} cycles from its end", passed.middle() - prm->watchdog));
+  }
+}
+
+/// BR falls.
+struct Fall {
+  Tick at = 0;
+  Span ms;  ///< since the last telegram, or the end of the watchdog that ran before
+};
+
+struct Falls {
+  std::vector<Fall> all;
+  bool unknown = false;  ///< there are others, of which the capture does not show what came before
+};
+
+Falls falls_of(const Scene& scene) {
+  Falls falls;
+  Supervision supervision(scene);
+  const Trace& br = scene.record[Wire::kBr];
+  for (std::size_t edge = br.next(0, false); edge < br.edges.size(); edge += 2) {
+    const Tick at = br.edges[edge];
+    if (scene.in_reset(at - scene.time.margin(), at)) continue;
+    const Supervised& before = supervision.before(at);
+    if (before.state == Supervised::State::kUnknown) {
+      falls.unknown = true;
+      continue;
+    }
+    const double watchdog = before.state == Supervised::State::kDpControl ? before.prm->watchdog : 0;
+    const Span passed = since(scene, before.last, at) + -watchdog;
+    falls.all.push_back({at, {passed.lo / kCyclesPerMs, passed.hi / kCyclesPerMs}});
+  }
+  return falls;
+}
+
+constexpr double kNearMs = 0.05;
+
+bool is_whole(const Span& ms) {
+  const double whole = std::round(ms.middle());
+  return whole >= 1 && ms.lo - kNearMs <= whole && whole <= ms.hi + kNearMs;
+}
+
+/// What does not agree is a new initialisation, where there may be one.
+void judge_falls(const Scene& scene, const Falls& falls, Found& found) {
+  Fit& fit = found.fit(Parameter::kBaudControlMs);
+  for (const Fall& fall : falls.all) {
+    const bool known = fit.estimate.count != 0,
+               right = known && is_whole(fall.ms) && overlap(fall.ms, fit.estimate.span);
+    const double by = known ? fall.ms.middle() - fit.estimate.span.middle() : 0;
+    if (right)
+      found.judge.holds(kBrFalls);
+    else if (!long_access(scene, fall.at))
+      found.judge.fails(kBrFalls, fall.at, fmt::format("{:.3f} ms after it", fall.ms.middle()));
+    if (known && !is_whole(fall.ms)) fit.estimate.outliers.push_back({fall.at, by});
+  }
+  if (fit.estimate.count != 0) return;
+  fit.not_shown = !falls.all.empty() ? "BR falls, but no whole number of ms after the last telegram"
+                  : falls.unknown    ? "BR falls, but the capture does not show whether a watchdog ran before"
+                                     : "BR does not fall after silence";
+}
+
+void fit_baud_control(const Scene& scene, Found& found) {
+  const Falls falls = falls_of(scene);
+  std::vector<Instance> instances;
+  for (const Fall& fall : falls.all)
+    if (is_whole(fall.ms)) instances.push_back({fall.at, fall.ms, fall.ms.middle()});
+  found.fit(Parameter::kBaudControlMs).estimate = estimate(instances);
+  judge_falls(scene, falls, found);
+}
+
+}  // namespace
+
+void measure_watchdog(const Scene& scene, Found& found) {
+  if (scene.record.sees({Wire::kPbrxd, Wire::kBr})) fit_baud_control(scene, found);
+  if (scene.record.sees({Wire::kPbrxd, Wire::kPbf})) judge_watchdog(scene, found);
+}
+
+Claims watchdog_claims() { return {&kWatchdog, &kBrFalls}; }
+
+}  // namespace calibrate

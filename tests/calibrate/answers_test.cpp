@@ -1,0 +1,142 @@
+// P2, S2, S3, S10: answers and the idle time before requests, in captures made for it.
+#include <gtest/gtest.h>
+
+#include "made_capture.hpp"
+
+namespace {
+
+using namespace calibrate_test;
+using calibrate::Verdict;
+
+void exchange_data(MadeCapture& capture, int times) {
+  for (int i = 0; i < times; ++i) capture.exchange(data_exchange({1}), data_answer({2}));
+}
+
+// --- S3: answered ----------------------------------------------------------------------------------------------------
+
+/// One request of many is not answered, so long after the answer before.
+Verdict unanswered_after(double ms, const std::vector<Wire>& pins) {
+  MadeCapture capture(k1M5, pins);
+  for (const Wire pin : pins) capture.begins_high(pin);
+  exchange_data(capture, 3);
+  capture.wait_ms(ms);
+  capture.request(data_exchange({1}));
+  capture.wait_ms(1);
+  exchange_data(capture, 3);
+  return claim(capture.judge(), "S3", "is answered").verdict;
+}
+
+TEST(CalibrateAnswers, WithoutBrTheFirstRequestAfterASilenceMayHaveEndedTheSearch) {
+  EXPECT_EQ(unanswered_after(601, {}), Verdict::kConfirmed);
+  EXPECT_EQ(unanswered_after(1, {}), Verdict::kContradicted);
+  EXPECT_EQ(unanswered_after(100, {Wire::kBr}), Verdict::kContradicted);
+}
+
+// --- S3, S10: idle ---------------------------------------------------------------------------------------------------
+
+TEST(CalibrateAnswers, AGlitchDoesNotEndIdleTime) {
+  for (const double before : {20.0, 3.0, 0.7}) {  // bit times before the request
+    MadeCapture capture(k1M5);
+    exchange_data(capture, 2);
+    capture.wait_bits(40);
+    capture.pulse(Wire::kPbrxd, 10 * bus::kTicksPerCycle);
+    capture.request(data_exchange({1}), before);
+    capture.answer(data_answer({2}));
+    const calibrate::Result result = capture.judge();
+    EXPECT_EQ(contradicted(result), "") << before;
+    EXPECT_EQ(claim(result, "S3", "is answered").tally.holds, 2U) << "the first has no idle time";
+  }
+}
+
+TEST(CalibrateAnswers, AGlitchOfTheChipIsToldAsWhatItSends) {
+  MadeCapture capture(k1M5);
+  exchange_data(capture, 2);
+  capture.wait_bits(40);
+  capture.pulse(Wire::kPbtxd, 10 * bus::kTicksPerCycle);
+  exchange_data(capture, 1);
+  EXPECT_EQ(claim(capture.judge(), "S2", "every edge").verdict, Verdict::kContradicted);
+}
+
+TEST(CalibrateAnswers, AfterWhatIsNoTelegramIdleTimeBeginsWithItsEnd) {
+  const Bytes wrong(8, 0x55);
+  MadeCapture capture(k1M5);
+  exchange_data(capture, 2);
+  capture.request(wrong);
+  capture.request(data_exchange({1}), 20);  // not answered
+  capture.wait_ms(1);
+  exchange_data(capture, 2);
+  EXPECT_EQ(contradicted(capture.judge()), "");
+  capture.request(wrong);
+  capture.exchange(data_exchange({1}), data_answer({2}));
+  EXPECT_EQ(contradicted(capture.judge()), "");
+  capture.request(wrong);
+  capture.request(data_exchange({1}), 15);
+  capture.answer(data_answer({2}));
+  EXPECT_EQ(claim(capture.judge(), "S3", "33 bit times").verdict, Verdict::kContradicted);
+}
+
+// --- S2 --------------------------------------------------------------------------------------------------------------
+
+/// An answer of which 4 characters and 3 bits are sent, in which this pin falls.
+Verdict cut_by(const std::vector<Wire>& pins) {
+  MadeCapture capture(k1M5, pins);
+  for (const Wire pin : pins) capture.begins_high(pin);
+  exchange_data(capture, 2);
+  capture.request(data_exchange({1}));
+  capture.cut_answer(data_answer({2}), 4, 3);
+  for (const Wire pin : pins) capture.set(pin, false);
+  return claim(capture.judge(), "S2", "every edge").verdict;
+}
+
+TEST(CalibrateAnswers, AnAnswerThatAResetOrAnInitialisationCutsIsNoContradiction) {
+  EXPECT_EQ(cut_by({Wire::kBr}), Verdict::kConfirmed);
+  EXPECT_EQ(cut_by({Wire::kReset}), Verdict::kConfirmed);
+  EXPECT_EQ(cut_by({}), Verdict::kConfirmed) << "without BR an initialisation may have cut it";
+}
+
+TEST(CalibrateAnswers, AnAnswerThatNothingCutsIsContradicted) {
+  MadeCapture capture(k1M5, {Wire::kBr});
+  capture.begins_high(Wire::kBr);
+  exchange_data(capture, 2);
+  capture.request(data_exchange({1}));
+  capture.cut_answer(data_answer({2}), 4, 3);
+  EXPECT_EQ(claim(capture.judge(), "S2", "every edge").verdict, Verdict::kContradicted);
+}
+
+// --- P2 --------------------------------------------------------------------------------------------------------------
+
+calibrate::Result driven(double lead, double trail) {
+  MadeCapture capture(k1M5);
+  capture.set_driver(lead, trail);
+  exchange_data(capture, 3);
+  return capture.judge();
+}
+
+TEST(CalibrateAnswers, ADriverThatIsEnabledForLongIsMeasured) {
+  const calibrate::Result result = driven(90, 200);
+  for (const auto& [key, value] : {std::pair("rts_lead", 90), std::pair("rts_trail", 200)}) {
+    EXPECT_EQ(parameter(result, key).verdict, Verdict::kContradicted) << key;
+    EXPECT_EQ(parameter(result, key).value, value) << key;
+    EXPECT_LE(parameter(result, key).chosen, 32) << "what a scenario takes";
+  }
+}
+
+TEST(CalibrateAnswers, ADriverThatEndsBeforeTheAnswerHasNoTrail) {
+  const calibrate::Result result = driven(4, -8);
+  EXPECT_EQ(parameter(result, "rts_trail").verdict, Verdict::kContradicted);
+  EXPECT_EQ(parameter(result, "rts_trail").words, "-8");
+}
+
+TEST(CalibrateAnswers, ADriverThatStaysEnabledIsContradicted) {
+  MadeCapture capture(k1M5);
+  capture.begins_high(Wire::kPbrts);
+  exchange_data(capture, 1);  // its PBRTS falls
+  capture.set_at(Wire::kPbrts, capture.now() + 100 * bus::kTicksPerCycle, true);
+  for (int i = 0; i < 2; ++i) {
+    capture.request(data_exchange({1}));
+    capture.answer_undriven(data_answer({2}));
+  }
+  EXPECT_EQ(claim(capture.judge(), "P2", "falls the same time").verdict, Verdict::kContradicted);
+}
+
+}  // namespace

@@ -1,0 +1,44 @@
+// S1, S10: what ends the search, and when, in captures made for it.
+#include <gtest/gtest.h>
+
+#include "made_capture.hpp"
+
+namespace {
+
+using namespace calibrate_test;
+using calibrate::Verdict;
+
+struct Verdicts {
+  Verdict s1, s10;
+};
+
+/// BR rises so many bit times after the decision of a telegram to another station.
+Verdicts rise(double bits) {
+  MadeCapture capture(k1M5, {Wire::kBr});
+  capture.request(fdl_status(kMaster, kStation + 1), 100);
+  capture.decide();
+  capture.wait_bits(bits);
+  capture.set(Wire::kBr, true);
+  const calibrate::Result result = capture.judge();
+  return {claim(result, "S1", "ends the search").verdict, claim(result, "S10", "BR rises").verdict};
+}
+
+TEST(CalibrateSearch, EndsWithARightTelegramAtItsDecision) {
+  const Verdicts at_decision = rise(0);
+  EXPECT_EQ(at_decision.s1, Verdict::kConfirmed);
+  EXPECT_EQ(at_decision.s10, Verdict::kConfirmed);
+}
+
+TEST(CalibrateSearch, AnotherMomentIsAgainstS10Alone) {
+  for (const double bits : {-1.0, 3.0}) {
+    EXPECT_EQ(rise(bits).s1, Verdict::kConfirmed) << bits;
+    EXPECT_EQ(rise(bits).s10, Verdict::kContradicted) << bits;
+  }
+}
+
+TEST(CalibrateSearch, AnEndWithoutATelegramIsAgainstS1Alone) {
+  EXPECT_EQ(rise(500).s1, Verdict::kContradicted);
+  EXPECT_EQ(rise(500).s10, Verdict::kNotShown);
+}
+
+}  // namespace

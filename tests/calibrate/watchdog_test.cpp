@@ -1,0 +1,178 @@
+// S1, S22: what ends DATA_EXCH, and what BR's fall follows, in captures made for it.
+#include <gtest/gtest.h>
+
+#include "made_capture.hpp"
+
+namespace {
+
+using namespace calibrate_test;
+using calibrate::Verdict;
+
+const Bytes kOutputs = {1, 2};
+
+/// A station that found its rate, with BR, READY and PBF.
+class WatchedStation : public MadeCapture {
+ public:
+  WatchedStation() : MadeCapture(k1M5, {Wire::kBr, Wire::kPbf, Wire::kLReq}) { find_rate(); }
+  /// Set_Prm, Chk_Cfg and a data exchange; PBF falls.
+  void start_up(std::uint8_t wd) {
+    exchange(set_prm(kLock | (wd != 0 ? kWdOn : 0), wd), bus::make_sc());
+    exchange(srd(bus::sap::kChkCfg, {0x11, 0x21}), bus::make_sc());
+    set(Wire::kPbf, false);
+    exchange(data_exchange(kOutputs), data_answer({3, 4}));
+  }
+  /// So long after a decision.
+  void fall_of_br(Tick decision, double ms) { at(Wire::kBr, decision, ms, false); }
+  void end_exchange(Tick decision, double ms) { at(Wire::kPbf, decision, ms, true); }
+  /// A request and its answer; the time of its decision.
+  Tick decided(const Telegram& asked, const Telegram& answered) {
+    request(asked);
+    const Tick end = now();
+    answer(answered);
+    return end + static_cast<Tick>(bit()) + 7 * bus::kTicksPerCycle / 2;
+  }
+
+ private:
+  void at(Wire wire, Tick decision, double ms, bool level) {
+    const Tick when = decision + static_cast<Tick>(ms * bus::kTicksPerMs);
+    set_at(wire, when, level);
+    if (when > now()) wait_ms(static_cast<double>(when - now()) / bus::kTicksPerMs);
+  }
+};
+
+void expect_600(const calibrate::Result& result) {
+  EXPECT_EQ(contradicted(result), "");
+  EXPECT_EQ(parameter(result, "baud_control_ms").value, 600) << parameter(result, "baud_control_ms").words;
+}
+
+TEST(CalibrateWatchdog, BrFallsAfterTheWatchdogsEndAndItsTime) {
+  WatchedStation station;
+  station.start_up(4);
+  const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
+  station.end_exchange(last, 40);
+  station.fall_of_br(last, 640);
+  const calibrate::Result result = station.judge();
+  expect_600(result);
+  EXPECT_EQ(claim(result, "S1", "ends DATA_EXCH").verdict, Verdict::kConfirmed);
+}
+
+TEST(CalibrateWatchdog, UnlockEndsIt) {
+  WatchedStation station;
+  station.start_up(4);
+  const Tick last = station.decided(set_prm(kUnlock), bus::make_sc());
+  station.end_exchange(last, 0.001);
+  station.fall_of_br(last, 600);
+  expect_600(station.judge());
+}
+
+TEST(CalibrateWatchdog, ASetPrmThatIsTooShortEndsIt) {
+  WatchedStation station;
+  station.start_up(4);
+  const Tick last = station.decided(srd(bus::sap::kSetPrm, {kLock, 4, 1}), bus::make_sc());
+  station.end_exchange(last, 0.001);
+  station.fall_of_br(last, 600);
+  expect_600(station.judge());
+}
+
+TEST(CalibrateWatchdog, ASetPrmThatIsRefusedEndsItAsTheDiagnosisShows) {
+  WatchedStation station;
+  station.start_up(4);
+  const Tick prm = station.decided(srd(bus::sap::kSetPrm, {kLock | kWdOn, 9, 1, 0, 0xBA, 0xD0, 0}), bus::make_sc());
+  station.end_exchange(prm, 0.001);
+  const Tick last = station.decided(srd(bus::sap::kSlaveDiag), diagnosis(0x42, 0x01));
+  station.fall_of_br(last, 600);
+  expect_600(station.judge());
+}
+
+TEST(CalibrateWatchdog, ASetPrmOfAnotherMasterThatIsRefusedChangesNothing) {
+  WatchedStation station;
+  station.start_up(4);
+  const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
+  station.exchange(set_prm(kLock | kWdOn, 99, 0, kOther), status(bus::fc::kRs, kOther));
+  station.end_exchange(last, 40);
+  station.fall_of_br(last, 640);
+  const calibrate::Result result = station.judge();
+  expect_600(result);
+  EXPECT_EQ(claim(result, "S1", "ends DATA_EXCH").verdict, Verdict::kConfirmed);
+}
+
+TEST(CalibrateWatchdog, ARequestAfterItsEndStartsTheTimeOfBrAnew) {
+  WatchedStation station;
+  station.start_up(4);
+  const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
+  station.end_exchange(last, 40);
+  station.wait_ms(10);
+  const Tick late = station.decided(fdl_status(), status(0));  // of who held it
+  station.fall_of_br(late, 600);
+  expect_600(station.judge());
+}
+
+TEST(CalibrateWatchdog, OnlyTheHolderKeepsDataExchangeAlive) {
+  WatchedStation station;
+  station.start_up(4);
+  const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
+  station.wait_ms(30);
+  station.decided(fdl_status(kOther), status(0, kOther));
+  station.end_exchange(last, 40);
+  const Tick other = station.decided(fdl_status(kOther), status(0, kOther));
+  station.fall_of_br(other, 600);
+  const calibrate::Result result = station.judge();
+  expect_600(result);
+  EXPECT_EQ(claim(result, "S1", "ends DATA_EXCH").verdict, Verdict::kConfirmed);
+}
+
+TEST(CalibrateWatchdog, AnotherMasterThatKeepsItAliveIsContradicted) {
+  WatchedStation station;
+  station.start_up(4);
+  station.decided(data_exchange(kOutputs), data_answer({3, 4}));
+  station.wait_ms(30);
+  const Tick other = station.decided(fdl_status(kOther), status(0, kOther));
+  station.end_exchange(other, 40);
+  EXPECT_EQ(claim(station.judge(), "S1", "ends DATA_EXCH").verdict, Verdict::kContradicted);
+}
+
+TEST(CalibrateWatchdog, WithoutATelegramToTheStationBrFallsAfterItsRise) {
+  WatchedStation station;
+  const Tick rise = station.now();
+  station.wait_ms(300);
+  station.request(fdl_status(kMaster, kStation + 1));
+  station.fall_of_br(rise, 600);
+  expect_600(station.judge());
+}
+
+TEST(CalibrateWatchdog, OfWhatRanBeforeTheCaptureNothingIsSaid) {
+  MadeCapture capture(k1M5, {Wire::kBr});
+  capture.begins_high(Wire::kBr);
+  capture.exchange(data_exchange(kOutputs), data_answer({3, 4}));
+  capture.wait_ms(640);
+  capture.set(Wire::kBr, false);
+  EXPECT_EQ(parameter(capture.judge(), "baud_control_ms").verdict, Verdict::kNotShown);
+}
+
+/// BR falls so long after the last telegram, in an access of so many cycles.
+calibrate::Result after(double ms, double access) {
+  WatchedStation station;
+  station.start_up(0);
+  const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
+  station.wait_ms(100);
+  station.pulse(Wire::kLReq, 7 * bus::kTicksPerCycle);
+  station.fall_of_br(last, ms);
+  station.set_at(Wire::kLReq, station.now() - 5 * bus::kTicksPerCycle, true);
+  station.set_at(Wire::kLReq, station.now() + static_cast<Tick>((access - 5) * bus::kTicksPerCycle), false);
+  station.wait_ms(1);
+  return station.judge();
+}
+
+TEST(CalibrateWatchdog, AFallOfBrThatIsNoWholeNumberOfMsIsContradicted) {
+  const calibrate::Result result = after(600.4, 7);
+  EXPECT_EQ(claim(result, "S1", "BR falls").verdict, Verdict::kContradicted);
+  EXPECT_NE(contradicted(result).find("600.400 ms"), std::string::npos) << contradicted(result);
+}
+
+TEST(CalibrateWatchdog, AFallOfBrInALongAccessMayBeAnInitialisation) {
+  const calibrate::Result result = after(600.4, 40);
+  EXPECT_EQ(claim(result, "S1", "BR falls").verdict, Verdict::kNotShown);
+  EXPECT_NE(parameter(result, "baud_control_ms").words.find("no whole number of ms"), std::string::npos);
+}
+
+}  // namespace
