@@ -32,6 +32,15 @@ TEST(CalibrateAnswers, WithoutBrTheFirstRequestAfterASilenceMayHaveEndedTheSearc
   EXPECT_EQ(unanswered_after(100, {Wire::kBr}), Verdict::kContradicted);
 }
 
+TEST(CalibrateAnswers, WithoutBrAnUnansweredRequestMayHaveFollowedAnInitialisation) {
+  MadeCapture capture(k1M5);
+  exchange_data(capture, 3);
+  capture.request(data_exchange({1}));
+  capture.wait_ms(1);
+  capture.exchange(data_exchange({1}), status(bus::fc::kRs));
+  EXPECT_EQ(contradicted(capture.judge()), "");
+}
+
 // --- S3, S10: idle ---------------------------------------------------------------------------------------------------
 
 TEST(CalibrateAnswers, AGlitchDoesNotEndIdleTime) {

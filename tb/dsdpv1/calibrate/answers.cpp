@@ -116,8 +116,8 @@ bool wants_answer(const Exchange& exchange) {
          exchange.request->telegram.sa < bus::kBroadcast;
 }
 
-/// Whether the exchanges before and behind show that the chip answers requests like this one. Without BR one after a
-/// silence may have ended a search (S1, S9).
+/// Whether the exchanges before and behind show that the chip answers requests like this one. Without BR one may
+/// have ended a search (S1, S9): after a silence, or after a new initialisation, which ends DATA_EXCH.
 bool chip_listens(const Scene& scene, std::size_t i) {
   const auto& all = scene.exchanges;
   const LineTelegram& request = *all[i].request;
@@ -130,8 +130,9 @@ bool chip_listens(const Scene& scene, std::size_t i) {
   while (behind < all.size() && !wants_answer(all[behind])) ++behind;
   if (before == 0 || behind >= all.size() || !same(all[before - 1]) || !same(all[behind])) return false;
   const Tick from = request.start, to = request.end();
-  const bool found = scene.record.sees(Wire::kBr) ? scene.record[Wire::kBr].high(from, to)
-                                                  : request.start - all[before - 1].answer->end() < kLongestSilence;
+  const bool found = scene.record.sees(Wire::kBr)
+                         ? scene.record[Wire::kBr].high(from, to)
+                         : all[behind].exchanged() && request.start - all[before - 1].answer->end() < kLongestSilence;
   return !scene.in_reset(from, to) && found &&
          (!scene.record.sees(Wire::kReady) || scene.record[Wire::kReady].high(from, to));
 }

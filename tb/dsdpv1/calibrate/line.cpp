@@ -139,8 +139,7 @@ class LineReader {
   std::size_t after_silence(const LineTelegram& wrong) const {
     const Tick idle = (bus::kCharacterBits + 1) * bus::baud(wrong.baud).bit;
     std::size_t edge = trace_.count_until(wrong.start);
-    while (edge < trace_.edges.size() &&
-           (trace_.level(edge) == false || trace_.edges[edge] - trace_.edges[edge - 1] < idle))
+    while (edge < trace_.edges.size() && (!trace_.level(edge) || trace_.edges[edge] - trace_.edges[edge - 1] < idle))
       ++edge;
     return edge;
   }
