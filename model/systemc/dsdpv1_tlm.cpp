@@ -126,7 +126,7 @@ bool TlmModule::is_alone(Tick begin, Tick end) {
 
 void TlmModule::carry_out(Payload& payload) {
   const AccessTiming& timing = timing_of(payload);
-  access_start_ = current_tick();
+  access_start_ = current_tick() + std::max<Tick>(0, chip().now() - chip_tick(current_tick()));  // accesses run ahead
   unsigned char* data = payload.get_data_ptr();
   for (unsigned int i = 0; i < payload.get_data_length(); ++i) {
     if (!is_enabled(payload, i)) continue;

@@ -160,12 +160,12 @@ void TlmModule::leave_run() {
 // --- characters of the chip ------------------------------------------------------------------------------------------
 
 bool TlmModule::output_changed(Tick at, Pin pin, Level level) {
+  if (pin != Pin::kPbtxd && pin != Pin::kPbrts) return true;
   if (pin == Pin::kPbrts && level == 0) {
     end_answer(at);
     txd_changed(at, true);  // RESET takes both away
   }
   if (pin == Pin::kPbrts) return ((bound_ | observed_) & mask(pin)) != 0;
-  if (pin != Pin::kPbtxd) return true;
   if (may_hide_ && chip().begins_to_send()) {
     answer_waits_ = true;  // until the core is at rest
     return false;

@@ -15,6 +15,11 @@ std::uint64_t femtoseconds(Tick tick) {
   return count / 3 * kFsPerThreeTicks + rest;
 }
 
+std::uint64_t femtoseconds_until(Tick tick) {
+  const std::uint64_t time = femtoseconds(tick), now = sc_core::sc_time_stamp().value();
+  return time > now ? time - now : 0;
+}
+
 /// Asking SystemC for its resolution fixes it, so this is for after an attempt to set it.
 bool resolution_is_femtosecond() { return sc_core::sc_get_time_resolution().to_seconds() < 2e-15; }
 
@@ -40,12 +45,9 @@ Tick to_tick(const sc_core::sc_time& time) {
   return static_cast<Tick>(fs / kFsPerThreeTicks * 3 + rest);
 }
 
-sc_core::sc_time time_until(Tick tick) {
-  const std::uint64_t time = femtoseconds(tick), now = sc_core::sc_time_stamp().value();
-  return sc_core::sc_time::from_value(time > now ? time - now : 0);
-}
+sc_core::sc_time time_until(Tick tick) { return sc_core::sc_time::from_value(femtoseconds_until(tick)); }
 
-bool kernel_is_quiet(Tick tick) { return sc_core::sc_time_to_pending_activity() > time_until(tick); }
+bool kernel_is_quiet(Tick tick) { return sc_core::sc_time_to_pending_activity().value() > femtoseconds_until(tick); }
 
 void require_femtoseconds() {
   announce_main_stack_at_exit();  // here, as every program with a simulation comes by

@@ -37,7 +37,7 @@ struct World : sc_core::sc_module {
   Changes changes;
   std::vector<profibus::Reason> events;
 
-  Outcome unowned, written, read, burst, before_the_chip, at_another, before_another, waited, violating,
+  Outcome unowned, written, read, burst, before_the_chip, at_another, before_another, waited, too_early, violating,
       violating_waited;
   Tick others_end = 0, released = 0, synchronised = 0;
   std::size_t events_before = 0, events_ahead = 0;
@@ -79,6 +79,8 @@ struct World : sc_core::sc_module {
     burst = transport(true, false, 0x130, kWrite + kRead, 2);
     before_the_chip = transport(true, false, 0x130, 0);
     waited = transport(false, false, 0x130, kWrite + kRead);
+    transport(true, false, 0x130, 0);
+    too_early = transport(false, false, 0x130, 0);
   }
   /// Whoever acts at the end of the access may look at the chip, one tick later nobody minds.
   void meet_another() {
@@ -158,6 +160,11 @@ TEST(Ahead, AnAccessMovesTheAnnotatedDelayOnAndTakesNoSimulationTime) {
 TEST(Ahead, AnAccessThatWaitsFollowsThoseBeforeIt) {
   expect(world->waited, tlm::TLM_OK_RESPONSE, kWrite + 2 * kRead, 0);
   EXPECT_EQ(world->waited.first_byte, 0x5A);
+}
+
+TEST(Ahead, AnAccessThatWaitsBeginsNotBeforeTheTimeOfTheChip) {
+  expect(world->too_early, tlm::TLM_OK_RESPONSE, HostAccess::read(0, {}).last() + kRead, 0);
+  EXPECT_EQ(world->too_early.first_byte, 0x5A);
 }
 
 TEST(Ahead, NothingIsDoneWithoutOwnershipForABurstOrBeforeTheTimeOfTheChip) {

@@ -29,14 +29,14 @@ namespace {
 constexpr Tick kReset = 1'007, kEnd = 2000 * kUs, kAbortAt = 200 * kUs, kAbort = kAbortAt + 700;
 
 const user_cpu::ProgramOptions& options() {
-  static const user_cpu::ProgramOptions kOptions = [] {
+  static const user_cpu::ProgramOptions shared = [] {
     user_cpu::ProgramOptions options;
     options.station.max_cfg = DSDPV1_MAX_CFG;
     options.inputs = user_cpu::InputSource::kCount;
     options.start_delay = 2 * kReset;  // sooner, and he holds off the chip's start-up (H6)
     return options;
   }();
-  return kOptions;
+  return shared;
 }
 
 /// An action at one tick.
