@@ -44,7 +44,7 @@ class WaveRecorder : public Observer, private bus::Listener {
   /// Writes the first values.
   void begin();
 
-  void pin(std::size_t slave, bus::Tick at, PinNumber pin, Level level) override;
+  void pin(std::size_t chip, bus::Tick at, PinNumber pin, Level level) override;
   /// From now on the changes of runs are made here. Where chips tell theirs it is the same wave, and takes longer.
   void take_runs() { takes_runs_ = true; }
   /// See ChipView::on_run.
@@ -56,7 +56,7 @@ class WaveRecorder : public Observer, private bus::Listener {
     make_changes(at, Turn::kLast);
     say(at, chips_[slave].user, words);
   }
-  void telegram(const HeardTelegram& telegram) override;
+  void telegram(const HeardTelegram& heard) override;
   void master_state(bus::Tick now, const std::string& master, const std::string& member,
                     const std::string& state) override;
   /// A code of the log: `station` is a chip, or "bus". `count` is shown with it, so that each is a change.
