@@ -48,7 +48,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
     changed(violation.found);
   };
   replies_.on_change = [this] { changed(); };
-  if (!options.wave.path.empty()) waves_.emplace(options.wave, execution_->segment(), maker_);
+  if (!options.wave.path.empty()) waves_.emplace(options.wave, execution_->segment(), execution_->timeline(), maker_);
   for (const scenario::Slave& slave : scenario.slaves) add_slave(slave);
   baud_follower_ = std::make_unique<BaudFollower>(*this);
   add_monitor();
@@ -73,6 +73,9 @@ PinMask Bench::watched_pins() const {
   const bool all = !options_.wave.path.empty() || !options_.trace.empty() || !options_.observers.empty();
   return all ? all_of(maker_.pins()) : checks_.pins();
 }
+
+/// Nobody but the wave wants each change of each pin, or looks at each cycle.
+bool Bench::takes_runs() const { return !options_.wave.inside && options_.trace.empty() && options_.observers.empty(); }
 
 void Bench::add_slave(const scenario::Slave& slave) {
   user_cpu::StationConfig station = setup_.station(slave);
@@ -104,6 +107,10 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
     observers_.tell(&Observer::event, index, event);
     changed(event.at);
   };
+  if (waves_ && takes_runs() && chip.tells_runs()) {
+    waves_->take_runs();
+    chip.on_run = [this, index](PinNumber pin) { waves_->follow_run(index, pin); };
+  }
   if (waves_) {  // what nobody else listens to
     chip.on_inside = [this, index](Tick at, std::size_t signal, Level level, const std::string& word) {
       observers_.tell(&Observer::inside, index, at, signal, level, word);

@@ -72,6 +72,7 @@ class Bench {
   class BaudFollower;
 
   PinMask watched_pins() const;
+  bool takes_runs() const;
   void add_slave(const scenario::Slave& slave);
   void connect(SlaveStation& station, std::size_t index);
   void connect(MasterStation& entry);

@@ -61,11 +61,17 @@ class ChipView {
   virtual Level level(PinNumber pin) const = 0;
   virtual void sync(Tick now) = 0;
 
+  /// Whether `on_run` is told.
+  virtual bool tells_runs() const { return false; }
+
   /// Somebody else acts before the next edge of an access under way.
   virtual void pause_access() {}
 
   /// Changes of the watched pins, in order of time.
   std::function<void(Tick at, PinNumber pin, Level level)> on_pin;
+  /// The pin has the levels of the run that begins on the line now, until its end or until it is cut: changes up to
+  /// then may be told or not, also one to the level that the pin has already. Null: all changes are wanted.
+  std::function<void(PinNumber pin)> on_run;
   /// The pin that interrupts the user CPU, told before `on_pin`.
   std::function<void(Tick at, bool level)> on_interrupt;
   std::function<void(const profibus::Event&)> on_event;

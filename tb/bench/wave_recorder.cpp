@@ -40,8 +40,10 @@ WaveSelection selection_of(const WaveOptions& options) {
 
 }  // namespace
 
-WaveRecorder::WaveRecorder(const WaveOptions& options, bus::Segment& segment, const ChipKind& kind)
-    : kind_(kind),
+WaveRecorder::WaveRecorder(const WaveOptions& options, bus::Segment& segment, const bus::Timeline& timeline,
+                           const ChipKind& kind)
+    : timeline_(timeline),
+      kind_(kind),
       on_(options.on),
       inside_(options.inside),
       writer_(std::make_unique<SelectedWave>(open_wave(options.path), selection_of(options))) {
@@ -113,6 +115,13 @@ void WaveRecorder::begin() {
 }
 
 void WaveRecorder::pin(std::size_t chip, bus::Tick at, PinNumber pin, Level level) {
+  PinSignal& own = chips_[chip].pins[pin];
+  make_changes(at, turn_of(*own.pin, chip));
+  if (own.follows || (own.has_followed && own.level == level)) return;
+  show(at, chip, pin, level);
+}
+
+void WaveRecorder::show(bus::Tick at, std::size_t chip, PinNumber pin, Level level) {
   std::vector<PinSignal>& pins = chips_[chip].pins;
   PinSignal& own = pins[pin];
   own.level = level;
@@ -122,7 +131,71 @@ void WaveRecorder::pin(std::size_t chip, bus::Tick at, PinNumber pin, Level leve
   set(at, own.signal, shown);
 }
 
+// --- runs ------------------------------------------------------------------------------------------------------------
+
+bool WaveRecorder::run_begins(const bus::CharacterRun& run) {
+  make_changes(run.start, Turn::kLast);
+  end_run();
+  if (!takes_runs_) return false;
+  run_.begin(run);
+  followers_.push_back({0, 0, true, false});
+  return true;
+}
+
+void WaveRecorder::run_cut(bus::Tick at, bool /*level*/) {
+  if (run_.is_under_way()) make_changes_before(at, Turn::kLast);
+  end_run();
+}
+
+void WaveRecorder::end_run() {
+  run_.end();
+  for (const Follower& each : followers_)
+    if (!each.is_line) chips_[each.chip].pins[each.pin].follows = false;
+  followers_.clear();
+  next_follower_ = 0;
+  sender_ = Turn::kMaster;
+}
+
+/// A sender moves its own pin before the line.
+void WaveRecorder::follow_run(std::size_t slave, PinNumber pin) {
+  PinSignal& own = chips_[slave].pins[pin];
+  own.follows = own.has_followed = true;
+  const Follower follower{slave, pin, false, own.pin->input};
+  if (follower.is_input) return followers_.push_back(follower);
+  sender_ = slave;
+  followers_.insert(followers_.begin(), follower);
+}
+
+/// The user's side moves inputs, and a bus when it likes.
+std::size_t WaveRecorder::turn_of(const PinInfo& pin, std::size_t chip) const {
+  return pin.input || pin.bus != nullptr ? Turn::kLast : chip;
+}
+
+/// A chip that hears the line has done by then what it does itself at that time.
+std::size_t WaveRecorder::turn_of(const Follower& follower) const {
+  return follower.is_input ? std::max(sender_, follower.chip) : sender_;
+}
+
+void WaveRecorder::make_changes_before(bus::Tick at, std::size_t turn) {
+  while (run_.is_under_way() && (run_.at() < at || (run_.at() == at && turn_of(followers_[next_follower_]) < turn))) {
+    make_change(followers_[next_follower_]);
+    if (++next_follower_ < followers_.size()) continue;
+    next_follower_ = 0;
+    run_.go_on();
+  }
+  if (!run_.is_under_way()) end_run();
+}
+
+void WaveRecorder::make_change(const Follower& follower) {
+  const Level level = run_.level() ? 1 : 0;
+  if (follower.is_line) return set(run_.at(), line_, level);
+  if (chips_[follower.chip].pins[follower.pin].level != level) show(run_.at(), follower.chip, follower.pin, level);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
 void WaveRecorder::inside(std::size_t slave, bus::Tick at, std::size_t signal, Level level, const std::string& word) {
+  make_changes(at, slave);
   const Signal own = chips_[slave].inside[signal];
   if (kind_.inner_signals()[signal].width == 0)
     say(at, own, word);
@@ -132,17 +205,20 @@ void WaveRecorder::inside(std::size_t slave, bus::Tick at, std::size_t signal, L
 
 void WaveRecorder::character(bus::Tick now, const bus::ReceivedCharacter& heard) {
   const char* const wrong = !heard.stop_ok ? " no stop bit" : !heard.parity_ok ? " wrong parity" : "";
+  make_changes(now, Turn::kMonitor);
   say(now, character_, fmt::format("{:02X}{}", heard.byte, wrong));
 }
 
 /// A service is shown at the slave that is asked for it, or that answers.
 void WaveRecorder::telegram(const HeardTelegram& heard) {
+  make_changes(heard.now, Turn::kMonitor);
   say(heard.now, telegram_, heard.words());
   for (const ChipSignals& chip : chips_)
     if (concerns(heard.telegram, chip.chip->address())) say(heard.now, chip.service, heard.words());
 }
 
 void WaveRecorder::event(std::size_t slave, const profibus::Event& event) {
+  make_changes(event.at, slave);
   const ChipSignals& chip = chips_[slave];
   if (event.reason == profibus::Reason::kDpState)
     say(event.at, chip.dp_state, name(static_cast<profibus::DpState>(event.b)));
@@ -152,6 +228,7 @@ void WaveRecorder::event(std::size_t slave, const profibus::Event& event) {
 
 void WaveRecorder::master_state(bus::Tick now, const std::string& master, const std::string& member,
                                 const std::string& state) {
+  make_changes(now, Turn::kMaster);
   say(now, master_states_.at(master + "." + member).signal, state);
 }
 
@@ -163,6 +240,7 @@ bool WaveRecorder::opens_window(const std::string& code, bool violation) const {
 
 void WaveRecorder::happened(bus::Tick at, const std::string& station, const std::string& code, bool violation,
                             std::uint64_t count) {
+  make_changes(at, Turn::kMonitor);
   const auto signal = event_signals_.find(station);
   if (signal != event_signals_.end()) say(at, signal->second, fmt::format("{} {}", code, count));
   if (opens_window(code, violation)) writer_->trigger(at);

@@ -2,13 +2,16 @@
 // What a run puts into its wave file: the pins of every chip, the line, and decoded states as words.
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "tb/bench/chip_view.hpp"
+#include "tb/bench/line_run.hpp"
 #include "tb/bench/observer.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/waves/wave_selection.hpp"
@@ -30,8 +33,8 @@ struct WaveOptions {
 
 class WaveRecorder : public Observer, private bus::Listener {
  public:
-  /// Listens to the line as a station of its own. `kind` must outlive it.
-  WaveRecorder(const WaveOptions& options, bus::Segment& segment, const ChipKind& kind);
+  /// Listens to the line as a station of its own. `timeline` and `kind` must outlive it.
+  WaveRecorder(const WaveOptions& options, bus::Segment& segment, const bus::Timeline& timeline, const ChipKind& kind);
 
   // Declarations, before `begin`.
   /// Slaves are numbered in the order in which they are added.
@@ -41,14 +44,19 @@ class WaveRecorder : public Observer, private bus::Listener {
   /// Writes the first values.
   void begin();
 
-  void pin(std::size_t slave, bus::Tick at, PinNumber pin, Level level) override;
+  void pin(std::size_t chip, bus::Tick at, PinNumber pin, Level level) override;
+  /// From now on the changes of runs are made here. Where chips tell theirs it is the same wave, and takes longer.
+  void take_runs() { takes_runs_ = true; }
+  /// See ChipView::on_run.
+  void follow_run(std::size_t slave, PinNumber pin);
   void event(std::size_t slave, const profibus::Event& event) override;
   void character(bus::Tick now, const bus::ReceivedCharacter& heard) override;
   void inside(std::size_t slave, bus::Tick at, std::size_t signal, Level level, const std::string& word) override;
   void action(std::size_t slave, bus::Tick at, const std::string& words) override {
+    make_changes(at, Turn::kLast);
     say(at, chips_[slave].user, words);
   }
-  void telegram(const HeardTelegram& telegram) override;
+  void telegram(const HeardTelegram& heard) override;
   void master_state(bus::Tick now, const std::string& master, const std::string& member,
                     const std::string& state) override;
   /// A code of the log: `station` is a chip, or "bus". `count` is shown with it, so that each is a change.
@@ -56,10 +64,16 @@ class WaveRecorder : public Observer, private bus::Listener {
   /// Nothing has opened a window.
   bool is_empty() const { return !writer_->has_window(); }
   // See WaveWriter.
-  void save(bus::Tick at) { writer_->save(at); }
+  void save(bus::Tick at) {
+    make_changes(at, Turn::kLast);
+    writer_->save(at);
+  }
   bool failed() const { return writer_->failed(); }
   void check() const { writer_->check(); }
-  void finish(bus::Tick end) { writer_->finish(end); }
+  void finish(bus::Tick end) {
+    make_changes(end, Turn::kLast);
+    writer_->finish(end);
+  }
 
  private:
   using Signal = WaveWriter::Signal;
@@ -69,6 +83,8 @@ class WaveRecorder : public Observer, private bus::Listener {
     const PinInfo* pin = nullptr;
     PinNumber other = 0;  ///< of a bus: the pin of the other direction
     Level level = kLevelZ;
+    bool follows = false;       ///< the run that is under way
+    bool has_followed = false;  ///< a run, so that a change may be told that was made already
   };
   struct ChipSignals {
     const ChipView* chip = nullptr;
@@ -77,7 +93,32 @@ class WaveRecorder : public Observer, private bus::Listener {
     Signal dp_state = 0, service = 0, user = 0;
     std::array<Signal, profibus::kC2Channels> rm_entries{};
   };
-  void line_changed(bus::Tick at, bool level) override { set(at, line_, level ? 1 : 0); }
+  // At equal times chips have their turns first, in order, then the monitor, masters, and all others (bus::Timeline).
+  struct Turn {
+    static constexpr std::size_t kMonitor = SIZE_MAX - 2, kMaster = SIZE_MAX - 1, kLast = SIZE_MAX;
+  };
+  /// Of what a run changes: a pin, or the line.
+  struct Follower {
+    std::size_t chip;
+    PinNumber pin;
+    bool is_line, is_input;
+  };
+  void line_changed(bus::Tick at, bool level) override {
+    make_changes(at, Turn::kLast);
+    set(at, line_, level ? 1 : 0);
+  }
+  bool run_begins(const bus::CharacterRun& run) override;
+  void run_cut(bus::Tick at, bool level) override;
+  /// Those of the run that come before what is written at `at`, or found out now, in this turn.
+  void make_changes(bus::Tick at, std::size_t turn) {
+    if (run_.is_under_way()) make_changes_before(std::max(at, timeline_.now()), turn);
+  }
+  void make_changes_before(bus::Tick at, std::size_t turn);
+  void make_change(const Follower& follower);
+  std::size_t turn_of(const Follower& follower) const;
+  void end_run();
+  void show(bus::Tick at, std::size_t chip, PinNumber pin, Level level);
+  std::size_t turn_of(const PinInfo& pin, std::size_t chip) const;
   void set(bus::Tick at, Signal signal, int level) {
     writer_->set(at, signal, level);
     last_ = at;
@@ -90,6 +131,7 @@ class WaveRecorder : public Observer, private bus::Listener {
   std::vector<Signal> add_inside();
   bool opens_window(const std::string& code, bool violation) const;
 
+  const bus::Timeline& timeline_;
   const ChipKind& kind_;
   const std::vector<std::string> on_;
   const bool inside_;
@@ -103,6 +145,11 @@ class WaveRecorder : public Observer, private bus::Listener {
     std::string initial;
   };
   std::map<std::string, MasterState> master_states_;  // by "master.member"
+  LineRun run_;
+  std::size_t sender_ = Turn::kMaster;  ///< whose turn makes the run's changes
+  std::vector<Follower> followers_;     ///< of the run, in the order in which they change
+  std::size_t next_follower_ = 0;       ///< who makes the run's next change
+  bool takes_runs_ = false;
 };
 
 }  // namespace tb

@@ -64,7 +64,7 @@ void PinChip::run(Tick now) {
 
 // An answer begins: its first start bit waits to be told, or the whole of it is told in its place.
 void PinChip::send_run() {
-  if (reports_txd_ || !line_.only_level_waits() || !chip_.begins_to_send()) return;
+  if ((reports_txd_ && !on_run) || !line_.only_level_waits() || !chip_.begins_to_send()) return;
   const profibus::CharacterRun run = chip_.hide_txd();
   own_run_ = true;
   hides_txd_ = segment_.send_run(
@@ -93,7 +93,11 @@ void PinChip::line_changed(Tick at, bool level) {
 }
 
 bool PinChip::run_begins(const bus::CharacterRun& run) {
-  if (reports_rxd_) return false;
+  if (reports_rxd_) {
+    if (!on_run) return false;
+    on_run(static_cast<PinNumber>(Pin::kPbrxd));
+  }
+  if (own_run_ && reports_txd_) on_run(static_cast<PinNumber>(Pin::kPbtxd));
   if (own_run_) return true;  // while it sends, it does not listen
   if (run.bit % bus::kTicksPerCycle != 0) return false;
   catch_up_access(run.start);
@@ -114,6 +118,7 @@ void PinChip::run_cut(Tick at, bool level) {
     chip_.set(at, Pin::kPbrxd, level ? 1 : 0);
   else
     chip_.leave_run(at);
+  inputs_[static_cast<std::size_t>(Pin::kPbrxd)] = level ? 1 : 0;
   update_deafness();
 }
 

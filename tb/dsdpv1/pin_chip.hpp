@@ -29,6 +29,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   bus::StationId station() const override { return station_; }
   const dsdpv1::Chip& core() const override { return device_->core(); }
   void sync(Tick now) override { run(now); }
+  bool tells_runs() const override { return true; }
   void pause_access() override { pauses_ = true; }
 
   /// From now on inner signals are told: of a core with Engine::kStep.

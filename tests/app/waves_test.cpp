@@ -135,6 +135,19 @@ TEST(WaveOptions, EachCharacterIsShownInTheMiddleOfItsStopBit) {
   })) << "no start bit 10.5 bits before it";
 }
 
+// Who writes a trace wants each change of each pin, so that telegrams are told change by change.
+TEST(WaveOptions, TelegramsToldAsRunsAreTheSameBytes) {
+  for (const char* const name : {"two_slaves", "judging_modes", "violations"}) {
+    const Folder folder;
+    const std::string run = std::string("run " DSDPV1_SOURCE_DIR "/scenarios/") + name + ".yaml --quiet --wave ";
+    call(run + "runs.vcd", folder.path());
+    call(run + "changes.vcd --trace changes.trace", folder.path());
+    const std::string runs = read(folder.file("runs.vcd"));
+    EXPECT_GT(runs.size(), 100'000U) << name;
+    EXPECT_TRUE(runs == read(folder.file("changes.vcd"))) << name;
+  }
+}
+
 TEST(WaveOptions, AWindowIsRecordedRoundEachViolation) {
   const Vcd wave = wave_of("--wave-on TIMING_TS --wave-around 1us", DSDPV1_SOURCE_DIR "/scenarios/violations.yaml");
   const auto& events = wave.signals.at("short_writes.event");

@@ -86,7 +86,7 @@ ROWS = (
                  "that runs the driver, a fifth to master and monitor, which decode each character of the telegrams on their own, as they are there to "
                  "check the chip.", bound="chip"),
     of_sim("demo_full", 1.5, "The same with checks, log and FST wave.", real_time(DEMO, *FULL),
-           limit="The wave takes two thirds of it: 19 changes a microsecond, each of which has to be made, told and written: see fst_library."),
+           limit="The wave takes two thirds of it: 19 changes a microsecond, each of which has to be made and written: see fst and fst_library."),
     of_sim("demo_tlm", 2, "As demo, with `--view tlm`.", real_time(DEMO, *TLM), limit=TLM_LIMIT,
            bound="SystemC"),
     of_sim("tlm_vs_demo", 1, "demo_tlm against demo of the same round: TLM is never slower.", time_ratio(DEMO, OFF, TLM), unit="times as fast",
@@ -127,7 +127,8 @@ ROWS = (
            bound="Unicorn"),
     of_sim("fst", 1.5, "demo with an FST wave against demo without.", time_ratio(DEMO, WAVE, OFF), unit="times as long", at_most=True,
            limit="The demo without a wave does not make the changes that a wave shows: telegrams and accesses cost one step each. With one, 2.3 million "
-                 "changes in 120 ms of simulated time are made; what the library alone takes for them says fst_library."),
+                 "changes in 120 ms of simulated time are made: those of telegrams as runs in the recorder, those of accesses edge by edge in the chip. "
+                 "What the library alone takes for them says fst_library."),
     of_sim("fst_library", None, "The FST library alone: the changes of that wave, read before and written again, in CPU time, against demo.", fst_library,
            unit="times as long", at_most=True, targets=("bench_fst",)),
     Row("lockstep", 80, "%", "Random lockstep as `rtl-random --seed 1 --jobs 1` does it: its cycles per second as a share of those of the same "
