@@ -15,6 +15,7 @@ Chip::~Chip() = default;
 
 void Chip::set(Tick at, Pin pin, Level level) { fake_pins().changes.push_back({at, pin, level}); }
 bool Chip::carry_out(Tick, const HostAccess&, Level&) { return false; }
+bool Chip::is_private(Tick, const HostAccess&) { return false; }
 void Chip::advance(Tick to) { fake_pins().now = to; }
 
 Level Chip::level(Pin pin) const { return pin == Pin::kDOut ? fake_pins().data(fake_pins().now) : fake_pins().high; }
