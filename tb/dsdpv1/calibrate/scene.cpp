@@ -155,15 +155,6 @@ bool Scene::user_lets(Tick from, Tick to) const {
          (!record.sees(Wire::kRSta) || record[Wire::kRSta].low(from, to));
 }
 
-bool Scene::in_reset(Tick from, Tick to) const {
-  return record.sees(Wire::kReset) && !record[Wire::kReset].high(from, to);
-}
-
-bool Scene::is_start_up(const ChipAccess& access) const {
-  constexpr double kLonger = 1500;  // cycles
-  return time.between(access.start, access.end).hi > kLonger;
-}
-
 void fill(Scene& scene) {
   if (scene.record.sees(Wire::kPbrxd)) scene.received = telegrams_received(scene.record[Wire::kPbrxd], scene.time);
   if (scene.record.sees(Wire::kPbtxd))
