@@ -85,6 +85,17 @@ TEST(CalibrateReset, ThatIsNotShownLeavesAShortAccessAndAPulseWrong) {
   EXPECT_EQ(claim(result, "P7", "as long").tally.fails, 1U);
 }
 
+TEST(CalibrateStartUp, WaitsForTheUserToo) {
+  for (const bool pin : {true, false}) {
+    MadePins made = made_accesses();
+    made.accesses(100, 2'060);
+    if (pin) made.show({Wire::kReset}, true), made.low(Wire::kReset, 90'000, 99'997.5);
+    made.high(Wire::kRReq, 99'990, 101'000);
+    add_start_up(made, 100'000);
+    EXPECT_EQ(claim(made.judged(105'000), "H1", "waits").verdict, Verdict::kContradicted) << pin;
+  }
+}
+
 /// All blocks of the user and of the master at full length, in the middle of the operation.
 MadePins with_long_access(double cycles) {
   MadePins made = made_accesses();

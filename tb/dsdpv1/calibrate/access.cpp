@@ -206,9 +206,11 @@ void judge_start(const Scene& scene, std::size_t i, const Fit& interval, Found& 
 
 void judge_user_pins(const Scene& scene, Found& found) {
   if (!scene.sees_user()) return;
-  for (std::size_t i = 0; i < scene.accesses.size(); ++i)
-    if (!scene.in_reset(scene.accesses[i].start - scene.time.ticks(8), scene.accesses[i].start))
+  for (std::size_t i = 0; i < scene.accesses.size(); ++i) {
+    const ChipAccess& access = scene.accesses[i];  // a start-up access waits, too (H6)
+    if (scene.is_start_up(access) || !scene.in_reset(access.start - scene.time.ticks(8), access.start))
       judge_start(scene, i, found.fit(Parameter::kAccessInterval), found);
+  }
 }
 
 // --- lengths
