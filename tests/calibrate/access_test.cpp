@@ -141,6 +141,31 @@ TEST(CalibrateReady, OfReadsThatExcludeEachOtherIsNotShown) {
   EXPECT_EQ(parameter(made.judged(9'000), "ready_cycles").verdict, Verdict::kNotShown);
 }
 
+TEST(CalibrateAccess, ThatMayLieBetweenTwoSamplesShowsNothing) {
+  for (const double rate : {6e6, 4e6, 2e6}) {
+    MadeAccesses made;
+    made.show({Wire::kRReq, Wire::kRSta});
+    made.show({Wire::kIntr0}, true);
+    for (int i = 0; i < 2'000; ++i) made.access(100 + 48.003 * i, 7);
+    made.low(Wire::kIntr0, 105, 169);
+    made.low(Wire::kIntr0, 48'108, 48'172);
+    const calibrate::Result result = made.sampled(97'000, rate);
+    EXPECT_THAT(contradicted(result), IsEmpty()) << rate;
+    EXPECT_EQ(parameter(result, "access_interval").verdict, Verdict::kNotShown) << rate;
+  }
+}
+
+TEST(CalibrateAccess, InAReleaseThatLiesBetweenTwoSamplesIsNotAgainstH1) {
+  MadeAccesses made;
+  made.show({Wire::kRReq, Wire::kRSta});
+  made.accesses(100, 1'000);
+  made.high(Wire::kRReq, 1'000, 2'000.5);
+  made.high(Wire::kRReq, 2'003.9, 2'500);  // 70 ns
+  made.access(2'003, 7);
+  made.access(2'503, 7);
+  EXPECT_THAT(contradicted(made.sampled(2'520, 12e6)), IsEmpty());
+}
+
 TEST(CalibrateHandshake, ChipThatStartsMoreThanTwoCyclesAfterTheRequestIsAgainstH2) {
   for (const double late : {1.9, 2.5}) {
     MadeAccesses made;

@@ -147,6 +147,39 @@ TEST(CalibrateRead, OfABlockShowsItsCrc) {
   }
 }
 
+TEST(CalibrateRead, ThatIsTooShortForTheSamplesIsNotJudged) {
+  MadeHold made;
+  for (int at = 500; at < 1'900; at += 7) made.user(at, false, 0x001, 0x0D, 3);
+  const calibrate::Result result = made.sampled(3'000, 24e6);
+  EXPECT_THAT(contradicted(result), IsEmpty());
+  EXPECT_EQ(claim(result, "D1", "").words, "the samples are too far apart");
+  MadeHold longer;
+  for (int at = 500; at < 1'900; at += 27) longer.user(at, false, 0x001, 0x0D, 10);
+  EXPECT_EQ(claim(longer.sampled(3'000, 24e6), "D1", "").verdict, Verdict::kConfirmed);
+}
+
+TEST(CalibrateWrite, ThatMayLieBetweenTwoSamplesLeavesCellsUnknown) {
+  MadeHold made;
+  made.user(500, true, 0x130, 0x11, 10);
+  made.user(602.5, true, 0x130, 0x22, 1);  // 20.8 ns
+  made.user(702.2, true, 0x131, 0x33, 3);
+  made.user(800, false, 0x130, 0x22, 10);
+  EXPECT_THAT(contradicted(made.sampled(3'000, 24e6)), IsEmpty());
+}
+
+TEST(CalibrateWrite, WhoseDataChangeWithinASampleOfItsEndIsNotKnown) {
+  for (const bool before : {true, false}) {  // 25 ns before WR rises, or 17 ns after it: the same sample
+    MadeHold made;
+    made.number(599, Wire::kA, calibrate::kAddressWires, 0x130);
+    made.number(599, Wire::kD, calibrate::kDataWires, 0x11);
+    made.low(Wire::kCsr, 600, 614);
+    made.low(Wire::kWr, 600.3, before ? 611.7 : 610.2);
+    made.number(before ? 610.5 : 611.0, Wire::kD, calibrate::kDataWires, 0x22);
+    made.user(800, false, 0x130, before ? 0x22 : 0x11, 10);
+    EXPECT_THAT(contradicted(made.sampled(3'000, 24e6)), IsEmpty()) << before;
+  }
+}
+
 /// Outputs of one byte whose CRC is not right.
 void read_wrong_outputs(MadeHold& made, int at) {
   made.read(at, 0x319, 0x01);

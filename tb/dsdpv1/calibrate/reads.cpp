@@ -43,6 +43,20 @@ bool in_flight(const Scene& scene, const UserAccess& read) {
 
 }  // namespace
 
+std::optional<Standing> standing_data(const Scene& scene, const UserAccess& read) {
+  constexpr double kDelay = 1.5;  // cycles
+  const Standing standing{read.start + scene.time.ticks(kDelay + scene.time.doubt()),
+                          read.end - scene.time.ticks(scene.time.doubt())};
+  return standing.from < standing.to ? std::optional<Standing>(standing) : std::nullopt;
+}
+
+bool may_miss_writes(const Scene& scene) {
+  const double longer = 2 * scene.time.period;
+  return scene.may_miss_accesses() || std::any_of(scene.user.begin(), scene.user.end(), [&](const UserAccess& access) {
+           return TimeBase::nominal(access.end - access.start) < longer;
+         });
+}
+
 bool is_known(const Scene& scene, const UserAccess& read) {
   return !in_reset(scene, read) && !before_start_up(scene, read) && has_dpram(scene, read) && !in_flight(scene, read);
 }

@@ -8,4 +8,13 @@ namespace calibrate {
 /// write of the same cell is on its way (P8). What is not in the capture is taken to be right.
 bool is_known(const Scene& scene, const UserAccess& read);
 
+/// Within it D stands by the rulings (P5), and as the samples show it; nothing where it is too short for them.
+struct Standing {
+  Tick from = 0, to = 0;
+};
+std::optional<Standing> standing_data(const Scene& scene, const UserAccess& read);
+
+/// A strobe may lie between two samples, or an access of the chip: what a cell holds is not known.
+bool may_miss_writes(const Scene& scene);
+
 }  // namespace calibrate

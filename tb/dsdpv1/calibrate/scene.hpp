@@ -70,6 +70,8 @@ struct Scene {
   bool user_lets(Tick from, Tick to) const;
   /// Whether both of them are in the capture.
   bool sees_user() const { return record.sees({Wire::kRReq, Wire::kRSta}); }
+  /// The shortest accesses of the chip may lie between two samples.
+  bool may_miss_accesses() const { return time.doubt() >= kEmptyAccess; }
   /// RESET was low between them, or may have been by what shows it otherwise.
   bool in_reset(Tick from, Tick to) const;
   /// The first one after a reset (H6).

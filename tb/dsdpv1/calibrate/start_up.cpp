@@ -37,7 +37,8 @@ bool may_be_uninitialised(const Scene& scene, const ChipAccess& access) {
 /// Nobody kept the chip, and yet it made no access for long.
 bool was_silent(const Scene& scene, std::size_t i) {
   const Tick from = i == 0 ? 0 : scene.accesses[i - 1].end, to = scene.accesses[i].start;
-  return scene.sees_user() && scene.time.between(from, to).lo > kSilence && scene.user_lets(from, to);
+  return scene.sees_user() && !scene.may_miss_accesses() && scene.time.between(from, to).lo > kSilence &&
+         scene.user_lets(from, to);
 }
 
 /// As long as H6 says; with long samples the gap of one cycle behind it is not seen, and it seems to be one with the

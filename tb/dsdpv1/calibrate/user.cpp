@@ -76,15 +76,21 @@ class UserJudge {
     flags_now_ = 0;
   }
   void write(const UserAccess& access) {
-    written_[access.address] = access.data;
-    users_[access.address] = {hold_, access.data};
+    const std::uint8_t data = access.data;
+    const bool sure = stands_at_end(access);
+    written_.erase(access.address);
     read_.erase(access.address);
-    if (access.address == dsdpv1::regs::kUserCommand1) flags_now_ = access.data & kFlags, flags_before_ = 0;
+    if (sure) written_[access.address] = data;
+    users_[access.address] = {hold_, sure ? data : kAnything};
+    if (access.address == dsdpv1::regs::kUserCommand1) flags_now_ = sure ? data & kFlags : 0, flags_before_ = 0;
   }
-  void read(const UserAccess& access) {
+  void read(UserAccess access) {
     read_.erase(access.address);
     if (!is_known(scene_, access)) return;
-    judge_data(access);
+    const std::optional<Standing> standing = standing_data(scene_, access);
+    if (!standing) return found_.judge.coarse(kData);
+    judge_data(*standing);
+    access.data = static_cast<std::uint8_t>(scene_.record.data(standing->to));
     judge_version(access);
     if (const auto found = written_.find(access.address); found != written_.end() && scene_.record.sees(Wire::kLReq))
       check(kRam, access, found->second);
@@ -96,6 +102,15 @@ class UserJudge {
     if (access.address == dsdpv1::regs::kChipCommand1) find_written(access.data);
     for (const Area& area : kAreas)
       if (access.address == area.crc + 1 && !is_users(area)) judge_crc(area, access);
+  }
+
+  /// No wire of A or D changes in the samples about WR's rise, so that what they show is what the chip took.
+  bool stands_at_end(const UserAccess& access) const {
+    const Tick from = access.end - scene_.time.ticks(scene_.time.doubt()),
+               to = access.end + scene_.time.ticks(2 * scene_.time.jitter);
+    const auto* const first = scene_.record.traces.begin() + static_cast<std::ptrdiff_t>(Wire::kA);
+    return std::all_of(first, scene_.record.traces.end(),
+                       [&](const Trace& wire) { return wire.count_until(from) == wire.count_until(to); });
   }
 
   /// A bit that the user had written as 0 in an earlier hold: since then the chip has written this block.
@@ -131,14 +146,11 @@ class UserJudge {
     if (access.address == dsdpv1::regs::kValidFlag && access.data != 0) check(kVersion, access, kValid);
   }
   /// No wire of D changes between 1.5 cycles behind RD's fall and its rise.
-  void judge_data(const UserAccess& access) {
-    const Tick from = access.start + scene_.time.ticks(1.5 + scene_.time.doubt()),
-               to = access.end - scene_.time.ticks(scene_.time.doubt());
-    if (from >= to) return found_.judge.coarse(kData);
+  void judge_data(const Standing& standing) {
     for (std::size_t bit = 0; bit < kDataWires; ++bit) {
       const Trace& wire = scene_.record.traces.at(static_cast<std::size_t>(Wire::kD) + bit);
-      if (wire.count_until(from) == wire.count_until(to)) continue;
-      return found_.judge.fails(kData, wire.edges[wire.count_until(from)],
+      if (wire.count_until(standing.from) == wire.count_until(standing.to)) continue;
+      return found_.judge.fails(kData, wire.edges[wire.count_until(standing.from)],
                                 fmt::format("D{} changes while RD is low", bit));
     }
     found_.judge.holds(kData);
@@ -165,6 +177,7 @@ class UserJudge {
                          fmt::format("the CRC of the {} is {:04X}, {:04X} is right", area.what, seen, right));
   }
 
+  static constexpr std::uint8_t kAnything = 0xFF;  ///< clears nothing
   struct Written {
     std::size_t hold = 0;
     std::uint8_t data = 0;
@@ -181,7 +194,10 @@ class UserJudge {
 
 }  // namespace
 
-void measure_user(const Scene& scene, Found& found) { UserJudge(scene, found).judge(); }
+void measure_user(const Scene& scene, Found& found) {
+  if (!may_miss_writes(scene)) return UserJudge(scene, found).judge();
+  for (const Claim* claim : user_claims()) found.judge.coarse(*claim);
+}
 
 Claims user_claims() { return {&kData, &kRam, &kVersion, &kCrc, &kTaken}; }
 
