@@ -33,6 +33,7 @@ TEST(CalibrateEstimate, NamesWhoDoesNotAgreeAndByHowMuch) {
 
 TEST(CalibrateEstimate, TakesTheMeanOnlyWhereClocksDriftPastTheSamples) {
   std::vector<Instance> instances;
+  instances.reserve(1000);
   for (int i = 0; i < 1000; ++i) instances.push_back(seen(4, 2.4, i * bus::Tick{1'000'000}));
   TimeBase time;
   time.period = 2;
