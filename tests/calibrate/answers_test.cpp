@@ -1,6 +1,8 @@
 // P2, S2, S3, S10: answers and the idle time before requests, in captures made for it.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "made_capture.hpp"
 
 namespace {
@@ -39,6 +41,49 @@ TEST(CalibrateAnswers, WithoutBrAnUnansweredRequestMayHaveFollowedAnInitialisati
   capture.wait_ms(1);
   capture.exchange(data_exchange({1}), status(bus::fc::kRs));
   EXPECT_EQ(contradicted(capture.judge()), "");
+}
+
+// --- the capture begins in a bus cycle ------------------------------------------------------------------------------
+
+/// Captures of a bus that begin one bit after the other in a cycle of it.
+void expect_right_from_anywhere(int baud, double tsdr, const std::function<calibrate::Result(MadeCapture&)>& judge) {
+  MadeCapture whole(baud);
+  const Tick begin = whole.now();
+  Tick end = begin;
+  for (int i = 0; i < 4; ++i) {
+    whole.exchange(data_exchange({0xE5, 1}), data_answer({2, 0xE5, 3}), tsdr);
+    if (i == 0) end = whole.now();
+  }
+  const auto bit = static_cast<Tick>(whole.bit());
+  for (Tick at = begin; at < end; at += bit) {
+    MadeCapture capture = whole;
+    capture.begin_at(at);
+    const calibrate::Result result = judge(capture);
+    EXPECT_EQ(contradicted(result), "") << at / bit;
+    EXPECT_GE(claim(result, "S3", "nobody asked").tally.holds, 2U) << at / bit;
+  }
+}
+
+TEST(CalibrateAnswers, ACaptureMayBeginAnywhere) {
+  for (const double tsdr : {11.0, 60.0}) {
+    expect_right_from_anywhere(
+        k12M, tsdr, [](MadeCapture& capture) { return capture.judge(); });
+    expect_right_from_anywhere(k1M5, tsdr, [](MadeCapture& capture) { return capture.judge(); });
+  }
+}
+
+TEST(CalibrateAnswers, ACoarseCaptureMayBeginAnywhere) {
+  expect_right_from_anywhere(
+      k12M, 11, [](MadeCapture& capture) { return capture.judge_sampled(24e6); });
+}
+
+TEST(CalibrateAnswers, AnAnswerThatNobodyAskedForIsContradicted) {
+  MadeCapture capture(k1M5);
+  exchange_data(capture, 2);
+  capture.wait_ms(1);
+  capture.answer(data_answer({2}));
+  exchange_data(capture, 2);
+  EXPECT_EQ(claim(capture.judge(), "S3", "nobody asked").verdict, Verdict::kContradicted);
 }
 
 // --- S3, S10: idle ---------------------------------------------------------------------------------------------------

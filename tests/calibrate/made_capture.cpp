@@ -106,6 +106,35 @@ void MadeCapture::find_rate() {
   set(Wire::kBr, true);
 }
 
+void MadeCapture::begin_at(Tick at) {
+  for (calibrate::Trace& trace : record_.traces) {
+    trace.first = trace.at(at);
+    trace.edges.erase(trace.edges.begin(), trace.edges.begin() + static_cast<std::ptrdiff_t>(trace.count_until(at)));
+    for (Tick& edge : trace.edges) edge -= at;
+  }
+  now_ -= at;
+}
+
+calibrate::Result MadeCapture::judge_sampled(double rate) {
+  const auto period = static_cast<Tick>(static_cast<double>(bus::kTicksPerSecond) / rate);
+  calibrate::Record sampled = record_;
+  for (calibrate::Trace& trace : sampled.traces) {
+    std::vector<Tick> edges;
+    for (const Tick edge : trace.edges) {
+      const Tick sample = (edge + period - 1) / period * period;
+      if (!edges.empty() && edges.back() == sample)
+        edges.pop_back();  // shorter than a sample
+      else
+        edges.push_back(sample);
+    }
+    trace.edges = std::move(edges);
+  }
+  sampled.end = now_ + bus::kTicksPerMs;
+  calibrate::Sampling sampling;
+  sampling.rate = rate;
+  return calibrate::calibrate("made", sampled, sampling, kStation);
+}
+
 calibrate::Result MadeCapture::judge() {
   record_.end = now_ + bus::kTicksPerMs;
   calibrate::Sampling sampling;

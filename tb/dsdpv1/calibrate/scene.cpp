@@ -6,13 +6,43 @@
 namespace calibrate {
 namespace {
 
-/// A telegram that the capture has only a part of, at its beginning or end, is none.
+Tick syn(const LineTelegram& telegram) { return bus::kSynBits * bus::baud(telegram.baud).bit; }
+
+/// A telegram that the capture has only a part of at its end is none.
 void leave_out_cut(std::vector<LineTelegram>& telegrams, const Trace& trace, Tick end) {
-  const auto syn = [](const LineTelegram& telegram) { return bus::kSynBits * bus::baud(telegram.baud).bit; };
   if (!telegrams.empty() && !telegrams.back().right && trace.edges.back() + syn(telegrams.back()) > end)
     telegrams.pop_back();
-  if (!telegrams.empty() && !telegrams.front().right && telegrams.front().start < syn(telegrams.front()))
-    telegrams.erase(telegrams.begin());
+}
+
+void leave_out_before(std::vector<LineTelegram>& telegrams, Tick at) {
+  const auto behind = std::find_if(telegrams.begin(), telegrams.end(),
+                                   [&](const LineTelegram& telegram) { return telegram.start >= at; });
+  telegrams.erase(telegrams.begin(), behind);
+}
+
+std::vector<LineTelegram>::const_iterator first_right(const std::vector<LineTelegram>& telegrams) {
+  return std::find_if(
+      telegrams.begin(), telegrams.end(), [](const LineTelegram& telegram) { return telegram.right; });
+}
+
+/// The first edge after T_SYN of idle: what begins before it may have begun before the capture.
+Tick first_whole(const std::vector<LineTelegram>& telegrams, const Trace& trace) {
+  if (telegrams.empty()) return 0;
+  const auto right = first_right(telegrams);
+  const Tick idle = syn(right != telegrams.end() ? *right : telegrams.front());
+  Tick before = 0;
+  for (std::size_t edge = 0; edge < trace.edges.size(); before = trace.edges[edge++])
+    if (trace.level(edge) && trace.edges[edge] - before >= idle) return trace.edges[edge];
+  return bus::kNever;
+}
+
+/// The capture may begin in a telegram, or between a request and its answer, and shows the rate with the first right
+/// telegram on PBRXD: what comes before that does not count.
+void leave_out_begun(Scene& scene) {
+  const auto right = first_right(scene.received);
+  scene.received.erase(scene.received.cbegin(), right);
+  leave_out_before(scene.sent, scene.received.empty() ? first_whole(scene.sent, scene.record[Wire::kPbtxd])
+                                                      : scene.received.front().start);
 }
 
 /// What the chip hears of its own: PBRXD is the line, and its answers are on it.
@@ -171,7 +201,8 @@ void fill(Scene& scene) {
   leave_out_cut(scene.received, scene.record[Wire::kPbrxd], scene.record.end);
   leave_out_cut(scene.sent, scene.record[Wire::kPbtxd], scene.record.end);
   leave_out_own(scene.received, scene.sent, scene.time);
-  if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd})) {
+  leave_out_begun(scene);
+  if (!scene.received.empty() && scene.record.sees(Wire::kPbtxd)) {
     pair_up(scene);
     keep_own(scene);
     measure_idle(scene);
