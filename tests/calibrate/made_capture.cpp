@@ -76,6 +76,12 @@ void MadeCapture::request(const Bytes& bytes, double idle) {
   send(Wire::kPbrxd, bytes);
 }
 
+void MadeCapture::request_unread(const Telegram& telegram) {
+  Bytes bytes = bus::encode(telegram);
+  bytes.at(5) ^= 0x04U;
+  request(bytes);
+}
+
 void MadeCapture::answer(const Telegram& telegram, double tsdr) {
   wait_bits(tsdr), wait_cycles(0.5);
   set_at(Wire::kPbrts, now_ - static_cast<Tick>(lead_ * bus::kTicksPerCycle), true);

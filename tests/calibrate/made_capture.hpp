@@ -50,6 +50,8 @@ class MadeCapture {
   /// A request after so many bit times of idle; now() is its end.
   void request(const Telegram& telegram, double idle = 40);
   void request(const Bytes& bytes, double idle = 40);
+  /// ... that the capture does not show as it was.
+  void request_unread(const Telegram& telegram);
   /// The chip's answer to it.
   void answer(const Telegram& telegram, double tsdr = 11);
   /// ... with no edge of PBRTS.

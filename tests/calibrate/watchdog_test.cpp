@@ -1,6 +1,8 @@
 // S1, S22: what ends DATA_EXCH, and what BR's fall follows, in captures made for it.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "made_capture.hpp"
 
 namespace {
@@ -129,6 +131,53 @@ TEST(CalibrateWatchdog, AnotherMasterThatKeepsItAliveIsContradicted) {
   const Tick other = station.decided(fdl_status(kOther), status(0, kOther));
   station.end_exchange(other, 40);
   EXPECT_EQ(claim(station.judge(), "S1", "ends DATA_EXCH").verdict, Verdict::kContradicted);
+}
+
+/// The watchdog is 20 ms, then what `change` makes of it; PBF rises so many ms after the last telegram.
+calibrate::Result coarse_watchdog(const std::function<void(MadeCapture&)>& change, double ms) {
+  MadeCapture capture(k12M, {Wire::kBr, Wire::kPbf});
+  capture.begins_high(Wire::kBr);
+  const auto start = [&] {
+    capture.exchange(srd(bus::sap::kChkCfg, {0x11, 0x21}), bus::make_sc());
+    capture.set(Wire::kPbf, false);
+    capture.exchange(data_exchange(kOutputs), data_answer({3, 4}));
+  };
+  capture.exchange(set_prm(kLock | kWdOn, 2), bus::make_sc());
+  start();
+  change(capture);
+  capture.set(Wire::kPbf, true);
+  start();
+  capture.request(data_exchange(kOutputs));
+  const Tick end = capture.now();
+  capture.decide();
+  const Tick decision = capture.now();
+  capture.wait_cycles(static_cast<double>(end - decision) / static_cast<double>(bus::kTicksPerCycle));
+  capture.answer(data_answer({3, 4}));
+  capture.set_at(Wire::kPbf, decision + static_cast<Tick>(ms * bus::kTicksPerMs), true);
+  capture.wait_ms(ms);
+  return capture.judge_sampled(24e6);
+}
+
+TEST(CalibrateWatchdog, OfASetPrmThatWasNotReadNothingIsSaid) {
+  const auto unread = [](MadeCapture& capture) {
+    capture.request_unread(set_prm(kLock | kWdOn, 4));
+    capture.answer(bus::make_sc());
+  };
+  EXPECT_EQ(contradicted(coarse_watchdog(unread, 40)), "");
+}
+
+TEST(CalibrateWatchdog, OfASetPrmAfterARequestThatWasNotReadItCounts) {
+  const auto after_unread = [](MadeCapture& capture) {
+    capture.request_unread(srd(bus::sap::kSlaveDiag));
+    capture.answer(diagnosis(0, 0));
+    Telegram prm = set_prm(kLock | kWdOn, 4);
+    prm.fc |= bus::fc::kFcv;
+    capture.exchange(prm, bus::make_sc());
+  };
+  const calibrate::Result right = coarse_watchdog(after_unread, 40);
+  EXPECT_EQ(contradicted(right), "");
+  EXPECT_EQ(claim(right, "S1", "ends DATA_EXCH").verdict, Verdict::kConfirmed);
+  EXPECT_EQ(claim(coarse_watchdog(after_unread, 30), "S1", "ends DATA_EXCH").verdict, Verdict::kContradicted);
 }
 
 TEST(CalibrateWatchdog, WithoutATelegramToTheStationBrFallsAfterItsRise) {

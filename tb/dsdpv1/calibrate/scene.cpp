@@ -116,12 +116,15 @@ bool same_frame(const LineTelegram& a, const LineTelegram& b) {
          first.data.size() == second.data.size() && fcs(a) == fcs(b);
 }
 
-/// A request whose answer cannot be known from others than the one before; one that was not read may be the one before.
+/// A request whose answer cannot be known from others than the one before; one that was not read, or was before the
+/// capture, may be the one before.
 void find_repetitions(Scene& scene) {
   const Exchange* before = nullptr;
   for (Exchange& exchange : scene.exchanges) {
-    if (exchange.is_request() && (exchange.request->telegram.fc & bus::fc::kFcv) != 0 && before != nullptr)
-      exchange.repeats = !before->request->right || same_frame(*before->request, *exchange.request);
+    if (exchange.is_request() && (exchange.request->telegram.fc & bus::fc::kFcv) != 0) {
+      exchange.same = before != nullptr && before->request->right && same_frame(*before->request, *exchange.request);
+      exchange.repeats = exchange.same || before == nullptr || !before->request->right;
+    }
     if (exchange.answer != nullptr) before = &exchange;
   }
 }

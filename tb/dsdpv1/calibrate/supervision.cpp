@@ -43,13 +43,14 @@ const Supervised& Supervision::before(Tick at) {
 void Supervision::take(const Exchange& exchange) {
   if (!exchange.request->right && exchange.answer != nullptr) {  // the chip has read it
     now_.state = State::kUnknown;
+    if (may_be_prm(exchange)) now_.prm.reset();
     if (now_.prm) now_.prm->heard.reset();
   }
   if (!exchange.is_request() || !is_heard(exchange)) return;
   const Moment now = decision_of(*exchange.request);
   end_watchdog(now);
   trigger(exchange.request->telegram.sa, now);
-  if (!exchange.repeats) execute(exchange, now);
+  execute(exchange, now);
 }
 
 /// Its time may have passed before this telegram.
@@ -73,6 +74,7 @@ void Supervision::trigger(std::uint8_t master, const Moment& now) {
 
 void Supervision::execute(const Exchange& exchange, const Moment& now) {
   const PrmKind prm = prm_kind(exchange);
+  if (exchange.repeats && prm == PrmKind::kNone) return;
   const bool no_watchdog = prm == PrmKind::kShort || prm == PrmKind::kUnlock || diagnosis_has(exchange, 0, kPrmReq) ||
                            (exchange.is_srd(std::nullopt) && exchange.refused(bus::fc::kRr));  // S19
   if (no_watchdog) {

@@ -36,6 +36,7 @@ class TsdrJudge {
   void judge(const Exchange& exchange) {
     const LineTelegram& request = *exchange.request;
     take_restarts(request.start);
+    open_ = open_ || may_be_prm(exchange);
     if (!request.right || exchange.answer == nullptr) return;
     take(exchange);
     const Span cycles =
@@ -54,7 +55,7 @@ class TsdrJudge {
     now_ = {bus::kMinTsdrBits};
     asked_.reset();
     before_.clear();
-    changed_ = false;
+    changed_ = open_ = false;
   }
   /// The fall of BR is a new initialisation, or the end of BAUD_CONTROL, which leaves it.
   void take_restarts(Tick at) {
@@ -123,11 +124,17 @@ class TsdrJudge {
                  [&](int bits) { return fits(cycles, request, bits); });
     if (!left.empty()) {
       now_ = std::move(left);
+      if (exchange.exchanged() && !exchange.repeats) open_ = false;
       return true;
     }
     if (as_asked) {
       accept(request);
       return true;
+    }
+    if (open_ && !now_.empty()) {
+      open_ = changed_ = false;
+      now_.clear(), before_.clear();
+      return learns(cycles, request);
     }
     // Without BR a new initialisation is only known not to have been before what shows DATA_EXCH.
     const bool restarted = !scene_.record.sees(Wire::kBr) && (!exchange.exchanged() || exchange.repeats) &&
@@ -166,6 +173,7 @@ class TsdrJudge {
   std::optional<Asked> asked_;  ///< by a Set_Prm that may have been accepted, or will be
   std::vector<int> before_;     ///< what it was before the last Set_Prm
   bool changed_ = false;        ///< by a Set_Prm, and no answer has shown it yet
+  bool open_ = false;           ///< by a Set_Prm that was not read, perhaps: the first answer that shows it counts
 };
 
 }  // namespace
