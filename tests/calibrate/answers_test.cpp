@@ -129,6 +129,28 @@ TEST(CalibrateAnswers, AfterWhatIsNoTelegramIdleTimeBeginsWithItsEnd) {
   EXPECT_EQ(claim(capture.judge(), "S3", "33 bit times").verdict, Verdict::kContradicted);
 }
 
+/// A low level begins so many bit times after a request's end, and the request is answered.
+calibrate::Result disturbed(double after, double cycles) {
+  MadeCapture capture(k1M5);
+  exchange_data(capture, 2);
+  capture.request(data_exchange({1}));
+  const auto at = capture.now() + static_cast<Tick>(after * capture.bit());
+  capture.set_at(Wire::kPbrxd, at, false);
+  capture.set_at(Wire::kPbrxd, at + static_cast<Tick>(cycles * bus::kTicksPerCycle), true);
+  capture.answer(data_answer({2}));
+  exchange_data(capture, 2);
+  return capture.judge();
+}
+
+TEST(CalibrateAnswers, ADisturbanceAfterTheDecisionDoesNotEndTheWait) {
+  EXPECT_EQ(contradicted(disturbed(5, 20)), "");
+  EXPECT_EQ(contradicted(disturbed(1.2, 100)), "");
+}
+
+TEST(CalibrateAnswers, ALowLevelBeforeTheDecisionMakesTheRequestVoid) {
+  EXPECT_EQ(claim(disturbed(0.5, 20), "S3", "nobody asked").verdict, Verdict::kContradicted);
+}
+
 // --- S2 --------------------------------------------------------------------------------------------------------------
 
 /// An answer of which 4 characters and 3 bits are sent, in which this pin falls.

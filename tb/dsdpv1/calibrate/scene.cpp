@@ -56,12 +56,30 @@ void leave_out_own(std::vector<LineTelegram>& received, const std::vector<LineTe
   received.erase(std::remove_if(received.begin(), received.end(), own), received.end());
 }
 
+/// What is no telegram, and begins after the request's decision (S10): before T_SYN, or too short to be a request
+/// itself.
+bool is_disturbance(const LineTelegram& noise, const LineTelegram& request, const TimeBase& time) {
+  constexpr int kShorterThanAny = 5;  // characters
+  const Tick bit = bus::baud(request.baud).bit;
+  return !noise.right && noise.start > request.last_start + (bus::kCharacterBits + 1) * bit - time.margin() &&
+         (noise.start < request.end() + bus::kSynBits * bit ||
+          noise.last_edge < noise.start + kShorterThanAny * bus::kCharacterBits * bit);
+}
+
+/// Until when an answer to this request may begin: the line is used again.
+Tick waits_until(const Scene& scene, std::size_t request) {
+  const auto& all = scene.received;
+  std::size_t next = request + 1;
+  while (all[request].right && next < all.size() && is_disturbance(all[next], all[request], scene.time)) ++next;
+  return next < all.size() ? all[next].start : bus::kNever;
+}
+
 /// Requests with the chip's answer, if there is one before the line is used again.
 void pair_up(Scene& scene) {
   std::size_t sent = 0;
   for (std::size_t i = 0; i < scene.received.size(); ++i) {
     const LineTelegram& request = scene.received[i];
-    const Tick until = i + 1 < scene.received.size() ? scene.received[i + 1].start : bus::kNever;
+    const Tick until = waits_until(scene, i);
     for (; sent < scene.sent.size() && scene.sent[sent].start < request.start; ++sent)
       scene.unasked.push_back(&scene.sent[sent]);
     Exchange exchange{&request, nullptr};
