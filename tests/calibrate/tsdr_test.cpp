@@ -104,6 +104,20 @@ TEST(CalibrateTsdr, WithoutLockAndUnlockItCountsAtOnce) {
   EXPECT_EQ(wrong.s11(), Verdict::kContradicted);
 }
 
+TEST(CalibrateTsdr, AVerdictCountsAlsoAfterAMinTsdrWithoutLockAndUnlock) {
+  const auto start = [](TsdrStation& station, double verdict, double data) {
+    station.prm(kLock, 40, 11);  // the user judges
+    station.prm(0, 20, 20);
+    station.exchange(srd(sap::kSlaveDiag), diagnosis(0x02, 0), 20);
+    station.cfg(verdict), station.data(data);
+  };
+  TsdrStation judged, accepted_before, wrong;
+  start(judged, 40, 40), start(accepted_before, 20, 20), start(wrong, 20, 40);
+  EXPECT_EQ(contradicted(judged.judge()), "");
+  EXPECT_EQ(contradicted(accepted_before.judge()), "");
+  EXPECT_EQ(wrong.s3(), Verdict::kContradicted);
+}
+
 TEST(CalibrateTsdr, ANewInitialisationMakesItEleven) {
   TsdrStation station;
   station.prm(kLock, 15, 15), station.cfg(15), station.data(15);

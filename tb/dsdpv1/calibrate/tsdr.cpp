@@ -49,6 +49,7 @@ class TsdrJudge {
   struct Asked {
     int bits;
     std::uint8_t master;
+    bool perhaps;  ///< it may have been accepted before what min_TSDR is now
   };
 
   void restart() {
@@ -78,11 +79,12 @@ class TsdrJudge {
     switch (prm_kind(exchange)) {
       case PrmKind::kLock:
         give_up_asked();
-        if (request.data[kPlace] != 0) asked_ = {request.data[kPlace], request.sa};
+        if (request.data[kPlace] != 0) asked_ = {request.data[kPlace], request.sa, false};
         return;
       case PrmKind::kMinTsdr:
-        give_up_asked();
-        if (request.data[kPlace] != 0) change(request.data[kPlace], *exchange.request);
+        if (request.data[kPlace] == 0) return;
+        change(request.data[kPlace], *exchange.request);
+        if (asked_) asked_->perhaps = true;
         return;
       case PrmKind::kUnlock:
       case PrmKind::kShort: return give_up_asked();
@@ -92,11 +94,17 @@ class TsdrJudge {
     const bool served =
         exchange.exchanged() || (exchange.is_srd(bus::sap::kChkCfg) && exchange.acknowledged());  // S12, S13
     if (served && !exchange.repeats && request.sa == asked_->master)
-      accept(*exchange.request);
+      take_verdict(*exchange.request);
     else if (diagnosis_has(exchange, kPrmFault, kPrmReq))
       asked_.reset();
   }
 
+  void take_verdict(const LineTelegram& request) {
+    if (asked_->perhaps)
+      give_up_asked();
+    else
+      accept(request);
+  }
   /// Whether it was accepted will not be known.
   void give_up_asked() {
     if (asked_ && !now_.empty()) now_.push_back(asked_->bits);
