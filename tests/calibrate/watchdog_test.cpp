@@ -218,6 +218,38 @@ TEST(CalibrateWatchdog, AFallOfBrThatIsNoWholeNumberOfMsIsContradicted) {
   EXPECT_NE(contradicted(result).find("600.400 ms"), std::string::npos) << contradicted(result);
 }
 
+TEST(CalibrateWatchdog, AnInitialisationAWholeNumberOfMsAfterTheLastTelegramIsNoMeasure) {
+  const calibrate::Result result = after(12, 60);
+  EXPECT_EQ(contradicted(result), "");
+  EXPECT_EQ(parameter(result, "baud_control_ms").verdict, Verdict::kNotShown);
+  EXPECT_NE(parameter(result, "baud_control_ms").words.find("new initialisation"), std::string::npos);
+}
+
+/// A new initialisation 12 ms after the last telegram, then a fall 600 ms after it.
+calibrate::Result initialised_and_silent(const std::vector<Wire>& pins) {
+  MadeCapture capture(k1M5, pins);
+  capture.find_rate();
+  for (const double ms : {12.0, 600.0}) {
+    capture.request(fdl_status());
+    const Tick end = capture.now();
+    capture.answer(status(0));
+    const Tick fall = end + static_cast<Tick>(capture.bit() + 3.5 * bus::kTicksPerCycle + ms * bus::kTicksPerMs);
+    if (pins.size() > 1) {
+      capture.set_at(Wire::kLReq, fall - 5 * bus::kTicksPerCycle, true);
+      capture.set_at(Wire::kLReq, fall + (ms > 100 ? 2 : 50) * bus::kTicksPerCycle, false);
+    }
+    capture.set_at(Wire::kBr, fall, false);
+    capture.wait_ms(ms + 1);
+    if (ms < 100) capture.find_rate();
+  }
+  return capture.judge();
+}
+
+TEST(CalibrateWatchdog, AnInitialisationIsNotTakenForTheEndOfBaudControl) {
+  expect_600(initialised_and_silent({Wire::kBr, Wire::kLReq}));
+  expect_600(initialised_and_silent({Wire::kBr}));
+}
+
 TEST(CalibrateWatchdog, AFallOfBrInALongAccessMayBeAnInitialisation) {
   const calibrate::Result result = after(600.4, 40);
   EXPECT_EQ(claim(result, "S1", "BR falls").verdict, Verdict::kNotShown);

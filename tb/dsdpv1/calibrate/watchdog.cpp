@@ -64,7 +64,8 @@ struct Fall {
 
 struct Falls {
   std::vector<Fall> all;
-  bool unknown = false;  ///< there are others, of which the capture does not show what came before
+  bool unknown = false;      ///< there are others, of which the capture does not show what came before
+  bool initialised = false;  ///< others may be new initialisations, as L_REQ shows
 };
 
 Falls falls_of(const Scene& scene) {
@@ -93,6 +94,25 @@ bool is_whole(const Span& ms) {
   return whole >= 1 && ms.lo - kNearMs <= whole && whole <= ms.hi + kNearMs;
 }
 
+/// Falls that measure the time of BAUD_CONTROL. A new initialisation may come at any ms, but never later than its end.
+std::vector<Instance> measured(const Scene& scene, Falls& falls) {
+  std::vector<Instance> instances;
+  double latest = 0;
+  for (const Fall& fall : falls.all) {
+    if (!is_whole(fall.ms)) continue;
+    if (scene.record.sees(Wire::kLReq) && long_access(scene, fall.at)) {
+      falls.initialised = true;
+      continue;
+    }
+    instances.push_back({fall.at, fall.ms, fall.ms.middle()});
+    latest = std::max(latest, fall.ms.lo);
+  }
+  if (scene.record.sees(Wire::kLReq)) return instances;
+  const auto earlier = [&](const Instance& instance) { return instance.span.hi < latest; };
+  instances.erase(std::remove_if(instances.begin(), instances.end(), earlier), instances.end());
+  return instances;
+}
+
 /// What does not agree is a new initialisation, where there may be one.
 void judge_falls(const Scene& scene, const Falls& falls, Found& found) {
   Fit& fit = found.fit(Parameter::kBaudControlMs);
@@ -104,20 +124,20 @@ void judge_falls(const Scene& scene, const Falls& falls, Found& found) {
       found.judge.holds(kBrFalls);
     else if (!long_access(scene, fall.at))
       found.judge.fails(kBrFalls, fall.at, fmt::format("{:.3f} ms after it", fall.ms.middle()));
-    if (known && !is_whole(fall.ms)) fit.estimate.outliers.push_back({fall.at, by});
+    const auto told = [&](const Outlier& outlier) { return outlier.at == fall.at; };
+    std::vector<Outlier>& others = fit.estimate.outliers;
+    if (known && !right && std::none_of(others.begin(), others.end(), told)) others.push_back({fall.at, by});
   }
   if (fit.estimate.count != 0) return;
-  fit.not_shown = !falls.all.empty() ? "BR falls, but no whole number of ms after the last telegram"
-                  : falls.unknown    ? "BR falls, but the capture does not show whether a watchdog ran before"
-                                     : "BR does not fall after silence";
+  fit.not_shown = falls.initialised    ? "BR falls, but only where the chip may take a new initialisation"
+                  : !falls.all.empty() ? "BR falls, but no whole number of ms after the last telegram"
+                  : falls.unknown      ? "BR falls, but the capture does not show whether a watchdog ran before"
+                                       : "BR does not fall after silence";
 }
 
 void fit_baud_control(const Scene& scene, Found& found) {
-  const Falls falls = falls_of(scene);
-  std::vector<Instance> instances;
-  for (const Fall& fall : falls.all)
-    if (is_whole(fall.ms)) instances.push_back({fall.at, fall.ms, fall.ms.middle()});
-  found.fit(Parameter::kBaudControlMs).estimate = estimate(instances);
+  Falls falls = falls_of(scene);
+  found.fit(Parameter::kBaudControlMs).estimate = estimate(measured(scene, falls));
   judge_falls(scene, falls, found);
 }
 
