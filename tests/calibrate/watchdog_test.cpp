@@ -1,6 +1,7 @@
 // S1, S22: what ends DATA_EXCH, and what BR's fall follows, in captures made for it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "made_capture.hpp"
@@ -196,6 +197,39 @@ TEST(CalibrateWatchdog, OfWhatRanBeforeTheCaptureNothingIsSaid) {
   capture.wait_ms(640);
   capture.set(Wire::kBr, false);
   EXPECT_EQ(parameter(capture.judge(), "baud_control_ms").verdict, Verdict::kNotShown);
+}
+
+// --- a reset that the capture does not show otherwise ----------------------------------------------------------------
+
+/// PBF rises and BR falls in a reset 30 ms after the last telegram, of a station whose watchdog is 40 ms.
+calibrate::Result reset_after_30_ms(const std::vector<Wire>& pins, bool start_up) {
+  const auto has = [&](Wire wire) { return std::find(pins.begin(), pins.end(), wire) != pins.end(); };
+  MadeCapture capture(k1M5, pins);
+  for (const Wire wire : {Wire::kBr, Wire::kReady})
+    if (has(wire)) capture.begins_high(wire);
+  capture.exchange(set_prm(kLock | kWdOn, 4), bus::make_sc());
+  capture.exchange(srd(bus::sap::kChkCfg, {0x11, 0x21}), bus::make_sc());
+  capture.set(Wire::kPbf, false);
+  capture.exchange(data_exchange(kOutputs), data_answer({3, 4}));
+  capture.wait_ms(30);
+  if (has(Wire::kLReq)) capture.pulse(Wire::kLReq, 7 * bus::kTicksPerCycle);
+  capture.wait_cycles(20);
+  capture.set(Wire::kPbf, true);
+  for (const Wire wire : {Wire::kBr, Wire::kReady})
+    if (has(wire)) capture.set(wire, false);
+  capture.wait_ms(5);
+  if (has(Wire::kLReq)) capture.pulse(Wire::kLReq, (start_up ? 2054 : 7) * bus::kTicksPerCycle);
+  capture.wait_ms(1);
+  return capture.judge();
+}
+
+TEST(CalibrateWatchdog, AResetMayShowInReadyOrInAStartUpAlone) {
+  for (const std::vector<Wire>& pins :
+       {std::vector<Wire>{Wire::kPbf, Wire::kLReq}, {Wire::kPbf, Wire::kBr, Wire::kLReq}}) {
+    EXPECT_EQ(contradicted(reset_after_30_ms(pins, true)), "") << pins.size();
+    EXPECT_NE(contradicted(reset_after_30_ms(pins, false)), "") << pins.size();
+  }
+  EXPECT_EQ(contradicted(reset_after_30_ms({Wire::kPbf, Wire::kReady, Wire::kLReq}, false)), "");
 }
 
 /// BR falls so long after the last telegram, in an access of so many cycles.

@@ -210,6 +210,17 @@ bool Scene::in_reset(Tick from, Tick to) const {
   return record.sees(Wire::kReset) && !record[Wire::kReset].high(from, to);
 }
 
+bool Scene::may_reset(Tick at) const {
+  const Tick about = time.margin();
+  if (record.sees(Wire::kReset)) return in_reset(at - about, at);
+  const Trace& ready = record[Wire::kReady];
+  if (const std::size_t fall = ready.next(at - about, false); fall != Trace::kNone && ready.edges[fall] <= at + about)
+    return true;
+  const auto next = std::upper_bound(accesses.begin(), accesses.end(), at - about,
+                                     [](Tick when, const ChipAccess& access) { return when < access.start; });
+  return next != accesses.end() && is_start_up(*next);
+}
+
 bool Scene::is_start_up(const ChipAccess& access) const {
   constexpr double kLonger = 1500;  // cycles
   return time.between(access.start, access.end).hi > kLonger;

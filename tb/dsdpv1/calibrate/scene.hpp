@@ -62,6 +62,8 @@ struct Scene {
   /// Whether both of them are in the capture.
   bool sees_user() const { return record.sees({Wire::kRReq, Wire::kRSta}); }
   bool in_reset(Tick from, Tick to) const;
+  /// A reset may begin there, or just before: RESET is low; without RESET READY falls, or the next access starts up.
+  bool may_reset(Tick at) const;
   /// It is longer than any other access can be (H6).
   bool is_start_up(const ChipAccess& access) const;
 };
