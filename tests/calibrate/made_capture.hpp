@@ -44,6 +44,8 @@ class MadeCapture {
   void set_at(Wire wire, Tick at, bool level);
   /// The pin is high where the capture begins.
   void begins_high(Wire wire) { record_.traces.at(static_cast<std::size_t>(wire)).first = true; }
+  /// The pin is not in the capture.
+  void hide(Wire wire) { record_.traces.at(static_cast<std::size_t>(wire)) = {}; }
   /// A pulse of the other level.
   void pulse(Wire wire, Tick length);
 

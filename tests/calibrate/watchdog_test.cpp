@@ -199,6 +199,57 @@ TEST(CalibrateWatchdog, OfWhatRanBeforeTheCaptureNothingIsSaid) {
   EXPECT_EQ(parameter(capture.judge(), "baud_control_ms").verdict, Verdict::kNotShown);
 }
 
+// --- what never ends ------------------------------------------------------------------------------------------------
+
+TEST(CalibrateWatchdog, AWatchdogThatNeverEndsIsContradicted) {
+  for (const bool again : {false, true}) {
+    WatchedStation station;
+    station.start_up(2);
+    station.wait_ms(19);
+    station.exchange(data_exchange(kOutputs), data_answer({3, 4}));
+    EXPECT_EQ(contradicted(station.judge()), "");
+    station.wait_ms(21);
+    if (again) station.exchange(data_exchange(kOutputs), data_answer({3, 4}));
+    EXPECT_EQ(claim(station.judge(), "S1", "ends DATA_EXCH").verdict, Verdict::kContradicted) << again;
+  }
+}
+
+/// BR stays high over so much silence.
+calibrate::Result silent(double ms) {
+  WatchedStation station;
+  station.start_up(0);
+  station.wait_ms(ms);
+  station.exchange(data_exchange(kOutputs), data_answer({3, 4}));
+  return station.judge();
+}
+
+TEST(CalibrateWatchdog, ABrThatNeverFallsIsContradicted) {
+  EXPECT_EQ(parameter(silent(599), "baud_control_ms").verdict, Verdict::kNotShown);
+  const calibrate::Result never = silent(5000);
+  EXPECT_EQ(parameter(never, "baud_control_ms").verdict, Verdict::kContradicted);
+  EXPECT_EQ(parameter(never, "baud_control_ms").words, "at least 5000");
+}
+
+TEST(CalibrateWatchdog, ABrThatFallsSometimesIsContradicted) {
+  WatchedStation station;
+  station.start_up(0);
+  station.wait_ms(700);
+  const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
+  station.fall_of_br(last, 600);
+  EXPECT_EQ(claim(station.judge(), "S1", "BR falls").verdict, Verdict::kContradicted);
+}
+
+TEST(CalibrateWatchdog, WithoutPbtxdNothingIsSaidOfBr) {
+  MadeCapture capture(k1M5, {Wire::kBr});
+  capture.hide(Wire::kPbtxd);
+  capture.find_rate();
+  for (int i = 0; i < 8; ++i) {
+    capture.request(data_exchange(kOutputs));
+    capture.wait_ms(100);
+  }
+  EXPECT_EQ(parameter(capture.judge(), "baud_control_ms").verdict, Verdict::kNotShown);
+}
+
 // --- a reset that the capture does not show otherwise ----------------------------------------------------------------
 
 /// PBF rises and BR falls in a reset 30 ms after the last telegram, of a station whose watchdog is 40 ms.
