@@ -129,6 +129,25 @@ TEST(CalibrateAnswers, AfterWhatIsNoTelegramIdleTimeBeginsWithItsEnd) {
   EXPECT_EQ(claim(capture.judge(), "S3", "33 bit times").verdict, Verdict::kContradicted);
 }
 
+/// Of one request the second half comes so many cycles later than 1 bit time after the first one, and is not answered.
+Verdict unanswered_with_gap(double cycles) {
+  MadeCapture capture(k1M5);
+  exchange_data(capture, 2);
+  const Bytes bytes = bus::encode(data_exchange({1}));
+  capture.request(Bytes(bytes.begin(), bytes.begin() + 5));
+  capture.wait_cycles(cycles);
+  capture.request(Bytes(bytes.begin() + 5, bytes.end()), 1);
+  capture.wait_ms(1);
+  exchange_data(capture, 2);
+  return claim(capture.judge(), "S3", "is answered").verdict;
+}
+
+TEST(CalibrateAnswers, ARequestThatMayHaveAGapNeedNotBeAnswered) {
+  EXPECT_EQ(unanswered_with_gap(0.5), Verdict::kConfirmed);
+  EXPECT_EQ(unanswered_with_gap(5), Verdict::kConfirmed);
+  EXPECT_EQ(unanswered_with_gap(-5), Verdict::kContradicted);
+}
+
 /// A low level begins so many bit times after a request's end, and the request is answered.
 calibrate::Result disturbed(double after, double cycles) {
   MadeCapture capture(k1M5);

@@ -80,7 +80,8 @@ class LineReader {
     for (; edge < trace_.edges.size();
          edge = trace_.next(telegram.last_start + stop_bit(baud) - time_.margin() / 2, false)) {
       const Tick start = trace_.edges[edge];
-      if (!telegram.bytes.empty() && gap(telegram, start)) return telegram;
+      if (!telegram.bytes.empty() && after_gap(telegram, start - time_.margin())) return telegram;
+      telegram.gap = telegram.gap || (!telegram.bytes.empty() && after_gap(telegram, start));
       telegram.last_start = start;
       const int byte = character(edge, baud);
       if (byte < 0) return telegram;
@@ -94,9 +95,9 @@ class LineReader {
     return telegram;
   }
 
-  bool gap(const LineTelegram& telegram, Tick start) const {
-    const Tick bit = bus::baud(telegram.baud).bit;
-    return start > telegram.last_start + 12 * bit + time_.margin();
+  /// More than 1 bit time after the character before it, as recorded.
+  static bool after_gap(const LineTelegram& telegram, Tick start) {
+    return start > telegram.last_start + (bus::kCharacterBits + 1) * bus::baud(telegram.baud).bit;
   }
 
   /// The right character that the edges fit best; -1 when there is none.
