@@ -102,6 +102,20 @@ TEST(CalibrateAnswers, AGlitchDoesNotEndIdleTime) {
   }
 }
 
+TEST(CalibrateAnswers, InACoarseCaptureAShortLowLevelMayBeAGlitch) {
+  const auto judged = [](double cycles) {
+    MadeCapture capture(k12M);
+    exchange_data(capture, 2);
+    capture.wait_bits(40);
+    capture.pulse(Wire::kPbrxd, static_cast<Tick>(cycles * bus::kTicksPerCycle));
+    capture.request(data_exchange({1}), 20);
+    capture.answer(data_answer({2}));
+    return claim(capture.judge_sampled(24e6), "S3", "33 bit times").verdict;
+  };
+  EXPECT_NE(judged(1.8), Verdict::kContradicted);
+  EXPECT_EQ(judged(12), Verdict::kContradicted);
+}
+
 TEST(CalibrateAnswers, AGlitchOfTheChipIsToldAsWhatItSends) {
   MadeCapture capture(k1M5);
   exchange_data(capture, 2);

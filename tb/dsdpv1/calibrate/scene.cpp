@@ -107,11 +107,18 @@ void keep_own(Scene& scene) {
   scene.exchanges.erase(std::remove_if(scene.exchanges.begin(), scene.exchanges.end(), other), scene.exchanges.end());
 }
 
+/// A low level of less than half a bit, perhaps, which ends no idle time (S10).
+bool may_be_glitch(const LineTelegram& telegram, const TimeBase& time) {
+  const double low = TimeBase::nominal(telegram.last_edge - telegram.start);
+  return !telegram.right && low - time.doubt() < telegram.bit() / 2;
+}
+
 void measure_idle(Scene& scene) {
   std::optional<Tick> from, until;
   const auto take = [&](const std::vector<LineTelegram>& telegrams, std::size_t& next, Tick before) {
     for (; next < telegrams.size() && telegrams[next].start < before; ++next) {
-      from = std::max(from.value_or(0), telegrams[next].idle_from());
+      if (!may_be_glitch(telegrams[next], scene.time))
+        from = std::max(from.value_or(0), telegrams[next].idle_from());
       until = std::max(until.value_or(0), telegrams[next].idle_until());
     }
   };
