@@ -87,6 +87,22 @@ TEST(CalibrateWatchdog, ASetPrmThatIsRefusedEndsItAsTheDiagnosisShows) {
   expect_600(station.judge());
 }
 
+TEST(CalibrateWatchdog, PrmReqCountsInADiagnosisFromMemoryToo) {
+  MadeCapture capture(k1M5, {Wire::kBr, Wire::kLReq});
+  capture.begins_high(Wire::kBr);
+  Telegram asked = srd(bus::sap::kSlaveDiag);
+  asked.fc |= bus::fc::kFcv;
+  capture.request(asked);  // before the capture there may have been the same
+  const Tick end = capture.now();
+  capture.decide();
+  const Tick decision = capture.now();
+  capture.wait_cycles(static_cast<double>(end - decision) / static_cast<double>(bus::kTicksPerCycle));
+  capture.answer(diagnosis(0x02, 0x01));
+  capture.set_at(Wire::kBr, decision + 600 * bus::kTicksPerMs, false);
+  capture.wait_ms(601);
+  expect_600(capture.judge());
+}
+
 TEST(CalibrateWatchdog, ASetPrmOfAnotherMasterThatIsRefusedChangesNothing) {
   WatchedStation station;
   station.start_up(4);
@@ -304,7 +320,7 @@ TEST(CalibrateWatchdog, AFallOfBrThatIsNoWholeNumberOfMsIsContradicted) {
 }
 
 TEST(CalibrateWatchdog, AnInitialisationAWholeNumberOfMsAfterTheLastTelegramIsNoMeasure) {
-  const calibrate::Result result = after(12, 60);
+  const calibrate::Result result = after(112, 60);
   EXPECT_EQ(contradicted(result), "");
   EXPECT_EQ(parameter(result, "baud_control_ms").verdict, Verdict::kNotShown);
   EXPECT_NE(parameter(result, "baud_control_ms").words.find("new initialisation"), std::string::npos);

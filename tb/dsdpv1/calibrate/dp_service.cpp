@@ -18,7 +18,7 @@ bool may_be_prm(const Exchange& exchange) {
 }
 
 bool diagnosis_has(const Exchange& exchange, std::uint8_t status1, std::uint8_t status2) {
-  if (!exchange.is_srd(bus::sap::kSlaveDiag) || exchange.repeats || exchange.answer == nullptr) return false;
+  if (!exchange.is_srd(bus::sap::kSlaveDiag) || exchange.answer == nullptr) return false;
   const bus::Bytes& data = exchange.answer->telegram.data;
   return exchange.answer->right && data.size() > 1 && (data[0] & status1) == status1 && (data[1] & status2) == status2;
 }

@@ -20,7 +20,7 @@ enum class PrmKind : std::uint8_t {
 PrmKind prm_kind(const Exchange& exchange);
 /// The request was not read, and the answer does not say that it was no Set_Prm that changed something.
 bool may_be_prm(const Exchange& exchange);
-/// Slave_Diag was answered, all of these bits set.
+/// Slave_Diag was answered, all of these bits set. From memory, too: nothing was executed since (S26).
 bool diagnosis_has(const Exchange& exchange, std::uint8_t status1, std::uint8_t status2);
 
 }  // namespace calibrate

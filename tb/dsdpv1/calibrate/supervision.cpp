@@ -74,7 +74,6 @@ void Supervision::trigger(std::uint8_t master, const Moment& now) {
 
 void Supervision::execute(const Exchange& exchange, const Moment& now) {
   const PrmKind prm = prm_kind(exchange);
-  if (exchange.repeats && prm == PrmKind::kNone) return;
   const bool no_watchdog = prm == PrmKind::kShort || prm == PrmKind::kUnlock || diagnosis_has(exchange, 0, kPrmReq) ||
                            (exchange.is_srd(std::nullopt) && exchange.refused(bus::fc::kRr));  // S19
   if (no_watchdog) {
@@ -83,6 +82,8 @@ void Supervision::execute(const Exchange& exchange, const Moment& now) {
   } else if (prm == PrmKind::kLock) {
     now_.prm = {watchdog_of(exchange.request->telegram.data), exchange.request->telegram.sa, now};
     now_.state = State::kUnknown;
+  } else if (exchange.repeats) {
+    return;  // nothing is executed
   } else if (exchange.is_srd(bus::sap::kChkCfg) && exchange.acknowledged()) {
     if (now_.state == State::kDpControl) now_.state = State::kUnknown;  // it may have been refused
   } else if (exchange.exchanged() && now_.prm && now_.prm->master == exchange.request->telegram.sa) {
