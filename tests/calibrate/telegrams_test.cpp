@@ -95,7 +95,7 @@ TEST(CalibrateTelegrams, RequestsWithDataToSapsThatAreAlwaysServedAreRr) {
 
 TEST(CalibrateTelegrams, OnlyGetCfgMayHaveNothingToSend) {
   const auto judged = [](std::uint8_t sap, const Telegram& answered) {
-    return verdict(srd(sap), answered, "S13", "Slave_Diag is always");
+    return verdict(srd(sap), answered, "S13", "Slave_Diag is answered");
   };
   EXPECT_EQ(judged(sap::kGetCfg, sap_answer(sap::kGetCfg, {0x11})), Verdict::kConfirmed);
   EXPECT_EQ(judged(sap::kGetCfg, bus::make_sc()), Verdict::kConfirmed);

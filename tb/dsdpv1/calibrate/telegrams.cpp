@@ -72,7 +72,7 @@ const std::vector<Rule> kRules = {
     {{"S13", "SAP 56 answers requests with data RR, or RS", line()},
      [](const Asked& a) { return a.is_srd() && !a.request.data.empty() && a.to(sap::kReadInputs); },
      [](const Asked& a) { return a.refused() || a.no_resource(); }},
-    {{"S13", "Slave_Diag is always answered with data, Get_Cfg with data or, without modules, SC", line()},
+    {{"S13", "Slave_Diag is answered with data, Get_Cfg with data or, without modules, SC", line()},
      [](const Asked& a) {
        return a.is_srd() && a.request.data.empty() && (a.to(sap::kSlaveDiag) || a.to(sap::kGetCfg));
      },
