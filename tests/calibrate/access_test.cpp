@@ -106,6 +106,41 @@ TEST(CalibrateReady, WithoutResetCountsFromAStartUpThatDidNotWaitForTheUser) {
   EXPECT_EQ(parameter(at_once.judged(8'000), "ready_cycles").verdict, Verdict::kConfirmed);
 }
 
+/// The user has the DPRAM from 6'010 to 7'000 and reads B004 as C5.
+MadeAccesses with_valid_flag_read() {
+  MadeAccesses made = with_start_up(102);
+  hold_until(40, made);
+  made.show_host_port();
+  made.high(Wire::kRReq, 6'000, 7'000);
+  made.high(Wire::kRSta, 6'010, 7'000);
+  made.read(6'100, 0x004, 0xC5);
+  return made;
+}
+
+TEST(CalibrateReady, IsNotWhatTheUserHasWrittenThere) {
+  MadeAccesses made = with_valid_flag_read();
+  made.write(6'200, 0x004, 0x00);
+  made.read(6'300, 0x004, 0x00);
+  const calibrate::ParameterResult found = parameter(made.judged(8'000), "ready_cycles");
+  EXPECT_EQ(found.verdict, Verdict::kConfirmed) << found.words;
+}
+
+TEST(CalibrateReady, IsNotWhatIsReadWithoutTheDpram) {
+  MadeAccesses made = with_valid_flag_read();
+  made.read(7'100, 0x004, 0x00);
+  const calibrate::ParameterResult found = parameter(made.judged(8'000), "ready_cycles");
+  EXPECT_EQ(found.verdict, Verdict::kConfirmed) << found.words;
+}
+
+TEST(CalibrateReady, OfReadsThatExcludeEachOtherIsNotShown) {
+  MadeAccesses made = with_valid_flag_read();
+  made.accesses(7'003, 7'100);
+  made.high(Wire::kRReq, 7'110, 8'000);
+  made.high(Wire::kRSta, 7'120, 8'000);
+  made.read(7'200, 0x004, 0x00);
+  EXPECT_EQ(parameter(made.judged(9'000), "ready_cycles").verdict, Verdict::kNotShown);
+}
+
 TEST(CalibrateHandshake, ChipThatStartsMoreThanTwoCyclesAfterTheRequestIsAgainstH2) {
   for (const double late : {1.9, 2.5}) {
     MadeAccesses made;

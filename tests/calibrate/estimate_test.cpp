@@ -48,6 +48,16 @@ TEST(CalibrateEstimate, OfNothingIsNothing) {
   EXPECT_FALSE(estimate({}).whole());
 }
 
+TEST(CalibrateEstimate, LeavesOutWhatNoNumberLiesIn) {
+  const Instance none{0, {9, 8}, 8.5};
+  EXPECT_EQ(estimate({none}).count, 0U);
+  const Estimate result = estimate({none, seen(4, 1), none, seen(4.5, 1)});
+  EXPECT_EQ(result.count, 2U);
+  EXPECT_DOUBLE_EQ(result.span.lo, 3.5);
+  EXPECT_DOUBLE_EQ(result.span.hi, 5);
+  EXPECT_TRUE(result.outliers.empty());
+}
+
 TEST(CalibrateTimeBase, ScalesBothEndsAwayFromEachOther) {
   TimeBase time;
   time.period = 1;

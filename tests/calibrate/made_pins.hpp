@@ -61,14 +61,26 @@ class MadePins {
   void write(double at, unsigned address, unsigned data) { user(at, true, address, data); }
 
   calibrate::Result judged(double end) {
-    record_.end = tick(end);
     calibrate::Sampling sampling;
     sampling.rate = static_cast<double>(bus::kTicksPerSecond);
     sampling.jitter_ns = sampling.clock_ppm = 0;
-    return calibrate::calibrate("made", record_, sampling, {});
+    return judged(end, sampling);
+  }
+  /// ... of an analyser's samples: each edge shows at the next one. `rate` a second, a divisor of 12 GHz.
+  calibrate::Result sampled(double end, double rate) {
+    const auto period = static_cast<bus::Tick>(static_cast<double>(bus::kTicksPerSecond) / rate);
+    for (calibrate::Trace& own : record_.traces)
+      for (bus::Tick& edge : own.edges) edge = (edge + period - 1) / period * period;
+    calibrate::Sampling sampling;
+    sampling.rate = rate;
+    return judged(end, sampling);
   }
 
  private:
+  calibrate::Result judged(double end, const calibrate::Sampling& sampling) {
+    record_.end = tick(end);
+    return calibrate::calibrate("made", record_, sampling, {});
+  }
   static Wire bit(Wire first, std::size_t number) {
     return static_cast<Wire>(static_cast<std::size_t>(first) + number);
   }

@@ -147,6 +147,61 @@ TEST(CalibrateRead, OfABlockShowsItsCrc) {
   }
 }
 
+/// Outputs of one byte whose CRC is not right.
+void read_wrong_outputs(MadeHold& made, int at) {
+  made.read(at, 0x319, 0x01);
+  made.read(at + 20, 0x31A, 0x07);
+  made.read(at + 40, 0x40E, 0xAA);
+  made.read(at + 60, 0x40F, 0xAA);
+}
+
+/// The chip has the DPRAM, then again the user: from `at` + 120 to `at` + 1'000.
+void hold_again(MadeHold& made, int at) {
+  made.accesses(at + 3, at + 100);
+  made.high(Wire::kRReq, at + 110, at + 1'000);
+  made.high(Wire::kRSta, at + 120, at + 1'000);
+}
+
+TEST(CalibrateRead, OfABlockThatTheUserHasWrittenShowsNoCrc) {
+  for (const unsigned written : {0x319U, 0x31AU, 0x40FU}) {
+    MadeHold made;
+    made.write(500, written, 0xAA);
+    hold_again(made, 2'000);
+    read_wrong_outputs(made, 2'200);
+    EXPECT_THAT(contradicted(made.judged(4'000)), IsEmpty()) << written;
+  }
+}
+
+TEST(CalibrateRead, OfABlockThatTheChipHasWrittenSinceShowsItsCrc) {
+  for (const unsigned news : {0x00U, 0x01U, 0x02U}) {
+    MadeHold made;  // clears the RAM and with it B00E, or only the block
+    made.write(500, 0x00E, 0x00);
+    made.write(520, 0x31A, 0x00);
+    hold_again(made, 2'000);
+    made.read(2'180, 0x00E, news);
+    read_wrong_outputs(made, 2'200);
+    EXPECT_EQ(claim(made.judged(4'000), "D2", "").tally.fails, news == 0x01 ? 1U : 0U) << news;
+  }
+  MadeHold unread;  // the bit stood already
+  unread.write(500, 0x00E, 0x01);
+  unread.write(520, 0x31A, 0x00);
+  hold_again(unread, 2'000);
+  unread.read(2'180, 0x00E, 0x01);
+  read_wrong_outputs(unread, 2'200);
+  EXPECT_THAT(contradicted(unread.judged(4'000)), IsEmpty());
+}
+
+TEST(CalibrateRead, AfterAStartUpIsOfTheChipAgain) {
+  MadeHold made;
+  made.show({Wire::kReset}, true);
+  made.write(500, 0x001, 0x00);
+  made.low(Wire::kReset, 2'500, 2'600);
+  made.access(2'602.5, 2'054);
+  hold_again(made, 5'000);
+  made.read(5'200, 0x001, 0x00);
+  EXPECT_EQ(claim(made.judged(7'000), "D1", "").tally.fails, 1U);
+}
+
 TEST(CalibrateFlags, ThatAreReservedStayAsTheUserSetThem) {
   for (const unsigned read : {0x38U, 0x39U}) {
     MadeHold made;

@@ -167,6 +167,7 @@ Result calibrate(const std::string& file, const Record& record, const Sampling& 
   fill(scene);
   Found& found = result.found;
   measure_clock(scene, sampling.clock_ppm, found);
+  find_resets(scene);
   measure_access(scene, found);
   measure_ready(scene, found);
   measure_interrupt(scene, found);

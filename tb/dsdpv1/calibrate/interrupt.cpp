@@ -19,7 +19,7 @@ std::vector<Pulse> pulses_of(const Scene& scene) {
   std::vector<Pulse> pulses;
   const Trace& trace = scene.record[Wire::kIntr0];
   for (std::size_t edge = trace.next(0, false); edge + 1 < trace.edges.size(); edge += 2)
-    if (!scene.in_reset(trace.edges[edge], trace.edges[edge + 1]))
+    if (!scene.in_reset(trace.edges[edge], trace.edges[edge + 1] + scene.time.margin()))  // not cut by one
       pulses.push_back({trace.edges[edge], trace.edges[edge + 1]});
   return pulses;
 }

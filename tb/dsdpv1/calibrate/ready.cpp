@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "tb/dsdpv1/calibrate/found.hpp"
+#include "tb/dsdpv1/calibrate/reads.hpp"
 
 namespace calibrate {
 namespace {
@@ -40,14 +41,16 @@ class SinceRelease {
   Span behind_;  ///< R is so many cycles behind it
 };
 
-/// The access that has written B004 by what the user has read.
+/// The access that has written B004 by what the user has read, as long as it has not written there itself (P6).
 void bound_by_reads(const Scene& scene, std::size_t start_up, std::size_t until, const SinceRelease& since,
                     Span& bound) {
   constexpr std::uint32_t kB004 = 4;
-  const Tick from = scene.accesses[start_up].end,
+  const Tick from = scene.accesses[start_up].start,
              to = until < scene.accesses.size() ? scene.accesses[until].start : bus::kNever;
   for (const UserAccess& access : scene.user) {
-    if (access.write || access.address != kB004 || access.start < from || access.start > to) continue;
+    if (access.address != kB004 || access.end < from || access.start > to) continue;
+    if (access.write) return;
+    if (!is_known(scene, access)) continue;
     std::size_t before = start_up;
     while (before + 1 < scene.accesses.size() && scene.accesses[before + 1].start < access.start) ++before;
     if (before == start_up) continue;

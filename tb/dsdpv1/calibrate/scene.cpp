@@ -213,26 +213,6 @@ bool Scene::user_lets(Tick from, Tick to) const {
          (!record.sees(Wire::kRSta) || record[Wire::kRSta].low(from, to));
 }
 
-bool Scene::in_reset(Tick from, Tick to) const {
-  return record.sees(Wire::kReset) && !record[Wire::kReset].high(from, to);
-}
-
-bool Scene::may_reset(Tick at) const {
-  const Tick about = time.margin();
-  if (record.sees(Wire::kReset)) return in_reset(at - about, at);
-  const Trace& ready = record[Wire::kReady];
-  if (const std::size_t fall = ready.next(at - about, false); fall != Trace::kNone && ready.edges[fall] <= at + about)
-    return true;
-  const auto next = std::upper_bound(accesses.begin(), accesses.end(), at - about,
-                                     [](Tick when, const ChipAccess& access) { return when < access.start; });
-  return next != accesses.end() && is_start_up(*next);
-}
-
-bool Scene::is_start_up(const ChipAccess& access) const {
-  constexpr double kLonger = 1500;  // cycles
-  return time.between(access.start, access.end).hi > kLonger;
-}
-
 void fill(Scene& scene) {
   if (scene.record.sees(Wire::kPbrxd)) scene.received = telegrams_received(scene.record[Wire::kPbrxd], scene.time);
   if (scene.record.sees(Wire::kPbtxd))

@@ -6,6 +6,7 @@
 
 #include "registers/dsdpv1_regs.hpp"
 #include "tb/dsdpv1/calibrate/found.hpp"
+#include "tb/dsdpv1/calibrate/reads.hpp"
 
 namespace calibrate {
 namespace {
@@ -34,10 +35,14 @@ constexpr std::uint8_t kFlags = dsdpv1::regs::kUserCommand1Input | dsdpv1::regs:
 /// A block that the chip writes: its length byte stands last of the header.
 struct Area {
   std::uint32_t first, header, crc;
+  std::uint8_t news;  ///< the bit of B00E that says that it was written
   const char* what;
+
+  bool has(std::uint32_t address) const { return address >= first && address <= crc + 1; }
 };
-constexpr std::array<Area, 3> kAreas = {
-    {{0x319, 1, 0x40E, "outputs"}, {0x410, 1, 0x4FE, "parameters"}, {0x500, 3, 0x5CB, "configuration"}}};
+constexpr std::array<Area, 3> kAreas = {{{0x319, 1, 0x40E, dsdpv1::regs::kChipCommand1Output, "outputs"},
+                                         {0x410, 1, 0x4FE, dsdpv1::regs::kChipCommand1Prm, "parameters"},
+                                         {0x500, 3, 0x5CB, dsdpv1::regs::kChipCommand1Cfg, "configuration"}}};
 
 class UserJudge {
  public:
@@ -57,10 +62,14 @@ class UserJudge {
   /// Whether the chip had the DPRAM since the access before.
   bool chip_came_before(const UserAccess& access) {
     bool came = false;
-    for (; next_ < scene_.accesses.size() && scene_.accesses[next_].start < access.end; ++next_) came = true;
+    for (; next_ < scene_.accesses.size() && scene_.accesses[next_].start < access.end; ++next_) {
+      came = true;
+      if (scene_.is_start_up(scene_.accesses[next_])) users_.clear();  // H6: all is the chip's again
+    }
     return came;
   }
   void new_hold() {
+    ++hold_;
     written_.clear();
     read_.clear();
     flags_before_ |= flags_now_;
@@ -68,13 +77,13 @@ class UserJudge {
   }
   void write(const UserAccess& access) {
     written_[access.address] = access.data;
-    written_at_[access.address] = access.end;
+    users_[access.address] = {hold_, access.data};
     read_.erase(access.address);
     if (access.address == dsdpv1::regs::kUserCommand1) flags_now_ = access.data & kFlags, flags_before_ = 0;
   }
   void read(const UserAccess& access) {
     read_.erase(access.address);
-    if (!is_known(access)) return;
+    if (!is_known(scene_, access)) return;
     judge_data(access);
     judge_version(access);
     if (const auto found = written_.find(access.address); found != written_.end() && scene_.record.sees(Wire::kLReq))
@@ -84,37 +93,27 @@ class UserJudge {
       flags_before_ = 0;
     }
     read_[access.address] = access.data;
+    if (access.address == dsdpv1::regs::kChipCommand1) find_written(access.data);
     for (const Area& area : kAreas)
-      if (access.address == area.crc + 1) judge_crc(area, access);
+      if (access.address == area.crc + 1 && !is_users(area)) judge_crc(area, access);
   }
 
-  /// Whether the rulings say what it brings: it has the DPRAM (P12), which a reset takes (P10, H6), and no write of the
-  /// same cell is on its way (P8). What is not in the capture is taken to be right.
-  bool is_known(const UserAccess& access) const {
-    return !in_reset(access) && !before_start_up(access) && has_dpram(access) && !in_flight(access);
+  /// A bit that the user had written as 0 in an earlier hold: since then the chip has written this block.
+  void find_written(std::uint8_t news) {
+    const auto cleared = users_.find(dsdpv1::regs::kChipCommand1);
+    if (cleared == users_.end()) return;
+    for (const Area& area : kAreas) {
+      const bool came = (news & area.news) != 0 && (cleared->second.data & area.news) == 0;
+      if (!came || cleared->second.hold == hold_) continue;
+      const std::size_t before = cleared->second.hold;
+      for (auto cell = users_.lower_bound(area.first); cell != users_.end() && area.has(cell->first);)
+        cell = cell->second.hold <= before ? users_.erase(cell) : std::next(cell);
+    }
   }
-  bool in_reset(const UserAccess& access) const {
-    return scene_.in_reset(access.start - scene_.time.ticks(3) - scene_.time.margin(), access.end);
-  }
-  bool before_start_up(const UserAccess& access) const {
-    const Trace& reset = scene_.record[Wire::kReset];
-    const std::size_t rose = reset.last(access.start, true);
-    if (rose == Trace::kNone || !scene_.record.sees(Wire::kLReq)) return false;
-    return next_ == 0 || scene_.accesses[next_ - 1].start < reset.edges[rose];
-  }
-  bool has_dpram(const UserAccess& access) const {
-    const auto is = [this](Wire wire, bool level, Tick from, Tick to) {
-      const Trace& trace = scene_.record[wire];
-      return !trace.seen || (level ? trace.high(from, to) : trace.low(from, to));
-    };
-    const Tick from = access.start - scene_.time.margin(), to = access.start + scene_.time.margin();
-    return is(Wire::kRReq, true, access.start, access.end) && is(Wire::kRSta, true, access.start, access.end) &&
-           is(Wire::kLReq, false, from, to) && is(Wire::kLSta, false, from, to);
-  }
-  /// A write takes effect at the third edge of CLK after WR rose, a read samples at the first.
-  bool in_flight(const UserAccess& access) const {
-    const auto write = written_at_.find(access.address);
-    return write != written_at_.end() && scene_.time.between(write->second, access.start).lo < 3;
+  /// P6: something in it is the user's, or may be.
+  bool is_users(const Area& area) const {
+    const auto cell = users_.lower_bound(area.first);
+    return cell != users_.end() && area.has(cell->first);
   }
 
   void check(const Claim& claim, const UserAccess& access, unsigned right) {
@@ -127,7 +126,7 @@ class UserJudge {
   void judge_version(const UserAccess& access) {
     constexpr std::array<unsigned, 4> kVersion4 = {0x01, 0x0D, 0x07, 0x01};
     constexpr unsigned kValid = 0xC5;
-    if (written_at_.count(access.address) != 0) return;  // P6: it holds that until the chip rewrites it
+    if (users_.count(access.address) != 0) return;  // P6: it holds that until the chip rewrites it
     if (access.address < kVersion4.size()) check(kVersion, access, kVersion4.at(access.address));
     if (access.address == dsdpv1::regs::kValidFlag && access.data != 0) check(kVersion, access, kValid);
   }
@@ -166,11 +165,17 @@ class UserJudge {
                          fmt::format("the CRC of the {} is {:04X}, {:04X} is right", area.what, seen, right));
   }
 
+  struct Written {
+    std::size_t hold = 0;
+    std::uint8_t data = 0;
+  };
+
   const Scene& scene_;
   Found& found_;
   std::size_t next_ = 0;                                  ///< the chip's access that is looked at
   std::map<std::uint32_t, std::uint8_t> written_, read_;  ///< in this hold
-  std::map<std::uint32_t, Tick> written_at_;              ///< by the user, the last time
+  std::map<std::uint32_t, Written> users_;                ///< cells that the user has written, the last time
+  std::size_t hold_ = 0;                                  ///< a number for each
   std::uint8_t flags_now_ = 0, flags_before_ = 0;
 };
 

@@ -48,7 +48,7 @@ void judge_watchdog(const Scene& scene, Found& found) {
   for (std::size_t edge = pbf.next(0, true); edge < pbf.edges.size(); edge += 2) {
     const Tick at = pbf.edges[edge];
     const auto& prm = supervision.before(at).prm;  // in force, since PBF was low
-    if (scene.may_reset(at) || !prm || !prm->heard || prm->watchdog == 0) continue;
+    if (scene.in_reset(at - scene.time.margin(), at) || !prm || !prm->heard || prm->watchdog == 0) continue;
     const Span passed = since(scene, *prm->heard, at);
     const bool late = passed.lo > prm->watchdog, early = passed.lo > prm->watchdog / 2 && !ended_otherwise(scene, at);
     if (passed.contains(prm->watchdog))
@@ -122,7 +122,7 @@ Falls falls_of(const Scene& scene) {
   const Trace& br = scene.record[Wire::kBr];
   for (std::size_t edge = br.next(0, false); edge < br.edges.size(); edge += 2) {
     const Tick at = br.edges[edge];
-    if (scene.may_reset(at)) continue;
+    if (scene.in_reset(at - scene.time.margin(), at)) continue;
     const Supervised& before = supervision.before(at);
     if (before.state == Supervised::State::kUnknown) {
       falls.unknown = true;
