@@ -43,6 +43,18 @@ TEST(CalibrateAnswers, WithoutBrAnUnansweredRequestMayHaveFollowedAnInitialisati
   EXPECT_EQ(contradicted(capture.judge()), "");
 }
 
+TEST(CalibrateAnswers, AreReadAtEachRateWithAnotherClock) {
+  for (int baud = 0; baud < bus::kBaudCount; ++baud)
+    for (const double ppm : {-900.0, 100.0, 900.0}) {
+      MadeCapture capture(baud);
+      exchange_data(capture, 3);
+      capture.stretch(ppm);
+      const calibrate::Result result = capture.judge();
+      EXPECT_EQ(contradicted(result), "") << baud << ", " << ppm;
+      EXPECT_EQ(claim(result, "S3", "nobody asked").tally.holds, 3U) << baud << ", " << ppm;
+    }
+}
+
 // --- the capture begins in a bus cycle ------------------------------------------------------------------------------
 
 /// Captures of a bus that begin one bit after the other in a cycle of it.

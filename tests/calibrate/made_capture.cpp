@@ -112,6 +112,13 @@ void MadeCapture::find_rate() {
   set(Wire::kBr, true);
 }
 
+void MadeCapture::stretch(double ppm) {
+  const auto stretched = [&](Tick at) { return at + static_cast<Tick>(static_cast<double>(at) * ppm * 1e-6); };
+  for (calibrate::Trace& trace : record_.traces)
+    for (Tick& edge : trace.edges) edge = stretched(edge);
+  now_ = stretched(now_);
+}
+
 void MadeCapture::begin_at(Tick at) {
   for (calibrate::Trace& trace : record_.traces) {
     trace.first = trace.at(at);

@@ -70,6 +70,8 @@ class MadeCapture {
   /// 12 bits behind the last start bit and 3 to 4 cycles: now() is there; to be called at the end of a request.
   void decide() { wait_bits(1), wait_cycles(3.5); }
 
+  /// The capture's clock is fast by so much.
+  void stretch(double ppm);
   /// The capture begins there: what was before it is not in it.
   void begin_at(Tick at);
   calibrate::Result judge();

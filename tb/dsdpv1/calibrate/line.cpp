@@ -104,7 +104,7 @@ class LineReader {
   int character(std::size_t edge, int baud) const {
     const auto bit = static_cast<double>(bus::baud(baud).bit);
     const Tick start = trace_.edges[edge];
-    double best = most_spread();
+    double best = most_spread(bit);
     int found = -1;
     for (const double place : kPlaces) {
       unsigned bits = 0;
@@ -120,15 +120,19 @@ class LineReader {
     return found;
   }
 
-  /// Edges of a right character are late by the same, but for the sampling and jitter; ticks, with some room.
-  double most_spread() const { return (time_.doubt() + 1) * static_cast<double>(bus::kTicksPerCycle); }
+  /// Edges of a right character are late by the same, but for the sampling, jitter and the sender's clock; ticks, with
+  /// some room.
+  double most_spread(double bit) const {
+    constexpr double kClock = 0.002;
+    return (time_.doubt() + 1) * static_cast<double>(bus::kTicksPerCycle) + kClock * bus::kCharacterBits * bit;
+  }
   /// From the edge that is least late to the one that is most, when the character has these bits; ticks.
   double spread_of(std::size_t edge, unsigned bits, double bit) const {
     double least = 0, most = 0;
     const Tick start = trace_.edges[edge];
     for (unsigned i = 1; i < bus::kCharacterBits; ++i) {
       if ((bits >> i & 1U) == (bits >> (i - 1) & 1U)) continue;
-      if (++edge >= trace_.edges.size()) return most_spread();
+      if (++edge >= trace_.edges.size()) return most_spread(bit);
       const double late = static_cast<double>(trace_.edges[edge] - start) - i * bit;
       least = std::min(least, late);
       most = std::max(most, late);
