@@ -55,6 +55,20 @@ TEST(CalibrateAnswers, AreReadAtEachRateWithAnotherClock) {
     }
 }
 
+/// Two samples a bit, which fall on the edges of the answers, or of the requests.
+TEST(CalibrateAnswers, AreReadWhereTheEdgesAreOnTheSamples) {
+  for (const double late : {1.5, 2.0}) {
+    MadeCapture capture(k12M);
+    capture.wait_cycles(late);
+    for (unsigned i = 0; i < 3000; ++i) {
+      capture.exchange(data_exchange({1, 2, 3, 4, 5, 6, 7, 8}), data_answer({1, 2, 3, 4, 5, 6, 7, 8}));
+      capture.wait_cycles(1.5 + (i % 2 == 0 ? 0 : 2));  // on the grid of the samples again
+    }
+    capture.jitter(bus::kTicksPerNs);
+    EXPECT_EQ(contradicted(capture.judge_sampled(24e6)), "") << late;
+  }
+}
+
 // --- the capture begins in a bus cycle ------------------------------------------------------------------------------
 
 /// Captures of a bus that begin one bit after the other in a cycle of it.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "bus/wire/uart.hpp"
 
 namespace calibrate_test {
@@ -117,6 +119,12 @@ void MadeCapture::stretch(double ppm) {
   for (calibrate::Trace& trace : record_.traces)
     for (Tick& edge : trace.edges) edge = stretched(edge);
   now_ = stretched(now_);
+}
+
+void MadeCapture::jitter(Tick most) {
+  std::minstd_rand chance(1);
+  for (calibrate::Trace& trace : record_.traces)
+    for (Tick& edge : trace.edges) edge += static_cast<Tick>(chance() % (2 * static_cast<unsigned>(most) + 1)) - most;
 }
 
 void MadeCapture::begin_at(Tick at) {

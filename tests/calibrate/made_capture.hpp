@@ -72,6 +72,8 @@ class MadeCapture {
 
   /// The capture's clock is fast by so much.
   void stretch(double ppm);
+  /// Edges are up to so much early or late.
+  void jitter(Tick most);
   /// The capture begins there: what was before it is not in it.
   void begin_at(Tick at);
   calibrate::Result judge();
