@@ -13,6 +13,7 @@ struct Exchange {
   const LineTelegram* answer = nullptr;  ///< nullptr: none
   std::optional<Span> idle = {};         ///< bit times of silence on PBRXD and PBTXD before it; nothing: not known
   bool repeats = false;                  ///< the chip may answer it from memory (S26)
+  bool same = false;                     ///< repeats, and what was answered before it was read: the same frame
 
   /// A right request to the station alone: data exchanges and other SRD, FDL status, SDN ...
   bool is_request() const {
