@@ -235,6 +235,17 @@ TEST(CalibrateRead, AfterAStartUpIsOfTheChipAgain) {
   EXPECT_EQ(claim(made.judged(7'000), "D1", "").tally.fails, 1U);
 }
 
+TEST(CalibrateRead, OfB004AsNotValidAfterItWasIsAgainstD1) {
+  for (const bool reset : {true, false}) {
+    MadeHold made;
+    made.read(500, 0x004, 0xC5);
+    if (reset) made.access(2'602.5, 2'054);
+    hold_again(made, 5'000);
+    made.read(5'200, 0x004, 0x00);
+    EXPECT_EQ(claim(made.judged(7'000), "D1", "").tally.fails, reset ? 0U : 1U) << reset;
+  }
+}
+
 TEST(CalibrateFlags, ThatAreReservedStayAsTheUserSetThem) {
   for (const unsigned read : {0x38U, 0x39U}) {
     MadeHold made;

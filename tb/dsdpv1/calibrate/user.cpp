@@ -64,7 +64,7 @@ class UserJudge {
     bool came = false;
     for (; next_ < scene_.accesses.size() && scene_.accesses[next_].start < access.end; ++next_) {
       came = true;
-      if (scene_.is_start_up(scene_.accesses[next_])) users_.clear();  // H6: all is the chip's again
+      if (scene_.is_start_up(scene_.accesses[next_])) users_.clear(), valid_ = false;  // H6: all is the chip's again
     }
     return came;
   }
@@ -143,7 +143,9 @@ class UserJudge {
     constexpr unsigned kValid = 0xC5;
     if (users_.count(access.address) != 0) return;  // P6: it holds that until the chip rewrites it
     if (access.address < kVersion4.size()) check(kVersion, access, kVersion4.at(access.address));
-    if (access.address == dsdpv1::regs::kValidFlag && access.data != 0) check(kVersion, access, kValid);
+    if (access.address != dsdpv1::regs::kValidFlag) return;
+    if (access.data != 0 || (valid_ && scene_.record.sees(Wire::kLReq))) check(kVersion, access, kValid);
+    valid_ = valid_ || access.data == kValid;
   }
   /// No wire of D changes between 1.5 cycles behind RD's fall and its rise.
   void judge_data(const Standing& standing) {
@@ -189,6 +191,7 @@ class UserJudge {
   std::map<std::uint32_t, std::uint8_t> written_, read_;  ///< in this hold
   std::map<std::uint32_t, Written> users_;                ///< cells that the user has written, the last time
   std::size_t hold_ = 0;                                  ///< a number for each
+  bool valid_ = false;                                    ///< B004 was C5
   std::uint8_t flags_now_ = 0, flags_before_ = 0;
 };
 
