@@ -241,9 +241,10 @@ calibrate::Result silent(double ms) {
 
 TEST(CalibrateWatchdog, ABrThatNeverFallsIsContradicted) {
   EXPECT_EQ(parameter(silent(599), "baud_control_ms").verdict, Verdict::kNotShown);
-  const calibrate::Result never = silent(5000);
+  const calibrate::Result never = silent(5000.2);
   EXPECT_EQ(parameter(never, "baud_control_ms").verdict, Verdict::kContradicted);
-  EXPECT_EQ(parameter(never, "baud_control_ms").words, "at least 5000");
+  EXPECT_EQ(parameter(never, "baud_control_ms").words, "at least 5001");
+  EXPECT_EQ(parameter(never, "baud_control_ms").chosen, 5001);
 }
 
 TEST(CalibrateWatchdog, ABrThatFallsSometimesIsContradicted) {
