@@ -66,15 +66,16 @@ TimingDiagram take() {
       pins({Pin::kRReq, Pin::kRSta, Pin::kLReq, Pin::kLSta, Pin::kCsr, Pin::kRd, Pin::kWr})};
 }
 
-/// Figure 5: the first of the two that falls ends the ownership.
+/// Figure 5: the first of the two that falls ends the ownership; H1: the release is complete with the later.
 TimingDiagram give_back() {
+  const Edges complete = {only(fall(Pin::kRSta), Pin::kRReq, 0), only(fall(Pin::kRReq), Pin::kRSta, 0)};
   return {
       "give_back",
       "The user gives the DPRAM back",
       "The last access ends, R_STA and R_REQ fall, the chip comes (5.1, figure 5).",
       {only(fall(Pin::kRSta), Pin::kRReq, 1), only(fall(Pin::kRReq), Pin::kRSta, 1)},
       {{"last access to release", before(either(end(Pin::kRd), end(Pin::kWr))), here(), "OWNERSHIP_RELEASED_IN_ACCESS"},
-       {"release to the chip's request", here(), after({rise(Pin::kLReq)})}},
+       {"both low to the chip's request", after(complete), after({rise(Pin::kLReq)})}},
       20 * bus::kTicksPerUs,
       pins({Pin::kRReq, Pin::kRSta, Pin::kLReq, Pin::kLSta, Pin::kCsr, Pin::kRd, Pin::kWr})};
 }

@@ -14,6 +14,8 @@ constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40;  // in its first byte, tabl
 
 void MinTsdr::take(const bus::Telegram& request, const RecordedTelegram* answer) {
   if (is_service(request, bus::sap::kSetPrm)) return set_prm(request, answer);
+  const bus::Bytes* diagnosis = diagnosis_of(request, answer);
+  if (diagnosis != nullptr && ((*diagnosis)[1] & kPrmReq) != 0) possible_.insert(bus::kMinTsdrBits);  // it may be new
   if (!asked_ || !exchanged(request, answer)) return;
   possible_ = {*asked_};  // who exchanges data has accepted the last Set_Prm
   asked_.reset();

@@ -10,7 +10,11 @@ constexpr std::uint8_t kCfgFault = 0x04, kExtDiag = 0x08;
 constexpr std::uint8_t kPrmReq = 0x01, kStatDiag = 0x02, kWatchdogOn = 0x08;
 constexpr std::size_t kDiagHead = 6;  ///< bytes before those of the user
 
-inline bool is_service(const bus::Telegram& request, std::uint8_t dsap) { return request.dsap == dsap; }
+/// SRD to this SAP; SDA to it is refused, and SDN not answered (S20).
+inline bool is_service(const bus::Telegram& request, std::uint8_t dsap) {
+  const std::uint8_t function = request.function();
+  return request.dsap == dsap && (function == bus::fc::kSrdLow || function == bus::fc::kSrdHigh);
+}
 
 inline bool is_data_exchange(const bus::Telegram& request) {
   return !request.dsap && bus::explain_service(request) == "Data_Exchange";

@@ -106,6 +106,66 @@ TEST(CalibrateReady, WithoutResetCountsFromAStartUpThatDidNotWaitForTheUser) {
   EXPECT_EQ(parameter(at_once.judged(8'000), "ready_cycles").verdict, Verdict::kConfirmed);
 }
 
+/// The user has the DPRAM from 6'010 to 7'000 and reads B004 as C5.
+MadeAccesses with_valid_flag_read() {
+  MadeAccesses made = with_start_up(102);
+  hold_until(40, made);
+  made.show_host_port();
+  made.high(Wire::kRReq, 6'000, 7'000);
+  made.high(Wire::kRSta, 6'010, 7'000);
+  made.read(6'100, 0x004, 0xC5);
+  return made;
+}
+
+TEST(CalibrateReady, IsNotWhatTheUserHasWrittenThere) {
+  MadeAccesses made = with_valid_flag_read();
+  made.write(6'200, 0x004, 0x00);
+  made.read(6'300, 0x004, 0x00);
+  const calibrate::ParameterResult found = parameter(made.judged(8'000), "ready_cycles");
+  EXPECT_EQ(found.verdict, Verdict::kConfirmed) << found.words;
+}
+
+TEST(CalibrateReady, IsNotWhatIsReadWithoutTheDpram) {
+  MadeAccesses made = with_valid_flag_read();
+  made.read(7'100, 0x004, 0x00);
+  const calibrate::ParameterResult found = parameter(made.judged(8'000), "ready_cycles");
+  EXPECT_EQ(found.verdict, Verdict::kConfirmed) << found.words;
+}
+
+TEST(CalibrateReady, OfReadsThatExcludeEachOtherIsNotShown) {
+  MadeAccesses made = with_valid_flag_read();
+  made.accesses(7'003, 7'100);
+  made.high(Wire::kRReq, 7'110, 8'000);
+  made.high(Wire::kRSta, 7'120, 8'000);
+  made.read(7'200, 0x004, 0x00);
+  EXPECT_EQ(parameter(made.judged(9'000), "ready_cycles").verdict, Verdict::kNotShown);
+}
+
+TEST(CalibrateAccess, ThatMayLieBetweenTwoSamplesShowsNothing) {
+  for (const double rate : {6e6, 4e6, 2e6}) {
+    MadeAccesses made;
+    made.show({Wire::kRReq, Wire::kRSta});
+    made.show({Wire::kIntr0}, true);
+    for (int i = 0; i < 2'000; ++i) made.access(100 + 48.003 * i, 7);
+    made.low(Wire::kIntr0, 105, 169);
+    made.low(Wire::kIntr0, 48'108, 48'172);
+    const calibrate::Result result = made.sampled(97'000, rate);
+    EXPECT_THAT(contradicted(result), IsEmpty()) << rate;
+    EXPECT_EQ(parameter(result, "access_interval").verdict, Verdict::kNotShown) << rate;
+  }
+}
+
+TEST(CalibrateAccess, InAReleaseThatLiesBetweenTwoSamplesIsNotAgainstH1) {
+  MadeAccesses made;
+  made.show({Wire::kRReq, Wire::kRSta});
+  made.accesses(100, 1'000);
+  made.high(Wire::kRReq, 1'000, 2'000.5);
+  made.high(Wire::kRReq, 2'003.9, 2'500);  // 70 ns
+  made.access(2'003, 7);
+  made.access(2'503, 7);
+  EXPECT_THAT(contradicted(made.sampled(2'520, 12e6)), IsEmpty());
+}
+
 TEST(CalibrateHandshake, ChipThatStartsMoreThanTwoCyclesAfterTheRequestIsAgainstH2) {
   for (const double late : {1.9, 2.5}) {
     MadeAccesses made;

@@ -1,6 +1,8 @@
 // P2, S2, S3, S10: answers and the idle time before requests, in captures made for it.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "made_capture.hpp"
 
 namespace {
@@ -41,6 +43,75 @@ TEST(CalibrateAnswers, WithoutBrAnUnansweredRequestMayHaveFollowedAnInitialisati
   EXPECT_EQ(contradicted(capture.judge()), "");
 }
 
+TEST(CalibrateAnswers, AreReadAtEachRateWithAnotherClock) {
+  for (int baud = 0; baud < bus::kBaudCount; ++baud)
+    for (const double ppm : {-900.0, 100.0, 900.0}) {
+      MadeCapture capture(baud);
+      exchange_data(capture, 3);
+      capture.stretch(ppm);
+      const calibrate::Result result = capture.judge();
+      EXPECT_EQ(contradicted(result), "") << baud << ", " << ppm;
+      EXPECT_EQ(claim(result, "S3", "nobody asked").tally.holds, 3U) << baud << ", " << ppm;
+    }
+}
+
+/// Two samples a bit, which fall on the edges of the answers, or of the requests.
+TEST(CalibrateAnswers, AreReadWhereTheEdgesAreOnTheSamples) {
+  for (const double late : {1.5, 2.0}) {
+    MadeCapture capture(k12M);
+    capture.wait_cycles(late);
+    for (unsigned i = 0; i < 3000; ++i) {
+      capture.exchange(data_exchange({1, 2, 3, 4, 5, 6, 7, 8}), data_answer({1, 2, 3, 4, 5, 6, 7, 8}));
+      capture.wait_cycles(1.5 + (i % 2 == 0 ? 0 : 2));  // on the grid of the samples again
+    }
+    capture.jitter(bus::kTicksPerNs);
+    EXPECT_EQ(contradicted(capture.judge_sampled(24e6)), "") << late;
+  }
+}
+
+// --- the capture begins in a bus cycle ------------------------------------------------------------------------------
+
+/// Captures of a bus that begin one bit after the other in a cycle of it.
+void expect_right_from_anywhere(int baud, double tsdr, const std::function<calibrate::Result(MadeCapture&)>& judge) {
+  MadeCapture whole(baud);
+  const Tick begin = whole.now();
+  Tick end = begin;
+  for (int i = 0; i < 4; ++i) {
+    whole.exchange(data_exchange({0xE5, 1}), data_answer({2, 0xE5, 3}), tsdr);
+    if (i == 0) end = whole.now();
+  }
+  const auto bit = static_cast<Tick>(whole.bit());
+  for (Tick at = begin; at < end; at += bit) {
+    MadeCapture capture = whole;
+    capture.begin_at(at);
+    const calibrate::Result result = judge(capture);
+    EXPECT_EQ(contradicted(result), "") << at / bit;
+    EXPECT_GE(claim(result, "S3", "nobody asked").tally.holds, 2U) << at / bit;
+  }
+}
+
+TEST(CalibrateAnswers, ACaptureMayBeginAnywhere) {
+  for (const double tsdr : {11.0, 60.0}) {
+    expect_right_from_anywhere(
+        k12M, tsdr, [](MadeCapture& capture) { return capture.judge(); });
+    expect_right_from_anywhere(k1M5, tsdr, [](MadeCapture& capture) { return capture.judge(); });
+  }
+}
+
+TEST(CalibrateAnswers, ACoarseCaptureMayBeginAnywhere) {
+  expect_right_from_anywhere(
+      k12M, 11, [](MadeCapture& capture) { return capture.judge_sampled(24e6); });
+}
+
+TEST(CalibrateAnswers, AnAnswerThatNobodyAskedForIsContradicted) {
+  MadeCapture capture(k1M5);
+  exchange_data(capture, 2);
+  capture.wait_ms(1);
+  capture.answer(data_answer({2}));
+  exchange_data(capture, 2);
+  EXPECT_EQ(claim(capture.judge(), "S3", "nobody asked").verdict, Verdict::kContradicted);
+}
+
 // --- S3, S10: idle ---------------------------------------------------------------------------------------------------
 
 TEST(CalibrateAnswers, AGlitchDoesNotEndIdleTime) {
@@ -55,6 +126,20 @@ TEST(CalibrateAnswers, AGlitchDoesNotEndIdleTime) {
     EXPECT_EQ(contradicted(result), "") << before;
     EXPECT_EQ(claim(result, "S3", "is answered").tally.holds, 2U) << "the first has no idle time";
   }
+}
+
+TEST(CalibrateAnswers, InACoarseCaptureAShortLowLevelMayBeAGlitch) {
+  const auto judged = [](double cycles) {
+    MadeCapture capture(k12M);
+    exchange_data(capture, 2);
+    capture.wait_bits(40);
+    capture.pulse(Wire::kPbrxd, static_cast<Tick>(cycles * bus::kTicksPerCycle));
+    capture.request(data_exchange({1}), 20);
+    capture.answer(data_answer({2}));
+    return claim(capture.judge_sampled(24e6), "S3", "33 bit times").verdict;
+  };
+  EXPECT_NE(judged(1.8), Verdict::kContradicted);
+  EXPECT_EQ(judged(12), Verdict::kContradicted);
 }
 
 TEST(CalibrateAnswers, AGlitchOfTheChipIsToldAsWhatItSends) {
@@ -82,6 +167,47 @@ TEST(CalibrateAnswers, AfterWhatIsNoTelegramIdleTimeBeginsWithItsEnd) {
   capture.request(data_exchange({1}), 15);
   capture.answer(data_answer({2}));
   EXPECT_EQ(claim(capture.judge(), "S3", "33 bit times").verdict, Verdict::kContradicted);
+}
+
+/// Of one request the second half comes so many cycles later than 1 bit time after the first one, and is not answered.
+Verdict unanswered_with_gap(double cycles) {
+  MadeCapture capture(k1M5);
+  exchange_data(capture, 2);
+  const Bytes bytes = bus::encode(data_exchange({1}));
+  capture.request(Bytes(bytes.begin(), bytes.begin() + 5));
+  capture.wait_cycles(cycles);
+  capture.request(Bytes(bytes.begin() + 5, bytes.end()), 1);
+  capture.wait_ms(1);
+  exchange_data(capture, 2);
+  return claim(capture.judge(), "S3", "is answered").verdict;
+}
+
+TEST(CalibrateAnswers, ARequestThatMayHaveAGapNeedNotBeAnswered) {
+  EXPECT_EQ(unanswered_with_gap(0.5), Verdict::kConfirmed);
+  EXPECT_EQ(unanswered_with_gap(5), Verdict::kConfirmed);
+  EXPECT_EQ(unanswered_with_gap(-5), Verdict::kContradicted);
+}
+
+/// A low level begins so many bit times after a request's end, and the request is answered.
+calibrate::Result disturbed(double after, double cycles) {
+  MadeCapture capture(k1M5);
+  exchange_data(capture, 2);
+  capture.request(data_exchange({1}));
+  const auto at = capture.now() + static_cast<Tick>(after * capture.bit());
+  capture.set_at(Wire::kPbrxd, at, false);
+  capture.set_at(Wire::kPbrxd, at + static_cast<Tick>(cycles * bus::kTicksPerCycle), true);
+  capture.answer(data_answer({2}));
+  exchange_data(capture, 2);
+  return capture.judge();
+}
+
+TEST(CalibrateAnswers, ADisturbanceAfterTheDecisionDoesNotEndTheWait) {
+  EXPECT_EQ(contradicted(disturbed(5, 20)), "");
+  EXPECT_EQ(contradicted(disturbed(1.2, 100)), "");
+}
+
+TEST(CalibrateAnswers, ALowLevelBeforeTheDecisionMakesTheRequestVoid) {
+  EXPECT_EQ(claim(disturbed(0.5, 20), "S3", "nobody asked").verdict, Verdict::kContradicted);
 }
 
 // --- S2 --------------------------------------------------------------------------------------------------------------

@@ -122,7 +122,8 @@ def fast_parameters(folder):
         for name in ("intr_low", "intr_gap"):
             (assert_is if rate > 150e6 else assert_holds)(found[name], FAST[name])
             assert found[name]["hi"] - found[name]["lo"] < 6, found[name]
-        assert_holds(found["ready_cycles"], FAST["ready_cycles"])
+        if rate > 90e6:  # else a read of B004 is too short for the samples
+            assert_holds(found["ready_cycles"], FAST["ready_cycles"])
         clock = result["chip_clock"]
         assert clock["ppm_lo"] <= -ppm <= clock["ppm_hi"] and clock["ppm_hi"] - clock["ppm_lo"] < 250, (rate, ppm, clock)
 
@@ -138,6 +139,15 @@ def slow_parameters(folder):
         assert_is(found["search_window_ms"], SLOW["search_window_ms"])
         assert_is(found["baud_control_ms"], SLOW["baud_control_ms"])
         assert found["rts_lead"]["verdict"] == "not shown" and "PBRTS" in found["rts_lead"]["why"]
+
+
+def slow_samples(folder):
+    """Where samples hide strobes, accesses and releases, nothing of a right chip is contradicted."""
+    pins, end = run(folder, FAST_SCENARIO, {})
+    host = {name: trace for name, trace in pins.items() if not name.startswith("PB")}
+    for rate in (24e6, 12e6, 8e6, 4e6, 1e6):
+        result = calibrate(folder, take(folder, host, end, rate, ".vcd", ppm=60, jitter_ns=3, skew_ns=2), "--rate", str(int(rate)))
+        assert not contradicted(result) and result["agrees"], (rate, contradicted(result))
 
 
 def forms_and_names(folder):
@@ -248,7 +258,7 @@ def shipped_scenarios(folder):
             assert_is(parameters(result)["search_window_ms"], window)
 
 
-CASES = {case.__name__: case for case in (fast_parameters, slow_parameters, forms_and_names, contradictions, chip_block, shipped_scenarios)}
+CASES = {case.__name__: case for case in (fast_parameters, slow_parameters, slow_samples, forms_and_names, contradictions, chip_block, shipped_scenarios)}
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory(prefix="dsdpv1_calibrate_") as name:

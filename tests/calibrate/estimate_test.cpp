@@ -33,6 +33,7 @@ TEST(CalibrateEstimate, NamesWhoDoesNotAgreeAndByHowMuch) {
 
 TEST(CalibrateEstimate, TakesTheMeanOnlyWhereClocksDriftPastTheSamples) {
   std::vector<Instance> instances;
+  instances.reserve(1000);
   for (int i = 0; i < 1000; ++i) instances.push_back(seen(4, 2.4, i * bus::Tick{1'000'000}));
   TimeBase time;
   time.period = 2;
@@ -46,6 +47,16 @@ TEST(CalibrateEstimate, TakesTheMeanOnlyWhereClocksDriftPastTheSamples) {
 TEST(CalibrateEstimate, OfNothingIsNothing) {
   EXPECT_EQ(estimate({}).count, 0U);
   EXPECT_FALSE(estimate({}).whole());
+}
+
+TEST(CalibrateEstimate, LeavesOutWhatNoNumberLiesIn) {
+  const Instance none{0, {9, 8}, 8.5};
+  EXPECT_EQ(estimate({none}).count, 0U);
+  const Estimate result = estimate({none, seen(4, 1), none, seen(4.5, 1)});
+  EXPECT_EQ(result.count, 2U);
+  EXPECT_DOUBLE_EQ(result.span.lo, 3.5);
+  EXPECT_DOUBLE_EQ(result.span.hi, 5);
+  EXPECT_TRUE(result.outliers.empty());
 }
 
 TEST(CalibrateTimeBase, ScalesBothEndsAwayFromEachOther) {

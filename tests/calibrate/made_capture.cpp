@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "bus/wire/uart.hpp"
 
 namespace calibrate_test {
@@ -76,6 +78,12 @@ void MadeCapture::request(const Bytes& bytes, double idle) {
   send(Wire::kPbrxd, bytes);
 }
 
+void MadeCapture::request_unread(const Telegram& telegram) {
+  Bytes bytes = bus::encode(telegram);
+  bytes.at(5) ^= 0x04U;
+  request(bytes);
+}
+
 void MadeCapture::answer(const Telegram& telegram, double tsdr) {
   wait_bits(tsdr), wait_cycles(0.5);
   set_at(Wire::kPbrts, now_ - static_cast<Tick>(lead_ * bus::kTicksPerCycle), true);
@@ -104,6 +112,48 @@ void MadeCapture::find_rate() {
   request(fdl_status(kMaster, kStation + 1), 100);
   decide();
   set(Wire::kBr, true);
+}
+
+void MadeCapture::stretch(double ppm) {
+  const auto stretched = [&](Tick at) { return at + static_cast<Tick>(static_cast<double>(at) * ppm * 1e-6); };
+  for (calibrate::Trace& trace : record_.traces)
+    for (Tick& edge : trace.edges) edge = stretched(edge);
+  now_ = stretched(now_);
+}
+
+void MadeCapture::jitter(Tick most) {
+  std::minstd_rand chance(1);
+  for (calibrate::Trace& trace : record_.traces)
+    for (Tick& edge : trace.edges) edge += static_cast<Tick>(chance() % (2 * static_cast<unsigned>(most) + 1)) - most;
+}
+
+void MadeCapture::begin_at(Tick at) {
+  for (calibrate::Trace& trace : record_.traces) {
+    trace.first = trace.at(at);
+    trace.edges.erase(trace.edges.begin(), trace.edges.begin() + static_cast<std::ptrdiff_t>(trace.count_until(at)));
+    for (Tick& edge : trace.edges) edge -= at;
+  }
+  now_ -= at;
+}
+
+calibrate::Result MadeCapture::judge_sampled(double rate) {
+  const auto period = static_cast<Tick>(static_cast<double>(bus::kTicksPerSecond) / rate);
+  calibrate::Record sampled = record_;
+  for (calibrate::Trace& trace : sampled.traces) {
+    std::vector<Tick> edges;
+    for (const Tick edge : trace.edges) {
+      const Tick sample = (edge + period - 1) / period * period;
+      if (!edges.empty() && edges.back() == sample)
+        edges.pop_back();  // shorter than a sample
+      else
+        edges.push_back(sample);
+    }
+    trace.edges = std::move(edges);
+  }
+  sampled.end = now_ + bus::kTicksPerMs;
+  calibrate::Sampling sampling;
+  sampling.rate = rate;
+  return calibrate::calibrate("made", sampled, sampling, kStation);
 }
 
 calibrate::Result MadeCapture::judge() {

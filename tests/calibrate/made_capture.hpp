@@ -44,12 +44,16 @@ class MadeCapture {
   void set_at(Wire wire, Tick at, bool level);
   /// The pin is high where the capture begins.
   void begins_high(Wire wire) { record_.traces.at(static_cast<std::size_t>(wire)).first = true; }
+  /// The pin is not in the capture.
+  void hide(Wire wire) { record_.traces.at(static_cast<std::size_t>(wire)) = {}; }
   /// A pulse of the other level.
   void pulse(Wire wire, Tick length);
 
   /// A request after so many bit times of idle; now() is its end.
   void request(const Telegram& telegram, double idle = 40);
   void request(const Bytes& bytes, double idle = 40);
+  /// ... that the capture does not show as it was.
+  void request_unread(const Telegram& telegram);
   /// The chip's answer to it.
   void answer(const Telegram& telegram, double tsdr = 11);
   /// ... with no edge of PBRTS.
@@ -66,7 +70,15 @@ class MadeCapture {
   /// 12 bits behind the last start bit and 3 to 4 cycles: now() is there; to be called at the end of a request.
   void decide() { wait_bits(1), wait_cycles(3.5); }
 
+  /// The capture's clock is fast by so much.
+  void stretch(double ppm);
+  /// Edges are up to so much early or late.
+  void jitter(Tick most);
+  /// The capture begins there: what was before it is not in it.
+  void begin_at(Tick at);
   calibrate::Result judge();
+  /// By an analyser that takes so many samples a second.
+  calibrate::Result judge_sampled(double rate);
 
  private:
   void send(Wire wire, const Bytes& bytes);

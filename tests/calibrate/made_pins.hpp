@@ -50,25 +50,47 @@ class MadePins {
   void number(double at, Wire first, std::size_t wires, unsigned value) {
     for (std::size_t i = 0; i < wires; ++i) set(at, bit(first, i), (value >> i & 1U) != 0);
   }
-  /// RD (WR) and CSR low for 6 cycles, A from a cycle before to one behind; of a read D from 1.5 cycles on.
-  void user(double at, bool write, unsigned address, unsigned data) {
+  /// RD (WR) and CSR low for so many cycles, A from a cycle before on; of a read D from 1.5 cycles on.
+  void user(double at, bool write, unsigned address, unsigned data, double cycles = 6) {
     number(at - 1, Wire::kA, calibrate::kAddressWires, address);
     number(write ? at : at + 1.5, Wire::kD, calibrate::kDataWires, data);
-    low(Wire::kCsr, at, at + 6);
-    low(write ? Wire::kWr : Wire::kRd, at, at + 6);
+    low(Wire::kCsr, at, at + cycles);
+    low(write ? Wire::kWr : Wire::kRd, at, at + cycles);
+    if (!write) number(at + cycles, Wire::kD, calibrate::kDataWires, 0xFF);  // released: it floats up
   }
   void read(double at, unsigned address, unsigned data) { user(at, false, address, data); }
   void write(double at, unsigned address, unsigned data) { user(at, true, address, data); }
 
   calibrate::Result judged(double end) {
-    record_.end = tick(end);
     calibrate::Sampling sampling;
     sampling.rate = static_cast<double>(bus::kTicksPerSecond);
     sampling.jitter_ns = sampling.clock_ppm = 0;
-    return calibrate::calibrate("made", record_, sampling, {});
+    return judged(end, sampling);
+  }
+  /// ... of an analyser's samples: each edge shows at the next one. `rate` a second, a divisor of 12 GHz.
+  calibrate::Result sampled(double end, double rate) {
+    const auto period = static_cast<bus::Tick>(static_cast<double>(bus::kTicksPerSecond) / rate);
+    for (calibrate::Trace& own : record_.traces) {
+      std::vector<bus::Tick> seen;
+      for (const bus::Tick edge : own.edges) {
+        const bus::Tick at = (edge + period - 1) / period * period;
+        if (!seen.empty() && seen.back() == at)
+          seen.pop_back();  // between two samples
+        else
+          seen.push_back(at);
+      }
+      own.edges = std::move(seen);
+    }
+    calibrate::Sampling sampling;
+    sampling.rate = rate;
+    return judged(end, sampling);
   }
 
  private:
+  calibrate::Result judged(double end, const calibrate::Sampling& sampling) {
+    record_.end = tick(end);
+    return calibrate::calibrate("made", record_, sampling, {});
+  }
   static Wire bit(Wire first, std::size_t number) {
     return static_cast<Wire>(static_cast<std::size_t>(first) + number);
   }

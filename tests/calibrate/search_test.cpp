@@ -36,6 +36,32 @@ TEST(CalibrateSearch, AnotherMomentIsAgainstS10Alone) {
   }
 }
 
+TEST(CalibrateSearch, MayEndWithATelegramThatACoarseCaptureDoesNotShow) {
+  const auto judged = [](double bits) {
+    MadeCapture capture(k12M, {Wire::kBr});
+    for (int i = 0; i < 2; ++i) capture.request(fdl_status(kMaster, kStation + 1), 100);
+    capture.request_unread(fdl_status(kMaster, kStation + 1));
+    capture.decide();
+    capture.wait_bits(bits);
+    capture.set(Wire::kBr, true);
+    return claim(capture.judge_sampled(24e6), "S1", "ends the search").verdict;
+  };
+  EXPECT_EQ(judged(0), Verdict::kNotShown);
+  EXPECT_EQ(judged(500), Verdict::kContradicted);
+}
+
+TEST(CalibrateSearch, MayEndWithTheTelegramInWhichTheCaptureBegins) {
+  MadeCapture whole(k1M5, {Wire::kBr});
+  whole.find_rate();
+  const Tick rise = whole.now();
+  whole.exchange(fdl_status(), status(0));
+  for (int bits = 1; bits < 70; ++bits) {
+    MadeCapture capture = whole;
+    capture.begin_at(rise - static_cast<Tick>(bits * capture.bit()));
+    EXPECT_EQ(contradicted(capture.judge()), "") << bits;
+  }
+}
+
 TEST(CalibrateSearch, AnEndWithoutATelegramIsAgainstS1Alone) {
   EXPECT_EQ(rise(500).s1, Verdict::kContradicted);
   EXPECT_EQ(rise(500).s10, Verdict::kNotShown);

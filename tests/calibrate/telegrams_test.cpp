@@ -93,6 +93,16 @@ TEST(CalibrateTelegrams, RequestsWithDataToSapsThatAreAlwaysServedAreRr) {
   EXPECT_EQ(verdict(srd(sap::kReadInputs, {1}), bus::make_sc(), "S13", "SAP 56 answers"), Verdict::kContradicted);
 }
 
+TEST(CalibrateTelegrams, OnlyGetCfgMayHaveNothingToSend) {
+  const auto judged = [](std::uint8_t sap, const Telegram& answered) {
+    return verdict(srd(sap), answered, "S13", "Slave_Diag is answered");
+  };
+  EXPECT_EQ(judged(sap::kGetCfg, sap_answer(sap::kGetCfg, {0x11})), Verdict::kConfirmed);
+  EXPECT_EQ(judged(sap::kGetCfg, bus::make_sc()), Verdict::kConfirmed);
+  EXPECT_EQ(judged(sap::kGetCfg, status(fc::kRs)), Verdict::kContradicted);
+  EXPECT_EQ(judged(sap::kSlaveDiag, bus::make_sc()), Verdict::kContradicted);
+}
+
 TEST(CalibrateTelegrams, AnswersWithDataAreSd2) {
   Telegram eight = data_answer({1, 2, 3, 4, 5, 6, 7, 8});
   EXPECT_EQ(verdict(data_exchange({1}), eight, "S20", "SD2"), Verdict::kConfirmed);

@@ -1,6 +1,8 @@
 // S3, S11, S30: when answers begin, in captures made for it.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "made_capture.hpp"
 
 namespace {
@@ -102,6 +104,20 @@ TEST(CalibrateTsdr, WithoutLockAndUnlockItCountsAtOnce) {
   EXPECT_EQ(wrong.s11(), Verdict::kContradicted);
 }
 
+TEST(CalibrateTsdr, AVerdictCountsAlsoAfterAMinTsdrWithoutLockAndUnlock) {
+  const auto start = [](TsdrStation& station, double verdict, double data) {
+    station.prm(kLock, 40, 11);  // the user judges
+    station.prm(0, 20, 20);
+    station.exchange(srd(sap::kSlaveDiag), diagnosis(0x02, 0), 20);
+    station.cfg(verdict), station.data(data);
+  };
+  TsdrStation judged, accepted_before, wrong;
+  start(judged, 40, 40), start(accepted_before, 20, 20), start(wrong, 20, 40);
+  EXPECT_EQ(contradicted(judged.judge()), "");
+  EXPECT_EQ(contradicted(accepted_before.judge()), "");
+  EXPECT_EQ(wrong.s3(), Verdict::kContradicted);
+}
+
 TEST(CalibrateTsdr, ANewInitialisationMakesItEleven) {
   TsdrStation station;
   station.prm(kLock, 15, 15), station.cfg(15), station.data(15);
@@ -128,6 +144,52 @@ TEST(CalibrateTsdr, WhereTheCaptureBeginsInTheMiddleItIsThatOfTheFirstAnswer) {
   EXPECT_EQ(contradicted(capture.judge()), "");
   capture.exchange(data_exchange({1}), data_answer({2}), 11);
   EXPECT_EQ(claim(capture.judge(), "S3", "min_TSDR").verdict, Verdict::kContradicted);
+}
+
+// --- requests that a coarse capture does not show --------------------------------------------------------------------
+
+constexpr double kCoarse = 24e6;
+
+Telegram with_fcv(Telegram telegram) {
+  telegram.fc |= bus::fc::kFcv;
+  return telegram;
+}
+
+/// A start-up with min_TSDR 60, of which two samples make a bit.
+calibrate::Result coarse_start(const std::function<void(MadeCapture&)>& before_cfg, const std::vector<double>& data) {
+  MadeCapture capture(k12M);
+  capture.exchange(fdl_status(), status(0));
+  before_cfg(capture);
+  capture.exchange(srd(sap::kChkCfg, {0x11, 0x21}), bus::make_sc(), 60);
+  for (const double tsdr : data) capture.exchange(data_exchange({1}), data_answer({2}), tsdr);
+  return capture.judge_sampled(kCoarse);
+}
+
+void prm_after_unread_diagnosis(MadeCapture& capture) {
+  capture.request_unread(srd(sap::kSlaveDiag));
+  capture.answer(diagnosis(0x02, 0x01));
+  capture.exchange(with_fcv(set_prm(kLock, 0, 60)), bus::make_sc(), 60);
+}
+
+void unread_prm(MadeCapture& capture) {
+  capture.request_unread(set_prm(kLock, 0, 60));
+  capture.answer(bus::make_sc(), 60);
+}
+
+TEST(CalibrateTsdr, ASetPrmAfterARequestThatWasNotReadCounts) {
+  const calibrate::Result right = coarse_start(prm_after_unread_diagnosis, {60, 60});
+  EXPECT_EQ(contradicted(right), "");
+  EXPECT_EQ(claim(right, "S11", "min_TSDR").verdict, Verdict::kConfirmed);
+  const calibrate::Result wrong = coarse_start(prm_after_unread_diagnosis, {60, 11});
+  EXPECT_EQ(claim(wrong, "S11", "min_TSDR").verdict, Verdict::kContradicted);
+}
+
+TEST(CalibrateTsdr, AfterASetPrmThatWasNotReadItIsThatOfTheNextAnswer) {
+  const calibrate::Result right = coarse_start(unread_prm, {60, 60});
+  EXPECT_EQ(contradicted(right), "");
+  EXPECT_GE(claim(right, "S3", "min_TSDR").tally.holds, 4U);
+  const calibrate::Result wrong = coarse_start(unread_prm, {60, 70});
+  EXPECT_EQ(claim(wrong, "S3", "min_TSDR").verdict, Verdict::kContradicted);
 }
 
 TEST(CalibrateTsdr, WithoutBrAnInitialisationShowsInWhatIsNoDataExchange) {

@@ -147,6 +147,105 @@ TEST(CalibrateRead, OfABlockShowsItsCrc) {
   }
 }
 
+TEST(CalibrateRead, ThatIsTooShortForTheSamplesIsNotJudged) {
+  MadeHold made;
+  for (int at = 500; at < 1'900; at += 7) made.user(at, false, 0x001, 0x0D, 3);
+  const calibrate::Result result = made.sampled(3'000, 24e6);
+  EXPECT_THAT(contradicted(result), IsEmpty());
+  EXPECT_EQ(claim(result, "D1", "").words, "the samples are too far apart");
+  MadeHold longer;
+  for (int at = 500; at < 1'900; at += 27) longer.user(at, false, 0x001, 0x0D, 10);
+  EXPECT_EQ(claim(longer.sampled(3'000, 24e6), "D1", "").verdict, Verdict::kConfirmed);
+}
+
+TEST(CalibrateWrite, ThatMayLieBetweenTwoSamplesLeavesCellsUnknown) {
+  MadeHold made;
+  made.user(500, true, 0x130, 0x11, 10);
+  made.user(602.5, true, 0x130, 0x22, 1);  // 20.8 ns
+  made.user(702.2, true, 0x131, 0x33, 3);
+  made.user(800, false, 0x130, 0x22, 10);
+  EXPECT_THAT(contradicted(made.sampled(3'000, 24e6)), IsEmpty());
+}
+
+TEST(CalibrateWrite, WhoseDataChangeWithinASampleOfItsEndIsNotKnown) {
+  for (const bool before : {true, false}) {  // 25 ns before WR rises, or 17 ns after it: the same sample
+    MadeHold made;
+    made.number(599, Wire::kA, calibrate::kAddressWires, 0x130);
+    made.number(599, Wire::kD, calibrate::kDataWires, 0x11);
+    made.low(Wire::kCsr, 600, 614);
+    made.low(Wire::kWr, 600.3, before ? 611.7 : 610.2);
+    made.number(before ? 610.5 : 611.0, Wire::kD, calibrate::kDataWires, 0x22);
+    made.user(800, false, 0x130, before ? 0x22 : 0x11, 10);
+    EXPECT_THAT(contradicted(made.sampled(3'000, 24e6)), IsEmpty()) << before;
+  }
+}
+
+/// Outputs of one byte whose CRC is not right.
+void read_wrong_outputs(MadeHold& made, int at) {
+  made.read(at, 0x319, 0x01);
+  made.read(at + 20, 0x31A, 0x07);
+  made.read(at + 40, 0x40E, 0xAA);
+  made.read(at + 60, 0x40F, 0xAA);
+}
+
+/// The chip has the DPRAM, then again the user: from `at` + 120 to `at` + 1'000.
+void hold_again(MadeHold& made, int at) {
+  made.accesses(at + 3, at + 100);
+  made.high(Wire::kRReq, at + 110, at + 1'000);
+  made.high(Wire::kRSta, at + 120, at + 1'000);
+}
+
+TEST(CalibrateRead, OfABlockThatTheUserHasWrittenShowsNoCrc) {
+  for (const unsigned written : {0x319U, 0x31AU, 0x40FU}) {
+    MadeHold made;
+    made.write(500, written, 0xAA);
+    hold_again(made, 2'000);
+    read_wrong_outputs(made, 2'200);
+    EXPECT_THAT(contradicted(made.judged(4'000)), IsEmpty()) << written;
+  }
+}
+
+TEST(CalibrateRead, OfABlockThatTheChipHasWrittenSinceShowsItsCrc) {
+  for (const unsigned news : {0x00U, 0x01U, 0x02U}) {
+    MadeHold made;  // clears the RAM and with it B00E, or only the block
+    made.write(500, 0x00E, 0x00);
+    made.write(520, 0x31A, 0x00);
+    hold_again(made, 2'000);
+    made.read(2'180, 0x00E, news);
+    read_wrong_outputs(made, 2'200);
+    EXPECT_EQ(claim(made.judged(4'000), "D2", "").tally.fails, news == 0x01 ? 1U : 0U) << news;
+  }
+  MadeHold unread;  // the bit stood already
+  unread.write(500, 0x00E, 0x01);
+  unread.write(520, 0x31A, 0x00);
+  hold_again(unread, 2'000);
+  unread.read(2'180, 0x00E, 0x01);
+  read_wrong_outputs(unread, 2'200);
+  EXPECT_THAT(contradicted(unread.judged(4'000)), IsEmpty());
+}
+
+TEST(CalibrateRead, AfterAStartUpIsOfTheChipAgain) {
+  MadeHold made;
+  made.show({Wire::kReset}, true);
+  made.write(500, 0x001, 0x00);
+  made.low(Wire::kReset, 2'500, 2'600);
+  made.access(2'602.5, 2'054);
+  hold_again(made, 5'000);
+  made.read(5'200, 0x001, 0x00);
+  EXPECT_EQ(claim(made.judged(7'000), "D1", "").tally.fails, 1U);
+}
+
+TEST(CalibrateRead, OfB004AsNotValidAfterItWasIsAgainstD1) {
+  for (const bool reset : {true, false}) {
+    MadeHold made;
+    made.read(500, 0x004, 0xC5);
+    if (reset) made.access(2'602.5, 2'054);
+    hold_again(made, 5'000);
+    made.read(5'200, 0x004, 0x00);
+    EXPECT_EQ(claim(made.judged(7'000), "D1", "").tally.fails, reset ? 0U : 1U) << reset;
+  }
+}
+
 TEST(CalibrateFlags, ThatAreReservedStayAsTheUserSetThem) {
   for (const unsigned read : {0x38U, 0x39U}) {
     MadeHold made;

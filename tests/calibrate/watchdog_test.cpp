@@ -1,6 +1,9 @@
 // S1, S22: what ends DATA_EXCH, and what BR's fall follows, in captures made for it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "made_capture.hpp"
 
 namespace {
@@ -84,6 +87,22 @@ TEST(CalibrateWatchdog, ASetPrmThatIsRefusedEndsItAsTheDiagnosisShows) {
   expect_600(station.judge());
 }
 
+TEST(CalibrateWatchdog, PrmReqCountsInADiagnosisFromMemoryToo) {
+  MadeCapture capture(k1M5, {Wire::kBr, Wire::kLReq});
+  capture.begins_high(Wire::kBr);
+  Telegram asked = srd(bus::sap::kSlaveDiag);
+  asked.fc |= bus::fc::kFcv;
+  capture.request(asked);  // before the capture there may have been the same
+  const Tick end = capture.now();
+  capture.decide();
+  const Tick decision = capture.now();
+  capture.wait_cycles(static_cast<double>(end - decision) / static_cast<double>(bus::kTicksPerCycle));
+  capture.answer(diagnosis(0x02, 0x01));
+  capture.set_at(Wire::kBr, decision + 600 * bus::kTicksPerMs, false);
+  capture.wait_ms(601);
+  expect_600(capture.judge());
+}
+
 TEST(CalibrateWatchdog, ASetPrmOfAnotherMasterThatIsRefusedChangesNothing) {
   WatchedStation station;
   station.start_up(4);
@@ -131,6 +150,53 @@ TEST(CalibrateWatchdog, AnotherMasterThatKeepsItAliveIsContradicted) {
   EXPECT_EQ(claim(station.judge(), "S1", "ends DATA_EXCH").verdict, Verdict::kContradicted);
 }
 
+/// The watchdog is 20 ms, then what `change` makes of it; PBF rises so many ms after the last telegram.
+calibrate::Result coarse_watchdog(const std::function<void(MadeCapture&)>& change, double ms) {
+  MadeCapture capture(k12M, {Wire::kBr, Wire::kPbf});
+  capture.begins_high(Wire::kBr);
+  const auto start = [&] {
+    capture.exchange(srd(bus::sap::kChkCfg, {0x11, 0x21}), bus::make_sc());
+    capture.set(Wire::kPbf, false);
+    capture.exchange(data_exchange(kOutputs), data_answer({3, 4}));
+  };
+  capture.exchange(set_prm(kLock | kWdOn, 2), bus::make_sc());
+  start();
+  change(capture);
+  capture.set(Wire::kPbf, true);
+  start();
+  capture.request(data_exchange(kOutputs));
+  const Tick end = capture.now();
+  capture.decide();
+  const Tick decision = capture.now();
+  capture.wait_cycles(static_cast<double>(end - decision) / static_cast<double>(bus::kTicksPerCycle));
+  capture.answer(data_answer({3, 4}));
+  capture.set_at(Wire::kPbf, decision + static_cast<Tick>(ms * bus::kTicksPerMs), true);
+  capture.wait_ms(ms);
+  return capture.judge_sampled(24e6);
+}
+
+TEST(CalibrateWatchdog, OfASetPrmThatWasNotReadNothingIsSaid) {
+  const auto unread = [](MadeCapture& capture) {
+    capture.request_unread(set_prm(kLock | kWdOn, 4));
+    capture.answer(bus::make_sc());
+  };
+  EXPECT_EQ(contradicted(coarse_watchdog(unread, 40)), "");
+}
+
+TEST(CalibrateWatchdog, OfASetPrmAfterARequestThatWasNotReadItCounts) {
+  const auto after_unread = [](MadeCapture& capture) {
+    capture.request_unread(srd(bus::sap::kSlaveDiag));
+    capture.answer(diagnosis(0, 0));
+    Telegram prm = set_prm(kLock | kWdOn, 4);
+    prm.fc |= bus::fc::kFcv;
+    capture.exchange(prm, bus::make_sc());
+  };
+  const calibrate::Result right = coarse_watchdog(after_unread, 40);
+  EXPECT_EQ(contradicted(right), "");
+  EXPECT_EQ(claim(right, "S1", "ends DATA_EXCH").verdict, Verdict::kConfirmed);
+  EXPECT_EQ(claim(coarse_watchdog(after_unread, 30), "S1", "ends DATA_EXCH").verdict, Verdict::kContradicted);
+}
+
 TEST(CalibrateWatchdog, WithoutATelegramToTheStationBrFallsAfterItsRise) {
   WatchedStation station;
   const Tick rise = station.now();
@@ -147,6 +213,91 @@ TEST(CalibrateWatchdog, OfWhatRanBeforeTheCaptureNothingIsSaid) {
   capture.wait_ms(640);
   capture.set(Wire::kBr, false);
   EXPECT_EQ(parameter(capture.judge(), "baud_control_ms").verdict, Verdict::kNotShown);
+}
+
+// --- what never ends ------------------------------------------------------------------------------------------------
+
+TEST(CalibrateWatchdog, AWatchdogThatNeverEndsIsContradicted) {
+  for (const bool again : {false, true}) {
+    WatchedStation station;
+    station.start_up(2);
+    station.wait_ms(19);
+    station.exchange(data_exchange(kOutputs), data_answer({3, 4}));
+    EXPECT_EQ(contradicted(station.judge()), "");
+    station.wait_ms(21);
+    if (again) station.exchange(data_exchange(kOutputs), data_answer({3, 4}));
+    EXPECT_EQ(claim(station.judge(), "S1", "ends DATA_EXCH").verdict, Verdict::kContradicted) << again;
+  }
+}
+
+/// BR stays high over so much silence.
+calibrate::Result silent(double ms) {
+  WatchedStation station;
+  station.start_up(0);
+  station.wait_ms(ms);
+  station.exchange(data_exchange(kOutputs), data_answer({3, 4}));
+  return station.judge();
+}
+
+TEST(CalibrateWatchdog, ABrThatNeverFallsIsContradicted) {
+  EXPECT_EQ(parameter(silent(599), "baud_control_ms").verdict, Verdict::kNotShown);
+  const calibrate::Result never = silent(5000.2);
+  EXPECT_EQ(parameter(never, "baud_control_ms").verdict, Verdict::kContradicted);
+  EXPECT_EQ(parameter(never, "baud_control_ms").words, "at least 5001");
+  EXPECT_EQ(parameter(never, "baud_control_ms").chosen, 5001);
+}
+
+TEST(CalibrateWatchdog, ABrThatFallsSometimesIsContradicted) {
+  WatchedStation station;
+  station.start_up(0);
+  station.wait_ms(700);
+  const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
+  station.fall_of_br(last, 600);
+  EXPECT_EQ(claim(station.judge(), "S1", "BR falls").verdict, Verdict::kContradicted);
+}
+
+TEST(CalibrateWatchdog, WithoutPbtxdNothingIsSaidOfBr) {
+  MadeCapture capture(k1M5, {Wire::kBr});
+  capture.hide(Wire::kPbtxd);
+  capture.find_rate();
+  for (int i = 0; i < 8; ++i) {
+    capture.request(data_exchange(kOutputs));
+    capture.wait_ms(100);
+  }
+  EXPECT_EQ(parameter(capture.judge(), "baud_control_ms").verdict, Verdict::kNotShown);
+}
+
+// --- a reset that the capture does not show otherwise ----------------------------------------------------------------
+
+/// PBF rises and BR falls in a reset 30 ms after the last telegram, of a station whose watchdog is 40 ms.
+calibrate::Result reset_after_30_ms(const std::vector<Wire>& pins, bool start_up) {
+  const auto has = [&](Wire wire) { return std::find(pins.begin(), pins.end(), wire) != pins.end(); };
+  MadeCapture capture(k1M5, pins);
+  for (const Wire wire : {Wire::kBr, Wire::kReady})
+    if (has(wire)) capture.begins_high(wire);
+  capture.exchange(set_prm(kLock | kWdOn, 4), bus::make_sc());
+  capture.exchange(srd(bus::sap::kChkCfg, {0x11, 0x21}), bus::make_sc());
+  capture.set(Wire::kPbf, false);
+  capture.exchange(data_exchange(kOutputs), data_answer({3, 4}));
+  capture.wait_ms(30);
+  if (has(Wire::kLReq)) capture.pulse(Wire::kLReq, 7 * bus::kTicksPerCycle);
+  capture.wait_cycles(20);
+  capture.set(Wire::kPbf, true);
+  for (const Wire wire : {Wire::kBr, Wire::kReady})
+    if (has(wire)) capture.set(wire, false);
+  capture.wait_ms(5);
+  if (has(Wire::kLReq)) capture.pulse(Wire::kLReq, (start_up ? 2054 : 7) * bus::kTicksPerCycle);
+  capture.wait_ms(1);
+  return capture.judge();
+}
+
+TEST(CalibrateWatchdog, AResetMayShowInReadyOrInAStartUpAlone) {
+  for (const std::vector<Wire>& pins :
+       {std::vector<Wire>{Wire::kPbf, Wire::kLReq}, {Wire::kPbf, Wire::kBr, Wire::kLReq}}) {
+    EXPECT_EQ(contradicted(reset_after_30_ms(pins, true)), "") << pins.size();
+    EXPECT_NE(contradicted(reset_after_30_ms(pins, false)), "") << pins.size();
+  }
+  EXPECT_EQ(contradicted(reset_after_30_ms({Wire::kPbf, Wire::kReady, Wire::kLReq}, false)), "");
 }
 
 /// BR falls so long after the last telegram, in an access of so many cycles.
@@ -167,6 +318,38 @@ TEST(CalibrateWatchdog, AFallOfBrThatIsNoWholeNumberOfMsIsContradicted) {
   const calibrate::Result result = after(600.4, 7);
   EXPECT_EQ(claim(result, "S1", "BR falls").verdict, Verdict::kContradicted);
   EXPECT_NE(contradicted(result).find("600.400 ms"), std::string::npos) << contradicted(result);
+}
+
+TEST(CalibrateWatchdog, AnInitialisationAWholeNumberOfMsAfterTheLastTelegramIsNoMeasure) {
+  const calibrate::Result result = after(112, 60);
+  EXPECT_EQ(contradicted(result), "");
+  EXPECT_EQ(parameter(result, "baud_control_ms").verdict, Verdict::kNotShown);
+  EXPECT_NE(parameter(result, "baud_control_ms").words.find("new initialisation"), std::string::npos);
+}
+
+/// A new initialisation 12 ms after the last telegram, then a fall 600 ms after it.
+calibrate::Result initialised_and_silent(const std::vector<Wire>& pins) {
+  MadeCapture capture(k1M5, pins);
+  capture.find_rate();
+  for (const double ms : {12.0, 600.0}) {
+    capture.request(fdl_status());
+    const Tick end = capture.now();
+    capture.answer(status(0));
+    const Tick fall = end + static_cast<Tick>(capture.bit() + 3.5 * bus::kTicksPerCycle + ms * bus::kTicksPerMs);
+    if (pins.size() > 1) {
+      capture.set_at(Wire::kLReq, fall - 5 * bus::kTicksPerCycle, true);
+      capture.set_at(Wire::kLReq, fall + (ms > 100 ? 2 : 50) * bus::kTicksPerCycle, false);
+    }
+    capture.set_at(Wire::kBr, fall, false);
+    capture.wait_ms(ms + 1);
+    if (ms < 100) capture.find_rate();
+  }
+  return capture.judge();
+}
+
+TEST(CalibrateWatchdog, AnInitialisationIsNotTakenForTheEndOfBaudControl) {
+  expect_600(initialised_and_silent({Wire::kBr, Wire::kLReq}));
+  expect_600(initialised_and_silent({Wire::kBr}));
 }
 
 TEST(CalibrateWatchdog, AFallOfBrInALongAccessMayBeAnInitialisation) {

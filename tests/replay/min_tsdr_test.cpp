@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tb/replay/services.hpp"
 #include "tests/replay/captures.hpp"
 
 namespace {
@@ -32,6 +33,12 @@ class ReplayMinTsdr : public testing::Test {
   void acknowledged(const Telegram& request) { min_tsdr_.take(request, &short_); }
   void refused(const Telegram& request) { min_tsdr_.take(request, &refusal_); }
   void exchange() { min_tsdr_.take(outputs({1}), &inputs_); }
+  /// Slave_Diag with this second byte.
+  void diagnosed(std::uint8_t status) {
+    const tb::replay::RecordedTelegram answer =
+        recorded(bus::encode(replay_test::from_slave(bus::sap::kSlaveDiag, {0, status, 0, kMaster, 0x12, 0x34})));
+    min_tsdr_.take(to_slave(bus::sap::kSlaveDiag), &answer);
+  }
   int least() const { return min_tsdr_.least(); }
 
   tb::replay::MinTsdr min_tsdr_{kBaud};
@@ -87,6 +94,28 @@ TEST_F(ReplayMinTsdr, OfASetPrmWithoutAnAnswerMayBeInForce) {
   min_tsdr_.take(set_prm(kLock, 30), nullptr);
   exchange();
   EXPECT_EQ(least(), 20) << "which of them was heard is not known";
+}
+
+TEST_F(ReplayMinTsdr, IsSetBySrdOnly) {
+  acknowledged(set_prm(0, 40));
+  for (const std::uint8_t function : {bus::fc::kSdaHigh, bus::fc::kSdaLow, bus::fc::kSdnHigh, bus::fc::kSdnLow}) {
+    Telegram other = set_prm(0, 20);
+    other.fc = static_cast<std::uint8_t>(bus::fc::kRequest | function);
+    min_tsdr_.take(other, nullptr);
+    EXPECT_EQ(least(), 40) << "S20";
+  }
+}
+
+TEST_F(ReplayMinTsdr, MayBeThatOfAPowerOnWhereTheSlaveWantsParameters) {
+  acknowledged(set_prm(kLock, 40));
+  exchange();
+  diagnosed(0x00);
+  EXPECT_EQ(least(), 40);
+  diagnosed(tb::replay::kPrmReq);
+  EXPECT_EQ(least(), 11) << "it may have restarted";
+  acknowledged(set_prm(kLock, 40));
+  exchange();
+  EXPECT_EQ(least(), 40);
 }
 
 }  // namespace

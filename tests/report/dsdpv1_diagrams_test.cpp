@@ -156,6 +156,26 @@ TEST(Dsdpv1Diagrams, OwnershipIsMeasuredToAndFromAccessesOfThisChip) {
   EXPECT_EQ(back.measured("last access to release"), 1'500);
 }
 
+TEST(Dsdpv1Diagrams, ReleaseIsCompleteWithTheLaterFall) {
+  for (const bool sta_first : {true, false}) {
+    Watched back("give_back");
+    back.set(10'000, Pin::kRReq, 1);
+    back.set(10'000, Pin::kRSta, 1);
+    back.set(16'000, sta_first ? Pin::kRSta : Pin::kRReq, 0);
+    back.set(17'000, sta_first ? Pin::kRReq : Pin::kRSta, 0);
+    back.set(17'500, Pin::kLReq, 1);
+    EXPECT_EQ(back.measured("both low to the chip's request"), 500) << "H1";
+  }
+  Watched together("give_back");
+  together.set(10'000, Pin::kRReq, 1);
+  together.set(10'000, Pin::kRSta, 1);
+  together.set(16'000, Pin::kRReq, 0);
+  together.set(16'000, Pin::kRSta, 0);
+  together.set(16'500, Pin::kLReq, 1);
+  EXPECT_EQ(together.instances(), 1U);
+  EXPECT_EQ(together.measured("both low to the chip's request"), 500);
+}
+
 TEST(Dsdpv1Diagrams, Intr0IsServedByAReadOfB00eInThisChip) {
   Watched watched("intr0");
   watched.set(10'000, Pin::kIntr0, 0);

@@ -116,8 +116,9 @@ bool wants_answer(const Exchange& exchange) {
          exchange.request->telegram.sa < bus::kBroadcast;
 }
 
-/// Whether the exchanges before and behind show that the chip answers requests like this one. Without BR one may
-/// have ended a search (S1, S9): after a silence, or after a new initialisation, which ends DATA_EXCH.
+/// Whether the exchanges before and behind show that the chip answers requests like this one. One with a gap may be
+/// void. Without BR one may have ended a search (S1, S9): after a silence, or after a new initialisation, which ends
+/// DATA_EXCH.
 bool chip_listens(const Scene& scene, std::size_t i) {
   const auto& all = scene.exchanges;
   const LineTelegram& request = *all[i].request;
@@ -128,7 +129,7 @@ bool chip_listens(const Scene& scene, std::size_t i) {
   std::size_t before = i, behind = i + 1;
   while (before > 0 && !wants_answer(all[before - 1])) --before;
   while (behind < all.size() && !wants_answer(all[behind])) ++behind;
-  if (before == 0 || behind >= all.size() || !same(all[before - 1]) || !same(all[behind])) return false;
+  if (request.gap || before == 0 || behind >= all.size() || !same(all[before - 1]) || !same(all[behind])) return false;
   const Tick from = request.start, to = request.end();
   const bool found = scene.record.sees(Wire::kBr)
                          ? scene.record[Wire::kBr].high(from, to)

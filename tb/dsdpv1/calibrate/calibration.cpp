@@ -97,7 +97,9 @@ ParameterResult result_of(const ParameterRow& row, const Record& record, const F
     const double wanted = fit.at_most    ? fit.estimate.span.hi
                           : fit.at_least ? fit.estimate.span.lo
                                          : fit.estimate.span.middle();
-    result.chosen = result.value.value_or(std::llround(fit.at_most ? std::floor(wanted) : wanted));
+    result.chosen = result.value.value_or(std::llround(fit.at_most    ? std::floor(wanted)
+                                                       : fit.at_least ? std::ceil(wanted)
+                                                                      : wanted));
   }
   result.chosen = std::min<long long>(std::max<long long>(result.chosen, range.min), range.max);
   result.words = span_text(fit);
@@ -167,6 +169,7 @@ Result calibrate(const std::string& file, const Record& record, const Sampling& 
   fill(scene);
   Found& found = result.found;
   measure_clock(scene, sampling.clock_ppm, found);
+  find_resets(scene);
   measure_access(scene, found);
   measure_ready(scene, found);
   measure_interrupt(scene, found);

@@ -1,11 +1,15 @@
 #include "tb/dsdpv1/calibrate/estimate.hpp"
 
 #include <cmath>
+#include <iterator>
 
 namespace calibrate {
 namespace {
 
 constexpr double kSigmas = 5;
+
+/// No number lies in it.
+bool is_empty(const Instance& instance) { return instance.span.lo > instance.span.hi; }
 
 struct End {
   double at;
@@ -68,6 +72,11 @@ std::optional<long long> Estimate::whole() const {
 }
 
 Estimate estimate(const std::vector<Instance>& instances, const TimeBase* time) {
+  if (std::any_of(instances.begin(), instances.end(), is_empty)) {
+    std::vector<Instance> others;
+    std::remove_copy_if(instances.begin(), instances.end(), std::back_inserter(others), is_empty);
+    return estimate(others, time);
+  }
   Estimate result;
   result.count = instances.size();
   if (instances.empty()) return result;

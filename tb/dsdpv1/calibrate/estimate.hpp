@@ -31,7 +31,8 @@ struct Estimate {
 };
 
 /// The values that most instances agree with. With `time` their mean narrows that down, where the chip's edges drift
-/// past the samples, so that the errors of sampling are spread. No instances: count 0.
+/// past the samples, so that the errors of sampling are spread. No instances: count 0. One whose `lo` is above its
+/// `hi` is none.
 Estimate estimate(const std::vector<Instance>& instances, const TimeBase* time = nullptr);
 
 }  // namespace calibrate

@@ -44,6 +44,9 @@ using Claims = std::vector<const Claim*>;
 
 // Each measures its part of the scene; its claims stand in the table of rulings.
 
+/// Why a parameter is not shown.
+inline constexpr const char* kTooCoarse = "the samples are too far apart";
+
 /// P1: the clocks, from the bits of telegrams; sets the scale of the scene's time.
 void measure_clock(Scene& scene, double limit_ppm, Found& found);
 Claims clock_claims();

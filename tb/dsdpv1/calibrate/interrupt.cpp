@@ -19,10 +19,12 @@ std::vector<Pulse> pulses_of(const Scene& scene) {
   std::vector<Pulse> pulses;
   const Trace& trace = scene.record[Wire::kIntr0];
   for (std::size_t edge = trace.next(0, false); edge + 1 < trace.edges.size(); edge += 2)
-    if (!scene.in_reset(trace.edges[edge], trace.edges[edge + 1]))
+    if (!scene.in_reset(trace.edges[edge], trace.edges[edge + 1] + scene.time.margin()))  // not cut by one
       pulses.push_back({trace.edges[edge], trace.edges[edge + 1]});
   return pulses;
 }
+
+bool sees_accesses(const Scene& scene) { return scene.record.sees(Wire::kLReq) && !scene.may_miss_accesses(); }
 
 /// Whether the chip has the DPRAM at `at`, or had it just before.
 bool owned(const Scene& scene, Tick at) {
@@ -33,6 +35,7 @@ bool owned(const Scene& scene, Tick at) {
 
 void fit_low(const Scene& scene, const std::vector<Pulse>& pulses, Found& found) {
   std::vector<Instance> instances;
+  instances.reserve(pulses.size());
   for (const Pulse& pulse : pulses)
     instances.push_back(
         {pulse.fall, scene.time.between(pulse.fall, pulse.rise), scene.time.best(pulse.fall, pulse.rise)});
@@ -54,7 +57,7 @@ void fit_gap(const Scene& scene, const std::vector<Pulse>& pulses, Found& found)
     const Span gap = scene.time.between(from, to);
     if (scene.in_reset(from, to)) continue;
     shortest = std::min(shortest, gap.hi);
-    if (scene.record.sees(Wire::kLReq) && !owned(scene, to)) waited.push_back({to, gap, scene.time.best(from, to)});
+    if (sees_accesses(scene) && !owned(scene, to)) waited.push_back({to, gap, scene.time.best(from, to)});
   }
   Fit& fit = found.fit(Parameter::kIntrGap);
   fit.estimate = estimate(waited, &scene.time);
@@ -92,7 +95,7 @@ void measure_interrupt(const Scene& scene, Found& found) {
   const std::vector<Pulse> pulses = pulses_of(scene);
   fit_low(scene, pulses, found);
   fit_gap(scene, pulses, found);
-  if (scene.record.sees(Wire::kLReq)) judge_falls(scene, pulses, found), judge_ready(scene, found);
+  if (sees_accesses(scene)) judge_falls(scene, pulses, found), judge_ready(scene, found);
 }
 
 Claims interrupt_claims() { return {&kPulses, &kInAccess, &kReady}; }

@@ -1,6 +1,9 @@
 #include "tb/dsdpv1/calibrate/line.hpp"
 
 #include <array>
+#include <cstdlib>
+#include <limits>
+#include <optional>
 
 #include "bus/wire/uart.hpp"
 
@@ -77,12 +80,15 @@ class LineReader {
     telegram.start = trace_.edges[edge];
     telegram.baud = baud;
     bus::TelegramDecoder decoder;
+    std::vector<Lateness> before;
     for (; edge < trace_.edges.size();
          edge = trace_.next(telegram.last_start + stop_bit(baud) - time_.margin() / 2, false)) {
       const Tick start = trace_.edges[edge];
-      if (!telegram.bytes.empty() && gap(telegram, start)) return telegram;
+      if (!telegram.bytes.empty() && after_gap(telegram, start - time_.margin())) return telegram;
+      telegram.gap = telegram.gap || (!telegram.bytes.empty() && after_gap(telegram, start));
+      shift(before, telegram, start);
       telegram.last_start = start;
-      const int byte = character(edge, baud);
+      const int byte = character(edge, baud, before);
       if (byte < 0) return telegram;
       telegram.bytes.push_back(static_cast<std::uint8_t>(byte));
       if (const auto decoded = decoder.feed(static_cast<std::uint8_t>(byte))) {
@@ -94,16 +100,37 @@ class LineReader {
     return telegram;
   }
 
-  bool gap(const LineTelegram& telegram, Tick start) const {
-    const Tick bit = bus::baud(telegram.baud).bit;
-    return start > telegram.last_start + 12 * bit + time_.margin();
+  /// More than 1 bit time after the character before it, as recorded.
+  static bool after_gap(const LineTelegram& telegram, Tick start) {
+    return start > telegram.last_start + (bus::kCharacterBits + 1) * bus::baud(telegram.baud).bit;
   }
 
-  /// The right character that the edges fit best; -1 when there is none.
-  int character(std::size_t edge, int baud) const {
+  /// How late the edges of a character are, from the least to the most; ticks.
+  struct Lateness {
+    double least = 0, most = 0;
+
+    double spread() const { return most - least; }
+    void add(double late) { least = std::min(least, late), most = std::max(most, late); }
+    void add(const Lateness& other) { add(other.least), add(other.most); }
+  };
+
+  /// Of the characters before the one at `start`, as if they were it, when it follows them without a pause. Some only:
+  /// the sender's clock is another one.
+  void shift(std::vector<Lateness>& before, const LineTelegram& telegram, Tick start) const {
+    constexpr std::size_t kMost = 6;
+    const Tick by = start - telegram.last_start - bus::kCharacterBits * bus::baud(telegram.baud).bit;
+    if (std::abs(by) > time_.margin()) before.clear();
+    if (before.size() > kMost) before.erase(before.begin());
+    for (Lateness& each : before) each.least -= static_cast<double>(by), each.most -= static_cast<double>(by);
+  }
+
+  /// The right character that the edges fit best, those before it included; -1 when there is none. Adds its own to
+  /// `before`.
+  int character(std::size_t edge, int baud, std::vector<Lateness>& before) const {
     const auto bit = static_cast<double>(bus::baud(baud).bit);
     const Tick start = trace_.edges[edge];
-    double best = most_spread();
+    double best = std::numeric_limits<double>::max();
+    Lateness own;
     int found = -1;
     for (const double place : kPlaces) {
       unsigned bits = 0;
@@ -111,28 +138,35 @@ class LineReader {
         bits |= (trace_.at(start + static_cast<Tick>((i + place) * bit)) ? 1U : 0U) << static_cast<unsigned>(i);
       const auto byte = static_cast<std::uint8_t>(bits >> 1U);
       if (bits != bus::Character::of(byte).bits) continue;
-      const double spread = spread_of(edge, bits, bit);
-      if (spread >= best) continue;
-      best = spread;
+      const std::optional<Lateness> late = lateness_of(edge, bits, bit);
+      if (!late || late->spread() >= most_spread(bit)) continue;
+      Lateness all = *late;
+      for (const Lateness& each : before) all.add(each);
+      if (all.spread() >= best) continue;
+      best = all.spread();
+      own = *late;
       found = byte;
     }
+    before.push_back(own);
     return found;
   }
 
-  /// Edges of a right character are late by the same, but for the sampling and jitter; ticks, with some room.
-  double most_spread() const { return (time_.doubt() + 1) * static_cast<double>(bus::kTicksPerCycle); }
-  /// From the edge that is least late to the one that is most, when the character has these bits; ticks.
-  double spread_of(std::size_t edge, unsigned bits, double bit) const {
-    double least = 0, most = 0;
+  /// Edges of a right character are late by the same, but for the sampling, jitter and the sender's clock; ticks, with
+  /// some room.
+  double most_spread(double bit) const {
+    constexpr double kClock = 0.002;
+    return (time_.doubt() + 1) * static_cast<double>(bus::kTicksPerCycle) + kClock * bus::kCharacterBits * bit;
+  }
+  /// When the character has these bits; nothing where the capture ends in it.
+  std::optional<Lateness> lateness_of(std::size_t edge, unsigned bits, double bit) const {
+    Lateness late;
     const Tick start = trace_.edges[edge];
     for (unsigned i = 1; i < bus::kCharacterBits; ++i) {
       if ((bits >> i & 1U) == (bits >> (i - 1) & 1U)) continue;
-      if (++edge >= trace_.edges.size()) return most_spread();
-      const double late = static_cast<double>(trace_.edges[edge] - start) - i * bit;
-      least = std::min(least, late);
-      most = std::max(most, late);
+      if (++edge >= trace_.edges.size()) return std::nullopt;
+      late.add(static_cast<double>(trace_.edges[edge] - start) - i * bit);
     }
-    return most - least;
+    return late;
   }
 
   /// What is no telegram ends where the line is idle for a character: the edge that comes then.

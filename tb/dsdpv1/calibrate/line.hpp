@@ -13,6 +13,7 @@ struct LineTelegram {
   Tick last_start = 0;  ///< the last one
   int baud = 0;         ///< index of bus/baud.hpp
   bool right = false;   ///< else something that is no telegram at any rate
+  bool gap = false;  ///< within what an edge may be off there is one of more than 1 bit time, which makes it void (S10)
   bus::Telegram telegram = {};
   bus::Bytes bytes = {};  ///< of what is no telegram the right characters that it begins with
   Tick last_edge = 0;     ///< of what is no telegram

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "tb/dsdpv1/calibrate/found.hpp"
+#include "tb/dsdpv1/calibrate/reads.hpp"
 
 namespace calibrate {
 namespace {
@@ -40,19 +41,23 @@ class SinceRelease {
   Span behind_;  ///< R is so many cycles behind it
 };
 
-/// The access that has written B004 by what the user has read.
+/// The access that has written B004 by what the user has read, as long as it has not written there itself (P6).
 void bound_by_reads(const Scene& scene, std::size_t start_up, std::size_t until, const SinceRelease& since,
                     Span& bound) {
   constexpr std::uint32_t kB004 = 4;
-  const Tick from = scene.accesses[start_up].end,
+  const Tick from = scene.accesses[start_up].start,
              to = until < scene.accesses.size() ? scene.accesses[until].start : bus::kNever;
   for (const UserAccess& access : scene.user) {
-    if (access.write || access.address != kB004 || access.start < from || access.start > to) continue;
+    if (access.address != kB004 || access.end < from || access.start > to) continue;
+    if (access.write) return;
+    const std::optional<Standing> standing = standing_data(scene, access);
+    if (!standing || !is_known(scene, access)) continue;
+    const std::uint32_t data = scene.record.data(standing->to);
     std::size_t before = start_up;
     while (before + 1 < scene.accesses.size() && scene.accesses[before + 1].start < access.start) ++before;
     if (before == start_up) continue;
-    if (access.data == 0) bound.lo = std::max(bound.lo, since(scene.accesses[before]).lo);
-    if (access.data == 0xC5) bound.hi = std::min(bound.hi, since(scene.accesses[before]).hi);
+    if (data == 0) bound.lo = std::max(bound.lo, since(scene.accesses[before]).lo);
+    if (data == 0xC5) bound.hi = std::min(bound.hi, since(scene.accesses[before]).hi);
   }
 }
 
@@ -77,6 +82,10 @@ void bound_by_length(const Scene& scene, std::size_t start_up, std::size_t until
 void measure_ready(const Scene& scene, Found& found) {
   constexpr double kFar = 1e12;
   Fit& fit = found.fit(Parameter::kReadyCycles);
+  if (scene.may_miss_accesses()) {
+    fit.not_shown = kTooCoarse;
+    return;
+  }
   std::vector<Instance> instances;
   const std::vector<std::size_t> starts = start_ups(scene);
   bool any_release = false;
@@ -86,7 +95,7 @@ void measure_ready(const Scene& scene, Found& found) {
     if (!since) continue;
     any_release = true;
     Span bound{0, kFar};
-    bound_by_reads(scene, starts[i], until, *since, bound);
+    if (!may_miss_writes(scene)) bound_by_reads(scene, starts[i], until, *since, bound);
     bound_by_length(scene, starts[i], until, *since, bound);
     if (bound.lo > 0 && bound.hi < kFar) instances.push_back({scene.accesses[starts[i]].start, bound, bound.middle()});
   }

@@ -6,13 +6,43 @@
 namespace calibrate {
 namespace {
 
-/// A telegram that the capture has only a part of, at its beginning or end, is none.
+Tick syn(const LineTelegram& telegram) { return bus::kSynBits * bus::baud(telegram.baud).bit; }
+
+/// A telegram that the capture has only a part of at its end is none.
 void leave_out_cut(std::vector<LineTelegram>& telegrams, const Trace& trace, Tick end) {
-  const auto syn = [](const LineTelegram& telegram) { return bus::kSynBits * bus::baud(telegram.baud).bit; };
   if (!telegrams.empty() && !telegrams.back().right && trace.edges.back() + syn(telegrams.back()) > end)
     telegrams.pop_back();
-  if (!telegrams.empty() && !telegrams.front().right && telegrams.front().start < syn(telegrams.front()))
-    telegrams.erase(telegrams.begin());
+}
+
+void leave_out_before(std::vector<LineTelegram>& telegrams, Tick at) {
+  const auto behind = std::find_if(telegrams.begin(), telegrams.end(),
+                                   [&](const LineTelegram& telegram) { return telegram.start >= at; });
+  telegrams.erase(telegrams.begin(), behind);
+}
+
+std::vector<LineTelegram>::const_iterator first_right(const std::vector<LineTelegram>& telegrams) {
+  return std::find_if(
+      telegrams.begin(), telegrams.end(), [](const LineTelegram& telegram) { return telegram.right; });
+}
+
+/// The first edge after T_SYN of idle: what begins before it may have begun before the capture.
+Tick first_whole(const std::vector<LineTelegram>& telegrams, const Trace& trace) {
+  if (telegrams.empty()) return 0;
+  const auto right = first_right(telegrams);
+  const Tick idle = syn(right != telegrams.end() ? *right : telegrams.front());
+  Tick before = 0;
+  for (std::size_t edge = 0; edge < trace.edges.size(); before = trace.edges[edge++])
+    if (trace.level(edge) && trace.edges[edge] - before >= idle) return trace.edges[edge];
+  return bus::kNever;
+}
+
+/// The capture may begin in a telegram, or between a request and its answer, and shows the rate with the first right
+/// telegram on PBRXD: what comes before that does not count.
+void leave_out_begun(Scene& scene) {
+  const auto right = first_right(scene.received);
+  scene.received.erase(scene.received.cbegin(), right);
+  leave_out_before(scene.sent, scene.received.empty() ? first_whole(scene.sent, scene.record[Wire::kPbtxd])
+                                                      : scene.received.front().start);
 }
 
 /// What the chip hears of its own: PBRXD is the line, and its answers are on it.
@@ -26,12 +56,30 @@ void leave_out_own(std::vector<LineTelegram>& received, const std::vector<LineTe
   received.erase(std::remove_if(received.begin(), received.end(), own), received.end());
 }
 
+/// What is no telegram, and begins after the request's decision (S10): before T_SYN, or too short to be a request
+/// itself.
+bool is_disturbance(const LineTelegram& noise, const LineTelegram& request, const TimeBase& time) {
+  constexpr int kShorterThanAny = 5;  // characters
+  const Tick bit = bus::baud(request.baud).bit;
+  return !noise.right && noise.start > request.last_start + (bus::kCharacterBits + 1) * bit - time.margin() &&
+         (noise.start < request.end() + bus::kSynBits * bit ||
+          noise.last_edge < noise.start + kShorterThanAny * bus::kCharacterBits * bit);
+}
+
+/// Until when an answer to this request may begin: the line is used again.
+Tick waits_until(const Scene& scene, std::size_t request) {
+  const auto& all = scene.received;
+  std::size_t next = request + 1;
+  while (all[request].right && next < all.size() && is_disturbance(all[next], all[request], scene.time)) ++next;
+  return next < all.size() ? all[next].start : bus::kNever;
+}
+
 /// Requests with the chip's answer, if there is one before the line is used again.
 void pair_up(Scene& scene) {
   std::size_t sent = 0;
   for (std::size_t i = 0; i < scene.received.size(); ++i) {
     const LineTelegram& request = scene.received[i];
-    const Tick until = i + 1 < scene.received.size() ? scene.received[i + 1].start : bus::kNever;
+    const Tick until = waits_until(scene, i);
     for (; sent < scene.sent.size() && scene.sent[sent].start < request.start; ++sent)
       scene.unasked.push_back(&scene.sent[sent]);
     Exchange exchange{&request, nullptr};
@@ -59,11 +107,18 @@ void keep_own(Scene& scene) {
   scene.exchanges.erase(std::remove_if(scene.exchanges.begin(), scene.exchanges.end(), other), scene.exchanges.end());
 }
 
+/// A low level of less than half a bit, perhaps, which ends no idle time (S10).
+bool may_be_glitch(const LineTelegram& telegram, const TimeBase& time) {
+  const double low = TimeBase::nominal(telegram.last_edge - telegram.start);
+  return !telegram.right && low - time.doubt() < telegram.bit() / 2;
+}
+
 void measure_idle(Scene& scene) {
   std::optional<Tick> from, until;
   const auto take = [&](const std::vector<LineTelegram>& telegrams, std::size_t& next, Tick before) {
     for (; next < telegrams.size() && telegrams[next].start < before; ++next) {
-      from = std::max(from.value_or(0), telegrams[next].idle_from());
+      if (!may_be_glitch(telegrams[next], scene.time))
+        from = std::max(from.value_or(0), telegrams[next].idle_from());
       until = std::max(until.value_or(0), telegrams[next].idle_until());
     }
   };
@@ -86,12 +141,15 @@ bool same_frame(const LineTelegram& a, const LineTelegram& b) {
          first.data.size() == second.data.size() && fcs(a) == fcs(b);
 }
 
-/// A request whose answer cannot be known from others than the one before; one that was not read may be the one before.
+/// A request whose answer cannot be known from others than the one before; one that was not read, or was before the
+/// capture, may be the one before.
 void find_repetitions(Scene& scene) {
   const Exchange* before = nullptr;
   for (Exchange& exchange : scene.exchanges) {
-    if (exchange.is_request() && (exchange.request->telegram.fc & bus::fc::kFcv) != 0 && before != nullptr)
-      exchange.repeats = !before->request->right || same_frame(*before->request, *exchange.request);
+    if (exchange.is_request() && (exchange.request->telegram.fc & bus::fc::kFcv) != 0) {
+      exchange.same = before != nullptr && before->request->right && same_frame(*before->request, *exchange.request);
+      exchange.repeats = exchange.same || before == nullptr || !before->request->right;
+    }
     if (exchange.answer != nullptr) before = &exchange;
   }
 }
@@ -155,15 +213,6 @@ bool Scene::user_lets(Tick from, Tick to) const {
          (!record.sees(Wire::kRSta) || record[Wire::kRSta].low(from, to));
 }
 
-bool Scene::in_reset(Tick from, Tick to) const {
-  return record.sees(Wire::kReset) && !record[Wire::kReset].high(from, to);
-}
-
-bool Scene::is_start_up(const ChipAccess& access) const {
-  constexpr double kLonger = 1500;  // cycles
-  return time.between(access.start, access.end).hi > kLonger;
-}
-
 void fill(Scene& scene) {
   if (scene.record.sees(Wire::kPbrxd)) scene.received = telegrams_received(scene.record[Wire::kPbrxd], scene.time);
   if (scene.record.sees(Wire::kPbtxd))
@@ -171,7 +220,8 @@ void fill(Scene& scene) {
   leave_out_cut(scene.received, scene.record[Wire::kPbrxd], scene.record.end);
   leave_out_cut(scene.sent, scene.record[Wire::kPbtxd], scene.record.end);
   leave_out_own(scene.received, scene.sent, scene.time);
-  if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd})) {
+  leave_out_begun(scene);
+  if (!scene.received.empty() && scene.record.sees(Wire::kPbtxd)) {
     pair_up(scene);
     keep_own(scene);
     measure_idle(scene);

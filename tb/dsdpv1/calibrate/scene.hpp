@@ -13,6 +13,7 @@ struct Exchange {
   const LineTelegram* answer = nullptr;  ///< nullptr: none
   std::optional<Span> idle = {};         ///< bit times of silence on PBRXD and PBTXD before it; nothing: not known
   bool repeats = false;                  ///< the chip may answer it from memory (S26)
+  bool same = false;                     ///< repeats, and what was answered before it was read: the same frame
 
   /// A right request to the station alone: data exchanges and other SRD, FDL status, SDN ...
   bool is_request() const {
@@ -30,10 +31,19 @@ struct Exchange {
 /// L_REQ high.
 struct ChipAccess {
   Tick start = 0, end = 0;
-  bool whole = false;  ///< its beginning and end are both in the capture
+  bool whole = false;     ///< its beginning and end are both in the capture
+  bool start_up = false;  ///< by find_resets
 };
 
-constexpr double kEmptyAccess = 7;  ///< cycles of one that finds nothing to do: micro-architecture, 9.1
+constexpr double kEmptyAccess = 7;       ///< cycles of one that finds nothing to do: micro-architecture, 9.1
+constexpr double kStartUpAccess = 2054;  ///< cycles: micro-architecture, 9.7
+/// Cycles with the one behind it, which writes B012, and the gap between them.
+constexpr double kStartUpWithNext = kStartUpAccess + 1 + kEmptyAccess + 1;
+
+/// Of a capture without RESET: the chip was in reset some time from `from` to before `to`.
+struct Reset {
+  Tick from = 0, to = 0;
+};
 
 /// A byte that the user read or wrote.
 struct UserAccess {
@@ -55,17 +65,23 @@ struct Scene {
   std::vector<const LineTelegram*> unasked = {};  ///< sent without a request before them
   std::vector<ChipAccess> accesses = {};
   std::vector<UserAccess> user = {};
+  std::vector<Reset> resets = {};  ///< where RESET is not in the capture; by find_resets
 
   /// Whether the user's request pins are low, as far as they are seen, from `from` to `to`.
   bool user_lets(Tick from, Tick to) const;
   /// Whether both of them are in the capture.
   bool sees_user() const { return record.sees({Wire::kRReq, Wire::kRSta}); }
+  /// The shortest accesses of the chip may lie between two samples.
+  bool may_miss_accesses() const { return time.doubt() >= kEmptyAccess; }
+  /// RESET was low between them, or may have been by what shows it otherwise.
   bool in_reset(Tick from, Tick to) const;
-  /// It is longer than any other access can be (H6).
-  bool is_start_up(const ChipAccess& access) const;
+  /// The first one after a reset (H6).
+  bool is_start_up(const ChipAccess& access) const { return access.start_up; }
 };
 
 /// Reads the telegrams and accesses out of the record.
 void fill(Scene& scene);
+/// Finds the start-up accesses, and resets in a capture without RESET. Needs the scale of time.
+void find_resets(Scene& scene);
 
 }  // namespace calibrate

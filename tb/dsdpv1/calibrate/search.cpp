@@ -1,6 +1,7 @@
 // S1, S9, S10, P3: the baud search, and the pins that show the states.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/dsdpv1/chip.hpp"
@@ -61,6 +62,23 @@ std::size_t telegram_ending(const Scene& scene, Tick at) {
   return scene.time.between(telegram.last_start, at).lo < near ? last : Trace::kNone;
 }
 
+/// What ends there was not read: the samples are too far apart, or the capture begins in it.
+bool ends_unread(const Scene& scene, Tick at) {
+  constexpr int kSlowest = bus::kBaudCount - 1;
+  const auto near = [&](Tick edge, int baud) {
+    return scene.time.between(edge, at).lo < 3 * bus::kCharacterBits * TimeBase::nominal(bus::baud(baud).bit);
+  };
+  if (scene.received.empty() || at < scene.received.front().start) {
+    const Trace& line = scene.record[Wire::kPbrxd];
+    const std::size_t edges = line.count_until(at);
+    return near(edges > 0 ? line.edges[edges - 1] : 0, scene.received.empty() ? kSlowest : scene.received.front().baud);
+  }
+  return std::any_of(scene.received.begin(), scene.received.end(), [&](const LineTelegram& telegram) {
+    return !telegram.right && telegram.coarse(scene.time) && telegram.start < at &&
+           near(telegram.last_edge, telegram.baud);
+  });
+}
+
 void judge_decision(const Scene& scene, const LineTelegram& telegram, Tick at, Found& found) {
   const Span seen = scene.time.between(telegram.last_start, at), right = telegram.decision();
   if (overlap(seen, right))
@@ -96,6 +114,10 @@ std::vector<Lock> locks_of(const Scene& scene, Found& found) {
   for (std::size_t edge = br.next(0, true); edge < br.edges.size(); edge += 2) {
     const Tick at = br.edges[edge];
     const std::size_t by = telegram_ending(scene, at);
+    if (by == Trace::kNone && ends_unread(scene, at)) {
+      found.judge.coarse(kLocks);
+      continue;
+    }
     if (by == Trace::kNone) {
       found.judge.fails(kLocks, at, "BR rises without a telegram before it");
       continue;

@@ -43,13 +43,14 @@ const Supervised& Supervision::before(Tick at) {
 void Supervision::take(const Exchange& exchange) {
   if (!exchange.request->right && exchange.answer != nullptr) {  // the chip has read it
     now_.state = State::kUnknown;
+    if (may_be_prm(exchange)) now_.prm.reset();
     if (now_.prm) now_.prm->heard.reset();
   }
   if (!exchange.is_request() || !is_heard(exchange)) return;
   const Moment now = decision_of(*exchange.request);
   end_watchdog(now);
   trigger(exchange.request->telegram.sa, now);
-  if (!exchange.repeats) execute(exchange, now);
+  execute(exchange, now);
 }
 
 /// Its time may have passed before this telegram.
@@ -81,6 +82,8 @@ void Supervision::execute(const Exchange& exchange, const Moment& now) {
   } else if (prm == PrmKind::kLock) {
     now_.prm = {watchdog_of(exchange.request->telegram.data), exchange.request->telegram.sa, now};
     now_.state = State::kUnknown;
+  } else if (exchange.repeats) {
+    return;  // nothing is executed
   } else if (exchange.is_srd(bus::sap::kChkCfg) && exchange.acknowledged()) {
     if (now_.state == State::kDpControl) now_.state = State::kUnknown;  // it may have been refused
   } else if (exchange.exchanged() && now_.prm && now_.prm->master == exchange.request->telegram.sa) {

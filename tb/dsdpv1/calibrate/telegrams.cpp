@@ -72,11 +72,11 @@ const std::vector<Rule> kRules = {
     {{"S13", "SAP 56 answers requests with data RR, or RS", line()},
      [](const Asked& a) { return a.is_srd() && !a.request.data.empty() && a.to(sap::kReadInputs); },
      [](const Asked& a) { return a.refused() || a.no_resource(); }},
-    {{"S13", "Slave_Diag and Get_Cfg are always answered with data", line()},
+    {{"S13", "Slave_Diag is answered with data, Get_Cfg with data or, without modules, SC", line()},
      [](const Asked& a) {
        return a.is_srd() && a.request.data.empty() && (a.to(sap::kSlaveDiag) || a.to(sap::kGetCfg));
      },
-     [](const Asked& a) { return a.has_data(); }},
+     [](const Asked& a) { return a.has_data() || (a.to(sap::kGetCfg) && a.acknowledged()); }},
     {{"S14", "Set_Prm is answered SC, or RS", line()},
      [](const Asked& a) { return a.is_srd() && a.to(sap::kSetPrm); },
      [](const Asked& a) { return a.acknowledged() || a.refused(); }},

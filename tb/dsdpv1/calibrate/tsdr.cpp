@@ -36,6 +36,7 @@ class TsdrJudge {
   void judge(const Exchange& exchange) {
     const LineTelegram& request = *exchange.request;
     take_restarts(request.start);
+    open_ = open_ || may_be_prm(exchange);
     if (!request.right || exchange.answer == nullptr) return;
     take(exchange);
     const Span cycles =
@@ -48,13 +49,14 @@ class TsdrJudge {
   struct Asked {
     int bits;
     std::uint8_t master;
+    bool perhaps;  ///< it may have been accepted before what min_TSDR is now
   };
 
   void restart() {
     now_ = {bus::kMinTsdrBits};
     asked_.reset();
     before_.clear();
-    changed_ = false;
+    changed_ = open_ = false;
   }
   /// The fall of BR is a new initialisation, or the end of BAUD_CONTROL, which leaves it.
   void take_restarts(Tick at) {
@@ -77,11 +79,12 @@ class TsdrJudge {
     switch (prm_kind(exchange)) {
       case PrmKind::kLock:
         give_up_asked();
-        if (request.data[kPlace] != 0) asked_ = {request.data[kPlace], request.sa};
+        if (request.data[kPlace] != 0) asked_ = {request.data[kPlace], request.sa, false};
         return;
       case PrmKind::kMinTsdr:
-        give_up_asked();
-        if (request.data[kPlace] != 0) change(request.data[kPlace], *exchange.request);
+        if (request.data[kPlace] == 0) return;
+        change(request.data[kPlace], *exchange.request);
+        if (asked_) asked_->perhaps = true;
         return;
       case PrmKind::kUnlock:
       case PrmKind::kShort: return give_up_asked();
@@ -91,11 +94,17 @@ class TsdrJudge {
     const bool served =
         exchange.exchanged() || (exchange.is_srd(bus::sap::kChkCfg) && exchange.acknowledged());  // S12, S13
     if (served && !exchange.repeats && request.sa == asked_->master)
-      accept(*exchange.request);
+      take_verdict(*exchange.request);
     else if (diagnosis_has(exchange, kPrmFault, kPrmReq))
       asked_.reset();
   }
 
+  void take_verdict(const LineTelegram& request) {
+    if (asked_->perhaps)
+      give_up_asked();
+    else
+      accept(request);
+  }
   /// Whether it was accepted will not be known.
   void give_up_asked() {
     if (asked_ && !now_.empty()) now_.push_back(asked_->bits);
@@ -123,11 +132,17 @@ class TsdrJudge {
                  [&](int bits) { return fits(cycles, request, bits); });
     if (!left.empty()) {
       now_ = std::move(left);
+      if (exchange.exchanged() && !exchange.repeats) open_ = false;
       return true;
     }
     if (as_asked) {
       accept(request);
       return true;
+    }
+    if (open_ && !now_.empty()) {
+      open_ = changed_ = false;
+      now_.clear(), before_.clear();
+      return learns(cycles, request);
     }
     // Without BR a new initialisation is only known not to have been before what shows DATA_EXCH.
     const bool restarted = !scene_.record.sees(Wire::kBr) && (!exchange.exchanged() || exchange.repeats) &&
@@ -166,6 +181,7 @@ class TsdrJudge {
   std::optional<Asked> asked_;  ///< by a Set_Prm that may have been accepted, or will be
   std::vector<int> before_;     ///< what it was before the last Set_Prm
   bool changed_ = false;        ///< by a Set_Prm, and no answer has shown it yet
+  bool open_ = false;           ///< by a Set_Prm that was not read, perhaps: the first answer that shows it counts
 };
 
 }  // namespace

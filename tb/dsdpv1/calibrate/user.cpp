@@ -6,6 +6,7 @@
 
 #include "registers/dsdpv1_regs.hpp"
 #include "tb/dsdpv1/calibrate/found.hpp"
+#include "tb/dsdpv1/calibrate/reads.hpp"
 
 namespace calibrate {
 namespace {
@@ -34,10 +35,14 @@ constexpr std::uint8_t kFlags = dsdpv1::regs::kUserCommand1Input | dsdpv1::regs:
 /// A block that the chip writes: its length byte stands last of the header.
 struct Area {
   std::uint32_t first, header, crc;
+  std::uint8_t news;  ///< the bit of B00E that says that it was written
   const char* what;
+
+  bool has(std::uint32_t address) const { return address >= first && address <= crc + 1; }
 };
-constexpr std::array<Area, 3> kAreas = {
-    {{0x319, 1, 0x40E, "outputs"}, {0x410, 1, 0x4FE, "parameters"}, {0x500, 3, 0x5CB, "configuration"}}};
+constexpr std::array<Area, 3> kAreas = {{{0x319, 1, 0x40E, dsdpv1::regs::kChipCommand1Output, "outputs"},
+                                         {0x410, 1, 0x4FE, dsdpv1::regs::kChipCommand1Prm, "parameters"},
+                                         {0x500, 3, 0x5CB, dsdpv1::regs::kChipCommand1Cfg, "configuration"}}};
 
 class UserJudge {
  public:
@@ -57,25 +62,35 @@ class UserJudge {
   /// Whether the chip had the DPRAM since the access before.
   bool chip_came_before(const UserAccess& access) {
     bool came = false;
-    for (; next_ < scene_.accesses.size() && scene_.accesses[next_].start < access.end; ++next_) came = true;
+    for (; next_ < scene_.accesses.size() && scene_.accesses[next_].start < access.end; ++next_) {
+      came = true;
+      if (scene_.is_start_up(scene_.accesses[next_])) users_.clear(), valid_ = false;  // H6: all is the chip's again
+    }
     return came;
   }
   void new_hold() {
+    ++hold_;
     written_.clear();
     read_.clear();
     flags_before_ |= flags_now_;
     flags_now_ = 0;
   }
   void write(const UserAccess& access) {
-    written_[access.address] = access.data;
-    written_at_[access.address] = access.end;
+    const std::uint8_t data = access.data;
+    const bool sure = stands_at_end(access);
+    written_.erase(access.address);
     read_.erase(access.address);
-    if (access.address == dsdpv1::regs::kUserCommand1) flags_now_ = access.data & kFlags, flags_before_ = 0;
+    if (sure) written_[access.address] = data;
+    users_[access.address] = {hold_, sure ? data : kAnything};
+    if (access.address == dsdpv1::regs::kUserCommand1) flags_now_ = sure ? data & kFlags : 0, flags_before_ = 0;
   }
-  void read(const UserAccess& access) {
+  void read(UserAccess access) {
     read_.erase(access.address);
-    if (!is_known(access)) return;
-    judge_data(access);
+    if (!is_known(scene_, access)) return;
+    const std::optional<Standing> standing = standing_data(scene_, access);
+    if (!standing) return found_.judge.coarse(kData);
+    judge_data(*standing);
+    access.data = static_cast<std::uint8_t>(scene_.record.data(standing->to));
     judge_version(access);
     if (const auto found = written_.find(access.address); found != written_.end() && scene_.record.sees(Wire::kLReq))
       check(kRam, access, found->second);
@@ -84,37 +99,36 @@ class UserJudge {
       flags_before_ = 0;
     }
     read_[access.address] = access.data;
+    if (access.address == dsdpv1::regs::kChipCommand1) find_written(access.data);
     for (const Area& area : kAreas)
-      if (access.address == area.crc + 1) judge_crc(area, access);
+      if (access.address == area.crc + 1 && !is_users(area)) judge_crc(area, access);
   }
 
-  /// Whether the rulings say what it brings: it has the DPRAM (P12), which a reset takes (P10, H6), and no write of the
-  /// same cell is on its way (P8). What is not in the capture is taken to be right.
-  bool is_known(const UserAccess& access) const {
-    return !in_reset(access) && !before_start_up(access) && has_dpram(access) && !in_flight(access);
+  /// No wire of A or D changes in the samples about WR's rise, so that what they show is what the chip took.
+  bool stands_at_end(const UserAccess& access) const {
+    const Tick from = access.end - scene_.time.ticks(scene_.time.doubt()),
+               to = access.end + scene_.time.ticks(2 * scene_.time.jitter);
+    const auto* const first = scene_.record.traces.begin() + static_cast<std::ptrdiff_t>(Wire::kA);
+    return std::all_of(first, scene_.record.traces.end(),
+                       [&](const Trace& wire) { return wire.count_until(from) == wire.count_until(to); });
   }
-  bool in_reset(const UserAccess& access) const {
-    return scene_.in_reset(access.start - scene_.time.ticks(3) - scene_.time.margin(), access.end);
+
+  /// A bit that the user had written as 0 in an earlier hold: since then the chip has written this block.
+  void find_written(std::uint8_t news) {
+    const auto cleared = users_.find(dsdpv1::regs::kChipCommand1);
+    if (cleared == users_.end()) return;
+    for (const Area& area : kAreas) {
+      const bool came = (news & area.news) != 0 && (cleared->second.data & area.news) == 0;
+      if (!came || cleared->second.hold == hold_) continue;
+      const std::size_t before = cleared->second.hold;
+      for (auto cell = users_.lower_bound(area.first); cell != users_.end() && area.has(cell->first);)
+        cell = cell->second.hold <= before ? users_.erase(cell) : std::next(cell);
+    }
   }
-  bool before_start_up(const UserAccess& access) const {
-    const Trace& reset = scene_.record[Wire::kReset];
-    const std::size_t rose = reset.last(access.start, true);
-    if (rose == Trace::kNone || !scene_.record.sees(Wire::kLReq)) return false;
-    return next_ == 0 || scene_.accesses[next_ - 1].start < reset.edges[rose];
-  }
-  bool has_dpram(const UserAccess& access) const {
-    const auto is = [this](Wire wire, bool level, Tick from, Tick to) {
-      const Trace& trace = scene_.record[wire];
-      return !trace.seen || (level ? trace.high(from, to) : trace.low(from, to));
-    };
-    const Tick from = access.start - scene_.time.margin(), to = access.start + scene_.time.margin();
-    return is(Wire::kRReq, true, access.start, access.end) && is(Wire::kRSta, true, access.start, access.end) &&
-           is(Wire::kLReq, false, from, to) && is(Wire::kLSta, false, from, to);
-  }
-  /// A write takes effect at the third edge of CLK after WR rose, a read samples at the first.
-  bool in_flight(const UserAccess& access) const {
-    const auto write = written_at_.find(access.address);
-    return write != written_at_.end() && scene_.time.between(write->second, access.start).lo < 3;
+  /// P6: something in it is the user's, or may be.
+  bool is_users(const Area& area) const {
+    const auto cell = users_.lower_bound(area.first);
+    return cell != users_.end() && area.has(cell->first);
   }
 
   void check(const Claim& claim, const UserAccess& access, unsigned right) {
@@ -127,19 +141,18 @@ class UserJudge {
   void judge_version(const UserAccess& access) {
     constexpr std::array<unsigned, 4> kVersion4 = {0x01, 0x0D, 0x07, 0x01};
     constexpr unsigned kValid = 0xC5;
-    if (written_at_.count(access.address) != 0) return;  // P6: it holds that until the chip rewrites it
+    if (users_.count(access.address) != 0) return;  // P6: it holds that until the chip rewrites it
     if (access.address < kVersion4.size()) check(kVersion, access, kVersion4.at(access.address));
-    if (access.address == dsdpv1::regs::kValidFlag && access.data != 0) check(kVersion, access, kValid);
+    if (access.address != dsdpv1::regs::kValidFlag) return;
+    if (access.data != 0 || (valid_ && scene_.record.sees(Wire::kLReq))) check(kVersion, access, kValid);
+    valid_ = valid_ || access.data == kValid;
   }
   /// No wire of D changes between 1.5 cycles behind RD's fall and its rise.
-  void judge_data(const UserAccess& access) {
-    const Tick from = access.start + scene_.time.ticks(1.5 + scene_.time.doubt()),
-               to = access.end - scene_.time.ticks(scene_.time.doubt());
-    if (from >= to) return found_.judge.coarse(kData);
+  void judge_data(const Standing& standing) {
     for (std::size_t bit = 0; bit < kDataWires; ++bit) {
       const Trace& wire = scene_.record.traces.at(static_cast<std::size_t>(Wire::kD) + bit);
-      if (wire.count_until(from) == wire.count_until(to)) continue;
-      return found_.judge.fails(kData, wire.edges[wire.count_until(from)],
+      if (wire.count_until(standing.from) == wire.count_until(standing.to)) continue;
+      return found_.judge.fails(kData, wire.edges[wire.count_until(standing.from)],
                                 fmt::format("D{} changes while RD is low", bit));
     }
     found_.judge.holds(kData);
@@ -166,17 +179,28 @@ class UserJudge {
                          fmt::format("the CRC of the {} is {:04X}, {:04X} is right", area.what, seen, right));
   }
 
+  static constexpr std::uint8_t kAnything = 0xFF;  ///< clears nothing
+  struct Written {
+    std::size_t hold = 0;
+    std::uint8_t data = 0;
+  };
+
   const Scene& scene_;
   Found& found_;
   std::size_t next_ = 0;                                  ///< the chip's access that is looked at
   std::map<std::uint32_t, std::uint8_t> written_, read_;  ///< in this hold
-  std::map<std::uint32_t, Tick> written_at_;              ///< by the user, the last time
+  std::map<std::uint32_t, Written> users_;                ///< cells that the user has written, the last time
+  std::size_t hold_ = 0;                                  ///< a number for each
+  bool valid_ = false;                                    ///< B004 was C5
   std::uint8_t flags_now_ = 0, flags_before_ = 0;
 };
 
 }  // namespace
 
-void measure_user(const Scene& scene, Found& found) { UserJudge(scene, found).judge(); }
+void measure_user(const Scene& scene, Found& found) {
+  if (!may_miss_writes(scene)) return UserJudge(scene, found).judge();
+  for (const Claim* claim : user_claims()) found.judge.coarse(*claim);
+}
 
 Claims user_claims() { return {&kData, &kRam, &kVersion, &kCrc, &kTaken}; }
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/calibrate/found.hpp"
 #include "tb/dsdpv1/calibrate/supervision.hpp"
 
@@ -56,6 +58,41 @@ void judge_watchdog(const Scene& scene, Found& found) {
   }
 }
 
+/// The time runs on at the last character of a request, or the capture's end.
+struct Running {
+  Tick at = 0;
+  Supervised supervised;
+  Span passed;  ///< cycles since the last telegram, or the end of the watchdog that ran before
+};
+
+/// Where the telegrams tell what runs, all of them read.
+std::vector<Running> runs_on(const Scene& scene) {
+  std::vector<Running> all;
+  std::vector<Tick> unread;
+  for (const LineTelegram& telegram : scene.received)
+    if (!telegram.right && telegram.coarse(scene.time)) unread.push_back(telegram.start);
+  Supervision supervision(scene);
+  const auto add = [&](Tick at) {
+    const Supervised& now = supervision.before(at);
+    if (now.state == Supervised::State::kUnknown) return;
+    const auto next = std::upper_bound(unread.begin(), unread.end(), now.last.edge);
+    const bool all_read = next == unread.end() || *next >= at;
+    const double watchdog = now.state == Supervised::State::kDpControl ? now.prm->watchdog : 0;
+    if (all_read) all.push_back({at, now, since(scene, now.last, at) + -watchdog});
+  };
+  for (const Exchange& exchange : scene.exchanges) add(exchange.request->last_start);
+  add(scene.record.end);
+  return all;
+}
+
+/// PBF stays low when the watchdog has ended.
+void judge_unended(const Scene& scene, Found& found) {
+  for (const Running& each : runs_on(scene))
+    if (each.supervised.state == Supervised::State::kDpControl && each.passed.lo > 2 &&
+        scene.record[Wire::kPbf].low(each.supervised.last.edge, each.at))
+      found.judge.fails(kWatchdog, each.at, fmt::format("PBF is low {:.1f} cycles after its end", each.passed.lo));
+}
+
 /// BR falls.
 struct Fall {
   Tick at = 0;
@@ -64,8 +101,20 @@ struct Fall {
 
 struct Falls {
   std::vector<Fall> all;
-  bool unknown = false;  ///< there are others, of which the capture does not show what came before
+  bool unknown = false;       ///< there are others, of which the capture does not show what came before
+  bool initialised = false;   ///< others may be new initialisations, as L_REQ shows
+  std::vector<Fall> not_yet;  ///< it is still high there
+  double longest = 0;         ///< of these, at least; ms
 };
+
+/// Where BR does not fall though the time runs.
+void find_silences(const Scene& scene, Falls& falls) {
+  for (const Running& each : runs_on(scene)) {
+    if (!scene.record[Wire::kBr].high(each.supervised.last.edge, each.at)) continue;
+    falls.not_yet.push_back({each.at, {each.passed.lo / kCyclesPerMs, each.passed.hi / kCyclesPerMs}});
+    falls.longest = std::max(falls.longest, falls.not_yet.back().ms.lo);
+  }
+}
 
 Falls falls_of(const Scene& scene) {
   Falls falls;
@@ -93,6 +142,25 @@ bool is_whole(const Span& ms) {
   return whole >= 1 && ms.lo - kNearMs <= whole && whole <= ms.hi + kNearMs;
 }
 
+/// Falls that measure the time of BAUD_CONTROL. A new initialisation may come at any ms, but never later than its end.
+std::vector<Instance> measured(const Scene& scene, Falls& falls) {
+  std::vector<Instance> instances;
+  double latest = falls.longest;
+  for (const Fall& fall : falls.all) {
+    if (!is_whole(fall.ms)) continue;
+    if (scene.record.sees(Wire::kLReq) && long_access(scene, fall.at)) {
+      falls.initialised = true;
+      continue;
+    }
+    instances.push_back({fall.at, fall.ms, fall.ms.middle()});
+    latest = std::max(latest, fall.ms.lo);
+  }
+  if (scene.record.sees(Wire::kLReq)) return instances;
+  const auto earlier = [&](const Instance& instance) { return instance.span.hi < latest; };
+  instances.erase(std::remove_if(instances.begin(), instances.end(), earlier), instances.end());
+  return instances;
+}
+
 /// What does not agree is a new initialisation, where there may be one.
 void judge_falls(const Scene& scene, const Falls& falls, Found& found) {
   Fit& fit = found.fit(Parameter::kBaudControlMs);
@@ -104,28 +172,39 @@ void judge_falls(const Scene& scene, const Falls& falls, Found& found) {
       found.judge.holds(kBrFalls);
     else if (!long_access(scene, fall.at))
       found.judge.fails(kBrFalls, fall.at, fmt::format("{:.3f} ms after it", fall.ms.middle()));
-    if (known && !is_whole(fall.ms)) fit.estimate.outliers.push_back({fall.at, by});
+    const auto told = [&](const Outlier& outlier) { return outlier.at == fall.at; };
+    std::vector<Outlier>& others = fit.estimate.outliers;
+    if (known && !right && std::none_of(others.begin(), others.end(), told)) others.push_back({fall.at, by});
   }
+  for (const Fall& high : falls.not_yet)
+    if (fit.estimate.count != 0 && high.ms.lo > fit.estimate.span.hi + kNearMs)
+      found.judge.fails(kBrFalls, high.at, fmt::format("BR is high {:.3f} ms after it", high.ms.middle()));
   if (fit.estimate.count != 0) return;
-  fit.not_shown = !falls.all.empty() ? "BR falls, but no whole number of ms after the last telegram"
-                  : falls.unknown    ? "BR falls, but the capture does not show whether a watchdog ran before"
-                                     : "BR does not fall after silence";
+  if (falls.longest > dsdpv1::Config{}.baud_control_ms + kNearMs) {
+    fit.estimate.count = 1;
+    fit.estimate.span = {falls.longest, std::numeric_limits<double>::max()};
+    fit.at_least = true;
+    return;
+  }
+  fit.not_shown = falls.initialised    ? "BR falls, but only where the chip may take a new initialisation"
+                  : !falls.all.empty() ? "BR falls, but no whole number of ms after the last telegram"
+                  : falls.unknown      ? "BR falls, but the capture does not show whether a watchdog ran before"
+                                       : "BR does not fall after silence";
 }
 
 void fit_baud_control(const Scene& scene, Found& found) {
-  const Falls falls = falls_of(scene);
-  std::vector<Instance> instances;
-  for (const Fall& fall : falls.all)
-    if (is_whole(fall.ms)) instances.push_back({fall.at, fall.ms, fall.ms.middle()});
-  found.fit(Parameter::kBaudControlMs).estimate = estimate(instances);
+  Falls falls = falls_of(scene);
+  find_silences(scene, falls);
+  found.fit(Parameter::kBaudControlMs).estimate = estimate(measured(scene, falls));
   judge_falls(scene, falls, found);
 }
 
 }  // namespace
 
 void measure_watchdog(const Scene& scene, Found& found) {
-  if (scene.record.sees({Wire::kPbrxd, Wire::kBr})) fit_baud_control(scene, found);
-  if (scene.record.sees({Wire::kPbrxd, Wire::kPbf})) judge_watchdog(scene, found);
+  if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd, Wire::kBr})) fit_baud_control(scene, found);
+  if (scene.record.sees({Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}))
+    judge_watchdog(scene, found), judge_unended(scene, found);
 }
 
 Claims watchdog_claims() { return {&kWatchdog, &kBrFalls}; }
