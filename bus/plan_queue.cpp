@@ -5,66 +5,53 @@
 
 namespace bus {
 
-Tick PlanQueue::smallest(const Tick* group) {
-  Tick earliest = group[0];
-  for (std::size_t i = 1; i < kWidth; ++i) earliest = std::min(earliest, group[i]);
-  return earliest;
-}
-
 std::size_t PlanQueue::add() {
-  if (size_ == rows_[0].size()) grow();
+  if (size_ == leaves_) build(2 * leaves_);
   return size_++;
 }
 
-/// One group more in the lowest row, and what that needs above.
-void PlanQueue::grow() {
-  for (std::size_t row = 0;; ++row) {
-    rows_[row].resize(rows_[row].size() + kWidth, kNever);
-    if (row + 1 == rows_.size()) rows_.emplace_back(kWidth, kNever);
-    std::vector<Tick>& above = rows_[row + 1];
-    const std::size_t groups = rows_[row].size() / kWidth;
-    for (std::size_t i = 0; i < std::min(groups, above.size()); ++i) above[i] = smallest(&rows_[row][i * kWidth]);
-    if (groups <= above.size()) return;
-  }
+void PlanQueue::build(std::size_t leaves) {
+  leaves_ = leaves;
+  plans_.resize(leaves, kNever);
+  winners_.assign(2 * leaves, 0);
+  for (std::size_t place = 0; place < leaves; ++place) winners_[leaves + place] = static_cast<Place>(place);
+  for (std::size_t node = leaves - 1; node > 0; --node) winners_[node] = better(node);
 }
 
+// Above a node whose winner is another place that plans what it did, nothing changes.
 void PlanQueue::set(std::size_t place, Tick at) {
-  Tick before = std::exchange(rows_[0][place], at);
-  for (std::size_t row = 1; row < rows_.size(); ++row) {
-    place /= kWidth;
-    Tick& earliest = rows_[row][place];
-    if (at > earliest) {
-      if (before != earliest) return;  // neither was nor is the smallest of its group
-      at = smallest(&rows_[row - 1][place * kWidth]);
-    }
-    before = std::exchange(earliest, at);
+  if (std::exchange(plans_[place], at) == at) return;
+  for (std::size_t node = (leaves_ + place) / 2; node > 0; node /= 2) {
+    const Place winner = better(node);
+    if (std::exchange(winners_[node], winner) == winner && winner != place) return;
   }
 }
 
 Tick PlanQueue::earliest_other(std::size_t place, Tick at) const {
+  if (winners_[1] != place) return earliest();
   Tick earliest = kNever;
-  for (const std::vector<Tick>& row : rows_) {
-    const std::size_t first = place / kWidth * kWidth;
-    for (std::size_t i = first; i < first + kWidth; ++i)
-      if (i != place) earliest = std::min(earliest, row[i]);
-    if (earliest <= at) return earliest;
-    place /= kWidth;
-  }
+  for (std::size_t node = leaves_ + place; node > 1 && earliest > at; node /= 2)
+    earliest = std::min(earliest, plan_of(node ^ 1U));
   return earliest;
 }
 
 std::size_t PlanQueue::first_due(std::size_t from, Tick now) const {
-  std::size_t row = 0, i = from;
-  for (;;) {  // up and to the right until somebody below is due
-    const std::size_t end = std::min((i + kWidth) / kWidth * kWidth, rows_[row].size());
-    while (i < end && rows_[row][i] > now) ++i;
-    if (i < end) break;
-    if (++row == rows_.size()) return kNone;
-    i = (i + kWidth - 1) / kWidth;
+  if (plan_of(1) > now || from >= size_) return kNone;
+  if (from == 0) return first_due_below(1, now);
+  std::size_t node = leaves_ + from;
+  for (; plan_of(node) > now; ++node) {  // the next to the right, of the greatest node that begins there
+    while (node % 2 == 1) node /= 2;
+    if (node == 0) return kNone;
   }
-  for (; row > 0; --row)  // down to the first of them
-    for (i *= kWidth; rows_[row - 1][i] > now;) ++i;
-  return i;
+  return first_due_below(node, now);
+}
+
+std::size_t PlanQueue::first_due_below(std::size_t node, Tick now) const {
+  while (node < leaves_) {
+    node *= 2;
+    if (plan_of(node) > now) ++node;
+  }
+  return node - leaves_;
 }
 
 }  // namespace bus

@@ -27,4 +27,17 @@ struct CharacterRun {
   bool level(Tick at) const;
 };
 
+/// Who the telegram in these characters is for, as a kind of receiver reads it: a station (0 to 126), all, nobody (an
+/// acknowledgement, a token), or it is no right telegram.
+using RunReader = int (*)(const std::uint8_t* bytes, std::size_t size);
+constexpr int kNoTelegram = -1, kForAll = 127, kForNobody = 128;
+
+/// Runs that a listener acts on. Others are counted for it, as long as each is a right telegram as `reader` reads it.
+struct RunFilter {
+  RunReader reader = nullptr;  ///< nullptr: it acts on every run
+  Tick from = 0;               ///< it acts on those that begin before, too ...
+  Tick bit = 0;                ///< ... on those of another bit time ...
+  std::uint8_t address = 0;    ///< ... and on those for this station and for all
+};
+
 }  // namespace bus

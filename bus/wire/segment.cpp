@@ -5,6 +5,12 @@
 
 namespace bus {
 
+namespace {
+
+constexpr Tick kGapBits = 2;  // by which runs are apart for any receiver, however it rounds them
+
+}  // namespace
+
 StationId Segment::attach(std::string name, Listener* listener) {
   Station station;
   station.name = std::move(name);
@@ -21,8 +27,19 @@ void Segment::drive(StationId station, Tick at, bool enabled, bool level) {
   const bool was_on_wire = on_wire(driver);
   driver.enabled = enabled;
   driver.drives = level;
-  if (!was_on_wire && on_wire(driver)) report_collision(at, station);
+  update_drivers(station, at, was_on_wire);
   settle(at);
+}
+
+void Segment::update_drivers(StationId station, Tick at, bool was_on_wire) {
+  const bool is_on_wire = on_wire(stations_[station]);
+  if (was_on_wire == is_on_wire) return;
+  if (is_on_wire) {
+    report_collision(at, station);
+    drivers_.insert(std::upper_bound(drivers_.begin(), drivers_.end(), station), station);
+  } else {
+    drivers_.erase(std::find(drivers_.begin(), drivers_.end(), station));
+  }
 }
 
 void Segment::force(Tick at, std::optional<bool> level) {
@@ -39,22 +56,26 @@ void Segment::plug(StationId station, Tick at, bool plugged) {
   changed.plugged = plugged;
   changed.next_change = changes_.size();
   changed.deafness = {};
-  if (!was_on_wire && on_wire(changed)) report_collision(at, station);
-  settle(at);
+  changed.filter = {};
+  update_drivers(station, at, was_on_wire);
+  level_ = driven_level();
+  if (!telling_) tell_all(at);
 }
 
 bool Segment::level_at(StationId station) const { return !stations_.at(station).plugged || level_; }
 
 bool Segment::driven_level() const {
   if (forced_) return *forced_;
-  for (const Station& station : stations_)
-    if (on_wire(station) && !station.drives) return false;
-  return true;
+  return std::all_of(drivers_.begin(), drivers_.end(), [this](StationId driver) { return stations_[driver].drives; });
 }
 
 void Segment::settle(Tick at) {
   level_ = driven_level();
-  if (telling_) return;  // the outer call goes on telling until everybody has heard the last level
+  if (level_ != noted_ && !telling_)
+    tell_all(at);  // else the outer call tells until everybody has heard the last level
+}
+
+void Segment::tell_all(Tick at) {
   telling_ = true;
   do note_change(at);
   while (tell_changes(at));
@@ -77,8 +98,9 @@ void Segment::forget_changes() {
 bool Segment::tell_changes(Tick at) {
   bool told = false;
   for (Station& station : stations_) {
-    if (station.in_run) continue;
+    if (in_run(station)) continue;
     if (station.plugged && station.deafness.at(at)) continue;
+    if (station.passes) tell_passed(station);
     if (station.plugged) tell_missed(station, at);
     station.next_change = changes_.size();
     told |= tell(station, at, !station.plugged || level_);
@@ -87,7 +109,7 @@ bool Segment::tell_changes(Tick at) {
 }
 
 void Segment::tell_missed(StationId station) {
-  if (stations_[station].plugged && !stations_[station].in_run) tell_missed(stations_[station], kNever);
+  if (stations_[station].plugged && !in_run(stations_[station])) tell_missed(stations_[station], kNever);
 }
 
 void Segment::tell_missed(Station& station, Tick before) {
@@ -107,39 +129,80 @@ bool Segment::tell(Station& station, Tick at, bool level) {
 // --- runs ------------------------------------------------------------------------------------------------------------
 
 // An idle line that nobody else touches, and somebody who hears of the cut.
-bool Segment::may_send_run(const Station& sender) const {
-  const auto disturbs = [&sender](const Station& other) { return &other != &sender && on_wire(other); };
-  return on_wire(sender) && sender.listener != nullptr && level_ && !forced_ && !telling_ && !run_ &&
-         std::none_of(stations_.begin(), stations_.end(), disturbs);
+bool Segment::may_send_run(StationId station) const {
+  const bool alone = drivers_.size() == 1 && drivers_.front() == station;
+  return alone && stations_[station].listener != nullptr && level_ && !forced_ && !telling_ && !run_;
 }
 
 bool Segment::send_run(StationId station, const CharacterRun& run) {
   if (run_ && run.start >= run_->characters.end()) end_run();
-  if (!may_send_run(stations_.at(station))) return false;
+  if (!may_send_run(station)) return false;
+  Offer offered{run, run.start >= last_run_.end() + kGapBits * run.bit};
   run_ = Run{run, station, false};
-  for (StationId i = 0; i < stations_.size(); ++i) {
-    Station& other = stations_[i];
-    if (!other.plugged) continue;
-    hear(i);
-    other.in_run = other.listener == nullptr || other.listener->run_begins(run);
-    run_->driven |= !other.in_run;
-  }
+  ++run_count_;
+  bool kept = false;
+  for (StationId i = 0; i < stations_.size(); ++i)
+    if (stations_[i].plugged) kept |= offer(i, offered);
+  last_run_ = run;
+  if (kept) keep(run);
   return !run_->driven;
 }
 
+/// True: the station's filter keeps the run from it for now.
+bool Segment::offer(StationId id, Offer& offer) {
+  Station& station = stations_[id];
+  if (passes(station, offer)) {
+    station.passed_for_stations += std::exchange(station.last_for_station, offer.addressee < kForAll) ? 1 : 0;
+    station.run = run_count_;
+    return station.passes = true;
+  }
+  hear(id);
+  if (station.listener == nullptr || station.listener->run_begins(offer.run))
+    station.run = run_count_;
+  else
+    run_->driven = true;
+  return false;
+}
+
+bool Segment::passes(const Station& station, Offer& offer) {
+  const RunFilter& filter = station.filter;
+  const CharacterRun& run = offer.run;
+  if (filter.reader == nullptr || !offer.after_gap || run.start < filter.from || run.bit != filter.bit) return false;
+  if (offer.reader != filter.reader) {
+    offer.reader = filter.reader;
+    offer.addressee = run.size <= kLongestKept ? filter.reader(run.bytes, run.size) : kNoTelegram;
+  }
+  return offer.addressee != kNoTelegram && offer.addressee != kForAll && offer.addressee != filter.address;
+}
+
+void Segment::keep(const CharacterRun& run) {
+  std::copy_n(run.bytes, run.size, last_bytes_.begin());
+  last_run_.bytes = last_bytes_.data();
+}
+
+void Segment::tell_passed(Station& station) {
+  station.passes = station.last_for_station = false;
+  if (const std::uint64_t before = std::exchange(station.passed_for_stations, 0)) station.listener->runs_passed(before);
+  station.listener->run_begins(last_run_);
+}
+
+// Who was in the run has missed no change of it.
 void Segment::end_run() {
-  for (Station& station : stations_)
-    if (std::exchange(station.in_run, false)) station.next_change = changes_.size();
+  if (run_->driven)
+    for (Station& station : stations_)
+      if (in_run(station)) station.next_change = changes_.size();
   run_.reset();
 }
 
 void Segment::cut_run(Tick at) {
   if (!run_) return;
   const Run run = *run_;
-  const bool over = at >= run.characters.end(), level = over || run.characters.level(at);
+  if (at >= run.characters.end()) return end_run();
+  const bool level = run.characters.level(at);
   std::vector<Listener*> cut;
   for (Station& station : stations_) {
-    if (!station.in_run || over) continue;
+    if (station.passes) tell_passed(station);
+    if (!in_run(station)) continue;
     station.heard = level;
     if (station.listener != nullptr) cut.push_back(station.listener);
   }
@@ -155,8 +218,7 @@ void Segment::cut_run(Tick at) {
 
 void Segment::report_collision(Tick at, StationId newcomer) {
   if (!on_collision) return;
-  for (StationId i = 0; i < stations_.size(); ++i)
-    if (i != newcomer && on_wire(stations_[i])) on_collision({at, stations_[i].name, stations_[newcomer].name});
+  for (const StationId driver : drivers_) on_collision({at, stations_[driver].name, stations_[newcomer].name});
 }
 
 }  // namespace bus

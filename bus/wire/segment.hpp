@@ -1,7 +1,9 @@
 #pragma once
 // The RS-485 segment: one pair of wires, any number of stations. Idle level is high (EN 50170: binary 1); two drivers
 // enabled at once are a collision, also while they drive the same level.
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -23,6 +25,9 @@ class Listener {
   virtual bool run_begins(const CharacterRun& /*run*/) { return false; }
   /// What changed up to `at` has changed, the line is at `level` now, and what comes behind it is told.
   virtual void run_cut(Tick /*at*/, bool /*level*/) {}
+  /// Since it was told something last there were so many runs for stations that its filter has kept from it, besides
+  /// the last one, which is told next, by run_begins: late, and it has to be taken.
+  virtual void runs_passed(std::uint64_t /*for_stations*/) {}
 };
 
 /// A time, from `from` on and before `until`, in which a listener need not hear a change at once.
@@ -50,6 +55,9 @@ class Segment {
   /// The station's listener is told a change within this time late: before the next one that it hears at once, or by
   /// `hear`. For receivers that know where in a character they are; replaces what was said before.
   void set_deafness(StationId station, const Deafness& deafness) { stations_[station].deafness = deafness; }
+  /// The station's listener is told of a run that its filter keeps from it late: before the next thing that it is told,
+  /// or by `hear`. Replaces what was said before.
+  void set_filter(StationId station, const RunFilter& filter) { stations_[station].filter = filter; }
   /// From now on, run.start, `station` sends this run, its driver enabled. True: nobody needs its changes, so that
   /// nothing is driven until its end, or until the station's listener hears run_cut; the bytes have to stay until then.
   /// False: they are to be driven;
@@ -57,9 +65,11 @@ class Segment {
   bool send_run(StationId station, const CharacterRun& run);
   /// Everybody hears changes again from `at` on; nothing when no run is sent.
   void cut_run(Tick at);
-  /// Tells a deaf listener what it has not heard yet, each change with its own tick.
+  /// Tells a listener what it has not heard yet, each change and run with its own tick.
   void hear(StationId station) {
-    if (stations_[station].next_change < changes_.size()) tell_missed(station);
+    Station& listener = stations_[station];
+    if (listener.passes) tell_passed(listener);
+    if (listener.next_change < changes_.size()) tell_missed(station);
   }
 
   /// A fault on the wire: forces the level (short circuit, glitch) until called with nullopt.
@@ -77,10 +87,14 @@ class Segment {
     std::string name;
     Listener* listener = nullptr;
     bool enabled = false, drives = true, plugged = true;
-    bool heard = true;  ///< the level that the listener was told last
-    bool in_run = false;
+    bool heard = true;      ///< the level that the listener was told last
+    std::uint64_t run = 0;  ///< the number of the run that it has taken last
     Deafness deafness = {};
     std::size_t next_change = 0;  ///< in changes_, the first that it has not heard
+    RunFilter filter = {};
+    bool passes = false;  ///< its filter has kept last_run_ from it
+    bool last_for_station = false;
+    std::uint64_t passed_for_stations = 0;  ///< before that one
   };
   struct Change {
     Tick at;
@@ -92,10 +106,24 @@ class Segment {
     StationId sender = 0;
     bool driven = false;  ///< somebody wants the changes
   };
-  bool may_send_run(const Station& sender) const;
+  /// A run that a sender offers, and whom its reader found it to be for.
+  struct Offer {
+    const CharacterRun& run;
+    bool after_gap;
+    RunReader reader = nullptr;
+    int addressee = kNoTelegram;
+  };
+  bool in_run(const Station& station) const { return run_ && station.run == run_count_; }
+  bool may_send_run(StationId station) const;
+  bool offer(StationId station, Offer& offer);
+  static bool passes(const Station& station, Offer& offer);
+  void keep(const CharacterRun& run);
+  void tell_passed(Station& station);
   void end_run();
+  void update_drivers(StationId station, Tick at, bool was_on_wire);
   bool driven_level() const;
   void settle(Tick at);
+  void tell_all(Tick at);
   bool tell_changes(Tick at);
   void note_change(Tick at);
   static bool tell(Station& station, Tick at, bool level);
@@ -106,11 +134,16 @@ class Segment {
 
   // What the deaf have missed, in order; all hear it before it grows beyond this.
   static constexpr std::size_t kMostMissed = 4096;
+  static constexpr std::size_t kLongestKept = 256;  ///< no telegram is longer
 
   std::vector<Station> stations_;
+  std::vector<StationId> drivers_;  ///< that are on the wire
   std::vector<Change> changes_;
   std::optional<bool> forced_;
   std::optional<Run> run_;
+  std::uint64_t run_count_ = 0;  ///< the number of the last run
+  CharacterRun last_run_;
+  std::array<std::uint8_t, kLongestKept> last_bytes_ = {};  ///< those of last_run_, where somebody passes it
   bool level_ = true, noted_ = true;
   bool telling_ = false;  ///< a listener that drives the line while it is being told must not be told out of order
 };

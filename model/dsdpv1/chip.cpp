@@ -496,6 +496,10 @@ bool Chip::hear(Tick at, const profibus::CharacterRun& run) {
   impl_->plan();
   return true;
 }
+profibus::Unconcerned Chip::unconcerned() const {
+  return impl_->engine == Engine::kSkip ? impl_->station.unconcerned() : profibus::Unconcerned{};
+}
+void Chip::pass(std::uint64_t count) { impl_->station.pass(count); }
 void Chip::leave_run(Tick at) {
   impl_->advance(at);
   impl_->catch_up_line(impl_->done());

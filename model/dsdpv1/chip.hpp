@@ -16,6 +16,7 @@
 #include "model/dpram/inside.hpp"
 #include "model/dsdpv1/host_access.hpp"
 #include "model/dsdpv1/pins.hpp"
+#include "model/profibus/addressee.hpp"
 #include "model/profibus/baud.hpp"
 #include "model/profibus/dp_state.hpp"
 #include "model/profibus/event.hpp"
@@ -108,6 +109,11 @@ class Chip {
   /// searches a baud rate from this tick on or is in RESET: left_run() says so until leave_run() is called, at that
   /// tick. Engine::kSkip only.
   bool hear(Tick at, const profibus::CharacterRun& run);
+  /// Runs that the chip need not hear: of those that come one after the other the last one, before anything else
+  /// happens to the chip or advance() goes beyond its start, is enough, late as it is; the chip takes it. pass() counts
+  /// those of the others that were for stations. Holds until something happens to the chip. Engine::kSkip only.
+  profibus::Unconcerned unconcerned() const;
+  void pass(std::uint64_t count);
   void leave_run(Tick at);
   bool left_run() const;
   /// At now() the first start bit of an answer falls. Then, hide_txd() gives its characters in the place of the changes

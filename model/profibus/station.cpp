@@ -67,10 +67,18 @@ Unheard Station::unheard() const {
 // While a rate is searched, or an answer of this chip comes, who knows what becomes of it.
 bool Station::set_run(const CharacterRun& run) {
   if (!listening() || search_.searching() || tx_.planned()) return false;
-  const bool whole = telegrams_.is_whole(run.bytes, run.size);
-  if (!rx_.set_run(run, whole)) return false;
-  for_others_ = whole && !concerns(run.bytes, slave_.address());
+  const int to = telegrams_.takes_whole() ? addressee(run.bytes, static_cast<std::size_t>(run.size)) : kNoTelegram;
+  if (!rx_.set_run(run, to != kNoTelegram)) return false;
+  for_others_ = to != kNoTelegram && to != slave_.address() && to != kForAll;
   return true;
+}
+
+Unconcerned Station::unconcerned() const {
+  constexpr int kGapBits = 2;  // more than a character that goes on may leave (S10), however it falls between two edges
+  const bool takes_whole = listening() && !search_.searching() && !tx_.planned() && telegrams_.takes_whole();
+  const Cycle idle = takes_whole && (for_others_ || !rx_.in_run()) ? rx_.idle_from() : kNever;
+  if (idle == kNever) return {};
+  return {(idle + kGapBits * rx_.bit()) * kTicksPerCycle, rx_.bit(), slave_.address()};
 }
 
 void Station::leave_run(Tick at) {

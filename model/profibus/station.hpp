@@ -44,6 +44,10 @@ class Station {
   /// Changes of PBRXD within this time may be told late, before the rising edge at `until` or an earlier one at which
   /// next() has something.
   Unheard unheard() const;
+  /// Telegrams that need not be told, but for the last of them before anything else is: the others are counted, `count`
+  /// for stations, by pass().
+  Unconcerned unconcerned() const;
+  void pass(std::uint64_t count) { received_ += count; }
   /// Reset: everything as at power-on.
   void reset();
   /// The rising edge of `now`.

@@ -34,21 +34,16 @@ std::uint8_t fcs_of(const std::uint8_t* bytes, int size) {
 
 }  // namespace
 
-bool concerns(const std::uint8_t* bytes, std::uint8_t address) {
-  if (bytes[0] == sd::kSc || bytes[0] == sd::kSd4) return false;  // answers of others, tokens
-  const unsigned da = bytes[address_offset(bytes[0])] & kAddressMask;
-  return da == address || da == kBroadcast;
-}
-
-bool TelegramRx::is_whole(const std::uint8_t* bytes, int size) const {
-  if (in_telegram() || unsynced_ > 0) return false;
-  if (bytes[0] == sd::kSc || bytes[0] == sd::kSd4) return size == expected_size(bytes[0]);
+int addressee(const std::uint8_t* bytes, std::size_t length) {
+  const int size = static_cast<int>(length);
+  if (bytes[0] == sd::kSc || bytes[0] == sd::kSd4) return size == expected_size(bytes[0]) ? kForNobody : kNoTelegram;
   const bool variable = bytes[0] == sd::kSd2 && size > kSd2Header;
   if (variable && (bytes[1] != bytes[2] || bytes[1] < kMinLe || bytes[1] > kMaxLe || bytes[3] != sd::kSd2))
-    return false;
+    return kNoTelegram;
   const int expected = variable ? bytes[1] + kSd2Frame : expected_size(bytes[0]), offset = address_offset(bytes[0]);
-  if (size != expected || size <= kSd2Header) return false;
-  return bytes[size - 2] == fcs_of(bytes + offset, size - offset - 2) && bytes[size - 1] == sd::kEd;
+  if (size != expected || size <= kSd2Header) return kNoTelegram;
+  const bool right = bytes[size - 2] == fcs_of(bytes + offset, size - offset - 2) && bytes[size - 1] == sd::kEd;
+  return right ? bytes[offset] & kAddressMask : kNoTelegram;
 }
 
 void TelegramRx::reset() {

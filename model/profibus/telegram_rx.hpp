@@ -2,6 +2,7 @@
 // From characters to error-free telegrams (ruling S3, S10): start delimiters, lengths, FCS, ED, T_SYN and gaps.
 #include <array>
 
+#include "model/profibus/addressee.hpp"
 #include "model/profibus/event_log.hpp"
 #include "model/profibus/uart_rx.hpp"
 
@@ -21,9 +22,6 @@ struct Telegram {
   int idle_bits = 0;    ///< whole bit times of idle before it; a large number says little
 };
 
-/// Whether a right telegram of these bytes is one that `address` may be meant by.
-bool concerns(const std::uint8_t* bytes, std::uint8_t address);
-
 class TelegramRx {
  public:
   explicit TelegramRx(EventLog& log) : log_(log) {}
@@ -37,9 +35,9 @@ class TelegramRx {
   /// While `quiet`, faulty telegrams are neither events nor counted: at a wrong baud rate everything is faulty. What
   /// was counted is forgotten.
   void set_quiet(bool quiet);
-  /// Characters that are one right telegram, and nothing is under way or to be reported: character() for each of them,
+  /// Nothing is under way or to be reported: of characters that are one right telegram, character() for each of them,
   /// however late, is all that it takes, up to the edge behind the last.
-  bool is_whole(const std::uint8_t* bytes, int size) const;
+  bool takes_whole() const { return !in_telegram() && unsynced_ == 0; }
   /// character() for each of them: the first came behind `idle` cycles, the last has ended at `end`. False: `idle` is
   /// none before a telegram, and nothing was done.
   bool take_whole(const std::uint8_t* bytes, int size, Cycle idle, Cycle end, int bit);

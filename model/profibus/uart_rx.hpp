@@ -23,6 +23,14 @@ struct Unheard {
   Tick from = kNever, until = kNever;
 };
 
+/// Telegrams of others that need not be told, told as runs otherwise: right ones (addressee()) that begin from `from`
+/// on, at `bit` cycles a bit, for another station than `address` or for nobody. None when `from` is kNever.
+struct Unconcerned {
+  Tick from = kNever;
+  Cycle bit = 0;
+  std::uint8_t address = 0;
+};
+
 class UartRx {
  public:
   /// The line changes at `at`, not before an earlier call's. Pulses that no rising edge samples vanish. Not when
@@ -42,6 +50,12 @@ class UartRx {
   /// The line as it was told last.
   bool input() const { return input_; }
   bool in_run() const { return run_index_ < run_size_; }
+  /// From this cycle on the line is idle, but for what is not told yet; kNever as long as a character comes, or a
+  /// break.
+  Cycle idle_from() const {
+    if (in_run()) return run_end();
+    return state_ == State::kIdle && count_ == 0 ? idle_since_ : kNever;
+  }
   /// A run that was to be heard at once is complete at `now`, none of its characters was taken by eval(): take_run() is
   /// all of them.
   bool whole_run(Cycle now) const { return in_run() && at_once_ && run_index_ == 0 && next() <= now; }

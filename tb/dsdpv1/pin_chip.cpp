@@ -14,6 +14,10 @@ namespace {
 /// The output pins that the bench needs in any case.
 constexpr PinMask kBusPins = dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts) | dsdpv1::mask(Pin::kIntr0);
 
+// So that profibus::addressee is a bus::RunReader.
+static_assert(profibus::kNoTelegram == bus::kNoTelegram && profibus::kForNobody == bus::kForNobody &&
+              profibus::kForAll == bus::kForAll);
+
 }  // namespace
 
 PinChip::PinChip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched, bus::Segment& segment)
@@ -59,7 +63,7 @@ void PinChip::run(Tick now) {
   }
   send_run();
   line_.pass_on();
-  update_deafness();
+  update_hearing();
 }
 
 // An answer begins: its first start bit waits to be told, or the whole of it is told in its place.
@@ -89,7 +93,7 @@ void PinChip::line_changed(Tick at, bool level) {
   chip_.set(at, Pin::kPbrxd, level ? 1 : 0);
   announce(next());
   if (reports_rxd_) report_inputs(at, Pin::kPbrxd, Pin::kPbrxd);
-  update_deafness();
+  update_hearing();
 }
 
 bool PinChip::run_begins(const bus::CharacterRun& run) {
@@ -104,8 +108,11 @@ bool PinChip::run_begins(const bus::CharacterRun& run) {
   const bool taken =
       chip_.hear(run.start, {run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
   announce(next());  // the same as before, as long as the telegram is not for this station
+  update_hearing();
   return taken;
 }
+
+void PinChip::runs_passed(std::uint64_t for_stations) { chip_.pass(for_stations); }
 
 void PinChip::run_cut(Tick at, bool level) {
   announce();
@@ -119,18 +126,22 @@ void PinChip::run_cut(Tick at, bool level) {
   else
     chip_.leave_run(at);
   inputs_[static_cast<std::size_t>(Pin::kPbrxd)] = level ? 1 : 0;
-  update_deafness();
+  update_hearing();
 }
 
 // Who shows the pin wants each change of it in time.
-void PinChip::update_deafness() {
+void PinChip::update_hearing() {
   if (reports_rxd_) return;
   const profibus::Unheard unheard = chip_.unheard();
   segment_.set_deafness(station_, {unheard.from, unheard.until});
+  const profibus::Unconcerned unconcerned = chip_.unconcerned();
+  segment_.set_filter(
+      station_, {&profibus::addressee, unconcerned.from, unconcerned.bit * bus::kTicksPerCycle, unconcerned.address});
 }
 
 void PinChip::set_reset(Tick at, bool level) {
   device().set(at, Pin::kReset, level ? 1 : 0);
+  update_hearing();
   report_host(at, Pin::kReset, Pin::kReset);
 }
 
@@ -179,12 +190,17 @@ void PinChip::run_edges(Tick until) {
   user_cpu::PinHostBus& host = *pins_;
   hear_line();
   pauses_ = put_off_ = false;
-  if (!reports_host_ && until >= host.last_edge() && host.run_whole()) return announce(next());
+  const bool whole = !reports_host_ && until >= host.last_edge() && host.run_whole();
+  if (!whole) run_edges_singly(host, until);
+  announce(next());
+  update_hearing();
+}
+
+void PinChip::run_edges_singly(user_cpu::PinHostBus& host, Tick until) {
   for (Tick at = host.next_edge(); at <= until && !pauses_; at = host.next_edge()) {
     host.run_edges(at);
     if (reports_host_) report_access(at);
   }
-  announce(next());
 }
 
 // Strobes that rise with CSR are told before it, as the TLM module does.

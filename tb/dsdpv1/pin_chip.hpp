@@ -57,9 +57,11 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   }
   void line_changed(Tick at, bool level) override;
   bool run_begins(const bus::CharacterRun& run) override;
+  void runs_passed(std::uint64_t for_stations) override;
   void run_cut(Tick at, bool level) override;
-  void update_deafness();
+  void update_hearing();
   void send_run();
+  void run_edges_singly(user_cpu::PinHostBus& host, Tick until);
   void pin_changed(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void report_access(Tick at);
   /// Those of the inputs from `first` to `last` that have changed; of all but PBRXD, if they are wanted.
@@ -91,7 +93,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   bool reports_host_, reports_rxd_, reports_txd_, catching_up_ = false;
   bool own_run_ = false, hides_txd_ = false;
   bool put_off_ = false;  ///< an access is under way whose edges are set when the chip goes beyond them
-  bool pauses_ = false;  ///< since an edge of an access, somebody was told something on which he may act
+  bool pauses_ = false;   ///< since an edge of an access, somebody was told something on which he may act
   std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
 };
 

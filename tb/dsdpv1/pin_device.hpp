@@ -15,6 +15,9 @@ class PinDevice : public user_cpu::HostPins {
   /// See dsdpv1::Chip::hear, leave_run and left_run; a device that hears all takes no run.
   virtual bool hear(dsdpv1::Tick /*at*/, const profibus::CharacterRun& /*run*/) { return false; }
   virtual void leave_run(dsdpv1::Tick /*at*/) {}
+  /// See dsdpv1::Chip::unconcerned and pass; a device that hears all is concerned by each run.
+  virtual profibus::Unconcerned unconcerned() const { return {}; }
+  virtual void pass(std::uint64_t /*count*/) {}
   virtual bool left_run() const { return false; }
   /// See dsdpv1::Chip::begins_to_send, hide_txd and show_txd; a device that shows all never says that it begins.
   virtual bool begins_to_send() const { return false; }
@@ -39,6 +42,8 @@ class CoreDevice : public PinDevice {
   void hear(dsdpv1::Tick at, bool level) override { chip_.hear(at, level); }
   bool hear(dsdpv1::Tick at, const profibus::CharacterRun& run) override { return chip_.hear(at, run); }
   void leave_run(dsdpv1::Tick at) override { chip_.leave_run(at); }
+  profibus::Unconcerned unconcerned() const override { return chip_.unconcerned(); }
+  void pass(std::uint64_t count) override { chip_.pass(count); }
   bool left_run() const override { return chip_.left_run(); }
   bool carry_out(dsdpv1::Tick begin, const dsdpv1::HostAccess& access, dsdpv1::Level& sampled) override {
     return chip_.carry_out(begin, access, sampled);

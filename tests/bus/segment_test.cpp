@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -188,6 +189,113 @@ TEST(Segment, WhatComesAndGoesAtOneTickIsHeardByNobodyBehind) {
   first.segment = &segment;
   segment.drive(driver, 10, true, false);
   EXPECT_TRUE(second.changes.empty());
+}
+
+// --- runs that a filter keeps from a listener ------------------------------------------------------------------------
+
+constexpr Tick kFilteredBit = 1000, kFirstRun = 100'000, kNextRun = 500'000;
+
+/// A telegram of these tests: the first byte is who it is for.
+int reads(const std::uint8_t* bytes, std::size_t size) { return size == 2 ? bytes[0] : kNoTelegram; }
+
+/// Writes down what it is told, in words.
+struct FilteredListener : Listener {
+  void line_changed(Tick at, bool level) override {
+    note("line " + std::to_string(level) + " at " + std::to_string(at));
+  }
+  bool run_begins(const CharacterRun& run) override {
+    note("run for " + std::to_string(run.bytes[0]) + " at " + std::to_string(run.start));
+    return true;
+  }
+  void run_cut(Tick at, bool level) override { note("cut " + std::to_string(level) + " at " + std::to_string(at)); }
+  void runs_passed(std::uint64_t for_stations) override { note(std::to_string(for_stations) + " passed"); }
+  void note(std::string words) { told.push_back(std::move(words)); }
+  std::vector<std::string> told;
+};
+
+struct FilterTest : testing::Test {
+  FilterTest() {
+    sender = segment.attach("sender", &ear_of_sender);
+    listener = segment.attach("listener", &ear);
+    segment.set_filter(listener, filter);
+    segment.drive(sender, 1, true, true);
+  }
+  CharacterRun run_at(Tick start, std::vector<std::uint8_t> sent) {
+    bytes = std::move(sent);  // as a sender does, who forgets those of the run before
+    return {start, kFilteredBit, bytes.data(), bytes.size()};
+  }
+  void send(Tick start, std::vector<std::uint8_t> sent) {
+    EXPECT_TRUE(segment.send_run(sender, run_at(start, std::move(sent))));
+  }
+  Segment segment;
+  FilteredListener ear_of_sender, ear;
+  StationId sender = 0, listener = 0;
+  const RunFilter filter{&reads, 0, kFilteredBit, 5};
+  std::vector<std::uint8_t> bytes;
+};
+
+using Words = std::vector<std::string>;
+
+TEST_F(FilterTest, WhatIsForTheStationOrForAllOrNoTelegramIsTold) {
+  send(kFirstRun, {5, 0});
+  send(kNextRun, {127, 0});
+  send(2 * kNextRun, {9, 0, 0});
+  EXPECT_EQ(ear.told, (Words{"run for 5 at 100000", "run for 127 at 500000", "run for 9 at 1000000"}));
+}
+
+TEST_F(FilterTest, OfOthersTheLastIsToldLateAndThoseBeforeAreCounted) {
+  send(kFirstRun, {9, 0});
+  EXPECT_TRUE(ear.told.empty());
+  segment.hear(listener);
+  EXPECT_EQ(ear.told, (Words{"run for 9 at 100000"}));
+  for (int i = 1; i <= 3; ++i) send(i * kNextRun, {7, 0});
+  send(4 * kNextRun, {128, 0});  // for nobody
+  send(5 * kNextRun, {8, 0});
+  ear.told.clear();
+  segment.hear(listener);
+  segment.hear(listener);
+  EXPECT_EQ(ear.told, (Words{"3 passed", "run for 8 at 2500000"}));
+}
+
+TEST_F(FilterTest, BeforeARunForTheStationTheLastOfOthersIsTold) {
+  send(kFirstRun, {9, 0});
+  send(kNextRun, {5, 0});
+  EXPECT_EQ(ear.told, (Words{"run for 9 at 100000", "run for 5 at 500000"}));
+}
+
+TEST_F(FilterTest, HoldsForItsBitTimeFromItsTimeOnAndAfterAGap) {
+  segment.set_filter(listener, {&reads, kFirstRun + 1, kFilteredBit, 5});
+  send(kFirstRun, {9, 0});
+  segment.set_filter(listener, {&reads, 0, kFilteredBit + 1, 5});
+  send(kNextRun, {8, 0});
+  segment.set_filter(listener, filter);
+  const Tick end = kNextRun + 2 * kCharacterBits * kFilteredBit;
+  send(end + 2 * kFilteredBit - 1, {7, 0});
+  EXPECT_EQ(ear.told, (Words{"run for 9 at 100000", "run for 8 at 500000", "run for 7 at 523999"}));
+  ear.told.clear();
+  send(end + 2 * kFilteredBit - 1 + 2 * kCharacterBits * kFilteredBit + 2 * kFilteredBit, {7, 0});
+  EXPECT_TRUE(ear.told.empty());
+}
+
+TEST_F(FilterTest, ACutOneIsToldBeforeItsCut) {
+  send(kFirstRun, {9, 0});
+  segment.force(kFirstRun + kFilteredBit / 2, false);
+  EXPECT_EQ(ear.told, (Words{"run for 9 at 100000", "cut 0 at 100500"}));
+}
+
+TEST_F(FilterTest, AfterItsEndAChangeOfTheLineTellsItFirst) {
+  send(kFirstRun, {9, 0});
+  segment.force(kNextRun, false);
+  EXPECT_EQ(ear.told, (Words{"run for 9 at 100000", "line 0 at 500000"}));
+}
+
+TEST_F(FilterTest, AnUnpluggedStationHasNone) {
+  send(kFirstRun, {9, 0});
+  segment.plug(listener, kNextRun, false);
+  EXPECT_EQ(ear.told, (Words{"run for 9 at 100000"}));
+  segment.plug(listener, kNextRun + 1, true);
+  send(2 * kNextRun, {7, 0});
+  EXPECT_EQ(ear.told.back(), "run for 7 at 1000000");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "model/profibus/addressee.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
 namespace conformance {
@@ -54,7 +55,7 @@ TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines
   skip_.on_event({&on_skip_event, this});
   step_.on_event({&on_step_event, this});
   doze_.on_event({&on_doze_event, this});
-  if (twin_) segment.attach("doze", &ear_);
+  if (twin_) doze_station_ = segment.attach("doze", &ear_);
 }
 
 void TwinChip::set(Tick at, Pin pin, Level level) {
@@ -83,8 +84,16 @@ void TwinChip::Ear::line_changed(Tick at, bool level) {
 }
 
 bool TwinChip::Ear::run_begins(const bus::CharacterRun& run) {
-  return twin_.doze().hear(run.start,
-                           {run.start, run.bit / profibus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
+  const bool taken = twin_.doze().hear(
+      run.start, {run.start, run.bit / profibus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
+  twin_.filter_for_doze();
+  return taken;
+}
+
+void TwinChip::filter_for_doze() {
+  const profibus::Unconcerned unconcerned = doze_.unconcerned();
+  segment_.set_filter(doze_station_, {&profibus::addressee, unconcerned.from,
+                                      unconcerned.bit * profibus::kTicksPerCycle, unconcerned.address});
 }
 
 void TwinChip::leave_run_with_doze(Tick at) {
@@ -93,8 +102,10 @@ void TwinChip::leave_run_with_doze(Tick at) {
   doze_.leave_run(at);
 }
 
-/// With what it has not been told of the line.
+/// With what it has not been told of the line; it is told all until filter_for_doze().
 dsdpv1::Chip& TwinChip::doze() {
+  segment_.hear(doze_station_);
+  segment_.set_filter(doze_station_, {});
   for (const Unheard& change : unheard_) doze_.hear(change.at, change.level);
   unheard_.clear();
   return doze_;
@@ -110,9 +121,10 @@ Level TwinChip::sample(Tick at) {
 
 void TwinChip::run(Tick now) {
   skip_.advance(now);
-  if (!twin_) return;
+  if (!twin_ || doze_.next_event() > now) return;  // it sleeps longer than the others, and is told less
   doze().advance(now);
   leave_run_with_doze(now);
+  filter_for_doze();
 }
 
 void TwinChip::compare(Tick at) {
@@ -127,12 +139,14 @@ void TwinChip::compare(Tick at) {
   compare_lists(unwatched_trace_, doze_trace_, compared_doze_pins_, "doze");
   compare_lists(events_, doze_events_, compared_doze_events_, "doze");
   compare_state();
+  filter_for_doze();
 }
 
 // To look at the dozing chip must not wake it, and what it made up must be what the others did.
 void TwinChip::compare_state() const {
   for (const Pin pin : {Pin::kLReq, Pin::kLSta}) ASSERT_EQ(doze_.level(pin), step_.level(pin)) << dsdpv1::name(pin);
   ASSERT_EQ(doze_.status().accesses, step_.status().accesses);
+  ASSERT_EQ(doze_.status().telegrams_received, step_.status().telegrams_received);
   ASSERT_EQ(doze_.peek(dsdpv1::regs::kAccessCount), step_.peek(dsdpv1::regs::kAccessCount));
 }
 

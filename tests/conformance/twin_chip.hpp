@@ -1,8 +1,8 @@
 #pragma once
 // The chip under test, three times: one evaluated in every cycle (step), one sleeping between its actions (skip), and
 // one whose L_REQ and L_STA nobody watches, so that it sleeps through quiet accesses, too, and which hears whole runs
-// of characters, or else the line as late as it may (doze); fed with the same pins. Every difference of pins or events
-// fails the test, so each conformance test also proves that they agree.
+// of characters, but for those of others, or else the line as late as it may (doze); fed with the same pins. Every
+// difference of pins or events fails the test, so each conformance test also proves that they agree.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -58,6 +58,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
   static void on_doze_pin(void* self, Tick at, Pin pin, Level level);
   static void on_doze_event(void* self, const profibus::Event& event);
   dsdpv1::Chip& doze();
+  void filter_for_doze();
   void leave_run_with_doze(Tick at);
   void compare_state() const;
 
@@ -68,6 +69,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
     void line_changed(Tick at, bool level) override;
     bool run_begins(const bus::CharacterRun& run) override;
     void run_cut(Tick at, bool /*level*/) override { twin_.doze().leave_run(at); }
+    void runs_passed(std::uint64_t for_stations) override { twin_.doze_.pass(for_stations); }
 
    private:
     TwinChip& twin_;
@@ -78,7 +80,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
     bool level;
   };
   bus::Segment& segment_;
-  bus::StationId station_;
+  bus::StationId station_, doze_station_ = 0;
   const bool twin_;
   Ear ear_{*this};
   dsdpv1::Chip skip_, step_, doze_;
