@@ -23,12 +23,18 @@ using profibus::Tick;
 constexpr Tick kSlice = 12'000'000;  // a millisecond
 constexpr double kMeasured = 0.3;    // seconds
 
-double saturated(int io, double seconds = kMeasured) {
-  Chip chip;
-  Bus bus(chip, io);
+/// A chip that is told every change of the line.
+struct EdgeChip : Chip {
+  static bool hear(Tick /*at*/, const profibus::CharacterRun& /*run*/) { return false; }
+};
+
+template <class Device = Chip>
+double saturated(int io, double seconds = kMeasured, std::uint32_t watched = speed::PinCounter::kWatched) {
+  Device chip;
+  speed::SaturatedBus<Device> bus(chip, io);
   bus.start();
   speed::PinCounter counter;
-  chip.watch(counter.sink(), speed::PinCounter::kWatched);
+  chip.watch(counter.sink(), watched);
   const Tick begin = bus.now();
   const Stopwatch watch;
   while (watch.seconds() < seconds) bus.exchange_for(kSlice);
@@ -94,6 +100,7 @@ int main(int argc, char** argv) {
                           {"core_16", [] { return saturated(16); }},
                           {"core_64", [] { return saturated(64); }},
                           {"core_244", [] { return saturated(244); }},
+                          {"core_pins", [] { return saturated<EdgeChip>(16, kMeasured, dsdpv1::kOutputPins); }},
                           {"search_9k6", search_to_9k6},
                           {"chip", chip_kilobytes},
                           {"calibration", calibration},

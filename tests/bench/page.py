@@ -50,7 +50,8 @@ that were inlined into others included. A block's header and source are one.
 """
 
 LIMITS = ("What bounds the others. The measured limit is what would remain of a row if all but one part of its run cost nothing; the part's share of "
-          "the time is that of the profile at the end of this page.")
+          "the time is that of the profile at the end of this page. Or it is what would remain if there were nothing but the work of other rows, which "
+          "are named.")
 
 RUNS = """
 Runs of `dsdpv1-sim`, by the part that a function belongs to: the chip (`model/`), the driver, masters, monitor and line (`bus/`), the bench with user
@@ -81,8 +82,11 @@ def calibration(times):
     return words + ": the machine was quiet."
 
 
-def measured_limit(outcome, profile):
-    """What would remain of a row if all but the part that bounds it cost nothing."""
+def measured_limit(outcome, values, profiles):
+    """What would remain of a row if all but what bounds it cost nothing."""
+    if outcome.row.limit_of:
+        return limit_of_rows(outcome.row, values, profiles)
+    profile = profiles.get(outcome.row.name, {})
     share = profile.get(outcome.row.bound, 0) / 100
     if share == 0:
         return "-"
@@ -90,12 +94,20 @@ def measured_limit(outcome, profile):
     return f"{table.number(remains)} ({outcome.row.bound}, {100 * share:.0f} %)"
 
 
+def limit_of_rows(row, values, profiles):
+    try:
+        return f"{table.number(row.limit_of(values, profiles))} ({row.limit_by})"
+    except KeyError:  # a row that failed, or no profile
+        return "-"
+
+
 def limits(outcomes, profiles):
     """What bounds the rows that do not meet their goals."""
     missed = [each for each in outcomes if not each.met and not each.error]
     if not missed:
         return ""
-    rows = [markdown_row([f"`{each.row.name}`", measured_limit(each, profiles.get(each.row.name, {})), each.row.limit]) for each in missed]
+    values = {each.row.name: each.value for each in outcomes if not each.error}
+    rows = [markdown_row([f"`{each.row.name}`", measured_limit(each, values, profiles), each.row.limit]) for each in missed]
     return "\n".join(["", paragraph(LIMITS), "", "| row | measured limit | reason |", "|---|---|---|", *rows, ""])
 
 

@@ -20,6 +20,8 @@ class Row:
     at_most: bool = False
     limit: str = ""  # what bounds it, said where its goal is not met
     bound: str = ""  # the part of its profile (parts.py) that would remain if all else cost nothing: the limit that is measured
+    limit_of: typing.Optional[typing.Callable] = None  # or the limit out of what other rows measure: values and profiles by row to a number
+    limit_by: str = ""  # which they are
 
 
 def in_program(program, name):
@@ -61,6 +63,16 @@ def of_sim(name, goal, what, measure, **others):
     return Row(name, goal, others.pop("unit", TIMES), what, measure, ("dsdpv1-sim", *others.pop("targets", ())), **others)
 
 
+def one_after_the_other(*names):
+    """The speed of work that consists of what these rows measure."""
+    return lambda values, _: 1 / sum(1 / values[name] for name in names)
+
+
+def kernel_beside_demo(values, profiles):
+    """tlm_vs_demo, if the TLM view had to do what demo does, and its part of the SystemC kernel."""
+    return 1 / (1 + profiles["demo_tlm"]["SystemC"] / 100 / values["tlm_vs_demo"])
+
+
 CORE_LIMIT = ("Every change of a watched pin is an edge that the core evaluates: two a microsecond on L_REQ and five or six a character on PBTXD leave "
               "some 28 ns for each at ten times real time. Who does not watch PBTXD gets answers as runs; who does not watch L_REQ lets the chip doze.")
 DEMO = "power_on_12m"
@@ -86,24 +98,32 @@ ROWS = (
                  "that runs the driver, a fifth to master and monitor, which decode each character of the telegrams on their own, as they are there to "
                  "check the chip.", bound="chip"),
     of_sim("demo_full", 1.5, "The same with checks, log and FST wave.", real_time(DEMO, *FULL),
-           limit="The wave takes two thirds of it: 19 changes a microsecond, each of which has to be made and written: see fst and fst_library."),
+           limit="The wave takes two thirds of it: 19 changes a microsecond, each of which has to be made and written: see fst and fst_library.",
+           limit_of=lambda values, _: values["demo"] / (1 + values["fst_library"]), limit_by="demo and fst_library"),
     of_sim("demo_tlm", 2, "As demo, with `--view tlm`.", real_time(DEMO, *TLM), limit=TLM_LIMIT,
            bound="SystemC"),
     of_sim("tlm_vs_demo", 1, "demo_tlm against demo of the same round: TLM is never slower.", time_ratio(DEMO, OFF, TLM), unit="times as fast",
-           limit=TLM_LIMIT),
+           limit=TLM_LIMIT, limit_of=kernel_beside_demo, limit_by="demo and the SystemC of demo_tlm"),
     Row("systemc_tlm", 5, TIMES, "The TLM module in a SystemC platform: an idle user, INTR0 bound, 16 bytes each way back to back at 12 Mbit/s as "
         "characters.", in_program("bench_systemc", "systemc_tlm"), SYSTEMC,
         limit="An event of SystemC for each character of the answer, which `bus_out` tells at its end."),
     Row("systemc_tlm_handshake", 5, TIMES, "The same with L_REQ and L_STA bound, as a user who accesses the DPRAM needs them.",
         in_program("bench_systemc", "systemc_tlm_handshake"), SYSTEMC,
         limit="L_REQ and L_STA change twice a microsecond: a timed event, a process and two signals of SystemC each time, which are nearly half of the "
-              "instructions. Kernel and core together are two thirds: a module that took none would make it half as fast again."),
+              "instructions. What remains when the kernel does that and nothing else, and the core what it does alone, says the limit.",
+        limit_of=one_after_the_other("kernel_handshake", "core_16"), limit_by="kernel_handshake and core_16"),
+    Row("kernel_handshake", None, TIMES, "The SystemC kernel alone: the characters of systemc_tlm_handshake sent to nobody, the same changes of L_REQ and "
+        "L_STA replayed.", in_program("bench_systemc", "kernel_handshake"), SYSTEMC),
     Row("systemc_pins", 2, TIMES, "The pin module in a SystemC platform, all pins bound, the same exchanges edge by edge.",
         in_program("bench_systemc", "systemc_pins"), SYSTEMC,
         limit="The kernel: kernel_pins is what remains when nobody computes anything. More than half of the instructions are the kernel's, and each change "
-              "of PBRXD calls one process more than in kernel_pins."),
-    Row("kernel_pins", None, TIMES, "The SystemC kernel alone: the same changes of the same signals as in systemc_pins, replayed, nobody behind them.",
+              "of PBRXD is a process of its own. The core has to do what it does in core_pins.",
+        limit_of=one_after_the_other("kernel_pins", "core_pins"), limit_by="kernel_pins and core_pins"),
+    Row("kernel_pins", None, TIMES, "The SystemC kernel alone: the same changes of the same signals as in systemc_pins, replayed, and an empty process that "
+        "hears PBRXD.",
         in_program("bench_systemc", "kernel_pins"), SYSTEMC),
+    Row("core_pins", None, TIMES, "The core alone with the exchanges of systemc_pins: PBRXD edge by edge, all output pins watched.",
+        in_program("bench_core", "core_pins"), ("bench_core",)),
     of_sim("1m5", 30, "A slave with 32 bytes each way at 1.5 Mbit/s; its user CPU exchanges data every millisecond. Checks off.",
            real_time("1m5", *OFF), limit="The user CPU's accesses, and master and monitor, which decode each character on their own.",
            bound="chip"),
@@ -119,8 +139,7 @@ ROWS = (
     of_sim("idle_station", 2, f"One more slave that nobody addresses on a saturated 12 Mbit/s bus, on the bench: what {scenarios.IDLE} of them add "
            "to the run with one busy slave, divided by their number, as a share of that run. Their user CPUs do nothing once they have initialised.",
            idle_station, unit="%", at_most=True,
-           limit="A telegram for others costs a station one call, in which it looks at each byte once; the run that it is compared with has become so "
-                 "short that this is more than its fiftieth part."),
+           limit="Of a telegram for others a station is not told; the segment asks whether its filter keeps it from it."),
     of_sim("arm", 0.5, "The scenario arm_board_12m, checks off: the example firmware on the ARM board looks for data every 40 us.",
            real_time("arm_board_12m", *OFF), targets=("dsdpv1_firmware",),
            limit="850 thousand instructions in 20 ms, for each of which Unicorn calls back, as their times are counted one by one.",
@@ -128,7 +147,8 @@ ROWS = (
     of_sim("fst", 1.5, "demo with an FST wave against demo without.", time_ratio(DEMO, WAVE, OFF), unit="times as long", at_most=True,
            limit="The demo without a wave does not make the changes that a wave shows: telegrams and accesses cost one step each. With one, 2.3 million "
                  "changes in 120 ms of simulated time are made: those of telegrams as runs in the recorder, those of accesses edge by edge in the chip. "
-                 "What the library alone takes for them says fst_library."),
+                 "What the library alone takes for them says fst_library.",
+           limit_of=lambda values, _: 1 + values["fst_library"], limit_by="demo and fst_library"),
     of_sim("fst_library", None, "The FST library alone: the changes of that wave, read before and written again, in CPU time, against demo.", fst_library,
            unit="times as long", at_most=True, targets=("bench_fst",)),
     Row("lockstep", 80, "%", "Random lockstep as `rtl-random --seed 1 --jobs 1` does it: its cycles per second as a share of those of the same "

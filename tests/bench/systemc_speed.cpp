@@ -174,7 +174,7 @@ double systemc_pins() {
 struct Replay : sc_core::sc_module {
   std::array<sc_core::sc_signal<bool>, dsdpv1::kPinCount> signals;
 
-  explicit Replay(const sc_core::sc_module_name& name) : sc_module(name) {
+  Replay(const sc_core::sc_module_name& name, std::uint32_t pins) : sc_module(name) {
     constexpr int kExchanges = 20;
     dsdpv1::Chip chip;
     speed::SaturatedBus<dsdpv1::Chip> bus(chip, kIo);
@@ -183,7 +183,7 @@ struct Replay : sc_core::sc_module {
                   static_cast<Replay*>(self)->changes_.push_back({at, pin, level != 0});
                 },
                 this},
-               dsdpv1::kOutputPins);
+               pins);
     begin_ = bus.now();
     for (int i = 0; i < kExchanges; ++i) bus.exchange();
     period_ = bus.now() - begin_;
@@ -214,11 +214,39 @@ struct Replay : sc_core::sc_module {
   std::size_t next_ = 0;
 };
 
-/// Signals and changes of systemc_pins, nobody behind them.
+/// Hears a signal, and does nothing.
+struct Ear : sc_core::sc_module {
+  Ear(const sc_core::sc_module_name& name, sc_core::sc_signal<bool>& signal) : sc_module(name) {
+    SC_HAS_PROCESS(Ear);
+    SC_METHOD(run);
+    dont_initialize();
+    sensitive << signal;
+  }
+  void run() {}
+};
+
+/// Signals and changes of systemc_pins, and somebody who hears PBRXD; nobody behind them.
 double kernel_pins() {
   sc_core::sc_signal<bool> pbrxd("pbrxd");
+  const Ear ear("ear", pbrxd);
   EdgeMaster master("master", pbrxd);
-  Replay chip("chip");
+  Replay chip("chip", dsdpv1::kOutputPins);
+  run_for(kInitialised + kMillisecond);
+  return speed_from_now();
+}
+
+struct Sink : sc_core::sc_module, private tlm::tlm_analysis_if<BusCharacter> {
+  sc_core::sc_export<tlm::tlm_analysis_if<BusCharacter>> receive{"receive"};
+  explicit Sink(const sc_core::sc_module_name& name) : sc_module(name) { receive.bind(*this); }
+  void write(const BusCharacter& /*character*/) override {}
+};
+
+/// Characters and changes of systemc_tlm_handshake, nobody behind them.
+double kernel_handshake() {
+  CharacterMaster master("master");
+  Sink sink("sink");
+  master.send.bind(sink.receive);
+  Replay chip("chip", dsdpv1::mask(dsdpv1::Pin::kLReq) | dsdpv1::mask(dsdpv1::Pin::kLSta));
   run_for(kInitialised + kMillisecond);
   return speed_from_now();
 }
@@ -234,6 +262,7 @@ int sc_main(int argc, char* argv[]) {
   return speed::run_rows(argc, argv,
                          {{"systemc_tlm", [] { return tlm_module(false); }},
                           {"systemc_tlm_handshake", [] { return tlm_module(true); }},
+                          {"kernel_handshake", kernel_handshake},
                           {"systemc_pins", systemc_pins},
                           {"kernel_pins", kernel_pins}});
 }
