@@ -67,9 +67,13 @@ class Segment {
   void cut_run(Tick at);
   /// Tells a listener what it has not heard yet, each change and run with its own tick.
   void hear(StationId station) {
-    Station& listener = stations_[station];
-    if (listener.passes) tell_passed(listener);
-    if (listener.next_change < changes_.size()) tell_missed(station);
+    hear_runs(station);
+    if (stations_[station].next_change < changes_.size()) tell_missed(station);
+  }
+
+  /// Tells it the runs only.
+  void hear_runs(StationId station) {
+    if (stations_[station].passes) tell_passed(stations_[station]);
   }
 
   /// A fault on the wire: forces the level (short circuit, glitch) until called with nullopt.

@@ -5,6 +5,7 @@
 namespace tb {
 
 ChipStatus Dsdpv1View::status() const {
+  hear_runs();
   const dsdpv1::Status own = core().status();
   ChipStatus status = common_status(own);
   status.c2 = own.c2;

@@ -17,6 +17,8 @@ class Dsdpv1View : public ChipView {
   Level level(PinNumber pin) const final { return core().level(static_cast<dsdpv1::Pin>(pin)); }
 
  protected:
+  /// Telegrams of others that it has not been told of yet.
+  virtual void hear_runs() const {}
   /// Tells a change of a pin to whoever listens.
   void tell(Tick at, dsdpv1::Pin pin, dsdpv1::Level level) const {
     if (pin == dsdpv1::Pin::kIntr0 && on_interrupt) on_interrupt(at, level != 0);

@@ -50,6 +50,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
     segment_.hear(station_);
     catching_up_ = false;
   }
+  void hear_runs() const override { segment_.hear_runs(station_); }
   void catch_up_access(Tick at);
   user_cpu::PinHostBus& pins() {
     device();

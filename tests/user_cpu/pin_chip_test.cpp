@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/bench/saturated_bus.hpp"
+
 namespace {
 
 using bus::Tick;
@@ -151,6 +153,62 @@ TEST_F(PutOffTest, AResetInTheMiddleForgetsTheRest) {
   late.chip.reset_host(at + 400);
   EXPECT_EQ(late.chip.level(static_cast<tb::PinNumber>(dsdpv1::Pin::kWr)), 1);
   EXPECT_EQ(late.chip.core().now(), at + 400);
+}
+
+// --- telegrams of others ---------------------------------------------------------------------------------------------
+
+/// A chip that has found its rate, at 12 Mbit/s, and somebody who sends.
+struct ForeignTelegramsTest : PinChipTest, bus::Listener {
+  ForeignTelegramsTest() {
+    Tick at = kStart;
+    for (const speed::Cell& cell : speed::initialisation(2)) {
+      host.begin(at, {true, cell.address, cell.value}, AccessTiming());
+      host.run_edges(host.end());
+      at = host.end() + 1000;
+    }
+    host.set_r_sta(at, false);
+    host.set_r_req(at, false);
+    segment.drive(sender, at, true, true);
+    find_baud(bus::kTicksPerMs);
+    run_to(bus::kTicksPerMs + kPeriod);
+  }
+  void line_changed(Tick /*at*/, bool /*level*/) override {}
+  bool run_begins(const bus::CharacterRun& /*run*/) override { return true; }
+  void run_to(Tick until) {
+    while (chip.next() <= until) chip.run(chip.next());
+  }
+  void find_baud(Tick at) {
+    for (const auto& edge : speed::wave_of(kTelegram).edges) {
+      run_to(at + edge.at - 1);
+      segment.drive(sender, at + edge.at, true, edge.level);
+    }
+  }
+  static Tick begin_of(int telegram) { return 2 * bus::kTicksPerMs + telegram * kPeriod; }
+  void send_to_others(int telegram) {
+    ASSERT_TRUE(segment.send_run(sender, {begin_of(telegram), speed::kBit, kTelegram.data(), kTelegram.size()}));
+  }
+  static constexpr Tick kPeriod = 200 * speed::kBit;
+  const bus::Bytes kTelegram = {0x10, 0x63, 0x02, 0x49, 0xAE, 0x16};  // FDL status of station 99
+  bus::StationId sender = segment.attach("sender", this);
+};
+
+TEST_F(ForeignTelegramsTest, AreCountedThoughTheChipHasNoTurn) {
+  ASSERT_TRUE(chip.core().status().baud_index.known());
+  const auto before = chip.core().status().telegrams_received;
+  for (int i = 0; i < 3; ++i) send_to_others(i);
+  EXPECT_EQ(chip.core().status().telegrams_received, before);  // it has not been told
+  chip.sync(begin_of(3));
+  EXPECT_EQ(chip.core().status().telegrams_received, before + 3);
+}
+
+TEST_F(ForeignTelegramsTest, AskedInTheMiddleOfOneTheChipHasThoseBefore) {
+  const auto before = chip.status().telegrams_received;
+  for (int i = 0; i < 3; ++i) send_to_others(i);
+  EXPECT_EQ(chip.status().telegrams_received, before + 2);
+  chip.sync(begin_of(2) + 30 * speed::kBit);
+  EXPECT_EQ(chip.status().telegrams_received, before + 2);
+  chip.sync(begin_of(3));
+  EXPECT_EQ(chip.status().telegrams_received, before + 3);
 }
 
 }  // namespace
