@@ -1,0 +1,270 @@
+/*
+ * Chips: kinds with their pins and parameters, and one chip driven pin by pin.
+ *
+ *   dpsim_chip* chip;
+ *   dpsim_chip_create(NULL, &chip);                                  // a DSDPV1, RESET is low
+ *   dpsim_chip_watch(chip, DPSIM_PIN(DPSIM_DSDPV1_L_REQ), print, NULL);
+ *   dpsim_chip_set(chip, 20 * 250, DPSIM_DSDPV1_RESET, 1);           // released at cycle 20
+ *   dpsim_chip_advance(chip, 48000 * 250);                           // one millisecond
+ *   dpsim_chip_destroy(chip);
+ *
+ * A change of an input at tick t is seen by the first rising edge of CLK strictly after t (P9); the host port, which is
+ * asynchronous to CLK, sees it at t. Calls for one chip come in order of time.
+ *
+ * The same functions serve a chip that is on a bus (dpsim_bus_add_chip): its PBRXD is the line, and setting or
+ * advancing it runs the whole bus up to that tick first.
+ */
+#ifndef DPSIM_CHIP_H
+#define DPSIM_CHIP_H
+
+#include "dsdpv1/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- kinds of chips: what there is, by number ---- */
+
+/* A kind is named by its text ("dsdpv1"); NULL and "" stand for the first one. These functions need no object and may
+   be called from any thread, also in callbacks. */
+
+/** Number of kinds that the library has, and their names, 0 .. count - 1; NULL beyond. */
+DPSIM_API size_t dpsim_kind_count(void);
+DPSIM_API const char* dpsim_kind_name(size_t index);
+
+typedef struct dpsim_pin_info {
+  uint32_t size;
+  uint16_t number;  /**< as dpsim_chip_set and dpsim_change have it */
+  uint8_t width;    /**< number of wires, 1 to 15 */
+  uint8_t input;    /**< 1: of the chip, 0: an output */
+  const char* name; /**< the datasheet's: "L_REQ" */
+  const char* bus;  /**< of two pins that are the directions of one bus, its name: "D" of D_IN and D_OUT; else NULL */
+  dpsim_level reset_level; /**< that it has before the first call */
+} dpsim_pin_info;
+
+/** Pins of a kind are numbered from 0, at most 64 of them. 0 for a kind that there is not. */
+DPSIM_API size_t dpsim_pin_count(const char* kind);
+/** DPSIM_ERR_NOT_FOUND: no such kind or number. */
+DPSIM_API dpsim_status dpsim_pin_get(const char* kind, size_t number, dpsim_pin_info* info);
+/** The pin with this name. DPSIM_ERR_NOT_FOUND: no such kind or name. */
+DPSIM_API dpsim_status dpsim_pin_find(const char* kind, const char* name, uint16_t* number);
+
+/** The bit of a pin in a set of pins. */
+#define DPSIM_PIN(number) ((uint64_t)1 << (number))
+#define DPSIM_ALL_PINS UINT64_MAX
+
+/* The pins of the DSDPV1 (table 1) by number, as dpsim_pin_get tells them. */
+enum {
+  DPSIM_DSDPV1_RESET = 0, /**< low-active */
+  DPSIM_DSDPV1_R_REQ = 1,
+  DPSIM_DSDPV1_R_STA = 2,
+  DPSIM_DSDPV1_CSR = 3, /**< low-active, as RD and WR */
+  DPSIM_DSDPV1_RD = 4,
+  DPSIM_DSDPV1_WR = 5,
+  DPSIM_DSDPV1_A = 6,    /**< A[10:0] */
+  DPSIM_DSDPV1_D_IN = 7, /**< D[7:0] as the user drives it, DPSIM_Z: released */
+  DPSIM_DSDPV1_PBRXD = 8,
+  DPSIM_DSDPV1_L_REQ = 9, /**< the first output */
+  DPSIM_DSDPV1_L_STA = 10,
+  DPSIM_DSDPV1_D_OUT = 11, /**< D[7:0] as the chip drives it, DPSIM_Z: released, DPSIM_X: unknown */
+  DPSIM_DSDPV1_INTR0 = 12,
+  DPSIM_DSDPV1_PBTXD = 13,
+  DPSIM_DSDPV1_PBRTS = 14,
+  DPSIM_DSDPV1_PBF = 15,
+  DPSIM_DSDPV1_BR = 16,
+  DPSIM_DSDPV1_READY = 17
+};
+
+/** A parameter of the chip that the rulings mark (p): of the DSDPV1 access_interval (H1), ready_cycles (D1), rts_lead
+ * and rts_trail (P2), intr_low and intr_gap (P7), search_window_ms, search_window_bits and baud_control_ms (S1). */
+typedef struct dpsim_parameter_info {
+  uint32_t size;
+  const char* name;        /**< as scenarios have it under `chip` */
+  const char* unit;        /**< "cycles", "ms", "bit times" */
+  const char* description; /**< one sentence, with the ruling */
+  int64_t minimum, maximum, default_value;
+} dpsim_parameter_info;
+
+/** 0 for a kind that there is not. */
+DPSIM_API size_t dpsim_parameter_count(const char* kind);
+/** DPSIM_ERR_NOT_FOUND: no such kind or index. */
+DPSIM_API dpsim_status dpsim_parameter_get(const char* kind, size_t index, dpsim_parameter_info* info);
+
+/* ---- one chip ---- */
+
+typedef struct dpsim_chip dpsim_chip;
+
+typedef struct dpsim_parameter {
+  const char* name;
+  int64_t value;
+} dpsim_parameter;
+
+typedef int32_t dpsim_engine;
+enum {
+  DPSIM_ENGINE_SKIP = 0, /**< from event to event */
+  DPSIM_ENGINE_STEP = 1  /**< each cycle of each block is evaluated: slow, with the same changes of pins */
+};
+
+typedef struct dpsim_chip_options {
+  uint32_t size;
+  dpsim_engine engine;
+  const char* kind; /**< NULL: the first kind */
+  const char* name; /**< on a bus, in messages and collisions; NULL: "chip" and its station's number */
+  const dpsim_parameter*
+      parameters; /**< those that are not to have their defaults; names as dpsim_parameter_get has them */
+  size_t parameter_count;
+} dpsim_chip_options;
+
+/** A chip alone, fresh from power-on at tick 0: inputs have the reset levels of dpsim_pin_get, so that RESET is low.
+ *  `options` NULL: all defaults. DPSIM_ERR_NOT_FOUND: no such kind or parameter; DPSIM_ERR_ARGUMENT: a value out of
+ * range. */
+DPSIM_API dpsim_status dpsim_chip_create(const dpsim_chip_options* options, dpsim_chip** chip);
+/** Of a chip on a bus it does nothing: the bus owns it. */
+DPSIM_API void dpsim_chip_destroy(dpsim_chip* chip);
+
+/** Runs up to `tick`, then gives an input pin a level: 0 or 1, of several wires their value, of one that may be
+ * released (D_IN) also DPSIM_Z. The level that it has already changes nothing. On a bus not PBRXD (DPSIM_ERR_STATE).
+ *  DPSIM_ERR_NOT_FOUND: no such pin; DPSIM_ERR_ARGUMENT: an output, or no level of this pin; DPSIM_ERR_TIME. */
+DPSIM_API dpsim_status dpsim_chip_set(dpsim_chip* chip, uint64_t tick, uint16_t pin, dpsim_level level);
+/** The same for `count` changes in their order, one call for many (their stations are not looked at). On an error those
+ *  before it are carried out; `done`, if not NULL, is their number. */
+DPSIM_API dpsim_status dpsim_chip_set_many(dpsim_chip* chip, const dpsim_change* changes, size_t count, size_t* done);
+/** Runs everything up to and including `tick`. On a bus the same as dpsim_bus_run. DPSIM_ERR_TIME. */
+DPSIM_API dpsim_status dpsim_chip_advance(dpsim_chip* chip, uint64_t tick);
+/** The tick of the next thing that the chip (on a bus: anybody on it) does by itself: until then no output changes
+ * unless an input does. Never before the present tick; DPSIM_NEVER: nothing is due. Also in callbacks. */
+DPSIM_API dpsim_status dpsim_chip_next(const dpsim_chip* chip, uint64_t* tick);
+/** The present tick: that of the last set or advance. Also in callbacks. */
+DPSIM_API dpsim_status dpsim_chip_now(const dpsim_chip* chip, uint64_t* tick);
+/** The present level of a pin, input or output. Also in callbacks. */
+DPSIM_API dpsim_status dpsim_chip_level(const dpsim_chip* chip, uint16_t pin, dpsim_level* level);
+/** The user samples D at `tick`: runs up to it and gives the level that D has then. Unlike dpsim_chip_level the chip
+ * hears of it: earlier than Tw after RD and CSR fell it is DPSIM_X, and a violation is reported (P5).
+ *  DPSIM_ERR_UNSUPPORTED: a kind without a parallel host bus. */
+DPSIM_API dpsim_status dpsim_chip_sample(dpsim_chip* chip, uint64_t tick, dpsim_level* level);
+
+/* ---- an access of the host bus as a whole ---- */
+
+/** When the pins move during an access, in ticks (table 15, P5, P11). The strobe is RD or WR. Negative setups: after
+ * it. */
+typedef struct dpsim_access_timing {
+  uint32_t size;
+  uint32_t reserved;
+  int64_t address_setup; /**< A before the strobe falls (Tc >= 0) */
+  int64_t cs_lead;       /**< CSR falls before the strobe */
+  int64_t rd_low;        /**< RD low, > 0 */
+  int64_t rd_sample;     /**< D sampled after RD fell (Tw >= 375) */
+  int64_t wr_low;        /**< WR low, > 0 (Ts >= 150) */
+  int64_t data_setup;    /**< D before WR rises (Td >= 150) */
+  int64_t data_hold;     /**< D after it (Td >= 150) */
+  int64_t address_hold;  /**< A after the strobe rose (writes: Td >= 150) */
+  int64_t cs_trail;      /**< CSR rises after the strobe */
+  int64_t recovery;      /**< from the last edge to the end of the access */
+} dpsim_access_timing;
+
+/** Fills it with the times of a CPU at 72 MHz, which keep all limits. Of this struct 0 is no default: set its size,
+ * call this, then change members. */
+DPSIM_API dpsim_status dpsim_access_timing_default(dpsim_access_timing* timing);
+
+/** Reads or writes one cell through the pins, all edges of the access in their order, its first edge at `tick`. The
+ * chip is at `end` then, where the next access may begin. Whether the user owns the DPRAM is their business (H2):
+ * R_REQ, R_STA are pins. `timing` NULL: the default. A value that is read is DPSIM_X when the chip says so.
+ *  DPSIM_ERR_UNSUPPORTED: a kind without a parallel host bus. DPSIM_ERR_ARGUMENT: `address` > 0x7FF; rd_low or wr_low
+ *  < 1, another time beyond +-100 us. DPSIM_ERR_TIME. */
+DPSIM_API dpsim_status dpsim_chip_read(dpsim_chip* chip, uint64_t tick, uint16_t address,
+                                       const dpsim_access_timing* timing, dpsim_level* value, uint64_t* end);
+DPSIM_API dpsim_status dpsim_chip_write(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t value,
+                                        const dpsim_access_timing* timing, uint64_t* end);
+
+/* ---- changes of pins ---- */
+
+/** From now on changes of these pins are told, inputs too: to `fn`, or, with `fn` NULL, they are kept for
+ *  dpsim_chip_read_changes. In order of time; at one tick in no certain order. A second call replaces the first, `pins`
+ * 0 ends it; what is kept stays. Bits beyond the chip's pins do not matter (DPSIM_ALL_PINS). Costs time: a chip is
+ *  fastest when the fewest pins are watched; on a bus, telegrams are told as wholes to chips whose PBRXD and PBTXD are
+ * not. */
+DPSIM_API dpsim_status dpsim_chip_watch(dpsim_chip* chip, uint64_t pins, dpsim_change_fn fn, void* user);
+/** Takes the oldest of the changes kept: at most `capacity` of them into `changes`, their number into `count`. Less
+ * than `capacity`: nothing more is kept. Memory for what is kept grows until it is taken: call this after each advance
+ *  (1 ms of a saturated bus with all pins is some 20 000 changes). Also in callbacks of other objects. */
+DPSIM_API dpsim_status dpsim_chip_read_changes(dpsim_chip* chip, dpsim_change* changes, size_t capacity, size_t* count);
+
+/* ---- what the chip says of itself ---- */
+
+typedef int32_t dpsim_severity;
+enum {
+  DPSIM_SEVERITY_INFO = 0,     /**< a state change or a service that was carried out */
+  DPSIM_SEVERITY_REFUSAL = 1,  /**< the chip refused something that a master or the user asked for */
+  DPSIM_SEVERITY_VIOLATION = 2 /**< the user's side broke a rule of the host port or the handshake */
+};
+
+/** Something that happened, as a reason and numbers (docs/reasons.md). */
+typedef struct dpsim_chip_event {
+  uint64_t tick;
+  uint16_t station; /**< as dpsim_change has it */
+  uint16_t reason; /**< its number in this version of the library; dpsim_reason_get has its code, which never changes */
+  uint16_t a, b, c; /**< what the text's {a}, {b}, {c} stand for */
+  uint16_t reserved[3];
+} dpsim_chip_event;
+
+/** Told of each event; the words are dpsim_chip_event_text's, in the callback or later. */
+typedef void (*dpsim_chip_event_fn)(void* user, const dpsim_chip_event* event);
+
+/** `fn` NULL: nobody listens any more. */
+DPSIM_API dpsim_status dpsim_chip_on_event(dpsim_chip* chip, dpsim_chip_event_fn fn, void* user);
+/** The event in words, one line, without its tick, into `text` with a final 0. DPSIM_ERR_SPACE: cut at `capacity`,
+ * which must be at least 1; 256 is always enough. Also in callbacks. */
+DPSIM_API dpsim_status dpsim_chip_event_text(const char* kind, const dpsim_chip_event* event, char* text,
+                                             size_t capacity);
+
+typedef struct dpsim_reason_info {
+  uint32_t size;
+  dpsim_severity severity;
+  const char* code; /**< stable: "PRM_IDENT" */
+} dpsim_reason_info;
+
+/** The reasons of a kind, numbered from 0; 0 for a kind that there is not. Also in callbacks. */
+DPSIM_API size_t dpsim_reason_count(const char* kind);
+/** DPSIM_ERR_NOT_FOUND: no such kind or number. Also in callbacks. */
+DPSIM_API dpsim_status dpsim_reason_get(const char* kind, size_t reason, dpsim_reason_info* info);
+
+typedef int32_t dpsim_dp_state; /* table 5 */
+enum { DPSIM_DP_OFFLINE = 0, DPSIM_DP_WAIT_PRM = 1, DPSIM_DP_WAIT_CFG = 2, DPSIM_DP_DATA_EXCH = 3 };
+
+/** The coding of B012 (table 5): 0 = 12 Mbit/s, 1 = 6M, 2 = 3M, 3 = 1.5M, 4 = 500k, 5 = 187.5k, 6 = 93.75k, 7 = 45.45k,
+ *  8 = 19.2k, 9 = 9.6k. */
+typedef int32_t dpsim_baud;
+#define DPSIM_BAUD_COUNT 10
+#define DPSIM_BAUD_NONE ((dpsim_baud)-1) /**< it is being searched */
+
+typedef struct dpsim_chip_status {
+  uint32_t size;
+  dpsim_dp_state dp_state;
+  dpsim_baud baud;
+  uint8_t address;             /**< the station's present address, 0 before the initialisation */
+  uint8_t master;              /**< the parameterising master, 255 = none */
+  uint16_t reserved;           /**< 0 */
+  uint64_t telegrams_received; /**< error-free telegrams of all stations */
+  uint64_t telegrams_answered; /**< answers sent */
+  uint64_t data_exchanges;     /**< executed, repetitions not counted */
+  uint64_t outputs_missed;     /**< H5: blocks that newer ones replaced before the user had fetched them */
+  uint64_t accesses;           /**< of the chip to the memory that it shares with the user */
+  uint64_t longest_wait;       /**< H1: ticks that a due access waited for the user at most */
+  uint8_t c2_master[2];        /**< table 30: who has the C2 channels 0x30 and 0x2F, 0 = nobody */
+  uint8_t c2_state[2];         /**< bit 0 in use, 1 connected, 2 a request is open */
+} dpsim_chip_status;
+
+/** States and counters; changes nothing. Also in callbacks. */
+DPSIM_API dpsim_status dpsim_chip_get_status(const dpsim_chip* chip, dpsim_chip_status* status);
+
+/** One cell of the memory that chip and user share, without pins, time or side effects: for debuggers and checks.
+ *  DPSIM_ERR_ARGUMENT: `address` beyond it (of the DSDPV1 0x7FF). Also in callbacks. */
+DPSIM_API dpsim_status dpsim_chip_peek(const dpsim_chip* chip, uint16_t address, uint8_t* value);
+/** Writes it; what the chip acts upon (a flag for it) it finds at its next access. */
+DPSIM_API dpsim_status dpsim_chip_poke(dpsim_chip* chip, uint16_t address, uint8_t value);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
