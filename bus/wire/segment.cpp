@@ -24,6 +24,7 @@ StationId Segment::attach(std::string name, Listener* listener) {
 void Segment::drive(StationId station, Tick at, bool enabled, bool level) {
   Station& driver = stations_.at(station);
   if (run_ && !(run_->driven && run_->sender == station && enabled)) cut_run(at);
+  if (on_drive) on_drive(station, at, enabled, level);
   const bool was_on_wire = on_wire(driver);
   driver.enabled = enabled;
   driver.drives = level;

@@ -84,7 +84,11 @@ class Segment {
   bool level() const { return level_; }
   /// What this station hears: the segment's level, or idle while it is unplugged.
   bool level_at(StationId station) const;
+  /// How many have been attached: the next one's StationId.
+  std::size_t stations() const { return stations_.size(); }
   std::function<void(const Collision&)> on_collision;
+  /// Each call of `drive`, before anybody hears of it; of a run that all take there is none but at its ends.
+  std::function<void(StationId, Tick at, bool enabled, bool level)> on_drive;
 
  private:
   struct Station {

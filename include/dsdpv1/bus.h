@@ -47,8 +47,7 @@ DPSIM_API void dpsim_bus_destroy(dpsim_bus* bus);
 
 /** Runs everybody up to and including `tick`. DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_bus_run(dpsim_bus* bus, uint64_t tick);
-/** The tick at which the next one of the stations acts by itself, DPSIM_NEVER when nobody has anything to do. Also in
- *  callbacks. */
+/** The tick at which the next one of the stations acts by itself, DPSIM_NEVER when nobody has anything to do. */
 DPSIM_API dpsim_status dpsim_bus_next(dpsim_bus* bus, uint64_t* tick);
 /** The present tick. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_bus_now(const dpsim_bus* bus, uint64_t* tick);

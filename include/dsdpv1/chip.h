@@ -132,8 +132,8 @@ DPSIM_API dpsim_status dpsim_chip_set_many(dpsim_chip* chip, const dpsim_change*
 /** Runs everything up to and including `tick`. On a bus the same as dpsim_bus_run. DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_chip_advance(dpsim_chip* chip, uint64_t tick);
 /** The tick of the next thing that the chip (on a bus: anybody on it) does by itself: until then no output changes
- * unless an input does. Never before the present tick; DPSIM_NEVER: nothing is due. Also in callbacks. */
-DPSIM_API dpsim_status dpsim_chip_next(const dpsim_chip* chip, uint64_t* tick);
+ * unless an input does. Never before the present tick; DPSIM_NEVER: nothing is due. */
+DPSIM_API dpsim_status dpsim_chip_next(dpsim_chip* chip, uint64_t* tick);
 /** The present tick: that of the last set or advance. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_chip_now(const dpsim_chip* chip, uint64_t* tick);
 /** The present level of a pin, input or output. Also in callbacks. */

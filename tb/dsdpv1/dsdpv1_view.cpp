@@ -4,9 +4,8 @@
 
 namespace tb {
 
-ChipStatus Dsdpv1View::status() const {
-  hear_runs();
-  const dsdpv1::Status own = core().status();
+ChipStatus status_of(const dsdpv1::Chip& core) {
+  const dsdpv1::Status own = core.status();
   ChipStatus status = common_status(own);
   status.c2 = own.c2;
   status.accesses = own.accesses;

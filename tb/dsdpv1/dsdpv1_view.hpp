@@ -6,13 +6,19 @@
 
 namespace tb {
 
+/// What the core says of itself, as the bench has it.
+ChipStatus status_of(const dsdpv1::Chip& core);
+
 class Dsdpv1View : public ChipView {
  public:
   virtual user_cpu::HostBus& host_bus() = 0;
   /// The core that tells states, counters and events: the chip itself, or one beside it on the same inputs.
   virtual const dsdpv1::Chip& core() const = 0;
 
-  ChipStatus status() const final;
+  ChipStatus status() const final {
+    hear_runs();
+    return status_of(core());
+  }
   std::uint8_t address() const final { return core().address(); }
   Level level(PinNumber pin) const final { return core().level(static_cast<dsdpv1::Pin>(pin)); }
 

@@ -30,21 +30,34 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
       pins_(std::in_place, chip_),
       segment_(segment),
       station_(segment.attach(name, this)),
-      line_(segment, station_),
-      reports_host_((watched & inputs_of(dsdpv1_pins()) & ~dsdpv1::mask(Pin::kPbrxd)) != 0),
-      reports_rxd_((watched & dsdpv1::mask(Pin::kPbrxd)) != 0),
-      reports_txd_((watched & dsdpv1::mask(Pin::kPbtxd)) != 0) {
-  chip_.watch(
-      {[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); },
-       this},
-      (watched & dsdpv1::kOutputPins) | kBusPins);
+      line_(segment, station_) {
+  begin_watch(watched);
   chip_.on_event({[](void* self, const profibus::Event& event) {
                     auto& view = *static_cast<PinChip*>(self);
                     view.pause_access();
                     if (view.on_event) view.on_event(event);
                   },
                   this});
+}
+
+void PinChip::begin_watch(PinMask pins) {
+  reports_host_ = (pins & inputs_of(dsdpv1_pins()) & ~dsdpv1::mask(Pin::kPbrxd)) != 0;
+  reports_rxd_ = (pins & dsdpv1::mask(Pin::kPbrxd)) != 0;
+  reports_txd_ = (pins & dsdpv1::mask(Pin::kPbtxd)) != 0;
+  chip_.watch(
+      {[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); },
+       this},
+      (pins & dsdpv1::kOutputPins) | kBusPins);
   for (std::size_t pin = 0; pin < inputs_.size(); ++pin) inputs_.at(pin) = chip_.level(static_cast<Pin>(pin));
+}
+
+// A telegram under way is told by its changes from here on.
+void PinChip::watch(Tick now, PinMask pins) {
+  segment_.cut_run(now);
+  device();
+  begin_watch(pins);
+  segment_.set_deafness(station_, {});
+  update_deafness();
 }
 
 Tick PinChip::next() const {
@@ -143,6 +156,11 @@ void PinChip::set_reset(Tick at, bool level) {
   device().set(at, Pin::kReset, level ? 1 : 0);
   update_hearing();
   report_host(at, Pin::kReset, Pin::kReset);
+}
+
+void PinChip::set_pin(Tick at, Pin pin, Level level) {
+  device().set(at, pin, level);
+  report_host(at, pin, pin);
 }
 
 void PinChip::reset_host(Tick at) {

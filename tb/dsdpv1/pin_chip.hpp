@@ -32,6 +32,12 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   bool tells_runs() const override { return true; }
   void pause_access() override { pauses_ = true; }
 
+  // --- For somebody at the user's pins who is no user CPU of the bench. The bench has come to `at`.
+  void set_pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  dsdpv1::Level sample(Tick at) { return device().sample(at); }
+  /// From now on changes of these pins are told.
+  void watch(Tick now, PinMask pins);
+
   /// From now on inner signals are told: of a core with Engine::kStep.
   void watch_inside() { inside_.emplace(); }
 
@@ -56,6 +62,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
     device();
     return *pins_;
   }
+  void begin_watch(PinMask pins);
   void line_changed(Tick at, bool level) override;
   bool run_begins(const bus::CharacterRun& run) override;
   void runs_passed(std::uint64_t for_stations) override;
@@ -91,7 +98,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   bus::StationId station_;
   LineDriver line_;
   std::optional<InsideWatch> inside_;
-  bool reports_host_, reports_rxd_, reports_txd_, catching_up_ = false;
+  bool reports_host_ = false, reports_rxd_ = false, reports_txd_ = false, catching_up_ = false;
   bool own_run_ = false, hides_txd_ = false;
   bool put_off_ = false;  ///< an access is under way whose edges are set when the chip goes beyond them
   bool pauses_ = false;   ///< since an edge of an access, somebody was told something on which he may act

@@ -57,6 +57,7 @@ class CoreDevice : public PinDevice {
   void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { chip_.watch(sink, pins); }
   void on_event(const profibus::EventSink& sink) override { chip_.on_event(sink); }
   const dsdpv1::Chip& core() const override { return chip_; }
+  dsdpv1::Chip& chip() { return chip_; }
 
  private:
   dsdpv1::Chip chip_;

@@ -1,0 +1,99 @@
+// Accesses of the host bus as a whole: the edges of tb's own user CPUs, one after the other.
+#include <algorithm>
+
+#include "capi/chip.hpp"
+#include "capi/sized.hpp"
+#include "model/dsdpv1/host_access.hpp"
+
+namespace {
+
+using capi::guarded;
+using capi::need;
+using capi::Tick;
+using capi::Turn;
+using dsdpv1::AccessTiming;
+using dsdpv1::HostAccess;
+
+constexpr Tick kMostTime = 100 * bus::kTicksPerUs;
+
+AccessTiming timing_of(const dpsim_access_timing* given) {
+  if (given == nullptr) return {};
+  const dpsim_access_timing own = capi::options_of(given, "timing");
+  const auto need_time = [](const char* name, std::int64_t time, Tick least) {
+    capi::need_range(name, time, least, kMostTime);
+  };
+  need_time("address_setup", own.address_setup, -kMostTime);
+  need_time("cs_lead", own.cs_lead, 0);
+  need_time("rd_low", own.rd_low, 1);
+  need_time("rd_sample", own.rd_sample, 0);
+  need_time("wr_low", own.wr_low, 1);
+  need_time("data_setup", own.data_setup, -kMostTime);
+  need_time("data_hold", own.data_hold, 0);
+  need_time("address_hold", own.address_hold, 0);
+  need_time("cs_trail", own.cs_trail, 0);
+  need_time("recovery", own.recovery, 0);
+  return {own.address_setup, own.cs_lead,   own.rd_low,       own.rd_sample, own.wr_low,
+          own.data_setup,    own.data_hold, own.address_hold, own.cs_trail,  own.recovery};
+}
+
+/// What was sampled; of a write nothing.
+tb::Level carry_out(dpsim_chip& chip, std::uint64_t tick, const HostAccess& access, std::uint64_t* end) {
+  if (!chip.kind.has_host_bus()) capi::fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind has no parallel host bus");
+  const Tick begin = capi::tick_from(tick, chip.now());
+  const Turn turn(chip.busy());
+  tb::Level sampled = DPSIM_X;
+  for (const HostAccess::Edge& edge : access)
+    if (edge.pin == dsdpv1::Pin::kDOut)
+      sampled = chip.sample(begin + edge.at);
+    else
+      chip.set(begin + edge.at, static_cast<tb::PinNumber>(edge.pin), edge.level);
+  chip.advance(begin + access.duration());
+  chip.changes.check();
+  if (end != nullptr) *end = capi::tick_out(begin + access.duration());
+  return sampled;
+}
+
+}  // namespace
+
+dpsim_status dpsim_access_timing_default(dpsim_access_timing* timing) {
+  return guarded(
+      __func__,
+      [&] {
+        const AccessTiming own;
+        dpsim_access_timing filled{};
+        filled.address_setup = own.address_setup;
+        filled.cs_lead = own.cs_lead;
+        filled.rd_low = own.rd_low;
+        filled.rd_sample = own.rd_sample;
+        filled.wr_low = own.wr_low;
+        filled.data_setup = own.data_setup;
+        filled.data_hold = own.data_hold;
+        filled.address_hold = own.address_hold;
+        filled.cs_trail = own.cs_trail;
+        filled.recovery = own.recovery;
+        capi::give(filled, timing, "timing");
+      });
+}
+
+dpsim_status dpsim_chip_read(dpsim_chip* chip, uint64_t tick, uint16_t address, const dpsim_access_timing* timing,
+                             dpsim_level* value, uint64_t* end) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        need(value, "value");
+        capi::need_range("address", address, 0, chip->kind.cells() - 1);
+        *value = carry_out(*chip, tick, HostAccess::read(address, timing_of(timing)), end);
+      });
+}
+
+dpsim_status dpsim_chip_write(dpsim_chip* chip, uint64_t tick, uint16_t address, uint8_t value,
+                              const dpsim_access_timing* timing, uint64_t* end) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        capi::need_range("address", address, 0, chip->kind.cells() - 1);
+        carry_out(*chip, tick, HostAccess::write(address, value, timing_of(timing)), end);
+      });
+}

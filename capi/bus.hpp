@@ -1,0 +1,69 @@
+#pragma once
+// A segment with all that is on it, behind the header's handle.
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "bus/monitor/monitor.hpp"
+#include "bus/timeline.hpp"
+#include "bus/wire/segment.hpp"
+#include "capi/changes.hpp"
+#include "capi/line_tap.hpp"
+#include "dsdpv1/bus.h"
+
+struct dpsim_chip;
+struct dpsim_master;
+
+namespace capi {
+
+struct Station {
+  enum class Kind : std::uint8_t { kChip, kMaster, kOutside };
+  bus::StationId id = 0;  ///< on the segment
+  Kind kind = Kind::kChip;
+};
+
+/// What the header calls heard.
+dpsim_heard heard_of(const bus::WireTelegram& telegram);
+
+/// An event that names nothing yet.
+dpsim_event event_of(dpsim_event_type type, bus::Tick at);
+
+}  // namespace capi
+
+struct dpsim_bus {
+  explicit dpsim_bus(int baud_index);
+  ~dpsim_bus();
+  dpsim_bus(const dpsim_bus&) = delete;
+  dpsim_bus& operator=(const dpsim_bus&) = delete;
+
+  /// Up to and including `tick`, which is not before now.
+  void run(bus::Tick tick);
+  std::uint16_t next_station() const { return static_cast<std::uint16_t>(stations.size()); }
+  void add_station(const capi::Station& station) { stations.push_back(station); }
+  /// Chips come first; whoever is no chip comes after the monitor.
+  void end_chips();
+  /// After a call in which changes were told: throws when one could not be kept.
+  void check_changes();
+  void tell(const dpsim_event& event) const {
+    if (event_fn != nullptr) event_fn(event_user, &event);
+  }
+
+  const int baud;
+  bool busy = false;
+  bus::Segment segment;
+  bus::Timeline timeline;
+  std::vector<capi::Station> stations;
+  std::vector<std::unique_ptr<dpsim_chip>> chips;
+  capi::Changes changes;
+  std::unique_ptr<capi::LineTap> tap;     ///< null as long as chips may be added
+  std::unique_ptr<bus::Monitor> monitor;  ///< likewise
+  std::vector<std::unique_ptr<dpsim_master>> masters;
+
+  dpsim_telegram_fn telegram_fn = nullptr;
+  void* telegram_user = nullptr;
+  dpsim_event_fn event_fn = nullptr;
+  void* event_user = nullptr;
+
+ private:
+  void drive(bus::StationId id, bus::Tick at, bool enabled, bool level);
+};

@@ -1,0 +1,77 @@
+#pragma once
+// Changes of pins on their way out: told at once, or kept until they are taken.
+#include <algorithm>
+#include <cstddef>
+#include <new>
+#include <vector>
+
+#include "dsdpv1/types.h"
+
+namespace capi {
+
+class Changes {
+ public:
+  /// `fn` NULL: they are kept.
+  void tell(dpsim_change_fn fn, void* user) {
+    fn_ = fn;
+    user_ = user;
+  }
+  void add(const dpsim_change& change) noexcept {
+    if (fn_ != nullptr)
+      fn_(user_, &change);
+    else
+      keep(change);
+  }
+  /// Moves the oldest, at most `capacity`, to `changes`.
+  std::size_t take(dpsim_change* changes, std::size_t capacity) {
+    const std::size_t count = std::min(capacity, kept_.size() - taken_);
+    std::copy_n(kept_.begin() + static_cast<std::ptrdiff_t>(taken_), count, changes);
+    taken_ += count;
+    if (taken_ >= kept_.size() - taken_) forget_taken();
+    return count;
+  }
+  /// After a call in which changes were added: throws std::bad_alloc when one could not be kept.
+  void check() {
+    if (!lost_) return;
+    lost_ = false;
+    throw std::bad_alloc();
+  }
+
+ private:
+  // It is called from inside of the core, through which no exception may go.
+  void keep(const dpsim_change& change) noexcept {
+    try {
+      kept_.push_back(change);
+    } catch (...) {
+      lost_ = true;
+    }
+  }
+
+  void forget_taken() {
+    kept_.erase(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(taken_));
+    taken_ = 0;
+  }
+
+  dpsim_change_fn fn_ = nullptr;
+  void* user_ = nullptr;
+  std::vector<dpsim_change> kept_;
+  std::size_t taken_ = 0;  ///< of `kept_`, from its front
+  bool lost_ = false;
+};
+
+/// The body of the functions ..._read_changes.
+void read_changes(Changes& from, dpsim_change* changes, std::size_t capacity, std::size_t* count);
+
+/// While an object is run or changed: a callback in the middle of it must not do the same.
+class Turn {
+ public:
+  explicit Turn(bool& taken);
+  ~Turn() { taken_ = false; }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  bool& taken_;
+};
+
+}  // namespace capi

@@ -1,0 +1,278 @@
+#include "capi/chip.hpp"
+
+#include <algorithm>
+
+#include "capi/sized.hpp"
+#include "tb/keys/keys.hpp"
+
+using capi::fail;
+using capi::guarded;
+using capi::need;
+using capi::Tick;
+using capi::Turn;
+using tb::Level;
+
+namespace capi {
+namespace {
+
+void set_parameter(const dpsim_parameter& parameter, const Kind& kind, tb::OwnSettings& settings) {
+  need(parameter.name, "name of a parameter");
+  const tb::keys::Field* field = kind.maker().chip_keys().find(parameter.name);
+  if (field == nullptr) fail(DPSIM_ERR_NOT_FOUND, "the chip has no parameter \"" + std::string(parameter.name) + "\"");
+  need_range(parameter.name, parameter.value, field->type.range.min, field->type.range.max);
+  field->read(&settings, YAML::Node(std::to_string(parameter.value)), {});
+}
+
+}  // namespace
+
+ChipPlan plan_of(const dpsim_chip_options& options, const Kind& kind, const std::string& usual_name) {
+  need_range("engine", options.engine, DPSIM_ENGINE_SKIP, DPSIM_ENGINE_STEP);
+  need_buffer(options.parameters, options.parameter_count, "parameters");
+  ChipPlan plan;
+  plan.name = options.name != nullptr ? options.name : usual_name;
+  plan.settings = kind.maker().make_chip_settings();
+  plan.engine = options.engine == DPSIM_ENGINE_STEP ? tb::Engine::kStep : tb::Engine::kSkip;
+  for (std::size_t i = 0; i < options.parameter_count; ++i) set_parameter(options.parameters[i], kind, *plan.settings);
+  return plan;
+}
+
+void ChipEvents::add(const profibus::Event& event) const {
+  if (fn_ == nullptr) return;
+  const auto& reasons = kind_.reasons();
+  const auto place = std::find(reasons.begin(), reasons.end(), event.reason) - reasons.begin();
+  const dpsim_chip_event told = {
+      static_cast<std::uint64_t>(event.at), station_, static_cast<std::uint16_t>(place), event.a, event.b, event.c, {}};
+  fn_(user_, &told);
+}
+
+}  // namespace capi
+
+namespace {
+
+/// The pin's row of the table; throws for a number that there is not.
+const tb::PinInfo& pin_of(const capi::Kind& kind, std::uint16_t number) {
+  const tb::PinTable& pins = kind.maker().pins();
+  if (number >= pins.size())
+    fail(DPSIM_ERR_NOT_FOUND,
+         "pin is " + std::to_string(number) + ", allowed are 0 to " + std::to_string(pins.size() - 1));
+  return pins[number];
+}
+
+void check_input(const dpsim_chip& chip, std::uint16_t number, Level level) {
+  const tb::PinInfo& pin = pin_of(chip.kind, number);
+  if (!pin.input) fail(DPSIM_ERR_ARGUMENT, std::string(pin.name) + " is an output");
+  const Level highest = static_cast<Level>((1 << pin.width) - 1);
+  if (level > highest || level < (pin.bus != nullptr ? DPSIM_Z : 0))
+    fail(DPSIM_ERR_ARGUMENT, "the level of " + std::string(pin.name) + " is " + std::to_string(level) +
+                                 ", allowed are 0 to " + std::to_string(highest) +
+                                 (pin.bus != nullptr ? " and DPSIM_Z" : ""));
+  if (chip.bus != nullptr && number == chip.kind.line_pin())
+    fail(DPSIM_ERR_STATE, std::string(pin.name) + " of a chip on a bus is the line");
+}
+
+void set(dpsim_chip& chip, std::uint64_t tick, std::uint16_t pin, Level level) {
+  check_input(chip, pin, level);
+  chip.set(capi::tick_from(tick, chip.now()), static_cast<tb::PinNumber>(pin), level);
+}
+
+void check_address(const dpsim_chip& chip, std::uint16_t address) {
+  capi::need_range("address", address, 0, chip.kind.cells() - 1);
+}
+
+dpsim_chip_status status_of(const tb::ChipStatus& own) {
+  dpsim_chip_status status{};
+  status.dp_state = static_cast<dpsim_dp_state>(own.dp_state);
+  status.baud = own.baud.value_or(DPSIM_BAUD_NONE);
+  status.address = own.address;
+  status.master = own.master;
+  status.telegrams_received = own.telegrams_received;
+  status.telegrams_answered = own.telegrams_answered;
+  status.data_exchanges = own.data_exchanges;
+  status.outputs_missed = own.outputs_missed;
+  status.accesses = own.accesses;
+  status.longest_wait = static_cast<std::uint64_t>(own.longest_wait);
+  for (std::size_t i = 0; i < own.c2.size(); ++i) {
+    status.c2_master[i] = own.c2[i].master;
+    status.c2_state[i] = static_cast<std::uint8_t>(own.c2[i].bits());
+  }
+  return status;
+}
+
+}  // namespace
+
+dpsim_status dpsim_chip_create(const dpsim_chip_options* options, dpsim_chip** chip) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        const dpsim_chip_options given = capi::options_of(options, "options");
+        const capi::Kind& kind = capi::kind_of(given.kind);
+        *chip = kind.make_alone(capi::plan_of(given, kind, "chip")).release();
+      });
+}
+
+void dpsim_chip_destroy(dpsim_chip* chip) {
+  if (chip != nullptr && chip->bus == nullptr) delete chip;
+}
+
+dpsim_status dpsim_chip_set(dpsim_chip* chip, uint64_t tick, uint16_t pin, dpsim_level level) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        const Turn turn(chip->busy());
+        set(*chip, tick, pin, level);
+        chip->changes.check();
+      });
+}
+
+dpsim_status dpsim_chip_set_many(dpsim_chip* chip, const dpsim_change* changes, size_t count, size_t* done) {
+  std::size_t number = 0;
+  const dpsim_status status = guarded(__func__, [&] {
+    need(chip, "chip");
+    capi::need_buffer(changes, count, "changes");
+    const Turn turn(chip->busy());
+    for (; number < count; ++number) set(*chip, changes[number].tick, changes[number].pin, changes[number].level);
+    chip->changes.check();
+  });
+  if (done != nullptr) *done = number;
+  return status;
+}
+
+dpsim_status dpsim_chip_advance(dpsim_chip* chip, uint64_t tick) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        const Turn turn(chip->busy());
+        chip->advance(capi::tick_from(tick, chip->now()));
+        chip->changes.check();
+      });
+}
+
+dpsim_status dpsim_chip_next(dpsim_chip* chip, uint64_t* tick) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        need(tick, "tick");
+        const Turn turn(chip->busy());
+        *tick = capi::tick_out(chip->next());
+      });
+}
+
+dpsim_status dpsim_chip_now(const dpsim_chip* chip, uint64_t* tick) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        need(tick, "tick");
+        *tick = capi::tick_out(chip->now());
+      });
+}
+
+dpsim_status dpsim_chip_level(const dpsim_chip* chip, uint16_t pin, dpsim_level* level) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        need(level, "level");
+        pin_of(chip->kind, pin);
+        *level = chip->level(static_cast<tb::PinNumber>(pin));
+      });
+}
+
+dpsim_status dpsim_chip_sample(dpsim_chip* chip, uint64_t tick, dpsim_level* level) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        need(level, "level");
+        const Turn turn(chip->busy());
+        *level = chip->sample(capi::tick_from(tick, chip->now()));
+        chip->changes.check();
+      });
+}
+
+dpsim_status dpsim_chip_watch(dpsim_chip* chip, uint64_t pins, dpsim_change_fn fn, void* user) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        const Turn turn(chip->busy());
+        chip->changes.tell(fn, user);
+        chip->watch(static_cast<tb::PinMask>(pins & tb::all_of(chip->kind.maker().pins())));
+      });
+}
+
+dpsim_status dpsim_chip_read_changes(dpsim_chip* chip, dpsim_change* changes, size_t capacity, size_t* count) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        const Turn turn(chip->busy());
+        capi::read_changes(chip->changes, changes, capacity, count);
+      });
+}
+
+dpsim_status dpsim_chip_on_event(dpsim_chip* chip, dpsim_chip_event_fn fn, void* user) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        const Turn turn(chip->busy());
+        chip->events.tell(fn, user);
+      });
+}
+
+dpsim_status dpsim_chip_event_text(const char* kind, const dpsim_chip_event* event, char* text, size_t capacity) {
+  return guarded(
+      __func__,
+      [&] {
+        need(event, "event");
+        need(text, "text");
+        capi::need_range("capacity", static_cast<long long>(capacity), 1, INT64_MAX);
+        const capi::Kind& own = capi::kind_of(kind);
+        const auto& reasons = own.reasons();
+        if (event->reason >= reasons.size())
+          fail(DPSIM_ERR_NOT_FOUND, "reason is " + std::to_string(event->reason) + ", allowed are 0 to " +
+                                        std::to_string(reasons.size() - 1));
+        const std::string words = own.maker().describe(
+            {static_cast<Tick>(event->tick), reasons[event->reason], event->a, event->b, event->c});
+        text[words.copy(text, capacity - 1)] = '\0';
+        if (words.size() >= capacity)
+          fail(DPSIM_ERR_SPACE, "the text has " + std::to_string(words.size()) + " bytes, capacity is " +
+                                    std::to_string(capacity) + " with its final 0");
+      });
+}
+
+dpsim_status dpsim_chip_get_status(const dpsim_chip* chip, dpsim_chip_status* status) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        capi::give(status_of(chip->status()), status, "status");
+      });
+}
+
+dpsim_status dpsim_chip_peek(const dpsim_chip* chip, uint16_t address, uint8_t* value) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        need(value, "value");
+        check_address(*chip, address);
+        *value = chip->peek(address);
+      });
+}
+
+dpsim_status dpsim_chip_poke(dpsim_chip* chip, uint16_t address, uint8_t value) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        check_address(*chip, address);
+        const Turn turn(chip->busy());
+        chip->poke(address, value);
+      });
+}

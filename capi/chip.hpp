@@ -1,0 +1,75 @@
+#pragma once
+// A chip behind the header's handle, alone or on a bus.
+#include <cstdint>
+#include <string>
+
+#include "capi/changes.hpp"
+#include "capi/kind.hpp"
+#include "capi/ticks.hpp"
+#include "model/profibus/event.hpp"
+#include "tb/bench/chip_view.hpp"
+
+namespace capi {
+
+/// Events of a chip on their way out.
+class ChipEvents {
+ public:
+  ChipEvents(const Kind& kind, std::uint16_t station) : kind_(kind), station_(station) {}
+  void tell(dpsim_chip_event_fn fn, void* user) {
+    fn_ = fn;
+    user_ = user;
+  }
+  void add(const profibus::Event& event) const;
+
+ private:
+  const Kind& kind_;
+  std::uint16_t station_;
+  dpsim_chip_event_fn fn_ = nullptr;
+  void* user_ = nullptr;
+};
+
+/// What the header says of a chip by its options; throws for names and values that there are not.
+ChipPlan plan_of(const dpsim_chip_options& options, const Kind& kind, const std::string& usual_name);
+
+}  // namespace capi
+
+struct dpsim_chip {
+  using Tick = capi::Tick;
+  using Level = tb::Level;
+  using PinNumber = tb::PinNumber;
+
+  /// `turn` of a chip on a bus is the bus's.
+  explicit dpsim_chip(const capi::Kind& its_kind, std::uint16_t its_station = 0, dpsim_bus* its_bus = nullptr)
+      : kind(its_kind), bus(its_bus), station(its_station), events(its_kind, its_station) {}
+  virtual ~dpsim_chip() = default;
+  dpsim_chip(const dpsim_chip&) = delete;
+  dpsim_chip& operator=(const dpsim_chip&) = delete;
+
+  // All values are right, and no tick is before now().
+  virtual void set(Tick at, PinNumber pin, Level level) = 0;
+  virtual void advance(Tick to) = 0;
+  virtual Level sample(Tick at) = 0;
+  virtual Tick next() = 0;
+  virtual Tick now() const = 0;
+  virtual Level level(PinNumber pin) const = 0;
+  virtual void watch(tb::PinMask pins) = 0;
+  virtual tb::ChipStatus status() const = 0;
+  virtual std::uint8_t peek(std::uint16_t address) const = 0;
+  virtual void poke(std::uint16_t address, std::uint8_t value) = 0;
+  /// Whether it is in the middle of a call.
+  virtual bool& busy() { return busy_; }
+
+  const capi::Kind& kind;
+  dpsim_bus* const bus;  ///< null: alone
+  const std::uint16_t station;
+  capi::Changes changes;
+  capi::ChipEvents events;
+
+  /// A change of a pin.
+  void tell(Tick at, PinNumber pin, Level level) noexcept {
+    changes.add({static_cast<std::uint64_t>(at), station, pin, level, 0});
+  }
+
+ private:
+  bool busy_ = false;
+};

@@ -1,0 +1,149 @@
+// The DSDPV1 as a kind of this library: the core alone, or the bench's chip on a segment.
+#include <algorithm>
+
+#include "capi/bus.hpp"
+#include "capi/chip.hpp"
+#include "model/dsdpv1/reasons.hpp"
+#include "tb/dsdpv1/kind.hpp"
+#include "tb/dsdpv1/pin_chip.hpp"
+#include "tb/dsdpv1/settings.hpp"
+
+namespace capi {
+namespace {
+
+using dsdpv1::Level;
+using dsdpv1::Pin;
+using tb::PinNumber;
+
+constexpr std::uint16_t kCells = 0x800;  // P4
+
+/// The core and nothing round it.
+class Alone : public dpsim_chip {
+ public:
+  Alone(const Kind& its_kind, const dsdpv1::Config& config) : dpsim_chip(its_kind), chip_(config) {
+    chip_.on_event(
+        {[](void* self, const profibus::Event& event) { static_cast<Alone*>(self)->events.add(event); }, this});
+  }
+
+  void set(Tick at, PinNumber number, Level level) override {
+    const auto pin = static_cast<Pin>(number);
+    if ((watched_ & dsdpv1::mask(pin)) == 0) return chip_.set(at, pin, level);
+    const Level before = chip_.level(pin);
+    chip_.set(at, pin, level);
+    if (level != before) tell(at, number, level);
+  }
+  void advance(Tick to) override { chip_.advance(to); }
+  Level sample(Tick at) override { return chip_.sample(at); }
+  Tick next() override { return chip_.next_event(); }
+  Tick now() const override { return chip_.now(); }
+  Level level(PinNumber pin) const override { return chip_.level(static_cast<Pin>(pin)); }
+  void watch(tb::PinMask pins) override {
+    watched_ = pins;
+    chip_.watch({[](void* self, Tick at, Pin pin, Level level) {
+                   static_cast<Alone*>(self)->tell(at, static_cast<PinNumber>(pin), level);
+                 },
+                 this},
+                pins);
+  }
+  tb::ChipStatus status() const override { return tb::status_of(chip_); }
+  std::uint8_t peek(std::uint16_t address) const override { return chip_.peek(address); }
+  void poke(std::uint16_t address, std::uint8_t value) override { chip_.poke(address, value); }
+
+ private:
+  dsdpv1::Chip chip_;
+  tb::PinMask watched_ = 0;
+};
+
+/// The bench's chip, whose user is the caller.
+class OnBus : public dpsim_chip {
+ public:
+  OnBus(const Kind& its_kind, const ChipPlan& plan, dpsim_bus& its_bus)
+      : dpsim_chip(its_kind, its_bus.next_station(), &its_bus),
+        device_(std::make_unique<tb::CoreDevice>(tb::config_of(plan.request()))),
+        core_(device_->chip()),
+        chip_(plan.name, std::move(device_), 0, its_bus.segment) {
+    chip_.on_event = [this](const profibus::Event& event) { events.add(event); };
+    chip_.on_pin = [this](Tick at, PinNumber pin, Level level) {
+      if ((watched_ & tb::mask_of(pin)) != 0) tell(at, pin, level);
+    };
+    its_bus.timeline.add(chip_);
+    its_bus.add_station({chip_.station(), Station::Kind::kChip});
+  }
+
+  void set(Tick at, PinNumber pin, Level level) override {
+    bus->run(at);
+    chip_.set_pin(at, static_cast<Pin>(pin), level);
+  }
+  void advance(Tick to) override { bus->run(to); }
+  Level sample(Tick at) override {
+    bus->run(at);
+    return chip_.sample(at);
+  }
+  Tick next() override { return bus->timeline.next(); }
+  Tick now() const override { return bus->timeline.now(); }
+  Level level(PinNumber pin) const override { return chip_.level(pin); }
+  void watch(tb::PinMask pins) override {
+    watched_ = pins;
+    chip_.watch(now(), pins);
+  }
+  tb::ChipStatus status() const override {
+    catch_up();
+    return tb::status_of(core_);
+  }
+  std::uint8_t peek(std::uint16_t address) const override {
+    catch_up();
+    return core_.peek(address);
+  }
+  void poke(std::uint16_t address, std::uint8_t value) override {
+    chip_.sync(now());
+    core_.poke(address, value);
+  }
+  bool& busy() override { return bus->busy; }
+
+ private:
+  /// It leaves undone what nobody sees; in the middle of a turn it is not to be moved.
+  void catch_up() const {
+    if (!bus->busy) chip_.sync(now());
+  }
+
+  std::unique_ptr<tb::CoreDevice> device_;  ///< until chip_ has it
+  dsdpv1::Chip& core_;
+  mutable tb::PinChip chip_;
+  tb::PinMask watched_ = 0;
+};
+
+class Dsdpv1 : public Kind {
+ public:
+  const tb::ChipMaker& maker() const override { return tb::dsdpv1_kind(); }
+  const std::vector<profibus::Reason>& reasons() const override {
+    static const std::vector<profibus::Reason> all = dsdpv1::reasons();
+    return all;
+  }
+  const std::vector<tb::Level>& reset_levels() const override {
+    static const std::vector<tb::Level> levels = [] {
+      const dsdpv1::Chip chip;
+      std::vector<tb::Level> list;
+      for (int pin = 0; pin < dsdpv1::kPinCount; ++pin) list.push_back(chip.level(static_cast<Pin>(pin)));
+      return list;
+    }();
+    return levels;
+  }
+  std::uint16_t cells() const override { return kCells; }
+  bool has_host_bus() const override { return true; }
+  PinNumber line_pin() const override { return static_cast<PinNumber>(Pin::kPbrxd); }
+  std::unique_ptr<dpsim_chip> make_alone(const ChipPlan& plan) const override {
+    return std::make_unique<Alone>(*this, tb::config_of(plan.request()));
+  }
+  std::unique_ptr<dpsim_chip> make_on_bus(const ChipPlan& plan, dpsim_bus& bus) const override {
+    return std::make_unique<OnBus>(*this, plan, bus);
+  }
+};
+
+}  // namespace
+
+const Kind& dsdpv1_kind() {
+  static const Dsdpv1 kind;
+  return kind;
+}
+
+}  // namespace capi

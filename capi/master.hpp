@@ -1,0 +1,61 @@
+#pragma once
+// A master of either class behind the header's handle, and what it tells.
+#include <cstdint>
+#include <memory>
+
+#include "bus/master/master1.hpp"
+#include "bus/master/master2.hpp"
+#include "capi/bus.hpp"
+#include "dsdpv1/master.h"
+
+struct dpsim_master {
+  /// Attaches to the bus, whose chips are all there.
+  dpsim_master(dpsim_bus& its_bus, int master_class, const bus::MasterConfig& config);
+
+  bool running() const { return class_1 ? class_1->running() : class_2->running(); }
+  int baud() const { return class_1 ? class_1->baud() : baud_2; }
+  const bus::TokenRing* ring() const { return class_1 ? class_1->ring() : &class_2->ring(); }
+  std::uint32_t next_id() { return ++last_id; }
+  /// Of this master, at `at`.
+  dpsim_event event(dpsim_event_type type, bus::Tick at) const;
+
+  dpsim_bus& bus;
+  const std::uint16_t station;
+  std::unique_ptr<bus::Master1> class_1;  ///< either this one
+  std::unique_ptr<bus::Master2> class_2;  ///< ... or this one
+  int baud_2;                             ///< class 2 does not say it
+  std::uint32_t last_id = 0;
+};
+
+namespace capi {
+
+/// The master as one of its class; throws for one of the other.
+bus::Master1& class_1_of(dpsim_master* master);
+const bus::Master1& class_1_of(const dpsim_master* master);
+bus::Master2& class_2_of(dpsim_master* master);
+const bus::Master2& class_2_of(const dpsim_master* master);
+/// Throws when the master has no such slave.
+void need_slave(const bus::Master1& master, std::uint8_t address);
+/// ... no such connection.
+void need_connection(const bus::Master2& master, std::uint32_t connection);
+
+void connect(dpsim_master& master, bus::Master1& own);
+void connect(dpsim_master& master, bus::Master2& own);
+void connect(dpsim_master& master, bus::TokenRing& ring);
+
+bus::Bytes bytes_of(const std::uint8_t* data, std::size_t count);
+/// An acyclic request's end, told under `id`.
+bus::AcyclicCallback acyclic_done(dpsim_master& master, std::uint32_t id, std::uint8_t address);
+
+/// DS_Read and the like, to a slave or a connection.
+void acyclic(dpsim_master* master, std::uint32_t peer, const bus::AcyclicRequest& request, std::uint32_t* id);
+
+/// The body of a request: runs `begin(id)` and gives the caller the id.
+template <class Begin>
+void numbered(dpsim_master& master, std::uint32_t* id, const Begin& begin) {
+  const std::uint32_t number = master.next_id();
+  begin(number);
+  if (id != nullptr) *id = number;
+}
+
+}  // namespace capi

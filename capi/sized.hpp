@@ -1,0 +1,42 @@
+#pragma once
+// Structs of the header that begin with their size, as their caller has been compiled with it.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "capi/error.hpp"
+
+namespace capi {
+
+/// The size of the first version of a struct; where one has grown, its specialisation says what it began with.
+template <class T>
+inline constexpr std::uint32_t kFirstSize = sizeof(T);
+
+template <class T>
+void check_size(const T& given, const char* name) {
+  if (given.size >= kFirstSize<T> && given.size <= sizeof(T)) return;
+  fail(DPSIM_ERR_SIZE, std::string("size of ") + name + " is " + std::to_string(given.size) + ", allowed is sizeof, " +
+                           std::to_string(sizeof(T)) + " here");
+}
+
+/// What the caller has filled; NULL stands for one with nothing but defaults.
+template <class T>
+T options_of(const T* given, const char* name) {
+  T options{};
+  if (given == nullptr) return options;
+  check_size(*given, name);
+  std::memcpy(&options, given, given->size);
+  return options;
+}
+
+/// Fills the caller's struct as far as the caller knows it.
+template <class T>
+void give(T filled, T* result, const char* name) {
+  need(result, name);
+  check_size(*result, name);
+  filled.size = result->size;
+  std::memcpy(result, &filled, result->size);
+}
+
+}  // namespace capi

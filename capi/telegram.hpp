@@ -1,0 +1,11 @@
+#pragma once
+// Telegrams as the header and as the bus has them.
+#include "bus/telegram/telegram.hpp"
+#include "dsdpv1/telegram.h"
+
+namespace capi {
+
+/// Throws for fields out of range.
+bus::Telegram telegram_of(const dpsim_telegram& telegram);
+
+}  // namespace capi
