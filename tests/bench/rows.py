@@ -81,7 +81,7 @@ TLM = (*OFF, "--view", "tlm")
 WAVE = (*OFF, "--wave", "demo.fst")
 PROFILED = {"demo": (DEMO, *OFF), "demo_full": (DEMO, *FULL), "demo_tlm": (DEMO, *TLM), "1m5": ("1m5", *OFF), "slaves_32": ("slaves_32", *OFF),
             "slaves_125": ("slaves_125", *OFF), "arm": ("arm_board_12m", *OFF)}  # row to the run whose time is looked into
-RTL, SYSTEMC = ("bench_rtl",), ("bench_systemc",)
+RTL, SYSTEMC, CAPI = ("bench_rtl",), ("bench_systemc",), ("bench_capi",)
 TLM_LIMIT = ("The view `pins` of the bench needs no SystemC. In the TLM view accesses of the user CPU run ahead of the kernel, but for one in fourteen, during "
              "which the chip or an agent does something. Each event of the chip, though, is an event and a process of the kernel, what agents do "
              "between them takes a switch to their thread, and whether the kernel has nothing to do is asked three times an access.")
@@ -93,6 +93,11 @@ ROWS = (
     Row("core_vs_rtl", 200, "times as fast", "The core against the Verilated RTL on the stimulus of core_16, neither with a bench round it: in "
         "turns, in one process, in CPU time. The RTL is built with -O3, --x-assign fast, --x-initial fast and without limits of run time.",
         in_program("bench_rtl", "core_vs_rtl"), RTL, limit="The core's limit, see core_16."),
+    Row("c_api", 90, "%", "The chip through the C API as a share of the core itself, on the stimulus of core_16 told as edges: L_REQ and PBTXD are watched by a "
+        "callback and counted. In turns, in one process, in CPU time.", in_program("bench_capi", "c_api"), CAPI,
+        limit="Each edge of a request is a call into the library, and each change of a watched pin a call out of it."),
+    Row("c_api_changes", 10, "million/s", "Changes of all pins that come into the caller's buffer through the C API, on the same stimulus.",
+        in_program("bench_capi", "c_api_changes"), CAPI, limit="What the core takes to make them."),
     of_sim("demo", 3, "The scenario power_on_12m, checks off, no files.", real_time(DEMO, *OFF),
            limit="A saturated bus and a user CPU that exchanges data every 40 us: half of the time goes to its accesses, one a turn of a coroutine "
                  "that runs the driver, a fifth to master and monitor, which decode each character of the telegrams on their own, as they are there to "

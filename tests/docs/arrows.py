@@ -34,8 +34,9 @@ def includes_of(root):
         room = found.setdefault(name.rpartition("/")[0], {})
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             included = re.match(r'#include "([^"]+)/[^"/]+"', line)
-            if included and (root / included.group(1)).is_dir() and included.group(1) != name.rpartition("/")[0]:
-                room.setdefault(included.group(1), f"{name}:{number}")
+            for other in [included.group(1), "include/" + included.group(1)] if included else []:
+                if (root / other).is_dir() and other != name.rpartition("/")[0]:
+                    room.setdefault(other, f"{name}:{number}")
     return found
 
 

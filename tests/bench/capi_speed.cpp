@@ -1,0 +1,133 @@
+// The chip through the C API against the core itself, on the stimulus of core_16 as edges: both in turns, in CPU time.
+#include <array>
+
+#include "dsdpv1/dsdpv1.h"
+#include "model/dsdpv1/chip.hpp"
+#include "tests/bench/programs.hpp"
+#include "tests/bench/saturated_bus.hpp"
+#include "tests/bench/stopwatch.hpp"
+
+namespace {
+
+using dsdpv1::Level;
+using dsdpv1::Pin;
+using profibus::Tick;
+using speed::Failure;
+using speed::Stopwatch;
+
+constexpr Tick kMillisecond = 12'000'000;
+constexpr int kIo = 16, kTurns = 9;
+
+/// The core, told its requests as edges.
+class Core {
+ public:
+  Core() { chip_.watch(counter.sink(), speed::PinCounter::kWatched); }
+  void set(Tick at, Pin pin, Level level) { chip_.set(at, pin, level); }
+  bool hear(Tick, const profibus::CharacterRun&) { return false; }
+  void advance(Tick to) { chip_.advance(to); }
+  Level level(Pin pin) const { return chip_.level(pin); }
+  std::uint64_t exchanges() const { return chip_.status().data_exchanges; }
+
+  speed::PinCounter counter;
+
+ private:
+  dsdpv1::Chip chip_;
+};
+
+/// The same through the C API.
+class Capi {
+ public:
+  /// `keeps`: changes of all pins are kept and taken after each advance; else those of PinCounter are counted at once.
+  explicit Capi(bool keeps) : keeps_(keeps) {
+    check(dpsim_chip_create(nullptr, &chip_));
+    check(keeps ? dpsim_chip_watch(chip_, DPSIM_ALL_PINS, nullptr, nullptr)
+                : dpsim_chip_watch(chip_, speed::PinCounter::kWatched, count, this));
+  }
+  ~Capi() { dpsim_chip_destroy(chip_); }
+  Capi(const Capi&) = delete;
+  Capi& operator=(const Capi&) = delete;
+
+  void set(Tick at, Pin pin, Level level) {
+    check(dpsim_chip_set(chip_, static_cast<std::uint64_t>(at), static_cast<std::uint16_t>(pin), level));
+  }
+  bool hear(Tick, const profibus::CharacterRun&) { return false; }
+  void advance(Tick to) {
+    check(dpsim_chip_advance(chip_, static_cast<std::uint64_t>(to)));
+    if (keeps_) take();
+  }
+  Level level(Pin pin) const {
+    Level level = 0;
+    check(dpsim_chip_level(chip_, static_cast<std::uint16_t>(pin), &level));
+    return level;
+  }
+  std::uint64_t exchanges() const {
+    dpsim_chip_status status{};
+    status.size = sizeof status;
+    check(dpsim_chip_get_status(chip_, &status));
+    return status.data_exchanges;
+  }
+
+  speed::PinCounter counter;
+  std::uint64_t taken = 0;  ///< changes
+
+ private:
+  static void check(dpsim_status status) {
+    if (status != DPSIM_OK) throw Failure(dpsim_error_message());
+  }
+  static void count(void* self, const dpsim_change* change) {
+    static_cast<Capi*>(self)->counter.count(static_cast<Pin>(change->pin));
+  }
+  void take() {
+    std::size_t count = buffer_.size();
+    while (count == buffer_.size()) {
+      check(dpsim_chip_read_changes(chip_, buffer_.data(), buffer_.size(), &count));
+      taken += count;
+    }
+  }
+
+  dpsim_chip* chip_ = nullptr;
+  bool keeps_;
+  std::array<dpsim_change, 4096> buffer_{};
+};
+
+template <class Device>
+double time_exchanges(speed::SaturatedBus<Device>& bus) {
+  const Stopwatch watch;
+  bus.exchange_for(20 * kMillisecond);
+  return watch.seconds();
+}
+
+/// The speed of the chip through the C API as a share of the core's.
+double share_of_core() {
+  Core core;
+  Capi capi(false);
+  speed::SaturatedBus<Core> core_bus(core, kIo);
+  speed::SaturatedBus<Capi> capi_bus(capi, kIo);
+  core_bus.start();
+  capi_bus.start();
+  double of_core = 0, of_capi = 0;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    of_core += time_exchanges(core_bus);
+    of_capi += time_exchanges(capi_bus);
+  }
+  if (capi.exchanges() != capi_bus.exchanges()) throw Failure("exchanges were lost");
+  if (!(core.counter == capi.counter)) throw Failure("core and C API have not changed the same pins");
+  return 100 * of_core / of_capi;
+}
+
+/// Millions of changes of all pins a second that come into the caller's buffer.
+double changes_a_second() {
+  Capi capi(true);
+  speed::SaturatedBus<Capi> bus(capi, kIo);
+  bus.start();
+  const std::uint64_t before = capi.taken;
+  double taken = 0;
+  for (int turn = 0; turn < kTurns; ++turn) taken += time_exchanges(bus);
+  return static_cast<double>(capi.taken - before) / taken / 1e6;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return speed::run_rows(argc, argv, {{"c_api", share_of_core}, {"c_api_changes", changes_a_second}});
+}

@@ -1,0 +1,108 @@
+// Checks fed from pins.
+#include <string>
+
+#include "tb/dsdpv1/checks/checks.hpp"
+#include "tests/capi/capi.hpp"
+
+namespace capi_test {
+namespace {
+
+struct Violated {
+  std::string name, text, pins;
+  uint64_t tick;
+  int64_t margin;
+};
+
+void note(void* user, const dpsim_violation* violation) {
+  static_cast<std::vector<Violated>*>(user)->push_back(
+      {violation->name, violation->text, violation->pins, violation->tick, violation->margin});
+}
+
+/// A chip's pins from its reset on, with a write whose WR is low for `wr_low` ticks.
+std::vector<dpsim_change> pins_of_a_write(int64_t wr_low) {
+  const auto chip = make_chip();
+  ok(dpsim_chip_watch(chip.get(), DPSIM_ALL_PINS, nullptr, nullptr));
+  ok(dpsim_chip_set(chip.get(), 1000, DPSIM_DSDPV1_RESET, 1));
+  uint64_t now = 6000 * kCycle;
+  ok(dpsim_chip_set(chip.get(), now, DPSIM_DSDPV1_R_REQ, 1));
+  ok(dpsim_chip_set(chip.get(), now += 170 * DPSIM_TICKS_PER_NS, DPSIM_DSDPV1_R_STA, 1));
+  auto timing = sized<dpsim_access_timing>();
+  ok(dpsim_access_timing_default(&timing));
+  timing.wr_low = wr_low;
+  ok(dpsim_chip_write(chip.get(), now + 1000, 0x20, 5, &timing, &now));
+  ok(dpsim_chip_set(chip.get(), now, DPSIM_DSDPV1_R_STA, 0));
+  ok(dpsim_chip_set(chip.get(), now, DPSIM_DSDPV1_R_REQ, 0));
+  ok(dpsim_chip_advance(chip.get(), now + 100 * kUs));
+  return drain(dpsim_chip_read_changes, chip.get());
+}
+
+std::vector<Violated> judged(const std::vector<dpsim_change>& changes, dpsim_checker* checker) {
+  std::vector<Violated> violated;
+  ok(dpsim_checker_on_violation(checker, note, &violated));
+  ok(dpsim_checker_pins(checker, changes.data(), changes.size(), nullptr));
+  ok(dpsim_checker_finish(checker, changes.back().tick + 1000));
+  return violated;
+}
+
+TEST(CapiChecker, AWriteThatIsTooShortIsReportedWithItsMargin) {
+  const auto checker = make_checker();
+  const auto violated = judged(pins_of_a_write(100), checker.get());
+  ASSERT_EQ(violated.size(), 1U);
+  EXPECT_EQ(violated[0].name, "TIMING_TS");
+  EXPECT_EQ(violated[0].margin, 100 - 150);
+  EXPECT_FALSE(violated[0].text.empty());
+  EXPECT_NE(violated[0].pins.find("WR="), std::string::npos) << violated[0].pins;
+  size_t rule = 0;
+  ok(dpsim_rule_find(nullptr, "TIMING_TS", &rule));
+  auto result = sized<dpsim_check_result>();
+  ok(dpsim_checker_get_result(checker.get(), rule, &result));
+  EXPECT_EQ(result.count, 1U);
+  EXPECT_EQ(result.violations, 1U);
+  EXPECT_EQ(result.worst_margin, -50);
+  EXPECT_EQ(result.at, violated[0].tick);
+}
+
+TEST(CapiChecker, AWriteThatKeepsItsTimesIsNot) {
+  const auto checker = make_checker();
+  EXPECT_TRUE(judged(pins_of_a_write(150), checker.get()).empty());
+  EXPECT_EQ(dpsim_checker_pin(checker.get(), UINT32_MAX, 0, 1), DPSIM_ERR_STATE);
+  EXPECT_STREQ(dpsim_error_message(), "dpsim_checker_pin: the checker is finished");
+}
+
+TEST(CapiChecker, AnotherLimitJudgesOtherwise) {
+  const dpsim_limit limits[] = {{"TIMING_TS", 90, 0, 0}};
+  auto options = sized<dpsim_checker_options>();
+  options.limits = limits;
+  options.limit_count = 1;
+  dpsim_checker* made = nullptr;
+  ok(dpsim_checker_create(&options, &made));
+  const Owned<dpsim_checker> checker(made);
+  EXPECT_TRUE(judged(pins_of_a_write(100), made).empty());
+}
+
+TEST(CapiChecker, RulesAreThoseOfTheChip) {
+  const checks::RuleTable& rules = checks::rules();
+  ASSERT_EQ(dpsim_rule_count(nullptr), rules.size());
+  for (size_t i = 0; i < rules.size(); ++i) {
+    auto info = sized<dpsim_rule_info>();
+    ok(dpsim_rule_get(nullptr, i, &info));
+    EXPECT_STREQ(info.name, rules[i].id);
+    EXPECT_EQ(info.limit, rules[i].limit);
+    EXPECT_EQ(info.bound, static_cast<dpsim_bound>(rules[i].bound));
+  }
+  const auto checker = make_checker();
+  uint64_t pins = 0;
+  ok(dpsim_checker_wants(checker.get(), &pins));
+  EXPECT_EQ(pins, checks::Checks::kPins);
+}
+
+TEST(CapiChecker, TimeDoesNotGoBackAndPinsAreKnown) {
+  const auto checker = make_checker();
+  ok(dpsim_checker_pin(checker.get(), 1000, DPSIM_DSDPV1_RESET, 1));
+  EXPECT_EQ(dpsim_checker_pin(checker.get(), 999, DPSIM_DSDPV1_R_REQ, 1), DPSIM_ERR_TIME);
+  EXPECT_EQ(dpsim_checker_pin(checker.get(), 1000, 18, 1), DPSIM_ERR_NOT_FOUND);
+  EXPECT_EQ(dpsim_checker_pin(checker.get(), 1000, DPSIM_DSDPV1_R_REQ, 2), DPSIM_ERR_ARGUMENT);
+}
+
+}  // namespace
+}  // namespace capi_test

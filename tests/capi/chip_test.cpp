@@ -1,0 +1,290 @@
+// One chip through the C API against the core itself.
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <thread>
+
+#include "model/dsdpv1/chip.hpp"
+#include "model/dsdpv1/reasons.hpp"
+#include "tests/capi/capi.hpp"
+#include "tests/capi/pin_by_pin.h"
+
+namespace capi_test {
+namespace {
+
+using dsdpv1::Pin;
+using profibus::Tick;
+
+std::vector<dpsim_change> driven_from_c(uint64_t released) {
+  std::vector<dpsim_change> changes(1000);
+  changes.resize(drive_pin_by_pin(released, changes.data(), changes.size()));
+  return changes;
+}
+
+void note(void* self, Tick at, Pin pin, dsdpv1::Level level) {
+  static_cast<std::vector<dpsim_change>*>(self)->push_back(
+      {static_cast<uint64_t>(at), 0, static_cast<uint16_t>(pin), level, 0});
+}
+
+/// What pin_by_pin.c does, on the core.
+std::vector<dpsim_change> driven_core(Tick released) {
+  constexpr Tick kNs = profibus::kTicksPerNs;
+  std::vector<dpsim_change> changes;
+  dsdpv1::Chip chip;
+  chip.watch({note, &changes}, dsdpv1::kOutputPins);
+  chip.set(released, Pin::kReset, 1);
+  Tick now = 7200 * profibus::kTicksPerCycle;
+  chip.advance(now);
+  chip.set(now, Pin::kRReq, 1);
+  do chip.advance(now += 100 * kNs);
+  while (chip.level(Pin::kLReq) != 0 || chip.level(Pin::kLSta) != 0);
+  chip.set(now, Pin::kRSta, 1);
+  now += 50 * kNs;
+  chip.set(now, Pin::kA, 4);
+  chip.set(now, Pin::kCsr, 0);
+  chip.set(now + 10 * kNs, Pin::kRd, 0);
+  chip.sample(now + 50 * kNs);
+  chip.set(now + 50 * kNs, Pin::kRd, 1);
+  chip.set(now + 50 * kNs, Pin::kCsr, 1);
+  chip.set(now + 100 * kNs, Pin::kRSta, 0);
+  chip.set(now + 100 * kNs, Pin::kRReq, 0);
+  chip.advance(now + 2000 * kNs);
+  return changes;
+}
+
+TEST(CapiChip, DrivenPinByPinFromCItChangesItsPinsAsTheCoreDoes) {
+  const auto changes = driven_from_c(5000);
+  ASSERT_GT(changes.size(), 100U);
+  EXPECT_EQ(changes, driven_core(5000));
+}
+
+TEST(CapiChip, ChipsInTwoThreadsDoWhatEachDoesAlone) {
+  const auto alone = driven_core(5000), later = driven_core(7777);
+  ASSERT_NE(alone, later);
+  const auto work = [](uint64_t released, const std::vector<dpsim_change>& expected, bool& same) {
+    same = true;
+    for (int i = 0; i < 20; ++i) {
+      dpsim_chip* none = nullptr;
+      const std::string mine = "dpsim_chip_set: chip is NULL";
+      same = same && driven_from_c(released) == expected;
+      same = same && dpsim_chip_set(none, released, 0, 0) == DPSIM_ERR_ARGUMENT && mine == dpsim_error_message();
+    }
+  };
+  bool first = false, second = false;
+  std::thread one(work, 5000, std::cref(alone), std::ref(first));
+  std::thread two(work, 7777, std::cref(later), std::ref(second));
+  one.join();
+  two.join();
+  EXPECT_TRUE(first);
+  EXPECT_TRUE(second);
+}
+
+TEST(CapiChip, PinsOfTheRegistryAreThoseOfTheHeaderAndOfTable1) {
+  ASSERT_EQ(dpsim_kind_count(), 1U);
+  EXPECT_STREQ(dpsim_kind_name(0), "dsdpv1");
+  EXPECT_EQ(dpsim_kind_name(1), nullptr);
+  ASSERT_EQ(dpsim_pin_count("dsdpv1"), static_cast<size_t>(dsdpv1::kPinCount));
+  EXPECT_EQ(dpsim_pin_count("spc3"), 0U);
+  const dsdpv1::Chip fresh;
+  for (size_t i = 0; i < dpsim_pin_count(nullptr); ++i) {
+    const auto pin = static_cast<Pin>(i);
+    auto info = sized<dpsim_pin_info>();
+    ok(dpsim_pin_get(nullptr, i, &info));
+    EXPECT_EQ(info.number, i);
+    EXPECT_STREQ(info.name, dsdpv1::name(pin));
+    EXPECT_EQ(info.width, dsdpv1::width(pin));
+    EXPECT_EQ(info.input != 0, dsdpv1::is_input(pin));
+    EXPECT_EQ(info.reset_level, fresh.level(pin)) << info.name;
+    uint16_t number = 0;
+    ok(dpsim_pin_find("", info.name, &number));
+    EXPECT_EQ(number, i);
+  }
+}
+
+TEST(CapiChip, NumbersOfPinsInTheHeaderAreThoseOfTheRegistry) {
+  const std::pair<int, const char*> pins[] = {
+      {DPSIM_DSDPV1_RESET, "RESET"}, {DPSIM_DSDPV1_R_REQ, "R_REQ"}, {DPSIM_DSDPV1_R_STA, "R_STA"},
+      {DPSIM_DSDPV1_CSR, "CSR"},     {DPSIM_DSDPV1_RD, "RD"},       {DPSIM_DSDPV1_WR, "WR"},
+      {DPSIM_DSDPV1_A, "A"},         {DPSIM_DSDPV1_D_IN, "D_IN"},   {DPSIM_DSDPV1_PBRXD, "PBRXD"},
+      {DPSIM_DSDPV1_L_REQ, "L_REQ"}, {DPSIM_DSDPV1_L_STA, "L_STA"}, {DPSIM_DSDPV1_D_OUT, "D_OUT"},
+      {DPSIM_DSDPV1_INTR0, "INTR0"}, {DPSIM_DSDPV1_PBTXD, "PBTXD"}, {DPSIM_DSDPV1_PBRTS, "PBRTS"},
+      {DPSIM_DSDPV1_PBF, "PBF"},     {DPSIM_DSDPV1_BR, "BR"},       {DPSIM_DSDPV1_READY, "READY"}};
+  ASSERT_EQ(std::size(pins), dpsim_pin_count(nullptr));
+  for (const auto& [number, name] : pins) {
+    uint16_t found = 0;
+    ok(dpsim_pin_find(nullptr, name, &found));
+    EXPECT_EQ(found, number) << name;
+  }
+}
+
+TEST(CapiChip, ParametersOfTheRulingsAreThoseThatTheChipTakes) {
+  size_t found = 0;
+  for (size_t i = 0; i < dpsim_parameter_count(nullptr); ++i) {
+    auto info = sized<dpsim_parameter_info>();
+    ok(dpsim_parameter_get(nullptr, i, &info));
+    EXPECT_LE(info.minimum, info.default_value) << info.name;
+    EXPECT_LE(info.default_value, info.maximum) << info.name;
+    if (std::string(info.name) != "ready_cycles") continue;
+    ++found;
+    EXPECT_EQ(info.default_value, dsdpv1::Config().ready_cycles);
+  }
+  EXPECT_EQ(found, 1U);
+  const dpsim_parameter late = {"ready_cycles", 10'000};
+  auto options = sized<dpsim_chip_options>();
+  options.parameters = &late;
+  options.parameter_count = 1;
+  dpsim_chip* made = nullptr;
+  ok(dpsim_chip_create(&options, &made));
+  const Owned<dpsim_chip> chip(made);
+  uint8_t cell = 0;
+  ok(dpsim_chip_set(made, 0, DPSIM_DSDPV1_RESET, 1));
+  ok(dpsim_chip_advance(made, 9'900 * kCycle));
+  ok(dpsim_chip_peek(made, 4, &cell));
+  EXPECT_EQ(cell, 0);
+  ok(dpsim_chip_advance(made, 10'200 * kCycle));
+  ok(dpsim_chip_peek(made, 4, &cell));
+  EXPECT_EQ(cell, 0xC5);
+}
+
+/// Some access of the user and some time.
+std::vector<dpsim_change> short_life(dpsim_engine engine) {
+  const auto chip = make_chip(engine);
+  ok(dpsim_chip_watch(chip.get(), DPSIM_ALL_PINS, nullptr, nullptr));
+  ok(dpsim_chip_set(chip.get(), 1000, DPSIM_DSDPV1_RESET, 1));
+  ok(dpsim_chip_advance(chip.get(), 6000 * kCycle));
+  ok(dpsim_chip_set(chip.get(), 6000 * kCycle, DPSIM_DSDPV1_R_REQ, 1));
+  uint64_t now = 6010 * kCycle;
+  ok(dpsim_chip_set(chip.get(), now, DPSIM_DSDPV1_R_STA, 1));
+  ok(dpsim_chip_write(chip.get(), now, 0x123, 0x5A, nullptr, &now));
+  dpsim_level value = 0;
+  ok(dpsim_chip_read(chip.get(), now + 1000, 0x123, nullptr, &value, &now));
+  EXPECT_EQ(value, 0x5A);
+  return drain(dpsim_chip_read_changes, chip.get());
+}
+
+TEST(CapiChip, StepAndSkipChangeTheSamePinsInputsToo) {
+  const auto skip = short_life(DPSIM_ENGINE_SKIP);
+  EXPECT_EQ(skip, short_life(DPSIM_ENGINE_STEP));
+  const dpsim_change address = {0, 0, DPSIM_DSDPV1_A, 0x123, 0};
+  EXPECT_EQ(std::count_if(
+                skip.begin(), skip.end(),
+                [&](const dpsim_change& each) { return each.pin == address.pin && each.level == address.level; }),
+            2);
+  EXPECT_TRUE(std::is_sorted(skip.begin(), skip.end(),
+                             [](const dpsim_change& a, const dpsim_change& b) { return a.tick < b.tick; }));
+}
+
+TEST(CapiChip, ManyChangesInOneCallAreThoseOfManyCalls) {
+  const std::vector<dpsim_change> inputs = {{1000, 0, DPSIM_DSDPV1_RESET, 1, 0},
+                                            {6000 * kCycle, 0, DPSIM_DSDPV1_R_REQ, 1, 0},
+                                            {6000 * kCycle + 17, 0, DPSIM_DSDPV1_R_STA, 1, 0}};
+  const auto one = make_chip(), many = make_chip();
+  for (const auto& chip : {one.get(), many.get()}) ok(dpsim_chip_watch(chip, DPSIM_ALL_PINS, nullptr, nullptr));
+  size_t done = 0;
+  ok(dpsim_chip_set_many(many.get(), inputs.data(), inputs.size(), &done));
+  EXPECT_EQ(done, inputs.size());
+  for (const dpsim_change& each : inputs) ok(dpsim_chip_set(one.get(), each.tick, each.pin, each.level));
+  EXPECT_EQ(drain(dpsim_chip_read_changes, one.get()), drain(dpsim_chip_read_changes, many.get()));
+}
+
+TEST(CapiChip, WhatIsToldAtOnceIsWhatIsKept) {
+  std::vector<dpsim_change> told;
+  const auto chip = make_chip(), keeping = make_chip();
+  ok(dpsim_chip_watch(
+      chip.get(), DPSIM_PIN(DPSIM_DSDPV1_L_REQ),
+      [](void* user, const dpsim_change* change) { static_cast<std::vector<dpsim_change>*>(user)->push_back(*change); },
+      &told));
+  ok(dpsim_chip_watch(keeping.get(), DPSIM_PIN(DPSIM_DSDPV1_L_REQ), nullptr, nullptr));
+  for (const auto& each : {chip.get(), keeping.get()}) {
+    ok(dpsim_chip_set(each, 0, DPSIM_DSDPV1_RESET, 1));
+    ok(dpsim_chip_advance(each, kMs));
+  }
+  EXPECT_GT(told.size(), 1000U);
+  EXPECT_EQ(told, drain(dpsim_chip_read_changes, keeping.get()));
+}
+
+TEST(CapiChip, NextIsWhenAnOutputMayChange) {
+  const auto chip = make_chip();
+  uint64_t next = 0;
+  ok(dpsim_chip_next(chip.get(), &next));
+  EXPECT_EQ(next, DPSIM_NEVER);  // in reset
+  ok(dpsim_chip_set(chip.get(), 0, DPSIM_DSDPV1_RESET, 1));
+  ok(dpsim_chip_watch(chip.get(), DPSIM_PIN(DPSIM_DSDPV1_L_REQ), nullptr, nullptr));
+  for (int i = 0; i < 50; ++i) {
+    ok(dpsim_chip_next(chip.get(), &next));
+    ASSERT_NE(next, DPSIM_NEVER);
+    if (next > 0) ok(dpsim_chip_advance(chip.get(), next - 1));
+    EXPECT_TRUE(drain(dpsim_chip_read_changes, chip.get()).empty()) << "before tick " << next;
+    ok(dpsim_chip_advance(chip.get(), next));
+    drain(dpsim_chip_read_changes, chip.get());
+  }
+}
+
+struct Told {
+  std::vector<dpsim_chip_event> events;
+  static void call(void* user, const dpsim_chip_event* event) { static_cast<Told*>(user)->events.push_back(*event); }
+};
+
+TEST(CapiChip, AnEventHasItsReasonItsNumbersAndItsWords) {
+  Told told;
+  const auto chip = make_chip();
+  ok(dpsim_chip_on_event(chip.get(), Told::call, &told));
+  ok(dpsim_chip_set(chip.get(), 0, DPSIM_DSDPV1_RESET, 1));
+  ok(dpsim_chip_advance(chip.get(), 6000 * kCycle));
+  told.events.clear();
+  uint64_t end = 0;
+  ok(dpsim_chip_write(chip.get(), 6000 * kCycle, 0x123, 1, nullptr, &end));  // without ownership, P12
+  ASSERT_EQ(told.events.size(), 1U);
+  auto reason = sized<dpsim_reason_info>();
+  ok(dpsim_reason_get(nullptr, told.events[0].reason, &reason));
+  EXPECT_EQ(reason.severity, DPSIM_SEVERITY_VIOLATION);
+  char text[256];
+  ok(dpsim_chip_event_text(nullptr, &told.events[0], text, sizeof text));
+  const auto known = dsdpv1::reasons();
+  EXPECT_STREQ(reason.code, profibus::code(known[told.events[0].reason]));
+  EXPECT_NE(std::strstr(text, "123"), nullptr) << text;
+  EXPECT_EQ(dpsim_chip_event_text(nullptr, &told.events[0], text, 5), DPSIM_ERR_SPACE);
+  EXPECT_EQ(std::strlen(text), 4U);
+}
+
+TEST(CapiChip, NoTextOfAnEventIsLongerThanTheHeaderPromises) {
+  for (size_t i = 0; i < dpsim_reason_count(nullptr); ++i) {
+    const dpsim_chip_event event = {0, 0, static_cast<uint16_t>(i), 0xFFFF, 0xFFFF, 0xFFFF, {}};
+    char text[256];
+    ok(dpsim_chip_event_text(nullptr, &event, text, sizeof text));
+  }
+}
+
+TEST(CapiChip, AFreshChipIsOfflineAndSearchesItsRate) {
+  const auto chip = make_chip();
+  auto status = sized<dpsim_chip_status>();
+  ok(dpsim_chip_get_status(chip.get(), &status));
+  EXPECT_EQ(status.dp_state, DPSIM_DP_OFFLINE);
+  EXPECT_EQ(status.baud, DPSIM_BAUD_NONE);
+  EXPECT_EQ(status.master, 255);
+  EXPECT_EQ(status.size, sizeof status);
+}
+
+TEST(CapiTime, ConvertsAbsoluteTimesWithoutDrift) {
+  EXPECT_EQ(dpsim_ticks_to(250, DPSIM_FS), 20'833'333U);
+  EXPECT_EQ(dpsim_ticks_to(250, DPSIM_PS), 20'833U);
+  EXPECT_EQ(dpsim_ticks_to(12'000'000'000, DPSIM_FS), 1'000'000'000'000'000U);
+  EXPECT_EQ(dpsim_ticks_from(1, DPSIM_S), 12'000'000'000U);
+  EXPECT_EQ(dpsim_ticks_from(3, DPSIM_CYCLES), 750U);
+  EXPECT_EQ(dpsim_ticks_from(1, 99), DPSIM_NEVER);
+  EXPECT_EQ(dpsim_ticks_from(UINT64_MAX, DPSIM_S), DPSIM_NEVER);
+  EXPECT_EQ(dpsim_ticks_to(DPSIM_LAST_TICK, DPSIM_FS), UINT64_MAX);
+  for (uint64_t tick = 1; tick < DPSIM_LAST_TICK / 1000; tick = tick * 3 + 1) {
+    EXPECT_EQ(dpsim_ticks_from(dpsim_ticks_to(tick, DPSIM_PS), DPSIM_PS), tick);
+    if (dpsim_ticks_to(tick, DPSIM_FS) != UINT64_MAX)
+      EXPECT_EQ(dpsim_ticks_from(dpsim_ticks_to(tick, DPSIM_FS), DPSIM_FS), tick);
+  }
+}
+
+TEST(CapiTime, VersionsAreThoseOfTheHeader) {
+  EXPECT_EQ(dpsim_abi_version(), DPSIM_ABI_MAJOR * 65536U + DPSIM_ABI_MINOR);
+  EXPECT_STREQ(dpsim_version(), DSDPV1_VERSION);
+}
+
+}  // namespace
+}  // namespace capi_test
