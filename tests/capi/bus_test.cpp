@@ -315,7 +315,7 @@ TEST(CapiBus, TwoMastersShareTheTokenAndAClass2Connects) {
   EXPECT_FALSE(events.of(DPSIM_EVENT_RING_STATE).empty());
 }
 
-struct InCallback {
+struct InEvent {
   dpsim_bus* bus;
   dpsim_master* master;
   dpsim_status run = DPSIM_OK, outputs = DPSIM_ERR_INTERNAL;
@@ -323,15 +323,15 @@ struct InCallback {
 
 TEST(CapiBus, ACallbackMayCommandMastersButNotRunTheBus) {
   Line line;
-  InCallback seen{line.bus.get(), line.master};
+  InEvent seen{line.bus.get(), line.master};
   ok(dpsim_bus_on_event(
       line.bus.get(),
       [](void* user, const dpsim_event* event) {
-        auto& own = *static_cast<InCallback*>(user);
+        auto& own = *static_cast<InEvent*>(user);
         if (event->type != DPSIM_EVENT_SLAVE_STATE || event->to != DPSIM_SLAVE_DATA_EXCHANGE) return;
         const uint8_t outputs[kBytes] = {9, 9, 9, 9};
         own.run = dpsim_bus_run(own.bus, event->tick + 1);
-        own.outputs = dpsim_master_set_outputs(own.master, event->address, outputs, kBytes);
+        own.outputs = dpsim_master_set_outputs(own.master, kAddress, outputs, kBytes);
       },
       &seen));
   line.begin();

@@ -13,12 +13,14 @@ struct Violated {
   int64_t margin;
 };
 
-void note(void* user, const dpsim_violation* violation) {
+void note_violation(void* user, const dpsim_violation* violation) {
   static_cast<std::vector<Violated>*>(user)->push_back(
       {violation->name, violation->text, violation->pins, violation->tick, violation->margin});
 }
 
-/// A chip's pins from its reset on, with a write whose WR is low for `wr_low` ticks.
+constexpr uint16_t kCount = 0x006;  ///< what the user counts up in each hold
+
+/// A chip's pins from its reset on, with a hold in which WR is low for `wr_low` ticks.
 std::vector<dpsim_change> pins_of_a_write(int64_t wr_low) {
   const auto chip = make_chip();
   ok(dpsim_chip_watch(chip.get(), DPSIM_ALL_PINS, nullptr, nullptr));
@@ -29,7 +31,9 @@ std::vector<dpsim_change> pins_of_a_write(int64_t wr_low) {
   auto timing = sized<dpsim_access_timing>();
   ok(dpsim_access_timing_default(&timing));
   timing.wr_low = wr_low;
-  ok(dpsim_chip_write(chip.get(), now + 1000, 0x20, 5, &timing, &now));
+  dpsim_level count = 0;
+  ok(dpsim_chip_read(chip.get(), now + 1000, kCount, &timing, &count, &now));
+  ok(dpsim_chip_write(chip.get(), now, kCount, static_cast<uint8_t>(count + 1), &timing, &now));
   ok(dpsim_chip_set(chip.get(), now, DPSIM_DSDPV1_R_STA, 0));
   ok(dpsim_chip_set(chip.get(), now, DPSIM_DSDPV1_R_REQ, 0));
   ok(dpsim_chip_advance(chip.get(), now + 100 * kUs));
@@ -38,7 +42,7 @@ std::vector<dpsim_change> pins_of_a_write(int64_t wr_low) {
 
 std::vector<Violated> judged(const std::vector<dpsim_change>& changes, dpsim_checker* checker) {
   std::vector<Violated> violated;
-  ok(dpsim_checker_on_violation(checker, note, &violated));
+  ok(dpsim_checker_on_violation(checker, note_violation, &violated));
   ok(dpsim_checker_pins(checker, changes.data(), changes.size(), nullptr));
   ok(dpsim_checker_finish(checker, changes.back().tick + 1000));
   return violated;

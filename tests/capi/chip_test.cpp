@@ -21,7 +21,7 @@ std::vector<dpsim_change> driven_from_c(uint64_t released) {
   return changes;
 }
 
-void note(void* self, Tick at, Pin pin, dsdpv1::Level level) {
+void note_change(void* self, Tick at, Pin pin, dsdpv1::Level level) {
   static_cast<std::vector<dpsim_change>*>(self)->push_back(
       {static_cast<uint64_t>(at), 0, static_cast<uint16_t>(pin), level, 0});
 }
@@ -31,7 +31,7 @@ std::vector<dpsim_change> driven_core(Tick released) {
   constexpr Tick kNs = profibus::kTicksPerNs;
   std::vector<dpsim_change> changes;
   dsdpv1::Chip chip;
-  chip.watch({note, &changes}, dsdpv1::kOutputPins);
+  chip.watch({note_change, &changes}, dsdpv1::kOutputPins);
   chip.set(released, Pin::kReset, 1);
   Tick now = 7200 * profibus::kTicksPerCycle;
   chip.advance(now);
@@ -220,15 +220,17 @@ TEST(CapiChip, NextIsWhenAnOutputMayChange) {
   }
 }
 
-struct Told {
+struct ToldEvents {
   std::vector<dpsim_chip_event> events;
-  static void call(void* user, const dpsim_chip_event* event) { static_cast<Told*>(user)->events.push_back(*event); }
+  static void call(void* user, const dpsim_chip_event* event) {
+    static_cast<ToldEvents*>(user)->events.push_back(*event);
+  }
 };
 
 TEST(CapiChip, AnEventHasItsReasonItsNumbersAndItsWords) {
-  Told told;
+  ToldEvents told;
   const auto chip = make_chip();
-  ok(dpsim_chip_on_event(chip.get(), Told::call, &told));
+  ok(dpsim_chip_on_event(chip.get(), ToldEvents::call, &told));
   ok(dpsim_chip_set(chip.get(), 0, DPSIM_DSDPV1_RESET, 1));
   ok(dpsim_chip_advance(chip.get(), 6000 * kCycle));
   told.events.clear();

@@ -90,7 +90,7 @@ TEST(CapiError, AChangeAfterAWrongOneIsNotCarriedOut) {
 struct InCallback {
   dpsim_chip* chip;
   dpsim_status advance = DPSIM_OK, level = DPSIM_ERR_INTERNAL;
-  std::string message;
+  std::string message = {};
 };
 
 TEST(CapiError, InsideOfItsCallbackAChipIsNotRun) {
@@ -164,7 +164,9 @@ TEST(CapiError, FilesAreWrongAtTheirLines) {
   EXPECT_EQ(dpsim_gsd_load("none.gsd", &gsd), DPSIM_ERR_INPUT);
   const std::string text = "#Profibus_DP\nGSD_Revision = x\n";
   EXPECT_EQ(dpsim_gsd_parse(text.data(), text.size(), "bad.gsd", &gsd), DPSIM_ERR_INPUT);
-  EXPECT_EQ(std::string(dpsim_error_message()).rfind("bad.gsd:2: ", 0), 0U) << dpsim_error_message();
+  EXPECT_STREQ(dpsim_error_message(),
+               "bad.gsd:1: Ident_Number is missing, Ident_Number = 0x0000 to 0xFFFF is needed\n"
+               "bad.gsd:2: GSD_Revision is x, 0 to 255 is allowed");
 }
 
 TEST(CapiError, ABoardIsNotInThisLibrary) {

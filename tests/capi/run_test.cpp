@@ -102,24 +102,25 @@ TEST(CapiRun, EndsWhenItsPollSaysSo) {
   EXPECT_STREQ(dpsim_error_message(), "dpsim_run_execute: the run has begun, this is allowed before");
 }
 
-struct Told {
+struct ToldOfRun {
   size_t telegrams = 0, events = 0;
   uint16_t station = 99;
 };
 
 TEST(CapiRun, TelegramsAndEventsAreToldAsTheyCome) {
-  const auto run = make_run(kScenario, "end=3ms");
-  Told told;
+  const auto run = make_run(kScenario);
+  ToldOfRun told;
   ok(dpsim_run_on_telegram(
-      run.get(), [](void* user, const dpsim_heard*) { ++static_cast<Told*>(user)->telegrams; }, &told));
+      run.get(), [](void* user, const dpsim_heard*) { ++static_cast<ToldOfRun*>(user)->telegrams; }, &told));
   ok(dpsim_run_on_event(
       run.get(),
       [](void* user, const dpsim_chip_event* event) {
-        ++static_cast<Told*>(user)->events;
-        static_cast<Told*>(user)->station = event->station;
+        ++static_cast<ToldOfRun*>(user)->events;
+        static_cast<ToldOfRun*>(user)->station = event->station;
       },
       &told));
-  ok(dpsim_run_execute(run.get(), nullptr, nullptr));
+  ok(dpsim_run_execute(
+      run.get(), [](void*, uint64_t now) { return now < 3 * kMs ? 1 : 0; }, nullptr));
   auto summary = sized<dpsim_run_summary>();
   ok(dpsim_run_get_summary(run.get(), &summary));
   EXPECT_EQ(told.telegrams, summary.telegrams + summary.wrong_telegrams);

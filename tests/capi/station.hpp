@@ -42,6 +42,7 @@ inline dpsim_master* add_master(dpsim_bus* bus, uint8_t address = 2, int master_
   options.address = address;
   options.master_class = master_class;
   options.ring = ring ? 1 : 0;
+  options.target_rotation_bits = 10'000;  // so that the GAP is looked through again and again
   dpsim_master* master = nullptr;
   ok(dpsim_bus_add_master(bus, &options, &master));
   return master;
