@@ -39,8 +39,8 @@ AccessTiming timing_of(const dpsim_access_timing* given) {
 /// What was sampled; of a write nothing.
 tb::Level carry_out(dpsim_chip& chip, std::uint64_t tick, const HostAccess& access, std::uint64_t* end) {
   if (!chip.kind.has_host_bus()) capi::fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind has no parallel host bus");
-  const Tick begin = capi::tick_from(tick, chip.now());
-  const Turn turn(chip.busy());
+  const Tick begin = capi::tick_from(tick, chip.clock.now);
+  const Turn turn(chip.clock);
   tb::Level sampled = DPSIM_X;
   for (const HostAccess::Edge& edge : access)
     if (edge.pin == dsdpv1::Pin::kDOut)
@@ -48,6 +48,7 @@ tb::Level carry_out(dpsim_chip& chip, std::uint64_t tick, const HostAccess& acce
     else
       chip.set(begin + edge.at, static_cast<tb::PinNumber>(edge.pin), edge.level);
   chip.advance(begin + access.duration());
+  chip.clock.now = begin + access.duration();
   chip.changes.check();
   if (end != nullptr) *end = capi::tick_out(begin + access.duration());
   return sampled;

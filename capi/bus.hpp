@@ -49,7 +49,7 @@ struct dpsim_bus {
   }
 
   const int baud;
-  bool busy = false;
+  capi::Clock clock;
   bus::Segment segment;
   bus::Timeline timeline;
   std::vector<capi::Station> stations;

@@ -10,9 +10,8 @@ void read_changes(Changes& from, dpsim_change* changes, std::size_t capacity, st
   *count = from.take(changes, capacity);
 }
 
-Turn::Turn(bool& taken) : taken_(taken) {
-  if (taken) fail(DPSIM_ERR_STATE, "called inside of a callback of the same object, where it must not be changed");
-  taken = true;
+void Turn::refuse() {
+  fail(DPSIM_ERR_STATE, "called inside of a callback of the same object, where it must not be changed");
 }
 
 }  // namespace capi

@@ -5,6 +5,7 @@
 #include <new>
 #include <vector>
 
+#include "bus/time.hpp"
 #include "dsdpv1/types.h"
 
 namespace capi {
@@ -62,16 +63,26 @@ class Changes {
 /// The body of the functions ..._read_changes.
 void read_changes(Changes& from, dpsim_change* changes, std::size_t capacity, std::size_t* count);
 
+/// The time of an object, and whether it is in the middle of a call.
+struct Clock {
+  bus::Tick now = 0;  ///< to which it was brought by the last call
+  bool busy = false;
+};
+
 /// While an object is run or changed: a callback in the middle of it must not do the same.
 class Turn {
  public:
-  explicit Turn(bool& taken);
-  ~Turn() { taken_ = false; }
+  explicit Turn(Clock& clock) : clock_(clock) {
+    if (clock.busy) refuse();
+    clock.busy = true;
+  }
+  ~Turn() { clock_.busy = false; }
   Turn(const Turn&) = delete;
   Turn& operator=(const Turn&) = delete;
 
  private:
-  bool& taken_;
+  [[noreturn]] static void refuse();
+  Clock& clock_;
 };
 
 }  // namespace capi

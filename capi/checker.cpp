@@ -24,13 +24,13 @@ struct dpsim_checker {
   /// The present tick moves on.
   Tick at(std::uint64_t tick) {
     if (finished) fail(DPSIM_ERR_STATE, "the checker is finished");
-    return now = capi::tick_from(tick, now);
+    return clock.now = capi::tick_from(tick, clock.now);
   }
 
   const capi::Kind& kind;
   std::unique_ptr<checks::ChipChecks> checks;
-  Tick now = 0;
-  bool busy = false, finished = false;
+  capi::Clock clock;
+  bool finished = false;
   dpsim_violation_fn fn = nullptr;
   void* user = nullptr;
 };
@@ -176,7 +176,7 @@ dpsim_status dpsim_checker_pin(dpsim_checker* checker, uint64_t tick, uint16_t p
       __func__,
       [&] {
         need(checker, "checker");
-        const Turn turn(checker->busy);
+        const Turn turn(checker->clock);
         feed(*checker, tick, pin, level);
       });
 }
@@ -186,7 +186,7 @@ dpsim_status dpsim_checker_pins(dpsim_checker* checker, const dpsim_change* chan
   const dpsim_status status = guarded(__func__, [&] {
     need(checker, "checker");
     capi::need_buffer(changes, count, "changes");
-    const Turn turn(checker->busy);
+    const Turn turn(checker->clock);
     for (; number < count; ++number) feed(*checker, changes[number].tick, changes[number].pin, changes[number].level);
   });
   if (done != nullptr) *done = number;
@@ -198,9 +198,9 @@ dpsim_status dpsim_checker_sample(dpsim_checker* checker, uint64_t sample) {
       __func__,
       [&] {
         need(checker, "checker");
-        const Turn turn(checker->busy);
+        const Turn turn(checker->clock);
         if (checker->finished) fail(DPSIM_ERR_STATE, "the checker is finished");
-        checker->checks->read(capi::tick_from(sample, checker->now));
+        checker->checks->read(capi::tick_from(sample, checker->clock.now));
       });
 }
 
@@ -210,7 +210,7 @@ dpsim_status dpsim_checker_telegram(dpsim_checker* checker, const dpsim_heard* h
       [&] {
         need(checker, "checker");
         need(heard, "heard");
-        const Turn turn(checker->busy);
+        const Turn turn(checker->clock);
         const bus::WireTelegram telegram = telegram_of(*heard);
         checker->checks->telegram(checker->at(heard->end), telegram);
       });
@@ -221,7 +221,7 @@ dpsim_status dpsim_checker_finish(dpsim_checker* checker, uint64_t tick) {
       __func__,
       [&] {
         need(checker, "checker");
-        const Turn turn(checker->busy);
+        const Turn turn(checker->clock);
         checker->checks->finish(checker->at(tick));
         checker->finished = true;
       });
@@ -232,7 +232,7 @@ dpsim_status dpsim_checker_on_violation(dpsim_checker* checker, dpsim_violation_
       __func__,
       [&] {
         need(checker, "checker");
-        const Turn turn(checker->busy);
+        const Turn turn(checker->clock);
         checker->fn = fn;
         checker->user = user;
       });

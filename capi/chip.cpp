@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "capi/bus.hpp"
 #include "capi/sized.hpp"
 #include "tb/keys/keys.hpp"
 
@@ -58,22 +59,8 @@ const tb::PinInfo& pin_of(const capi::Kind& kind, std::uint16_t number) {
   return pins[number];
 }
 
-void check_input(const dpsim_chip& chip, std::uint16_t number, Level level) {
-  const tb::PinInfo& pin = pin_of(chip.kind, number);
-  if (!pin.input) fail(DPSIM_ERR_ARGUMENT, std::string(pin.name) + " is an output");
-  const Level highest = static_cast<Level>((1 << pin.width) - 1);
-  if (level > highest || level < (pin.bus != nullptr ? DPSIM_Z : 0))
-    fail(DPSIM_ERR_ARGUMENT, "the level of " + std::string(pin.name) + " is " + std::to_string(level) +
-                                 ", allowed are 0 to " + std::to_string(highest) +
-                                 (pin.bus != nullptr ? " and DPSIM_Z" : ""));
-  if (chip.bus != nullptr && number == chip.kind.line_pin())
-    fail(DPSIM_ERR_STATE, std::string(pin.name) + " of a chip on a bus is the line");
-}
-
-void set(dpsim_chip& chip, std::uint64_t tick, std::uint16_t pin, Level level) {
-  check_input(chip, pin, level);
-  chip.set(capi::tick_from(tick, chip.now()), static_cast<tb::PinNumber>(pin), level);
-}
+bool may_float(const tb::PinInfo& pin) { return pin.bus != nullptr; }
+Level highest_of(const tb::PinInfo& pin) { return static_cast<Level>((1 << pin.width) - 1); }
 
 void check_address(const dpsim_chip& chip, std::uint16_t address) {
   capi::need_range("address", address, 0, chip.kind.cells() - 1);
@@ -100,6 +87,36 @@ dpsim_chip_status status_of(const tb::ChipStatus& own) {
 
 }  // namespace
 
+dpsim_chip::dpsim_chip(const capi::Kind& its_kind)
+    : kind(its_kind), bus(nullptr), station(0), events(its_kind, 0), clock(own_), levels_(levels_of(its_kind)) {}
+
+dpsim_chip::dpsim_chip(const capi::Kind& its_kind, dpsim_bus& its_bus)
+    : kind(its_kind),
+      bus(&its_bus),
+      station(its_bus.next_station()),
+      events(its_kind, station),
+      clock(its_bus.clock),
+      levels_(levels_of(its_kind)) {}
+
+std::vector<dpsim_chip::Levels> dpsim_chip::levels_of(const capi::Kind& its_kind) const {
+  std::vector<Levels> levels;
+  for (const tb::PinInfo& pin : its_kind.maker().pins()) {
+    const bool is_line = bus != nullptr && levels.size() == its_kind.line_pin();
+    levels.push_back(pin.input && !is_line ? Levels{may_float(pin) ? DPSIM_Z : Level{0}, highest_of(pin)} : Levels{});
+  }
+  return levels;
+}
+
+void dpsim_chip::refuse(std::uint16_t number, Level level) const {
+  const tb::PinInfo& pin = pin_of(kind, number);
+  if (!pin.input) fail(DPSIM_ERR_ARGUMENT, std::string(pin.name) + " is an output");
+  if (bus != nullptr && number == kind.line_pin())
+    fail(DPSIM_ERR_STATE, std::string(pin.name) + " of a chip on a bus is the line");
+  fail(DPSIM_ERR_ARGUMENT, "the level of " + std::string(pin.name) + " is " + std::to_string(level) +
+                               ", allowed are 0 to " + std::to_string(highest_of(pin)) +
+                               (may_float(pin) ? " and DPSIM_Z" : ""));
+}
+
 dpsim_status dpsim_chip_create(const dpsim_chip_options* options, dpsim_chip** chip) {
   return guarded(
       __func__,
@@ -120,8 +137,8 @@ dpsim_status dpsim_chip_set(dpsim_chip* chip, uint64_t tick, uint16_t pin, dpsim
       __func__,
       [&] {
         need(chip, "chip");
-        const Turn turn(chip->busy());
-        set(*chip, tick, pin, level);
+        const Turn turn(chip->clock);
+        chip->set_checked(tick, pin, level);
         chip->changes.check();
       });
 }
@@ -131,8 +148,9 @@ dpsim_status dpsim_chip_set_many(dpsim_chip* chip, const dpsim_change* changes, 
   const dpsim_status status = guarded(__func__, [&] {
     need(chip, "chip");
     capi::need_buffer(changes, count, "changes");
-    const Turn turn(chip->busy());
-    for (; number < count; ++number) set(*chip, changes[number].tick, changes[number].pin, changes[number].level);
+    const Turn turn(chip->clock);
+    for (; number < count; ++number)
+      chip->set_checked(changes[number].tick, changes[number].pin, changes[number].level);
     chip->changes.check();
   });
   if (done != nullptr) *done = number;
@@ -144,8 +162,10 @@ dpsim_status dpsim_chip_advance(dpsim_chip* chip, uint64_t tick) {
       __func__,
       [&] {
         need(chip, "chip");
-        const Turn turn(chip->busy());
-        chip->advance(capi::tick_from(tick, chip->now()));
+        const Turn turn(chip->clock);
+        const Tick to = capi::tick_from(tick, chip->clock.now);
+        chip->advance(to);
+        chip->clock.now = to;
         chip->changes.check();
       });
 }
@@ -156,7 +176,7 @@ dpsim_status dpsim_chip_next(dpsim_chip* chip, uint64_t* tick) {
       [&] {
         need(chip, "chip");
         need(tick, "tick");
-        const Turn turn(chip->busy());
+        const Turn turn(chip->clock);
         *tick = capi::tick_out(chip->next());
       });
 }
@@ -188,8 +208,10 @@ dpsim_status dpsim_chip_sample(dpsim_chip* chip, uint64_t tick, dpsim_level* lev
       [&] {
         need(chip, "chip");
         need(level, "level");
-        const Turn turn(chip->busy());
-        *level = chip->sample(capi::tick_from(tick, chip->now()));
+        const Turn turn(chip->clock);
+        const Tick at = capi::tick_from(tick, chip->clock.now);
+        *level = chip->sample(at);
+        chip->clock.now = at;
         chip->changes.check();
       });
 }
@@ -199,7 +221,7 @@ dpsim_status dpsim_chip_watch(dpsim_chip* chip, uint64_t pins, dpsim_change_fn f
       __func__,
       [&] {
         need(chip, "chip");
-        const Turn turn(chip->busy());
+        const Turn turn(chip->clock);
         chip->changes.tell(fn, user);
         chip->watch(static_cast<tb::PinMask>(pins & tb::all_of(chip->kind.maker().pins())));
       });
@@ -210,7 +232,7 @@ dpsim_status dpsim_chip_read_changes(dpsim_chip* chip, dpsim_change* changes, si
       __func__,
       [&] {
         need(chip, "chip");
-        const Turn turn(chip->busy());
+        const Turn turn(chip->clock);
         capi::read_changes(chip->changes, changes, capacity, count);
       });
 }
@@ -220,7 +242,7 @@ dpsim_status dpsim_chip_on_event(dpsim_chip* chip, dpsim_chip_event_fn fn, void*
       __func__,
       [&] {
         need(chip, "chip");
-        const Turn turn(chip->busy());
+        const Turn turn(chip->clock);
         chip->events.tell(fn, user);
       });
 }
@@ -272,7 +294,7 @@ dpsim_status dpsim_chip_poke(dpsim_chip* chip, uint16_t address, uint8_t value) 
       [&] {
         need(chip, "chip");
         check_address(*chip, address);
-        const Turn turn(chip->busy());
+        const Turn turn(chip->clock);
         chip->poke(address, value);
       });
 }

@@ -38,14 +38,15 @@ struct dpsim_chip {
   using Level = tb::Level;
   using PinNumber = tb::PinNumber;
 
-  /// `turn` of a chip on a bus is the bus's.
-  explicit dpsim_chip(const capi::Kind& its_kind, std::uint16_t its_station = 0, dpsim_bus* its_bus = nullptr)
-      : kind(its_kind), bus(its_bus), station(its_station), events(its_kind, its_station) {}
+  /// Alone.
+  explicit dpsim_chip(const capi::Kind& its_kind);
+  /// The next station of a bus.
+  dpsim_chip(const capi::Kind& its_kind, dpsim_bus& its_bus);
   virtual ~dpsim_chip() = default;
   dpsim_chip(const dpsim_chip&) = delete;
   dpsim_chip& operator=(const dpsim_chip&) = delete;
 
-  // All values are right, and no tick is before now().
+  // All values are right, and no tick is before clock.now.
   virtual void set(Tick at, PinNumber pin, Level level) = 0;
   virtual void advance(Tick to) = 0;
   virtual Level sample(Tick at) = 0;
@@ -56,8 +57,14 @@ struct dpsim_chip {
   virtual tb::ChipStatus status() const = 0;
   virtual std::uint8_t peek(std::uint16_t address) const = 0;
   virtual void poke(std::uint16_t address, std::uint8_t value) = 0;
-  /// Whether it is in the middle of a call.
-  virtual bool& busy() { return busy_; }
+
+  /// Sets a pin if it is an input and has such a level at a time that is not over; else throws.
+  void set_checked(std::uint64_t tick, std::uint16_t pin, Level level) {
+    if (pin >= levels_.size() || level < levels_[pin].low || level > levels_[pin].high) refuse(pin, level);
+    const Tick at = capi::tick_from(tick, clock.now);
+    set(at, static_cast<PinNumber>(pin), level);
+    clock.now = at;
+  }
 
   const capi::Kind& kind;
   dpsim_bus* const bus;  ///< null: alone
@@ -65,11 +72,23 @@ struct dpsim_chip {
   capi::Changes changes;
   capi::ChipEvents events;
 
+ private:
+  capi::Clock own_;
+
+ public:
+  capi::Clock& clock;  ///< its own, or that of its bus
+
   /// A change of a pin.
   void tell(Tick at, PinNumber pin, Level level) noexcept {
     changes.add({static_cast<std::uint64_t>(at), station, pin, level, 0});
   }
 
  private:
-  bool busy_ = false;
+  struct Levels {
+    Level low = 1, high = 0;  ///< none: it is not to be set
+  };
+  std::vector<Levels> levels_of(const capi::Kind& kind) const;
+  [[noreturn]] void refuse(std::uint16_t pin, Level level) const;
+
+  std::vector<Levels> levels_;  ///< by pin
 };

@@ -58,7 +58,7 @@ class Alone : public dpsim_chip {
 class OnBus : public dpsim_chip {
  public:
   OnBus(const Kind& its_kind, const ChipPlan& plan, dpsim_bus& its_bus)
-      : dpsim_chip(its_kind, its_bus.next_station(), &its_bus),
+      : dpsim_chip(its_kind, its_bus),
         device_(std::make_unique<tb::CoreDevice>(tb::config_of(plan.request()))),
         core_(device_->chip()),
         chip_(plan.name, std::move(device_), 0, its_bus.segment) {
@@ -98,12 +98,11 @@ class OnBus : public dpsim_chip {
     chip_.sync(now());
     core_.poke(address, value);
   }
-  bool& busy() override { return bus->busy; }
 
  private:
   /// It leaves undone what nobody sees; in the middle of a turn it is not to be moved.
   void catch_up() const {
-    if (!bus->busy) chip_.sync(now());
+    if (!clock.busy) chip_.sync(now());
   }
 
   std::unique_ptr<tb::CoreDevice> device_;  ///< until chip_ has it
