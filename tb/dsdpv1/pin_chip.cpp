@@ -57,7 +57,8 @@ void PinChip::watch(Tick now, PinMask pins) {
   device();
   begin_watch(pins);
   segment_.set_deafness(station_, {});
-  update_deafness();
+  segment_.set_filter(station_, {});
+  update_hearing();
 }
 
 Tick PinChip::next() const {
@@ -160,6 +161,7 @@ void PinChip::set_reset(Tick at, bool level) {
 
 void PinChip::set_pin(Tick at, Pin pin, Level level) {
   device().set(at, pin, level);
+  update_hearing();
   report_host(at, pin, pin);
 }
 
