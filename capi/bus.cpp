@@ -10,7 +10,6 @@ using capi::fail;
 using capi::guarded;
 using capi::need;
 using capi::Tick;
-using capi::Turn;
 
 namespace capi {
 
@@ -63,6 +62,7 @@ void dpsim_bus::end_chips() {
   monitor->on_telegram = [this](const bus::WireTelegram& telegram) {
     if (telegram_fn == nullptr) return;
     const dpsim_heard heard = capi::heard_of(telegram);
+    const capi::Callback inside(clock);
     telegram_fn(telegram_user, &heard);
   };
   monitor->on_flag = [this](const bus::Flag& flag) {
@@ -120,7 +120,7 @@ dpsim_status dpsim_bus_run(dpsim_bus* bus, uint64_t tick) {
       __func__,
       [&] {
         need(bus, "bus");
-        const Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         bus->run(capi::tick_from(tick, bus->clock.now));
         bus->check_changes();
       });
@@ -132,7 +132,7 @@ dpsim_status dpsim_bus_next(dpsim_bus* bus, uint64_t* tick) {
       [&] {
         need(bus, "bus");
         need(tick, "tick");
-        const Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         *tick = capi::tick_out(bus->timeline.next());
       });
 }
@@ -153,7 +153,7 @@ dpsim_status dpsim_bus_add_chip(dpsim_bus* bus, const dpsim_chip_options* option
       [&] {
         need(bus, "bus");
         need(chip, "chip");
-        const Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         if (bus->tap)
           fail(DPSIM_ERR_STATE, "chips are added before other stations, and before the bus runs or is watched");
         check_station_count(*bus);
@@ -171,7 +171,7 @@ dpsim_status dpsim_bus_add_station(dpsim_bus* bus, const char* name, uint16_t* s
       [&] {
         need(bus, "bus");
         need(station, "station");
-        const Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         check_station_count(*bus);
         bus->end_chips();
         const std::uint16_t number = bus->next_station();
@@ -192,7 +192,7 @@ dpsim_status dpsim_bus_drive(dpsim_bus* bus, uint64_t tick, uint16_t station, in
         const capi::Station& driver = station_of(*bus, station);
         if (driver.kind != capi::Station::Kind::kOutside)
           fail(DPSIM_ERR_NOT_FOUND, "station " + std::to_string(station) + " drives the line by itself");
-        const Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         const Tick at = capi::tick_from(tick, bus->clock.now);
         bus->run(at);
         bus->segment.drive(driver.id, at, enabled != 0, level != 0);
@@ -217,7 +217,7 @@ dpsim_status dpsim_bus_force(dpsim_bus* bus, uint64_t tick, dpsim_level level) {
       [&] {
         need(bus, "bus");
         if (level != DPSIM_Z) set_level("level (beside DPSIM_Z)", level);
-        const Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         const Tick at = capi::tick_from(tick, bus->clock.now);
         bus->run(at);
         bus->segment.force(at, level == DPSIM_Z ? std::nullopt : std::optional<bool>(level != 0));
@@ -232,7 +232,7 @@ dpsim_status dpsim_bus_plug(dpsim_bus* bus, uint64_t tick, uint16_t station, int
         need(bus, "bus");
         set_level("plugged", plugged);
         const bus::StationId id = station_of(*bus, station).id;
-        const Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         const Tick at = capi::tick_from(tick, bus->clock.now);
         bus->run(at);
         bus->segment.plug(id, at, plugged != 0);
@@ -257,7 +257,7 @@ dpsim_status dpsim_bus_watch(dpsim_bus* bus, uint32_t what, dpsim_change_fn fn, 
       [&] {
         need(bus, "bus");
         capi::need_range("what", what, 0, DPSIM_WATCH_LINE | DPSIM_WATCH_DRIVERS);
-        const Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         bus->end_chips();
         bus->changes.tell(fn, user);
         bus->tap->watch(bus->timeline.now(), what);
@@ -269,7 +269,7 @@ dpsim_status dpsim_bus_read_changes(dpsim_bus* bus, dpsim_change* changes, size_
       __func__,
       [&] {
         need(bus, "bus");
-        const Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         capi::read_changes(bus->changes, changes, capacity, count);
       });
 }
@@ -279,7 +279,7 @@ dpsim_status dpsim_bus_on_telegram(dpsim_bus* bus, dpsim_telegram_fn fn, void* u
       __func__,
       [&] {
         need(bus, "bus");
-        const Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         bus->telegram_fn = fn;
         bus->telegram_user = user;
       });
@@ -290,7 +290,7 @@ dpsim_status dpsim_bus_on_event(dpsim_bus* bus, dpsim_event_fn fn, void* user) {
       __func__,
       [&] {
         need(bus, "bus");
-        const Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         bus->event_fn = fn;
         bus->event_user = user;
       });

@@ -44,8 +44,10 @@ struct dpsim_bus {
   void end_chips();
   /// After a call in which changes were told: throws when one could not be kept.
   void check_changes();
-  void tell(const dpsim_event& event) const {
-    if (event_fn != nullptr) event_fn(event_user, &event);
+  void tell(const dpsim_event& event) {
+    if (event_fn == nullptr) return;
+    const capi::Callback inside(clock);
+    event_fn(event_user, &event);
   }
 
   const int baud;
@@ -54,7 +56,7 @@ struct dpsim_bus {
   bus::Timeline timeline;
   std::vector<capi::Station> stations;
   std::vector<std::unique_ptr<dpsim_chip>> chips;
-  capi::Changes changes;
+  capi::Changes changes{clock};
   std::unique_ptr<capi::LineTap> tap;     ///< null as long as chips may be added
   std::unique_ptr<bus::Monitor> monitor;  ///< likewise
   std::vector<std::unique_ptr<dpsim_master>> masters;

@@ -1,5 +1,6 @@
 #include "capi/changes.hpp"
 
+#include "capi/clock.hpp"
 #include "capi/error.hpp"
 
 namespace capi {
@@ -10,7 +11,14 @@ void read_changes(Changes& from, dpsim_change* changes, std::size_t capacity, st
   *count = from.take(changes, capacity);
 }
 
-void Turn::refuse() {
+void refuse_tick(std::uint64_t tick, Tick now) {
+  if (tick > DPSIM_LAST_TICK)
+    fail(DPSIM_ERR_ARGUMENT,
+         "tick is " + std::to_string(tick) + ", allowed are 0 to " + std::to_string(DPSIM_LAST_TICK));
+  fail(DPSIM_ERR_TIME, "tick is " + std::to_string(tick) + ", which is before the present tick " + std::to_string(now));
+}
+
+void refuse_inside() {
   fail(DPSIM_ERR_STATE, "called inside of a callback of the same object, where it must not be changed");
 }
 

@@ -5,23 +5,24 @@
 #include <new>
 #include <vector>
 
-#include "bus/time.hpp"
+#include "capi/clock.hpp"
 #include "dsdpv1/types.h"
 
 namespace capi {
 
 class Changes {
  public:
+  /// `clock` of the object that they are told for.
+  explicit Changes(Clock& clock) : clock_(clock) {}
   /// `fn` NULL: they are kept.
   void tell(dpsim_change_fn fn, void* user) {
     fn_ = fn;
     user_ = user;
   }
   void add(const dpsim_change& change) noexcept {
-    if (fn_ != nullptr)
-      fn_(user_, &change);
-    else
-      keep(change);
+    if (fn_ == nullptr) return keep(change);
+    const Callback inside(clock_);
+    fn_(user_, &change);
   }
   /// Moves the oldest, at most `capacity`, to `changes`.
   std::size_t take(dpsim_change* changes, std::size_t capacity) {
@@ -53,6 +54,7 @@ class Changes {
     taken_ = 0;
   }
 
+  Clock& clock_;
   dpsim_change_fn fn_ = nullptr;
   void* user_ = nullptr;
   std::vector<dpsim_change> kept_;
@@ -62,27 +64,5 @@ class Changes {
 
 /// The body of the functions ..._read_changes.
 void read_changes(Changes& from, dpsim_change* changes, std::size_t capacity, std::size_t* count);
-
-/// The time of an object, and whether it is in the middle of a call.
-struct Clock {
-  bus::Tick now = 0;  ///< to which it was brought by the last call
-  bool busy = false;
-};
-
-/// While an object is run or changed: a callback in the middle of it must not do the same.
-class Turn {
- public:
-  explicit Turn(Clock& clock) : clock_(clock) {
-    if (clock.busy) refuse();
-    clock.busy = true;
-  }
-  ~Turn() { clock_.busy = false; }
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
-
- private:
-  [[noreturn]] static void refuse();
-  Clock& clock_;
-};
 
 }  // namespace capi

@@ -5,22 +5,21 @@
 
 #include "bus/telegram/telegram.hpp"
 #include "capi/changes.hpp"
+#include "capi/clock.hpp"
 #include "capi/kind.hpp"
 #include "capi/sized.hpp"
-#include "capi/ticks.hpp"
 
 using capi::fail;
 using capi::guarded;
 using capi::need;
 using capi::Tick;
-using capi::Turn;
 
 struct dpsim_checker {
   explicit dpsim_checker(const capi::Kind& its_kind, const checks::Limits& limits)
       : kind(its_kind), checks(its_kind.maker().make_checks(limits)) {
     checks->on_violation([this](const checks::Violation& violation) { tell(violation); });
   }
-  void tell(const checks::Violation& violation) const;
+  void tell(const checks::Violation& violation);
   /// The present tick moves on.
   Tick at(std::uint64_t tick) {
     if (finished) fail(DPSIM_ERR_STATE, "the checker is finished");
@@ -35,7 +34,7 @@ struct dpsim_checker {
   void* user = nullptr;
 };
 
-void dpsim_checker::tell(const checks::Violation& violation) const {
+void dpsim_checker::tell(const checks::Violation& violation) {
   if (fn == nullptr) return;
   const checks::Rule& rule = kind.maker().rules()[violation.check.index];
   const std::string pins = checks::history_text(violation);
@@ -48,6 +47,7 @@ void dpsim_checker::tell(const checks::Violation& violation) const {
   told.name = rule.id;
   told.text = violation.text.c_str();
   told.pins = pins.c_str();
+  const capi::Callback inside(clock);
   fn(user, &told);
 }
 
@@ -176,7 +176,7 @@ dpsim_status dpsim_checker_pin(dpsim_checker* checker, uint64_t tick, uint16_t p
       __func__,
       [&] {
         need(checker, "checker");
-        const Turn turn(checker->clock);
+        capi::need_outside(checker->clock);
         feed(*checker, tick, pin, level);
       });
 }
@@ -186,7 +186,7 @@ dpsim_status dpsim_checker_pins(dpsim_checker* checker, const dpsim_change* chan
   const dpsim_status status = guarded(__func__, [&] {
     need(checker, "checker");
     capi::need_buffer(changes, count, "changes");
-    const Turn turn(checker->clock);
+    capi::need_outside(checker->clock);
     for (; number < count; ++number) feed(*checker, changes[number].tick, changes[number].pin, changes[number].level);
   });
   if (done != nullptr) *done = number;
@@ -198,7 +198,7 @@ dpsim_status dpsim_checker_sample(dpsim_checker* checker, uint64_t sample) {
       __func__,
       [&] {
         need(checker, "checker");
-        const Turn turn(checker->clock);
+        capi::need_outside(checker->clock);
         if (checker->finished) fail(DPSIM_ERR_STATE, "the checker is finished");
         checker->checks->read(capi::tick_from(sample, checker->clock.now));
       });
@@ -210,7 +210,7 @@ dpsim_status dpsim_checker_telegram(dpsim_checker* checker, const dpsim_heard* h
       [&] {
         need(checker, "checker");
         need(heard, "heard");
-        const Turn turn(checker->clock);
+        capi::need_outside(checker->clock);
         const bus::WireTelegram telegram = telegram_of(*heard);
         checker->checks->telegram(checker->at(heard->end), telegram);
       });
@@ -221,7 +221,7 @@ dpsim_status dpsim_checker_finish(dpsim_checker* checker, uint64_t tick) {
       __func__,
       [&] {
         need(checker, "checker");
-        const Turn turn(checker->clock);
+        capi::need_outside(checker->clock);
         checker->checks->finish(checker->at(tick));
         checker->finished = true;
       });
@@ -232,7 +232,7 @@ dpsim_status dpsim_checker_on_violation(dpsim_checker* checker, dpsim_violation_
       __func__,
       [&] {
         need(checker, "checker");
-        const Turn turn(checker->clock);
+        capi::need_outside(checker->clock);
         checker->fn = fn;
         checker->user = user;
       });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bus/wire/character_run.hpp"
 #include "capi/bus.hpp"
 #include "capi/sized.hpp"
 #include "tb/keys/keys.hpp"
@@ -10,7 +11,6 @@ using capi::fail;
 using capi::guarded;
 using capi::need;
 using capi::Tick;
-using capi::Turn;
 using tb::Level;
 
 namespace capi {
@@ -43,6 +43,7 @@ void ChipEvents::add(const profibus::Event& event) const {
   const auto place = std::find(reasons.begin(), reasons.end(), event.reason) - reasons.begin();
   const dpsim_chip_event told = {
       static_cast<std::uint64_t>(event.at), station_, static_cast<std::uint16_t>(place), event.a, event.b, event.c, {}};
+  const Callback inside(clock_);
   fn_(user_, &told);
 }
 
@@ -62,8 +63,28 @@ const tb::PinInfo& pin_of(const capi::Kind& kind, std::uint16_t number) {
 bool may_float(const tb::PinInfo& pin) { return pin.bus != nullptr; }
 Level highest_of(const tb::PinInfo& pin) { return static_cast<Level>((1 << pin.width) - 1); }
 
+struct Characters {
+  const std::uint8_t* bytes;
+  std::size_t count;
+};
+
 void check_address(const dpsim_chip& chip, std::uint16_t address) {
   capi::need_range("address", address, 0, chip.kind.cells() - 1);
+}
+
+/// The levels of the characters at the line; the end of the last one.
+Tick receive(dpsim_chip& chip, Tick at, Tick bit, const Characters& characters) {
+  const tb::PinNumber line = chip.kind.line_pin();
+  unsigned level = 1;
+  for (std::size_t i = 0; i < characters.count; ++i) {
+    const unsigned frame = bus::frame_of(characters.bytes[i]);
+    for (int position = 0; position < bus::kCharacterBits; ++position, at += bit) {
+      if (((frame >> position) & 1U) == level) continue;
+      level ^= 1U;
+      chip.set(at, line, static_cast<Level>(level));
+    }
+  }
+  return at;
 }
 
 dpsim_chip_status status_of(const tb::ChipStatus& own) {
@@ -88,21 +109,30 @@ dpsim_chip_status status_of(const tb::ChipStatus& own) {
 }  // namespace
 
 dpsim_chip::dpsim_chip(const capi::Kind& its_kind)
-    : kind(its_kind), bus(nullptr), station(0), events(its_kind, 0), clock(own_), levels_(levels_of(its_kind)) {}
+    : kind(its_kind),
+      bus(nullptr),
+      station(0),
+      clock(own_),
+      changes(clock),
+      events(its_kind, station, clock),
+      levels_(levels_of(its_kind)) {}
 
 dpsim_chip::dpsim_chip(const capi::Kind& its_kind, dpsim_bus& its_bus)
     : kind(its_kind),
       bus(&its_bus),
       station(its_bus.next_station()),
-      events(its_kind, station),
       clock(its_bus.clock),
+      changes(clock),
+      events(its_kind, station, clock),
       levels_(levels_of(its_kind)) {}
 
-std::vector<dpsim_chip::Levels> dpsim_chip::levels_of(const capi::Kind& its_kind) const {
-  std::vector<Levels> levels;
-  for (const tb::PinInfo& pin : its_kind.maker().pins()) {
-    const bool is_line = bus != nullptr && levels.size() == its_kind.line_pin();
-    levels.push_back(pin.input && !is_line ? Levels{may_float(pin) ? DPSIM_Z : Level{0}, highest_of(pin)} : Levels{});
+std::array<dpsim_chip::Levels, dpsim_chip::kMostPins> dpsim_chip::levels_of(const capi::Kind& its_kind) const {
+  std::array<Levels, kMostPins> levels{};
+  const tb::PinTable& pins = its_kind.maker().pins();
+  for (std::size_t i = 0; i < pins.size(); ++i) {
+    if (!pins[i].input || (bus != nullptr && i == its_kind.line_pin())) continue;
+    const Level low = may_float(pins[i]) ? DPSIM_Z : Level{0};
+    levels[i] = {low, static_cast<std::uint16_t>(highest_of(pins[i]) - low + 1)};
   }
   return levels;
 }
@@ -137,7 +167,7 @@ dpsim_status dpsim_chip_set(dpsim_chip* chip, uint64_t tick, uint16_t pin, dpsim
       __func__,
       [&] {
         need(chip, "chip");
-        const Turn turn(chip->clock);
+        capi::need_outside(chip->clock);
         chip->set_checked(tick, pin, level);
         chip->changes.check();
       });
@@ -148,7 +178,7 @@ dpsim_status dpsim_chip_set_many(dpsim_chip* chip, const dpsim_change* changes, 
   const dpsim_status status = guarded(__func__, [&] {
     need(chip, "chip");
     capi::need_buffer(changes, count, "changes");
-    const Turn turn(chip->clock);
+    capi::need_outside(chip->clock);
     for (; number < count; ++number)
       chip->set_checked(changes[number].tick, changes[number].pin, changes[number].level);
     chip->changes.check();
@@ -157,12 +187,30 @@ dpsim_status dpsim_chip_set_many(dpsim_chip* chip, const dpsim_change* changes, 
   return status;
 }
 
+dpsim_status dpsim_chip_receive(dpsim_chip* chip, uint64_t tick, uint32_t bit, const uint8_t* bytes, size_t count,
+                                uint64_t* end) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        capi::need_buffer(bytes, count, "bytes");
+        capi::need_range("bit", bit, 1, bus::kTicksPerMs);
+        capi::need_outside(chip->clock);
+        if (chip->bus != nullptr) fail(DPSIM_ERR_STATE, "the chip is on a bus, whose line it hears");
+        const Tick over = receive(*chip, capi::tick_from(tick, chip->clock.now), bit, {bytes, count});
+        chip->advance(over);
+        chip->clock.now = over;
+        chip->changes.check();
+        if (end != nullptr) *end = capi::tick_out(over);
+      });
+}
+
 dpsim_status dpsim_chip_advance(dpsim_chip* chip, uint64_t tick) {
   return guarded(
       __func__,
       [&] {
         need(chip, "chip");
-        const Turn turn(chip->clock);
+        capi::need_outside(chip->clock);
         const Tick to = capi::tick_from(tick, chip->clock.now);
         chip->advance(to);
         chip->clock.now = to;
@@ -176,7 +224,7 @@ dpsim_status dpsim_chip_next(dpsim_chip* chip, uint64_t* tick) {
       [&] {
         need(chip, "chip");
         need(tick, "tick");
-        const Turn turn(chip->clock);
+        capi::need_outside(chip->clock);
         *tick = capi::tick_out(chip->next());
       });
 }
@@ -208,7 +256,7 @@ dpsim_status dpsim_chip_sample(dpsim_chip* chip, uint64_t tick, dpsim_level* lev
       [&] {
         need(chip, "chip");
         need(level, "level");
-        const Turn turn(chip->clock);
+        capi::need_outside(chip->clock);
         const Tick at = capi::tick_from(tick, chip->clock.now);
         *level = chip->sample(at);
         chip->clock.now = at;
@@ -221,7 +269,7 @@ dpsim_status dpsim_chip_watch(dpsim_chip* chip, uint64_t pins, dpsim_change_fn f
       __func__,
       [&] {
         need(chip, "chip");
-        const Turn turn(chip->clock);
+        capi::need_outside(chip->clock);
         chip->changes.tell(fn, user);
         chip->watch(static_cast<tb::PinMask>(pins & tb::all_of(chip->kind.maker().pins())));
       });
@@ -232,7 +280,7 @@ dpsim_status dpsim_chip_read_changes(dpsim_chip* chip, dpsim_change* changes, si
       __func__,
       [&] {
         need(chip, "chip");
-        const Turn turn(chip->clock);
+        capi::need_outside(chip->clock);
         capi::read_changes(chip->changes, changes, capacity, count);
       });
 }
@@ -242,7 +290,7 @@ dpsim_status dpsim_chip_on_event(dpsim_chip* chip, dpsim_chip_event_fn fn, void*
       __func__,
       [&] {
         need(chip, "chip");
-        const Turn turn(chip->clock);
+        capi::need_outside(chip->clock);
         chip->events.tell(fn, user);
       });
 }
@@ -294,7 +342,7 @@ dpsim_status dpsim_chip_poke(dpsim_chip* chip, uint16_t address, uint8_t value) 
       [&] {
         need(chip, "chip");
         check_address(*chip, address);
-        const Turn turn(chip->clock);
+        capi::need_outside(chip->clock);
         chip->poke(address, value);
       });
 }

@@ -1,11 +1,12 @@
 #pragma once
 // A chip behind the header's handle, alone or on a bus.
+#include <array>
 #include <cstdint>
 #include <string>
 
 #include "capi/changes.hpp"
+#include "capi/clock.hpp"
 #include "capi/kind.hpp"
-#include "capi/ticks.hpp"
 #include "model/profibus/event.hpp"
 #include "tb/bench/chip_view.hpp"
 
@@ -14,7 +15,7 @@ namespace capi {
 /// Events of a chip on their way out.
 class ChipEvents {
  public:
-  ChipEvents(const Kind& kind, std::uint16_t station) : kind_(kind), station_(station) {}
+  ChipEvents(const Kind& kind, std::uint16_t station, Clock& clock) : kind_(kind), station_(station), clock_(clock) {}
   void tell(dpsim_chip_event_fn fn, void* user) {
     fn_ = fn;
     user_ = user;
@@ -24,6 +25,7 @@ class ChipEvents {
  private:
   const Kind& kind_;
   std::uint16_t station_;
+  Clock& clock_;
   dpsim_chip_event_fn fn_ = nullptr;
   void* user_ = nullptr;
 };
@@ -60,7 +62,7 @@ struct dpsim_chip {
 
   /// Sets a pin if it is an input and has such a level at a time that is not over; else throws.
   void set_checked(std::uint64_t tick, std::uint16_t pin, Level level) {
-    if (pin >= levels_.size() || level < levels_[pin].low || level > levels_[pin].high) refuse(pin, level);
+    if (pin >= levels_.size() || !levels_[pin].has(level)) refuse(pin, level);
     const Tick at = capi::tick_from(tick, clock.now);
     set(at, static_cast<PinNumber>(pin), level);
     clock.now = at;
@@ -69,14 +71,14 @@ struct dpsim_chip {
   const capi::Kind& kind;
   dpsim_bus* const bus;  ///< null: alone
   const std::uint16_t station;
-  capi::Changes changes;
-  capi::ChipEvents events;
 
  private:
   capi::Clock own_;
 
  public:
   capi::Clock& clock;  ///< its own, or that of its bus
+  capi::Changes changes;
+  capi::ChipEvents events;
 
   /// A change of a pin.
   void tell(Tick at, PinNumber pin, Level level) noexcept {
@@ -84,11 +86,14 @@ struct dpsim_chip {
   }
 
  private:
+  static constexpr std::size_t kMostPins = 64;
   struct Levels {
-    Level low = 1, high = 0;  ///< none: it is not to be set
+    Level low = 0;
+    std::uint16_t count = 0;  ///< from `low` on; 0: it is not to be set
+    bool has(Level level) const { return static_cast<std::uint16_t>(level - low) < count; }
   };
-  std::vector<Levels> levels_of(const capi::Kind& kind) const;
+  std::array<Levels, kMostPins> levels_of(const capi::Kind& kind) const;
   [[noreturn]] void refuse(std::uint16_t pin, Level level) const;
 
-  std::vector<Levels> levels_;  ///< by pin
+  std::array<Levels, kMostPins> levels_;  ///< by pin
 };

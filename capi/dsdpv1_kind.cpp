@@ -28,9 +28,7 @@ class Alone : public dpsim_chip {
   void set(Tick at, PinNumber number, Level level) override {
     const auto pin = static_cast<Pin>(number);
     if ((watched_ & dsdpv1::mask(pin)) == 0) return chip_.set(at, pin, level);
-    const Level before = chip_.level(pin);
-    chip_.set(at, pin, level);
-    if (level != before) tell(at, number, level);
+    set_watched(at, pin, level);
   }
   void advance(Tick to) override { chip_.advance(to); }
   Level sample(Tick at) override { return chip_.sample(at); }
@@ -50,6 +48,12 @@ class Alone : public dpsim_chip {
   void poke(std::uint16_t address, std::uint8_t value) override { chip_.poke(address, value); }
 
  private:
+  [[gnu::noinline]] void set_watched(Tick at, Pin pin, Level level) {
+    const Level before = chip_.level(pin);
+    chip_.set(at, pin, level);
+    if (level != before) tell(at, static_cast<PinNumber>(pin), level);
+  }
+
   dsdpv1::Chip chip_;
   tb::PinMask watched_ = 0;
 };
@@ -100,9 +104,9 @@ class OnBus : public dpsim_chip {
   }
 
  private:
-  /// It leaves undone what nobody sees; in the middle of a turn it is not to be moved.
+  /// It leaves undone what nobody sees; inside of a callback it is not to be moved.
   void catch_up() const {
-    if (!clock.busy) chip_.sync(now());
+    if (!clock.calling) chip_.sync(now());
   }
 
   std::unique_ptr<tb::CoreDevice> device_;  ///< until chip_ has it

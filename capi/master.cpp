@@ -170,7 +170,7 @@ dpsim_status dpsim_bus_add_master(dpsim_bus* bus, const dpsim_master_options* op
       [&] {
         need(bus, "bus");
         need(master, "master");
-        const capi::Turn turn(bus->clock);
+        capi::need_outside(bus->clock);
         if (bus->stations.size() >= DPSIM_LINE) fail(DPSIM_ERR_STATE, "the bus has as many stations as it can have");
         const dpsim_master_options given = capi::options_of(options, "options");
         const bus::MasterConfig config = config_of(given, *bus);

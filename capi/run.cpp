@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 
+#include "capi/clock.hpp"
 #include "capi/run_watch.hpp"
 #include "capi/sized.hpp"
-#include "capi/ticks.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"

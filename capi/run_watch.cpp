@@ -7,7 +7,7 @@ namespace capi {
 RunWatch::RunWatch(const tb::scenario::Scenario& scenario) : scenario_(scenario) {
   const Kind& kind = kind_of(scenario.kind->name());
   for (std::size_t slave = 0; slave < scenario.slaves.size(); ++slave)
-    events_.emplace_back(kind, static_cast<std::uint16_t>(slave));
+    events_.emplace_back(kind, static_cast<std::uint16_t>(slave), clock_);
 }
 
 void RunWatch::on_change(dpsim_change_fn fn, void* user) {

@@ -48,7 +48,8 @@ class RunWatch : public tb::Observer, private bus::Listener {
   const tb::scenario::Scenario& scenario_;
   bus::Segment* segment_ = nullptr;
   std::uint32_t kept_ = 0;
-  Changes changes_;
+  Clock clock_;
+  Changes changes_{clock_};
   dpsim_change_fn change_fn_ = nullptr;
   void* change_user_ = nullptr;
   dpsim_telegram_fn telegram_fn_ = nullptr;

@@ -129,6 +129,12 @@ DPSIM_API dpsim_status dpsim_chip_set(dpsim_chip* chip, uint64_t tick, uint16_t 
 /** The same for `count` changes in their order, one call for many (their stations are not looked at). On an error those
  *  before it are carried out; `done`, if not NULL, is their number. */
 DPSIM_API dpsim_status dpsim_chip_set_many(dpsim_chip* chip, const dpsim_change* changes, size_t count, size_t* done);
+/** Characters on PBRXD of a chip alone: `count` bytes with even parity, one after the other, each bit `bit` ticks long,
+ * the first start bit falling at `tick`. The chip is at the end of the last stop bit then, which `end`, if not NULL,
+ * gets; at other pins nothing is done meanwhile. DPSIM_ERR_ARGUMENT: `bit` beyond 1 to 12 000 000. DPSIM_ERR_STATE: it
+ * is on a bus. DPSIM_ERR_TIME. */
+DPSIM_API dpsim_status dpsim_chip_receive(dpsim_chip* chip, uint64_t tick, uint32_t bit, const uint8_t* bytes,
+                                          size_t count, uint64_t* end);
 /** Runs everything up to and including `tick`. On a bus the same as dpsim_bus_run. DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_chip_advance(dpsim_chip* chip, uint64_t tick);
 /** The tick of the next thing that the chip (on a bus: anybody on it) does by itself: until then no output changes

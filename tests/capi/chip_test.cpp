@@ -4,6 +4,7 @@
 #include <string>
 #include <thread>
 
+#include "bus/wire/uart.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/reasons.hpp"
 #include "tests/capi/capi.hpp"
@@ -185,6 +186,30 @@ TEST(CapiChip, ManyChangesInOneCallAreThoseOfManyCalls) {
   EXPECT_EQ(done, inputs.size());
   for (const dpsim_change& each : inputs) ok(dpsim_chip_set(one.get(), each.tick, each.pin, each.level));
   EXPECT_EQ(drain(dpsim_chip_read_changes, one.get()), drain(dpsim_chip_read_changes, many.get()));
+}
+
+TEST(CapiChip, CharactersAreTheirEdges) {
+  const uint8_t bytes[] = {0x10, 0x00, 0xFF, 0x5A};
+  const auto told = make_chip(), edges = make_chip();
+  for (const auto& chip : {told.get(), edges.get()}) {
+    ok(dpsim_chip_watch(chip, DPSIM_ALL_PINS, nullptr, nullptr));
+    ok(dpsim_chip_set(chip, 1000, DPSIM_DSDPV1_RESET, 1));
+  }
+  uint64_t end = 0;
+  ok(dpsim_chip_receive(told.get(), 6000 * kCycle, 1000, bytes, sizeof bytes, &end));
+  EXPECT_EQ(end, 6000 * kCycle + 11 * 1000 * sizeof bytes);
+  uint64_t at = 6000 * kCycle;
+  for (const uint8_t byte : bytes)
+    for (int bit = 0; bit < 11; ++bit, at += 1000)
+      ok(dpsim_chip_set(edges.get(), at, DPSIM_DSDPV1_PBRXD,
+                        static_cast<dpsim_level>((bus::Character::of(byte).bits >> bit) & 1)));
+  ok(dpsim_chip_advance(edges.get(), at));
+  const auto changes = drain(dpsim_chip_read_changes, told.get());
+  EXPECT_EQ(changes, drain(dpsim_chip_read_changes, edges.get()));
+  EXPECT_GT(std::count_if(changes.begin(), changes.end(),
+                          [](const dpsim_change& each) { return each.pin == DPSIM_DSDPV1_PBRXD; }),
+            10);
+  EXPECT_EQ(dpsim_chip_receive(told.get(), end, 0, bytes, sizeof bytes, &end), DPSIM_ERR_ARGUMENT);
 }
 
 TEST(CapiChip, WhatIsToldAtOnceIsWhatIsKept) {

@@ -1,0 +1,49 @@
+#pragma once
+// Ticks of the header and of the library, which has them signed; the time of an object, and its callbacks.
+#include <cstdint>
+#include <utility>
+
+#include "bus/time.hpp"
+#include "dsdpv1/types.h"
+
+namespace capi {
+
+using bus::Tick;
+
+struct Clock {
+  Tick now = 0;          ///< to which the object was brought by the last call
+  bool calling = false;  ///< it is inside of a callback, where it must not be run or changed
+};
+
+/// Around each callback of an object.
+class Callback {
+ public:
+  explicit Callback(Clock& clock) : clock_(clock), before_(std::exchange(clock.calling, true)) {}
+  ~Callback() { clock_.calling = before_; }
+  Callback(const Callback&) = delete;
+  Callback& operator=(const Callback&) = delete;
+
+ private:
+  Clock& clock_;
+  bool before_;
+};
+
+[[noreturn]] void refuse_inside();
+/// At the beginning of each call that runs or changes an object.
+inline void need_outside(const Clock& clock) {
+  if (clock.calling) refuse_inside();
+}
+
+[[noreturn]] void refuse_tick(std::uint64_t tick, Tick now);
+/// One that is not before `now`.
+inline Tick tick_from(std::uint64_t tick, Tick now) {
+  const auto past = static_cast<std::uint64_t>(now);
+  if (tick - past > DPSIM_LAST_TICK - past) refuse_tick(tick, now);  // what is before it wraps
+  return static_cast<Tick>(tick);
+}
+inline Tick tick_in(std::uint64_t tick) { return tick_from(tick, 0); }
+inline std::uint64_t tick_out(Tick tick) {
+  return tick > static_cast<Tick>(DPSIM_LAST_TICK) ? DPSIM_NEVER : static_cast<std::uint64_t>(tick);
+}
+
+}  // namespace capi
