@@ -93,7 +93,7 @@ struct dpsim_chip {
     bool has(Level level) const { return static_cast<std::uint16_t>(level - low) < count; }
   };
   std::array<Levels, kMostPins> levels_of(const capi::Kind& kind) const;
-  [[noreturn]] void refuse(std::uint16_t pin, Level level) const;
+  [[noreturn]] void refuse(std::uint16_t number, Level level) const;
 
   std::array<Levels, kMostPins> levels_;  ///< by pin
 };

@@ -92,7 +92,7 @@ class OnBus : public dpsim_chip {
   }
   tb::ChipStatus status() const override {
     catch_up();
-    return tb::status_of(core_);
+    return chip_.status();
   }
   std::uint8_t peek(std::uint16_t address) const override {
     catch_up();
@@ -126,6 +126,7 @@ class Dsdpv1 : public Kind {
     static const std::vector<tb::Level> levels = [] {
       const dsdpv1::Chip chip;
       std::vector<tb::Level> list;
+      list.reserve(dsdpv1::kPinCount);
       for (int pin = 0; pin < dsdpv1::kPinCount; ++pin) list.push_back(chip.level(static_cast<Pin>(pin)));
       return list;
     }();

@@ -243,12 +243,15 @@ dpsim_status dpsim_master_read(dpsim_master* master, uint32_t peer, uint8_t slot
       __func__, [&] { capi::acyclic(master, peer, bus::read_request(slot, index, count), id); });
 }
 
+// As many parameters as DS_Write and DS_Transport have.
+// NOLINTNEXTLINE(readability-function-size)
 dpsim_status dpsim_master_write(dpsim_master* master, uint32_t peer, uint8_t slot, uint8_t index, const uint8_t* data,
                                 size_t count, uint32_t* id) {
   return guarded(
       __func__, [&] { capi::acyclic(master, peer, bus::write_request(slot, index, capi::bytes_of(data, count)), id); });
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 dpsim_status dpsim_master_transport(dpsim_master* master, uint32_t peer, uint8_t slot, uint8_t index,
                                     const uint8_t* data, size_t count, uint32_t* id) {
   return guarded(

@@ -3,7 +3,6 @@
 #include "capi/sized.hpp"
 
 using capi::class_2_of;
-using capi::fail;
 using capi::guarded;
 
 namespace capi {

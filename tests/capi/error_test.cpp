@@ -13,10 +13,14 @@ thread_local int blocks_left = -1;  ///< that operator new still gives; below 0:
 }  // namespace
 
 // The library takes its memory from here, too.
-void* operator new(std::size_t size) {
-  void* block = blocks_left == 0 ? nullptr : std::malloc(size);
-  if (block == nullptr) throw std::bad_alloc();
+void* operator new(std::size_t size, const std::nothrow_t& /*unused*/) noexcept {
+  if (blocks_left == 0) return nullptr;
   if (blocks_left > 0) --blocks_left;
+  return std::malloc(size);
+}
+void* operator new(std::size_t size) {
+  void* block = operator new(size, std::nothrow);
+  if (block == nullptr) throw std::bad_alloc();
   return block;
 }
 void operator delete(void* block) noexcept { std::free(block); }
