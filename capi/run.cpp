@@ -132,7 +132,7 @@ dpsim_status dpsim_run_create(const dpsim_run_options* options, dpsim_run** run)
         // later.
         tb::RunOptions trial = made->options;
         trial.log = trial.wave.path = trial.capture.path = "";
-        tb::Bench(made->scenario, trial, tb::make_pin_execution());
+        const tb::Bench bench(made->scenario, trial, tb::make_pin_execution());
         *run = made.release();
       });
 }

@@ -39,7 +39,7 @@ class RunWatch : public tb::Observer, private bus::Listener {
   void begins(std::size_t slave, const tb::ChipView& chip) override;
   void pin(std::size_t slave, Tick at, tb::PinNumber pin, tb::Level level) override;
   void event(std::size_t slave, const profibus::Event& event) override { events_[slave].add(event); }
-  void telegram(const tb::HeardTelegram& telegram) override;
+  void telegram(const tb::HeardTelegram& heard) override;
 
  private:
   void line_changed(Tick at, bool level) override { tell(at, DPSIM_LINE, 0, level ? 1 : 0); }

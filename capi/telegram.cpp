@@ -44,7 +44,9 @@ bus::Telegram telegram_of(const dpsim_telegram& telegram) {
 
 namespace {
 
-std::int16_t sap_out(const std::optional<std::uint8_t>& sap) { return sap ? *sap : DPSIM_NO_SAP; }
+std::int16_t sap_out(const std::optional<std::uint8_t>& sap) {
+  return sap ? static_cast<std::int16_t>(*sap) : DPSIM_NO_SAP;
+}
 
 dpsim_telegram given(const bus::Telegram& telegram) {
   dpsim_telegram made{};
