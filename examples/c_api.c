@@ -27,7 +27,7 @@ typedef struct user {
 
 static uint8_t read_cell(void* ctx, uint16_t address) {
   user* self = ctx;
-  dpsim_level value;
+  dpsim_level value = DPSIM_X;
   check(dpsim_chip_read(self->chip, self->now, address, NULL, &value, &self->now));
   return (uint8_t)value;
 }
@@ -49,7 +49,7 @@ static void set_pin(user* self, uint16_t pin, bool level) {
 }
 
 static bool get_pin(user* self, uint16_t pin) {
-  dpsim_level level;
+  dpsim_level level = DPSIM_X;
   pass(self, 50);
   check(dpsim_chip_level(self->chip, pin, &level));
   return level != 0;
@@ -94,7 +94,7 @@ static void print_event(void* unused, const dpsim_chip_event* event) {
 /* Feeds all changes kept since the last call to the checker. */
 static void feed(dpsim_chip* chip, dpsim_checker* checker) {
   dpsim_change changes[256];
-  size_t count;
+  size_t count = 0;
   do {
     check(dpsim_chip_read_changes(chip, changes, 256, &count));
     check(dpsim_checker_pins(checker, changes, count, NULL));
@@ -113,7 +113,7 @@ static void print_checks(const dpsim_checker* checker) {
 }
 
 static dpsim_slave slave_of(const char* path) {
-  dpsim_gsd* gsd;
+  dpsim_gsd* gsd = NULL;
   dpsim_slave slave = {0};
   const char* modules[] = {"8 bytes in, 8 bytes out"};
   slave.size = sizeof slave;
@@ -124,26 +124,53 @@ static dpsim_slave slave_of(const char* path) {
   return slave;
 }
 
+static dpsim_master* add_master(dpsim_bus* bus, const dpsim_slave* slave) {
+  const uint8_t outputs[] = {1, 2, 3, 4, 5, 6, 7, 8};
+  dpsim_master* master = NULL;
+  dpsim_master_options options = {0};
+  options.size = sizeof options;
+  options.address = 2;
+  check(dpsim_bus_add_master(bus, &options, &master));
+  check(dpsim_master_add_slave(master, slave));
+  check(dpsim_master_set_outputs(master, slave->address, outputs, sizeof outputs));
+  return master;
+}
+
+/* The user's program, until it has outputs. */
+static void exchange(user* self, dsdpv1_device* device) {
+  const uint8_t inputs[8] = {0xCA, 0xFE};
+  for (int turn = 0; turn < 100; ++turn) {
+    uint8_t received[8];
+    dsdpv1_exchange_result result = {received, sizeof received, 0, false, false, false};
+    pass(self, 100000);
+    dsdpv1_service(device);
+    dsdpv1_exchange(device, DSDPV1_INPUT_NEWEST, inputs, sizeof inputs, &result);
+    if (!result.outputs_new) continue;
+    printf("%10.3f us  outputs: %u bytes, the first two %02X %02X\n", us(self->now), result.length, received[0],
+           received[1]);
+    return;
+  }
+}
+
+static void print_inputs(const dpsim_master* master) {
+  dpsim_slave_status seen = {0};
+  seen.size = sizeof seen;
+  check(dpsim_master_get_slave(master, kAddress, &seen));
+  if (seen.input_count >= 2) printf("inputs at the master: %02X %02X\n", seen.inputs[0], seen.inputs[1]);
+}
+
 int main(int argc, char** argv) {
-  dpsim_bus* bus;
-  dpsim_master* master;
-  dpsim_checker* checker;
+  dpsim_bus* bus = NULL;
+  dpsim_checker* checker = NULL;
   dsdpv1_device device;
   user cpu = {NULL, 0};
-  dpsim_master_options options = {0};
-  const uint8_t outputs[8] = {1, 2, 3, 4, 5, 6, 7, 8}, inputs[8] = {0xCA, 0xFE};
   const dpsim_slave slave = slave_of(argc > 1 ? argv[1] : "scenarios/dsdpv1.gsd");
 
   check(dpsim_bus_create(NULL, &bus));
   check(dpsim_bus_add_chip(bus, NULL, &cpu.chip));
+  dpsim_master* master = add_master(bus, &slave);
   check(dpsim_chip_on_event(cpu.chip, print_event, NULL));
   check(dpsim_bus_on_event(bus, print_state, NULL));
-  options.size = sizeof options;
-  options.address = 2;
-  check(dpsim_bus_add_master(bus, &options, &master));
-  check(dpsim_master_add_slave(master, &slave));
-  check(dpsim_master_set_outputs(master, kAddress, outputs, sizeof outputs));
-
   check(dpsim_checker_create(NULL, &checker));
   check(dpsim_chip_watch(cpu.chip, DPSIM_ALL_PINS, NULL, NULL));
 
@@ -152,23 +179,10 @@ int main(int argc, char** argv) {
   pass(&cpu, 1000);
   initialise(&cpu, &device, &slave);
   check(dpsim_master_start(master));
-
-  for (int turn = 0; turn < 100; ++turn) {
-    uint8_t received[8];
-    dsdpv1_exchange_result result = {received, sizeof received, 0, false, false, false};
-    pass(&cpu, 100000);
-    dsdpv1_service(&device);
-    dsdpv1_exchange(&device, DSDPV1_INPUT_NEWEST, inputs, sizeof inputs, &result);
-    if (!result.outputs_new) continue;
-    printf("%10.3f us  outputs: %u bytes, the first two %02X %02X\n", us(cpu.now), result.length, received[0],
-           received[1]);
-    break;
-  }
+  exchange(&cpu, &device);
   pass(&cpu, 100000);
-  dpsim_slave_status seen = {0};
-  seen.size = sizeof seen;
-  check(dpsim_master_get_slave(master, kAddress, &seen));
-  printf("inputs at the master: %02X %02X\n", seen.inputs[0], seen.inputs[1]);
+  print_inputs(master);
+
   feed(cpu.chip, checker);
   check(dpsim_checker_finish(checker, cpu.now));
   print_checks(checker);

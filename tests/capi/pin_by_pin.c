@@ -12,7 +12,7 @@ static void check(dpsim_status status) {
 
 /* H2: R_REQ, then L_REQ and L_STA seen low, then R_STA. */
 static uint64_t take(dpsim_chip* chip, uint64_t now) {
-  dpsim_level l_req, l_sta;
+  dpsim_level l_req = DPSIM_X, l_sta = DPSIM_X;
   check(dpsim_chip_set(chip, now, DPSIM_DSDPV1_R_REQ, 1));
   do {
     now += 100 * kNs;
@@ -37,7 +37,7 @@ static dpsim_level read(dpsim_chip* chip, uint64_t now, dpsim_level address) {
 }
 
 size_t drive_pin_by_pin(uint64_t released, dpsim_change* changes, size_t capacity) {
-  dpsim_chip* chip;
+  dpsim_chip* chip = NULL;
   dpsim_chip_options options;
   uint64_t now = 7200 * (uint64_t)kCycle;
   size_t count = 0;
