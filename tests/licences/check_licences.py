@@ -158,6 +158,16 @@ def faults_of_own(name, files, reuse):
             yield f"REUSE.toml: {file} is {reuse.licence(file)}, but is in {name}, which is {STRICT}"
 
 
+def faults_of_texts(root, reuse):
+    """The texts of the licences; LICENSE is where people and programs look first."""
+    texts = root / "LICENSES"
+    for licence in sorted(reuse.licences()):
+        if not (texts / f"{licence}.txt").is_file():
+            yield f"LICENSES/{licence}.txt: is missing, but REUSE.toml names it"
+    if (root / "LICENSE").read_bytes() != (texts / "Apache-2.0.txt").read_bytes():
+        yield "LICENSE: is not the text of LICENSES/Apache-2.0.txt"
+
+
 def own_files(program, root, build):
     return {str(pathlib.PurePosixPath(file).relative_to(root)) for file in program.files
             if file.startswith(f"{root}/") and not file.startswith(f"{build}/")}
@@ -178,9 +188,7 @@ def check(root, build):
             yield from faults_of_own(name, own_files(program, root, build), reuse)
     yield from stale_rows(found, rows, debian.source)
     yield from faults_of_lists(listed, set().union(*found.values()), rows, debian.source)
-    for licence in sorted(reuse.licences()):
-        if not (root / "LICENSES" / f"{licence}.txt").is_file():
-            yield f"LICENSES/{licence}.txt: is missing, but REUSE.toml names it"
+    yield from faults_of_texts(root, reuse)
 
 
 def main():

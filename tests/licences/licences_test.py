@@ -102,6 +102,21 @@ class Own(unittest.TestCase):
         self.assertEqual(faults, ["REUSE.toml: src/kernel/c.cpp is Apache-2.0, but is in apps/board, which is GPL-2.0-only"])
 
 
+class Texts(unittest.TestCase):
+    def test_each_licence_has_its_text_and_the_project_the_usual_one(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "LICENSES").mkdir()
+            for name in ("LICENSE", "LICENSES/Apache-2.0.txt", "LICENSES/MIT.txt"):
+                (root / name).write_text("text", encoding="utf-8")
+            reuse = check_licences.Reuse(REUSE)
+            self.assertEqual(list(check_licences.faults_of_texts(root, reuse)), [])
+            (root / "LICENSES/MIT.txt").unlink()
+            (root / "LICENSE").write_text("another", encoding="utf-8")
+            self.assertEqual(list(check_licences.faults_of_texts(root, reuse)), ["LICENSES/MIT.txt: is missing, but REUSE.toml names it",
+                                                                                 "LICENSE: is not the text of LICENSES/Apache-2.0.txt"])
+
+
 NINJA = """rule CXX_EXECUTABLE_LINKER__sim_Release
 build obj/a.o: CXX_COMPILER__sim_Release /src/a.cpp || order
 build obj/b.o: CXX_COMPILER__low_Release /src/b$ c.cpp
