@@ -14,6 +14,9 @@
 #include "tb/bench/bench.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
 #include "tb/scenario/scenario.hpp"
+#ifdef RUDE_FOLDER
+#include "tb/dsdpv1/board/arm_user.hpp"
+#endif
 
 namespace {
 
@@ -115,6 +118,9 @@ std::string text_of(const Case& each, bool allowed) {
 }
 
 tb::RunResult run(const Case& each, bool allowed, tb::ChecksMode mode) {
+#ifdef RUDE_FOLDER
+  tb::add_arm_board();
+#endif
   const tb::scenario::Scenario scenario = tb::scenario::parse(text_of(each, allowed), "check.yaml");
   tb::RunOptions options;
   options.checks = mode;
