@@ -137,7 +137,7 @@ Shard parse_shard(const std::string& text) {
 std::vector<std::string> parse_seeds(const std::string& text) {
   constexpr std::int64_t kMost = 0xFFFF'FFFF;
   const std::string origin = "--seed " + text;
-  const std::vector<std::string> seeds = sweep::values_of(keys::Kind::kInteger, text, origin);
+  std::vector<std::string> seeds = sweep::values_of(keys::Kind::kInteger, text, origin);
   for (const std::string& seed : seeds) {
     const auto number = parse_integer(seed);
     if (!number || *number < 0 || *number > kMost)

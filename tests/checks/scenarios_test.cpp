@@ -29,9 +29,8 @@ struct Case {
   std::vector<const char*> events;  ///< violations that the core itself reports, allowed
 };
 
-void PrintTo(const Case& each, std::ostream* out) {
-  *out << each.name;
-}  // NOLINT(readability-identifier-naming): GoogleTest looks for it
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for it
+void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
 
 const char* const kNone = "";
 
