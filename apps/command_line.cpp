@@ -86,7 +86,8 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
           "How the chips are executed: step (every cycle), skip (from event to event), rtl (the reference RTL), "
           "lockstep (model and RTL side by side, compared)")
       ->capture_default_str();
-  command->add_option("--view", arguments.view, "How the user CPUs reach them: pins, tlm (SystemC)")
+  command
+      ->add_option("--view", arguments.view, "How the user CPUs reach them: pins, tlm (SystemC; not with an ARM board)")
       ->capture_default_str();
   add_wave_options(*command, arguments.wave);
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);

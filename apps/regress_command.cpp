@@ -7,6 +7,7 @@
 #include <set>
 
 #include "apps/command_line.hpp"
+#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "apps/regress_jobs.hpp"
@@ -16,6 +17,7 @@
 #include "tb/output/write_file.hpp"
 #include "tb/regress/page.hpp"
 #include "tb/regress/tables.hpp"
+#include "tb/scenario/scenario.hpp"
 
 namespace app {
 namespace {
@@ -39,6 +41,15 @@ std::vector<std::string> words_of(const std::string& option, const std::vector<s
   return given;
 }
 
+/// Other programs than the one with SystemC have no other view.
+bool pins_only(const Run& run) {
+  try {
+    return needs_other_program(tb::scenario::load(run.scenario, tb::scenario::parse_settings(run.settings)));
+  } catch (const tb::InputError&) {  // the run says what is wrong
+    return false;
+  }
+}
+
 tb::regress::Request request_of(const RegressArguments& arguments) {
   tb::regress::Request request;
   request.scenarios = arguments.scenarios.empty() ? std::vector<std::string>{"scenarios"} : arguments.scenarios;
@@ -46,6 +57,7 @@ tb::regress::Request request_of(const RegressArguments& arguments) {
   request.views = words_of("--view", arguments.views, {"pins", "tlm"}, "pins");
   if (!arguments.seeds.empty()) request.seeds = tb::regress::parse_seeds(arguments.seeds);
   for (const std::string& text : arguments.set) request.parameters.push_back(tb::sweep::parse_parameter(text, "--set"));
+  request.pins_only = pins_only;
   return request;
 }
 

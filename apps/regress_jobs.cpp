@@ -1,6 +1,7 @@
 #include "apps/regress_jobs.hpp"
 
 #include "apps/command_line.hpp"
+#include "apps/hand_over.hpp"
 #include "tb/campaign/fingerprint.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
@@ -17,13 +18,16 @@ using tb::regress::Run;
 
 constexpr int kNotStarted = 127;
 
-/// A scenario that cannot be read is refused by its run, which says why.
+/// With the program that its run is handed over to. A scenario that cannot be read is refused by its run, which says
+/// why.
 std::vector<std::string> files_of(const Run& run) {
   std::vector<std::string> files = {run.scenario};
   try {
-    const std::vector<std::string> named =
-        tb::scenario::files(run.scenario, tb::scenario::parse_settings(run.settings));
+    const auto settings = tb::scenario::parse_settings(run.settings);
+    const std::vector<std::string> named = tb::scenario::files(run.scenario, settings);
     files.insert(files.end(), named.begin(), named.end());
+    const std::string program = other_program(tb::scenario::load(run.scenario, settings));
+    if (!program.empty()) files.push_back(program);
   } catch (const tb::InputError&) {
   }
   return files;

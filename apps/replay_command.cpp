@@ -11,6 +11,7 @@
 
 #include "apps/capture_file.hpp"
 #include "apps/command_line.hpp"
+#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/baud.hpp"
@@ -89,9 +90,15 @@ Recording record(const ReplayArguments& arguments) {
   return recording;
 }
 
-tb::scenario::Scenario scenario_of(const ReplayArguments& arguments, const Recording& recording,
-                                   const tb::replay::Firmware& firmware) {
-  if (!arguments.scenario.empty()) return tb::replay::alone(tb::scenario::load(arguments.scenario), recording);
+/// That of --scenario.
+std::optional<tb::scenario::Scenario> given_scenario(const ReplayArguments& arguments) {
+  if (arguments.scenario.empty()) return std::nullopt;
+  return load_scenario(arguments.scenario);
+}
+
+tb::scenario::Scenario scenario_of(const ReplayArguments& arguments, const std::optional<tb::scenario::Scenario>& given,
+                                   const Recording& recording, const tb::replay::Firmware& firmware) {
+  if (given) return tb::replay::alone(*given, recording);
   if (arguments.gsd.empty()) return tb::replay::scenario_of(recording, firmware, "");
   tb::read_file(arguments.gsd, tb::kGsdFile);  // says what is wrong with the name that was given
   return tb::replay::scenario_of(recording, firmware, std::filesystem::absolute(arguments.gsd).string());
@@ -153,9 +160,11 @@ int status_of(const tb::replay::Result& result) {
 int replay(const ReplayArguments& arguments) {
   leave_nothing_on_signals();
   const tb::replay::ReplayOptions options = options_of(arguments);
+  const auto given =
+      given_scenario(arguments);  // before the capture, which may be a pipe and another program's to read
   const Recording recording = record(arguments);
   const tb::replay::Firmware firmware = tb::replay::firmware_of(recording);
-  const tb::scenario::Scenario scenario = scenario_of(arguments, recording, firmware);
+  const tb::scenario::Scenario scenario = scenario_of(arguments, given, recording, firmware);
   tb::RunOptions run = run_options(arguments, *scenario.kind);
   check_files(arguments, scenario);
   tb::replay::Replay replay(recording, firmware, scenario, options, std::move(run), execution_of(arguments));

@@ -9,15 +9,16 @@
 #include <vector>
 
 #include "apps/command_line.hpp"
+#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
+#include "apps/program.hpp"
 #include "apps/rtl_commands.hpp"
 #include "bus/printable.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/dsdpv1/cosim/joined_wave.hpp"
 #include "tb/dsdpv1/cosim/lockstep_execution.hpp"
 #include "tb/dsdpv1/cosim/reference_rtl.hpp"
-#include "tb/dsdpv1/systemc/tlm_execution.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/output/output_file.hpp"
 #include "tb/report/html/report_file.hpp"
@@ -233,7 +234,7 @@ int run(const RunArguments& arguments) {
   leave_nothing_on_signals();
   tb::RunOptions options = options_of(arguments);
   const tb::scenario::Scenario scenario =
-      tb::scenario::load(arguments.scenario, tb::scenario::parse_settings(arguments.set));
+      load_scenario(arguments.scenario, tb::scenario::parse_settings(arguments.set));
   options.wave = wave_options("dsdpv1-sim run", arguments.wave, *scenario.kind);
   check_outputs_of(arguments, scenario);
   if (arguments.gdb) check_has_board(scenario);
@@ -241,7 +242,9 @@ int run(const RunArguments& arguments) {
   if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, rtl).status;
   if (arguments.engine == "rtl") return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(rtl));
   if (arguments.view == "pins") return run_scenario(scenario, arguments, options, tb::make_pin_execution());
-  return tb::inside_systemc([&] { return run_scenario(scenario, arguments, options, tb::make_tlm_execution()); });
+  return in_tlm_view([&](std::unique_ptr<tb::Execution> execution) {
+    return run_scenario(scenario, arguments, options, std::move(execution));
+  });
 }
 
 int cosim_own_rtl(const CosimArguments& arguments) {
@@ -252,7 +255,7 @@ int cosim_own_rtl(const CosimArguments& arguments) {
   const RunArguments run_arguments = run_arguments_of(arguments);
   tb::RunOptions options = options_of(run_arguments);
   const tb::scenario::Scenario scenario =
-      tb::scenario::load(arguments.scenario, tb::scenario::parse_settings(arguments.set));
+      load_scenario(arguments.scenario, tb::scenario::parse_settings(arguments.set));
   options.wave = wave_options(kCosim, arguments.wave, *scenario.kind);
   options.wave.inside = true;
   check_outputs_of(arguments, scenario);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/command_line.hpp"
+#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/baud.hpp"
@@ -63,7 +64,7 @@ tb::RunOptions options_of(const ServeArguments& arguments, const tb::ChipKind& k
 
 int serve(const ServeArguments& arguments) {
   leave_nothing_on_signals();
-  tb::scenario::Scenario scenario = tb::scenario::load(arguments.scenario);
+  tb::scenario::Scenario scenario = load_scenario(arguments.scenario);
   scenario.baud = chosen_baud(scenario, arguments.baud);
   scenario.end = chosen_end(arguments.duration);
   tb::RunOptions options = options_of(arguments, *scenario.kind);

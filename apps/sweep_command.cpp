@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "apps/command_line.hpp"
+#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "apps/sweep_jobs.hpp"
@@ -49,13 +50,13 @@ std::vector<NamedFile> inputs_of(const Plan& plan, const tb::sweep::Inputs& inpu
   return scenario_inputs(plan.scenario, named);
 }
 
-/// A scenario that cannot be read at any point is wrong itself: then nothing is run and no folder made.
+/// A scenario that cannot be read at any point is wrong itself: then nothing is run and no folder made. One point tells
+/// whether it is another program's: the kind of a user CPU and its other keys go together, so no sweep varies it.
 void check_loads(const Plan& plan) {
   std::string error;
   for (std::size_t i = 0; i < plan.points(); ++i) {
     try {
-      tb::scenario::load(plan.scenario, tb::scenario::parse_settings(plan.settings_of(i)));
-      return;
+      return hand_over(tb::scenario::load(plan.scenario, tb::scenario::parse_settings(plan.settings_of(i))));
     } catch (const tb::InputError& wrong) {
       if (error.empty()) error = wrong.what();
     }

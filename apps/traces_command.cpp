@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "apps/command_line.hpp"
+#include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/printable.hpp"
@@ -95,14 +96,26 @@ int report_orphans(const std::string& folder) {
   return status;
 }
 
+/// Where one of them is another program's, that one looks at all of them.
+void hand_over_any(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    try {
+      hand_over(tb::scenario::load(file));
+    } catch (const tb::InputError&) {  // is said when it is its turn
+    }
+  }
+}
+
 /// The scenarios given, or all and then the goldens without one.
 int for_scenarios(const TracesArguments& arguments, const std::function<int(const std::string& file)>& work) {
   if (arguments.scenarios.empty()) {
+    hand_over_any(own_scenarios());
     const int status = for_each(own_scenarios(), work);
     return status == kInterrupted ? status : worse(status, report_orphans(folder_of(arguments)));
   }
   std::vector<std::string> files;
   std::transform(arguments.scenarios.begin(), arguments.scenarios.end(), std::back_inserter(files), scenario_file);
+  hand_over_any(files);
   return for_each(files, work);
 }
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* Opening, holds, status, errors, CRC. */
 #include "dsdpv1.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 OR MIT */
 #ifndef DSDPV1_ACYCLIC_H
 #define DSDPV1_ACYCLIC_H
 /*

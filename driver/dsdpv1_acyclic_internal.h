@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 OR MIT */
 #ifndef DSDPV1_ACYCLIC_INTERNAL_H
 #define DSDPV1_ACYCLIC_INTERNAL_H
 /* What the driver's DPV1 files share. Not for applications. */

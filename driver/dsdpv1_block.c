@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* Reading what the chip has written, with its CRC (4.2, table 7). */
 #include "dsdpv1_internal.h"
 

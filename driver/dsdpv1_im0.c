@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /*
  * I&M0, the nameplate: a call (write) to slot 0, index 255 chooses the subindex, the read that follows fetches it
  * (software manual chapter 1; Profile Guidelines part 1, IEC 61158-6 CALL).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* Bring-up: waiting for the chip and initialising it (chapter 8, figure 12). */
 #include <string.h>
 

@@ -1,57 +1,28 @@
 #include "bus/capture/sigrok_reader.hpp"
 
 #include <fmt/format.h>
-#include <zip.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <map>
-#include <memory>
 #include <sstream>
 #include <utility>
 
 #include "bus/capture/sample_clock.hpp"
 #include "bus/capture/signal_decoder.hpp"
+#include "bus/capture/zip_archive.hpp"
 
 namespace bus::capture {
 namespace {
 
 constexpr std::size_t kLongestMetadata = 65'536, kMostUnit = 16, kMostProbes = 8 * kMostUnit;
 
-struct CloseArchive {
-  void operator()(zip_t* archive) const { zip_discard(archive); }
-};
-struct CloseFile {
-  void operator()(zip_file_t* file) const { zip_fclose(file); }
-};
-using Archive = std::unique_ptr<zip_t, CloseArchive>;
-using File = std::unique_ptr<zip_file_t, CloseFile>;
-
-Archive open_archive(const std::string& bytes) {
-  zip_error_t error;
-  zip_error_init(&error);
-  zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
-  Archive archive(source != nullptr ? zip_open_from_source(source, ZIP_RDONLY, &error) : nullptr);
-  const std::string what = zip_error_strerror(&error);
-  if (!archive && source != nullptr) zip_source_free(source);
-  zip_error_fini(&error);
-  if (!archive) throw CaptureError(fmt::format("is no whole ZIP archive ({}), allowed is a session of sigrok", what));
-  return archive;
-}
-
-/// The next piece of a member into `to`; 0 at its end.
-std::size_t read_piece(zip_file_t* file, char* to, std::size_t size) {
-  const zip_int64_t count = zip_fread(file, to, size);
-  if (count < 0) throw CaptureError("a member of the archive is damaged, allowed is a session of sigrok");
-  return static_cast<std::size_t>(count);
-}
-
-std::string metadata_of(zip_t* archive) {
-  const File file(zip_fopen(archive, "metadata", 0));
-  if (!file) throw CaptureError("has no metadata, allowed is a session of sigrok");
-  std::string text(kLongestMetadata, '\0');
-  text.resize(read_piece(file.get(), text.data(), text.size()));
+std::string metadata_of(ZipArchive& archive) {
+  std::string text;
+  const auto take = [&text](const char* bytes, std::size_t size) {
+    text.append(bytes, std::min(size, kLongestMetadata - text.size()));
+  };
+  if (!archive.read("metadata", take)) throw CaptureError("has no metadata, allowed is a session of sigrok");
   return text;
 }
 
@@ -140,25 +111,17 @@ class Samples {
   std::uint64_t count_ = 0;
 };
 
-/// False when there is no such member.
-bool add_member(zip_t* archive, const std::string& name, Samples& samples) {
-  const File file(zip_fopen(archive, name.c_str(), 0));
-  if (!file) return false;
-  std::array<char, 16'384> piece{};
-  while (const std::size_t size = read_piece(file.get(), piece.data(), piece.size())) samples.add(piece.data(), size);
-  return true;
-}
-
 }  // namespace
 
 std::uint64_t read_sigrok_levels(const std::string& archive, LevelTaker& taker) {
-  const Archive opened = open_archive(archive);
-  const Session session = session_of(device_of(metadata_of(opened.get())));
+  ZipArchive opened(archive);
+  const Session session = session_of(device_of(metadata_of(opened)));
   std::vector<std::size_t> bits;
   for (const std::size_t chosen : taker.choose(session.names)) bits.push_back(session.bits[chosen]);
   Samples samples(session, bits, taker);
-  if (!add_member(opened.get(), session.member, samples))
-    for (int part = 1; add_member(opened.get(), fmt::format("{}-{}", session.member, part), samples); ++part) {
+  const auto add = [&samples](const char* bytes, std::size_t size) { samples.add(bytes, size); };
+  if (!opened.read(session.member, add))
+    for (int part = 1; opened.read(fmt::format("{}-{}", session.member, part), add); ++part) {
     }
   if (!samples.any()) throw CaptureError("has no samples, allowed is a session of sigrok");
   taker.finish(samples.end());

@@ -60,6 +60,8 @@ class ChipMaker : public ChipKind {
   virtual MakeUser make_user(const UserRequest& request) const = 0;
   /// Whether the slave's user CPU is one that a debugger can be connected to.
   virtual bool has_debugger(const scenario::Slave& /*slave*/) const { return false; }
+  /// The name of the program that has the slave's user CPU, where this one has not; empty: this one has.
+  virtual const char* other_program(const scenario::Slave& /*slave*/) const { return ""; }
 };
 
 /// The scenario's kind of chip; throws InputError when the bench cannot make it.

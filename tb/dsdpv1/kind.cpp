@@ -77,6 +77,9 @@ class Dsdpv1Kind : public ChipMaker {
   }
   MakeUser make_user(const UserRequest& request) const override { return make_dsdpv1_user(request); }
   bool has_debugger(const scenario::Slave& slave) const override { return own(slave.user_cpu).kind == CpuKind::kArm; }
+  const char* other_program(const scenario::Slave& slave) const override {
+    return own(slave.user_cpu).kind == CpuKind::kArm && !has_arm_maker() ? kBoardProgram : "";
+  }
 };
 
 std::string Dsdpv1Kind::place_of(const std::string& init_key) const {

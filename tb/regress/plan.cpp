@@ -85,7 +85,7 @@ void add_runs(const Request& request, const Shard& shard, const Run& run,
     for (const std::vector<std::string>& each : settings) {
       const Run next{run.scenario, run.engine, run.view, seed, each};
       if (!shard.has(next)) continue;
-      if (is_rtl(run.engine) && run.view == "tlm")
+      if (run.view == "tlm" && (is_rtl(run.engine) || request.pins_only(next)))
         ++plan.left_out;
       else
         plan.runs.push_back(next);
@@ -137,7 +137,7 @@ Shard parse_shard(const std::string& text) {
 std::vector<std::string> parse_seeds(const std::string& text) {
   constexpr std::int64_t kMost = 0xFFFF'FFFF;
   const std::string origin = "--seed " + text;
-  const std::vector<std::string> seeds = sweep::values_of(keys::Kind::kInteger, text, origin);
+  std::vector<std::string> seeds = sweep::values_of(keys::Kind::kInteger, text, origin);
   for (const std::string& seed : seeds) {
     const auto number = parse_integer(seed);
     if (!number || *number < 0 || *number > kMost)
@@ -155,8 +155,9 @@ Plan plan_of(const Request& request, const Shard& shard) {
       for (const std::string& view : request.views)
         add_runs(request, shard, {scenario, engine, view, "", {}}, settings, plan);
   if (plan.runs.empty() && plan.left_out != 0 && shard.count == 1)
-    throw InputError("dsdpv1-sim regress: nothing is left to be run: --engine " + join(request.engines) +
-                     " is about pins, allowed with it is --view pins");
+    throw InputError(
+        "dsdpv1-sim regress: nothing is left to be run: --view tlm is neither for RTL nor for ARM boards, allowed is "
+        "--view pins");
   return plan;
 }
 

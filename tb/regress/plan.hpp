@@ -1,6 +1,7 @@
 #pragma once
 // What a regression runs: scenarios by engines, views, seeds and settings.
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct Request {
   std::vector<std::string> engines = {"skip"}, views = {"pins"};
   std::vector<std::string> seeds;                 ///< none: the usual one
   std::vector<sweep::Parameter> parameters = {};  ///< of --set, each with at least one value
+  /// Whether the scenario of a run can be carried out by pins only, whatever the engine.
+  std::function<bool(const Run& run)> pins_only = [](const Run& /*run*/) { return false; };
 };
 
 /// A part of all runs: `index` of `count`, from 1.
@@ -46,7 +49,7 @@ std::vector<std::string> parse_seeds(const std::string& text);
 
 struct Plan {
   std::vector<Run> runs;
-  std::size_t left_out = 0;  ///< combinations that cannot be: RTL has pins only
+  std::size_t left_out = 0;  ///< combinations that cannot be: RTL, and some scenarios, have pins only
 };
 
 /// Throws InputError for a path that is not there, a folder without scenarios, a key that is set twice, seeds without

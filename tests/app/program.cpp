@@ -13,10 +13,10 @@ namespace app_test {
 
 namespace fs = std::filesystem;
 
-Called call(const std::string& arguments, const fs::path& folder) {
+Called call(const std::string& arguments, const fs::path& folder, const std::string& program) {
   const Folder outputs;
-  const std::string command = "cd '" + folder.string() + "' && '" DSDPV1_SIM "' " + arguments + " >'" +
-                              outputs.file("out") + "' 2>'" + outputs.file("err") + "' </dev/null";
+  const std::string command = "cd '" + folder.string() + "' && '" + (program.empty() ? DSDPV1_SIM : program) + "' " +
+                              arguments + " >'" + outputs.file("out") + "' 2>'" + outputs.file("err") + "' </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(outputs.file("out")),
           read(outputs.file("err"))};

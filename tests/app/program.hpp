@@ -11,8 +11,8 @@ struct Called {
   std::string out, err;
 };
 
-/// Runs the program with `arguments` (shell words) in `folder`.
-Called call(const std::string& arguments, const std::filesystem::path& folder);
+/// Runs the program with `arguments` (shell words) in `folder`; `program`: another one than the built dsdpv1-sim.
+Called call(const std::string& arguments, const std::filesystem::path& folder, const std::string& program = "");
 
 std::string read(const std::filesystem::path& path);
 

@@ -1,6 +1,7 @@
 // Every scenario that ships passes, the checks included, with the pins of its golden trace in step and skip, and is the
 // same to the byte in step, skip and TLM: log and result, with TLM the trace of the outputs; and log and result without
-// a trace, when nobody needs the changes of the line. The results are what the schema says.
+// a trace, when nobody needs the changes of the line. The results are what the schema says. Where there is an ARM board
+// there is no TLM.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,20 +57,30 @@ class Scenarios : public testing::TestWithParam<std::string> {
   app_test::Folder folder_;
 };
 
+std::vector<std::string> views(const std::string& scenario) {
+  const std::string text = read(DSDPV1_SOURCE_DIR "/scenarios/" + scenario + ".yaml");
+  if (text.find("kind: arm") != std::string::npos) return {"pins"};
+  return {"pins", "tlm"};
+}
+
 TEST_P(Scenarios, PassesAndStepSkipAndTlmAreTheSame) {
   ASSERT_TRUE(run("skip", "pins", kGolden + trace("skip_pins")));
   ASSERT_TRUE(run("step", "pins", kGolden));
-  ASSERT_TRUE(run("skip", "tlm", trace("skip_tlm")));
-  expect_same("skip_tlm", ".trace");
-  for (const char* name : {"step_pins", "skip_tlm"}) expect_same(name);
-  for (const char* view : {"pins", "tlm"}) {
+  expect_same("step_pins");
+  for (const std::string& view : views(GetParam())) {
+    const std::string name = "skip_" + view;
+    if (view == "tlm") {
+      ASSERT_TRUE(run("skip", view, trace(name)));
+      expect_same(name, ".trace");
+      expect_same(name);
+    }
     ASSERT_TRUE(run("skip", view, "", "_untraced"));
-    expect_same(std::string("skip_") + view + "_untraced");
+    expect_same(name + "_untraced");
+    // Without checks nobody hears the pins of the host's accesses: these are the runs that take each at once, or ahead
+    // of simulation time.
+    ASSERT_TRUE(run("skip", view, "", "_unchecked", "off"));
+    expect_same_results(name + "_unchecked", "skip_pins_unchecked");
   }
-  // Without checks nobody hears the pins of the host's accesses: these are the runs that take each at once, or ahead of
-  // simulation time.
-  for (const char* view : {"pins", "tlm"}) ASSERT_TRUE(run("skip", view, "", "_unchecked", "off"));
-  expect_same_results("skip_tlm_unchecked", "skip_pins_unchecked");
   expect_result_as_the_schema_says("skip_pins");  // and so are those that are the same
 }
 

@@ -197,7 +197,7 @@ class Page(unittest.TestCase):
     def test_samples_of_a_run_go_to_the_part_of_their_function(self):
         printed = """# Overhead  Shared Object  Symbol
             20.00%  dsdpv1-sim                [.] dsdpv1::Chip::Impl::advance
-             5.00%  dsdpv1-sim                [.] non-virtual thunk to tb::PinChip::next() const
+             5.00%  dsdpv1-board              [.] non-virtual thunk to tb::PinChip::next() const
              4.00%  dsdpv1-sim                [.] std::_Function_handler<void (bus::ReceivedCharacter const&), bus::Monitor::Monitor(bus::Segment&)>::_M_invoke
              3.00%  dsdpv1-sim                [.] fstWriterEmitValueChange
              2.00%  libsystemc-2.3.4.so       [.] sc_core::sc_event::trigger

@@ -7,7 +7,7 @@ from rows import PROFILED
 
 LINE = re.compile(r"^\s*([\d.]+)%\s+(\S.*?)\s+\[[.kgu]\]\s+(\S.*?)\s*$")
 REST = "elsewhere"
-PROGRAM = r"^dsdpv1-sim$"
+PROGRAM = r"^dsdpv1-(sim|board)$"  # the second has the rows with an ARM board
 # Part, its file (program, library, kernel), its functions: the first that fits. Types in the arguments of a template come last.
 OWNERS = tuple((part, re.compile(file), re.compile(function)) for part, file, function in (
     ("kernel", r"^\[(kernel|vdso)", ""),

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import zipfile
+import zlib
 
 from vcd_line import changes_of
 from wireshark import ROOT, SIM, capture, expect, failures, sim
@@ -216,6 +217,11 @@ def archive_of(folder, **members):
     return (folder / "made.sr").read_bytes()
 
 
+def damaged(archive, old, new):
+    expect("there is something to be damaged", old in archive, True)
+    return archive.replace(old, new)
+
+
 def metadata(**others):
     keys = {"capturefile": "logic-1", "samplerate": "1 MHz", "unitsize": "1", "probe1": "D0"} | others
     return "[device 1]\n" + "".join(f"{key}={value}\n" for key, value in keys.items())
@@ -228,14 +234,19 @@ def bad_files(folder):
     ethernet = struct.pack("<IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 1)
     huge = struct.pack("<IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 257) + struct.pack("<IIII", 0, 0, 2**31, 2**31)
     idle = archive_of(folder, metadata=metadata(), logic_1_1=bytes([1]) * 300_000_000)
+    samples = b"\1" * 999
+    whole = archive_of(folder, metadata=metadata(), logic_1_1=samples)
     bad = {
         "cut_off.pcapng": (good[:5000], "ends in the middle of a packet, at byte 5000, allowed are whole packets; it was cut off"),
         "ethernet.pcap": (ethernet, "packets of link type 1, allowed are 257 (PROFIBUS) and 147 to 162 (USER0 to USER15)"),
         "huge.pcap": (huge, "a packet of 2147483648 bytes before byte 40, allowed are up to 262144"),
         "header.pcap": (huge[:20], "ends in the middle of a packet, at byte 20, allowed are whole packets; it was cut off"),
-        "no.sr": (b"PK\x03\x04" + bytes(1000), "is no whole ZIP archive ("),
+        "no.sr": (b"PK\x03\x04" + bytes(1000), "is no whole ZIP archive, allowed is a session of sigrok"),
         "other.zip": (archive_of(folder, readme="hello"), "has no metadata, allowed is a session of sigrok"),
         "empty.sr": (archive_of(folder, metadata=metadata()), "has no samples, allowed is a session of sigrok"),
+        "damaged.sr": (damaged(whole, struct.pack("<I", zlib.crc32(samples)), b"none"), "a member of the archive is damaged, allowed is"),
+        "shorter.sr": (damaged(whole, struct.pack("<I", len(samples)), struct.pack("<I", 2000)), "a member of the archive is damaged, allowed is"),
+        "cut_off.sr": (whole[:-30], "is no whole ZIP archive"),
         "rate.sr": (archive_of(folder, metadata=metadata(samplerate="often")), "its metadata has no logic samples"),
         "idle.sr": (idle, "no right telegram at any of the ten baud rates, allowed is a recording of the line"),
         "cut_off.vcd": (b"$timescale 1 ns $end\n$scope mod", ""),

@@ -14,6 +14,9 @@
 #include "tb/bench/bench.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
 #include "tb/scenario/scenario.hpp"
+#ifdef RUDE_FOLDER
+#include "tb/dsdpv1/board/arm_user.hpp"
+#endif
 
 namespace {
 
@@ -26,9 +29,8 @@ struct Case {
   std::vector<const char*> events;  ///< violations that the core itself reports, allowed
 };
 
-void PrintTo(const Case& each, std::ostream* out) {
-  *out << each.name;
-}  // NOLINT(readability-identifier-naming): GoogleTest looks for it
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for it
+void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
 
 const char* const kNone = "";
 
@@ -115,6 +117,9 @@ std::string text_of(const Case& each, bool allowed) {
 }
 
 tb::RunResult run(const Case& each, bool allowed, tb::ChecksMode mode) {
+#ifdef RUDE_FOLDER
+  tb::add_arm_board();
+#endif
   const tb::scenario::Scenario scenario = tb::scenario::parse(text_of(each, allowed), "check.yaml");
   tb::RunOptions options;
   options.checks = mode;

@@ -1,9 +1,9 @@
 #include "tb/dsdpv1/user_cpu/arm/engine.hpp"
 
+#include <unicorn/unicorn.h>
+
 #include <stdexcept>
 #include <string>
-
-#include "tb/dsdpv1/user_cpu/arm/unicorn.hpp"
 
 namespace arm {
 
@@ -53,8 +53,6 @@ Trap trap_of(std::uint32_t number) {
 
 }  // namespace
 
-void load_engine() { unicorn(); }
-
 struct Engine::Window {
   Engine& engine;
   std::uint32_t start;
@@ -98,16 +96,16 @@ class Engine::Privileged {
   Privileged(uc_engine* uc, Register which) : uc_(uc) {
     if (which < Register::kMsp || which == Register::kControl) return;
     std::uint32_t control = 0;
-    unicorn().reg_read(uc_, UC_ARM_REG_CONTROL, &control);
-    unicorn().reg_read(uc_, UC_ARM_REG_XPSR, &xpsr_);
+    uc_reg_read(uc_, UC_ARM_REG_CONTROL, &control);
+    uc_reg_read(uc_, UC_ARM_REG_XPSR, &xpsr_);
     lifted_ = (control & 1U) != 0 && (xpsr_ & 0x1FFU) == 0;
     if (lifted_) {
       const std::uint32_t handler = xpsr_ | 3U;
-      unicorn().reg_write(uc_, UC_ARM_REG_XPSR, &handler);
+      uc_reg_write(uc_, UC_ARM_REG_XPSR, &handler);
     }
   }
   ~Privileged() {
-    if (lifted_) unicorn().reg_write(uc_, UC_ARM_REG_XPSR, &xpsr_);
+    if (lifted_) uc_reg_write(uc_, UC_ARM_REG_XPSR, &xpsr_);
   }
   Privileged(const Privileged&) = delete;
   Privileged& operator=(const Privileged&) = delete;
@@ -119,42 +117,42 @@ class Engine::Privileged {
 };
 
 Engine::Engine(EngineEvents& events) : events_(events) {
-  check(unicorn().open(UC_ARCH_ARM, static_cast<uc_mode>(UC_MODE_THUMB | UC_MODE_MCLASS), &uc_), "uc_open");
-  check(unicorn().ctl(uc_, UC_CTL_WRITE(UC_CTL_CPU_MODEL, 1), UC_CPU_ARM_CORTEX_M3), "uc_ctl_set_cpu_model");
+  check(uc_open(UC_ARCH_ARM, static_cast<uc_mode>(UC_MODE_THUMB | UC_MODE_MCLASS), &uc_), "uc_open");
+  check(uc_ctl(uc_, UC_CTL_WRITE(UC_CTL_CPU_MODEL, 1), UC_CPU_ARM_CORTEX_M3), "uc_ctl_set_cpu_model");
   hook(UC_HOOK_CODE, reinterpret_cast<void*>(&Hooks::instruction));
   hook(UC_HOOK_INTR, reinterpret_cast<void*>(&Hooks::interrupt));
   hook(UC_HOOK_MEM_INVALID, reinterpret_cast<void*>(&Hooks::bad_access));
 }
 
-Engine::~Engine() { unicorn().close(uc_); }
+Engine::~Engine() { uc_close(uc_); }
 
 void Engine::check(int error, const char* what) const {
   if (error != UC_ERR_OK)
-    throw std::runtime_error(std::string("Unicorn: ") + what + ": " + unicorn().strerror(static_cast<uc_err>(error)));
+    throw std::runtime_error(std::string("Unicorn: ") + what + ": " + uc_strerror(static_cast<uc_err>(error)));
 }
 
 void Engine::hook(int type, void* function) {
   uc_hook handle = 0;
-  check(unicorn().hook_add(uc_, &handle, type, function, this, 1, 0), "uc_hook_add");
+  check(uc_hook_add(uc_, &handle, type, function, this, 1, 0), "uc_hook_add");
 }
 
 void Engine::map(std::uint32_t address, std::size_t size, std::uint8_t* memory, bool writable) {
   const std::uint32_t rights = UC_PROT_READ | UC_PROT_EXEC | (writable ? UC_PROT_WRITE : 0);
-  check(unicorn().mem_map_ptr(uc_, address, size, rights, memory), "uc_mem_map_ptr");
+  check(uc_mem_map_ptr(uc_, address, size, rights, memory), "uc_mem_map_ptr");
   code_.push_back({address, size});
 }
 
 void Engine::map_events(std::uint32_t address, std::size_t size) {
   windows_.push_back(std::make_unique<Window>(Window{*this, address}));
   void* window = windows_.back().get();
-  check(unicorn().mmio_map(uc_, address, size, &Hooks::load, window, &Hooks::store, window), "uc_mmio_map");
+  check(uc_mmio_map(uc_, address, size, &Hooks::load, window, &Hooks::store, window), "uc_mmio_map");
 }
 
 // Region by region: uc_ctl_flush_tlb writes all of Unicorn's buffer of 1 GB, which takes seconds.
 void Engine::forget_translations() {
   for (const Code& region : code_) {
-    check(unicorn().ctl(uc_, UC_CTL_WRITE(UC_CTL_TB_REMOVE_CACHE, 2), std::uint64_t{region.start},
-                        std::uint64_t{region.start} + region.size),
+    check(uc_ctl(uc_, UC_CTL_WRITE(UC_CTL_TB_REMOVE_CACHE, 2), std::uint64_t{region.start},
+                 std::uint64_t{region.start} + region.size),
           "uc_ctl_remove_cache");
   }
 }
@@ -162,11 +160,11 @@ void Engine::forget_translations() {
 void Engine::report_data(bool on) {
   if (on == reports_data_) return;
   if (on) {
-    check(unicorn().hook_add(uc_, &data_hook_, UC_HOOK_MEM_READ | UC_HOOK_MEM_WRITE,
-                             reinterpret_cast<void*>(&Hooks::data), this, 1, 0),
+    check(uc_hook_add(uc_, &data_hook_, UC_HOOK_MEM_READ | UC_HOOK_MEM_WRITE, reinterpret_cast<void*>(&Hooks::data),
+                      this, 1, 0),
           "uc_hook_add");
   } else {
-    check(unicorn().hook_del(uc_, data_hook_), "uc_hook_del");
+    check(uc_hook_del(uc_, data_hook_), "uc_hook_del");
   }
   reports_data_ = on;
 }
@@ -174,24 +172,24 @@ void Engine::report_data(bool on) {
 std::uint32_t Engine::read(Register which) const {
   const Privileged privileged(uc_, which);
   std::uint32_t value = 0;
-  unicorn().reg_read(uc_, unicorn_register(which), &value);
+  uc_reg_read(uc_, unicorn_register(which), &value);
   return value;
 }
 
 void Engine::write(Register which, std::uint32_t value) {
   const Privileged privileged(uc_, which);
-  unicorn().reg_write(uc_, unicorn_register(which), &value);
+  uc_reg_write(uc_, unicorn_register(which), &value);
 }
 
 Trap Engine::run() {
   trap_ = Trap::kNone;
-  const uc_err error = unicorn().emu_start(uc_, read(Register::kPc) | 1U, kNoEnd, 0, 0);
+  const uc_err error = uc_emu_start(uc_, read(Register::kPc) | 1U, kNoEnd, 0, 0);
   if (error == UC_ERR_INSN_INVALID)
     return (read(Register::kXpsr) & kThumbState) != 0 ? Trap::kUndefined : Trap::kInvalidState;
   if (trap_ == Trap::kNone) check(error, "uc_emu_start");
   return trap_;
 }
 
-void Engine::stop() { unicorn().emu_stop(uc_); }
+void Engine::stop() { uc_emu_stop(uc_); }
 
 }  // namespace arm

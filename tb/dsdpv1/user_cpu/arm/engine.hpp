@@ -38,9 +38,6 @@ enum class Trap {
   kBadAccess,     ///< after on_bad_access()
 };
 
-/// Loads Unicorn, which the first Engine would do. Throws std::runtime_error with what is missing.
-void load_engine();
-
 /// Not copied, not moved: Unicorn holds pointers to it.
 class Engine {
  public:

@@ -1,4 +1,5 @@
-// dsdpv1-sim, the one command-line program.
+#include "apps/program.hpp"
+
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -6,6 +7,7 @@
 #include <exception>
 
 #include "apps/command_line.hpp"
+#include "apps/hand_over.hpp"
 #include "apps/printable_output.hpp"
 #include "apps/stack.hpp"
 #include "bus/printable.hpp"
@@ -42,13 +44,26 @@ int judge_output(int status, int error) {
   return app::kWrongInput;
 }
 
+int carry_out_or_hand_over(int argc, char** argv) {
+  tb::StandardOutput output;
+  try {
+    const int status = carry_out(argc, argv);
+    return judge_output(status, output.finish());
+  } catch (const app::HandOver& other) {
+    output.finish();
+    return app::become(other, argv);
+  }
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
-  if (!app::ensure_stack()) return app::kWrongInput;
+namespace app {
+
+int program(int argc, char** argv) {
+  if (!ensure_stack()) return kWrongInput;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large shows at the write
   tb::fill_closed_channels();
-  tb::StandardOutput output;
-  const int status = carry_out(argc, argv);
-  return judge_output(status, output.finish());
+  return carry_out_or_hand_over(argc, argv);
 }
+
+}  // namespace app

@@ -1,4 +1,4 @@
-#include "tb/dsdpv1/untold.hpp"
+#include "tb/dsdpv1/board/untold.hpp"
 
 #include <fmt/format.h>
 

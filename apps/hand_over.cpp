@@ -1,0 +1,100 @@
+#include "apps/hand_over.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+#include "apps/command_line.hpp"
+#include "bus/printable.hpp"
+#include "tb/bench/chip_maker.hpp"
+#include "tb/input/read_file.hpp"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names the descriptor of the scenario's text to the program that takes over.
+constexpr const char* kTextVariable = "DSDPV1_SCENARIO_TEXT";
+
+std::vector<fs::path> folders() {
+  const fs::path own = fs::read_symlink("/proc/self/exe").parent_path();
+  std::vector<fs::path> all = {own, own.parent_path() / "libexec" / "dsdpv1"};
+  const char* const path = std::getenv("PATH");
+  std::istringstream words(path == nullptr ? "" : path);
+  for (std::string word; std::getline(words, word, ':');) all.emplace_back(word.empty() ? "." : word);
+  return all;
+}
+
+std::string find_program(const std::string& name) {
+  std::error_code error;
+  for (const fs::path& folder : folders()) {
+    const fs::path path = folder / name;
+    if (fs::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0) return path;
+  }
+  return "";
+}
+
+std::string name_of_other(const tb::scenario::Scenario& scenario) {
+  const tb::ChipMaker& maker = tb::chip_maker(scenario);
+  for (const tb::scenario::Slave& slave : scenario.slaves) {
+    std::string name = maker.other_program(slave);
+    if (!name.empty()) return name;
+  }
+  return "";
+}
+
+/// The file has no name and stays open beyond the exec.
+bool leave_text(const std::string& text) {
+  const int file = memfd_create("scenario", 0);
+  if (file < 0 || write(file, text.data(), text.size()) != static_cast<ssize_t>(text.size())) return false;
+  return setenv(kTextVariable, std::to_string(file).c_str(), 1) == 0;
+}
+
+/// What leave_text has left to this program.
+std::optional<std::string> left_text() {
+  const char* const left = std::getenv(kTextVariable);
+  if (left == nullptr) return std::nullopt;
+  const std::string file = left;
+  unsetenv(kTextVariable);  // is not for the runs of a campaign
+  std::string text = tb::scenario::read_file("/proc/self/fd/" + file);
+  close(std::atoi(file.c_str()));
+  return text;
+}
+
+}  // namespace
+
+int become(const HandOver& other, char** argv) {
+  if (!other.scenario || leave_text(*other.scenario)) execv(other.program.c_str(), argv);
+  std::fprintf(stderr, "dsdpv1-sim: %s cannot be started: %s\n", bus::printable(other.program).c_str(),
+               std::strerror(errno));
+  return kWrongInput;
+}
+
+bool needs_other_program(const tb::scenario::Scenario& scenario) { return !name_of_other(scenario).empty(); }
+
+std::string other_program(const tb::scenario::Scenario& scenario) {
+  const std::string name = name_of_other(scenario);
+  return name.empty() ? "" : find_program(name);
+}
+
+void hand_over(const tb::scenario::Scenario& scenario) {
+  if (std::string program = other_program(scenario); !program.empty()) throw HandOver{std::move(program), std::nullopt};
+}
+
+tb::scenario::Scenario load_scenario(const std::string& path, const std::vector<tb::scenario::Setting>& settings) {
+  std::optional<std::string> text = left_text();
+  if (!text) text = tb::scenario::read_file(path);
+  tb::scenario::Scenario scenario = tb::scenario::parse(*text, path, settings);
+  if (std::string program = other_program(scenario); !program.empty())
+    throw HandOver{std::move(program), std::move(text)};
+  return scenario;
+}
+
+}  // namespace app

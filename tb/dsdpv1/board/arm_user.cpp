@@ -1,0 +1,74 @@
+#include "tb/dsdpv1/board/arm_user.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "tb/dsdpv1/board/untold.hpp"
+#include "tb/dsdpv1/dsdpv1_view.hpp"
+#include "tb/dsdpv1/settings.hpp"
+#include "tb/dsdpv1/user_cpu/arm/board.hpp"
+#include "tb/dsdpv1/user_cpu/arm/gdb_server.hpp"
+#include "tb/dsdpv1/user_maker.hpp"
+#include "tb/input/input_error.hpp"
+
+namespace tb {
+namespace {
+
+/// As the scenario's check has found them right.
+arm::Switches switches_of(const Dsdpv1User& user) {
+  arm::Switches switches;
+  for (const Name& text : user.switches) {
+    const Switch one = *parse_switch(text.text);
+    const auto bit = static_cast<std::uint16_t>(1U << one.pin);
+    switches.held.at(one.port) |= bit;
+    if (one.high) switches.levels.at(one.port) |= bit;
+  }
+  return switches;
+}
+
+/// The mailbox has room for so many.
+void check_objects(const scenario::Scenario& scenario, const scenario::Slave& slave, const arm::Firmware& firmware) {
+  const std::size_t count = slave.user_cpu.dpv1.objects.size();
+  if (firmware.mailbox && count > DSDPV1_MAILBOX_OBJECTS)
+    throw InputError(scenario.file, slave.user_cpu.dpv1.line,
+                     fmt::format("dpv1 has {} objects, allowed on an ARM board are {}", count, DSDPV1_MAILBOX_OBJECTS));
+}
+
+MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
+  const scenario::UserCpu& user = request.slave.user_cpu;
+  const Dsdpv1User& own = tb::own(user);
+  arm::BoardOptions options;
+  options.firmware = arm::load_firmware(scenario::resolve(request.scenario, own.elf));
+  if (!options.firmware->mailbox) {
+    Untold missing = untold(request.scenario, request.slave, options.firmware->path);
+    options.notes = std::move(missing.notes);
+    request.left_out.merge(missing.left_out);
+  }
+  check_objects(request.scenario, request.slave, *options.firmware);
+  options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(own.cpi * 1000);
+  if (own.fsmc) options.fsmc = static_cast<const user_cpu::FsmcOverride&>(*own.fsmc);
+  if (own.access) options.access = static_cast<const user_cpu::AccessTiming&>(*own.access);
+  options.switches = switches_of(own);
+  if (const GdbRequest* gdb = request.gdb) {
+    options.make_debugger = [gdb](arm::DebugTarget& target) {
+      return std::make_unique<arm::GdbServer>(target, arm::GdbOptions{gdb->port, gdb->stopped, gdb->say});
+    };
+  }
+  return [&user, &chip, options](const user_cpu::StationConfig& station, Tick start) {
+    arm::BoardOptions now = options;
+    now.program = program_options(user, station);
+    now.chip = [&chip](Tick at) -> const dsdpv1::Chip& {
+      chip.sync(at);
+      return chip.core();
+    };
+    const auto set_chip_reset = [&chip](Tick at, bool level) { chip.set_reset(at, level); };
+    return std::make_unique<arm::Board>(chip.host_bus(), std::move(now), set_chip_reset, start);
+  };
+}
+
+}  // namespace
+
+void add_arm_board() { set_arm_maker(arm_user); }
+
+}  // namespace tb

@@ -1,0 +1,205 @@
+#!/usr/bin/env python3
+"""docs/licences.md against what the build puts into each program, the lists of packages, and REUSE.toml.
+
+    check_licences.py BUILD_FOLDER [--root FOLDER]
+
+One line a fault, exit 1 when there is any. Files are given to Debian's packages by dpkg.
+"""
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import tomllib
+
+import ninja_build
+
+PAGE = "docs/licences.md"
+TABLE = re.compile(r"<!-- licences -->\n(.*?)<!-- /licences -->", re.S)
+LISTS = ("packages.txt", "requirements.txt", "requirements-test.txt")
+SEEN = ("linked", "compiled in")  # uses that the build shows; others are only said: embedded, loaded, run
+STRICT = "GPL-2.0-only"
+# What may be in one program with GPL-2.0-only: https://www.gnu.org/licenses/license-list.html, and docs/licences.md on Artistic-2.0 and GCC's.
+FITS_STRICT = {STRICT, "GPL-2.0-or-later", "LGPL-2.1-or-later", "GPL-2.0-only WITH Linux-syscall-note", "GPL-3.0-or-later WITH GCC-exception-3.1",
+               "Artistic-2.0", "MIT", "BSD-2-Clause", "BSD-3-Clause", "ISC", "Zlib", "BSL-1.0", "bzip2-1.0.6", "LicenseRef-Public-Domain"}
+
+
+class Row:
+    """A dependency as the page has it."""
+
+    def __init__(self, line):
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        self.what, packages, self.licence, self.use, into = cells
+        self.packages = re.findall(r"`([^`]+)`", packages)
+        self.into = {word.strip("` ") for word in into.split(",")} - {"", "-"}
+
+
+def rows_of(text):
+    table = TABLE.search(text)
+    return [Row(line) for line in table.group(1).splitlines()[2:] if line.startswith("|")] if table else []
+
+
+def fits(licence, allowed=frozenset(FITS_STRICT)):
+    """Whether one of the alternatives of an SPDX expression has allowed licences only."""
+    return any(all(term.strip() in allowed for term in one.split(" AND ")) for one in licence.split(" OR "))
+
+
+def label_of(program):
+    """As the page calls it: tests are one, others go by their names."""
+    return "tests" if program.startswith("tests/") else pathlib.PurePosixPath(program).name
+
+
+def listed_packages(root):
+    """Package to the list that has it."""
+    found = {}
+    for name in LISTS:
+        for line in (root / name).read_text(encoding="utf-8").splitlines():
+            word = line.split("#")[0].strip().split("==")[0]
+            if word:
+                found[word] = name
+    return found
+
+
+class Debian:
+    """Files and packages to source packages: a library, its headers and its runtime have one."""
+
+    def __init__(self, files, packages):
+        self._package_of = dict(self._owners(files))
+        self._source_of = self._sources(set(self._package_of.values()) | set(packages))
+
+    @staticmethod
+    def _owners(files):
+        wanted = {name: file for file in files for name in (file, file.removeprefix("/usr"))}  # /lib is /usr/lib
+        told = subprocess.run(["dpkg", "-S", *sorted(wanted)], capture_output=True, text=True, check=False).stdout if wanted else ""
+        for line in told.splitlines():
+            packages, _, file = line.rpartition(": ")
+            if file in wanted:
+                yield wanted[file], packages.split(",")[0].split(":")[0]
+
+    @staticmethod
+    def _sources(packages):
+        form = "${Package} ${source:Package}\n"
+        told = subprocess.run(["dpkg-query", "-W", "-f", form, *sorted(packages)], capture_output=True, text=True, check=False).stdout
+        return dict(line.split() for line in told.splitlines())
+
+    def source(self, package):
+        return self._source_of.get(package, package)
+
+    def source_of_file(self, file):
+        """None: belongs to no package."""
+        package = self._package_of.get(file)
+        return package and self.source(package)
+
+
+def foreign(program, root):
+    return {file for file in program.files | program.libraries if not file.startswith(f"{root}/")}
+
+
+def faults_of_program(name, found, rows, source):
+    """Its packages against the rows, and against each other. `found`: their sources; `source`: of a package of the page."""
+    label, mine = label_of(name), []
+    for each in sorted(found):
+        fitting = [row for row in rows if each in map(source, row.packages)]
+        mine += fitting
+        if not any(label in row.into for row in fitting):
+            yield f"{PAGE}:1: {name} contains {each}, which the table does not list for {label}"
+    mine += [row for row in rows if label in row.into and row.use not in SEEN and label != "tests"]
+    if any(row.licence == STRICT for row in mine):
+        for row in mine:
+            if not fits(row.licence):
+                yield f"{name} contains {row.what}, {row.licence}, which cannot be in one program with {STRICT}"
+
+
+def stale_rows(found, rows, source):
+    """What the page says of programs that do not have it (any more). `found`: label to sources of packages."""
+    for row in rows:
+        for label in sorted(row.into):
+            if label in found and row.use in SEEN and not found[label] & set(map(source, row.packages)):
+                yield f"{PAGE}:1: {label} contains nothing of {row.what}, but the table says so"
+
+
+def faults_of_lists(listed, found, rows, source):
+    """Packages that are installed against the rows."""
+    named = {package for row in rows for package in row.packages}
+    for package, where in listed.items():
+        if package not in named:
+            yield f"{where}: {package} has no row in {PAGE}"
+    for package in sorted(named):
+        if package not in listed and source(package) not in found:
+            yield f"{PAGE}:1: {package} is in none of {', '.join(LISTS)}, and in no program"
+
+
+def pattern_of(path):
+    """A path of REUSE.toml as a regular expression."""
+    parts = re.split(r"(\*\*|\*)", path)
+    return re.compile("".join({"**": ".*", "*": "[^/]*"}.get(part) or re.escape(part) for part in parts))
+
+
+class Reuse:
+    """The licences of the project's own files: the last rule that fits counts."""
+
+    def __init__(self, text):
+        self._rules = []
+        for rule in tomllib.loads(text)["annotations"]:
+            paths = [rule["path"]] if isinstance(rule["path"], str) else rule["path"]
+            self._rules += [(pattern_of(path), rule["SPDX-License-Identifier"]) for path in paths]
+
+    def licence(self, file):
+        return next((licence for pattern, licence in reversed(self._rules) if pattern.fullmatch(file)), "no licence")
+
+    def licences(self):
+        return {term for _, licence in self._rules for term in re.split(" OR | AND ", licence)}
+
+
+def faults_of_own(name, files, reuse):
+    """The project's own files in a program with something that is GPL-2.0-only."""
+    for file in sorted(files):
+        if not fits(reuse.licence(file)):
+            yield f"REUSE.toml: {file} is {reuse.licence(file)}, but is in {name}, which is {STRICT}"
+
+
+def faults_of_texts(root, reuse):
+    """The texts of the licences; LICENSE is where people and programs look first."""
+    texts = root / "LICENSES"
+    for licence in sorted(reuse.licences()):
+        if not (texts / f"{licence}.txt").is_file():
+            yield f"LICENSES/{licence}.txt: is missing, but REUSE.toml names it"
+    if (root / "LICENSE").read_bytes() != (texts / "Apache-2.0.txt").read_bytes():
+        yield "LICENSE: is not the text of LICENSES/Apache-2.0.txt"
+
+
+def own_files(program, root, build):
+    return {str(pathlib.PurePosixPath(file).relative_to(root)) for file in program.files
+            if file.startswith(f"{root}/") and not file.startswith(f"{build}/")}
+
+
+def check(root, build):
+    rows = rows_of((root / PAGE).read_text(encoding="utf-8"))
+    programs, listed = ninja_build.programs(build), listed_packages(root)
+    reuse = Reuse((root / "REUSE.toml").read_text(encoding="utf-8"))
+    debian = Debian({file for each in programs.values() for file in foreign(each, root)}, {package for row in rows for package in row.packages})
+    strict = {debian.source(package) for row in rows if row.licence == STRICT for package in row.packages}
+    found = {}
+    for name, program in programs.items():
+        sources = {debian.source_of_file(file) for file in foreign(program, root)} - {None}
+        found.setdefault(label_of(name), set()).update(sources)
+        yield from faults_of_program(name, sources, rows, debian.source)
+        if sources & strict and label_of(name) != "tests":
+            yield from faults_of_own(name, own_files(program, root, build), reuse)
+    yield from stale_rows(found, rows, debian.source)
+    yield from faults_of_lists(listed, set().union(*found.values()), rows, debian.source)
+    yield from faults_of_texts(root, reuse)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
+    arguments = parser.parse_args()
+    faults = list(check(arguments.root, arguments.build.resolve()))
+    print("\n".join(faults) if faults else "licences: right")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,104 @@
+"""What the build puts into each program, from build.ninja, ninja's notes of the headers, and the dynamic linker."""
+import dataclasses
+import os
+import pathlib
+import re
+import subprocess
+
+EDGE = re.compile(r"^build (?P<outputs>.*?)(?<!\$): (?P<rule>\S+)(?P<inputs>.*)$")
+LINKERS = re.compile(r"^(C|CXX)_(EXECUTABLE|SHARED_LIBRARY|MODULE_LIBRARY)_LINKER")
+LIBRARY_FOLDERS = ("/usr/lib", "/usr/local/lib")
+
+
+@dataclasses.dataclass
+class Edge:
+    rule: str
+    inputs: list  # explicit ones
+    libraries: list = dataclasses.field(default_factory=list)  # words of LINK_LIBRARIES
+
+
+@dataclasses.dataclass
+class Program:
+    libraries: set  # paths of system libraries on the link line, and of those that they need
+    files: set  # sources and headers, absolute
+
+
+def words_of(text):
+    return [word.replace("$ ", " ").replace("$:", ":") for word in re.findall(r"(?:\$.|\S)+", text)]
+
+
+def edges_of(text):
+    """First output to its edge."""
+    edges, last = {}, None
+    for line in text.splitlines():
+        match = EDGE.match(line)
+        if match:
+            last = Edge(match["rule"], words_of(match["inputs"].split("|")[0]))
+            edges[words_of(match["outputs"].split("|")[0])[0]] = last
+        elif line.startswith("  LINK_LIBRARIES =") and last:
+            last.libraries = words_of(line.split("=", 1)[1])
+    return edges
+
+
+def linked(edges):
+    """Programs and shared libraries."""
+    return sorted(name for name, edge in edges.items() if LINKERS.match(edge.rule))
+
+
+def objects_of(edges, name):
+    """The objects of a program: its own and all of the static libraries'."""
+    found, open_names, seen = set(), [name], set()
+    while open_names:
+        here = open_names.pop()
+        if here in seen or here not in edges:
+            continue
+        seen.add(here)
+        found.update(word for word in edges[here].inputs if word.endswith(".o"))
+        open_names += [word for word in edges[here].inputs + edges[here].libraries if word.endswith(".a")]
+    return found
+
+
+def system_libraries(edges, name):
+    """Of the link line, by path."""
+    found = set()
+    for word in edges[name].libraries:
+        if word.startswith("/"):
+            found.add(word)
+        elif word.startswith("-l"):
+            pattern = f"*/lib{word[2:]}.so"
+            found.update(str(path) for folder in LIBRARY_FOLDERS for path in pathlib.Path(folder).glob(pattern))
+    return found
+
+
+def notes_of(text):
+    """Object to the files that it was compiled from."""
+    notes, files = {}, []
+    for line in text.splitlines():
+        if line.startswith("    "):
+            files.append(line.strip())
+        elif ": #deps" in line:
+            files = notes[line.split(": #deps")[0]] = []
+    return notes
+
+
+def needed(path):
+    """What the dynamic linker would load with it, and what that needs in its turn."""
+    told = subprocess.run(["ldd", path], capture_output=True, text=True, check=False).stdout
+    return set(re.findall(r"=> (/\S+)", told))
+
+
+def absolute(folder, files):
+    return {os.path.normpath(os.path.join(folder, file)) for file in files}
+
+
+def programs(folder):
+    """Path of each program and shared library that was built, relative to `folder`, to what is in it."""
+    edges = edges_of((folder / "build.ninja").read_text(encoding="utf-8"))
+    notes = notes_of(subprocess.run(["ninja", "-C", folder, "-t", "deps"], capture_output=True, text=True, check=True).stdout)
+    made = {}
+    for name in linked(edges):
+        if (folder / name).exists():
+            files = set().union(*(notes.get(each, []) for each in objects_of(edges, name)))
+            libraries = system_libraries(edges, name) | needed(folder / name)
+            made[name] = Program(set(map(os.path.realpath, libraries)), absolute(folder, files))
+    return made
