@@ -1,6 +1,7 @@
-# Installs the core and the SystemC modules, so that
-#   find_package(dsdpv1)                   gives dsdpv1::core and dsdpv1::systemc
-#   find_package(dsdpv1 COMPONENTS core)   gives dsdpv1::core and needs no SystemC
+# Installs the core, the driver and the SystemC modules, so that
+#   find_package(dsdpv1)                     gives dsdpv1::core, dsdpv1::driver, dsdpv1::systemc and dsdpv1::driver_systemc
+#   find_package(dsdpv1 COMPONENTS core)     gives dsdpv1::core and needs no SystemC
+#   find_package(dsdpv1 COMPONENTS driver)   gives dsdpv1::driver, also without SystemC
 # Headers keep their paths: #include "model/dsdpv1/chip.hpp".
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -20,8 +21,9 @@ function(dsdpv1_install_targets component)
 endfunction()
 
 function(dsdpv1_install_headers)
-  install(DIRECTORY model registers DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR} COMPONENT dsdpv1
-          FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc" PATTERN "dsdpv1_regs.h" PATTERN "dsdpv1_regs.svh")
+  install(DIRECTORY model registers driver DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR} COMPONENT dsdpv1
+          FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc" PATTERN "dsdpv1*.h" PATTERN "dsdpv1_regs.svh"
+          PATTERN "*_internal.h" EXCLUDE)
 endfunction()
 
 function(dsdpv1_install_package)
@@ -38,7 +40,8 @@ endfunction()
 function(dsdpv1_install)
   # A static library records what it is linked with, so the warnings (no more than a list of compiler options) go along.
   dsdpv1_install_targets(core dsdpv1_warnings dsdpv1_registers dsdpv1_core)
-  dsdpv1_install_targets(systemc dsdpv1_systemc)
+  dsdpv1_install_targets(driver dsdpv1_driver)
+  dsdpv1_install_targets(systemc dsdpv1_systemc dsdpv1_driver_systemc)
   dsdpv1_install_headers()
   dsdpv1_install_package()
 endfunction()

@@ -4,7 +4,7 @@
     check_docs.py links            relative links and their anchors exist
     check_docs.py files            files named in backquotes exist
     check_docs.py table            README.md's table names every document of docs/
-    check_docs.py snippets         code in README.md is that of the example
+    check_docs.py snippets         code after a comment "from FILE" is in that file
     check_docs.py readme SIM       the demo's output in README.md is what dsdpv1-sim prints
     check_docs.py picture SIM      docs/img/power_on_12m.svg is drawn from what dsdpv1-sim writes
     check_docs.py update SIM       writes README.md and the picture anew
@@ -98,11 +98,11 @@ def check_table(root):
 
 
 def check_snippets(root):
-    path = root / "README.md"
-    text = path.read_text(encoding="utf-8")
-    for snippet in re.finditer(r"<!-- from (\S+) -->\n```\w*\n(.*?)^```", text, re.M | re.S):
-        if snippet.group(2) not in (root / snippet.group(1)).read_text(encoding="utf-8"):
-            yield fault(root, path, text, snippet.start(), f"this is not in {snippet.group(1)} (any more)")
+    for path in documents(root):
+        text = path.read_text(encoding="utf-8")
+        for snippet in re.finditer(r"<!-- from (\S+) -->\n```\w*\n(.*?)^```", text, re.M | re.S):
+            if snippet.group(2) not in (root / snippet.group(1)).read_text(encoding="utf-8"):
+                yield fault(root, path, text, snippet.start(), f"this is not in {snippet.group(1)} (any more)")
 
 
 DEMO = re.compile(r"(<!-- demo:.*?-->\n```\n)(.*?)(```\n<!-- /demo -->)", re.S)
