@@ -184,10 +184,10 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   Tick next_answered() const;
   void collect_character(Tick now);
   void emit_characters();
-  bool is_sendable(const BusCharacter& character);
-  void put_on_line(const BusCharacter& character);
+  bool is_sendable(const BusCharacter& character, Tick bit);
+  void put_on_line(const BusCharacter& character, Tick bit);
   Tick tick_of_bit(const BusCharacter& character, unsigned int bit) const;
-  bool put_in_run(const BusCharacter& character);
+  bool put_in_run(const BusCharacter& character, Tick start, Tick bit);
   void put_as_edges(const BusCharacter& character);
   void take_back_last_run();
 

@@ -16,7 +16,8 @@ std::uint64_t resolution_in_femtoseconds() {
   return static_cast<std::uint64_t>(std::llround(sc_core::sc_get_time_resolution().to_seconds() * 1e15));
 }
 
-std::uint64_t checked_resolution() {
+/// Out of line: what is asked for in each event stays small.
+[[gnu::cold, gnu::noinline]] std::uint64_t checked_resolution() {
   const std::uint64_t femtoseconds = resolution_in_femtoseconds();
   if (femtoseconds >= kFinest && femtoseconds <= kCoarsest) return femtoseconds;
   const std::string text =
@@ -29,7 +30,8 @@ std::uint64_t checked_resolution() {
 
 /// 250 ps in units of the simulation's resolution: SystemC takes powers of ten, so it is a whole number.
 std::uint64_t units_per_three_ticks() {
-  static const std::uint64_t units = kFsPerThreeTicks / checked_resolution();
+  static std::uint64_t units = 0;  // not a guarded constant: it is asked for several times in each event
+  if (units == 0) units = kFsPerThreeTicks / checked_resolution();
   return units;
 }
 
@@ -38,6 +40,13 @@ std::uint64_t units(Tick tick) {
   const std::uint64_t in_three = units_per_three_ticks();
   const std::uint64_t rest = (count % 3 * in_three + 1) / 3;  // thirds of a unit, rounded
   return count / 3 * in_three + rest;
+}
+
+/// The compiler divides by constants without dividing.
+template <std::uint64_t kInThree>
+Tick nearest_tick(std::uint64_t value) {
+  const std::uint64_t rest = (value % kInThree * 3 + kInThree / 2) / kInThree;
+  return static_cast<Tick>(value / kInThree * 3 + rest);
 }
 
 std::uint64_t units_until(Tick tick) {
@@ -62,9 +71,20 @@ void try_to_set_femtoseconds() {
 sc_core::sc_time to_time(Tick tick) { return sc_core::sc_time::from_value(units(tick)); }
 
 Tick to_tick(const sc_core::sc_time& time) {
-  const std::uint64_t value = time.value(), in_three = units_per_three_ticks();
-  const std::uint64_t rest = (value % in_three * 3 + in_three / 2) / in_three;
-  return static_cast<Tick>(value / in_three * 3 + rest);
+  const std::uint64_t in_three = units_per_three_ticks();
+  if (in_three == 250'000) return nearest_tick<250'000>(time.value());
+  if (in_three == 250) return nearest_tick<250>(time.value());
+  return in_three == 25'000 ? nearest_tick<25'000>(time.value()) : nearest_tick<2'500>(time.value());
+}
+
+/// Time stands still while much of what it is asked for happens.
+Tick current_tick() {
+  static std::uint64_t time = 0;
+  static Tick tick = 0;
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  if (now.value() == time) return tick;
+  time = now.value();
+  return tick = to_tick(now);
 }
 
 sc_core::sc_time time_until(Tick tick) { return sc_core::sc_time::from_value(units_until(tick)); }

@@ -20,7 +20,7 @@ sc_core::sc_time to_time(Tick tick);
 Tick to_tick(const sc_core::sc_time& time);
 
 /// The tick nearest to the present simulation time.
-inline Tick current_tick() { return to_tick(sc_core::sc_time_stamp()); }
+Tick current_tick();
 
 /// From the present simulation time to that of `tick`, zero when it is over.
 sc_core::sc_time time_until(Tick tick);
