@@ -9,11 +9,21 @@ include(CMakePackageConfigHelpers)
 set(DSDPV1_INSTALL_INCLUDEDIR ${CMAKE_INSTALL_INCLUDEDIR}/dsdpv1)
 set(DSDPV1_INSTALL_CMAKEDIR ${CMAKE_INSTALL_LIBDIR}/cmake/dsdpv1)
 
+# An archive of g++ that other compilers' programs link with, also where they optimise across files: templates' static members as weak
+# symbols, which every linker merges, not as GNU's unique ones; and machine code beside what g++ alone reads (-flto).
+function(dsdpv1_link_with_others target)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -fno-gnu-unique -ffat-lto-objects)
+  endif()
+endfunction()
+
 # dsdpv1_install_targets(COMPONENT targets...): dsdpv1_NAME becomes dsdpv1::NAME, listed in dsdpv1-COMPONENT-targets.cmake.
 function(dsdpv1_install_targets component)
   foreach(target ${ARGN})
     string(REPLACE dsdpv1_ "" name ${target})
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+    dsdpv1_link_with_others(${target})
   endforeach()
   install(TARGETS ${ARGN} EXPORT dsdpv1-${component}-targets COMPONENT dsdpv1
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
