@@ -13,11 +13,13 @@
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
+#include "apps/terminal.hpp"
 #include "apps/traces_command.hpp"
 #include "bus/baud.hpp"
 #include "bus/capture/link_type.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
+#include "tb/report/text_table.hpp"
 
 namespace app {
 namespace {
@@ -93,6 +95,8 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
   command->add_option("--report", arguments.report, kReportHelp);
+  command->add_option("--junit", arguments.junit,
+                      "The verdict for CI as JUnit's XML: a case for the run, its violations and each expectation");
   add_capture_options(*command, arguments.capture, arguments.capture_link);
   command
       ->add_option(
@@ -129,7 +133,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
           "  dsdpv1-sim run my.yaml --wave bus.vcd --wave-signals 'bus.*' --wave-signals '*.PB?XD' --wave-from 2ms\n"
           "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
           "  dsdpv1-sim run my.yaml --log my.jsonl\n"
-          "  dsdpv1-sim run my.yaml --report my.html\n"
+          "  dsdpv1-sim run my.yaml --report my.html --junit my.xml\n"
           "  dsdpv1-sim run my.yaml --capture my.pcapng --capture-link user0\n"
           "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
           "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
@@ -536,6 +540,15 @@ void describe_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       "\nExit codes: 0 all is confirmed or not shown, 1 something is contradicted, 2 wrong input, 130 interrupted.\n");
 }
 
+/// Before the command and after it.
+void add_color_option(CLI::App& app, std::string& word) {
+  std::vector<CLI::App*> all = app.get_subcommands([](const CLI::App*) { return true; });
+  all.push_back(&app);
+  for (CLI::App* each : all)
+    each->add_option("--color", word, "Verdicts in colour: auto (on a terminal, unless NO_COLOR is set), always, never")
+        ->capture_default_str();
+}
+
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -582,7 +595,7 @@ tb::CaptureRequest capture_request(const std::string& command, const std::string
   return {path, *number, "dsdpv1-sim " DSDPV1_VERSION};
 }
 
-int command_line(int argc, char** argv) {
+int command_line(int argc, char** argv, PrintableOutput& output) {
   CLI::App app("Cycle-accurate simulation of the DSDPV1 PROFIBUS-DP slave chip with its bus and its user CPU.",
                "dsdpv1-sim");
   app.set_version_flag("--version", "dsdpv1-sim " DSDPV1_VERSION);
@@ -623,12 +636,17 @@ int command_line(int argc, char** argv) {
   describe_traces(app, traces_arguments);
   RecoverArguments recover_arguments;
   describe_recover(app, recover_arguments);
+  std::string color = "auto";
+  add_color_option(app, color);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     throw tb::InputError(in_one_line(app, error, argc, argv));
   }
+  check_word("--color", color, {"auto", "always", "never"});
+  if (wants_colour(color)) output.paint();
+  const tb::TableWidth as_wide_as_the_terminal(terminal_columns());
   for (CampaignArguments* each : {&sweep_arguments.campaign, &regress_arguments.campaign})
     each->words.assign(argv + 1, argv + argc);
   if (app.got_subcommand("run")) return run(run_arguments);
