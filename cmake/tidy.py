@@ -18,6 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+OF_GCC_ALONE = (" -fno-gnu-unique", " -ffat-lto-objects")  # clang does not know them
 
 
 def output_of(*command):
@@ -39,6 +40,8 @@ def read_commands(build):
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         for source in sources_of(entry):
             command = entry["command"].replace(entry["file"], str(source))
+        for option in OF_GCC_ALONE:
+            command = command.replace(option, "")
             commands.setdefault(source, dict(entry, file=str(source), command=command))
     return commands
 

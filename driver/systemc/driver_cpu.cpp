@@ -11,8 +11,8 @@ DriverCpu& self(void* ctx) { return *static_cast<DriverCpu*>(ctx); }
 
 }  // namespace
 
-DriverCpu::DriverCpu(const sc_core::sc_module_name& name, Program program, const DriverCpuOptions& options)
-    : sc_module(name), program_(std::move(program)), options_(options), port_(make_port()), device_() {
+DriverCpu::DriverCpu(const sc_core::sc_module_name& name, Program program, DriverCpuOptions options)
+    : sc_module(name), program_(std::move(program)), options_(std::move(options)), port_(make_port()), device_() {
   dsdpv1_open(&device_, &port_, nullptr);
   payload_.set_data_length(1);
   payload_.set_streaming_width(1);

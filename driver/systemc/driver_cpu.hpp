@@ -50,7 +50,7 @@ class DriverCpu : public sc_core::sc_module {
   sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND> INTR0{"INTR0"};
 
   /// `program` begins at time 0, with all pins low; when it returns, the CPU does nothing any more.
-  DriverCpu(const sc_core::sc_module_name& name, Program program, const DriverCpuOptions& options = {});
+  DriverCpu(const sc_core::sc_module_name& name, Program program, DriverCpuOptions options = {});
 
   // What follows is for the program, in its thread.
 
