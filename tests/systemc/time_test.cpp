@@ -29,8 +29,9 @@ Tick random_tick() {
 
 /// By how many thirds of a unit the time of a tick is off.
 std::int64_t thirds_off(Tick tick) {
-  const std::int64_t exact = tick % 3 * units_per_three_ticks();
-  return 3 * (static_cast<std::int64_t>(to_time(tick).value()) - tick / 3 * units_per_three_ticks()) - exact;
+  const std::uint64_t whole =
+      static_cast<std::uint64_t>(tick) / 3 * static_cast<std::uint64_t>(units_per_three_ticks());
+  return 3 * static_cast<std::int64_t>(to_time(tick).value() - whole) - tick % 3 * units_per_three_ticks();
 }
 
 TEST(SimTime, TheTimeOfATickIsOffByAThirdOfTheResolutionAtMost) {
