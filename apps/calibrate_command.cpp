@@ -11,6 +11,7 @@
 #include "tb/dsdpv1/cosim/pin_map.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
+#include "tb/report/text_table.hpp"
 
 namespace app {
 namespace {
@@ -86,7 +87,10 @@ int calibrate(const CalibrateArguments& arguments) {
       calibrate::calibrate(file.name(), taker.record(), sampling_of(arguments, sampling), arguments.station);
   write_wanted(arguments.chip, calibrate::chip_block(result));
   write_wanted(arguments.json, calibrate::json(result));
-  write_wanted(arguments.table, calibrate::text(result, true));
+  {
+    const tb::TableWidth as_wide_as_they_need(tb::TableWidth::kUnlimited);
+    write_wanted(arguments.table, calibrate::text(result, true));
+  }
   if (!arguments.quiet) std::cout << calibrate::text(result, arguments.all);
   return result.agrees() ? kPassed : kFailed;
 }

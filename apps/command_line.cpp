@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 
 #include "apps/calibrate_command.hpp"
 #include "apps/compare_command.hpp"
@@ -13,11 +15,13 @@
 #include "apps/rtl_commands.hpp"
 #include "apps/serve_command.hpp"
 #include "apps/sweep_command.hpp"
+#include "apps/terminal.hpp"
 #include "apps/traces_command.hpp"
 #include "bus/baud.hpp"
 #include "bus/capture/link_type.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
+#include "tb/report/text_table.hpp"
 
 namespace app {
 namespace {
@@ -77,6 +81,22 @@ void add_campaign_options(CLI::App& command, CampaignArguments& arguments, const
   add_output_options(command, arguments.progress, arguments.quiet);
 }
 
+const char* const kRunExamples =
+    "\nExamples:\n"
+    "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
+    "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
+    "  dsdpv1-sim run my.yaml --wave bad.fst --wave-on violation --wave-around 50us --wave-clk\n"
+    "  dsdpv1-sim run my.yaml --wave my.fst --wave-inside --wave-save\n"
+    "  dsdpv1-sim run my.yaml --wave bus.vcd --wave-signals 'bus.*' --wave-signals '*.PB?XD' --wave-from 2ms\n"
+    "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
+    "  dsdpv1-sim run my.yaml --log my.jsonl\n"
+    "  dsdpv1-sim run my.yaml --report my.html --junit my.xml\n"
+    "  dsdpv1-sim run my.yaml --capture my.pcapng --capture-link user0\n"
+    "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
+    "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
+    "  dsdpv1-sim run scenarios/arm_board_12m.yaml --gdb 3333\n"
+    "  dsdpv1-sim run my.yaml --engine lockstep --difference both.vcd\n";
+
 void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* command = app.add_subcommand("run", "Carries out a scenario and judges it");
   command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md")->required();
@@ -94,6 +114,8 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command->add_option("--result", arguments.result, "Result and measurements as JSON");
   command->add_option("--report", arguments.report, kReportHelp);
+  command->add_option("--junit", arguments.junit,
+                      "The verdict for CI as JUnit's XML: a case for the run, its violations and each expectation");
   add_capture_options(*command, arguments.capture, arguments.capture_link);
   command
       ->add_option(
@@ -120,23 +142,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
           "TCP port (0: any free one) where gdb-multiarch attaches to the first ARM board; the run waits for it")
       ->check(CLI::Range(0, 65535));
   add_output_options(*command, arguments.progress, arguments.quiet);
-  command->footer(
-      std::string(
-          "\nExamples:\n"
-          "  dsdpv1-sim run scenarios/power_on_12m.yaml\n"
-          "  dsdpv1-sim run scenarios/power_on_9k6.yaml --wave slow.fst --log slow.log --result slow.json\n"
-          "  dsdpv1-sim run my.yaml --wave bad.fst --wave-on violation --wave-around 50us --wave-clk\n"
-          "  dsdpv1-sim run my.yaml --wave my.fst --wave-inside --wave-save\n"
-          "  dsdpv1-sim run my.yaml --wave bus.vcd --wave-signals 'bus.*' --wave-signals '*.PB?XD' --wave-from 2ms\n"
-          "  dsdpv1-sim run my.yaml --log my.log --log-whole\n"
-          "  dsdpv1-sim run my.yaml --log my.jsonl\n"
-          "  dsdpv1-sim run my.yaml --report my.html\n"
-          "  dsdpv1-sim run my.yaml --capture my.pcapng --capture-link user0\n"
-          "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
-          "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
-          "  dsdpv1-sim run scenarios/arm_board_12m.yaml --gdb 3333\n"
-          "  dsdpv1-sim run my.yaml --engine lockstep --difference both.vcd\n") +
-      kExitCodes);
+  command->footer(std::string(kRunExamples) + kExitCodes);
 }
 
 void describe_schema(CLI::App& app, SchemaArguments& arguments) {
@@ -537,6 +543,16 @@ void describe_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       "\nExit codes: 0 all is confirmed or not shown, 1 something is contradicted, 2 wrong input, 130 interrupted.\n");
 }
 
+/// Before the command and after it.
+void add_color_option(CLI::App& app, std::string& word) {
+  std::vector<CLI::App*> all = app.get_subcommands([](const CLI::App*) { return true; });
+  all.push_back(&app);
+  word = "auto";
+  for (CLI::App* each : all)
+    each->add_option("--color", word, "Verdicts in colour: auto (on a terminal, unless NO_COLOR is set), always, never")
+        ->capture_default_str();
+}
+
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -561,6 +577,26 @@ std::string in_one_line(const CLI::App& app, const CLI::ParseError& error, int a
   return "dsdpv1-sim " + first + ": " + text + ", see --help for what is allowed";
 }
 
+void describe_program(CLI::App& app) {
+  app.set_version_flag("--version", "dsdpv1-sim " DSDPV1_VERSION);
+  app.require_subcommand(1);
+  app.footer(std::string("\nExamples:\n  dsdpv1-sim run scenarios/power_on_12m.yaml --wave out.fst\n  dsdpv1-sim gsd "
+                         "scenarios/dsdpv1.gsd\n"
+                         "  dsdpv1-sim decode capture.txt\n  dsdpv1-sim run --help\n") +
+             kExitCodes);
+}
+
+/// What to return at once, after --help and --version.
+std::optional<int> parse(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    throw tb::InputError(in_one_line(app, error, argc, argv));
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void check_word(const std::string& option, const std::string& word, const std::vector<std::string>& allowed) {
@@ -571,6 +607,7 @@ void check_word(const std::string& option, const std::string& word, const std::v
 
 int baud_index(const std::string& option, const std::string& word) {
   std::vector<std::string> allowed;
+  allowed.reserve(std::size(bus::kBauds));
   for (const bus::Baud& baud : bus::kBauds) allowed.emplace_back(baud.name);
   check_word(option, word, allowed);
   return *bus::baud_index(word);
@@ -583,15 +620,10 @@ tb::CaptureRequest capture_request(const std::string& command, const std::string
   return {path, *number, "dsdpv1-sim " DSDPV1_VERSION};
 }
 
-int command_line(int argc, char** argv) {
+int command_line(int argc, char** argv, PrintableOutput& output) {
   CLI::App app("Cycle-accurate simulation of the DSDPV1 PROFIBUS-DP slave chip with its bus and its user CPU.",
                "dsdpv1-sim");
-  app.set_version_flag("--version", "dsdpv1-sim " DSDPV1_VERSION);
-  app.require_subcommand(1);
-  app.footer(std::string("\nExamples:\n  dsdpv1-sim run scenarios/power_on_12m.yaml --wave out.fst\n  dsdpv1-sim gsd "
-                         "scenarios/dsdpv1.gsd\n"
-                         "  dsdpv1-sim decode capture.txt\n  dsdpv1-sim run --help\n") +
-             kExitCodes);
+  describe_program(app);
   RunArguments run_arguments;
   SchemaArguments schema_arguments;
   GsdArguments gsd_arguments;
@@ -624,12 +656,12 @@ int command_line(int argc, char** argv) {
   describe_traces(app, traces_arguments);
   RecoverArguments recover_arguments;
   describe_recover(app, recover_arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    throw tb::InputError(in_one_line(app, error, argc, argv));
-  }
+  std::string color;
+  add_color_option(app, color);
+  if (const std::optional<int> status = parse(app, argc, argv)) return *status;
+  check_word("--color", color, {"auto", "always", "never"});
+  if (wants_colour(color)) output.paint();
+  const tb::TableWidth as_wide_as_the_terminal(terminal_columns());
   for (CampaignArguments* each : {&sweep_arguments.campaign, &regress_arguments.campaign})
     each->words.assign(argv + 1, argv + argc);
   if (app.got_subcommand("run")) return run(run_arguments);

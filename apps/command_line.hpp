@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/printable_output.hpp"
 #include "apps/wave_options.hpp"
 #include "tb/bench/capture_recorder.hpp"
 
@@ -19,7 +20,7 @@ constexpr int kInterrupted = 130;  ///< SIGINT or SIGTERM; all files are complet
 struct RunArguments {
   std::string scenario, engine = "skip", view = "pins", checks = "report";
   WaveArguments wave;
-  std::string log, result, trace, report;
+  std::string log, result, trace, report, junit;
   std::string capture, capture_link = "profibus";
   std::string golden;                       ///< folder of golden traces, empty: not compared with them
   unsigned fault = 0;                       ///< of rtl_ref/faults.txt, 0: none
@@ -65,7 +66,8 @@ int baud_index(const std::string& option, const std::string& word);
 /// What --capture and --capture-link ask for; `command` as "dsdpv1-sim run". Throws tb::InputError.
 tb::CaptureRequest capture_request(const std::string& command, const std::string& path, const std::string& link);
 
-/// Parses the command line and carries it out; returns the exit code.
-int command_line(int argc, char** argv);
+/// Parses the command line and carries it out; returns the exit code. `output` is painted when the terminal or --color
+/// wants it.
+int command_line(int argc, char** argv, PrintableOutput& output);
 
 }  // namespace app

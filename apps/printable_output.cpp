@@ -1,9 +1,11 @@
 #include "apps/printable_output.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <streambuf>
 #include <string>
 
+#include "apps/terminal.hpp"
 #include "bus/printable.hpp"
 
 namespace app {
@@ -19,6 +21,8 @@ class PrintableOutput::Filter : public std::streambuf {
   }
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
+
+  void paint() { paints_ = true; }
 
  protected:
   int_type overflow(int_type c) override {
@@ -38,20 +42,38 @@ class PrintableOutput::Filter : public std::streambuf {
 
  private:
   bool pass_on(std::size_t count) {
-    const std::string text = bus::printable_lines(std::string_view(waiting_).substr(0, count));
+    std::string text = bus::printable_lines(std::string_view(waiting_).substr(0, count));
+    if (paints_) text = painted_lines(text);
     waiting_.erase(0, count);
     const auto size = static_cast<std::streamsize>(text.size());
     return to_->sputn(text.data(), size) == size;
   }
 
+  /// Of a line that comes in pieces only the first is looked at.
+  std::string painted_lines(const std::string& text) {
+    std::string all;
+    for (std::size_t from = 0; from < text.size();) {
+      const std::size_t end = std::min(text.find('\n', from), text.size());
+      const std::string line = text.substr(from, end - from);
+      all += at_beginning_ ? painted(line) : line;
+      at_beginning_ = end < text.size();
+      if (at_beginning_) all += '\n';
+      from = end + 1;
+    }
+    return all;
+  }
+
   std::ostream& stream_;
   std::streambuf* to_;
   std::string waiting_;
+  bool paints_ = false, at_beginning_ = true;
 };
 
 PrintableOutput::PrintableOutput()
     : out_(std::make_unique<Filter>(std::cout)), err_(std::make_unique<Filter>(std::cerr)) {}
 
 PrintableOutput::~PrintableOutput() = default;
+
+void PrintableOutput::paint() { out_->paint(); }
 
 }  // namespace app

@@ -14,6 +14,9 @@ class PrintableOutput {
   PrintableOutput(const PrintableOutput&) = delete;
   PrintableOutput& operator=(const PrintableOutput&) = delete;
 
+  /// From now on lines of std::cout are painted() (apps/terminal.hpp), after that.
+  void paint();
+
  private:
   class Filter;
   std::unique_ptr<Filter> out_, err_;

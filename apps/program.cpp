@@ -17,9 +17,9 @@
 namespace {
 
 int carry_out(int argc, char** argv) {
-  const app::PrintableOutput printable;
+  app::PrintableOutput output;
   try {
-    return app::command_line(argc, argv);
+    return app::command_line(argc, argv, output);
   } catch (const tb::InputError& error) {
     std::fprintf(stderr, "%s\n", bus::printable(error.what()).c_str());
     return app::kWrongInput;

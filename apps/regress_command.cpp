@@ -11,12 +11,14 @@
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "apps/regress_jobs.hpp"
+#include "apps/terminal.hpp"
 #include "tb/campaign/fingerprint.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/output/output_file.hpp"
 #include "tb/output/write_file.hpp"
 #include "tb/regress/page.hpp"
 #include "tb/regress/tables.hpp"
+#include "tb/report/text_table.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace app {
@@ -105,8 +107,12 @@ void write_report(const RegressArguments& arguments, const Report& report, const
     junit->write(tb::regress::junit(report));
     junit->commit();
   }
+  const bool to_terminal = terminal_columns() != tb::TableWidth::kUnlimited;
   if (!arguments.campaign.quiet)
-    std::cout << (arguments.json ? tb::regress::json(report) : tb::regress::tsv(report)) << std::flush;
+    std::cout << (arguments.json ? tb::regress::json(report)
+                  : to_terminal  ? tb::regress::table(report)
+                                 : tb::regress::tsv(report))
+              << std::flush;
   std::cerr << "regression: " << tb::regress::summary(report) << "; " << index << "\n";
 }
 

@@ -24,6 +24,7 @@
 #include "tb/report/html/report_file.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/result_json.hpp"
+#include "tb/report/run_junit.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/traces/golden_run.hpp"
 
@@ -87,11 +88,21 @@ struct LockstepSteps {
   std::function<bool()> report;               ///< while the bench still stands; false: they differ
 };
 
+/// `of_golden`: what the comparison with a golden trace says; empty when there was none.
+std::string junit_of(const tb::RunResult& result, const std::string& of_golden, bool same) {
+  std::vector<tb::JunitCase> cases = tb::run_cases(result);
+  if (!of_golden.empty())
+    cases.push_back({result.file, "golden trace", 0, same ? std::nullopt : std::optional(of_golden), of_golden});
+  return tb::junit("dsdpv1-sim run", cases);
+}
+
 int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, tb::RunOptions options,
                  std::unique_ptr<tb::Execution> execution, const LockstepSteps& lockstep = {}) {
   tb::traces::GoldenRun golden(arguments.golden, scenario, execution->segment(), options);
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
+  std::optional<tb::OutputFile> junit_file;
+  if (!arguments.junit.empty()) junit_file.emplace(arguments.junit);
   std::optional<tb::html::ReportFile> report_file;
   if (!arguments.report.empty()) report_file.emplace(arguments.report, scenario, options);
   tb::Bench bench(scenario, options, std::move(execution));
@@ -112,8 +123,14 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
   if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
   const bool ran_through = !lockstep.report || lockstep.report();
   if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << std::flush;
-  if (result.interrupted && golden.same()) return kInterrupted;
-  if (ran_through) std::cout << golden.report() << std::flush;
+  const bool broken_off = result.interrupted && golden.same();
+  const std::string of_golden = ran_through && !broken_off ? golden.report() : "";
+  std::cout << of_golden << std::flush;
+  if (junit_file) {
+    junit_file->write(junit_of(result, of_golden, golden.same()));
+    junit_file->commit();
+  }
+  if (broken_off) return kInterrupted;
   return result.passed && golden.same() ? kPassed : kFailed;
 }
 
@@ -158,6 +175,7 @@ void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenari
   outputs.push_back({"--log", arguments.log});
   outputs.push_back({"--result", arguments.result});
   outputs.push_back({"--report", arguments.report});
+  outputs.push_back({"--junit", arguments.junit});
   outputs.push_back({"--trace", arguments.trace});
   outputs.push_back({"--capture", arguments.capture});
   outputs.push_back({"--difference", arguments.engine == "lockstep" ? arguments.difference : ""});

@@ -18,6 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+OF_GCC_ALONE = (" -fno-gnu-unique", " -ffat-lto-objects")  # clang does not know them
 
 
 def output_of(*command):
@@ -33,12 +34,18 @@ def sources_of(entry):
     return [Path(name).resolve() for name in names]
 
 
+def for_clang(command):
+    for option in OF_GCC_ALONE:
+        command = command.replace(option, "")
+    return command
+
+
 def read_commands(build):
     """Source -> its entry in the compile database, as if compiled alone; of one that is compiled twice, the first."""
     commands = {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         for source in sources_of(entry):
-            command = entry["command"].replace(entry["file"], str(source))
+            command = for_clang(entry["command"].replace(entry["file"], str(source)))
             commands.setdefault(source, dict(entry, file=str(source), command=command))
     return commands
 

@@ -34,7 +34,7 @@ class WhileIn {
 
 ChipModule::ChipModule(const sc_core::sc_module_name& name, const ChipOptions& options)
     : sc_core::sc_module(name), due_("due"), options_(options), chip_(options.chip) {
-  require_femtoseconds();
+  require_resolution();
   if (options.phase < 0 || options.phase >= profibus::kTicksPerCycle) {
     const std::string text = "phase is " + std::to_string(options.phase) + " ticks, allowed is 0 to 249";
     SC_REPORT_ERROR("/dsdpv1/phase", text.c_str());

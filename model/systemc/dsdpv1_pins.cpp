@@ -58,7 +58,7 @@ void PinModule::evaluate() {
 void PinModule::begin() {
   user_d_ = user_level(D.read());
   drive_pins(kOutputPins);
-  due_.notify(sc_core::sc_time(1, sc_core::SC_FS));  // when the delta cycles of time 0 are over
+  due_.notify(sc_core::sc_time::from_value(1));  // when the delta cycles of time 0 are over
 }
 
 void PinModule::clock_edge() {

@@ -1,7 +1,6 @@
 #pragma once
 // The chip as a SystemC module with the pins of table 1.
 //
-//   dsdpv1::systemc::require_femtoseconds();     // first thing in sc_main
 //   dsdpv1::systemc::PinModule chip("chip");
 //   chip.RESET(reset); chip.R_REQ(r_req); ...    // CLK may be left unbound
 //

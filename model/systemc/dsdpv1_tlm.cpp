@@ -23,6 +23,9 @@ bool is_enabled(const tlm::tlm_generic_payload& payload, unsigned int index) {
   return enables == nullptr || enables[index % payload.get_byte_enable_length()] == TLM_BYTE_ENABLED;
 }
 
+/// The platform's initiators take the delay that b_transport returns for time that has passed.
+bool is_decoupled() { return tlm::tlm_global_quantum::instance().get() > sc_core::SC_ZERO_TIME; }
+
 /// TLM_OK_RESPONSE for a transaction that can be carried out.
 tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload) {
   const unsigned int length = payload.get_data_length();
@@ -84,12 +87,14 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
     carry_out_ahead(payload, delay);
     return;
   }
-  // The chip lives in simulation time: an initiator that runs ahead of it (quantum) is brought back to it here.
+  const unsigned int first = is_decoupled() ? carry_out_bytes_ahead(payload, delay) : 0;
+  if (first == payload.get_data_length()) return;
+  // The chip lives in simulation time: an initiator that runs ahead of it is brought back to it here.
   if (delay != sc_core::SC_ZERO_TIME) wait(delay);
   delay = sc_core::SC_ZERO_TIME;
   host_bus_.lock();
   try {
-    carry_out(payload);
+    carry_out(payload, first);
   } catch (const sc_core::sc_unwind_exception&) {
     release_host_pins();
     host_bus_.unlock();
@@ -98,23 +103,36 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
   host_bus_.unlock();
 }
 
-/// Until the end of the access the kernel has nothing to do and the user owns the DPRAM, so that nobody can tell when
-/// it was carried out; the core is ahead of simulation time then, and whatever comes next finds it at the tick it is
-/// at.
 void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
   payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
-  if (payload.get_data_length() != 1 || !is_enabled(payload, 0)) return;
-  unsigned char& byte = *payload.get_data_ptr();
-  const auto address = static_cast<std::uint16_t>(payload.get_address());
+  if (payload.get_data_length() == 1 && is_enabled(payload, 0)) carry_out_byte_ahead(payload, 0, delay);
+}
+
+/// The index of the first byte that has to wait for simulation time; the length when the transaction is over.
+unsigned int TlmModule::carry_out_bytes_ahead(Payload& payload, sc_core::sc_time& delay) {
+  const unsigned int length = payload.get_data_length();
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  for (unsigned int i = 0; i < length && payload.is_response_ok(); ++i)
+    if (is_enabled(payload, i) && !carry_out_byte_ahead(payload, i, delay)) return i;
+  return length;
+}
+
+/// Until the end of the access the kernel has nothing to do and the user owns the DPRAM, so that nobody can tell when
+/// it was carried out; the core is ahead of simulation time then, and whatever comes next finds it at the tick it is
+/// at. False: nothing is done.
+bool TlmModule::carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay) {
+  unsigned char& byte = payload.get_data_ptr()[index];
+  const auto address = static_cast<std::uint16_t>(payload.get_address() + index);
   const HostAccess& access = maker_.make(payload.is_write(), address, byte, timing_of(payload));
   const Tick begin = to_tick(sc_core::sc_time_stamp() + delay), end = begin + access.duration();
   Level sampled = kLevelX;
-  if (!is_alone(begin, end) || !ChipModule::carry_out(chip_tick(begin), access, sampled)) return;
+  if (!is_alone(begin, end) || !ChipModule::carry_out(chip_tick(begin), access, sampled)) return false;
   plan(chip_now(), chip().next_seen());  // that a write settles is no event of its own
   delay = time_until(end);
   if (payload.is_read() && sampled >= 0) byte = static_cast<unsigned char>(sampled);
   payload.set_response_status(payload.is_write() || sampled >= 0 ? tlm::TLM_OK_RESPONSE
                                                                  : tlm::TLM_GENERIC_ERROR_RESPONSE);
+  return true;
 }
 
 bool TlmModule::is_alone(Tick begin, Tick end) {
@@ -124,11 +142,11 @@ bool TlmModule::is_alone(Tick begin, Tick end) {
   return true;
 }
 
-void TlmModule::carry_out(Payload& payload) {
+void TlmModule::carry_out(Payload& payload, unsigned int first) {
   const AccessTiming& timing = timing_of(payload);
   access_start_ = current_tick() + std::max<Tick>(0, chip().now() - chip_tick(current_tick()));  // accesses run ahead
   unsigned char* data = payload.get_data_ptr();
-  for (unsigned int i = 0; i < payload.get_data_length(); ++i) {
+  for (unsigned int i = first; i < payload.get_data_length(); ++i) {
     if (!is_enabled(payload, i)) continue;
     const auto address = static_cast<std::uint16_t>(payload.get_address() + i);
     if (payload.is_write() ? !write_byte(address, timing, data[i]) : !read_byte(address, timing, data[i])) {

@@ -1,7 +1,6 @@
 #pragma once
 // The chip as a SystemC module with TLM-2.0 sockets: the host port as a target socket, the bus as characters.
 //
-//   dsdpv1::systemc::require_femtoseconds();     // first thing in sc_main
 //   dsdpv1::systemc::TlmModule chip("chip");
 //   cpu.socket.bind(chip.host_socket);
 //   chip.RESET(reset); chip.R_REQ(r_req); chip.R_STA(r_sta); chip.L_REQ(l_req); chip.L_STA(l_sta);
@@ -91,6 +90,9 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   ///   a byte outside of the DPRAM                            TLM_ADDRESS_ERROR_RESPONSE, nothing accessed
   ///   neither read nor write                                 TLM_COMMAND_ERROR_RESPONSE
   ///   X or Z read, table 15 violated by a write              TLM_GENERIC_ERROR_RESPONSE, the burst ends there
+  /// With a global quantum (tlm_global_quantum) other than zero b_transport does not wait for an access of the DPRAM's
+  /// owner up to whose end nothing else happens in the simulation: its time is in the delay that comes back. Before an
+  /// initiator moves R_REQ, R_STA or RESET, or looks at an output, it waits for its delay.
   /// Access without ownership is carried out and reported (P12). Debug transport reads and writes the DPRAM past the
   /// pins; direct memory access is denied.
   tlm_utils::simple_target_socket<TlmModule> host_socket{"host_socket"};
@@ -145,8 +147,10 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   unsigned int transport_dbg(Payload& payload);
 
   void carry_out_ahead(Payload& payload, sc_core::sc_time& delay);
+  unsigned int carry_out_bytes_ahead(Payload& payload, sc_core::sc_time& delay);
+  bool carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay);
   bool is_alone(Tick begin, Tick end);
-  void carry_out(Payload& payload);
+  void carry_out(Payload& payload, unsigned int first);
   const AccessTiming& timing_of(const Payload& payload) const;
   bool read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte);
   bool write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte);
@@ -180,10 +184,10 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   Tick next_answered() const;
   void collect_character(Tick now);
   void emit_characters();
-  bool is_sendable(const BusCharacter& character);
-  void put_on_line(const BusCharacter& character);
+  bool is_sendable(const BusCharacter& character, Tick bit);
+  void put_on_line(const BusCharacter& character, Tick bit);
   Tick tick_of_bit(const BusCharacter& character, unsigned int bit) const;
-  bool put_in_run(const BusCharacter& character);
+  bool put_in_run(const BusCharacter& character, Tick start, Tick bit);
   void put_as_edges(const BusCharacter& character);
   void take_back_last_run();
 

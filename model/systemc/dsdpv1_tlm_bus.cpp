@@ -17,22 +17,23 @@ std::ostream& operator<<(std::ostream& out, const BusCharacter& character) {
 // --- characters to the line ------------------------------------------------------------------------------------------
 
 void TlmModule::write(const BusCharacter& character) {
-  if (!is_sendable(character)) return;
-  put_on_line(character);
+  const Tick bit = to_tick(character.bit);
+  if (!is_sendable(character, bit)) return;
+  put_on_line(character, bit);
   plan();
 }
 
-bool TlmModule::is_sendable(const BusCharacter& character) {
+bool TlmModule::is_sendable(const BusCharacter& character, Tick bit) {
   const char* fault = nullptr;
   if (character.start < sc_core::sc_time_stamp()) fault = "begins in the past, it is not sent";
-  if (to_tick(character.bit) <= 0) fault = "has no bit time, it is not sent";
+  if (bit <= 0) fault = "has no bit time, it is not sent";
   if (fault == nullptr) return true;
   const std::string text = std::string(name()) + ": character at " + character.start.to_string() + " " + fault;
   SC_REPORT_WARNING("/dsdpv1/bus", text.c_str());
   return false;
 }
 
-void TlmModule::put_on_line(const BusCharacter& character) {
+void TlmModule::put_on_line(const BusCharacter& character, Tick bit) {
   const Tick start = chip_tick(to_tick(character.start));
   if (start < line_busy_until_) {
     const std::string text = std::string(name()) + ": character at " + character.start.to_string() +
@@ -40,7 +41,7 @@ void TlmModule::put_on_line(const BusCharacter& character) {
     SC_REPORT_WARNING("/dsdpv1/bus", text.c_str());
     take_back_last_run();
   }
-  if (!put_in_run(character)) put_as_edges(character);
+  if (!put_in_run(character, start, bit)) put_as_edges(character);
 }
 
 /// The chip's tick nearest to the start of a bit, or of what comes behind the last.
@@ -50,8 +51,7 @@ Tick TlmModule::tick_of_bit(const BusCharacter& character, unsigned int bit) con
 
 /// A right character whose bits are whole cycles goes on with the run before it, or begins one. Who adds up rounded
 /// times is some femtoseconds beside the ticks; as long as the nearest tick is right at both ends, it is in between.
-bool TlmModule::put_in_run(const BusCharacter& character) {
-  const Tick start = tick_of_bit(character, 0), bit = to_tick(character.bit);
+bool TlmModule::put_in_run(const BusCharacter& character, Tick start, Tick bit) {
   const bool exact = tick_of_bit(character, profibus::kBitsPerCharacter) == start + profibus::kBitsPerCharacter * bit &&
                      bit % profibus::kTicksPerCycle == 0;
   if (!tells_runs() || !exact || !character.parity_ok || !character.stop_ok || start < line_busy_until_) return false;

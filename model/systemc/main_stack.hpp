@@ -13,7 +13,7 @@ namespace dsdpv1::systemc {
 /// inside of a SystemC thread, and in a build without AddressSanitizer.
 void announce_main_stack();
 
-/// The same once when the program ends, before leaks are looked for. `require_femtoseconds` calls it, so every program
+/// The same once when the program ends, before leaks are looked for. `require_resolution` calls it, so every program
 /// with a module has it.
 void announce_main_stack_at_exit();
 

@@ -1,5 +1,6 @@
 #include "model/systemc/sim_time.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "model/systemc/main_stack.hpp"
@@ -8,23 +9,53 @@ namespace dsdpv1::systemc {
 namespace {
 
 constexpr std::uint64_t kFsPerThreeTicks = 250'000;
+constexpr std::uint64_t kFinest = 1, kCoarsest = 1000;  ///< femtoseconds
 
-std::uint64_t femtoseconds(Tick tick) {
-  const auto count = static_cast<std::uint64_t>(tick);
-  const std::uint64_t rest = (count % 3 * kFsPerThreeTicks + 1) / 3;  // thirds of a femtosecond, rounded
-  return count / 3 * kFsPerThreeTicks + rest;
+/// Asking SystemC for its resolution fixes it.
+std::uint64_t resolution_in_femtoseconds() {
+  return static_cast<std::uint64_t>(std::llround(sc_core::sc_get_time_resolution().to_seconds() * 1e15));
 }
 
-std::uint64_t femtoseconds_until(Tick tick) {
-  const std::uint64_t time = femtoseconds(tick), now = sc_core::sc_time_stamp().value();
+/// Out of line: what is asked for in each event stays small.
+[[gnu::cold, gnu::noinline]] std::uint64_t checked_resolution() {
+  const std::uint64_t femtoseconds = resolution_in_femtoseconds();
+  if (femtoseconds >= kFinest && femtoseconds <= kCoarsest) return femtoseconds;
+  const std::string text =
+      "the SystemC time resolution is " + sc_core::sc_get_time_resolution().to_string() +
+      ", allowed is 1 fs to 1 ps (a tick of the chip is 83.3 ps): call sc_core::sc_set_time_resolution(1, "
+      "sc_core::SC_PS) before the first sc_time is made";
+  SC_REPORT_ERROR("/dsdpv1/time_resolution", text.c_str());
+  return kCoarsest;  // reports that do not throw
+}
+
+/// 250 ps in units of the simulation's resolution: SystemC takes powers of ten, so it is a whole number.
+std::uint64_t units_per_three_ticks() {
+  static std::uint64_t units = 0;  // not a guarded constant: it is asked for several times in each event
+  if (units == 0) units = kFsPerThreeTicks / checked_resolution();
+  return units;
+}
+
+std::uint64_t units(Tick tick) {
+  const auto count = static_cast<std::uint64_t>(tick);
+  const std::uint64_t in_three = units_per_three_ticks();
+  const std::uint64_t rest = (count % 3 * in_three + 1) / 3;  // thirds of a unit, rounded
+  return count / 3 * in_three + rest;
+}
+
+/// The compiler divides by constants without dividing.
+template <std::uint64_t kInThree>
+Tick nearest_tick(std::uint64_t value) {
+  const std::uint64_t rest = (value % kInThree * 3 + kInThree / 2) / kInThree;
+  return static_cast<Tick>(value / kInThree * 3 + rest);
+}
+
+std::uint64_t units_until(Tick tick) {
+  const std::uint64_t time = units(tick), now = sc_core::sc_time_stamp().value();
   return time > now ? time - now : 0;
 }
 
-/// Asking SystemC for its resolution fixes it, so this is for after an attempt to set it.
-bool resolution_is_femtosecond() { return sc_core::sc_get_time_resolution().to_seconds() < 2e-15; }
-
 /// SystemC refuses a second setting, also of the same value; its own text does not say who asked or what to do.
-void try_to_set_resolution() {
+void try_to_set_femtoseconds() {
   const sc_core::sc_report_handler_proc handler = sc_core::sc_report_handler::get_handler();
   sc_core::sc_report_handler::set_handler(
       [](const sc_core::sc_report& report, const sc_core::sc_actions&) { throw report; });
@@ -37,28 +68,42 @@ void try_to_set_resolution() {
 
 }  // namespace
 
-sc_core::sc_time to_time(Tick tick) { return sc_core::sc_time::from_value(femtoseconds(tick)); }
+sc_core::sc_time to_time(Tick tick) { return sc_core::sc_time::from_value(units(tick)); }
 
 Tick to_tick(const sc_core::sc_time& time) {
-  const std::uint64_t fs = time.value();
-  const std::uint64_t rest = (fs % kFsPerThreeTicks * 3 + kFsPerThreeTicks / 2) / kFsPerThreeTicks;
-  return static_cast<Tick>(fs / kFsPerThreeTicks * 3 + rest);
+  const std::uint64_t in_three = units_per_three_ticks();
+  if (in_three == 250'000) return nearest_tick<250'000>(time.value());
+  if (in_three == 250) return nearest_tick<250>(time.value());
+  return in_three == 25'000 ? nearest_tick<25'000>(time.value()) : nearest_tick<2'500>(time.value());
 }
 
-sc_core::sc_time time_until(Tick tick) { return sc_core::sc_time::from_value(femtoseconds_until(tick)); }
+/// Time stands still while much of what it is asked for happens.
+Tick current_tick() {
+  static std::uint64_t time = 0;
+  static Tick tick = 0;
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  if (now.value() == time) return tick;
+  time = now.value();
+  return tick = to_tick(now);
+}
 
-bool kernel_is_quiet(Tick tick) { return sc_core::sc_time_to_pending_activity().value() > femtoseconds_until(tick); }
+sc_core::sc_time time_until(Tick tick) { return sc_core::sc_time::from_value(units_until(tick)); }
+
+bool kernel_is_quiet(Tick tick) { return sc_core::sc_time_to_pending_activity().value() > units_until(tick); }
+
+void require_resolution() {
+  announce_main_stack_at_exit();  // here, as every program with a simulation comes by
+  checked_resolution();
+}
 
 void require_femtoseconds() {
-  announce_main_stack_at_exit();  // here, as every program with a simulation comes by
-
   static bool done = false;  // the resolution is a property of the process
-  if (!done) try_to_set_resolution();
-  done = resolution_is_femtosecond();
+  if (!done) try_to_set_femtoseconds();
+  done = resolution_in_femtoseconds() == 1;
   if (done) return;
   const std::string text =
       "the SystemC time resolution is fixed at " + sc_core::sc_get_time_resolution().to_string() +
-      ", 1 fs is needed: call dsdpv1::systemc::require_femtoseconds() before the first sc_time is made";
+      ", 1 fs is wanted: call dsdpv1::systemc::require_femtoseconds() before the first sc_time is made";
   SC_REPORT_ERROR("/dsdpv1/time_resolution", text.c_str());
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-// Where the core's ticks (1/12 ns) meet sc_time. Conversion always starts from the absolute tick count and is rounded
-// once, to 1 fs; two neighbouring ticks are at least 83333 fs apart, so tick -> time -> tick gives the tick back and
-// nothing drifts.
+// Where the core's ticks (1/12 ns) meet sc_time, at whatever resolution the simulation has, from 1 fs to 1 ps.
+// Conversion always starts from the absolute tick count and is rounded once, so nothing drifts: the time of a tick is
+// wrong by a third of the resolution at most, 333 fs at 1 ps. Two neighbouring ticks are 83 ps apart, so tick -> time
+// -> tick gives the tick back.
 #include <systemc>
 
 #include "model/profibus/time.hpp"
@@ -10,28 +11,33 @@ namespace dsdpv1::systemc {
 
 using profibus::Tick;
 
-/// The simulation time of `tick` (>= 0, up to the end of SystemC's time at 1 fs, 18446 s), rounded to the nearest
-/// femtosecond.
+/// The simulation time of `tick` (>= 0, up to the end of SystemC's time: 18446 s at 1 fs, a thousand times that at
+/// 1 ps), rounded to the nearest unit of the resolution. As all of these functions, it reports the error
+/// /dsdpv1/time_resolution at a resolution that is not allowed.
 sc_core::sc_time to_time(Tick tick);
 
-/// The tick nearest to `time`.
+/// The tick nearest to `time`, half way the later one.
 Tick to_tick(const sc_core::sc_time& time);
 
 /// The tick nearest to the present simulation time.
-inline Tick current_tick() { return to_tick(sc_core::sc_time_stamp()); }
+Tick current_tick();
 
-/// From the present simulation time to `tick`, zero when that is over.
+/// From the present simulation time to that of `tick`, zero when it is over.
 sc_core::sc_time time_until(Tick tick);
 
 /// But for the process that asks, the kernel has nothing to do up to and including `tick`: no process to run, no signal
 /// to update, no event to notify.
 bool kernel_is_quiet(Tick tick);
 
-/// Makes 1 fs the time resolution of the simulation. Reports the error /dsdpv1/time_resolution (which SystemC throws as
-/// sc_core::sc_report) when another one is fixed already, because an sc_time was made before. Every module of this
-/// library calls it when it is constructed; a program that makes an sc_time or sc_clock earlier calls it first in
-/// sc_main. (After a program's own sc_set_time_resolution(1, SC_FS) it works as well, but SystemC then counts one
-/// error: it offers no way to ask beforehand.)
+/// Fixes the time resolution of the simulation at what the program has set, or at SystemC's own 1 ps, and reports the
+/// error /dsdpv1/time_resolution (which SystemC throws as sc_core::sc_report) when it is not 1 fs to 1 ps. Every module
+/// of this library calls it when it is constructed.
+void require_resolution();
+
+/// For programs that want SystemC's finest resolution, which ends after 18446 s: makes 1 fs the time resolution, or
+/// reports the error /dsdpv1/time_resolution when another one is fixed already, because an sc_time or a module was made
+/// before. First thing in sc_main. (After a program's own sc_set_time_resolution(1, SC_FS) it works as well, but
+/// SystemC then counts one error: it offers no way to ask beforehand.)
 void require_femtoseconds();
 
 }  // namespace dsdpv1::systemc

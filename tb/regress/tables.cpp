@@ -7,6 +7,7 @@
 #include "bus/printable.hpp"
 #include "tb/campaign/fingerprint.hpp"
 #include "tb/report/junit.hpp"
+#include "tb/report/text_table.hpp"
 
 namespace tb::regress {
 namespace {
@@ -65,6 +66,17 @@ std::string tsv(const Report& report) {
                       folder_of(run, outcome)});
   }
   return text;
+}
+
+std::string table(const Report& report) {
+  TextTable table({"verdict", "scenario", "how", "seconds", "reason"});
+  for (std::size_t i = 0; i < report.outcomes.size(); ++i) {
+    const Run& run = report.plan.runs[i];
+    const Outcome& outcome = report.outcomes[i];
+    table.add(
+        {name(outcome.verdict), run.scenario, run.variant(), fmt::format("{:.3f}", outcome.seconds), outcome.reason});
+  }
+  return table.text();
 }
 
 std::string json(const Report& report) {

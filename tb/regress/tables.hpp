@@ -18,6 +18,8 @@ struct Report {
 
 /// A line a run with a heading, its fields separated by tabs. Control characters in them are shown as escapes.
 std::string tsv(const Report& report);
+/// The same for people: what fits a terminal (tb/report/text_table.hpp).
+std::string table(const Report& report);
 /// One JSON object with counts and runs.
 std::string json(const Report& report);
 /// JUnit's XML: a suite a scenario.

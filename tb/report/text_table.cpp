@@ -1,44 +1,140 @@
 #include "tb/report/text_table.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "bus/printable.hpp"
 
 namespace tb {
+namespace {
 
-void TextTable::add(std::vector<std::string> row) {
-  for (std::string& cell : row) cell = bus::printable(cell);
-  widths_.resize(std::max(widths_.size(), row.size()));
-  for (std::size_t i = 0; i < row.size(); ++i) widths_[i] = std::max(widths_[i], row[i].size());
-  rows_.push_back(std::move(row));
+std::size_t limit = TableWidth::kUnlimited;
+
+constexpr std::size_t kGap = 2;  ///< before each column
+
+/// In characters: bytes of UTF-8 that continue one do not count.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-std::string TextTable::text() const {
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t from = text.find_first_not_of(' '); from != std::string::npos;) {
+    const std::size_t end = std::min(text.find(' ', from), text.size());
+    words.push_back(text.substr(from, end - from));
+    from = text.find_first_not_of(' ', end);
+  }
+  return words;
+}
+
+std::size_t longest_word_of(const std::string& text) {
+  std::size_t longest = 0;
+  for (const std::string& word : words_of(text)) longest = std::max(longest, width_of(word));
+  return longest;
+}
+
+/// Between words; a word that is too long by itself stays.
+std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
+  if (width_of(text) <= width) return {text};
+  std::vector<std::string> lines;
+  for (const std::string& word : words_of(text))
+    if (!lines.empty() && width_of(lines.back()) + 1 + width_of(word) <= width)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+  return lines;
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(width - std::min(width, width_of(text)), ' ');
+}
+
+std::string without_end(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+std::size_t total(const std::vector<std::size_t>& widths) {
+  return std::accumulate(widths.begin(), widths.end(), widths.size() * kGap);
+}
+
+/// The widest that can be narrower becomes so, until all fit or none can.
+void narrow(std::vector<std::size_t>& widths, const std::vector<std::size_t>& least, std::size_t columns) {
+  while (total(widths) > columns) {
+    std::size_t widest = widths.size();
+    for (std::size_t i = 0; i < widths.size(); ++i)
+      if (widths[i] > least[i] && (widest == widths.size() || widths[i] > widths[widest])) widest = i;
+    if (widest == widths.size()) return;
+    --widths[widest];
+  }
+}
+
+/// A row, as many lines as its cell of most lines has.
+std::string row_text(const std::vector<std::string>& row, const std::vector<std::size_t>& widths) {
+  std::vector<std::vector<std::string>> cells;
+  std::size_t lines = 1;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    cells.push_back(wrapped(row[i], widths[i]));
+    lines = std::max(lines, cells.back().size());
+  }
   std::string text;
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    text += line(rows_[r]);
-    if (r == 0) text += rule();
+  for (std::size_t number = 0; number < lines; ++number) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line += std::string(kGap, ' ') + padded(number < cells[i].size() ? cells[i][number] : "", widths[i]);
+    text += without_end(line);
   }
   return text;
 }
 
-std::string TextTable::line(const std::vector<std::string>& row) const {
-  std::string text = " ";
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    const bool last = i + 1 == row.size();
-    text += last ? " " + row[i] : fmt::format(" {:<{}} ", row[i], widths_[i]);
-  }
-  text.erase(text.find_last_not_of(' ') + 1);
-  return text + "\n";
+}  // namespace
+
+TableWidth::TableWidth(std::size_t columns) : before_(std::exchange(limit, columns)) {}
+TableWidth::~TableWidth() { limit = before_; }
+
+void TextTable::add(std::vector<std::string> row) {
+  for (std::string& cell : row) cell = bus::printable(cell);
+  rows_.push_back(std::move(row));
 }
 
-std::string TextTable::rule() const {
-  std::string text = " ";
-  for (const std::size_t width : widths_) text += " " + std::string(width, '-') + " ";
-  text.pop_back();
-  return text + "\n";
+std::string TextTable::text() const {
+  Widths widths = widths_of(width_of);
+  narrow(widths, widths_of(longest_word_of), limit);
+  return total(widths) <= limit ? as_columns(widths) : as_blocks(limit);
+}
+
+TextTable::Widths TextTable::widths_of(std::size_t (*width)(const std::string& cell)) const {
+  Widths widths;
+  for (const auto& row : rows_) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+  }
+  return widths;
+}
+
+std::string TextTable::as_columns(const Widths& widths) const {
+  std::string rule;
+  for (const std::size_t width : widths) rule += std::string(kGap, ' ') + std::string(width, '-');
+  std::string text = row_text(rows_.front(), widths) + rule + "\n";
+  for (std::size_t i = 1; i < rows_.size(); ++i) text += row_text(rows_[i], widths);
+  return text;
+}
+
+/// The head's word before each cell, an empty line between two rows.
+std::string TextTable::as_blocks(std::size_t columns) const {
+  const std::vector<std::string>& head = rows_.front();
+  std::size_t name = 0;
+  for (const std::string& each : head) name = std::max(name, width_of(each));
+  const Widths widths = {name, columns > name + 2 * kGap ? columns - name - 2 * kGap : 1};
+  std::string text;
+  for (std::size_t i = 1; i < rows_.size(); ++i) {
+    if (i > 1) text += "\n";
+    for (std::size_t cell = 0; cell < std::min(head.size(), rows_[i].size()); ++cell)
+      text += row_text({head[cell], rows_[i][cell]}, widths);
+  }
+  return text;
 }
 
 }  // namespace tb

@@ -1,13 +1,29 @@
 #pragma once
 // A table for a terminal.
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace tb {
 
-/// Columns as wide as their widest cell, a rule under the head.
+/// How wide tables may be, for as long as it lives; the latest counts. Without one they are as wide as they need.
+class TableWidth {
+ public:
+  static constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+
+  explicit TableWidth(std::size_t columns);
+  ~TableWidth();
+  TableWidth(const TableWidth&) = delete;
+  TableWidth& operator=(const TableWidth&) = delete;
+
+ private:
+  std::size_t before_;
+};
+
+/// Columns as wide as their widest cell, a rule under the head. Where that is too wide the widest columns are wrapped
+/// between words; where that is not enough, each row becomes a block of lines, a cell each.
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> head) { add(std::move(head)); }
@@ -15,11 +31,13 @@ class TextTable {
   std::string text() const;
 
  private:
-  std::string line(const std::vector<std::string>& row) const;
-  std::string rule() const;
+  using Widths = std::vector<std::size_t>;
+
+  Widths widths_of(std::size_t (*width)(const std::string& cell)) const;
+  std::string as_columns(const Widths& widths) const;
+  std::string as_blocks(std::size_t columns) const;
 
   std::vector<std::vector<std::string>> rows_;
-  std::vector<std::size_t> widths_;
 };
 
 }  // namespace tb

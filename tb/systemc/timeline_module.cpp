@@ -14,7 +14,7 @@ constexpr bus::Tick kFarthest = 100 * bus::kTicksPerUs;
 
 TimelineModule::TimelineModule(const sc_core::sc_module_name& name, bus::Timeline& timeline)
     : sc_module(name), timeline_(timeline) {
-  dsdpv1::systemc::require_femtoseconds();
+  dsdpv1::systemc::require_resolution();
   SC_HAS_PROCESS(TimelineModule);
   SC_THREAD(run);
 }

@@ -36,6 +36,19 @@ TEST_F(Outputs, EveryCommandHasHelpWithExamples) {
   EXPECT_EQ(call("--version", folder_.path()).out.substr(0, 11), "dsdpv1-sim ");
 }
 
+TEST_F(Outputs, JunitHasTheRunItsViolationsAndEachExpectation) {
+  write("s.yaml", kScenario);
+  EXPECT_EQ(run("--junit j.xml --quiet").status, 0);
+  const std::string passed = read(folder_.file("j.xml"));
+  EXPECT_NE(passed.find(R"(tests="3" failures="0")"), std::string::npos) << passed;
+  EXPECT_NE(passed.find(R"(classname="s.yaml" name="line 9: )"), std::string::npos) << passed;
+  EXPECT_EQ(run("--junit j.xml --quiet --set end=100us").status, 1);
+  EXPECT_NE(read(folder_.file("j.xml")).find(R"(tests="3" failures="1")"), std::string::npos);
+  EXPECT_EQ(run("--junit s.yaml").status, 2) << "it would replace the scenario";
+  EXPECT_EQ(run("--junit none.xml --set baud=7M").status, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("none.xml")));
+}
+
 TEST_F(Outputs, ResultHoldsWhatItMust) {
   write("s.yaml", kScenario);
   const app_test::Called called = run("--result r.json --log l.txt");

@@ -4,7 +4,7 @@
     check_docs.py links            relative links and their anchors exist
     check_docs.py files            files named in backquotes exist
     check_docs.py table            README.md's table names every document of docs/
-    check_docs.py snippets         code in documents is that of the example
+    check_docs.py snippets         code after a comment "from FILE" is in that file
     check_docs.py readme SIM       the demo's output in README.md is what dsdpv1-sim prints
     check_docs.py picture SIM      docs/img/power_on_12m.svg is drawn from what dsdpv1-sim writes
     check_docs.py update SIM       writes README.md and the picture anew

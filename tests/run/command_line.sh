@@ -26,6 +26,13 @@ done
 grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
 [ "$("$run")" = "$help" ] || fail "without arguments it does not print the help"
 
+version=$("$run" --version) || fail "--version: exit $?"
+[[ $version =~ ^dsdpv1\ [0-9]+\.[0-9]+\.[0-9]+(\ \([^ ]+\))?$ ]] || fail "--version prints $version"
+[ "${version%% (*}" = "dsdpv1 $2" ] || fail "--version prints $version, this is $2"
+if git -C "$(dirname "$run")" rev-parse HEAD >/dev/null 2>&1; then
+  [[ $version == *"($(git -C "$(dirname "$run")" describe --always --abbrev=9)"*")" ]] || fail "--version names no commit: $version"
+fi
+
 refuses "allowed are demo test sim" dmeo
 refuses "allowed is --quick" test --fast
 refuses "allowed is --quick" test --quick again

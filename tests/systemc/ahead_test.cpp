@@ -143,7 +143,7 @@ void expect(const Outcome& outcome, tlm::tlm_response_status response, Tick took
 }  // namespace
 
 void simulate() {
-  dsdpv1::systemc::require_femtoseconds();
+  set_resolution();
   collect_reports();
   world = std::make_unique<World>("world");
   sc_core::sc_start(200, sc_core::SC_US);

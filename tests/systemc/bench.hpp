@@ -1,5 +1,6 @@
 #pragma once
 // What the SystemC benches have in common: a simulation runs once, before the tests, which look at what it recorded.
+#include <cstdlib>
 #include <ostream>
 #include <string>
 #include <systemc>
@@ -11,6 +12,13 @@
 
 /// Defined by every test program: builds its bench and runs it.
 void simulate();
+
+/// First thing in `simulate`: 1 fs, or as many of them as the environment says (DSDPV1_RESOLUTION_FS: 1, 10, 100, 1000;
+/// others for a resolution that is refused).
+inline void set_resolution() {
+  const char* femtoseconds = std::getenv("DSDPV1_RESOLUTION_FS");
+  sc_core::sc_set_time_resolution(femtoseconds != nullptr ? std::atof(femtoseconds) : 1, sc_core::SC_FS);
+}
 
 constexpr dsdpv1::Tick kNs = 12;
 constexpr dsdpv1::Tick kUs = 12'000;

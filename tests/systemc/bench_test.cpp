@@ -168,7 +168,7 @@ std::unique_ptr<TlmRun> tlm_run;
 }  // namespace
 
 void simulate() {
-  dsdpv1::systemc::require_femtoseconds();
+  set_resolution();
   collect_reports();
   tlm_run = std::make_unique<TlmRun>();
   sc_core::sc_start(dsdpv1::systemc::to_time(2 * kEnd));

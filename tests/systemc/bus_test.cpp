@@ -106,7 +106,7 @@ std::vector<std::pair<Tick, int>> edges(Tick from, Tick to) {
 }  // namespace
 
 void simulate() {
-  dsdpv1::systemc::require_femtoseconds();
+  set_resolution();
   collect_reports();
   world = std::make_unique<World>("world");
   sc_core::sc_start(400, sc_core::SC_US);

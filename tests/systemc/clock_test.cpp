@@ -47,7 +47,7 @@ std::unique_ptr<World> world;
 }  // namespace
 
 void simulate() {
-  dsdpv1::systemc::require_femtoseconds();
+  set_resolution();
   collect_reports();
   world = std::make_unique<World>();
   sc_core::sc_start(100, sc_core::SC_US);

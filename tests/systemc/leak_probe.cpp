@@ -33,7 +33,7 @@ void simulate() {
 }
 
 int sc_main(int argc, char* argv[]) {
-  dsdpv1::systemc::require_femtoseconds();
+  dsdpv1::systemc::require_resolution();
   const auto held = make_block();
   simulate();
   if (argc == 2 && std::strcmp(argv[1], "held") == 0) std::exit(EXIT_SUCCESS);

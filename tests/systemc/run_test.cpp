@@ -179,7 +179,7 @@ bool same(const profibus::Event& a, const profibus::Event& b) {
 }  // namespace
 
 void simulate() {
-  dsdpv1::systemc::require_femtoseconds();
+  set_resolution();
   collect_reports();
   line = std::make_unique<Line>("line");
   sc_core::sc_start(80, sc_core::SC_MS);

@@ -1,4 +1,8 @@
+// Ticks and simulation time, at the resolution that the environment gives: it is a property of the process.
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
 
 #include "model/systemc/bound_clock.hpp"
 #include "tests/systemc/bench.hpp"
@@ -9,30 +13,66 @@ using dsdpv1::systemc::to_tick;
 using dsdpv1::systemc::to_time;
 using sc_core::sc_time;
 
-void simulate() { dsdpv1::systemc::require_femtoseconds(); }
+void simulate() { set_resolution(); }
 
 namespace {
 
-TEST(SimTime, ATickIsRoundedOnceToTheNearestFemtosecond) {
-  EXPECT_EQ(to_time(1).value(), 83'333U);
-  EXPECT_EQ(to_time(2).value(), 166'667U);
-  EXPECT_EQ(to_time(3).value(), 250'000U);
-  EXPECT_EQ(to_time(250).value(), 20'833'333U);
-  EXPECT_EQ(to_time(12), sc_time(1, sc_core::SC_NS));
+/// Of the resolution: three ticks are 250 ps.
+std::int64_t femtoseconds() { return std::llround(sc_core::sc_get_time_resolution().to_seconds() * 1e15); }
+std::int64_t units_per_three_ticks() { return 250'000 / femtoseconds(); }
+
+/// Five hours at 1 fs, five thousand at 1 ps: what SystemC's time holds.
+Tick random_tick() {
+  static std::mt19937_64 random(20261124);
+  return static_cast<Tick>(random() % (18'000ULL * 12'000'000'000 * static_cast<std::uint64_t>(femtoseconds())));
+}
+
+/// By how many thirds of a unit the time of a tick is off.
+std::int64_t thirds_off(Tick tick) {
+  const std::uint64_t whole =
+      static_cast<std::uint64_t>(tick) / 3 * static_cast<std::uint64_t>(units_per_three_ticks());
+  return 3 * static_cast<std::int64_t>(to_time(tick).value() - whole) - tick % 3 * units_per_three_ticks();
+}
+
+TEST(SimTime, TheTimeOfATickIsOffByAThirdOfTheResolutionAtMost) {
+  const double unit = static_cast<double>(femtoseconds());
+  EXPECT_EQ(to_time(1).value(), static_cast<std::uint64_t>(std::llround(250'000.0 / 3 / unit)));
+  EXPECT_EQ(to_time(250).value(), static_cast<std::uint64_t>(std::llround(62'500'000.0 / 3 / unit)));
+  for (int i = 0; i < 100'000; ++i) {
+    const Tick tick = random_tick();
+    ASSERT_LE(std::abs(thirds_off(tick)), 1) << tick;
+  }
+}
+
+TEST(SimTime, ATickIsTheSameAfterTheWayToTimeAndBack) {
+  for (int i = 0; i < 100'000; ++i) {
+    const Tick tick = random_tick();
+    ASSERT_EQ(to_tick(to_time(tick)), tick);
+  }
 }
 
 TEST(SimTime, NothingDriftsOverHours) {
   const Tick hour = 3600LL * 12'000'000'000;
+  EXPECT_EQ(to_time(12), sc_time(1, sc_core::SC_NS));
   EXPECT_EQ(to_time(hour), sc_time(3600, sc_core::SC_SEC));
-  EXPECT_EQ(to_time(5 * hour).value(), 18'000'000'000'000'000'000U);
+  EXPECT_EQ(to_time(5 * hour).value(), 5 * to_time(hour).value());
   for (Tick tick = 5 * hour; tick < 5 * hour + 1000; ++tick) ASSERT_EQ(to_tick(to_time(tick)), tick);
 }
 
 TEST(SimTime, ATimeBetweenTicksGoesToTheNearest) {
-  EXPECT_EQ(to_tick(sc_time::from_value(83'334)), 1);
-  EXPECT_EQ(to_tick(sc_time::from_value(41'666)), 0);
-  EXPECT_EQ(to_tick(sc_time::from_value(41'667)), 1);
-  EXPECT_EQ(to_tick(sc_time::from_value(125'001)), 2);
+  const std::int64_t half = units_per_three_ticks() / 6;  // 41.7 ps, rounded down: still nearer to the tick
+  for (int i = 0; i < 100'000; ++i) {
+    const Tick tick = 3 + random_tick();
+    const std::uint64_t time = to_time(tick).value();
+    const auto beside = static_cast<std::uint64_t>(i % (half - 1));
+    ASSERT_EQ(to_tick(sc_time::from_value(time - beside)), tick) << beside;
+    ASSERT_EQ(to_tick(sc_time::from_value(time + beside)), tick) << beside;
+    ASSERT_NE(to_tick(sc_time::from_value(time + static_cast<std::uint64_t>(half) + 2)), tick);
+  }
+}
+
+TEST(SimTime, HalfWayBetweenTwoTicksIsTheLater) {
+  EXPECT_EQ(to_tick(sc_time::from_value(static_cast<std::uint64_t>(units_per_three_ticks() / 2))), 2);
 }
 
 TEST(BoundClock, CountsEdgesAndFollowsTimeBetweenThem) {

@@ -238,7 +238,7 @@ std::unique_ptr<World> world;
 }  // namespace
 
 void simulate() {
-  dsdpv1::systemc::require_femtoseconds();
+  set_resolution();
   collect_reports();
   world = std::make_unique<World>("world");
   sc_core::sc_start(200, sc_core::SC_US);

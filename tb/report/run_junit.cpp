@@ -1,0 +1,66 @@
+#include "tb/report/run_junit.hpp"
+
+#include <fmt/format.h>
+
+#include "tb/report/summary.hpp"
+#include "tb/report/text_table.hpp"
+
+namespace tb {
+namespace {
+
+std::string when(Tick tick) {
+  return fmt::format("{:.3f} us", static_cast<double>(tick) / static_cast<double>(bus::kTicksPerUs));
+}
+
+JunitCase case_of_run(const RunResult& result) {
+  const TableWidth as_wide_as_they_need(TableWidth::kUnlimited);
+  JunitCase made{result.file, fmt::format("run, engine {}, view {}", result.engine, result.view), result.wall_s,
+                 std::nullopt, summary(result)};
+  if (result.interrupted) made.failure = "interrupted at " + when(result.simulated);
+  return made;
+}
+
+std::string violations_text(const RunResult& result) {
+  std::string text = fmt::format("{} violations that the scenario does not allow\n", result.violations);
+  for (const Occurrence& each : result.occurrences)
+    if (each.severity == profibus::Severity::kViolation && !each.allowed)
+      text += fmt::format("{} {}: {}: {}\n", when(each.at), each.station, each.code, each.text);
+  for (const CheckResult& each : result.checks)
+    if (each.record.violations > each.allowed)
+      text += fmt::format("{}: {}: {} times: {}\n", each.slave, each.rule->id, each.record.violations - each.allowed,
+                          each.rule->rule);
+  return text;
+}
+
+JunitCase case_of_violations(const RunResult& result) {
+  JunitCase made{result.file, "no violation that the scenario does not allow", 0, std::nullopt, ""};
+  if (result.violations != 0) made.failure = violations_text(result);
+  return made;
+}
+
+JunitCase case_of(const RunResult& result, const ExpectationResult& expectation) {
+  JunitCase made{result.file, fmt::format("line {}: {}", expectation.line, expectation.text), 0, std::nullopt, ""};
+  if (expectation.left_out)
+    made.output = "left out: the firmware does not tell\n";
+  else if (!expectation.passed)
+    made.failure = "not met: " + expectation.text + "; seen: " + expectation.seen;
+  return made;
+}
+
+JunitCase case_of(const RunResult& result, const LockstepResult& lockstep) {
+  JunitCase made{result.file, "model and RTL are the same", 0, std::nullopt, ""};
+  if (const auto& difference = lockstep.difference)
+    made.failure = fmt::format("{} at {}: {}", difference->slave, when(difference->at), difference->what);
+  return made;
+}
+
+}  // namespace
+
+std::vector<JunitCase> run_cases(const RunResult& result) {
+  std::vector<JunitCase> cases = {case_of_run(result), case_of_violations(result)};
+  for (const ExpectationResult& each : result.expectations) cases.push_back(case_of(result, each));
+  if (result.lockstep) cases.push_back(case_of(result, *result.lockstep));
+  return cases;
+}
+
+}  // namespace tb

@@ -1,0 +1,95 @@
+// Tables as wide as they need, and as wide as a terminal.
+#include "tb/report/text_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace {
+
+using tb::TableWidth;
+using tb::TextTable;
+
+TextTable checks() {
+  TextTable table({"check", "count", "worst margin"});
+  table.add({"TIMING_TS", "40743", "56.917 ns measured, no limit"});
+  table.add({"HOLD", "7", "-"});
+  return table;
+}
+
+std::size_t widest_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t widest = 0;
+  for (std::string line; std::getline(lines, line);) widest = std::max(widest, line.size());
+  return widest;
+}
+
+TEST(TextTable, IsAsWideAsItsCells) {
+  EXPECT_EQ(checks().text(),
+            "  check      count  worst margin\n"
+            "  ---------  -----  ----------------------------\n"
+            "  TIMING_TS  40743  56.917 ns measured, no limit\n"
+            "  HOLD       7      -\n");
+}
+
+TEST(TextTable, WhereThatIsTooWideTheWidestColumnIsWrappedBetweenWords) {
+  const TableWidth width(36);
+  EXPECT_EQ(checks().text(),
+            "  check      count  worst margin\n"
+            "  ---------  -----  ----------------\n"
+            "  TIMING_TS  40743  56.917 ns\n"
+            "                    measured, no\n"
+            "                    limit\n"
+            "  HOLD       7      -\n");
+}
+
+TEST(TextTable, AsWideAsTheTerminalIsNotTooWide) {
+  const std::size_t natural = widest_line(checks().text());
+  const std::string whole = checks().text();
+  const TableWidth width(natural);
+  EXPECT_EQ(checks().text(), whole);
+}
+
+TEST(TextTable, WhereWordsAreTooWideEachRowIsABlock) {
+  const TableWidth width(24);
+  EXPECT_EQ(checks().text(),
+            "  check         TIMING_TS\n"
+            "  count         40743\n"
+            "  worst margin  56.917\n"
+            "                ns\n"
+            "                measured,\n"
+            "                no limit\n"
+            "\n"
+            "  check         HOLD\n"
+            "  count         7\n"
+            "  worst margin  -\n");
+}
+
+TEST(TextTable, TheLatestWidthCountsForAsLongAsItLives) {
+  const std::string whole = checks().text();
+  const TableWidth narrow(36);
+  {
+    const TableWidth unlimited(TableWidth::kUnlimited);
+    EXPECT_EQ(checks().text(), whole);
+  }
+  EXPECT_EQ(widest_line(checks().text()), 36U);
+}
+
+TEST(TextTable, ALetterOfSeveralBytesIsOneColumnWide) {
+  TextTable table({"name", "n"});
+  table.add({"\xC3\xA4\xC3\xB6\xC3\xBC", "1"});
+  EXPECT_THAT(table.text(), testing::HasSubstr("  \xC3\xA4\xC3\xB6\xC3\xBC   1\n"));
+}
+
+TEST(TextTable, SpacesThatAlignANumberStay) {
+  TextTable table({"time / us", "what"});
+  table.add({"    105.875", "ready"});
+  table.add({"   1361.750", "a text that is much too long for a line"});
+  const TableWidth width(40);
+  EXPECT_THAT(table.text(), testing::HasSubstr("      105.875  ready\n"));
+  EXPECT_LE(widest_line(table.text()), 40U);
+}
+
+}  // namespace

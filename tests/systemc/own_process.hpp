@@ -1,0 +1,56 @@
+#pragma once
+// SystemC has one time resolution, one quantum and one simulation a process: who wants to compare two starts others.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+/// The first line that is another, of both; empty when the texts are the same. For texts too long for EXPECT_EQ.
+inline std::string first_difference(const std::string& a, const std::string& b) {
+  if (a == b) return "";
+  std::istringstream in_a(a), in_b(b);
+  std::string line_a, line_b;
+  for (int number = 1;; ++number) {
+    const bool more = static_cast<bool>(std::getline(in_a, line_a)),
+               more_b = static_cast<bool>(std::getline(in_b, line_b));
+    if (!more || !more_b || line_a != line_b)
+      return "line " + std::to_string(number) + ": " + (more ? line_a : "the end") + " / " +
+             (more_b ? line_b : "the end");
+  }
+}
+
+/// Never returns: what the tests do after `body` is the business of the process that has started this one.
+[[noreturn]] inline void answer(const std::function<std::string()>& body, std::FILE* file) {
+  try {
+    const std::string text = body();
+    const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
+    _exit(written ? EXIT_SUCCESS : EXIT_FAILURE);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    _exit(EXIT_FAILURE);
+  }
+}
+
+/// What `body` returns, called in a process that begins as a copy of this one and ends after it. Throws when it ends in
+/// another way.
+inline std::string in_a_process_of_its_own(const std::function<std::string()>& body) {
+  std::FILE* file = std::tmpfile();
+  if (file == nullptr) throw std::runtime_error("no temporary file");
+  const pid_t child = fork();
+  if (child == 0) answer(body, file);
+  int status = 0;
+  waitpid(child, &status, 0);
+  std::string text;
+  std::rewind(file);
+  for (int character = std::fgetc(file); character != EOF; character = std::fgetc(file))
+    text += static_cast<char>(character);
+  std::fclose(file);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != EXIT_SUCCESS) throw std::runtime_error("the other process failed");
+  return text;
+}
