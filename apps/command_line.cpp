@@ -3,11 +3,13 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <iostream>
 #include <iterator>
 #include <optional>
 
 #include "apps/calibrate_command.hpp"
 #include "apps/compare_command.hpp"
+#include "apps/manual_command.hpp"
 #include "apps/reasons_command.hpp"
 #include "apps/recover_command.hpp"
 #include "apps/regress_command.hpp"
@@ -543,6 +545,24 @@ void describe_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       "\nExit codes: 0 all is confirmed or not shown, 1 something is contradicted, 2 wrong input, 130 interrupted.\n");
 }
 
+/// What is all of a command: it is printed, and the command line has succeeded.
+[[noreturn]] void print_and_succeed(const std::string& text) {
+  std::cout << text << std::flush;
+  throw CLI::Success();
+}
+
+void describe_manual(CLI::App& app) {
+  CLI::App* manual = app.add_subcommand("manual", "Prints the manual page of this program, in roff");
+  manual->footer("\nExample:\n  dsdpv1-sim manual | man -l -\n");
+  manual->callback([&app] { print_and_succeed(manual_page(app)); });
+  CLI::App* command = app.add_subcommand("completion", "Prints what completes this program's command line in a shell");
+  const CLI::Option* shell = command->add_option("SHELL", "bash or zsh")->required();
+  command->callback([&app, shell] { print_and_succeed(completion(app, shell->as<std::string>())); });
+  command->footer(
+      "\nExamples:\n  source <(dsdpv1-sim completion bash)\n"
+      "  dsdpv1-sim completion zsh > ~/.zfunc/_dsdpv1-sim\n");
+}
+
 /// Before the command and after it.
 void add_color_option(CLI::App& app, std::string& word) {
   std::vector<CLI::App*> all = app.get_subcommands([](const CLI::App*) { return true; });
@@ -656,6 +676,7 @@ int command_line(int argc, char** argv, PrintableOutput& output) {
   describe_traces(app, traces_arguments);
   RecoverArguments recover_arguments;
   describe_recover(app, recover_arguments);
+  describe_manual(app);
   std::string color;
   add_color_option(app, color);
   if (const std::optional<int> status = parse(app, argc, argv)) return *status;

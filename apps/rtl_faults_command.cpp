@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/command_line.hpp"
+#include "apps/data_folder.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "tb/dsdpv1/cosim/faults.hpp"
@@ -28,9 +29,11 @@ std::vector<NamedFile> with_files_of(const std::string& folder, std::vector<Name
 
 int rtl_faults(const RtlFaultsArguments& arguments) {
   leave_nothing_on_signals();
-  const auto given_or_own = [](const std::string& path, const char* own) { return path.empty() ? own : path; };
-  const std::string list = given_or_own(arguments.list, DSDPV1_SOURCE_DIR "/rtl_ref/faults.txt");
-  const std::string folder = given_or_own(arguments.directed, DSDPV1_SOURCE_DIR "/tests/cosim/stimuli");
+  const auto given_or_own = [](const std::string& path, const char* own) {
+    return path.empty() ? data_folder() + own : path;
+  };
+  const std::string list = given_or_own(arguments.list, "/rtl_ref/faults.txt");
+  const std::string folder = given_or_own(arguments.directed, "/tests/cosim/stimuli");
   const std::vector<cosim::Fault> faults = cosim::read_faults(list);
   const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder);
   check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", arguments.tsv}});

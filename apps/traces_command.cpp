@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "apps/command_line.hpp"
+#include "apps/data_folder.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
@@ -30,16 +31,15 @@ namespace {
 namespace fs = std::filesystem;
 using tb::traces::golden_name;
 
-constexpr const char* kRoot = DSDPV1_SOURCE_DIR;
 constexpr const char* kTool = "dsdpv1-sim " DSDPV1_VERSION;
 const std::vector<std::string> kRulings = {"docs/chip.md", "docs/microarchitecture.md"};
 
 std::string folder_of(const TracesArguments& arguments) {
   if (!arguments.folder.empty()) return arguments.folder;
-  return fs::path(kRoot) / "traces";
+  return fs::path(data_folder()) / "traces";
 }
 
-fs::path scenario_folder() { return fs::path(kRoot) / "scenarios"; }
+fs::path scenario_folder() { return fs::path(data_folder()) / "scenarios"; }
 
 std::vector<std::string> own_scenarios() {
   std::error_code error;
@@ -181,7 +181,7 @@ class Regeneration {
 
   tb::traces::NewGolden golden() const {
     return tb::traces::make_golden(scenario_, writer_.content(scenario_.end), kTool,
-                                   tb::traces::rulings_of(kRoot, kRulings));
+                                   tb::traces::rulings_of(data_folder(), kRulings));
   }
 
   std::string words(const tb::traces::NewGolden& now, const tb::traces::Written& written) const {
@@ -225,7 +225,7 @@ int regenerate(const TracesArguments& arguments) {
 
 int list(const TracesArguments& arguments) {
   const std::string folder = folder_of(arguments);
-  const tb::traces::Json rulings = tb::traces::rulings_of(kRoot, kRulings);
+  const tb::traces::Json rulings = tb::traces::rulings_of(data_folder(), kRulings);
   tb::TextTable table({"golden", "slaves", "cycles", "changes", "KB", "rulings"});
   for (const std::string& name : tb::traces::golden_names(folder)) {
     const tb::traces::Json manifest = tb::traces::read_manifest(folder, name);

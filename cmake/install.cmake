@@ -1,13 +1,19 @@
-# Installs the core, the driver and the SystemC modules, so that
-#   find_package(dsdpv1)                     gives dsdpv1::core, dsdpv1::driver, dsdpv1::systemc and dsdpv1::driver_systemc
-#   find_package(dsdpv1 COMPONENTS core)     gives dsdpv1::core and needs no SystemC
-#   find_package(dsdpv1 COMPONENTS driver)   gives dsdpv1::driver, also without SystemC
-# Headers keep their paths: #include "model/dsdpv1/chip.hpp".
+# What `cmake --install` installs, in components of the same names as those of find_package(dsdpv1 COMPONENTS ...) (docs/install.md):
+#   core      the chip: dsdpv1::core, dsdpv1::registers; needs nothing
+#   driver    the C driver: dsdpv1::driver; needs nothing
+#   bus       segment, masters, monitor, GSD files: dsdpv1::bus
+#   checks    the rules of the user's side: dsdpv1::checks
+#   systemc   dsdpv1::systemc, dsdpv1::driver_systemc; together with bus dsdpv1::systemc_bus
+#   capi      libdsdpv1.so: dsdpv1::capi
+#   tools     the programs, their man page, completions and data (apps/CMakeLists.txt)
+#   docs      documents, examples, licences
+# A room that others bind (bindings/) calls dsdpv1_install_targets and dsdpv1_install_pc for its own.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(DSDPV1_INSTALL_INCLUDEDIR ${CMAKE_INSTALL_INCLUDEDIR}/dsdpv1)
 set(DSDPV1_INSTALL_CMAKEDIR ${CMAKE_INSTALL_LIBDIR}/cmake/dsdpv1)
+set(DSDPV1_INSTALL_DATADIR ${CMAKE_INSTALL_DATADIR}/dsdpv1)
 
 # An archive of g++ that other compilers' programs link with, also where they optimise across files: templates' static members as weak
 # symbols, which every linker merges, not as GNU's unique ones; and machine code beside what g++ alone reads (-flto).
@@ -18,22 +24,78 @@ function(dsdpv1_link_with_others target)
   endif()
 endfunction()
 
-# dsdpv1_install_targets(COMPONENT targets...): dsdpv1_NAME becomes dsdpv1::NAME, listed in dsdpv1-COMPONENT-targets.cmake.
-function(dsdpv1_install_targets component)
-  foreach(target ${ARGN})
-    string(REPLACE dsdpv1_ "" name ${target})
-    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-    dsdpv1_link_with_others(${target})
-  endforeach()
-  install(TARGETS ${ARGN} EXPORT dsdpv1-${component}-targets COMPONENT dsdpv1
-          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(EXPORT dsdpv1-${component}-targets NAMESPACE dsdpv1:: DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} COMPONENT dsdpv1)
+# A C++ interface lasts for a minor version. No macro for the sources of a shared library: all is visible, and compiled once for both.
+function(dsdpv1_version_library target)
+  set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "" VERSION ${PROJECT_VERSION}
+                        SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 endfunction()
 
-function(dsdpv1_install_headers)
-  install(DIRECTORY model registers driver DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR} COMPONENT dsdpv1
+# Headers by the paths of this repository ("model/dsdpv1/chip.hpp"), and where they are installed also as <dsdpv1/model/dsdpv1/chip.hpp>.
+function(dsdpv1_export_includes target)
+  set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES
+    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>;$<INSTALL_INTERFACE:${DSDPV1_INSTALL_INCLUDEDIR};${CMAKE_INSTALL_INCLUDEDIR}>")
+endfunction()
+
+# What has been compiled in asks nothing of those who link.
+function(dsdpv1_export_links target)
+  get_target_property(links ${target} INTERFACE_LINK_LIBRARIES)
+  if(links)
+    list(REMOVE_ITEM links "$<LINK_ONLY:dsdpv1_warnings>" "$<LINK_ONLY:nlohmann_json::nlohmann_json>")
+    set_target_properties(${target} PROPERTIES INTERFACE_LINK_LIBRARIES "${links}")
+  endif()
+endfunction()
+
+function(dsdpv1_prepare_target target)
+  get_target_property(type ${target} TYPE)
+  dsdpv1_link_with_others(${target})
+  if(NOT type STREQUAL "EXECUTABLE")
+    dsdpv1_export_links(${target})
+  endif()
+  if(NOT target STREQUAL dsdpv1_capi AND NOT type STREQUAL "EXECUTABLE")
+    dsdpv1_export_includes(${target})
+    if(type STREQUAL "SHARED_LIBRARY")
+      dsdpv1_version_library(${target})
+    endif()
+  endif()
+endfunction()
+
+# dsdpv1_install_targets(COMPONENT EXPORT targets...): dsdpv1_NAME becomes dsdpv1::NAME, listed in dsdpv1-EXPORT-targets.cmake.
+function(dsdpv1_install_targets component export)
+  foreach(target ${ARGN})
+    string(REGEX REPLACE "^dsdpv1_" "" name ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+    dsdpv1_prepare_target(${target})
+  endforeach()
+  install(TARGETS ${ARGN} EXPORT dsdpv1-${export}-targets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component}
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component}
+          RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component})
+  install(EXPORT dsdpv1-${export}-targets NAMESPACE dsdpv1:: DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} COMPONENT ${component})
+endfunction()
+
+# dsdpv1_install_headers(COMPONENT folders...): their headers with their paths, folders in them included.
+function(dsdpv1_install_headers component)
+  install(DIRECTORY ${ARGN} DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR} COMPONENT ${component}
           FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc" PATTERN "dsdpv1*.h" PATTERN "dsdpv1_regs.svh"
-          PATTERN "*_internal.h" EXCLUDE)
+          PATTERN "*_internal.h" EXCLUDE PATTERN "capture" EXCLUDE PATTERN "systemc" EXCLUDE)
+endfunction()
+
+# dsdpv1_install_pc(COMPONENT NAME DESCRIPTION [LIBS libraries...] [REQUIRES modules...]): NAME.pc for pkg-config; what archives
+# need is needed by everybody who links with them, what a shared library needs is its own affair.
+function(dsdpv1_install_pc component name description)
+  cmake_parse_arguments(ARG "SHARED" "" "LIBS;REQUIRES" ${ARGN})
+  set(requires_word Requires)
+  if(ARG_SHARED OR BUILD_SHARED_LIBS)
+    set(requires_word Requires.private)
+  endif()
+  list(TRANSFORM ARG_LIBS PREPEND "-l")
+  list(JOIN ARG_LIBS " " libs)
+  list(JOIN ARG_REQUIRES ", " requires)
+  file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+  string(REGEX REPLACE "/$" "" up ${up})
+  set(file ${PROJECT_BINARY_DIR}/pkgconfig/${name}.pc)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/dsdpv1.pc.in ${file} @ONLY)
+  install(FILES ${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT ${component})
 endfunction()
 
 function(dsdpv1_install_package)
@@ -42,16 +104,79 @@ function(dsdpv1_install_package)
   configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/dsdpv1-config.cmake.in ${config}
                                 INSTALL_DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} NO_SET_AND_CHECK_MACRO)
   write_basic_package_version_file(${version} COMPATIBILITY SameMinorVersion)
-  install(FILES ${config} ${version} ${PROJECT_SOURCE_DIR}/cmake/systemc.cmake
-          DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} COMPONENT dsdpv1)
+  # With every component: each can be the only one that is installed.
+  foreach(component core driver bus checks systemc capi tools)
+    install(FILES ${config} ${version} ${PROJECT_SOURCE_DIR}/cmake/systemc.cmake
+            DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} COMPONENT ${component})
+  endforeach()
+endfunction()
+
+function(dsdpv1_install_core_and_driver)
+  dsdpv1_install_targets(core core dsdpv1_registers dsdpv1_core)
+  dsdpv1_install_headers(core model registers)
+  dsdpv1_install_pc(core dsdpv1-core "cycle-accurate model of the DSDPV1: the chip" LIBS dsdpv1_core)
+  dsdpv1_install_targets(driver driver dsdpv1_driver)
+  dsdpv1_install_headers(driver driver registers)
+  dsdpv1_install_pc(driver dsdpv1-driver "driver for the DSDPV1, in C99" LIBS dsdpv1_driver)
+endfunction()
+
+function(dsdpv1_install_bus_and_checks)
+  dsdpv1_install_targets(bus bus dsdpv1_bus)
+  dsdpv1_install_headers(bus bus)
+  dsdpv1_install_pc(bus dsdpv1-bus "PROFIBUS segment, masters, monitor and GSD files" LIBS dsdpv1_bus REQUIRES fmt)
+  dsdpv1_install_targets(checks checks dsdpv1_pins dsdpv1_check_recorder dsdpv1_checks)
+  foreach(room pins checks dsdpv1/pins dsdpv1/checks)
+    install(DIRECTORY tb/${room}/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/tb/${room} COMPONENT checks
+            FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc")
+  endforeach()
+  dsdpv1_install_pc(checks dsdpv1-checks "checks of handshake, bus timing and use of the DSDPV1's DPRAM"
+                    LIBS dsdpv1_checks dsdpv1_check_recorder dsdpv1_pins REQUIRES dsdpv1-core dsdpv1-bus fmt)
+endfunction()
+
+function(dsdpv1_install_systemc)
+  dsdpv1_install_targets(systemc systemc dsdpv1_systemc dsdpv1_driver_systemc)
+  dsdpv1_install_targets(systemc systemc_bus dsdpv1_timeline_module dsdpv1_systemc_bus)
+  foreach(room model/systemc driver/systemc tb/systemc)
+    install(DIRECTORY ${room}/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/${room} COMPONENT systemc FILES_MATCHING PATTERN "*.hpp")
+  endforeach()
+  install(FILES tb/dsdpv1/systemc/tlm_chip.hpp tb/dsdpv1/systemc/handshake_pin.hpp
+          DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/tb/dsdpv1/systemc COMPONENT systemc)
+  dsdpv1_install_pc(systemc dsdpv1-systemc "cycle-accurate model of the DSDPV1: SystemC modules"
+                    LIBS dsdpv1_driver_systemc dsdpv1_systemc REQUIRES dsdpv1-core dsdpv1-driver systemc tlm)
+  dsdpv1_install_pc(systemc dsdpv1-systemc-bus "PROFIBUS segment and masters in SystemC's time"
+                    LIBS dsdpv1_systemc_bus dsdpv1_timeline_module REQUIRES dsdpv1-systemc dsdpv1-bus)
+endfunction()
+
+function(dsdpv1_install_capi)
+  dsdpv1_install_targets(capi capi dsdpv1_capi)
+  install(DIRECTORY include/dsdpv1/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR} COMPONENT capi FILES_MATCHING PATTERN "*.h")
+  dsdpv1_install_pc(capi dsdpv1-capi "the DSDPV1 with bus, masters, checks and scenarios, in C" SHARED LIBS dsdpv1)
+endfunction()
+
+function(dsdpv1_install_docs)
+  install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE REUSE.toml DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
+  install(DIRECTORY docs LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs PATTERN "*.py" EXCLUDE)
+  install(DIRECTORY examples DESTINATION ${DSDPV1_INSTALL_DATADIR} COMPONENT docs)
+endfunction()
+
+# --component dsdpv1, which once was the only one: core, driver and SystemC modules as before. To go with 0.3 (docs/install.md).
+function(dsdpv1_install_former_component)
+  install(CODE [[
+    foreach(component core driver systemc bus)
+      execute_process(COMMAND ${CMAKE_COMMAND} -D CMAKE_INSTALL_PREFIX=${CMAKE_INSTALL_PREFIX} -D CMAKE_INSTALL_COMPONENT=${component}
+                              -P ${CMAKE_CURRENT_LIST_FILE} COMMAND_ERROR_IS_FATAL ANY)
+    endforeach()
+    message(NOTICE "--component dsdpv1 is deprecated: use core, driver, systemc or bus (docs/install.md)")]]
+    COMPONENT dsdpv1 EXCLUDE_FROM_ALL)
 endfunction()
 
 # Called when the targets exist.
 function(dsdpv1_install)
-  # A static library records what it is linked with, so the warnings (no more than a list of compiler options) go along.
-  dsdpv1_install_targets(core dsdpv1_warnings dsdpv1_registers dsdpv1_core)
-  dsdpv1_install_targets(driver dsdpv1_driver)
-  dsdpv1_install_targets(systemc dsdpv1_systemc dsdpv1_driver_systemc)
-  dsdpv1_install_headers()
+  dsdpv1_install_core_and_driver()
+  dsdpv1_install_bus_and_checks()
+  dsdpv1_install_systemc()
+  dsdpv1_install_capi()
+  dsdpv1_install_docs()
   dsdpv1_install_package()
+  dsdpv1_install_former_component()
 endfunction()

@@ -21,11 +21,12 @@ using Make = RtlTop* (*)(const RtlLimits* limits, std::uint32_t fault, std::uint
                        "step and skip");
 }
 
-/// The folder rtl/ of the build that this program belongs to: beside one of the folders above the program.
+/// The folder rtl/ of the build that this program belongs to, beside one of the folders above the program; or of the installation.
 fs::path find(const std::string& name) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   for (fs::path folder = program.parent_path(); folder != folder.root_path(); folder = folder.parent_path())
-    if (fs::exists(folder / "rtl" / name)) return folder / "rtl" / name;
+    for (const char* place : {"rtl", DSDPV1_RTL_INSTALLED})
+      if (fs::exists(folder / place / name)) return folder / place / name;
   fail("the reference RTL is not built");
 }
 
