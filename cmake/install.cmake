@@ -155,8 +155,14 @@ endfunction()
 
 function(dsdpv1_install_docs)
   install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE REUSE.toml DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
+  install(FILES cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
   install(DIRECTORY docs LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs PATTERN "*.py" EXCLUDE)
   install(DIRECTORY examples DESTINATION ${DSDPV1_INSTALL_DATADIR} COMPONENT docs)
+  # Sources that firmware takes along, for the example and for products.
+  install(DIRECTORY driver DESTINATION ${DSDPV1_INSTALL_DATADIR} COMPONENT docs
+          FILES_MATCHING PATTERN "*.c" PATTERN "*.h" PATTERN "systemc" EXCLUDE)
+  install(FILES registers/dsdpv1_regs.h DESTINATION ${DSDPV1_INSTALL_DATADIR}/registers COMPONENT docs)
+  install(FILES tb/dsdpv1/user_cpu/arm/mailbox.h DESTINATION ${DSDPV1_INSTALL_DATADIR}/tb/dsdpv1/user_cpu/arm COMPONENT docs)
 endfunction()
 
 # --component dsdpv1, which once was the only one: core, driver and SystemC modules as before. To go with 0.3 (docs/install.md).

@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+"""Installs the build and moves what is installed to another place, where all other tests use it.
+
+    stage.py CMAKE BUILD STAGE        BUILD is installed at STAGE.installed, then moved to STAGE
+
+What tells others how to use it must not name a place of this machine: neither where it was built nor where it was installed first.
+"""
+import pathlib
+import shutil
+import subprocess
+import sys
+
+TOLD = {".cmake", ".pc", ".txt", ".yaml", ".1"}
+
+
+def places(build):
+    cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
+    source = next(line for line in cache.splitlines() if line.startswith("CMAKE_HOME_DIRECTORY:"))
+    return [str(build), source.partition("=")[2]]
+
+
+def main():
+    cmake, build, stage = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    first = stage.with_suffix(".installed")
+    for folder in (first, stage):
+        shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run([cmake, "--install", build, "--prefix", first], check=True, stdout=subprocess.DEVNULL)
+    first.rename(stage)
+    faults = [f"{path.relative_to(stage)} names {place}" for path in sorted(stage.rglob("*"))
+              if path.suffix in TOLD and path.is_file()
+              for place in [*places(build), str(first)] if place in path.read_text(encoding="utf-8", errors="replace")]
+    print("\n".join(faults) if faults else "stage: nothing names a place of this machine")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""The installed programs: they run by what is installed with them; manual page and completions are those of the program.
+
+    tools_test.py STAGE what        what: runs, manual, completion
+"""
+import gzip
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+
+def call(*command, status=0, **more):
+    done = subprocess.run(command, check=False, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **more)
+    assert done.returncode == status, f"{command}: exit {done.returncode}\n{done.stdout}"
+    return done.stdout
+
+
+def options_of(help_text):
+    return set(re.findall(r"(?<![\w-])--?[a-z][a-z-]*", "\n".join(re.findall(r"^  (-[^ ].*?)(?:  |$)", help_text, re.M))))
+
+
+def commands_of(sim):
+    return re.findall(r"^  ([a-z][a-z-]*)  ", call(sim, "--help").partition("Subcommands:")[2], re.M)
+
+
+def check_runs(stage, sim):
+    """Data is found beside the program: a scenario that is only there is known by its name."""
+    data = stage / "share/dsdpv1"
+    shutil.copy(data / "scenarios/power_on_12m.yaml", data / "scenarios/only_here.yaml")
+    try:
+        words = call(sim, "traces", "check", "only_here", status=2)
+        assert str(data / "traces/only_here") in words, words
+    finally:
+        (data / "scenarios/only_here.yaml").unlink()
+    with tempfile.TemporaryDirectory() as folder:
+        assert "PASSED" in call(sim, "run", data / "scenarios/power_on_12m.yaml", "--wave", "w.fst", cwd=folder)
+        call(sim, "traces", "check", "power_on_12m", "--engine", "rtl", cwd=folder)
+        assert "PASSED" in call(sim, "run", data / "scenarios/arm_board_12m.yaml", cwd=folder)
+        assert "power_on_12m" in call(sim, "traces", "list", cwd=folder)
+
+
+def check_manual(stage, sim):
+    page = gzip.decompress((stage / "share/man/man1/dsdpv1-sim.1.gz").read_bytes()).decode()
+    assert page == call(sim, "manual")
+    with tempfile.NamedTemporaryFile("w", suffix=".1") as file:
+        file.write(page)
+        file.flush()
+        shown = call("man", "--warnings", "-E", "UTF-8", "-l", file.name, env={"MANWIDTH": "120", "LC_ALL": "C.UTF-8", "PATH": "/usr/bin:/bin"})
+    assert "warning" not in shown.lower(), shown[:2000]
+    words = re.sub(r"\s+", " ", shown)
+    for command in commands_of(sim):
+        for option in options_of(call(sim, command, "--help")):
+            assert option in words, f"the manual page lacks {option} of {command}"
+
+
+BASH = """source {file}
+COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1))
+_dsdpv1_sim; printf '%s\\n' "${{COMPREPLY[@]}}" """
+
+
+def completed(file, *words):
+    quoted = " ".join(f"'{word}'" for word in words)
+    return set(call("bash", "-c", BASH.format(file=file, words=quoted)).split())
+
+
+def check_completion(stage, sim):
+    bash = stage / "share/bash-completion/completions/dsdpv1-sim"
+    zsh = stage / "share/zsh/site-functions/_dsdpv1-sim"
+    assert bash.read_text() == call(sim, "completion", "bash")
+    assert zsh.read_text() == call(sim, "completion", "zsh")
+    commands = set(commands_of(sim))
+    assert len(commands) > 10
+    assert completed(bash, "dsdpv1-sim", "") == commands | options_of(call(sim, "--help"))
+    assert completed(bash, "dsdpv1-sim", "rec") == {"recover"}
+    assert completed(bash, "dsdpv1-sim", "run", "") == set(), "files are the shell's own"
+    for command in commands:
+        options = options_of(call(sim, command, "--help"))
+        assert options == {word for dash in ("-", "--") for word in completed(bash, "dsdpv1-sim", command, dash)}, command
+        section = zsh.read_text().partition(f"\n    {command})\n")[2].partition(";;")[0]
+        assert options == set(re.findall(r"'\*?(--?[a-z-]+)\[", section)), command
+    if shutil.which("zsh"):
+        call("zsh", "-n", zsh)
+    call(sim, "completion", "fish", status=2)
+
+
+def main():
+    stage = pathlib.Path(sys.argv[1])
+    {"runs": check_runs, "manual": check_manual, "completion": check_completion}[sys.argv[2]](stage, str(stage / "bin/dsdpv1-sim"))
+    print(f"{sys.argv[2]}: right")
+
+
+if __name__ == "__main__":
+    main()
