@@ -40,6 +40,9 @@ dsdpv1_rtl_library(dsdpv1_rtl_libraries ${rtl_folder}/libdsdpv1_rtl_faults.so -O
 # The RTL as it is once more, counting lines and toggles, and the program beside it, which therefore loads this one: ./run rtl-coverage.
 # Far slower, so it is no part of `all`. It writes what it has counted into the folder of the environment's DSDPV1_RTL_COVERAGE. All
 # begins with 0: a start with random values would count as toggles.
+if(NOT PROJECT_IS_TOP_LEVEL)  # without the program
+  return()
+endif()
 set(coverage_folder ${PROJECT_BINARY_DIR}/rtl-coverage)
 add_custom_command(
   OUTPUT ${coverage_folder}/dsdpv1-sim

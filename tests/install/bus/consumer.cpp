@@ -1,4 +1,5 @@
-// A master polls a slave that is not there, a monitor counts its telegrams, and the checks judge a user who writes without having asked.
+// A master polls a slave that is not there, a monitor counts its telegrams, and the checks judge a user who writes
+// without having asked.
 #include <dsdpv1/bus/master/master1.hpp>
 #include <dsdpv1/bus/monitor/monitor.hpp>
 #include <dsdpv1/tb/dsdpv1/checks/checks.hpp>
@@ -15,6 +16,7 @@ std::uint64_t telegrams_of_a_master() {
   timeline.add(monitor);
   bus::SlaveParameters slave;
   slave.address = 3;
+  slave.cfg = {0x11};
   master.add_slave(slave);
   master.start();
   timeline.run_until(10'000 * bus::kTicksPerUs);

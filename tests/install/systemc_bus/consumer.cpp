@@ -1,10 +1,21 @@
-// A master on a segment in SystemC's time, and on the same segment the chip as a TLM module: out of reset it says that it works (D1),
-// searches the baud rate, and leaves the line to the master, who asks for it in vain as long as no user CPU gives it an address.
+// A master on a segment in SystemC's time, and on the same segment the chip as a TLM module: out of reset it says that
+// it works (D1), searches the baud rate, and leaves the line to the master, who asks for it in vain as long as no user
+// CPU gives it an address.
+#include <tlm_utils/simple_initiator_socket.h>
 #include <dsdpv1/bus/master/master1.hpp>
 #include <dsdpv1/bus/monitor/monitor.hpp>
 #include <dsdpv1/registers/dsdpv1_regs.hpp>
 #include <dsdpv1/tb/dsdpv1/systemc/tlm_chip.hpp>
 #include <systemc>
+
+namespace {
+
+struct Nobody : sc_core::sc_module {
+  tlm_utils::simple_initiator_socket<Nobody> socket{"socket"};
+  explicit Nobody(const sc_core::sc_module_name& name) : sc_module(name) {}
+};
+
+}  // namespace
 
 int sc_main(int, char**) {
   bus::Segment segment;
@@ -16,15 +27,20 @@ int sc_main(int, char**) {
   timeline.add(monitor);
   bus::SlaveParameters slave;
   slave.address = 3;
+  slave.cfg = {0x11};
   master.add_slave(slave);
   master.start();
 
   systemc_bench::TimelineModule module("timeline", timeline);
   systemc_bench::TlmChip chip("chip", {}, segment, module);
+  Nobody user_cpu("user_cpu");
+  user_cpu.socket.bind(chip.module().host_socket);
   sc_core::sc_start(1, sc_core::SC_US);
   chip.set_reset(true);
   sc_core::sc_start(10, sc_core::SC_MS);
   const bool works = chip.module().peek(dsdpv1::regs::kValidFlag) == dsdpv1::regs::kValidFlagValid;
   const bus::MonitorStatistics& heard = monitor.statistics();
-  return works && heard.telegrams > 10 && heard.wrong == 0 && master.slave(3).state != bus::SlaveState::kDataExchange ? 0 : 1;
+  return works && heard.telegrams > 10 && heard.wrong == 0 && master.slave(3).state != bus::SlaveState::kDataExchange
+             ? 0
+             : 1;
 }
