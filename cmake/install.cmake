@@ -176,6 +176,16 @@ function(dsdpv1_install_former_component)
     COMPONENT dsdpv1 EXCLUDE_FROM_ALL)
 endfunction()
 
+# Builds what is installed, and no tests: `./run examples`.
+function(dsdpv1_installed_target)
+  add_custom_target(dsdpv1_installed)
+  foreach(target core driver bus checks systemc driver_systemc systemc_bus capi pages rtl_libraries firmware)
+    if(TARGET dsdpv1_${target})
+      add_dependencies(dsdpv1_installed dsdpv1_${target})
+    endif()
+  endforeach()
+endfunction()
+
 # Called when the targets exist.
 function(dsdpv1_install)
   dsdpv1_install_core_and_driver()

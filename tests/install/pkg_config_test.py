@@ -10,10 +10,8 @@ import subprocess
 import sys
 import tempfile
 
-# Name of the .pc files, source, arguments of the program.
+# Name of the .pc files, source, arguments of the program. dsdpv1-core is used by package_test.py.
 PROGRAMS = [
-    (["dsdpv1-core"], "tests/core/consumer.cpp", []),
-    (["dsdpv1-systemc"], "tests/systemc/consumer.cpp", []),
     (["dsdpv1-checks"], "tests/bus/consumer.cpp", []),
     (["dsdpv1-systemc-bus"], "tests/systemc_bus/consumer.cpp", []),
     (["dsdpv1-systemc"], "examples/tlm_platform.cpp", []),
