@@ -45,8 +45,8 @@ def fits(licence, allowed=frozenset(FITS_STRICT)):
 
 
 def label_of(program):
-    """As the page calls it: tests are one, others go by their names."""
-    return "tests" if program.startswith("tests/") else pathlib.PurePosixPath(program).name
+    """As the page calls it: tests are one, others go by their names, libraries without their versions."""
+    return "tests" if program.startswith("tests/") else re.sub(r"\.so\..*", ".so", pathlib.PurePosixPath(program).name)
 
 
 def listed_packages(root):
