@@ -155,7 +155,6 @@ endfunction()
 
 function(dsdpv1_install_docs)
   install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE REUSE.toml DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
-  install(FILES cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
   install(DIRECTORY docs LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs PATTERN "*.py" EXCLUDE)
   install(DIRECTORY examples DESTINATION ${DSDPV1_INSTALL_DATADIR} COMPONENT docs)
   # Sources that firmware takes along, for the example and for products.

@@ -1,12 +1,15 @@
 # cpack -G DEB, cpack -G TGZ: all components in one package. What is linked is found by dpkg-shlibdeps; what is needed to build with the libraries
 # is recommended, which apt installs unless told otherwise.
+set(DSDPV1_PACKAGE_CONTACT "the dsdpv1 authors <dsdpv1@invalid>" CACHE STRING "Who is responsible for packages: NAME <ADDRESS>")
+mark_as_advanced(DSDPV1_PACKAGE_CONTACT)
+
 set(CPACK_PACKAGE_NAME dsdpv1)
 set(CPACK_PACKAGE_VENDOR "the dsdpv1 authors")
-set(CPACK_PACKAGE_CONTACT "the dsdpv1 authors <dsdpv1@invalid>")
+set(CPACK_PACKAGE_CONTACT ${DSDPV1_PACKAGE_CONTACT})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "cycle-accurate model of the DSDPV1 PROFIBUS-DP slave chip")
-set(CPACK_PACKAGE_DESCRIPTION "Programs, libraries for C, C++ and SystemC, a C99 driver, examples and documents:
- the chip with its bus, masters that read GSD files, checks of the user CPU's
- handshake and bus timing, and an ARM board that runs firmware.")
+set(CPACK_PACKAGE_DESCRIPTION "Programs, libraries for C, C++ and SystemC, a C99 driver, examples and
+documents: the chip with its bus, masters that read GSD files, checks of the
+user CPU's handshake and bus timing, and an ARM board that runs firmware.")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_GENERATOR DEB TGZ)
@@ -18,6 +21,21 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, pkg-config, libfmt-dev, libsystemc-dev")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "verilator, gcc-arm-none-eabi, gdb-multiarch, gtkwave, wireshark")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-# libdsdpv1.so.0 is in it: who is packaged on its own and links with it depends on this package; ldconfig is called.
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+
+# Who is packaged with libdsdpv1.so.0 depends on this package, and the linker's cache learns of it.
+set(debian ${PROJECT_BINARY_DIR}/debian)
+file(WRITE ${debian}/shlibs "libdsdpv1 0 dsdpv1 (>= ${PROJECT_VERSION})\n")
+file(WRITE ${debian}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${debian}/shlibs ${debian}/triggers)
+
+# Debian's own changelog says no more than that there is CHANGELOG.md; its date is from there.
+file(STRINGS ${PROJECT_SOURCE_DIR}/CHANGELOG.md entry REGEX "^## \\[${PROJECT_VERSION}\\] - ")
+string(REGEX MATCH "[0-9-]+$" date "${entry}")
+execute_process(COMMAND date -R -u -d "${date}" OUTPUT_VARIABLE date OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+file(WRITE ${debian}/changelog "dsdpv1 (${PROJECT_VERSION}) unstable; urgency=medium\n\n  * See CHANGELOG.md.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
+execute_process(COMMAND gzip -9nf ${debian}/changelog COMMAND_ERROR_IS_FATAL ANY)
+
+install(FILES ${debian}/changelog.gz ${PROJECT_SOURCE_DIR}/cmake/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
+install(FILES ${PROJECT_SOURCE_DIR}/cmake/debian/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides RENAME dsdpv1
+        COMPONENT docs)
 include(CPack)

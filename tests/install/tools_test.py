@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The installed programs: they run by what is installed with them; manual page and completions are those of the program.
 
-    tools_test.py STAGE what        what: runs, manual, completion
+    tools_test.py STAGE what        what: runs, version, manual, completion
 """
 import gzip
 import pathlib
@@ -37,9 +37,20 @@ def check_runs(stage, sim):
         (data / "scenarios/only_here.yaml").unlink()
     with tempfile.TemporaryDirectory() as folder:
         assert "PASSED" in call(sim, "run", data / "scenarios/power_on_12m.yaml", "--wave", "w.fst", cwd=folder)
-        call(sim, "traces", "check", "power_on_12m", "--engine", "rtl", cwd=folder)
+        call(sim, "traces", "check", "power_on_12m", cwd=folder)
+        call(sim, "rtl-random", "--cycles", "20000", cwd=folder)
         assert "PASSED" in call(sim, "run", data / "scenarios/arm_board_12m.yaml", cwd=folder)
         assert "power_on_12m" in call(sim, "traces", "list", cwd=folder)
+
+
+def check_version(stage, sim):
+    """It stands in one place, and is the same everywhere."""
+    version = call(sim, "--version").split()[-1]
+    told = {each.name: re.search(r"^Version: (.*)$", each.read_text(), re.M)[1] for each in stage.rglob("*.pc")}
+    assert len(told) >= 7 and set(told.values()) == {version}, (version, told)
+    config = next(stage.rglob("dsdpv1-config-version.cmake")).read_text()
+    assert f'set(PACKAGE_VERSION "{version}")' in config
+    assert f"\n## [{version}] - " in (stage / "share/doc/dsdpv1/CHANGELOG.md").read_text(), f"CHANGELOG.md lacks {version}"
 
 
 def check_manual(stage, sim):
@@ -95,8 +106,8 @@ def check_completion(stage, sim):
 
 
 def main():
-    stage = pathlib.Path(sys.argv[1])
-    {"runs": check_runs, "manual": check_manual, "completion": check_completion}[sys.argv[2]](stage, str(stage / "bin/dsdpv1-sim"))
+    stage = pathlib.Path(sys.argv[1]).resolve()
+    {"runs": check_runs, "version": check_version, "manual": check_manual, "completion": check_completion}[sys.argv[2]](stage, str(stage / "bin/dsdpv1-sim"))
     print(f"{sys.argv[2]}: right")
 
 
