@@ -5,6 +5,7 @@
 #   checks    the rules of the user's side: dsdpv1::checks
 #   systemc   dsdpv1::systemc, dsdpv1::driver_systemc; together with bus dsdpv1::systemc_bus
 #   capi      libdsdpv1.so: dsdpv1::capi
+#   dpi       for simulators: dsdpv1::dpi, dsdpv1.vpi, SystemVerilog
 #   tools     the programs, their man page, completions and data (apps/CMakeLists.txt)
 #   docs      documents, examples, licences
 # A room that others bind (bindings/) calls dsdpv1_install_targets and dsdpv1_install_pc for its own.
@@ -51,7 +52,7 @@ function(dsdpv1_prepare_target target)
   if(NOT type STREQUAL "EXECUTABLE")
     dsdpv1_export_links(${target})
   endif()
-  if(NOT target STREQUAL dsdpv1_capi AND NOT type STREQUAL "EXECUTABLE")
+  if(NOT target MATCHES "_(capi|dpi)$" AND NOT type STREQUAL "EXECUTABLE")  # those have an interface of their own
     dsdpv1_export_includes(${target})
     if(type STREQUAL "SHARED_LIBRARY")
       dsdpv1_version_library(${target})
@@ -105,7 +106,7 @@ function(dsdpv1_install_package)
                                 INSTALL_DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} NO_SET_AND_CHECK_MACRO)
   write_basic_package_version_file(${version} COMPATIBILITY SameMinorVersion)
   # With every component: each can be the only one that is installed.
-  foreach(component core driver bus checks systemc capi tools)
+  foreach(component core driver bus checks systemc capi dpi tools)
     install(FILES ${config} ${version} ${PROJECT_SOURCE_DIR}/cmake/systemc.cmake
             DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} COMPONENT ${component})
   endforeach()
@@ -153,6 +154,18 @@ function(dsdpv1_install_capi)
   dsdpv1_install_pc(capi dsdpv1-capi "the DSDPV1 with bus, masters, checks and scenarios, in C" SHARED LIBS dsdpv1)
 endfunction()
 
+# What simulators load, beside libdsdpv1.so, and what they compile.
+function(dsdpv1_install_dpi)
+  if(NOT TARGET dsdpv1_dpi)
+    return()
+  endif()
+  dsdpv1_install_targets(dpi dpi dsdpv1_dpi)
+  if(TARGET dsdpv1_vpi)
+    install(TARGETS dsdpv1_vpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dpi)
+  endif()
+  install(DIRECTORY bindings/systemverilog DESTINATION ${DSDPV1_INSTALL_DATADIR}/bindings COMPONENT dpi)
+endfunction()
+
 function(dsdpv1_install_docs)
   install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE REUSE.toml DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
   install(DIRECTORY docs LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs PATTERN "*.py" EXCLUDE)
@@ -178,7 +191,7 @@ endfunction()
 # Builds what is installed, and no tests: `./run examples`.
 function(dsdpv1_installed_target)
   add_custom_target(dsdpv1_installed)
-  foreach(target core driver bus checks systemc driver_systemc systemc_bus capi pages rtl_libraries firmware)
+  foreach(target core driver bus checks systemc driver_systemc systemc_bus capi dpi vpi pages rtl_libraries firmware)
     if(TARGET dsdpv1_${target})
       add_dependencies(dsdpv1_installed dsdpv1_${target})
     endif()
@@ -191,6 +204,7 @@ function(dsdpv1_install)
   dsdpv1_install_bus_and_checks()
   dsdpv1_install_systemc()
   dsdpv1_install_capi()
+  dsdpv1_install_dpi()
   dsdpv1_install_docs()
   dsdpv1_install_package()
   dsdpv1_install_former_component()
