@@ -573,6 +573,12 @@ void add_color_option(CLI::App& app, std::string& word) {
         ->capture_default_str();
 }
 
+/// After all commands with a purpose of their own.
+void describe_what_is_general(CLI::App& app, std::string& color) {
+  describe_manual(app);
+  add_color_option(app, color);
+}
+
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -676,9 +682,8 @@ int command_line(int argc, char** argv, PrintableOutput& output) {
   describe_traces(app, traces_arguments);
   RecoverArguments recover_arguments;
   describe_recover(app, recover_arguments);
-  describe_manual(app);
   std::string color;
-  add_color_option(app, color);
+  describe_what_is_general(app, color);
   if (const std::optional<int> status = parse(app, argc, argv)) return *status;
   check_word("--color", color, {"auto", "always", "never"});
   if (wants_colour(color)) output.paint();

@@ -68,7 +68,7 @@ std::string command_section(const CLI::App& command) {
 }  // namespace
 
 std::string manual_page(const CLI::App& app) {
-  const std::string name = app.get_name();
+  const std::string& name = app.get_name();
   std::string text = fmt::format(".\\\" Made by `{} manual`.\n.TH {} 1 \"\" \"{}\" \"User Commands\"\n", name,
                                  CLI::detail::to_lower(name), roff(app.version()));
   text += fmt::format(".SH NAME\n{} \\- {}\n", roff(name), roff(app.get_description()));

@@ -27,8 +27,8 @@ void add_own_rtl_options(CLI::App& command, OwnRtlArguments& arguments, bool req
 
 OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, bool traced) {
   OwnRtl own{arguments.pins.empty() ? cosim::default_pin_map() : cosim::load_pin_map(arguments.pins), {}};
-  own.make = cosim::build_user_rtl({command, arguments.rtl, arguments.top, arguments.build, data_folder(), traced},
-                                   own.map);
+  own.make =
+      cosim::build_user_rtl({command, arguments.rtl, arguments.top, arguments.build, data_folder(), traced}, own.map);
   return own;
 }
 
