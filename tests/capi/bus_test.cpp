@@ -123,12 +123,11 @@ class Outside {
  public:
   Outside() {
     ok(dpsim_bus_add_station(bus_.get(), "dut", &station_));
-    master_ = add_master(bus_.get());
     const dpsim_slave slave = slave_of_the_chip();
     ok(dpsim_master_add_slave(master_, &slave));
     ok(dpsim_bus_watch(bus_.get(), DPSIM_WATCH_LINE, line_changed, this));
     ok(dpsim_chip_watch(chip_.get(), DPSIM_PIN(DPSIM_DSDPV1_PBTXD) | DPSIM_PIN(DPSIM_DSDPV1_PBRTS), nullptr, nullptr));
-    now_ = start_up(chip_.get());
+    start_up(chip_.get());
     ok(dpsim_chip_advance(chip_.get(), Line::kBegin));
     ok(dpsim_bus_run(bus_.get(), Line::kBegin));
     ok(dpsim_master_start(master_));
@@ -166,7 +165,7 @@ class Outside {
 
   Owned<dpsim_bus> bus_ = make_bus();
   Owned<dpsim_chip> chip_ = make_chip();
-  dpsim_master* master_ = nullptr;
+  dpsim_master* master_ = add_master(bus_.get());
   uint16_t station_ = 0;
   std::vector<dpsim_change> heard_;
   int txd_ = 1, rts_ = 0;
@@ -316,8 +315,8 @@ TEST(CapiBus, TwoMastersShareTheTokenAndAClass2Connects) {
 }
 
 struct InEvent {
-  dpsim_bus* bus;
-  dpsim_master* master;
+  dpsim_bus* bus = nullptr;
+  dpsim_master* master = nullptr;
   dpsim_status run = DPSIM_OK, outputs = DPSIM_ERR_INTERNAL;
 };
 

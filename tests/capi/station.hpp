@@ -48,11 +48,15 @@ inline dpsim_master* add_master(dpsim_bus* bus, uint8_t address = 2, int master_
   return master;
 }
 
+inline dpsim_chip* add_chip(dpsim_bus* bus) {
+  dpsim_chip* chip = nullptr;
+  ok(dpsim_bus_add_chip(bus, nullptr, &chip));
+  return chip;
+}
+
 /// A bus with one chip and one master that knows it, both silent.
 struct Line {
-  explicit Line(bool ring = false) {
-    ok(dpsim_bus_add_chip(bus.get(), nullptr, &chip));
-    master = add_master(bus.get(), 2, 1, ring);
+  explicit Line(bool ring = false) : master(add_master(bus.get(), 2, 1, ring)) {
     const dpsim_slave slave = slave_of_the_chip();
     ok(dpsim_master_add_slave(master, &slave));
   }
@@ -71,8 +75,8 @@ struct Line {
   static constexpr uint64_t kBegin = kMs / 2, kRunning = 4 * kMs;
 
   Owned<dpsim_bus> bus = make_bus();
-  dpsim_chip* chip = nullptr;
-  dpsim_master* master = nullptr;
+  dpsim_chip* chip = add_chip(bus.get());
+  dpsim_master* master;
 };
 
 }  // namespace capi_test
