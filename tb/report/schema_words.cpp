@@ -22,7 +22,8 @@ void add_rows(const Json& schema, const std::string& path, std::string& rows) {
     if (each.contains("enum"))
       for (const Json& word : each["enum"])
         what += (word == each["enum"].front() ? ": " : ", ") + word.get<std::string>();
-    const std::string here = path.empty() ? name : path + "." + name;
+    std::string here = path.empty() ? "" : path + ".";
+    here += name;
     rows += fmt::format("| `{}` | {} | {} |\n", here, type_of(each), what);
     add_rows(each, here, rows);
   }

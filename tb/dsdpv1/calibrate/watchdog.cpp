@@ -179,6 +179,7 @@ std::vector<Fall> ends_of_time(Falls& falls) {
 /// unless it is just the default.
 void fit_time(const std::vector<Fall>& ends, Fit& fit) {
   std::vector<Instance> instances;
+  instances.reserve(ends.size());
   for (const Fall& end : ends) instances.push_back({end.at, end.ms, end.ms.middle()});
   Estimate& time = fit.estimate = estimate(instances);
   const bool certain =
