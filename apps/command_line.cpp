@@ -149,8 +149,11 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
 
 void describe_schema(CLI::App& app, SchemaArguments& arguments) {
   CLI::App* command = app.add_subcommand("schema", "Prints the JSON Schema of a scenario, or of a result");
-  command->add_flag("--result", arguments.result, "Of the file that run --result writes");
-  command->add_flag("--markdown", arguments.markdown, "Prints docs/scenarios.md, or docs/result.md, instead");
+  CLI::Option* result = command->add_flag("--result", arguments.result, "Of the file that run --result writes");
+  command->add_flag("--rtl-random", arguments.rtl_random, "Of the file that rtl-random --result writes")
+      ->excludes(result);
+  command->add_flag("--markdown", arguments.markdown,
+                    "Prints docs/scenarios.md, docs/result.md, or the table of docs/cosim.md instead");
   command->add_option("--output,-o", arguments.output, "Into this file");
   command->footer(
       "\nExamples:\n  dsdpv1-sim schema > scenario.schema.json\n  dsdpv1-sim schema --result > result.schema.json\n"
@@ -276,11 +279,15 @@ void describe_regress(CLI::App& app, RegressArguments& arguments) {
   CLI::Option* shard =
       command->add_option("--shard", arguments.shard, "2/5: the second fifth of the runs, always the same");
   CLI::Option* wave = command->add_option("--wave", arguments.wave, "Each run writes waves: vcd, fst; left out: none");
-  CLI::Option* keep = command->add_option(
-      "--keep", arguments.keep, "Of which runs log, result and waves are kept: none, failed, all; left out: failed");
+  CLI::Option* report = command->add_flag("--report", arguments.report,
+                                          "Each run writes its page of charts and timing diagrams (docs/report.md)");
+  CLI::Option* keep =
+      command->add_option("--keep", arguments.keep,
+                          "Of which runs log, result, wave and report are kept: none, failed, all; left out: failed");
   CLI::Option* failed =
       command->add_flag("--failed", arguments.failed, "Again what has not passed the last time in --out");
-  for (CLI::Option* other : {scenarios, engine, view, seed, set, checks, shard, wave, keep}) failed->excludes(other);
+  for (CLI::Option* other : {scenarios, engine, view, seed, set, checks, shard, wave, report, keep})
+    failed->excludes(other);
   command
       ->add_option("--time-limit", arguments.time_limit, "Seconds after which a run is killed and has failed; 0: none")
       ->check(CLI::Range(0.0, 1e6))
@@ -292,7 +299,7 @@ void describe_regress(CLI::App& app, RegressArguments& arguments) {
       "\nExamples:\n"
       "  dsdpv1-sim regress\n"
       "  dsdpv1-sim regress scenarios my.yaml --engine step,skip,lockstep --view pins,tlm --junit report.xml\n"
-      "  dsdpv1-sim regress my.yaml --set user_cpu.fsmc.datast=2..5 --set baud=12M,6M --wave fst\n"
+      "  dsdpv1-sim regress my.yaml --set user_cpu.fsmc.datast=2..5 --set baud=12M,6M --wave fst --report\n"
       "  dsdpv1-sim regress --engine rtl --seed 1..8 --shard 2/5 --out part_2\n"
       "  dsdpv1-sim regress --failed\n"
       "The same command again goes on with an interrupted regression. docs/regress.md explains the results.\n"

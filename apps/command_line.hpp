@@ -34,8 +34,8 @@ struct RunArguments {
 
 struct SchemaArguments {
   bool markdown = false;
-  bool result = false;  ///< that of a result; else of a scenario
-  std::string output;   ///< empty: standard output
+  bool result = false, rtl_random = false;  ///< that of a result of run, or of rtl-random; else of a scenario
+  std::string output;                       ///< empty: standard output
 };
 
 struct GsdArguments {

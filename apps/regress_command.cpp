@@ -70,7 +70,7 @@ Description new_description(const RegressArguments& arguments) {
   const tb::regress::Shard shard =
       arguments.shard.empty() ? tb::regress::Shard() : tb::regress::parse_shard(arguments.shard);
   return {plan_of(request_of(arguments), shard), arguments.checks, arguments.wave,
-          tb::regress::keep_named(arguments.keep).value_or(tb::regress::Keep::kFailed)};
+          tb::regress::keep_named(arguments.keep).value_or(tb::regress::Keep::kFailed), arguments.report};
 }
 
 std::string folder_of(const RegressArguments& arguments) {

@@ -15,6 +15,7 @@ struct RegressArguments {
   std::string checks, wave, keep, shard;    ///< empty: as run does, none, failed, all of it
   std::string junit;                        ///< file; empty: none
   double time_limit = 600;                  ///< seconds for a run; 0: none
+  bool report = false;                      ///< each run writes run --report
   bool failed = false;                      ///< what has not passed the last time
   bool json = false;                        ///< the table as JSON
   CampaignArguments campaign;               ///< its folder is regression, when none is given

@@ -39,6 +39,7 @@ std::string key_of(const Description& description, const Run& run, const Json& c
                     {"checks", description.checks},
                     {"wave", description.wave},
                     {"keep", static_cast<int>(description.keep)},
+                    {"report", description.report},
                     {"contents", contents}};
   return tb::campaign::fingerprint(tb::campaign::text_of(all));
 }

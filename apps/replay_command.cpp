@@ -141,13 +141,13 @@ void check_files(const ReplayArguments& arguments, const tb::scenario::Scenario&
       arguments.scenario.empty() ? std::vector<NamedFile>() : scenario_inputs(arguments.scenario, scenario.files);
   inputs.push_back({"the capture", arguments.capture == "-" ? "" : arguments.capture});
   inputs.push_back({"--gsd", arguments.gsd});
-  check_outputs(kCommand, inputs,
-                {{"--wave", arguments.wave.file},
-                 {"--log", arguments.log},
-                 {"--result", arguments.result},
-                 {"--capture", arguments.capture_out},
-                 {"--json", arguments.json},
-                 {"--table", arguments.table}});
+  std::vector<NamedFile> outputs = wave_files(kCommand, arguments.wave.file, arguments.wave.save);
+  outputs.insert(outputs.end(), {{"--log", arguments.log},
+                                 {"--result", arguments.result},
+                                 {"--capture", arguments.capture_out},
+                                 {"--json", arguments.json},
+                                 {"--table", arguments.table}});
+  check_outputs(kCommand, inputs, outputs);
 }
 
 int status_of(const tb::replay::Result& result) {
@@ -175,6 +175,7 @@ int replay(const ReplayArguments& arguments) {
     return !interrupted();
   });
   progress.clear();
+  if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
   write_wanted(arguments.json, tb::replay::json(result));
   write_wanted(arguments.table, tb::replay::table(result));
   write_wanted(arguments.result, tb::result_json(replay.bench_result()));

@@ -6,6 +6,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/gsd/report.hpp"
+#include "tb/dsdpv1/cosim/stimulus_schema.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/output/write_file.hpp"
 #include "tb/report/result_schema.hpp"
@@ -17,6 +18,8 @@ namespace {
 
 std::string schema_text(const SchemaArguments& arguments) {
   if (arguments.result) return arguments.markdown ? tb::result_markdown() : tb::result_schema();
+  if (arguments.rtl_random)
+    return arguments.markdown ? cosim::stimulus_result_table() : cosim::stimulus_result_schema();
   const tb::ChipKind& kind = *tb::chip_kinds().front();
   return arguments.markdown ? tb::scenario::markdown(kind) : tb::scenario::json_schema(kind);
 }

@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
+#include <ctime>
 #include <optional>
 
 #include "tb/input/input_error.hpp"
@@ -21,6 +23,15 @@ bus::Tick time_of(const std::string& command, const char* option, const std::str
   if (!time || *time < 0)
     throw tb::InputError(fmt::format("{}: {} is {}, allowed is {}", command, option, text, tb::kTimeForm));
   return *time;
+}
+
+/// "2026-11-24 13:15:08 UTC".
+std::string now() {
+  const std::time_t time = std::time(nullptr);
+  std::array<char, 64> text{};
+  std::tm utc{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S UTC", gmtime_r(&time, &utc));
+  return text.data();
 }
 
 void check_code(const std::string& command, const std::string& code, const tb::ChipKind& kind) {
@@ -65,6 +76,10 @@ void add_wave_options(CLI::App& command, WaveArguments& arguments) {
                 "verdicts, baud and watchdog states; every cycle is evaluated then")
       ->needs(wave);
   add_wave_save_option(command, arguments.save, wave)->excludes(wires);
+  command
+      .add_flag("--wave-date", arguments.date,
+                "With date and time of day; without it the same run writes the same bytes")
+      ->needs(wave);
 }
 
 CLI::Option* add_wave_save_option(CLI::App& command, bool& save, CLI::Option* wave) {
@@ -99,6 +114,7 @@ tb::WaveOptions wave_options(const std::string& command, const WaveArguments& ar
   options.path = arguments.file;
   options.on = arguments.on;
   options.inside = arguments.inside;
+  if (arguments.date) options.date = now();
   options.selection.signals = arguments.signals;
   options.selection.wires_only = arguments.wires_only;
   options.selection.clock = arguments.clock;

@@ -20,7 +20,7 @@ struct WaveArguments {
   std::string from, to;              ///< times; empty: start and end of the run
   std::vector<std::string> on;       ///< codes
   std::string around = "100us";
-  bool wires_only = false, clock = false, inside = false, save = false;
+  bool wires_only = false, clock = false, inside = false, save = false, date = false;
 };
 
 void add_wave_options(CLI::App& command, WaveArguments& arguments);

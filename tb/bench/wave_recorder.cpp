@@ -46,7 +46,7 @@ WaveRecorder::WaveRecorder(const WaveOptions& options, bus::Segment& segment, co
       kind_(kind),
       on_(options.on),
       inside_(options.inside),
-      writer_(std::make_unique<SelectedWave>(open_wave(options.path), selection_of(options))) {
+      writer_(std::make_unique<SelectedWave>(open_wave(options.path, options.date), selection_of(options))) {
   writer_->open_scope(kBus);
   line_ = writer_->wire("line", 1);
   character_ = writer_->words("character");

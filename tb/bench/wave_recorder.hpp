@@ -29,6 +29,7 @@ struct WaveOptions {
   /// Codes that open a window, "violation" for any violation; empty: `selection` has one window.
   std::vector<std::string> on;
   bool inside = false;  ///< inner signals of the chips, too
+  std::string date;     ///< that the file is to have; empty: none
 };
 
 class WaveRecorder : public Observer, private bus::Listener {

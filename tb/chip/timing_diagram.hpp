@@ -52,8 +52,10 @@ struct Moment {
 struct DiagramSpan {
   const char* name = "";
   Moment from, to;
-  const char* check = nullptr;  ///< id of the rule whose limit holds for it; null: none
-  bool tsdr = false;            ///< min_TSDR and max_TSDR of the baud rate hold for it
+  const char* check = nullptr;   ///< id of the rule whose limit holds for it; null: none
+  bool tsdr = false;             ///< min_TSDR and max_TSDR of the baud rate hold for it
+  bus::Tick exact = 0;           ///< what the datasheet says that it is; 0: nothing
+  const char* clause = nullptr;  ///< and where
 };
 
 struct TimingDiagram {

@@ -107,12 +107,13 @@ TimingDiagram write() {
 }
 
 TimingDiagram interrupt() {
-  constexpr Level kB00e = 0x00E;  // P7: what has come stands there
+  constexpr Level kB00e = 0x00E;                       // P7: what has come stands there
+  constexpr bus::Tick kTb = 64 * bus::kTicksPerCycle;  // 1.333 us
   return {"intr0",
           "INTR0 and who serves it",
           "INTR0 falls, the user takes the DPRAM and reads B00E (4.1.6, 5.2, table 16).",
           {fall(Pin::kIntr0)},
-          {{"Tb, INTR0 low", here(), after({rise(Pin::kIntr0)})},
+          {{"Tb, INTR0 low", here(), after({rise(Pin::kIntr0)}), nullptr, false, kTb, "table 16, P7"},
            {"INTR0 to request", here(), after({rise(Pin::kRReq)})},
            {"INTR0 to the read of B00E", here(), after(at(begin(Pin::kRd), kB00e)), "INTR0_SERVICE"}},
           100 * bus::kTicksPerMs,
@@ -125,7 +126,7 @@ TimingDiagram answer() {
           "The request's last stop bit ends, PBRTS rises, the answer's first start bit falls (TSDR).",
           {},
           {{"request to PBRTS", request_end(), before({rise(Pin::kPbrts)})},
-           {"TSDR", request_end(), here(), nullptr, true}},
+           {"TSDR", request_end(), here(), nullptr, true, 0, "EN 50170, S3"}},
           0,
           pins({Pin::kPbrxd, Pin::kPbrts, Pin::kPbtxd})};
 }

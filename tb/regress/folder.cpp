@@ -79,11 +79,9 @@ std::optional<Keep> keep_named(const std::string& word) {
 }
 
 Json json_of(const Description& description) {
-  Json json = {{"format", kind().format()},
-               {"checks", description.checks},
-               {"wave", description.wave},
-               {"keep", keep_words().at(static_cast<std::size_t>(description.keep))},
-               {"left_out", description.plan.left_out},
+  Json json = {{"format", kind().format()},    {"checks", description.checks},
+               {"wave", description.wave},     {"keep", keep_words().at(static_cast<std::size_t>(description.keep))},
+               {"report", description.report}, {"left_out", description.plan.left_out},
                {"runs", Json::array()}};
   for (const Run& run : description.plan.runs) json["runs"].push_back(json_of(run));
   return campaign::as_kept(json);
@@ -96,6 +94,7 @@ Description last_description(const std::string& folder) {
     description.checks = json.at("checks");
     description.wave = json.at("wave");
     description.keep = keep_named(json.at("keep")).value_or(Keep::kFailed);
+    description.report = json.value("report", false);  // not in folders of earlier versions
     description.plan.left_out = json.at("left_out");
     for (const Json& each : json.at("runs")) description.plan.runs.push_back(run_of(each));
     return description;
@@ -119,6 +118,7 @@ std::vector<std::string> Folder::words(const Run& run) const {
   words.insert(words.end(), {"--quiet", "--no-progress", "--result", files / kResult, "--log", files / kLog});
   if (!description_.checks.empty()) words.insert(words.end(), {"--checks", description_.checks});
   if (!description_.wave.empty()) words.insert(words.end(), {"--wave", files / ("wave." + description_.wave)});
+  if (description_.report) words.insert(words.end(), {"--report", files / "report.html"});
   if (run.engine == "lockstep") words.insert(words.end(), {"--difference", files / "difference.vcd"});
   return words;
 }

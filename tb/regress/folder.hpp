@@ -24,6 +24,7 @@ struct Description {
   Plan plan;
   std::string checks, wave;  ///< of run --checks; "vcd", "fst"; empty: as usual, none
   Keep keep = Keep::kFailed;
+  bool report = false;  ///< of each run the page of run --report
 };
 campaign::Json json_of(const Description& description);
 /// That of the last regression in a folder. Throws InputError when there is none.

@@ -1,57 +1,11 @@
 #include "tb/report/result_schema.hpp"
 
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
-#include <vector>
+#include "tb/report/schema_words.hpp"
 
 namespace tb {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct Member {
-  std::string name;
-  Json schema;
-  bool always = true;
-};
-
-Json of(const char* type, const char* doc) { return {{"type", type}, {"description", doc}}; }
-Json text(const char* doc) { return of("string", doc); }
-Json boolean(const char* doc) { return of("boolean", doc); }
-Json number(const char* doc) { return of("number", doc); }
-
-Json count(const char* doc) {
-  Json json = of("integer", doc);
-  json["minimum"] = 0;
-  return json;
-}
-
-Json or_null(Json json) {
-  json["type"] = {json["type"], "null"};
-  return json;
-}
-
-Json constant(const char* value, const char* doc) { return {{"const", value}, {"description", doc}}; }
-
-Json one_of(const std::vector<const char*>& words, const char* doc) { return {{"enum", words}, {"description", doc}}; }
-
-Json object(const std::vector<Member>& members, const char* doc) {
-  Json json = of("object", doc);
-  json["additionalProperties"] = false;
-  json["required"] = Json::array();
-  for (const Member& each : members) {
-    json["properties"][each.name] = each.schema;
-    if (each.always) json["required"].push_back(each.name);
-  }
-  return json;
-}
-
-Json list(const Json& items, const char* doc) {
-  Json json = of("array", doc);
-  json["items"] = items;
-  return json;
-}
+using namespace schema;  // NOLINT(google-build-using-namespace): its words alone
 
 Json pacing() {
   return object({{"port", text("where the host was: the pseudo-terminal, TCP port or serial port")},
@@ -252,27 +206,6 @@ Json root() {
       "the result of a run");
 }
 
-std::string type_of(const Json& schema) {
-  if (schema.contains("const")) return schema["const"].dump();
-  if (schema.contains("enum")) return "one word";
-  if (!schema["type"].is_array()) return schema["type"];
-  return schema["type"][0].get<std::string>() + " or null";
-}
-
-void add_rows(const Json& schema, const std::string& path, std::string& rows) {
-  if (schema.contains("items")) return add_rows(schema["items"], path + "[]", rows);
-  if (!schema.contains("properties")) return;
-  for (const auto& [name, each] : schema["properties"].items()) {
-    std::string what = each["description"];
-    if (each.contains("enum"))
-      for (const Json& word : each["enum"])
-        what += (word == each["enum"].front() ? ": " : ", ") + word.get<std::string>();
-    const std::string here = path.empty() ? name : path + "." + name;
-    rows += fmt::format("| `{}` | {} | {} |\n", here, type_of(each), what);
-    add_rows(each, here, rows);
-  }
-}
-
 constexpr const char* kPage = R"(# The result of a run
 
 Written by `dsdpv1-sim schema --result --markdown`, do not edit. `dsdpv1-sim run --result FILE` (and `serve`, and `regress` for the runs that it keeps) writes one JSON object.
@@ -304,18 +237,13 @@ and views are the same, but for `engine`, `view`, `wall_s` and `real_time_factor
 
 }  // namespace
 
-std::string result_schema() {
-  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", kResultSchema}};
-  schema.update(root());
-  return schema.dump(2) + "\n";
-}
+std::string result_schema() { return schema::document(kResultSchema, root()); }
 
 std::string result_markdown() {
   std::string page = kPage;
   const std::string mark = "{version}";
   page.replace(page.find(mark), mark.size(), kResultVersion);
-  add_rows(root(), "", page);
-  return page;
+  return page + schema::rows(root());
 }
 
 }  // namespace tb

@@ -25,11 +25,11 @@ const std::string& regular(const std::string& path) {
 
 }  // namespace
 
-FstFile::FstFile(const std::string& path)
+FstFile::FstFile(const std::string& path, const std::string& date)
     : part_(regular(path)), declarations_(part_.part() + ".hier"), context_(create()) {
   fstWriterSetTimescaleFromString(context_, "1ps");
-  fstWriterSetVersion(context_, kWaveVersion);
-  fstWriterSetDate(context_, "");  // the same run gives the same changes, and no other sign of when it was
+  fstWriterSetVersion(context_, (std::string(kWaveAuthor) + DSDPV1_VERSION).c_str());
+  fstWriterSetDate(context_, date.c_str());  // without one that of today would be in it
   fstWriterSetPackType(context_, FST_WR_PT_LZ4);
   keep_error();
 }

@@ -15,7 +15,7 @@ class FstFile {
   using Handle = std::uint32_t;
 
   /// Throws InputError when it cannot be created, or is a device or FIFO: FST is not written from front to back.
-  explicit FstFile(const std::string& path);
+  FstFile(const std::string& path, const std::string& date);
   /// What is not finished is removed.
   ~FstFile();
   FstFile(const FstFile&) = delete;

@@ -10,7 +10,7 @@ namespace tb {
 /// GTKWave's Fast Signal Trace, written with the fstapi library that comes with Verilator.
 class FstWriter : public WaveWriter {
  public:
-  explicit FstWriter(const std::string& path) : file_(path) {}
+  FstWriter(const std::string& path, const std::string& date) : file_(path, date) {}
 
   void open_scope(const std::string& name) override { file_.open_scope(name); }
   void close_scope() override { file_.close_scope(); }

@@ -26,12 +26,12 @@ void check_wave_name(const std::string& path) {
   throw InputError(path, 0, "the ending of a wave file decides its format, allowed are .vcd and .fst");
 }
 
-std::unique_ptr<WaveWriter> open_wave(const std::string& path) {
+std::unique_ptr<WaveWriter> open_wave(const std::string& path, const std::string& date) {
   check_wave_name(path);
 #ifdef DSDPV1_WITH_FST
-  if (ends_with(path, ".fst")) return std::make_unique<FstWriter>(path);
+  if (ends_with(path, ".fst")) return std::make_unique<FstWriter>(path, date);
 #endif
-  return std::make_unique<VcdWriter>(path);
+  return std::make_unique<VcdWriter>(path, date);
 }
 
 }  // namespace tb

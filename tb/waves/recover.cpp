@@ -58,11 +58,10 @@ void copy(const std::string& from, std::uintmax_t bytes, OutputFile& to) {
 }  // namespace
 
 WaveFormat wave_format(const std::string& path) {
-  const std::string author = kWaveVersion;
-  const std::string text = beginning(path, kFstVersion + author.size() + 1);
-  if (text.rfind("$version " + author + " $end\n", 0) == 0) return WaveFormat::kVcd;
-  if (text.size() > kFstVersion && text.front() == '\0' && text.substr(kFstVersion) == author + '\0')
-    return WaveFormat::kFst;
+  const std::string author = kWaveAuthor;
+  const std::string text = beginning(path, kFstVersion + author.size());
+  if (text.rfind("$version " + author, 0) == 0) return WaveFormat::kVcd;
+  if (text.size() > kFstVersion && text.front() == '\0' && text.substr(kFstVersion) == author) return WaveFormat::kFst;
   throw InputError(path, 0, "is no wave of dsdpv1-sim, allowed is a wave's FILE.part that a run has left");
 }
 

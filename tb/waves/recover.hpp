@@ -5,8 +5,8 @@
 
 namespace tb {
 
-/// What this program writes into its waves as their author.
-inline constexpr const char* kWaveVersion = "dsdpv1-sim";
+/// With what this program's waves begin the text about their version.
+inline constexpr const char* kWaveAuthor = "dsdpv1-sim ";
 
 enum class WaveFormat { kVcd, kFst };
 

@@ -33,7 +33,7 @@ bool readable(const std::string& path) {
 
 /// A file under construction, and its variables by the handles of the one that is read.
 struct Copy {
-  explicit Copy(const std::string& path) : file(path) {}
+  Copy(const std::string& path, const std::string& date) : file(path, date) {}
   FstFile file;
   std::vector<FstFile::Handle> variables{0};
 };
@@ -79,7 +79,7 @@ std::uint64_t recover_fst(const std::string& part, const std::string& output) {
   const FstHandle reader = open_fst(part);
   if (!reader) throw InputError(part, 0, "cannot be read");
   const std::uint64_t end = fstReaderGetEndTime(reader.get());
-  Copy copy(output);
+  Copy copy(output, fstReaderGetDateString(reader.get()));
   declare(reader.get(), copy);
   fstReaderSetFacProcessMaskAll(reader.get());
   fstReaderIterBlocks2(reader.get(), change, change_of_word, &copy, nullptr);

@@ -28,8 +28,10 @@ std::string identifier(WaveWriter::Signal signal, bool words) {
 
 }  // namespace
 
-VcdWriter::VcdWriter(const std::string& path) : file_(path) {
-  file_.write(fmt::format("$version {} $end\n$timescale 1 ps $end\n", kWaveVersion));
+VcdWriter::VcdWriter(const std::string& path, const std::string& date) : file_(path) {
+  file_.write(fmt::format("$version {}{} $end\n", kWaveAuthor, DSDPV1_VERSION));
+  if (!date.empty()) file_.write(fmt::format("$date {} $end\n", date));
+  file_.write("$timescale 1 ps $end\n");
 }
 
 void VcdWriter::open_scope(const std::string& name) { file_.write(fmt::format("$scope module {} $end\n", name)); }

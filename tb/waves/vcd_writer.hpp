@@ -11,7 +11,7 @@ namespace tb {
 /// Value Change Dump, IEEE 1364-2005 clause 18. Words use the `string` extension that GTKWave and Surfer read.
 class VcdWriter : public WaveWriter {
  public:
-  explicit VcdWriter(const std::string& path);
+  VcdWriter(const std::string& path, const std::string& date);
 
   void open_scope(const std::string& name) override;
   void close_scope() override;

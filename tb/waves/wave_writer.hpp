@@ -59,9 +59,9 @@ class WaveWriter {
   virtual void finish(bus::Tick end) = 0;
 };
 
-/// The writer for the file's ending, .vcd or .fst; throws InputError for others, when the file cannot be created, and
-/// for .fst when this program was built without it.
-std::unique_ptr<WaveWriter> open_wave(const std::string& path);
+/// The writer for the file's ending, .vcd or .fst. `date`: of the file, in one line; empty: it has none. Throws
+/// InputError for others, when the file cannot be created, and for .fst when this program was built without it.
+std::unique_ptr<WaveWriter> open_wave(const std::string& path, const std::string& date = "");
 
 /// Checks the ending alone, before a run is started: the same errors.
 void check_wave_name(const std::string& path);

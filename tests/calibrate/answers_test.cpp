@@ -210,6 +210,33 @@ TEST(CalibrateAnswers, ALowLevelBeforeTheDecisionMakesTheRequestVoid) {
   EXPECT_EQ(claim(disturbed(0.5, 20), "S3", "nobody asked").verdict, Verdict::kContradicted);
 }
 
+/// min_TSDR is 140 bit times. What is no telegram, so many characters, begins 40 bit times after a request, whose
+/// answer begins `tsdr` after it.
+MadeCapture disturbed_for_long(int baud, std::size_t characters, double tsdr) {
+  constexpr double kMinTsdr = 140, kBegins = 40;
+  MadeCapture capture(baud);
+  for (int i = 0; i < 3; ++i) capture.exchange(data_exchange({1}), data_answer({2}), kMinTsdr);
+  capture.request(data_exchange({1}));
+  capture.request(Bytes(characters, 0x55), kBegins);
+  capture.answer(data_answer({2}), tsdr - kBegins - static_cast<double>(characters * bus::kCharacterBits));
+  for (int i = 0; i < 3; ++i) capture.exchange(data_exchange({1}), data_answer({2}), kMinTsdr);
+  return capture;
+}
+
+TEST(CalibrateAnswers, ADisturbanceOfAnyLengthDoesNotEndTheWait) {
+  for (const std::size_t characters : {2U, 8U}) {
+    const calibrate::Result result = disturbed_for_long(k1M5, characters, 140).judge();
+    EXPECT_EQ(contradicted(result), "") << characters;
+    EXPECT_EQ(claim(result, "S3", "nobody asked").tally.holds, 7U) << characters;
+  }
+  EXPECT_EQ(contradicted(disturbed_for_long(k12M, 8, 140).judge_sampled(24e6)), "") << "it may be a request";
+}
+
+TEST(CalibrateAnswers, AfterMaxTsdrAnAnswerIsToWhatIsNoTelegram) {
+  const calibrate::Result result = disturbed_for_long(k1M5, 8, 160).judge();
+  EXPECT_EQ(claim(result, "S3", "nobody asked").tally.fails, 1U);
+}
+
 // --- S2 --------------------------------------------------------------------------------------------------------------
 
 /// An answer of which 4 characters and 3 bits are sent, in which this pin falls.

@@ -11,6 +11,7 @@ using calibrate::Wire;
 using calibrate_test::claim;
 using calibrate_test::contradicted;
 using calibrate_test::MadePins;
+using calibrate_test::parameter;
 using testing::IsEmpty;
 
 constexpr double kCut = 2'071;  ///< cycle of the reset that add_cut_work makes
@@ -65,6 +66,41 @@ TEST(CalibrateReset, WithoutItsPinIsShownByTheFallOfReady) {
   only_ready.low(Wire::kIntr0, 2'025, kCut);
   only_ready.set(kCut + 0.5, Wire::kReady, false);
   EXPECT_THAT(contradicted(only_ready.judged(50'000)), IsEmpty()) << "the channels are half a cycle apart";
+}
+
+/// Pulses of INTR0 of these lengths, and nothing that shows a reset.
+calibrate::Result judged_pulses(const std::vector<double>& lengths, Wire beside = Wire::kIntr0) {
+  MadePins made;
+  made.show({Wire::kIntr0}, true);
+  if (beside != Wire::kIntr0) made.show({beside}, true);
+  double at = 100;
+  for (const double length : lengths) {
+    made.low(Wire::kIntr0, at, at + length);
+    at += 10'000;
+  }
+  return made.judged(at);
+}
+
+TEST(CalibrateReset, ThatNoPinShowsMayHaveCutAShortPulse) {
+  for (const std::vector<double>& lengths :
+       {std::vector<double>{64, 64, 46}, {46, 64}, {64, 46, 30}, {30, 64, 64, 50, 64}}) {
+    const calibrate::Result result = judged_pulses(lengths);
+    EXPECT_THAT(contradicted(result), IsEmpty()) << lengths.size();
+    EXPECT_EQ(parameter(result, "intr_low").value, 64) << lengths.size();
+  }
+  const calibrate::ParameterResult one = parameter(judged_pulses({46}), "intr_low");
+  EXPECT_EQ(one.verdict, Verdict::kNotContradicted);
+  EXPECT_EQ(one.words, "at least 46");
+}
+
+TEST(CalibrateReset, DoesNotMakeAPulseLonger) {
+  EXPECT_EQ(claim(judged_pulses({64, 64, 73}), "P7", "as long").tally.fails, 1U);
+  EXPECT_EQ(parameter(judged_pulses({60, 60, 60}), "intr_low").verdict, Verdict::kContradicted);
+  EXPECT_EQ(parameter(judged_pulses({73}), "intr_low").verdict, Verdict::kContradicted);
+}
+
+TEST(CalibrateReset, LetsBrFall) {
+  EXPECT_EQ(claim(judged_pulses({64, 64, 46}, Wire::kBr), "P7", "as long").tally.fails, 1U);
 }
 
 TEST(CalibrateReset, CutsWhatEndsJustBeforeItShows) {
@@ -135,6 +171,15 @@ TEST(CalibrateStartUp, OfAnotherLengthIsContradictedWhereAResetShows) {
   silent.accesses(100, 2'060);
   add_start_up(silent, 100'000, 2'100);
   EXPECT_EQ(claim(silent.judged(105'000), "H6", "").verdict, Verdict::kContradicted);
+}
+
+TEST(CalibrateStartUp, ThatIsLongerThanAnyOtherAccessIsContradictedWithoutOtherPins) {
+  for (const double cycles : {2'100, 2'500}) {
+    MadePins made = made_accesses(false);
+    add_start_up(made, 100, cycles);
+    EXPECT_EQ(claim(made.judged(8'000), "H6", "").verdict,
+              cycles > 2'424 ? Verdict::kContradicted : Verdict::kNotShown);
+  }
 }
 
 }  // namespace

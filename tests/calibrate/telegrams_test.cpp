@@ -103,6 +103,12 @@ TEST(CalibrateTelegrams, OnlyGetCfgMayHaveNothingToSend) {
   EXPECT_EQ(judged(sap::kSlaveDiag, bus::make_sc()), Verdict::kContradicted);
 }
 
+TEST(CalibrateTelegrams, GlobalControlThatWantsAnAnswerIsRefused) {
+  const Telegram asked = srd(sap::kGlobalControl, {0, 0});
+  EXPECT_EQ(verdict(asked, status(fc::kRs), "S29", "SAP 58"), Verdict::kConfirmed);
+  EXPECT_EQ(verdict(asked, bus::make_sc(), "S29", "SAP 58"), Verdict::kContradicted);
+}
+
 TEST(CalibrateTelegrams, AnswersWithDataAreSd2) {
   Telegram eight = data_answer({1, 2, 3, 4, 5, 6, 7, 8});
   EXPECT_EQ(verdict(data_exchange({1}), eight, "S20", "SD2"), Verdict::kConfirmed);

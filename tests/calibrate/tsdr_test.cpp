@@ -192,6 +192,16 @@ TEST(CalibrateTsdr, AfterASetPrmThatWasNotReadItIsThatOfTheNextAnswer) {
   EXPECT_EQ(claim(wrong, "S3", "min_TSDR").verdict, Verdict::kContradicted);
 }
 
+TEST(CalibrateTsdr, AfterASetPrmThatWasNotReadOneWrongAnswerIsToldAtTheNextOne) {
+  MadeCapture capture(k12M);
+  for (int i = 0; i < 3; ++i) capture.exchange(data_exchange({1}), data_answer({2}), 60);
+  unread_prm(capture);
+  capture.exchange(data_exchange({1}), data_answer({2}), 70);
+  EXPECT_EQ(contradicted(capture.judge_sampled(kCoarse)), "") << "70 may be the new one";
+  capture.exchange(data_exchange({1}), data_answer({2}), 60);
+  EXPECT_EQ(claim(capture.judge_sampled(kCoarse), "S3", "min_TSDR").tally.fails, 1U);
+}
+
 TEST(CalibrateTsdr, WithoutBrAnInitialisationShowsInWhatIsNoDataExchange) {
   MadeCapture capture(k1M5);
   for (int i = 0; i < 3; ++i) capture.exchange(data_exchange({1}), data_answer({2}), 15);

@@ -116,6 +116,19 @@ TEST(CalibrateRead, InResetAndBeforeTheStartUpIsNotJudged) {
   EXPECT_EQ(claim(result, "D1", "").tally.holds, 1U);
 }
 
+TEST(CalibrateRead, InAResetThatNoPinShowsIsNotJudged) {
+  const auto judged = [](const std::vector<Wire>& pins) {
+    calibrate_test::MadePins made;
+    made.show_host_port();
+    made.show(pins, true);
+    made.read(500, 0x001, 0xFF);
+    return claim(made.judged(3'000), "D1", "").verdict;
+  };
+  EXPECT_EQ(judged({}), Verdict::kNotShown);
+  for (const Wire wire : {Wire::kReset, Wire::kReady, Wire::kBr})
+    EXPECT_EQ(judged({wire}), Verdict::kContradicted) << name(wire);
+}
+
 TEST(CalibrateRead, OfACellThatTheUserHasEverWrittenShowsNoVersion) {
   MadeHold made;
   made.write(500, 0x001, 0x00);

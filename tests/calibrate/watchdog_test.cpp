@@ -300,7 +300,7 @@ TEST(CalibrateWatchdog, AResetMayShowInReadyOrInAStartUpAlone) {
   EXPECT_EQ(contradicted(reset_after_30_ms({Wire::kPbf, Wire::kReady, Wire::kLReq}, false)), "");
 }
 
-/// BR falls so long after the last telegram, in an access of so many cycles.
+/// BR falls so long after the last telegram, in an access of so many cycles; PBF is not in the capture.
 calibrate::Result after(double ms, double access) {
   WatchedStation station;
   station.start_up(0);
@@ -311,6 +311,7 @@ calibrate::Result after(double ms, double access) {
   station.set_at(Wire::kLReq, station.now() - 5 * bus::kTicksPerCycle, true);
   station.set_at(Wire::kLReq, station.now() + static_cast<Tick>((access - 5) * bus::kTicksPerCycle), false);
   station.wait_ms(1);
+  station.hide(Wire::kPbf);
   return station.judge();
 }
 
@@ -350,6 +351,36 @@ calibrate::Result initialised_and_silent(const std::vector<Wire>& pins) {
 TEST(CalibrateWatchdog, AnInitialisationIsNotTakenForTheEndOfBaudControl) {
   expect_600(initialised_and_silent({Wire::kBr, Wire::kLReq}));
   expect_600(initialised_and_silent({Wire::kBr}));
+}
+
+/// BR falls so long after the last telegram to a station in DATA_EXCH. PBF is not in the capture, rises with BR or
+/// stays low.
+enum class Pbf : std::uint8_t { kHidden, kRises, kStays };
+calibrate::ParameterResult single_fall(double ms, Pbf pbf) {
+  WatchedStation station;
+  station.start_up(0);
+  const Tick last = station.decided(data_exchange(kOutputs), data_answer({3, 4}));
+  station.fall_of_br(last, ms);
+  if (pbf == Pbf::kRises) station.end_exchange(last, ms);
+  if (pbf == Pbf::kHidden) station.hide(Wire::kPbf);
+  station.hide(Wire::kLReq);
+  const calibrate::Result result = station.judge();
+  EXPECT_EQ(contradicted(result), "") << ms;
+  return parameter(result, "baud_control_ms");
+}
+
+TEST(CalibrateWatchdog, OneFallOfBrThatMayBeAnInitialisationIsOnlyALowerBound) {
+  EXPECT_EQ(single_fall(12, Pbf::kHidden).verdict, Verdict::kNotContradicted);
+  EXPECT_EQ(single_fall(12, Pbf::kHidden).words, "at least 12");
+  EXPECT_EQ(single_fall(700, Pbf::kHidden).verdict, Verdict::kContradicted);
+  EXPECT_EQ(single_fall(600, Pbf::kHidden).value, 600);
+}
+
+TEST(CalibrateWatchdog, PbfTellsAnInitialisationFromTheEndOfBaudControl) {
+  EXPECT_EQ(single_fall(12, Pbf::kRises).verdict, Verdict::kNotShown);
+  EXPECT_NE(single_fall(12, Pbf::kRises).words.find("new initialisation"), std::string::npos);
+  EXPECT_EQ(single_fall(12, Pbf::kStays).verdict, Verdict::kContradicted);
+  EXPECT_EQ(single_fall(12, Pbf::kStays).value, 12);
 }
 
 TEST(CalibrateWatchdog, AFallOfBrInALongAccessMayBeAnInitialisation) {

@@ -11,6 +11,7 @@
 #include "tb/dsdpv1/cosim/play_wave.hpp"
 #include "tb/dsdpv1/cosim/player.hpp"
 #include "tb/dsdpv1/cosim/stimulus_result.hpp"
+#include "tb/dsdpv1/cosim/stimulus_schema.hpp"
 #include "tests/cosim/made_up_top.hpp"
 
 namespace {
@@ -109,6 +110,12 @@ TEST_F(PlayedStimulus, ResultNamesVerdictCountsAndFirstDifference) {
   EXPECT_TRUE(json["rtl"].is_null() && json["cases"].is_null() && json["case"].is_null());
   result.difference.reset();
   EXPECT_EQ(nlohmann::json::parse(cosim::result_json(result))["verdict"], "same");
+}
+
+TEST(StimulusResult, HasItsTableInTheDocument) {
+  std::ifstream page(DSDPV1_SOURCE_DIR "/docs/cosim.md");
+  const std::string text{std::istreambuf_iterator<char>(page), {}};
+  EXPECT_THAT(text, HasSubstr(cosim::stimulus_result_table())) << "dsdpv1-sim schema --rtl-random --markdown prints it";
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ class Output:
 
     finite, endless = [], []  # what lets the command end soon or never
     usual = 0                 # its exit code without a fault
+    besides = ()              # other files that its command writes whatever becomes of it
     other_input = ""          # a file that it reads, not the scenario
     simulates = False         # a scenario, until it is interrupted
     others = {}               # another option for an output
@@ -64,6 +65,20 @@ class OfRun(Output):
         return process.stderr.read(1)  # of the progress bar
 
 
+class SaveFile(Output):
+    """Of --wave-save: it is beside the wave, which is there before it is written."""
+
+    other_input = "device.gsd"
+
+    def __init__(self, ending, beside):
+        super().__init__("save file ." + ending, "o." + ending, "run", "s.yaml", "--quiet", "--wave-save", "--wave")
+        self.besides = ("o.vcd", "o." + beside)
+
+    def command(self, path=None, more=(), endless=False):
+        wave = os.path.splitext(path or self.file)[0] + ".vcd"
+        return [*self.words, wave, *more]
+
+
 class OfServe(Output):
     finite, endless = ["--for", "1ms"], ["--for", "3000s"]
     other_input = "device.gsd"
@@ -82,6 +97,19 @@ class OfServe(Output):
     def wait_until_it_runs(self, process, place):
         process.stdout.readline()  # where it serves
         return b""
+
+
+class OfCapture(Output):
+    """Of a command that reads a capture; compare holds two against each other."""
+
+    OTHERS = {"calibrate": {"--chip": "--json", "--json": "--table", "--table": "--chip"},
+              "replay": {"--wave": "--log", "--log": "--result", "--result": "--capture", "--capture": "--json", "--json": "--table", "--table": "--log"},
+              "decode": {"--json": "--table", "--table": "--json"},
+              "compare": {"--wave": "--json", "--json": "--junit", "--junit": "--json"}}
+
+    def __init__(self, kind, file, option, *words):
+        super().__init__(kind, file, *words, "--quiet", option)
+        self.other_input, self.others = words[1], self.OTHERS[words[0]]
 
 
 class OfReplay(Output):
@@ -133,9 +161,22 @@ REPORT = ("report", "o.html", "--report")
 OUTPUTS = [*(OfRun(*each) for each in [*WAVES, LOG, ("log .jsonl", "o.jsonl", "--log"), RESULT, ("trace", "o.txt", "--trace"), CAPTURE, REPORT]),
            *(OfServe(*each) for each in [*WAVES, LOG, RESULT, CAPTURE, REPORT]),
            Output("", "o.schema", "schema", "--output"), Output("", "o.md", "reasons", "--markdown", "--output"), OfRecover()]
+SAVES = [SaveFile("gtkw", "sucl"), SaveFile("sucl", "gtkw")]
+JSON, TABLE = ("json", "o.json", "--json"), ("table", "o.txt", "--table")
+OF_CAPTURES = [*(OfCapture(*each, "replay", "recorded.pcapng", "--as", "5") for each in [*WAVES, LOG, RESULT, CAPTURE, JSON, TABLE]),
+               *(OfCapture(*each, "calibrate", "board.vcd") for each in [("chip", "o.yaml", "--chip"), JSON, TABLE]),
+               *(OfCapture(*each, "decode", "recorded.pcapng") for each in [JSON, TABLE]),
+               *(OfCapture(*each, "compare", "board.vcd", "again.vcd") for each in [*WAVES, JSON, ("junit", "o.xml", "--junit")])]
 OF_RTL = [OfReplay("difference .fst", "o.fst"), OfReplay("difference .vcd", "o.vcd"), OfReplay(*LOG), OfReplay(*RESULT), OfRandom(), OfFaults()]
 SPEAKERS = [Output("", "o.log", "run", "s.yaml", "--log"), *(Output("", "", *words) for words in (
     ["schema"], ["reasons"], ["gsd", "device.gsd"], ["decode", "whole.log"]))]
+
+
+def make_captures(program, folder):
+    """A start-up: a wave, the same again, and its telegrams."""
+    words = ["run", "s.yaml", "--quiet", "--set", "end=4ms", "--wave", "board.vcd", "--capture", "recorded.pcapng"]
+    subprocess.run([program, *words], cwd=folder, check=True)
+    shutil.copy(os.path.join(folder, "board.vcd"), os.path.join(folder, "again.vcd"))
 
 
 def make_case(program, folder):

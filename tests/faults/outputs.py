@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 import files
 import signals
 import streams
-from commands import OF_RTL, OUTPUTS, SCENARIO, SPEAKERS, make_case
+from commands import OF_CAPTURES, OF_RTL, OUTPUTS, SAVES, SCENARIO, SPEAKERS, make_captures, make_case
 from page import compare, replace_table
 from place import HERE, Failure, Place, check
 from whole import read
@@ -22,7 +22,7 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 PAGE = os.path.join(ROOT, "docs", "robustness.md")
 TABLE = "outputs"
 
-ALL = OUTPUTS + OF_RTL
+ALL = OUTPUTS + OF_CAPTURES + OF_RTL
 SIMULATING = [output for output in ALL if output.simulates]
 RUNNING = [output for output in ALL if output.endless]
 QUICK = [output for output in ALL if output.kind != "stimulus"]  # which takes a second of random cases
@@ -37,10 +37,10 @@ FAULTS = [
     ("disk full from the start", files.full_at_start, ALL),
     ("disk full in the middle, a file is there already", files.full_in_the_middle, ALL),
     ("disk full at the last byte", files.full_at_the_last_byte, [output for output in QUICK if output.kind not in VARYING]),
-    ("link to a full device", files.full_device, QUICK),
+    ("link to a full device", files.full_device, QUICK + SAVES),
     ("folder not writable", files.folder_not_writable, QUICK),
-    ("file is there, not writable", files.file_not_writable, ALL),
-    ("is a folder", files.is_a_folder, ALL),
+    ("file is there, not writable", files.file_not_writable, ALL + SAVES),
+    ("is a folder", files.is_a_folder, ALL + SAVES),
     ("SIGINT while running", signals.interrupted, RUNNING),
     ("SIGTERM while running", signals.terminated, RUNNING),
     ("SIGHUP while running", signals.hung_up, RUNNING),
@@ -51,17 +51,17 @@ FAULTS = [
     ("SIGKILL during start-up", signals.killed_at_start, SIMULATING),
     ("two at once, both interrupted", signals.two_at_once, RUNNING),
     ("is the scenario", files.own_scenario, SIMULATING),
-    ("is a link to another input of the command", files.other_input, [output for output in ALL if output.other_input]),
+    ("is a link to another input of the command", files.other_input, [output for output in ALL + SAVES if output.other_input]),
     ("is another output of the command, too", files.twice, [output for output in ALL if output.other]),
-    ("is the file that standard output goes to", streams.standard_outputs_file, QUICK),
+    ("is the file that standard output goes to", streams.standard_outputs_file, QUICK + SAVES),
     ("links to a terminal", streams.device, QUICK),
     ("links to /dev/null, another output too", streams.null_twice, SIMULATING),
     ("is a FIFO", streams.fifo, ALL),
     ("is a FIFO whose reader goes away while running", streams.fifo_reader_gone,
      of_kinds(SIMULATING, "wave .vcd", "log", "log .jsonl", "trace", "capture")),
     ("SIGINT while another output is a FIFO whose reader does not read", streams.full_pipe_and_interrupted, SIMULATING),
-    ("links to a file in another folder", files.link, QUICK),
-    ("links to a file that is not there yet", files.dangling_link, QUICK),
+    ("links to a file in another folder", files.link, QUICK + SAVES),
+    ("links to a file that is not there yet", files.dangling_link, QUICK + SAVES),
     ("name of 249 characters", files.name_249, QUICK),
     ("name of 255 characters", files.name_255, QUICK),
     ("name of 256 characters", files.name_256, QUICK),
@@ -79,6 +79,7 @@ def prepare(program, folder):
     shutil.copy(os.path.join(ROOT, "scenarios", "dsdpv1.gsd"), os.path.join(folder, "device.gsd"))
     os.symlink("/dev/null", os.path.join(folder, "nowhere.vcd"))
     subprocess.run([program, "run", "s.yaml", "--quiet", "--log", "whole.log", "--log-whole"], cwd=folder, check=True)
+    make_captures(program, folder)
     make_case(program, folder)
     place = Place(program, OUTPUTS[0], folder)
     try:
@@ -88,11 +89,12 @@ def prepare(program, folder):
             shutil.copy(place.file(part + ending), os.path.join(folder, "killed.fst.1.part" + ending))
     finally:
         place.close()
-    for output in [*ALL, SPEAKERS[0]]:
+    for output in [*ALL, *SAVES, SPEAKERS[0]]:
         done = subprocess.run([program, *output.command()], cwd=folder, capture_output=True, check=False)
         check(done.returncode == output.usual, "%s: exit %d, %s" % (output.name, done.returncode, done.stderr.decode()))
         output.reference = read(os.path.join(folder, output.file))
-        os.remove(os.path.join(folder, output.file))
+        for name in (output.file, *output.besides):
+            os.remove(os.path.join(folder, name))
 
 
 def one(program, folder, fault, function, output):
@@ -120,12 +122,13 @@ def rows(program, folder):
 
 def who(outputs):
     """A command alone stands for all of its outputs."""
-    if outputs in (ALL, QUICK):
-        return "all" if outputs == ALL else "all but rtl-random (stimulus)"
+    for every, words in ((ALL, "all"), (ALL + SAVES, "all"), (QUICK, "all but rtl-random (stimulus)"), (QUICK + SAVES, "all but rtl-random (stimulus)")):
+        if outputs == every:
+            return words
     texts = []
     for command in dict.fromkeys(output.words[0] for output in outputs):
         kinds = [output.kind for output in outputs if output.words[0] == command]
-        every = [output.kind for output in ALL if output.words[0] == command]
+        every = [output.kind for output in ALL if output.words[0] == command]  # the save files stand for themselves
         texts.append(command if kinds == every or not kinds[0] else "%s (%s)" % (command, ", ".join(kinds)))
     return ", ".join(texts)
 

@@ -42,7 +42,7 @@ class Place:
         self.program, self.output = program, output
         self.path = tempfile.mkdtemp(prefix="dsdpv1_faults_")
         shutil.copytree(kept, self.path, symlinks=True, dirs_exist_ok=True)
-        self.inputs = set(os.listdir(self.path))
+        self.inputs = {*os.listdir(self.path), *output.besides}
         self.started = []
         self.heard = {}  # of processes, what they have said while they were waited for
 
@@ -91,7 +91,7 @@ class Place:
         """Without what differs from output to output."""
         text = re.sub(r"n{100,}(\.\w+)?", "NAME", text)
         text = text.replace(self.output.file or "/", "FILE").replace("./FILE", "FILE")
-        text = re.sub(r"--(wave|log|result|trace|output|difference|stimulus|tsv|replay|list|capture|report)\b", "OPTION", text)
+        text = re.sub(r"--(wave|log|result|trace|output|difference|stimulus|tsv|replay|list|capture|report|chip|json|table|junit)\b", "OPTION", text)
         text = re.sub(r"dsdpv1-sim [\w-]+:", "dsdpv1-sim COMMAND:", text)
         return re.sub(r"\.\d+(-\d+)?\.part", ".PID.part", text)
 

@@ -67,7 +67,7 @@ def readable(path, content):
 
 
 def without_wall_time(content):
-    """What differs from run to run is how long it took and how it kept pace, and the port."""
+    """What differs from run to run is how long it took and how it kept pace, the port, and in a save file where the wave is."""
     if content.startswith(b"{"):
         result = json.loads(content)
         for key in ("wall_s", "real_time_factor", "pacing"):
@@ -75,6 +75,8 @@ def without_wall_time(content):
         return result
     if content.startswith(b"number\t"):  # kills of faults: the seconds
         return [line.split(b"\t")[:5] + line.split(b"\t")[6:] for line in content.splitlines()]
+    if content.startswith(b"[*] dsdpv1-sim"):
+        return re.sub(rb"\[dumpfile\] .*", b"", content)
     if content.startswith(b"<!DOCTYPE html>"):
         return re.sub(rb'"(wall_s|real_time_factor)": [^,}]*|"pacing": {[^}]*}|\n  (simulated|host|pacing|served) .*', b"", content)
     return re.sub(rb".* host .* this computer is too slow.*\n", b"", content)

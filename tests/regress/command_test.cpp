@@ -99,6 +99,16 @@ TEST_F(RegressCommand, KeepsLogResultAndWaveOfWhatIsWanted) {
   EXPECT_EQ(runs("--keep all scenarios/good.yaml", 0)[0]["files"], nlohmann::json({"result.json", "run.log"}));
 }
 
+TEST_F(RegressCommand, ReportOfEachRunThatIsKeptIsLinkedFromThePage) {
+  write_bad();
+  const nlohmann::json run = runs("--report scenarios/good.yaml scenarios/bad.yaml", 1)[1];
+  EXPECT_EQ(run["files"], nlohmann::json({"report.html", "result.json", "run.log"}));
+  const std::string page = run["folder"].get<std::string>() + "/report.html";
+  EXPECT_THAT(file("regression/" + page), HasSubstr("event BUS_TELEGRAM_ERROR"));
+  EXPECT_THAT(file("regression/index.html"), HasSubstr("<a href=\"" + page + "\">"));
+  EXPECT_EQ(runs("--failed", 1)[1]["files"], run["files"]);
+}
+
 TEST_F(RegressCommand, SettingsTakeRanges) {
   const nlohmann::json all = runs("--set user_cpu.fsmc.datast=2..4 --set baud=12M,6M", 0);
   EXPECT_EQ(all.size(), 6U);

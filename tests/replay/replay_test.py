@@ -347,9 +347,9 @@ def window(folder):
 
 
 def outputs(folder):
-    """Table, log, wave, capture and result of a replay; the table has a row for each request, and the verdicts add up."""
+    """Table, log, wave with its save files, capture and result of a replay; the table has a row for each request, and the verdicts add up."""
     capture = record(folder)
-    result, _ = replayed(folder, capture, "--table", "replay.tsv", "--log", "replay.log", "--wave", "replay.fst", "--result", "result.json",
+    result, _ = replayed(folder, capture, "--table", "replay.tsv", "--log", "replay.log", "--wave", "replay.fst", "--wave-save", "--result", "result.json",
                          "--capture", "replay.pcapng")
     rows = list(csv.DictReader((folder / "replay.tsv").open(encoding="utf-8"), delimiter="\t"))
     expect("rows", len(rows), sum(result["verdicts"].values()))
@@ -358,9 +358,7 @@ def outputs(folder):
     # What the replay has on its line, replayed: the lead-in besides, which asks nobody.
     is_equal(folder, "again", "replay.pcapng")
     expect("written", sorted(path.name for path in folder.glob("re*")),
-           ["replay.fst", "replay.fst.gtkw", "replay.json", "replay.log", "replay.pcapng", "replay.tsv", "result.json"]
-           if (folder / "replay.fst.gtkw").exists() else
-           ["replay.fst", "replay.json", "replay.log", "replay.pcapng", "replay.tsv", "result.json"])
+           ["replay.fst", "replay.gtkw", "replay.json", "replay.log", "replay.pcapng", "replay.sucl", "replay.tsv", "result.json"])
     clash = sim(folder, "replay", capture, "--as", "5", "--json", "run.pcapng", status=2)
     expect("an output is no input", clash.stderr,
            "dsdpv1-sim replay: --json would replace the capture, run.pcapng, allowed is a file of its own\n")

@@ -144,6 +144,9 @@ def diagrams(page, report):
         shown = [float(each) for each in page.run(NAMES, ".diagram[data-id=%s][data-slave=%s] g.measured" % (ident, slave), "data-margin") if each]
         same(round(min(shown) / TICKS, 3), round(min(report.check_of(each, slave)["worst_margin_ns"] for each in rules), 3), "margin of " + ident)
     check(page.run("return document.querySelectorAll('.diagram .limit').length") >= 8, "the limits are not drawn")
+    interrupt = ".diagram[data-id=intr0]"
+    same(page.run(TEXTS, interrupt + " tbody tr:first-child td"), ["Tb, INTR0 low", "1.333 µs", "= 1.333 µs", "", "", "table 16, P7"], "Tb of table 16")
+    check(page.run("return document.querySelectorAll(arguments[0]).length", interrupt + " .limit") >= 1, "Tb of table 16 is not drawn")
     before = page.run("return document.querySelector('.diagram .wire').getAttribute('d')")
     page.click(".diagram .buttons button")
     check(page.run("return document.querySelector('.diagram .wire').getAttribute('d')") != before, "a diagram does not zoom")

@@ -1,5 +1,5 @@
-"""The schema of results: each kind of run has a result that is right by it, and it finds each member that is missing, unknown or of
-another type.
+"""The schemas of results: each kind of run, and of random stimulus, has a result that is right by it, and it finds each member that is
+missing, unknown or of another type.
 
     results_test.py DSDPV1_SIM [rtl]
 """
@@ -15,6 +15,8 @@ from validate import faults, validator
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 VIOLATIONS = "scenarios/violations.yaml"  # has checks with violations, refusals, events
+FAULT = "12"  # of rtl_ref/faults.txt, one that is quickly found and shrunk
+ANY_NAMES = ("telegrams", "codes")  # objects whose members may have any name
 
 
 def check(condition, what):
@@ -55,9 +57,22 @@ def results(program, folder, with_rtl):
         yield "lockstep", result_of(program, folder, "run", "scenarios/bus_timing.yaml", "--no-progress", "--engine", "lockstep")
 
 
+def results_of_rtl_random(program, folder):
+    """Model and RTL are the same; a case that differs; it again."""
+    files = ["--difference", os.path.join(folder, "d.vcd")]
+    case = os.path.join(folder, "case.stimulus")
+    for what, words, status in (("same", ["--cycles", "20000"], 0), ("case", ["--fault", FAULT, "--stimulus", case, *files], 1),
+                                ("replay", ["--fault", FAULT, "--replay", case, *files], 1)):
+        path = os.path.join(folder, what + ".json")
+        done = subprocess.run([program, "rtl-random", *words, "--result", path], cwd=folder, capture_output=True, text=True, check=False)
+        check(done.returncode == status, "%s: exit %d\n%s" % (words, done.returncode, done.stderr))
+        with open(path, encoding="UTF-8") as file:
+            yield what, json.load(file)
+
+
 def places(value, path=()):
     """The paths of all objects in a result, one of each list."""
-    if isinstance(value, dict):
+    if isinstance(value, dict) and path[-1:] not in [(name,) for name in ANY_NAMES]:
         yield path
         for name, each in value.items():
             yield from places(each, (*path, name))
@@ -98,16 +113,24 @@ def check_each_member(judge, result):
     return count
 
 
+def check_all(judge, all_results, looked_at, least):
+    """Each is right; of the kinds to be looked at each member is needed."""
+    count = 0
+    for what, result in all_results:
+        found = faults(judge, result)
+        check(not found, "%s: %s" % (what, "\n".join(found[:10])))
+        check(list(result)[:2] == ["schema", "version"], "the first members are others")
+        if what in looked_at:
+            count = check_each_member(judge, result)
+    check(count > least, "only %d members were looked at" % count)
+
+
 def main(program, *options):
-    judge = validator(program)
     with tempfile.TemporaryDirectory() as folder:
-        for what, result in results(program, folder, "rtl" in options):
-            found = faults(judge, result)
-            check(not found, "%s: %s" % (what, "\n".join(found[:10])))
-            check(list(result)[:2] == ["schema", "version"], "the first members are others")
-            if what in ("checks fail", "refusals"):
-                count = check_each_member(judge, result)
-    check(count > 60, "only %d members were looked at" % count)
+        with_rtl = "rtl" in options
+        check_all(validator(program), results(program, folder, with_rtl), ("checks fail", "refusals"), 60)
+        if with_rtl:
+            check_all(validator(program, "--rtl-random"), results_of_rtl_random(program, folder), ("case",), 20)
 
 
 if __name__ == "__main__":

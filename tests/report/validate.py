@@ -1,6 +1,6 @@
 """Holds result files against the schema that the program prints.
 
-    validate.py DSDPV1_SIM RESULT...
+    validate.py DSDPV1_SIM RESULT...     of run
 """
 import json
 import subprocess
@@ -9,8 +9,8 @@ import sys
 import jsonschema
 
 
-def validator(program):
-    schema = json.loads(subprocess.run([program, "schema", "--result"], check=True, capture_output=True).stdout)
+def validator(program, which="--result"):
+    schema = json.loads(subprocess.run([program, "schema", which], check=True, capture_output=True).stdout)
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)
 

@@ -4,6 +4,7 @@ carried out here.
 
     array_test.py DSDPV1_SIM
 """
+import contextlib
 import json
 import os
 import signal
@@ -54,25 +55,28 @@ class Sweep:
                                 stderr=subprocess.PIPE)
 
     def tasks(self):
-        """Process and number of the tasks that run."""
+        """Process and number of the tasks that run. A run of theirs has their command line, too, from its fork to its exec; it would be tried again."""
+        found, parents = {}, {}
         for process in self.cluster.processes():
             try:
                 words = read("/proc/%d/cmdline" % process).split(b"\0")
                 environment = dict(word.split(b"=", 1) for word in read("/proc/%d/environ" % process).split(b"\0") if b"=" in word)
+                parents[process] = int(read("/proc/%d/stat" % process).rsplit(b")", 1)[1].split()[1])
             except OSError:
                 continue  # it has ended
             if b"--slurm-task" in words and b"SLURM_ARRAY_TASK_ID" in environment:
-                yield process, int(environment[b"SLURM_ARRAY_TASK_ID"])
+                found[process] = int(environment[b"SLURM_ARRAY_TASK_ID"])
+        return [(process, task) for process, task in found.items() if parents[process] not in found]
 
     def kill_one(self):
         """Kills a task that runs; its number, or None when none could be caught before it had finished."""
         for process, task in self.tasks():
-            os.kill(process, signal.SIGSTOP)
-            if task in self.points():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(process, signal.SIGSTOP)
+                if task not in self.points():
+                    os.kill(process, signal.SIGKILL)
+                    return task
                 os.kill(process, signal.SIGCONT)
-                continue
-            os.kill(process, signal.SIGKILL)
-            return task
         return None
 
 
@@ -94,12 +98,19 @@ def lose_tasks_and_owner(sweep):
 
 
 def go_on(sweep, lost):
+    """In one more array, or in two, when Slurm knows later of one task that it is gone."""
     owner = sweep.start()
-    wait_for(lambda: sweep.submission(2) or owner.poll() is not None, "the second array")
-    again = sweep.submission(2)
-    out, errors = owner.communicate(timeout=120)
+    again = set()
+
+    def ended():
+        for number in (2, 3):
+            again.update(job for task in sweep.submission(number).get("tasks", []) for job in task)
+        return owner.poll() is not None
+
+    wait_for(ended, "the end of the sweep", 120)
+    out, errors = owner.communicate()
     check(owner.returncode == 0, "exit %d: %s" % (owner.returncode, errors.decode()))
-    check({job for task in again["tasks"] for job in task} == lost, "submitted again: %s, lost: %s" % (again["tasks"], lost))
+    check(again == lost, "submitted again: %s, lost: %s" % (again, lost))
     check(b" of 200 points are there already\n" in errors, errors.decode())
     return out
 

@@ -58,8 +58,8 @@ def free_ports(count):
     return ports
 
 
-def wait_for(condition, what):
-    end = time.monotonic() + DEADLINE
+def wait_for(condition, what, deadline=DEADLINE):
+    end = time.monotonic() + deadline
     while not condition():
         if time.monotonic() > end:
             raise TimeoutError("waited for %s in vain" % what)

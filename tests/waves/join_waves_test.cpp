@@ -54,7 +54,8 @@ class JoinWaves : public testing::Test {
 TEST_F(JoinWaves, SecondStandsInTheScopeThatIsGivenAndKeepsToTheTimesOfTheFirst) {
   tb::join_waves({{model(), "", ""}, {rtl(), "TOP", "demo.rtl"}}, path("both.vcd"));
   EXPECT_EQ(read(path("both.vcd")),
-            "$version dsdpv1-sim $end\n$timescale 1 ps $end\n"
+            "$version dsdpv1-sim " DSDPV1_VERSION
+            " $end\n$timescale 1 ps $end\n"
             "$scope module demo $end\n$var wire 1 % READY $end\n$var string 1 ~& state $end\n"
             "$scope module rtl $end\n$var wire 1 ' ready_o $end\n"
             "$scope module chip $end\n$var wire 1 ' ready_o $end\n$var wire 8 ( count_q [7:0] $end\n$upscope $end\n"

@@ -66,10 +66,21 @@ TEST_F(Waves, VcdHoldsDeclarationsAndChanges) {
   write_example(*wave);
   wave->finish(750);
   EXPECT_EQ(read(path("w.vcd")),
-            "$version dsdpv1-sim $end\n$timescale 1 ps $end\n$scope module demo $end\n"
+            "$version dsdpv1-sim " DSDPV1_VERSION
+            " $end\n$timescale 1 ps $end\n$scope module demo $end\n"
             "$var wire 1 % L_REQ $end\n$var wire 8 & D [7:0] $end\n$var string 1 ~' dp_state $end\n$upscope $end\n"
             "$enddefinitions $end\n#0\n0%\nbzzzzzzzz &\nsOFFLINE ~'\n#20833\n1%\n#31250\nbxxxxxxxx &\n#41667\n"
             "b10100101 &\nsWAIT_PRM ~'\n#62500\n");
+}
+
+TEST_F(Waves, VcdHasTheDateThatItIsGiven) {
+  auto wave = tb::open_wave(path("w.vcd"), "2026-11-24 13:15:08 UTC");
+  write_example(*wave);
+  wave->finish(750);
+  EXPECT_EQ(
+      read(path("w.vcd")).rfind("$version dsdpv1-sim " DSDPV1_VERSION " $end\n$date 2026-11-24 13:15:08 UTC $end\n", 0),
+      0U);
+  EXPECT_EQ(tb::wave_format(path("w.vcd")), tb::WaveFormat::kVcd);
 }
 
 TEST_F(Waves, UnfinishedFileIsAbsent) {
@@ -107,13 +118,15 @@ void collect_words(void* text, uint64_t time, fstHandle signal, const unsigned c
 }
 
 TEST_F(Waves, FstReadsBackWhatWasWritten) {
-  auto wave = tb::open_wave(path("w.fst"));
+  auto wave = tb::open_wave(path("w.fst"), "2026-11-24 13:15:08 UTC");
   write_example(*wave);
   wave->finish(750);
   void* reader = fstReaderOpen(path("w.fst").c_str());
   ASSERT_NE(reader, nullptr);
   EXPECT_EQ(fstReaderGetEndTime(reader), 62500U);
   EXPECT_EQ(fstReaderGetTimescale(reader), -12);
+  EXPECT_STREQ(fstReaderGetVersionString(reader), "dsdpv1-sim " DSDPV1_VERSION);
+  EXPECT_STREQ(fstReaderGetDateString(reader), "2026-11-24 13:15:08 UTC");
   fstReaderSetFacProcessMaskAll(reader);
   std::ostringstream text;
   fstReaderIterBlocks2(reader, collect, collect_words, &text, nullptr);

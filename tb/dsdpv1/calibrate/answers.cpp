@@ -1,6 +1,7 @@
 // P2, S2, S3: PBTXD and PBRTS of the chip's answers.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bus/wire/uart.hpp"
@@ -116,6 +117,14 @@ bool wants_answer(const Exchange& exchange) {
          exchange.request->telegram.sa < bus::kBroadcast;
 }
 
+/// The capture could not read what came while the answer may have been due: the answer behind that may be this one.
+bool answer_may_be_another(const Scene& scene, const LineTelegram& request) {
+  const auto next = std::upper_bound(scene.received.begin(), scene.received.end(), request.start,
+                                     [](Tick at, const LineTelegram& each) { return at < each.start; });
+  return next != scene.received.end() && !next->right && next->coarse(scene.time) &&
+         next->start < request.end() + request.max_tsdr();
+}
+
 /// Whether the exchanges before and behind show that the chip answers requests like this one. One with a gap may be
 /// void. Without BR one may have ended a search (S1, S9): after a silence, or after a new initialisation, which ends
 /// DATA_EXCH.
@@ -152,7 +161,7 @@ void judge_answered(const Scene& scene, Found& found) {
     if (!late) continue;
     if (exchange.answer != nullptr)
       found.judge.holds(kAnswered);
-    else if (chip_listens(scene, i))
+    else if (chip_listens(scene, i) && !answer_may_be_another(scene, *exchange.request))
       found.judge.fails(kAnswered, exchange.request->end(),
                         "a request is not answered, those before and behind it are");
   }

@@ -1,6 +1,10 @@
 // P7, D7: INTR0 and READY.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
+#include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/calibrate/found.hpp"
 
 namespace calibrate {
@@ -33,19 +37,52 @@ bool owned(const Scene& scene, Tick at) {
   return !trace.low(at - about, at + about);
 }
 
-void fit_low(const Scene& scene, const std::vector<Pulse>& pulses, Found& found) {
+// --- how long a pulse is
+
+bool may_be_cut(const Scene& scene, const Pulse& pulse) {
+  return scene.may_hide_reset(pulse.rise - scene.time.margin(), pulse.rise + scene.time.margin());
+}
+
+Estimate length_of(const Scene& scene, const std::vector<Pulse>& pulses) {
   std::vector<Instance> instances;
   instances.reserve(pulses.size());
   for (const Pulse& pulse : pulses)
     instances.push_back(
         {pulse.fall, scene.time.between(pulse.fall, pulse.rise), scene.time.best(pulse.fall, pulse.rise)});
+  return estimate(instances, &scene.time);
+}
+
+/// Those that have their whole length: where no two agree the shortest may be cut, and beside those that agree one that
+/// is shorter.
+std::vector<Pulse> whole_pulses(const Scene& scene, std::vector<Pulse> pulses) {
+  const auto length = [](const Pulse& pulse) { return pulse.rise - pulse.fall; };
+  std::sort(pulses.begin(), pulses.end(), [&](const Pulse& a, const Pulse& b) { return length(a) < length(b); });
+  while (pulses.size() > 1 && may_be_cut(scene, pulses.front())) {
+    const Estimate all = length_of(scene, pulses);
+    const bool alone = all.count - all.outliers.size() < 2,
+               shorter = scene.time.between(pulses.front().fall, pulses.front().rise).hi < all.span.lo;
+    if (!alone && !shorter) break;
+    pulses.erase(pulses.begin());
+  }
+  return pulses;
+}
+
+void fit_low(const Scene& scene, const std::vector<Pulse>& pulses, Found& found) {
+  const std::vector<Pulse> whole = whole_pulses(scene, pulses);
   Fit& fit = found.fit(Parameter::kIntrLow);
-  fit.estimate = estimate(instances, &scene.time);
+  fit.estimate = length_of(scene, whole);
   if (pulses.empty()) fit.not_shown = "INTR0 has no pulse";
+  if (whole.size() == 1 && may_be_cut(scene, whole.front()) && fit.estimate.span.hi < dsdpv1::Config{}.intr_low) {
+    fit.estimate.span.hi = std::numeric_limits<double>::max();
+    fit.at_least = true;
+    return;
+  }
   for (const Outlier& outlier : fit.estimate.outliers)
     found.judge.fails(kPulses, outlier.at, fmt::format("{:+.1f} cycles from the others", outlier.by));
   for (std::size_t i = fit.estimate.outliers.size(); i < fit.estimate.count; ++i) found.judge.holds(kPulses);
 }
+
+// --- when they come
 
 /// A pulse that begins while the chip does not have the DPRAM had to wait for the end of the gap; others only say that
 /// the gap is not longer.

@@ -26,6 +26,8 @@ struct LineTelegram {
   /// 4).
   Span decision() const { return {12 * bit() + 3, 12 * bit() + 4}; }
   Tick end() const { return last_start + characters(1); }
+  /// From its end to the latest begin of an answer (S3).
+  Tick max_tsdr() const { return bus::baud(baud).max_tsdr_bits * bus::baud(baud).bit; }
   /// When a receiver takes the line to be idle: of what is no telegram from its last edge on, or up to a character
   /// later.
   Tick idle_from() const { return right ? end() : last_edge; }

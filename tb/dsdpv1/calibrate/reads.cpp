@@ -5,8 +5,9 @@
 namespace calibrate {
 namespace {
 
-bool in_reset(const Scene& scene, const UserAccess& read) {
-  return scene.in_reset(read.start - scene.time.ticks(3) - scene.time.margin(), read.end);
+bool may_be_in_reset(const Scene& scene, const UserAccess& read) {
+  const Tick from = read.start - scene.time.ticks(3) - scene.time.margin();
+  return scene.in_reset(from, read.end) || scene.may_hide_reset(from, read.end);
 }
 
 bool before_start_up(const Scene& scene, const UserAccess& read) {
@@ -58,7 +59,8 @@ bool may_miss_writes(const Scene& scene) {
 }
 
 bool is_known(const Scene& scene, const UserAccess& read) {
-  return !in_reset(scene, read) && !before_start_up(scene, read) && has_dpram(scene, read) && !in_flight(scene, read);
+  return !may_be_in_reset(scene, read) && !before_start_up(scene, read) && has_dpram(scene, read) &&
+         !in_flight(scene, read);
 }
 
 }  // namespace calibrate

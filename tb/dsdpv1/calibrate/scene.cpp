@@ -56,22 +56,34 @@ void leave_out_own(std::vector<LineTelegram>& received, const std::vector<LineTe
   received.erase(std::remove_if(received.begin(), received.end(), own), received.end());
 }
 
-/// What is no telegram, and begins after the request's decision (S10): before T_SYN, or too short to be a request
-/// itself.
-bool is_disturbance(const LineTelegram& noise, const LineTelegram& request, const TimeBase& time) {
-  constexpr int kShorterThanAny = 5;  // characters
-  const Tick bit = bus::baud(request.baud).bit;
-  return !noise.right && noise.start > request.last_start + (bus::kCharacterBits + 1) * bit - time.margin() &&
-         (noise.start < request.end() + bus::kSynBits * bit ||
-          noise.last_edge < noise.start + kShorterThanAny * bus::kCharacterBits * bit);
+/// What is no telegram, and begins after the request's decision (S10).
+bool comes_after(const LineTelegram& noise, const LineTelegram& request, const TimeBase& time) {
+  return !noise.right &&
+         noise.start > request.last_start + (bus::kCharacterBits + 1) * bus::baud(request.baud).bit - time.margin();
 }
 
-/// Until when an answer to this request may begin: the line is used again.
+/// It comes before T_SYN, or is too short to be a request itself.
+bool is_no_request(const LineTelegram& noise, const LineTelegram& request) {
+  constexpr int kShorterThanAny = 5;  // characters
+  const Tick bit = bus::baud(request.baud).bit;
+  return noise.start < request.end() + syn(request) ||
+         noise.last_edge < noise.start + kShorterThanAny * bus::kCharacterBits * bit;
+}
+
+/// Until when an answer to this request may begin: the line is used again. What is no telegram does not keep the chip
+/// from answering; but what begins later than max_TSDR (S3) may be an answer to a wrong request.
 Tick waits_until(const Scene& scene, std::size_t request) {
-  const auto& all = scene.received;
+  const LineTelegram& asked = scene.received[request];
+  Tick latest = bus::kNever;
   std::size_t next = request + 1;
-  while (all[request].right && next < all.size() && is_disturbance(all[next], all[request], scene.time)) ++next;
-  return next < all.size() ? all[next].start : bus::kNever;
+  for (; asked.right && next < scene.received.size(); ++next) {
+    const LineTelegram& noise = scene.received[next];
+    if (!comes_after(noise, asked, scene.time)) break;
+    if (is_no_request(noise, asked)) continue;
+    if (noise.coarse(scene.time)) break;
+    latest = asked.end() + asked.max_tsdr() + scene.time.margin();
+  }
+  return std::min(latest, next < scene.received.size() ? scene.received[next].start : bus::kNever);
 }
 
 /// Requests with the chip's answer, if there is one before the line is used again.
@@ -117,8 +129,7 @@ void measure_idle(Scene& scene) {
   std::optional<Tick> from, until;
   const auto take = [&](const std::vector<LineTelegram>& telegrams, std::size_t& next, Tick before) {
     for (; next < telegrams.size() && telegrams[next].start < before; ++next) {
-      if (!may_be_glitch(telegrams[next], scene.time))
-        from = std::max(from.value_or(0), telegrams[next].idle_from());
+      if (!may_be_glitch(telegrams[next], scene.time)) from = std::max(from.value_or(0), telegrams[next].idle_from());
       until = std::max(until.value_or(0), telegrams[next].idle_until());
     }
   };

@@ -75,6 +75,9 @@ struct Scene {
   bool may_miss_accesses() const { return time.doubt() >= kEmptyAccess; }
   /// RESET was low between them, or may have been by what shows it otherwise.
   bool in_reset(Tick from, Tick to) const;
+  /// There may have been a reset that no pin shows: RESET, READY and L_REQ are not in the capture, and neither BR nor
+  /// PBF is as it only is in the operation.
+  bool may_hide_reset(Tick from, Tick to) const;
   /// The first one after a reset (H6).
   bool is_start_up(const ChipAccess& access) const { return access.start_up; }
 };

@@ -8,7 +8,7 @@ namespace {
 
 /// Cycles. Before the first initialisation no access takes more than 1235: the user's blocks at full length, which are
 /// read and dropped. Afterwards it may be 2424, with those for the user (micro-architecture, 9).
-constexpr double kLonger = 1500;
+constexpr double kLonger = 1500, kLongest = 2424;
 /// Cycles without an access that no interval of a scenario explains.
 constexpr double kSilence = 10'000;
 
@@ -47,6 +47,9 @@ bool has_right_length(const Scene& scene, const Span& length) {
   return length.contains(kStartUpAccess) || (scene.time.doubt() >= 1 && length.contains(kStartUpWithNext));
 }
 
+/// No access of the operation is; where the samples hide the gap of one cycle, two may seem to be.
+bool is_too_long(const Scene& scene, const Span& length) { return scene.time.doubt() < 1 && length.lo > kLongest; }
+
 bool is_start_up(const Scene& scene, std::size_t i) {
   const ChipAccess& access = scene.accesses[i];
   if (const std::optional<bool> released = released_before(scene, i)) return *released;
@@ -54,7 +57,8 @@ bool is_start_up(const Scene& scene, std::size_t i) {
   const Span length = scene.time.between(access.start, access.end);
   if (length.hi <= kLonger) return false;
   if (was_silent(scene, i)) return true;
-  return may_be_uninitialised(scene, access) && (scene.record.sees(Wire::kReady) || has_right_length(scene, length));
+  return may_be_uninitialised(scene, access) &&
+         (scene.record.sees(Wire::kReady) || is_too_long(scene, length) || has_right_length(scene, length));
 }
 
 /// READY falls by nothing else; the chip is back with its next access.
@@ -83,6 +87,11 @@ bool Scene::in_reset(Tick from, Tick to) const {
   if (record.sees(Wire::kReset)) return !record[Wire::kReset].high(from, to);
   return std::any_of(resets.begin(), resets.end(),
                      [&](const Reset& reset) { return reset.from <= to && from < reset.to; });
+}
+
+bool Scene::may_hide_reset(Tick from, Tick to) const {
+  const bool shown = record.sees(Wire::kReset) || record.sees(Wire::kReady) || record.sees(Wire::kLReq);
+  return !shown && !record[Wire::kBr].high(from, to) && !record[Wire::kPbf].low(from, to);
 }
 
 }  // namespace calibrate

@@ -122,6 +122,9 @@ const std::vector<Rule> kRules = {
     {{"S29", "requests other than SRD and FDL status are refused RS", line()},
      [](const Asked& a) { return !a.is_srd() && a.request.function() != fc::kFdlStatus; },
      [](const Asked& a) { return a.refused(); }},
+    {{"S29", "SRD to SAP 58 is refused RS", line()},
+     [](const Asked& a) { return a.is_srd() && a.to(sap::kGlobalControl); },
+     [](const Asked& a) { return a.refused(); }},
     {{"V1", "SAP 50 is refused RS", line()},
      [](const Asked& a) { return a.is_srd() && a.to(sap::kMs1Alarm); },
      [](const Asked& a) { return a.refused(); }},
@@ -151,7 +154,8 @@ const std::vector<Rule> kRules = {
     {{"facts", "Slave_Diag: status bits that the chip never sets are 0, status 2 bit 2 is 1", line()},
      [](const Asked& a) { return a.to(sap::kSlaveDiag) && a.has_data(); },
      [](const Asked& a) {
-       constexpr std::uint8_t kNever1 = 0xA1, kNever2 = 0xC0, kAlways2 = 0x04;  // of status 3 all
+       // APC3 A.4; status 3 has Ext_Diag_Overflow alone, and D14 takes no diagnosis that is too long
+       constexpr std::uint8_t kNever1 = 0xA1, kNever2 = 0xC0, kAlways2 = 0x04;
        const bus::Bytes& data = a.answer.data;
        return data.size() >= kShortestDiagnosis && (data[0] & kNever1) == 0 && (data[1] & kNever2) == 0 &&
               (data[1] & kAlways2) != 0 && data[2] == 0;

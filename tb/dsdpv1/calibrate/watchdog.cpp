@@ -16,7 +16,7 @@ const Claim kWatchdog = {
     "S1", "the watchdog of Set_Prm ends DATA_EXCH after its time", {Wire::kPbrxd, Wire::kPbtxd, Wire::kPbf}};
 const Claim kBrFalls = {"S1",
                         "BR falls the same whole number of ms after the last telegram, or the watchdog's end",
-                        {Wire::kPbrxd, Wire::kPbtxd, Wire::kBr, Wire::kLReq}};
+                        {Wire::kPbrxd, Wire::kPbtxd, Wire::kBr}};
 
 /// A new initialisation may be taken there: an access of the chip that has read more than its flags.
 bool long_access(const Scene& scene, Tick at) {
@@ -93,16 +93,29 @@ void judge_unended(const Scene& scene, Found& found) {
       found.judge.fails(kWatchdog, each.at, fmt::format("PBF is low {:.1f} cycles after its end", each.passed.lo));
 }
 
+/// Whether a fall of BR is a new initialisation.
+enum class Initialised : std::uint8_t { kNo, kPerhaps, kYes };
+
+/// It ends DATA_EXCH, and is in a long access of the chip; the end of BAUD_CONTROL leaves the state as it is (S1).
+Initialised initialised_at(const Scene& scene, Tick at) {
+  const Trace& pbf = scene.record[Wire::kPbf];
+  const Tick from = at - scene.time.margin(), to = at + scene.time.margin();
+  if (!long_access(scene, at) || pbf.low(from, to)) return Initialised::kNo;
+  const bool rises = pbf.seen && !pbf.high(from, to);
+  return rises || scene.record.sees(Wire::kLReq) ? Initialised::kYes : Initialised::kPerhaps;
+}
+
 /// BR falls.
 struct Fall {
   Tick at = 0;
   Span ms;  ///< since the last telegram, or the end of the watchdog that ran before
+  Initialised initialised = Initialised::kPerhaps;
 };
 
 struct Falls {
   std::vector<Fall> all;
   bool unknown = false;       ///< there are others, of which the capture does not show what came before
-  bool initialised = false;   ///< others may be new initialisations, as L_REQ shows
+  bool initialised = false;   ///< others are new initialisations, as PBF or L_REQ shows
   std::vector<Fall> not_yet;  ///< it is still high there
   double longest = 0;         ///< of these, at least; ms
 };
@@ -130,12 +143,12 @@ Falls falls_of(const Scene& scene) {
     }
     const double watchdog = before.state == Supervised::State::kDpControl ? before.prm->watchdog : 0;
     const Span passed = since(scene, before.last, at) + -watchdog;
-    falls.all.push_back({at, {passed.lo / kCyclesPerMs, passed.hi / kCyclesPerMs}});
+    falls.all.push_back({at, {passed.lo / kCyclesPerMs, passed.hi / kCyclesPerMs}, initialised_at(scene, at)});
   }
   return falls;
 }
 
-constexpr double kNearMs = 0.05;
+constexpr double kNearMs = 0.001;
 
 bool is_whole(const Span& ms) {
   const double whole = std::round(ms.middle());
@@ -143,34 +156,49 @@ bool is_whole(const Span& ms) {
 }
 
 /// Falls that measure the time of BAUD_CONTROL. A new initialisation may come at any ms, but never later than its end.
-std::vector<Instance> measured(const Scene& scene, Falls& falls) {
-  std::vector<Instance> instances;
+std::vector<Fall> ends_of_time(Falls& falls) {
+  std::vector<Fall> ends;
   double latest = falls.longest;
   for (const Fall& fall : falls.all) {
     if (!is_whole(fall.ms)) continue;
-    if (scene.record.sees(Wire::kLReq) && long_access(scene, fall.at)) {
+    if (fall.initialised == Initialised::kYes) {
       falls.initialised = true;
       continue;
     }
-    instances.push_back({fall.at, fall.ms, fall.ms.middle()});
+    ends.push_back(fall);
     latest = std::max(latest, fall.ms.lo);
   }
-  if (scene.record.sees(Wire::kLReq)) return instances;
-  const auto earlier = [&](const Instance& instance) { return instance.span.hi < latest; };
-  instances.erase(std::remove_if(instances.begin(), instances.end(), earlier), instances.end());
-  return instances;
+  const auto earlier = [&](const Fall& fall) {
+    return fall.initialised == Initialised::kPerhaps && fall.ms.hi < latest;
+  };
+  ends.erase(std::remove_if(ends.begin(), ends.end(), earlier), ends.end());
+  return ends;
+}
+
+/// The time that they show. A single one that may be a new initialisation says only that it had not passed before,
+/// unless it is just the default.
+void fit_time(const std::vector<Fall>& ends, Fit& fit) {
+  std::vector<Instance> instances;
+  instances.reserve(ends.size());
+  for (const Fall& end : ends) instances.push_back({end.at, end.ms, end.ms.middle()});
+  Estimate& time = fit.estimate = estimate(instances);
+  const bool certain =
+      std::any_of(ends.begin(), ends.end(), [](const Fall& end) { return end.initialised == Initialised::kNo; });
+  if (certain || time.count != 1 || time.span.contains(dsdpv1::Config{}.baud_control_ms)) return;
+  time.span.hi = std::numeric_limits<double>::max();
+  fit.at_least = true;
 }
 
 /// What does not agree is a new initialisation, where there may be one.
-void judge_falls(const Scene& scene, const Falls& falls, Found& found) {
+void judge_falls(const Falls& falls, Found& found) {
   Fit& fit = found.fit(Parameter::kBaudControlMs);
   for (const Fall& fall : falls.all) {
-    const bool known = fit.estimate.count != 0,
+    const bool known = fit.estimate.count != 0 && !fit.at_least,
                right = known && is_whole(fall.ms) && overlap(fall.ms, fit.estimate.span);
     const double by = known ? fall.ms.middle() - fit.estimate.span.middle() : 0;
     if (right)
       found.judge.holds(kBrFalls);
-    else if (!long_access(scene, fall.at))
+    else if (fall.initialised == Initialised::kNo)
       found.judge.fails(kBrFalls, fall.at, fmt::format("{:.3f} ms after it", fall.ms.middle()));
     const auto told = [&](const Outlier& outlier) { return outlier.at == fall.at; };
     std::vector<Outlier>& others = fit.estimate.outliers;
@@ -195,8 +223,8 @@ void judge_falls(const Scene& scene, const Falls& falls, Found& found) {
 void fit_baud_control(const Scene& scene, Found& found) {
   Falls falls = falls_of(scene);
   find_silences(scene, falls);
-  found.fit(Parameter::kBaudControlMs).estimate = estimate(measured(scene, falls));
-  judge_falls(scene, falls, found);
+  fit_time(ends_of_time(falls), found.fit(Parameter::kBaudControlMs));
+  judge_falls(falls, found);
 }
 
 }  // namespace

@@ -58,9 +58,11 @@ const checks::Rule* rule_of(const ChipKind& kind, const char* id) {
 
 Json span_of(const ChipKind& kind, const DiagramSpan& span, const MeasuredSpan& measured) {
   const checks::Rule* const rule = rule_of(kind, span.check);
+  const char* const clause = rule != nullptr ? rule->clause : span.clause;
   return {{"name", span.name},
           {"check", rule != nullptr ? Json(rule->id) : Json()},
-          {"clause", rule != nullptr ? Json(rule->clause) : Json()},
+          {"clause", clause != nullptr ? Json(clause) : Json()},
+          {"exact", span.exact != 0 ? Json(span.exact) : Json()},
           {"from", optional_of(measured.from)},
           {"to", optional_of(measured.to)},
           {"is_tsdr", span.tsdr},

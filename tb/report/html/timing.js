@@ -50,6 +50,7 @@ function drawPin(row, pin, picture, x) {
 
 function limitText(span) {
   const limits = [];
+  if (span.exact !== null) limits.push("= " + timeText(span.exact));
   if (span.least !== null) limits.push("≥ " + timeText(span.least));
   if (span.greatest !== null) limits.push("≤ " + timeText(span.greatest));
   return limits.join(", ");
@@ -88,8 +89,9 @@ function drawSpan(row, span, picture, x) {
     row.append("rect").attr("class", "limit least").attr("x", inside(ends[0])).attr("width", Math.max(1.5, inside(ends[1]) - inside(ends[0])))
       .attr("y", ARROW - 8).attr("height", 16);
   }
-  if (span.greatest !== null)
-    row.append("path").attr("class", "limit greatest").attr("d", `M${inside(x(limitAt(span, span.greatest, picture)))},${ARROW - 10} v20`);
+  for (const limit of [span.greatest, span.exact])
+    if (limit !== null)
+      row.append("path").attr("class", "limit greatest").attr("d", `M${inside(x(limitAt(span, limit, picture)))},${ARROW - 10} v20`);
   const arrow = row.append("g").attr("class", span.margin !== null && span.margin < 0 ? "arrow bad" : "arrow");
   arrow.append("path").attr("d", `M${inside(from)},${y} L${inside(to)},${y} M${from},${y - 6} v12 M${to},${y - 6} v12`);
   const head = to - from > 16;
