@@ -10,7 +10,7 @@ import threading
 import typing
 
 from . import _c
-from .errors import Error, error_of
+from .errors import StateError, error_of
 
 _PACKAGED = pathlib.Path(__file__).parent / "lib" / f"libdsdpv1.so.{_c.DPSIM_ABI_MAJOR}"
 _thread = threading.local()
@@ -48,6 +48,8 @@ def _raise_pending() -> None:
 def _check(status: int, _function: typing.Any, arguments: typing.Any) -> typing.Any:
     _raise_pending()
     if status != _c.DPSIM_OK:
+        if isinstance(arguments[0], Handle) and arguments[0].closed:
+            raise StateError(f"this {type(arguments[0]).__name__} is closed")
         raise error_of(status, text(lib.dpsim_error_message()))
     return arguments
 
@@ -127,12 +129,17 @@ class Handle:
     """An object of the library: closed by close(), the end of a `with` block, or when nobody has it any more."""
 
     def __init__(self, handle: int, destroy: typing.Optional[typing.Any]) -> None:
-        self._as_parameter_: typing.Optional[int] = handle
+        self._as_parameter_: typing.Optional[int] = handle  # what ctypes gives to the library for it
         self._destroy = destroy
         self._callbacks: typing.Dict[str, typing.Any] = {}  # the library has their addresses
 
+    @property
+    def closed(self) -> bool:
+        """Whether it has been released."""
+        return self._as_parameter_ is None
+
     def close(self) -> None:
-        """Releases it; afterwards every call fails. Again: nothing."""
+        """Releases it; afterwards every call is a StateError. Again: nothing."""
         handle, self._as_parameter_ = getattr(self, "_as_parameter_", None), None
         if handle is not None and self._destroy is not None:
             self._destroy(handle)
@@ -159,5 +166,3 @@ class Handle:
 
 
 lib = _Library()
-
-__all__ = ["Error", "Handle", "as_bytes", "callback", "encoded", "filled", "lib", "number", "sized", "text"]
