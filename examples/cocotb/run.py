@@ -35,8 +35,7 @@ def main():
                  build_args=["-g2012"] if given.simulator == "icarus" else ["--timing", "-Wno-fatal"])
     results = runner.test(hdl_toplevel="dsdpv1", test_module="test_rtl", test_dir=HERE, build_dir=build, results_xml=str(build / "results.xml"),
                           testcase=given.test,
-                          extra_env={"FAULT": str(given.fault), "SCENARIO": os.path.abspath(given.scenario), "END_US": str(given.end),
-                                     "PYTHONPATH": os.pathsep.join([str(HERE), os.environ.get("PYTHONPATH", "")])})
+                          extra_env={"FAULT": str(given.fault), "SCENARIO": os.path.abspath(given.scenario), "END_US": str(given.end)})
     return 1 if get_results(results)[1] else 0
 
 

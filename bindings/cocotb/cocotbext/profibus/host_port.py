@@ -86,8 +86,7 @@ class HostPort:
             answer = await self.act(action)
 
     async def power_on(self, init: typing.Optional[Initialisation] = None, at: int = 20 * CYCLE) -> None:
-        """All inputs idle; RESET up at tick `at`; start-up; the initialisation, when it is given."""
-        self.pins.idle()
+        """RESET up at tick `at`; start-up; the initialisation, when it is given."""
         await until(at)
         self.pins.set("RESET", 1)
         await self.run(wait_ready())

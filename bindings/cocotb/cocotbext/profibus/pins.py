@@ -2,7 +2,7 @@
 import typing
 
 import cocotb
-from cocotb.triggers import Edge
+from cocotb.triggers import Edge, Timer
 
 import dsdpv1
 
@@ -60,11 +60,19 @@ class ChipPins:
         else:
             handle.value = level ^ ((1 << len(handle)) - 1 if inverted else 0)
 
-    def idle(self) -> None:
-        """All inputs as at power-on: RESET is low."""
+    async def power_on(self) -> None:
+        """All inputs as the model has them at power-on, RESET low: before anything else, before the clock. RESET falls within the first step, as a
+        simulator without X would see no edge else."""
         for pin in self.kind.pins:
             if pin.input:
-                self.set(pin.name, pin.reset_level)
+                self._set_now(pin.name, max(pin.reset_level, 0))
+        self._set_now("RESET", 1)
+        await Timer(1, "step")
+        self._set_now("RESET", 0)
+
+    def _set_now(self, pin: str, level: int) -> None:
+        handle, inverted = self._ports[pin]
+        handle.setimmediatevalue(level ^ ((1 << len(handle)) - 1 if inverted else 0))
 
     def watch(self, pins: typing.Iterable[str], told: Told) -> typing.List[typing.Any]:
         """Tells (tick, pin's number, level) of each change from now on, and the levels of now. The tasks, whose kill() ends it."""

@@ -69,7 +69,7 @@ class Scoreboard:
         self._levels = {each.number: self._model.level(each.number) for each in outputs}
         self._dut_levels: typing.Dict[int, int] = dict(self._levels)
         self._inputs: typing.List[typing.Tuple[int, int, int, int]] = []
-        self._accesses: typing.Deque[typing.Tuple[int, int, int]] = collections.deque(maxlen=1)
+        self._accesses: typing.Deque[typing.Tuple[int, int, int]] = collections.deque(maxlen=64)
         self._events: typing.Deque[dsdpv1.ChipEvent] = collections.deque(maxlen=64)
         self._dut: typing.List[typing.Tuple[int, int, int]] = []
         self._model.watch([each.name for each in outputs])
@@ -141,9 +141,8 @@ class Scoreboard:
     def _differ(self, tick: int, pin: int, wanted: int, found: int) -> None:
         events = [each for each in self._events if each.tick <= tick]
         event = f"{events[-1].tick / US:.3f} us  {events[-1].text}" if events else "none"
-        access = "none"
-        for at, strobe, cell in self._accesses:
-            access = f"{self._names[strobe]} of B{max(cell, 0):03X} at {at / US:.3f} us"
+        accesses = [f"{self._names[strobe]} of B{max(cell, 0):03X} at {at / US:.3f} us" for at, strobe, cell in self._accesses if at <= tick]
+        access = accesses[-1] if accesses else "none"
         self.difference = Difference(tick, self._names[pin], wanted, found, event, access)
         if self._fails:
             raise ScoreboardError(self.difference)

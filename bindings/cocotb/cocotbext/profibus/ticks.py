@@ -62,14 +62,22 @@ class Clock:
 
     async def _run(self) -> None:
         cycle = -(-now() // CYCLE)
-        await until(cycle * CYCLE)
         while True:
-            # Three cycles are 62.5 ns. Their six halves are timers made once, from absolute times.
+            cycle = await self._three_cycles(cycle)
+            # Three cycles are 62.5 ns. Where that is a whole number of steps, the timers of their six halves can be used again.
             halves = [steps_of(cycle * CYCLE + half * CYCLE // 2) for half in range(7)]
-            timers = [Timer(end - begin, "step") for begin, end in zip(halves, halves[1:])]
-            again = 1000 if (halves[6] - halves[0]) * 12_000 == 3 * CYCLE * _steps_per_us() else 1
-            for _ in range(again):
-                for index, timer in enumerate(timers):
-                    self._signal.setimmediatevalue(1 - index % 2)
-                    await timer
-            cycle += 3 * again
+            if (halves[6] - halves[0]) * 12_000 == 3 * CYCLE * _steps_per_us():
+                await until(cycle * CYCLE)
+                await self._for_ever([Timer(end - begin, "step") for begin, end in zip(halves, halves[1:])])
+
+    async def _three_cycles(self, cycle: int) -> int:
+        for half in range(6):
+            await until(cycle * CYCLE + half * CYCLE // 2)
+            self._signal.setimmediatevalue(1 - half % 2)
+        return cycle + 3
+
+    async def _for_ever(self, timers: typing.List[Timer]) -> None:
+        while True:
+            for index, timer in enumerate(timers):
+                self._signal.setimmediatevalue(1 - index % 2)
+                await timer
