@@ -16,8 +16,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def shown(cell):
-    """What stands under a cell, as text."""
-    return [output.get("text") or "".join(output.get("data", {}).get("text/plain", "")) for output in cell.get("outputs", [])]
+    """What stands under a cell, as text: a kernel may send it in pieces."""
+    return "".join(output.get("text") or "".join(output.get("data", {}).get("text/plain", "")) for output in cell.get("outputs", []))
 
 
 def clean(notebook):
@@ -53,7 +53,7 @@ def main():
             continue
         for number, (one, other) in enumerate(zip(stored.cells, now.cells)):
             if shown(one) != shown(other):
-                print(f"{path.relative_to(ROOT)}: cell {number} shows {shown(other)}, stored is {shown(one)}")
+                print(f"{path.relative_to(ROOT)}: cell {number} shows {shown(other)!r}, stored is {shown(one)!r}")
                 different = 1
     return different
 
