@@ -7,7 +7,7 @@ import os
 import cocotb
 
 import dsdpv1
-from cocotbext.profibus import ChipPins, Clock, HostPort, PinSource, Scoreboard, Segment, now, until
+from cocotbext.profibus import ChipPins, Clock, HostPort, PinChecker, PinSource, Scoreboard, Segment, now, until
 from dsdpv1 import US
 
 # Short times, so that a simulation takes seconds: the model gets the same.
@@ -46,10 +46,13 @@ async def bring_up(dut, pins):
 
 @cocotb.test()
 async def a_master_brings_the_chip_up(dut):
-    """Every change of every output is the model's."""
+    """Every change of every output is the model's, and the host port keeps the rules of the user's side."""
     pins, scoreboard = await begin(dut, QUICK)
+    checker = PinChecker(pins)
     await bring_up(dut, pins)
     scoreboard.check()
+    checker.finish()
+    assert checker.results["TIMING_TS"].count > 0
     dut._log.info(f"data exchange at {now() / US:.3f} us, {scoreboard.matched} changes are the model's")
 
 

@@ -2,6 +2,7 @@
 
 Everything is at its tick of 1/12 ns; see docs/cocotb.md.
 """
+from .checks import PinChecker
 from .host_port import HostPort
 from .pins import ChipPins
 from .replay import PinSource
@@ -10,5 +11,5 @@ from .segment import Master1, Master2, Segment
 from .ticks import Clock, now, steps_of, until, wait
 from .uart import Character, ProfibusMonitor, ProfibusSink, ProfibusSource
 
-__all__ = ["Character", "ChipPins", "Clock", "Difference", "HostPort", "Master1", "Master2", "PinSource", "ProfibusMonitor", "ProfibusSink",
+__all__ = ["Character", "ChipPins", "Clock", "Difference", "HostPort", "Master1", "Master2", "PinChecker", "PinSource", "ProfibusMonitor", "ProfibusSink",
            "ProfibusSource", "Scoreboard", "ScoreboardError", "Segment", "now", "steps_of", "until", "wait"]

@@ -31,12 +31,13 @@ class Segment:
         self.bus = dsdpv1.Bus(baud)
         self.telegrams: typing.List[dsdpv1.Heard] = []  # all, right and wrong
         self.events: typing.List[dsdpv1.Event] = []
-        self._listeners: typing.List[typing.Any] = []
+        self.listeners: typing.List[typing.Callable[[dsdpv1.Heard], typing.Any]] = [self.telegrams.append]
+        self._receivers: typing.List[typing.Any] = []
         self._waiting: typing.Dict[typing.Tuple[typing.Optional[int], int], typing.Any] = {}
         self._told = Event()
         self._planned, self._level = NEVER, 1
         self.bus.watch(line=True, callback=self._line_changed)
-        self.bus.on_telegram(self.telegrams.append)
+        self.bus.on_telegram(self._telegram)
         self.bus.on_event(self._event)
         if rxd is not None:
             self.connect(rxd, txd, rts, name)
@@ -45,7 +46,7 @@ class Segment:
     def connect(self, rxd: typing.Any, txd: typing.Any, rts: typing.Any, name: typing.Optional[str] = None) -> dsdpv1.Station:
         """One more DUT. `txd` None: it only listens."""
         rxd.value = self._level
-        self._listeners.append(rxd)
+        self._receivers.append(rxd)
         station = self.bus.add_station(name)
         if txd is not None:
             for signal in (txd, rts):
@@ -88,7 +89,7 @@ class Segment:
     # ---- the line
     def _line_changed(self, _tick: int, _station: int, _pin: int, level: int) -> None:
         self._level = level
-        for rxd in self._listeners:
+        for rxd in self._receivers:
             rxd.value = level
 
     async def _drive(self, station: dsdpv1.Station, signal: typing.Any, txd: typing.Any, rts: typing.Any) -> None:
@@ -103,6 +104,10 @@ class Segment:
             self.plan()
 
     # ---- what is told
+    def _telegram(self, heard: dsdpv1.Heard) -> None:
+        for listener in self.listeners:
+            listener(heard)
+
     def _event(self, event: dsdpv1.Event) -> None:
         self.events.append(event)
         if event.type in _DONE:
