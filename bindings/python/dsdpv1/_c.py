@@ -709,6 +709,7 @@ FUNCTIONS = {
     "dpsim_chip_destroy": (None, [c_void_p]),
     "dpsim_chip_set": (dpsim_status, [c_void_p, c_uint64, c_uint16, dpsim_level]),
     "dpsim_chip_set_many": (dpsim_status, [c_void_p, c_void_p, c_size_t, POINTER(c_size_t)]),
+    "dpsim_chip_receive": (dpsim_status, [c_void_p, c_uint64, c_uint32, c_char_p, c_size_t, POINTER(c_uint64)]),
     "dpsim_chip_advance": (dpsim_status, [c_void_p, c_uint64]),
     "dpsim_chip_next": (dpsim_status, [c_void_p, POINTER(c_uint64)]),
     "dpsim_chip_now": (dpsim_status, [c_void_p, POINTER(c_uint64)]),
