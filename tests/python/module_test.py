@@ -126,6 +126,21 @@ class ChipTest(unittest.TestCase):
         self.assertEqual([(each.code, each.severity.name) for each in events], [("READY_FLAG", "INFO")])
         self.assertLess(told.now, told.next)
 
+    def test_a_chip_alone_answers_characters_on_its_line(self):
+        chip = dsdpv1.Chip()
+        user = dsdpv1.User(chip)
+        user.wait(20 * CYCLE)
+        user.power_on(dsdpv1.Initialisation.of(slave_of_gsd()))
+        bit, status = dsdpv1.bit_ticks("12M"), dsdpv1.Telegram(dsdpv1.TelegramKind.SD1, da=5, sa=2, fc=0x49).encode()
+        start = chip.now + 100 * bit
+        self.assertEqual(chip.receive(status, bit, at=start), start + 11 * len(status) * bit)
+        chip.advance(chip.now + 100 * US)
+        self.assertEqual(chip.status.baud, "12M")  # a right telegram ends the search
+        chip.watch(["PBTXD"])
+        end = chip.receive(status, bit, at=chip.now + 200 * bit)
+        chip.advance(end + 200 * bit)
+        self.assertIn(chip.changes()["tick"][0] - end, range(11 * bit, 12 * bit + 1))  # TSDR
+
     def test_what_a_callback_raises_comes_out_of_the_call(self):
         chip = dsdpv1.Chip()
         calls = []

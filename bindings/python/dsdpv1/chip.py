@@ -160,6 +160,12 @@ class Chip(Handle):
         array = as_changes(changes)
         lib.dpsim_chip_set_many(self, address(array), len(array), None)
 
+    def receive(self, data: bytes, bit: int, at: typing.Optional[int] = None) -> int:
+        """Characters on PBRXD of a chip alone, with even parity, one after the other, each bit `bit` ticks long (bit_ticks). The end of the last
+        stop bit, which is the present tick then. StateError: it is on a bus."""
+        start = self.now if at is None else at
+        return int(number(lambda into: lib.dpsim_chip_receive(self, start, bit, bytes(data), len(data), into), ctypes.c_uint64))
+
     def advance(self, to: int) -> None:
         """Runs everything up to and including tick `to`. Other threads of Python run meanwhile."""
         lib.dpsim_chip_advance(self, to)
