@@ -2,8 +2,8 @@
 import cocotb
 
 import dsdpv1
-from cocotbext.profibus import ChipPins, HostPort, PinChecker, now, until, wait
-from dsdpv1 import NS, US, AccessTiming
+from cocotbext.profibus import ChipPins, HostPort, PinChecker, Scoreboard, now, until, wait
+from dsdpv1 import CYCLE, NS, US, AccessTiming
 from dsdpv1.user import Read, Write, hold
 
 NAMES = {"RESET": "~rst", "R_REQ": "user_req", "R_STA": "user_sta", "CSR": "cs_n", "RD": "rd_n", "WR": "wr_n", "A": "addr", "D_IN": "data_in",
@@ -16,6 +16,26 @@ async def powered(dut):
     await pins.power_on()
     await until(now() + 1 * US)
     return pins
+
+
+@cocotb.test()
+async def a_scoreboard_that_does_not_fail_says_where_they_differ(dut):
+    """The model's first access begins access_interval cycles and some after its reset: this chip has none. Comes first, as it begins at tick 0."""
+    pins = ChipPins(dut, NAMES)
+    await pins.power_on()
+    scoreboard = Scoreboard(pins, fails=False)
+    model = dsdpv1.Chip()
+    model.watch(["L_REQ"])
+    await until(20 * CYCLE)
+    pins.set("RESET", 1)
+    model.set("RESET", 1, at=20 * CYCLE)
+    model.advance(100 * US)
+    await until(100 * US)
+    scoreboard.check()
+    difference = scoreboard.difference
+    assert (difference.pin, difference.model, difference.dut) == ("L_REQ", 1, 0), difference
+    assert difference.tick == model.changes()["tick"][0]
+    assert f"cycle {difference.cycle} (" in str(difference)
 
 
 @cocotb.test()

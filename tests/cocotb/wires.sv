@@ -29,8 +29,8 @@ module pins_only (
   output logic        br,
   output logic        ready
 );
-  assign {chip_req_n, chip_sta_n, irq_n, tx} = 4'b1111;
-  assign {rts, pbf, br, ready} = 4'b0000;
+  assign {chip_req_n, chip_sta_n, irq_n, tx, pbf} = 5'b11111;  // as after a reset
+  assign {rts, br, ready} = 3'b000;
   assign data_en_n = cs_n || rd_n;
   assign data_out = addr[7:0];
 endmodule

@@ -74,8 +74,8 @@ class Scoreboard:
         self._dut: typing.List[typing.Tuple[int, int, int]] = []
         self._model.watch([each.name for each in outputs])
         self._model.on_event(self._events.append)
-        self._tasks = [*pins.watch([each.name for each in inputs], self._input), *pins.watch([each.name for each in outputs], self._output)]
-        self._tasks.append(cocotb.start_soon(self._run()))
+        self._watchers = [*pins.watch([each.name for each in inputs], self._input), *pins.watch([each.name for each in outputs], self._output)]
+        self._task = cocotb.start_soon(self._run())
 
     # ---- what the DUT does
     def _input(self, tick: int, pin: int, level: int) -> None:
@@ -102,7 +102,11 @@ class Scoreboard:
 
     def close(self) -> None:
         """Compares no more."""
-        for task in self._tasks:
+        self._task.kill()
+        self._ignore()
+
+    def _ignore(self) -> None:
+        for task in self._watchers:
             task.kill()
 
     def _settle(self, horizon: int) -> None:
@@ -143,6 +147,7 @@ class Scoreboard:
         event = f"{events[-1].tick / US:.3f} us  {events[-1].text}" if events else "none"
         accesses = [f"{self._names[strobe]} of B{max(cell, 0):03X} at {at / US:.3f} us" for at, strobe, cell in self._accesses if at <= tick]
         access = accesses[-1] if accesses else "none"
+        self._ignore()
         self.difference = Difference(tick, self._names[pin], wanted, found, event, access)
         if self._fails:
             raise ScoreboardError(self.difference)
