@@ -8,6 +8,7 @@ import tempfile
 import threading
 import types
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -18,6 +19,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIO = ROOT / "scenarios" / "power_on_12m.yaml"
 SHORT = {"end": "11ms"}
 MODULE = ["8 bytes in, 8 bytes out"]
+
+
+# In the place of pandas, whether it is installed or not.
+PANDAS = unittest.mock.patch.dict(sys.modules, {"pandas": types.SimpleNamespace(DataFrame=list)})
 
 
 def slave_of_gsd(**members):
@@ -353,6 +358,19 @@ class RunTest(unittest.TestCase):
                 found.append((round(now * 12 / 1000), int(line[0])))
         return found
 
+    def test_the_document_shows_what_can_be_run(self):
+        text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+        lines = re.search(r"## A scenario\n\n```python\n(.*?)```", text, re.S).group(1).splitlines()
+        scope = {"dsdpv1": dsdpv1}
+        exec(lines[0].replace("scenarios/", f"{ROOT}/scenarios/"), scope)  # pylint: disable=exec-used
+        for line in lines[1:]:
+            expression, comment = (part.strip() for part in line.split("#", 1))
+            with PANDAS:
+                value = eval(expression, scope)  # pylint: disable=eval-used
+            self.assertTrue(len(value) > 0 if hasattr(value, "__len__") else value, line)
+            if "..." in comment:  # the value, cut
+                self.assertEqual(value[:len(comment) - 3], comment[:-3], line)
+
     def test_engines_give_the_same_changes(self):
         one, other = (dsdpv1.run(SCENARIO, changes=True, settings=SHORT, engine=engine).changes for engine in ("skip", "step"))
         self.assertGreater(len(one), 10_000)
@@ -380,15 +398,8 @@ class RunTest(unittest.TestCase):
 
     def test_telegrams_become_a_table_where_pandas_is(self):
         result = dsdpv1.run(SCENARIO, telegrams=True, settings=SHORT)
-        real = sys.modules.get("pandas")
-        sys.modules["pandas"] = types.SimpleNamespace(DataFrame=list)
-        try:
+        with PANDAS:
             rows = result.telegram_table()
-        finally:
-            if real is None:
-                del sys.modules["pandas"]
-            else:
-                sys.modules["pandas"] = real
         self.assertEqual(len(rows), len(result.telegrams))
         self.assertEqual(set(rows[0]), {"start_us", "end_us", "tsdr_bits", "station", "error", "service", "line", "bytes"})
 
