@@ -336,6 +336,18 @@ def render_sv(areas):
     return "\n".join(head + render_groups(areas, line) + ["", "/* verilator lint_on UNUSED */", "`endif"]) + "\n"
 
 
+def render_python(areas):
+    def line(constant):
+        text = f"  # {constant.text}" if constant.text else ""
+        return f"{constant.key.upper()} = {hexadecimal(constant)}{text}"
+
+    head = [f'"""Addresses, bits and values of the DPRAM. A word (CRC, count) is at its high byte, the low byte follows.\n\n{ORIGIN}\n"""']
+    lines = []
+    for heading, constants in constant_groups(areas):
+        lines += ["", f"# {heading}", *map(line, constants)]
+    return "\n".join(head + lines) + "\n"
+
+
 def table(header, rows):
     return ["| " + " | ".join(header) + " |", "|" + " --- |" * len(header)] + ["| " + " | ".join(row) + " |" for row in rows]
 
@@ -419,6 +431,7 @@ def outputs(areas):
         ROOT / "registers" / "dsdpv1_regs.hpp": render_cpp(areas),
         ROOT / "registers" / "dsdpv1_regs.h": render_c(areas),
         ROOT / "registers" / "dsdpv1_regs.svh": render_sv(areas),
+        ROOT / "bindings" / "python" / "dsdpv1" / "registers.py": render_python(areas),
         ROOT / "docs" / "registers.md": render_doc(areas),
     }
 

@@ -25,10 +25,10 @@ def first_line(*texts):
     return lines[0] if lines else ""
 
 
-def call(command, cwd=None):
+def call(command, cwd=None, **environment):
     """Standard output of a program that has succeeded."""
     try:
-        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, cwd=cwd, env=QUIET)
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, cwd=cwd, env={**QUIET, **environment})
     except OSError as error:
         raise Failed(f"{pathlib.Path(command[0]).name} cannot be run: {error.strerror}") from error
     if done.returncode != 0:
@@ -41,14 +41,25 @@ def cpu_of_children():
     return used.ru_utime + used.ru_stime
 
 
-def row_of(program, name, *words):
-    """The number that one of the programs of this folder prints for a row, which it is called with unless there are other words."""
-    printed = call([FOLDER / program, *(words or (name,))])
+def number_in(printed, program, name):
     for line in printed.splitlines():
         row, tab, value = line.partition("\t")
         if tab and row == name:
             return float(value)
     raise Failed(f"{program} has printed no value for {name}")
+
+
+def row_of(program, name, *words):
+    """The number that one of the programs of this folder prints for a row, which it is called with unless there are other words."""
+    return number_in(call([FOLDER / program, *(words or (name,))]), program, name)
+
+
+def row_of_python(program, name, *words):
+    """... that one of the Python programs beside this file prints, which use the module dsdpv1 with the library of the build."""
+    folders = os.pathsep.join(str(ROOT / "bindings" / each) for each in ("python", "cocotb"))
+    printed = call([ROOT / ".venv" / "bin" / "python", "-B", ROOT / "tests" / "bench" / program, *words], PYTHONPATH=folders,
+                   DSDPV1_LIBRARY=str(BUILD / "capi" / "libdsdpv1.so"))
+    return number_in(printed, program, name)
 
 
 def samples(folder, command, keys):

@@ -100,6 +100,13 @@ ROWS = (
         in_program("bench_capi", "c_api_edges"), CAPI),
     Row("c_api_changes", 10, "million/s", "Changes of all pins that come into the caller's buffer through the C API, on the same stimulus.",
         in_program("bench_capi", "c_api_changes"), CAPI, limit="What the core takes to make them."),
+    Row("python", 10, "million/s", "Changes of all pins that come into numpy arrays through the Python module, on the same stimulus, given to the chip in one call "
+        "each 9 ms; in CPU time.", lambda turn: turn.once("python", lambda: programs.row_of_python("python_speed.py", "python")), ("dsdpv1_capi",),
+        limit="What the core takes to make them."),
+    Row("cocotb", 20, "%", "What `cocotbext.profibus` adds to the CPU time of a simulation of the reference RTL in Icarus: a master brings it up, host port "
+        "and model as scoreboard are at its pins; against cocotb alone, which plays the same inputs from a recording.",
+        lambda turn: turn.once("cocotb", lambda: programs.row_of_python("cocotb_speed.py", "cocotb", programs.FOLDER / "cocotb")), ("dsdpv1_capi",),
+        at_most=True, limit="Each change of a pin is a call into Python."),
     of_sim("demo", 3, "The scenario power_on_12m, checks off, no files.", real_time(DEMO, *OFF),
            limit="A saturated bus and a user CPU that exchanges data every 40 us: half of the time goes to its accesses, one a turn of a coroutine "
                  "that runs the driver, a fifth to master and monitor, which decode each character of the telegrams on their own, as they are there to "

@@ -1,0 +1,15 @@
+"""PROFIBUS and the DSDPV1 in cocotb: masters, source, sink, monitor, the user CPU at the host port, and the model as reference.
+
+Everything is at its tick of 1/12 ns; see docs/cocotb.md.
+"""
+from .checks import PinChecker
+from .host_port import HostPort
+from .pins import ChipPins
+from .replay import PinSource
+from .scoreboard import Difference, Scoreboard, ScoreboardError
+from .segment import Master1, Master2, Segment
+from .ticks import Clock, now, steps_of, until, wait
+from .uart import Character, ProfibusMonitor, ProfibusSink, ProfibusSource
+
+__all__ = ["Character", "ChipPins", "Clock", "Difference", "HostPort", "Master1", "Master2", "PinChecker", "PinSource", "ProfibusMonitor", "ProfibusSink",
+           "ProfibusSource", "Scoreboard", "ScoreboardError", "Segment", "now", "steps_of", "until", "wait"]

@@ -1,0 +1,45 @@
+"""The rules of the user's side (docs/checks.md) on a DUT's pins."""
+import typing
+
+import dsdpv1
+from dsdpv1 import NS, X
+
+from .pins import ChipPins
+from .ticks import now
+
+
+class PinChecker:
+    """Looks at whoever drives a DUT's host port: handshake, timing of table 15, cells, service.
+
+    Rules about cells and service also need the telegrams on the line: Segment(...).listeners.append(checker.telegram).
+    """
+
+    def __init__(self, pins: ChipPins, limits: typing.Optional[typing.Mapping[str, typing.Optional[int]]] = None) -> None:
+        """`limits`: of dsdpv1.Checker, ticks; None: the rule is not checked."""
+        self.violations: typing.List[dsdpv1.Violation] = []
+        self._checker = dsdpv1.Checker(limits=limits)
+        self._checker.on_violation(self.violations.append)
+        self._tasks = pins.watch(self._checker.wants, self._pin)
+
+    def _pin(self, tick: int, pin: int, level: int) -> None:
+        if level != X:  # not driven yet, or unknown
+            self._checker.pin(tick, pin, level)
+
+    def telegram(self, heard: dsdpv1.Heard) -> None:
+        """A telegram on the DUT's line, at its end."""
+        self._checker.telegram(heard)
+
+    @property
+    def results(self) -> typing.Dict[str, dsdpv1.CheckResult]:
+        """Of each rule: how often, the worst margin."""
+        return self._checker.results
+
+    def finish(self) -> None:
+        """At the end of a test: fails it when a rule was broken."""
+        for task in self._tasks:
+            task.kill()
+        self._checker.finish(now())
+        if self.violations:
+            first = self.violations[0]
+            margin = "" if first.margin is None else f", margin {first.margin / NS:.3f} ns"
+            raise AssertionError(f"{len(self.violations)} violations, the first {first.rule} at {first.tick / NS:.3f} ns{margin}: {first.text}")

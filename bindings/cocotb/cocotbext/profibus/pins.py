@@ -1,0 +1,91 @@
+"""A DUT's ports as the pins of table 1."""
+import typing
+
+import cocotb
+from cocotb.triggers import Edge, Timer
+
+import dsdpv1
+
+from .ticks import now
+
+OUTPUTS_OF_D = ("D_OUT", "D_OE")
+Told = typing.Callable[[int, int, int], typing.Any]
+
+
+def _number(handle: typing.Any) -> typing.Optional[int]:
+    """The value of a signal, None when a bit of it is X or Z."""
+    value = handle.value
+    return int(value) if value.is_resolvable else None
+
+
+class ChipPins:
+    """The pins of a DUT by the names of table 1. D is three ports: D_IN, which the DUT reads, D_OUT, which it drives, D_OE, when it does.
+
+    A port is named like rtl_ref's unless `names` says otherwise: {"RESET": "rst_n", "D_OE": "data_en"}. An inverted one begins with "~".
+    """
+
+    def __init__(self, dut: typing.Any, names: typing.Optional[typing.Mapping[str, str]] = None) -> None:
+        self.kind = dsdpv1.kind_of("dsdpv1")
+        self._ports: typing.Dict[str, typing.Tuple[typing.Any, bool]] = {}
+        for pin in (*(each.name for each in self.kind.pins), "D_OE"):
+            port = (names or {}).get(pin, self._default(pin))
+            if not hasattr(dut, port.lstrip("~")):
+                raise AttributeError(f"{dut._name} has no port {port} for the pin {pin}; name it in names")  # pylint: disable=protected-access
+            self._ports[pin] = getattr(dut, port.lstrip("~")), port.startswith("~")
+
+    def _default(self, pin: str) -> str:
+        if pin in ("D_IN", "D_OUT", "D_OE"):
+            return {"D_IN": "d_i", "D_OUT": "d_o", "D_OE": "d_oe_o"}[pin]
+        return pin.lower() + ("_i" if self.kind.pin(pin).input else "_o")
+
+    def port(self, pin: str) -> typing.Any:
+        """The handle behind a pin."""
+        return self._ports[pin][0]
+
+    def level(self, pin: str) -> int:
+        """The present level; Z of D when it is not driven, X when a bit is unknown."""
+        if pin == "D_OUT" and self.level("D_OE") == 0:
+            return dsdpv1.Z
+        handle, inverted = self._ports[pin]
+        value = _number(handle)
+        if value is None:
+            return dsdpv1.Z if set(handle.value.binstr.lower()) == {"z"} else dsdpv1.X
+        return value ^ ((1 << len(handle)) - 1 if inverted else 0)
+
+    def set(self, pin: str, level: int) -> None:
+        """Gives an input a level, at the end of the present time step; Z releases D_IN."""
+        handle, inverted = self._ports[pin]
+        if level < 0:
+            handle.value = cocotb.binary.BinaryValue("z" * len(handle))
+        else:
+            handle.value = level ^ ((1 << len(handle)) - 1 if inverted else 0)
+
+    async def power_on(self) -> None:
+        """All inputs as the model has them at power-on, RESET low: before anything else, before the clock. RESET falls within the first step, as a
+        simulator without X would see no edge else."""
+        for pin in self.kind.pins:
+            if pin.input:
+                self._set_now(pin.name, max(pin.reset_level, 0))
+        self._set_now("RESET", 1)
+        await Timer(1, "step")
+        self._set_now("RESET", 0)
+
+    def _set_now(self, pin: str, level: int) -> None:
+        handle, inverted = self._ports[pin]
+        handle.setimmediatevalue(level ^ ((1 << len(handle)) - 1 if inverted else 0))
+
+    def watch(self, pins: typing.Iterable[str], told: Told) -> typing.List[typing.Any]:
+        """Tells (tick, pin's number, level) of each change from now on, and the levels of now. The tasks, whose kill() ends it."""
+        tasks = []
+        for name in pins:
+            number = self.kind.pin(name).number
+            told(now(), number, self.level(name))
+            for port in OUTPUTS_OF_D if name == "D_OUT" else (name,):
+                tasks.append(cocotb.start_soon(self._tell(self.port(port), name, number, told)))
+        return tasks
+
+    async def _tell(self, handle: typing.Any, name: str, number: int, told: Told) -> None:
+        edge = Edge(handle)
+        while True:
+            await edge
+            told(now(), number, self.level(name))

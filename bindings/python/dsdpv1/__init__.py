@@ -1,0 +1,41 @@
+"""The DSDPV1, a PROFIBUS-DP slave ASIC, cycle by cycle: chips pin by pin, a bus with masters and monitor, GSD files, checks, scenarios.
+
+    import dsdpv1
+    from dsdpv1 import MS, US
+
+    result = dsdpv1.run("scenarios/power_on_12m.yaml", changes=True, telegrams=True)
+    chip = dsdpv1.Chip()
+    chip.set("RESET", 1, at=20 * US)
+    chip.advance(1 * MS)
+
+Times are whole ticks of 1/12 ns. What the library refuses is an Error, whose text says what was wrong and what is allowed. One object, with all
+that belongs to it, is used by one thread at a time; different objects are independent, and long calls let other threads run. What a callback raises
+comes out of the call in which it was called. docs/python.md has the whole story.
+"""
+from . import registers
+from ._library import lib as _lib
+from ._library import text as _text
+from .bus import Bus, BusStatistics, Station, TsdrStatistics
+from .changes import CHANGE, of_pin
+from .checks import Checker, CheckResult, Rule, Violation, rules
+from .chip import AccessTiming, Chip, ChipEvent, ChipStatus, DpState, Severity
+from .errors import ArgumentError, Error, InputError, InternalError, NotFoundError, StateError, TimeError, UnsupportedError
+from .events import AcyclicOutcome, ConnectionEndCause, ConnectionState, Event, EventType, Outcome, RingState, SlaveState
+from .gsd import Gsd, GsdInfo, Slave
+from .kinds import Kind, Parameter, Pin, kind_names, kind_of
+from .master import ConnectionStatus, Master, Master1, Master2, MasterStatus, RingStatus, SlaveStatus, WireFaults
+from .runs import Result, Run, run
+from .telegram import BROADCAST, Decoded, Heard, Telegram, decode, explain, table
+from .telegram import Kind as TelegramKind
+from .units import BAUDS, CYCLE, LINE, MS, NEVER, NS, US, S, X, Z, bit_ticks
+from .user import Initialisation, User, UserError
+
+__version__ = _text(_lib.dpsim_version())
+__all__ = [
+    "BAUDS", "BROADCAST", "CHANGE", "CYCLE", "LINE", "MS", "NEVER", "NS", "S", "US", "X", "Z", "AccessTiming", "AcyclicOutcome", "ArgumentError", "Bus",
+    "BusStatistics", "CheckResult", "Checker", "Chip", "ChipEvent", "ChipStatus", "ConnectionEndCause", "ConnectionState", "ConnectionStatus", "Decoded",
+    "DpState", "Error", "Event", "EventType", "Gsd", "GsdInfo", "Heard", "Initialisation", "InputError", "InternalError", "Kind", "Master", "Master1", "Master2",
+    "MasterStatus", "NotFoundError", "Outcome", "Parameter", "Pin", "Result", "RingState", "RingStatus", "Rule", "Run", "Severity", "Slave",
+    "SlaveState", "SlaveStatus", "StateError", "Station", "Telegram", "TelegramKind", "TimeError", "TsdrStatistics", "UnsupportedError", "User", "UserError", "Violation",
+    "WireFaults", "bit_ticks", "decode", "explain", "kind_names", "kind_of", "of_pin", "registers", "rules", "run", "table",
+]

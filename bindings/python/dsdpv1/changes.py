@@ -1,0 +1,39 @@
+"""Changes of pins as numpy arrays."""
+import ctypes
+import typing
+
+import numpy as np
+
+from ._library import Handle
+
+#: One change: tick (1/12 ns), station (of a bus the station, of a run the slave, LINE; else 0), pin (its number), level (also Z, X).
+CHANGE = np.dtype({"names": ["tick", "station", "pin", "level"], "formats": ["u8", "u2", "u2", "i2"], "offsets": [0, 8, 10, 12], "itemsize": 16})
+_PIECE = 1 << 16  # changes, 1 MB
+
+
+def address(changes: np.ndarray) -> int:
+    """Where an array of CHANGE begins, for the library."""
+    return int(changes.__array_interface__["data"][0])
+
+
+def as_changes(changes: typing.Any) -> np.ndarray:
+    """An array, or whatever makes one of CHANGE: a list of (tick, station, pin, level)."""
+    return np.ascontiguousarray(changes, dtype=CHANGE)
+
+
+def taken(read: typing.Callable[..., typing.Any], source: Handle) -> np.ndarray:
+    """All changes that are kept, by one of the functions ..._read_changes."""
+    pieces, count = [], ctypes.c_size_t(_PIECE)
+    while count.value == _PIECE:
+        piece = np.empty(_PIECE, CHANGE)
+        read(source, address(piece), _PIECE, ctypes.byref(count))
+        pieces.append(piece[:count.value])
+    return pieces[0].copy() if len(pieces) == 1 else np.concatenate(pieces)
+
+
+def of_pin(changes: np.ndarray, pin: int, station: typing.Optional[int] = None) -> np.ndarray:
+    """Those of one pin, of one station when it is given."""
+    chosen = changes["pin"] == pin
+    if station is not None:
+        chosen &= changes["station"] == station
+    return typing.cast(np.ndarray, changes[chosen])

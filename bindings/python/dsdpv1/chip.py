@@ -1,0 +1,229 @@
+"""One chip, driven pin by pin, and what it says of itself."""
+import ctypes
+import dataclasses
+import enum
+import typing
+
+import numpy as np
+
+from . import _c
+from ._library import Handle, encoded, filled, lib, number, sized, text
+from .changes import address, as_changes, taken
+from .kinds import Kind, PinName, kind_of
+from .units import baud_name
+
+ENGINES = ("skip", "step")
+
+
+class DpState(enum.IntEnum):
+    """States of a DP slave (table 5)."""
+
+    OFFLINE = _c.DPSIM_DP_OFFLINE
+    WAIT_PRM = _c.DPSIM_DP_WAIT_PRM
+    WAIT_CFG = _c.DPSIM_DP_WAIT_CFG
+    DATA_EXCH = _c.DPSIM_DP_DATA_EXCH
+
+
+class Severity(enum.IntEnum):
+    """Of what a chip says: a state or service, something refused, a rule broken by the user's side."""
+
+    INFO = _c.DPSIM_SEVERITY_INFO
+    REFUSAL = _c.DPSIM_SEVERITY_REFUSAL
+    VIOLATION = _c.DPSIM_SEVERITY_VIOLATION
+
+
+@dataclasses.dataclass(frozen=True)
+class ChipEvent:
+    """Something that happened at a chip."""
+
+    tick: int
+    station: int
+    code: str  # of docs/reasons.md, never changes: "PRM_IDENT"
+    severity: Severity
+    text: str
+
+
+@dataclasses.dataclass(frozen=True)
+class ChipStatus:
+    """States and counters of a chip, as dpsim_chip_status has them."""
+
+    dp_state: DpState
+    baud: typing.Optional[str]  # None: it is being searched
+    address: int  # 0 before the initialisation
+    master: typing.Optional[int]  # the parameterising one
+    telegrams_received: int
+    telegrams_answered: int
+    data_exchanges: int
+    outputs_missed: int  # H5: blocks that newer ones replaced before the user had fetched them
+    accesses: int
+    longest_wait: int  # H1: ticks that a due access waited for the user at most
+
+
+@dataclasses.dataclass(frozen=True)
+class AccessTiming:
+    """When the pins move during an access of the host bus, in ticks (table 15, P5, P11); the defaults keep all limits. None: the default."""
+
+    address_setup: typing.Optional[int] = None  # A before the strobe falls (Tc >= 0)
+    cs_lead: typing.Optional[int] = None  # CSR falls before the strobe
+    rd_low: typing.Optional[int] = None  # > 0
+    rd_sample: typing.Optional[int] = None  # D sampled after RD fell (Tw >= 375)
+    wr_low: typing.Optional[int] = None  # > 0 (Ts >= 150)
+    data_setup: typing.Optional[int] = None  # D before WR rises (Td >= 150)
+    data_hold: typing.Optional[int] = None  # D after it (Td >= 150)
+    address_hold: typing.Optional[int] = None  # A after the strobe rose (writes: Td >= 150)
+    cs_trail: typing.Optional[int] = None  # CSR rises after the strobe
+    recovery: typing.Optional[int] = None  # from the last edge to the end of the access
+
+    def complete(self) -> "AccessTiming":
+        """With the defaults in their places."""
+        default = filled(lib.dpsim_access_timing_default, _c.dpsim_access_timing)
+        return AccessTiming(**{each.name: getattr(default, each.name) if getattr(self, each.name) is None else getattr(self, each.name)
+                               for each in dataclasses.fields(self)})
+
+    def _native(self) -> typing.Any:
+        return ctypes.byref(sized(_c.dpsim_access_timing, **dataclasses.asdict(self.complete())))
+
+
+def event_maker(kind: Kind, tell: typing.Callable[[ChipEvent], typing.Any]) -> typing.Callable[[typing.Any], None]:
+    """A callback of the library for what is to be told in words."""
+    raw, buffer = encoded(kind.name), ctypes.create_string_buffer(256)
+
+    def told(event: typing.Any) -> None:
+        lib.dpsim_chip_event_text(raw, event, ctypes.addressof(buffer), 256)
+        info = filled(lib.dpsim_reason_get, _c.dpsim_reason_info, raw, event[0].reason)
+        tell(ChipEvent(event[0].tick, event[0].station, text(info.code), Severity(info.severity), text(buffer.value)))
+
+    return told
+
+
+def _timing(timing: typing.Optional[AccessTiming]) -> typing.Any:
+    return None if timing is None else timing._native()  # pylint: disable=protected-access
+
+
+def chip_options(engine: str, kind: typing.Optional[str], name: typing.Optional[str], parameters: typing.Mapping[str, int]) -> typing.Any:
+    """What Chip() and Bus.add_chip() give to the library."""
+    if engine not in ENGINES:
+        raise ValueError(f"engine is {engine}, allowed are {', '.join(ENGINES)}")
+    table = (_c.dpsim_parameter * max(1, len(parameters)))(*(_c.dpsim_parameter(encoded(key), value) for key, value in parameters.items()))
+    return sized(_c.dpsim_chip_options, engine=ENGINES.index(engine), kind=encoded(kind), name=encoded(name),
+                 parameters=ctypes.cast(table, ctypes.POINTER(_c.dpsim_parameter)), parameter_count=len(parameters))
+
+
+class Chip(Handle):
+    """A chip alone, fresh from power-on at tick 0: RESET is low.
+
+    A change of an input at tick t is seen by the first rising edge of CLK strictly after t (P9); the host port, which is asynchronous, sees it
+    at t. Calls come in order of time: a tick before the present one is a TimeError. `at` None is the present tick. Pins are given by name or
+    number. On a bus (Bus.add_chip) setting or advancing the chip runs the whole bus.
+    """
+
+    def __init__(self, kind: typing.Optional[str] = None, engine: str = "skip", parameters: typing.Optional[typing.Mapping[str, int]] = None) -> None:
+        """`engine` "step" evaluates each cycle: slow, with the same changes. `parameters`: those that are not to have their defaults."""
+        options = chip_options(engine, kind, None, parameters or {})
+        super().__init__(number(lambda into: lib.dpsim_chip_create(ctypes.byref(options), into), ctypes.c_void_p), lib.dpsim_chip_destroy)
+        self._set_kind(kind)
+
+    @classmethod
+    def _of(cls, handle: int, kind: typing.Optional[str]) -> "Chip":
+        """A chip that its bus owns."""
+        self = cls.__new__(cls)
+        Handle.__init__(self, handle, None)
+        self._set_kind(kind)
+        return self
+
+    def _set_kind(self, kind: typing.Optional[str]) -> None:
+        self.kind = kind_of(kind)
+        self._numbers: typing.Dict[PinName, int] = {each.name: each.number for each in self.kind.pins}
+        self._numbers.update({each.number: each.number for each in self.kind.pins})
+
+    def _number(self, pin: PinName) -> int:
+        found = self._numbers.get(pin)
+        return self.kind.pin(pin).number if found is None else found
+
+    # ---- pins and time
+    @property
+    def now(self) -> int:
+        """The present tick."""
+        return int(number(lambda into: lib.dpsim_chip_now(self, into), ctypes.c_uint64))
+
+    @property
+    def next(self) -> int:
+        """The tick of the next thing that the chip does by itself; NEVER: until an input changes, nothing."""
+        return int(number(lambda into: lib.dpsim_chip_next(self, into), ctypes.c_uint64))
+
+    def set(self, pin: PinName, level: int, at: typing.Optional[int] = None) -> None:
+        """Runs up to `at`, then gives an input a level: 0 or 1, of several wires their value, of D_IN also Z."""
+        lib.dpsim_chip_set(self, self.now if at is None else at, self._number(pin), level)
+
+    def set_many(self, changes: typing.Any) -> None:
+        """Many at once, an array of CHANGE or a list of (tick, station, pin, level); stations are not looked at."""
+        array = as_changes(changes)
+        lib.dpsim_chip_set_many(self, address(array), len(array), None)
+
+    def receive(self, data: bytes, bit: int, at: typing.Optional[int] = None) -> int:
+        """Characters on PBRXD of a chip alone, with even parity, one after the other, each bit `bit` ticks long (bit_ticks). The end of the last
+        stop bit, which is the present tick then. StateError: it is on a bus."""
+        start = self.now if at is None else at
+        return int(number(lambda into: lib.dpsim_chip_receive(self, start, bit, bytes(data), len(data), into), ctypes.c_uint64))
+
+    def advance(self, to: int) -> None:
+        """Runs everything up to and including tick `to`. Other threads of Python run meanwhile."""
+        lib.dpsim_chip_advance(self, to)
+
+    def level(self, pin: PinName) -> int:
+        """The present level of a pin, input or output; Z, X."""
+        return int(number(lambda into: lib.dpsim_chip_level(self, self._number(pin), into), ctypes.c_int16))
+
+    def sample(self, at: typing.Optional[int] = None) -> int:
+        """The user samples D at this tick. The chip hears of it: too early (Tw, P5) it is X, and a violation is reported."""
+        return int(number(lambda into: lib.dpsim_chip_sample(self, self.now if at is None else at, into), ctypes.c_int16))
+
+    # ---- accesses
+    def read(self, cell: int, at: typing.Optional[int] = None, timing: typing.Optional[AccessTiming] = None) -> int:
+        """Reads a cell, 0 to 0x7FF, through the pins; the present tick is then the end of the access. X when the chip says so. Whether the user
+        owns the DPRAM is the caller's business (H2)."""
+        value, end = ctypes.c_int16(), ctypes.c_uint64()
+        lib.dpsim_chip_read(self, self.now if at is None else at, cell, _timing(timing), ctypes.byref(value), ctypes.byref(end))
+        return value.value
+
+    def write(self, cell: int, value: int, at: typing.Optional[int] = None, timing: typing.Optional[AccessTiming] = None) -> None:
+        """Writes a cell, the same way."""
+        lib.dpsim_chip_write(self, self.now if at is None else at, cell, value, _timing(timing), ctypes.byref(ctypes.c_uint64()))
+
+    def peek(self, cell: int) -> int:
+        """A cell without pins, time or side effects."""
+        return int(number(lambda into: lib.dpsim_chip_peek(self, cell, into), ctypes.c_uint8))
+
+    def poke(self, cell: int, value: int) -> None:
+        """Writes it so; the chip finds it at its next access."""
+        lib.dpsim_chip_poke(self, cell, value)
+
+    # ---- what is told
+    def watch(self, pins: typing.Optional[typing.Iterable[PinName]] = None,
+              callback: typing.Optional[typing.Callable[[int, str, int], typing.Any]] = None) -> None:
+        """From now on changes of these pins (None: all, []: none) are kept for changes(), or told: callback(tick, pin, level). In order of time.
+        In the callback the chip must not be changed."""
+        names = [each.name for each in self.kind.pins]
+        told = None if callback is None else lambda change: callback(change[0].tick, names[change[0].pin], change[0].level)
+        self._keep("watch", _c.dpsim_change_fn, told, lambda made: lib.dpsim_chip_watch(self, self.kind.mask(pins), made, None))
+
+    def changes(self) -> np.ndarray:
+        """Takes what watch() has kept: an array of CHANGE. Memory grows until it is taken."""
+        return taken(lib.dpsim_chip_read_changes, self)
+
+    def on_event(self, callback: typing.Optional[typing.Callable[[ChipEvent], typing.Any]]) -> None:
+        """Told of states, refusals and violations; None: nobody listens."""
+        told = None if callback is None else event_maker(self.kind, callback)
+        self._keep("event", _c.dpsim_chip_event_fn, told, lambda made: lib.dpsim_chip_on_event(self, made, None))
+
+    @property
+    def status(self) -> ChipStatus:
+        """States and counters; changes nothing."""
+        got = filled(lambda into: lib.dpsim_chip_get_status(self, into), _c.dpsim_chip_status)
+        return ChipStatus(DpState(got.dp_state), baud_name(got.baud), got.address, None if got.master == 255 else got.master, got.telegrams_received,
+                          got.telegrams_answered, got.data_exchanges, got.outputs_missed, got.accesses, got.longest_wait)
+
+    @property
+    def station(self) -> int:
+        """Its number on the bus. StateError: it is on none."""
+        return int(number(lambda into: lib.dpsim_chip_station(self, into), ctypes.c_uint16))

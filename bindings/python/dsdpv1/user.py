@@ -1,0 +1,262 @@
+"""The user CPU's side of a DSDPV1: the handshake and the blocks of the DPRAM.
+
+What a user does is written as generators of actions, so that the same programs run on a Chip (User, here) and, in a simulator, on a DUT's pins
+(cocotbext.profibus.HostPort). An action is yielded, its answer comes back; times between actions are whose pins they are to say.
+"""
+import dataclasses
+import typing
+
+from . import registers as reg
+from .chip import AccessTiming, Chip
+from .errors import Error
+from .gsd import Slave
+from .units import CYCLE, NS, US
+
+SYNC_WINDOW = 63 * NS  # H2: after R_REQ rose the chip may still begin an access for 62.5 ns
+POLLS = 10_000  # of a flag or pin before it counts as dead
+
+
+class UserError(Error):
+    """The chip did not do what the program waited for, or refused what it was given."""
+
+
+class Set(typing.NamedTuple):
+    """An input of the chip gets a level."""
+
+    pin: str
+    level: int
+
+
+class Level(typing.NamedTuple):
+    """Answer: the level of an output."""
+
+    pin: str
+
+
+class Wait(typing.NamedTuple):
+    """Ticks pass."""
+
+    ticks: int
+
+
+class Read(typing.NamedTuple):
+    """Answer: a cell, read through the pins."""
+
+    cell: int
+
+
+class Write(typing.NamedTuple):
+    """A cell is written through the pins."""
+
+    cell: int
+    value: int
+
+
+Action = typing.Union[Set, Level, Wait, Read, Write]
+T = typing.TypeVar("T")
+Program = typing.Generator[Action, int, T]
+
+
+def crc16(data: bytes) -> int:
+    """Of a block (4.2, D2): polynomial 0xA001 reflected, initial value 0xFFFF; 02 07 gives 0x1241."""
+    crc = 0xFFFF
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (0xA001 if crc & 1 else 0)
+    return crc
+
+
+# ---- the handshake
+def take() -> Program[None]:
+    """R_REQ, the window, L_REQ and L_STA seen low, R_STA (H2): the user owns the DPRAM."""
+    yield Set("R_REQ", 1)
+    yield Wait(SYNC_WINDOW)
+    for _ in range(POLLS):
+        if (yield Level("L_REQ")) == 0 and (yield Level("L_STA")) == 0:
+            break
+        yield Wait(50 * NS)
+    else:
+        raise UserError("the chip did not release the DPRAM: L_REQ or L_STA stays high")
+    yield Set("R_STA", 1)
+    yield Wait(CYCLE)
+
+
+def release() -> Program[None]:
+    """Both low again."""
+    yield Set("R_STA", 0)
+    yield Set("R_REQ", 0)
+
+
+def hold(program: Program[T]) -> Program[T]:
+    """A program with the DPRAM taken before and released after it."""
+    yield from take()
+    result = yield from program
+    yield Write(reg.ACCESS_COUNT, (yield Read(reg.ACCESS_COUNT)) + 1 & 0xFF)  # 4.1: who was at the DPRAM counts it
+    yield from release()
+    return result
+
+
+def write_block(cell: int, data: bytes, crc_cell: int) -> Program[None]:
+    """A block and its CRC, in a hold."""
+    crc = crc16(data)
+    for offset, byte in enumerate(data):
+        yield Write(cell + offset, byte)
+    yield Write(crc_cell, crc >> 8)
+    yield Write(crc_cell + 1, crc & 0xFF)
+
+
+def read_bytes(cell: int, count: int) -> Program[bytes]:
+    """Some cells, in a hold."""
+    data = bytearray()
+    for offset in range(count):
+        data.append((yield Read(cell + offset)))
+    return bytes(data)
+
+
+def read_cell(cell: int) -> Program[int]:
+    """One, in a hold."""
+    return (yield Read(cell))
+
+
+# ---- start-up and initialisation (chapter 8)
+@dataclasses.dataclass(frozen=True)
+class Initialisation:
+    """Block B020 (table 12). The modes: who judges parameters and configuration."""
+
+    address: int  # 0 to 126
+    ident: int
+    cfg: bytes  # 1 to 200 bytes
+    max_input: int  # 0 to 244 bytes
+    max_output: int
+    max_diag: int = 32  # 0 to 238
+    max_prm: int = 237  # 0 to 237
+    max_cfg: int = 200
+    prm_mode: int = 0
+    cfg_mode: int = 0
+    command: int = reg.INIT_COMMAND_ADDRESS_CHANGE | reg.INIT_COMMAND_FREEZE | reg.INIT_COMMAND_SYNC | reg.INIT_COMMAND_FAIL_SAFE
+    dpv1: bool = False
+
+    @classmethod
+    def of(cls, slave: Slave, **members: typing.Any) -> "Initialisation":
+        """For the slave that a master has to know."""
+        made = {"address": slave.address, "ident": slave.ident, "cfg": slave.cfg, "max_input": slave.input_length, "max_output": slave.output_length,
+                "dpv1": slave.dpv1}
+        return cls(**{**made, **members})
+
+    def block(self) -> bytes:
+        """From B020 on; B020 counts what follows it."""
+        head = [self.address, self.ident >> 8, self.ident & 0xFF, self.command, 0, 0, self.max_input, self.max_output, self.max_diag, self.max_prm,
+                self.prm_mode, self.max_cfg, self.cfg_mode, len(self.cfg)]
+        return bytes([len(head) + len(self.cfg), *head]) + self.cfg
+
+
+def wait_ready() -> Program[None]:
+    """After RESET rose: polls B004 until the chip's start-up is over (D1)."""
+    yield Wait(1 * US)  # H6: a request that the chip meets as it leaves its reset keeps it from its start-up
+    for _ in range(POLLS):
+        if (yield from hold(read_cell(reg.VALID_FLAG))) == reg.VALID_FLAG_VALID:
+            return
+        yield Wait(10 * US)
+    raise UserError("B004 did not become 0xC5")
+
+
+def _write_initialisation(init: Initialisation) -> Program[None]:
+    yield Write(reg.DPV1_ENABLE, reg.DPV1_ENABLE_ON if init.dpv1 else 0)
+    yield from write_block(reg.INIT, init.block(), reg.INIT_CRC)
+    yield Write(reg.CHIP_STATUS_1, 0)
+    yield Write(reg.USER_COMMAND_1, reg.USER_COMMAND_1_INIT)
+
+
+def _initialised() -> Program[typing.Optional[bool]]:
+    """In a hold: None while the chip has not looked yet."""
+    if (yield Read(reg.USER_COMMAND_1)) & reg.USER_COMMAND_1_INIT:
+        return None
+    return bool((yield Read(reg.CHIP_STATUS_1)) & reg.CHIP_STATUS_1_INITIALISED)
+
+
+def initialise(init: Initialisation) -> Program[None]:
+    """Hands the block over and waits for the chip's answer, B00A.0. UserError: it refused it."""
+    yield from hold(_write_initialisation(init))
+    for _ in range(POLLS):
+        yield Wait(2 * US)
+        answer = yield from hold(_initialised())
+        if answer is not None:
+            break
+    if not answer:
+        raise UserError("the chip " + ("has not looked at the initialisation" if answer is None else "refused the initialisation (D11)"))
+
+
+# ---- cyclic data
+def _exchange(inputs: typing.Optional[bytes]) -> Program[typing.Optional[bytes]]:
+    if inputs is not None:
+        yield from write_block(reg.INPUT_LENGTH, bytes([len(inputs)]) + inputs, reg.INPUT_CRC)
+        command = yield Read(reg.USER_COMMAND_1)
+        yield Write(reg.USER_COMMAND_1, command | reg.USER_COMMAND_1_INPUT)
+    command = yield Read(reg.CHIP_COMMAND_1)
+    if not command & reg.CHIP_COMMAND_1_OUTPUT:
+        return None
+    length = yield Read(reg.OUTPUT_LENGTH)
+    block = bytes([length]) + (yield from read_bytes(reg.OUTPUT_DATA, length))
+    crc = yield from read_bytes(reg.OUTPUT_CRC, 2)
+    yield Write(reg.CHIP_COMMAND_1, command & ~reg.CHIP_COMMAND_1_OUTPUT & 0xFF)
+    if int.from_bytes(crc, "big") != crc16(block):
+        raise UserError("the outputs have a wrong CRC")
+    return block[1:]
+
+
+def exchange(inputs: typing.Optional[bytes] = None) -> Program[typing.Optional[bytes]]:
+    """Inputs to the chip and outputs from it in one hold; None: there are no new ones. `inputs` as long as configured (D10)."""
+    return hold(_exchange(inputs))
+
+
+# ---- on a chip
+class User:
+    """The user CPU of a Chip: runs programs on its pins, each action after the other."""
+
+    def __init__(self, chip: Chip, timing: typing.Optional[AccessTiming] = None, pin_time: int = 50 * NS) -> None:
+        """`timing` of accesses; `pin_time`: ticks that setting or reading a handshake pin takes."""
+        self.chip, self._timing, self._pin_time = chip, timing, pin_time
+
+    def wait(self, ticks: int) -> None:
+        """The chip, or the bus that it is on, runs on."""
+        self.chip.advance(self.chip.now + ticks)
+
+    def act(self, action: Action) -> int:
+        """One action; its answer, or 0."""
+        if isinstance(action, Read):
+            return self.chip.read(action.cell, timing=self._timing)
+        if isinstance(action, Write):
+            self.chip.write(action.cell, action.value, timing=self._timing)
+            return 0
+        if isinstance(action, Wait):
+            self.wait(action.ticks)
+            return 0
+        if isinstance(action, Set):
+            self.chip.set(action.pin, action.level)
+        self.wait(self._pin_time)
+        return self.chip.level(action.pin)
+
+    def run(self, program: Program[T]) -> T:
+        """A whole program; what it returns."""
+        answer = None
+        while True:
+            try:
+                answer = self.act(program.send(answer) if answer is not None else next(program))
+            except StopIteration as end:
+                return typing.cast(T, end.value)
+
+    def power_on(self, init: typing.Optional[Initialisation] = None) -> None:
+        """RESET up now, the chip's start-up, and, when it is given, the initialisation."""
+        self.chip.set("RESET", 1)
+        self.run(wait_ready())
+        if init is not None:
+            self.run(initialise(init))
+
+    def exchange(self, inputs: typing.Optional[bytes] = None) -> typing.Optional[bytes]:
+        """Inputs to the chip, new outputs from it."""
+        return self.run(exchange(inputs))
+
+    def read(self, cell: int) -> int:
+        """A cell, in a hold of its own."""
+        return self.run(hold(read_cell(cell)))

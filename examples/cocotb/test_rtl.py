@@ -1,0 +1,68 @@
+"""The reference RTL in cocotb: a master brings it up through its pins, and the model looks at each of its outputs.
+
+The environment says what is played: FAULT, a number of rtl_ref/faults.txt that is switched on; SCENARIO, one whose pins are replayed.
+"""
+import os
+
+import cocotb
+
+import dsdpv1
+from cocotbext.profibus import ChipPins, Clock, HostPort, PinChecker, PinSource, Scoreboard, Segment, now, until
+from dsdpv1 import US
+
+# Short times, so that a simulation takes seconds: the model gets the same.
+QUICK = {"search_window_ms": 1, "ready_cycles": 256}
+
+
+async def begin(dut, parameters=None):
+    """Pins at rest, clock, scoreboard."""
+    dut.fault_i.setimmediatevalue(int(os.environ.get("FAULT", "0")))
+    pins = ChipPins(dut)
+    await pins.power_on()
+    Clock(dut.clk_i).start()
+    return pins, Scoreboard(pins, parameters)
+
+
+async def bring_up(dut, pins):
+    """Power-on, initialisation, parameters, configuration, data exchange, both ways."""
+    slave = dsdpv1.Slave(address=5, ident=0x0CC9, cfg=b"\x37", input_length=8, output_length=8)
+    segment = Segment(dut.pbrxd_i, dut.pbtxd_o, dut.pbrts_o)
+    host = HostPort(pins)
+    await host.power_on(dsdpv1.Initialisation.of(slave))
+
+    master = segment.add_master(address=2)
+    master.add_slave(slave)
+    master.set_outputs(5, bytes(range(1, 9)))
+    master.start()
+    await master.data_exchange(5)
+    outputs = None
+    while outputs is None:
+        await until(now() + 20 * US)
+        outputs = await host.exchange(inputs=b"\xCA\xFE" + bytes(6))
+    assert outputs == bytes(range(1, 9)), outputs
+    answer = await master.ask("read_inputs", 5)
+    assert dsdpv1.decode(answer.data).telegram.data[:2] == b"\xCA\xFE", answer
+
+
+@cocotb.test()
+async def a_master_brings_the_chip_up(dut):
+    """Every change of every output is the model's, and the host port keeps the rules of the user's side."""
+    pins, scoreboard = await begin(dut, QUICK)
+    checker = PinChecker(pins)
+    await bring_up(dut, pins)
+    scoreboard.check()
+    checker.finish()
+    assert checker.results["TIMING_TS"].count > 0
+    dut._log.info(f"data exchange at {now() / US:.3f} us, {scoreboard.matched} changes are the model's")
+
+
+@cocotb.test()
+async def the_pins_of_a_scenario_are_replayed(dut):
+    """The inputs of a run of the model; with a fault, the first different cycle is named."""
+    pins, scoreboard = await begin(dut)
+    run = dsdpv1.run(os.environ["SCENARIO"], changes=True)
+    end = int(float(os.environ.get("END_US", "100")) * US)
+    await PinSource(pins).play(run.changes, end=end)
+    await until(end)
+    scoreboard.check()
+    dut._log.info(f"replayed up to {now() / US:.3f} us, {scoreboard.matched} changes are the model's")

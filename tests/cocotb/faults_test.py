@@ -1,0 +1,39 @@
+"""A planted defect of the reference RTL: the scoreboard of cocotb names the cycle, the pin and the levels that `dsdpv1-sim run --engine lockstep` does.
+
+    faults_test.py SIM FOLDER SIMULATOR FAULT END_US
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENARIO = ROOT / "scenarios" / "power_on_12m.yaml"
+DIFFERENCE = re.compile(r"first difference +cycle (\d+) \(([\d.]+) us\)\s+pin (\w+): model (\w+), (?:RTL|DUT) (\w+)")
+
+
+def output(*command):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout + done.stderr
+
+
+def main(sim, folder, simulator, fault, end):
+    folder.mkdir(parents=True, exist_ok=True)
+    difference = folder / f"difference_{simulator}.vcd"
+    _, text = output(sim, "run", SCENARIO, "--engine", "lockstep", "--fault", fault, "--no-progress", "--difference", difference)
+    expected = DIFFERENCE.search(text)
+    assert expected, text
+
+    play = (sys.executable, "-B", ROOT / "examples" / "cocotb" / "run.py", "--simulator", simulator, "--build", folder / simulator, "--scenario", SCENARIO, "--end",
+            end, "--test", "the_pins_of_a_scenario_are_replayed")
+    code, text = output(*play, "--fault", fault)
+    found = DIFFERENCE.search(text)
+    assert code == 1 and found, text
+    assert found.groups() == expected.groups(), f"{found.group(0)}\nlockstep: {expected.group(0)}"
+    code, text = output(*play)
+    assert code == 0, text
+    print(f"{simulator}, fault {fault}:", " ".join(found.group(0).split()))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], pathlib.Path(sys.argv[2]), *sys.argv[3:])

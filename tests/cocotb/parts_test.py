@@ -1,0 +1,28 @@
+"""Runs test_parts.py and test_pins.py in Icarus, and looks whether a precision that is too coarse is refused.
+
+    parts_test.py FOLDER
+"""
+import pathlib
+import sys
+
+from cocotb.runner import get_results, get_runner
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def run(folder, precision="1ps", top="wires", module="test_parts", **options):
+    """(tests, failures)."""
+    folder.mkdir(parents=True, exist_ok=True)
+    runner = get_runner("icarus")
+    runner.build(verilog_sources=[HERE / "wires.sv"], hdl_toplevel=top, timescale=("1ns", precision), build_dir=folder, always=True,
+                 build_args=["-g2012"])
+    return get_results(runner.test(hdl_toplevel=top, test_module=module, test_dir=folder, build_dir=folder,
+                                   results_xml=str(folder / "results.xml"), **options))
+
+
+if __name__ == "__main__":
+    place = pathlib.Path(sys.argv[1])
+    parts, pins = run(place / "parts"), run(place / "pins", top="pins_only", module="test_pins")
+    coarse = run(place / "coarse", "100ps", testcase="edges_of_the_clock_are_at_their_ticks")
+    print(f"tests and failures: parts {parts}, pins {pins}, at a precision of 100 ps {coarse}")
+    sys.exit(0 if (parts, pins, coarse) == ((5, 0), (3, 0), (1, 1)) else 1)

@@ -1,0 +1,409 @@
+"""The module dsdpv1: each part once, and what is Python's own: exceptions, callbacks, threads, numpy."""
+import dataclasses
+import os
+import pathlib
+import re
+import sys
+import tempfile
+import threading
+import types
+import unittest
+import unittest.mock
+
+import numpy as np
+
+import dsdpv1
+from dsdpv1 import CYCLE, MS, NS, US, EventType, SlaveState
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENARIO = ROOT / "scenarios" / "power_on_12m.yaml"
+SHORT = {"end": "11ms"}
+MODULE = ["8 bytes in, 8 bytes out"]
+
+
+# In the place of pandas, whether it is installed or not.
+PANDAS = unittest.mock.patch.dict(sys.modules, {"pandas": types.SimpleNamespace(DataFrame=list)})
+
+
+def slave_of_gsd(**members):
+    return dsdpv1.Gsd(ROOT / "scenarios" / "dsdpv1.gsd").slave(5, MODULE, **members)
+
+
+class Line:
+    """A bus with a chip, its user CPU and a master that knows it."""
+
+    def __init__(self, ring=0):
+        self.slave = slave_of_gsd()
+        self.bus = dsdpv1.Bus()
+        self.chip = self.bus.add_chip()
+        self.user = dsdpv1.User(self.chip)
+        self.master = self.bus.add_master(2, ring=ring)
+        self.master.add_slave(self.slave)
+
+    def start(self):
+        self.user.wait(20 * CYCLE)
+        self.user.power_on(dsdpv1.Initialisation.of(self.slave))
+        self.master.start()
+        self.bus.run(5 * MS)
+
+
+class ErrorsTest(unittest.TestCase):
+    def refuses(self, kind, words, function, *arguments, **options):
+        with self.assertRaisesRegex(kind, words):
+            function(*arguments, **options)
+
+    def test_what_the_library_refuses_is_an_exception_with_its_words(self):
+        chip = dsdpv1.Chip()
+        self.refuses(dsdpv1.NotFoundError, "no pin FOO, it has RESET, R_REQ", chip.set, "FOO", 1)
+        self.refuses(dsdpv1.ArgumentError, "level of A is 2048, allowed are 0 to 2047", chip.set, "A", 2048)
+        chip.advance(100)
+        self.refuses(dsdpv1.TimeError, "tick is 99, which is before the present tick 100", chip.advance, 99)
+        self.refuses(dsdpv1.StateError, "", lambda: chip.station)
+        self.refuses(dsdpv1.NotFoundError, 'kind is "foo", allowed are dsdpv1', dsdpv1.Chip, "foo")
+        self.refuses(dsdpv1.NotFoundError, "speed", dsdpv1.Chip, parameters={"speed": 1})
+        self.refuses(dsdpv1.InputError, "nix.yaml", dsdpv1.run, "nix.yaml")
+        self.refuses(dsdpv1.InputError, "x.yaml:2: .*13M", dsdpv1.run, "x.yaml", text="name: x\nbaud: 13M\n")
+        self.refuses(dsdpv1.UnsupportedError, "ARM board", dsdpv1.run, ROOT / "scenarios" / "arm_board_12m.yaml")
+        self.refuses(ValueError, "engine is fast, allowed are skip, step", dsdpv1.Chip, engine="fast")
+        self.refuses(ValueError, "baud is 13M, allowed are 12M", dsdpv1.Bus, "13M")
+
+    def test_a_closed_object_refuses_everything(self):
+        bus = dsdpv1.Bus()
+        chip = bus.add_chip()
+        with bus:
+            pass
+        self.refuses(dsdpv1.StateError, "this Chip is closed", chip.advance, 1)
+        self.refuses(dsdpv1.StateError, "this Bus is closed", bus.run, 1)
+        bus.close()
+
+
+class ChipTest(unittest.TestCase):
+    def test_a_user_reads_the_version_pin_by_pin(self):
+        chip = dsdpv1.Chip()
+        chip.watch(["L_REQ", "D_OUT"])
+        chip.set("RESET", 1, at=1 * US)
+        chip.advance(150 * US)
+        chip.set("R_REQ", 1)
+        chip.advance(chip.now + 1 * US)
+        self.assertEqual((chip.level("L_REQ"), chip.level("L_STA")), (0, 0))
+        chip.set("R_STA", 1)
+        start = chip.now + 50 * NS
+        for pin, level, after in (("A", 4, 0), ("CSR", 0, 0), ("RD", 0, 10)):
+            chip.set(pin, level, at=start + after * NS)
+        self.assertEqual(chip.sample(at=start + 50 * NS), 0xC5)
+        chip.set("RD", 1)
+        chip.set("CSR", 1)
+        chip.advance(chip.now + 1 * US)
+        self.assertEqual(chip.read(4, timing=dsdpv1.AccessTiming(rd_sample=400, rd_low=600)), 0xC5)
+        self.assertEqual(chip.read(4, timing=dsdpv1.AccessTiming(rd_sample=300, rd_low=600)), dsdpv1.X)  # Tw
+        changes = chip.changes()
+        self.assertEqual(changes.dtype, dsdpv1.CHANGE)
+        self.assertTrue((np.diff(changes["tick"].astype(np.int64)) >= 0).all())
+        self.assertIn(0xC5, dsdpv1.of_pin(changes, chip.kind.pin("D_OUT").number)["level"])
+        self.assertEqual(len(chip.changes()), 0)
+
+    def test_step_and_skip_change_the_same_pins_and_many_at_once_are_as_one_by_one(self):
+        stimulus = [(1 * US, 0, dsdpv1.kind_of().pin("RESET").number, 1), (200 * US, 0, dsdpv1.kind_of().pin("R_REQ").number, 1)]
+        seen = []
+        for engine in ("skip", "step"):
+            chip = dsdpv1.Chip(engine=engine, parameters={"ready_cycles": 5000})
+            chip.watch()
+            if engine == "skip":
+                chip.set_many(stimulus)
+            else:
+                for tick, _, pin, level in stimulus:
+                    chip.set(pin, level, at=tick)
+            chip.advance(250 * US)
+            seen.append(sorted(chip.changes().tolist()))
+        self.assertGreater(len(seen[0]), 100)
+        self.assertEqual(*seen)
+
+    def test_callbacks_tell_what_is_kept_else(self):
+        kept, told, events = dsdpv1.Chip(), dsdpv1.Chip(), []
+        heard = []
+        kept.watch(["L_STA"])
+        told.watch(["L_STA"], lambda tick, pin, level: heard.append((tick, pin, level)))
+        told.on_event(events.append)
+        for chip in (kept, told):
+            chip.set("RESET", 1, at=100)
+            chip.advance(1 * MS)
+        self.assertEqual([(tick, "L_STA", level) for tick, _, _, level in kept.changes().tolist()], heard)
+        self.assertEqual([(each.code, each.severity.name) for each in events], [("READY_FLAG", "INFO")])
+        self.assertLess(told.now, told.next)
+
+    def test_a_chip_alone_answers_characters_on_its_line(self):
+        chip = dsdpv1.Chip()
+        user = dsdpv1.User(chip)
+        user.wait(20 * CYCLE)
+        user.power_on(dsdpv1.Initialisation.of(slave_of_gsd()))
+        bit, status = dsdpv1.bit_ticks("12M"), dsdpv1.Telegram(dsdpv1.TelegramKind.SD1, da=5, sa=2, fc=0x49).encode()
+        start = chip.now + 100 * bit
+        self.assertEqual(chip.receive(status, bit, at=start), start + 11 * len(status) * bit)
+        chip.advance(chip.now + 100 * US)
+        self.assertEqual(chip.status.baud, "12M")  # a right telegram ends the search
+        chip.watch(["PBTXD"])
+        end = chip.receive(status, bit, at=chip.now + 200 * bit)
+        chip.advance(end + 200 * bit)
+        self.assertIn(chip.changes()["tick"][0] - end, range(11 * bit, 12 * bit + 1))  # TSDR
+
+    def test_what_a_callback_raises_comes_out_of_the_call(self):
+        chip = dsdpv1.Chip()
+        calls = []
+
+        def fails(*_):
+            calls.append(1)
+            raise ZeroDivisionError("of the callback")
+
+        chip.watch(["L_REQ"], fails)
+        chip.set("RESET", 1, at=100)
+        with self.assertRaisesRegex(ZeroDivisionError, "of the callback"):
+            chip.advance(1 * MS)
+        self.assertEqual(len(calls), 1)
+        chip.watch([])
+        chip.advance(2 * MS)
+
+    def test_a_callback_must_not_change_its_chip(self):
+        chip = dsdpv1.Chip()
+        chip.watch(["L_REQ"], lambda *_: chip.set("R_REQ", 1))
+        chip.set("RESET", 1, at=100)
+        with self.assertRaises(dsdpv1.StateError):
+            chip.advance(1 * MS)
+
+    def test_other_threads_run_while_a_call_is_in_the_library(self):
+        chip = dsdpv1.Chip(engine="step")
+        chip.set("RESET", 1, at=100)
+        order, ready = [], threading.Event()
+
+        def long_call():
+            ready.set()
+            chip.advance(500 * MS)
+            order.append("call")
+
+        thread = threading.Thread(target=long_call)
+        interval = sys.getswitchinterval()
+        sys.setswitchinterval(1e-5)
+        thread.start()
+        ready.wait()
+        order.append("other")  # were the lock held, after the call
+        thread.join()
+        sys.setswitchinterval(interval)
+        self.assertEqual(order, ["other", "call"])
+
+
+class BusTest(unittest.TestCase):
+    def test_a_master_with_callbacks_brings_a_slave_up_and_asks_it(self):
+        line = Line()
+        states, done, telegrams = [], [], []
+
+        def told(event):
+            if event.type == EventType.SLAVE_STATE:
+                states.append(event.after)
+                if event.after == SlaveState.DATA_EXCHANGE:
+                    self.request = line.master.ask("get_cfg", 5)  # a command inside of the callback
+            elif event.type == EventType.REQUEST_DONE:
+                done.append(event)
+
+        line.bus.on_event(told)
+        line.bus.on_telegram(telegrams.append)
+        line.master.set_outputs(5, bytes(range(8)))
+        line.start()
+        self.assertEqual(states[-1], SlaveState.DATA_EXCHANGE)
+        self.assertEqual([(each.id, each.outcome) for each in done], [(self.request, dsdpv1.Outcome.ANSWERED)])
+        self.assertEqual(dsdpv1.decode(done[0].data).telegram.data, line.slave.cfg)
+        self.assertEqual(line.user.exchange(b"\xAA" * 8), bytes(range(8)))
+        line.bus.run(line.bus.now + 2 * MS)
+        status = line.master.slave(5)
+        self.assertEqual((status.inputs, status.reason), (b"\xAA" * 8, ""))
+        self.assertEqual(line.chip.status.dp_state, dsdpv1.DpState.DATA_EXCH)
+        self.assertEqual(line.chip.status.baud, "12M")
+        self.assertGreaterEqual(line.bus.tsdr(5).tsdr_min, 11 * dsdpv1.bit_ticks("12M"))
+        self.assertEqual(line.bus.statistics.telegrams, len([each for each in telegrams if not each.error]))
+
+    def test_broken_telegrams_are_heard_as_such(self):
+        line = Line()
+        line.start()
+        heard = []
+        line.bus.on_telegram(heard.append)
+        telegram = dsdpv1.Telegram(dsdpv1.TelegramKind.SD1, da=5, sa=2, fc=0x49)
+        line.master.send_raw(telegram.encode(), dsdpv1.WireFaults(wrong_parity_at=2))
+        line.bus.run(line.bus.now + 2 * MS)
+        self.assertEqual([each.data for each in heard if each.character_errors], [telegram.encode()])
+
+    def test_a_chip_outside_answers_to_the_tick_as_one_on_the_bus(self):
+        inside, outside = Line(), dsdpv1.Bus()
+        inside.chip.watch(["PBTXD", "PBRTS"])
+        chip, station, master = dsdpv1.Chip(), outside.add_station("dut"), outside.add_master(2)
+        master.add_slave(inside.slave)
+        heard, sent = [], []
+        outside.watch(callback=lambda tick, _station, _pin, level: heard.append((tick, level)))
+        user = dsdpv1.User(chip)
+        user.wait(20 * CYCLE)
+        chip.watch(["PBTXD", "PBRTS"])
+        user.power_on(dsdpv1.Initialisation.of(inside.slave))
+        outside.run(chip.now)
+        master.start()
+        inside.start()
+        now = chip.now
+        while now < 5 * MS:
+            now = min(outside.next, chip.next)
+            outside.run(now)
+            chip.advance(now)
+            for change in chip.changes().tolist():
+                sent.append(change)
+                station.drive(chip.level("PBRTS") == 1, chip.level("PBTXD"), at=now)
+            for tick, level in heard:
+                chip.set("PBRXD", level, at=tick)
+            heard.clear()
+        self.assertGreater(len(sent), 300)
+        expected = [each for each in inside.chip.changes().tolist() if each[0] < sent[-1][0]]
+        self.assertEqual(sorted(expected), sorted(each for each in sent if each[0] < sent[-1][0]))
+
+    def test_a_master_of_class_2_is_told_why_there_is_no_connection(self):
+        line, ends = Line(ring=1), []
+        line.bus.on_event(lambda event: ends.append(event) if event.type == EventType.CONNECTION_END else None)
+        second = line.bus.add_master2(3)
+        connection = second.add_connection(5, send_timeout=1)
+        line.start()
+        second.start()
+        line.bus.run(line.bus.now + 5 * MS)
+        second.connect(connection)
+        line.bus.run(line.bus.now + 50 * MS)
+        self.assertEqual([each.outcome for each in ends], [dsdpv1.ConnectionEndCause.REFUSED])
+        self.assertEqual(second.connection(connection).state, dsdpv1.ConnectionState.CLOSED)
+        self.assertIn(3, second.ring.stations)
+
+
+class FilesTest(unittest.TestCase):
+    def test_a_gsd_file_says_what_a_master_has_to_know(self):
+        gsd = dsdpv1.Gsd(ROOT / "scenarios" / "dsdpv1.gsd")
+        self.assertEqual((gsd.info.ident, gsd.info.dpv1, gsd.warnings), (0x0CC9, True, []))
+        self.assertIn(MODULE[0], gsd.info.modules)
+        slave = gsd.slave(7, MODULE, dpv1=True, watchdog=(10, 1))
+        self.assertEqual((slave.address, slave.input_length, slave.output_length, slave.dpv1, slave.watchdog), (7, 8, 8, True, (10, 1)))
+        self.assertEqual(gsd.report(MODULE)["vendor"], gsd.info.vendor)
+        with self.assertRaisesRegex(dsdpv1.InputError, "my.gsd:[0-9]+: "):
+            dsdpv1.Gsd.parse("#Profibus_DP\nGSD_Revision = x\n", "my.gsd")
+        with self.assertRaises(dsdpv1.InputError):
+            gsd.slave(5, ["no such module"])
+
+    def test_telegrams_are_encoded_decoded_and_explained(self):
+        telegram = dsdpv1.Telegram(dsdpv1.TelegramKind.SD2, da=5, sa=2, fc=0x6D, dsap=60, ssap=62)
+        data = telegram.encode()
+        self.assertEqual(data.hex(), "680505688582" + "6d3c3e" + "ee16")
+        self.assertEqual(dsdpv1.decode(data), dsdpv1.Decoded(telegram, "", len(data)))
+        self.assertEqual(dsdpv1.explain(data, "service"), "Slave_Diag")
+        self.assertIn("2 -> 5", dsdpv1.explain(data))
+        self.assertEqual(dsdpv1.explain(data, "bytes").count("\n"), len(data))
+        wrong = dsdpv1.decode(data[:-2] + b"\x00\x16")
+        self.assertEqual((wrong.telegram, wrong.error), (telegram, "wrong FCS"))
+        with self.assertRaises(ValueError):
+            dataclasses.replace(telegram, data=bytes(247)).encode()
+
+
+class ChecksTest(unittest.TestCase):
+    def strobe(self, low, **options):
+        chip, checker, violations = dsdpv1.Chip(), dsdpv1.Checker(**options), []
+        checker.on_violation(violations.append)
+        chip.watch(checker.wants)
+        user = dsdpv1.User(chip, dsdpv1.AccessTiming(wr_low=low))
+        user.wait(20 * CYCLE)
+        user.power_on()
+        user.run(dsdpv1.user.hold(dsdpv1.user.write_block(0x131, b"\x01", 0x133)))
+        checker.pins(chip.changes())
+        checker.finish(chip.now)
+        return checker.results, [each.rule for each in violations]
+
+    def test_a_strobe_that_is_too_short_is_found(self):
+        results, violations = self.strobe(149)  # Ts >= 150 ticks
+        self.assertEqual(set(violations), {"TIMING_TS"})
+        self.assertEqual(results["TIMING_TS"].worst_margin, -1)
+        self.assertEqual(self.strobe(150)[1], [])
+
+    def test_limits_can_be_others(self):
+        self.assertEqual(set(self.strobe(150, limits={"TIMING_TS": 151})[1]), {"TIMING_TS"})
+        self.assertEqual(self.strobe(149, limits={"TIMING_TS": None})[1], [])
+
+    def test_rules_say_what_must_hold(self):
+        rule = next(each for each in dsdpv1.rules() if each.name == "TIMING_TS")
+        self.assertEqual((rule.bound, rule.limit), ("min", 150))
+        self.assertTrue(rule.rule and rule.clause and rule.advice)
+
+
+class RunTest(unittest.TestCase):
+    def test_a_scenario_gives_results_pins_and_telegrams(self):
+        with tempfile.TemporaryDirectory() as folder:
+            wave = pathlib.Path(folder) / "run.vcd"
+            result = dsdpv1.run(SCENARIO, changes=True, telegrams=True, settings=SHORT, wave=wave)
+            text = wave.read_text(encoding="utf-8")
+        self.assertEqual(result.simulated, 11 * MS)
+        self.assertFalse(result.passed)  # what the scenario expects comes later
+        self.assertEqual(result.data["telegrams"], len(result.telegrams))
+        self.assertEqual(result.slaves, ("demo",))
+        self.assertIn("demo", result.report)
+        self.assertIn("Set_Prm", [each.service for each in result.telegrams])
+        for pin in ("INTR0", "PBTXD", "L_REQ"):
+            self.assertEqual(self.of_wave(text, pin), [(tick, level) for tick, _, _, level in result.pin(pin).tolist() if tick > 0], pin)
+        line = result.pin("LINE")
+        self.assertEqual(line["tick"][line["level"] == 0][0], result.telegrams[0].start)
+
+    @staticmethod
+    def of_wave(text, pin):
+        """Changes of a pin in a VCD after its start, in ticks."""
+        code = re.search(rf"\$var \w+ 1 (\S+) {pin} ", text).group(1)
+        found, now = [], 0
+        for line in text.partition("$enddefinitions $end")[2].splitlines():
+            if line.startswith("#"):
+                now = int(line[1:])
+            elif line[1:] == code and line[0] in "01" and now > 0:
+                found.append((round(now * 12 / 1000), int(line[0])))
+        return found
+
+    def test_the_document_shows_what_can_be_run(self):
+        text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+        lines = re.search(r"## A scenario\n\n```python\n(.*?)```", text, re.S).group(1).splitlines()
+        scope = {"dsdpv1": dsdpv1}
+        exec(lines[0].replace("scenarios/", f"{ROOT}/scenarios/"), scope)  # pylint: disable=exec-used
+        for line in lines[1:]:
+            expression, comment = (part.strip() for part in line.split("#", 1))
+            with PANDAS:
+                value = eval(expression, scope)  # pylint: disable=eval-used
+            self.assertTrue(len(value) > 0 if hasattr(value, "__len__") else value, line)
+            if "..." in comment:  # the value, cut
+                self.assertEqual(value[:len(comment) - 3], comment[:-3], line)
+
+    def test_engines_give_the_same_changes(self):
+        one, other = (dsdpv1.run(SCENARIO, changes=True, settings=SHORT, engine=engine).changes for engine in ("skip", "step"))
+        self.assertGreater(len(one), 10_000)
+        self.assertTrue((np.sort(one, order=["tick", "station", "pin"]) == np.sort(other, order=["tick", "station", "pin"])).all())
+
+    def test_a_run_can_be_watched_and_stopped(self):
+        run = dsdpv1.Run(SCENARIO)
+        events, telegrams = [], []
+        run.on_event(events.append)
+        run.on_telegram(telegrams.append)
+        result = run.execute(poll=lambda now: now < 2 * MS)
+        self.assertTrue(result.interrupted)
+        self.assertLess(result.simulated, 3 * MS)
+        self.assertEqual(len(telegrams), result.data["telegrams"])
+        self.assertIn("INITIALISED", [each.code for each in events])
+        with self.assertRaises(dsdpv1.StateError):
+            run.execute()
+
+    def test_a_poll_that_raises_stops_the_run(self):
+        def fails(_now):
+            raise KeyError("of the poll")
+
+        with self.assertRaisesRegex(KeyError, "of the poll"):
+            dsdpv1.Run(SCENARIO).execute(poll=fails)
+
+    def test_telegrams_become_a_table_where_pandas_is(self):
+        result = dsdpv1.run(SCENARIO, telegrams=True, settings=SHORT)
+        with PANDAS:
+            rows = result.telegram_table()
+        self.assertEqual(len(rows), len(result.telegrams))
+        self.assertEqual(set(rows[0]), {"start_us", "end_us", "tsdr_bits", "station", "error", "service", "line", "bytes"})
+
+
+if __name__ == "__main__":
+    os.chdir(ROOT)
+    unittest.main(verbosity=1)

@@ -1,0 +1,64 @@
+"""Makes the wheel and uses it where nothing else of the project is.
+
+    wheel_test.py FOLDER [BUILD]    FOLDER keeps what is compiled; BUILD: a build whose library goes into the wheel, else one is compiled
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+USE = """
+import pathlib, dsdpv1, dsdpv1._library as library
+assert "site" in dsdpv1.__file__, dsdpv1.__file__
+assert library._path() == str(pathlib.Path(dsdpv1.__file__).parent / "lib" / "libdsdpv1.so.0"), library._path()
+mapped = open("/proc/self/maps").read()
+assert "/site/dsdpv1/lib/libyaml-cpp" in mapped, "not the wheel's own libraries"
+result = dsdpv1.run("power_on_12m.yaml", changes=True)
+assert result.passed and len(result.changes) > 1000000
+print(dsdpv1.__version__, len(result.changes))
+"""
+
+
+def call(*command, **options):
+    return subprocess.run([str(word) for word in command], check=True, **options)
+
+
+def wheel_of(folder, build):
+    """The wheel in `folder`."""
+    options = ["--config-settings", f"build-dir={folder / 'build'}", *(["--config-settings", f"cmake.define.DSDPV1_BUILD={build}"] if build else [])]
+    for old in folder.glob("*.whl"):
+        old.unlink()
+    call(sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "--no-build-isolation", "--disable-pip-version-check", "-w", folder, *options, ROOT)
+    return next(folder.glob("*.whl"))
+
+
+def names_are_right(wheel):
+    """One wheel for every Python 3; what it needs is in it, tests and sources are not."""
+    names = zipfile.ZipFile(wheel).namelist()
+    wanted = ("dsdpv1/__init__.py", "dsdpv1/py.typed", "dsdpv1/lib/libdsdpv1.so.0", "cocotbext/profibus/__init__.py")
+    missing = [name for name in wanted if name not in names]
+    assert not missing, f"the wheel has no {', '.join(missing)}"
+    assert not [name for name in names if name.startswith("cocotbext/__init__")], "cocotbext is a namespace, shared with others"
+    assert wheel.name.split("-")[2:4] == ["py3", "none"], wheel.name
+    assert any("libyaml-cpp" in name for name in names) and not any("libc.so" in name or "libstdc++" in name for name in names), names
+
+
+def main(folder, build):
+    folder.mkdir(parents=True, exist_ok=True)
+    wheel = wheel_of(folder, build)
+    names_are_right(wheel)
+    with tempfile.TemporaryDirectory() as place:
+        site = pathlib.Path(place) / "site"
+        call(sys.executable, "-m", "pip", "install", "-q", "--no-deps", "--disable-pip-version-check", "--target", site, wheel)
+        for name in ("power_on_12m.yaml", "dsdpv1.gsd"):
+            shutil.copy(ROOT / "scenarios" / name, place)
+        environment = {key: value for key, value in os.environ.items() if not key.startswith(("DSDPV1", "PYTHON", "LD_"))}
+        call(sys.executable, "-c", USE, cwd=place, env={**environment, "PYTHONPATH": str(site)})
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]), sys.argv[2] if len(sys.argv) > 2 else None)
