@@ -1,0 +1,74 @@
+// The DSDPV1 as the library's model, with parameters and ports of the reference RTL (rtl_ref/dsdpv1/dsdpv1.sv): either may stand in the
+// place of the other. The library is called at an edge of CLK at which an output may change, and at each change of an input.
+//
+// Outputs change at their edge of CLK, D at the falling one (section 12). X at an input counts as its level of rest, a D with an X or Z in
+// it as released.
+`include "dsdpv1_calls.svh"
+
+module dsdpv1_model #(
+  parameter integer ACCESS_INTERVAL = 48,       // cycles from one DPRAM access to the next (H1)
+  parameter integer READY_CYCLES = 4096,        // from R until B004 is due (D1)
+  parameter integer RTS_LEAD = 4,               // P2; 0 to 32
+  parameter integer RTS_TRAIL = 4,              // P2; 0 to 32
+  parameter integer INTR_LOW = 64,              // P7
+  parameter integer INTR_GAP = 64,              // P7
+  parameter integer SEARCH_WINDOW_MS = 50,      // S1
+  parameter integer SEARCH_WINDOW_BITS = 4000,  // S1
+  parameter integer BAUD_CONTROL_MS = 600       // S1
+) (
+  input  logic        reset_i,
+  input  logic        clk_i,
+  input  logic        pbrxd_i,
+  output logic        pbtxd_o,
+  output logic        pbrts_o,
+  input  logic        r_req_i,
+  input  logic        r_sta_i,
+  output logic        l_req_o,
+  output logic        l_sta_o,
+  input  logic [10:0] a_i,
+  input  logic [7:0]  d_i,
+  output logic [7:0]  d_o,
+  output logic        d_oe_o,
+  input  logic        csr_i,
+  input  logic        rd_i,
+  input  logic        wr_i,
+  output logic        intr0_o,
+  output logic        pbf_o,
+  output logic        br_o,
+  output logic        ready_o
+);
+  timeunit 1ps;
+  timeprecision 1ps;
+  `DSDPV1_IMPORTS
+  `include "dsdpv1_pins.svh"
+
+  int handle = 0;
+  longint next = 0;  // half cycle at which an output may change by itself
+
+  task step;
+    int outputs;
+    if (handle != 0) begin
+      outputs = `DSDPV1(model_step)(handle, half, $time - edge_ps, {5'd0, inputs}, next);
+      if (outputs < 0) $fatal(1, "%m: %0s", `DSDPV1(error)());
+      {ready_o, br_o, pbf_o, pbrts_o, pbtxd_o, intr0_o, l_sta_o, l_req_o} <= outputs[7:0];
+      d_oe_o <= outputs[16];
+      d_o <= outputs[17] ? 8'hxx : outputs[15:8];
+    end
+  endtask
+
+  initial begin
+    string options;
+    options = $sformatf({"access_interval=%0d ready_cycles=%0d rts_lead=%0d rts_trail=%0d intr_low=%0d intr_gap=%0d ",
+      "search_window_ms=%0d search_window_bits=%0d baud_control_ms=%0d"}, ACCESS_INTERVAL, READY_CYCLES, RTS_LEAD, RTS_TRAIL, INTR_LOW,
+      INTR_GAP, SEARCH_WINDOW_MS, SEARCH_WINDOW_BITS, BAUD_CONTROL_MS);
+    handle = `DSDPV1(model_create)(options);
+    if (handle == 0) $fatal(1, "%m: %0s", `DSDPV1(error)());
+    step();
+  end
+
+  always @(clk_i) begin
+    count_edge();
+    if (half >= next) step();
+  end
+  always @(inputs) step();
+endmodule
