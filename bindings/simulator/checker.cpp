@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <vector>
 
 #include "bindings/simulator/object.hpp"
@@ -29,12 +30,20 @@ class Checker : public Object {
  private:
   void make_bus(int32_t baud);
   void hear(uint32_t inputs, uint32_t outputs);
+  void feed_telegrams(uint64_t until);
   void feed(uint16_t pin, dpsim_level level) { check(dpsim_checker_pin(checker_, now_, pin, level)); }
   static void violated(void* self, const dpsim_violation* violation);
   static void heard(void* self, const dpsim_heard* telegram);
 
+  /// A telegram is known in its last stop bit, before its end: it waits for the pins that change until then.
+  struct Waiting {
+    dpsim_heard heard;
+    std::vector<uint8_t> bytes;
+  };
+
   dpsim_checker* checker_ = nullptr;
   dpsim_bus* bus_ = nullptr;
+  std::deque<Waiting> telegrams_;
   uint16_t others_ = 0, chip_ = 0;
   uint64_t now_ = 0;
   uint32_t inputs_ = kInputsAtReset, outputs_ = 0;
@@ -95,7 +104,15 @@ void Checker::violated(void* self, const dpsim_violation* violation) {
 }
 
 void Checker::heard(void* self, const dpsim_heard* telegram) {
-  check(dpsim_checker_telegram(static_cast<Checker*>(self)->checker_, telegram));
+  static_cast<Checker*>(self)->telegrams_.push_back({*telegram, {telegram->bytes, telegram->bytes + telegram->count}});
+}
+
+void Checker::feed_telegrams(uint64_t until) {
+  for (; !telegrams_.empty() && telegrams_.front().heard.end <= until; telegrams_.pop_front()) {
+    Waiting& first = telegrams_.front();
+    first.heard.bytes = first.bytes.data();
+    check(dpsim_checker_telegram(checker_, &first.heard));
+  }
 }
 
 void Checker::hear(uint32_t inputs, uint32_t outputs) {
@@ -107,6 +124,7 @@ void Checker::hear(uint32_t inputs, uint32_t outputs) {
 void Checker::step(uint64_t tick, uint32_t inputs, uint32_t outputs) {
   now_ = std::max(now_, tick);
   hear(inputs, outputs);
+  feed_telegrams(now_);
   for (const PinPlace& place : kInputs)
     if (((inputs ^ inputs_) & place.mask) != 0) feed(place.pin, input_level(place, inputs));
   for (const PinPlace& place : kOutputs) {
@@ -122,6 +140,7 @@ void Checker::finish() {
   if (finished_) return;
   finished_ = true;
   if (bus_ != nullptr) check(dpsim_bus_run(bus_, now_));
+  feed_telegrams(now_);
   check(dpsim_checker_finish(checker_, now_));
 }
 

@@ -63,9 +63,8 @@ module dsdpv1_checker #(
   initial begin
     handle = `DSDPV1(checker_create)(LIMITS, BAUD);
     if (handle == 0) $fatal(1, "%m: %0s", `DSDPV1(error)());
-    step();
   end
 
   always @(clk_i) count_edge();
-  always @(inputs or outputs) step();
+  always @(handle or inputs or outputs) step();
 endmodule

@@ -3,6 +3,7 @@
 module dsdpv1_clock (
   output reg clk_o
 );
+  /* verilator no_inline_module */  // its 5.006 scales the delays of an inlined module by the parent's time unit
   timeunit 1ps;
   timeprecision 1ps;
   // A half of the cycle is 62 500 / 6 ps: two of three halves are 10 417 ps long, one is 10 416 ps, in this order.

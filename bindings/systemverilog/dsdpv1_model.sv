@@ -58,17 +58,18 @@ module dsdpv1_model #(
 
   initial begin
     string options;
-    options = $sformatf({"access_interval=%0d ready_cycles=%0d rts_lead=%0d rts_trail=%0d intr_low=%0d intr_gap=%0d ",
-      "search_window_ms=%0d search_window_bits=%0d baud_control_ms=%0d"}, ACCESS_INTERVAL, READY_CYCLES, RTS_LEAD, RTS_TRAIL, INTR_LOW,
+    options = $sformatf(
+      "access_interval=%0d ready_cycles=%0d rts_lead=%0d rts_trail=%0d intr_low=%0d intr_gap=%0d search_window_ms=%0d search_window_bits=%0d baud_control_ms=%0d",
+      ACCESS_INTERVAL, READY_CYCLES, RTS_LEAD, RTS_TRAIL, INTR_LOW,
       INTR_GAP, SEARCH_WINDOW_MS, SEARCH_WINDOW_BITS, BAUD_CONTROL_MS);
     handle = `DSDPV1(model_create)(options);
     if (handle == 0) $fatal(1, "%m: %0s", `DSDPV1(error)());
-    step();
   end
 
+  bit due = 1'b0;
   always @(clk_i) begin
     count_edge();
-    if (half >= next) step();
+    if (half >= next) due = !due;
   end
-  always @(inputs) step();
+  always @(handle or due or inputs) step();
 endmodule

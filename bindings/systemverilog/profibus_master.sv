@@ -21,12 +21,13 @@ module profibus_master #(
   output logic txd_o,
   output logic rts_o
 );
+  /* verilator no_inline_module */  // its 5.006 scales the delays of an inlined module by the parent's time unit
   timeunit 1ps;
   timeprecision 1ps;
   import dsdpv1_pkg::*;
 
   int handle = 0;
-  event ran;                // after each run
+  event ran;                // after each step
   longint planned = -1;     // the earliest wake-up on its way
   int alarm = 0, plans = 0;
 
@@ -35,24 +36,31 @@ module profibus_master #(
   endtask
 
   // Wake-ups cannot be taken back: one that has become needless does no harm.
-  task plan(input longint wake);
-    if (wake >= 0 && (planned <= $time || wake < planned)) begin
+  task plan(input longint now, input longint wake);
+    if (wake >= 0 && (planned <= now || wake < planned)) begin
       planned = wake;
       plans = plans + 1;
-      alarm <= #(wake - $time) plans;
     end
   endtask
+  always @(plans) alarm <= #(planned - $time) plans;
 
-  // Everything up to the present time.
+  // Everything up to the present time, asked for by a task.
+  int asked = 0;
   task run;
+    asked = asked + 1;
+    @(ran);
+  endtask
+
+  task step;
     int driver;
-    longint wake;
+    longint now, wake;
     if (handle != 0) begin
-      driver = `DSDPV1(master_step)(handle, $time, {31'd0, rxd_en_i === 1'b1}, {31'd0, rxd_i !== 1'b0}, wake);
+      now = $time;
+      driver = `DSDPV1(master_step)(handle, now, {31'd0, rxd_en_i === 1'b1}, {31'd0, rxd_i !== 1'b0}, wake);
       if (driver < 0) fail();
       txd_o <= driver[0];
       rts_o <= driver[1];
-      plan(wake);
+      plan(now, wake);
       if (VERBOSE != 0) tell();
       -> ran;
     end
@@ -72,9 +80,8 @@ module profibus_master #(
     options = $sformatf("master_class=%0d address=%0d baud=%0d ring=%0d verbose=%0d %0s", MASTER_CLASS, ADDRESS, BAUD, RING, VERBOSE, OPTIONS);
     handle = `DSDPV1(master_create)(options);
     if (handle == 0) fail();
-    run();
   end
-  always @(alarm or rxd_i or rxd_en_i) run();
+  always @(handle or asked or alarm or rxd_i or rxd_en_i) step();
 
   // What a command returned; it takes effect at the present time.
   task commanded(input int status);
@@ -153,10 +160,14 @@ module profibus_master #(
 
   // Until the slave is in this state. `reached` 0: not within `limit_ps`.
   task wait_state(input int address, input int state, input longint limit_ps, output int reached);
-    longint until_ps;
-    until_ps = $time + limit_ps;
+    longint now, until_ps;
+    now = $time;
+    until_ps = now + limit_ps;
     run();
-    while (slave_state(address) != state && $time < until_ps) @(ran);
+    while (slave_state(address) != state && now < until_ps) begin
+      @(ran);
+      now = $time;
+    end
     reached = slave_state(address) == state ? 1 : 0;
   endtask
 
