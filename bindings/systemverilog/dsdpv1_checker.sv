@@ -37,6 +37,7 @@ module dsdpv1_checker #(
 
   int handle = 0;
   int violations = 0;
+  int applied = 0;  // how often rules were applied, after finish
 
   task report(input int found);
     if (found < 0) $fatal(1, "%m: %0s", `DSDPV1(error)());
@@ -58,7 +59,6 @@ module dsdpv1_checker #(
     if (`DSDPV1(close)(handle) < 0) $fatal(1, "%m: %0s", `DSDPV1(error)());
     handle = 0;
   endtask
-  int applied = 0;  // how often rules were applied, after finish()
 
   initial begin
     handle = `DSDPV1(checker_create)(LIMITS, BAUD);

@@ -1,10 +1,10 @@
 // A user CPU at the pins of a DSDPV1, model or RTL, as a bus functional model: accesses with the times of table 15, ownership by R_REQ and
 // R_STA (H2), blocks with their CRC (4.2). Tasks are called by one process.
 module dsdpv1_user #(
-  parameter integer SETUP_PS = 20000,   // A, D, CSR before the strobe falls
-  parameter integer STROBE_PS = 50000,  // RD, WR low: Tw >= 31.25 ns, Ts >= 12.5 ns
-  parameter integer HOLD_PS = 20000,    // A, D, CSR after it: Td >= 12.5 ns
-  parameter integer LOOK_PS = 100000    // from R_REQ to each look at L_REQ and L_STA
+  parameter longint SETUP_PS = 20000,   // A, D, CSR before the strobe falls
+  parameter longint STROBE_PS = 50000,  // RD, WR low: Tw >= 31.25 ns, Ts >= 12.5 ns
+  parameter longint HOLD_PS = 20000,    // A, D, CSR after it: Td >= 12.5 ns
+  parameter longint LOOK_PS = 100000    // from R_REQ to each look at L_REQ and L_STA
 ) (
   output logic        r_req_o,
   output logic        r_sta_o,
@@ -22,24 +22,38 @@ module dsdpv1_user #(
   timeprecision 1ps;
   import dsdpv1_pkg::*;
 
+  logic [7:0] d = 8'h00;
+  logic driven = 1'b0;
+  assign d_o = driven ? d : 8'hzz;
+
   initial begin
     r_req_o = 1'b0;
     r_sta_o = 1'b0;
     a_o = 11'h000;
-    d_o = 8'hzz;
+    driven = 1'b0;
     csr_o = 1'b1;
     rd_o = 1'b1;
     wr_o = 1'b1;
   end
 
+  // All delays are in this module's own process: Verilator 5.006 scales those of a task by the time unit of its caller.
+  longint pause_ps = 0;
+  int pauses = 0, ends = 0;
+  always @(pauses) ends <= #(pause_ps) pauses;
+  task pause(input longint ps);
+    pause_ps = ps;
+    pauses = pauses + 1;
+    @(ends);
+  endtask
+
   // Until the DPRAM is the user's; each hold begins by counting B006 (note 1 of table 2).
   task take;
     logic [7:0] count;
     r_req_o = 1'b1;
-    #LOOK_PS;
-    while (l_req_i !== 1'b0 || l_sta_i !== 1'b0) #LOOK_PS;
+    pause(LOOK_PS);
+    while (l_req_i !== 1'b0 || l_sta_i !== 1'b0) pause(LOOK_PS);
     r_sta_o = 1'b1;
-    #LOOK_PS;
+    pause(LOOK_PS);
     read_cell(11'h006, count);
     write_cell(11'h006, count + 8'd1);
   endtask
@@ -47,28 +61,35 @@ module dsdpv1_user #(
   task give;
     r_sta_o = 1'b0;
     r_req_o = 1'b0;
-    #LOOK_PS;
+    pause(LOOK_PS);
   endtask
 
   task write_cell(input logic [10:0] address, input logic [7:0] value);
     a_o = address;
-    d_o = value;
+    d = value;
+    driven = 1'b1;
     csr_o = 1'b0;
-    #SETUP_PS wr_o = 1'b0;
-    #STROBE_PS wr_o = 1'b1;
-    #HOLD_PS csr_o = 1'b1;
-    d_o = 8'hzz;
-    #HOLD_PS;
+    pause(SETUP_PS);
+    wr_o = 1'b0;
+    pause(STROBE_PS);
+    wr_o = 1'b1;
+    pause(HOLD_PS);
+    csr_o = 1'b1;
+    driven = 1'b0;
+    pause(HOLD_PS);
   endtask
 
   task read_cell(input logic [10:0] address, output logic [7:0] value);
     a_o = address;
     csr_o = 1'b0;
-    #SETUP_PS rd_o = 1'b0;
-    #STROBE_PS value = d_i;
+    pause(SETUP_PS);
+    rd_o = 1'b0;
+    pause(STROBE_PS);
+    value = d_i;
     rd_o = 1'b1;
-    #HOLD_PS csr_o = 1'b1;
-    #HOLD_PS;
+    pause(HOLD_PS);
+    csr_o = 1'b1;
+    pause(HOLD_PS);
   endtask
 
   // CRC-16 of 4.2 (D2): 0xA001 reflected, from 0xFFFF.
@@ -98,7 +119,7 @@ module dsdpv1_user #(
     logic [7:0] flag;
     flag = 8'h00;
     while (flag !== 8'hC5) begin
-      #20000000;
+      pause(64'd20000000);
       take;
       read_cell(11'h004, flag);
       give;
@@ -128,7 +149,7 @@ module dsdpv1_user #(
     take;
     write_block(11'h020, block, 15 + cfg_size, 11'h0F7, 8'h04);
     give;
-    #20000000;
+    pause(64'd20000000);
     take;
     read_cell(11'h00A, status);
     give;
