@@ -1,5 +1,6 @@
-// A PROFIBUS master brings a DSDPV1 to data exchange, in SystemVerilog: the chip is the library's model (or, with USE_RTL defined, the
-// reference RTL in its place), its user CPU and the master are bus functional models. docs/systemverilog.md says how to run it.
+// A PROFIBUS master brings a DSDPV1 to data exchange, in SystemVerilog: the chip is the library's model, its user CPU and the master are
+// bus functional models. With USE_RTL defined the reference RTL is in the model's place and the scoreboard beside it; with SINGLE_FAULTS too,
+// +fault=N plants the defect N of rtl_ref/faults.txt. docs/systemverilog.md says how to run it.
 module data_exchange;
   timeunit 1ns;
   timeprecision 1ps;
@@ -15,7 +16,16 @@ module data_exchange;
 
   dsdpv1_clock u_clock (.clk_o(clk));
 `ifdef USE_RTL
+  reg [7:0] fault;
+  initial if (!$value$plusargs("fault=%d", fault)) fault = 8'd0;
+  dsdpv1_scoreboard u_scoreboard (
+    .reset_i(reset), .clk_i(clk), .pbrxd_i(line), .pbtxd_o(pbtxd), .pbrts_o(pbrts), .r_req_i(r_req), .r_sta_i(r_sta), .l_req_o(l_req),
+    .l_sta_o(l_sta), .a_i(a), .d_i(d_user), .d_o(d_chip), .d_oe_o(d_oe), .csr_i(csr), .rd_i(rd), .wr_i(wr), .intr0_o(intr0), .pbf_o(pbf),
+    .br_o(br), .ready_o(ready));
   dsdpv1 u_chip (
+`ifdef SINGLE_FAULTS
+    .fault_i(fault),
+`endif
 `else
   dsdpv1_model u_chip (
 `endif
@@ -67,7 +77,7 @@ module data_exchange;
     outputs = {2016'd0, 32'hDDCCBBAA};
     inputs = {2016'd0, 32'h44332211};
     cfg = {2040'd0, 8'h33};  // 4 bytes of inputs and outputs
-    #500 reset = 1'b1;
+    #510 reset = 1'b1;  // between two edges of CLK
     u_user.wait_ready;
     u_user.initialise(SLAVE, IDENT, cfg, 1, done);
     expect_equal("initialised", done, 1);
@@ -94,6 +104,9 @@ module data_exchange;
     u_checker.finish;
     expect_equal("violations", u_checker.violations, 0);
     expect_equal("rules were applied", u_checker.applied > 100 ? 1 : 0, 1);
+`ifdef USE_RTL
+    $display("the scoreboard has seen %0d changes, all alike", u_scoreboard.matched());
+`endif
     $display("passed");
     $finish;
   end
