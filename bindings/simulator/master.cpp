@@ -65,6 +65,7 @@ const char* state_name(int32_t state) {
 Master::Master(const char* text) {
   const MasterOptions options = read_options(text);
   verbose_ = options.verbose != 0;
+  address_ = options.master.address;
   check(dpsim_bus_create(&options.bus, &bus_));
   try {
     check(dpsim_bus_add_station(bus_, "others", &others_));

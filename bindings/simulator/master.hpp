@@ -31,6 +31,7 @@ class Master : public Object {
   int64_t wake() const;
 
   dpsim_master* master() const { return master_; }
+  uint8_t address() const { return address_; }
   dpsim_slave_status slave(int32_t address) const;
   /// Takes it out of what is kept. False: not done yet.
   bool take_answer(uint32_t id, Answer& answer);
@@ -46,6 +47,7 @@ class Master : public Object {
   uint16_t station_ = 0, others_ = 0;
   uint64_t now_ = 0;
   int32_t txd_ = 1, rts_ = 0;
+  uint8_t address_ = 0;
   bool enabled_ = false, level_ = true, verbose_ = false;
   std::map<uint32_t, Answer> answers_;
 };

@@ -178,7 +178,8 @@ int32_t dsdpv1_master_ask(int32_t handle, int32_t service, int32_t address) {
 int32_t dsdpv1_master_request(int32_t handle, int32_t address, int32_t dsap, int32_t ssap, const uint32_t* data,
                               int32_t count) {
   return request(handle, [&](dpsim_master* master, uint32_t* id) {
-    const dpsim_telegram telegram = telegram_of(address, dsap, ssap, bytes_of(data, count));
+    dpsim_telegram telegram = telegram_of(address, dsap, ssap, bytes_of(data, count));
+    telegram.sa = get<Master>(handle).address();
     return dpsim_master_request(master, &telegram, id);
   });
 }
