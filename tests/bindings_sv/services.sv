@@ -50,13 +50,13 @@ module services;
     expect_equal("not in data exchange", {31'd0, pbf}, 0);
     u_first.set_slave_address(SLAVE, 9, 'h0CC9, 0, outcome, fc);
     expect_equal("set_slave_address", outcome, ANSWERED);
-    $display("services by hand: passed");
+    $display("%0d us services by hand: passed", $time / 1000000);
   endtask
 
   task by_itself;
     bytes_t data;
     int outcome, codes, count, reached;
-    u_first.add_slave(SLAVE, "ident=0x0CC9 input_length=2 output_length=2 flags=8", 2048'd0, 0, {2040'd0, 8'h31}, 1);
+    u_first.add_slave(SLAVE, "ident=0x0CC9 input_length=2 output_length=2", 2048'd0, 0, {2040'd0, 8'h31}, 1);
     u_first.wait_state(SLAVE, SLAVE_DATA_EXCHANGE, 64'd20000000000, reached);
     expect_equal("data exchange", reached, 1);
     u_first.acyclic_read(SLAVE, 1, 2, 10, outcome, codes, data, count);
@@ -71,7 +71,7 @@ module services;
     u_first.activate_slave(SLAVE);
     u_first.wait_state(SLAVE, SLAVE_DATA_EXCHANGE, 64'd5000000000, reached);
     expect_equal("activated", reached, 1);
-    $display("a master by itself: passed");
+    $display("%0d us a master by itself: passed", $time / 1000000);
   endtask
 
   task class_2;
@@ -80,7 +80,7 @@ module services;
     u_second.initiate(SLAVE, 10, connection, state);
     expect_equal("number of the connection", connection, 0);
     expect_equal("initiate without DPV1", state, CONNECTION_CLOSED);
-    $display("class 2: passed");
+    $display("%0d us class 2: passed", $time / 1000000);
   endtask
 
   int done;

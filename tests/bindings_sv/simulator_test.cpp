@@ -29,12 +29,12 @@ TEST(SimulatorModel, OutputsChangeAtTheHalfThatItNames) {
   int64_t next = 0;
   const int32_t before = dsdpv1_model_step(model, 48, 0, kRunning, &next);
   EXPECT_EQ(before & 1, 0) << "L_REQ";
-  int64_t last = 48;
-  while ((dsdpv1_model_step(model, next, 0, kRunning, &next) & 1) == 0) {
-    ASSERT_GT(next, last);
-    last = next;
+  int64_t half = next;
+  while ((dsdpv1_model_step(model, half, 0, kRunning, &next) & 1) == 0) {
+    ASSERT_GT(next, half);
+    half = next;
   }
-  EXPECT_EQ(last, 2 * (24 + 3)) << "R is two cycles after the edge that sees RESET; the access begins there";
+  EXPECT_EQ(half, 2 * (24 + 3)) << "R is two cycles after the edge that sees RESET; the access begins there";
   EXPECT_EQ(dsdpv1_close(model), 0);
 }
 
