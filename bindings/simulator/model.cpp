@@ -73,10 +73,10 @@ void Model::step(uint64_t tick, uint32_t inputs) {
     if ((different & place.mask) != 0) check(dpsim_chip_set(chip_, now_, place.pin, input_level(place, inputs)));
 }
 
-int64_t Model::next() const {
+uint64_t Model::next_tick() const {
   uint64_t tick = 0;
   check(dpsim_chip_next(chip_, &tick));
-  return half_of(tick);
+  return tick;
 }
 
 }  // namespace simulator
@@ -88,8 +88,10 @@ int32_t dsdpv1_model_create(const char* options) {
 int32_t dsdpv1_model_step(int32_t handle, int64_t half, int64_t ps, int32_t inputs, int64_t* next) {
   return simulator::guarded([&] {
     auto& model = simulator::get<simulator::Model>(handle);
-    model.step(simulator::tick_of(half, ps), static_cast<uint32_t>(inputs));
-    *next = model.next();
+    const bool clocked = half >= 0;
+    model.step(clocked ? simulator::tick_of(half, ps) : dpsim_ticks_from(static_cast<uint64_t>(ps), DPSIM_PS),
+               static_cast<uint32_t>(inputs));
+    *next = clocked ? simulator::half_of(model.next_tick()) : simulator::ps_of(model.next_tick());
     return static_cast<int32_t>(model.outputs());
   });
 }

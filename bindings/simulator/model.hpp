@@ -21,8 +21,8 @@ class Model : public Object {
   void step(uint64_t tick, uint32_t inputs);
   uint32_t outputs() const { return outputs_; }
   uint32_t inputs() const { return inputs_; }
-  /// The half cycle at which an output may change by itself.
-  int64_t next() const;
+  /// When an output may change by itself.
+  uint64_t next_tick() const;
   /// Outputs that have changed so far.
   uint64_t changes() const { return changes_; }
   /// From now on the last events are remembered; in words, oldest first.

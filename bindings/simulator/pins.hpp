@@ -22,6 +22,11 @@ inline int64_t half_of(uint64_t tick) {
   return (static_cast<int64_t>(tick) + kTicksPerHalf - 1) / kTicksPerHalf;
 }
 
+/// Absolute; INT64_MAX: never.
+inline int64_t ps_of(uint64_t tick) {
+  return tick > DPSIM_LAST_TICK ? INT64_MAX : static_cast<int64_t>(dpsim_ticks_to(tick, DPSIM_PS));
+}
+
 struct PinPlace {
   uint16_t pin;
   const char* name;

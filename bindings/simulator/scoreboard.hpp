@@ -15,7 +15,7 @@ class Scoreboard : public Object {
   void step(uint64_t tick, uint32_t inputs, uint32_t outputs);
   bool differs() const { return differs_; }
   /// As of the model; while a difference is waiting for its judgement, the very next half cycle.
-  int64_t next(int64_t half) const { return waiting_ ? half + 1 : model_.next(); }
+  int64_t next(int64_t half) const { return waiting_ ? half + 1 : half_of(model_.next_tick()); }
   uint64_t matched() const { return armed_ ? model_.changes() - changes_before_ : 0; }
 
  private:

@@ -45,7 +45,8 @@ DSDPV1_SIMULATOR_API int32_t dsdpv1_close(int32_t handle);
 
 /** `options`: parameters of the chip as scenarios have them, "rts_lead=0 intr_low=32"; "": defaults. */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_model_create(const char* options);
-/** The inputs at this time. Returns the outputs; `next` is the half cycle at which one may change by itself. */
+/** The inputs at this time. Returns the outputs; `next` is the half cycle at which one may change by itself. With a
+ * `half` of -1 there is no CLK: `ps` is the absolute time, and so is `next`. INT64_MAX: never. */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_model_step(int32_t handle, int64_t half, int64_t ps, int32_t inputs, int64_t* next);
 
 /* ---- the scoreboard: a model beside somebody's RTL ---- */

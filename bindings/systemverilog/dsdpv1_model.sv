@@ -3,6 +3,9 @@
 //
 // Outputs change at their edge of CLK, D at the falling one (section 12). X at an input counts as its level of rest, a D with an X or Z in
 // it as released.
+//
+// With CLOCKED = 0 the model has its own 48 MHz, whose rising edge n is at n / 48 us: clk_i is not looked at, so that a bench need not
+// simulate a clock. Each change is then at its absolute time, in ps rounded to the nearest tick of 1/12 ns and back.
 `include "dsdpv1_calls.svh"
 
 module dsdpv1_model #(
@@ -14,7 +17,8 @@ module dsdpv1_model #(
   parameter integer INTR_GAP = 64,              // P7
   parameter integer SEARCH_WINDOW_MS = 50,      // S1
   parameter integer SEARCH_WINDOW_BITS = 4000,  // S1
-  parameter integer BAUD_CONTROL_MS = 600       // S1
+  parameter integer BAUD_CONTROL_MS = 600,      // S1
+  parameter integer CLOCKED = 1                 // 0: without CLK
 ) (
   input  logic        reset_i,
   input  logic        clk_i,
@@ -37,22 +41,36 @@ module dsdpv1_model #(
   output logic        br_o,
   output logic        ready_o
 );
+  /* verilator no_inline_module */  // its 5.006 scales the delays of an inlined module by the parent's time unit
   timeunit 1ps;
   timeprecision 1ps;
   `DSDPV1_IMPORTS
   `include "dsdpv1_pins.svh"
 
   int handle = 0;
-  longint next = 0;  // half cycle at which an output may change by itself
+  longint next = 0;  // when an output may change by itself: half cycle, without CLK ps
+
+  // Without CLK: the earliest wake-up on its way. It cannot be taken back; one that has become needless does no harm.
+  longint planned = -1;
+  int plans = 0;
+  task plan(input longint now);
+    if (next != 64'sh7FFFFFFFFFFFFFFF && (planned <= now || next < planned)) begin
+      planned = next;
+      plans = plans + 1;
+    end
+  endtask
 
   task step;
     int outputs;
+    longint now;
+    now = $time;
     if (handle != 0) begin
-      outputs = `DSDPV1(model_step)(handle, half, $time - edge_ps, {5'd0, inputs}, next);
+      outputs = `DSDPV1(model_step)(handle, CLOCKED != 0 ? half : -64'sd1, CLOCKED != 0 ? now - edge_ps : now, {5'd0, inputs}, next);
       if (outputs < 0) $fatal(1, "%m: %0s", `DSDPV1(error)());
       {ready_o, br_o, pbf_o, pbrts_o, pbtxd_o, intr0_o, l_sta_o, l_req_o} <= outputs[7:0];
       d_oe_o <= outputs[16];
       d_o <= outputs[17] ? 8'hxx : outputs[15:8];
+      if (CLOCKED == 0) plan(now);
     end
   endtask
 
@@ -67,9 +85,16 @@ module dsdpv1_model #(
   end
 
   bit due = 1'b0;
-  always @(clk_i) begin
-    count_edge();
-    if (half >= next) due = !due;
-  end
-  always @(handle or due or inputs) step();
+  int alarm = 0;
+  generate
+    if (CLOCKED != 0) begin : clocked
+      always @(clk_i) begin
+        count_edge();
+        if (half >= next) due = !due;
+      end
+    end else begin : by_itself
+      always @(plans) alarm <= #(planned - $time) plans;
+    end
+  endgenerate
+  always @(handle or due or alarm or inputs) step();
 endmodule

@@ -22,7 +22,11 @@ module replay;
 
   wire l_req, l_sta, d_oe, intr0, pbtxd, pbrts, pbf, br, ready;
   wire [7:0] d_out;
+`ifdef UNCLOCKED
+  dsdpv1_model #(.CLOCKED(0)) u_model (
+`else
   dsdpv1_model u_model (
+`endif
     .reset_i(reset), .clk_i(clk), .pbrxd_i(pbrxd), .pbtxd_o(pbtxd), .pbrts_o(pbrts), .r_req_i(r_req), .r_sta_i(r_sta), .l_req_o(l_req),
     .l_sta_o(l_sta), .a_i(a), .d_i(d), .d_o(d_out), .d_oe_o(d_oe), .csr_i(csr), .rd_i(rd), .wr_i(wr), .intr0_o(intr0), .pbf_o(pbf),
     .br_o(br), .ready_o(ready));

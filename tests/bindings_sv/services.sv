@@ -23,7 +23,7 @@ module services;
   profibus_segment #(.STATIONS(3)) u_segment (
     .txd_i({txd2, txd1, pbtxd}), .rts_i({rts2, rts1, pbrts}), .line_o(line), .others_o(others), .others_en_o(others_en));
   profibus_master #(.ADDRESS(1), .RING(1)) u_first (.rxd_i(others[1]), .rxd_en_i(others_en[1]), .txd_o(txd1), .rts_o(rts1));
-  profibus_master #(.MASTER_CLASS(2), .ADDRESS(2), .OPTIONS("highest_address=10")) u_second (
+  profibus_master #(.MASTER_CLASS(2), .ADDRESS(2), .OPTIONS("highest_address=3")) u_second (
     .rxd_i(others[2]), .rxd_en_i(others_en[2]), .txd_o(txd2), .rts_o(rts2));
 
   task expect_equal(input string what, input int seen, input int wanted);
@@ -77,7 +77,7 @@ module services;
   task class_2;
     int connection, state;
     u_second.start;
-    u_second.initiate(SLAVE, 10, connection, state);
+    u_second.initiate(SLAVE, 1, connection, state);
     expect_equal("number of the connection", connection, 0);
     expect_equal("initiate without DPV1", state, CONNECTION_CLOSED);
     $display("%0d us class 2: passed", $time / 1000000);
