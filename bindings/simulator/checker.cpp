@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint32_t kPbrxd = 1U << 26U, kPbtxd = 1U << 3U, kPbrts = 1U << 4U;
 
-class Checker : public Object {
+class Checker final : public Object {
  public:
   Checker(const char* options, int32_t baud);
   ~Checker() override;

@@ -16,7 +16,7 @@ struct Answer {
   std::vector<uint8_t> data;
 };
 
-class Master : public Object {
+class Master final : public Object {
  public:
   explicit Master(const char* options);
   ~Master() override { dpsim_bus_destroy(bus_); }

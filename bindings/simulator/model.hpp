@@ -10,7 +10,7 @@
 
 namespace simulator {
 
-class Model : public Object {
+class Model final : public Object {
  public:
   explicit Model(const char* options);
   ~Model() override { dpsim_chip_destroy(chip_); }

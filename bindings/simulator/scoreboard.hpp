@@ -7,7 +7,7 @@
 
 namespace simulator {
 
-class Scoreboard : public Object {
+class Scoreboard final : public Object {
  public:
   Scoreboard(const char* options, int64_t tolerance_ps);
 

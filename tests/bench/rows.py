@@ -100,6 +100,9 @@ ROWS = (
         in_program("bench_capi", "c_api_edges"), CAPI),
     Row("c_api_changes", 10, "million/s", "Changes of all pins that come into the caller's buffer through the C API, on the same stimulus.",
         in_program("bench_capi", "c_api_changes"), CAPI, limit="What the core takes to make them."),
+    Row("dpi", 10, "million/s", "Changes of the pins of `dsdpv1_model` by DPI-C under Verilator, without CLK: data exchange with 16 bytes each way, back to "
+        "back at 12 Mbit/s, each bit of a request at its time. In CPU time.", in_program("dpi/Vdpi_speed", "dpi"), ("bench_dpi",),
+        limit="Verilator: three quarters of the time are its own, to wait for the next time and to find out what has changed."),
     of_sim("demo", 3, "The scenario power_on_12m, checks off, no files.", real_time(DEMO, *OFF),
            limit="A saturated bus and a user CPU that exchanges data every 40 us: half of the time goes to its accesses, one a turn of a coroutine "
                  "that runs the driver, a fifth to master and monitor, which decode each character of the telegrams on their own, as they are there to "
