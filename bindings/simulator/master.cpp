@@ -20,13 +20,18 @@ struct MasterOptions {
 /// Sets one member; false when there is none of this name.
 bool set_member(MasterOptions& options, const Option& option) {
   dpsim_master_options& master = options.master;
-  const std::map<std::string, int32_t*> numbers{
-      {"master_class", &master.master_class}, {"personality", &master.personality},
-      {"slot_bits", &master.slot_bits},       {"set_bits", &master.set_bits},
-      {"quiet_bits", &master.quiet_bits},     {"target_rotation_bits", &master.target_rotation_bits},
-      {"max_retries", &master.max_retries},   {"gap_factor", &master.gap_factor},
-      {"clock_ppm", &master.clock_ppm},       {"min_slave_interval_us", &master.min_slave_interval_us},
-      {"baud", &options.bus.baud},            {"verbose", &options.verbose}};
+  const std::map<std::string, int32_t*> numbers{{"master_class", &master.master_class},
+                                                {"personality", &master.personality},
+                                                {"slot_bits", &master.slot_bits},
+                                                {"set_bits", &master.set_bits},
+                                                {"quiet_bits", &master.quiet_bits},
+                                                {"target_rotation_bits", &master.target_rotation_bits},
+                                                {"max_retries", &master.max_retries},
+                                                {"gap_factor", &master.gap_factor},
+                                                {"clock_ppm", &master.clock_ppm},
+                                                {"min_slave_interval_us", &master.min_slave_interval_us},
+                                                {"baud", &options.bus.baud},
+                                                {"verbose", &options.verbose}};
   const std::map<std::string, uint8_t*> bytes{{"address", &master.address},
                                               {"highest_address", &master.highest_address},
                                               {"ring", &master.ring},
@@ -48,15 +53,16 @@ MasterOptions read_options(const char* text) {
   options.bus.size = sizeof options.bus;
   for (const Option& each : options_of(text))
     if (!set_member(options, each))
-      throw Error(DPSIM_ERR_NOT_FOUND, "option " + each.name + " of a master is unknown, allowed are baud, verbose and the "
-                                                               "members of dpsim_master_options");
+      throw Error(DPSIM_ERR_NOT_FOUND, "option " + each.name +
+                                           " of a master is unknown, allowed are baud, verbose and the "
+                                           "members of dpsim_master_options");
   return options;
 }
 
 const char* state_name(int32_t state) {
-  static constexpr std::array<const char*, 9> kNames{"offline",  "Slave_Diag",    "Clear",
-                                                     "Set_Prm",  "Chk_Cfg",       "Slave_Diag until ready",
-                                                     "data exchange", "releasing", "released"};
+  static constexpr std::array<const char*, 9> kNames{"offline",       "Slave_Diag", "Clear",
+                                                     "Set_Prm",       "Chk_Cfg",    "Slave_Diag until ready",
+                                                     "data exchange", "releasing",  "released"};
   return state < 0 || state > 8 ? "?" : kNames[static_cast<std::size_t>(state)];
 }
 
@@ -104,7 +110,8 @@ void Master::note_answer(const dpsim_event& event) {
   telegram.size = sizeof telegram;
   dpsim_decode_error error = DPSIM_DECODE_TRUNCATED;
   if (event.data_size == 0 ||
-      dpsim_telegram_decode(event.data, event.data_size, &telegram, &error, nullptr) != DPSIM_OK || error != DPSIM_DECODE_OK)
+      dpsim_telegram_decode(event.data, event.data_size, &telegram, &error, nullptr) != DPSIM_OK ||
+      error != DPSIM_DECODE_OK)
     return;
   answer.codes = telegram.fc;
   answer.data.assign(telegram.data, telegram.data + telegram.data_size);
@@ -114,7 +121,8 @@ void Master::tell(const dpsim_event& event) {
   if (event.type == DPSIM_EVENT_SLAVE_STATE)
     say(fmt::format("slave {}: {} to {}{}{}", event.address, state_name(event.from), state_name(event.to),
                     *event.text != 0 ? ", " : "", event.text));
-  else if (event.type == DPSIM_EVENT_FLAG || event.type == DPSIM_EVENT_CONNECTION_END || event.type == DPSIM_EVENT_RING_STATE)
+  else if (event.type == DPSIM_EVENT_FLAG || event.type == DPSIM_EVENT_CONNECTION_END ||
+           event.type == DPSIM_EVENT_RING_STATE)
     say(fmt::format("{}", *event.text != 0 ? event.text : "ring state " + std::to_string(event.to)));
 }
 

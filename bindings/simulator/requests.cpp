@@ -15,17 +15,29 @@ namespace {
 void set_slave_members(dpsim_slave& slave, const char* text) {
   for (const Option& option : options_of(text)) {
     const auto value = [&](int64_t maximum) { return number_of(option, 0, maximum); };
-    if (option.name == "ident") slave.ident = static_cast<uint16_t>(value(0xFFFF));
-    else if (option.name == "group_ident") slave.group_ident = static_cast<uint8_t>(value(255));
-    else if (option.name == "flags") slave.flags = static_cast<uint32_t>(value(63));
-    else if (option.name == "wd_fact_1") slave.wd_fact_1 = static_cast<uint8_t>(value(255));
-    else if (option.name == "wd_fact_2") slave.wd_fact_2 = static_cast<uint8_t>(value(255));
-    else if (option.name == "min_tsdr") slave.min_tsdr = static_cast<uint8_t>(value(255));
-    else if (option.name == "input_length") slave.input_length = static_cast<uint16_t>(value(DPSIM_MAX_IO));
-    else if (option.name == "output_length") slave.output_length = static_cast<uint16_t>(value(DPSIM_MAX_IO));
-    else if (option.name == "c1_response_timeout") slave.c1_response_timeout = static_cast<int32_t>(value(65535));
-    else if (option.name == "min_slave_interval_us") slave.min_slave_interval_us = static_cast<int32_t>(value(1'000'000));
-    else throw Error(DPSIM_ERR_NOT_FOUND, "option " + option.name + " of a slave is unknown, allowed are the members of dpsim_slave");
+    if (option.name == "ident")
+      slave.ident = static_cast<uint16_t>(value(0xFFFF));
+    else if (option.name == "group_ident")
+      slave.group_ident = static_cast<uint8_t>(value(255));
+    else if (option.name == "flags")
+      slave.flags = static_cast<uint32_t>(value(63));
+    else if (option.name == "wd_fact_1")
+      slave.wd_fact_1 = static_cast<uint8_t>(value(255));
+    else if (option.name == "wd_fact_2")
+      slave.wd_fact_2 = static_cast<uint8_t>(value(255));
+    else if (option.name == "min_tsdr")
+      slave.min_tsdr = static_cast<uint8_t>(value(255));
+    else if (option.name == "input_length")
+      slave.input_length = static_cast<uint16_t>(value(DPSIM_MAX_IO));
+    else if (option.name == "output_length")
+      slave.output_length = static_cast<uint16_t>(value(DPSIM_MAX_IO));
+    else if (option.name == "c1_response_timeout")
+      slave.c1_response_timeout = static_cast<int32_t>(value(65535));
+    else if (option.name == "min_slave_interval_us")
+      slave.min_slave_interval_us = static_cast<int32_t>(value(1'000'000));
+    else
+      throw Error(DPSIM_ERR_NOT_FOUND,
+                  "option " + option.name + " of a slave is unknown, allowed are the members of dpsim_slave");
   }
 }
 
@@ -52,8 +64,8 @@ dpsim_slave read_gsd(const char* path, const char* modules, uint32_t flags) {
 
 void copy(uint8_t* to, std::size_t capacity, const std::vector<uint8_t>& bytes, const char* what) {
   if (bytes.size() > capacity)
-    throw Error(DPSIM_ERR_ARGUMENT, std::string(what) + " has " + std::to_string(bytes.size()) + " bytes, allowed are 0 to " +
-                                        std::to_string(capacity));
+    throw Error(DPSIM_ERR_ARGUMENT, std::string(what) + " has " + std::to_string(bytes.size()) +
+                                        " bytes, allowed are 0 to " + std::to_string(capacity));
   std::copy(bytes.begin(), bytes.end(), to);
 }
 
@@ -135,23 +147,29 @@ int32_t dsdpv1_master_add_slave(int32_t handle, int32_t address, const char* opt
 int32_t dsdpv1_master_start(int32_t handle) { return command(handle, dpsim_master_start); }
 int32_t dsdpv1_master_stop(int32_t handle) { return command(handle, dpsim_master_stop); }
 int32_t dsdpv1_master_set_baud(int32_t handle, int32_t baud) {
-  return command(handle, [&](dpsim_master* master) { return dpsim_master_set_baud(master, baud); });
+  return command(
+      handle, [&](dpsim_master* master) { return dpsim_master_set_baud(master, baud); });
 }
 int32_t dsdpv1_master_set_clear(int32_t handle, int32_t clear) {
-  return command(handle, [&](dpsim_master* master) { return dpsim_master_set_clear(master, clear); });
+  return command(
+      handle, [&](dpsim_master* master) { return dpsim_master_set_clear(master, clear); });
 }
 int32_t dsdpv1_master_release(int32_t handle, int32_t address) {
-  return command(handle, [&](dpsim_master* master) { return dpsim_master_release(master, byte_of("address", address)); });
+  return command(
+      handle, [&](dpsim_master* master) { return dpsim_master_release(master, byte_of("address", address)); });
 }
 int32_t dsdpv1_master_activate(int32_t handle, int32_t address) {
-  return command(handle, [&](dpsim_master* master) { return dpsim_master_activate(master, byte_of("address", address)); });
+  return command(
+      handle, [&](dpsim_master* master) { return dpsim_master_activate(master, byte_of("address", address)); });
 }
 
 int32_t dsdpv1_master_set_outputs(int32_t handle, int32_t address, const uint32_t* data, int32_t count) {
-  return command(handle, [&](dpsim_master* master) {
-    const std::vector<uint8_t> bytes = bytes_of(data, count);
-    return dpsim_master_set_outputs(master, byte_of("address", address), bytes.data(), bytes.size());
-  });
+  return command(
+      handle,
+      [&](dpsim_master* master) {
+        const std::vector<uint8_t> bytes = bytes_of(data, count);
+        return dpsim_master_set_outputs(master, byte_of("address", address), bytes.data(), bytes.size());
+      });
 }
 
 int32_t dsdpv1_master_get_inputs(int32_t handle, int32_t address, uint32_t* data) {
@@ -170,58 +188,70 @@ int32_t dsdpv1_master_exchanges(int32_t handle, int32_t address) {
 }
 
 int32_t dsdpv1_master_ask(int32_t handle, int32_t service, int32_t address) {
-  return request(handle, [&](dpsim_master* master, uint32_t* id) {
-    return dpsim_master_ask(master, service, byte_of("address", address), id);
-  });
+  return request(
+      handle, [&](dpsim_master* master,
+                  uint32_t* id) { return dpsim_master_ask(master, service, byte_of("address", address), id); });
 }
 
 int32_t dsdpv1_master_request(int32_t handle, int32_t address, int32_t dsap, int32_t ssap, const uint32_t* data,
                               int32_t count) {
-  return request(handle, [&](dpsim_master* master, uint32_t* id) {
-    dpsim_telegram telegram = telegram_of(address, dsap, ssap, bytes_of(data, count));
-    telegram.sa = get<Master>(handle).address();
-    return dpsim_master_request(master, &telegram, id);
-  });
+  return request(
+      handle,
+      [&](dpsim_master* master, uint32_t* id) {
+        dpsim_telegram telegram = telegram_of(address, dsap, ssap, bytes_of(data, count));
+        telegram.sa = get<Master>(handle).address();
+        return dpsim_master_request(master, &telegram, id);
+      });
 }
 
 int32_t dsdpv1_master_global_control(int32_t handle, int32_t control, int32_t group, int32_t address) {
-  return request(handle, [&](dpsim_master* master, uint32_t* id) {
-    return dpsim_master_global_control(master, byte_of("command", control), byte_of("group", group),
-                                       byte_of("address", address), id);
-  });
+  return request(
+      handle,
+      [&](dpsim_master* master, uint32_t* id) {
+        return dpsim_master_global_control(master, byte_of("command", control), byte_of("group", group),
+                                           byte_of("address", address), id);
+      });
 }
 
 int32_t dsdpv1_master_set_slave_address(int32_t handle, int32_t address, int32_t new_address, int32_t ident,
                                         int32_t lock) {
-  return request(handle, [&](dpsim_master* master, uint32_t* id) {
-    return dpsim_master_set_slave_address(master, byte_of("address", address), byte_of("new_address", new_address),
-                                          static_cast<uint16_t>(ident), lock, id);
-  });
+  return request(
+      handle,
+      [&](dpsim_master* master, uint32_t* id) {
+        return dpsim_master_set_slave_address(master, byte_of("address", address), byte_of("new_address", new_address),
+                                              static_cast<uint16_t>(ident), lock, id);
+      });
 }
 
 int32_t dsdpv1_master_read(int32_t handle, int32_t peer, int32_t slot, int32_t index, int32_t count) {
-  return request(handle, [&](dpsim_master* master, uint32_t* id) {
-    return dpsim_master_read(master, static_cast<uint32_t>(peer), byte_of("slot", slot), byte_of("index", index),
-                             byte_of("count", count), id);
-  });
+  return request(
+      handle,
+      [&](dpsim_master* master, uint32_t* id) {
+        return dpsim_master_read(master, static_cast<uint32_t>(peer), byte_of("slot", slot), byte_of("index", index),
+                                 byte_of("count", count), id);
+      });
 }
 
 int32_t dsdpv1_master_write(int32_t handle, int32_t peer, int32_t slot, int32_t index, const uint32_t* data,
                             int32_t count) {
-  return request(handle, [&](dpsim_master* master, uint32_t* id) {
-    const std::vector<uint8_t> bytes = bytes_of(data, count);
-    return dpsim_master_write(master, static_cast<uint32_t>(peer), byte_of("slot", slot), byte_of("index", index),
-                              bytes.data(), bytes.size(), id);
-  });
+  return request(
+      handle,
+      [&](dpsim_master* master, uint32_t* id) {
+        const std::vector<uint8_t> bytes = bytes_of(data, count);
+        return dpsim_master_write(master, static_cast<uint32_t>(peer), byte_of("slot", slot), byte_of("index", index),
+                                  bytes.data(), bytes.size(), id);
+      });
 }
 
 int32_t dsdpv1_master_transport(int32_t handle, int32_t peer, int32_t slot, int32_t index, const uint32_t* data,
                                 int32_t count) {
-  return request(handle, [&](dpsim_master* master, uint32_t* id) {
-    const std::vector<uint8_t> bytes = bytes_of(data, count);
-    return dpsim_master_transport(master, static_cast<uint32_t>(peer), byte_of("slot", slot), byte_of("index", index),
-                                  bytes.data(), bytes.size(), id);
-  });
+  return request(
+      handle,
+      [&](dpsim_master* master, uint32_t* id) {
+        const std::vector<uint8_t> bytes = bytes_of(data, count);
+        return dpsim_master_transport(master, static_cast<uint32_t>(peer), byte_of("slot", slot),
+                                      byte_of("index", index), bytes.data(), bytes.size(), id);
+      });
 }
 
 int32_t dsdpv1_master_done(int32_t handle, int32_t id, int32_t* outcome, int32_t* codes, uint32_t* data,
@@ -237,25 +267,28 @@ int32_t dsdpv1_master_done(int32_t handle, int32_t id, int32_t* outcome, int32_t
 }
 
 int32_t dsdpv1_master_add_connection(int32_t handle, int32_t slave, int32_t send_timeout) {
-  return request(handle, [&](dpsim_master* master, uint32_t* connection) {
-    dpsim_connection_options options{};
-    options.size = sizeof options;
-    options.slave = byte_of("slave", slave);
-    options.send_timeout = static_cast<uint16_t>(send_timeout);
-    return dpsim_master_add_connection(master, &options, connection);
-  });
+  return request(
+      handle,
+      [&](dpsim_master* master, uint32_t* connection) {
+        dpsim_connection_options options{};
+        options.size = sizeof options;
+        options.slave = byte_of("slave", slave);
+        options.send_timeout = static_cast<uint16_t>(send_timeout);
+        return dpsim_master_add_connection(master, &options, connection);
+      });
 }
 
 int32_t dsdpv1_master_connect(int32_t handle, int32_t connection) {
-  return command(handle, [&](dpsim_master* master) {
-    return dpsim_master_connect(master, static_cast<uint32_t>(connection));
-  });
+  return command(
+      handle, [&](dpsim_master* master) { return dpsim_master_connect(master, static_cast<uint32_t>(connection)); });
 }
 
 int32_t dsdpv1_master_abort(int32_t handle, int32_t connection, int32_t reason) {
-  return command(handle, [&](dpsim_master* master) {
-    return dpsim_master_abort(master, static_cast<uint32_t>(connection), byte_of("reason", reason));
-  });
+  return command(
+      handle,
+      [&](dpsim_master* master) {
+        return dpsim_master_abort(master, static_cast<uint32_t>(connection), byte_of("reason", reason));
+      });
 }
 
 int32_t dsdpv1_master_connection_state(int32_t handle, int32_t connection) {

@@ -16,7 +16,8 @@ bool matches(dpsim_level model, dpsim_level rtl, uint16_t pin) {
 }  // namespace
 
 Scoreboard::Scoreboard(const char* options, int64_t tolerance_ps)
-    : model_(options), tolerance_(dpsim_ticks_from(static_cast<uint64_t>(std::max<int64_t>(tolerance_ps, 0)), DPSIM_PS)) {
+    : model_(options),
+      tolerance_(dpsim_ticks_from(static_cast<uint64_t>(std::max<int64_t>(tolerance_ps, 0)), DPSIM_PS)) {
   model_.remember_events();
   since_.fill(DPSIM_NEVER);
 }
@@ -53,8 +54,7 @@ void Scoreboard::compare() {
   waiting_ = false;
   for (std::size_t i = 0; i < kOutputs.size(); ++i) {
     const PinPlace& place = kOutputs[i];
-    const bool same =
-        matches(output_level(place, model_.outputs()), output_level(place, outputs_), place.pin);
+    const bool same = matches(output_level(place, model_.outputs()), output_level(place, outputs_), place.pin);
     since_[i] = same ? DPSIM_NEVER : std::min(since_[i], now_);
     waiting_ = waiting_ || !same;
   }
@@ -76,8 +76,9 @@ void Scoreboard::report(std::size_t index, uint64_t tick) {
                                  level_text(place, output_level(place, outputs_)),
                                  level_text(place, output_level(place, model_.outputs())));
   if (last_input_ != nullptr)
-    text += fmt::format("\n  last input  {}={} at {}", last_input_->name,
-                        level_text(*last_input_, input_level(*last_input_, model_.inputs())), time_text(input_changed_));
+    text +=
+        fmt::format("\n  last input  {}={} at {}", last_input_->name,
+                    level_text(*last_input_, input_level(*last_input_, model_.inputs())), time_text(input_changed_));
   for (const std::string& event : model_.last_events()) text += "\n  event       " + event;
   say(text);
   differs_ = true;

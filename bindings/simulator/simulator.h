@@ -76,8 +76,8 @@ DSDPV1_SIMULATOR_API int32_t dsdpv1_checker_applied(int32_t handle);
 
 /* ---- a master on a line that the simulator has ---- */
 
-/** `options`: members of dpsim_master_options ("master_class=2 address=3 ring=1"), `baud` (dpsim_baud), and `verbose`: 1
- * makes messages of what happens. */
+/** `options`: members of dpsim_master_options ("master_class=2 address=3 ring=1"), `baud` (dpsim_baud), and `verbose`:
+ * 1 makes messages of what happens. */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_master_create(const char* options);
 /** The other stations at the absolute time `ps`: whether one of them drives the line, and its level. Returns the
  * master's own driver, TXD + 2 RTS; `wake` is the absolute time at which it does something by itself, -1: never. */

@@ -1,5 +1,5 @@
-// The functions of simulator.h as system functions of VPI: dsdpv1_model_step is $dsdpv1_model_step. A C++ function's own
-// signature says how its arguments are read from the call and written back to it.
+// The functions of simulator.h as system functions of VPI: dsdpv1_model_step is $dsdpv1_model_step. A C++ function's
+// own signature says how its arguments are read from the call and written back to it.
 #include <vpi_user.h>
 
 #include <algorithm>

@@ -95,7 +95,8 @@ TEST(SimulatorScoreboard, EqualPinsAreEqualAndCounted) {
 TEST(SimulatorScoreboard, TheFirstDifferenceIsNamedWithPinLevelsAndCycle) {
   Twins twins(0);
   const std::string text = twins.run(2000, 201, 202);
-  EXPECT_NE(text.find("first difference at cycle 100 + 125 ticks (2.094 us): PBF is 0, the model's is 1"), std::string::npos)
+  EXPECT_NE(text.find("first difference at cycle 100 + 125 ticks (2.094 us): PBF is 0, the model's is 1"),
+            std::string::npos)
       << text;
   EXPECT_NE(text.find("last input  RESET=1 at cycle 20 (0.417 us)"), std::string::npos) << text;
 }
