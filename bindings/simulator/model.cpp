@@ -89,7 +89,7 @@ int32_t dsdpv1_model_step(int32_t handle, int64_t half, int64_t ps, int32_t inpu
   return simulator::guarded([&] {
     auto& model = simulator::get<simulator::Model>(handle);
     const bool clocked = half >= 0;
-    model.step(clocked ? simulator::tick_of(half, ps) : dpsim_ticks_from(static_cast<uint64_t>(ps), DPSIM_PS),
+    model.step(clocked ? simulator::tick_of(half, ps) : simulator::tick_of_ps(static_cast<uint64_t>(ps)),
                static_cast<uint32_t>(inputs));
     *next = clocked ? simulator::half_of(model.next_tick()) : simulator::ps_of(model.next_tick());
     return static_cast<int32_t>(model.outputs());

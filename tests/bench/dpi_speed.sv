@@ -20,13 +20,12 @@ module dpi_speed;
     .wr_o(wr));
 
   longint changes = 0, answers = 0;
-  always @(line) changes = changes + 1;
-  always @(l_req) changes = changes + 1;
-  always @(l_sta) changes = changes + 1;
-  always @(pbtxd) changes = changes + 1;
-  always @(pbrts) begin
-    changes = changes + 1;
-    if (pbrts) answers = answers + 1;
+  wire [3:0] levels = {pbrts, pbtxd, l_sta, l_req};
+  logic [3:0] last = 4'd0;
+  always @(levels) begin
+    changes = changes + {32'd0, $countones(levels ^ last)};
+    if (levels[3] && !last[3]) answers = answers + 1;
+    last = levels;
   end
 
   longint bits = 0;  // since the start of simulation, 1 / 12 us each
@@ -58,6 +57,7 @@ module dpi_speed;
           pass(same);
           same = 0;
           line = character[k];
+          changes = changes + 1;
         end
         same = same + 1;
       end

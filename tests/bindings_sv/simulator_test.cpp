@@ -24,6 +24,18 @@ TEST(SimulatorTime, HalvesOfACycleAreExactAndNothingPassesTheNextEdge) {
   EXPECT_EQ(half_of(DPSIM_NEVER), INT64_MAX);
 }
 
+TEST(SimulatorTime, AbsoluteTimesAreThoseOfTheCApi) {
+  for (const uint64_t tick : {uint64_t{0}, uint64_t{1}, uint64_t{5}, uint64_t{250}, uint64_t{999'999'999'999},
+                              kQuickTicks - 1, kQuickTicks, kQuickTicks + 7, uint64_t{1} << 57U}) {
+    const auto ps = static_cast<uint64_t>(ps_of(tick));
+    EXPECT_EQ(ps, dpsim_ticks_to(tick, DPSIM_PS)) << tick;
+    EXPECT_EQ(tick_of_ps(ps), tick);
+    for (const uint64_t near : {ps + 41, ps + 42, ps + 83})
+      EXPECT_EQ(tick_of_ps(near), dpsim_ticks_from(near, DPSIM_PS)) << near;
+  }
+  EXPECT_EQ(ps_of(DPSIM_NEVER), INT64_MAX);
+}
+
 TEST(SimulatorModel, OutputsChangeAtTheHalfThatItNames) {
   const int32_t model = dsdpv1_model_create("");
   int64_t next = 0;
