@@ -62,10 +62,11 @@ uint32_t outputs_at_reset() {
   return pins;
 }
 
-Checker::Checker(const char* text, int32_t baud) : outputs_(outputs_at_reset()) {
-  const std::vector<Option> options = options_of(text);
+Checker::Checker(const char* options, int32_t baud) : outputs_(outputs_at_reset()) {
+  const std::vector<Option> words = options_of(options);
   std::vector<dpsim_limit> limits;
-  for (const Option& each : options) {
+  limits.reserve(words.size());
+  for (const Option& each : words) {
     const bool off = each.value == "off";
     limits.push_back({each.name.c_str(), off ? 0 : number_of(each, 0, INT64_MAX), off ? 1 : 0, 0});
   }

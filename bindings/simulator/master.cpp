@@ -68,14 +68,14 @@ const char* state_name(int32_t state) {
 
 }  // namespace
 
-Master::Master(const char* text) {
-  const MasterOptions options = read_options(text);
-  verbose_ = options.verbose != 0;
-  address_ = options.master.address;
-  check(dpsim_bus_create(&options.bus, &bus_));
+Master::Master(const char* options) {
+  const MasterOptions chosen = read_options(options);
+  verbose_ = chosen.verbose != 0;
+  address_ = chosen.master.address;
+  check(dpsim_bus_create(&chosen.bus, &bus_));
   try {
     check(dpsim_bus_add_station(bus_, "others", &others_));
-    check(dpsim_bus_add_master(bus_, &options.master, &master_));
+    check(dpsim_bus_add_master(bus_, &chosen.master, &master_));
     check(dpsim_master_station(master_, &station_));
     check(dpsim_bus_watch(bus_, DPSIM_WATCH_DRIVERS, changed, this));
     check(dpsim_bus_on_event(bus_, happened, this));

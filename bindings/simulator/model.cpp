@@ -11,6 +11,7 @@ namespace {
 dpsim_chip* make_chip(const char* text) {
   const std::vector<Option> options = options_of(text);
   std::vector<dpsim_parameter> parameters;
+  parameters.reserve(options.size());
   for (const Option& each : options) parameters.push_back({each.name.c_str(), number_of(each, INT32_MIN, INT32_MAX)});
   dpsim_chip_options chosen{};
   chosen.size = sizeof chosen;

@@ -53,6 +53,7 @@ dpsim_slave read_gsd(const char* path, const char* modules, uint32_t flags) {
   check(dpsim_gsd_load(path, &gsd));
   const std::vector<std::string> names = words_of(modules, ";");
   std::vector<const char*> pointers;
+  pointers.reserve(names.size());
   for (const std::string& name : names) pointers.push_back(name.c_str());
   dpsim_slave slave{};
   slave.size = sizeof slave;
@@ -128,6 +129,7 @@ int32_t dsdpv1_master_add_gsd(int32_t handle, const char* path, const char* modu
   });
 }
 
+// NOLINTNEXTLINE(readability-function-size): a vector and its number of bytes are two parameters in DPI and VPI
 int32_t dsdpv1_master_add_slave(int32_t handle, int32_t address, const char* options, const uint32_t* prm,
                                 int32_t prm_size, const uint32_t* cfg, int32_t cfg_size) {
   return guarded([&] {

@@ -22,7 +22,7 @@ class Scoreboard final : public Object {
   void arm(uint64_t tick);
   void settle(uint64_t tick);
   void compare();
-  void report(std::size_t place, uint64_t tick);
+  void report(std::size_t index, uint64_t tick);
   void note_input(uint64_t tick, uint32_t inputs);
 
   Model model_;
@@ -32,7 +32,7 @@ class Scoreboard final : public Object {
   const PinPlace* last_input_ = nullptr;
   uint32_t outputs_ = 0;
   bool began_ = false, armed_ = false, waiting_ = false, differs_ = false;
-  std::array<uint64_t, kOutputs.size()> since_;  ///< since when an output is different; DPSIM_NEVER: it is not
+  std::array<uint64_t, kOutputs.size()> since_{};  ///< since when an output is different; DPSIM_NEVER: it is not
 };
 
 }  // namespace simulator
