@@ -117,7 +117,7 @@ class Segment {
   /// A run that a sender offers, and whom its reader found it to be for.
   struct Offer {
     const CharacterRun& run;
-    bool after_gap;
+    bool after_gap = false;
     RunReader reader = nullptr;
     int addressee = kNoTelegram;
   };

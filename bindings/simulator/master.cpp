@@ -1,0 +1,174 @@
+#include "bindings/simulator/master.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bindings/simulator/options.hpp"
+#include "bindings/simulator/pins.hpp"
+#include "bindings/simulator/simulator.h"
+
+namespace simulator {
+namespace {
+
+struct MasterOptions {
+  dpsim_master_options master{};
+  dpsim_bus_options bus{};
+  int32_t verbose = 0;  ///< 1: what happens is said as messages
+};
+
+/// Sets one member; false when there is none of this name.
+bool set_member(MasterOptions& options, const Option& option) {
+  dpsim_master_options& master = options.master;
+  const std::map<std::string, int32_t*> numbers{{"master_class", &master.master_class},
+                                                {"personality", &master.personality},
+                                                {"slot_bits", &master.slot_bits},
+                                                {"set_bits", &master.set_bits},
+                                                {"quiet_bits", &master.quiet_bits},
+                                                {"target_rotation_bits", &master.target_rotation_bits},
+                                                {"max_retries", &master.max_retries},
+                                                {"gap_factor", &master.gap_factor},
+                                                {"clock_ppm", &master.clock_ppm},
+                                                {"min_slave_interval_us", &master.min_slave_interval_us},
+                                                {"baud", &options.bus.baud},
+                                                {"verbose", &options.verbose}};
+  const std::map<std::string, uint8_t*> bytes{{"address", &master.address},
+                                              {"highest_address", &master.highest_address},
+                                              {"ring", &master.ring},
+                                              {"no_token", &master.no_token}};
+  if (const auto number = numbers.find(option.name); number != numbers.end()) {
+    *number->second = static_cast<int32_t>(number_of(option, INT32_MIN, INT32_MAX));
+    return true;
+  }
+  if (const auto byte = bytes.find(option.name); byte != bytes.end()) {
+    *byte->second = static_cast<uint8_t>(number_of(option, 0, 255));
+    return true;
+  }
+  return false;
+}
+
+MasterOptions read_options(const char* text) {
+  MasterOptions options;
+  options.master.size = sizeof options.master;
+  options.bus.size = sizeof options.bus;
+  for (const Option& each : options_of(text))
+    if (!set_member(options, each))
+      throw Error(DPSIM_ERR_NOT_FOUND, "option " + each.name +
+                                           " of a master is unknown, allowed are baud, verbose and the "
+                                           "members of dpsim_master_options");
+  return options;
+}
+
+const char* state_name(int32_t state) {
+  static constexpr std::array<const char*, 9> kNames{"offline",       "Slave_Diag", "Clear",
+                                                     "Set_Prm",       "Chk_Cfg",    "Slave_Diag until ready",
+                                                     "data exchange", "releasing",  "released"};
+  return state < 0 || state > 8 ? "?" : kNames[static_cast<std::size_t>(state)];
+}
+
+}  // namespace
+
+Master::Master(const char* options) {
+  const MasterOptions chosen = read_options(options);
+  verbose_ = chosen.verbose != 0;
+  address_ = chosen.master.address;
+  check(dpsim_bus_create(&chosen.bus, &bus_));
+  try {
+    check(dpsim_bus_add_station(bus_, "others", &others_));
+    check(dpsim_bus_add_master(bus_, &chosen.master, &master_));
+    check(dpsim_master_station(master_, &station_));
+    check(dpsim_bus_watch(bus_, DPSIM_WATCH_DRIVERS, changed, this));
+    check(dpsim_bus_on_event(bus_, happened, this));
+  } catch (...) {
+    dpsim_bus_destroy(bus_);
+    throw;
+  }
+}
+
+void Master::changed(void* self, const dpsim_change* change) {
+  auto* master = static_cast<Master*>(self);
+  if (change->station != master->station_) return;
+  (change->pin == DPSIM_STATION_TXD ? master->txd_ : master->rts_) = change->level;
+}
+
+void Master::happened(void* self, const dpsim_event* event) {
+  auto* master = static_cast<Master*>(self);
+  if (event->type == DPSIM_EVENT_REQUEST_DONE || event->type == DPSIM_EVENT_ACYCLIC_DONE) master->note_answer(*event);
+  if (master->verbose_) master->tell(*event);
+}
+
+/// Of a telegram the data and FC; of an acyclic service its data and codes.
+void Master::note_answer(const dpsim_event& event) {
+  Answer& answer = answers_[event.id];
+  answer.outcome = event.outcome;
+  answer.codes = event.codes;
+  if (event.type == DPSIM_EVENT_ACYCLIC_DONE) {
+    answer.data.assign(event.data, event.data + event.data_size);
+    return;
+  }
+  dpsim_telegram telegram{};
+  telegram.size = sizeof telegram;
+  dpsim_decode_error error = DPSIM_DECODE_TRUNCATED;
+  if (event.data_size == 0 ||
+      dpsim_telegram_decode(event.data, event.data_size, &telegram, &error, nullptr) != DPSIM_OK ||
+      error != DPSIM_DECODE_OK)
+    return;
+  answer.codes = telegram.fc;
+  answer.data.assign(telegram.data, telegram.data + telegram.data_size);
+}
+
+void Master::tell(const dpsim_event& event) {
+  if (event.type == DPSIM_EVENT_SLAVE_STATE)
+    say(fmt::format("slave {}: {} to {}{}{}", event.address, state_name(event.from), state_name(event.to),
+                    *event.text != 0 ? ", " : "", event.text));
+  else if (event.type == DPSIM_EVENT_FLAG || event.type == DPSIM_EVENT_CONNECTION_END ||
+           event.type == DPSIM_EVENT_RING_STATE)
+    say(fmt::format("{}", *event.text != 0 ? event.text : "ring state " + std::to_string(event.to)));
+}
+
+void Master::step(uint64_t tick, bool enabled, bool level) {
+  now_ = std::max(now_, tick);
+  if (enabled == enabled_ && level == level_) {
+    check(dpsim_bus_run(bus_, now_));
+    return;
+  }
+  enabled_ = enabled;
+  level_ = level;
+  check(dpsim_bus_drive(bus_, now_, others_, enabled, level));
+}
+
+int64_t Master::wake() const {
+  uint64_t tick = 0;
+  check(dpsim_bus_next(bus_, &tick));
+  return tick == DPSIM_NEVER ? -1 : static_cast<int64_t>(dpsim_ticks_to(tick, DPSIM_PS));
+}
+
+dpsim_slave_status Master::slave(int32_t address) const {
+  dpsim_slave_status status{};
+  status.size = sizeof status;
+  check(dpsim_master_get_slave(master_, static_cast<uint8_t>(address), &status));
+  return status;
+}
+
+bool Master::take_answer(uint32_t id, Answer& answer) {
+  const auto found = answers_.find(id);
+  if (found == answers_.end()) return false;
+  answer = std::move(found->second);
+  answers_.erase(found);
+  return true;
+}
+
+}  // namespace simulator
+
+int32_t dsdpv1_master_create(const char* options) {
+  return simulator::created([&] { return std::make_unique<simulator::Master>(options); });
+}
+
+int32_t dsdpv1_master_step(int32_t handle, int64_t ps, int32_t enabled, int32_t level, int64_t* wake) {
+  return simulator::guarded([&] {
+    auto& master = simulator::get<simulator::Master>(handle);
+    master.step(dpsim_ticks_from(static_cast<uint64_t>(ps), DPSIM_PS), enabled != 0, level != 0);
+    *wake = master.wake();
+    return master.outputs();
+  });
+}

@@ -1,0 +1,20 @@
+#pragma once
+// "name=value name=value": what a module's parameters hand over.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace simulator {
+
+struct Option {
+  std::string name, value;
+};
+
+/// Throws Error when a word is no NAME=VALUE. Words are separated by spaces or commas.
+std::vector<Option> options_of(const char* text);
+/// Decimal, or 0x...; throws Error when it is no number from `minimum` to `maximum`.
+int64_t number_of(const Option& option, int64_t minimum, int64_t maximum);
+/// A list separated by `separator`, without empty words.
+std::vector<std::string> words_of(const char* text, const char* separators);
+
+}  // namespace simulator

@@ -1,0 +1,6 @@
+// Binds the assertions to every instance of the RTL's top, for simulators and formal tools. DSDPV1_TOP is its name where it is another one;
+// it has the reference RTL's port names and the parameters RTS_LEAD, INTR_LOW, INTR_GAP.
+`ifndef DSDPV1_TOP
+`define DSDPV1_TOP dsdpv1
+`endif
+bind `DSDPV1_TOP dsdpv1_assertions #(.RTS_LEAD(RTS_LEAD), .INTR_LOW(INTR_LOW), .INTR_GAP(INTR_GAP)) u_dsdpv1_assertions (.*);
