@@ -65,7 +65,7 @@ Wave read(const std::string& path) {
 /// As FstWriter does it, into a file that is removed.
 double seconds_to_write(const Wave& wave, const std::string& path) {
   const speed::Stopwatch watch;
-  tb::FstFile file(path);
+  tb::FstFile file(path, "");
   std::vector<tb::FstFile::Handle> handles;
   for (const Variable& variable : wave.variables) handles.push_back(file.variable(variable.name, variable.width));
   for (const Change& change : wave.changes) {
