@@ -177,8 +177,9 @@ PLI_INT32 check_call(PLI_BYTE8* name) {
   while (all != nullptr && vpi_scan(all) != nullptr) ++count;
   constexpr std::size_t kWanted = Call<decltype(Function)>::kCount;
   if (count == kWanted) return 0;
-  vpi_printf("%s:%d: %s has %u arguments, it needs %u\n", vpi_get_str(vpiFile, call), vpi_get(vpiLineNo, call), name,
-             static_cast<unsigned>(count), static_cast<unsigned>(kWanted));
+  std::string form = "%s:%d: %s has %u arguments, it needs %u\n";  // VPI's texts are not constant
+  vpi_printf(form.data(), vpi_get_str(vpiFile, call), vpi_get(vpiLineNo, call), name, static_cast<unsigned>(count),
+             static_cast<unsigned>(kWanted));
   vpi_control(vpiFinish, 1);
   return 0;
 }
@@ -193,7 +194,7 @@ void add(const char* name) {
   s_vpi_systf_data data{};
   data.type = vpiSysFunc;
   data.sysfunctype = kText ? vpiSizedFunc : vpiIntFunc;
-  data.tfname = text.c_str();
+  data.tfname = text.data();
   data.calltf = carry_out<Function>;
   data.compiletf = check_call<Function>;
   data.sizetf = kText ? text_size : nullptr;
