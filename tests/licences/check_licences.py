@@ -100,7 +100,7 @@ def faults_of_program(name, found, rows, source):
     label, mine = label_of(name), []
     for each in sorted(found):
         fitting = [row for row in rows if each in map(source, row.packages)]
-        mine += fitting
+        mine += [row for row in fitting if label in row.into]
         if not any(label in row.into for row in fitting):
             yield f"{PAGE}:1: {name} contains {each}, which the table does not list for {label}"
     mine += [row for row in rows if label in row.into and row.use not in SEEN and label != "tests"]
