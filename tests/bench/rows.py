@@ -154,7 +154,7 @@ ROWS = (
     of_sim("slaves_125", 0.25, "The same with 125 slaves.", real_time("slaves_125", *OFF), limit=SLAVES_LIMIT,
            bound="chip"),
     of_sim("idle_station", 2, f"One more slave that nobody addresses on a saturated 12 Mbit/s bus, on the bench: what {scenarios.IDLE} of them add "
-           "to the run with one busy slave, divided by their number, as a share of that run. Their user CPUs do nothing once they have initialised.",
+           "to the run with one busy slave, divided by their number, as a share of that run, which is 2 s long. Their user CPUs do nothing once they have initialised.",
            idle_station, unit="%", at_most=True,
            limit="Of a telegram for others a station is not told; the segment asks whether its filter keeps it from it."),
     of_sim("arm", 0.5, "The scenario arm_board_12m, checks off: the example firmware on the ARM board looks for data every 40 us.",

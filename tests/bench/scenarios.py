@@ -39,7 +39,7 @@ def with_idle(count):
     """A busy slave, and others that are initialised and hear everything but are never addressed; their user CPUs do nothing."""
     busy = slave(1, 16, behaviour="loop_back", cycle="1ms")
     idle = [slave(address, 16, behaviour="idle", cycle="10s") for address in range(2, count + 2)]
-    return scenario(f"A busy slave and {count} that nobody addresses", "12M", "200ms", [busy, *idle], [busy])
+    return scenario(f"A busy slave and {count} that nobody addresses", "12M", "2s", [busy, *idle], [busy])
 
 
 SCENARIOS = {"1m5": slow_line(), "slaves_32": many(32, "40ms"), "slaves_125": many(125, "100ms"),
