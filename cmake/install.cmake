@@ -136,16 +136,14 @@ endfunction()
 
 function(dsdpv1_install_systemc)
   dsdpv1_install_targets(systemc systemc dsdpv1_systemc dsdpv1_driver_systemc)
-  dsdpv1_install_targets(systemc systemc_bus dsdpv1_timeline_module dsdpv1_systemc_bus)
+  dsdpv1_install_targets(systemc systemc_bus dsdpv1_systemc_bus)
   foreach(room model/systemc driver/systemc tb/systemc)
     install(DIRECTORY ${room}/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/${room} COMPONENT systemc FILES_MATCHING PATTERN "*.hpp")
   endforeach()
-  install(FILES tb/dsdpv1/systemc/tlm_chip.hpp tb/dsdpv1/systemc/handshake_pin.hpp
-          DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/tb/dsdpv1/systemc COMPONENT systemc)
   dsdpv1_install_pc(systemc dsdpv1-systemc "cycle-accurate model of the DSDPV1: SystemC modules"
                     LIBS dsdpv1_driver_systemc dsdpv1_systemc REQUIRES dsdpv1-core dsdpv1-driver systemc tlm)
   dsdpv1_install_pc(systemc dsdpv1-systemc-bus "PROFIBUS segment and masters in SystemC's time"
-                    LIBS dsdpv1_systemc_bus dsdpv1_timeline_module REQUIRES dsdpv1-systemc dsdpv1-bus)
+                    LIBS dsdpv1_systemc_bus REQUIRES dsdpv1-systemc dsdpv1-bus)
 endfunction()
 
 function(dsdpv1_install_capi)
