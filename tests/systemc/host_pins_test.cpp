@@ -127,16 +127,17 @@ struct Side {
   }
 };
 
-dsdpv1::systemc::PinOptions quiet() {
-  dsdpv1::systemc::PinOptions options;
+template <class Options>
+Options quiet() {
+  Options options;
   options.report_violations = false;
   return options;
 }
 
 struct World {
   Side tlm{"tlm_cpu"}, pins{"pin_cpu"};
-  dsdpv1::systemc::TlmModule tlm_chip{"tlm_chip", {quiet()}};
-  PinBench pin_bench{"pin_chip", quiet()};
+  dsdpv1::systemc::TlmModule tlm_chip{"tlm_chip", quiet<dsdpv1::systemc::TlmOptions>()};
+  PinBench pin_bench{"pin_chip", quiet<dsdpv1::systemc::PinOptions>()};
   dsdpv1::systemc::HostPins host{"host"};
   std::vector<Outcome> after_kill;
   Outcome ahead{};
