@@ -2,9 +2,9 @@
 // Addresses of stations.
 #include <cstdint>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 constexpr std::uint8_t kHighestAddress = 126;  ///< of a station
 constexpr std::uint8_t kBroadcast = 127;       ///< all stations
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

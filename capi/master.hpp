@@ -6,6 +6,7 @@
 #include "bus/master/master1.hpp"
 #include "bus/master/master2.hpp"
 #include "capi/bus.hpp"
+#include "capi/names.hpp"
 #include "dsdpv1/master.h"
 
 struct dpsim_master {
@@ -27,7 +28,7 @@ struct dpsim_master {
   std::uint32_t last_id = 0;
 };
 
-namespace capi {
+namespace dsdpv1::capi {
 
 /// The master as one of its class; throws for one of the other.
 bus::Master1& class_1_of(dpsim_master* master);
@@ -58,4 +59,4 @@ void numbered(dpsim_master& master, std::uint32_t* id, const Begin& begin) {
   if (id != nullptr) *id = number;
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

@@ -16,6 +16,8 @@
 #include "tb/systemc/segment_port.hpp"
 #include "tb/systemc/timeline_module.hpp"
 
+namespace bus = dsdpv1::bus;
+namespace systemc_bench = dsdpv1::systemc_bench;
 using dsdpv1::systemc::DriverCpu;
 using sc_core::sc_signal;
 using sc_core::SC_US;

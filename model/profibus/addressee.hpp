@@ -5,7 +5,7 @@
 
 #include "model/profibus/request.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 constexpr int kNoTelegram = -1, kForNobody = 128;
 
@@ -13,4 +13,4 @@ constexpr int kNoTelegram = -1, kForNobody = 128;
 /// kNoTelegram: it is none (S10).
 int addressee(const std::uint8_t* bytes, std::size_t size);
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

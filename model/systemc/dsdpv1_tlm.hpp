@@ -26,10 +26,6 @@
 
 namespace dsdpv1::systemc {
 
-using dsdpv1::AccessTiming;
-using dsdpv1::HostAccess;
-using dsdpv1::HostAccessMaker;
-
 /// One character on the bus.
 struct BusCharacter {
   sc_core::sc_time start;  ///< falling edge of the start bit, absolute

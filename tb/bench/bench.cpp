@@ -10,7 +10,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/scenario/event_codes.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Keeps the monitor at the rate of the masters. It hears of each edge, or of a run, before the monitor does.
 class Bench::BaudFollower : private bus::Listener {
@@ -349,4 +349,4 @@ void Bench::finish_outputs() {
   if (capture_) capture_->finish();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

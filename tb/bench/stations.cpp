@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 SlaveStation& Stations::slave(const std::string& name) const {
   const auto found =
@@ -51,4 +51,4 @@ void Stations::change_baud(int index) {
   for (const auto& each : masters2) each->master().change_baud(index);
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -2,7 +2,7 @@
 
 #include "model/systemc/sim_time.hpp"
 
-namespace systemc_bench {
+namespace dsdpv1::systemc_bench {
 
 SegmentPort::SegmentPort(const sc_core::sc_module_name& name, bus::Segment& segment, TimelineModule& timeline)
     : sc_module(name), segment_(segment), timeline_(timeline), station_(segment.attach(sc_module::name(), this)) {
@@ -26,4 +26,4 @@ void SegmentPort::line_changed(bus::Tick /*at*/, bool /*level*/) {
   heard_.notify(sc_core::SC_ZERO_TIME);
 }
 
-}  // namespace systemc_bench
+}  // namespace dsdpv1::systemc_bench

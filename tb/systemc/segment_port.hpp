@@ -5,7 +5,7 @@
 #include "bus/wire/segment.hpp"
 #include "tb/systemc/timeline_module.hpp"
 
-namespace systemc_bench {
+namespace dsdpv1::systemc_bench {
 
 /// The RS-485 transceiver between a chip and the segment. What the chip drives is on the line, and what is on the line
 /// at PBRXD, at the tick of the change.
@@ -28,4 +28,4 @@ class SegmentPort : public sc_core::sc_module, private bus::Listener {
   sc_core::sc_event heard_{"heard"};
 };
 
-}  // namespace systemc_bench
+}  // namespace dsdpv1::systemc_bench

@@ -12,6 +12,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,3 +169,4 @@ TEST_F(HandOver, TheProgramIsFoundInLibexecAndInPath) {
 }
 
 }  // namespace
+}  // namespace dsdpv1
