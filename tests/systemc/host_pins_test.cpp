@@ -10,10 +10,8 @@
 #include "model/systemc/host_pins.hpp"
 #include "tests/systemc/bench.hpp"
 
-using dsdpv1::AccessTiming;
-using dsdpv1::Level;
-using dsdpv1::Pin;
-using dsdpv1::Tick;
+namespace dsdpv1 {
+
 using dsdpv1::systemc::AccessTimingExtension;
 using dsdpv1::systemc::current_tick;
 
@@ -242,3 +240,4 @@ TEST(HostPins, NothingIsCarriedOutAheadOfTime) {
 }
 
 }  // namespace
+}  // namespace dsdpv1
