@@ -121,7 +121,7 @@ class Bus(Handle):
     @property
     def next(self) -> int:
         """The tick at which somebody acts by itself, NEVER: nobody has anything to do."""
-        return max(self.now, int(number(lambda into: lib.dpsim_bus_next(self, into), ctypes.c_uint64)))
+        return int(number(lambda into: lib.dpsim_bus_next(self, into), ctypes.c_uint64))
 
     def run(self, to: int) -> None:
         """Runs everybody up to and including tick `to`. Other threads of Python run meanwhile."""
