@@ -162,15 +162,28 @@ void Master::note_answer(const dpsim_event& event) {
   answer.data.assign(telegram.data, telegram.data + telegram.data_size);
 }
 
+/// The token's way round is not told.
+bool enters_or_leaves(const dpsim_event& event) {
+  const auto outside = [](int32_t state) { return state <= DPSIM_RING_CLAIM_TOKEN || state == DPSIM_RING_OUT; };
+  return outside(event.from) != outside(event.to);
+}
+
 void Master::tell(const dpsim_event& event) {
-  if (event.type == DPSIM_EVENT_SLAVE_STATE)
-    say(fmt::format("slave {}: {} to {}{}{}", event.address, state_name(event.from), state_name(event.to),
-                    *event.text != 0 ? ", " : "", event.text));
-  else if (event.id == 0 && (event.type == DPSIM_EVENT_REQUEST_DONE || event.type == DPSIM_EVENT_ACYCLIC_DONE))
-    say(event.text);
-  else if (event.type == DPSIM_EVENT_FLAG || event.type == DPSIM_EVENT_CONNECTION_END ||
-           event.type == DPSIM_EVENT_RING_STATE)
-    say(fmt::format("{}", *event.text != 0 ? event.text : "ring state " + std::to_string(event.to)));
+  switch (event.type) {
+    case DPSIM_EVENT_SLAVE_STATE:
+      return say(fmt::format("slave {}: {} to {}{}{}", event.address, state_name(event.from), state_name(event.to),
+                             *event.text != 0 ? ", " : "", event.text));
+    case DPSIM_EVENT_REQUEST_DONE:
+    case DPSIM_EVENT_ACYCLIC_DONE:
+      if (event.id == 0) say(event.text);
+      return;
+    case DPSIM_EVENT_RING_STATE:
+      if (enters_or_leaves(event)) say(fmt::format("token ring: {}", event.text));
+      return;
+    case DPSIM_EVENT_FLAG:
+    case DPSIM_EVENT_CONNECTION_END: return say(event.text);
+    default: return;
+  }
 }
 
 void Master::step(uint64_t tick, bool enabled, bool level) {

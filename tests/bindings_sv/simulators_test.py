@@ -14,7 +14,8 @@ import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
 GOLDEN, SLAVE = "bus_timing", "demo"
 FAULT = 46  # of rtl_ref/faults.txt
 END = 1_700_000_000  # ps, after that fault
@@ -116,8 +117,15 @@ class Benches:
         self.assertIn("outputs ddccbbaa, inputs 44332211", said)
 
     def test_each_task_of_the_master_ends_with_its_outcome(self):
-        said = self.passes("services")
-        self.assertEqual(said.count(": passed"), 3)
+        said = self.passes("services", f"+gsd={ROOT}/scenarios/dsdpv1.gsd")
+        self.assertEqual(said.count(": passed"), 5)
+        return said
+
+    def test_a_scenario_drives_its_masters_by_itself(self):
+        said = self.passes("scenario")
+        for words in ("scenario.yaml: left out are slaves, chip, checks, expect, allow and end; of the script, by line: pause_user (", "c1_read: 11 22 33 44",
+                      "c1_write: done", "c2_read: AA BB CC", "c2_transport: 01 02 03 04 05"):
+            self.assertIn(words, said)
 
     def test_golden_inputs_give_golden_outputs_and_the_rtl_is_equal(self):
         self.with_golden(self.golden_is_kept)
@@ -164,7 +172,7 @@ class Benches:
 
 class Verilator(Benches, unittest.TestCase):
     def run_bench(self, name, top, *plusargs):
-        return call([FOLDER / name / f"V{top}", *plusargs], FOLDER)
+        return call([FOLDER / name / f"V{top}", *plusargs], HERE)
 
     def test_golden_inputs_give_golden_outputs_without_clk(self):
         self.with_golden(lambda folder: self.replay_is_golden(folder, "replay_unclocked"))
@@ -200,7 +208,7 @@ class Icarus(Benches, unittest.TestCase):
             status, said = call(["iverilog", "-g2012", "-DDSDPV1_VPI", "-DDSDPV1_IMMEDIATE", "-I", bindings, "-I", ROOT / "rtl_ref", "-I", ROOT / "registers",
                                  "-s", top, "-o", "bench.vvp", VPI, *sources, *rtl, source], folder)
             self.assertEqual((status, said), (0, ""))
-            return call(["vvp", "bench.vvp", *plusargs], folder)
+            return call(["vvp", pathlib.Path(folder) / "bench.vvp", *plusargs], HERE)
 
     def rtl(self):
         return ["-DUSE_RTL", "-DSINGLE_FAULTS", *(ROOT / "rtl_ref" / line for line in (ROOT / "rtl_ref/files.txt").read_text(encoding="ascii").split())]
