@@ -1,4 +1,4 @@
-// The masters of scenario.yaml by themselves: no task of profibus_master is called. The user CPU answers acyclic requests from one object at
+// The masters of examples/masters.yaml by themselves: no task of profibus_master is called. The user CPU answers acyclic requests from one object at
 // slot 1, index 2.
 module scenario;
   timeunit 1ps;
@@ -21,7 +21,7 @@ module scenario;
     .wr_o(wr));
   profibus_segment u_segment (
     .txd_i({txd, pbtxd}), .rts_i({rts, pbrts}), .line_o(line), .others_o(others), .others_en_o(others_en));
-  profibus_master #(.SCENARIO("scenario.yaml"), .VERBOSE(1)) u_masters (
+  profibus_master #(.SCENARIO("examples/masters.yaml"), .VERBOSE(1)) u_masters (
     .rxd_i(others[1]), .rxd_en_i(others_en[1]), .txd_o(txd), .rts_o(rts));
 
   bytes_t object = {2016'd0, 32'h44332211};
