@@ -33,6 +33,10 @@ module dsdpv1_assertions #(
   input logic       br_o,
   input logic       ready_o
 );
+`ifndef YOSYS  // which knows no time
+  timeunit 1ps;
+  timeprecision 1ps;
+`endif
   // What levels were at earlier edges. `seen`: RESET has been low for four edges, from when on no level is unknown.
   logic seen = 1'b0, had_pulse, ready_before, r_sta_before;
   logic [1:0] held_before;
