@@ -4,7 +4,7 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int16, 
                     c_uint64, c_void_p)
 
 DPSIM_ABI_MAJOR = 0
-DPSIM_ABI_MINOR = 1
+DPSIM_ABI_MINOR = 2
 DPSIM_TICKS_PER_CYCLE = 250
 DPSIM_TICKS_PER_NS = 12
 DPSIM_NEVER = 0xffffffffffffffff
