@@ -15,7 +15,7 @@
 #include "tb/bench/chip_maker.hpp"
 #include "tb/input/read_file.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -97,4 +97,4 @@ tb::scenario::Scenario load_scenario(const std::string& path, const std::vector<
   return scenario;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

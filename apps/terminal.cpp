@@ -9,7 +9,7 @@
 
 #include "tb/report/text_table.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 enum class Where : unsigned char { kWholeLine, kBeginning, kToTheEnd };
@@ -67,4 +67,4 @@ std::string painted(const std::string& line) {
   return line;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

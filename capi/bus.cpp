@@ -4,6 +4,7 @@
 
 #include "capi/chip.hpp"
 #include "capi/master.hpp"
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
 #include "tb/bench/scenario_masters.hpp"
 
@@ -12,7 +13,7 @@ using capi::guarded;
 using capi::need;
 using capi::Tick;
 
-namespace capi {
+namespace dsdpv1::capi {
 
 dpsim_heard heard_of(const bus::WireTelegram& telegram) {
   dpsim_heard heard{};
@@ -38,7 +39,7 @@ dpsim_event event_of(dpsim_event_type type, Tick at) {
   return event;
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 dpsim_bus::dpsim_bus(int baud_index) : baud(baud_index) {}
 dpsim_bus::~dpsim_bus() = default;

@@ -9,16 +9,17 @@
 #include "bus/wire/segment.hpp"
 #include "capi/changes.hpp"
 #include "capi/line_tap.hpp"
+#include "capi/names.hpp"
 #include "dsdpv1/bus.h"
 
 struct dpsim_chip;
 struct dpsim_master;
 
-namespace tb {
+namespace dsdpv1::tb {
 class ScenarioMasters;
 }
 
-namespace capi {
+namespace dsdpv1::capi {
 
 struct Station {
   enum class Kind : std::uint8_t { kChip, kMaster, kOutside };
@@ -32,7 +33,7 @@ dpsim_heard heard_of(const bus::WireTelegram& telegram);
 /// An event that names nothing yet.
 dpsim_event event_of(dpsim_event_type type, bus::Tick at);
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 struct dpsim_bus {
   explicit dpsim_bus(int baud_index);

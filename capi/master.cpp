@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
 
 using capi::fail;
@@ -54,7 +55,7 @@ dpsim_event dpsim_master::event(dpsim_event_type type, bus::Tick at) const {
   return made;
 }
 
-namespace capi {
+namespace dsdpv1::capi {
 
 namespace {
 
@@ -118,7 +119,7 @@ bus::AcyclicCallback acyclic_done(dpsim_master& master, std::uint32_t id, std::u
   };
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 namespace {
 

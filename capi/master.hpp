@@ -6,6 +6,7 @@
 #include "bus/master/master1.hpp"
 #include "bus/master/master2.hpp"
 #include "capi/bus.hpp"
+#include "capi/names.hpp"
 #include "dsdpv1/master.h"
 
 struct dpsim_master {
@@ -38,7 +39,7 @@ struct dpsim_master {
   std::unique_ptr<bus::Master2> own_2_;
 };
 
-namespace capi {
+namespace dsdpv1::capi {
 
 /// The master as one of its class; throws for one of the other.
 bus::Master1& class_1_of(dpsim_master* master);
@@ -69,4 +70,4 @@ void numbered(dpsim_master& master, std::uint32_t* id, const Begin& begin) {
   if (id != nullptr) *id = number;
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "capi/master.hpp"
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
 #include "capi/slave.hpp"
 #include "capi/telegram.hpp"
@@ -11,7 +12,7 @@ using capi::fail;
 using capi::guarded;
 using capi::need;
 
-namespace capi {
+namespace dsdpv1::capi {
 
 void need_slave(const bus::Master1& master, std::uint8_t address) {
   const std::vector<std::uint8_t> all = master.slave_addresses();
@@ -50,7 +51,7 @@ void connect(dpsim_master& master, bus::Master1& own) {
   if (own.ring() != nullptr) connect(master, *own.ring());
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 namespace {
 

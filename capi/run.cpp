@@ -1,5 +1,6 @@
 // Scenarios: the bench behind a handle.
 #include "dsdpv1/run.h"
+#include "capi/names.hpp"
 
 #include <deque>
 #include <memory>

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "capi/master.hpp"
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
 #include "tb/bench/scenario_masters.hpp"
 #include "tb/input/units.hpp"
@@ -12,7 +13,7 @@
 using capi::need;
 using tb::scenario::ActionKind;
 
-namespace capi {
+namespace dsdpv1::capi {
 
 std::vector<tb::scenario::Setting> settings_of(const char* const* settings, std::uint32_t count) {
   need_buffer(settings, count, "settings");
@@ -24,7 +25,7 @@ std::vector<tb::scenario::Setting> settings_of(const char* const* settings, std:
   return tb::scenario::parse_settings(texts);
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "capi/error.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 /// NULL only when there are none.
 std::vector<tb::scenario::Setting> settings_of(const char* const* settings, std::uint32_t count);
@@ -21,4 +21,4 @@ tb::scenario::Scenario load_scenario(const Options& options) {
                                  : tb::scenario::parse(options.text, options.path, settings);
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

@@ -8,7 +8,7 @@
 #include "bindings/simulator/pins.hpp"
 #include "bindings/simulator/simulator.h"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 namespace {
 
 struct MasterOptions {
@@ -218,20 +218,20 @@ bool Master::take_answer(uint32_t id, Answer& answer) {
   return true;
 }
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator
 
 int32_t dsdpv1_master_create(const char* options) {
-  return simulator::created([&] { return std::make_unique<simulator::Master>(options); });
+  return dsdpv1::simulator::created([&] { return std::make_unique<dsdpv1::simulator::Master>(options); });
 }
 
 int32_t dsdpv1_master_load(const char* scenario, const char* settings, int32_t verbose) {
-  return simulator::created(
-      [&] { return std::make_unique<simulator::Master>(scenario, settings, verbose != 0); });
+  return dsdpv1::simulator::created(
+      [&] { return std::make_unique<dsdpv1::simulator::Master>(scenario, settings, verbose != 0); });
 }
 
 int32_t dsdpv1_master_step(int32_t handle, int64_t ps, int32_t enabled, int32_t level, int64_t* wake) {
-  return simulator::guarded([&] {
-    auto& master = simulator::get<simulator::Master>(handle);
+  return dsdpv1::simulator::guarded([&] {
+    auto& master = dsdpv1::simulator::get<dsdpv1::simulator::Master>(handle);
     master.step(dpsim_ticks_from(static_cast<uint64_t>(ps), DPSIM_PS), enabled != 0, level != 0);
     *wake = master.wake();
     return master.outputs();

@@ -7,7 +7,7 @@
 
 #include "bindings/simulator/object.hpp"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 
 /// What came of a request.
 struct Answer {
@@ -57,4 +57,4 @@ class Master final : public Object {
   std::map<uint32_t, Answer> answers_;
 };
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 Master2::Master2(Segment& segment, const MasterConfig& config)
     : config_(config),
@@ -140,4 +140,4 @@ void Master2::finished(const FdlResult& result) {
   if (on_answer) on_answer(now_, result);
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

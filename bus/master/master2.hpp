@@ -15,7 +15,7 @@
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 using ConnectionId = std::size_t;  ///< 0, 1, ... in the order of `add_connection`
 
@@ -90,4 +90,4 @@ class Master2 : public Agent {
   Tick now_ = 0;
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -6,7 +6,7 @@
 
 #include "bus/bytes.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 enum class TelegramKind : std::uint8_t {
   kSd1,  ///< 10 DA SA FC FCS 16: no data
@@ -123,4 +123,4 @@ Decoded decode(const Bytes& bytes);
 /// The sum of DA..data modulo 256.
 std::uint8_t frame_check_sequence(const std::uint8_t* first, std::size_t count);
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -6,7 +6,7 @@
 #include "bus/baud.hpp"
 #include "bus/time.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 /// True when the number of ones in `byte` is odd: the value of the even parity bit.
 bool even_parity(std::uint8_t byte);
@@ -40,4 +40,4 @@ struct RunFilter {
   std::uint8_t address = 0;    ///< ... and on those for this station and for all
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -222,4 +222,4 @@ void Segment::report_collision(Tick at, StationId newcomer) {
   for (const StationId driver : drivers_) on_collision({at, stations_[driver].name, stations_[newcomer].name});
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

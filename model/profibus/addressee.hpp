@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 constexpr int kNoTelegram = -1, kForAll = 127, kForNobody = 128;
 
@@ -11,4 +11,4 @@ constexpr int kNoTelegram = -1, kForAll = 127, kForNobody = 128;
 /// kNoTelegram: it is none (S10).
 int addressee(const std::uint8_t* bytes, std::size_t size);
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 constexpr Cycle kSynchroniserDelay = 2;  // P9: the logic sees a start edge two cycles after it was sampled
@@ -189,4 +189,4 @@ void Station::answer(const Telegram& telegram, const Frame& frame) {
   tx_.send(frame.bytes.data(), frame.size, search_.bit(), begin, config_.rts_lead, config_.rts_trail);
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

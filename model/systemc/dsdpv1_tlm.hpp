@@ -25,10 +25,6 @@
 
 namespace dsdpv1::systemc {
 
-using dsdpv1::AccessTiming;
-using dsdpv1::HostAccess;
-using dsdpv1::HostAccessMaker;
-
 /// Gives one transaction another timing than TlmOptions::access, and makes it one of a decoupled initiator. A payload
 /// frees the extensions that it still has in the end: clear one that is not on the heap.
 struct AccessTimingExtension : tlm::tlm_extension<AccessTimingExtension> {

@@ -8,7 +8,7 @@
 #include "tb/bench/script.hpp"
 #include "tb/scenario/event_codes.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Keeps the monitor at the rate of the masters. It hears of each edge, or of a run, before the monitor does.
 class Bench::BaudFollower : private bus::Listener {
@@ -326,4 +326,4 @@ void Bench::finish_outputs() {
   if (capture_) capture_->finish();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -9,7 +9,7 @@
 #include "bus/wire/segment.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 using bus::Tick;
 
@@ -54,4 +54,4 @@ class Class2Station {
 /// Bus parameters of the scenario for a master of either class.
 bus::BusParameters bus_parameters(const scenario::BusParameters& bus);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -7,7 +7,7 @@
 #include "bus/baud.hpp"
 #include "tb/input/units.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 using scenario::Condition;
@@ -205,4 +205,4 @@ std::string describe(const scenario::Expectation& expectation) {
   return text + " at the end";
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

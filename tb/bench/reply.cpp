@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 Reply reply_of(const bus::AcyclicResult& result) {
   const bool negative = result.outcome == bus::AcyclicOutcome::kNegative;
@@ -37,4 +37,4 @@ const Reply* Replies::last(const std::string& asker, scenario::ActionKind servic
   return reply == replies->second.end() ? nullptr : &reply->second;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -8,7 +8,7 @@
 #include "bus/master/acyclic.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// One answer to a request of the script.
 struct Reply {
@@ -38,4 +38,4 @@ class Replies {
   std::map<std::string, std::map<scenario::ActionKind, Reply>> replies_;  ///< by asker and service
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

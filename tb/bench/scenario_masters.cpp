@@ -6,7 +6,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 using scenario::Action;
@@ -123,4 +123,4 @@ std::size_t ScenarioMasters::number_of(const std::string& asker) const {
   return 0;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

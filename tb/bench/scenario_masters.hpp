@@ -12,7 +12,7 @@
 #include "tb/bench/setup.hpp"
 #include "tb/bench/stations.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class ScenarioMasters {
  public:
@@ -46,4 +46,4 @@ class ScenarioMasters {
   Script script_;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

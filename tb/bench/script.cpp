@@ -9,7 +9,7 @@
 #include "tb/bench/conditions.hpp"
 #include "tb/input/units.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 using scenario::Action;
 using scenario::ActionKind;
@@ -327,4 +327,4 @@ void Script::send_telegram(const Action& action) {
   stations_.master(action.master.text).send_raw(action.bytes, faults);
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

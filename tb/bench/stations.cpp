@@ -5,7 +5,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 void add_slave(MasterStation& station, const scenario::MasterSlave& slave, const bus::SlaveParameters& parameters) {
@@ -90,4 +90,4 @@ void Stations::change_baud(int index) {
   for (const auto& each : masters2) each->master().change_baud(index);
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -13,7 +13,7 @@
 #include "tb/bench/slave_station.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// A class 1 master.
 struct MasterStation {
@@ -49,4 +49,4 @@ struct Stations {
   void change_baud(int index);
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

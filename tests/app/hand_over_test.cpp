@@ -12,6 +12,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -153,3 +154,4 @@ TEST_F(HandOver, TheProgramIsFoundInLibexecAndInPath) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

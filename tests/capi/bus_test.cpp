@@ -4,7 +4,7 @@
 
 #include "tests/capi/station.hpp"
 
-namespace capi_test {
+namespace dsdpv1::capi_test {
 namespace {
 
 struct Event {
@@ -376,4 +376,4 @@ TEST(CapiBus, ACallbackMayCommandMastersButNotRunTheBus) {
 }
 
 }  // namespace
-}  // namespace capi_test
+}  // namespace dsdpv1::capi_test

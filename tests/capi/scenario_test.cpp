@@ -5,7 +5,7 @@
 
 #include "tests/capi/station.hpp"
 
-namespace capi_test {
+namespace dsdpv1::capi_test {
 namespace {
 
 const std::string kSlaves =
@@ -131,4 +131,4 @@ TEST(CapiScenario, AMissingGsdLeavesNobodyOnTheBus) {
 }
 
 }  // namespace
-}  // namespace capi_test
+}  // namespace dsdpv1::capi_test

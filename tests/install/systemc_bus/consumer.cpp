@@ -18,29 +18,30 @@ struct Nobody : sc_core::sc_module {
 }  // namespace
 
 int sc_main(int, char**) {
-  bus::Segment segment;
-  bus::Timeline timeline;
-  bus::Master1 master(segment, bus::MasterConfig{});
-  bus::Monitor monitor(segment);
+  dsdpv1::bus::Segment segment;
+  dsdpv1::bus::Timeline timeline;
+  dsdpv1::bus::Master1 master(segment, dsdpv1::bus::MasterConfig{});
+  dsdpv1::bus::Monitor monitor(segment);
   monitor.set_baud(0);
   timeline.add(master);
   timeline.add(monitor);
-  bus::SlaveParameters slave;
+  dsdpv1::bus::SlaveParameters slave;
   slave.address = 3;
   slave.cfg = {0x11};
   master.add_slave(slave);
   master.start();
 
-  systemc_bench::TimelineModule module("timeline", timeline);
-  systemc_bench::TlmChip chip("chip", {}, segment, module);
+  dsdpv1::systemc_bench::TimelineModule module("timeline", timeline);
+  dsdpv1::systemc_bench::TlmChip chip("chip", {}, segment, module);
   Nobody user_cpu("user_cpu");
   user_cpu.socket.bind(chip.module().host_socket);
   sc_core::sc_start(1, sc_core::SC_US);
   chip.set_reset(true);
   sc_core::sc_start(10, sc_core::SC_MS);
   const bool works = chip.module().peek(dsdpv1::regs::kValidFlag) == dsdpv1::regs::kValidFlagValid;
-  const bus::MonitorStatistics& heard = monitor.statistics();
-  return works && heard.telegrams > 10 && heard.wrong == 0 && master.slave(3).state != bus::SlaveState::kDataExchange
+  const dsdpv1::bus::MonitorStatistics& heard = monitor.statistics();
+  return works && heard.telegrams > 10 && heard.wrong == 0 &&
+                 master.slave(3).state != dsdpv1::bus::SlaveState::kDataExchange
              ? 0
              : 1;
 }
