@@ -42,8 +42,11 @@ std::uint32_t codes_of(const tb::Reply& reply) {
 std::string words_of(ActionKind service, const tb::Reply& reply) {
   const std::string what = std::string(tb::service_word(service)) + ": ";
   if (is_acyclic(service) && reply.outcome != bus::AcyclicOutcome::kPositive)
-    return what + bus::name(reply.outcome) + (reply.data.empty() ? "" : " " + tb::bytes_text(reply.data, reply.data.size()));
-  return what + (!reply.answered ? "no answer" : reply.data.empty() ? "done" : tb::bytes_text(reply.data, reply.data.size()));
+    return what + bus::name(reply.outcome) +
+           (reply.data.empty() ? "" : " " + tb::bytes_text(reply.data, reply.data.size()));
+  return what + (!reply.answered      ? "no answer"
+                 : reply.data.empty() ? "done"
+                                      : tb::bytes_text(reply.data, reply.data.size()));
 }
 
 void tell_reply(const dpsim_master& master, ActionKind service, const tb::Reply& reply) {

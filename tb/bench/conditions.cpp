@@ -169,8 +169,7 @@ ChipStatus status_of(const Condition& c, const Facts* facts, const SlaveStation*
 
 Parts examine(const Condition& c, const Facts* facts, Parts::In in) {
   Parts parts(in);
-  const SlaveStation* slave =
-      facts != nullptr && !c.slave.empty() ? facts->stations.find_slave(c.slave.text) : nullptr;
+  const SlaveStation* slave = facts != nullptr && !c.slave.empty() ? facts->stations.find_slave(c.slave.text) : nullptr;
   const ChipStatus status = status_of(c, facts, slave);
   add_state(parts, c, status);
   add_counts(parts, c, status);

@@ -34,8 +34,7 @@ bool is_listed(const Scenario& scenario, const std::string& slave) {
 
 /// The key of a condition that no master can tell; empty: all can be told.
 std::string untold(const Scenario& scenario, const Condition& c) {
-  if (c.dp_state && *c.dp_state != profibus::DpState::kDataExch)
-    return fmt::format("dp_state {}", name(*c.dp_state));
+  if (c.dp_state && *c.dp_state != profibus::DpState::kDataExch) return fmt::format("dp_state {}", name(*c.dp_state));
   if (c.baud) return "baud";
   if (c.station_address) return "station_address";
   if (c.outputs) return "outputs";

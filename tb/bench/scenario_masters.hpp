@@ -1,6 +1,6 @@
 #pragma once
-// The masters of a scenario on a bus that somebody else runs, with the part of its script that is theirs. The slaves are
-// elsewhere: RTL in a simulator, a chip of the caller's.
+// The masters of a scenario on a bus that somebody else runs, with the part of its script that is theirs. The slaves
+// are elsewhere: RTL in a simulator, a chip of the caller's.
 #include <functional>
 #include <string>
 

@@ -254,7 +254,8 @@ TEST(CapiBus, ARequestCarriesTheMastersOwnAddress) {
   ok(dpsim_bus_on_telegram(
       line.bus.get(),
       [](void* user, const dpsim_heard* heard) {
-        if (heard->bytes[0] == 0x10 && heard->bytes[1] == 77) static_cast<std::vector<uint8_t>*>(user)->push_back(heard->bytes[2]);
+        if (heard->bytes[0] == 0x10 && heard->bytes[1] == 77)
+          static_cast<std::vector<uint8_t>*>(user)->push_back(heard->bytes[2]);
       },
       &sources));
   auto telegram = sized<dpsim_telegram>();

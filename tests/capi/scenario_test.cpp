@@ -59,15 +59,18 @@ TEST(CapiScenario, ItsMastersStartAndCarryOutTheScriptByThemselves) {
   dpsim_chip* chip = add_chip(bus.get());
   Told told;
   ok(dpsim_bus_on_event(bus.get(), Told::note, &told));
-  const Added added = add(bus.get(), scenario_with(
-                                         "  - {when: {slave: io, data_exchanges: 20}, do: set_outputs, slave: io, bytes: \"0A 0B 0C 0D\"}\n"
-                                         "  - {at: 900us, do: pause_user, slave: io, for: 1us}\n"
-                                         "  - {when: {slave: io, dp_state: data_exch, after: 1ms}, do: get_cfg, slave: io}\n"
-                                         "  - {when: {reply_of: get_cfg, reply: \"33\"}, do: c1_read, slave: io, slot: 1, index: 1, length: 4}\n"));
+  const Added added = add(
+      bus.get(),
+      scenario_with(
+          "  - {when: {slave: io, data_exchanges: 20}, do: set_outputs, slave: io, bytes: \"0A 0B 0C 0D\"}\n"
+          "  - {at: 900us, do: pause_user, slave: io, for: 1us}\n"
+          "  - {when: {slave: io, dp_state: data_exch, after: 1ms}, do: get_cfg, slave: io}\n"
+          "  - {when: {reply_of: get_cfg, reply: \"33\"}, do: c1_read, slave: io, slot: 1, index: 1, length: 4}\n"));
   ok(added.status);
   ASSERT_EQ(added.masters.size(), 1U);
-  EXPECT_EQ(added.left_out,
-            "test.yaml: left out are slaves, chip, checks, expect, allow and end; of the script, by line: pause_user (10)");
+  EXPECT_EQ(
+      added.left_out,
+      "test.yaml: left out are slaves, chip, checks, expect, allow and end; of the script, by line: pause_user (10)");
   start_up(chip);
   ok(dpsim_bus_run(bus.get(), 10 * kMs));
 
@@ -83,15 +86,18 @@ TEST(CapiScenario, ItsMastersStartAndCarryOutTheScriptByThemselves) {
 TEST(CapiScenario, MastersOfBothClassesShareTheBus) {
   const auto bus = make_bus();
   dpsim_chip* chip = add_chip(bus.get());
-  const Added added = add(bus.get(), scenario_with("  - {when: {slave: io, dp_state: data_exch}, do: c2_connect, connection: eng_io}\n",
-                                                   "{name: eng, address: 3, bus: {highest_address: 6}, connections: [{name: eng_io, slave: io}]}"));
+  const Added added = add(
+      bus.get(),
+      scenario_with("  - {when: {slave: io, dp_state: data_exch}, do: c2_connect, connection: eng_io}\n",
+                    "{name: eng, address: 3, bus: {highest_address: 6}, connections: [{name: eng_io, slave: io}]}"));
   ok(added.status);
   ASSERT_EQ(added.masters.size(), 2U);
   std::vector<std::string> ends;
   ok(dpsim_bus_on_event(
       bus.get(),
       [](void* user, const dpsim_event* event) {
-        if (event->type == DPSIM_EVENT_CONNECTION_END) static_cast<std::vector<std::string>*>(user)->emplace_back(event->text);
+        if (event->type == DPSIM_EVENT_CONNECTION_END)
+          static_cast<std::vector<std::string>*>(user)->emplace_back(event->text);
       },
       &ends));
   start_up(chip);
@@ -110,7 +116,8 @@ void expect_refused(const std::string& text, dpsim_status status, const std::str
 
 TEST(CapiScenario, WhatMastersCannotKnowOrDoIsRefusedInOneLine) {
   const std::string allowed =
-      " is not known to masters whose slaves are elsewhere, allowed are dp_state data_exch, data_exchanges and inputs of a "
+      " is not known to masters whose slaves are elsewhere, allowed are dp_state data_exch, data_exchanges and inputs "
+      "of a "
       "slave that a master of class 1 brings up, connection_state, reply_of";
   const auto when = [](const std::string& condition) {
     return scenario_with("  - {when: {slave: io, " + condition + "}, do: clear}\n");
@@ -125,9 +132,8 @@ TEST(CapiScenario, WhatMastersCannotKnowOrDoIsRefusedInOneLine) {
 }
 
 TEST(CapiScenario, AMissingGsdLeavesNobodyOnTheBus) {
-  expect_refused(
-      kSlaves + "masters:\n  - {name: plc, slaves: [{address: 6, gsd: none.gsd}]}\n", DPSIM_ERR_INPUT,
-      "test.yaml:7: gsd none.gsd: no such file, allowed is a GSD file, its path relative to the scenario");
+  expect_refused(kSlaves + "masters:\n  - {name: plc, slaves: [{address: 6, gsd: none.gsd}]}\n", DPSIM_ERR_INPUT,
+                 "test.yaml:7: gsd none.gsd: no such file, allowed is a GSD file, its path relative to the scenario");
 }
 
 }  // namespace

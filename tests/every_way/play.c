@@ -1,4 +1,5 @@
-/* play INPUTS OUTPUTS END: changes of inputs to a chip of the C API; changes of its outputs. Lines of both: tick, pin, level. */
+/* play INPUTS OUTPUTS END: changes of inputs to a chip of the C API; changes of its outputs. Lines of both: tick, pin,
+ * level. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,11 +1,14 @@
-// play_systemc INPUTS OUTPUTS END FEMTOSECONDS: changes of inputs to the pin module in a simulation of this resolution; what its signals do
-// then, each at the simulation time of its event. Lines of INPUTS: tick, pin, level; of OUTPUTS: time in units of the resolution, pin, level.
+// play_systemc INPUTS OUTPUTS END FEMTOSECONDS: changes of inputs to the pin module in a simulation of this resolution;
+// what its signals do then, each at the simulation time of its event. Lines of INPUTS: tick, pin, level; of OUTPUTS:
+// time in units of the resolution, pin, level.
 #include <fstream>
 #include <iostream>
 
 #include "tests/systemc/bench.hpp"
 
+using dsdpv1::method_on;
 using dsdpv1::Pin;
+using dsdpv1::PinBench;
 using dsdpv1::Tick;
 
 namespace {
@@ -15,7 +18,8 @@ void write(std::ostream& out, Pin pin, int level) {
 }
 
 void record(Pin pin, sc_core::sc_signal<bool>& signal, std::ostream& out) {
-  method_on(signal.value_changed_event(), [&out, &signal, pin] { write(out, pin, signal.read() ? 1 : 0); });
+  method_on(
+      signal.value_changed_event(), [&out, &signal, pin] { write(out, pin, signal.read() ? 1 : 0); });
 }
 
 /// D as the chip drives it: while the user does, it does not.
@@ -30,7 +34,7 @@ void play(PinBench& bench, std::istream& in, bool& user_drives) {
   unsigned pin = 0;
   int level = 0;
   while (in >> tick >> pin >> level) {
-    wait_until(tick);
+    dsdpv1::wait_until(tick);
     if (static_cast<Pin>(pin) == Pin::kDIn) user_drives = level >= 0;
     bench.drive(static_cast<Pin>(pin), static_cast<dsdpv1::Level>(level));
   }
@@ -46,11 +50,13 @@ int sc_main(int argc, char* argv[]) {
   PinBench bench("bench");
   bool user_drives = false;
   const std::pair<Pin, sc_core::sc_signal<bool>*> outputs[] = {
-      {Pin::kLReq, &bench.l_req}, {Pin::kLSta, &bench.l_sta}, {Pin::kIntr0, &bench.intr0}, {Pin::kPbtxd, &bench.pbtxd},
-      {Pin::kPbrts, &bench.pbrts}, {Pin::kPbf, &bench.pbf},   {Pin::kBr, &bench.br},       {Pin::kReady, &bench.ready}};
+      {Pin::kLReq, &bench.l_req},  {Pin::kLSta, &bench.l_sta},  {Pin::kIntr0, &bench.intr0},
+      {Pin::kPbtxd, &bench.pbtxd}, {Pin::kPbrts, &bench.pbrts}, {Pin::kPbf, &bench.pbf},
+      {Pin::kBr, &bench.br},       {Pin::kReady, &bench.ready}};
   for (const auto& [pin, signal] : outputs) record(pin, *signal, out);
-  method_on(bench.d.value_changed_event(), [&] { write(out, Pin::kDOut, level_of_d(bench, user_drives)); });
-  thread([&] { play(bench, in, user_drives); });
+  method_on(
+      bench.d.value_changed_event(), [&] { write(out, Pin::kDOut, level_of_d(bench, user_drives)); });
+  dsdpv1::thread([&] { play(bench, in, user_drives); });
   sc_core::sc_start(dsdpv1::systemc::to_time(std::stoll(argv[3])));
   return out.good() ? 0 : 1;
 }
