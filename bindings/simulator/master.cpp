@@ -87,9 +87,10 @@ Master::Master(const char* options) {
   guard.keep = true;
 }
 
-Master::Master(const char* scenario, const char* settings, bool verbose) {
-  std::vector<const char*> words;
+Master::Master(const char* scenario, const char* settings, bool verbose) : verbose_(verbose) {
   const std::vector<std::string> texts = words_of(settings, ";");
+  std::vector<const char*> words;
+  words.reserve(texts.size());
   for (const std::string& text : texts) words.push_back(text.c_str());
   dpsim_scenario_options options{};
   options.size = sizeof options;
@@ -100,7 +101,6 @@ Master::Master(const char* scenario, const char* settings, bool verbose) {
   std::size_t count = 0;
   const char* left_out = "";
   BusGuard guard{bus_};
-  verbose_ = verbose;
   make_bus({sizeof(dpsim_bus_options), 0});
   check(dpsim_bus_add_scenario(bus_, &options, masters.data(), masters.size(), &count, &left_out));
   master_ = masters.front();

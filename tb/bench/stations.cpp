@@ -26,7 +26,9 @@ MasterStation make_master(const scenario::Scenario& scenario, const scenario::Ma
   config.baud = scenario.baud;
   config.personality = spec.personality;
   config.bus = bus_parameters(spec.bus);
-  MasterStation made{&spec, std::make_unique<bus::Master1>(segment, config), {}};
+  MasterStation made;
+  made.spec = &spec;
+  made.master = std::make_unique<bus::Master1>(segment, config);
   for (const scenario::MasterSlave& slave : spec.slaves) {
     const bus::SlaveParameters parameters = setup.parameters(slave);
     try {
