@@ -86,7 +86,7 @@ struct AbortReason {
   bool sdn = false;  ///< sent without acknowledgement
 
   /// Byte 2 of the PDU.
-  std::uint8_t code() const { return static_cast<std::uint8_t>((instance << 4) | (reason & 0x0FU)); }
+  std::uint8_t code() const { return static_cast<std::uint8_t>(unsigned{instance} << 4 | (reason & 0x0FU)); }
 };
 
 /// A PDU sent as it is, at the next chance and whatever the state: a request while one is open, a wrong SSAP, nonsense.

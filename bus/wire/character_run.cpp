@@ -16,7 +16,7 @@ bool even_parity(std::uint8_t byte) {
 }
 
 std::uint16_t frame_of(std::uint8_t byte) {
-  return static_cast<std::uint16_t>((byte << 1) | (even_parity(byte) ? kParityBit : 0U) | kStopBit);
+  return static_cast<std::uint16_t>((unsigned{byte} << 1) | (even_parity(byte) ? kParityBit : 0U) | kStopBit);
 }
 
 bool CharacterRun::level(Tick at) const {

@@ -15,7 +15,7 @@ void CheckWatch::add(const std::string& slave) {
   entry.checks = scenario_.kind->make_checks(scenario_.checks);
   entry.allowed.resize(rules);
   entry.listed_of.resize(rules);
-  entry.checks->on_violation([this, &entry](const checks::Violation& violation) { violated(entry, violation); });
+  entry.checks->on_violation([this, &entry](const checks::Violation& violation) { keep(entry, violation); });
 }
 
 void CheckWatch::telegram(const HeardTelegram& telegram) {
@@ -26,7 +26,7 @@ void CheckWatch::finish(Tick end) {
   for (const auto& slave : slaves_) slave->checks->finish(end);
 }
 
-void CheckWatch::violated(Slave& slave, const checks::Violation& violation) {
+void CheckWatch::keep(Slave& slave, const checks::Violation& violation) {
   const std::size_t check = violation.check.index;
   const bool allowed = scenario::allows(scenario_, scenario_.kind->rules()[check].id, slave.name);
   if (allowed) ++slave.allowed.at(check);

@@ -50,7 +50,7 @@ class CheckWatch : public Observer {
     std::vector<std::uint64_t> allowed;  ///< by check
     std::vector<std::size_t> listed_of;
   };
-  void violated(Slave& slave, const checks::Violation& violation);
+  void keep(Slave& slave, const checks::Violation& violation);
 
   const scenario::Scenario& scenario_;
   ChecksMode mode_;

@@ -39,7 +39,7 @@ class ItBlock {
  private:
   static std::uint8_t following(std::uint8_t state) {
     if ((state & 7U) == 0) return 0;
-    return static_cast<std::uint8_t>((state & 0xE0U) | (state << 1U & 0x1FU));
+    return static_cast<std::uint8_t>((state & 0xE0U) | (unsigned{state} << 1U & 0x1FU));
   }
 
   std::uint32_t first_ = 0, next_ = 0, end_ = 0;
