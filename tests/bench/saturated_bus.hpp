@@ -155,7 +155,7 @@ class SaturatedBus {
   }
   void write(const Cell& cell) {
     constexpr Tick kSetup = 240, kStrobe = 600, kHold = 240;  // 20 ns, 50 ns, 20 ns
-    set(0, Pin::kA, cell.address);
+    set(0, Pin::kA, static_cast<Level>(cell.address));
     set(0, Pin::kDIn, cell.value);
     set(0, Pin::kCsr, 0);
     set(kSetup, Pin::kWr, 0);

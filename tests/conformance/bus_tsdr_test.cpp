@@ -74,7 +74,7 @@ TEST_P(Tsdr, IsTheSameForEveryKindAndLengthOfAnswer) {
   bench.to_data_exch(init, {}, GetParam());
   set(33);
   ASSERT_TRUE(is_sc(ask(bench, 62, init.cfg)));
-  const auto expect = [this](const Exchange& exchange) {
+  const auto expect = [](const Exchange& exchange) {
     ASSERT_TRUE(exchange.answered());
     EXPECT_TRUE(is_tsdr(exchange, 33)) << exchange.tsdr_bits();
   };

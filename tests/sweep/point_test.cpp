@@ -28,7 +28,7 @@ json check(const std::string& id, const json& margin, int violations = 0) {
 
 Point with_margin(double margin) {
   json made = run();
-  made["checks"] = {check("HOST_TW", margin, margin < 0 ? 1 : 0)};
+  made["checks"] = json::array({check("HOST_TW", margin, margin < 0 ? 1 : 0)});
   return point_of(0, "", made);
 }
 
@@ -45,7 +45,7 @@ TEST(SweepPoint, ViolatedCheckDoesNotHoldThoughTheRunPassed) {
   EXPECT_TRUE(with_margin(0).holds());
   EXPECT_FALSE(with_margin(-3.5).holds());
   json allowed = run();
-  allowed["checks"] = {check("HOST_TW", -1, 3)};
+  allowed["checks"] = json::array({check("HOST_TW", -1, 3)});
   allowed["checks"][0]["allowed"] = 3;  // a count, as in the result of a run
   EXPECT_TRUE(point_of(0, "", allowed).holds());
   allowed["checks"][0]["allowed"] = 2;
@@ -54,7 +54,7 @@ TEST(SweepPoint, ViolatedCheckDoesNotHoldThoughTheRunPassed) {
 
 TEST(SweepPoint, WorstMarginIsTheLeastOfAllChecksAndSlaves) {
   json made = run();
-  made["checks"] = {check("A", 5.5), check("B", nullptr), check("C", 7), check("C", 2.25)};
+  made["checks"] = json::array({check("A", 5.5), check("B", nullptr), check("C", 7), check("C", 2.25)});
   const Point point = point_of(0, "", made);
   ASSERT_NE(point.worst(), nullptr);
   EXPECT_EQ(point.worst()->id, "C");
@@ -75,7 +75,7 @@ TEST(SweepPoint, FirstViolationIsTheEarliestThatIsNotAllowed) {
   made["slaves"][0]["user_cpu"]["bad_reads"] = 2;
   EXPECT_EQ(point_of(1, "", made).reason(), "2 reads of unknown data; EARLY at 2.000 us: t");
   made["slaves"][0]["user_cpu"]["bad_reads"] = 0;
-  made["checks"] = {check("HOST_TW", -1, 1)};
+  made["checks"] = json::array({check("HOST_TW", -1, 1)});
   made["checks"][0]["listed"] = {{{"at_ns", 1000}, {"margin_ns", -1}, {"text", "too early"}}};
   EXPECT_EQ(point_of(1, "", made).reason(), "HOST_TW at 1.000 us: too early");
 }

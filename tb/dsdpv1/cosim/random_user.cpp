@@ -81,7 +81,8 @@ void RandomUser::initialise() {
 void RandomUser::inputs() {
   bus::Bytes bytes = random_.bytes(setup_.inputs + (random_.one_in(10) ? random_.between(-1, 1) : 0) + 1);
   if (bytes.empty()) bytes.push_back(0);
-  bytes[0] = static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(240, 255) : static_cast<int>(bytes.size()) - 1);
+  bytes[0] =
+      static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(240, 255) : static_cast<int>(bytes.size()) - 1);
   take();
   block(regs::kInput, regs::kInputCrc, bytes);
   if (random_.one_in(4)) write(regs::kUserCommand2, random_.below(4) << 6);  // D16
@@ -93,7 +94,8 @@ void RandomUser::diagnosis() {
   constexpr int kTypes[] = {0x00, 0x01, 0x81, 0x02, 0x82, 0x81, 0x02, 0x55};
   bus::Bytes bytes = random_.bytes(random_.between(2, 2 + std::min(setup_.max_diag + 1, 12)));
   bytes[0] = static_cast<std::uint8_t>(random_.pick(kTypes));
-  bytes[1] = static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(236, 255) : static_cast<int>(bytes.size()) - 2);
+  bytes[1] =
+      static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(236, 255) : static_cast<int>(bytes.size()) - 2);
   take();
   block(regs::kDiag, regs::kDiagCrc, bytes);
   command(regs::kUserCommand1Diag);
