@@ -40,8 +40,8 @@ void write_words(vpiHandle to, std::array<s_vpi_vecval, Count>& words) {
 
 void write_number(vpiHandle to, uint64_t number) {
   std::array<s_vpi_vecval, 2> words{};
-  words[0].aval = static_cast<PLI_INT32>(number & 0xFFFF'FFFFU);
-  words[1].aval = static_cast<PLI_INT32>(number >> 32U);
+  words[0].aval = static_cast<decltype(s_vpi_vecval::aval)>(number & 0xFFFF'FFFFU);
+  words[1].aval = static_cast<decltype(s_vpi_vecval::aval)>(number >> 32U);
   write_words(to, words);
 }
 
@@ -118,7 +118,7 @@ struct Argument<uint32_t*> : Vector {
   uint32_t* pass() { return value.data(); }
   void write(vpiHandle to) {
     std::array<s_vpi_vecval, kWords> words{};
-    for (std::size_t i = 0; i < words.size(); ++i) words[i].aval = static_cast<PLI_INT32>(value[i]);
+    for (std::size_t i = 0; i < words.size(); ++i) words[i].aval = static_cast<decltype(s_vpi_vecval::aval)>(value[i]);
     write_words(to, words);
   }
 };
