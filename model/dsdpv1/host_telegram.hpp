@@ -6,7 +6,7 @@
 
 #include "model/dpram/crc16.hpp"
 #include "model/profibus/event_log.hpp"
-#include "registers/dsdpv1_regs.hpp"
+#include "model/dpram/ram.hpp"
 
 namespace dsdpv1 {
 
