@@ -59,9 +59,9 @@ struct Chip::Impl {
       : engine(config.engine),
         station(log, station_of(config)),
         host(log, ram),
-        serial(log, ram, config),
         interrupt(config.intr_low, config.intr_gap),
-        sequencer(log, ram, station.user(), config.access_interval, config.ready_cycles) {
+        sequencer(log, ram, station.user(), config.access_interval, config.ready_cycles),
+        serial(log, ram, config) {
     interrupt.reset();
     if (engine == Engine::kStep) sequencer.note_moves();  // where inside() is asked for
   }
@@ -71,7 +71,7 @@ struct Chip::Impl {
   void advance(Tick to);
   Tick next_event() const { return std::min(next_edge(), drive_at()); }
   // D of the parallel port, or MISO.
-  Tick drive_at() const { return serial.live() ? serial.drive_at() : host.drive_at(); }
+  Tick drive_at() const { return live ? serial.drive_at() : host.drive_at(); }
   void drive(Tick at);
   Tick next_seen() const;
   Tick next_edge() const { return engine == Engine::kStep ? next_cycle() : planned_edge; }
@@ -95,8 +95,10 @@ struct Chip::Impl {
   void send_bits(Cycle cycle, Tick to);
   bool only_settles(Cycle cycle) const;
   void settle_writes(Cycle cycle);
-  void eval_host(Cycle cycle);
-  bool set_serial(Tick at, Pin pin, Level value);
+  // Not inline: it would make the edges of every chip slower.
+  [[gnu::noinline]] void choose_port(Cycle cycle);
+  [[gnu::noinline]] void eval_serial(Cycle cycle);
+  [[gnu::noinline]] bool set_serial(Tick at, Pin pin, Level value);
   void release(Cycle cycle);
   bool eval_sequencer(Cycle cycle);
   void end_edge(Cycle cycle);
@@ -115,7 +117,7 @@ struct Chip::Impl {
   void catch_up();
   void update_access_pins();
   // L_REQ and L_STA are low where there is no parallel port (R14).
-  std::uint32_t owned_pins() const { return serial.live() ? 0 : kAccessPins; }
+  std::uint32_t owned_pins() const { return live ? 0 : kAccessPins; }
   std::uint32_t access_pins() const { return sequencer.owns() ? owned_pins() : 0; }
   void enter_reset(Tick at);
   std::uint32_t edge_outputs() const;
@@ -130,7 +132,6 @@ struct Chip::Impl {
   Ram ram;
   profibus::Station station;
   HostPort host;
-  SerialPorts serial;
   Handshake handshake;
   Interrupt interrupt;
   dpram::Sequencer sequencer;
@@ -143,7 +144,9 @@ struct Chip::Impl {
   Cycle other_plans = kNever;  // but the station's, as plan() found them
   bool reset_pin = false, running = false, r_req = false, r_sta = false, rxd = true;
   std::uint32_t outputs = kResetLevels;
+  bool live = false;  // the live host port is a serial one
   Level d_out = kLevelZ, miso = kLevelZ;
+  SerialPorts serial;  // behind what every chip uses at each edge
 };
 
 // --- inputs ----------------------------------------------------------------------------------------------------------
@@ -174,7 +177,7 @@ bool Chip::Impl::apply(Tick at, Pin pin, Level value) {
 bool Chip::Impl::set_serial(Tick at, Pin pin, Level value) {
   serial.set(at, pin, value);
   publish_data(at);
-  if (!serial.live()) return false;
+  if (!live) return false;
   plans.host = serial.next();
   return true;
 }
@@ -238,6 +241,7 @@ void Chip::Impl::enter_reset(Tick at) {
   interrupt.reset();
   host.reset();
   serial.reset();
+  live = false;
   plans = {kNever, host.next(), handshake.next(), sequencer.next(), station.next(), interrupt.next()};
   publish_edge_outputs(at, kResetLevels);
   publish_data(at);
@@ -253,8 +257,7 @@ void Chip::Impl::plan() {
 // Nobody hears when the writes of a user who owns the DPRAM settle: he reads them or gives the DPRAM back, and either
 // is a call.
 Tick Chip::Impl::next_seen() const {
-  if (engine == Engine::kStep || sequencer.owns() || serial.live() || host.next_seen() == plans.host)
-    return next_event();
+  if (engine == Engine::kStep || sequencer.owns() || live || host.next_seen() == plans.host) return next_event();
   return std::min(edge_of(std::min(plans.but_the_hosts(), host.next_seen())), host.drive_at());
 }
 
@@ -280,7 +283,7 @@ void Chip::Impl::advance(Tick to) {
 }
 
 void Chip::Impl::drive(Tick at) {
-  serial.live() ? serial.drive() : host.drive();
+  live ? serial.drive() : host.drive();
   publish_data(at);
 }
 
@@ -289,28 +292,30 @@ void Chip::Impl::rising_edge(Cycle cycle) {
   catch_up_line(cycle - 1);
   plans.station = std::min(plans.station, station.unseen());
   const bool released = cycle == plans.release;
-  if (released) serial.release(cycle);
-  if (due(plans.host, cycle) || (released && serial.live())) eval_host(cycle);
+  if (released) choose_port(cycle);
+  if (due(plans.host, cycle)) {
+    sequencer.wake(cycle - 1);  // what the user writes may be a command
+    if (live) {
+      eval_serial(cycle);
+    } else {
+      host.eval(cycle, sequencer.owns() || !sequencer.started_up());
+      plans.host = host.next();
+    }
+    plans.sequencer = sequencer.next();
+  }
   if (released) release(cycle);
   if (due(std::min(plans.handshake, plans.sequencer), cycle)) eval_sequencer(cycle);
-  if (released && !serial.live() && !sequencer.started_up())
+  if (released && !live && !sequencer.started_up())
     log.at_cycle(cycle, Reason::kHeldThroughReset, handshake.r_req(), handshake.r_sta());  // H6
   end_edge(cycle);
 }
 
-void Chip::Impl::eval_host(Cycle cycle) {
-  sequencer.wake(cycle - 1);  // what the user writes may be a command
-  if (serial.live()) {
-    const bool data_exch = station.slave().state() == profibus::DpState::kDataExch;
-    serial.eval(cycle, {sequencer.owns(), sequencer.starts_up(), data_exch});
-    sequencer.user_holds(serial.holds());
-    publish_data(cycle * kTicksPerCycle);
-    plans.host = serial.next();
-  } else {
-    host.eval(cycle, sequencer.owns() || !sequencer.started_up());
-    plans.host = host.next();
-  }
-  plans.sequencer = sequencer.next();
+void Chip::Impl::eval_serial(Cycle cycle) {
+  const bool data_exch = station.slave().state() == profibus::DpState::kDataExch;
+  serial.eval(cycle, {sequencer.owns(), sequencer.starts_up(), data_exch});
+  sequencer.user_holds(serial.holds());
+  publish_data(cycle * kTicksPerCycle);
+  plans.host = serial.next();
 }
 
 void Chip::Impl::end_edge(Cycle cycle) {
@@ -341,8 +346,8 @@ void Chip::Impl::send_bits(Cycle cycle, Tick to) {
 
 // Most edges while the user owns the DPRAM settle a write and nothing else.
 bool Chip::Impl::only_settles(Cycle cycle) const {
-  return engine == Engine::kSkip && !serial.live() && plans.host <= cycle && host.next_seen() > cycle &&
-         !sequencer.owns() && !sequencer.dozing() && cycle < plans.but_the_hosts();
+  return engine == Engine::kSkip && !live && plans.host <= cycle && host.next_seen() > cycle && !sequencer.owns() &&
+         !sequencer.dozing() && cycle < plans.but_the_hosts();
 }
 
 void Chip::Impl::settle_writes(Cycle cycle) {
@@ -390,11 +395,18 @@ void Chip::Impl::access_edge(Cycle cycle) {
     publish_edge(cycle, (outputs & ~kAccessPins) | access_pins());
 }
 
+// By the straps; a serial port begins at this edge.
+void Chip::Impl::choose_port(Cycle cycle) {
+  serial.release(cycle);
+  live = serial.live();
+  if (live) plans.host = cycle;
+}
+
 void Chip::Impl::release(Cycle cycle) {
   running = true;
-  if (!serial.live()) host.release();
+  if (!live) host.release();
   sequencer.judge_crc(serial.judges_crc());
-  sequencer.user_holds(serial.live() ? serial.holds() : handshake.user_holds());
+  sequencer.user_holds(live ? serial.holds() : handshake.user_holds());
   sequencer.start_up(cycle);
   plans.release = kNever;
   plans.sequencer = cycle;
@@ -404,7 +416,7 @@ void Chip::Impl::release(Cycle cycle) {
 bool Chip::Impl::eval_sequencer(Cycle cycle) {
   if (due(plans.handshake, cycle)) {
     handshake.eval(cycle);
-    if (!serial.live()) sequencer.user_holds(handshake.user_holds());
+    if (!live) sequencer.user_holds(handshake.user_holds());
     plans.handshake = handshake.next();
   }
   const bool has_effect = sequencer.eval(cycle);
@@ -463,7 +475,8 @@ void Chip::Impl::update_access_pins() { outputs = (outputs & ~kAccessPins) | acc
 std::uint32_t Chip::Impl::edge_outputs() const {
   return access_pins() | bit(Pin::kIntr0, interrupt.level()) | bit(Pin::kPbtxd, station.txd()) |
          bit(Pin::kPbrts, station.rts()) | bit(Pin::kPbf, station.slave().state() != profibus::DpState::kDataExch) |
-         bit(Pin::kBr, station.baud_found()) | bit(Pin::kReady, sequencer.initialised()) | bit(Pin::kTxd, serial.txd());
+         bit(Pin::kBr, station.baud_found()) | bit(Pin::kReady, sequencer.initialised()) |
+         bit(Pin::kTxd, !live || serial.txd());
 }
 
 void Chip::Impl::publish_edge(Cycle cycle, std::uint32_t levels) {
@@ -486,7 +499,7 @@ void Chip::Impl::publish_data(Tick at) {
     if (std::exchange(told, level) != level && (watched & mask(pin)) != 0) sink.call(sink.self, at, pin, level);
   };
   publish(Pin::kDOut, d_out, host.d_out());
-  publish(Pin::kMiso, miso, serial.miso());
+  if (live || miso != kLevelZ) publish(Pin::kMiso, miso, serial.miso());
 }
 
 void Chip::Impl::report_ownership(Tick at) {
