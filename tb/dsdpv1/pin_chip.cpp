@@ -13,7 +13,7 @@ constexpr PinMask kBusPins = dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrt
 
 // So that profibus::addressee is a bus::RunReader.
 static_assert(profibus::kNoTelegram == bus::kNoTelegram && profibus::kForNobody == bus::kForNobody &&
-              profibus::kForAll == bus::kForAll);
+              profibus::kBroadcast == bus::kBroadcast);
 
 }  // namespace
 
