@@ -31,9 +31,16 @@ static void recover(const dsdpv1_device* device) {
     if (port->receive(port->ctx, port->bytes, DSDPV1_UART_TELEGRAM, silence) == 0u) return;
 }
 
+/* `receive` has seen the middle of a reply's last stop bit; the chip hears again after its end (UA16). */
+static bool send_telegram(dsdpv1_device* device, uint16_t n) {
+  dsdpv1_uart* port = device->port.uart;
+  pass_time(device, 1000000000u / port->baud + 1u);
+  return port->send(port->ctx, port->bytes, n);
+}
+
 static bool transfer(dsdpv1_device* device, uint16_t request, uint16_t most, dsdpv1_reply* reply) {
   dsdpv1_uart* port = device->port.uart;
-  if (!port->send(port->ctx, port->bytes, request)) return false;
+  if (!send_telegram(device, request)) return false;
   reply->bytes = port->bytes;
   reply->length = port->receive(port->ctx, port->bytes, most, reply_timeout_us(port));
   return true;
@@ -167,7 +174,7 @@ static dsdpv1_error swap_once(dsdpv1_device* device, const source* from, answer*
   uint8_t n = 0;
   const dsdpv1_error error = prepare(device, from, &n);
   if (error != DSDPV1_OK) return error;
-  if (!port->send(port->ctx, port->bytes, wrap(port, from->address, n))) return DSDPV1_ERR_NO_REPLY;
+  if (!send_telegram(device, wrap(port, from->address, n))) return DSDPV1_ERR_NO_REPLY;
   return receive_answer(port, reply);
 }
 

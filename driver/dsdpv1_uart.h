@@ -42,7 +42,11 @@ typedef struct dsdpv1_uart {
    * number. What comes between two calls is kept (a FIFO, a buffer); characters with an error are left out.
    */
   uint16_t (*receive)(void* ctx, uint8_t* bytes, uint16_t n, uint32_t timeout_us);
-  void (*pause)(void* ctx, uint32_t ns); /* lets at least `ns` pass; may be null when polling without a pause is welcome */
+  /*
+   * Lets at least `ns` pass. May be null when polling without a pause is welcome, and a bit time passes anyway between
+   * the return of `receive` and the start bit of the next telegram.
+   */
+  void (*pause)(void* ctx, uint32_t ns);
   uint32_t baud;                         /* bit/s, 9600..1843200 (pins UBR) */
   uint8_t address;                       /* of the chip: 1 or 2 (pins ADR) */
   uint16_t interval;                     /* half characters of silence that end a telegram (UA3); 0: 7 */
