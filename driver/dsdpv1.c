@@ -74,7 +74,11 @@ void dsdpv1_get_block(dsdpv1_device* device, uint16_t address, uint8_t* bytes, u
 
 void dsdpv1_put_block(dsdpv1_device* device, const dsdpv1_block* block) {
   put_spans(device, block->address, block->head, block->data);
-  if (!device->link->writes_crc) return;
+  dsdpv1_put_crc(device, block);
+}
+
+void dsdpv1_put_crc(dsdpv1_device* device, const dsdpv1_block* block) {
+  if (!device->block_crc) return;
   const uint8_t crc[2] = {(uint8_t)(block->crc >> 8), (uint8_t)(block->crc & 0xFFu)};
   put_bytes(device, block->crc_address, crc, sizeof crc);
 }

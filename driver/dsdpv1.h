@@ -205,6 +205,7 @@ typedef struct dsdpv1_device {
   dsdpv1_any_port port;
   dsdpv1_judge judge;
   dsdpv1_tuning tuning;
+  bool block_crc;              /* the chip looks at the CRCs of the user's blocks */
   dsdpv1_error fault;          /* of a telegram in the hold that is open; then nothing more is moved in it */
   volatile bool held;          /* a hold is open or being asked for */
   volatile bool servicing;     /* dsdpv1_service is at work: its block copies are in use */

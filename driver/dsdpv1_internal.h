@@ -50,7 +50,6 @@ typedef struct dsdpv1_copy {
  * device->fault is OK, but for `release`.
  */
 typedef struct dsdpv1_link {
-  bool writes_crc; /* the chip looks at the CRCs of the user's blocks (SP15) */
   bool reads_crc;  /* those of the chip's blocks say whether they were read as a whole and rightly */
   void (*pause)(const dsdpv1_device* device, uint32_t ns);
   dsdpv1_error (*hold)(dsdpv1_device* device); /* after an error nothing is held */
@@ -96,7 +95,9 @@ dsdpv1_error dsdpv1_hold_when_taken(dsdpv1_device* device, uint8_t flag, dsdpv1_
 uint8_t dsdpv1_get(dsdpv1_device* device, uint16_t address);
 void dsdpv1_put(dsdpv1_device* device, uint16_t address, uint8_t value);
 void dsdpv1_get_block(dsdpv1_device* device, uint16_t address, uint8_t* bytes, uint8_t length);
-/* With its CRC, where the chip looks at it. */
+/* The block's CRC, where the chip looks at it: on the parallel port (SP15). */
+void dsdpv1_put_crc(dsdpv1_device* device, const dsdpv1_block* block);
+/* The block, then its CRC. */
 void dsdpv1_put_block(dsdpv1_device* device, const dsdpv1_block* block);
 /* 16 bits, high byte first. */
 uint16_t dsdpv1_get_word(dsdpv1_device* device, uint16_t address);

@@ -83,8 +83,7 @@ static dsdpv1_error put(dsdpv1_device* device, uint16_t address, dsdpv1_span hea
   return DSDPV1_OK;
 }
 
-static const dsdpv1_link kParallel = {.writes_crc = true,
-                                      .reads_crc = true,
+static const dsdpv1_link kParallel = {.reads_crc = true,
                                       .pause = pass_time,
                                       .hold = hold,
                                       .release = lower_lines,
@@ -100,5 +99,6 @@ dsdpv1_error dsdpv1_open(dsdpv1_device* device, const dsdpv1_port* port, const d
   if (device == NULL || port == NULL || !port_is_complete(port)) return DSDPV1_ERR_ARGUMENT;
   dsdpv1_open_link(device, &kParallel, judge);
   device->port.parallel = *port;
+  device->block_crc = true;
   return DSDPV1_OK;
 }

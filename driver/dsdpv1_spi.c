@@ -6,7 +6,7 @@
 
 #include "dsdpv1_serial_internal.h"
 
-enum { kOwnership = 0x014, kClaimed = 0x02, kIdle = 0xFF };
+enum { kIdle = 0xFF };
 
 static void pass_time(const dsdpv1_device* device, uint32_t ns) {
   const dsdpv1_spi* port = device->port.spi;
@@ -38,7 +38,7 @@ static dsdpv1_error write_ownership(dsdpv1_device* device, uint8_t value) {
   const dsdpv1_wire wire = wire_of(device);
   const dsdpv1_span head = {&value, 1};
   const dsdpv1_span none = {NULL, 0};
-  return dsdpv1_write_cells(device, &wire, kOwnership, head, none);
+  return dsdpv1_write_cells(device, &wire, DSDPV1_REG_OWNERSHIP, head, none);
 }
 
 static dsdpv1_error release(dsdpv1_device* device) { return write_ownership(device, 0); }
@@ -51,7 +51,7 @@ static dsdpv1_error hold(dsdpv1_device* device) {
   dsdpv1_error error = DSDPV1_ERR_DPRAM_BUSY;
   device->port.spi->serial.known = false;
   for (uint32_t polls = device->tuning.acquire_polls; polls != 0u && error == DSDPV1_ERR_DPRAM_BUSY; --polls)
-    error = write_ownership(device, kClaimed);
+    error = write_ownership(device, DSDPV1_REG_OWNERSHIP_HOST);
   if (error == DSDPV1_ERR_REPLY) release(device);
   return error;
 }
@@ -84,7 +84,10 @@ static dsdpv1_error read_and_write(dsdpv1_device* device, const dsdpv1_block* in
 static dsdpv1_error exchange(dsdpv1_device* device, const dsdpv1_block* inputs, dsdpv1_copy* outputs, bool* fetched) {
   const uint8_t command = dsdpv1_get(device, DSDPV1_REG_CHIP_COMMAND_1);
   *fetched = (command & DSDPV1_REG_CHIP_COMMAND_1_OUTPUT) != 0u;
-  if (*fetched) return read_and_write(device, inputs, outputs);
+  if (*fetched) {
+    dsdpv1_put_crc(device, inputs);
+    return device->fault != DSDPV1_OK ? device->fault : read_and_write(device, inputs, outputs);
+  }
   const uint8_t waiting = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1);
   dsdpv1_put_block(device, inputs);
   dsdpv1_announce(device, DSDPV1_REG_USER_COMMAND_1, waiting, 0, DSDPV1_REG_USER_COMMAND_1_INPUT);
@@ -102,5 +105,6 @@ dsdpv1_error dsdpv1_open_spi(dsdpv1_device* device, dsdpv1_spi* port, const dsdp
   memset(&port->serial, 0, sizeof port->serial);
   port->serial.bytes = port->bytes;
   device->port.spi = port;
+  device->block_crc = port->block_crc;
   return DSDPV1_OK;
 }

@@ -38,6 +38,7 @@ typedef struct dsdpv1_spi {
   void (*pause)(void* ctx, uint32_t ns); /* lets at least `ns` pass; may be null when polling without a pause is welcome */
   uint8_t address;                       /* of the chip: 1 or 2 (pins ADR) */
   uint8_t spare; /* 0..DSDPV1_SPI_SPARE: bytes by which a reply may come later than right after the request (SP6) */
+  bool block_crc; /* the chip judges the CRCs of blocks in the DPRAM, too (SP15) */
   /* ---------------------------------------------------------------------------------------------- the driver's own */
   dsdpv1_serial serial;
   uint8_t bytes[DSDPV1_SPI_FRAME];

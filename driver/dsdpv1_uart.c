@@ -245,6 +245,8 @@ static dsdpv1_error swap_inputs(dsdpv1_device* device, const source* from, const
 
 static dsdpv1_error exchange(dsdpv1_device* device, const dsdpv1_block* inputs, dsdpv1_copy* outputs, bool* fetched) {
   const source from = {DSDPV1_REG_INPUT_LENGTH, inputs};
+  dsdpv1_put_crc(device, inputs);
+  if (device->fault != DSDPV1_OK) return device->fault;
   return swap_inputs(device, &from, NULL, outputs, fetched);
 }
 
@@ -314,6 +316,8 @@ static dsdpv1_error announce(dsdpv1_device* device, uint16_t command, uint8_t cl
 static dsdpv1_error post(dsdpv1_device* device, const dsdpv1_block* block) {
   const source from = {block->address, block};
   answer reply = {0, {NULL, 0}};
+  dsdpv1_put_crc(device, block);
+  if (device->fault != DSDPV1_OK) return device->fault;
   device->port.uart->serial.known = false; /* the flag is set */
   return swap(device, &from, &reply);
 }
@@ -352,5 +356,6 @@ dsdpv1_error dsdpv1_open_uart(dsdpv1_device* device, dsdpv1_uart* port, const ds
   port->serial.bytes = port->bytes;
   port->outputs_crc = dsdpv1_crc_byte(DSDPV1_CRC_START, 0); /* of no outputs */
   device->port.uart = port;
+  device->block_crc = port->block_crc;
   return DSDPV1_OK;
 }

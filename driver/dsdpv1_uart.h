@@ -51,6 +51,7 @@ typedef struct dsdpv1_uart {
   uint8_t address;                       /* of the chip: 1 or 2 (pins ADR) */
   uint16_t interval;                     /* half characters of silence that end a telegram (UA3); 0: 7 */
   uint16_t tsdr;                         /* bit times until a reply (UA4), as B01A; 0: 11 */
+  bool block_crc;                        /* the chip judges the CRCs of blocks in the DPRAM, too (SP15) */
   /* ---------------------------------------------------------------------------------------------- the driver's own */
   dsdpv1_serial serial;
   uint8_t at_risk[2];   /* flags of B00E, B00F that stood when the reply to an exchange was destroyed */

@@ -25,24 +25,24 @@ constexpr std::size_t kFaultAt = 2;  ///< byte of a telegram that goes wrong
 
 }  // namespace
 
-SerialPort::SerialPort(Cpu& cpu, const HostPort& port) : cpu_(cpu), port_(port) {
-  SerialPins& pins = cpu.serial_pins();
-  if (const auto* spi = std::get_if<SpiPort>(&port.port)) sender_.emplace<SpiMaster>(pins, spi->timing);
+SerialPort::SerialPort(Cpu& cpu, const HostPort& port) : cpu_(cpu), pins_(cpu.serial_pins()), port_(port) {
+  if (const auto* spi = std::get_if<SpiPort>(&port.port)) sender_.emplace<SpiMaster>(pins_, spi->timing);
   if (const auto* uart = std::get_if<UartPort>(&port.port)) {
-    sender_.emplace<UartSender>(pins, uart->timing);
+    sender_.emplace<UartSender>(pins_, uart->timing);
     receiver_ = UartReceiver(uart->timing);
-    pins.on_txd = [this](Tick at, bool level) {
+    pins_.on_txd = [this](Tick at, bool level) {
       receiver_.txd_changed(at, level);
       cpu_.transfer_changed();
     };
   }
 }
 
-SerialPort::~SerialPort() { cpu_.serial_pins().on_txd = nullptr; }
+SerialPort::~SerialPort() { pins_.on_txd = nullptr; }
 
 dsdpv1_error SerialPort::open(dsdpv1_device& device, const dsdpv1_judge& judge) {
   spi_.ctx = uart_.ctx = this;
   spi_.address = uart_.address = port_.address;
+  spi_.block_crc = uart_.block_crc = port_.block_crc;
   spi_.pause = uart_.pause = [](void* ctx, std::uint32_t ns) { self(ctx).pause(ns); };
   dsdpv1_error error = DSDPV1_OK;
   if (const auto* spi = std::get_if<SpiPort>(&port_.port)) {

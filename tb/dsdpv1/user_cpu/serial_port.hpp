@@ -30,6 +30,7 @@ struct UartPort {
 struct HostPort {
   std::variant<std::monostate, SpiPort, UartPort> port;  ///< the first: the parallel one
   std::uint8_t address = 1;                              ///< ADR of the chip
+  bool block_crc = false;                                ///< dsdpv1_spi's and dsdpv1_uart's
 };
 
 enum class TelegramFault : std::uint8_t { kFlippedBit, kCut, kWrongParity };
@@ -58,6 +59,7 @@ class SerialPort {
   bool is_spoilt(TelegramFault fault);
 
   Cpu& cpu_;
+  SerialPins& pins_;  ///< outlives the CPU
   HostPort port_;
   std::variant<std::monostate, SpiMaster, UartSender> sender_;
   UartReceiver receiver_{{}};
