@@ -79,5 +79,39 @@ TEST(HostPorts, TheBusHearsTheSameThroughAllOfThem) {
   for (const char* other : {"rsu_spi", "rsu_uart", "r"}) EXPECT_EQ(heard_in(other).pairs, parallel) << other;
 }
 
+/// A run of a shipped scenario with these orders besides; its log.
+std::string with_orders(const std::string& scenario, const std::vector<std::string>& orders) {
+  const app_test::Folder folder;
+  const std::filesystem::path shipped = std::filesystem::path(DSDPV1_SOURCE_DIR) / "scenarios";
+  std::filesystem::copy(shipped / "dsdpv1.gsd", folder.path() / "dsdpv1.gsd");
+  std::string text = app_test::read(shipped / (scenario + ".yaml"));
+  std::string script = "script:\n";
+  for (const std::string& order : orders) script += "  - {at: 120ms, do: " + order + ", slave: drive, times: 2}\n";
+  text.replace(text.find("script:\n"), 8, script);
+  std::ofstream(folder.file("run.yaml")) << text;
+  const auto called = call("run run.yaml --log log.txt -q", folder.path());
+  EXPECT_EQ(called.status, 0) << scenario << called.err;
+  return app_test::read(folder.path() / "log.txt");
+}
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(HostPorts, TelegramsThatGoWrongOverSpiAreRepeated) {
+  EXPECT_THAT(with_orders("rsu_spi", {"flip_bit"}), HasSubstr("TELEGRAM_CRC"));
+  const std::string cut = with_orders("rsu_spi", {"cut_telegram"});
+  EXPECT_THAT(cut, HasSubstr("SPI_BITS"));
+  EXPECT_THAT(cut, HasSubstr("TELEGRAM_CUT"));
+  EXPECT_THAT(cut, Not(HasSubstr("the driver's")));
+}
+
+TEST(HostPorts, TelegramsThatGoWrongOverTheUartAreRepeated) {
+  EXPECT_THAT(with_orders("rsu_uart", {"flip_bit"}), HasSubstr("TELEGRAM_CRC"));
+  EXPECT_THAT(with_orders("rsu_uart", {"cut_telegram"}), HasSubstr("TELEGRAM_CUT"));
+  const std::string parity = with_orders("rsu_uart", {"wrong_parity"});
+  EXPECT_THAT(parity, HasSubstr("UART_PARITY"));
+  EXPECT_THAT(parity, Not(HasSubstr("the driver's")));
+}
+
 }  // namespace
 }  // namespace dsdpv1

@@ -100,6 +100,20 @@ TEST_P(Serial, RepliesThatStayWrongAreAnErrorOfTheirOwn) {
   EXPECT_EQ(exchange({1}), DSDPV1_ERR_REPLY);
 }
 
+TEST_P(Serial, ABlockCrcIsWrittenForAChipThatJudgesIt) {
+  rsu.spi.block_crc = rsu.uart.block_crc = true;
+  ASSERT_EQ(rsu.open(GetParam(), device, judge), DSDPV1_OK);
+  chip.looks_at_crcs = true;
+  initialise();
+  for (const std::uint8_t input : Bytes{1, 2}) {  // with new outputs, and without
+    if (input == 2) chip.put_outputs({7});
+    EXPECT_EQ(exchange({input}), DSDPV1_OK);
+    EXPECT_THAT(chip.inputs, ElementsAre(input));
+  }
+  EXPECT_EQ(dsdpv1_set_diagnosis(&device, DSDPV1_DIAG_STATIC, nullptr, 0), DSDPV1_OK);
+  EXPECT_THAT(chip.diagnosis, ElementsAre(0x82, 0));
+}
+
 TEST_P(Serial, AChipInItsResetIsWaitedFor) {
   rsu.deaf = 30;
   EXPECT_EQ(dsdpv1_wait_ready(&device), DSDPV1_OK);
