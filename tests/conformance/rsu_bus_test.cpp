@@ -11,6 +11,8 @@ Config rsu() {
   return config;
 }
 
+constexpr std::uint8_t kUserJudges = 2;
+
 /// A slave with one input and one output byte, whose host is at the UART.
 class RsuUartOnBus : public ::testing::Test {
  protected:
@@ -21,15 +23,17 @@ class RsuUartOnBus : public ::testing::Test {
   }
   void SetUp() override {
     bench_.power_on();
-    Init init;
+    initialise({});
+    ASSERT_TRUE(bench_.set_prm({}).answered());
+    ASSERT_TRUE(bench_.check_cfg({0x10, 0x20}).answered());
+  }
+  void initialise(Init init) {
     init.cfg = {0x10, 0x20};
     write(0x020, init.block());
     write(0x010, {0x04});
     bench_.run_cycles(200);
     ASSERT_EQ(bench_.peek(0x00A) & 1, 1);
     bench_.find_baud();
-    ASSERT_TRUE(bench_.set_prm({}).answered());
-    ASSERT_TRUE(bench_.check_cfg({0x10, 0x20}).answered());
   }
   void send(const Bytes& bytes) {
     for (const std::uint8_t byte : bytes) {
@@ -109,6 +113,26 @@ TEST_F(RsuUartOnBus, NewParametersAndConfiguration) {
   EXPECT_EQ(part_of(exchange(), 0, 4), (Bytes{0x01, 0x11, 0x04, 0x10}));
   EXPECT_EQ(exchange(), with_crc({0x01, 0x21, 0x05, 0x00, 0x05, 0x01, 0x01, 0x02, 0x10, 0x20}));
   EXPECT_EQ(exchange(), with_crc({0x01, 0x01, 0x03, 0x19, 0x02, 0x01, 0xAA}));
+}
+
+// UA15: judging mode 2, the verdicts by write telegrams to B00C, then B010.
+TEST_F(RsuUartOnBus, VerdictByAWrite) {
+  Init init;
+  init.prm_mode = init.cfg_mode = kUserJudges;
+  initialise(init);
+  ASSERT_TRUE(bench_.set_prm({}).answered());
+  bench_.run_cycles(200);
+  EXPECT_EQ(bench_.peek(0x00E) & 0x02, 0x02);
+  write(0x00C, {0x00});
+  write(0x010, {0x80});
+  bench_.run_cycles(200);
+  EXPECT_EQ(bench_.dp_state(), DpState::kWaitCfg);
+  ASSERT_TRUE(bench_.check_cfg({0x10, 0x20}).answered());
+  bench_.run_cycles(200);
+  write(0x00C, {0x02});
+  write(0x010, {0x40});
+  bench_.run_cycles(200);
+  EXPECT_EQ(bench_.dp_state(), DpState::kWaitPrm) << "refused";
 }
 
 }  // namespace
