@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "registers/dsdpv1_regs.h"
 #include "tb/dsdpv1/user_cpu/orders.hpp"
 
 extern "C" {
