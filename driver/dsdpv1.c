@@ -91,8 +91,7 @@ uint16_t dsdpv1_get_word(dsdpv1_device* device, uint16_t address) {
 
 void dsdpv1_before_fetch(dsdpv1_device* device, uint16_t command, uint8_t flags) {
   const dsdpv1_link* link = device->link;
-  if (link->take_flags != NULL && device->fault == DSDPV1_OK)
-    device->fault = link->take_flags(device, command, flags);
+  if (link->take_flags != NULL && device->fault == DSDPV1_OK) device->fault = link->take_flags(device, command, flags);
 }
 
 void dsdpv1_after_fetch(dsdpv1_device* device, uint16_t command, uint8_t seen, uint8_t flags) {

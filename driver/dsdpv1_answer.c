@@ -8,9 +8,8 @@ typedef struct answer_area {
   uint8_t error_bit;
 } answer_area;
 
-static const answer_area kAnswers[kChannels] = {
-    {DSDPV1_REG_C1, DSDPV1_REG_C1_CRC, DSDPV1_REG_CHIP_STATUS_2_C1_CRC},
-    {DSDPV1_REG_C2, DSDPV1_REG_C2_CRC, DSDPV1_REG_CHIP_STATUS_2_C2_CRC}};
+static const answer_area kAnswers[kChannels] = {{DSDPV1_REG_C1, DSDPV1_REG_C1_CRC, DSDPV1_REG_CHIP_STATUS_2_C1_CRC},
+                                                {DSDPV1_REG_C2, DSDPV1_REG_C2_CRC, DSDPV1_REG_CHIP_STATUS_2_C2_CRC}};
 
 enum { kErrorBit = 0x80 }; /* of Function_Num (tables 27, 32) */
 

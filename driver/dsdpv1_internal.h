@@ -5,7 +5,8 @@
 #include "dsdpv1.h"
 #include "registers/dsdpv1_regs.h"
 
-/* ------------------------------------------------------------------------------------------------------------ blocks */
+/* ------------------------------------------------------------------------------------------------------------ blocks
+ */
 
 typedef struct dsdpv1_span {
   const uint8_t* bytes;
@@ -43,14 +44,15 @@ typedef struct dsdpv1_copy {
   uint16_t crc;
 } dsdpv1_copy;
 
-/* -------------------------------------------------------------------------------------------------------------- port */
+/* -------------------------------------------------------------------------------------------------------------- port
+ */
 
 /*
  * What a port can do. Functions that return an error are called inside a hold only, but for `hold`, and only while
  * device->fault is OK, but for `release`.
  */
 typedef struct dsdpv1_link {
-  bool reads_crc;  /* those of the chip's blocks say whether they were read as a whole and rightly */
+  bool reads_crc; /* those of the chip's blocks say whether they were read as a whole and rightly */
   void (*pause)(const dsdpv1_device* device, uint32_t ns);
   dsdpv1_error (*hold)(dsdpv1_device* device); /* after an error nothing is held */
   dsdpv1_error (*release)(dsdpv1_device* device);
@@ -103,8 +105,8 @@ void dsdpv1_put_block(dsdpv1_device* device, const dsdpv1_block* block);
 uint16_t dsdpv1_get_word(dsdpv1_device* device, uint16_t address);
 
 /*
- * Flags that the chip sets (`command` B00E or B00F, which reads `seen`) are taken around the reading of their blocks, so
- * that one set afterwards means a newer block: where a hold keeps the chip away after it, else before it.
+ * Flags that the chip sets (`command` B00E or B00F, which reads `seen`) are taken around the reading of their blocks,
+ * so that one set afterwards means a newer block: where a hold keeps the chip away after it, else before it.
  */
 void dsdpv1_before_fetch(dsdpv1_device* device, uint16_t command, uint8_t flags);
 void dsdpv1_after_fetch(dsdpv1_device* device, uint16_t command, uint8_t seen, uint8_t flags);

@@ -83,12 +83,8 @@ static dsdpv1_error put(dsdpv1_device* device, uint16_t address, dsdpv1_span hea
   return DSDPV1_OK;
 }
 
-static const dsdpv1_link kParallel = {.reads_crc = true,
-                                      .pause = pass_time,
-                                      .hold = hold,
-                                      .release = lower_lines,
-                                      .get = get,
-                                      .put = put};
+static const dsdpv1_link kParallel = {
+    .reads_crc = true, .pause = pass_time, .hold = hold, .release = lower_lines, .get = get, .put = put};
 
 static bool port_is_complete(const dsdpv1_port* port) {
   return port->read != NULL && port->write != NULL && port->set_r_req != NULL && port->set_r_sta != NULL &&

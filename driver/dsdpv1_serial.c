@@ -4,7 +4,8 @@
 
 #include "dsdpv1_serial_internal.h"
 
-/* --------------------------------------------------------------------------------------------------------- telegrams */
+/* --------------------------------------------------------------------------------------------------------- telegrams
+ */
 
 uint16_t dsdpv1_seal(uint8_t* bytes, uint16_t n) {
   const uint16_t crc = dsdpv1_crc(DSDPV1_CRC_START, bytes, n);
@@ -86,7 +87,8 @@ dsdpv1_error dsdpv1_transact(dsdpv1_device* device, const dsdpv1_wire* wire, con
   }
 }
 
-/* ------------------------------------------------------------------------------------------------------------- cells */
+/* ------------------------------------------------------------------------------------------------------------- cells
+ */
 
 dsdpv1_error dsdpv1_read_cells(dsdpv1_device* device, const dsdpv1_wire* wire, uint16_t address, dsdpv1_span* data,
                                uint8_t length) {
@@ -112,8 +114,7 @@ uint8_t* dsdpv1_status_cell(dsdpv1_serial* serial, uint16_t address) {
 dsdpv1_error dsdpv1_know_status(dsdpv1_device* device, const dsdpv1_wire* wire) {
   if (wire->serial->known) return DSDPV1_OK;
   dsdpv1_span data = {NULL, 0};
-  const dsdpv1_error error =
-      dsdpv1_read_cells(device, wire, DSDPV1_REG_CHIP_STATUS_1, &data, DSDPV1_STATUS_CELLS);
+  const dsdpv1_error error = dsdpv1_read_cells(device, wire, DSDPV1_REG_CHIP_STATUS_1, &data, DSDPV1_STATUS_CELLS);
   if (error != DSDPV1_OK) return error;
   memcpy(wire->serial->status, data.bytes, DSDPV1_STATUS_CELLS);
   wire->serial->known = true;

@@ -17,9 +17,9 @@ typedef struct dsdpv1_serial {
   uint8_t* bytes; /* where telegrams are put together and taken apart: in the port */
   bool known;     /* `status` has been read in this hold */
   uint8_t status[DSDPV1_STATUS_CELLS];
-  uint8_t error_code;    /* of the telegram refused last, 7.1.6 note 1: bit 0 CRC, 1 address, 2 length of the data, 3 of
-                            the telegram */
-  uint32_t repetitions;  /* telegrams that were sent again since the port was opened */
+  uint8_t error_code;   /* of the telegram refused last, 7.1.6 note 1: bit 0 CRC, 1 address, 2 length of the data, 3 of
+                           the telegram */
+  uint32_t repetitions; /* telegrams that were sent again since the port was opened */
 } dsdpv1_serial;
 
 #ifdef __cplusplus

@@ -26,8 +26,8 @@ typedef struct dsdpv1_wire {
   dsdpv1_serial* serial;
   uint8_t address;
   /*
-   * Sends the first `request` of serial->bytes and receives up to `most` bytes; their place is the port's, their number 0
-   * when there are none. False when the port's own function failed.
+   * Sends the first `request` of serial->bytes and receives up to `most` bytes; their place is the port's, their number
+   * 0 when there are none. False when the port's own function failed.
    */
   bool (*transfer)(dsdpv1_device* device, uint16_t request, uint16_t most, dsdpv1_reply* reply);
   void (*recover)(const dsdpv1_device* device); /* before a telegram is sent again */
@@ -48,8 +48,8 @@ bool dsdpv1_sealed(const dsdpv1_reply* reply);
 /* `head` and `data` from `to` on; the place behind them. */
 uint8_t* dsdpv1_copy_spans(uint8_t* to, dsdpv1_span head, dsdpv1_span data);
 /*
- * One telegram and its reply, repeated as often as the tuning allows. `data` of the reply are in the port's memory until
- * the next telegram. Errors: DPRAM_BUSY (code 00, SP13; not repeated), NO_REPLY, REPLY, TELEGRAM.
+ * One telegram and its reply, repeated as often as the tuning allows. `data` of the reply are in the port's memory
+ * until the next telegram. Errors: DPRAM_BUSY (code 00, SP13; not repeated), NO_REPLY, REPLY, TELEGRAM.
  */
 dsdpv1_error dsdpv1_transact(dsdpv1_device* device, const dsdpv1_wire* wire, const dsdpv1_order* order,
                              dsdpv1_span* data);

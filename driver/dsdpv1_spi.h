@@ -8,8 +8,8 @@
  *   dsdpv1_open_spi(&chip, &spi, &judge);
  *
  * Then everything is as on the parallel port. A hold is a claim by B014 (SP12), tried again while the chip is in an
- * access (reply E0 + address, code 00). Reads and writes are one telegram for a block; dsdpv1_exchange hands over inputs
- * and fetches new outputs in one read-and-write telegram. Telegrams without a right reply are sent again
+ * access (reply E0 + address, code 00). Reads and writes are one telegram for a block; dsdpv1_exchange hands over
+ * inputs and fetches new outputs in one read-and-write telegram. Telegrams without a right reply are sent again
  * (tuning.telegram_retries). The chip wants 2.7 us between a write telegram and the next frame (SP9): at clocks up to
  * 11.8 MHz the four bytes of the reply last that long.
  */
@@ -35,9 +35,10 @@ typedef struct dsdpv1_spi {
    * same memory: a byte is stored after it has been sent. False when the frame could not be made; it is tried again.
    */
   bool (*exchange)(void* ctx, const uint8_t* out, uint8_t* in, uint16_t n);
-  void (*pause)(void* ctx, uint32_t ns); /* lets at least `ns` pass; may be null when polling without a pause is welcome */
-  uint8_t address;                       /* of the chip: 1 or 2 (pins ADR) */
-  uint8_t spare; /* 0..DSDPV1_SPI_SPARE: bytes by which a reply may come later than right after the request (SP6) */
+  void (*pause)(void* ctx,
+                uint32_t ns); /* lets at least `ns` pass; may be null when polling without a pause is welcome */
+  uint8_t address;            /* of the chip: 1 or 2 (pins ADR) */
+  uint8_t spare;  /* 0..DSDPV1_SPI_SPARE: bytes by which a reply may come later than right after the request (SP6) */
   bool block_crc; /* the chip judges the CRCs of blocks in the DPRAM, too (SP15) */
   /* ---------------------------------------------------------------------------------------------- the driver's own */
   dsdpv1_serial serial;

@@ -52,7 +52,8 @@ static dsdpv1_wire wire_of(dsdpv1_device* device) {
   return wire;
 }
 
-/* --------------------------------------------------------------------------------------------------------- exchanges */
+/* --------------------------------------------------------------------------------------------------------- exchanges
+ */
 
 enum { kExchangeHead = 5, kFunctionDiagnosis = 0x02, kFunctionDataExchange = 0x01, kFunctionError = 0x80 };
 
@@ -82,11 +83,10 @@ static const news* news_of(const answer* reply) {
   return &kOutputsCome;
 }
 
-static uint8_t* noted(dsdpv1_uart* port, uint16_t command) {
-  return &port->news[command - DSDPV1_REG_CHIP_COMMAND_1];
-}
+static uint8_t* noted(dsdpv1_uart* port, uint16_t command) { return &port->news[command - DSDPV1_REG_CHIP_COMMAND_1]; }
 
-/* Target, function, address and length before `n` bytes of data that stand in the port's memory already; the CRC behind. */
+/* Target, function, address and length before `n` bytes of data that stand in the port's memory already; the CRC
+ * behind. */
 static uint16_t wrap(dsdpv1_uart* port, uint16_t address, uint8_t n) {
   const uint8_t head[kExchangeHead] = {(uint8_t)(kStartBoth | port->address),
                                        address == DSDPV1_REG_DIAG ? kFunctionDiagnosis : 0u, (uint8_t)(address >> 8),
@@ -189,7 +189,8 @@ static dsdpv1_error swap(dsdpv1_device* device, const source* from, answer* repl
   }
 }
 
-/* ---------------------------------------------------------------------------------------------------- inputs, outputs */
+/* ---------------------------------------------------------------------------------------------------- inputs, outputs
+ */
 
 static void keep_outputs(const answer* reply, dsdpv1_copy* outputs, uint16_t crc) {
   const uint8_t length = reply->data.bytes[0];
@@ -199,8 +200,8 @@ static void keep_outputs(const answer* reply, dsdpv1_copy* outputs, uint16_t crc
 }
 
 /*
- * Outputs in a reply clear B00E.0 without telling whether they were new. They are when the flag stood before, or when they
- * differ from the last ones: they came between.
+ * Outputs in a reply clear B00E.0 without telling whether they were new. They are when the flag stood before, or when
+ * they differ from the last ones: they came between.
  */
 static bool take_outputs(dsdpv1_device* device, const answer* reply, dsdpv1_copy* outputs) {
   dsdpv1_uart* port = device->port.uart;
@@ -250,7 +251,8 @@ static dsdpv1_error exchange(dsdpv1_device* device, const dsdpv1_block* inputs, 
   return swap_inputs(device, &from, NULL, outputs, fetched);
 }
 
-/* ------------------------------------------------------------------------------------------------------------- flags */
+/* ------------------------------------------------------------------------------------------------------------- flags
+ */
 
 static dsdpv1_error get(dsdpv1_device* device, uint16_t address, uint8_t* bytes, uint8_t length) {
   const dsdpv1_wire wire = wire_of(device);
@@ -287,7 +289,7 @@ static dsdpv1_error take_flags(dsdpv1_device* device, uint16_t command, uint8_t 
       error = swap_inputs(device, &from, &kNews[i], NULL, &fetched);
   if (error == DSDPV1_OK && stands(port, &kOutputsCome, command, flags))
     error = swap_inputs(device, &from, NULL, NULL, &fetched);
-  if (error == DSDPV1_OK) *noted(port, command) &= (uint8_t)~(unsigned)flags;
+  if (error == DSDPV1_OK) *noted(port, command) &= (uint8_t) ~(unsigned)flags;
   return error;
 }
 
@@ -312,7 +314,8 @@ static dsdpv1_error announce(dsdpv1_device* device, uint16_t command, uint8_t cl
   return put(device, command, head, none);
 }
 
-/* Diagnosis and acyclic answers: the chip sets the flag with the block (UA9). The reply has outputs, which count nothing. */
+/* Diagnosis and acyclic answers: the chip sets the flag with the block (UA9). The reply has outputs, which count
+ * nothing. */
 static dsdpv1_error post(dsdpv1_device* device, const dsdpv1_block* block) {
   const source from = {block->address, block};
   answer reply = {0, {NULL, 0}};
@@ -322,7 +325,8 @@ static dsdpv1_error post(dsdpv1_device* device, const dsdpv1_block* block) {
   return swap(device, &from, &reply);
 }
 
-/* -------------------------------------------------------------------------------------------------------------- link */
+/* -------------------------------------------------------------------------------------------------------------- link
+ */
 
 static dsdpv1_error hold(dsdpv1_device* device) {
   device->port.uart->serial.known = false;

@@ -9,9 +9,9 @@
  *
  * Then everything is as on the parallel port. There is no ownership (UA6): what the driver calls a hold is a series of
  * telegrams, between which the chip works on. Inputs, diagnosis and acyclic answers go as exchange telegrams, which set
- * the chip's flag with the block. Blocks of the chip are announced in the reply to an exchange with inputs (UA10), which
- * clears their flag; the driver notes them, and where it has to clear a flag without new inputs it sends those that the
- * DPRAM has once more. What the chip writes in several telegrams' time is checked with the CRC in the DPRAM.
+ * the chip's flag with the block. Blocks of the chip are announced in the reply to an exchange with inputs (UA10),
+ * which clears their flag; the driver notes them, and where it has to clear a flag without new inputs it sends those
+ * that the DPRAM has once more. What the chip writes in several telegrams' time is checked with the CRC in the DPRAM.
  *
  * Telegrams without a right reply are sent again (tuning.telegram_retries) after a silence. When the reply to an
  * exchange is destroyed, the chip has cleared a flag all the same (UA11): the driver compares B00E and B00F before and
@@ -47,11 +47,11 @@ typedef struct dsdpv1_uart {
    * the return of `receive` and the start bit of the next telegram.
    */
   void (*pause)(void* ctx, uint32_t ns);
-  uint32_t baud;                         /* bit/s, 9600..1843200 (pins UBR) */
-  uint8_t address;                       /* of the chip: 1 or 2 (pins ADR) */
-  uint16_t interval;                     /* half characters of silence that end a telegram (UA3); 0: 7 */
-  uint16_t tsdr;                         /* bit times until a reply (UA4), as B01A; 0: 11 */
-  bool block_crc;                        /* the chip judges the CRCs of blocks in the DPRAM, too (SP15) */
+  uint32_t baud;     /* bit/s, 9600..1843200 (pins UBR) */
+  uint8_t address;   /* of the chip: 1 or 2 (pins ADR) */
+  uint16_t interval; /* half characters of silence that end a telegram (UA3); 0: 7 */
+  uint16_t tsdr;     /* bit times until a reply (UA4), as B01A; 0: 11 */
+  bool block_crc;    /* the chip judges the CRCs of blocks in the DPRAM, too (SP15) */
   /* ---------------------------------------------------------------------------------------------- the driver's own */
   dsdpv1_serial serial;
   uint8_t at_risk[2];   /* flags of B00E, B00F that stood when the reply to an exchange was destroyed */

@@ -10,8 +10,8 @@ namespace dsdpv1::tb {
 namespace {
 
 /// The output pins that the bench needs in any case.
-constexpr PinMask kBusPins = dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts) | dsdpv1::mask(Pin::kIntr0) |
-                            dsdpv1::mask(Pin::kTxd);
+constexpr PinMask kBusPins =
+    dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts) | dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kTxd);
 
 // So that profibus::addressee is a bus::RunReader.
 static_assert(profibus::kNoTelegram == bus::kNoTelegram && profibus::kForNobody == bus::kForNobody &&

@@ -50,8 +50,8 @@ const char* name_of(HostMode mode) {
   return mode == HostMode::kSpi ? "spi" : mode == HostMode::kUart ? "uart" : "parallel";
 }
 
-/// Those that only a DSDPV1's program knows. Block CRCs are not looked at over SPI and UART (SP15), the handshake's pins are
-/// dead (R14), and the UART knows no ownership (UA6).
+/// Those that only a DSDPV1's program knows. Block CRCs are not looked at over SPI and UART (SP15), the handshake's
+/// pins are dead (R14), and the UART knows no ownership (UA6).
 std::vector<std::string> orders_for(HostMode mode) {
   using namespace user_cpu;
   if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram};
@@ -105,9 +105,10 @@ void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::s
   if (user.fsmc) refuse(user.fsmc->line, "fsmc", "mode: parallel");
   if (user.kind == CpuKind::kArm) refuse(line, "kind: arm", "kind: native");
   if (chip.address < 1 || chip.address > 2)
-    throw InputError(file, line,
-                     fmt::format("address is {}, to which no telegram of slave {}'s user CPU can go, allowed are 1 and 2",
-                                 chip.address, slave));
+    throw InputError(
+        file, line,
+        fmt::format("address is {}, to which no telegram of slave {}'s user CPU can go, allowed are 1 and 2",
+                    chip.address, slave));
 }
 
 void check_order(const std::string& order, HostMode mode, const std::string& file, int line) {

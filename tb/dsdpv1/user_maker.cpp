@@ -38,7 +38,7 @@ bool has_arm_maker() { return arm_maker != nullptr; }
 
 MakeUser make_dsdpv1_user(const UserRequest& request) {
   auto& chip = static_cast<Dsdpv1View&>(request.chip);
-  if (own(request.slave.user_cpu).kind != CpuKind::kArm) 
+  if (own(request.slave.user_cpu).kind != CpuKind::kArm)
     return native_user(request.slave.user_cpu, static_cast<const Dsdpv1Settings&>(*request.scenario.chip), chip);
   if (has_arm_maker()) return arm_maker(request, chip);
   throw InputError(request.scenario.file, request.slave.user_cpu.line,

@@ -140,8 +140,9 @@ std::string keys_besides(const Object& usual, const Object& own, const char* kin
   for (const Field& field : own.fields)
     if (!has(usual, field.name)) rows += row(field);
   if (rows.empty()) return {};
-  return fmt::format("\n## {} of {}\n\nThe keys that it has besides.\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n{}",
-                     own.name, kind, rows);
+  return fmt::format(
+      "\n## {} of {}\n\nThe keys that it has besides.\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n{}",
+      own.name, kind, rows);
 }
 
 std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
@@ -152,9 +153,11 @@ std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
     if (!known) rows += fmt::format("| `{}` | {} |\n", order.choice.word, order.choice.doc);
   }
   if (rows.empty()) return {};
-  return fmt::format("\n## actions of {}\n\nThe actions that it has besides; `slave` says whose, `times` how often (1).\n\n| `do` | what it does |\n"
-                     "|---|---|\n{}",
-                     kind.name(), rows);
+  return fmt::format(
+      "\n## actions of {}\n\nThe actions that it has besides; `slave` says whose, `times` how often (1).\n\n| `do` | "
+      "what it does |\n"
+      "|---|---|\n{}",
+      kind.name(), rows);
 }
 
 /// What scenarios with chips of another kind may say besides.
@@ -165,7 +168,8 @@ std::string besides(const ChipKind& usual, const ChipKind& kind) {
   collect(usual.user_keys(), known);
   collect(kind.user_keys(), own);
   for (const Object* object : own)
-    if (object != &kind.user_keys() && std::find(known.begin(), known.end(), object) == known.end()) text += section(*object);
+    if (object != &kind.user_keys() && std::find(known.begin(), known.end(), object) == known.end())
+      text += section(*object);
   return text + orders_besides(usual, kind);
 }
 

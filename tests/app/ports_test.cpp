@@ -29,8 +29,9 @@ Bytes body(const Bytes& telegram) {
   return {telegram.begin() + begin, telegram.end() - 2};
 }
 
-/// Requests with their answers, by requester and SAPs, one after the other, each once as long as it is repeated: how often
-/// a master asks hangs on how fast the user is, what is answered must not. FCB and FCV, which count the requests, are left out.
+/// Requests with their answers, by requester and SAPs, one after the other, each once as long as it is repeated: how
+/// often a master asks hangs on how fast the user is, what is answered must not. FCB and FCV, which count the requests,
+/// are left out.
 class Conversations {
  public:
   explicit Conversations(const std::string& log) {
@@ -67,7 +68,8 @@ class Conversations {
 Conversations heard_in(const std::string& scenario) {
   const app_test::Folder folder;
   const auto called =
-      call(std::string("run ") + DSDPV1_SOURCE_DIR + "/scenarios/" + scenario + ".yaml --log log.jsonl --log-whole -q", folder.path());
+      call(std::string("run ") + DSDPV1_SOURCE_DIR + "/scenarios/" + scenario + ".yaml --log log.jsonl --log-whole -q",
+           folder.path());
   EXPECT_EQ(called.status, 0) << scenario << called.err;
   return Conversations(folder.file("log.jsonl"));
 }

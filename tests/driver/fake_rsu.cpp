@@ -198,18 +198,24 @@ Bytes FakeRsu::news(bool inputs) {
     std::uint16_t command, address;
     std::uint8_t bit, function;
   };
-  const std::array<Area, 5> areas{{{0x00E, 0x410, 2, 0x10}, {0x00E, 0x500, 4, 0x20}, {0x00F, 0x5D0, 1, 0x04},
-                                   {0x00F, 0x6D0, 2, 0x08}, {0x00E, 0x319, 1, 0}}};
+  const std::array<Area, 5> areas{{{0x00E, 0x410, 2, 0x10},
+                                   {0x00E, 0x500, 4, 0x20},
+                                   {0x00F, 0x5D0, 1, 0x04},
+                                   {0x00F, 0x6D0, 2, 0x08},
+                                   {0x00E, 0x319, 1, 0}}};
   std::size_t i = inputs ? 0 : 4;
   while (i < 4 && (chip_.at(areas[i].command) & areas[i].bit) == 0) ++i;
   const Area& area = areas[i];
   if (inputs) chip_.at(area.command) = low(static_cast<std::size_t>(chip_.at(area.command) & ~area.bit));
-  const auto length_at = [&](int offset) { return static_cast<std::size_t>(chip_.at(static_cast<std::uint16_t>(area.address + offset))); };
+  const auto length_at = [&](int offset) {
+    return static_cast<std::size_t>(chip_.at(static_cast<std::uint16_t>(area.address + offset)));
+  };
   const bool carries = chip_.at(area.address) == 0x5F || chip_.at(area.address) == 0x51;
   std::size_t count = length_at(0) + 1;
   if (area.address == 0x500) count = length_at(2) + 3;
   if (area.address == 0x5D0 || area.address == 0x6D0) count = carries ? length_at(3) + 4 : 4;
-  Bytes reply{kAddress, low(area.function | (data_exchange ? 1U : 0U)), low(area.address >> 8), low(area.address), low(count)};
+  Bytes reply{kAddress, low(area.function | (data_exchange ? 1U : 0U)), low(area.address >> 8), low(area.address),
+              low(count)};
   const Bytes data = chip_.bytes(area.address, count);
   reply.insert(reply.end(), data.begin(), data.end());
   return sealed(reply);

@@ -1,7 +1,7 @@
 #pragma once
-// The telegrams of a DSDPV1-RSU on the memory of a FakeChip: what docs/chip_rsu.md says of SPI (SP4 to SP16) and of UART
-// (UA5 to UA13), without time. The chip makes its access when the host releases (SPI), after each telegram (UART). It
-// watches the host's discipline: no cell without the claim.
+// The telegrams of a DSDPV1-RSU on the memory of a FakeChip: what docs/chip_rsu.md says of SPI (SP4 to SP16) and of
+// UART (UA5 to UA13), without time. The chip makes its access when the host releases (SPI), after each telegram (UART).
+// It watches the host's discipline: no cell without the claim.
 #include <deque>
 
 #include "driver/dsdpv1_spi.h"
@@ -39,8 +39,8 @@ class FakeRsu {
 
   // ---------------------------------------------------------------------------------------------------- what it saw
   std::vector<Bytes> requests, replies;
-  std::size_t bytes = 0;    ///< on the wire, both ways; SPI: byte slots of the frames
-  std::size_t silences = 0; ///< UART: calls of `receive` that ended without a character
+  std::size_t bytes = 0;     ///< on the wire, both ways; SPI: byte slots of the frames
+  std::size_t silences = 0;  ///< UART: calls of `receive` that ended without a character
   std::uint32_t longest_timeout_us = 0;
   dsdpv1_spi spi{};
   dsdpv1_uart uart{};

@@ -1,5 +1,5 @@
-// docs/programmers_guide.md: what a call costs over SPI and UART, counted, and the examples of its chapter on them, which are
-// compiled as they stand there.
+// docs/programmers_guide.md: what a call costs over SPI and UART, counted, and the examples of its chapter on them,
+// which are compiled as they stand there.
 #include <fstream>
 #include <sstream>
 
@@ -82,7 +82,8 @@ void Costs::begin(std::uint8_t most) {
 
 void Costs::cyclic() {
   begin(64);
-  cost("initialise, 2 configuration bytes", [&] { return dsdpv1_initialise(&device, &config); });
+  cost(
+      "initialise, 2 configuration bytes", [&] { return dsdpv1_initialise(&device, &config); });
   cost("exchange, 8 inputs, no new outputs", [&] { return exchange(Bytes(8)); });
   for (const std::size_t length : {8U, 64U, 244U}) {
     if (length == 244U) begin(244);
@@ -103,7 +104,8 @@ void Costs::judged() {
 
 void Costs::others() {
   const Bytes data(238);
-  cost("set_diagnosis, 9 bytes", [&] { return dsdpv1_set_diagnosis(&device, DSDPV1_DIAG_STATIC, data.data(), 9); });
+  cost(
+      "set_diagnosis, 9 bytes", [&] { return dsdpv1_set_diagnosis(&device, DSDPV1_DIAG_STATIC, data.data(), 9); });
   cost("set_diagnosis, 238 bytes", [&] { return dsdpv1_set_diagnosis(&device, DSDPV1_DIAG_STATIC, data.data(), 238); });
   dsdpv1_status status{};
   cost("get_status", [&] { return dsdpv1_get_status(&device, &status); });

@@ -47,7 +47,6 @@ class Story : public AcyclicTest {
   }
 
   using AcyclicTest::acyclic;
-  using AcyclicTest::with_data;
   using AcyclicTest::answer;
   using AcyclicTest::chip;
   using AcyclicTest::config;
@@ -62,6 +61,7 @@ class Story : public AcyclicTest {
   using AcyclicTest::rsu;
   using AcyclicTest::seen;
   using AcyclicTest::while_judging;
+  using AcyclicTest::with_data;
   std::vector<std::string> log;
 
  private:

@@ -65,7 +65,8 @@ TEST_P(Serial, EachPlaceOfADisturbanceIsHealed) {
     EXPECT_THAT(received(), ElementsAre(place)) << place;
     ASSERT_FALSE(prm_seen.empty()) << place;
     EXPECT_THAT(prm_seen.back(), ElementsAre(place)) << place;
-    // One whose reply is destroyed is written twice; over the UART the chip may have taken it meanwhile: H7 discards it.
+    // One whose reply is destroyed is written twice; over the UART the chip may have taken it meanwhile: H7 discards
+    // it.
     EXPECT_THAT(chip.verdicts, testing::Each("prm ok")) << place;
     EXPECT_THAT(chip.verdicts, SizeIs(testing::AllOf(testing::Ge(1U), testing::Le(2U)))) << place;
     chip.verdicts.clear();

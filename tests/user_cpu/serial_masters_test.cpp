@@ -79,7 +79,8 @@ TEST_F(SpiMasterTest, AByteHasItsEdgesAtTheirTicks) {
 }
 
 TEST_F(SpiMasterTest, MisoIsSampledAtEachRise) {
-  pins.answer = {true, false, false, false, false, false, false, true, true, true, false, false, true, false, true, false};
+  pins.answer = {true, false, false, false, false, false, false, true,
+                 true, true,  false, false, true,  false, true,  false};
   master.begin(0, {0, 0});
   run(master);
   EXPECT_THAT(master.received(), ElementsAre(0x81, 0xCA));
@@ -132,8 +133,8 @@ TEST_F(UartMasterTest, ACharacterHasItsBitsLeastSignificantFirstAndEvenParity) {
   sender.begin(1000, {0x13});
   run(sender);
   const auto edge = [](int bit, bool level) { return Change{1000 + bit * kBit, SerialPin::kRxd, level}; };
-  EXPECT_EQ(pins.changes, (std::vector<Change>{edge(0, false), edge(1, true), edge(3, false), edge(5, true), edge(6, false),
-                                               edge(9, true)}))
+  EXPECT_EQ(pins.changes, (std::vector<Change>{edge(0, false), edge(1, true), edge(3, false), edge(5, true),
+                                               edge(6, false), edge(9, true)}))
       << "start, 11001000, parity 1 of three ones, stop";
 }
 

@@ -48,10 +48,10 @@ struct SpoilTelegrams {
 };
 }  // namespace command
 
-using DriverCommand = std::variant<command::SetInputs, command::SetDiagnosis, command::Reinitialise, command::Hold,
-                                   command::Stop, command::Resume, command::EarlyRSta, command::WrongCrc,
-                                   command::WrongLength, command::SendVerdict, command::SetAnswering,
-                                   command::SpoilTelegrams>;
+using DriverCommand =
+    std::variant<command::SetInputs, command::SetDiagnosis, command::Reinitialise, command::Hold, command::Stop,
+                 command::Resume, command::EarlyRSta, command::WrongCrc, command::WrongLength, command::SendVerdict,
+                 command::SetAnswering, command::SpoilTelegrams>;
 /// A call of the driver that did not return DSDPV1_OK.
 struct DriverError {
   Tick at = 0;
@@ -126,7 +126,7 @@ class UserProgram {
   HostPort host_;
   std::deque<DriverCommand> commands_;
   Cpu* cpu_ = nullptr;
-  std::unique_ptr<DriverPort> port_;    ///< of these two one
+  std::unique_ptr<DriverPort> port_;  ///< of these two one
   std::unique_ptr<SerialPort> serial_;
   dsdpv1_device device_{};
   std::unique_ptr<AcyclicServer> acyclic_;

@@ -29,14 +29,16 @@ void UartSender::begin(Tick at, std::vector<std::uint8_t> bytes, const UartFault
   bytes_ = std::move(bytes);
   if (fault.cut_after) bytes_.resize(std::min(bytes_.size(), *fault.cut_after));
   if (fault.flipped_bit && *fault.flipped_bit / 8 < bytes_.size())
-    bytes_[*fault.flipped_bit / 8] = static_cast<std::uint8_t>(bytes_[*fault.flipped_bit / 8] ^ 1U << *fault.flipped_bit % 8);
+    bytes_[*fault.flipped_bit / 8] =
+        static_cast<std::uint8_t>(bytes_[*fault.flipped_bit / 8] ^ 1U << *fault.flipped_bit % 8);
   wrong_parity_ = fault.wrong_parity;
   cell_ = 0;
 }
 
 Tick UartSender::tick_of(std::size_t cell) const {
   const auto number = static_cast<std::int64_t>(cell);
-  return begin_ + half_bits(timing_, 2 * number) + static_cast<Tick>((cell - (cell == kCells * bytes_.size() ? 1 : 0)) / kCells) * timing_.gap;
+  return begin_ + half_bits(timing_, 2 * number) +
+         static_cast<Tick>((cell - (cell == kCells * bytes_.size() ? 1 : 0)) / kCells) * timing_.gap;
 }
 
 bool UartSender::level_of(std::size_t cell) const {
@@ -86,7 +88,8 @@ void UartReceiver::hear(Tick now) {
 void UartReceiver::take_character() {
   const Tick end = sample_tick(kCells - 1);
   unsigned value = 0;
-  for (int bit = 0; bit < 8; ++bit) value |= static_cast<unsigned>(level_at(sample_tick(bit + 1))) << static_cast<unsigned>(bit);
+  for (int bit = 0; bit < 8; ++bit)
+    value |= static_cast<unsigned>(level_at(sample_tick(bit + 1))) << static_cast<unsigned>(bit);
   const bool right = level_at(end) && level_at(sample_tick(9)) == odd(value) && !level_at(sample_tick(0));
   if (right)
     characters_.push_back({end, static_cast<std::uint8_t>(value)});

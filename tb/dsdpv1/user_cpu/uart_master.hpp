@@ -80,7 +80,7 @@ class UartReceiver : public Transfer {
   void take(Tick now);
 
   UartTiming timing_;
-  std::deque<Edge> edges_;           ///< since the begin of the character that comes
+  std::deque<Edge> edges_;            ///< since the begin of the character that comes
   std::deque<Character> characters_;  ///< that nobody has asked for
   std::uint64_t errors_ = 0;
   std::vector<std::uint8_t> bytes_;
