@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "bus/address.hpp"
 #include "bus/bytes.hpp"
 
 namespace dsdpv1::bus {
@@ -39,8 +40,6 @@ constexpr std::uint8_t kMs2Rm = 49;     ///< Initiate of class 2
 constexpr std::uint8_t kMs2Master = 50;
 }  // namespace sap
 
-constexpr std::uint8_t kBroadcast = 127;
-constexpr std::uint8_t kHighestAddress = 126;
 constexpr std::size_t kMaxDataUnit = 246;  ///< data of SD2, SAP bytes included (LE at most 249)
 constexpr std::size_t kMaxData = 244;      ///< ... without the two SAP bytes
 

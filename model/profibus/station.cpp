@@ -69,7 +69,7 @@ bool Station::set_run(const CharacterRun& run) {
   if (!listening() || search_.searching() || tx_.planned()) return false;
   const int to = telegrams_.takes_whole() ? addressee(run.bytes, static_cast<std::size_t>(run.size)) : kNoTelegram;
   if (!rx_.set_run(run, to != kNoTelegram)) return false;
-  for_others_ = to != kNoTelegram && to != slave_.address() && to != kForAll;
+  for_others_ = to != kNoTelegram && to != slave_.address() && to != kBroadcast;
   return true;
 }
 

@@ -15,7 +15,7 @@ constexpr PinMask kBusPins =
 
 // So that profibus::addressee is a bus::RunReader.
 static_assert(profibus::kNoTelegram == bus::kNoTelegram && profibus::kForNobody == bus::kForNobody &&
-              profibus::kForAll == bus::kForAll);
+              profibus::kBroadcast == bus::kBroadcast);
 
 }  // namespace
 

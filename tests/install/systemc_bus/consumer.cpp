@@ -5,7 +5,7 @@
 #include <dsdpv1/bus/master/master1.hpp>
 #include <dsdpv1/bus/monitor/monitor.hpp>
 #include <dsdpv1/registers/dsdpv1_regs.hpp>
-#include <dsdpv1/tb/dsdpv1/systemc/tlm_chip.hpp>
+#include <dsdpv1/tb/systemc/segment_port.hpp>
 #include <systemc>
 
 namespace {
@@ -31,14 +31,19 @@ int sc_main(int, char**) {
   master.add_slave(slave);
   master.start();
 
-  dsdpv1::systemc_bench::TimelineModule module("timeline", timeline);
-  dsdpv1::systemc_bench::TlmChip chip("chip", {}, segment, module);
+  dsdpv1::systemc_bench::TimelineModule agents("agents", timeline);
+  dsdpv1::systemc_bench::SegmentPort line("line", segment, agents);
+  dsdpv1::systemc::TlmModule chip("chip");
   Nobody user_cpu("user_cpu");
-  user_cpu.socket.bind(chip.module().host_socket);
+  sc_core::sc_signal<bool> reset, low, rxd("rxd", true), txd("txd", true), rts;
+  user_cpu.socket.bind(chip.host_socket);
+  chip.RESET(reset), chip.R_REQ(low), chip.R_STA(low);
+  chip.PBRXD(rxd), chip.PBTXD(txd), chip.PBRTS(rts);
+  line.PBRXD(rxd), line.PBTXD(txd), line.PBRTS(rts);
   sc_core::sc_start(1, sc_core::SC_US);
-  chip.set_reset(true);
+  reset.write(true);
   sc_core::sc_start(10, sc_core::SC_MS);
-  const bool works = chip.module().peek(dsdpv1::regs::kValidFlag) == dsdpv1::regs::kValidFlagValid;
+  const bool works = chip.peek(dsdpv1::regs::kValidFlag) == dsdpv1::regs::kValidFlagValid;
   const dsdpv1::bus::MonitorStatistics& heard = monitor.statistics();
   return works && heard.telegrams > 10 && heard.wrong == 0 &&
                  master.slave(3).state != dsdpv1::bus::SlaveState::kDataExchange
