@@ -4,8 +4,9 @@
 /*
  * Driver for the PROFIBUS-DP slave chip DSDPV1, user side of the DPRAM.
  *
- * C99, no allocation, no operating system, no floating point. The device maker supplies `dsdpv1_port`: two functions
- * for a DPRAM byte, four for the handshake pins. See docs/programmers_guide.md for the bring-up and a port for an MCU.
+ * C99, no allocation, no operating system, no floating point. The device maker supplies the port: `dsdpv1_port` for the
+ * parallel one (two functions for a DPRAM byte, four for the handshake pins), `dsdpv1_spi` (dsdpv1_spi.h: one function)
+ * or `dsdpv1_uart` (dsdpv1_uart.h: two). See docs/programmers_guide.md for the bring-up and a port for an MCU.
  *
  *   dsdpv1_device chip;
  *   dsdpv1_open(&chip, &port, &judge);
@@ -16,8 +17,9 @@
  *     dsdpv1_exchange(&chip, DSDPV1_INPUT_NEWEST, in, in_length, &out);
  *   }
  *
- * Every call that touches the DPRAM takes it (a "hold": R_REQ, R_STA), does its accesses and releases it. CRCs are
- * computed outside of the holds. The calls block for bounded times only; the bounds are in `dsdpv1_tuning`.
+ * Every call that touches the DPRAM takes it (a "hold": R_REQ, R_STA; B014 over SPI), does its accesses and releases
+ * it. Over the UART there is no ownership: a hold is a series of telegrams. CRCs of blocks are computed outside of the
+ * holds. The calls block for bounded times only; the bounds are in `dsdpv1_tuning`.
  *
  * Contexts: one thread and one interrupt handler may use a device. A call from the handler that finds a hold of the
  * interrupted program open returns DSDPV1_ERR_NESTED and touches nothing.
@@ -45,7 +47,7 @@ extern "C" {
 /* ----------------------------------------------------------------------------------------------------------- errors */
 
 /*
- * X(name, value, text). Values are stable: 1x use and handshake, 2x configuration refused by the driver, 3x
+ * X(name, value, text). Values are stable: 1x use, handshake and telegrams, 2x configuration refused by the driver, 3x
  * initialisation refused by the chip, 4x cyclic data, 5x diagnosis, 6x parameters and configuration from the master,
  * 7x DPV1 (dsdpv1_acyclic.h).
  */
@@ -57,6 +59,9 @@ extern "C" {
   X(DSDPV1_ERR_CHIP_SILENT, 13, "the chip has not been at the DPRAM (B006) during the last holds")                 \
   X(DSDPV1_ERR_CHIP_NOT_READY, 14, "B004 did not become 0xC5 within the allowed polls")                            \
   X(DSDPV1_ERR_NOT_INITIALISED, 15, "no initialisation has succeeded since the device was opened")                 \
+  X(DSDPV1_ERR_NO_REPLY, 16, "the chip does not answer telegrams, also when they are repeated")                    \
+  X(DSDPV1_ERR_REPLY, 17, "the chip's replies are disturbed, also when telegrams are repeated")                    \
+  X(DSDPV1_ERR_TELEGRAM, 18, "the chip finds the telegrams wrong, also when they are repeated")                    \
   X(DSDPV1_ERR_CONFIG_ADDRESS, 20, "station address above 126")                                                    \
   X(DSDPV1_ERR_CONFIG_INPUT, 21, "largest input length above 244")                                                 \
   X(DSDPV1_ERR_CONFIG_OUTPUT, 22, "largest output length above 244")                                               \
@@ -107,8 +112,8 @@ const char* dsdpv1_error_text(dsdpv1_error error);
 /* ------------------------------------------------------------------------------------------------------------- port */
 
 /*
- * How the driver reaches the chip. `ctx` is handed to every function. All are mandatory except `pause`.
- * Pins: true is high. Addresses 0x000..0x7FF.
+ * How the driver reaches the chip over its parallel port. `ctx` is handed to every function. All are mandatory except
+ * `pause`. Pins: true is high. Addresses 0x000..0x7FF.
  */
 typedef struct dsdpv1_port {
   void* ctx;
@@ -157,12 +162,15 @@ typedef struct dsdpv1_judge {
 
 /* Bounds of waiting. dsdpv1_open sets the defaults given here; the application may change them afterwards. */
 typedef struct dsdpv1_tuning {
-  uint32_t acquire_polls; /* 10000: looks at L_REQ and L_STA for one hold; must span 45 us, the chip's start-up (H6) */
-  uint32_t ready_polls;   /* 1000: holds in which B004 is looked at */
-  uint32_t init_polls;    /* 1000: holds after an initialisation or diagnosis until the chip has taken it */
-  uint32_t poll_pause_ns; /* 10000: pause between two such holds, when the port has `pause` */
-  uint8_t crc_retries;    /* 2: how often a block with a wrong CRC is read again */
-  uint8_t silent_holds;   /* 8: holds without an access of the chip between them that are still believed (B006) */
+  uint32_t acquire_polls;   /* 10000: looks at L_REQ and L_STA, or claims over SPI, for one hold; must span 45 us, the
+                               chip's start-up (H6) */
+  uint32_t ready_polls;     /* 1000: holds in which B004 is looked at */
+  uint32_t init_polls;      /* 1000: holds after an initialisation or diagnosis until the chip has taken it */
+  uint32_t poll_pause_ns;   /* 10000: pause between two such holds, when the port has `pause` */
+  uint8_t crc_retries;      /* 2: how often a block with a wrong CRC is read again */
+  uint8_t silent_holds;     /* 8: holds without an access of the chip between them that are still believed (B006);
+                               parallel port */
+  uint8_t telegram_retries; /* 2: how often a telegram (SPI, UART) without a right reply is sent again */
 } dsdpv1_tuning;
 
 /* What the initialisation tells the chip (table 2 B020.., tables 12 to 14). */
@@ -185,18 +193,28 @@ typedef struct dsdpv1_aside {
   uint8_t chip_command_1, chip_command_2, user_command_1; /* B00E, B00F, B010 */
 } dsdpv1_aside;
 
+/* The port that the device was opened with. */
+typedef union dsdpv1_any_port {
+  dsdpv1_port parallel;
+  struct dsdpv1_spi* spi;
+  struct dsdpv1_uart* uart;
+} dsdpv1_any_port;
+
 /* State of one chip. The members are the driver's own, except `tuning`. */
 typedef struct dsdpv1_device {
-  dsdpv1_port port;
+  const struct dsdpv1_link* link; /* what the port can do */
+  dsdpv1_any_port port;
   dsdpv1_judge judge;
   dsdpv1_tuning tuning;
+  bool block_crc;              /* the chip looks at the CRCs of the user's blocks */
+  dsdpv1_error fault;          /* of a telegram in the hold that is open; then nothing more is moved in it */
   volatile bool held;          /* a hold is open or being asked for */
   volatile bool servicing;     /* dsdpv1_service is at work: its block copies are in use */
   volatile bool intr0_pending; /* INTR0 fell, dsdpv1_service has not run since */
   bool initialised;
-  uint8_t max_input, max_diag, prm_mode, cfg_mode; /* of the last successful initialisation */
-  uint8_t user_status_2;                           /* B00D as it is in the DPRAM */
-  uint8_t last_count, absent_holds;                /* B006 as left by the last hold; holds since the chip was seen */
+  uint8_t max_input, max_output, max_diag, prm_mode, cfg_mode; /* of the last successful initialisation */
+  uint8_t user_status_2;                                       /* B00D as it is in the DPRAM */
+  uint8_t last_count, absent_holds; /* B006 as left by the last hold; holds since the chip was seen */
   dsdpv1_aside aside;
   uint8_t generation;   /* counts successful initialisations, modulo 256 */
   uint8_t verdicts_due; /* DSDPV1_VERDICT_ bits of blocks that wait for a verdict */
@@ -206,8 +224,11 @@ typedef struct dsdpv1_device {
 } dsdpv1_device;
 
 /*
- * Prepares `device`; touches no pin. `port` and `judge` are copied; `judge` may be null (accept everything).
- * Errors: ARGUMENT.
+ * Prepares `device` on the parallel port (SPI: dsdpv1_open_spi, UART: dsdpv1_open_uart); touches no pin. `port` and
+ * `judge` are copied; `judge` may be null (accept everything). Errors: ARGUMENT.
+ *
+ * Over SPI and UART every call that touches the DPRAM can also return NO_REPLY, REPLY and TELEGRAM; what it had begun
+ * is then left as it is, and the call may be repeated.
  */
 dsdpv1_error dsdpv1_open(dsdpv1_device* device, const dsdpv1_port* port, const dsdpv1_judge* judge);
 

@@ -2,15 +2,14 @@
 /* DPV1: finished answers and their way into the DPRAM (7.2, 7.3; rulings V5, V6, V13, V14). */
 #include "dsdpv1_acyclic_internal.h"
 
-/* What follows the header of an answer, and B00B's bit for its CRC. */
+/* Where an answer goes, and B00B's bit for its CRC. */
 typedef struct answer_area {
-  uint16_t address, data, crc;
+  uint16_t address, crc;
   uint8_t error_bit;
 } answer_area;
 
-static const answer_area kAnswers[kChannels] = {
-    {DSDPV1_REG_C1, DSDPV1_REG_C1_DATA, DSDPV1_REG_C1_CRC, DSDPV1_REG_CHIP_STATUS_2_C1_CRC},
-    {DSDPV1_REG_C2, DSDPV1_REG_C2_DATA, DSDPV1_REG_C2_CRC, DSDPV1_REG_CHIP_STATUS_2_C2_CRC}};
+static const answer_area kAnswers[kChannels] = {{DSDPV1_REG_C1, DSDPV1_REG_C1_CRC, DSDPV1_REG_CHIP_STATUS_2_C1_CRC},
+                                                {DSDPV1_REG_C2, DSDPV1_REG_C2_CRC, DSDPV1_REG_CHIP_STATUS_2_C2_CRC}};
 
 enum { kErrorBit = 0x80 }; /* of Function_Num (tables 27, 32) */
 
@@ -53,13 +52,20 @@ static bool any_in(const dsdpv1_acyclic* acyclic, dsdpv1_channel_state state) {
   return acyclic->channels[0].state == state || acyclic->channels[1].state == state;
 }
 
-/* Inside a hold. */
+/* Inside a hold. An answer that a disturbed hold did not bring to the chip stays ready. */
 static void write_answer(dsdpv1_acyclic* acyclic, unsigned i, dsdpv1_acyclic_result* result) {
+  dsdpv1_device* device = acyclic->device;
   dsdpv1_channel* channel = &acyclic->channels[i];
-  const answer_area* area = &kAnswers[i];
-  dsdpv1_put_block(acyclic->device, area->address, channel->answer, kAcyclicHeader);
-  dsdpv1_put_block(acyclic->device, area->data, channel->data, channel->answer_length);
-  dsdpv1_put_word(acyclic->device, area->crc, channel->answer_crc);
+  const dsdpv1_block block = {kAnswers[i].address,
+                              {channel->answer, kAcyclicHeader},
+                              {channel->data, channel->answer_length},
+                              kAnswers[i].crc,
+                              channel->answer_crc};
+  if (device->link->post == NULL)
+    dsdpv1_put_block(device, &block);
+  else if (device->fault == DSDPV1_OK)
+    device->fault = device->link->post(device, &block);
+  if (device->fault != DSDPV1_OK) return;
   channel->state = DSDPV1_CHANNEL_SENT;
   note(&result->answered, i);
   if ((channel->answer[0] & kErrorBit) != 0u) note(&result->refused, i);
@@ -83,18 +89,27 @@ static unsigned write_answers(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* re
   return written;
 }
 
+/* What a disturbed hold may not have announced is written again. */
+static void take_back(dsdpv1_acyclic* acyclic, unsigned written, dsdpv1_acyclic_result* result) {
+  for (unsigned i = 0; i < kChannels; ++i)
+    if ((written & dsdpv1_class_of(i)) != 0u) acyclic->channels[i].state = DSDPV1_CHANNEL_READY;
+  result->answered = (uint8_t)(result->answered & ~written);
+  result->refused = (uint8_t)(result->refused & ~written);
+}
+
 dsdpv1_error dsdpv1_send_answers(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* result) {
   if (!any_in(acyclic, DSDPV1_CHANNEL_READY)) return DSDPV1_OK;
   dsdpv1_device* device = acyclic->device;
   const dsdpv1_error error = dsdpv1_hold(device);
   if (error != DSDPV1_OK) return error;
   const unsigned written = write_answers(acyclic, result);
-  if (written != 0u) {
-    const unsigned command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_2);
-    dsdpv1_put(device, DSDPV1_REG_USER_COMMAND_2, (uint8_t)(command | written));
+  if (written != 0u && device->link->post == NULL) {
+    const uint8_t command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_2);
+    dsdpv1_announce(device, DSDPV1_REG_USER_COMMAND_2, command, 0, (uint8_t)written);
   }
-  dsdpv1_release(device);
-  return DSDPV1_OK;
+  const dsdpv1_error fault = dsdpv1_release(device);
+  if (fault != DSDPV1_OK && device->link->post == NULL) take_back(acyclic, written, result);
+  return fault;
 }
 
 void dsdpv1_look_at_sent(dsdpv1_acyclic* acyclic, dsdpv1_acyclic_result* result) {

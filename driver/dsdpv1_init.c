@@ -8,19 +8,23 @@ enum { kHeadLength = DSDPV1_REG_INIT_CFG - DSDPV1_REG_INIT }; /* B020..B02E, bef
 
 dsdpv1_error dsdpv1_wait_ready(dsdpv1_device* device) {
   if (device == NULL) return DSDPV1_ERR_ARGUMENT;
+  dsdpv1_error error = DSDPV1_OK;
   dsdpv1_sync_pause(device); /* H6: a request that the chip meets as it leaves its reset keeps it from its start-up */
   for (uint32_t polls = device->tuning.ready_polls; polls != 0u; --polls) {
-    const dsdpv1_error error = dsdpv1_hold_unjudged(device);
-    if (error != DSDPV1_OK) return error;
-    const uint8_t flag = dsdpv1_get(device, DSDPV1_REG_VALID_FLAG);
-    dsdpv1_release(device);
-    if (flag == DSDPV1_REG_VALID_FLAG_VALID) {
+    error = dsdpv1_hold_unjudged(device);
+    uint8_t flag = 0;
+    if (error == DSDPV1_OK) {
+      flag = dsdpv1_get(device, DSDPV1_REG_VALID_FLAG);
+      error = dsdpv1_release(device);
+    }
+    if (error != DSDPV1_OK && error != DSDPV1_ERR_NO_REPLY) return error; /* in its reset the chip hears nothing */
+    if (error == DSDPV1_OK && flag == DSDPV1_REG_VALID_FLAG_VALID) {
       device->absent_holds = 0; /* those before the chip began do not count */
       return DSDPV1_OK;
     }
     dsdpv1_poll_pause(device);
   }
-  return DSDPV1_ERR_CHIP_NOT_READY;
+  return error != DSDPV1_OK ? error : DSDPV1_ERR_CHIP_NOT_READY;
 }
 
 static dsdpv1_error check_sizes(const dsdpv1_config* config) { /* D7 */
@@ -72,12 +76,12 @@ static void build_head(uint8_t head[kHeadLength], const dsdpv1_config* config) {
 }
 
 /* The flags at `address` go to `aside` and are 0 afterwards; inside a hold. */
-static void set_aside(const dsdpv1_device* device, uint16_t address, uint8_t* aside) {
+static void set_aside(dsdpv1_device* device, uint16_t address, uint8_t* aside) {
   *aside = (uint8_t)(*aside | dsdpv1_get(device, address));
   dsdpv1_put(device, address, 0);
 }
 
-static void set_back(const dsdpv1_device* device, uint16_t address, uint8_t aside) {
+static void set_back(dsdpv1_device* device, uint16_t address, uint8_t aside) {
   dsdpv1_put(device, address, (uint8_t)(dsdpv1_get(device, address) | aside));
 }
 
@@ -89,9 +93,9 @@ static void set_back(const dsdpv1_device* device, uint16_t address, uint8_t asid
 static void write_init(dsdpv1_device* device, const dsdpv1_config* config, const uint8_t head[kHeadLength],
                        uint16_t crc) {
   dsdpv1_put(device, DSDPV1_REG_DPV1_ENABLE, config->dpv1 ? DSDPV1_REG_DPV1_ENABLE_ON : 0u);
-  dsdpv1_put_block(device, DSDPV1_REG_INIT, head, kHeadLength);
-  dsdpv1_put_block(device, DSDPV1_REG_INIT_CFG, config->cfg, config->cfg_length);
-  dsdpv1_put_word(device, DSDPV1_REG_INIT_CRC, crc);
+  const dsdpv1_block block = {
+      DSDPV1_REG_INIT, {head, kHeadLength}, {config->cfg, config->cfg_length}, DSDPV1_REG_INIT_CRC, crc};
+  dsdpv1_put_block(device, &block);
   if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_1) & DSDPV1_REG_CHIP_STATUS_1_INITIALISED) != 0u)
     dsdpv1_put(device, DSDPV1_REG_CHIP_STATUS_1, 0);
   set_aside(device, DSDPV1_REG_CHIP_COMMAND_1, &device->aside.chip_command_1);
@@ -108,16 +112,16 @@ static dsdpv1_error hand_over(dsdpv1_device* device, const dsdpv1_config* config
   build_head(head, config);
   const uint16_t crc =
       dsdpv1_crc(dsdpv1_crc(DSDPV1_CRC_START, head, kHeadLength), config->cfg, config->cfg_length); /* D3 */
-  const dsdpv1_error error = dsdpv1_hold(device);
+  dsdpv1_error error = dsdpv1_hold(device);
   if (error != DSDPV1_OK) return error;
   const bool ready = dsdpv1_get(device, DSDPV1_REG_VALID_FLAG) == DSDPV1_REG_VALID_FLAG_VALID;
   if (ready) write_init(device, config, head, crc);
-  dsdpv1_release(device);
-  return ready ? DSDPV1_OK : DSDPV1_ERR_CHIP_NOT_READY;
+  error = dsdpv1_release(device);
+  return error != DSDPV1_OK || ready ? error : DSDPV1_ERR_CHIP_NOT_READY;
 }
 
 /* Inside a hold: why B00A.0 is or is not set. The CRC is looked at first (D11). */
-static dsdpv1_error read_answer(const dsdpv1_device* device) {
+static dsdpv1_error read_answer(dsdpv1_device* device) {
   if ((dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_1) & DSDPV1_REG_CHIP_STATUS_1_INITIALISED) != 0u) {
     dsdpv1_put(device, DSDPV1_REG_CHIP_STATUS_1, 0);
     return DSDPV1_OK;
@@ -144,6 +148,7 @@ static void remember(dsdpv1_device* device, const dsdpv1_config* config) {
   device->unread = 0;
   ++device->generation;
   device->max_input = config->max_input;
+  device->max_output = config->max_output;
   device->max_diag = config->max_diag;
   device->prm_mode = config->prm_mode;
   device->cfg_mode = config->cfg_mode;
@@ -158,11 +163,12 @@ dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* confi
     error = dsdpv1_hold_when_taken(device, DSDPV1_REG_USER_COMMAND_1_INIT, DSDPV1_ERR_INIT_TIMEOUT);
   if (error != DSDPV1_OK) return error;
   error = read_answer(device);
-  if (error == DSDPV1_OK)
+  if (device->fault == DSDPV1_OK && error == DSDPV1_OK)
     remember(device, config);
   else
     resume(device);
+  const dsdpv1_error fault = dsdpv1_release(device);
+  if (fault != DSDPV1_OK) return fault;
   memset(&device->aside, 0, sizeof device->aside);
-  dsdpv1_release(device);
   return error;
 }

@@ -7,34 +7,38 @@ static const dsdpv1_area kOutputs = {DSDPV1_REG_OUTPUT,         1,
                                      DSDPV1_ERR_OUTPUT_LENGTH,  DSDPV1_ERR_OUTPUT_CRC,
                                      DSDPV1_REG_CHIP_COMMAND_1, DSDPV1_REG_CHIP_COMMAND_1_OUTPUT};
 
-typedef struct input_block {
-  const uint8_t* bytes;
-  uint8_t length;
-  uint16_t crc;
-} input_block;
+/* Inside a hold. The length byte is the block's head. */
+static void write_inputs(dsdpv1_device* device, const dsdpv1_block* inputs, uint8_t command) {
+  dsdpv1_put_block(device, inputs);
+  dsdpv1_announce(device, DSDPV1_REG_USER_COMMAND_1, command, 0, DSDPV1_REG_USER_COMMAND_1_INPUT);
+}
 
-/* Inside a hold. Sets `written`; returns the chip's opinion of the previous inputs (B00B.2). */
-static dsdpv1_error give_inputs(const dsdpv1_device* device, dsdpv1_input_policy policy, const input_block* inputs,
-                                bool* written) {
+/*
+ * Inside a hold. Sets result->inputs_written; `fetched` when the port has brought new outputs with the same telegram.
+ * Returns the chip's opinion of the previous inputs (B00B.2).
+ */
+static dsdpv1_error give_inputs(dsdpv1_device* device, dsdpv1_input_policy policy, const dsdpv1_block* inputs,
+                                dsdpv1_exchange_result* result, dsdpv1_copy* outputs, bool* fetched) {
   const uint8_t command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1);
   const uint8_t status = dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_2);
   if (policy == DSDPV1_INPUT_NEWEST || (command & DSDPV1_REG_USER_COMMAND_1_INPUT) == 0u) {
-    dsdpv1_put(device, DSDPV1_REG_INPUT_LENGTH, inputs->length);
-    dsdpv1_put_block(device, DSDPV1_REG_INPUT_DATA, inputs->bytes, inputs->length);
-    dsdpv1_put_word(device, DSDPV1_REG_INPUT_CRC, inputs->crc);
-    dsdpv1_put(device, DSDPV1_REG_USER_COMMAND_1, (uint8_t)(command | DSDPV1_REG_USER_COMMAND_1_INPUT));
-    *written = true;
+    if (device->link->exchange == NULL || outputs->data == NULL)
+      write_inputs(device, inputs, command);
+    else if (device->fault == DSDPV1_OK)
+      device->fault = device->link->exchange(device, inputs, outputs, fetched);
+    result->inputs_written = device->fault == DSDPV1_OK;
   }
   return (status & DSDPV1_REG_CHIP_STATUS_2_INPUT_CRC) != 0u ? DSDPV1_ERR_INPUT_CRC : DSDPV1_OK;
 }
 
 /* Inside a hold. True when there were new outputs. */
-static bool take_outputs(const dsdpv1_device* device, dsdpv1_exchange_result* result, dsdpv1_copy* copy) {
+static bool take_outputs(dsdpv1_device* device, dsdpv1_exchange_result* result, dsdpv1_copy* copy) {
   const uint8_t command = dsdpv1_get(device, DSDPV1_REG_CHIP_COMMAND_1);
   result->intr0_missed = (command & (DSDPV1_REG_CHIP_COMMAND_1_PRM | DSDPV1_REG_CHIP_COMMAND_1_CFG)) != 0u;
   if (copy->data == NULL || (command & DSDPV1_REG_CHIP_COMMAND_1_OUTPUT) == 0u) return false;
+  dsdpv1_before_fetch(device, DSDPV1_REG_CHIP_COMMAND_1, DSDPV1_REG_CHIP_COMMAND_1_OUTPUT);
   dsdpv1_fetch(device, &kOutputs, copy);
-  dsdpv1_put(device, DSDPV1_REG_CHIP_COMMAND_1, (uint8_t)(command & ~DSDPV1_REG_CHIP_COMMAND_1_OUTPUT));
+  dsdpv1_after_fetch(device, DSDPV1_REG_CHIP_COMMAND_1, command, DSDPV1_REG_CHIP_COMMAND_1_OUTPUT);
   return true;
 }
 
@@ -55,18 +59,26 @@ dsdpv1_error dsdpv1_exchange(dsdpv1_device* device, dsdpv1_input_policy policy, 
                              uint8_t input_length, dsdpv1_exchange_result* result) {
   dsdpv1_error error = check_exchange(device, inputs, input_length, result);
   if (error != DSDPV1_OK) return error;
-  input_block block = {inputs, input_length, dsdpv1_crc_byte(DSDPV1_CRC_START, input_length)};
-  if (inputs != NULL) block.crc = dsdpv1_crc(block.crc, inputs, input_length);
+  const uint8_t no_inputs = 0;
+  dsdpv1_block block = {DSDPV1_REG_INPUT_LENGTH, {&input_length, 1}, {&no_inputs, 0}, DSDPV1_REG_INPUT_CRC, 0};
+  block.crc = dsdpv1_crc_byte(DSDPV1_CRC_START, input_length);
+  if (inputs != NULL) {
+    block.data.bytes = inputs;
+    block.data.length = input_length;
+    block.crc = dsdpv1_crc(block.crc, inputs, input_length);
+  }
   dsdpv1_copy copy = output_copy(result);
   result->inputs_written = false;
   result->outputs_new = false;
 
   error = dsdpv1_hold(device);
   if (error != DSDPV1_OK) return error;
+  bool fetched = false;
   const dsdpv1_error input_error =
-      inputs != NULL ? give_inputs(device, policy, &block, &result->inputs_written) : DSDPV1_OK;
-  const bool fetched = take_outputs(device, result, &copy);
-  dsdpv1_release(device);
+      inputs != NULL ? give_inputs(device, policy, &block, result, &copy, &fetched) : DSDPV1_OK;
+  if (take_outputs(device, result, &copy)) fetched = true;
+  error = dsdpv1_release(device);
+  if (error != DSDPV1_OK) return error;
 
   if (fetched) {
     error = dsdpv1_confirm(device, &kOutputs, &copy);
@@ -81,12 +93,10 @@ dsdpv1_error dsdpv1_exchange(dsdpv1_device* device, dsdpv1_input_policy policy, 
 /* In a hold of its own; C1 and C2 answers that wait in B011 stay. */
 static dsdpv1_error change_user_command_2(dsdpv1_device* device, unsigned clear, unsigned set) {
   const dsdpv1_error error = dsdpv1_hold(device);
-  if (error == DSDPV1_OK) {
-    const unsigned command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_2);
-    dsdpv1_put(device, DSDPV1_REG_USER_COMMAND_2, (uint8_t)((command & ~clear) | set));
-    dsdpv1_release(device);
-  }
-  return error;
+  if (error != DSDPV1_OK) return error;
+  const uint8_t command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_2);
+  dsdpv1_announce(device, DSDPV1_REG_USER_COMMAND_2, command, (uint8_t)clear, (uint8_t)set);
+  return dsdpv1_release(device);
 }
 
 dsdpv1_error dsdpv1_keep_input_errors(dsdpv1_device* device, bool keep) {
@@ -114,23 +124,25 @@ static dsdpv1_error check_diagnosis(const dsdpv1_device* device, dsdpv1_diag_typ
   return length > device->max_diag ? DSDPV1_ERR_DIAG_LENGTH : DSDPV1_OK;
 }
 
-static dsdpv1_error write_diagnosis(dsdpv1_device* device, const uint8_t head[2], const uint8_t* data, uint16_t crc) {
+static dsdpv1_error write_diagnosis(dsdpv1_device* device, const dsdpv1_block* block) {
   const dsdpv1_error error = dsdpv1_hold(device);
   if (error != DSDPV1_OK) return error;
-  dsdpv1_put_block(device, DSDPV1_REG_DIAG, head, 2);
-  dsdpv1_put_block(device, DSDPV1_REG_DIAG_DATA, data, head[1]);
-  dsdpv1_put_word(device, DSDPV1_REG_DIAG_CRC, crc);
-  const uint8_t command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1);
-  dsdpv1_put(device, DSDPV1_REG_USER_COMMAND_1, (uint8_t)(command | DSDPV1_REG_USER_COMMAND_1_DIAG));
-  dsdpv1_release(device);
-  return DSDPV1_OK;
+  if (device->link->post != NULL) {
+    device->fault = device->link->post(device, block);
+  } else {
+    dsdpv1_put_block(device, block);
+    const uint8_t command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1);
+    dsdpv1_announce(device, DSDPV1_REG_USER_COMMAND_1, command, 0, DSDPV1_REG_USER_COMMAND_1_DIAG);
+  }
+  return dsdpv1_release(device);
 }
 
 static dsdpv1_error diagnosis_answer(dsdpv1_device* device) {
-  const dsdpv1_error error = dsdpv1_hold_when_taken(device, DSDPV1_REG_USER_COMMAND_1_DIAG, DSDPV1_ERR_DIAG_TIMEOUT);
+  dsdpv1_error error = dsdpv1_hold_when_taken(device, DSDPV1_REG_USER_COMMAND_1_DIAG, DSDPV1_ERR_DIAG_TIMEOUT);
   if (error != DSDPV1_OK) return error;
   const uint8_t status = dsdpv1_get(device, DSDPV1_REG_CHIP_STATUS_2);
-  dsdpv1_release(device);
+  error = dsdpv1_release(device);
+  if (error != DSDPV1_OK) return error;
   return (status & DSDPV1_REG_CHIP_STATUS_2_DIAG_CRC) != 0u ? DSDPV1_ERR_DIAG_CRC : DSDPV1_OK;
 }
 
@@ -139,8 +151,9 @@ dsdpv1_error dsdpv1_set_diagnosis(dsdpv1_device* device, dsdpv1_diag_type type, 
   if (error != DSDPV1_OK) return error;
   const uint8_t head[2] = {(uint8_t)type, length};
   const uint16_t crc = dsdpv1_crc(dsdpv1_crc(DSDPV1_CRC_START, head, 2), data, length); /* D3: from B227 */
+  const dsdpv1_block block = {DSDPV1_REG_DIAG, {head, sizeof head}, {data, length}, DSDPV1_REG_DIAG_CRC, crc};
   for (uint8_t retries = device->tuning.crc_retries;; --retries) {
-    error = write_diagnosis(device, head, data, crc);
+    error = write_diagnosis(device, &block);
     if (error == DSDPV1_OK) error = diagnosis_answer(device);
     if (error != DSDPV1_ERR_DIAG_CRC || retries == 0u) return error;
   }

@@ -52,22 +52,32 @@ static dsdpv1_copy cfg_copy(dsdpv1_device* device) {
   return copy;
 }
 
+static uint8_t flags_of(unsigned kinds) {
+  unsigned flags = 0;
+  flags |= (kinds & DSDPV1_VERDICT_PRM) != 0u ? DSDPV1_REG_CHIP_COMMAND_1_PRM : 0u;
+  flags |= (kinds & DSDPV1_VERDICT_CFG) != 0u ? DSDPV1_REG_CHIP_COMMAND_1_CFG : 0u;
+  return (uint8_t)flags;
+}
+
+/* Inside a hold. What a disturbed hold leaves unread has to be read the next time: its flag may be gone. */
+static void copy_blocks(dsdpv1_device* device, uint8_t command, unsigned fresh, dsdpv1_copy* prm, dsdpv1_copy* cfg) {
+  dsdpv1_before_fetch(device, DSDPV1_REG_CHIP_COMMAND_1, flags_of(fresh));
+  if ((fresh & DSDPV1_VERDICT_PRM) != 0u) dsdpv1_fetch(device, &kPrm, prm);
+  if ((fresh & DSDPV1_VERDICT_CFG) != 0u) dsdpv1_fetch(device, &kCfg, cfg);
+  dsdpv1_after_fetch(device, DSDPV1_REG_CHIP_COMMAND_1, command,
+                     DSDPV1_REG_CHIP_COMMAND_1_PRM | DSDPV1_REG_CHIP_COMMAND_1_CFG);
+  device->unread = device->fault == DSDPV1_OK ? 0u : (uint8_t)fresh;
+  if (device->fault == DSDPV1_OK) device->verdicts_due = (uint8_t)(device->verdicts_due & ~fresh);
+}
+
 /* One hold: copies what is new and clears its flags, so that a flag set afterwards means a newer block. */
 static dsdpv1_error take_blocks(dsdpv1_device* device, unsigned* fresh, dsdpv1_copy* prm, dsdpv1_copy* cfg) {
   const dsdpv1_error error = dsdpv1_hold(device);
   if (error != DSDPV1_OK) return error;
   const uint8_t command = dsdpv1_get(device, DSDPV1_REG_CHIP_COMMAND_1);
   *fresh = fresh_blocks(command) | device->unread;
-  device->unread = 0;
-  if ((*fresh & DSDPV1_VERDICT_PRM) != 0u) dsdpv1_fetch(device, &kPrm, prm);
-  if ((*fresh & DSDPV1_VERDICT_CFG) != 0u) dsdpv1_fetch(device, &kCfg, cfg);
-  if (*fresh != 0u) {
-    dsdpv1_put(device, DSDPV1_REG_CHIP_COMMAND_1,
-               (uint8_t)(command & ~(DSDPV1_REG_CHIP_COMMAND_1_PRM | DSDPV1_REG_CHIP_COMMAND_1_CFG)));
-    device->verdicts_due = (uint8_t)(device->verdicts_due & ~*fresh);
-  }
-  dsdpv1_release(device);
-  return DSDPV1_OK;
+  if (*fresh != 0u) copy_blocks(device, command, *fresh, prm, cfg);
+  return dsdpv1_release(device);
 }
 
 static void note(dsdpv1_device* device, verdicts* reached, unsigned kind, dsdpv1_verdict verdict) {
@@ -112,15 +122,16 @@ static dsdpv1_error judge_cfg(dsdpv1_device* device, dsdpv1_copy* copy, verdicts
 }
 
 /* Inside a hold: B00C and the flags of B010 for the verdicts (D4). */
-static void write_verdicts(const dsdpv1_device* device, const verdicts* reached) {
+static void write_verdicts(dsdpv1_device* device, const verdicts* reached) {
   unsigned status = 0;
   status |= (reached->wrong & DSDPV1_VERDICT_PRM) != 0u ? DSDPV1_REG_USER_STATUS_1_PRM_WRONG : 0u;
   status |= (reached->wrong & DSDPV1_VERDICT_CFG) != 0u ? DSDPV1_REG_USER_STATUS_1_CFG_WRONG : 0u;
-  unsigned command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1);
-  command |= (reached->given & DSDPV1_VERDICT_PRM) != 0u ? DSDPV1_REG_USER_COMMAND_1_PRM_VERDICT : 0u;
-  command |= (reached->given & DSDPV1_VERDICT_CFG) != 0u ? DSDPV1_REG_USER_COMMAND_1_CFG_VERDICT : 0u;
+  const uint8_t command = dsdpv1_get(device, DSDPV1_REG_USER_COMMAND_1);
+  unsigned given = 0;
+  given |= (reached->given & DSDPV1_VERDICT_PRM) != 0u ? DSDPV1_REG_USER_COMMAND_1_PRM_VERDICT : 0u;
+  given |= (reached->given & DSDPV1_VERDICT_CFG) != 0u ? DSDPV1_REG_USER_COMMAND_1_CFG_VERDICT : 0u;
   dsdpv1_put(device, DSDPV1_REG_USER_STATUS_1, (uint8_t)status);
-  dsdpv1_put(device, DSDPV1_REG_USER_COMMAND_1, (uint8_t)command);
+  dsdpv1_announce(device, DSDPV1_REG_USER_COMMAND_1, command, 0, (uint8_t)given);
 }
 
 /* One hold. Verdicts on blocks that the master has replaced meanwhile are kept back (H7); `fresh` tells which. */
@@ -131,10 +142,11 @@ static dsdpv1_error hand_over(dsdpv1_device* device, const verdicts* reached, un
   const verdicts current = {reached->given & ~*fresh, reached->wrong & ~*fresh};
   if (current.given != 0u) {
     write_verdicts(device, &current);
-    device->verdicts_due = (uint8_t)(device->verdicts_due & ~current.given);
+    /* one that a disturbed hold did not bring to the chip stays due */
+    device->verdicts_due = (uint8_t)(device->fault == DSDPV1_OK ? device->verdicts_due & ~current.given
+                                                                : device->verdicts_due | current.given);
   }
-  dsdpv1_release(device);
-  return DSDPV1_OK;
+  return dsdpv1_release(device);
 }
 
 /* One round: take, judge, answer. `fresh` is not 0 when the master has sent something newer meanwhile. */

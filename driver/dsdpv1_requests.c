@@ -54,6 +54,24 @@ static void fetch_request(dsdpv1_acyclic* acyclic, unsigned i, dsdpv1_copy* copy
   dsdpv1_fetch(acyclic->device, &kAreas[i], copy);
 }
 
+/* Inside a hold. */
+static void copy_requests(dsdpv1_acyclic* acyclic, dsdpv1_copy copies[kChannels], unsigned flags, unsigned fresh,
+                          dsdpv1_acyclic_result* result) {
+  dsdpv1_device* device = acyclic->device;
+  if ((flags & DSDPV1_CLASS_BOTH) != 0u)
+    dsdpv1_before_fetch(device, DSDPV1_REG_CHIP_COMMAND_2, (uint8_t)(flags & DSDPV1_CLASS_BOTH));
+  for (unsigned i = 0; i < kChannels; ++i)
+    if ((fresh & dsdpv1_class_of(i)) != 0u) fetch_request(acyclic, i, &copies[i], result);
+  if ((flags & DSDPV1_CLASS_BOTH) != 0u)
+    dsdpv1_after_fetch(device, DSDPV1_REG_CHIP_COMMAND_2, (uint8_t)flags, DSDPV1_CLASS_BOTH);
+}
+
+/* What a disturbed hold left unread has to be read the next time: its flag may be gone. */
+static void keep_unread(dsdpv1_acyclic* acyclic, unsigned fresh) {
+  for (unsigned i = 0; i < kChannels; ++i)
+    if ((fresh & dsdpv1_class_of(i)) != 0u) acyclic->channels[i].unread = true;
+}
+
 /* One hold: copies new requests and clears their flags, so that a flag set afterwards means a newer one. */
 static dsdpv1_error take_requests(dsdpv1_acyclic* acyclic, dsdpv1_copy copies[kChannels], unsigned* fresh,
                                   dsdpv1_acyclic_result* result) {
@@ -62,13 +80,11 @@ static dsdpv1_error take_requests(dsdpv1_acyclic* acyclic, dsdpv1_copy copies[kC
   if (error != DSDPV1_OK) return error;
   const unsigned flags = dsdpv1_get(device, DSDPV1_REG_CHIP_COMMAND_2);
   *fresh = (flags & DSDPV1_CLASS_BOTH) | unread_requests(acyclic);
-  for (unsigned i = 0; i < kChannels; ++i)
-    if ((*fresh & dsdpv1_class_of(i)) != 0u) fetch_request(acyclic, i, &copies[i], result);
-  if ((flags & DSDPV1_CLASS_BOTH) != 0u)
-    dsdpv1_put(device, DSDPV1_REG_CHIP_COMMAND_2, (uint8_t)(flags & ~DSDPV1_CLASS_BOTH));
-  dsdpv1_look_at_sent(acyclic, result);
-  dsdpv1_release(device);
-  return DSDPV1_OK;
+  copy_requests(acyclic, copies, flags, *fresh, result);
+  if (device->fault == DSDPV1_OK) dsdpv1_look_at_sent(acyclic, result);
+  const dsdpv1_error fault = dsdpv1_release(device);
+  if (fault != DSDPV1_OK) keep_unread(acyclic, *fresh);
+  return fault;
 }
 
 /* Outside of holds. A request that cannot be read rightly stays open at the chip, so it is tried again. */

@@ -77,9 +77,13 @@ class ChipKind {
   /// The processor and its bus to the chip, under `user_cpu`.
   virtual const keys::Object& user_keys() const = 0;
   virtual std::unique_ptr<OwnSettings> make_user_settings() const = 0;
-  /// Throws InputError for settings that do not fit each other; `where` is the line of the slave.
-  virtual void check_user(const OwnSettings& /*settings*/, const keys::Source& /*source*/, const std::string& /*slave*/,
-                          int /*where*/) const {}
+  /// Throws InputError for settings of a user CPU that do not fit each other or the chip's; `where` is the line of the
+  /// slave.
+  virtual void check_user(const OwnSettings& /*settings*/, const OwnSettings& /*chip*/, const keys::Source& /*source*/,
+                          const std::string& /*slave*/, int /*where*/) const {}
+  /// Throws InputError for an order that is of no use with these settings of the chip; `where` is its line.
+  virtual void check_order(const std::string& /*order*/, const OwnSettings& /*chip*/, const keys::Source& /*source*/,
+                           int /*where*/) const {}
   /// Where the chip keeps the value of a key of `init`, as its documents say it; empty: nowhere.
   virtual std::string place_of(const std::string& /*init_key*/) const { return ""; }
   virtual const std::vector<Order>& orders() const;

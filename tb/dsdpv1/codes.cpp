@@ -21,6 +21,14 @@ const char* advice_of(dsdpv1_error error) {
       return "Check clock, RESET, R_REQ and R_STA: while one of the two stays high the chip cannot come to the DPRAM.";
     case DSDPV1_ERR_CHIP_NOT_READY:
       return "Wait 86 us or more after RESET rises (4096 cycles); check the read timing with B000..B003 = 01 0D 07 01.";
+    case DSDPV1_ERR_NO_REPLY:
+      return "Check the straps MODE, ADR and UBR against the port, its wiring, and that the chip is out of reset.";
+    case DSDPV1_ERR_REPLY:
+      return "Check clock or baud rate, edges and wiring: replies arrive, and not as they were sent.";
+    case DSDPV1_ERR_TELEGRAM:
+      return "Look at the port's serial.error_code and the chip's TELEGRAM_ reasons in the log; repeated CRC errors "
+             "are "
+             "the wiring's.";
     case DSDPV1_ERR_NOT_INITIALISED: return "Call dsdpv1_initialise first and look at what it returns.";
     case DSDPV1_ERR_CONFIG_ADDRESS: return "Give a station address from 0 to 126.";
     case DSDPV1_ERR_CONFIG_INPUT:

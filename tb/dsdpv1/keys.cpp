@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tb/dsdpv1/serial_keys.hpp"
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/input/input_error.hpp"
 
@@ -164,9 +165,6 @@ const keys::Object& chip_keys_of(Part part) {
 }
 
 void check_dsdpv1_chip(const Dsdpv1Settings& chip, const std::string& file) {
-  if (chip.mode != HostMode::kParallel)
-    throw InputError(file, chip.line,
-                     "mode is spi or uart, which no user CPU of the bench speaks, allowed is parallel");
   if (chip.u_timer > 0 && chip.u_timer < 48)
     throw InputError(file, chip.line,
                      fmt::format("u_timer is {}, allowed is 0 or an integer from 48 to 4800000 cycles", chip.u_timer));
@@ -178,39 +176,51 @@ Straps straps_of(const OwnSettings& settings) {
           static_cast<Level>(chip.interval)};
 }
 
-const keys::Object& dsdpv1_user_keys() {
-  static const ObjectOf<Dsdpv1User> keys = [] {
-    using U = Dsdpv1User;
-    ObjectOf<U> o("user_cpu", "The processor that runs the user program, and its bus to the chip.");
-    o.word("kind", &U::kind,
-           std::vector<WordFor<CpuKind>>{
-               {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing`"},
-               {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"}},
-           "Who runs it.");
-    o.file(
-        "elf", &U::elf,
-        "Firmware of the ARM board, relative to the scenario's folder; on the command line relative to where you are.");
-    o.word("without_mailbox", &U::without_mailbox,
-           std::vector<WordFor<WithoutMailbox>>{
-               {WithoutMailbox::kRefuse, "refuse", "the first of them is reported in one line, and nothing is run"},
-               {WithoutMailbox::kLeaveOut, "leave_out",
-                "actions are not carried out, expectations not judged, and each is listed at the end"}},
-           "For firmware without a mailbox: what becomes of actions for the user CPU, of expectations of outputs or of "
-           "errors of the driver, and of "
-           "settings for its program that stand beside `elf` (docs/arm_board.md).");
-    o.names("switches", &U::switches, {0, 112},
-            "Switches that hold input pins of the ARM board, like [PA0=low, PB5=high]: PA0 to PG15 but for those that "
-            "the board wires to the "
-            "chip. Pins without one have their pull-up or pull-down only.");
-    o.number("cpi", &U::cpi, {1, 10}, "HCLK", "Cycles per instruction of the ARM board, an estimate.");
-    o.object("timing", &U::timing, timing_keys(), "How fast it is.");
-    o.object("access", &U::access, access_keys(),
-             "When it moves the pins of its bus; on an ARM board in place of the FSMC.");
-    o.object("fsmc", &U::fsmc, fsmc_keys(), "When it moves them, as registers of an FSMC.");
-    o.at_most_one.push_back({"access", "fsmc"});
-    return o;
-  }();
-  return keys;
+namespace {
+
+ObjectOf<Dsdpv1User> plain_user_keys() {
+  using U = Dsdpv1User;
+  ObjectOf<U> o("user_cpu", "The processor that runs the user program, and its bus to the chip.");
+  o.word("kind", &U::kind,
+         std::vector<WordFor<CpuKind>>{
+             {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing`"},
+             {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"}},
+         "Who runs it.");
+  o.file(
+      "elf", &U::elf,
+      "Firmware of the ARM board, relative to the scenario's folder; on the command line relative to where you are.");
+  o.word("without_mailbox", &U::without_mailbox,
+         std::vector<WordFor<WithoutMailbox>>{
+             {WithoutMailbox::kRefuse, "refuse", "the first of them is reported in one line, and nothing is run"},
+             {WithoutMailbox::kLeaveOut, "leave_out",
+              "actions are not carried out, expectations not judged, and each is listed at the end"}},
+         "For firmware without a mailbox: what becomes of actions for the user CPU, of expectations of outputs or of "
+         "errors of the driver, and of "
+         "settings for its program that stand beside `elf` (docs/arm_board.md).");
+  o.names("switches", &U::switches, {0, 112},
+          "Switches that hold input pins of the ARM board, like [PA0=low, PB5=high]: PA0 to PG15 but for those that "
+          "the board wires to the "
+          "chip. Pins without one have their pull-up or pull-down only.");
+  o.number("cpi", &U::cpi, {1, 10}, "HCLK", "Cycles per instruction of the ARM board, an estimate.");
+  o.object("timing", &U::timing, timing_keys(), "How fast it is.");
+  o.object("access", &U::access, access_keys(),
+           "When it moves the pins of its bus; on an ARM board in place of the FSMC.");
+  o.object("fsmc", &U::fsmc, fsmc_keys(), "When it moves them, as registers of an FSMC.");
+  o.at_most_one.push_back({"access", "fsmc"});
+  return o;
+}
+
+ObjectOf<Dsdpv1User> rsu_user_keys() {
+  ObjectOf<Dsdpv1User> o = plain_user_keys();
+  add_serial_ports(o);
+  return o;
+}
+
+}  // namespace
+
+const keys::Object& user_keys_of(Part part) {
+  static const ObjectOf<Dsdpv1User> plain = plain_user_keys(), rsu = rsu_user_keys();
+  return part == Part::kRsu ? rsu : plain;
 }
 
 dsdpv1::Config config_of(const ChipRequest& request) {

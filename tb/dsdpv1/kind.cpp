@@ -1,5 +1,7 @@
 #include "tb/dsdpv1/kind.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 
 #include "driver/dsdpv1.h"
@@ -23,6 +25,9 @@ using user_cpu::command::OfChip;
 
 std::string said_hold(const OfChip& order) { return "holds the DPRAM for " + time_text(order.duration); }
 std::string said_wrong_crc(const OfChip&) { return "wrong CRC"; }
+std::string said_flip_bit(const OfChip& order) { return fmt::format("a wrong bit in {} telegrams", order.times); }
+std::string said_cut(const OfChip& order) { return fmt::format("{} telegrams end too early", order.times); }
+std::string said_wrong_parity(const OfChip& order) { return fmt::format("wrong parity in {} telegrams", order.times); }
 std::string said_early_r_sta(const OfChip&) { return "R_STA without a look at L_REQ and L_STA"; }
 
 class Dsdpv1AccessReader : public AccessReader {
@@ -52,11 +57,17 @@ class Dsdpv1Kind : public ChipMaker {
   void check_chip(const OwnSettings& settings, const keys::Source& source) const override {
     check_dsdpv1_chip(static_cast<const Dsdpv1Settings&>(settings), source.file);
   }
-  const keys::Object& user_keys() const override { return dsdpv1_user_keys(); }
+  const keys::Object& user_keys() const override { return user_keys_of(part_); }
   std::unique_ptr<OwnSettings> make_user_settings() const override { return std::make_unique<Dsdpv1User>(); }
-  void check_user(const OwnSettings& settings, const keys::Source& source, const std::string& slave,
-                  int where) const override {
-    check_dsdpv1_user(static_cast<const Dsdpv1User&>(settings), source.file, slave, where);
+  void check_user(const OwnSettings& settings, const OwnSettings& chip, const keys::Source& source,
+                  const std::string& slave, int where) const override {
+    const auto& user = static_cast<const Dsdpv1User&>(settings);
+    check_dsdpv1_user(user, source.file, slave, where);
+    check_port(user, static_cast<const Dsdpv1Settings&>(chip), source.file, slave, where);
+  }
+  void check_order(const std::string& order, const OwnSettings& chip, const keys::Source& source,
+                   int where) const override {
+    tb::check_order(order, static_cast<const Dsdpv1Settings&>(chip).mode, source.file, where);
   }
   std::string place_of(const std::string& init_key) const override;
   const std::vector<Order>& orders() const override;
@@ -108,8 +119,10 @@ std::string Dsdpv1Kind::place_of(const std::string& init_key) const {
   return found == places.end() ? "" : found->second;
 }
 
-const std::vector<Order>& Dsdpv1Kind::orders() const {
-  static const std::vector<Order> orders = {
+namespace {
+
+std::vector<Order> parallel_orders() {
+  return {
       {{user_cpu::kHoldDpram, "The user CPU takes the DPRAM and keeps it.", {"slave", "for"}, {}}, said_hold},
       {{user_cpu::kWrongCrc,
         "The next blocks of this kind that the user CPU writes have a wrong CRC.",
@@ -124,7 +137,35 @@ const std::vector<Order>& Dsdpv1Kind::orders() const {
        said_early_r_sta,
        true},
   };
+}
+
+std::vector<Order> rsu_orders() {
+  std::vector<Order> orders = parallel_orders();
+  orders.push_back(
+      {{user_cpu::kFlipBit,
+        "The next telegrams of the user CPU have a wrong bit: SPI and UART, there with a parity that fits.",
+        {"slave"},
+        {"times"}},
+       said_flip_bit});
+  orders.push_back({{user_cpu::kCutTelegram,
+                     "The next telegrams of the user CPU end too early: XSS rises within the third byte, or two "
+                     "characters are all.",
+                     {"slave"},
+                     {"times"}},
+                    said_cut});
+  orders.push_back({{user_cpu::kWrongParity,
+                     "The next telegrams of the user CPU have a character with a wrong parity: UART.",
+                     {"slave"},
+                     {"times"}},
+                    said_wrong_parity});
   return orders;
+}
+
+}  // namespace
+
+const std::vector<Order>& Dsdpv1Kind::orders() const {
+  static const std::vector<Order> plain = parallel_orders(), rsu = rsu_orders();
+  return part_ == Part::kRsu ? rsu : plain;
 }
 
 const std::vector<keys::Word>& Dsdpv1Kind::blocks() const {

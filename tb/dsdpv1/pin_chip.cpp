@@ -1,5 +1,6 @@
 #include "tb/dsdpv1/pin_chip.hpp"
 
+#include <array>
 #include <utility>
 
 #include "tb/dsdpv1/pins/pin_table.hpp"
@@ -9,7 +10,8 @@ namespace dsdpv1::tb {
 namespace {
 
 /// The output pins that the bench needs in any case.
-constexpr PinMask kBusPins = dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts) | dsdpv1::mask(Pin::kIntr0);
+constexpr PinMask kBusPins =
+    dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrts) | dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kTxd);
 
 // So that profibus::addressee is a bus::RunReader.
 static_assert(profibus::kNoTelegram == bus::kNoTelegram && profibus::kForNobody == bus::kForNobody &&
@@ -93,6 +95,7 @@ void PinChip::send_run() {
 void PinChip::pin_changed(Tick at, Pin pin, Level level) {
   if (pin != Pin::kDOut) pause_access();  // D is recorded and checked, nobody else looks at it
   tell(at, pin, level);
+  if (pin == Pin::kTxd && on_txd) on_txd(at, level != 0);
   if (pin == Pin::kPbtxd) line_.drive(at, level != 0);
   if (pin == Pin::kPbrts) line_.enable(at, level != 0);
   if (pin == Pin::kPbrts) own_run_ = hides_txd_ = false;
@@ -179,7 +182,25 @@ void PinChip::reset_host(Tick at) {
   for (const Pin pin : {Pin::kRSta, Pin::kRReq}) chip.set(at, pin, 0);
   chip.set(at, Pin::kDIn, dsdpv1::kLevelZ);
   chip.set(at, Pin::kA, dsdpv1::HostAccess::kIdleAddress);
+  for (const Pin pin : {Pin::kXss, Pin::kRxd}) chip.set(at, pin, 1);
+  for (const Pin pin : {Pin::kSck, Pin::kMosi}) chip.set(at, pin, 0);
+  report_host(at, Pin::kXss, Pin::kRxd);
   report_host(at, Pin::kRReq, Pin::kDIn);
+}
+
+void PinChip::set_serial(Tick at, user_cpu::SerialPin pin, bool level) {
+  constexpr std::array<Pin, 6> kPins = {Pin::kXss, Pin::kSck, Pin::kMosi, Pin::kMiso, Pin::kRxd, Pin::kTxd};
+  const Pin moved = kPins.at(static_cast<std::size_t>(pin));
+  if (chip_.level(moved) == (level ? 1 : 0)) return;
+  device().set(at, moved, level ? 1 : 0);
+  report_host(at, moved, moved);
+}
+
+/// Released, it is high: a board has a pull-up (SP6 reads FF where nobody drives).
+bool PinChip::miso(Tick at) {
+  PinDevice& chip = device();
+  chip.advance(at - 1);
+  return chip.level(Pin::kMiso) != 0;
 }
 
 void PinChip::set_r_req(Tick at, bool level) {

@@ -12,6 +12,7 @@
 #include "tb/chip/chip_kind.hpp"
 #include "tb/dsdpv1/user_cpu/cpu.hpp"
 #include "tb/dsdpv1/user_cpu/fsmc_timing.hpp"
+#include "tb/dsdpv1/user_cpu/serial_port.hpp"
 
 namespace dsdpv1::tb {
 
@@ -45,6 +46,21 @@ enum class CpuKind : std::uint8_t { kNative, kArm };
 /// What becomes of that part of a scenario that only firmware with a mailbox can carry out or tell.
 enum class WithoutMailbox : std::uint8_t { kRefuse, kLeaveOut };
 
+/// The user's end of an SPI port. Times in ticks.
+struct SpiKeys {
+  int clock_khz = 9000;
+  Tick lead = 2400, lag = 2400, gap = 6000, byte_gap = 0;
+  int spare = 0;
+  int line = 0;
+};
+
+/// The user's end of a UART port.
+struct UartKeys {
+  int rate = 0;  ///< bit/s; 0: that of the chip's strap
+  Tick gap = 0;
+  int line = 0;
+};
+
 struct Dsdpv1User : OwnSettings {
   CpuKind kind = CpuKind::kNative;
   Name elf;                                                  ///< kArm
@@ -54,6 +70,8 @@ struct Dsdpv1User : OwnSettings {
   std::optional<CpuTimes> timing;  ///< kNative; its `access` is left alone: that is the next member
   std::optional<AccessTimes> access;
   std::optional<Fsmc> fsmc;
+  std::optional<SpiKeys> spi;    ///< kNative, HostMode::kSpi
+  std::optional<UartKeys> uart;  ///< kNative, HostMode::kUart
 };
 
 /// A switch of an ARM board that holds an input pin.
@@ -72,10 +90,16 @@ dsdpv1::Config config_of(const ChipRequest& request);
 // The keys (ChipKind::chip_keys, user_keys).
 const keys::Object& chip_keys_of(Part part);
 inline const keys::Object& dsdpv1_chip_keys() { return chip_keys_of(Part::kDsdpv1); }
-const keys::Object& dsdpv1_user_keys();
+const keys::Object& user_keys_of(Part part);
 
 /// ChipKind::check_chip, check_user.
 void check_dsdpv1_chip(const Dsdpv1Settings& chip, const std::string& file);
 void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const std::string& slave, int line);
+void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file, const std::string& slave,
+                int line);
+void check_order(const std::string& order, HostMode mode, const std::string& file, int line);
+
+/// How the user CPU reaches the chip.
+user_cpu::HostPort host_port_of(const Dsdpv1User& user, const Dsdpv1Settings& chip);
 
 }  // namespace dsdpv1::tb

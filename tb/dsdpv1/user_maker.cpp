@@ -12,7 +12,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-MakeUser native_user(const scenario::UserCpu& user, Dsdpv1View& chip) {
+MakeUser native_user(const scenario::UserCpu& user, const Dsdpv1Settings& settings, Dsdpv1View& chip) {
   const Dsdpv1User& own = tb::own(user);
   user_cpu::CpuTiming timing;
   if (own.timing) timing = static_cast<const user_cpu::CpuTiming&>(*own.timing);
@@ -22,8 +22,9 @@ MakeUser native_user(const scenario::UserCpu& user, Dsdpv1View& chip) {
     timing.access = fsmc.read;
     timing.write_access = fsmc.write;
   }
-  return [&user, &chip, timing](const user_cpu::StationConfig& station, Tick start) {
-    return std::make_unique<user_cpu::NativeUser>(chip.host_bus(), timing, program_options(user, station), start);
+  const user_cpu::HostPort port = host_port_of(own, settings);
+  return [&user, &chip, timing, port](const user_cpu::StationConfig& station, Tick start) {
+    return std::make_unique<user_cpu::NativeUser>(chip.host_bus(), timing, program_options(user, station), start, port);
   };
 }
 
@@ -37,7 +38,8 @@ bool has_arm_maker() { return arm_maker != nullptr; }
 
 MakeUser make_dsdpv1_user(const UserRequest& request) {
   auto& chip = static_cast<Dsdpv1View&>(request.chip);
-  if (own(request.slave.user_cpu).kind != CpuKind::kArm) return native_user(request.slave.user_cpu, chip);
+  if (own(request.slave.user_cpu).kind != CpuKind::kArm)
+    return native_user(request.slave.user_cpu, static_cast<const Dsdpv1Settings&>(*request.scenario.chip), chip);
   if (has_arm_maker()) return arm_maker(request, chip);
   throw InputError(request.scenario.file, request.slave.user_cpu.line,
                    std::string("kind is arm, which ") + kBoardProgram +

@@ -87,7 +87,7 @@ class Checker {
 
   void check_slave(const Slave& slave) const {
     check_objects(slave.user_cpu.dpv1);
-    scenario_.kind->check_user(*slave.user_cpu.own, {scenario_.file}, slave.name.text, slave.line);
+    scenario_.kind->check_user(*slave.user_cpu.own, *scenario_.chip, {scenario_.file}, slave.name.text, slave.line);
     if (slave.gsd.empty() && !slave.modules.empty())
       fail(slave.modules.front().line, "modules without gsd, allowed are the modules of a GSD file");
     if (!slave.gsd.empty()) return;
@@ -201,6 +201,8 @@ class Checker {
     check_connection_name(action.connection);
     check_time(action.at, "at", action.line);
     if (action.when) check_condition(*action.when);
+    if (action.what == ActionKind::kOfChip)
+      scenario_.kind->check_order(action.word, *scenario_.chip, {scenario_.file}, action.line);
     switch (action.what) {
       case ActionKind::kReadInputs:
       case ActionKind::kReadOutputs:

@@ -1,6 +1,7 @@
 // docs/scenarios.md from the description of the keys.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "tb/input/units.hpp"
@@ -127,6 +128,51 @@ void collect(const Object& object, std::vector<const Object*>& found) {
     if (field.type.object != nullptr) collect(*field.type.object, found);
 }
 
+bool has(const Object& object, const std::string& key) {
+  for (const Field& field : object.fields)
+    if (field.name == key) return true;
+  return false;
+}
+
+/// Keys of `own` that `usual` has not; empty: none.
+std::string keys_besides(const Object& usual, const Object& own, const char* kind) {
+  std::string rows;
+  for (const Field& field : own.fields)
+    if (!has(usual, field.name)) rows += row(field);
+  if (rows.empty()) return {};
+  return fmt::format(
+      "\n## {} of {}\n\nThe keys that it has besides.\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n{}",
+      own.name, kind, rows);
+}
+
+std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
+  std::string rows;
+  for (const Order& order : kind.orders()) {
+    bool known = false;
+    for (const Order& other : usual.orders()) known |= other.choice.word == order.choice.word;
+    if (!known) rows += fmt::format("| `{}` | {} |\n", order.choice.word, order.choice.doc);
+  }
+  if (rows.empty()) return {};
+  return fmt::format(
+      "\n## actions of {}\n\nThe actions that it has besides; `slave` says whose, `times` how often (1).\n\n| `do` | "
+      "what it does |\n"
+      "|---|---|\n{}",
+      kind.name(), rows);
+}
+
+/// What scenarios with chips of another kind may say besides.
+std::string besides(const ChipKind& usual, const ChipKind& kind) {
+  std::string text = keys_besides(usual.chip_keys(), kind.chip_keys(), kind.name()) +
+                     keys_besides(usual.user_keys(), kind.user_keys(), kind.name());
+  std::vector<const Object*> known, own;
+  collect(usual.user_keys(), known);
+  collect(kind.user_keys(), own);
+  for (const Object* object : own)
+    if (object != &kind.user_keys() && std::find(known.begin(), known.end(), object) == known.end())
+      text += section(*object);
+  return text + orders_besides(usual, kind);
+}
+
 }  // namespace
 
 std::string markdown(const ChipKind& kind) {
@@ -134,6 +180,8 @@ std::string markdown(const ChipKind& kind) {
   collect(description(kind), objects);
   std::string text = kIntroduction;
   for (const Object* object : objects) text += section(*object);
+  for (const ChipKind* other : chip_kinds())
+    if (other != &kind) text += besides(kind, *other);
   return text;
 }
 

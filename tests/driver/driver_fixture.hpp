@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tests/driver/fake_chip.hpp"
+#include "tests/driver/fake_rsu.hpp"
 
 namespace dsdpv1 {
 
@@ -13,8 +13,9 @@ class DriverTest : public testing::Test {
  protected:
   using Bytes = std::vector<std::uint8_t>;
 
+  virtual FakePort port_kind() const { return FakePort::kParallel; }
+
   void SetUp() override {
-    const dsdpv1_port port = chip.port();
     judge.ctx = this;
     judge.prm = [](void* ctx, const std::uint8_t* bytes, std::uint8_t length) {
       auto& test = *static_cast<DriverTest*>(ctx);
@@ -28,7 +29,7 @@ class DriverTest : public testing::Test {
       test.cfg_lengths = {cfg->input_length, cfg->output_length};
       return test.cfg_verdict;
     };
-    ASSERT_EQ(dsdpv1_open(&device, &port, &judge), DSDPV1_OK);
+    ASSERT_EQ(rsu.open(port_kind(), device, judge), DSDPV1_OK);
     config.address = 5;
     config.ident = 0x0CC9;
     config.sync = true;
@@ -60,6 +61,7 @@ class DriverTest : public testing::Test {
   Bytes received() const { return {outputs.begin(), outputs.begin() + result.length}; }
 
   FakeChip chip;
+  FakeRsu rsu{chip};
   dsdpv1_device device{};
   dsdpv1_judge judge{};
   dsdpv1_config config{};

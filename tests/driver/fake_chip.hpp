@@ -18,6 +18,7 @@ struct FakeChip {
   bool present = true;         ///< makes its accesses
   bool takes_commands = true;  ///< looks at B010 in them
   bool refuses_silently = false;
+  bool looks_at_crcs = true;               ///< of the user's blocks: not over SPI and UART (SP15)
   int not_ready_accesses = 0;              ///< accesses until B004 becomes 0xC5
   int busy_samples = 0;                    ///< L_REQ samples that still find the chip at work
   std::map<std::uint16_t, int> bad_reads;  ///< address -> how many reads of it return a wrong value
@@ -39,6 +40,8 @@ struct FakeChip {
   FakeChip();
   dsdpv1_port port();
   std::uint8_t& at(std::uint16_t address) { return memory.at(address); }
+  /// Whoever keeps the chip away lets it in.
+  void let_in();
   /// Puts a block where the chip puts them, with its CRC.
   void put_outputs(const std::vector<std::uint8_t>& data);
   void put_prm(const std::vector<std::uint8_t>& data);

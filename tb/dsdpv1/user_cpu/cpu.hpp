@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "tb/dsdpv1/user_cpu/host_bus.hpp"
+#include "tb/dsdpv1/user_cpu/transfer.hpp"
 
 namespace dsdpv1::user_cpu {
 
@@ -46,6 +47,13 @@ class Cpu {
   virtual bool l_sta() = 0;
   /// The same for the lamps' pins, as HostBus::lamps has them.
   virtual unsigned lamps() = 0;
+
+  /// Waits until the transfer, which has begun, is done; then the overhead passes. Interrupts are served after it.
+  virtual void transfer(Transfer& transfer) = 0;
+  /// The chip's pins of the serial ports, for a transfer.
+  virtual SerialPins& serial_pins() = 0;
+  /// `Transfer::next` of the one under way may have moved.
+  virtual void transfer_changed() = 0;
 
   /// Lets time pass; an interrupt is served meanwhile, and its time counts.
   virtual void wait_until(Tick at) = 0;

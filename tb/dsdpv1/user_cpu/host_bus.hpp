@@ -5,6 +5,7 @@
 
 #include "bus/time.hpp"
 #include "tb/dsdpv1/user_cpu/access_timing.hpp"
+#include "tb/dsdpv1/user_cpu/serial_pins.hpp"
 
 namespace dsdpv1::user_cpu {
 
@@ -18,10 +19,8 @@ struct Access {
 /// end of the access.
 ///
 /// Calls come in order of time. All of them are made from `bus::Agent::run` of the CPU, on the stack of the bench.
-class HostBus {
+class HostBus : public SerialPins {
  public:
-  virtual ~HostBus() = default;
-
   virtual void set_r_req(Tick at, bool level) = 0;
   virtual void set_r_sta(Tick at, bool level) = 0;
   /// The pins as they are at `at`, all chip activity up to and including that tick done.

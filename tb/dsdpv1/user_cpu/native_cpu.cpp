@@ -13,6 +13,7 @@ NativeCpu::NativeCpu(HostBus& bus, const CpuTiming& timing, Program program, Tic
 Tick NativeCpu::next() const {
   if (fiber_.ended()) return bus::kNever;
   if (request_.op == Op::kAccess) return put_off_ ? ready_at_ : std::min(bus_.next_edge(), ready_at_);
+  if (request_.op == Op::kTransfer && !request_.transfer->done()) return std::max(now_, request_.transfer->next());
   return request_.op == Op::kWait ? std::max(now_, std::min(ready_at_, break_tick())) : ready_at_;
 }
 
@@ -21,8 +22,16 @@ void NativeCpu::run(Tick now) {
   do {
     now_ = at;
     if (request_.op == Op::kAccess && !put_off_ && bus_.next_edge() <= now_) bus_.run_edges(now_);
+    if (request_.op == Op::kTransfer) go_on_transfer();
     for (at = next(); at <= now_; at = next()) go_on_program();
   } while (goes_on(at));
+}
+
+void NativeCpu::go_on_transfer() {
+  Transfer& transfer = *request_.transfer;
+  if (transfer.done()) return;
+  while (!transfer.done() && transfer.next() <= now_) transfer.run(now_);
+  if (transfer.done()) ready_at_ = now_ + timing_.overhead;
 }
 
 void NativeCpu::go_on_program() {
@@ -63,6 +72,7 @@ void NativeCpu::take_request() {
       ready_at_ = now_ + timing_.pin_sample;
       break;
     case Op::kWait: ready_at_ = request_.until; break;
+    case Op::kTransfer: go_on_transfer(); break;
   }
 }
 
@@ -128,7 +138,7 @@ void NativeCpu::serve_interrupt() {
 }
 
 std::uint8_t NativeCpu::read(std::uint16_t address) {
-  request_ = {Op::kAccess, {false, address, 0}, false, 0};
+  request_ = {Op::kAccess, {false, address, 0}, false, 0, nullptr};
   fiber_.suspend();
   const std::uint8_t value = bus_.read_value();  // before a handler reads something else
   serve_interrupt();
@@ -136,32 +146,39 @@ std::uint8_t NativeCpu::read(std::uint16_t address) {
 }
 
 void NativeCpu::write(std::uint16_t address, std::uint8_t value) {
-  perform({Op::kAccess, {true, address, value}, false, 0});
+  perform({Op::kAccess, {true, address, value}, false, 0, nullptr});
 }
 
-void NativeCpu::set_r_req(bool level) { perform({Op::kSetRReq, {}, level, 0}); }
+void NativeCpu::set_r_req(bool level) { perform({Op::kSetRReq, {}, level, 0, nullptr}); }
 
-void NativeCpu::set_r_sta(bool level) { perform({Op::kSetRSta, {}, level, 0}); }
+void NativeCpu::set_r_sta(bool level) { perform({Op::kSetRSta, {}, level, 0, nullptr}); }
 
 bool NativeCpu::l_req() {
-  perform({Op::kLReq, {}, false, 0});
+  perform({Op::kLReq, {}, false, 0, nullptr});
   return sampled_;
 }
 
 bool NativeCpu::l_sta() {
-  perform({Op::kLSta, {}, false, 0});
+  perform({Op::kLSta, {}, false, 0, nullptr});
   return sampled_;
 }
 
 unsigned NativeCpu::lamps() {
-  perform({Op::kLamps, {}, false, 0});
+  perform({Op::kLamps, {}, false, 0, nullptr});
   return lamps_;
+}
+
+void NativeCpu::transfer(Transfer& transfer) { perform({Op::kTransfer, {}, false, 0, &transfer}); }
+
+void NativeCpu::transfer_changed() {
+  announce();
+  if (on_announce) on_announce();
 }
 
 /// Suspends until `at` or an earlier break; interrupts due then have been served on return.
 void NativeCpu::suspend_until(Tick at, Break reason) {
   break_ = reason;
-  perform({Op::kWait, {}, false, at});
+  perform({Op::kWait, {}, false, at, nullptr});
 }
 
 void NativeCpu::wait_until(Tick at) {

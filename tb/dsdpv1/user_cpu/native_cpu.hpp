@@ -29,6 +29,9 @@ class NativeCpu : public bus::Agent, private Cpu {
   /// As StationCpu has it.
   Others* others = nullptr;
 
+  /// Besides `announce`, for the agent that this CPU is a part of.
+  std::function<void()> on_announce;
+
   /// INTR0 changed at `at`; for the bench that watches the pin. Callable while the chip runs ahead of this agent's
   /// turn.
   void intr0_changed(Tick at, bool level);
@@ -39,12 +42,13 @@ class NativeCpu : public bus::Agent, private Cpu {
   const CpuCounters& counters() const { return counters_; }
 
  private:
-  enum class Op : std::uint8_t { kNone, kAccess, kSetRReq, kSetRSta, kLReq, kLSta, kLamps, kWait };
+  enum class Op : std::uint8_t { kNone, kAccess, kSetRReq, kSetRSta, kLReq, kLSta, kLamps, kWait, kTransfer };
   struct Request {
     Op op = Op::kNone;
     Access access;
     bool level = false;
-    Tick until = 0;  ///< kWait
+    Tick until = 0;                ///< kWait
+    Transfer* transfer = nullptr;  ///< kTransfer
   };
   /// What may end a kWait before its time.
   enum class Break : std::uint8_t { kInterrupt, kWake, kIntr0 };
@@ -61,6 +65,9 @@ class NativeCpu : public bus::Agent, private Cpu {
   bool l_req() override;
   bool l_sta() override;
   unsigned lamps() override;
+  void transfer(Transfer& transfer) override;
+  SerialPins& serial_pins() override { return bus_; }
+  void transfer_changed() override;
   void wait_until(Tick at) override;
   bool wait_for_wake(Tick until) override;
   bool wait_intr0(Tick until) override;
@@ -72,6 +79,7 @@ class NativeCpu : public bus::Agent, private Cpu {
   void serve_interrupt();
   bool interrupt_is_due() const { return interrupts_open() && interrupt_at_ <= now_; }
   bool interrupts_open() const { return handler_ && enabled_ && !in_handler_; }
+  void go_on_transfer();
   void go_on_program();
   bool goes_on(Tick at);
   void take_request();

@@ -9,11 +9,12 @@ namespace dsdpv1::user_cpu {
 
 class NativeUser : public StationCpu {
  public:
-  NativeUser(HostBus& bus, const CpuTiming& timing, ProgramOptions options, Tick start)
-      : program_(std::move(options)), cpu_(bus, timing, program_.entry(), start) {
+  NativeUser(HostBus& bus, const CpuTiming& timing, ProgramOptions options, Tick start, const HostPort& port = {})
+      : program_(std::move(options), port), cpu_(bus, timing, program_.entry(), start) {
     program_.on_error = [this](const DriverError& error) {
       if (on_error) on_error(program_error(error));
     };
+    cpu_.on_announce = [this] { announce(); };
   }
 
   Tick next() const override { return cpu_.next(); }

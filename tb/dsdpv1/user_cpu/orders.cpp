@@ -22,6 +22,9 @@ struct ToDriver {
     if (of_chip.order == kHoldDpram) return command::Hold{of_chip.duration};
     if (of_chip.order == kWrongCrc) return command::WrongCrc{area_of(of_chip.block), of_chip.times};
     if (of_chip.order == kEarlyRSta) return command::EarlyRSta{};
+    if (of_chip.order == kFlipBit) return command::SpoilTelegrams{TelegramFault::kFlippedBit, of_chip.times};
+    if (of_chip.order == kCutTelegram) return command::SpoilTelegrams{TelegramFault::kCut, of_chip.times};
+    if (of_chip.order == kWrongParity) return command::SpoilTelegrams{TelegramFault::kWrongParity, of_chip.times};
     throw std::logic_error("no order of this chip: " + of_chip.order);
   }
 };

@@ -12,6 +12,9 @@ namespace dsdpv1::user_cpu {
 constexpr const char* kHoldDpram = "hold_dpram";
 constexpr const char* kWrongCrc = "wrong_crc";
 constexpr const char* kEarlyRSta = "early_r_sta";
+constexpr const char* kFlipBit = "flip_bit";
+constexpr const char* kCutTelegram = "cut_telegram";
+constexpr const char* kWrongParity = "wrong_parity";
 
 /// The words of command::OfChip::block, in the order of command::Area.
 const std::vector<std::string>& block_words();

@@ -6,6 +6,10 @@
 #include "registers/dsdpv1_regs.h"
 #include "tb/dsdpv1/user_cpu/orders.hpp"
 
+extern "C" {
+#include "driver/dsdpv1_internal.h"
+}
+
 namespace dsdpv1::user_cpu {
 
 dsdpv1_config driver_config(const StationConfig& station) {
@@ -51,7 +55,6 @@ NativeCpu::Program UserProgram::entry() {
 
 void UserProgram::run_firmware(Cpu& cpu) {
   cpu_ = &cpu;
-  port_ = std::make_unique<DriverPort>(cpu);
   dsdpv1_judge judge{};
   judge.ctx = this;
   judge.prm = [](void* ctx, const std::uint8_t*, std::uint8_t) {
@@ -63,14 +66,29 @@ void UserProgram::run_firmware(Cpu& cpu) {
     self->input_length_ = block->input_length;
     return self->judge(self->options_.cfg);
   };
-  const dsdpv1_port port = port_->port();
-  dsdpv1_open(&device_, &port, &judge);
+  open(judge);
   if (options_.acyclic.any()) {
     acyclic_ = std::make_unique<AcyclicServer>(options_.acyclic);
     check(acyclic_->open(device_), "acyclic_open");
   }
   cpu.wait(options_.start_delay);
   if (bring_up()) main_loop();
+}
+
+void UserProgram::open(const dsdpv1_judge& judge) {
+  if (!std::holds_alternative<std::monostate>(host_.port)) {
+    serial_ = std::make_unique<SerialPort>(*cpu_, host_);
+    check(serial_->open(device_, judge), "open");
+    return;
+  }
+  port_ = std::make_unique<DriverPort>(*cpu_);
+  const dsdpv1_port port = port_->port();
+  dsdpv1_open(&device_, &port, &judge);
+}
+
+const HoldCounters& UserProgram::port_counters() const {
+  if (serial_) return serial_->counters();
+  return port_ ? port_->counters() : before_start_;
 }
 
 bool UserProgram::bring_up() {
@@ -225,8 +243,16 @@ void UserProgram::carry_out(const command::SetDiagnosis& set) {
 
 void UserProgram::carry_out(const command::Reinitialise& again) { initialise(again.station); }
 
-/// Without the driver, whose holds are as short as possible. The interrupt handler is kept out meanwhile.
+void UserProgram::claim_for(Tick duration) {
+  if (!check(dsdpv1_hold(&device_), "hold")) return;
+  cpu_->wait(duration);
+  check(dsdpv1_release(&device_), "release");
+}
+
+/// Without the driver, whose holds are as short as possible, over the parallel port. The interrupt handler is kept out
+/// meanwhile.
 void UserProgram::carry_out(const command::Hold& hold) {
+  if (serial_) return claim_for(hold.duration);
   const dsdpv1_port port = port_->port();
   cpu_->enable_interrupts(false);
   port.set_r_req(port.ctx, true);
@@ -271,6 +297,10 @@ void UserProgram::carry_out(const command::WrongLength&) { wrong_length_ = true;
 void UserProgram::carry_out(const command::SendVerdict& verdict) {
   const auto which = static_cast<std::uint8_t>(verdict.cfg ? DSDPV1_VERDICT_CFG : DSDPV1_VERDICT_PRM);
   check(dsdpv1_send_verdict(&device_, which, verdict.refuse ? which : std::uint8_t{0}), "send_verdict");
+}
+
+void UserProgram::carry_out(const command::SpoilTelegrams& spoil) {
+  if (serial_) serial_->spoil(spoil.fault, spoil.times);
 }
 
 void UserProgram::carry_out(const command::SetAnswering& set) {

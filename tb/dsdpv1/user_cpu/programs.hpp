@@ -15,6 +15,7 @@
 #include "tb/dsdpv1/user_cpu/acyclic_server.hpp"
 #include "tb/dsdpv1/user_cpu/driver_port.hpp"
 #include "tb/dsdpv1/user_cpu/native_cpu.hpp"
+#include "tb/dsdpv1/user_cpu/serial_port.hpp"
 #include "tb/user_cpu/program.hpp"
 
 namespace dsdpv1::user_cpu {
@@ -40,11 +41,17 @@ struct WrongCrc {
   Area area = Area::kInputs;
   int times = 1;
 };
+/// The next `times` telegrams to the chip go wrong: SPI and UART.
+struct SpoilTelegrams {
+  TelegramFault fault = TelegramFault::kFlippedBit;
+  int times = 1;
+};
 }  // namespace command
 
-using DriverCommand = std::variant<command::SetInputs, command::SetDiagnosis, command::Reinitialise, command::Hold,
-                                   command::Stop, command::Resume, command::EarlyRSta, command::WrongCrc,
-                                   command::WrongLength, command::SendVerdict, command::SetAnswering>;
+using DriverCommand =
+    std::variant<command::SetInputs, command::SetDiagnosis, command::Reinitialise, command::Hold, command::Stop,
+                 command::Resume, command::EarlyRSta, command::WrongCrc, command::WrongLength, command::SendVerdict,
+                 command::SetAnswering, command::SpoilTelegrams>;
 /// A call of the driver that did not return DSDPV1_OK.
 struct DriverError {
   Tick at = 0;
@@ -58,7 +65,7 @@ ProgramError program_error(const DriverError& error);
 /// The program and what the bench sees of it. Not copied, and must outlive the CPU that runs it.
 class UserProgram {
  public:
-  explicit UserProgram(ProgramOptions options) : options_(std::move(options)) {}
+  explicit UserProgram(ProgramOptions options, const HostPort& port = {}) : options_(std::move(options)), host_(port) {}
   UserProgram(const UserProgram&) = delete;
   UserProgram& operator=(const UserProgram&) = delete;
 
@@ -72,7 +79,7 @@ class UserProgram {
   std::function<void(const DriverError&)> on_error;
 
   const ProgramCounters& counters() const { return counters_; }
-  const HoldCounters& port_counters() const { return port_ ? port_->counters() : before_start_; }
+  const HoldCounters& port_counters() const;
   /// All errors so far, at most 1000; later ones are only counted.
   const std::vector<DriverError>& errors() const { return errors_; }
   const std::vector<std::uint8_t>& outputs() const { return outputs_; }
@@ -85,6 +92,8 @@ class UserProgram {
 
  private:
   void run_firmware(Cpu& cpu);
+  void open(const dsdpv1_judge& judge);
+  void claim_for(Tick duration);
   bool bring_up();
   void main_loop();
   void exchange();
@@ -111,11 +120,14 @@ class UserProgram {
   void carry_out(const command::WrongLength& wrong);
   void carry_out(const command::SendVerdict& verdict);
   void carry_out(const command::SetAnswering& set);
+  void carry_out(const command::SpoilTelegrams& spoil);
 
   ProgramOptions options_;
+  HostPort host_;
   std::deque<DriverCommand> commands_;
   Cpu* cpu_ = nullptr;
-  std::unique_ptr<DriverPort> port_;
+  std::unique_ptr<DriverPort> port_;  ///< of these two one
+  std::unique_ptr<SerialPort> serial_;
   dsdpv1_device device_{};
   std::unique_ptr<AcyclicServer> acyclic_;
   ProgramCounters counters_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <stdexcept>
 #include <variant>
 
 namespace dsdpv1::arm {
@@ -169,6 +170,8 @@ struct Fill {
     to.kind = DSDPV1_CMD_ANSWERING;
     to.value = say(from.answering);
   }
+  /// The board has the parallel port only; a scenario that asks for this is refused (tb/dsdpv1/serial_keys.cpp).
+  void operator()(const command::SpoilTelegrams&) const { throw std::logic_error("the board sends no telegrams"); }
 };
 
 constexpr std::array<const char*, 8> kCalls = {"wait_ready",    "initialise",   "exchange",     "service",

@@ -1,0 +1,122 @@
+#include "tb/dsdpv1/serial_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tb/dsdpv1/user_cpu/orders.hpp"
+#include "tb/input/input_error.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+using keys::ObjectOf;
+using keys::Range;
+
+const ObjectOf<SpiKeys>& spi_keys() {
+  static const ObjectOf<SpiKeys> keys = [] {
+    using S = SpiKeys;
+    const Range range = {0, bus::kTicksPerMs};
+    ObjectOf<S> o("spi",
+                  "The user CPU's SPI controller, on a chip with mode: spi. Times beyond the chip's limits (SP2) are "
+                  "reported as violations.");
+    o.integer("clock", &S::clock_khz, {10, 24000}, "kHz", "SCK, high and low as long as each other.");
+    o.time("lead", &S::lead, range, "XSS falls before SCK's first rise.");
+    o.time("lag", &S::lag, range, "XSS rises after SCK's last fall.");
+    o.time("gap", &S::gap, range, "XSS is high at least so long between two frames.");
+    o.time("byte_gap", &S::byte_gap, range, "SCK stays low so much longer between two bytes.");
+    o.integer("spare", &S::spare, {0, static_cast<int>(DSDPV1_SPI_SPARE)}, "bytes",
+              "By how much a reply may come later than right after the request (SP6).");
+    return o;
+  }();
+  return keys;
+}
+
+const ObjectOf<UartKeys>& uart_keys() {
+  static const ObjectOf<UartKeys> keys = [] {
+    using U = UartKeys;
+    ObjectOf<U> o("uart", "The user CPU's UART, on a chip with mode: uart.");
+    o.integer("rate", &U::rate, {9600, 1'843'200}, "bit/s", "Its baud rate; left out: that of the chip's uart_rate.");
+    o.time("gap", &U::gap, {0, bus::kTicksPerSecond}, "Idle time between two characters of a telegram.");
+    return o;
+  }();
+  return keys;
+}
+
+constexpr std::array<int, 8> kRates = {9600, 19'200, 38'400, 57'600, 115'200, 230'400, 460'800, 1'843'200};  // UA1
+
+const char* name_of(HostMode mode) {
+  return mode == HostMode::kSpi ? "spi" : mode == HostMode::kUart ? "uart" : "parallel";
+}
+
+/// Those that only a DSDPV1's program knows. Block CRCs are not looked at over SPI and UART (SP15), the handshake's
+/// pins are dead (R14), and the UART knows no ownership (UA6).
+std::vector<std::string> orders_for(HostMode mode) {
+  using namespace user_cpu;
+  if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram};
+  if (mode == HostMode::kUart) return {kFlipBit, kCutTelegram, kWrongParity};
+  return {kHoldDpram, kWrongCrc, kEarlyRSta};
+}
+
+user_cpu::SpiPort spi_port(const SpiKeys& keys) {
+  user_cpu::SpiPort port;
+  const Tick period = (1000 * bus::kTicksPerUs + keys.clock_khz / 2) / keys.clock_khz;
+  port.timing = {(period + 1) / 2, period / 2, keys.lead, keys.lag, keys.gap, keys.byte_gap};
+  port.spare = static_cast<std::uint8_t>(keys.spare);
+  return port;
+}
+
+user_cpu::UartPort uart_port(const UartKeys& keys, const Dsdpv1Settings& chip) {
+  user_cpu::UartPort port;
+  port.timing.baud = keys.rate != 0 ? keys.rate : kRates.at(static_cast<std::size_t>(chip.uart_rate));
+  port.timing.gap = keys.gap;
+  port.interval = static_cast<std::uint16_t>(chip.uart_gaps.at(static_cast<std::size_t>(chip.interval)));
+  port.tsdr = static_cast<std::uint16_t>(chip.uart_min_tsdr);
+  return port;
+}
+
+}  // namespace
+
+void add_serial_ports(ObjectOf<Dsdpv1User>& user) {
+  user.object("spi", &Dsdpv1User::spi, spi_keys(), "Its end of SPI.");
+  user.object("uart", &Dsdpv1User::uart, uart_keys(), "Its end of the UART.");
+}
+
+user_cpu::HostPort host_port_of(const Dsdpv1User& user, const Dsdpv1Settings& chip) {
+  user_cpu::HostPort port;
+  port.address = static_cast<std::uint8_t>(chip.address);
+  port.block_crc = chip.serial_block_crc != 0;
+  if (chip.mode == HostMode::kSpi) port.port = spi_port(user.spi.value_or(SpiKeys()));
+  if (chip.mode == HostMode::kUart) port.port = uart_port(user.uart.value_or(UartKeys()), chip);
+  return port;
+}
+
+void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file, const std::string& slave,
+                int line) {
+  const char* mode = name_of(chip.mode);
+  const auto refuse = [&](int where, const char* key, const char* allowed) {
+    throw InputError(file, where, fmt::format("{} with mode: {} of the chip, allowed is {}", key, mode, allowed));
+  };
+  if (user.spi && chip.mode != HostMode::kSpi) refuse(user.spi->line, "spi", "mode: spi");
+  if (user.uart && chip.mode != HostMode::kUart) refuse(user.uart->line, "uart", "mode: uart");
+  if (chip.mode == HostMode::kParallel) return;
+  if (user.access) refuse(user.access->line, "access", "mode: parallel");
+  if (user.fsmc) refuse(user.fsmc->line, "fsmc", "mode: parallel");
+  if (user.kind == CpuKind::kArm) refuse(line, "kind: arm", "kind: native");
+  if (chip.address < 1 || chip.address > 2)
+    throw InputError(
+        file, line,
+        fmt::format("address is {}, to which no telegram of slave {}'s user CPU can go, allowed are 1 and 2",
+                    chip.address, slave));
+}
+
+void check_order(const std::string& order, HostMode mode, const std::string& file, int line) {
+  const std::vector<std::string> useful = orders_for(mode);
+  if (std::find(useful.begin(), useful.end(), order) != useful.end()) return;
+  throw InputError(file, line,
+                   fmt::format("{} is of no use with mode: {} of the chip, allowed are {}", order, name_of(mode),
+                               fmt::join(useful, ", ")));
+}
+
+}  // namespace dsdpv1::tb

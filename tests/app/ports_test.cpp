@@ -1,0 +1,119 @@
+// The DSDPV1-RSU through its three ports: the same application and the same masters, the same telegrams on the bus.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "tests/app/program.hpp"
+
+namespace dsdpv1 {
+namespace {
+
+using app_test::call;
+using Bytes = std::vector<int>;
+
+Bytes bytes_of(const std::string& hex) {
+  std::istringstream in(hex);
+  Bytes bytes;
+  for (int byte = 0; in >> std::hex >> byte;) bytes.push_back(byte);
+  return bytes;
+}
+
+/// DA, SA, FC and data of a telegram SD1 or SD2; nothing of a token and a short acknowledge.
+Bytes body(const Bytes& telegram) {
+  if (telegram.size() < 6) return {};
+  const int begin = telegram[0] == 0x68 ? 4 : 1;
+  return {telegram.begin() + begin, telegram.end() - 2};
+}
+
+/// Requests with their answers, by requester and SAPs, one after the other, each once as long as it is repeated: how
+/// often a master asks hangs on how fast the user is, what is answered must not. FCB and FCV, which count the requests,
+/// are left out.
+class Conversations {
+ public:
+  explicit Conversations(const std::string& log) {
+    std::ifstream file(log);
+    for (std::string line; std::getline(file, line);) {
+      const auto entry = nlohmann::json::parse(line);
+      if (entry.at("kind") == "telegram") hear(bytes_of(entry.at("bytes")));
+    }
+  }
+  using Pair = std::pair<Bytes, Bytes>;
+  std::map<Bytes, std::vector<Pair>> pairs;
+
+ private:
+  void hear(const Bytes& telegram) {
+    Bytes heard = body(telegram);
+    if (!heard.empty() && (heard[2] & 0x40) != 0) {
+      heard[2] &= ~0x30;
+      request_ = heard;
+      return;
+    }
+    if (!heard.empty() && !request_.empty()) note({request_, heard});
+    if (telegram.size() != 3) request_.clear();  // a token is none of the two
+  }
+  void note(const Pair& pair) {
+    const Bytes& request = pair.first;
+    Bytes key = {request[1]};
+    if ((request[0] & 0x80) != 0) key.insert(key.end(), request.begin() + 3, request.begin() + 5);
+    std::vector<Pair>& list = pairs[key];
+    if (list.empty() || list.back() != pair) list.push_back(pair);
+  }
+  Bytes request_;
+};
+
+Conversations heard_in(const std::string& scenario) {
+  const app_test::Folder folder;
+  const auto called =
+      call(std::string("run ") + DSDPV1_SOURCE_DIR + "/scenarios/" + scenario + ".yaml --log log.jsonl --log-whole -q",
+           folder.path());
+  EXPECT_EQ(called.status, 0) << scenario << called.err;
+  return Conversations(folder.file("log.jsonl"));
+}
+
+TEST(HostPorts, TheBusHearsTheSameThroughAllOfThem) {
+  const auto parallel = heard_in("rsu_parallel").pairs;
+  EXPECT_EQ(parallel.size(), 5U) << "Data_Exchange, Slave_Diag, C1; C2's connection and its start";
+  EXPECT_EQ(parallel.at({2}).size(), 13U);
+  for (const char* other : {"rsu_spi", "rsu_uart", "r"}) EXPECT_EQ(heard_in(other).pairs, parallel) << other;
+}
+
+/// A run of a shipped scenario with these orders besides; its log.
+std::string with_orders(const std::string& scenario, const std::vector<std::string>& orders) {
+  const app_test::Folder folder;
+  const std::filesystem::path shipped = std::filesystem::path(DSDPV1_SOURCE_DIR) / "scenarios";
+  std::filesystem::copy(shipped / "dsdpv1.gsd", folder.path() / "dsdpv1.gsd");
+  std::string text = app_test::read(shipped / (scenario + ".yaml"));
+  std::string script = "script:\n";
+  for (const std::string& order : orders) script += "  - {at: 120ms, do: " + order + ", slave: drive, times: 2}\n";
+  text.replace(text.find("script:\n"), 8, script);
+  std::ofstream(folder.file("run.yaml")) << text << "allow: [{event: SPI_BITS}]\n";  // of a frame that is cut
+  const auto called = call("run run.yaml --log log.txt -q", folder.path());
+  EXPECT_EQ(called.status, 0) << scenario << called.err;
+  return app_test::read(folder.path() / "log.txt");
+}
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(HostPorts, TelegramsThatGoWrongOverSpiAreRepeated) {
+  EXPECT_THAT(with_orders("rsu_spi", {"flip_bit"}), HasSubstr("TELEGRAM_CRC"));
+  const std::string cut = with_orders("rsu_spi", {"cut_telegram"});
+  EXPECT_THAT(cut, HasSubstr("SPI_BITS"));
+  EXPECT_THAT(cut, HasSubstr("TELEGRAM_CUT"));
+  EXPECT_THAT(cut, Not(HasSubstr("the driver's")));
+}
+
+TEST(HostPorts, TelegramsThatGoWrongOverTheUartAreRepeated) {
+  EXPECT_THAT(with_orders("rsu_uart", {"flip_bit"}), HasSubstr("TELEGRAM_CRC"));
+  EXPECT_THAT(with_orders("rsu_uart", {"cut_telegram"}), HasSubstr("TELEGRAM_CUT"));
+  const std::string parity = with_orders("rsu_uart", {"wrong_parity"});
+  EXPECT_THAT(parity, HasSubstr("UART_PARITY"));
+  EXPECT_THAT(parity, Not(HasSubstr("the driver's")));
+}
+
+}  // namespace
+}  // namespace dsdpv1

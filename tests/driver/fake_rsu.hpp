@@ -1,0 +1,68 @@
+#pragma once
+// The telegrams of a DSDPV1-RSU on the memory of a FakeChip: what docs/chip_rsu.md says of SPI (SP4 to SP16) and of
+// UART (UA5 to UA13), without time. The chip makes its access when the host releases (SPI), after each telegram (UART).
+// It watches the host's discipline: no cell without the claim.
+#include <deque>
+
+#include "driver/dsdpv1_spi.h"
+#include "driver/dsdpv1_uart.h"
+#include "tests/driver/fake_chip.hpp"
+
+namespace dsdpv1 {
+
+enum class FakePort { kParallel, kSpi, kUart };
+
+class FakeRsu {
+ public:
+  using Bytes = std::vector<std::uint8_t>;
+
+  explicit FakeRsu(FakeChip& chip) : chip_(chip) {}
+
+  /// Opens `device` on that port of the chip, whose address is 1.
+  dsdpv1_error open(FakePort kind, dsdpv1_device& device, const dsdpv1_judge& judge);
+
+  // -------------------------------------------------------------------------------------------------------- behaviour
+  int busy_claims = 0;      ///< so many claims come while the chip is in an access (SP13)
+  int failing_calls = 0;    ///< so many calls of the host's own functions fail
+  int deaf = 0;             ///< so many telegrams are not heard
+  int spoilt_requests = 0;  ///< so many telegrams arrive with a wrong byte
+  int spoilt_replies = 0;   ///< so many replies have a wrong byte
+  int reply_gap = 0;        ///< SP6, bytes
+  bool data_exchange = true;
+  std::function<void(const Bytes& request)> before_telegram;  ///< the chip's own doings between two telegrams
+
+  // ------------------------------------------------------------------------------------ the lines, a byte at a time
+  void select() { frame_.clear(), reply_.clear(); }
+  std::uint8_t spi_byte(std::uint8_t out);
+  void uart_character(std::uint8_t character);
+  bool next_character(std::uint8_t& character);
+
+  // ---------------------------------------------------------------------------------------------------- what it saw
+  std::vector<Bytes> requests, replies;
+  std::size_t bytes = 0;     ///< on the wire, both ways; SPI: byte slots of the frames
+  std::size_t silences = 0;  ///< UART: calls of `receive` that ended without a character
+  std::uint32_t longest_timeout_us = 0;
+  dsdpv1_spi spi{};
+  dsdpv1_uart uart{};
+
+ private:
+  bool frame(const std::uint8_t* out, std::uint8_t* in, std::uint16_t n);
+  std::uint16_t receive(std::uint8_t* to, std::uint16_t n, std::uint32_t timeout_us);
+
+  Bytes answer(FakePort port, Bytes request);
+  Bytes carry_out(FakePort port, const Bytes& request);
+  Bytes read(std::uint16_t address, std::size_t length);
+  Bytes write(FakePort port, std::uint16_t address, const Bytes& data);
+  Bytes read_and_write(const Bytes& data);
+  Bytes exchange(const Bytes& request);
+  Bytes news(bool inputs);
+  void claim(const char* what);
+
+  FakeChip& chip_;
+  std::uint8_t ownership_ = 0;  ///< B014.1
+  Bytes frame_, reply_;         ///< SPI: what came since XSS fell, what goes out
+  Bytes telegram_;              ///< UART: what has come of it
+  std::deque<std::uint8_t> line_;
+};
+
+}  // namespace dsdpv1

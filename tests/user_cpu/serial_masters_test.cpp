@@ -1,0 +1,209 @@
+// The waveforms of the user CPU's SPI and UART, edge by edge, against a recorder in place of a chip.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tb/dsdpv1/user_cpu/spi_master.hpp"
+#include "tb/dsdpv1/user_cpu/uart_master.hpp"
+
+namespace dsdpv1 {
+namespace {
+
+using bus::Tick;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using user_cpu::SerialPin;
+using user_cpu::SpiMaster;
+using user_cpu::UartReceiver;
+using user_cpu::UartSender;
+using Bytes = std::vector<std::uint8_t>;
+
+struct Change {
+  Tick at;
+  SerialPin pin;
+  bool level;
+  bool operator==(const Change& other) const { return at == other.at && pin == other.pin && level == other.level; }
+};
+
+void PrintTo(const Change& change, std::ostream* out) {
+  *out << "{" << change.at << ", " << static_cast<int>(change.pin) << ", " << change.level << "}";
+}
+
+/// Changes only; MISO gives what `answer` says.
+class Recorder : public user_cpu::SerialPins {
+ public:
+  void set_serial(Tick at, SerialPin pin, bool level) override {
+    bool& old = levels[static_cast<std::size_t>(pin)];
+    if (std::exchange(old, level) != level) changes.push_back({at, pin, level});
+  }
+  bool miso(Tick at) override {
+    sampled.push_back(at);
+    return answer.empty() || answer[(sampled.size() - 1) % answer.size()];
+  }
+  std::vector<Change> of(SerialPin pin) const {
+    std::vector<Change> found;
+    for (const Change& change : changes)
+      if (change.pin == pin) found.push_back(change);
+    return found;
+  }
+  std::array<bool, 6> levels{true, false, false, true, true, true};
+  std::vector<Change> changes;
+  std::vector<Tick> sampled;
+  std::vector<bool> answer;
+};
+
+void run(user_cpu::Transfer& transfer) {
+  while (!transfer.done()) transfer.run(transfer.next());
+}
+
+class SpiMasterTest : public testing::Test {
+ protected:
+  Recorder pins;
+  user_cpu::SpiTiming timing{600, 700, 1000, 1100, 5000, 50};
+  SpiMaster master{pins, timing};
+};
+
+TEST_F(SpiMasterTest, AByteHasItsEdgesAtTheirTicks) {
+  master.begin(10'000, {0xA0});
+  run(master);
+  std::vector<Change> clock;
+  for (int bit = 0; bit < 8; ++bit) {
+    clock.push_back({11'000 + 1300 * bit, SerialPin::kSck, true});
+    clock.push_back({11'600 + 1300 * bit, SerialPin::kSck, false});
+  }
+  EXPECT_EQ(pins.of(SerialPin::kSck), clock);
+  EXPECT_THAT(pins.of(SerialPin::kXss), ElementsAre(Change{10'000, SerialPin::kXss, false},
+                                                    Change{11'600 + 1300 * 7 + 1100, SerialPin::kXss, true}));
+  EXPECT_THAT(pins.of(SerialPin::kMosi),
+              ElementsAre(Change{10'000, SerialPin::kMosi, true}, Change{11'600, SerialPin::kMosi, false},
+                          Change{12'900, SerialPin::kMosi, true}, Change{14'200, SerialPin::kMosi, false}));
+}
+
+TEST_F(SpiMasterTest, MisoIsSampledAtEachRise) {
+  pins.answer = {true, false, false, false, false, false, false, true,
+                 true, true,  false, false, true,  false, true,  false};
+  master.begin(0, {0, 0});
+  run(master);
+  EXPECT_THAT(master.received(), ElementsAre(0x81, 0xCA));
+  EXPECT_EQ(pins.sampled.front(), 1000);
+  EXPECT_EQ(pins.sampled[8], 1000 + 8 * 1300 + 50) << "the gap between bytes";
+}
+
+TEST_F(SpiMasterTest, NextFrameWaitsForTheGap) {
+  master.begin(0, {0});
+  run(master);
+  const Tick rose = pins.of(SerialPin::kXss).back().at;
+  master.begin(rose + 1, {0});
+  EXPECT_EQ(master.next(), rose + 5000);
+  run(master);
+  master.begin(1'000'000, {0});
+  EXPECT_EQ(master.next(), 1'000'000);
+}
+
+TEST_F(SpiMasterTest, FaultsFlipABitOrCutTheFrame) {
+  user_cpu::SpiFault fault;
+  fault.flipped_bit = 2;
+  master.begin(0, {0x00}, fault);
+  run(master);
+  EXPECT_THAT(pins.of(SerialPin::kMosi), ElementsAre(Change{1000 + 1300 + 600, SerialPin::kMosi, true},
+                                                     Change{1000 + 2 * 1300 + 600, SerialPin::kMosi, false}));
+  pins.changes.clear();
+  fault = {};
+  fault.cut_after = 3;
+  master.begin(100'000, {0x00, 0x00}, fault);
+  run(master);
+  EXPECT_EQ(pins.of(SerialPin::kSck).size(), 6U);
+  EXPECT_EQ(pins.of(SerialPin::kXss).back().at, 101'000 + 2 * 1300 + 600 + 1100);
+}
+
+class UartMasterTest : public testing::Test {
+ protected:
+  static constexpr Tick kBit = 1'250'000;  ///< 9600 bit/s
+  void hear(const std::vector<bool>& cells, Tick at, Tick bit = kBit) {
+    bool last = true;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (std::exchange(last, cells[i]) != cells[i]) receiver.txd_changed(at + static_cast<Tick>(i) * bit, cells[i]);
+  }
+  Recorder pins;
+  user_cpu::UartTiming timing{9600, 0};
+  UartSender sender{pins, timing};
+  UartReceiver receiver{timing};
+};
+
+TEST_F(UartMasterTest, ACharacterHasItsBitsLeastSignificantFirstAndEvenParity) {
+  sender.begin(1000, {0x13});
+  run(sender);
+  const auto edge = [](int bit, bool level) { return Change{1000 + bit * kBit, SerialPin::kRxd, level}; };
+  EXPECT_EQ(pins.changes, (std::vector<Change>{edge(0, false), edge(1, true), edge(3, false), edge(5, true),
+                                               edge(6, false), edge(9, true)}))
+      << "start, 11001000, parity 1 of three ones, stop";
+}
+
+TEST_F(UartMasterTest, TheEndIsThatOfTheLastStopBit) {
+  timing.gap = 77;
+  UartSender gapped(pins, timing);
+  gapped.begin(0, {0x55, 0x55});
+  Tick last = 0;
+  while (!gapped.done()) gapped.run(last = gapped.next());
+  EXPECT_EQ(last, 22 * kBit + 77);
+  EXPECT_EQ(pins.changes[10].at, 11 * kBit + 77) << "the second start bit";
+}
+
+TEST_F(UartMasterTest, BitTimesDoNotDrift) {
+  timing.baud = 1'843'200;
+  UartSender fast(pins, timing);
+  fast.begin(0, Bytes(100, 0x55));
+  Tick last = 0;
+  while (!fast.done()) fast.run(last = fast.next());
+  EXPECT_EQ(last, (1100 * bus::kTicksPerSecond + 921'600) / 1'843'200);
+}
+
+TEST_F(UartMasterTest, FaultsAreTheParityABitOrTheEnd) {
+  user_cpu::UartFault fault;
+  fault.wrong_parity = 0;
+  sender.begin(0, {0x00}, fault);
+  run(sender);
+  EXPECT_THAT(pins.changes, ElementsAre(Change{0, SerialPin::kRxd, false}, Change{9 * kBit, SerialPin::kRxd, true}));
+  fault = {};
+  fault.cut_after = 1;
+  sender.begin(100 * kBit, {0xFF, 0xFF}, fault);
+  Tick last = 0;
+  while (!sender.done()) sender.run(last = sender.next());
+  EXPECT_EQ(last, 111 * kBit);
+}
+
+TEST_F(UartMasterTest, CharactersAreHeardAlsoBeforeSomebodyAsks) {
+  hear({false, true, true, false, false, true, false, false, false, true, true}, 0);
+  hear({false, true, false, false, false, false, false, false, false, true, true}, 11 * kBit);
+  receiver.begin(30 * kBit, 2, 5 * kBit);
+  run(receiver);
+  EXPECT_THAT(receiver.received(), ElementsAre(0x13, 0x01));
+}
+
+TEST_F(UartMasterTest, TheyEndInTheMiddleOfTheStopBit) {
+  receiver.begin(0, 1, 100 * kBit);
+  hear({false, true, true, false, false, true, false, false, false, true, true}, 7 * kBit);
+  EXPECT_EQ(receiver.next(), 7 * kBit + 21 * kBit / 2);
+  run(receiver);
+  EXPECT_TRUE(receiver.done());
+}
+
+TEST_F(UartMasterTest, SilenceEndsTheWaiting) {
+  receiver.begin(0, 3, 20 * kBit);
+  hear({false, true, true, false, false, true, false, false, false, true, true}, 5 * kBit);
+  Tick last = 0;
+  while (!receiver.done()) receiver.run(last = receiver.next());
+  EXPECT_EQ(last, 5 * kBit + 21 * kBit / 2 + 20 * kBit);
+  EXPECT_THAT(receiver.received(), ElementsAre(0x13));
+}
+
+TEST_F(UartMasterTest, WrongParityIsLeftOutAndCounted) {
+  hear({false, true, true, false, false, true, false, false, false, false, true}, 0);
+  hear({false, true, false, false, false, false, false, false, false, true, true}, 20 * kBit);
+  receiver.begin(40 * kBit, 2, kBit);
+  run(receiver);
+  EXPECT_THAT(receiver.received(), ElementsAre(0x01));
+  EXPECT_EQ(receiver.errors(), 1U);
+}
+
+}  // namespace
+}  // namespace dsdpv1
