@@ -16,7 +16,7 @@ module host_commit (
   input  logic        owns_i,
   input  logic        exchanges_i,  // DATA_EXCH
   output logic        busy_o,       // was not done before this edge
-  output logic        waits_o,      // an access of the chip is waited for, also at this edge
+  output logic        waits_o,      // an access of the chip is waited for
   output logic        holds_o,      // is not done at this edge
   // DPRAM
   output logic        we_o,
@@ -123,7 +123,7 @@ module host_commit (
     endcase
   end
   assign busy_o = state_q != IDLE;
-  assign waits_o = state_q == PENDING || start_i;
+  assign waits_o = state_q == PENDING || (start_i && owns_i);
   assign holds_o = state_d != IDLE && !`FAULT(142);
 
   // ---- bytes

@@ -70,7 +70,7 @@ module host_reply (
   assign state = judgement_i.replies ? FIRST : state_q;
   assign gap = judgement_i.replies ? (spi_i ? gap_i : 5'd0) : gap_q;
   assign turn = spi_i ? judgement_i.replies || second_q || slot_q : next_i;
-  assign gives_o = turn && gap == 5'd0 && state != OFF && !ends_i;
+  assign gives_o = turn && gap == 5'd0 && !ends_i;  // in OFF FF, which only SPI asks for
   assign more_o = state_q != OFF;
 
   logic [7:0] left_q;
@@ -119,7 +119,7 @@ module host_reply (
       else if (gives_o && (state == DATA || state == LENGTH)) address_q <= address_q + 11'd1;
       if (judgement_i.replies && spi_i) left_q <= telegram_i.length;
       else if (gives_o) begin
-        if (state == FIRST && !spi_i) left_q <= count_i;
+        if (state == SECOND && !spi_i) left_q <= count_i;  // at the first byte the last one read may still be on its way
         if (state == LENGTH) left_q <= length;
         if (state == DATA) left_q <= left_q - 8'd1;
       end
@@ -148,6 +148,6 @@ module host_reply (
       default: byte_o = 8'hFF;
     endcase
   end
-  assign crc_give_o = gives_o && state != CRC_HIGH && state != CRC_LOW;
+  assign crc_give_o = gives_o && state != OFF && state != CRC_HIGH && state != CRC_LOW;
   assign crc_first_o = state == FIRST;
 endmodule

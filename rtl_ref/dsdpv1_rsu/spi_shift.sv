@@ -21,9 +21,13 @@ module spi_shift (
   logic run;
   assign run = listening_i && !xss_i;
 
-  logic [3:0] bits_q;  // rises in this frame, modulo 16
+  // Initial values, because SCK may be silent for as long as these are held in reset: a simulation sees no edge of it
+  logic [3:0] bits_q = 4'd0;  // rises in this frame, modulo 16
+  logic any_q = 1'b0;
+  logic flip_q = 1'b0;
+  logic miso_q = 1'b1;
+
   logic [2:0] place;
-  logic any_q;
   assign place = bits_q[2:0];
   always_ff @(posedge sck_i or negedge run) begin
     if (!run) begin
@@ -37,7 +41,7 @@ module spi_shift (
 
   logic [6:0] shift_q;
   logic [7:0] byte_q;
-  logic flip_q, last;
+  logic last;
   assign last = place == 3'd7;  // never while the count is held at 0
   always_ff @(posedge sck_i) begin
     shift_q <= {shift_q[5:0], mosi_i};
@@ -50,7 +54,6 @@ module spi_shift (
   assign byte_o = byte_q;
   assign flip_o = flip_q;
 
-  logic miso_q;
   logic [7:0] slot;
   assign slot = bits_q[3] ? tx1_i : tx0_i;
   always_ff @(negedge sck_i or negedge run) begin
