@@ -4,6 +4,7 @@
 #include "tb/dsdpv1/board/arm_user.hpp"
 #include "tb/input/input_error.hpp"
 
+namespace dsdpv1 {
 namespace app {
 
 int in_tlm_view(const std::function<int(std::unique_ptr<tb::Execution>)>& /*body*/) {
@@ -13,8 +14,9 @@ int in_tlm_view(const std::function<int(std::unique_ptr<tb::Execution>)>& /*body
 }
 
 }  // namespace app
+}  // namespace dsdpv1
 
 int main(int argc, char** argv) {
-  tb::add_arm_board();
-  return app::program(argc, argv);
+  dsdpv1::tb::add_arm_board();
+  return dsdpv1::app::program(argc, argv);
 }

@@ -13,7 +13,7 @@
 #include "tb/input/suggest.hpp"
 #include "tb/report/text_table.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 /// Of --signal, and of a map of pins.
@@ -95,4 +95,4 @@ int calibrate(const CalibrateArguments& arguments) {
   return result.agrees() ? kPassed : kFailed;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

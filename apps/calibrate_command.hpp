@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace app {
+namespace dsdpv1::app {
 
 struct CalibrateArguments {
   std::string file;
@@ -19,4 +19,4 @@ struct CalibrateArguments {
 
 int calibrate(const CalibrateArguments& arguments);
 
-}  // namespace app
+}  // namespace dsdpv1::app

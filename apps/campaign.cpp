@@ -12,7 +12,7 @@
 #include "tb/campaign/runner.hpp"
 #include "tb/campaign/slurm_runner.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 using tb::campaign::Carrying;
@@ -69,4 +69,4 @@ bool carry_out(const CampaignArguments& arguments, const Kind& kind, tb::campaig
       jobs.size());
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

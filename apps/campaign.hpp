@@ -9,7 +9,7 @@
 #include "tb/campaign/folder.hpp"
 #include "tb/campaign/jobs.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 struct CampaignArguments {
   std::string out;               ///< folder; empty: the command's own
@@ -36,4 +36,4 @@ bool carry_out(const CampaignArguments& arguments, const tb::campaign::Kind& kin
                const tb::campaign::Folder& folder, const std::string& identity,
                std::optional<std::chrono::duration<double>> limit = std::nullopt);
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -14,7 +14,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 namespace capture = bus::capture;
@@ -93,4 +93,4 @@ Sampling CaptureFile::read_levels(capture::LevelTaker& taker) {
                        "has no levels of pins, allowed are VCD, FST, a session of sigrok, CSV of a logic analyser");
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -9,7 +9,7 @@
 #include "apps/rewound_input.hpp"
 #include "bus/capture/csv_reader.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 enum class CaptureForm : std::uint8_t { kText, kPcapng, kPcap, kSigrok, kCsv, kWave };
 
@@ -50,4 +50,4 @@ class CaptureFile {
   CaptureForm form_;
 };
 
-}  // namespace app
+}  // namespace dsdpv1::app

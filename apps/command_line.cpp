@@ -25,7 +25,7 @@
 #include "tb/input/suggest.hpp"
 #include "tb/report/text_table.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 const char* const kExitCodes =
@@ -715,4 +715,4 @@ int command_line(int argc, char** argv, PrintableOutput& output) {
   return decode(decode_arguments);
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

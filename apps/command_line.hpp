@@ -9,7 +9,7 @@
 #include "apps/wave_options.hpp"
 #include "tb/bench/capture_recorder.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 // Exit codes of every command.
 constexpr int kPassed = 0;         ///< all checks and expectations passed
@@ -70,4 +70,4 @@ tb::CaptureRequest capture_request(const std::string& command, const std::string
 /// wants it.
 int command_line(int argc, char** argv, PrintableOutput& output);
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -17,7 +17,7 @@
 #include "tb/report/progress.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 using tb::compare::Femtoseconds;
@@ -116,4 +116,4 @@ int compare(const CompareArguments& arguments) {
   return result.equal() ? kPassed : kFailed;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

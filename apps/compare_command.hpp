@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace app {
+namespace dsdpv1::app {
 
 struct CompareArguments {
   std::string a, b;
@@ -22,4 +22,4 @@ constexpr const char* kOwnRtl = "rtl_ref";
 
 int compare(const CompareArguments& arguments);
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -4,7 +4,7 @@
 #include "apps/manual_command.hpp"
 #include "apps/shown_options.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 std::string option_words(const CLI::App& command) {
@@ -101,4 +101,4 @@ std::string completion(const CLI::App& app, const std::string& shell) {
   return shell == "bash" ? bash(app) : zsh(app);
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-namespace app {
+namespace dsdpv1::app {
 
 namespace fs = std::filesystem;
 
@@ -14,4 +14,4 @@ std::string data_folder() {
   return DSDPV1_SOURCE_DIR;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

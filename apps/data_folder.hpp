@@ -1,10 +1,11 @@
 #pragma once
 #include <string>
 
-namespace app {
+namespace dsdpv1::app {
 
-/// The folder with scenarios/, traces/, rtl_ref/ and so on, under the names that they have in the source tree: share/dsdpv1 where this program
-/// is installed, wherever that has been moved; for a program in its build folder the source tree.
+/// The folder with scenarios/, traces/, rtl_ref/ and so on, under the names that they have in the source tree:
+/// share/dsdpv1 where this program is installed, wherever that has been moved; for a program in its build folder the
+/// source tree.
 std::string data_folder();
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -16,7 +16,7 @@
 #include "tb/bench/run_log.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 namespace capture = bus::capture;
@@ -115,4 +115,4 @@ int decode(const DecodeArguments& arguments) {
   return decode_capture(file, arguments);
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

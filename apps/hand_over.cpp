@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -15,7 +16,7 @@
 #include "tb/bench/chip_maker.hpp"
 #include "tb/input/read_file.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,6 +58,23 @@ bool leave_text(const std::string& text) {
   return setenv(kTextVariable, std::to_string(file).c_str(), 1) == 0;
 }
 
+/// The first library that the program needs and that the dynamic linker does not find; empty when all are there. Asked
+/// as ldd asks: once the program has taken this one's place, it would be the linker that complains, with exit code 127.
+std::string missing_library(const std::string& program) {
+  setenv("DSDPV1_ASKED", program.c_str(), 1);  // needs no quoting then
+  std::FILE* const told = popen("LD_TRACE_LOADED_OBJECTS=1 exec \"$DSDPV1_ASKED\" --version 2>/dev/null", "r");
+  unsetenv("DSDPV1_ASKED");
+  if (told == nullptr) return "";
+  std::string missing;
+  std::array<char, 1024> line{};
+  while (std::fgets(line.data(), line.size(), told) != nullptr) {
+    std::istringstream words(line.data());
+    if (missing.empty() && std::strstr(line.data(), " => not found") != nullptr) words >> missing;
+  }
+  pclose(told);
+  return missing;
+}
+
 /// What leave_text has left to this program.
 std::optional<std::string> left_text() {
   const char* const left = std::getenv(kTextVariable);
@@ -71,9 +89,10 @@ std::optional<std::string> left_text() {
 }  // namespace
 
 int become(const HandOver& other, char** argv) {
-  if (!other.scenario || leave_text(*other.scenario)) execv(other.program.c_str(), argv);
-  std::fprintf(stderr, "dsdpv1-sim: %s cannot be started: %s\n", bus::printable(other.program).c_str(),
-               std::strerror(errno));
+  const std::string missing = missing_library(other.program);
+  if (missing.empty() && (!other.scenario || leave_text(*other.scenario))) execv(other.program.c_str(), argv);
+  const std::string why = missing.empty() ? std::strerror(errno) : "its library " + missing + " is not installed";
+  std::fprintf(stderr, "dsdpv1-sim: %s cannot be started: %s\n", bus::printable(other.program).c_str(), why.c_str());
   return kWrongInput;
 }
 
@@ -97,4 +116,4 @@ tb::scenario::Scenario load_scenario(const std::string& path, const std::vector<
   return scenario;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

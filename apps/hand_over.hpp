@@ -6,7 +6,7 @@
 
 #include "tb/scenario/scenario.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 /// Thrown where another program has to go on; program() lets it, once all that the command has begun is undone.
 struct HandOver {
@@ -32,4 +32,4 @@ void hand_over(const tb::scenario::Scenario& scenario);
 /// scenario::load for the one scenario of a command, which may come from a pipe. Throws HandOver as above.
 tb::scenario::Scenario load_scenario(const std::string& path, const std::vector<tb::scenario::Setting>& settings = {});
 
-}  // namespace app
+}  // namespace dsdpv1::app

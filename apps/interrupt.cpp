@@ -9,7 +9,7 @@
 #include "apps/command_line.hpp"
 #include "tb/output/part_file.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 volatile std::sig_atomic_t ended = 0;
@@ -58,4 +58,4 @@ void catch_signals() { handle_with(on_signal); }
 
 bool interrupted() { return ended != 0; }
 
-}  // namespace app
+}  // namespace dsdpv1::app

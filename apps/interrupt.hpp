@@ -1,7 +1,7 @@
 #pragma once
 // Ctrl-C and its kind: before a run nothing is left, during a run it ends and completes its files.
 
-namespace app {
+namespace dsdpv1::app {
 
 /// From now on SIGINT, SIGTERM and SIGHUP remove the temporary files and end the program with exit code 130. A reader
 /// that goes away shows as an error of the write, not as SIGPIPE. To be called before the first file is opened.
@@ -15,4 +15,4 @@ void catch_signals();
 /// Whether one has come since.
 bool interrupted();
 
-}  // namespace app
+}  // namespace dsdpv1::app

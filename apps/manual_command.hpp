@@ -7,11 +7,11 @@ namespace CLI {
 class App;
 }
 
-namespace app {
+namespace dsdpv1::app {
 
 /// The manual page in roff, for man(1).
 std::string manual_page(const CLI::App& app);
 /// Completion for `shell`, bash or zsh; throws InputError for others.
 std::string completion(const CLI::App& app, const std::string& shell);
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -4,7 +4,7 @@
 #include "apps/shown_options.hpp"
 #include "tb/input/suggest.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 /// A text of roff: every - as it is typed, no \, nothing that begins a line as a request.
@@ -80,4 +80,4 @@ std::string manual_page(const CLI::App& app) {
   return text + ".SH EXAMPLES AND EXIT CODES\n" + footer(app);
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

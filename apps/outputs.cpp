@@ -9,7 +9,7 @@
 #include "tb/output/output_place.hpp"
 #include "tb/output/write_file.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 using Owners = std::map<std::string, std::string>;  ///< what a file is, by its identity
@@ -48,4 +48,4 @@ void write_wanted(const std::string& path, const std::string& text) {
   if (!path.empty()) tb::write_file(path, text);
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace app {
+namespace dsdpv1::app {
 
 struct NamedFile {
   std::string what;  ///< as in "--log", "the scenario"
@@ -21,4 +21,4 @@ void check_outputs(const std::string& command, const std::vector<NamedFile>& inp
 /// The whole file; nothing where the path is empty. Throws InputError when it cannot be written.
 void write_wanted(const std::string& path, const std::string& text);
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -4,7 +4,7 @@
 
 #include "apps/data_folder.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 void add_own_rtl_options(CLI::App& command, OwnRtlArguments& arguments, bool required) {
   CLI::Option* rtl =
@@ -32,4 +32,4 @@ OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& comman
   return own;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

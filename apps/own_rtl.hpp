@@ -9,7 +9,7 @@ namespace CLI {  // NOLINT(readability-identifier-naming): its library's
 class App;
 }
 
-namespace app {
+namespace dsdpv1::app {
 
 struct OwnRtlArguments {
   std::string rtl, top, pins, build = "build/cosim";
@@ -27,4 +27,4 @@ void add_own_rtl_options(CLI::App& command, OwnRtlArguments& arguments, bool req
 /// inside can be recorded. `command` as "dsdpv1-sim cosim". Throws tb::InputError.
 OwnRtl build_own_rtl(const OwnRtlArguments& arguments, const std::string& command, bool traced);
 
-}  // namespace app
+}  // namespace dsdpv1::app

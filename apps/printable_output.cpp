@@ -8,7 +8,7 @@
 #include "apps/terminal.hpp"
 #include "bus/printable.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 /// Passes on whole lines, and what there is of one when it is flushed: a letter of several bytes must come in one
 /// piece.
@@ -76,4 +76,4 @@ PrintableOutput::~PrintableOutput() = default;
 
 void PrintableOutput::paint() { out_->paint(); }
 
-}  // namespace app
+}  // namespace dsdpv1::app

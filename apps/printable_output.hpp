@@ -2,7 +2,7 @@
 // Nothing that a scenario, a file name or firmware holds steers the user's terminal.
 #include <memory>
 
-namespace app {
+namespace dsdpv1::app {
 
 /// While it lives, what goes to std::cout and std::cerr is printable_lines(): escapes stand for control characters.
 /// Line ends within a name are the business of whoever prints it (bus::printable). The progress bar goes round it, by
@@ -22,4 +22,4 @@ class PrintableOutput {
   std::unique_ptr<Filter> out_, err_;
 };
 
-}  // namespace app
+}  // namespace dsdpv1::app

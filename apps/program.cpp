@@ -14,6 +14,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/output/standard_output.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 int carry_out(int argc, char** argv) {
@@ -67,3 +68,4 @@ int program(int argc, char** argv) {
 }
 
 }  // namespace app
+}  // namespace dsdpv1

@@ -6,7 +6,7 @@
 
 #include "tb/bench/execution.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 /// The main function of both: from the command line to the exit code.
 int program(int argc, char** argv);
@@ -15,4 +15,4 @@ int program(int argc, char** argv);
 /// without SystemC throws InputError.
 int in_tlm_view(const std::function<int(std::unique_ptr<tb::Execution>)>& body);
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -17,7 +17,7 @@
 #include "tb/output/write_file.hpp"
 #include "tb/scenario/event_codes.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 const char* meaning_of(bus::FlagKind kind) {
@@ -171,4 +171,4 @@ int reasons(const ReasonsArguments& arguments) {
   return kPassed;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

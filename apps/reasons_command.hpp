@@ -2,7 +2,7 @@
 // reasons: every code that logs, scenarios and result files may hold, with what to do about it.
 #include <string>
 
-namespace app {
+namespace dsdpv1::app {
 
 struct ReasonsArguments {
   std::string code;  ///< only this one; empty: all
@@ -13,4 +13,4 @@ struct ReasonsArguments {
 
 int reasons(const ReasonsArguments& arguments);
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -12,7 +12,7 @@
 #include "tb/waves/recover.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 /// "wave.fst" for "wave.fst.4711.part".
@@ -57,4 +57,4 @@ int recover(const RecoverArguments& arguments) {
   return kPassed;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -2,7 +2,7 @@
 // recover: a complete wave from what a killed run has left.
 #include <string>
 
-namespace app {
+namespace dsdpv1::app {
 
 struct RecoverArguments {
   std::string part;
@@ -11,4 +11,4 @@ struct RecoverArguments {
 
 int recover(const RecoverArguments& arguments);
 
-}  // namespace app
+}  // namespace dsdpv1::app

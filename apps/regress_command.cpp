@@ -21,7 +21,7 @@
 #include "tb/report/text_table.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 using tb::regress::Description;
@@ -142,4 +142,4 @@ int regress(const RegressArguments& arguments) {
   return report.passed() ? kPassed : kFailed;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

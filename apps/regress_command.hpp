@@ -5,7 +5,7 @@
 
 #include "apps/campaign.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 struct RegressArguments {
   std::vector<std::string> scenarios;       ///< files and folders; none: scenarios
@@ -23,4 +23,4 @@ struct RegressArguments {
 
 int regress(const RegressArguments& arguments);
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -6,7 +6,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 using tb::campaign::Ended;
@@ -94,4 +94,4 @@ std::vector<Outcome> RegressJobs::outcomes() const {
   return all;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

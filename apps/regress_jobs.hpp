@@ -10,7 +10,7 @@
 #include "tb/campaign/jobs.hpp"
 #include "tb/regress/folder.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 /// The files that each run reads, and what it depends on.
 class RegressInputs {
@@ -54,4 +54,4 @@ class RegressJobs : public tb::campaign::Jobs {
   std::map<std::size_t, tb::campaign::Contents::Times> read_;  ///< of the runs under way: their files when they began
 };
 
-}  // namespace app
+}  // namespace dsdpv1::app

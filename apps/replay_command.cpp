@@ -26,7 +26,7 @@
 #include "tb/report/progress.hpp"
 #include "tb/report/result_json.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 using tb::replay::Recording;
@@ -184,4 +184,4 @@ int replay(const ReplayArguments& arguments) {
   return status_of(result);
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -5,7 +5,7 @@
 
 #include "apps/wave_options.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 struct ReplayArguments {
   std::string capture;
@@ -26,4 +26,4 @@ struct ReplayArguments {
 /// 0 equal, 1 different, 2 wrong input, 130 interrupted.
 int replay(const ReplayArguments& arguments);
 
-}  // namespace app
+}  // namespace dsdpv1::app

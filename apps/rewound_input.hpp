@@ -5,7 +5,7 @@
 #include <streambuf>
 #include <string_view>
 
-namespace app {
+namespace dsdpv1::app {
 
 class RewoundInput {
  public:
@@ -48,4 +48,4 @@ class RewoundInput {
   std::istream stream_;
 };
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -7,7 +7,7 @@
 #include "apps/own_rtl.hpp"
 #include "apps/wave_options.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 struct RtlRandomArguments {
   std::string command = "dsdpv1-sim rtl-random";  ///< for messages
@@ -47,4 +47,4 @@ int rtl_random(const RtlRandomArguments& arguments);
 int rtl_faults(const RtlFaultsArguments& arguments);
 int cosim_own_rtl(const CosimArguments& arguments);
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -16,7 +16,7 @@
 #include "tb/dsdpv1/cosim/faults.hpp"
 #include "tb/output/output_file.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 std::vector<NamedFile> with_files_of(const std::string& folder, std::vector<NamedFile> inputs) {
@@ -58,4 +58,4 @@ int rtl_faults(const RtlFaultsArguments& arguments) {
   return found == static_cast<std::ptrdiff_t>(faults.size()) ? kPassed : kFailed;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

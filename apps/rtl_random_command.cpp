@@ -26,7 +26,7 @@
 #include "tb/output/output_file.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 constexpr int kShrinkRuns = 600;
@@ -236,4 +236,4 @@ int rtl_random(const RtlRandomArguments& arguments) {
   return status;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

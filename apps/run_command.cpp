@@ -28,7 +28,7 @@
 #include "tb/report/summary.hpp"
 #include "tb/traces/golden_run.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 tb::ChecksMode checks_mode(const std::string& word) {
@@ -281,4 +281,4 @@ int cosim_own_rtl(const CosimArguments& arguments) {
   return run_own_rtl(scenario, arguments, options, own);
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

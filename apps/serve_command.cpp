@@ -24,7 +24,7 @@
 #include "tb/serve/ports.hpp"
 #include "tb/serve/real_time_execution.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 /// Longer than any computer stays up, and far from the end of 64 bits.
@@ -107,4 +107,4 @@ int serve(const ServeArguments& arguments) {
   return result.passed ? kPassed : kFailed;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -4,7 +4,7 @@
 
 #include "apps/wave_options.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 struct ServeArguments {
   std::string scenario;
@@ -23,4 +23,4 @@ struct ServeArguments {
 
 int serve(const ServeArguments& arguments);
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace app {
+namespace dsdpv1::app {
 
 inline std::vector<const CLI::App*> shown_commands(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
@@ -30,4 +30,4 @@ inline std::vector<std::string> spellings(const CLI::Option& option) {
   return words;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

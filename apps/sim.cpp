@@ -2,6 +2,7 @@
 #include "apps/program.hpp"
 #include "tb/dsdpv1/systemc/tlm_execution.hpp"
 
+namespace dsdpv1 {
 namespace app {
 
 int in_tlm_view(const std::function<int(std::unique_ptr<tb::Execution>)>& body) {
@@ -9,5 +10,6 @@ int in_tlm_view(const std::function<int(std::unique_ptr<tb::Execution>)>& body) 
 }
 
 }  // namespace app
+}  // namespace dsdpv1
 
-int main(int argc, char** argv) { return app::program(argc, argv); }
+int main(int argc, char** argv) { return dsdpv1::app::program(argc, argv); }

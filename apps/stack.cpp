@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdio>
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 constexpr rlim_t kNeeded = 512 * 1024;
@@ -46,4 +46,4 @@ bool ensure_stack() {
   return false;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

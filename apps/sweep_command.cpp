@@ -22,7 +22,7 @@
 #include "tb/sweep/point.hpp"
 #include "tb/sweep/table.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 using tb::sweep::Folder;
@@ -114,4 +114,4 @@ int sweep(const SweepArguments& arguments) {
   return kPassed;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -5,7 +5,7 @@
 
 #include "apps/campaign.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 struct SweepArguments {
   std::string scenario;
@@ -18,4 +18,4 @@ struct SweepArguments {
 
 int sweep(const SweepArguments& arguments);
 
-}  // namespace app
+}  // namespace dsdpv1::app

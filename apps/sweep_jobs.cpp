@@ -7,7 +7,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 using tb::campaign::Ended;
@@ -78,4 +78,4 @@ std::vector<Point> SweepJobs::points() const {
   return all;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

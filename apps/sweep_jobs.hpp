@@ -12,7 +12,7 @@
 #include "tb/sweep/plan.hpp"
 #include "tb/sweep/point.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 class SweepJobs : public tb::campaign::Jobs {
  public:
@@ -37,4 +37,4 @@ class SweepJobs : public tb::campaign::Jobs {
   std::map<std::size_t, tb::sweep::Inputs::Times> read_;  ///< of the runs under way: their files when they began
 };
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -10,7 +10,7 @@
 #include "tb/bench/run_log.hpp"
 #include "tb/input/units.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 using bus::TelegramKind;
@@ -100,4 +100,4 @@ void TelegramFiles::finish() {
   if (json_) json_->commit();
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -8,7 +8,7 @@
 #include "bus/telegram/telegram.hpp"
 #include "tb/output/output_file.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 /// A line for each telegram; nothing is kept.
 class TelegramFiles {
@@ -26,4 +26,4 @@ class TelegramFiles {
   std::uint64_t count_ = 0;
 };
 
-}  // namespace app
+}  // namespace dsdpv1::app

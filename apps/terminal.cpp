@@ -9,7 +9,7 @@
 
 #include "tb/report/text_table.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 enum class Where : unsigned char { kWholeLine, kBeginning, kToTheEnd };
@@ -22,13 +22,25 @@ struct Mark {
 
 constexpr std::string_view kGood = "\x1B[1;32m", kBad = "\x1B[1;31m", kOpen = "\x1B[1;33m", kNone = "\x1B[0m";
 
-constexpr Mark kMarks[] = {{Where::kWholeLine, "PASSED", kGood},          {Where::kWholeLine, "FAILED", kBad},
-                           {Where::kWholeLine, "EQUAL", kGood},           {Where::kWholeLine, "DIFFERENT", kBad},
-                           {Where::kBeginning, "NOTHING COMPARED", kBad}, {Where::kBeginning, "INTERRUPTED", kOpen},
-                           {Where::kBeginning, "  NOT MET  ", kBad},      {Where::kBeginning, "  passed  ", kGood},
-                           {Where::kBeginning, "  failed  ", kBad},       {Where::kBeginning, "  refused  ", kBad},
-                           {Where::kBeginning, "  crashed  ", kBad},      {Where::kBeginning, "  hung  ", kBad},
-                           {Where::kToTheEnd, "VIOLATION: ", kBad}};
+constexpr Mark kMarks[] = {{Where::kWholeLine, "PASSED", kGood},
+                           {Where::kWholeLine, "FAILED", kBad},
+                           {Where::kWholeLine, "EQUAL", kGood},
+                           {Where::kWholeLine, "DIFFERENT", kBad},
+                           {Where::kBeginning, "NOTHING COMPARED", kBad},
+                           {Where::kBeginning, "INTERRUPTED", kOpen},
+                           {Where::kBeginning, "  NOT MET  ", kBad},
+                           {Where::kBeginning, "  passed  ", kGood},
+                           {Where::kBeginning, "  failed  ", kBad},
+                           {Where::kBeginning, "  refused  ", kBad},
+                           {Where::kBeginning, "  crashed  ", kBad},
+                           {Where::kBeginning, "  hung  ", kBad},
+                           {Where::kToTheEnd, "VIOLATION: ", kBad},
+                           // rows of regress as blocks, where the terminal is too narrow for its table
+                           {Where::kWholeLine, "  verdict   passed", kGood},
+                           {Where::kWholeLine, "  verdict   failed", kBad},
+                           {Where::kWholeLine, "  verdict   refused", kBad},
+                           {Where::kWholeLine, "  verdict   crashed", kBad},
+                           {Where::kWholeLine, "  verdict   hung", kBad}};
 
 /// Where in the line the colour is, from and to; from is npos when the mark is not there.
 std::pair<std::size_t, std::size_t> place_of(const Mark& mark, std::string_view line) {
@@ -67,4 +79,4 @@ std::string painted(const std::string& line) {
   return line;
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

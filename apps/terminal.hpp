@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-namespace app {
+namespace dsdpv1::app {
 
 /// The columns of the terminal that standard output goes to; tb::TableWidth::kUnlimited when it goes elsewhere.
 std::size_t terminal_columns();
@@ -15,4 +15,4 @@ bool wants_colour(const std::string& word);
 /// are found by the words that this program uses for them; nothing that others have named can bring colours of its own.
 std::string painted(const std::string& line);
 
-}  // namespace app
+}  // namespace dsdpv1::app

@@ -12,7 +12,7 @@
 #include "tb/report/result_schema.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 namespace {
 
@@ -46,4 +46,4 @@ int gsd(const GsdArguments& arguments) {
   return bus::gsd_command(in, arguments.file, command, std::cout, std::cerr);
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

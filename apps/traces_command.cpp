@@ -25,7 +25,7 @@
 #include "tb/traces/trace_wave.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -262,4 +262,4 @@ int traces(const TracesArguments& arguments) {
   throw tb::InputError("dsdpv1-sim traces: an action is missing, allowed are check, regenerate, list, wave");
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

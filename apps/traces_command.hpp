@@ -8,7 +8,7 @@ namespace CLI {
 class App;
 }
 
-namespace app {
+namespace dsdpv1::app {
 
 struct TracesArguments {
   std::string action;                  ///< check, regenerate, list, wave
@@ -25,4 +25,4 @@ void describe_traces(CLI::App& app, TracesArguments& arguments);
 
 int traces(const TracesArguments& arguments);
 
-}  // namespace app
+}  // namespace dsdpv1::app

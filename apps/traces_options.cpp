@@ -3,7 +3,7 @@
 
 #include "apps/traces_command.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 CLI::App* add_action(CLI::App& traces, TracesArguments& arguments, const std::string& name, const char* text) {
@@ -46,4 +46,4 @@ void describe_traces(CLI::App& app, TracesArguments& arguments) {
   for (CLI::App* each : {traces, check, regenerate, list, wave}) each->footer(footer);
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

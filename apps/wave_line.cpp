@@ -9,7 +9,7 @@
 #include "bus/capture/signal_decoder.hpp"
 #include "tb/waves/wave_reader.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 namespace capture = bus::capture;
@@ -159,4 +159,4 @@ capture::LogicSource read_wave_line(const std::string& path, const capture::Logi
   return decoder.source();
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

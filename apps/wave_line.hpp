@@ -5,7 +5,7 @@
 
 #include "bus/capture/csv_reader.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 
 bool begins_as_wave(std::string_view beginning);
 
@@ -17,4 +17,4 @@ double read_wave_levels(const std::string& path, bus::capture::LevelTaker& taker
 bus::capture::LogicSource read_wave_line(const std::string& path, const bus::capture::LogicSettings& settings,
                                          const bus::capture::TakeTelegram& take);
 
-}  // namespace app
+}  // namespace dsdpv1::app

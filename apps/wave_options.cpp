@@ -15,7 +15,7 @@
 #include "tb/scenario/event_codes.hpp"
 #include "tb/waves/save_files.hpp"
 
-namespace app {
+namespace dsdpv1::app {
 namespace {
 
 bus::Tick time_of(const std::string& command, const char* option, const std::string& text) {
@@ -134,4 +134,4 @@ std::string nothing_recorded(const WaveArguments& arguments) {
   return fmt::format("dsdpv1-sim: {} shows nothing: {}", arguments.file, why);
 }
 
-}  // namespace app
+}  // namespace dsdpv1::app

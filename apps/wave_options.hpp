@@ -12,7 +12,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace app {
+namespace dsdpv1::app {
 
 struct WaveArguments {
   std::string file;                  ///< empty: no wave
@@ -39,4 +39,4 @@ tb::WaveOptions wave_options(const std::string& command, const WaveArguments& ar
 /// To be said at the end of a run whose wave shows nothing.
 std::string nothing_recorded(const WaveArguments& arguments);
 
-}  // namespace app
+}  // namespace dsdpv1::app

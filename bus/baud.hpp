@@ -6,7 +6,7 @@
 
 #include "bus/time.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 /// One baud rate. Bit times are whole ticks at every rate (ruling S2: the chip's 48 MHz divided by a whole number).
 struct Baud {
@@ -50,4 +50,4 @@ constexpr int kSynBits = 33;        ///< T_SYN: idle before every request, bit t
 constexpr int kMinTsdrBits = 11;    ///< min_TSDR before a Set_Prm changed it, bit times
 constexpr int kCharacterBits = 11;  ///< start, eight data, parity, stop
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

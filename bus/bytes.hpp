@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 using Bytes = std::vector<std::uint8_t>;
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

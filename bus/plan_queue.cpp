@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 std::size_t PlanQueue::add() {
   if (size_ == leaves_) build(2 * leaves_);
@@ -54,4 +54,4 @@ std::size_t PlanQueue::first_due_below(std::size_t node, Tick now) const {
   return node - leaves_;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

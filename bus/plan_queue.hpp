@@ -8,7 +8,7 @@
 
 #include "bus/time.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 /// Needs memory in `add` only.
 class PlanQueue {
@@ -46,4 +46,4 @@ class PlanQueue {
   std::vector<Place> winners_;  ///< node 1 is the root, 2 n and 2 n + 1 are below n; leaf leaves_ + p is place p
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -6,7 +6,7 @@
 
 #include "bus/utf8.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 /// Of a well-formed sequence.
@@ -69,4 +69,4 @@ std::string printable(std::string_view text) { return made_printable(text, ""); 
 
 std::string printable_lines(std::string_view text) { return made_printable(text, "\n\t"); }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

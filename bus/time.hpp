@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 using Tick = std::int64_t;
 
@@ -15,4 +15,4 @@ constexpr Tick kTicksPerMs = 12'000'000;
 constexpr Tick kTicksPerSecond = 12'000'000'000;
 constexpr Tick kNever = std::numeric_limits<Tick>::max();
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

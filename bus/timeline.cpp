@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <typeinfo>
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 #ifdef NDEBUG
@@ -121,4 +121,4 @@ void Timeline::run_until(Tick until) {
   now_ = std::max(now_, until);
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

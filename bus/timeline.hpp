@@ -12,7 +12,7 @@
 #include "bus/plan_queue.hpp"
 #include "bus/time.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 class Timeline;
 
@@ -110,4 +110,4 @@ inline void Agent::announce(Tick plan) {
   if (timeline_ != nullptr && timeline_->plans_.at(place_) != plan) timeline_->announced(place_);
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

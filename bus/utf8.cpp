@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 /// The well-formed sequences of Unicode, by their first byte; the bytes behind the second are 80..BF.
@@ -30,4 +30,4 @@ std::size_t utf8_sequence(std::string_view text, std::size_t at) {
   return form->size;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "capi/chip.hpp"
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
 #include "model/dsdpv1/host_access.hpp"
 

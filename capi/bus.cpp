@@ -4,14 +4,16 @@
 
 #include "capi/chip.hpp"
 #include "capi/master.hpp"
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
+#include "tb/bench/scenario_masters.hpp"
 
 using capi::fail;
 using capi::guarded;
 using capi::need;
 using capi::Tick;
 
-namespace capi {
+namespace dsdpv1::capi {
 
 dpsim_heard heard_of(const bus::WireTelegram& telegram) {
   dpsim_heard heard{};
@@ -37,7 +39,7 @@ dpsim_event event_of(dpsim_event_type type, Tick at) {
   return event;
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 dpsim_bus::dpsim_bus(int baud_index) : baud(baud_index) {}
 dpsim_bus::~dpsim_bus() = default;
@@ -133,7 +135,8 @@ dpsim_status dpsim_bus_next(dpsim_bus* bus, uint64_t* tick) {
         need(bus, "bus");
         need(tick, "tick");
         capi::need_outside(bus->clock);
-        *tick = capi::tick_out(bus->timeline.next());
+        // A command that was given now is still planned for a time that is over.
+        *tick = capi::tick_out(std::max(bus->timeline.next(), bus->timeline.now()));
       });
 }
 

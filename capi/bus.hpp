@@ -9,12 +9,17 @@
 #include "bus/wire/segment.hpp"
 #include "capi/changes.hpp"
 #include "capi/line_tap.hpp"
+#include "capi/names.hpp"
 #include "dsdpv1/bus.h"
 
 struct dpsim_chip;
 struct dpsim_master;
 
-namespace capi {
+namespace dsdpv1::tb {
+class ScenarioMasters;
+}
+
+namespace dsdpv1::capi {
 
 struct Station {
   enum class Kind : std::uint8_t { kChip, kMaster, kOutside };
@@ -28,7 +33,7 @@ dpsim_heard heard_of(const bus::WireTelegram& telegram);
 /// An event that names nothing yet.
 dpsim_event event_of(dpsim_event_type type, bus::Tick at);
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 struct dpsim_bus {
   explicit dpsim_bus(int baud_index);
@@ -59,6 +64,7 @@ struct dpsim_bus {
   capi::Changes changes{clock};
   std::unique_ptr<capi::LineTap> tap;     ///< null as long as chips may be added
   std::unique_ptr<bus::Monitor> monitor;  ///< likewise
+  std::vector<std::unique_ptr<tb::ScenarioMasters>> scenarios;
   std::vector<std::unique_ptr<dpsim_master>> masters;
 
   dpsim_telegram_fn telegram_fn = nullptr;

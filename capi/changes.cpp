@@ -3,7 +3,7 @@
 #include "capi/clock.hpp"
 #include "capi/error.hpp"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 void read_changes(Changes& from, dpsim_change* changes, std::size_t capacity, std::size_t* count) {
   need_buffer(changes, capacity, "changes");
@@ -22,4 +22,4 @@ void refuse_inside() {
   fail(DPSIM_ERR_STATE, "called inside of a callback of the same object, where it must not be changed");
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

@@ -8,7 +8,7 @@
 #include "capi/clock.hpp"
 #include "dsdpv1/types.h"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 class Changes {
  public:
@@ -65,4 +65,4 @@ class Changes {
 /// The body of the functions ..._read_changes.
 void read_changes(Changes& from, dpsim_change* changes, std::size_t capacity, std::size_t* count);
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

@@ -1,4 +1,5 @@
 // The rules of a chip's user side on any pins.
+#include "capi/names.hpp"
 #include "dsdpv1/checks.h"
 
 #include <memory>

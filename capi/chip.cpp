@@ -4,6 +4,7 @@
 
 #include "bus/wire/character_run.hpp"
 #include "capi/bus.hpp"
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
 #include "tb/keys/keys.hpp"
 
@@ -13,7 +14,7 @@ using capi::need;
 using capi::Tick;
 using tb::Level;
 
-namespace capi {
+namespace dsdpv1::capi {
 namespace {
 
 void set_parameter(const dpsim_parameter& parameter, const Kind& kind, tb::OwnSettings& settings) {
@@ -47,7 +48,7 @@ void ChipEvents::add(const profibus::Event& event) const {
   fn_(user_, &told);
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 namespace {
 

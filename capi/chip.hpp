@@ -7,10 +7,11 @@
 #include "capi/changes.hpp"
 #include "capi/clock.hpp"
 #include "capi/kind.hpp"
+#include "capi/names.hpp"
 #include "model/profibus/event.hpp"
 #include "tb/bench/chip_view.hpp"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 /// Events of a chip on their way out.
 class ChipEvents {
@@ -33,7 +34,7 @@ class ChipEvents {
 /// What the header says of a chip by its options; throws for names and values that there are not.
 ChipPlan plan_of(const dpsim_chip_options& options, const Kind& kind, const std::string& usual_name);
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 struct dpsim_chip {
   using Tick = capi::Tick;

@@ -6,7 +6,7 @@
 #include "bus/time.hpp"
 #include "dsdpv1/types.h"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 using bus::Tick;
 
@@ -46,4 +46,4 @@ inline std::uint64_t tick_out(Tick tick) {
   return tick > static_cast<Tick>(DPSIM_LAST_TICK) ? DPSIM_NEVER : static_cast<std::uint64_t>(tick);
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

@@ -8,7 +8,7 @@
 #include "tb/dsdpv1/pin_chip.hpp"
 #include "tb/dsdpv1/settings.hpp"
 
-namespace capi {
+namespace dsdpv1::capi {
 namespace {
 
 using dsdpv1::Level;
@@ -150,4 +150,4 @@ const Kind& dsdpv1_kind() {
   return kind;
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

@@ -3,9 +3,10 @@
 #include <array>
 #include <new>
 
+#include "capi/names.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace capi {
+namespace dsdpv1::capi {
 namespace {
 
 std::string& message() {
@@ -66,7 +67,7 @@ void need_range(const char* name, long long value, long long low, long long high
                                " to " + std::to_string(high));
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 const char* dpsim_error_message() { return capi::has_no_memory ? "there is no memory left" : capi::message().c_str(); }
 

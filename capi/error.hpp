@@ -7,7 +7,7 @@
 
 #include "dsdpv1/types.h"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 class Error : public std::runtime_error {
  public:
@@ -41,4 +41,4 @@ inline void need_buffer(const void* pointer, std::size_t count, const char* name
 /// A value that must be from `low` to `high`.
 void need_range(const char* name, long long value, long long low, long long high);
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

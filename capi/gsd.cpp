@@ -7,6 +7,7 @@
 
 #include "bus/gsd/report.hpp"
 #include "bus/gsd/setup.hpp"
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
 #include "capi/slave.hpp"
 #include "dsdpv1/gsd.h"

@@ -2,7 +2,7 @@
 
 #include "capi/error.hpp"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 const std::vector<const Kind*>& kinds() {
   static const std::vector<const Kind*> all = {&dsdpv1_kind()};
@@ -23,4 +23,4 @@ const Kind& kind_of(const char* name) {
   fail(DPSIM_ERR_NOT_FOUND, "kind is \"" + std::string(name) + "\", allowed are " + allowed);
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

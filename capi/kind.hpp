@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "capi/names.hpp"
 #include "dsdpv1/chip.h"
 #include "model/profibus/reason.hpp"
 #include "tb/bench/chip_maker.hpp"
 
 struct dpsim_bus;
 
-namespace capi {
+namespace dsdpv1::capi {
 
 /// A chip to be made.
 struct ChipPlan {
@@ -50,4 +51,4 @@ const Kind* find_kind(const char* name);
 
 const Kind& dsdpv1_kind();
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

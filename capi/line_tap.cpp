@@ -4,7 +4,7 @@
 
 #include "dsdpv1/bus.h"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 LineTap::LineTap(bus::Segment& segment, Changes& changes, std::function<void()> on_activity)
     : segment_(segment), changes_(changes), on_activity_(std::move(on_activity)) {
@@ -55,4 +55,4 @@ bool LineTap::run_begins(const bus::CharacterRun& run) {
 
 void LineTap::run_cut(bus::Tick /*at*/, bool /*level*/) { run_.reset(); }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

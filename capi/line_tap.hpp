@@ -7,7 +7,7 @@
 #include "bus/wire/segment.hpp"
 #include "capi/changes.hpp"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 class LineTap : public bus::Listener {
  public:
@@ -42,4 +42,4 @@ class LineTap : public bus::Listener {
   bus::Bytes bytes_;                      ///< of `run_`
 };
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "capi/master.hpp"
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
 #include "capi/slave.hpp"
 #include "capi/telegram.hpp"
@@ -11,7 +12,7 @@ using capi::fail;
 using capi::guarded;
 using capi::need;
 
-namespace capi {
+namespace dsdpv1::capi {
 
 void need_slave(const bus::Master1& master, std::uint8_t address) {
   const std::vector<std::uint8_t> all = master.slave_addresses();
@@ -50,7 +51,7 @@ void connect(dpsim_master& master, bus::Master1& own) {
   if (own.ring() != nullptr) connect(master, *own.ring());
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 namespace {
 
@@ -245,7 +246,8 @@ dpsim_status dpsim_master_request(dpsim_master* master, const dpsim_telegram* te
       [&] {
         bus::Master1& own = class_1_of(master);
         need(telegram, "telegram");
-        const bus::Telegram request = capi::telegram_of(*telegram);
+        bus::Telegram request = capi::telegram_of(*telegram);
+        request.sa = master->address;
         bus::encode(request);
         capi::numbered(
             *master, id,

@@ -1,11 +1,12 @@
 // Class 2: connections; and acyclic requests of both classes.
 #include "capi/master.hpp"
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
 
 using capi::class_2_of;
 using capi::guarded;
 
-namespace capi {
+namespace dsdpv1::capi {
 namespace {
 
 std::uint32_t codes_of(unsigned high, unsigned middle, unsigned low) { return high << 16U | middle << 8U | low; }
@@ -47,7 +48,7 @@ void connect(dpsim_master& master, bus::Master2& own) {
 
 void acyclic(dpsim_master* master, std::uint32_t peer, const bus::AcyclicRequest& request, std::uint32_t* id) {
   need(master, "master");
-  if (master->class_1) {
+  if (master->class_1 != nullptr) {
     need_range("peer", peer, 0, bus::kHighestAddress);
     const auto address = static_cast<std::uint8_t>(peer);
     need_slave(*master->class_1, address);
@@ -64,7 +65,7 @@ void acyclic(dpsim_master* master, std::uint32_t peer, const bus::AcyclicRequest
   });
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 namespace {
 

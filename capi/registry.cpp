@@ -1,6 +1,7 @@
 // What kinds, pins, parameters and reasons there are, by number.
 #include "capi/error.hpp"
 #include "capi/kind.hpp"
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
 
 using capi::fail;

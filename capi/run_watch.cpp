@@ -2,7 +2,7 @@
 
 #include "capi/bus.hpp"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 RunWatch::RunWatch(const tb::scenario::Scenario& scenario) : scenario_(scenario) {
   const Kind& kind = kind_of(scenario.kind->name());
@@ -63,4 +63,4 @@ void RunWatch::telegram(const tb::HeardTelegram& heard) {
   telegrams_.push_back(told);
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

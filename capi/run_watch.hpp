@@ -10,7 +10,7 @@
 #include "dsdpv1/run.h"
 #include "tb/bench/observer.hpp"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 class RunWatch : public tb::Observer, private bus::Listener {
  public:
@@ -59,4 +59,4 @@ class RunWatch : public tb::Observer, private bus::Listener {
   std::deque<bus::Bytes> bytes_;  ///< of telegrams_
 };
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

@@ -7,7 +7,7 @@
 
 #include "capi/error.hpp"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 /// The size of the first version of a struct; where one has grown, its specialisation says what it began with.
 template <class T>
@@ -39,4 +39,4 @@ void give(T filled, T* result, const char* name) {
   std::memcpy(result, &filled, result->size);
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

@@ -4,7 +4,7 @@
 
 #include "capi/sized.hpp"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 bus::SlaveParameters parameters_of(const dpsim_slave& slave) {
   const dpsim_slave own = options_of(&slave, "slave");
@@ -49,4 +49,4 @@ dpsim_slave slave_of(const bus::SlaveParameters& parameters) {
   return slave;
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

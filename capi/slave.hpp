@@ -3,11 +3,11 @@
 #include "bus/master/slave_parameters.hpp"
 #include "dsdpv1/gsd.h"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 /// Throws for lengths beyond the arrays; the bus judges the rest.
 bus::SlaveParameters parameters_of(const dpsim_slave& slave);
 /// All but `size`.
 dpsim_slave slave_of(const bus::SlaveParameters& parameters);
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

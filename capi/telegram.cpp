@@ -6,13 +6,14 @@
 #include <string>
 
 #include "bus/telegram/explain.hpp"
+#include "capi/names.hpp"
 #include "capi/sized.hpp"
 
 using capi::fail;
 using capi::guarded;
 using capi::need;
 
-namespace capi {
+namespace dsdpv1::capi {
 namespace {
 
 std::optional<std::uint8_t> sap_of(const char* name, std::int16_t sap) {
@@ -40,7 +41,7 @@ bus::Telegram telegram_of(const dpsim_telegram& telegram) {
   return made;
 }
 
-}  // namespace capi
+}  // namespace dsdpv1::capi
 
 namespace {
 

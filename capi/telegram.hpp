@@ -3,9 +3,9 @@
 #include "bus/telegram/telegram.hpp"
 #include "dsdpv1/telegram.h"
 
-namespace capi {
+namespace dsdpv1::capi {
 
 /// Throws for fields out of range.
 bus::Telegram telegram_of(const dpsim_telegram& telegram);
 
-}  // namespace capi
+}  // namespace dsdpv1::capi

@@ -1,5 +1,6 @@
 // Version and time.
 #include "dsdpv1/types.h"
+#include "capi/names.hpp"
 
 #include <array>
 #include <cstdint>

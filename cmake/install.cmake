@@ -5,7 +5,8 @@
 #   checks    the rules of the user's side: dsdpv1::checks
 #   systemc   dsdpv1::systemc, dsdpv1::driver_systemc; together with bus dsdpv1::systemc_bus
 #   capi      libdsdpv1.so: dsdpv1::capi
-#   dpi       for simulators: dsdpv1::dpi, dsdpv1.vpi, SystemVerilog
+#   dpi       for simulators: dsdpv1::dpi, dsdpv1::vpi, SystemVerilog
+#   python    the module dsdpv1, cocotbext.profibus; the component wheel has what a wheel holds (bindings/python/CMakeLists.txt)
 #   tools     the programs, their man page, completions and data (apps/CMakeLists.txt)
 #   docs      documents, examples, licences
 # A room that others bind (bindings/) calls dsdpv1_install_targets and dsdpv1_install_pc for its own.
@@ -14,6 +15,7 @@ include(CMakePackageConfigHelpers)
 
 set(DSDPV1_INSTALL_INCLUDEDIR ${CMAKE_INSTALL_INCLUDEDIR}/dsdpv1)
 set(DSDPV1_INSTALL_CMAKEDIR ${CMAKE_INSTALL_LIBDIR}/cmake/dsdpv1)
+set(DSDPV1_INSTALL_PYTHONDIR lib/python3/dist-packages)  # with the prefix /usr Debian's Python finds it
 set(DSDPV1_INSTALL_DATADIR ${CMAKE_INSTALL_DATADIR}/dsdpv1)
 
 # An archive of g++ that other compilers' programs link with, also where they optimise across files: templates' static members as weak
@@ -52,7 +54,7 @@ function(dsdpv1_prepare_target target)
   if(NOT type STREQUAL "EXECUTABLE")
     dsdpv1_export_links(${target})
   endif()
-  if(NOT target MATCHES "_(capi|dpi)$" AND NOT type STREQUAL "EXECUTABLE")  # those have an interface of their own
+  if(NOT target MATCHES "_(capi|dpi|vpi)$" AND NOT type STREQUAL "EXECUTABLE")  # those have an interface of their own
     dsdpv1_export_includes(${target})
     if(type STREQUAL "SHARED_LIBRARY")
       dsdpv1_version_library(${target})
@@ -106,7 +108,7 @@ function(dsdpv1_install_package)
                                 INSTALL_DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} NO_SET_AND_CHECK_MACRO)
   write_basic_package_version_file(${version} COMPATIBILITY SameMinorVersion)
   # With every component: each can be the only one that is installed.
-  foreach(component core driver bus checks systemc capi dpi tools)
+  foreach(component core driver bus checks systemc capi dpi python tools)
     install(FILES ${config} ${version} ${PROJECT_SOURCE_DIR}/cmake/systemc.cmake
             DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} COMPONENT ${component})
   endforeach()
@@ -136,16 +138,14 @@ endfunction()
 
 function(dsdpv1_install_systemc)
   dsdpv1_install_targets(systemc systemc dsdpv1_systemc dsdpv1_driver_systemc)
-  dsdpv1_install_targets(systemc systemc_bus dsdpv1_timeline_module dsdpv1_systemc_bus)
+  dsdpv1_install_targets(systemc systemc_bus dsdpv1_systemc_bus)
   foreach(room model/systemc driver/systemc tb/systemc)
     install(DIRECTORY ${room}/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/${room} COMPONENT systemc FILES_MATCHING PATTERN "*.hpp")
   endforeach()
-  install(FILES tb/dsdpv1/systemc/tlm_chip.hpp tb/dsdpv1/systemc/handshake_pin.hpp
-          DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/tb/dsdpv1/systemc COMPONENT systemc)
   dsdpv1_install_pc(systemc dsdpv1-systemc "cycle-accurate model of the DSDPV1: SystemC modules"
                     LIBS dsdpv1_driver_systemc dsdpv1_systemc REQUIRES dsdpv1-core dsdpv1-driver systemc tlm)
   dsdpv1_install_pc(systemc dsdpv1-systemc-bus "PROFIBUS segment and masters in SystemC's time"
-                    LIBS dsdpv1_systemc_bus dsdpv1_timeline_module REQUIRES dsdpv1-systemc dsdpv1-bus)
+                    LIBS dsdpv1_systemc_bus REQUIRES dsdpv1-systemc dsdpv1-bus)
 endfunction()
 
 function(dsdpv1_install_capi)
@@ -159,11 +159,30 @@ function(dsdpv1_install_dpi)
   if(NOT TARGET dsdpv1_dpi)
     return()
   endif()
-  dsdpv1_install_targets(dpi dpi dsdpv1_dpi)
+  set(targets dsdpv1_dpi)
   if(TARGET dsdpv1_vpi)
-    install(TARGETS dsdpv1_vpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dpi)
+    list(APPEND targets dsdpv1_vpi)
   endif()
+  dsdpv1_install_targets(dpi dpi ${targets})
   install(DIRECTORY bindings/systemverilog DESTINATION ${DSDPV1_INSTALL_DATADIR}/bindings COMPONENT dpi)
+endfunction()
+
+# The packages of Python where Debian's are. They load the library of the component capi, by a link that names it from there.
+function(dsdpv1_install_python)
+  install(DIRECTORY bindings/python/dsdpv1 bindings/cocotb/cocotbext DESTINATION ${DSDPV1_INSTALL_PYTHONDIR} COMPONENT python
+          PATTERN "__pycache__" EXCLUDE)
+  set(folder ${DSDPV1_INSTALL_PYTHONDIR}/dsdpv1/lib)
+  get_target_property(number dsdpv1_capi SOVERSION)
+  set(library libdsdpv1.so.${number})
+  file(RELATIVE_PATH target /${folder} /${CMAKE_INSTALL_LIBDIR}/${library})
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/python)
+  file(CREATE_LINK ${target} ${PROJECT_BINARY_DIR}/python/${library} SYMBOLIC)
+  install(FILES ${PROJECT_BINARY_DIR}/python/${library} DESTINATION ${folder} COMPONENT python)
+
+  file(RELATIVE_PATH target /${DSDPV1_INSTALL_CMAKEDIR} /${DSDPV1_INSTALL_PYTHONDIR})
+  set(file ${PROJECT_BINARY_DIR}/dsdpv1-python-targets.cmake)
+  file(WRITE ${file} "# For PYTHONPATH.\ncmake_path(SET dsdpv1_PYTHON_DIR NORMALIZE \"\${CMAKE_CURRENT_LIST_DIR}/${target}\")\n")
+  install(FILES ${file} DESTINATION ${DSDPV1_INSTALL_CMAKEDIR} COMPONENT python)
 endfunction()
 
 function(dsdpv1_install_docs)
@@ -205,6 +224,7 @@ function(dsdpv1_install)
   dsdpv1_install_systemc()
   dsdpv1_install_capi()
   dsdpv1_install_dpi()
+  dsdpv1_install_python()
   dsdpv1_install_docs()
   dsdpv1_install_package()
   dsdpv1_install_former_component()

@@ -18,13 +18,14 @@ set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, pkg-config, libfmt-dev, libsystemc-dev")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "verilator, gcc-arm-none-eabi, gdb-multiarch, gtkwave, wireshark")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS python3)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, pkg-config, libfmt-dev, libsystemc-dev, python3-numpy")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "verilator, iverilog, gcc-arm-none-eabi, gdb-multiarch, gtkwave, wireshark")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-# Who is packaged with libdsdpv1.so.0 depends on this package, and the linker's cache learns of it.
+# Who is packaged with one of the shared libraries depends on this package, and the linker's cache learns of it.
 set(debian ${PROJECT_BINARY_DIR}/debian)
-file(WRITE ${debian}/shlibs "libdsdpv1 0 dsdpv1 (>= ${PROJECT_VERSION})\n")
+file(WRITE ${debian}/shlibs "libdsdpv1 0 dsdpv1 (>= ${PROJECT_VERSION})\nlibdsdpv1_dpi 0 dsdpv1 (>= ${PROJECT_VERSION})\n")
 file(WRITE ${debian}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${debian}/shlibs ${debian}/triggers)
 

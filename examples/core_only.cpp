@@ -10,7 +10,7 @@ using dsdpv1::Tick;
 
 namespace {
 
-constexpr Tick kNs = profibus::kTicksPerNs;
+constexpr Tick kNs = dsdpv1::profibus::kTicksPerNs;
 constexpr Tick kUs = 1000 * kNs;
 
 void print_change(void*, Tick at, Pin pin, dsdpv1::Level level) {

@@ -4,7 +4,7 @@
 
 #include "bindings/simulator/object.hpp"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 
 std::vector<uint8_t> bytes_of(const uint32_t* vector, int32_t count) {
   if (count < 0 || count > DSDPV1_BYTES)
@@ -21,4 +21,4 @@ int32_t write_bytes(uint32_t* vector, const uint8_t* bytes, std::size_t count) {
   return static_cast<int32_t>(taken);
 }
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator

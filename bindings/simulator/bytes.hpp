@@ -5,7 +5,7 @@
 
 #include "bindings/simulator/simulator.h"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 
 inline uint8_t byte_at(const uint32_t* vector, std::size_t index) {
   return static_cast<uint8_t>(vector[index / 4] >> (8 * (index % 4)));
@@ -16,4 +16,4 @@ std::vector<uint8_t> bytes_of(const uint32_t* vector, int32_t count);
 /// Fills all of the vector, with zeros after the bytes; how many were taken: at most 256.
 int32_t write_bytes(uint32_t* vector, const uint8_t* bytes, std::size_t count);
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator

@@ -10,7 +10,7 @@
 #include "bindings/simulator/pins.hpp"
 #include "bindings/simulator/simulator.h"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 namespace {
 
 constexpr uint32_t kPbrxd = 1U << 26U, kPbtxd = 1U << 3U, kPbrts = 1U << 4U;
@@ -157,31 +157,32 @@ uint64_t Checker::applied() const {
 }
 
 }  // namespace
-}  // namespace simulator
+}  // namespace dsdpv1::simulator
 
-using simulator::Checker;
+using dsdpv1::simulator::Checker;
 
 int32_t dsdpv1_checker_create(const char* options, int32_t baud) {
-  return simulator::created([&] { return std::make_unique<Checker>(options, baud); });
+  return dsdpv1::simulator::created([&] { return std::make_unique<Checker>(options, baud); });
 }
 
 int32_t dsdpv1_checker_step(int32_t handle, int64_t half, int64_t ps, int32_t inputs, int32_t outputs) {
-  return simulator::guarded([&] {
-    auto& checker = simulator::get<Checker>(handle);
-    checker.step(simulator::tick_of(half, ps), static_cast<uint32_t>(inputs), static_cast<uint32_t>(outputs));
+  return dsdpv1::simulator::guarded([&] {
+    auto& checker = dsdpv1::simulator::get<Checker>(handle);
+    checker.step(dsdpv1::simulator::tick_of(half, ps), static_cast<uint32_t>(inputs), static_cast<uint32_t>(outputs));
     return checker.violations();
   });
 }
 
 int32_t dsdpv1_checker_finish(int32_t handle) {
-  return simulator::guarded([&] {
-    auto& checker = simulator::get<Checker>(handle);
+  return dsdpv1::simulator::guarded([&] {
+    auto& checker = dsdpv1::simulator::get<Checker>(handle);
     checker.finish();
     return checker.violations();
   });
 }
 
 int32_t dsdpv1_checker_applied(int32_t handle) {
-  return simulator::guarded(
-      [&] { return static_cast<int32_t>(std::min<uint64_t>(simulator::get<Checker>(handle).applied(), INT32_MAX)); });
+  return dsdpv1::simulator::guarded([&] {
+    return static_cast<int32_t>(std::min<uint64_t>(dsdpv1::simulator::get<Checker>(handle).applied(), INT32_MAX));
+  });
 }

@@ -5,7 +5,7 @@
 #include "bindings/simulator/options.hpp"
 #include "bindings/simulator/simulator.h"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 namespace {
 
 dpsim_chip* make_chip(const char* text) {
@@ -80,19 +80,20 @@ uint64_t Model::next_tick() const {
   return tick;
 }
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator
 
 int32_t dsdpv1_model_create(const char* options) {
-  return simulator::created([&] { return std::make_unique<simulator::Model>(options); });
+  return dsdpv1::simulator::created([&] { return std::make_unique<dsdpv1::simulator::Model>(options); });
 }
 
 int32_t dsdpv1_model_step(int32_t handle, int64_t half, int64_t ps, int32_t inputs, int64_t* next) {
-  return simulator::guarded([&] {
-    auto& model = simulator::get<simulator::Model>(handle);
+  return dsdpv1::simulator::guarded([&] {
+    auto& model = dsdpv1::simulator::get<dsdpv1::simulator::Model>(handle);
     const bool clocked = half >= 0;
-    model.step(clocked ? simulator::tick_of(half, ps) : simulator::tick_of_ps(static_cast<uint64_t>(ps)),
-               static_cast<uint32_t>(inputs));
-    *next = clocked ? simulator::half_of(model.next_tick()) : simulator::ps_of(model.next_tick());
+    model.step(
+        clocked ? dsdpv1::simulator::tick_of(half, ps) : dsdpv1::simulator::tick_of_ps(static_cast<uint64_t>(ps)),
+        static_cast<uint32_t>(inputs));
+    *next = clocked ? dsdpv1::simulator::half_of(model.next_tick()) : dsdpv1::simulator::ps_of(model.next_tick());
     return static_cast<int32_t>(model.outputs());
   });
 }

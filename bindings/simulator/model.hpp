@@ -8,7 +8,7 @@
 #include "bindings/simulator/object.hpp"
 #include "bindings/simulator/pins.hpp"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 
 class Model final : public Object {
  public:
@@ -41,4 +41,4 @@ class Model final : public Object {
   std::size_t event_count_ = 0;
 };
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator

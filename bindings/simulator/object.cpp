@@ -4,7 +4,7 @@
 
 #include "bindings/simulator/simulator.h"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 namespace {
 
 std::vector<std::unique_ptr<Object>>& objects() {
@@ -52,22 +52,22 @@ void drop(int32_t handle) {
 void set_error(const std::string& text) { last_error() = text; }
 const std::string& error() { return last_error(); }
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator
 
-const char* dsdpv1_error() { return simulator::error().c_str(); }
+const char* dsdpv1_error() { return dsdpv1::simulator::error().c_str(); }
 
 const char* dsdpv1_message(int32_t handle) {
   const char* text = "";
-  simulator::guarded([&] {
-    text = simulator::object(handle).take();
+  dsdpv1::simulator::guarded([&] {
+    text = dsdpv1::simulator::object(handle).take();
     return 0;
   });
   return text;
 }
 
 int32_t dsdpv1_close(int32_t handle) {
-  return simulator::guarded([&] {
-    simulator::drop(handle);
+  return dsdpv1::simulator::guarded([&] {
+    dsdpv1::simulator::drop(handle);
     return 0;
   });
 }

@@ -10,7 +10,7 @@
 
 #include "dsdpv1/dsdpv1.h"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 
 struct Error : std::runtime_error {
   Error(dpsim_status code, const std::string& what) : std::runtime_error(what), status(code) {}
@@ -77,4 +77,4 @@ int32_t created(const Function& function) {
   return handle < 0 ? 0 : handle;
 }
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator

@@ -5,7 +5,7 @@
 
 #include "bindings/simulator/object.hpp"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 
 std::vector<std::string> words_of(const char* text, const char* separators) {
   std::vector<std::string> words;
@@ -39,4 +39,4 @@ int64_t number_of(const Option& option, int64_t minimum, int64_t maximum) {
   return value;
 }
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace simulator {
+namespace dsdpv1::simulator {
 
 struct Option {
   std::string name, value;
@@ -17,4 +17,4 @@ int64_t number_of(const Option& option, int64_t minimum, int64_t maximum);
 /// A list separated by `separator`, without empty words.
 std::vector<std::string> words_of(const char* text, const char* separators);
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace simulator {
+namespace dsdpv1::simulator {
 
 std::string level_text(const PinPlace& place, dpsim_level level) {
   if (level == DPSIM_Z) return "Z";
@@ -18,4 +18,4 @@ std::string time_text(uint64_t tick) {
                    : fmt::format("cycle {} + {} ticks ({:.3f} us)", cycle, rest, us);
 }
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator

@@ -7,7 +7,7 @@
 
 #include "dsdpv1/dsdpv1.h"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 
 constexpr int64_t kTicksPerHalf = DPSIM_TICKS_PER_CYCLE / 2;
 
@@ -101,4 +101,4 @@ std::string level_text(const PinPlace& place, dpsim_level level);
 /// "cycle 76676 (1597.417 us)", "cycle 76672 + 122 ticks (1597.343 us)".
 std::string time_text(uint64_t tick);
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator

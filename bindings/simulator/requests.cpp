@@ -9,7 +9,7 @@
 #include "bindings/simulator/options.hpp"
 #include "bindings/simulator/simulator.h"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 namespace {
 
 void set_slave_members(dpsim_slave& slave, const char* text) {
@@ -112,9 +112,9 @@ dpsim_telegram telegram_of(int32_t address, int32_t dsap, int32_t ssap, const st
 }
 
 }  // namespace
-}  // namespace simulator
+}  // namespace dsdpv1::simulator
 
-using namespace simulator;  // NOLINT(google-build-using-namespace): below are its functions for C
+using namespace dsdpv1::simulator;  // NOLINT(google-build-using-namespace): below are its functions for C
 
 int32_t dsdpv1_master_add_gsd(int32_t handle, const char* path, const char* modules, int32_t address,
                               const char* options) {
@@ -200,8 +200,7 @@ int32_t dsdpv1_master_request(int32_t handle, int32_t address, int32_t dsap, int
   return request(
       handle,
       [&](dpsim_master* master, uint32_t* id) {
-        dpsim_telegram telegram = telegram_of(address, dsap, ssap, bytes_of(data, count));
-        telegram.sa = get<Master>(handle).address();
+        const dpsim_telegram telegram = telegram_of(address, dsap, ssap, bytes_of(data, count));
         return dpsim_master_request(master, &telegram, id);
       });
 }

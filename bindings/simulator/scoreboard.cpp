@@ -4,7 +4,7 @@
 
 #include "bindings/simulator/simulator.h"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 namespace {
 
 constexpr uint64_t kWarmUp = 4 * DPSIM_TICKS_PER_CYCLE;  // RTL without initial values has come out of X by then
@@ -85,25 +85,27 @@ void Scoreboard::report(std::size_t index, uint64_t tick) {
   waiting_ = false;
 }
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator
 
 int32_t dsdpv1_scoreboard_create(const char* options, int64_t tolerance_ps) {
-  return simulator::created([&] { return std::make_unique<simulator::Scoreboard>(options, tolerance_ps); });
+  return dsdpv1::simulator::created(
+      [&] { return std::make_unique<dsdpv1::simulator::Scoreboard>(options, tolerance_ps); });
 }
 
 int32_t dsdpv1_scoreboard_step(int32_t handle, int64_t half, int64_t ps, int32_t inputs, int32_t outputs,
                                int64_t* next) {
-  return simulator::guarded([&] {
-    auto& scoreboard = simulator::get<simulator::Scoreboard>(handle);
-    scoreboard.step(simulator::tick_of(half, ps), static_cast<uint32_t>(inputs), static_cast<uint32_t>(outputs));
+  return dsdpv1::simulator::guarded([&] {
+    auto& scoreboard = dsdpv1::simulator::get<dsdpv1::simulator::Scoreboard>(handle);
+    scoreboard.step(dsdpv1::simulator::tick_of(half, ps), static_cast<uint32_t>(inputs),
+                    static_cast<uint32_t>(outputs));
     *next = scoreboard.next(half);
     return scoreboard.differs() ? 1 : 0;
   });
 }
 
 int32_t dsdpv1_scoreboard_matched(int32_t handle) {
-  return simulator::guarded([&] {
-    const uint64_t matched = simulator::get<simulator::Scoreboard>(handle).matched();
+  return dsdpv1::simulator::guarded([&] {
+    const uint64_t matched = dsdpv1::simulator::get<dsdpv1::simulator::Scoreboard>(handle).matched();
     return static_cast<int32_t>(std::min<uint64_t>(matched, INT32_MAX));
   });
 }

@@ -5,7 +5,7 @@
 
 #include "bindings/simulator/model.hpp"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 
 class Scoreboard final : public Object {
  public:
@@ -35,4 +35,4 @@ class Scoreboard final : public Object {
   std::array<uint64_t, kOutputs.size()> since_{};  ///< since when an output is different; DPSIM_NEVER: it is not
 };
 
-}  // namespace simulator
+}  // namespace dsdpv1::simulator

@@ -7,7 +7,7 @@
 
 #include "bus/capture/captured_telegram.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 /// The unsigned number in up to eight bytes.
 inline std::uint64_t number_in(std::string_view bytes, bool big_endian) {
@@ -50,4 +50,4 @@ class ByteReader {
   std::uint64_t at_ = 0;
 };
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

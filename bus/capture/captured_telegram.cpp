@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 std::string damage_words(std::uint32_t damage) {
   static constexpr std::pair<std::uint32_t, const char*> kWords[] = {{damage::kCharacter, "wrong character"},
@@ -17,4 +17,4 @@ std::string damage_words(std::uint32_t damage) {
   return text.empty() && (damage & damage::kAll) != 0 ? "damaged" : text;
 }
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -10,7 +10,7 @@
 #include "bus/bytes.hpp"
 #include "bus/time.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 /// What is wrong with a telegram: the bits of the link-layer errors in a packet's flags (pcapng, epb_flags).
 namespace damage {
@@ -43,4 +43,4 @@ class CaptureError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

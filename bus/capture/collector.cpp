@@ -4,7 +4,7 @@
 
 #include "bus/baud.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 std::uint32_t damage_of(DecodeError error) {
@@ -89,4 +89,4 @@ void Collector::add(const Flag& flag) {
   if (open_->remarks.size() < kMostRemarks) open_->remarks.push_back(std::string(name(flag.kind)) + ": " + flag.text);
 }
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

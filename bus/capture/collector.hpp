@@ -7,7 +7,7 @@
 #include "bus/capture/captured_telegram.hpp"
 #include "bus/monitor/monitor.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 /// Holds a telegram until the next one begins: what was flagged meanwhile, and the characters after a wrong byte, are
 /// its own.
@@ -34,4 +34,4 @@ class Collector {
   std::vector<Flag> flags_;  ///< not yet given to a telegram
 };
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

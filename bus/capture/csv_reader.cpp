@@ -11,7 +11,7 @@
 #include "bus/capture/sample_clock.hpp"
 #include "bus/capture/signal_decoder.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 constexpr std::size_t kLongestLine = 65'536;
@@ -208,4 +208,4 @@ LogicSource read_csv(std::istream& in, const LogicSettings& settings, const Take
   return decoder.source();
 }
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

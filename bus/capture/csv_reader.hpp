@@ -9,7 +9,7 @@
 #include "bus/capture/level_taker.hpp"
 #include "bus/capture/logic_decoder.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 /// Whether a file that begins so is such a table, and no hexadecimal text.
 bool begins_as_csv(std::string_view beginning);
@@ -20,4 +20,4 @@ std::optional<std::uint64_t> read_csv_levels(std::istream& in, LevelTaker& taker
 /// The telegrams of one signal.
 LogicSource read_csv(std::istream& in, const LogicSettings& settings, const TakeTelegram& take);
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

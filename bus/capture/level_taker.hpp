@@ -6,7 +6,7 @@
 
 #include "bus/time.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 /// Who wants them.
 class LevelTaker {
@@ -22,4 +22,4 @@ class LevelTaker {
   virtual void finish(Tick end) = 0;
 };
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -4,7 +4,7 @@
 
 #include "bus/capture/captured_telegram.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 std::optional<std::uint16_t> link_type(const std::string& word) {
   if (word == "profibus") return static_cast<std::uint16_t>(kProfibusLink);
@@ -19,4 +19,4 @@ void check_link(std::uint32_t link) {
                                    link, kProfibusLink, kFirstUserLink, kLastUserLink));
 }
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

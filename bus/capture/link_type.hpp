@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 /// LINKTYPE_PROFIBUS_DL: a packet is a telegram from its start delimiter to its end delimiter, without a header.
 constexpr std::uint32_t kProfibusLink = 257;
@@ -23,4 +23,4 @@ constexpr const char* kLinkWords = "profibus, user0 to user15";
 /// Throws CaptureError unless packets of this type may be telegrams.
 void check_link(std::uint32_t link);
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -13,7 +13,7 @@
 #include "bus/telegram/telegram.hpp"
 #include "bus/wire/segment.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 std::string lower(std::string text) {
@@ -157,4 +157,4 @@ int LogicDecoder::best_rate(Tick end) const {
                                              : " (with --invert there are some)"));
 }
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -8,7 +8,7 @@
 
 #include "bus/capture/captured_telegram.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 struct LogicSettings {
   std::optional<int> baud = {};  ///< index of the table in bus/baud.hpp; absent: the rate is found
@@ -66,4 +66,4 @@ class LogicDecoder {
   std::unique_ptr<Line> line_;
 };
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

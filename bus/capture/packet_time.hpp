@@ -7,7 +7,7 @@
 #include "bus/capture/captured_telegram.hpp"
 #include "bus/time.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 /// The clock of a capture: whole seconds since 1970 and a part of a second.
 class PacketClock {
@@ -34,4 +34,4 @@ class PacketClock {
   std::optional<std::int64_t> first_s_;
 };
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -7,7 +7,7 @@
 #include "bus/capture/link_type.hpp"
 #include "bus/capture/packet_time.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 constexpr std::uint64_t kMicroseconds = 0xA1B2C3D4, kNanoseconds = 0xA1B23C4D;
@@ -61,4 +61,4 @@ void read_pcap(std::istream& in, const TakeTelegram& take) {
   }
 }
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

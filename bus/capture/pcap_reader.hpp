@@ -5,7 +5,7 @@
 
 #include "bus/capture/captured_telegram.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 /// Whether a file that begins so (4 bytes at least) is a pcapng or a pcap file.
 bool begins_as_pcapng(std::string_view beginning);
@@ -17,4 +17,4 @@ bool begins_as_pcap(std::string_view beginning);
 void read_pcapng(std::istream& in, const TakeTelegram& take);
 void read_pcap(std::istream& in, const TakeTelegram& take);
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -2,7 +2,7 @@
 // Numbers of the pcapng format, for its writer and its reader.
 #include <cstdint>
 
-namespace bus::capture::pcapng {
+namespace dsdpv1::bus::capture::pcapng {
 
 constexpr std::uint32_t kSection = 0x0A0D0D0A, kInterface = 1, kOldPacket = 2, kSimplePacket = 3, kPacket = 6;
 constexpr std::uint32_t kByteOrder = 0x1A2B3C4D;
@@ -16,4 +16,4 @@ constexpr std::uint16_t kName = 2, kDescription = 3, kSpeed = 8, kResolution = 9
 constexpr std::uint16_t kFlags = 2;                                                                  // packet
 }  // namespace option
 
-}  // namespace bus::capture::pcapng
+}  // namespace dsdpv1::bus::capture::pcapng

@@ -11,7 +11,7 @@
 #include "bus/capture/pcap_reader.hpp"
 #include "bus/capture/pcapng_format.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 constexpr std::uint64_t kLongestBlock = 16U << 20U;
@@ -182,4 +182,4 @@ bool begins_as_pcapng(std::string_view beginning) {
 
 void read_pcapng(std::istream& in, const TakeTelegram& take) { Reader(in, take).read(); }
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

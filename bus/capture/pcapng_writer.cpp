@@ -6,7 +6,7 @@
 
 #include "bus/capture/pcapng_format.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 /// The body of a block, and what goes round it.
@@ -99,4 +99,4 @@ void PcapngWriter::telegram(const CapturedTelegram& telegram) {
   write_(block.end_options().text());
 }
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -10,7 +10,7 @@
 #include "bus/baud.hpp"
 #include "bus/capture/captured_telegram.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 /// Bytes of the file, in order. They hang on the telegrams alone: nothing of the machine and of today is in them.
 using WriteBytes = std::function<void(std::string_view)>;
@@ -38,4 +38,4 @@ class PcapngWriter {
   std::uint32_t interface_count_ = 0;
 };
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -3,7 +3,7 @@
 #include <cctype>
 #include <sstream>
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 std::optional<std::uint64_t> sample_rate(const std::string& text) {
   std::istringstream in(text);
@@ -19,4 +19,4 @@ std::optional<std::uint64_t> sample_rate(const std::string& text) {
   return static_cast<std::uint64_t>(rate);
 }
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -7,7 +7,7 @@
 
 #include "bus/time.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 /// Samples a second, 1 to 10^12.
 class SampleClock {
@@ -27,4 +27,4 @@ class SampleClock {
 /// "24000000", "24 MHz", "500 kHz"; nothing for another text.
 std::optional<std::uint64_t> sample_rate(const std::string& text);
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

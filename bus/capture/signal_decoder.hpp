@@ -3,7 +3,7 @@
 #include "bus/capture/level_taker.hpp"
 #include "bus/capture/logic_decoder.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 class SignalDecoder : public LevelTaker {
  public:
@@ -25,4 +25,4 @@ class SignalDecoder : public LevelTaker {
   LogicDecoder decoder_;
 };
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -12,7 +12,7 @@
 #include "bus/capture/signal_decoder.hpp"
 #include "bus/capture/zip_archive.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 constexpr std::size_t kLongestMetadata = 65'536, kMostUnit = 16, kMostProbes = 8 * kMostUnit;
@@ -134,4 +134,4 @@ LogicSource read_sigrok(const std::string& archive, const LogicSettings& setting
   return decoder.source();
 }
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

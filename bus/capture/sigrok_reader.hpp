@@ -6,7 +6,7 @@
 #include "bus/capture/csv_reader.hpp"
 #include "bus/capture/logic_decoder.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 inline bool begins_as_zip(std::string_view beginning) {
   return beginning.substr(0, 4) == std::string_view("PK\x03\x04", 4);
@@ -18,4 +18,4 @@ std::uint64_t read_sigrok_levels(const std::string& archive, LevelTaker& taker);
 /// The telegrams of one channel.
 LogicSource read_sigrok(const std::string& archive, const LogicSettings& settings, const TakeTelegram& take);
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

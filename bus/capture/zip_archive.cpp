@@ -7,7 +7,7 @@
 
 #include "bus/capture/logic_decoder.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 constexpr int kWithCase = 1;
@@ -49,4 +49,4 @@ bool ZipArchive::read(const std::string& member, const TakeBytes& take) {
   return true;
 }
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 
 class ZipArchive {
  public:
@@ -23,4 +23,4 @@ class ZipArchive {
   std::unique_ptr<void, Close> file_;
 };
 
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -6,7 +6,7 @@
 
 #include "bus/gsd/parser.hpp"
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 namespace {
 
 constexpr std::int64_t kMaxNumber = 0xFFFF;  // of PrmText, ExtUserPrmData and module references
@@ -305,4 +305,4 @@ void Parser::in_slots(const Statement& statement) {
   gsd.slots.push_back(std::move(slot));
 }
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

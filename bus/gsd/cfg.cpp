@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 constexpr unsigned kWhole = 0x80;  // consistency: both formats
@@ -82,4 +82,4 @@ std::string describe(const CfgIdentifier& identifier) {
   return text;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -6,7 +6,7 @@
 
 #include "bus/bytes.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 /// One direction of an identifier.
 struct CfgDirection {
@@ -39,4 +39,4 @@ CfgLengths cfg_lengths(const Bytes& cfg);
 /// An identifier in words: "input 4 bytes, consistent as a whole", "empty slot".
 std::string describe(const CfgIdentifier& identifier);
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -8,7 +8,7 @@
 #include "bus/gsd/cfg.hpp"
 #include "bus/gsd/parser.hpp"
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 namespace {
 
 constexpr int kMaxUserPrm = 237;  // 244 bytes of a Set_Prm without its first seven
@@ -252,4 +252,4 @@ void complete(Gsd& gsd, const Settings& settings, Diagnostics& diagnostics) {
   Completion(gsd, settings, diagnostics).run();
 }
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

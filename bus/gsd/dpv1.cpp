@@ -1,7 +1,7 @@
 // DPV1 as a GSD file allows it.
 #include "bus/gsd/setup.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 std::string enable_dpv1(const Gsd& gsd, SlaveParameters& parameters) {
   if (!gsd.dpv1) return "the GSD file does not say DPV1_Slave = 1";
@@ -11,4 +11,4 @@ std::string enable_dpv1(const Gsd& gsd, SlaveParameters& parameters) {
   return {};
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

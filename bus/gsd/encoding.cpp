@@ -7,7 +7,7 @@
 #include "bus/gsd/text.hpp"
 #include "bus/utf8.hpp"
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 namespace {
 
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
@@ -73,4 +73,4 @@ std::string decode(std::string bytes, Diagnostics& diagnostics) {
   return is_utf8(bytes) ? bytes : from_latin1(bytes);
 }
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

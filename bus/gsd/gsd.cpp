@@ -7,7 +7,7 @@
 
 #include "bus/gsd/parser.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 struct TypeFacts {
@@ -70,4 +70,4 @@ GsdResult parse_gsd(std::istream& in, const std::string& file) {
   return {std::move(parser.gsd), diagnostics.take()};
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

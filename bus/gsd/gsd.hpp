@@ -20,7 +20,7 @@
 #include "bus/baud.hpp"
 #include "bus/bytes.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 /// One remark about a file or about a choice of modules. A file with an error cannot be used.
 struct GsdDiagnostic {
@@ -168,4 +168,4 @@ struct GsdResult {
 /// is turned into UTF-8.
 GsdResult parse_gsd(std::istream& in, const std::string& file);
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -7,7 +7,7 @@
 
 #include "bus/gsd/text.hpp"
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 namespace {
 
 constexpr std::int64_t kU8 = 0xFF, kU16 = 0xFFFF, kU32 = 0xFFFFFFFF;
@@ -233,4 +233,4 @@ bool is_kept_silently(std::string_view key) {
   return std::any_of(std::begin(kPrefixes), std::end(kPrefixes), [&](auto prefix) { return starts_with(key, prefix); });
 }
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 
 enum class Kind : std::uint8_t {
   kNumber,  ///< low..high
@@ -31,4 +31,4 @@ const Keyword* guess_keyword(std::string_view name);
 /// Vendor and profile keywords (F_, X_, Unit_Diag...) that are kept without a remark.
 bool is_kept_silently(std::string_view key);
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

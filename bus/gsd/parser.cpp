@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 
 struct BlockKind {
   std::string_view name, end;
@@ -153,4 +153,4 @@ void Parser::keep(std::vector<GsdKeyword>& list, const Statement& statement) {
   list.push_back({statement.title(), statement.value, statement.line});
 }
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

@@ -10,7 +10,7 @@
 #include "bus/gsd/statement.hpp"
 #include "bus/gsd/text.hpp"
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 
 /// Values of the keywords outside of blocks, by their names in lower case.
 struct Settings {
@@ -84,4 +84,4 @@ class Parser {
 /// Second pass, when everything is known: members of the Gsd from the settings, references between blocks, limits.
 void complete(Gsd& gsd, const Settings& settings, Diagnostics& diagnostics);
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

@@ -9,7 +9,7 @@
 #include "bus/printable.hpp"
 #include "bus/telegram/explain_data.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace gsd {
 namespace {
 
@@ -177,4 +177,4 @@ int gsd_command(std::istream& in, const std::string& path, const GsdCommand& com
   return 0;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -7,7 +7,7 @@
 #include "bus/gsd/gsd.hpp"
 #include "bus/gsd/setup.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 enum class GsdFormat : std::uint8_t { kText, kJson };
 
@@ -28,4 +28,4 @@ struct GsdCommand {
 int gsd_command(std::istream& in, const std::string& path, const GsdCommand& command, std::ostream& out,
                 std::ostream& err);
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

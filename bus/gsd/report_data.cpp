@@ -6,7 +6,7 @@
 
 #include "bus/telegram/explain_data.hpp"
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 namespace {
 
 constexpr std::size_t kHead = 7;       // Set_Prm in front of the user parameters
@@ -101,4 +101,4 @@ GsdSetup alone(const Gsd& gsd, std::size_t module) {
   return setup;
 }
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

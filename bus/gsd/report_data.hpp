@@ -6,7 +6,7 @@
 
 #include "bus/gsd/setup.hpp"
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 
 /// One line of the explanation of a Set_Prm or Chk_Cfg.
 struct Explained {
@@ -34,4 +34,4 @@ GsdSetup alone(const Gsd& gsd, std::size_t module);
 void print_text(const Gsd& gsd, const GsdSetup& setup, const std::vector<GsdDiagnostic>& remarks, std::ostream& out);
 void print_json(const Gsd& gsd, const GsdSetup& setup, const std::vector<GsdDiagnostic>& remarks, std::ostream& out);
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

@@ -7,7 +7,7 @@
 #include "bus/gsd/report_data.hpp"
 #include "bus/telegram/explain_data.hpp"
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -152,4 +152,4 @@ void print_json(const Gsd& gsd, const GsdSetup& setup, const std::vector<GsdDiag
   out << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

@@ -8,7 +8,7 @@
 
 #include "bus/gsd/statement.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 constexpr int kMaxData = 244;  // bytes of one data exchange in one direction, and of a Chk_Cfg
@@ -361,4 +361,4 @@ GsdSetup set_up(const Gsd& gsd, const GsdChoice& choice) {
   return setup;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

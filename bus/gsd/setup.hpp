@@ -16,7 +16,7 @@
 #include "bus/gsd/gsd.hpp"
 #include "bus/master/slave_parameters.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 /// Another value than the file's default for one ExtUserPrmData.
 struct GsdOverride {
@@ -97,4 +97,4 @@ std::string enable_dpv1(const Gsd& gsd, SlaveParameters& parameters);
 /// Chk_Cfg, 237 of user parameters.
 GsdSetup set_up(const Gsd& gsd, const GsdChoice& choice);
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 namespace {
 
 bool is_keyword_char(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; }
@@ -174,4 +174,4 @@ void Values::finish() {
                          fmt::format("\"{}\" behind the value of {} is ignored", rest_, statement_.title()));
 }
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

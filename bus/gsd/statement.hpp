@@ -8,7 +8,7 @@
 
 #include "bus/gsd/text.hpp"
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 
 /// `Keyword(index) = value`; every part may be missing.
 struct Statement {
@@ -61,4 +61,4 @@ class Values {
   Diagnostics& diagnostics_;
 };
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

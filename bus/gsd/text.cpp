@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 namespace {
 
 constexpr std::size_t kMaxDiagnostics = 200;  // garbage must not fill the screen or the memory
@@ -186,4 +186,4 @@ std::vector<Line> logical_lines(const std::string& text, Diagnostics& diagnostic
   return join_wrapped(Splitter(text, diagnostics).run(), diagnostics);
 }
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

@@ -7,7 +7,7 @@
 
 #include "bus/gsd/gsd.hpp"
 
-namespace bus::gsd {
+namespace dsdpv1::bus::gsd {
 
 /// Collects the remarks about one file.
 class Diagnostics {
@@ -44,4 +44,4 @@ std::vector<Line> logical_lines(const std::string& text, Diagnostics& diagnostic
 /// True for a text of numbers and commas only, as a wrapped list and a module reference number are.
 bool is_number_list(std::string_view text);
 
-}  // namespace bus::gsd
+}  // namespace dsdpv1::bus::gsd

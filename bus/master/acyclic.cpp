@@ -8,7 +8,7 @@
 
 #include "bus/telegram/dpv1_words.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -137,4 +137,4 @@ std::optional<std::uint8_t> refusal_of(const Telegram& answer) {
   return function;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -12,7 +12,7 @@
 #include "bus/telegram/telegram.hpp"
 #include "bus/time.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 constexpr std::size_t kMaxAcyclicData = 240;  ///< bytes of data of one request or answer (7, first paragraph)
 constexpr Tick kTimeUnit10ms =
@@ -80,4 +80,4 @@ struct AcyclicOperation {
   AcyclicCallback done;
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 void C1Client::push(Tick now, AcyclicRequest request, AcyclicCallback done) {
   operations_.emplace_back(now, std::move(request), std::move(done));
@@ -76,4 +76,4 @@ void C1Client::finish(Tick now, AcyclicOutcome outcome) {
   operation.finish(now, outcome);
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -9,7 +9,7 @@
 #include "bus/master/fdl.hpp"
 #include "bus/telegram/telegram.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 class C1Client {
  public:
@@ -49,4 +49,4 @@ class C1Client {
   bool polling_ = false;  ///< the telegram under way is a poll
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

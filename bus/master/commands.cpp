@@ -7,7 +7,7 @@
 
 #include "bus/master/master1.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 void Master1::start() {
   start_requested_ = true;
@@ -157,4 +157,4 @@ void Master1::send_raw(const Bytes& bytes, const WireFaults& faults, bool wants_
   push(std::move(request), std::move(done));
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

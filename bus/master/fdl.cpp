@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -282,4 +282,4 @@ void MasterFdl::finish(FdlOutcome outcome) {
   if (on_done) on_done(std::exchange(result_, {}));
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -13,7 +13,7 @@
 #include "bus/telegram/telegram.hpp"
 #include "bus/wire/uart.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 enum class FdlOutcome : std::uint8_t {
   kSent,       ///< a telegram without answer has been sent
@@ -141,7 +141,7 @@ class MasterFdl : public Listener {
   State state_ = State::kIdle;
   FdlRequest request_;
   Bytes bytes_;  ///< of the telegram as sent
-  Bytes echo_;  ///< of a token, as heard while it was sent
+  Bytes echo_;   ///< of a token, as heard while it was sent
   bool responding_ = false;
   bool wants_answer_ = false;
   FdlResult result_;
@@ -149,4 +149,4 @@ class MasterFdl : public Listener {
   std::array<Series, 128> series_ = {};
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -281,4 +281,4 @@ void Master1::record_live(std::uint8_t address, const FdlResult& result) {
   live_.at(address) = (result.answer.fc & 0x30U) == 0 ? LiveState::kPassive : LiveState::kActive;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

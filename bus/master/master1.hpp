@@ -24,7 +24,7 @@
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 struct MasterConfig {
   std::string name = "master";
@@ -192,4 +192,4 @@ class Master1 : public Agent {
   std::uint64_t cycles_ = 0;
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -6,7 +6,7 @@
 
 #include "bus/master/master2_connection.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -211,4 +211,4 @@ void Connection::service_answer(Tick now, const Bytes& pdu) {
   if (!idle && at_work_) finish_operation(now, current().outcome);
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -159,4 +159,4 @@ Telegram Connection::next_request(Tick now) {
   return last;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

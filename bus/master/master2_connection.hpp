@@ -19,7 +19,7 @@
 #include "bus/telegram/telegram.hpp"
 #include "bus/time.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 enum class ConnectionState : std::uint8_t {
   kClosed,
@@ -183,4 +183,4 @@ class Connection {
   Tick last_answer_ = 0, next_poll_ = 0;
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 bool Exchange::answered() const {
   return decoded.error == DecodeError::kNone &&
@@ -121,4 +121,4 @@ void Requester::character(const ReceivedCharacter& received) {
   }
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -10,7 +10,7 @@
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 struct ExchangeOptions {
   std::optional<Tick> at = {};  ///< falling edge of the first start bit; not before the timeline's now
@@ -85,4 +85,4 @@ class Requester : public Listener, public Agent {
   Exchange exchange_;
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

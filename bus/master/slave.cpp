@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -278,4 +278,4 @@ void SlaveHandler::operating_diagnosis(const Telegram& answer) {
   diagnosis_due_ = (view_.diagnosis[1] & kStatDiag) != 0;  // EN 50170: fetched until the slave takes Stat_Diag back
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -7,7 +7,7 @@
 #include "bus/master/fdl.hpp"
 #include "bus/master/slave_parameters.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 enum class SlaveState : std::uint8_t {
   kOffline,   ///< does not answer; tried once a cycle at most
@@ -92,4 +92,4 @@ class SlaveHandler {
   bool clear_ = false, diagnosis_due_ = false, cfg_refused_ = false;
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

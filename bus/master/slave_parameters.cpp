@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -54,4 +54,4 @@ int BusParameters::id2(int baud_index) const {
   return std::max(kSynBits + safety(baud_index), baud(baud_index).max_tsdr_bits);
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

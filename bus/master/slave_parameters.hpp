@@ -9,7 +9,7 @@
 #include "bus/baud.hpp"
 #include "bus/bytes.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 struct SlaveParameters {
   std::string name = {};       ///< for messages
@@ -76,4 +76,4 @@ enum class Personality : std::uint8_t {
   kClassic,     ///< SRD low for Slave_Diag, Set_Prm and Chk_Cfg, Clear before Set_Prm, finds slaves by FDL status
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -1,6 +1,6 @@
 #include "bus/master/telegram_listener.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 void TelegramListener::set_bit(Tick bit) {
   bit_ = bit;
@@ -25,4 +25,4 @@ std::optional<HeardTelegram> TelegramListener::feed(const ReceivedCharacter& rec
   return HeardTelegram{decoded->telegram, start_, received.end};
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

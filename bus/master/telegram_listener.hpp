@@ -6,7 +6,7 @@
 #include "bus/time.hpp"
 #include "bus/wire/uart.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 struct HeardTelegram {
   Telegram telegram = {};
@@ -29,4 +29,4 @@ class TelegramListener {
   bool skipping_ = false;
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

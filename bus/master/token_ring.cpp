@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -268,4 +268,4 @@ void TokenRing::respond(const HeardTelegram& heard, unsigned function_code) {
   fdl_.respond(heard.end, make_telegram(heard.telegram.sa, address_, static_cast<std::uint8_t>(function_code)));
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -10,7 +10,7 @@
 #include "bus/token/active_stations.hpp"
 #include "bus/token/rotation.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 enum class RingState : std::uint8_t {
   kOff,          ///< silent, deaf
@@ -116,4 +116,4 @@ class TokenRing {
   Tick hold_until_ = 0, gap_due_ = 0;
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

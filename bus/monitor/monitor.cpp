@@ -7,7 +7,7 @@
 
 #include "bus/telegram/explain.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -272,4 +272,4 @@ std::string format_line(const Flag& flag) {
   return fmt::format("{:>16} ns  FLAG {}: {}", nanoseconds(flag.at), name(flag.kind), flag.text);
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -13,7 +13,7 @@
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 enum class FlagKind : std::uint8_t {
   kCollision,         ///< two drivers on the line at once
@@ -172,4 +172,4 @@ class Monitor : public Listener, public Agent {
 std::string format_line(const WireTelegram& telegram);
 std::string format_line(const Flag& flag);
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::string subnet_words(std::uint8_t subnet) {
   }
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 /// Function_Num (tables 26 and 31, ruling V2).
 namespace function_num {
@@ -43,4 +43,4 @@ std::string abort_reason_words(std::uint8_t instance_and_reason);
 /// "no subnet", "local subnet", "remote subnet", "subnet 7 (reserved)".
 std::string subnet_words(std::uint8_t subnet);
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -7,7 +7,7 @@
 
 #include "bus/telegram/explain_data.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -224,4 +224,4 @@ std::vector<ExplainedByte> explain_bytes(const Decoded& decoded, std::optional<b
 
 std::optional<bool> dpv1_enabled(const Telegram& telegram) { return detail::dpv1_enabled(telegram); }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

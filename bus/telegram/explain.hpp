@@ -10,7 +10,7 @@
 #include "bus/bytes.hpp"
 #include "bus/telegram/telegram.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 struct ExplainedByte {
   std::size_t offset = 0;
@@ -40,4 +40,4 @@ std::string explain_fc(std::uint8_t fc);
 /// nothing is written to `out` and `error` is "name:line: what is wrong, what is allowed".
 int decode_text(std::istream& in, const std::string& name, std::ostream& out, std::string& error);
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

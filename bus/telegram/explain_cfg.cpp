@@ -3,7 +3,7 @@
 
 #include "bus/telegram/explain_data.hpp"
 
-namespace bus::detail {
+namespace dsdpv1::bus::detail {
 
 namespace {
 
@@ -105,4 +105,4 @@ class CfgReader {
 
 DataWords cfg_words(const Bytes& data) { return CfgReader(data).read(); }
 
-}  // namespace bus::detail
+}  // namespace dsdpv1::bus::detail

@@ -7,7 +7,7 @@
 #include "bus/bytes.hpp"
 #include "bus/telegram/telegram.hpp"
 
-namespace bus::detail {
+namespace dsdpv1::bus::detail {
 
 struct DataWords {
   std::string summary;
@@ -35,4 +35,4 @@ std::string group_words(const char* name, std::uint8_t byte, const char* zero);
 std::string bit_names(std::uint8_t byte, const char* const (&names)[8]);
 std::string hex(const Bytes& bytes);
 
-}  // namespace bus::detail
+}  // namespace dsdpv1::bus::detail

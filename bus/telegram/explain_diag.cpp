@@ -6,7 +6,7 @@
 
 #include "bus/telegram/explain_data.hpp"
 
-namespace bus::detail {
+namespace dsdpv1::bus::detail {
 
 namespace {
 
@@ -187,4 +187,4 @@ DataWords diag_words(const Bytes& data, std::optional<bool> dpv1) {
   return words;
 }
 
-}  // namespace bus::detail
+}  // namespace dsdpv1::bus::detail

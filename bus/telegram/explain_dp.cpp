@@ -3,7 +3,7 @@
 
 #include "bus/telegram/explain_data.hpp"
 
-namespace bus::detail {
+namespace dsdpv1::bus::detail {
 
 DataWords plain_words(const std::string& what, const Bytes& data) {
   DataWords words;
@@ -66,4 +66,4 @@ std::string hex(const Bytes& bytes) {
   return text;
 }
 
-}  // namespace bus::detail
+}  // namespace dsdpv1::bus::detail

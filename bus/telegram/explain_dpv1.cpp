@@ -7,7 +7,7 @@
 #include "bus/telegram/dpv1_words.hpp"
 #include "bus/telegram/explain_data.hpp"
 
-namespace bus::detail {
+namespace dsdpv1::bus::detail {
 
 namespace {
 
@@ -158,4 +158,4 @@ DataWords dpv1_words(const Bytes& data, bool response) {
   return words;
 }
 
-}  // namespace bus::detail
+}  // namespace dsdpv1::bus::detail

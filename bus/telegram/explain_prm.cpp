@@ -4,7 +4,7 @@
 
 #include "bus/telegram/explain_data.hpp"
 
-namespace bus::detail {
+namespace dsdpv1::bus::detail {
 
 namespace {
 
@@ -193,4 +193,4 @@ std::optional<bool> dpv1_enabled(const Telegram& t) {
   return t.data.size() > kStatus1 && (t.data[kStatus1] & kDpv1Enable) != 0;
 }
 
-}  // namespace bus::detail
+}  // namespace dsdpv1::bus::detail

@@ -8,7 +8,7 @@
 #include "bus/telegram/telegram_printer.hpp"
 #include "bus/telegram/telegram_text.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -111,4 +111,4 @@ int decode_text(std::istream& in, const std::string& name, std::ostream& out, st
   return TextDecoder(text, out).decode() ? 0 : 1;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -236,4 +236,4 @@ bool is_telegram(const std::uint8_t* bytes, std::size_t size) {
   return !has_frame(bytes[0]) || check_frame(bytes, size) == DecodeError::kNone;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "bus/address.hpp"
 #include "bus/bytes.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 enum class TelegramKind : std::uint8_t {
   kSd1,  ///< 10 DA SA FC FCS 16: no data
@@ -39,8 +40,6 @@ constexpr std::uint8_t kMs2Rm = 49;     ///< Initiate of class 2
 constexpr std::uint8_t kMs2Master = 50;
 }  // namespace sap
 
-constexpr std::uint8_t kBroadcast = 127;
-constexpr std::uint8_t kHighestAddress = 126;
 constexpr std::size_t kMaxDataUnit = 246;  ///< data of SD2, SAP bytes included (LE at most 249)
 constexpr std::size_t kMaxData = 244;      ///< ... without the two SAP bytes
 
@@ -123,4 +122,4 @@ Decoded decode(const Bytes& bytes);
 /// The sum of DA..data modulo 256.
 std::uint8_t frame_check_sequence(const std::uint8_t* first, std::size_t count);
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

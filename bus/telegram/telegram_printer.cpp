@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 void TelegramPrinter::right(const std::string& where, const Decoded& decoded) {
   const Telegram& telegram = decoded.telegram;
@@ -36,4 +36,4 @@ void TelegramPrinter::print(const std::string& what, const std::string& where, c
     out_ << fmt::format("  {:4}  {:02X}  {}\n", byte.offset, byte.byte, byte.meaning);
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -8,7 +8,7 @@
 
 #include "bus/telegram/explain.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 class TelegramPrinter {
  public:
@@ -36,4 +36,4 @@ class TelegramPrinter {
   bool right_ = true;
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -11,7 +11,7 @@
 
 #include "bus/printable.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 // What a stream may make us keep: `decode` tells nothing before it has read all. 64 MB are 48 s of a full bus at 12
@@ -168,4 +168,4 @@ bool read_telegram_text(std::istream& in, const std::string& name, TelegramText&
   return false;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -9,7 +9,7 @@
 
 #include "bus/bytes.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 /// What a log says of a telegram beside its bytes.
 struct LoggedTelegram {
@@ -31,4 +31,4 @@ struct TelegramText {
 /// False: `error` is "name:line: what is wrong, what is allowed".
 bool read_telegram_text(std::istream& in, const std::string& name, TelegramText& text, std::string& error);
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -1,6 +1,6 @@
 #include "bus/token/active_stations.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -49,4 +49,4 @@ void StationLearner::token_passed(std::uint8_t sa, std::uint8_t da) {
   stage_ = stage_ == Stage::kSearching ? Stage::kFirst : Stage::kLater;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -6,7 +6,7 @@
 
 #include "bus/telegram/telegram.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 class ActiveStations {
  public:
@@ -47,4 +47,4 @@ class StationLearner {
   bool valid_ = false;
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

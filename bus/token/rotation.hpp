@@ -5,7 +5,7 @@
 
 #include "bus/time.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 struct RotationStatistics {
   std::uint64_t count = 0;
@@ -21,4 +21,4 @@ struct RotationStatistics {
   Tick mean() const { return count == 0 ? 0 : sum / static_cast<Tick>(count); }
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -6,7 +6,7 @@
 
 #include "bus/token/active_stations.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -44,4 +44,4 @@ void TokenWatch::passed(const Telegram& token, Tick end) {
   received_[token.da] = end;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -9,7 +9,7 @@
 #include "bus/time.hpp"
 #include "bus/token/rotation.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 class TokenWatch {
  public:
@@ -36,4 +36,4 @@ class TokenWatch {
   std::map<std::uint8_t, RotationStatistics> rotations_;
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

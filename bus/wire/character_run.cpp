@@ -1,6 +1,6 @@
 #include "bus/wire/character_run.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 constexpr unsigned kParityBit = 1U << 9;
@@ -24,4 +24,4 @@ bool CharacterRun::level(Tick at) const {
   return index >= size || ((frame_of(bytes[index]) >> ((at - character(index)) / bit)) & 1U) != 0;
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -3,10 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bus/address.hpp"
 #include "bus/baud.hpp"
 #include "bus/time.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 /// True when the number of ones in `byte` is odd: the value of the even parity bit.
 bool even_parity(std::uint8_t byte);
@@ -27,10 +28,10 @@ struct CharacterRun {
   bool level(Tick at) const;
 };
 
-/// Who the telegram in these characters is for, as a kind of receiver reads it: a station (0 to 126), all, nobody (an
-/// acknowledgement, a token), or it is no right telegram.
+/// Who the telegram in these characters is for, as a kind of receiver reads it: a station (0 to 126), kBroadcast,
+/// kForNobody (an acknowledgement, a token), or kNoTelegram: it is no right telegram.
 using RunReader = int (*)(const std::uint8_t* bytes, std::size_t size);
-constexpr int kNoTelegram = -1, kForAll = 127, kForNobody = 128;
+constexpr int kNoTelegram = -1, kForNobody = 128;
 
 /// Runs that a listener acts on. Others are counted for it, as long as each is a right telegram as `reader` reads it.
 struct RunFilter {
@@ -40,4 +41,4 @@ struct RunFilter {
   std::uint8_t address = 0;    ///< ... and on those for this station and for all
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

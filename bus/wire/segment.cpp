@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -153,7 +153,7 @@ bool Segment::send_run(StationId station, const CharacterRun& run) {
 bool Segment::offer(StationId id, Offer& offer) {
   Station& station = stations_[id];
   if (passes(station, offer)) {
-    station.passed_for_stations += std::exchange(station.last_for_station, offer.addressee < kForAll) ? 1 : 0;
+    station.passed_for_stations += std::exchange(station.last_for_station, offer.addressee < kBroadcast) ? 1 : 0;
     station.run = run_count_;
     return station.passes = true;
   }
@@ -173,7 +173,7 @@ bool Segment::passes(const Station& station, Offer& offer) {
     offer.reader = filter.reader;
     offer.addressee = run.size <= kLongestKept ? filter.reader(run.bytes, run.size) : kNoTelegram;
   }
-  return offer.addressee != kNoTelegram && offer.addressee != kForAll && offer.addressee != filter.address;
+  return offer.addressee != kNoTelegram && offer.addressee != kBroadcast && offer.addressee != filter.address;
 }
 
 void Segment::keep(const CharacterRun& run) {
@@ -222,4 +222,4 @@ void Segment::report_collision(Tick at, StationId newcomer) {
   for (const StationId driver : drivers_) on_collision({at, stations_[driver].name, stations_[newcomer].name});
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

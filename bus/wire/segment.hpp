@@ -12,7 +12,7 @@
 #include "bus/time.hpp"
 #include "bus/wire/character_run.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 /// Hears the line. Called at the tick of the change, in the order of attachment; the new level is already that of the
 /// segment.
@@ -156,4 +156,4 @@ class Segment {
   bool telling_ = false;  ///< a listener that drives the line while it is being told must not be told out of order
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

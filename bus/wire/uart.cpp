@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace bus {
+namespace dsdpv1::bus {
 
 namespace {
 
@@ -265,4 +265,4 @@ void UartReceiver::finish() {
   if (on_character) on_character(character);
 }
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

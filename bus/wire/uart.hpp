@@ -11,7 +11,7 @@
 #include "bus/time.hpp"
 #include "bus/wire/segment.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 
 /// The line inverted for a while, measured from the start of the character.
 struct Glitch {
@@ -160,4 +160,4 @@ class UartReceiver {
   std::size_t reported_ = 0;  ///< characters of the run
 };
 
-}  // namespace bus
+}  // namespace dsdpv1::bus

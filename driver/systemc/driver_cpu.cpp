@@ -20,7 +20,6 @@ DriverCpu::DriverCpu(const sc_core::sc_module_name& name, Program program, Drive
   SC_THREAD(run);
   SC_METHOD(intr0_changed);
   sensitive << INTR0;
-  dont_initialize();
 }
 
 dsdpv1_port DriverCpu::make_port() {
@@ -44,7 +43,7 @@ void DriverCpu::run() {
 }
 
 void DriverCpu::intr0_changed() {
-  if (INTR0->read()) return;
+  if (INTR0.size() == 0 || !INTR0->negedge()) return;  // the first call is that of the initialisation
   dsdpv1_on_intr0(&device_);
   intr0_fell_ = true;
   intr0_event_.notify();

@@ -4,7 +4,7 @@
 #include "model/dpram/reasons.hpp"
 #include "model/dpram/sequencer.hpp"
 
-namespace dpram {
+namespace dsdpv1::dpram {
 
 bool Sequencer::crc_right(Cycle now, profibus::Reason reason, std::uint8_t error_bit) {
   const auto* stored = &image_[static_cast<std::size_t>(image_size_)];
@@ -94,4 +94,4 @@ void Sequencer::commit_verdict(Cycle now) {
     user_.cfg_verdict(now, (verdict & regs::kUserStatus1CfgWrong) == 0);
 }
 
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace dpram {
+namespace dsdpv1::dpram {
 
 namespace detail {
 constexpr std::array<std::uint16_t, 256> make_crc16_table() {
@@ -25,4 +25,4 @@ inline std::uint16_t crc16(const std::uint8_t* bytes, int size) {
   return static_cast<std::uint16_t>(crc);
 }
 
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

@@ -3,10 +3,8 @@
 #include "model/dpram/reasons.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
-namespace dpram {
+namespace dsdpv1::dpram {
 namespace {
-
-namespace regs = dsdpv1::regs;
 
 using profibus::Cycle;
 using profibus::EventLog;
@@ -100,4 +98,4 @@ bool parse_init(const std::uint8_t* block, int size, Cycle now, EventLog& log, p
   return true;
 }
 
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

@@ -3,11 +3,11 @@
 #include "model/profibus/event_log.hpp"
 #include "model/profibus/user_side.hpp"
 
-namespace dpram {
+namespace dsdpv1::dpram {
 
 /// Reads the block that starts with B020 (`size` bytes with its length byte, CRC already right) into `config`. False,
 /// with an event that names the byte, when a length, the address or a mode is out of its limits.
 bool parse_init(const std::uint8_t* block, int size, profibus::Cycle now, profibus::EventLog& log,
                 profibus::SlaveConfig& config);
 
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

@@ -5,7 +5,7 @@
 
 #include "model/dpram/sequencer.hpp"
 
-namespace dpram {
+namespace dsdpv1::dpram {
 
 const char* Sequencer::name(Phase phase, Item item) {
   static constexpr const char* kItems[] = {"initialisation",    "Set_Prm verdict", "Chk_Cfg verdict",
@@ -47,4 +47,4 @@ Inside Sequencer::inside(Cycle now) const {
   return seen;
 }
 
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

@@ -4,7 +4,7 @@
 
 #include "model/profibus/time.hpp"
 
-namespace dpram {
+namespace dsdpv1::dpram {
 
 struct Inside {
   const char* item = "-";  ///< what the access under way works on (ruling H4); "-": no access
@@ -16,4 +16,4 @@ struct Inside {
   bool crc_right = false;
 };
 
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

@@ -6,9 +6,7 @@
 
 #include "registers/dsdpv1_regs.hpp"
 
-namespace dpram {
-
-namespace regs = dsdpv1::regs;  // the map of the family
+namespace dsdpv1::dpram {
 
 class Ram {
  public:
@@ -27,4 +25,4 @@ class Ram {
   std::bitset<regs::kDpramSize> unknown_;
 };
 
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

@@ -2,7 +2,7 @@
 
 #include <iterator>
 
-namespace dpram {
+namespace dsdpv1::dpram {
 
 using profibus::Severity;
 
@@ -14,4 +14,4 @@ const profibus::ReasonRow detail::kReasonRows[] = {
 
 profibus::ReasonTable reasons() { return {detail::kReasonRows, std::size(detail::kReasonRows)}; }
 
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

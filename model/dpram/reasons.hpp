@@ -3,7 +3,7 @@
 #include "model/profibus/reason.hpp"
 #include "model/profibus/words.hpp"
 
-namespace dpram {
+namespace dsdpv1::dpram {
 
 namespace detail {
 enum class ReasonIndex : std::size_t {
@@ -51,4 +51,4 @@ constexpr profibus::Words make_words() {
   return words;
 }
 
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

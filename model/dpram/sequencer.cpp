@@ -5,7 +5,7 @@
 #include "model/dpram/crc16.hpp"
 #include "model/dpram/reasons.hpp"
 
-namespace dpram {
+namespace dsdpv1::dpram {
 namespace {
 
 constexpr int kVersionBytes = 4;
@@ -415,4 +415,4 @@ void Sequencer::flag(Cycle now) {
   goto_phase(Phase::kChoose, now + 1);
 }
 
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

@@ -13,7 +13,7 @@
 #include "model/profibus/event_log.hpp"
 #include "model/profibus/user_side.hpp"
 
-namespace dpram {
+namespace dsdpv1::dpram {
 
 using profibus::Cycle;
 
@@ -230,4 +230,4 @@ class Sequencer {
   Cycle longest_wait_ = 0;
 };
 
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

@@ -1,6 +1,6 @@
 #include "model/profibus/acyclic.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 bool ssap_right(Cycle now, EventLog& log, const Request& request, int expected) {
   if (request.ssap == expected) return true;
@@ -38,4 +38,4 @@ bool answer_fits(Cycle now, EventLog& log, int area, const std::uint8_t* answer,
   return true;
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

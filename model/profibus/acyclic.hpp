@@ -6,7 +6,7 @@
 #include "model/profibus/request.hpp"
 #include "model/profibus/user_side.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 /// True when the request comes from the SSAP of its service (table 24, V8); else the reason is logged.
 bool ssap_right(Cycle now, EventLog& log, const Request& request, int expected);
@@ -25,4 +25,4 @@ void negative_answer(std::uint8_t function, std::uint8_t error_code1, Pdu& pdu);
 /// True when the user's answer belongs to `request`; else the reason is logged. `area`: 1 or 2.
 bool answer_fits(Cycle now, EventLog& log, int area, const std::uint8_t* answer, const Pdu& request);
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

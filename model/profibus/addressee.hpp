@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace profibus {
+#include "model/profibus/request.hpp"
 
-constexpr int kNoTelegram = -1, kForAll = 127, kForNobody = 128;
+namespace dsdpv1::profibus {
 
-/// Of a right telegram in these bytes: the station (0 to 126), kForAll, or kForNobody (an acknowledgement, a token).
+constexpr int kNoTelegram = -1, kForNobody = 128;
+
+/// Of a right telegram in these bytes: the station (0 to 126), kBroadcast, or kForNobody (an acknowledgement, a token).
 /// kNoTelegram: it is none (S10).
 int addressee(const std::uint8_t* bytes, std::size_t size);
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -5,7 +5,7 @@
 
 #include "model/profibus/time.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 constexpr int kBaudCount = 10;
 
@@ -45,4 +45,4 @@ constexpr int kMinTsdr = 11;           ///< bit times, S3
 constexpr int kSynBits = 33;           ///< T_SYN, S3
 constexpr int kBitsPerCharacter = 11;  ///< start, 8 data, even parity, stop
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

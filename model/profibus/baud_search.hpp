@@ -4,7 +4,7 @@
 
 #include "model/profibus/baud.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 class BaudSearch {
  public:
@@ -45,4 +45,4 @@ class BaudSearch {
   bool searching_ = false;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

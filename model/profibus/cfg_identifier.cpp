@@ -1,6 +1,6 @@
 #include "model/profibus/cfg_identifier.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 constexpr std::uint8_t kInputBit = 0x10, kOutputBit = 0x20, kWordBit = 0x40;  // compact, table A.3
@@ -61,4 +61,4 @@ CfgLengths cfg_lengths(const std::uint8_t* bytes, int size) {
   return lengths;
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -2,7 +2,7 @@
 // Configuration identifiers of Check_Cfg (EN 50170, APC3 tables A.3 to A.5), taken byte by byte as they arrive.
 #include <cstdint>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 /// Adds up the input and output bytes that a sequence of identifiers describes.
 class CfgLengths {
@@ -26,4 +26,4 @@ class CfgLengths {
 
 CfgLengths cfg_lengths(const std::uint8_t* bytes, int size);
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -4,7 +4,7 @@
 
 #include "model/profibus/baud.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 /// Characters with even parity that follow each other without a gap on a line that idles before them.
 struct CharacterRun {
@@ -20,4 +20,4 @@ constexpr unsigned frame_of(std::uint8_t value) {
   return (1U << 10) | (parity << 9) | (static_cast<unsigned>(value) << 1);
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -1,7 +1,7 @@
 // Check_Cfg (6.2.3, rulings D8, S14 to S17).
 #include "model/profibus/dp_slave.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 Reply DpSlave::check_cfg(Cycle now, const Request& request) {
   if (state_ != DpState::kWaitCfg && state_ != DpState::kDataExch) return refuse_state(now, request, sap::kCheckCfg);
@@ -96,4 +96,4 @@ void DpSlave::cfg_verdict(Cycle now, bool good) {
     refuse_cfg(now, Reason::kCfgUserRefused);
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -1,6 +1,6 @@
 #include "model/profibus/diagnosis.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 enum DiagType : std::uint8_t {
@@ -40,4 +40,4 @@ const std::uint8_t* Diagnosis::bytes(const DiagnosisView& view) {
   return answer_.data();
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -2,7 +2,7 @@
 // Slave_Diagnosis (6.2.4, APC3 A.4, ruling D9): the six standard bytes and the user's diagnosis of three kinds.
 #include "model/profibus/sap_buffers.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 /// What the standard bytes show besides the diagnosis block's own flags.
 struct DiagnosisView {
@@ -46,4 +46,4 @@ class Diagnosis {
   std::array<std::uint8_t, kMaxIo> answer_{};
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

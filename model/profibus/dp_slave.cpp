@@ -1,6 +1,6 @@
 #include "model/profibus/dp_slave.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 constexpr int kMaxAddress = 125;  // EN 50170: 126 is the delivery address, 127 broadcast
@@ -268,4 +268,4 @@ bool DpSlave::new_diagnosis(Cycle now, std::uint8_t type, const std::uint8_t* by
   return true;
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

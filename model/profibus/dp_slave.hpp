@@ -10,7 +10,7 @@
 #include "model/profibus/user_side.hpp"
 #include "model/profibus/watchdog.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 namespace sap {
 constexpr int kC1 = 51, kSetSlaveAddress = 55, kReadInputs = 56, kReadOutputs = 57, kGlobalControl = 58, kGetCfg = 59,
@@ -130,4 +130,4 @@ class DpSlave {
   std::uint64_t data_exchanges_ = 0, outputs_replaced_ = 0;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -2,7 +2,7 @@
 // What the bytes of a C1 or C2 request or answer mean (tables 26 to 32).
 #include <cstdint>
 
-namespace profibus::dpv1 {
+namespace dsdpv1::profibus::dpv1 {
 
 constexpr std::uint8_t kTransport = 0x51, kRead = 0x5E, kWrite = 0x5F;  // Function_Num
 constexpr std::uint8_t kIdle = 0x48, kInitiateNow = 0x56, kInitiate = 0x57, kAbort = 0x58;
@@ -11,4 +11,4 @@ constexpr std::uint8_t kErrorDecode = 0x80;                                     
 constexpr std::uint8_t kNotSupported = 0xA9, kWriteLength = 0xB1, kInvalidParameter = 0xB8;  // 29
 constexpr int kHeader = 4;  ///< Function_Num, slot, index, length; or Function_Num and three error bytes
 
-}  // namespace profibus::dpv1
+}  // namespace dsdpv1::profibus::dpv1

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 const ReasonRow detail::kReasonRows[] = {
 #define X(id, severity, code, text, advice) {Severity::severity, code, text, advice},
@@ -95,4 +95,4 @@ std::string describe(const Event& event, const Words& words) {
       });
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -9,7 +9,7 @@
 #include "model/profibus/time.hpp"
 #include "model/profibus/words.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 struct Event {
   Tick at = 0;
@@ -30,4 +30,4 @@ std::string describe(const Event& event, const Words& words);
 std::string text_template(Reason reason, const Words& words);
 std::string advice(Reason reason, const Words& words);
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

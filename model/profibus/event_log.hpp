@@ -2,7 +2,7 @@
 // Where the blocks leave their events: one sink for the whole chip, a test for null when nobody listens.
 #include "model/profibus/event.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 class EventLog {
  public:
@@ -22,4 +22,4 @@ class EventLog {
   EventSink sink_;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

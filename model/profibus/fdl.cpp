@@ -1,6 +1,6 @@
 #include "model/profibus/fdl.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 bool Fdl::addressed(Cycle now, const Telegram& telegram, std::uint8_t address, Request& request) {
   request.da = telegram.da & kAddressMask;
@@ -59,4 +59,4 @@ const Frame* Fdl::execute(Cycle now, const Telegram& telegram, const Request& re
   return &answer_;
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -6,7 +6,7 @@
 #include "model/profibus/request.hpp"
 #include "model/profibus/telegram_rx.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 class Fdl {
  public:
@@ -34,4 +34,4 @@ class Fdl {
   Frame answer_;  // the last one
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

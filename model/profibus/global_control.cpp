@@ -1,7 +1,7 @@
 // Global_Control (6.2.6, table 23, rulings S4, S24, S27).
 #include "model/profibus/dp_slave.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 constexpr std::uint8_t kSync = 0x20, kUnsync = 0x10, kFreeze = 0x08, kUnfreeze = 0x04, kClearData = 0x02,
@@ -55,4 +55,4 @@ void DpSlave::freeze_command(Cycle now, std::uint8_t command) {
   }
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -1,6 +1,6 @@
 #include "model/profibus/msac1.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 constexpr int kArea = 1, kSap = 51;  // the master's SAP is the same, table 24
@@ -49,4 +49,4 @@ void Msac1::answer(Cycle now, const std::uint8_t* pdu, int size) {
   state_ = State::kAnswered;
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

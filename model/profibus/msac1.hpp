@@ -2,7 +2,7 @@
 // MSAC_C1: DS_Read and DS_Write of the parameterising master on SAP 51 (7.2; rulings V1, V8, V9, V14).
 #include "model/profibus/acyclic.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 class Msac1 {
  public:
@@ -28,4 +28,4 @@ class Msac1 {
   Pdu answer_;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

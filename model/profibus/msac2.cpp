@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 constexpr int kArea = 2, kSsap = 50;
@@ -309,4 +309,4 @@ void Msac2::end_turn(Cycle now, int number) {
   if (channel_at(other).state == State::kBusy) begin_turn(now, other);
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -4,7 +4,7 @@
 #include "model/profibus/acyclic.hpp"
 #include "model/profibus/rm_registry.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 class Msac2 {
  public:
@@ -74,4 +74,4 @@ class Msac2 {
   Pdu reply_;           ///< what the chip itself says: immediate answers, initiate answers, aborts
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

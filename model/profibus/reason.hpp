@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 /// What kind of event: decides how it is counted and shown.
 enum class Severity : std::uint8_t {
@@ -73,4 +73,4 @@ struct ReasonTable {
 /// The reasons that every DP slave may have.
 ReasonTable reasons();
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

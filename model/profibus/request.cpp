@@ -4,7 +4,7 @@
 
 #include "model/profibus/telegram_rx.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 void put(Frame& frame, unsigned byte) {
@@ -55,4 +55,4 @@ void build_frame(const Request& request, const Reply& reply, std::uint8_t addres
   }
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 namespace fc {
 constexpr std::uint8_t kRequest = 0x40, kFcb = 0x20, kFcv = 0x10, kCode = 0x0F;
@@ -53,4 +53,4 @@ struct Frame {
 /// Puts a reply into a frame for the sender of `request` (rulings S20, S21). `address`: this station.
 void build_frame(const Request& request, const Reply& reply, std::uint8_t address, Frame& frame);
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 constexpr int kC2Channels = 2, kC2FirstSap = 48;  ///< channel k has SAP 48 - k: 0x30, 0x2F
 
@@ -22,4 +22,4 @@ struct RmEntry {
 
 using RmRegistry = std::array<RmEntry, kC2Channels>;
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 /// The most that a telegram carries: 244 bytes behind the SAP bytes, less what each service puts before the user's.
 /// A chip may hold less (Capacities).
@@ -65,4 +65,4 @@ class DoubleBuffer {
   bool held_ = false;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -3,7 +3,7 @@
 
 #include "model/profibus/dp_slave.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 // Station_status, table 19
@@ -146,4 +146,4 @@ void DpSlave::prm_verdict(Cycle now, bool good) {
     refuse_prm(now, Reason::kPrmUserRefused, false);
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

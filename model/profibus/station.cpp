@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 constexpr Cycle kSynchroniserDelay = 2;  // P9: the logic sees a start edge two cycles after it was sampled
@@ -69,7 +69,7 @@ bool Station::set_run(const CharacterRun& run) {
   if (!listening() || search_.searching() || tx_.planned()) return false;
   const int to = telegrams_.takes_whole() ? addressee(run.bytes, static_cast<std::size_t>(run.size)) : kNoTelegram;
   if (!rx_.set_run(run, to != kNoTelegram)) return false;
-  for_others_ = to != kNoTelegram && to != slave_.address() && to != kForAll;
+  for_others_ = to != kNoTelegram && to != slave_.address() && to != kBroadcast;
   return true;
 }
 
@@ -189,4 +189,4 @@ void Station::answer(const Telegram& telegram, const Frame& frame) {
   tx_.send(frame.bytes.data(), frame.size, search_.bit(), begin, config_.rts_lead, config_.rts_trail);
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

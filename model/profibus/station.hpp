@@ -12,7 +12,7 @@
 #include "model/profibus/uart_tx.hpp"
 #include "model/profibus/user_side.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 /// What a chip makes of its station: parameters of the rulings, in cycles (bits where it says so), and its capacities.
 struct StationConfig {
@@ -127,4 +127,4 @@ class Station {
   std::uint64_t received_ = 0, answered_ = 0;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -4,7 +4,7 @@
 
 #include "model/profibus/time.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 class Synchroniser {
  public:
@@ -46,4 +46,4 @@ class Synchroniser {
   bool level_, input_;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -4,7 +4,7 @@
 
 #include "model/profibus/request.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 constexpr int kSd2Header = 4;  // SD2 LE LEr SD2
@@ -192,4 +192,4 @@ void TelegramRx::report_unsynced(Cycle now) {
   unsynced_ = 0;
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -6,7 +6,7 @@
 #include "model/profibus/event_log.hpp"
 #include "model/profibus/uart_rx.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 namespace sd {
 constexpr std::uint8_t kSd1 = 0x10, kSd2 = 0x68, kSd3 = 0xA2, kSd4 = 0xDC, kSc = 0xE5, kEd = 0x16;
@@ -78,4 +78,4 @@ class TelegramRx {
   Telegram telegram_;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 /// 48 MHz cycles (125/6 ns) since the start of simulation. The rising CLK edge of cycle n is at tick n * 250.
 using Cycle = std::int64_t;
@@ -19,4 +19,4 @@ constexpr Cycle kCyclesPerMs = 48'000;
 /// The first rising edge that sees a change made at `t`: the first one strictly after it (ruling P9).
 constexpr Cycle first_edge_after(Tick t) { return t / kTicksPerCycle + 1; }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

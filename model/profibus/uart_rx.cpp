@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 constexpr Cycle kSynchroniser = 2;  // P9: what edge m sampled, the logic uses at edge m+2
@@ -172,4 +172,4 @@ bool UartRx::sample(Cycle end) {
   return true;
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

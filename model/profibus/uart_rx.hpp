@@ -7,7 +7,7 @@
 #include "model/profibus/baud.hpp"
 #include "model/profibus/character_run.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 /// A character as it was sampled.
 struct Character {
@@ -137,4 +137,4 @@ class UartRx {
   bool at_once_ = false, left_run_ = false;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -1,6 +1,6 @@
 #include "model/profibus/uart_tx.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 void UartTx::send(const std::uint8_t* bytes, int size, int bit, Cycle begin, Cycle lead, Cycle trail) {
   frames_ = bytes_ = bytes;
@@ -52,4 +52,4 @@ void UartTx::load() {
   frame_bits_ = kBitsPerCharacter;
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -3,7 +3,7 @@
 #include "model/profibus/baud.hpp"
 #include "model/profibus/character_run.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 class UartTx {
  public:
@@ -53,4 +53,4 @@ class UartTx {
   bool txd_ = true, rts_ = false;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

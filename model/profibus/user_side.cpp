@@ -2,7 +2,7 @@
 
 #include "model/profibus/station.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 const IoBlock& UserSide::outputs() const { return station_.slave_.outputs(); }
 int UserSide::input_size() const { return station_.slave_.input_size(); }
@@ -37,4 +37,4 @@ void UserSide::c2_answer(Cycle now, const std::uint8_t* pdu, int size) {
   station_.plan_timers();
 }
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -10,7 +10,7 @@
 #include "model/profibus/sap_buffers.hpp"
 #include "model/profibus/time.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 class Station;
 
@@ -132,4 +132,4 @@ class UserSide {
   UserMail mail_;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -3,7 +3,7 @@
 // DP_CONTROL that the holding master lives. BAUD_SEARCH is the state without a deadline here: see BaudSearch.
 #include "model/profibus/baud.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 
 class Watchdog {
  public:
@@ -46,4 +46,4 @@ class Watchdog {
   State state_ = State::kBaudSearch;
 };
 
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -3,21 +3,13 @@
 #include <string>
 #include <utility>
 
+#include "model/systemc/data_wires.hpp"
+
 namespace dsdpv1::systemc {
 namespace {
 
 /// The time by which a bound CLK must have made its first window of edges, so that a dead one is noticed.
 const Tick kClockStart = 2 * BoundClock::kWindow * profibus::kTicksPerCycle;
-
-sc_dt::sc_lv<8> wires(Level level) {
-  if (level == kLevelZ) return sc_dt::sc_lv<8>(sc_dt::SC_LOGIC_Z);
-  if (level == kLevelX) return sc_dt::sc_lv<8>(sc_dt::SC_LOGIC_X);
-  return sc_dt::sc_lv<8>(static_cast<int>(level));
-}
-
-/// What the user drives. A byte with a floating or unknown bit counts as floating: the core reports it when it matters
-/// (P11).
-Level user_level(const sc_dt::sc_lv<8>& wires) { return wires.is_01() ? static_cast<Level>(wires.to_uint()) : kLevelZ; }
 
 }  // namespace
 
@@ -56,7 +48,7 @@ void PinModule::evaluate() {
 }
 
 void PinModule::begin() {
-  user_d_ = user_level(D.read());
+  user_d_ = level_of(D.read());
   drive_pins(kOutputPins);
   due_.notify(sc_core::sc_time::from_value(1));  // when the delta cycles of time 0 are over
 }
@@ -101,7 +93,7 @@ void PinModule::apply_host(Tick at) {
   if (R_REQ.read()) set(at, Pin::kRReq, 1);
   if (R_STA.read()) set(at, Pin::kRSta, 1);
   set(at, Pin::kA, static_cast<Level>(A.read().to_uint()));
-  if (D.event()) user_d_ = user_level(D.read());  // dear: four-valued
+  if (D.event()) user_d_ = level_of(D.read());  // dear: four-valued
   set(at, Pin::kDIn, user_drives_d_ ? user_d_ : kLevelZ);
   if (!CSR.read()) set(at, Pin::kCsr, 0);
   set(at, Pin::kRd, RD.read());

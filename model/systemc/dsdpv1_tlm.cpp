@@ -7,35 +7,8 @@
 namespace dsdpv1::systemc {
 namespace {
 
-constexpr sc_dt::uint64 kDpramSize = 0x800;
-
-bool enables_are_valid(const tlm::tlm_generic_payload& payload) {
-  const unsigned char* enables = payload.get_byte_enable_ptr();
-  if (enables == nullptr) return true;
-  const unsigned int length = payload.get_byte_enable_length();
-  return length > 0 && std::all_of(enables, enables + length, [](unsigned char enable) {
-           return enable == TLM_BYTE_ENABLED || enable == TLM_BYTE_DISABLED;
-         });
-}
-
-bool is_enabled(const tlm::tlm_generic_payload& payload, unsigned int index) {
-  const unsigned char* enables = payload.get_byte_enable_ptr();
-  return enables == nullptr || enables[index % payload.get_byte_enable_length()] == TLM_BYTE_ENABLED;
-}
-
 /// The platform's initiators take the delay that b_transport returns for time that has passed.
 bool is_decoupled() { return tlm::tlm_global_quantum::instance().get() > sc_core::SC_ZERO_TIME; }
-
-/// TLM_OK_RESPONSE for a transaction that can be carried out.
-tlm::tlm_response_status judge(const tlm::tlm_generic_payload& payload) {
-  const unsigned int length = payload.get_data_length();
-  if (!payload.is_read() && !payload.is_write()) return tlm::TLM_COMMAND_ERROR_RESPONSE;
-  if (length == 0 || payload.get_streaming_width() < length) return tlm::TLM_BURST_ERROR_RESPONSE;
-  if (payload.get_address() >= kDpramSize || length > kDpramSize - payload.get_address())
-    return tlm::TLM_ADDRESS_ERROR_RESPONSE;
-  if (!enables_are_valid(payload)) return tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE;
-  return payload.get_data_ptr() != nullptr ? tlm::TLM_OK_RESPONSE : tlm::TLM_GENERIC_ERROR_RESPONSE;
-}
 
 }  // namespace
 
@@ -82,8 +55,7 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
     payload.set_response_status(judgement);
     return;
   }
-  if (const auto* extension = payload.get_extension<AccessTimingExtension>();
-      extension != nullptr && extension->ahead) {
+  if (is_ahead(payload)) {
     carry_out_ahead(payload, delay);
     return;
   }
@@ -123,7 +95,7 @@ unsigned int TlmModule::carry_out_bytes_ahead(Payload& payload, sc_core::sc_time
 bool TlmModule::carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay) {
   unsigned char& byte = payload.get_data_ptr()[index];
   const auto address = static_cast<std::uint16_t>(payload.get_address() + index);
-  const HostAccess& access = maker_.make(payload.is_write(), address, byte, timing_of(payload));
+  const HostAccess& access = maker_.make(payload.is_write(), address, byte, timing_of(payload, timing_));
   const Tick begin = to_tick(sc_core::sc_time_stamp() + delay), end = begin + access.duration();
   Level sampled = kLevelX;
   if (!is_alone(begin, end) || !ChipModule::carry_out(chip_tick(begin), access, sampled)) return false;
@@ -143,7 +115,7 @@ bool TlmModule::is_alone(Tick begin, Tick end) {
 }
 
 void TlmModule::carry_out(Payload& payload, unsigned int first) {
-  const AccessTiming& timing = timing_of(payload);
+  const AccessTiming& timing = timing_of(payload, timing_);
   access_start_ = current_tick() + std::max<Tick>(0, chip().now() - chip_tick(current_tick()));  // accesses run ahead
   unsigned char* data = payload.get_data_ptr();
   for (unsigned int i = first; i < payload.get_data_length(); ++i) {
@@ -155,11 +127,6 @@ void TlmModule::carry_out(Payload& payload, unsigned int first) {
     }
   }
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
-}
-
-const AccessTiming& TlmModule::timing_of(const Payload& payload) const {
-  const auto* extension = payload.get_extension<AccessTimingExtension>();
-  return extension != nullptr ? extension->timing : timing_;
 }
 
 bool TlmModule::read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte) {

@@ -22,26 +22,9 @@
 #include "model/dsdpv1/host_access.hpp"
 #include "model/systemc/character_line.hpp"
 #include "model/systemc/chip_module.hpp"
+#include "model/systemc/host_transaction.hpp"
 
 namespace dsdpv1::systemc {
-
-using dsdpv1::AccessTiming;
-using dsdpv1::HostAccess;
-using dsdpv1::HostAccessMaker;
-
-/// Gives one transaction another timing than TlmOptions::access, and makes it one of a decoupled initiator. A payload
-/// frees the extensions that it still has in the end: clear one that is not on the heap.
-struct AccessTimingExtension : tlm::tlm_extension<AccessTimingExtension> {
-  AccessTiming timing;
-  /// b_transport does not wait: it carries the access out ahead of simulation time, at the annotated delay, which it
-  /// moves on to the end of the access. Where that would come to something else than waiting, nothing is done and the
-  /// response is TLM_INCOMPLETE_RESPONSE. The chip is in that future then: inputs that are moved before are seen there.
-  bool ahead = false;
-  tlm::tlm_extension_base* clone() const override { return new AccessTimingExtension(*this); }
-  void copy_from(const tlm::tlm_extension_base& other) override {
-    *this = static_cast<const AccessTimingExtension&>(other);
-  }
-};
 
 /// One character on the bus.
 struct BusCharacter {
@@ -151,7 +134,6 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   bool carry_out_byte_ahead(Payload& payload, unsigned int index, sc_core::sc_time& delay);
   bool is_alone(Tick begin, Tick end);
   void carry_out(Payload& payload, unsigned int first);
-  const AccessTiming& timing_of(const Payload& payload) const;
   bool read_byte(std::uint16_t address, const AccessTiming& timing, unsigned char& byte);
   bool write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte);
   void perform(bool write, std::uint16_t address, std::uint8_t value, const AccessTiming& timing);

@@ -24,7 +24,7 @@
 #include "tb/bench/wave_recorder.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class Script;
 
@@ -116,4 +116,4 @@ class Bench {
   std::string registers_;  ///< of the processor that cannot go on; the run ends with it
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -1,6 +1,6 @@
 #include "tb/bench/capture_recorder.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 CaptureRecorder::CaptureRecorder(const CaptureRequest& request, int baud)
     : file_(request.path),
@@ -18,4 +18,4 @@ void CaptureRecorder::finish() {
   file_.commit();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

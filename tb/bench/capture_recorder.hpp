@@ -8,7 +8,7 @@
 #include "tb/bench/observer.hpp"
 #include "tb/output/output_file.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 struct CaptureRequest {
   std::string path;  ///< empty: not wanted
@@ -37,4 +37,4 @@ class CaptureRecorder : public Observer {
   int baud_;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

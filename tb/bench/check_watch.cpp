@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 PinMask CheckWatch::pins() const { return on() ? scenario_.kind->checked_pins() : 0; }
 
@@ -53,4 +53,4 @@ std::vector<CheckResult> CheckWatch::results() const {
   return results;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -10,7 +10,7 @@
 #include "tb/checks/chip_checks.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class CheckWatch : public Observer {
  public:
@@ -59,4 +59,4 @@ class CheckWatch : public Observer {
   std::uint64_t failures_ = 0;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

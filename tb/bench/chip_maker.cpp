@@ -4,7 +4,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 user_cpu::AcyclicObject object_of(const scenario::Dpv1Object& object) {
@@ -52,4 +52,4 @@ user_cpu::ProgramOptions program_options(const scenario::UserCpu& user, const us
   return options;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

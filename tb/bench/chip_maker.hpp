@@ -12,7 +12,7 @@
 #include "tb/scenario/scenario.hpp"
 #include "tb/user_cpu/station_cpu.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// How the core evaluates time.
 enum class Engine : std::uint8_t {
@@ -70,4 +70,4 @@ const ChipMaker& chip_maker(const scenario::Scenario& scenario);
 /// The settings of the standard user program, as the scenario has them.
 user_cpu::ProgramOptions program_options(const scenario::UserCpu& user, const user_cpu::StationConfig& station);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -12,7 +12,7 @@
 #include "model/profibus/rm_registry.hpp"
 #include "tb/pins/pins.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 using bus::Tick;
 
@@ -84,4 +84,4 @@ class ChipView {
   std::function<void(Tick at, const std::string& words)> on_action;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -10,7 +10,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/units.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 using scenario::ActionKind;
 
@@ -122,4 +122,4 @@ void Class2Station::ask(const scenario::Action& action, bus::ConnectionId id) {
   }
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -9,7 +9,7 @@
 #include "bus/wire/segment.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 using bus::Tick;
 
@@ -27,6 +27,7 @@ class Class2Station {
   Class2Station& operator=(const Class2Station&) = delete;
 
   const std::string& name() const { return spec_.name.text; }
+  std::uint8_t address() const { return static_cast<std::uint8_t>(spec_.address); }
   bus::Master2& master() { return master_; }
   std::vector<std::string> connection_names() const;
   bool has(const std::string& connection) const { return ids_.count(connection) != 0; }
@@ -53,4 +54,4 @@ class Class2Station {
 /// Bus parameters of the scenario for a master of either class.
 bus::BusParameters bus_parameters(const scenario::BusParameters& bus);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -7,7 +7,7 @@
 #include "tb/bench/stations.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// What conditions are about.
 struct Facts {
@@ -26,4 +26,4 @@ std::string describe(const scenario::Condition& condition);
 /// ... with its time: "... by 9ms".
 std::string describe(const scenario::Expectation& expectation);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -8,7 +8,7 @@
 #include "tb/bench/chip_maker.hpp"
 #include "tb/bench/chip_view.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class Execution {
  public:
@@ -36,4 +36,4 @@ class Execution {
 /// By the pins of the cores, no SystemC.
 std::unique_ptr<Execution> make_pin_execution();
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

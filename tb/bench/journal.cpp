@@ -8,7 +8,7 @@
 
 #include "tb/input/units.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 void Journal::log(LogEntry entry) {
   if (!log_) return;
@@ -72,4 +72,4 @@ void Journal::fill(RunResult& result) const {
   result.refused = refusals_.list();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

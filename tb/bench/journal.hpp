@@ -12,7 +12,7 @@
 #include "tb/bench/run_log.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class Journal : public Observer {
  public:
@@ -63,4 +63,4 @@ class Journal : public Observer {
   std::map<std::string, std::map<std::string, std::uint64_t>> counts_;  ///< by station and code
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

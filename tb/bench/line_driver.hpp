@@ -4,7 +4,7 @@
 
 #include "bus/wire/segment.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// One pin enables the driver, the other is what it drives. What the chip does inside of a call is told to the line
 /// after the call, because the line answers, which may change the chip again.
@@ -54,4 +54,4 @@ class LineDriver {
   std::size_t next_ = 0;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -1,6 +1,6 @@
 #include "tb/bench/line_run.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 void LineRun::begin(const bus::CharacterRun& run) {
   end();
@@ -15,4 +15,4 @@ void LineRun::begin(const bus::CharacterRun& run) {
   }
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -6,7 +6,7 @@
 
 #include "bus/wire/character_run.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class LineRun {
  public:
@@ -25,4 +25,4 @@ class LineRun {
   std::size_t next_ = 0;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

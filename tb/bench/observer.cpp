@@ -2,7 +2,7 @@
 
 #include "bus/telegram/explain.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 const std::string& HeardTelegram::words() const {
   if (!words_)
@@ -10,4 +10,4 @@ const std::string& HeardTelegram::words() const {
   return *words_;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -11,7 +11,7 @@
 #include "tb/checks/recorder.hpp"
 #include "tb/pins/pins.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// A telegram that has ended, heard at `now`; its words are made for the first who asks.
 class HeardTelegram {
@@ -72,4 +72,4 @@ class Observers {
   std::vector<Observer*> all_;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -4,7 +4,7 @@
 
 #include "bus/timeline.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class PeriodicPoll : public bus::Agent {
  public:
@@ -28,4 +28,4 @@ class PeriodicPoll : public bus::Agent {
   bool stopped_ = false;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -1,7 +1,7 @@
 // Chips by the pins of their cores.
 #include "tb/bench/execution.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 class PinExecution : public Execution {
@@ -23,4 +23,4 @@ class PinExecution : public Execution {
 
 std::unique_ptr<Execution> make_pin_execution() { return std::make_unique<PinExecution>(); }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -4,7 +4,7 @@
 
 #include "model/profibus/time.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 void PinTrace::pin(std::size_t slave, bus::Tick at, PinNumber pin, Level level) {
   const PinInfo& info = scenario_.kind->pins()[pin];
   if (info.input) return;
@@ -26,4 +26,4 @@ void PinTrace::finish() {
   file_.commit();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

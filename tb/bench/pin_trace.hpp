@@ -8,7 +8,7 @@
 #include "tb/output/output_file.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Lines "cycle slave pin level", in order of time and at equal times of the slaves' numbers, so that it does not
 /// matter which chip was evaluated first; D with its ticks behind the cycle: "cycle+ticks".
@@ -31,4 +31,4 @@ class PinTrace : public Observer {
   std::map<std::size_t, std::string> lines_;  ///< of `at_`, by the number of the slave
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -4,7 +4,7 @@
 
 #include "bus/baud.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 const char* name(profibus::Severity severity) {
   switch (severity) {
@@ -52,4 +52,4 @@ double RunResult::real_time_factor() const {
 
 std::string baud_text(std::optional<int> baud) { return baud ? std::string(bus::baud(*baud).name) : "searching"; }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -14,7 +14,7 @@
 #include "tb/checks/recorder.hpp"
 #include "tb/user_cpu/station_cpu.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 using bus::Tick;
 
@@ -153,4 +153,4 @@ std::string baud_text(std::optional<int> baud);
 /// "OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH".
 const char* name(profibus::DpState state);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

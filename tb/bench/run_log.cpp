@@ -8,7 +8,7 @@
 #include "bus/printable.hpp"
 #include "tb/input/units.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 const char* gap_before_bytes(const std::string& kind) {
@@ -83,4 +83,4 @@ void RunLog::finish() {
   file_.commit();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

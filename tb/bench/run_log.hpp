@@ -11,7 +11,7 @@
 #include "bus/time.hpp"
 #include "tb/output/output_file.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// One thing that happened.
 struct LogEntry {
@@ -71,4 +71,4 @@ class RunLog {
 /// Nanoseconds with three digits after the point, from the absolute tick, rounded once: "1500.083".
 std::string nanoseconds(bus::Tick tick);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -14,7 +14,7 @@
 #include "tb/bench/stations.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class Script : public bus::Agent, public Observer {
  public:
@@ -82,4 +82,4 @@ class Script : public bus::Agent, public Observer {
   Tick changed_at_ = bus::kNever;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

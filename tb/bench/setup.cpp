@@ -11,7 +11,7 @@
 #include "tb/input/read_file.hpp"
 #include "tb/input/suggest.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 constexpr int kStandardDiag = 6;     // bytes of Slave_Diag in front of the user's
@@ -207,4 +207,4 @@ Watchdog watchdog_factors(bus::Tick time) {
   return best;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

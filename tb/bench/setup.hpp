@@ -9,7 +9,7 @@
 #include "tb/scenario/scenario.hpp"
 #include "tb/user_cpu/station_config.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Reads each GSD file once.
 class Setup {
@@ -45,4 +45,4 @@ struct Watchdog {
 };
 Watchdog watchdog_factors(bus::Tick time);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 SlaveStation::SlaveStation(const scenario::Slave& slave, user_cpu::StationConfig station,
                            std::unique_ptr<ChipView> chip, MakeUser make_user, Execution& execution)
@@ -89,4 +89,4 @@ SlaveResult SlaveStation::result() const {
   return result;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

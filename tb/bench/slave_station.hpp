@@ -13,7 +13,7 @@
 #include "tb/scenario/scenario.hpp"
 #include "tb/user_cpu/station_cpu.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// The agent is the user CPU; the chip is the execution's business.
 class SlaveStation : public bus::Agent, private user_cpu::Others {
@@ -74,4 +74,4 @@ class SlaveStation : public bus::Agent, private user_cpu::Others {
   Tsdr tsdr_;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

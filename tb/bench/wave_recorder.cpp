@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 namespace {
 
@@ -246,4 +246,4 @@ void WaveRecorder::happened(bus::Tick at, const std::string& station, const std:
   if (opens_window(code, violation)) writer_->trigger(at);
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -17,7 +17,7 @@
 #include "tb/waves/wave_selection.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Of WaveOptions::on, beside the codes: any violation.
 inline constexpr const char* kAnyViolation = "violation";
@@ -153,4 +153,4 @@ class WaveRecorder : public Observer, private bus::Listener {
   bool takes_runs_ = false;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -19,7 +19,7 @@
 #include "tb/campaign/fingerprint.hpp"
 #include "tb/output/signals_held.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 namespace {
 
 constexpr const char* kThisProgram = "/proc/self/exe";  // also when the file was replaced meanwhile
@@ -128,4 +128,4 @@ void Children::terminate() const {
   for (const auto& [pid, run] : runs_) kill(pid, SIGTERM);
 }
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

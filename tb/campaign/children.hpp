@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 
 constexpr int kSignalled = 128;  ///< an exit code above it: killed by the signal that is the difference
 
@@ -61,4 +61,4 @@ class Children {
   std::vector<Ended> not_started_;
 };
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

@@ -8,7 +8,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 namespace {
 
 Json fingerprint_json(const std::string& file) {
@@ -57,4 +57,4 @@ void Contents::fail_changed(const std::string& file) const {
       "was changed while the " + kind_.word + " ran, allowed is the same content for all of its " + kind_.items);
 }
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

@@ -8,7 +8,7 @@
 
 #include "tb/campaign/folder.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 
 class Contents {
  public:
@@ -33,4 +33,4 @@ class Contents {
   Json content_;
 };
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

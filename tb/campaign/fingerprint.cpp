@@ -15,7 +15,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 namespace {
 
 constexpr std::size_t kMostMb = 1024;  // of a result
@@ -92,4 +92,4 @@ nlohmann::ordered_json as_kept(const nlohmann::ordered_json& json) {
   return nlohmann::ordered_json::parse(text_of(json));
 }
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 
 std::string fingerprint(const std::string& text);
 /// "0.1.0 1f0c...": the version and what the program is made of, so that a program built anew counts as another one.
@@ -24,4 +24,4 @@ std::string text_of(const nlohmann::ordered_json& json);
 /// As it comes back from a file.
 nlohmann::ordered_json as_kept(const nlohmann::ordered_json& json);
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

@@ -9,7 +9,7 @@
 #include "tb/output/part_file.hpp"
 #include "tb/output/write_file.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -147,4 +147,4 @@ Json Folder::keep(const std::string& name, const Json& item) const {
   return kept;
 }
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

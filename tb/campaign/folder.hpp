@@ -8,7 +8,7 @@
 
 #include "tb/campaign/lock.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 
 using Json = nlohmann::ordered_json;
 
@@ -69,4 +69,4 @@ class Folder {
   std::string started_anew_;
 };
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

@@ -6,7 +6,7 @@
 
 #include "tb/campaign/children.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 
 class Jobs {
  public:
@@ -34,4 +34,4 @@ class Jobs {
 /// In a few words why a run has no result.
 std::string fate(const Ended& ended);
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

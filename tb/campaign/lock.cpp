@@ -13,7 +13,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,4 +69,4 @@ Lock::~Lock() {
   close(file_);
 }
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

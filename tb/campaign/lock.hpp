@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 
 /// Held by an open file, so that the system frees it when the process dies, however it does.
 class Lock {
@@ -25,4 +25,4 @@ class Lock {
   int file_ = -1;
 };
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

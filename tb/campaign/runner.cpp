@@ -9,7 +9,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 
 std::string fate(const Ended& ended) {
   constexpr int kInterrupted = 130;  // the run's own word for it
@@ -99,4 +99,4 @@ void Runner::give_up() {
     if (const std::optional<Ended> ended = children_.wait()) jobs_.forget(ended->job);
 }
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

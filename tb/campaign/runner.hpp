@@ -11,7 +11,7 @@
 #include "tb/campaign/jobs.hpp"
 #include "tb/report/progress.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 
 /// How jobs are carried out.
 struct Carrying {
@@ -58,4 +58,4 @@ std::vector<std::size_t> all_of(const Jobs& jobs);
 /// How many are finished.
 std::size_t count_finished(const Jobs& jobs);
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

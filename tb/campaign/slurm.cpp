@@ -16,7 +16,7 @@
 #include "tb/input/units.hpp"
 #include "tb/output/write_file.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +159,4 @@ Tasks in_tasks(const std::vector<std::size_t>& jobs, std::size_t most) {
   return tasks;
 }
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

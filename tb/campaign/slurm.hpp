@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 
 constexpr const char* kSlurmFolder = "slurm";  ///< in the folder of a campaign, while tasks are under way
 
@@ -56,4 +56,4 @@ std::vector<std::size_t> jobs_of_task(const std::filesystem::path& folder, int n
 /// At most so many tasks an array (Slurm's usual limit is 1001): of more jobs a task has several.
 Tasks in_tasks(const std::vector<std::size_t>& jobs, std::size_t most = 1000);
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

@@ -9,7 +9,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 namespace {
 
 constexpr std::chrono::milliseconds kPause(50);
@@ -137,4 +137,4 @@ void SlurmRunner::end_all() {
   folder_.tidy();
 }
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

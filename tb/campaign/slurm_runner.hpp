@@ -11,7 +11,7 @@
 #include "tb/campaign/runner.hpp"
 #include "tb/campaign/slurm.hpp"
 
-namespace tb::campaign {
+namespace dsdpv1::tb::campaign {
 
 struct OnCluster {
   std::string identity;              ///< tasks of another one are ended
@@ -56,4 +56,4 @@ class SlurmRunner {
   std::size_t done_;
 };
 
-}  // namespace tb::campaign
+}  // namespace dsdpv1::tb::campaign

@@ -7,7 +7,7 @@
 
 #include "bus/time.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 using bus::Tick;
 
@@ -70,4 +70,4 @@ class Limits {
   std::vector<Limit> limits_;
 };
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -7,7 +7,7 @@
 #include "tb/checks/recorder.hpp"
 #include "tb/pins/pins.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 class ChipChecks {
  public:
@@ -29,4 +29,4 @@ class ChipChecks {
   virtual void on_violation(std::function<void(const Violation&)> sink) = 0;
 };
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -7,7 +7,7 @@
 
 #include "bus/time.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 class Histogram {
  public:
@@ -47,4 +47,4 @@ class Histogram {
   std::array<std::uint64_t, kBins> counts_{};
 };
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace checks {
+namespace dsdpv1::checks {
 
 std::vector<PinChange> PinHistory::last(tb::PinMask pins) const {
   std::vector<PinChange> all;
@@ -16,4 +16,4 @@ std::vector<PinChange> PinHistory::last(tb::PinMask pins) const {
   return all;
 }
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -7,7 +7,7 @@
 #include "bus/time.hpp"
 #include "tb/pins/pins.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 struct PinChange {
   bus::Tick at = 0;
@@ -43,4 +43,4 @@ class PinHistory {
   bus::Tick now_ = 0;
 };
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace checks {
+namespace dsdpv1::checks {
 
 std::string ns_text(Tick ticks) {
   return fmt::format("{:.3f} ns", static_cast<double>(ticks) / static_cast<double>(bus::kTicksPerNs));
@@ -67,4 +67,4 @@ void Recorder::report(CheckId check, Tick at, std::optional<Tick> margin, std::s
   on_violation({check, at, std::max(now_, history_.now()), margin, std::move(text), history_.last(rule(check).pins)});
 }
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

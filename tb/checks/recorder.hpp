@@ -10,7 +10,7 @@
 #include "tb/checks/histogram.hpp"
 #include "tb/checks/pin_history.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 /// What a check has found so far. Values and margins are ticks of 1/12 ns.
 struct Record {
@@ -77,4 +77,4 @@ class Recorder {
   std::vector<Record> records_;
 };
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 std::vector<const ChipKind*>& all_kinds() {
@@ -58,4 +58,4 @@ const ChipKind* find_chip_kind(const std::string& name) {
 
 void add_chip_kind(const ChipKind& kind) { all_kinds().push_back(&kind); }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

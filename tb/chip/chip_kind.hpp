@@ -13,7 +13,7 @@
 #include "tb/pins/pins.hpp"
 #include "tb/user_cpu/program.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// What a scenario says with the keys of one kind of chip. Each kind derives its own.
 struct OwnSettings {
@@ -117,4 +117,4 @@ void add_chip_kind(const ChipKind& kind);
 /// Those that are built in: defined by the room that knows them (tb/kinds).
 std::vector<const ChipKind*> built_in_chip_kinds();
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

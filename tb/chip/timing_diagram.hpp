@@ -10,7 +10,7 @@
 #include "bus/time.hpp"
 #include "tb/pins/pins.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 enum class Turn : std::uint8_t {
   kRise,
@@ -75,4 +75,4 @@ struct BusyTime {
   PinMask pins = 0;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 namespace {
 
 std::string without_blanks(std::string name) {
@@ -54,4 +54,4 @@ void BothWave::set(const Scale& scale, Time time, std::uint32_t pair, std::strin
 
 void BothWave::finish(const Scale& scale, Time end) { writer_->finish(Picoseconds{scale.picoseconds(end)}); }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

@@ -5,7 +5,7 @@
 #include "tb/compare/pairs.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 class BothWave {
  public:
@@ -30,4 +30,4 @@ class BothWave {
   bool begun_ = false;
 };
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

@@ -4,7 +4,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 namespace {
 
 /// A's, unless only B has it.
@@ -40,4 +40,4 @@ std::optional<Time> ClockEdges::next() {
   return std::nullopt;
 }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

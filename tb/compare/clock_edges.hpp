@@ -3,7 +3,7 @@
 // read a second time.
 #include "tb/compare/side.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 class ClockEdges {
  public:
@@ -19,4 +19,4 @@ class ClockEdges {
   Probe probe_;
 };
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

@@ -8,7 +8,7 @@
 #include "tb/compare/clock_edges.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 namespace {
 
 constexpr Time kEver = std::numeric_limits<Time>::max();
@@ -197,4 +197,4 @@ void Comparison::tell_progress() {
   if (++steps_ % kProgressEvery == 0 && progress_) progress_(std::min(a_.share(), b_.share()));
 }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

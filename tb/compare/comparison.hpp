@@ -10,7 +10,7 @@
 #include "tb/compare/side.hpp"
 #include "tb/compare/watchers.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 class Comparison {
  public:
@@ -78,4 +78,4 @@ class Comparison {
   std::uint32_t steps_ = 0;
 };
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

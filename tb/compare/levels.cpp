@@ -9,7 +9,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/units.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 namespace {
 
 constexpr std::string_view kLevels = "01xz";
@@ -75,4 +75,4 @@ std::string value_text(std::string_view value, WaveKind kind) {
   return text;
 }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

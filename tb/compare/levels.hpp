@@ -8,7 +8,7 @@
 #include "tb/compare/options.hpp"
 #include "tb/waves/wave_reader.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 class Levels {
  public:
@@ -34,4 +34,4 @@ std::string parse_value(const std::string& text, WaveKind kind, std::uint32_t wi
 /// A value as people read it: "1", "3F", "0x1z" in binary where not all bits are known.
 std::string value_text(std::string_view value, WaveKind kind);
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

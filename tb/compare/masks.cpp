@@ -6,7 +6,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 namespace {
 
 /// The pairs that a name means: A's whole name, or the end of it.
@@ -65,4 +65,4 @@ void Masks::hold(Condition& condition, bool holds, Touched& pairs) {
   }
 }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

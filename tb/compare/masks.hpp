@@ -3,7 +3,7 @@
 
 #include "tb/compare/side.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 class Masks {
  public:
@@ -29,4 +29,4 @@ class Masks {
   std::uint32_t all_ = 0;               ///< ... for all
 };
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

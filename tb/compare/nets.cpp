@@ -10,7 +10,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 namespace {
 
 constexpr std::size_t kNamed = 8;           // in a message
@@ -145,4 +145,4 @@ const Net& Nets::find(const std::string& name) const {
   throw InputError(file_, 0, "has no signal " + name + meant + ", allowed are its own, like " + join(names));
 }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

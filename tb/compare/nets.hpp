@@ -7,7 +7,7 @@
 
 #include "tb/waves/wave_reader.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 struct Net {
   std::string scope;  ///< without the prefix of the side
@@ -49,4 +49,4 @@ class Nets {
 /// In small letters.
 std::string lower(std::string text);
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

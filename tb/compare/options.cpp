@@ -2,7 +2,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 Mask parse_mask(const std::string& text) {
   const std::size_t equal = text.find('='), at = text.rfind('@');
@@ -36,4 +36,4 @@ NamedPair parse_pair(const std::string& text) {
   return pair;
 }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

@@ -6,7 +6,7 @@
 
 #include "tb/compare/scale.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 /// What an unknown bit (X) matches. A is what is expected, B what is held to it.
 enum class XRule : std::uint8_t {
@@ -66,4 +66,4 @@ Clock parse_clock(const std::string& text);
 /// "irq=irq_n", "irq=!irq_n"; throws InputError.
 NamedPair parse_pair(const std::string& text);
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

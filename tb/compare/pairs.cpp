@@ -7,7 +7,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 namespace {
 
 bool comparable(const Net& a, const Net& b) { return a.kind == b.kind && a.width == b.width; }
@@ -107,4 +107,4 @@ Pairs match(const Nets& a, const Nets& b, const Options& options) {
   return options.pairs.empty() ? matcher.by_name() : matcher.named(options.pairs);
 }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

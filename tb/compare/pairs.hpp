@@ -6,7 +6,7 @@
 #include "tb/compare/nets.hpp"
 #include "tb/compare/options.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 /// What a side's value is made of.
 struct Source {
@@ -30,4 +30,4 @@ struct Pairs {
 /// Throws InputError when a named signal does not exist, its counterpart is of another width, or there is no pair.
 Pairs match(const Nets& a, const Nets& b, const Options& options);
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

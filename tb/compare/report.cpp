@@ -10,7 +10,7 @@
 #include "tb/report/junit.hpp"
 #include "tb/report/text_table.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 namespace {
 
 constexpr std::size_t kMostRows = 40, kMostNames = 8;
@@ -161,4 +161,4 @@ std::string junit(const Result& result) {
   return tb::junit("dsdpv1-sim compare", cases);
 }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

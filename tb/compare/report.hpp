@@ -4,7 +4,7 @@
 
 #include "tb/compare/result.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 /// Lines and a table, ended by EQUAL or DIFFERENT.
 std::string text(const Result& result);
@@ -13,4 +13,4 @@ std::string json(const Result& result);
 /// JUnit's XML: a case for each signal.
 std::string junit(const Result& result);
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

@@ -6,7 +6,7 @@
 
 #include "tb/compare/surroundings.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 struct Difference {
   Time at = 0;
@@ -43,4 +43,4 @@ struct Result {
   bool equal() const { return !first && !short_of_end(); }
 };
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

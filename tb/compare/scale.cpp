@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 namespace {
 
 constexpr std::array<std::pair<const char*, long double>, 7> kUnits = {
@@ -59,4 +59,4 @@ std::string Scale::text(Time time) const {
   return fmt::format("{} {}", time, kNames.at(static_cast<std::size_t>(steps / 3)));
 }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

@@ -6,7 +6,7 @@
 
 #include "bus/time.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 using Time = std::int64_t;          ///< in units of a Scale
 using Femtoseconds = std::int64_t;  ///< what people say: up to 9223 s
@@ -36,4 +36,4 @@ class Scale {
   int exponent_;
 };
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

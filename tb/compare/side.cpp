@@ -4,7 +4,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 namespace {
 
 constexpr std::uint32_t kNone = UINT32_MAX;
@@ -99,4 +99,4 @@ std::string_view Side::value(const Probe& probe) {
   return scratch_;
 }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

@@ -11,7 +11,7 @@
 #include "tb/compare/touched.hpp"
 #include "tb/waves/wave_reader.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 /// A source as the side that it belongs to reads it: places of its values.
 struct Probe {
@@ -75,4 +75,4 @@ class Side {
   bool have_ = false, off_ = false;
 };
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

@@ -10,7 +10,7 @@
 
 #include "tb/compare/scale.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 /// A heading and what it is about, for a line of the report.
 using Line = std::pair<std::string, std::string>;
@@ -28,4 +28,4 @@ class Surroundings {
 
 using MakeSurroundings = std::function<std::unique_ptr<Surroundings>()>;
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 class Touched {
  public:
@@ -30,4 +30,4 @@ class Touched {
   std::vector<std::uint32_t> list_;
 };
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

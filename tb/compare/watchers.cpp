@@ -2,7 +2,7 @@
 
 #include <unordered_map>
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 namespace {
 
 constexpr std::size_t kMostPins = 4096;  // of all chips: who has more is looking at something else
@@ -43,4 +43,4 @@ std::vector<Line> Watchers::lines(const std::string& scope, bus::Tick now) const
   return found == by_scope_.end() ? std::vector<Line>{} : found->second->lines(now);
 }
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

@@ -5,7 +5,7 @@
 #include "tb/compare/side.hpp"
 #include "tb/compare/surroundings.hpp"
 
-namespace tb::compare {
+namespace dsdpv1::tb::compare {
 
 class Watchers {
  public:
@@ -30,4 +30,4 @@ class Watchers {
   Touched touched_;
 };
 
-}  // namespace tb::compare
+}  // namespace dsdpv1::tb::compare

@@ -5,7 +5,7 @@
 #include "tb/bench/record.hpp"
 #include "tb/scenario/event_codes.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 const char* advice_of(dsdpv1_error error) {
@@ -99,4 +99,4 @@ const std::vector<CodeTable>& dsdpv1_codes() {
   return tables;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -4,8 +4,8 @@
 
 #include "tb/chip/chip_kind.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 const std::vector<CodeTable>& dsdpv1_codes();
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

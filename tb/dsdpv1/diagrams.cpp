@@ -3,10 +3,9 @@
 #include "bus/baud.hpp"
 #include "model/dsdpv1/pins.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
-using dsdpv1::Pin;
 using Edges = std::vector<DiagramEdge>;
 
 constexpr PinNumber number(Pin pin) { return static_cast<PinNumber>(pin); }
@@ -145,4 +144,4 @@ const std::vector<BusyTime>& dsdpv1_busy_times() {
   return times;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

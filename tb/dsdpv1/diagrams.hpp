@@ -4,9 +4,9 @@
 
 #include "tb/chip/timing_diagram.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 const std::vector<TimingDiagram>& dsdpv1_timing_diagrams();
 const std::vector<BusyTime>& dsdpv1_busy_times();
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

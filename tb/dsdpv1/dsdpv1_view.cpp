@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 ChipStatus status_of(const dsdpv1::Chip& core) {
   const dsdpv1::Status own = core.status();
@@ -23,4 +23,4 @@ void Dsdpv1View::tell_action(Tick at, const char* pin, bool level) const {
   if (on_action) on_action(at, fmt::format("{} {}", pin, level ? 1 : 0));
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

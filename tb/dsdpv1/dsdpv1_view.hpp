@@ -4,7 +4,7 @@
 #include "tb/bench/chip_view.hpp"
 #include "tb/dsdpv1/user_cpu/host_bus.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// What the core says of itself, as the bench has it.
 ChipStatus status_of(const dsdpv1::Chip& core);
@@ -35,4 +35,4 @@ class Dsdpv1View : public ChipView {
   void tell_action(Tick at, const char* pin, bool level) const;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

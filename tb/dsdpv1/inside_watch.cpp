@@ -5,11 +5,8 @@
 #include "bus/baud.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
-
-using dsdpv1::Pin;
-namespace regs = dsdpv1::regs;
 
 constexpr std::array<regs::Address, 4> kFlags = {regs::kChipCommand1, regs::kChipCommand2, regs::kUserCommand1,
                                                  regs::kUserCommand2};
@@ -100,4 +97,4 @@ void InsideWatch::look(bus::Tick at, const dsdpv1::Chip& chip, const Tell& tell)
   told_ = now;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

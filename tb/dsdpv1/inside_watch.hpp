@@ -9,7 +9,7 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tb/chip/chip_kind.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Looks at a chip after each of its rising edges, and tells what has changed.
 class InsideWatch {
@@ -39,4 +39,4 @@ class InsideWatch {
   std::vector<Value> told_;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

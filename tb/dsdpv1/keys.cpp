@@ -7,7 +7,7 @@
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 using keys::ObjectOf;
@@ -202,4 +202,4 @@ void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const st
                      "timing is that of kind: native, allowed with arm are cpi, fsmc and access");
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -16,7 +16,7 @@
 #include "tb/dsdpv1/user_maker.hpp"
 #include "tb/input/units.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 using user_cpu::command::OfChip;
@@ -130,4 +130,4 @@ const ChipMaker& dsdpv1_kind() {
   return kind;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -2,8 +2,8 @@
 // The DSDPV1 as a kind of chip.
 #include "tb/bench/chip_maker.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 const ChipMaker& dsdpv1_kind();
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

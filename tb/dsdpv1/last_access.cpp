@@ -5,10 +5,7 @@
 #include "tb/dsdpv1/pins/pin_table.hpp"
 #include "tb/input/units.hpp"
 
-namespace tb {
-
-using dsdpv1::Level;
-using dsdpv1::Pin;
+namespace dsdpv1::tb {
 
 void LastAccess::pin(dsdpv1::Tick at, Pin pin, Level level) {
   if (pin == Pin::kCsr) csr_ = level;
@@ -30,4 +27,4 @@ std::string LastAccess::words() const {
   return fmt::format("write B{:03X} := {} at {}", address_, level_text(d, data_), cycle_text(at_));
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

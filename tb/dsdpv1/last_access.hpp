@@ -4,7 +4,7 @@
 
 #include "model/dsdpv1/pins.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// A read counts from the fall of RD, a write from the rise of WR, each while CSR is low.
 class LastAccess {
@@ -21,4 +21,4 @@ class LastAccess {
   dsdpv1::Level csr_ = 1, a_ = 0, d_ = dsdpv1::kLevelZ;  ///< at the pins
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -4,10 +4,7 @@
 
 #include "tb/dsdpv1/pins/pin_table.hpp"
 
-namespace tb {
-
-using dsdpv1::Level;
-using dsdpv1::Pin;
+namespace dsdpv1::tb {
 
 namespace {
 
@@ -16,7 +13,7 @@ constexpr PinMask kBusPins = dsdpv1::mask(Pin::kPbtxd) | dsdpv1::mask(Pin::kPbrt
 
 // So that profibus::addressee is a bus::RunReader.
 static_assert(profibus::kNoTelegram == bus::kNoTelegram && profibus::kForNobody == bus::kForNobody &&
-              profibus::kForAll == bus::kForAll);
+              profibus::kBroadcast == bus::kBroadcast);
 
 }  // namespace
 
@@ -189,7 +186,7 @@ void PinChip::set_r_sta(Tick at, bool level) {
   report_host(at, Pin::kRSta, Pin::kRSta);
 }
 
-void PinChip::begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) {
+void PinChip::begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) {
   pins_->begin(at, access, timing);  // no edge yet: the chip is not concerned
   tell_action(at, access);
   if (!access.write && on_read) on_read(pins_->sample_tick());
@@ -241,4 +238,4 @@ void PinChip::report_inputs(Tick at, Pin first, Pin last) {
   }
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

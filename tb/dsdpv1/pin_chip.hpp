@@ -13,7 +13,7 @@
 #include "tb/dsdpv1/pin_device.hpp"
 #include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Wired as on a board with an RS-485 driver: PBRTS enables it, PBTXD is what it drives, PBRXD hears the line at all
 /// times.
@@ -83,7 +83,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   bool l_sta(Tick at) override { return pins().l_sta(at); }
   bool intr0(Tick at) override { return pins().intr0(at); }
   unsigned lamps(Tick at) override { return pins().lamps(at); }
-  void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming& timing) override;
+  void begin(Tick at, const user_cpu::Access& access, const AccessTiming& timing) override;
   Tick next_edge() const override { return pins_->next_edge(); }
   bool put_off() override;
   void run_edges(Tick until) override;
@@ -105,4 +105,4 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -3,7 +3,7 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/user_cpu/host_pins.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class PinDevice : public user_cpu::HostPins {
  public:
@@ -63,4 +63,4 @@ class CoreDevice : public PinDevice {
   dsdpv1::Chip chip_;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -12,13 +12,13 @@
 #include "tb/dsdpv1/user_cpu/cpu.hpp"
 #include "tb/dsdpv1/user_cpu/fsmc_timing.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 using keys::Name;
 
 struct Dsdpv1Settings : OwnSettings, dsdpv1::Config {};
 
-struct AccessTimes : user_cpu::AccessTiming {
+struct AccessTimes : AccessTiming {
   int line = 0;
 };
 
@@ -65,4 +65,4 @@ const keys::Object& dsdpv1_user_keys();
 /// ChipKind::check_user.
 void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const std::string& slave, int line);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -9,14 +9,14 @@
 #include "tb/dsdpv1/user_cpu/native_user.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 MakeUser native_user(const scenario::UserCpu& user, Dsdpv1View& chip) {
   const Dsdpv1User& own = tb::own(user);
   user_cpu::CpuTiming timing;
   if (own.timing) timing = static_cast<const user_cpu::CpuTiming&>(*own.timing);
-  if (own.access) timing.access = static_cast<const user_cpu::AccessTiming&>(*own.access);
+  if (own.access) timing.access = static_cast<const AccessTiming&>(*own.access);
   if (own.fsmc) {
     const user_cpu::FsmcAccess fsmc = user_cpu::access_timing(user_cpu::with({}, *own.fsmc));
     timing.access = fsmc.read;
@@ -45,4 +45,4 @@ MakeUser make_dsdpv1_user(const UserRequest& request) {
                        "is (Debian: libunicorn-dev), allowed without it is native");
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -4,7 +4,7 @@
 #include "tb/bench/chip_maker.hpp"
 #include "tb/dsdpv1/dsdpv1_view.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// The program that has the ARM board: its emulator and SystemC must not be in one (docs/licences.md).
 constexpr const char* kBoardProgram = "dsdpv1-board";
@@ -18,4 +18,4 @@ bool has_arm_maker();
 /// ChipMaker::make_user. Throws InputError for an ARM board in a program without.
 MakeUser make_dsdpv1_user(const UserRequest& request);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

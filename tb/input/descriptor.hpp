@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// A file descriptor that is closed at the end; -1 is none.
 class Descriptor {
@@ -29,4 +29,4 @@ class Descriptor {
   int fd_;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

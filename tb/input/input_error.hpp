@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// "file:line: text", or "file: text" when `line` is 0, or "text" when there is no file (command line). Lines count
 /// from 1.
@@ -18,4 +18,4 @@ class InputError : public std::runtime_error {
   }
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -13,7 +13,7 @@
 #include "tb/input/descriptor.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 /// 0, or what errno said. At most `most` bytes and one more, which shows that there would be more.
@@ -52,4 +52,4 @@ std::string read_file(const std::string& path, const FileKind& kind) {
   return std::move(file.text);
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// What a file is, as "allowed is ..." goes on, and how much of it is read at most: far beyond every right one, so that
 /// a wrong name (/dev/zero, an image of a disk) ends in one line and not in a full memory.
@@ -32,4 +32,4 @@ ReadFile try_read_file(const std::string& path, std::size_t most_mb);
 /// The same; throws InputError with one line when there is anything wrong.
 std::string read_file(const std::string& path, const FileKind& kind);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 /// Levenshtein distance: insertions, deletions and replacements that turn `a` into `b`.
@@ -48,4 +48,4 @@ std::string join(const std::vector<std::string>& words) {
   return text;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// The word of `known` that `wrong` was probably meant to be (smallest edit distance), empty when none is near.
 std::string nearest(const std::string& wrong, const std::vector<std::string>& known);
@@ -13,4 +13,4 @@ std::string did_you_mean(const std::string& wrong, const std::vector<std::string
 /// "a, b, c"
 std::string join(const std::vector<std::string>& words);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -7,9 +7,8 @@
 #include <cctype>
 #include <sstream>
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
-
 
 struct Unit {
   const char* name;
@@ -131,4 +130,4 @@ std::string bytes_text(const bus::Bytes& bytes, std::size_t most) {
   return text;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -7,7 +7,7 @@
 #include "bus/bytes.hpp"
 #include "bus/time.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// "-12", "0x1F": decimal, or hexadecimal with 0x, at most 15 digits; nullopt for anything else.
 std::optional<std::int64_t> parse_integer(const std::string& text);
@@ -34,4 +34,4 @@ std::optional<bus::Bytes> parse_bytes(const std::string& text);
 /// "01 A0 FF"; longer than `most` bytes: the first ones, "..." and the length.
 std::string bytes_text(const bus::Bytes& bytes, std::size_t most = 32);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

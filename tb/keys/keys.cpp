@@ -10,7 +10,7 @@
 #include "tb/input/suggest.hpp"
 #include "tb/input/units.hpp"
 
-namespace tb::keys {
+namespace dsdpv1::tb::keys {
 namespace {
 
 [[noreturn]] void fail(const Source& source, const YAML::Node& node, const std::string& text) {
@@ -255,4 +255,4 @@ std::string default_text(std::int64_t value) { return std::to_string(value); }
 std::string default_number(double value) { return fmt::format("{}", value); }
 std::string default_time(bus::Tick value) { return time_text(value); }
 
-}  // namespace tb::keys
+}  // namespace dsdpv1::tb::keys

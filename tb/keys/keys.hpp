@@ -15,7 +15,7 @@
 #include "bus/bytes.hpp"
 #include "bus/time.hpp"
 
-namespace tb::keys {
+namespace dsdpv1::tb::keys {
 
 enum class Kind : std::uint8_t { kInteger, kNumber, kBoolean, kText, kFile, kWord, kTime, kBytes, kObject, kList };
 
@@ -310,4 +310,4 @@ class ObjectOf : public Object {
   }
 };
 
-}  // namespace tb::keys
+}  // namespace dsdpv1::tb::keys

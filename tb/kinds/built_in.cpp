@@ -2,8 +2,8 @@
 #include "tb/chip/chip_kind.hpp"
 #include "tb/dsdpv1/kind.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 std::vector<const ChipKind*> built_in_chip_kinds() { return {&dsdpv1_kind()}; }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -2,7 +2,7 @@
 
 #include <cerrno>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 OutputFile::OutputFile(const std::string& path) : part_(path), file_(::fdopen(part_.take_descriptor(), "wb")) {
   if (!file_) refuse_output(path, errno);
@@ -25,4 +25,4 @@ void OutputFile::commit() {
   part_.place();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

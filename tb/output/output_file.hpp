@@ -8,7 +8,7 @@
 
 #include "tb/output/part_file.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class OutputFile {
  public:
@@ -46,4 +46,4 @@ class OutputFile {
   int error_ = 0;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

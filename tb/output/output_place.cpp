@@ -13,7 +13,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 constexpr int kMostLinks = 40;  // as the kernel
@@ -117,4 +117,4 @@ std::optional<std::string> output_identity(const std::string& path) {
   return identity_of(status) + "/" + name_of(place.target);
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

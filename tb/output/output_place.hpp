@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 struct OutputPlace {
   std::string wanted;                        ///< as the user names it
@@ -34,4 +34,4 @@ std::string name_of(const std::string& path);
 /// "PATH: cannot be written: reason" for an errno.
 [[noreturn]] void refuse_output(const std::string& path, int error);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -13,7 +13,7 @@
 
 #include "tb/output/signals_held.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 constexpr mode_t kPermissions = 0777;
@@ -113,4 +113,4 @@ void PartFile::place() {
   placed_ = true;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -5,7 +5,7 @@
 
 #include "tb/output/output_place.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// A name that a signal's handler removes, see remove_parts.
 class NameToRemove {
@@ -55,4 +55,4 @@ class PartFile {
   std::unique_ptr<NameToRemove> part_;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

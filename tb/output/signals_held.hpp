@@ -1,7 +1,7 @@
 #pragma once
 #include <csignal>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// No signal comes in while it lives, or until `release`; what has come meanwhile comes then.
 class SignalsHeld {
@@ -20,4 +20,4 @@ class SignalsHeld {
   sigset_t before_{};
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <iostream>
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 /// Who shares the channel may have made it one that does not wait.
@@ -61,4 +61,4 @@ void fill_closed_channels() {
   }
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

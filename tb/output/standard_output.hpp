@@ -3,7 +3,7 @@
 #include <array>
 #include <streambuf>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class StandardOutput : public std::streambuf {
  public:
@@ -33,4 +33,4 @@ class StandardOutput : public std::streambuf {
 /// first file that is opened would get their number, and what the program says would go into it.
 void fill_closed_channels();
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -2,7 +2,7 @@
 
 #include "tb/output/output_file.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 void write_file(const std::string& path, std::string_view text) {
   OutputFile file(path);
@@ -10,4 +10,4 @@ void write_file(const std::string& path, std::string_view text) {
   file.commit();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

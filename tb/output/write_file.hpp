@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Replaces what is there. Throws InputError when it cannot be written.
 void write_file(const std::string& path, std::string_view text);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

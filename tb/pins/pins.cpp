@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 std::string level_text(const PinInfo& pin, Level level) {
   if (level == kLevelZ) return "z";
@@ -10,4 +10,4 @@ std::string level_text(const PinInfo& pin, Level level) {
   return pin.width == 1 ? fmt::format("{}", level) : fmt::format("{:0{}X}", level, (pin.width + 3) / 4);
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

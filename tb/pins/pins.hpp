@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Its place in the chip's PinTable.
 using PinNumber = std::uint8_t;
@@ -48,4 +48,4 @@ inline PinMask all_of(const PinTable& pins) {
 /// "1", "7FF", "z", "x".
 std::string level_text(const PinInfo& pin, Level level);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -11,7 +11,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/output/part_file.hpp"
 
-namespace tb::regress {
+namespace dsdpv1::tb::regress {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +168,4 @@ void Folder::remove(const Run& run) const {
       });
 }
 
-}  // namespace tb::regress
+}  // namespace dsdpv1::tb::regress

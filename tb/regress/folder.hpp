@@ -9,7 +9,7 @@
 #include "tb/regress/outcome.hpp"
 #include "tb/regress/plan.hpp"
 
-namespace tb::regress {
+namespace dsdpv1::tb::regress {
 
 const campaign::Kind& kind();
 
@@ -56,4 +56,4 @@ class Folder {
   campaign::Folder folder_;
 };
 
-}  // namespace tb::regress
+}  // namespace dsdpv1::tb::regress

@@ -8,7 +8,7 @@
 #include "tb/campaign/jobs.hpp"
 #include "tb/sweep/point.hpp"
 
-namespace tb::regress {
+namespace dsdpv1::tb::regress {
 namespace {
 
 using campaign::Ended;
@@ -100,4 +100,4 @@ Outcome outcome_of(const Json& json) {
           json.at("files").get<std::vector<std::string>>()};
 }
 
-}  // namespace tb::regress
+}  // namespace dsdpv1::tb::regress

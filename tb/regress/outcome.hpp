@@ -6,7 +6,7 @@
 #include "tb/campaign/children.hpp"
 #include "tb/campaign/folder.hpp"
 
-namespace tb::regress {
+namespace dsdpv1::tb::regress {
 
 enum class Verdict : std::uint8_t {
   kPassed,   ///< exit code 0
@@ -38,4 +38,4 @@ campaign::Json json_of(const Outcome& outcome);
 /// Throws nlohmann::json::exception when it is none.
 Outcome outcome_of(const campaign::Json& json);
 
-}  // namespace tb::regress
+}  // namespace dsdpv1::tb::regress

@@ -5,7 +5,7 @@
 #include "bus/printable.hpp"
 #include "tb/report/markup.hpp"
 
-namespace tb::regress {
+namespace dsdpv1::tb::regress {
 namespace {
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
@@ -106,4 +106,4 @@ std::string page(const Report& report) {
   return text + kTail;
 }
 
-}  // namespace tb::regress
+}  // namespace dsdpv1::tb::regress

@@ -11,7 +11,7 @@
 #include "tb/input/suggest.hpp"
 #include "tb/input/units.hpp"
 
-namespace tb::regress {
+namespace dsdpv1::tb::regress {
 namespace {
 
 namespace fs = std::filesystem;
@@ -174,4 +174,4 @@ Run run_of(const campaign::Json& json) {
           json.at("settings").get<std::vector<std::string>>()};
 }
 
-}  // namespace tb::regress
+}  // namespace dsdpv1::tb::regress

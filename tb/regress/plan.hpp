@@ -8,7 +8,7 @@
 #include "tb/campaign/folder.hpp"
 #include "tb/sweep/plan.hpp"
 
-namespace tb::regress {
+namespace dsdpv1::tb::regress {
 
 struct Run {
   std::string scenario, engine, view;
@@ -60,4 +60,4 @@ campaign::Json json_of(const Run& run);
 /// Throws nlohmann::json::exception when it is no run.
 Run run_of(const campaign::Json& json);
 
-}  // namespace tb::regress
+}  // namespace dsdpv1::tb::regress

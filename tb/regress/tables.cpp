@@ -9,7 +9,7 @@
 #include "tb/report/junit.hpp"
 #include "tb/report/text_table.hpp"
 
-namespace tb::regress {
+namespace dsdpv1::tb::regress {
 namespace {
 
 using campaign::Json;
@@ -105,4 +105,4 @@ std::string summary(const Report& report) {
   return text;
 }
 
-}  // namespace tb::regress
+}  // namespace dsdpv1::tb::regress

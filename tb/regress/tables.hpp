@@ -6,7 +6,7 @@
 #include "tb/regress/outcome.hpp"
 #include "tb/regress/plan.hpp"
 
-namespace tb::regress {
+namespace dsdpv1::tb::regress {
 
 /// The runs of a plan with what each has come to.
 struct Report {
@@ -27,4 +27,4 @@ std::string junit(const Report& report);
 /// "57 of 60 runs passed, 2 failed, 1 crashed; 20 combinations that cannot be are left out".
 std::string summary(const Report& report);
 
-}  // namespace tb::regress
+}  // namespace dsdpv1::tb::regress

@@ -12,7 +12,7 @@
 #include "tb/replay/services.hpp"
 #include "tb/replay/start_up.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 namespace {
 
 namespace sap = bus::sap;
@@ -238,4 +238,4 @@ void check_comparable(const Recording& recording) {
                                recording.slave));
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -8,7 +8,7 @@
 #include "tb/scenario/scenario.hpp"
 #include "tb/user_cpu/program.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 /// Something that the user CPU gives to its chip.
 struct Supply {
@@ -43,4 +43,4 @@ Beginning beginning_of(const Recording& recording);
 /// Throws InputError when there is none.
 void check_comparable(const Recording& recording);
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -8,7 +8,7 @@
 #include "bus/baud.hpp"
 #include "bus/telegram/explain.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 namespace {
 
 constexpr std::uint8_t kStationNotReady = 0x02;  // in the first byte of Slave_Diag
@@ -196,4 +196,4 @@ double Judge::bits(Tick ticks) const {
   return static_cast<double>(ticks) / static_cast<double>(bus::baud(recording_.baud).bit);
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -8,7 +8,7 @@
 #include "tb/replay/min_tsdr.hpp"
 #include "tb/replay/result.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 struct JudgeOptions {
   TsdrRule tsdr;
@@ -56,4 +56,4 @@ class Judge {
   bool dpv1_out_of_step_ = false;
 };
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -2,7 +2,7 @@
 
 #include "bus/baud.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 namespace {
 
 /// An address that is not the model's, highest first.
@@ -45,4 +45,4 @@ void LeadIn::send(Tick now, const bus::Bytes& bytes) {
   due_ = sender_.end() + pause_;
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -11,7 +11,7 @@
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 using bus::Tick;
 
@@ -47,4 +47,4 @@ class LeadIn : public bus::Agent {
   std::function<bool()> found_;
 };
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -4,7 +4,7 @@
 
 #include "bus/baud.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 Listener::Listener(const Recording& recording, const std::vector<PlacedTelegram>& placed)
     : recording_(recording), placed_(placed), heard_(placed.size()), asks_(placed.size()) {
@@ -46,4 +46,4 @@ const Heard* Listener::of(std::size_t telegram) const {
   return found == requests_.end() ? nullptr : &heard_[found->second];
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -9,7 +9,7 @@
 #include "tb/replay/replayed_line.hpp"
 #include "tb/replay/result.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 /// What the model did with a telegram of the capture.
 struct Heard {
@@ -47,4 +47,4 @@ class Listener : public Observer {
   std::vector<Answer> unasked_;
 };
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

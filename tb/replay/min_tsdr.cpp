@@ -4,7 +4,7 @@
 
 #include "tb/replay/services.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 namespace {
 
 constexpr std::size_t kHead = 7, kMinTsdrByte = 3;    // of Set_Prm
@@ -44,4 +44,4 @@ int MinTsdr::within_limits(std::uint8_t bits) const {
   return std::clamp<int>(bits, bus::kMinTsdrBits, bus::baud(baud_).max_tsdr_bits);
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -7,7 +7,7 @@
 #include "bus/baud.hpp"
 #include "tb/replay/recording.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 class MinTsdr {
  public:
@@ -28,4 +28,4 @@ class MinTsdr {
   std::optional<int> asked_;  ///< by a Set_Prm that was acknowledged, and accepted or not
 };
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

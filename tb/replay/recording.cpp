@@ -11,7 +11,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 namespace {
 
 /// The unit of 1 ns, 10 ns ... 1 ms of which all starts are whole numbers; a tick where there is none.
@@ -152,4 +152,4 @@ std::string Recorder::stations() const {
   return "allowed are the stations that answer: " + join(words);
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -9,7 +9,7 @@
 #include "bus/capture/captured_telegram.hpp"
 #include "bus/telegram/telegram.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 using bus::Tick;
 
@@ -94,4 +94,4 @@ class Recorder {
   std::optional<Pending> pending_;
 };
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

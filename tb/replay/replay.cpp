@@ -7,7 +7,7 @@
 #include "tb/bench/setup.hpp"
 #include "tb/replay/start_up.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 namespace {
 
 RunOptions open_ended(RunOptions options) {
@@ -106,4 +106,4 @@ Result Replay::result(bool interrupted) {
   return result;
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

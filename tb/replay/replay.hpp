@@ -12,7 +12,7 @@
 #include "tb/replay/replayed_line.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 struct ReplayOptions {
   JudgeOptions judge;
@@ -87,4 +87,4 @@ class Replay {
   RunResult run_result_;
 };
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -7,7 +7,7 @@
 #include "bus/baud.hpp"
 #include "bus/wire/uart.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 namespace {
 
 /// What the capture says of a damaged telegram; which of its characters were wrong it does not say.
@@ -114,4 +114,4 @@ std::unique_ptr<ReplayedLine> make_line(bus::Segment& segment, const Recording& 
   return std::make_unique<TelegramLine>(segment, recording, placed);
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

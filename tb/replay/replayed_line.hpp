@@ -8,7 +8,7 @@
 #include "bus/wire/segment.hpp"
 #include "tb/replay/recording.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 /// A telegram of the others as it is put on the line; times of the capture. It begins where it was recorded, or, where
 /// the recorded times are too coarse for that, at the end of the one before.
@@ -46,4 +46,4 @@ class ReplayedLine : public bus::Agent {
 std::unique_ptr<ReplayedLine> make_line(bus::Segment& segment, const Recording& recording,
                                         const std::vector<PlacedTelegram>& placed);
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -16,7 +16,7 @@
 #include "tb/input/units.hpp"
 #include "tb/report/text_table.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 namespace {
 
 constexpr std::size_t kMostBytes = 32;
@@ -263,4 +263,4 @@ std::string table(const Result& result) {
   return text;
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -4,7 +4,7 @@
 
 #include "tb/replay/result.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 /// Lines and tables, ended by EQUAL or DIFFERENT.
 std::string text(const Result& result);
@@ -13,4 +13,4 @@ std::string json(const Result& result);
 /// A head, then a line for each request, separated by tabs.
 std::string table(const Result& result);
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

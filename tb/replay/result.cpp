@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 const char* name(Verdict verdict) {
   switch (verdict) {
@@ -44,4 +44,4 @@ std::size_t Result::compared() const {
       requests.begin(), requests.end(), [](const RequestResult& each) { return is_compared(each.verdict); }));
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -7,7 +7,7 @@
 
 #include "tb/replay/recording.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 enum class Verdict : std::uint8_t {
   kEqual,
@@ -81,4 +81,4 @@ struct Result {
   bool equal() const { return compared() != 0 && first_difference() == nullptr && unasked.empty(); }
 };
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

@@ -3,7 +3,7 @@
 #include "bus/telegram/explain.hpp"
 #include "tb/replay/recording.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 // Bits of the first two bytes of Slave_Diag (table 22).
 constexpr std::uint8_t kCfgFault = 0x04, kExtDiag = 0x08;
@@ -56,4 +56,4 @@ void for_each_request(const Recording& recording, const Take& take) {
     take(recording.request(each).decoded.telegram, recording.answer(each));
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

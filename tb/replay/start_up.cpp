@@ -5,7 +5,7 @@
 #include "bus/baud.hpp"
 #include "tb/replay/services.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 namespace {
 
 namespace sap = bus::sap;
@@ -103,4 +103,4 @@ std::vector<bus::Telegram> start_up_of(const Recording& recording, const user_cp
   return {to_slave(set_prm_of(recording, station), sap::kSetPrm), to_slave(station.cfg, sap::kChkCfg), last};
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

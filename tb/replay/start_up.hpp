@@ -5,7 +5,7 @@
 #include "tb/replay/recording.hpp"
 #include "tb/user_cpu/station_config.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 
 /// The slave exchanges data before its first Set_Prm in the capture, or says that it is parameterised.
 bool begins_in_the_middle(const Recording& recording);
@@ -17,4 +17,4 @@ bus::Bytes cfg_of_exchange(const Recording& recording);
 /// the capture does not show is as usual: min_TSDR 11, no groups, a watchdog of minutes where the slave shows WD_On.
 std::vector<bus::Telegram> start_up_of(const Recording& recording, const user_cpu::StationConfig& station);
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

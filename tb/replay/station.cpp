@@ -10,7 +10,7 @@
 #include "tb/input/units.hpp"
 #include "tb/replay/replay.hpp"
 
-namespace tb::replay {
+namespace dsdpv1::tb::replay {
 namespace {
 
 /// Longer than any capture, and far from the end of 64 bits.
@@ -92,4 +92,4 @@ std::string describe_station(const scenario::Scenario& scenario) {
                      bytes_text(station.cfg), station.dpv1 ? ", DPV1" : "");
 }
 
-}  // namespace tb::replay
+}  // namespace dsdpv1::tb::replay

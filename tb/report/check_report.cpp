@@ -8,7 +8,7 @@
 
 #include "tb/report/text_table.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 /// One check on all slaves.
@@ -80,4 +80,4 @@ std::string check_report(const RunResult& result) {
   return text;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

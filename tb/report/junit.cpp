@@ -8,7 +8,7 @@
 
 #include "bus/printable.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 using Cases = std::vector<const JunitCase*>;
@@ -99,4 +99,4 @@ std::string junit(const std::string& name, const std::vector<JunitCase>& cases) 
   return text.str();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

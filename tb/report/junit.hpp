@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 struct JunitCase {
   std::string suite, name;
@@ -17,4 +17,4 @@ struct JunitCase {
 /// are no UTF-8 are shown as escapes (bus::printable_lines), since XML cannot hold them.
 std::string junit(const std::string& name, const std::vector<JunitCase>& cases);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -1,6 +1,6 @@
 #include "tb/report/markup.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 std::string markup_escaped(std::string_view text) {
   std::string result;
@@ -16,4 +16,4 @@ std::string markup_escaped(std::string_view text) {
   return result;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

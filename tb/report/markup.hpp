@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Also fit for the value of an attribute in double quotes.
 std::string markup_escaped(std::string_view text);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

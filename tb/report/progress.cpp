@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 constexpr int kWidth = 30;
@@ -81,4 +81,4 @@ void CountProgress::clear() const {
   if (wanted_) fmt::print(stderr, "\r\033[K");
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -7,7 +7,7 @@
 
 #include "bus/time.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class Progress {
  public:
@@ -70,4 +70,4 @@ struct Count {
 /// "[#####     ]  32 of 64 points  5 s, 5 s left".
 std::string count_text(const Count& count, const std::string& what, double wall_s);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

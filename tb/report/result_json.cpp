@@ -6,7 +6,7 @@
 #include "tb/input/units.hpp"
 #include "tb/report/result_schema.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -221,4 +221,4 @@ std::string result_json(const RunResult& result) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

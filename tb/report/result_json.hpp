@@ -3,9 +3,9 @@
 
 #include "tb/bench/record.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// The result file: one JSON object, indented, with a line end.
 std::string result_json(const RunResult& result);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -2,7 +2,7 @@
 
 #include "tb/report/schema_words.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 using namespace schema;  // NOLINT(google-build-using-namespace): its words alone
@@ -246,4 +246,4 @@ std::string result_markdown() {
   return page + schema::rows(root());
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -2,7 +2,7 @@
 // What a result file holds, for programs and people.
 #include <string>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 constexpr const char* kResultSchema = "dsdpv1-sim result";  ///< the member "schema" of a result
 constexpr const char* kResultVersion = "1.1";               ///< "version": when it changes says docs/result.md
@@ -12,4 +12,4 @@ std::string result_schema();
 /// docs/result.md.
 std::string result_markdown();
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

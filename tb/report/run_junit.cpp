@@ -5,7 +5,7 @@
 #include "tb/report/summary.hpp"
 #include "tb/report/text_table.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 std::string when(Tick tick) {
@@ -63,4 +63,4 @@ std::vector<JunitCase> run_cases(const RunResult& result) {
   return cases;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

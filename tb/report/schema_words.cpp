@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace tb::schema {
+namespace dsdpv1::tb::schema {
 namespace {
 
 Json of(const char* type, const char* doc) { return {{"type", type}, {"description", doc}}; }
@@ -85,4 +85,4 @@ std::string rows(const Json& root) {
   return text;
 }
 
-}  // namespace tb::schema
+}  // namespace dsdpv1::tb::schema

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace tb::schema {
+namespace dsdpv1::tb::schema {
 
 using Json = nlohmann::ordered_json;
 
@@ -37,4 +37,4 @@ std::string document(const char* title, const Json& root);
 /// Rows of a Markdown table: member, type, what. Members of members have the path of both, `a.b`, of lists `a[].b`.
 std::string rows(const Json& root);
 
-}  // namespace tb::schema
+}  // namespace dsdpv1::tb::schema

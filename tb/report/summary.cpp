@@ -10,7 +10,7 @@
 #include "tb/report/check_report.hpp"
 #include "tb/report/text_table.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 std::string microseconds(Tick tick) {
@@ -162,4 +162,4 @@ std::string summary(const RunResult& result) {
   return text + fmt::format("\n{}\n", result.interrupted ? "INTERRUPTED" : result.passed ? "PASSED" : "FAILED");
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -3,10 +3,10 @@
 
 #include "tb/bench/record.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// What the terminal shows at the end of a run: state changes with times, measurements of each slave, expectations,
 /// verdict.
 std::string summary(const RunResult& result);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -6,7 +6,7 @@
 
 #include "bus/printable.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 std::size_t limit = TableWidth::kUnlimited;
@@ -137,4 +137,4 @@ std::string TextTable::as_blocks(std::size_t columns) const {
   return text;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

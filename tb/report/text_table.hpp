@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// How wide tables may be, for as long as it lives; the latest counts. Without one they are as wide as they need.
 class TableWidth {
@@ -40,4 +40,4 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -11,7 +11,7 @@
 #include "tb/input/units.hpp"
 #include "tb/scenario/event_codes.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 namespace {
 
 class Checker {
@@ -235,4 +235,4 @@ class Checker {
 
 void check(const Scenario& scenario) { Checker(scenario).run(); }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

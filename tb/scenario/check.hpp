@@ -1,9 +1,9 @@
 #pragma once
 #include "tb/scenario/scenario.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 
 /// What the keys alone cannot say: names that refer to each other, values that must fit together. Throws InputError.
 void check(const Scenario& scenario);
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

@@ -5,7 +5,7 @@
 
 #include "bus/baud.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 
 std::vector<WordFor<int>> baud_words() {
   std::vector<WordFor<int>> words;
@@ -113,4 +113,4 @@ ObjectOf<Scenario> describe_scenario(const ChipKind& kind) {
 
 const keys::Object& description(const ChipKind& kind) { return per_kind<Scenario>(kind, describe_scenario); }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

@@ -5,7 +5,7 @@
 #include "tb/keys/keys.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 
 using keys::Choice;
 using keys::ObjectOf;
@@ -43,4 +43,4 @@ constexpr Range kAnyTime = {0, kLongestTime};
 constexpr Range kAddresses = {0, 126};
 constexpr Range kItems = {0, 1000};
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

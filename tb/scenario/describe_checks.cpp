@@ -1,7 +1,7 @@
 // Keys of the checks: a key a check of the chip, with what can be said about it.
 #include "tb/scenario/describe.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 namespace {
 
 using checks::Bound;
@@ -85,4 +85,4 @@ ObjectOf<CheckLimits> describe_checks(const ChipKind& kind) {
 
 const ObjectOf<CheckLimits>& check_keys(const ChipKind& kind) { return per_kind<CheckLimits>(kind, describe_checks); }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

@@ -1,7 +1,7 @@
 // Keys of DPV1 at the user CPU: its objects by slot and index, I&M0, how it answers.
 #include "tb/scenario/describe.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 namespace {
 
 const ObjectOf<Dpv1Object>& object_keys() {
@@ -69,4 +69,4 @@ const ObjectOf<Dpv1User>& dpv1_keys() {
   return keys;
 }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

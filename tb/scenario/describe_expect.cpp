@@ -1,7 +1,7 @@
 // Keys of conditions: expectations, and what an action waits for.
 #include "tb/scenario/describe.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 namespace {
 
 template <class T>
@@ -89,4 +89,4 @@ const ObjectOf<Expectation>& expectation_keys() {
   return keys;
 }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

@@ -1,7 +1,7 @@
 // Keys of a master and of the slaves that it brings up.
 #include "tb/scenario/describe.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 
 const ObjectOf<BusParameters>& bus_keys() {
   static const ObjectOf<BusParameters> keys = [] {
@@ -88,4 +88,4 @@ const ObjectOf<Master>& master_keys() {
   return keys;
 }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

@@ -1,7 +1,7 @@
 // Keys of a class 2 master and its connections.
 #include "tb/scenario/describe.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 namespace {
 
 const ObjectOf<Connection>& connection_keys() {
@@ -47,4 +47,4 @@ const ObjectOf<Master2>& master2_keys() {
   return keys;
 }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

@@ -1,7 +1,7 @@
 // Keys of the script: actions, and the conditions that they may wait for.
 #include "tb/scenario/describe.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 namespace {
 
 const ObjectOf<Faults>& fault_keys() {
@@ -235,4 +235,4 @@ ObjectOf<Action> describe_actions(const ChipKind& kind) {
 
 const ObjectOf<Action>& action_keys(const ChipKind& kind) { return per_kind<Action>(kind, describe_actions); }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

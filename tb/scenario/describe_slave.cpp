@@ -1,7 +1,7 @@
 // Keys of a slave: its initialisation and its user CPU. Those of its chip come from the kind of chip.
 #include "tb/scenario/describe.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 namespace {
 
 const std::vector<WordFor<Judgement>>& judgement_words() {
@@ -112,4 +112,4 @@ ObjectOf<Slave> describe_slave(const ChipKind& kind) {
 
 const ObjectOf<Slave>& slave_keys(const ChipKind& kind) { return per_kind<Slave>(kind, describe_slave); }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

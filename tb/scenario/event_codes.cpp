@@ -3,7 +3,7 @@
 #include <cctype>
 #include <map>
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 
 std::string flag_code(bus::FlagKind kind) {
   std::string code = "BUS_";
@@ -27,4 +27,4 @@ const std::vector<std::string>& all_codes(const ChipKind& kind) {
   return list;
 }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

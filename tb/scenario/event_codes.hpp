@@ -6,7 +6,7 @@
 #include "bus/monitor/monitor.hpp"
 #include "tb/chip/chip_kind.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 
 /// "BUS_T_SYN", "BUS_COLLISION", ...: what the bus monitor flags.
 std::string flag_code(bus::FlagKind kind);
@@ -15,4 +15,4 @@ constexpr const char* kFirmwareFault = "ARM_FAULT";
 /// All codes of the kind of chip and of the monitor, and the ids of the checks.
 const std::vector<std::string>& all_codes(const ChipKind& kind);
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

@@ -5,7 +5,7 @@
 
 #include "tb/scenario/scenario.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -163,4 +163,4 @@ class SchemaWriter {
 
 std::string json_schema(const ChipKind& kind) { return SchemaWriter().write(description(kind)).dump(2) + "\n"; }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

@@ -10,7 +10,7 @@
 #include "tb/scenario/check.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 namespace {
 
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
@@ -107,4 +107,4 @@ std::vector<std::string> files(const std::string& path, const std::vector<Settin
 
 std::string resolve(const Scenario& scenario, const Name& path) { return beside(scenario.file, path.text); }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

@@ -6,7 +6,7 @@
 #include "tb/input/units.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 namespace {
 
 using keys::Choice;
@@ -130,4 +130,4 @@ std::string markdown(const ChipKind& kind) {
   return text;
 }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

@@ -18,7 +18,7 @@
 #include "tb/scenario/settings.hpp"
 #include "tb/user_cpu/program.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 
 using keys::Name;
 
@@ -312,4 +312,4 @@ std::string json_schema(const ChipKind& kind);
 /// docs/scenarios.md.
 std::string markdown(const ChipKind& kind);
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

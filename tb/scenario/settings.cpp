@@ -10,7 +10,7 @@
 #include "tb/input/suggest.hpp"
 #include "tb/scenario/describe.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 namespace {
 
 using keys::Field;
@@ -227,4 +227,4 @@ void apply(const Setting& setting, const ChipKind& kind, YAML::Node& root) {
   for (const YAML::Node& slave : slaves) writer.write(slave, slave_keys(kind), 0);
 }
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

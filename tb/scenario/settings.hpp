@@ -8,7 +8,7 @@
 #include "tb/chip/chip_kind.hpp"
 #include "tb/keys/keys.hpp"
 
-namespace tb::scenario {
+namespace dsdpv1::tb::scenario {
 
 /// PATH names a key as in the YAML, its steps joined by points:
 ///
@@ -43,4 +43,4 @@ std::string given_path(const std::string& path);
 /// Writes the setting into a scenario's YAML. Throws InputError for a path or value that is wrong.
 void apply(const Setting& setting, const ChipKind& kind, YAML::Node& root);
 
-}  // namespace tb::scenario
+}  // namespace dsdpv1::tb::scenario

@@ -5,7 +5,7 @@
 
 #include "bus/bytes.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 /// One piece of memory, so that what waits can be handed to a system call. What has gone is moved out of the way only
 /// when it is more than half, so that taking all that ever came costs time in proportion to it, however small the
@@ -39,4 +39,4 @@ class ByteQueue {
   std::size_t gone_ = 0;  ///< at the front
 };
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

@@ -2,7 +2,7 @@
 
 #include "bus/telegram/telegram.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 namespace {
 
 /// 68 LE LEr 68: LE counts DA, SA, FC and the data; the header, FCS and ED come on top.
@@ -55,4 +55,4 @@ bus::Bytes Intake::take_out(std::size_t count) {
   return bytes_.take(count);
 }
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

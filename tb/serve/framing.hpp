@@ -10,7 +10,7 @@
 #include "bus/bytes.hpp"
 #include "tb/serve/byte_queue.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 using WallClock = std::chrono::steady_clock;
 using WallTime = WallClock::time_point;
@@ -55,4 +55,4 @@ class Intake {
   WallTime begun_{}, last_{};  ///< when the first byte came, and the last
 };
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <utility>
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 namespace {
 
@@ -100,4 +100,4 @@ pollfd HostConnection::watched(bool reading) const {
   return {peer_, static_cast<short>((reading ? POLLIN : 0) | (kept_.empty() ? 0 : POLLOUT)), 0};
 }
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

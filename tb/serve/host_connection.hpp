@@ -11,7 +11,7 @@
 #include "tb/input/descriptor.hpp"
 #include "tb/serve/byte_queue.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 /// The other end has gone, whatever it has left to be read.
 bool hung_up(int fd);
@@ -73,4 +73,4 @@ class HostConnection {
   ByteQueue kept_;          ///< not yet taken by the peer
 };
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

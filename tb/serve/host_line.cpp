@@ -5,7 +5,7 @@
 
 #include "bus/telegram/telegram.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 namespace {
 
 /// The telegram of `bytes` when they are one, else nothing.
@@ -106,4 +106,4 @@ void HostLine::heard(const bus::ReceivedCharacter& character) {
   slot_end_ = 0;  // answered; what follows has to keep T_SYN
 }
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

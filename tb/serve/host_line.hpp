@@ -9,7 +9,7 @@
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 using bus::Tick;
 
@@ -79,4 +79,4 @@ class HostLine : public bus::Agent, private bus::Listener {
   HostLineStatistics statistics_;
 };
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

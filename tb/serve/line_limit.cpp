@@ -1,6 +1,6 @@
 #include "tb/serve/line_limit.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 bool LineLimit::allows(WallTime now) {
   if (count_ == 0) begun_ = now;
@@ -14,4 +14,4 @@ std::uint64_t LineLimit::left_out(WallTime now, bool after) {
   return left_out;
 }
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

@@ -4,7 +4,7 @@
 
 #include "tb/serve/framing.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 /// The first lines of each second are said, the others counted.
 class LineLimit {
@@ -22,4 +22,4 @@ class LineLimit {
   std::uint64_t count_ = 0;  ///< since then, 0: no second has begun
 };
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

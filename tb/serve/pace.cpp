@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 namespace {
 constexpr Tick kNoLag = 2 * bus::kTicksPerMs;  ///< what sleeping and waking take anyway
@@ -48,4 +48,4 @@ void Pace::note(Tick lag) {
   statistics_.error_max_us = std::max(statistics_.error_max_us, error_us);
 }
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

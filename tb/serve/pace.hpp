@@ -8,7 +8,7 @@
 #include "bus/time.hpp"
 #include "tb/serve/framing.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 using bus::Tick;
 
@@ -60,4 +60,4 @@ class Pace {
 std::chrono::nanoseconds to_wall(Tick ticks);
 Tick to_ticks(std::chrono::nanoseconds time);
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

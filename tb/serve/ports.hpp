@@ -6,7 +6,7 @@
 #include "tb/serve/framing.hpp"
 #include "tb/serve/host_connection.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 /// A pseudo-terminal; `link` is a symbolic link to it, removed at the end; empty: none. Warns when the host sets
 /// another speed than `bits_per_second`.
@@ -23,4 +23,4 @@ struct SerialOptions {
 };
 std::unique_ptr<HostConnection> open_serial(const SerialOptions& options);
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

@@ -15,7 +15,7 @@
 #include "tb/serve/ports.hpp"
 #include "tb/serve/termios2.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 namespace {
 
 namespace fs = std::filesystem;
@@ -121,4 +121,4 @@ std::unique_ptr<HostConnection> open_pty(const std::string& link, int bits_per_s
   return std::make_unique<PtyPort>(link, bits_per_second);
 }
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

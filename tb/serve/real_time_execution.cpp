@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 namespace {
 
 constexpr Tick kSlice = bus::kTicksPerMs;
@@ -142,4 +142,4 @@ Pacing RealTimeExecution::pacing() const {
   return pacing;
 }
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

@@ -11,7 +11,7 @@
 #include "tb/serve/line_limit.hpp"
 #include "tb/serve/pace.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 /// Simulated time follows real time in slices of at most 1 ms, 0.1 ms while something is on the line, and sleeps in
 /// between. It stands still while a telegram of the host has begun and is not complete (Intake), and catches up
@@ -64,4 +64,4 @@ class RealTimeExecution : public Execution {
   bool told_ = false;
 };
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

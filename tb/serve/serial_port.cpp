@@ -11,7 +11,7 @@
 #include "tb/serve/ports.hpp"
 #include "tb/serve/termios2.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 namespace {
 
 class SerialPort : public HostConnection {
@@ -83,6 +83,8 @@ class SerialPort : public HostConnection {
 
 }  // namespace
 
-std::unique_ptr<HostConnection> open_serial(const SerialOptions& options) { return std::make_unique<SerialPort>(options); }
+std::unique_ptr<HostConnection> open_serial(const SerialOptions& options) {
+  return std::make_unique<SerialPort>(options);
+}
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

@@ -8,7 +8,7 @@
 #include "tb/serve/ports.hpp"
 #include "tb/socket/tcp_listener.hpp"
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 namespace {
 
 /// A host that has connected.
@@ -104,6 +104,8 @@ class TcpPort : public HostConnection {
 
 }  // namespace
 
-std::unique_ptr<HostConnection> open_tcp(const std::string& bind, int port) { return std::make_unique<TcpPort>(bind, port); }
+std::unique_ptr<HostConnection> open_tcp(const std::string& bind, int port) {
+  return std::make_unique<TcpPort>(bind, port);
+}
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

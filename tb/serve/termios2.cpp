@@ -11,7 +11,7 @@
 #define TIOCM_RTS 0x004
 #endif
 
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 namespace {
 
 using Flags = tcflag_t;
@@ -73,4 +73,4 @@ void discard_input(int fd) { ioctl(fd, TCFLSH, TCIFLUSH); }
 
 bool drain(int fd) { return ioctl(fd, TCSBRK, 1) == 0; }
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

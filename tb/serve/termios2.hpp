@@ -1,7 +1,7 @@
 #pragma once
 // Serial line settings with any baud rate (Linux termios2), apart because its header does not go together with
 // <termios.h>.
-namespace tb::serve {
+namespace dsdpv1::tb::serve {
 
 /// Raw, 8 data bits, even parity, 1 stop bit, modem lines ignored, `bits_per_second`. False, with errno, when the
 /// device refuses.
@@ -24,4 +24,4 @@ void discard_input(int fd);
 /// Waits until the last stop bit has left. False, with errno, when that fails.
 bool drain(int fd);
 
-}  // namespace tb::serve
+}  // namespace dsdpv1::tb::serve

@@ -12,7 +12,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 sockaddr_in address_of(const std::string& who, const std::string& bind, int port) {
@@ -84,4 +84,4 @@ TcpListener::Connection TcpListener::accept() {
   return {fd, text_of(from)};
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

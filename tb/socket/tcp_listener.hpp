@@ -4,7 +4,7 @@
 
 #include "tb/input/descriptor.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 struct TcpOptions {
   int backlog = 4;  ///< connections that the system keeps until they are accepted
@@ -39,4 +39,4 @@ class TcpListener {
   std::string address_;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

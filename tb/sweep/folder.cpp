@@ -7,7 +7,7 @@
 
 #include "tb/campaign/fingerprint.hpp"
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,4 +98,4 @@ void Folder::forget(std::size_t point) const {
   fs::remove(result_file(point), ignored);
 }
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

@@ -11,7 +11,7 @@
 #include "tb/sweep/plan.hpp"
 #include "tb/sweep/point.hpp"
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 
 const campaign::Kind& kind();
 
@@ -46,4 +46,4 @@ class Folder {
   std::string identity_;  ///< its fingerprint, in each point
 };
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

@@ -11,7 +11,7 @@
 
 #include "tb/report/markup.hpp"
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 namespace {
 
 struct Colour {
@@ -265,4 +265,4 @@ std::vector<Picture> heat_maps(const Plan& plan, const std::vector<Point>& point
   return pictures;
 }
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

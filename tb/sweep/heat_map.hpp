@@ -6,7 +6,7 @@
 #include "tb/sweep/plan.hpp"
 #include "tb/sweep/point.hpp"
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 
 struct Picture {
   std::string name;  ///< "map.svg"; of several "map_1.svg", ...
@@ -17,4 +17,4 @@ struct Picture {
 /// right, the second downwards; of three and more parameters there is a picture for each combination of the others.
 std::vector<Picture> heat_maps(const Plan& plan, const std::vector<Point>& points, const std::string& check = "");
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

@@ -3,7 +3,7 @@
 #include "tb/scenario/scenario.hpp"
 #include "tb/sweep/folder.hpp"
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 namespace {
 
 bool names_files(const Parameter& parameter) {
@@ -31,4 +31,4 @@ std::vector<std::string> Inputs::files_of(std::size_t point) const {
   return files;
 }
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

@@ -8,7 +8,7 @@
 #include "tb/campaign/contents.hpp"
 #include "tb/sweep/plan.hpp"
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 
 class Inputs {
  public:
@@ -31,4 +31,4 @@ class Inputs {
   campaign::Contents contents_;
 };
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

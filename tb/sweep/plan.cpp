@@ -11,7 +11,7 @@
 #include "tb/input/units.hpp"
 #include "tb/scenario/settings.hpp"
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 namespace {
 
 using keys::Kind;
@@ -143,4 +143,4 @@ void check(const Plan& plan) {
   }
 }
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

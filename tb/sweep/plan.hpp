@@ -6,7 +6,7 @@
 
 #include "tb/keys/keys.hpp"
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 
 /// A key of the scenario and the values that it takes, as `run --set` understands them.
 struct Parameter {
@@ -46,4 +46,4 @@ struct Plan {
 /// Throws InputError when a key is set or swept twice, no parameter is there, or there are more than 100 000 points.
 void check(const Plan& plan);
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

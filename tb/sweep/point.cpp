@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 namespace {
 
 using Json = nlohmann::json;
@@ -86,4 +86,4 @@ Point point_of(int exit, const std::string& error, const Json& run) {
   return point;
 }
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 
 /// One check of the run; of several slaves the worst.
 struct CheckSeen {
@@ -42,4 +42,4 @@ struct Point {
 /// `run` is the result file of the run, null when there is none.
 Point point_of(int exit, const std::string& error, const nlohmann::json& run);
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

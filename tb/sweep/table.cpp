@@ -8,7 +8,7 @@
 
 #include "tb/report/text_table.hpp"
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -189,4 +189,4 @@ std::string summary(const Plan& plan, const std::vector<Point>& points) {
   return text + "\n" + least_margin(plan, points);
 }
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

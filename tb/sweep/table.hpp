@@ -6,7 +6,7 @@
 #include "tb/sweep/plan.hpp"
 #include "tb/sweep/point.hpp"
 
-namespace tb::sweep {
+namespace dsdpv1::tb::sweep {
 
 /// The ids of the checks of all points, in the order in which they come.
 std::vector<std::string> check_ids(const std::vector<Point>& points);
@@ -19,4 +19,4 @@ std::string csv(const Plan& plan, const std::vector<Point>& points);
 /// the timing holds and does not, and where the first violation begins.
 std::string summary(const Plan& plan, const std::vector<Point>& points);
 
-}  // namespace tb::sweep
+}  // namespace dsdpv1::tb::sweep

@@ -4,7 +4,7 @@
 
 #include "model/systemc/sim_time.hpp"
 
-namespace systemc_bench {
+namespace dsdpv1::systemc_bench {
 namespace {
 
 // A wait that is woken stays in the kernel's queue until its time has come: few do when none is long.
@@ -67,4 +67,4 @@ void TimelineModule::sleep(bus::Tick due) {
     wait(dsdpv1::systemc::time_until(std::min(due, dsdpv1::systemc::current_tick() + kFarthest)), wake_);
 }
 
-}  // namespace systemc_bench
+}  // namespace dsdpv1::systemc_bench

@@ -7,7 +7,7 @@
 #include "bus/timeline.hpp"
 #include "model/systemc/dsdpv1_tlm.hpp"
 
-namespace systemc_bench {
+namespace dsdpv1::systemc_bench {
 
 /// One SC_THREAD that sleeps until the timeline's next action and runs what is due. At equal times the SystemC
 /// processes are first: an agent that looks at tick t sees everything that the chips did up to and including t. Ticks
@@ -48,4 +48,4 @@ class TimelineModule : public sc_core::sc_module {
   sc_core::sc_event wake_{"wake"};
 };
 
-}  // namespace systemc_bench
+}  // namespace dsdpv1::systemc_bench

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 namespace {
 
 std::string side_words(const Signal& signal, const Side& side) {
@@ -19,4 +19,4 @@ std::string what_differs(const Difference& difference) {
                      side_words(signal, difference.here));
 }
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -5,7 +5,7 @@
 
 #include "tb/traces/trace.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 /// What one side does with a signal at the tick of the difference.
 struct Side {
@@ -22,4 +22,4 @@ struct Difference {
 /// "pin READY of io: golden 0, here still 1", "the line: golden still 1, here 0".
 std::string what_differs(const Difference& difference);
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

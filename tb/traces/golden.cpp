@@ -10,7 +10,7 @@
 #include "tb/output/write_file.hpp"
 #include "tb/traces/xz.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ Written write_golden(const std::string& folder, const std::string& name, const N
   return written;
 }
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -9,7 +9,7 @@
 #include "tb/traces/manifest.hpp"
 #include "tb/traces/trace.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 /// The scenario's file without folder and ending.
 std::string golden_name(const std::string& scenario);
@@ -45,4 +45,4 @@ struct Written {
 };
 Written write_golden(const std::string& folder, const std::string& name, const NewGolden& golden);
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

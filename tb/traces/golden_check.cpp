@@ -8,7 +8,7 @@
 #include "bus/telegram/explain.hpp"
 #include "tb/input/units.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 namespace {
 
 constexpr Tick kLongestBits = 255 * 11 + 33;  // the longest telegram, and the pause before it
@@ -121,4 +121,4 @@ std::string GoldenCheck::words() const {
   return text;
 }
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

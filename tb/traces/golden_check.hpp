@@ -11,7 +11,7 @@
 #include "tb/traces/tap.hpp"
 #include "tb/traces/trace.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 /// Told all signals by a Tap, and as an Observer what was on the bus. Compares up to the first difference: at each
 /// tick every signal must change as often and to the same levels as in the golden; in which order signals change within
@@ -67,4 +67,4 @@ class GoldenCheck : public Sink, public Observer {
   bool heard_all_ = false;                  ///< one has ended after it
 };
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 GoldenRun::GoldenRun(const std::string& folder, const scenario::Scenario& scenario, bus::Segment& segment,
                      RunOptions& options) {
@@ -36,4 +36,4 @@ std::string GoldenRun::report() {
   return text;
 }
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -8,7 +8,7 @@
 #include "tb/traces/golden.hpp"
 #include "tb/traces/golden_check.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 class GoldenRun {
  public:
@@ -32,4 +32,4 @@ class GoldenRun {
   std::optional<GoldenCheck> check_;
 };
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -13,7 +13,7 @@
 #include "tb/input/read_file.hpp"
 #include "tb/input/units.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ std::string first_other(const Json& manifest, const Json& present) {
 
 std::string text_of(const Json& manifest) { return manifest.dump(2) + "\n"; }
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

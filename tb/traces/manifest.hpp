@@ -8,7 +8,7 @@
 #include "tb/scenario/scenario.hpp"
 #include "tb/traces/trace.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 using Json = nlohmann::ordered_json;
 
@@ -35,4 +35,4 @@ std::string first_other(const Json& manifest, const Json& present);
 /// As the file holds it.
 std::string text_of(const Json& manifest);
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

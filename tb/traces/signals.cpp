@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 Signals signals_of(const scenario::Scenario& scenario) {
   Signals signals;
@@ -20,4 +20,4 @@ std::string level_words(const Signal& signal, Level level) {
   return signal.width == 1 ? fmt::format("{}", level) : fmt::format("{:0{}X}", level, (signal.width + 3) / 4);
 }
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -6,7 +6,7 @@
 
 #include "tb/scenario/scenario.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 struct Signal {
   enum class Kind : std::uint8_t { kInput, kOutput, kLine };  ///< inputs and outputs are the chip's
@@ -27,4 +27,4 @@ Signals signals_of(const scenario::Scenario& scenario);
 /// "1", "7FF", "Z", "X".
 std::string level_words(const Signal& signal, Level level);
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -1,6 +1,6 @@
 #include "tb/traces/tap.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 Tap::Tap(const scenario::Scenario& scenario, bus::Segment& segment)
     : segment_(segment), pins_(scenario.kind->pins().size()), line_(scenario.slaves.size() * pins_) {
@@ -15,4 +15,4 @@ void Tap::begins(std::size_t slave, const ChipView& chip) {
   }
 }
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -6,7 +6,7 @@
 #include "tb/bench/observer.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 /// Hears signals, numbered as in signals_of.
 class Sink {
@@ -36,4 +36,4 @@ class Tap : public Observer, private bus::Listener {
   std::vector<Sink*> sinks_;
 };
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -8,7 +8,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 namespace {
 
 constexpr const char* kMagic = "golden trace 1";
@@ -166,4 +166,4 @@ std::vector<Cursor> Trace::cursors() const {
   return cursors;
 }
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

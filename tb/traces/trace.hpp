@@ -8,7 +8,7 @@
 #include "tb/traces/signals.hpp"
 #include "tb/traces/tap.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 /// Largest trace that is read.
 constexpr std::size_t kMostBytes = 256U << 20U;
@@ -81,4 +81,4 @@ class Trace {
   Tick end_ = 0;
 };
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -5,7 +5,7 @@
 
 #include "tb/waves/wave_writer.hpp"
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 namespace {
 
 std::vector<WaveWriter::Signal> declare(const Signals& signals, WaveWriter& writer) {
@@ -35,4 +35,4 @@ void write_wave(const Trace& trace, const std::string& path) {
   writer->finish(trace.end());
 }
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 namespace {
 
 constexpr std::uint32_t kPreset = 6;
@@ -72,4 +72,4 @@ Decompressed decompress(std::string_view file, std::size_t most) {
   return result;
 }
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

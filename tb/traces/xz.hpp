@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace tb::traces {
+namespace dsdpv1::tb::traces {
 
 std::string compress(std::string_view content);
 
@@ -15,4 +15,4 @@ struct Decompressed {
 /// At most `most` bytes.
 Decompressed decompress(std::string_view file, std::size_t most);
 
-}  // namespace tb::traces
+}  // namespace dsdpv1::tb::traces

@@ -7,7 +7,7 @@
 
 #include "bus/time.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 using bus::Tick;
 
@@ -46,4 +46,4 @@ struct AcyclicOptions {
   bool any() const { return !objects.empty() || im0.has_value(); }
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

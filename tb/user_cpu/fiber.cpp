@@ -13,7 +13,7 @@
 #include <sanitizer/common_interface_defs.h>
 #endif
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 namespace {
 
@@ -94,4 +94,4 @@ void Fiber::run_body() {
   switch_out(true);
 }
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

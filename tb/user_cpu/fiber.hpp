@@ -10,7 +10,7 @@
 #include <functional>
 #include <memory>
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 /// Neither copied nor moved; used from one thread.
 class Fiber {
@@ -48,4 +48,4 @@ class Fiber {
   std::size_t outside_bytes_ = 0;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

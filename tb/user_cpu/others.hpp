@@ -1,7 +1,7 @@
 #pragma once
 #include "bus/time.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 using bus::Tick;
 
@@ -15,4 +15,4 @@ class Others {
   virtual bool go_on(Tick tick) = 0;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

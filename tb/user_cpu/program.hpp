@@ -11,7 +11,7 @@
 #include "tb/user_cpu/acyclic.hpp"
 #include "tb/user_cpu/station_config.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 /// What the inputs are made of.
 enum class InputSource : std::uint8_t {
@@ -153,4 +153,4 @@ struct UserCounters {
   }
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

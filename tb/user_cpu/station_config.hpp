@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 /// What the user CPU tells its chip. Defaults: a station with one byte in, one byte out.
 struct StationConfig {
@@ -19,4 +19,4 @@ struct StationConfig {
   std::vector<std::uint8_t> cfg = {0x10, 0x20};    ///< at most max_cfg bytes
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

@@ -11,7 +11,7 @@
 #include "tb/user_cpu/others.hpp"
 #include "tb/user_cpu/program.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 /// What a board with a processor of its own tells at the end.
 struct BoardReport {
@@ -57,4 +57,4 @@ class StationCpu : public bus::Agent {
   Others* others_ = nullptr;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

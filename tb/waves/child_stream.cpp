@@ -11,7 +11,7 @@
 #include <csignal>
 #include <system_error>
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 constexpr std::size_t kBuffer = std::size_t{1} << 20U;
@@ -65,4 +65,4 @@ bool ChildStream::read_more(char* to, std::size_t size) {
   return true;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -11,7 +11,7 @@
 
 #include "tb/input/descriptor.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class ChildStream {
  public:
@@ -44,4 +44,4 @@ class ChildStream {
   std::size_t at_ = 0, have_ = 0;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

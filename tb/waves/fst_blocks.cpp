@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 constexpr std::streamoff kVariables = 40;  // where the header's block counts them, after its tag and length
@@ -56,4 +56,4 @@ FstBlocks fst_blocks(const std::string& path) {
   return blocks;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

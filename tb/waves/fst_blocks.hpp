@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 struct FstBlocks {
   unsigned changes = 0;
@@ -16,4 +16,4 @@ struct FstBlocks {
 
 FstBlocks fst_blocks(const std::string& path);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -9,7 +9,7 @@
 #include "tb/waves/fst_io.h"
 #include "tb/waves/recover.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 namespace {
 
@@ -131,4 +131,4 @@ void FstFile::finish() {
   part_.place();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

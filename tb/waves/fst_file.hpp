@@ -8,7 +8,7 @@
 
 #include "tb/output/part_file.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class FstFile {
  public:
@@ -58,4 +58,4 @@ class FstFile {
   bool ends_block_ = false;  ///< at the next change of time
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 struct CloseFst {
   void operator()(void* reader) const { fstReaderClose(reader); }
@@ -14,4 +14,4 @@ using FstHandle = std::unique_ptr<void, CloseFst>;
 
 inline FstHandle open_fst(const std::string& path) { return FstHandle(fstReaderOpen(path.c_str())); }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

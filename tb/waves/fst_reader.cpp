@@ -8,7 +8,7 @@
 #include "tb/waves/level_text.hpp"
 #include "tb/waves/wave_name.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 /// Of a file that is compressed as a whole (GHDL; vvp -fst-space): it is unpacked in memory.
@@ -216,4 +216,4 @@ double FstReader::share() const {
   return last_ > begin_ ? static_cast<double>(now_ - begin_) / static_cast<double>(last_ - begin_) : 0;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

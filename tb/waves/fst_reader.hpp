@@ -7,7 +7,7 @@
 #include "tb/waves/wave_name.hpp"
 #include "tb/waves/wave_reader.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class FstReader : public WaveReader {
  public:
@@ -38,4 +38,4 @@ class FstReader : public WaveReader {
   std::uint64_t begin_ = 0, last_ = 0, now_ = 0;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

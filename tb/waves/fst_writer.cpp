@@ -5,7 +5,7 @@
 
 #include "tb/waves/level_text.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 namespace {
 
@@ -72,4 +72,4 @@ void FstWriter::finish(Picoseconds end) {
   file_.finish();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

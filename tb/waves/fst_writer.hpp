@@ -5,7 +5,7 @@
 #include "tb/waves/fst_file.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// GTKWave's Fast Signal Trace, written with the fstapi library that comes with Verilator.
 class FstWriter : public WaveWriter {
@@ -36,4 +36,4 @@ class FstWriter : public WaveWriter {
   bus::Tick moved_to_ = -1;  ///< where the file is
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

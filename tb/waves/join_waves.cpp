@@ -10,7 +10,7 @@
 #include "tb/waves/wave_reader.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 constexpr int kPicosecond = -12;
@@ -152,4 +152,4 @@ void join_waves(const std::vector<WavePart>& parts, const std::string& to) {
   writer->finish(Picoseconds{first.end()});
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

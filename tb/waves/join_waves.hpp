@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// A wave of this program, or one of another that counts picoseconds.
 struct WavePart {
@@ -17,4 +17,4 @@ struct WavePart {
 /// cannot be written.
 void join_waves(const std::vector<WavePart>& parts, const std::string& to);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

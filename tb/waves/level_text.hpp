@@ -5,7 +5,7 @@
 
 #include "tb/waves/wave_writer.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// The wires of a level as characters 0, 1, x, z, the highest first, ended by a zero byte.
 inline std::array<char, 33> level_text(int level, int width) {
@@ -43,4 +43,4 @@ constexpr char level_of(char c) {
   }
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -5,7 +5,7 @@
 #include "tb/waves/fst_writer.hpp"
 #endif
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 bool ends_with(const std::string& text, const std::string& ending) {
@@ -34,4 +34,4 @@ std::unique_ptr<WaveWriter> open_wave(const std::string& path, const std::string
   return std::make_unique<VcdWriter>(path, date);
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

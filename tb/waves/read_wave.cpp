@@ -13,7 +13,7 @@
 #include "tb/waves/fst_reader.hpp"
 #endif
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 constexpr const char* kAllowed = ", allowed is a wave, VCD or FST";
@@ -42,4 +42,4 @@ std::unique_ptr<WaveReader> read_wave(const std::string& path) {
 #endif
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -9,7 +9,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/output/output_file.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 constexpr std::size_t kFstVersion = 74;  // place of the author in an FST file
@@ -74,4 +74,4 @@ std::uint64_t recover_vcd(const std::string& part, const std::string& output) {
   return whole.time;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

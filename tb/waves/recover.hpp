@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// With what this program's waves begin the text about their version.
 inline constexpr const char* kWaveAuthor = "dsdpv1-sim ";
@@ -20,4 +20,4 @@ std::uint64_t recover_fst(const std::string& part, const std::string& output);
 /// Whether a file that was just written is an FST file from its first block to its last.
 bool fst_is_complete(const std::string& path);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -12,7 +12,7 @@
 #include "tb/waves/fst_handle.hpp"
 #include "tb/waves/recover.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 void ignore(void* /*file*/, std::uint64_t /*time*/, fstHandle /*signal*/, const unsigned char* /*value*/) {}
@@ -88,4 +88,4 @@ std::uint64_t recover_fst(const std::string& part, const std::string& output) {
   return end;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -11,7 +11,7 @@
 #include "tb/waves/wave_reader.hpp"
 #include "tb/waves/wave_selection.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 /// 2^31 ps for 200 points of the screen, some 10 ms in a window: GTKWave knows no "all of it", as Surfer does.
@@ -148,4 +148,4 @@ void write_save_files(const std::string& wave, const std::vector<SignalGroup>& g
   write_file(files.surfer, surfer + "zoom_fit\n");
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

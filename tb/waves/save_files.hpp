@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Signals of a station that belong together, by their names in its scope.
 struct SignalGroup {
@@ -23,4 +23,4 @@ SaveFiles save_files_of(const std::string& wave);
 /// what is in no group, then the scopes in it; what stands deeper is left to the viewer's tree. Throws InputError.
 void write_save_files(const std::string& wave, const std::vector<SignalGroup>& groups);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

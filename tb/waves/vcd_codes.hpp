@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Codes of up to three characters, which are nearly all, are places of a table.
 class VcdCodes {
@@ -51,4 +51,4 @@ class VcdCodes {
   std::unordered_map<std::string_view, std::uint32_t> long_;  ///< its keys are in texts_
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -6,7 +6,7 @@
 #include <array>
 #include <charconv>
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 /// "1ns", "100 ps": the exponent of its seconds.
@@ -119,4 +119,4 @@ std::uint32_t VcdDeclarations::signal(const std::string& code, const WaveSignal&
   return place;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -5,7 +5,7 @@
 #include "tb/waves/wave_name.hpp"
 #include "tb/waves/wave_reader.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Reads them up to and including $enddefinitions; throws InputError.
 class VcdDeclarations {
@@ -33,4 +33,4 @@ class VcdDeclarations {
   std::size_t names_ = 0;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -7,7 +7,7 @@
 #include "tb/waves/level_text.hpp"
 #include "tb/waves/vcd_declarations.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 VcdReader::VcdReader(const std::string& path) : text_(path) {
   declarations_.exponent = -9;  // where nothing is said
@@ -119,4 +119,4 @@ void VcdReader::refuse(std::string_view word) const {
              "\" is no change, allowed are #TIME, 0 1 x z with a code, b..., r... or s... and a code, $dump...");
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

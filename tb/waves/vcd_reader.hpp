@@ -4,7 +4,7 @@
 #include "tb/waves/vcd_text.hpp"
 #include "tb/waves/wave_reader.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class VcdReader : public WaveReader {
  public:
@@ -40,4 +40,4 @@ class VcdReader : public WaveReader {
   std::uint64_t now_ = 0;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

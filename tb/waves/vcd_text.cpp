@@ -11,7 +11,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 constexpr std::size_t kBuffer = std::size_t{8} << 20U;
@@ -67,4 +67,4 @@ double VcdText::share() const {
   return std::min(1.0, taken / static_cast<double>(size_));
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -9,7 +9,7 @@
 
 #include "tb/input/descriptor.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 class VcdText {
  public:
@@ -53,4 +53,4 @@ class VcdText {
   std::uint64_t size_ = 0, read_ = 0;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -8,7 +8,7 @@
 #include "tb/waves/level_text.hpp"
 #include "tb/waves/recover.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 // Readers that do not know `string` variables (sigrok) skip their values, and take the short name behind for something
@@ -96,4 +96,4 @@ void VcdWriter::finish(Picoseconds end) {
   file_.commit();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -6,7 +6,7 @@
 #include "tb/output/output_file.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Value Change Dump, IEEE 1364-2005 clause 18. Words use the `string` extension that GTKWave and Surfer read.
 class VcdWriter : public WaveWriter {
@@ -42,4 +42,4 @@ class VcdWriter : public WaveWriter {
   std::optional<std::uint64_t> time_;  ///< the last in the file; nullopt: still declaring
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

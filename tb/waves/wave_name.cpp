@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 std::optional<int> number(std::string_view text) {
@@ -61,4 +61,4 @@ bool WaveScopes::close() {
   return true;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -9,7 +9,7 @@
 
 #include "tb/waves/wave_reader.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 struct WaveName {
   std::string name;
@@ -37,4 +37,4 @@ class WaveScopes {
   std::unordered_map<std::string, std::uint32_t> known_;
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace tb {
+namespace dsdpv1::tb {
 
 enum class WaveKind : std::uint8_t { kBits, kReal, kText };
 
@@ -74,4 +74,4 @@ class WaveReader {
 /// or one that is damaged, cut, or larger than the limits above.
 std::unique_ptr<WaveReader> read_wave(const std::string& path);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

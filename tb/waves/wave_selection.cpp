@@ -11,7 +11,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 constexpr bus::Tick kHalfCycle = bus::kTicksPerCycle / 2;
@@ -206,4 +206,4 @@ void SelectedWave::finish(bus::Tick end) {
   writer_->finish(open_ || selection_.on_trigger || !has_window() ? end : selection_.to);
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -10,7 +10,7 @@
 
 #include "tb/waves/wave_writer.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// The scope of CLK.
 constexpr const char* kClockScope = "clock";
@@ -103,4 +103,4 @@ class SelectedWave {
   bus::Tick next_clock_ = 0;  ///< the next change of CLK
 };
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

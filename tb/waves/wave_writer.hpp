@@ -8,7 +8,7 @@
 
 #include "bus/time.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Picoseconds since the start, rounded to the nearest.
 constexpr std::uint64_t picoseconds(bus::Tick tick) { return (static_cast<std::uint64_t>(tick) * 500 + 3) / 6; }
@@ -66,4 +66,4 @@ std::unique_ptr<WaveWriter> open_wave(const std::string& path, const std::string
 /// Checks the ending alone, before a run is started: the same errors.
 void check_wave_name(const std::string& path);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -11,6 +11,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using app_test::call;
@@ -266,3 +267,4 @@ TEST(ArmBoard, FaultEndsTheRunWithTheSourceLine) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

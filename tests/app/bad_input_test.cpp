@@ -6,6 +6,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,3 +48,4 @@ INSTANTIATE_TEST_SUITE_P(Cases, BadInput, testing::ValuesIn(cases()));
 TEST(BadInputCases, AreAtLeastThirty) { EXPECT_GE(cases().size(), 30U); }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -12,6 +12,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -138,6 +139,21 @@ TEST_F(HandOver, WithoutTheProgramOneLineSaysWhatIsMissing) {
   EXPECT_EQ(call("run native.yaml --no-progress", folder_.path(), program).status, 0);
 }
 
+/// A copy of the program whose Unicorn has a name that no library has.
+TEST_F(HandOver, WithoutALibraryOfTheProgramOneLineSaysWhichIsMissing) {
+  const std::string program = copy_of_sim();
+  std::string board = read(kBoard);
+  for (std::size_t at = 0; (at = board.find("libunicorn.so", at)) != std::string::npos;)
+    board.replace(at, 10, "libabsent_");
+  std::ofstream(file("bin/dsdpv1-board"), std::ios::binary) << board;
+  fs::permissions(file("bin/dsdpv1-board"), fs::perms::owner_exec, fs::perm_options::add);
+  const Called called = call("run s.yaml --no-progress --result r.json", folder_.path(), program);
+  EXPECT_EQ(called.status, 2);
+  EXPECT_EQ(called.err, "dsdpv1-sim: " + file("bin/dsdpv1-board") +
+                            " cannot be started: its library libabsent_.so.2 is not installed\n");
+  EXPECT_FALSE(fs::exists(file("r.json")));
+}
+
 TEST_F(HandOver, TheProgramIsFoundInLibexecAndInPath) {
   const std::string program = copy_of_sim();
   const auto run = [&] { return call("run s.yaml --no-progress --quiet", folder_.path(), program).status; };
@@ -153,3 +169,4 @@ TEST_F(HandOver, TheProgramIsFoundInLibexecAndInPath) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

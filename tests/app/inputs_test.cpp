@@ -9,6 +9,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using app_test::call;
@@ -128,3 +129,4 @@ TEST_F(Inputs, StackThatMayGrowGrows) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

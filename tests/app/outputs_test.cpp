@@ -9,6 +9,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using app_test::call;
@@ -262,3 +263,4 @@ TEST_F(Outputs, InterruptedRunLeavesCompleteFilesAndExits130) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

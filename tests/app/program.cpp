@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace app_test {
+namespace dsdpv1::app_test {
 
 namespace fs = std::filesystem;
 
@@ -45,4 +45,4 @@ Folder::Folder() {
 
 Folder::~Folder() { fs::remove_all(path_); }
 
-}  // namespace app_test
+}  // namespace dsdpv1::app_test

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace app_test {
+namespace dsdpv1::app_test {
 
 struct Called {
   int status = 0;  ///< exit code, 128 + signal when it was killed
@@ -33,4 +33,4 @@ class Folder {
   std::filesystem::path path_;
 };
 
-}  // namespace app_test
+}  // namespace dsdpv1::app_test

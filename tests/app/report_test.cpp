@@ -7,6 +7,7 @@
 #include "tb/report/summary.hpp"
 #include "tb/waves/wave_writer.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 TEST(Nanoseconds, AreRoundedOnceFromTheTick) {
@@ -57,3 +58,4 @@ TEST(Summary, ListsWhatWasRefused) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

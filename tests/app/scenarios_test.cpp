@@ -11,6 +11,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using app_test::call;
@@ -110,3 +111,4 @@ INSTANTIATE_TEST_SUITE_P(All, BaudRates,
                                          "9.6k"));
 
 }  // namespace
+}  // namespace dsdpv1

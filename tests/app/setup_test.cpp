@@ -4,6 +4,7 @@
 #include "tb/bench/setup.hpp"
 #include "tb/input/input_error.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 const std::string kFile = DSDPV1_SOURCE_DIR "/scenarios/test.yaml";
@@ -73,3 +74,4 @@ TEST(WatchdogFactors, GiveTheLeastTimeThatIsNotShorter) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -124,6 +124,8 @@ def faults_of_regress(folder, sim):
         yield f"regress through a pipe: {piped!r}"
     if GREEN + "  passed  " not in table or "\t" in table or len(widest_of_tables(table)) > 60:
         yield f"regress on a terminal: {table!r}"
+    if GREEN + "  verdict   passed" not in (blocks := on_terminal(folder, command, 30)):
+        yield f"regress on a narrow terminal: {blocks!r}"
 
 
 def main():

@@ -12,7 +12,7 @@
 
 #include "tests/app/program.hpp"
 
-namespace app_test {
+namespace dsdpv1::app_test {
 namespace {
 
 using testing::Contains;
@@ -176,4 +176,4 @@ TEST(WaveOptions, ClkRisesAtEachCycleOfTheWindow) {
 }
 
 }  // namespace
-}  // namespace app_test
+}  // namespace dsdpv1::app_test

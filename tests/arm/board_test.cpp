@@ -11,11 +11,10 @@
 
 #include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Tick;
-using dsdpv1::Level;
-using dsdpv1::Pin;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -381,3 +380,4 @@ TEST_F(BoardTest, EndsInTheMiddleOfAnAccess) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

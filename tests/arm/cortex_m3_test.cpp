@@ -7,7 +7,7 @@
 #include "tb/user_cpu/fiber.hpp"
 #include "tests/arm/processor_bench.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 using testing::ElementsAre;
@@ -204,4 +204,4 @@ TEST_F(Execution, LoadRefusesWhatIsNeitherFlashNorRam) {
 }
 
 }  // namespace
-}  // namespace arm
+}  // namespace dsdpv1::arm

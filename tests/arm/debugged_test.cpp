@@ -5,7 +5,7 @@
 
 #include "tests/arm/processor_bench.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 using testing::ElementsAre;
@@ -157,4 +157,4 @@ TEST_F(Debugged, IsPolledNowAndThen) {
 }
 
 }  // namespace
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -10,7 +10,7 @@
 #include "small_elf.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace arm::test {
+namespace dsdpv1::arm::test {
 namespace {
 
 using testing::AllOf;
@@ -222,4 +222,4 @@ TEST(ElfImage, AnyCorruptByteGivesOneLineOrAnImageInsideTheMemories) {
 }
 
 }  // namespace
-}  // namespace arm::test
+}  // namespace dsdpv1::arm::test

@@ -5,7 +5,7 @@
 
 #include "tests/arm/processor_bench.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 using testing::ElementsAre;
@@ -267,4 +267,4 @@ TEST_F(Faults, WithoutProgramTheRunEndsAtOnce) {
 }
 
 }  // namespace
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace arm::test {
+namespace dsdpv1::arm::test {
 namespace {
 
 constexpr MemoryRange kFlash{0x0800'0000, 4096}, kRam{0x2000'0000, 65536};
@@ -94,4 +94,4 @@ bool FakeTarget::report_data_accesses(bool on) {
   return watchable;
 }
 
-}  // namespace arm::test
+}  // namespace dsdpv1::arm::test

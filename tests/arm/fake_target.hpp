@@ -8,7 +8,7 @@
 #include "tb/dsdpv1/user_cpu/arm/debug_target.hpp"
 #include "tb/dsdpv1/user_cpu/arm/elf_image.hpp"
 
-namespace arm::test {
+namespace dsdpv1::arm::test {
 
 class FakeTarget final : public DebugTarget {
  public:
@@ -52,4 +52,4 @@ class FakeTarget final : public DebugTarget {
   bool ended_ = false, reports_ = false, reset_requested_ = false;
 };
 
-}  // namespace arm::test
+}  // namespace dsdpv1::arm::test

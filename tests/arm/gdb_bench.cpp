@@ -9,7 +9,7 @@
 
 #include <cerrno>
 
-namespace arm::test {
+namespace dsdpv1::arm::test {
 namespace {
 
 constexpr time_t kPatienceSeconds = 20;
@@ -102,4 +102,4 @@ std::string RawGdb::ask(const std::string& packet) {
   return reply();
 }
 
-}  // namespace arm::test
+}  // namespace dsdpv1::arm::test

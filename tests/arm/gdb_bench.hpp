@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "fake_target.hpp"
-#include "tb/input/descriptor.hpp"
 #include "tb/dsdpv1/user_cpu/arm/gdb_server.hpp"
+#include "tb/input/descriptor.hpp"
 
-namespace arm::test {
+namespace dsdpv1::arm::test {
 
 constexpr std::uint64_t kForEver = 1ULL << 60;  // instructions; stop() ends such a run
 
@@ -66,4 +66,4 @@ class RawGdb {
   tb::Descriptor socket_;
 };
 
-}  // namespace arm::test
+}  // namespace dsdpv1::arm::test

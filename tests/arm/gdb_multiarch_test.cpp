@@ -9,7 +9,7 @@
 
 #include "gdb_bench.hpp"
 
-namespace arm::test {
+namespace dsdpv1::arm::test {
 namespace {
 
 using testing::ContainsRegex;
@@ -95,4 +95,4 @@ TEST(GdbMultiarch, EndsTheRunWithKill) {
 }
 
 }  // namespace
-}  // namespace arm::test
+}  // namespace dsdpv1::arm::test

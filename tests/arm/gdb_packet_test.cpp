@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 using Kind = GdbInput::Kind;
@@ -99,4 +99,4 @@ TEST(GdbPacket, NumbersHaveUpTo32Bits) {
 }
 
 }  // namespace
-}  // namespace arm
+}  // namespace dsdpv1::arm

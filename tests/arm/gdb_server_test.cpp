@@ -10,7 +10,7 @@
 #include "gdb_bench.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace arm::test {
+namespace dsdpv1::arm::test {
 namespace {
 
 using testing::AllOf;
@@ -485,4 +485,4 @@ TEST_F(GdbServerTest, PortInUseIsOneLine) {
 }
 
 }  // namespace
-}  // namespace arm::test
+}  // namespace dsdpv1::arm::test

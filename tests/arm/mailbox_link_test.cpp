@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+namespace dsdpv1 {
 namespace {
 
 class MailboxLinkTest : public testing::Test {
@@ -103,3 +104,4 @@ TEST_F(MailboxLinkTest, FirmwareThatBeganAgainCountsItsErrorsAgain) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

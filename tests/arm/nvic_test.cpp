@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 constexpr unsigned kIrq0 = kFirstInterrupt;
@@ -140,4 +140,4 @@ TEST(Nvic, ResetForgetsEverything) {
 }
 
 }  // namespace
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 std::uint32_t NotingSystem::load(std::uint32_t address, unsigned bytes) {
   std::uint32_t value = 0;
@@ -86,4 +86,4 @@ std::uint32_t ProcessorBench::ram_word(std::uint32_t address) {
   return word;
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -11,7 +11,7 @@
 
 #include "tb/dsdpv1/user_cpu/arm/cortex_m3.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 struct Access {
   bool write;
@@ -62,4 +62,4 @@ class ProcessorBench : public testing::Test {
 
 std::vector<std::uint8_t> read_program(const std::string& name);
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace arm::test {
+namespace dsdpv1::arm::test {
 namespace {
 
 template <typename T>
@@ -88,4 +88,4 @@ std::vector<std::uint8_t> SmallElf::bytes() const {
   return file;
 }
 
-}  // namespace arm::test
+}  // namespace dsdpv1::arm::test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace arm::test {
+namespace dsdpv1::arm::test {
 
 struct SmallElf {
   Elf32_Ehdr header;
@@ -24,4 +24,4 @@ struct SmallElf {
 /// Little endian.
 std::vector<std::uint8_t> words(const std::vector<std::uint32_t>& values);
 
-}  // namespace arm::test
+}  // namespace dsdpv1::arm::test

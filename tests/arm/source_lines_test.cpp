@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 /// The line of the test's firmware that bears this mark.
@@ -82,4 +82,4 @@ TEST(SourceLines, DamagedDebugInformationIsSurvived) {
 }
 
 }  // namespace
-}  // namespace arm
+}  // namespace dsdpv1::arm

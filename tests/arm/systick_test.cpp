@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 constexpr std::uint32_t kCtrl = 0x10, kLoad = 0x14, kVal = 0x18, kCalib = 0x1C;
@@ -99,4 +99,4 @@ TEST(SysTickTimer, WithoutReloadItStopsAtZero) {
 TEST(SysTickTimer, CalibrationIsAMillisecondOfTheExternalClock) { EXPECT_EQ(SysTick().peek(kCalib, 0), 9000U); }
 
 }  // namespace
-}  // namespace arm
+}  // namespace dsdpv1::arm

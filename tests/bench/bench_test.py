@@ -196,9 +196,10 @@ class Page(unittest.TestCase):
 
     def test_samples_of_a_run_go_to_the_part_of_their_function(self):
         printed = """# Overhead  Shared Object  Symbol
-            20.00%  dsdpv1-sim                [.] dsdpv1::Chip::Impl::advance
-             5.00%  dsdpv1-board              [.] non-virtual thunk to tb::PinChip::next() const
-             4.00%  dsdpv1-sim                [.] std::_Function_handler<void (bus::ReceivedCharacter const&), bus::Monitor::Monitor(bus::Segment&)>::_M_invoke
+            12.00%  dsdpv1-sim                [.] dsdpv1::Chip::Impl::advance
+             8.00%  dsdpv1-sim                [.] dsdpv1::profibus::UartRx::eval
+             5.00%  dsdpv1-board              [.] non-virtual thunk to dsdpv1::tb::PinChip::next() const
+             4.00%  dsdpv1-sim                [.] std::_Function_handler<void (dsdpv1::bus::ReceivedCharacter const&), dsdpv1::bus::Monitor::Monitor(dsdpv1::bus::Segment&)>::_M_invoke
              3.00%  dsdpv1-sim                [.] fstWriterEmitValueChange
              2.00%  libsystemc-2.3.4.so       [.] sc_core::sc_event::trigger
              1.00%  dsdpv1-sim                [.] sc_core::sc_signal<bool, (sc_core::sc_writer_policy)0>::write

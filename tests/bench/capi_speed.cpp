@@ -7,10 +7,9 @@
 #include "tests/bench/saturated_bus.hpp"
 #include "tests/bench/stopwatch.hpp"
 
+namespace dsdpv1 {
 namespace {
 
-using dsdpv1::Level;
-using dsdpv1::Pin;
 using profibus::Tick;
 using speed::Failure;
 using speed::Stopwatch;
@@ -138,10 +137,11 @@ double changes_a_second() {
 }
 
 }  // namespace
+}  // namespace dsdpv1
 
 int main(int argc, char** argv) {
-  return speed::run_rows(argc, argv,
-                         {{"c_api", [] { return share_of_core(true); }},
-                          {"c_api_edges", [] { return share_of_core(false); }},
-                          {"c_api_changes", changes_a_second}});
+  return dsdpv1::speed::run_rows(argc, argv,
+                                 {{"c_api", [] { return dsdpv1::share_of_core(true); }},
+                                  {"c_api_edges", [] { return dsdpv1::share_of_core(false); }},
+                                  {"c_api_changes", dsdpv1::changes_a_second}});
 }

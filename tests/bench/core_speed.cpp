@@ -13,27 +13,27 @@ namespace {
 std::size_t allocated = 0;  // by operator new below
 
 using dsdpv1::Chip;
-using speed::Failure;
-using speed::kTicksPerSecond;
-using speed::Stopwatch;
-using Bus = speed::SaturatedBus<Chip>;
+using dsdpv1::speed::Failure;
+using dsdpv1::speed::kTicksPerSecond;
+using dsdpv1::speed::Stopwatch;
+using Bus = dsdpv1::speed::SaturatedBus<Chip>;
 
-using profibus::Tick;
+using dsdpv1::profibus::Tick;
 
 constexpr Tick kSlice = 12'000'000;  // a millisecond
 constexpr double kMeasured = 0.3;    // seconds
 
 /// A chip that is told every change of the line.
 struct EdgeChip : Chip {
-  static bool hear(Tick /*at*/, const profibus::CharacterRun& /*run*/) { return false; }
+  static bool hear(Tick /*at*/, const dsdpv1::profibus::CharacterRun& /*run*/) { return false; }
 };
 
 template <class Device = Chip>
-double saturated(int io, double seconds = kMeasured, std::uint32_t watched = speed::PinCounter::kWatched) {
+double saturated(int io, double seconds = kMeasured, std::uint32_t watched = dsdpv1::speed::PinCounter::kWatched) {
   Device chip;
-  speed::SaturatedBus<Device> bus(chip, io);
+  dsdpv1::speed::SaturatedBus<Device> bus(chip, io);
   bus.start();
-  speed::PinCounter counter;
+  dsdpv1::speed::PinCounter counter;
   chip.watch(counter.sink(), watched);
   const Tick begin = bus.now();
   const Stopwatch watch;
@@ -95,14 +95,14 @@ void operator delete(void* block) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
 int main(int argc, char** argv) {
-  return speed::run_rows(argc, argv,
-                         {{"core_2", [] { return saturated(2); }},
-                          {"core_16", [] { return saturated(16); }},
-                          {"core_64", [] { return saturated(64); }},
-                          {"core_244", [] { return saturated(244); }},
-                          {"core_pins", [] { return saturated<EdgeChip>(16, kMeasured, dsdpv1::kOutputPins); }},
-                          {"search_9k6", search_to_9k6},
-                          {"chip", chip_kilobytes},
-                          {"calibration", calibration},
-                          {"profile", [] { return saturated(16, 3); }}});
+  return dsdpv1::speed::run_rows(argc, argv,
+                                 {{"core_2", [] { return saturated(2); }},
+                                  {"core_16", [] { return saturated(16); }},
+                                  {"core_64", [] { return saturated(64); }},
+                                  {"core_244", [] { return saturated(244); }},
+                                  {"core_pins", [] { return saturated<EdgeChip>(16, kMeasured, dsdpv1::kOutputPins); }},
+                                  {"search_9k6", search_to_9k6},
+                                  {"chip", chip_kilobytes},
+                                  {"calibration", calibration},
+                                  {"profile", [] { return saturated(16, 3); }}});
 }

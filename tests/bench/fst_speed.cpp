@@ -15,6 +15,7 @@
 #include "tb/waves/fst_file.hpp"
 #include "tests/bench/stopwatch.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 struct CloseReader {
@@ -83,6 +84,7 @@ double seconds_to_write(const Wave& wave, const std::string& path) {
 }
 
 }  // namespace
+}  // namespace dsdpv1
 
 int main(int argc, char** argv) {
   if (argc != 2) {
@@ -91,7 +93,7 @@ int main(int argc, char** argv) {
   }
   try {
     const std::string wave = argv[1];
-    std::printf("fst_library\t%.6g\n", seconds_to_write(read(wave), wave + ".again.fst"));
+    std::printf("fst_library\t%.6g\n", dsdpv1::seconds_to_write(dsdpv1::read(wave), wave + ".again.fst"));
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -17,11 +17,11 @@ OWNERS = tuple((part, re.compile(file), re.compile(function)) for part, file, fu
     ("FST library", PROGRAM, r"^(fst|LZ4_|fastlz|jenkins)"),
     ("driver", PROGRAM, "^dsdpv1_"),
     ("SystemC", PROGRAM, r"^([a-z]+ thunk to )?(sc_core|sc_dt|tlm|tlm_utils)::"),
-    ("chip", PROGRAM, r"^([a-z-]+ thunk to )?(dsdpv1|dpram|profibus)::"),
-    ("bus", PROGRAM, r"^([a-z-]+ thunk to )?bus::"),
-    ("bench", PROGRAM, r"\b(tb|user_cpu|checks|arm|systemc_bench|app)::"),
-    ("bus", PROGRAM, r"\bbus::"),
-    ("chip", PROGRAM, r"\b(dsdpv1|dpram|profibus)::")))
+    ("chip", PROGRAM, r"^([a-z-]+ thunk to )?dsdpv1::((dpram|profibus)::|[A-Z])"),
+    ("bus", PROGRAM, r"^([a-z-]+ thunk to )?dsdpv1::bus::"),
+    ("bench", PROGRAM, r"\bdsdpv1::(tb|user_cpu|checks|arm|systemc_bench|app)::"),
+    ("bus", PROGRAM, r"\bdsdpv1::bus::"),
+    ("chip", PROGRAM, r"\bdsdpv1::")))
 NAMES = ("chip", "driver", "bus", "bench", "FST library", "SystemC", "Unicorn", "libraries", "kernel", REST)
 
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace speed {
+namespace dsdpv1::speed {
 
 struct Row {
   std::string name;
@@ -43,4 +43,4 @@ inline int run_rows(int argc, char** argv, const std::vector<Row>& rows) {
   return argc > 1 ? 0 : wrong(argv[0], rows, "(none)");
 }
 
-}  // namespace speed
+}  // namespace dsdpv1::speed

@@ -3,7 +3,7 @@
 #include "Vdsdpv1.h"
 #include "verilated.h"
 
-namespace speed {
+namespace dsdpv1::speed {
 namespace {
 
 constexpr Tick kHalfCycle = profibus::kTicksPerCycle / 2;
@@ -80,4 +80,4 @@ Level RtlAlone::level(Pin pin) const {
 std::uint64_t RtlAlone::line_changes() const { return impl_->line_changes; }
 std::uint64_t RtlAlone::request_changes() const { return impl_->request_changes; }
 
-}  // namespace speed
+}  // namespace dsdpv1::speed

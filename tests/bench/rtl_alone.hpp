@@ -8,10 +8,8 @@
 #include "model/dsdpv1/pins.hpp"
 #include "model/profibus/character_run.hpp"
 
-namespace speed {
+namespace dsdpv1::speed {
 
-using dsdpv1::Level;
-using dsdpv1::Pin;
 using profibus::Tick;
 
 /// Pins as dsdpv1::Chip has them. Changes of L_REQ and PBTXD are counted, and reported to nobody.
@@ -36,4 +34,4 @@ class [[gnu::visibility("default")]] RtlAlone {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace speed
+}  // namespace dsdpv1::speed

@@ -12,6 +12,7 @@
 #include "tests/bench/saturated_bus.hpp"
 #include "tests/bench/stopwatch.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using profibus::Tick;
@@ -147,7 +148,8 @@ double lockstep() {
 }
 
 }  // namespace
+}  // namespace dsdpv1
 
 int main(int argc, char** argv) {
-  return speed::run_rows(argc, argv, {{"core_vs_rtl", core_vs_rtl}, {"lockstep", lockstep}});
+  return dsdpv1::speed::run_rows(argc, argv, {{"core_vs_rtl", core_vs_rtl}, {"lockstep", lockstep}});
 }

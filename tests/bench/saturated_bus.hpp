@@ -13,11 +13,9 @@
 #include "registers/dsdpv1_regs.hpp"
 #include "tests/conformance/slave_bench.hpp"
 
-namespace speed {
+namespace dsdpv1::speed {
 
 using bus::Bytes;
-using dsdpv1::Level;
-using dsdpv1::Pin;
 using profibus::Tick;
 
 constexpr Tick kBit = 1000;  ///< 12 Mbit/s
@@ -202,4 +200,4 @@ struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace speed
+}  // namespace dsdpv1::speed

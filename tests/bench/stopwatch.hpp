@@ -2,7 +2,7 @@
 // CPU time of this process: what others do on the machine stretches it less than time on the wall.
 #include <ctime>
 
-namespace speed {
+namespace dsdpv1::speed {
 
 inline double cpu_seconds() {
   timespec now{};
@@ -18,4 +18,4 @@ class Stopwatch {
   double begin_ = cpu_seconds();
 };
 
-}  // namespace speed
+}  // namespace dsdpv1::speed

@@ -10,6 +10,7 @@
 #include "tests/bench/stopwatch.hpp"
 #include "tests/systemc/bench.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using dsdpv1::systemc::BusCharacter;
@@ -252,6 +253,7 @@ double kernel_handshake() {
 }
 
 }  // namespace
+}  // namespace dsdpv1
 
 int sc_main(int argc, char* argv[]) {
   dsdpv1::systemc::require_femtoseconds();
@@ -259,10 +261,10 @@ int sc_main(int argc, char* argv[]) {
     std::fprintf(stderr, "usage: %s ROW\n", argv[0]);
     return 2;
   }
-  return speed::run_rows(argc, argv,
-                         {{"systemc_tlm", [] { return tlm_module(false); }},
-                          {"systemc_tlm_handshake", [] { return tlm_module(true); }},
-                          {"kernel_handshake", kernel_handshake},
-                          {"systemc_pins", systemc_pins},
-                          {"kernel_pins", kernel_pins}});
+  return dsdpv1::speed::run_rows(argc, argv,
+                                 {{"systemc_tlm", [] { return dsdpv1::tlm_module(false); }},
+                                  {"systemc_tlm_handshake", [] { return dsdpv1::tlm_module(true); }},
+                                  {"kernel_handshake", dsdpv1::kernel_handshake},
+                                  {"systemc_pins", dsdpv1::systemc_pins},
+                                  {"kernel_pins", dsdpv1::kernel_pins}});
 }

@@ -7,7 +7,7 @@
 #include "bindings/simulator/pins.hpp"
 #include "bindings/simulator/simulator.h"
 
-namespace simulator {
+namespace dsdpv1::simulator {
 namespace {
 
 constexpr int32_t kRunning = static_cast<int32_t>(kInputsAtReset | 1U);  ///< RESET high, nothing else
@@ -178,4 +178,4 @@ TEST(SimulatorMaster, ARequestIsDoneWhenNobodyAnswers) {
 }
 
 }  // namespace
-}  // namespace simulator
+}  // namespace dsdpv1::simulator

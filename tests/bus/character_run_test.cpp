@@ -9,7 +9,7 @@
 #include "bus/timeline.hpp"
 #include "bus/wire/uart.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 constexpr Tick kRunBit = 1000, kRunStart = 10'000;
@@ -231,4 +231,4 @@ TEST(CharacterRun, ALineThatIsDisturbedIsToldChanges) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

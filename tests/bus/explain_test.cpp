@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 using testing::AllOf;
@@ -465,4 +465,4 @@ TEST(ExplainBytes, SapsOfTheMasterHaveNoServiceName) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

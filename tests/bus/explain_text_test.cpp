@@ -6,7 +6,7 @@
 
 #include "bus/telegram/explain.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 using testing::AllOf;
@@ -153,4 +153,4 @@ TEST(DecodeText, WhatIsNotHexadecimalIsAnErrorWithItsLineAndNoOutput) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

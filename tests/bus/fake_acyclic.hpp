@@ -9,7 +9,7 @@
 #include "bus/master/acyclic.hpp"
 #include "bus/telegram/telegram.hpp"
 
-namespace bus::test {
+namespace dsdpv1::bus::test {
 
 /// Reads get bytes 0, 1, 2, ...; writes are acknowledged; transports come back inverted.
 inline Bytes obliging_user(const Bytes& request) {
@@ -180,4 +180,4 @@ class FakeC2 {
   Channel* given_ = nullptr;
 };
 
-}  // namespace bus::test
+}  // namespace dsdpv1::bus::test

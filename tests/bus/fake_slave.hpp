@@ -11,7 +11,7 @@
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
 
-namespace bus::test {
+namespace dsdpv1::bus::test {
 
 struct Reply {
   Bytes bytes = {};
@@ -199,4 +199,4 @@ class FakeDpSlave {
   Telegram answer_;
 };
 
-}  // namespace bus::test
+}  // namespace dsdpv1::bus::test

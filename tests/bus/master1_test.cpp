@@ -8,7 +8,7 @@
 #include "bus/monitor/monitor.hpp"
 #include "tests/bus/fake_slave.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 using test::FakeDpSlave;
@@ -394,4 +394,4 @@ TEST(Master, TwoRunsAreIdentical) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -10,7 +10,7 @@
 #include "tests/bus/fake_acyclic.hpp"
 #include "tests/bus/fake_slave.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 using test::FakeC2;
@@ -466,4 +466,4 @@ TEST_F(Class2, BesideAClassOneMasterNothingIsLostOrMixedUp) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -11,7 +11,7 @@
 #include "tests/bus/fake_acyclic.hpp"
 #include "tests/bus/fake_slave.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 using test::FakeDpSlave;
@@ -300,4 +300,4 @@ TEST(EnableDpv1, FollowsTheGsdFile) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

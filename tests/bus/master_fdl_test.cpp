@@ -4,7 +4,7 @@
 
 #include "tests/bus/fake_slave.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 using test::FakeStation;
@@ -222,4 +222,4 @@ TEST_F(FdlTest, AbortFallsSilentInsideATelegram) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 SlaveParameters parameters() {
@@ -339,4 +339,4 @@ TEST(SlaveHandler, RefusesValuesOutOfRange) {
 TEST_F(SlaveTest, OutputsMustHaveTheConfiguredLength) { EXPECT_THROW(slave.set_outputs({1}), std::invalid_argument); }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -10,7 +10,7 @@
 #include "tests/bus/fake_acyclic.hpp"
 #include "tests/conformance/dpv1_side.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 using conformance::Area;
@@ -213,4 +213,4 @@ TEST_F(MastersWithChip, TheChipRefusesWhatTheMasterAsksWrongly) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

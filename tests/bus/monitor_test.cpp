@@ -6,7 +6,7 @@
 #include "bus/master/requester.hpp"
 #include "tests/bus/fake_slave.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 using test::FakeStation;
@@ -278,4 +278,4 @@ TEST(Monitor, EveryFlagHasItsName) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

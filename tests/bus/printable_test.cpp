@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+namespace dsdpv1 {
 namespace {
 
 using bus::printable;
@@ -49,3 +50,4 @@ TEST(Printable, DoneTwiceItIsDoneOnce) { EXPECT_EQ(printable(printable("\x1B\n\u
 TEST(Printable, OfLaidOutTextLineEndsAndTabsStay) { EXPECT_EQ(printable_lines("a\n\tb\r\x1B\n"), "a\n\tb\\r\\x1B\n"); }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,7 +6,7 @@
 
 #include "tests/bus/fake_slave.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 using test::FakeStation;
@@ -143,4 +143,4 @@ TEST_F(RequesterTest, SendsWithAClockError) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 struct Recorder : Listener {
@@ -299,4 +299,4 @@ TEST_F(FilterTest, AnUnpluggedStationHasNone) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

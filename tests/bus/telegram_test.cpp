@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 Decoded decode(const Bytes& bytes) {
@@ -185,4 +185,4 @@ TEST(Telegram, ResponsesHaveBitSixClear) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 // --- the queue -------------------------------------------------------------------------------------------------------
@@ -322,4 +322,4 @@ TEST_F(TimelineTest, WhatAnAgentPlansInItsOwnTurnNeedsNoAnnouncement) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

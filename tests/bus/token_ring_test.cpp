@@ -12,7 +12,7 @@
 #include "bus/token/token_watch.hpp"
 #include "tests/bus/fake_slave.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 using test::FakeDpSlave;
@@ -576,4 +576,4 @@ TEST_F(TwoMasters, TheOtherGoesOnWhenOneDies) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

@@ -4,7 +4,7 @@
 
 #include "bus/timeline.hpp"
 
-namespace bus {
+namespace dsdpv1::bus {
 namespace {
 
 /// A sender and a receiver on one wire.
@@ -221,4 +221,4 @@ TEST(UartReceiver, RawPatternsAreSentAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace bus
+}  // namespace dsdpv1::bus

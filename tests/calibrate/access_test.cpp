@@ -4,6 +4,7 @@
 
 #include "tests/calibrate/made_pins.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using calibrate::Verdict;
@@ -197,3 +198,4 @@ TEST(CalibrateIntr0, GapOfWhichOnlyABoundIsSeenIsNotConfirmed) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -5,6 +5,7 @@
 
 #include "made_capture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using namespace calibrate_test;
@@ -302,3 +303,4 @@ TEST(CalibrateAnswers, ADriverThatStaysEnabledIsContradicted) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+namespace dsdpv1 {
 namespace {
 
 using calibrate::Estimate;
@@ -70,3 +71,4 @@ TEST(CalibrateTimeBase, ScalesBothEndsAwayFromEachOther) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

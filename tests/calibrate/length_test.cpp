@@ -4,6 +4,7 @@
 
 #include "tests/calibrate/made_pins.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using calibrate::Verdict;
@@ -50,3 +51,4 @@ TEST(CalibrateLength, IsNotConfirmedWhereTheSamplesHideACycle) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

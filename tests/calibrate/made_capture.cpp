@@ -6,7 +6,7 @@
 
 #include "bus/wire/uart.hpp"
 
-namespace calibrate_test {
+namespace dsdpv1::calibrate_test {
 
 namespace fc = bus::fc;
 namespace sap = bus::sap;
@@ -187,4 +187,4 @@ std::string contradicted(const calibrate::Result& result) {
   return text;
 }
 
-}  // namespace calibrate_test
+}  // namespace dsdpv1::calibrate_test

@@ -4,7 +4,7 @@
 
 #include "tb/dsdpv1/calibrate/calibration.hpp"
 
-namespace calibrate_test {
+namespace dsdpv1::calibrate_test {
 
 using bus::Bytes;
 using bus::Telegram;
@@ -96,4 +96,4 @@ const calibrate::ParameterResult& parameter(const calibrate::Result& result, con
 /// "S3: what it says: how, ..." of all contradicted claims; empty when there is none.
 std::string contradicted(const calibrate::Result& result);
 
-}  // namespace calibrate_test
+}  // namespace dsdpv1::calibrate_test

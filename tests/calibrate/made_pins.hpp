@@ -8,7 +8,7 @@
 #include "tb/dsdpv1/calibrate/calibration.hpp"
 #include "tests/calibrate/made_capture.hpp"
 
-namespace calibrate_test {
+namespace dsdpv1::calibrate_test {
 
 /// Times are cycles of 48 MHz.
 class MadePins {
@@ -102,4 +102,4 @@ class MadePins {
   calibrate::Record record_;
 };
 
-}  // namespace calibrate_test
+}  // namespace dsdpv1::calibrate_test

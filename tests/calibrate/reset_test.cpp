@@ -4,6 +4,7 @@
 
 #include "tests/calibrate/made_pins.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using calibrate::Verdict;
@@ -183,3 +184,4 @@ TEST(CalibrateStartUp, ThatIsLongerThanAnyOtherAccessIsContradictedWithoutOtherP
 }
 
 }  // namespace
+}  // namespace dsdpv1

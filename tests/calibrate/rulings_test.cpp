@@ -9,6 +9,7 @@
 
 #include "tb/dsdpv1/settings.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 TEST(CalibrateRulings, AreThoseOfTheDocument) {
@@ -42,3 +43,4 @@ TEST(CalibrateParameters, AreThoseOfAScenario) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -3,6 +3,7 @@
 
 #include "made_capture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using namespace calibrate_test;
@@ -68,3 +69,4 @@ TEST(CalibrateSearch, AnEndWithoutATelegramIsAgainstS1Alone) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

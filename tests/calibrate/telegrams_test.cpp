@@ -3,6 +3,7 @@
 
 #include "made_capture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using namespace calibrate_test;
@@ -139,3 +140,4 @@ TEST(CalibrateTelegrams, StatusThreeOfTheDiagnosisIsZero) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

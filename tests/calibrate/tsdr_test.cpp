@@ -5,6 +5,7 @@
 
 #include "made_capture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using namespace calibrate_test;
@@ -210,3 +211,4 @@ TEST(CalibrateTsdr, WithoutBrAnInitialisationShowsInWhatIsNoDataExchange) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -4,6 +4,7 @@
 
 #include "tests/calibrate/made_pins.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using calibrate::Verdict;
@@ -272,3 +273,4 @@ TEST(CalibrateFlags, ThatAreReservedStayAsTheUserSetThem) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,6 +6,7 @@
 
 #include "made_capture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using namespace calibrate_test;
@@ -390,3 +391,4 @@ TEST(CalibrateWatchdog, AFallOfBrInALongAccessMayBeAnInitialisation) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

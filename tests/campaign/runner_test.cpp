@@ -13,6 +13,7 @@
 
 #include "tb/input/input_error.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -160,10 +161,11 @@ TEST(CampaignRunner, ASignalShowsInTheExitCode) {
 }
 
 }  // namespace
+}  // namespace dsdpv1
 
 int main(int argc, char** argv) {
-  const Words words(argv, argv + argc);
-  if (words[0] == "dsdpv1-sim") return play({words.begin() + 1, words.end()});
+  const dsdpv1::Words words(argv, argv + argc);
+  if (words[0] == "dsdpv1-sim") return dsdpv1::play({words.begin() + 1, words.end()});
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

@@ -11,6 +11,7 @@
 #include "tb/campaign/fingerprint.hpp"
 #include "tb/input/input_error.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -120,3 +121,4 @@ TEST_F(SlurmCommands, OnlyATaskOfASubmissionHasJobs) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -15,7 +15,7 @@ inline std::ostream& operator<<(std::ostream& out, const dpsim_change& change) {
   return out << change.tick << " " << change.station << "." << change.pin << "=" << change.level;
 }
 
-namespace capi_test {
+namespace dsdpv1::capi_test {
 
 /// A call that must succeed.
 inline void ok(dpsim_status status) { ASSERT_EQ(status, DPSIM_OK) << dpsim_error_message(); }
@@ -70,4 +70,4 @@ std::vector<dpsim_change> drain(dpsim_status (*read)(Object*, dpsim_change*, siz
 constexpr uint64_t kCycle = DPSIM_TICKS_PER_CYCLE;
 constexpr uint64_t kUs = 12'000, kMs = 12'000'000;
 
-}  // namespace capi_test
+}  // namespace dsdpv1::capi_test

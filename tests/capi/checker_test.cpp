@@ -4,7 +4,7 @@
 #include "tb/dsdpv1/checks/checks.hpp"
 #include "tests/capi/capi.hpp"
 
-namespace capi_test {
+namespace dsdpv1::capi_test {
 namespace {
 
 struct Violated {
@@ -109,4 +109,4 @@ TEST(CapiChecker, TimeDoesNotGoBackAndPinsAreKnown) {
 }
 
 }  // namespace
-}  // namespace capi_test
+}  // namespace dsdpv1::capi_test

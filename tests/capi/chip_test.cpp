@@ -10,10 +10,9 @@
 #include "tests/capi/capi.hpp"
 #include "tests/capi/pin_by_pin.h"
 
-namespace capi_test {
+namespace dsdpv1::capi_test {
 namespace {
 
-using dsdpv1::Pin;
 using profibus::Tick;
 
 std::vector<dpsim_change> driven_from_c(uint64_t released) {
@@ -314,4 +313,4 @@ TEST(CapiTime, VersionsAreThoseOfTheHeader) {
 }
 
 }  // namespace
-}  // namespace capi_test
+}  // namespace dsdpv1::capi_test

@@ -26,7 +26,7 @@ void* operator new(std::size_t size) {
 void operator delete(void* block) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
-namespace capi_test {
+namespace dsdpv1::capi_test {
 namespace {
 
 void expect(dpsim_status status, const char* name, const std::string& message, dpsim_status wanted) {
@@ -269,4 +269,4 @@ TEST(CapiError, NullIsNoObject) {
 }
 
 }  // namespace
-}  // namespace capi_test
+}  // namespace dsdpv1::capi_test

@@ -7,7 +7,7 @@
 #include "tb/traces/golden.hpp"
 #include "tests/capi/capi.hpp"
 
-namespace capi_test {
+namespace dsdpv1::capi_test {
 namespace {
 
 const std::string kScenario = DSDPV1_SOURCE_DIR "/scenarios/power_on_12m.yaml";
@@ -142,4 +142,4 @@ TEST(CapiRun, SaysWhatTheScenarioIs) {
 }
 
 }  // namespace
-}  // namespace capi_test
+}  // namespace dsdpv1::capi_test

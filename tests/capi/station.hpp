@@ -3,7 +3,7 @@
 #include "tests/bench/saturated_bus.hpp"
 #include "tests/capi/capi.hpp"
 
-namespace capi_test {
+namespace dsdpv1::capi_test {
 
 constexpr int kBytes = 4;  ///< of inputs and of outputs
 constexpr uint8_t kAddress = 5;
@@ -79,4 +79,4 @@ struct Line {
   dpsim_master* master;
 };
 
-}  // namespace capi_test
+}  // namespace dsdpv1::capi_test

@@ -7,7 +7,7 @@
 #include "bus/telegram/telegram.hpp"
 #include "tests/capi/capi.hpp"
 
-namespace capi_test {
+namespace dsdpv1::capi_test {
 namespace {
 
 const uint8_t kSlaveDiag[] = {0x68, 0x05, 0x05, 0x68, 0x85, 0x82, 0x6D, 0x3C, 0x3E, 0xEE, 0x16};
@@ -121,4 +121,4 @@ TEST(CapiGsd, TheReportIsThatOfTheProgram) {
 }
 
 }  // namespace
-}  // namespace capi_test
+}  // namespace dsdpv1::capi_test

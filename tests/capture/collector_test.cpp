@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 using testing::ElementsAre;
@@ -91,4 +91,4 @@ TEST_F(CollectorTest, FlagsWithoutATelegramAreNotKeptForEver) {
 }
 
 }  // namespace
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -7,7 +7,7 @@
 
 #include "bus/capture/sample_clock.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 std::string table_error(const std::string& table) {
@@ -68,4 +68,4 @@ TEST(SampleClock, NothingDrifts) {
 }
 
 }  // namespace
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -7,7 +7,7 @@
 #include "bus/telegram/telegram.hpp"
 #include "bus/wire/uart.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 using testing::HasSubstr;
@@ -110,4 +110,4 @@ TEST(ChooseSignal, OthersAreAskedFor) {
 }
 
 }  // namespace
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

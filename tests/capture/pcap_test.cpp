@@ -8,7 +8,7 @@
 #include "bus/capture/pcap_reader.hpp"
 #include "bus/capture/pcapng_writer.hpp"
 
-namespace bus::capture {
+namespace dsdpv1::bus::capture {
 namespace {
 
 using testing::ElementsAre;
@@ -122,4 +122,4 @@ TEST(Pcapng, BlockOfAnyLengthIsNotBelieved) {
 }
 
 }  // namespace
-}  // namespace bus::capture
+}  // namespace dsdpv1::bus::capture

@@ -9,12 +9,10 @@
 
 #include "tb/dsdpv1/checks/checks.hpp"
 
-namespace checks_test {
+namespace dsdpv1::checks_test {
 
 using bus::Tick;
 using checks::Check;
-using dsdpv1::Level;
-using dsdpv1::Pin;
 
 /// Table 15 with room to spare; a test changes what it is about. Ticks of 1/12 ns.
 struct Timing {
@@ -106,4 +104,4 @@ class Board {
   Tick now_ = 0;
 };
 
-}  // namespace checks_test
+}  // namespace dsdpv1::checks_test

@@ -9,6 +9,7 @@
 #include "tb/dsdpv1/checks/blocks.hpp"
 #include "tests/checks/board.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using checks::Check;
@@ -372,3 +373,4 @@ TEST(CrcOfBlocks, AnnouncementLeftStandingFromAnEarlierHoldIsNotJudgedAgain) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

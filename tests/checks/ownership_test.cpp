@@ -6,12 +6,12 @@
 #include "tests/checks/board.hpp"
 #include "tests/checks/telegrams.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using checks::Check;
 using checks_test::Board;
 using checks_test::Tick;
-using dsdpv1::Pin;
 
 std::uint64_t violations(Board& board, Check check) { return board.checks().record(check).violations; }
 
@@ -147,3 +147,4 @@ TEST(HoldInterval, HoldOverThreeTelegramsLosesOutputsTwice) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -8,6 +8,7 @@
 #include "tb/dsdpv1/checks/markdown.hpp"
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using app_test::call;
@@ -91,3 +92,4 @@ TEST(ChecksDocument, IsWhatTheTableSays) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -18,6 +18,7 @@
 #include "tb/dsdpv1/board/arm_user.hpp"
 #endif
 
+namespace dsdpv1 {
 namespace {
 
 struct Case {
@@ -253,3 +254,4 @@ TEST(Checks, OneSwitchedOffInTheScenarioIsNotInTheResult) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -3,7 +3,7 @@
 #include "bus/monitor/monitor.hpp"
 #include "tests/checks/board.hpp"
 
-namespace checks_test {
+namespace dsdpv1::checks_test {
 
 class Exchanges {
  public:
@@ -47,4 +47,4 @@ class Exchanges {
   std::uint8_t station_;
 };
 
-}  // namespace checks_test
+}  // namespace dsdpv1::checks_test

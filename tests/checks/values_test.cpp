@@ -9,13 +9,13 @@
 #include "tests/checks/board.hpp"
 #include "tests/checks/telegrams.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using checks::Check;
 using checks_test::Board;
 using checks_test::Tick;
 using checks_test::Timing;
-using dsdpv1::Pin;
 
 /// Does what the check is about with a margin of `margin` ticks to the default limit, or what `limits` says.
 struct Case {
@@ -452,3 +452,4 @@ TEST(Histogram, BinsAre1And2And5OfEachDecadeFromOneNanosecond) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,6 +6,7 @@
 
 #include "tests/compare/waves.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using app_test::call;
@@ -63,3 +64,4 @@ TEST_F(BadWaves, AndSoAreWrongOptions) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

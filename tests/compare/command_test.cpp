@@ -11,6 +11,7 @@
 
 #include "tests/compare/waves.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using app_test::call;
@@ -111,3 +112,4 @@ TEST_F(OwnWaves, AFifoIsAWave) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -5,6 +5,7 @@
 #include "tb/input/input_error.hpp"
 #include "tests/compare/waves.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using compare_test::first;
@@ -207,3 +208,4 @@ TEST_F(Compare, BitsOfASplitVectorAreTheVector) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

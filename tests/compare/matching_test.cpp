@@ -5,6 +5,7 @@
 #include "tb/input/input_error.hpp"
 #include "tests/compare/waves.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using compare_test::first;
@@ -136,3 +137,4 @@ TEST(CompareOptions, WhatPeopleWrite) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

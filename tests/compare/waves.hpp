@@ -7,7 +7,7 @@
 #include "tb/compare/comparison.hpp"
 #include "tests/app/program.hpp"
 
-namespace compare_test {
+namespace dsdpv1::compare_test {
 
 /// A VCD with the scope `t` and in it `declarations` ("wire 1 ! a", one a line); changes as they are.
 inline std::string vcd(const std::string& declarations, const std::string& changes,
@@ -45,4 +45,4 @@ inline std::string first(const tb::compare::Result& result) {
   return signal.name + "@" + std::to_string(signal.first->at) + ": " + signal.first->a + " " + signal.first->b;
 }
 
-}  // namespace compare_test
+}  // namespace dsdpv1::compare_test

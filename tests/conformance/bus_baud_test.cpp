@@ -3,7 +3,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 using profibus::Cycle;
@@ -265,4 +265,4 @@ INSTANTIATE_TEST_SUITE_P(AllRates, BaudChange, testing::Range(0, bus::kBaudCount
                          [](const auto& at) { return "ToCode" + std::to_string(at.param); });
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

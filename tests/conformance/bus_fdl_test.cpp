@@ -7,7 +7,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 constexpr std::uint8_t kFirst = 0x6D;    ///< FCB = 1, FCV = 0
@@ -596,4 +596,4 @@ TEST_F(Fdl, EveryStationAddressIsServed) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -4,10 +4,10 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tests/bench/saturated_bus.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Bytes;
-using dsdpv1::Pin;
 using profibus::Tick;
 
 const Bytes kForOther = {0x10, 0x63, 0x02, 0x49, 0xAE, 0x16};  // FDL status of station 99
@@ -52,3 +52,4 @@ TEST(ForeignTelegrams, OneThatConcernsTheStationHasItsEvent) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

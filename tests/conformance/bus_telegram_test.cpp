@@ -8,7 +8,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 using bus::Character;
@@ -537,4 +537,4 @@ TEST(TelegramForms, TheLongestTelegramIsRead) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -3,7 +3,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 /// The answer began so many bit times after the request and at most one cycle later.
@@ -151,4 +151,4 @@ TEST(TsdrSetting, IsClampedByTheRateThatRunsNotByTheOneAtWhichItWasSet) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -3,7 +3,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 using bus::Character;
@@ -301,4 +301,4 @@ TEST(Driver, NeverFightsWithTheRequester) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

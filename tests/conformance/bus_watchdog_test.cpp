@@ -3,7 +3,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 using profibus::Cycle;
@@ -236,4 +236,4 @@ TEST_F(Watchdog, ShowsInTheDiagnosisWhileItRuns) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

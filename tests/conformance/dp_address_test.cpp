@@ -3,7 +3,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 class Address : public testing::Test {
@@ -212,4 +212,4 @@ TEST_F(Address, OldOneIsSilentForTheRepeatedRequestToo) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -4,7 +4,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 constexpr std::uint8_t kCfgFault = 0x04;
@@ -225,4 +225,4 @@ INSTANTIATE_TEST_SUITE_P(Modes, CheckCfgInOperation, testing::Values(0, 1),
                          [](const auto& at) { return "Mode" + std::to_string(at.param); });
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

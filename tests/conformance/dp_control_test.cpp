@@ -4,7 +4,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 constexpr int kClear = 0x02, kUnfreeze = 0x04, kFreeze = 0x08, kUnsync = 0x10, kSync = 0x20, kReserved = 0xC1;
@@ -343,4 +343,4 @@ TEST_F(GlobalControl, FrozenInputsAreWhatTheMasterSees) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -4,7 +4,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 class Diagnosis : public testing::Test {
@@ -322,4 +322,4 @@ TEST_F(Diagnosis, IsForgottenByANewInitialisation) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -3,7 +3,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 Bytes pattern(int size, int seed) {
@@ -245,4 +245,4 @@ TEST_F(Exchanges, OutputsAreZeroWhenDataExchangeIsEnteredAgain) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -4,7 +4,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 constexpr std::uint8_t kPrmFault = 0x40, kNotSupported = 0x10;
@@ -351,4 +351,4 @@ TEST_F(SetPrm, UnlockLeavesTheFaultsAndMinTsdr) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

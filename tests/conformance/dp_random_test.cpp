@@ -6,7 +6,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 class RandomScript {
@@ -143,4 +143,4 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Scripts, testing::Values(1U));
 INSTANTIATE_TEST_SUITE_P(MoreSeeds, Scripts, testing::Range(2U, 9U));
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -5,7 +5,7 @@
 
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 enum class Situation { kOffline, kSearching, kWaitPrm, kWaitCfg, kDataExch };
@@ -252,4 +252,4 @@ TEST(GetCfg, TakesTwoHundredBytes) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -1,7 +1,7 @@
 // MSAC_C1 (7.2; rulings V1, V5 to V9, V14, V15).
 #include "tests/conformance/dpv1_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 class C1 : public Dpv1Test {};
@@ -370,4 +370,4 @@ TEST_F(C1, AnswerOccupiesTheAccessAsLongAsItsBytes) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -1,7 +1,7 @@
 // MSAC_C2 (7.3; rulings V2 to V15): resource manager, channels, timers.
 #include "tests/conformance/dpv1_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 class C2 : public Dpv1Test {
@@ -600,4 +600,4 @@ TEST_F(C2, UOfTheSecondChannelStartsWithItsTurn) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -10,7 +10,7 @@
 
 #include "tests/conformance/dpv1_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 /// A master with one way to the slave: C1 from the holder, or a C2 channel.
 struct Client {
   std::uint8_t master = 0;
@@ -202,4 +202,4 @@ class Campaign : public Dpv1Test {
   std::size_t wrong_answers_ = 0;
 };
 
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -1,7 +1,7 @@
 // The random campaign of dpv1_campaign.hpp, 100 000 operations.
 #include "tests/conformance/dpv1_campaign.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 class LongCampaign : public Campaign, public testing::WithParamInterface<unsigned> {};
@@ -11,4 +11,4 @@ TEST_P(LongCampaign, LosesDoublesAndMixesNothing) { play(GetParam(), Engines::kS
 INSTANTIATE_TEST_SUITE_P(Seeds, LongCampaign, testing::Range(11U, 15U));
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

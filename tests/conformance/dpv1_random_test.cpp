@@ -1,7 +1,7 @@
 // The random campaign of dpv1_campaign.hpp with both engines, short.
 #include "tests/conformance/dpv1_campaign.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 class TwinCampaign : public Campaign, public testing::WithParamInterface<unsigned> {};
@@ -11,4 +11,4 @@ TEST_P(TwinCampaign, StepAndSkipAnswerAlike) { play(GetParam(), Engines::kStepAn
 INSTANTIATE_TEST_SUITE_P(Seeds, TwinCampaign, testing::Range(1U, 5U));
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

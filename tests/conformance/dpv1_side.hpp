@@ -6,7 +6,7 @@
 #include "tests/conformance/master_side.hpp"
 #include "tests/conformance/user_helpers.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 
 constexpr int kC1Sap = 0x33, kManagerSap = 0x31, kFirstChannel = 0x30, kSecondChannel = 0x2F, kC2Ssap = 0x32;
 constexpr Cycle kSendTimeoutUnit = 480'000;  ///< 10 ms
@@ -120,4 +120,4 @@ class Dpv1Test : public testing::Test {
   SlaveBench bench{quick_search()};
 };
 
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

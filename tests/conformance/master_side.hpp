@@ -7,10 +7,9 @@
 
 #include "tests/conformance/slave_bench.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 
 using bus::Exchange;
-using dsdpv1::DpState;
 using profibus::Reason;
 
 constexpr int kNoSap = -1;
@@ -105,4 +104,4 @@ inline void send_decided_at(SlaveBench& bench, profibus::Cycle decision, int bau
 /// Lets the chip's accesses carry everything to the DPRAM.
 inline void settle(SlaveBench& bench) { bench.run_cycles(2000); }
 
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

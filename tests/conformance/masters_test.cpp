@@ -5,7 +5,7 @@
 #include "bus/monitor/monitor.hpp"
 #include "tests/conformance/master_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 bus::SlaveParameters parameters() {
@@ -93,4 +93,4 @@ INSTANTIATE_TEST_SUITE_P(Masters, RealMaster,
                          });
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -28,14 +28,14 @@ namespace {
 
 using dsdpv1::Level;
 using dsdpv1::Pin;
-using profibus::Tick;
+using dsdpv1::profibus::Tick;
 
 /// A chip that counts what is allocated while it is in a call.
 class Counted {
  public:
   Counted(dsdpv1::Engine engine, bool takes_runs) : takes_runs_(takes_runs), chip_(with(engine)) {
-    chip_.watch(pins_.sink(), speed::PinCounter::kWatched);
-    chip_.on_event({[](void* self, const profibus::Event&) { ++static_cast<Counted*>(self)->events_; }, this});
+    chip_.watch(pins_.sink(), dsdpv1::speed::PinCounter::kWatched);
+    chip_.on_event({[](void* self, const dsdpv1::profibus::Event&) { ++static_cast<Counted*>(self)->events_; }, this});
   }
   void set(Tick at, Pin pin, Level level) {
     during([&] { chip_.set(at, pin, level); });
@@ -43,7 +43,7 @@ class Counted {
   void advance(Tick to) {
     during([&] { chip_.advance(to); });
   }
-  bool hear(Tick at, const profibus::CharacterRun& run) {
+  bool hear(Tick at, const dsdpv1::profibus::CharacterRun& run) {
     bool taken = false;
     during([&] { taken = takes_runs_ && chip_.hear(at, run); });
     return taken;
@@ -66,7 +66,7 @@ class Counted {
     allocated_ += allocations - before;
   }
   bool takes_runs_;
-  speed::PinCounter pins_;
+  dsdpv1::speed::PinCounter pins_;
   dsdpv1::Chip chip_;
   std::size_t allocated_ = 0, events_ = 0;
 };
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, NoHeap,
 
 TEST_P(NoHeap, FromResetToDataExchangeAndAgain) {
   Counted chip(GetParam().engine, GetParam().takes_runs);
-  speed::SaturatedBus<Counted> bus(chip, 64);
+  dsdpv1::speed::SaturatedBus<Counted> bus(chip, 64);
   for (int round = 0; round < 2; ++round) {
     bus.start();
     for (int i = 0; i < 20; ++i) bus.exchange();

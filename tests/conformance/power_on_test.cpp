@@ -2,10 +2,8 @@
 
 #include "tests/conformance/slave_bench.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
-
-using dsdpv1::DpState;
 
 TEST(PowerOn, ReachesDataExchangeAt12M) {
   SlaveBench bench;
@@ -31,4 +29,4 @@ INSTANTIATE_TEST_SUITE_P(AllRates, PowerOnAtBaud, testing::Range(0, bus::kBaudCo
                          [](const auto& at) { return "Code" + std::to_string(at.param); });
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

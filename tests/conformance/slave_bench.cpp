@@ -7,10 +7,8 @@
 
 #include "model/dpram/crc16.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
-
-namespace regs = dsdpv1::regs;
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 // The user's bus: comfortable times, table 15's limits are tested on their own.
@@ -288,4 +286,4 @@ std::vector<PinChange> SlaveBench::changes(Pin pin) const {
   return found;
 }
 
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -8,7 +8,7 @@
 #include "registers/dsdpv1_regs.hpp"
 #include "tests/conformance/twin_chip.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 
 using bus::Bytes;
 
@@ -116,4 +116,4 @@ class SlaveBench {
   bool owns_ = false;
 };
 
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -5,7 +5,7 @@
 #include "model/profibus/addressee.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 dsdpv1::Config with_engine(dsdpv1::Config config, dsdpv1::Engine engine) {
@@ -181,4 +181,4 @@ void TwinChip::on_step_event(void* self, const profibus::Event& event) {
   static_cast<TwinChip*>(self)->step_events_.push_back(event);
 }
 
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

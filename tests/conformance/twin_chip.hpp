@@ -12,11 +12,9 @@
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/reasons.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 
 using bus::Tick;
-using dsdpv1::Level;
-using dsdpv1::Pin;
 
 struct PinChange {
   Tick at;
@@ -90,4 +88,4 @@ class TwinChip : public bus::Agent, public bus::Listener {
   std::size_t compared_pins_ = 0, compared_events_ = 0, compared_doze_pins_ = 0, compared_doze_events_ = 0;
 };
 
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

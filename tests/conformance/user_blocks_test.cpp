@@ -1,10 +1,8 @@
 // The blocks that cross the DPRAM: table 2, 4.1, 4.2, 6.2.4; rulings D2 to D6, D9, D10, D12 to D15, H5, P7.
 #include "tests/conformance/user_helpers.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
-
-using dsdpv1::DpState;
 
 /// 244 inputs and 244 outputs: 64 and 58 words each way.
 const Bytes kWidest = {0xC0, 0x7F, 0x7F, 0xC0, 0x79, 0x79};
@@ -678,4 +676,4 @@ TEST(UserOfflineCount, DoesNotCountOtherStates) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -4,7 +4,7 @@
 
 #include "tests/conformance/user_helpers.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 constexpr Cycle kInterval = 48, kShortest = 7;
@@ -483,4 +483,4 @@ TEST_P(Contention, NeverBothOwnNothingIsTornOrLost) {
 INSTANTIATE_TEST_SUITE_P(UserHandshake, Contention, testing::Range(1U, 9U));
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

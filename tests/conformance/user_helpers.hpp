@@ -10,9 +10,8 @@
 
 #include "tests/conformance/slave_bench.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 
-namespace regs = dsdpv1::regs;
 using profibus::Reason;
 using Cycle = profibus::Cycle;
 
@@ -118,4 +117,4 @@ class Script : public bus::Agent {
   std::deque<Action> actions_;
 };
 
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

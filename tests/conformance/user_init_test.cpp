@@ -1,10 +1,8 @@
 // Initialisation through the DPRAM: chapter 8, tables 2, 3, 12 to 14; rulings D7, D11, D12, D13.
 #include "tests/conformance/user_helpers.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
-
-using dsdpv1::DpState;
 
 /// What the user and the pins show of an initialisation.
 struct Shown {
@@ -436,4 +434,4 @@ TEST(UserInit, StatusBytesAreWrittenInTheAccessOfTheInitialisation) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -3,10 +3,8 @@
 
 #include "tests/conformance/user_helpers.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
-
-using dsdpv1::DpState;
 
 Init judged_by(int prm_mode, int cfg_mode) {
   Init init;
@@ -472,4 +470,4 @@ TEST_F(ByUser, UnlockEndsTheJudging) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

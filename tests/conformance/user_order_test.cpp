@@ -3,10 +3,8 @@
 
 #include "tests/conformance/user_helpers.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
-
-using dsdpv1::DpState;
 
 /// A cell that changed, at cycles since the start of the access.
 struct Move {
@@ -390,4 +388,4 @@ TEST(UserOrder, AFlagCountsFromTheEdgeAtWhichTheHeaderReadsIt) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -5,7 +5,7 @@
 
 #include "tests/conformance/user_helpers.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 constexpr Tick kTs = 150, kTd = 150, kTw = 375;
@@ -601,4 +601,4 @@ TEST_F(UserPort, RandomTrafficIsNeverSilentlyWrong) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

@@ -2,7 +2,7 @@
 // as they are. B011.6 and B011.7 are not among them (D16).
 #include "tests/conformance/dpv1_side.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 constexpr std::uint8_t kB00C = 0xFC, kB00E = 0xF8, kB00F = 0xFC, kB010 = 0x38, kB011 = 0x3C;
@@ -81,4 +81,4 @@ TEST_F(UserReservedBits, AreNoPartOfAVerdict) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

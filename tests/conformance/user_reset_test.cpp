@@ -3,10 +3,8 @@
 
 #include "tests/conformance/user_helpers.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
-
-using dsdpv1::DpState;
 
 constexpr Cycle kStartUpMoves = 2048 + 4 + 1;      // H6: clear, B000..B003, B006
 constexpr Cycle kStartUpHigh = kStartUpMoves + 1;  // one byte a cycle from R + 1 on
@@ -566,4 +564,4 @@ TEST(UserReset, WhileSendingPbtxdAndPbrtsGoAtOnce) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

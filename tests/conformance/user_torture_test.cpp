@@ -4,7 +4,7 @@
 
 #include "tests/conformance/user_helpers.hpp"
 
-namespace conformance {
+namespace dsdpv1::conformance {
 namespace {
 
 /// Toggles the user's pins at random for a while.
@@ -119,4 +119,4 @@ TEST(UserTorture, ResetAtEveryTickRoundAnEdgeIsTheSameInBothEngines) {
 }
 
 }  // namespace
-}  // namespace conformance
+}  // namespace dsdpv1::conformance

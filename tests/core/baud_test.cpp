@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<BaudIndex> && sizeof(BaudIndex) == sizeof(int), "as cheap as an int");
@@ -33,4 +33,4 @@ TEST(BaudIndexTest, NoneIsFifteenInTable5AndTheSearchBeginsBehindIt) {
 }
 
 }  // namespace
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

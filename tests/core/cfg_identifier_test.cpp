@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 CfgLengths lengths(const std::vector<std::uint8_t>& bytes) {
@@ -89,4 +89,4 @@ TEST(CfgIdentifier, TwoHundredBytesDoNotOverflow) {
 }
 
 }  // namespace
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

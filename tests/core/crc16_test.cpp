@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace dpram {
+namespace dsdpv1::dpram {
 namespace {
 
 /// Steps 1 to 7 of chapter 4.2, literally.
@@ -52,4 +52,4 @@ TEST(Crc16, EverySingleBitFlipIsSeen) {
 }
 
 }  // namespace
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

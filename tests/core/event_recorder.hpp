@@ -4,7 +4,7 @@
 
 #include "model/profibus/event_log.hpp"
 
-namespace core_test {
+namespace dsdpv1::core_test {
 
 struct EventRecorder {
   EventRecorder() { log.attach({&take, this}); }
@@ -30,4 +30,4 @@ inline bool same(const profibus::Event& a, const profibus::Event& b) {
   return a.at == b.at && a.reason == b.reason && a.a == b.a && a.b == b.b && a.c == b.c;
 }
 
-}  // namespace core_test
+}  // namespace dsdpv1::core_test

@@ -10,7 +10,7 @@
 #include "model/profibus/cfg_identifier.hpp"
 #include "tests/core/event_recorder.hpp"
 
-namespace dpram {
+namespace dsdpv1::dpram {
 namespace {
 
 using Block = std::vector<std::uint8_t>;
@@ -108,4 +108,4 @@ TEST(InitData, RandomBlocksAreJudgedByTheLimits) {
 }
 
 }  // namespace
-}  // namespace dpram
+}  // namespace dsdpv1::dpram

@@ -5,7 +5,7 @@
 
 #include "tests/core/event_recorder.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 constexpr Cycle kUnit = 480'000;
@@ -75,4 +75,4 @@ TEST_F(Msac2Block, FIsReportedWhenItEndsTogetherWithU) {
 TEST_F(Msac2Block, RestsWhileNoChannelIsInUse) { EXPECT_EQ(msac2.next(), kNever); }
 
 }  // namespace
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

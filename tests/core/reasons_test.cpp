@@ -6,6 +6,7 @@
 #include <regex>
 #include <set>
 
+namespace dsdpv1 {
 namespace {
 
 using profibus::Reason;
@@ -49,3 +50,4 @@ TEST(ReasonTables, AChipsWordStandsWhereTheTextNamesIt) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 TEST(SynchroniserBlock, AChangeIsUsedTwoEdgesAfterTheOneThatSamplesIt) {
@@ -59,4 +59,4 @@ TEST(SynchroniserBlock, RandomInputsAreThoseOfTwoFlipFlopsAlsoWhenEvaluatedOnlyA
 }
 
 }  // namespace
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -9,7 +9,7 @@
 
 #include "tests/core/event_recorder.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -249,4 +249,4 @@ TEST(TelegramRxBlock, ForgetsWhatItCountedWhenTheSearchOrAResetComesFirst) {
 }
 
 }  // namespace
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 /// The levels of one character, bit by bit.
@@ -275,4 +275,4 @@ TEST(UartRxBlock, RestartLeavesARunAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

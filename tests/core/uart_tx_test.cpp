@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 /// The level that the wire must have `cycle` cycles after the first start bit.
@@ -83,4 +83,4 @@ TEST(UartTxBlock, EvaluatedOnlyAtNextItIsTheSame) {
 }
 
 }  // namespace
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

@@ -10,7 +10,7 @@
 #include "model/profibus/station.hpp"
 #include "tests/core/event_recorder.hpp"
 
-namespace profibus {
+namespace dsdpv1::profibus {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -209,4 +209,4 @@ TEST_F(UserSideTest, AWriteOfMoreThanItHoldsIsAnsweredForIt) {
 }
 
 }  // namespace
-}  // namespace profibus
+}  // namespace dsdpv1::profibus

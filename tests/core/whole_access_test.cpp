@@ -9,12 +9,9 @@
 #include "registers/dsdpv1_regs.hpp"
 #include "tests/core/event_recorder.hpp"
 
+namespace dsdpv1 {
 namespace {
 
-using dsdpv1::AccessTiming;
-using dsdpv1::HostAccess;
-using dsdpv1::Level;
-using dsdpv1::Pin;
 using profibus::Tick;
 
 constexpr Tick kUs = 12'000;
@@ -148,3 +145,4 @@ TEST(RightAccess, IsNoneThatMissesALimitByATick) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -12,6 +12,7 @@
 #include "tb/dsdpv1/cosim/reference_rtl.hpp"
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,3 +93,4 @@ TEST(RtlFaults, StimuliOfTheListAreThere) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -12,6 +12,7 @@
 #include "tb/waves/wave_reader.hpp"
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using app_test::call;
@@ -181,3 +182,4 @@ TEST(OwnRtl, DefectIsFoundAtRandomShownFromInsideAndPlayedAgainExactly) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

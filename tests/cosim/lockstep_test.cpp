@@ -14,15 +14,15 @@
 #include "tb/dsdpv1/cosim/lockstep.hpp"
 #include "tests/cosim/made_up_top.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using cosim::Lockstep;
-using cosim::Pin;
 using cosim_test::MadeUpTop;
 using testing::HasSubstr;
 
-constexpr cosim::Tick kCycle = profibus::kTicksPerCycle;
-constexpr cosim::Tick kEnd = 10'000 * kCycle;
+constexpr Tick kCycle = profibus::kTicksPerCycle;
+constexpr Tick kEnd = 10'000 * kCycle;
 
 std::unique_ptr<MadeUpTop> spoiled(MadeUpTop::Spoil spoil) { return std::make_unique<MadeUpTop>(std::move(spoil)); }
 
@@ -171,3 +171,4 @@ TEST(Lockstep, LastTelegramAndAccessAreTold) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

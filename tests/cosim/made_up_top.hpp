@@ -8,7 +8,7 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/cosim/rtl_top.hpp"
 
-namespace cosim_test {
+namespace dsdpv1::cosim_test {
 
 /// Evaluated as RTL is: by edges of CLK, without any knowledge of time.
 class MadeUpTop : public cosim::RtlTop {
@@ -63,4 +63,4 @@ class MadeUpTop : public cosim::RtlTop {
   dsdpv1::Tick now_ = 0;
 };
 
-}  // namespace cosim_test
+}  // namespace dsdpv1::cosim_test

@@ -9,9 +9,9 @@
 #include "tb/dsdpv1/cosim/user_rtl.hpp"
 #include "tb/input/input_error.hpp"
 
+namespace dsdpv1 {
 namespace {
 
-using cosim::Pin;
 using testing::HasSubstr;
 
 class PinMapFile : public testing::Test {
@@ -103,3 +103,4 @@ TEST(Adapter, HasATraceWhereItIsWantedOnly) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

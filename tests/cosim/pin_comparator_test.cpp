@@ -3,11 +3,10 @@
 
 #include "tb/dsdpv1/cosim/pin_comparator.hpp"
 
+namespace dsdpv1 {
 namespace {
 
-using cosim::Pin;
 using cosim::PinComparator;
-using cosim::Tick;
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 
@@ -19,7 +18,7 @@ cosim::Tolerances tolerance(Pin pin, int cycles) {
 
 TEST(PinComparator, SameChangesAreCounted) {
   PinComparator comparator;
-  cosim::Level level = 0;
+  Level level = 0;
   for (const Tick at : {1000, 2000, 3000}) {
     level = level == 0 ? 1 : 0;
     comparator.model_changed(at, Pin::kPbtxd, level);
@@ -118,3 +117,4 @@ TEST(PinComparator, TolerantPinMustMakeTheSameChanges) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

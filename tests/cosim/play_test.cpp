@@ -14,6 +14,7 @@
 #include "tb/dsdpv1/cosim/stimulus_schema.hpp"
 #include "tests/cosim/made_up_top.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using testing::HasSubstr;
@@ -119,3 +120,4 @@ TEST(StimulusResult, HasItsTableInTheDocument) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

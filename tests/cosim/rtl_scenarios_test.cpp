@@ -8,6 +8,7 @@
 #include "tb/scenario/scenario.hpp"
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,3 +61,4 @@ INSTANTIATE_TEST_SUITE_P(All, ShortRtlScenarios, testing::ValuesIn(scenarios(fal
                          [](const auto& each) { return each.param; });
 
 }  // namespace
+}  // namespace dsdpv1

@@ -9,6 +9,7 @@
 #include "tb/dsdpv1/cosim/stimulus.hpp"
 #include "tb/input/input_error.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using cosim::parse_stimulus;
@@ -92,3 +93,4 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"repeat 2\nsync\nend 2\n", "my.stimulus:3: unknown word 2, allowed: end alone"}));
 
 }  // namespace
+}  // namespace dsdpv1

@@ -15,7 +15,7 @@ SOURCES = {".c", ".cpp", ".h", ".hpp", ".inc", ".sv", ".svh"}
 # Room, what it must not name, and why. Names are regular expressions; comments and texts count as well.
 FORBIDDEN = [
     ("model/profibus", r"\bB[0-7][0-9A-F]{2}\b", "no address of a chip's cells"),
-    ("model/profibus", r"(?i)dsdpv1|dpram", "no chip, no family"),
+    ("model/profibus", r"(?i)(?<!namespace )dsdpv1|dpram", "no chip, no family"),
     ("model/profibus", r"registers/|\bregs::", "no register"),
     ("model/profibus", r"\b(CSR|RD|WR|R_REQ|R_STA|L_REQ|L_STA|INTR0|PBF|BR|READY)\b", "no pin of the user's side"),
     ("model/dpram", r"\b(CSR|RD|WR|R_REQ|R_STA|L_REQ|L_STA|INTR0)\b", "no pin of a port"),
@@ -30,7 +30,7 @@ FORBIDDEN = [
 CHIP_ROOMS = ["tb/dsdpv1", "tb/kinds"]
 GENERAL_ROOMS = ["bus", "tb/bench", "tb/checks", "tb/chip", "tb/compare", "tb/input", "tb/keys", "tb/output", "tb/pins", "tb/replay", "tb/report", "tb/scenario", "tb/serve",
                  "tb/socket", "tb/campaign", "tb/sweep", "tb/regress", "tb/systemc", "tb/traces", "tb/user_cpu", "tb/waves", "apps"]
-A_CHIP = r"\b(dsdpv1|dpram)::(?!systemc)|\bmailbox::|model/(dsdpv1|dpram)|\bPin::k|\bAccessTiming|\bregs::|registers/dsdpv1"
+A_CHIP = r"\bdsdpv1::(?=k?[A-Z])|\bdpram::|\bmailbox::|model/(dsdpv1|dpram)|\bPin::k|\bAccessTiming|\bregs::|registers/dsdpv1"
 ITS_CELLS = r"\bB[0-7][0-9A-F]{2}\b|\b(CSR|RD|WR|R_REQ|R_STA|L_REQ|L_STA|INTR0)\b"
 FORBIDDEN += [(room, A_CHIP, "no chip by name") for room in GENERAL_ROOMS]
 FORBIDDEN += [(room, ITS_CELLS, "no chip's pins and cells") for room in GENERAL_ROOMS]

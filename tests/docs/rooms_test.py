@@ -20,7 +20,7 @@ BREACHES = [
     "input logic csr_i,",
 ]
 A_CHIP = ["dsdpv1::Chip chip;", "void pin(mailbox::Pin pin);", "case Pin::kCsr:", '#include "model/dpram/ram.hpp"', "regs::Address at;",
-          "user_cpu::AccessTiming access;", "dsdpv1::Level level;"]
+          "AccessTiming access;", "dsdpv1::Level level;"]
 ITS_CELLS = ["// As INTR0 falls.", "// B006 counts.", "if (R_REQ) return;"]
 for breaches in (A_CHIP, ITS_CELLS):  # each in one general room, then again from the first
     BREACHES += itertools.islice(itertools.cycle(breaches), len(rooms.GENERAL_ROOMS))

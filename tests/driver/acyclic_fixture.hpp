@@ -5,6 +5,8 @@
 #include "driver/dsdpv1_acyclic.h"
 #include "tests/driver/driver_fixture.hpp"
 
+namespace dsdpv1 {
+
 /// A device with a table: slot 1 is plain data, slot 2 asks the test. Requests and answers are bytes as in the DPRAM.
 class AcyclicTest : public DriverTest {
  protected:
@@ -113,3 +115,5 @@ class AcyclicTestOfEachClass : public AcyclicTest, public testing::WithParamInte
   std::uint16_t area(int offset) const { return static_cast<std::uint16_t>((cls() == 1 ? 0x5D0 : 0x6D0) + offset); }
   void spoil_crc() { chip.at(area(0xF5)) = static_cast<std::uint8_t>(chip.at(area(0xF5)) ^ 1); }
 };
+
+}  // namespace dsdpv1

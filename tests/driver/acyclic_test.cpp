@@ -1,6 +1,7 @@
 // DPV1 between DPRAM and application: flags, CRCs, holds, both classes at once.
 #include "tests/driver/acyclic_fixture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using testing::ElementsAre;
@@ -343,3 +344,4 @@ TEST_F(AcyclicBoth, ResultMayBeNull) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -2,6 +2,7 @@
 #include "registers/dsdpv1_regs.h"
 #include "tests/driver/acyclic_fixture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using testing::ElementsAre;
@@ -157,3 +158,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& bad) { return std::string(bad.param.name); });
 
 }  // namespace
+}  // namespace dsdpv1

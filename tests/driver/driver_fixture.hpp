@@ -6,6 +6,8 @@
 
 #include "tests/driver/fake_chip.hpp"
 
+namespace dsdpv1 {
+
 /// A device on a fake chip. Every test ends with a look at the user's discipline.
 class DriverTest : public testing::Test {
  protected:
@@ -69,3 +71,5 @@ class DriverTest : public testing::Test {
   std::pair<int, int> cfg_lengths;
   std::function<void()> while_judging;
 };
+
+}  // namespace dsdpv1

@@ -9,6 +9,7 @@
 
 #include "driver/dsdpv1.h"
 
+namespace dsdpv1 {
 namespace {
 
 struct Row {
@@ -56,3 +57,4 @@ TEST(Errors, GuideHasTheSameTable) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

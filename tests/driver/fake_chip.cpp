@@ -1,5 +1,6 @@
 #include "tests/driver/fake_chip.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 std::uint16_t crc_of(const std::vector<std::uint8_t>& bytes) {
@@ -187,3 +188,5 @@ void FakeChip::put_request(int master_class, const std::vector<std::uint8_t>& re
   const auto area = static_cast<std::uint16_t>(master_class == 1 ? 0x5D0 : 0x6D0);
   put_block(area, request, static_cast<std::uint16_t>(area + 0xF4), static_cast<std::uint8_t>(master_class), 0x00F);
 }
+
+}  // namespace dsdpv1

@@ -11,6 +11,8 @@
 
 #include "driver/dsdpv1.h"
 
+namespace dsdpv1 {
+
 struct FakeChip {
   // ------------------------------------------------------------------------------------------------------ behaviour
   bool present = true;         ///< makes its accesses
@@ -68,3 +70,5 @@ struct FakeChip {
   int free_samples_ = 0;
   int counted_ = 0;  ///< writes of B006 in this hold
 };
+
+}  // namespace dsdpv1

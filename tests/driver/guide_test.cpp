@@ -14,13 +14,15 @@ bool flash_busy(void);
 bool flash_failed(void);
 }
 
-namespace board {
+namespace dsdpv1::board {
 
 // What the example's board functions do; the example is C and knows no object.
 std::vector<std::uint8_t> flash;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 bool busy = false, failed = false;
 
-}  // namespace board
+}  // namespace dsdpv1::board
+
+namespace board = dsdpv1::board;
 
 std::uint16_t measure_speed() { return 1500; }
 void flash_start(const std::uint8_t* bytes, std::uint8_t length) {
@@ -30,6 +32,7 @@ void flash_start(const std::uint8_t* bytes, std::uint8_t length) {
 bool flash_busy() { return board::busy; }
 bool flash_failed() { return board::failed; }
 
+namespace dsdpv1 {
 namespace {
 
 /// The guide has the row "| what | holds | accesses |" with the numbers just counted.
@@ -211,3 +214,4 @@ TEST_F(GuideExample, Nameplate) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

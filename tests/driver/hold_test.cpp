@@ -1,5 +1,6 @@
 #include "tests/driver/driver_fixture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using testing::ElementsAre;
@@ -139,3 +140,4 @@ TEST_F(Hold, BaudRatesOfTable5) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

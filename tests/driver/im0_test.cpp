@@ -1,6 +1,7 @@
 // I&M0: call 08 00 FD E8 to slot 0, index 255, then read 4 + 64 bytes.
 #include "tests/driver/acyclic_fixture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using testing::ElementsAre;
@@ -146,3 +147,4 @@ TEST_P(Im0, TextsAndPlaceAreChecked) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

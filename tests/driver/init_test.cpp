@@ -1,5 +1,6 @@
 #include "tests/driver/driver_fixture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using testing::ElementsAre;
@@ -298,3 +299,4 @@ TEST_F(Init, NothingWorksBeforeIt) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -1,5 +1,6 @@
 #include "tests/driver/driver_fixture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using testing::ElementsAre;
@@ -241,3 +242,4 @@ TEST_F(Diagnosis, WrittenAgainAfterACrcError) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -1,5 +1,6 @@
 #include "tests/driver/driver_fixture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using testing::ElementsAre;
@@ -226,3 +227,4 @@ TEST_F(Judge, LargestBlocks) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -1,6 +1,7 @@
 // DPV1: answers that the application gives after its handler has returned DSDPV1_DEFERRED.
 #include "tests/driver/acyclic_fixture.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using testing::ElementsAre;
@@ -139,3 +140,4 @@ TEST_P(LateAnswer, RefusedInitialisationDropsNothing) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -4,6 +4,7 @@
 #include "bus/gsd/report.hpp"
 #include "files.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using gsd_test::content;
@@ -39,3 +40,4 @@ INSTANTIATE_TEST_SUITE_P(Files, BadGsd, testing::ValuesIn(files_of(GSD_BAD)),
                          [](const auto& parameter) { return parameter.param.stem().string(); });
 
 }  // namespace
+}  // namespace dsdpv1

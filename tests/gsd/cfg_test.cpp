@@ -3,6 +3,7 @@
 
 #include "bus/gsd/cfg.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::cfg_lengths;
@@ -70,3 +71,4 @@ TEST(CfgLengths, CutOffSpecialIdentifierIsAnError) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -4,6 +4,7 @@
 #include "bus/gsd/setup.hpp"
 #include "files.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using gsd_test::content;
@@ -75,3 +76,4 @@ TEST(ChipGsd, ChipsSwitchesAreOffUntilAskedFor) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,6 +6,7 @@
 #include "bus/gsd/report.hpp"
 #include "files.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using gsd_test::content;
@@ -88,3 +89,4 @@ INSTANTIATE_TEST_SUITE_P(Files, DamagedGsd, testing::ValuesIn(all_files()),
                          [](const auto& parameter) { return parameter.param.stem().string(); });
 
 }  // namespace
+}  // namespace dsdpv1

@@ -11,7 +11,7 @@
 
 #include "bus/gsd/gsd.hpp"
 
-namespace gsd_test {
+namespace dsdpv1::gsd_test {
 
 inline std::string content(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -54,4 +54,4 @@ inline std::string file_with(const std::string& body) {
          body;
 }
 
-}  // namespace gsd_test
+}  // namespace dsdpv1::gsd_test

@@ -5,6 +5,7 @@
 #include "bus/gsd/report.hpp"
 #include "files.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using gsd_test::files_of;
@@ -80,3 +81,4 @@ TEST(GsdReport, WrongChoiceIsOneLineAndExitTwo) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -4,6 +4,7 @@
 #include "bus/gsd/cfg.hpp"
 #include "files.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Bytes;
@@ -165,3 +166,4 @@ TEST(GsdSamples, MasterFilesNeedNoModules) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

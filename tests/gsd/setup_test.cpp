@@ -4,6 +4,7 @@
 #include "bus/gsd/setup.hpp"
 #include "files.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Bytes;
@@ -147,3 +148,4 @@ TEST(SetPrm, HasIdentAndWatchdogInItsSevenBytes) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

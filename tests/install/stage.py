@@ -22,7 +22,7 @@ def places(build):
 def main():
     cmake, build, stage = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
     first = stage.with_suffix(".installed")
-    for folder in (first, stage):
+    for folder in (first, stage, stage.with_name("examples")):  # the examples are built in an empty folder
         shutil.rmtree(folder, ignore_errors=True)
     subprocess.run([cmake, "--install", build, "--prefix", first], check=True, stdout=subprocess.DEVNULL)
     first.rename(stage)

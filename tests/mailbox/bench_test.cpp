@@ -14,6 +14,7 @@
 #include "tb/report/summary.hpp"
 #include "tests/mailbox/kind.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using testing::HasSubstr;
@@ -148,3 +149,4 @@ TEST_F(MailboxOnTheBench, TheCommandLineReachesItsKeys) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

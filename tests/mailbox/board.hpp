@@ -12,7 +12,7 @@
 #include "tests/mailbox/reasons.hpp"
 #include "tests/mailbox/user.hpp"
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 
 struct PinChange {
   Tick at;
@@ -75,4 +75,4 @@ class Board : public bus::Agent, public SpiPins, private bus::Listener {
   std::vector<profibus::Event> events_;
 };
 
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

@@ -5,7 +5,7 @@
 #include "model/profibus/station.hpp"
 #include "tests/mailbox/spi_port.hpp"
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 namespace {
 
 using profibus::first_edge_after;
@@ -198,4 +198,4 @@ Status Chip::status() const {
   return status;
 }
 
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

@@ -17,7 +17,7 @@
 #include "model/profibus/event.hpp"
 #include "tests/mailbox/pins.hpp"
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 
 enum class Engine : std::uint8_t {
   kStep,  ///< every cycle of every block is evaluated
@@ -72,4 +72,4 @@ class Chip {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

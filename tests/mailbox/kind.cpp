@@ -12,7 +12,7 @@
 #include "tests/mailbox/spi_port.hpp"
 #include "tests/mailbox/user.hpp"
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 namespace {
 
 using tb::PinNumber;
@@ -196,4 +196,4 @@ const tb::ChipMaker& kind() {
   return kind;
 }
 
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

@@ -12,7 +12,7 @@
 #include "tests/mailbox/board.hpp"
 #include "tests/mailbox/spi_port.hpp"
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 namespace {
 
 using bus::kTicksPerMs;
@@ -611,4 +611,4 @@ TEST(MailboxReasons, TheSlavesReasonsSpeakOfTheMailboxInItsOwnWords) {
 }
 
 }  // namespace
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

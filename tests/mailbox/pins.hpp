@@ -6,7 +6,7 @@
 
 #include "model/profibus/time.hpp"
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 
 using profibus::Cycle;
 using profibus::Tick;
@@ -43,4 +43,4 @@ struct PinSink {
   void* self = nullptr;
 };
 
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

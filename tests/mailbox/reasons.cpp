@@ -2,7 +2,7 @@
 
 #include <iterator>
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 
 using profibus::Severity;
 
@@ -41,4 +41,4 @@ std::string describe(const profibus::Event& event) { return profibus::describe(e
 std::string text_template(profibus::Reason reason) { return profibus::text_template(reason, kWords); }
 std::string advice(profibus::Reason reason) { return profibus::advice(reason, kWords); }
 
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

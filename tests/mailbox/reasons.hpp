@@ -5,7 +5,7 @@
 
 #include "model/profibus/event.hpp"
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 
 namespace detail {
 enum class ReasonIndex : std::size_t {
@@ -33,4 +33,4 @@ std::string describe(const profibus::Event& event);
 std::string text_template(profibus::Reason reason);
 std::string advice(profibus::Reason reason);
 
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

@@ -2,7 +2,7 @@
 
 #include "tests/mailbox/reasons.hpp"
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 namespace {
 
 constexpr unsigned kByteBits = 8;
@@ -142,4 +142,4 @@ void SpiPort::start(Cycle now) {
   user_.initialise(now, slave_config(address, ident));
 }
 
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

@@ -17,7 +17,7 @@
 #include "model/profibus/user_side.hpp"
 #include "tests/mailbox/pins.hpp"
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 
 constexpr int kDataBytes = 8;  ///< inputs, and outputs
 /// The configuration, which is fixed: 8 bytes of inputs, 8 bytes of outputs (EN 50170's identifiers, compact form).
@@ -76,4 +76,4 @@ class SpiPort {
   bool unread_ = false;  // outputs that a frame has loaded but not yet read to its end
 };
 
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

@@ -4,7 +4,7 @@
 
 #include "tests/mailbox/spi_port.hpp"
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 
 void User::run(bus::Tick now) {
   switch (edge_) {
@@ -82,4 +82,4 @@ void User::begin_write(Tick now) {
   begin(bytes, now + frame_gap());
 }
 
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

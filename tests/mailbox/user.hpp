@@ -10,7 +10,7 @@
 #include "bus/timeline.hpp"
 #include "tests/mailbox/pins.hpp"
 
-namespace mailbox {
+namespace dsdpv1::mailbox {
 
 /// The chip's pins as the user reaches them.
 class SpiPins {
@@ -82,4 +82,4 @@ class User : public bus::Agent {
   Tick cycle_ = 0;          // the last read was due then
 };
 
-}  // namespace mailbox
+}  // namespace dsdpv1::mailbox

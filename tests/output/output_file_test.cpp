@@ -16,6 +16,7 @@
 
 #include "tb/input/input_error.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -223,3 +224,4 @@ TEST_F(OutputFiles, NamesOfOneFileAreKnownAsOne) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

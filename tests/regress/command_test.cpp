@@ -10,6 +10,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -215,3 +216,4 @@ TEST_F(RegressCommand, ItsFilesReplaceNoScenario) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,6 +6,7 @@
 
 #include <csignal>
 
+namespace dsdpv1 {
 namespace {
 
 using tb::campaign::Ended;
@@ -81,3 +82,4 @@ TEST(RegressOutcome, IsReadBackFromItsJson) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -11,6 +11,7 @@
 #include "tb/input/input_error.hpp"
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,3 +150,4 @@ TEST(RegressRun, IsReadBackFromItsJson) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

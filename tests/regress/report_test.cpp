@@ -8,6 +8,7 @@
 #include "tb/regress/page.hpp"
 #include "tb/regress/tables.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using tb::regress::Outcome;
@@ -76,3 +77,4 @@ TEST(RegressReport, PageShowsTextsAsTexts) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

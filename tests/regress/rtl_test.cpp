@@ -6,6 +6,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using app_test::call;
@@ -40,3 +41,4 @@ TEST_F(RegressRtl, SeedIsThatOfTheRtl) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,7 +6,7 @@
 #include "bus/baud.hpp"
 #include "tb/replay/recording.hpp"
 
-namespace replay_test {
+namespace dsdpv1::replay_test {
 
 using bus::Bytes;
 using bus::Telegram;
@@ -53,4 +53,4 @@ class Capture {
   bus::Tick now_ = 0;
 };
 
-}  // namespace replay_test
+}  // namespace dsdpv1::replay_test

@@ -6,6 +6,7 @@
 
 #include "tests/replay/captures.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using namespace replay_test;
@@ -153,3 +154,4 @@ TEST(Beginning, InTheMiddleWithoutAStartThereIsNone) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,6 +6,7 @@
 #include "tb/replay/services.hpp"
 #include "tests/replay/captures.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Bytes;
@@ -119,3 +120,4 @@ TEST_F(ReplayMinTsdr, MayBeThatOfAPowerOnWhereTheSlaveWantsParameters) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

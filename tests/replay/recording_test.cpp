@@ -7,6 +7,7 @@
 #include "tb/input/input_error.hpp"
 #include "tests/replay/captures.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using namespace replay_test;
@@ -116,3 +117,4 @@ TEST(Recording, ResolutionIsTheLargestUnitOfAllStarts) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -8,6 +8,7 @@
 #include "bus/wire/uart.hpp"
 #include "tests/replay/captures.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using namespace replay_test;
@@ -121,3 +122,4 @@ TEST(ReplayedLine, CoarseTimesDoNotMakeTelegramsOverlap) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

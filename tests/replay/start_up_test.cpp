@@ -6,6 +6,7 @@
 
 #include "tests/replay/captures.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using namespace replay_test;
@@ -86,3 +87,4 @@ TEST(StartUp, ConfigurationHasTheBytesOfTheExchange) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -9,10 +9,10 @@
 #include "tb/dsdpv1/diagrams.hpp"
 #include "tb/report/html/diagram_watch.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Tick;
-using dsdpv1::Pin;
 
 const tb::TimingDiagram& diagram(std::string_view id) {
   const auto& all = tb::dsdpv1_timing_diagrams();
@@ -191,3 +191,4 @@ TEST(Dsdpv1Diagrams, Intr0IsServedByAReadOfB00eInThisChip) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <pugixml.hpp>
 
+namespace dsdpv1 {
 namespace {
 
 pugi::xml_document read(const std::string& text) {
@@ -77,3 +78,4 @@ TEST(Junit, ATimeThatCannotBeIsNone) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

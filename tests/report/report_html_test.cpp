@@ -6,6 +6,7 @@
 #include "tb/report/html/distribution.hpp"
 #include "tb/report/html/pin_memory.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using tb::DiagramEdge;
@@ -120,3 +121,4 @@ TEST_F(ReportDiagram, NothingSeenIsNoPicture) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+namespace dsdpv1 {
 namespace {
 
 TEST(ResultDocument, IsTheCheckedInFile) {
@@ -16,3 +17,4 @@ TEST(ResultDocument, IsTheCheckedInFile) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

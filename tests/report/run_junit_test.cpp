@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+namespace dsdpv1 {
 namespace {
 
 using testing::HasSubstr;
@@ -65,3 +66,4 @@ TEST(RunJunit, ADifferenceOfModelAndRtlIsACaseOfItsOwn) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <sstream>
 
+namespace dsdpv1 {
 namespace {
 
 using tb::TableWidth;
@@ -93,3 +94,4 @@ TEST(TextTable, SpacesThatAlignANumberStay) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

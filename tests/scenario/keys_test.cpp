@@ -6,6 +6,7 @@
 #include "tb/input/suggest.hpp"
 #include "tb/scenario/scenario.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 const std::string kHead = "name: x\nbaud: 12M\nend: 10ms\n";
@@ -121,3 +122,4 @@ TEST(Suggest, FindsTheNearestWordAndNothingForAStrangeOne) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

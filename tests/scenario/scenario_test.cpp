@@ -9,6 +9,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace sc = tb::scenario;
@@ -65,7 +66,8 @@ TEST(JsonSchema, IsJsonAndKnowsEveryKeyOfTheDescription) {
     EXPECT_TRUE(schema["properties"].contains(field.name)) << field.name;
   EXPECT_FALSE(schema["additionalProperties"]);
   EXPECT_EQ(schema["required"], (nlohmann::json{"name", "baud", "end", "slaves"}));
-  EXPECT_EQ(schema["$defs"]["action"]["oneOf"].size(), sc::description(*tb::chip_kinds().front()).find("script")->type.object->choices.size());
+  EXPECT_EQ(schema["$defs"]["action"]["oneOf"].size(),
+            sc::description(*tb::chip_kinds().front()).find("script")->type.object->choices.size());
 }
 
 TEST(Markdown, IsTheCheckedInFile) {
@@ -77,3 +79,4 @@ TEST(Markdown, IsTheCheckedInFile) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -7,6 +7,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using tb::scenario::Scenario;
@@ -119,3 +120,4 @@ TEST(Settings, BusTimesAndFsmcRegistersTogetherAreRefused) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

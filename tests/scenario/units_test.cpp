@@ -3,6 +3,7 @@
 
 #include "tb/input/units.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 TEST(Time, IsReadExactlyInTicksOfATwelfthOfANanosecond) {
@@ -55,3 +56,4 @@ TEST(Bytes, OtherTextIsRefused) {
 TEST(Bytes, LongTextIsCut) { EXPECT_EQ(tb::bytes_text({1, 2, 3}, 2), "01 02 ... (3 bytes)"); }
 
 }  // namespace
+}  // namespace dsdpv1

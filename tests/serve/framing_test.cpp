@@ -5,6 +5,7 @@
 
 #include "bus/telegram/telegram.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Bytes;
@@ -128,3 +129,4 @@ TEST(Framing, BytesThatBeginNoTelegramAreHandedOverAtOnce) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

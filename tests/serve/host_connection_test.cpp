@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Bytes;
@@ -122,3 +123,4 @@ TEST_F(HostConnectionTest, WhatWasKeptForAHostIsNotForTheNext) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

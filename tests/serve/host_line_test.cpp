@@ -6,6 +6,7 @@
 #include "bus/monitor/monitor.hpp"
 #include "bus/telegram/telegram.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Bytes;
@@ -167,3 +168,4 @@ TEST_F(HostLineTest, ALineThatNeverFallsSilentIsHandedOverInPieces) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+namespace dsdpv1 {
 namespace {
 
 using tb::serve::LineLimit;
@@ -36,3 +37,4 @@ TEST(LineLimit, AtTheEndTheCountIsNotWaitedFor) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+namespace dsdpv1 {
 namespace {
 
 using bus::kTicksPerMs;
@@ -55,3 +56,4 @@ TEST_F(PaceTest, TimeThatStoodStillOnPurposeIsCaughtUpAndIsNoError) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,6 +6,7 @@
 #include "tb/scenario/event_codes.hpp"
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using app_test::call;
@@ -56,3 +57,4 @@ TEST(Reasons, AnUnknownCodeIsRefusedInOneLine) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -8,6 +8,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,3 +120,4 @@ TEST_F(SweepCommand, WrongGsdFileAtEveryPointIsBadInput) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

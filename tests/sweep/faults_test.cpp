@@ -10,6 +10,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -106,3 +107,4 @@ TEST_F(SweepFault, TwoThatBeginAtOnceGiveOneRightResult) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

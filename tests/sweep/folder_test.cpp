@@ -8,9 +8,10 @@
 #include <fstream>
 #include <functional>
 
-#include "tb/input/input_error.hpp"
 #include "tb/campaign/fingerprint.hpp"
+#include "tb/input/input_error.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -225,3 +226,4 @@ TEST_F(SweepFolder, FileInItsPlaceIsRefused) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -8,9 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tb/input/input_error.hpp"
 #include "tb/campaign/fingerprint.hpp"
+#include "tb/input/input_error.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,3 +109,4 @@ TEST_F(SweepInputs, FileThatIsNotThereOrAFolderHasNoContent) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -4,6 +4,7 @@
 
 #include "tb/sweep/heat_map.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using tb::sweep::heat_maps;
@@ -81,3 +82,4 @@ TEST(SweepMap, ThirdParameterMakesAPictureForEachValue) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,6 +6,7 @@
 
 #include "tb/input/input_error.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using tb::sweep::parse_parameter;
@@ -94,3 +95,4 @@ TEST(SweepPlan, NeedsParametersEachOnceAndNotTooManyPoints) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

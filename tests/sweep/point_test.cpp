@@ -6,6 +6,7 @@
 
 #include "tb/sweep/table.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using nlohmann::json;
@@ -116,3 +117,4 @@ TEST(SweepTable, RunsOfValuesAreShortened) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -8,11 +8,9 @@
 #include "model/dsdpv1/reasons.hpp"
 #include "tests/systemc/bench.hpp"
 
-using dsdpv1::Pin;
-using dsdpv1::Tick;
-using dsdpv1::systemc::AccessTiming;
+namespace dsdpv1 {
+
 using dsdpv1::systemc::AccessTimingExtension;
-using dsdpv1::systemc::HostAccess;
 using dsdpv1::systemc::TlmOptions;
 using dsdpv1::systemc::to_tick;
 using dsdpv1::systemc::to_time;
@@ -193,3 +191,4 @@ TEST(Ahead, APinThatIsMovedMeanwhileIsSeenAtTheTimeOfTheChip) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

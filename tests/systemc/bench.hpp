@@ -10,6 +10,8 @@
 #include "model/systemc/dsdpv1_pins.hpp"
 #include "model/systemc/dsdpv1_tlm.hpp"
 
+namespace dsdpv1 {
+
 /// Defined by every test program: builds its bench and runs it.
 void simulate();
 
@@ -83,7 +85,6 @@ struct PinBench {
 
   /// From one process only: D counts its drivers by process.
   void drive(dsdpv1::Pin pin, dsdpv1::Level level) {
-    using dsdpv1::Pin;
     const bool high = level != 0;
     switch (pin) {
       case Pin::kReset: reset.write(high); break;
@@ -120,3 +121,5 @@ inline void wait_until(dsdpv1::Tick tick) {
   const sc_core::sc_time at = dsdpv1::systemc::to_time(tick);
   if (at > sc_core::sc_time_stamp()) sc_core::wait(at - sc_core::sc_time_stamp());
 }
+
+}  // namespace dsdpv1

@@ -17,9 +17,8 @@
 #include "tests/systemc/bench.hpp"
 #include "tests/user_cpu/chip_agent.hpp"
 
-using dsdpv1::Level;
-using dsdpv1::Pin;
-using dsdpv1::Tick;
+namespace dsdpv1 {
+
 using dsdpv1::systemc::TlmOptions;
 using user_cpu::NativeCpu;
 using user_cpu::UserProgram;
@@ -206,3 +205,4 @@ TEST(SystemcBench, AResetOfTheUserCpuReleasesThePinsAtOnce) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

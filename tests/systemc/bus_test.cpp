@@ -8,8 +8,8 @@
 #include "registers/dsdpv1_regs.hpp"
 #include "tests/systemc/bench.hpp"
 
-using dsdpv1::Pin;
-using dsdpv1::Tick;
+namespace dsdpv1 {
+
 using dsdpv1::systemc::BusCharacter;
 using dsdpv1::systemc::to_time;
 using sc_core::sc_time;
@@ -175,3 +175,4 @@ TEST(Bus, PbrtsFramesTheAnswer) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

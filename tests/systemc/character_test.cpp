@@ -3,7 +3,8 @@
 #include "model/systemc/character_line.hpp"
 #include "tests/systemc/bench.hpp"
 
-using dsdpv1::Tick;
+namespace dsdpv1 {
+
 using dsdpv1::systemc::CharacterCollector;
 using dsdpv1::systemc::EdgeQueue;
 using dsdpv1::systemc::frame_of;
@@ -81,3 +82,4 @@ TEST(EdgeQueue, TheLaterCallerWinsFromItsOwnTickOn) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

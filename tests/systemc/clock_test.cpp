@@ -6,7 +6,8 @@
 
 #include "tests/systemc/bench.hpp"
 
-using dsdpv1::Pin;
+namespace dsdpv1 {
+
 using sc_core::sc_clock;
 using sc_core::sc_time;
 using testing::HasSubstr;
@@ -88,3 +89,4 @@ TEST(Clock, ASlowClkGivesTheSameCyclesAsARightOne) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

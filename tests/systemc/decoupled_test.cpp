@@ -5,6 +5,8 @@
 #include "tests/systemc/own_process.hpp"
 #include "tests/systemc/platform.hpp"
 
+namespace dsdpv1 {
+
 using sc_core::sc_time;
 
 namespace {
@@ -78,3 +80,5 @@ TEST(Decoupled, AStationThatAddsUpRoundedTimesIsHeardAtAPicosecond) {
   EXPECT_EQ(answered(false), "198 characters, 0 reports");
   EXPECT_EQ(answered(true), answered(false));
 }
+
+}  // namespace dsdpv1

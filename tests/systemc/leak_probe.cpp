@@ -8,6 +8,7 @@
 #include "model/systemc/main_stack.hpp"
 #include "tests/systemc/bench.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 /// A compiler may leave out an allocation that nobody uses.
@@ -31,6 +32,8 @@ void simulate() {
   });
   sc_core::sc_start(10, sc_core::SC_US);
 }
+
+}  // namespace dsdpv1
 
 int sc_main(int argc, char* argv[]) {
   dsdpv1::systemc::require_resolution();

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 
+namespace dsdpv1 {
+
 /// The first line that is another, of both; empty when the texts are the same. For texts too long for EXPECT_EQ.
 inline std::string first_difference(const std::string& a, const std::string& b) {
   if (a == b) return "";
@@ -54,3 +56,5 @@ inline std::string in_a_process_of_its_own(const std::function<std::string()>& b
   if (!WIFEXITED(status) || WEXITSTATUS(status) != EXIT_SUCCESS) throw std::runtime_error("the other process failed");
   return text;
 }
+
+}  // namespace dsdpv1

@@ -11,10 +11,8 @@
 #include "driver/systemc/driver_cpu.hpp"
 #include "tests/systemc/bench.hpp"
 
-namespace platform {
+namespace dsdpv1::platform {
 
-using dsdpv1::Pin;
-using dsdpv1::Tick;
 using dsdpv1::systemc::BusCharacter;
 using dsdpv1::systemc::DriverCpu;
 using dsdpv1::systemc::to_tick;
@@ -163,4 +161,4 @@ struct Platform : tlm::tlm_analysis_if<BusCharacter> {
   bool adds_up_;
 };
 
-}  // namespace platform
+}  // namespace dsdpv1::platform

@@ -7,9 +7,9 @@
 #include "driver/systemc/driver_cpu.hpp"
 #include "tests/systemc/bench.hpp"
 
-using dsdpv1::Tick;
+namespace dsdpv1 {
+
 using dsdpv1::systemc::DriverCpu;
-using dsdpv1::systemc::HostAccess;
 using dsdpv1::systemc::to_tick;
 using dsdpv1::systemc::to_time;
 using sc_core::sc_time;
@@ -164,3 +164,4 @@ TEST(DriverCpuMisused, WithoutIntr0ItWaitsForAsLongAsItWasTold) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

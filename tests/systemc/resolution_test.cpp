@@ -5,6 +5,7 @@
 #include "tests/systemc/bench.hpp"
 #include "tests/systemc/own_process.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 /// What comes of a module at this resolution; 0: none is set before.
@@ -57,3 +58,5 @@ TEST(Resolution, WhoWantsAFemtosecondTooLateIsToldSo) {
             "the SystemC time resolution is fixed at 1 ps, 1 fs is wanted: call "
             "dsdpv1::systemc::require_femtoseconds() before the first sc_time is made");
 }
+
+}  // namespace dsdpv1

@@ -10,8 +10,8 @@
 #include "registers/dsdpv1_regs.hpp"
 #include "tests/systemc/bench.hpp"
 
-using dsdpv1::Pin;
-using dsdpv1::Tick;
+namespace dsdpv1 {
+
 using dsdpv1::systemc::BusCharacter;
 using dsdpv1::systemc::TlmModule;
 using dsdpv1::systemc::TlmOptions;
@@ -216,3 +216,4 @@ TEST(Runs, TheEventsOfTheChipAreTheSame) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -9,14 +9,8 @@
 
 #include "tests/systemc/bench.hpp"
 
-namespace stimulated {
+namespace dsdpv1::stimulated {
 
-using dsdpv1::Engine;
-using dsdpv1::Level;
-using dsdpv1::Pin;
-using dsdpv1::Tick;
-using dsdpv1::systemc::AccessTiming;
-using dsdpv1::systemc::HostAccess;
 using dsdpv1::systemc::to_time;
 
 constexpr Tick kResetAt = 12'007, kRequestAt = 480 * 3000, kOwnAt = kRequestAt + 12'031, kEnd = 170 * kUs;
@@ -186,4 +180,4 @@ struct World {
   }
 };
 
-}  // namespace stimulated
+}  // namespace dsdpv1::stimulated

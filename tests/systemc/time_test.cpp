@@ -7,7 +7,8 @@
 #include "model/systemc/bound_clock.hpp"
 #include "tests/systemc/bench.hpp"
 
-using dsdpv1::Tick;
+namespace dsdpv1 {
+
 using dsdpv1::systemc::BoundClock;
 using dsdpv1::systemc::to_tick;
 using dsdpv1::systemc::to_time;
@@ -121,3 +122,4 @@ TEST(BoundClock, AFrequencyOutOfTheToleranceIsReportedOnce) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

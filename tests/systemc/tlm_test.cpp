@@ -10,10 +10,9 @@
 #include "model/dsdpv1/reasons.hpp"
 #include "tests/systemc/bench.hpp"
 
-using dsdpv1::Tick;
-using dsdpv1::systemc::AccessTiming;
+namespace dsdpv1 {
+
 using dsdpv1::systemc::AccessTimingExtension;
-using dsdpv1::systemc::HostAccess;
 using dsdpv1::systemc::to_time;
 using sc_core::sc_time;
 using sc_core::SC_ZERO_TIME;
@@ -355,3 +354,4 @@ TEST(HostSocket, ReportsOfViolationsCanBeSwitchedOffTheCallbackStays) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

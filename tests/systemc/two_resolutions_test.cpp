@@ -8,7 +8,8 @@
 #include "tests/systemc/own_process.hpp"
 #include "tests/systemc/stimulated.hpp"
 
-using dsdpv1::Tick;
+namespace dsdpv1 {
+
 using dsdpv1::systemc::to_tick;
 using stimulated::StimulatedPins;
 
@@ -55,3 +56,5 @@ TEST(TwoResolutions, TheWholeTraceOfPinsIsTheSame) {
   for (const double coarser : {10., 100., 1000.})
     EXPECT_EQ(first_difference(told_at(coarser), fine), "") << coarser << " fs";
 }
+
+}  // namespace dsdpv1

@@ -8,11 +8,8 @@
 
 #include "tests/systemc/stimulated.hpp"
 
-using dsdpv1::Config;
-using dsdpv1::Engine;
-using dsdpv1::Level;
-using dsdpv1::Pin;
-using dsdpv1::Tick;
+namespace dsdpv1 {
+
 using dsdpv1::systemc::to_time;
 using stimulated::kEnd;
 using stimulated::kFirstAccess;
@@ -115,3 +112,4 @@ TEST(Views, ARightStimulusIsReportedByNobody) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

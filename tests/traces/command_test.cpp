@@ -9,6 +9,7 @@
 #include "tb/traces/xz.hpp"
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -292,3 +293,4 @@ TEST_F(TracesCommand, OptionsThatDoNotFitAreRefused) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

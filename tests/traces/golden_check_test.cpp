@@ -6,6 +6,7 @@
 
 #include "tests/traces/small.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using tb::traces::GoldenCheck;
@@ -107,3 +108,4 @@ TEST_F(GoldenChecks, WithoutATelegramOnTheBusTheRunGoesOnForTheLengthOfOne) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -4,6 +4,7 @@
 
 #include "tests/traces/small.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using tb::traces::first_other;
@@ -41,3 +42,4 @@ TEST(Manifest, CountsTheChangesOfEachPinAndOfTheLine) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

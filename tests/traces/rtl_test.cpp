@@ -7,6 +7,7 @@
 
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using app_test::call;
@@ -62,3 +63,4 @@ TEST(NoFault, IsFoundWhereNoneIsActive) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

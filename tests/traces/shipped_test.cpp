@@ -6,6 +6,7 @@
 #include "tb/traces/golden.hpp"
 #include "tests/app/program.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,3 +53,4 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedGolden, testing::ValuesIn(app_test::shipped
                          [](const auto& each) { return each.param; });
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,7 +6,7 @@
 #include "tb/scenario/scenario.hpp"
 #include "tb/traces/trace.hpp"
 
-namespace traces_test {
+namespace dsdpv1::traces_test {
 
 using tb::Level;
 using tb::Tick;
@@ -47,4 +47,4 @@ inline std::unique_ptr<tb::traces::Trace> trace_of(const tb::scenario::Scenario&
   return std::make_unique<tb::traces::Trace>(writer.content(kEnd), "small.trace.xz");
 }
 
-}  // namespace traces_test
+}  // namespace dsdpv1::traces_test

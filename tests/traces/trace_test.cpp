@@ -5,6 +5,7 @@
 #include "tb/input/input_error.hpp"
 #include "tests/traces/small.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using tb::traces::Cursor;
@@ -95,3 +96,4 @@ TEST_F(Traces, WithAnyByteDamagedAreReadToTheirEnd) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

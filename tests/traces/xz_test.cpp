@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+namespace dsdpv1 {
 namespace {
 
 using tb::traces::compress;
@@ -36,3 +37,4 @@ TEST(Xz, SaysWhatIsWrong) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -4,6 +4,8 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/user_cpu/host_pins.hpp"
 
+namespace dsdpv1 {
+
 class ChipAgent : public bus::Agent, public user_cpu::HostPins {
  public:
   explicit ChipAgent(const dsdpv1::Config& config = {}) : chip_(config) {}
@@ -25,3 +27,5 @@ class ChipAgent : public bus::Agent, public user_cpu::HostPins {
  private:
   dsdpv1::Chip chip_;
 };
+
+}  // namespace dsdpv1

@@ -1,12 +1,12 @@
 // The core's Chip, replaced by one that records its input pins and drives D as it is told.
 #include "tests/user_cpu/fake_pins.hpp"
 
+namespace dsdpv1 {
+
 FakePins& fake_pins() {
   static FakePins pins;
   return pins;
 }
-
-namespace dsdpv1 {
 
 struct Chip::Impl {};
 

@@ -4,6 +4,8 @@
 
 #include "model/dsdpv1/chip.hpp"
 
+namespace dsdpv1 {
+
 struct PinChange {
   dsdpv1::Tick at;
   dsdpv1::Pin pin;
@@ -19,3 +21,5 @@ struct FakePins {
 };
 
 FakePins& fake_pins();
+
+}  // namespace dsdpv1

@@ -7,6 +7,7 @@
 
 #include "tb/user_cpu/fiber.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using user_cpu::Fiber;
@@ -135,3 +136,4 @@ TEST(Fiber, BodyThatNeverBeganIsDropped) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

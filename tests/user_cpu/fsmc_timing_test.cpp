@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Tick;
-using user_cpu::AccessTiming;
 using user_cpu::FsmcAccess;
 using user_cpu::FsmcBank;
 using user_cpu::FsmcMode;
@@ -101,3 +101,4 @@ TEST(FsmcTiming, OverrideReplacesOnlyWhatItNames) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

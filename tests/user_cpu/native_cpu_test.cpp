@@ -9,6 +9,7 @@
 #include "tb/dsdpv1/user_cpu/native_cpu.hpp"
 #include "tests/user_cpu/recording_bus.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Tick;
@@ -376,3 +377,4 @@ TEST(HandshakeCounters, RequestWithoutAHoldIsGivenUpWhateverIsLoweredWithIt) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -11,10 +11,10 @@
 #include "tb/dsdpv1/user_cpu/programs.hpp"
 #include "tests/user_cpu/chip_agent.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Tick;
-using dsdpv1::Pin;
 using testing::IsEmpty;
 using testing::Not;
 namespace command = user_cpu::command;
@@ -153,3 +153,4 @@ TEST_P(OnChip, EarlyRStaMeetsTheChipSoonerOrLater) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -9,11 +9,11 @@
 
 #include "tests/bench/saturated_bus.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Tick;
 using user_cpu::Access;
-using user_cpu::AccessTiming;
 
 constexpr Access kWrite = {true, 0x130, 0x5A};
 
@@ -212,3 +212,4 @@ TEST_F(ForeignTelegramsTest, AskedInTheMiddleOfOneTheChipHasThoseBefore) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

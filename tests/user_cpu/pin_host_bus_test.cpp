@@ -10,13 +10,11 @@
 #include "tb/dsdpv1/user_cpu/cpu.hpp"
 #include "tests/user_cpu/fake_pins.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Tick;
-using dsdpv1::Level;
-using dsdpv1::Pin;
 using testing::ElementsAre;
-using user_cpu::AccessTiming;
 
 class PinHostBus : public testing::Test {
  protected:
@@ -159,3 +157,4 @@ TEST_F(PinHostBus, GuideNamesTheTimesOfTheDefaults) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

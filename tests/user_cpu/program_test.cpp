@@ -8,6 +8,7 @@
 
 #include "tests/driver/fake_chip.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using bus::Tick;
@@ -27,7 +28,7 @@ class FakeChipBus : public user_cpu::HostBus {
   bool l_req(Tick) override { return port_.get_l_req(port_.ctx); }
   bool l_sta(Tick) override { return port_.get_l_sta(port_.ctx); }
   bool intr0(Tick) override { return true; }
-  void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming&) override {
+  void begin(Tick at, const user_cpu::Access& access, const AccessTiming&) override {
     access_ = access;
     edge_ = at + 100 * bus::kTicksPerNs;
     end_ = edge_;
@@ -324,3 +325,4 @@ TEST_F(Program, Intr0DuringAHoldIsServedAfterTheExchange) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

@@ -6,6 +6,8 @@
 
 #include "tb/dsdpv1/user_cpu/host_bus.hpp"
 
+namespace dsdpv1 {
+
 class RecordingBus : public user_cpu::HostBus {
  public:
   using Tick = bus::Tick;
@@ -24,7 +26,7 @@ class RecordingBus : public user_cpu::HostBus {
   }
   bool intr0(Tick) override { return true; }
 
-  void begin(Tick at, const user_cpu::Access& access, const user_cpu::AccessTiming&) override {
+  void begin(Tick at, const user_cpu::Access& access, const AccessTiming&) override {
     access_ = access;
     edge_ = at;
     last_ = at + kLength;
@@ -47,3 +49,5 @@ class RecordingBus : public user_cpu::HostBus {
   user_cpu::Access access_;
   Tick edge_ = bus::kNever, last_ = 0;
 };
+
+}  // namespace dsdpv1

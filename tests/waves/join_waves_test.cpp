@@ -11,6 +11,7 @@
 #include "tb/waves/join_waves.hpp"
 #include "tb/waves/wave_writer.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,3 +89,4 @@ TEST_F(JoinWaves, PartOfAnotherTimeScaleIsRefusedAndNothingIsWritten) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

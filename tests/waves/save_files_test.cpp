@@ -9,6 +9,7 @@
 
 #include "tb/waves/save_files.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,10 +48,11 @@ constexpr const char* kStation =
 
 TEST_F(SaveFiles, GroupsComeInTheirOrderThenWhatIsInNoneThenScopes) {
   write(kStation);
-  EXPECT_EQ(gtkwave(),
-            "[timestart] 0\n*-31.0 -1\n@800200\n-demo\n@200\n-handshake\n@28\ndemo.R_REQ\n@28\ndemo.L_REQ\n@200\n-host\n"
-            "@22\ndemo.A[10:0]\n@200\n-states\n@28\ndemo.dp_state\n@800200\n-rtl\n@22\ndemo.rtl.count_q[7:0]\n"
-            "@1000200\n-rtl\n@1000200\n-demo\n");
+  EXPECT_EQ(
+      gtkwave(),
+      "[timestart] 0\n*-31.0 -1\n@800200\n-demo\n@200\n-handshake\n@28\ndemo.R_REQ\n@28\ndemo.L_REQ\n@200\n-host\n"
+      "@22\ndemo.A[10:0]\n@200\n-states\n@28\ndemo.dp_state\n@800200\n-rtl\n@22\ndemo.rtl.count_q[7:0]\n"
+      "@1000200\n-rtl\n@1000200\n-demo\n");
   EXPECT_EQ(read("my.sucl"),
             "divider_add demo:handshake\nvariable_add demo.R_REQ\nvariable_add demo.L_REQ\n"
             "divider_add demo:host\nvariable_add demo.A\ndivider_add demo:states\nvariable_add demo.dp_state\n"
@@ -73,3 +75,4 @@ TEST_F(SaveFiles, NameIsThatOfTheWaveWithAnEndingOfItsOwn) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

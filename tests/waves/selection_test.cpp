@@ -10,6 +10,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/waves/wave_selection.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -209,3 +210,4 @@ TEST(WaveSelection, ClkRisesAtEveryCycleWithinTheWindowOnly) {
 }
 
 }  // namespace
+}  // namespace dsdpv1

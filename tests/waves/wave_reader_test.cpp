@@ -13,6 +13,7 @@
 #include "tb/waves/wave_reader.hpp"
 #include "tb/waves/wave_writer.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -240,3 +241,4 @@ TEST_F(ReadWaves, FstThatWasCutOrDamagedIsRefusedWhereverThatIs) {
 #endif
 
 }  // namespace
+}  // namespace dsdpv1

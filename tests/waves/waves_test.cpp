@@ -18,6 +18,7 @@
 #include "tb/waves/recover.hpp"
 #include "tb/waves/wave_writer.hpp"
 
+namespace dsdpv1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -284,3 +285,4 @@ TEST_F(Waves, WhatIsNoPartIsNotRecovered) {
 #endif
 
 }  // namespace
+}  // namespace dsdpv1

@@ -12,7 +12,7 @@
 #include "tb/dsdpv1/user_maker.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 /// As the scenario's check has found them right.
@@ -48,7 +48,7 @@ MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
   check_objects(request.scenario, request.slave, *options.firmware);
   options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(own.cpi * 1000);
   if (own.fsmc) options.fsmc = static_cast<const user_cpu::FsmcOverride&>(*own.fsmc);
-  if (own.access) options.access = static_cast<const user_cpu::AccessTiming&>(*own.access);
+  if (own.access) options.access = static_cast<const AccessTiming&>(*own.access);
   options.switches = switches_of(own);
   if (const GdbRequest* gdb = request.gdb) {
     options.make_debugger = [gdb](arm::DebugTarget& target) {
@@ -71,4 +71,4 @@ MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
 
 void add_arm_board() { set_arm_maker(arm_user); }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -11,7 +11,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/suggest.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 using keys::Given;
@@ -120,4 +120,4 @@ Untold untold(const scenario::Scenario& scenario, const scenario::Slave& slave, 
   return Finder(scenario, slave, firmware).find();
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -7,7 +7,7 @@
 
 #include "tb/scenario/scenario.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 struct Untold {
   std::set<const void*> left_out;  ///< actions and expectations of the scenario, by address
@@ -19,4 +19,4 @@ struct Untold {
 /// firmware that the command line has put in the place of the file's: those are noted.
 Untold untold(const scenario::Scenario& scenario, const scenario::Slave& slave, const std::string& firmware);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

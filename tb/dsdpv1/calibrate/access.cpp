@@ -6,7 +6,7 @@
 
 #include "tb/dsdpv1/calibrate/found.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 const Claim kTogether = {"H1", "L_REQ and L_STA rise and fall together", {Wire::kLReq, Wire::kLSta}};
@@ -347,4 +347,4 @@ void measure_access(Scene& scene, Found& found) {
 
 Claims access_claims() { return {&kInterval, &kTogether, &kHeldOff, &kAtOnce, &kRace, &kEmpty, &kStartUp, &kOverdue}; }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

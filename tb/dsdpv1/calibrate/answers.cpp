@@ -7,7 +7,7 @@
 #include "bus/wire/uart.hpp"
 #include "tb/dsdpv1/calibrate/found.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 const Claim kLead = {"P2", "PBRTS rises the same time before each answer", {Wire::kPbtxd, Wire::kPbrts}};
@@ -198,4 +198,4 @@ void measure_answers(const Scene& scene, Found& found) {
 
 Claims answer_claims() { return {&kLead, &kTrail, &kDriven, &kBits, &kAnswered, &kAsked, &kSyn}; }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -7,7 +7,7 @@
 
 #include "tb/input/suggest.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 constexpr double kTicksPerNs = static_cast<double>(bus::kTicksPerNs),
@@ -190,4 +190,4 @@ Result calibrate(const std::string& file, const Record& record, const Sampling& 
   return result;
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

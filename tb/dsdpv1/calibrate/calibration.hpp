@@ -6,7 +6,7 @@
 
 #include "tb/dsdpv1/calibrate/rulings.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 enum class Verdict : std::uint8_t {
   kConfirmed,
@@ -63,4 +63,4 @@ std::string json(const Result& result);
 /// A `chip` block for scenarios.
 std::string chip_block(const Result& result);
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

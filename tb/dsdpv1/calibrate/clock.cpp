@@ -4,7 +4,7 @@
 #include "bus/wire/uart.hpp"
 #include "tb/dsdpv1/calibrate/found.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 const Claim kClock = {"P1", "CLK is 48 MHz, as far as two crystals may differ", {Wire::kPbtxd}};
@@ -53,4 +53,4 @@ void measure_clock(Scene& scene, double limit_ppm, Found& found) {
 
 Claims clock_claims() { return {&kClock}; }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

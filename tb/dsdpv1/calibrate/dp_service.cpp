@@ -1,6 +1,6 @@
 #include "tb/dsdpv1/calibrate/dp_service.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 PrmKind prm_kind(const Exchange& exchange) {
   constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40;
@@ -23,4 +23,4 @@ bool diagnosis_has(const Exchange& exchange, std::uint8_t status1, std::uint8_t 
   return exchange.answer->right && data.size() > 1 && (data[0] & status1) == status1 && (data[1] & status2) == status2;
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -2,7 +2,7 @@
 // What Set_Prm and Slave_Diag say of the chip's state.
 #include "tb/dsdpv1/calibrate/scene.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 constexpr std::size_t kPrmSize = 7;                       ///< bytes of Set_Prm without those of the user
 constexpr std::uint8_t kPrmFault = 0x40, kPrmReq = 0x01;  ///< of status 1 and 2
@@ -23,4 +23,4 @@ bool may_be_prm(const Exchange& exchange);
 /// Slave_Diag was answered, all of these bits set. From memory, too: nothing was executed since (S26).
 bool diagnosis_has(const Exchange& exchange, std::uint8_t status1, std::uint8_t status2);
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

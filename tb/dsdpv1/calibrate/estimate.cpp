@@ -3,7 +3,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 constexpr double kSigmas = 5;
@@ -97,4 +97,4 @@ Estimate estimate(const std::vector<Instance>& instances, const TimeBase* time) 
   return result;
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

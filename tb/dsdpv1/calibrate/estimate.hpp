@@ -6,7 +6,7 @@
 
 #include "tb/dsdpv1/calibrate/time_base.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 /// One measurement.
 struct Instance {
@@ -35,4 +35,4 @@ struct Estimate {
 /// `hi` is none.
 Estimate estimate(const std::vector<Instance>& instances, const TimeBase* time = nullptr);
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

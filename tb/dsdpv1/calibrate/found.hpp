@@ -7,7 +7,7 @@
 #include "tb/dsdpv1/calibrate/judge.hpp"
 #include "tb/dsdpv1/calibrate/scene.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 /// The chip's parameters: those that docs/chip.md marks (p) and a scenario's `chip` sets.
 enum class Parameter : std::uint8_t {
@@ -80,4 +80,4 @@ Claims user_claims();
 void measure_reset(const Scene& scene, Found& found);
 Claims reset_claims();
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

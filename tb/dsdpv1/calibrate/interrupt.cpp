@@ -7,7 +7,7 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/calibrate/found.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 const Claim kPulses = {"P7", "every pulse of INTR0 is as long as the others", {Wire::kIntr0}};
@@ -137,4 +137,4 @@ void measure_interrupt(const Scene& scene, Found& found) {
 
 Claims interrupt_claims() { return {&kPulses, &kInAccess, &kReady}; }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -6,7 +6,7 @@
 
 #include "tb/dsdpv1/calibrate/wires.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 /// One claim of a ruling that pins can show.
 struct Claim {
@@ -54,4 +54,4 @@ class Judge {
   std::map<const Claim*, Tally> tallies_;
 };
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -7,7 +7,7 @@
 
 #include "bus/wire/uart.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 /// Where a bit may be sampled: with two samples a bit one of them may be just before or behind an edge.
@@ -197,4 +197,4 @@ std::vector<LineTelegram> telegrams_sent(const Trace& trace, const TimeBase& tim
   return LineReader(trace, time, received, false).read();
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

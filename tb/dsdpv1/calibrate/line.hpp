@@ -6,7 +6,7 @@
 #include "tb/dsdpv1/calibrate/time_base.hpp"
 #include "tb/dsdpv1/calibrate/wires.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 struct LineTelegram {
   Tick start = 0;       ///< the first start bit falls
@@ -47,4 +47,4 @@ std::vector<LineTelegram> telegrams_received(const Trace& trace, const TimeBase&
 std::vector<LineTelegram> telegrams_sent(const Trace& trace, const TimeBase& time,
                                          const std::vector<LineTelegram>& received);
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

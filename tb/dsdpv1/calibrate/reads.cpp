@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 bool may_be_in_reset(const Scene& scene, const UserAccess& read) {
@@ -63,4 +63,4 @@ bool is_known(const Scene& scene, const UserAccess& read) {
          !in_flight(scene, read);
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -2,7 +2,7 @@
 // Which of the user's reads say something of the chip.
 #include "tb/dsdpv1/calibrate/scene.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 /// Whether the rulings say what this read brings: the user has the DPRAM (P12), which a reset takes (P10, H6), and no
 /// write of the same cell is on its way (P8). What is not in the capture is taken to be right.
@@ -17,4 +17,4 @@ std::optional<Standing> standing_data(const Scene& scene, const UserAccess& read
 /// A strobe may lie between two samples, or an access of the chip: what a cell holds is not known.
 bool may_miss_writes(const Scene& scene);
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -4,7 +4,7 @@
 #include "tb/dsdpv1/calibrate/found.hpp"
 #include "tb/dsdpv1/calibrate/reads.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 /// The accesses of start-ups, by their places.
@@ -106,4 +106,4 @@ void measure_ready(const Scene& scene, Found& found) {
                                  : "no RESET, and no start-up access that certainly did not wait";
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -9,7 +9,7 @@
 #include "tb/input/suggest.hpp"
 #include "tb/report/text_table.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 double microseconds(Tick at) { return static_cast<double>(at) / static_cast<double>(bus::kTicksPerUs); }
@@ -194,4 +194,4 @@ std::string chip_block(const Result& result) {
   return any ? text : text + "  {}\n";
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

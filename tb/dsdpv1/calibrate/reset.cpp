@@ -1,7 +1,7 @@
 // P9, P10: what RESET does.
 #include "tb/dsdpv1/calibrate/found.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 const Claim kRelease = {"P9",
@@ -59,4 +59,4 @@ void measure_reset(const Scene& scene, Found& found) {
 
 Claims reset_claims() { return {&kRelease, &kLevels}; }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -4,7 +4,7 @@
 
 #include "tb/dsdpv1/settings.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 const char* const kNoPin = "no pin shows it";
@@ -85,4 +85,4 @@ const tb::keys::Field& field_of(const ParameterRow& row) { return *tb::dsdpv1_ch
 
 long long default_of(const ParameterRow& row) { return std::strtoll(field_of(row).default_text.c_str(), nullptr, 10); }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -6,7 +6,7 @@
 #include "tb/dsdpv1/calibrate/found.hpp"
 #include "tb/keys/keys.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 struct Ruling {
   const char* id;      ///< "S3"; "facts"
@@ -31,4 +31,4 @@ const std::vector<ParameterRow>& parameters();
 const tb::keys::Field& field_of(const ParameterRow& row);
 long long default_of(const ParameterRow& row);
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

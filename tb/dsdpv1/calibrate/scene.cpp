@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 Tick syn(const LineTelegram& telegram) { return bus::kSynBits * bus::baud(telegram.baud).bit; }
@@ -246,4 +246,4 @@ void fill(Scene& scene) {
             [](const UserAccess& a, const UserAccess& b) { return a.end < b.end; });
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

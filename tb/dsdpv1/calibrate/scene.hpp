@@ -5,7 +5,7 @@
 
 #include "tb/dsdpv1/calibrate/line.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 /// A request, and the chip's answer to it.
 struct Exchange {
@@ -87,4 +87,4 @@ void fill(Scene& scene);
 /// Finds the start-up accesses, and resets in a capture without RESET. Needs the scale of time.
 void find_resets(Scene& scene);
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -7,7 +7,7 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/calibrate/found.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 const Claim kLocks = {"S1", "a right SD1, SD2 or SD3 ends the search", {Wire::kPbrxd, Wire::kBr}};
@@ -267,4 +267,4 @@ void measure_search(const Scene& scene, Found& found) {
 
 Claims search_claims() { return {&kLocks, &kDecided, &kSilent, &kFoundFirst, &kExchange}; }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

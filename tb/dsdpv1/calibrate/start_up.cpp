@@ -3,7 +3,7 @@
 
 #include "tb/dsdpv1/calibrate/scene.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 /// Cycles. Before the first initialisation no access takes more than 1235: the user's blocks at full length, which are
@@ -94,4 +94,4 @@ bool Scene::may_hide_reset(Tick from, Tick to) const {
   return !shown && !record[Wire::kBr].high(from, to) && !record[Wire::kPbf].low(from, to);
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

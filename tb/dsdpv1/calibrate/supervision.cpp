@@ -2,7 +2,7 @@
 
 #include "tb/dsdpv1/calibrate/dp_service.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 using State = Supervised::State;
@@ -114,4 +114,4 @@ void Supervision::rate_found(Tick at) {
   searched_ = at;
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

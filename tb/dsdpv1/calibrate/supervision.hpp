@@ -5,7 +5,7 @@
 
 #include "tb/dsdpv1/calibrate/scene.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 /// `offset` cycles behind a recorded edge.
 struct Moment {
@@ -54,4 +54,4 @@ class Supervision {
   Tick searched_ = -1;  ///< rises of BR until there are taken
 };
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

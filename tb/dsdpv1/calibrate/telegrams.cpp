@@ -5,7 +5,7 @@
 
 #include "tb/dsdpv1/calibrate/found.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 using bus::Telegram;
@@ -244,4 +244,4 @@ Claims telegram_claims() {
   return claims;
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

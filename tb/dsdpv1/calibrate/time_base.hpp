@@ -5,7 +5,7 @@
 #include "bus/baud.hpp"
 #include "bus/time.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 using bus::Tick;
 
@@ -50,4 +50,4 @@ struct TimeBase {
   double scaled(double distance, bool up) const { return distance * ((distance > 0) == up ? scale.hi : scale.lo); }
 };
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -6,7 +6,7 @@
 #include "tb/dsdpv1/calibrate/dp_service.hpp"
 #include "tb/dsdpv1/calibrate/found.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 const Claim kTsdr = {
@@ -193,4 +193,4 @@ void measure_tsdr(const Scene& scene, Found& found) {
 
 Claims tsdr_claims() { return {&kTsdr, &kMinTsdr}; }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -8,7 +8,7 @@
 #include "tb/dsdpv1/calibrate/found.hpp"
 #include "tb/dsdpv1/calibrate/reads.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 const Claim kData = {"P5", "D stands 31.25 ns after RD and CSR fell, until one of them rises", {}, true};
@@ -204,4 +204,4 @@ void measure_user(const Scene& scene, Found& found) {
 
 Claims user_claims() { return {&kData, &kRam, &kVersion, &kCrc, &kTaken}; }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

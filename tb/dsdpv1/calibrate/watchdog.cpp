@@ -9,7 +9,7 @@
 #include "tb/dsdpv1/calibrate/found.hpp"
 #include "tb/dsdpv1/calibrate/supervision.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 const Claim kWatchdog = {
@@ -237,4 +237,4 @@ void measure_watchdog(const Scene& scene, Found& found) {
 
 Claims watchdog_claims() { return {&kWatchdog, &kBrFalls}; }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

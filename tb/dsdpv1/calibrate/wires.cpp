@@ -8,7 +8,7 @@
 #include "bus/capture/captured_telegram.hpp"
 #include "tb/input/suggest.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 namespace {
 
 using bus::capture::CaptureError;
@@ -199,4 +199,4 @@ void RecordTaker::level(Tick at, std::size_t which, bool level) {
     throw CaptureError(fmt::format("has more than {} million changes, allowed are so many", kMostChanges / 1'000'000));
 }
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

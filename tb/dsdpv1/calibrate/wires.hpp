@@ -10,7 +10,7 @@
 #include "bus/capture/level_taker.hpp"
 #include "bus/time.hpp"
 
-namespace calibrate {
+namespace dsdpv1::calibrate {
 
 using bus::Tick;
 
@@ -125,4 +125,4 @@ class RecordTaker : public bus::capture::LevelTaker {
   std::size_t changes_ = 0;
 };
 
-}  // namespace calibrate
+}  // namespace dsdpv1::calibrate

@@ -1,9 +1,7 @@
 #include "tb/dsdpv1/checks/blocks.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 namespace {
-
-namespace regs = dsdpv1::regs;
 
 constexpr unsigned kAcyclicHeader = 4;
 
@@ -41,4 +39,4 @@ std::optional<std::uint16_t> crc_over(Address first, unsigned count, const Look&
   return static_cast<std::uint16_t>(crc);
 }
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

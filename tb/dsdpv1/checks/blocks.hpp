@@ -8,7 +8,7 @@
 
 #include "registers/dsdpv1_regs.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 using dsdpv1::regs::Address;
 
@@ -58,4 +58,4 @@ std::optional<unsigned> covered(const Block& block, const Look& look);
 /// The CRC over `count` bytes from `first` (4.2, D2). Written apart from the driver's and the chip's, which it judges.
 std::optional<std::uint16_t> crc_over(Address first, unsigned count, const Look& look);
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

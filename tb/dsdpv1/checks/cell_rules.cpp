@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-namespace checks {
+namespace dsdpv1::checks {
 namespace {
-
-namespace regs = dsdpv1::regs;
 
 /// The bits of B00A..B011 that mean something, by who sets them.
 struct FlagByte {
@@ -294,4 +292,4 @@ void CellRules::check_verdicts(Tick at) {
   }
 }
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -11,7 +11,7 @@
 #include "tb/dsdpv1/checks/check.hpp"
 #include "tb/dsdpv1/checks/port_timing.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 /// A hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again. What the chip may have changed
 /// before it is not known until the user reads it.
@@ -74,4 +74,4 @@ class CellRules {
   std::array<std::uint8_t, 2> set_aside_{};            ///< B00E, B00F: flags that he cleared without fetching the block
 };
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -2,11 +2,8 @@
 
 #include "model/dsdpv1/pins.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 namespace {
-
-using dsdpv1::mask;
-using dsdpv1::Pin;
 
 constexpr std::uint32_t kUserHandshake = mask(Pin::kRReq) | mask(Pin::kRSta);
 constexpr std::uint32_t kHandshake = kUserHandshake | mask(Pin::kLReq) | mask(Pin::kLSta);
@@ -28,4 +25,4 @@ const RuleTable& rules() {
 
 const Rule& rule(CheckId check) { return rules().at(check.index); }
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

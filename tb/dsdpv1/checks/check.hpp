@@ -6,7 +6,7 @@
 
 #include "tb/checks/check.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 enum class Check : std::uint8_t {
 #define X(enumerator, ...) enumerator,
@@ -24,4 +24,4 @@ constexpr std::size_t kCheckCount = std::size(kAllChecks);
 const RuleTable& rules();
 const Rule& rule(CheckId check);
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

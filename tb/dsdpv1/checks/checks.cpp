@@ -2,10 +2,7 @@
 
 #include <utility>
 
-namespace checks {
-
-using dsdpv1::Level;
-using dsdpv1::Pin;
+namespace dsdpv1::checks {
 
 void Checks::pin(Tick at, Pin pin, Level level) {
   if ((dsdpv1::mask(pin) & kPins) == 0) return;
@@ -87,4 +84,4 @@ void Checks::finish(Tick end) {
   ownership_.finish(end);
 }
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -22,7 +22,7 @@
 #include "tb/dsdpv1/checks/service.hpp"
 #include "tb/dsdpv1/pins/pin_table.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 class Checks : public ChipChecks, private AccessSink {
  public:
@@ -75,4 +75,4 @@ class Checks : public ChipChecks, private AccessSink {
   std::optional<Tick> hold_end_;  ///< judged when time goes on: a RESET at the same tick makes it void
 };
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

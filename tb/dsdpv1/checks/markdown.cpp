@@ -4,7 +4,7 @@
 
 #include "tb/dsdpv1/checks/check.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 namespace {
 
 const char* const kIntroduction = R"(# Checks
@@ -120,4 +120,4 @@ std::string markdown() {
   return text;
 }
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

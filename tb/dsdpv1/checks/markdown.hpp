@@ -2,9 +2,9 @@
 // docs/checks.md.
 #include <string>
 
-namespace checks {
+namespace dsdpv1::checks {
 
 /// The whole document: how the checks are used, and each of them with rule, clause, formula and limit.
 std::string markdown();
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

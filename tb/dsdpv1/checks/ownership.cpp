@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace checks {
+namespace dsdpv1::checks {
 namespace {
 
 std::string no_context() { return {}; }
@@ -150,4 +150,4 @@ void Ownership::finish(Tick at) {
   if (const std::optional<Tick> since = held_off_since()) record(Check::kNeverReleased, *since, at - *since);
 }
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -11,7 +11,7 @@
 #include "tb/checks/recorder.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 class Ownership {
  public:
@@ -59,4 +59,4 @@ class Ownership {
   bool began_not_owned_ = false;         ///< ... and began so; else it was lost on the way
 };
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -5,11 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace checks {
+namespace dsdpv1::checks {
 namespace {
-
-using dsdpv1::Level;
-using dsdpv1::Pin;
 
 constexpr Tick kCycle = 250;           // P1
 constexpr Tick kSettles = 2 * kCycle;  // P8: the third CLK edge after WR rose, two after the first
@@ -187,4 +184,4 @@ void PortTiming::check_read_back() {
   }
 }
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

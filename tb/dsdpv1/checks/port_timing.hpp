@@ -13,7 +13,7 @@
 #include "tb/checks/recorder.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 /// One byte moved by the user.
 struct Access {
@@ -88,4 +88,4 @@ class PortTiming {
   Tick a_valid_since_ = 0;    ///< since when it has been there
 };
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -7,12 +7,8 @@
 #include "bus/baud.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
-namespace checks {
-namespace {
-
-namespace regs = dsdpv1::regs;
-
-}  // namespace
+namespace dsdpv1::checks {
+namespace {}  // namespace
 
 void Service::reset() {
   intr0_fell_.reset();
@@ -104,4 +100,4 @@ void Service::exchange(Tick at) {
   longest_part_ = 0;
 }
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

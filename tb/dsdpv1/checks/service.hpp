@@ -7,7 +7,7 @@
 #include "tb/dsdpv1/checks/check.hpp"
 #include "tb/dsdpv1/checks/port_timing.hpp"
 
-namespace checks {
+namespace dsdpv1::checks {
 
 class Service {
  public:
@@ -44,4 +44,4 @@ class Service {
   Tick longest_part_ = 0;              ///< of the interval since then, that the user held the chip off
 };
 
-}  // namespace checks
+}  // namespace dsdpv1::checks

@@ -4,7 +4,7 @@
 
 #include "tb/input/units.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 std::string level_text(Pin pin, Level level) {
   if (level == dsdpv1::kLevelZ) return "Z";
@@ -30,4 +30,4 @@ std::string AccessWatch::chip_text() const {
   return fmt::format("last access from {} to {}", tb::cycle_text(chip_start_), tb::cycle_text(chip_end_));
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -6,11 +6,7 @@
 #include "model/dsdpv1/pins.hpp"
 #include "tb/dsdpv1/last_access.hpp"
 
-namespace cosim {
-
-using dsdpv1::Level;
-using dsdpv1::Pin;
-using dsdpv1::Tick;
+namespace dsdpv1::cosim {
 
 /// A level in words: "1", "3F", "Z", "X".
 std::string level_text(Pin pin, Level level);
@@ -33,4 +29,4 @@ class AccessWatch {
   Tick chip_start_ = -1, chip_end_ = -1;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

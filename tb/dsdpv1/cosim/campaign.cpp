@@ -8,7 +8,7 @@
 #include "tb/dsdpv1/cosim/random_setup.hpp"
 #include "tb/dsdpv1/cosim/random_stimulus.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 // No case needs longer; the slow rates would make some last for minutes.
@@ -110,4 +110,4 @@ CampaignResult run_campaign(const CampaignOptions& options, const MakeTop& make,
   return Campaign(options, make, progress).run();
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

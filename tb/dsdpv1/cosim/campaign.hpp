@@ -7,7 +7,7 @@
 #include "tb/dsdpv1/cosim/coverage.hpp"
 #include "tb/dsdpv1/cosim/player.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 /// How random cases and directed stimuli are played on the reference RTL.
 PlayOptions quick_options();
@@ -43,4 +43,4 @@ Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs, const PlayOpti
 /// Calls `work` on so many threads, each until it returns false; throws what the first of them threw.
 void in_parallel(unsigned jobs, const std::function<bool()>& work);
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

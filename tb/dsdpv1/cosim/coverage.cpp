@@ -7,7 +7,7 @@
 #include "bus/telegram/telegram.hpp"
 #include "model/dsdpv1/reasons.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 constexpr std::size_t kLineWidth = 118;
@@ -95,4 +95,4 @@ std::string Coverage::text() const {
   return sent.text() + states.text() + refused.text() + violated.text() + missing.text();
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -7,7 +7,7 @@
 #include "bus/wire/uart.hpp"
 #include "model/profibus/event.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 class Coverage {
  public:
@@ -29,4 +29,4 @@ class Coverage {
   Counts reasons_;  ///< those that occurred
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -15,7 +15,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 namespace fs = std::filesystem;
@@ -143,4 +143,4 @@ std::string to_tsv(const std::vector<Kill>& kills) {
   return text;
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -5,7 +5,7 @@
 
 #include "tb/dsdpv1/cosim/campaign.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 struct Fault {
   unsigned number = 0;
@@ -43,4 +43,4 @@ std::string heading();
 /// The table for other programs: tab-separated, with a heading.
 std::string to_tsv(const std::vector<Kill>& kills);
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

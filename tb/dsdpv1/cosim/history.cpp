@@ -5,7 +5,7 @@
 
 #include "tb/waves/wave_writer.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 constexpr std::array<const char*, kSides> kScopes = {"inputs", "model", "rtl"};
@@ -56,4 +56,4 @@ void History::write_wave(const std::string& path, Tick end) const {
   writer->finish(std::max(end, begin));
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -9,11 +9,7 @@
 #include "model/dsdpv1/pins.hpp"
 #include "tb/dsdpv1/cosim/line_history.hpp"
 
-namespace cosim {
-
-using dsdpv1::Level;
-using dsdpv1::Pin;
-using dsdpv1::Tick;
+namespace dsdpv1::cosim {
 
 enum class Side : std::uint8_t { kInput, kModel, kRtl };
 constexpr std::size_t kSides = 3;
@@ -48,4 +44,4 @@ class History {
   LineHistory line_;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -8,7 +8,7 @@
 #include "tb/waves/join_waves.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 /// A wave that is the difference alone.
@@ -52,4 +52,4 @@ void JoinedWave::finish(const std::optional<Difference>& difference) {
   tb::join_waves(parts, path_);
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -8,7 +8,7 @@
 #include "tb/dsdpv1/cosim/rtl_trace.hpp"
 #include "tb/output/part_file.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 /// Until it is finished its parts are in files of their own in the folder of the build, which go with it.
 class JoinedWave {
@@ -39,4 +39,4 @@ class JoinedWave {
   std::vector<Trace> traces_;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -8,7 +8,7 @@
 #include "bus/telegram/telegram.hpp"
 #include "bus/wire/uart.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 constexpr std::size_t kEdges = 6000;  // more than the longest telegram has
@@ -88,4 +88,4 @@ int LineHistory::likely_rate() const {
   return rate;
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -6,9 +6,7 @@
 #include "bus/time.hpp"
 #include "model/dsdpv1/pins.hpp"
 
-namespace cosim {
-
-using dsdpv1::Tick;
+namespace dsdpv1::cosim {
 
 /// What a station of the segment sent last, as far as it can be read from the edges of the line.
 struct LineTelegram {
@@ -33,4 +31,4 @@ class LineHistory {
   std::deque<Edge> edges_;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -7,7 +7,7 @@
 
 #include "tb/input/units.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
@@ -166,4 +166,4 @@ void Lockstep::write_wave(const std::string& path) {
   history_.write_wave(path, end);
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -13,7 +13,7 @@
 #include "tb/dsdpv1/cosim/pin_comparator.hpp"
 #include "tb/dsdpv1/cosim/rtl_chip.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 struct LockstepOptions {
   Tolerances tolerances{};
@@ -101,4 +101,4 @@ class Lockstep {
   Tick compared_to_ = 0;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -11,7 +11,7 @@
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 /// The parameters of the chip; other kinds than the DSDPV1 have no RTL here.
@@ -140,4 +140,4 @@ bool report(LockstepExecution& execution, const std::string& wave, std::string& 
   return false;
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -10,7 +10,7 @@
 #include "tb/bench/record.hpp"
 #include "tb/dsdpv1/cosim/lockstep.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 /// Makes the RTL of the chip with this name and these parameters; may throw tb::InputError.
 using MakeRtl = std::function<std::unique_ptr<RtlTop>(const std::string& name, const dsdpv1::Config& config)>;
@@ -55,4 +55,4 @@ class LockstepExecution : public tb::Execution {
 /// `wave` (empty: none). True when there was no difference.
 bool report(LockstepExecution& execution, const std::string& wave, std::string& text);
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

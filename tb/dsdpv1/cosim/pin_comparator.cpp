@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 constexpr int kFirstOutput = static_cast<int>(Pin::kLReq);
@@ -102,4 +102,4 @@ std::optional<PinDifference> PinComparator::overdue(Tick horizon) {
   return std::nullopt;
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -12,11 +12,7 @@
 
 #include "model/dsdpv1/pins.hpp"
 
-namespace cosim {
-
-using dsdpv1::Level;
-using dsdpv1::Pin;
-using dsdpv1::Tick;
+namespace dsdpv1::cosim {
 
 /// The first difference; a level that did not come within the tolerance is `nullopt`.
 struct PinDifference {
@@ -75,4 +71,4 @@ class PinComparator {
   std::uint64_t matched_ = 0;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

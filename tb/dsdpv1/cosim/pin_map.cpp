@@ -9,7 +9,7 @@
 #include "tb/input/read_file.hpp"
 #include "tb/input/suggest.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 constexpr int kLargestTolerance = 1000;
@@ -126,4 +126,4 @@ PinMap default_pin_map() {
 
 PinMap load_pin_map(const std::string& path) { return Reader(path).read(); }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -16,7 +16,7 @@
 
 #include "tb/dsdpv1/cosim/pin_comparator.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 struct Port {
   std::string name;
@@ -37,4 +37,4 @@ PinMap default_pin_map();
 /// Reads what differs from the default; throws tb::InputError.
 PinMap load_pin_map(const std::string& path);
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

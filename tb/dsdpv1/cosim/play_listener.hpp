@@ -3,7 +3,7 @@
 #include "bus/monitor/monitor.hpp"
 #include "tb/dsdpv1/cosim/lockstep.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 /// Overrides what concerns it.
 class PlayListener {
@@ -23,4 +23,4 @@ class PlayListener {
   virtual void ends(Tick /*end*/, const Lockstep& /*lockstep*/) {}
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -6,7 +6,7 @@
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/bench/record.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 void PlayLog::pin(Tick at, Side side, Pin pin, Level level) {
   log_.add({at, name(side), "pin", fmt::format("{} {}", dsdpv1::name(pin), level_text(pin, level))});
@@ -28,4 +28,4 @@ void PlayLog::ends(Tick /*end*/, const Lockstep& lockstep) {
   log_.finish();
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -5,7 +5,7 @@
 #include "tb/bench/run_log.hpp"
 #include "tb/dsdpv1/cosim/play_listener.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 class PlayLog : public PlayListener {
  public:
@@ -22,4 +22,4 @@ class PlayLog : public PlayListener {
   tb::RunLog log_;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

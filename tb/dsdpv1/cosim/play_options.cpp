@@ -7,7 +7,7 @@
 #include "tb/input/input_error.hpp"
 #include "tb/scenario/settings.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 const tb::ChipKind& chip_kind() { return tb::dsdpv1_kind(); }
 
@@ -38,4 +38,4 @@ MakeTop reference_top(const PlayOptions& options, unsigned fault, std::uint32_t 
   return [=] { return make_reference_rtl(config, seed); };
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

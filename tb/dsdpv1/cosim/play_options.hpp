@@ -6,7 +6,7 @@
 #include "tb/chip/chip_kind.hpp"
 #include "tb/dsdpv1/cosim/player.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 /// The kind of chip that stimuli are for.
 const tb::ChipKind& chip_kind();
@@ -20,4 +20,4 @@ void set_parameters(PlayOptions& options, const std::vector<std::string>& settin
 /// The reference RTL with the parameters of `options` and, unless it is 0, a single fault of rtl_ref/faults.txt.
 MakeTop reference_top(const PlayOptions& options, unsigned fault, std::uint32_t seed);
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -2,7 +2,7 @@
 
 #include "bus/telegram/explain.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 std::string wave_name(Pin pin) {
@@ -60,4 +60,4 @@ void PlayWave::evaluated(Tick now, const dsdpv1::Chip& model) {
 
 void PlayWave::ends(Tick end, const Lockstep& /*lockstep*/) { writer_->finish(in_order(end)); }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

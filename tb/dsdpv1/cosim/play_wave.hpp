@@ -11,7 +11,7 @@
 #include "tb/dsdpv1/inside_watch.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 class PlayWave : public PlayListener {
  public:
@@ -40,4 +40,4 @@ class PlayWave : public PlayListener {
   Tick last_ = 0;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -10,7 +10,7 @@
 #include "bus/wire/uart.hpp"
 #include "model/dpram/crc16.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
@@ -348,4 +348,4 @@ PlayResult play(const Stimulus& stimulus, const MakeTop& make, const PlayOptions
   return Player(stimulus, make, options).run();
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

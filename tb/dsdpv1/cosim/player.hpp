@@ -11,7 +11,7 @@
 #include "tb/dsdpv1/cosim/play_listener.hpp"
 #include "tb/dsdpv1/cosim/stimulus.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 /// Makes the RTL for one run; each run has a new one.
 using MakeTop = std::function<std::unique_ptr<RtlTop>()>;
@@ -34,4 +34,4 @@ struct PlayResult {
 /// Until the first difference, or until all lanes are through and some cycles more.
 PlayResult play(const Stimulus& stimulus, const MakeTop& make, const PlayOptions& options);
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

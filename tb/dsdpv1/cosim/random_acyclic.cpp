@@ -3,7 +3,7 @@
 
 #include "tb/dsdpv1/cosim/random_master.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 constexpr int kSaps[] = {51, 48, 47};  // by channel
@@ -72,4 +72,4 @@ void RandomMaster::initiate() {
   send_acyclic(kInitiateSap, kC2Ssap, pdu);
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

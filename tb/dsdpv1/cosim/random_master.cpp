@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
@@ -324,4 +324,4 @@ void RandomMaster::send(const bus::Bytes& bytes, Tick idle, bool answered, const
   stimulus_.push_back(action);
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

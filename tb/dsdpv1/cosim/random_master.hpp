@@ -5,7 +5,7 @@
 #include "bus/telegram/telegram.hpp"
 #include "tb/dsdpv1/cosim/random_setup.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 class RandomMaster {
  public:
@@ -69,4 +69,4 @@ class RandomMaster {
   Tick extra_ = 0;  ///< waited before the next telegram
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

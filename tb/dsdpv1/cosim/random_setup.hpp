@@ -7,7 +7,7 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/cosim/stimulus.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 /// Chip parameters so short that every state is reached soon. What a random case waits for, it waits for with their
 /// times.
@@ -57,4 +57,4 @@ struct Setup {
   std::uint8_t function[3] = {0x5E, 0x5E, 0x5E}, slot[3] = {}, index[3] = {};
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

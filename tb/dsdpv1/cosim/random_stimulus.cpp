@@ -7,7 +7,7 @@
 #include "tb/dsdpv1/cosim/random_master.hpp"
 #include "tb/dsdpv1/cosim/random_user.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 class Case {
@@ -255,4 +255,4 @@ class Case {
 
 Stimulus random_stimulus(std::uint64_t seed) { return Case(seed).make(); }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

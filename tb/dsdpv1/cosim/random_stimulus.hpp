@@ -5,10 +5,10 @@
 
 #include "tb/dsdpv1/cosim/stimulus.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 /// One case from power-on, the same for the same seed. Meant for `quick_config()`: what has to be waited for is waited
 /// for with its times. Runs for a few hundred thousand cycles, some for two millions (slow rates).
 Stimulus random_stimulus(std::uint64_t seed);
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

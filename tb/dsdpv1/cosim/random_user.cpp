@@ -4,10 +4,8 @@
 
 #include "registers/dsdpv1_regs.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
-
-namespace regs = dsdpv1::regs;
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr Tick kLeast = 150;  // table 15: Ts, Td are 12.5 ns
@@ -294,4 +292,4 @@ void RandomUser::wait(int cycles) {
   stimulus_.push_back(action);
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

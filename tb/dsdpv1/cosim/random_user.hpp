@@ -2,7 +2,7 @@
 // The user of a random case: blocks right and wrong, verdicts, reads, and things that nobody should do.
 #include "tb/dsdpv1/cosim/random_setup.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 class RandomUser {
  public:
@@ -46,4 +46,4 @@ class RandomUser {
   Stimulus& stimulus_;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

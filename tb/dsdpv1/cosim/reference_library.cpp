@@ -16,7 +16,7 @@ namespace {
 
 /// Writes at its end what it has counted, as a file of its own in the folder that the environment names
 /// DSDPV1_RTL_COVERAGE.
-class Top : public cosim::VerilatedTop<Vdsdpv1> {
+class Top : public dsdpv1::cosim::VerilatedTop<Vdsdpv1> {
  public:
   using VerilatedTop::VerilatedTop;
   ~Top() override {
@@ -30,14 +30,14 @@ class Top : public cosim::VerilatedTop<Vdsdpv1> {
 
 }  // namespace
 #else
-using Top = cosim::VerilatedTop<Vdsdpv1>;
+using Top = dsdpv1::cosim::VerilatedTop<Vdsdpv1>;
 #endif
 
 extern "C" std::uint32_t dsdpv1_rtl_layout() { return DSDPV1_RTL_LAYOUT; }
 
 /// The caller owns the result.
-extern "C" cosim::RtlTop* dsdpv1_rtl_make(const cosim::RtlLimits* limits, [[maybe_unused]] std::uint32_t fault,
-                                          std::uint32_t seed) {
+extern "C" dsdpv1::cosim::RtlTop* dsdpv1_rtl_make(const dsdpv1::cosim::RtlLimits* limits,
+                                                  [[maybe_unused]] std::uint32_t fault, std::uint32_t seed) {
   auto top = std::make_unique<Top>(seed);
   Vdsdpv1& model = top->model();
   model.access_interval_i = limits->access_interval;

@@ -7,7 +7,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,7 +21,8 @@ using Make = RtlTop* (*)(const RtlLimits* limits, std::uint32_t fault, std::uint
                        "step and skip");
 }
 
-/// The folder rtl/ of the build that this program belongs to, beside one of the folders above the program; or of the installation.
+/// The folder rtl/ of the build that this program belongs to, beside one of the folders above the program; or of the
+/// installation.
 fs::path find(const std::string& name) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   for (fs::path folder = program.parent_path(); folder != folder.root_path(); folder = folder.parent_path())
@@ -66,4 +67,4 @@ std::unique_ptr<RtlTop> make_faulty_rtl(const dsdpv1::Config& config, unsigned f
   return std::unique_ptr<RtlTop>(make(&parameters, fault, seed));
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -8,7 +8,7 @@
 #include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/cosim/rtl_top.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 /// The RTL with the parameters of `config`. What is not reset in it begins with values that depend on `seed`. Throws
 /// tb::InputError when it was not built.
@@ -17,4 +17,4 @@ std::unique_ptr<RtlTop> make_reference_rtl(const dsdpv1::Config& config, std::ui
 /// The RTL with the single fault `fault` of rtl_ref/faults.txt; 0: none. Throws likewise.
 std::unique_ptr<RtlTop> make_faulty_rtl(const dsdpv1::Config& config, unsigned fault, std::uint32_t seed = 1);
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -1,6 +1,6 @@
 #include "tb/dsdpv1/cosim/rtl_chip.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 constexpr Tick kHalfCycle = profibus::kTicksPerCycle / 2;
@@ -128,4 +128,4 @@ void RtlChip::watch(const dsdpv1::PinSink& sink, std::uint32_t pins) {
   watched_ = pins & dsdpv1::kOutputPins;
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -8,11 +8,7 @@
 #include "model/dsdpv1/pins.hpp"
 #include "tb/dsdpv1/cosim/rtl_trace.hpp"
 
-namespace cosim {
-
-using dsdpv1::Level;
-using dsdpv1::Pin;
-using dsdpv1::Tick;
+namespace dsdpv1::cosim {
 
 class RtlChip {
  public:
@@ -47,4 +43,4 @@ class RtlChip {
   Tick next_edge_ = 0, now_ = 0;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

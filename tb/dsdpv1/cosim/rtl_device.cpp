@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 RtlDevice::RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top) : core_(config), rtl_(std::move(top)) {
   core_.watch({[](void* self, Tick at, Pin pin, Level level) {
@@ -73,4 +73,4 @@ void RtlDevice::tell(Tick at, Pin pin, Level level) {
   if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, pin, level);
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

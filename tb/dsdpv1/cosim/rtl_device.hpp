@@ -9,7 +9,7 @@
 #include "tb/dsdpv1/cosim/rtl_chip.hpp"
 #include "tb/dsdpv1/pin_device.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 class RtlDevice : public tb::PinDevice {
  public:
@@ -43,4 +43,4 @@ class RtlDevice : public tb::PinDevice {
   Level core_d_ = dsdpv1::kLevelZ, rtl_d_ = dsdpv1::kLevelZ, d_ = dsdpv1::kLevelZ;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 constexpr std::size_t kDpramSize = 2048;
 using DpramImage = std::array<std::uint8_t, kDpramSize>;
@@ -58,4 +58,4 @@ class RtlTop {
   RtlOutputs out;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

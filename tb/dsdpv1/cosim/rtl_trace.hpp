@@ -5,7 +5,7 @@
 #include "bus/time.hpp"
 #include "tb/dsdpv1/cosim/rtl_top.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 struct RtlTrace {
   std::string file;  ///< FST; it is there when the design is gone
@@ -23,4 +23,4 @@ class TimedTop : public RtlTop {
   virtual void moment(bus::Tick at) = 0;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -2,7 +2,7 @@
 
 #include "tb/dsdpv1/cosim/campaign.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 class Shrinker {
@@ -68,4 +68,4 @@ Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs, const PlayOpti
   return Shrinker(std::move(stimulus), make, runs, options).run();
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

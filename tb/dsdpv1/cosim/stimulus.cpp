@@ -10,7 +10,7 @@
 
 #include "tb/input/input_error.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 const std::map<std::string, Verb> kVerbs = {{"send", Verb::kSend},   {"spike", Verb::kSpike}, {"take", Verb::kTake},
@@ -277,4 +277,4 @@ std::string to_text(const Stimulus& stimulus) {
 
 Stimulus parse_stimulus(const std::string& text, const std::string& file) { return FileParser(file).parse(text); }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

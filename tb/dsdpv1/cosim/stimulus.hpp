@@ -10,11 +10,7 @@
 #include "bus/wire/uart.hpp"
 #include "model/dsdpv1/pins.hpp"
 
-namespace cosim {
-
-using dsdpv1::Level;
-using dsdpv1::Pin;
-using dsdpv1::Tick;
+namespace dsdpv1::cosim {
 
 enum class Verb : std::uint8_t {
   kSend,   ///< a telegram at `rate`; then an answer is waited for, `reply_bits` bit times for its beginning
@@ -49,4 +45,4 @@ std::string to_text(const Stimulus& stimulus);
 /// tb::InputError.
 Stimulus parse_stimulus(const std::string& text, const std::string& file);
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -4,7 +4,7 @@
 
 #include "model/dsdpv1/reasons.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -50,4 +50,4 @@ std::string result_json(const StimulusResult& result) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

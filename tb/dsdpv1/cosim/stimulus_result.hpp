@@ -7,7 +7,7 @@
 #include "tb/dsdpv1/cosim/coverage.hpp"
 #include "tb/dsdpv1/cosim/lockstep.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 constexpr const char* kStimulusResultSchema = "dsdpv1-sim rtl-random";
 constexpr const char* kStimulusResultVersion = "1.0";
@@ -29,4 +29,4 @@ struct StimulusResult {
 /// Indented, with a line end.
 std::string result_json(const StimulusResult& result);
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -3,7 +3,7 @@
 #include "tb/dsdpv1/cosim/stimulus_result.hpp"
 #include "tb/report/schema_words.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 namespace words = tb::schema;
@@ -60,4 +60,4 @@ std::string stimulus_result_schema() { return words::document(kStimulusResultSch
 
 std::string stimulus_result_table() { return "| member | type | what |\n|---|---|---|\n" + words::rows(root()); }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -19,7 +19,7 @@
 #include "tb/output/write_file.hpp"
 #include "tb/waves/wave_writer.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 namespace fs = std::filesystem;
@@ -286,4 +286,4 @@ MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
   return [library](const std::optional<RtlTrace>& trace) { return std::make_unique<UserTop>(library, trace); };
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -8,7 +8,7 @@
 #include "tb/dsdpv1/cosim/pin_map.hpp"
 #include "tb/dsdpv1/cosim/rtl_trace.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 struct UserRtl {
   std::string command;  ///< for messages: "dsdpv1-sim cosim"
@@ -29,4 +29,4 @@ MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map);
 /// The generated file between the Verilated class and this program; `traced` as of UserRtl.
 std::string adapter_source(const std::string& top, const PinMap& map, bool traced);
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -6,7 +6,7 @@
 #include "tb/dsdpv1/cosim/rtl_top.hpp"
 #include "verilated.h"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 /// `Model` is the Verilated class. What is not reset begins with values that depend on the seed.
 template <class Model>
@@ -64,4 +64,4 @@ class VerilatedTop : public RtlTop {
   std::unique_ptr<Model> model_;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

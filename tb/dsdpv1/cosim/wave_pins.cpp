@@ -4,7 +4,7 @@
 
 #include "tb/input/units.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 namespace {
 
 constexpr tb::compare::Femtoseconds kThreeCycles = 62'500'000;
@@ -106,4 +106,4 @@ std::vector<tb::compare::Line> PinSurroundings::lines(Tick now) const {
           {"DPRAM", watch_.chip_text()}};
 }
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -9,7 +9,7 @@
 #include "tb/dsdpv1/cosim/line_history.hpp"
 #include "tb/dsdpv1/cosim/pin_map.hpp"
 
-namespace cosim {
+namespace dsdpv1::cosim {
 
 /// A pair for each pin of table 1, A with table 1's names as the model's waves have them, B with those of the map. D of
 /// the model is the bus: of B it is D_OUT while D_OE says that the chip drives, else D_IN. What a wave lacks is left
@@ -28,4 +28,4 @@ class PinSurroundings : public tb::compare::Surroundings {
   LineHistory received_, sent_;
 };
 
-}  // namespace cosim
+}  // namespace dsdpv1::cosim

@@ -1,6 +1,6 @@
 #include "tb/dsdpv1/pins/pin_table.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 static_assert(kLevelZ == dsdpv1::kLevelZ && kLevelX == dsdpv1::kLevelX);
 
@@ -26,4 +26,4 @@ const std::vector<PinGroup>& dsdpv1_pin_groups() {
   return groups;
 }
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

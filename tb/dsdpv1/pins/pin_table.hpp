@@ -3,10 +3,10 @@
 #include "model/dsdpv1/pins.hpp"
 #include "tb/pins/pins.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 const PinTable& dsdpv1_pins();
 /// In the order in which viewers of waves show them.
 const std::vector<PinGroup>& dsdpv1_pin_groups();
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -2,7 +2,7 @@
 // R_REQ or R_STA of a chip on the bench.
 #include <systemc>
 
-namespace systemc_bench {
+namespace dsdpv1::systemc_bench {
 
 /// A level that is there at once, in the place of an sc_signal, which would have it a delta cycle later: an update, an
 /// event and a process of the kernel less, for the pins that a user CPU moves four times each time that it wants the
@@ -27,4 +27,4 @@ class HandshakePin : public sc_core::sc_prim_channel, public sc_core::sc_signal_
   sc_core::sc_event never_;
 };
 
-}  // namespace systemc_bench
+}  // namespace dsdpv1::systemc_bench

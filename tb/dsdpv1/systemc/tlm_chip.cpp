@@ -2,10 +2,7 @@
 
 #include <utility>
 
-namespace systemc_bench {
-
-using dsdpv1::Level;
-using dsdpv1::Pin;
+namespace dsdpv1::systemc_bench {
 
 TlmChip::TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::TlmOptions& options, bus::Segment& segment,
                  TimelineModule& timeline)
@@ -75,4 +72,4 @@ void TlmChip::pin_changed(bus::Tick at, Pin pin, Level level) {
   timeline_.wake();
 }
 
-}  // namespace systemc_bench
+}  // namespace dsdpv1::systemc_bench

@@ -10,7 +10,7 @@
 #include "tb/dsdpv1/systemc/handshake_pin.hpp"
 #include "tb/systemc/timeline_module.hpp"
 
-namespace systemc_bench {
+namespace dsdpv1::systemc_bench {
 
 /// The module and what it is wired to. The segment hears PBTXD and PBRTS at their exact ticks, also from inside the
 /// core; what the segment says arrives at PBRXD at its tick (one delta cycle later, which no rule of the chip can tell
@@ -55,4 +55,4 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
   const bool shows_txd_;
 };
 
-}  // namespace systemc_bench
+}  // namespace dsdpv1::systemc_bench

@@ -19,10 +19,9 @@
 #include "tb/dsdpv1/systemc/tlm_host_bus.hpp"
 #include "tb/input/input_error.hpp"
 
+namespace dsdpv1 {
 namespace tb {
 namespace {
-
-using dsdpv1::Pin;
 
 class TlmChipView : public Dsdpv1View {
  public:
@@ -119,5 +118,6 @@ int run_body() {
 }
 
 }  // namespace tb
+}  // namespace dsdpv1
 
-int sc_main(int, char**) { return tb::run_body(); }
+int sc_main(int, char**) { return dsdpv1::tb::run_body(); }

@@ -5,7 +5,7 @@
 
 #include "tb/bench/execution.hpp"
 
-namespace tb {
+namespace dsdpv1::tb {
 
 /// Only inside of sc_main, once a process.
 std::unique_ptr<Execution> make_tlm_execution();
@@ -14,4 +14,4 @@ std::unique_ptr<Execution> make_tlm_execution();
 /// programs with a main of their own.
 int inside_systemc(const std::function<int()>& body);
 
-}  // namespace tb
+}  // namespace dsdpv1::tb

@@ -2,7 +2,7 @@
 
 #include "model/systemc/sim_time.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 TlmHostBus::TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmChip& chip)
     : sc_module(name), chip_(chip) {
@@ -101,4 +101,4 @@ void TlmHostBus::transport(sc_core::sc_time& delay) {
   bad_ = payload_.is_response_error();
 }
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

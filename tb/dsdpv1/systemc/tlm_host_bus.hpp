@@ -9,7 +9,7 @@
 #include "tb/dsdpv1/systemc/tlm_chip.hpp"
 #include "tb/dsdpv1/user_cpu/host_bus.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 /// An access is one transaction. It has two edges: the first begins it, at the second its result is there. As long as
 /// nobody else has a turn until then it is carried out ahead of simulation time, in the timeline's thread; otherwise by
@@ -62,4 +62,4 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
   bool bad_ = false;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

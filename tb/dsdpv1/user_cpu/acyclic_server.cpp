@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 static_assert(kMayRead == DSDPV1_MAY_READ && kMayWrite == DSDPV1_MAY_WRITE && kMayTransport == DSDPV1_MAY_TRANSPORT);
 static_assert(kClass1 == DSDPV1_CLASS_1 && kClass2 == DSDPV1_CLASS_2 && kBothClasses == DSDPV1_CLASS_BOTH);
@@ -111,4 +111,4 @@ dsdpv1_error AcyclicServer::answer_due(Tick now) {
   return first;
 }
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

@@ -12,7 +12,7 @@
 #include "driver/dsdpv1_acyclic.h"
 #include "tb/user_cpu/acyclic.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 struct AcyclicCounters {
   std::uint64_t requests = 0;  ///< fetched with the right CRC
@@ -66,4 +66,4 @@ class AcyclicServer {
   AcyclicCounters counters_;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

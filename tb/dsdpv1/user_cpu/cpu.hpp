@@ -7,7 +7,7 @@
 
 #include "tb/dsdpv1/user_cpu/host_bus.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 /// How fast the CPU is. Ticks of 1/12 ns, none negative. The defaults are those of a Cortex-M3 at 72 MHz.
 struct CpuTiming {
@@ -63,4 +63,4 @@ class Cpu {
   virtual void enable_interrupts(bool enabled) = 0;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

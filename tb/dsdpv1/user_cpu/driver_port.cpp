@@ -1,6 +1,6 @@
 #include "tb/dsdpv1/user_cpu/driver_port.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 dsdpv1_port DriverPort::port() {
   dsdpv1_port port{};
@@ -53,4 +53,4 @@ void DriverPort::pause(std::uint32_t ns) {
   cpu_.wait(ns < kPolling ? asked : cpu_.timing().poll_interval);
 }
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

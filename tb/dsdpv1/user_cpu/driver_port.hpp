@@ -7,7 +7,7 @@
 #include "tb/dsdpv1/user_cpu/cpu.hpp"
 #include "tb/dsdpv1/user_cpu/handshake_counters.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 /// Must not move while the driver uses it. Keeps the delays of rule H2 that `Cpu::timing` asks for.
 class DriverPort {
@@ -39,4 +39,4 @@ class DriverPort {
   std::map<std::uint16_t, Corruption> corruptions_;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

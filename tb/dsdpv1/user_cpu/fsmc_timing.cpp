@@ -1,6 +1,6 @@
 #include "tb/dsdpv1/user_cpu/fsmc_timing.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 namespace {
 
 /// Ticks of so many HCLK periods, rounded to the nearest.
@@ -59,4 +59,4 @@ FsmcBank with(FsmcBank bank, const FsmcOverride& given) {
   return bank;
 }
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

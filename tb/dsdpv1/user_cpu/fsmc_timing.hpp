@@ -7,7 +7,7 @@
 
 #include "tb/dsdpv1/user_cpu/access_timing.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 enum class FsmcMode : std::uint8_t {
   k1,  ///< EXTMOD = 0: RD falls with CSR
@@ -52,4 +52,4 @@ FsmcAccess access_timing(const FsmcBank& bank);
 
 FsmcBank with(FsmcBank bank, const FsmcOverride& given);
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

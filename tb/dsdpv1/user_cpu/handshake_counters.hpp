@@ -5,7 +5,7 @@
 
 #include "tb/user_cpu/program.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 /// Told of each change of the two pins, in order of time. A wait runs from R_REQ's rise to R_STA's, a hold from R_STA's
 /// rise to the time that both are low again (H1).
@@ -41,4 +41,4 @@ class HandshakeCounters {
   bool r_req_ = false, r_sta_ = false, held_ = false;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

@@ -6,7 +6,7 @@
 #include "bus/time.hpp"
 #include "tb/dsdpv1/user_cpu/access_timing.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 struct Access {
   bool write = false;
@@ -35,8 +35,8 @@ class HostBus {
   virtual void begin(Tick at, const Access& access, const AccessTiming& timing) = 0;
   /// The tick of the running access' next edge, `bus::kNever` when all are done.
   virtual Tick next_edge() const = 0;
-  /// The access just begun is nobody else's business until its end: `run_edges` need not be called before `end()`, though
-  /// others act meanwhile. False: each edge at its time.
+  /// The access just begun is nobody else's business until its end: `run_edges` need not be called before `end()`,
+  /// though others act meanwhile. False: each edge at its time.
   virtual bool put_off() { return false; }
   /// Carries out the edges due up to `until`, which is not before `next_edge()`, each at its tick; only those up to one
   /// that somebody is told of.
@@ -50,4 +50,4 @@ class HostBus {
   virtual bool last_read_was_bad() const = 0;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

@@ -2,7 +2,7 @@
 // The pins that a host bus needs, whoever is behind them: the core, or the core and RTL side by side.
 #include "model/dsdpv1/chip.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 class HostPins {
  public:
@@ -39,4 +39,4 @@ class CoreHostPins : public HostPins {
   dsdpv1::Chip& chip_;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

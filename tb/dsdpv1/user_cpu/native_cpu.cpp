@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 NativeCpu::NativeCpu(HostBus& bus, const CpuTiming& timing, Program program, Tick start)
     : bus_(bus), timing_(timing), ready_at_(start), fiber_([this, program = std::move(program)] { program(*this); }) {}
@@ -192,4 +192,4 @@ void NativeCpu::enable_interrupts(bool enabled) {
   serve_interrupt();
 }
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

@@ -11,7 +11,7 @@
 #include "tb/user_cpu/others.hpp"
 #include "tb/user_cpu/program.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 /// The bus is touched from `run` only, on the bench's stack. Exceptions of the program leave through `run`.
 class NativeCpu : public bus::Agent, private Cpu {
@@ -97,4 +97,4 @@ class NativeCpu : public bus::Agent, private Cpu {
   Fiber fiber_;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

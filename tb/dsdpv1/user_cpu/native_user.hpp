@@ -5,7 +5,7 @@
 #include "tb/dsdpv1/user_cpu/programs.hpp"
 #include "tb/user_cpu/station_cpu.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 class NativeUser : public StationCpu {
  public:
@@ -37,4 +37,4 @@ class NativeUser : public StationCpu {
   NativeCpu cpu_;  // ends before the program that it runs
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <variant>
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 namespace {
 
 command::Area area_of(const std::string& word) {
@@ -43,4 +43,4 @@ std::string driver_error_code(dsdpv1_error error) {
   return "DSDPV1_ERR_UNKNOWN";
 }
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

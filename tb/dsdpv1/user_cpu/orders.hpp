@@ -6,7 +6,7 @@
 
 #include "tb/dsdpv1/user_cpu/programs.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 // Words of command::OfChip::order.
 constexpr const char* kHoldDpram = "hold_dpram";
@@ -22,4 +22,4 @@ DriverCommand driver_command(const Command& command);
 /// "DSDPV1_ERR_INIT_CRC", ...: what a call of the driver returned.
 std::string driver_error_code(dsdpv1_error error);
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

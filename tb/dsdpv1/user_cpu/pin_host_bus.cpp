@@ -1,9 +1,6 @@
 #include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
 
-namespace user_cpu {
-
-using dsdpv1::Level;
-using dsdpv1::Pin;
+namespace dsdpv1::user_cpu {
 
 void PinHostBus::set_r_req(Tick at, bool level) { chip_.set(at, Pin::kRReq, level ? 1 : 0); }
 
@@ -58,4 +55,4 @@ void PinHostBus::take(Level level) {
   value_ = bad_ ? std::uint8_t{0xFF} : static_cast<std::uint8_t>(level);
 }
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

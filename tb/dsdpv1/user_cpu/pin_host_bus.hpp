@@ -8,7 +8,7 @@
 #include "tb/dsdpv1/user_cpu/host_bus.hpp"
 #include "tb/dsdpv1/user_cpu/host_pins.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 /// Drives a chip, which must outlive it. Between accesses CSR, RD and WR are high, D and A as HostAccess leaves them.
 class PinHostBus : public HostBus {
@@ -53,4 +53,4 @@ class PinHostBus : public HostBus {
   bool bad_ = false;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

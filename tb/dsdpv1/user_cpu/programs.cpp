@@ -6,7 +6,7 @@
 #include "registers/dsdpv1_regs.h"
 #include "tb/dsdpv1/user_cpu/orders.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 dsdpv1_config driver_config(const StationConfig& station) {
   dsdpv1_config config{};
@@ -278,4 +278,4 @@ void UserProgram::carry_out(const command::SetAnswering& set) {
   if (acyclic_) acyclic_->set_answering(set.answering);
 }
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

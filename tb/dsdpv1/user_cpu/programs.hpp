@@ -17,7 +17,7 @@
 #include "tb/dsdpv1/user_cpu/native_cpu.hpp"
 #include "tb/user_cpu/program.hpp"
 
-namespace user_cpu {
+namespace dsdpv1::user_cpu {
 
 /// Valid as long as `station` lives unchanged.
 dsdpv1_config driver_config(const StationConfig& station);
@@ -129,4 +129,4 @@ class UserProgram {
   bool stopped_ = false;
 };
 
-}  // namespace user_cpu
+}  // namespace dsdpv1::user_cpu

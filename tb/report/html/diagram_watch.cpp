@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 namespace {
 
 constexpr std::size_t kMostOpen = 64;
@@ -172,4 +172,4 @@ void DiagramWatch::finish() {
   if (candidate_) take_picture();
 }
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

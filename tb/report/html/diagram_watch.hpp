@@ -8,7 +8,7 @@
 #include "tb/chip/timing_diagram.hpp"
 #include "tb/report/html/pin_memory.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 
 /// The least and the greatest allowed, where there are any, ticks.
 struct SpanLimits {
@@ -81,4 +81,4 @@ class DiagramWatch {
   std::uint64_t instances_ = 0;
 };
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

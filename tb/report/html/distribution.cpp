@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 
 void Distribution::add(bus::Tick value) {
   ++count_;
@@ -20,4 +20,4 @@ void Distribution::put_together() {
   values_.swap(wider);
 }
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -5,7 +5,7 @@
 
 #include "bus/time.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 
 /// Values are kept as they are while there are few different ones; when there are more than kMost, neighbours are put
 /// together. Count, least, greatest and sum stay exact.
@@ -32,4 +32,4 @@ class Distribution {
   std::uint64_t count_ = 0;
 };
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -10,7 +10,7 @@
 #include "tb/report/markup.hpp"
 #include "tb/report/summary.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 
 // The files of this folder, made by cmake/embed.cmake.
 extern const std::string_view kPageHtml, kPageCss, kD3, kD3Licence;
@@ -61,4 +61,4 @@ std::string page(const RunResult& result, const RunRecorder& recorder, const std
                             {"SCRIPT", scripts()}});
 }
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -5,9 +5,9 @@
 #include "tb/bench/record.hpp"
 #include "tb/report/html/run_recorder.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 
 /// `recorder` has heard the whole run and is finished; `version`: of the program.
 std::string page(const RunResult& result, const RunRecorder& recorder, const std::string& version);
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -4,7 +4,7 @@
 
 #include "tb/report/result_json.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -139,4 +139,4 @@ std::string page_data(const RunResult& result, const RunRecorder& recorder, cons
   return without_tags(own.substr(0, own.size() - 1) + ",\"result\":" + result_json(result) + "}");
 }
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

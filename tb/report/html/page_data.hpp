@@ -5,9 +5,9 @@
 #include "tb/bench/record.hpp"
 #include "tb/report/html/run_recorder.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 
 /// It can stand within a script element: without '<'.
 std::string page_data(const RunResult& result, const RunRecorder& recorder, const std::string& version);
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 namespace {
 
 bool turns(Turn turn, Level level) {
@@ -85,4 +85,4 @@ PinTrace PinMemory::trace(PinNumber pin, Tick from, Tick to) const {
   return trace;
 }
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -8,7 +8,7 @@
 #include "tb/chip/timing_diagram.hpp"
 #include "tb/pins/pins.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 
 using bus::Tick;
 
@@ -54,4 +54,4 @@ class PinMemory {
   std::vector<Pin> pins_;
 };
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -2,7 +2,7 @@
 
 #include "tb/report/html/page.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 
 ReportFile::ReportFile(const std::string& path, const scenario::Scenario& scenario, RunOptions& options)
     : file_(path), recorder_(scenario) {
@@ -15,4 +15,4 @@ void ReportFile::write(const RunResult& result, const std::string& version) {
   file_.commit();
 }
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

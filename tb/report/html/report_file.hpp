@@ -6,7 +6,7 @@
 #include "tb/output/output_file.hpp"
 #include "tb/report/html/run_recorder.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 
 class ReportFile {
  public:
@@ -22,4 +22,4 @@ class ReportFile {
   RunRecorder recorder_;
 };
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -6,7 +6,7 @@
 
 #include "bus/baud.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 namespace {
 
 constexpr Tick kBefore = 2 * bus::kTicksPerUs, kAfter = bus::kTicksPerUs;  ///< shown round a violation
@@ -171,4 +171,4 @@ std::vector<const TimesOf*> RunRecorder::times() const {
   return all;
 }
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -14,7 +14,7 @@
 #include "tb/report/html/telegram_list.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 
 /// The pins of a slave round a violation.
 struct ViolationPicture {
@@ -92,4 +92,4 @@ class RunRecorder : public Observer {
   std::uint64_t not_pictured_ = 0;
 };
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 namespace {
 
 bool has_sap(const bus::Telegram& telegram) { return telegram.dsap || telegram.ssap; }
@@ -77,4 +77,4 @@ std::uint32_t TelegramList::Words::number(const std::string& text) {
   return entry->second;
 }
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -8,7 +8,7 @@
 #include "tb/bench/observer.hpp"
 #include "tb/scenario/scenario.hpp"
 
-namespace tb::html {
+namespace dsdpv1::tb::html {
 
 /// What a telegram is about; the chart has a colour for each.
 enum class TelegramGroup : std::uint8_t { kDataExchange, kDp, kDpv1, kToken, kAcknowledge, kFdl, kOther, kWrong };
@@ -57,4 +57,4 @@ class TelegramList {
 /// A request for inputs and outputs of a slave.
 bool is_data_exchange(const bus::WireTelegram& telegram);
 
-}  // namespace tb::html
+}  // namespace dsdpv1::tb::html

@@ -7,33 +7,33 @@
 namespace {
 
 std::uint64_t telegrams_of_a_master() {
-  bus::Segment segment;
-  bus::Timeline timeline;
-  bus::Master1 master(segment, bus::MasterConfig{});
-  bus::Monitor monitor(segment);
+  dsdpv1::bus::Segment segment;
+  dsdpv1::bus::Timeline timeline;
+  dsdpv1::bus::Master1 master(segment, dsdpv1::bus::MasterConfig{});
+  dsdpv1::bus::Monitor monitor(segment);
   monitor.set_baud(0);
   timeline.add(master);
   timeline.add(monitor);
-  bus::SlaveParameters slave;
+  dsdpv1::bus::SlaveParameters slave;
   slave.address = 3;
   slave.cfg = {0x11};
   master.add_slave(slave);
   master.start();
-  timeline.run_until(10'000 * bus::kTicksPerUs);
+  timeline.run_until(10'000 * dsdpv1::bus::kTicksPerUs);
   return monitor.statistics().wrong == 0 ? monitor.statistics().telegrams : 0;
 }
 
 std::uint64_t violations_of_a_write() {
   using dsdpv1::Pin;
-  checks::Checks checks;
+  dsdpv1::checks::Checks checks;
   checks.pin(0, Pin::kReset, 1);
-  constexpr bus::Tick kAccess = 2'000'000, kLow = 600;
+  constexpr dsdpv1::bus::Tick kAccess = 2'000'000, kLow = 600;
   checks.pin(kAccess, Pin::kCsr, 0);
   checks.pin(kAccess + kLow, Pin::kWr, 0);
   checks.pin(kAccess + 2 * kLow, Pin::kWr, 1);
   checks.pin(kAccess + 3 * kLow, Pin::kCsr, 1);
   checks.finish(2 * kAccess);
-  return checks.record(checks::Check::kNotOwner).violations;
+  return checks.record(dsdpv1::checks::Check::kNotOwner).violations;
 }
 
 }  // namespace

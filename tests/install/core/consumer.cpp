@@ -9,8 +9,8 @@ int main() {
   constexpr dsdpv1::Tick kCycle = 250;
   std::string words;
   dsdpv1::Chip chip;
-  chip.on_event({[](void* self, const profibus::Event& event) {
-                   if (event.reason == dpram::Reason::kReadyFlag)
+  chip.on_event({[](void* self, const dsdpv1::profibus::Event& event) {
+                   if (event.reason == dsdpv1::dpram::Reason::kReadyFlag)
                      *static_cast<std::string*>(self) = dsdpv1::describe(event);
                  },
                  &words});

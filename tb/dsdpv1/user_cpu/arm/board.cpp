@@ -8,7 +8,7 @@
 
 #include "tb/dsdpv1/user_cpu/orders.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 // RM0008, memory map.
@@ -368,7 +368,6 @@ std::uint32_t Board::peek_port(unsigned port, std::uint32_t offset) const {
   const auto level = [chip](dsdpv1::Pin pin) {
     return static_cast<unsigned>(chip != nullptr && chip->level(pin) == 1);
   };
-  using dsdpv1::Pin;
   const Levels there = wired(port, level(Pin::kLReq) | level(Pin::kLSta) << 1U,
                              level(Pin::kPbf) | level(Pin::kBr) << 1U | level(Pin::kReady) << 2U);
   return ports_.at(port).read(offset, there.driven, there.levels);
@@ -432,4 +431,4 @@ void Board::note(const std::string& text, Noted which) {
   notes_.push_back(fmt::format("{}, first in {}", text, options_.firmware->lines.at(core_.pc())));
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

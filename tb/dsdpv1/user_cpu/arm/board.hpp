@@ -34,7 +34,7 @@
 #include "tb/dsdpv1/user_cpu/programs.hpp"
 #include "tb/user_cpu/station_cpu.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 using bus::Tick;
 
@@ -47,7 +47,7 @@ struct BoardOptions {
   std::shared_ptr<const Firmware> firmware;
   user_cpu::ProgramOptions program;  ///< for the mailbox, when the firmware has one
   user_cpu::FsmcOverride fsmc;
-  std::optional<user_cpu::AccessTiming> access;  ///< edges in place of those that the FSMC makes
+  std::optional<AccessTiming> access;  ///< edges in place of those that the FSMC makes
   Timing timing;
   Switches switches;
   std::function<const dsdpv1::Chip&(Tick now)> chip;  ///< as it is `now`, for a debugger; null: that sees none
@@ -154,4 +154,4 @@ class Board final : public user_cpu::StationCpu, private user_cpu::Others, priva
   user_cpu::NativeCpu cpu_;               // ends before everything that its fiber uses
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// Addresses of instructions. at() is called for every instruction: nearly always one look at a bit.
 class Breakpoints {
@@ -77,4 +77,4 @@ class Watchpoints {
   std::vector<Watchpoint> points_;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 namespace {
 
@@ -354,4 +354,4 @@ void CortexM3::on_data(std::uint32_t address, unsigned bytes, bool write) noexce
   check_at_ = 0;
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

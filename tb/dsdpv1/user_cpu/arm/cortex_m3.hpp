@@ -20,7 +20,7 @@
 #include "tb/dsdpv1/user_cpu/arm/scb.hpp"
 #include "tb/dsdpv1/user_cpu/arm/systick.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// What the processor finds outside of itself: everything that is neither flash, RAM nor its own registers: 0x1FFFF000
 /// to 0x1FFFFFFF, 0x40000000 to 0xDFFFFFFF, and of 0xE0000000 to 0xE00FFFFF what the core does not have (DBGMCU, ITM).
@@ -232,4 +232,4 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   unsigned polls_ = 0;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -9,7 +9,7 @@
 
 #include "bus/time.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// What a debugger sees of a Cortex-M3 (ARMv7-M, B1.4), numbered as in the target description that gdb is given.
 enum class Register : std::uint8_t {
@@ -91,4 +91,4 @@ class Debugger {
   virtual void fault(const std::string& what) = 0;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

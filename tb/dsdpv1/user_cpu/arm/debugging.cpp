@@ -3,7 +3,7 @@
 
 #include "tb/dsdpv1/user_cpu/arm/cortex_m3.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 namespace {
 
@@ -89,4 +89,4 @@ bool CortexM3::reset() {
   return true;
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -12,6 +12,8 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 
+namespace dsdpv1 {
+
 // The structures of elf.h are copied as they stand in the file: little endian on both sides.
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
 
@@ -265,3 +267,4 @@ ElfImage parse_elf(const std::vector<std::uint8_t>& file, const std::string& pat
 }
 
 }  // namespace arm
+}  // namespace dsdpv1

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 struct MemoryRange {
   std::uint32_t start;
@@ -57,4 +57,4 @@ ElfImage parse_elf(const std::vector<std::uint8_t>& file, const std::string& pat
 /// The bytes of an ELF file; throws tb::InputError when it cannot be read or is larger than any firmware.
 std::vector<std::uint8_t> read_elf_file(const std::string& path);
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

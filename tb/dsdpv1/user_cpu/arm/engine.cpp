@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 namespace {
 
@@ -192,4 +192,4 @@ Trap Engine::run() {
 
 void Engine::stop() { uc_emu_stop(uc_); }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -10,7 +10,7 @@
 
 struct uc_struct;
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// What the engine calls while it runs. No exception may leave these functions: Unicorn's frames cannot be unwound.
 class EngineEvents {
@@ -85,4 +85,4 @@ class Engine {
   bool reports_data_ = false;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -5,7 +5,7 @@
 
 #include "tb/dsdpv1/user_cpu/arm/cortex_m3.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 namespace {
 
@@ -239,4 +239,4 @@ void CortexM3::pend_fault(FaultKind kind, std::uint32_t pc, std::uint32_t addres
   nvic_.set_pending(fault.handler);
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -1,6 +1,6 @@
 #include "tb/dsdpv1/user_cpu/arm/exti.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 constexpr std::uint32_t kImr = 0x00, kEmr = 0x04, kRtsr = 0x08, kFtsr = 0x0C, kSwier = 0x10, kPr = 0x14;
@@ -63,4 +63,4 @@ unsigned Exti::requests() const {
          static_cast<unsigned>((asked & kLines10To15) != 0) << 6U;
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// Which interrupts of the NVIC the pending lines ask for: bit 0..4 lines 0..4, bit 5 lines 5 to 9, bit 6 lines 10
 /// to 15.
@@ -28,4 +28,4 @@ class Exti {
   std::array<std::uint32_t, 4> exticr_{};
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

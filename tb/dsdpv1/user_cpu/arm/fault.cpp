@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 namespace {
 
@@ -59,4 +59,4 @@ std::string table(const Registers& registers) {
   return text;
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// Everything a debugger shows. `pc` is without Thumb bit.
 struct Registers {
@@ -60,4 +60,4 @@ std::string describe(const Fault& fault);
 /// The registers in rows of four, for the end of a run.
 std::string table(const Registers& registers);
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

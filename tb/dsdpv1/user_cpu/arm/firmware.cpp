@@ -5,7 +5,7 @@
 #include "tb/dsdpv1/user_cpu/arm/mailbox.h"
 #include "tb/input/input_error.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 std::optional<std::uint32_t> find_mailbox(const ElfImage& image, const std::string& path) {
@@ -32,4 +32,4 @@ std::shared_ptr<const Firmware> load_firmware(const std::string& path) {
   return std::make_shared<const Firmware>(Firmware{path, std::move(image), std::move(lines), mailbox});
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

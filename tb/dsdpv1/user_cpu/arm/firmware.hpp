@@ -8,7 +8,7 @@
 #include "tb/dsdpv1/user_cpu/arm/elf_image.hpp"
 #include "tb/dsdpv1/user_cpu/arm/source_lines.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 struct Firmware {
   std::string path;
@@ -20,4 +20,4 @@ struct Firmware {
 /// Throws tb::InputError, one line, for a file that is no firmware of the board or whose mailbox is another version's.
 std::shared_ptr<const Firmware> load_firmware(const std::string& path);
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -1,6 +1,6 @@
 #include "tb/dsdpv1/user_cpu/arm/fsmc.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 constexpr std::uint32_t kBcr1 = 0x000, kBtr1 = 0x004, kBwtr1 = 0x104;
@@ -40,4 +40,4 @@ user_cpu::FsmcBank Fsmc::bank() const {
   return bank;
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -6,7 +6,7 @@
 
 #include "tb/dsdpv1/user_cpu/fsmc_timing.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 class Fsmc {
  public:
@@ -38,4 +38,4 @@ class Fsmc {
   std::array<bool, kWords> written_{};
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -9,7 +9,7 @@
 
 #include "tb/dsdpv1/user_cpu/arm/gdb_description.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 constexpr const char* kOk = "OK";
@@ -234,4 +234,4 @@ GdbCommands::Result GdbCommands::resume_at(GdbFields fields, Resumption resumpti
   return {std::nullopt, resumption};
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

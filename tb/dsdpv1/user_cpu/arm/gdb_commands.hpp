@@ -9,7 +9,7 @@
 #include "tb/dsdpv1/user_cpu/arm/debug_target.hpp"
 #include "tb/dsdpv1/user_cpu/arm/gdb_packet.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// How the run goes on after a packet.
 enum class Resumption {
@@ -75,4 +75,4 @@ class GdbCommands {
   std::string stop_reply_;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 std::string reg(const std::string& name, const char* type) {
@@ -39,4 +39,4 @@ std::string memory_map_description(const std::vector<MemoryRegion>& regions) {
   return text + "</memory-map>";
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -5,7 +5,7 @@
 
 #include "tb/dsdpv1/user_cpu/arm/debug_target.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// Features org.gnu.gdb.arm.m-profile and org.gnu.gdb.arm.m-system; the registers have the numbers of Register, each
 /// has 32 bits.
@@ -14,4 +14,4 @@ std::string target_description();
 /// The regions as `ram` and `rom`: gdb sets hardware breakpoints in the latter by itself.
 std::string memory_map_description(const std::vector<MemoryRegion>& regions);
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -6,7 +6,7 @@
 #include <array>
 #include <cerrno>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 /// gdb reads at once; one that does not read for so long (real time) counts as gone.
@@ -86,4 +86,4 @@ void GdbLink::close() {
   reader_ = GdbReader();
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

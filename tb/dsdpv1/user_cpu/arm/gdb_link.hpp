@@ -9,7 +9,7 @@
 #include "tb/input/descriptor.hpp"
 #include "tb/socket/tcp_listener.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 class GdbLink {
  public:
@@ -43,4 +43,4 @@ class GdbLink {
   bool acknowledge_ = true, told_ = false;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <numeric>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 constexpr char kInterrupt = '\x03';
@@ -110,4 +110,4 @@ std::optional<GdbFields::Range> GdbFields::range() {
   return Range{*address, *size};
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

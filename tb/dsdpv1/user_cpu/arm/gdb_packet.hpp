@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// The longest packet that gdb may send, without `$` and `#nn`. Also told to gdb, in hexadecimal (qSupported).
 constexpr std::size_t kGdbPacketSize = 0x4000;
@@ -63,4 +63,4 @@ class GdbFields {
   std::string_view text_;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

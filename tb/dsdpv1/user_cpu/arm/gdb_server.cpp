@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 constexpr int kLookMs = 100;  // real time between two looks at `stopped` while the processor is halted
@@ -181,4 +181,4 @@ void GdbServer::fault(const std::string& what) {
   stop(kFaulted);
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -13,7 +13,7 @@
 #include "tb/dsdpv1/user_cpu/arm/gdb_commands.hpp"
 #include "tb/dsdpv1/user_cpu/arm/gdb_link.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 struct GdbOptions {
   int port = 0;  ///< 0 to 65535, at 127.0.0.1; 0: any free one
@@ -77,4 +77,4 @@ class GdbServer final : public Debugger {
   std::string watch_hit_;                    ///< stop reply of a watchpoint that the last instruction met; empty: none
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

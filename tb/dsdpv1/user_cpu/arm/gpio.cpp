@@ -1,6 +1,6 @@
 #include "tb/dsdpv1/user_cpu/arm/gpio.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 constexpr std::uint32_t kCrl = 0x00, kCrh = 0x04, kIdr = 0x08, kOdr = 0x0C, kBsrr = 0x10, kBrr = 0x14, kLckr = 0x18;
@@ -53,4 +53,4 @@ void Gpio::write(std::uint32_t offset, std::uint32_t value) {
   }
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -2,7 +2,7 @@
 // A GPIO port of the STM32F103 (RM0008, chapter GPIO): its registers, and what they make of 16 pins.
 #include <cstdint>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 class Gpio {
  public:
@@ -25,4 +25,4 @@ class Gpio {
   std::uint16_t odr_ = 0;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -3,7 +3,7 @@
 // fails and does not tell ITSTATE between two instructions, so it is followed here by addresses.
 #include <cstdint>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// Length of the instruction that begins with this halfword (A5.1).
 constexpr std::uint32_t thumb_bytes(std::uint16_t opcode) { return opcode >= 0xE800 ? 4 : 2; }
@@ -46,4 +46,4 @@ class ItBlock {
   std::uint8_t state_ = 0;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <variant>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 using user_cpu::Tick;
@@ -254,4 +254,4 @@ user_cpu::ProgramCounters MailboxLink::counters() const {
   return counters;
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

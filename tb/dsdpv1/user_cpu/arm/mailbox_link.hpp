@@ -9,7 +9,7 @@
 #include "tb/dsdpv1/user_cpu/arm/mailbox.h"
 #include "tb/dsdpv1/user_cpu/programs.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 class MailboxLink {
  public:
@@ -52,4 +52,4 @@ class MailboxLink {
   std::string wrong_;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 namespace {
 
@@ -173,4 +173,4 @@ void Nvic::store_priorities(unsigned first, std::uint32_t value, std::uint32_t l
     if ((lanes >> (8 * byte) & 0xFFU) != 0) set_priority(first + byte, static_cast<std::uint8_t>(value >> (8 * byte)));
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// Exception numbers, ARMv7-M B1.5.2.
 enum Exception : unsigned {
@@ -101,4 +101,4 @@ class Nvic {
   int active_priority_ = kIdlePriority;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 constexpr std::uint32_t kBlock = 0x400;
@@ -72,4 +72,4 @@ std::vector<std::string> OtherRegisters::notes(const std::function<std::string(s
   return lines;
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

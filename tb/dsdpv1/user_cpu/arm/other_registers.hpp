@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 class OtherRegisters {
  public:
@@ -30,4 +30,4 @@ class OtherRegisters {
   std::map<std::uint32_t, Use> uses_;  ///< by block
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

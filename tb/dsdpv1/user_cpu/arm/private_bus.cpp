@@ -4,7 +4,7 @@
 
 #include "tb/dsdpv1/user_cpu/arm/cortex_m3.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 namespace {
 
@@ -137,4 +137,4 @@ void CortexM3::store_control_word(std::uint32_t offset, std::uint32_t value, std
   }
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 constexpr std::uint32_t kCr = 0x00, kCfgr = 0x04, kBdcr = 0x20, kCsr = 0x24;
@@ -70,4 +70,4 @@ void Rcc::write(std::uint32_t offset, std::uint32_t value) {
   if (const unsigned wanted = word(kCfgr) & 0x3U; is_on(wanted)) source_ = wanted;
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

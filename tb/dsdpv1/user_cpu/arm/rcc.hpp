@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 class Rcc {
  public:
@@ -32,4 +32,4 @@ class Rcc {
   std::array<std::uint32_t, kWords> words_ = {0x83, 0, 0, 0, 0, 0x14, 0, 0, 0, 0x0C00'0000};
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -1,6 +1,6 @@
 #include "tb/dsdpv1/user_cpu/arm/scb.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 namespace {
 
@@ -146,4 +146,4 @@ void Scb::store_dwt(std::uint32_t offset, std::uint32_t value, std::uint64_t cyc
   counts_from_ = cycles - count;
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

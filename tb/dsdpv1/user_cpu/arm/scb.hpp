@@ -5,7 +5,7 @@
 
 #include "tb/dsdpv1/user_cpu/arm/nvic.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// Configurable Fault Status Register, B3.2.15.
 enum FaultStatus : std::uint32_t {
@@ -74,4 +74,4 @@ class Scb {
   std::uint64_t counts_from_ = 0;                    // cycle at which CYCCNT was, or would have been, zero
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

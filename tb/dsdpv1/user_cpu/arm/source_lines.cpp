@@ -10,7 +10,7 @@
 #include <tuple>
 #include <unordered_map>
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 struct EndElf {
@@ -124,4 +124,4 @@ std::string SourceLines::at(std::uint32_t address) const {
   return offset == 0 ? function->name : fmt::format("{}+0x{:X}", function->name, offset);
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -7,7 +7,7 @@
 
 #include "tb/dsdpv1/user_cpu/arm/elf_image.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// Everything is read once, at construction; a look-up is two binary searches.
 class SourceLines {
@@ -44,4 +44,4 @@ class SourceLines {
   std::vector<Function> functions_;  ///< by address
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -1,6 +1,6 @@
 #include "tb/dsdpv1/user_cpu/arm/systick.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 
 namespace {
 
@@ -80,4 +80,4 @@ void SysTick::store(std::uint32_t offset, std::uint32_t value, std::uint64_t now
   }
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

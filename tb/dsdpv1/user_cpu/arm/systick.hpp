@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 /// Cycles of HCLK at which nothing happens.
 constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
@@ -38,4 +38,4 @@ class SysTick {
   std::uint64_t zero_at_ = kNever;   // while enabled: when the counter next changes from 1 to 0
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

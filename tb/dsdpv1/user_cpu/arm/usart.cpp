@@ -1,6 +1,6 @@
 #include "tb/dsdpv1/user_cpu/arm/usart.hpp"
 
-namespace arm {
+namespace dsdpv1::arm {
 namespace {
 
 constexpr std::uint32_t kSr = 0x00, kDr = 0x04, kCr1 = 0x0C;
@@ -30,4 +30,4 @@ void Usart::send(char character) {
   line_.clear();
 }
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-namespace arm {
+namespace dsdpv1::arm {
 
 class Usart {
  public:
@@ -25,4 +25,4 @@ class Usart {
   std::string line_;
 };
 
-}  // namespace arm
+}  // namespace dsdpv1::arm

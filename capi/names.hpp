@@ -1,0 +1,16 @@
+// The functions and objects of C stand outside of every namespace: here they get our names without the common prefix.
+#pragma once
+
+namespace dsdpv1 {
+namespace bus {}
+namespace capi {}
+namespace checks {}
+namespace profibus {}
+namespace tb {}
+}  // namespace dsdpv1
+
+namespace bus = dsdpv1::bus;
+namespace capi = dsdpv1::capi;
+namespace checks = dsdpv1::checks;
+namespace profibus = dsdpv1::profibus;
+namespace tb = dsdpv1::tb;
