@@ -4,7 +4,7 @@
 `include "dpram_types.svh"
 
 module dpram_sequencer (
-  `FAULT_PORT
+  `FAULT_PORT `CRC_COUNTS_PORT
   input  logic [12:0] access_interval_i,  // H1
   input  logic [20:0] ready_cycles_i,     // D1
   input  logic        clk_i,
@@ -347,8 +347,8 @@ module dpram_sequencer (
       else if (arrives_q || (writes_covered && !`FAULT(56))) crc_q <= crc_next;
 
       // the CRC read is compared as it arrives
-      if (arrives_high_q && rdata_i != crc_high) crc_wrong_q <= 1'b1;
-      if (state_q == SEQ_READ_LAST && rdata_i != crc_low && !`FAULT(57)) crc_wrong_q <= 1'b1;
+      if (arrives_high_q && rdata_i != crc_high `AND_CRC_COUNTS) crc_wrong_q <= 1'b1;
+      if (state_q == SEQ_READ_LAST && rdata_i != crc_low && !`FAULT(57) `AND_CRC_COUNTS) crc_wrong_q <= 1'b1;
 
       if (state_q == SEQ_COMMIT && !answer_item) u_q <= u_without;
       if (state_q == SEQ_COMMIT && answer_item) w_q <= w_without;

@@ -19,7 +19,6 @@ FORMAL = pathlib.Path(__file__).resolve().parent
 RTL = FORMAL.parent
 BINDINGS = RTL.parent / "bindings" / "systemverilog"
 ASSERTIONS = "dsdpv1_assertions.sv"
-SOURCES = (RTL / "files.txt").read_text(encoding="utf-8").split()
 HEADERS = [path.name for path in RTL.glob("*.svh")]
 HOLDS, VIOLATED, UNKNOWN = "holds", "violated", "unknown"
 LIMIT_SECONDS = 900  # for one run of a tool; far more than a busy machine needs
@@ -41,9 +40,13 @@ def defects(proof):
     return proof.faults + ((proof.edit,) if proof.edit else ())
 
 
+def files(proof):
+    return (RTL / proof.files).read_text(encoding="utf-8").split()
+
+
 def sources(proof, defect):
     """Texts by name: the RTL, bound properties, and the defect if there is one."""
-    texts = {name: (RTL / name).read_text(encoding="utf-8") for name in SOURCES + HEADERS}
+    texts = {name: (RTL / name).read_text(encoding="utf-8") for name in files(proof) + HEADERS}
     for block, properties in proof.bind.items():
         text = (FORMAL / f"{properties}.svh").read_text(encoding="utf-8")
         texts[block] = replace_once(texts[block], "\nendmodule", f"\n{text}endmodule", block)
@@ -79,8 +82,8 @@ def yosys(proof, folder, is_twin):
     cuts = "".join(f"cutpoint {cell}; " for cell in proof.cut_cells)
     wires = "".join(f"cutpoint {wire}; " for wire in proof.cut_wires)
     defines = " ".join(f"-D{define}" for define in proof.defines + (("TWIN",) if is_twin else ()))
-    files = SOURCES + ([ASSERTIONS] if proof.asserts else [])
-    common = (f"read_verilog -formal -sv {defines} -I. -I{RTL.parent / 'registers'} {' '.join(files)}; "
+    names = files(proof) + ([ASSERTIONS] if proof.asserts else [])
+    common = (f"read_verilog -formal -sv {defines} -I. -I{RTL.parent / 'registers'} {' '.join(names)}; "
               f"hierarchy -check -top {proof.top}; proc; {cuts}flatten; {wires}{only_asserts(proof) if proof.asserts else ''}async2sync; delete -output; opt_clean; "
               "memory_map; setundef -undriven -anyseq; opt -full; dffunmap; ")
     if proof.engine == "pdr":
