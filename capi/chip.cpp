@@ -20,7 +20,8 @@ namespace {
 void set_parameter(const dpsim_parameter& parameter, const Kind& kind, tb::OwnSettings& settings) {
   need(parameter.name, "name of a parameter");
   const tb::keys::Field* field = kind.maker().chip_keys().find(parameter.name);
-  if (field == nullptr) fail(DPSIM_ERR_NOT_FOUND, "the chip has no parameter \"" + std::string(parameter.name) + "\"");
+  if (field == nullptr || field->type.kind != tb::keys::Kind::kInteger)
+    fail(DPSIM_ERR_NOT_FOUND, "the chip has no parameter \"" + std::string(parameter.name) + "\"");
   need_range(parameter.name, parameter.value, field->type.range.min, field->type.range.max);
   field->read(&settings, YAML::Node(std::to_string(parameter.value)), {});
 }

@@ -1,4 +1,4 @@
-// The DSDPV1 as a kind of this library: the core alone, or the bench's chip on a segment.
+// The DSDPV1 and its sisters as kinds of this library: the core alone, or the bench's chip on a segment.
 #include <algorithm>
 
 #include "capi/bus.hpp"
@@ -117,21 +117,18 @@ class OnBus : public dpsim_chip {
 
 class Dsdpv1 : public Kind {
  public:
-  const tb::ChipMaker& maker() const override { return tb::dsdpv1_kind(); }
+  Dsdpv1(const tb::ChipMaker& maker, Part part) : maker_(maker) {
+    dsdpv1::Config config;
+    config.part = part;
+    const dsdpv1::Chip chip(config);
+    for (int pin = 0; pin < pin_count(part); ++pin) reset_levels_.push_back(chip.level(static_cast<Pin>(pin)));
+  }
+  const tb::ChipMaker& maker() const override { return maker_; }
   const std::vector<profibus::Reason>& reasons() const override {
     static const std::vector<profibus::Reason> all = dsdpv1::reasons();
     return all;
   }
-  const std::vector<tb::Level>& reset_levels() const override {
-    static const std::vector<tb::Level> levels = [] {
-      const dsdpv1::Chip chip;
-      std::vector<tb::Level> list;
-      list.reserve(dsdpv1::kPinCount);
-      for (int pin = 0; pin < dsdpv1::kPinCount; ++pin) list.push_back(chip.level(static_cast<Pin>(pin)));
-      return list;
-    }();
-    return levels;
-  }
+  const std::vector<tb::Level>& reset_levels() const override { return reset_levels_; }
   std::uint16_t cells() const override { return kCells; }
   bool has_host_bus() const override { return true; }
   PinNumber line_pin() const override { return static_cast<PinNumber>(Pin::kPbrxd); }
@@ -141,12 +138,26 @@ class Dsdpv1 : public Kind {
   std::unique_ptr<dpsim_chip> make_on_bus(const ChipPlan& plan, dpsim_bus& bus) const override {
     return std::make_unique<OnBus>(*this, plan, bus);
   }
+
+ private:
+  const tb::ChipMaker& maker_;
+  std::vector<tb::Level> reset_levels_;
 };
 
 }  // namespace
 
 const Kind& dsdpv1_kind() {
-  static const Dsdpv1 kind;
+  static const Dsdpv1 kind(tb::dsdpv1_kind(), Part::kDsdpv1);
+  return kind;
+}
+
+const Kind& dsdpv1_r_kind() {
+  static const Dsdpv1 kind(tb::dsdpv1_r_kind(), Part::kR);
+  return kind;
+}
+
+const Kind& dsdpv1_rsu_kind() {
+  static const Dsdpv1 kind(tb::dsdpv1_rsu_kind(), Part::kRsu);
   return kind;
 }
 

@@ -5,7 +5,7 @@
 namespace dsdpv1::capi {
 
 const std::vector<const Kind*>& kinds() {
-  static const std::vector<const Kind*> all = {&dsdpv1_kind()};
+  static const std::vector<const Kind*> all = {&dsdpv1_kind(), &dsdpv1_r_kind(), &dsdpv1_rsu_kind()};
   return all;
 }
 

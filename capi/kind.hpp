@@ -50,5 +50,7 @@ const Kind& kind_of(const char* name);
 const Kind* find_kind(const char* name);
 
 const Kind& dsdpv1_kind();
+const Kind& dsdpv1_r_kind();
+const Kind& dsdpv1_rsu_kind();
 
 }  // namespace dsdpv1::capi

@@ -25,6 +25,7 @@
 #define DSDPV1_REG_CHIP_STATUS_1_INITIALISED 0x01U  // The initialisation succeeded; the user may clear it afterwards (ruling D7).
 #define DSDPV1_REG_CHIP_STATUS_2 0x00BU  // Chip status byte 2
 #define DSDPV1_REG_CHIP_STATUS_2_INIT_CRC 0x01U  // Initialisation data, CRC wrong.
+#define DSDPV1_REG_CHIP_STATUS_2_V1_INIT_CRC 0x02U  // V1 initialisation, CRC wrong; the chip never sets it (ruling R5).
 #define DSDPV1_REG_CHIP_STATUS_2_INPUT_CRC 0x04U  // Input data, CRC wrong.
 #define DSDPV1_REG_CHIP_STATUS_2_DIAG_CRC 0x08U  // Diagnosis data, CRC wrong.
 #define DSDPV1_REG_CHIP_STATUS_2_C1_CRC 0x10U  // C1 answer, CRC wrong.
@@ -63,6 +64,15 @@
 #define DSDPV1_REG_CHIP_STATUS_3_BAUD_RATE_SHIFT 4U  // lowest bit
 #define DSDPV1_REG_CHIP_STATUS_4 0x013U  // Chip status byte 4
 #define DSDPV1_REG_CHIP_STATUS_4_INIT_LIMIT 0x01U  // A length or the address of the initialisation is out of its limits (ruling D7).
+#define DSDPV1_REG_CHIP_STATUS_4_C2_LIMIT 0x02U  // Number of C2 channels over its limit; always 0 (ruling R5).
+#define DSDPV1_REG_CHIP_STATUS_4_SLOT_LIMIT 0x04U  // Number of slots and indices over its limit; always 0 (ruling R5).
+#define DSDPV1_REG_OWNERSHIP 0x014U  // Ownership
+#define DSDPV1_REG_OWNERSHIP_CHIP 0x01U  // The chip is in an access.
+#define DSDPV1_REG_OWNERSHIP_HOST 0x02U  // The host is in an access.
+#define DSDPV1_REG_U_TIMER 0x015U  // U_Timer
+#define DSDPV1_REG_U_TIMER_ENABLE 0x01U  // Enabled: the ownership ends by itself.
+#define DSDPV1_REG_UART_INTERVAL 0x019U  // Interval between characters
+#define DSDPV1_REG_UART_TSDR 0x01AU  // TSDR
 
 // Initialisation data
 #define DSDPV1_REG_INIT 0x020U  // first byte

@@ -8,7 +8,7 @@ namespace dsdpv1::regs {
 
 using Address = std::uint16_t;  ///< 0x000..0x7FF
 
-/// A stretch of the DPRAM, and who writes it (ruling P6).
+/// A stretch of the DPRAM, and who writes it (ruling P6); nobody's where only some modes of the DSDPV1-RSU have it.
 struct Cell {
   Address first;
   Address last;
@@ -37,6 +37,7 @@ inline constexpr Address kChipStatus1 = 0x00A;  // Chip status byte 1
 inline constexpr std::uint8_t kChipStatus1Initialised = 0x01;  // The initialisation succeeded; the user may clear it afterwards (ruling D7).
 inline constexpr Address kChipStatus2 = 0x00B;  // Chip status byte 2
 inline constexpr std::uint8_t kChipStatus2InitCrc = 0x01;  // Initialisation data, CRC wrong.
+inline constexpr std::uint8_t kChipStatus2V1InitCrc = 0x02;  // V1 initialisation, CRC wrong; the chip never sets it (ruling R5).
 inline constexpr std::uint8_t kChipStatus2InputCrc = 0x04;  // Input data, CRC wrong.
 inline constexpr std::uint8_t kChipStatus2DiagCrc = 0x08;  // Diagnosis data, CRC wrong.
 inline constexpr std::uint8_t kChipStatus2C1Crc = 0x10;  // C1 answer, CRC wrong.
@@ -75,6 +76,15 @@ inline constexpr std::uint8_t kChipStatus3BaudRate = 0xF0;  // Baud rate.
 inline constexpr int kChipStatus3BaudRateShift = 4;  // lowest bit
 inline constexpr Address kChipStatus4 = 0x013;  // Chip status byte 4
 inline constexpr std::uint8_t kChipStatus4InitLimit = 0x01;  // A length or the address of the initialisation is out of its limits (ruling D7).
+inline constexpr std::uint8_t kChipStatus4C2Limit = 0x02;  // Number of C2 channels over its limit; always 0 (ruling R5).
+inline constexpr std::uint8_t kChipStatus4SlotLimit = 0x04;  // Number of slots and indices over its limit; always 0 (ruling R5).
+inline constexpr Address kOwnership = 0x014;  // Ownership
+inline constexpr std::uint8_t kOwnershipChip = 0x01;  // The chip is in an access.
+inline constexpr std::uint8_t kOwnershipHost = 0x02;  // The host is in an access.
+inline constexpr Address kUTimer = 0x015;  // U_Timer
+inline constexpr std::uint8_t kUTimerEnable = 0x01;  // Enabled: the ownership ends by itself.
+inline constexpr Address kUartInterval = 0x019;  // Interval between characters
+inline constexpr Address kUartTsdr = 0x01A;  // TSDR
 
 // Initialisation data
 inline constexpr Address kInit = 0x020;  // first byte
@@ -243,7 +253,12 @@ inline constexpr Cell kMap[] = {
     {0x011, 0x011, true, true, "user_command_2"},
     {0x012, 0x012, true, false, "chip_status_3"},
     {0x013, 0x013, true, false, "chip_status_4"},
-    {0x014, 0x01F, false, false, "reserved_014"},
+    {0x014, 0x014, false, false, "ownership"},
+    {0x015, 0x015, false, false, "u_timer"},
+    {0x016, 0x018, false, false, "reserved_016"},
+    {0x019, 0x019, false, false, "uart_interval"},
+    {0x01A, 0x01A, false, false, "uart_tsdr"},
+    {0x01B, 0x01F, false, false, "reserved_01b"},
     {0x020, 0x020, false, true, "init.length"},
     {0x021, 0x021, false, true, "init.address"},
     {0x022, 0x022, false, true, "init.ident_high"},

@@ -24,6 +24,7 @@ localparam logic [10:0] DSDPV1_REG_CHIP_STATUS_1 = 11'hA;  // Chip status byte 1
 localparam logic [7:0] DSDPV1_REG_CHIP_STATUS_1_INITIALISED = 8'h1;  // The initialisation succeeded; the user may clear it afterwards (ruling D7).
 localparam logic [10:0] DSDPV1_REG_CHIP_STATUS_2 = 11'hB;  // Chip status byte 2
 localparam logic [7:0] DSDPV1_REG_CHIP_STATUS_2_INIT_CRC = 8'h1;  // Initialisation data, CRC wrong.
+localparam logic [7:0] DSDPV1_REG_CHIP_STATUS_2_V1_INIT_CRC = 8'h2;  // V1 initialisation, CRC wrong; the chip never sets it (ruling R5).
 localparam logic [7:0] DSDPV1_REG_CHIP_STATUS_2_INPUT_CRC = 8'h4;  // Input data, CRC wrong.
 localparam logic [7:0] DSDPV1_REG_CHIP_STATUS_2_DIAG_CRC = 8'h8;  // Diagnosis data, CRC wrong.
 localparam logic [7:0] DSDPV1_REG_CHIP_STATUS_2_C1_CRC = 8'h10;  // C1 answer, CRC wrong.
@@ -62,6 +63,15 @@ localparam logic [7:0] DSDPV1_REG_CHIP_STATUS_3_BAUD_RATE = 8'hF0;  // Baud rate
 localparam logic [2:0] DSDPV1_REG_CHIP_STATUS_3_BAUD_RATE_SHIFT = 3'd4;  // lowest bit
 localparam logic [10:0] DSDPV1_REG_CHIP_STATUS_4 = 11'h13;  // Chip status byte 4
 localparam logic [7:0] DSDPV1_REG_CHIP_STATUS_4_INIT_LIMIT = 8'h1;  // A length or the address of the initialisation is out of its limits (ruling D7).
+localparam logic [7:0] DSDPV1_REG_CHIP_STATUS_4_C2_LIMIT = 8'h2;  // Number of C2 channels over its limit; always 0 (ruling R5).
+localparam logic [7:0] DSDPV1_REG_CHIP_STATUS_4_SLOT_LIMIT = 8'h4;  // Number of slots and indices over its limit; always 0 (ruling R5).
+localparam logic [10:0] DSDPV1_REG_OWNERSHIP = 11'h14;  // Ownership
+localparam logic [7:0] DSDPV1_REG_OWNERSHIP_CHIP = 8'h1;  // The chip is in an access.
+localparam logic [7:0] DSDPV1_REG_OWNERSHIP_HOST = 8'h2;  // The host is in an access.
+localparam logic [10:0] DSDPV1_REG_U_TIMER = 11'h15;  // U_Timer
+localparam logic [7:0] DSDPV1_REG_U_TIMER_ENABLE = 8'h1;  // Enabled: the ownership ends by itself.
+localparam logic [10:0] DSDPV1_REG_UART_INTERVAL = 11'h19;  // Interval between characters
+localparam logic [10:0] DSDPV1_REG_UART_TSDR = 11'h1A;  // TSDR
 
 // Initialisation data
 localparam logic [10:0] DSDPV1_REG_INIT = 11'h20;  // first byte

@@ -33,6 +33,7 @@ class Field:
     width: int
     set_by: str
     encode: Enumeration
+    only: str  # "rsu": cells and bits that only the DSDPV1-RSU has
 
     @property
     def mask(self):
@@ -60,6 +61,7 @@ class Cell:
     limit: int
     fields: list
     encode: Enumeration  # of the whole byte
+    only: str
 
     @property
     def last(self):
@@ -100,7 +102,7 @@ def read_fields(reg):
     if len(fields) == 1 and fields[0].width == reg.get_property("regwidth"):
         return []
     return [
-        Field(f.inst_name, f.get_property("desc", default=""), f.low, f.width, f.get_property("set_by"), read_enumeration(f))
+        Field(f.inst_name, f.get_property("desc", default=""), f.low, f.width, f.get_property("set_by"), read_enumeration(f), f.get_property("only"))
         for f in fields
     ]
 
@@ -124,6 +126,7 @@ def read_cell(reg, prefix):
         limit=reg.get_property("limit"),
         fields=named,
         encode=None if named else read_enumeration(fields[0]),
+        only=reg.get_property("only"),
     )
 
 
@@ -277,7 +280,7 @@ namespace dsdpv1::regs {{
 
 using Address = std::uint16_t;  ///< 0x000..0x7FF
 
-/// A stretch of the DPRAM, and who writes it (ruling P6).
+/// A stretch of the DPRAM, and who writes it (ruling P6); nobody's where only some modes of the DSDPV1-RSU have it.
 struct Cell {{
   Address first;
   Address last;
@@ -288,7 +291,7 @@ struct Cell {{
 
 
 def cpp_cell(cell):
-    chip, user = (str("W" in access).lower() for access in (cell.chip, cell.user))
+    chip, user = (str("W" in access and not cell.only).lower() for access in (cell.chip, cell.user))
     return f'    {{0x{cell.address:03X}, 0x{cell.last:03X}, {chip}, {user}, "{cell.path}"}},'
 
 
@@ -363,10 +366,15 @@ def cell_meaning(cell):
     return " ".join(part for part in parts if part)
 
 
+def chips(part):
+    """Which of the chips has the cell or bits."""
+    return {None: "all", "rsu": "-RSU"}[part.only]
+
+
 def cell_row(cell):
     constant = "" if cell.reserved else f"`k{camel(cell.key)}`"
     reset = f"0x{cell.reset:02X}" if cell.reset else "0"
-    return [address_range(cell), constant, cell.chip, cell.user, reset, cell_meaning(cell)]
+    return [address_range(cell), constant, chips(cell), cell.chip, cell.user, reset, cell_meaning(cell)]
 
 
 def field_row(cell, f):
@@ -376,12 +384,12 @@ def field_row(cell, f):
         meaning += f" The {f.set_by} sets it, the {other} clears it."
     if f.encode:
         meaning += f" Values: [{f.encode.name}](#{f.encode.name})."
-    return [f.bits, f"`k{camel(cell.key + '_' + f.name)}`", f"`0x{f.mask:02X}`", meaning]
+    return [f.bits, f"`k{camel(cell.key + '_' + f.name)}`", f"`0x{f.mask:02X}`", chips(f), meaning]
 
 
 def render_cell_bits(cell):
     lines = ["", f"### B{cell.address:03X}: {cell.title[:1].lower() + cell.title[1:]}", "", cell.text, ""]
-    lines += table(["bits", "constant", "mask", "meaning"], [field_row(cell, f) for f in cell.fields])
+    lines += table(["bits", "constant", "mask", "chips", "meaning"], [field_row(cell, f) for f in cell.fields])
     return lines + ["", "Bits that are not listed are reserved."]
 
 
@@ -390,7 +398,7 @@ def render_area(area):
     if area.key:
         lines += ["", f"{area.text} `k{camel(area.key)}` = `0x{area.address:03X}`, {area.size} bytes and the CRC."]
         lines += [f"The CRC covers: {area.crc_covers}"]
-    lines += [""] + table(["address", "constant", "chip", "user", "reset", "meaning"], [cell_row(c) for c in area.cells])
+    lines += [""] + table(["address", "constant", "chips", "chip", "user", "reset", "meaning"], [cell_row(c) for c in area.cells])
     for cell in area.cells:
         if cell.fields:
             lines += render_cell_bits(cell)
@@ -409,10 +417,11 @@ DOC_HEAD = f"""<!-- {ORIGIN} -->
 
 The DPRAM between the chip and the user CPU: every address from 0x000 to 0x7FF. "B010.2" is bit 2 of the byte at 0x010. The columns
 "chip" and "user" say who reads (R) and writes (W); the memory itself does not enforce it (ruling P6). Words (CRC, count) have their
-high byte first. The constants are those of `registers/dsdpv1_regs.hpp` (namespace `dsdpv1::regs`); in `registers/dsdpv1_regs.h` and
+high byte first. The column "chips" says which chips have it: all, or only the DSDPV1-RSU, whose B014 to B01F are plain RAM in the modes
+that do not use them ([chip_rsu.md](chip_rsu.md)). The constants are those of `registers/dsdpv1_regs.hpp` (namespace `dsdpv1::regs`); in `registers/dsdpv1_regs.h` and
 `registers/dsdpv1_regs.svh` `kUserCommand1Init` is called `DSDPV1_REG_USER_COMMAND_1_INIT`. A field of several bits also has `k...Shift`,
 the number of its lowest bit; an array `k...Size`, its number of bytes; a byte with a largest value `k...Limit`; one that is not zero
-after reset `k...Reset`. Rulings are those of [chip.md](chip.md), tables those of the datasheet."""
+after reset `k...Reset`. Rulings are those of [chip.md](chip.md) and [chip_rsu.md](chip_rsu.md), tables those of the datasheet."""
 
 
 def render_doc(areas):

@@ -32,6 +32,8 @@ class Sequencer {
   /// Whether the user holds the DPRAM, or asks for it, as the logic sees it from the coming eval() on (H1). No access
   /// begins meanwhile; one that has begun goes on to its end.
   void user_holds(bool holds) { user_holds_ = holds; }
+  /// Whether the CRCs of the user's blocks are judged; else they count as right, whatever they are.
+  void judge_crc(bool judged) { judges_crc_ = judged; }
 
   /// The rising edge of `now`. True when the station or the user has something from it.
   bool eval(Cycle now);
@@ -60,6 +62,8 @@ class Sequencer {
 
   bool owns() const { return phase_ > Phase::kIdle; }       ///< an access of the chip is under way
   bool started_up() const { return phase_ > Phase::kDue; }  ///< the start-up access of this reset has begun
+  /// It has not ended.
+  bool starts_up() const { return phase_ <= Phase::kDue || phase_ == Phase::kStartUp; }
   bool initialised() const { return initialised_; }         ///< an initialisation has succeeded
   /// The cycle at which new parameters or a new configuration were last flagged for the user (P7); kNever: not since
   /// reset. Whoever calls the user's attention asks after eval().
@@ -196,7 +200,7 @@ class Sequencer {
   Ram& ram_;
   profibus::UserSide& user_;
   const Cycle interval_, ready_cycles_;
-  bool user_holds_ = false, dozing_ = false;
+  bool user_holds_ = false, dozing_ = false, judges_crc_ = true;
   Cycle told_user_ = profibus::kNever;
 
   Phase phase_ = Phase::kOff;

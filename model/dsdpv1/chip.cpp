@@ -1,12 +1,14 @@
 #include "model/dsdpv1/chip.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "model/dpram/sequencer.hpp"
 #include "model/dsdpv1/handshake.hpp"
 #include "model/dsdpv1/host_port.hpp"
 #include "model/dsdpv1/interrupt.hpp"
 #include "model/dsdpv1/reasons.hpp"
+#include "model/dsdpv1/serial_ports.hpp"
 #include "model/profibus/station.hpp"
 
 namespace dsdpv1 {
@@ -18,10 +20,10 @@ using profibus::kTicksPerCycle;
 
 constexpr Cycle kResetSynchroniser = 2;  // P9, P10
 
-// The outputs that are registers of the rising edge; D_OUT is the host port's own.
-constexpr std::uint32_t kEdgeOutputs = kOutputPins & ~mask(Pin::kDOut);
+// The outputs that are registers of the rising edge; D_OUT and MISO are the host ports' own.
+constexpr std::uint32_t kEdgeOutputs = outputs_of(Part::kRsu) & ~mask(Pin::kDOut) & ~mask(Pin::kMiso);
 
-constexpr std::uint32_t kResetLevels = mask(Pin::kIntr0) | mask(Pin::kPbtxd) | mask(Pin::kPbf);  // P10
+constexpr std::uint32_t kResetLevels = mask(Pin::kIntr0) | mask(Pin::kPbtxd) | mask(Pin::kPbf) | mask(Pin::kTxd);  // P10, R14
 
 profibus::StationConfig station_of(const Config& config) {
   profibus::StationConfig station;
@@ -45,7 +47,7 @@ struct Chip::Impl {
   // called where it says that nothing happens does nothing, so Engine::kSkip calls those that are due, and
   // Engine::kStep, which trusts none of these, all of them.
   struct Plan {
-    Cycle release = kNever;  // cycle R
+    Cycle release = kNever;  // cycle R; host: the live port
     Cycle host = kNever, handshake = kNever, sequencer = kNever, station = kNever, interrupt = kNever;
 
     Cycle but_the_stations() const { return std::min({release, host, handshake, sequencer, interrupt}); }
@@ -56,6 +58,7 @@ struct Chip::Impl {
       : engine(config.engine),
         station(log, station_of(config)),
         host(log, ram),
+        serial(log, ram, config),
         interrupt(config.intr_low, config.intr_gap),
         sequencer(log, ram, station.user(), config.access_interval, config.ready_cycles) {
     interrupt.reset();
@@ -65,7 +68,10 @@ struct Chip::Impl {
   void set(Tick at, Pin pin, Level value);
   void set_reset(Tick at, bool high);
   void advance(Tick to);
-  Tick next_event() const { return std::min(next_edge(), host.drive_at()); }
+  Tick next_event() const { return std::min(next_edge(), drive_at()); }
+  // D of the parallel port, or MISO.
+  Tick drive_at() const { return serial.live() ? serial.drive_at() : host.drive_at(); }
+  void drive(Tick at);
   Tick next_seen() const;
   Tick next_edge() const { return engine == Engine::kStep ? next_cycle() : planned_edge; }
   Tick next_cycle() const { return first_edge_after(now) * kTicksPerCycle; }
@@ -88,6 +94,8 @@ struct Chip::Impl {
   void send_bits(Cycle cycle, Tick to);
   bool only_settles(Cycle cycle) const;
   void settle_writes(Cycle cycle);
+  void eval_host(Cycle cycle);
+  bool set_serial(Tick at, Pin pin, Level value);
   void release(Cycle cycle);
   bool eval_sequencer(Cycle cycle);
   void end_edge(Cycle cycle);
@@ -96,7 +104,7 @@ struct Chip::Impl {
   bool unasked() const;
   Cycle last_quiet(Tick to) const;
   // The first edge that is behind `to`, or not before the host's next drive.
-  Cycle unheard_until(Tick to) const { return first_edge_after(std::min(to, host.drive_at() - 1)); }
+  Cycle unheard_until(Tick to) const { return first_edge_after(std::min(to, drive_at() - 1)); }
   void quiet_access();
   void access_edge(Cycle cycle);
   void eval_station(Cycle cycle);
@@ -105,7 +113,9 @@ struct Chip::Impl {
   void wake();
   void catch_up();
   void update_access_pins();
-  std::uint32_t access_pins() const { return sequencer.owns() ? kAccessPins : 0; }
+  // L_REQ and L_STA are low where there is no parallel port (R14).
+  std::uint32_t owned_pins() const { return serial.live() ? 0 : kAccessPins; }
+  std::uint32_t access_pins() const { return sequencer.owns() ? owned_pins() : 0; }
   void enter_reset(Tick at);
   std::uint32_t edge_outputs() const;
   void publish_edge(Cycle cycle, std::uint32_t levels);
@@ -119,6 +129,7 @@ struct Chip::Impl {
   Ram ram;
   profibus::Station station;
   HostPort host;
+  SerialPorts serial;
   Handshake handshake;
   Interrupt interrupt;
   dpram::Sequencer sequencer;
@@ -131,7 +142,7 @@ struct Chip::Impl {
   Cycle other_plans = kNever;  // but the station's, as plan() found them
   bool reset_pin = false, running = false, r_req = false, r_sta = false, rxd = true;
   std::uint32_t outputs = kResetLevels;
-  Level d_out = kLevelZ;
+  Level d_out = kLevelZ, miso = kLevelZ;
 };
 
 // --- inputs ----------------------------------------------------------------------------------------------------------
@@ -151,10 +162,19 @@ bool Chip::Impl::apply(Tick at, Pin pin, Level value) {
     case Pin::kRSta: set_handshake(at, r_req, high); return true;
     default: break;
   }
+  if (pin > Pin::kReady) return set_serial(at, pin, value);
   if (value == host.level(pin)) return false;
   host.set(at, pin, value);
   plans.host = host.next();
   publish_data(at);
+  return true;
+}
+
+bool Chip::Impl::set_serial(Tick at, Pin pin, Level value) {
+  serial.set(at, pin, value);
+  publish_data(at);
+  if (!serial.live()) return false;
+  plans.host = serial.next();
   return true;
 }
 
@@ -216,6 +236,7 @@ void Chip::Impl::enter_reset(Tick at) {
   station.reset();
   interrupt.reset();
   host.reset();
+  serial.reset();
   plans = {kNever, host.next(), handshake.next(), sequencer.next(), station.next(), interrupt.next()};
   publish_edge_outputs(at, kResetLevels);
   publish_data(at);
@@ -231,16 +252,16 @@ void Chip::Impl::plan() {
 // Nobody hears when the writes of a user who owns the DPRAM settle: he reads them or gives the DPRAM back, and either
 // is a call.
 Tick Chip::Impl::next_seen() const {
-  if (engine == Engine::kStep || sequencer.owns() || host.next_seen() == plans.host) return next_event();
+  if (engine == Engine::kStep || sequencer.owns() || serial.live() || host.next_seen() == plans.host)
+    return next_event();
   return std::min(edge_of(std::min(plans.but_the_hosts(), host.next_seen())), host.drive_at());
 }
 
 void Chip::Impl::advance(Tick to) {
   for (Tick event = next_event(); event <= to; event = next_event()) {
     now = event;
-    if (event == host.drive_at()) {
-      host.drive();
-      publish_data(event);
+    if (event == drive_at()) {
+      drive(event);
     } else if (const Cycle cycle = event / kTicksPerCycle; only_sends(cycle)) {
       send_bits(cycle, to);
     } else {
@@ -256,22 +277,38 @@ void Chip::Impl::advance(Tick to) {
   now = std::max(now, to);
 }
 
-// The order of the blocks within one cycle: docs/microarchitecture.md.
+void Chip::Impl::drive(Tick at) {
+  serial.live() ? serial.drive() : host.drive();
+  publish_data(at);
+}
+
+// The order of the blocks within one cycle: docs/microarchitecture.md, docs/microarchitecture_rsu.md.
 void Chip::Impl::rising_edge(Cycle cycle) {
   catch_up_line(cycle - 1);
   plans.station = std::min(plans.station, station.unseen());
-  if (due(plans.host, cycle)) {
-    sequencer.wake(cycle - 1);  // what the user writes may be a command
-    host.eval(cycle, sequencer.owns() || !sequencer.started_up());
-    plans.host = host.next();
-    plans.sequencer = sequencer.next();
-  }
   const bool released = cycle == plans.release;
+  if (released) serial.release(cycle);
+  if (due(plans.host, cycle) || (released && serial.live())) eval_host(cycle);
   if (released) release(cycle);
   if (due(std::min(plans.handshake, plans.sequencer), cycle)) eval_sequencer(cycle);
-  if (released && !sequencer.started_up())
+  if (released && !serial.live() && !sequencer.started_up())
     log.at_cycle(cycle, Reason::kHeldThroughReset, handshake.r_req(), handshake.r_sta());  // H6
   end_edge(cycle);
+}
+
+void Chip::Impl::eval_host(Cycle cycle) {
+  sequencer.wake(cycle - 1);  // what the user writes may be a command
+  if (serial.live()) {
+    const bool data_exch = station.slave().state() == profibus::DpState::kDataExch;
+    serial.eval(cycle, {sequencer.owns(), sequencer.starts_up(), data_exch});
+    sequencer.user_holds(serial.holds());
+    publish_data(cycle * kTicksPerCycle);
+    plans.host = serial.next();
+  } else {
+    host.eval(cycle, sequencer.owns() || !sequencer.started_up());
+    plans.host = host.next();
+  }
+  plans.sequencer = sequencer.next();
 }
 
 void Chip::Impl::end_edge(Cycle cycle) {
@@ -302,7 +339,7 @@ void Chip::Impl::send_bits(Cycle cycle, Tick to) {
 
 // Most edges while the user owns the DPRAM settle a write and nothing else.
 bool Chip::Impl::only_settles(Cycle cycle) const {
-  return engine == Engine::kSkip && plans.host <= cycle && host.next_seen() > cycle && !sequencer.owns() &&
+  return engine == Engine::kSkip && !serial.live() && plans.host <= cycle && host.next_seen() > cycle && !sequencer.owns() &&
          !sequencer.dozing() && cycle < plans.but_the_hosts();
 }
 
@@ -335,7 +372,7 @@ void Chip::Impl::quiet_access() {
   const Cycle begin = sequencer.next();
   now = begin * kTicksPerCycle;
   sequencer.begin_quietly();
-  publish_edge_outputs(now, outputs | kAccessPins);
+  publish_edge_outputs(now, outputs | owned_pins());
   now += dpram::Sequencer::kQuietAccess * kTicksPerCycle;
   sequencer.end_quietly();
   publish_edge_outputs(now, outputs & ~kAccessPins);
@@ -353,7 +390,9 @@ void Chip::Impl::access_edge(Cycle cycle) {
 
 void Chip::Impl::release(Cycle cycle) {
   running = true;
-  host.release();
+  if (!serial.live()) host.release();
+  sequencer.judge_crc(serial.judges_crc());
+  sequencer.user_holds(serial.live() ? serial.holds() : handshake.user_holds());
   sequencer.start_up(cycle);
   plans.release = kNever;
   plans.sequencer = cycle;
@@ -363,7 +402,7 @@ void Chip::Impl::release(Cycle cycle) {
 bool Chip::Impl::eval_sequencer(Cycle cycle) {
   if (due(plans.handshake, cycle)) {
     handshake.eval(cycle);
-    sequencer.user_holds(handshake.user_holds());
+    if (!serial.live()) sequencer.user_holds(handshake.user_holds());
     plans.handshake = handshake.next();
   }
   const bool has_effect = sequencer.eval(cycle);
@@ -422,7 +461,8 @@ void Chip::Impl::update_access_pins() { outputs = (outputs & ~kAccessPins) | acc
 std::uint32_t Chip::Impl::edge_outputs() const {
   return access_pins() | bit(Pin::kIntr0, interrupt.level()) | bit(Pin::kPbtxd, station.txd()) |
          bit(Pin::kPbrts, station.rts()) | bit(Pin::kPbf, station.slave().state() != profibus::DpState::kDataExch) |
-         bit(Pin::kBr, station.baud_found()) | bit(Pin::kReady, sequencer.initialised());
+         bit(Pin::kBr, station.baud_found()) | bit(Pin::kReady, sequencer.initialised()) |
+         bit(Pin::kTxd, serial.txd());
 }
 
 void Chip::Impl::publish_edge(Cycle cycle, std::uint32_t levels) {
@@ -441,13 +481,15 @@ void Chip::Impl::publish_edge_outputs(Tick at, std::uint32_t levels) {
 }
 
 void Chip::Impl::publish_data(Tick at) {
-  if (host.d_out() == d_out) return;
-  d_out = host.d_out();
-  if ((watched & mask(Pin::kDOut)) != 0) sink.call(sink.self, at, Pin::kDOut, d_out);
+  const auto publish = [&](Pin pin, Level& told, Level level) {
+    if (std::exchange(told, level) != level && (watched & mask(pin)) != 0) sink.call(sink.self, at, pin, level);
+  };
+  publish(Pin::kDOut, d_out, host.d_out());
+  publish(Pin::kMiso, miso, serial.miso());
 }
 
 void Chip::Impl::report_ownership(Tick at) {
-  if (r_sta && running && sequencer.owns()) log.at_tick(at, Reason::kBothOwn);
+  if (r_sta && running && access_pins() != 0) log.at_tick(at, Reason::kBothOwn);
 }
 
 Level Chip::Impl::level(Pin pin) const {
@@ -462,6 +504,15 @@ Level Chip::Impl::level(Pin pin) const {
     case Pin::kA:
     case Pin::kDIn: return host.level(pin);
     case Pin::kDOut: return d_out;
+    case Pin::kXss:
+    case Pin::kSck:
+    case Pin::kMosi:
+    case Pin::kRxd:
+    case Pin::kMode:
+    case Pin::kAdr:
+    case Pin::kUbr:
+    case Pin::kUiv:
+    case Pin::kMiso: return serial.level(pin);
     default: return (outputs & mask(pin)) != 0 ? Level{1} : Level{0};
   }
 }
@@ -535,13 +586,14 @@ void Chip::watch(const PinSink& sink, std::uint32_t pins) {
   impl_->wake();
   impl_->plan();
   impl_->sink = sink;
-  impl_->watched = sink.call != nullptr ? pins & kOutputPins : 0;
+  impl_->watched = sink.call != nullptr ? pins & outputs_of(Part::kRsu) : 0;
 }
 
 void Chip::on_event(const profibus::EventSink& sink) { impl_->log.attach(sink); }
 
 std::uint8_t Chip::peek(std::uint16_t address) const {
   impl_->catch_up();
+  if (impl_->serial.is_register(address % regs::kDpramSize)) return impl_->serial.ownership(impl_->sequencer.owns());
   return impl_->ram.read(address);
 }
 
@@ -549,9 +601,10 @@ void Chip::poke(std::uint16_t address, std::uint8_t value) {
   impl_->wake();
   impl_->plan();
   impl_->catch_up();
-  impl_->ram.write(address, value);
+  if (!impl_->serial.is_register(address % regs::kDpramSize)) impl_->ram.write(address, value);
 }
 
+HostMode Chip::mode() const { return impl_->serial.mode(); }
 std::uint8_t Chip::address() const { return impl_->station.slave().address(); }
 
 Status Chip::status() const {

@@ -1,5 +1,5 @@
 #pragma once
-// The DSDPV1: pins in, pin changes out. Plain C++17, no SystemC, no I/O, no heap after construction.
+// The DSDPV1, the DSDPV1-R or the DSDPV1-RSU (Config::part): pins in, pin changes out. Plain C++17, no SystemC, no I/O, no heap after construction.
 //
 //   Chip chip;                                     // RESET is low
 //   chip.watch({&on_pin, self}, kOutputPins);
@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "model/dpram/inside.hpp"
+#include "model/dsdpv1/config.hpp"
 #include "model/dsdpv1/host_access.hpp"
 #include "model/dsdpv1/pins.hpp"
 #include "model/profibus/addressee.hpp"
@@ -25,25 +26,6 @@
 #include "model/profibus/watchdog.hpp"
 
 namespace dsdpv1 {
-
-enum class Engine : std::uint8_t {
-  kStep,  ///< every cycle of every block is evaluated
-  kSkip,  ///< sleeps until the next cycle at which a block does something; the same pin trace
-};
-
-/// The parameters of the rulings marked (p), with their defaults.
-struct Config {
-  Engine engine = Engine::kSkip;
-  std::uint32_t access_interval = 48;       ///< H1: cycles from the start of one DPRAM access to the next
-  std::uint32_t ready_cycles = 4096;        ///< D1: cycles from the release of RESET to B004 = 0xC5
-  std::uint32_t rts_lead = 4;               ///< P2: cycles from PBRTS high to the first start bit, 0..32
-  std::uint32_t rts_trail = 4;              ///< P2: cycles from the end of the last stop bit to PBRTS low, 0..32
-  std::uint32_t intr_low = 64;              ///< P7: cycles that INTR0 stays low
-  std::uint32_t intr_gap = 64;              ///< P7: least cycles that INTR0 stays high between two pulses
-  std::uint32_t search_window_ms = 50;      ///< S1: least time at one baud rate while searching
-  std::uint32_t search_window_bits = 4000;  ///< S1: ... and least bit times
-  std::uint32_t baud_control_ms = 600;      ///< S1: silence after which the baud rate is searched again
-};
 
 using profibus::BaudIndex;  ///< coding of B012, table 5
 using profibus::DpState;    ///< likewise
@@ -78,7 +60,8 @@ class Chip {
   Chip& operator=(const Chip&) = delete;
 
   /// Changes an input pin at tick `at` (>= every earlier call's). Setting a pin to the level it has does nothing.
-  /// Before the first call RESET is low, R_REQ, R_STA and A are 0, CSR, RD, WR and PBRXD are 1, D is released.
+  /// Before the first call RESET is low, R_REQ, R_STA and A are 0, CSR, RD, WR and PBRXD are 1, D is released; XSS and
+  /// RXD are 1, SCK, MOSI and the straps 0. Pins that the part does not have are not looked at.
   void set(Tick at, Pin pin, Level level);
   /// Evaluates everything up to and including tick `to`; pin changes and events leave through the sinks on the way.
   void advance(Tick to);
@@ -124,6 +107,8 @@ class Chip {
   void show_txd(Tick at);
   /// The station's present address, 0 before the initialisation.
   std::uint8_t address() const;
+  /// The host port that the straps chose at the end of the last reset; in reset, and of other parts, the parallel one.
+  HostMode mode() const;
   /// The present level of a pin, input or output.
   Level level(Pin pin) const;
   /// The user samples D at tick `at` (>= every earlier call's): its level then. Earlier than Tw after RD and CSR fell
@@ -135,7 +120,8 @@ class Chip {
   void watch(const PinSink& sink, std::uint32_t pins);
   void on_event(const profibus::EventSink& sink);
 
-  /// DPRAM without pins, time or side effects: for debuggers and checks. `address` 0..0x7FF (others wrap).
+  /// DPRAM without pins, time or side effects: for debuggers and checks. `address` 0..0x7FF (others wrap). In SPI mode
+  /// B014 is the register of the ownership, which poke() leaves alone.
   std::uint8_t peek(std::uint16_t address) const;
   void poke(std::uint16_t address, std::uint8_t value);
 

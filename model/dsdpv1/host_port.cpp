@@ -3,25 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/dsdpv1/cells.hpp"
 #include "model/dsdpv1/reasons.hpp"
 
 namespace dsdpv1 {
 namespace {
 
 constexpr Cycle kWriteSettles = 2;  // P8: the third rising edge after WR's, two after the first
-
-std::array<bool, regs::kDpramSize> cells_of_chip() {
-  std::array<bool, regs::kDpramSize> cells{};
-  for (const regs::Cell& cell : regs::kMap)
-    for (std::size_t address = cell.first; address <= cell.last; ++address)
-      cells.at(address) = cell.chip_writes && !cell.user_writes;
-  return cells;
-}
-
-bool chips_own(regs::Address address) {
-  static const std::array<bool, regs::kDpramSize> cells = cells_of_chip();
-  return cells[address];
-}
 
 }  // namespace
 

@@ -56,6 +56,11 @@ class UartRx {
     if (in_run()) return run_end();
     return state_ == State::kIdle && count_ == 0 ? idle_since_ : kNever;
   }
+  /// The line as the logic sees it, and its next change, which eval() or skip() takes.
+  bool line() const { return line_; }
+  Cycle next_change() const { return edge(); }
+  /// Between two characters, as far as eval() has come: since when; else, and in a break, kNever.
+  Cycle idle_since() const { return state_ == State::kIdle ? idle_since_ : kNever; }
   /// A run that was to be heard at once is complete at `now`, none of its characters was taken by eval(): take_run() is
   /// all of them.
   bool whole_run(Cycle now) const { return in_run() && at_once_ && run_index_ == 0 && next() <= now; }

@@ -72,6 +72,8 @@ class ChipKind {
   /// Parameters of the chip itself, under `chip`.
   virtual const keys::Object& chip_keys() const = 0;
   virtual std::unique_ptr<OwnSettings> make_chip_settings() const = 0;
+  /// Throws InputError for settings that do not fit each other, or that this program does not have.
+  virtual void check_chip(const OwnSettings& /*settings*/, const keys::Source& /*source*/) const {}
   /// The processor and its bus to the chip, under `user_cpu`.
   virtual const keys::Object& user_keys() const = 0;
   virtual std::unique_ptr<OwnSettings> make_user_settings() const = 0;

@@ -81,28 +81,102 @@ const ObjectOf<CpuTimes>& timing_keys() {
 
 }  // namespace
 
-const keys::Object& dsdpv1_chip_keys() {
-  static const ObjectOf<Dsdpv1Settings> keys = [] {
-    using C = Dsdpv1Settings;
-    ObjectOf<C> o("chip", "The parameters of the chip that the rulings mark (p), for all slaves of the scenario.");
-    o.integer("access_interval", &C::access_interval, {16, 4800}, "cycles",
-              "From the start of one DPRAM access of the chip to the next (H1).");
-    o.integer("ready_cycles", &C::ready_cycles, {1, 1000000}, "cycles",
-              "From the release of RESET to B004 = 0xC5 (D1).");
-    o.integer("rts_lead", &C::rts_lead, {0, 32}, "cycles", "PBRTS high before the first start bit (P2).");
-    o.integer("rts_trail", &C::rts_trail, {0, 32}, "cycles", "PBRTS high after the last stop bit (P2).");
-    o.integer("intr_low", &C::intr_low, {1, 10000}, "cycles", "How long INTR0 stays low (P7).");
-    o.integer("intr_gap", &C::intr_gap, {1, 10000}, "cycles",
-              "How long INTR0 stays high between two pulses at least (P7).");
-    o.integer("search_window_ms", &C::search_window_ms, {1, 10000}, "ms",
-              "Least time at one baud rate of the search (S1).");
-    o.integer("search_window_bits", &C::search_window_bits, {100, 100000}, "bit times",
-              "Least bit times at one baud rate of the search (S1).");
-    o.integer("baud_control_ms", &C::baud_control_ms, {1, 60000}, "ms",
-              "Silence after which the baud rate is searched again (S1).");
-    return o;
-  }();
-  return keys;
+namespace {
+
+using ChipKeys = ObjectOf<Dsdpv1Settings>;
+using C = Dsdpv1Settings;
+
+ChipKeys plain_chip_keys() {
+  ChipKeys o("chip", "The parameters of the chip that the rulings mark (p), for all slaves of the scenario.");
+  o.integer("access_interval", &C::access_interval, {16, 4800}, "cycles",
+            "From the start of one DPRAM access of the chip to the next (H1).");
+  o.integer("ready_cycles", &C::ready_cycles, {1, 1000000}, "cycles",
+            "From the release of RESET to B004 = 0xC5 (D1).");
+  o.integer("rts_lead", &C::rts_lead, {0, 32}, "cycles", "PBRTS high before the first start bit (P2).");
+  o.integer("rts_trail", &C::rts_trail, {0, 32}, "cycles", "PBRTS high after the last stop bit (P2).");
+  o.integer("intr_low", &C::intr_low, {1, 10000}, "cycles", "How long INTR0 stays low (P7).");
+  o.integer("intr_gap", &C::intr_gap, {1, 10000}, "cycles",
+            "How long INTR0 stays high between two pulses at least (P7).");
+  o.integer("search_window_ms", &C::search_window_ms, {1, 10000}, "ms",
+            "Least time at one baud rate of the search (S1).");
+  o.integer("search_window_bits", &C::search_window_bits, {100, 100000}, "bit times",
+            "Least bit times at one baud rate of the search (S1).");
+  o.integer("baud_control_ms", &C::baud_control_ms, {1, 60000}, "ms",
+            "Silence after which the baud rate is searched again (S1).");
+  return o;
+}
+
+const std::vector<WordFor<HostMode>>& mode_words() {
+  static const std::vector<WordFor<HostMode>> words = {{HostMode::kParallel, "parallel", "the port of the DSDPV1"},
+                                                       {HostMode::kSpi, "spi", "SPI"},
+                                                       {HostMode::kUart, "uart", "UART"}};
+  return words;
+}
+
+// In the order of UBR's codes (UA1), and of UIV's (UA3).
+const std::vector<WordFor<int>>& rate_words() {
+  static const std::vector<WordFor<int>> words = {{0, "9.6k", ""},   {1, "19.2k", ""},  {2, "38.4k", ""},
+                                                  {3, "57.6k", ""},  {4, "115.2k", ""}, {5, "230.4k", ""},
+                                                  {6, "460.8k", ""}, {7, "1.8432M", ""}};
+  return words;
+}
+
+void add_straps(ChipKeys& o) {
+  o.word("mode", &C::mode, mode_words(), "The host port that is live: the strap MODE (R11).");
+  o.integer("address", &C::address, {0, 3}, "",
+            "The card's own address in telegrams of SPI and UART: the strap ADR. With 0 and 3 none is for it (R11).");
+  o.word("uart_rate", &C::uart_rate, rate_words(), "Baud rate of the UART: the strap UBR (UA1).");
+  o.integer("interval", &C::interval, {0, 7}, "",
+            "Longest silence within a telegram of the UART, an index of `uart_gaps`: the strap UIV (UA3).");
+}
+
+void add_serial_parameters(ChipKeys& o) {
+  o.integer("spi_strobe", &C::spi_strobe, {0, 12000}, "ticks of 1/12 ns",
+            "Least SCK high, SCK low, XSS low before the first rise and after the last fall, XSS high (SP2).");
+  o.integer("spi_data", &C::spi_data, {0, 600}, "ticks of 1/12 ns", "Least setup and hold of MOSI (SP2).");
+  o.integer("spi_miso_delay", &C::spi_miso_delay, {1, 600}, "ticks of 1/12 ns",
+            "From SCK's fall to the change of MISO (SP2).");
+  o.integer("spi_reply_gap", &C::spi_reply_gap, {0, 16}, "bytes", "FF between a request and its reply (SP6).");
+  o.integer("spi_write_gap", &C::spi_write_gap, {0, 4800}, "cycles",
+            "How long after a write no frame is heard (SP9).");
+  o.integer("serial_block_crc", &C::serial_block_crc, {0, 1}, "",
+            "1: the CRCs of blocks in the DPRAM are judged in SPI and UART mode, too (SP15).");
+  o.integer("u_timer", &C::u_timer, {0, 4'800'000}, "cycles",
+            "How long the host may keep the DPRAM without a telegram; at least 48, 0: as long as it likes (SP17).");
+  o.integers("uart_gaps", &C::uart_gaps, {1, 1000}, "half characters",
+             "Longest silence within a telegram of the UART, by the code in B019 or UIV (UA3).");
+  o.integer("uart_min_tsdr", &C::uart_min_tsdr, {1, 255}, "bit times",
+            "Least time from a request of the UART to its reply (UA4).");
+  o.integer("uart_cfg_length", &C::uart_cfg_length, {0, 1}, "",
+            "1: the length in the reply with a configuration is B502 + 1 (UA12).");
+}
+
+ChipKeys rsu_chip_keys() {
+  ChipKeys o = plain_chip_keys();
+  add_straps(o);
+  add_serial_parameters(o);
+  return o;
+}
+
+}  // namespace
+
+const keys::Object& chip_keys_of(Part part) {
+  static const ChipKeys plain = plain_chip_keys(), rsu = rsu_chip_keys();
+  return part == Part::kRsu ? static_cast<const keys::Object&>(rsu) : plain;
+}
+
+void check_dsdpv1_chip(const Dsdpv1Settings& chip, const std::string& file) {
+  if (chip.mode != HostMode::kParallel)
+    throw InputError(file, chip.line, "mode is spi or uart, which no user CPU of the bench speaks, allowed is parallel");
+  if (chip.u_timer > 0 && chip.u_timer < 48)
+    throw InputError(file, chip.line,
+                     fmt::format("u_timer is {}, allowed is 0 or an integer from 48 to 4800000 cycles", chip.u_timer));
+}
+
+Straps straps_of(const OwnSettings& settings) {
+  const auto& chip = static_cast<const Dsdpv1Settings&>(settings);
+  return {static_cast<Level>(chip.mode), static_cast<Level>(chip.address), static_cast<Level>(chip.uart_rate),
+          static_cast<Level>(chip.interval)};
 }
 
 const keys::Object& dsdpv1_user_keys() {

@@ -36,13 +36,22 @@ class Dsdpv1AccessReader : public AccessReader {
 
 class Dsdpv1Kind : public ChipMaker {
  public:
-  const char* name() const override { return "dsdpv1"; }
-  const char* title() const override { return "DSDPV1"; }
-  const PinTable& pins() const override { return dsdpv1_pins(); }
+  Dsdpv1Kind(Part part, const char* name, const char* title) : part_(part), name_(name), title_(title) {}
+
+  const char* name() const override { return name_; }
+  const char* title() const override { return title_; }
+  const PinTable& pins() const override { return pins_of(part_); }
   int most_cfg() const override { return DSDPV1_MAX_CFG; }
 
-  const keys::Object& chip_keys() const override { return dsdpv1_chip_keys(); }
-  std::unique_ptr<OwnSettings> make_chip_settings() const override { return std::make_unique<Dsdpv1Settings>(); }
+  const keys::Object& chip_keys() const override { return chip_keys_of(part_); }
+  std::unique_ptr<OwnSettings> make_chip_settings() const override {
+    auto settings = std::make_unique<Dsdpv1Settings>();
+    settings->part = part_;
+    return settings;
+  }
+  void check_chip(const OwnSettings& settings, const keys::Source& source) const override {
+    check_dsdpv1_chip(static_cast<const Dsdpv1Settings&>(settings), source.file);
+  }
   const keys::Object& user_keys() const override { return dsdpv1_user_keys(); }
   std::unique_ptr<OwnSettings> make_user_settings() const override { return std::make_unique<Dsdpv1User>(); }
   void check_user(const OwnSettings& settings, const keys::Source& source, const std::string& slave,
@@ -57,7 +66,7 @@ class Dsdpv1Kind : public ChipMaker {
   std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<Dsdpv1AccessReader>(); }
   const std::vector<CodeTable>& codes() const override { return dsdpv1_codes(); }
 
-  const std::vector<PinGroup>& pin_groups() const override { return dsdpv1_pin_groups(); }
+  const std::vector<PinGroup>& pin_groups() const override { return pin_groups_of(part_); }
   const std::vector<InnerSignal>& inner_signals() const override { return InsideWatch::signals(); }
 
   const checks::RuleTable& rules() const override { return checks::rules(); }
@@ -71,6 +80,7 @@ class Dsdpv1Kind : public ChipMaker {
   std::unique_ptr<ChipView> make_pin_chip(const ChipRequest& request, bus::Segment& segment,
                                           bus::Timeline& timeline) const override {
     auto chip = std::make_unique<PinChip>(request.name, config_of(request), request.watched, segment);
+    chip->strap(straps_of(request.settings));
     if (request.inside) chip->watch_inside();
     timeline.add(*chip);
     return chip;
@@ -80,6 +90,10 @@ class Dsdpv1Kind : public ChipMaker {
   const char* other_program(const scenario::Slave& slave) const override {
     return own(slave.user_cpu).kind == CpuKind::kArm && !has_arm_maker() ? kBoardProgram : "";
   }
+
+ private:
+  Part part_;
+  const char *name_, *title_;
 };
 
 std::string Dsdpv1Kind::place_of(const std::string& init_key) const {
@@ -126,8 +140,20 @@ const std::vector<keys::Word>& Dsdpv1Kind::blocks() const {
 }  // namespace
 
 const ChipMaker& dsdpv1_kind() {
-  static const Dsdpv1Kind kind;
+  static const Dsdpv1Kind kind(Part::kDsdpv1, "dsdpv1", "DSDPV1");
   return kind;
 }
+
+const ChipMaker& dsdpv1_r_kind() {
+  static const Dsdpv1Kind kind(Part::kR, "dsdpv1_r", "DSDPV1-R");
+  return kind;
+}
+
+const ChipMaker& dsdpv1_rsu_kind() {
+  static const Dsdpv1Kind kind(Part::kRsu, "dsdpv1_rsu", "DSDPV1-RSU");
+  return kind;
+}
+
+bool is_dsdpv1(const ChipMaker& kind) { return &kind == &dsdpv1_kind() || &kind == &dsdpv1_r_kind(); }
 
 }  // namespace dsdpv1::tb

@@ -38,13 +38,13 @@ PinChip::PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std
 }
 
 void PinChip::begin_watch(PinMask pins) {
-  reports_host_ = (pins & inputs_of(dsdpv1_pins()) & ~dsdpv1::mask(Pin::kPbrxd)) != 0;
+  reports_host_ = (pins & inputs_of(pins_of(Part::kRsu)) & ~dsdpv1::mask(Pin::kPbrxd)) != 0;
   reports_rxd_ = (pins & dsdpv1::mask(Pin::kPbrxd)) != 0;
   reports_txd_ = (pins & dsdpv1::mask(Pin::kPbtxd)) != 0;
   chip_.watch(
       {[](void* self, Tick at, Pin pin, Level level) { static_cast<PinChip*>(self)->pin_changed(at, pin, level); },
        this},
-      (pins & dsdpv1::kOutputPins) | kBusPins);
+      (pins & outputs_of(Part::kRsu)) | kBusPins);
   for (std::size_t pin = 0; pin < inputs_.size(); ++pin) inputs_.at(pin) = chip_.level(static_cast<Pin>(pin));
 }
 
@@ -148,6 +148,14 @@ void PinChip::update_hearing() {
   const profibus::Unconcerned unconcerned = chip_.unconcerned();
   segment_.set_filter(
       station_, {&profibus::addressee, unconcerned.from, unconcerned.bit * bus::kTicksPerCycle, unconcerned.address});
+}
+
+void PinChip::strap(const Straps& levels) {
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const auto pin = static_cast<std::size_t>(Pin::kMode) + i;
+    chip_.set(0, static_cast<Pin>(pin), levels[i]);
+    inputs_.at(pin) = levels[i];
+  }
 }
 
 void PinChip::set_reset(Tick at, bool level) {

@@ -11,6 +11,7 @@
 #include "tb/dsdpv1/dsdpv1_view.hpp"
 #include "tb/dsdpv1/inside_watch.hpp"
 #include "tb/dsdpv1/pin_device.hpp"
+#include "tb/dsdpv1/settings.hpp"
 #include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
 
 namespace dsdpv1::tb {
@@ -23,6 +24,8 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   PinChip(const std::string& name, const dsdpv1::Config& config, std::uint32_t watched, bus::Segment& segment);
   PinChip(const std::string& name, std::unique_ptr<PinDevice> device, std::uint32_t watched, bus::Segment& segment);
 
+  /// Holds the straps of a DSDPV1-RSU, before anything else.
+  void strap(const Straps& levels);
   void set_reset(Tick at, bool level) override;
   void reset_host(Tick at) override;
   user_cpu::HostBus& host_bus() override { return *this; }
@@ -102,7 +105,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   bool own_run_ = false, hides_txd_ = false;
   bool put_off_ = false;  ///< an access is under way whose edges are set when the chip goes beyond them
   bool pauses_ = false;   ///< since an edge of an access, somebody was told something on which he may act
-  std::array<dsdpv1::Level, static_cast<std::size_t>(dsdpv1::Pin::kLReq)> inputs_{};
+  std::array<dsdpv1::Level, dsdpv1::kRsuPinCount> inputs_{};  ///< of the inputs, as told last
 };
 
 }  // namespace dsdpv1::tb

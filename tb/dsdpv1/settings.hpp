@@ -1,5 +1,6 @@
 #pragma once
 // What a scenario says with the keys of the DSDPV1: parameters of the chip, and the user CPU with its bus.
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,7 +17,17 @@ namespace dsdpv1::tb {
 
 using keys::Name;
 
-struct Dsdpv1Settings : OwnSettings, dsdpv1::Config {};
+struct Dsdpv1Settings : OwnSettings, dsdpv1::Config {
+  // levels of the DSDPV1-RSU's straps
+  HostMode mode = HostMode::kParallel;
+  int address = 1;     ///< ADR
+  int uart_rate = 7;   ///< UBR
+  int interval = 0;    ///< UIV
+};
+
+/// Levels of MODE, ADR, UBR and UIV.
+using Straps = std::array<Level, 4>;
+Straps straps_of(const OwnSettings& settings);
 
 struct AccessTimes : AccessTiming {
   int line = 0;
@@ -59,10 +70,12 @@ inline const Dsdpv1User& own(const scenario::UserCpu& user) { return static_cast
 dsdpv1::Config config_of(const ChipRequest& request);
 
 // The keys (ChipKind::chip_keys, user_keys).
-const keys::Object& dsdpv1_chip_keys();
+const keys::Object& chip_keys_of(Part part);
+inline const keys::Object& dsdpv1_chip_keys() { return chip_keys_of(Part::kDsdpv1); }
 const keys::Object& dsdpv1_user_keys();
 
-/// ChipKind::check_user.
+/// ChipKind::check_chip, check_user.
+void check_dsdpv1_chip(const Dsdpv1Settings& chip, const std::string& file);
 void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const std::string& slave, int line);
 
 }  // namespace dsdpv1::tb

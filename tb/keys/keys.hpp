@@ -4,6 +4,7 @@
 // struct.
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -39,6 +40,7 @@ struct Type {
   std::string unit;  ///< of an integer or number, for people
   std::vector<Word> words;
   Kind element = Kind::kObject;    ///< of a kList
+  Range each;                      ///< of the elements of a kList of integers
   const Object* object = nullptr;  ///< of a kObject, or of the elements of a kList; outlives the Type
 };
 
@@ -188,6 +190,25 @@ class ObjectOf : public Object {
     if constexpr (!IsOptional<M>::value) field.default_text = T{}.*member ? "true" : "false";
     return on_read(field, [member](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
       owner.*member = read_boolean(self, node, source);
+    });
+  }
+
+  /// So many integers as the member has elements, each within `each`.
+  template <class V, std::size_t N, class B>
+  Field& integers(const char* key, std::array<V, N> B::*member, Range each, const char* unit, const char* text) {
+    Field& field = add(key, Kind::kList, text);
+    field.type.element = Kind::kInteger;
+    field.type.range = {static_cast<std::int64_t>(N), static_cast<std::int64_t>(N)};
+    field.type.each = each;
+    field.type.unit = unit;
+    const T fresh{};
+    for (const V value : fresh.*member) field.default_text += (field.default_text.empty() ? "[" : ", ") + default_text(value);
+    field.default_text += "]";
+    return on_read(field, [member](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
+      check_list(self, node, source);
+      Field element = self;
+      element.type.range = self.type.each;
+      for (std::size_t i = 0; i < N; ++i) (owner.*member)[i] = static_cast<V>(read_integer(element, node[i], source));
     });
   }
 

@@ -4,6 +4,6 @@
 
 namespace dsdpv1::tb {
 
-std::vector<const ChipKind*> built_in_chip_kinds() { return {&dsdpv1_kind()}; }
+std::vector<const ChipKind*> built_in_chip_kinds() { return {&dsdpv1_kind(), &dsdpv1_r_kind(), &dsdpv1_rsu_kind()}; }
 
 }  // namespace dsdpv1::tb

@@ -57,6 +57,7 @@ keys::Field chip_field(const ChipKind& kind) {
   field.read = [&kind, keys = field.type.object](void* owner, const YAML::Node& node, const keys::Source& source) {
     std::unique_ptr<OwnSettings> settings = kind.make_chip_settings();
     keys::read_object(*keys, dynamic_cast<void*>(settings.get()), node, source);
+    kind.check_chip(*settings, source);
     static_cast<Scenario*>(owner)->chip = std::move(settings);
   };
   return field;

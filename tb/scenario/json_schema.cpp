@@ -90,9 +90,15 @@ class SchemaWriter {
 
   Json list(const Field& field) {
     Json json = {{"type", "array"}, {"minItems", field.type.range.min}, {"maxItems", field.type.range.max}};
-    json["items"] =
-        field.type.object != nullptr ? reference(*field.type.object) : Json{{"type", "string"}, {"minLength", 1}};
+    json["items"] = element(field);
     return json;
+  }
+
+  Json element(const Field& field) {
+    if (field.type.object != nullptr) return reference(*field.type.object);
+    if (field.type.element == Kind::kInteger)
+      return {{"type", "integer"}, {"minimum", field.type.each.min}, {"maximum", field.type.each.max}};
+    return {{"type", "string"}, {"minLength", 1}};
   }
 
   Json property(const Field& field) {

@@ -36,6 +36,13 @@ std::string link(const Object& object) {
 
 std::string items(const Field& field) { return fmt::format("{} to {}", field.type.range.min, field.type.range.max); }
 
+std::string list_of(const Field& field) {
+  if (field.type.object != nullptr) return "list of " + link(*field.type.object);
+  if (field.type.element != Kind::kInteger) return "list of text";
+  return fmt::format("list of {} integers, {} to {} {}", field.type.range.max, field.type.each.min, field.type.each.max,
+                     field.type.unit);
+}
+
 std::string type_text(const Field& field) {
   const keys::Range& range = field.type.range;
   const std::string unit = field.type.unit.empty() ? "" : " " + field.type.unit;
@@ -53,7 +60,7 @@ std::string type_text(const Field& field) {
     case Kind::kTime: return fmt::format("time, {} to {}", time_text(range.min), time_text(range.max));
     case Kind::kBytes: return fmt::format("{} bytes", items(field));
     case Kind::kObject: return link(*field.type.object);
-    case Kind::kList: return field.type.object != nullptr ? "list of " + link(*field.type.object) : "list of text";
+    case Kind::kList: return list_of(field);
   }
   return {};
 }

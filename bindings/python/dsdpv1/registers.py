@@ -23,6 +23,7 @@ CHIP_STATUS_1 = 0x00A  # Chip status byte 1
 CHIP_STATUS_1_INITIALISED = 0x01  # The initialisation succeeded; the user may clear it afterwards (ruling D7).
 CHIP_STATUS_2 = 0x00B  # Chip status byte 2
 CHIP_STATUS_2_INIT_CRC = 0x01  # Initialisation data, CRC wrong.
+CHIP_STATUS_2_V1_INIT_CRC = 0x02  # V1 initialisation, CRC wrong; the chip never sets it (ruling R5).
 CHIP_STATUS_2_INPUT_CRC = 0x04  # Input data, CRC wrong.
 CHIP_STATUS_2_DIAG_CRC = 0x08  # Diagnosis data, CRC wrong.
 CHIP_STATUS_2_C1_CRC = 0x10  # C1 answer, CRC wrong.
@@ -61,6 +62,15 @@ CHIP_STATUS_3_BAUD_RATE = 0xF0  # Baud rate.
 CHIP_STATUS_3_BAUD_RATE_SHIFT = 4  # lowest bit
 CHIP_STATUS_4 = 0x013  # Chip status byte 4
 CHIP_STATUS_4_INIT_LIMIT = 0x01  # A length or the address of the initialisation is out of its limits (ruling D7).
+CHIP_STATUS_4_C2_LIMIT = 0x02  # Number of C2 channels over its limit; always 0 (ruling R5).
+CHIP_STATUS_4_SLOT_LIMIT = 0x04  # Number of slots and indices over its limit; always 0 (ruling R5).
+OWNERSHIP = 0x014  # Ownership
+OWNERSHIP_CHIP = 0x01  # The chip is in an access.
+OWNERSHIP_HOST = 0x02  # The host is in an access.
+U_TIMER = 0x015  # U_Timer
+U_TIMER_ENABLE = 0x01  # Enabled: the ownership ends by itself.
+UART_INTERVAL = 0x019  # Interval between characters
+UART_TSDR = 0x01A  # TSDR
 
 # Initialisation data
 INIT = 0x020  # first byte

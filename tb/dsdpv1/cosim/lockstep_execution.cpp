@@ -14,11 +14,11 @@
 namespace dsdpv1::cosim {
 namespace {
 
-/// The parameters of the chip; other kinds than the DSDPV1 have no RTL here.
+/// The parameters of the chip; other kinds than the DSDPV1, and the DSDPV1-R, which is the same, have no RTL here.
 dsdpv1::Config config_with_rtl(const tb::ChipMaker& maker, const tb::ChipRequest& request) {
-  if (&maker != &tb::dsdpv1_kind())
-    throw tb::InputError(fmt::format("--engine rtl and lockstep are for chips of the kind {}, the scenario has {}",
-                                     tb::dsdpv1_kind().name(), maker.name()));
+  if (!tb::is_dsdpv1(maker))
+    throw tb::InputError(fmt::format("--engine rtl and lockstep are for chips of the kinds {} and {}, the scenario has {}",
+                                     tb::dsdpv1_kind().name(), tb::dsdpv1_r_kind().name(), maker.name()));
   return tb::config_of(request);
 }
 

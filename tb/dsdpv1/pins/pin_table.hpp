@@ -1,12 +1,13 @@
 #pragma once
-// Table 1 as the bench has it: the number of a pin is its enumerator in dsdpv1::Pin.
+// The pins as the bench has them, those of table 1 and of the DSDPV1-RSU: the number of a pin is its enumerator in dsdpv1::Pin.
 #include "model/dsdpv1/pins.hpp"
 #include "tb/pins/pins.hpp"
 
 namespace dsdpv1::tb {
 
-const PinTable& dsdpv1_pins();
+const PinTable& pins_of(Part part);
+inline const PinTable& dsdpv1_pins() { return pins_of(Part::kDsdpv1); }
 /// In the order in which viewers of waves show them.
-const std::vector<PinGroup>& dsdpv1_pin_groups();
+const std::vector<PinGroup>& pin_groups_of(Part part);
 
 }  // namespace dsdpv1::tb

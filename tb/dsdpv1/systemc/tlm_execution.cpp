@@ -61,9 +61,9 @@ class TlmChipView : public Dsdpv1View {
 class TlmExecution : public Execution {
  public:
   std::unique_ptr<ChipView> make_chip(const ChipMaker& maker, const ChipRequest& request) override {
-    if (&maker != &dsdpv1_kind())
-      throw InputError(fmt::format("--view tlm is for chips of the kind {}, the scenario has {}", dsdpv1_kind().name(),
-                                   maker.name()));
+    if (!is_dsdpv1(maker))
+      throw InputError(fmt::format("--view tlm is for chips of the kinds {} and {}, the scenario has {}",
+                                   dsdpv1_kind().name(), dsdpv1_r_kind().name(), maker.name()));
     dsdpv1::systemc::TlmOptions options;
     options.chip = config_of(request);
     options.report_violations = false;  // the bench reports them

@@ -1,0 +1,57 @@
+#pragma once
+// UART's exchange (UA7 to UA14; docs/microarchitecture_rsu.md 6.4): a block of the host goes to its area, and one area
+// of the chip goes back.
+#include <array>
+
+#include "model/dpram/ram.hpp"
+#include "model/dsdpv1/host_telegram.hpp"
+
+namespace dsdpv1 {
+
+class Exchange {
+ public:
+  Exchange(dpram::Ram& ram, bool cfg_length) : ram_(ram), cfg_length_(cfg_length) {}
+
+  void start(const Request& request, const std::uint8_t* data);
+  /// Move `index` of it, from 0; `data_exch` as before the cycle. True with the last one.
+  bool move(int index, bool data_exch);
+
+  // The reply, when the last move is made.
+  std::uint8_t function() const { return function_; }
+  std::uint16_t address() const { return area_->address; }
+  const std::uint8_t* data() const { return data_.data(); }
+  int size() const { return header_ + rest_; }
+  /// What the reply's length byte says (UA12).
+  std::uint8_t length_byte() const;
+
+ private:
+  /// An area that a reply may carry.
+  struct Area {
+    std::uint16_t address;
+    int header;               ///< bytes up to and including the length
+    int most;                 ///< largest length
+    std::uint8_t function;    ///< bit of the reply's function
+    std::uint8_t flag;        ///< bit of B00E or B00F
+    bool second;              ///< B00F
+  };
+  static const Area kAreas[];
+
+  bool move_reply(int index, bool data_exch);
+  void choose(bool data_exch);
+  void take_length();
+  bool clears() const;
+  void clear();
+
+  dpram::Ram& ram_;
+  const bool cfg_length_;
+  std::uint16_t to_ = 0;      // where the host's block goes
+  int sent_ = 0;              // bytes of it
+  const std::uint8_t* block_ = nullptr;
+  std::uint8_t flags_ = 0, chip_command1_ = 0, chip_command2_ = 0;
+  const Area* area_ = nullptr;
+  std::uint8_t function_ = 0;
+  int header_ = 0, rest_ = 0;
+  std::array<std::uint8_t, 256> data_{};
+};
+
+}  // namespace dsdpv1

@@ -1,0 +1,57 @@
+#pragma once
+// What a telegram of the host does in the DPRAM (docs/microarchitecture_rsu.md 4.2): one byte a cycle, while no access
+// of the chip runs. The sequencer begins none as long as busy().
+#include "model/dpram/ram.hpp"
+#include "model/dsdpv1/exchange.hpp"
+#include "model/dsdpv1/host_telegram.hpp"
+
+namespace dsdpv1 {
+
+class HostCommit {
+ public:
+  HostCommit(profibus::EventLog& log, dpram::Ram& ram, bool cfg_length) : log_(log), ram_(ram), exchange_(ram, cfg_length) {}
+
+  static constexpr int kNobody = -1;
+
+  void reset() { state_ = State::kIdle; }
+  /// Judged at `now`; `data` stays until the commit is done. Of `write`: `owner` is the cell that is left alone (B014 of
+  /// SPI), or none.
+  void write(Cycle now, const Request& request, const std::uint8_t* data, int owner);
+  void read(Cycle now, const Request& request);
+  void read_and_write(Cycle now, const Request& request, const std::uint8_t* data);
+  void exchange(Cycle now, const Request& request, const std::uint8_t* data);
+
+  /// The edge of `now`; `owns`, `data_exch` as before it. True with the last move.
+  bool eval(Cycle now, bool owns, bool data_exch);
+  Cycle next() const { return state_ == State::kIdle ? profibus::kNever : next_; }
+
+  bool busy() const { return state_ != State::kIdle; }
+  bool waits() const { return state_ == State::kWaits; }  ///< for an access of the chip to end
+  /// Of the last read, its data; of the last exchange, its answer.
+  const std::uint8_t* data() const { return read_.data(); }
+  const Exchange& answer() const { return exchange_; }
+
+ private:
+  enum class State : std::uint8_t { kIdle, kWaits, kMoves };
+  enum class Kind : std::uint8_t { kWrite, kRead, kReadAndWrite, kExchange };
+  void start(Cycle now, Kind kind, const Request& request, const std::uint8_t* data);
+  bool move(int index, Cycle now, bool data_exch);
+  void move_write(int index, Cycle now);
+  bool move_read_and_write(int index, Cycle now);
+  void put(regs::Address address, std::uint8_t byte, Cycle now);
+
+  profibus::EventLog& log_;
+  dpram::Ram& ram_;
+  Exchange exchange_;
+  State state_ = State::kIdle;
+  Kind kind_ = Kind::kWrite;
+  Cycle next_ = 0;
+  int index_ = 0;  // moves made
+  regs::Address base_ = 0;
+  int length_ = 0, owner_ = kNobody;
+  const std::uint8_t* data_ = nullptr;
+  std::uint8_t user_command_ = 0, chip_command_ = 0;  // B010, B00E
+  std::array<std::uint8_t, kMostRead> read_{};
+};
+
+}  // namespace dsdpv1

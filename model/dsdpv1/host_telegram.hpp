@@ -1,0 +1,98 @@
+#pragma once
+// A telegram of the host, by SPI or UART (SP4, SP10, SP11, UA5, UA7): its bytes as they come, and what is wrong with it.
+#include <array>
+#include <cstdint>
+
+#include "model/dpram/crc16.hpp"
+#include "model/profibus/event_log.hpp"
+#include "registers/dsdpv1_regs.hpp"
+
+namespace dsdpv1 {
+
+/// Bits 7..5 of the first byte. The third one is SPI's read and write, and UART's exchange.
+enum class Command : std::uint8_t { kRead, kWrite, kThird };
+
+/// How the two ports differ.
+struct TelegramRules {
+  bool exchanges;   ///< the third command is UART's exchange; else SPI's read and write, whose length byte is data
+  int most;         ///< bytes of the longest telegram (error bit 3) ...
+  int most_third;   ///< ... and of the longest of the third command
+  int most_write;   ///< data bytes of a write
+};
+inline constexpr TelegramRules kSpiRules = {false, 251, 251, 245};
+inline constexpr TelegramRules kUartRules = {true, 256, 257, 250};
+constexpr int kMostRead = 245;            ///< data bytes of a read
+constexpr int kMostReadAndWrite = 244;    ///< inputs of SPI's read and write
+/// The areas of an exchange (UA9), and how many data bytes each takes.
+struct ExchangeArea {
+  std::uint16_t address;
+  int most;
+};
+inline constexpr std::array<ExchangeArea, 4> kExchangeAreas = {
+    {{regs::kInput, 245}, {regs::kDiag, 240}, {regs::kC1, 244}, {regs::kC2, 244}}};
+constexpr std::uint8_t kWithDiagnosis = 0x02;  ///< function bit 1 of an exchange: B227 is meant
+
+/// Error code of a reply (SP10).
+constexpr std::uint8_t kCrcWrong = 0x01, kAddressWrong = 0x02, kDataWrong = 0x04, kLengthWrong = 0x08;
+
+/// A telegram that is complete.
+struct Request {
+  Command command = Command::kRead;
+  std::uint8_t function = 0;    ///< of an exchange
+  std::uint16_t address = 0;    ///< as it came, 16 bits; 0x130 of a read and write
+  int length = 0;               ///< its length byte
+  int bytes = 0;                ///< altogether, the CRC included
+  std::uint16_t crc = 0, computed = 0;
+
+  regs::Address base() const { return address % regs::kDpramSize; }
+  bool covers(regs::Address cell) const { return base() <= cell && cell < base() + length; }
+  bool crc_right() const { return crc == computed; }
+};
+
+class HostTelegram {
+ public:
+  explicit HostTelegram(const TelegramRules& rules) : rules_(rules) {}
+
+  /// The next byte is the first.
+  void restart() {
+    count_ = 0;
+    crc_ = 0xFFFF;
+  }
+  /// True with the last byte; all of it is request() then.
+  bool add(std::uint8_t byte);
+
+  /// Bytes so far; of the whole telegram, 0: not known yet.
+  int count() const { return count_; }
+  int bytes() const { return bytes_; }
+  std::uint8_t start() const { return start_; }
+  bool is_telegram() const { return start_ >> 5 <= 2 && (start_ & 0x1C) == 0; }
+  bool is_for(int address) const { return (start_ & 3) == address && (address == 1 || address == 2); }
+
+  const Request& request() const { return request_; }
+  /// Data of the last write or third command, up to kMostData; of SPI's read and write its length byte first.
+  const std::uint8_t* data() const { return data_.data(); }
+
+  /// The error code of a right CRC's telegram; each wrong thing is reported at `now`.
+  std::uint8_t judge(const Request& request, profibus::Cycle now, profibus::EventLog& log) const;
+
+  static constexpr int kMostData = 250;
+
+ private:
+  void begin(std::uint8_t byte);
+  void take_header(int index, std::uint8_t byte);
+  void take_length(std::uint8_t length);
+  bool is_exchange(const Request& request) const { return rules_.exchanges && request.command == Command::kThird; }
+  int header() const;
+  std::uint8_t judge_address(const Request& request, profibus::Cycle now, profibus::EventLog& log) const;
+  std::uint8_t judge_data(const Request& request, profibus::Cycle now, profibus::EventLog& log) const;
+  int most_data(const Request& request) const;
+
+  const TelegramRules& rules_;
+  int count_ = 0, bytes_ = 0;
+  std::uint8_t start_ = 0;
+  std::uint16_t crc_ = 0xFFFF;
+  Request request_;
+  std::array<std::uint8_t, kMostData> data_{};
+};
+
+}  // namespace dsdpv1

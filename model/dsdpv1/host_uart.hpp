@@ -1,0 +1,76 @@
+#pragma once
+// The UART port (000 chapter 7; rulings UA1 to UA16; docs/microarchitecture_rsu.md 6): characters to telegrams,
+// judgement, exchange, replies.
+#include "model/dsdpv1/chip_side.hpp"
+#include "model/dsdpv1/config.hpp"
+#include "model/dsdpv1/host_commit.hpp"
+#include "model/profibus/uart_rx.hpp"
+#include "model/profibus/uart_tx.hpp"
+
+namespace dsdpv1 {
+
+class HostUart {
+ public:
+  HostUart(profibus::EventLog& log, dpram::Ram& ram, const Config& config)
+      : log_(log), ram_(ram), config_(config), commit_(log, ram, config.uart_cfg_length != 0) {}
+
+  void reset();
+  /// The straps have chosen it; the first edge that is evaluated is this one. `rate`, `interval`: UBR, UIV.
+  void start(Cycle now, int address, int rate, int interval);
+  /// RXD changes at `at`.
+  void set_rxd(Tick at, bool level);
+  bool rxd() const { return rx_.input(); }
+  bool txd() const { return tx_.txd(); }
+
+  /// The edge of `now`.
+  void eval(Cycle now, const ChipSide& side);
+  Cycle next() const;
+  /// No access of the chip begins: after eval().
+  bool holds() const { return commit_.busy(); }
+
+ private:
+  enum class State : std::uint8_t {
+    kOff,
+    kWait,   // for a first character
+    kIn,     // a telegram
+    kDeaf,   // until silence
+    kReply,  // judged and not yet replied: RXD is not heard
+  };
+  void receive(Cycle now);
+  void hand_over(Cycle now);
+  void spoil(Cycle now, profibus::Reason reason);
+  void take_interval(int code);
+  Cycle silence_at() const;
+  void silence(Cycle now);
+  void judge(Cycle now, const ChipSide& side);
+  void carry_out(Cycle now);
+  void report_falls(Cycle now);
+  void reply_error(Cycle now, std::uint8_t code, bool data_exch);
+  void reply_done(Cycle now);
+  void add(std::uint8_t byte) { reply_.at(static_cast<std::size_t>(size_++)) = byte; }
+  void add(const std::uint8_t* bytes, int size) {
+    for (int i = 0; i < size; ++i) add(bytes[i]);
+  }
+  void send(Cycle ready);
+
+  profibus::EventLog& log_;
+  dpram::Ram& ram_;
+  const Config& config_;
+  profibus::UartRx rx_;
+  profibus::UartTx tx_;
+  HostTelegram telegram_{kUartRules};
+  HostCommit commit_;
+
+  State state_ = State::kOff;
+  int address_ = 0, interval_ = 0, bit_ = 0;
+  Cycle gap_ = 0;  // G
+  Cycle judge_at_ = profibus::kNever, judged_ = 0;
+  Cycle earliest_ = 0;  // T
+  Cycle request_end_ = 0;
+  bool fall_reported_ = false;
+  Request request_;
+  std::array<std::uint8_t, 264> reply_{};
+  int size_ = 0;
+};
+
+}  // namespace dsdpv1

@@ -1,0 +1,81 @@
+#pragma once
+// The SPI port (000 chapter 6; rulings SP1 to SP18; docs/microarchitecture_rsu.md 5): frames of XSS to telegrams,
+// judgement, ownership by B014, U_Timer, replies.
+#include "model/dsdpv1/chip_side.hpp"
+#include "model/dsdpv1/host_commit.hpp"
+#include "model/dsdpv1/spi_reply.hpp"
+#include "model/dsdpv1/spi_shift.hpp"
+
+namespace dsdpv1 {
+
+class SpiPort {
+ public:
+  SpiPort(profibus::EventLog& log, dpram::Ram& ram, const Config& config)
+      : log_(log), ram_(ram), config_(config), shift_(log, config), commit_(log, ram, false) {}
+
+  void reset();
+  /// The straps have chosen it; the first edge that is evaluated is that of now.
+  void start(int address) { address_ = address; }
+  SpiShift& shift() { return shift_; }
+  const SpiShift& shift() const { return shift_; }
+
+  /// The edge of `now`.
+  void eval(Cycle now, const ChipSide& side);
+  Cycle next() const;
+  /// No access of the chip begins: after eval().
+  bool holds() const { return claimed_ || commit_.busy() || frame_holds_; }
+  /// B014, `owns` as before the edge.
+  std::uint8_t ownership(bool owns) const { return static_cast<std::uint8_t>((claimed_ ? regs::kOwnershipHost : 0) | (owns ? regs::kOwnershipChip : 0)); }
+
+ private:
+  enum class Frame : std::uint8_t {
+    kNone,      // XSS is high
+    kDeaf,      // nothing more is looked at until it rises
+    kRequest,   // bytes of the request
+    kComplete,  // those after it
+  };
+  void frame_begins(Cycle now);
+  bool report_gap(Cycle now);
+  void hand_over(Cycle now, const ChipSide& side);
+  void take_request(Cycle now);
+  void frame_ends(Cycle now);
+  void judge(Cycle now, const ChipSide& side);
+  std::uint8_t judge_right(Cycle now, const ChipSide& side, bool& good);
+  bool refused(Cycle now, const ChipSide& side);
+  void carry_out(Cycle now);
+  void set_claimed(Cycle now, bool claimed);
+  void report_no_claim(Cycle now);
+  void begin_reply(Cycle now, const ChipSide& side, bool good, std::uint8_t code);
+  std::uint8_t next_reply_byte(const ChipSide& side);
+  std::uint8_t read(regs::Address address, const ChipSide& side) const;
+  void report_cut(Cycle now, int sent);
+  void restart_u_timer(Cycle now);
+  void end_u_timer(Cycle now);
+
+  profibus::EventLog& log_;
+  dpram::Ram& ram_;
+  const Config& config_;
+  SpiShift shift_;
+  HostTelegram telegram_{kSpiRules};
+  HostCommit commit_;
+  SpiReply reply_;
+
+  int address_ = 0;  // ADR
+  bool xss_ = true, flip_ = false;  // at the edge before
+  Frame frame_ = Frame::kNone;
+  int bytes_ = 0;  // k
+  Cycle gap_until_ = 0;
+  Tick write_ended_ = Wire::kLongAgo;  // the last bit of the last write or read-and-write telegram
+
+  // of the telegram that is judged or replied to
+  Request request_;
+  bool frame_over_ = false, replies_ = false, frame_holds_ = false;
+  Cycle judge_at_ = profibus::kNever, load_at_ = profibus::kNever;
+  int load_slot_ = 0;
+  std::uint8_t load_value_ = 0xFF;
+
+  bool claimed_ = false;  // B014.1
+  Cycle claimed_at_ = 0, u_at_ = profibus::kNever;
+};
+
+}  // namespace dsdpv1

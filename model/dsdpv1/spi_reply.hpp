@@ -1,0 +1,57 @@
+#pragma once
+// The reply to a telegram of SPI, byte by byte as it is sent (SP4 to SP8; docs/microarchitecture_rsu.md 5.4).
+#include <cstdint>
+
+#include "model/dpram/crc16.hpp"
+#include "registers/dsdpv1_regs.hpp"
+
+namespace dsdpv1 {
+
+class SpiReply {
+ public:
+  /// `start` and error code, then `data` bytes, `gap` bytes of FF before all of it. kOutputs: as many as B319 says.
+  static constexpr int kOutputs = -1;
+  void begin(std::uint8_t start, std::uint8_t code, int data, int gap) {
+    *this = {};
+    start_ = start;
+    code_ = code;
+    data_ = data;
+    next_ = -gap;
+  }
+
+  /// Whether the next byte comes from the DPRAM: which of the data bytes; else -1.
+  int wants() const {
+    const int index = next_ - kHead;
+    return index >= 0 && (data_ == kOutputs || index < data_) ? index : -1;
+  }
+  /// The next byte; `data` is what wants() has asked for.
+  std::uint8_t take(std::uint8_t data) {
+    const int index = next_++;
+    if (index < 0) return 0xFF;
+    if (index == 0) return count(start_);
+    if (index == 1) return count(code_);
+    if (data_ == kOutputs) data_ = 1 + (data = limited(data));
+    if (index < kHead + data_) return count(data);
+    if (index == kHead + data_) return static_cast<std::uint8_t>(crc_ >> 8);
+    return index == kHead + data_ + 1 ? static_cast<std::uint8_t>(crc_ & 0xFF) : std::uint8_t{0xFF};
+  }
+
+  /// Bytes of the whole; of a number of outputs that is not read yet, as `outputs` (B319) says.
+  int size(std::uint8_t outputs) const { return kHead + (data_ == kOutputs ? 1 + limited(outputs) : data_) + 2; }
+
+ private:
+  static constexpr int kHead = 2;
+  static std::uint8_t limited(std::uint8_t outputs) {
+    return outputs > regs::kOutputDataSize ? static_cast<std::uint8_t>(regs::kOutputDataSize) : outputs;
+  }
+  std::uint8_t count(std::uint8_t byte) {
+    crc_ = dpram::crc16_with(crc_, byte);
+    return byte;
+  }
+
+  std::uint8_t start_ = 0, code_ = 0;
+  int data_ = 0, next_ = 0;
+  std::uint16_t crc_ = dpram::kCrc16Start;
+};
+
+}  // namespace dsdpv1

@@ -1,0 +1,94 @@
+#pragma once
+// The shift register of the SPI port (SP1, SP2, SP3; docs/microarchitecture_rsu.md 5.1, 5.7): clocked by SCK, by the
+// tick. What it hands to CLK is a byte and `flip`, which turns with each byte.
+#include <algorithm>
+#include <array>
+
+#include "model/dsdpv1/config.hpp"
+#include "model/dsdpv1/wire.hpp"
+#include "model/profibus/event_log.hpp"
+#include "model/profibus/synchroniser.hpp"
+
+namespace dsdpv1 {
+
+class SpiShift {
+ public:
+  SpiShift(profibus::EventLog& log, const Config& config)
+      : log_(log), strobe_(config.spi_strobe), data_(config.spi_data), delay_(config.spi_miso_delay) {}
+
+  /// In reset and in other modes the levels are followed, and nothing else happens.
+  void reset();
+  /// In SPI mode: the edge of CLK at which the logic has seen XSS high. Nothing happens before.
+  void listen(Cycle now);
+  bool listening() const { return listening_; }
+
+  /// A change at `at`.
+  void set_xss(Tick at, bool level);
+  void set_sck(Tick at, bool level);
+  void set_mosi(Tick at, bool level);
+  Level level(Pin pin) const;
+
+  /// XSS and flip as the logic sees them at the edge of `now`.
+  void eval(Cycle now) {
+    xss_seen_.eval(now);
+    flip_seen_.eval(now);
+  }
+  Cycle next() const { return std::min(xss_seen_.next(), flip_seen_.next()); }
+  bool xss() const { return xss_seen_.level(); }
+  bool flip() const { return flip_seen_.level(); }
+
+  /// As they stand strictly before the edge of CLK that is being evaluated.
+  std::uint8_t byte() const { return byte_; }
+  Tick byte_at() const { return byte_at_; }  ///< its eighth rise
+  Tick fell_at() const { return fell_at_; }  ///< XSS's last fall
+
+  /// tx[slot] at the edge of `now`; both FF.
+  void load(Cycle now, int slot, std::uint8_t value);
+  void clear_tx(Cycle now);
+
+  /// MISO, and the tick of its next change.
+  Level miso() const { return miso_; }
+  Tick drive_at() const { return pending_count_ > 0 ? pending_[0].at : profibus::kNever; }
+  void drive();
+
+ private:
+  static constexpr unsigned kPending = 8;  // changes of MISO on their way: a period of SCK is 250 ticks or more
+  struct Change {
+    Tick at = 0;
+    Level level = 0;
+  };
+  void begin_frame(Tick at);
+  void end_frame(Tick at);
+  void rise(Tick at);
+  void fall(Tick at);
+  void check_data(Tick at);
+  void keep_tx(Cycle now);
+  void report(Tick at, profibus::Reason reason, Tick seen, std::uint32_t limit, unsigned bit = 0);
+
+  profibus::EventLog& log_;
+  const std::uint32_t strobe_, data_, delay_;
+  Wire xss_{true}, sck_{false}, mosi_{false};
+  profibus::Synchroniser xss_seen_{true}, flip_seen_{false};
+  bool listening_ = false;
+  Tick listening_since_ = 0;
+
+  unsigned bits_ = 0, bits_before_ = 0;  // c, and as it stood strictly before bits_at_
+  Tick bits_at_ = Wire::kLongAgo;
+  std::uint8_t shift_ = 0, byte_ = 0;
+  bool flip_ = false;
+  Tick byte_at_ = Wire::kLongAgo;
+  std::array<std::uint8_t, 2> tx_{0xFF, 0xFF}, tx_before_{0xFF, 0xFF};  // before: strictly before loaded_at_
+  Tick loaded_at_ = Wire::kLongAgo;
+  Level miso_ = kLevelZ;
+  std::array<Change, kPending> pending_{};
+  unsigned pending_count_ = 0;
+
+  // limits: ticks of what they are measured from
+  Tick fell_at_ = Wire::kLongAgo, rose_at_ = Wire::kLongAgo;             // XSS
+  Tick sck_rise_ = Wire::kLongAgo;                                       // that counted
+  Tick sck_fall_ = Wire::kLongAgo, sck_fall_before_ = Wire::kLongAgo;    // with c >= 1; of one strictly before
+  unsigned rise_bit_ = 0;
+  bool first_rise_ = false, hold_due_ = false;
+};
+
+}  // namespace dsdpv1
