@@ -3,17 +3,14 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "Vdsdpv1.h"
+#include "rtl_expect.hpp"
 #include "verilated.h"
 
 namespace rtl {
-
-using Bytes = std::vector<uint8_t>;
 
 // What the command line chooses: parameters of the chip, which without DSDPV1_RUN_TIME_LIMITS are those that run.sh
 // builds it with
@@ -21,43 +18,6 @@ struct Limits {
   unsigned rts_lead = 4, rts_trail = 4, search_window_ms = 50;
 };
 inline Limits limits;
-
-inline int failures = 0;
-
-inline void expect(int64_t got, int64_t wanted, const char* what) {
-  if (got == wanted) return;
-  std::printf("FAILED %s: is %lld, not %lld\n", what, static_cast<long long>(got), static_cast<long long>(wanted));
-  ++failures;
-}
-
-inline void expect_bytes(const Bytes& got, const Bytes& wanted, const char* what) {
-  if (got == wanted) return;
-  std::printf("FAILED %s: is", what);
-  for (uint8_t byte : got) std::printf(" %02X", byte);
-  std::printf(", not");
-  for (uint8_t byte : wanted) std::printf(" %02X", byte);
-  std::printf("\n");
-  ++failures;
-}
-
-inline uint16_t crc16(const Bytes& bytes) {
-  uint16_t crc = 0xFFFF;
-  for (uint8_t byte : bytes) {
-    crc = static_cast<uint16_t>(crc ^ byte);
-    for (int i = 0; i < 8; ++i) crc = static_cast<uint16_t>(crc & 1 ? (crc >> 1) ^ 0xA001 : crc >> 1);
-  }
-  return crc;
-}
-
-// One pin's changes, by the number of the edge
-struct Pin {
-  int level = 0;
-  int64_t rise = -1, fall = -1;
-  void see(int now, int64_t edge) {
-    if (now != level) (now ? rise : fall) = edge;
-    level = now;
-  }
-};
 
 class Bench {
  public:
@@ -256,37 +216,6 @@ class Bench {
   int rx_bit_ = 0;
   int rx_value_ = 0;
 };
-
-inline uint8_t sum(const Bytes& bytes) {
-  unsigned total = 0;
-  for (uint8_t byte : bytes) total += byte;
-  return static_cast<uint8_t>(total);
-}
-
-inline Bytes sd1(uint8_t da, uint8_t sa, uint8_t fc) { return {0x10, da, sa, fc, sum({da, sa, fc}), 0x16}; }
-
-inline Bytes sd2(const Bytes& body) {
-  const auto le = static_cast<uint8_t>(body.size());
-  Bytes telegram = {0x68, le, le, 0x68};
-  telegram.insert(telegram.end(), body.begin(), body.end());
-  telegram.push_back(sum(body));
-  telegram.push_back(0x16);
-  return telegram;
-}
-
-// A request to SAP dsap of station 5 from SAP 62 of master 2, and an answer of it
-inline Bytes request(uint8_t fc, uint8_t dsap, const Bytes& data) {
-  Bytes body = {0x85, 0x82, fc, dsap, 62};
-  body.insert(body.end(), data.begin(), data.end());
-  return sd2(body);
-}
-inline Bytes response(uint8_t fc, uint8_t dsap, const Bytes& data) {
-  Bytes body = {0x82, 0x85, fc, 62, dsap};
-  body.insert(body.end(), data.begin(), data.end());
-  return sd2(body);
-}
-
-inline const Bytes kSc = {0xE5};
 
 inline Bytes init_block(uint8_t prm_mode, uint8_t cfg_mode) {
   return {16, 5, 0x0C, 0xC9, 0x0F, 0, 0, 4, 4, 20, 20, prm_mode, 4, cfg_mode, 2, 0x13, 0x23};
