@@ -4,7 +4,8 @@ import re
 import data as source
 from known_tests import KnownTests, named_in
 
-RULING = r"[PHDSV]\d+"
+# The pages with rulings, and the letters with which theirs begin.
+PAGES = {"docs/chip.md": "P H D S V", "docs/chip_rsu.md": "R SP UA"}
 ROOTS = {"model": ["", "model/"], "rtl": ["", "rtl_ref/"]}
 
 
@@ -28,17 +29,26 @@ def check_tests(known, found, where, what):
             yield f"{where}: {what}: there is no test {test.name}"
 
 
+def ruled_in(root, page):
+    letters = "|".join(PAGES[page].split())
+    return re.findall(rf"^- \*\*((?:{letters})\d+)\*\*", (root / page).read_text(encoding="utf-8"), re.M)
+
+
+def page_of(name):
+    """The page on which a ruling is to be looked for."""
+    return next((page for page, letters in PAGES.items() if source.letters(name) in letters.split()), next(iter(PAGES)))
+
+
 def check_rulings(root, data, known):
-    text = (root / "docs/chip.md").read_text(encoding="utf-8")
-    ruled = re.findall(rf"^- \*\*({RULING})\*\*", text, re.M)
-    for name in ruled:
+    ruled = {name: page for page in PAGES for name in ruled_in(root, page)}
+    for name, page in ruled.items():
         if name not in data.rulings:
-            yield (f"{source.RULINGS}:1: ruling {name} of docs/chip.md is missing; add a line like "
+            yield (f"{source.RULINGS}:1: ruling {name} of {page} is missing; add a line like "
                    f"{name}: {{tests: [Suite.Test], model: [profibus/fdl.cpp], rtl: [profibus/fdl.sv]}}")
     for ruling in data.rulings.values():
         what = f"ruling {ruling.name}"
         if ruling.name not in ruled:
-            yield f"{ruling.where}: docs/chip.md has no ruling {ruling.name}"
+            yield f"{ruling.where}: {page_of(ruling.name)} has no ruling {ruling.name}"
         if not ruling.tests:
             yield f"{ruling.where}: {what} names no test"
         yield from check_tests(known, ruling.tests, ruling.where, what)
@@ -89,10 +99,10 @@ def check_plan(data, known):
             for cell in row:
                 if isinstance(cell, list):
                     yield from check_tests(known, cell, section.where, section.title)
-    planned = "".join(section.rulings for section in data.plan)
-    for letter in sorted({name[0] for name in data.rulings}):
-        if planned.count(letter) != 1:
-            yield f"{source.PLAN}:1: the rulings {letter}... stand in {planned.count(letter)} sections, allowed is one"
+    planned = [section.rulings for section in data.plan]
+    for letters in sorted({source.letters(name) for name in data.rulings}):
+        if planned.count(letters) != 1:
+            yield f"{source.PLAN}:1: the rulings {letters}... stand in {planned.count(letters)} sections, allowed is one"
     for text, where in data.texts:
         for name in named_in(text):
             if not known.has(name):

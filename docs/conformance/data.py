@@ -67,7 +67,7 @@ class Document:
 
 @dataclass
 class Section:
-    """Of the test plan: text, then the rulings that begin with a letter, or rows."""
+    """Of the test plan: text, then the rulings that begin with these letters, or rows."""
 
     title: str
     text: str
@@ -166,6 +166,11 @@ def read_rulings(root):
         keys(entry, f"ruling {name}", ["tests", "model", "rtl"])
         result[name] = Ruling(name, where, tests(entry, where), names(entry, "model", where), names(entry, "rtl", where))
     return result
+
+
+def letters(ruling):
+    """With which its name begins: P of P1, SP of SP1."""
+    return ruling.rstrip("0123456789")
 
 
 def joined(lists):

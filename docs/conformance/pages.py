@@ -1,12 +1,13 @@
 """Writes docs/conformance.md and docs/test_plan.md from the data and the results of a run."""
 import check
+from data import letters
 
 ORIGIN = "<!-- Generated from docs/conformance/*.yaml by docs/conformance/generate.py (./run generate). Do not edit. -->\n"
 
 CONFORMANCE = """# Conformance, clause by clause
 
-What the two documents say of this chip, in one line each, and how it is answered: the ruling of [chip.md](../docs/chip.md) that settles how the line is
-read, the file of the model and of the reference RTL in which it is found first, the tests that assert it, and what they gave in the last recorded run. The
+What the two documents say of this chip, in one line each, and how it is answered: the ruling of [chip.md](../docs/chip.md), or of
+[chip_rsu.md](../docs/chip_rsu.md), that settles how the line is read, the file of the model and of the reference RTL in which it is found first, the tests that assert it, and what they gave in the last recorded run. The
 documents are Chinese; the lines are our own words, and the documents stand above them.
 
 *Clause*: section, table (T) or figure (F) of the document, and behind the dash which of its statements; of tables the cell, bit or row. Clauses of the
@@ -97,7 +98,7 @@ def rulings(root, data, run):
         for clause in document.clauses:
             for name in clause.rulings:
                 cited.get(name, []).append(clause.name)
-    text = "\n## The rulings\n\nWhat each says is in [chip.md](../docs/chip.md). Without a clause: the documents are silent there.\n\n"
+    text = "\n## The rulings\n\nWhat each says is in [chip.md](../docs/chip.md), R, SP and UA in [chip_rsu.md](../docs/chip_rsu.md). Without a clause: the documents are silent there.\n\n"
     text += head("ruling", "clauses", "model", "RTL", "tests", "last run")
     for ruling in data.rulings.values():
         text += row(ruling.name, ", ".join(cited[ruling.name]) or "-", files(root, "model", ruling.model),
@@ -120,7 +121,7 @@ def plan_section(data, section):
         text += "\n" + section.text.strip() + "\n"
     if section.rulings:
         text += "\n" + head("ruling", "tests")
-        text += "".join(row(each.name, tests(each.tests)) for each in data.rulings.values() if each.name[0] in section.rulings)
+        text += "".join(row(each.name, tests(each.tests)) for each in data.rulings.values() if letters(each.name) == section.rulings)
     if section.rows:
         text += "\n" + head(*section.head)
         text += "".join(row(*[tests(each) if isinstance(each, list) else each for each in cells]) for cells in section.rows)

@@ -259,8 +259,9 @@ Tick Chip::Impl::next_seen() const {
 
 void Chip::Impl::advance(Tick to) {
   for (Tick event = next_event(); event <= to; event = next_event()) {
+    const bool drives = event < next_edge();  // MISO may change at the tick of an edge: after it
     now = event;
-    if (event == drive_at()) {
+    if (drives) {
       drive(event);
     } else if (const Cycle cycle = event / kTicksPerCycle; only_sends(cycle)) {
       send_bits(cycle, to);

@@ -201,8 +201,8 @@ std::uint8_t SpiPort::read(regs::Address address, const ChipSide& side) const {
 }
 
 void SpiPort::report_cut(Cycle now, int sent) {
-  const int size = reply_.size(ram_.read(regs::kOutput));
-  if (sent < size)
+  const int size = reply_.size();
+  if (size == 0 || sent < size)
     log_.at_cycle(now, Reason::kSpiReplyCut, static_cast<unsigned>(std::max(sent, 0)), static_cast<unsigned>(size));
 }
 

@@ -36,8 +36,8 @@ class SpiReply {
     return index == kHead + data_ + 1 ? static_cast<std::uint8_t>(crc_ & 0xFF) : std::uint8_t{0xFF};
   }
 
-  /// Bytes of the whole; of a number of outputs that is not read yet, as `outputs` (B319) says.
-  int size(std::uint8_t outputs) const { return kHead + (data_ == kOutputs ? 1 + limited(outputs) : data_) + 2; }
+  /// Bytes of the whole; 0 as long as the number of outputs is not read.
+  int size() const { return data_ == kOutputs ? 0 : kHead + data_ + 2; }
 
  private:
   static constexpr int kHead = 2;

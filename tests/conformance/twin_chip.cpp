@@ -49,9 +49,9 @@ TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines
       skip_(with_engine(config, dsdpv1::Engine::kSkip)),
       step_(with_engine(config, dsdpv1::Engine::kStep)),
       doze_(with_engine(config, dsdpv1::Engine::kSkip)) {
-  skip_.watch({&on_skip_pin, this}, twin_ ? dsdpv1::kOutputPins : mask(Pin::kPbtxd) | mask(Pin::kPbrts));
-  step_.watch({&on_step_pin, this}, dsdpv1::kOutputPins);
-  doze_.watch({&on_doze_pin, this}, dsdpv1::kOutputPins & ~kAccessPins);
+  skip_.watch({&on_skip_pin, this}, twin_ ? outputs_of(config.part) : mask(Pin::kPbtxd) | mask(Pin::kPbrts));
+  step_.watch({&on_step_pin, this}, outputs_of(config.part));
+  doze_.watch({&on_doze_pin, this}, outputs_of(config.part) & ~kAccessPins);
   skip_.on_event({&on_skip_event, this});
   step_.on_event({&on_step_event, this});
   doze_.on_event({&on_doze_event, this});

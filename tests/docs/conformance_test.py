@@ -14,15 +14,17 @@ import generate  # noqa: E402
 
 RIGHT = {
     "docs/chip.md": "- **P1** a\n- **V1** b\n",
+    "docs/chip_rsu.md": "- **SP1** c\n",
     "docs/conformance/rulings.yaml": "P1:\n  tests: [Core.Works (when on), Install.Core]\n  model: [core.cpp]\n  rtl: [core.sv]\n"
-                                     "V1: {tests: [Core], model: [model/core.cpp], rtl: []}\n",
+                                     "V1: {tests: [Core], model: [model/core.cpp], rtl: []}\n"
+                                     "SP1: {tests: [Core], model: [model/core.cpp], rtl: []}\n",
     "docs/conformance/datasheet.yaml": "title: Sheet\ntext: Its text.\nplaces: ['1', T1..T2]\nparts:\n- title: All\n  clauses:\n"
                                        "  - {at: 1, says: a number, ruled: [P1]}\n"
                                        "  - {at: T1-A, says: 'one|two', tests: [scenarios/one.yaml], model: [core.cpp]}\n"
                                        "  - {at: T2, says: a size, reason: not modelled}\n",
     "docs/conformance/manual.yaml": "title: Manual\ntext: Its text.\nplaces: [M1]\nparts:\n- title: All\n  model: [core.cpp]\n"
                                     "  clauses:\n  - {at: M1-1, says: the same, same_as: [T1]}\n",
-    "docs/conformance/test_plan.yaml": "sections:\n- title: Pins\n  text: See `Core`.\n  rulings: P\n- title: V\n  rulings: V\n"
+    "docs/conformance/test_plan.yaml": "sections:\n- title: Pins\n  text: See `Core`.\n  rulings: P\n- title: V\n  rulings: V\n- title: SP\n  rulings: SP\n"
                                        "- title: Around\n  head: [part, tests]\n  rows:\n  - [all, [Core.Works]]\n",
     "model/core.cpp": "",
     "rtl_ref/core.sv": "",
@@ -157,6 +159,11 @@ class Conformance(unittest.TestCase):
     def test_a_ruling_that_is_gone(self):
         self.change("docs/chip.md", "- **V1** b\n", "")
         self.expect(f"{RULINGS}:5: docs/chip.md has no ruling V1")
+
+    def test_a_ruling_of_the_other_page(self):
+        self.change("docs/chip_rsu.md", "- **SP1** c\n", "- **UA2** c\n")
+        self.expect(f"{RULINGS}:1: ruling UA2 of docs/chip_rsu.md is missing; add a line like UA2: {{tests: ",
+                    f"{RULINGS}:6: docs/chip_rsu.md has no ruling SP1")
 
     def test_a_ruling_without_a_test(self):
         self.change(RULINGS, "[Core]", "[]")

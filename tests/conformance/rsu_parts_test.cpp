@@ -1,0 +1,152 @@
+// Which chip has what: pins, straps, dead ports (R1, R2, R10, R11, R14).
+#include "tests/conformance/rsu_bench.hpp"
+
+namespace dsdpv1::conformance {
+namespace {
+
+using R = dsdpv1::Reason;
+
+TEST(RsuParts, Pins) {
+  EXPECT_EQ(pin_count(Part::kDsdpv1), 18);
+  EXPECT_EQ(pin_count(Part::kR), 18);
+  EXPECT_EQ(pin_count(Part::kRsu), 28);
+  EXPECT_EQ(outputs_of(Part::kR), kOutputPins);
+  EXPECT_STREQ(name(Pin::kXss), "XSS");
+  EXPECT_STREQ(name(Pin::kTxd), "TXD");
+  EXPECT_EQ(width(Pin::kMode), 2);
+  EXPECT_EQ(width(Pin::kUiv), 3);
+  EXPECT_TRUE(is_input(Pin::kUiv));
+  EXPECT_FALSE(is_input(Pin::kMiso));
+}
+
+TEST(RsuParts, OtherPartsHaveNoStraps) {
+  for (const Part part : {Part::kDsdpv1, Part::kR}) {
+    Config config;
+    config.part = part;
+    Chip chip(config);
+    chip.set(0, Pin::kMode, 1);
+    chip.set(5000, Pin::kReset, 1);
+    chip.advance(2100 * 250);
+    EXPECT_EQ(chip.mode(), HostMode::kParallel);
+    EXPECT_EQ(chip.level(Pin::kMode), 0);
+    chip.set(2100 * 250, Pin::kXss, 0);
+    EXPECT_EQ(chip.level(Pin::kMiso), kLevelZ);
+  }
+}
+
+TEST(RsuStraps, ChooseAtR) {
+  const HostMode modes[] = {HostMode::kParallel, HostMode::kSpi, HostMode::kUart, HostMode::kParallel};
+  for (Level mode = 0; mode < 4; ++mode) {
+    Straps straps;
+    straps.mode = static_cast<HostMode>(mode);
+    RsuBench bench(straps);
+    bench.set(5000, Pin::kReset, 1);
+    bench.run_until(23 * 250 - 1);
+    EXPECT_EQ(bench.mode(), HostMode::kParallel) << "before R";
+    bench.run_until(23 * 250);
+    EXPECT_EQ(bench.mode(), modes[mode]);
+  }
+}
+
+TEST(RsuStraps, LaterChangesAreReported) {
+  RsuBench bench;
+  bench.power_on();
+  bench.set(bench.now() + 77, Pin::kMode, 2);
+  EXPECT_EQ(bench.last(R::kStrapChanged).a, 0);
+  EXPECT_EQ(bench.last(R::kStrapChanged).b, 2);
+  EXPECT_EQ(bench.last(R::kStrapChanged).c, 1);
+  EXPECT_EQ(bench.last(R::kStrapChanged).at, bench.now());
+  bench.set(bench.now(), Pin::kUiv, 5);
+  EXPECT_EQ(bench.last(R::kStrapChanged).a, 3);
+  EXPECT_EQ(bench.mode(), HostMode::kSpi);
+  bench.reset_for(20);
+  bench.run_cycles(10);
+  EXPECT_EQ(bench.mode(), HostMode::kUart);
+  EXPECT_EQ(bench.count(R::kStrapChanged), 2);
+}
+
+TEST(RsuStraps, CardAddress) {
+  for (Level address = 0; address < 4; ++address) {
+    Straps straps;
+    straps.address = address;
+    RsuBench bench(straps);
+    bench.power_on();
+    for (std::uint8_t card = 0; card < 4; ++card) {
+      const Bytes reply = bench.ask(read_telegram(0x000, 1, card), 5);
+      const bool own = card == address && (card == 1 || card == 2);
+      EXPECT_EQ(reply[0], own ? 0x80 | card : 0xFF) << address << " " << int{card};
+    }
+  }
+}
+
+// R14: the parallel port is dead in SPI and UART mode, and nobody waits for R_REQ or R_STA.
+TEST(RsuPorts, ParallelPortIsDead) {
+  for (const HostMode mode : {HostMode::kSpi, HostMode::kUart}) {
+    Straps straps;
+    straps.mode = mode;
+    RsuBench bench(straps);
+    bench.set(0, Pin::kRReq, 1);
+    bench.set(0, Pin::kRSta, 1);
+    bench.power_on();
+    EXPECT_EQ(bench.peek(0x000), 0x01) << "the start-up access waits for no one";
+    EXPECT_GT(bench.status().accesses, 1U);
+    bench.set(bench.now(), Pin::kCsr, 0);
+    bench.set(bench.now(), Pin::kRd, 0);
+    bench.run_cycles(10);
+    EXPECT_EQ(bench.level(Pin::kDOut), kLevelZ);
+    bench.set(bench.now(), Pin::kRd, 1);
+    bench.set(bench.now(), Pin::kA, 0x100);
+    bench.set(bench.now(), Pin::kDIn, 0x55);
+    bench.set(bench.now(), Pin::kWr, 0);
+    bench.run_cycles(10);
+    bench.set(bench.now(), Pin::kWr, 1);
+    bench.run_cycles(10);
+    EXPECT_EQ(bench.peek(0x100), 0);
+    EXPECT_TRUE(bench.changes(Pin::kLReq).empty());
+    EXPECT_TRUE(bench.changes(Pin::kLSta).empty());
+    EXPECT_TRUE(bench.changes(Pin::kDOut).empty());
+    EXPECT_TRUE(bench.events().empty() || bench.events()[0].reason == dpram::Reason::kReadyFlag);
+  }
+}
+
+TEST(RsuPorts, SerialPinsAreNotLookedAtInParallelMode) {
+  Straps straps;
+  straps.mode = HostMode::kParallel;
+  RsuBench bench(straps);
+  bench.power_on();
+  bench.forget_events();
+  bench.spi(read_telegram(0x000, 1));
+  bench.send(read_telegram(0x000, 1));
+  bench.run_cycles(5000);
+  EXPECT_TRUE(bench.changes(Pin::kMiso).empty());
+  EXPECT_TRUE(bench.changes(Pin::kTxd).empty());
+  EXPECT_FALSE(bench.changes(Pin::kLSta).empty());
+  bench.poke(0x014, 0xFF);
+  bench.poke(0x019, 0xFF);
+  EXPECT_EQ(bench.peek(0x014), 0xFF) << "plain RAM (R10)";
+}
+
+TEST(RsuPorts, OwnershipIsPlainRamInUartMode) {
+  Straps straps;
+  straps.mode = HostMode::kUart;
+  RsuBench bench(straps);
+  bench.power_on();
+  EXPECT_EQ(bench.talk(write_telegram(0x014, {0xFF})), with_crc({0xA1, 0x00}));
+  EXPECT_EQ(bench.peek(0x014), 0xFF);
+}
+
+TEST(RsuPorts, ModeChangesWithEachReset) {
+  RsuBench bench;
+  bench.power_on();
+  for (const Level mode : std::vector<Level>{0, 2, 1, 3, 1, 0}) {
+    bench.set(bench.now(), Pin::kReset, 0);
+    bench.set(bench.now(), Pin::kMode, mode);
+    bench.run_cycles(30);
+    bench.set(bench.now(), Pin::kReset, 1);
+    bench.run_cycles(3000);
+    EXPECT_EQ(bench.peek(0x000), 0x01);
+  }
+}
+
+}  // namespace
+}  // namespace dsdpv1::conformance

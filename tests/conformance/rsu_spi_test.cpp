@@ -1,0 +1,472 @@
+// SPI: telegrams, ownership, replies, U_Timer (SP4 to SP18).
+#include "tests/conformance/rsu_bench.hpp"
+
+namespace dsdpv1::conformance {
+namespace {
+
+using R = dsdpv1::Reason;
+
+class RsuSpi : public ::testing::Test {
+ protected:
+  void SetUp() override { bench_.power_on(); }
+  RsuBench bench_;
+};
+
+Bytes error(std::uint8_t code) { return with_crc({0xE1, code}); }
+
+// docs/microarchitecture_rsu.md, section 10.
+TEST_F(RsuSpi, WorkedExampleToTheCycle) {
+  bench_.run_until(1'000'000);
+  bench_.forget_events();
+  EXPECT_EQ(bench_.spi({0x01, 0x00, 0x14, 0x01, 0x18, 0xCF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF}),
+            (Bytes{0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x81, 0x00, 0x00, 0xE8, 0x21}));
+  bench_.run_cycles(100);
+  std::vector<Tick> at;
+  for (const PinChange& change : bench_.changes(Pin::kMiso)) at.push_back(change.at);
+  EXPECT_EQ(at, (std::vector<Tick>{1'000'000, 1'058'920, 1'066'120, 1'067'320, 1'086'520, 1'090'120, 1'091'320,
+                                   1'092'520, 1'098'520, 1'099'720, 1'104'520, 1'106'200}));
+  EXPECT_EQ(bench_.changes(Pin::kMiso).front().level, 1);
+  EXPECT_EQ(bench_.changes(Pin::kMiso).back().level, kLevelZ);
+  EXPECT_EQ(bench_.events().size(), static_cast<std::size_t>(bench_.count(dpram::Reason::kReadyFlag)));
+}
+
+TEST(RsuTelegram, CrcOfTheExamples) {
+  EXPECT_EQ(with_crc({0x01, 0x00, 0x14, 0x01}), (Bytes{0x01, 0x00, 0x14, 0x01, 0x18, 0xCF}));
+  EXPECT_EQ(with_crc({0x81, 0x00, 0x00}), (Bytes{0x81, 0x00, 0x00, 0xE8, 0x21}));
+  EXPECT_EQ(with_crc({0xA1, 0x00}), (Bytes{0xA1, 0x00, 0x20, 0x78}));
+  const Bytes uart = {0x01, 0x20, 0x05, 0x00, 0x07, 0x30, 0x30, 0x06, 0x1F, 0x2F, 0x1F, 0x2F, 0x1F, 0x2F};
+  EXPECT_EQ(part_of(with_crc(uart), uart.size(), 2), (Bytes{0x3B, 0xF0}));
+}
+
+TEST_F(RsuSpi, ClaimUseRelease) {
+  EXPECT_EQ(bench_.read(0x014, 1)[0] & 0xFE, 0x00);
+  bench_.claim();
+  EXPECT_EQ(bench_.count(R::kSpiClaimed), 1);
+  EXPECT_EQ(bench_.read(0x014, 1), Bytes{0x02});
+  EXPECT_EQ(bench_.peek(0x014), 0x02);
+  bench_.write(0x020, {1, 2, 3, 4});
+  EXPECT_EQ(bench_.peek(0x020, 4), (Bytes{1, 2, 3, 4}));
+  EXPECT_EQ(bench_.read(0x01F, 6), (Bytes{0, 1, 2, 3, 4, 0}));
+  const std::uint64_t accesses = bench_.status().accesses;
+  bench_.run_cycles(1000);
+  EXPECT_EQ(bench_.status().accesses, accesses) << "the chip keeps off";
+  bench_.release();
+  bench_.run_cycles(100);
+  EXPECT_GT(bench_.status().accesses, accesses);
+  EXPECT_EQ(bench_.count(R::kSpiReleased), 1);
+  EXPECT_EQ(bench_.count(R::kSpiNoClaim), 0);
+}
+
+// A commit moves one byte a cycle from beg + 1 on, and the due access begins at Q.
+TEST_F(RsuSpi, ReleaseLetsTheAccessBegin) {
+  bench_.claim();
+  bench_.run_cycles(500);
+  Bytes mosi = write_telegram(0x014, {0x00});
+  const std::uint64_t accesses = bench_.status().accesses;
+  bench_.spi(mosi, {600, 600, 600, 0, 0, true});
+  // J is 3 to 4 cycles after the last rise, the access one more
+  const Tick last_rise = bench_.now() - 600;
+  const Cycle judged = last_rise / 250 + 1 + 2 + 1;
+  bench_.run_until(judged * 250);
+  EXPECT_EQ(bench_.last(R::kSpiReleased).at, bench_.now());
+  EXPECT_EQ(bench_.status().accesses, accesses);
+  bench_.run_until((judged + 1) * 250);
+  EXPECT_EQ(bench_.status().accesses, accesses + 1);
+  EXPECT_GT(bench_.status().longest_wait, 0U);
+}
+
+TEST_F(RsuSpi, WrongCrcIsBitZeroAlone) {
+  Bytes telegram = read_telegram(0xF900, 0);
+  telegram.back() ^= 1;
+  EXPECT_EQ(bench_.ask(telegram, 4), error(0x01));
+  EXPECT_EQ(bench_.count(R::kTelegramCrc), 1);
+  EXPECT_EQ(bench_.count(R::kTelegramAddress), 0);
+}
+
+TEST_F(RsuSpi, ErrorBits) {
+  EXPECT_EQ(bench_.ask(read_telegram(0x0800, 1), 4), error(0x02));
+  EXPECT_EQ(bench_.last(R::kTelegramAddress).a, 0x0800);
+  EXPECT_EQ(bench_.ask(read_telegram(0x0100, 0), 4), error(0x04));
+  EXPECT_EQ(bench_.ask(read_telegram(0x0100, 246), 4), error(0x04));
+  EXPECT_EQ(bench_.last(R::kTelegramData).b, 245);
+  EXPECT_EQ(bench_.ask(read_telegram(0x07F0, 17), 4), error(0x04));
+  EXPECT_EQ(bench_.last(R::kTelegramData).b, 16);
+  EXPECT_EQ(bench_.last(R::kTelegramData).c, 0x07F0);
+  EXPECT_EQ(bench_.ask(read_telegram(0xFFFF, 2), 4), error(0x06));
+  EXPECT_EQ(bench_.ask(write_telegram(0x100, Bytes(246, 7)), 4), error(0x0C));
+  EXPECT_EQ(bench_.last(R::kTelegramLength).a, 252);
+  EXPECT_EQ(bench_.last(R::kTelegramLength).b, 251);
+  EXPECT_EQ(bench_.ask(write_telegram(0x8700, Bytes(255, 7)), 4), error(0x0E));
+  EXPECT_EQ(bench_.ask(inputs_telegram(Bytes(245, 7)), 4), error(0x04));
+  EXPECT_EQ(bench_.last(R::kTelegramData).b, 244);
+  EXPECT_EQ(bench_.ask(inputs_telegram(Bytes(255, 7)), 4), error(0x0C));
+  EXPECT_EQ(bench_.peek(0x100, 300), Bytes(300, 0)) << "nothing is carried out";
+}
+
+TEST_F(RsuSpi, LongestTelegrams) {
+  bench_.claim();
+  Bytes data(245);
+  for (std::size_t i = 0; i < data.size(); ++i) data[i] = static_cast<std::uint8_t>(i * 7 + 1);
+  bench_.write(0x30B, data);
+  EXPECT_EQ(bench_.read(0x30B, 245), data);
+  EXPECT_EQ(bench_.peek(0x30A), 0);
+  EXPECT_EQ(bench_.peek(0x400), 0);
+}
+
+TEST_F(RsuSpi, StartBytesThatAreNone) {
+  for (const std::uint8_t start : Bytes{0x61, 0x81, 0xE1, 0x05, 0x11, 0x49}) {
+    Bytes mosi(10, 0xFF);
+    mosi[0] = start;
+    EXPECT_EQ(bench_.spi(mosi), Bytes(10, 0xFF));
+    EXPECT_EQ(bench_.last(R::kTelegramStart).a, start);
+    bench_.run_cycles(200);
+  }
+  EXPECT_EQ(bench_.count(R::kTelegramStart), 6);
+  EXPECT_EQ(bench_.read(0x000, 1), Bytes{1});
+}
+
+TEST_F(RsuSpi, OtherCardsAreNotAnswered) {
+  for (const std::uint8_t card : Bytes{0, 2, 3}) {
+    Bytes mosi = read_telegram(0x000, 1, card);
+    mosi.resize(11, 0xFF);
+    EXPECT_EQ(bench_.spi(mosi), Bytes(11, 0xFF));
+    bench_.run_cycles(200);
+  }
+  EXPECT_TRUE(bench_.events().empty());
+}
+
+TEST_F(RsuSpi, WhatXssCutsIsDropped) {
+  bench_.claim();
+  bench_.forget_events();
+  const Bytes telegram = write_telegram(0x100, {1, 2, 3});
+  for (std::size_t bytes = 1; bytes < telegram.size(); ++bytes) {
+    bench_.spi(part_of(telegram, 0, bytes));
+    bench_.run_cycles(200);
+    EXPECT_EQ(bench_.last(R::kTelegramCut).a, bytes);
+    EXPECT_EQ(bench_.last(R::kTelegramCut).b, bytes < 4 ? 0 : 9);
+  }
+  EXPECT_EQ(bench_.peek(0x100, 3), Bytes(3, 0));
+  EXPECT_EQ(bench_.count(R::kTelegramCut), static_cast<int>(telegram.size()) - 1);
+  bench_.write(0x100, {1, 2, 3});
+  EXPECT_EQ(bench_.peek(0x100, 3), (Bytes{1, 2, 3}));
+}
+
+TEST_F(RsuSpi, CompleteIsCarriedOutWithoutItsReply) {
+  bench_.claim();
+  bench_.forget_events();
+  bench_.spi(write_telegram(0x100, {1, 2, 3}));
+  bench_.run_cycles(200);
+  EXPECT_EQ(bench_.peek(0x100, 3), (Bytes{1, 2, 3}));
+  EXPECT_EQ(bench_.last(R::kSpiReplyCut).a, 0);
+  EXPECT_EQ(bench_.last(R::kSpiReplyCut).b, 4);
+  Bytes mosi = read_telegram(0x100, 3);
+  mosi.resize(mosi.size() + 3, 0);
+  EXPECT_EQ(part_of(bench_.spi(mosi), 6, 3), (Bytes{0x81, 0x00, 1}));
+  bench_.run_cycles(200);
+  EXPECT_EQ(bench_.last(R::kSpiReplyCut).a, 3);
+  EXPECT_EQ(bench_.last(R::kSpiReplyCut).b, 7);
+}
+
+// XSS rises so soon after the last rise that the judgement comes after it.
+TEST_F(RsuSpi, XssRisesBeforeTheJudgement) {
+  bench_.claim();
+  bench_.forget_events();
+  bench_.spi(write_telegram(0x100, {9}), {100, 600, 600, 50, 0, false});
+  bench_.run_cycles(200);
+  EXPECT_EQ(bench_.peek(0x100), 9);
+  EXPECT_EQ(bench_.count(R::kSpiReplyCut), 1);
+}
+
+TEST_F(RsuSpi, BytesAfterTheRequestAreNotLookedAt) {
+  Bytes mosi = read_telegram(0x000, 1);
+  const Bytes more = write_telegram(0x100, {7});
+  mosi.insert(mosi.end(), more.begin(), more.end());
+  mosi.resize(mosi.size() + 4, 0x00);
+  const Bytes miso = bench_.spi(mosi);
+  EXPECT_EQ(part_of(miso, 6, 5), with_crc({0x81, 0x00, 0x01}));
+  EXPECT_EQ(part_of(miso, 11, 100), Bytes(miso.size() - 11, 0xFF)) << "FF after its end";
+  bench_.run_cycles(200);
+  EXPECT_EQ(bench_.peek(0x100), 0);
+}
+
+// The chip is in an access of 7 cycles each 48: of claims at all phases of CLK and the access some are refused, none
+// while it is out.
+TEST_F(RsuSpi, ClaimIsRefusedWhileTheChipIsInAnAccess) {
+  int refused = 0, granted = 0;
+  for (int i = 0; i < 48; ++i) {
+    const Bytes reply = bench_.ask(write_telegram(0x014, {0x02}), 4);
+    if (reply == error(0x00)) {
+      ++refused;
+      EXPECT_EQ(bench_.last(R::kSpiBusy).a, 0);
+      EXPECT_EQ(bench_.peek(0x014) & 2, 0);
+    } else {
+      ++granted;
+      EXPECT_EQ(reply, with_crc({0xA1, 0x00}));
+      bench_.release();
+    }
+    bench_.run_cycles(i % 7);
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_GT(granted, 20);
+  EXPECT_EQ(bench_.count(R::kSpiBusy), refused);
+}
+
+/// The cycle at which the next access of the chip begins: nothing shows it in this mode but the counter.
+Cycle next_access(RsuBench& bench) {
+  const std::uint64_t before = bench.status().accesses;
+  while (bench.status().accesses == before) bench.run_until((bench.cycle() + 1) * 250);
+  return bench.cycle();
+}
+
+// Ties of section 8: J = s, the cycle at which the access is due: the claim is first. J = e: refused still.
+TEST_F(RsuSpi, TiesOfClaimAndAccess) {
+  const Bytes claim = write_telegram(0x014, {0x02});
+  // an access is 7 cycles long: begins at s, ends at s + 7
+  for (int offset = -1; offset <= 8; ++offset) {
+    RsuBench bench;
+    bench.power_on();
+    const Cycle due = next_access(bench) + 48 * 30;
+    // J is 4 cycles after edge m - 1 of the last rise, whose tick is 250 (J - 4)
+    const Tick last_rise = (due + offset - 4) * 250;
+    const auto bits = static_cast<Tick>(claim.size()) * 8;
+    const Tick begin = last_rise - 600 - (bits - 1) * 1200;
+    bench.run_until(begin);
+    bench.spi(claim, {600, 600, 600, 600, 0, true});
+    bench.clock(Bytes(4, 0xFF));
+    const bool refused = bench.count(R::kSpiBusy) > 0;
+    const Tick judged = refused ? bench.last(R::kSpiBusy).at : bench.last(R::kSpiClaimed).at;
+    EXPECT_EQ(judged, (due + offset) * 250);
+    EXPECT_EQ(refused, offset >= 1 && offset <= 7) << offset;
+  }
+}
+
+TEST_F(RsuSpi, OtherBitsOfB014AreIgnored) {
+  bench_.claim();
+  bench_.write(0x013, {0x00, 0xFD, 0x77});  // covers B014: bit 1 is 0
+  EXPECT_EQ(bench_.peek(0x014) & 2, 0);
+  EXPECT_EQ(bench_.peek(0x015), 0x77);
+  EXPECT_EQ(bench_.last(R::kReadOnlyWritten).a, 0x013);
+  EXPECT_EQ(bench_.count(R::kReadOnlyWritten), 1) << "B014 is not among them";
+}
+
+TEST_F(RsuSpi, WithoutClaimItIsCarriedOutAndReported) {
+  EXPECT_EQ(bench_.read(0x000, 4), (Bytes{0x01, 0x0D, 0x07, 0x01}));
+  EXPECT_EQ(bench_.last(R::kSpiNoClaim).a, 0);
+  EXPECT_EQ(bench_.last(R::kSpiNoClaim).b, 4);
+  EXPECT_EQ(bench_.last(R::kSpiNoClaim).c, 0);
+  bench_.write(0x100, {5});
+  EXPECT_EQ(bench_.last(R::kSpiNoClaim).c, 1);
+  EXPECT_EQ(bench_.peek(0x100), 5);
+}
+
+// A write without claim waits for the start-up access; meanwhile no frame is heard, reads give 00.
+TEST(RsuSpiStartUp, ReadsAreZeroAndWritesWait) {
+  RsuBench bench(Straps{}, [] {
+    Config config;
+    config.spi_write_gap = 0;
+    return config;
+  }());
+  bench.set(5000, Pin::kReset, 1);
+  bench.run_until(30 * 250);
+  const RsuBench::Frame fast = {400, 400, 400, 400, 0, false};  // the start-up access takes 43 us
+  const auto reply = [&](const Bytes& request, std::size_t size) {
+    Bytes mosi = request;
+    mosi.resize(request.size() + size, 0xFF);
+    const Bytes miso = bench.spi(mosi, fast);
+    bench.run_cycles(10);
+    return part_of(miso, request.size(), size);
+  };
+  EXPECT_EQ(reply(read_telegram(0x014, 1), 5), with_crc({0x81, 0x00, 0x01}));
+  EXPECT_EQ(reply(read_telegram(0x000, 1), 5), with_crc({0x81, 0x00, 0x00}));
+  EXPECT_EQ(reply(write_telegram(0x014, {0x02}), 4), with_crc({0xE1, 0x00}));
+  EXPECT_EQ(bench.last(R::kSpiBusy).a, 0);
+  EXPECT_EQ(reply(inputs_telegram({}), 4), with_crc({0xE1, 0x00}));
+  EXPECT_EQ(bench.last(R::kSpiBusy).a, 1);
+  reply(write_telegram(0x100, {0x55}), 4);
+  EXPECT_EQ(bench.count(R::kSpiWriteWaits), 0);
+  EXPECT_EQ(reply(read_telegram(0x000, 1), 5), Bytes(5, 0xFF));
+  EXPECT_EQ(bench.count(R::kSpiWriteWaits), 1);
+  ASSERT_LT(bench.cycle(), 2000);
+  EXPECT_EQ(bench.peek(0x100), 0);
+  bench.run_until(2100 * 250);
+  EXPECT_EQ(bench.peek(0x100), 0x55);
+  EXPECT_EQ(bench.read(0x000, 2), (Bytes{0x01, 0x0D}));
+}
+
+// SP9: who keeps 2.7 us is heard at every phase of CLK, below 31750 ticks nobody is.
+TEST_F(RsuSpi, GapAfterAWrite) {
+  bench_.claim();
+  for (const Tick gap : {31'740, 31'760, 32'390, 32'400}) {
+    for (Tick phase = 0; phase < 250; phase += 31) {
+      bench_.forget_events();
+      bench_.run_until(bench_.now() + 50'000 + phase);
+      bench_.spi(write_telegram(0x100, {1}), {600, 600, 600, 600, 0, false});
+      const Tick last_rise = bench_.now() - 1200;
+      bench_.run_until(last_rise + gap);
+      Bytes mosi = read_telegram(0x100, 1);
+      mosi.resize(11, 0xFF);
+      const Bytes miso = bench_.spi(mosi);
+      const bool heard = part_of(miso, 6, 5) == with_crc({0x81, 0x00, 0x01});
+      if (gap < 31'750) EXPECT_FALSE(heard) << gap << " " << phase;
+      if (gap >= 32'400) EXPECT_TRUE(heard) << gap << " " << phase;
+      EXPECT_EQ(bench_.count(R::kSpiWriteGap), gap < 32'400 ? 1 : 0) << gap;
+      if (gap < 32'400) {
+        EXPECT_EQ(bench_.last(R::kSpiWriteGap).a, gap);
+        EXPECT_EQ(bench_.last(R::kSpiWriteGap).b, 32'400);
+        EXPECT_EQ(bench_.last(R::kSpiWriteGap).c, heard ? 0 : 1);
+      }
+    }
+  }
+}
+
+TEST_F(RsuSpi, ReadNeedsNoGap) {
+  bench_.ask(read_telegram(0x014, 1), 5);
+  bench_.forget_events();
+  bench_.spi(read_telegram(0x014, 1));
+  bench_.run_until(bench_.now() + 600);
+  Bytes mosi = read_telegram(0x014, 1);
+  mosi.resize(11, 0xFF);
+  EXPECT_EQ(part_of(bench_.spi(mosi), 6, 5), with_crc({0x81, 0x00, 0x00}));
+  EXPECT_EQ(bench_.count(R::kSpiWriteGap), 0);
+}
+
+TEST_F(RsuSpi, ReadAndWrite) {
+  bench_.poke(0x319, 3);
+  for (std::uint16_t i = 0; i < 3; ++i) bench_.poke(static_cast<std::uint16_t>(0x31A + i), static_cast<std::uint8_t>(0xA0 + i));
+  bench_.poke(0x00E, 0x03);
+  Bytes reply;
+  do reply = bench_.ask(inputs_telegram({1, 2}), 8);
+  while (reply[0] == 0xE1);
+  EXPECT_EQ(reply, with_crc({0xC1, 0x00, 0x03, 0xA0, 0xA1, 0xA2}));
+  EXPECT_EQ(bench_.peek(0x130, 3), (Bytes{2, 1, 2}));
+  EXPECT_EQ(bench_.peek(0x00E) & 1, 0) << "B00E.0";
+  EXPECT_EQ(bench_.count(dpram::Reason::kBeforeInit), 1) << "B010.0 was set: the chip took the block, and had not been initialised";
+}
+
+TEST_F(RsuSpi, ReadAndWriteLimitsTheOutputs) {
+  bench_.poke(0x319, 250);
+  bench_.poke(0x40D, 0x77);
+  Bytes reply;
+  do reply = bench_.ask(inputs_telegram({}), 249);
+  while (reply[0] == 0xE1);
+  EXPECT_EQ(reply, with_crc(part_of(reply, 0, 247)));
+  EXPECT_EQ(reply[2], 244);
+  EXPECT_EQ(reply[246], 0x77);
+}
+
+// No access begins while the frame lasts.
+TEST_F(RsuSpi, ReadAndWriteHoldsUntilXssRises) {
+  Bytes mosi = inputs_telegram({1});
+  mosi.resize(mosi.size() + 5, 0xFF);
+  Bytes miso;
+  do {
+    bench_.run_cycles(150);
+    miso = bench_.spi(mosi, {600, 600, 600, 600, 0, true});
+    if (miso[5] == 0xE1) bench_.xss(1);
+  } while (miso[5] == 0xE1);
+  const std::uint64_t accesses = bench_.status().accesses;
+  bench_.run_cycles(500);
+  EXPECT_EQ(bench_.status().accesses, accesses);
+  const Tick rise = bench_.now() + 17;
+  bench_.run_until(rise);
+  bench_.xss(1);
+  bench_.run_until(rise / 250 * 250 + 250 * 3 - 250);
+  EXPECT_EQ(bench_.status().accesses, accesses);
+  bench_.run_until((rise / 250 + 3) * 250);  // Y
+  EXPECT_EQ(bench_.status().accesses, accesses + 1);
+}
+
+TEST_F(RsuSpi, BlockCrcsCountAsRight) {
+  bench_.claim();
+  bench_.write(0x020, {17, 5, 0x0C, 0xC9, 0x0F, 0, 0, 244, 244, 32, 237, 0, 200, 0, 2, 0x11, 0x21});
+  bench_.write(0x020, {16});
+  bench_.write(0x010, {0x04});
+  bench_.release();
+  bench_.run_cycles(300);
+  EXPECT_EQ(bench_.peek(0x00A), 0x01);
+  EXPECT_EQ(bench_.count(dpram::Reason::kInitialised), 1);
+  EXPECT_EQ(bench_.level(Pin::kReady), 1);
+}
+
+TEST(RsuSpiParameter, SerialBlockCrc) {
+  Config config;
+  config.serial_block_crc = 1;
+  RsuBench bench({}, config);
+  bench.power_on();
+  bench.claim();
+  bench.write(0x020, {16, 5, 0x0C, 0xC9, 0x0F, 0, 0, 244, 244, 32, 237, 0, 200, 0, 2, 0x11, 0x21});
+  bench.write(0x010, {0x04});
+  bench.release();
+  bench.run_cycles(300);
+  EXPECT_EQ(bench.peek(0x00A), 0x00);
+  EXPECT_EQ(bench.count(dpram::Reason::kInitCrc), 1);
+}
+
+// R6: B011.7 is taken back, and B00B.2 is never set, whatever CRC stands at B225.
+TEST_F(RsuSpi, InputHistoryHasNothingToKeep) {
+  bench_.claim();
+  bench_.write(0x011, {0xC0});
+  bench_.release();
+  bench_.run_cycles(300);
+  EXPECT_EQ(bench_.peek(0x011), 0x40);
+  EXPECT_EQ(bench_.peek(0x00B), 0x00);
+}
+
+TEST(RsuSpiParameter, ReplyGap) {
+  for (const std::uint32_t gap : {1U, 2U, 16U}) {
+    Config config;
+    config.spi_reply_gap = gap;
+    RsuBench bench({}, config);
+    bench.power_on();
+    const Bytes miso = bench.ask(read_telegram(0x000, 4), gap + 8 + 2);
+    EXPECT_EQ(part_of(miso, 0, gap), Bytes(gap, 0xFF));
+    EXPECT_EQ(part_of(miso, gap, 8), with_crc({0x81, 0x00, 0x01, 0x0D, 0x07, 0x01}));
+    EXPECT_EQ(part_of(miso, gap + 8, 2), Bytes(2, 0xFF));
+  }
+}
+
+// SP17: from the last judgement with a right CRC; ends, and the telegram of that cycle is without claim.
+TEST(RsuSpiUTimer, TakesTheOwnership) {
+  Config config;
+  config.u_timer = 24'000;
+  RsuBench bench({}, config);
+  bench.power_on();
+  bench.claim();
+  bench.run_cycles(30'000);
+  EXPECT_EQ(bench.peek(0x014) & 2, 2) << "B015.0 is 0";
+  bench.write(0x015, {0x01});
+  bench.run_cycles(30'000);
+  EXPECT_EQ(bench.peek(0x014) & 2, 2) << "its own telegram came before it";
+  bench.spi(read_telegram(0x100, 1));
+  const Cycle judged = (bench.now() - 1200) / 250 + 4;
+  bench.run_until((judged + 24'000) * 250 - 1);
+  EXPECT_EQ(bench.peek(0x014) & 2, 2);
+  bench.run_until((judged + 24'000) * 250);
+  EXPECT_EQ(bench.peek(0x014) & 2, 0);
+  EXPECT_EQ(bench.last(R::kSpiUTimer).a, 24'000);
+  EXPECT_EQ(bench.last(R::kSpiUTimer).at, (judged + 24'000) * 250);
+  EXPECT_EQ(bench.count(R::kSpiReleased), 0);
+}
+
+TEST(RsuSpiUTimer, WrongCrcDoesNotStartItAgain) {
+  Config config;
+  config.u_timer = 4000;
+  RsuBench bench({}, config);
+  bench.power_on();
+  bench.claim();
+  bench.write(0x015, {0x01});
+  bench.read(0x100, 1);
+  bench.run_cycles(1000);
+  Bytes wrong = read_telegram(0x100, 1);
+  wrong.back() ^= 0x10;
+  bench.ask(wrong, 4);
+  bench.run_cycles(2900);
+  EXPECT_EQ(bench.count(R::kSpiUTimer), 1);
+  bench.claim();
+  bench.release();
+  bench.run_cycles(5000);
+  EXPECT_EQ(bench.count(R::kSpiUTimer), 1) << "a release stops it";
+}
+
+}  // namespace
+}  // namespace dsdpv1::conformance
