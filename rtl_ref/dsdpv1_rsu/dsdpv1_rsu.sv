@@ -146,13 +146,17 @@ module dsdpv1_rsu #(
   logic interrupt_flag;
 
   // ---- the serial ports
-  logic host_holds;
+  logic host_holds, host_owns;
+  /* verilator lint_off UNUSEDSIGNAL */
+  logic [7:0] b014;  // for who looks at the DPRAM from outside: with SPI a register instead of the cell (5.4)
+  /* verilator lint_on UNUSEDSIGNAL */
+  assign b014 = {6'd0, host_owns, spi && chip_owns};
   serial_port u_serial_port (
     `FAULT_CONNECT
     .spi_reply_gap_i(spi_reply_gap[4:0]), .spi_write_gap_i(spi_write_gap[12:0]), .u_timer_i(u_timer[22:0]), .uart_gaps_i(uart_gaps),
     .uart_min_tsdr_i(uart_min_tsdr[7:0]), .uart_cfg_length_i(uart_cfg_length[0]), .clk_i(clk_i), .rst_ni(rst_n), .begins_i(begins),
     .spi_i(spi), .uart_i(uart), .adr_i(adr), .ubr_i(ubr), .uiv_i(uiv), .xss_i(xss_i), .sck_i(sck_i), .mosi_i(mosi_i), .miso_o(miso_o),
-    .miso_oe_o(miso_oe_o), .rxd_i(rxd_i), .txd_o(txd_o), .holds_o(host_holds), .owns_i(chip_owns),
+    .miso_oe_o(miso_oe_o), .rxd_i(rxd_i), .txd_o(txd_o), .holds_o(host_holds), .host_owns_o(host_owns), .owns_i(chip_owns),
     .exchanges_i(hears.status.state == DP_DATA_EXCH), .chip_we_i(chip_we), .chip_addr_i(chip_addr), .chip_wdata_i(chip_wdata),
     .we_o(host_we), .waddr_o(host_waddr), .wdata_o(host_wdata));
 

@@ -10,12 +10,14 @@ module host_ownership (
   input  logic        set_i,        // ... and sets B014.1
   input  logic        value_i,
   input  logic        enable_i,     // B015.0
-  output logic        shown_o,      // B014.1 as a read of this edge sees it
+  output logic        owns_o,       // B014.1
+  output logic        shown_o,      // ... as a read of this edge sees it
   output logic        holds_o       // ... as it is after this edge's judgement
 );
   logic host_q, host_d, timer_on_q, timer_ends;
   logic [22:0] timer_q;
   assign timer_ends = timer_on_q && timer_q == 23'd0;
+  assign owns_o = host_q;
   assign shown_o = host_q && !timer_ends;
   assign host_d = set_i ? value_i : shown_o;
   assign holds_o = host_d;

@@ -32,27 +32,48 @@ module host_uart (
   input  logic [7:0]   byte_i,
   input  logic         more_i
 );
-  function automatic logic [12:0] bit_of(input logic [2:0] code);
+  // Cycles of a bit (UA1), of its half and of the rest, less a number: tables for a synthesis
+  function automatic logic [12:0] bit_less(input logic [2:0] code, input logic [12:0] less);
     case (code)
-      3'd0: bit_of = 13'd5000;
-      3'd1: bit_of = 13'd2500;
-      3'd2: bit_of = 13'd1250;
-      3'd3: bit_of = 13'd833;
-      3'd4: bit_of = 13'd417;
-      3'd5: bit_of = 13'd208;
-      3'd6: bit_of = 13'd104;
-      default: bit_of = 13'd26;
+      3'd0: bit_less = 13'd5000 - less;
+      3'd1: bit_less = 13'd2500 - less;
+      3'd2: bit_less = 13'd1250 - less;
+      3'd3: bit_less = 13'd833 - less;
+      3'd4: bit_less = 13'd417 - less;
+      3'd5: bit_less = 13'd208 - less;
+      3'd6: bit_less = 13'd104 - less;
+      default: bit_less = 13'd26 - less;
     endcase
   endfunction
 
-  // Half characters as whole bit times; an odd number has half a bit besides
-  function automatic logic [12:0] bits_of(input logic [9:0] halves);
-    bits_of = {4'd0, halves[9:1]} * 13'd11 + (halves[0] ? 13'd5 : 13'd0);
+  function automatic logic [12:0] half_less(input logic [2:0] code, input logic [12:0] less);
+    case (code)
+      3'd0: half_less = 13'd2500 - less;
+      3'd1: half_less = 13'd1250 - less;
+      3'd2: half_less = 13'd625 - less;
+      3'd3: half_less = 13'd416 - less;
+      3'd4: half_less = 13'd208 - less;
+      3'd5: half_less = 13'd104 - less;
+      3'd6: half_less = 13'd52 - less;
+      default: half_less = 13'd13 - less;
+    endcase
   endfunction
 
-  logic [12:0] bit_len, half;
-  assign bit_len = bit_of(ubr_i);
-  assign half = {1'b0, bit_len[12:1]};
+  function automatic logic [12:0] rest_less(input logic [2:0] code, input logic [12:0] less);
+    case (code)
+      3'd3: rest_less = 13'd417 - less;
+      3'd4: rest_less = 13'd209 - less;
+      default: rest_less = half_less(code, less);
+    endcase
+  endfunction
+
+  // Half characters: whole bit times and, for an odd number, half a bit besides
+  function automatic logic [13:0] wait_of(input logic [9:0] halves);
+    wait_of = {halves[0], {4'd0, halves[9:1]} * 13'd11 + (halves[0] ? 13'd5 : 13'd0)};
+  endfunction
+
+  logic [12:0] bit_last;
+  assign bit_last = bit_less(ubr_i, 13'd1);
   logic rxd;
   synchroniser #(.POWER_ON(1'b1)) u_rxd (.clk_i(clk_i), .d_i(rxd_i), .q_o(rxd));
 
@@ -89,7 +110,7 @@ module host_uart (
       odd_q <= 1'b0;
     end else begin
       state_q <= state_d;
-      timer_q <= starts ? half - 13'd1 : samples ? bit_len - 13'd1 : timer_q - 13'd1;
+      timer_q <= starts ? half_less(ubr_i, 13'd1) : samples ? bit_last : timer_q - 13'd1;
       if (starts) begin
         sample_q <= 4'd0;
         odd_q <= 1'b0;
@@ -110,27 +131,40 @@ module host_uart (
   // then whole ones. While the chip sends it counts the bits sent.
   logic [2:0] code_q, code;
   logic [12:0] interval_bits, phase_q, bits_q, first, bits;
-  logic [103:0] bits_by_code;
-  logic [7:0] odd_by_code;
+  logic [13:0] wait_0, wait_1, wait_2, wait_3, wait_4, wait_5, wait_6, wait_7;
   logic interval_odd, expired, sends_q, fires, bit_ends, starts_char;
   logic [7:0] tsdr;
   assign code = !waits_i ? code_q : interval_i != 3'd0 ? interval_i : uiv_i;
-  assign bits_by_code = {
-    bits_of(gaps_i[121:112]), bits_of(gaps_i[105:96]), bits_of(gaps_i[89:80]), bits_of(gaps_i[73:64]),
-    bits_of(gaps_i[57:48]), bits_of(gaps_i[41:32]), bits_of(gaps_i[25:16]), bits_of(gaps_i[9:0])};
-  assign odd_by_code = {gaps_i[112], gaps_i[96], gaps_i[80], gaps_i[64], gaps_i[48], gaps_i[32], gaps_i[16], gaps_i[0]};
-  assign interval_bits = bits_by_code[{4'd0, code} * 7'd13+:13];
-  assign interval_odd = odd_by_code[code];
+  assign wait_0 = wait_of(gaps_i[9:0]);
+  assign wait_1 = wait_of(gaps_i[25:16]);
+  assign wait_2 = wait_of(gaps_i[41:32]);
+  assign wait_3 = wait_of(gaps_i[57:48]);
+  assign wait_4 = wait_of(gaps_i[73:64]);
+  assign wait_5 = wait_of(gaps_i[89:80]);
+  assign wait_6 = wait_of(gaps_i[105:96]);
+  assign wait_7 = wait_of(gaps_i[121:112]);
+  always_comb begin
+    case (code)
+      3'd0: {interval_odd, interval_bits} = wait_0;
+      3'd1: {interval_odd, interval_bits} = wait_1;
+      3'd2: {interval_odd, interval_bits} = wait_2;
+      3'd3: {interval_odd, interval_bits} = wait_3;
+      3'd4: {interval_odd, interval_bits} = wait_4;
+      3'd5: {interval_odd, interval_bits} = wait_5;
+      3'd6: {interval_odd, interval_bits} = wait_6;
+      default: {interval_odd, interval_bits} = wait_7;
+    endcase
+  end
   assign tsdr = tsdr_i > min_tsdr_i && !`FAULT(149) ? tsdr_i : min_tsdr_i;
   always_comb begin
     bits = interval_bits;
     if (last_i) begin
-      first = bit_len - half - 13'd3;  // the synchroniser's two cycles are taken back
+      first = rest_less(ubr_i, 13'd3);  // the synchroniser's two cycles are taken back
       bits = {5'd0, tsdr};
     end else if (break_ends) begin
-      first = interval_odd ? half : 13'd0;
+      first = interval_odd ? half_less(ubr_i, 13'd0) : 13'd0;
     end else begin
-      first = interval_odd ? bit_len : bit_len - half;
+      first = interval_odd ? bit_less(ubr_i, 13'd0) : rest_less(ubr_i, 13'd0);
     end
     if (`FAULT(148) && !last_i) first = first - 13'd1;
   end
@@ -161,11 +195,11 @@ module host_uart (
         phase_q <= first;
         bits_q <= bits;
       end else if (fires || bit_ends) begin
-        phase_q <= bit_len - 13'd1;
+        phase_q <= bit_last;
       end else if (phase_q != 13'd0) begin
         phase_q <= phase_q - 13'd1;
       end else if (bits_q != 13'd0) begin
-        phase_q <= bit_len - 13'd1;
+        phase_q <= bit_last;
         bits_q <= bits_q - 13'd1;
       end
 

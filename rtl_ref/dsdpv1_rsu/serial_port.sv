@@ -29,6 +29,7 @@ module serial_port (
   output logic         txd_o,
   // the rest of the chip
   output logic         holds_o,      // no access may begin at this edge
+  output logic         host_owns_o,  // B014.1
   input  logic         owns_i,
   input  logic         exchanges_i,  // DATA_EXCH
   input  logic         chip_we_i,    // the chip's writes, for the copy
@@ -90,7 +91,7 @@ module serial_port (
   host_ownership u_ownership (
     `FAULT_CONNECT
     .u_timer_i(u_timer_i), .clk_i(clk_i), .rst_ni(rst_ni), .crc_right_i(judgement.crc_right && spi_i), .set_i(judgement.owns),
-    .value_i(telegram.claims), .enable_i(enable_q), .shown_o(host_shown), .holds_o(host_holds));
+    .value_i(telegram.claims), .enable_i(enable_q), .owns_o(host_owns_o), .shown_o(host_shown), .holds_o(host_holds));
 
   // A read and write keeps the chip off until its frame ends (SP16)
   assign frame_holds = (frame_holds_q || (spi_i && judgement.commits && judgement.replies && telegram.ask == ASK_EXCHANGE)) && !frame_ends;
@@ -161,7 +162,7 @@ module serial_port (
   buffer_ram #(.ADDRESS_BITS(11), .BYTES(2048)) u_copy (
     .clk_i(clk_i), .we_i(copy_we), .waddr_i(copy_waddr), .wdata_i(copy_wdata), .raddr_i(commit_reads ? commit_raddr : reply_raddr),
     .rdata_o(rdata));
-  buffer_ram #(.ADDRESS_BITS(9), .BYTES(512)) u_buffer (
+  telegram_buffer u_buffer (
     .clk_i(clk_i), .we_i(buffer_we || (reply_we && uart_i)), .waddr_i(buffer_we ? {1'b0, buffer_waddr} : {1'b1, reply_waddr}),
     .wdata_i(buffer_we ? request_byte : reply_wdata),
     .raddr_i(uart_i && !commit_busy && !judged ? {1'b1, reply_raddr[7:0]} : {1'b0, buffer_raddr}), .rdata_o(buffer_data));

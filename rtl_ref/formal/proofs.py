@@ -21,12 +21,19 @@ class Proof:
     twin_depth: int = 0      # cycles in which the twin's violation is looked for
     faults: tuple = ()       # the defects, a twin each: of faults.txt,
     edit: tuple = ()         # or file, old text, new text
+    files: str = "files.txt"
 
 
 def states(block, file, edit, **more):
     """No state machine of a block leaves its legal states, whatever its inputs do."""
     return Proof(name=f"{block}_states", title=f"{block}: legal states only", top=more.pop("top", block),
                  bind={file: f"{block}_states"}, edit=(file, *edit), **more)
+
+
+def serial(name, title, top, bind, **more):
+    """Of DSDPV1-RSU's serial ports."""
+    return Proof(name=name, title=title, top=top, bind={f"dsdpv1_rsu/{block}.sv": properties for block, properties in bind.items()},
+                 files="files_rsu.txt", **more)
 
 
 PROOFS = (
@@ -114,4 +121,29 @@ PROOFS = (
            ("default: state_d = FREE;", "default: state_d = state_b + 3'd1;"), cut_cells=("c:u_watch", "c:u_user")),
     states("msac2", "profibus/msac2.sv", ("busy[0] ? 2'b01 : busy[1] ? 2'b10 : 2'b00;", "busy;"),
            cut_cells=("c:*u_channel",)),
+    serial("serial_ownership", "SPI: B014.1 is never 1 while the chip is in an access", "dsdpv1_rsu", {"dsdpv1_rsu": "serial_ownership"},
+           cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt", *(f"serial_port/c:u_{block}" for block in (
+               "spi", "uart", "crc", "reply", "copy", "buffer"))),
+           cut_wires=("w:u_sequencer.boot_q",), defines=ANY_PARAMETERS, faults=(139,)),
+    serial("serial_moves", "SPI, UART: no commit moves a byte while the chip is in an access", "dsdpv1_rsu",
+           {"dsdpv1_rsu": "serial_moves", "serial_port": "serial_moves_port"},
+           cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt", *(f"serial_port/c:u_{block}" for block in (
+               "spi", "uart", "crc", "reply", "copy", "buffer"))),
+           cut_wires=("w:u_sequencer.boot_q",), defines=ANY_PARAMETERS, faults=(142,)),
+    serial("right_crc", "SPI, UART: a telegram whose CRC is wrong has no other reply than the error, and changes nothing", "serial_port",
+           {"serial_port": "right_crc"},
+           cut_cells=tuple(f"c:u_{block}" for block in ("spi", "uart", "ownership", "copy", "buffer")), faults=(133,)),
+    serial("quiet_reply", "SPI: but for a reply nothing but FF is loaded for MISO", "serial_port", {"serial_port": "quiet_reply"},
+           cut_cells=tuple(f"c:u_{block}" for block in ("spi", "uart", "ownership", "copy", "buffer", "crc", "commit")),
+           edit=("dsdpv1_rsu/host_reply.sv", "if (ends_i) state_d = OFF;", "")),
+    serial("quiet_miso", "SPI: MISO is Z but with XSS low, and what it shifts out FF unless other bytes were loaded in this frame", "spi_port",
+           {"spi_port": "quiet_miso"}, faults=(132,)),
+    serial("quiet_txd", "UART: TXD is high but from a telegram's judgement to its reply's end", "host_uart", {"host_uart": "quiet_txd"},
+           edit=("dsdpv1_rsu/host_uart.sv", "assign fires = answers_q && !sends_q", "assign fires = !sends_q")),
+    *(states(block, f"dsdpv1_rsu/{block}.sv", edit, files="files_rsu.txt") for block, edit in (
+        ("host_telegram", ("default: field_d = field_q + 4'd1;", "default: field_d = field_q + 4'd3;")),
+        ("host_commit", ("FLAG: state_d = spi_i ? CLEAR : CHOICE;", "FLAG: state_d = spi_i ? CLEAR : CHOICE | CLEAR;")),
+        ("host_reply", ("LENGTH: state_d = no_length ? CRC_HIGH : DATA;", "LENGTH: state_d = no_length ? CRC_HIGH : state + 4'd5;")),
+        ("host_uart", ("assign complete = samples && sample_q == 4'd10;", "assign complete = samples && sample_q == 4'd11;")),
+    )),
 )

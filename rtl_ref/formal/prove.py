@@ -16,7 +16,6 @@ from proofs import PROOFS
 
 FORMAL = pathlib.Path(__file__).resolve().parent
 RTL = FORMAL.parent
-SOURCES = (RTL / "files.txt").read_text(encoding="utf-8").split()
 HEADERS = [path.name for path in RTL.glob("*.svh")]
 HOLDS, VIOLATED, UNKNOWN = "holds", "violated", "unknown"
 LIMIT_SECONDS = 900  # for one run of a tool; far more than a busy machine needs
@@ -38,9 +37,13 @@ def defects(proof):
     return proof.faults or (proof.edit,)
 
 
+def files(proof):
+    return (RTL / proof.files).read_text(encoding="utf-8").split()
+
+
 def sources(proof, defect):
     """Texts by name: the RTL, bound properties, and the defect if there is one."""
-    texts = {name: (RTL / name).read_text(encoding="utf-8") for name in SOURCES + HEADERS}
+    texts = {name: (RTL / name).read_text(encoding="utf-8") for name in files(proof) + HEADERS}
     for block, properties in proof.bind.items():
         text = (FORMAL / f"{properties}.svh").read_text(encoding="utf-8")
         texts[block] = replace_once(texts[block], "\nendmodule", f"\n{text}endmodule", block)
@@ -58,7 +61,7 @@ def yosys(proof, folder, is_twin):
     cuts = "".join(f"cutpoint {cell}; " for cell in proof.cut_cells)
     wires = "".join(f"cutpoint {wire}; " for wire in proof.cut_wires)
     defines = " ".join(f"-D{define}" for define in proof.defines + (("TWIN",) if is_twin else ()))
-    common = (f"read_verilog -formal -sv {defines} -I. -I{RTL.parent / 'registers'} {' '.join(SOURCES)}; "
+    common = (f"read_verilog -formal -sv {defines} -I. -I{RTL.parent / 'registers'} {' '.join(files(proof))}; "
               f"hierarchy -check -top {proof.top}; proc; {cuts}flatten; {wires}async2sync; delete -output; opt_clean; "
               "memory_map; setundef -undriven -anyseq; opt -full; dffunmap; ")
     if proof.engine == "pdr":
