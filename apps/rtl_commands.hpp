@@ -6,6 +6,7 @@
 
 #include "apps/own_rtl.hpp"
 #include "apps/wave_options.hpp"
+#include "model/dsdpv1/config.hpp"
 
 namespace dsdpv1::app {
 

@@ -37,7 +37,7 @@ void RandomSerial::write(int address, int value) { write_bytes(address, {byte(va
 
 void RandomSerial::write_bytes(int address, const bus::Bytes& bytes) {
   bus::Bytes telegram = {start(1), byte(address >> 8), byte(address), byte(static_cast<int>(bytes.size()))};
-  telegram.insert(telegram.end(), bytes.begin(), bytes.end());
+  for (const std::uint8_t each : bytes) telegram.push_back(each);
   send(telegram, 4);
 }
 
@@ -56,7 +56,8 @@ void RandomSerial::block(int address, int crc_address, const bus::Bytes& bytes) 
 
 bus::Bytes RandomSerial::finished(bus::Bytes telegram) {
   const int crc = dpram::crc16(telegram.data(), static_cast<int>(telegram.size()));
-  telegram.insert(telegram.end(), {byte(crc >> 8), byte(crc)});
+  telegram.push_back(byte(crc >> 8));
+  telegram.push_back(byte(crc));
   if (!random_.one_in(12)) return telegram;
   const auto place = static_cast<std::size_t>(random_.below(static_cast<int>(telegram.size())));
   switch (random_.below(5)) {

@@ -6,7 +6,7 @@
 namespace dsdpv1::cosim {
 namespace {
 
-constexpr int kBits = 8;
+constexpr int kByteBits = 8;
 constexpr Tick kMillibits = 1000, kMillion = 1'000'000;
 
 void in_order(std::vector<PinEdge>& edges) {
@@ -14,8 +14,8 @@ void in_order(std::vector<PinEdge>& edges) {
 }
 
 int bit_of(const bus::Bytes& bytes, int index) {
-  const auto byte = bytes[static_cast<std::size_t>(index / kBits)];
-  return byte >> (kBits - 1 - index % kBits) & 1;
+  const auto byte = bytes[static_cast<std::size_t>(index / kByteBits)];
+  return byte >> (kByteBits - 1 - index % kByteBits) & 1;
 }
 
 /// The levels of a character at RXD, each with the millibits from the character's begin.
@@ -41,12 +41,12 @@ Tick uart_bit(int rate) {
 }
 
 std::vector<PinEdge> spi_edges(const Action& action) {
-  const int all = kBits * static_cast<int>(action.bytes.size());
+  const int all = kByteBits * static_cast<int>(action.bytes.size());
   const int bits = action.bits == 0 ? all : std::min(all, action.bits);
   std::vector<PinEdge> edges = {{0, Pin::kXss, 0}};
   Tick rise = action.lead, fall = 0;
   for (int i = 0; i < bits; ++i) {
-    if (i > 0) rise = fall + action.low + (i % kBits == 0 ? action.pause : 0);
+    if (i > 0) rise = fall + action.low + (i % kByteBits == 0 ? action.pause : 0);
     fall = rise + action.high;
     edges.push_back({std::max<Tick>(0, rise - action.setup), Pin::kMosi, static_cast<Level>(bit_of(action.bytes, i))});
     edges.push_back({rise, Pin::kSck, 1});
