@@ -33,7 +33,7 @@ using tb::traces::golden_name;
 
 constexpr const char* kTool = "dsdpv1-sim " DSDPV1_VERSION;
 const std::vector<std::string> kRulings = {"docs/chip.md", "docs/microarchitecture.md", "docs/chip_rsu.md",
-                                          "docs/microarchitecture_rsu.md"};
+                                           "docs/microarchitecture_rsu.md"};
 
 std::string folder_of(const TracesArguments& arguments) {
   if (!arguments.folder.empty()) return arguments.folder;

@@ -64,7 +64,7 @@ class Sequencer {
   bool started_up() const { return phase_ > Phase::kDue; }  ///< the start-up access of this reset has begun
   /// It has not ended.
   bool starts_up() const { return phase_ <= Phase::kDue || phase_ == Phase::kStartUp; }
-  bool initialised() const { return initialised_; }         ///< an initialisation has succeeded
+  bool initialised() const { return initialised_; }  ///< an initialisation has succeeded
   /// The cycle at which new parameters or a new configuration were last flagged for the user (P7); kNever: not since
   /// reset. Whoever calls the user's attention asks after eval().
   Cycle told_user() const { return told_user_; }

@@ -2,7 +2,7 @@
 // Cells that only the chip may write (P6).
 #include <array>
 
-#include "registers/dsdpv1_regs.hpp"
+#include "model/dpram/ram.hpp"
 
 namespace dsdpv1 {
 

@@ -23,7 +23,8 @@ constexpr Cycle kResetSynchroniser = 2;  // P9, P10
 // The outputs that are registers of the rising edge; D_OUT and MISO are the host ports' own.
 constexpr std::uint32_t kEdgeOutputs = outputs_of(Part::kRsu) & ~mask(Pin::kDOut) & ~mask(Pin::kMiso);
 
-constexpr std::uint32_t kResetLevels = mask(Pin::kIntr0) | mask(Pin::kPbtxd) | mask(Pin::kPbf) | mask(Pin::kTxd);  // P10, R14
+constexpr std::uint32_t kResetLevels =
+    mask(Pin::kIntr0) | mask(Pin::kPbtxd) | mask(Pin::kPbf) | mask(Pin::kTxd);  // P10, R14
 
 profibus::StationConfig station_of(const Config& config) {
   profibus::StationConfig station;
@@ -340,8 +341,8 @@ void Chip::Impl::send_bits(Cycle cycle, Tick to) {
 
 // Most edges while the user owns the DPRAM settle a write and nothing else.
 bool Chip::Impl::only_settles(Cycle cycle) const {
-  return engine == Engine::kSkip && !serial.live() && plans.host <= cycle && host.next_seen() > cycle && !sequencer.owns() &&
-         !sequencer.dozing() && cycle < plans.but_the_hosts();
+  return engine == Engine::kSkip && !serial.live() && plans.host <= cycle && host.next_seen() > cycle &&
+         !sequencer.owns() && !sequencer.dozing() && cycle < plans.but_the_hosts();
 }
 
 void Chip::Impl::settle_writes(Cycle cycle) {
@@ -462,8 +463,7 @@ void Chip::Impl::update_access_pins() { outputs = (outputs & ~kAccessPins) | acc
 std::uint32_t Chip::Impl::edge_outputs() const {
   return access_pins() | bit(Pin::kIntr0, interrupt.level()) | bit(Pin::kPbtxd, station.txd()) |
          bit(Pin::kPbrts, station.rts()) | bit(Pin::kPbf, station.slave().state() != profibus::DpState::kDataExch) |
-         bit(Pin::kBr, station.baud_found()) | bit(Pin::kReady, sequencer.initialised()) |
-         bit(Pin::kTxd, serial.txd());
+         bit(Pin::kBr, station.baud_found()) | bit(Pin::kReady, sequencer.initialised()) | bit(Pin::kTxd, serial.txd());
 }
 
 void Chip::Impl::publish_edge(Cycle cycle, std::uint32_t levels) {

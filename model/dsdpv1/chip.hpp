@@ -1,5 +1,6 @@
 #pragma once
-// The DSDPV1, the DSDPV1-R or the DSDPV1-RSU (Config::part): pins in, pin changes out. Plain C++17, no SystemC, no I/O, no heap after construction.
+// The DSDPV1, the DSDPV1-R or the DSDPV1-RSU (Config::part): pins in, pin changes out. Plain C++17, no SystemC, no I/O,
+// no heap after construction.
 //
 //   Chip chip;                                     // RESET is low
 //   chip.watch({&on_pin, self}, kOutputPins);
@@ -70,9 +71,10 @@ class Chip {
   /// something else happens before the last, it reports something or somebody watches D; the chip may have advanced to
   /// `begin`.
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
-  /// Whatever happens on the line until the access is over, nobody but the host hears of it, and it does what it does by
-  /// itself: it keeps all limits, the host has the DPRAM, nobody watches D. Its edges may be set later than others act,
-  /// as long as they are set in their order, and before `advance` goes beyond them. The chip has advanced to `begin`.
+  /// Whatever happens on the line until the access is over, nobody but the host hears of it, and it does what it does
+  /// by itself: it keeps all limits, the host has the DPRAM, nobody watches D. Its edges may be set later than others
+  /// act, as long as they are set in their order, and before `advance` goes beyond them. The chip has advanced to
+  /// `begin`.
   bool is_private(Tick begin, const HostAccess& access);
   /// The tick of the next thing that the chip does by itself (a rising CLK edge, or the falling edge at which D is
   /// driven); never before `now()`. With Engine::kStep the next rising edge.

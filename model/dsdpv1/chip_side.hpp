@@ -3,8 +3,8 @@
 namespace dsdpv1 {
 
 struct ChipSide {
-  bool owns = false;         ///< an access of the chip runs
-  bool starts_up = false;    ///< the start-up access has not ended
+  bool owns = false;       ///< an access of the chip runs
+  bool starts_up = false;  ///< the start-up access has not ended
   bool data_exch = false;
 };
 

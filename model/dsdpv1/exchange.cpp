@@ -41,19 +41,18 @@ void Exchange::start(const Request& request, const std::uint8_t* data) {
 }
 
 bool Exchange::move(int index, bool data_exch) {
-  if (index == 0) {
+  if (index == 0)
     flags_ = ram_.read(flag_byte(to_));
-  } else if (index == 1) {
+  else if (index == 1)
     chip_command1_ = ram_.read(regs::kChipCommand1);
-  } else if (index == 2) {
+  else if (index == 2)
     chip_command2_ = ram_.read(regs::kChipCommand2);
-  } else if (index < kReads + sent_) {
+  else if (index < kReads + sent_)
     ram_.write(static_cast<regs::Address>(to_ + index - kReads), block_[index - kReads]);
-  } else if (index == kReads + sent_) {
+  else if (index == kReads + sent_)
     ram_.write(flag_byte(to_), flags_ | flag_bit(to_));
-  } else {
+  else
     return move_reply(index - kReads - sent_ - 1, data_exch);
-  }
   return false;
 }
 

@@ -28,11 +28,11 @@ class Exchange {
   /// An area that a reply may carry.
   struct Area {
     std::uint16_t address;
-    int header;               ///< bytes up to and including the length
-    int most;                 ///< largest length
-    std::uint8_t function;    ///< bit of the reply's function
-    std::uint8_t flag;        ///< bit of B00E or B00F
-    bool second;              ///< B00F
+    int header;             ///< bytes up to and including the length
+    int most;               ///< largest length
+    std::uint8_t function;  ///< bit of the reply's function
+    std::uint8_t flag;      ///< bit of B00E or B00F
+    bool second;            ///< B00F
   };
   static const Area kAreas[];
 
@@ -44,8 +44,8 @@ class Exchange {
 
   dpram::Ram& ram_;
   const bool cfg_length_;
-  std::uint16_t to_ = 0;      // where the host's block goes
-  int sent_ = 0;              // bytes of it
+  std::uint16_t to_ = 0;  // where the host's block goes
+  int sent_ = 0;          // bytes of it
   const std::uint8_t* block_ = nullptr;
   std::uint8_t flags_ = 0, chip_command1_ = 0, chip_command2_ = 0;
   const Area* area_ = nullptr;

@@ -9,13 +9,14 @@ namespace dsdpv1 {
 
 class HostCommit {
  public:
-  HostCommit(profibus::EventLog& log, dpram::Ram& ram, bool cfg_length) : log_(log), ram_(ram), exchange_(ram, cfg_length) {}
+  HostCommit(profibus::EventLog& log, dpram::Ram& ram, bool cfg_length)
+      : log_(log), ram_(ram), exchange_(ram, cfg_length) {}
 
   static constexpr int kNobody = -1;
 
   void reset() { state_ = State::kIdle; }
-  /// Judged at `now`; `data` stays until the commit is done. Of `write`: `owner` is the cell that is left alone (B014 of
-  /// SPI), or none.
+  /// Judged at `now`; `data` stays until the commit is done. Of `write`: `owner` is the cell that is left alone (B014
+  /// of SPI), or none.
   void write(Cycle now, const Request& request, const std::uint8_t* data, int owner);
   void read(Cycle now, const Request& request);
   void read_and_write(Cycle now, const Request& request, const std::uint8_t* data);

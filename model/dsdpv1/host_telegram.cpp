@@ -26,12 +26,11 @@ bool HostTelegram::add(std::uint8_t byte) {
     crc_ = dpram::crc16_with(crc_, byte);
   else
     request_.crc = static_cast<std::uint16_t>(request_.crc << 8 | byte);
-  if (index > 0 && index < header()) {
+  if (index > 0 && index < header())
     take_header(index, byte);
-  } else if (const int place = index - header() + (rules_.exchanges || request_.command != Command::kThird ? 0 : 1);
-             index > 0 && place < kMostData) {
+  else if (const int place = index - header() + (rules_.exchanges || request_.command != Command::kThird ? 0 : 1);
+           index > 0 && place < kMostData)
     data_.at(static_cast<std::size_t>(place)) = byte;
-  }
   if (count_ != bytes_) return false;
   request_.computed = crc_;
   return true;

@@ -1,11 +1,12 @@
 #pragma once
-// A telegram of the host, by SPI or UART (SP4, SP10, SP11, UA5, UA7): its bytes as they come, and what is wrong with it.
+// A telegram of the host, by SPI or UART (SP4, SP10, SP11, UA5, UA7): its bytes as they come, and what is wrong with
+// it.
 #include <array>
 #include <cstdint>
 
 #include "model/dpram/crc16.hpp"
 #include "model/profibus/event_log.hpp"
-#include "registers/dsdpv1_regs.hpp"
+#include "model/dpram/ram.hpp"
 
 namespace dsdpv1 {
 
@@ -14,15 +15,15 @@ enum class Command : std::uint8_t { kRead, kWrite, kThird };
 
 /// How the two ports differ.
 struct TelegramRules {
-  bool exchanges;   ///< the third command is UART's exchange; else SPI's read and write, whose length byte is data
-  int most;         ///< bytes of the longest telegram (error bit 3) ...
-  int most_third;   ///< ... and of the longest of the third command
-  int most_write;   ///< data bytes of a write
+  bool exchanges;  ///< the third command is UART's exchange; else SPI's read and write, whose length byte is data
+  int most;        ///< bytes of the longest telegram (error bit 3) ...
+  int most_third;  ///< ... and of the longest of the third command
+  int most_write;  ///< data bytes of a write
 };
 inline constexpr TelegramRules kSpiRules = {false, 251, 251, 245};
 inline constexpr TelegramRules kUartRules = {true, 256, 257, 250};
-constexpr int kMostRead = 245;            ///< data bytes of a read
-constexpr int kMostReadAndWrite = 244;    ///< inputs of SPI's read and write
+constexpr int kMostRead = 245;          ///< data bytes of a read
+constexpr int kMostReadAndWrite = 244;  ///< inputs of SPI's read and write
 /// The areas of an exchange (UA9), and how many data bytes each takes.
 struct ExchangeArea {
   std::uint16_t address;
@@ -38,10 +39,10 @@ constexpr std::uint8_t kCrcWrong = 0x01, kAddressWrong = 0x02, kDataWrong = 0x04
 /// A telegram that is complete.
 struct Request {
   Command command = Command::kRead;
-  std::uint8_t function = 0;    ///< of an exchange
-  std::uint16_t address = 0;    ///< as it came, 16 bits; 0x130 of a read and write
-  int length = 0;               ///< its length byte
-  int bytes = 0;                ///< altogether, the CRC included
+  std::uint8_t function = 0;  ///< of an exchange
+  std::uint16_t address = 0;  ///< as it came, 16 bits; 0x130 of a read and write
+  int length = 0;             ///< its length byte
+  int bytes = 0;              ///< altogether, the CRC included
   std::uint16_t crc = 0, computed = 0;
 
   regs::Address base() const { return address % regs::kDpramSize; }

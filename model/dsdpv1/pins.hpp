@@ -1,5 +1,6 @@
 #pragma once
-// The pins of table 1 and those that the DSDPV1-RSU has besides (R2), and how a change of one leaves or enters the core.
+// The pins of table 1 and those that the DSDPV1-RSU has besides (R2), and how a change of one leaves or enters the
+// core.
 #include <cstdint>
 
 #include "model/profibus/time.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// The host ports that only the DSDPV1-RSU has, SPI and UART, and the straps that choose one (R1, R11). Only the live one
-// is asked; in parallel mode, in reset and of other parts none is.
+// The host ports that only the DSDPV1-RSU has, SPI and UART, and the straps that choose one (R1, R11). Only the live
+// one is asked; in parallel mode, in reset and of other parts none is.
 #include <array>
 
 #include "model/dsdpv1/host_uart.hpp"

@@ -12,7 +12,9 @@ constexpr Tick kWriteGap = 32400;  // SP9: 2.7 us
 
 unsigned saturated(std::int64_t value) { return static_cast<unsigned>(std::min<std::int64_t>(value, 0xFFFF)); }
 
-std::uint8_t reply_start(Command command) { return command == Command::kRead ? 0x80 : command == Command::kWrite ? 0xA0 : 0xC0; }
+std::uint8_t reply_start(Command command) {
+  return command == Command::kRead ? 0x80 : command == Command::kWrite ? 0xA0 : 0xC0;
+}
 
 }  // namespace
 
@@ -70,7 +72,8 @@ bool SpiPort::report_gap(Cycle now) {
 
 void SpiPort::hand_over(Cycle now, const ChipSide& side) {
   const int slot = bytes_++;
-  if (frame_ == Frame::kRequest) take_request(now);
+  if (frame_ == Frame::kRequest)
+    take_request(now);
   else if (frame_ == Frame::kComplete && replies_) {
     load_at_ = now + 1;
     load_slot_ = slot;

@@ -25,7 +25,9 @@ class SpiPort {
   /// No access of the chip begins: after eval().
   bool holds() const { return claimed_ || commit_.busy() || frame_holds_; }
   /// B014, `owns` as before the edge.
-  std::uint8_t ownership(bool owns) const { return static_cast<std::uint8_t>((claimed_ ? regs::kOwnershipHost : 0) | (owns ? regs::kOwnershipChip : 0)); }
+  std::uint8_t ownership(bool owns) const {
+    return static_cast<std::uint8_t>((claimed_ ? regs::kOwnershipHost : 0) | (owns ? regs::kOwnershipChip : 0));
+  }
 
  private:
   enum class Frame : std::uint8_t {
@@ -60,7 +62,7 @@ class SpiPort {
   HostCommit commit_;
   SpiReply reply_;
 
-  int address_ = 0;  // ADR
+  int address_ = 0;                 // ADR
   bool xss_ = true, flip_ = false;  // at the edge before
   Frame frame_ = Frame::kNone;
   int bytes_ = 0;  // k

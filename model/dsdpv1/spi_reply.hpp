@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "model/dpram/crc16.hpp"
-#include "registers/dsdpv1_regs.hpp"
+#include "model/dpram/ram.hpp"
 
 namespace dsdpv1 {
 

@@ -84,9 +84,9 @@ class SpiShift {
   unsigned pending_count_ = 0;
 
   // limits: ticks of what they are measured from
-  Tick fell_at_ = Wire::kLongAgo, rose_at_ = Wire::kLongAgo;             // XSS
-  Tick sck_rise_ = Wire::kLongAgo;                                       // that counted
-  Tick sck_fall_ = Wire::kLongAgo, sck_fall_before_ = Wire::kLongAgo;    // with c >= 1; of one strictly before
+  Tick fell_at_ = Wire::kLongAgo, rose_at_ = Wire::kLongAgo;           // XSS
+  Tick sck_rise_ = Wire::kLongAgo;                                     // that counted
+  Tick sck_fall_ = Wire::kLongAgo, sck_fall_before_ = Wire::kLongAgo;  // with c >= 1; of one strictly before
   unsigned rise_bit_ = 0;
   bool first_rise_ = false, hold_due_ = false;
 };

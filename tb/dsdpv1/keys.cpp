@@ -90,8 +90,7 @@ ChipKeys plain_chip_keys() {
   ChipKeys o("chip", "The parameters of the chip that the rulings mark (p), for all slaves of the scenario.");
   o.integer("access_interval", &C::access_interval, {16, 4800}, "cycles",
             "From the start of one DPRAM access of the chip to the next (H1).");
-  o.integer("ready_cycles", &C::ready_cycles, {1, 1000000}, "cycles",
-            "From the release of RESET to B004 = 0xC5 (D1).");
+  o.integer("ready_cycles", &C::ready_cycles, {1, 1000000}, "cycles", "From the release of RESET to B004 = 0xC5 (D1).");
   o.integer("rts_lead", &C::rts_lead, {0, 32}, "cycles", "PBRTS high before the first start bit (P2).");
   o.integer("rts_trail", &C::rts_trail, {0, 32}, "cycles", "PBRTS high after the last stop bit (P2).");
   o.integer("intr_low", &C::intr_low, {1, 10000}, "cycles", "How long INTR0 stays low (P7).");
@@ -137,8 +136,7 @@ void add_serial_parameters(ChipKeys& o) {
   o.integer("spi_miso_delay", &C::spi_miso_delay, {1, 600}, "ticks of 1/12 ns",
             "From SCK's fall to the change of MISO (SP2).");
   o.integer("spi_reply_gap", &C::spi_reply_gap, {0, 16}, "bytes", "FF between a request and its reply (SP6).");
-  o.integer("spi_write_gap", &C::spi_write_gap, {0, 4800}, "cycles",
-            "How long after a write no frame is heard (SP9).");
+  o.integer("spi_write_gap", &C::spi_write_gap, {0, 4800}, "cycles", "How long after a write no frame is heard (SP9).");
   o.integer("serial_block_crc", &C::serial_block_crc, {0, 1}, "",
             "1: the CRCs of blocks in the DPRAM are judged in SPI and UART mode, too (SP15).");
   o.integer("u_timer", &C::u_timer, {0, 4'800'000}, "cycles",
@@ -167,7 +165,8 @@ const keys::Object& chip_keys_of(Part part) {
 
 void check_dsdpv1_chip(const Dsdpv1Settings& chip, const std::string& file) {
   if (chip.mode != HostMode::kParallel)
-    throw InputError(file, chip.line, "mode is spi or uart, which no user CPU of the bench speaks, allowed is parallel");
+    throw InputError(file, chip.line,
+                     "mode is spi or uart, which no user CPU of the bench speaks, allowed is parallel");
   if (chip.u_timer > 0 && chip.u_timer < 48)
     throw InputError(file, chip.line,
                      fmt::format("u_timer is {}, allowed is 0 or an integer from 48 to 4800000 cycles", chip.u_timer));

@@ -20,9 +20,9 @@ using keys::Name;
 struct Dsdpv1Settings : OwnSettings, dsdpv1::Config {
   // levels of the DSDPV1-RSU's straps
   HostMode mode = HostMode::kParallel;
-  int address = 1;     ///< ADR
-  int uart_rate = 7;   ///< UBR
-  int interval = 0;    ///< UIV
+  int address = 1;    ///< ADR
+  int uart_rate = 7;  ///< UBR
+  int interval = 0;   ///< UIV
 };
 
 /// Levels of MODE, ADR, UBR and UIV.

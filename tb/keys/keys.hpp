@@ -202,7 +202,8 @@ class ObjectOf : public Object {
     field.type.each = each;
     field.type.unit = unit;
     const T fresh{};
-    for (const V value : fresh.*member) field.default_text += (field.default_text.empty() ? "[" : ", ") + default_text(value);
+    for (const V value : fresh.*member)
+      field.default_text += (field.default_text.empty() ? "[" : ", ") + default_text(value);
     field.default_text += "]";
     return on_read(field, [member](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
       check_list(self, node, source);

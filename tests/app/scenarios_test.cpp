@@ -110,5 +110,34 @@ INSTANTIATE_TEST_SUITE_P(All, BaudRates,
                          testing::Values("12M", "6M", "3M", "1.5M", "500k", "187.5k", "93.75k", "45.45k", "19.2k",
                                          "9.6k"));
 
+// R1: DSDPV1-R, and DSDPV1-RSU in parallel mode, are the DSDPV1.
+TEST(Kinds, SistersInParallelModeDoTheSame) {
+  const app_test::Folder folder;
+  for (const std::string kind : {"dsdpv1", "dsdpv1_r", "dsdpv1_rsu"}) {
+    const app_test::Called called =
+        call("run scenarios/dpv1_c1.yaml --no-progress --set chip.kind=" + kind + " --log '" + folder.file(kind) + "'",
+             DSDPV1_SOURCE_DIR);
+    EXPECT_EQ(called.status, 0) << called.err;
+    EXPECT_TRUE(read(folder.file(kind)) == read(folder.file("dsdpv1"))) << kind;
+  }
+}
+
+TEST(Kinds, WhatTheRsuDoesNotTakeIsSaid) {
+  const auto error = [](const std::string& options) {
+    const app_test::Called called =
+        call("run scenarios/diagnosis.yaml --no-progress --set chip.kind=dsdpv1_rsu" + options, DSDPV1_SOURCE_DIR);
+    EXPECT_EQ(called.status, 2) << options;
+    return called.err;
+  };
+  EXPECT_NE(error(" --set chip.mode=spi").find("no user CPU of the bench speaks, allowed is parallel"),
+            std::string::npos);
+  EXPECT_NE(error(" --set chip.u_timer=47").find("u_timer is 47, allowed is 0 or"), std::string::npos);
+  EXPECT_NE(error(" --set 'chip.uart_gaps=[1,2,3]'").find("uart_gaps has 3 items"), std::string::npos);
+  EXPECT_NE(error(" --set 'chip.uart_gaps=[7,2,4,10,20,40,100,1001]'").find("from 1 to 1000 half characters"),
+            std::string::npos);
+  EXPECT_NE(error(" --view tlm").find("for chips of the kinds dsdpv1 and dsdpv1_r, the scenario has dsdpv1_rsu"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace dsdpv1

@@ -80,9 +80,13 @@ TEST(CapiChip, ChipsInTwoThreadsDoWhatEachDoesAlone) {
 }
 
 TEST(CapiChip, PinsOfTheRegistryAreThoseOfTheHeaderAndOfTable1) {
-  ASSERT_EQ(dpsim_kind_count(), 1U);
+  ASSERT_EQ(dpsim_kind_count(), 3U);
   EXPECT_STREQ(dpsim_kind_name(0), "dsdpv1");
-  EXPECT_EQ(dpsim_kind_name(1), nullptr);
+  EXPECT_STREQ(dpsim_kind_name(1), "dsdpv1_r");
+  EXPECT_STREQ(dpsim_kind_name(2), "dsdpv1_rsu");
+  EXPECT_EQ(dpsim_kind_name(3), nullptr);
+  EXPECT_EQ(dpsim_pin_count("dsdpv1_r"), static_cast<size_t>(dsdpv1::kPinCount));
+  EXPECT_EQ(dpsim_pin_count("dsdpv1_rsu"), static_cast<size_t>(dsdpv1::kRsuPinCount));
   ASSERT_EQ(dpsim_pin_count("dsdpv1"), static_cast<size_t>(dsdpv1::kPinCount));
   EXPECT_EQ(dpsim_pin_count("spc3"), 0U);
   const dsdpv1::Chip fresh;

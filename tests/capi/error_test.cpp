@@ -78,7 +78,7 @@ TEST(CapiError, WhatThereIsNotIsNotFound) {
   options.kind = "spc3";
   dpsim_chip* made = nullptr;
   EXPECT_FAILS(dpsim_chip_create(&options, &made), DPSIM_ERR_NOT_FOUND,
-               "dpsim_chip_create: kind is \"spc3\", allowed are dsdpv1");
+               "dpsim_chip_create: kind is \"spc3\", allowed are dsdpv1, dsdpv1_r, dsdpv1_rsu");
   EXPECT_FAILS(dpsim_chip_set(chip.get(), 0, 18, 1), DPSIM_ERR_NOT_FOUND,
                "dpsim_chip_set: pin is 18, allowed are 0 to 17");
   uint16_t pin = 0;

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <new>
+#include <optional>
 
 #include "tests/bench/saturated_bus.hpp"
 
@@ -98,6 +99,71 @@ TEST_P(NoHeap, FromResetToDataExchangeAndAgain) {
   int* volatile one = new int;
   delete one;
   EXPECT_GT(allocations, before) << "the counter itself counts";
+}
+
+/// SPI or UART of a DSDPV1-RSU: a write and an exchange of inputs, again and again.
+class SerialNoHeap : public testing::TestWithParam<dsdpv1::Engine> {
+ protected:
+  void start(Level mode) {
+    chip_.emplace(with(GetParam()));
+    chip_->watch(pins_.sink(), dsdpv1::outputs_of(dsdpv1::Part::kRsu));
+    chip_->set(0, Pin::kMode, mode);
+    chip_->set(0, Pin::kAdr, 1);
+    chip_->set(0, Pin::kUbr, 7);
+    chip_->set(5000, Pin::kReset, 1);
+    now_ = 3000 * 250;
+    chip_->advance(now_);
+  }
+  void set(Pin pin, unsigned level, Tick ticks) {
+    chip_->set(now_, pin, static_cast<Level>(level & 1U));
+    now_ += ticks;
+    chip_->advance(now_);
+  }
+  static dsdpv1::Config with(dsdpv1::Engine engine) {
+    dsdpv1::Config config;
+    config.engine = engine;
+    config.part = dsdpv1::Part::kRsu;
+    return config;
+  }
+  dsdpv1::speed::PinCounter pins_;
+  std::optional<dsdpv1::Chip> chip_;
+  Tick now_ = 0;
+};
+INSTANTIATE_TEST_SUITE_P(Engines, SerialNoHeap, testing::Values(dsdpv1::Engine::kStep, dsdpv1::Engine::kSkip));
+
+constexpr std::uint8_t kSpiWrite[] = {0x21, 0x01, 0x00, 0x01, 0x5A, 0x19, 0xA2};
+constexpr std::uint8_t kUartExchange[] = {0x41, 0x00, 0x01, 0x30, 0x02, 0x01, 0x55, 0xAB, 0x18};
+
+TEST_P(SerialNoHeap, SpiTelegrams) {
+  start(1);
+  const std::size_t before = allocations;
+  for (int round = 0; round < 10; ++round) {
+    set(Pin::kXss, 0, 600);
+    for (const unsigned byte : kSpiWrite) {
+      for (int bit = 7; bit >= 0; --bit) {
+        set(Pin::kMosi, byte >> bit, 600);
+        set(Pin::kSck, 1, 600);
+        set(Pin::kSck, 0, 0);
+      }
+    }
+    set(Pin::kXss, 1, 40'000);
+  }
+  EXPECT_EQ(allocations, before);
+}
+
+TEST_P(SerialNoHeap, UartTelegrams) {
+  start(2);
+  const std::size_t before = allocations;
+  for (int round = 0; round < 10; ++round) {
+    for (const unsigned byte : kUartExchange) {
+      const unsigned parity = static_cast<unsigned>(__builtin_popcount(byte)) & 1U;
+      const unsigned frame = byte << 1 | parity << 9 | 1U << 10;
+      for (int bit = 0; bit < 11; ++bit) set(Pin::kRxd, frame >> bit, 26 * 250);
+    }
+    set(Pin::kRxd, 1, Tick{26} * 300 * 250);
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(chip_->peek(0x130), 0x01) << "carried out";
 }
 
 }  // namespace

@@ -61,9 +61,9 @@ Bytes read_telegram(std::uint16_t address, std::uint8_t length, std::uint8_t car
   return with_crc({card, high(address), low(address), length});
 }
 Bytes write_telegram(std::uint16_t address, const Bytes& data, std::uint8_t card) {
-  return with_crc(joined({static_cast<std::uint8_t>(0x20 | card), high(address), low(address),
-                          static_cast<std::uint8_t>(data.size())},
-                         data));
+  return with_crc(joined(
+      {static_cast<std::uint8_t>(0x20 | card), high(address), low(address), static_cast<std::uint8_t>(data.size())},
+      data));
 }
 Bytes inputs_telegram(const Bytes& inputs, std::uint8_t card) {
   return with_crc(joined({static_cast<std::uint8_t>(0x40 | card), static_cast<std::uint8_t>(inputs.size())}, inputs));
@@ -165,8 +165,8 @@ std::vector<PinChange> RsuBench::changes(Pin pin) const {
 }
 
 int RsuBench::count(profibus::Reason reason) const {
-  return static_cast<int>(std::count_if(skip_events_.begin(), skip_events_.end(),
-                                        [&](const profibus::Event& event) { return event.reason == reason; }));
+  return static_cast<int>(std::count_if(
+      skip_events_.begin(), skip_events_.end(), [&](const profibus::Event& event) { return event.reason == reason; }));
 }
 
 profibus::Event RsuBench::last(profibus::Reason reason) const {

@@ -63,8 +63,8 @@ class RsuBench {
   // --- SPI
   struct Frame {
     Tick high = 600, low = 600, lead = 600, lag = 600;
-    int bits = 0;            ///< of the last byte: as many only; 0: all
-    bool stays = false;      ///< XSS stays low at the end
+    int bits = 0;        ///< of the last byte: as many only; 0: all
+    bool stays = false;  ///< XSS stays low at the end
   };
   /// XSS falls now; what MISO gave while `mosi` went out.
   Bytes spi(const Bytes& mosi, const Frame& frame);

@@ -37,8 +37,8 @@ class RsuUartOnBus : public ::testing::Test {
   }
   void send(const Bytes& bytes) {
     for (const std::uint8_t byte : bytes) {
-      const unsigned frame = static_cast<unsigned>(byte) << 1 |
-                             static_cast<unsigned>(__builtin_popcount(byte) & 1) << 9 | 1U << 10;
+      const unsigned frame =
+          static_cast<unsigned>(byte) << 1 | static_cast<unsigned>(__builtin_popcount(byte) & 1) << 9 | 1U << 10;
       for (int i = 0; i < 11; ++i) {
         bench_.chip.set(bench_.now(), Pin::kRxd, static_cast<Level>(frame >> i & 1));
         bench_.run_cycles(26);

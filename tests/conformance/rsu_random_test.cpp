@@ -31,7 +31,8 @@ class Traffic {
 
  private:
   std::uint16_t address() {
-    constexpr std::uint16_t kCells[] = {0x000, 0x00A, 0x00E, 0x010, 0x012, 0x014, 0x018, 0x020, 0x130, 0x319, 0x7F8, 0x0800};
+    constexpr std::uint16_t kCells[] = {0x000, 0x00A, 0x00E, 0x010, 0x012, 0x014,
+                                        0x018, 0x020, 0x130, 0x319, 0x7F8, 0x0800};
     return static_cast<std::uint16_t>(kCells[below(12)] + below(4));
   }
   std::uint16_t area() {
@@ -46,7 +47,10 @@ class Traffic {
   Bytes mutated(Bytes telegram) {
     if (!one_in(4)) return telegram;
     switch (below(4)) {
-      case 0: telegram[static_cast<std::size_t>(below(static_cast<int>(telegram.size())))] ^= static_cast<std::uint8_t>(1 << below(8)); break;
+      case 0:
+        telegram[static_cast<std::size_t>(below(static_cast<int>(telegram.size())))] ^=
+            static_cast<std::uint8_t>(1 << below(8));
+        break;
       case 1: telegram.resize(static_cast<std::size_t>(1 + below(static_cast<int>(telegram.size())))); break;
       case 2: telegram.resize(telegram.size() + static_cast<std::size_t>(below(9)), byte()); break;
       default: telegram[0] = byte();
@@ -111,8 +115,10 @@ TEST_P(RsuRandom, Uart) {
       bench.send(traffic.byte(), {});
     }
     bench.set(bench.now(), Pin::kRxd, 1);
-    if (traffic.one_in(4)) bench.run_cycles(traffic.below(1200));
-    else silence();
+    if (traffic.one_in(4))
+      bench.run_cycles(traffic.below(1200));
+    else
+      silence();
     for (int glitch = traffic.one_in(10) ? traffic.below(30) : 0; glitch > 0; --glitch) {
       bench.set(bench.now(), Pin::kRxd, static_cast<Level>(glitch % 2));
       bench.run_until(bench.now() + traffic.below(3000));

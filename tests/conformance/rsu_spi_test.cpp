@@ -332,7 +332,8 @@ TEST_F(RsuSpi, ReadNeedsNoGap) {
 
 TEST_F(RsuSpi, ReadAndWrite) {
   bench_.poke(0x319, 3);
-  for (std::uint16_t i = 0; i < 3; ++i) bench_.poke(static_cast<std::uint16_t>(0x31A + i), static_cast<std::uint8_t>(0xA0 + i));
+  for (std::uint16_t i = 0; i < 3; ++i)
+    bench_.poke(static_cast<std::uint16_t>(0x31A + i), static_cast<std::uint8_t>(0xA0 + i));
   bench_.poke(0x00E, 0x03);
   Bytes reply;
   do reply = bench_.ask(inputs_telegram({1, 2}), 8);
@@ -340,7 +341,8 @@ TEST_F(RsuSpi, ReadAndWrite) {
   EXPECT_EQ(reply, with_crc({0xC1, 0x00, 0x03, 0xA0, 0xA1, 0xA2}));
   EXPECT_EQ(bench_.peek(0x130, 3), (Bytes{2, 1, 2}));
   EXPECT_EQ(bench_.peek(0x00E) & 1, 0) << "B00E.0";
-  EXPECT_EQ(bench_.count(dpram::Reason::kBeforeInit), 1) << "B010.0 was set: the chip took the block, and had not been initialised";
+  EXPECT_EQ(bench_.count(dpram::Reason::kBeforeInit), 1)
+      << "B010.0 was set: the chip took the block, and had not been initialised";
 }
 
 TEST_F(RsuSpi, ReadAndWriteLimitsTheOutputs) {

@@ -296,7 +296,8 @@ TEST_F(RsuUart, ExchangeErrors) {
   EXPECT_EQ(bench_.talk(wrong), with_crc({0x01, 0x80, 0x01}));
 }
 
-// UA10 to UA12: one area a reply, in this order; its flag is cleared. The chip clears none of them before a user took it.
+// UA10 to UA12: one area a reply, in this order; its flag is cleared. The chip clears none of them before a user took
+// it.
 TEST_F(RsuUart, NewsInTheirOrder) {
   bench_.poke(0x410, 2), bench_.poke(0x411, 0x11), bench_.poke(0x412, 0x12);
   bench_.poke(0x500, 9), bench_.poke(0x501, 8), bench_.poke(0x502, 1), bench_.poke(0x503, 0x23);
@@ -324,7 +325,8 @@ TEST_F(RsuUart, NewsInTheirOrder) {
 }
 
 TEST_F(RsuUart, LengthsAreLimited) {
-  const auto size_with = [&](std::uint16_t length_cell, std::uint8_t length, std::uint16_t flag_cell, std::uint8_t flag) {
+  const auto size_with = [&](std::uint16_t length_cell, std::uint8_t length, std::uint16_t flag_cell,
+                             std::uint8_t flag) {
     bench_.poke(length_cell, length);
     bench_.poke(0x00E, 0);
     bench_.poke(0x00F, 0);

@@ -17,7 +17,7 @@ RIGHT = {
     "docs/chip_rsu.md": "- **SP1** c\n",
     "docs/conformance/rulings.yaml": "P1:\n  tests: [Core.Works (when on), Install.Core]\n  model: [core.cpp]\n  rtl: [core.sv]\n"
                                      "V1: {tests: [Core], model: [model/core.cpp], rtl: []}\n"
-                                     "SP1: {tests: [Core], model: [model/core.cpp], rtl: []}\n",
+                                     "SP1: {tests: [Core.Works], model: [model/core.cpp], rtl: []}\n",
     "docs/conformance/datasheet.yaml": "title: Sheet\ntext: Its text.\nplaces: ['1', T1..T2]\nparts:\n- title: All\n  clauses:\n"
                                        "  - {at: 1, says: a number, ruled: [P1]}\n"
                                        "  - {at: T1-A, says: 'one|two', tests: [scenarios/one.yaml], model: [core.cpp]}\n"

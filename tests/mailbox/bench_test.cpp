@@ -139,7 +139,7 @@ TEST_F(MailboxOnTheBench, NoConfigurationIsLongerThanItHolds) {
 
 TEST_F(MailboxOnTheBench, AKindThatNobodyKnowsIsRefusedWithTheNamesOfThoseThatThereAre) {
   EXPECT_EQ(error_of(with("{kind: mailbix}", "{}")),
-            "x.yaml:4: kind is mailbix (did you mean mailbox?), allowed is dsdpv1, mailbox");
+            "x.yaml:4: kind is mailbix (did you mean mailbox?), allowed is dsdpv1, dsdpv1_r, dsdpv1_rsu, mailbox");
 }
 
 TEST_F(MailboxOnTheBench, TheCommandLineReachesItsKeys) {
