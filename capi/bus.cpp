@@ -6,6 +6,7 @@
 #include "capi/master.hpp"
 #include "capi/names.hpp"
 #include "capi/sized.hpp"
+#include "tb/bench/scenario_masters.hpp"
 
 using capi::fail;
 using capi::guarded;
@@ -134,7 +135,8 @@ dpsim_status dpsim_bus_next(dpsim_bus* bus, uint64_t* tick) {
         need(bus, "bus");
         need(tick, "tick");
         capi::need_outside(bus->clock);
-        *tick = capi::tick_out(bus->timeline.next());
+        // A command that was given now is still planned for a time that is over.
+        *tick = capi::tick_out(std::max(bus->timeline.next(), bus->timeline.now()));
       });
 }
 

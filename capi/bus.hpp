@@ -15,6 +15,10 @@
 struct dpsim_chip;
 struct dpsim_master;
 
+namespace dsdpv1::tb {
+class ScenarioMasters;
+}
+
 namespace dsdpv1::capi {
 
 struct Station {
@@ -60,6 +64,7 @@ struct dpsim_bus {
   capi::Changes changes{clock};
   std::unique_ptr<capi::LineTap> tap;     ///< null as long as chips may be added
   std::unique_ptr<bus::Monitor> monitor;  ///< likewise
+  std::vector<std::unique_ptr<tb::ScenarioMasters>> scenarios;
   std::vector<std::unique_ptr<dpsim_master>> masters;
 
   dpsim_telegram_fn telegram_fn = nullptr;

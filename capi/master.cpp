@@ -10,18 +10,42 @@ using capi::fail;
 using capi::guarded;
 using capi::need;
 
+dpsim_master::dpsim_master(dpsim_bus& its_bus, std::uint8_t its_address)
+    : bus(its_bus), station(its_bus.next_station()), address(its_address) {}
+
 dpsim_master::dpsim_master(dpsim_bus& its_bus, int master_class, const bus::MasterConfig& config)
-    : bus(its_bus), station(its_bus.next_station()), baud_2(config.baud) {
+    : dpsim_master(its_bus, config.address) {
   const bus::StationId id = bus.segment.stations();
   if (master_class == 1) {
-    class_1 = std::make_unique<bus::Master1>(bus.segment, config);
-    capi::connect(*this, *class_1);
-    bus.timeline.add(*class_1);
+    own_1_ = std::make_unique<bus::Master1>(bus.segment, config);
+    add(id, *own_1_);
   } else {
-    class_2 = std::make_unique<bus::Master2>(bus.segment, config);
-    capi::connect(*this, *class_2);
-    bus.timeline.add(*class_2);
+    own_2_ = std::make_unique<bus::Master2>(bus.segment, config);
+    add(id, *own_2_);
   }
+}
+
+dpsim_master::dpsim_master(dpsim_bus& its_bus, bus::StationId id, std::uint8_t its_address, bus::Master1& own)
+    : dpsim_master(its_bus, its_address) {
+  add(id, own);
+}
+
+dpsim_master::dpsim_master(dpsim_bus& its_bus, bus::StationId id, std::uint8_t its_address, bus::Master2& own)
+    : dpsim_master(its_bus, its_address) {
+  add(id, own);
+}
+
+void dpsim_master::add(bus::StationId id, bus::Master1& own) {
+  class_1 = &own;
+  capi::connect(*this, own);
+  bus.timeline.add(own);
+  bus.add_station({id, capi::Station::Kind::kMaster});
+}
+
+void dpsim_master::add(bus::StationId id, bus::Master2& own) {
+  class_2 = &own;
+  capi::connect(*this, own);
+  bus.timeline.add(own);
   bus.add_station({id, capi::Station::Kind::kMaster});
 }
 
@@ -45,7 +69,7 @@ void need_class(const dpsim_master* master, bool has_it, int wanted, int other) 
 }  // namespace
 
 const bus::Master1& class_1_of(const dpsim_master* master) {
-  need_class(master, master != nullptr && master->class_1, 1, 2);
+  need_class(master, master != nullptr && master->class_1 != nullptr, 1, 2);
   return *master->class_1;
 }
 bus::Master1& class_1_of(dpsim_master* master) {
@@ -54,7 +78,7 @@ bus::Master1& class_1_of(dpsim_master* master) {
 }
 
 const bus::Master2& class_2_of(const dpsim_master* master) {
-  need_class(master, master != nullptr && master->class_2, 2, 1);
+  need_class(master, master != nullptr && master->class_2 != nullptr, 2, 1);
   return *master->class_2;
 }
 bus::Master2& class_2_of(dpsim_master* master) {
@@ -196,7 +220,7 @@ dpsim_status dpsim_master_start(dpsim_master* master) {
       __func__,
       [&] {
         need(master, "master");
-        if (master->class_1)
+        if (master->class_1 != nullptr)
           master->class_1->start();
         else
           master->class_2->start();
@@ -208,7 +232,7 @@ dpsim_status dpsim_master_stop(dpsim_master* master) {
       __func__,
       [&] {
         need(master, "master");
-        if (master->class_1)
+        if (master->class_1 != nullptr)
           master->class_1->stop();
         else
           master->class_2->stop();
@@ -221,9 +245,8 @@ dpsim_status dpsim_master_set_baud(dpsim_master* master, dpsim_baud baud) {
       [&] {
         need(master, "master");
         capi::need_range("baud", baud, 0, DPSIM_BAUD_COUNT - 1);
-        if (master->class_1) return master->class_1->change_baud(baud);
+        if (master->class_1 != nullptr) return master->class_1->change_baud(baud);
         master->class_2->change_baud(baud);
-        master->baud_2 = baud;
       });
 }
 

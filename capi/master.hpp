@@ -12,20 +12,31 @@
 struct dpsim_master {
   /// Attaches to the bus, whose chips are all there.
   dpsim_master(dpsim_bus& its_bus, int master_class, const bus::MasterConfig& config);
+  /// One that somebody else has made and keeps, which is the segment's station `id`.
+  dpsim_master(dpsim_bus& its_bus, bus::StationId id, std::uint8_t its_address, bus::Master1& own);
+  dpsim_master(dpsim_bus& its_bus, bus::StationId id, std::uint8_t its_address, bus::Master2& own);
 
-  bool running() const { return class_1 ? class_1->running() : class_2->running(); }
-  int baud() const { return class_1 ? class_1->baud() : baud_2; }
-  const bus::TokenRing* ring() const { return class_1 ? class_1->ring() : &class_2->ring(); }
+  bool running() const { return class_1 != nullptr ? class_1->running() : class_2->running(); }
+  int baud() const { return class_1 != nullptr ? class_1->baud() : class_2->baud(); }
+  const bus::TokenRing* ring() const { return class_1 != nullptr ? class_1->ring() : &class_2->ring(); }
   std::uint32_t next_id() { return ++last_id; }
   /// Of this master, at `at`.
   dpsim_event event(dpsim_event_type type, bus::Tick at) const;
 
   dpsim_bus& bus;
   const std::uint16_t station;
-  std::unique_ptr<bus::Master1> class_1;  ///< either this one
-  std::unique_ptr<bus::Master2> class_2;  ///< ... or this one
-  int baud_2;                             ///< class 2 does not say it
+  const std::uint8_t address;
+  bus::Master1* class_1 = nullptr;  ///< either this one
+  bus::Master2* class_2 = nullptr;  ///< ... or this one
   std::uint32_t last_id = 0;
+
+ private:
+  dpsim_master(dpsim_bus& its_bus, std::uint8_t its_address);
+  void add(bus::StationId id, bus::Master1& own);
+  void add(bus::StationId id, bus::Master2& own);
+
+  std::unique_ptr<bus::Master1> own_1_;
+  std::unique_ptr<bus::Master2> own_2_;
 };
 
 namespace dsdpv1::capi {

@@ -246,7 +246,8 @@ dpsim_status dpsim_master_request(dpsim_master* master, const dpsim_telegram* te
       [&] {
         bus::Master1& own = class_1_of(master);
         need(telegram, "telegram");
-        const bus::Telegram request = capi::telegram_of(*telegram);
+        bus::Telegram request = capi::telegram_of(*telegram);
+        request.sa = master->address;
         bus::encode(request);
         capi::numbered(
             *master, id,

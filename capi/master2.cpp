@@ -48,7 +48,7 @@ void connect(dpsim_master& master, bus::Master2& own) {
 
 void acyclic(dpsim_master* master, std::uint32_t peer, const bus::AcyclicRequest& request, std::uint32_t* id) {
   need(master, "master");
-  if (master->class_1) {
+  if (master->class_1 != nullptr) {
     need_range("peer", peer, 0, bus::kHighestAddress);
     const auto address = static_cast<std::uint8_t>(peer);
     need_slave(*master->class_1, address);

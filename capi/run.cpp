@@ -8,6 +8,7 @@
 
 #include "capi/clock.hpp"
 #include "capi/run_watch.hpp"
+#include "capi/scenario.hpp"
 #include "capi/sized.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/report/result_json.hpp"
@@ -33,22 +34,6 @@ struct dpsim_run {
 namespace {
 
 std::string text_of(const char* text) { return text == nullptr ? "" : text; }
-
-std::vector<tb::scenario::Setting> settings_of(const dpsim_run_options& options) {
-  capi::need_buffer(options.settings, options.setting_count, "settings");
-  std::vector<std::string> texts;
-  for (std::uint32_t i = 0; i < options.setting_count; ++i) {
-    need(options.settings[i], "a setting");
-    texts.emplace_back(options.settings[i]);
-  }
-  return tb::scenario::parse_settings(texts);
-}
-
-Scenario load(const dpsim_run_options& options) {
-  need(options.path, "path");
-  return options.text == nullptr ? tb::scenario::load(options.path, settings_of(options))
-                                 : tb::scenario::parse(options.text, options.path, settings_of(options));
-}
 
 // Its emulator is under a licence of its own, and not a part of this library.
 void refuse_boards(const Scenario& scenario) {
@@ -127,7 +112,7 @@ dpsim_status dpsim_run_create(const dpsim_run_options* options, dpsim_run** run)
         need(options, "options");
         need(run, "run");
         const dpsim_run_options given = capi::options_of(options, "options");
-        auto made = std::make_unique<dpsim_run>(load(given), options_of(given));
+        auto made = std::make_unique<dpsim_run>(capi::load_scenario(given), options_of(given));
         refuse_boards(made->scenario);
         // Whatever the bench finds wrong with the scenario and its files it says now; the files of the run it makes
         // later.

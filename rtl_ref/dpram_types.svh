@@ -3,6 +3,16 @@
 `define DPRAM_TYPES_SVH
 `include "dsdpv1_regs.svh"
 `include "profibus_types.svh"
+
+// A chip may have ports with which the CRC of the user's blocks does not count: with DPRAM_CRC_MAY_NOT_COUNT defined ahead of this header the
+// sequencer has an input that says whether it does. In every other build the port does not exist, and it counts.
+`ifdef DPRAM_CRC_MAY_NOT_COUNT
+`define CRC_COUNTS_PORT input logic crc_counts_i,
+`define AND_CRC_COUNTS && crc_counts_i
+`else
+`define CRC_COUNTS_PORT
+`define AND_CRC_COUNTS
+`endif
 /* verilator lint_off UNUSED */
 
 // What the sequencer does in an access, in the order of 9.2.

@@ -1,11 +1,9 @@
 #!/bin/sh
-# Lints the reference RTL with all three tools in all its builds (normal, with faults, with limits of run time, with both), compares
-# the numbers of the faults in the sources with faults.txt, and looks for names that do not belong where they stand: a chip's, its
+# Lints the reference RTL, DSDPV1 and DSDPV1-RSU, with all three tools in all its builds (normal, with faults, with limits of run time, with both), compares
+# the numbers of the faults in the sources with faults.txt and faults_rsu.txt, and looks for names that do not belong where they stand: a chip's, its
 # addresses' and registers' in profibus/, pins of a port in dpram/. Silent when all is well.
 set -eu
 cd "$(dirname "$0")"
-files=$(cat files.txt)
-
 # quiet COMMAND...: fails also when the command says anything
 quiet() {
   output=$("$@" 2>&1) && [ -z "$output" ] || { echo "$output"; exit 1; }
@@ -23,11 +21,21 @@ stranger '\b(csr|rd|wr|d_oe|[rl]_(req|sta))(_[io])?\b|CSR|RD\b|WR\b|[RL]_(REQ|ST
   "a pin of a port named where the DPRAM's blocks are" dpram_types.svh dpram/*.sv
 
 for define in "" -DSINGLE_FAULTS -DDSDPV1_RUN_TIME_LIMITS "-DSINGLE_FAULTS -DDSDPV1_RUN_TIME_LIMITS"; do
-  quiet verilator --lint-only -Wall $define -I. -I../registers --top-module dsdpv1 $files
-  quiet iverilog -g2012 -Wall $define -I. -I../registers -s dsdpv1 -t null $files
-  quiet yosys -q -e '.*' -p "read_verilog -sv $define -I. -I../registers $(echo $files); hierarchy -check -top dsdpv1; proc; check -assert"
+  for top in dsdpv1 dsdpv1_rsu; do
+    [ $top = dsdpv1 ] && files=$(cat files.txt) || files=$(cat files_rsu.txt)
+    quiet verilator --lint-only -Wall $define -I. -I../registers --top-module $top $files
+    quiet iverilog -g2012 -Wall $define -I. -I../registers -s $top -t null $files
+    quiet yosys -q -e '.*' -p "read_verilog -sv $define -I. -I../registers $(echo $files); hierarchy -check -top $top; proc; check -assert"
+  done
 done
 
-in_sources=$(grep -ho 'FAULT([0-9]*)' */*.sv | tr -dc '0-9\n' | sort -nu)
-in_list=$(grep -v '^#' faults.txt | cut -d' ' -f1 | sort -n)
-[ "$in_sources" = "$in_list" ] || { echo "faults.txt and the FAULT(n) of the sources differ"; exit 1; }
+# numbers LIST FILE...: those of FAULT(n) in the files against those of the list
+numbers() {
+  list=$1
+  shift
+  in_sources=$(grep -ho 'FAULT([0-9]*)' "$@" | tr -dc '0-9\n' | sort -nu)
+  in_list=$(grep -v '^#' "$list" | cut -d' ' -f1 | sort -n)
+  [ "$in_sources" = "$in_list" ] || { echo "$list and the FAULT(n) of the sources differ"; exit 1; }
+}
+numbers faults.txt profibus/*.sv dpram/*.sv dsdpv1/*.sv
+numbers faults_rsu.txt dsdpv1_rsu/*.sv

@@ -68,32 +68,77 @@ const char* state_name(int32_t state) {
 
 }  // namespace
 
+/// A bus that goes with whoever is being made of it when that fails.
+struct BusGuard {
+  dpsim_bus*& bus;
+  bool keep = false;
+  ~BusGuard() {
+    if (!keep) dpsim_bus_destroy(bus);
+  }
+};
+
 Master::Master(const char* options) {
   const MasterOptions chosen = read_options(options);
+  BusGuard guard{bus_};
   verbose_ = chosen.verbose != 0;
-  address_ = chosen.master.address;
-  check(dpsim_bus_create(&chosen.bus, &bus_));
-  try {
-    check(dpsim_bus_add_station(bus_, "others", &others_));
-    check(dpsim_bus_add_master(bus_, &chosen.master, &master_));
-    check(dpsim_master_station(master_, &station_));
-    check(dpsim_bus_watch(bus_, DPSIM_WATCH_DRIVERS, changed, this));
-    check(dpsim_bus_on_event(bus_, happened, this));
-  } catch (...) {
-    dpsim_bus_destroy(bus_);
-    throw;
-  }
+  make_bus(chosen.bus);
+  check(dpsim_bus_add_master(bus_, &chosen.master, &master_));
+  watch();
+  guard.keep = true;
+}
+
+Master::Master(const char* scenario, const char* settings, bool verbose) : verbose_(verbose) {
+  const std::vector<std::string> texts = words_of(settings, ";");
+  std::vector<const char*> words;
+  words.reserve(texts.size());
+  for (const std::string& text : texts) words.push_back(text.c_str());
+  dpsim_scenario_options options{};
+  options.size = sizeof options;
+  options.path = scenario;
+  options.settings = words.data();
+  options.setting_count = static_cast<uint32_t>(words.size());
+  std::array<dpsim_master*, 128> masters{};  // a bus has no more addresses
+  std::size_t count = 0;
+  const char* left_out = "";
+  BusGuard guard{bus_};
+  make_bus({sizeof(dpsim_bus_options), 0});
+  check(dpsim_bus_add_scenario(bus_, &options, masters.data(), masters.size(), &count, &left_out));
+  master_ = masters.front();
+  watch();
+  say(left_out);
+  guard.keep = true;
+}
+
+void Master::make_bus(const dpsim_bus_options& options) {
+  check(dpsim_bus_create(&options, &bus_));
+  check(dpsim_bus_add_station(bus_, "others", &others_));
+}
+
+void Master::watch() {
+  check(dpsim_bus_watch(bus_, DPSIM_WATCH_DRIVERS, changed, this));
+  check(dpsim_bus_on_event(bus_, happened, this));
 }
 
 void Master::changed(void* self, const dpsim_change* change) {
   auto* master = static_cast<Master*>(self);
-  if (change->station != master->station_) return;
-  (change->pin == DPSIM_STATION_TXD ? master->txd_ : master->rts_) = change->level;
+  if (change->station == master->others_) return;
+  Driver& driver = master->drivers_[change->station];
+  (change->pin == DPSIM_STATION_TXD ? driver.txd : driver.rts) = change->level;
+}
+
+int32_t Master::outputs() const {
+  int32_t txd = 1, rts = 0;
+  for (const auto& [station, driver] : drivers_) {
+    rts |= driver.rts;
+    if (driver.rts != 0) txd &= driver.txd;
+  }
+  return txd + 2 * rts;
 }
 
 void Master::happened(void* self, const dpsim_event* event) {
   auto* master = static_cast<Master*>(self);
-  if (event->type == DPSIM_EVENT_REQUEST_DONE || event->type == DPSIM_EVENT_ACYCLIC_DONE) master->note_answer(*event);
+  const bool done = event->type == DPSIM_EVENT_REQUEST_DONE || event->type == DPSIM_EVENT_ACYCLIC_DONE;
+  if (done && event->id != 0) master->note_answer(*event);
   if (master->verbose_) master->tell(*event);
 }
 
@@ -117,13 +162,28 @@ void Master::note_answer(const dpsim_event& event) {
   answer.data.assign(telegram.data, telegram.data + telegram.data_size);
 }
 
+/// The token's way round is not told.
+bool enters_or_leaves(const dpsim_event& event) {
+  const auto outside = [](int32_t state) { return state <= DPSIM_RING_CLAIM_TOKEN || state == DPSIM_RING_OUT; };
+  return outside(event.from) != outside(event.to);
+}
+
 void Master::tell(const dpsim_event& event) {
-  if (event.type == DPSIM_EVENT_SLAVE_STATE)
-    say(fmt::format("slave {}: {} to {}{}{}", event.address, state_name(event.from), state_name(event.to),
-                    *event.text != 0 ? ", " : "", event.text));
-  else if (event.type == DPSIM_EVENT_FLAG || event.type == DPSIM_EVENT_CONNECTION_END ||
-           event.type == DPSIM_EVENT_RING_STATE)
-    say(fmt::format("{}", *event.text != 0 ? event.text : "ring state " + std::to_string(event.to)));
+  switch (event.type) {
+    case DPSIM_EVENT_SLAVE_STATE:
+      return say(fmt::format("slave {}: {} to {}{}{}", event.address, state_name(event.from), state_name(event.to),
+                             *event.text != 0 ? ", " : "", event.text));
+    case DPSIM_EVENT_REQUEST_DONE:
+    case DPSIM_EVENT_ACYCLIC_DONE:
+      if (event.id == 0) say(event.text);
+      return;
+    case DPSIM_EVENT_RING_STATE:
+      if (enters_or_leaves(event)) say(fmt::format("token ring: {}", event.text));
+      return;
+    case DPSIM_EVENT_FLAG:
+    case DPSIM_EVENT_CONNECTION_END: return say(event.text);
+    default: return;
+  }
 }
 
 void Master::step(uint64_t tick, bool enabled, bool level) {
@@ -162,6 +222,11 @@ bool Master::take_answer(uint32_t id, Answer& answer) {
 
 int32_t dsdpv1_master_create(const char* options) {
   return dsdpv1::simulator::created([&] { return std::make_unique<dsdpv1::simulator::Master>(options); });
+}
+
+int32_t dsdpv1_master_load(const char* scenario, const char* settings, int32_t verbose) {
+  return dsdpv1::simulator::created(
+      [&] { return std::make_unique<dsdpv1::simulator::Master>(scenario, settings, verbose != 0); });
 }
 
 int32_t dsdpv1_master_step(int32_t handle, int64_t ps, int32_t enabled, int32_t level, int64_t* wake) {

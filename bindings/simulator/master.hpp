@@ -19,24 +19,30 @@ struct Answer {
 class Master final : public Object {
  public:
   explicit Master(const char* options);
+  /// All masters of a scenario; commands are for the first one.
+  Master(const char* scenario, const char* settings, bool verbose);
   ~Master() override { dpsim_bus_destroy(bus_); }
   Master(const Master&) = delete;
   Master& operator=(const Master&) = delete;
 
   /// The other stations' driver at `tick`.
   void step(uint64_t tick, bool enabled, bool level);
-  /// TXD + 2 RTS.
-  int32_t outputs() const { return txd_ + 2 * rts_; }
+  /// TXD + 2 RTS; of several masters what they do together.
+  int32_t outputs() const;
   /// Absolute, in ps; -1: never.
   int64_t wake() const;
 
   dpsim_master* master() const { return master_; }
-  uint8_t address() const { return address_; }
   dpsim_slave_status slave(int32_t address) const;
   /// Takes it out of what is kept. False: not done yet.
   bool take_answer(uint32_t id, Answer& answer);
 
  private:
+  struct Driver {
+    int32_t txd = 1, rts = 0;
+  };
+  void make_bus(const dpsim_bus_options& options);
+  void watch();
   static void changed(void* self, const dpsim_change* change);
   static void happened(void* self, const dpsim_event* event);
   void note_answer(const dpsim_event& event);
@@ -44,10 +50,9 @@ class Master final : public Object {
 
   dpsim_bus* bus_ = nullptr;
   dpsim_master* master_ = nullptr;
-  uint16_t station_ = 0, others_ = 0;
+  uint16_t others_ = 0;
   uint64_t now_ = 0;
-  int32_t txd_ = 1, rts_ = 0;
-  uint8_t address_ = 0;
+  std::map<uint16_t, Driver> drivers_;  ///< by station
   bool enabled_ = false, level_ = true, verbose_ = false;
   std::map<uint32_t, Answer> answers_;
 };

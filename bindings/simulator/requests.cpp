@@ -200,8 +200,7 @@ int32_t dsdpv1_master_request(int32_t handle, int32_t address, int32_t dsap, int
   return request(
       handle,
       [&](dpsim_master* master, uint32_t* id) {
-        dpsim_telegram telegram = telegram_of(address, dsap, ssap, bytes_of(data, count));
-        telegram.sa = get<Master>(handle).address();
+        const dpsim_telegram telegram = telegram_of(address, dsap, ssap, bytes_of(data, count));
         return dpsim_master_request(master, &telegram, id);
       });
 }

@@ -79,6 +79,10 @@ DSDPV1_SIMULATOR_API int32_t dsdpv1_checker_applied(int32_t handle);
 /** `options`: members of dpsim_master_options ("master_class=2 address=3 ring=1"), `baud` (dpsim_baud), and `verbose`:
  * 1 makes messages of what happens. */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_master_create(const char* options);
+/** All masters of a scenario's file, which start by themselves and carry out the script as far as it is theirs
+ * (dpsim_bus_add_scenario); a first message says what is left out. `settings` replace keys of the file, separated by
+ * ';': "baud=1.5M". Functions with the handle are for the first master. */
+DSDPV1_SIMULATOR_API int32_t dsdpv1_master_load(const char* scenario, const char* settings, int32_t verbose);
 /** The other stations at the absolute time `ps`: whether one of them drives the line, and its level. Returns the
  * master's own driver, TXD + 2 RTS; `wake` is the absolute time at which it does something by itself, -1: never. */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_master_step(int32_t handle, int64_t ps, int32_t enabled, int32_t level,

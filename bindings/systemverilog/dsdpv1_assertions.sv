@@ -33,8 +33,13 @@ module dsdpv1_assertions #(
   input logic       br_o,
   input logic       ready_o
 );
+`ifndef YOSYS  // which knows no time
+  timeunit 1ps;
+  timeprecision 1ps;
+`endif
   // What levels were at earlier edges. `seen`: RESET has been low for four edges, from when on no level is unknown.
   logic seen = 1'b0, had_pulse, ready_before, r_sta_before;
+  logic [1:0] held_before;
   logic [2:0] in_reset = 3'd0;
   logic [15:0] low_for, high_for, rts_for;
   always @(posedge clk_i) begin
@@ -50,6 +55,7 @@ module dsdpv1_assertions #(
       had_pulse <= 1'b0;
       ready_before <= 1'b0;
       r_sta_before <= 1'b0;
+      held_before <= 2'b00;
     end else begin
       low_for <= intr0_o ? 16'd0 : low_for + 16'd1;
       high_for <= !intr0_o ? 16'd0 : high_for == 16'hFFFF ? high_for : high_for + 16'd1;
@@ -57,6 +63,7 @@ module dsdpv1_assertions #(
       rts_for <= !pbrts_o ? 16'd0 : rts_for == 16'hFFFF ? rts_for : rts_for + 16'd1;
       ready_before <= ready_o;
       r_sta_before <= r_sta_i;
+      held_before <= {held_before[0], r_req_i || r_sta_i};
     end
   end
   wire intr0_falls = !intr0_o && low_for == 16'd0;
@@ -85,16 +92,19 @@ module dsdpv1_assertions #(
   `DSDPV1_HOLDS(br_after_ready, !br_o || ready_o)
   `DSDPV1_HOLDS(exchange_after_ready, pbf_o || ready_o)
   // In reset (P10): from the fourth edge on.
-  wire levels_of_reset = pbtxd_o && !pbrts_o && !l_req_o && !l_sta_o && intr0_o && pbf_o && !br_o && !ready_o && !d_oe_o;
+  wire levels_of_reset = pbtxd_o && !pbrts_o && !l_req_o && !l_sta_o && intr0_o && pbf_o && !br_o && !ready_o;
 `ifdef DSDPV1_IMMEDIATE
   always @(posedge clk_i) if (!reset_i && in_reset == 3'd4) begin : outputs_in_reset assert (levels_of_reset); end
+  always @(posedge clk_i) if (!reset_i && in_reset == 3'd4) begin : d_released_in_reset assert (!d_oe_o); end
 `else
   outputs_in_reset: assert property (@(posedge clk_i) reset_i || in_reset != 3'd4 || levels_of_reset);
+  d_released_in_reset: assert property (@(posedge clk_i) reset_i || in_reset != 3'd4 || !d_oe_o);
 `endif
 
   // ---- the user's side
 `ifdef DSDPV1_ASSUME_USER
-  // R_STA rises only while R_REQ is high and the chip does not own the DPRAM (H2; its window is the checker's business).
-  `DSDPV1_USER_KEEPS(user_takes_turns, !r_sta_i || r_sta_before || (r_req_i && !l_req_o))
+  // R_STA rises only while R_REQ is high, L_REQ and L_STA are seen low, and R_REQ has been high for three edges: up to then the chip may still
+  // begin (H2's window for a user whose edges fall between those of CLK).
+  `DSDPV1_USER_KEEPS(user_takes_turns, !r_sta_i || r_sta_before || (r_req_i && held_before == 2'b11 && !l_req_o && !l_sta_o))
 `endif
 endmodule

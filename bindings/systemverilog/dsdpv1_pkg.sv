@@ -23,6 +23,10 @@ package dsdpv1_pkg;
   // Bits of Control_Command (table 23).
   localparam int CONTROL_CLEAR_DATA = 'h02, CONTROL_UNFREEZE = 'h04, CONTROL_FREEZE = 'h08, CONTROL_UNSYNC = 'h10, CONTROL_SYNC = 'h20;
   localparam int BROADCAST = 127;
+  // Function_Num of an acyclic request at the user CPU (tables 26, 31), and error codes for its refusal (table 29).
+  localparam int DS_TRANSPORT = 'h51, DS_READ = 'h5E, DS_WRITE = 'h5F;
+  localparam int ACCESS_INVALID_INDEX = 'hB0, ACCESS_WRITE_LENGTH = 'hB1, ACCESS_INVALID_SLOT = 'hB2, ACCESS_DENIED = 'hB6,
+                 ACCESS_INVALID_RANGE = 'hB7, ACCESS_INVALID_PARAMETER = 'hB8;
 
 `ifndef DSDPV1_VPI
   import "DPI-C" function string dsdpv1_error();
@@ -43,6 +47,7 @@ package dsdpv1_pkg;
   import "DPI-C" function int dsdpv1_checker_applied(input int handle);
 
   import "DPI-C" function int dsdpv1_master_create(input string options);
+  import "DPI-C" function int dsdpv1_master_load(input string scenario, input string settings, input int verbose);
   import "DPI-C" function int dsdpv1_master_step(input int handle, input longint ps, input int enabled, input int level, output longint wake);
   import "DPI-C" function int dsdpv1_master_add_gsd(input int handle, input string path, input string modules, input int address,
                                                     input string options);

@@ -1,6 +1,7 @@
 // A user CPU at the pins of a DSDPV1, model or RTL, as a bus functional model: accesses with the times of table 15, ownership by R_REQ and
 // R_STA (H2), blocks with their CRC (4.2). Tasks are called by one process.
 module dsdpv1_user #(
+  parameter integer DPV1 = 0,           // 1: initialise enables DPV1, requests are fetched with get_request
   parameter longint SETUP_PS = 20000,   // A, D, CSR before the strobe falls
   parameter longint STROBE_PS = 50000,  // RD, WR low: Tw >= 31.25 ns, Ts >= 12.5 ns
   parameter longint HOLD_PS = 20000,    // A, D, CSR after it: Td >= 12.5 ns
@@ -99,9 +100,8 @@ module dsdpv1_user #(
     for (shift = 0; shift < 8; shift = shift + 1) crc16 = crc16[0] ? (crc16 >> 1) ^ 16'hA001 : crc16 >> 1;
   endfunction
 
-  // A block of `count` bytes at `address` and its CRC at `crc_address`, then `command` into B010. The user owns the DPRAM.
-  task write_block(input logic [10:0] address, input bytes_t block, input int count, input logic [10:0] crc_address,
-                   input logic [7:0] command);
+  // A block of `count` bytes at `address` and its CRC at `crc_address`. The user owns the DPRAM.
+  task write_block_at(input logic [10:0] address, input bytes_t block, input int count, input logic [10:0] crc_address);
     logic [15:0] crc;
     int i;
     crc = 16'hFFFF;
@@ -111,6 +111,12 @@ module dsdpv1_user #(
     end
     write_cell(crc_address, crc[15:8]);
     write_cell(crc_address + 11'd1, crc[7:0]);
+  endtask
+
+  // The same, then `command` into B010.
+  task write_block(input logic [10:0] address, input bytes_t block, input int count, input logic [10:0] crc_address,
+                   input logic [7:0] command);
+    write_block_at(address, block, count, crc_address);
     write_cell(11'h010, command);
   endtask
 
@@ -147,6 +153,7 @@ module dsdpv1_user #(
     block[14] = cfg_size[7:0];
     for (i = 0; i < cfg_size; i = i + 1) block[15 + i] = cfg[i];
     take;
+    write_cell(11'h005, DPV1 != 0 ? 8'h1D : 8'h00);
     write_block(11'h020, block, 15 + cfg_size, 11'h0F7, 8'h04);
     give;
     pause(64'd20000000);
@@ -193,5 +200,86 @@ module dsdpv1_user #(
       write_cell(11'h00E, value & 8'hFE);
     end
     give;
+  endtask
+
+  // ---- acyclic requests (7.2, 7.3). `channel` 0: MSAC_C1, area B5D0; 1: MSAC_C2, area B6D0. Bit `channel` of B00F says that there is a
+  // ---- request, that of B011 that there is an answer
+
+  logic [7:0] asked [0:7];  // the header of each channel's request: Function_Num, slot, index, length; an answer repeats it (V6)
+
+  function logic [10:0] area(input int channel);
+    area = channel == 0 ? 11'h5D0 : 11'h6D0;
+  endfunction
+
+  // Fetches a request. `service`: DS_READ, DS_WRITE, DS_TRANSPORT of dsdpv1_pkg, 0: there is none. `data`, `count`: what is to be
+  // written or transported; of a read `count` is how many bytes are asked for. Its CRC is compared (4.1.2).
+  task get_request(input int channel, output int service, output int slot, output int index, output bytes_t data, output int count);
+    logic [7:0] value, crc_high, crc_low;
+    logic [15:0] crc;
+    int i;
+    data = 2048'd0;
+    service = 0;
+    take;
+    read_cell(11'h00F, value);
+    if (value[channel] === 1'b1) begin
+      crc = 16'hFFFF;
+      for (i = 0; i < 4; i = i + 1) begin
+        read_cell(area(channel) + i[10:0], value);
+        asked[4 * channel + i] = value;
+        crc = crc16(crc, value);
+      end
+      service = {24'd0, asked[4 * channel]};
+      slot = {24'd0, asked[4 * channel + 1]};
+      index = {24'd0, asked[4 * channel + 2]};
+      count = {24'd0, asked[4 * channel + 3]};
+      for (i = 0; service != DS_READ && i < count; i = i + 1) begin
+        read_cell(area(channel) + 11'd4 + i[10:0], value);
+        data[i] = value;
+        crc = crc16(crc, value);
+      end
+      read_cell(area(channel) + 11'h0F4, crc_high);
+      read_cell(area(channel) + 11'h0F5, crc_low);
+      if (crc !== {crc_high, crc_low}) $error("%m: the CRC of the request is %h%h, expected %h", crc_high, crc_low, crc);
+      read_cell(11'h00F, value);
+      write_cell(11'h00F, value & ~(8'h01 << channel));
+    end
+    give;
+  endtask
+
+  task send_answer(input int channel, input bytes_t block, input int count);
+    logic [7:0] value;
+    take;
+    read_cell(11'h00F, value);
+    if (value[channel] !== 1'b1) begin  // else a newer request is there, which the answer would destroy (V13)
+      read_cell(11'h011, value);
+      write_block_at(area(channel), block, count, area(channel) + 11'h0F4);
+      write_cell(11'h011, value | (8'h01 << channel));
+    end
+    give;
+  endtask
+
+  // The answer to the request fetched last: what was read or transported; of a write nothing is looked at, all of it was written.
+  task answer(input int channel, input bytes_t data, input int count);
+    bytes_t block;
+    int i;
+    block = 2048'd0;
+    for (i = 0; i < 4; i = i + 1) block[i] = asked[4 * channel + i];
+    if ({24'd0, block[0]} == DS_WRITE) send_answer(channel, block, 4);
+    else begin
+      block[3] = count[7:0];
+      for (i = 0; i < count; i = i + 1) block[4 + i] = data[i];
+      send_answer(channel, block, 4 + count);
+    end
+  endtask
+
+  // ... or its refusal (tables 28, 29): ACCESS_... of dsdpv1_pkg.
+  task refuse(input int channel, input int error_code_1, input int error_code_2);
+    bytes_t block;
+    block = 2048'd0;
+    block[0] = asked[4 * channel] | 8'h80;
+    block[1] = 8'h80;
+    block[2] = error_code_1[7:0];
+    block[3] = error_code_2[7:0];
+    send_answer(channel, block, 4);
   endtask
 endmodule

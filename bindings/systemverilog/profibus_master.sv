@@ -5,6 +5,10 @@
 // `rxd_i` is the level that all other stations put on the line, `rxd_en_i` whether one of them drives it (profibus_segment has both; with one
 // chip alone its PBTXD and PBRTS). `txd_o` and `rts_o` are its own driver.
 //
+// With SCENARIO it needs no task: the masters of that file (docs/scenarios.md), both classes, start at their times and carry out the script
+// as far as it is theirs. What is said there of slaves, their user CPUs, plugs, and expect is left out, and displayed once; a `when` that only
+// a slave could tell is an error. Tasks are for the first master then. A file is found from where the simulator runs.
+//
 // A task is called by one process at a time; two processes may wait in different tasks.
 `include "dsdpv1_calls.svh"
 
@@ -14,7 +18,9 @@ module profibus_master #(
   parameter integer BAUD = 0,     // 0: 12M ... 9: 9.6k
   parameter integer RING = 0,     // 1: shares the token with other masters; class 2 always does
   parameter OPTIONS = "",         // other members of dpsim_master_options (include/dsdpv1/master.h): "slot_bits=1000 gap_factor=-1"
-  parameter integer VERBOSE = 0   // 1: states of slaves, faults on the line are displayed
+  parameter SCENARIO = "",        // a scenario's file: its masters, by themselves; the parameters above are not looked at
+  parameter SETTINGS = "",        // keys of the scenario that are replaced: "baud=1.5M;masters.0.start=1ms"
+  parameter integer VERBOSE = 0   // 1: states of slaves, faults on the line, answers to the script are displayed
 ) (
   input  logic rxd_i,
   input  logic rxd_en_i,
@@ -78,8 +84,10 @@ module profibus_master #(
   initial begin
     string options;
     options = $sformatf("master_class=%0d address=%0d baud=%0d ring=%0d verbose=%0d %0s", MASTER_CLASS, ADDRESS, BAUD, RING, VERBOSE, OPTIONS);
-    handle = `DSDPV1(master_create)(options);
+    if (SCENARIO == "") handle = `DSDPV1(master_create)(options);
+    else handle = `DSDPV1(master_load)(SCENARIO, SETTINGS, VERBOSE);
     if (handle == 0) fail();
+    tell();  // what of a scenario is not its masters'
   end
   always @(handle or asked or alarm or rxd_i or rxd_en_i) step();
 

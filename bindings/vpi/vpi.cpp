@@ -218,6 +218,7 @@ void add_all() {
   DSDPV1_ADD(dsdpv1_checker_finish);
   DSDPV1_ADD(dsdpv1_checker_applied);
   DSDPV1_ADD(dsdpv1_master_create);
+  DSDPV1_ADD(dsdpv1_master_load);
   DSDPV1_ADD(dsdpv1_master_step);
   DSDPV1_ADD(dsdpv1_master_add_gsd);
   DSDPV1_ADD(dsdpv1_master_add_slave);

@@ -9,7 +9,10 @@
 namespace dsdpv1::bus {
 
 Master2::Master2(Segment& segment, const MasterConfig& config)
-    : config_(config), fdl_(segment, config.name, config.address, config.bus), ring_(fdl_, config.address, config.bus) {
+    : config_(config),
+      fdl_(segment, config.name, config.address, config.bus),
+      ring_(fdl_, config.address, config.bus),
+      baud_(config.baud) {
   if (config.address >= kHighestAddress)
     throw std::invalid_argument(fmt::format("master address {}, allowed are 0 to 125", config.address));
   fdl_.set_baud(now_, config.baud);
@@ -99,9 +102,9 @@ void Master2::run(Tick now) {
 /// Begins the next request. False when there is none to begin.
 bool Master2::start_next() {
   if (new_baud_) {
-    const int index = *std::exchange(new_baud_, std::nullopt);
-    fdl_.set_baud(now_, index);
-    ring_.set_baud(index);
+    baud_ = *std::exchange(new_baud_, std::nullopt);
+    fdl_.set_baud(now_, baud_);
+    ring_.set_baud(baud_);
   }
   if (ring_.holds_token()) return use_token();
   had_token_ = false;

@@ -35,6 +35,7 @@ class Master2 : public Agent {
   bool running() const { return running_; }
   /// All later telegrams at another rate, 0..9 (std::out_of_range).
   void change_baud(int index);
+  int baud() const { return baud_; }
 
   // --- Connections. `id` must exist, else std::out_of_range.
   /// Only makes it known; throws std::invalid_argument for values out of range.
@@ -80,6 +81,7 @@ class Master2 : public Agent {
   TokenRing ring_;
   std::vector<std::unique_ptr<Connection>> connections_;
   Connection* asking_ = nullptr;  ///< whose telegram is under way
+  int baud_;
   std::optional<int> new_baud_;
   bool running_ = false, start_requested_ = false, stop_requested_ = false;
   std::size_t position_ = 0;  ///< the connection whose turn is next

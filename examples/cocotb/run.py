@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the tests of test_rtl.py on the reference RTL, each in a simulation of its own.
 
-    run.py [--simulator icarus|verilator] [--test NAME] [--fault N] [--scenario FILE] [--end MICROSECONDS] [--build FOLDER]
+    run.py [--simulator icarus|verilator] [--test NAME]... [--fault N] [--scenario FILE] [--end MICROSECONDS] [--build FOLDER]
 
 Examples:
     run.py
@@ -21,14 +21,15 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 RTL = ROOT / "rtl_ref"
 # Each test, and the parameters of the RTL: short times, as test_rtl.QUICK gives them to the model, or those of the chip.
-TESTS = {"a_master_brings_the_chip_up": {"SEARCH_WINDOW_MS": 1, "READY_CYCLES": 256}, "the_pins_of_a_scenario_are_replayed": {}}
+QUICK = {"SEARCH_WINDOW_MS": 1, "READY_CYCLES": 256}
+TESTS = {"a_master_brings_the_chip_up": QUICK, "acyclic_requests_are_answered": QUICK, "the_pins_of_a_scenario_are_replayed": {}}
 SIMULATORS = {"icarus": ["-g2012"], "verilator": ["--timing", "-Wno-fatal"]}
 
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--simulator", choices=SIMULATORS, default="icarus")
-    parser.add_argument("--test", choices=TESTS, help="left out: all")
+    parser.add_argument("--test", choices=TESTS, action="append", help="left out: all; may be given more than once")
     parser.add_argument("--fault", type=int, default=0, help="a number of rtl_ref/faults.txt, 0: none")
     parser.add_argument("--scenario", type=pathlib.Path, default=ROOT / "scenarios" / "power_on_12m.yaml", help="whose pins are replayed")
     parser.add_argument("--end", type=float, default=100, help="of the replay, us")
@@ -38,18 +39,18 @@ def arguments():
 
 def run(given, test):
     """How many tests have failed."""
-    runner, build = get_runner(given.simulator), given.build.resolve() / test
+    runner, build = get_runner(given.simulator), given.build.resolve() / ("quick" if TESTS[test] else "as_the_chip")
     runner.build(verilog_sources=[RTL / name for name in (RTL / "files.txt").read_text(encoding="utf-8").split()], hdl_toplevel="dsdpv1",
                  includes=[RTL, ROOT / "registers"], defines={"SINGLE_FAULTS": 1}, parameters=TESTS[test], timescale=("1ns", "1ps"), build_dir=build,
                  build_args=SIMULATORS[given.simulator])
-    environment = {"FAULT": str(given.fault), "SCENARIO": str(given.scenario.resolve()), "END_US": str(given.end)}
+    environment = {"MASTERS": str(ROOT / "examples" / "masters.yaml"), "FAULT": str(given.fault), "SCENARIO": str(given.scenario.resolve()), "END_US": str(given.end)}
     return get_results(runner.test(hdl_toplevel="dsdpv1", test_module="test_rtl", testcase=test, test_dir=build, build_dir=build,
-                                   results_xml=str(build / "results.xml"), extra_env=environment))[1]
+                                   results_xml=str(build / f"{test}.xml"), extra_env=environment))[1]
 
 
 def main():
     given = arguments()
-    return 1 if sum(run(given, test) for test in ([given.test] if given.test else TESTS)) else 0
+    return 1 if sum(run(given, test) for test in given.test or TESTS) else 0
 
 
 if __name__ == "__main__":

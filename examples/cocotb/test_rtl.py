@@ -1,6 +1,7 @@
 """The reference RTL in cocotb: a master brings it up through its pins, and the model looks at each of its outputs.
 
-The environment says what is played: FAULT, a number of rtl_ref/faults.txt that is switched on; SCENARIO, one whose pins are replayed.
+The environment says what is played: FAULT, a number of rtl_ref/faults.txt that is switched on; SCENARIO, one whose pins are replayed; MASTERS, one
+whose masters are on the line.
 """
 import os
 
@@ -54,6 +55,34 @@ async def a_master_brings_the_chip_up(dut):
     checker.finish()
     assert checker.results["TIMING_TS"].count > 0
     dut._log.info(f"data exchange at {now() / US:.3f} us, {scoreboard.matched} changes are the model's")
+
+
+@cocotb.test()
+async def acyclic_requests_are_answered(dut):
+    """MSAC_C1 and MSAC_C2, as a scenario's masters ask for them by themselves; the user CPU is a callback."""
+    pins, scoreboard = await begin(dut, QUICK)
+    slave = dsdpv1.Slave(address=7, ident=0x0CC9, cfg=b"\x31", input_length=2, output_length=2, dpv1=True)
+    objects = {(1, 2): b"\x11\x22\x33\x44"}
+
+    def answer(request):
+        key = request.slot, request.index
+        if key not in objects:
+            raise dsdpv1.Refuse(0xB0)
+        if request.service != "read":
+            objects[key] = request.data
+        return objects[key]
+
+    segment = Segment(dut.pbrxd_i, dut.pbtxd_o, dut.pbrts_o)
+    segment.add_scenario(os.environ["MASTERS"])
+    host = HostPort(pins)
+    await host.power_on(dsdpv1.Initialisation.of(slave))
+    await host.exchange(bytes(2))
+    while not any(each.type == dsdpv1.EventType.CONNECTION_END for each in segment.events):
+        await until(now() + 20 * US)
+        await host.serve(answer)
+    said = [each.text for each in segment.events if each.type == dsdpv1.EventType.ACYCLIC_DONE]
+    assert said == ["c1_read: 11 22 33 44", "c1_write: done", "c2_read: AA BB CC", "c2_transport: 01 02 03 04 05"], said
+    scoreboard.check()
 
 
 @cocotb.test()

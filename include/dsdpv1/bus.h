@@ -47,7 +47,8 @@ DPSIM_API void dpsim_bus_destroy(dpsim_bus* bus);
 
 /** Runs everybody up to and including `tick`. DPSIM_ERR_TIME. */
 DPSIM_API dpsim_status dpsim_bus_run(dpsim_bus* bus, uint64_t tick);
-/** The tick at which the next one of the stations acts by itself, DPSIM_NEVER when nobody has anything to do. */
+/** The tick at which the next one of the stations acts by itself, the present one at the earliest; DPSIM_NEVER when
+ * nobody has anything to do. */
 DPSIM_API dpsim_status dpsim_bus_next(dpsim_bus* bus, uint64_t* tick);
 /** The present tick. Also in callbacks. */
 DPSIM_API dpsim_status dpsim_bus_now(const dpsim_bus* bus, uint64_t* tick);
@@ -138,7 +139,8 @@ enum {
   DPSIM_EVENT_SLAVE_STATE = 1,      /**< address, from, to (dpsim_slave_state), text: why, empty for a step forward */
   DPSIM_EVENT_INPUTS = 2,           /**< address, data: inputs that differ from the earlier ones */
   DPSIM_EVENT_DIAGNOSIS = 3,        /**< address, data: of an answer to Slave_Diag */
-  DPSIM_EVENT_REQUEST_DONE = 4,     /**< id, address, outcome (dpsim_outcome), data: bytes of the answer as received */
+  DPSIM_EVENT_REQUEST_DONE = 4,     /**< id, address, outcome (dpsim_outcome), data: bytes of the answer as received;
+                                         id 0, of a scenario: data without frame, text: service and answer */
   DPSIM_EVENT_ACYCLIC_DONE = 5,     /**< id, address, outcome (dpsim_acyclic_outcome), data, codes, text: in words */
   DPSIM_EVENT_CONNECTION_STATE = 6, /**< id: the connection, address, from, to (dpsim_connection_state) */
   DPSIM_EVENT_CONNECTION_END = 7,   /**< id: the connection, address, outcome (dpsim_connection_end), codes, text */

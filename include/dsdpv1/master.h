@@ -1,7 +1,7 @@
 /*
  * Masters of class 1 and class 2 on a bus. A master belongs to its bus and ends with it.
  *
- * All functions here but dpsim_bus_add_master are also allowed in callbacks. Commands take effect between two requests,
+ * All functions here but dpsim_bus_add_... are also allowed in callbacks. Commands take effect between two requests,
  * at the present tick at the earliest; what comes of them is told by dpsim_bus_on_event.
  */
 #ifndef DPSIM_MASTER_H
@@ -87,6 +87,33 @@ typedef struct dpsim_ring_status {
 /** DPSIM_ERR_STATE: a master that is alone (without `ring`). */
 DPSIM_API dpsim_status dpsim_master_get_ring(const dpsim_master* master, dpsim_ring_status* status);
 
+/* ---- masters of a scenario (docs/scenarios.md) ---- */
+
+typedef struct dpsim_scenario_options {
+  uint32_t size;
+  uint32_t setting_count;
+  const char* path; /**< of the scenario's file; or, with `text`, what stands for it in messages and is the base of
+                       relative paths */
+  const char* text; /**< the scenario itself; NULL: `path` is read */
+  const char* const* settings; /**< "PATH=VALUE" as `--set` has them: "baud=1.5M" */
+} dpsim_scenario_options;
+
+/** All masters of a scenario, those of class 1 first, each class in the order of the file, with their slaves,
+ * connections and the baud rate of the scenario. They start at their times by themselves, counted from tick 0 of the
+ * bus, and carry out what the script asks of masters; the end of each of its requests is told with `id` 0. `masters`
+ * has room for `capacity`; `count` is how many there are.
+ *
+ * The slaves are elsewhere: on this bus or outside. What the scenario says of them (slaves, chip, user_cpu; what the
+ * script asks of user CPUs, of a plug or of the line; checks, expect, allow, end) is left out, and `left_out`, if not
+ * NULL, says so in one line that stands as long as the bus. A `when` of a master's action may be about what a master
+ * knows: dp_state data_exch, data_exchanges, inputs of its slaves, connection_state, reply_of.
+ *
+ * DPSIM_ERR_INPUT, "file:line: ...": the scenario is wrong, it has no masters, or a `when` is about something else.
+ * DPSIM_ERR_SPACE: `count` is what is needed. In both cases nothing is on the bus. */
+DPSIM_API dpsim_status dpsim_bus_add_scenario(dpsim_bus* bus, const dpsim_scenario_options* options,
+                                              dpsim_master** masters, size_t capacity, size_t* count,
+                                              const char** left_out);
+
 /* ---- class 1 (DPSIM_ERR_STATE for a master of class 2) ---- */
 
 /** Before the start or in operation. DPSIM_ERR_ARGUMENT: a value out of range, or an address that it has already. */
@@ -143,7 +170,7 @@ typedef struct dpsim_master_status {
 DPSIM_API dpsim_status dpsim_master_get_status(const dpsim_master* master, dpsim_master_status* status);
 
 /* Requests out of the cycle, carried out in the order of the calls. Each gets an `id`, from 1, which its
-   DPSIM_EVENT_REQUEST_DONE or DPSIM_EVENT_ACYCLIC_DONE names; `id` may be NULL. */
+   DPSIM_EVENT_REQUEST_DONE or DPSIM_EVENT_ACYCLIC_DONE names; `id` may be NULL. Those of a scenario have 0. */
 
 typedef int32_t dpsim_outcome;
 enum {
@@ -179,7 +206,8 @@ DPSIM_API dpsim_status dpsim_master_global_control(dpsim_master* master, uint8_t
 /** Set_Slave_Add; `lock`: no later change. */
 DPSIM_API dpsim_status dpsim_master_set_slave_address(dpsim_master* master, uint8_t address, uint8_t new_address,
                                                       uint16_t ident, int32_t lock, uint32_t* id);
-/** Any request; FC holds bit 6 and the function, FCB and FCV are added. DPSIM_ERR_ARGUMENT: it cannot be encoded. */
+/** Any request; FC holds bit 6 and the function, FCB and FCV are added. `sa` is not looked at: it is the master's own
+ * address, for another one there is dpsim_master_send_raw. DPSIM_ERR_ARGUMENT: it cannot be encoded. */
 DPSIM_API dpsim_status dpsim_master_request(dpsim_master* master, const dpsim_telegram* telegram, uint32_t* id);
 
 /** What is broken in raw bytes on the wire. Positions count bytes from 0; what lies after the end has no effect. */

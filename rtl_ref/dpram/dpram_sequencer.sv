@@ -4,13 +4,12 @@
 `include "dpram_types.svh"
 
 module dpram_sequencer (
-  `FAULT_PORT
+  `FAULT_PORT `CRC_COUNTS_PORT
   input  logic [12:0] access_interval_i,  // H1
   input  logic [20:0] ready_cycles_i,     // D1
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        user_holds_i,     // or asks for the DPRAM; by whatever port, in step with clk_i
-  input  logic        crc_counts_i,     // the CRC of a block is compared; else it counts as right
   output logic        owns_o,           // from the cycle behind the start to the last of an access
   output logic        interrupt_o,      // a flag of parameters or configuration is written at this edge
   // DPRAM
@@ -348,8 +347,8 @@ module dpram_sequencer (
       else if (arrives_q || (writes_covered && !`FAULT(56))) crc_q <= crc_next;
 
       // the CRC read is compared as it arrives
-      if (arrives_high_q && rdata_i != crc_high && crc_counts_i) crc_wrong_q <= 1'b1;
-      if (state_q == SEQ_READ_LAST && rdata_i != crc_low && crc_counts_i && !`FAULT(57)) crc_wrong_q <= 1'b1;
+      if (arrives_high_q && rdata_i != crc_high `AND_CRC_COUNTS) crc_wrong_q <= 1'b1;
+      if (state_q == SEQ_READ_LAST && rdata_i != crc_low && !`FAULT(57) `AND_CRC_COUNTS) crc_wrong_q <= 1'b1;
 
       if (state_q == SEQ_COMMIT && !answer_item) u_q <= u_without;
       if (state_q == SEQ_COMMIT && answer_item) w_q <= w_without;

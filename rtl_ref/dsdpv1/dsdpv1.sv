@@ -98,7 +98,7 @@ module dsdpv1 #(
   dpram_sequencer u_sequencer (
     `FAULT_CONNECT
     .access_interval_i(access_interval[12:0]), .ready_cycles_i(ready_cycles[20:0]), .clk_i(clk_i), .rst_ni(rst_n),
-    .user_holds_i(user_holds), .crc_counts_i(1'b1), .owns_o(chip_owns), .interrupt_o(interrupt_flag), .we_o(chip_we), .addr_o(chip_addr),
+    .user_holds_i(user_holds), .owns_o(chip_owns), .interrupt_o(interrupt_flag), .we_o(chip_we), .addr_o(chip_addr),
     .wdata_o(chip_wdata), .rdata_i(rdata), .commands_o(commands), .hears_i(hears));
 
   station #(

@@ -12,7 +12,8 @@ class Proof:
     name: str
     title: str
     top: str
-    bind: dict               # source file: properties
+    bind: dict = dataclasses.field(default_factory=dict)  # source file: properties
+    asserts: tuple = ()      # names of assertions of bindings/systemverilog/dsdpv1_assertions.sv, bound to the chip
     cut_cells: tuple = ()    # instances whose outputs become free
     cut_wires: tuple = ()    # wires that become free
     defines: tuple = ()
@@ -20,7 +21,7 @@ class Proof:
     depth: int = 0           # of the induction
     twin_depth: int = 0      # cycles in which the twin's violation is looked for
     faults: tuple = ()       # the defects, a twin each: of faults.txt,
-    edit: tuple = ()         # or file, old text, new text
+    edit: tuple = ()         # and file, old text, new text
     files: str = "files.txt"
 
 
@@ -36,7 +37,33 @@ def serial(name, title, top, bind, **more):
                  files="files_rsu.txt", **more)
 
 
+def assertions(name, title, names, **more):
+    """The assertions that simulators bind (docs/systemverilog.md), for a user that keeps H2."""
+    return Proof(name=f"assertions_{name}", title=title, top="dsdpv1", asserts=names, defines=("DSDPV1_IMMEDIATE", "DSDPV1_ASSUME_USER"), **more)
+
+
+HALF_OF_STATION = ("*station*/c:u_uart_rx", "*station*/c:u_telegram_rx", "fdl/c:u_builder", "fdl/c:u_answers", "*dp_slave*/c:u_buffers",
+                   "*dp_slave*/c:u_set_prm", "*dp_slave*/c:u_check_cfg", "dp_service/c:u_global_control", "*dp_slave*/c:u_diagnosis")
+SLOW_OF_STATION = ("w:u_station.u_baud_search.window_of_rate", "w:u_station.u_watchdog.last_q")
+
 PROOFS = (
+    assertions("ownership", "the bound assertions of the handshake", ("l_req_is_l_sta", "one_owner"),
+               cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt"), cut_wires=("w:u_sequencer.boot_q",), faults=(49, 97),
+               edit=(HANDSHAKE, "assign l_req_o = owns_i;", "assign l_req_o = owns_i && !user_holds_o;")),
+    assertions("intr0", "the bound assertions of INTR0", ("intr0_not_longer", "intr0_not_shorter", "intr0_gap"),
+               cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_sequencer"), faults=(45, 46)),
+    assertions("line", "the bound assertions of PBTXD and PBRTS", ("txd_idle_without_rts", "rts_leads"),
+               cut_cells=("c:u_dpram", "c:u_host_port", "c:u_interrupt", "c:u_sequencer", "*station*/c:u_dp_slave", "*station*/c:u_baud_search",
+                          "*station*/c:u_watchdog", "*station*/c:u_fdl", "*station*/c:u_uart_rx", "*station*/c:u_telegram_rx"),
+               edit=(CHIP, ".rts_lead_i(rts_lead[5:0])", ".rts_lead_i(rts_lead[5:0] - 6'd1)")),
+    assertions("states", "the bound assertions of READY, BR, PBF and D", ("ready_stays", "br_after_ready", "exchange_after_ready", "d_driven_in_reads_only",
+                                                                          "d_released_in_reset"),
+               cut_cells=("c:u_dpram", "c:u_interrupt", "c:u_sequencer", "*station*/c:u_uart_tx", *HALF_OF_STATION), cut_wires=SLOW_OF_STATION,
+               edit=("profibus/station.sv", "assign ready_o = initialised;", "assign ready_o = initialised && !searching;")),
+    assertions("reset", "the bound assertion of the levels in reset", ("outputs_in_reset",),
+               cut_cells=("c:u_dpram", "c:u_host_port", "dpram_sequencer/c:u_*", "*station*/c:u_fdl", *(each for each in HALF_OF_STATION if "fdl/" not in each)),
+               cut_wires=(*SLOW_OF_STATION, "w:u_sequencer.boot_q"),
+               edit=("profibus/baud_search.sv", "searching_q <= 1'b1;\n      br_q <= 1'b0;\n      rate_q", "searching_q <= 1'b1;\n      br_q <= 1'b1;\n      rate_q")),
     Proof(
         name="ownership",
         title="never both sides own the DPRAM, for a user that keeps H2; any RESET",
@@ -46,32 +73,6 @@ PROOFS = (
         cut_wires=("w:u_sequencer.boot_q",),
         defines=ANY_PARAMETERS,
         faults=(49, 95, 97, 98),
-    ),
-    Proof(
-        name="l_req_l_sta",
-        title="L_REQ and L_STA are always equal",
-        top="dsdpv1",
-        bind={CHIP: "l_req_l_sta"},
-        cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_interrupt"),
-        cut_wires=("w:u_sequencer.boot_q",),
-        defines=ANY_PARAMETERS,
-        edit=(HANDSHAKE, "assign l_req_o = owns_i;", "assign l_req_o = owns_i && !user_holds_o;"),
-    ),
-    Proof(
-        name="intr0_low",
-        title="INTR0 is low for exactly 64 cycles a pulse",
-        top="dsdpv1",
-        bind={CHIP: "intr0_low"},
-        cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_sequencer"),
-        faults=(46,),
-    ),
-    Proof(
-        name="intr0_high",
-        title="INTR0 is high for at least 64 cycles between two pulses",
-        top="dsdpv1",
-        bind={CHIP: "intr0_high"},
-        cut_cells=("c:u_station", "c:u_dpram", "c:u_host_port", "c:u_sequencer"),
-        faults=(45,),
     ),
     Proof(
         name="uart_rx_idle",

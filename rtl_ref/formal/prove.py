@@ -8,14 +8,17 @@ RESET that violates them.
 import argparse
 import concurrent.futures
 import pathlib
+import re
 import subprocess
 import sys
 import time
 
-from proofs import PROOFS
+from proofs import CHIP, PROOFS
 
 FORMAL = pathlib.Path(__file__).resolve().parent
 RTL = FORMAL.parent
+BINDINGS = RTL.parent / "bindings" / "systemverilog"
+ASSERTIONS = "dsdpv1_assertions.sv"
 HEADERS = [path.name for path in RTL.glob("*.svh")]
 HOLDS, VIOLATED, UNKNOWN = "holds", "violated", "unknown"
 LIMIT_SECONDS = 900  # for one run of a tool; far more than a busy machine needs
@@ -33,8 +36,8 @@ def replace_once(text, old, new, where):
 
 
 def defects(proof):
-    """The defects of its twins: faults of faults.txt, or the edit."""
-    return proof.faults or (proof.edit,)
+    """The defects of its twins: faults of faults.txt, and the edit."""
+    return proof.faults + ((proof.edit,) if proof.edit else ())
 
 
 def files(proof):
@@ -47,6 +50,9 @@ def sources(proof, defect):
     for block, properties in proof.bind.items():
         text = (FORMAL / f"{properties}.svh").read_text(encoding="utf-8")
         texts[block] = replace_once(texts[block], "\nendmodule", f"\n{text}endmodule", block)
+    if proof.asserts:
+        texts[CHIP] = replace_once(texts[CHIP], "\nendmodule", f"\n{bound_assertions()}\nendmodule", CHIP)
+        texts[ASSERTIONS] = (BINDINGS / ASSERTIONS).read_text(encoding="utf-8")
     if isinstance(defect, int):
         name = "profibus_types.svh"
         texts[name] = replace_once(texts[name], "`define FAULT(n) 1'b0", f"`define FAULT(n) (n == {defect})", name)
@@ -56,13 +62,29 @@ def sources(proof, defect):
     return texts
 
 
+def bound_assertions():
+    """What dsdpv1_bind.sv binds, as an instance: Yosys 0.23 reads a `bind` and forgets it."""
+    return re.search(r"^bind `DSDPV1_TOP (.*;)$", (BINDINGS / "dsdpv1_bind.sv").read_text(encoding="utf-8"), re.M)[1]
+
+
+def only_asserts(proof):
+    """Commands that delete all other assertions of the chip: those of this proof are told by their lines."""
+    lines = (BINDINGS / ASSERTIONS).read_text(encoding="utf-8").splitlines()
+    here = [number for number, line in enumerate(lines, 1) for name in proof.asserts if f"HOLDS({name}," in line or f": {name} assert" in line]
+    if len(here) != len(proof.asserts):
+        fail(f"{proof.name}: {len(proof.asserts)} assertions are named, {len(here)} found in {ASSERTIONS}")
+    kept = " ".join(f"a:src=*{ASSERTIONS}:{number}.*" for number in here)
+    return f"select -set named {kept}; select -set others t:$assert @named %d; delete @others; "
+
+
 def yosys(proof, folder, is_twin):
     """Writes model.aig or model.smt2. TWIN is defined for a twin, which has to violate the goal, not only a lemma."""
     cuts = "".join(f"cutpoint {cell}; " for cell in proof.cut_cells)
     wires = "".join(f"cutpoint {wire}; " for wire in proof.cut_wires)
     defines = " ".join(f"-D{define}" for define in proof.defines + (("TWIN",) if is_twin else ()))
-    common = (f"read_verilog -formal -sv {defines} -I. -I{RTL.parent / 'registers'} {' '.join(files(proof))}; "
-              f"hierarchy -check -top {proof.top}; proc; {cuts}flatten; {wires}async2sync; delete -output; opt_clean; "
+    names = files(proof) + ([ASSERTIONS] if proof.asserts else [])
+    common = (f"read_verilog -formal -sv {defines} -I. -I{RTL.parent / 'registers'} {' '.join(names)}; "
+              f"hierarchy -check -top {proof.top}; proc; {cuts}flatten; {wires}{only_asserts(proof) if proof.asserts else ''}async2sync; delete -output; opt_clean; "
               "memory_map; setundef -undriven -anyseq; opt -full; dffunmap; ")
     if proof.engine == "pdr":
         script = common + "techmap; opt -fast; dffunmap; abc -g AND -fast; opt_clean; write_aiger -I -zinit model.aig"

@@ -17,7 +17,8 @@ initial assume (!rst_ni);
 always @* begin
   assume (!(take && judged));  // a byte lasts more than a cycle
   assume (spi_i == is_spi && uart_i == !is_spi);
-  assume (uart_i || !(uart_take || spoil || silence));  // by construction in host_uart
+  assume (uart_i || !(uart_take || spoil || silence));                // by construction in host_uart
+  assume (spi_i || !(spi_take || frame_begins || frame_ends));       // ... and in spi_port
   if (spi_i) assume (!(frame_begins && frame) && !(frame_begins && frame_ends) && (frame || !take));
   if (uart_i) assume (!(take && more) && (more || !next));  // half duplex
   if (judged && taken != crc) assert (judgement.refused && !judgement.commits && !judgement.owns);

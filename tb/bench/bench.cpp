@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
 
 #include "tb/bench/script.hpp"
-#include "tb/input/input_error.hpp"
 #include "tb/scenario/event_codes.hpp"
 
 namespace dsdpv1::tb {
@@ -47,7 +45,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
     observers_.tell(&Observer::violated, slave, violation);
     changed(violation.found);
   };
-  replies_.on_change = [this] { changed(); };
+  replies_.on_change = [this](const auto&, auto, const auto&) { changed(); };
   if (!options.wave.path.empty()) waves_.emplace(options.wave, execution_->segment(), execution_->timeline(), maker_);
   for (const scenario::Slave& slave : scenario.slaves) add_slave(slave);
   baud_follower_ = std::make_unique<BaudFollower>(*this);
@@ -152,29 +150,8 @@ void Bench::add_monitor() {
 }
 
 void Bench::add_master(const scenario::Master& spec) {
-  bus::MasterConfig config;
-  config.name = spec.name.text;
-  config.address = static_cast<std::uint8_t>(spec.address);
-  config.baud = scenario_.baud;
-  config.personality = spec.personality;
-  config.bus = bus_parameters(spec.bus);
-  MasterStation& entry = stations_.masters.emplace_back();
-  entry.spec = &spec;
-  entry.master = std::make_unique<bus::Master1>(execution_->segment(), config);
-  for (const scenario::MasterSlave& slave : spec.slaves) {
-    const bus::SlaveParameters parameters = setup_.parameters(slave);
-    try {
-      entry.master->add_slave(parameters);
-      bus::Bytes outputs = slave.outputs;
-      outputs.resize(static_cast<std::size_t>(parameters.output_length));
-      entry.master->set_outputs(parameters.address, outputs);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(scenario_.file, slave.line, error.what());
-    }
-    entry.slaves[parameters.address] = parameters.name;
-  }
-  if (!spec.operate) entry.master->clear();
-  connect(entry);
+  stations_.masters.push_back(make_master(scenario_, spec, setup_, execution_->segment()));
+  connect(stations_.masters.back());
 }
 
 void Bench::add_master2(const scenario::Master2& spec) {

@@ -27,6 +27,7 @@ class Class2Station {
   Class2Station& operator=(const Class2Station&) = delete;
 
   const std::string& name() const { return spec_.name.text; }
+  std::uint8_t address() const { return static_cast<std::uint8_t>(spec_.address); }
   bus::Master2& master() { return master_; }
   std::vector<std::string> connection_names() const;
   bool has(const std::string& connection) const { return ids_.count(connection) != 0; }

@@ -41,21 +41,6 @@ class Parts {
 
 std::string shown(const bus::Bytes& bytes) { return bytes.empty() ? "none" : bytes_text(bytes, kShownBytes); }
 
-const char* service_word(scenario::ActionKind service) {
-  switch (service) {
-    case scenario::ActionKind::kReadInputs: return "read_inputs";
-    case scenario::ActionKind::kReadOutputs: return "read_outputs";
-    case scenario::ActionKind::kGetCfg: return "get_cfg";
-    case scenario::ActionKind::kSlaveDiag: return "slave_diag";
-    case scenario::ActionKind::kC1Read: return "c1_read";
-    case scenario::ActionKind::kC1Write: return "c1_write";
-    case scenario::ActionKind::kC2Read: return "c2_read";
-    case scenario::ActionKind::kC2Write: return "c2_write";
-    case scenario::ActionKind::kC2Transport: return "c2_transport";
-    default: return "set_slave_address";
-  }
-}
-
 // Each function handles one group of keys; `facts` is null when only the words are wanted.
 
 void add_state(Parts& parts, const Condition& c, const ChipStatus& status) {
@@ -166,10 +151,26 @@ void add_connection(Parts& parts, const Condition& c, const Facts* facts) {
       [&] { return fmt::format("connection {}", bus::name(state)); });
 }
 
+/// Of a slave that is elsewhere what its master knows: data exchange or not, how often.
+ChipStatus status_at_master(const Stations& stations, const std::string& slave) {
+  ChipStatus status;
+  const bus::Master1* master = stations.master_of(slave);
+  if (master == nullptr) return status;
+  const bus::SlaveView& view = master->slave(*stations.listed_address(slave));
+  if (view.state == bus::SlaveState::kDataExchange) status.dp_state = profibus::DpState::kDataExch;
+  status.data_exchanges = view.counters.data_exchanges;
+  return status;
+}
+
+ChipStatus status_of(const Condition& c, const Facts* facts, const SlaveStation* slave) {
+  if (slave != nullptr) return slave->chip().status();
+  return facts != nullptr && !c.slave.empty() ? status_at_master(facts->stations, c.slave.text) : ChipStatus{};
+}
+
 Parts examine(const Condition& c, const Facts* facts, Parts::In in) {
   Parts parts(in);
-  const SlaveStation* slave = facts != nullptr && !c.slave.empty() ? &facts->stations.slave(c.slave.text) : nullptr;
-  const ChipStatus status = slave != nullptr ? slave->chip().status() : ChipStatus{};
+  const SlaveStation* slave = facts != nullptr && !c.slave.empty() ? facts->stations.find_slave(c.slave.text) : nullptr;
+  const ChipStatus status = status_of(c, facts, slave);
   add_state(parts, c, status);
   add_counts(parts, c, status);
   add_data(parts, c, facts, slave);

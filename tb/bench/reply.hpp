@@ -20,6 +20,9 @@ struct Reply {
 /// Of an acyclic service.
 Reply reply_of(const bus::AcyclicResult& result);
 
+/// The word of a service that is answered: "c1_read".
+const char* service_word(scenario::ActionKind service);
+
 /// The last answer to each service that the script asked for.
 class Replies {
  public:
@@ -28,7 +31,8 @@ class Replies {
   /// Null when there is none.
   const Reply* last(const std::string& asker, scenario::ActionKind service) const;
 
-  std::function<void()> on_change;
+  /// Told of each answer when it is kept.
+  std::function<void(const std::string& asker, scenario::ActionKind service, const Reply& reply)> on_change;
 
  private:
   std::map<std::string, std::map<scenario::ActionKind, Reply>> replies_;  ///< by asker and service

@@ -263,7 +263,7 @@ void Script::act_on_class2(const Action& action, Class2Station& station, Tick no
 std::uint8_t Script::target(const Action& action) const {
   if (action.address) return static_cast<std::uint8_t>(*action.address);
   const std::optional<std::uint8_t> listed = stations_.listed_address(action.slave.text);
-  return listed.value_or(stations_.slave(action.slave.text).chip().address());
+  return listed ? *listed : stations_.slave(action.slave.text).chip().address();
 }
 
 /// A service out of the cycle; its answer is kept for `reply`.

@@ -3,13 +3,54 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace dsdpv1::tb {
+#include "tb/input/input_error.hpp"
 
-SlaveStation& Stations::slave(const std::string& name) const {
+namespace dsdpv1::tb {
+namespace {
+
+void add_slave(MasterStation& station, const scenario::MasterSlave& slave, const bus::SlaveParameters& parameters) {
+  station.master->add_slave(parameters);
+  bus::Bytes outputs = slave.outputs;
+  outputs.resize(static_cast<std::size_t>(parameters.output_length));
+  station.master->set_outputs(parameters.address, outputs);
+  station.slaves[parameters.address] = parameters.name;
+}
+
+}  // namespace
+
+MasterStation make_master(const scenario::Scenario& scenario, const scenario::Master& spec, Setup& setup,
+                          bus::Segment& segment) {
+  bus::MasterConfig config;
+  config.name = spec.name.text;
+  config.address = static_cast<std::uint8_t>(spec.address);
+  config.baud = scenario.baud;
+  config.personality = spec.personality;
+  config.bus = bus_parameters(spec.bus);
+  MasterStation made;
+  made.spec = &spec;
+  made.master = std::make_unique<bus::Master1>(segment, config);
+  for (const scenario::MasterSlave& slave : spec.slaves) {
+    const bus::SlaveParameters parameters = setup.parameters(slave);
+    try {
+      add_slave(made, slave, parameters);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(scenario.file, slave.line, error.what());
+    }
+  }
+  if (!spec.operate) made.master->clear();
+  return made;
+}
+
+SlaveStation* Stations::find_slave(const std::string& name) const {
   const auto found =
       std::find_if(slaves.begin(), slaves.end(), [&name](const auto& slave) { return slave->name() == name; });
-  if (found == slaves.end()) throw std::out_of_range("no slave " + name);
-  return **found;
+  return found == slaves.end() ? nullptr : found->get();
+}
+
+SlaveStation& Stations::slave(const std::string& name) const {
+  SlaveStation* found = find_slave(name);
+  if (found == nullptr) throw std::out_of_range("no slave " + name);
+  return *found;
 }
 
 bus::Master1& Stations::master(const std::string& name) const {

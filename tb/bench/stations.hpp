@@ -9,6 +9,7 @@
 
 #include "bus/master/master1.hpp"
 #include "tb/bench/class2_station.hpp"
+#include "tb/bench/setup.hpp"
 #include "tb/bench/slave_station.hpp"
 #include "tb/scenario/scenario.hpp"
 
@@ -21,12 +22,19 @@ struct MasterStation {
   std::map<std::uint8_t, std::string> slaves;  ///< names by address
 };
 
+/// With its slaves, silent. `scenario` gives the rate, `setup` the slaves' parameters; `spec` must outlive it. Throws
+/// InputError for values that the bus refuses.
+MasterStation make_master(const scenario::Scenario& scenario, const scenario::Master& spec, Setup& setup,
+                          bus::Segment& segment);
+
 struct Stations {
   std::vector<std::unique_ptr<SlaveStation>> slaves;
   std::vector<MasterStation> masters;
   std::vector<std::unique_ptr<Class2Station>> masters2;
 
   SlaveStation& slave(const std::string& name) const;
+  /// The same, null when the slave is not on this bench.
+  SlaveStation* find_slave(const std::string& name) const;
   /// The first one for an empty name.
   bus::Master1& master(const std::string& name) const;
   /// The class 2 master with this name, null when there is none; and the one that has this connection.

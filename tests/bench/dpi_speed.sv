@@ -23,7 +23,7 @@ module dpi_speed;
   wire [3:0] levels = {pbrts, pbtxd, l_sta, l_req};
   logic [3:0] last = 4'd0;
   always @(levels) begin
-    changes = changes + {32'd0, $countones(levels ^ last)};
+    changes = changes + longint'($countones(levels ^ last));
     if (levels[3] && !last[3]) answers = answers + 1;
     last = levels;
   end
@@ -87,7 +87,7 @@ module dpi_speed;
       send(exchange, 19, 12 + 11 * 25 + 33);
     end
     taken = dpi_speed_cpu_seconds() - began;
-    if (pbf || answers - answered != EXCHANGES) $fatal(1, "%0d of %0d exchanges were answered", answers - answered, EXCHANGES);
+    if (pbf || answers - answered != longint'(EXCHANGES)) $fatal(1, "%0d of %0d exchanges were answered", answers - answered, EXCHANGES);
     $display("dpi\t%0.6g", $itor(changes - earlier) / taken / 1.0e6);
     $finish;
   end

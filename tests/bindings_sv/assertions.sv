@@ -31,6 +31,10 @@ module assertions;
       pbf_o = 1'b0;
       cycles(2);
     end
+    if (broken == "d_released_in_reset") begin
+      {csr_i, rd_i, d_oe_o} = 3'b001;
+      cycles(2);
+    end
     reset_i = 1'b1;
     cycles(3);
     if (broken == "br_after_ready") br_o = 1'b1;

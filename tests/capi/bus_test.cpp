@@ -160,7 +160,7 @@ class Outside {
     uint64_t chip = 0, bus = 0;
     ok(dpsim_chip_next(chip_.get(), &chip));
     ok(dpsim_bus_next(bus_.get(), &bus));
-    return std::max(now_, std::min(chip, bus));
+    return std::min(chip, bus);
   }
 
   Owned<dpsim_bus> bus_ = make_bus();
@@ -180,6 +180,16 @@ TEST(CapiBus, AStationOutsideAnswersAsAChipOnTheBusDoes) {
                inside.end());
   ASSERT_GT(inside.size(), 100U);
   EXPECT_EQ(Outside().run(kEnd), inside);
+}
+
+TEST(CapiBus, TheNextTickIsNotBeforeThePresentOne) {
+  Line line;
+  start_up(line.chip);
+  ok(dpsim_bus_run(line.bus.get(), Line::kBegin));
+  uint64_t next = 0;
+  ok(dpsim_master_start(line.master));  // planned for the last time at which the master had a turn: never
+  ok(dpsim_bus_next(line.bus.get(), &next));
+  EXPECT_EQ(next, Line::kBegin);
 }
 
 TEST(CapiBus, DriversOfMastersAreToldWithTheirPins) {
@@ -234,6 +244,30 @@ TEST(CapiBus, RequestsOutOfTheCycleComeBackUnderTheirNumbers) {
   EXPECT_EQ(acyclic[0].id, read);
   EXPECT_EQ(acyclic[0].outcome, DPSIM_ACYCLIC_REFUSED) << acyclic[0].text;  // not parameterised for DPV1
   EXPECT_EQ(acyclic[0].codes, 3U);                                          // RS
+}
+
+TEST(CapiBus, ARequestCarriesTheMastersOwnAddress) {
+  Line line;
+  line.begin();
+  ok(dpsim_bus_run(line.bus.get(), Line::kRunning));
+  std::vector<uint8_t> sources;
+  ok(dpsim_bus_on_telegram(
+      line.bus.get(),
+      [](void* user, const dpsim_heard* heard) {
+        if (heard->bytes[0] == 0x10 && heard->bytes[1] == 77)
+          static_cast<std::vector<uint8_t>*>(user)->push_back(heard->bytes[2]);
+      },
+      &sources));
+  auto telegram = sized<dpsim_telegram>();
+  telegram.kind = DPSIM_SD1;
+  telegram.da = 77;
+  telegram.sa = 99;  // not looked at
+  telegram.fc = 0x49;
+  telegram.dsap = telegram.ssap = DPSIM_NO_SAP;
+  ok(dpsim_master_request(line.master, &telegram, nullptr));
+  ok(dpsim_bus_run(line.bus.get(), Line::kRunning + kMs));
+  ASSERT_FALSE(sources.empty());
+  EXPECT_EQ(sources.front(), 2);
 }
 
 TEST(CapiBus, BrokenBytesAreFlagged) {

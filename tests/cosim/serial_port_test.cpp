@@ -44,9 +44,9 @@ class Port {
     chip_->watch({[](void* self, Tick at, Pin, Level level) { static_cast<Port*>(self)->txd(at, level); }, this},
                  mask(Pin::kTxd));
     host_ = (mode == HostMode::kSpi ? cosim::make_random_spi : cosim::make_random_uart)(random_, actions_);
-    for (const auto [pin, level] :
-         {std::pair(Pin::kMode, mode == HostMode::kSpi ? 1 : 2), {Pin::kAdr, 1}, {Pin::kUbr, kRate}})
-      chip_->set(0, pin, static_cast<Level>(level));
+    chip_->set(0, Pin::kMode, mode == HostMode::kSpi ? 1 : 2);
+    chip_->set(0, Pin::kAdr, 1);
+    chip_->set(0, Pin::kUbr, kRate);
     chip_->set(1000 * kCycle, Pin::kReset, 1);
     now_ = 10'000 * kCycle;
   }

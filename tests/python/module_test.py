@@ -273,6 +273,81 @@ class BusTest(unittest.TestCase):
         self.assertIn(3, second.ring.stations)
 
 
+class AcyclicTest(unittest.TestCase):
+    """A user CPU whose callback answers from a table of objects; masters of both classes, and those of a scenario."""
+
+    def setUp(self):
+        self.objects = {(1, 2): b"\x11\x22\x33\x44"}
+        self.slave = dsdpv1.Slave(address=7, ident=0x0CC9, cfg=b"\x31", input_length=2, output_length=2, dpv1=True)
+        self.bus, self.done, self.requests = dsdpv1.Bus(), [], []
+        self.user = dsdpv1.User(self.bus.add_chip())
+        self.bus.on_event(self.done.append)
+
+    def answer(self, request):
+        self.requests.append((request.master_class, request.service))
+        key = request.slot, request.index
+        if key not in self.objects:
+            raise dsdpv1.Refuse(0xB2)
+        if request.service == "write":
+            self.objects[key] = request.data
+        return self.objects[key][:request.length] if request.service == "read" else request.data[::-1]
+
+    def power_on(self):
+        self.user.wait(20 * CYCLE)
+        self.user.power_on(dsdpv1.Initialisation.of(self.slave))
+        self.user.exchange(bytes(2))
+
+    def serve_until(self, true, limit=60 * MS):
+        while not true():
+            self.assertLess(self.bus.now, limit, [each.text for each in self.done])
+            self.user.wait(20 * US)
+            self.user.serve(self.answer)
+
+    def ends(self, request):
+        found = []
+        self.serve_until(lambda: found.extend(each for each in self.done if each.type == EventType.ACYCLIC_DONE and each.id == request) or found)
+        return found[0].outcome, found[0].data, found[0].codes
+
+    def test_class_1_reads_writes_and_is_refused(self):
+        self.power_on()
+        master = self.bus.add_master(1)
+        master.add_slave(self.slave)
+        master.start()
+        self.serve_until(lambda: master.slave(7).state == SlaveState.DATA_EXCHANGE)
+        self.assertEqual(self.ends(master.read(7, 1, 2)), (dsdpv1.AcyclicOutcome.POSITIVE, b"\x11\x22\x33\x44", (0, 0, 0)))
+        self.assertEqual(self.ends(master.write(7, 1, 2, bytes(range(240)))), (dsdpv1.AcyclicOutcome.POSITIVE, b"", (0, 0, 0)))
+        self.assertEqual(self.ends(master.read(7, 1, 2)), (dsdpv1.AcyclicOutcome.POSITIVE, bytes(range(240)), (0, 0, 0)))
+        self.assertEqual(self.ends(master.read(7, 9, 9)), (dsdpv1.AcyclicOutcome.NEGATIVE, b"", (0x80, 0xB2, 0)))
+
+    def test_class_2_connects_reads_writes_transports_and_aborts(self):
+        self.power_on()
+        master = self.bus.add_master2(2, highest_address=3)
+        master.start()
+        peer = master.add_connection(7)
+        master.connect(peer)
+        self.serve_until(lambda: master.connection(peer).state == dsdpv1.ConnectionState.OPEN)
+        self.assertEqual(self.ends(master.read(peer, 1, 2)), (dsdpv1.AcyclicOutcome.POSITIVE, b"\x11\x22\x33\x44", (0, 0, 0)))
+        self.assertEqual(self.ends(master.write(peer, 1, 2, b"\xAA")), (dsdpv1.AcyclicOutcome.POSITIVE, b"", (0, 0, 0)))
+        self.assertEqual(self.ends(master.transport(peer, 1, 2, b"abc")), (dsdpv1.AcyclicOutcome.POSITIVE, b"cba", (0, 0, 0)))
+        self.assertEqual(self.objects, {(1, 2): b"\xAA"})
+        master.abort(peer, 3)
+        self.serve_until(lambda: master.connection(peer).state == dsdpv1.ConnectionState.CLOSED)
+        ends = [each.outcome for each in self.done if each.type == EventType.CONNECTION_END]
+        self.assertEqual(ends, [dsdpv1.ConnectionEndCause.MASTER])
+
+    def test_the_masters_of_a_scenario_work_by_themselves(self):
+        first, second = self.bus.add_scenario(ROOT / "examples" / "masters.yaml", {"masters.0.start": "1ms"})
+        self.assertIsInstance(first, dsdpv1.Master1)
+        self.assertIsInstance(second, dsdpv1.Master2)
+        self.assertRegex(self.bus.left_out, "masters.yaml: left out are slaves, .* of the script, by line: pause_user")
+        self.power_on()
+        self.serve_until(lambda: any(each.type == EventType.CONNECTION_END for each in self.done))
+        said = [each.text for each in self.done if each.type == EventType.ACYCLIC_DONE]
+        self.assertEqual(said, ["c1_read: 11 22 33 44", "c1_write: done", "c2_read: AA BB CC", "c2_transport: 05 04 03 02 01"])
+        self.assertEqual(self.requests, [(1, "read"), (1, "write"), (2, "read"), (2, "transport")])
+        self.assertEqual(self.user.exchange(), b"\x12\x34")
+
+
 class FilesTest(unittest.TestCase):
     def test_a_gsd_file_says_what_a_master_has_to_know(self):
         gsd = dsdpv1.Gsd(ROOT / "scenarios" / "dsdpv1.gsd")

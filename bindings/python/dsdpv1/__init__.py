@@ -28,14 +28,14 @@ from .runs import Result, Run, run
 from .telegram import BROADCAST, Decoded, Heard, Telegram, decode, explain, table
 from .telegram import Kind as TelegramKind
 from .units import BAUDS, CYCLE, LINE, MS, NEVER, NS, US, S, X, Z, bit_ticks
-from .user import Initialisation, User, UserError
+from .user import Initialisation, Refuse, Request, User, UserError
 
 __version__ = _text(_lib.dpsim_version())
 __all__ = [
     "BAUDS", "BROADCAST", "CHANGE", "CYCLE", "LINE", "MS", "NEVER", "NS", "S", "US", "X", "Z", "AccessTiming", "AcyclicOutcome", "ArgumentError", "Bus",
     "BusStatistics", "CheckResult", "Checker", "Chip", "ChipEvent", "ChipStatus", "ConnectionEndCause", "ConnectionState", "ConnectionStatus", "Decoded",
     "DpState", "Error", "Event", "EventType", "Gsd", "GsdInfo", "Heard", "Initialisation", "InputError", "InternalError", "Kind", "Master", "Master1", "Master2",
-    "MasterStatus", "NotFoundError", "Outcome", "Parameter", "Pin", "Result", "RingState", "RingStatus", "Rule", "Run", "Severity", "Slave",
+    "MasterStatus", "NotFoundError", "Outcome", "Parameter", "Pin", "Refuse", "Request", "Result", "RingState", "RingStatus", "Rule", "Run", "Severity", "Slave",
     "SlaveState", "SlaveStatus", "StateError", "Station", "Telegram", "TelegramKind", "TimeError", "TsdrStatistics", "UnsupportedError", "User", "UserError", "Violation",
     "WireFaults", "bit_ticks", "decode", "explain", "kind_names", "kind_of", "of_pin", "registers", "rules", "run", "table",
 ]

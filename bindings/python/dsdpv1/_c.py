@@ -4,7 +4,7 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int16, 
                     c_uint64, c_void_p)
 
 DPSIM_ABI_MAJOR = 0
-DPSIM_ABI_MINOR = 1
+DPSIM_ABI_MINOR = 2
 DPSIM_TICKS_PER_CYCLE = 250
 DPSIM_TICKS_PER_NS = 12
 DPSIM_NEVER = 0xffffffffffffffff
@@ -432,6 +432,16 @@ class dpsim_ring_status(Structure):
     ]
 
 
+class dpsim_scenario_options(Structure):
+    _fields_ = [
+        ("size", c_uint32),
+        ("setting_count", c_uint32),
+        ("path", c_char_p),
+        ("text", c_char_p),
+        ("settings", POINTER(c_char_p)),
+    ]
+
+
 dpsim_slave_state = c_int32
 DPSIM_SLAVE_OFFLINE = 0
 DPSIM_SLAVE_DIAGNOSE = 1
@@ -764,6 +774,7 @@ FUNCTIONS = {
     "dpsim_master_stop": (dpsim_status, [c_void_p]),
     "dpsim_master_set_baud": (dpsim_status, [c_void_p, dpsim_baud]),
     "dpsim_master_get_ring": (dpsim_status, [c_void_p, POINTER(dpsim_ring_status)]),
+    "dpsim_bus_add_scenario": (dpsim_status, [c_void_p, POINTER(dpsim_scenario_options), POINTER(c_void_p), c_size_t, POINTER(c_size_t), POINTER(c_char_p)]),
     "dpsim_master_add_slave": (dpsim_status, [c_void_p, POINTER(dpsim_slave)]),
     "dpsim_master_set_clear": (dpsim_status, [c_void_p, c_int32]),
     "dpsim_master_set_outputs": (dpsim_status, [c_void_p, c_uint8, c_char_p, c_size_t]),

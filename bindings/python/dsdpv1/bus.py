@@ -1,6 +1,7 @@
 """A PROFIBUS segment: chips, masters, stations outside, and the monitor that hears all."""
 import ctypes
 import dataclasses
+import os
 import typing
 
 import numpy as np
@@ -9,6 +10,7 @@ from . import _c
 from ._library import Handle, encoded, filled, lib, number, sized, text
 from .changes import taken
 from .chip import Chip, chip_options
+from .errors import StateError
 from .events import Event, event_of
 from .master import PERSONALITIES, Master, Master1, Master2
 from .telegram import Heard, heard_of
@@ -56,6 +58,7 @@ class Bus(Handle):
         options = sized(_c.dpsim_bus_options, baud=baud_index(baud))
         super().__init__(number(lambda into: lib.dpsim_bus_create(ctypes.byref(options), into), ctypes.c_void_p), lib.dpsim_bus_destroy)
         self._members: typing.List[Handle] = []
+        self.left_out = ""  # by the last add_scenario
 
     def close(self) -> None:
         """Releases it with all chips and masters on it."""
@@ -95,6 +98,29 @@ class Bus(Handle):
         """A master of class 2, which always takes part in the ring; the same keys."""
         return typing.cast(Master2, self._add(Master2(self._master(2, {**self._timing(timing), "address": address, "name": encoded(name)}))))
 
+    def add_scenario(self, path: typing.Union[str, "os.PathLike[str]"], settings: typing.Optional[typing.Mapping[str, typing.Any]] = None,
+                     scenario: typing.Optional[str] = None) -> typing.List[Master]:
+        """All masters of a scenario, class 1 first, with their slaves and connections. They start by themselves and carry out what the script asks
+        of masters; the ends of its requests are events with the id 0. The slaves are elsewhere: what of the scenario is left out says
+        `left_out`. `settings` replace keys of the file; `scenario`: its text, `path` stands for the file. InputError: also for a `when` that
+        only a slave could tell."""
+        words = [encoded(f"{key}={value}") for key, value in (settings or {}).items()]
+        options = sized(_c.dpsim_scenario_options, path=encoded(os.fspath(path)), text=encoded(scenario), setting_count=len(words),
+                        settings=ctypes.cast((ctypes.c_char_p * max(1, len(words)))(*words), ctypes.POINTER(ctypes.c_char_p)))
+        handles, left_out = (ctypes.c_void_p * 128)(), ctypes.c_char_p()
+        count = number(lambda into: lib.dpsim_bus_add_scenario(self, ctypes.byref(options), handles, len(handles), into, ctypes.byref(left_out)),
+                       ctypes.c_size_t)
+        self.left_out = text(left_out.value)
+        return [self._add(self._of_its_class(handle)) for handle in handles[:count]]
+
+    @staticmethod
+    def _of_its_class(handle: typing.Any) -> Master:
+        try:
+            filled(lambda into: lib.dpsim_master_get_status(handle, into), _c.dpsim_master_status)
+            return Master1(handle)
+        except StateError:
+            return Master2(handle)
+
     @staticmethod
     def _timing(timing: typing.Mapping[str, int]) -> typing.Mapping[str, int]:
         known = {name for name, *_ in _c.dpsim_master_options._fields_} - {"size", "master_class", "name", "personality", "address"}
@@ -121,7 +147,7 @@ class Bus(Handle):
     @property
     def next(self) -> int:
         """The tick at which somebody acts by itself, NEVER: nobody has anything to do."""
-        return max(self.now, int(number(lambda into: lib.dpsim_bus_next(self, into), ctypes.c_uint64)))
+        return int(number(lambda into: lib.dpsim_bus_next(self, into), ctypes.c_uint64))
 
     def run(self, to: int) -> None:
         """Runs everybody up to and including tick `to`. Other threads of Python run meanwhile."""

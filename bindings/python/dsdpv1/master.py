@@ -194,7 +194,7 @@ class Master1(Master):
         return _id(lib.dpsim_master_set_slave_address, self, address, new_address, ident, int(lock))
 
     def request(self, telegram: Telegram) -> int:
-        """Any request; FC holds bit 6 and the function, FCB and FCV are added."""
+        """Any request; FC holds bit 6 and the function, FCB and FCV are added. `sa` is the master's own, whatever the telegram says."""
         return _id(lib.dpsim_master_request, self, ctypes.byref(telegram._native()))  # pylint: disable=protected-access
 
     def send_raw(self, data: bytes, faults: typing.Optional[WireFaults] = None, wants_answer: bool = False) -> int:

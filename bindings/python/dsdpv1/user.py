@@ -210,6 +210,95 @@ def exchange(inputs: typing.Optional[bytes] = None) -> Program[typing.Optional[b
     return hold(_exchange(inputs))
 
 
+# ---- acyclic requests (7.2, 7.3)
+SERVICES = {reg.FUNCTION_NUM_READ: "read", reg.FUNCTION_NUM_WRITE: "write", reg.FUNCTION_NUM_TRANSPORT: "transport"}
+
+
+@dataclasses.dataclass(frozen=True)
+class Request:
+    """What a master asks of the user."""
+
+    master_class: int  # 1: MSAC_C1, 2: MSAC_C2
+    service: str  # "read", "write", "transport"
+    slot: int
+    index: int
+    length: int  # of a read: bytes that are asked for
+    data: bytes  # of a write or transport
+
+
+class Refuse(Exception):
+    """To be raised by a handler: the request is refused (tables 28, 29)."""
+
+    def __init__(self, error_code_1: int, error_code_2: int = 0) -> None:
+        """`error_code_1`: 0xB0 invalid index, 0xB2 invalid slot, 0xB6 access denied, ..."""
+        super().__init__(f"refused with {error_code_1:02X} {error_code_2:02X}")
+        self.codes = bytes([error_code_1, error_code_2])
+
+
+# Answers with what was read or transported; what it returns for a write is not looked at.
+Handler = typing.Callable[[Request], typing.Optional[bytes]]
+
+
+class _Area(typing.NamedTuple):
+    """Where one class has its requests and answers."""
+
+    master_class: int
+    cell: int
+    crc: int
+    asked: int  # bit of CHIP_COMMAND_2
+    answered: int  # bit of USER_COMMAND_2
+
+
+AREAS = (_Area(1, reg.C1, reg.C1_CRC, reg.CHIP_COMMAND_2_C1, reg.USER_COMMAND_2_C1),
+         _Area(2, reg.C2, reg.C2_CRC, reg.CHIP_COMMAND_2_C2, reg.USER_COMMAND_2_C2))
+_HEADER = 4  # Function_Num, slot, index, length
+
+
+def _fetch(area: _Area) -> Program[typing.Optional[bytes]]:
+    """In a hold: header and data of a request, its bit cleared; None: there is none."""
+    command = yield Read(reg.CHIP_COMMAND_2)
+    if not command & area.asked:
+        return None
+    header = yield from read_bytes(area.cell, _HEADER)
+    data = b"" if header[0] == reg.FUNCTION_NUM_READ else (yield from read_bytes(area.cell + _HEADER, header[3]))
+    crc = yield from read_bytes(area.crc, 2)
+    yield Write(reg.CHIP_COMMAND_2, command & ~area.asked & 0xFF)
+    if int.from_bytes(crc, "big") != crc16(header + data):
+        raise UserError(f"the request of class {area.master_class} has a wrong CRC")
+    return header + data
+
+
+def _send(area: _Area, block: bytes) -> Program[None]:
+    """In a hold. A newer request is not destroyed by the answer to an earlier one (V13)."""
+    if not (yield Read(reg.CHIP_COMMAND_2)) & area.asked:
+        command = yield Read(reg.USER_COMMAND_2)
+        yield from write_block(area.cell, block, area.crc)
+        yield Write(reg.USER_COMMAND_2, command | area.answered)
+
+
+def _answer(request: Request, header: bytes, handler: Handler) -> bytes:
+    try:
+        data = handler(request) or b""
+    except Refuse as refused:
+        return bytes([header[0] | 0x80, 0x80]) + refused.codes
+    if request.service == "write":
+        return header  # with the length that was written (V5)
+    return header[:3] + bytes([len(data)]) + data
+
+
+def serve(handler: Handler) -> Program[int]:
+    """Looks for requests of both classes and answers each with what `handler` makes of it, which may raise Refuse; how many there were."""
+    served = 0
+    for area in AREAS:
+        block = yield from hold(_fetch(area))
+        if block is None:
+            continue
+        request = Request(area.master_class, SERVICES[block[0]], block[1], block[2], block[3], block[_HEADER:])
+        yield from hold(_send(area, _answer(request, block[:_HEADER], handler)))
+        served += 1
+    return served
+
+
 # ---- on a chip
 class User:
     """The user CPU of a Chip: runs programs on its pins, each action after the other."""
@@ -256,6 +345,10 @@ class User:
     def exchange(self, inputs: typing.Optional[bytes] = None) -> typing.Optional[bytes]:
         """Inputs to the chip, new outputs from it."""
         return self.run(exchange(inputs))
+
+    def serve(self, handler: Handler) -> int:
+        """Answers the acyclic requests that there are, as `handler` says; how many there were."""
+        return self.run(serve(handler))
 
     def read(self, cell: int) -> int:
         """A cell, in a hold of its own."""

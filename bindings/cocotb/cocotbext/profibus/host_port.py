@@ -5,7 +5,7 @@ from cocotb.triggers import ReadWrite
 
 import dsdpv1
 from dsdpv1 import CYCLE, NS, AccessTiming
-from dsdpv1.user import Action, Initialisation, Program, Read, Set, Wait, Write, exchange, hold, initialise, read_cell, wait_ready
+from dsdpv1.user import Action, Handler, Initialisation, Program, Read, Set, Wait, Write, exchange, hold, initialise, read_cell, serve, wait_ready
 
 from .pins import ChipPins
 from .ticks import now, until, wait
@@ -96,6 +96,10 @@ class HostPort:
     async def exchange(self, inputs: typing.Optional[bytes] = None) -> typing.Optional[bytes]:
         """Inputs to the chip, new outputs from it."""
         return await self.run(exchange(inputs))
+
+    async def serve(self, handler: Handler) -> int:
+        """Answers the acyclic requests that there are, as `handler` says, which gets a Request and may raise Refuse; how many there were."""
+        return await self.run(serve(handler))
 
     async def read_held(self, cell: int) -> int:
         """A cell, in a hold of its own."""

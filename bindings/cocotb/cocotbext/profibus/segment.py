@@ -61,6 +61,13 @@ class Segment:
         """A master of class 2."""
         return Master2(self, self.bus.add_master2(address, **options))
 
+    def add_scenario(self, path: typing.Any, settings: typing.Optional[typing.Mapping[str, typing.Any]] = None) -> typing.List["_Master"]:
+        """All masters of a scenario, which start and carry out the script by themselves (dsdpv1.Bus.add_scenario); the ends of the script's requests
+        are events with the id 0, what is left out says bus.left_out."""
+        masters = self.bus.add_scenario(path, settings)
+        self.plan()
+        return [(Master1 if isinstance(each, dsdpv1.Master1) else Master2)(self, each) for each in masters]
+
     # ---- time
     def sync(self) -> None:
         """Runs the bus up to now. Whoever gives a command to it calls this before, and plan() after."""
@@ -110,7 +117,7 @@ class Segment:
 
     def _event(self, event: dsdpv1.Event) -> None:
         self.events.append(event)
-        if event.type in _DONE:
+        if event.type in _DONE and event.id:
             self._waiting[(event.station, event.id)] = event
         self._told.set()
 
