@@ -14,6 +14,7 @@ constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr Tick kShortAccess = 7 * kCycle;  // 9.1: nothing was due, B006 := 01 is all
 constexpr Tick kSettles = 4 * kCycle;      // P8: longer than a user's write is on its way
 constexpr unsigned kImageEvery = 256;      // ... the DPRAM is compared all the same from time to time
+constexpr Tick kStartsUp = 3500 * kCycle;  // H6: the start-up access has written every cell
 constexpr Tick kImageGap = 1000 * kCycle;  // with a serial port no pin shows an access: as often as this
 
 std::string text(Pin pin, const std::optional<Level>& level) {
@@ -86,8 +87,9 @@ void Lockstep::note_input(Tick at, Pin pin, Level level) {
 
 /// With a serial port the DPRAM is the same in every cycle, so it may be compared at any.
 void Lockstep::note_serial(Tick at, Pin pin) {
+  if (pin == Pin::kReset) image_at_ = at + kStartsUp;
   const bool moves = pin == Pin::kXss || pin == Pin::kRxd || pin == Pin::kTxd || pin == Pin::kPbrts;
-  if (!moves || model_.mode() == dsdpv1::HostMode::kParallel || at < image_at_ + kImageGap) return;
+  if (!moves || model_.level(Pin::kReset) == 0 || model_.mode() == dsdpv1::HostMode::kParallel || at < image_at_ + kImageGap) return;
   ended_ = image_at_ = at;
 }
 
