@@ -81,6 +81,7 @@ class Port {
     action.verb = Verb::kUart;
     action.rate = kRate;
     action.bytes = with_crc({0x01, 0, kReady, 1});
+    chip_->advance(now_);
     edges_.clear();
     const bus::Bytes reply = expected();
     play(action);
