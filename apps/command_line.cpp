@@ -133,7 +133,9 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   command->add_option("--golden", arguments.golden,
                       "Folder of golden traces (traces): every change of every pin is compared, the first difference "
                       "ends the run (docs/traces.md)");
-  command->add_option("--fault", arguments.fault, "With this single fault of rtl_ref/faults.txt, or faults_rsu.txt, in the reference RTL")
+  command
+      ->add_option("--fault", arguments.fault,
+                   "With this single fault of rtl_ref/faults.txt, or faults_rsu.txt, in the reference RTL")
       ->check(CLI::Range(0, 255));
   command->add_option("--seed", arguments.seed,
                       "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
@@ -310,8 +312,7 @@ void describe_regress(CLI::App& app, RegressArguments& arguments) {
 void add_chip_options(CLI::App& command, std::string& chip, std::string& mode) {
   command.add_option("--chip", chip, "The chip of the reference RTL: dsdpv1, dsdpv1_r, dsdpv1_rsu")
       ->capture_default_str();
-  command
-      .add_option("--mode", mode, "Of the dsdpv1_rsu, for random cases: the host's port, parallel, spi or uart")
+  command.add_option("--mode", mode, "Of the dsdpv1_rsu, for random cases: the host's port, parallel, spi or uart")
       ->capture_default_str();
 }
 
@@ -358,16 +359,19 @@ void describe_rtl_faults(CLI::App& app, RtlFaultsArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("rtl-faults", "Checks the lockstep itself: every single fault in the RTL must be found");
   add_chip_options(*command, arguments.chip, arguments.mode);
-  command->add_option("--list", arguments.list, "The list of faults; left out: rtl_ref/faults.txt or faults_rsu.txt of this source tree");
-  command->add_option("--directed", arguments.directed,
-                      "Folder of stimulus files that are played first; left out: tests/cosim/stimuli or stimuli_rsu of this "
-                      "source tree");
+  command->add_option("--list", arguments.list,
+                      "The list of faults; left out: rtl_ref/faults.txt or faults_rsu.txt of this source tree");
+  command->add_option(
+      "--directed", arguments.directed,
+      "Folder of stimulus files that are played first; left out: tests/cosim/stimuli or stimuli_rsu of this "
+      "source tree");
   command->add_option("--cycles", arguments.cycles, "Random cycles for each fault at most")->capture_default_str();
   command->add_option("--seed", arguments.seed, "Of the random cases")->capture_default_str();
   command->add_option("--jobs", arguments.jobs, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
   command->add_option("--tsv", arguments.tsv, "The table also as tab-separated text into this file");
   command->footer(
-      "\nExamples:\n  dsdpv1-sim rtl-faults --tsv kills.tsv\n  dsdpv1-sim rtl-faults --chip dsdpv1_rsu --mode spi\n  dsdpv1-sim rtl-faults --list my_faults.txt --cycles "
+      "\nExamples:\n  dsdpv1-sim rtl-faults --tsv kills.tsv\n  dsdpv1-sim rtl-faults --chip dsdpv1_rsu --mode spi\n  "
+      "dsdpv1-sim rtl-faults --list my_faults.txt --cycles "
       "5000000\n"
       "\nExit codes: 0 all found, 1 some not, 2 wrong input, 130 interrupted.\n");
 }

@@ -12,8 +12,8 @@ namespace dsdpv1::app {
 
 struct RtlRandomArguments {
   std::string command = "dsdpv1-sim rtl-random";  ///< for messages
-  std::string chip = "dsdpv1";                 ///< kind of chip, for the reference RTL
-  std::string mode = "parallel";               ///< of the DSDPV1-RSU
+  std::string chip = "dsdpv1";                    ///< kind of chip, for the reference RTL
+  std::string mode = "parallel";                  ///< of the DSDPV1-RSU
   std::uint64_t cycles = 10'000'000, seed = 1;
   unsigned jobs = 0;                           ///< threads; 0: as many as there are processors
   std::string replay;                          ///< a stimulus file instead of random cases
@@ -28,8 +28,8 @@ struct RtlRandomArguments {
 
 struct RtlFaultsArguments {
   std::string chip = "dsdpv1", mode = "parallel";  ///< as of rtl-random
-  std::string list, directed;  ///< empty: those of the program's own sources, wherever it is called
-  std::string tsv;             ///< the kill table for other programs; empty: none
+  std::string list, directed;                      ///< empty: those of the program's own sources, wherever it is called
+  std::string tsv;                                 ///< the kill table for other programs; empty: none
   std::uint64_t cycles = 30'000'000, seed = 1;
   unsigned jobs = 0;  ///< as of rtl-random
 };

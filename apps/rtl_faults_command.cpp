@@ -35,7 +35,8 @@ int rtl_faults(const RtlFaultsArguments& arguments) {
   const Part part = part_of(arguments.chip);
   const bool rsu = part == Part::kRsu;
   const std::string list = given_or_own(arguments.list, rsu ? "/rtl_ref/faults_rsu.txt" : "/rtl_ref/faults.txt");
-  const std::string folder = given_or_own(arguments.directed, rsu ? "/tests/cosim/stimuli_rsu" : "/tests/cosim/stimuli");
+  const std::string folder =
+      given_or_own(arguments.directed, rsu ? "/tests/cosim/stimuli_rsu" : "/tests/cosim/stimuli");
   const std::vector<cosim::Fault> faults = cosim::read_faults(list);
   const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder);
   check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", arguments.tsv}});
@@ -51,9 +52,8 @@ int rtl_faults(const RtlFaultsArguments& arguments) {
     std::cout << cosim::line_of(none) << "model and RTL differ without a fault; find that out first\n";
     return kFailed;
   }
-  const std::vector<cosim::Kill> kills =
-      cosim::hunt_all(faults, directed, options,
-                      [](const cosim::Kill& kill) { std::cout << cosim::line_of(kill) << std::flush; });
+  const std::vector<cosim::Kill> kills = cosim::hunt_all(
+      faults, directed, options, [](const cosim::Kill& kill) { std::cout << cosim::line_of(kill) << std::flush; });
   if (tsv) {
     tsv->write(cosim::to_tsv(kills));
     tsv->commit();

@@ -172,8 +172,8 @@ int shrink_and_play(const RtlRandomArguments& arguments, const cosim::CampaignRe
   std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", campaign.cases, campaign.difference->what)
             << std::flush;
   const cosim::Stimulus shrunk =
-      cosim::shrink(cosim::random_stimulus(campaign.failed_seed, mode_of(bench.options.config.part, arguments.mode)), bench.make,
-                    kShrinkRuns, bench.options);
+      cosim::shrink(cosim::random_stimulus(campaign.failed_seed, mode_of(bench.options.config.part, arguments.mode)),
+                    bench.make, kShrinkRuns, bench.options);
   const std::string text = cosim::to_text(shrunk);
   file.write(text);
   file.commit();
@@ -193,8 +193,8 @@ int random_cases(const RtlRandomArguments& arguments, const Bench& bench, Stimul
   const auto begin = std::chrono::steady_clock::now();
   const ProgressLine line;
   const cosim::CampaignResult campaign =
-      cosim::run_campaign({arguments.seed, arguments.cycles, threads_of(arguments.jobs), bench.options, mode}, bench.make,
-                          [&line](std::uint64_t cases, std::uint64_t cycles) { line.show(cases, cycles); });
+      cosim::run_campaign({arguments.seed, arguments.cycles, threads_of(arguments.jobs), bench.options, mode},
+                          bench.make, [&line](std::uint64_t cases, std::uint64_t cycles) { line.show(cases, cycles); });
   line.clear();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::cout << fmt::format("seed {}: {} cases, {} ({:.1f} M cycles/s)\n", arguments.seed, campaign.cases,
@@ -229,7 +229,8 @@ Part part_of(const std::string& chip) {
 HostMode mode_of(Part part, const std::string& mode) {
   check_word("--mode", mode, {"parallel", "spi", "uart"});
   if (part != Part::kRsu && mode != "parallel")
-    throw tb::InputError("--mode " + mode + ": only the dsdpv1_rsu has that port, allowed is --chip dsdpv1_rsu with it");
+    throw tb::InputError("--mode " + mode +
+                         ": only the dsdpv1_rsu has that port, allowed is --chip dsdpv1_rsu with it");
   if (mode == "spi") return HostMode::kSpi;
   return mode == "uart" ? HostMode::kUart : HostMode::kParallel;
 }

@@ -1,5 +1,5 @@
 // The serial ports of the DSDPV1-RSU, the model alone, on frames and telegrams of which most are wrong: after each few
-// of them the port answers a right one. DSDPV1_TELEGRAMS in the environment says how many are sent (docs/rtl.md has
+// of them the port answers a right one. DSDPV1_TELEGRAMS in the environment says how many are sent (docs/cosim.md has
 // the figures of a long run).
 #include <gtest/gtest.h>
 

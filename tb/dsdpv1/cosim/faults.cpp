@@ -22,8 +22,7 @@ namespace fs = std::filesystem;
 /// Plays until the fault shows.
 class Hunt {
  public:
-  Hunt(const Fault& fault, const CampaignOptions& options)
-      : kill_{fault, false, "", 0, 0, ""}, options_(options) {}
+  Hunt(const Fault& fault, const CampaignOptions& options) : kill_{fault, false, "", 0, 0, ""}, options_(options) {}
 
   bool directed(const NamedStimulus& stimulus) {
     const PlayResult result = play(stimulus.stimulus, make_, options_.play);

@@ -89,7 +89,9 @@ void Lockstep::note_input(Tick at, Pin pin, Level level) {
 void Lockstep::note_serial(Tick at, Pin pin) {
   if (pin == Pin::kReset) image_at_ = at + kStartsUp;
   const bool moves = pin == Pin::kXss || pin == Pin::kRxd || pin == Pin::kTxd || pin == Pin::kPbrts;
-  if (!moves || model_.level(Pin::kReset) == 0 || model_.mode() == dsdpv1::HostMode::kParallel || at < image_at_ + kImageGap) return;
+  if (!moves || model_.level(Pin::kReset) == 0 || model_.mode() == dsdpv1::HostMode::kParallel ||
+      at < image_at_ + kImageGap)
+    return;
   ended_ = image_at_ = at;
 }
 

@@ -18,9 +18,9 @@ namespace {
 /// RTL here.
 dsdpv1::Config config_with_rtl(const tb::ChipMaker& maker, const tb::ChipRequest& request) {
   if (!tb::is_dsdpv1(maker) && &maker != &tb::dsdpv1_rsu_kind())
-    throw tb::InputError(fmt::format("--engine rtl and lockstep are for chips of the kinds {}, {} and {}, the scenario has {}",
-                                     tb::dsdpv1_kind().name(), tb::dsdpv1_r_kind().name(),
-                                     tb::dsdpv1_rsu_kind().name(), maker.name()));
+    throw tb::InputError(
+        fmt::format("--engine rtl and lockstep are for chips of the kinds {}, {} and {}, the scenario has {}",
+                    tb::dsdpv1_kind().name(), tb::dsdpv1_r_kind().name(), tb::dsdpv1_rsu_kind().name(), maker.name()));
   return tb::config_of(request);
 }
 

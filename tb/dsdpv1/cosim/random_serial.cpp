@@ -92,7 +92,8 @@ bool RandomSerial::own_traffic() {
   else if (what < 5)
     wrong_telegram();
   else if (what < 6)
-    write_bytes(random_.between(0, kLastCell), random_.bytes(random_.one_in(6) ? random_.below(256) : random_.below(9)));
+    write_bytes(random_.between(0, kLastCell),
+                random_.bytes(random_.one_in(6) ? random_.below(256) : random_.below(9)));
   else if (what < 7)
     write_bytes(0x0A, random_.bytes(random_.between(1, 20)));
   else

@@ -8,8 +8,9 @@
 
 namespace dsdpv1::cosim {
 
-/// One case from power-on, the same for the same seed; with a serial port of the DSDPV1-RSU, straps for it come first. Meant for `quick_config()`: what has to be waited for is waited
-/// for with its times. Runs for a few hundred thousand cycles, some for two millions (slow rates).
+/// One case from power-on, the same for the same seed; with a serial port of the DSDPV1-RSU, straps for it come first.
+/// Meant for `quick_config()`: what has to be waited for is waited for with its times. Runs for a few hundred thousand
+/// cycles, some for two millions (slow rates).
 Stimulus random_stimulus(std::uint64_t seed, HostMode mode = HostMode::kParallel);
 
 }  // namespace dsdpv1::cosim

@@ -51,8 +51,8 @@ void RandomUart::break_it(Action& action) {
     case 1: action.faults.missing_stop_at = at; break;
     case 2:
       action.faults.gap_before = at;
-      action.faults.gap_millibits = random_.one_in(2) ? kHalves[uiv_] * kHalfCharacter + random_.between(-600, 600)
-                                                      : random_.below(60'000);
+      action.faults.gap_millibits =
+          random_.one_in(2) ? kHalves[uiv_] * kHalfCharacter + random_.between(-600, 600) : random_.below(60'000);
       break;
     case 3:
       action.faults.truncate_after = at;

@@ -61,12 +61,10 @@ Make make_of(const dsdpv1::Config& config, const char* kind) {
 }
 
 RtlLimits limits(const dsdpv1::Config& config) {
-  return {config.access_interval,  config.ready_cycles,       config.rts_lead,
-          config.rts_trail,        config.intr_low,           config.intr_gap,
-          config.search_window_ms, config.search_window_bits, config.baud_control_ms,
-          config.spi_reply_gap,    config.spi_write_gap,      config.serial_block_crc,
-          config.u_timer,          config.uart_min_tsdr,      config.uart_cfg_length,
-          config.uart_gaps};
+  return {config.access_interval, config.ready_cycles,  config.rts_lead,         config.rts_trail,
+          config.intr_low,        config.intr_gap,      config.search_window_ms, config.search_window_bits,
+          config.baud_control_ms, config.spi_reply_gap, config.spi_write_gap,    config.serial_block_crc,
+          config.u_timer,         config.uart_min_tsdr, config.uart_cfg_length,  config.uart_gaps};
 }
 
 }  // namespace

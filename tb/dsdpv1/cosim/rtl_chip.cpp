@@ -135,8 +135,8 @@ void RtlChip::end_tick() {
   if (held_.empty()) return;
   const bool clk = next_edge_ == now_;
   if (clk) clock_edge();
-  const auto sck = std::stable_partition(
-      held_.begin(), held_.end(), [](const Change& change) { return change.pin == Pin::kSck; });
+  const auto sck =
+      std::stable_partition(held_.begin(), held_.end(), [](const Change& change) { return change.pin == Pin::kSck; });
   if (sck != held_.begin()) apply(Pin::kSck, held_.front().level);
   if (clk || sck != held_.begin()) eval(now_);
   for (const Change& change : held_) {

@@ -16,9 +16,9 @@
 
 namespace dsdpv1::cosim {
 
-/// When a tick is evaluated. The DSDPV1-RSU's SCK acts on registers as they were before an edge of CLK at the same tick,
-/// so who wants that to the tick evaluates both at once: when the tick is over. Only where a byte is loaded at the very
-/// edge that SCK falls with does it matter, at a clock of SCK that SP2 does not allow.
+/// When a tick is evaluated. The DSDPV1-RSU's SCK acts on registers as they were before an edge of CLK at the same
+/// tick, so who wants that to the tick evaluates both at once: when the tick is over. Only where a byte is loaded at
+/// the very edge that SCK falls with does it matter, at a clock of SCK that SP2 does not allow.
 enum class TickEnds : std::uint8_t {
   kAtOnce,  ///< CLK, then each input as it is set
   kLater,   ///< CLK and SCK together, then the other inputs, when somebody goes on beyond the tick

@@ -5,7 +5,8 @@
 
 namespace dsdpv1::cosim {
 
-RtlDevice::RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top) : core_(config), rtl_(std::move(top), config) {
+RtlDevice::RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top)
+    : core_(config), rtl_(std::move(top), config) {
   core_.watch({[](void* self, Tick at, Pin pin, Level level) {
                  static_cast<RtlDevice*>(self)->core_changes_.push_back({at, pin, level});
                },

@@ -10,7 +10,8 @@ constexpr int kByteBits = 8;
 constexpr Tick kMillibits = 1000, kMillion = 1'000'000;
 
 void in_order(std::vector<PinEdge>& edges) {
-  std::stable_sort(edges.begin(), edges.end(), [](const PinEdge& a, const PinEdge& b) { return a.at < b.at; });
+  std::stable_sort(
+      edges.begin(), edges.end(), [](const PinEdge& a, const PinEdge& b) { return a.at < b.at; });
 }
 
 int bit_of(const bus::Bytes& bytes, int index) {

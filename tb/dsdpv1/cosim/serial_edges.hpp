@@ -17,7 +17,8 @@ Tick uart_bit(int rate);
 
 /// Verb::kSpi from XSS's fall at tick 0 to its rise; in order of time.
 std::vector<PinEdge> spi_edges(const Action& action);
-/// Verb::kUart from the first start bit at tick 0 to the end of the last bit, where RXD is high again; in order of time.
+/// Verb::kUart from the first start bit at tick 0 to the end of the last bit, where RXD is high again; in order of
+/// time.
 std::vector<PinEdge> uart_edges(const Action& action);
 
 }  // namespace dsdpv1::cosim

@@ -16,8 +16,7 @@ namespace {
 const std::map<std::string, Verb> kVerbs = {{"send", Verb::kSend},   {"spike", Verb::kSpike}, {"take", Verb::kTake},
                                             {"give", Verb::kGive},   {"write", Verb::kWrite}, {"read", Verb::kRead},
                                             {"block", Verb::kBlock}, {"pin", Verb::kPin},     {"reset", Verb::kReset},
-                                            {"spi", Verb::kSpi},     {"uart", Verb::kUart},
-                                            {"sync", Verb::kSync}};
+                                            {"spi", Verb::kSpi},     {"uart", Verb::kUart},   {"sync", Verb::kSync}};
 
 constexpr Tick kLongest = Tick{1} << 40;
 constexpr int kLastCell = 0x7FF;
@@ -56,18 +55,19 @@ const Field kPoll = {"poll", FIELD(low), 1, kLongest, false};
 #undef FIELD
 
 const std::vector<Field>& fields(Verb verb) {
-  static const std::map<Verb, std::vector<Field>> table = {{Verb::kSend, {kRate, kReply}},
-                                                           {Verb::kSpike, {kLow}},
-                                                           {Verb::kTake, {kPoll}},
-                                                           {Verb::kGive, {}},
-                                                           {Verb::kWrite, {kAt, kByte, kSetup, kLow, kHold}},
-                                                           {Verb::kRead, {kAt, kSetup, kLow, kHold}},
-                                                           {Verb::kBlock, {kAt, kCrc, kXor, kSetup, kLow, kHold}},
-                                                           {Verb::kPin, {kLevel}},
-                                                           {Verb::kReset, {kLow}},
-                                                           {Verb::kSpi, {kSetup, kHigh, kLow, kLead, kLag, kPause, kBits}},
-                                                           {Verb::kUart, {kUbr, kReply, kPpm}},
-                                                           {Verb::kSync, {}}};
+  static const std::map<Verb, std::vector<Field>> table = {
+      {Verb::kSend, {kRate, kReply}},
+      {Verb::kSpike, {kLow}},
+      {Verb::kTake, {kPoll}},
+      {Verb::kGive, {}},
+      {Verb::kWrite, {kAt, kByte, kSetup, kLow, kHold}},
+      {Verb::kRead, {kAt, kSetup, kLow, kHold}},
+      {Verb::kBlock, {kAt, kCrc, kXor, kSetup, kLow, kHold}},
+      {Verb::kPin, {kLevel}},
+      {Verb::kReset, {kLow}},
+      {Verb::kSpi, {kSetup, kHigh, kLow, kLead, kLag, kPause, kBits}},
+      {Verb::kUart, {kUbr, kReply, kPpm}},
+      {Verb::kSync, {}}};
   return table.at(verb);
 }
 
@@ -148,7 +148,8 @@ class LineParser {
     if (!(words_ >> word) || word[0] == '#') return std::nullopt;
     const auto verb = kVerbs.find(word);
     if (verb == kVerbs.end())
-      fail("unknown action " + word, "send, spike, take, give, write, read, block, pin, spi, uart, reset, sync, repeat, end");
+      fail("unknown action " + word,
+           "send, spike, take, give, write, read, block, pin, spi, uart, reset, sync, repeat, end");
     Action action;
     action.verb = verb->second;
     while (words_ >> word)

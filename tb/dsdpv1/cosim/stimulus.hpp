@@ -2,8 +2,8 @@
 // Stimulus for lockstep runs without the bench: what happens at the chip's input pins, as short lines of text.
 //
 // Three lanes act at the same time: the bus (send, spike), the user at the host port (take, give, write, read, block,
-// pin; spi, uart of the DSDPV1-RSU), the board (reset). Each action begins `delay` ticks after the one before it in its lane has ended; `sync` lets
-// all lanes wait for each other.
+// pin; spi, uart of the DSDPV1-RSU), the board (reset). Each action begins `delay` ticks after the one before it in its
+// lane has ended; `sync` lets all lanes wait for each other.
 #include <string>
 #include <vector>
 
