@@ -133,7 +133,9 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   command->add_option("--golden", arguments.golden,
                       "Folder of golden traces (traces): every change of every pin is compared, the first difference "
                       "ends the run (docs/traces.md)");
-  command->add_option("--fault", arguments.fault, "With this single fault of rtl_ref/faults.txt in the reference RTL")
+  command
+      ->add_option("--fault", arguments.fault,
+                   "With this single fault of rtl_ref/faults.txt, or faults_rsu.txt, in the reference RTL")
       ->check(CLI::Range(0, 255));
   command->add_option("--seed", arguments.seed,
                       "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
@@ -306,9 +308,18 @@ void describe_regress(CLI::App& app, RegressArguments& arguments) {
       "\nExit codes: 0 all runs passed, 1 some did not, 2 wrong input, 130 interrupted.\n");
 }
 
+/// The reference RTL of which chip, and for random cases its port.
+void add_chip_options(CLI::App& command, std::string& chip, std::string& mode) {
+  command.add_option("--chip", chip, "The chip of the reference RTL: dsdpv1, dsdpv1_r, dsdpv1_rsu")
+      ->capture_default_str();
+  command.add_option("--mode", mode, "Of the dsdpv1_rsu, for random cases: the host's port, parallel, spi or uart")
+      ->capture_default_str();
+}
+
 void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("rtl-random", "Random stimulus for model and RTL in lockstep, the reference RTL or your own");
+  add_chip_options(*command, arguments.chip, arguments.mode);
   command->add_option("--cycles", arguments.cycles, "How many cycles to compare")->capture_default_str();
   command->add_option("--seed", arguments.seed, "The same cases for the same seed")->capture_default_str();
   command->add_option("--jobs", arguments.jobs, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
@@ -336,6 +347,7 @@ void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
   command->footer(
       "\n--wave and --log are written of the case that differs, and of a stimulus that --replay plays.\n"
       "\nExamples:\n  dsdpv1-sim rtl-random --cycles 100000000 --seed 7\n"
+      "  dsdpv1-sim rtl-random --chip dsdpv1_rsu --mode spi --cycles 100000000\n"
       "  dsdpv1-sim rtl-random --replay lockstep.stimulus --difference both.fst --log case.log\n"
       "  dsdpv1-sim rtl-random --rtl my_chip --top chip --pins pins.yaml --set chip.search_window_ms=1 --result "
       "r.json\n"
@@ -346,16 +358,20 @@ void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
 void describe_rtl_faults(CLI::App& app, RtlFaultsArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("rtl-faults", "Checks the lockstep itself: every single fault in the RTL must be found");
-  command->add_option("--list", arguments.list, "The list of faults; left out: rtl_ref/faults.txt of this source tree");
-  command->add_option("--directed", arguments.directed,
-                      "Folder of stimulus files that are played first; left out: tests/cosim/stimuli of this source "
-                      "tree");
+  add_chip_options(*command, arguments.chip, arguments.mode);
+  command->add_option("--list", arguments.list,
+                      "The list of faults; left out: rtl_ref/faults.txt or faults_rsu.txt of this source tree");
+  command->add_option(
+      "--directed", arguments.directed,
+      "Folder of stimulus files that are played first; left out: tests/cosim/stimuli or stimuli_rsu of this "
+      "source tree");
   command->add_option("--cycles", arguments.cycles, "Random cycles for each fault at most")->capture_default_str();
   command->add_option("--seed", arguments.seed, "Of the random cases")->capture_default_str();
   command->add_option("--jobs", arguments.jobs, "Threads; left out: one a processor")->check(CLI::Range(1, 256));
   command->add_option("--tsv", arguments.tsv, "The table also as tab-separated text into this file");
   command->footer(
-      "\nExamples:\n  dsdpv1-sim rtl-faults --tsv kills.tsv\n  dsdpv1-sim rtl-faults --list my_faults.txt --cycles "
+      "\nExamples:\n  dsdpv1-sim rtl-faults --tsv kills.tsv\n  dsdpv1-sim rtl-faults --chip dsdpv1_rsu --mode spi\n  "
+      "dsdpv1-sim rtl-faults --list my_faults.txt --cycles "
       "5000000\n"
       "\nExit codes: 0 all found, 1 some not, 2 wrong input, 130 interrupted.\n");
 }

@@ -6,11 +6,14 @@
 
 #include "apps/own_rtl.hpp"
 #include "apps/wave_options.hpp"
+#include "model/dsdpv1/config.hpp"
 
 namespace dsdpv1::app {
 
 struct RtlRandomArguments {
   std::string command = "dsdpv1-sim rtl-random";  ///< for messages
+  std::string chip = "dsdpv1";                    ///< kind of chip, for the reference RTL
+  std::string mode = "parallel";                  ///< of the DSDPV1-RSU
   std::uint64_t cycles = 10'000'000, seed = 1;
   unsigned jobs = 0;                           ///< threads; 0: as many as there are processors
   std::string replay;                          ///< a stimulus file instead of random cases
@@ -24,8 +27,9 @@ struct RtlRandomArguments {
 };
 
 struct RtlFaultsArguments {
-  std::string list, directed;  ///< empty: those of the program's own sources, wherever it is called
-  std::string tsv;             ///< the kill table for other programs; empty: none
+  std::string chip = "dsdpv1", mode = "parallel";  ///< as of rtl-random
+  std::string list, directed;                      ///< empty: those of the program's own sources, wherever it is called
+  std::string tsv;                                 ///< the kill table for other programs; empty: none
   std::uint64_t cycles = 30'000'000, seed = 1;
   unsigned jobs = 0;  ///< as of rtl-random
 };
@@ -39,6 +43,10 @@ struct CosimArguments {
   bool log_whole = false;
   std::vector<std::string> set;  ///< as of RunArguments
 };
+
+/// What --chip and --mode say. Throws tb::InputError: a chip without reference RTL, or a mode that it does not have.
+Part part_of(const std::string& chip);
+HostMode mode_of(Part part, const std::string& mode);
 
 /// Threads for --jobs; 0: one a processor.
 unsigned threads_of(unsigned jobs);

@@ -32,23 +32,28 @@ int rtl_faults(const RtlFaultsArguments& arguments) {
   const auto given_or_own = [](const std::string& path, const char* own) {
     return path.empty() ? data_folder() + own : path;
   };
-  const std::string list = given_or_own(arguments.list, "/rtl_ref/faults.txt");
-  const std::string folder = given_or_own(arguments.directed, "/tests/cosim/stimuli");
+  const Part part = part_of(arguments.chip);
+  const bool rsu = part == Part::kRsu;
+  const std::string list = given_or_own(arguments.list, rsu ? "/rtl_ref/faults_rsu.txt" : "/rtl_ref/faults.txt");
+  const std::string folder =
+      given_or_own(arguments.directed, rsu ? "/tests/cosim/stimuli_rsu" : "/tests/cosim/stimuli");
   const std::vector<cosim::Fault> faults = cosim::read_faults(list);
   const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder);
   check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", arguments.tsv}});
   std::optional<tb::OutputFile> tsv;
   if (!arguments.tsv.empty()) tsv.emplace(arguments.tsv);
-  const cosim::Kill none = cosim::hunt({0, "none", "", "the build for the faults, with none active"}, directed,
-                                       arguments.seed, arguments.cycles / 10);
+  cosim::CampaignOptions options{arguments.seed, arguments.cycles / 10, threads_of(arguments.jobs),
+                                 cosim::quick_options(part), mode_of(part, arguments.mode)};
+  const cosim::Kill none =
+      cosim::hunt({0, "none", "", "the build for the faults, with none active"}, directed, options);
+  options.cycles = arguments.cycles;
   std::cout << cosim::heading();
   if (none.found) {
     std::cout << cosim::line_of(none) << "model and RTL differ without a fault; find that out first\n";
     return kFailed;
   }
-  const std::vector<cosim::Kill> kills =
-      cosim::hunt_all(faults, directed, {arguments.seed, arguments.cycles, threads_of(arguments.jobs)},
-                      [](const cosim::Kill& kill) { std::cout << cosim::line_of(kill) << std::flush; });
+  const std::vector<cosim::Kill> kills = cosim::hunt_all(
+      faults, directed, options, [](const cosim::Kill& kill) { std::cout << cosim::line_of(kill) << std::flush; });
   if (tsv) {
     tsv->write(cosim::to_tsv(kills));
     tsv->commit();

@@ -50,8 +50,10 @@ struct Bench {
 
 Bench bench_of(const RtlRandomArguments& arguments) {
   Bench bench;
+  if (!arguments.own.rtl.empty() && part_of(arguments.chip) == Part::kRsu)
+    throw tb::InputError("--rtl: RTL of your own has the pins of table 1, allowed is without --chip dsdpv1_rsu");
   if (arguments.own.rtl.empty()) {
-    bench.options = cosim::quick_options();
+    bench.options = cosim::quick_options(part_of(arguments.chip));
     cosim::set_parameters(bench.options, arguments.set);
     bench.make = cosim::reference_top(bench.options, arguments.fault, static_cast<std::uint32_t>(arguments.seed));
     return bench;
@@ -86,7 +88,7 @@ class StimulusOutputs {
     const cosim::MakeTop traced = [&] { return bench.make_own(trace); };
     cosim::PlayResult result = cosim::play(stimulus, traced, options);
     wave.finish(result.difference);
-    if (arguments_.wave_save) write_save_files(arguments_.wave, cosim::chip_kind());
+    if (arguments_.wave_save) write_save_files(arguments_.wave, cosim::chip_kind(options.config.part));
     return result;
   }
   void finish(const cosim::StimulusResult& result) {
@@ -155,6 +157,7 @@ std::string command_text(const RtlRandomArguments& arguments) {
     if (!value.empty()) text += fmt::format(" {} {}", option, word(value));
   };
   const bool own = !arguments.own.rtl.empty();
+  add("--chip", arguments.chip == RtlRandomArguments().chip ? "" : arguments.chip);
   add("--rtl", arguments.own.rtl);
   add("--top", arguments.own.top);
   add("--pins", arguments.own.pins);
@@ -169,7 +172,8 @@ int shrink_and_play(const RtlRandomArguments& arguments, const cosim::CampaignRe
   std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", campaign.cases, campaign.difference->what)
             << std::flush;
   const cosim::Stimulus shrunk =
-      cosim::shrink(cosim::random_stimulus(campaign.failed_seed), bench.make, kShrinkRuns, bench.options);
+      cosim::shrink(cosim::random_stimulus(campaign.failed_seed, mode_of(bench.options.config.part, arguments.mode)),
+                    bench.make, kShrinkRuns, bench.options);
   const std::string text = cosim::to_text(shrunk);
   file.write(text);
   file.commit();
@@ -185,11 +189,12 @@ int shrink_and_play(const RtlRandomArguments& arguments, const cosim::CampaignRe
 int random_cases(const RtlRandomArguments& arguments, const Bench& bench, StimulusOutputs& outputs,
                  cosim::StimulusResult& result) {
   tb::OutputFile stimulus(arguments.stimulus);
+  const HostMode mode = mode_of(bench.options.config.part, arguments.mode);
   const auto begin = std::chrono::steady_clock::now();
   const ProgressLine line;
   const cosim::CampaignResult campaign =
-      cosim::run_campaign({arguments.seed, arguments.cycles, threads_of(arguments.jobs), bench.options}, bench.make,
-                          [&line](std::uint64_t cases, std::uint64_t cycles) { line.show(cases, cycles); });
+      cosim::run_campaign({arguments.seed, arguments.cycles, threads_of(arguments.jobs), bench.options, mode},
+                          bench.make, [&line](std::uint64_t cases, std::uint64_t cycles) { line.show(cases, cycles); });
   line.clear();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::cout << fmt::format("seed {}: {} cases, {} ({:.1f} M cycles/s)\n", arguments.seed, campaign.cases,
@@ -215,11 +220,27 @@ void check_files(const RtlRandomArguments& arguments) {
 
 }  // namespace
 
+Part part_of(const std::string& chip) {
+  check_word("--chip", chip, {"dsdpv1", "dsdpv1_r", "dsdpv1_rsu"});
+  if (chip == "dsdpv1_rsu") return Part::kRsu;
+  return chip == "dsdpv1_r" ? Part::kR : Part::kDsdpv1;
+}
+
+HostMode mode_of(Part part, const std::string& mode) {
+  check_word("--mode", mode, {"parallel", "spi", "uart"});
+  if (part != Part::kRsu && mode != "parallel")
+    throw tb::InputError("--mode " + mode +
+                         ": only the dsdpv1_rsu has that port, allowed is --chip dsdpv1_rsu with it");
+  if (mode == "spi") return HostMode::kSpi;
+  return mode == "uart" ? HostMode::kUart : HostMode::kParallel;
+}
+
 unsigned threads_of(unsigned jobs) { return jobs != 0 ? jobs : std::max(1U, std::thread::hardware_concurrency()); }
 
 int rtl_random(const RtlRandomArguments& arguments) {
   leave_nothing_on_signals();
   check_files(arguments);
+  mode_of(part_of(arguments.chip), arguments.mode);
   cosim::Stimulus stimulus;
   if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay);
   const Bench bench = bench_of(arguments);

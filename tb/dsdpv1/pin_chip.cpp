@@ -156,7 +156,7 @@ void PinChip::update_hearing() {
 void PinChip::strap(const Straps& levels) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const auto pin = static_cast<std::size_t>(Pin::kMode) + i;
-    chip_.set(0, static_cast<Pin>(pin), levels[i]);
+    device().set(0, static_cast<Pin>(pin), levels[i]);
     inputs_.at(pin) = levels[i];
   }
 }

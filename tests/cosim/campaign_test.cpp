@@ -84,11 +84,14 @@ TEST(RtlFaults, StimulusThatAFaultNamesIsPlayedFirst) {
   EXPECT_THAT(called.out, ContainsRegex(" c1: pin INTR0.*\n.* check_cfg: pin INTR0"));
 }
 
-TEST(RtlFaults, StimuliOfTheListAreThere) {
-  const std::vector<cosim::NamedStimulus> stimuli = cosim::read_stimuli(DSDPV1_SOURCE_DIR "/tests/cosim/stimuli");
-  for (const cosim::Fault& fault : cosim::read_faults(DSDPV1_SOURCE_DIR "/rtl_ref/faults.txt")) {
-    const auto named = [&fault](const cosim::NamedStimulus& each) { return each.name == fault.stimulus; };
-    EXPECT_TRUE(std::any_of(stimuli.begin(), stimuli.end(), named)) << fault.number << " names " << fault.stimulus;
+TEST(RtlFaults, StimuliOfTheListsAreThere) {
+  const std::string source = DSDPV1_SOURCE_DIR;
+  for (const std::string chip : {"", "_rsu"}) {
+    const std::vector<cosim::NamedStimulus> stimuli = cosim::read_stimuli(source + "/tests/cosim/stimuli" + chip);
+    for (const cosim::Fault& fault : cosim::read_faults(source + "/rtl_ref/faults" + chip + ".txt")) {
+      const auto named = [&fault](const cosim::NamedStimulus& each) { return each.name == fault.stimulus; };
+      EXPECT_TRUE(std::any_of(stimuli.begin(), stimuli.end(), named)) << fault.number << " names " << fault.stimulus;
+    }
   }
 }
 

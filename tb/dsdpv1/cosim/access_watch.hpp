@@ -24,7 +24,7 @@ class AccessWatch {
  private:
   Level& level(Pin pin) { return levels_.at(static_cast<std::size_t>(pin)); }
 
-  std::array<Level, dsdpv1::kPinCount> levels_{};
+  std::array<Level, dsdpv1::kRsuPinCount> levels_{};
   tb::LastAccess user_;
   Tick chip_start_ = -1, chip_end_ = -1;
 };

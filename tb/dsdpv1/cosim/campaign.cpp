@@ -40,7 +40,7 @@ class Campaign {
       number = played_.size();
       played_.emplace_back();
     }
-    PlayResult result = play(random_stimulus(case_seed(options_.seed, number)), make_, options_.play);
+    PlayResult result = play(random_stimulus(case_seed(options_.seed, number), options_.mode), make_, options_.play);
     const std::lock_guard<std::mutex> lock(mutex_);
     cycles_ += result.counts.cycles;
     differs_ = differs_ || result.difference;
@@ -72,9 +72,9 @@ class Campaign {
 
 }  // namespace
 
-PlayOptions quick_options() {
+PlayOptions quick_options(dsdpv1::Part part) {
   PlayOptions options;
-  options.config = quick_config();
+  options.config = quick_config(part);
   options.limit = kLongestCase;
   return options;
 }

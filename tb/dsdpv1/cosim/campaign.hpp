@@ -9,13 +9,14 @@
 
 namespace dsdpv1::cosim {
 
-/// How random cases and directed stimuli are played on the reference RTL.
-PlayOptions quick_options();
+/// How random cases and directed stimuli are played on the reference RTL of the part.
+PlayOptions quick_options(dsdpv1::Part part = dsdpv1::Part::kDsdpv1);
 
 struct CampaignOptions {
   std::uint64_t seed = 1, cycles = 0;  ///< cases are begun until so many cycles are compared
   unsigned jobs = 1;                   ///< threads
   PlayOptions play = quick_options();
+  HostMode mode = HostMode::kParallel;  ///< of the host of random cases
 };
 
 /// The same for the same seed and cycles, however many threads there are.

@@ -10,7 +10,6 @@
 #include <sstream>
 #include <utility>
 
-#include "tb/dsdpv1/cosim/random_setup.hpp"
 #include "tb/dsdpv1/cosim/reference_rtl.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
@@ -23,14 +22,16 @@ namespace fs = std::filesystem;
 /// Plays until the fault shows.
 class Hunt {
  public:
-  explicit Hunt(const Fault& fault) : kill_{fault, false, "", 0, 0, ""} {}
+  Hunt(const Fault& fault, const CampaignOptions& options) : kill_{fault, false, "", 0, 0, ""}, options_(options) {}
 
   bool directed(const NamedStimulus& stimulus) {
-    const PlayResult result = play(stimulus.stimulus, make_, quick_options());
+    const PlayResult result = play(stimulus.stimulus, make_, options_.play);
     return note(stimulus.name, result.counts, result.difference);
   }
-  void random(std::uint64_t seed, std::uint64_t cycles) {
-    const CampaignResult result = run_campaign({seed, cycles, 1}, make_);
+  void random() {
+    CampaignOptions options = options_;
+    options.jobs = 1;
+    const CampaignResult result = run_campaign(options, make_);
     note(fmt::format("random case {}", result.cases), result.counts, result.difference);
   }
   Kill end() {
@@ -49,7 +50,8 @@ class Hunt {
   }
 
   Kill kill_;
-  MakeTop make_ = [this] { return make_faulty_rtl(quick_config(), kill_.fault.number); };
+  const CampaignOptions& options_;
+  MakeTop make_ = [this] { return make_faulty_rtl(options_.play.config, kill_.fault.number); };
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
@@ -91,12 +93,12 @@ std::vector<NamedStimulus> read_stimuli(const std::string& folder) {
   return stimuli;
 }
 
-Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, std::uint64_t seed, std::uint64_t cycles) {
-  Hunt hunt(fault);
+Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, const CampaignOptions& options) {
+  Hunt hunt(fault, options);
   for (const bool named : {true, false})
     for (const NamedStimulus& each : directed)
       if ((each.name == fault.stimulus) == named && hunt.directed(each)) return hunt.end();
-  hunt.random(seed, cycles);
+  hunt.random();
   return hunt.end();
 }
 
@@ -112,7 +114,7 @@ std::vector<Kill> hunt_all(const std::vector<Fault>& faults, const std::vector<N
       if (begun == faults.size()) return false;
       number = begun++;
     }
-    Kill kill = hunt(faults[number], directed, options.seed, options.cycles);
+    Kill kill = hunt(faults[number], directed, options);
     const std::lock_guard<std::mutex> lock(mutex);
     kills[number] = std::move(kill);
     for (; told < kills.size() && kills[told]; ++told) found(*kills[told]);

@@ -11,7 +11,7 @@ struct Fault {
   unsigned number = 0;
   std::string block, stimulus, text;  ///< the directed stimulus that is played first
 };
-/// rtl_ref/faults.txt; throws tb::InputError.
+/// rtl_ref/faults.txt, faults_rsu.txt; throws tb::InputError.
 std::vector<Fault> read_faults(const std::string& path);
 
 struct NamedStimulus {
@@ -31,7 +31,8 @@ struct Kill {
 };
 
 /// Directed stimuli, first the one that the fault names, then random cases until `cycles` are compared.
-Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, std::uint64_t seed, std::uint64_t cycles);
+/// Of the part and the mode of `options`.
+Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, const CampaignOptions& options);
 
 /// All of them, on several threads; `found` is called in the order of `faults`, by one thread at a time.
 std::vector<Kill> hunt_all(const std::vector<Fault>& faults, const std::vector<NamedStimulus>& directed,

@@ -31,10 +31,10 @@ void History::forget_before(Tick oldest) {
 
 void History::write_wave(const std::string& path, Tick end) const {
   const std::unique_ptr<tb::WaveWriter> writer = tb::open_wave(path);
-  std::array<std::array<tb::WaveWriter::Signal, dsdpv1::kPinCount>, kSides> signals{};
+  std::array<std::array<tb::WaveWriter::Signal, dsdpv1::kRsuPinCount>, kSides> signals{};
   for (std::size_t side = 0; side < kSides; ++side) {
     writer->open_scope(kScopes.at(side));
-    for (std::size_t i = 0; i < dsdpv1::kPinCount; ++i) {
+    for (std::size_t i = 0; i < pins_; ++i) {
       const Pin pin = static_cast<Pin>(i);
       if (belongs(static_cast<Side>(side), pin))
         signals.at(side).at(i) = writer->wire(dsdpv1::name(pin), dsdpv1::width(pin));
@@ -43,7 +43,7 @@ void History::write_wave(const std::string& path, Tick end) const {
   }
   const Tick begin = std::max<Tick>(0, changes_.empty() ? 0 : std::min(changes_.front().at, end - span_));
   for (std::size_t side = 0; side < kSides; ++side) {
-    for (std::size_t i = 0; i < dsdpv1::kPinCount; ++i)
+    for (std::size_t i = 0; i < pins_; ++i)
       if (belongs(static_cast<Side>(side), static_cast<Pin>(i)))
         writer->set(begin, signals.at(side).at(i), levels_.at(side).at(i));
   }

@@ -18,7 +18,8 @@ const char* name(Side side);
 
 class History {
  public:
-  explicit History(int cycles) : span_(cycles * profibus::kTicksPerCycle) {}
+  /// Of the first so many pins.
+  History(int cycles, int pins) : span_(cycles * profibus::kTicksPerCycle), pins_(static_cast<std::size_t>(pins)) {}
 
   void begin(Side side, Pin pin, Level level) { levels_.at(static_cast<std::size_t>(side)).at(index(pin)) = level; }
   void add(Tick at, Side side, Pin pin, Level level);
@@ -39,7 +40,8 @@ class History {
   void forget_before(Tick oldest);
 
   Tick span_;
-  std::array<std::array<Level, dsdpv1::kPinCount>, kSides> levels_{};  ///< before the first change kept
+  std::size_t pins_;
+  std::array<std::array<Level, dsdpv1::kRsuPinCount>, kSides> levels_{};  ///< before the first change kept
   std::deque<Change> changes_;
   LineHistory line_;
 };

@@ -14,6 +14,8 @@ constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr Tick kShortAccess = 7 * kCycle;  // 9.1: nothing was due, B006 := 01 is all
 constexpr Tick kSettles = 4 * kCycle;      // P8: longer than a user's write is on its way
 constexpr unsigned kImageEvery = 256;      // ... the DPRAM is compared all the same from time to time
+constexpr Tick kStartsUp = 3500 * kCycle;  // H6: the start-up access has written every cell
+constexpr Tick kImageGap = 1000 * kCycle;  // with a serial port no pin shows an access: as often as this
 
 std::string text(Pin pin, const std::optional<Level>& level) {
   return level ? level_text(pin, *level) : "no such change within the tolerance";
@@ -34,11 +36,12 @@ std::string describe(const Difference& difference) {
 
 Lockstep::Lockstep(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, const LockstepOptions& options)
     : model_(config),
-      rtl_(std::move(top)),
+      part_(config.part),
+      rtl_(std::move(top), config, config.part == Part::kRsu ? TickEnds::kLater : TickEnds::kAtOnce),
       options_(options),
       comparator_(options.tolerances),
-      history_(options.history_cycles) {
-  for (int i = 0; i < dsdpv1::kPinCount; ++i) {
+      history_(options.history_cycles, dsdpv1::pin_count(config.part)) {
+  for (int i = 0; i < dsdpv1::pin_count(part_); ++i) {
     const Pin pin = static_cast<Pin>(i);
     history_.begin(Side::kInput, pin, model_.level(pin));
     history_.begin(Side::kModel, pin, model_.level(pin));
@@ -48,11 +51,11 @@ Lockstep::Lockstep(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, co
   model_.watch(
       {[](void* self, Tick at, Pin pin, Level level) { static_cast<Lockstep*>(self)->model_changed(at, pin, level); },
        this},
-      dsdpv1::kOutputPins);
+      dsdpv1::outputs_of(part_));
   rtl_.watch(
       {[](void* self, Tick at, Pin pin, Level level) { static_cast<Lockstep*>(self)->rtl_changed(at, pin, level); },
        this},
-      dsdpv1::kOutputPins);
+      dsdpv1::outputs_of(part_));
 }
 
 void Lockstep::watch(const dsdpv1::PinSink& sink, std::uint32_t pins) {
@@ -76,21 +79,42 @@ void Lockstep::note(Tick at, Side side, Pin pin, Level level) {
 
 void Lockstep::note_input(Tick at, Pin pin, Level level) {
   watch_.change(at, pin, level);
+  if (part_ == Part::kRsu) note_serial(at, pin);
   if (pin != Pin::kWr || level == 0) return;
   user_wrote_ = true;
   last_write_ = at;
 }
 
+/// With a serial port the DPRAM is the same in every cycle, so it may be compared at any.
+void Lockstep::note_serial(Tick at, Pin pin) {
+  if (pin == Pin::kReset) image_at_ = at + kStartsUp;
+  const bool moves = pin == Pin::kXss || pin == Pin::kRxd || pin == Pin::kTxd || pin == Pin::kPbrts;
+  if (!moves || model_.level(Pin::kReset) == 0 || model_.mode() == dsdpv1::HostMode::kParallel ||
+      at < image_at_ + kImageGap)
+    return;
+  ended_ = image_at_ = at;
+}
+
 /// The model is stopped wherever one of its accesses ends, because the RTL's DPRAM can be seen at its present time
 /// only.
 void Lockstep::advance(Tick to) {
+  if (part_ == Part::kRsu) look_at_dpram(to);
   for (Tick next = model_.next_event(); next <= to && !difference_; next = model_.next_event()) {
     model_.advance(next);
-    if (ended_) access_ended(*std::exchange(ended_, std::nullopt));
+    if (!ended_) continue;
+    if (part_ == Part::kRsu)
+      look_at_dpram(to);
+    else
+      access_ended(*std::exchange(ended_, std::nullopt));
   }
   model_.advance(to);
   rtl_.advance(to);
   settle(to);
+}
+
+/// Of the DSDPV1-RSU, whose ticks are evaluated when they are over.
+void Lockstep::look_at_dpram(Tick to) {
+  if (ended_ && *ended_ < to && !difference_) access_ended(*std::exchange(ended_, std::nullopt));
 }
 
 void Lockstep::model_changed(Tick at, Pin pin, Level level) {
@@ -98,6 +122,7 @@ void Lockstep::model_changed(Tick at, Pin pin, Level level) {
   if (!difference_) comparator_.model_changed(at, pin, level);
   watch_.change(at, pin, level);
   if (pin == Pin::kLReq && level == 0 && model_.level(Pin::kReset) != 0) ended_ = at;
+  if (part_ == Part::kRsu) note_serial(at, pin);
   if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, pin, level);
 }
 
@@ -108,7 +133,7 @@ void Lockstep::rtl_changed(Tick at, Pin pin, Level level) {
 
 void Lockstep::access_ended(Tick at) {
   if (!dpram_may_have_changed(at)) return;
-  rtl_.advance(at);
+  rtl_.advance(part_ == Part::kRsu ? at + 1 : at);
   settle(at);
   if (!difference_) compare_dpram(at);
 }

@@ -77,6 +77,8 @@ class Lockstep {
   void rtl_changed(Tick at, Pin pin, Level level);
   void note(Tick at, Side side, Pin pin, Level level);
   void note_input(Tick at, Pin pin, Level level);
+  void note_serial(Tick at, Pin pin);
+  void look_at_dpram(Tick to);
   void access_ended(Tick at);
   bool dpram_may_have_changed(Tick at);
   void compare_dpram(Tick at);
@@ -84,6 +86,7 @@ class Lockstep {
   void found(Tick at, std::string what);
 
   dsdpv1::Chip model_;
+  const dsdpv1::Part part_;
   RtlChip rtl_;
   LockstepOptions options_;
   PinComparator comparator_;
@@ -94,6 +97,7 @@ class Lockstep {
   AccessWatch watch_;
   Tick last_write_ = -1;
   std::optional<Tick> ended_;  ///< an access of the model has ended, the DPRAM is not compared yet
+  Tick image_at_ = 0;          ///< with a serial port
   bool user_wrote_ = true;     ///< since the DPRAM was compared
   unsigned accesses_ = 0;
   std::optional<Difference> difference_;

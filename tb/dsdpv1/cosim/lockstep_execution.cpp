@@ -14,12 +14,13 @@
 namespace dsdpv1::cosim {
 namespace {
 
-/// The parameters of the chip; other kinds than the DSDPV1, and the DSDPV1-R, which is the same, have no RTL here.
+/// The parameters of the chip; other kinds than the DSDPV1, the DSDPV1-R, which is the same, and the DSDPV1-RSU have no
+/// RTL here.
 dsdpv1::Config config_with_rtl(const tb::ChipMaker& maker, const tb::ChipRequest& request) {
-  if (!tb::is_dsdpv1(maker))
+  if (!tb::is_dsdpv1(maker) && &maker != &tb::dsdpv1_rsu_kind())
     throw tb::InputError(
-        fmt::format("--engine rtl and lockstep are for chips of the kinds {} and {}, the scenario has {}",
-                    tb::dsdpv1_kind().name(), tb::dsdpv1_r_kind().name(), maker.name()));
+        fmt::format("--engine rtl and lockstep are for chips of the kinds {}, {} and {}, the scenario has {}",
+                    tb::dsdpv1_kind().name(), tb::dsdpv1_r_kind().name(), tb::dsdpv1_rsu_kind().name(), maker.name()));
   return tb::config_of(request);
 }
 
@@ -50,6 +51,7 @@ class RtlExecution : public tb::Execution {
     const dsdpv1::Config config = config_with_rtl(maker, request);
     auto chip = std::make_unique<tb::PinChip>(
         request.name, std::make_unique<RtlDevice>(config, make_(request.name, config)), request.watched, segment_);
+    if (config.part == Part::kRsu) chip->strap(tb::straps_of(request.settings));
     timeline_.add(*chip);
     return chip;
   }
@@ -80,6 +82,7 @@ std::unique_ptr<tb::ChipView> LockstepExecution::make_chip(const tb::ChipMaker& 
   auto device = std::make_unique<LockstepDevice>(config, make_(request.name, config), options_);
   chips_.push_back({request.name, &device->lockstep()});
   auto chip = std::make_unique<tb::PinChip>(request.name, std::move(device), request.watched, segment_);
+  if (config.part == Part::kRsu) chip->strap(tb::straps_of(request.settings));
   if (request.inside) chip->watch_inside();
   timeline_.add(*chip);
   return chip;

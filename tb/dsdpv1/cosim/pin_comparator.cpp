@@ -55,7 +55,7 @@ void PinComparator::take(Tick at) {
 
 std::optional<PinDifference> PinComparator::compare(Tick at) {
   std::optional<PinDifference> found;
-  for (int i = kFirstOutput; i < dsdpv1::kPinCount && touched_ != 0 && !found; ++i) {
+  for (int i = kFirstOutput; i < dsdpv1::kRsuPinCount && touched_ != 0 && !found; ++i) {
     const Pin pin = static_cast<Pin>(i);
     if ((touched_ & dsdpv1::mask(pin)) == 0) continue;
     touched_ &= ~dsdpv1::mask(pin);
@@ -89,6 +89,7 @@ std::optional<PinDifference> PinComparator::compare_tolerant(Tick at, Pin pin) {
   return std::nullopt;
 }
 
+/// Pins beside those of table 1 have no tolerance.
 std::optional<PinDifference> PinComparator::overdue(Tick horizon) {
   for (int i = kFirstOutput; i < dsdpv1::kPinCount; ++i) {
     const Pin pin = static_cast<Pin>(i);

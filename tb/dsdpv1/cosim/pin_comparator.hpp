@@ -22,7 +22,7 @@ struct PinDifference {
 };
 
 /// Cycles by which a pin of the RTL may be earlier or later, by pin; 0: exactly.
-using Tolerances = std::array<int, dsdpv1::kPinCount>;
+using Tolerances = std::array<int, dsdpv1::kRsuPinCount>;
 
 class PinComparator {
  public:
@@ -64,7 +64,7 @@ class PinComparator {
   std::optional<PinDifference> overdue(Tick horizon);
 
   Tolerances tolerances_;
-  std::array<State, dsdpv1::kPinCount> states_;
+  std::array<State, dsdpv1::kRsuPinCount> states_;
   std::vector<Change> model_, rtl_;
   std::size_t model_next_ = 0, rtl_next_ = 0;
   std::uint32_t touched_ = 0;

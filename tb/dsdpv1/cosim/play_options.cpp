@@ -9,7 +9,10 @@
 
 namespace dsdpv1::cosim {
 
-const tb::ChipKind& chip_kind() { return tb::dsdpv1_kind(); }
+const tb::ChipKind& chip_kind(Part part) {
+  if (part == Part::kR) return tb::dsdpv1_r_kind();
+  return part == Part::kRsu ? tb::dsdpv1_rsu_kind() : tb::dsdpv1_kind();
+}
 
 PlayOptions own_rtl_options(const Tolerances& tolerances) {
   PlayOptions options = quick_options();
@@ -19,16 +22,17 @@ PlayOptions own_rtl_options(const Tolerances& tolerances) {
 }
 
 void set_parameters(PlayOptions& options, const std::vector<std::string>& settings) {
+  const tb::ChipKind& kind = chip_kind(options.config.part);
   YAML::Node scenario(YAML::NodeType::Map);
   for (const tb::scenario::Setting& each : tb::scenario::parse_settings(settings)) {
     if (each.path.rfind("chip.", 0) != 0)
       throw tb::InputError(each.origin, 0, "is no parameter of the chip, allowed is like chip.search_window_ms=1");
-    tb::scenario::apply(each, chip_kind(), scenario);
+    tb::scenario::apply(each, kind, scenario);
   }
   tb::Dsdpv1Settings chip;
   static_cast<dsdpv1::Config&>(chip) = options.config;
   if (const YAML::Node keys = scenario["chip"]; keys.IsDefined())
-    tb::keys::read_object(chip_kind().chip_keys(), &chip, keys, {"--set"});
+    tb::keys::read_object(kind.chip_keys(), &chip, keys, {"--set"});
   options.config = static_cast<const dsdpv1::Config&>(chip);
 }
 

@@ -9,6 +9,7 @@
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
 #include "model/dpram/crc16.hpp"
+#include "tb/dsdpv1/cosim/serial_edges.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -130,7 +131,7 @@ class UserLane : public Lane {
  public:
   explicit UserLane(ChipAgent& chip) : chip_(chip) {}
 
-  bool takes(Verb verb) const override { return verb >= Verb::kTake && verb <= Verb::kPin; }
+  bool takes(Verb verb) const override { return verb >= Verb::kTake && verb <= Verb::kUart; }
   void plan(Tick at, const Action& action) override {
     edges_.clear();
     edge_ = 0;
@@ -142,12 +143,15 @@ class UserLane : public Lane {
       case Verb::kWrite: return write(action, action.address, action.value);
       case Verb::kRead: return read(action);
       case Verb::kBlock: return block(action);
+      case Verb::kSpi: return serial(spi_edges(action));
+      case Verb::kUart: return uart(action);
       default: return add({{0, action.pin, static_cast<Level>(action.value)}}, 0);
     }
   }
-  Tick next() const override { return edge_ < edges_.size() ? edges_[edge_].at : bus::kNever; }
+  Tick next() const override { return edge_ < edges_.size() ? edges_[edge_].at : look_; }
   void run(Tick now) override {
-    for (; next() <= now; ++edge_) {
+    if (edge_ == edges_.size() && look_ <= now) return look(now);
+    for (; edge_ < edges_.size() && edges_[edge_].at <= now; ++edge_) {
       const Edge edge = edges_[edge_];
       if (!edge.poll) {
         chip_.set(edge.at, edge.pin, edge.level);
@@ -173,6 +177,24 @@ class UserLane : public Lane {
       edges_.push_back(edge);
     }
     end_ += length;
+  }
+  void serial(const std::vector<PinEdge>& edges) {
+    for (const PinEdge& each : edges) edges_.push_back({end_ + each.at, each.pin, each.level});
+    if (!edges.empty()) end_ += edges.back().at;
+  }
+  void uart(const Action& action) {
+    serial(uart_edges(action));
+    if (action.reply_bits == 0) return;
+    bit_ = uart_bit(action.rate);
+    look_ = end_ + bit_ / 2;
+    last_low_ = -1;
+    reply_by_ = end_ + action.reply_bits * bit_;
+  }
+  /// Looks at TXD every half bit: ends when it has been high for a character, or when no reply has come in time.
+  void look(Tick now) {
+    if (chip_.level(Pin::kTxd) == 0) last_low_ = now;
+    const bool over = last_low_ >= 0 ? now > last_low_ + bus::kCharacterBits * bit_ : now > reply_by_;
+    look_ = over ? bus::kNever : now + bit_ / 2;
   }
   void take(const Action& action) {
     poll_every_ = action.low;
@@ -210,6 +232,7 @@ class UserLane : public Lane {
   std::vector<Edge> edges_;
   std::size_t edge_ = 0;
   Tick end_ = 0, poll_every_ = 0;
+  Tick bit_ = 0, look_ = bus::kNever, last_low_ = -1, reply_by_ = 0;
   int polls_ = 0;
 };
 

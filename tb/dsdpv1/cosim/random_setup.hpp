@@ -11,8 +11,10 @@ namespace dsdpv1::cosim {
 
 /// Chip parameters so short that every state is reached soon. What a random case waits for, it waits for with their
 /// times.
-inline dsdpv1::Config quick_config() {
+inline dsdpv1::Config quick_config(dsdpv1::Part part = dsdpv1::Part::kDsdpv1) {
   dsdpv1::Config config;
+  config.part = part;
+  config.u_timer = 20'000;  // of SPI: some frames
   config.search_window_ms = 1;
   config.search_window_bits = 150;  // T_SYN and the shortest telegram take 100
   config.baud_control_ms = 2;

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <random>
 
+#include "tb/dsdpv1/cosim/random_host.hpp"
 #include "tb/dsdpv1/cosim/random_master.hpp"
 #include "tb/dsdpv1/cosim/random_user.hpp"
 
@@ -12,11 +13,15 @@ namespace {
 
 class Case {
  public:
-  explicit Case(std::uint64_t seed)
-      : random_(seed), master_(random_, setup_, stimulus_), user_(random_, setup_, stimulus_) {}
+  Case(std::uint64_t seed, std::unique_ptr<RandomHost> (*make_host)(Random&, Stimulus&))
+      : random_(seed),
+        master_(random_, setup_, stimulus_),
+        host_(make_host(random_, stimulus_)),
+        user_(random_, setup_, *host_) {}
 
   Stimulus make() {
     power_on();
+    if (!host_->is_quick()) return host_only();
     for (int i = random_.between(1, 3); i > 0; --i) episode();
     return std::move(stimulus_);
   }
@@ -24,18 +29,25 @@ class Case {
  private:
   void sync() { stimulus_.push_back({}); }
 
+  /// Where a telegram of the host lasts as long as thousands on the line.
+  Stimulus host_only() {
+    for (int i = random_.between(2, 5); i > 0; --i) user_.anything();
+    return std::move(stimulus_);
+  }
+
   void power_on() {
     Action reset;
     reset.verb = Verb::kReset;
     reset.low = random_.between(1, 20'000);
+    host_->strap();
     const bool held = random_.one_in(6);
-    if (held) user_.hold_through_reset();
+    if (held) host_->hold_through_reset();
     stimulus_.push_back(reset);
     sync();
-    if (held) user_.wait(random_.between(0, 4200));
-    if (held) user_.give();
+    if (held) host_->wait(random_.between(0, 4200));
+    if (held) host_->give();
     // Sometimes the user comes before the chip is ready (H6).
-    user_.wait(random_.one_in(4) ? random_.between(0, 4200) : 4200);
+    host_->wait(random_.one_in(4) ? random_.between(0, 4200) : 4200);
   }
 
   /// An initialisation, a baud rate, and then anything.
@@ -48,7 +60,7 @@ class Case {
     user_.initialise();
     sync();
     if (random_.one_in(12)) user_.initialise();
-    user_.wait(200);
+    host_->wait(200);
     sync();
     if (dpv1)
       master_.fastest_rate();
@@ -73,17 +85,17 @@ class Case {
     if (random_.one_in(2)) master_.slave_diag();
     master_.careful(!random_.one_in(4));
     const bool held = random_.one_in(4);  // both blocks wait for the user to let go of the DPRAM
-    if (held) user_.take();
+    if (held) host_->take();
     sync();
     master_.set_prm(true);
     sync();
-    if (!held) user_.wait(300);
+    if (!held) host_->wait(300);
     if (setup_.prm_mode == 2) user_.verdict(true, false, !random_.one_in(8));
     sync();
     master_.check_cfg(true);
     sync();
-    if (held) user_.give();
-    user_.wait(300);
+    if (held) host_->give();
+    host_->wait(300);
     if (setup_.cfg_mode == 2) user_.verdict(false, true, !random_.one_in(8));
     sync();
     if (random_.one_in(2)) master_.slave_diag();
@@ -129,10 +141,10 @@ class Case {
     if (random_.one_in(3)) master_.acyclic_request(random_.below(3));
     if (random_.one_in(4)) master_.acyclic_poll(channel);
     sync();
-    user_.wait(random_.between(100, 400));
+    host_->wait(random_.between(100, 400));
     if (random_.one_in(12)) channel = random_.below(3);
     if (!random_.one_in(8)) user_.acyclic_answer(channel);
-    user_.wait(random_.between(50, 400));
+    host_->wait(random_.between(50, 400));
     if (random_.one_in(3)) user_.acyclic_answer(random_.below(3));
     sync();
     master_.acyclic_poll(channel);
@@ -165,7 +177,7 @@ class Case {
     sync();
     master_.careful(true);
     master_.set_prm(!prm);
-    user_.wait(300);
+    host_->wait(300);
     sync();
     if (setup_.prm_mode == 2) user_.verdict(true, false, true);
     master_.check_cfg(prm);
@@ -189,7 +201,7 @@ class Case {
       user_.inputs();
       master_.data_exchange();
       sync();
-      user_.wait(150);
+      host_->wait(150);
       sync();
       master_.data_exchange();
       if (random_.one_in(3)) master_.read_service();
@@ -198,21 +210,21 @@ class Case {
   /// The same while the user keeps the chip from the DPRAM: what he gets in the end is what Sync has let through.
   void hold_commands_unseen() {
     sync();
-    user_.take();
-    user_.wait(20);
+    host_->take();
+    host_->wait(20);
     sync();
     for (int i = random_.between(1, 3); i > 0; --i) {
       master_.global_control();
       master_.data_exchange();
     }
     sync();
-    user_.give();
+    host_->give();
   }
   /// A diagnosis that changes the priority of the answers until the holder has read it (D9, S23).
   void priority() {
     sync();
     user_.diagnosis();
-    user_.wait(150);
+    host_->wait(150);
     sync();
     master_.data_exchange();
     master_.slave_diag();
@@ -235,11 +247,11 @@ class Case {
   }
   void reset() {
     sync();
-    user_.give();
+    host_->give();
     power_on();
     setup_ = user_.any_setup();
     user_.initialise();
-    user_.wait(200);
+    host_->wait(200);
     sync();
     master_.choose_rate();
   }
@@ -248,11 +260,17 @@ class Case {
   Setup setup_;
   Stimulus stimulus_;
   RandomMaster master_;
+  std::unique_ptr<RandomHost> host_;
   RandomUser user_;
 };
 
 }  // namespace
 
-Stimulus random_stimulus(std::uint64_t seed) { return Case(seed).make(); }
+Stimulus random_stimulus(std::uint64_t seed, HostMode mode) {
+  const auto make = mode == HostMode::kSpi    ? make_random_spi
+                    : mode == HostMode::kUart ? make_random_uart
+                                              : make_random_parallel;
+  return Case(seed, make).make();
+}
 
 }  // namespace dsdpv1::cosim

@@ -3,12 +3,14 @@
 // rate.
 #include <cstdint>
 
+#include "model/dsdpv1/config.hpp"
 #include "tb/dsdpv1/cosim/stimulus.hpp"
 
 namespace dsdpv1::cosim {
 
-/// One case from power-on, the same for the same seed. Meant for `quick_config()`: what has to be waited for is waited
-/// for with its times. Runs for a few hundred thousand cycles, some for two millions (slow rates).
-Stimulus random_stimulus(std::uint64_t seed);
+/// One case from power-on, the same for the same seed; with a serial port of the DSDPV1-RSU, straps for it come first.
+/// Meant for `quick_config()`: what has to be waited for is waited for with its times. Runs for a few hundred thousand
+/// cycles, some for two millions (slow rates).
+Stimulus random_stimulus(std::uint64_t seed, HostMode mode = HostMode::kParallel);
 
 }  // namespace dsdpv1::cosim

@@ -7,10 +7,6 @@
 namespace dsdpv1::cosim {
 namespace {
 
-constexpr Tick kCycle = profibus::kTicksPerCycle;
-constexpr Tick kLeast = 150;  // table 15: Ts, Td are 12.5 ns
-constexpr Tick kTw = 375;     // ... Tw is 31.25 ns
-
 struct Configuration {
   bus::Bytes bytes;
   int inputs, outputs;
@@ -72,10 +68,10 @@ void RandomUser::initialise() {
   if (random_.one_in(10))
     bytes[static_cast<std::size_t>(random_.below(static_cast<int>(bytes.size())))] = random_.byte();
   if (random_.one_in(16)) bytes[1] = byte(random_.between(125, 129));
-  take();
-  block(regs::kInit, regs::kInitCrc, bytes);
+  host_.take();
+  host_.block(regs::kInit, regs::kInitCrc, bytes);
   command(regs::kUserCommand1Init);
-  give();
+  host_.give();
 }
 
 void RandomUser::inputs() {
@@ -83,11 +79,11 @@ void RandomUser::inputs() {
   if (bytes.empty()) bytes.push_back(0);
   bytes[0] =
       static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(240, 255) : static_cast<int>(bytes.size()) - 1);
-  take();
-  block(regs::kInput, regs::kInputCrc, bytes);
-  if (random_.one_in(4)) write(regs::kUserCommand2, random_.below(4) << 6);  // D16
+  host_.take();
+  host_.block(regs::kInput, regs::kInputCrc, bytes);
+  if (random_.one_in(4)) host_.write(regs::kUserCommand2, random_.below(4) << 6);  // D16
   command(regs::kUserCommand1Input);
-  give();
+  host_.give();
 }
 
 void RandomUser::diagnosis() {
@@ -96,37 +92,37 @@ void RandomUser::diagnosis() {
   bytes[0] = static_cast<std::uint8_t>(random_.pick(kTypes));
   bytes[1] =
       static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(236, 255) : static_cast<int>(bytes.size()) - 2);
-  take();
-  block(regs::kDiag, regs::kDiagCrc, bytes);
+  host_.take();
+  host_.block(regs::kDiag, regs::kDiagCrc, bytes);
   command(regs::kUserCommand1Diag);
-  give();
+  host_.give();
 }
 
 void RandomUser::verdict(bool prm, bool cfg, bool good) {
-  take();
-  write(regs::kUserStatus1, good ? 0 : random_.between(1, 3));
+  host_.take();
+  host_.write(regs::kUserStatus1, good ? 0 : random_.between(1, 3));
   command((prm ? regs::kUserCommand1PrmVerdict : 0) | (cfg ? regs::kUserCommand1CfgVerdict : 0));
-  give();
+  host_.give();
 }
 
 void RandomUser::fetch() {
   constexpr int kBlocks[] = {regs::kOutput, regs::kPrm, regs::kCfg};
   const int base = random_.pick(kBlocks);
-  take();
-  read(regs::kChipCommand1);
-  for (int i = random_.below(6); i > 0; --i) read(base + i);
-  write(regs::kChipCommand1, random_.one_in(3) ? random_.below(8) : 0);
-  if (random_.one_in(3)) write(regs::kChipStatus2, random_.one_in(2) ? 0 : random_.byte());
-  if (random_.one_in(8)) write(regs::kChipStatus1, 0);
-  give();
+  host_.take();
+  host_.read(regs::kChipCommand1);
+  for (int i = random_.below(6); i > 0; --i) host_.read(base + i);
+  host_.write(regs::kChipCommand1, random_.one_in(3) ? random_.below(8) : 0);
+  if (random_.one_in(3)) host_.write(regs::kChipStatus2, random_.one_in(2) ? 0 : random_.byte());
+  if (random_.one_in(8)) host_.write(regs::kChipStatus1, 0);
+  host_.give();
 }
 
 void RandomUser::dpv1() { enable_dpv1(random_.one_in(3) ? random_.byte() : 0x1D); }
 
 void RandomUser::enable_dpv1(int value) {
-  take();
-  write(regs::kDpv1Enable, value);
-  give();
+  host_.take();
+  host_.write(regs::kDpv1Enable, value);
+  host_.give();
 }
 
 void RandomUser::acyclic_answer(int channel) {
@@ -145,153 +141,51 @@ void RandomUser::acyclic_answer(int channel) {
   if (random_.one_in(8))
     bytes[static_cast<std::size_t>(random_.below(3))] ^= static_cast<std::uint8_t>(1 << random_.below(8));
   bytes.resize(std::min<std::size_t>(bytes.size(), regs::kC1Size));
-  take();
-  block(c1 ? regs::kC1 : regs::kC2, c1 ? regs::kC1Crc : regs::kC2Crc, bytes);
-  write(regs::kUserCommand2, c1 ? regs::kUserCommand2C1 : regs::kUserCommand2C2);
-  if (random_.one_in(3)) write(regs::kChipStatus2, 0);
-  if (random_.one_in(2)) write(regs::kChipCommand2, 0);
-  give();
+  host_.take();
+  host_.block(c1 ? regs::kC1 : regs::kC2, c1 ? regs::kC1Crc : regs::kC2Crc, bytes);
+  host_.write(regs::kUserCommand2, c1 ? regs::kUserCommand2C1 : regs::kUserCommand2C2);
+  if (random_.one_in(3)) host_.write(regs::kChipStatus2, 0);
+  if (random_.one_in(2)) host_.write(regs::kChipCommand2, 0);
+  host_.give();
 }
 
 /// Any cell, owned or not.
 void RandomUser::poke() {
   const bool owned = !random_.one_in(3);
-  if (owned) take();
+  if (owned) host_.take();
   for (int i = random_.between(1, 6); i > 0; --i) {
     const int address = random_.one_in(3) ? random_.below(0x800) : random_.between(0x005, 0x135);
     if (random_.one_in(2))
-      read(address);
+      host_.read(address);
     else
-      write(address, random_.byte());
+      host_.write(address, random_.byte());
   }
-  if (owned) give();
-}
-
-/// Pins in an order that no access has.
-void RandomUser::rude() {
-  constexpr Pin kPins[] = {Pin::kRReq, Pin::kRSta, Pin::kCsr, Pin::kRd, Pin::kA, Pin::kWr, Pin::kDIn};
-  for (int i = random_.between(2, 12); i > 0; --i) {
-    Action action;
-    action.verb = Verb::kPin;
-    action.delay = random_.one_in(4) ? random_.below(20'000) : random_.below(900);
-    action.pin = random_.pick(kPins);
-    action.value = random_.below(2);
-    if (action.pin == Pin::kA) action.value = random_.below(0x800);
-    if (action.pin == Pin::kDIn) action.value = random_.below(257) - 1;
-    stimulus_.push_back(action);
-  }
-  for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) {
-    Action action;
-    action.verb = Verb::kPin;
-    action.delay = 500;
-    action.pin = pin;
-    action.value = 1;
-    stimulus_.push_back(action);
-  }
-  give();
-  wait(1);
+  if (owned) host_.give();
 }
 
 void RandomUser::long_hold() {
-  take();
-  wait(random_.between(40, 4000));
-  give();
+  host_.take();
+  host_.wait(random_.between(40, 4000));
+  host_.give();
 }
 
 void RandomUser::anything() {
+  if (host_.own_traffic()) return;
   const int what = random_.below(20);
   if (what < 5) return inputs();
   if (what < 8) return fetch();
   if (what < 11) return diagnosis();
   if (what < 14) return verdict(random_.one_in(2), random_.one_in(2), !random_.one_in(3));
   if (what < 16) return poke();
-  if (what < 17) return rude();
+  if (what < 17) return host_.rude();
   if (what < 18) return long_hold();
   if (what < 19) return dpv1();
-  return wait(random_.between(1, 3000));
+  return host_.wait(random_.between(1, 3000));
 }
 
 void RandomUser::command(int value) {
   // Now and then with other flags, whose blocks are then what they happen to be.
-  write(regs::kUserCommand1, random_.one_in(12) ? value | random_.byte() : value);
-}
-
-Tick RandomUser::small_delay() { return random_.one_in(8) ? random_.below(20'000) : random_.below(1000); }
-
-Action RandomUser::access(Verb verb) {
-  Action action;
-  action.verb = verb;
-  action.delay = random_.below(300);
-  action.setup = random_.between(0, 300);
-  action.low = kTw + random_.below(random_.one_in(4) ? 2000 : 300);
-  action.hold = random_.one_in(4) ? kLeast : kLeast + random_.below(400);
-  return action;
-}
-
-void RandomUser::write(int address, int value) {
-  Action action = access(Verb::kWrite);
-  action.address = address;
-  action.value = value;
-  stimulus_.push_back(action);
-}
-
-void RandomUser::read(int address) {
-  Action action = access(Verb::kRead);
-  action.address = address;
-  stimulus_.push_back(action);
-}
-
-void RandomUser::block(int address, int crc_address, const bus::Bytes& bytes) {
-  Action action = access(Verb::kBlock);
-  action.address = address;
-  action.crc_address = crc_address;
-  action.bytes = bytes;
-  if (random_.one_in(12)) action.value = 1 << random_.below(16);
-  stimulus_.push_back(action);
-}
-
-void RandomUser::take() {
-  Action action;
-  action.verb = Verb::kTake;
-  action.delay = small_delay();
-  action.low = random_.between(200, 3000);
-  stimulus_.push_back(action);
-}
-
-/// R_REQ and R_STA fall together, or one after the other in either order (H1).
-void RandomUser::give() {
-  if (random_.one_in(6)) {
-    const bool request_first = random_.one_in(2);
-    pin(request_first ? Pin::kRReq : Pin::kRSta, 0, random_.below(600));
-    return pin(request_first ? Pin::kRSta : Pin::kRReq, 0, random_.below(random_.one_in(4) ? 20'000 : 900));
-  }
-  Action action;
-  action.verb = Verb::kGive;
-  action.delay = random_.below(600);
-  stimulus_.push_back(action);
-}
-
-void RandomUser::hold_through_reset() {
-  if (random_.one_in(2)) pin(Pin::kRReq, 1, random_.below(600));
-  if (random_.one_in(2)) pin(Pin::kRSta, 1, random_.below(600));
-}
-
-void RandomUser::pin(Pin pin, int value, int delay) {
-  Action action;
-  action.verb = Verb::kPin;
-  action.delay = delay;
-  action.pin = pin;
-  action.value = value;
-  stimulus_.push_back(action);
-}
-
-void RandomUser::wait(int cycles) {
-  Action action;  // D is released already: nothing happens but the delay
-  action.verb = Verb::kPin;
-  action.delay = cycles * kCycle + random_.below(static_cast<int>(kCycle));
-  action.pin = Pin::kDIn;
-  action.value = dsdpv1::kLevelZ;
-  stimulus_.push_back(action);
+  host_.write(regs::kUserCommand1, random_.one_in(12) ? value | random_.byte() : value);
 }
 
 }  // namespace dsdpv1::cosim

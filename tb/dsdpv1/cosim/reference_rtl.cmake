@@ -1,21 +1,30 @@
-# The reference RTL as two shared libraries in the folder rtl/ of the build: the RTL as it is, and the one with single faults.
+# The reference RTL as shared libraries in the folder rtl/ of the build, two for the DSDPV1 and two for the DSDPV1-RSU: the RTL as it is, and the one with single faults.
 # Their target dsdpv1_rtl_libraries is part of `all` and of nothing else; the program loads them when it is asked for RTL (reference_rtl.hpp).
-set(DSDPV1_RTL_DIR ${PROJECT_SOURCE_DIR}/rtl_ref CACHE PATH "Folder of the reference RTL: files.txt and what it names")
+set(DSDPV1_RTL_DIR ${PROJECT_SOURCE_DIR}/rtl_ref CACHE PATH "Folder of the reference RTL: files.txt, files_rsu.txt and what they name")
 mark_as_advanced(DSDPV1_RTL_DIR)
 set(rtl_dir ${DSDPV1_RTL_DIR})
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rtl_dir}/files.txt)
-file(STRINGS ${rtl_dir}/files.txt rtl_sources)
-list(TRANSFORM rtl_sources PREPEND ${rtl_dir}/)
-set(rtl_headers ${rtl_dir}/profibus_types.svh ${rtl_dir}/dpram_types.svh ${rtl_dir}/dsdpv1_types.svh)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rtl_dir}/files.txt ${rtl_dir}/files_rsu.txt)
+file(STRINGS ${rtl_dir}/files.txt dsdpv1_sources)
+file(STRINGS ${rtl_dir}/files_rsu.txt dsdpv1_rsu_sources)
+list(TRANSFORM dsdpv1_sources PREPEND ${rtl_dir}/)
+list(TRANSFORM dsdpv1_rsu_sources PREPEND ${rtl_dir}/)
+set(rtl_headers ${rtl_dir}/profibus_types.svh ${rtl_dir}/dpram_types.svh ${rtl_dir}/dsdpv1_types.svh ${rtl_dir}/dsdpv1_rsu_types.svh)
+# What the harness looks into.
+set(dsdpv1_places ${CMAKE_CURRENT_SOURCE_DIR}/public.vlt)
+set(dsdpv1_rsu_places ${dsdpv1_places} ${CMAKE_CURRENT_SOURCE_DIR}/public_rsu.vlt)
 
-# dsdpv1_rtl_library(TARGET LIBRARY OPTIMISATION ARGUMENTS...): a part of TARGET, RTL and adapter with these arguments for Verilator and
+# dsdpv1_rtl_library(TARGET TOP LIBRARY OPTIMISATION ARGUMENTS...): a part of TARGET, the RTL with this top (dsdpv1, dsdpv1_rsu) and adapter with these arguments for Verilator and
 # the macros (-D) among them. Verilator's own make keeps it out of the configuration, which every `./run` waits for.
-function(dsdpv1_rtl_library target library optimisation)
+function(dsdpv1_rtl_library target top library optimisation)
   set(adapter ${CMAKE_CURRENT_SOURCE_DIR}/reference_library.cpp)
   cmake_path(REMOVE_EXTENSION library OUTPUT_VARIABLE sources_folder)
   cmake_path(GET library PARENT_PATH folder)
   cmake_path(GET library STEM name)
-  set(macros ${ARGN})
+  set(arguments ${ARGN})
+  if(top STREQUAL dsdpv1_rsu)
+    list(APPEND arguments -DDSDPV1_RTL_RSU)
+  endif()
+  set(macros ${arguments})
   list(FILTER macros INCLUDE REGEX "^-D")
   list(JOIN macros " " macros)
   set(compile "${optimisation} -fPIC -std=c++17 -I${PROJECT_SOURCE_DIR} -DDSDPV1_RTL_LAYOUT=${DSDPV1_RTL_LAYOUT} ${macros}")
@@ -23,19 +32,21 @@ function(dsdpv1_rtl_library target library optimisation)
     OUTPUT ${library}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
     COMMAND ${DSDPV1_VERILATOR} --cc --exe --build -O3 --x-assign fast --x-initial unique -DDSDPV1_RUN_TIME_LIMITS -I${rtl_dir} -I${PROJECT_SOURCE_DIR}/registers
-            --top-module dsdpv1 --Mdir ${sources_folder} -CFLAGS ${compile} -LDFLAGS -shared
-            -MAKEFLAGS "-s CXX=${CMAKE_CXX_COMPILER} OBJCACHE=${CMAKE_CXX_COMPILER_LAUNCHER} OPT_FAST= OPT_GLOBAL=" -o ${library} ${ARGN}
-            ${CMAKE_CURRENT_SOURCE_DIR}/public.vlt ${rtl_sources} ${adapter}
-    DEPENDS ${rtl_sources} ${rtl_headers} ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter}
-            ${CMAKE_CURRENT_SOURCE_DIR}/public.vlt ${CMAKE_CURRENT_SOURCE_DIR}/rtl_top.hpp ${CMAKE_CURRENT_SOURCE_DIR}/verilated_top.hpp
+            --top-module ${top} --Mdir ${sources_folder} -CFLAGS ${compile} -LDFLAGS -shared
+            -MAKEFLAGS "-s CXX=${CMAKE_CXX_COMPILER} OBJCACHE=${CMAKE_CXX_COMPILER_LAUNCHER} OPT_FAST= OPT_GLOBAL=" -o ${library} ${arguments}
+            ${${top}_places} ${${top}_sources} ${adapter}
+    DEPENDS ${${top}_sources} ${rtl_headers} ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter}
+            ${${top}_places} ${CMAKE_CURRENT_SOURCE_DIR}/rtl_top.hpp ${CMAKE_CURRENT_SOURCE_DIR}/verilated_top.hpp
     COMMENT "Verilating ${name}"
     VERBATIM)
   set_property(TARGET ${target} APPEND PROPERTY SOURCES ${library})
 endfunction()
 
 set(rtl_folder ${PROJECT_BINARY_DIR}/rtl)
-dsdpv1_rtl_library(dsdpv1_rtl_libraries ${rtl_folder}/libdsdpv1_rtl.so -O3)
-dsdpv1_rtl_library(dsdpv1_rtl_libraries ${rtl_folder}/libdsdpv1_rtl_faults.so -O3 -DSINGLE_FAULTS)
+foreach(top dsdpv1 dsdpv1_rsu)
+  dsdpv1_rtl_library(dsdpv1_rtl_libraries ${top} ${rtl_folder}/lib${top}_rtl.so -O3)
+  dsdpv1_rtl_library(dsdpv1_rtl_libraries ${top} ${rtl_folder}/lib${top}_rtl_faults.so -O3 -DSINGLE_FAULTS)
+endforeach()
 
 # The RTL as it is once more, counting lines and toggles, and the program beside it, which therefore loads this one: ./run rtl-coverage.
 # Far slower, so it is no part of `all`. It writes what it has counted into the folder of the environment's DSDPV1_RTL_COVERAGE. All
@@ -51,5 +62,5 @@ add_custom_command(
   DEPENDS dsdpv1-sim
   VERBATIM)
 add_custom_target(dsdpv1_rtl_coverage SOURCES ${coverage_folder}/dsdpv1-sim)
-dsdpv1_rtl_library(dsdpv1_rtl_coverage ${coverage_folder}/rtl/libdsdpv1_rtl.so -O1
+dsdpv1_rtl_library(dsdpv1_rtl_coverage dsdpv1 ${coverage_folder}/rtl/libdsdpv1_rtl.so -O1
                    --coverage-line --coverage-toggle --coverage-max-width 64 --output-split 20000 --x-initial 0 -j 2)

@@ -1,8 +1,11 @@
 #include "tb/dsdpv1/cosim/reference_rtl.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <string>
 
 #include "tb/input/input_error.hpp"
@@ -47,24 +50,33 @@ Make load(const std::string& name) {
   return symbol<Make>(library, "dsdpv1_rtl_make");
 }
 
+/// Of the part's RTL; `kind` is empty or "_faults".
+Make make_of(const dsdpv1::Config& config, const char* kind) {
+  static std::mutex mutex;
+  static std::map<std::string, Make> loaded;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const std::string name = fmt::format("lib{}_rtl{}.so", config.part == Part::kRsu ? "dsdpv1_rsu" : "dsdpv1", kind);
+  const auto found = loaded.find(name);
+  return found != loaded.end() ? found->second : loaded.emplace(name, load(name)).first->second;
+}
+
 RtlLimits limits(const dsdpv1::Config& config) {
-  return {config.access_interval,  config.ready_cycles,       config.rts_lead,
-          config.rts_trail,        config.intr_low,           config.intr_gap,
-          config.search_window_ms, config.search_window_bits, config.baud_control_ms};
+  return {config.access_interval, config.ready_cycles,  config.rts_lead,         config.rts_trail,
+          config.intr_low,        config.intr_gap,      config.search_window_ms, config.search_window_bits,
+          config.baud_control_ms, config.spi_reply_gap, config.spi_write_gap,    config.serial_block_crc,
+          config.u_timer,         config.uart_min_tsdr, config.uart_cfg_length,  config.uart_gaps};
 }
 
 }  // namespace
 
 std::unique_ptr<RtlTop> make_reference_rtl(const dsdpv1::Config& config, std::uint32_t seed) {
-  static const Make make = load("libdsdpv1_rtl.so");
   const RtlLimits parameters = limits(config);
-  return std::unique_ptr<RtlTop>(make(&parameters, 0, seed));
+  return std::unique_ptr<RtlTop>(make_of(config, "")(&parameters, 0, seed));
 }
 
 std::unique_ptr<RtlTop> make_faulty_rtl(const dsdpv1::Config& config, unsigned fault, std::uint32_t seed) {
-  static const Make make = load("libdsdpv1_rtl_faults.so");
   const RtlLimits parameters = limits(config);
-  return std::unique_ptr<RtlTop>(make(&parameters, fault, seed));
+  return std::unique_ptr<RtlTop>(make_of(config, "_faults")(&parameters, fault, seed));
 }
 
 }  // namespace dsdpv1::cosim

@@ -1,5 +1,8 @@
 #include "tb/dsdpv1/cosim/rtl_chip.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace dsdpv1::cosim {
 namespace {
 
@@ -18,6 +21,10 @@ Level data(const RtlOutputs& out) {
   return (out.unknown & 0xFFU) != 0 ? dsdpv1::kLevelX : static_cast<Level>(out.word & 0xFFU);
 }
 
+Level miso(const RtlOutputs& out) {
+  return (out.word >> kWireMisoDriven & 1U) != 0 ? wire(out, kWireMiso) : dsdpv1::kLevelZ;
+}
+
 Level level_of(const RtlOutputs& out, Pin pin) {
   switch (pin) {
     case Pin::kLReq: return wire(out, kWireLReq);
@@ -28,16 +35,25 @@ Level level_of(const RtlOutputs& out, Pin pin) {
     case Pin::kPbrts: return wire(out, kWirePbrts);
     case Pin::kPbf: return wire(out, kWirePbf);
     case Pin::kBr: return wire(out, kWireBr);
+    case Pin::kTxd: return wire(out, kWireTxd);
     default: return wire(out, kWireReady);
   }
 }
 
 /// Strobes act at their own tick; all others are looked at by an edge of CLK or by a strobe.
-bool acts_at_once(Pin pin) { return pin == Pin::kReset || pin == Pin::kCsr || pin == Pin::kRd || pin == Pin::kWr; }
+bool acts_at_once(Pin pin) {
+  return pin == Pin::kReset || pin == Pin::kCsr || pin == Pin::kRd || pin == Pin::kWr || pin == Pin::kXss ||
+         pin == Pin::kSck;
+}
 
 }  // namespace
 
-RtlChip::RtlChip(std::unique_ptr<RtlTop> top) : top_(std::move(top)), timed_(dynamic_cast<TimedTop*>(top_.get())) {
+RtlChip::RtlChip(std::unique_ptr<RtlTop> top, const dsdpv1::Config& config, TickEnds ends)
+    : top_(std::move(top)),
+      timed_(dynamic_cast<TimedTop*>(top_.get())),
+      rsu_(config.part == Part::kRsu),
+      ends_(ends),
+      miso_delay_(config.spi_miso_delay) {
   power_up();
 }
 
@@ -58,6 +74,7 @@ void RtlChip::power_up() {
 
 void RtlChip::set(Tick at, Pin pin, Level level) {
   advance(at);
+  if (ends_ == TickEnds::kLater) return held_.push_back({at, pin, level});
   apply(pin, level);
   if (acts_at_once(pin)) eval(at);
 }
@@ -76,20 +93,62 @@ void RtlChip::apply(Pin pin, Level level) {
       d_in_ = level;
       in.d = level < 0 ? kReleasedReadsAs : static_cast<std::uint8_t>(level);
       break;
-    default: in.pbrxd = level != 0; break;
+    case Pin::kPbrxd: in.pbrxd = level != 0; break;
+    default: apply_serial(pin, level); break;
+  }
+}
+
+void RtlChip::apply_serial(Pin pin, Level level) {
+  RtlInputs& in = top_->in;
+  const auto strap = static_cast<std::uint8_t>(level);
+  switch (pin) {
+    case Pin::kXss: in.xss = level != 0; break;
+    case Pin::kSck: in.sck = level != 0; break;
+    case Pin::kMosi: in.mosi = level != 0; break;
+    case Pin::kRxd: in.rxd = level != 0; break;
+    case Pin::kMode: in.mode = strap; break;
+    case Pin::kAdr: in.adr = strap; break;
+    case Pin::kUbr: in.ubr = strap; break;
+    default: in.uiv = strap; break;
   }
 }
 
 void RtlChip::advance(Tick to) {
-  for (; next_edge_ <= to; next_edge_ += kHalfCycle) {
-    top_->in.clk = !top_->in.clk;
-    eval(next_edge_);
+  if (ends_ == TickEnds::kLater && to > now_) end_tick();
+  const Tick last = ends_ == TickEnds::kLater ? to - 1 : to;
+  while (next_edge_ <= last) {
+    const Tick at = next_edge_;
+    clock_edge();
+    eval(at);
   }
   now_ = to;
+  if (!coming_.empty()) move_miso(to);
+}
+
+void RtlChip::clock_edge() {
+  top_->in.clk = !top_->in.clk;
+  next_edge_ += kHalfCycle;
+}
+
+/// What happens at tick `now_`: CLK's edge and SCK's first one in one evaluation, then the other inputs.
+void RtlChip::end_tick() {
+  if (held_.empty()) return;
+  const bool clk = next_edge_ == now_;
+  if (clk) clock_edge();
+  const auto sck =
+      std::stable_partition(held_.begin(), held_.end(), [](const Change& change) { return change.pin == Pin::kSck; });
+  if (sck != held_.begin()) apply(Pin::kSck, held_.front().level);
+  if (clk || sck != held_.begin()) eval(now_);
+  for (const Change& change : held_) {
+    apply(change.pin, change.level);
+    if (acts_at_once(change.pin)) eval(now_);
+  }
+  held_.clear();
 }
 
 void RtlChip::eval(Tick at) {
   if (timed_ != nullptr) timed_->moment(at);
+  if (!coming_.empty()) move_miso(at);
   top_->eval();
   if (top_->out == last_) return;
   const RtlOutputs before = last_;
@@ -98,13 +157,35 @@ void RtlChip::eval(Tick at) {
 }
 
 void RtlChip::report(Tick at, const RtlOutputs& before) {
-  if (sink_.call == nullptr) return;
   for (int i = static_cast<int>(Pin::kLReq); i < dsdpv1::kPinCount; ++i) {
     const Pin pin = static_cast<Pin>(i);
-    if ((watched_ & dsdpv1::mask(pin)) == 0) continue;
     const Level level = level_of(last_, pin);
-    if (level != level_of(before, pin)) sink_.call(sink_.self, at, pin, level);
+    if (level != level_of(before, pin)) tell(at, pin, level);
   }
+  if (!rsu_) return;
+  miso_register(at, before);
+  const Level txd = level_of(last_, Pin::kTxd);
+  if (txd != level_of(before, Pin::kTxd)) tell(at, Pin::kTxd, txd);
+}
+
+/// SCK's fall reaches the pin later; XSS, RESET and the begin of listening at once, and what is on its way is dropped.
+void RtlChip::miso_register(Tick at, const RtlOutputs& before) {
+  const Level now = miso(last_), then = miso(before);
+  if (now == then) return;
+  if (now != dsdpv1::kLevelZ && then != dsdpv1::kLevelZ) return coming_.push_back({at + miso_delay_, Pin::kMiso, now});
+  coming_.clear();
+  tell(at, Pin::kMiso, miso_ = now);
+}
+
+void RtlChip::move_miso(Tick to) {
+  for (; !coming_.empty() && coming_.front().at <= to; coming_.pop_front()) {
+    miso_ = coming_.front().level;
+    tell(coming_.front().at, Pin::kMiso, miso_);
+  }
+}
+
+void RtlChip::tell(Tick at, Pin pin, Level level) {
+  if ((watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, pin, level);
 }
 
 Level RtlChip::level(Pin pin) const {
@@ -119,13 +200,22 @@ Level RtlChip::level(Pin pin) const {
     case Pin::kA: return static_cast<Level>(in.a);
     case Pin::kDIn: return d_in_;
     case Pin::kPbrxd: return in.pbrxd;
+    case Pin::kXss: return in.xss;
+    case Pin::kSck: return in.sck;
+    case Pin::kMosi: return in.mosi;
+    case Pin::kRxd: return in.rxd;
+    case Pin::kMode: return in.mode;
+    case Pin::kAdr: return in.adr;
+    case Pin::kUbr: return in.ubr;
+    case Pin::kUiv: return in.uiv;
+    case Pin::kMiso: return miso_;
     default: return level_of(last_, pin);
   }
 }
 
 void RtlChip::watch(const dsdpv1::PinSink& sink, std::uint32_t pins) {
   sink_ = sink;
-  watched_ = pins & dsdpv1::kOutputPins;
+  watched_ = sink.call == nullptr ? 0 : pins & dsdpv1::outputs_of(rsu_ ? Part::kRsu : Part::kDsdpv1);
 }
 
 }  // namespace dsdpv1::cosim

@@ -5,7 +5,8 @@
 
 namespace dsdpv1::cosim {
 
-RtlDevice::RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top) : core_(config), rtl_(std::move(top)) {
+RtlDevice::RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top)
+    : core_(config), rtl_(std::move(top), config) {
   core_.watch({[](void* self, Tick at, Pin pin, Level level) {
                  static_cast<RtlDevice*>(self)->core_changes_.push_back({at, pin, level});
                },
@@ -15,7 +16,7 @@ RtlDevice::RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top) 
                 static_cast<RtlDevice*>(self)->rtl_changes_.push_back({at, pin, level});
               },
               this},
-             dsdpv1::kOutputPins);
+             dsdpv1::outputs_of(config.part));
 }
 
 void RtlDevice::watch(const dsdpv1::PinSink& sink, std::uint32_t pins) {

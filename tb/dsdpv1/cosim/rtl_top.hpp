@@ -12,11 +12,14 @@ namespace dsdpv1::cosim {
 constexpr std::size_t kDpramSize = 2048;
 using DpramImage = std::array<std::uint8_t, kDpramSize>;
 
-/// Levels at the input pins, as the chip's (table 1): RESET, CSR, RD and WR low-active.
+/// Levels at the input pins, as the chip's (table 1, R2): RESET, CSR, RD, WR and XSS low-active.
 struct RtlInputs {
   bool clk = false, reset = false, r_req = false, r_sta = false, csr = true, rd = true, wr = true, pbrxd = true;
   std::uint16_t a = 0;  ///< 0..0x7FF
   std::uint8_t d = 0;   ///< what the user drives; what a released bus reads as while nobody does
+  // of the DSDPV1-RSU
+  bool xss = true, sck = false, mosi = false, rxd = true;
+  std::uint8_t mode = 0, adr = 0, ubr = 0, uiv = 0;
 };
 
 /// Output wires: places in the word of RtlOutputs. D is in bits 0 to 7, 0 while it is released.
@@ -29,7 +32,10 @@ enum Wire : unsigned {
   kWirePbf,
   kWireBr,
   kWireReady,
-  kWireDriven
+  kWireDriven,
+  kWireMiso,  ///< DSDPV1-RSU: the pin's register, `spi_miso_delay` before the pin
+  kWireMisoDriven,
+  kWireTxd
 };
 
 /// Levels at the output pins, all in one word, so that a change of any is seen at once.
@@ -44,6 +50,9 @@ struct RtlOutputs {
 struct RtlLimits {
   std::uint32_t access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap, search_window_ms,
       search_window_bits, baud_control_ms;
+  // of the DSDPV1-RSU
+  std::uint32_t spi_reply_gap, spi_write_gap, serial_block_crc, u_timer, uart_min_tsdr, uart_cfg_length;
+  std::array<std::uint32_t, 8> uart_gaps;
 };
 
 class RtlTop {

@@ -16,7 +16,7 @@ namespace {
 const std::map<std::string, Verb> kVerbs = {{"send", Verb::kSend},   {"spike", Verb::kSpike}, {"take", Verb::kTake},
                                             {"give", Verb::kGive},   {"write", Verb::kWrite}, {"read", Verb::kRead},
                                             {"block", Verb::kBlock}, {"pin", Verb::kPin},     {"reset", Verb::kReset},
-                                            {"sync", Verb::kSync}};
+                                            {"spi", Verb::kSpi},     {"uart", Verb::kUart},   {"sync", Verb::kSync}};
 
 constexpr Tick kLongest = Tick{1} << 40;
 constexpr int kLastCell = 0x7FF;
@@ -44,20 +44,30 @@ const Field kLevel = {"level", FIELD(value), -1, kLastCell, false};
 const Field kSetup = {"setup", FIELD(setup), 0, kLongest, false};
 const Field kLow = {"low", FIELD(low), 1, kLongest, false};
 const Field kHold = {"hold", FIELD(hold), 0, kLongest, false};
+const Field kHigh = {"high", FIELD(high), 1, kLongest, false};
+const Field kLead = {"lead", FIELD(lead), 0, kLongest, false};
+const Field kLag = {"lag", FIELD(lag), 0, kLongest, false};
+const Field kPause = {"pause", FIELD(pause), 0, kLongest, false};
+const Field kBits = {"bits", FIELD(bits), 0, 1'000'000, false};
+const Field kUbr = {"rate", FIELD(rate), 0, 7, false};
+const Field kPpm = {"ppm", FIELD(ppm), -100'000, 100'000, false};
 const Field kPoll = {"poll", FIELD(low), 1, kLongest, false};
 #undef FIELD
 
 const std::vector<Field>& fields(Verb verb) {
-  static const std::map<Verb, std::vector<Field>> table = {{Verb::kSend, {kRate, kReply}},
-                                                           {Verb::kSpike, {kLow}},
-                                                           {Verb::kTake, {kPoll}},
-                                                           {Verb::kGive, {}},
-                                                           {Verb::kWrite, {kAt, kByte, kSetup, kLow, kHold}},
-                                                           {Verb::kRead, {kAt, kSetup, kLow, kHold}},
-                                                           {Verb::kBlock, {kAt, kCrc, kXor, kSetup, kLow, kHold}},
-                                                           {Verb::kPin, {kLevel}},
-                                                           {Verb::kReset, {kLow}},
-                                                           {Verb::kSync, {}}};
+  static const std::map<Verb, std::vector<Field>> table = {
+      {Verb::kSend, {kRate, kReply}},
+      {Verb::kSpike, {kLow}},
+      {Verb::kTake, {kPoll}},
+      {Verb::kGive, {}},
+      {Verb::kWrite, {kAt, kByte, kSetup, kLow, kHold}},
+      {Verb::kRead, {kAt, kSetup, kLow, kHold}},
+      {Verb::kBlock, {kAt, kCrc, kXor, kSetup, kLow, kHold}},
+      {Verb::kPin, {kLevel}},
+      {Verb::kReset, {kLow}},
+      {Verb::kSpi, {kSetup, kHigh, kLow, kLead, kLag, kPause, kBits}},
+      {Verb::kUart, {kUbr, kReply, kPpm}},
+      {Verb::kSync, {}}};
   return table.at(verb);
 }
 
@@ -138,7 +148,8 @@ class LineParser {
     if (!(words_ >> word) || word[0] == '#') return std::nullopt;
     const auto verb = kVerbs.find(word);
     if (verb == kVerbs.end())
-      fail("unknown action " + word, "send, spike, take, give, write, read, block, pin, reset, sync, repeat, end");
+      fail("unknown action " + word,
+           "send, spike, take, give, write, read, block, pin, spi, uart, reset, sync, repeat, end");
     Action action;
     action.verb = verb->second;
     while (words_ >> word)
@@ -182,7 +193,7 @@ class LineParser {
       allowed += fmt::format(", {}=", field.key);
     }
     for (const FaultField& field : kFaults) {
-      if (action.verb != Verb::kSend) break;
+      if (action.verb != Verb::kSend && action.verb != Verb::kUart) break;
       if (key == field.key) return field.set(action.faults, split(text, field.numbers + 1));
       allowed += fmt::format(", {}=", field.key);
     }
@@ -196,7 +207,7 @@ class LineParser {
     return values;
   }
   void pin(Action& action, const std::string& word) const {
-    for (int i = 0; i < dsdpv1::kPinCount && action.verb == Verb::kPin; ++i) {
+    for (int i = 0; i < dsdpv1::kRsuPinCount && action.verb == Verb::kPin; ++i) {
       const Pin each = static_cast<Pin>(i);
       if (!dsdpv1::is_input(each) || word != dsdpv1::name(each)) continue;
       action.pin = each;

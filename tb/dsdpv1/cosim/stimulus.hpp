@@ -2,8 +2,8 @@
 // Stimulus for lockstep runs without the bench: what happens at the chip's input pins, as short lines of text.
 //
 // Three lanes act at the same time: the bus (send, spike), the user at the host port (take, give, write, read, block,
-// pin), the board (reset). Each action begins `delay` ticks after the one before it in its lane has ended; `sync` lets
-// all lanes wait for each other.
+// pin; spi, uart of the DSDPV1-RSU), the board (reset). Each action begins `delay` ticks after the one before it in its
+// lane has ended; `sync` lets all lanes wait for each other.
 #include <string>
 #include <vector>
 
@@ -21,6 +21,8 @@ enum class Verb : std::uint8_t {
   kRead,   ///< one byte: CSR and A `setup` before, RD low for `low`
   kBlock,  ///< `bytes` from `address` on, then their CRC, exclusive-ored with `value`, at `crc_address`
   kPin,    ///< one input pin to `value`
+  kSpi,    ///< a frame: XSS falls, `lead` ticks, SCK `high` and `low` for each bit of `bytes`, `lag` ticks, XSS rises
+  kUart,   ///< a telegram at RXD; then a reply is waited for, `reply_bits` bit times for its beginning
   kReset,  ///< RESET low for `low` ticks, then high
   kSync,
 };
@@ -32,6 +34,10 @@ struct Action {
   int rate = 0, reply_bits = 0;
   int address = 0, crc_address = 0, value = 0;
   Tick setup = 200, low = 600, hold = 200;
+  Tick high = 600, lead = 600, lag = 600;  ///< kSpi; MOSI changes `setup` before each rise of SCK
+  Tick pause = 0;                          ///< ... between two bytes, besides
+  int bits = 0;                            ///< ... all there are, 0: those of `bytes`
+  int ppm = 0;                             ///< kUart: bits are longer by so many millionths
   Pin pin{};
   bus::Bytes bytes = {};
   bus::WireFaults faults = {};

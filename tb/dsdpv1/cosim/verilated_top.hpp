@@ -1,6 +1,6 @@
 #pragma once
-// A Verilated `dsdpv1` of rtl_ref/ as an RtlTop. Included only where the reference RTL is compiled
-// (reference_library.cpp).
+// A Verilated top of rtl_ref/, `dsdpv1` or `dsdpv1_rsu`, as an RtlTop. Included only where the reference RTL is
+// compiled (reference_library.cpp), which says with RTL_INSIDE what a place below the top is called.
 #include <memory>
 
 #include "tb/dsdpv1/cosim/rtl_top.hpp"
@@ -20,6 +20,33 @@ class VerilatedTop : public RtlTop {
   ~VerilatedTop() override { model_->final(); }
 
   void eval() override {
+    drive();
+    model_->eval();
+    out.word = outputs();
+  }
+
+  /// Four memories interleaved by the low address bits, and up to two writes on their way to them, the older one first.
+  bool dpram(DpramImage& image) const override {
+    const auto& root = *model_->rootp;
+    for (std::size_t i = 0; i < kDpramSize; i += 4) {
+      image[i] = root.RTL_INSIDE(u_dpram__DOT__g_lane__BRA__0__KET____DOT__u_ram__DOT__memory_q)[i / 4];
+      image[i + 1] = root.RTL_INSIDE(u_dpram__DOT__g_lane__BRA__1__KET____DOT__u_ram__DOT__memory_q)[i / 4];
+      image[i + 2] = root.RTL_INSIDE(u_dpram__DOT__g_lane__BRA__2__KET____DOT__u_ram__DOT__memory_q)[i / 4];
+      image[i + 3] = root.RTL_INSIDE(u_dpram__DOT__g_lane__BRA__3__KET____DOT__u_ram__DOT__memory_q)[i / 4];
+    }
+    if (root.RTL_INSIDE(u_dpram__DOT__first_valid_q)) put(image, root.RTL_INSIDE(u_dpram__DOT__first_q));
+    if (root.RTL_INSIDE(u_dpram__DOT__second_valid_q)) put(image, root.RTL_INSIDE(u_dpram__DOT__second_q));
+    return true;
+  }
+
+  Model& model() { return *model_; }
+  const Model& model() const { return *model_; }
+  VerilatedContext& context() { return *context_; }
+
+ protected:
+  static std::uint32_t wire(std::uint32_t level, Wire place) { return level << place; }
+  /// The pins of table 1.
+  void drive() {
     model_->clk_i = in.clk;
     model_->reset_i = in.reset;
     model_->r_req_i = in.r_req;
@@ -30,32 +57,15 @@ class VerilatedTop : public RtlTop {
     model_->pbrxd_i = in.pbrxd;
     model_->a_i = in.a;
     model_->d_i = in.d;
-    model_->eval();
-    out.word = wire(model_->l_req_o, kWireLReq) | wire(model_->l_sta_o, kWireLSta) | wire(model_->intr0_o, kWireIntr0) |
-               wire(model_->pbtxd_o, kWirePbtxd) | wire(model_->pbrts_o, kWirePbrts) | wire(model_->pbf_o, kWirePbf) |
-               wire(model_->br_o, kWireBr) | wire(model_->ready_o, kWireReady) | wire(model_->d_oe_o, kWireDriven) |
-               (model_->d_oe_o != 0 ? model_->d_o : 0U);
   }
-
-  /// Four memories interleaved by the low address bits, and up to two writes on their way to them, the older one first.
-  bool dpram(DpramImage& image) const override {
-    const auto& root = *model_->rootp;
-    for (std::size_t i = 0; i < kDpramSize; i += 4) {
-      image[i] = root.dsdpv1__DOT__u_dpram__DOT__g_lane__BRA__0__KET____DOT__u_ram__DOT__memory_q[i / 4];
-      image[i + 1] = root.dsdpv1__DOT__u_dpram__DOT__g_lane__BRA__1__KET____DOT__u_ram__DOT__memory_q[i / 4];
-      image[i + 2] = root.dsdpv1__DOT__u_dpram__DOT__g_lane__BRA__2__KET____DOT__u_ram__DOT__memory_q[i / 4];
-      image[i + 3] = root.dsdpv1__DOT__u_dpram__DOT__g_lane__BRA__3__KET____DOT__u_ram__DOT__memory_q[i / 4];
-    }
-    if (root.dsdpv1__DOT__u_dpram__DOT__first_valid_q) put(image, root.dsdpv1__DOT__u_dpram__DOT__first_q);
-    if (root.dsdpv1__DOT__u_dpram__DOT__second_valid_q) put(image, root.dsdpv1__DOT__u_dpram__DOT__second_q);
-    return true;
+  std::uint32_t outputs() const {
+    return wire(model_->l_req_o, kWireLReq) | wire(model_->l_sta_o, kWireLSta) | wire(model_->intr0_o, kWireIntr0) |
+           wire(model_->pbtxd_o, kWirePbtxd) | wire(model_->pbrts_o, kWirePbrts) | wire(model_->pbf_o, kWirePbf) |
+           wire(model_->br_o, kWireBr) | wire(model_->ready_o, kWireReady) | wire(model_->d_oe_o, kWireDriven) |
+           (model_->d_oe_o != 0 ? model_->d_o : 0U);
   }
-
-  Model& model() { return *model_; }
-  VerilatedContext& context() { return *context_; }
 
  private:
-  static std::uint32_t wire(std::uint32_t level, Wire place) { return level << place; }
   static void put(DpramImage& image, std::uint32_t write) {
     image.at(write >> 8 & (kDpramSize - 1)) = static_cast<std::uint8_t>(write & 0xFF);
   }

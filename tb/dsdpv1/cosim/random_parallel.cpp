@@ -1,0 +1,134 @@
+// The host at the parallel port: R_REQ and R_STA, strobes with mostly the times of table 15.
+#include "tb/dsdpv1/cosim/random_host.hpp"
+
+namespace dsdpv1::cosim {
+namespace {
+
+constexpr Tick kCycle = profibus::kTicksPerCycle;
+constexpr Tick kLeast = 150;  // table 15: Ts, Td are 12.5 ns
+constexpr Tick kTw = 375;     // ... Tw is 31.25 ns
+
+class RandomParallel : public RandomHost {
+ public:
+  using RandomHost::RandomHost;
+  void hold_through_reset() override;
+  void take() override;
+  void give() override;
+  void write(int address, int value) override;
+  void read(int address) override;
+  void block(int address, int crc_address, const bus::Bytes& bytes) override;
+  void rude() override;
+
+ private:
+  Action access(Verb verb);
+  Tick small_delay() { return random_.one_in(8) ? random_.below(20'000) : random_.below(1000); }
+};
+
+/// Pins in an order that no access has.
+void RandomParallel::rude() {
+  constexpr Pin kPins[] = {Pin::kRReq, Pin::kRSta, Pin::kCsr, Pin::kRd, Pin::kA, Pin::kWr, Pin::kDIn};
+  for (int i = random_.between(2, 12); i > 0; --i) {
+    Action action;
+    action.verb = Verb::kPin;
+    action.delay = random_.one_in(4) ? random_.below(20'000) : random_.below(900);
+    action.pin = random_.pick(kPins);
+    action.value = random_.below(2);
+    if (action.pin == Pin::kA) action.value = random_.below(0x800);
+    if (action.pin == Pin::kDIn) action.value = random_.below(257) - 1;
+    stimulus_.push_back(action);
+  }
+  for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) {
+    Action action;
+    action.verb = Verb::kPin;
+    action.delay = 500;
+    action.pin = pin;
+    action.value = 1;
+    stimulus_.push_back(action);
+  }
+  give();
+  wait(1);
+}
+
+Action RandomParallel::access(Verb verb) {
+  Action action;
+  action.verb = verb;
+  action.delay = random_.below(300);
+  action.setup = random_.between(0, 300);
+  action.low = kTw + random_.below(random_.one_in(4) ? 2000 : 300);
+  action.hold = random_.one_in(4) ? kLeast : kLeast + random_.below(400);
+  return action;
+}
+
+void RandomParallel::write(int address, int value) {
+  Action action = access(Verb::kWrite);
+  action.address = address;
+  action.value = value;
+  stimulus_.push_back(action);
+}
+
+void RandomParallel::read(int address) {
+  Action action = access(Verb::kRead);
+  action.address = address;
+  stimulus_.push_back(action);
+}
+
+void RandomParallel::block(int address, int crc_address, const bus::Bytes& bytes) {
+  Action action = access(Verb::kBlock);
+  action.address = address;
+  action.crc_address = crc_address;
+  action.bytes = bytes;
+  if (random_.one_in(12)) action.value = 1 << random_.below(16);
+  stimulus_.push_back(action);
+}
+
+void RandomParallel::take() {
+  Action action;
+  action.verb = Verb::kTake;
+  action.delay = small_delay();
+  action.low = random_.between(200, 3000);
+  stimulus_.push_back(action);
+}
+
+/// R_REQ and R_STA fall together, or one after the other in either order (H1).
+void RandomParallel::give() {
+  if (random_.one_in(6)) {
+    const bool request_first = random_.one_in(2);
+    pin(request_first ? Pin::kRReq : Pin::kRSta, 0, random_.below(600));
+    return pin(request_first ? Pin::kRSta : Pin::kRReq, 0, random_.below(random_.one_in(4) ? 20'000 : 900));
+  }
+  Action action;
+  action.verb = Verb::kGive;
+  action.delay = random_.below(600);
+  stimulus_.push_back(action);
+}
+
+void RandomParallel::hold_through_reset() {
+  if (random_.one_in(2)) pin(Pin::kRReq, 1, random_.below(600));
+  if (random_.one_in(2)) pin(Pin::kRSta, 1, random_.below(600));
+}
+
+}  // namespace
+
+void RandomHost::pin(Pin pin, int value, Tick delay) {
+  Action action;
+  action.verb = Verb::kPin;
+  action.delay = delay;
+  action.pin = pin;
+  action.value = value;
+  stimulus_.push_back(action);
+}
+
+void RandomHost::wait(int cycles) {
+  Action action;  // D is released already: nothing happens but the delay
+  action.verb = Verb::kPin;
+  action.delay = cycles * kCycle + random_.below(static_cast<int>(kCycle));
+  action.pin = Pin::kDIn;
+  action.value = dsdpv1::kLevelZ;
+  stimulus_.push_back(action);
+}
+
+std::unique_ptr<RandomHost> make_random_parallel(Random& random, Stimulus& stimulus) {
+  return std::make_unique<RandomParallel>(random, stimulus);
+}
+
+}  // namespace dsdpv1::cosim
