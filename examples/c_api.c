@@ -1,14 +1,15 @@
 /*
  * The C API: a master brings a slave up whose user CPU is this program. It runs the C driver; the driver's port is a
- * chip of libdsdpv1.so, pin by pin. At the end the rules of the user's side are looked at.
+ * chip of libdsdpv1.so, pin by pin. Masters of class 1 and 2 then read and write an object of it by acyclic requests.
+ * At the end the rules of the user's side are looked at.
  */
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "driver/dsdpv1.h"
+#include "driver/dsdpv1_acyclic.h"
 #include "dsdpv1/dsdpv1.h"
 
-enum { kAddress = 5 };
+enum { kAddress = 5, kSlot = 1, kIndex = 2, kOfClass1 = 3, kRequests = 5 };
 
 static void check(dpsim_status status) {
   if (status == DPSIM_OK) return;
@@ -70,18 +71,70 @@ static void initialise(user* self, dsdpv1_device* device, const dpsim_slave* sla
   config.max_cfg = config.cfg_length = (uint8_t)slave->cfg_size;
   config.cfg = slave->cfg;
   config.max_prm = DSDPV1_MAX_PRM;
+  config.dpv1 = true;
   dsdpv1_open(device, &port, NULL);
   dsdpv1_error error = dsdpv1_wait_ready(device);
   if (error == DSDPV1_OK) error = dsdpv1_initialise(device, &config);
   printf("%10.3f us  initialised: %s\n", us(self->now), dsdpv1_error_text(error));
 }
 
+/* A DS_Transport of the object: what came, from the last byte to the first. Request and reply share their memory. */
+static dsdpv1_outcome reverse(void* unused, const dsdpv1_request* request, dsdpv1_reply* reply) {
+  (void)unused;
+  for (unsigned i = 0; i < request->length / 2u; ++i) {
+    const uint8_t last = request->data[request->length - 1u - i];
+    reply->data[request->length - 1u - i] = request->data[i];
+    reply->data[i] = last;
+  }
+  reply->length = request->length;
+  return DSDPV1_DONE;
+}
+
+/* One object, for both classes. The driver serves reads and writes of its bytes by itself, and refuses all others. */
+static void open_object(dsdpv1_acyclic* acyclic, dsdpv1_device* device) {
+  static uint8_t bytes[] = {0x11, 0x22, 0x33, 0x44};
+  static dsdpv1_object object = {.slot = kSlot, .index = kIndex, .max_length = sizeof bytes, .data = bytes};
+  object.services = DSDPV1_MAY_READ | DSDPV1_MAY_WRITE | DSDPV1_MAY_TRANSPORT;
+  object.classes = DSDPV1_CLASS_BOTH;
+  object.transport = reverse;
+  const dsdpv1_table table = {&object, 1, NULL};
+  const dsdpv1_error error = dsdpv1_acyclic_open(acyclic, device, &table);
+  if (error != DSDPV1_OK) printf("table: %s\n", dsdpv1_error_text(error));
+}
+
+/* ---- acyclic requests of the masters ---- */
+
+typedef struct dialogue {
+  dpsim_master *first, *second; /* of class 1, of class 2 */
+  uint32_t connection;
+  int ended; /* how many of kRequests */
+} dialogue;
+
+static void ask_by_class_1(dialogue* self) {
+  const uint8_t bytes[] = {0xAA, 0xBB, 0xCC, 0xDD};
+  check(dpsim_master_read(self->first, kAddress, kSlot, kIndex, 10, NULL));
+  check(dpsim_master_write(self->first, kAddress, kSlot, kIndex, bytes, sizeof bytes, NULL));
+  check(dpsim_master_read(self->first, kAddress, kSlot + 1, kIndex, 10, NULL)); /* there is no such slot */
+}
+
+static void ask_by_class_2(dialogue* self) {
+  const uint8_t bytes[] = {1, 2, 3};
+  check(dpsim_master_read(self->second, self->connection, kSlot, kIndex, 10, NULL));
+  check(dpsim_master_transport(self->second, self->connection, kSlot, kIndex, bytes, sizeof bytes, NULL));
+}
+
 /* ---- what is told ---- */
 
-static void print_state(void* unused, const dpsim_event* event) {
-  (void)unused;
+static void told(void* ctx, const dpsim_event* event) {
+  dialogue* self = ctx;
   if (event->type == DPSIM_EVENT_SLAVE_STATE && event->to == DPSIM_SLAVE_DATA_EXCHANGE)
     printf("%10.3f us  the master is in data exchange with slave %u\n", us(event->tick), event->address);
+  if (event->type == DPSIM_EVENT_CONNECTION_STATE && event->from == DPSIM_CONNECTION_CONNECTING &&
+      event->to == DPSIM_CONNECTION_OPEN)
+    ask_by_class_2(self);
+  if (event->type != DPSIM_EVENT_ACYCLIC_DONE) return;
+  printf("%10.3f us  %s\n", us(event->tick), event->text);
+  ++self->ended;
 }
 
 static void print_event(void* unused, const dpsim_chip_event* event) {
@@ -118,22 +171,35 @@ static dpsim_slave slave_of(const char* path) {
   const char* modules[] = {"8 bytes in, 8 bytes out"};
   slave.size = sizeof slave;
   check(dpsim_gsd_load(path, &gsd));
-  check(dpsim_gsd_slave(gsd, modules, 1, 0, &slave));
+  check(dpsim_gsd_slave(gsd, modules, 1, DPSIM_PRM_DPV1, &slave));
   dpsim_gsd_destroy(gsd);
   slave.address = kAddress;
   return slave;
 }
 
-static dpsim_master* add_master(dpsim_bus* bus, const dpsim_slave* slave) {
-  const uint8_t outputs[] = {1, 2, 3, 4, 5, 6, 7, 8};
+static dpsim_master* add_master(dpsim_bus* bus, int32_t master_class, uint8_t address) {
   dpsim_master* master = NULL;
   dpsim_master_options options = {0};
   options.size = sizeof options;
-  options.address = 2;
+  options.master_class = master_class;
+  options.address = address;
+  options.highest_address = kAddress;
+  options.ring = 1;
+  options.gap_factor = 1; /* the second one is soon let in */
   check(dpsim_bus_add_master(bus, &options, &master));
-  check(dpsim_master_add_slave(master, slave));
-  check(dpsim_master_set_outputs(master, slave->address, outputs, sizeof outputs));
   return master;
+}
+
+static void add_masters(dialogue* self, dpsim_bus* bus, const dpsim_slave* slave) {
+  const uint8_t outputs[] = {1, 2, 3, 4, 5, 6, 7, 8};
+  dpsim_connection_options options = {0};
+  options.size = sizeof options;
+  options.slave = slave->address;
+  self->first = add_master(bus, 1, 2);
+  check(dpsim_master_add_slave(self->first, slave));
+  check(dpsim_master_set_outputs(self->first, slave->address, outputs, sizeof outputs));
+  self->second = add_master(bus, 2, 3);
+  check(dpsim_master_add_connection(self->second, &options, &self->connection));
 }
 
 /* The user's program, until it has outputs. */
@@ -152,6 +218,22 @@ static void exchange(user* self, dsdpv1_device* device) {
   }
 }
 
+/* Requests have no interrupt (P7): the user polls for them, here until `count` have ended. */
+static void serve(user* self, dsdpv1_acyclic* acyclic, const dialogue* masters, int count) {
+  for (int turn = 0; turn < 5000 && masters->ended < count; ++turn) {
+    pass(self, 20000);
+    dsdpv1_acyclic_poll(acyclic, NULL);
+  }
+}
+
+static void talk(user* self, dsdpv1_acyclic* acyclic, dialogue* masters) {
+  ask_by_class_1(masters);
+  serve(self, acyclic, masters, kOfClass1);
+  check(dpsim_master_connect(masters->second, masters->connection));
+  serve(self, acyclic, masters, kRequests);
+  printf("acyclic requests that have ended: %d of %d\n", masters->ended, kRequests);
+}
+
 static void print_inputs(const dpsim_master* master) {
   dpsim_slave_status seen = {0};
   seen.size = sizeof seen;
@@ -163,14 +245,16 @@ int main(int argc, char** argv) {
   dpsim_bus* bus = NULL;
   dpsim_checker* checker = NULL;
   dsdpv1_device device;
+  dsdpv1_acyclic acyclic;
+  dialogue masters = {NULL, NULL, 0, 0};
   user cpu = {NULL, 0};
   const dpsim_slave slave = slave_of(argc > 1 ? argv[1] : "scenarios/dsdpv1.gsd");
 
   check(dpsim_bus_create(NULL, &bus));
   check(dpsim_bus_add_chip(bus, NULL, &cpu.chip));
-  dpsim_master* master = add_master(bus, &slave);
+  add_masters(&masters, bus, &slave);
   check(dpsim_chip_on_event(cpu.chip, print_event, NULL));
-  check(dpsim_bus_on_event(bus, print_state, NULL));
+  check(dpsim_bus_on_event(bus, told, &masters));
   check(dpsim_checker_create(NULL, &checker));
   check(dpsim_chip_watch(cpu.chip, DPSIM_ALL_PINS, NULL, NULL));
 
@@ -178,15 +262,18 @@ int main(int argc, char** argv) {
   check(dpsim_chip_set(cpu.chip, cpu.now, DPSIM_DSDPV1_RESET, 1));
   pass(&cpu, 1000);
   initialise(&cpu, &device, &slave);
-  check(dpsim_master_start(master));
+  open_object(&acyclic, &device);
+  check(dpsim_master_start(masters.first));
+  check(dpsim_master_start(masters.second));
   exchange(&cpu, &device);
   pass(&cpu, 100000);
-  print_inputs(master);
+  print_inputs(masters.first);
+  talk(&cpu, &acyclic, &masters);
 
   feed(cpu.chip, checker);
   check(dpsim_checker_finish(checker, cpu.now));
   print_checks(checker);
   dpsim_checker_destroy(checker);
   dpsim_bus_destroy(bus);
-  return 0;
+  return masters.ended == kRequests ? 0 : 1;
 }

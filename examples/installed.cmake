@@ -16,6 +16,8 @@ endmacro()
 
 shown(scenario ${sim} run ${DSDPV1_TREE}/scenarios/power_on_12m.yaml --no-progress --wave power_on_12m.vcd --result power_on_12m.json
       PRINTS "PASSED")
+# A scenario whose masters other benches use as well.
+shown(masters ${sim} run ${here}/masters.yaml --no-progress PRINTS "PASSED")
 
 # The example firmware, as it has just been built, on the ARM board; the program finds its other half by itself.
 find_program(arm-none-eabi-gcc arm-none-eabi-gcc)
@@ -60,6 +62,16 @@ if(there)
         $<TARGET_FILE:dsdpv1::vpi> ${sources} && vvp data_exchange.vvp" PRINTS ${exchanged})
 endif()
 
+# The reference RTL with a planted defect, which its scoreboard finds.
+file(STRINGS ${DSDPV1_TREE}/rtl_ref/files.txt rtl)
+list(TRANSFORM rtl PREPEND ${DSDPV1_TREE}/rtl_ref/)
+list(JOIN rtl " " rtl)
+if(there)
+  shown(systemverilog_defect sh -ec "iverilog -g2012 -DDSDPV1_VPI -DDSDPV1_IMMEDIATE -DUSE_RTL -DSINGLE_FAULTS -I${sv} -I${DSDPV1_TREE}/rtl_ref \
+        -I${DSDPV1_TREE}/registers -s data_exchange -o defect.vvp $<TARGET_FILE:dsdpv1::vpi> ${sources} ${rtl} && vvp defect.vvp +fault=46"
+        PRINTS "first difference at cycle 58808 .*INTR0 is 1, the model's is 0")
+endif()
+
 # Python (docs/python.md) and cocotb (docs/cocotb.md).
 find_package(Python3 COMPONENTS Interpreter)
 set(dsdpv1-python ${dsdpv1_python_FOUND})
@@ -83,4 +95,6 @@ needs(there cocotb dsdpv1-python numpy cocotb iverilog)
 if(there)
   shown(cocotb ${python} -W ignore ${here}/cocotb/run.py --test a_master_brings_the_chip_up --build cocotb_build PRINTS
         "data exchange at [0-9.]+ us, [0-9]+ changes are the model's.*TESTS=1 PASS=1 FAIL=0")
+  shown(cocotb_defect ${python} -W ignore ${here}/cocotb/run.py --test the_pins_of_a_scenario_are_replayed --fault 48 --build cocotb_defect_build PRINTS
+        "first difference +cycle 3106 .*pin L_REQ: model 1, DUT 0")
 endif()

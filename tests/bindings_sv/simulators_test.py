@@ -102,6 +102,13 @@ class Icarus(Benches, unittest.TestCase):
             self.assertEqual((status, said), (0, ""))
             return call(["vvp", pathlib.Path(folder) / "bench.vvp", *plusargs], ROOT)
 
+    def test_the_checker_names_a_write_strobe_that_is_too_short(self):
+        status, said = self.run_bench("violations", "violations")
+        self.assertEqual((status, said.splitlines()[0]), (0, "violations 0, rules applied 16 times"))
+        status, said = self.run_bench("violations", "violations", "+short")
+        self.assertIn("u_checker.report: TIMING_TS at cycle 9673 + 50 ticks (201.525 us): 5.000 ns of at least 12.500 ns, writing B006 [table 15, P5]\n", said)
+        self.assertIn("violations 1, rules", said)
+
     def rtl(self):
         return ["-DUSE_RTL", "-DSINGLE_FAULTS", *(ROOT / "rtl_ref" / line for line in (ROOT / "rtl_ref/files.txt").read_text(encoding="ascii").split())]
 

@@ -1,6 +1,6 @@
 """A planted defect of the reference RTL: the scoreboard of cocotb names the cycle, the pin and the levels that `dsdpv1-sim run --engine lockstep` does.
 
-    faults_test.py SIM FOLDER SIMULATOR FAULT END_US
+    faults_test.py SIM FOLDER SIMULATOR SCENARIO FAULT END_US
 """
 import pathlib
 import re
@@ -8,7 +8,6 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENARIO = ROOT / "scenarios" / "power_on_12m.yaml"
 DIFFERENCE = re.compile(r"first difference +cycle (\d+) \(([\d.]+) us\)\s+pin (\w+): model (\w+), (?:RTL|DUT) (\w+)")
 
 
@@ -17,14 +16,15 @@ def output(*command):
     return done.returncode, done.stdout + done.stderr
 
 
-def main(sim, folder, simulator, fault, end):
+def main(sim, folder, simulator, name, fault, end):  # pylint: disable=too-many-arguments,too-many-positional-arguments
     folder.mkdir(parents=True, exist_ok=True)
+    scenario = ROOT / "scenarios" / f"{name}.yaml"
     difference = folder / f"difference_{simulator}.vcd"
-    _, text = output(sim, "run", SCENARIO, "--engine", "lockstep", "--fault", fault, "--no-progress", "--difference", difference)
+    _, text = output(sim, "run", scenario, "--engine", "lockstep", "--fault", fault, "--no-progress", "--difference", difference)
     expected = DIFFERENCE.search(text)
     assert expected, text
 
-    play = (sys.executable, "-B", ROOT / "examples" / "cocotb" / "run.py", "--simulator", simulator, "--build", folder / simulator, "--scenario", SCENARIO, "--end",
+    play = (sys.executable, "-B", ROOT / "examples" / "cocotb" / "run.py", "--simulator", simulator, "--build", folder / simulator, "--scenario", scenario, "--end",
             end, "--test", "the_pins_of_a_scenario_are_replayed")
     code, text = output(*play, "--fault", fault)
     found = DIFFERENCE.search(text)

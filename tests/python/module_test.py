@@ -1,5 +1,6 @@
 """The module dsdpv1: each part once, and what is Python's own: exceptions, callbacks, threads, numpy."""
 import dataclasses
+import functools
 import os
 import pathlib
 import re
@@ -402,6 +403,17 @@ class ChecksTest(unittest.TestCase):
         rule = next(each for each in dsdpv1.rules() if each.name == "TIMING_TS")
         self.assertEqual((rule.bound, rule.limit), ("min", 150))
         self.assertTrue(rule.rule and rule.clause and rule.advice)
+
+
+class WordsTest(unittest.TestCase):
+    def test_every_public_class_function_and_method_has_its_words(self):
+        public = [(name, getattr(dsdpv1, name)) for name in dsdpv1.__all__]
+        named = [(name, each) for name, each in public if isinstance(each, (type, types.FunctionType))]
+        named += [(f"{name}.{method}", each) for name, owner in named if isinstance(owner, type) for method, each in vars(owner).items()
+                  if not method.startswith("_") and isinstance(each, (types.FunctionType, property, classmethod, functools.cached_property))]
+        self.assertGreater(len(named), 150)
+        made = [f"{name}(" for name, _ in named]  # a dataclass without words gets its signature
+        self.assertEqual([name for name, each in named if not (each.__doc__ or "").strip() or each.__doc__.startswith(tuple(made))], [])
 
 
 class RunTest(unittest.TestCase):
