@@ -302,6 +302,33 @@ TEST(CapiBus, AChipThatIsUnpluggedIsMissed) {
   EXPECT_EQ(line.state(), DPSIM_SLAVE_DATA_EXCHANGE);
 }
 
+TEST(CapiBus, AMasterReleasesItsSlaveChangesItsRateAndFallsSilent) {
+  constexpr dpsim_baud k1M5 = 3;
+  Line line;
+  line.begin();
+  uint64_t now = Line::kRunning;
+  const auto state_after = [&](dpsim_status command) {
+    ok(command);
+    ok(dpsim_bus_run(line.bus.get(), now += 5 * kMs));
+    return line.state();
+  };
+  ok(dpsim_bus_run(line.bus.get(), now));
+  auto status = sized<dpsim_master_status>();
+  EXPECT_EQ(state_after(dpsim_master_set_clear(line.master, 1)), DPSIM_SLAVE_DATA_EXCHANGE);
+  ok(dpsim_master_get_status(line.master, &status));
+  EXPECT_EQ(status.clear, 1);
+  EXPECT_EQ(state_after(dpsim_master_release(line.master, kAddress)), DPSIM_SLAVE_RELEASED);
+  EXPECT_EQ(state_after(dpsim_master_activate(line.master, kAddress)), DPSIM_SLAVE_DATA_EXCHANGE);
+  EXPECT_EQ(state_after(dpsim_master_set_baud(line.master, k1M5)), DPSIM_SLAVE_OFFLINE);
+  ok(dpsim_master_stop(line.master));
+  auto before = sized<dpsim_bus_statistics>(), after = sized<dpsim_bus_statistics>();
+  ok(dpsim_bus_get_statistics(line.bus.get(), &before));
+  ok(dpsim_bus_run(line.bus.get(), now += 5 * kMs));
+  ok(dpsim_bus_get_statistics(line.bus.get(), &after));
+  EXPECT_GT(before.telegrams, 0U);
+  EXPECT_EQ(after.telegrams + after.wrong, before.telegrams + before.wrong);
+}
+
 TEST(CapiBus, AForcedLineIsLow) {
   const auto bus = make_bus();
   dpsim_level level = 0;

@@ -295,6 +295,24 @@ TEST(CapiChip, AFreshChipIsOfflineAndSearchesItsRate) {
   EXPECT_EQ(status.size, sizeof status);
 }
 
+TEST(CapiChip, ACellThatIsPokedIsSeenByPeekAndAtThePins) {
+  constexpr uint16_t kCell = 0x100;
+  const auto chip = make_chip();
+  ok(dpsim_chip_set(chip.get(), 1000, DPSIM_DSDPV1_RESET, 1));
+  ok(dpsim_chip_advance(chip.get(), 6000 * kCycle));
+  ok(dpsim_chip_poke(chip.get(), kCell, 0x5A));
+  uint8_t peeked = 0;
+  ok(dpsim_chip_peek(chip.get(), kCell, &peeked));
+  EXPECT_EQ(peeked, 0x5A);
+  uint64_t now = 6000 * kCycle;
+  ok(dpsim_chip_set(chip.get(), now, DPSIM_DSDPV1_R_REQ, 1));
+  ok(dpsim_chip_set(chip.get(), now += 100 * kCycle, DPSIM_DSDPV1_R_STA, 1));
+  dpsim_level read = 0;
+  ok(dpsim_chip_read(chip.get(), now + kCycle, kCell, nullptr, &read, &now));
+  EXPECT_EQ(read, 0x5A);
+  EXPECT_EQ(dpsim_chip_poke(chip.get(), 0x800, 0), DPSIM_ERR_ARGUMENT);
+}
+
 TEST(CapiTime, ConvertsAbsoluteTimesWithoutDrift) {
   EXPECT_EQ(dpsim_ticks_to(250, DPSIM_FS), 20'833'333U);
   EXPECT_EQ(dpsim_ticks_to(250, DPSIM_PS), 20'833U);

@@ -128,6 +128,22 @@ TEST(CapiRun, TelegramsAndEventsAreToldAsTheyCome) {
   EXPECT_EQ(told.station, 0);
 }
 
+TEST(CapiRun, ChangesThatAreToldAreThoseThatAreKept) {
+  const auto told_by = make_run(kScenario), kept_by = make_run(kScenario);
+  std::vector<dpsim_change> told;
+  ok(dpsim_run_on_change(
+      told_by.get(),
+      [](void* user, const dpsim_change* change) { static_cast<std::vector<dpsim_change>*>(user)->push_back(*change); },
+      &told));
+  ok(dpsim_run_keep(kept_by.get(), DPSIM_KEEP_CHANGES));
+  for (dpsim_run* run : {told_by.get(), kept_by.get()})
+    ok(dpsim_run_execute(
+        run, [](void*, uint64_t now) { return now < 2 * kMs ? 1 : 0; }, nullptr));
+  const auto kept = drain(dpsim_run_read_changes, kept_by.get());
+  EXPECT_GT(told.size(), 5000U);
+  EXPECT_EQ(columns_of(told, 1), columns_of(kept, 1));
+}
+
 TEST(CapiRun, SaysWhatTheScenarioIs) {
   const auto run = make_run(DSDPV1_SOURCE_DIR "/scenarios/two_slaves.yaml");
   auto info = sized<dpsim_run_info>();
