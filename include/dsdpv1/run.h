@@ -72,7 +72,8 @@ DPSIM_API dpsim_status dpsim_run_on_change(dpsim_run* run, dpsim_change_fn fn, v
 DPSIM_API dpsim_status dpsim_run_on_telegram(dpsim_run* run, dpsim_telegram_fn fn, void* user);
 /** Events of the chips; `station` is the slave. */
 DPSIM_API dpsim_status dpsim_run_on_event(dpsim_run* run, dpsim_chip_event_fn fn, void* user);
-/** What the programs of user CPUs print, line by line. */
+/** What the programs of user CPUs print, line by line. Firmware on an ARM board does, which dsdpv1-sim runs; a native
+ * user CPU, the only one that this library has, prints nothing. */
 typedef void (*dpsim_text_fn)(void* user, uint16_t slave, const char* line);
 DPSIM_API dpsim_status dpsim_run_on_text(dpsim_run* run, dpsim_text_fn fn, void* user);
 

@@ -71,7 +71,7 @@ class Run(Handle):
         self._keep("event", _c.dpsim_chip_event_fn, told, lambda made: lib.dpsim_run_on_event(self, made, None))
 
     def on_text(self, callback: typing.Optional[typing.Callable[[int, str], typing.Any]]) -> None:
-        """callback(slave, line): what the programs of user CPUs print."""
+        """callback(slave, line): what the programs of user CPUs print. A native user CPU, the only one of this library, prints nothing."""
         told = None if callback is None else lambda slave, line: callback(slave, _text(line))
         self._keep("text", _c.dpsim_text_fn, told, lambda made: lib.dpsim_run_on_text(self, made, None))
 
