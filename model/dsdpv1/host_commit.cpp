@@ -63,14 +63,14 @@ void HostCommit::move_write(int index, Cycle now) {
 }
 
 bool HostCommit::move_read_and_write(int index, Cycle now) {
-  constexpr int kReads = 2;
+  constexpr int kFlagReads = 2;
   if (index == 0) {
     user_command_ = ram_.read(regs::kUserCommand1);
   } else if (index == 1) {
     chip_command_ = ram_.read(regs::kChipCommand1);
-  } else if (index < kReads + length_) {
-    put(static_cast<regs::Address>(regs::kInput + index - kReads), data_[index - kReads], now);
-  } else if (index == kReads + length_) {
+  } else if (index < kFlagReads + length_) {
+    put(static_cast<regs::Address>(regs::kInput + index - kFlagReads), data_[index - kReads], now);
+  } else if (index == kFlagReads + length_) {
     ram_.write(regs::kUserCommand1, user_command_ | regs::kUserCommand1Input);
   } else {
     ram_.write(regs::kChipCommand1, chip_command_ & static_cast<std::uint8_t>(~regs::kChipCommand1Output));

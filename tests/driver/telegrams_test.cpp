@@ -18,7 +18,7 @@ class Uart : public AcyclicTest {
   FakePort port_kind() const override { return FakePort::kUart; }
   /// The chip does `what` right before the next exchange telegram: after the host's look at its flags.
   void before_exchange(std::function<void()> what) {
-    rsu.before_telegram = [this, what = std::move(what), once = true](const Bytes& request) mutable {
+    rsu.before_telegram = [what = std::move(what), once = true](const Bytes& request) mutable {
       if (request[0] == 0x41 && std::exchange(once, false)) what();
     };
   }
