@@ -174,7 +174,7 @@ std::uint64_t events(const tb::RunResult& result, const char* code) {
 
 std::uint64_t violations(const tb::RunResult& result, checks::Check check) {
   for (const tb::CheckResult& each : result.checks)
-    if (each.rule == &checks::rule(check)) return each.record.violations;
+    if (std::string(each.rule->id) == checks::rule(check).id) return each.record.violations;
   return 0;
 }
 
@@ -250,7 +250,7 @@ TEST(Checks, OneSwitchedOffInTheScenarioIsNotInTheResult) {
   const tb::RunResult result = run(each, false, tb::ChecksMode::kFail);
   EXPECT_TRUE(broken(result).empty());
   EXPECT_TRUE(result.passed);
-  EXPECT_EQ(result.checks.size(), checks::kCheckCount - 1);
+  EXPECT_EQ(result.checks.size(), checks::rules().size() - 1);
 }
 
 }  // namespace
