@@ -82,7 +82,8 @@ class Dsdpv1Kind : public ChipMaker {
 
   const checks::RuleTable& rules() const override { return checks::rules(part_); }
   PinMask checked_pins() const override { return checks::Checks::pins(part_); }
-  std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits, const OwnSettings* chip) const override {
+  std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits,
+                                                  const OwnSettings* chip) const override {
     return std::make_unique<checks::Checks>(limits, part_, chip == nullptr ? Level{0} : straps_of(*chip).front());
   }
   const std::vector<TimingDiagram>& timing_diagrams() const override { return dsdpv1_timing_diagrams(); }

@@ -200,6 +200,28 @@ TEST(ChecksAndCore, FindTheSameViolationsIndependently) {
   }
 }
 
+TEST(ChecksAndCore, FindTheSameViolationsOverSpi) {
+  const tb::scenario::Scenario scenario = tb::scenario::parse(
+      "name: fast\nbaud: 12M\nend: 150us\nchip: {kind: dsdpv1_rsu, mode: spi}\nslaves:\n  - name: demo\n    address: "
+      "5\n"
+      "    init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}\n"
+      "    user_cpu: {cycle: 50us, spi: {clock: 10500, lead: 49ns, lag: 48ns}}\n",
+      "fast.yaml");
+  tb::RunOptions options;
+  options.checks = tb::ChecksMode::kReport;
+  tb::Bench bench(scenario, options, tb::make_pin_execution());
+  const tb::RunResult result = bench.run([](tb::Tick) { return true; });
+  const std::pair<checks::Check, const char*> pairs[] = {{checks::Check::kSckHigh, "SPI_SCK_HIGH"},
+                                                         {checks::Check::kSckLow, "SPI_SCK_LOW"},
+                                                         {checks::Check::kXssLead, "SPI_XSS_LEAD"},
+                                                         {checks::Check::kXssLag, "SPI_XSS_LAG"}};
+  for (const auto& [check, event] : pairs) {
+    EXPECT_GT(violations(result, check), 0U) << event;
+    EXPECT_EQ(violations(result, check), events(result, event)) << event;
+  }
+  EXPECT_EQ(result.checks.size(), 7U) << "those of SPI, no other";
+}
+
 tb::RunResult run_lossy(const char* user_cpu, const char* script) {
   const std::string text =
       std::string("name: lost\nbaud: 12M\nend: 20ms\nslaves:\n  - name: demo\n    address: 5\n") +

@@ -55,7 +55,7 @@ class Master {
 struct Case {
   const char* name;
   Check check;
-  Tick Frame::* time;
+  Tick Frame::*time;
   Tick limit;
   std::uint64_t count;  ///< in two frames of two bits
 };
@@ -113,8 +113,7 @@ TEST_P(SpiValue, IsNotJudgedInOtherModesAndInReset) {
   EXPECT_EQ(held.checks.record(GetParam().check).count, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Checks, SpiValue, testing::ValuesIn(kCases),
-                         [](const auto& each) { return each.param.name; });
+INSTANTIATE_TEST_SUITE_P(Checks, SpiValue, testing::ValuesIn(kCases), [](const auto& each) { return each.param.name; });
 
 TEST(SpiChecks, EdgesAtOneTickCountTheSameWhicheverIsToldFirst) {
   for (const bool xss_first : {false, true}) {

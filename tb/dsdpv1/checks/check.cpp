@@ -28,7 +28,8 @@ const RuleTable& all_rules() {
 }  // namespace
 
 const RuleTable& rules(Part part) {
-  static const RuleTable parallel(all_rules().begin(), all_rules().begin() + static_cast<std::ptrdiff_t>(kFirstSpiCheck));
+  static const RuleTable parallel(all_rules().begin(),
+                                  all_rules().begin() + static_cast<std::ptrdiff_t>(kFirstSpiCheck));
   return part == Part::kRsu ? all_rules() : parallel;
 }
 

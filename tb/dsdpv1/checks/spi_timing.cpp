@@ -7,7 +7,8 @@
 namespace dsdpv1::checks {
 
 void SpiTiming::record(Check check, Tick at, Tick measured) {
-  recorder_.get().value(check, at, measured, [this] { return fmt::format("bit {} of the frame", bits_); });
+  recorder_.get().value(
+      check, at, measured, [this] { return fmt::format("bit {} of the frame", bits_); });
 }
 
 void SpiTiming::pin(Tick at, Pin pin, bool level) {

@@ -33,12 +33,12 @@ class SpiTiming {
   void record(Check check, Tick at, Tick measured);
 
   std::reference_wrapper<Recorder> recorder_;
-  Tick fell_ = kNotYet, rose_ = kNotYet;        ///< XSS: begin and end of the frame
-  bool lag_due_ = false;                        ///< XSS rose; SCK may still fall at the same tick
-  unsigned bits_ = 0;                           ///< of the frame, so far
-  std::optional<Tick> sck_rose_, sck_fell_;     ///< in the frame
+  Tick fell_ = kNotYet, rose_ = kNotYet;     ///< XSS: begin and end of the frame
+  bool lag_due_ = false;                     ///< XSS rose; SCK may still fall at the same tick
+  unsigned bits_ = 0;                        ///< of the frame, so far
+  std::optional<Tick> sck_rose_, sck_fell_;  ///< in the frame
   Tick mosi_changed_ = 0, mosi_changed_before_ = 0;
-  std::optional<Tick> hold_;                    ///< SCK rose, MOSI has not changed since
+  std::optional<Tick> hold_;  ///< SCK rose, MOSI has not changed since
 };
 
 }  // namespace dsdpv1::checks
