@@ -77,10 +77,20 @@ std::vector<tb::CodeText> bus_codes() {
   return list;
 }
 
+void add_check_codes(std::vector<tb::CodeText>& list, const tb::ChipKind& kind) {
+  for (const checks::Rule& rule : kind.rules()) {
+    const bool known =
+        std::any_of(list.begin(), list.end(), [&](const tb::CodeText& each) { return each.code == rule.id; });
+    if (known) continue;
+    list.push_back({rule.id, "violation", std::string(rule.rule) + " (" + rule.clause + ")", rule.advice});
+  }
+}
+
+/// Of `kind`, and those that other kinds have besides.
 std::vector<tb::CodeText> check_codes(const tb::ChipKind& kind) {
   std::vector<tb::CodeText> list;
-  for (const checks::Rule& rule : kind.rules())
-    list.push_back({rule.id, "violation", std::string(rule.rule) + " (" + rule.clause + ")", rule.advice});
+  add_check_codes(list, kind);
+  for (const tb::ChipKind* other : tb::chip_kinds()) add_check_codes(list, *other);
   return list;
 }
 

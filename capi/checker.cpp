@@ -17,7 +17,7 @@ using capi::Tick;
 
 struct dpsim_checker {
   explicit dpsim_checker(const capi::Kind& its_kind, const checks::Limits& limits)
-      : kind(its_kind), checks(its_kind.maker().make_checks(limits)) {
+      : kind(its_kind), checks(its_kind.maker().make_checks(limits, nullptr)) {
     checks->on_violation([this](const checks::Violation& violation) { tell(violation); });
   }
   void tell(const checks::Violation& violation);

@@ -12,7 +12,7 @@ void CheckWatch::add(const std::string& slave) {
   slaves_.push_back(std::make_unique<Slave>());
   Slave& entry = *slaves_.back();
   entry.name = slave;
-  entry.checks = scenario_.kind->make_checks(scenario_.checks);
+  entry.checks = scenario_.kind->make_checks(scenario_.checks, scenario_.chip.get());
   entry.allowed.resize(rules);
   entry.listed_of.resize(rules);
   entry.checks->on_violation([this, &entry](const checks::Violation& violation) { keep(entry, violation); });
@@ -42,7 +42,7 @@ std::vector<CheckResult> CheckWatch::results() const {
     const checks::RuleTable& rules = scenario_.kind->rules();
     for (std::size_t i = 0; i < rules.size(); ++i) {
       const checks::CheckId check(i);
-      if (!slave->checks->limit(check).on) continue;
+      if (!slave->checks->limit(check).on || !slave->checks->applies(check)) continue;
       CheckResult result{slave->name,          &rules[i], slave->checks->limit(check), slave->checks->record(check),
                          slave->allowed.at(i), {}};
       for (const checks::Violation& each : slave->listed)

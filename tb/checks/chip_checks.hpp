@@ -24,6 +24,8 @@ class ChipChecks {
   /// Once, at the end of the run.
   virtual void finish(Tick end) = 0;
 
+  /// Whether a check is about the port that the chip's user has; a report leaves out the others.
+  virtual bool applies(CheckId /*check*/) const { return true; }
   virtual const Record& record(CheckId check) const = 0;
   virtual const Limit& limit(CheckId check) const = 0;
   virtual void on_violation(std::function<void(const Violation&)> sink) = 0;

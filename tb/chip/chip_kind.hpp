@@ -107,7 +107,11 @@ class ChipKind {
   virtual const checks::RuleTable& rules() const;
   /// Pins that the checks need.
   virtual PinMask checked_pins() const { return 0; }
-  virtual std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& /*limits*/) const { return nullptr; }
+  /// `chip`: what the scenario says of it, null where there is no scenario.
+  virtual std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& /*limits*/,
+                                                          const OwnSettings* /*chip*/) const {
+    return nullptr;
+  }
 
   // --- What a report of a run shows of its pins; none by default.
   virtual const std::vector<TimingDiagram>& timing_diagrams() const;

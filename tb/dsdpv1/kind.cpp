@@ -80,10 +80,11 @@ class Dsdpv1Kind : public ChipMaker {
   const std::vector<PinGroup>& pin_groups() const override { return pin_groups_of(part_); }
   const std::vector<InnerSignal>& inner_signals() const override { return InsideWatch::signals(); }
 
-  const checks::RuleTable& rules() const override { return checks::rules(); }
-  PinMask checked_pins() const override { return checks::Checks::kPins; }
-  std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits) const override {
-    return std::make_unique<checks::Checks>(limits);
+  const checks::RuleTable& rules() const override { return checks::rules(part_); }
+  PinMask checked_pins() const override { return checks::Checks::pins(part_); }
+  std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits,
+                                                  const OwnSettings* chip) const override {
+    return std::make_unique<checks::Checks>(limits, part_, chip == nullptr ? Level{0} : straps_of(*chip).front());
   }
   const std::vector<TimingDiagram>& timing_diagrams() const override { return dsdpv1_timing_diagrams(); }
   const std::vector<BusyTime>& busy_times() const override { return dsdpv1_busy_times(); }

@@ -163,7 +163,8 @@ std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
 /// What scenarios with chips of another kind may say besides.
 std::string besides(const ChipKind& usual, const ChipKind& kind) {
   std::string text = keys_besides(usual.chip_keys(), kind.chip_keys(), kind.name()) +
-                     keys_besides(usual.user_keys(), kind.user_keys(), kind.name());
+                     keys_besides(usual.user_keys(), kind.user_keys(), kind.name()) +
+                     keys_besides(check_keys(usual), check_keys(kind), kind.name());
   std::vector<const Object*> known, own;
   collect(usual.user_keys(), known);
   collect(kind.user_keys(), own);

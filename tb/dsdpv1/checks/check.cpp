@@ -1,5 +1,7 @@
 #include "tb/dsdpv1/checks/check.hpp"
 
+#include <cstddef>
+
 #include "model/dsdpv1/pins.hpp"
 
 namespace dsdpv1::checks {
@@ -11,10 +13,10 @@ constexpr std::uint32_t kWriteStrobe = mask(Pin::kCsr) | mask(Pin::kWr) | mask(P
 constexpr std::uint32_t kReadStrobe = mask(Pin::kCsr) | mask(Pin::kRd) | mask(Pin::kA);
 constexpr std::uint32_t kUserPort = kUserHandshake | mask(Pin::kCsr) | mask(Pin::kRd) | mask(Pin::kWr);
 constexpr std::uint32_t kInterruptPins = kUserHandshake | mask(Pin::kIntr0);
+constexpr std::uint32_t kSpiClock = mask(Pin::kXss) | mask(Pin::kSck);
+constexpr std::uint32_t kSpiData = mask(Pin::kSck) | mask(Pin::kMosi);
 
-}  // namespace
-
-const RuleTable& rules() {
+const RuleTable& all_rules() {
   static const RuleTable table = {
 #define X(enumerator, id, bound, limit, pins, ...) {id, Bound::bound, limit, pins, __VA_ARGS__},
 #include "tb/dsdpv1/checks/check_table.inc"
@@ -23,6 +25,14 @@ const RuleTable& rules() {
   return table;
 }
 
-const Rule& rule(CheckId check) { return rules().at(check.index); }
+}  // namespace
+
+const RuleTable& rules(Part part) {
+  static const RuleTable parallel(all_rules().begin(),
+                                  all_rules().begin() + static_cast<std::ptrdiff_t>(kFirstSpiCheck));
+  return part == Part::kRsu ? all_rules() : parallel;
+}
+
+const Rule& rule(CheckId check) { return all_rules().at(check.index); }
 
 }  // namespace dsdpv1::checks

@@ -1,9 +1,8 @@
 #pragma once
 // The checks of the DSDPV1's user side as a table.
-#include <cstddef>
 #include <cstdint>
-#include <iterator>
 
+#include "model/dsdpv1/pins.hpp"
 #include "tb/checks/check.hpp"
 
 namespace dsdpv1::checks {
@@ -19,9 +18,13 @@ constexpr Check kAllChecks[] = {
 #include "tb/dsdpv1/checks/check_table.inc"
 #undef X
 };
-constexpr std::size_t kCheckCount = std::size(kAllChecks);
 
-const RuleTable& rules();
+/// Those from here on are about SPI, which only the DSDPV1-RSU has.
+constexpr Check kFirstSpiCheck = Check::kSckHigh;
+
+/// The rules of a part: of all but the DSDPV1-RSU those without the serial ports.
+const RuleTable& rules(Part part = Part::kDsdpv1);
+/// Of any part: the place of a check is the same in all of their tables.
 const Rule& rule(CheckId check);
 
 }  // namespace dsdpv1::checks

@@ -5,11 +5,30 @@
 namespace dsdpv1::checks {
 
 void Checks::pin(Tick at, Pin pin, Level level) {
-  if ((dsdpv1::mask(pin) & kPins) == 0) return;
+  if ((dsdpv1::mask(pin) & pins_) == 0) return;
   history_.add(at, static_cast<tb::PinNumber>(pin), level);
+  if (pin == Pin::kReset)
+    reset_pin(at, level != 0);
+  else if (pin == Pin::kMode)
+    mode_ = level;
+  else if (!serial())
+    parallel_pin(at, pin, level);
+  else if (mode_ == kSpi && !in_reset_)
+    spi_pin(at, pin, level != 0);
+}
+
+bool Checks::applies(CheckId check) const {
+  const bool spi = check.index >= CheckId(kFirstSpiCheck).index;
+  return spi ? mode_ == kSpi : !serial();
+}
+
+void Checks::spi_pin(Tick at, Pin pin, bool level) {
+  if (pin == Pin::kXss || pin == Pin::kSck || pin == Pin::kMosi) spi_.pin(at, pin, level);
+}
+
+void Checks::parallel_pin(Tick at, Pin pin, Level level) {
   end_hold_before(at);
   switch (pin) {
-    case Pin::kReset: return reset_pin(at, level != 0);
     case Pin::kRReq:
     case Pin::kRSta: return handshake(at, pin, level != 0);
     case Pin::kLSta: return ownership_.l_sta(at, level != 0);
@@ -34,6 +53,7 @@ void Checks::reset_pin(Tick at, bool level) {
   port_.reset();
   cells_.reset();
   service_.reset();
+  spi_.reset();
 }
 
 void Checks::handshake(Tick at, Pin pin, bool level) {
@@ -72,6 +92,7 @@ void Checks::accessed(const Access& access) {
 
 void Checks::telegram(Tick now, const bus::WireTelegram& telegram) {
   recorder_.now(now);
+  if (serial()) return;
   end_hold_before(now);
   service_.telegram(now, telegram, ownership_.held_off_since());
 }
@@ -79,6 +100,7 @@ void Checks::telegram(Tick now, const bus::WireTelegram& telegram) {
 void Checks::finish(Tick end) {
   recorder_.now(end);
   if (in_reset_) return;
+  if (serial()) return spi_.finish(end);
   end_hold_before(end + 1);
   service_.finish(end, ownership_.held_off_since());
   ownership_.finish(end);

@@ -20,6 +20,7 @@
 #include "tb/dsdpv1/checks/ownership.hpp"
 #include "tb/dsdpv1/checks/port_timing.hpp"
 #include "tb/dsdpv1/checks/service.hpp"
+#include "tb/dsdpv1/checks/spi_timing.hpp"
 #include "tb/dsdpv1/pins/pin_table.hpp"
 
 namespace dsdpv1::checks {
@@ -34,13 +35,20 @@ class Checks : public ChipChecks, private AccessSink {
       dsdpv1::mask(dsdpv1::Pin::kDIn) | dsdpv1::mask(dsdpv1::Pin::kCsr) | dsdpv1::mask(dsdpv1::Pin::kRd) |
       dsdpv1::mask(dsdpv1::Pin::kWr);
 
-  explicit Checks(const Limits& limits = Limits(rules()))
-      : history_(tb::dsdpv1_pins()),
-        recorder_(rules(), limits, history_),
+  /// What they see of a part's pins.
+  static constexpr std::uint32_t pins(Part part) { return part == Part::kRsu ? kPins | kSpiPins : kPins; }
+
+  /// `mode`: MODE as it is strapped; a change of the pin counts from then on.
+  explicit Checks(const Limits& limits = Limits(rules()), Part part = Part::kDsdpv1, Level mode = kParallel)
+      : pins_(pins(part)),
+        mode_(mode),
+        history_(tb::pins_of(part)),
+        recorder_(rules(part), limits, history_),
         ownership_(recorder_),
         port_(recorder_, *this),
         cells_(recorder_),
-        service_(recorder_) {}
+        service_(recorder_),
+        spi_(recorder_) {}
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
@@ -52,11 +60,20 @@ class Checks : public ChipChecks, private AccessSink {
   void telegram(Tick now, const bus::WireTelegram& telegram) override;
   void finish(Tick end) override;
 
+  /// Over SPI and UART the parallel port and its handshake are dead (R14), and what the cells hold is in telegrams.
+  bool applies(CheckId check) const override;
   const Record& record(CheckId check) const override { return recorder_.record(check); }
   const Limit& limit(CheckId check) const override { return recorder_.limit(check); }
   void on_violation(std::function<void(const Violation&)> sink) override { recorder_.on_violation = std::move(sink); }
 
  private:
+  static constexpr std::uint32_t kSpiPins = dsdpv1::mask(dsdpv1::Pin::kXss) | dsdpv1::mask(dsdpv1::Pin::kSck) |
+                                            dsdpv1::mask(dsdpv1::Pin::kMosi) | dsdpv1::mask(dsdpv1::Pin::kMode);
+  static constexpr Level kParallel = 0, kSpi = 1, kUart = 2;  // R2; 3 as 0
+
+  bool serial() const { return mode_ == kSpi || mode_ == kUart; }
+  void parallel_pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void spi_pin(Tick at, dsdpv1::Pin pin, bool level);
   void reset_pin(Tick at, bool level);
   void end_hold_before(Tick at);
   void handshake(Tick at, dsdpv1::Pin pin, bool level);
@@ -64,12 +81,15 @@ class Checks : public ChipChecks, private AccessSink {
   void access_ended(Tick at) override;
   void accessed(const Access& access) override;
 
+  std::uint32_t pins_;
+  Level mode_;
   PinHistory history_;
   Recorder recorder_;
   Ownership ownership_;
   PortTiming port_;
   CellRules cells_;
   Service service_;
+  SpiTiming spi_;
   bool in_reset_ = true;
   bool holding_ = false;          ///< a hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again
   std::optional<Tick> hold_end_;  ///< judged when time goes on: a RESET at the same tick makes it void

@@ -64,6 +64,12 @@ says. The checks are written apart from it, from the same rulings, and where bot
 `HOST_TC`, TIMING_TW and `HOST_TW`, TIMING_READ_BACK and `HOST_READ_IN_FLIGHT`, CELL_OF_CHIP and `HOST_READ_ONLY`, CRC_WRITTEN and the refusals
 `..._CRC`. `HANDSHAKE_HELD_THROUGH_RESET` has no check: what the user does in reset is not judged, and a hold through it counts from its end. What the checks add is the margin where nothing is violated, and the rules that no chip can see.
 
+## Which apply
+
+A report has the checks of the port that the user has. With a DSDPV1, a DSDPV1-R, or a DSDPV1-RSU strapped to its parallel port they are those on R_REQ, R_STA, CSR, RD and WR.
+With one strapped to SPI they are `TIMING_SCK_HIGH` to `TIMING_MOSI_HOLD`, which find what the chip reports as `SPI_SCK_HIGH` to `SPI_MOSI_HOLD`, with the margin where
+nothing is violated. Over its UART there are none: what telegrams do wrong, the chip reports ([chip_rsu.md](chip_rsu.md)). Rulings SP are those of that page.
+
 ## What cannot be seen at the pins
 
 - When the user samples D. The user CPUs of the bench tell it, so TIMING_TW is exact for them, at the pins and in TLM; for any other user it takes
