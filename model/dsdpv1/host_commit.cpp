@@ -69,7 +69,7 @@ bool HostCommit::move_read_and_write(int index, Cycle now) {
   } else if (index == 1) {
     chip_command_ = ram_.read(regs::kChipCommand1);
   } else if (index < kFlagReads + length_) {
-    put(static_cast<regs::Address>(regs::kInput + index - kFlagReads), data_[index - kReads], now);
+    put(static_cast<regs::Address>(regs::kInput + index - kFlagReads), data_[index - kFlagReads], now);
   } else if (index == kFlagReads + length_) {
     ram_.write(regs::kUserCommand1, user_command_ | regs::kUserCommand1Input);
   } else {
