@@ -67,8 +67,8 @@ says. The checks are written apart from it, from the same rulings, and where bot
 ## Which apply
 
 A report has the checks of the port that the user has. With a DSDPV1, a DSDPV1-R, or a DSDPV1-RSU strapped to its parallel port they are those on R_REQ, R_STA, CSR, RD and WR.
-With one strapped to SPI they are `TIMING_SCK_HIGH` to `TIMING_MOSI_HOLD`, which find what the chip reports as `SPI_SCK_HIGH` to `SPI_MOSI_HOLD`, with the margin where
-nothing is violated. Over its UART there are none: what telegrams do wrong, the chip reports ([chip_rsu.md](chip_rsu.md)). Rulings SP are those of that page.
+With one strapped to SPI they are `TIMING_SCK_HIGH` to `TIMING_MOSI_HOLD`, which judge what the chip reports as `SPI_SCK_HIGH` to `SPI_MOSI_HOLD`, with the margin where
+nothing is violated; SCK's times, lead and lag are held against the chip's reports (`ChecksAndCore`). Over its UART there are none: what telegrams do wrong, the chip reports ([chip_rsu.md](chip_rsu.md)). Rulings SP are those of that page.
 
 ## What cannot be seen at the pins
 
