@@ -22,16 +22,21 @@ MEASURED_ON = "Measured on RTL with the checksum `{}`."
 
 
 def checksum(chip="dsdpv1"):
-    """Of all that is synthesized, without comments and white space."""
+    """Of all that is synthesized, without comments and white space; of the registers those that it names."""
     names = (RTL / ("files.txt" if chip == "dsdpv1" else "files_rsu.txt")).read_text(encoding="utf-8").split()
-    files = [*(RTL / name for name in HEADERS), RTL.parent / "registers" / "dsdpv1_regs.svh", *(RTL / name for name in names)]
+    texts = [code(file, chip) for file in [*(RTL / name for name in HEADERS), *(RTL / name for name in names)]]
+    words = set(re.findall(r"\w+", " ".join(texts)))
+    registers = code(RTL.parent / "registers" / "dsdpv1_regs.svh", chip)
+    texts += [constant for constant in registers.split(";") if words.intersection(re.findall(r"\w+(?=\s*=)", constant))]
     sums = hashlib.sha256()
-    for file in files:
-        text = re.sub(r"//.*|/\*.*?\*/", "", file.read_text(encoding="utf-8"))
-        if chip == "dsdpv1":
-            text = OPTION.sub("", text)
+    for text in texts:
         sums.update(" ".join(text.split()).encode() + b"\n")
     return sums.hexdigest()[:16]
+
+
+def code(file, chip):
+    text = re.sub(r"//.*|/\*.*?\*/", "", file.read_text(encoding="utf-8"))
+    return OPTION.sub("", text) if chip == "dsdpv1" else text
 
 
 def figures(report):

@@ -72,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(
     Cases, WrongLine,
     testing::Values(
         Wrong{"sync\nfly +1\n",
-              "my.stimulus:2: unknown action fly, allowed: send, spike, take, give, write, read, block, pin, reset, "
-              "sync, repeat, end"},
+              "my.stimulus:2: unknown action fly, allowed: send, spike, take, give, write, read, block, pin, spi, "
+              "uart, reset, sync, repeat, end"},
         Wrong{"write +0 at=800 value=1\n", "my.stimulus:1: wrong number 800, allowed: 0 to 7FF, hexadecimal"},
         Wrong{"write +0 to=1\n",
               "my.stimulus:1: unknown argument to, allowed: +DELAY, at=, value=, setup=, low=, hold="},
