@@ -36,6 +36,7 @@ void SlaveStation::release_reset(Tick now) {
   user_->on_text = [this](Tick at, const std::string& line) {
     if (on_text) on_text(at, line);
   };
+  user_->on_plan = [this] { announce(); };
   user_->on_killed = [this] {
     if (on_killed) on_killed();
   };

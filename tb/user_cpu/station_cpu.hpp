@@ -47,6 +47,8 @@ class StationCpu : public bus::Agent {
   std::function<void(Tick at, const std::string& line)> on_text;
   /// The processor cannot go on: why, in one line, and its registers in several.
   std::function<void(Tick at, const std::string& why, const std::string& registers)> on_failure;
+  /// next() has changed outside of a turn and of the calls above, as what it waits for has come at a pin.
+  std::function<void()> on_plan;
   /// A debugger wants the run to end.
   std::function<void()> on_killed;
 

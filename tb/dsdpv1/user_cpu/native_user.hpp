@@ -14,7 +14,10 @@ class NativeUser : public StationCpu {
     program_.on_error = [this](const DriverError& error) {
       if (on_error) on_error(program_error(error));
     };
-    cpu_.on_announce = [this] { announce(); };
+    cpu_.on_announce = [this] {
+      announce();
+      if (on_plan) on_plan();
+    };
   }
 
   Tick next() const override { return cpu_.next(); }
