@@ -3,21 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "bus/wire/character_run.hpp"
+
 namespace dsdpv1::user_cpu {
 namespace {
 
-constexpr std::size_t kCells = 11;
+constexpr std::size_t kCells = 11, kParity = 9;
 
 /// Half bits from the begin of a character to ticks.
 Tick half_bits(const UartTiming& timing, std::int64_t count) {
   return (count * bus::kTicksPerSecond + timing.baud) / (2 * timing.baud);
-}
-
-bool odd(unsigned byte) {
-  byte ^= byte >> 4U;
-  byte ^= byte >> 2U;
-  byte ^= byte >> 1U;
-  return (byte & 1U) != 0;
 }
 
 }  // namespace
@@ -43,10 +38,9 @@ Tick UartSender::tick_of(std::size_t cell) const {
 
 bool UartSender::level_of(std::size_t cell) const {
   const std::size_t number = cell / kCells, bit = cell % kCells;
-  if (number >= bytes_.size() || bit == kCells - 1) return true;
-  if (bit == 0) return false;
-  if (bit == kCells - 2) return odd(bytes_[number]) != (wrong_parity_ == number);
-  return (bytes_[number] >> (bit - 1) & 1) != 0;
+  if (number >= bytes_.size()) return true;
+  const bool right = (bus::frame_of(bytes_[number]) >> bit & 1) != 0;
+  return right != (bit == kParity && wrong_parity_ == number);
 }
 
 void UartSender::run(Tick now) {
@@ -90,7 +84,9 @@ void UartReceiver::take_character() {
   unsigned value = 0;
   for (int bit = 0; bit < 8; ++bit)
     value |= static_cast<unsigned>(level_at(sample_tick(bit + 1))) << static_cast<unsigned>(bit);
-  const bool right = level_at(end) && level_at(sample_tick(9)) == odd(value) && !level_at(sample_tick(0));
+  const bool right = level_at(end) &&
+                     level_at(sample_tick(kParity)) == bus::even_parity(static_cast<std::uint8_t>(value)) &&
+                     !level_at(sample_tick(0));
   if (right)
     characters_.push_back({end, static_cast<std::uint8_t>(value)});
   else
