@@ -20,7 +20,7 @@ refuses() {
 }
 
 help=$("$run" --help) || fail "--help: exit $?"
-for command in demo test sim rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal bench traces cosim build format lint generate conformance deps; do
+for command in demo test sim nightly rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal bench traces cosim build format lint generate conformance deps; do
   grep -q "^  $command " <<<"$help" || fail "--help does not explain $command"
 done
 grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
@@ -40,6 +40,7 @@ refuses "allowed is default fast debug coverage" build release
 refuses "allowed is --record" conformance now
 refuses "allowed is none" demo now
 refuses "allowed is none" rtl-formal quickly
+refuses "allowed is none" nightly quickly
 refuses "allowed is none" rtl-coverage again
 refuses "unknown row fast, allowed are core_2" bench --only fast
 refuses "0 is no number of rounds" bench --rounds 0

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""The end of ./run test, by Ctrl-C or by a kill, ends the build of the preset debug too, which goes on beside the tests. CMake and ctest are made-up ones, which only wait.
+
+    interrupted_test.py ROOT
+"""
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+TOOL = """#!/bin/sh
+case "$(basename "$0") $*" in
+  "cmake --build"*/build/debug*) what=building ;;
+  ctest*) what=tests ;;
+  *) exit 0 ;;
+esac
+echo $$ >"{folder}/$what.new" && mv "{folder}/$what.new" "{folder}/$what"
+exec sleep 300
+"""
+
+
+def project(root, folder):
+    """A folder in which ./run has nothing to install and nothing to configure."""
+    for name in ("run", "packages.txt", "requirements.txt", "requirements-test.txt"):
+        shutil.copy(root / name, folder / name)
+    (folder / ".venv/bin").mkdir(parents=True)
+    (folder / ".venv/bin/python").symlink_to(sys.executable)
+    for name in ("requirements.txt", "requirements-test.txt"):
+        shutil.copy(root / name, folder / ".venv" / name)
+    (folder / "CMakePresets.json").write_text("{}", encoding="utf-8")
+    for preset in ("default", "debug"):
+        (folder / "build" / preset).mkdir(parents=True)
+        (folder / "build" / preset / "build.ninja").touch()
+    (folder / "tools").mkdir()
+    for name in ("cmake", "ctest"):
+        tool = folder / "tools" / name
+        tool.write_text(TOOL.format(folder=folder), encoding="utf-8")
+        tool.chmod(0o755)
+
+
+def until(condition, what):
+    end = time.monotonic() + 120
+    while not condition():
+        assert time.monotonic() < end, what
+        time.sleep(0.02)
+
+
+def goes_on(process):
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return pathlib.Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()[0] != "Z"
+
+
+def ends_with(root, end):
+    """`end` is called with the process."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        project(root, folder)
+        run = subprocess.Popen([folder / "run", "test"], env={**os.environ, "PATH": f"{folder}/tools:{os.environ['PATH']}"}, start_new_session=True,
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        started = [folder / "building", folder / "tests"]
+        try:
+            until(lambda: all(path.exists() for path in started), "./run test has not begun")
+            build = int(started[0].read_text(encoding="utf-8"))
+            end(run.pid)
+            assert run.wait(120) != 0
+            until(lambda: not goes_on(build), "the build of the preset debug goes on")
+        finally:
+            run.kill()
+            for path in started:
+                if path.exists() and goes_on(int(path.read_text(encoding="utf-8"))):
+                    os.kill(int(path.read_text(encoding="utf-8")), signal.SIGKILL)
+
+
+def main(root):
+    ends_with(root, lambda process: os.killpg(process, signal.SIGINT))
+    ends_with(root, lambda process: os.kill(process, signal.SIGTERM))
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))
