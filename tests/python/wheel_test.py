@@ -1,6 +1,7 @@
 """Makes the wheel and uses it where nothing else of the project is.
 
-    wheel_test.py FOLDER [BUILD]    FOLDER keeps what is compiled; BUILD: a build whose library goes into the wheel, else one is compiled
+    wheel_test.py FOLDER [BUILD]    FOLDER keeps what is compiled; BUILD: a build whose library goes into the wheel, else one is compiled.
+The preset default compiles the same by the same commands, so that a compiler's cache has it.
 """
 import os
 import pathlib
@@ -11,8 +12,6 @@ import tempfile
 import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Sources are compiled in half the time without optimisation; the wheel of the build has the optimised library.
-QUICKLY = {f"cmake.define.CMAKE_{language}_FLAGS_RELEASE": "-O0 -DNDEBUG" for language in ("C", "CXX")}
 USE = """
 import pathlib, dsdpv1, dsdpv1._library as library
 assert "site" in dsdpv1.__file__, dsdpv1.__file__
@@ -31,7 +30,7 @@ def call(*command, **options):
 
 def wheel_of(folder, build):
     """The wheel in `folder`."""
-    settings = {"build-dir": folder / "build", **({"cmake.define.DSDPV1_BUILD": build} if build else QUICKLY)}
+    settings = {"build-dir": folder, **({"cmake.define.DSDPV1_BUILD": build} if build else {})}
     options = [word for name, value in settings.items() for word in ("--config-settings", f"{name}={value}")]
     for old in folder.glob("*.whl"):
         old.unlink()
