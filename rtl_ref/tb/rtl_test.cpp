@@ -351,9 +351,10 @@ int main(int argc, char** argv) {
     const size_t equals = argument.find('=');
     const auto setting = settings.find(argument.substr(0, equals));
     if (setting == settings.end() || equals == std::string::npos) {
-      std::fprintf(stderr,
-                   "rtl_test: unknown argument %s, allowed are rts_lead, rts_trail, search_window_ms, fault, dpv1 =NUMBER\n",
-                   argv[i]);
+      std::fprintf(
+          stderr,
+          "rtl_test: unknown argument %s, allowed are rts_lead, rts_trail, search_window_ms, fault, dpv1 =NUMBER\n",
+          argv[i]);
       return 2;
     }
     *setting->second = static_cast<unsigned>(std::stoul(argument.substr(equals + 1)));
