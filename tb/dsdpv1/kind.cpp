@@ -84,7 +84,12 @@ class Dsdpv1Kind : public ChipMaker {
   PinMask checked_pins() const override { return checks::Checks::pins(part_); }
   std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits,
                                                   const OwnSettings* chip) const override {
-    return std::make_unique<checks::Checks>(limits, part_, chip == nullptr ? Level{0} : straps_of(*chip).front());
+    checks::SerialSettings serial;
+    if (chip != nullptr) {
+      const auto& settings = static_cast<const Dsdpv1Settings&>(*chip);
+      serial = {static_cast<Level>(settings.mode), static_cast<Level>(settings.address), settings.spi_write_gap};
+    }
+    return std::make_unique<checks::Checks>(limits, part_, serial);
   }
   const std::vector<TimingDiagram>& timing_diagrams() const override { return dsdpv1_timing_diagrams(); }
   const std::vector<BusyTime>& busy_times() const override { return dsdpv1_busy_times(); }

@@ -200,6 +200,38 @@ TEST(ChecksAndCore, FindTheSameViolationsIndependently) {
   }
 }
 
+tb::RunResult run_spi(const char* end, const char* spi, const char* rest) {
+  const tb::scenario::Scenario scenario = tb::scenario::parse(
+      std::string("name: spi\nbaud: 12M\nend: ") + end +
+          "\nchip: {kind: dsdpv1_rsu, mode: spi}\nslaves:\n  - name: demo\n    address: 5\n"
+          "    init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}\n    user_cpu: {cycle: 200us, spi: {" +
+          spi + "}}\n" + rest,
+      "spi.yaml");
+  tb::RunOptions options;
+  options.checks = tb::ChecksMode::kReport;
+  tb::Bench bench(scenario, options, tb::make_pin_execution());
+  return bench.run([](tb::Tick) { return true; });
+}
+
+TEST(ChecksAndCore, FindTheSameFramesThatFollowAWriteTooSoon) {
+  const tb::RunResult result = run_spi("150us", "clock: 24000, lag: 50ns, gap: 100ns", "");
+  EXPECT_GT(violations(result, checks::Check::kWriteGap), 0U);
+  EXPECT_EQ(violations(result, checks::Check::kWriteGap), events(result, "SPI_WRITE_GAP"));
+}
+
+TEST(HoldOverSpi, IsFoundAgainstItsLimitAndAgainstTheIntervalOfTheBus) {
+  const char* const bus =
+      "masters: [{name: plc, address: 2, start: 1ms, slaves: [{slave: demo, outputs: \"01 02\"}]}]\n"
+      "checks: {B014_HELD: {max: 1ms}}\n";
+  const tb::RunResult quiet = run_spi("20ms", "clock: 9000", bus);
+  EXPECT_EQ(violations(quiet, checks::Check::kOwned), 0U);
+  const tb::RunResult held =
+      run_spi("20ms", "clock: 9000",
+              (std::string(bus) + "script: [{at: 10ms, do: hold_dpram, slave: demo, for: 2ms}]\n").c_str());
+  EXPECT_EQ(violations(held, checks::Check::kOwned), 1U);
+  EXPECT_GT(violations(held, checks::Check::kOwnerInterval), violations(quiet, checks::Check::kOwnerInterval));
+}
+
 TEST(ChecksAndCore, FindTheSameViolationsOverSpi) {
   const tb::scenario::Scenario scenario = tb::scenario::parse(
       "name: fast\nbaud: 12M\nend: 150us\nchip: {kind: dsdpv1_rsu, mode: spi}\nslaves:\n  - name: demo\n    address: "
@@ -219,7 +251,7 @@ TEST(ChecksAndCore, FindTheSameViolationsOverSpi) {
     EXPECT_GT(violations(result, check), 0U) << event;
     EXPECT_EQ(violations(result, check), events(result, event)) << event;
   }
-  EXPECT_EQ(result.checks.size(), 7U) << "those of SPI, no other";
+  EXPECT_EQ(result.checks.size(), 10U) << "those of SPI, no other";
 }
 
 tb::RunResult run_lossy(const char* user_cpu, const char* script) {

@@ -22,7 +22,7 @@ struct Frame {
 
 class Master {
  public:
-  explicit Master(Level mode = kSpi) : checks(checks::Limits(checks::rules(Part::kRsu)), Part::kRsu, mode) {
+  explicit Master(Level mode = kSpi) : checks(checks::Limits(checks::rules(Part::kRsu)), Part::kRsu, {mode, 1}) {
     checks.on_violation([this](const checks::Violation& violation) { violations.push_back(violation); });
     set(1000, Pin::kReset, 1);
   }
@@ -142,7 +142,7 @@ TEST(SpiChecks, ModeOfThePinDecidesWhatApplies) {
   master.set(2000, Pin::kMode, kSpi);
   EXPECT_FALSE(master.checks.applies(Check::kTs));
   EXPECT_TRUE(master.checks.applies(Check::kSckHigh));
-  EXPECT_EQ(checks::rules().size() + 7, checks::rules(Part::kRsu).size()) << "the DSDPV1 has no SPI";
+  EXPECT_EQ(checks::rules().size() + 10, checks::rules(Part::kRsu).size()) << "the DSDPV1 has no SPI";
 }
 
 }  // namespace

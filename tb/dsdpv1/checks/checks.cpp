@@ -10,20 +10,23 @@ void Checks::pin(Tick at, Pin pin, Level level) {
   if (pin == Pin::kReset)
     reset_pin(at, level != 0);
   else if (pin == Pin::kMode)
-    mode_ = level;
+    settings_.mode = level;
+  else if (pin == Pin::kAdr)
+    settings_.address = level;
   else if (!serial())
     parallel_pin(at, pin, level);
-  else if (mode_ == kSpi && !in_reset_)
-    spi_pin(at, pin, level != 0);
+  else if (settings_.mode == kSpi && !in_reset_)
+    spi_pin(at, pin, level);
 }
 
 bool Checks::applies(CheckId check) const {
   const bool spi = check.index >= CheckId(kFirstSpiCheck).index;
-  return spi ? mode_ == kSpi : !serial();
+  return spi ? settings_.mode == kSpi : !serial();
 }
 
-void Checks::spi_pin(Tick at, Pin pin, bool level) {
-  if (pin == Pin::kXss || pin == Pin::kSck || pin == Pin::kMosi) spi_.pin(at, pin, level);
+void Checks::spi_pin(Tick at, Pin pin, Level level) {
+  if (pin == Pin::kXss || pin == Pin::kSck || pin == Pin::kMosi) spi_.pin(at, pin, level != 0);
+  frames_.pin(at, pin, level);
 }
 
 void Checks::parallel_pin(Tick at, Pin pin, Level level) {
@@ -54,6 +57,7 @@ void Checks::reset_pin(Tick at, bool level) {
   cells_.reset();
   service_.reset();
   spi_.reset();
+  frames_.reset();
 }
 
 void Checks::handshake(Tick at, Pin pin, bool level) {
@@ -92,6 +96,7 @@ void Checks::accessed(const Access& access) {
 
 void Checks::telegram(Tick now, const bus::WireTelegram& telegram) {
   recorder_.now(now);
+  if (settings_.mode == kSpi && !in_reset_) frames_.telegram(now, telegram);
   if (serial()) return;
   end_hold_before(now);
   service_.telegram(now, telegram, ownership_.held_off_since());
@@ -100,7 +105,11 @@ void Checks::telegram(Tick now, const bus::WireTelegram& telegram) {
 void Checks::finish(Tick end) {
   recorder_.now(end);
   if (in_reset_) return;
-  if (serial()) return spi_.finish(end);
+  if (serial()) {
+    spi_.finish(end);
+    frames_.finish(end);
+    return;
+  }
   end_hold_before(end + 1);
   service_.finish(end, ownership_.held_off_since());
   ownership_.finish(end);

@@ -19,7 +19,9 @@
 #include "tb/dsdpv1/checks/check.hpp"
 #include "tb/dsdpv1/checks/ownership.hpp"
 #include "tb/dsdpv1/checks/port_timing.hpp"
+#include "tb/dsdpv1/checks/serial_settings.hpp"
 #include "tb/dsdpv1/checks/service.hpp"
+#include "tb/dsdpv1/checks/spi_frames.hpp"
 #include "tb/dsdpv1/checks/spi_timing.hpp"
 #include "tb/dsdpv1/pins/pin_table.hpp"
 
@@ -38,17 +40,18 @@ class Checks : public ChipChecks, private AccessSink {
   /// What they see of a part's pins.
   static constexpr std::uint32_t pins(Part part) { return part == Part::kRsu ? kPins | kSpiPins : kPins; }
 
-  /// `mode`: MODE as it is strapped; a change of the pin counts from then on.
-  explicit Checks(const Limits& limits = Limits(rules()), Part part = Part::kDsdpv1, Level mode = kParallel)
+  /// `serial`: straps and parameters; a change of MODE or ADR counts from then on.
+  explicit Checks(const Limits& limits = Limits(rules()), Part part = Part::kDsdpv1, const SerialSettings& serial = {})
       : pins_(pins(part)),
-        mode_(mode),
+        settings_(serial),
         history_(tb::pins_of(part)),
         recorder_(rules(part), limits, history_),
         ownership_(recorder_),
         port_(recorder_, *this),
         cells_(recorder_),
         service_(recorder_),
-        spi_(recorder_) {}
+        spi_(recorder_),
+        frames_(recorder_, settings_) {}
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
@@ -68,12 +71,13 @@ class Checks : public ChipChecks, private AccessSink {
 
  private:
   static constexpr std::uint32_t kSpiPins = dsdpv1::mask(dsdpv1::Pin::kXss) | dsdpv1::mask(dsdpv1::Pin::kSck) |
-                                            dsdpv1::mask(dsdpv1::Pin::kMosi) | dsdpv1::mask(dsdpv1::Pin::kMode);
-  static constexpr Level kParallel = 0, kSpi = 1, kUart = 2;  // R2; 3 as 0
+                                            dsdpv1::mask(dsdpv1::Pin::kMosi) | dsdpv1::mask(dsdpv1::Pin::kMiso) |
+                                            dsdpv1::mask(dsdpv1::Pin::kMode) | dsdpv1::mask(dsdpv1::Pin::kAdr);
+  static constexpr Level kSpi = 1, kUart = 2;  // R2; 3 as 0
 
-  bool serial() const { return mode_ == kSpi || mode_ == kUart; }
+  bool serial() const { return settings_.mode == kSpi || settings_.mode == kUart; }
   void parallel_pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
-  void spi_pin(Tick at, dsdpv1::Pin pin, bool level);
+  void spi_pin(Tick at, dsdpv1::Pin pin, Level level);
   void reset_pin(Tick at, bool level);
   void end_hold_before(Tick at);
   void handshake(Tick at, dsdpv1::Pin pin, bool level);
@@ -82,7 +86,7 @@ class Checks : public ChipChecks, private AccessSink {
   void accessed(const Access& access) override;
 
   std::uint32_t pins_;
-  Level mode_;
+  SerialSettings settings_;
   PinHistory history_;
   Recorder recorder_;
   Ownership ownership_;
@@ -90,6 +94,7 @@ class Checks : public ChipChecks, private AccessSink {
   CellRules cells_;
   Service service_;
   SpiTiming spi_;
+  SpiFrames frames_;
   bool in_reset_ = true;
   bool holding_ = false;          ///< a hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again
   std::optional<Tick> hold_end_;  ///< judged when time goes on: a RESET at the same tick makes it void

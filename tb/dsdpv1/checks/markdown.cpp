@@ -68,7 +68,9 @@ says. The checks are written apart from it, from the same rulings, and where bot
 
 A report has the checks of the port that the user has. With a DSDPV1, a DSDPV1-R, or a DSDPV1-RSU strapped to its parallel port they are those on R_REQ, R_STA, CSR, RD and WR.
 With one strapped to SPI they are `TIMING_SCK_HIGH` to `TIMING_MOSI_HOLD`, which judge what the chip reports as `SPI_SCK_HIGH` to `SPI_MOSI_HOLD`, with the margin where
-nothing is violated; SCK's times, lead and lag are held against the chip's reports (`ChecksAndCore`). Over its UART there are none: what telegrams do wrong, the chip reports ([chip_rsu.md](chip_rsu.md)). Rulings SP are those of that page.
+nothing is violated; SCK's times, lead and lag are held against the chip's reports (`ChecksAndCore`).
+`TIMING_WRITE_GAP`, `B014_HELD` and `B014_HOLD_INTERVAL` follow the telegrams on MOSI and MISO: the first judges what the chip reports as `SPI_WRITE_GAP`. A claim that the reply refuses is none; that U_Timer (SP17)
+has ended a hold is seen when the host reads B014. Over its UART there are none: what telegrams do wrong, the chip reports ([chip_rsu.md](chip_rsu.md)). Rulings SP are those of that page.
 
 ## What cannot be seen at the pins
 

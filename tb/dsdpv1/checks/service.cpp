@@ -91,7 +91,7 @@ void Service::telegram(Tick now, const bus::WireTelegram& telegram, std::optiona
 void Service::exchange(Tick at) {
   if (last_exchange_ && longest_part_ != 0) {
     const Tick interval = at - *last_exchange_;
-    recorder_.value(Check::kHoldInterval, at, interval - longest_part_, [&] {
+    recorder_.value(interval_, at, interval - longest_part_, [&] {
       return fmt::format("the chip was held off for {} of the {} between two Data_Exchange", ns_text(longest_part_),
                          ns_text(interval));
     });

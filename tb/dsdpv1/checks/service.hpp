@@ -11,7 +11,9 @@ namespace dsdpv1::checks {
 
 class Service {
  public:
-  explicit Service(Recorder& recorder) : recorder_(recorder) {}
+  /// `interval`: the check that is about holds against the bus cycle.
+  explicit Service(Recorder& recorder, Check interval = Check::kHoldInterval)
+      : recorder_(recorder), interval_(interval) {}
 
   /// RESET is low. The station's address has to be learnt again.
   void reset();
@@ -33,6 +35,7 @@ class Service {
   void exchange(Tick at);
 
   Recorder& recorder_;
+  Check interval_;
   std::optional<Tick> intr0_fell_;  ///< and nobody has served it
   std::optional<std::uint8_t> address_;
   bool sending_ = false;

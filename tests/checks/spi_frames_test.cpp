@@ -1,0 +1,154 @@
+// The checks of SPI's telegrams: 2.7 us after a write (SP9), the hold by B014 (SP12), to the tick.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tb/dsdpv1/checks/checks.hpp"
+
+namespace dsdpv1 {
+namespace {
+
+using bus::Tick;
+using checks::Check;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr Level kSpi = 1;
+constexpr Tick kHalf = 600;  ///< of SCK's period
+
+Bytes with_crc(Bytes bytes, unsigned error = 0) {
+  unsigned crc = 0xFFFF;
+  for (const std::uint8_t byte : bytes) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1) ^ 0xA001U : crc >> 1;
+  }
+  crc ^= error;
+  bytes.push_back(static_cast<std::uint8_t>(crc >> 8));
+  bytes.push_back(static_cast<std::uint8_t>(crc & 0xFFU));
+  return bytes;
+}
+
+const Bytes kClaim = with_crc({0x21, 0x00, 0x14, 0x01, 0x02}), kRelease = with_crc({0x21, 0x00, 0x14, 0x01, 0x00}),
+            kLook = with_crc({0x01, 0x00, 0x14, 0x01}), kWrite = with_crc({0x21, 0x00, 0x20, 0x01, 0x55}),
+            kDone = with_crc({0xA1, 0x00}), kRefused = with_crc({0xE1, 0x00});
+
+/// A host and what the chip answers it.
+class Host {
+ public:
+  explicit Host(std::optional<Tick> longest = {}) : checks(limits(longest), Part::kRsu, {kSpi, 1}) {
+    checks.on_violation([this](const checks::Violation& violation) { violations.push_back(violation); });
+    set(1000, Pin::kReset, 1);
+  }
+  /// A frame whose XSS falls at `at`; the tick of the request's last bit.
+  Tick frame(Tick at, const Bytes& request, const Bytes& reply) {
+    Bytes out = request, in(request.size(), 0xFF);
+    out.insert(out.end(), reply.size(), 0xFF);
+    in.insert(in.end(), reply.begin(), reply.end());
+    set(at, Pin::kXss, 0);
+    for (std::size_t bit = 0; bit < 8 * out.size(); ++bit) {
+      at += kHalf;
+      set(at - 300, Pin::kMosi, out[bit / 8] >> (7 - bit % 8) & 1);
+      set(at - 200, Pin::kMiso, in[bit / 8] >> (7 - bit % 8) & 1);
+      set(at, Pin::kSck, 1);
+      if (bit + 1 == 8 * request.size()) last_bit_ = at;
+      set(at += kHalf, Pin::kSck, 0);
+    }
+    set(end_ = at + kHalf, Pin::kXss, 1);
+    return last_bit_;
+  }
+  Tick end() const { return end_; }
+  const checks::Record& record(Check check) const { return checks.record(check); }
+
+  checks::Checks checks;
+  std::vector<checks::Violation> violations;
+
+ private:
+  static checks::Limits limits(std::optional<Tick> longest) {
+    checks::Limits limits(checks::rules(Part::kRsu));
+    if (longest) limits[Check::kOwned].value = *longest;
+    return limits;
+  }
+  void set(Tick at, Pin pin, Level level) { checks.pin(at, pin, level); }
+  Tick last_bit_ = 0, end_ = 0;
+};
+
+TEST(SpiWriteGap, IsKeptAtTwoPointSevenMicrosecondsAndViolatedOneTickSooner) {
+  for (const Tick margin : {Tick{0}, Tick{-1}}) {
+    Host host;
+    const Tick begun = host.frame(10'000, kWrite, {}) + 32'400 + margin;
+    host.frame(begun, kLook, {});
+    const checks::Record& record = host.record(Check::kWriteGap);
+    EXPECT_EQ(record.count, 1U);
+    EXPECT_EQ(record.worst_margin, margin);
+    EXPECT_EQ(record.at, begun);
+    ASSERT_EQ(host.violations.size(), margin < 0 ? 1U : 0U);
+    if (margin < 0) EXPECT_EQ(host.violations[0].at, begun);
+  }
+}
+
+TEST(SpiWriteGap, IsAskedForAfterWritesToThisCardOnlyRightOrWrong) {
+  const struct {
+    Bytes request;
+    std::uint64_t count;
+  } cases[] = {{kLook, 0},
+               {with_crc({0x22, 0x00, 0x20, 0x01, 0x55}), 0},
+               {with_crc({0x21, 0x00, 0x20, 0x01, 0x55}, 1), 1},
+               {with_crc({0x41, 0x01, 0x55}), 1},
+               {{0x21, 0x00, 0x20, 0x01, 0x55, 0x00}, 0}};
+  for (const auto& each : cases) {
+    Host host;
+    host.frame(10'000, each.request, {});
+    host.frame(host.end() + 50'000, kLook, {});
+    EXPECT_EQ(host.record(Check::kWriteGap).count, each.count);
+  }
+}
+
+TEST(SpiWriteGap, OfAWriteInAFrameThatIsNotHeardIsNotAskedFor) {
+  Host host;
+  host.frame(host.frame(10'000, kWrite, {}) + 700, kWrite, {});
+  host.frame(host.end() + 600, kLook, {});
+  EXPECT_EQ(host.record(Check::kWriteGap).count, 2U) << "both after the first";
+  EXPECT_EQ(host.record(Check::kWriteGap).violations, 1U);
+}
+
+TEST(SpiOwned, IsMeasuredFromTheClaimsLastBitToTheReleases) {
+  for (const Tick margin : {Tick{0}, Tick{-1}}) {
+    constexpr Tick kFirst = 10'000, kSecond = 2'000'000;
+    Host host(kSecond - kFirst + margin);
+    host.frame(kFirst, kClaim, kDone);
+    const Tick released = host.frame(kSecond, kRelease, kDone);
+    const checks::Record& record = host.record(Check::kOwned);
+    EXPECT_EQ(record.count, 1U);
+    EXPECT_EQ(record.worst_value, kSecond - kFirst);
+    EXPECT_EQ(record.worst_margin, margin);
+    ASSERT_EQ(host.violations.size(), margin < 0 ? 1U : 0U);
+    if (margin < 0) EXPECT_EQ(host.violations[0].at, released);
+  }
+}
+
+TEST(SpiOwned, HasNotBegunWithARefusedOrWrongClaimAndEndsWhenB014SaysSo) {
+  Host refused;
+  refused.frame(10'000, kClaim, kRefused);
+  refused.frame(200'000, with_crc({0x21, 0x00, 0x14, 0x01, 0x02}, 1), with_crc({0xE1, 0x01}));
+  refused.checks.finish(1'000'000);
+  EXPECT_EQ(refused.record(Check::kOwned).count, 0U);
+
+  Host ended;
+  ended.frame(10'000, kClaim, kDone);
+  ended.frame(200'000, kLook, with_crc({0x81, 0x00, 0x02}));
+  EXPECT_EQ(ended.record(Check::kOwned).count, 0U);
+  ended.frame(500'000, kLook, with_crc({0x81, 0x00, 0x00}));
+  EXPECT_EQ(ended.record(Check::kOwned).count, 1U);
+}
+
+TEST(SpiOwned, LastsToTheEndOfTheRunWhenNobodyReleases) {
+  Host host;
+  const Tick claimed = host.frame(10'000, kClaim, kDone);
+  host.checks.finish(130'000'000);
+  EXPECT_EQ(host.record(Check::kOwned).worst_value, 130'000'000 - claimed);
+  EXPECT_EQ(host.record(Check::kOwned).violations, 1U);
+}
+
+}  // namespace
+}  // namespace dsdpv1
