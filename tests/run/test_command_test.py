@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The end of ./run test, by Ctrl-C or by a kill, ends the build of the preset debug too, which goes on beside the tests. CMake and ctest are made-up ones, which only wait.
+"""./run test with a made-up CMake and ctest: its end, by Ctrl-C or by a kill, ends the build of the preset debug too, which goes on beside the tests; with
+tests that pass it succeeds, and with one that fails it does not.
 
-    interrupted_test.py ROOT
+    test_command_test.py ROOT
 """
 import os
 import pathlib
@@ -12,7 +13,7 @@ import sys
 import tempfile
 import time
 
-TOOL = """#!/bin/sh
+WAITING = """#!/bin/sh
 case "$(basename "$0") $*" in
   "cmake --build"*/build/debug*) what=building ;;
   ctest*) what=tests ;;
@@ -22,9 +23,17 @@ echo $$ >"{folder}/$what.new" && mv "{folder}/$what.new" "{folder}/$what"
 exec sleep 300
 """
 
+# Leaves the report that it is asked for.
+ENDING = """#!/bin/sh
+for last; do :; done
+case "$last" in
+  *.xml) printf '<testsuite\\n\\ttests="2"\\n\\tfailures="{failures}"\\n\\tskipped="0"\\n>' >"$last" ;;
+esac
+"""
 
-def project(root, folder):
-    """A folder in which ./run has nothing to install and nothing to configure."""
+
+def project(root, folder, tools):
+    """A folder in which ./run has nothing to install and nothing to configure, and what comes after the tests says nothing."""
     for name in ("run", "packages.txt", "requirements.txt", "requirements-test.txt"):
         shutil.copy(root / name, folder / name)
     (folder / ".venv/bin").mkdir(parents=True)
@@ -35,11 +44,18 @@ def project(root, folder):
     for preset in ("default", "debug"):
         (folder / "build" / preset).mkdir(parents=True)
         (folder / "build" / preset / "build.ninja").touch()
+    for after in ("docs/conformance/generate.py", "cmake/failures.py"):
+        (folder / after).parent.mkdir(parents=True)
+        (folder / after).touch()
     (folder / "tools").mkdir()
     for name in ("cmake", "ctest"):
         tool = folder / "tools" / name
-        tool.write_text(TOOL.format(folder=folder), encoding="utf-8")
+        tool.write_text(tools, encoding="utf-8")
         tool.chmod(0o755)
+
+
+def environment(folder):
+    return {**os.environ, "PATH": f"{folder}/tools:{os.environ['PATH']}"}
 
 
 def until(condition, what):
@@ -61,8 +77,8 @@ def ends_with(root, end):
     """`end` is called with the process."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        project(root, folder)
-        run = subprocess.Popen([folder / "run", "test"], env={**os.environ, "PATH": f"{folder}/tools:{os.environ['PATH']}"}, start_new_session=True,
+        project(root, folder, WAITING.format(folder=folder))
+        run = subprocess.Popen([folder / "run", "test"], env=environment(folder), start_new_session=True,
                                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
         started = [folder / "building", folder / "tests"]
         try:
@@ -78,7 +94,18 @@ def ends_with(root, end):
                     os.kill(int(path.read_text(encoding="utf-8")), signal.SIGKILL)
 
 
+def tests_that_end(root, failures):
+    """What ./run test prints, and its exit code, with so many tests of each preset that fail."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        project(root, folder, ENDING.format(failures=failures))
+        run = subprocess.run([folder / "run", "test"], env=environment(folder), capture_output=True, text=True, timeout=120, check=False)
+        return run.returncode, run.stdout, run.stderr
+
+
 def main(root):
+    assert tests_that_end(root, 0) == (0, "4 passed, 0 failed\n", ""), tests_that_end(root, 0)
+    assert tests_that_end(root, 1) == (1, "2 passed, 2 failed\n", ""), tests_that_end(root, 1)
     ends_with(root, lambda process: os.killpg(process, signal.SIGINT))
     ends_with(root, lambda process: os.kill(process, signal.SIGTERM))
 
