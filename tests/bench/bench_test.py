@@ -134,6 +134,12 @@ class Measuring(unittest.TestCase):
         with self.assertRaisesRegex(programs.Failed, "^no_such_program cannot be run: No such file or directory$"):
             programs.call(["/nowhere/no_such_program"])
 
+    def test_pin_changes_are_of_the_time_that_exchanges_take_without_the_start(self):
+        with mock.patch.object(programs, "cpu_of_children", side_effect=[1, 3, 10, 16]), \
+                mock.patch.object(programs, "call", side_effect=["changes\t0\n", "note\nchanges\t8000000\n"]) as calls:
+            self.assertEqual(programs.pin_changes("vvp", "bench.vvp"), 2)
+        self.assertEqual([call.args[0] for call in calls.mock_calls], [["vvp", "bench.vvp", "+exchanges=0"], ["vvp", "bench.vvp", "+exchanges=2000"]])
+
 
 class CommandLine(unittest.TestCase):
     def refuses(self, words, *arguments):

@@ -62,6 +62,16 @@ def row_of_python(program, name, *words):
     return number_in(printed, program, name)
 
 
+def pin_changes(*command):
+    """Millions of changes of pins a second of CPU time, of a simulation of binding_speed.sv; what it takes to start is taken off."""
+    spent = []
+    for exchanges in (0, 2000):
+        before = cpu_of_children()
+        changes = number_in(call([*command, f"+exchanges={exchanges}"]), "binding_speed", "changes")
+        spent.append(cpu_of_children() - before)
+    return changes / (spent[1] - spent[0]) / 1e6
+
+
 def samples(folder, command, keys):
     """What perf prints of a run: a share and what `keys` name a line."""
     if shutil.which("perf") is None:
@@ -103,6 +113,9 @@ class Round:
 
     def program(self, program, name):
         return self.once((program, name), lambda: row_of(program, name))
+
+    def pin_changes(self, *command):
+        return self.once(command, lambda: pin_changes(*command))
 
     def simulate(self, scenario, *options):
         """Simulated and taken seconds of a run of dsdpv1-sim."""

@@ -101,8 +101,9 @@ ROWS = (
     Row("c_api_changes", 10, "million/s", "Changes of all pins that come into the caller's buffer through the C API, on the same stimulus.",
         in_program("bench_capi", "c_api_changes"), CAPI, limit="What the core takes to make them."),
     Row("dpi", 10, "million/s", "Changes of the pins of `dsdpv1_model` by DPI-C under Verilator, without CLK: data exchange with 16 bytes each way, back to "
-        "back at 12 Mbit/s, each bit of a request at its time. In CPU time.", in_program("dpi/Vdpi_speed", "dpi"), ("bench_dpi",),
+        "back at 12 Mbit/s, each bit of a request at its time. In CPU time.", lambda turn: turn.pin_changes(programs.FOLDER / "dpi" / "Vbinding_speed"), ("bench_dpi",),
         limit="Verilator: three quarters of the time are its own, to wait for the next time and to find out what has changed."),
+    Row("vpi", None, "million/s", "The same by VPI in Icarus, which takes 98 % of the time by itself.", lambda turn: turn.pin_changes("vvp", programs.FOLDER / "vpi" / "binding_speed.vvp"), ("bench_vpi",)),
     Row("python", 10, "million/s", "Changes of all pins that come into numpy arrays through the Python module, on the same stimulus, given to the chip in one call "
         "each 9 ms; in CPU time.", lambda turn: turn.once("python", lambda: programs.row_of_python("python_speed.py", "python")), ("dsdpv1_capi",),
         limit="What the core takes to make them."),
