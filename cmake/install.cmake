@@ -207,6 +207,19 @@ function(dsdpv1_install_former_component)
     COMPONENT dsdpv1 EXCLUDE_FROM_ALL)
 endfunction()
 
+# The bill of materials of what is there when all else has been installed, as installing changes programs.
+function(dsdpv1_install_sbom)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  set(lib ${CMAKE_INSTALL_LIBDIR})
+  set(files ${CMAKE_INSTALL_BINDIR}/dsdpv1-sim ${CMAKE_INSTALL_LIBEXECDIR}/dsdpv1/dsdpv1-board ${lib}/libdsdpv1.so ${lib}/libdsdpv1_dpi.so ${lib}/dsdpv1.vpi)
+  list(TRANSFORM files PREPEND "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/")
+  set(folder "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}")
+  install(CODE "file(MAKE_DIRECTORY \"${folder}\")
+    execute_process(COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/cmake/sbom.py \"${folder}/dsdpv1.spdx.json\" ${PROJECT_VERSION} ${files}
+                    COMMAND_ERROR_IS_FATAL ANY)"
+    COMPONENT docs)
+endfunction()
+
 # Builds what is installed, and no tests: `./run examples`.
 function(dsdpv1_installed_target)
   add_custom_target(dsdpv1_installed)

@@ -14,3 +14,7 @@ if(DSDPV1_CCACHE)
     endif()
   endforeach()
 endif()
+
+# No program names the folder that it was built in: two builds in different folders are the same (./run reproducible).
+add_compile_options(-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
+set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)

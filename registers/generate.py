@@ -310,7 +310,9 @@ def render_c(areas):
         return f"#define DSDPV1_REG_{constant.key.upper()} {hexadecimal(constant)}U"
 
     head = [
+        # REUSE-IgnoreStart
         "/* SPDX-License-Identifier: Apache-2.0 OR MIT */",
+        # REUSE-IgnoreEnd
         f"/* {ORIGIN} */",
         "/* Addresses, bits and values of the DPRAM. A word (CRC, count) is at its high byte, the low byte follows. */",
         "#ifndef DSDPV1_REGS_H",

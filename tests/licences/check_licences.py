@@ -12,10 +12,11 @@ import subprocess
 import sys
 import tomllib
 
-import ninja_build
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "cmake"))
 
-PAGE = "docs/licences.md"
-TABLE = re.compile(r"<!-- licences -->\n(.*?)<!-- /licences -->", re.S)
+import ninja_build  # noqa: E402
+from licence_table import PAGE, label_of, rows_of  # noqa: E402
+
 LISTS = ("packages.txt", "requirements.txt", "requirements-test.txt")
 SEEN = ("linked", "compiled in")  # uses that the build shows; others are only said: embedded, loaded, run
 STRICT = "GPL-2.0-only"
@@ -24,29 +25,9 @@ FITS_STRICT = {STRICT, "GPL-2.0-or-later", "LGPL-2.1-or-later", "GPL-2.0-only WI
                "Artistic-2.0", "MIT", "BSD-2-Clause", "BSD-3-Clause", "ISC", "Zlib", "BSL-1.0", "bzip2-1.0.6", "LicenseRef-Public-Domain"}
 
 
-class Row:
-    """A dependency as the page has it."""
-
-    def __init__(self, line):
-        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
-        self.what, packages, self.licence, self.use, into = cells
-        self.packages = re.findall(r"`([^`]+)`", packages)
-        self.into = {word.strip("` ") for word in into.split(",")} - {"", "-"}
-
-
-def rows_of(text):
-    table = TABLE.search(text)
-    return [Row(line) for line in table.group(1).splitlines()[2:] if line.startswith("|")] if table else []
-
-
 def fits(licence, allowed=frozenset(FITS_STRICT)):
     """Whether one of the alternatives of an SPDX expression has allowed licences only."""
     return any(all(term.strip() in allowed for term in one.split(" AND ")) for one in licence.split(" OR "))
-
-
-def label_of(program):
-    """As the page calls it: tests are one, others go by their names, libraries without their versions."""
-    return "tests" if program.startswith("tests/") else re.sub(r"\.so\..*", ".so", pathlib.PurePosixPath(program).name)
 
 
 def listed_packages(root):
@@ -58,6 +39,21 @@ def listed_packages(root):
             if word:
                 found[word] = name
     return found
+
+
+def versions(text):
+    """Package, as PyPI compares names, to its version, of a list or of its lock."""
+    return {re.sub(r"[-_.]+", "-", name).lower(): version for name, version in re.findall(r"^([\w.-]+)==([^\s\\]+)", text, re.M)}
+
+
+def faults_of_locks(root):
+    """What the lists name and their locks."""
+    for name in LISTS[1:]:
+        lock = name.replace(".txt", ".lock")
+        listed, locked = (versions((root / file).read_text(encoding="utf-8")) for file in (name, lock))
+        for package in sorted(listed.keys() | locked.keys()):
+            if listed.get(package) != locked.get(package):
+                yield f"{lock}: has {package} {locked.get(package, 'not')}, {name} {listed.get(package, 'not')}"
 
 
 class Debian:
@@ -189,6 +185,7 @@ def check(root, build):
     yield from stale_rows(found, rows, debian.source)
     yield from faults_of_lists(listed, set().union(*found.values()), rows, debian.source)
     yield from faults_of_texts(root, reuse)
+    yield from faults_of_locks(root)
 
 
 def main():

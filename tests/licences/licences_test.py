@@ -167,6 +167,15 @@ class Packages(unittest.TestCase):
                 (root / name).write_text(text, encoding="utf-8")
             self.assertEqual(check_licences.listed_packages(root), {"libx-dev": "packages.txt", "A": "requirements.txt", "b": "requirements-test.txt"})
 
+    def test_a_lock_that_is_not_of_its_list(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name, text in (("requirements.txt", "A_b.c==1.0  # x\nd==2\n"), ("requirements.lock", "a-b-c==1.0 \\\n    --hash=sha256:00\nd==3 \\\ne==1\n"),
+                               ("requirements-test.txt", ""), ("requirements-test.lock", "")):
+                (root / name).write_text(text, encoding="utf-8")
+            self.assertEqual(list(check_licences.faults_of_locks(root)),
+                             ["requirements.lock: has d 3, requirements.txt 2", "requirements.lock: has e 1, requirements.txt not"])
+
     def test_headers_and_libraries_of_one_source_belong_together(self):
         debian = check_licences.Debian({"/usr/include/zlib.h", "/no/such/file"}, {"zlib1g-dev", "no-such-package"})
         self.assertEqual(debian.source_of_file("/usr/include/zlib.h"), debian.source("zlib1g-dev"))

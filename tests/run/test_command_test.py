@@ -34,11 +34,11 @@ esac
 
 def project(root, folder, tools):
     """A folder in which ./run has nothing to install and nothing to configure, and what comes after the tests says nothing."""
-    for name in ("run", "packages.txt", "requirements.txt", "requirements-test.txt"):
+    for name in ("run", "packages.txt", "requirements.lock", "requirements-test.lock"):
         shutil.copy(root / name, folder / name)
     (folder / ".venv/bin").mkdir(parents=True)
     (folder / ".venv/bin/python").symlink_to(sys.executable)
-    for name in ("requirements.txt", "requirements-test.txt"):
+    for name in ("requirements.lock", "requirements-test.lock"):
         shutil.copy(root / name, folder / ".venv" / name)
     (folder / "CMakePresets.json").write_text("{}", encoding="utf-8")
     for preset in ("default", "debug"):

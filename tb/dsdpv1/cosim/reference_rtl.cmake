@@ -4,10 +4,10 @@ set(DSDPV1_RTL_DIR ${PROJECT_SOURCE_DIR}/rtl_ref CACHE PATH "Folder of the refer
 mark_as_advanced(DSDPV1_RTL_DIR)
 set(rtl_dir ${DSDPV1_RTL_DIR})
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rtl_dir}/files.txt ${rtl_dir}/files_rsu.txt)
-file(STRINGS ${rtl_dir}/files.txt dsdpv1_sources)
-file(STRINGS ${rtl_dir}/files_rsu.txt dsdpv1_rsu_sources)
-list(TRANSFORM dsdpv1_sources PREPEND ${rtl_dir}/)
-list(TRANSFORM dsdpv1_rsu_sources PREPEND ${rtl_dir}/)
+file(STRINGS ${rtl_dir}/files.txt dsdpv1_files)
+file(STRINGS ${rtl_dir}/files_rsu.txt dsdpv1_rsu_files)
+list(TRANSFORM dsdpv1_files PREPEND ${rtl_dir}/ OUTPUT_VARIABLE dsdpv1_sources)
+list(TRANSFORM dsdpv1_rsu_files PREPEND ${rtl_dir}/ OUTPUT_VARIABLE dsdpv1_rsu_sources)
 set(rtl_headers ${rtl_dir}/profibus_types.svh ${rtl_dir}/dpram_types.svh ${rtl_dir}/dsdpv1_types.svh ${rtl_dir}/dsdpv1_rsu_types.svh)
 # What the harness looks into.
 set(dsdpv1_places ${CMAKE_CURRENT_SOURCE_DIR}/public.vlt)
@@ -34,7 +34,8 @@ function(dsdpv1_rtl_library target top library optimisation)
     COMMAND ${DSDPV1_VERILATOR} --cc --exe --build -O3 --x-assign fast --x-initial unique -DDSDPV1_RUN_TIME_LIMITS -I${rtl_dir} -I${PROJECT_SOURCE_DIR}/registers
             --top-module ${top} --Mdir ${sources_folder} -CFLAGS ${compile} -LDFLAGS -shared
             -MAKEFLAGS "-s CXX=${CMAKE_CXX_COMPILER} OBJCACHE=${CMAKE_CXX_COMPILER_LAUNCHER} OPT_FAST= OPT_GLOBAL=" -o ${library} ${arguments}
-            ${${top}_places} ${${top}_sources} ${adapter}
+            ${${top}_places} ${${top}_files} ${adapter}
+    WORKING_DIRECTORY ${rtl_dir}  # what it makes names sources as they are called here
     DEPENDS ${${top}_sources} ${rtl_headers} ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter}
             ${${top}_places} ${CMAKE_CURRENT_SOURCE_DIR}/rtl_top.hpp ${CMAKE_CURRENT_SOURCE_DIR}/verilated_top.hpp
     COMMENT "Verilating ${name}"

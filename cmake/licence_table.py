@@ -1,0 +1,26 @@
+"""The table of docs/licences.md: what others have made, under which licence, and where it goes."""
+import pathlib
+import re
+
+PAGE = "docs/licences.md"
+TABLE = re.compile(r"<!-- licences -->\n(.*?)<!-- /licences -->", re.S)
+
+
+class Row:
+    """A dependency as the page has it."""
+
+    def __init__(self, line):
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        self.what, packages, self.licence, self.use, into = cells
+        self.packages = re.findall(r"`([^`]+)`", packages)
+        self.into = {word.strip("` ") for word in into.split(",")} - {"", "-"}
+
+
+def rows_of(text):
+    table = TABLE.search(text)
+    return [Row(line) for line in table.group(1).splitlines()[2:] if line.startswith("|")] if table else []
+
+
+def label_of(program):
+    """As the page calls it: tests are one, others go by their names, libraries without their versions."""
+    return "tests" if program.startswith("tests/") else re.sub(r"\.so\..*", ".so", pathlib.PurePosixPath(program).name)

@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""The software bill of materials of what has been installed, as SPDX 2.3 in JSON: programs and libraries with their SHA-256, what is in each, with
+versions and licences, and what built and tested them. From the table of docs/licences.md, which a test holds against the link lines, and from dpkg and
+the lists of PyPI's packages. The same files always have the same text.
+
+    sbom.py OUTPUT VERSION FILE...        files that are not there are left out
+"""
+import datetime
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import uuid
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "cmake"))
+
+import licence_table  # noqa: E402
+
+PUBLIC_DOMAIN = "Given to the public domain by its authors; see the copyright file of the package."
+TEXTS = {"LicenseRef-Public-Domain": PUBLIC_DOMAIN, "LicenseRef-IEEE-1800": "The header as the standard IEEE 1800 prints it, which says that it may be used."}
+KINDS = {"linked": "DYNAMIC_LINK", "compiled in": "CONTAINS", "embedded": "CONTAINS", "loaded": "DEPENDS_ON", "run": "DEPENDS_ON"}
+OWN = {"dsdpv1-board": "GPL-2.0-only"}  # as a whole; the others
+LICENCE = "Apache-2.0"
+PACKAGE = "SPDXRef-Package-dsdpv1"
+
+
+def identifier(kind, name):
+    return f"SPDXRef-{kind}-" + re.sub(r"[^A-Za-z0-9.-]+", "-", name)
+
+
+def debian_versions(packages):
+    """Package to version and architecture, of those that are installed."""
+    told = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version} ${Architecture}\\n", *sorted(packages)], capture_output=True, text=True, check=False)
+    return {name: (version, architecture) for name, version, architecture in (line.split() for line in told.stdout.splitlines())}
+
+
+def python_versions():
+    lists = "".join((ROOT / name).read_text(encoding="utf-8") for name in ("requirements.txt", "requirements-test.txt"))
+    return dict(re.findall(r"^([\w.-]+)==(\S+)", lists, re.M))
+
+
+def where_from(name, debian, python):
+    """Version and package URL; None where neither has it."""
+    if name in python:
+        return python[name], f"pkg:pypi/{re.sub(r'[-_.]+', '-', name).lower()}@{python[name]}"
+    if name in debian:
+        version, architecture = debian[name]
+        return version, f"pkg:deb/debian/{name}@{version.replace('+', '%2B').replace(':', '%3A').replace('~', '~')}?arch={architecture}"
+    return None
+
+
+def dependency(here, name, licence, version, url):
+    return {"SPDXID": here, "name": name, "versionInfo": version, "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
+            "licenseConcluded": licence, "licenseDeclared": licence, "copyrightText": "NOASSERTION",
+            "externalRefs": [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl", "referenceLocator": url}]}
+
+
+def built(path):
+    """A program or library of the build."""
+    licence = OWN.get(path.name, LICENCE)
+    return {"SPDXID": identifier("Built", path.name), "name": path.name, "packageFileName": path.name, "downloadLocation": "NOASSERTION",
+            "filesAnalyzed": False, "licenseConcluded": licence, "licenseDeclared": licence, "copyrightText": "2026 the dsdpv1 authors",
+            "checksums": [{"algorithm": "SHA256", "checksumValue": hashlib.sha256(path.read_bytes()).hexdigest()}]}
+
+
+def relation(one, kind, other):
+    return {"spdxElementId": one, "relationshipType": kind, "relatedSpdxElement": other}
+
+
+def relations_of(row, here, files):
+    if row.use in ("build", "test"):
+        return [relation(here, f"{row.use.upper()}_DEPENDENCY_OF", PACKAGE)]
+    return [relation(identifier("Built", file.name), KINDS[row.use], here) for file in files if licence_table.label_of(file.name) in row.into]
+
+
+def created():
+    """When what is built was committed, or what SOURCE_DATE_EPOCH says (https://reproducible-builds.org/specs/source-date-epoch/)."""
+    told = subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%ct"], capture_output=True, text=True, check=False).stdout.strip()
+    seconds = int(os.environ.get("SOURCE_DATE_EPOCH") or told or 0)
+    return datetime.datetime.fromtimestamp(seconds, datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def document(version, files):
+    rows = licence_table.rows_of((ROOT / licence_table.PAGE).read_text(encoding="utf-8"))
+    debian, python = debian_versions({name for row in rows for name in row.packages}), python_versions()
+    packages = [{"SPDXID": PACKAGE, "name": "dsdpv1", "versionInfo": version, "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
+                 "licenseConcluded": LICENCE, "licenseDeclared": LICENCE, "copyrightText": "2026 the dsdpv1 authors"}]
+    relations = [relation("SPDXRef-DOCUMENT", "DESCRIBES", PACKAGE)]
+    for file in files:
+        packages.append(built(file))
+        relations.append(relation(PACKAGE, "CONTAINS", identifier("Built", file.name)))
+    for number, row in enumerate(rows):  # a package can have several, with licences of their own
+        for name in row.packages:
+            here = identifier("Dependency", f"{number}-{name}")
+            origin, found = where_from(name, debian, python), relations_of(row, here, files)
+            if origin and found:
+                packages.append(dependency(here, name, row.licence, *origin))
+                relations += found
+    content = {"packages": packages, "relationships": relations,
+               "hasExtractedLicensingInfos": [{"licenseId": name, "extractedText": text} for name, text in TEXTS.items()]}
+    name = f"dsdpv1-{version}"
+    unique = uuid.uuid5(uuid.NAMESPACE_DNS, json.dumps(content, sort_keys=True))
+    return {"spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": name,
+            "documentNamespace": f"https://dsdpv1.invalid/spdx/{name}-{unique}", "creationInfo": {"created": created(), "creators": ["Tool: dsdpv1-sbom"]}, **content}
+
+
+def main():
+    output, version, files = pathlib.Path(sys.argv[1]), sys.argv[2], [pathlib.Path(word) for word in sys.argv[3:] if pathlib.Path(word).is_file()]
+    output.write_text(json.dumps(document(version, files), indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
