@@ -35,7 +35,8 @@ def identifier(kind, name):
 def debian_versions(packages):
     """Package to version and architecture, of those that are installed."""
     told = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version} ${Architecture}\\n", *sorted(packages)], capture_output=True, text=True, check=False)
-    return {name: (version, architecture) for name, version, architecture in (line.split() for line in told.stdout.splitlines())}
+    words = (line.split() for line in told.stdout.splitlines())
+    return {each[0]: (each[1], each[2]) for each in words if len(each) == 3}  # one that is known and not installed has no version
 
 
 def python_versions():

@@ -171,10 +171,11 @@ class Packages(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             for name, text in (("requirements.txt", "A_b.c==1.0  # x\nd==2\n"), ("requirements.lock", "a-b-c==1.0 \\\n    --hash=sha256:00\nd==3 \\\ne==1\n"),
-                               ("requirements-test.txt", ""), ("requirements-test.lock", "")):
+                               ("requirements-test.txt", "f==5\n"), ("requirements-test.lock", "a-b-c==1.0\nd==4\nf==5\n")):
                 (root / name).write_text(text, encoding="utf-8")
             self.assertEqual(list(check_licences.faults_of_locks(root)),
-                             ["requirements.lock: has d 3, requirements.txt 2", "requirements.lock: has e 1, requirements.txt not"])
+                             ["requirements.lock: has d 3, requirements.txt 2", "requirements.lock: has e 1, requirements.txt not",
+                              "requirements-test.lock: has d 4, requirements-test.txt 2"])
 
     def test_headers_and_libraries_of_one_source_belong_together(self):
         debian = check_licences.Debian({"/usr/include/zlib.h", "/no/such/file"}, {"zlib1g-dev", "no-such-package"})
