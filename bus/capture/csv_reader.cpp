@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <istream>
 
 #include "bus/baud.hpp"
+#include "bus/capture/lower_case.hpp"
 #include "bus/capture/sample_clock.hpp"
 #include "bus/capture/signal_decoder.hpp"
 
@@ -34,11 +34,6 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 std::optional<double> decimal(const std::string& cell) {
   char* end = nullptr;
   const double value = std::strtod(cell.c_str(), &end);
@@ -62,7 +57,7 @@ bool is_row(const std::vector<std::string>& cells) {
 
 /// What the first column says of its unit; 0 when it is no time.
 double seconds_of(const std::string& heading) {
-  const std::string name = lower(heading);
+  const std::string name = lower_case(heading);
   const auto has = [&name](const char* part) { return name.find(part) != std::string::npos; };
   if (!has("time") && !has("second")) return 0;
   if (has("milli") || has("[ms]")) return 1e-3;
@@ -108,7 +103,7 @@ class Table {
   void remark(const std::string& line) {
     const std::size_t colon = line.find(':');
     if (colon == std::string::npos) return;
-    const std::string name = lower(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
+    const std::string name = lower_case(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
     if (name.find("samplerate") != std::string::npos) {
       const auto rate = sample_rate(value);
       if (!rate) fail(fmt::format("samplerate {}, allowed are a number and Hz, kHz, MHz or GHz", value.substr(0, 40)));
@@ -122,7 +117,7 @@ class Table {
   void begin(const std::vector<std::string>& cells) {
     const bool row_already = is_row(cells);
     time_unit_ = row_already ? (clock_ ? 0 : 1) : seconds_of(cells[0]);
-    counted_ = !row_already && lower(cells[0]) == "samples";
+    counted_ = !row_already && lower_case(cells[0]) == "samples";
     first_ = time_unit_ != 0 || counted_ ? 1 : 0;
     columns_ = cells.size();
     if (columns_ <= first_) fail("has no column of levels, allowed are a time and levels, or levels");

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include "bus/baud.hpp"
 #include "bus/capture/collector.hpp"
+#include "bus/capture/lower_case.hpp"
 #include "bus/monitor/monitor.hpp"
 #include "bus/telegram/telegram.hpp"
 #include "bus/wire/segment.hpp"
@@ -16,14 +16,8 @@
 namespace dsdpv1::bus::capture {
 namespace {
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 /// Without its scope.
-std::string leaf(const std::string& name) { return lower(name.substr(name.rfind('.') + 1)); }
+std::string leaf(const std::string& name) { return lower_case(name.substr(name.rfind('.') + 1)); }
 
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 20;
@@ -55,7 +49,7 @@ std::size_t choose_signal(const std::vector<std::string>& names, const std::stri
   if (names.empty()) throw CaptureError("no signal of one bit, allowed is a recording of the line");
   if (!wanted.empty()) {
     if (const auto whole = find(names, [&](const std::string& name) { return name == wanted; })) return *whole;
-    const std::string last = lower(wanted);
+    const std::string last = lower_case(wanted);
     if (const auto found = find(names, [&](const std::string& name) { return leaf(name) == last; })) return *found;
     throw CaptureError(fmt::format("no signal {}, allowed are {}", wanted, listed(names)));
   }

@@ -11,7 +11,7 @@ namespace {
 namespace sap = bus::sap;
 
 constexpr std::uint8_t kNewSeries = bus::fc::kRequest | bus::fc::kSrdHigh | bus::fc::kFcb;
-constexpr std::uint8_t kLock = 0x80, kSyncReq = 0x20, kFreezeReq = 0x10, kWatchdog = 0x08, kDpv1 = 0x80;
+constexpr std::uint8_t kLockReq = 0x80, kSyncReq = 0x20, kFreezeReq = 0x10, kWatchdog = 0x08, kDpv1 = 0x80;
 
 const RecordedRequest* first_exchange(const Recording& recording) {
   const auto found =
@@ -40,7 +40,7 @@ bool watchdog_on(const Recording& recording) {
 }
 
 bus::Bytes set_prm_of(const Recording& recording, const user_cpu::StationConfig& station) {
-  bus::Bytes data = {kLock,
+  bus::Bytes data = {kLockReq,
                      0,
                      0,
                      bus::kMinTsdrBits,

@@ -55,6 +55,19 @@ TEST_P(ShortRtlScenarios, PinsOfTheRtlAreTheGoldenAndItsLogIsThatOfTheModel) {
   EXPECT_TRUE(read(folder_.file("skip.log")) == read(folder_.file("rtl.log")));
 }
 
+/// What random cases and scenarios leave as it is: when the transmitter's driver is on round an answer.
+TEST(RtlLimits, OfTheTransmitterAreThoseOfTheModel) {
+  for (const std::string limits :
+       {"--set chip.rts_lead=0 --set chip.rts_trail=32", "--set chip.rts_lead=32 --set chip.rts_trail=0"}) {
+    const app_test::Folder folder;
+    const app_test::Called called = call("run scenarios/bus_timing.yaml --no-progress --engine lockstep " + limits +
+                                             " --difference '" + folder.file("difference.vcd") + "'",
+                                         DSDPV1_SOURCE_DIR);
+    EXPECT_EQ(called.status, 0) << limits << "\n" << called.out << called.err;
+    EXPECT_THAT(called.out, testing::HasSubstr("of model and RTL are the same")) << limits;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, LongRtlScenarios, testing::ValuesIn(scenarios(true)), [](const auto& each) { return each.param; });
 INSTANTIATE_TEST_SUITE_P(All, ShortRtlScenarios, testing::ValuesIn(scenarios(false)),

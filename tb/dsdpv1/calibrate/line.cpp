@@ -154,8 +154,8 @@ class LineReader {
   /// Edges of a right character are late by the same, but for the sampling, jitter and the sender's clock; ticks, with
   /// some room.
   double most_spread(double bit) const {
-    constexpr double kClock = 0.002;
-    return (time_.doubt() + 1) * static_cast<double>(bus::kTicksPerCycle) + kClock * bus::kCharacterBits * bit;
+    constexpr double kSendersClock = 0.002;
+    return (time_.doubt() + 1) * static_cast<double>(bus::kTicksPerCycle) + kSendersClock * bus::kCharacterBits * bit;
   }
   /// When the character has these bits; nothing where the capture ends in it.
   std::optional<Lateness> lateness_of(std::size_t edge, unsigned bits, double bit) const {

@@ -1,0 +1,15 @@
+// For names and headings in files of captures, which are found in any case.
+#pragma once
+
+#include <cctype>
+#include <string>
+
+namespace dsdpv1::bus::capture {
+
+/// ASCII's letters; all other bytes stay.
+inline std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace dsdpv1::bus::capture
