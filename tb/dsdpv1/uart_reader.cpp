@@ -126,7 +126,8 @@ void UartReader::heard_from_chip(const bus::ReceivedCharacter& character) {
 }
 
 void UartReader::end_reply(Tick end, const std::string& wrong) {
-  const HostTelegram telegram{reply_start_, end, true, reply_.words(asked_), reply_.bytes(), wrong};
+  const HostTelegram telegram{reply_start_,   end,  true, replying_ ? reply_.words(asked_) : "reply",
+                              reply_.bytes(), wrong};
   reply_.clear();
   replying_ = false;
   reply_end_ = end;
