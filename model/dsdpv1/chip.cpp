@@ -105,7 +105,8 @@ struct Chip::Impl {
   bool only_accesses(Cycle cycle) const;
   void access_edges(Cycle cycle, Tick to);
   bool unasked() const;
-  Cycle last_quiet(Tick to) const;
+  // Inline: asked at the begin and the end of each access, it would be a call since there are two kinds of ports.
+  [[gnu::always_inline]] inline Cycle last_quiet(Tick to) const;
   // The first edge that is behind `to`, or not before the host's next drive.
   Cycle unheard_until(Tick to) const { return first_edge_after(std::min(to, drive_at() - 1)); }
   void quiet_access();
@@ -361,18 +362,18 @@ bool Chip::Impl::only_accesses(Cycle cycle) const {
          cycle < std::min({plans.release, plans.host, plans.handshake, plans.station, plans.interrupt});
 }
 
-// One after the other, as long as they find nothing to do and nothing else is due.
-void Chip::Impl::access_edges(Cycle cycle, Tick to) {
-  const Cycle last = last_quiet(to);
-  if (cycle > last || !unasked()) return access_edge(cycle);
-  for (; sequencer.next() <= last; plans.sequencer = sequencer.next()) quiet_access();
-}
-
 // The last cycle at which an access may begin and be over before anybody acts.
 Cycle Chip::Impl::last_quiet(Tick to) const {
   const Cycle act = std::min({plans.release, plans.host, plans.handshake, plans.station, plans.interrupt,
                               station.unseen(), unheard_until(to)});
   return act - dpram::Sequencer::kQuietAccess - 1;
+}
+
+// One after the other, as long as they find nothing to do and nothing else is due.
+void Chip::Impl::access_edges(Cycle cycle, Tick to) {
+  const Cycle last = last_quiet(to);
+  if (cycle > last || !unasked()) return access_edge(cycle);
+  for (; sequencer.next() <= last; plans.sequencer = sequencer.next()) quiet_access();
 }
 
 void Chip::Impl::quiet_access() {

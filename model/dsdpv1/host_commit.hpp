@@ -4,6 +4,7 @@
 #include "model/dpram/ram.hpp"
 #include "model/dsdpv1/exchange.hpp"
 #include "model/dsdpv1/host_telegram.hpp"
+#include "model/dsdpv1/pins.hpp"
 
 namespace dsdpv1 {
 

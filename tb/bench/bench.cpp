@@ -38,12 +38,16 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
       execution_(std::move(execution)),
       setup_(scenario),
       checks_(scenario, options.checks),
+      hosts_(scenario, !options.log.empty() || !options.wave.path.empty() || !options.observers.empty()),
       journal_(scenario, execution_->timeline(), log_form(options.log, options.log_whole, options.open_ended)) {
   checks_.on_violation = [this](const std::string& slave, const checks::Violation& violation, const char* kind) {
     stations_.slave(slave).chip().pause_access();
     journal_.check_violated(slave, violation, kind);
     observers_.tell(&Observer::violated, slave, violation);
     changed(violation.found);
+  };
+  hosts_.on_telegram = [this](std::size_t slave, const HostTelegram& telegram) {
+    observers_.tell(&Observer::host_telegram, slave, telegram);
   };
   replies_.on_change = [this](const auto&, auto, const auto&) { changed(); };
   if (!options.wave.path.empty()) waves_.emplace(options.wave, execution_->segment(), execution_->timeline(), maker_);
@@ -69,7 +73,7 @@ Bench::~Bench() = default;
 /// What the bench itself needs a chip watches anyway.
 PinMask Bench::watched_pins() const {
   const bool all = !options_.wave.path.empty() || !options_.trace.empty() || !options_.observers.empty();
-  return all ? all_of(maker_.pins()) : checks_.pins();
+  return all ? all_of(maker_.pins()) : checks_.pins() | hosts_.pins();
 }
 
 /// Nobody but the wave wants each change of each pin, or looks at each cycle.
@@ -95,7 +99,7 @@ const GdbRequest* Bench::gdb_of(const scenario::Slave& slave) const {
 
 void Bench::connect(SlaveStation& station, std::size_t index) {
   checks_.add(station.name());
-  if (waves_) waves_->add_chip(station.name(), station.chip());
+  if (waves_) waves_->add_chip(station.name(), station.chip(), hosts_.port());
   ChipView& chip = station.chip();
   chip.on_pin = [this, index](Tick at, PinNumber pin, Level level) {
     observers_.tell(&Observer::pin, index, at, pin, level);
@@ -192,6 +196,7 @@ void Bench::connect(MasterStation& entry) {
 void Bench::add_agents() {
   bus::Timeline& timeline = execution_->timeline();
   timeline.add(*monitor_);
+  hosts_.add_to(timeline);
   for (const MasterStation& each : stations_.masters) timeline.add(*each.master);
   for (const auto& each : stations_.masters2) timeline.add(each->master());
   for (const auto& slave : stations_.slaves) timeline.add(*slave);
@@ -202,6 +207,7 @@ void Bench::add_agents() {
 /// Checks before what they are shown by, the script last: it acts on what the others have noted.
 void Bench::add_observers() {
   observers_.add(checks_);
+  observers_.add(hosts_);
   if (trace_) observers_.add(*trace_);
   if (waves_) observers_.add(*waves_);
   if (capture_) observers_.add(*capture_);

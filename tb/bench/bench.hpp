@@ -13,6 +13,7 @@
 #include "tb/bench/capture_recorder.hpp"
 #include "tb/bench/check_watch.hpp"
 #include "tb/bench/execution.hpp"
+#include "tb/bench/host_watch.hpp"
 #include "tb/bench/journal.hpp"
 #include "tb/bench/observer.hpp"
 #include "tb/bench/periodic_poll.hpp"
@@ -100,6 +101,7 @@ class Bench {
   std::unique_ptr<Execution> execution_;
   Setup setup_;
   CheckWatch checks_;
+  HostWatch hosts_;
   Journal journal_;
   Replies replies_;
   Stations stations_;

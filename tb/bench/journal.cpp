@@ -56,6 +56,12 @@ void Journal::telegram(const HeardTelegram& telegram) {
   if (log_) log(log_entry(telegram.telegram, telegram.words()));
 }
 
+void Journal::host_telegram(std::size_t slave, const HostTelegram& telegram) {
+  LogEntry entry{telegram.end, scenario_.slaves[slave].name.text, "host", telegram.words, {}, telegram.bytes};
+  entry.wrong = telegram.wrong;
+  log(std::move(entry));
+}
+
 std::uint64_t Journal::count(const std::string& station, const std::string& code) const {
   const auto codes = counts_.find(station);
   if (codes == counts_.end()) return 0;

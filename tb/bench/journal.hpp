@@ -36,6 +36,7 @@ class Journal : public Observer {
   // Observer
   void event(std::size_t slave, const profibus::Event& event) override;
   void telegram(const HeardTelegram& telegram) override;
+  void host_telegram(std::size_t slave, const HostTelegram& telegram) override;
 
   /// Told of each code when it is counted; `count`: how often at its station so far. Null: nobody wants to know.
   std::function<void(Tick at, const std::string& station, const std::string& code, bool violation, std::uint64_t count)>

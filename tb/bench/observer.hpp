@@ -9,6 +9,7 @@
 #include "model/profibus/event.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/checks/recorder.hpp"
+#include "tb/chip/host_reader.hpp"
 #include "tb/pins/pins.hpp"
 
 namespace dsdpv1::tb {
@@ -44,6 +45,8 @@ class Observer {
   virtual void flag(const bus::Flag& /*flag*/) {}
   /// A character after a wrong telegram, see bus::Monitor::on_skipped.
   virtual void skipped(const bus::ReceivedCharacter& /*character*/) {}
+  /// Between the slave and its user, on a serial host port; told when it has ended, which a silence may have to show.
+  virtual void host_telegram(std::size_t /*slave*/, const HostTelegram& /*telegram*/) {}
   /// Right or not.
   virtual void character(Tick /*now*/, const bus::ReceivedCharacter& /*heard*/) {}
   /// See ChipView::on_inside and on_action.

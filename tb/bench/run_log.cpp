@@ -12,7 +12,7 @@ namespace dsdpv1::tb {
 namespace {
 
 const char* gap_before_bytes(const std::string& kind) {
-  if (kind == "telegram") return "  ";
+  if (kind == "telegram" || kind == "host") return "  ";
   return kind == "inputs" ? ": " : " ";
 }
 

@@ -200,7 +200,8 @@ void Script::order_of_chip(const Action& action, Tick now) {
   const auto& orders = scenario_.kind->orders();
   const Order& order = *std::find_if(orders.begin(), orders.end(),
                                      [&action](const Order& each) { return each.choice.word == action.word; });
-  const user_cpu::command::OfChip command{action.word, action.duration.value_or(0), action.block, action.times};
+  const user_cpu::command::OfChip command{
+      action.word, action.duration.value_or(0), action.block, action.times, action.bytes, action.listen};
   SlaveStation& slave = stations_.slave(action.slave.text);
   for (int i = 0; i < (order.one_by_one ? action.times : 1); ++i) {
     journal_.log(now, slave.name(), "script", order.said(command));

@@ -4,6 +4,8 @@
 
 #include <string_view>
 
+#include "tb/input/units.hpp"
+
 namespace dsdpv1::tb {
 
 namespace {
@@ -56,7 +58,7 @@ WaveRecorder::WaveRecorder(const WaveOptions& options, bus::Segment& segment, co
   segment.attach("waves", this);
 }
 
-void WaveRecorder::add_chip(const std::string& name, const ChipView& chip) {
+void WaveRecorder::add_chip(const std::string& name, const ChipView& chip, const char* host_port) {
   const PinTable& pins = kind_.pins();
   ChipSignals signals;
   signals.chip = &chip;
@@ -69,6 +71,10 @@ void WaveRecorder::add_chip(const std::string& name, const ChipView& chip) {
     own.other = static_cast<PinNumber>(other);
     own.signal = other < i ? signals.pins[other].signal
                            : writer_->wire(own.pin->bus != nullptr ? own.pin->bus : own.pin->name, own.pin->width);
+  }
+  if (host_port != nullptr) {
+    signals.request = writer_->words(fmt::format("{}_request", host_port));
+    signals.reply = writer_->words(fmt::format("{}_reply", host_port));
   }
   signals.dp_state = writer_->words("dp_state");
   signals.service = writer_->words("service");
@@ -109,6 +115,8 @@ void WaveRecorder::begin() {
     }
     say(0, chips_[chip].dp_state, "OFFLINE");
     for (const Signal each : {chips_[chip].service, chips_[chip].user}) say(0, each, "-");
+    for (const std::optional<Signal>& each : {chips_[chip].request, chips_[chip].reply})
+      if (each) say(0, *each, "-");
     for (const Signal row : chips_[chip].rm_entries) say(0, row, "not in use");
   }
   for (const auto& [name, state] : master_states_) say(0, state.signal, state.initial);
@@ -215,6 +223,17 @@ void WaveRecorder::telegram(const HeardTelegram& heard) {
   say(heard.now, telegram_, heard.words());
   for (const ChipSignals& chip : chips_)
     if (concerns(heard.telegram, chip.chip->address())) say(heard.now, chip.service, heard.words());
+}
+
+/// One that a silence has ended is known of late: it is shown then.
+void WaveRecorder::host_telegram(std::size_t slave, const HostTelegram& telegram) {
+  const Tick now = timeline_.now();
+  const ChipSignals& chip = chips_[slave];
+  make_changes(now, Turn::kLast);
+  say(now, *(telegram.reply ? chip.reply : chip.request),
+      fmt::format("{}{}  {}", telegram.words,
+                  telegram.wrong.empty() ? "" : fmt::format("  [wrong: {}]", telegram.wrong),
+                  bytes_text(telegram.bytes)));
 }
 
 void WaveRecorder::event(std::size_t slave, const profibus::Event& event) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,8 @@ class WaveRecorder : public Observer, private bus::Listener {
 
   // Declarations, before `begin`.
   /// Slaves are numbered in the order in which they are added.
-  void add_chip(const std::string& name, const ChipView& chip);
+  /// `host_port`: the serial port whose telegrams are told, null: none.
+  void add_chip(const std::string& name, const ChipView& chip, const char* host_port);
   /// `members`: its slaves or connections, all in the state `initial`.
   void add_master(const std::string& master, const std::vector<std::string>& members, const std::string& initial);
   /// Writes the first values.
@@ -58,6 +60,7 @@ class WaveRecorder : public Observer, private bus::Listener {
     say(at, chips_[slave].user, words);
   }
   void telegram(const HeardTelegram& heard) override;
+  void host_telegram(std::size_t slave, const HostTelegram& telegram) override;
   void master_state(bus::Tick now, const std::string& master, const std::string& member,
                     const std::string& state) override;
   /// A code of the log: `station` is a chip, or "bus". `count` is shown with it, so that each is a change.
@@ -92,6 +95,7 @@ class WaveRecorder : public Observer, private bus::Listener {
     std::vector<PinSignal> pins;
     std::vector<Signal> inside;
     Signal dp_state = 0, service = 0, user = 0;
+    std::optional<Signal> request, reply;  ///< of the serial host port, if it has one
     std::array<Signal, profibus::kC2Channels> rm_entries{};
   };
   // At equal times chips have their turns first, in order, then the monitor, masters, and all others (bus::Timeline).

@@ -8,6 +8,7 @@
 #include "model/profibus/event.hpp"
 #include "tb/checks/check.hpp"
 #include "tb/checks/chip_checks.hpp"
+#include "tb/chip/host_reader.hpp"
 #include "tb/chip/timing_diagram.hpp"
 #include "tb/keys/keys.hpp"
 #include "tb/pins/pins.hpp"
@@ -95,6 +96,8 @@ class ChipKind {
   virtual std::string describe(const profibus::Event& event) const = 0;
   /// By default null: its accesses are not put into words.
   virtual std::unique_ptr<AccessReader> make_access_reader() const { return nullptr; }
+  /// By default, and where the chip's user has no serial port, null. `chip`: its settings.
+  virtual std::unique_ptr<HostReader> make_host_reader(const OwnSettings& /*chip*/) const { return nullptr; }
   /// Codes of the chip's events; of what its user program reports; of what else its user's side can meet.
   virtual const std::vector<CodeTable>& codes() const = 0;
 

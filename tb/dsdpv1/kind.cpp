@@ -28,6 +28,7 @@ std::string said_wrong_crc(const OfChip&) { return "wrong CRC"; }
 std::string said_flip_bit(const OfChip& order) { return fmt::format("a wrong bit in {} telegrams", order.times); }
 std::string said_cut(const OfChip& order) { return fmt::format("{} telegrams end too early", order.times); }
 std::string said_wrong_parity(const OfChip& order) { return fmt::format("wrong parity in {} telegrams", order.times); }
+std::string said_host_telegram(const OfChip& order) { return "sends " + bytes_text(order.bytes) + " and the CRC"; }
 std::string said_early_r_sta(const OfChip&) { return "R_STA without a look at L_REQ and L_STA"; }
 
 class Dsdpv1AccessReader : public AccessReader {
@@ -75,6 +76,9 @@ class Dsdpv1Kind : public ChipMaker {
 
   std::string describe(const profibus::Event& event) const override { return dsdpv1::describe(event); }
   std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<Dsdpv1AccessReader>(); }
+  std::unique_ptr<HostReader> make_host_reader(const OwnSettings& chip) const override {
+    return host_reader_of(static_cast<const Dsdpv1Settings&>(chip));
+  }
   const std::vector<CodeTable>& codes() const override { return dsdpv1_codes(); }
 
   const std::vector<PinGroup>& pin_groups() const override { return pin_groups_of(part_); }
@@ -164,6 +168,13 @@ std::vector<Order> rsu_orders() {
                      {"slave"},
                      {"times"}},
                     said_wrong_parity});
+  orders.push_back(
+      {{user_cpu::kHostTelegram,
+        "The user CPU sends these bytes and their CRC to the chip, whatever they are: SPI and UART. Before "
+        "start_delay is over, too.",
+        {"slave", "bytes"},
+        {"times", "listen"}},
+       said_host_telegram});
   return orders;
 }
 

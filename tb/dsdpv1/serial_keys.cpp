@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "model/profibus/time.hpp"
+#include "tb/dsdpv1/spi_reader.hpp"
+#include "tb/dsdpv1/uart_reader.hpp"
 #include "tb/dsdpv1/user_cpu/orders.hpp"
 #include "tb/input/input_error.hpp"
 
@@ -45,6 +48,7 @@ const ObjectOf<UartKeys>& uart_keys() {
 }
 
 constexpr std::array<int, 8> kRates = {9600, 19'200, 38'400, 57'600, 115'200, 230'400, 460'800, 1'843'200};  // UA1
+constexpr std::array<Tick, 8> kBitCycles = {5000, 2500, 1250, 833, 417, 208, 104, 26};
 
 const char* name_of(HostMode mode) {
   return mode == HostMode::kSpi ? "spi" : mode == HostMode::kUart ? "uart" : "parallel";
@@ -54,8 +58,8 @@ const char* name_of(HostMode mode) {
 /// pins are dead (R14), and the UART knows no ownership (UA6).
 std::vector<std::string> orders_for(HostMode mode) {
   using namespace user_cpu;
-  if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram};
-  if (mode == HostMode::kUart) return {kFlipBit, kCutTelegram, kWrongParity};
+  if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram, kHostTelegram};
+  if (mode == HostMode::kUart) return {kFlipBit, kCutTelegram, kWrongParity, kHostTelegram};
   return {kHoldDpram, kWrongCrc, kEarlyRSta};
 }
 
@@ -77,6 +81,18 @@ user_cpu::UartPort uart_port(const UartKeys& keys, const Dsdpv1Settings& chip) {
 }
 
 }  // namespace
+
+std::unique_ptr<HostReader> host_reader_of(const Dsdpv1Settings& chip) {
+  if (chip.mode == HostMode::kSpi) return std::make_unique<SpiReader>();
+  if (chip.mode != HostMode::kUart) return nullptr;
+  constexpr Tick kHalfCharacters = 2, kBits = 11;
+  const Tick bit = profibus::kTicksPerCycle * kBitCycles.at(static_cast<std::size_t>(chip.uart_rate));
+  std::array<Tick, 8> silences{};
+  std::transform(chip.uart_gaps.begin(), chip.uart_gaps.end(), silences.begin(),
+                 [bit](std::uint32_t gap) { return Tick{gap} * kBits * bit / kHalfCharacters; });
+  return std::make_unique<UartReader>(bit, silences, static_cast<unsigned>(chip.interval),
+                                      static_cast<unsigned>(chip.address));
+}
 
 void add_serial_ports(ObjectOf<Dsdpv1User>& user) {
   user.object("spi", &Dsdpv1User::spi, spi_keys(), "Its end of SPI.");

@@ -99,6 +99,9 @@ void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::s
                 int line);
 void check_order(const std::string& order, HostMode mode, const std::string& file, int line);
 
+/// Reads the telegrams of the chip's serial port; null: it has the parallel one.
+std::unique_ptr<HostReader> host_reader_of(const Dsdpv1Settings& chip);
+
 /// How the user CPU reaches the chip.
 user_cpu::HostPort host_port_of(const Dsdpv1User& user, const Dsdpv1Settings& chip);
 

@@ -1,4 +1,6 @@
 // Keys of the script: actions, and the conditions that they may wait for.
+#include <algorithm>
+
 #include "tb/scenario/describe.hpp"
 
 namespace dsdpv1::tb::scenario {
@@ -216,6 +218,19 @@ void describe_blocks(ObjectOf<Action>& o, const ChipKind& kind) {
   o.word("area", &Action::block, words, "Which block.");
 }
 
+void describe_listen(ObjectOf<Action>& o, const ChipKind& kind) {
+  const auto takes = [](const Order& order) {
+    const auto& keys = order.choice.optional;
+    return std::find(keys.begin(), keys.end(), "listen") != keys.end();
+  };
+  if (!std::any_of(kind.orders().begin(), kind.orders().end(), takes)) return;
+  o.integer(
+      "listen", &Action::listen, {0, 512}, "bytes",
+      "How many bytes the user CPU takes after the telegram: over SPI so many are clocked, left out 8; over the "
+      "UART it listens until so many have come or none comes any more, left out the latter, and with 0 goes on at "
+      "once.");
+}
+
 ObjectOf<Action> describe_actions(const ChipKind& kind) {
   ObjectOf<Action> o("action", "One thing that happens, at a time or when a condition has become true.");
   o.time("at", &Action::at, kAnyTime, "When, from the start of the run.");
@@ -223,6 +238,7 @@ ObjectOf<Action> describe_actions(const ChipKind& kind) {
   describe_action(o, kind);
   describe_values(o, kind);
   describe_blocks(o, kind);
+  describe_listen(o, kind);
   describe_global_control(o);
   o.selector = "do";
   o.choices = action_choices(kind);

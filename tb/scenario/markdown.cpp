@@ -97,14 +97,14 @@ std::string group_notes(const Object& object) {
   return text;
 }
 
-std::string choice_table(const Object& object) {
-  std::string text = fmt::format("\n| `{}` | needs | may have | what it does |\n|---|---|---|---|\n", object.selector);
+std::string choice_table(const std::string& selector, const std::vector<Choice>& choices) {
+  std::string text = fmt::format("\n| `{}` | needs | may have | what it does |\n|---|---|---|---|\n", selector);
   const auto list = [](const std::vector<std::string>& names) {
     std::string cell;
     for (const std::string& name : names) cell += (cell.empty() ? "`" : ", `") + name + "`";
     return cell;
   };
-  for (const Choice& choice : object.choices)
+  for (const Choice& choice : choices)
     text +=
         fmt::format("| `{}` | {} | {} | {} |\n", choice.word, list(choice.required), list(choice.optional), choice.doc);
   return text;
@@ -112,7 +112,7 @@ std::string choice_table(const Object& object) {
 
 std::string section(const Object& object) {
   std::string text = fmt::format("\n## {}\n\n{}\n", object.name, object.doc);
-  if (!object.selector.empty()) text += choice_table(object);
+  if (!object.selector.empty()) text += choice_table(object.selector, object.choices);
   text += "\n| key | allowed | default | meaning |\n|---|---|---|---|\n";
   for (const Field& field : object.fields)
     if (field.name != object.selector) text += row(field);
@@ -146,18 +146,19 @@ std::string keys_besides(const Object& usual, const Object& own, const char* kin
 }
 
 std::string orders_besides(const ChipKind& usual, const ChipKind& kind) {
-  std::string rows;
+  std::vector<Choice> choices;
   for (const Order& order : kind.orders()) {
     bool known = false;
     for (const Order& other : usual.orders()) known |= other.choice.word == order.choice.word;
-    if (!known) rows += fmt::format("| `{}` | {} |\n", order.choice.word, order.choice.doc);
+    if (!known) choices.push_back(order.choice);
   }
-  if (rows.empty()) return {};
-  return fmt::format(
-      "\n## actions of {}\n\nThe actions that it has besides; `slave` says whose, `times` how often (1).\n\n| `do` | "
-      "what it does |\n"
-      "|---|---|\n{}",
-      kind.name(), rows);
+  if (choices.empty()) return {};
+  std::string rows;
+  for (const Field& field : action_keys(kind).fields)
+    if (!has(action_keys(usual), field.name)) rows += row(field);
+  return fmt::format("\n## actions of {}\n\nThe actions and their keys that it has besides.\n{}", kind.name(),
+                     choice_table("do", choices)) +
+         (rows.empty() ? "" : "\n| key | allowed | default | meaning |\n|---|---|---|---|\n" + rows);
 }
 
 /// What scenarios with chips of another kind may say besides.

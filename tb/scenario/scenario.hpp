@@ -250,6 +250,7 @@ struct Action {
   std::optional<bus::Tick> duration;
   std::string block;  ///< kOfChip
   int times = 1;
+  std::optional<int> listen;  ///< kOfChip
   Verdict of = Verdict::kPrm;
   Answering answering = Answering::kNormal;
   int slot = 0, index = 0, length = 0;

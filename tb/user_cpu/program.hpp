@@ -74,6 +74,8 @@ struct OfChip {
   Tick duration = 0;
   std::string block;
   int times = 1;
+  std::vector<std::uint8_t> bytes = {};
+  std::optional<int> listen = {};  ///< bytes
 };
 }  // namespace command
 

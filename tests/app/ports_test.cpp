@@ -81,6 +81,48 @@ TEST(HostPorts, TheBusHearsTheSameThroughAllOfThem) {
   for (const char* other : {"rsu_spi", "rsu_uart", "r"}) EXPECT_EQ(heard_in(other).pairs, parallel) << other;
 }
 
+/// Of the shipped scenarios: its text without the lines that say name, rate and end.
+std::string without_rate(const std::string& scenario) {
+  std::istringstream lines(app_test::read(std::string(DSDPV1_SOURCE_DIR "/scenarios/") + scenario + ".yaml"));
+  std::string rest;
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind("name:", 0) != 0 && line.rfind("end:", 0) != 0 && line.rfind("chip:", 0) != 0) rest += line + "\n";
+  return rest;
+}
+
+TEST(HostPorts, EachRateOfTheUartHasTheSameTelegrams) {
+  const std::string fastest = without_rate("rsu_uart_1m8432");
+  EXPECT_THAT(fastest, testing::HasSubstr("host_telegram"));
+  for (const char* rate : {"9k6", "19k2", "38k4", "57k6", "115k2", "230k4", "460k8"})
+    EXPECT_EQ(without_rate(std::string("rsu_uart_") + rate), fastest) << rate;
+}
+
+/// Log entries of the kind `host` of a run of a shipped scenario.
+std::vector<nlohmann::json> host_telegrams(const std::string& scenario) {
+  const app_test::Folder folder;
+  const auto called =
+      call("run " DSDPV1_SOURCE_DIR "/scenarios/" + scenario + ".yaml --log log.jsonl -q", folder.path());
+  EXPECT_EQ(called.status, 0) << called.err;
+  std::ifstream file(folder.file("log.jsonl"));
+  std::vector<nlohmann::json> found;
+  for (std::string line; std::getline(file, line);)
+    if (auto entry = nlohmann::json::parse(line); entry.at("kind") == "host") found.push_back(std::move(entry));
+  return found;
+}
+
+// The first one: a character of 11 bits of 1/1843200 s each, six of them from the order on (UA1, UA5).
+TEST(HostPorts, TheLogHasTheirTelegrams) {
+  const auto telegrams = host_telegrams("rsu_uart_1m8432");
+  ASSERT_EQ(telegrams.size(), 21U + 16U) << "requests and replies";
+  EXPECT_EQ(telegrams[0].at("station"), "card");
+  EXPECT_EQ(telegrams[0].at("text"), "read B004, length 1, card 1, CRC right");
+  EXPECT_EQ(telegrams[0].at("bytes"), "01 00 04 01 D8 C2");
+  EXPECT_FALSE(telegrams[0].contains("wrong"));
+  EXPECT_NEAR(telegrams[0].at("at_ns").get<double>(), 100'000 + 66e9 / 1'843'200, 100);
+  EXPECT_EQ(telegrams[1].at("bytes"), "81 00 C5 BB E1");
+  EXPECT_EQ(telegrams[14].at("wrong"), "CRC D8C2, computed 48C3");
+}
+
 /// A run of a shipped scenario with these orders besides; its log.
 std::string with_orders(const std::string& scenario, const std::vector<std::string>& orders) {
   const app_test::Folder folder;

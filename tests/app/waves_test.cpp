@@ -117,6 +117,116 @@ TEST(WaveOptions, CharactersServicesActionsAndEventsAreWords) {
   EXPECT_THAT(wave.values("bus.flag"), Contains("BUS_UNANSWERED_1"));
 }
 
+std::vector<std::string> words_at(const Vcd& wave, const std::string& signal) {
+  std::vector<std::string> words;
+  for (const Vcd::Change& each : wave.signals.at(signal)) words.push_back(each.value);
+  return words;
+}
+
+const std::string kScenarios = DSDPV1_SOURCE_DIR "/scenarios/";
+
+// Word by word what the script of the scenario says, the chip's replies as docs/chip_rsu.md has them.
+TEST(WaveOptions, TelegramsOfTheUartAreWords) {
+  const Vcd wave = wave_of("--wave-signals 'card.uart_*'", kScenarios + "rsu_uart_1m8432.yaml");
+  EXPECT_THAT(words_at(wave, "card.uart_request"),
+              testing::ElementsAre(
+                  "-", "read_B004,_length_1,_card_1,_CRC_right__01_00_04_01_D8_C2",
+                  "write_B020,_length_2,_card_1,_CRC_right__21_00_20_02_0F_05_59_69",
+                  "read_B020,_length_2,_card_1,_CRC_right__01_00_20_02_D9_99",
+                  "exchange_B130,_function_00,_length_2,_card_1,_CRC_right__41_00_01_30_02_01_55_AB_18",
+                  "exchange_B227,_function_02,_length_1,_card_1,_CRC_right__41_02_02_27_01_00_E9_C6",
+                  "exchange_B5D0,_function_00,_length_4,_card_1,_CRC_right__41_00_05_D0_04_5E_01_01_00_4B_C2",
+                  "exchange_B6D0,_function_00,_length_4,_card_1,_CRC_right__41_00_06_D0_04_5E_01_01_00_4B_F1",
+                  "read_B005,_length_1,_card_1,_CRC_wrong__[wrong:_CRC_D8C2,_computed_48C3]__01_00_05_01_D8_C2",
+                  "read_B804,_length_1,_card_1,_CRC_right__01_08_04_01_1A_43",
+                  "write_B7FF,_length_2,_card_1,_CRC_right__21_07_FF_02_00_00_BE_22",
+                  "read_B804,_length_0,_card_1,_CRC_right__01_08_04_00_DA_82",
+                  "exchange_B319,_function_00,_length_1,_card_1,_CRC_right__41_00_03_19_01_00_19_DF",
+                  "exchange_B227,_function_00,_length_1,_card_1,_CRC_right__41_00_02_27_01_00_29_BF",
+                  "exchange_B130,_function_00,_length_0,_card_1,_CRC_right__41_00_01_30_00_CF_5D",
+                  "read_B004,_length_1,_card_2,_CRC_right__02_00_04_01_9C_C2",
+                  "no_telegram:_begins_with_61__[wrong:_no_telegram]__61_00_04_01_D8_DC",
+                  "read,_card_1__[wrong:_cut_after_2_bytes]__01_00",
+                  "read_B004,_length_1,_card_1,_CRC_right__[wrong:_wrong_parity_in_byte_2]__01_00_04_01_D8_C2",
+                  "read_B004,_length_1,_card_1,_CRC_right__01_00_04_01_D8_C2",
+                  "read_B020,_length_1,_card_1,_CRC_right__[wrong:_not_heard:_the_chip_replies]__01_00_20_01_D8_D9",
+                  "read_B004,_length_1,_card_1,_CRC_right__01_00_04_01_D8_C2"));
+  EXPECT_THAT(words_at(wave, "card.uart_reply"),
+              testing::ElementsAre(
+                  "-", "reply_to_read,_length_1,_code_00,_card_1,_CRC_right__81_00_C5_BB_E1",
+                  "reply_to_write,_code_00,_card_1,_CRC_right__A1_00_20_78",
+                  "reply_to_read,_length_2,_code_00,_card_1,_CRC_right__81_00_0F_05_EB_ED",
+                  "reply_with_B319,_function_00,_length_1,_card_1,_CRC_right__01_00_03_19_01_00_D9_D1",
+                  "reply_with_B319,_function_00,_length_1,_card_1,_CRC_right__01_00_03_19_01_00_D9_D1",
+                  "reply_with_B319,_function_00,_length_1,_card_1,_CRC_right__01_00_03_19_01_00_D9_D1",
+                  "reply_with_B319,_function_00,_length_1,_card_1,_CRC_right__01_00_03_19_01_00_D9_D1",
+                  "error,_code_01_(CRC),_card_1,_CRC_right__E1_01_20_88",
+                  "error,_code_02_(address),_card_1,_CRC_right__E1_02_21_C8",
+                  "error,_code_04_(data_length),_card_1,_CRC_right__E1_04_23_48",
+                  "error,_code_06_(address,_data_length),_card_1,_CRC_right__E1_06_E2_C9",
+                  "error_to_exchange,_code_02_(address),_function_80_(error),_card_1,_CRC_right__01_80_02_01_C0",
+                  "error_to_exchange,_code_02_(address),_function_80_(error),_card_1,_CRC_right__01_80_02_01_C0",
+                  "error_to_exchange,_code_04_(data_length),_function_80_(error),_card_1,_CRC_right__01_80_04_03_40",
+                  "reply_to_read,_length_1,_code_00,_card_1,_CRC_right__81_00_C5_BB_E1",
+                  "reply_to_read,_length_1,_code_00,_card_1,_CRC_right__81_00_C5_BB_E1"));
+}
+
+TEST(WaveOptions, TelegramsOfSpiAreWords) {
+  const Vcd wave = wave_of("--wave-signals 'fast.spi_*'", kScenarios + "rsu_spi_telegrams.yaml");
+  EXPECT_THAT(words_at(wave, "fast.spi_request"),
+              testing::ElementsAre(
+                  "-", "read_B014,_length_1,_card_1,_CRC_right__01_00_14_01_18_CF",
+                  "write_B014,_length_1,_card_1,_CRC_right__21_00_14_01_02_52_58",
+                  "write_B014,_length_1,_card_1,_CRC_right__21_00_14_01_02_52_58",
+                  "write_B014,_length_1,_card_1,_CRC_right__21_00_14_01_02_52_58",
+                  "write_B020,_length_2,_card_1,_CRC_right__21_00_20_02_0F_05_59_69",
+                  "read_B020,_length_2,_card_1,_CRC_right__01_00_20_02_D9_99",
+                  "write_B014,_length_1,_card_1,_CRC_right__21_00_14_01_00_93_D9",
+                  "read_and_write,_length_1,_card_1,_CRC_right__41_01_55_7B_E0",
+                  "read_B020,_length_2,_card_1,_CRC_right__01_00_20_02_D9_99",
+                  "read_B094,_length_1,_card_1,_CRC_wrong__[wrong:_CRC_18CF,_computed_D8AE]__01_00_94_01_18_CF",
+                  "read_B814,_length_1,_card_1,_CRC_right__01_08_14_01_DA_4E",
+                  "write_B7FF,_length_2,_card_1,_CRC_right__21_07_FF_02_00_00_BE_22",
+                  "read_B814,_length_0,_card_1,_CRC_right__01_08_14_00_1A_8F",
+                  "read_and_write,_length_245,_card_1,_CRC_right__41_F5_5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_"
+                  "5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_5A_..._(249_bytes)",
+                  "read_B014,_length_1,_card_2,_CRC_right__02_00_14_01_5C_CF",
+                  "no_telegram:_begins_with_61__[wrong:_no_telegram]__61_00_14_01_18_D1_FF_FF_FF_FF_FF_FF_FF_FF",
+                  "read,_card_1__[wrong:_cut_after_2_bytes_and_3_bits]__01_00",
+                  "read_B014,_length_1,_card_1,_CRC_right__01_00_14_01_18_CF",
+                  "write_B014,_length_1,_card_1,_CRC_right__21_00_14_01_00_93_D9",
+                  "read_B014,_length_1,_card_1,_CRC_right__01_00_14_01_18_CF",
+                  "read_B014,_length_1,_card_1,_CRC_right__01_00_14_01_18_CF"));
+  EXPECT_THAT(words_at(wave, "fast.spi_reply"),
+              testing::ElementsAre("-", "reply_to_read,_length_1,_code_00,_card_1,_CRC_right__81_00_00_E8_21",
+                                   "reply_to_write,_code_00,_card_1,_CRC_right__A1_00_20_78",
+                                   "reply_to_write,_code_00,_card_1,_CRC_right__A1_00_20_78",
+                                   "reply_to_write,_code_00,_card_1,_CRC_right__A1_00_20_78",
+                                   "reply_to_write,_code_00,_card_1,_CRC_right__A1_00_20_78",
+                                   "reply_to_read,_length_2,_code_00,_card_1,_CRC_right__81_00_0F_05_EB_ED",
+                                   "reply_to_write,_code_00,_card_1,_CRC_right__A1_00_20_78",
+                                   "reply_to_read_and_write,_length_0,_code_00,_card_1,_CRC_right__C1_00_00_3C_20",
+                                   "reply_to_read,_length_2,_code_00,_card_1,_CRC_right__81_00_0F_05_EB_ED",
+                                   "error,_code_01_(CRC),_card_1,_CRC_right__E1_01_20_88",
+                                   "error,_code_02_(address),_card_1,_CRC_right__E1_02_21_C8",
+                                   "error,_code_04_(data_length),_card_1,_CRC_right__E1_04_23_48",
+                                   "error,_code_06_(address,_data_length),_card_1,_CRC_right__E1_06_E2_C9",
+                                   "error,_code_04_(data_length),_card_1,_CRC_right__E1_04_23_48",
+                                   "reply__[wrong:_cut_after_2_bytes]__81_00",
+                                   "reply_to_read,_length_1,_code_00,_card_1,_CRC_right__81_00_01_28_E0"));
+}
+
+/// The reply in data exchange with news of each kind.
+TEST(WaveOptions, RepliesOfTheUartNameTheirAreas) {
+  const auto replies =
+      wave_of("--wave-signals 'drive.uart_reply'", kScenarios + "rsu_uart.yaml").values("drive.uart_reply");
+  for (const char* each :
+       {"reply_with_B410,_function_10_(parameters)", "reply_with_B500,_function_21_(data_exchange,_configuration)",
+        "reply_with_B5D0,_function_05_(data_exchange,_C1)", "reply_with_B6D0,_function_09_(data_exchange,_C2)",
+        "reply_with_B319,_function_01_(data_exchange)"})
+    EXPECT_THAT(replies, Contains(testing::StartsWith(each)));
+}
+
 /// A character lasts 11 bits of 83.333 ns, so each of a telegram without gaps is shown 916.667 ns after the one before.
 TEST(WaveOptions, EachCharacterIsShownInTheMiddleOfItsStopBit) {
   const Vcd wave = wave_of("");

@@ -145,6 +145,9 @@ ROWS = (
     of_sim("1m5", 30, "A slave with 32 bytes each way at 1.5 Mbit/s; its user CPU exchanges data every millisecond. Checks off.",
            real_time("1m5", *OFF), limit="The user CPU's accesses, and master and monitor, which decode each character on their own.",
            bound="chip"),
+    of_sim("spi_9m", None, "A DSDPV1-RSU with 32 bytes each way at 1.5 Mbit/s whose user CPU exchanges data without a pause over SPI at 9 MHz: 18 edges of SCK "
+           "a microsecond, each of which is one of the core's. Checks off.", real_time("spi_9m", *OFF)),
+    of_sim("uart_1m8", None, "The same over the UART at 1.8432 Mbit/s.", real_time("uart_1m8", *OFF)),
     of_sim("power_on_9k6", 100, "The scenario power_on_9k6, checks off.", real_time("power_on_9k6", *OFF),
            limit="The start of the program is a third of the run."),
     Row("search_9k6", 1000, TIMES, "The core alone: the baud rate search from 12 Mbit/s to the end of 9.6 kbit/s on a silent line; no pin "

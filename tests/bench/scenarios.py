@@ -35,6 +35,12 @@ def slow_line():
     return scenario("32 bytes each way at 1.5 Mbit/s", "1.5M", "2s", slaves, slaves)
 
 
+def serial_port(mode, **port):
+    """A slave whose user CPU exchanges data over a serial host port of the DSDPV1-RSU without a pause."""
+    slaves = [slave(5, 32, behaviour="loop_back", cycle="1us", **port)]
+    return {**scenario(f"32 bytes each way, without a pause over {mode}", "1.5M", "200ms", slaves, slaves), "chip": {"kind": "dsdpv1_rsu", "mode": mode}}
+
+
 def with_idle(count):
     """A busy slave, and others that are initialised and hear everything but are never addressed; their user CPUs do nothing."""
     busy = slave(1, 16, behaviour="loop_back", cycle="1ms")
@@ -42,7 +48,7 @@ def with_idle(count):
     return scenario(f"A busy slave and {count} that nobody addresses", "12M", "2s", [busy, *idle], [busy])
 
 
-SCENARIOS = {"1m5": slow_line(), "slaves_32": many(32, "40ms"), "slaves_125": many(125, "100ms"),
+SCENARIOS = {"1m5": slow_line(), "spi_9m": serial_port("spi", spi={"clock": 9000}), "uart_1m8": serial_port("uart"), "slaves_32": many(32, "40ms"), "slaves_125": many(125, "100ms"),
              "one_busy": with_idle(0), "with_idle": with_idle(IDLE)}
 
 

@@ -5,6 +5,7 @@
 #include "tb/report/html/diagram_watch.hpp"
 #include "tb/report/html/distribution.hpp"
 #include "tb/report/html/pin_memory.hpp"
+#include "tb/report/html/telegram_list.hpp"
 
 namespace dsdpv1 {
 namespace {
@@ -52,6 +53,21 @@ TEST(ReportPinMemory, KnowsTheLevelBeforeItsOldestChange) {
   EXPECT_EQ(memory.trace(0, 0, 1).first, 1) << "the level of the change that was forgotten";
   EXPECT_EQ(memory.trace(0, 5, 7).first, 5);
   EXPECT_EQ(memory.trace(0, 5, 7).steps.size(), 2U);
+}
+
+TEST(ReportTelegrams, ThoseOfAHostPortHaveALaneOfTheirOwn) {
+  const tb::scenario::Scenario scenario;
+  tb::html::TelegramList list(scenario);
+  list.add("card", {100, 200, false, "read B014, length 1", {0x01, 0x00, 0x14, 0x01, 0x18, 0xCF}, ""});
+  list.add("card", {300, 400, true, "reply", {0x81}, "cut after 1 bytes"});
+  EXPECT_THAT(list.lanes(), testing::ElementsAre("card, host"));
+  EXPECT_THAT(list.texts(),
+              testing::ElementsAre("01 00 14 01 18 CF  read B014, length 1", "81  reply: cut after 1 bytes"));
+  ASSERT_EQ(list.kept().size(), 2U);
+  EXPECT_EQ(list.kept()[0].start, 100);
+  EXPECT_EQ(list.kept()[0].end, 200);
+  EXPECT_EQ(list.kept()[0].group, tb::html::TelegramGroup::kHost);
+  EXPECT_EQ(list.kept()[1].group, tb::html::TelegramGroup::kWrong);
 }
 
 /// A strobe with setup and hold of its data, at least 10 ticks each.

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-SCENARIO = pathlib.Path(__file__).resolve().parents[2] / "scenarios/power_on_12m.yaml"
+SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "scenarios"
 # Traces as they are shown, one a line; then names of all signals of the wave.
 ASK = """puts "\\n"
 for {set i 0} {$i < [gtkwave::getTotalNumTraces]} {incr i} { puts "SHOWN [gtkwave::getTraceNameFromIndex $i]" }
@@ -29,9 +29,9 @@ def as_shown(row):
     return row[1:] if row.startswith("-") else row.rpartition(".")[2]
 
 
-def faults(sim, folder, ending):
+def faults(sim, folder, scenario, ending):
     wave = folder / f"w.{ending}"
-    subprocess.run([sim, "run", SCENARIO, "--quiet", "--wave", wave, "--wave-to", "50us", "--wave-inside", "--wave-clk", "--wave-save"], check=True)
+    subprocess.run([sim, "run", SCENARIOS / f"{scenario}.yaml", "--quiet", "--wave", wave, "--wave-to", "50us", "--wave-inside", "--wave-clk", "--wave-save"], check=True)
     (folder / "ask.tcl").write_text(ASK, encoding="utf-8")
     save_file = wave.with_suffix(".gtkw")
     said = subprocess.run(["xvfb-run", "-a", "gtkwave", "--script", folder / "ask.tcl", wave, save_file], check=True, text=True,
@@ -39,19 +39,19 @@ def faults(sim, folder, ending):
     shown, has = re.findall(r"^SHOWN (.*)$", said, re.M), re.findall(r"^HAS (.*)$", said, re.M)
     names = [row for row in rows(save_file) if not row.startswith("-")]
     if shown != [as_shown(row) for row in rows(save_file)]:
-        yield f"{ending}: GTKWave shows {shown}, the save file has {rows(save_file)}"
+        yield f"{scenario}, {ending}: GTKWave shows {shown}, the save file has {rows(save_file)}"
     if sorted(names) != sorted(has) or len(has) < 40:
-        yield f"{ending}: the wave has {has}, the save file names {names}"
+        yield f"{scenario}, {ending}: the wave has {has}, the save file names {names}"
     surfer = re.findall(r"^variable_add (.*)$", wave.with_suffix(".sucl").read_text(encoding="utf-8"), re.M)
     if surfer != [re.sub(r"\[.*", "", name) for name in names]:
-        yield f"{ending}: the command file for Surfer names {surfer}, that for GTKWave {names}"
+        yield f"{scenario}, {ending}: the command file for Surfer names {surfer}, that for GTKWave {names}"
 
 
 def main():
     found = []
     with tempfile.TemporaryDirectory() as folder:
-        for ending in ("vcd", "fst"):
-            found += faults(sys.argv[1], pathlib.Path(folder), ending)
+        for scenario, ending in (("power_on_12m", "vcd"), ("power_on_12m", "fst"), ("rsu_spi", "fst")):
+            found += faults(sys.argv[1], pathlib.Path(folder), scenario, ending)
     print("\n".join(found) or "all signals are shown")
     return 1 if found else 0
 

@@ -35,8 +35,10 @@ const PinTable& pins_of(Part part) {
 
 const std::vector<PinGroup>& pin_groups_of(Part part) {
   static const std::vector<PinGroup> plain = groups_with({});
-  static const std::vector<PinGroup> rsu = groups_with(
-      {{"spi", {"XSS", "SCK", "MOSI", "MISO"}}, {"uart", {"RXD", "TXD"}}, {"straps", {"MODE", "ADR", "UBR", "UIV"}}});
+  static const std::vector<PinGroup> rsu =
+      groups_with({{"spi", {"XSS", "SCK", "MOSI", "spi_request", "MISO", "spi_reply"}},
+                   {"uart", {"RXD", "uart_request", "TXD", "uart_reply"}},
+                   {"straps", {"MODE", "ADR", "UBR", "UIV"}}});
   return part == Part::kRsu ? rsu : plain;
 }
 

@@ -25,6 +25,7 @@ struct ToDriver {
     if (of_chip.order == kFlipBit) return command::SpoilTelegrams{TelegramFault::kFlippedBit, of_chip.times};
     if (of_chip.order == kCutTelegram) return command::SpoilTelegrams{TelegramFault::kCut, of_chip.times};
     if (of_chip.order == kWrongParity) return command::SpoilTelegrams{TelegramFault::kWrongParity, of_chip.times};
+    if (of_chip.order == kHostTelegram) return command::HostTelegram{of_chip.bytes, of_chip.listen, of_chip.times};
     throw std::logic_error("no order of this chip: " + of_chip.order);
   }
 };

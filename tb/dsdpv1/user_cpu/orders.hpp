@@ -15,6 +15,7 @@ constexpr const char* kEarlyRSta = "early_r_sta";
 constexpr const char* kFlipBit = "flip_bit";
 constexpr const char* kCutTelegram = "cut_telegram";
 constexpr const char* kWrongParity = "wrong_parity";
+constexpr const char* kHostTelegram = "host_telegram";
 
 /// The words of command::OfChip::block, in the order of command::Area.
 const std::vector<std::string>& block_words();

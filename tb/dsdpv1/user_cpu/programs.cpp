@@ -71,8 +71,19 @@ void UserProgram::run_firmware(Cpu& cpu) {
     acyclic_ = std::make_unique<AcyclicServer>(options_.acyclic);
     check(acyclic_->open(device_), "acyclic_open");
   }
-  cpu.wait(options_.start_delay);
+  wait_for_start();
   if (bring_up()) main_loop();
+}
+
+/// Orders that need no driver are carried out meanwhile.
+void UserProgram::wait_for_start() {
+  const Tick start = cpu_->now() + options_.start_delay;
+  const auto needs_no_driver = [](const DriverCommand& command) {
+    return std::holds_alternative<command::HostTelegram>(command) ||
+           std::holds_alternative<command::SpoilTelegrams>(command);
+  };
+  while (cpu_->wait_for_wake(start))
+    while (!commands_.empty() && needs_no_driver(commands_.front())) run_command();
 }
 
 void UserProgram::open(const dsdpv1_judge& judge) {
@@ -219,12 +230,14 @@ bool UserProgram::check(dsdpv1_error error, const char* during) {
 
 // ---------------------------------------------------------------------------------------------------------- commands
 
+void UserProgram::run_command() {
+  const DriverCommand next = commands_.front();
+  commands_.pop_front();
+  std::visit([this](const auto& command) { carry_out(command); }, next);
+}
+
 void UserProgram::run_commands() {
-  while (!commands_.empty()) {
-    const DriverCommand next = commands_.front();
-    commands_.pop_front();
-    std::visit([this](const auto& command) { carry_out(command); }, next);
-  }
+  while (!commands_.empty()) run_command();
 }
 
 void UserProgram::wait_while_stopped() {
@@ -301,6 +314,10 @@ void UserProgram::carry_out(const command::SendVerdict& verdict) {
 
 void UserProgram::carry_out(const command::SpoilTelegrams& spoil) {
   if (serial_) serial_->spoil(spoil.fault, spoil.times);
+}
+
+void UserProgram::carry_out(const command::HostTelegram& telegram) {
+  for (int i = 0; serial_ && i < telegram.times; ++i) serial_->telegram(telegram.bytes, telegram.listen);
 }
 
 void UserProgram::carry_out(const command::SetAnswering& set) {

@@ -46,12 +46,18 @@ struct SpoilTelegrams {
   TelegramFault fault = TelegramFault::kFlippedBit;
   int times = 1;
 };
+/// A telegram that the driver does not send, right or wrong, so often: `bytes`, with their CRC. SPI and UART.
+struct HostTelegram {
+  std::vector<std::uint8_t> bytes;
+  std::optional<int> listen;  ///< SerialPort::telegram
+  int times = 1;
+};
 }  // namespace command
 
 using DriverCommand =
     std::variant<command::SetInputs, command::SetDiagnosis, command::Reinitialise, command::Hold, command::Stop,
                  command::Resume, command::EarlyRSta, command::WrongCrc, command::WrongLength, command::SendVerdict,
-                 command::SetAnswering, command::SpoilTelegrams>;
+                 command::SetAnswering, command::SpoilTelegrams, command::HostTelegram>;
 /// A call of the driver that did not return DSDPV1_OK.
 struct DriverError {
   Tick at = 0;
@@ -106,7 +112,9 @@ class UserProgram {
   dsdpv1_verdict judge(Judgement judgement);
   bool check(dsdpv1_error error, const char* during);
   bool initialise(const StationConfig& station);
+  void run_command();
   void run_commands();
+  void wait_for_start();
   void wait_while_stopped();
 
   void carry_out(const command::SetInputs& set);
@@ -121,6 +129,7 @@ class UserProgram {
   void carry_out(const command::SendVerdict& verdict);
   void carry_out(const command::SetAnswering& set);
   void carry_out(const command::SpoilTelegrams& spoil);
+  void carry_out(const command::HostTelegram& telegram);
 
   ProgramOptions options_;
   HostPort host_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "driver/dsdpv1.h"
+
 namespace dsdpv1::user_cpu {
 namespace {
 
@@ -68,6 +70,34 @@ dsdpv1_error SerialPort::open(dsdpv1_device& device, const dsdpv1_judge& judge) 
 void SerialPort::spoil(TelegramFault fault, int times) {
   fault_ = fault;
   spoilt_ = times;
+}
+
+void SerialPort::telegram(std::vector<std::uint8_t> bytes, std::optional<int> listen) {
+  constexpr int kUsual = 8;
+  const std::uint16_t crc = dsdpv1_crc(DSDPV1_CRC_START, bytes.data(), bytes.size());
+  bytes.push_back(static_cast<std::uint8_t>(crc >> 8U));
+  bytes.push_back(static_cast<std::uint8_t>(crc & 0xFFU));
+  if (std::holds_alternative<SpiMaster>(sender_)) return telegram_over_spi(std::move(bytes), listen.value_or(kUsual));
+  telegram_over_uart(bytes, listen);
+}
+
+void SerialPort::telegram_over_spi(std::vector<std::uint8_t> bytes, int listen) {
+  bytes.resize(bytes.size() + static_cast<std::size_t>(listen), 0xFF);
+  std::vector<std::uint8_t> received(bytes.size());
+  frame(bytes.data(), received.data(), bytes.size());
+}
+
+/// None comes any more when the chip's longest silence within a telegram and one and a half characters have passed.
+void SerialPort::telegram_over_uart(const std::vector<std::uint8_t>& bytes, std::optional<int> listen) {
+  constexpr Tick kHalfCharacterBits = 11, kMore = 3;
+  constexpr std::size_t kLongest = 512;
+  const auto& port = std::get<UartPort>(port_.port);
+  send(bytes.data(), bytes.size());
+  if (listen == 0) return;
+  const Tick half_character = kHalfCharacterBits * bus::kTicksPerSecond / (2 * port.timing.baud);
+  receiver_.begin(cpu_.now(), listen ? static_cast<std::size_t>(*listen) : kLongest,
+                  (port.interval + kMore) * half_character);
+  cpu_.transfer(receiver_);
 }
 
 bool SerialPort::is_spoilt(TelegramFault fault) {

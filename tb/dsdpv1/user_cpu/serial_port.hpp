@@ -2,6 +2,7 @@
 // The driver's SPI and UART ports on a simulated CPU: what a device maker writes for their MCU, with counters and, on
 // request, faults.
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -49,8 +50,12 @@ class SerialPort {
   const HoldCounters& counters() const { return counters_; }
   /// The next `times` telegrams of the CPU go wrong.
   void spoil(TelegramFault fault, int times);
+  /// Sends these bytes and their CRC, whatever they are; see `listen` of a scenario's host_telegram.
+  void telegram(std::vector<std::uint8_t> bytes, std::optional<int> listen);
 
  private:
+  void telegram_over_spi(std::vector<std::uint8_t> bytes, int listen);
+  void telegram_over_uart(const std::vector<std::uint8_t>& bytes, std::optional<int> listen);
   bool frame(const std::uint8_t* out, std::uint8_t* in, std::size_t n);
   bool send(const std::uint8_t* bytes, std::size_t n);
   std::uint16_t receive(std::uint8_t* bytes, std::size_t n, std::uint32_t timeout_us);

@@ -48,6 +48,9 @@ class RunRecorder : public Observer {
   void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override;
   void read(std::size_t slave, Tick sample) override;
   void telegram(const HeardTelegram& heard) override;
+  void host_telegram(std::size_t slave, const HostTelegram& telegram) override {
+    telegrams_.add(scenario_.slaves[slave].name.text, telegram);
+  }
   void violated(const std::string& slave, const checks::Violation& violation) override;
   /// The run is over: what waited for more of it is taken as it is.
   void finish();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "tb/input/units.hpp"
+
 namespace dsdpv1::tb::html {
 namespace {
 
@@ -33,8 +35,8 @@ TelegramGroup group_of(const bus::WireTelegram& wire) {
 }  // namespace
 
 const char* name(TelegramGroup group) {
-  static constexpr const char* kNames[kTelegramGroups] = {"data exchange",     "DP service", "DPV1",  "token",
-                                                          "short acknowledge", "FDL",        "other", "wrong"};
+  static constexpr const char* kNames[kTelegramGroups] = {
+      "data exchange", "DP service", "DPV1", "token", "short acknowledge", "FDL", "other", "wrong", "host port"};
   return kNames[static_cast<std::size_t>(group)];
 }
 
@@ -64,11 +66,23 @@ std::string TelegramList::sender(const bus::WireTelegram& wire) const {
 }
 
 void TelegramList::add(const HeardTelegram& heard) {
-  ++count_;
-  if (kept_.size() >= kKept) return;
+  if (count_++ >= kKept) return;
   const bus::WireTelegram& wire = heard.telegram;
   kept_.push_back(
       {wire.start, wire.end, lanes_.number(sender(wire)), texts_.number(heard.words()), group_of(wire), wire.tsdr});
+}
+
+/// What it is stands last, as in the words of telegrams on the line.
+void TelegramList::add(const std::string& slave, const HostTelegram& telegram) {
+  if (count_++ >= kKept) return;
+  const bool right = telegram.wrong.empty();
+  const std::string words = bytes_text(telegram.bytes) + "  " + telegram.words + (right ? "" : ": " + telegram.wrong);
+  kept_.push_back({telegram.start,
+                   telegram.end,
+                   lanes_.number(slave + ", host"),
+                   texts_.number(words),
+                   right ? TelegramGroup::kHost : TelegramGroup::kWrong,
+                   {}});
 }
 
 std::uint32_t TelegramList::Words::number(const std::string& text) {

@@ -170,8 +170,9 @@ struct Fill {
     to.kind = DSDPV1_CMD_ANSWERING;
     to.value = say(from.answering);
   }
-  /// The board has the parallel port only; a scenario that asks for this is refused (tb/dsdpv1/serial_keys.cpp).
+  /// The board has the parallel port only; a scenario that asks for these is refused (tb/dsdpv1/serial_keys.cpp).
   void operator()(const command::SpoilTelegrams&) const { throw std::logic_error("the board sends no telegrams"); }
+  void operator()(const command::HostTelegram&) const { throw std::logic_error("the board sends no telegrams"); }
 };
 
 constexpr std::array<const char*, 8> kCalls = {"wait_ready",    "initialise",   "exchange",     "service",

@@ -1,0 +1,36 @@
+#pragma once
+// The telegrams between chips and their users, where these have a serial host port: one reader a slave.
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "bus/timeline.hpp"
+#include "tb/bench/observer.hpp"
+#include "tb/chip/host_reader.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace dsdpv1::tb {
+
+class HostWatch : public Observer {
+ public:
+  /// `scenario` must outlive it. `wanted`: somebody listens.
+  HostWatch(const scenario::Scenario& scenario, bool wanted);
+  HostWatch(const HostWatch&) = delete;
+  HostWatch& operator=(const HostWatch&) = delete;
+
+  /// As HostReader has it; null: nothing is read.
+  const char* port() const { return readers_.empty() ? nullptr : readers_.front()->port(); }
+  /// The pins that must be watched, none when nothing is read.
+  PinMask pins() const { return readers_.empty() ? 0 : readers_.front()->pins(); }
+  void add_to(bus::Timeline& timeline);
+  void pin(std::size_t slave, Tick at, PinNumber pin, Level level) override {
+    if (!readers_.empty()) readers_[slave]->pin(at, pin, level);
+  }
+
+  std::function<void(std::size_t slave, const HostTelegram& telegram)> on_telegram;
+
+ private:
+  std::vector<std::unique_ptr<HostReader>> readers_;  ///< by slave, or none
+};
+
+}  // namespace dsdpv1::tb

@@ -1,0 +1,36 @@
+#pragma once
+// Telegrams between a chip and its user over a serial host port, read from the pins alone: the same for every engine,
+// user CPU and RTL.
+#include <functional>
+#include <string>
+
+#include "bus/bytes.hpp"
+#include "bus/timeline.hpp"
+#include "tb/pins/pins.hpp"
+
+namespace dsdpv1::tb {
+
+/// A telegram, or what was to be one.
+struct HostTelegram {
+  bus::Tick start = 0, end = 0;
+  bool reply = false;  ///< of the chip; else a request of the user
+  std::string words;   ///< its kind, address, length, error code, card and CRC
+  bus::Bytes bytes;
+  std::string wrong;  ///< what is wrong with it; empty: nothing
+};
+
+/// Reads one chip's pins.
+class HostReader : public bus::Agent {
+ public:
+  /// "spi", "uart": what waves and logs call the port.
+  virtual const char* port() const = 0;
+  /// Pins that it has to be told of.
+  virtual PinMask pins() const = 0;
+  /// In order of time; pins that change at the same tick in any order.
+  virtual void pin(bus::Tick at, PinNumber pin, Level level) = 0;
+
+  /// Each telegram when it has ended, at the latest when it is known that it has.
+  std::function<void(const HostTelegram&)> on_telegram;
+};
+
+}  // namespace dsdpv1::tb

@@ -1,0 +1,84 @@
+#pragma once
+// What the bytes of a DSDPV1-RSU's host telegrams mean (SP4, SP10, SP16, UA5, UA7 to UA13), in words.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "bus/bytes.hpp"
+
+namespace dsdpv1::tb {
+
+enum class HostLink : std::uint8_t { kSpi, kUart };
+
+/// A request of the user, byte by byte.
+class HostRequest {
+ public:
+  explicit HostRequest(HostLink link) : link_(link) {}
+  void clear() { bytes_.clear(); }
+  /// What comes after the longest telegram there is tells nothing more.
+  void add(std::uint8_t byte) {
+    if (bytes_.size() < kMost) bytes_.push_back(byte);
+  }
+  bool empty() const { return bytes_.empty(); }
+  const bus::Bytes& bytes() const { return bytes_; }
+
+  // From here on there is a byte.
+  /// The first one is a telegram's (SP11).
+  bool begins() const { return command() <= kThird && (bytes_[0] & 0x1C) == 0; }
+  unsigned card() const { return bytes_[0] & 3U; }
+  bool is_read() const { return command() == kRead; }
+  /// All that it needs by its length byte; absent while that has not come.
+  std::optional<std::size_t> size_needed() const;
+  bool complete() const { return begins() && bytes_.size() == size_needed(); }
+
+  // Of a complete one.
+  bool is_exchange() const { return link_ == HostLink::kUart && command() == kThird; }
+  unsigned length() const { return bytes_[length_at()]; }
+  bool crc_right() const;
+  /// What a right write telegram writes there; absent for another.
+  std::optional<std::uint8_t> written(unsigned cell) const;
+
+  /// "write B020, length 23, card 1, CRC right"; of one that is not complete what is known.
+  std::string words() const;
+  /// "CRC 18CF, computed 4711"; empty: its CRC is right.
+  std::string wrong() const;
+
+ private:
+  static constexpr std::size_t kMost = 512;
+  static constexpr unsigned kRead = 0, kWrite = 1, kThird = 2;  ///< the third: read and write, of the UART exchange
+
+  unsigned command() const { return bytes_[0] >> 5U; }
+  bool has_address() const { return link_ == HostLink::kUart || command() != kThird; }
+  std::size_t address_at() const { return is_exchange() ? 2 : 1; }
+  std::size_t length_at() const { return has_address() ? address_at() + 2 : 1; }
+  unsigned address() const { return static_cast<unsigned>(bytes_[address_at()]) << 8 | bytes_[address_at() + 1]; }
+  const char* name() const;
+
+  HostLink link_;
+  bus::Bytes bytes_;
+};
+
+/// The chip's reply to a request.
+class HostReply {
+ public:
+  void clear() { bytes_.clear(); }
+  void add(std::uint8_t byte) { bytes_.push_back(byte); }
+  bool empty() const { return bytes_.empty(); }
+  const bus::Bytes& bytes() const { return bytes_; }
+
+  bool complete(const HostRequest& request) const { return bytes_.size() == size_needed(request); }
+  /// "reply to read, length 1, code 00, card 1, CRC right"; of one that is not complete what is known.
+  std::string words(const HostRequest& request) const;
+  /// As of a request; of a complete one.
+  std::string wrong() const;
+
+ private:
+  std::optional<std::size_t> size_needed(const HostRequest& request) const;
+  std::string exchange_words() const;
+  bool is_error() const { return bytes_[0] >> 5U == 7; }
+
+  bus::Bytes bytes_;
+};
+
+}  // namespace dsdpv1::tb
