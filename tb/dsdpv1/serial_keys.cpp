@@ -55,7 +55,8 @@ const char* name_of(HostMode mode) {
 std::vector<std::string> orders_for(HostMode mode) {
   using namespace user_cpu;
   if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram};
-  if (mode == HostMode::kUart) return {kFlipBit, kCutTelegram, kWrongParity};
+  if (mode == HostMode::kUart)
+    return {kFlipBit, kCutTelegram, kWrongParity, kSendBreak, kPauseTelegram, kTalkOverReply};
   return {kHoldDpram, kWrongCrc, kEarlyRSta};
 }
 

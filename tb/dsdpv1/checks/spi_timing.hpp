@@ -1,5 +1,6 @@
 #pragma once
-// What SP2 asks of XSS, SCK and MOSI. Pins that change at the same tick may be told in any order.
+// What SP2 asks of XSS, SCK and MOSI, and when MISO follows. Pins that change at the same tick may be told in any
+// order.
 #include <functional>
 #include <limits>
 #include <optional>
@@ -16,8 +17,8 @@ class SpiTiming {
 
   /// What was going on is over; the next frame begins with a fall of XSS.
   void reset() { *this = SpiTiming(recorder_.get()); }
-  /// A change of XSS, SCK or MOSI, not in reset.
-  void pin(Tick at, dsdpv1::Pin pin, bool level);
+  /// A change of XSS, SCK, MOSI or MISO, not in reset.
+  void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void finish(Tick end);
 
  private:
@@ -29,6 +30,7 @@ class SpiTiming {
   void sck_rose(Tick at);
   void sck_fell(Tick at);
   void mosi_changed(Tick at);
+  void miso_changed(Tick at, bool driven);
   void end_frame_before(Tick at);
   void record(Check check, Tick at, Tick measured);
 

@@ -45,6 +45,7 @@ struct WrongCrc {
 struct SpoilTelegrams {
   TelegramFault fault = TelegramFault::kFlippedBit;
   int times = 1;
+  Tick pause = 0;  ///< TelegramFault::kPause
 };
 }  // namespace command
 
