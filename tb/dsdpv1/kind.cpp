@@ -99,6 +99,7 @@ class Dsdpv1Kind : public ChipMaker {
                 straps[3],
                 settings.spi_write_gap,
                 settings.spi_reply_gap,
+                settings.spi_miso_delay,
                 settings.uart_gaps,
                 settings.uart_min_tsdr};
     }

@@ -51,7 +51,7 @@ class Checks : public ChipChecks, private AccessSink {
         port_(recorder_, *this),
         cells_(recorder_),
         service_(recorder_),
-        spi_(recorder_),
+        spi_(recorder_, settings_),
         frames_(recorder_, settings_),
         uart_(recorder_, settings_) {}
   Checks(const Checks&) = delete;

@@ -78,7 +78,10 @@ void SpiTiming::mosi_changed(Tick at) {
 
 /// With XSS's edges MISO is driven or released, and that is no bit.
 void SpiTiming::miso_changed(Tick at, bool driven) {
-  if (driven && selected(at) && sck_fell_) record(Check::kMisoDelay, at, at - *sck_fell_);
+  if (!driven || !selected(at) || !sck_fell_) return;
+  const Tick delay = at - *sck_fell_;
+  recorder_.get().kept(Check::kMisoDelay, at, delay <= Tick{settings_.get().spi_miso_delay},
+                       [this, delay] { return fmt::format("bit {} of the frame after {}", bits_, ns_text(delay)); });
 }
 
 void SpiTiming::finish(Tick end) { end_frame_before(end + 1); }

@@ -8,15 +8,17 @@
 #include "model/dsdpv1/pins.hpp"
 #include "tb/checks/recorder.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
+#include "tb/dsdpv1/checks/serial_settings.hpp"
 
 namespace dsdpv1::checks {
 
 class SpiTiming {
  public:
-  explicit SpiTiming(Recorder& recorder) : recorder_(recorder) {}
+  /// `settings` outlives it.
+  SpiTiming(Recorder& recorder, const SerialSettings& settings) : recorder_(recorder), settings_(settings) {}
 
   /// What was going on is over; the next frame begins with a fall of XSS.
-  void reset() { *this = SpiTiming(recorder_.get()); }
+  void reset() { *this = SpiTiming(recorder_, settings_); }
   /// A change of XSS, SCK, MOSI or MISO, not in reset.
   void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void finish(Tick end);
@@ -35,6 +37,7 @@ class SpiTiming {
   void record(Check check, Tick at, Tick measured);
 
   std::reference_wrapper<Recorder> recorder_;
+  std::reference_wrapper<const SerialSettings> settings_;
   Tick fell_ = kNotYet, rose_ = kNotYet;     ///< XSS: begin and end of the frame
   bool lag_due_ = false;                     ///< XSS rose; SCK may still fall at the same tick
   unsigned bits_ = 0;                        ///< of the frame, so far
