@@ -105,6 +105,8 @@ first byte is none of a telegram the end is not known. Violations say the margin
 - The station's address. HOLD_INTERVAL learns it from the answers that are on the line while PBRTS is high, so it begins after the first one.
   Its intervals run from the execution of one Data_Exchange, a bit time after the telegram's end, to that of the next; of a hold only the part
   within the interval counts.
+- A DSDPV1-RSU's parameters (`uart_gaps`, `uart_min_tsdr`, `spi_write_gap`, ...). A run takes them from its scenario; the checker of the C API and of Python has their
+  defaults.
 - How many outputs were lost. The table of the slaves and `outputs_overwritten` of the result file have it: output blocks that a newer one
   replaced before the user had fetched them (cleared B00E.0), be it that he held the chip off or that he was merely slower than the master. The
   core counts them, since the last reset; with an RTL in its place it is the core beside it, on the same pins.
