@@ -53,11 +53,11 @@ const char* name_of(HostMode mode) {
 /// Those that only a DSDPV1's program knows. Block CRCs are not looked at over SPI and UART (SP15), the handshake's
 /// pins are dead (R14), and the UART knows no ownership (UA6).
 std::vector<std::string> orders_for(HostMode mode) {
-  using namespace user_cpu;
-  if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram};
+  if (mode == HostMode::kSpi) return {user_cpu::kHoldDpram, user_cpu::kFlipBit, user_cpu::kCutTelegram};
   if (mode == HostMode::kUart)
-    return {kFlipBit, kCutTelegram, kWrongParity, kSendBreak, kPauseTelegram, kTalkOverReply};
-  return {kHoldDpram, kWrongCrc, kEarlyRSta};
+    return {user_cpu::kFlipBit,   user_cpu::kCutTelegram,   user_cpu::kWrongParity,
+            user_cpu::kSendBreak, user_cpu::kPauseTelegram, user_cpu::kTalkOverReply};
+  return {user_cpu::kHoldDpram, user_cpu::kWrongCrc, user_cpu::kEarlyRSta};
 }
 
 user_cpu::SpiPort spi_port(const SpiKeys& keys) {
