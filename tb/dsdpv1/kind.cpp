@@ -29,6 +29,11 @@ std::string said_flip_bit(const OfChip& order) { return fmt::format("a wrong bit
 std::string said_cut(const OfChip& order) { return fmt::format("{} telegrams end too early", order.times); }
 std::string said_wrong_parity(const OfChip& order) { return fmt::format("wrong parity in {} telegrams", order.times); }
 std::string said_host_telegram(const OfChip& order) { return "sends " + bytes_text(order.bytes) + " and the CRC"; }
+std::string said_break(const OfChip& order) { return fmt::format("{} telegrams end in a break", order.times); }
+std::string said_pause(const OfChip& order) {
+  return fmt::format("{} telegrams pause for {}", order.times, time_text(order.duration));
+}
+std::string said_talk_over(const OfChip& order) { return fmt::format("talks over {} replies", order.times); }
 std::string said_early_r_sta(const OfChip&) { return "R_STA without a look at L_REQ and L_STA"; }
 
 class Dsdpv1AccessReader : public AccessReader {
@@ -91,7 +96,16 @@ class Dsdpv1Kind : public ChipMaker {
     checks::SerialSettings serial;
     if (chip != nullptr) {
       const auto& settings = static_cast<const Dsdpv1Settings&>(*chip);
-      serial = {static_cast<Level>(settings.mode), static_cast<Level>(settings.address), settings.spi_write_gap};
+      const Straps straps = straps_of(settings);
+      serial = {straps[0],
+                straps[1],
+                straps[2],
+                straps[3],
+                settings.spi_write_gap,
+                settings.spi_reply_gap,
+                settings.spi_miso_delay,
+                settings.uart_gaps,
+                settings.uart_min_tsdr};
     }
     return std::make_unique<checks::Checks>(limits, part_, serial);
   }
@@ -175,6 +189,23 @@ std::vector<Order> rsu_orders() {
         {"slave", "bytes"},
         {"times", "listen"}},
        said_host_telegram});
+  orders.push_back({{user_cpu::kSendBreak,
+                     "The next telegrams of the user CPU end in a break: RXD is low for the time of the third "
+                     "character. UART.",
+                     {"slave"},
+                     {"times"}},
+                    said_break});
+  orders.push_back({{user_cpu::kPauseTelegram,
+                     "The next telegrams of the user CPU pause before the third character. UART.",
+                     {"slave", "for"},
+                     {"times"}},
+                    said_pause});
+  orders.push_back({{user_cpu::kTalkOverReply,
+                     "The user CPU sends a character (FF) 20 bit times after its next telegrams, into the replies. "
+                     "UART.",
+                     {"slave"},
+                     {"times"}},
+                    said_talk_over});
   return orders;
 }
 

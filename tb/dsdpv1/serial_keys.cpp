@@ -59,7 +59,8 @@ const char* name_of(HostMode mode) {
 std::vector<std::string> orders_for(HostMode mode) {
   using namespace user_cpu;
   if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram, kHostTelegram};
-  if (mode == HostMode::kUart) return {kFlipBit, kCutTelegram, kWrongParity, kHostTelegram};
+  if (mode == HostMode::kUart)
+    return {kFlipBit, kCutTelegram, kWrongParity, kSendBreak, kPauseTelegram, kTalkOverReply, kHostTelegram};
   return {kHoldDpram, kWrongCrc, kEarlyRSta};
 }
 

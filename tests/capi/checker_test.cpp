@@ -100,6 +100,37 @@ TEST(CapiChecker, RulesAreThoseOfTheChip) {
   EXPECT_EQ(pins, checks::Checks::kPins);
 }
 
+// Mode, address and rate come from the pins of the straps.
+TEST(CapiChecker, ACharacterOnRxdIsJudgedAtTheRateOfTheStraps) {
+  constexpr const char* kKind = "dsdpv1_rsu";
+  auto options = sized<dpsim_checker_options>();
+  options.kind = kKind;
+  dpsim_checker* made = nullptr;
+  ok(dpsim_checker_create(&options, &made));
+  const Owned<dpsim_checker> checker(made);
+  const auto set = [made](uint64_t tick, const char* pin, dpsim_level level) {
+    uint16_t number = 0;
+    ok(dpsim_pin_find(kKind, pin, &number));
+    ok(dpsim_checker_pin(made, tick, number, level));
+  };
+  std::vector<Violated> violated;
+  ok(dpsim_checker_on_violation(made, note_violation, &violated));
+  set(0, "MODE", 2);
+  set(0, "ADR", 1);
+  set(0, "UBR", 7);
+  set(5000, "RESET", 1);
+  constexpr uint64_t kBit = 26 * kCycle, kFell = 100 * kCycle;  // UA1
+  set(kFell, "RXD", 0);
+  set(kFell + kBit, "RXD", 1);  // 01, whose parity is 1
+  set(kFell + 2 * kBit, "RXD", 0);
+  set(kFell + 10 * kBit, "RXD", 1);
+  ok(dpsim_checker_finish(made, kFell + 20 * kBit));
+  ASSERT_EQ(violated.size(), 1U);
+  EXPECT_EQ(violated[0].name, "RXD_PARITY");
+  EXPECT_EQ(violated[0].tick, kFell + kCycle + 13 * kCycle + 10 * kBit) << "the edge in the middle of the stop bit";
+  EXPECT_NE(violated[0].pins.find("RXD="), std::string::npos) << violated[0].pins;
+}
+
 TEST(CapiChecker, TimeDoesNotGoBackAndPinsAreKnown) {
   const auto checker = make_checker();
   ok(dpsim_checker_pin(checker.get(), 1000, DPSIM_DSDPV1_RESET, 1));

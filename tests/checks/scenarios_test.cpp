@@ -251,7 +251,94 @@ TEST(ChecksAndCore, FindTheSameViolationsOverSpi) {
     EXPECT_GT(violations(result, check), 0U) << event;
     EXPECT_EQ(violations(result, check), events(result, event)) << event;
   }
-  EXPECT_EQ(result.checks.size(), 10U) << "those of SPI, no other";
+  EXPECT_EQ(result.checks.size(), 13U) << "those of SPI, no other";
+}
+
+tb::RunResult run_uart(const std::string& uart, const std::string& script) {
+  const tb::scenario::Scenario scenario = tb::scenario::parse(
+      "name: uart\nbaud: 12M\nend: 20ms\nchip: {kind: dsdpv1_rsu, mode: uart}\nslaves:\n  - name: demo\n    address: "
+      "5\n"
+      "    init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}\n    user_cpu: {cycle: 1ms, uart: {" +
+          uart + "}}\nmasters: [{name: plc, address: 2, start: 1ms, slaves: [{slave: demo, outputs: \"01 02\"}]}]\n" +
+          script,
+      "uart.yaml");
+  tb::RunOptions options;
+  options.checks = tb::ChecksMode::kReport;
+  auto execution = tb::make_pin_execution();
+  execution->timeline().check_announcements();
+  tb::Bench bench(scenario, options, std::move(execution));
+  return bench.run([](tb::Tick) { return true; });
+}
+
+const tb::CheckResult& found(const tb::RunResult& result, checks::Check check) {
+  return *std::find_if(
+      result.checks.begin(), result.checks.end(),
+      [check](const tb::CheckResult& each) { return std::string(each.rule->id) == checks::rule(check).id; });
+}
+
+/// A mistake of the host's, found at the pins and by the chip.
+struct UartCase {
+  const char* name;
+  const char* order;
+  checks::Check check;
+  const char* event;
+  /// Where the chip sees what is wrong at `at` of the pins: two cycles later, and an edge of RXD a cycle after its own.
+  tb::Tick (*seen)(tb::Tick at);
+  bool spoilt;  ///< the telegram, or what is left of it, is followed by a silence
+};
+
+tb::Tick sampled_two_cycles_later(tb::Tick at) { return at + 500; }
+tb::Tick edge_seen(tb::Tick at) { return (at / 250 + 3) * 250; }
+
+const UartCase kUartCases[] = {
+    {"Parity", "wrong_parity, slave: demo", checks::Check::kRxdParity, "UART_PARITY", sampled_two_cycles_later, true},
+    {"Break", "send_break, slave: demo", checks::Check::kRxdBreak, "UART_FRAMING", sampled_two_cycles_later, true},
+    {"Pause", "pause_telegram, slave: demo, for: 100us", checks::Check::kRxdCharacterGap, "TELEGRAM_CUT",
+     sampled_two_cycles_later, true},
+    {"TalkOver", "talk_over_reply, slave: demo", checks::Check::kRxdHalfDuplex, "UART_HALF_DUPLEX", edge_seen, false},
+};
+
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for it
+void PrintTo(const UartCase& each, std::ostream* out) { *out << each.name; }
+
+class UartMistake : public testing::TestWithParam<UartCase> {};
+
+TEST_P(UartMistake, IsFoundWhereTheChipMeetsItAndTheNextTelegramIsAnswered) {
+  const UartCase& each = GetParam();
+  const tb::RunResult quiet = run_uart("", "");
+  const tb::RunResult result = run_uart("", std::string("script: [{at: 15ms, do: ") + each.order + "}]\n");
+  EXPECT_TRUE(broken(quiet).empty());
+  EXPECT_EQ(broken(result), std::set<std::string>{checks::rule(each.check).id});
+  const tb::CheckResult& check = found(result, each.check);
+  ASSERT_EQ(check.listed.size(), 1U);
+  const auto event = std::find_if(result.occurrences.begin(), result.occurrences.end(),
+                                  [&each](const tb::Occurrence& one) { return one.code == each.event; });
+  ASSERT_NE(event, result.occurrences.end());
+  EXPECT_EQ(event->at, each.seen(check.listed[0].at)) << check.listed[0].text;
+  EXPECT_GT(check.listed[0].at, 15 * bus::kTicksPerMs);
+  EXPECT_EQ(events(result, each.event), 1U);
+  // The telegram is sent again, and after it as many as without the mistake.
+  const auto replies = [](const tb::RunResult& of) { return found(of, checks::Check::kTxdReplyTime).record.count; };
+  EXPECT_EQ(replies(result), replies(quiet));
+  EXPECT_EQ(found(result, checks::Check::kRxdSilence).record.count, each.spoilt ? 1U : 0U);
+  EXPECT_EQ(result.slaves.at(0).user.program->exchanges, quiet.slaves.at(0).user.program->exchanges);
+  for (const tb::Occurrence& one : result.occurrences) EXPECT_NE(one.code.rfind("DSDPV1_ERR", 0), 0U) << one.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Checks, UartMistake, testing::ValuesIn(kUartCases),
+                         [](const auto& each) { return each.param.name; });
+
+TEST(ChecksAndCore, FindTheSameOverTheUartWhoseRateIsWrong) {
+  for (const char* uart : {"rate: 1700000", "rate: 1750000", "gap: 30us"}) {
+    const tb::RunResult result = run_uart(uart, "");
+    EXPECT_EQ(violations(result, checks::Check::kRxdFraming) + violations(result, checks::Check::kRxdBreak),
+              events(result, "UART_FRAMING"))
+        << uart;
+    EXPECT_EQ(violations(result, checks::Check::kRxdParity), events(result, "UART_PARITY")) << uart;
+    EXPECT_EQ(violations(result, checks::Check::kRxdCharacterGap), events(result, "TELEGRAM_CUT")) << uart;
+    EXPECT_FALSE(broken(result).empty()) << uart;
+    EXPECT_EQ(result.checks.size(), 8U) << "those of the UART, no other";
+  }
 }
 
 tb::RunResult run_lossy(const char* user_cpu, const char* script) {

@@ -15,7 +15,7 @@ using checks::Check;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr Level kSpi = 1;
-constexpr Tick kHalf = 600;  ///< of SCK's period
+constexpr Tick kHalf = 667;  ///< of SCK's period
 
 Bytes with_crc(Bytes bytes, unsigned error = 0) {
   unsigned crc = 0xFFFF;
@@ -36,7 +36,8 @@ const Bytes kClaim = with_crc({0x21, 0x00, 0x14, 0x01, 0x02}), kRelease = with_c
 /// A host and what the chip answers it.
 class Host {
  public:
-  explicit Host(std::optional<Tick> longest = {}) : checks(limits(longest), Part::kRsu, {kSpi, 1}) {
+  explicit Host(std::optional<Tick> longest = {}, std::uint32_t reply_gap = 0)
+      : checks(limits(longest), Part::kRsu, settings(reply_gap)) {
     checks.on_violation([this](const checks::Violation& violation) { violations.push_back(violation); });
     set(1000, Pin::kReset, 1);
   }
@@ -48,8 +49,8 @@ class Host {
     set(at, Pin::kXss, 0);
     for (std::size_t bit = 0; bit < 8 * out.size(); ++bit) {
       at += kHalf;
+      set(at - kHalf + 100, Pin::kMiso, in[bit / 8] >> (7 - bit % 8) & 1);
       set(at - 300, Pin::kMosi, out[bit / 8] >> (7 - bit % 8) & 1);
-      set(at - 200, Pin::kMiso, in[bit / 8] >> (7 - bit % 8) & 1);
       set(at, Pin::kSck, 1);
       if (bit + 1 == 8 * request.size()) last_bit_ = at;
       set(at += kHalf, Pin::kSck, 0);
@@ -68,6 +69,13 @@ class Host {
     checks::Limits limits(checks::rules(Part::kRsu));
     if (longest) limits[Check::kOwned].value = *longest;
     return limits;
+  }
+  static checks::SerialSettings settings(std::uint32_t reply_gap) {
+    checks::SerialSettings settings;
+    settings.mode = kSpi;
+    settings.address = 1;
+    settings.spi_reply_gap = reply_gap;
+    return settings;
   }
   void set(Tick at, Pin pin, Level level) { checks.pin(at, pin, level); }
   Tick last_bit_ = 0, end_ = 0;
@@ -110,6 +118,23 @@ TEST(SpiWriteGap, OfAWriteInAFrameThatIsNotHeardIsNotAskedFor) {
   host.frame(host.end() + 600, kLook, {});
   EXPECT_EQ(host.record(Check::kWriteGap).count, 2U) << "both after the first";
   EXPECT_EQ(host.record(Check::kWriteGap).violations, 1U);
+}
+
+TEST(SpiReply, BeginsRightAfterTheRequestOrSoManyBytesLater) {
+  const struct {
+    std::uint32_t gap;
+    Bytes reply;
+    std::uint64_t count, violations;
+  } cases[] = {{0, kDone, 1, 0},        {0, {}, 0, 0},
+               {0, {0xFF, 0xA1}, 1, 1}, {2, {0xFF, 0xFF, 0xA1}, 1, 0},
+               {2, {0xFF, 0xFF}, 0, 0}, {2, {0xFF, 0xFF, 0xFF}, 1, 1},
+               {2, {0xFF, 0xA1}, 1, 1}};
+  for (const auto& each : cases) {
+    Host host({}, each.gap);
+    host.frame(10'000, kWrite, each.reply);
+    EXPECT_EQ(host.record(Check::kMisoReply).count, each.count);
+    EXPECT_EQ(host.record(Check::kMisoReply).violations, each.violations);
+  }
 }
 
 TEST(SpiOwned, IsMeasuredFromTheClaimsLastBitToTheReleases) {

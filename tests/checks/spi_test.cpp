@@ -136,13 +136,41 @@ TEST(SpiChecks, EdgesAtOneTickCountTheSameWhicheverIsToldFirst) {
   }
 }
 
+TEST(SpiChecks, PeriodOfSckIsNineMegahertz) {
+  for (const Tick margin : {Tick{0}, Tick{-1}}) {
+    Master master;
+    Frame frame;
+    frame.high = 666;
+    frame.low = 1333 - 666 + margin;
+    master.send(frame);
+    EXPECT_EQ(master.checks.record(Check::kSckPeriod).count, 2U) << "one in a frame of two bits";
+    EXPECT_EQ(master.checks.record(Check::kSckPeriod).worst_margin, margin);
+    ASSERT_EQ(master.violations.size(), margin < 0 ? 2U : 0U);
+  }
+}
+
+TEST(SpiChecks, MisoFollowsSckWithinTenNanoseconds) {
+  for (const Tick late : {Tick{0}, Tick{1}}) {
+    Master master;
+    master.set(3000, Pin::kXss, 0);
+    master.set(3000, Pin::kMiso, 1);  // driven, no bit
+    master.set(4000, Pin::kSck, 1);
+    master.set(5000, Pin::kSck, 0);
+    master.set(5120 + late, Pin::kMiso, 0);
+    master.set(7000, Pin::kXss, 1);
+    master.set(7000, Pin::kMiso, kLevelZ);
+    EXPECT_EQ(master.checks.record(Check::kMisoDelay).count, 1U);
+    EXPECT_EQ(master.checks.record(Check::kMisoDelay).violations, late == 0 ? 0U : 1U);
+  }
+}
+
 TEST(SpiChecks, ModeOfThePinDecidesWhatApplies) {
   Master master(kParallel);
   EXPECT_TRUE(master.checks.applies(Check::kTs));
   master.set(2000, Pin::kMode, kSpi);
   EXPECT_FALSE(master.checks.applies(Check::kTs));
   EXPECT_TRUE(master.checks.applies(Check::kSckHigh));
-  EXPECT_EQ(checks::rules().size() + 10, checks::rules(Part::kRsu).size()) << "the DSDPV1 has no SPI";
+  EXPECT_EQ(checks::rules().size() + 21, checks::rules(Part::kRsu).size()) << "the DSDPV1 has no SPI";
 }
 
 }  // namespace

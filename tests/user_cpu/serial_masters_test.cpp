@@ -171,6 +171,30 @@ TEST_F(UartMasterTest, FaultsAreTheParityABitOrTheEnd) {
   EXPECT_EQ(last, 111 * kBit);
 }
 
+TEST_F(UartMasterTest, FaultsAreABreakAPauseOrACharacterTooMany) {
+  const auto edge = [](int bit, bool level) { return Change{bit * kBit, SerialPin::kRxd, level}; };
+  user_cpu::UartFault fault;
+  fault.break_at = 1;
+  sender.begin(0, {0xFE, 0xFE, 0xFE}, fault);
+  run(sender);
+  EXPECT_THAT(pins.changes, ElementsAre(edge(0, false), edge(2, true), edge(11, false), edge(22, true)));
+  pins.changes.clear();
+  fault = {};
+  fault.pause_before = 1;
+  fault.pause = 5 * kBit;
+  sender.begin(0, {0xFE, 0xFE, 0xFE}, fault);
+  run(sender);
+  EXPECT_THAT(pins.changes, ElementsAre(edge(0, false), edge(2, true), edge(16, false), edge(18, true), edge(27, false),
+                                        edge(29, true)));
+  pins.changes.clear();
+  fault = {};
+  fault.talk_over = 20 * kBit;
+  sender.begin(0, {0xFE}, fault);
+  run(sender);
+  EXPECT_THAT(pins.changes, ElementsAre(edge(0, false), edge(2, true), edge(31, false), edge(32, true), edge(40, false),
+                                        edge(41, true)));
+}
+
 TEST_F(UartMasterTest, CharactersAreHeardAlsoBeforeSomebodyAsks) {
   hear({false, true, true, false, false, true, false, false, false, true, true}, 0);
   hear({false, true, false, false, false, false, false, false, false, true, true}, 11 * kBit);

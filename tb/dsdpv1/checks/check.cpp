@@ -15,6 +15,9 @@ constexpr std::uint32_t kUserPort = kUserHandshake | mask(Pin::kCsr) | mask(Pin:
 constexpr std::uint32_t kInterruptPins = kUserHandshake | mask(Pin::kIntr0);
 constexpr std::uint32_t kSpiClock = mask(Pin::kXss) | mask(Pin::kSck);
 constexpr std::uint32_t kSpiData = mask(Pin::kSck) | mask(Pin::kMosi);
+constexpr std::uint32_t kSpiReply = mask(Pin::kXss) | mask(Pin::kSck) | mask(Pin::kMiso);
+constexpr std::uint32_t kRxdPin = mask(Pin::kRxd);
+constexpr std::uint32_t kUartPins = mask(Pin::kRxd) | mask(Pin::kTxd);
 
 const RuleTable& all_rules() {
   static const RuleTable table = {

@@ -19,8 +19,8 @@ constexpr Check kAllChecks[] = {
 #undef X
 };
 
-/// Those from here on are about SPI, which only the DSDPV1-RSU has.
-constexpr Check kFirstSpiCheck = Check::kSckHigh;
+/// Those from here on are about SPI, then about the UART, which only the DSDPV1-RSU has.
+constexpr Check kFirstSpiCheck = Check::kSckHigh, kFirstUartCheck = Check::kRxdCharacterGap;
 
 /// The rules of a part: of all but the DSDPV1-RSU those without the serial ports.
 const RuleTable& rules(Part part = Part::kDsdpv1);

@@ -7,25 +7,34 @@ namespace dsdpv1::checks {
 void Checks::pin(Tick at, Pin pin, Level level) {
   if ((dsdpv1::mask(pin) & pins_) == 0) return;
   history_.add(at, static_cast<tb::PinNumber>(pin), level);
+  if (strap(pin, level)) return;
   if (pin == Pin::kReset)
     reset_pin(at, level != 0);
-  else if (pin == Pin::kMode)
-    settings_.mode = level;
-  else if (pin == Pin::kAdr)
-    settings_.address = level;
   else if (!serial())
     parallel_pin(at, pin, level);
-  else if (settings_.mode == kSpi && !in_reset_)
+  else if (settings_.mode == kUart)
+    uart_.pin(at, pin, level);
+  else if (!in_reset_)
     spi_pin(at, pin, level);
 }
 
+bool Checks::strap(Pin pin, Level level) {
+  switch (pin) {
+    case Pin::kMode: settings_.mode = level; return true;
+    case Pin::kAdr: settings_.address = level; return true;
+    case Pin::kUbr: settings_.rate = level; return true;
+    case Pin::kUiv: settings_.interval = level; return true;
+    default: return false;
+  }
+}
+
 bool Checks::applies(CheckId check) const {
-  const bool spi = check.index >= CheckId(kFirstSpiCheck).index;
-  return spi ? settings_.mode == kSpi : !serial();
+  if (check.index < CheckId(kFirstSpiCheck).index) return !serial();
+  return settings_.mode == (check.index < CheckId(kFirstUartCheck).index ? kSpi : kUart);
 }
 
 void Checks::spi_pin(Tick at, Pin pin, Level level) {
-  if (pin == Pin::kXss || pin == Pin::kSck || pin == Pin::kMosi) spi_.pin(at, pin, level != 0);
+  spi_.pin(at, pin, level);
   frames_.pin(at, pin, level);
 }
 
@@ -58,6 +67,7 @@ void Checks::reset_pin(Tick at, bool level) {
   service_.reset();
   spi_.reset();
   frames_.reset();
+  uart_.reset(at, in_reset_);
 }
 
 void Checks::handshake(Tick at, Pin pin, bool level) {
@@ -105,10 +115,10 @@ void Checks::telegram(Tick now, const bus::WireTelegram& telegram) {
 void Checks::finish(Tick end) {
   recorder_.now(end);
   if (in_reset_) return;
-  if (serial()) {
+  if (settings_.mode == kUart) return uart_.finish(end);
+  if (settings_.mode == kSpi) {
     spi_.finish(end);
-    frames_.finish(end);
-    return;
+    return frames_.finish(end);
   }
   end_hold_before(end + 1);
   service_.finish(end, ownership_.held_off_since());

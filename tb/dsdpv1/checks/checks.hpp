@@ -23,6 +23,7 @@
 #include "tb/dsdpv1/checks/service.hpp"
 #include "tb/dsdpv1/checks/spi_frames.hpp"
 #include "tb/dsdpv1/checks/spi_timing.hpp"
+#include "tb/dsdpv1/checks/uart_frames.hpp"
 #include "tb/dsdpv1/pins/pin_table.hpp"
 
 namespace dsdpv1::checks {
@@ -38,9 +39,9 @@ class Checks : public ChipChecks, private AccessSink {
       dsdpv1::mask(dsdpv1::Pin::kWr);
 
   /// What they see of a part's pins.
-  static constexpr std::uint32_t pins(Part part) { return part == Part::kRsu ? kPins | kSpiPins : kPins; }
+  static constexpr std::uint32_t pins(Part part) { return part == Part::kRsu ? kPins | kSerialPins : kPins; }
 
-  /// `serial`: straps and parameters; a change of MODE or ADR counts from then on.
+  /// `serial`: straps and parameters; a change of a strap counts from then on.
   explicit Checks(const Limits& limits = Limits(rules()), Part part = Part::kDsdpv1, const SerialSettings& serial = {})
       : pins_(pins(part)),
         settings_(serial),
@@ -50,8 +51,9 @@ class Checks : public ChipChecks, private AccessSink {
         port_(recorder_, *this),
         cells_(recorder_),
         service_(recorder_),
-        spi_(recorder_),
-        frames_(recorder_, settings_) {}
+        spi_(recorder_, settings_),
+        frames_(recorder_, settings_),
+        uart_(recorder_, settings_) {}
   Checks(const Checks&) = delete;
   Checks& operator=(const Checks&) = delete;
 
@@ -70,12 +72,15 @@ class Checks : public ChipChecks, private AccessSink {
   void on_violation(std::function<void(const Violation&)> sink) override { recorder_.on_violation = std::move(sink); }
 
  private:
-  static constexpr std::uint32_t kSpiPins = dsdpv1::mask(dsdpv1::Pin::kXss) | dsdpv1::mask(dsdpv1::Pin::kSck) |
-                                            dsdpv1::mask(dsdpv1::Pin::kMosi) | dsdpv1::mask(dsdpv1::Pin::kMiso) |
-                                            dsdpv1::mask(dsdpv1::Pin::kMode) | dsdpv1::mask(dsdpv1::Pin::kAdr);
+  static constexpr std::uint32_t kSerialPins = dsdpv1::mask(dsdpv1::Pin::kXss) | dsdpv1::mask(dsdpv1::Pin::kSck) |
+                                               dsdpv1::mask(dsdpv1::Pin::kMosi) | dsdpv1::mask(dsdpv1::Pin::kMiso) |
+                                               dsdpv1::mask(dsdpv1::Pin::kRxd) | dsdpv1::mask(dsdpv1::Pin::kTxd) |
+                                               dsdpv1::mask(dsdpv1::Pin::kMode) | dsdpv1::mask(dsdpv1::Pin::kAdr) |
+                                               dsdpv1::mask(dsdpv1::Pin::kUbr) | dsdpv1::mask(dsdpv1::Pin::kUiv);
   static constexpr Level kSpi = 1, kUart = 2;  // R2; 3 as 0
 
   bool serial() const { return settings_.mode == kSpi || settings_.mode == kUart; }
+  bool strap(dsdpv1::Pin pin, Level level);
   void parallel_pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void spi_pin(Tick at, dsdpv1::Pin pin, Level level);
   void reset_pin(Tick at, bool level);
@@ -95,6 +100,7 @@ class Checks : public ChipChecks, private AccessSink {
   Service service_;
   SpiTiming spi_;
   SpiFrames frames_;
+  UartFrames uart_;
   bool in_reset_ = true;
   bool holding_ = false;          ///< a hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again
   std::optional<Tick> hold_end_;  ///< judged when time goes on: a RESET at the same tick makes it void

@@ -1,5 +1,5 @@
 #pragma once
-// Telegrams of the host to a DSDPV1-RSU over SPI (SP4), as far as the checks follow them.
+// Telegrams of the host to a DSDPV1-RSU over SPI (SP4) and its UART (UA5, UA7), as far as the checks follow them.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -7,13 +7,18 @@
 
 namespace dsdpv1::checks {
 
-enum class TelegramKind : std::uint8_t { kRead, kWrite, kReadAndWrite };
+/// The third: over SPI read and write (SP16), over the UART exchange (UA7).
+enum class TelegramKind : std::uint8_t { kRead, kWrite, kExchange };
 
-constexpr unsigned kOwnershipCell = 0x014;
+enum class SerialPort : std::uint8_t { kSpi, kUart };
+
+constexpr unsigned kOwnershipCell = 0x014, kUartIntervalCell = 0x019, kUartTsdrCell = 0x01A;
 
 /// A request, byte by byte.
 class HostTelegram {
  public:
+  explicit HostTelegram(SerialPort port) : port_(port) {}
+
   void clear() { bytes_.clear(); }
   void add(std::uint8_t byte) { bytes_.push_back(byte); }
   std::size_t size() const { return bytes_.size(); }
@@ -26,7 +31,8 @@ class HostTelegram {
   bool complete() const;
 
   // Of a complete one.
-  /// CRC (R15), address and length are right: it is carried out unless the chip is busy (SP10, SP13).
+  /// CRC (R15), address and length are right (SP10, UA5): it is carried out unless the chip is busy (SP13). Not asked
+  /// of an exchange (UA9).
   bool right() const;
   /// A read or write of this cell.
   bool covers(unsigned cell) const { return cell >= address() && cell < address() + count(); }
@@ -35,11 +41,13 @@ class HostTelegram {
   unsigned address() const { return (static_cast<unsigned>(bytes_[1]) << 8 | bytes_[2]) & 0x7FFU; }
 
  private:
-  bool addressed() const { return kind() != TelegramKind::kReadAndWrite; }
+  bool addressed() const { return kind() != TelegramKind::kExchange; }
   /// Place of the length byte.
-  std::size_t length_at() const { return addressed() ? 3 : 1; }
+  std::size_t length_at() const { return addressed() ? 3 : port_ == SerialPort::kSpi ? 1 : 4; }
   unsigned count() const { return bytes_[length_at()]; }
+  unsigned most_data() const;
 
+  SerialPort port_;
   std::vector<std::uint8_t> bytes_;
 };
 

@@ -67,10 +67,29 @@ says. The checks are written apart from it, from the same rulings, and where bot
 ## Which apply
 
 A report has the checks of the port that the user has. With a DSDPV1, a DSDPV1-R, or a DSDPV1-RSU strapped to its parallel port they are those on R_REQ, R_STA, CSR, RD and WR.
-With one strapped to SPI they are `TIMING_SCK_HIGH` to `TIMING_MOSI_HOLD`, which judge what the chip reports as `SPI_SCK_HIGH` to `SPI_MOSI_HOLD`, with the margin where
-nothing is violated; SCK's times, lead and lag are held against the chip's reports (`ChecksAndCore`).
-`TIMING_WRITE_GAP`, `B014_HELD` and `B014_HOLD_INTERVAL` follow the telegrams on MOSI and MISO: the first judges what the chip reports as `SPI_WRITE_GAP`. A claim that the reply refuses is none; that U_Timer (SP17)
-has ended a hold is seen when the host reads B014. Over its UART there are none: what telegrams do wrong, the chip reports ([chip_rsu.md](chip_rsu.md)). Rulings SP are those of that page.
+With one strapped to SPI they are `TIMING_SCK_HIGH` to `B014_HOLD_INTERVAL`, with one strapped to its UART `RXD_CHARACTER_GAP` to `TXD_REPLY_TIME`. Rulings SP and UA are
+those of [chip_rsu.md](chip_rsu.md).
+
+| asked of the host port | over SPI | over the UART |
+|---|---|---|
+| clock, baud rate | `TIMING_SCK_HIGH`, `TIMING_SCK_LOW`, `TIMING_SCK_PERIOD` | `RXD_FRAMING`, `RXD_PARITY` |
+| data against the clock | `TIMING_MOSI_SETUP`, `TIMING_MOSI_HOLD` | `RXD_FRAMING`, `RXD_BREAK` |
+| select: lead, lag, gap | `TIMING_XSS_LEAD`, `TIMING_XSS_LAG`, `TIMING_XSS_GAP` | - |
+| gap within a telegram | none: SCK may rest as long as it likes | `RXD_CHARACTER_GAP` |
+| gap between telegrams | `TIMING_WRITE_GAP`; else `TIMING_XSS_GAP` | `RXD_HALF_DUPLEX` after a reply; `RXD_SILENCE` after a telegram that was spoilt |
+| hold, and hold against the telegrams of the bus | `B014_HELD`, `B014_HOLD_INTERVAL` | none: there is no ownership (UA6) |
+| reply: earliest, latest | `MISO_REPLY` (which byte), `TIMING_MISO_DELAY` (its bits) | `TXD_REPLY_EARLY`, `TXD_REPLY_TIME` |
+
+`TIMING_SCK_HIGH` to `TIMING_MOSI_HOLD` judge what the chip reports as `SPI_SCK_HIGH` to `SPI_MOSI_HOLD`, with the margin where nothing is violated; SCK's times, lead and lag
+are held against the chip's reports (`ChecksAndCore`). Of `TIMING_SCK_PERIOD` the chip reports nothing: SP2 reads 9 MHz as 50 ns high and low.
+`TIMING_WRITE_GAP`, `MISO_REPLY`, `B014_HELD` and `B014_HOLD_INTERVAL` follow the telegrams on MOSI and MISO: the first judges what the chip reports as `SPI_WRITE_GAP`. A claim that the reply refuses is none; that U_Timer (SP17)
+has ended a hold is seen when the host reads B014.
+
+The checks of the UART sample RXD as the chip does, at each bit's middle just before an edge of CLK, and follow its telegrams: UBR, UIV, ADR and MODE from their pins, B019
+and B01A from the telegrams that write them. On random lines (`UartChecksAndCore`) they find as many as the chip: `RXD_PARITY` and `UART_PARITY`; `RXD_FRAMING` with
+`RXD_BREAK` and `UART_FRAMING`; `RXD_CHARACTER_GAP` and `TELEGRAM_CUT`; `RXD_HALF_DUPLEX` and `UART_HALF_DUPLEX`. `RXD_SILENCE` has no event: a chip that does not hear cannot
+tell. Like the chip they do not judge characters that are not heard. After a spoilt telegram its rest, up to where its length byte says, is no next telegram; a break ends it, and of one whose
+first byte is none of a telegram the end is not known. Violations say the margin in bit times too; a bit has the cycles of UA1, of 20.833 ns.
 
 ## What cannot be seen at the pins
 
@@ -86,6 +105,8 @@ has ended a hold is seen when the host reads B014. Over its UART there are none:
 - The station's address. HOLD_INTERVAL learns it from the answers that are on the line while PBRTS is high, so it begins after the first one.
   Its intervals run from the execution of one Data_Exchange, a bit time after the telegram's end, to that of the next; of a hold only the part
   within the interval counts.
+- A DSDPV1-RSU's parameters (`uart_gaps`, `uart_min_tsdr`, `spi_write_gap`, ...). A run takes them from its scenario; the checker of the C API and of Python has their
+  defaults.
 - How many outputs were lost. The table of the slaves and `outputs_overwritten` of the result file have it: output blocks that a newer one
   replaced before the user had fetched them (cleared B00E.0), be it that he held the chip off or that he was merely slower than the master. The
   core counts them, since the last reset; with an RTL in its place it is the core beside it, on the same pins.

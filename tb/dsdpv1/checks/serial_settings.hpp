@@ -1,15 +1,27 @@
 #pragma once
-// What the checks of SPI have to know of a DSDPV1-RSU: its straps (R11) and parameters (docs/chip_rsu.md).
+// What the checks of SPI and UART have to know of a DSDPV1-RSU: its straps (R11) and parameters (docs/chip_rsu.md).
+#include <array>
 #include <cstdint>
 
+#include "bus/time.hpp"
 #include "model/dsdpv1/pins.hpp"
 
 namespace dsdpv1::checks {
 
+using bus::Tick;
+
+constexpr Tick kTicksPerCycle = 250;  ///< of CLK (R2)
+
 struct SerialSettings {
-  Level mode = 0;                     ///< MODE: 1 SPI, 2 UART, else parallel
-  Level address = 0;                  ///< ADR; 1 or 2, else no telegram is for this card
-  std::uint32_t spi_write_gap = 128;  ///< cycles
+  Level mode = 0;                      ///< MODE: 1 SPI, 2 UART, else parallel
+  Level address = 0;                   ///< ADR; 1 or 2, else no telegram is for this card
+  Level rate = 0;                      ///< UBR (UA1)
+  Level interval = 0;                  ///< UIV (UA3)
+  std::uint32_t spi_write_gap = 128;   ///< cycles
+  std::uint32_t spi_reply_gap = 0;     ///< bytes
+  std::uint32_t spi_miso_delay = 120;  ///< ticks
+  std::array<std::uint32_t, 8> uart_gaps = {7, 2, 4, 10, 20, 40, 100, 200};  ///< half characters
+  std::uint32_t uart_min_tsdr = 11;                                          ///< bit times
 };
 
 }  // namespace dsdpv1::checks

@@ -8,7 +8,6 @@ namespace dsdpv1::checks {
 namespace {
 
 constexpr Tick kWriteGap = 32'400;  // 2.7 us
-constexpr Tick kTicksPerCycle = 250;
 constexpr std::uint8_t kIdle = 0xFF, kErrorReply = 7, kOwner = 0x02;
 constexpr std::size_t kReplyHeader = 2;
 
@@ -101,16 +100,18 @@ void SpiFrames::request_byte(Tick at, std::uint8_t byte) {
 
 void SpiFrames::request_complete(Tick at) {
   complete_ = true;
+  idle_bytes_ = 0;
   asked_ = at;
   if (request_.kind() != TelegramKind::kRead) last_write_ = at;
   effect_ = Effect::kNone;
   if (!request_.right()) return;
-  if (request_.kind() == TelegramKind::kReadAndWrite) effect_ = Effect::kReadAndWrite;
+  if (request_.kind() == TelegramKind::kExchange) effect_ = Effect::kReadAndWrite;
   if (const auto value = request_.written(kOwnershipCell))
     effect_ = (*value & kOwner) != 0 ? Effect::kClaim : Effect::kRelease;
 }
 
 void SpiFrames::reply_byte(Tick at, std::uint8_t byte) {
+  if (reply_.empty()) judge_reply(at, byte != kIdle);
   if (reply_.empty() && byte == kIdle) return;
   reply_.push_back(byte);
   if (reply_.size() == 1) {
@@ -122,6 +123,15 @@ void SpiFrames::reply_byte(Tick at, std::uint8_t byte) {
   if (read && owned_since_ && reply_.size() == kReplyHeader + kOwnershipCell - request_.address() + 1 &&
       (byte & kOwner) == 0)
     release(at);
+}
+
+/// Once a telegram, where its reply begins or has to (SP6).
+void SpiFrames::judge_reply(Tick at, bool begins) {
+  const unsigned gap = idle_bytes_++;
+  if (begins ? gap <= settings_.spi_reply_gap : gap == settings_.spi_reply_gap)
+    recorder_.kept(Check::kMisoReply, at, begins && gap == settings_.spi_reply_gap, [begins, gap] {
+      return begins ? "the reply comes after " + std::to_string(gap) + " bytes" : std::string("no reply");
+    });
 }
 
 /// The telegram was not refused: its effect counts from its last bit.

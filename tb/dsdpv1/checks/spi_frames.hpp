@@ -46,6 +46,7 @@ class SpiFrames {
   void request_byte(Tick at, std::uint8_t byte);
   void request_complete(Tick at);
   void reply_byte(Tick at, std::uint8_t byte);
+  void judge_reply(Tick at, bool begins);
   void settle();
   void release(Tick at);
   void owner_gone(Tick since, Tick at);
@@ -59,8 +60,9 @@ class SpiFrames {
   std::optional<Tick> fell_, rose_;     ///< XSS: begin and end of the frame
   bool heard_ = false;
   unsigned bits_ = 0, out_ = 0, in_ = 0;
-  HostTelegram request_;
+  HostTelegram request_{SerialPort::kSpi};
   bool for_card_ = false, complete_ = false;
+  unsigned idle_bytes_ = 0;                            ///< of FF after the request
   std::vector<std::uint8_t> reply_;                    ///< from the first byte on that is not FF
   Effect effect_ = Effect::kNone;                      ///< of this telegram, until its reply says that it is refused
   Tick asked_ = 0;                                     ///< last bit of the request

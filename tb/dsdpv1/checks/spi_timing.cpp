@@ -11,12 +11,14 @@ void SpiTiming::record(Check check, Tick at, Tick measured) {
       check, at, measured, [this] { return fmt::format("bit {} of the frame", bits_); });
 }
 
-void SpiTiming::pin(Tick at, Pin pin, bool level) {
+void SpiTiming::pin(Tick at, Pin pin, Level level) {
   end_frame_before(at);
   switch (pin) {
-    case Pin::kXss: return xss(at, level);
-    case Pin::kSck: return level ? sck_rose(at) : sck_fell(at);
-    default: return mosi_changed(at);
+    case Pin::kXss: return xss(at, level != 0);
+    case Pin::kSck: return level != 0 ? sck_rose(at) : sck_fell(at);
+    case Pin::kMosi: return mosi_changed(at);
+    case Pin::kMiso: return miso_changed(at, level >= 0);
+    default: return;
   }
 }
 
@@ -48,6 +50,7 @@ void SpiTiming::sck_rose(Tick at) {
     record(Check::kXssLead, at, at - fell_);
   else if (sck_fell_)
     record(Check::kSckLow, at, at - *sck_fell_);
+  if (sck_rose_) record(Check::kSckPeriod, at, at - *sck_rose_);
   if (hold_) record(Check::kMosiHold, *hold_, at - *hold_);  // stable until now at least
   const bool together = mosi_changed_ == at;
   record(Check::kMosiSetup, at, at - (together ? mosi_changed_before_ : mosi_changed_));
@@ -71,6 +74,14 @@ void SpiTiming::mosi_changed(Tick at) {
   if (!hold_ || !selected(at)) return;
   record(Check::kMosiHold, *hold_, at - *hold_);
   hold_.reset();
+}
+
+/// With XSS's edges MISO is driven or released, and that is no bit.
+void SpiTiming::miso_changed(Tick at, bool driven) {
+  if (!driven || !selected(at) || !sck_fell_) return;
+  const Tick delay = at - *sck_fell_;
+  recorder_.get().kept(Check::kMisoDelay, at, delay <= Tick{settings_.get().spi_miso_delay},
+                       [this, delay] { return fmt::format("bit {} of the frame after {}", bits_, ns_text(delay)); });
 }
 
 void SpiTiming::finish(Tick end) { end_frame_before(end + 1); }

@@ -1,5 +1,6 @@
 #pragma once
-// What SP2 asks of XSS, SCK and MOSI. Pins that change at the same tick may be told in any order.
+// What SP2 asks of XSS, SCK and MOSI, and when MISO follows. Pins that change at the same tick may be told in any
+// order.
 #include <functional>
 #include <limits>
 #include <optional>
@@ -7,17 +8,19 @@
 #include "model/dsdpv1/pins.hpp"
 #include "tb/checks/recorder.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
+#include "tb/dsdpv1/checks/serial_settings.hpp"
 
 namespace dsdpv1::checks {
 
 class SpiTiming {
  public:
-  explicit SpiTiming(Recorder& recorder) : recorder_(recorder) {}
+  /// `settings` outlives it.
+  SpiTiming(Recorder& recorder, const SerialSettings& settings) : recorder_(recorder), settings_(settings) {}
 
   /// What was going on is over; the next frame begins with a fall of XSS.
-  void reset() { *this = SpiTiming(recorder_.get()); }
-  /// A change of XSS, SCK or MOSI, not in reset.
-  void pin(Tick at, dsdpv1::Pin pin, bool level);
+  void reset() { *this = SpiTiming(recorder_, settings_); }
+  /// A change of XSS, SCK, MOSI or MISO, not in reset.
+  void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   void finish(Tick end);
 
  private:
@@ -29,10 +32,12 @@ class SpiTiming {
   void sck_rose(Tick at);
   void sck_fell(Tick at);
   void mosi_changed(Tick at);
+  void miso_changed(Tick at, bool driven);
   void end_frame_before(Tick at);
   void record(Check check, Tick at, Tick measured);
 
   std::reference_wrapper<Recorder> recorder_;
+  std::reference_wrapper<const SerialSettings> settings_;
   Tick fell_ = kNotYet, rose_ = kNotYet;     ///< XSS: begin and end of the frame
   bool lag_due_ = false;                     ///< XSS rose; SCK may still fall at the same tick
   unsigned bits_ = 0;                        ///< of the frame, so far

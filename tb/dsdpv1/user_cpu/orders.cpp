@@ -26,6 +26,10 @@ struct ToDriver {
     if (of_chip.order == kCutTelegram) return command::SpoilTelegrams{TelegramFault::kCut, of_chip.times};
     if (of_chip.order == kWrongParity) return command::SpoilTelegrams{TelegramFault::kWrongParity, of_chip.times};
     if (of_chip.order == kHostTelegram) return command::HostTelegram{of_chip.bytes, of_chip.listen, of_chip.times};
+    if (of_chip.order == kSendBreak) return command::SpoilTelegrams{TelegramFault::kBreak, of_chip.times};
+    if (of_chip.order == kTalkOverReply) return command::SpoilTelegrams{TelegramFault::kTalkOver, of_chip.times};
+    if (of_chip.order == kPauseTelegram)
+      return command::SpoilTelegrams{TelegramFault::kPause, of_chip.times, of_chip.duration};
     throw std::logic_error("no order of this chip: " + of_chip.order);
   }
 };

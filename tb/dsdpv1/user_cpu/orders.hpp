@@ -16,6 +16,9 @@ constexpr const char* kFlipBit = "flip_bit";
 constexpr const char* kCutTelegram = "cut_telegram";
 constexpr const char* kWrongParity = "wrong_parity";
 constexpr const char* kHostTelegram = "host_telegram";
+constexpr const char* kSendBreak = "send_break";
+constexpr const char* kPauseTelegram = "pause_telegram";
+constexpr const char* kTalkOverReply = "talk_over_reply";
 
 /// The words of command::OfChip::block, in the order of command::Area.
 const std::vector<std::string>& block_words();

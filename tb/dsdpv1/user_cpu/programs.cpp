@@ -313,7 +313,7 @@ void UserProgram::carry_out(const command::SendVerdict& verdict) {
 }
 
 void UserProgram::carry_out(const command::SpoilTelegrams& spoil) {
-  if (serial_) serial_->spoil(spoil.fault, spoil.times);
+  if (serial_) serial_->spoil(spoil.fault, spoil.times, spoil.pause);
 }
 
 void UserProgram::carry_out(const command::HostTelegram& telegram) {

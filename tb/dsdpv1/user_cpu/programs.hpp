@@ -45,6 +45,7 @@ struct WrongCrc {
 struct SpoilTelegrams {
   TelegramFault fault = TelegramFault::kFlippedBit;
   int times = 1;
+  Tick pause = 0;  ///< TelegramFault::kPause
 };
 /// A telegram that the driver does not send, right or wrong, so often: `bytes`, with their CRC. SPI and UART.
 struct HostTelegram {

@@ -23,7 +23,8 @@ bool granted(const std::vector<std::uint8_t>& in) {
   return first != in.end() && *first >> 5 == 5;
 }
 
-constexpr std::size_t kFaultAt = 2;  ///< byte of a telegram that goes wrong
+constexpr std::size_t kFaultAt = 2;         ///< byte of a telegram that goes wrong
+constexpr std::int64_t kTalkOverBits = 20;  ///< from a telegram's end into its reply, which has begun by then (UA4)
 
 }  // namespace
 
@@ -67,8 +68,9 @@ dsdpv1_error SerialPort::open(dsdpv1_device& device, const dsdpv1_judge& judge) 
   return error;
 }
 
-void SerialPort::spoil(TelegramFault fault, int times) {
+void SerialPort::spoil(TelegramFault fault, int times, Tick pause) {
   fault_ = fault;
+  pause_ = pause;
   spoilt_ = times;
 }
 
@@ -136,13 +138,23 @@ void SerialPort::count_hold(const std::vector<std::uint8_t>& out, const std::vec
   }
 }
 
-bool SerialPort::send(const std::uint8_t* bytes, std::size_t n) {
-  auto& master = std::get<UartSender>(sender_);
+UartFault SerialPort::uart_fault() {
   UartFault fault;
   if (is_spoilt(TelegramFault::kFlippedBit)) fault.flipped_bit = 8 * kFaultAt;
   if (is_spoilt(TelegramFault::kCut)) fault.cut_after = kFaultAt;
   if (is_spoilt(TelegramFault::kWrongParity)) fault.wrong_parity = kFaultAt;
-  master.begin(cpu_.now(), std::vector<std::uint8_t>(bytes, bytes + n), fault);
+  if (is_spoilt(TelegramFault::kBreak)) fault.break_at = kFaultAt;
+  if (is_spoilt(TelegramFault::kTalkOver)) fault.talk_over = kTalkOverBits * bus::kTicksPerSecond / uart_.baud;
+  if (is_spoilt(TelegramFault::kPause)) {
+    fault.pause_before = kFaultAt;
+    fault.pause = pause_;
+  }
+  return fault;
+}
+
+bool SerialPort::send(const std::uint8_t* bytes, std::size_t n) {
+  auto& master = std::get<UartSender>(sender_);
+  master.begin(cpu_.now(), std::vector<std::uint8_t>(bytes, bytes + n), uart_fault());
   cpu_.transfer(master);
   return true;
 }

@@ -34,7 +34,7 @@ struct HostPort {
   bool block_crc = false;                                ///< dsdpv1_spi's and dsdpv1_uart's
 };
 
-enum class TelegramFault : std::uint8_t { kFlippedBit, kCut, kWrongParity };
+enum class TelegramFault : std::uint8_t { kFlippedBit, kCut, kWrongParity, kBreak, kPause, kTalkOver };
 
 /// Must not move while the driver uses it.
 class SerialPort {
@@ -48,8 +48,8 @@ class SerialPort {
   dsdpv1_error open(dsdpv1_device& device, const dsdpv1_judge& judge);
   /// Over SPI from the claim's frame to the release's; over the UART none are counted.
   const HoldCounters& counters() const { return counters_; }
-  /// The next `times` telegrams of the CPU go wrong.
-  void spoil(TelegramFault fault, int times);
+  /// The next `times` telegrams of the CPU go wrong. `pause`: of TelegramFault::kPause.
+  void spoil(TelegramFault fault, int times, Tick pause);
   /// Sends these bytes and their CRC, whatever they are; see `listen` of a scenario's host_telegram.
   void telegram(std::vector<std::uint8_t> bytes, std::optional<int> listen);
 
@@ -62,6 +62,7 @@ class SerialPort {
   void pause(std::uint32_t ns);
   void count_hold(const std::vector<std::uint8_t>& out, const std::vector<std::uint8_t>& in, Tick begun);
   bool is_spoilt(TelegramFault fault);
+  UartFault uart_fault();
 
   Cpu& cpu_;
   SerialPins& pins_;  ///< outlives the CPU
@@ -73,6 +74,7 @@ class SerialPort {
   HoldCounters counters_;
   Tick asked_at_ = -1, held_at_ = -1;  ///< -1: not
   TelegramFault fault_ = TelegramFault::kFlippedBit;
+  Tick pause_ = 0;
   int spoilt_ = 0;
 };
 

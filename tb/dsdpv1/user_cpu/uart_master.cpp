@@ -27,18 +27,29 @@ void UartSender::begin(Tick at, std::vector<std::uint8_t> bytes, const UartFault
     bytes_[*fault.flipped_bit / 8] =
         static_cast<std::uint8_t>(bytes_[*fault.flipped_bit / 8] ^ 1U << *fault.flipped_bit % 8);
   wrong_parity_ = fault.wrong_parity;
+  break_at_ = fault.break_at;
+  if (break_at_) bytes_.resize(std::min(bytes_.size(), *break_at_ + 1));
+  pause_before_ = fault.pause_before.value_or(bytes_.size());
+  pause_ = fault.pause;
+  if (fault.talk_over) {
+    pause_before_ = bytes_.size();
+    pause_ = *fault.talk_over;
+    bytes_.push_back(0xFF);
+  }
   cell_ = 0;
 }
 
 Tick UartSender::tick_of(std::size_t cell) const {
   const auto number = static_cast<std::int64_t>(cell);
-  return begin_ + half_bits(timing_, 2 * number) +
-         static_cast<Tick>((cell - (cell == kCells * bytes_.size() ? 1 : 0)) / kCells) * timing_.gap;
+  const std::size_t character = (cell - (cell == kCells * bytes_.size() ? 1 : 0)) / kCells;
+  return begin_ + half_bits(timing_, 2 * number) + static_cast<Tick>(character) * timing_.gap +
+         (character >= pause_before_ ? pause_ : 0);
 }
 
 bool UartSender::level_of(std::size_t cell) const {
   const std::size_t number = cell / kCells, bit = cell % kCells;
   if (number >= bytes_.size()) return true;
+  if (number == break_at_) return false;
   const bool right = (bus::frame_of(bytes_[number]) >> bit & 1) != 0;
   return right != (bit == kParity && wrong_parity_ == number);
 }

@@ -21,6 +21,10 @@ struct UartFault {
   std::optional<std::size_t> wrong_parity;  ///< number of the character
   std::optional<std::size_t> flipped_bit;   ///< of the data, from 0, least significant first; the parity fits it
   std::optional<std::size_t> cut_after;     ///< characters
+  std::optional<std::size_t> break_at;      ///< this character is low for its whole time and the last
+  std::optional<std::size_t> pause_before;  ///< number of the character before which it is idle so much longer:
+  Tick pause = 0;
+  std::optional<Tick> talk_over;  ///< one more character, FF, so long after the last stop bit
 };
 
 /// Sends on RXD.
@@ -42,7 +46,9 @@ class UartSender : public Transfer {
   SerialPins& pins_;
   UartTiming timing_;
   std::vector<std::uint8_t> bytes_;
-  std::optional<std::size_t> wrong_parity_;
+  std::optional<std::size_t> wrong_parity_, break_at_;
+  std::size_t pause_before_ = 0;  ///< number of the character
+  Tick pause_ = 0;
   std::size_t cell_ = 1;  ///< the next bit to be put out: 11 a character; one past the last: the end
   Tick begin_ = 0;
   bool level_ = true;
