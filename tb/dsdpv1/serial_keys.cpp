@@ -59,6 +59,12 @@ std::vector<std::string> orders_for(HostMode mode) {
   return {kHoldDpram, kWrongCrc, kEarlyRSta};
 }
 
+/// Straps; SPI1 and USART2, SPI2; RESET and INTR0 of card 2.
+bool is_of_the_card(const Switch& one) {
+  static constexpr std::array<unsigned, 7> kPins = {0x00FE, 0xF003, 0x0C00, 0x1700, 0xE020, 0, 0};
+  return (kPins.at(one.port) >> one.pin & 1U) != 0;
+}
+
 user_cpu::SpiPort spi_port(const SpiKeys& keys) {
   user_cpu::SpiPort port;
   const Tick period = (1000 * bus::kTicksPerUs + keys.clock_khz / 2) / keys.clock_khz;
@@ -92,8 +98,30 @@ user_cpu::HostPort host_port_of(const Dsdpv1User& user, const Dsdpv1Settings& ch
   return port;
 }
 
+namespace {
+
+/// Its firmware says how fast it is, and which pins are free depends on the chip.
+void check_board_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file) {
+  const auto refuse = [&](int where, const char* key) {
+    throw InputError(file, where,
+                     fmt::format("{} is that of kind: native, allowed with arm are the firmware's registers", key));
+  };
+  if (user.spi) refuse(user.spi->line, "spi");
+  if (user.uart) refuse(user.uart->line, "uart");
+  if (chip.part != Part::kRsu) return;
+  for (const Name& text : user.switches)
+    if (is_of_the_card(*parse_switch(text.text)))
+      throw InputError(file, text.line,
+                       fmt::format("switches holds {}, a pin that the board wires to the straps and ports of a "
+                                   "DSDPV1-RSU; allowed are the others",
+                                   text.text));
+}
+
+}  // namespace
+
 void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file, const std::string& slave,
                 int line) {
+  if (user.kind == CpuKind::kArm) check_board_port(user, chip, file);
   const char* mode = name_of(chip.mode);
   const auto refuse = [&](int where, const char* key, const char* allowed) {
     throw InputError(file, where, fmt::format("{} with mode: {} of the chip, allowed is {}", key, mode, allowed));
@@ -103,7 +131,6 @@ void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::s
   if (chip.mode == HostMode::kParallel) return;
   if (user.access) refuse(user.access->line, "access", "mode: parallel");
   if (user.fsmc) refuse(user.fsmc->line, "fsmc", "mode: parallel");
-  if (user.kind == CpuKind::kArm) refuse(line, "kind: arm", "kind: native");
   if (chip.address < 1 || chip.address > 2)
     throw InputError(
         file, line,
