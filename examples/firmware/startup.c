@@ -45,5 +45,6 @@ __attribute__((section(".vectors"), used)) const vector_table vectors = {
      unexpected /* DebugMonitor */, 0, unexpected /* PendSV */, systick_handler},
     {TEN_UNEXPECTED, TEN_UNEXPECTED,                                                   /* 0 to 19 */
      unexpected, unexpected, unexpected, exti9_5_handler, unexpected, FIVE_UNEXPECTED, /* 20 to 29 */
-     TEN_UNEXPECTED, TEN_UNEXPECTED, TEN_UNEXPECTED},                                  /* 30 to 59 */
+     FIVE_UNEXPECTED, spi_handler, spi_handler, unexpected, usart2_handler, unexpected, /* 30 to 39 */
+     exti15_10_handler, unexpected, unexpected, unexpected, unexpected, FIVE_UNEXPECTED, TEN_UNEXPECTED}, /* 40 to 59 */
 };

@@ -5,6 +5,7 @@
 
 #include "examples/firmware/board.h"
 #include "examples/firmware/cyclic.h"
+#include "examples/firmware/port.h"
 #include "examples/firmware/report.h"
 #include "examples/firmware/settings.h"
 
@@ -66,7 +67,7 @@ void station_send_verdict(uint8_t which, bool refuse) {
 
 dsdpv1_device* station_open(const dsdpv1_port* port) {
   const dsdpv1_judge judges = {NULL, judge_prm, judge_cfg};
-  dsdpv1_open(&chip, port, &judges); /* the port is complete: it cannot fail */
+  if (port_open(&chip, port, &judges) != DSDPV1_OK) board_halt(); /* straps for no card: ADR 0 or 3 */
   return &chip;
 }
 
