@@ -114,6 +114,8 @@ static bool frame(void* ctx, const uint8_t* out, uint8_t* in, uint16_t n) {
 /* The longest time that nobody knows is a card's until its reply: two bytes, as the vendor's own firmware has it. */
 static dsdpv1_spi port = {.exchange = frame, .pause = port_pause, .spare = 2};
 
+dsdpv1_spi* spi_port(void) { return &port; }
+
 dsdpv1_spi* spi_port_start(void) {
   card = &cards[straps()->card - 1u];
   select(false);

@@ -9,5 +9,7 @@
 
 /* For dsdpv1_open_spi; board_start first. */
 dsdpv1_spi* spi_port_start(void);
+/* The same port, started. */
+dsdpv1_spi* spi_port(void);
 
 #endif /* SPI_PORT_H */

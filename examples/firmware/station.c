@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "examples/firmware/board.h"
+#include "examples/firmware/console.h"
 #include "examples/firmware/cyclic.h"
 #include "examples/firmware/port.h"
 #include "examples/firmware/report.h"
@@ -79,9 +80,17 @@ bool station_initialise(const dsdpv1_mailbox_station* station) {
   return true;
 }
 
+/* The main loop, which prints what goes wrong, has not begun. */
+static void wait_for_retry(void) {
+  for (const uint64_t end = board_now() + settings_in_cycles()->retry_delay; board_now() < end;) {
+    report_print_errors();
+    console_poll();
+  }
+}
+
 void station_bring_up(void) {
   while (!report_check(dsdpv1_wait_ready(&chip), DSDPV1_DURING_WAIT_READY) || !station_initialise(&settings()->station))
-    board_wait(settings_in_cycles()->retry_delay);
+    wait_for_retry();
   board_on_intr0(on_intr0);
   station_service(); /* what came between the initialisation and the line above */
 }

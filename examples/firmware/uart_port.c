@@ -132,6 +132,8 @@ static const uint16_t intervals[] = {7, 2, 4, 10, 20, 40, 100, 200};
 
 static dsdpv1_uart port = {.send = send, .receive = receive, .pause = port_pause};
 
+dsdpv1_uart* uart_port(void) { return &port; }
+
 dsdpv1_uart* uart_port_start(void) {
   port.address = straps()->address;
   port.baud = rates[straps()->rate];

@@ -8,5 +8,7 @@
 
 /* For dsdpv1_open_uart; board_start first. */
 dsdpv1_uart* uart_port_start(void);
+/* The same port, started. */
+dsdpv1_uart* uart_port(void);
 
 #endif /* UART_PORT_H */

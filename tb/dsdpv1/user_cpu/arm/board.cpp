@@ -131,6 +131,7 @@ void Board::command(Tick now, const user_cpu::Command& command) {
 
 user_cpu::UserCounters Board::counters() const {
   user_cpu::UserCounters counters{handshake_.counters(), std::nullopt, cpu_.counters()};
+  counters.port += serial_.holds();
   if (mailbox_) counters.program = mailbox_->counters();
   return counters;
 }

@@ -132,6 +132,7 @@ bool SerialSide::moved() {
 void SerialSide::move(Tick at, user_cpu::SerialPins& chip) {
   using user_cpu::SerialPin;
   const Levels before = std::exchange(levels_, wanted());
+  follow_frame(at, before, chip);
   const auto set = [&](SerialPin pin, bool was, bool is) {
     if (was != is) chip.set_serial(at, pin, is);
   };
@@ -139,6 +140,25 @@ void SerialSide::move(Tick at, user_cpu::SerialPins& chip) {
   set(SerialPin::kSck, before.sck, levels_.sck);
   set(SerialPin::kMosi, before.mosi, levels_.mosi);
   set(SerialPin::kRxd, before.rxd, levels_.rxd);
+}
+
+/// What the chip's shift register would take, bit by bit at SCK's rises.
+void SerialSide::follow_frame(Tick at, const Levels& before, user_cpu::SerialPins& chip) {
+  if (before.xss && !levels_.xss) {
+    out_.clear();
+    in_.clear();
+    frame_bits_ = 0;
+    frame_begin_ = at;
+  } else if (!before.xss && levels_.xss) {
+    claims_.frame(out_, in_, frame_begin_, at);
+  } else if (!before.sck && levels_.sck && !levels_.xss) {
+    if (frame_bits_++ % 8 == 0) {
+      out_.push_back(0);
+      in_.push_back(0);
+    }
+    out_.back() = static_cast<std::uint8_t>(out_.back() << 1U | static_cast<unsigned>(before.mosi));
+    in_.back() = static_cast<std::uint8_t>(in_.back() << 1U | static_cast<unsigned>(chip.miso(at)));
+  }
 }
 
 SerialSide::Seen SerialSide::seen(unsigned port, bool miso) const {

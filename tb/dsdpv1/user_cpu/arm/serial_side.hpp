@@ -16,6 +16,7 @@
 #include "tb/dsdpv1/user_cpu/arm/rcc.hpp"
 #include "tb/dsdpv1/user_cpu/arm/spi.hpp"
 #include "tb/dsdpv1/user_cpu/arm/usart.hpp"
+#include "tb/dsdpv1/user_cpu/claim_counters.hpp"
 #include "tb/dsdpv1/user_cpu/serial_pins.hpp"
 
 namespace dsdpv1::arm {
@@ -69,6 +70,8 @@ class SerialSide {
   /// MISO is on that port, so that its level has to be known.
   bool has_miso(unsigned port) const { return card_ != 0 && port == card_ - 1; }
 
+  /// Holds of the DPRAM, as the frames between the pins tell.
+  const user_cpu::HoldCounters& holds() const { return claims_.counters(); }
   /// For the end of the run: bytes lost, functions that are not there.
   std::vector<std::string> notes() const;
 
@@ -88,6 +91,7 @@ class SerialSide {
   std::array<Alternate, 8> alternates() const;
   bool level(const Alternate& alternate, bool floating) const;
   Levels wanted() const;
+  void follow_frame(Tick at, const Levels& before, user_cpu::SerialPins& chip);
   void note_missing(Block block);
 
   const Ports& ports_;
@@ -96,6 +100,10 @@ class SerialSide {
   std::array<Spi, 2> spi_;
   Usart usart_;
   Levels levels_;
+  std::vector<std::uint8_t> out_, in_;  ///< of the frame, both ways; the bits of an unfinished byte in the last ones
+  unsigned frame_bits_ = 0;
+  Tick frame_begin_ = 0;
+  user_cpu::ClaimCounters claims_;
   std::array<const char*, 3> missing_{};  ///< by block: the first function that it lacks
 };
 
