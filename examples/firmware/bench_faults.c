@@ -3,8 +3,8 @@
 
 #include <stddef.h>
 
-#include "examples/firmware/board.h"
 #include "driver/dsdpv1_internal.h"
+#include "examples/firmware/board.h"
 #include "examples/firmware/dsdpv1_port_stm32.h"
 #include "examples/firmware/port.h"
 #include "examples/firmware/report.h"

@@ -49,7 +49,8 @@ void usart2_handler(void) {
   const uint32_t status = USART2->SR;
   const uint32_t enabled = USART2->CR1;
   if ((status & (USART_SR_RXNE | USART_SR_ORE)) != 0u) take_in(status);
-  if ((status & enabled & (USART_SR_TXE | USART_SR_TC)) != 0u) give_out(); /* the enables have the places of the flags */
+  if ((status & enabled & (USART_SR_TXE | USART_SR_TC)) != 0u)
+    give_out(); /* the enables have the places of the flags */
 }
 
 static bool send(void* ctx, const uint8_t* bytes, uint16_t n) {
@@ -79,7 +80,8 @@ static void prepare(void) {
 
 #ifdef DSDPV1_PLANTED_LATE_READ
 
-/* A mistake, for the tests of the bench: longer than two characters at 1.8432 MBd before the first of them is fetched. */
+/* A mistake, for the tests of the bench: longer than two characters at 1.8432 MBd before the first of them is fetched.
+ */
 static void dawdle(void) {
   enum { kDawdle = 1000 };
   const uint32_t since = DWT->CYCCNT;

@@ -130,7 +130,8 @@ void expect_a_byte(SerialBus& host, Tick half) {
   ASSERT_EQ(sck.size(), 16U);
   for (std::size_t i = 0; i < sck.size(); ++i) {
     EXPECT_EQ(sck[i].level, i % 2 == 0);
-    EXPECT_NEAR(static_cast<double>(sck[i].at - sck[0].at), static_cast<double>(cycles(half * static_cast<Tick>(i))), 1);
+    EXPECT_NEAR(static_cast<double>(sck[i].at - sck[0].at), static_cast<double>(cycles(half * static_cast<Tick>(i))),
+                1);
   }
   const auto& xss = host.changes[SerialPin::kXss];
   ASSERT_EQ(xss.size(), 2U);
@@ -273,10 +274,9 @@ TEST_F(BoardSerial, ClocksOffAndFunctionsThatAreMissingAreListed) {
   start(kMisused);
   run();
   EXPECT_EQ(cell(0), 0);  // RCC has reset it
-  EXPECT_THAT(board->board()->notes,
-              ElementsAre(HasSubstr("SPI1 is used while its clock is off in RCC_APB2ENR"),
-                          "SPI1: RXONLY is switched on, which the board does not have",
-                          "USART2: HDSEL is switched on, which the board does not have"));
+  EXPECT_THAT(board->board()->notes, ElementsAre(HasSubstr("SPI1 is used while its clock is off in RCC_APB2ENR"),
+                                                 "SPI1: RXONLY is switched on, which the board does not have",
+                                                 "USART2: HDSEL is switched on, which the board does not have"));
 }
 
 }  // namespace

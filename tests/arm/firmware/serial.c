@@ -32,7 +32,7 @@ enum {
   SPI2 = 0x40003800,
   USART2 = 0x40004400
 };
-enum { CR1 = 0x00, CR2 = 0x04, SR = 0x08, DR = 0x0C };                          /* of an SPI */
+enum { CR1 = 0x00, CR2 = 0x04, SR = 0x08, DR = 0x0C }; /* of an SPI */
 enum { USART_SR = 0x00, USART_DR = 0x04, USART_BRR = 0x08, USART_CR1 = 0x0C, USART_CR3 = 0x14 };
 enum { RXNE = 1, TXE = 2, OVR = 0x40, BSY = 0x80 };
 #define NVIC_ISER1 0xE000E104u

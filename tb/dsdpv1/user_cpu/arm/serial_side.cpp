@@ -14,10 +14,14 @@ constexpr std::array<const char*, 3> kNames = {"SPI1", "SPI2", "USART2"};
 constexpr std::uint32_t kBlock = 0x400;
 constexpr std::uint32_t kSpi1Remap = 1U << 0U, kUsart2Remap = 1U << 3U;
 
-constexpr unsigned kPortA = 0, kPortB = 1;
+constexpr unsigned kPortA = 0;
 constexpr unsigned kRtsPin = 1, kTxPin = 2, kRxPin = 3;
 enum : unsigned { kNss, kSck, kMiso, kMosi };           // pins of an SPI, from its first one on
 constexpr std::array<unsigned, 2> kFirstPin = {4, 12};  // PA4, PB12
+
+void append(std::uint8_t& byte, bool bit) {
+  byte = static_cast<std::uint8_t>(static_cast<unsigned>(byte) << 1U | static_cast<unsigned>(bit));
+}
 
 bool is_on(std::uint32_t word, unsigned bit) { return (word >> bit & 1U) != 0; }
 
@@ -156,16 +160,16 @@ void SerialSide::follow_frame(Tick at, const Levels& before, user_cpu::SerialPin
       out_.push_back(0);
       in_.push_back(0);
     }
-    out_.back() = static_cast<std::uint8_t>(out_.back() << 1U | static_cast<unsigned>(before.mosi));
-    in_.back() = static_cast<std::uint8_t>(in_.back() << 1U | static_cast<unsigned>(chip.miso(at)));
+    append(out_.back(), before.mosi);
+    append(in_.back(), chip.miso(at));
   }
 }
 
 SerialSide::Seen SerialSide::seen(unsigned port, bool miso) const {
   Seen seen;
   const auto add = [&](unsigned pin, bool level) {
-    seen.driven = static_cast<std::uint16_t>(seen.driven | 1U << pin);
-    if (level) seen.levels = static_cast<std::uint16_t>(seen.levels | 1U << pin);
+    seen.driven |= static_cast<std::uint16_t>(1U << pin);
+    if (level) seen.levels |= static_cast<std::uint16_t>(1U << pin);
   };
   for (const Alternate& each : alternates())
     if (each.port == port && each.drives && ports_.at(port).is_alternate(each.pin)) add(each.pin, each.level);
