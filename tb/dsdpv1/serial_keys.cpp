@@ -19,7 +19,7 @@ const ObjectOf<SpiKeys>& spi_keys() {
     using S = SpiKeys;
     const Range range = {0, bus::kTicksPerMs};
     ObjectOf<S> o("spi",
-                  "The user CPU's SPI controller, on a chip with mode: spi. Times beyond the chip's limits (SP2) are "
+                  "The native user CPU's SPI controller, on a chip with mode: spi (an ARM board's is its firmware's). Times beyond the chip's limits (SP2) are "
                   "reported as violations.");
     o.integer("clock", &S::clock_khz, {10, 24000}, "kHz", "SCK, high and low as long as each other.");
     o.time("lead", &S::lead, range, "XSS falls before SCK's first rise.");
@@ -36,7 +36,7 @@ const ObjectOf<SpiKeys>& spi_keys() {
 const ObjectOf<UartKeys>& uart_keys() {
   static const ObjectOf<UartKeys> keys = [] {
     using U = UartKeys;
-    ObjectOf<U> o("uart", "The user CPU's UART, on a chip with mode: uart.");
+    ObjectOf<U> o("uart", "The native user CPU's UART, on a chip with mode: uart (an ARM board's is its firmware's).");
     o.integer("rate", &U::rate, {9600, 1'843'200}, "bit/s", "Its baud rate; left out: that of the chip's uart_rate.");
     o.time("gap", &U::gap, {0, bus::kTicksPerSecond}, "Idle time between two characters of a telegram.");
     return o;

@@ -30,7 +30,9 @@ enum Program {
   kCard2,
   kByHand,
   kMisused,
-  kRemapped
+  kRemapped,
+  kQuick,
+  kBusy
 };
 
 constexpr Tick kHclk9 = 1500;  // nine periods of 72 MHz
@@ -73,6 +75,10 @@ class SerialBus : public user_cpu::PinHostBus {
     std::vector<bool> all;
     for (const Change& each : changes[pin]) all.push_back(each.level);
     return all;
+  }
+  void restart() {
+    last_ = 0;
+    rises_ = 0;
   }
   unsigned answer = 0xFF;
   std::map<SerialPin, std::vector<Change>> changes;
@@ -151,6 +157,40 @@ TEST_F(BoardSerial, Spi1MovesThePinsOfCard1AtItsTicks) {
               static_cast<double>(cycles(4)), 1);
 }
 
+/// Nobody else has anything to do until `end`.
+class Lonely : public user_cpu::Others {
+ public:
+  explicit Lonely(Tick end) : end_(end) {}
+  bool quiet(Tick tick) override { return tick <= end_; }
+  bool go_on(Tick tick) override { return tick <= end_; }
+
+ private:
+  Tick end_;
+};
+
+TEST_F(BoardSerial, EdgesAreAtTheSameTicksWhenTheProcessorIsAloneOnTheBench) {
+  for (const Program program : {kSpi1, kUart, kBusy}) {
+    const auto changes = [&](user_cpu::Others* others) {
+      host.changes.clear();
+      memory.cells.clear();
+      start(program);
+      board->set_others(others);
+      run();
+      std::vector<std::tuple<SerialPin, Tick, bool>> all;
+      for (const auto& [pin, list] : host.changes)
+        for (const auto& each : list) all.emplace_back(pin, each.at, each.level);
+      board.reset();
+      host.restart();
+      return std::pair(all, memory.cells);
+    };
+    const auto among_others = changes(nullptr);
+    Lonely lonely(kStart + bus::kTicksPerMs);
+    EXPECT_EQ(changes(&lonely), among_others);
+    EXPECT_GT(among_others.first.size(), 4U);
+    EXPECT_FALSE(among_others.second.empty());
+  }
+}
+
 TEST_F(BoardSerial, Spi2OfCard2HasPclk1) {
   host.answer = 0x5C;
   start(kSpi2, 2);
@@ -190,6 +230,14 @@ TEST_F(BoardSerial, FirmwareThatFetchesTooLateFindsOvrAndTheFirstByte) {
   EXPECT_EQ(cell(3), 0x02);
   EXPECT_THAT(board->board()->notes,
               ElementsAre("SPI1: 2 bytes were lost, since those before them had not been fetched (OVR)"));
+}
+
+/// Between two looks for interrupts: the byte has gone to the shift register before the next instruction.
+TEST_F(BoardSerial, RegistersAreWhatTheyAreAtTheInstruction) {
+  start(kQuick);
+  run();
+  EXPECT_EQ(host.changes[SerialPin::kSck].size(), 9 * 16U);
+  EXPECT_EQ(cell(0), 0x82 | 0x41);  // BSY, TXE; OVR and RXNE of those before
 }
 
 TEST_F(BoardSerial, RxneInterruptsASleepingProcessor) {

@@ -140,6 +140,17 @@ TEST_F(UsartBlock, RxneRisesWithTheStopBitsLastSample) {
   EXPECT_EQ(usart.peek(kSr) & kRxne, 0U);
 }
 
+TEST_F(UsartBlock, ReceiverBeginsWithTheFirstCycleOfPclkThatSeesTheFall) {
+  for (const std::uint64_t fall : {2012U, 2013U, 2016U}) {
+    Usart each;
+    each.set_divider(4);
+    each.write(kBrr, 16, 0);
+    each.write(kCr1, kOn, 0);
+    each.rx_changed(fall, false);
+    EXPECT_EQ(each.next(), (fall == 2012 ? 2012U : 2016U) + 40) << fall;  // the start bit's tenth sample
+  }
+}
+
 TEST_F(UsartBlock, NinthBitOfDrIsTheParity) {
   hear(2000, frame_of(0x01));
   run_until(3000);

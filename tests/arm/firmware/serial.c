@@ -199,6 +199,32 @@ static void remapped(void) {
   spi1();
 }
 
+/* Two bytes one right after the other, four times; then SR right after the store of one more. */
+static void quick(void) {
+  pins_of_spi1();
+  REG(SPI1 + CR1) = 0x0354;
+  for (int i = 0; i < 4; ++i) {
+    REG(SPI1 + DR) = 0x55;
+    REG(SPI1 + DR) = 0x0F;
+    wait_while(SPI1 + SR, BSY);
+  }
+  REG(SPI1 + DR) = 0;
+  const uint32_t status = REG(SPI1 + SR);
+  CHIP(0) = (uint8_t)status;
+}
+
+/* Neither asleep nor at a register when the interrupt comes. */
+static void busy(void) {
+  pins_of_spi1();
+  REG(SPI1 + CR1) = 0x0354;
+  REG(SPI1 + CR2) = 1u << 6;
+  REG(NVIC_ISER1) = 1u << 3;
+  REG(SPI1 + DR) = 0;
+  while (heard == 0) {
+  }
+  CHIP(8) = 1;
+}
+
 void SPI1_handler(void);
 void SPI1_handler(void) {
   CHIP(0) = (uint8_t)REG(SPI1 + DR);
@@ -218,8 +244,8 @@ void EXTI15_10_handler(void) { REG(EXTI_PR) = 1u << 12; }
 
 void run(void);
 void run(void) {
-  static void (*const programs[])(void) = {spi1,      spi2,  overrun, spi_by_interrupt, uart,    uart_overrun,
-                                           own_event, card2, by_hand, misused,          remapped};
+  static void (*const programs[])(void) = {spi1,  spi2,    overrun, spi_by_interrupt, uart,  uart_overrun, own_event,
+                                           card2, by_hand, misused, remapped,         quick, busy};
   heard = 0;
   clocks();
   programs[program]();
