@@ -19,7 +19,8 @@ const ObjectOf<SpiKeys>& spi_keys() {
     using S = SpiKeys;
     const Range range = {0, bus::kTicksPerMs};
     ObjectOf<S> o("spi",
-                  "The native user CPU's SPI controller, on a chip with mode: spi (an ARM board's is its firmware's). Times beyond the chip's limits (SP2) are "
+                  "The native user CPU's SPI controller, on a chip with mode: spi (an ARM board's is its firmware's). "
+                  "Times beyond the chip's limits (SP2) are "
                   "reported as violations.");
     o.integer("clock", &S::clock_khz, {10, 24000}, "kHz", "SCK, high and low as long as each other.");
     o.time("lead", &S::lead, range, "XSS falls before SCK's first rise.");
@@ -82,24 +83,6 @@ user_cpu::UartPort uart_port(const UartKeys& keys, const Dsdpv1Settings& chip) {
   return port;
 }
 
-}  // namespace
-
-void add_serial_ports(ObjectOf<Dsdpv1User>& user) {
-  user.object("spi", &Dsdpv1User::spi, spi_keys(), "Its end of SPI.");
-  user.object("uart", &Dsdpv1User::uart, uart_keys(), "Its end of the UART.");
-}
-
-user_cpu::HostPort host_port_of(const Dsdpv1User& user, const Dsdpv1Settings& chip) {
-  user_cpu::HostPort port;
-  port.address = static_cast<std::uint8_t>(chip.address);
-  port.block_crc = chip.serial_block_crc != 0;
-  if (chip.mode == HostMode::kSpi) port.port = spi_port(user.spi.value_or(SpiKeys()));
-  if (chip.mode == HostMode::kUart) port.port = uart_port(user.uart.value_or(UartKeys()), chip);
-  return port;
-}
-
-namespace {
-
 /// Its firmware says how fast it is, and which pins are free depends on the chip.
 void check_board_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file) {
   const auto refuse = [&](int where, const char* key) {
@@ -118,6 +101,20 @@ void check_board_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const 
 }
 
 }  // namespace
+
+void add_serial_ports(ObjectOf<Dsdpv1User>& user) {
+  user.object("spi", &Dsdpv1User::spi, spi_keys(), "Its end of SPI.");
+  user.object("uart", &Dsdpv1User::uart, uart_keys(), "Its end of the UART.");
+}
+
+user_cpu::HostPort host_port_of(const Dsdpv1User& user, const Dsdpv1Settings& chip) {
+  user_cpu::HostPort port;
+  port.address = static_cast<std::uint8_t>(chip.address);
+  port.block_crc = chip.serial_block_crc != 0;
+  if (chip.mode == HostMode::kSpi) port.port = spi_port(user.spi.value_or(SpiKeys()));
+  if (chip.mode == HostMode::kUart) port.port = uart_port(user.uart.value_or(UartKeys()), chip);
+  return port;
+}
 
 void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file, const std::string& slave,
                 int line) {
