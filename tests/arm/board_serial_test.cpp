@@ -273,6 +273,36 @@ TEST_F(BoardSerial, Usart2SendsOnRxdAndInterruptsWithWhatTxdSays) {
   EXPECT_THAT(memory.cells[8], ElementsAre(1));
 }
 
+/// Says a character on TXD, as a chip does in its turns.
+class Talker : public bus::Agent {
+ public:
+  Talker(SerialBus& host, Tick begin, unsigned bits) : host_(host), at_(begin), bits_(bits) {}
+  Tick next() const override { return left_ == 0 ? bus::kNever : at_; }
+  void run(Tick now) override {
+    if (const bool level = (bits_ & 1U) != 0; level != level_) host_.on_txd(now, level_ = level);
+    bits_ >>= 1U;
+    --left_;
+    at_ += Tick{26} * 250;
+  }
+
+ private:
+  SerialBus& host_;
+  Tick at_;
+  unsigned bits_, left_ = 11;
+  bool level_ = true;
+};
+
+TEST_F(BoardSerial, CharacterThatMeetsASleepingProcessorMovesWhatItHasAnnounced) {
+  start(kUart);
+  Talker chip(host, kStart + 300 * bus::kTicksPerUs, 0xA6U << 1U | 1U << 10U);
+  bus::Timeline timeline;
+  timeline.add(chip);
+  timeline.add(*board);
+  timeline.check_announcements();
+  timeline.run_until(kStart + bus::kTicksPerMs);
+  EXPECT_THAT(memory.cells[1], ElementsAre(0xA6));
+}
+
 TEST_F(BoardSerial, FirmwareThatFetchesTooLateFindsOreAndTheFirstCharacter) {
   start(kUartOverrun);
   run_until(kStart + 50 * bus::kTicksPerUs);
