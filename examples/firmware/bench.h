@@ -2,14 +2,14 @@
 #define BENCH_H
 /*
  * The bench's side door (tb/dsdpv1/user_cpu/arm/mailbox.h): what a scenario's script wants of the user CPU. A product leaves
- * out bench.c and bench_faults.c, and their calls in main.c.
+ * out bench.c, bench_faults.c and bench_telegrams.c, and their calls in main.c.
  */
 #include <stdbool.h>
 
 #include "driver/dsdpv1.h"
 
 /* Carries out the commands that the bench has posted, in order; all that there are. */
-void bench_run_commands(void);
+void bench_run_commands(dsdpv1_device* chip);
 /* Between the commands "stop" and "resume". */
 bool bench_stopped(void);
 

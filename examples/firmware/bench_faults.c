@@ -3,8 +3,12 @@
 
 #include <stddef.h>
 
+#include "driver/dsdpv1_internal.h"
 #include "examples/firmware/board.h"
 #include "examples/firmware/dsdpv1_port_stm32.h"
+#include "examples/firmware/port.h"
+#include "examples/firmware/report.h"
+#include "examples/firmware/straps.h"
 #include "registers/dsdpv1_regs.h"
 #include "tb/dsdpv1/user_cpu/arm/mailbox.h"
 
@@ -56,14 +60,23 @@ static void set_r_req(void* ctx, bool level) { port_stm32.set_r_req(ctx, level);
 static void set_r_sta(void* ctx, bool level) { port_stm32.set_r_sta(ctx, level); }
 static bool get_l_req(void* ctx) { return port_stm32.get_l_req(ctx); }
 static bool get_l_sta(void* ctx) { return port_stm32.get_l_sta(ctx); }
-static void pause(void* ctx, uint32_t ns) { port_stm32.pause(ctx, ns); }
-
-const dsdpv1_port bench_port = {NULL, read, write, set_r_req, set_r_sta, get_l_req, get_l_sta, pause};
+const dsdpv1_port bench_port = {NULL, read, write, set_r_req, set_r_sta, get_l_req, get_l_sta, port_pause};
 
 /* -------------------------------------------------------------------------------------------------------- handshake */
 
-/* Without the driver, whose holds are as short as possible. */
-void bench_hold(uint64_t ns) {
+/* Over SPI: a claim by the driver. */
+static void claim_for(dsdpv1_device* chip, uint64_t ns) {
+  if (!report_check(dsdpv1_hold(chip), DSDPV1_DURING_EXCHANGE)) return;
+  board_wait(board_cycles(ns));
+  report_check(dsdpv1_release(chip), DSDPV1_DURING_EXCHANGE);
+}
+
+/* On the memory bus without the driver, whose holds are as short as possible. */
+void bench_hold(dsdpv1_device* chip, uint64_t ns) {
+  if (straps()->mode != kModeParallel) {
+    claim_for(chip, ns);
+    return;
+  }
   board_enable_intr0(false);
   port_stm32.set_r_req(NULL, true);
   while (port_stm32.get_l_req(NULL) || port_stm32.get_l_sta(NULL)) {

@@ -9,7 +9,7 @@
 extern const dsdpv1_port bench_port;
 
 /* Takes the DPRAM by the rules and keeps it far too long. */
-void bench_hold(uint64_t ns);
+void bench_hold(dsdpv1_device* chip, uint64_t ns);
 /* Raises R_STA so long after R_REQ without a look at the chip's lines (against H2), and lowers both after the hold. */
 void bench_early_r_sta(uint64_t after_ns, uint64_t hold_ns);
 /* The next blocks of that area (DSDPV1_AREA_) go out with a wrong CRC. */

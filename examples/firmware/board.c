@@ -6,6 +6,7 @@
 #include "examples/firmware/console.h"
 #include "examples/firmware/interrupts.h"
 #include "examples/firmware/stm32f103.h"
+#include "examples/firmware/straps.h"
 
 enum {
   kKeyPin = 0,      /* port A */
@@ -13,13 +14,23 @@ enum {
   kRReqPin = 6,     /* port C */
   kRStaPin = 7,
   kLReqPin = 8,
-  kLStaPin = 9,
-  kResetPin = 4, /* port E */
-  kIntr0Pin = 6  /* port G, and the number of its EXTI line */
+  kLStaPin = 9
 };
 
+/* Where a card's INTR0 and RESET are; INTR0's pin is the number of its EXTI line. */
+typedef struct card_pins {
+  gpio_registers* intr0_port;
+  uint32_t exti_port;
+  unsigned intr0, irq, reset; /* RESET: port E */
+} card_pins;
+
+static const card_pins cards[] = {{GPIOG, AFIO_EXTICR_PORT_G, 6, kIrqExti9To5, 4},
+                                  {GPIOD, AFIO_EXTICR_PORT_D, 12, kIrqExti15To10, 5}};
+
+static const card_pins* card(void) { return &cards[straps()->card - 1u]; }
+
 /* 4 bits of priority, in the high nibble; a lower number goes first. The time goes on while INTR0 is served. */
-enum { kPrioritySysTick = 0x00, kPriorityIntr0 = 0x40 };
+enum { kPrioritySysTick = 0x00, kPrioritySerial = 0x20, kPriorityIntr0 = 0x40 };
 
 /* ----------------------------------------------------------------------------------------------------------- clocks */
 
@@ -42,13 +53,15 @@ void board_start_clocks(void) {
 
 static void start_peripherals(void) {
   RCC->AHBENR = RCC_AHBENR_SRAMEN | RCC_AHBENR_FLITFEN | RCC_AHBENR_FSMCEN;
-  RCC->APB2ENR = RCC_APB2ENR_AFIOEN | RCC_APB2ENR_IOPAEN | RCC_APB2ENR_IOPCEN | RCC_APB2ENR_IOPDEN |
-                 RCC_APB2ENR_IOPEEN | RCC_APB2ENR_IOPFEN | RCC_APB2ENR_IOPGEN | RCC_APB2ENR_USART1EN;
+  RCC->APB2ENR = RCC_APB2ENR_AFIOEN | RCC_APB2ENR_IOPAEN | RCC_APB2ENR_IOPBEN | RCC_APB2ENR_IOPCEN |
+                 RCC_APB2ENR_IOPDEN | RCC_APB2ENR_IOPEEN | RCC_APB2ENR_IOPFEN | RCC_APB2ENR_IOPGEN |
+                 RCC_APB2ENR_SPI1EN | RCC_APB2ENR_USART1EN;
+  RCC->APB1ENR = RCC_APB1ENR_SPI2EN | RCC_APB1ENR_USART2EN;
 }
 
 /* ------------------------------------------------------------------------------------------------------------- pins */
 
-static void configure(gpio_registers* port, unsigned pin, uint32_t function) {
+void board_pin(gpio_registers* port, unsigned pin, uint32_t function) {
   reg32* half = pin < 8u ? &port->CRL : &port->CRH;
   const unsigned shift = 4u * (pin % 8u);
   *half = (*half & ~(0xFu << shift)) | function << shift;
@@ -56,14 +69,14 @@ static void configure(gpio_registers* port, unsigned pin, uint32_t function) {
 
 static void configure_all(gpio_registers* port, uint32_t pins, uint32_t function) {
   for (unsigned pin = 0; pin < 16u; ++pin)
-    if ((pins >> pin & 1u) != 0u) configure(port, pin, function);
+    if ((pins >> pin & 1u) != 0u) board_pin(port, pin, function);
 }
 
 /* R_REQ and R_STA are low outputs before the chip leaves its reset. L_REQ and L_STA of a chip that is missing read as
  * high: it never gives the DPRAM away, and the driver says so. */
 static void configure_handshake(void) {
-  GPIOE->BRR = 1u << kResetPin;
-  configure(GPIOE, kResetPin, GPIO_OUTPUT_50MHZ);
+  GPIOE->BRR = 1u << card()->reset;
+  board_pin(GPIOE, card()->reset, GPIO_OUTPUT_50MHZ);
   GPIOC->BRR = 1u << kRReqPin | 1u << kRStaPin;
   configure_all(GPIOC, 1u << kRReqPin | 1u << kRStaPin, GPIO_OUTPUT_50MHZ);
   GPIOC->BSRR = 1u << kLReqPin | 1u << kLStaPin; /* pull-up */
@@ -89,11 +102,11 @@ static void start_memory_bus(void) {
 
 bool board_key(void) { return (GPIOA->IDR >> kKeyPin & 1u) != 0u; }
 
-void board_release_chip(void) { GPIOE->BSRR = 1u << kResetPin; }
+void board_release_chip(void) { GPIOE->BSRR = 1u << card()->reset; }
 
 void board_halt(void) {
   (void)board_lock();
-  GPIOE->BRR = 1u << kResetPin;
+  GPIOE->BRR = 1u << card()->reset;
   for (;;) {
   }
 }
@@ -158,37 +171,50 @@ static void (*intr0_handler)(void);
 
 /* INTR0 is low for 1.3 us only (P7): the edge counts. */
 static void configure_intr0(void) {
-  GPIOG->BSRR = 1u << kIntr0Pin; /* pull-up */
-  configure(GPIOG, kIntr0Pin, GPIO_INPUT_PULL);
-  AFIO->EXTICR[1] = (AFIO->EXTICR[1] & ~AFIO_EXTICR2_EXTI6) | AFIO_EXTICR2_EXTI6_PG;
-  EXTI->RTSR &= ~(1u << kIntr0Pin);
-  EXTI->FTSR |= 1u << kIntr0Pin;
-  NVIC->IPR[kIrqExti9To5] = kPriorityIntr0;
+  const card_pins* pins = card();
+  const unsigned shift = 4u * (pins->intr0 % 4u);
+  reg32* selection = &AFIO->EXTICR[pins->intr0 / 4u];
+  pins->intr0_port->BSRR = 1u << pins->intr0; /* pull-up */
+  board_pin(pins->intr0_port, pins->intr0, GPIO_INPUT_PULL);
+  *selection = (*selection & ~(0xFu << shift)) | pins->exti_port << shift;
+  EXTI->RTSR &= ~(1u << pins->intr0);
+  EXTI->FTSR |= 1u << pins->intr0;
+  NVIC->IPR[pins->irq] = kPriorityIntr0;
 }
 
 void board_enable_intr0(bool enabled) {
+  const unsigned irq = card()->irq;
   if (enabled) {
-    NVIC->ISER[0] = 1u << kIrqExti9To5;
+    NVIC->ISER[irq / 32u] = 1u << irq % 32u;
   } else {
-    NVIC->ICER[0] = 1u << kIrqExti9To5;
+    NVIC->ICER[irq / 32u] = 1u << irq % 32u;
     board_barrier();
     __asm__ volatile("isb" ::: "memory"); /* no handler begins after this */
   }
 }
 
 void board_on_intr0(void (*handler)(void)) {
+  const unsigned irq = card()->irq;
   intr0_handler = handler;
-  EXTI->IMR |= 1u << kIntr0Pin;
-  EXTI->PR = 1u << kIntr0Pin;
-  NVIC->ICPR[0] = 1u << kIrqExti9To5;
+  EXTI->IMR |= 1u << card()->intr0;
+  EXTI->PR = 1u << card()->intr0;
+  NVIC->ICPR[irq / 32u] = 1u << irq % 32u;
   board_enable_intr0(true);
 }
 
 /* The flag goes before the work: a second INTR0 meanwhile makes the handler run again. */
-void exti9_5_handler(void) {
-  EXTI->PR = 1u << kIntr0Pin;
+static void serve_intr0(void) {
+  EXTI->PR = 1u << card()->intr0;
   board_barrier();
   if (intr0_handler != NULL) intr0_handler();
+}
+
+void exti9_5_handler(void) { serve_intr0(); }
+void exti15_10_handler(void) { serve_intr0(); }
+
+void board_enable_serial(unsigned irq) {
+  NVIC->IPR[irq] = kPrioritySerial;
+  NVIC->ISER[irq / 32u] = 1u << irq % 32u;
 }
 
 uint32_t board_lock(void) {
@@ -204,11 +230,12 @@ void board_unlock(uint32_t before) { __asm__ volatile("msr primask, %0" ::"r"(be
 void board_start(void) {
   SCB->CCR |= SCB_CCR_DIV_0_TRP;
   start_peripherals();
+  straps_read();
   configure_handshake();
   configure_intr0();
   start_memory_bus();
   start_time();
-  configure(GPIOA, kKeyPin, GPIO_INPUT_PULL); /* down */
-  configure(GPIOA, kSerialTxPin, GPIO_ALTERNATE_50MHZ);
+  board_pin(GPIOA, kKeyPin, GPIO_INPUT_PULL); /* down */
+  board_pin(GPIOA, kSerialTxPin, GPIO_ALTERNATE_50MHZ);
   console_start();
 }

@@ -8,14 +8,23 @@
  *   PC8  in   L_REQ            PD4 NOE -> RD, PD5 NWE -> WR, PD7 NE1 -> CSR
  *   PC9  in   L_STA            PG6  in   INTR0, falling edge, EXTI line 6
  *   PE4  out  RESET, low       PA9  USART1 TX;  PA0 in, key, high when pressed
+ *
+ * With a DSDPV1-RSU, whose straps say which port is live (straps.h):
+ *
+ *   PA4..PA7    XSS (output), SCK, MISO, MOSI of SPI1         PA2, PA3  TX, RX of USART2: the chip's RXD, TXD
+ *   PB12..PB15  the same of SPI2: card 2, whose RESET and INTR0 are PE5 and PD12, EXTI line 12
  */
 #include <stdbool.h>
 #include <stdint.h>
+
+#include "examples/firmware/stm32f103.h"
 
 #define BOARD_HCLK_MHZ 72u
 
 /* Clocks, memory bus, pins, SysTick, serial line. Afterwards the chip is held in reset and INTR0 is not heard. */
 void board_start(void);
+
+#define BOARD_APB1_MHZ 36u
 
 /* HCLK to 72 MHz: the first thing after a reset, which leaves 8 MHz. Uses no variable. */
 void board_start_clocks(void);
@@ -25,6 +34,9 @@ void board_release_chip(void);
 
 /* For what must not go on: interrupts closed, the chip back in reset, so that the master sees the station gone. */
 void board_halt(void) __attribute__((noreturn));
+
+/* What a pin is: GPIO_ values of stm32f103.h. */
+void board_pin(gpio_registers* port, unsigned pin, uint32_t function);
 
 /* True while the key is pressed. */
 bool board_key(void);
@@ -49,6 +61,9 @@ void board_sleep(uint64_t until);
 void board_on_intr0(void (*handler)(void));
 /* Keeps the INTR0 handler out, or lets it in again; an INTR0 meanwhile is served then. */
 void board_enable_intr0(bool enabled);
+
+/* The interrupt of a serial port, above INTR0's: whose handler uses the port. */
+void board_enable_serial(unsigned irq);
 
 /* Closes all interrupts; returns what board_unlock wants. */
 uint32_t board_lock(void);

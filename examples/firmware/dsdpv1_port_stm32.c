@@ -4,11 +4,7 @@
 #include <stddef.h>
 
 #include "examples/firmware/board.h"
-
-static void let_pass(uint32_t since, uint32_t cycles) {
-  while (DWT->CYCCNT - since < cycles) {
-  }
-}
+#include "examples/firmware/port.h"
 
 static uint8_t port_read(void* ctx, uint16_t address) {
   (void)ctx;
@@ -59,6 +55,11 @@ enum { kReqToStaCycles = (170 * BOARD_HCLK_MHZ + 999) / 1000 };
 
 static uint32_t asked_at; /* CYCCNT just after R_REQ changed */
 
+static void let_pass(uint32_t since, uint32_t cycles) {
+  while (DWT->CYCCNT - since < cycles) {
+  }
+}
+
 static void port_set_r_req(void* ctx, bool level) {
   (void)ctx;
   set_pin(kRReqBit, level);
@@ -82,11 +83,6 @@ static bool port_get_l_sta(void* ctx) {
 }
 
 #endif
-
-static void port_pause(void* ctx, uint32_t ns) {
-  (void)ctx;
-  let_pass(DWT->CYCCNT, ns * BOARD_HCLK_MHZ / 1000u + 1u);
-}
 
 const dsdpv1_port port_stm32 = {NULL,           port_read,      port_write,     port_set_r_req,
                                 port_set_r_sta, port_get_l_req, port_get_l_sta, port_pause};

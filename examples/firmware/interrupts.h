@@ -5,7 +5,12 @@
 void reset_handler(void);
 /* Every millisecond (board.c). */
 void systick_handler(void);
-/* EXTI lines 5 to 9, of which only line 6, INTR0, is enabled (board.c). */
+/* EXTI lines 5 to 9 and 10 to 15, of which only INTR0's, line 6 or 12, is enabled (board.c). */
 void exti9_5_handler(void);
+void exti15_10_handler(void);
+/* A byte has come over SPI (spi_port.c). */
+void spi_handler(void);
+/* A character has come or gone (uart_port.c). */
+void usart2_handler(void);
 
 #endif /* INTERRUPTS_H */

@@ -4,6 +4,7 @@
  */
 #include "examples/firmware/bench.h"
 #include "examples/firmware/bench_faults.h"
+#include "examples/firmware/bench_telegrams.h"
 #include "examples/firmware/board.h"
 #include "examples/firmware/console.h"
 #include "examples/firmware/cyclic.h"
@@ -15,19 +16,19 @@
 #include "examples/firmware/station.h"
 
 /* What is not urgent. */
-static void idle(void) {
-  bench_run_commands();
+static void idle(dsdpv1_device* chip) {
+  bench_run_commands(chip);
   report_print_errors();
   console_poll();
 }
 
 static bool is_idle(uint64_t due) { return bench_stopped() || board_now() < due; }
 
-static void wait_for_turn(uint64_t due) {
-  idle();
+static void wait_for_turn(dsdpv1_device* chip, uint64_t due) {
+  idle(chip);
   while (is_idle(due)) {
     if (!console_busy()) board_sleep(bench_stopped() ? UINT64_MAX : due);
-    idle();
+    idle(chip);
   }
 }
 
@@ -51,13 +52,14 @@ int main(void) {
   board_release_chip(); /* it needs 85 us, time for what follows */
   settings_load();
   dsdpv1_device* chip = station_open(settings_from_bench() ? &bench_port : &port_stm32);
+  if (settings_from_bench()) bench_telegrams_start();
   objects_open(chip);
   board_wait(settings_in_cycles()->start_delay);
   station_bring_up();
   report_print_device();
   const uint64_t period = settings_in_cycles()->period;
   for (uint64_t due = board_now();; due += period) {
-    wait_for_turn(due);
+    wait_for_turn(chip, due);
     due = not_too_late(due, period);
     turn(chip);
   }

@@ -5,8 +5,9 @@
 
 #include "examples/firmware/board.h"
 #include "examples/firmware/console.h"
+#include "examples/firmware/port.h"
 
-static uint32_t printed; /* errors */
+static uint32_t printed, printed_lost; /* errors; bytes */
 
 dsdpv1_mailbox_report* report(void) { return &dsdpv1_bench.report; }
 
@@ -49,7 +50,16 @@ static void print_error(uint32_t number) {
   console_text("\r\n");
 }
 
+static void print_lost(uint32_t count) {
+  console_text("serial port: ");
+  console_decimal(count);
+  console_text(" bytes lost, the ones before were fetched too late\r\n");
+}
+
 void report_print_errors(void) {
+  const uint32_t lost = port_lost();
+  if (lost != printed_lost) print_lost(lost);
+  printed_lost = lost;
   const uint32_t count = report()->error_count;
   if (count - printed > DSDPV1_MAILBOX_ERRORS) printed = count - DSDPV1_MAILBOX_ERRORS; /* the others are gone */
   while (printed != count) print_error(printed++);

@@ -13,7 +13,7 @@ bool report_check(dsdpv1_error error, uint8_t during);
 void report_outputs(const uint8_t* bytes, uint8_t length);
 /* Who this is. */
 void report_print_device(void);
-/* Errors that came since the last call, in words. From the main loop. */
+/* Errors and bytes lost that came since the last call, in words. From the main loop. */
 void report_print_errors(void);
 
 #endif /* REPORT_H */

@@ -43,7 +43,9 @@ __attribute__((section(".vectors"), used)) const vector_table vectors = {
     {reset_handler, unexpected /* NMI */, unexpected /* HardFault */, unexpected /* MemManage */,
      unexpected /* BusFault */, unexpected /* UsageFault */, 0, 0, 0, 0, unexpected /* SVCall */,
      unexpected /* DebugMonitor */, 0, unexpected /* PendSV */, systick_handler},
-    {TEN_UNEXPECTED, TEN_UNEXPECTED,                                                   /* 0 to 19 */
-     unexpected, unexpected, unexpected, exti9_5_handler, unexpected, FIVE_UNEXPECTED, /* 20 to 29 */
-     TEN_UNEXPECTED, TEN_UNEXPECTED, TEN_UNEXPECTED},                                  /* 30 to 59 */
+    {TEN_UNEXPECTED,    TEN_UNEXPECTED,                                                                /* 0 to 19 */
+     unexpected,        unexpected,     unexpected,  exti9_5_handler, unexpected,     FIVE_UNEXPECTED, /* 20 to 29 */
+     FIVE_UNEXPECTED,   spi_handler,    spi_handler, unexpected,      usart2_handler, unexpected,      /* 30 to 39 */
+     exti15_10_handler, unexpected,     unexpected,  unexpected,      unexpected,     FIVE_UNEXPECTED,
+     TEN_UNEXPECTED}, /* 40 to 59 */
 };

@@ -4,7 +4,9 @@
 #include <stddef.h>
 
 #include "examples/firmware/board.h"
+#include "examples/firmware/console.h"
 #include "examples/firmware/cyclic.h"
+#include "examples/firmware/port.h"
 #include "examples/firmware/report.h"
 #include "examples/firmware/settings.h"
 
@@ -66,7 +68,7 @@ void station_send_verdict(uint8_t which, bool refuse) {
 
 dsdpv1_device* station_open(const dsdpv1_port* port) {
   const dsdpv1_judge judges = {NULL, judge_prm, judge_cfg};
-  dsdpv1_open(&chip, port, &judges); /* the port is complete: it cannot fail */
+  if (port_open(&chip, port, &judges) != DSDPV1_OK) board_halt(); /* straps for no card: ADR 0 or 3 */
   return &chip;
 }
 
@@ -78,9 +80,17 @@ bool station_initialise(const dsdpv1_mailbox_station* station) {
   return true;
 }
 
+/* The main loop, which prints what goes wrong, has not begun. */
+static void wait_for_retry(void) {
+  for (const uint64_t end = board_now() + settings_in_cycles()->retry_delay; board_now() < end;) {
+    report_print_errors();
+    console_poll();
+  }
+}
+
 void station_bring_up(void) {
   while (!report_check(dsdpv1_wait_ready(&chip), DSDPV1_DURING_WAIT_READY) || !station_initialise(&settings()->station))
-    board_wait(settings_in_cycles()->retry_delay);
+    wait_for_retry();
   board_on_intr0(on_intr0);
   station_service(); /* what came between the initialisation and the line above */
 }

@@ -6,8 +6,9 @@
 #include "driver/dsdpv1.h"
 #include "tb/dsdpv1/user_cpu/arm/mailbox.h"
 
-/* Opens the driver with the board's port, or with another one that the bench puts before it. */
-dsdpv1_device* station_open(const dsdpv1_port* port);
+/* Opens the driver with the port of the chip's straps; `parallel` is the board's, or another one that the bench puts
+ * before it. */
+dsdpv1_device* station_open(const dsdpv1_port* parallel);
 /* Waits for the chip and initialises it, again and again until that succeeds; then INTR0 is heard. */
 void station_bring_up(void);
 /* Once. In operation the chip goes through OFFLINE with the new values. False: it goes on with those it had. */

@@ -68,12 +68,16 @@ typedef struct {
 #define RCC_AHBENR_FSMCEN (1u << 8)
 #define RCC_APB2ENR_AFIOEN (1u << 0)
 #define RCC_APB2ENR_IOPAEN (1u << 2)
+#define RCC_APB2ENR_IOPBEN (1u << 3)
 #define RCC_APB2ENR_IOPCEN (1u << 4)
 #define RCC_APB2ENR_IOPDEN (1u << 5)
 #define RCC_APB2ENR_IOPEEN (1u << 6)
 #define RCC_APB2ENR_IOPFEN (1u << 7)
 #define RCC_APB2ENR_IOPGEN (1u << 8)
+#define RCC_APB2ENR_SPI1EN (1u << 12)
 #define RCC_APB2ENR_USART1EN (1u << 14)
+#define RCC_APB1ENR_SPI2EN (1u << 14)
+#define RCC_APB1ENR_USART2EN (1u << 17)
 
 #define FLASH_ACR (*(reg32*)0x40022000u)
 #define FLASH_ACR_LATENCY_2 (2u << 0) /* 48 MHz < SYSCLK <= 72 MHz */
@@ -86,6 +90,7 @@ typedef struct {
   reg32 CRL, CRH, IDR, ODR, BSRR, BRR, LCKR;
 } gpio_registers;
 #define GPIOA ((gpio_registers*)0x40010800u)
+#define GPIOB ((gpio_registers*)0x40010C00u)
 #define GPIOC ((gpio_registers*)0x40011000u)
 #define GPIOD ((gpio_registers*)0x40011400u)
 #define GPIOE ((gpio_registers*)0x40011800u)
@@ -102,8 +107,9 @@ typedef struct {
   reg32 EVCR, MAPR, EXTICR[4];
 } afio_registers;
 #define AFIO ((afio_registers*)0x40010000u)
-#define AFIO_EXTICR2_EXTI6 (0xFu << 8) /* EXTICR[1] */
-#define AFIO_EXTICR2_EXTI6_PG (0x6u << 8)
+/* Four bits for each line in EXTICR[line / 4]: the port, A is 0. */
+#define AFIO_EXTICR_PORT_D 0x3u
+#define AFIO_EXTICR_PORT_G 0x6u
 
 typedef struct {
   reg32 IMR, EMR, RTSR, FTSR, SWIER, PR;
@@ -135,13 +141,42 @@ typedef struct {
   reg32 SR, DR, BRR, CR1, CR2, CR3, GTPR;
 } usart_registers;
 #define USART1 ((usart_registers*)0x40013800u)
+#define USART2 ((usart_registers*)0x40004400u)
+#define USART_SR_PE (1u << 0)
+#define USART_SR_FE (1u << 1)
+#define USART_SR_ORE (1u << 3)
+#define USART_SR_RXNE (1u << 5)
+#define USART_SR_TC (1u << 6)
 #define USART_SR_TXE (1u << 7)
+#define USART_CR1_RE (1u << 2)
 #define USART_CR1_TE (1u << 3)
+#define USART_CR1_RXNEIE (1u << 5)
+#define USART_CR1_TCIE (1u << 6)
+#define USART_CR1_TXEIE (1u << 7)
+#define USART_CR1_PS (1u << 9) /* odd */
+#define USART_CR1_PCE (1u << 10)
+#define USART_CR1_M (1u << 12) /* 9 bits, the parity among them */
 #define USART_CR1_UE (1u << 13)
+
+typedef struct {
+  reg32 CR1, CR2, SR, DR, CRCPR, RXCRCR, TXCRCR, I2SCFGR, I2SPR;
+} spi_registers;
+#define SPI1 ((spi_registers*)0x40013000u)
+#define SPI2 ((spi_registers*)0x40003800u)
+#define SPI_CR1_MSTR (1u << 2)
+#define SPI_CR1_BR_DIV8 (2u << 3)
+#define SPI_CR1_SPE (1u << 6)
+#define SPI_CR1_SSI (1u << 8)
+#define SPI_CR1_SSM (1u << 9)
+#define SPI_CR2_RXNEIE (1u << 6)
+#define SPI_SR_RXNE (1u << 0)
+#define SPI_SR_TXE (1u << 1)
+#define SPI_SR_OVR (1u << 6)
+#define SPI_SR_BSY (1u << 7)
 
 /* --------------------------------------------------------------------------------------------------------- interrupts
  */
 
-enum { kIrqExti9To5 = 23, kIrqCount = 60 };
+enum { kIrqExti9To5 = 23, kIrqSpi1 = 35, kIrqSpi2 = 36, kIrqUsart2 = 38, kIrqExti15To10 = 40, kIrqCount = 60 };
 
 #endif /* STM32F103_H */

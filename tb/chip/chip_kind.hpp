@@ -82,9 +82,10 @@ class ChipKind {
   /// slave.
   virtual void check_user(const OwnSettings& /*settings*/, const OwnSettings& /*chip*/, const keys::Source& /*source*/,
                           const std::string& /*slave*/, int /*where*/) const {}
-  /// Throws InputError for an order that is of no use with these settings of the chip; `where` is its line.
-  virtual void check_order(const std::string& /*order*/, const OwnSettings& /*chip*/, const keys::Source& /*source*/,
-                           int /*where*/) const {}
+  /// Throws InputError for an order that is of no use with these settings of the user CPU and the chip; `where` is its
+  /// line.
+  virtual void check_order(const std::string& /*order*/, const OwnSettings& /*user*/, const OwnSettings& /*chip*/,
+                           const keys::Source& /*source*/, int /*where*/) const {}
   /// Where the chip keeps the value of a key of `init`, as its documents say it; empty: nowhere.
   virtual std::string place_of(const std::string& /*init_key*/) const { return ""; }
   virtual const std::vector<Order>& orders() const;

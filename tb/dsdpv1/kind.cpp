@@ -71,9 +71,10 @@ class Dsdpv1Kind : public ChipMaker {
     check_dsdpv1_user(user, source.file, slave, where);
     check_port(user, static_cast<const Dsdpv1Settings&>(chip), source.file, slave, where);
   }
-  void check_order(const std::string& order, const OwnSettings& chip, const keys::Source& source,
-                   int where) const override {
-    tb::check_order(order, static_cast<const Dsdpv1Settings&>(chip).mode, source.file, where);
+  void check_order(const std::string& order, const OwnSettings& user, const OwnSettings& chip,
+                   const keys::Source& source, int where) const override {
+    tb::check_order(order, static_cast<const Dsdpv1User&>(user).kind, static_cast<const Dsdpv1Settings&>(chip).mode,
+                    source.file, where);
   }
   std::string place_of(const std::string& init_key) const override;
   const std::vector<Order>& orders() const override;

@@ -191,6 +191,7 @@ void PinChip::reset_host(Tick at) {
 void PinChip::set_serial(Tick at, user_cpu::SerialPin pin, bool level) {
   constexpr std::array<Pin, 6> kPins = {Pin::kXss, Pin::kSck, Pin::kMosi, Pin::kMiso, Pin::kRxd, Pin::kTxd};
   const Pin moved = kPins.at(static_cast<std::size_t>(pin));
+  catch_up_access(at);
   if (chip_.level(moved) == (level ? 1 : 0)) return;
   device().set(at, moved, level ? 1 : 0);
   report_host(at, moved, moved);

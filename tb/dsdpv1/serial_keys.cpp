@@ -22,7 +22,8 @@ const ObjectOf<SpiKeys>& spi_keys() {
     using S = SpiKeys;
     const Range range = {0, bus::kTicksPerMs};
     ObjectOf<S> o("spi",
-                  "The user CPU's SPI controller, on a chip with mode: spi. Times beyond the chip's limits (SP2) are "
+                  "The native user CPU's SPI controller, on a chip with mode: spi (an ARM board's is its firmware's). "
+                  "Times beyond the chip's limits (SP2) are "
                   "reported as violations.");
     o.integer("clock", &S::clock_khz, {10, 24000}, "kHz", "SCK, high and low as long as each other.");
     o.time("lead", &S::lead, range, "XSS falls before SCK's first rise.");
@@ -39,7 +40,7 @@ const ObjectOf<SpiKeys>& spi_keys() {
 const ObjectOf<UartKeys>& uart_keys() {
   static const ObjectOf<UartKeys> keys = [] {
     using U = UartKeys;
-    ObjectOf<U> o("uart", "The user CPU's UART, on a chip with mode: uart.");
+    ObjectOf<U> o("uart", "The native user CPU's UART, on a chip with mode: uart (an ARM board's is its firmware's).");
     o.integer("rate", &U::rate, {9600, 1'843'200}, "bit/s", "Its baud rate; left out: that of the chip's uart_rate.");
     o.time("gap", &U::gap, {0, bus::kTicksPerSecond}, "Idle time between two characters of a telegram.");
     return o;
@@ -56,12 +57,20 @@ const char* name_of(HostMode mode) {
 
 /// Those that only a DSDPV1's program knows. Block CRCs are not looked at over SPI and UART (SP15), the handshake's
 /// pins are dead (R14), and the UART knows no ownership (UA6).
-std::vector<std::string> orders_for(HostMode mode) {
+std::vector<std::string> orders_for(CpuKind kind, HostMode mode) {
   using namespace user_cpu;
+  if (mode == HostMode::kParallel) return {kHoldDpram, kWrongCrc, kEarlyRSta};
+  const bool firmware = kind == CpuKind::kArm;  // spoils what it sends (DSDPV1_SPOIL_ of its mailbox), and no more
+  if (mode == HostMode::kSpi && firmware) return {kHoldDpram, kFlipBit, kCutTelegram};
   if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram, kHostTelegram};
-  if (mode == HostMode::kUart)
-    return {kFlipBit, kCutTelegram, kWrongParity, kSendBreak, kPauseTelegram, kTalkOverReply, kHostTelegram};
-  return {kHoldDpram, kWrongCrc, kEarlyRSta};
+  if (firmware) return {kFlipBit, kCutTelegram, kWrongParity};
+  return {kFlipBit, kCutTelegram, kWrongParity, kSendBreak, kPauseTelegram, kTalkOverReply, kHostTelegram};
+}
+
+/// Straps; SPI1 and USART2, SPI2; RESET and INTR0 of card 2.
+bool is_of_the_card(const Switch& one) {
+  static constexpr std::array<unsigned, 7> kPins = {0x00FE, 0xF003, 0x0C00, 0x1700, 0xE020, 0, 0};
+  return (kPins.at(one.port) >> one.pin & 1U) != 0;
 }
 
 user_cpu::SpiPort spi_port(const SpiKeys& keys) {
@@ -79,6 +88,23 @@ user_cpu::UartPort uart_port(const UartKeys& keys, const Dsdpv1Settings& chip) {
   port.interval = static_cast<std::uint16_t>(chip.uart_gaps.at(static_cast<std::size_t>(chip.interval)));
   port.tsdr = static_cast<std::uint16_t>(chip.uart_min_tsdr);
   return port;
+}
+
+/// Its firmware says how fast it is, and which pins are free depends on the chip.
+void check_board_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file) {
+  const auto refuse = [&](int where, const char* key) {
+    throw InputError(file, where,
+                     fmt::format("{} is that of kind: native, allowed with arm are the firmware's registers", key));
+  };
+  if (user.spi) refuse(user.spi->line, "spi");
+  if (user.uart) refuse(user.uart->line, "uart");
+  if (chip.part != Part::kRsu) return;
+  for (const Name& text : user.switches)
+    if (is_of_the_card(*parse_switch(text.text)))
+      throw InputError(file, text.line,
+                       fmt::format("switches holds {}, a pin that the board wires to the straps and ports of a "
+                                   "DSDPV1-RSU; allowed are the others",
+                                   text.text));
 }
 
 }  // namespace
@@ -111,6 +137,7 @@ user_cpu::HostPort host_port_of(const Dsdpv1User& user, const Dsdpv1Settings& ch
 
 void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file, const std::string& slave,
                 int line) {
+  if (user.kind == CpuKind::kArm) check_board_port(user, chip, file);
   const char* mode = name_of(chip.mode);
   const auto refuse = [&](int where, const char* key, const char* allowed) {
     throw InputError(file, where, fmt::format("{} with mode: {} of the chip, allowed is {}", key, mode, allowed));
@@ -120,7 +147,6 @@ void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::s
   if (chip.mode == HostMode::kParallel) return;
   if (user.access) refuse(user.access->line, "access", "mode: parallel");
   if (user.fsmc) refuse(user.fsmc->line, "fsmc", "mode: parallel");
-  if (user.kind == CpuKind::kArm) refuse(line, "kind: arm", "kind: native");
   if (chip.address < 1 || chip.address > 2)
     throw InputError(
         file, line,
@@ -128,12 +154,12 @@ void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::s
                     chip.address, slave));
 }
 
-void check_order(const std::string& order, HostMode mode, const std::string& file, int line) {
-  const std::vector<std::string> useful = orders_for(mode);
+void check_order(const std::string& order, CpuKind kind, HostMode mode, const std::string& file, int line) {
+  const std::vector<std::string> useful = orders_for(kind, mode);
   if (std::find(useful.begin(), useful.end(), order) != useful.end()) return;
   throw InputError(file, line,
-                   fmt::format("{} is of no use with mode: {} of the chip, allowed are {}", order, name_of(mode),
-                               fmt::join(useful, ", ")));
+                   fmt::format("{} is of no use with mode: {} of the chip{}, allowed are {}", order, name_of(mode),
+                               kind == CpuKind::kArm ? " and kind: arm" : "", fmt::join(useful, ", ")));
 }
 
 }  // namespace dsdpv1::tb

@@ -97,7 +97,7 @@ void check_dsdpv1_chip(const Dsdpv1Settings& chip, const std::string& file);
 void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const std::string& slave, int line);
 void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file, const std::string& slave,
                 int line);
-void check_order(const std::string& order, HostMode mode, const std::string& file, int line);
+void check_order(const std::string& order, CpuKind kind, HostMode mode, const std::string& file, int line);
 
 /// Reads the telegrams of the chip's serial port; null: it has the parallel one.
 std::unique_ptr<HostReader> host_reader_of(const Dsdpv1Settings& chip);

@@ -201,8 +201,7 @@ class Checker {
     check_connection_name(action.connection);
     check_time(action.at, "at", action.line);
     if (action.when) check_condition(*action.when);
-    if (action.what == ActionKind::kOfChip)
-      scenario_.kind->check_order(action.word, *scenario_.chip, {scenario_.file}, action.line);
+    if (action.what == ActionKind::kOfChip) check_order(action);
     switch (action.what) {
       case ActionKind::kReadInputs:
       case ActionKind::kReadOutputs:
@@ -214,6 +213,12 @@ class Checker {
     const bool named_class2 = any_class && !action.master.empty();
     if (needs_master(action.what) && !named_class2 && scenario_.masters.empty())
       fail(action.line, "this needs a master, the scenario has none");
+  }
+
+  void check_order(const Action& action) const {
+    for (const Slave& slave : scenario_.slaves)
+      if (slave.name.text == action.slave.text)
+        scenario_.kind->check_order(action.word, *slave.user_cpu.own, *scenario_.chip, {scenario_.file}, action.line);
   }
 
   void check_target(const Action& action) const {

@@ -54,19 +54,17 @@ TEST_P(ArmScenarios, EndOnTheBusAsWithTheNativeCpu) {
     EXPECT_EQ(on_the_bus(arm_result.at("slaves").at(i), counts), on_the_bus(native_result.at("slaves").at(i), counts));
 }
 
-/// The board has the chip's parallel port only; that it takes no other is said in tests/bad.
-std::vector<std::string> parallel_scenarios() {
+std::vector<std::string> shipped_but(std::initializer_list<const char*> others) {
   std::vector<std::string> names = shipped_scenarios();
-  for (const char* serial : {"rsu_spi", "rsu_uart"})
-    names.erase(std::remove(names.begin(), names.end(), serial), names.end());
+  for (const char* other : others) names.erase(std::remove(names.begin(), names.end(), other), names.end());
   return names;
 }
 
-std::vector<std::string> native_scenarios() {
-  std::vector<std::string> names = parallel_scenarios();
-  names.erase(std::remove(names.begin(), names.end(), "arm_board_12m"), names.end());
-  return names;
-}
+/// foreign.c knows the parallel port only.
+std::vector<std::string> parallel_scenarios() { return shipped_but({"rsu_spi", "rsu_uart", "arm_spi", "arm_uart"}); }
+
+/// rsu_spi says how fast a native CPU's SPI is, which a board refuses.
+std::vector<std::string> native_scenarios() { return shipped_but({"rsu_spi", "arm_board_12m", "arm_spi", "arm_uart"}); }
 INSTANTIATE_TEST_SUITE_P(All, ArmScenarios, testing::ValuesIn(native_scenarios()),
                          [](const auto& each) { return each.param; });
 
@@ -94,6 +92,71 @@ INSTANTIATE_TEST_SUITE_P(All, ArmBaudRates,
                          testing::Combine(testing::Values("12M", "6M", "3M", "1.5M", "500k", "187.5k", "93.75k",
                                                           "45.45k", "19.2k", "9.6k"),
                                           testing::Values(FIRMWARE_O0, FIRMWARE_O2)));
+
+// --- the DSDPV1-RSU --------------------------------------------------------------------------------------------------
+
+class ArmUartRates : public testing::TestWithParam<const char*> {};
+
+TEST_P(ArmUartRates, ReachDataExchangeWithoutAnErrorOnTheLine) {
+  const app_test::Folder folder;
+  std::ofstream(folder.file("s.yaml"))
+      << "name: rate\nbaud: 1.5M\nend: 1000ms\nchip: {kind: dsdpv1_rsu, mode: uart, uart_rate: " << GetParam()
+      << ", interval: 1, search_window_ms: 5}\n"
+      << "slaves:\n  - {name: board, address: 5, init: {ident: 1, max_inputs: 2, max_outputs: 2, max_prm: 10, cfg: "
+         "\"31\"}, user_cpu: {kind: arm, elf: \""
+      << FIRMWARE_O2 << "\", cycle: 20ms}}\n"
+      << "masters:\n  - {name: plc, address: 2, bus: {gap_factor: 0, min_slave_interval: 3000}, slaves: [{slave: "
+         "board, outputs: \"01 02\"}]}\n"
+      << "expect:\n  - {slave: board, dp_state: data_exch, inputs: \"01 02\", data_exchanges: 3}\n";
+  const Called called = call("run s.yaml --no-progress --checks fail --log log", folder.path());
+  EXPECT_EQ(called.status, 0) << called.out << called.err;
+  EXPECT_THAT(read(folder.file("log")), testing::Not(testing::ContainsRegex("UART_|TELEGRAM_|DSDPV1_ERR_|lost")));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ArmUartRates,
+                         testing::Values("9.6k", "19.2k", "38.4k", "57.6k", "115.2k", "230.4k", "460.8k", "1.8432M"));
+
+TEST(ArmPorts, Card2IsReachedOverSpi2AndTheUart) {
+  for (const char* port : {"arm_spi", "arm_uart"}) {
+    const Called called =
+        call("run " + scenario(port) + " --set chip.address=2 --checks fail --set user_cpu.elf=" + FIRMWARE_O0,
+             DSDPV1_SOURCE_DIR);
+    EXPECT_EQ(called.status, 0) << called.out << called.err;
+  }
+}
+
+TEST(ArmPorts, HoldsOverSpiAreCountedFromThePins) {
+  const app_test::Folder folder;
+  ASSERT_EQ(call("run " + scenario("arm_spi") + " --result " + folder.file("r.json"), DSDPV1_SOURCE_DIR).status, 0);
+  const Json handshake = Json::parse(read(folder.file("r.json"))).at("slaves").at(0).at("handshake");
+  EXPECT_GT(handshake.at("user_holds"), 100);
+  EXPECT_GT(handshake.at("user_longest_hold_ns"), 500'000);
+}
+
+/// What the run's log and its end say of firmware that fetches what comes too late.
+std::pair<std::string, std::string> late(const std::string& port) {
+  const app_test::Folder folder;
+  const Called called =
+      call("run " + scenario(port) + " --set user_cpu.elf=" + FIRMWARE_LATE_READ + " --log " + folder.file("log"),
+           DSDPV1_SOURCE_DIR);
+  EXPECT_EQ(called.status, 1) << called.err;
+  return {read(folder.file("log")), called.out};
+}
+
+TEST(ArmPorts, FirmwareThatReadsDrOfSpiTooLateLosesBytesAndSaysSo) {
+  const auto [log, out] = late("arm_spi");
+  EXPECT_THAT(log, HasSubstr("serial port: "));
+  EXPECT_THAT(log, HasSubstr("bytes lost, the ones before were fetched too late"));
+  EXPECT_THAT(log, HasSubstr("DSDPV1_ERR_NO_REPLY"));
+  EXPECT_THAT(out, testing::ContainsRegex("SPI1: [0-9]+ bytes were lost.*\\(OVR\\)"));
+}
+
+TEST(ArmPorts, FirmwareThatReadsDrOfUsart2TooLateLosesCharactersAndSaysSo) {
+  const auto [log, out] = late("arm_uart");
+  EXPECT_THAT(log, HasSubstr("bytes lost, the ones before were fetched too late"));
+  EXPECT_THAT(log, HasSubstr("DSDPV1_ERR_REPLY"));
+  EXPECT_THAT(out, testing::ContainsRegex("USART2: [0-9]+ bytes were lost.*\\(ORE\\)"));
+}
 
 // --- firmware that is wrong ------------------------------------------------------------------------------------------
 

@@ -65,11 +65,11 @@ class Conversations {
   Bytes request_;
 };
 
-Conversations heard_in(const std::string& scenario) {
+Conversations heard_in(const std::string& scenario, const std::string& settings = "") {
   const app_test::Folder folder;
-  const auto called =
-      call(std::string("run ") + DSDPV1_SOURCE_DIR + "/scenarios/" + scenario + ".yaml --log log.jsonl --log-whole -q",
-           folder.path());
+  const auto called = call(std::string("run ") + DSDPV1_SOURCE_DIR + "/scenarios/" + scenario +
+                               ".yaml --log log.jsonl --log-whole -q" + settings,
+                           folder.path());
   EXPECT_EQ(called.status, 0) << scenario << called.err;
   return Conversations(folder.file("log.jsonl"));
 }
@@ -80,6 +80,20 @@ TEST(HostPorts, TheBusHearsTheSameThroughAllOfThem) {
   EXPECT_EQ(parallel.at({2}).size(), 13U);
   for (const char* other : {"rsu_spi", "rsu_uart", "r"}) EXPECT_EQ(heard_in(other).pairs, parallel) << other;
 }
+
+#ifdef FIRMWARE_O2
+
+/// The firmware of the ARM board over each port, by polling and by interrupts.
+TEST(HostPorts, TheBusHearsTheSameOfFirmwareThroughAllOfThem) {
+  const auto parallel = heard_in("arm_spi", std::string(" --set chip.mode=parallel")).pairs;
+  EXPECT_EQ(parallel.size(), 5U);
+  EXPECT_EQ(parallel.at({2}).size(), 9U);
+  for (const char* elf : {FIRMWARE_O2, FIRMWARE_INTERRUPTS})
+    for (const char* port : {"arm_spi", "arm_uart"})
+      EXPECT_EQ(heard_in(port, std::string(" --set user_cpu.elf=") + elf).pairs, parallel) << port << elf;
+}
+
+#endif
 
 /// Of the shipped scenarios: its text without the lines that say name, rate and end.
 std::string without_rate(const std::string& scenario) {
@@ -123,17 +137,18 @@ TEST(HostPorts, TheLogHasTheirTelegrams) {
   EXPECT_EQ(telegrams[14].at("wrong"), "CRC D8C2, computed 48C3");
 }
 
-/// A run of a shipped scenario with these orders besides; its log.
-std::string with_orders(const std::string& scenario, const std::vector<std::string>& orders) {
+/// A run of a shipped scenario with these orders of its drive besides; its log.
+std::string with_orders(const std::string& scenario, const std::vector<std::string>& orders,
+                        const std::string& settings = "") {
   const app_test::Folder folder;
   const std::filesystem::path shipped = std::filesystem::path(DSDPV1_SOURCE_DIR) / "scenarios";
   std::filesystem::copy(shipped / "dsdpv1.gsd", folder.path() / "dsdpv1.gsd");
   std::string text = app_test::read(shipped / (scenario + ".yaml"));
   std::string script = "script:\n";
-  for (const std::string& order : orders) script += "  - {at: 120ms, do: " + order + ", slave: drive, times: 2}\n";
+  for (const std::string& order : orders) script += "  - {slave: drive, " + order + "}\n";
   text.replace(text.find("script:\n"), 8, script);
   std::ofstream(folder.file("run.yaml")) << text << "allow: [{event: SPI_BITS}]\n";  // of a frame that is cut
-  const auto called = call("run run.yaml --log log.txt -q", folder.path());
+  const auto called = call("run run.yaml --log log.txt -q" + settings, folder.path());
   EXPECT_EQ(called.status, 0) << scenario << called.err;
   return app_test::read(folder.path() / "log.txt");
 }
@@ -142,20 +157,48 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST(HostPorts, TelegramsThatGoWrongOverSpiAreRepeated) {
-  EXPECT_THAT(with_orders("rsu_spi", {"flip_bit"}), HasSubstr("TELEGRAM_CRC"));
-  const std::string cut = with_orders("rsu_spi", {"cut_telegram"});
-  EXPECT_THAT(cut, HasSubstr("SPI_BITS"));
-  EXPECT_THAT(cut, HasSubstr("TELEGRAM_CUT"));
-  EXPECT_THAT(cut, Not(HasSubstr("the driver's")));
+  const std::string log =
+      with_orders("rsu_spi", {"at: 114ms, do: flip_bit, times: 2", "at: 120ms, do: cut_telegram, times: 2"});
+  EXPECT_THAT(log, HasSubstr("TELEGRAM_CRC"));
+  EXPECT_THAT(log, HasSubstr("SPI_BITS"));
+  EXPECT_THAT(log, HasSubstr("TELEGRAM_CUT"));
+  EXPECT_THAT(log, Not(HasSubstr("the driver's")));
+}
+
+const std::vector<std::string> kUartOrders = {
+    "do: flip_bit, times: 2, at: ", "do: cut_telegram, times: 2, at: ", "do: wrong_parity, times: 2, at: "};
+
+void expect_repeated_over_the_uart(const std::string& log) {
+  for (const char* reason : {"TELEGRAM_CRC", "TELEGRAM_CUT", "UART_PARITY"}) EXPECT_THAT(log, HasSubstr(reason));
+  EXPECT_THAT(log, Not(HasSubstr("the driver's")));
 }
 
 TEST(HostPorts, TelegramsThatGoWrongOverTheUartAreRepeated) {
-  EXPECT_THAT(with_orders("rsu_uart", {"flip_bit"}), HasSubstr("TELEGRAM_CRC"));
-  EXPECT_THAT(with_orders("rsu_uart", {"cut_telegram"}), HasSubstr("TELEGRAM_CUT"));
-  const std::string parity = with_orders("rsu_uart", {"wrong_parity"});
-  EXPECT_THAT(parity, HasSubstr("UART_PARITY"));
-  EXPECT_THAT(parity, Not(HasSubstr("the driver's")));
+  expect_repeated_over_the_uart(
+      with_orders("rsu_uart", {kUartOrders[0] + "112ms", kUartOrders[1] + "116ms", kUartOrders[2] + "120ms"}));
 }
+
+#ifdef FIRMWARE_O2
+
+TEST(HostPorts, FirmwareRepeatsTelegramsOverSpiAndHoldsTheDpram) {
+  const std::string log = with_orders("arm_spi",
+                                      {"at: 28ms, do: flip_bit, times: 2", "at: 30ms, do: cut_telegram, times: 2",
+                                       "at: 32ms, do: hold_dpram, for: 3ms"},
+                                      std::string(" --set user_cpu.elf=") + FIRMWARE_INTERRUPTS);
+  EXPECT_THAT(log, HasSubstr("TELEGRAM_CRC"));
+  EXPECT_THAT(log, HasSubstr("TELEGRAM_CUT"));
+  EXPECT_THAT(log, testing::ContainsRegex("SPI_RELEASED: .* after 65535 cycles"));  // or more: 1.4 ms
+  EXPECT_THAT(log, Not(HasSubstr("the driver's")));
+}
+
+TEST(HostPorts, FirmwareRepeatsTelegramsOverTheUart) {
+  for (const char* elf : {FIRMWARE_O2, FIRMWARE_INTERRUPTS})
+    expect_repeated_over_the_uart(
+        with_orders("arm_uart", {kUartOrders[0] + "28ms", kUartOrders[1] + "30ms", kUartOrders[2] + "32ms"},
+                    std::string(" --set user_cpu.elf=") + elf));
+}
+
+#endif
 
 }  // namespace
 }  // namespace dsdpv1

@@ -83,6 +83,15 @@ TEST_F(MailboxLinkTest, DoneOfACommandThatWasNeverPostedIsNamed) {
   EXPECT_EQ(link.wrong(), "done is 4294967295, allowed are `posted` and the number before it");
 }
 
+TEST_F(MailboxLinkTest, SpoiltTelegramsAreHandedOver) {
+  using user_cpu::TelegramFault;
+  link.post(user_cpu::command::SpoilTelegrams{TelegramFault::kWrongParity, 3});
+  look();
+  EXPECT_EQ(box.command.kind, DSDPV1_CMD_SPOIL);
+  EXPECT_EQ(box.command.value, DSDPV1_SPOIL_PARITY);
+  EXPECT_EQ(box.command.times, 3U);
+}
+
 TEST_F(MailboxLinkTest, AnyCountOfErrorsCostsNoMoreThanThereIsRoomFor) {
   for (auto& entry : box.report.errors) entry.error = DSDPV1_ERR_C2_CRC;
   box.report.error_count = 0xFFFFFFFF;

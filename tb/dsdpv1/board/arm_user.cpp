@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <utility>
 
 #include "tb/dsdpv1/board/untold.hpp"
@@ -27,6 +28,21 @@ arm::Switches switches_of(const Dsdpv1User& user) {
   return switches;
 }
 
+/// The straps of a DSDPV1-RSU, which the processor reads as well (R13): MODE at PC10 PC11, ADR PB0 PB1, UBR PD8 to
+/// PD10, UIV PE13 to PE15, bit 0 at the lower pin (p).
+void hold_straps(arm::Switches& switches, const Dsdpv1Settings& chip) {
+  struct Place {
+    unsigned port, pin, count;
+  };
+  static constexpr std::array<Place, 4> kPlaces = {{{2, 10, 2}, {1, 0, 2}, {3, 8, 3}, {4, 13, 3}}};
+  const Straps levels = straps_of(chip);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const Place& at = kPlaces.at(i);
+    switches.held.at(at.port) |= static_cast<std::uint16_t>(((1U << at.count) - 1) << at.pin);
+    switches.levels.at(at.port) |= static_cast<std::uint16_t>(static_cast<unsigned>(levels.at(i)) << at.pin);
+  }
+}
+
 /// The mailbox has room for so many.
 void check_objects(const scenario::Scenario& scenario, const scenario::Slave& slave, const arm::Firmware& firmware) {
   const std::size_t count = slave.user_cpu.dpv1.objects.size();
@@ -50,6 +66,12 @@ MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
   if (own.fsmc) options.fsmc = static_cast<const user_cpu::FsmcOverride&>(*own.fsmc);
   if (own.access) options.access = static_cast<const AccessTiming&>(*own.access);
   options.switches = switches_of(own);
+  const auto& settings = static_cast<const Dsdpv1Settings&>(*request.scenario.chip);
+  if (settings.part == Part::kRsu) {
+    options.serial = true;
+    hold_straps(options.switches, settings);
+    if (settings.mode != HostMode::kParallel) options.card = static_cast<unsigned>(settings.address);
+  }
   if (const GdbRequest* gdb = request.gdb) {
     options.make_debugger = [gdb](arm::DebugTarget& target) {
       return std::make_unique<arm::GdbServer>(target, arm::GdbOptions{gdb->port, gdb->stopped, gdb->say});

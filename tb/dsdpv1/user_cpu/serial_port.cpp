@@ -10,19 +10,6 @@ namespace {
 
 SerialPort& self(void* ctx) { return *static_cast<SerialPort*>(ctx); }
 
-/// A write of one byte to B014 (SP12) in the frame; -1: another telegram.
-int ownership(const std::vector<std::uint8_t>& out) {
-  const bool write = out.size() > 10 && out[0] >> 5 == 1 && out[1] == 0x00 && out[2] == 0x14 && out[3] == 1;
-  return write ? out[4] : -1;
-}
-
-/// The reply is a write's, without an error.
-bool granted(const std::vector<std::uint8_t>& in) {
-  constexpr std::size_t kRequest = 7;
-  const auto first = std::find_if(in.begin() + kRequest, in.end(), [](std::uint8_t byte) { return byte != 0xFF; });
-  return first != in.end() && *first >> 5 == 5;
-}
-
 constexpr std::size_t kFaultAt = 2;         ///< byte of a telegram that goes wrong
 constexpr std::int64_t kTalkOverBits = 20;  ///< from a telegram's end into its reply, which has begun by then (UA4)
 
@@ -120,22 +107,8 @@ bool SerialPort::frame(const std::uint8_t* out, std::uint8_t* in, std::size_t n)
   master.begin(begun, bytes, fault);
   cpu_.transfer(master);
   std::copy(master.received().begin(), master.received().end(), in);
-  count_hold(bytes, master.received(), begun);
+  claims_.frame(bytes, master.received(), begun, cpu_.now());
   return true;
-}
-
-void SerialPort::count_hold(const std::vector<std::uint8_t>& out, const std::vector<std::uint8_t>& in, Tick begun) {
-  const int value = ownership(out);
-  if (value < 0) return;
-  if (value == 2 && held_at_ < 0) {
-    if (asked_at_ < 0) asked_at_ = begun;
-    if (!granted(in)) return;
-    held_at_ = cpu_.now();
-    ++counters_.holds;
-    counters_.longest_wait = std::max(counters_.longest_wait, held_at_ - std::exchange(asked_at_, -1));
-  } else if (value == 0 && held_at_ >= 0 && granted(in)) {
-    counters_.longest_hold = std::max(counters_.longest_hold, cpu_.now() - std::exchange(held_at_, -1));
-  }
 }
 
 UartFault SerialPort::uart_fault() {

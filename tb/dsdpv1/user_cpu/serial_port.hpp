@@ -8,6 +8,7 @@
 
 #include "driver/dsdpv1_spi.h"
 #include "driver/dsdpv1_uart.h"
+#include "tb/dsdpv1/user_cpu/claim_counters.hpp"
 #include "tb/dsdpv1/user_cpu/cpu.hpp"
 #include "tb/dsdpv1/user_cpu/spi_master.hpp"
 #include "tb/dsdpv1/user_cpu/uart_master.hpp"
@@ -47,7 +48,7 @@ class SerialPort {
 
   dsdpv1_error open(dsdpv1_device& device, const dsdpv1_judge& judge);
   /// Over SPI from the claim's frame to the release's; over the UART none are counted.
-  const HoldCounters& counters() const { return counters_; }
+  const HoldCounters& counters() const { return claims_.counters(); }
   /// The next `times` telegrams of the CPU go wrong. `pause`: of TelegramFault::kPause.
   void spoil(TelegramFault fault, int times, Tick pause);
   /// Sends these bytes and their CRC, whatever they are; see `listen` of a scenario's host_telegram.
@@ -60,7 +61,6 @@ class SerialPort {
   bool send(const std::uint8_t* bytes, std::size_t n);
   std::uint16_t receive(std::uint8_t* bytes, std::size_t n, std::uint32_t timeout_us);
   void pause(std::uint32_t ns);
-  void count_hold(const std::vector<std::uint8_t>& out, const std::vector<std::uint8_t>& in, Tick begun);
   bool is_spoilt(TelegramFault fault);
   UartFault uart_fault();
 
@@ -71,8 +71,7 @@ class SerialPort {
   UartReceiver receiver_{{}};
   dsdpv1_spi spi_{};
   dsdpv1_uart uart_{};
-  HoldCounters counters_;
-  Tick asked_at_ = -1, held_at_ = -1;  ///< -1: not
+  ClaimCounters claims_;
   TelegramFault fault_ = TelegramFault::kFlippedBit;
   Tick pause_ = 0;
   int spoilt_ = 0;

@@ -30,7 +30,7 @@ void Exti::write(std::uint32_t offset, std::uint32_t value) {
     case kRtsr: rtsr_ = value; break;
     case kFtsr: ftsr_ = value; break;
     case kSwier:
-      pr_ |= value & ~swier_;
+      request(value & ~swier_);
       swier_ |= value;
       break;
     case kPr:  // cleared by writing 1
@@ -53,8 +53,19 @@ void Exti::write_afio(std::uint32_t offset, std::uint32_t value) {
 }
 
 void Exti::edge(unsigned port, unsigned line, bool level) {
-  const unsigned selected = exticr_.at(line / 4) >> (line % 4 * 4) & 0xFU;
-  if (selected == port && ((level ? rtsr_ : ftsr_) >> line & 1U) != 0) pr_ |= 1U << line;
+  if (port_of(line) == port && ((level ? rtsr_ : ftsr_) >> line & 1U) != 0) request(1U << line);
+}
+
+/// PR also of masked lines, an event of those that EMR lets through.
+void Exti::request(std::uint32_t lines) {
+  pr_ |= lines;
+  event_ = event_ || (lines & emr_) != 0;
+}
+
+bool Exti::listens(unsigned port) const {
+  for (unsigned line = 0; line < 16; ++line)
+    if (port_of(line) == port && ((rtsr_ | ftsr_) >> line & 1U) != 0) return true;
+  return false;
 }
 
 unsigned Exti::requests() const {

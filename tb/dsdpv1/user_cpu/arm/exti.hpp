@@ -3,6 +3,7 @@
 // chapters AFIO, EXTI).
 #include <array>
 #include <cstdint>
+#include <utility>
 
 namespace dsdpv1::arm {
 
@@ -19,13 +20,20 @@ class Exti {
 
   /// The pin `line` of `port` (0 = A ... 6 = G) has got this level.
   void edge(unsigned port, unsigned line, bool level);
+  /// Some line has an edge to wait for at `port`.
+  bool listens(unsigned port) const;
+  /// An edge or SWIER has made an event (EMR) since the last call.
+  bool take_event() { return std::exchange(event_, false); }
   /// A bit for each of kExtiIrq whose interrupt is asked for.
   unsigned requests() const;
 
  private:
+  unsigned port_of(unsigned line) const { return exticr_.at(line / 4) >> (line % 4 * 4) & 0xFU; }
+  void request(std::uint32_t lines);
   std::uint32_t imr_ = 0, emr_ = 0, rtsr_ = 0, ftsr_ = 0, swier_ = 0, pr_ = 0;
   std::uint32_t evcr_ = 0, mapr_ = 0;
   std::array<std::uint32_t, 4> exticr_{};
+  bool event_ = false;
 };
 
 }  // namespace dsdpv1::arm

@@ -17,6 +17,11 @@ bool Gpio::drives(unsigned pin) const {
   return (mode & kOpenDrain) == 0 || (odr_ >> pin & 1U) == 0;
 }
 
+bool Gpio::is_alternate(unsigned pin) const {
+  const unsigned mode = this->mode(pin);
+  return (mode & kModeMask) != 0 && (mode & kAlternate) != 0;
+}
+
 std::uint16_t Gpio::input(std::uint16_t driven, std::uint16_t levels) const {
   unsigned idr = 0;
   for (unsigned pin = 0; pin < 16; ++pin) {

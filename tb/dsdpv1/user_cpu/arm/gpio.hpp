@@ -13,6 +13,8 @@ class Gpio {
 
   /// Pins that the port drives (general purpose output, push-pull or open drain with 0).
   bool drives(unsigned pin) const;
+  /// Pins that are left to a peripheral's output (alternate function, push-pull or open drain).
+  bool is_alternate(unsigned pin) const;
   /// The pin when the port drives it, else `floating`: what the board pulls it to.
   bool level(unsigned pin, bool floating) const { return drives(pin) ? (odr_ >> pin & 1U) != 0 : floating; }
 

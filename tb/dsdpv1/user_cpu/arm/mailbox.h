@@ -83,8 +83,11 @@ enum {
       8, /* value: DSDPV1_AREA_; times: so many blocks go out with bit 0 of the CRC's high byte wrong */
   DSDPV1_CMD_WRONG_LENGTH = 9, /* the next inputs are one byte longer, shorter where that is impossible */
   DSDPV1_CMD_VERDICT = 10,     /* value: DSDPV1_VERDICT_PRM or _CFG; refuse */
-  DSDPV1_CMD_ANSWERING = 11    /* value: DSDPV1_SAY_ */
+  DSDPV1_CMD_ANSWERING = 11,   /* value: DSDPV1_SAY_ */
+  DSDPV1_CMD_SPOIL = 12        /* value: DSDPV1_SPOIL_; times: so many telegrams over SPI or UART go wrong */
 };
+/* A wrong bit in the third byte; the telegram ends before it; that byte's parity is wrong (UART). */
+enum { DSDPV1_SPOIL_BIT = 0, DSDPV1_SPOIL_CUT = 1, DSDPV1_SPOIL_PARITY = 2 };
 enum {
   DSDPV1_AREA_INIT = 0,
   DSDPV1_AREA_INPUTS = 1,

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <stdexcept>
 #include <variant>
 
 namespace dsdpv1::arm {
@@ -170,9 +169,18 @@ struct Fill {
     to.kind = DSDPV1_CMD_ANSWERING;
     to.value = say(from.answering);
   }
-  /// The board has the parallel port only; a scenario that asks for these is refused (tb/dsdpv1/serial_keys.cpp).
-  void operator()(const command::SpoilTelegrams&) const { throw std::logic_error("the board sends no telegrams"); }
-  void operator()(const command::HostTelegram&) const { throw std::logic_error("the board sends no telegrams"); }
+  void operator()(const command::SpoilTelegrams& from) const {
+    to.kind = DSDPV1_CMD_SPOIL;
+    to.times = static_cast<std::uint32_t>(from.times);
+    switch (from.fault) {
+      case user_cpu::TelegramFault::kFlippedBit: to.value = DSDPV1_SPOIL_BIT; break;
+      case user_cpu::TelegramFault::kCut: to.value = DSDPV1_SPOIL_CUT; break;
+      case user_cpu::TelegramFault::kWrongParity: to.value = DSDPV1_SPOIL_PARITY; break;
+      default: throw std::logic_error("the board's firmware has no such telegrams");
+    }
+  }
+  /// A scenario that asks for it is refused (tb/dsdpv1/serial_keys.cpp).
+  void operator()(const command::HostTelegram&) const { throw std::logic_error("the board sends no others' telegrams"); }
 };
 
 constexpr std::array<const char*, 8> kCalls = {"wait_ready",    "initialise",   "exchange",     "service",

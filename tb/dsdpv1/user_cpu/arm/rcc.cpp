@@ -17,6 +17,9 @@ std::uint32_t with_ready(std::uint32_t value, std::uint32_t enables) {
 constexpr std::int64_t kOscillator = 8'000'000;  // HSI, and the board's crystal
 constexpr std::uint32_t kPllSource = 1U << 16U, kPllHalfCrystal = 1U << 17U;
 
+/// PPRE1, PPRE2: 1, 2, 4, 8, 16.
+unsigned apb_divider(std::uint32_t ppre) { return (ppre & 4U) == 0 ? 1 : 2U << (ppre & 3U); }
+
 unsigned pll_factor(std::uint32_t cfgr) { return std::min((cfgr >> 18U & 0xFU) + 2, 16U); }
 
 /// The crystal, or half of the HSI; PLLXTPRE halves the crystal.
@@ -42,6 +45,10 @@ std::int64_t Rcc::hclk_hz() const {
   const std::int64_t pll = kOscillator / (pll_input_is_halved(cfgr) ? 2 : 1) * pll_factor(cfgr);
   return (source_ == kPll ? pll : kOscillator) / ahb_divider(cfgr);
 }
+
+unsigned Rcc::apb1_divider() const { return apb_divider(word(kCfgr) >> 8U); }
+
+unsigned Rcc::apb2_divider() const { return apb_divider(word(kCfgr) >> 11U); }
 
 std::string Rcc::hclk_source() const {
   const std::uint32_t cfgr = word(kCfgr);

@@ -20,6 +20,13 @@ class Rcc {
   /// Clock enables of AHB, APB2, APB1.
   std::uint32_t ahb_clocks() const { return word(0x14); }
   std::uint32_t apb2_clocks() const { return word(0x18); }
+  std::uint32_t apb1_clocks() const { return word(0x1C); }
+  /// Peripherals of APB2 and APB1 that are held in reset.
+  std::uint32_t apb2_resets() const { return word(0x0C); }
+  std::uint32_t apb1_resets() const { return word(0x10); }
+  /// Cycles of HCLK that one of PCLK1, PCLK2 lasts: 1, 2, 4, 8, 16.
+  unsigned apb1_divider() const;
+  unsigned apb2_divider() const;
 
  private:
   static constexpr std::size_t kWords = 10;  // CR ... CSR

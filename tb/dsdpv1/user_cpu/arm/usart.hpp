@@ -1,28 +1,102 @@
 #pragma once
-// USART1 of the STM32F103 (RM0008, chapter USART) as a terminal: what is sent comes out as lines; nothing is received.
-// It is always ready: the bit rate is not simulated.
-#include <array>
+// USART2 of the STM32F103 (RM0008, chapter USART), asynchronous: TDR and RDR before its shift registers, so that who
+// fetches a character too late loses the next one. Times are cycles of HCLK. What the manual leaves open (p): a
+// character in TDR begins with the next cycle of PCLK, the receiver sees a fall of RX with the next cycle of PCLK.
 #include <cstdint>
-#include <functional>
-#include <string>
+#include <deque>
+#include <limits>
 
 namespace dsdpv1::arm {
 
 class Usart {
  public:
-  std::uint32_t read(std::uint32_t offset) const;
-  void write(std::uint32_t offset, std::uint32_t value);
+  static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
-  /// A line without its end; longer ones than 200 characters are cut. Unprintable characters are dots.
-  std::function<void(const std::string&)> on_line;
-  /// What has been sent behind the last line's end.
-  const std::string& unfinished() const { return line_; }
+  /// Cycles of HCLK that PCLK's cycle lasts: 1, 2, 4, 8 or 16.
+  void set_divider(unsigned hclk_cycles) { divider_ = hclk_cycles; }
+
+  /// SR 0x00, DR 0x04, BRR 0x08, CR1 0x0C, CR2 0x10, CR3 0x14, GTPR 0x18. A read of DR after one of SR takes errors and
+  /// IDLE away; a debugger peeks.
+  std::uint32_t peek(std::uint32_t offset) const;
+  std::uint32_t read(std::uint32_t offset);
+  void write(std::uint32_t offset, std::uint32_t value, std::uint64_t now);
+  /// As after a reset, but for the clock, the line and lost().
+  void reset();
+
+  /// The cycle of its next action, kNever when there is none.
+  std::uint64_t next() const;
+  /// Acts at cycle next().
+  void run();
+  /// RX changed; cycle `at` is the first that sees it. In order of time, and before run() of a later cycle.
+  void rx_changed(std::uint64_t at, bool level);
+
+  /// It drives TX: the transmitter is on, or still sends.
+  bool drives() const { return (cr1_ & kUe) != 0 && ((cr1_ & kTe) != 0 || sends()); }
+  bool tx() const { return tx_; }
+  /// RTS (RTSE), low while a character can be taken; `drives_rts` false: the pin is somebody else's.
+  bool drives_rts() const { return (cr1_ & kUe) != 0 && (cr3_ & kRtse) != 0; }
+  bool rts() const { return (sr_ & kRxne) != 0; }
+  /// RX as it was told last.
+  bool rx() const { return rx_; }
+  /// Asks for its interrupt.
+  bool asks() const;
+  /// What has been switched on and is not there, like "LINEN"; null: nothing.
+  const char* missing() const;
+  /// Characters that came while the one before had not been fetched.
+  std::uint64_t lost() const { return lost_; }
 
  private:
-  void send(char character);
-  static constexpr std::size_t kWords = 7;  // SR ... GTPR
-  std::array<std::uint32_t, kWords> words_{};
-  std::string line_;
+  static constexpr std::uint32_t kPe = 1U << 0U, kFe = 1U << 1U, kNe = 1U << 2U, kOre = 1U << 3U, kIdle = 1U << 4U,
+                                 kRxne = 1U << 5U, kTc = 1U << 6U, kTxe = 1U << 7U;
+  static constexpr std::uint32_t kRe = 1U << 2U, kTe = 1U << 3U, kPs = 1U << 9U, kPce = 1U << 10U, kM = 1U << 12U,
+                                 kUe = 1U << 13U;
+  static constexpr std::uint32_t kRtse = 1U << 8U;
+  struct Edge {
+    std::uint64_t at;
+    bool level;
+  };
+
+  /// Start, data and parity: what stands before the stop bits.
+  unsigned word_end() const { return 1 + ((cr1_ & kM) != 0 ? 9 : 8); }
+  unsigned half_stops() const;
+  std::uint64_t bit() const { return std::uint64_t{brr_} * divider_; }
+  std::uint64_t frame() const { return word_end() * bit() + half_stops() * bit() / 2; }
+  std::uint64_t pclk_after(std::uint64_t cycle) const { return (cycle / divider_ + 1) * divider_; }
+  unsigned data_mask() const { return (1U << (word_end() - 1 - ((cr1_ & kPce) != 0 ? 1 : 0))) - 1; }
+  bool parity_of(unsigned data) const;
+
+  void write_control(std::uint32_t value, std::uint64_t now);
+  bool sends() const { return cell_ > 0; }
+  bool listens() const { return (cr1_ & (kUe | kRe)) == (kUe | kRe); }
+  void begin_soon(std::uint64_t now);
+  void load();
+  void send_cell();
+  std::uint64_t sample_at(unsigned bit_number, unsigned sample) const;
+  bool level_at(std::uint64_t cycle) const;
+  bool vote(unsigned bit_number);
+  void hunt();
+  void check_start();
+  void take_character();
+  void receive(unsigned word, bool framing, bool noise);
+  void forget_until(std::uint64_t cycle);
+
+  unsigned divider_ = 1;
+  std::uint32_t sr_ = kTxe | kTc, brr_ = 0, cr1_ = 0, cr2_ = 0, cr3_ = 0, gtpr_ = 0;
+  std::uint32_t seen_ = 0;  ///< flags of the last read of SR: DR may take them away
+  // transmitter
+  unsigned tdr_ = 0, out_ = 0, cell_ = 0;           ///< the next bit to put out; 0: idle
+  std::uint64_t tx_at_ = kNever, frame_begin_ = 0;  ///< the next bit's; of the character under way
+  std::uint64_t tx_free_ = 0;                       ///< the idle frame after TE is over
+  bool tx_ = true;
+  // receiver
+  unsigned rdr_ = 0;
+  std::deque<Edge> edges_;          ///< of RX, not before the character that comes
+  bool rx_ = true, before_ = true;  ///< now, and before the first of the edges
+  std::uint64_t start_ = kNever;    ///< of the character that comes
+  bool started_ = false;            ///< its start bit is one
+  bool noise_ = false;
+  std::uint64_t idle_at_ = kNever;
+  std::uint64_t lost_ = 0;
 };
 
 }  // namespace dsdpv1::arm

@@ -1,0 +1,78 @@
+#pragma once
+// SPI1 or SPI2 of the STM32F103 as a full-duplex master (RM0008, chapter SPI): a buffer and a shift register in each
+// direction, so that who fetches a byte too late loses the next one. Times are cycles of HCLK. What the manual leaves
+// open (p): a byte in the buffer goes to the idle shift register with the next cycle of PCLK, its first bit is out
+// then, and SCK's first edge follows half a bit later.
+#include <cstdint>
+#include <limits>
+
+namespace dsdpv1::arm {
+
+class Spi {
+ public:
+  static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
+  /// Cycles of HCLK that PCLK's cycle lasts: 1, 2, 4, 8 or 16. From the next edge on.
+  void set_divider(unsigned hclk_cycles) { divider_ = hclk_cycles; }
+
+  /// CR1 0x00, CR2 0x04, SR 0x08, DR 0x0C; CRCPR 0x10 and what follows keep nothing. A read of DR or SR has its effects
+  /// (RXNE, OVR, MODF); a debugger peeks.
+  std::uint32_t peek(std::uint32_t offset) const;
+  std::uint32_t read(std::uint32_t offset);
+  void write(std::uint32_t offset, std::uint32_t value, std::uint64_t now);
+  /// As after a reset, but for the clock and lost().
+  void reset();
+
+  /// The cycle of its next action, kNever when there is none.
+  std::uint64_t next() const { return at_; }
+  /// Acts at cycle next(). `miso`: the pin as it is strictly before.
+  void run(bool miso);
+  /// NSS as an input; low is a fault of the mode of a master that heeds it (MODF).
+  void set_nss(bool level);
+
+  /// It drives SCK and MOSI: enabled as a master.
+  bool drives() const { return (cr1_ & (kSpe | kMstr)) == (kSpe | kMstr); }
+  bool sck() const { return sck_; }
+  bool mosi() const { return mosi_; }
+  /// It drives NSS, low, while it is enabled (SSOE).
+  bool selects() const { return drives() && (cr1_ & kSsm) == 0 && (cr2_ & kSsoe) != 0; }
+  /// Asks for its interrupt.
+  bool asks() const;
+  /// What has been switched on and is not there, like "RXONLY"; null: nothing.
+  const char* missing() const;
+  /// Bytes that came while the one before had not been fetched.
+  std::uint64_t lost() const { return lost_; }
+
+ private:
+  static constexpr std::uint32_t kCpha = 1U << 0U, kCpol = 1U << 1U, kMstr = 1U << 2U, kSpe = 1U << 6U,
+                                 kLsbFirst = 1U << 7U, kSsi = 1U << 8U, kSsm = 1U << 9U, kDff = 1U << 11U;
+  static constexpr std::uint32_t kSsoe = 1U << 2U;
+  static constexpr std::uint32_t kRxne = 1U << 0U, kTxe = 1U << 1U, kModf = 1U << 5U, kOvr = 1U << 6U, kBsy = 1U << 7U;
+
+  unsigned bits() const { return (cr1_ & kDff) != 0 ? 16 : 8; }
+  std::uint64_t half_bit() const { return std::uint64_t{divider_} << (cr1_ >> 3U & 7U); }
+  bool sampling(unsigned edge) const { return (edge % 2 == 1) == ((cr1_ & kCpha) == 0); }
+  bool transfers() const { return edge_ > 0; }
+  bool nss_is_low() const;
+  void write_control(std::uint32_t value, std::uint64_t now);
+  void check_mode();
+  void load_soon(std::uint64_t now);
+  void load();
+  void end();
+  void sample(bool miso);
+  void put_out();
+  void receive();
+
+  unsigned divider_ = 1;
+  std::uint32_t cr1_ = 0, cr2_ = 0, sr_ = kTxe;
+  std::uint16_t tx_ = 0, rx_ = 0;              ///< the buffers behind DR
+  std::uint16_t out_ = 0, in_ = 0;             ///< the shift register
+  unsigned edge_ = 0, bit_ = 0, sampled_ = 0;  ///< the next of SCK's edges, 0: no transfer; bits out and in
+  std::uint64_t at_ = kNever;
+  bool sck_ = false, mosi_ = false, nss_ = true;
+  bool ovr_read_ = false;   ///< DR has been read since OVR: a read of SR takes it away
+  bool modf_read_ = false;  ///< SR has been read since MODF: a write of CR1 takes it away
+  std::uint64_t lost_ = 0;
+};
+
+}  // namespace dsdpv1::arm

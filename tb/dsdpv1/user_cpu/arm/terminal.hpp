@@ -1,0 +1,28 @@
+#pragma once
+// USART1 of the STM32F103 (RM0008, chapter USART) as a terminal: what is sent comes out as lines; nothing is received.
+// It is always ready: the bit rate is not simulated.
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace dsdpv1::arm {
+
+class Terminal {
+ public:
+  std::uint32_t read(std::uint32_t offset) const;
+  void write(std::uint32_t offset, std::uint32_t value);
+
+  /// A line without its end; longer ones than 200 characters are cut. Unprintable characters are dots.
+  std::function<void(const std::string&)> on_line;
+  /// What has been sent behind the last line's end.
+  const std::string& unfinished() const { return line_; }
+
+ private:
+  void send(char character);
+  static constexpr std::size_t kWords = 7;  // SR ... GTPR
+  std::array<std::uint32_t, kWords> words_{};
+  std::string line_;
+};
+
+}  // namespace dsdpv1::arm
