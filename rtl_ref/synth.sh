@@ -11,7 +11,7 @@ mkdir -p "$out"
 synthesize() {
   yosys -Q -l "$out/$1.yosys.log" -e 'implicitly declared' -p "
     read_verilog -sv -I. -I../registers $(tr '\n' ' ' < "$2")
-    synth_ice40 -top $1 -json $out/$1.json
+    synth_ice40 -abc9 -top $1 -json $out/$1.json
     stat" > "$out/$1.yosys.out" 2>&1 || { tail -n 20 "$out/$1.yosys.out"; exit 1; }
   nextpnr-ice40 --hx8k --package ct256 --json "$out/$1.json" --freq 56 --timing-allow-fail --pcf-allow-unconstrained --seed 1 \
     --report "$out/$1.report.json" --asc "$out/$1.asc" > "$out/$1.nextpnr.log" 2>&1 || { tail -n 20 "$out/$1.nextpnr.log"; exit 1; }

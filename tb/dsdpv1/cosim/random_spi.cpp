@@ -1,6 +1,6 @@
 // The host at the SPI port: frames with clocks within and beyond SP2, cut anywhere, too long, too soon after another,
 // broken by a pulse of XSS, and with SCK high where XSS changes. Left out is what nothing is ruled for: SCK periods
-// below a cycle (5.1), and XSS that rises and falls at one tick.
+// below a cycle in a frame (5.1), and XSS that rises and falls at one tick.
 #include <utility>
 
 #include "registers/dsdpv1_regs.hpp"
