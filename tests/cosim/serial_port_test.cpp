@@ -1,10 +1,12 @@
 // The serial ports of the DSDPV1-RSU, the model alone, on frames and telegrams of which most are wrong: after each few
-// of them the port answers a right one. DSDPV1_TELEGRAMS in the environment says how many are sent (docs/cosim.md has
-// the figures of a long run).
+// of them the port answers a right one, and every way in which a host can offend the port has been told.
+// DSDPV1_TELEGRAMS in the environment says how many are sent (docs/cosim.md has the figures of a long run).
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <initializer_list>
+#include <set>
 
 #include "model/dpram/crc16.hpp"
 #include "model/dsdpv1/chip.hpp"
@@ -43,6 +45,10 @@ class Port {
     chip_ = std::make_unique<Chip>(config);
     chip_->watch({[](void* self, Tick at, Pin, Level level) { static_cast<Port*>(self)->txd(at, level); }, this},
                  mask(Pin::kTxd));
+    chip_->on_event({[](void* self, const profibus::Event& event) {
+                       static_cast<Port*>(self)->told_.insert(profibus::code(event.reason));
+                     },
+                     this});
     host_ = (mode == HostMode::kSpi ? cosim::make_random_spi : cosim::make_random_uart)(random_, actions_);
     chip_->set(0, Pin::kMode, mode == HostMode::kSpi ? 1 : 2);
     chip_->set(0, Pin::kAdr, 1);
@@ -88,6 +94,13 @@ class Port {
     now_ += 300 * bus::kCharacterBits * cosim::uart_bit(kRate);
     chip_->advance(now_);
     return heard(reply.size()) == reply;
+  }
+  /// Of these codes, those that the chip has not told.
+  std::set<std::string> untold(std::initializer_list<const char*> codes) const {
+    std::set<std::string> left;
+    for (const char* code : codes)
+      if (told_.count(code) == 0) left.insert(code);
+    return left;
   }
 
  private:
@@ -140,6 +153,7 @@ class Port {
   Tick now_ = 0;
   bus::Bytes miso_;
   std::vector<cosim::PinEdge> edges_;
+  std::set<std::string> told_;
 };
 
 TEST(SerialPort, SpiAnswersARightFrameAfterWhateverCameBefore) {
@@ -150,6 +164,10 @@ TEST(SerialPort, SpiAnswersARightFrameAfterWhateverCameBefore) {
     ASSERT_TRUE(port.answers_spi()) << "after " << sent << " frames";
   }
   EXPECT_GT(answered, telegrams() / 4);
+  EXPECT_EQ(port.untold({"SPI_SCK_HIGH", "SPI_SCK_LOW", "SPI_XSS_LEAD", "SPI_XSS_LAG", "SPI_XSS_HIGH", "SPI_SCK_IDLE",
+                         "SPI_MOSI_SETUP", "SPI_MOSI_HOLD", "SPI_BITS", "SPI_WRITE_GAP", "SPI_REPLY_CUT",
+                         "TELEGRAM_CUT", "TELEGRAM_CRC"}),
+            std::set<std::string>());
 }
 
 TEST(SerialPort, UartAnswersARightTelegramAfterWhateverCameBefore) {
@@ -160,6 +178,8 @@ TEST(SerialPort, UartAnswersARightTelegramAfterWhateverCameBefore) {
     ASSERT_TRUE(port.answers_uart()) << "after " << sent << " telegrams";
   }
   EXPECT_GT(answered, telegrams() / 4);
+  EXPECT_EQ(port.untold({"UART_PARITY", "UART_FRAMING", "UART_HALF_DUPLEX", "TELEGRAM_CUT", "TELEGRAM_CRC"}),
+            std::set<std::string>());
 }
 
 }  // namespace

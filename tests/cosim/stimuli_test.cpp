@@ -16,12 +16,19 @@ struct Directed {
 };
 
 class DirectedStimulus : public testing::TestWithParam<Directed> {};
+class DirectedRsuStimulus : public testing::TestWithParam<Directed> {};
 
-TEST_P(DirectedStimulus, DoesNotDifferAndReachesWhatItIsFor) {
-  const app_test::Called called = app_test::call(
-      "rtl-random --replay tests/cosim/stimuli/" + std::string(GetParam().name) + ".stimulus", DSDPV1_SOURCE_DIR);
+void plays(const Directed& directed, const std::string& options) {
+  const app_test::Called called =
+      app_test::call("rtl-random " + options + directed.name + ".stimulus", DSDPV1_SOURCE_DIR);
   EXPECT_EQ(called.status, 0) << called.out << called.err;
-  for (const std::string& told : GetParam().told) EXPECT_THAT(called.out, testing::HasSubstr(" " + told + " "));
+  for (const std::string& told : directed.told) EXPECT_THAT(called.out, testing::HasSubstr(" " + told + " "));
+}
+
+TEST_P(DirectedStimulus, DoesNotDifferAndReachesWhatItIsFor) { plays(GetParam(), "--replay tests/cosim/stimuli/"); }
+
+TEST_P(DirectedRsuStimulus, DoesNotDifferAndReachesWhatItIsFor) {
+  plays(GetParam(), "--chip dsdpv1_rsu --replay tests/cosim/stimuli_rsu/");
 }
 
 void PrintTo(const Directed& each, std::ostream* out) {
@@ -43,6 +50,14 @@ INSTANTIATE_TEST_SUITE_P(
         Directed{"offline_count", {"PRM_OK 257", "CFG_OK 257"}},
         Directed{"initialise_while_sending", {"INITIALISED 2", "BAUD_FOUND 2"}},
         Directed{"host_port", {"INIT_LENGTH 3", "PRM_OK 4", "HOST_NOT_OWNER 11"}}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(
+    All, DirectedRsuStimulus,
+    testing::Values(Directed{"news",
+                             {"PRM_OK 1", "CFG_OK 1", "C1_REQUEST 2", "C1_ANSWER 2", "C2_REQUEST 2", "C2_ANSWER 2"}},
+                    Directed{"flags", {"SPI_CLAIMED 1", "SPI_RELEASED 1", "TELEGRAM_LENGTH 1", "VERDICT_UNEXPECTED 2"}},
+                    Directed{"rates", {"TELEGRAM_CUT 15"}}, Directed{"u_timer", {"SPI_CLAIMED 2", "SPI_U_TIMER 2"}}),
     [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace

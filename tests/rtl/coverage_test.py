@@ -16,14 +16,15 @@ def record(page, line, name, count, instance="TOP.one", column=1):
 
 
 class Report(unittest.TestCase):
-    def report(self, records, reasons=""):
+    def report(self, records, reasons="", chip="dsdpv1"):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             (folder / "rtl").mkdir()
             (folder / "rtl" / "block.sv").write_text(SOURCE, encoding="utf-8")
             (folder / "data").write_text("# SystemC::Coverage-3\n" + "".join(f"{each}\n" for each in records), encoding="utf-8")
             (folder / "reasons").write_text(reasons, encoding="utf-8")
-            return subprocess.run([sys.executable, "-B", SCRIPT, "report", "data", "--sources", ".", "--reasons", "reasons"],
+            return subprocess.run([sys.executable, "-B", SCRIPT, "report", "data", "--sources", ".", "--reasons", "reasons",
+                                   "--chip", chip],
                                   cwd=folder, capture_output=True, text=True, check=False)
 
     def test_counts_lines_and_toggles_apart(self):
@@ -39,6 +40,13 @@ class Report(unittest.TestCase):
     def test_branches_that_begin_in_one_line_are_counted_apart(self):
         result = self.report([record("v_branch/block", 1, "if", 1), record("v_branch/block", 1, "if", 1, column=9)])
         self.assertIn("| all | 2 of 2, 100.0 % | none |", result.stdout)
+
+    def test_of_the_sister_chip_its_own_blocks_are_counted(self):
+        shared = record("v_branch/block", 1, "if", 0)
+        own = shared.replace("anywhere/rtl/", "anywhere/dsdpv1_rsu/").replace("' 0", "' 4")
+        result = self.report([shared, own], chip="dsdpv1_rsu")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn("| all | 1 of 1, 100.0 % | none |", result.stdout)
 
     def test_a_line_without_explanation_fails(self):
         result = self.report([record("v_branch/block", 1, "if", 0)], "line | rtl/block.sv | case (state) | another line\n")

@@ -1,4 +1,7 @@
-// The host at the parallel port: R_REQ and R_STA, strobes with mostly the times of table 15.
+// The host at the parallel port: R_REQ and R_STA, strobes with mostly the times of table 15. Left out is what its times
+// do not allow and docs/rtl.md names: two rises of WR within a cycle.
+#include <algorithm>
+
 #include "tb/dsdpv1/cosim/random_host.hpp"
 
 namespace dsdpv1::cosim {
@@ -21,6 +24,8 @@ class RandomParallel : public RandomHost {
 
  private:
   Action access(Verb verb);
+  void shorten(Action& action);
+  void take_unseen();
   Tick small_delay() { return random_.one_in(8) ? random_.below(20'000) : random_.below(1000); }
 };
 
@@ -56,7 +61,15 @@ Action RandomParallel::access(Verb verb) {
   action.setup = random_.between(0, 300);
   action.low = kTw + random_.below(random_.one_in(4) ? 2000 : 300);
   action.hold = random_.one_in(4) ? kLeast : kLeast + random_.below(400);
+  if (random_.one_in(12)) shorten(action);
   return action;
+}
+
+/// A strobe below Tw, A and D gone before Td is over, the next access at once.
+void RandomParallel::shorten(Action& action) {
+  action.low = random_.between(1, static_cast<int>(kTw) - 1);
+  action.setup = std::max(action.setup, kCycle - action.low);
+  action.hold = random_.below(static_cast<int>(kLeast));
 }
 
 void RandomParallel::write(int address, int value) {
@@ -82,11 +95,20 @@ void RandomParallel::block(int address, int crc_address, const bus::Bytes& bytes
 }
 
 void RandomParallel::take() {
+  if (random_.one_in(24)) take_unseen();
   Action action;
   action.verb = Verb::kTake;
   action.delay = small_delay();
   action.low = random_.between(200, 3000);
   stimulus_.push_back(action);
+}
+
+/// R_REQ for less than the chip may see, or R_STA with it before the chip can have answered (H2).
+void RandomParallel::take_unseen() {
+  pin(Pin::kRReq, 1, small_delay());
+  if (random_.one_in(2)) pin(Pin::kRSta, 1, random_.below(4 * static_cast<int>(kCycle)));
+  pin(Pin::kRSta, 0, random_.between(1, 3 * static_cast<int>(kCycle)));
+  pin(Pin::kRReq, 0, random_.below(2 * static_cast<int>(kCycle)));
 }
 
 /// R_REQ and R_STA fall together, or one after the other in either order (H1).

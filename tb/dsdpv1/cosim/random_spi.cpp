@@ -1,4 +1,8 @@
-// The host at the SPI port: frames with clocks within and beyond SP2, cut anywhere, too long, too soon after a write.
+// The host at the SPI port: frames with clocks within and beyond SP2, cut anywhere, too long, too soon after another,
+// broken by a pulse of XSS, and with SCK high where XSS changes. Left out is what nothing is ruled for: SCK periods
+// below a cycle in a frame (5.1), and XSS that rises and falls at one tick.
+#include <utility>
+
 #include "registers/dsdpv1_regs.hpp"
 #include "tb/dsdpv1/cosim/random_serial.hpp"
 
@@ -9,6 +13,7 @@ constexpr int kOwnership = 0x014, kUTimer = 0x015;
 constexpr int kLeast = 600;        // SP2: 50 ns
 constexpr int kLeastPeriod = 250;  // 5.1: below it nothing is ruled
 constexpr int kWriteGap = 32'400;  // SP9
+constexpr int kPulse = 700;        // XSS high: none, one or two edges of CLK see it
 
 class RandomSpi : public RandomSerial {
  public:
@@ -28,6 +33,9 @@ class RandomSpi : public RandomSerial {
   bool exchange(int address, const bus::Bytes& bytes) override;
   void own_telegram() override;
   void clocks(Action& action);
+  Tick pause_before();
+  void broken(Action action);
+  void clock_high_at_the_end();
 
   bool wrote_ = false;
 };
@@ -39,12 +47,43 @@ void RandomSpi::send(const bus::Bytes& telegram, int reply) {
   if (random_.one_in(10)) reply = random_.below(reply + 12);
   for (int i = 0; i < reply; ++i) action.bytes.push_back(random_.one_in(2) ? 0xFF : random_.byte());
   clocks(action);
-  const bool soon = random_.one_in(12);
-  action.delay = soon ? random_.below(kWriteGap + 1000) : (wrote_ ? kWriteGap : kLeast) + random_.below(1000);
+  action.delay = pause_before();
+  wrote_ = !telegram.empty() && telegram[0] >> 5 != 0;
+  if (random_.one_in(40)) clock_high_at_the_end();
+  if (!action.bytes.empty() && random_.one_in(40))
+    pin(Pin::kSck, 1, random_.between(1, kPulse));  // the frame's first rise is none
+  if (action.bytes.size() > 1 && random_.one_in(30)) return broken(std::move(action));
   if (random_.one_in(30) && !action.bytes.empty())
     action.bits = random_.between(1, 8 * static_cast<int>(action.bytes.size()));
-  wrote_ = !telegram.empty() && telegram[0] >> 5 != 0;
-  stimulus_.push_back(action);
+  stimulus_.push_back(std::move(action));
+}
+
+/// XSS high before a frame: as SP2 and SP9 want it, too short after a write, or too short after any frame.
+Tick RandomSpi::pause_before() {
+  if (random_.one_in(24)) return random_.between(1, kPulse);
+  if (random_.one_in(12)) return random_.below(kWriteGap + 1000);
+  return (wrote_ ? kWriteGap : kLeast) + random_.below(1000);
+}
+
+/// A pulse of XSS somewhere in the frame, after a whole byte or within one: a second frame has the rest, or for CLK the
+/// same one goes on.
+void RandomSpi::broken(Action action) {
+  Action rest = action;
+  const int place = random_.between(1, static_cast<int>(action.bytes.size()) - 1);
+  action.bytes.resize(static_cast<std::size_t>(place));
+  if (random_.one_in(2)) action.bits = random_.between(1, 8 * place);
+  rest.bytes.erase(rest.bytes.begin(), rest.bytes.begin() + place);
+  rest.delay = random_.between(1, kPulse);
+  stimulus_.push_back(std::move(action));
+  stimulus_.push_back(std::move(rest));
+}
+
+/// A frame of one rise: XSS rises before SCK has fallen.
+void RandomSpi::clock_high_at_the_end() {
+  pin(Pin::kXss, 0, random_.between(1, 2 * kLeast));
+  pin(Pin::kSck, 1, random_.below(kPulse));
+  pin(Pin::kXss, 1, random_.between(1, kPulse));
+  pin(Pin::kSck, 0, random_.between(kLeastPeriod, kPulse));
 }
 
 void RandomSpi::clocks(Action& action) {
@@ -53,8 +92,8 @@ void RandomSpi::clocks(Action& action) {
   action.high = legal ? kLeast + random_.below(spread) : random_.between(1, 800);
   action.low = legal ? kLeast + random_.below(spread) : random_.between(1, 800);
   if (action.high + action.low < kLeastPeriod) action.low = kLeastPeriod - action.high;
-  action.lead = legal ? kLeast + random_.below(300) : random_.below(700);
-  action.lag = legal ? kLeast + random_.below(300) : random_.below(700);
+  action.lead = legal ? kLeast + random_.below(300) : random_.one_in(8) ? 0 : random_.below(700);
+  action.lag = legal ? kLeast + random_.below(300) : random_.one_in(8) ? 0 : random_.below(700);
   action.setup = legal ? random_.between(150, 450) : random_.below(700);
   if (random_.one_in(10)) action.pause = random_.below(20'000);
 }

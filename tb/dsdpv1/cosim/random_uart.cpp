@@ -1,5 +1,5 @@
-// The host at the UART port: telegrams with broken characters, silences about as long as the interval, characters while
-// the chip replies.
+// The host at the UART port: telegrams with broken characters and bits too long or too short, silences about as long as
+// the interval, breaks, characters while the chip replies.
 #include "registers/dsdpv1_regs.hpp"
 #include "tb/dsdpv1/cosim/random_serial.hpp"
 
@@ -23,6 +23,7 @@ class RandomUart : public RandomSerial {
   bool exchange(int address, const bus::Bytes& bytes) override;
   void own_telegram() override;
   void break_it(Action& action);
+  void low_line(int bit);
 };
 
 void RandomUart::send(const bus::Bytes& telegram, int reply) {
@@ -35,7 +36,9 @@ void RandomUart::send(const bus::Bytes& telegram, int reply) {
   const Tick bit = (ubr_ == 7 ? 26 : 5000) * profibus::kTicksPerCycle;
   action.delay = random_.one_in(4) ? random_.below(static_cast<int>(bit)) : bit * random_.below(60);
   if (random_.one_in(5)) action.ppm = random_.between(-20'000, 20'000);
+  if (random_.one_in(20)) action.ppm = random_.between(-80'000, 80'000);  // beyond what a stop bit's sample bears
   if (random_.one_in(8)) break_it(action);
+  if (is_quick() && random_.one_in(24)) low_line(static_cast<int>(bit));
   // The host sometimes speaks before it has heard the reply to its end (UA16).
   action.reply_bits = random_.one_in(12) ? random_.below(40) : 60 + (reply > 0 ? random_.below(300) : 0);
   if (!is_quick()) action.delay = 0;
@@ -46,15 +49,16 @@ void RandomUart::break_it(Action& action) {
   constexpr int kHalves[] = {7, 2, 4, 10, 20, 40, 100, 200};
   constexpr int kHalfCharacter = 5500;  // millibits
   const auto at = static_cast<std::size_t>(random_.below(static_cast<int>(action.bytes.size())));
-  switch (random_.below(5)) {
+  switch (random_.below(6)) {
     case 0: action.faults.wrong_parity_at = at; break;
     case 1: action.faults.missing_stop_at = at; break;
-    case 2:
+    case 2: action.faults.wrong_parity_at = action.faults.missing_stop_at = at; break;
+    case 3:
       action.faults.gap_before = at;
       action.faults.gap_millibits =
           random_.one_in(2) ? kHalves[uiv_] * kHalfCharacter + random_.between(-600, 600) : random_.below(60'000);
       break;
-    case 3:
+    case 4:
       action.faults.truncate_after = at;
       action.faults.truncate_bits = random_.below(11);
       break;
@@ -63,6 +67,12 @@ void RandomUart::break_it(Action& action) {
       action.faults.glitch = {random_.below(11'000), random_.between(1, 1500)};
       break;
   }
+}
+
+/// RXD low for less than a bit, for some of a character, or for longer than one: a spike, a wrong character, a break.
+void RandomUart::low_line(int bit) {
+  pin(Pin::kRxd, 0, random_.below(bit));
+  pin(Pin::kRxd, 1, random_.between(1, bit * (random_.one_in(2) ? 1 : 40)));
 }
 
 bool RandomUart::exchange(int address, const bus::Bytes& bytes) {

@@ -63,5 +63,7 @@ add_custom_command(
   DEPENDS dsdpv1-sim
   VERBATIM)
 add_custom_target(dsdpv1_rtl_coverage SOURCES ${coverage_folder}/dsdpv1-sim)
-dsdpv1_rtl_library(dsdpv1_rtl_coverage dsdpv1 ${coverage_folder}/rtl/libdsdpv1_rtl.so -O1
-                   --coverage-line --coverage-toggle --coverage-max-width 64 --output-split 20000 --x-initial 0 -j 2)
+foreach(top dsdpv1 dsdpv1_rsu)
+  dsdpv1_rtl_library(dsdpv1_rtl_coverage ${top} ${coverage_folder}/rtl/lib${top}_rtl.so -O1
+                     --coverage-line --coverage-toggle --coverage-max-width 64 --output-split 20000 --x-initial 0 -j 2)
+endforeach()
