@@ -10,8 +10,6 @@ namespace {
 using profibus::kBitsPerCharacter;
 using profibus::kNever;
 
-/// Cycles a bit, by UBR (UA1).
-constexpr std::array<int, 8> kUbrCycles = {5000, 2500, 1250, 833, 417, 208, 104, 26};
 constexpr std::uint8_t kDataExchBit = 0x01, kErrorBit = 0x80;  // function of a reply
 
 }  // namespace

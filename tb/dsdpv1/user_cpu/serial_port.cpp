@@ -26,9 +26,9 @@ constexpr std::size_t kFaultAt = 2;  ///< byte of a telegram that goes wrong
 }  // namespace
 
 SerialPort::SerialPort(Cpu& cpu, const HostPort& port) : cpu_(cpu), pins_(cpu.serial_pins()), port_(port) {
-  if (const auto* spi = std::get_if<SpiPort>(&port.port)) sender_.emplace<SpiMaster>(pins_, spi->timing);
+  if (const auto* spi = std::get_if<SpiPort>(&port.port)) spi_master_ = pins_.make_spi_master(spi->timing);
   if (const auto* uart = std::get_if<UartPort>(&port.port)) {
-    sender_.emplace<UartSender>(pins_, uart->timing);
+    uart_sender_ = pins_.make_uart_sender(uart->timing);
     receiver_ = UartReceiver(uart->timing);
     pins_.on_txd = [this](Tick at, bool level) {
       receiver_.txd_changed(at, level);
@@ -79,7 +79,7 @@ bool SerialPort::is_spoilt(TelegramFault fault) {
 void SerialPort::pause(std::uint32_t ns) { cpu_.wait(static_cast<Tick>(ns) * bus::kTicksPerNs); }
 
 bool SerialPort::frame(const std::uint8_t* out, std::uint8_t* in, std::size_t n) {
-  auto& master = std::get<SpiMaster>(sender_);
+  SpiMaster& master = *spi_master_;
   const std::vector<std::uint8_t> bytes(out, out + n);
   const Tick begun = cpu_.now();
   SpiFault fault;
@@ -107,13 +107,12 @@ void SerialPort::count_hold(const std::vector<std::uint8_t>& out, const std::vec
 }
 
 bool SerialPort::send(const std::uint8_t* bytes, std::size_t n) {
-  auto& master = std::get<UartSender>(sender_);
   UartFault fault;
   if (is_spoilt(TelegramFault::kFlippedBit)) fault.flipped_bit = 8 * kFaultAt;
   if (is_spoilt(TelegramFault::kCut)) fault.cut_after = kFaultAt;
   if (is_spoilt(TelegramFault::kWrongParity)) fault.wrong_parity = kFaultAt;
-  master.begin(cpu_.now(), std::vector<std::uint8_t>(bytes, bytes + n), fault);
-  cpu_.transfer(master);
+  uart_sender_->begin(cpu_.now(), std::vector<std::uint8_t>(bytes, bytes + n), fault);
+  cpu_.transfer(*uart_sender_);
   return true;
 }
 

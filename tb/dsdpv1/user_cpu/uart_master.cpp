@@ -10,43 +10,31 @@ namespace {
 
 constexpr std::size_t kCells = 11, kParity = 9;
 
-/// Half bits from the begin of a character to ticks.
-Tick half_bits(const UartTiming& timing, std::int64_t count) {
-  return (count * bus::kTicksPerSecond + timing.baud) / (2 * timing.baud);
-}
-
 }  // namespace
 
 // -------------------------------------------------------------------------------------------------------------- sender
 
 void UartSender::begin(Tick at, std::vector<std::uint8_t> bytes, const UartFault& fault) {
+  if (fault.cut_after) bytes.resize(std::min(bytes.size(), *fault.cut_after));
+  if (const auto bit = fault.flipped_bit; bit && *bit / 8 < bytes.size())
+    bytes[*bit / 8] = static_cast<std::uint8_t>(bytes[*bit / 8] ^ 1U << *bit % 8);
+  send(at, std::move(bytes), fault.wrong_parity);
+}
+
+void PinUartSender::send(Tick at, std::vector<std::uint8_t> bytes, std::optional<std::size_t> wrong_parity) {
   begin_ = at;
-  bytes_ = std::move(bytes);
-  if (fault.cut_after) bytes_.resize(std::min(bytes_.size(), *fault.cut_after));
-  if (fault.flipped_bit && *fault.flipped_bit / 8 < bytes_.size())
-    bytes_[*fault.flipped_bit / 8] =
-        static_cast<std::uint8_t>(bytes_[*fault.flipped_bit / 8] ^ 1U << *fault.flipped_bit % 8);
-  wrong_parity_ = fault.wrong_parity;
-  cell_ = 0;
+  telegram_ = UartTelegram(std::move(bytes), timing_, wrong_parity);
+  edge_ = 0;
 }
 
-Tick UartSender::tick_of(std::size_t cell) const {
-  const auto number = static_cast<std::int64_t>(cell);
-  return begin_ + half_bits(timing_, 2 * number) +
-         static_cast<Tick>((cell - (cell == kCells * bytes_.size() ? 1 : 0)) / kCells) * timing_.gap;
-}
-
-bool UartSender::level_of(std::size_t cell) const {
-  const std::size_t number = cell / kCells, bit = cell % kCells;
-  if (number >= bytes_.size()) return true;
-  const bool right = (bus::frame_of(bytes_[number]) >> bit & 1) != 0;
-  return right != (bit == kParity && wrong_parity_ == number);
-}
-
-void UartSender::run(Tick now) {
-  const bool level = level_of(cell_++);
-  if (level != level_) pins_.set_serial(now, SerialPin::kRxd, level);
+void PinUartSender::run(Tick now) {
+  const bool level = telegram_[edge_++].level;
+  if (level != level_) pins_.set_serial(now, dsdpv1::Pin::kRxd, level);
   level_ = level;
+}
+
+std::unique_ptr<UartSender> SerialPins::make_uart_sender(const UartTiming& timing) {
+  return std::make_unique<PinUartSender>(*this, timing);
 }
 
 // ------------------------------------------------------------------------------------------------------------ receiver
