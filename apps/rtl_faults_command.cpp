@@ -38,7 +38,7 @@ int rtl_faults(const RtlFaultsArguments& arguments) {
   const std::string folder =
       given_or_own(arguments.directed, rsu ? "/tests/cosim/stimuli_rsu" : "/tests/cosim/stimuli");
   const std::vector<cosim::Fault> faults = cosim::read_faults(list);
-  const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder);
+  const std::vector<cosim::NamedStimulus> directed = cosim::read_stimuli(folder, part);
   check_outputs("dsdpv1-sim rtl-faults", with_files_of(folder, {{"--list", list}}), {{"--tsv", arguments.tsv}});
   std::optional<tb::OutputFile> tsv;
   if (!arguments.tsv.empty()) tsv.emplace(arguments.tsv);

@@ -32,8 +32,8 @@ namespace {
 constexpr int kShrinkRuns = 600;
 constexpr const char* kChip = "chip";  // its scope in waves
 
-cosim::Stimulus read_stimulus(const std::string& path) {
-  return cosim::parse_stimulus(tb::read_file(path, tb::kStimulusFile), path);
+cosim::Stimulus read_stimulus(const std::string& path, Part part) {
+  return cosim::parse_stimulus(tb::read_file(path, tb::kStimulusFile), path, part);
 }
 
 std::string counts_text(const cosim::MatchCounts& counts) {
@@ -182,8 +182,8 @@ int shrink_and_play(const RtlRandomArguments& arguments, const cosim::CampaignRe
   result.actions = shrunk.size();
   std::cout << fmt::format("{} actions, to be seen again with\n  {}\n", shrunk.size(), command_text(arguments));
   // What the file says, not the file: a FIFO cannot be read here.
-  return play_stimulus(arguments, cosim::parse_stimulus(text, arguments.stimulus), arguments.stimulus, bench, outputs,
-                       result);
+  return play_stimulus(arguments, cosim::parse_stimulus(text, arguments.stimulus, bench.options.config.part),
+                       arguments.stimulus, bench, outputs, result);
 }
 
 int random_cases(const RtlRandomArguments& arguments, const Bench& bench, StimulusOutputs& outputs,
@@ -242,7 +242,7 @@ int rtl_random(const RtlRandomArguments& arguments) {
   check_files(arguments);
   mode_of(part_of(arguments.chip), arguments.mode);
   cosim::Stimulus stimulus;
-  if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay);
+  if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay, part_of(arguments.chip));
   const Bench bench = bench_of(arguments);
   StimulusOutputs outputs(arguments);
   cosim::StimulusResult result;

@@ -20,8 +20,7 @@ std::string schema_text(const SchemaArguments& arguments) {
   if (arguments.result) return arguments.markdown ? tb::result_markdown() : tb::result_schema();
   if (arguments.rtl_random)
     return arguments.markdown ? cosim::stimulus_result_table() : cosim::stimulus_result_schema();
-  const tb::ChipKind& kind = *tb::chip_kinds().front();
-  return arguments.markdown ? tb::scenario::markdown(kind) : tb::scenario::json_schema(kind);
+  return arguments.markdown ? tb::scenario::markdown(*tb::chip_kinds().front()) : tb::scenario::json_schema();
 }
 
 }  // namespace

@@ -15,6 +15,9 @@ enum class Engine : std::uint8_t {
 /// The host port that is live, as MODE codes it (R11).
 enum class HostMode : std::uint8_t { kParallel, kSpi, kUart };
 
+/// UA1: cycles of a bit of the UART, by the strap UBR.
+constexpr std::array<int, 8> kUbrCycles = {5000, 2500, 1250, 833, 417, 208, 104, 26};
+
 /// The parameters of the rulings marked (p), with their defaults.
 struct Config {
   Engine engine = Engine::kSkip;

@@ -5,20 +5,20 @@
 #include <cstdint>
 
 #include "model/dpram/crc16.hpp"
-#include "model/profibus/event_log.hpp"
 #include "model/dpram/ram.hpp"
+#include "model/profibus/event_log.hpp"
 
 namespace dsdpv1 {
 
-/// Bits 7..5 of the first byte. The third one is SPI's read and write, and UART's exchange.
-enum class Command : std::uint8_t { kRead, kWrite, kThird };
+/// Bits 7..5 of the first byte. An exchange goes both ways: SPI's read and write, UART's exchange (010).
+enum class Command : std::uint8_t { kRead, kWrite, kExchange };
 
 /// How the two ports differ.
 struct TelegramRules {
-  bool exchanges;  ///< the third command is UART's exchange; else SPI's read and write, whose length byte is data
-  int most;        ///< bytes of the longest telegram (error bit 3) ...
-  int most_third;  ///< ... and of the longest of the third command
-  int most_write;  ///< data bytes of a write
+  bool names_area;    ///< an exchange is of an area (UART); else of the inputs, with its length byte as data (SPI)
+  int most;           ///< bytes of the longest telegram (error bit 3) ...
+  int most_exchange;  ///< ... and of the longest exchange
+  int most_write;     ///< data bytes of a write
 };
 inline constexpr TelegramRules kSpiRules = {false, 251, 251, 245};
 inline constexpr TelegramRules kUartRules = {true, 256, 257, 250};
@@ -70,7 +70,7 @@ class HostTelegram {
   bool is_for(int address) const { return (start_ & 3) == address && (address == 1 || address == 2); }
 
   const Request& request() const { return request_; }
-  /// Data of the last write or third command, up to kMostData; of SPI's read and write its length byte first.
+  /// Data of the last write or exchange, up to kMostData; of SPI's read and write its length byte first.
   const std::uint8_t* data() const { return data_.data(); }
 
   /// The error code of a right CRC's telegram; each wrong thing is reported at `now`.
@@ -82,7 +82,7 @@ class HostTelegram {
   void begin(std::uint8_t byte);
   void take_header(int index, std::uint8_t byte);
   void take_length(std::uint8_t length);
-  bool is_exchange(const Request& request) const { return rules_.exchanges && request.command == Command::kThird; }
+  bool is_of_area(const Request& request) const { return rules_.names_area && request.command == Command::kExchange; }
   int header() const;
   std::uint8_t judge_address(const Request& request, profibus::Cycle now, profibus::EventLog& log) const;
   std::uint8_t judge_data(const Request& request, profibus::Cycle now, profibus::EventLog& log) const;

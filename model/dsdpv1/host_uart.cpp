@@ -10,8 +10,6 @@ namespace {
 using profibus::kBitsPerCharacter;
 using profibus::kNever;
 
-/// Cycles a bit, by UBR (UA1).
-constexpr std::array<int, 8> kUbrCycles = {5000, 2500, 1250, 833, 417, 208, 104, 26};
 constexpr std::uint8_t kDataExchBit = 0x01, kErrorBit = 0x80;  // function of a reply
 
 }  // namespace
@@ -157,13 +155,13 @@ void HostUart::carry_out(Cycle now) {
   switch (request_.command) {
     case Command::kRead: return commit_.read(now, request_);
     case Command::kWrite: return commit_.write(now, request_, telegram_.data(), HostCommit::kNobody);
-    case Command::kThird: return commit_.exchange(now, request_, telegram_.data());
+    case Command::kExchange: return commit_.exchange(now, request_, telegram_.data());
   }
 }
 
 void HostUart::reply_error(Cycle now, std::uint8_t code, bool data_exch) {
   const auto address = static_cast<std::uint8_t>(address_);
-  if (request_.command == Command::kThird) {
+  if (request_.command == Command::kExchange) {
     add(address);
     add(kErrorBit | (data_exch ? kDataExchBit : std::uint8_t{0}));
   } else {
@@ -176,7 +174,7 @@ void HostUart::reply_error(Cycle now, std::uint8_t code, bool data_exch) {
 // The last move is made.
 void HostUart::reply_done(Cycle now) {
   const auto address = static_cast<std::uint8_t>(address_);
-  if (request_.command == Command::kThird) {
+  if (request_.command == Command::kExchange) {
     const Exchange& answer = commit_.answer();
     const std::uint8_t head[] = {address, answer.function(), static_cast<std::uint8_t>(answer.address() >> 8),
                                  static_cast<std::uint8_t>(answer.address() & 0xFF), answer.length_byte()};

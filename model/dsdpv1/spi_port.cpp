@@ -137,18 +137,18 @@ bool SpiPort::refused(Cycle now, const ChipSide& side) {
   if (request_.command == Command::kRead) return false;
   const bool claims = request_.command == Command::kWrite && request_.covers(kOwnership) &&
                       (telegram_.data()[kOwnership - request_.base()] & regs::kOwnershipHost) != 0;
-  const bool third = request_.command == Command::kThird;
+  const bool exchange = request_.command == Command::kExchange;
   if (commit_.busy())
     log_.at_cycle(now, Reason::kSpiBusy, 2);
-  else if (side.owns && (claims || third))
-    log_.at_cycle(now, Reason::kSpiBusy, third ? 1 : 0);
+  else if (side.owns && (claims || exchange))
+    log_.at_cycle(now, Reason::kSpiBusy, exchange ? 1 : 0);
   else
     return false;
   return true;
 }
 
 void SpiPort::carry_out(Cycle now) {
-  if (request_.command == Command::kThird) {
+  if (request_.command == Command::kExchange) {
     commit_.read_and_write(now, request_, telegram_.data());
     frame_holds_ = !frame_over_;
     return;
@@ -183,7 +183,7 @@ void SpiPort::set_claimed(Cycle now, bool claimed) {
 void SpiPort::begin_reply(Cycle now, const ChipSide& side, bool good, std::uint8_t code) {
   int data = 0;
   if (good && request_.command == Command::kRead) data = request_.length;
-  if (good && request_.command == Command::kThird) data = SpiReply::kOutputs;
+  if (good && request_.command == Command::kExchange) data = SpiReply::kOutputs;
   const unsigned start = (good ? reply_start(request_.command) : 0xE0U) + static_cast<unsigned>(address_);
   reply_.begin(static_cast<std::uint8_t>(start), code, data, static_cast<int>(config_.spi_reply_gap));
   if (frame_over_) return report_cut(now, 0);
@@ -194,7 +194,7 @@ void SpiPort::begin_reply(Cycle now, const ChipSide& side, bool good, std::uint8
 std::uint8_t SpiPort::next_reply_byte(const ChipSide& side) {
   const int wanted = reply_.wants();
   if (wanted < 0) return reply_.take(0);
-  const regs::Address base = request_.command == Command::kThird ? regs::kOutput : request_.base();
+  const regs::Address base = request_.command == Command::kExchange ? regs::kOutput : request_.base();
   return reply_.take(read(static_cast<regs::Address>(base + wanted), side));
 }
 

@@ -39,7 +39,8 @@ ChipModule::ChipModule(const sc_core::sc_module_name& name, const ChipOptions& o
     const std::string text = "phase is " + std::to_string(options.phase) + " ticks, allowed is 0 to 249";
     SC_REPORT_ERROR("/dsdpv1/phase", text.c_str());
   }
-  for (int pin = 0; pin < kPinCount; ++pin)
+  changed_ = outputs_of(options.chip.part);
+  for (int pin = 0; pin < pin_count(options.chip.part); ++pin)
     if (chip_.level(static_cast<Pin>(pin)) == 1) high_ |= mask(static_cast<Pin>(pin));
   chip_.on_event(
       {[](void* self, const profibus::Event& event) { static_cast<ChipModule*>(self)->event_happened(event); }, this});
@@ -70,6 +71,11 @@ void ChipModule::advance(Tick to) {
 Level ChipModule::sample(Tick at) {
   const WhileIn core(in_core_);
   return chip_.sample(at);
+}
+
+Level ChipModule::miso_before(Tick at) {
+  advance(at - 1);
+  return chip_.level(Pin::kMiso);
 }
 
 bool ChipModule::carry_out(Tick begin, const HostAccess& access, Level& sampled) {

@@ -17,7 +17,7 @@ struct ChipOptions {
   bool report_violations = true;  ///< SC_REPORT_WARNING /dsdpv1/violation for every violated rule of the user's bus
 };
 
-/// Base of PinModule and TlmModule; not to be used by itself.
+/// Base of the modules; not to be used by itself.
 class ChipModule : public sc_core::sc_module {
  public:
   /// Every change of a pin, inputs as the core got them and outputs, in order of time. Ticks are the chip's: simulation
@@ -28,6 +28,7 @@ class ChipModule : public sc_core::sc_module {
 
   /// Levels and status of the core at its last evaluation. TlmModule::sync() brings it to the present time.
   const Chip& chip() const { return chip_; }
+  Part part() const { return options_.chip.part; }
   Tick phase() const { return options_.phase; }
   /// DPRAM past the pins: no time, no side effects. `address` 0..0x7FF.
   std::uint8_t peek(std::uint16_t address) const { return chip_.peek(address); }
@@ -45,6 +46,8 @@ class ChipModule : public sc_core::sc_module {
   void set(Tick at, Pin pin, Level level);
   void advance(Tick to);
   Level sample(Tick at);
+  /// MISO as it is strictly before `at`.
+  Level miso_before(Tick at);
   bool carry_out(Tick begin, const HostAccess& access, Level& sampled);
   /// True while the core runs, that is inside of `on_pin` and `on_event`.
   bool is_in_core() const { return in_core_; }
@@ -87,8 +90,8 @@ class ChipModule : public sc_core::sc_module {
     sc_core::sc_signal_inout_if<bool>* signal;
   };
   std::vector<Wire> wires_;
-  std::uint32_t changed_ = kOutputPins;  ///< the first drive is of all of them
-  std::uint32_t high_ = 0;               ///< ... and the levels that were told
+  std::uint32_t changed_ = 0;  ///< the first drive is of all outputs
+  std::uint32_t high_ = 0;     ///< ... and the levels that were told
   bool broken_timing_ = false;
   bool in_core_ = false;
 };

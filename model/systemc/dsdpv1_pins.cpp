@@ -15,7 +15,7 @@ const Tick kClockStart = 2 * BoundClock::kWindow * profibus::kTicksPerCycle;
 
 PinModule::PinModule(const sc_core::sc_module_name& name, const PinOptions& options)
     : ChipModule(name, options), clock_tolerance_ppm_(options.clock_tolerance_ppm) {
-  watch(kOutputPins);
+  watch(outputs_of(part()));
   SC_HAS_PROCESS(PinModule);
   SC_METHOD(evaluate);  // the only process: SystemC would count a second one as a second driver of D
   sensitive << due_ << CLK << RESET << R_REQ << R_STA << CSR << RD << WR << A << D << PBRXD;
@@ -39,17 +39,16 @@ void PinModule::evaluate() {
   }
   const Tick now = present();
   advance(now);
-  apply_inputs(now);
+  apply_inputs(now, !std::exchange(applied_, true));
   drive_pins(take_changed());
-  if (!clock_)
-    schedule(now, chip().next_event());
-  else if (due_.triggered())
-    check_clock();
+  if (!clock_) return schedule(now, chip().next_event());
+  if (due_.triggered()) check_clock();
+  plan_between_edges(now);
 }
 
 void PinModule::begin() {
   user_d_ = level_of(D.read());
-  drive_pins(kOutputPins);
+  drive_pins(take_changed());
   due_.notify(sc_core::sc_time::from_value(1));  // when the delta cycles of time 0 are over
 }
 
@@ -79,8 +78,7 @@ void PinModule::check_clock() {
 Tick PinModule::present() const { return clock_ ? clock_->chip_tick(sc_core::sc_time_stamp()) : chip_now(); }
 
 /// Each pin that has changed is told, the host's all together: their order matters.
-void PinModule::apply_inputs(Tick at) {
-  const bool first = !std::exchange(applied_, true);
+void PinModule::apply_inputs(Tick at, bool first) {
   const bool user_drives_d = chip().level(Pin::kDOut) == kLevelZ;
   const bool access = CSR.event() || RD.event() || WR.event() || A.event() || D.event();
   const bool releases_d = std::exchange(user_drives_d_, user_drives_d) != user_drives_d;

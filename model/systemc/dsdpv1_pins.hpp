@@ -20,6 +20,8 @@ struct PinOptions : ChipOptions {
   double clock_tolerance_ppm = 3000;
 };
 
+/// The DSDPV1 or the DSDPV1-R; RsuPinModule (rsu_pins.hpp) is the DSDPV1-RSU.
+///
 /// CLK unbound: the rising edge of cycle n is at simulation tick n * 250 + phase, and only changes of pins cost events.
 /// CLK bound: cycle n is its n-th rising edge, counted from 0; `phase` is not used.
 ///
@@ -47,16 +49,21 @@ class PinModule : public ChipModule {
 
   explicit PinModule(const sc_core::sc_module_name& name, const PinOptions& options = {});
 
- private:
+ protected:
   void end_of_elaboration() override;
+  /// Inputs that have changed, all of them when it is the `first` time.
+  virtual void apply_inputs(Tick at, bool first);
+  virtual void drive_pins(std::uint32_t pins);
+
+ private:
+  /// CLK is bound, the chip is at `now`: for what it does between two edges of CLK.
+  virtual void plan_between_edges(Tick /*now*/) {}
   void evaluate();
   void begin();
   void clock_edge();
   void check_clock();
   Tick present() const;
-  void apply_inputs(Tick at);
   void apply_host(Tick at);
-  void drive_pins(std::uint32_t pins);
 
   double clock_tolerance_ppm_;
   std::unique_ptr<BoundClock> clock_;  ///< only while CLK is bound

@@ -23,6 +23,7 @@ TlmModule::TlmModule(const sc_core::sc_module_name& name, const TlmOptions& opti
 }
 
 void TlmModule::start_of_simulation() {
+  check_binding();
   const struct {
     Pin pin;
     OptionalOut& port;
@@ -32,11 +33,15 @@ void TlmModule::start_of_simulation() {
     connect(wire.pin, wire.port);
     if (wire.port.size() > 0) bound_ |= mask(wire.pin);
   }
-  std::uint32_t watched = bound_ | mask(Pin::kPbtxd) | mask(Pin::kPbrts);
+  std::uint32_t watched = bound_ | heard_outputs() | mask(Pin::kPbtxd) | mask(Pin::kPbrts);
   if (on_pin) watched |= observed_;
   const bool told = on_pin && (observed_ & mask(Pin::kPbtxd)) != 0 && !on_answer;
   may_hide_ = PBTXD.size() == 0 && !told;
   watch(watched);
+}
+
+void TlmModule::report_unbound(const std::string& socket, const char* why) {
+  SC_REPORT_ERROR("/dsdpv1/binding", (socket + " is not bound, and " + why).c_str());
 }
 
 void TlmModule::sync(const sc_core::sc_time& ahead) {
@@ -61,9 +66,7 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
   }
   const unsigned int first = is_decoupled() ? carry_out_bytes_ahead(payload, delay) : 0;
   if (first == payload.get_data_length()) return;
-  // The chip lives in simulation time: an initiator that runs ahead of it is brought back to it here.
-  if (delay != sc_core::SC_ZERO_TIME) wait(delay);
-  delay = sc_core::SC_ZERO_TIME;
+  wait_for(delay);
   host_bus_.lock();
   try {
     carry_out(payload, first);
@@ -73,6 +76,12 @@ void TlmModule::b_transport(Payload& payload, sc_core::sc_time& delay) {
     throw;
   }
   host_bus_.unlock();
+}
+
+/// The chip lives in simulation time: an initiator that runs ahead of it is brought back to it here.
+void TlmModule::wait_for(sc_core::sc_time& delay) {
+  if (delay != sc_core::SC_ZERO_TIME) sc_core::wait(delay);
+  delay = sc_core::SC_ZERO_TIME;
 }
 
 void TlmModule::carry_out_ahead(Payload& payload, sc_core::sc_time& delay) {
@@ -114,9 +123,13 @@ bool TlmModule::is_alone(Tick begin, Tick end) {
   return true;
 }
 
+Tick TlmModule::earliest() const {
+  return current_tick() + std::max<Tick>(0, chip().now() - chip_tick(current_tick()));
+}
+
 void TlmModule::carry_out(Payload& payload, unsigned int first) {
   const AccessTiming& timing = timing_of(payload, timing_);
-  access_start_ = current_tick() + std::max<Tick>(0, chip().now() - chip_tick(current_tick()));  // accesses run ahead
+  access_start_ = earliest();
   unsigned char* data = payload.get_data_ptr();
   for (unsigned int i = first; i < payload.get_data_length(); ++i) {
     if (!is_enabled(payload, i)) continue;
@@ -141,8 +154,6 @@ bool TlmModule::write_byte(std::uint16_t address, const AccessTiming& timing, un
   return !take_broken_timing();
 }
 
-/// Ends an access at once, when its initiator's process was reset or killed. After a complete one nothing is left to
-/// do.
 void TlmModule::release_host_pins() {
   catch_up();
   access_ = {};
@@ -215,10 +226,10 @@ void TlmModule::evaluate() {
   plan(now, chip().next_event());
 }
 
-/// Up to the present tick, which it returns.
 Tick TlmModule::catch_up() {
   const Tick now = chip_now();
   move_access(now);
+  move_host(now);
   advance(now);
   offer_answer();
   apply_line(now);
@@ -226,6 +237,7 @@ Tick TlmModule::catch_up() {
   if (chip().left_run()) stop_run(now);
   collect_character(now);
   if (!complete_.empty()) emit_characters();
+  tell_host(now);
   return now;
 }
 
@@ -253,7 +265,7 @@ void TlmModule::plan(Tick now, Tick core) {
   if (has_changed(bound_) || line <= now || line_is_stale(now))
     schedule_now();
   else
-    schedule(now, std::min({core, line, from_chip_.next(), next_answered()}));
+    schedule(now, std::min({core, line, next_of_host(), from_chip_.next(), next_answered()}));
 }
 
 }  // namespace dsdpv1::systemc

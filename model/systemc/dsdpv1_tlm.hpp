@@ -16,6 +16,7 @@
 #include <deque>
 #include <functional>
 #include <ostream>
+#include <string>
 #include <systemc>
 #include <vector>
 
@@ -47,11 +48,12 @@ struct TlmOptions : ChipOptions {
 };
 
 /// Knows whether somebody listens.
-class CharacterPort : public tlm::tlm_analysis_port<BusCharacter> {
+template <class T>
+class ListenedPort : public tlm::tlm_analysis_port<T> {
  public:
-  using tlm_analysis_port::tlm_analysis_port;
-  void bind(tlm::tlm_analysis_if<BusCharacter>& listener) override {
-    tlm_analysis_port::bind(listener);
+  using tlm::tlm_analysis_port<T>::tlm_analysis_port;
+  void bind(tlm::tlm_analysis_if<T>& listener) override {
+    tlm::tlm_analysis_port<T>::bind(listener);
     bound_ = true;
   }
   bool bound() const { return bound_; }
@@ -60,6 +62,7 @@ class CharacterPort : public tlm::tlm_analysis_port<BusCharacter> {
   bool bound_ = false;
 };
 
+/// The DSDPV1 or the DSDPV1-R; RsuTlmModule is the DSDPV1-RSU.
 class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> {
  public:
   using In = sc_core::sc_in<bool>;
@@ -78,7 +81,8 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   /// initiator moves R_REQ, R_STA or RESET, or looks at an output, it waits for its delay.
   /// Access without ownership is carried out and reported (P12). Debug transport reads and writes the DPRAM past the
   /// pins; direct memory access is denied.
-  tlm_utils::simple_target_socket<TlmModule> host_socket{"host_socket"};
+  /// Must be bound (error /dsdpv1/binding), unless the straps of a DSDPV1-RSU choose another port.
+  tlm_utils::simple_target_socket_optional<TlmModule> host_socket{"host_socket"};
 
   In RESET{"RESET"};                           ///< low-active
   In R_REQ{"R_REQ"}, R_STA{"R_STA"};           ///< the user's side of the handshake
@@ -91,7 +95,7 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   /// /dsdpv1/bus.
   sc_core::sc_export<tlm::tlm_analysis_if<BusCharacter>> bus_in{"bus_in"};
   /// Characters from the chip, each at the end of its stop bit.
-  CharacterPort bus_out{"bus_out"};
+  ListenedPort<BusCharacter> bus_out{"bus_out"};
   OptionalOut PBRTS{"PBRTS"};  ///< the RS-485 driver's enable (P2)
   /// The raw line, beside the characters. A bound PBRXD and the characters of `bus_in` are both on the wire: a low of
   /// either wins.
@@ -116,18 +120,53 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   /// it ends; sync() moves those up to now.
   bool in_access() const { return access_.size() > 0; }
 
+  /// A, D, CSR, RD and WR idle from now on, as of a host in reset. When the initiator of an access is reset or killed,
+  /// this happens by itself.
+  void release_host_pins();
+
   /// Brings the core to the present time; signals follow in the next delta cycle. For users that read levels through
   /// `chip()`. Does nothing when called from `on_pin` or `on_event`: the core is on its way then. `ahead`: to so much
   /// later, for a decoupled initiator; the kernel must be quiet until then.
   void sync(const sc_core::sc_time& ahead = sc_core::SC_ZERO_TIME);
 
- private:
+ protected:
   using Payload = tlm::tlm_generic_payload;
 
   void start_of_simulation() override;
+  unsigned int transport_dbg(Payload& payload);
+  /// Up to the present tick, which it returns.
+  Tick catch_up();
+  void plan() { plan(chip_now(), chip().next_event()); }
+  void wait_until(Tick tick);
+  /// The first simulation tick at which a transaction that comes now may begin: one ahead of simulation time may have
+  /// brought the core further.
+  Tick earliest() const;
+  /// The thread of a transaction is brought to its annotated delay.
+  static void wait_for(sc_core::sc_time& delay);
+  bool output_changed(Tick at, Pin pin, Level level) override;
+  /// `on_pin` is to hear it.
+  bool hears(Pin pin) const { return (observed_ & mask(pin)) != 0; }
+  /// The live host port's socket is bound.
+  template <class Socket>
+  void require_bound(Socket& socket, const char* why) {
+    if (socket.get_base_port().size() == 0) report_unbound(socket.name(), why);
+  }
+
+ private:
+  // For a host at another port.
+  /// Reports a socket that must be bound.
+  virtual void check_binding() { require_bound(host_socket, "it is the host port"); }
+  /// Outputs that it wants to hear (output_changed), whoever else does.
+  virtual std::uint32_t heard_outputs() const { return 0; }
+  /// Its pins are moved up to the chip's tick `now`.
+  virtual void move_host(Tick /*now*/) {}
+  /// The core has come to `now`.
+  virtual void tell_host(Tick /*now*/) {}
+  /// The chip's tick of its next edge, or of what it is told next.
+  virtual Tick next_of_host() const { return profibus::kNever; }
+
   void write(const BusCharacter& character) override;  // bus_in
   void b_transport(Payload& payload, sc_core::sc_time& delay);
-  unsigned int transport_dbg(Payload& payload);
 
   void carry_out_ahead(Payload& payload, sc_core::sc_time& delay);
   unsigned int carry_out_bytes_ahead(Payload& payload, sc_core::sc_time& delay);
@@ -138,11 +177,9 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   bool write_byte(std::uint16_t address, const AccessTiming& timing, unsigned char byte);
   void perform(bool write, std::uint16_t address, std::uint8_t value, const AccessTiming& timing);
   void move_access(Tick now);
-  void release_host_pins();
-  void wait_until(Tick tick);
+  static void report_unbound(const std::string& socket, const char* why);
 
   void evaluate();
-  Tick catch_up();
   void apply_line(Tick now);
   bool hears_host() const { return on_pin && (observed_ & kHostPins) != 0; }
   bool tells_runs() const { return !on_pin || (observed_ & mask(Pin::kPbrxd)) == 0; }
@@ -154,11 +191,9 @@ class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> 
   void spell_out(const LineRun& run, Tick behind);
   void apply_inputs(Tick now);
   void apply(Tick now, Pin pin, bool level);
-  void plan() { plan(chip_now(), chip().next_event()); }
   /// `core`: when that is to be evaluated next.
   void plan(Tick now, Tick core);
 
-  bool output_changed(Tick at, Pin pin, Level level) override;
   void txd_changed(Tick at, bool level);
   void offer_answer();
   void end_answer(Tick at);

@@ -8,6 +8,7 @@
 namespace dsdpv1::tb {
 
 void LastAccess::pin(dsdpv1::Tick at, Pin pin, Level level) {
+  telegram_.pin(at, pin, level);
   if (pin == Pin::kCsr) csr_ = level;
   if (pin == Pin::kA) a_ = level;
   if (pin == Pin::kDIn) d_ = level;
@@ -21,6 +22,7 @@ void LastAccess::pin(dsdpv1::Tick at, Pin pin, Level level) {
 }
 
 std::string LastAccess::words() const {
+  if (telegram_.begin() > at_) return telegram_.words();
   if (at_ < 0) return "none";
   if (!write_) return fmt::format("read B{:03X} at {}", address_, cycle_text(at_));
   const PinInfo& d = dsdpv1_pins().at(static_cast<std::size_t>(Pin::kDIn));

@@ -1,8 +1,9 @@
 #pragma once
-// The user's last access at the host port, read from its pins.
+// The user's last access at the host port, or telegram at a serial one, read from its pins.
 #include <string>
 
 #include "model/dsdpv1/pins.hpp"
+#include "tb/dsdpv1/last_telegram.hpp"
 
 namespace dsdpv1::tb {
 
@@ -11,10 +12,12 @@ class LastAccess {
  public:
   /// Every change of an input pin, in order of time.
   void pin(dsdpv1::Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
-  /// "read B410 at cycle 84795 + 122 ticks (1766.573 us)", "write B011 := 01 at ...", "none".
+  /// "read B410 at cycle 84795 + 122 ticks (1766.573 us)", "write B011 := 01 at ...", "none"; or as LastTelegram has
+  /// it.
   std::string words() const;
 
  private:
+  LastTelegram telegram_;
   dsdpv1::Tick at_ = -1;
   bool write_ = false;
   dsdpv1::Level address_ = 0, data_ = 0;                 ///< of the access

@@ -1,6 +1,5 @@
 #include "tb/dsdpv1/pin_chip.hpp"
 
-#include <array>
 #include <utility>
 
 #include "tb/dsdpv1/pins/pin_table.hpp"
@@ -188,13 +187,11 @@ void PinChip::reset_host(Tick at) {
   report_host(at, Pin::kRReq, Pin::kDIn);
 }
 
-void PinChip::set_serial(Tick at, user_cpu::SerialPin pin, bool level) {
-  constexpr std::array<Pin, 6> kPins = {Pin::kXss, Pin::kSck, Pin::kMosi, Pin::kMiso, Pin::kRxd, Pin::kTxd};
-  const Pin moved = kPins.at(static_cast<std::size_t>(pin));
+void PinChip::set_serial(Tick at, Pin pin, bool level) {
   catch_up_access(at);
-  if (chip_.level(moved) == (level ? 1 : 0)) return;
-  device().set(at, moved, level ? 1 : 0);
-  report_host(at, moved, moved);
+  if (chip_.level(pin) == (level ? 1 : 0)) return;
+  device().set(at, pin, level ? 1 : 0);
+  report_host(at, pin, pin);
 }
 
 /// Released, it is high: a board has a pull-up (SP6 reads FF where nobody drives).

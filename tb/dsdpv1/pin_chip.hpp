@@ -80,7 +80,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   void report_inputs(Tick at, dsdpv1::Pin first, dsdpv1::Pin last);
 
   // The host bus is that of the pins; what it does to the input pins is reported.
-  void set_serial(Tick at, user_cpu::SerialPin pin, bool level) override;
+  void set_serial(Tick at, dsdpv1::Pin pin, bool level) override;
   bool miso(Tick at) override;
   void set_r_req(Tick at, bool level) override;
   void set_r_sta(Tick at, bool level) override;

@@ -1,7 +1,10 @@
-// The JSON Schema from the description of the keys. Every mapping becomes a definition of its own.
+// The JSON Schema from the description of the keys. Every mapping becomes a definition of its own; those of another
+// kind of chip bear its name.
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <string>
+#include <utility>
 
 #include "tb/scenario/scenario.hpp"
 
@@ -16,22 +19,10 @@ using keys::Object;
 
 class SchemaWriter {
  public:
-  Json write(const Object& root) {
-    Json schema;
-    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
-    schema["title"] = "dsdpv1-sim scenario";
-    const Json body = object(root);
-    schema.update(body);
-    schema["$defs"] = definitions_;
-    return schema;
-  }
+  /// `prefix` of the names of definitions.
+  explicit SchemaWriter(std::string prefix) : prefix_(std::move(prefix)) {}
 
- private:
-  static std::string definition_name(const Object& object) {
-    std::string text = object.name;
-    for (char& c : text) c = c == ' ' ? '_' : c;
-    return text;
-  }
+  const Json& definitions() const { return definitions_; }
 
   Json reference(const Object& described) {
     const std::string id = definition_name(described);
@@ -40,6 +31,13 @@ class SchemaWriter {
       definitions_[id] = object(described);
     }
     return {{"$ref", "#/$defs/" + id}};
+  }
+
+ private:
+  std::string definition_name(const Object& object) const {
+    std::string text = prefix_ + object.name;
+    for (char& c : text) c = c == ' ' ? '_' : c;
+    return text;
   }
 
   Json value(const Field& field) {
@@ -162,11 +160,38 @@ class SchemaWriter {
     for (const auto& group : described.at_most_one) json["not"] = {{"required", group}};
   }
 
+  std::string prefix_;
   Json definitions_ = Json::object();
 };
 
+Json definitions_of(const ChipKind& kind, const std::string& prefix) {
+  SchemaWriter writer(prefix);
+  writer.reference(description(kind));
+  return writer.definitions();
+}
+
+Json scenario_of(const std::string& prefix) { return {{"$ref", "#/$defs/" + prefix + "scenario"}}; }
+
+Json is_of(const ChipKind& kind) {
+  const Json chip = {{"properties", {{"kind", {{"const", kind.name()}}}}}, {"required", {"kind"}}};
+  return {{"properties", {{"chip", chip}}}, {"required", {"chip"}}};
+}
+
 }  // namespace
 
-std::string json_schema(const ChipKind& kind) { return SchemaWriter().write(description(kind)).dump(2) + "\n"; }
+std::string json_schema() {
+  const ChipKind* usual = chip_kinds().front();
+  Json definitions = definitions_of(*usual, ""), choice = scenario_of("");
+  for (const ChipKind* kind : chip_kinds()) {
+    if (kind == usual) continue;
+    const std::string prefix = std::string(kind->name()) + ".";
+    definitions.update(definitions_of(*kind, prefix));
+    choice = {{"if", is_of(*kind)}, {"then", scenario_of(prefix)}, {"else", choice}};
+  }
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "dsdpv1-sim scenario"}};
+  schema.update(choice);
+  schema["$defs"] = definitions;
+  return schema.dump(2) + "\n";
+}
 
 }  // namespace dsdpv1::tb::scenario

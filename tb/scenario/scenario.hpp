@@ -308,8 +308,8 @@ bool allows(const Scenario& scenario, const std::string& code, const std::string
 
 /// The description of a whole scenario with chips of this kind.
 const keys::Object& description(const ChipKind& kind);
-/// JSON Schema (draft 2020-12) of the scenario, indented, with a line end.
-std::string json_schema(const ChipKind& kind);
+/// JSON Schema (draft 2020-12) of scenarios with chips of any kind, indented, with a line end.
+std::string json_schema();
 /// docs/scenarios.md.
 std::string markdown(const ChipKind& kind);
 

@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-using user_cpu::SerialPin;
+using dsdpv1::Pin;
 
 enum Program {
   kSpi1,
@@ -64,14 +64,14 @@ class SerialBus : public user_cpu::PinHostBus {
     Tick at;
     bool level;
   };
-  void set_serial(Tick at, SerialPin pin, bool level) override {
+  void set_serial(Tick at, Pin pin, bool level) override {
     EXPECT_GE(at, last_);
     last_ = at;
     changes[pin].push_back({at, level});
-    if (pin == SerialPin::kSck && level) ++rises_;
+    if (pin == Pin::kSck && level) ++rises_;
   }
   bool miso(Tick) override { return (answer >> (7 - rises_ % 8) & 1U) != 0; }
-  std::vector<bool> levels(SerialPin pin) {
+  std::vector<bool> levels(Pin pin) {
     std::vector<bool> all;
     for (const Change& each : changes[pin]) all.push_back(each.level);
     return all;
@@ -81,7 +81,7 @@ class SerialBus : public user_cpu::PinHostBus {
     rises_ = 0;
   }
   unsigned answer = 0xFF;
-  std::map<SerialPin, std::vector<Change>> changes;
+  std::map<Pin, std::vector<Change>> changes;
 
  private:
   Tick last_ = 0;
@@ -132,14 +132,14 @@ class BoardSerial : public testing::Test {
 
 /// The sixteen edges of a byte lie `half` cycles of HCLK apart, XSS round them.
 void expect_a_byte(SerialBus& host, Tick half) {
-  const auto& sck = host.changes[SerialPin::kSck];
+  const auto& sck = host.changes[Pin::kSck];
   ASSERT_EQ(sck.size(), 16U);
   for (std::size_t i = 0; i < sck.size(); ++i) {
     EXPECT_EQ(sck[i].level, i % 2 == 0);
     EXPECT_NEAR(static_cast<double>(sck[i].at - sck[0].at), static_cast<double>(cycles(half * static_cast<Tick>(i))),
                 1);
   }
-  const auto& xss = host.changes[SerialPin::kXss];
+  const auto& xss = host.changes[Pin::kXss];
   ASSERT_EQ(xss.size(), 2U);
   EXPECT_LT(xss[0].at, sck.front().at - 600);  // SP2: 50 ns
   EXPECT_GT(xss[1].at, sck.back().at + 600);
@@ -152,8 +152,8 @@ TEST_F(BoardSerial, Spi1MovesThePinsOfCard1AtItsTicks) {
   expect_a_byte(host, 4);
   EXPECT_EQ(cell(0), 0xC5);
   // 1001 1010, the first bit half a bit before the first rise
-  EXPECT_EQ(host.levels(SerialPin::kMosi), (std::vector<bool>{true, false, true, false, true, false}));
-  EXPECT_NEAR(static_cast<double>(host.changes[SerialPin::kSck][0].at - host.changes[SerialPin::kMosi][0].at),
+  EXPECT_EQ(host.levels(Pin::kMosi), (std::vector<bool>{true, false, true, false, true, false}));
+  EXPECT_NEAR(static_cast<double>(host.changes[Pin::kSck][0].at - host.changes[Pin::kMosi][0].at),
               static_cast<double>(cycles(4)), 1);
 }
 
@@ -176,7 +176,7 @@ TEST_F(BoardSerial, EdgesAreAtTheSameTicksWhenTheProcessorIsAloneOnTheBench) {
       start(program);
       board->set_others(others);
       run();
-      std::vector<std::tuple<SerialPin, Tick, bool>> all;
+      std::vector<std::tuple<Pin, Tick, bool>> all;
       for (const auto& [pin, list] : host.changes)
         for (const auto& each : list) all.emplace_back(pin, each.at, each.level);
       board.reset();
@@ -203,7 +203,7 @@ TEST_F(BoardSerial, TheOtherCardsSpiMovesNothingAndHearsOnes) {
   start(kSpi2, 1);
   host.answer = 0;
   run();
-  EXPECT_THAT(host.changes[SerialPin::kSck], IsEmpty());
+  EXPECT_THAT(host.changes[Pin::kSck], IsEmpty());
   EXPECT_EQ(cell(0), 0xFF);
 }
 
@@ -217,7 +217,7 @@ TEST_F(BoardSerial, ChipWithoutSerialPinsHasNoneMoved) {
 TEST_F(BoardSerial, RemappedSpiHasLeftThePinsOfTheCard) {
   start(kRemapped);
   run();
-  EXPECT_THAT(host.changes[SerialPin::kSck], IsEmpty());
+  EXPECT_THAT(host.changes[Pin::kSck], IsEmpty());
 }
 
 TEST_F(BoardSerial, FirmwareThatFetchesTooLateFindsOvrAndTheFirstByte) {
@@ -236,7 +236,7 @@ TEST_F(BoardSerial, FirmwareThatFetchesTooLateFindsOvrAndTheFirstByte) {
 TEST_F(BoardSerial, RegistersAreWhatTheyAreAtTheInstruction) {
   start(kQuick);
   run();
-  EXPECT_EQ(host.changes[SerialPin::kSck].size(), 9 * 16U);
+  EXPECT_EQ(host.changes[Pin::kSck].size(), 9 * 16U);
   EXPECT_EQ(cell(0), 0x82 | 0x41);  // BSY, TXE; OVR and RXNE of those before
 }
 
@@ -251,7 +251,7 @@ TEST_F(BoardSerial, RxneInterruptsASleepingProcessor) {
 TEST_F(BoardSerial, Usart2SendsOnRxdAndInterruptsWithWhatTxdSays) {
   start(kUart);
   run_until(kStart + 200 * bus::kTicksPerUs);
-  const auto& rxd = host.changes[SerialPin::kRxd];
+  const auto& rxd = host.changes[Pin::kRxd];
   const unsigned frame = 0x31U << 1U | 1U << 9U | 1U << 10U;
   std::vector<Tick> expected;
   for (unsigned i = 0, level = 1; i < 11; ++i)
@@ -341,9 +341,9 @@ TEST_F(BoardSerial, OutputsMoveSpiByHand) {
   host.answer = 0x40;
   start(kByHand);
   run();
-  EXPECT_EQ(host.levels(SerialPin::kXss), (std::vector<bool>{false, true}));
-  EXPECT_EQ(host.levels(SerialPin::kSck), (std::vector<bool>{true, false, true, false}));
-  EXPECT_EQ(host.levels(SerialPin::kMosi), (std::vector<bool>{true, false}));
+  EXPECT_EQ(host.levels(Pin::kXss), (std::vector<bool>{false, true}));
+  EXPECT_EQ(host.levels(Pin::kSck), (std::vector<bool>{true, false, true, false}));
+  EXPECT_EQ(host.levels(Pin::kMosi), (std::vector<bool>{true, false}));
   EXPECT_EQ(cell(0), 1);  // MISO after one rise, after two
   EXPECT_EQ(cell(1), 0);
 }

@@ -87,7 +87,8 @@ TEST(RtlFaults, StimulusThatAFaultNamesIsPlayedFirst) {
 TEST(RtlFaults, StimuliOfTheListsAreThere) {
   const std::string source = DSDPV1_SOURCE_DIR;
   for (const std::string chip : {"", "_rsu"}) {
-    const std::vector<cosim::NamedStimulus> stimuli = cosim::read_stimuli(source + "/tests/cosim/stimuli" + chip);
+    const std::vector<cosim::NamedStimulus> stimuli =
+        cosim::read_stimuli(source + "/tests/cosim/stimuli" + chip, chip.empty() ? Part::kDsdpv1 : Part::kRsu);
     for (const cosim::Fault& fault : cosim::read_faults(source + "/rtl_ref/faults" + chip + ".txt")) {
       const auto named = [&fault](const cosim::NamedStimulus& each) { return each.name == fault.stimulus; };
       EXPECT_TRUE(std::any_of(stimuli.begin(), stimuli.end(), named)) << fault.number << " names " << fault.stimulus;

@@ -46,7 +46,7 @@ class PlayedStimulus : public testing::Test {
     cosim::PlayOptions options;
     if (log != nullptr) options.listeners.push_back(log);
     if (wave != nullptr) wave->listen(options);
-    return cosim::play(cosim::parse_stimulus(kStimulus, "x"), wrong_interrupt(), options);
+    return cosim::play(cosim::parse_stimulus(kStimulus, "x", Part::kDsdpv1), wrong_interrupt(), options);
   }
 
  private:

@@ -15,9 +15,9 @@ namespace {
 using cosim::parse_stimulus;
 using cosim::to_text;
 
-std::string error_of(const std::string& text) {
+std::string error_of(const std::string& text, Part part = Part::kDsdpv1) {
   try {
-    parse_stimulus(text, "my.stimulus");
+    parse_stimulus(text, "my.stimulus", part);
   } catch (const tb::InputError& error) {
     return error.what();
   }
@@ -27,7 +27,7 @@ std::string error_of(const std::string& text) {
 TEST(Stimulus, RandomCasesAreReadBackAsTheyWereWritten) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 77U}) {
     const std::string text = to_text(cosim::random_stimulus(seed));
-    EXPECT_EQ(to_text(parse_stimulus(text, "again")), text) << seed;
+    EXPECT_EQ(to_text(parse_stimulus(text, "again", Part::kDsdpv1)), text) << seed;
   }
 }
 
@@ -37,13 +37,13 @@ TEST(Stimulus, RandomCasesAreTheSameForTheSameSeed) {
 }
 
 TEST(Stimulus, EmptyLinesAndCommentsAreSkipped) {
-  EXPECT_EQ(parse_stimulus("# a comment\n\nsync\n  # another\ngive +12\n", "x").size(), 2U);
+  EXPECT_EQ(parse_stimulus("# a comment\n\nsync\n  # another\ngive +12\n", "x", Part::kDsdpv1).size(), 2U);
 }
 
 TEST(Stimulus, LinesBetweenRepeatAndEndCountAsOftenAsSaid) {
   const std::string once = "give +1\nsync\n";
-  EXPECT_EQ(to_text(parse_stimulus("take +7\nrepeat 3\n" + once + "end\ngive +9\n", "x")),
-            to_text(parse_stimulus("take +7\n" + once + once + once + "give +9\n", "x")));
+  EXPECT_EQ(to_text(parse_stimulus("take +7\nrepeat 3\n" + once + "end\ngive +9\n", "x", Part::kDsdpv1)),
+            to_text(parse_stimulus("take +7\n" + once + once + once + "give +9\n", "x", Part::kDsdpv1)));
 }
 
 TEST(Stimulus, FilesWithTheShortestDelaysArePlayedFirst) {
@@ -55,9 +55,14 @@ TEST(Stimulus, FilesWithTheShortestDelaysArePlayedFirst) {
   std::ofstream(folder / "c.stimulus") << "give +30\n";
   std::ofstream(folder / "d.txt") << "no stimulus\n";
   std::string order;
-  for (const cosim::NamedStimulus& each : cosim::read_stimuli(folder.string())) order += each.name;
+  for (const cosim::NamedStimulus& each : cosim::read_stimuli(folder.string(), Part::kDsdpv1)) order += each.name;
   fs::remove_all(folder);
   EXPECT_EQ(order, "cba");
+}
+
+TEST(Stimulus, ActionsAndPinsOfTheRsuAreForTheRsu) {
+  EXPECT_EQ(error_of("spi +0 : 01\nuart +0 rate=7 : 01\npin +0 MODE level=1\n", Part::kRsu), "none");
+  EXPECT_NE(error_of("fly +1\n", Part::kRsu).find("block, pin, spi, uart, reset"), std::string::npos);
 }
 
 struct Wrong {
@@ -72,8 +77,15 @@ INSTANTIATE_TEST_SUITE_P(
     Cases, WrongLine,
     testing::Values(
         Wrong{"sync\nfly +1\n",
-              "my.stimulus:2: unknown action fly, allowed: send, spike, take, give, write, read, block, pin, spi, "
-              "uart, reset, sync, repeat, end"},
+              "my.stimulus:2: unknown action fly, allowed: send, spike, take, give, write, read, block, pin, reset, "
+              "sync, repeat, end"},
+        Wrong{"sync\nspi +0 : 01\n",
+              "my.stimulus:2: spi is an action of the DSDPV1-RSU's host, allowed: --chip dsdpv1_rsu"},
+        Wrong{"uart +0 rate=7 : 01\n",
+              "my.stimulus:1: uart is an action of the DSDPV1-RSU's host, allowed: --chip dsdpv1_rsu"},
+        Wrong{"pin +0 MODE level=1\n",
+              "my.stimulus:1: unknown word MODE, allowed: +DELAY, KEY=VALUE, : BYTES, and the name of an input pin "
+              "behind pin"},
         Wrong{"write +0 at=800 value=1\n", "my.stimulus:1: wrong number 800, allowed: 0 to 7FF, hexadecimal"},
         Wrong{"write +0 to=1\n",
               "my.stimulus:1: unknown argument to, allowed: +DELAY, at=, value=, setup=, low=, hold="},

@@ -61,13 +61,16 @@ TEST(Scenario, PathsAreRelativeToItsFolder) {
 }
 
 TEST(JsonSchema, IsJsonAndKnowsEveryKeyOfTheDescription) {
-  const auto schema = nlohmann::json::parse(sc::json_schema(*tb::chip_kinds().front()));
-  for (const auto& field : sc::description(*tb::chip_kinds().front()).fields)
-    EXPECT_TRUE(schema["properties"].contains(field.name)) << field.name;
-  EXPECT_FALSE(schema["additionalProperties"]);
-  EXPECT_EQ(schema["required"], (nlohmann::json{"name", "baud", "end", "slaves"}));
-  EXPECT_EQ(schema["$defs"]["action"]["oneOf"].size(),
-            sc::description(*tb::chip_kinds().front()).find("script")->type.object->choices.size());
+  const auto definitions = nlohmann::json::parse(sc::json_schema())["$defs"];
+  for (const tb::ChipKind* kind : tb::chip_kinds()) {
+    const std::string prefix = kind == tb::chip_kinds().front() ? "" : std::string(kind->name()) + ".";
+    auto scenario = definitions[prefix + "scenario"], actions = definitions[prefix + "action"]["oneOf"];
+    for (const auto& field : sc::description(*kind).fields)
+      EXPECT_TRUE(scenario["properties"].contains(field.name)) << field.name;
+    EXPECT_FALSE(scenario["additionalProperties"]);
+    EXPECT_EQ(scenario["required"], (nlohmann::json{"name", "baud", "end", "slaves"}));
+    EXPECT_EQ(actions.size(), sc::description(*kind).find("script")->type.object->choices.size());
+  }
 }
 
 TEST(Markdown, IsTheCheckedInFile) {

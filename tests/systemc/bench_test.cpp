@@ -129,7 +129,8 @@ struct TlmRun {
   bus::Timeline timeline;
   bus::Segment segment;
   systemc_bench::TimelineModule timeline_module{"timeline", timeline};
-  systemc_bench::TlmChip chip{"slave", {}, segment, timeline_module}, aborted{"aborted", {}, segment, timeline_module};
+  systemc_bench::TlmChip chip{"slave", TlmOptions(), segment, timeline_module},
+      aborted{"aborted", TlmOptions(), segment, timeline_module};
   user_cpu::TlmHostBus host{"host", chip}, aborted_host{"aborted_host", aborted};
   Once reset{kReset, [this] { chip.set_reset(true), aborted.set_reset(true); }};
   Once begin{kAbortAt, [this] { begin_access(kAbortAt, 0x000); }};

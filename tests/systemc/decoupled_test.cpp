@@ -74,7 +74,8 @@ TEST(Decoupled, AStationThatAddsUpRoundedTimesIsHeardAtAPicosecond) {
       collect_reports();
       platform::Platform platform(adds_up);
       sc_core::sc_start(platform::to_time(platform::kEnd));
-      return std::to_string(platform.answered) + " characters, " + std::to_string(reports().size()) + " reports";
+      return std::to_string(platform.station.answered()) + " characters, " + std::to_string(reports().size()) +
+             " reports";
     });
   };
   EXPECT_EQ(answered(false), "198 characters, 0 reports");

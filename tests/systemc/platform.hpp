@@ -5,23 +5,29 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "bus/telegram/telegram.hpp"
 #include "driver/systemc/driver_cpu.hpp"
+#include "driver/systemc/serial_cpu.hpp"
+#include "model/systemc/rsu_tlm.hpp"
 #include "tests/systemc/bench.hpp"
 
 namespace dsdpv1::platform {
 
 using dsdpv1::systemc::BusCharacter;
 using dsdpv1::systemc::DriverCpu;
+using dsdpv1::systemc::SpiDriverCpu;
 using dsdpv1::systemc::to_tick;
 using dsdpv1::systemc::to_time;
+using dsdpv1::systemc::UartDriverCpu;
 
 constexpr std::uint8_t kSlave = 9, kMaster = 2;
 constexpr int kExchanges = 12;
 constexpr Tick kBit = 1000, kBusBegins = 400 * kUs, kBetween = 150 * kUs;  // 12 Mbit/s
 constexpr Tick kEnd = kBusBegins + (kExchanges + 8) * kBetween;
+constexpr int kSerialSlower = 10;  ///< of a user CPU at a serial port, about
 
 /// The requests of a master that brings its slave up.
 inline std::vector<bus::Bytes> requests() {
@@ -48,7 +54,8 @@ class User {
  public:
   std::ostringstream log;
 
-  void run(DriverCpu& cpu) {
+  template <class Cpu>
+  void run(Cpu& cpu) {
     cpu_ = &cpu;
     dsdpv1_judge judge{};
     judge.ctx = this;
@@ -60,7 +67,7 @@ class User {
       static_cast<User*>(ctx)->say() << "configuration, " << unsigned{block->length} << " bytes\n";
       return DSDPV1_ACCEPT;
     };
-    dsdpv1_open(&cpu.device(), &cpu.port(), &judge);
+    open(cpu, judge);
     cpu.spend(sc_core::sc_time(1, sc_core::SC_US));
     cpu.set_reset(true);
     say() << "ready: " << dsdpv1_error_text(dsdpv1_wait_ready(&cpu.device())) << "\n";
@@ -69,6 +76,13 @@ class User {
   }
 
  private:
+  static void open(DriverCpu& cpu, const dsdpv1_judge& judge) { dsdpv1_open(&cpu.device(), &cpu.port(), &judge); }
+  static void open(SpiDriverCpu& cpu, const dsdpv1_judge& judge) {
+    dsdpv1_open_spi(&cpu.device(), &cpu.port(), &judge);
+  }
+  static void open(UartDriverCpu& cpu, const dsdpv1_judge& judge) {
+    dsdpv1_open_uart(&cpu.device(), &cpu.port(), &judge);
+  }
   static const dsdpv1_config& config() {
     static const std::uint8_t cfg[] = {0x13, 0x23};
     static dsdpv1_config c{};
@@ -96,69 +110,115 @@ class User {
     if (result.outputs_new) say() << "outputs " << unsigned{outputs[0]} << "\n";
   }
 
-  DriverCpu* cpu_ = nullptr;
+  dsdpv1::systemc::ProgramCpu* cpu_ = nullptr;
   std::uint8_t count_ = 0;
 };
 
-struct Platform : tlm::tlm_analysis_if<BusCharacter> {
+/// A station at the chip's line that brings it up, and everything that is told of the run.
+class Station : tlm::tlm_analysis_if<BusCharacter> {
+ public:
+  /// `adds_up`: the station's times are sums of rounded ones, as of who knows nothing of ticks.
+  /// `slower`: so much later, and with longer pauses.
+  Station(dsdpv1::systemc::TlmModule& chip, const User& user, bool adds_up, int slower = 1)
+      : chip_(chip), user_(user), adds_up_(adds_up), slower_(slower) {
+    chip.bus_out.bind(*this);
+    chip.on_pin = [this](Tick at, Pin pin, dsdpv1::Level level) { pins_ << Change{at, pin, level} << "\n"; };
+    chip.on_event = [this](const profibus::Event& event) {
+      events_ << "tick " << event.at << " " << profibus::code(event.reason) << "\n";
+    };
+    thread([this] { ask(); });
+  }
+
+  int answered() const { return answered_; }
+  /// With the DPRAM in the end.
+  std::string told() {
+    chip_.sync();
+    std::ostringstream out;
+    out << "the user:\n" << user_.log.str() << "characters:\n" << answers_.str() << "events:\n" << events_.str();
+    out << "pins:\n" << pins_.str() << "DPRAM:\n" << std::hex << std::setfill('0');
+    for (std::uint16_t cell = 0; cell < 0x800; ++cell)
+      out << std::setw(2) << unsigned{chip_.peek(cell)} << (cell % 32 == 31 ? "\n" : " ");
+    return out.str();
+  }
+
+ private:
+  void ask() {
+    Tick at = slower_ * kBusBegins;
+    for (const bus::Bytes& request : requests()) {
+      wait_until(at);
+      sc_core::sc_time sum = to_time(at);
+      for (std::size_t i = 0; i < request.size(); ++i) {
+        const sc_core::sc_time start = adds_up_ ? sum : to_time(at + static_cast<Tick>(i) * 11 * kBit);
+        chip_.bus_in->write({start, to_time(kBit), request[i], true, true});
+        sum += 11 * to_time(kBit);
+      }
+      at += slower_ * kBetween;
+    }
+  }
+  void write(const BusCharacter& character) override {
+    answers_ << "tick " << to_tick(character.start) << " " << std::hex << unsigned{character.data} << std::dec
+             << (character.parity_ok && character.stop_ok ? "\n" : " wrong\n");
+    ++answered_;
+  }
+
+  dsdpv1::systemc::TlmModule& chip_;
+  const User& user_;
+  bool adds_up_;
+  int slower_;
+  std::ostringstream pins_, events_, answers_;
+  int answered_ = 0;
+};
+
+struct Platform {
   User user;
   dsdpv1::systemc::TlmModule chip{"chip", options()};
   DriverCpu cpu{"cpu", [this](DriverCpu& itself) { user.run(itself); }};
   sc_core::sc_signal<bool> reset{"reset"}, r_req{"r_req"}, r_sta{"r_sta"}, l_req{"l_req"}, l_sta{"l_sta"},
       intr0{"intr0"};
-  std::ostringstream pins, events, answers;
-  int answered = 0;
+  Station station;
 
-  /// `adds_up`: the station's times are sums of rounded ones, as of who knows nothing of ticks.
-  explicit Platform(bool adds_up = false) : adds_up_(adds_up) {
+  explicit Platform(bool adds_up = false) : station(chip, user, adds_up) {
     cpu.socket.bind(chip.host_socket);
     cpu.RESET(reset), cpu.R_REQ(r_req), cpu.R_STA(r_sta), cpu.L_REQ(l_req), cpu.L_STA(l_sta), cpu.INTR0(intr0);
     chip.RESET(reset), chip.R_REQ(r_req), chip.R_STA(r_sta), chip.L_REQ(l_req), chip.L_STA(l_sta), chip.INTR0(intr0);
-    chip.bus_out.bind(*this);
-    chip.on_pin = [this](Tick at, Pin pin, dsdpv1::Level level) { pins << Change{at, pin, level} << "\n"; };
-    chip.on_event = [this](const profibus::Event& event) {
-      events << "tick " << event.at << " " << profibus::code(event.reason) << "\n";
-    };
-    thread([this] { ask(); });
   }
   static dsdpv1::systemc::TlmOptions options() {
     dsdpv1::systemc::TlmOptions options;
     options.observed = dsdpv1::kOutputPins & ~dsdpv1::mask(Pin::kDOut);  // nobody hears the pins of an access
     return options;
   }
+  std::string told() { return station.told(); }
+};
 
-  /// Everything that is told of the run, and the DPRAM in the end.
-  std::string told() {
-    chip.sync();
-    std::ostringstream out;
-    out << "the user:\n" << user.log.str() << "characters:\n" << answers.str() << "events:\n" << events.str();
-    out << "pins:\n" << pins.str() << "DPRAM:\n" << std::hex << std::setfill('0');
-    for (std::uint16_t cell = 0; cell < 0x800; ++cell)
-      out << std::setw(2) << unsigned{chip.peek(cell)} << (cell % 32 == 31 ? "\n" : " ");
-    return out.str();
+/// The same with a DSDPV1-RSU, at one of its serial ports.
+template <class Cpu>
+struct SerialPlatform {
+  User user;
+  dsdpv1::systemc::RsuTlmModule chip{"chip", options()};
+  Cpu cpu{"cpu", [this](Cpu& itself) { user.run(itself); }, kCard};
+  sc_core::sc_signal<bool> reset{"reset"}, low{"low"}, intr0{"intr0"};
+  Station station{chip, user, false, kSerialSlower};
+
+  SerialPlatform() {
+    bind(cpu);
+    cpu.RESET(reset), cpu.INTR0(intr0);
+    chip.RESET(reset), chip.R_REQ(low), chip.R_STA(low), chip.INTR0(intr0);
   }
+  std::string told() { return station.told(); }
 
  private:
-  void ask() {
-    Tick at = kBusBegins;
-    for (const bus::Bytes& request : requests()) {
-      wait_until(at);
-      sc_core::sc_time sum = to_time(at);
-      for (std::size_t i = 0; i < request.size(); ++i) {
-        const sc_core::sc_time start = adds_up_ ? sum : to_time(at + static_cast<Tick>(i) * 11 * kBit);
-        chip.bus_in->write({start, to_time(kBit), request[i], true, true});
-        sum += 11 * to_time(kBit);
-      }
-      at += kBetween;
-    }
-  }
-  void write(const BusCharacter& character) override {
-    answers << "tick " << to_tick(character.start) << " " << std::hex << unsigned{character.data} << std::dec
-            << (character.parity_ok && character.stop_ok ? "\n" : " wrong\n");
-    ++answered;
-  }
+  static constexpr std::uint8_t kCard = 2;  ///< ADR
 
-  bool adds_up_;
+  void bind(SpiDriverCpu& spi) { spi.socket.bind(chip.spi_socket); }
+  void bind(UartDriverCpu& uart) {
+    uart.socket.bind(chip.uart_socket);
+    chip.uart_out.bind(uart.uart_in);
+  }
+  static dsdpv1::systemc::RsuTlmOptions options() {
+    dsdpv1::systemc::RsuTlmOptions options;
+    options.straps = {std::is_same_v<Cpu, SpiDriverCpu> ? HostMode::kSpi : HostMode::kUart, kCard};
+    return options;
+  }
 };
 
 }  // namespace dsdpv1::platform

@@ -8,7 +8,6 @@
 #include "registers/dsdpv1_regs.hpp"
 
 namespace dsdpv1::checks {
-namespace {}  // namespace
 
 void Service::reset() {
   intr0_fell_.reset();

@@ -19,7 +19,7 @@ struct NamedStimulus {
   Stimulus stimulus;
 };
 /// The stimulus files of a folder, those with the shortest delays first; throws tb::InputError.
-std::vector<NamedStimulus> read_stimuli(const std::string& folder);
+std::vector<NamedStimulus> read_stimuli(const std::string& folder, Part part);
 
 struct Kill {
   Fault fault;

@@ -139,17 +139,21 @@ std::string line_of(const Action& action) {
 /// Reads one line, word by word.
 class LineParser {
  public:
-  LineParser(const std::string& line, const std::string& file, int number)
-      : words_(line), file_(file), number_(number) {}
+  LineParser(const std::string& line, const std::string& file, int number, Part part)
+      : words_(line), file_(file), number_(number), part_(part) {}
 
   /// Nothing for an empty line or a comment.
   std::optional<Action> parse() {
     std::string word;
     if (!(words_ >> word) || word[0] == '#') return std::nullopt;
     const auto verb = kVerbs.find(word);
+    const bool rsu = part_ == Part::kRsu;
     if (verb == kVerbs.end())
-      fail("unknown action " + word,
-           "send, spike, take, give, write, read, block, pin, spi, uart, reset, sync, repeat, end");
+      fail("unknown action " + word, fmt::format("send, spike, take, give, write, read, block, pin, {}reset, sync, "
+                                                 "repeat, end",
+                                                 rsu ? "spi, uart, " : ""));
+    if (!rsu && (verb->second == Verb::kSpi || verb->second == Verb::kUart))
+      fail(word + " is an action of the DSDPV1-RSU's host", "--chip dsdpv1_rsu");
     Action action;
     action.verb = verb->second;
     while (words_ >> word)
@@ -207,7 +211,7 @@ class LineParser {
     return values;
   }
   void pin(Action& action, const std::string& word) const {
-    for (int i = 0; i < dsdpv1::kRsuPinCount && action.verb == Verb::kPin; ++i) {
+    for (int i = 0; i < pin_count(part_) && action.verb == Verb::kPin; ++i) {
       const Pin each = static_cast<Pin>(i);
       if (!dsdpv1::is_input(each) || word != dsdpv1::name(each)) continue;
       action.pin = each;
@@ -223,12 +227,13 @@ class LineParser {
   std::istringstream words_;
   const std::string& file_;
   int number_;
+  Part part_;
 };
 
 /// The lines of a file; those between `repeat COUNT` and `end` several times.
 class FileParser {
  public:
-  explicit FileParser(const std::string& file) : file_(file) {}
+  FileParser(const std::string& file, Part part) : file_(file), part_(part) {}
 
   Stimulus parse(const std::string& text) {
     std::istringstream lines(text);
@@ -241,7 +246,7 @@ class FileParser {
         repeat(more.empty() ? argument : fmt::format("{} {}", argument, more));
       else if (verb == "end")
         end(argument);
-      else if (auto action = LineParser(line, file_, number_).parse())
+      else if (auto action = LineParser(line, file_, number_, part_).parse())
         stimulus_.push_back(std::move(*action));
     }
     if (count_ != 0) fail(repeat_line_, "repeat without its end", "end behind the lines that are repeated");
@@ -272,6 +277,7 @@ class FileParser {
   }
 
   const std::string& file_;
+  Part part_;
   Stimulus stimulus_;
   int number_ = 0, count_ = 0, repeat_line_ = 0;
   std::size_t first_ = 0;
@@ -286,6 +292,8 @@ std::string to_text(const Stimulus& stimulus) {
   return text;
 }
 
-Stimulus parse_stimulus(const std::string& text, const std::string& file) { return FileParser(file).parse(text); }
+Stimulus parse_stimulus(const std::string& text, const std::string& file, Part part) {
+  return FileParser(file, part).parse(text);
+}
 
 }  // namespace dsdpv1::cosim

@@ -4,22 +4,32 @@
 
 namespace dsdpv1::systemc_bench {
 
+TlmChip::TlmChip(const sc_core::sc_module_name& name, bus::Segment& segment, TimelineModule& timeline)
+    : sc_module(name), segment_(segment), timeline_(timeline), station_(segment.attach(sc_module::name(), this)) {}
+
 TlmChip::TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::TlmOptions& options, bus::Segment& segment,
                  TimelineModule& timeline)
-    : sc_module(name),
-      segment_(segment),
-      timeline_(timeline),
-      module_("chip", options),
-      station_(segment.attach(sc_module::name(), this)),
-      shows_txd_((options.observed & dsdpv1::mask(Pin::kPbtxd)) != 0) {
-  timeline_.add(module_);
-  module_.RESET(reset_);
-  module_.R_REQ(r_req_);
-  module_.R_STA(r_sta_);
-  module_.PBRXD(rxd_);
-  module_.on_pin = [this](bus::Tick at, Pin pin, Level level) { pin_changed(at, pin, level); };
-  module_.on_answer = [this](const profibus::CharacterRun& run) { return answer_begins(run); };
-  module_.on_left_run = [this](bus::Tick at) {
+    : TlmChip(name, segment, timeline) {
+  take(new dsdpv1::systemc::TlmModule("chip", options), options);
+}
+
+TlmChip::TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::RsuTlmOptions& options,
+                 bus::Segment& segment, TimelineModule& timeline)
+    : TlmChip(name, segment, timeline) {
+  take(rsu_ = new dsdpv1::systemc::RsuTlmModule("chip", options), options);
+}
+
+void TlmChip::take(dsdpv1::systemc::TlmModule* module, const dsdpv1::systemc::TlmOptions& options) {
+  module_.reset(module);
+  timeline_.add(*module);
+  module->RESET(reset_);
+  module->R_REQ(r_req_);
+  module->R_STA(r_sta_);
+  module->PBRXD(rxd_);
+  module->on_pin = [this](bus::Tick at, Pin pin, Level level) { pin_changed(at, pin, level); };
+  if ((options.observed & dsdpv1::mask(Pin::kPbtxd)) == 0)
+    module->on_answer = [this](const profibus::CharacterRun& run) { return answer_begins(run); };
+  module->on_left_run = [this](bus::Tick at) {
     segment_.cut_run(at);
     timeline_.wake();
   };
@@ -27,7 +37,7 @@ TlmChip::TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::Tlm
 
 void TlmChip::move(HandshakePin& pin, bool level) {
   pin.set(level);
-  module_.sync(timeline_.ahead());
+  module_->sync(timeline_.ahead());
 }
 
 void TlmChip::write(Signal& signal, bool level) {
@@ -41,21 +51,20 @@ bool TlmChip::run_begins(const bus::CharacterRun& run) {
   if (own_run_) return true;  // while it sends, it does not listen
   if (run.bit % bus::kTicksPerCycle != 0) return false;
   timeline_.catch_up();
-  return module_.hear_run({run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
+  return module_->hear_run({run.start, run.bit / bus::kTicksPerCycle, run.bytes, static_cast<int>(run.size)});
 }
 
 void TlmChip::run_cut(bus::Tick /*at*/, bool level) {
   timeline_.catch_up();
   if (std::exchange(hides_txd_, false)) {
-    module_.show_txd();
+    module_->show_txd();
     drives_ = level;
   }
-  if (!std::exchange(own_run_, false)) module_.leave_run();
+  if (!std::exchange(own_run_, false)) module_->leave_run();
   rxd_.write(level);
 }
 
 bool TlmChip::answer_begins(const profibus::CharacterRun& run) {
-  if (shows_txd_) return false;
   own_run_ = true;
   hides_txd_ = segment_.send_run(
       station_, {run.start, run.bit * bus::kTicksPerCycle, run.bytes, static_cast<std::size_t>(run.size)});

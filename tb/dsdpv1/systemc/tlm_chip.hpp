@@ -2,11 +2,12 @@
 // A chip in its TLM view as a station of the bench: RESET and the handshake as calls, the bus as a station of an RS-485
 // segment.
 #include <functional>
+#include <memory>
 #include <string>
 #include <systemc>
 
 #include "bus/wire/segment.hpp"
-#include "model/systemc/dsdpv1_tlm.hpp"
+#include "model/systemc/rsu_tlm.hpp"
 #include "tb/dsdpv1/systemc/handshake_pin.hpp"
 #include "tb/systemc/timeline_module.hpp"
 
@@ -20,9 +21,13 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
   /// Telegrams are told as runs in the direction whose pin `options.observed` leaves out.
   TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::TlmOptions& options, bus::Segment& segment,
           TimelineModule& timeline);
+  TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::RsuTlmOptions& options, bus::Segment& segment,
+          TimelineModule& timeline);
 
-  dsdpv1::systemc::TlmModule& module() { return module_; }
-  const dsdpv1::systemc::TlmModule& module() const { return module_; }
+  dsdpv1::systemc::TlmModule& module() { return *module_; }
+  const dsdpv1::systemc::TlmModule& module() const { return *module_; }
+  /// The module of a DSDPV1-RSU; null of other chips.
+  dsdpv1::systemc::RsuTlmModule* rsu() { return rsu_; }
   bus::StationId station() const { return station_; }
 
   /// Pins that the bench drives, at the timeline's present time only.
@@ -34,6 +39,10 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
   std::function<void(bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level)> on_pin;
 
  private:
+  TlmChip(const sc_core::sc_module_name& name, bus::Segment& segment, TimelineModule& timeline);
+  /// `module` is this one's from here on.
+  void take(dsdpv1::systemc::TlmModule* module, const dsdpv1::systemc::TlmOptions& options);
+
   using Signal = sc_core::sc_signal<bool, sc_core::SC_MANY_WRITERS>;  // the timeline's thread and the chip's process
 
   void move(HandshakePin& pin, bool level);
@@ -46,13 +55,13 @@ class TlmChip : public sc_core::sc_module, private bus::Listener {
 
   bus::Segment& segment_;
   TimelineModule& timeline_;
-  dsdpv1::systemc::TlmModule module_;
+  dsdpv1::systemc::RsuTlmModule* rsu_ = nullptr;
+  std::unique_ptr<dsdpv1::systemc::TlmModule> module_;
   Signal reset_{"reset"}, rxd_{"rxd", true};
   HandshakePin r_req_{"r_req"}, r_sta_{"r_sta"};
   bus::StationId station_;
   bool enabled_ = false, drives_ = true;
   bool own_run_ = false, hides_txd_ = false;
-  const bool shows_txd_;
 };
 
 }  // namespace dsdpv1::systemc_bench

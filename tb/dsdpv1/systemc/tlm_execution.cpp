@@ -25,12 +25,14 @@ namespace {
 
 class TlmChipView : public Dsdpv1View {
  public:
-  TlmChipView(const std::string& name, const dsdpv1::systemc::TlmOptions& options, std::uint32_t watched,
-              bus::Segment& segment, systemc_bench::TimelineModule& timeline)
+  template <class Options>
+  TlmChipView(const std::string& name, const Options& options, std::uint32_t watched, bus::Segment& segment,
+              systemc_bench::TimelineModule& timeline)
       : chip_(name.c_str(), options, segment, timeline), bus_((name + "_host").c_str(), chip_) {
     chip_.on_pin = [this, watched, &timeline](Tick at, Pin pin, dsdpv1::Level level) {
       if (!dsdpv1::is_input(pin) || (watched & dsdpv1::mask(pin)) != 0) tell(at, pin, level);
-      if (pin == Pin::kIntr0) timeline.wake();  // the user CPU has a new plan
+      if (pin == Pin::kTxd && bus_.on_txd) bus_.on_txd(at, level != 0);
+      if (pin == Pin::kIntr0 || pin == Pin::kTxd) timeline.wake();  // the user CPU has a new plan
     };
     chip_.module().on_event = [this, &timeline](const profibus::Event& event) {
       if (on_event) on_event(event);
@@ -44,10 +46,7 @@ class TlmChipView : public Dsdpv1View {
   }
 
   void set_reset(Tick, bool level) override { chip_.set_reset(level); }
-  void reset_host(Tick) override {
-    chip_.set_r_sta(false);
-    chip_.set_r_req(false);
-  }
+  void reset_host(Tick) override { bus_.reset(); }
   user_cpu::HostBus& host_bus() override { return bus_; }
   bus::StationId station() const override { return chip_.station(); }
   const dsdpv1::Chip& core() const override { return chip_.module().chip(); }
@@ -61,14 +60,15 @@ class TlmChipView : public Dsdpv1View {
 class TlmExecution : public Execution {
  public:
   std::unique_ptr<ChipView> make_chip(const ChipMaker& maker, const ChipRequest& request) override {
-    if (!is_dsdpv1(maker))
-      throw InputError(fmt::format("--view tlm is for chips of the kinds {} and {}, the scenario has {}",
-                                   dsdpv1_kind().name(), dsdpv1_r_kind().name(), maker.name()));
-    dsdpv1::systemc::TlmOptions options;
-    options.chip = config_of(request);
-    options.report_violations = false;  // the bench reports them
-    options.observed = request.watched | dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kPbrts);
-    return std::make_unique<TlmChipView>(request.name, options, request.watched, segment_, module_);
+    if (!is_dsdpv1(maker) && &maker != &dsdpv1_rsu_kind())
+      throw InputError(fmt::format("--view tlm is for chips of the kinds {}, {} and {}, the scenario has {}",
+                                   dsdpv1_kind().name(), dsdpv1_r_kind().name(), dsdpv1_rsu_kind().name(),
+                                   maker.name()));
+    if (&maker != &dsdpv1_rsu_kind()) return make_view(request, dsdpv1::systemc::TlmOptions());
+    dsdpv1::systemc::RsuTlmOptions options;
+    const auto& settings = static_cast<const Dsdpv1Settings&>(request.settings);
+    options.straps = {settings.mode, settings.address, settings.uart_rate, settings.interval};
+    return make_view(request, options);
   }
 
   bool quiet(const bus::Agent& agent, Tick tick) override { return module_.quiet(agent, tick); }
@@ -87,6 +87,15 @@ class TlmExecution : public Execution {
   }
 
  private:
+  template <class Options>
+  std::unique_ptr<ChipView> make_view(const ChipRequest& request, Options options) {
+    options.chip = config_of(request);
+    options.report_violations = false;  // the bench reports them
+    options.observed =
+        request.watched | dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kPbrts) | dsdpv1::mask(Pin::kTxd);
+    return std::make_unique<TlmChipView>(request.name, options, request.watched, segment_, module_);
+  }
+
   systemc_bench::TimelineModule module_{"timeline", timeline_};
 };
 

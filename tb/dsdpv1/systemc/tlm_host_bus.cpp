@@ -10,6 +10,7 @@ TlmHostBus::TlmHostBus(const sc_core::sc_module_name& name, systemc_bench::TlmCh
   payload_.set_data_length(1);
   payload_.set_streaming_width(1);
   socket_.bind(chip.module().host_socket);
+  if (chip.rsu() != nullptr) serial_.emplace("serial", *chip.rsu());
   SC_HAS_PROCESS(TlmHostBus);
   SC_THREAD(initiate);
   initiator_ = sc_core::sc_get_current_process_handle();
@@ -20,7 +21,18 @@ void TlmHostBus::reset() {
   start_.cancel();
   chip_.set_r_req(false);
   chip_.set_r_sta(false);
-  if (sc_core::sc_is_running()) initiator_.reset();
+  if (serial_) serial_->reset();
+  if (!sc_core::sc_is_running()) return;
+  initiator_.reset();
+  chip_.module().release_host_pins();
+}
+
+std::unique_ptr<SpiMaster> TlmHostBus::make_spi_master(const SpiTiming& timing) {
+  return serial_ ? serial_->make_spi_master(timing) : HostBus::make_spi_master(timing);
+}
+
+std::unique_ptr<UartSender> TlmHostBus::make_uart_sender(const UartTiming& timing) {
+  return serial_ ? serial_->make_uart_sender(timing) : HostBus::make_uart_sender(timing);
 }
 
 void TlmHostBus::set_r_req(Tick at, bool level) {

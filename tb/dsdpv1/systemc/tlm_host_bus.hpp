@@ -4,9 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <systemc>
 
 #include "tb/dsdpv1/systemc/tlm_chip.hpp"
+#include "tb/dsdpv1/systemc/tlm_serial.hpp"
 #include "tb/dsdpv1/user_cpu/host_bus.hpp"
 
 namespace dsdpv1::user_cpu {
@@ -24,9 +27,12 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
   /// R_REQ or R_STA is moved.
   std::function<void(Tick at, const char* pin, bool level)> on_handshake;
 
-  /// The user CPU is reset: an access begun is forgotten, the pins are released. From a SystemC process.
+  /// The user CPU is reset: an access, frame or telegram begun is forgotten, the pins are released. From a SystemC
+  /// process.
   void reset();
 
+  std::unique_ptr<SpiMaster> make_spi_master(const SpiTiming& timing) override;
+  std::unique_ptr<UartSender> make_uart_sender(const UartTiming& timing) override;
   void set_r_req(Tick at, bool level) override;
   void set_r_sta(Tick at, bool level) override;
   bool l_req(Tick at) override;
@@ -49,6 +55,7 @@ class TlmHostBus : public sc_core::sc_module, public HostBus {
   bool is_high(Tick at, dsdpv1::Pin pin);
 
   systemc_bench::TlmChip& chip_;
+  std::optional<TlmSerialPorts> serial_;  ///< of a DSDPV1-RSU
   tlm_utils::simple_initiator_socket<TlmHostBus> socket_{"socket"};
   sc_core::sc_process_handle initiator_;
   sc_core::sc_event start_{"start"};

@@ -16,9 +16,9 @@ constexpr std::int64_t kTalkOverBits = 20;  ///< from a telegram's end into its 
 }  // namespace
 
 SerialPort::SerialPort(Cpu& cpu, const HostPort& port) : cpu_(cpu), pins_(cpu.serial_pins()), port_(port) {
-  if (const auto* spi = std::get_if<SpiPort>(&port.port)) sender_.emplace<SpiMaster>(pins_, spi->timing);
+  if (const auto* spi = std::get_if<SpiPort>(&port.port)) spi_master_ = pins_.make_spi_master(spi->timing);
   if (const auto* uart = std::get_if<UartPort>(&port.port)) {
-    sender_.emplace<UartSender>(pins_, uart->timing);
+    uart_sender_ = pins_.make_uart_sender(uart->timing);
     receiver_ = UartReceiver(uart->timing);
     pins_.on_txd = [this](Tick at, bool level) {
       receiver_.txd_changed(at, level);
@@ -66,7 +66,7 @@ void SerialPort::telegram(std::vector<std::uint8_t> bytes, std::optional<int> li
   const std::uint16_t crc = dsdpv1_crc(DSDPV1_CRC_START, bytes.data(), bytes.size());
   bytes.push_back(static_cast<std::uint8_t>(crc >> 8U));
   bytes.push_back(static_cast<std::uint8_t>(crc & 0xFFU));
-  if (std::holds_alternative<SpiMaster>(sender_)) return telegram_over_spi(std::move(bytes), listen.value_or(kUsual));
+  if (spi_master_) return telegram_over_spi(std::move(bytes), listen.value_or(kUsual));
   telegram_over_uart(bytes, listen);
 }
 
@@ -98,7 +98,7 @@ bool SerialPort::is_spoilt(TelegramFault fault) {
 void SerialPort::pause(std::uint32_t ns) { cpu_.wait(static_cast<Tick>(ns) * bus::kTicksPerNs); }
 
 bool SerialPort::frame(const std::uint8_t* out, std::uint8_t* in, std::size_t n) {
-  auto& master = std::get<SpiMaster>(sender_);
+  SpiMaster& master = *spi_master_;
   const std::vector<std::uint8_t> bytes(out, out + n);
   const Tick begun = cpu_.now();
   SpiFault fault;
@@ -126,9 +126,8 @@ UartFault SerialPort::uart_fault() {
 }
 
 bool SerialPort::send(const std::uint8_t* bytes, std::size_t n) {
-  auto& master = std::get<UartSender>(sender_);
-  master.begin(cpu_.now(), std::vector<std::uint8_t>(bytes, bytes + n), uart_fault());
-  cpu_.transfer(master);
+  uart_sender_->begin(cpu_.now(), std::vector<std::uint8_t>(bytes, bytes + n), uart_fault());
+  cpu_.transfer(*uart_sender_);
   return true;
 }
 

@@ -2,6 +2,7 @@
 // The driver's SPI and UART ports on a simulated CPU: what a device maker writes for their MCU, with counters and, on
 // request, faults.
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -67,7 +68,8 @@ class SerialPort {
   Cpu& cpu_;
   SerialPins& pins_;  ///< outlives the CPU
   HostPort port_;
-  std::variant<std::monostate, SpiMaster, UartSender> sender_;
+  std::unique_ptr<SpiMaster> spi_master_;    ///< of an SPI port
+  std::unique_ptr<UartSender> uart_sender_;  ///< of a UART port
   UartReceiver receiver_{{}};
   dsdpv1_spi spi_{};
   dsdpv1_uart uart_{};

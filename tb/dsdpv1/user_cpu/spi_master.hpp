@@ -1,5 +1,5 @@
 #pragma once
-// A user CPU's SPI controller: frames of XSS on the pins, mode 0, MSB first (SP1), each edge at its tick.
+// A user CPU's SPI controller: frames of XSS, each edge at its tick.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,48 +10,46 @@
 
 namespace dsdpv1::user_cpu {
 
-/// In ticks of 1/12 ns. The defaults are 9 MHz (000 1.2), and an XSS that software moves.
-struct SpiTiming {
-  Tick high = 667, low = 666;  ///< of SCK
-  Tick lead = 2400;            ///< XSS falls, SCK rises: 200 ns
-  Tick lag = 2400;             ///< SCK falls, XSS rises
-  Tick gap = 6000;             ///< XSS is high at least so long between two frames: 500 ns
-  Tick byte_gap = 0;           ///< SCK stays low so much longer between two bytes
-};
-
 /// What goes wrong in a frame.
 struct SpiFault {
   std::optional<std::size_t> flipped_bit;  ///< of MOSI, from 0
   std::optional<std::size_t> cut_after;    ///< bits after which XSS rises
 };
 
-/// MOSI changes with SCK's fall, the first bit with XSS's.
 class SpiMaster : public Transfer {
  public:
-  SpiMaster(SerialPins& pins, const SpiTiming& timing) : pins_(pins), timing_(timing) {}
-
   /// A frame, not before `at` nor before the gap is over. Bytes that a fault cuts off come in as FF.
   void begin(Tick at, std::vector<std::uint8_t> out, const SpiFault& fault = {});
-  const std::vector<std::uint8_t>& received() const { return in_; }
+  virtual const std::vector<std::uint8_t>& received() const = 0;
 
-  Tick next() const override { return done() ? bus::kNever : tick_of(edge_); }
-  void run(Tick now) override;
-  bool done() const override { return edge_ >= edges(); }
+ protected:
+  explicit SpiMaster(const SpiTiming& timing) : timing_(timing) {}
+  const SpiTiming& timing() const { return timing_; }
 
  private:
-  std::size_t edges() const { return 2 * bits_ + 2; }
-  Tick tick_of(std::size_t edge) const;
-  bool bit(std::size_t number) const;
-  void rise(Tick now, std::size_t number);
-  void fall(Tick now, std::size_t number);
+  /// XSS falls at `at`, and rises after `bits` of the bytes, or all.
+  virtual void send(Tick at, std::vector<std::uint8_t> out, std::optional<std::size_t> bits) = 0;
+
+  SpiTiming timing_;
+  Tick free_at_ = 0;
+};
+
+class PinSpiMaster : public SpiMaster {
+ public:
+  PinSpiMaster(SerialPins& pins, const SpiTiming& timing) : SpiMaster(timing), pins_(pins) {}
+
+  const std::vector<std::uint8_t>& received() const override { return frame_.received(); }
+  Tick next() const override { return done() ? bus::kNever : begin_ + frame_[edge_].at; }
+  void run(Tick now) override;
+  bool done() const override { return edge_ >= frame_.size(); }
+
+ private:
+  void send(Tick at, std::vector<std::uint8_t> out, std::optional<std::size_t> bits) override;
 
   SerialPins& pins_;
-  SpiTiming timing_;
-  std::vector<std::uint8_t> out_, in_;
-  std::optional<std::size_t> flipped_;
-  std::size_t bits_ = 0;  ///< of the frame
-  std::size_t edge_ = 2;  ///< the next: XSS, then SCK's, then XSS
-  Tick begin_ = 0, free_at_ = 0;
+  SpiFrame frame_;
+  std::size_t edge_ = 0;  ///< the next
+  Tick begin_ = 0;
 };
 
 }  // namespace dsdpv1::user_cpu

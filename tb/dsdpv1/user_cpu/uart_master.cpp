@@ -10,54 +10,38 @@ namespace {
 
 constexpr std::size_t kCells = 11, kParity = 9;
 
-/// Half bits from the begin of a character to ticks.
-Tick half_bits(const UartTiming& timing, std::int64_t count) {
-  return (count * bus::kTicksPerSecond + timing.baud) / (2 * timing.baud);
-}
-
 }  // namespace
 
 // -------------------------------------------------------------------------------------------------------------- sender
 
 void UartSender::begin(Tick at, std::vector<std::uint8_t> bytes, const UartFault& fault) {
-  begin_ = at;
-  bytes_ = std::move(bytes);
-  if (fault.cut_after) bytes_.resize(std::min(bytes_.size(), *fault.cut_after));
-  if (fault.flipped_bit && *fault.flipped_bit / 8 < bytes_.size())
-    bytes_[*fault.flipped_bit / 8] =
-        static_cast<std::uint8_t>(bytes_[*fault.flipped_bit / 8] ^ 1U << *fault.flipped_bit % 8);
-  wrong_parity_ = fault.wrong_parity;
-  break_at_ = fault.break_at;
-  if (break_at_) bytes_.resize(std::min(bytes_.size(), *break_at_ + 1));
-  pause_before_ = fault.pause_before.value_or(bytes_.size());
-  pause_ = fault.pause;
+  if (fault.cut_after) bytes.resize(std::min(bytes.size(), *fault.cut_after));
+  if (const auto bit = fault.flipped_bit; bit && *bit / 8 < bytes.size())
+    bytes[*bit / 8] = static_cast<std::uint8_t>(bytes[*bit / 8] ^ 1U << *bit % 8);
+  if (fault.break_at) bytes.resize(std::min(bytes.size(), *fault.break_at + 1));
+  UartFaults faults = fault;
   if (fault.talk_over) {
-    pause_before_ = bytes_.size();
-    pause_ = *fault.talk_over;
-    bytes_.push_back(0xFF);
+    faults.pause_before = bytes.size();
+    faults.pause = *fault.talk_over;
+    bytes.push_back(0xFF);
   }
-  cell_ = 0;
+  send(at, std::move(bytes), faults);
 }
 
-Tick UartSender::tick_of(std::size_t cell) const {
-  const auto number = static_cast<std::int64_t>(cell);
-  const std::size_t character = (cell - (cell == kCells * bytes_.size() ? 1 : 0)) / kCells;
-  return begin_ + half_bits(timing_, 2 * number) + static_cast<Tick>(character) * timing_.gap +
-         (character >= pause_before_ ? pause_ : 0);
+void PinUartSender::send(Tick at, std::vector<std::uint8_t> bytes, const UartFaults& faults) {
+  begin_ = at;
+  telegram_ = UartTelegram(std::move(bytes), timing_, faults);
+  edge_ = 0;
 }
 
-bool UartSender::level_of(std::size_t cell) const {
-  const std::size_t number = cell / kCells, bit = cell % kCells;
-  if (number >= bytes_.size()) return true;
-  if (number == break_at_) return false;
-  const bool right = (bus::frame_of(bytes_[number]) >> bit & 1) != 0;
-  return right != (bit == kParity && wrong_parity_ == number);
-}
-
-void UartSender::run(Tick now) {
-  const bool level = level_of(cell_++);
-  if (level != level_) pins_.set_serial(now, SerialPin::kRxd, level);
+void PinUartSender::run(Tick now) {
+  const bool level = telegram_[edge_++].level;
+  if (level != level_) pins_.set_serial(now, dsdpv1::Pin::kRxd, level);
   level_ = level;
+}
+
+std::unique_ptr<UartSender> SerialPins::make_uart_sender(const UartTiming& timing) {
+  return std::make_unique<PinUartSender>(*this, timing);
 }
 
 // ------------------------------------------------------------------------------------------------------------ receiver

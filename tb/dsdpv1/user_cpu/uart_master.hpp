@@ -1,5 +1,5 @@
 #pragma once
-// A user CPU's UART on the chip's RXD and TXD: start, 8 bits LSB first, even parity, stop (UA1), each edge at its tick.
+// A user CPU's UART on the chip's RXD and TXD: each edge at its tick.
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -11,45 +11,38 @@
 
 namespace dsdpv1::user_cpu {
 
-struct UartTiming {
-  std::int64_t baud = 1'843'200;  ///< bit/s; the k-th bit of a character ends k/baud after its begin, rounded to a tick
-  Tick gap = 0;                   ///< idle between two characters of a telegram
-};
-
-/// What goes wrong in a telegram.
-struct UartFault {
-  std::optional<std::size_t> wrong_parity;  ///< number of the character
-  std::optional<std::size_t> flipped_bit;   ///< of the data, from 0, least significant first; the parity fits it
-  std::optional<std::size_t> cut_after;     ///< characters
-  std::optional<std::size_t> break_at;      ///< this character is low for its whole time and the last
-  std::optional<std::size_t> pause_before;  ///< number of the character before which it is idle so much longer:
-  Tick pause = 0;
-  std::optional<Tick> talk_over;  ///< one more character, FF, so long after the last stop bit
+/// What goes wrong in a telegram; with break_at it ends there.
+struct UartFault : UartFaults {
+  std::optional<std::size_t> flipped_bit;  ///< of the data, from 0, least significant first; the parity fits it
+  std::optional<std::size_t> cut_after;    ///< characters
+  std::optional<Tick> talk_over;           ///< one more character, FF, so long after the last stop bit
 };
 
 /// Sends on RXD.
 class UartSender : public Transfer {
  public:
-  UartSender(SerialPins& pins, const UartTiming& timing) : pins_(pins), timing_(timing) {}
-
   void begin(Tick at, std::vector<std::uint8_t> bytes, const UartFault& fault = {});
 
-  Tick next() const override { return done() ? bus::kNever : tick_of(cell_); }
+ private:
+  /// Done when the last stop bit is over.
+  virtual void send(Tick at, std::vector<std::uint8_t> bytes, const UartFaults& faults) = 0;
+};
+
+class PinUartSender : public UartSender {
+ public:
+  PinUartSender(SerialPins& pins, const UartTiming& timing) : pins_(pins), timing_(timing) {}
+
+  Tick next() const override { return done() ? bus::kNever : begin_ + telegram_[edge_].at; }
   void run(Tick now) override;
-  /// The last stop bit is over.
-  bool done() const override { return cell_ > 11 * bytes_.size(); }
+  bool done() const override { return edge_ >= telegram_.size(); }
 
  private:
-  Tick tick_of(std::size_t cell) const;
-  bool level_of(std::size_t cell) const;
+  void send(Tick at, std::vector<std::uint8_t> bytes, const UartFaults& faults) override;
 
   SerialPins& pins_;
   UartTiming timing_;
-  std::vector<std::uint8_t> bytes_;
-  std::optional<std::size_t> wrong_parity_, break_at_;
-  std::size_t pause_before_ = 0;  ///< number of the character
-  Tick pause_ = 0;
-  std::size_t cell_ = 1;  ///< the next bit to be put out: 11 a character; one past the last: the end
+  UartTelegram telegram_;
+  std::size_t edge_ = 0;  ///< the next
   Tick begin_ = 0;
   bool level_ = true;
 };

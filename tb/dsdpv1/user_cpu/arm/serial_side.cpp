@@ -134,16 +134,16 @@ bool SerialSide::moved() {
 }
 
 void SerialSide::move(Tick at, user_cpu::SerialPins& chip) {
-  using user_cpu::SerialPin;
+  using dsdpv1::Pin;
   const Levels before = std::exchange(levels_, wanted());
   follow_frame(at, before, chip);
-  const auto set = [&](SerialPin pin, bool was, bool is) {
+  const auto set = [&](Pin pin, bool was, bool is) {
     if (was != is) chip.set_serial(at, pin, is);
   };
-  set(SerialPin::kXss, before.xss, levels_.xss);
-  set(SerialPin::kSck, before.sck, levels_.sck);
-  set(SerialPin::kMosi, before.mosi, levels_.mosi);
-  set(SerialPin::kRxd, before.rxd, levels_.rxd);
+  set(Pin::kXss, before.xss, levels_.xss);
+  set(Pin::kSck, before.sck, levels_.sck);
+  set(Pin::kMosi, before.mosi, levels_.mosi);
+  set(Pin::kRxd, before.rxd, levels_.rxd);
 }
 
 /// What the chip's shift register would take, bit by bit at SCK's rises.

@@ -1,0 +1,97 @@
+#pragma once
+// What a host sends at the serial ports of a DSDPV1-RSU as edges of the pins: a frame of SPI, a telegram of the UART.
+// For user CPUs of the bench and for whoever turns transactions into pins.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "model/dsdpv1/pins.hpp"
+
+namespace dsdpv1 {
+
+/// A serial pin is moved. Ticks count from the begin of the frame or telegram.
+struct SerialEdge {
+  Tick at = 0;
+  Pin pin = Pin::kXss;  ///< kMiso: MISO is sampled, as it stands strictly before this tick
+  bool level = true;
+};
+
+// ----------------------------------------------------------------------------------------------------------------- SPI
+
+/// In ticks of 1/12 ns. The defaults are 9 MHz (000 1.2), and an XSS that software moves.
+struct SpiTiming {
+  Tick high = 667, low = 666;  ///< of SCK
+  Tick lead = 2400;            ///< XSS falls, SCK rises: 200 ns
+  Tick lag = 2400;             ///< SCK falls, XSS rises
+  Tick gap = 6000;             ///< XSS is high at least so long between two frames: 500 ns
+  Tick byte_gap = 0;           ///< SCK stays low so much longer between two bytes
+};
+
+/// One frame of XSS: mode 0, MSB first (SP1). MOSI changes with SCK's fall, the first bit with XSS's.
+class SpiFrame {
+ public:
+  SpiFrame() = default;  ///< no edges
+  /// `bits`: after so many XSS rises, within the bytes; else after all.
+  SpiFrame(std::vector<std::uint8_t> out, const SpiTiming& timing, std::optional<std::size_t> bits = {});
+
+  std::size_t size() const { return size_; }
+  SerialEdge operator[](std::size_t number) const;
+  /// From XSS's fall to its rise.
+  Tick duration() const { return size_ == 0 ? 0 : (*this)[size_ - 1].at; }
+  /// The frame's next edge that samples has found this level.
+  void sampled(bool miso);
+  /// One for each byte that goes out; those that XSS cuts off, and bits that were not sampled, are 1.
+  const std::vector<std::uint8_t>& received() const { return in_; }
+
+ private:
+  Tick rise(std::size_t bit) const;
+  bool mosi(std::size_t bit) const;
+
+  SpiTiming timing_;
+  std::vector<std::uint8_t> out_, in_;
+  std::size_t bits_ = 0, size_ = 0, sampled_ = 0;
+};
+
+// ---------------------------------------------------------------------------------------------------------------- UART
+
+struct UartTiming {
+  std::int64_t baud = 1'843'200;  ///< bit/s; the k-th bit of a character ends k/baud after its begin, rounded to a tick
+  Tick gap = 0;                   ///< idle between two characters of a telegram
+};
+
+/// What is wrong with a telegram on RXD. Numbers count characters from 0.
+struct UartFaults {
+  std::optional<std::size_t> wrong_parity;
+  std::optional<std::size_t> break_at;      ///< RXD is low for the whole time of this one
+  std::optional<std::size_t> pause_before;  ///< from here on all comes `pause` ticks later
+  Tick pause = 0;
+};
+
+/// `count` half bits in ticks, rounded once.
+Tick half_bits(const UartTiming& timing, std::int64_t count);
+
+/// Characters on RXD: start, 8 bits LSB first, even parity, stop (UA1).
+class UartTelegram {
+ public:
+  UartTelegram() = default;  ///< no edges
+  UartTelegram(std::vector<std::uint8_t> bytes, const UartTiming& timing, const UartFaults& faults = {})
+      : timing_(timing), bytes_(std::move(bytes)), faults_(faults) {}
+
+  /// One for each bit, also where RXD stays, and one for the end of the last.
+  std::size_t size() const { return bytes_.empty() ? 0 : kBits * bytes_.size() + 1; }
+  SerialEdge operator[](std::size_t number) const { return {tick_of(number), Pin::kRxd, level_of(number)}; }
+  /// To the end of the last stop bit.
+  Tick duration() const { return size() == 0 ? 0 : tick_of(size() - 1); }
+
+ private:
+  static constexpr std::size_t kBits = 11;
+  Tick tick_of(std::size_t bit) const;
+  bool level_of(std::size_t bit) const;
+
+  UartTiming timing_;
+  std::vector<std::uint8_t> bytes_;
+  UartFaults faults_;
+};
+
+}  // namespace dsdpv1
