@@ -280,10 +280,10 @@ const tb::CheckResult& found(const tb::RunResult& result, checks::Check check) {
 struct UartCase {
   const char* name;
   const char* order;
-  checks::Check check;
   const char* event;
   /// Where the chip sees what is wrong at `at` of the pins: two cycles later, and an edge of RXD a cycle after its own.
   tb::Tick (*seen)(tb::Tick at);
+  checks::Check check;
   bool spoilt;  ///< the telegram, or what is left of it, is followed by a silence
 };
 
@@ -291,11 +291,11 @@ tb::Tick sampled_two_cycles_later(tb::Tick at) { return at + 500; }
 tb::Tick edge_seen(tb::Tick at) { return (at / 250 + 3) * 250; }
 
 const UartCase kUartCases[] = {
-    {"Parity", "wrong_parity, slave: demo", checks::Check::kRxdParity, "UART_PARITY", sampled_two_cycles_later, true},
-    {"Break", "send_break, slave: demo", checks::Check::kRxdBreak, "UART_FRAMING", sampled_two_cycles_later, true},
-    {"Pause", "pause_telegram, slave: demo, for: 100us", checks::Check::kRxdCharacterGap, "TELEGRAM_CUT",
-     sampled_two_cycles_later, true},
-    {"TalkOver", "talk_over_reply, slave: demo", checks::Check::kRxdHalfDuplex, "UART_HALF_DUPLEX", edge_seen, false},
+    {"Parity", "wrong_parity, slave: demo", "UART_PARITY", sampled_two_cycles_later, checks::Check::kRxdParity, true},
+    {"Break", "send_break, slave: demo", "UART_FRAMING", sampled_two_cycles_later, checks::Check::kRxdBreak, true},
+    {"Pause", "pause_telegram, slave: demo, for: 100us", "TELEGRAM_CUT", sampled_two_cycles_later,
+     checks::Check::kRxdCharacterGap, true},
+    {"TalkOver", "talk_over_reply, slave: demo", "UART_HALF_DUPLEX", edge_seen, checks::Check::kRxdHalfDuplex, false},
 };
 
 // NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for it

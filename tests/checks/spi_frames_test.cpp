@@ -49,8 +49,8 @@ class Host {
     set(at, Pin::kXss, 0);
     for (std::size_t bit = 0; bit < 8 * out.size(); ++bit) {
       at += kHalf;
-      set(at - kHalf + 100, Pin::kMiso, in[bit / 8] >> (7 - bit % 8) & 1);
-      set(at - 300, Pin::kMosi, out[bit / 8] >> (7 - bit % 8) & 1);
+      set(at - kHalf + 100, Pin::kMiso, bit_of(in, bit));
+      set(at - 300, Pin::kMosi, bit_of(out, bit));
       set(at, Pin::kSck, 1);
       if (bit + 1 == 8 * request.size()) last_bit_ = at;
       set(at += kHalf, Pin::kSck, 0);
@@ -76,6 +76,9 @@ class Host {
     settings.address = 1;
     settings.spi_reply_gap = reply_gap;
     return settings;
+  }
+  static Level bit_of(const Bytes& bytes, std::size_t bit) {
+    return (bytes[bit / 8] >> (7 - bit % 8) & 1) != 0 ? Level{1} : Level{0};
   }
   void set(Tick at, Pin pin, Level level) { checks.pin(at, pin, level); }
   Tick last_bit_ = 0, end_ = 0;

@@ -96,7 +96,7 @@ class Traffic {
                   static_cast<std::uint8_t>(below(256))};
     if (one_in(15)) telegram[0] = static_cast<std::uint8_t>(below(256));
     telegram = sealed(telegram, one_in(8) ? 1 : 0);
-    if (one_in(10)) telegram.resize(static_cast<std::size_t>(1 + below(static_cast<int>(telegram.size()))));
+    if (one_in(10)) telegram.resize(1 + static_cast<std::size_t>(below(static_cast<int>(telegram.size()))));
     return telegram;
   }
   void send(Both& both) {
