@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tb/input/units.hpp"
+#include "tb/scenario/describe.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::tb::scenario {
