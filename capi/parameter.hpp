@@ -7,7 +7,7 @@
 
 #include "capi/names.hpp"
 #include "dsdpv1/chip.h"
-#include "tb/chip/chip_kind.hpp"
+#include "tb/bench/chip_maker.hpp"
 
 namespace dsdpv1::capi {
 
