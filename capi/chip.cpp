@@ -15,19 +15,6 @@ using capi::Tick;
 using tb::Level;
 
 namespace dsdpv1::capi {
-namespace {
-
-void set_parameter(const dpsim_parameter& parameter, const Kind& kind, tb::OwnSettings& settings) {
-  need(parameter.name, "name of a parameter");
-  const tb::keys::Field* field = kind.maker().chip_keys().find(parameter.name);
-  if (field == nullptr || field->type.kind != tb::keys::Kind::kInteger)
-    fail(DPSIM_ERR_NOT_FOUND, "the chip has no parameter \"" + std::string(parameter.name) + "\"");
-  need_range(parameter.name, parameter.value, field->type.range.min, field->type.range.max);
-  field->read(&settings, YAML::Node(std::to_string(parameter.value)), {});
-}
-
-}  // namespace
-
 ChipPlan plan_of(const dpsim_chip_options& options, const Kind& kind, const std::string& usual_name) {
   need_range("engine", options.engine, DPSIM_ENGINE_SKIP, DPSIM_ENGINE_STEP);
   need_buffer(options.parameters, options.parameter_count, "parameters");
@@ -35,7 +22,7 @@ ChipPlan plan_of(const dpsim_chip_options& options, const Kind& kind, const std:
   plan.name = options.name != nullptr ? options.name : usual_name;
   plan.settings = kind.maker().make_chip_settings();
   plan.engine = options.engine == DPSIM_ENGINE_STEP ? tb::Engine::kStep : tb::Engine::kSkip;
-  for (std::size_t i = 0; i < options.parameter_count; ++i) set_parameter(options.parameters[i], kind, *plan.settings);
+  set_parameters(options.parameters, options.parameter_count, kind, *plan.settings);
   return plan;
 }
 

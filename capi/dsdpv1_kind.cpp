@@ -115,13 +115,14 @@ class OnBus : public dpsim_chip {
   tb::PinMask watched_ = 0;
 };
 
-class Dsdpv1 : public Kind {
+class Dsdpv1 final : public Kind {
  public:
   Dsdpv1(const tb::ChipMaker& maker, Part part) : maker_(maker) {
     dsdpv1::Config config;
     config.part = part;
     const dsdpv1::Chip chip(config);
     for (int pin = 0; pin < pin_count(part); ++pin) reset_levels_.push_back(chip.level(static_cast<Pin>(pin)));
+    parameters_ = parameters_of(*this);
   }
   const tb::ChipMaker& maker() const override { return maker_; }
   const std::vector<profibus::Reason>& reasons() const override {
@@ -131,6 +132,8 @@ class Dsdpv1 : public Kind {
   const std::vector<tb::Level>& reset_levels() const override { return reset_levels_; }
   std::uint16_t cells() const override { return kCells; }
   bool has_host_bus() const override { return true; }
+  bool is_strap(const std::string& key) const override { return tb::is_strap(key); }
+  const std::vector<Parameter>& parameters() const override { return parameters_; }
   PinNumber line_pin() const override { return static_cast<PinNumber>(Pin::kPbrxd); }
   std::unique_ptr<dpsim_chip> make_alone(const ChipPlan& plan) const override {
     return std::make_unique<Alone>(*this, tb::config_of(plan.request()));
@@ -142,6 +145,7 @@ class Dsdpv1 : public Kind {
  private:
   const tb::ChipMaker& maker_;
   std::vector<tb::Level> reset_levels_;
+  std::vector<Parameter> parameters_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capi/names.hpp"
+#include "capi/parameter.hpp"
 #include "dsdpv1/chip.h"
 #include "model/profibus/reason.hpp"
 #include "tb/bench/chip_maker.hpp"
@@ -37,6 +38,9 @@ class Kind {
   virtual std::uint16_t cells() const = 0;
   /// Whether it has the pins of dsdpv1::HostAccess, with their numbers.
   virtual bool has_host_bus() const = 0;
+  /// Whether a key of the chip in scenarios is the level of pins: a program sets those.
+  virtual bool is_strap(const std::string& key) const = 0;
+  virtual const std::vector<Parameter>& parameters() const = 0;
   /// The input that is the line when the chip is on a bus.
   virtual tb::PinNumber line_pin() const = 0;
   virtual std::unique_ptr<dpsim_chip> make_alone(const ChipPlan& plan) const = 0;

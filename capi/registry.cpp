@@ -17,7 +17,7 @@ void need_number(const char* what, std::size_t number, std::size_t count) {
 }
 
 const tb::PinTable& pins_of(const char* kind) { return kind_of(kind).maker().pins(); }
-const std::vector<tb::keys::Field>& fields_of(const char* kind) { return kind_of(kind).maker().chip_keys().fields; }
+const std::vector<capi::Parameter>& parameters_of(const char* kind) { return kind_of(kind).parameters(); }
 
 template <class Count>
 std::size_t count_of(const char* kind, const Count& count) noexcept {
@@ -37,14 +37,14 @@ dpsim_pin_info pin_info(const capi::Kind& kind, std::size_t number) {
   return info;
 }
 
-dpsim_parameter_info parameter_info(const tb::keys::Field& field) {
+dpsim_parameter_info parameter_info(const capi::Parameter& parameter) {
   dpsim_parameter_info info{};
-  info.name = field.name.c_str();
-  info.unit = field.type.unit.c_str();
-  info.description = field.doc.c_str();
-  info.minimum = field.type.range.min;
-  info.maximum = field.type.range.max;
-  info.default_value = std::stoll(field.default_text);
+  info.name = parameter.name.c_str();
+  info.unit = parameter.field->type.unit.c_str();
+  info.description = parameter.field->doc.c_str();
+  info.minimum = parameter.range.min;
+  info.maximum = parameter.range.max;
+  info.default_value = parameter.default_value;
   return info;
 }
 
@@ -87,15 +87,15 @@ dpsim_status dpsim_pin_find(const char* kind, const char* name, uint16_t* number
 
 size_t dpsim_parameter_count(const char* kind) {
   return count_of(
-      kind, [](const capi::Kind& each) { return each.maker().chip_keys().fields.size(); });
+      kind, [](const capi::Kind& each) { return each.parameters().size(); });
 }
 
 dpsim_status dpsim_parameter_get(const char* kind, size_t index, dpsim_parameter_info* info) {
   return guarded(
       __func__,
       [&] {
-        need_number("index", index, fields_of(kind).size());
-        capi::give(parameter_info(fields_of(kind)[index]), info, "info");
+        need_number("index", index, parameters_of(kind).size());
+        capi::give(parameter_info(parameters_of(kind)[index]), info, "info");
       });
 }
 

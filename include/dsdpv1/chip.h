@@ -76,7 +76,10 @@ enum {
 };
 
 /** A parameter of the chip that the rulings mark (p): of the DSDPV1 access_interval (H1), ready_cycles (D1), rts_lead
- * and rts_trail (P2), intr_low and intr_gap (P7), search_window_ms, search_window_bits and baud_control_ms (S1). */
+ * and rts_trail (P2), intr_low and intr_gap (P7), search_window_ms, search_window_bits and baud_control_ms (S1). The
+ * DSDPV1-RSU has those of docs/chip_rsu.md besides; of a list each number is one: "uart_gaps[0]" to "uart_gaps[7]".
+ * What scenarios say of its straps (mode, address, uart_rate, interval) is none: straps are pins, MODE, ADR, UBR and
+ * UIV. */
 typedef struct dpsim_parameter_info {
   uint32_t size;
   const char* name;        /**< as scenarios have it under `chip` */

@@ -170,6 +170,15 @@ void check_dsdpv1_chip(const Dsdpv1Settings& chip, const std::string& file) {
                      fmt::format("u_timer is {}, allowed is 0 or an integer from 48 to 4800000 cycles", chip.u_timer));
 }
 
+bool is_strap(const std::string& key) {
+  static const ChipKeys straps = [] {
+    ChipKeys o("chip", "");
+    add_straps(o);
+    return o;
+  }();
+  return straps.find(key) != nullptr;
+}
+
 Straps straps_of(const OwnSettings& settings) {
   const auto& chip = static_cast<const Dsdpv1Settings&>(settings);
   return {static_cast<Level>(chip.mode), static_cast<Level>(chip.address), static_cast<Level>(chip.uart_rate),

@@ -29,6 +29,8 @@ struct Dsdpv1Settings : OwnSettings, dsdpv1::Config {
 /// Levels of MODE, ADR, UBR and UIV.
 using Straps = std::array<Level, 4>;
 Straps straps_of(const OwnSettings& settings);
+/// Whether a key of the chip is one of them.
+bool is_strap(const std::string& key);
 
 struct AccessTimes : AccessTiming {
   int line = 0;

@@ -1,6 +1,7 @@
 // One chip through the C API against the core itself.
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <string>
 #include <thread>
 
@@ -148,6 +149,56 @@ TEST(CapiChip, ParametersOfTheRulingsAreThoseThatTheChipTakes) {
   ok(dpsim_chip_advance(made, 10'200 * kCycle));
   ok(dpsim_chip_peek(made, 4, &cell));
   EXPECT_EQ(cell, 0xC5);
+}
+
+TEST(CapiChip, ParametersOfTheRsuAreNumbersAndItsStrapsArePins) {
+  std::map<std::string, dpsim_parameter_info> all;
+  for (size_t i = 0; i < dpsim_parameter_count("dsdpv1_rsu"); ++i) {
+    auto info = sized<dpsim_parameter_info>();
+    ok(dpsim_parameter_get("dsdpv1_rsu", i, &info));
+    all[info.name] = info;
+  }
+  for (size_t i = 0; i < dsdpv1::Config().uart_gaps.size(); ++i) {
+    const std::string name = "uart_gaps[" + std::to_string(i) + "]";
+    ASSERT_EQ(all.count(name), 1U) << name;
+    EXPECT_EQ(all[name].default_value, dsdpv1::Config().uart_gaps.at(i));
+    EXPECT_EQ(all[name].maximum, 1000);
+  }
+  EXPECT_EQ(all.at("spi_write_gap").default_value, 128);
+  for (const char* strap : {"mode", "address", "uart_rate", "interval", "uart_gaps"}) EXPECT_EQ(all.count(strap), 0U);
+}
+
+TEST(CapiChip, OneOfTheRsusGapsIsSetByItself) {
+  const dpsim_parameter gap = {"uart_gaps[7]", 1}, mode = {"mode", 1};
+  auto options = sized<dpsim_chip_options>();
+  options.kind = "dsdpv1_rsu";
+  options.parameters = &mode;
+  options.parameter_count = 1;
+  dpsim_chip* made = nullptr;
+  EXPECT_EQ(dpsim_chip_create(&options, &made), DPSIM_ERR_NOT_FOUND);
+  options.parameters = &gap;
+  ok(dpsim_chip_create(&options, &made));
+  const Owned<dpsim_chip> chip(made);
+  const auto set = [&](const char* name, uint64_t at, int16_t level) {
+    uint16_t pin = 0;
+    ok(dpsim_pin_find("dsdpv1_rsu", name, &pin));
+    ok(dpsim_chip_set(made, at, pin, level));
+  };
+  set("MODE", 0, 2), set("ADR", 0, 1), set("UBR", 0, 7), set("UIV", 0, 7);
+  set("RESET", 1000, 1);
+  // A character 01, then silence: with half a character of interval the telegram is dropped right away.
+  std::vector<std::string> codes;
+  const auto note = [](void* user, const dpsim_chip_event* event) {
+    auto info = sized<dpsim_reason_info>();
+    ok(dpsim_reason_get("dsdpv1_rsu", event->reason, &info));
+    static_cast<std::vector<std::string>*>(user)->push_back(info.code);
+  };
+  ok(dpsim_chip_on_event(made, note, &codes));
+  constexpr uint64_t kBit = 26 * kCycle, kStart = 1000 * kCycle;
+  set("RXD", kStart, 0), set("RXD", kStart + kBit, 1), set("RXD", kStart + 2 * kBit, 0),
+      set("RXD", kStart + 9 * kBit, 1);
+  ok(dpsim_chip_advance(made, kStart + 18 * kBit));
+  EXPECT_EQ(codes, std::vector<std::string>{"TELEGRAM_CUT"});
 }
 
 /// Some access of the user and some time.

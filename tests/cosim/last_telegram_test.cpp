@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "model/dsdpv1/serial_host.hpp"
+#include "tb/dsdpv1/cosim/access_watch.hpp"
 #include "tb/dsdpv1/last_access.hpp"
 
 namespace dsdpv1 {
@@ -40,6 +41,14 @@ TEST(LastTelegram, OfTheUartIsThatAfterTheLastSilence) {
             "UART telegram of 12 bytes from cycle 1000 (20.833 us): 01 00 14 01 18 CF 01 00 14 01 18 CF");
   play(access, 2'500'000, telegram);
   EXPECT_EQ(access.words(), "UART telegram of 6 bytes from cycle 10000 (208.333 us): 01 00 14 01 18 CF");
+}
+
+TEST(LastTelegram, TheFirstOfARunIsNoted) {
+  cosim::AccessWatch watch;
+  const SpiFrame frame(kRead, SpiTiming());
+  for (std::size_t i = 0; i < frame.size(); ++i)
+    if (frame[i].pin != Pin::kMiso) watch.change(250'000 + frame[i].at, frame[i].pin, frame[i].level ? 1 : 0);
+  EXPECT_EQ(watch.user_text(), "SPI frame of 6 bytes from cycle 1000 (20.833 us): 01 00 14 01 18 CF");
 }
 
 TEST(LastTelegram, AnAccessAfterItIsTheLast) {

@@ -119,6 +119,27 @@ class ChipTest(unittest.TestCase):
         self.assertGreater(len(seen[0]), 100)
         self.assertEqual(*seen)
 
+    def test_the_serial_ports_of_the_rsu_are_pins_as_any_other(self):
+        """What a scenario does at all input pins, straps included, does the same to a chip of Python, known by the library's table of pins."""
+        for mode, port, least in (("spi", "MISO", 1000), ("uart", "TXD", 500)):
+            with self.subTest(mode):
+                run = dsdpv1.run(ROOT / "scenarios" / f"rsu_{mode}.yaml", changes=True)
+                self.assertEqual(run.kind.name, "dsdpv1_rsu")
+                inputs = np.isin(run.changes["pin"], [pin.number for pin in run.kind.pins if pin.input]) & (run.changes["station"] != dsdpv1.LINE)
+                chip = dsdpv1.Chip("dsdpv1_rsu", parameters={"search_window_ms": 5})
+                chip.watch(pin.name for pin in run.kind.pins if not pin.input)
+                straps = {"MODE": {"spi": 1, "uart": 2}[mode], "ADR": 1, "UBR": 7, "UIV": 0}
+                for pin, level in straps.items():
+                    chip.set(pin, level)
+                chip.set_many(run.changes[inputs])
+                chip.advance(run.simulated)
+                changes = chip.changes()
+                self.assertGreater(len(dsdpv1.of_pin(changes, run.kind.pin(port).number)), least)
+                for pin in run.kind.pins:
+                    if not pin.input:
+                        told = [(tick, level) for tick, _, _, level in run.pin(pin.name).tolist() if tick > 0]
+                        self.assertEqual([(tick, level) for tick, _, _, level in dsdpv1.of_pin(changes, pin.number).tolist()], told, pin.name)
+
     def test_callbacks_tell_what_is_kept_else(self):
         kept, told, events = dsdpv1.Chip(), dsdpv1.Chip(), []
         heard = []

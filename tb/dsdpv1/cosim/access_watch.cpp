@@ -13,7 +13,7 @@ std::string level_text(Pin pin, Level level) {
 }
 
 AccessWatch::AccessWatch() {
-  for (const Pin strobe : {Pin::kCsr, Pin::kRd, Pin::kWr}) level(strobe) = 1;
+  for (const Pin high : {Pin::kCsr, Pin::kRd, Pin::kWr, Pin::kXss, Pin::kRxd}) level(high) = 1;
 }
 
 void AccessWatch::change(Tick at, Pin pin, Level to) {

@@ -1,0 +1,66 @@
+#include "capi/parameter.hpp"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "capi/error.hpp"
+#include "capi/kind.hpp"
+#include "tb/keys/keys.hpp"
+
+namespace dsdpv1::capi {
+namespace {
+
+using tb::keys::Field;
+
+/// "[7, 2, 4]", as the keys have the default of a list.
+std::vector<std::int64_t> numbers_of(std::string list) {
+  std::replace_if(
+      list.begin(), list.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
+  std::istringstream words(list);
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t number = 0; words >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+void add(std::vector<Parameter>& all, const Field& field) {
+  if (field.type.kind == tb::keys::Kind::kInteger)
+    all.push_back({field.name, &field, {}, field.type.range, std::stoll(field.default_text)});
+  if (field.type.kind != tb::keys::Kind::kList || field.type.element != tb::keys::Kind::kInteger) return;
+  const std::vector<std::int64_t> usual = numbers_of(field.default_text);
+  for (std::size_t i = 0; i < usual.size(); ++i)
+    all.push_back({field.name + "[" + std::to_string(i) + "]", &field, i, field.type.each, usual[i]});
+}
+
+const Parameter& find(const std::vector<Parameter>& all, const char* name) {
+  need(name, "name of a parameter");
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& each) { return each.name == name; });
+  if (found == all.end()) fail(DPSIM_ERR_NOT_FOUND, "the chip has no parameter \"" + std::string(name) + "\"");
+  return *found;
+}
+
+}  // namespace
+
+std::vector<Parameter> parameters_of(const Kind& kind) {
+  std::vector<Parameter> all;
+  for (const Field& field : kind.maker().chip_keys().fields)
+    if (!kind.is_strap(field.name)) add(all, field);
+  return all;
+}
+
+void set_parameters(const dpsim_parameter* values, std::size_t count, const Kind& kind, tb::OwnSettings& settings) {
+  std::map<const Field*, std::vector<std::int64_t>> lists;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Parameter& parameter = find(kind.parameters(), values[i].name);
+    need_range(values[i].name, values[i].value, parameter.range.min, parameter.range.max);
+    if (!parameter.element) {
+      parameter.field->read(&settings, YAML::Node(std::to_string(values[i].value)), {});
+      continue;
+    }
+    const auto list = lists.try_emplace(parameter.field, numbers_of(parameter.field->default_text)).first;
+    list->second.at(*parameter.element) = values[i].value;
+  }
+  for (const auto& [field, numbers] : lists) field->read(&settings, YAML::Node(numbers), {});
+}
+
+}  // namespace dsdpv1::capi

@@ -1,0 +1,30 @@
+#pragma once
+// The parameters of a kind of chip as numbers, from the keys that scenarios have for it.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capi/names.hpp"
+#include "dsdpv1/chip.h"
+#include "tb/bench/chip_maker.hpp"
+
+namespace dsdpv1::capi {
+
+class Kind;
+
+struct Parameter {
+  std::string name;              ///< the key; of a list each number for itself: "uart_gaps[3]"
+  const tb::keys::Field* field;  ///< the key
+  std::optional<std::size_t> element;
+  tb::keys::Range range;
+  std::int64_t default_value;
+};
+
+/// All integers, and those of lists of them, but for straps: their levels are set at the pins.
+std::vector<Parameter> parameters_of(const Kind& kind);
+
+/// Throws for a name that there is not and for a value out of range.
+void set_parameters(const dpsim_parameter* values, std::size_t count, const Kind& kind, tb::OwnSettings& settings);
+
+}  // namespace dsdpv1::capi
