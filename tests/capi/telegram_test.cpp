@@ -60,6 +60,12 @@ TEST(CapiTelegram, IsExplainedInALineOrByteByByte) {
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), static_cast<long>(sizeof kSlaveDiag));
 }
 
+TEST(CapiTelegram, NoByteIsExplainedByNoLine) {
+  const char* text = nullptr;
+  ok(dpsim_telegram_explain(nullptr, 0, DPSIM_EXPLAIN_BYTES, -1, &text));
+  EXPECT_STREQ(text, "");
+}
+
 TEST(CapiTelegram, FieldsOutOfRangeAreRefused) {
   auto telegram = sized<dpsim_telegram>();
   telegram.kind = DPSIM_SD1;
