@@ -60,6 +60,14 @@ TEST(Stimulus, FilesWithTheShortestDelaysArePlayedFirst) {
   EXPECT_EQ(order, "cba");
 }
 
+TEST(Stimulus, AShortFileMakesNoMoreThanAMillionActions) {
+  std::string thousand;
+  for (int i = 0; i < 1000; ++i) thousand += "sync\n";
+  EXPECT_EQ(error_of("sync\nrepeat 1000\n" + thousand + "end\n"),
+            "my.stimulus:2: too many actions, allowed: 1000000 in all");
+  EXPECT_EQ(error_of("sync\nrepeat 999\n" + thousand + "end\n"), "none");
+}
+
 struct Wrong {
   const char *text, *error;
 };

@@ -47,8 +47,8 @@ using Stimulus = std::vector<Action>;
 
 /// The text of a stimulus file: comments, one action a line.
 std::string to_text(const Stimulus& stimulus);
-/// Reads it; lines between `repeat COUNT` (1 to 1000) and `end` count COUNT times. `file` is for messages only. Throws
-/// tb::InputError.
+/// Reads it; lines between `repeat COUNT` (1 to 1000) and `end` count COUNT times, at most a million in all. `file` is
+/// for messages only. Throws tb::InputError.
 Stimulus parse_stimulus(const std::string& text, const std::string& file);
 
 }  // namespace dsdpv1::cosim
