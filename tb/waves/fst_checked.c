@@ -15,6 +15,7 @@
 #define fclose(file) fst_io_close(file)
 #define fwrite(data, size, count, file) fst_io_write(data, size, count, file)
 #define fputc(character, file) fst_io_put(character, file)
+#define fgetc(file) fst_io_get(file)
 #define fflush(file) fst_io_flush(file)
 #define fseeko(file, offset, whence) fst_io_seek(file, offset, whence)
 #define ftruncate(descriptor, length) fst_io_truncate(descriptor, length)

@@ -60,5 +60,9 @@ inline void promise_one_line(const std::string& error, const std::string& name) 
 
 }  // namespace dsdpv1::fuzz
 
+namespace dsdpv1 {
+
 /// A target: one file, one of these. libFuzzer's name for it; the test that replays the corpora gives each another.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+}  // namespace dsdpv1

@@ -8,8 +8,7 @@
 
 #include "tests/fuzz/input.hpp"
 
-using namespace dsdpv1;
-
+namespace dsdpv1 {
 namespace {
 
 constexpr std::uint64_t kMostTicks = 100'000'000;  ///< 8 ms for all objects together, so that a run ends soon
@@ -609,3 +608,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Caller(input).run();
   return 0;
 }
+
+}  // namespace dsdpv1

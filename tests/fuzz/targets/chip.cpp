@@ -8,8 +8,7 @@
 #include "tests/conformance/slave_bench.hpp"
 #include "tests/fuzz/input.hpp"
 
-using namespace dsdpv1;
-
+namespace dsdpv1 {
 namespace {
 
 using bus::Bytes;
@@ -282,3 +281,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Play(config, input).run();
   return 0;
 }
+
+}  // namespace dsdpv1

@@ -5,8 +5,7 @@
 #include "tb/input/input_error.hpp"
 #include "tests/fuzz/input.hpp"
 
-using namespace dsdpv1;
-
+namespace dsdpv1 {
 namespace {
 
 void look_up(const arm::ElfImage& image, std::vector<std::uint8_t> file) {
@@ -34,3 +33,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace dsdpv1

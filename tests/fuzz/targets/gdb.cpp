@@ -4,8 +4,7 @@
 #include "tests/arm/small_elf.hpp"
 #include "tests/fuzz/input.hpp"
 
-using namespace dsdpv1;
-
+namespace dsdpv1 {
 namespace {
 
 const arm::ElfImage& firmware() {
@@ -47,3 +46,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace dsdpv1

@@ -7,8 +7,7 @@
 #include "bus/gsd/setup.hpp"
 #include "tests/fuzz/input.hpp"
 
-using namespace dsdpv1;
-
+namespace dsdpv1 {
 namespace {
 
 /// The first two modules, and the first parameter of the station with another value.
@@ -48,3 +47,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   use(*result.gsd, choice(*result.gsd), result.diagnostics, bus::GsdFormat::kJson);
   return 0;
 }
+
+}  // namespace dsdpv1

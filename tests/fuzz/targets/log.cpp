@@ -4,7 +4,7 @@
 #include "bus/telegram/explain.hpp"
 #include "tests/fuzz/input.hpp"
 
-using namespace dsdpv1;
+namespace dsdpv1 {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::istringstream in(std::string(reinterpret_cast<const char*>(data), size));
@@ -18,3 +18,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::promise_one_line(error, "a.log");
   return 0;
 }
+
+}  // namespace dsdpv1

@@ -5,7 +5,7 @@
 #include "bus/capture/pcap_reader.hpp"
 #include "tests/fuzz/captured.hpp"
 
-using namespace dsdpv1;
+namespace dsdpv1 {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);
@@ -16,3 +16,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   return 0;
 }
+
+}  // namespace dsdpv1

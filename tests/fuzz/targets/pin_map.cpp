@@ -4,7 +4,7 @@
 #include "tb/input/input_error.hpp"
 #include "tests/fuzz/input.hpp"
 
-using namespace dsdpv1;
+namespace dsdpv1 {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
@@ -16,3 +16,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace dsdpv1

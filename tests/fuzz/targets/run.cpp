@@ -7,8 +7,7 @@
 #include "tb/scenario/scenario.hpp"
 #include "tests/fuzz/input.hpp"
 
-using namespace dsdpv1;
-
+namespace dsdpv1 {
 namespace {
 
 constexpr bus::Tick kLongest = 2 * bus::kTicksPerMs;
@@ -46,3 +45,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace dsdpv1

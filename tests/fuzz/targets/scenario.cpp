@@ -4,8 +4,7 @@
 #include "tb/input/input_error.hpp"
 #include "tests/fuzz/input.hpp"
 
-using namespace dsdpv1;
-
+namespace dsdpv1 {
 namespace {
 
 std::vector<tb::scenario::Setting> settings(const std::string& text) {
@@ -32,3 +31,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace dsdpv1

@@ -6,8 +6,7 @@
 #include "tb/serve/host_line.hpp"
 #include "tests/fuzz/input.hpp"
 
-using namespace dsdpv1;
-
+namespace dsdpv1 {
 namespace {
 
 using tb::serve::Intake;
@@ -93,3 +92,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   host.finish();
   return 0;
 }
+
+}  // namespace dsdpv1

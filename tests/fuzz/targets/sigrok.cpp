@@ -7,8 +7,7 @@
 #include "bus/baud.hpp"
 #include "tests/fuzz/captured.hpp"
 
-using namespace dsdpv1;
-
+namespace dsdpv1 {
 namespace {
 
 /// A ZIP archive of stored members.
@@ -61,3 +60,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::read_capture([&] { bus::capture::read_sigrok(archive, {}, fuzz::take); });
   return 0;
 }
+
+}  // namespace dsdpv1

@@ -7,8 +7,7 @@
 #include "bus/telegram/telegram_printer.hpp"
 #include "tests/fuzz/input.hpp"
 
-using namespace dsdpv1;
-
+namespace dsdpv1 {
 namespace {
 
 void explain(const bus::Decoded& decoded) {
@@ -44,3 +43,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       "is_telegram says what decode does");
   return 0;
 }
+
+}  // namespace dsdpv1
