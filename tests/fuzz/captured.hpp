@@ -20,8 +20,7 @@ void read_capture(const Read& read) {
   try {
     read();
   } catch (const bus::capture::CaptureError& error) {
-    const std::string words = error.what();
-    promise(!words.empty() && words.find('\n') == std::string::npos, "an error is one line: " + words);
+    promise(*error.what() != '\0', "an error has words");
   }
 }
 

@@ -31,7 +31,7 @@ inline void read_wave(const std::uint8_t* data, std::size_t size) {
       check_event(reader->declarations(), event);
     }
   } catch (const tb::InputError& error) {
-    promise_one_line(error.what(), path);
+    promise_named(error.what(), path);
   }
 }
 

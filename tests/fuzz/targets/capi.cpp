@@ -20,7 +20,10 @@ constexpr const char* kScenario =
 void check(dpsim_status status) {
   fuzz::promise(status <= DPSIM_OK && status > DPSIM_ERR_INTERNAL,
                 std::string("a status is one of an error of the caller: ") + dpsim_error_message());
-  if (status != DPSIM_OK) fuzz::promise(std::strlen(dpsim_error_message()) > 0, "an error has words");
+  if (status == DPSIM_OK) return;
+  fuzz::promise(std::strlen(dpsim_error_message()) > 0, "an error has words");
+  if (status != DPSIM_ERR_INPUT)  // a GSD file may have several
+    fuzz::promise(std::strchr(dpsim_error_message(), '\n') == nullptr, "an error is one line");
 }
 
 template <class T>
@@ -137,8 +140,9 @@ class Caller {
   }
   void end_chip() {
     dpsim_chip* const chip = chips_.pick(input_);
-    dpsim_chip_destroy(chip);  // one on a bus stays
-    if (chip != nullptr && !on_bus(chip)) chips_.forget(chip);
+    const bool stays = chip != nullptr && on_bus(chip);
+    dpsim_chip_destroy(chip);
+    if (!stays) chips_.forget(chip);
   }
   bool on_bus(const dpsim_chip* chip) const {
     std::uint16_t station = 0;
@@ -527,8 +531,9 @@ class Caller {
   void time() {
     const std::uint64_t value = input_.number(8);
     const auto unit = static_cast<dpsim_unit>(input_.below(7));
-    const std::uint64_t there = dpsim_ticks_from(dpsim_ticks_to(value, unit), unit);
-    fuzz::promise(unit > DPSIM_PS || there == UINT64_MAX || there == value, "finer units keep ticks");
+    const std::uint64_t time = dpsim_ticks_to(value, unit);
+    fuzz::promise(unit > DPSIM_PS || time == UINT64_MAX || dpsim_ticks_from(time, unit) == value,
+                  "fine units keep ticks");
   }
 
   // --- GSD files

@@ -29,7 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                     "a segment lies in a memory");
     look_up(image, file);
   } catch (const tb::InputError& error) {
-    fuzz::promise_one_line(error.what(), "a.elf");
+    fuzz::promise_named(error.what(), "a.elf");
   }
   return 0;
 }

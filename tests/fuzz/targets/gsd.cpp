@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::istringstream in(std::string(reinterpret_cast<const char*>(data), size));
   const bus::GsdResult result = bus::parse_gsd(in, "a.gsd");
   fuzz::promise(result.diagnostics.size() <= 201, "at most 200 remarks and the word that there are more");
-  for (const bus::GsdDiagnostic& each : result.diagnostics) fuzz::promise_one_line(bus::to_string(each), "a.gsd");
+  for (const bus::GsdDiagnostic& each : result.diagnostics) fuzz::promise_named(bus::to_string(each), "a.gsd");
   if (!result.gsd) {
     fuzz::promise(!result.diagnostics.empty(), "a file that cannot be used has an error");
     return 0;

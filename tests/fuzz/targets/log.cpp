@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::promise((status == 2) == !error.empty(), "exit code 2 and an error come together");
   if (status != 2) return 0;
   fuzz::promise(out.str().empty(), "nothing is printed beside an error");
-  fuzz::promise_one_line(error, "a.log");
+  fuzz::promise_named(error, "a.log");
   return 0;
 }
 

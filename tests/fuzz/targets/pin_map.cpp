@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::promise(map.pins.size() == cosim::default_pin_map().pins.size(), "a map renames pins and makes none");
     fuzz::promise(!map.clock.name.empty(), "a port has a name");
   } catch (const tb::InputError& error) {
-    fuzz::promise_one_line(error.what(), "pins.yaml");
+    fuzz::promise_named(error.what(), "pins.yaml");
   }
   return 0;
 }

@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     scenario.end = std::min(scenario.end, kLongest);
     fuzz::promise(run(scenario, tb::Engine::kStep) == run(scenario, tb::Engine::kSkip), "step and skip do the same");
   } catch (const tb::InputError& error) {
-    fuzz::promise(std::string(error.what()).find('\n') == std::string::npos, "an error is one line");
+    fuzz::promise(*error.what() != '\0', "an error has words");
   }
   return 0;
 }

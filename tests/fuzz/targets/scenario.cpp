@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const tb::scenario::Scenario scenario = tb::scenario::parse(text, "a.yaml", settings(text));
     fuzz::promise(!scenario.slaves.empty() && scenario.kind != nullptr, "a scenario has a slave and a kind of chip");
   } catch (const tb::InputError& error) {
-    fuzz::promise(std::string(error.what()).find('\n') == std::string::npos, "an error is one line");
+    fuzz::promise(*error.what() != '\0', "an error has words");
   }
   return 0;
 }

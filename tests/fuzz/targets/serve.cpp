@@ -13,7 +13,7 @@ using tb::serve::Intake;
 
 class Host {
  public:
-  explicit Host(int baud) : baud_(baud), line_(segment_, baud) {
+  explicit Host(int baud) : line_(segment_, baud) {
     other_.set_timing(bus::baud(baud).bit);
     monitor_.set_baud(baud);
     timeline_.add(monitor_);
@@ -64,7 +64,6 @@ class Host {
     fuzz::promise(intake_.size() < tb::serve::kLongestTelegram, "at most one telegram is held back");
   }
 
-  int baud_;
   bus::Timeline timeline_;
   bus::Segment segment_;
   bus::UartSender other_{segment_, segment_.attach("other", nullptr)};

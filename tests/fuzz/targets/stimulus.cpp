@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     stimulus = cosim::parse_stimulus(text, "a.stim");
   } catch (const tb::InputError& error) {
-    fuzz::promise_one_line(error.what(), "a.stim");
+    fuzz::promise_named(error.what(), "a.stim");
     return 0;
   }
   constexpr std::size_t kShort = 2000;  // beyond it time is spent on repeating, not on anything new

@@ -10,6 +10,14 @@
 namespace dsdpv1 {
 namespace {
 
+/// A token has no SAPs: bit 7 of its addresses is not looked at.
+bus::Bytes without_extensions(const bus::Decoded& decoded) {
+  bus::Bytes bytes = decoded.bytes;
+  if (decoded.telegram.kind == bus::TelegramKind::kSd4)
+    for (std::size_t i = 1; i < bytes.size(); ++i) bytes[i] &= 0x7F;
+  return bytes;
+}
+
 void explain(const bus::Decoded& decoded) {
   for (const std::optional<bool> dpv1 : {std::optional<bool>(), std::optional<bool>(true), std::optional<bool>(false)})
     fuzz::promise(bus::explain_bytes(decoded, dpv1).size() >= decoded.bytes.size(), "each byte is explained");
@@ -37,7 +45,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   explain(decoded);
   print(decoded, bytes);
   if (decoded.error == bus::DecodeError::kNone)
-    fuzz::promise(bus::encode(decoded.telegram) == decoded.bytes, "a right telegram is encoded as it was");
+    fuzz::promise(bus::encode(decoded.telegram) == without_extensions(decoded),
+                  "a right telegram is encoded as it was");
   fuzz::promise(
       bus::is_telegram(data, size) == (decoded.error == bus::DecodeError::kNone && decoded.bytes.size() == size),
       "is_telegram says what decode does");
