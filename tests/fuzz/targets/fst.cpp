@@ -6,7 +6,8 @@
 
 #include "tests/fuzz/wave_events.hpp"
 
-extern "C" __attribute__((weak)) void __sanitizer_set_death_callback(void (*callback)());  // not without sanitizers
+// Of the sanitizers; not there without them.
+extern "C" __attribute__((weak)) void __sanitizer_set_death_callback(void (*callback)());  // NOLINT
 
 namespace dsdpv1 {
 namespace {
