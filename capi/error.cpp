@@ -2,7 +2,10 @@
 
 #include <array>
 #include <new>
+#include <string>
+#include <utility>
 
+#include "bus/printable.hpp"
 #include "capi/names.hpp"
 #include "tb/input/input_error.hpp"
 
@@ -18,14 +21,14 @@ thread_local bool has_no_memory = false;
 
 dpsim_status keep(dpsim_status status, const char* function, const char* text) {
   has_no_memory = false;
-  message() = std::string(function) + ": " + text;
+  message() = bus::printable(std::string(function) + ": " + text);
   return status;
 }
 
-/// Files and texts say by themselves where they are wrong.
-dpsim_status keep_input(const char* text) {
+/// Files and texts say by themselves where they are wrong. What they quote steers no terminal and is one line.
+dpsim_status keep_input(std::string text) {
   has_no_memory = false;
-  message() = text;
+  message() = std::move(text);
   return DPSIM_ERR_INPUT;
 }
 
@@ -33,9 +36,10 @@ dpsim_status classify(const char* function) {
   try {
     throw;
   } catch (const Error& error) {
-    return error.status == DPSIM_ERR_INPUT ? keep_input(error.what()) : keep(error.status, function, error.what());
+    return error.status == DPSIM_ERR_INPUT ? keep_input(bus::printable_lines(error.what()))
+                                           : keep(error.status, function, error.what());
   } catch (const tb::InputError& error) {
-    return keep_input(error.what());
+    return keep_input(bus::printable(error.what()));
   } catch (const std::invalid_argument& error) {
     return keep(DPSIM_ERR_ARGUMENT, function, error.what());
   } catch (const std::bad_alloc&) {

@@ -129,6 +129,7 @@ class ByteExplainer {
       : decoded_(decoded), telegram_(decoded.telegram), dpv1_(dpv1) {}
 
   std::vector<ExplainedByte> explain() {
+    if (decoded_.bytes.empty()) return {};
     if (!decoded_.readable) return explain_unreadable();
     explain_header();
     if (telegram_.kind == TelegramKind::kSc) return std::move(result_);

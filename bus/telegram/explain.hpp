@@ -22,9 +22,9 @@ struct ExplainedByte {
 std::string explain_line(const Telegram& telegram);
 /// The service that a telegram with an address belongs to: "Slave_Diag"; empty for FDL status and the like.
 std::string explain_service(const Telegram& telegram);
-/// Every byte of one telegram. A wrong telegram is explained as far as it was understood; its last line says what is
-/// wrong. `dpv1`: whether the answering slave is parameterised for DPV1, which decides how a device related diagnosis
-/// is read; unset: both ways.
+/// Every byte of one telegram; nothing when there is none. A wrong telegram is explained as far as it was understood;
+/// its last line says what is wrong. `dpv1`: whether the answering slave is parameterised for DPV1, which decides how a
+/// device related diagnosis is read; unset: both ways.
 std::vector<ExplainedByte> explain_bytes(const Decoded& decoded, std::optional<bool> dpv1 = {});
 /// What a Set_Prm that locks its slave says about DPV1; nothing for any other telegram.
 std::optional<bool> dpv1_enabled(const Telegram& telegram);

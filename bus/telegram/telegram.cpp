@@ -160,7 +160,7 @@ Decoded decode(const Bytes& bytes) {
   TelegramDecoder decoder;
   for (const std::uint8_t byte : bytes)
     if (const auto decoded = decoder.feed(byte)) return *decoded;
-  return decoder.finish().value_or(Decoded{});
+  return decoder.finish().value_or(Decoded{DecodeError::kTruncated});
 }
 
 std::uint8_t frame_check_sequence(const std::uint8_t* first, std::size_t count) {

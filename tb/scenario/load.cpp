@@ -1,8 +1,12 @@
 // From a file to a checked scenario.
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <sstream>
 
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
@@ -13,13 +17,51 @@
 namespace dsdpv1::tb::scenario {
 namespace {
 
+/// Keeps where a document's first node stands.
+class FirstNode : public YAML::EventHandler {
+ public:
+  std::optional<YAML::Mark> mark;
+
+  void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& at, YAML::anchor_t /*anchor*/) override { see(at); }
+  void OnAlias(const YAML::Mark& at, YAML::anchor_t /*anchor*/) override { see(at); }
+  void OnScalar(const YAML::Mark& at, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                const std::string& /*value*/) override {
+    see(at);
+  }
+  void OnSequenceStart(const YAML::Mark& at, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                       YAML::EmitterStyle::value /*style*/) override {
+    see(at);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& at, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                  YAML::EmitterStyle::value /*style*/) override {
+    see(at);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void see(const YAML::Mark& at) {
+    if (!mark) mark = at;
+  }
+};
+
+/// Where a second document begins. Not by YAML::LoadAll, which finds documents for ever in what begins with a comma.
+std::optional<YAML::Mark> second_document(const std::string& text) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  FirstNode first, second;
+  return parser.HandleNextDocument(first) && parser.HandleNextDocument(second) ? second.mark : std::nullopt;
+}
+
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty() || documents[0].IsNull()) throw InputError(file, 1, "is empty, allowed is a scenario");
-    if (documents.size() > 1)
-      throw InputError(file, keys::line_of(documents[1]), "a second document, allowed is one scenario a file");
-    return documents[0];
+    YAML::Node root = YAML::Load(text);
+    if (root.IsNull()) throw InputError(file, 1, "is empty, allowed is a scenario");
+    if (const std::optional<YAML::Mark> second = second_document(text))
+      throw InputError(file, second->line + 1, "a second document, allowed is one scenario a file");
+    return root;
   } catch (const YAML::Exception& error) {
     throw InputError(file, error.mark.line + 1, "is not YAML: " + error.msg);
   }

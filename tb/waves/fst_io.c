@@ -66,6 +66,8 @@ int fst_io_put(int character, FILE* file) {
   return result;
 }
 
+int fst_io_get(FILE* file) { return feof_unlocked(file) ? 0 : getc_unlocked(file); }
+
 int fst_io_flush(FILE* file) {
   const int result = fflush(file);
   keep(result != 0);

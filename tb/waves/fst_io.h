@@ -27,6 +27,9 @@ FILE* fst_io_temporary(void); /* in memory */
 int fst_io_close(FILE* file);
 size_t fst_io_write(const void* data, size_t size, size_t count, FILE* file);
 int fst_io_put(int character, FILE* file);
+/* Once the end was met it is 0, not EOF again: fstapi looks for nothing but the zero byte that ends a name, for ever in
+ * a file whose last name is cut. */
+int fst_io_get(FILE* file);
 int fst_io_flush(FILE* file);
 int fst_io_seek(FILE* file, off_t offset, int whence);
 int fst_io_truncate(int descriptor, off_t length);

@@ -9,29 +9,28 @@
 
 namespace dsdpv1::tb {
 
-/// Codes of up to three characters, which are nearly all, are places of a table.
+/// Codes of up to three characters, which are nearly all, are places of a table, which is as long as they need.
 class VcdCodes {
  public:
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
-  VcdCodes() : short_(kShort, kNone) {}
-
   std::uint32_t find(std::string_view code) const {
     std::size_t place = 0;
     if (!is_short(code, place)) return find_long(code);
-    return short_[place];
+    return place < short_.size() ? short_[place] : kNone;
   }
   void add(std::string_view code, std::uint32_t signal) {
     std::size_t place = 0;
-    if (is_short(code, place))
-      short_[place] = signal;
-    else
+    if (!is_short(code, place)) {
       long_.emplace(texts_.emplace_back(code), signal);
+      return;
+    }
+    if (place >= short_.size()) short_.resize(place + 1, kNone);
+    short_[place] = signal;
   }
 
  private:
   static constexpr std::size_t kBase = '~' - '!' + 1;
-  static constexpr std::size_t kShort = 1 + kBase + kBase * kBase + kBase * kBase * kBase;
 
   static bool is_short(std::string_view code, std::size_t& place) {
     if (code.size() > 3) return false;

@@ -27,28 +27,28 @@ constexpr std::array<bool, 256> blanks() {
 const std::array<bool, 256> VcdText::kBlank = blanks();
 
 VcdText::VcdText(const std::string& path)
-    : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(kBuffer + 1) {
+    : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(new char[kBuffer + 1]) {
   if (!file_) throw InputError(path, 0, what_is_wrong(errno) + ", allowed is a wave, VCD or FST");
   struct stat status {};
   if (::fstat(file_.get(), &status) == 0) size_ = static_cast<std::uint64_t>(status.st_size);
-  at_ = end_ = buffer_.data();
+  at_ = end_ = buffer_.get();
   fill();
 }
 
 /// Keeps what has not been taken and reads on after it; a zero byte ends all.
 void VcdText::fill() {
   const auto rest = static_cast<std::size_t>(end_ - at_);
-  std::memmove(buffer_.data(), at_, rest);
+  std::memmove(buffer_.get(), at_, rest);
   std::size_t have = rest;
   while (have < kBuffer && !whole_) {
-    const ssize_t got = ::read(file_.get(), buffer_.data() + have, kBuffer - have);
+    const ssize_t got = ::read(file_.get(), buffer_.get() + have, kBuffer - have);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw InputError(path_, 0, what_is_wrong(errno) + ", allowed is a wave, VCD or FST");
     whole_ = got == 0;
     have += static_cast<std::size_t>(got);
     read_ += static_cast<std::uint64_t>(got);
   }
-  at_ = buffer_.data();
+  at_ = buffer_.get();
   end_ = at_ + have;
   buffer_[have] = '\0';
 }

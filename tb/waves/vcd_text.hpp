@@ -3,9 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "tb/input/descriptor.hpp"
 
@@ -46,7 +46,7 @@ class VcdText {
 
   std::string path_;
   Descriptor file_;
-  std::vector<char> buffer_;
+  std::unique_ptr<char[]> buffer_;  ///< not filled before it is needed: small files do not pay for it
   const char *at_, *end_;
   bool whole_ = false;  ///< all of the file is in the buffer
   int line_ = 1;

@@ -34,6 +34,8 @@ std::vector<std::string> data_texts(const Telegram& telegram) {
   return texts;
 }
 
+TEST(ExplainBytes, NoByteIsNoLine) { EXPECT_TRUE(explain_bytes(decode({})).empty()); }
+
 TEST(ExplainLine, FunctionCodes) {
   EXPECT_EQ(explain_fc(0x49), "request FDL status FCB=0 FCV=0");
   EXPECT_EQ(explain_fc(0x6D), "request SRD high FCB=1 FCV=0");

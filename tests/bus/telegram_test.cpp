@@ -161,6 +161,12 @@ INSTANTIATE_TEST_SUITE_P(
         WrongTelegram{"TruncatedSd3", {0xA2, 0x01, 0x03, 0x5D, 0, 0}, DecodeError::kTruncated, 6}),
     [](const auto& test) { return test.param.name; });
 
+TEST(TelegramDecoder, NoByteIsATruncatedTelegram) {
+  const Decoded decoded = bus::decode({});
+  EXPECT_EQ(decoded.error, DecodeError::kTruncated);
+  EXPECT_FALSE(decoded.readable);
+}
+
 TEST(TelegramDecoder, FcsWithoutItsSapBytesIsNotReadable) {
   EXPECT_FALSE(decode({0x10, 0x83, 0x01, 0x49, 0xCE, 0x16}).readable);
   EXPECT_TRUE(decode({0x10, 0x03, 0x01, 0x49, 0x4E, 0x16}).readable);

@@ -190,6 +190,16 @@ TEST(CapiError, FilesAreWrongAtTheirLines) {
                "bad.gsd:2: GSD_Revision is x, 0 to 255 is allowed");
 }
 
+TEST(CapiError, WhatAMessageQuotesIsPrintable) {
+  auto options = sized<dpsim_run_options>();
+  options.path = "my.yaml";
+  options.text = "name: a\n\"b\\n\\x1b[2Jc\": 1\n";
+  dpsim_run* run = nullptr;
+  EXPECT_EQ(dpsim_run_create(&options, &run), DPSIM_ERR_INPUT);
+  const std::string message = dpsim_error_message();
+  EXPECT_EQ(message.rfind("my.yaml:2: unknown key b\\n\\x1B[2Jc in scenario", 0), 0U) << message;
+}
+
 TEST(CapiError, ABoardIsNotInThisLibrary) {
   auto options = sized<dpsim_run_options>();
   options.path = DSDPV1_SOURCE_DIR "/scenarios/arm_board_12m.yaml";

@@ -60,6 +60,18 @@ TEST(CapiTelegram, IsExplainedInALineOrByteByByte) {
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), static_cast<long>(sizeof kSlaveDiag));
 }
 
+TEST(CapiTelegram, NoByteIsATruncatedTelegram) {
+  auto telegram = sized<dpsim_telegram>();
+  dpsim_decode_error error = DPSIM_DECODE_OK;
+  ok(dpsim_telegram_decode(nullptr, 0, &telegram, &error, nullptr));
+  EXPECT_EQ(error, DPSIM_DECODE_TRUNCATED);
+  const char* text = nullptr;
+  ok(dpsim_telegram_explain(nullptr, 0, DPSIM_EXPLAIN_LINE, -1, &text));
+  EXPECT_EQ(std::string(text).rfind("wrong telegram: ", 0), 0U) << text;
+  ok(dpsim_telegram_explain(nullptr, 0, DPSIM_EXPLAIN_BYTES, -1, &text));
+  EXPECT_STREQ(text, "");
+}
+
 TEST(CapiTelegram, FieldsOutOfRangeAreRefused) {
   auto telegram = sized<dpsim_telegram>();
   telegram.kind = DPSIM_SD1;

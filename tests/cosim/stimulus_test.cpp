@@ -65,6 +65,14 @@ TEST(Stimulus, ActionsAndPinsOfTheRsuAreForTheRsu) {
   EXPECT_NE(error_of("fly +1\n", Part::kRsu).find("block, pin, spi, uart, reset"), std::string::npos);
 }
 
+TEST(Stimulus, AShortFileMakesNoMoreThanAMillionActions) {
+  std::string thousand;
+  for (int i = 0; i < 1000; ++i) thousand += "sync\n";
+  EXPECT_EQ(error_of("sync\nrepeat 1000\n" + thousand + "end\n"),
+            "my.stimulus:2: too many actions, allowed: 1000000 in all");
+  EXPECT_EQ(error_of("sync\nrepeat 999\n" + thousand + "end\n"), "none");
+}
+
 struct Wrong {
   const char *text, *error;
 };

@@ -20,7 +20,7 @@ refuses() {
 }
 
 help=$("$run" --help) || fail "--help: exit $?"
-for command in demo test sim nightly rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal bench traces cosim build format lint generate conformance deps; do
+for command in demo test sim nightly rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal fuzz bench traces cosim build format lint generate conformance deps; do
   grep -q "^  $command " <<<"$help" || fail "--help does not explain $command"
 done
 grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
@@ -36,7 +36,7 @@ fi
 refuses "allowed are demo test sim" dmeo
 refuses "allowed is --quick" test --fast
 refuses "allowed is --quick" test --quick again
-refuses "allowed is default fast debug coverage" build release
+refuses "allowed is default fast debug coverage fuzz" build release
 refuses "allowed is --record" conformance now
 refuses "allowed is none" demo now
 refuses "allowed is none" rtl-formal quickly
@@ -44,6 +44,10 @@ refuses "allowed is none" nightly quickly
 refuses "allowed is none" rtl-coverage again
 refuses "unknown row fast, allowed are core_2" bench --only fast
 refuses "0 is no number of rounds" bench --rounds 0
+refuses "unknown target gds, allowed are telegram" fuzz gds
+refuses "0 is no number of seconds" fuzz --seconds 0
+refuses "--reproduce needs one target" fuzz --reproduce "$run"
+refuses "--seconds and --runs, allowed is one of them" fuzz --seconds 1 --runs 1
 
 echo "$failures failures"
 [ "$failures" -eq 0 ]

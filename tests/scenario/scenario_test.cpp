@@ -53,6 +53,25 @@ TEST(Scenario, LeavesDefaultsWhereKeysAreMissing) {
   EXPECT_FALSE(tb::own(scenario.slaves[0].user_cpu).access);
 }
 
+std::string error_of_scenario(const std::string& text) {
+  try {
+    sc::parse(text, "s.yaml");
+  } catch (const tb::InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Scenario, WhatBeginsWithACommaIsRefusedAtOnce) {
+  EXPECT_EQ(error_of_scenario(","), "s.yaml:1: is empty, allowed is a scenario");
+  EXPECT_EQ(error_of_scenario(kSmall + ",\n").rfind("s.yaml:", 0), 0U);
+}
+
+TEST(Scenario, ASecondDocumentIsNamedByItsLine) {
+  EXPECT_EQ(error_of_scenario(kSmall + "---\nname: more\n"),
+            "s.yaml:7: a second document, allowed is one scenario a file");
+}
+
 TEST(Scenario, PathsAreRelativeToItsFolder) {
   sc::Scenario scenario = sc::parse(kSmall, "some/where/s.yaml");
   EXPECT_EQ(sc::resolve(scenario, {"../x.gsd", 1}), "some/x.gsd");

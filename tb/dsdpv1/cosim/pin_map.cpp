@@ -18,8 +18,8 @@ class Reader {
  public:
   explicit Reader(std::string path) : path_(std::move(path)), map_(default_pin_map()) {}
 
-  PinMap read() {
-    const YAML::Node root = load();
+  PinMap read(const std::string& content) {
+    const YAML::Node root = load(content);
     check_keys(root, {"clock", "pins", "tolerance", "parameters", "files", "include", "reference"});
     for (const char* key : {"pins", "tolerance", "parameters"})
       if (root[key] && !root[key].IsMap()) fail(root[key], std::string(key) + " is no map, allowed is NAME: VALUE");
@@ -40,9 +40,9 @@ class Reader {
   [[noreturn]] void fail(const YAML::Node& at, const std::string& what) const {
     throw tb::InputError(path_, at.Mark().line + 1, what);
   }
-  YAML::Node load() const {
+  YAML::Node load(const std::string& content) const {
     try {
-      YAML::Node root = YAML::Load(tb::read_file(path_, tb::kPinMapFile));
+      YAML::Node root = YAML::Load(content);
       if (!root.IsMap() && !root.IsNull())
         fail(root, "is no map, allowed are clock, pins, tolerance, parameters, files, include, reference");
       return root;
@@ -124,6 +124,8 @@ PinMap default_pin_map() {
   return map;
 }
 
-PinMap load_pin_map(const std::string& path) { return Reader(path).read(); }
+PinMap load_pin_map(const std::string& path) { return parse_pin_map(tb::read_file(path, tb::kPinMapFile), path); }
+
+PinMap parse_pin_map(const std::string& text, const std::string& path) { return Reader(path).read(text); }
 
 }  // namespace dsdpv1::cosim

@@ -36,5 +36,7 @@ struct PinMap {
 PinMap default_pin_map();
 /// Reads what differs from the default; throws tb::InputError.
 PinMap load_pin_map(const std::string& path);
+/// The same from text; `path` is for messages only.
+PinMap parse_pin_map(const std::string& text, const std::string& path);
 
 }  // namespace dsdpv1::cosim

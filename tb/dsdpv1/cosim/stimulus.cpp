@@ -247,7 +247,7 @@ class FileParser {
       else if (verb == "end")
         end(argument);
       else if (auto action = LineParser(line, file_, number_, part_).parse())
-        stimulus_.push_back(std::move(*action));
+        add(std::move(*action));
     }
     if (count_ != 0) fail(repeat_line_, "repeat without its end", "end behind the lines that are repeated");
     return std::move(stimulus_);
@@ -255,8 +255,16 @@ class FileParser {
 
  private:
   static constexpr int kMostRepeats = 1000;
+  static constexpr std::size_t kMostActions = 1'000'000;  // a quarter of a gigabyte; random cases have some thousands
   [[noreturn]] void fail(int line, const std::string& what, const std::string& allowed) const {
     throw tb::InputError(file_, line, what + ", allowed: " + allowed);
+  }
+  void check_length(int line, std::size_t actions) const {
+    if (actions > kMostActions) fail(line, "too many actions", fmt::format("{} in all", kMostActions));
+  }
+  void add(Action action) {
+    check_length(number_, stimulus_.size() + 1);
+    stimulus_.push_back(std::move(action));
   }
   void repeat(const std::string& argument) {
     if (count_ != 0) fail(number_, "repeat within repeat", fmt::format("end first, of line {}", repeat_line_));
@@ -272,6 +280,7 @@ class FileParser {
     if (count_ == 0) fail(number_, "end without repeat", "repeat COUNT before it");
     if (!argument.empty()) fail(number_, "unknown word " + argument, "end alone");
     const Stimulus lines(stimulus_.begin() + static_cast<std::ptrdiff_t>(first_), stimulus_.end());
+    check_length(repeat_line_, first_ + lines.size() * static_cast<std::size_t>(count_));
     for (; count_ > 1; --count_) stimulus_.insert(stimulus_.end(), lines.begin(), lines.end());
     count_ = 0;
   }

@@ -47,8 +47,9 @@ using Stimulus = std::vector<Action>;
 
 /// The text of a stimulus file: comments, one action a line.
 std::string to_text(const Stimulus& stimulus);
-/// Reads it; lines between `repeat COUNT` (1 to 1000) and `end` count COUNT times. `file` is for messages only, `part`
-/// the chip that it is played to. Throws tb::InputError, also for actions and pins that the chip has not.
+/// Reads it; lines between `repeat COUNT` (1 to 1000) and `end` count COUNT times, at most a million in all. `file` is
+/// for messages only, `part` the chip that it is played to. Throws tb::InputError, also for actions and pins that the
+/// chip has not.
 Stimulus parse_stimulus(const std::string& text, const std::string& file, Part part);
 
 }  // namespace dsdpv1::cosim

@@ -1,0 +1,20 @@
+// A map of pins, for RTL of a user's own.
+#include "tb/dsdpv1/cosim/pin_map.hpp"
+
+#include "tb/input/input_error.hpp"
+#include "tests/fuzz/input.hpp"
+
+namespace dsdpv1 {
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    const cosim::PinMap map = cosim::parse_pin_map(std::string(reinterpret_cast<const char*>(data), size), "pins.yaml");
+    fuzz::promise(map.pins.size() == cosim::default_pin_map().pins.size(), "a map renames pins and makes none");
+    fuzz::promise(!map.clock.name.empty(), "a port has a name");
+  } catch (const tb::InputError& error) {
+    fuzz::promise_named(error.what(), "pins.yaml");
+  }
+  return 0;
+}
+
+}  // namespace dsdpv1

@@ -1,0 +1,25 @@
+// A stimulus file; written again and read again it is the same.
+#include "tb/dsdpv1/cosim/stimulus.hpp"
+
+#include "tb/input/input_error.hpp"
+#include "tests/fuzz/input.hpp"
+
+namespace dsdpv1 {
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  cosim::Stimulus stimulus;
+  try {
+    stimulus = cosim::parse_stimulus(text, "a.stim");
+  } catch (const tb::InputError& error) {
+    fuzz::promise_named(error.what(), "a.stim");
+    return 0;
+  }
+  constexpr std::size_t kShort = 2000;  // beyond it time is spent on repeating, not on anything new
+  if (stimulus.size() > kShort) return 0;
+  const std::string written = cosim::to_text(stimulus);
+  fuzz::promise(cosim::to_text(cosim::parse_stimulus(written, "again.stim")) == written, "what is written can be read");
+  return 0;
+}
+
+}  // namespace dsdpv1
