@@ -15,6 +15,12 @@ std::uint64_t big_endian(std::istream& in) {
   return value;
 }
 
+/// LZ4 makes 255 bytes of one at most, and names may be compressed by it twice; zlib makes some 1032. fstapi would take
+/// memory for whatever is said, and write all of it.
+constexpr std::uint64_t kMostUnpackedOfByte = 255 * 255;
+
+bool is_names(int tag) { return tag == FST_BL_HIER || tag == FST_BL_HIER_LZ4 || tag == FST_BL_HIER_LZ4DUO; }
+
 void count(FstBlocks& blocks, int tag) {
   switch (tag) {
     case FST_BL_HDR: blocks.header = true; break;
@@ -22,10 +28,7 @@ void count(FstBlocks& blocks, int tag) {
     case FST_BL_VCDATA_DYN_ALIAS:
     case FST_BL_VCDATA_DYN_ALIAS2: ++blocks.changes; break;
     case FST_BL_GEOM: blocks.geometry = true; break;
-    case FST_BL_HIER:
-    case FST_BL_HIER_LZ4:
-    case FST_BL_HIER_LZ4DUO: blocks.names = true; break;
-    default: break;
+    default: blocks.names = blocks.names || is_names(tag); break;
   }
 }
 
@@ -50,6 +53,7 @@ FstBlocks fst_blocks(const std::string& path) {
     count(blocks, tag);
     if (tag == FST_BL_HDR) blocks.variables = variables(in);
     if (tag == FST_BL_ZWRAPPER) blocks.unpacked = big_endian(in);
+    if (is_names(tag) && big_endian(in) / kMostUnpackedOfByte > length) blocks.damaged = true;
     at += 1 + length;
   }
   blocks.whole = in && at == size;

@@ -21,11 +21,12 @@
 #define ftruncate(descriptor, length) fst_io_truncate(descriptor, length)
 #define unlink(name) fst_io_remove(name)
 #define mmap(address, length, protection, flags, descriptor, offset) fst_io_map(length, descriptor)
-/* It ends the program when a file is damaged: a process that was made to read it (child_stream.hpp), in which nothing is
- * to happen that happens at the end of this one. */
+/* It ends the program when a file is damaged: a process that was made to read it (child_stream.hpp), in which nothing
+ * is to happen that happens at the end of this one. */
 #define exit(status) _exit(status)
 /* The table of times is compressed with the level that the values have: 9 takes as long as everything else that is
  * written, for a file that is 6 % smaller. */
-#define compress2(to, to_size, from, from_size, level) compress2(to, to_size, from, from_size, (level) > 4 ? 4 : (level))
+#define compress2(to, to_size, from, from_size, level) \
+  compress2(to, to_size, from, from_size, (level) > 4 ? 4 : (level))
 
 #include <fstapi.c>

@@ -132,6 +132,7 @@ void FstReader::check_file() const {
     throw InputError(path_, 0,
                      fmt::format("is an FST of {} MB that is compressed as a whole, allowed are {} MB",
                                  blocks.unpacked >> 20U, kMostUnpacked >> 20U));
+  if (blocks.damaged) damaged();
   if (!blocks.complete())
     throw InputError(path_, 0,
                      "is an FST that was cut, allowed is a complete one: was the simulator stopped while it wrote?");
