@@ -227,10 +227,9 @@ void WaveRecorder::telegram(const HeardTelegram& heard) {
 
 /// One that a silence has ended is known of late: it is shown then.
 void WaveRecorder::host_telegram(std::size_t slave, const HostTelegram& telegram) {
-  const Tick now = timeline_.now();
   const ChipSignals& chip = chips_[slave];
-  make_changes(now, Turn::kLast);
-  say(now, *(telegram.reply ? chip.reply : chip.request),
+  make_changes(telegram.known, Turn::kLast);
+  say(telegram.known, *(telegram.reply ? chip.reply : chip.request),
       fmt::format("{}{}  {}", telegram.words,
                   telegram.wrong.empty() ? "" : fmt::format("  [wrong: {}]", telegram.wrong),
                   bytes_text(telegram.bytes)));

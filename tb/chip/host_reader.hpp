@@ -16,7 +16,8 @@ struct HostTelegram {
   bool reply = false;  ///< of the chip; else a request of the user
   std::string words;   ///< its kind, address, length, error code, card and CRC
   bus::Bytes bytes;
-  std::string wrong;  ///< what is wrong with it; empty: nothing
+  std::string wrong;    ///< what is wrong with it; empty: nothing
+  bus::Tick known = 0;  ///< when the pins have said so: its end, or later
 };
 
 /// Reads one chip's pins.
@@ -31,6 +32,14 @@ class HostReader : public bus::Agent {
 
   /// Each telegram when it has ended, at the latest when it is known that it has.
   std::function<void(const HostTelegram&)> on_telegram;
+
+ protected:
+  void tell(HostTelegram telegram) {
+    telegram.known = now_;
+    on_telegram(telegram);
+  }
+
+  bus::Tick now_ = 0;  ///< of the turn or the change under way
 };
 
 }  // namespace dsdpv1::tb

@@ -22,6 +22,7 @@ PinMask SpiReader::pins() const {
 }
 
 void SpiReader::pin(Tick at, PinNumber pin, Level level) {
+  now_ = at;
   end_frame_before(at);
   switch (static_cast<Pin>(pin)) {
     case Pin::kReset:
@@ -66,7 +67,7 @@ void SpiReader::end_frame() {
   else if (!request_.empty() && !asked_)
     tell_request(end, "no telegram");
   else if (request_.empty() && bits_ != 0)
-    on_telegram({byte_start_, end, false, "no byte", {}, fmt::format("cut after {} bits", bits_)});
+    tell({byte_start_, end, false, "no byte", {}, fmt::format("cut after {} bits", bits_)});
   if (!reply_.empty() && !replied_) tell_reply(end, fmt::format("cut after {} bytes{}", reply_.bytes().size(), bits));
 }
 
@@ -99,11 +100,11 @@ void SpiReader::reply_byte(Tick at, std::uint8_t byte) {
 }
 
 void SpiReader::tell_request(Tick end, const std::string& wrong) {
-  on_telegram({request_start_, end, false, request_.words(), request_.bytes(), wrong});
+  tell({request_start_, end, false, request_.words(), request_.bytes(), wrong});
 }
 
 void SpiReader::tell_reply(Tick end, const std::string& wrong) {
-  on_telegram({reply_start_, end, true, reply_.words(request_), reply_.bytes(), wrong});
+  tell({reply_start_, end, true, reply_.words(request_), reply_.bytes(), wrong});
 }
 
 }  // namespace dsdpv1::tb

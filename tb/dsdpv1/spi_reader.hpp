@@ -17,7 +17,10 @@ class SpiReader : public HostReader {
 
   /// An edge of SCK at the tick of XSS's rise counts, so a frame ends after it.
   bus::Tick next() const override { return rose_ ? *rose_ + 1 : bus::kNever; }
-  void run(bus::Tick now) override { end_frame_before(now); }
+  void run(bus::Tick now) override {
+    now_ = now;
+    end_frame_before(now);
+  }
 
  private:
   using Tick = bus::Tick;

@@ -29,6 +29,7 @@ UartReader::UartReader(Tick bit, const std::array<Tick, 8>& silences, unsigned i
 PinMask UartReader::pins() const { return mask(Pin::kReset) | mask(Pin::kRxd) | mask(Pin::kTxd); }
 
 void UartReader::pin(Tick at, PinNumber pin, Level level) {
+  now_ = at;
   switch (static_cast<Pin>(pin)) {
     case Pin::kReset:
       if (level == 0) reset();
@@ -59,6 +60,7 @@ void UartReader::reset() {
 Tick UartReader::next() const { return std::min({from_user_.next(), from_chip_.next(), silence_at()}); }
 
 void UartReader::run(Tick now) {
+  now_ = now;
   from_user_.run(now);
   from_chip_.run(now);
   silence(now);
@@ -100,7 +102,7 @@ void UartReader::end_request(Tick end, const std::string& wrong) {
   const HostTelegram telegram{request_start_, end, false, request_.words(), request_.bytes(), wrong};
   request_.clear();
   spoilt_.clear();
-  on_telegram(telegram);
+  tell(telegram);
 }
 
 /// UA3: longer than this within a telegram drops it. In a break none is counted.
@@ -131,7 +133,7 @@ void UartReader::end_reply(Tick end, const std::string& wrong) {
   reply_.clear();
   replying_ = false;
   reply_end_ = end;
-  on_telegram(telegram);
+  tell(telegram);
 }
 
 }  // namespace dsdpv1::tb

@@ -23,6 +23,10 @@ namespace dsdpv1 {
 namespace tb {
 namespace {
 
+// Pins at which an agent has a new plan: the user CPU, and who reads the telegrams of the serial ports.
+constexpr std::uint32_t kPlannedBy = dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kTxd) | dsdpv1::mask(Pin::kRxd) |
+                                     dsdpv1::mask(Pin::kXss);
+
 class TlmChipView : public Dsdpv1View {
  public:
   template <class Options>
@@ -32,7 +36,7 @@ class TlmChipView : public Dsdpv1View {
     chip_.on_pin = [this, watched, &timeline](Tick at, Pin pin, dsdpv1::Level level) {
       if (!dsdpv1::is_input(pin) || (watched & dsdpv1::mask(pin)) != 0) tell(at, pin, level);
       if (pin == Pin::kTxd && bus_.on_txd) bus_.on_txd(at, level != 0);
-      if (pin == Pin::kIntr0 || pin == Pin::kTxd) timeline.wake();  // the user CPU has a new plan
+      if ((dsdpv1::mask(pin) & kPlannedBy) != 0) timeline.wake();
     };
     chip_.module().on_event = [this, &timeline](const profibus::Event& event) {
       if (on_event) on_event(event);
