@@ -63,7 +63,7 @@ class ListenedPort : public tlm::tlm_analysis_port<T> {
 };
 
 /// The DSDPV1 or the DSDPV1-R; RsuTlmModule is the DSDPV1-RSU.
-class TlmModule : public ChipModule, private tlm::tlm_analysis_if<BusCharacter> {
+class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter> {
  public:
   using In = sc_core::sc_in<bool>;
   using OptionalIn = sc_core::sc_port<sc_core::sc_signal_in_if<bool>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
