@@ -151,5 +151,5 @@ double lockstep() {
 }  // namespace dsdpv1
 
 int main(int argc, char** argv) {
-  return dsdpv1::speed::run_rows(argc, argv, {{"core_vs_rtl", core_vs_rtl}, {"lockstep", lockstep}});
+  return dsdpv1::speed::run_rows(argc, argv, {{"core_vs_rtl", dsdpv1::core_vs_rtl}, {"lockstep", dsdpv1::lockstep}});
 }
