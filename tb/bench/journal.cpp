@@ -57,9 +57,10 @@ void Journal::telegram(const HeardTelegram& telegram) {
 }
 
 void Journal::host_telegram(std::size_t slave, const HostTelegram& telegram) {
-  LogEntry entry{telegram.end, scenario_.slaves[slave].name.text, "host", telegram.words, {}, telegram.bytes};
+  const Tick at = std::max(telegram.end, telegram.known);
+  LogEntry entry{at, scenario_.slaves[slave].name.text, "host", telegram.words, {}, telegram.bytes};
   entry.wrong = telegram.wrong;
-  log(std::move(entry));
+  if (log_) log_->finding(entry);
 }
 
 std::uint64_t Journal::count(const std::string& station, const std::string& code) const {

@@ -46,8 +46,8 @@ class RunLog {
   RunLog(const std::string& path, const LogForm& form) : file_(path), form_(form) {}
 
   void add(const LogEntry& entry);
-  /// What a check found: after all other lines of that time, because views tell the changes of one tick in different
-  /// orders.
+  /// What a check, or a reader of telegrams, found at the pins: after all other lines of that time, because views tell
+  /// the changes of one tick in different orders.
   void finding(const LogEntry& entry);
   /// Nothing will come for a time before `now` any more.
   void flush(bus::Tick now);

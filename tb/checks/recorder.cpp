@@ -64,7 +64,12 @@ void Recorder::report_value(CheckId check, Tick at, Tick measured, const std::st
 
 void Recorder::report(CheckId check, Tick at, std::optional<Tick> margin, std::string text) {
   if (!on_violation) return;
-  on_violation({check, at, std::max(now_, history_.now()), margin, std::move(text), history_.last(rule(check).pins)});
+  const Tick found = std::max(now_, history_.now());
+  std::vector<PinChange> history = history_.last(rule(check).pins);
+  // Of what is found later, by any change, the changes at that time are no part; they are told in different orders.
+  const auto is_later = [&](const PinChange& change) { return at < found && change.at >= found; };
+  history.erase(std::remove_if(history.begin(), history.end(), is_later), history.end());
+  on_violation({check, at, found, margin, std::move(text), std::move(history)});
 }
 
 }  // namespace dsdpv1::checks
