@@ -8,7 +8,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A build's own program, or a test, looks into the source tree; where that is from the build does not change when both are moved.
+// A build's own program, or a test, looks into the source tree; where that is from the build does not change when both
+// are moved.
 fs::path source_tree(fs::path folder) {
   while (folder.has_relative_path() && !fs::exists(folder / "CMakeCache.txt")) folder = folder.parent_path();
   return (folder / DSDPV1_SOURCE_FROM_BUILD).lexically_normal();

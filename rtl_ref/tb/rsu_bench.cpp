@@ -129,8 +129,10 @@ Bytes RsuBench::spi(const Bytes& request, size_t reply_bytes) {
       sck(at + half, 0);
       at += 2 * half;
     }
-    if (i >= request.size()) reply.push_back(static_cast<uint8_t>(got));
-    else expect(got, 0xFF, "MISO during the request");
+    if (i >= request.size())
+      reply.push_back(static_cast<uint8_t>(got));
+    else
+      expect(got, 0xFF, "MISO during the request");
   }
   xss(at - half + lag, 1);
   run_to(tick + high);

@@ -1,5 +1,5 @@
-// The bench of DSDPV1-RSU's own test: pins by the tick of 1/12 ns (edge n of CLK is at tick 250 n), a host with SPI and one with UART, and
-// a bus that only sends.
+// The bench of DSDPV1-RSU's own test: pins by the tick of 1/12 ns (edge n of CLK is at tick 250 n), a host with SPI and
+// one with UART, and a bus that only sends.
 #pragma once
 
 #include <array>
@@ -38,7 +38,9 @@ inline Bytes operator+(Bytes first, const Bytes& second) {
 inline Bytes cells(int address) { return {static_cast<uint8_t>(address >> 8), static_cast<uint8_t>(address)}; }
 inline Bytes one(size_t value) { return {static_cast<uint8_t>(value)}; }
 
-inline Bytes read_telegram(int address, size_t count, unsigned adr = 1) { return with_crc(one(adr) + cells(address) + one(count)); }
+inline Bytes read_telegram(int address, size_t count, unsigned adr = 1) {
+  return with_crc(one(adr) + cells(address) + one(count));
+}
 inline Bytes write_telegram(int address, const Bytes& data, unsigned adr = 1) {
   return with_crc(one(0x20 + adr) + cells(address) + one(data.size()) + data);
 }
@@ -55,13 +57,14 @@ class RsuBench {
   void clock(int64_t cycles = 1);
   void run_to(int64_t tick);  // the edges strictly before it
   bool wait(const std::function<bool()>& until, int64_t limit);
-  void start_up();            // RESET rises: R is edge 10; to the end of the start-up access
+  void start_up();  // RESET rises: R is edge 10; to the end of the start-up access
 
   // ---- SPI
   void xss(int64_t tick, int level);
   void sck(int64_t tick, int level);
-  Bytes spi(const Bytes& request, size_t reply_bytes);  // one frame at `tick`, which then stands where the next may begin
-  Bytes read(int address, size_t count);                // with their replies' form
+  Bytes spi(const Bytes& request,
+            size_t reply_bytes);          // one frame at `tick`, which then stands where the next may begin
+  Bytes read(int address, size_t count);  // with their replies' form
   void write(int address, const Bytes& data);
   bool claim();
   void release() { write(0x014, {0}); }
@@ -69,7 +72,7 @@ class RsuBench {
   // ---- UART
   void send_character(uint8_t byte);
   void send(const Bytes& telegram);
-  Bytes receive();                       // the reply; empty when none begins
+  Bytes receive();  // the reply; empty when none begins
   Bytes ask(const Bytes& telegram);
   Bytes uart_read(int address, size_t count);
   void uart_write(int address, const Bytes& data);

@@ -1,4 +1,5 @@
-// Exchanges over UART (section 6.4; UA7 to UA14): areas, what the reply carries, errors, and the worked example to the cycle.
+// Exchanges over UART (section 6.4; UA7 to UA14): areas, what the reply carries, errors, and the worked example to the
+// cycle.
 #include "rsu_bench.hpp"
 
 namespace {
@@ -11,7 +12,9 @@ Chip with(Chip chip, unsigned fault) {
   return chip;
 }
 
-Bytes reply(unsigned function, int area, const Bytes& data) { return with_crc(one(1) + one(function) + cells(area) + one(data.size()) + data); }
+Bytes reply(unsigned function, int area, const Bytes& data) {
+  return with_crc(one(1) + one(function) + cells(area) + one(data.size()) + data);
+}
 Bytes error(unsigned function, unsigned code) { return with_crc(one(1) + one(function) + one(code)); }
 
 // Section 10; there S is 10000
@@ -76,7 +79,8 @@ void news(RsuBench& b) {
     expect(b.cell(0x00E), e, "B00E after it");
     expect(b.cell(0x00F), v, "B00F after it");
   };
-  expect_bytes(b.ask(exchange_telegram(2, 0x227, {0x01, 0x00})), reply(0, 0x319, {2, 0xA1, 0xA2}), "an exchange of a diagnosis carries the outputs");
+  expect_bytes(b.ask(exchange_telegram(2, 0x227, {0x01, 0x00})), reply(0, 0x319, {2, 0xA1, 0xA2}),
+               "an exchange of a diagnosis carries the outputs");
   expect(b.cell(0x00E), 0x87, "and clears nothing");
   expect_news(reply(0x10, 0x410, {3, 0xB1, 0xB2, 0xB3}), 0x85, 0x83, "parameters first");
   expect_news(reply(0x20, 0x500, {4, 5, 2, 0xC1, 0xC2}), 0x81, 0x83, "configuration");
@@ -113,7 +117,8 @@ void areas(RsuBench& b) {
     int address, flags, bit;
     size_t size;
   };
-  for (const Area& area : {Area{0x130, 0x010, 1, 245}, Area{0x227, 0x010, 2, 240}, Area{0x5D0, 0x011, 1, 244}, Area{0x6D0, 0x011, 2, 244}}) {
+  for (const Area& area : {Area{0x130, 0x010, 1, 245}, Area{0x227, 0x010, 2, 240}, Area{0x5D0, 0x011, 1, 244},
+                           Area{0x6D0, 0x011, 2, 244}}) {
     b.send(exchange_telegram(2, area.address, {0x99}));
     expect(b.cell(area.flags) & 3, area.bit, "the area's flag");
     b.receive();
@@ -121,7 +126,8 @@ void areas(RsuBench& b) {
     expect_bytes(b.ask(exchange_telegram(2, area.address, Bytes(area.size + 1, 1))), error(0x80, 4), "a byte too many");
   }
   b.uart_write(0x319, {0});
-  expect_bytes(b.ask(exchange_telegram(2, 0x227, Bytes(240, 0x42))), reply(0, 0x319, {0}), "a diagnosis of the area's size");
+  expect_bytes(b.ask(exchange_telegram(2, 0x227, Bytes(240, 0x42))), reply(0, 0x319, {0}),
+               "a diagnosis of the area's size");
   expect(b.cell(0x316) << 8 | b.cell(0x317), 0x4200, "its last byte");
   expect_bytes(b.ask(exchange_telegram(0xFD, 0x227, {1})), error(0x80, 2), "diagnosis without function bit 1");
   expect_bytes(b.ask(exchange_telegram(0, 0x227, Bytes(241, 1))), error(0x80, 6), "... and too long");
@@ -140,7 +146,8 @@ void cfg_length(unsigned fault) {
   RsuBench b(with(chip, fault));
   b.uart_write(0x500, {4, 5, 2, 0xC1, 0xC2});
   b.uart_write(0x00E, {4});
-  expect_bytes(b.ask(exchange_telegram(0, 0x130, {0})), with_crc({1, 0x20, 5, 0, 3, 4, 5, 2, 0xC1, 0xC2}), "number of the configuration's bytes");
+  expect_bytes(b.ask(exchange_telegram(0, 0x130, {0})), with_crc({1, 0x20, 5, 0, 3, 4, 5, 2, 0xC1, 0xC2}),
+               "number of the configuration's bytes");
 }
 
 }  // namespace

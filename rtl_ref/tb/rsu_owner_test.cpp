@@ -1,4 +1,5 @@
-// Who owns the DPRAM with SPI (section 4, 5.3, 5.5; SP12 to SP17): claims, writes without one, read and write, U_Timer, block CRCs.
+// Who owns the DPRAM with SPI (section 4, 5.3, 5.5; SP12 to SP17): claims, writes without one, read and write, U_Timer,
+// block CRCs.
 #include "rsu_bench.hpp"
 
 namespace {
@@ -166,10 +167,13 @@ void both(RsuBench& b) {
   b.write(0x319, {255});
   const Bytes most = b.spi(both_telegram({7}), 249);
   expect(most[2], 244, "a length byte above 244 counts as 244");
-  expect_bytes(Bytes(most.end() - 2, most.end()), [&] {
-    const Bytes all = with_crc(Bytes(most.begin(), most.end() - 2));
-    return Bytes(all.end() - 2, all.end());
-  }(), "... and the CRC covers it");
+  expect_bytes(
+      Bytes(most.end() - 2, most.end()),
+      [&] {
+        const Bytes all = with_crc(Bytes(most.begin(), most.end() - 2));
+        return Bytes(all.end() - 2, all.end());
+      }(),
+      "... and the CRC covers it");
   b.write(0x319, {1});
   b.release();
   b.clock(200);

@@ -26,8 +26,9 @@ void example(unsigned fault) {
   expect_bytes(b.spi({0x01, 0x00, 0x14, 0x01, 0x18, 0xCF}, 5), {0x81, 0x00, 0x00, 0xE8, 0x21}, "example of SPI");
   expect(b.last_rise, 1057000, "rise 48");
   expect(b.judged, 4232, "J of the example");
-  const std::vector<Change> wanted = {{0, 2}, {1000000, 1}, {1058800, 0}, {1066000, 1}, {1067200, 0}, {1086400, 1}, {1090000, 0},
-                                      {1091200, 1}, {1092400, 0}, {1098400, 1}, {1099600, 0}, {1104400, 1}, {1106200, 2}};
+  const std::vector<Change> wanted = {{0, 2},       {1000000, 1}, {1058800, 0}, {1066000, 1}, {1067200, 0},
+                                      {1086400, 1}, {1090000, 0}, {1091200, 1}, {1092400, 0}, {1098400, 1},
+                                      {1099600, 0}, {1104400, 1}, {1106200, 2}};
   expect(static_cast<int64_t>(b.miso.size()), static_cast<int64_t>(wanted.size()), "changes of MISO");
   for (size_t i = 0; i < wanted.size() && i < b.miso.size(); ++i) {
     expect(b.miso[i].tick, wanted[i].tick, "tick of MISO's register");
@@ -50,7 +51,9 @@ void cells_and_errors(RsuBench& b) {
     expect_bytes(b.read(0x700, count), counted(count), "what the host wrote");
   }
   b.release();
-  const auto reply = [&](const Bytes& telegram, const Bytes& wanted, const char* what) { expect_bytes(b.spi(telegram, wanted.size()), wanted, what); };
+  const auto reply = [&](const Bytes& telegram, const Bytes& wanted, const char* what) {
+    expect_bytes(b.spi(telegram, wanted.size()), wanted, what);
+  };
   Bytes wrong = read_telegram(0x000, 5);
   wrong.back() ^= 1;
   reply(wrong, error(1), "low byte of the CRC");
@@ -135,7 +138,8 @@ void write_gap(unsigned fault) {
       b.spi(write_telegram(0x600, {1}), 0);
       b.tick = b.last_rise + gap - 1;
       const Bytes reply = b.spi(read_telegram(0x600, 1), 5);
-      expect_bytes(reply, gap == 32400 ? with_crc({0x81, 0, 1}) : kSilence4 + Bytes{0xFF}, gap == 32400 ? "2.7 us after a write" : "too soon after a write");
+      expect_bytes(reply, gap == 32400 ? with_crc({0x81, 0, 1}) : kSilence4 + Bytes{0xFF},
+                   gap == 32400 ? "2.7 us after a write" : "too soon after a write");
     }
   }
   // and to the cycle: X at H + 127 is not heard, at H + 128 it is
@@ -157,7 +161,8 @@ void variants(unsigned fault) {
     chip.reply_gap = gap;
     chip.adr = 2;
     RsuBench b(chip);
-    expect_bytes(b.spi(read_telegram(0x001, 3, 2), 7 + gap), Bytes(gap, 0xFF) + with_crc({0x82, 0, 0x0D, 7, 1}), "reply after a gap");
+    expect_bytes(b.spi(read_telegram(0x001, 3, 2), 7 + gap), Bytes(gap, 0xFF) + with_crc({0x82, 0, 0x0D, 7, 1}),
+                 "reply after a gap");
     expect_bytes(b.spi(read_telegram(0x800, 3, 2), 4 + gap), Bytes(gap, 0xFF) + error(2, 2), "error after a gap");
   }
   for (const unsigned adr : {0U, 3U}) {
@@ -221,7 +226,8 @@ void fast(RsuBench& b) {
     for (int phase = 0; phase < 250; phase += 11) {
       b.tick += phase;
       const Bytes reply = b.spi(read_telegram(0x001, 3), 7);
-      expect_bytes(Bytes(reply.begin() + 1, reply.end()), Bytes(wanted.begin() + 1, wanted.end()), "a read with a fast SCK, but for its first byte");
+      expect_bytes(Bytes(reply.begin() + 1, reply.end()), Bytes(wanted.begin() + 1, wanted.end()),
+                   "a read with a fast SCK, but for its first byte");
     }
   }
   b.half = 600;

@@ -1,5 +1,6 @@
-// Test of DSDPV1-RSU's serial ports by themselves, under Verilator: what docs/microarchitecture_rsu.md says of pins, cells and cycles. With
-// `faults FILE` it switches each fault of faults_rsu.txt on and plays the group that the file names for it, which has to fail.
+// Test of DSDPV1-RSU's serial ports by themselves, under Verilator: what docs/microarchitecture_rsu.md says of pins,
+// cells and cycles. With `faults FILE` it switches each fault of faults_rsu.txt on and plays the group that the file
+// names for it, which has to fail.
 #include <cstdlib>
 #include <fstream>
 #include <map>

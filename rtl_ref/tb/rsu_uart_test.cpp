@@ -22,7 +22,8 @@ void rates(unsigned fault) {
     chip.ubr = ubr;
     chip.adr = 1 + ubr % 2;
     RsuBench b(with(chip, fault));
-    expect_bytes(b.ask(read_telegram(0x001, 1, chip.adr)), with_crc(one(0x80 + chip.adr) + Bytes{0, 0x0D}), "read at a rate");
+    expect_bytes(b.ask(read_telegram(0x001, 1, chip.adr)), with_crc(one(0x80 + chip.adr) + Bytes{0, 0x0D}),
+                 "read at a rate");
     expect(b.judged, b.last_start + b.bit / 2 + 10 * b.bit + 1, "J");
     expect(b.reply_start, reply_at(b), "first start bit");
     if (fault != 0 && ubr == 0) break;
@@ -55,7 +56,9 @@ void cells_and_errors(RsuBench& b) {
 }
 
 void expect_silent(RsuBench& b, const Bytes& telegram, const char* what) { expect_bytes(b.ask(telegram), {}, what); }
-void expect_heard(RsuBench& b, const char* what) { expect_bytes(b.ask(read_telegram(0x001, 1)), with_crc({0x81, 0, 0x0D}), what); }
+void expect_heard(RsuBench& b, const char* what) {
+  expect_bytes(b.ask(read_telegram(0x001, 1)), with_crc({0x81, 0, 0x0D}), what);
+}
 
 // A spoilt telegram makes deaf until a silence of the interval; another card's does not
 void characters(RsuBench& b) {
@@ -154,7 +157,8 @@ void tsdr(RsuBench& b) {
   }
 }
 
-// From the judgement to the end of the reply nothing is heard, and a character that falls at E is lost; one that falls at E + 1 is not
+// From the judgement to the end of the reply nothing is heard, and a character that falls at E is lost; one that falls
+// at E + 1 is not
 void half_duplex(RsuBench& b) {
   const Bytes read = read_telegram(0x001, 1);
   for (const int64_t late : {0, 1}) {
@@ -164,7 +168,8 @@ void half_duplex(RsuBench& b) {
     while (b.edge + 3 < end + late) b.clock();
     expect(b.top.txd_o, 1, "end of the reply");
     const Bytes reply = b.ask(read);
-    expect_bytes(reply, late == 1 ? with_crc({0x81, 0, 0x0D}) : Bytes{}, late == 1 ? "a request at E + 1" : "a request at E");
+    expect_bytes(reply, late == 1 ? with_crc({0x81, 0, 0x0D}) : Bytes{},
+                 late == 1 ? "a request at E + 1" : "a request at E");
     b.clock(3000);
   }
 }
@@ -182,7 +187,8 @@ void with_accesses(RsuBench& b) {
     expect(b.last_start + 274, j, "J");
     // the last character's stop bit lasts longer than the commit: it is over
     expect(b.cell(0x610), value, "written");
-    if (shift == 0 || shift == -1) expect(b.own.rise < begin || b.own.rise >= begin + 1, 1, "no access before the commit is done");
+    if (shift == 0 || shift == -1)
+      expect(b.own.rise < begin || b.own.rise >= begin + 1, 1, "no access before the commit is done");
     expect_bytes(b.receive(), {0xA1, 0x00, 0x20, 0x78}, "reply");
   }
   // to the cycle, with more bytes than the stop bit has cycles

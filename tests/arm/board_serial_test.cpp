@@ -13,11 +13,11 @@ namespace dsdpv1 {
 namespace {
 
 using bus::Tick;
+using dsdpv1::Pin;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-using dsdpv1::Pin;
 
 enum Program {
   kSpi1,

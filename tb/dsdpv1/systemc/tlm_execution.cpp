@@ -24,8 +24,8 @@ namespace tb {
 namespace {
 
 // Pins at which an agent has a new plan: the user CPU, and who reads the telegrams of the serial ports.
-constexpr std::uint32_t kPlannedBy = dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kTxd) | dsdpv1::mask(Pin::kRxd) |
-                                     dsdpv1::mask(Pin::kXss);
+constexpr std::uint32_t kPlannedBy =
+    dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kTxd) | dsdpv1::mask(Pin::kRxd) | dsdpv1::mask(Pin::kXss);
 
 class TlmChipView : public Dsdpv1View {
  public:

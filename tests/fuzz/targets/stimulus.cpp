@@ -18,7 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   constexpr std::size_t kShort = 2000;  // beyond it time is spent on repeating, not on anything new
   if (stimulus.size() > kShort) return 0;
   const std::string written = cosim::to_text(stimulus);
-  fuzz::promise(cosim::to_text(cosim::parse_stimulus(written, "again.stim", Part::kRsu)) == written, "what is written can be read");
+  fuzz::promise(cosim::to_text(cosim::parse_stimulus(written, "again.stim", Part::kRsu)) == written,
+                "what is written can be read");
   return 0;
 }
 

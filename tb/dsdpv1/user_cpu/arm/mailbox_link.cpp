@@ -180,7 +180,9 @@ struct Fill {
     }
   }
   /// A scenario that asks for it is refused (tb/dsdpv1/serial_keys.cpp).
-  void operator()(const command::HostTelegram&) const { throw std::logic_error("the board sends no others' telegrams"); }
+  void operator()(const command::HostTelegram&) const {
+    throw std::logic_error("the board sends no others' telegrams");
+  }
 };
 
 constexpr std::array<const char*, 8> kCalls = {"wait_ready",    "initialise",   "exchange",     "service",
