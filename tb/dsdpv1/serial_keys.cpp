@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "model/dsdpv1/config.hpp"
 #include "model/profibus/time.hpp"
 #include "tb/dsdpv1/spi_reader.hpp"
 #include "tb/dsdpv1/uart_reader.hpp"
@@ -49,7 +50,6 @@ const ObjectOf<UartKeys>& uart_keys() {
 }
 
 constexpr std::array<int, 8> kRates = {9600, 19'200, 38'400, 57'600, 115'200, 230'400, 460'800, 1'843'200};  // UA1
-constexpr std::array<Tick, 8> kBitCycles = {5000, 2500, 1250, 833, 417, 208, 104, 26};
 
 const char* name_of(HostMode mode) {
   return mode == HostMode::kSpi ? "spi" : mode == HostMode::kUart ? "uart" : "parallel";
@@ -113,7 +113,7 @@ std::unique_ptr<HostReader> host_reader_of(const Dsdpv1Settings& chip) {
   if (chip.mode == HostMode::kSpi) return std::make_unique<SpiReader>();
   if (chip.mode != HostMode::kUart) return nullptr;
   constexpr Tick kHalfCharacters = 2, kBits = 11;
-  const Tick bit = profibus::kTicksPerCycle * kBitCycles.at(static_cast<std::size_t>(chip.uart_rate));
+  const Tick bit = profibus::kTicksPerCycle * kUbrCycles.at(static_cast<std::size_t>(chip.uart_rate));
   std::array<Tick, 8> silences{};
   std::transform(chip.uart_gaps.begin(), chip.uart_gaps.end(), silences.begin(),
                  [bit](std::uint32_t gap) { return Tick{gap} * kBits * bit / kHalfCharacters; });

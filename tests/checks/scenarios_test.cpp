@@ -21,6 +21,15 @@
 namespace dsdpv1 {
 namespace {
 
+tb::RunResult run_on_pins(const tb::scenario::Scenario& scenario, tb::ChecksMode mode = tb::ChecksMode::kReport) {
+  tb::RunOptions options;
+  options.checks = mode;
+  auto execution = tb::make_pin_execution();
+  execution->timeline().check_announcements();
+  tb::Bench bench(scenario, options, std::move(execution));
+  return bench.run([](tb::Tick) { return true; });
+}
+
 struct Case {
   const char* name;
   std::vector<const char*> found;   ///< ids, the one that it is about first
@@ -122,12 +131,7 @@ tb::RunResult run(const Case& each, bool allowed, tb::ChecksMode mode) {
   tb::add_arm_board();
 #endif
   const tb::scenario::Scenario scenario = tb::scenario::parse(text_of(each, allowed), "check.yaml");
-  tb::RunOptions options;
-  options.checks = mode;
-  auto execution = tb::make_pin_execution();
-  execution->timeline().check_announcements();
-  tb::Bench bench(scenario, options, std::move(execution));
-  return bench.run([](tb::Tick) { return true; });
+  return run_on_pins(scenario, mode);
 }
 
 std::set<std::string> broken(const tb::RunResult& result) {
@@ -207,10 +211,7 @@ tb::RunResult run_spi(const char* end, const char* spi, const char* rest) {
           "    init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}\n    user_cpu: {cycle: 200us, spi: {" +
           spi + "}}\n" + rest,
       "spi.yaml");
-  tb::RunOptions options;
-  options.checks = tb::ChecksMode::kReport;
-  tb::Bench bench(scenario, options, tb::make_pin_execution());
-  return bench.run([](tb::Tick) { return true; });
+  return run_on_pins(scenario);
 }
 
 TEST(ChecksAndCore, FindTheSameFramesThatFollowAWriteTooSoon) {
@@ -239,10 +240,7 @@ TEST(ChecksAndCore, FindTheSameViolationsOverSpi) {
       "    init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}\n"
       "    user_cpu: {cycle: 50us, spi: {clock: 10500, lead: 49ns, lag: 48ns}}\n",
       "fast.yaml");
-  tb::RunOptions options;
-  options.checks = tb::ChecksMode::kReport;
-  tb::Bench bench(scenario, options, tb::make_pin_execution());
-  const tb::RunResult result = bench.run([](tb::Tick) { return true; });
+  const tb::RunResult result = run_on_pins(scenario);
   const std::pair<checks::Check, const char*> pairs[] = {{checks::Check::kSckHigh, "SPI_SCK_HIGH"},
                                                          {checks::Check::kSckLow, "SPI_SCK_LOW"},
                                                          {checks::Check::kXssLead, "SPI_XSS_LEAD"},
@@ -262,12 +260,7 @@ tb::RunResult run_uart(const std::string& uart, const std::string& script) {
           uart + "}}\nmasters: [{name: plc, address: 2, start: 1ms, slaves: [{slave: demo, outputs: \"01 02\"}]}]\n" +
           script,
       "uart.yaml");
-  tb::RunOptions options;
-  options.checks = tb::ChecksMode::kReport;
-  auto execution = tb::make_pin_execution();
-  execution->timeline().check_announcements();
-  tb::Bench bench(scenario, options, std::move(execution));
-  return bench.run([](tb::Tick) { return true; });
+  return run_on_pins(scenario);
 }
 
 const tb::CheckResult& found(const tb::RunResult& result, checks::Check check) {
@@ -347,12 +340,7 @@ tb::RunResult run_lossy(const char* user_cpu, const char* script) {
       "    init: {ident: 1, max_inputs: 2, max_outputs: 2, cfg: \"31\"}\n    user_cpu: {" + user_cpu +
       "}\nmasters: [{name: plc, address: 2, start: 1ms, slaves: [{slave: demo, outputs: \"01 02\"}]}]\n" + script;
   const tb::scenario::Scenario scenario = tb::scenario::parse(text, "lost.yaml");
-  tb::RunOptions options;
-  options.checks = tb::ChecksMode::kReport;
-  auto execution = tb::make_pin_execution();
-  execution->timeline().check_announcements();
-  tb::Bench bench(scenario, options, std::move(execution));
-  return bench.run([](tb::Tick) { return true; });
+  return run_on_pins(scenario);
 }
 
 TEST(HoldInterval, FindsOneHoldForEachOutputThatWasLostByIt) {

@@ -1,7 +1,8 @@
 #include "tb/dsdpv1/cosim/serial_edges.hpp"
 
 #include <algorithm>
-#include <array>
+
+#include "model/dsdpv1/config.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -36,10 +37,7 @@ void add_character(std::vector<PinEdge>& edges, const bus::Character& character,
 
 }  // namespace
 
-Tick uart_bit(int rate) {
-  constexpr std::array<Tick, 8> kCycles = {5000, 2500, 1250, 833, 417, 208, 104, 26};
-  return kCycles.at(static_cast<std::size_t>(rate)) * profibus::kTicksPerCycle;
-}
+Tick uart_bit(int rate) { return kUbrCycles.at(static_cast<std::size_t>(rate)) * profibus::kTicksPerCycle; }
 
 std::vector<PinEdge> spi_edges(const Action& action) {
   const int all = kByteBits * static_cast<int>(action.bytes.size());
