@@ -13,25 +13,24 @@
 namespace dsdpv1::simulator {
 namespace {
 
-constexpr uint32_t kPbrxd = 1U << 26U, kPbtxd = 1U << 3U, kPbrts = 1U << 4U;
-
 class Checker final : public Object {
  public:
-  Checker(const char* options, int32_t baud);
+  Checker(const ChipOptions& options, int32_t baud);
   ~Checker() override;
   Checker(const Checker&) = delete;
   Checker& operator=(const Checker&) = delete;
 
-  void step(uint64_t tick, uint32_t inputs, uint32_t outputs);
+  void step(uint64_t tick, uint64_t inputs, uint64_t outputs);
   void finish();
   int32_t violations() const { return violations_; }
   uint64_t applied() const;
 
  private:
   void make_bus(int32_t baud);
-  void hear(uint32_t inputs, uint32_t outputs);
+  void hear(uint64_t inputs, uint64_t outputs);
   void feed_telegrams(uint64_t until);
-  void feed(uint16_t pin, dpsim_level level) { check(dpsim_checker_pin(checker_, now_, pin, level)); }
+  /// Pins of one direction that have changed, as far as their levels are known: RTL before its reset.
+  void feed(const PackedPins& pins, uint64_t before, uint64_t now);
   static void violated(void* self, const dpsim_violation* violation);
   static void heard(void* self, const dpsim_heard* telegram);
 
@@ -46,32 +45,29 @@ class Checker final : public Object {
   std::deque<Waiting> telegrams_;
   uint16_t others_ = 0, chip_ = 0;
   uint64_t now_ = 0;
-  uint32_t inputs_ = kInputsAtReset, outputs_ = 0;
+  const KindPins& pins_;
+  const uint64_t line_, txd_, rts_;
+  uint64_t inputs_, outputs_;
   int32_t violations_ = 0;
   bool finished_ = false;
 };
 
-uint32_t outputs_at_reset() {
-  uint32_t pins = 0;
-  for (const PinPlace& place : kOutputs) {
-    dpsim_pin_info info{};
-    info.size = sizeof info;
-    check(dpsim_pin_get(nullptr, place.pin, &info));
-    pins = with_output(pins, place, info.reset_level);
-  }
-  return pins;
-}
-
-Checker::Checker(const char* options, int32_t baud) : outputs_(outputs_at_reset()) {
-  const std::vector<Option> words = options_of(options);
+Checker::Checker(const ChipOptions& options, int32_t baud)
+    : pins_(pins_of_kind(options.kind)),
+      line_(pins_.inputs.mask("PBRXD")),
+      txd_(pins_.outputs.mask("PBTXD")),
+      rts_(pins_.outputs.mask("PBRTS")),
+      inputs_(pins_.inputs.at_reset()),
+      outputs_(pins_.outputs.at_reset()) {
   std::vector<dpsim_limit> limits;
-  limits.reserve(words.size());
-  for (const Option& each : words) {
+  limits.reserve(options.parameters.size());
+  for (const Option& each : options.parameters) {
     const bool off = each.value == "off";
     limits.push_back({each.name.c_str(), off ? 0 : number_of(each, 0, INT64_MAX), off ? 1 : 0, 0});
   }
   dpsim_checker_options chosen{};
   chosen.size = sizeof chosen;
+  chosen.kind = pins_.kind.c_str();
   chosen.limits = limits.data();
   chosen.limit_count = static_cast<uint32_t>(limits.size());
   check(dpsim_checker_create(&chosen, &checker_));
@@ -99,7 +95,7 @@ void Checker::violated(void* self, const dpsim_violation* violation) {
   ++checker->violations_;
   dpsim_rule_info rule{};
   rule.size = sizeof rule;
-  check(dpsim_rule_get(nullptr, violation->rule, &rule));
+  check(dpsim_rule_get(checker->pins_.kind.c_str(), violation->rule, &rule));
   checker->say(fmt::format("{} at {}: {} [{}]\n  pins        {}\n  what to do  {}", violation->name,
                            time_text(violation->tick), violation->text, rule.clause, violation->pins, rule.advice));
 }
@@ -116,23 +112,27 @@ void Checker::feed_telegrams(uint64_t until) {
   }
 }
 
-void Checker::hear(uint32_t inputs, uint32_t outputs) {
+void Checker::hear(uint64_t inputs, uint64_t outputs) {
   if (bus_ == nullptr) return;
-  check(dpsim_bus_drive(bus_, now_, others_, (inputs & kPbrxd) == 0, 0));
-  check(dpsim_bus_drive(bus_, now_, chip_, (outputs & kPbrts) != 0, (outputs & kPbtxd) != 0));
+  check(dpsim_bus_drive(bus_, now_, others_, (inputs & line_) == 0, 0));
+  check(dpsim_bus_drive(bus_, now_, chip_, (outputs & rts_) != 0, (outputs & txd_) != 0));
 }
 
-void Checker::step(uint64_t tick, uint32_t inputs, uint32_t outputs) {
+void Checker::feed(const PackedPins& pins, uint64_t before, uint64_t now) {
+  for (uint64_t different = before ^ now; different != 0;) {
+    const PinPlace& place = pins.first_of(different);
+    const dpsim_level level = level_of(place, now);
+    if (level != DPSIM_X || place.released != 0) check(dpsim_checker_pin(checker_, now_, place.pin, level));
+    different &= ~place.all();
+  }
+}
+
+void Checker::step(uint64_t tick, uint64_t inputs, uint64_t outputs) {
   now_ = std::max(now_, tick);
   hear(inputs, outputs);
   feed_telegrams(now_);
-  for (const PinPlace& place : kInputs)
-    if (((inputs ^ inputs_) & place.mask) != 0) feed(place.pin, input_level(place, inputs));
-  for (const PinPlace& place : kOutputs) {
-    const dpsim_level level = output_level(place, outputs);
-    const bool known = level != DPSIM_X || place.pin == DPSIM_DSDPV1_D_OUT;  // RTL before its reset
-    if (known && ((outputs ^ outputs_) & place.mask) != 0) feed(place.pin, level);
-  }
+  feed(pins_.inputs, inputs_, inputs);
+  feed(pins_.outputs, outputs_, outputs);
   inputs_ = inputs;
   outputs_ = outputs;
 }
@@ -147,7 +147,7 @@ void Checker::finish() {
 
 uint64_t Checker::applied() const {
   uint64_t count = 0;
-  for (std::size_t rule = 0; rule < dpsim_rule_count(nullptr); ++rule) {
+  for (std::size_t rule = 0; rule < dpsim_rule_count(pins_.kind.c_str()); ++rule) {
     dpsim_check_result result{};
     result.size = sizeof result;
     check(dpsim_checker_get_result(checker_, rule, &result));
@@ -162,13 +162,14 @@ uint64_t Checker::applied() const {
 using dsdpv1::simulator::Checker;
 
 int32_t dsdpv1_checker_create(const char* options, int32_t baud) {
-  return dsdpv1::simulator::created([&] { return std::make_unique<Checker>(options, baud); });
+  return dsdpv1::simulator::created(
+      [&] { return std::make_unique<Checker>(dsdpv1::simulator::chip_options(options), baud); });
 }
 
-int32_t dsdpv1_checker_step(int32_t handle, int64_t half, int64_t ps, int32_t inputs, int32_t outputs) {
+int32_t dsdpv1_checker_step(int32_t handle, int64_t half, int64_t ps, int64_t inputs, int64_t outputs) {
   return dsdpv1::simulator::guarded([&] {
     auto& checker = dsdpv1::simulator::get<Checker>(handle);
-    checker.step(dsdpv1::simulator::tick_of(half, ps), static_cast<uint32_t>(inputs), static_cast<uint32_t>(outputs));
+    checker.step(dsdpv1::simulator::tick_of(half, ps), static_cast<uint64_t>(inputs), static_cast<uint64_t>(outputs));
     return checker.violations();
   });
 }

@@ -8,13 +8,14 @@
 namespace dsdpv1::simulator {
 namespace {
 
-dpsim_chip* make_chip(const char* text) {
-  const std::vector<Option> options = options_of(text);
+dpsim_chip* make_chip(const ChipOptions& options) {
   std::vector<dpsim_parameter> parameters;
-  parameters.reserve(options.size());
-  for (const Option& each : options) parameters.push_back({each.name.c_str(), number_of(each, INT32_MIN, INT32_MAX)});
+  parameters.reserve(options.parameters.size());
+  for (const Option& each : options.parameters)
+    parameters.push_back({each.name.c_str(), number_of(each, INT32_MIN, INT32_MAX)});
   dpsim_chip_options chosen{};
   chosen.size = sizeof chosen;
+  chosen.kind = options.kind.c_str();
   chosen.parameters = parameters.data();
   chosen.parameter_count = parameters.size();
   dpsim_chip* chip = nullptr;
@@ -22,17 +23,15 @@ dpsim_chip* make_chip(const char* text) {
   return chip;
 }
 
-/// Place of an output by its pin's number; L_REQ is the first.
-const PinPlace& output_place(uint16_t pin) { return kOutputs[static_cast<std::size_t>(pin - DPSIM_DSDPV1_L_REQ)]; }
-
 }  // namespace
 
-Model::Model(const char* options) : chip_(make_chip(options)) {
+Model::Model(const ChipOptions& options)
+    : pins_(pins_of_kind(options.kind)), chip_(make_chip(options)), inputs_(pins_.inputs.at_reset()) {
   uint64_t pins = 0;
-  for (const PinPlace& place : kOutputs) {
+  for (const PinPlace& place : pins_.outputs.places()) {
     dpsim_level level = 0;
     check(dpsim_chip_level(chip_, place.pin, &level));
-    outputs_ = with_output(outputs_, place, level);
+    outputs_ = with_level(outputs_, place, level);
     pins |= DPSIM_PIN(place.pin);
   }
   check(dpsim_chip_watch(chip_, pins, changed, this));
@@ -40,7 +39,7 @@ Model::Model(const char* options) : chip_(make_chip(options)) {
 
 void Model::changed(void* self, const dpsim_change* change) {
   auto* model = static_cast<Model*>(self);
-  model->outputs_ = with_output(model->outputs_, output_place(change->pin), change->level);
+  model->outputs_ = with_level(model->outputs_, model->pins_.outputs.of_pin(change->pin), change->level);
   ++model->changes_;
 }
 
@@ -56,22 +55,25 @@ std::vector<std::string> Model::last_events() const {
   for (std::size_t i = event_count_ - std::min(event_count_, kRemembered); i < event_count_; ++i) {
     char text[256];
     const dpsim_chip_event& event = events_[i % kRemembered];
-    check(dpsim_chip_event_text(nullptr, &event, text, sizeof text));
+    check(dpsim_chip_event_text(pins_.kind.c_str(), &event, text, sizeof text));
     texts.push_back(time_text(event.tick) + "  " + text);
   }
   return texts;
 }
 
-void Model::step(uint64_t tick, uint32_t inputs) {
+void Model::step(uint64_t tick, uint64_t inputs) {
   now_ = std::max(now_, tick);
-  const uint32_t different = inputs ^ inputs_;
+  uint64_t different = inputs ^ inputs_;
   if (different == 0) {
     check(dpsim_chip_advance(chip_, now_));
     return;
   }
   inputs_ = inputs;
-  for (const PinPlace& place : kInputs)
-    if ((different & place.mask) != 0) check(dpsim_chip_set(chip_, now_, place.pin, input_level(place, inputs)));
+  while (different != 0) {
+    const PinPlace& place = pins_.inputs.first_of(different);
+    check(dpsim_chip_set(chip_, now_, place.pin, level_of(place, inputs)));
+    different &= ~place.all();
+  }
 }
 
 uint64_t Model::next_tick() const {
@@ -83,17 +85,18 @@ uint64_t Model::next_tick() const {
 }  // namespace dsdpv1::simulator
 
 int32_t dsdpv1_model_create(const char* options) {
-  return dsdpv1::simulator::created([&] { return std::make_unique<dsdpv1::simulator::Model>(options); });
+  return dsdpv1::simulator::created(
+      [&] { return std::make_unique<dsdpv1::simulator::Model>(dsdpv1::simulator::chip_options(options)); });
 }
 
-int32_t dsdpv1_model_step(int32_t handle, int64_t half, int64_t ps, int32_t inputs, int64_t* next) {
-  return dsdpv1::simulator::guarded([&] {
-    auto& model = dsdpv1::simulator::get<dsdpv1::simulator::Model>(handle);
+int64_t dsdpv1_model_step(int32_t handle, int64_t half, int64_t ps, int64_t inputs, int64_t* next) {
+  namespace simulator = dsdpv1::simulator;
+  return simulator::guarded([&] {
+    auto& model = simulator::get<simulator::Model>(handle);
     const bool clocked = half >= 0;
-    model.step(
-        clocked ? dsdpv1::simulator::tick_of(half, ps) : dsdpv1::simulator::tick_of_ps(static_cast<uint64_t>(ps)),
-        static_cast<uint32_t>(inputs));
-    *next = clocked ? dsdpv1::simulator::half_of(model.next_tick()) : dsdpv1::simulator::ps_of(model.next_tick());
-    return static_cast<int32_t>(model.outputs());
+    model.step(clocked ? simulator::tick_of(half, ps) : simulator::tick_of_ps(static_cast<uint64_t>(ps)),
+               static_cast<uint64_t>(inputs));
+    *next = clocked ? simulator::wake_of(model.next_tick(), half) : simulator::ps_of(model.next_tick());
+    return static_cast<int64_t>(model.outputs());
   });
 }

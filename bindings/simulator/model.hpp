@@ -6,21 +6,23 @@
 #include <vector>
 
 #include "bindings/simulator/object.hpp"
+#include "bindings/simulator/options.hpp"
 #include "bindings/simulator/pins.hpp"
 
 namespace dsdpv1::simulator {
 
 class Model final : public Object {
  public:
-  explicit Model(const char* options);
+  explicit Model(const ChipOptions& options);
   ~Model() override { dpsim_chip_destroy(chip_); }
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
   /// Runs up to `tick`, a time before the present one counting as that, and gives the inputs their levels then.
-  void step(uint64_t tick, uint32_t inputs);
-  uint32_t outputs() const { return outputs_; }
-  uint32_t inputs() const { return inputs_; }
+  void step(uint64_t tick, uint64_t inputs);
+  uint64_t outputs() const { return outputs_; }
+  uint64_t inputs() const { return inputs_; }
+  const KindPins& pins() const { return pins_; }
   /// When an output may change by itself.
   uint64_t next_tick() const;
   /// Outputs that have changed so far.
@@ -34,8 +36,9 @@ class Model final : public Object {
   static void happened(void* self, const dpsim_chip_event* event);
 
   static constexpr std::size_t kRemembered = 3;
+  const KindPins& pins_;
   dpsim_chip* chip_ = nullptr;
-  uint32_t inputs_ = kInputsAtReset, outputs_ = 0;
+  uint64_t inputs_, outputs_ = 0;
   uint64_t now_ = 0, changes_ = 0;
   std::array<dpsim_chip_event, kRemembered> events_{};
   std::size_t event_count_ = 0;

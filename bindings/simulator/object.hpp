@@ -58,7 +58,7 @@ const std::string& error();
 
 /// Calls `function`; an exception becomes its status, and its words dsdpv1_error().
 template <class Function>
-int32_t guarded(const Function& function) {
+auto guarded(const Function& function) -> decltype(function()) {
   try {
     return function();
   } catch (const Error& failed) {

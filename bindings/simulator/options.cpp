@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <utility>
 
 #include "bindings/simulator/object.hpp"
 
@@ -26,6 +27,16 @@ std::vector<Option> options_of(const char* text) {
       throw Error(DPSIM_ERR_ARGUMENT, "option " + word + " is none, allowed is NAME=VALUE");
     options.push_back({word.substr(0, sign), word.substr(sign + 1)});
   }
+  return options;
+}
+
+ChipOptions chip_options(const char* text) {
+  ChipOptions options;
+  for (Option& each : options_of(text))
+    if (each.name == "kind")
+      options.kind = each.value;
+    else
+      options.parameters.push_back(std::move(each));
   return options;
 }
 

@@ -12,6 +12,14 @@ struct Option {
 
 /// Throws Error when a word is no NAME=VALUE. Words are separated by spaces or commas.
 std::vector<Option> options_of(const char* text);
+
+/// "kind=dsdpv1_rsu NAME=VALUE ...": of which chip, and the rest.
+struct ChipOptions {
+  std::string kind = "dsdpv1";
+  std::vector<Option> parameters;
+};
+ChipOptions chip_options(const char* text);
+
 /// Decimal, or 0x...; throws Error when it is no number from `minimum` to `maximum`.
 int64_t number_of(const Option& option, int64_t minimum, int64_t maximum);
 /// A list separated by `separator`, without empty words.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "dsdpv1/dsdpv1.h"
 
@@ -16,10 +17,13 @@ inline uint64_t tick_of(int64_t half, int64_t ps) {
   return static_cast<uint64_t>(half * kTicksPerHalf + after);
 }
 
-/// The first half cycle that does not begin before `tick`.
-inline int64_t half_of(uint64_t tick) {
+/// How a clocked module is told when to call next: the half cycle that `tick` lies in; when that is the present one,
+/// less than 0: so many ps after its edge.
+inline int64_t wake_of(uint64_t tick, int64_t half) {
   if (tick > DPSIM_LAST_TICK) return INT64_MAX;
-  return (static_cast<int64_t>(tick) + kTicksPerHalf - 1) / kTicksPerHalf;
+  const auto at = static_cast<int64_t>(tick);
+  if (at / kTicksPerHalf > half) return at / kTicksPerHalf;
+  return -std::max<int64_t>(((at - half * kTicksPerHalf) * 500 + 3) / 6, 1);
 }
 
 /// Up to here, some 8 days, absolute times fit products of 64 bits; dpsim_ticks_to and dpsim_ticks_from, which divide
@@ -38,62 +42,59 @@ inline uint64_t tick_of_ps(uint64_t ps) {
   return dpsim_ticks_from(ps, DPSIM_PS);
 }
 
+/// A pin in packed pins.
 struct PinPlace {
-  uint16_t pin;
-  const char* name;
-  int shift;
-  uint32_t mask;  ///< in its place, with what says that it is released or unknown
+  uint16_t pin = 0;
+  std::string name;
+  unsigned shift = 0;
+  uint64_t level = 0;     ///< bits of its level, from `shift` on
+  uint64_t released = 0;  ///< the bit that says so; 0: it cannot be
+  uint64_t unknown = 0;   ///< ... of an output
+  uint64_t all() const { return level | released | unknown; }
 };
 
-constexpr uint32_t kDInShift = 17, kDReleased = 1U << 25U, kDOutShift = 8, kDDriven = 1U << 16U, kDUnknown = 1U << 17U;
-constexpr uint32_t kUnknownShift = 18, kSingles = 8;
+/// One direction of a kind's pins, by their number: levels first, then what is released, then what is unknown.
+class PackedPins {
+ public:
+  PackedPins() = default;
+  PackedPins(const char* kind, bool inputs);
 
-constexpr std::array<PinPlace, 9> kInputs{{{DPSIM_DSDPV1_RESET, "RESET", 0, 1U << 0U},
-                                           {DPSIM_DSDPV1_R_REQ, "R_REQ", 1, 1U << 1U},
-                                           {DPSIM_DSDPV1_R_STA, "R_STA", 2, 1U << 2U},
-                                           {DPSIM_DSDPV1_CSR, "CSR", 3, 1U << 3U},
-                                           {DPSIM_DSDPV1_RD, "RD", 4, 1U << 4U},
-                                           {DPSIM_DSDPV1_WR, "WR", 5, 1U << 5U},
-                                           {DPSIM_DSDPV1_A, "A", 6, 0x7FFU << 6U},
-                                           {DPSIM_DSDPV1_D_IN, "D_IN", kDInShift, (0xFFU << kDInShift) | kDReleased},
-                                           {DPSIM_DSDPV1_PBRXD, "PBRXD", 26, 1U << 26U}}};
-/// CSR, RD, WR and PBRXD high, D released: the levels of power-on.
-constexpr uint32_t kInputsAtReset = 0x38U | kDReleased | 1U << 26U;
-
-constexpr uint32_t single(int bit) { return (1U << bit) | (1U << (kUnknownShift + static_cast<uint32_t>(bit))); }
-constexpr std::array<PinPlace, 9> kOutputs{
-    {{DPSIM_DSDPV1_L_REQ, "L_REQ", 0, single(0)},
-     {DPSIM_DSDPV1_L_STA, "L_STA", 1, single(1)},
-     {DPSIM_DSDPV1_D_OUT, "D_OUT", kDOutShift, (0xFFU << kDOutShift) | kDDriven | kDUnknown},
-     {DPSIM_DSDPV1_INTR0, "INTR0", 2, single(2)},
-     {DPSIM_DSDPV1_PBTXD, "PBTXD", 3, single(3)},
-     {DPSIM_DSDPV1_PBRTS, "PBRTS", 4, single(4)},
-     {DPSIM_DSDPV1_PBF, "PBF", 5, single(5)},
-     {DPSIM_DSDPV1_BR, "BR", 6, single(6)},
-     {DPSIM_DSDPV1_READY, "READY", 7, single(7)}}};
-
-/// The level of an input in packed pins.
-inline dpsim_level input_level(const PinPlace& place, uint32_t pins) {
-  if (place.pin == DPSIM_DSDPV1_D_IN && (pins & kDReleased) != 0) return DPSIM_Z;
-  return static_cast<dpsim_level>((pins & place.mask & ~kDReleased) >> place.shift);
-}
-
-/// The level of an output in packed pins.
-inline dpsim_level output_level(const PinPlace& place, uint32_t pins) {
-  if (place.pin == DPSIM_DSDPV1_D_OUT) {
-    if ((pins & kDDriven) == 0) return DPSIM_Z;
-    return (pins & kDUnknown) != 0 ? DPSIM_X : static_cast<dpsim_level>((pins >> kDOutShift) & 0xFFU);
+  const std::vector<PinPlace>& places() const { return places_; }
+  uint64_t at_reset() const { return at_reset_; }
+  const PinPlace& of_pin(uint16_t pin) const { return places_[of_pin_[pin]]; }
+  /// The pin that the lowest bit of `pins`, which is not 0, belongs to.
+  const PinPlace& first_of(uint64_t pins) const {
+    return places_[of_bit_[static_cast<unsigned>(__builtin_ctzll(pins))]];
   }
-  if ((pins >> (kUnknownShift + static_cast<uint32_t>(place.shift)) & 1U) != 0) return DPSIM_X;
-  return static_cast<dpsim_level>(pins >> place.shift & 1U);
+  /// Of the levels' bits only; throws Error when there is no such pin.
+  uint64_t mask(const std::string& name) const;
+
+ private:
+  static constexpr std::size_t kPins = 64;  // of dpsim_pin_count, and bits of a packed number
+  std::vector<PinPlace> places_;
+  uint64_t at_reset_ = 0;
+  std::array<uint8_t, kPins> of_pin_{}, of_bit_{};
+};
+
+/// The pins of a kind of chip as the C API lists them.
+struct KindPins {
+  std::string kind;
+  PackedPins inputs, outputs;
+};
+/// Good for ever; throws Error for a kind that there is not.
+const KindPins& pins_of_kind(const std::string& kind);
+
+inline dpsim_level level_of(const PinPlace& place, uint64_t pins) {
+  if ((pins & (place.released | place.unknown)) == 0)
+    return static_cast<dpsim_level>((pins & place.level) >> place.shift);
+  return (pins & place.unknown) != 0 ? DPSIM_X : DPSIM_Z;
 }
 
-/// Packed outputs in which one has another level.
-inline uint32_t with_output(uint32_t pins, const PinPlace& place, dpsim_level level) {
-  pins &= ~place.mask;
-  if (place.pin != DPSIM_DSDPV1_D_OUT) return pins | static_cast<uint32_t>(level) << place.shift;
-  if (level == DPSIM_Z) return pins;
-  return pins | kDDriven | (level == DPSIM_X ? kDUnknown : static_cast<uint32_t>(level) << kDOutShift);
+/// Packed pins in which one has another level.
+inline uint64_t with_level(uint64_t pins, const PinPlace& place, dpsim_level level) {
+  pins &= ~place.all();
+  if (level == DPSIM_Z) return pins | place.released;
+  return pins | (level == DPSIM_X ? place.unknown : static_cast<uint64_t>(level) << place.shift);
 }
 
 /// "5A", "Z", "X", "1".

@@ -11,8 +11,10 @@
  * the nearest tick of 1/12 ns and never beyond the next edge. So model and RTL see the same edges whatever the clock
  * does, and at 48 MHz each change is at its own absolute tick, half a tick (42 ps) away at most.
  *
- * Packed pins, from bit 0. Inputs: RESET, R_REQ, R_STA, CSR, RD, WR, A[11], D[8], D released, PBRXD. Outputs: L_REQ,
- * L_STA, INTR0, PBTXD, PBRTS, PBF, BR, READY, D[8], D driven, D unknown, and of the first eight which are unknown[8].
+ * Packed pins are the kind's inputs or outputs by the number of dpsim_pin_get, from bit 0: the wires of each; then a
+ * bit for each that can be released (whose level at reset is DPSIM_Z), 1 when it is; of outputs then a bit for each, 1
+ * when its level is unknown. The wires of what is released or unknown are 0. The modules that pack them are written
+ * from the same list (generate.py).
  *
  * Bytes are a vector of 256 bytes, the first in bits 7:0: uint32_t[64].
  */
@@ -43,32 +45,35 @@ DSDPV1_SIMULATOR_API int32_t dsdpv1_close(int32_t handle);
 
 /* ---- the model ---- */
 
-/** `options`: parameters of the chip as scenarios have them, "rts_lead=0 intr_low=32"; "": defaults. */
+/** `options`: the kind of chip and its parameters as scenarios have them, "kind=dsdpv1_rsu rts_lead=0 uart_gaps[0]=9";
+ * "": a DSDPV1 with its defaults. */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_model_create(const char* options);
-/** The inputs at this time. Returns the outputs; `next` is the half cycle at which one may change by itself. With a
- * `half` of -1 there is no CLK: `ps` is the absolute time, and so is `next`. INT64_MAX: never. */
-DSDPV1_SIMULATOR_API int32_t dsdpv1_model_step(int32_t handle, int64_t half, int64_t ps, int32_t inputs, int64_t* next);
+/** The inputs at this time. Returns the outputs; `next` is the half cycle in which one may change by itself; when that
+ * is this one, less than 0: so many ps after its edge. With a `half` of -1 there is no CLK: `ps` is the absolute time,
+ * and so is `next`. INT64_MAX: never. */
+DSDPV1_SIMULATOR_API int64_t dsdpv1_model_step(int32_t handle, int64_t half, int64_t ps, int64_t inputs, int64_t* next);
 
 /* ---- the scoreboard: a model beside somebody's RTL ---- */
 
-/** A difference counts when it lasts longer than `tolerance_ps`. */
+/** A difference counts when it lasts longer than `tolerance_ps`. MISO is the pin's register: its pin follows
+ * `spi_miso_delay` later. */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_scoreboard_create(const char* options, int64_t tolerance_ps);
 /** The pins at this time. What is different is judged at the next time, when all of this one have settled: it returns 1
  * after the first difference (dsdpv1_message has the words) and compares nothing more, else 0. It compares from the
  * fourth cycle with RESET low on. */
-DSDPV1_SIMULATOR_API int32_t dsdpv1_scoreboard_step(int32_t handle, int64_t half, int64_t ps, int32_t inputs,
-                                                    int32_t outputs, int64_t* next);
+DSDPV1_SIMULATOR_API int32_t dsdpv1_scoreboard_step(int32_t handle, int64_t half, int64_t ps, int64_t inputs,
+                                                    int64_t outputs, int64_t* next);
 /** Changes of the model's outputs that the RTL made as well. */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_scoreboard_matched(int32_t handle);
 
 /* ---- the checks (docs/checks.md) ---- */
 
-/** `options`: limits in ticks, "TIMING_TS=240", "TIMING_TW=off"; `baud` (dpsim_baud) is that of the line, so that
- * telegrams are heard; -1: rules that need telegrams are left out. */
+/** `options`: the kind of chip, and limits in ticks, "kind=dsdpv1_rsu TIMING_TS=240", "TIMING_TW=off"; `baud`
+ * (dpsim_baud) is that of the line, so that telegrams are heard; -1: rules that need telegrams are left out. */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_checker_create(const char* options, int32_t baud);
 /** The pins at this time. Returns the number of violations so far; dsdpv1_message has the words of each. */
-DSDPV1_SIMULATOR_API int32_t dsdpv1_checker_step(int32_t handle, int64_t half, int64_t ps, int32_t inputs,
-                                                 int32_t outputs);
+DSDPV1_SIMULATOR_API int32_t dsdpv1_checker_step(int32_t handle, int64_t half, int64_t ps, int64_t inputs,
+                                                 int64_t outputs);
 /** Once, at the end. Returns the number of violations. */
 DSDPV1_SIMULATOR_API int32_t dsdpv1_checker_finish(int32_t handle);
 /** How often rules were applied. */

@@ -34,15 +34,15 @@ package dsdpv1_pkg;
   import "DPI-C" function int dsdpv1_close(input int handle);
 
   import "DPI-C" function int dsdpv1_model_create(input string options);
-  import "DPI-C" function int dsdpv1_model_step(input int handle, input longint half, input longint ps, input int inputs, output longint next);
+  import "DPI-C" function longint dsdpv1_model_step(input int handle, input longint half, input longint ps, input longint inputs, output longint next);
 
   import "DPI-C" function int dsdpv1_scoreboard_create(input string options, input longint tolerance_ps);
-  import "DPI-C" function int dsdpv1_scoreboard_step(input int handle, input longint half, input longint ps, input int inputs, input int outputs,
+  import "DPI-C" function int dsdpv1_scoreboard_step(input int handle, input longint half, input longint ps, input longint inputs, input longint outputs,
                                                      output longint next);
   import "DPI-C" function int dsdpv1_scoreboard_matched(input int handle);
 
   import "DPI-C" function int dsdpv1_checker_create(input string options, input int baud);
-  import "DPI-C" function int dsdpv1_checker_step(input int handle, input longint half, input longint ps, input int inputs, input int outputs);
+  import "DPI-C" function int dsdpv1_checker_step(input int handle, input longint half, input longint ps, input longint inputs, input longint outputs);
   import "DPI-C" function int dsdpv1_checker_finish(input int handle);
   import "DPI-C" function int dsdpv1_checker_applied(input int handle);
 

@@ -130,6 +130,8 @@ void give_back(vpiHandle call, int32_t result) {
   vpi_put_value(call, &value, nullptr, vpiNoDelay);
 }
 
+void give_back(vpiHandle call, int64_t result) { write_number(call, static_cast<uint64_t>(result)); }
+
 void give_back(vpiHandle call, const char* result) {
   std::string text = result;
   s_vpi_value value{};
@@ -144,7 +146,7 @@ struct Call;
 template <class Result, class... Types>
 struct Call<Result (*)(Types...)> {
   static constexpr std::size_t kCount = sizeof...(Types);
-  static constexpr bool kText = std::is_same_v<Result, const char*>;
+  static constexpr int kBits = std::is_same_v<Result, const char*> ? kTextBits : 8 * static_cast<int>(sizeof(Result));
 
   template <std::size_t... Index>
   static void run(Result (*function)(Types...), vpiHandle call, std::index_sequence<Index...>) {
@@ -184,20 +186,23 @@ PLI_INT32 check_call(PLI_BYTE8* name) {
   return 0;
 }
 
-PLI_INT32 text_size(PLI_BYTE8*) { return kTextBits; }
+template <auto Function>
+PLI_INT32 result_size(PLI_BYTE8*) {
+  return Call<decltype(Function)>::kBits;
+}
 
 template <auto Function>
 void add(const char* name) {
   static_assert(std::is_pointer_v<decltype(Function)>);
-  constexpr bool kText = Call<decltype(Function)>::kText;
+  constexpr bool kSized = Call<decltype(Function)>::kBits != 32;
   std::string text = name;
   s_vpi_systf_data data{};
   data.type = vpiSysFunc;
-  data.sysfunctype = kText ? vpiSizedFunc : vpiIntFunc;
+  data.sysfunctype = kSized ? vpiSizedFunc : vpiIntFunc;
   data.tfname = text.data();
   data.calltf = carry_out<Function>;
   data.compiletf = check_call<Function>;
-  data.sizetf = kText ? text_size : nullptr;
+  data.sizetf = kSized ? result_size<Function> : nullptr;
   data.user_data = const_cast<char*>(name);  // NOLINT(cppcoreguidelines-pro-type-const-cast): VPI's signature
   vpi_register_systf(&data);
 }

@@ -48,7 +48,10 @@ void SpiPort::eval(Cycle now, const ChipSide& side) {
     load_at_ = profibus::kNever;
     shift_.load(now, load_slot_, load_value_);
   }
-  if (now == judge_at_) judge(now, side);
+  if (now == judge_at_) {
+    judge(now, side);
+    if (fell && side.owns && commit_.waits()) begins_with_wait(now);
+  }
   commit_.eval(now, side.owns, side.data_exch);
 }
 
@@ -60,6 +63,13 @@ void SpiPort::frame_begins(Cycle now) {
   const bool too_soon = report_gap(now);
   if (commit_.waits()) log_.at_cycle(now, Reason::kSpiWriteWaits);
   frame_ = too_soon || commit_.waits() ? Frame::kDeaf : Frame::kRequest;
+}
+
+// X at the J of a write that has to wait (5.2).
+void SpiPort::begins_with_wait(Cycle now) {
+  if (frame_ == Frame::kNone) return;
+  log_.at_cycle(now, Reason::kSpiWriteWaits);
+  frame_ = Frame::kDeaf;
 }
 
 // Whether the frame is not heard as it begins too soon after a write.

@@ -37,6 +37,7 @@ class SpiPort {
     kComplete,  // those after it
   };
   void frame_begins(Cycle now);
+  void begins_with_wait(Cycle now);
   bool report_gap(Cycle now);
   void hand_over(Cycle now, const ChipSide& side);
   void take_request(Cycle now);

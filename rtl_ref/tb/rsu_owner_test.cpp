@@ -125,6 +125,37 @@ void waiting_write(unsigned fault) {
   expect_bytes(b.read(0x600, 1), {0x5A}, "and frames are heard again");
 }
 
+// Nor is one that begins at the very judgement of that write: XSS is high at one edge only, the first after the last
+// bit
+void waiting_write_at_judgement(unsigned fault) {
+  Chip chip;
+  chip.write_gap = 0;
+  chip.fault = fault;
+  RsuBench b(chip, false);
+  b.top.reset_i = 1;
+  b.clock(20);
+  const Bytes request = write_telegram(0x600, {0x5A});
+  int64_t rise = 250 * (b.edge + 5) + 100;
+  b.xss(rise - 700, 0);
+  for (size_t bit = 0; bit < 8 * request.size(); ++bit, rise += 1250) {
+    b.top.mosi_i = static_cast<uint8_t>(request[bit / 8] >> (7 - bit % 8) & 1);
+    b.top.eval();
+    b.sck(rise, 1);
+    if (bit + 1 < 8 * request.size()) b.sck(rise + 600, 0);
+  }
+  const int64_t first_edge = rise - 1250 + 150;
+  b.xss(first_edge - 50, 1);
+  b.xss(first_edge + 50, 0);
+  b.sck(first_edge + 60, 0);
+  b.run_to(first_edge + 900);
+  b.lead = 1200;
+  expect_bytes(b.spi(read_telegram(0x001, 1), 5), Bytes(5, 0xFF), "a frame at the judgement of a write that waits");
+  expect(b.judged, first_edge / 250 + 3, "J of the write, and no other");
+  b.clock(2200);
+  expect(b.cell(0x600), 0x5A, "that write is written, too");
+  expect_bytes(b.read(0x600, 1), {0x5A}, "and frames are heard again after it");
+}
+
 // A write that is not done refuses the next
 void earlier_write(unsigned fault) {
   Chip chip;
@@ -279,6 +310,7 @@ void rtl::rsu_owner(unsigned fault) {
   }
   unclaimed(fault);
   waiting_write(fault);
+  waiting_write_at_judgement(fault);
   earlier_write(fault);
   u_timer(fault);
   block_crc(fault);

@@ -1,16 +1,24 @@
 // The functions that simulators call, without a simulator.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <string>
 
+#include "bindings/simulator/object.hpp"
 #include "bindings/simulator/pins.hpp"
+#include "bindings/simulator/scoreboard.hpp"
 #include "bindings/simulator/simulator.h"
 
 namespace dsdpv1::simulator {
 namespace {
 
-constexpr int32_t kRunning = static_cast<int32_t>(kInputsAtReset | 1U);  ///< RESET high, nothing else
+/// Of the DSDPV1.
+const PackedPins& inputs() { return pins_of_kind("dsdpv1").inputs; }
+int64_t bit(const char* input) { return static_cast<int64_t>(inputs().mask(input)); }
+int64_t output_bit(const char* output) { return static_cast<int64_t>(pins_of_kind("dsdpv1").outputs.mask(output)); }
+/// RESET high, nothing else.
+int64_t running() { return static_cast<int64_t>(inputs().at_reset()) | bit("RESET"); }
 
 TEST(SimulatorTime, HalvesOfACycleAreExactAndNothingPassesTheNextEdge) {
   EXPECT_EQ(tick_of(0, 0), 0U);
@@ -19,9 +27,55 @@ TEST(SimulatorTime, HalvesOfACycleAreExactAndNothingPassesTheNextEdge) {
   EXPECT_EQ(tick_of(2, 42), 251U);
   EXPECT_EQ(tick_of(2, 10'400), 374U);  // the next edge is not reached, however late it is
   EXPECT_EQ(tick_of(2, 99'999), 374U);
-  EXPECT_EQ(half_of(375), 3);
-  EXPECT_EQ(half_of(376), 4);
-  EXPECT_EQ(half_of(DPSIM_NEVER), INT64_MAX);
+}
+
+TEST(SimulatorTime, AWakeUpIsAHalfOfACycleOrPicosecondsInThisOne) {
+  EXPECT_EQ(wake_of(375, 2), 3);
+  EXPECT_EQ(wake_of(376, 2), 3);
+  EXPECT_EQ(wake_of(376, 3), -83);
+  EXPECT_EQ(wake_of(499, 3), -10'333);
+  EXPECT_EQ(wake_of(375, 3), -1) << "what is due at once is never in the past";
+  EXPECT_EQ(wake_of(DPSIM_NEVER, 3), INT64_MAX);
+}
+
+/// Name, first bit, wires, bit of released and of unknown or -1.
+std::string layout(const PackedPins& pins) {
+  const auto flag = [](uint64_t mask) { return mask == 0 ? -1 : __builtin_ctzll(mask); };
+  std::string text;
+  for (const PinPlace& each : pins.places())
+    text += fmt::format("{} {} {} {} {}\n", each.name, each.shift, __builtin_popcountll(each.level),
+                        flag(each.released), flag(each.unknown));
+  return text;
+}
+
+TEST(SimulatorPins, OfEachKindAreThoseThatTheCApiLists) {
+  const KindPins& pins = pins_of_kind("dsdpv1_rsu");
+  EXPECT_EQ(
+      layout(pins.inputs),
+      "RESET 0 1 -1 -1\nR_REQ 1 1 -1 -1\nR_STA 2 1 -1 -1\nCSR 3 1 -1 -1\nRD 4 1 -1 -1\nWR 5 1 -1 -1\nA 6 11 -1 -1\n"
+      "D_IN 17 8 40 -1\nPBRXD 25 1 -1 -1\nXSS 26 1 -1 -1\nSCK 27 1 -1 -1\nMOSI 28 1 -1 -1\nRXD 29 1 -1 -1\n"
+      "MODE 30 2 -1 -1\nADR 32 2 -1 -1\nUBR 34 3 -1 -1\nUIV 37 3 -1 -1\n");
+  EXPECT_EQ(layout(pins.outputs),
+            "L_REQ 0 1 -1 20\nL_STA 1 1 -1 21\nD_OUT 2 8 18 22\nINTR0 10 1 -1 23\nPBTXD 11 1 -1 24\nPBRTS 12 1 -1 25\n"
+            "PBF 13 1 -1 26\nBR 14 1 -1 27\nREADY 15 1 -1 28\nMISO 16 1 19 29\nTXD 17 1 -1 30\n");
+  EXPECT_EQ(pins_of_kind("dsdpv1_r").outputs.places().size(), 9U);
+  EXPECT_EQ(dsdpv1_model_create("kind=dsdpv2"), 0);
+  EXPECT_NE(std::string(dsdpv1_error()).find("allowed are dsdpv1, dsdpv1_r, dsdpv1_rsu"), std::string::npos);
+}
+
+TEST(SimulatorPins, ALevelComesBackAsItWasPacked) {
+  for (const PinPlace& each : pins_of_kind("dsdpv1_rsu").outputs.places()) {
+    const uint64_t others = 0x5555'5555'5555'5555U & ~each.all();
+    for (const dpsim_level level : {dpsim_level{0}, dpsim_level{1}, dpsim_level{DPSIM_X}}) {
+      const uint64_t pins = with_level(others | each.all(), each, level);
+      EXPECT_EQ(level_of(each, pins), level) << each.name;
+      EXPECT_EQ(pins & ~each.all(), others) << each.name;
+    }
+  }
+  const KindPins& pins = pins_of_kind("dsdpv1");
+  EXPECT_EQ(level_of(pins.inputs.of_pin(DPSIM_DSDPV1_D_IN), pins.inputs.at_reset()), DPSIM_Z);
+  EXPECT_EQ(level_of(pins.outputs.of_pin(DPSIM_DSDPV1_D_OUT), pins.outputs.at_reset()), DPSIM_Z);
+  EXPECT_THROW(pins.inputs.mask("XSS"), Error);
 }
 
 TEST(SimulatorTime, AbsoluteTimesAreThoseOfTheCApi) {
@@ -39,10 +93,10 @@ TEST(SimulatorTime, AbsoluteTimesAreThoseOfTheCApi) {
 TEST(SimulatorModel, OutputsChangeAtTheHalfThatItNames) {
   const int32_t model = dsdpv1_model_create("");
   int64_t next = 0;
-  const int32_t before = dsdpv1_model_step(model, 48, 0, kRunning, &next);
-  EXPECT_EQ(before & 1, 0) << "L_REQ";
+  const int64_t before = dsdpv1_model_step(model, 48, 0, running(), &next);
+  EXPECT_EQ(before & output_bit("L_REQ"), 0);
   int64_t half = next;
-  while ((dsdpv1_model_step(model, half, 0, kRunning, &next) & 1) == 0) {
+  while ((dsdpv1_model_step(model, half, 0, running(), &next) & output_bit("L_REQ")) == 0) {
     ASSERT_GT(next, half);
     half = next;
   }
@@ -85,9 +139,9 @@ class Twins {
   std::string run(int64_t to, int64_t wrong_from, int64_t wrong_to) {
     int64_t next = 0;
     for (int64_t half = 0; half < to; ++half) {
-      const int32_t inputs = half < 40 ? kRunning & ~1 : kRunning;
-      int32_t outputs = dsdpv1_model_step(model_, half, 0, inputs, &next);
-      if (half >= wrong_from && half < wrong_to) outputs ^= 1 << 5;
+      const int64_t inputs = half < 40 ? (running() & ~bit("RESET")) : running();
+      int64_t outputs = dsdpv1_model_step(model_, half, 0, inputs, &next);
+      if (half >= wrong_from && half < wrong_to) outputs ^= output_bit("PBF");
       if (dsdpv1_scoreboard_step(scoreboard_, half, 0, inputs, outputs, &next) > 0) return dsdpv1_message(scoreboard_);
     }
     return "";
@@ -126,7 +180,8 @@ TEST(SimulatorScoreboard, ADifferenceWithinTheToleranceIsNone) {
 TEST(SimulatorScoreboard, AnUnknownOutputDiffers) {
   const int32_t scoreboard = dsdpv1_scoreboard_create("", 0);
   int64_t next = 0;
-  const int32_t in_reset = kRunning & ~1, unknown = 0xFF << 18;
+  const int64_t in_reset = running() & ~bit("RESET");
+  const auto unknown = static_cast<int64_t>(pins_of_kind("dsdpv1").outputs.places().front().unknown);
   int32_t found = 0;
   for (int64_t half = 0; half < 20 && found == 0; ++half)
     found = dsdpv1_scoreboard_step(scoreboard, half, 0, in_reset, unknown, &next);
@@ -138,14 +193,15 @@ TEST(SimulatorScoreboard, AnUnknownOutputDiffers) {
 
 TEST(SimulatorChecker, AShortWriteStrobeIsAViolationWithItsClause) {
   const int32_t checker = dsdpv1_checker_create("", -1);
-  int32_t pins = kRunning;
-  const auto step = [&](int64_t half, int64_t ps) { return dsdpv1_checker_step(checker, half, ps, pins, 0x2C); };
+  int64_t pins = running();
+  const auto outputs = static_cast<int64_t>(pins_of_kind("dsdpv1").outputs.at_reset());
+  const auto step = [&](int64_t half, int64_t ps) { return dsdpv1_checker_step(checker, half, ps, pins, outputs); };
   step(0, 0);
-  pins &= ~(1 << 3);  // CSR
+  pins &= ~bit("CSR");
   step(10'000, 0);
-  pins &= ~(1 << 5);  // WR
+  pins &= ~bit("WR");
   step(10'010, 0);
-  pins |= 1 << 5;
+  pins |= bit("WR");
   EXPECT_GT(step(10'010, 5000), 0);
   std::string all;
   for (std::string text = dsdpv1_message(checker); !text.empty(); text = dsdpv1_message(checker)) all += text + "\n";
@@ -154,6 +210,38 @@ TEST(SimulatorChecker, AShortWriteStrobeIsAViolationWithItsClause) {
   EXPECT_GT(dsdpv1_checker_applied(checker), 0);
   dsdpv1_close(checker);
   EXPECT_EQ(dsdpv1_checker_create("NO_SUCH_RULE=1", -1), 0);
+}
+
+TEST(SimulatorScoreboard, MisoOfRtlIsTheRegisterWhosePinFollows) {
+  const KindPins& pins = pins_of_kind("dsdpv1_rsu");
+  PadDelay pad({"dsdpv1_rsu", {{"spi_miso_delay", "90"}}}, pins);
+  const PinPlace& miso = pins.outputs.first_of(pins.outputs.mask("MISO"));
+  const auto at = [&](uint64_t tick, dpsim_level level) {
+    return level_of(miso, pad.pins_of(tick, with_level(pins.outputs.at_reset(), miso, level)));
+  };
+  EXPECT_EQ(at(0, DPSIM_Z), DPSIM_Z);
+  EXPECT_EQ(at(1000, 1), 1) << "driven at once";
+  EXPECT_EQ(at(2000, 0), 1);
+  EXPECT_EQ(pad.next_tick(), 2090U);
+  EXPECT_EQ(at(2089, 0), 1);
+  EXPECT_EQ(at(2090, 0), 0);
+  EXPECT_EQ(pad.next_tick(), DPSIM_NEVER);
+  EXPECT_EQ(at(3000, 1), 0);
+  EXPECT_EQ(at(3050, DPSIM_Z), DPSIM_Z) << "released at once, and what was on its way is dropped";
+  EXPECT_EQ(at(3200, DPSIM_Z), DPSIM_Z);
+  EXPECT_EQ(at(4000, 0), 0);
+  EXPECT_EQ(at(4000, 1), 1) << "the simulator has gone on within its time step";
+  EXPECT_EQ(at(5000, 0), 1);
+  EXPECT_EQ(at(5000, 1), 1);
+  EXPECT_EQ(pad.next_tick(), DPSIM_NEVER);
+  const uint64_t others = pins.outputs.at_reset() & ~miso.all();
+  EXPECT_EQ(pad.pins_of(3300, pins.outputs.at_reset()) & ~miso.all(), others);
+}
+
+TEST(SimulatorScoreboard, AKindWithoutMisoHasItsOutputsAsTheyAre) {
+  PadDelay none({"dsdpv1", {}}, pins_of_kind("dsdpv1"));
+  EXPECT_EQ(none.pins_of(5, 0x123), 0x123U);
+  EXPECT_EQ(none.next_tick(), DPSIM_NEVER);
 }
 
 TEST(SimulatorMaster, ARequestIsDoneWhenNobodyAnswers) {

@@ -18,6 +18,7 @@ from golden import GOLDEN, write_inputs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FAULT = 46  # of rtl_ref/faults.txt
+RSU_FAULT = 129  # of rtl_ref/faults_rsu.txt: bits of a reply in the other order
 
 
 def call(command, folder):
@@ -57,6 +58,19 @@ class Benches:
         place, pin, golden, here = lockstep.groups()
         self.assertIn(f"first difference at {place}: {pin} is {here}, the model's is {golden}", said)
 
+    def test_the_rsu_answers_at_both_serial_ports(self):
+        for mode in (1, 2):
+            said = self.passes("serial", f"+mode={mode}")
+            self.assertIn("reply 8100c5bbe1\nviolations 0, rules applied", said)
+        self.assertRegex(self.passes("serial", "+mode=1", "+short_clock"), "violations [1-9]")
+
+    def test_the_scoreboard_of_the_rsu_sees_its_serial_pins(self):
+        for mode in (1, 2):
+            self.assertRegex(self.passes("serial", f"+mode={mode}", name="serial_rtl"), r"the scoreboard has seen \d\d changes, all alike")
+        status, said = self.run_bench("serial_rtl", "serial", "+mode=1", f"+fault={RSU_FAULT}")
+        self.assertNotEqual(status, 0, said)
+        self.assertIn("first difference at cycle 10003 + 170 ticks (208.410 us): MISO is 0, the model's is 1\n  last input  SCK=0 at cycle 10003 + 50 ticks", said)
+
     def with_golden(self, check):
         with tempfile.TemporaryDirectory(prefix="dsdpv1_replay_") as name:
             folder = pathlib.Path(name)
@@ -92,15 +106,22 @@ class Verilator(Benches, unittest.TestCase):
 
 
 class Icarus(Benches, unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="dsdpv1_icarus_")))
+
     def run_bench(self, name, top, *plusargs):
-        rtl = self.rtl() if top == "replay" else []
+        if not (self.folder / f"{name}.vvp").exists():
+            self.compile(name, top)
+        return call(["vvp", self.folder / f"{name}.vvp", *plusargs], ROOT)
+
+    def compile(self, name, top):
+        rtl = {"replay": self.rtl("files.txt"), "serial_rtl": self.rtl("files_rsu.txt")}.get(name, [])
         bindings = ROOT / "bindings/systemverilog"
         sources = [bindings / line for line in (bindings / "files.txt").read_text(encoding="ascii").split()]
-        with tempfile.TemporaryDirectory(prefix="dsdpv1_icarus_") as folder:
-            status, said = call(["iverilog", "-g2012", "-DDSDPV1_VPI", "-DDSDPV1_IMMEDIATE", "-I", bindings, "-I", ROOT / "rtl_ref", "-I", ROOT / "registers",
-                                 "-s", top, "-o", "bench.vvp", VPI, *sources, *rtl, ROOT / f"tests/bindings_sv/{top}.sv"], folder)
-            self.assertEqual((status, said), (0, ""))
-            return call(["vvp", pathlib.Path(folder) / "bench.vvp", *plusargs], ROOT)
+        status, said = call(["iverilog", "-g2012", "-DDSDPV1_VPI", "-DDSDPV1_IMMEDIATE", "-I", bindings, "-I", ROOT / "rtl_ref", "-I", ROOT / "registers",
+                             "-s", top, "-o", f"{name}.vvp", VPI, *sources, *rtl, ROOT / f"tests/bindings_sv/{top}.sv"], self.folder)
+        self.assertEqual((status, said), (0, ""))
 
     def test_the_checker_names_a_write_strobe_that_is_too_short(self):
         status, said = self.run_bench("violations", "violations")
@@ -109,8 +130,9 @@ class Icarus(Benches, unittest.TestCase):
         self.assertIn("u_checker.report: TIMING_TS at cycle 9673 + 50 ticks (201.525 us): 5.000 ns of at least 12.500 ns, writing B006 [table 15, P5]\n", said)
         self.assertIn("violations 1, rules", said)
 
-    def rtl(self):
-        return ["-DUSE_RTL", "-DSINGLE_FAULTS", *(ROOT / "rtl_ref" / line for line in (ROOT / "rtl_ref/files.txt").read_text(encoding="ascii").split())]
+    @staticmethod
+    def rtl(names):
+        return ["-DUSE_RTL", "-DSINGLE_FAULTS", *(ROOT / "rtl_ref" / line for line in (ROOT / "rtl_ref" / names).read_text(encoding="ascii").split())]
 
 
 if __name__ == "__main__":

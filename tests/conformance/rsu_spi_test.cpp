@@ -293,6 +293,42 @@ TEST(RsuSpiStartUp, ReadsAreZeroAndWritesWait) {
   EXPECT_EQ(bench.read(0x000, 2), (Bytes{0x01, 0x0D}));
 }
 
+// XSS is high at one edge only, the first after the last bit of a write: X is the J of that write. When the chip is in
+// an access the write has to wait, and the frame is not heard; else it is.
+TEST(RsuSpiStartUp, AFrameThatBeginsAtTheJudgementOfAWriteIsHeardUnlessTheWriteWaits) {
+  for (const Cycle begin : {30, 2200}) {
+    Config config;
+    config.spi_write_gap = 0;
+    RsuBench bench(Straps{}, config);
+    bench.set(5000, Pin::kReset, 1);
+    bench.run_until(begin * 250 + 100);
+    Tick rise = bench.now() + 750;  // 100 ticks after an edge, as each of the others
+    bench.xss(0);
+    const Bytes request = write_telegram(0x100, {0x55});
+    for (std::size_t bit = 0; bit < 8 * request.size(); ++bit, rise += 1250) {
+      bench.set(rise - 300, Pin::kMosi, static_cast<Level>(request[bit / 8] >> (7 - bit % 8) & 1));
+      bench.set(rise, Pin::kSck, 1);
+      if (bit + 1 < 8 * request.size()) bench.set(rise + 600, Pin::kSck, 0);
+    }
+    const Tick last = rise - 1250, first_edge = last + 150;
+    bench.set(first_edge - 50, Pin::kXss, 1);
+    bench.set(first_edge + 50, Pin::kXss, 0);
+    bench.set(first_edge + 60, Pin::kSck, 0);
+    bench.run_until(first_edge + 900);
+    const Bytes asked = read_telegram(0x000, 1);
+    bench.clock(asked);
+    const Bytes reply = bench.clock(Bytes(5, 0xFF));
+    bench.xss(1);
+    const bool waits = begin < 2000;
+    EXPECT_EQ(reply, waits ? Bytes(5, 0xFF) : with_crc({0x81, 0x00, 0x01})) << begin;
+    EXPECT_EQ(bench.count(R::kSpiWriteWaits), waits ? 1 : 0) << begin;
+    if (waits) EXPECT_EQ(bench.last(R::kSpiWriteWaits).at, first_edge + 750) << "J";
+    bench.run_cycles(2500);
+    EXPECT_EQ(bench.peek(0x100), 0x55) << begin;
+    EXPECT_EQ(bench.read(0x100, 1), Bytes{0x55}) << begin;
+  }
+}
+
 // SP9: who keeps 2.7 us is heard at every phase of CLK, below 31750 ticks nobody is.
 TEST_F(RsuSpi, GapAfterAWrite) {
   bench_.claim();

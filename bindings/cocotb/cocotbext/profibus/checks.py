@@ -17,7 +17,7 @@ class PinChecker:
     def __init__(self, pins: ChipPins, limits: typing.Optional[typing.Mapping[str, typing.Optional[int]]] = None) -> None:
         """`limits`: of dsdpv1.Checker, ticks; None: the rule is not checked."""
         self.violations: typing.List[dsdpv1.Violation] = []
-        self._checker = dsdpv1.Checker(limits=limits)
+        self._checker = dsdpv1.Checker(pins.kind.name, limits=limits)
         self._checker.on_violation(self.violations.append)
         self._tasks = pins.watch(self._checker.wants, self._pin)
 

@@ -1,4 +1,4 @@
-"""A DUT's ports as the pins of table 1."""
+"""A DUT's ports as the pins of its kind of chip."""
 import typing
 
 import cocotb
@@ -8,7 +8,6 @@ import dsdpv1
 
 from .ticks import now
 
-OUTPUTS_OF_D = ("D_OUT", "D_OE")
 Told = typing.Callable[[int, int, int], typing.Any]
 
 
@@ -19,32 +18,35 @@ def _number(handle: typing.Any) -> typing.Optional[int]:
 
 
 class ChipPins:
-    """The pins of a DUT by the names of table 1. D is three ports: D_IN, which the DUT reads, D_OUT, which it drives, D_OE, when it does.
+    """The pins of a DUT by the names that its kind has for them (dsdpv1.kind_of): table 1, of a DSDPV1-RSU also straps, SPI and UART.
 
-    A port is named like rtl_ref's unless `names` says otherwise: {"RESET": "rst_n", "D_OE": "data_en"}. An inverted one begins with "~".
+    An output that can be released has a second port, which says when it is driven: D_OE beside D_OUT, MISO_OE beside MISO. A port is named like
+    rtl_ref's unless `names` says otherwise: {"RESET": "rst_n", "D_OE": "data_en"}. An inverted one begins with "~".
     """
 
-    def __init__(self, dut: typing.Any, names: typing.Optional[typing.Mapping[str, str]] = None) -> None:
-        self.kind = dsdpv1.kind_of("dsdpv1")
+    def __init__(self, dut: typing.Any, names: typing.Optional[typing.Mapping[str, str]] = None, kind: str = "dsdpv1") -> None:
+        self.kind = dsdpv1.kind_of(kind)
+        self.enables = {each.name: f"{each.bus or each.name}_OE" for each in self.kind.pins if not each.input and each.reset_level == dsdpv1.Z}
         self._ports: typing.Dict[str, typing.Tuple[typing.Any, bool]] = {}
-        for pin in (*(each.name for each in self.kind.pins), "D_OE"):
+        for pin in (*(each.name for each in self.kind.pins), *self.enables.values()):
             port = (names or {}).get(pin, self._default(pin))
             if not hasattr(dut, port.lstrip("~")):
                 raise AttributeError(f"{dut._name} has no port {port} for the pin {pin}; name it in names")  # pylint: disable=protected-access
             self._ports[pin] = getattr(dut, port.lstrip("~")), port.startswith("~")
 
     def _default(self, pin: str) -> str:
-        if pin in ("D_IN", "D_OUT", "D_OE"):
-            return {"D_IN": "d_i", "D_OUT": "d_o", "D_OE": "d_oe_o"}[pin]
-        return pin.lower() + ("_i" if self.kind.pin(pin).input else "_o")
+        if pin in self.enables.values():
+            return pin.lower() + "_o"
+        its = self.kind.pin(pin)
+        return (its.bus or pin).lower() + ("_i" if its.input else "_o")
 
     def port(self, pin: str) -> typing.Any:
         """The handle behind a pin."""
         return self._ports[pin][0]
 
     def level(self, pin: str) -> int:
-        """The present level; Z of D when it is not driven, X when a bit is unknown."""
-        if pin == "D_OUT" and self.level("D_OE") == 0:
+        """The present level; Z of what is not driven, X when a bit is unknown."""
+        if pin in self.enables and self.level(self.enables[pin]) == 0:
             return dsdpv1.Z
         handle, inverted = self._ports[pin]
         value = _number(handle)
@@ -80,7 +82,7 @@ class ChipPins:
         for name in pins:
             number = self.kind.pin(name).number
             told(now(), number, self.level(name))
-            for port in OUTPUTS_OF_D if name == "D_OUT" else (name,):
+            for port in (name, self.enables[name]) if name in self.enables else (name,):
                 tasks.append(cocotb.start_soon(self._tell(self.port(port), name, number, told)))
         return tasks
 

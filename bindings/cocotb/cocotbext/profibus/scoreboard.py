@@ -11,6 +11,7 @@ from .pins import ChipPins
 from .ticks import now, until
 
 PERIOD = 480 * CYCLE  # how often it is compared
+LATE = {"MISO": "spi_miso_delay"}  # outputs whose port is the register of a pin, and the parameter that says how late that is
 
 
 class Difference(typing.NamedTuple):
@@ -47,12 +48,36 @@ def _word(level: int) -> str:
     return {dsdpv1.Z: "Z", X: "X"}.get(level, f"{level:X}")
 
 
+class _Pad:
+    """The pin of an output whose port is its register, which the host's clock moves: from one level to the other it follows `late` ticks later; when it
+    is driven and released, at once."""
+
+    def __init__(self, late: int) -> None:
+        self._late, self._level = late, dsdpv1.Z
+        self._coming: typing.List[typing.Tuple[int, int]] = []
+
+    def put(self, tick: int, level: int) -> None:
+        """A level of the port that has settled; ticks never go back."""
+        if level < 0 or self._level < 0:
+            self._coming = [each for each in self._coming if each[0] <= tick] + [(tick, level)]
+        elif level != self._level:
+            self._coming.append((tick + self._late, level))
+        self._level = level
+
+    def take(self, horizon: int) -> typing.List[typing.Tuple[int, int]]:
+        """Changes of the pin before `horizon`, each once."""
+        early = [each for each in self._coming if each[0] < horizon]
+        self._coming = self._coming[len(early):]
+        return early
+
+
 class Scoreboard:
     """Runs beside any testbench: it only looks at the DUT's pins. The DUT's clock has to be exact (Clock), rising edge n at tick 250 n.
 
     Every 10 us of simulated time the changes of both sides are compared. At the first difference the test fails with a ScoreboardError; with
     `fails` False `difference` is set and nothing more is compared. What the model calls X (P5) matches everything. Inputs must not change
-    in the active phase of a rising edge: an input of that tick counts for the next one (P9).
+    in the active phase of a rising edge: an input of that tick counts for the next one (P9). MISO of the DUT is the pin's register: from one
+    level to the other the pin follows spi_miso_delay later, as in lockstep (docs/microarchitecture_rsu.md, 5.1).
     """
 
     def __init__(self, pins: ChipPins, parameters: typing.Optional[typing.Mapping[str, int]] = None, fails: bool = True) -> None:
@@ -62,7 +87,9 @@ class Scoreboard:
         self.difference: typing.Optional[Difference] = None
         self.matched = 0  # changes of outputs
         self._pins, self._fails = pins, fails
-        self._model = dsdpv1.Chip(parameters=parameters)
+        self._model = dsdpv1.Chip(pins.kind.name, parameters=parameters)
+        usual = {each.name: each.default for each in pins.kind.parameters}
+        self._pads = {pins.kind.pin(name).number: _Pad((parameters or {}).get(delay, usual[delay])) for name, delay in LATE.items() if delay in usual}
         self._names = [each.name for each in pins.kind.pins]
         inputs = [each for each in pins.kind.pins if each.input]
         outputs = [each for each in pins.kind.pins if not each.input]
@@ -79,7 +106,7 @@ class Scoreboard:
 
     # ---- what the DUT does
     def _input(self, tick: int, pin: int, level: int) -> None:
-        if level == X or (level == dsdpv1.Z and self._names[pin] != "D_IN"):  # not driven yet
+        if level == X or (level == dsdpv1.Z and self._pins.kind.pins[pin].reset_level != dsdpv1.Z):  # not driven yet
             return
         self._inputs.append((tick, 0, pin, level))
         if self._names[pin] in ("RD", "WR") and level == 0:
@@ -121,14 +148,21 @@ class Scoreboard:
         changes: typing.Dict[int, typing.Tuple[typing.Dict[int, int], typing.Dict[int, int]]] = {}
         for tick, _, pin, level in self._model.changes().tolist():
             changes.setdefault(tick, ({}, {}))[0][pin] = level
-        later = []
-        for tick, pin, level in self._dut:
-            if tick < horizon:
-                changes.setdefault(tick, ({}, {}))[1][pin] = level
-            else:
-                later.append((tick, pin, level))
-        self._dut = later
+        for tick, pin, level in self._dut_pins(horizon):
+            changes.setdefault(tick, ({}, {}))[1][pin] = level
         self._compare(changes)
+
+    def _dut_pins(self, horizon: int) -> typing.Iterator[typing.Tuple[int, int, int]]:
+        """Changes of the DUT's pins before `horizon`; of a tick's the last one counts."""
+        settled = {(tick, pin): level for tick, pin, level in self._dut if tick < horizon}
+        self._dut = [each for each in self._dut if each[0] >= horizon]
+        for (tick, pin), level in settled.items():
+            if pin in self._pads:
+                self._pads[pin].put(tick, level)
+            else:
+                yield tick, pin, level
+        for pin, pad in self._pads.items():
+            yield from ((tick, pin, level) for tick, level in pad.take(horizon))
 
     def _compare(self, changes: typing.Dict[int, typing.Tuple[typing.Dict[int, int], typing.Dict[int, int]]]) -> None:
         for tick in sorted(changes):
