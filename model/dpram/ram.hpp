@@ -18,6 +18,13 @@ class Ram {
   void mark_unknown(regs::Address address) { unknown_.set(index(address)); }
   bool unknown(regs::Address address) const { return unknown_.test(index(address)); }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [cells, unknown] = *this;
+    archive(cells);
+    archive.bits(unknown);
+  }
+
  private:
   static constexpr std::size_t index(regs::Address address) { return address % regs::kDpramSize; }
 

@@ -8,11 +8,9 @@
 namespace dsdpv1::dpram {
 namespace {
 
-constexpr int kVersionBytes = 4;
-constexpr std::uint8_t kVersion[kVersionBytes] = {regs::kVersionReset, regs::kVersionYearReset,
-                                                  regs::kVersionMonthReset, regs::kVersionDayReset};
-constexpr int kStartUpMoves = regs::kDpramSize + kVersionBytes + 1;  // the RAM, the version, B006
-constexpr std::uint8_t kChipWasHere = 1;                             // B006
+constexpr std::uint8_t kVersion[] = {regs::kVersionReset, regs::kVersionYearReset, regs::kVersionMonthReset,
+                                     regs::kVersionDayReset};
+constexpr std::uint8_t kChipWasHere = 1;  // B006
 // All that the user may ask for with B010 and B011.
 constexpr std::uint8_t kUserCommands1 = regs::kUserCommand1Init | regs::kUserCommand1PrmVerdict |
                                         regs::kUserCommand1CfgVerdict | regs::kUserCommand1Input |
@@ -413,6 +411,35 @@ void Sequencer::flag(Cycle now) {
   if (item_ == Item::kPrm || item_ == Item::kCfg) told_user_ = now;  // P7
   next_item();
   goto_phase(Phase::kChoose, now + 1);
+}
+
+// --- what was read ---------------------------------------------------------------------------------------------------
+
+bool Sequencer::is_possible(Cycle now) const {
+  const bool begun_lately = op_ + kStartUpMoves + 1 > now;
+  if (dozing_ && phase_ != Phase::kIdle && phase_ != Phase::kHeader && phase_ != Phase::kChoose) return false;
+  return !owns() || ((dozing_ || begun_lately) && is_possible_block());
+}
+
+bool Sequencer::is_possible_block() const {
+  const bool reads = item_ <= Item::kC2Answer && item_ != Item::kInputClear;
+  const bool writes = item_ > Item::kC2Answer && item_ <= Item::kC2Request;
+  const int header = area(item_).header;
+  const bool whole = image_size_ >= header && image_size_ <= header + area(item_).maximum;
+  switch (phase_) {
+    case Phase::kHeader: return index_ < kHeaderMoves;
+    case Phase::kRead: return reads && image_size_ == header && index_ < image_size_;
+    case Phase::kDecode: return reads && image_size_ == header;
+    case Phase::kReadRest: return reads && whole && index_ < image_size_ + 2;
+    case Phase::kCheck:
+    case Phase::kCommit: return reads && (image_size_ == 0 || whole);
+    case Phase::kWrite: return writes && index_ < image_size_;
+    case Phase::kCrcHigh:
+    case Phase::kCrcLow:
+    case Phase::kFlag: return writes;
+    case Phase::kStatus2: return item_ == Item::kChipStatus2;
+    default: return true;
+  }
 }
 
 }  // namespace dsdpv1::dpram

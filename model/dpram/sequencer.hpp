@@ -76,6 +76,29 @@ class Sequencer {
   /// As of the edge of `now`, the last that was evaluated; right where every edge is.
   Inside inside(Cycle now) const;
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, ram, user, interval, ready_cycles, user_holds, dozing, judges_crc, told_user, phase, item, origin,
+           start, due, op, visible, effect, index, image, image_size, image_crc, user_command1, user_command2,
+           chip_command1, chip_command2, dpv1, valid_written, offline_written, status3_written, init_result_due1,
+           init_result_due4, chip_status1, chip_status4, status2_set, status2_clear, status2_read, initialised,
+           accesses, outputs_overwritten, notes_moves, moved, crc_item, crc_right, longest_wait] = *this;
+    archive.given(log, ram, user, interval, ready_cycles, notes_moves);
+    archive(user_holds, dozing, judges_crc, initialised);
+    archive.within(Phase::kOff, Phase::kStatus2, phase);
+    archive.within(Item::kInit, Item::kNone, item, crc_item);
+    archive.cycles(told_user, origin, start, due, op, visible, effect);
+    archive.within(0, kStartUpMoves + 1, index);
+    archive.within(0, kMostBlock, image_size);
+    archive(image, image_crc, user_command1, user_command2, chip_command1, chip_command2, dpv1);
+    archive(valid_written, offline_written, status3_written, init_result_due1, init_result_due4);
+    archive(chip_status1, chip_status4, status2_set, status2_clear, status2_read);
+    archive(accesses, outputs_overwritten, moved, crc_right);
+    archive.lengths(longest_wait);
+  }
+  /// What was read can be so after the edge of `now`: what is in work ends before its bytes do, and soon.
+  bool is_possible(Cycle now) const;
+
  private:
   // What one access may have to do, in the order of ruling H4, then the changed status bytes by address.
   enum class Item : std::uint8_t {
@@ -126,6 +149,15 @@ class Sequencer {
     bool writes = false;
     Phase phase = Phase::kOff;
     Item item = Item::kNone;
+
+    template <class Archive>
+    void store(Archive& archive) {
+      auto& [when, cell, value, to_ram, in_phase, of_item] = *this;
+      archive.cycles(when);
+      archive(cell, value, to_ram);
+      archive.within(Phase::kOff, Phase::kStatus2, in_phase);
+      archive.within(Item::kInit, Item::kNone, of_item);
+    }
   };
   static const char* name(Phase phase, Item item);
   struct Area {
@@ -135,6 +167,10 @@ class Sequencer {
     std::uint8_t flag;
   };
   static const Area& area(Item item);
+  static constexpr int kVersionBytes = 4;
+  static constexpr int kStartUpMoves = regs::kDpramSize + kVersionBytes + 1;  // the RAM, the version, B006
+  static constexpr int kMostBlock = 254;                                      // with its CRC 256 bytes
+  bool is_possible_block() const;
   static bool acyclic_answer(Item item) { return item == Item::kC1Answer || item == Item::kC2Answer; }
 
   // access

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "model/dpram/sequencer.hpp"
+#include "model/dsdpv1/chip_state.hpp"
 #include "model/dsdpv1/handshake.hpp"
 #include "model/dsdpv1/host_port.hpp"
 #include "model/dsdpv1/interrupt.hpp"
@@ -53,15 +54,22 @@ struct Chip::Impl {
 
     Cycle but_the_stations() const { return std::min({release, host, handshake, sequencer, interrupt}); }
     Cycle but_the_hosts() const { return std::min({release, handshake, sequencer, station, interrupt}); }
+
+    template <class Archive>
+    void store(Archive& archive) {
+      auto& [of_release, of_host, of_handshake, of_sequencer, of_station, of_interrupt] = *this;
+      archive.cycles(of_release, of_host, of_handshake, of_sequencer, of_station, of_interrupt);
+    }
   };
 
-  explicit Impl(const Config& config)
-      : engine(config.engine),
-        station(log, station_of(config)),
+  explicit Impl(const Config& given)
+      : engine(given.engine),
+        station(log, station_of(given)),
         host(log, ram),
-        interrupt(config.intr_low, config.intr_gap),
-        sequencer(log, ram, station.user(), config.access_interval, config.ready_cycles),
-        serial(log, ram, config) {
+        interrupt(given.intr_low, given.intr_gap),
+        sequencer(log, ram, station.user(), given.access_interval, given.ready_cycles),
+        serial(log, ram, given),
+        config(given) {
     interrupt.reset();
     if (engine == Engine::kStep) sequencer.note_moves();  // where inside() is asked for
   }
@@ -128,6 +136,11 @@ struct Chip::Impl {
   void report_ownership(Tick at);
   Level level(Pin pin) const;
 
+  template <class Archive>
+  void store(Archive& archive);
+  bool is_possible() const;
+  void take_over(const Impl& observed);
+
   const Engine engine;
   profibus::EventLog log;
   Ram ram;
@@ -148,6 +161,7 @@ struct Chip::Impl {
   bool live = false;  // the live host port is a serial one
   Level d_out = kLevelZ, miso = kLevelZ;
   SerialPorts serial;  // behind what every chip uses at each edge
+  const Config config;
 };
 
 // --- inputs ----------------------------------------------------------------------------------------------------------
@@ -532,6 +546,41 @@ Level Chip::Impl::level(Pin pin) const {
   }
 }
 
+// --- saved and restored ----------------------------------------------------------------------------------------------
+
+template <class Archive>
+void Chip::Impl::store(Archive& archive) {
+  auto& [its_engine, its_log, its_ram, its_station, its_host, its_handshake, its_interrupt, its_sequencer, its_sink,
+         its_watched, its_now, its_edge, its_plans, its_other_plans, its_reset, runs, its_req, its_sta, its_rxd,
+         its_outputs, is_live, its_d, its_miso, its_serial, its_config] = *this;
+  archive.given(its_engine, its_log, its_sink, its_watched, its_edge, its_other_plans, its_config);
+  archive.within(Tick{0}, Tick{1} << 62, its_now);
+  archive(its_ram, its_station, its_host, its_handshake, its_interrupt, its_sequencer, its_serial, its_plans);
+  archive(its_reset, runs, its_req, its_sta, its_rxd, is_live);
+  archive.within(0U, (1U << kRsuPinCount) - 1, its_outputs);
+  archive.within(kLevelX, kHighestLevel, its_d, its_miso);
+  archive.check(is_possible());
+}
+
+// What is planned comes, and not too late.
+bool Chip::Impl::is_possible() const {
+  const Cycle over = done();
+  const auto right = [over](Cycle plan, Cycle next) { return plan > over && plan <= next; };
+  return live == serial.live() && drive_at() > now && plans.release > over &&
+         right(plans.host, live ? serial.next() : host.next()) && right(plans.handshake, handshake.next()) &&
+         right(plans.sequencer, sequencer.next()) && right(plans.station, station.next()) &&
+         right(plans.interrupt, interrupt.next()) && sequencer.is_possible(over);
+}
+
+// Who observes goes on; what they see, or step wants to show, is not dozed through.
+void Chip::Impl::take_over(const Impl& observed) {
+  log = observed.log;
+  sink = observed.sink;
+  watched = observed.watched;
+  if (engine == Engine::kStep || (watched & kAccessPins) != 0) wake();
+  plan();
+}
+
 // --- the chip --------------------------------------------------------------------------------------------------------
 
 Chip::Chip(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
@@ -639,6 +688,22 @@ Status Chip::status() const {
   status.c2 = station.slave().rm_registry();
   status.longest_wait = static_cast<std::uint64_t>(impl_->sequencer.longest_wait());
   return status;
+}
+
+std::vector<std::uint8_t> Chip::save() const {
+  profibus::StateWriter writer;
+  begin_state(writer, impl_->config);
+  impl_->store(writer);
+  return end_state(writer.take());
+}
+
+void Chip::restore(const std::uint8_t* bytes, std::size_t size) {
+  profibus::StateReader reader = open_state(bytes, size, impl_->config);
+  auto restored = std::make_unique<Impl>(impl_->config);
+  restored->store(reader);
+  check_state(reader);
+  restored->take_over(*impl_);
+  impl_ = std::move(restored);
 }
 
 Inside Chip::inside() const {

@@ -13,6 +13,8 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
+#include <vector>
 
 #include "model/dpram/inside.hpp"
 #include "model/dsdpv1/config.hpp"
@@ -51,6 +53,12 @@ struct Inside {
   dpram::Inside access;
   BaudIndex tried;  ///< while searching: the rate that is listened at
   profibus::Watchdog::State watchdog = profibus::Watchdog::State::kBaudSearch;
+};
+
+/// Why bytes are not what a chip may be restored from: one line.
+class StateError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 class Chip {
@@ -130,6 +138,15 @@ class Chip {
   Status status() const;
   /// As of the last rising edge; Engine::kStep only, as others leave edges out.
   Inside inside() const;
+
+  /// All that the chip is at now(), as bytes for restore(), in this process or another; as many for every chip of this
+  /// version. Who watches and listens is no part of it. Not from a sink. On the heap.
+  std::vector<std::uint8_t> save() const;
+  /// The chip is the one that was saved, at its tick, and goes on as that one did: pin changes, events and what is
+  /// saved again are the same. Sinks and watched pins stay; that pins have other levels than a moment ago is told to
+  /// nobody. Throws StateError, and the chip is as before, when the bytes are not what save() gave, cut or damaged, of
+  /// another version, part or parameters. Config::engine may be another one. Not from a sink.
+  void restore(const std::uint8_t* bytes, std::size_t size);
 
  private:
   struct Impl;

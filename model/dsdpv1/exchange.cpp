@@ -26,7 +26,7 @@ std::uint8_t flag_bit(std::uint16_t to) {
 }  // namespace
 
 // News in the order in which they are looked for (UA10), then the outputs.
-const Exchange::Area Exchange::kAreas[] = {
+const Exchange::Area Exchange::kAreas[kAreaCount] = {
     {regs::kPrm, 1, regs::kPrmDataSize, 0x10, regs::kChipCommand1Prm, false},
     {regs::kCfg, 3, regs::kCfgDataSize, 0x20, regs::kChipCommand1Cfg, false},
     {regs::kC1, 4, regs::kC1DataSize, 0x04, regs::kChipCommand2C1, true},
@@ -104,6 +104,14 @@ void Exchange::clear() {
   const std::uint8_t flags = area_->second ? chip_command2_ : chip_command1_;
   ram_.write(area_->second ? regs::kChipCommand2 : regs::kChipCommand1,
              flags & static_cast<std::uint8_t>(~area_->flag));
+}
+
+bool Exchange::is_possible(int index) const {
+  if (sent_ > HostTelegram::kMostData) return false;
+  const int reply = index - kReads - sent_ - 1;
+  if (reply <= 0) return true;
+  if (area_ == nullptr || header_ != area_->header) return false;
+  return reply <= header_ || reply - 1 < header_ + rest_ + (clears() ? 1 : 0);
 }
 
 std::uint8_t Exchange::length_byte() const {

@@ -24,6 +24,22 @@ class Exchange {
   /// What the reply's length byte says (UA12).
   std::uint8_t length_byte() const;
 
+  /// `block`: what start() got.
+  template <class Archive>
+  void store(Archive& archive, const std::uint8_t* block) {
+    auto& [ram, cfg_length, to, sent, from, flags, chip_command1, chip_command2, area, function, header, rest, data] =
+        *this;
+    archive.given(ram, cfg_length);
+    archive(to, flags, chip_command1, chip_command2, function, data);
+    archive.within(0, 0xFF, sent);
+    archive.within(0, kMostHeader, header);
+    archive.within(0, kMostRest, rest);
+    archive.place(area, kAreas, kAreaCount - 1);
+    if constexpr (Archive::kReads) from = block;
+  }
+  /// Move `index` is one that start() and the moves before it lead to.
+  bool is_possible(int index) const;
+
  private:
   /// An area that a reply may carry.
   struct Area {
@@ -34,7 +50,8 @@ class Exchange {
     std::uint8_t flag;      ///< bit of B00E or B00F
     bool second;            ///< B00F
   };
-  static const Area kAreas[];
+  static constexpr int kAreaCount = 5, kMostHeader = 4, kMostRest = 245;
+  static const Area kAreas[kAreaCount];
 
   bool move_reply(int index, bool data_exch);
   void choose(bool data_exch);

@@ -27,6 +27,12 @@ class Handshake {
   /// H1: the chip keeps off the DPRAM while one of the two is high.
   bool user_holds() const { return r_req() || r_sta(); }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [req, sta] = *this;
+    archive(req, sta);
+  }
+
  private:
   profibus::Synchroniser r_req_{false}, r_sta_{false};
 };

@@ -79,6 +79,25 @@ bool HostCommit::move_read_and_write(int index, Cycle now) {
   return false;
 }
 
+bool HostCommit::is_of(const Request& request) const {
+  const Kind kind = request.command == Command::kRead    ? Kind::kRead
+                    : request.command == Command::kWrite ? Kind::kWrite
+                                                         : Kind::kExchange;
+  return kind == kind_ && request.length == length_;
+}
+
+// The next move is one of those to come.
+bool HostCommit::is_possible() const {
+  constexpr int kFlagMoves = 4;
+  switch (kind_) {
+    case Kind::kWrite: return index_ < length_ && length_ <= HostTelegram::kMostData;
+    case Kind::kRead: return index_ < length_ && length_ <= kMostRead;
+    case Kind::kReadAndWrite: return index_ < length_ + kFlagMoves && length_ <= kMostReadAndWrite + 1;
+    case Kind::kExchange: return exchange_.is_possible(index_);
+  }
+  return false;
+}
+
 void HostCommit::put(regs::Address address, std::uint8_t byte, Cycle now) {
   if (chips_own(address)) log_.at_cycle(now, Reason::kReadOnlyWritten, address, byte);
   ram_.write(address, byte);

@@ -13,7 +13,7 @@ class HostCommit {
   HostCommit(profibus::EventLog& log, dpram::Ram& ram, bool cfg_length)
       : log_(log), ram_(ram), exchange_(ram, cfg_length) {}
 
-  static constexpr int kNobody = -1;
+  static constexpr int kNobody = -1, kMostMoves = 1024;
 
   void reset() { state_ = State::kIdle; }
   /// Judged at `now`; `data` stays until the commit is done. Of `write`: `owner` is the cell that is left alone (B014
@@ -32,6 +32,25 @@ class HostCommit {
   /// Of the last read, its data; of the last exchange, its answer.
   const std::uint8_t* data() const { return read_.data(); }
   const Exchange& answer() const { return exchange_; }
+  /// What it is busy with is `request`.
+  bool is_of(const Request& request) const;
+
+  /// `data`: of the telegram that it carries out.
+  template <class Archive>
+  void store(Archive& archive, const std::uint8_t* data) {
+    auto& [log, ram, exchange, state, kind, next, index, base, length, owner, from, user_command, chip_command, read] =
+        *this;
+    archive.given(log, ram);
+    exchange.store(archive, data);
+    archive.within(State::kIdle, State::kMoves, state);
+    archive.within(Kind::kWrite, Kind::kExchange, kind);
+    archive.cycles(next);
+    archive.within(0, kMostMoves, index, length);
+    archive.within(kNobody, kHighestLevel, owner);
+    archive(base, user_command, chip_command, read);
+    if constexpr (Archive::kReads) from = data;
+    archive.check(state == State::kIdle || is_possible());
+  }
 
  private:
   enum class State : std::uint8_t { kIdle, kWaits, kMoves };
@@ -41,6 +60,7 @@ class HostCommit {
   void move_write(int index, Cycle now);
   bool move_read_and_write(int index, Cycle now);
   void put(regs::Address address, std::uint8_t byte, Cycle now);
+  bool is_possible() const;
 
   profibus::EventLog& log_;
   dpram::Ram& ram_;

@@ -48,6 +48,21 @@ class HostPort {
   /// D as a user who samples it at `at` may take it: X before Tw (P5).
   Level user_samples(Tick at);
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, ram, enabled, csr, rd, wr, r_req, r_sta, a, d_in, wr_fell, lines_changed, captured, hold_reported,
+           writes, first_write, write_count, reading, read_spoilt, tw_reported, read_began, sample_at, drive_at,
+           sampled, d_out, captured_address] = *this;
+    archive.given(log, ram);
+    archive(enabled, csr, rd, wr, r_req, r_sta, hold_reported, writes, reading, read_spoilt, tw_reported);
+    archive.within(0, kHighestLevel, a, captured_address);
+    archive.within(kLevelX, kHighestLevel, d_in, sampled, d_out);
+    archive.ticks(wr_fell, lines_changed, captured, read_began, drive_at);
+    archive.within(0U, kWritesInFlight - 1, first_write);
+    archive.within(0U, kWritesInFlight, write_count);
+    archive.cycles(sample_at);
+  }
+
  private:
   static constexpr unsigned kWritesInFlight = 4;
   struct Write {
@@ -55,6 +70,13 @@ class HostPort {
     regs::Address address = 0;
     std::uint8_t value = 0;
     bool good = true;
+
+    template <class Archive>
+    void store(Archive& archive) {
+      auto& [at, cell, byte, right] = *this;
+      archive.cycles(at);
+      archive(cell, byte, right);
+    }
   };
   void chip_select(Tick at, bool level);
   void read_strobe(Tick at, bool level);

@@ -45,6 +45,16 @@ struct Request {
   int bytes = 0;              ///< altogether, the CRC included
   std::uint16_t crc = 0, computed = 0;
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [kind, what, cell, data, all, sent, made] = *this;
+    archive.within(0, 3, kind);  // 3 is none: no telegram
+    archive(what, cell, sent, made);
+    archive.within(0, 0xFF, data);
+    archive.within(0, kMostBytes, all);
+  }
+  static constexpr int kMostBytes = 0xFF + 7;  ///< of the longest: data, header of an exchange, CRC
+
   regs::Address base() const { return address % regs::kDpramSize; }
   bool covers(regs::Address cell) const { return base() <= cell && cell < base() + length; }
   bool crc_right() const { return crc == computed; }
@@ -77,6 +87,15 @@ class HostTelegram {
   std::uint8_t judge(const Request& request, profibus::Cycle now, profibus::EventLog& log) const;
 
   static constexpr int kMostData = 250;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [rules, count, bytes, start, crc, request, data] = *this;
+    archive.given(rules);
+    archive.within(0, 1 << 30, count);
+    archive.within(0, Request::kMostBytes, bytes);
+    archive(start, crc, request, data);
+  }
 
  private:
   void begin(std::uint8_t byte);

@@ -28,6 +28,24 @@ class HostUart {
   /// No access of the chip begins: after eval().
   bool holds() const { return commit_.busy(); }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, ram, config, rx, tx, telegram, commit, state, address, interval, bit, gap, judge_at, judged, earliest,
+           request_end, fall_reported, request, reply, size] = *this;
+    archive.given(log, ram, config);
+    archive(rx, telegram, fall_reported, request, reply);
+    tx.store(archive, reply.data(), kMostReply);
+    commit.store(archive, telegram.data());
+    archive.within(State::kOff, State::kReply, state);
+    archive.within(0, 3, address);
+    archive.within(0, 7, interval);
+    archive.within(0, kUbrCycles[0], bit);
+    archive.lengths(gap);
+    archive.cycles(judge_at, judged, earliest, request_end);
+    archive.within(0, kMostReply, size);
+    archive.check(!commit.busy() || (state == State::kReply && size == 0 && commit.is_of(request)));
+  }
+
  private:
   enum class State : std::uint8_t {
     kOff,
@@ -69,7 +87,8 @@ class HostUart {
   Cycle request_end_ = 0;
   bool fall_reported_ = false;
   Request request_;
-  std::array<std::uint8_t, 264> reply_{};
+  static constexpr int kMostReply = 264;
+  std::array<std::uint8_t, kMostReply> reply_{};
   int size_ = 0;
 };
 

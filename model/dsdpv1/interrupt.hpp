@@ -30,6 +30,13 @@ class Interrupt {
   Cycle next() const { return std::min(fall_, rise_); }
   bool level() const { return rise_ == profibus::kNever; }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [low, gap, fall, rise, ready] = *this;
+    archive.given(low, gap);
+    archive.cycles(fall, rise, ready);
+  }
+
  private:
   Cycle low_, gap_;
   Cycle fall_ = profibus::kNever, rise_ = profibus::kNever;

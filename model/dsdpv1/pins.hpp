@@ -55,6 +55,7 @@ constexpr int pin_count(Part part) { return part == Part::kRsu ? kRsuPinCount : 
 using Level = std::int16_t;
 constexpr Level kLevelZ = -1;
 constexpr Level kLevelX = -2;
+constexpr Level kHighestLevel = 0x7FF;  ///< of A
 
 /// Table 1's name of a pin ("L_REQ"); D_IN and D_OUT for the two directions of D.
 const char* name(Pin pin);

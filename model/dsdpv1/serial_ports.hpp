@@ -39,8 +39,19 @@ class SerialPorts {
   Tick drive_at() const { return spi_.shift().drive_at(); }
   void drive() { spi_.shift().drive(); }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, config, mode, running, straps, in_force, spi, uart] = *this;
+    archive.given(log, config);
+    archive.within(HostMode::kParallel, HostMode::kUart, mode);
+    for (std::size_t i = 0; i < kStraps; ++i) archive.within(0, kHighestStrap, straps[i], in_force[i]);
+    archive(running, spi, uart);
+    archive.check(!live() || config.part == Part::kRsu);
+  }
+
  private:
   static constexpr std::size_t kStraps = 4;  // MODE, ADR, UBR, UIV
+  static constexpr Level kHighestStrap = 7;
   static std::size_t strap(Pin pin) { return static_cast<std::size_t>(pin) - static_cast<std::size_t>(Pin::kMode); }
   void set_strap(Tick at, Pin pin, Level level);
 

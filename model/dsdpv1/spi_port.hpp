@@ -29,6 +29,21 @@ class SpiPort {
     return static_cast<std::uint8_t>((claimed_ ? regs::kOwnershipHost : 0) | (owns ? regs::kOwnershipChip : 0));
   }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, ram, config, shift, telegram, commit, reply, address, xss, flip, frame, bytes, gap_until, write_ended,
+           request, frame_over, replies, frame_holds, judge_at, load_at, load_slot, load_value, claimed, claimed_at,
+           u_at] = *this;
+    archive.given(log, ram, config);
+    archive(shift, telegram, reply, xss, flip, request, frame_over, replies, frame_holds, load_value, claimed);
+    commit.store(archive, telegram.data());
+    archive.within(0, 3, address);
+    archive.within(Frame::kNone, Frame::kComplete, frame);
+    archive.within(0, 1 << 30, bytes, load_slot);
+    archive.cycles(gap_until, judge_at, load_at, claimed_at, u_at);
+    archive.ticks(write_ended);
+  }
+
  private:
   enum class Frame : std::uint8_t {
     kNone,      // XSS is high

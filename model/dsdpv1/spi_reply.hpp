@@ -39,8 +39,16 @@ class SpiReply {
   /// Bytes of the whole; 0 as long as the number of outputs is not read.
   int size() const { return data_ == kOutputs ? 0 : kHead + data_ + 2; }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [start, code, data, next, crc] = *this;
+    archive(start, code, crc);
+    archive.within(kOutputs, 0xFF, data);
+    archive.within(-kMostGap, kMostBytes, next);
+  }
+
  private:
-  static constexpr int kHead = 2;
+  static constexpr int kHead = 2, kMostGap = 16, kMostBytes = 1 << 30;
   static std::uint8_t limited(std::uint8_t outputs) {
     return outputs > regs::kOutputDataSize ? static_cast<std::uint8_t>(regs::kOutputDataSize) : outputs;
   }

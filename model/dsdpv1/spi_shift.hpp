@@ -51,12 +51,37 @@ class SpiShift {
   Tick drive_at() const { return pending_count_ > 0 ? pending_[0].at : profibus::kNever; }
   void drive();
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, strobe, data, delay, xss, sck, mosi, xss_seen, flip_seen, listening, listening_since, bits, bits_before,
+           bits_at, shift, byte, flip, byte_at, tx, tx_before, loaded_at, miso, pending, pending_count, fell_at,
+           rose_at, sck_rise, sck_fall, sck_fall_before, rise_bit, first_rise, hold_due] = *this;
+    archive.given(log, strobe, data, delay);
+    archive(xss, sck, mosi, xss_seen, flip_seen, listening, bits, bits_before, shift, byte, flip, tx, tx_before);
+    archive(pending, rise_bit, first_rise, hold_due);
+    archive.ticks(listening_since, bits_at, byte_at, loaded_at, fell_at, rose_at, sck_rise, sck_fall, sck_fall_before);
+    archive.within(kLevelX, Level{1}, miso);
+    archive.within(0U, kPending, pending_count);
+    archive.check(are_in_order(pending.data(), pending.data() + pending_count));
+  }
+
  private:
   static constexpr unsigned kPending = 8;  // changes of MISO on their way: a period of SCK is 250 ticks or more
   struct Change {
     Tick at = 0;
     Level level = 0;
+
+    template <class Archive>
+    void store(Archive& archive) {
+      auto& [when, next] = *this;
+      archive.ticks(when);
+      archive.within(kLevelX, Level{1}, next);
+    }
   };
+  static bool are_in_order(const Change* begin, const Change* end) {
+    return std::is_sorted(
+        begin, end, [](const Change& a, const Change& b) { return a.at < b.at; });
+  }
   void begin_frame(Tick at);
   void end_frame(Tick at);
   void rise(Tick at);

@@ -25,6 +25,13 @@ class Wire {
 
   static constexpr profibus::Tick kLongAgo = -1'000'000'000;
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [level, before, changed, changed_before] = *this;
+    archive(level, before);
+    archive.ticks(changed, changed_before);
+  }
+
  private:
   bool level_, before_;
   profibus::Tick changed_ = kLongAgo, changed_before_ = kLongAgo;

@@ -30,6 +30,13 @@ class BaudIndex {
   constexpr int bit_cycles() const { return kBitCycles[static_cast<std::size_t>(code_)]; }
   constexpr int max_tsdr() const { return kMaxTsdr[static_cast<std::size_t>(code_)]; }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [code] = *this;
+    archive.within(0, 15, code);
+    archive.check(known() || *this == BaudIndex());
+  }
+
   friend constexpr bool operator==(BaudIndex a, BaudIndex b) { return a.code_ == b.code_; }
   friend constexpr bool operator!=(BaudIndex a, BaudIndex b) { return !(a == b); }
 

@@ -33,6 +33,15 @@ class BaudSearch {
   int bit() const { return index_.bit_cycles(); }
   int max_tsdr() const { return index_.max_tsdr(); }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [window, bits, deadline, index, searching] = *this;
+    archive.given(window, bits);
+    archive.cycles(deadline);
+    archive(index, searching);
+    archive.check(index_.known());
+  }
+
  private:
   void select(BaudIndex index, Cycle now) {
     index_ = index;

@@ -38,6 +38,13 @@ class Diagnosis {
   void cfg_fault() { cfg_fault_ = true; }
   void cfg_good() { cfg_fault_ = false; }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [prm_fault, not_supported, cfg_fault, ext_diag, stat_diag, unread, user, answer] = *this;
+    archive(prm_fault, not_supported, cfg_fault, ext_diag, stat_diag, unread, user);
+    archive.scratch(answer);
+  }
+
  private:
   static constexpr int kStandard = 6;
   bool prm_fault_ = false, not_supported_ = false, cfg_fault_ = false;

@@ -60,12 +60,33 @@ class DpSlave {
   const SlaveConfig& config() const { return config_; }
   RmRegistry rm_registry() const { return msac2_.registry(); }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, watchdog, capacities, mail, config, state, address, address_locked, master, prm, prm_awaited,
+           cfg_awaited, min_tsdr, cfg, outputs, inputs, diagnosis, msac1, msac2, data_exchanges, outputs_replaced] =
+        *this;
+    archive.given(log, watchdog, capacities, mail);
+    archive.within(DpState::kOffline, DpState::kDataExch, state);
+    archive.within(0, 0xFF, min_tsdr);
+    archive(config, address, address_locked, master, prm, prm_awaited, cfg_awaited, cfg, outputs, inputs, diagnosis);
+    archive(msac1, msac2, data_exchanges, outputs_replaced);
+  }
+
  private:
   struct PrmRequest {  // a Set_Prm that passed the checks of its standard bytes
     std::uint8_t master = kNoMaster, min_tsdr = 0, group = 0;
     bool watchdog = false, sync = false, freeze = false, fail_safe = false, dpv1 = false;
     unsigned watchdog_factor = 0, watchdog_base_ms = 0;  ///< WD_Fact_1 x WD_Fact_2, WD_Base
     int user_size = 0;
+
+    template <class Archive>
+    void store(Archive& archive) {
+      auto& [sender, tsdr, groups, watches, syncs, freezes, fails_safe, has_dpv1, factor, base_ms, size] = *this;
+      archive(sender, tsdr, groups, watches, syncs, freezes, fails_safe, has_dpv1);
+      archive.within(0U, 0xFFU * 0xFFU, factor);
+      archive.within(0U, 10U, base_ms);
+      archive.within(0, kMaxUserPrm, size);
+    }
   };
 
   // dp_slave.cpp

@@ -18,6 +18,15 @@ class Fdl {
   bool addressed(Cycle now, const Telegram& telegram, std::uint8_t address, Request& request);
   /// Executes the request, or recognises a repetition. The frame to be sent, null for none.
   const Frame* execute(Cycle now, const Telegram& telegram, const Request& request, DpSlave& slave);
+  /// The one that was executed last.
+  const Frame& answer() const { return answer_; }
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, memory, frame] = *this;
+    archive.given(log);
+    archive(memory, frame);
+  }
 
  private:
   /// What makes a request the same again (S26).
@@ -25,6 +34,12 @@ class Fdl {
     bool valid = false;
     std::uint8_t sa = 0, fc = 0, fcs = 0;
     int dsap = kNoSap, ssap = kNoSap, size = 0;
+
+    template <class Archive>
+    void store(Archive& archive) {
+      auto& [right, from, code, sum, to_sap, from_sap, length] = *this;
+      archive(right, from, code, sum, to_sap, from_sap, length);
+    }
   };
   bool take_saps(Cycle now, const Telegram& telegram, Request& request);
   bool repetition(const Telegram& telegram, const Request& request) const;

@@ -16,6 +16,14 @@ class Msac1 {
   /// The user's answer, CRC already found right. Refused with a reason when it does not fit (V14).
   void answer(Cycle now, const std::uint8_t* pdu, int size);
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, capacity, mail, state, reply] = *this;
+    archive.given(log, capacity, mail);
+    archive.within(State::kIdle, State::kAnswered, state);
+    archive(reply);
+  }
+
  private:
   enum class State : std::uint8_t { kIdle, kOpen, kAnswered };
 

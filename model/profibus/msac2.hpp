@@ -28,6 +28,15 @@ class Msac2 {
 
   RmRegistry registry() const;
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, capacity, mail, channels, turn, reply] = *this;
+    archive.given(log, capacity, mail);
+    archive(channels);
+    archive.within(kNobody, kC2Channels - 1, turn);
+    archive.scratch(reply);
+  }
+
  private:
   enum class State : std::uint8_t { kFree, kInitiated, kOpen, kBusy, kAnswered, kAborted };
 
@@ -40,6 +49,15 @@ class Msac2 {
     Cycle watch = kNever;           ///< F or I ends
     Cycle user = kNever;            ///< U ends
     Pdu pdu;                        ///< Initiate, then the request, then its answer
+
+    template <class Archive>
+    void store(Archive& archive) {
+      auto& [is, lent_to, reason, most, most_idle, watch_ends, user_ends, bytes] = *this;
+      archive.within(State::kFree, State::kAborted, is);
+      archive(lent_to, reason, bytes);
+      archive.lengths(most, most_idle);
+      archive.cycles(watch_ends, user_ends);
+    }
   };
   static constexpr int kNobody = -1;
 

@@ -46,8 +46,16 @@ struct Reply {
 
 /// A telegram ready to be sent.
 struct Frame {
-  std::array<std::uint8_t, 256> bytes{};
+  static constexpr int kMost = 256;
+  std::array<std::uint8_t, kMost> bytes{};
   int size = 0;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [all, used] = *this;
+    archive(all);
+    archive.within(0, kMost, used);
+  }
 };
 
 /// Puts a reply into a frame for the sender of `request` (rulings S20, S21). `address`: this station.

@@ -29,6 +29,12 @@ struct Block {
   bool equals(const std::uint8_t* other, int count) const {
     return size == count && std::memcmp(bytes.data(), other, static_cast<std::size_t>(count)) == 0;
   }
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [all, used] = *this;
+    archive(all);
+    archive.within(0, N, used);
+  }
 };
 
 using IoBlock = Block<kMaxIo>;
@@ -59,6 +65,12 @@ class DoubleBuffer {
   bool held() const { return held_; }
   int size() const { return first_.size; }
   const IoBlock& shown() const { return second_; }
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [first, second, held] = *this;
+    archive(first, second, held);
+  }
 
  private:
   IoBlock first_, second_;

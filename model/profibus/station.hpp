@@ -93,6 +93,17 @@ class Station {
   std::uint64_t telegrams_received() const { return received_; }
   std::uint64_t telegrams_answered() const { return answered_; }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, config, rx, telegrams, search, watchdog, user, slave, fdl, tx, timers, for_others, received, answered] =
+        *this;
+    archive.given(log, config, timers);
+    archive(rx, telegrams, search, watchdog, user, slave, fdl);
+    tx.store(archive, fdl.answer().bytes.data(), Frame::kMost);
+    archive(for_others, received, answered);
+    if constexpr (Archive::kReads) plan_timers();
+  }
+
  private:
   friend class UserSide;  // carries out its commands
   void initialise(Cycle now, const SlaveConfig& config);

@@ -33,11 +33,26 @@ class Synchroniser {
   Cycle next() const { return count_ > 0 ? changes_[first_].cycle : kNever; }
   bool level() const { return level_; }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [changes, first, count, level, input] = *this;
+    archive(changes, level, input);
+    archive.within(0U, kDepth - 1, first);
+    archive.within(0U, kDepth, count);
+  }
+
  private:
   static constexpr unsigned kDepth = 4;  // at most the three edges still on their way, and the one being sampled
   struct Change {
     Cycle cycle = 0;
     bool level = false;
+
+    template <class Archive>
+    void store(Archive& archive) {
+      auto& [at, high] = *this;
+      archive.cycles(at);
+      archive(high);
+    }
   };
   Change& slot(unsigned i) { return changes_[(first_ + i) % kDepth]; }
 

@@ -182,9 +182,18 @@ void TelegramRx::fail(Cycle now, Reason reason, unsigned a, unsigned b) {
 }
 
 void TelegramRx::count_unsynced() {
-  constexpr unsigned kMost = 0xFFFF;  // an event's numbers have 16 bits
   given_up_ = true;
-  if (!quiet_ && unsynced_ < kMost) ++unsynced_;
+  if (!quiet_ && unsynced_ < kMostUnsynced) ++unsynced_;
+}
+
+// While one is received it comes to its end before the bytes do.
+bool TelegramRx::is_possible() const {
+  if (state_ != State::kReceiving) return true;
+  const bool length_known = bytes_[0] == sd::kSd2 && count_ >= 3;
+  if (length_known && (bytes_[1] < kMinLe || bytes_[1] > kMaxLe)) return false;
+  const bool header_over = bytes_[0] == sd::kSd2 && count_ >= kSd2Header;
+  const int expected = header_over ? bytes_[1] + kSd2Frame : expected_size(bytes_[0]);
+  return expected_ == expected && count_ > 0 && count_ < expected;
 }
 
 void TelegramRx::report_unsynced(Cycle now) {

@@ -20,6 +20,18 @@ struct Telegram {
   Cycle end = 0;        ///< calculated end of the last stop bit
   bool synced = false;  ///< T_SYN went before it; answers of other stations have none
   int idle_bits = 0;    ///< whole bit times of idle before it; a large number says little
+
+  /// `from`: the bytes that `data` is of, `most` and one.
+  template <class Archive>
+  void store(Archive& archive, const std::uint8_t* from, int most) {
+    auto& [delimiter, to, sender, function, sum, bytes, length, ended, after_syn, idle] = *this;
+    archive(delimiter, to, sender, function, sum, after_syn, idle);
+    archive.within(0, kMostData, length);
+    archive.place(bytes, from, most - kMostData);
+    archive.cycles(ended);
+    archive.check(length == 0 || bytes != nullptr);
+  }
+  static constexpr int kMostData = 246;  ///< LE of 249 less DA, SA, FC
 };
 
 class TelegramRx {
@@ -55,6 +67,19 @@ class TelegramRx {
   Cycle deadline() const { return in_telegram() ? deadline_ : kNever; }
   const Telegram& telegram() const { return telegram_; }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [log, state, quiet, given_up, unsynced, count, expected, deadline, bytes, telegram] = *this;
+    archive.given(log);
+    archive.within(State::kWaitSyn, State::kComplete, state);
+    archive(quiet, given_up, bytes);
+    archive.within(0U, kMostUnsynced, unsynced);
+    archive.within(0, kMostBytes - 1, count, expected);
+    archive.cycles(deadline);
+    telegram.store(archive, bytes.data(), kMostBytes - 1);
+    archive.check(is_possible());
+  }
+
  private:
   enum class State : std::uint8_t { kWaitSyn, kReceiving, kComplete };
   bool in_telegram() const { return state_ != State::kWaitSyn; }
@@ -66,6 +91,7 @@ class TelegramRx {
   void fail(Cycle now, Reason reason, unsigned a = 0, unsigned b = 0);
   void count_unsynced();
   void report_unsynced(Cycle now);
+  bool is_possible() const;
 
   EventLog& log_;
   State state_ = State::kWaitSyn;
@@ -74,7 +100,9 @@ class TelegramRx {
   unsigned unsynced_ = 0;  // faulty telegrams without T_SYN that were not reported yet (S8)
   int count_ = 0, expected_ = 0;
   Cycle deadline_ = kNever;
-  std::array<std::uint8_t, 256> bytes_{};
+  static constexpr int kMostBytes = 256;
+  static constexpr unsigned kMostUnsynced = 0xFFFF;  // an event's numbers have 16 bits
+  std::array<std::uint8_t, kMostBytes> bytes_{};
   Telegram telegram_;
 };
 

@@ -16,6 +16,13 @@ struct Character {
   std::uint8_t value = 0;
   bool parity_ok = false;
   bool stop_ok = false;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [begin, before, byte, even, ended] = *this;
+    archive.cycles(begin, before);
+    archive(byte, even, ended);
+  }
 };
 
 /// Times of changes of the line that need not be told at once; none when `from` is kNever.
@@ -96,6 +103,22 @@ class UartRx {
   /// Where the present character() was complete.
   Cycle completed() const { return character_.start + to_stop(); }
   int bit() const { return bit_; }
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [edges, first, count, line, input, state, bit, index, shift, sample, idle_since, character, run, run_size,
+           run_index, run_start, run_edge, at_once, left_run] = *this;
+    for (Cycle& each : edges) archive.cycles(each);
+    archive.within(0U, kDepth - 1, first);
+    archive.within(0U, kDepth, count);
+    archive.within(State::kIdle, State::kBreak, state);
+    archive.within(1, kBitCycles[kBaudCount - 1], bit);
+    archive.within(0, kStopIndex, index);
+    archive.cycles(sample, idle_since, run_start);
+    archive.ticks(run_edge);
+    archive.within(0, kLongestRun, run_size, run_index);
+    archive(line, input, shift, character, run, at_once, left_run);
+  }
 
  private:
   static constexpr int kStopIndex = 10;

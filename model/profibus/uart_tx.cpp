@@ -47,6 +47,14 @@ bool UartTx::eval(Cycle now) {
   return false;
 }
 
+// What is left to be sent lies within the bytes.
+bool UartTx::is_possible() const {
+  if (next_ == kNever) return true;
+  if (bytes_ == nullptr || end_ != begin_ + Cycle{size_} * kBitsPerCharacter * bit_) return false;
+  const Cycle sent = begin_ + (Cycle{kBitsPerCharacter} * (bytes_ - frames_) - frame_bits_) * bit_;
+  return next_ < begin_ ? sent == begin_ : next_ == sent || next_ == released();
+}
+
 void UartTx::load() {
   frame_ = frame_of(*bytes_++);
   frame_bits_ = kBitsPerCharacter;

@@ -40,8 +40,24 @@ class UartTx {
   Cycle end() const { return end_; }                ///< end of the last stop bit
   Cycle released() const { return end_ + trail_; }  ///< PBRTS falls
 
+  /// `from`: what is sent, in whole; at most `most` bytes.
+  template <class Archive>
+  void store(Archive& archive, const std::uint8_t* from, int most) {
+    auto& [frames, bytes, size, bit, begin, end, trail, next, frame, frame_bits, txd, rts] = *this;
+    archive.within(0, most, size);
+    archive.within(0, kBitCycles[kBaudCount - 1], bit);
+    archive.cycles(begin, end, next);
+    archive.lengths(trail);
+    archive.within(0, kBitsPerCharacter, frame_bits);
+    archive(frame, txd, rts);
+    archive.place(bytes, from, size);
+    if constexpr (Archive::kReads) frames = from;
+    archive.check(is_possible());
+  }
+
  private:
   void load();
+  bool is_possible() const;
 
   const std::uint8_t *frames_ = nullptr, *bytes_ = nullptr;
   int size_ = 0;

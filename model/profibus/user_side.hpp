@@ -34,6 +34,18 @@ struct SlaveConfig {
   int max_input = 0, max_output = 0, max_diag = 0, max_prm = 0, max_cfg = 0;
   Judging prm_mode{}, cfg_mode{};
   Block<kMaxCfg> cfg;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [own, number, fail_safe, sync, freeze, change, has_dpv1, input, output, diag, prm, most_cfg, by_prm, by_cfg,
+           first] = *this;
+    archive(own, number, fail_safe, sync, freeze, change, has_dpv1, first);
+    archive.within(0, kMaxIo, input, output);
+    archive.within(0, kMaxDiag, diag);
+    archive.within(0, kMaxUserPrm, prm);
+    archive.within(0, kMaxCfg, most_cfg);
+    archive.within(Judging::kMaximum, Judging::kUser, by_prm, by_cfg);
+  }
 };
 
 /// Something that waits to be handed to the user since a cycle; kNever: nothing waits.
@@ -45,49 +57,104 @@ struct Due {
   bool waiting() const { return since != kNever; }
   /// Set before the cycle `now`: whoever acts at `now` sees what was there before its edge.
   bool before(Cycle now) const { return since < now; }
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [at] = *this;
+    archive.cycles(at);
+  }
 };
 
 /// The user parameters of a Set_Prm.
 struct PrmMail {
   Due due;
   Block<kMaxUserPrm> block;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [waits, prm] = *this;
+    archive(waits, prm);
+  }
 };
 /// The identifiers of a Check_Cfg, and the lengths that they describe.
 struct CfgMail {
   Due due;
   Block<kMaxCfg> block;
   int output = 0, input = 0;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [waits, cfg, outputs, inputs] = *this;
+    archive(waits, cfg, outputs, inputs);
+  }
 };
 /// New outputs; what they are at present: UserSide::outputs().
 struct OutputMail {
   Due due;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [waits] = *this;
+    archive(waits);
+  }
 };
 /// A Global_Control that was carried out.
 struct ControlMail {
   Due due;
   std::uint8_t command = 0, group = 0, master = 0;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [waits, control, groups, sender] = *this;
+    archive(waits, control, groups, sender);
+  }
 };
 /// A Set_Slave_Address that was carried out.
 struct AddressMail {
   Due due;
   std::uint8_t address = 0;
   bool locked = false;  ///< No_Add_Chg: no further change
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [waits, given, stays] = *this;
+    archive(waits, given, stays);
+  }
 };
 /// The state of the slave, due when it changes, and how often data exchange was left since reset.
 struct StateMail {
   Due due;
   DpState state = DpState::kOffline;
   std::uint16_t exchanges_left = 0;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [waits, present, left] = *this;
+    archive(waits, left);
+    archive.within(DpState::kOffline, DpState::kDataExch, present);
+  }
 };
 /// The baud rate: found, or searched again.
 struct BaudMail {
   Due due;
   BaudIndex index;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [waits, found] = *this;
+    archive(waits, found);
+  }
 };
 /// A C1 or C2 request for the user. It stays in `pdu` after it was taken, until the next one.
 struct AcyclicMail {
   Due due;
   Pdu pdu;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [waits, request] = *this;
+    archive(waits, request);
+    archive.check(!due.waiting() || pdu.size > 0);
+  }
 };
 
 /// What the user side hears.
@@ -100,6 +167,12 @@ struct UserMail {
   StateMail state;
   BaudMail baud;
   AcyclicMail c1, c2;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [to_prm, to_cfg, to_output, to_control, to_address, to_state, to_baud, to_c1, to_c2] = *this;
+    archive(to_prm, to_cfg, to_output, to_control, to_address, to_state, to_baud, to_c1, to_c2);
+  }
 };
 
 class UserSide {
@@ -126,6 +199,13 @@ class UserSide {
   /// the request (V14).
   void c1_answer(Cycle now, const std::uint8_t* pdu, int size);
   void c2_answer(Cycle now, const std::uint8_t* pdu, int size);
+
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [station, mail] = *this;
+    archive.given(station);
+    archive(mail);
+  }
 
  private:
   Station& station_;

@@ -39,6 +39,15 @@ class Watchdog {
   Cycle next() const { return deadline_; }
   State state() const { return state_; }
 
+  template <class Archive>
+  void store(Archive& archive) {
+    auto& [baud_control, time, deadline, state] = *this;
+    archive.given(baud_control);
+    archive.lengths(time);
+    archive.cycles(deadline);
+    archive.within(State::kBaudSearch, State::kDpControl, state);
+  }
+
  private:
   Cycle baud_control_;
   Cycle time_ = 0;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
+
 #include "model/profibus/addressee.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
@@ -39,6 +41,9 @@ void compare_lists(const std::vector<T>& skip, const std::vector<T>& other, std:
 }
 
 constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
+
+// Comparisons, each after an operation of the bench.
+constexpr unsigned kRestoredEvery = 100;
 
 }  // namespace
 
@@ -139,6 +144,7 @@ void TwinChip::compare(Tick at) {
   compare_lists(unwatched_trace_, doze_trace_, compared_doze_pins_, "doze");
   compare_lists(events_, doze_events_, compared_doze_events_, "doze");
   compare_state();
+  if (++comparisons_ % kRestoredEvery == 0) restore_one();
   filter_for_doze();
 }
 
@@ -148,6 +154,14 @@ void TwinChip::compare_state() const {
   ASSERT_EQ(doze_.status().accesses, step_.status().accesses);
   ASSERT_EQ(doze_.status().telegrams_received, step_.status().telegrams_received);
   ASSERT_EQ(doze_.peek(dsdpv1::regs::kAccessCount), step_.peek(dsdpv1::regs::kAccessCount));
+}
+
+void TwinChip::restore_one() {
+  dsdpv1::Chip* const chips[] = {&skip_, &step_, &doze_};
+  dsdpv1::Chip& chip = *chips[comparisons_ / kRestoredEvery % std::size(chips)];
+  const std::vector<std::uint8_t> state = chip.save();
+  chip.restore(state.data(), state.size());
+  ASSERT_TRUE(chip.save() == state) << "what was restored is saved again as it was";
 }
 
 void TwinChip::on_skip_pin(void* self, Tick at, Pin pin, Level level) {

@@ -2,7 +2,8 @@
 // The chip under test, three times: one evaluated in every cycle (step), one sleeping between its actions (skip), and
 // one whose L_REQ and L_STA nobody watches, so that it sleeps through quiet accesses, too, and which hears whole runs
 // of characters, but for those of others, or else the line as late as it may (doze); fed with the same pins. Every
-// difference of pins or events fails the test, so each conformance test also proves that they agree.
+// difference of pins or events fails the test, so each conformance test also proves that they agree. From time to time
+// one of them goes on from what it has saved (Chip::save), so that it also proves that nothing is forgotten there.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -59,6 +60,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
   void filter_for_doze();
   void leave_run_with_doze(Tick at);
   void compare_state() const;
+  void restore_one();
 
   /// Hears for doze_.
   class Ear : public bus::Listener {
@@ -85,6 +87,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
   std::vector<Unheard> unheard_;  // changes of the line that doze_ has not been told yet
   std::vector<PinChange> trace_, step_trace_, unwatched_trace_, doze_trace_;  // unwatched: trace_ without L_REQ, L_STA
   std::vector<profibus::Event> events_, step_events_, doze_events_;
+  unsigned comparisons_ = 0;
   std::size_t compared_pins_ = 0, compared_events_ = 0, compared_doze_pins_ = 0, compared_doze_events_ = 0;
 };
 

@@ -1,0 +1,144 @@
+#include "model/dsdpv1/chip_state.hpp"
+
+#include <array>
+#include <string>
+
+#include "model/dsdpv1/chip.hpp"
+
+namespace dsdpv1 {
+namespace {
+
+using profibus::StateReader;
+using profibus::StateWriter;
+
+constexpr std::uint64_t kMagic = 0x5453'3156'5044'5344;               // "DSDPV1ST"
+constexpr std::size_t kSizeAt = 12, kChecksumAt = 16, kChecked = 20;  // behind magic and version; what is checked
+
+// CRC-32 of IEEE 802.3.
+constexpr std::array<std::uint32_t, 256> make_crc32_table() {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    std::uint32_t crc = byte;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? crc >> 1 ^ 0xEDB88320U : crc >> 1;
+    table[byte] = crc;
+  }
+  return table;
+}
+constexpr std::array<std::uint32_t, 256> kCrc32Table = make_crc32_table();
+
+std::uint32_t checksum(const std::uint8_t* bytes, std::size_t size) {
+  std::uint32_t crc = 0xFFFFFFFF;
+  for (std::size_t i = 0; i < size; ++i) crc = crc >> 8 ^ kCrc32Table[(crc ^ bytes[i]) & 0xFF];
+  return ~crc;
+}
+
+void put(std::uint32_t value, std::uint8_t* to) {
+  for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
+}
+
+const char* part_name(Part part) {
+  return part == Part::kDsdpv1 ? "DSDPV1" : part == Part::kR ? "DSDPV1-R" : "DSDPV1-RSU";
+}
+
+/// `tell(name, value)` of each parameter, by the names that scenarios have for them.
+template <class Tell>
+void each_parameter(Config& config, const Tell& tell) {
+  auto& [engine, part, access_interval, ready_cycles, rts_lead, rts_trail, intr_low, intr_gap, search_window_ms,
+         search_window_bits, baud_control_ms, spi_strobe, spi_data, spi_miso_delay, spi_reply_gap, spi_write_gap,
+         serial_block_crc, u_timer, uart_gaps, uart_min_tsdr, uart_cfg_length] = config;
+  static_cast<void>(engine);
+  static_cast<void>(part);
+  tell("access_interval", access_interval);
+  tell("ready_cycles", ready_cycles);
+  tell("rts_lead", rts_lead);
+  tell("rts_trail", rts_trail);
+  tell("intr_low", intr_low);
+  tell("intr_gap", intr_gap);
+  tell("search_window_ms", search_window_ms);
+  tell("search_window_bits", search_window_bits);
+  tell("baud_control_ms", baud_control_ms);
+  tell("spi_strobe", spi_strobe);
+  tell("spi_data", spi_data);
+  tell("spi_miso_delay", spi_miso_delay);
+  tell("spi_reply_gap", spi_reply_gap);
+  tell("spi_write_gap", spi_write_gap);
+  tell("serial_block_crc", serial_block_crc);
+  tell("u_timer", u_timer);
+  for (std::uint32_t& each : uart_gaps) tell("uart_gaps", each);
+  tell("uart_min_tsdr", uart_min_tsdr);
+  tell("uart_cfg_length", uart_cfg_length);
+}
+
+[[noreturn]] void fail(const std::string& text) { throw StateError(text); }
+
+struct Head {
+  std::uint64_t magic = kMagic;
+  std::uint32_t version = kStateVersion, size = 0, checksum = 0;
+
+  template <class Archive>
+  void store(Archive& archive) {
+    archive(magic, version, size, checksum);
+  }
+};
+
+void check_whole(StateReader& reader, const std::uint8_t* bytes, std::size_t size) {
+  Head head;
+  reader(head);
+  if (head.magic != kMagic || size < kChecked) fail("this is no saved state of a chip");
+  if (head.version != kStateVersion)
+    fail("the state has format version " + std::to_string(head.version) + ", allowed here is " +
+         std::to_string(kStateVersion));
+  if (head.size != size)
+    fail("the state has " + std::to_string(size) + " bytes, it was saved with " + std::to_string(head.size));
+  if (head.checksum != checksum(bytes + kChecked, size - kChecked)) fail("the state is damaged: its checksum is wrong");
+}
+
+void check_part(StateReader& reader, Part part) {
+  Part saved = part;
+  reader.within(Part::kDsdpv1, Part::kRsu, saved);
+  if (saved != part) fail(std::string("the state is of a ") + part_name(saved) + ", this chip is a " + part_name(part));
+}
+
+void check_parameters(StateReader& reader, Config config) {
+  each_parameter(
+      config,
+      [&](const char* name, std::uint32_t own) {
+        std::uint32_t saved = own;
+        reader(saved);
+        if (saved != own)
+          fail("the state is of a chip whose " + std::string(name) + " is " + std::to_string(saved) + ", here it is " +
+               std::to_string(own));
+      });
+}
+
+}  // namespace
+
+void begin_state(StateWriter& writer, const Config& config) {
+  Head head;
+  writer(head);
+  Config parameters = config;
+  writer.within(Part::kDsdpv1, Part::kRsu, parameters.part);
+  each_parameter(parameters, [&](const char* /*name*/, std::uint32_t& value) { writer(value); });
+}
+
+std::vector<std::uint8_t> end_state(std::vector<std::uint8_t> bytes) {
+  put(static_cast<std::uint32_t>(bytes.size()), &bytes[kSizeAt]);
+  put(checksum(&bytes[kChecked], bytes.size() - kChecked), &bytes[kChecksumAt]);
+  return bytes;
+}
+
+StateReader open_state(const std::uint8_t* bytes, std::size_t size, const Config& config) {
+  StateReader reader(bytes, size);
+  check_whole(reader, bytes, size);
+  check_part(reader, config.part);
+  check_parameters(reader, config);
+  return reader;
+}
+
+void check_state(const StateReader& reader) {
+  if (!reader.right())
+    fail("byte " + std::to_string(reader.wrong_at()) + " of the state ends a value that no chip has");
+  if (!reader.at_end()) fail("the state is longer than this chip's");
+}
+
+}  // namespace dsdpv1
