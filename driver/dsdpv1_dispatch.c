@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* DPV1: the table of slots and indexes, access rights, handlers (7.2; tables 26 to 29, 31, 32). */
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /*
  * I&M0, the nameplate: a call (write) to slot 0, index 255 chooses the subindex, the read that follows fetches it

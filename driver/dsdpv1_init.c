@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* Bring-up: waiting for the chip and initialising it (chapter 8, figure 12). */
 #include <string.h>

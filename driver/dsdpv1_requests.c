@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* DPV1: fetching requests and the calls of the application (7.2, 7.3). */
 #include "dsdpv1_acyclic.h"

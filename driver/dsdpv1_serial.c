@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* Telegrams that read and write cells (6.2, 6.3, 7.1.4). */
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* The SPI port: telegrams in frames of XSS, ownership by B014 (SP1 to SP18). */
 #include "dsdpv1_spi.h"

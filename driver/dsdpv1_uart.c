@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* The UART port: telegrams on a half duplex line, no ownership (UA1 to UA16). */
 #include "dsdpv1_uart.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // The rules of the user's side (docs/checks.md: handshake, timing of the host port, cells, service) on any pins, those of the model or of
 // somebody's RTL. It can be bound as the scoreboard is. Each violation is an $error with its clause and what to do about it.
 `include "dsdpv1_calls.svh"

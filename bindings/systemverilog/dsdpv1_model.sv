@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // The DSDPV1 as the library's model, with parameters and ports of the reference RTL (rtl_ref/dsdpv1/dsdpv1.sv): either may stand in the
 // place of the other. The library is called at an edge of CLK at which an output may change, and at each change of an input.
 //

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // Inside of the modules that have all pins: the halves of a cycle of CLK, and the inputs as one number. Both are explained in
 // bindings/simulator/simulator.h.
   longint half = 0;     // 2n since the rising edge n, 2n + 1 since the falling edge after it

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // The model beside somebody's RTL, on the same pins: at the first different level it says which pin, both levels, cycle and time, the last
 // input and the last events of the model, and stops the simulation. Parameters of the chip are those of the RTL, and all ports have the
 // names of the reference RTL's, so that it can be bound:

@@ -1,8 +1,10 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef BENCH_H
 #define BENCH_H
 /*
- * The bench's side door (tb/dsdpv1/user_cpu/arm/mailbox.h): what a scenario's script wants of the user CPU. A product leaves
- * out bench.c, bench_faults.c and bench_telegrams.c, and their calls in main.c.
+ * The bench's side door (tb/dsdpv1/user_cpu/arm/mailbox.h): what a scenario's script wants of the user CPU. A product
+ * leaves out bench.c, bench_faults.c and bench_telegrams.c, and their calls in main.c.
  */
 #include <stdbool.h>
 
