@@ -27,7 +27,7 @@ dsdpv1_error dsdpv1_check_im0(const dsdpv1_im0* im0) {
 
 /* Each returns where the next field begins. */
 static uint8_t* put_bytes(uint8_t* to, const uint8_t* bytes, size_t length) {
-  memcpy(to, bytes, length);
+  (void)memcpy(to, bytes, length);
   return to + length;
 }
 

@@ -170,6 +170,6 @@ dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* confi
     resume(device);
   const dsdpv1_error fault = dsdpv1_release(device);
   if (fault != DSDPV1_OK) return fault;
-  memset(&device->aside, 0, sizeof device->aside);
+  (void)memset(&device->aside, 0, sizeof device->aside);
   return error;
 }

@@ -43,7 +43,7 @@ static bool acquire(dsdpv1_device* device) {
       return true;
     }
   }
-  lower_lines(device);
+  (void)lower_lines(device);
   return false;
 }
 
