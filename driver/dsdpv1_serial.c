@@ -30,7 +30,7 @@ uint8_t* dsdpv1_copy_spans(uint8_t* to, dsdpv1_span head, dsdpv1_span data) {
 }
 
 static uint16_t put_together(const dsdpv1_wire* wire, const dsdpv1_order* order) {
-  uint8_t* bytes = wire->serial->bytes;
+  uint8_t* bytes = wire->serial->bytes; /* NOLINT(clang-analyzer-core.NullDereference): no wire is without a port */
   uint8_t* to = bytes;
   *to++ = (uint8_t)(order->start | wire->address);
   if (order->start != kStartBoth) { /* SPI's read and write has neither address nor length */
@@ -117,6 +117,7 @@ dsdpv1_error dsdpv1_know_status(dsdpv1_device* device, const dsdpv1_wire* wire) 
   dsdpv1_span data = {NULL, 0};
   const dsdpv1_error error = dsdpv1_read_cells(device, wire, DSDPV1_REG_CHIP_STATUS_1, &data, DSDPV1_STATUS_CELLS);
   if (error != DSDPV1_OK) return error;
+  /* NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker): a refusal is never judged as OK */
   (void)memcpy(wire->serial->status, data.bytes, DSDPV1_STATUS_CELLS);
   wire->serial->known = true;
   return DSDPV1_OK;
