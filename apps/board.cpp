@@ -4,8 +4,7 @@
 #include "tb/dsdpv1/board/arm_user.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace dsdpv1 {
-namespace app {
+namespace dsdpv1::app {
 
 int in_tlm_view(const std::function<int(std::unique_ptr<tb::Execution>)>& /*body*/) {
   throw tb::InputError(
@@ -13,8 +12,7 @@ int in_tlm_view(const std::function<int(std::unique_ptr<tb::Execution>)>& /*body
       "allowed with kind: arm is --view pins");
 }
 
-}  // namespace app
-}  // namespace dsdpv1
+}  // namespace dsdpv1::app
 
 int main(int argc, char** argv) {
   dsdpv1::tb::add_arm_board();

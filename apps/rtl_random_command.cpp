@@ -22,6 +22,7 @@
 #include "tb/dsdpv1/cosim/play_wave.hpp"
 #include "tb/dsdpv1/cosim/random_stimulus.hpp"
 #include "tb/dsdpv1/cosim/stimulus_result.hpp"
+#include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/output/output_file.hpp"
 #include "tb/waves/wave_writer.hpp"

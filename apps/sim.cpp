@@ -2,14 +2,12 @@
 #include "apps/program.hpp"
 #include "tb/dsdpv1/systemc/tlm_execution.hpp"
 
-namespace dsdpv1 {
-namespace app {
+namespace dsdpv1::app {
 
 int in_tlm_view(const std::function<int(std::unique_ptr<tb::Execution>)>& body) {
   return tb::inside_systemc([&body] { return body(tb::make_tlm_execution()); });
 }
 
-}  // namespace app
-}  // namespace dsdpv1
+}  // namespace dsdpv1::app
 
 int main(int argc, char** argv) { return dsdpv1::app::program(argc, argv); }

@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* Opening, holds, status, errors, CRC. */
 #include "dsdpv1.h"
@@ -34,7 +35,7 @@ uint16_t dsdpv1_crc(uint16_t crc, const uint8_t* bytes, size_t length) {
 /* ---------------------------------------------------------------------------------------------------------- opening */
 
 void dsdpv1_open_link(dsdpv1_device* device, const dsdpv1_link* link, const dsdpv1_judge* judge) {
-  memset(device, 0, sizeof *device);
+  (void)memset(device, 0, sizeof *device);
   device->link = link;
   if (judge != NULL) device->judge = *judge;
   device->tuning.acquire_polls = 10000;
@@ -69,7 +70,7 @@ void dsdpv1_put(dsdpv1_device* device, uint16_t address, uint8_t value) { put_by
 void dsdpv1_get_block(dsdpv1_device* device, uint16_t address, uint8_t* bytes, uint8_t length) {
   if (length == 0u) return;
   if (device->fault == DSDPV1_OK) device->fault = device->link->get(device, address, bytes, length);
-  if (device->fault != DSDPV1_OK) memset(bytes, 0, length);
+  if (device->fault != DSDPV1_OK) (void)memset(bytes, 0, length);
 }
 
 void dsdpv1_put_block(dsdpv1_device* device, const dsdpv1_block* block) {
@@ -125,7 +126,7 @@ dsdpv1_error dsdpv1_hold(dsdpv1_device* device) {
   const dsdpv1_error error = dsdpv1_hold_unjudged(device);
   if (error != DSDPV1_OK) return error;
   if (device->absent_holds > device->tuning.silent_holds) {
-    dsdpv1_release(device);
+    (void)dsdpv1_release(device);
     return DSDPV1_ERR_CHIP_SILENT;
   }
   return DSDPV1_OK;

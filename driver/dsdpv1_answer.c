@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* DPV1: finished answers and their way into the DPRAM (7.2, 7.3; rulings V5, V6, V13, V14). */
 #include "dsdpv1_acyclic_internal.h"

@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* Reading what the chip has written, with its CRC (4.2, table 7). */
 #include "dsdpv1_internal.h"

@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* DPV1: the table of slots and indexes, access rights, handlers (7.2; tables 26 to 29, 31, 32). */
 #include <string.h>
@@ -104,10 +105,10 @@ static uint8_t usual_error(uint8_t function) {
 
 static void use_plain_data(dsdpv1_channel* channel, const dsdpv1_object* object) {
   if (channel->request[0] == DSDPV1_DS_READ) {
-    memcpy(channel->data, object->data, object->max_length);
+    (void)memcpy(channel->data, object->data, object->max_length);
     dsdpv1_answer_positive(channel, object->max_length);
   } else {
-    memcpy(object->data, channel->data, channel->request[3]);
+    (void)memcpy(object->data, channel->data, channel->request[3]);
     dsdpv1_answer_positive(channel, 0);
   }
 }

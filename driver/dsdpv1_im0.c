@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /*
  * I&M0, the nameplate: a call (write) to slot 0, index 255 chooses the subindex, the read that follows fetches it
@@ -26,7 +27,7 @@ dsdpv1_error dsdpv1_check_im0(const dsdpv1_im0* im0) {
 
 /* Each returns where the next field begins. */
 static uint8_t* put_bytes(uint8_t* to, const uint8_t* bytes, size_t length) {
-  memcpy(to, bytes, length);
+  (void)memcpy(to, bytes, length);
   return to + length;
 }
 

@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* Bring-up: waiting for the chip and initialising it (chapter 8, figure 12). */
 #include <string.h>
@@ -169,6 +170,6 @@ dsdpv1_error dsdpv1_initialise(dsdpv1_device* device, const dsdpv1_config* confi
     resume(device);
   const dsdpv1_error fault = dsdpv1_release(device);
   if (fault != DSDPV1_OK) return fault;
-  memset(&device->aside, 0, sizeof device->aside);
+  (void)memset(&device->aside, 0, sizeof device->aside);
   return error;
 }

@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* Parameters and configuration from the master, and the user's verdicts on them (4.1.6, 6.2.2, 6.2.3). */
 #include "dsdpv1_internal.h"

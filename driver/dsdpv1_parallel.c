@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* The parallel port: a byte an access, ownership by the handshake pins (5.1). */
 #include "dsdpv1_internal.h"
@@ -42,7 +43,7 @@ static bool acquire(dsdpv1_device* device) {
       return true;
     }
   }
-  lower_lines(device);
+  (void)lower_lines(device);
   return false;
 }
 

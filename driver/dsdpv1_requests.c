@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* DPV1: fetching requests and the calls of the application (7.2, 7.3). */
 #include "dsdpv1_acyclic.h"
@@ -21,7 +22,7 @@ dsdpv1_error dsdpv1_acyclic_open(dsdpv1_acyclic* acyclic, dsdpv1_device* device,
     return DSDPV1_ERR_ARGUMENT;
   const dsdpv1_error error = dsdpv1_check_table(table);
   if (error != DSDPV1_OK) return error;
-  memset(acyclic, 0, sizeof *acyclic);
+  (void)memset(acyclic, 0, sizeof *acyclic);
   acyclic->device = device;
   acyclic->table = *table;
   acyclic->generation = device->generation;
@@ -94,7 +95,7 @@ static dsdpv1_error serve(dsdpv1_acyclic* acyclic, unsigned i, dsdpv1_copy* copy
   channel->unread = error != DSDPV1_OK;
   if (error != DSDPV1_OK) return error;
   result->received = (uint8_t)(result->received | dsdpv1_class_of(i));
-  memcpy(channel->request, copy->header, sizeof channel->request);
+  (void)memcpy(channel->request, copy->header, sizeof channel->request);
   return dsdpv1_dispatch(acyclic, i);
 }
 
@@ -172,7 +173,7 @@ dsdpv1_error dsdpv1_acyclic_answer(dsdpv1_acyclic* acyclic, uint16_t ticket, con
   const dsdpv1_error error = check_ticket(acyclic, ticket);
   if (error != DSDPV1_OK) return error;
   dsdpv1_channel* channel = &acyclic->channels[ticket & 1u];
-  if (length != 0u) memmove(channel->data, data, length); /* `data` may be the request's */
+  if (length != 0u) (void)memmove(channel->data, data, length); /* `data` may be the request's */
   dsdpv1_answer_positive(channel, length);
   return send_late(acyclic, ticket);
 }

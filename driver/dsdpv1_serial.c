@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* Telegrams that read and write cells (6.2, 6.3, 7.1.4). */
 #include <string.h>
@@ -14,7 +15,7 @@ uint16_t dsdpv1_seal(uint8_t* bytes, uint16_t n) {
   return (uint16_t)(n + kTelegramCrc);
 }
 
-bool dsdpv1_sealed(const dsdpv1_reply* reply) {
+bool dsdpv1_sealed(const dsdpv1_response* reply) {
   if (reply->length < kShortReply) return false;
   const size_t n = reply->length - (size_t)kTelegramCrc;
   const unsigned crc = (unsigned)reply->bytes[n] << 8 | reply->bytes[n + 1u];
@@ -22,14 +23,14 @@ bool dsdpv1_sealed(const dsdpv1_reply* reply) {
 }
 
 uint8_t* dsdpv1_copy_spans(uint8_t* to, dsdpv1_span head, dsdpv1_span data) {
-  if (head.length != 0u) memcpy(to, head.bytes, head.length);
+  if (head.length != 0u) (void)memcpy(to, head.bytes, head.length);
   to += head.length;
-  if (data.length != 0u) memcpy(to, data.bytes, data.length);
+  if (data.length != 0u) (void)memcpy(to, data.bytes, data.length);
   return to + data.length;
 }
 
 static uint16_t put_together(const dsdpv1_wire* wire, const dsdpv1_order* order) {
-  uint8_t* bytes = wire->serial->bytes;
+  uint8_t* bytes = wire->serial->bytes; /* NOLINT(clang-analyzer-core.NullDereference): no wire is without a port */
   uint8_t* to = bytes;
   *to++ = (uint8_t)(order->start | wire->address);
   if (order->start != kStartBoth) { /* SPI's read and write has neither address nor length */
@@ -41,25 +42,25 @@ static uint16_t put_together(const dsdpv1_wire* wire, const dsdpv1_order* order)
   return dsdpv1_seal(bytes, (uint16_t)(to - bytes));
 }
 
-static dsdpv1_error judge_refusal(const dsdpv1_wire* wire, const dsdpv1_reply* received) {
-  const dsdpv1_reply reply = {received->bytes, kShortReply};
+static dsdpv1_error judge_refusal(const dsdpv1_wire* wire, const dsdpv1_response* received) {
+  const dsdpv1_response reply = {received->bytes, kShortReply};
   if (received->length < kShortReply || !dsdpv1_sealed(&reply)) return DSDPV1_ERR_REPLY;
   wire->serial->error_code = reply.bytes[1];
   return reply.bytes[1] == 0u ? DSDPV1_ERR_DPRAM_BUSY : DSDPV1_ERR_TELEGRAM;
 }
 
 /* Data bytes that the reply has: a read gives what it was asked for, read and write what its first one counts. */
-static uint16_t data_length(const dsdpv1_order* order, const dsdpv1_reply* reply) {
+static uint16_t data_length(const dsdpv1_order* order, const dsdpv1_response* reply) {
   if (order->start == kStartBoth) return reply->length > 2u ? (uint16_t)(reply->bytes[2] + 1u) : 1u;
   return order->start == kStartRead ? order->length : 0u;
 }
 
-static dsdpv1_error judge(const dsdpv1_wire* wire, const dsdpv1_order* order, const dsdpv1_reply* received,
+static dsdpv1_error judge(const dsdpv1_wire* wire, const dsdpv1_order* order, const dsdpv1_response* received,
                           dsdpv1_span* data) {
   if (received->length == 0u) return DSDPV1_ERR_NO_REPLY;
   if (received->bytes[0] == (kStartError | wire->address)) return judge_refusal(wire, received);
   const uint16_t count = data_length(order, received);
-  const dsdpv1_reply reply = {received->bytes, (uint16_t)(kShortReply + count)};
+  const dsdpv1_response reply = {received->bytes, (uint16_t)(kShortReply + count)};
   const bool right = received->length >= reply.length && count <= UINT8_MAX &&
                      reply.bytes[0] == (order->start | kReplyBit | wire->address) && reply.bytes[1] == 0u &&
                      dsdpv1_sealed(&reply);
@@ -71,7 +72,7 @@ static dsdpv1_error judge(const dsdpv1_wire* wire, const dsdpv1_order* order, co
 
 static dsdpv1_error send_once(dsdpv1_device* device, const dsdpv1_wire* wire, const dsdpv1_order* order,
                               dsdpv1_span* data) {
-  dsdpv1_reply reply = {NULL, 0};
+  dsdpv1_response reply = {NULL, 0};
   const uint16_t most = (uint16_t)(kShortReply + order->most);
   if (!wire->transfer(device, put_together(wire, order), most, &reply)) return DSDPV1_ERR_NO_REPLY;
   return judge(wire, order, &reply, data);
@@ -116,7 +117,8 @@ dsdpv1_error dsdpv1_know_status(dsdpv1_device* device, const dsdpv1_wire* wire) 
   dsdpv1_span data = {NULL, 0};
   const dsdpv1_error error = dsdpv1_read_cells(device, wire, DSDPV1_REG_CHIP_STATUS_1, &data, DSDPV1_STATUS_CELLS);
   if (error != DSDPV1_OK) return error;
-  memcpy(wire->serial->status, data.bytes, DSDPV1_STATUS_CELLS);
+  /* NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker): a refusal is never judged as OK */
+  (void)memcpy(wire->serial->status, data.bytes, DSDPV1_STATUS_CELLS);
   wire->serial->known = true;
   return DSDPV1_OK;
 }
@@ -131,6 +133,6 @@ dsdpv1_error dsdpv1_serial_get(dsdpv1_device* device, const dsdpv1_wire* wire, u
   }
   dsdpv1_span data = {NULL, 0};
   const dsdpv1_error error = dsdpv1_read_cells(device, wire, address, &data, length);
-  if (error == DSDPV1_OK) memcpy(bytes, data.bytes, length);
+  if (error == DSDPV1_OK) (void)memcpy(bytes, data.bytes, length);
   return error;
 }

@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 #ifndef DSDPV1_SERIAL_INTERNAL_H
 #define DSDPV1_SERIAL_INTERNAL_H
@@ -17,10 +18,10 @@ enum {
 };
 
 /* What was received. */
-typedef struct dsdpv1_reply {
+typedef struct dsdpv1_response {
   const uint8_t* bytes;
   uint16_t length;
-} dsdpv1_reply;
+} dsdpv1_response;
 
 typedef struct dsdpv1_wire {
   dsdpv1_serial* serial;
@@ -29,7 +30,7 @@ typedef struct dsdpv1_wire {
    * Sends the first `request` of serial->bytes and receives up to `most` bytes; their place is the port's, their number
    * 0 when there are none. False when the port's own function failed.
    */
-  bool (*transfer)(dsdpv1_device* device, uint16_t request, uint16_t most, dsdpv1_reply* reply);
+  bool (*transfer)(dsdpv1_device* device, uint16_t request, uint16_t most, dsdpv1_response* reply);
   void (*recover)(const dsdpv1_device* device); /* before a telegram is sent again */
 } dsdpv1_wire;
 
@@ -44,7 +45,7 @@ typedef struct dsdpv1_order {
 
 /* The CRC behind `n` bytes; the length with it. */
 uint16_t dsdpv1_seal(uint8_t* bytes, uint16_t n);
-bool dsdpv1_sealed(const dsdpv1_reply* reply);
+bool dsdpv1_sealed(const dsdpv1_response* reply);
 /* `head` and `data` from `to` on; the place behind them. */
 uint8_t* dsdpv1_copy_spans(uint8_t* to, dsdpv1_span head, dsdpv1_span data);
 /*

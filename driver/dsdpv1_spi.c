@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* The SPI port: telegrams in frames of XSS, ownership by B014 (SP1 to SP18). */
 #include "dsdpv1_spi.h"
@@ -16,10 +17,10 @@ static void pass_time(const dsdpv1_device* device, uint32_t ns) {
 static void recover(const dsdpv1_device* device) { pass_time(device, 2700); /* SP9 */ }
 
 /* Request and reply are one frame (SP7). Before the reply MISO gives FF, and no reply begins with it (SP6). */
-static bool transfer(dsdpv1_device* device, uint16_t request, uint16_t most, dsdpv1_reply* reply) {
+static bool transfer(dsdpv1_device* device, uint16_t request, uint16_t most, dsdpv1_response* reply) {
   dsdpv1_spi* port = device->port.spi;
   const uint16_t n = (uint16_t)(request + most + port->spare);
-  memset(port->bytes + request, 0, (size_t)(n - request));
+  (void)memset(port->bytes + request, 0, (size_t)(n - request));
   if (!port->exchange(port->ctx, port->bytes, port->bytes, n)) return false;
   uint16_t first = request;
   while (first < n && port->bytes[first] == kIdle) ++first;
@@ -78,7 +79,7 @@ static dsdpv1_error read_and_write(dsdpv1_device* device, const dsdpv1_block* in
   *dsdpv1_status_cell(wire.serial, DSDPV1_REG_CHIP_COMMAND_1) &= (uint8_t)~DSDPV1_REG_CHIP_COMMAND_1_OUTPUT;
   outputs->header[0] = data.bytes[0];
   outputs->crc = dsdpv1_crc(DSDPV1_CRC_START, data.bytes, data.length);
-  if (data.bytes[0] <= outputs->capacity) memcpy(outputs->data, data.bytes + 1, data.bytes[0]);
+  if (data.bytes[0] <= outputs->capacity) (void)memcpy(outputs->data, data.bytes + 1, data.bytes[0]);
   return DSDPV1_OK;
 }
 
@@ -103,7 +104,7 @@ dsdpv1_error dsdpv1_open_spi(dsdpv1_device* device, dsdpv1_spi* port, const dsdp
       port->spare > DSDPV1_SPI_SPARE)
     return DSDPV1_ERR_ARGUMENT;
   dsdpv1_open_link(device, &kSpi, judge);
-  memset(&port->serial, 0, sizeof port->serial);
+  (void)memset(&port->serial, 0, sizeof port->serial);
   port->serial.bytes = port->bytes;
   device->port.spi = port;
   device->block_crc = port->block_crc;

@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 #ifndef DSDPV1_SPI_H
 #define DSDPV1_SPI_H

@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* The UART port: telegrams on a half duplex line, no ownership (UA1 to UA16). */
 #include "dsdpv1_uart.h"
@@ -38,7 +39,7 @@ static bool send_telegram(dsdpv1_device* device, uint16_t n) {
   return port->send(port->ctx, port->bytes, n);
 }
 
-static bool transfer(dsdpv1_device* device, uint16_t request, uint16_t most, dsdpv1_reply* reply) {
+static bool transfer(dsdpv1_device* device, uint16_t request, uint16_t most, dsdpv1_response* reply) {
   dsdpv1_uart* port = device->port.uart;
   if (!send_telegram(device, request)) return false;
   reply->bytes = port->bytes;
@@ -91,12 +92,12 @@ static uint16_t wrap(dsdpv1_uart* port, uint16_t address, uint8_t n) {
   const uint8_t head[kExchangeHead] = {(uint8_t)(kStartBoth | port->address),
                                        address == DSDPV1_REG_DIAG ? kFunctionDiagnosis : 0u, (uint8_t)(address >> 8),
                                        (uint8_t)(address & 0xFFu), n};
-  memcpy(port->bytes, head, sizeof head);
+  (void)memcpy(port->bytes, head, sizeof head);
   return dsdpv1_seal(port->bytes, (uint16_t)(kExchangeHead + n));
 }
 
 static dsdpv1_error judge_refusal(dsdpv1_uart* port) {
-  const dsdpv1_reply reply = {port->bytes, kExchangeHead};
+  const dsdpv1_response reply = {port->bytes, kExchangeHead};
   if (!dsdpv1_sealed(&reply)) return DSDPV1_ERR_REPLY;
   port->serial.error_code = port->bytes[2];
   return DSDPV1_ERR_TELEGRAM;
@@ -112,7 +113,7 @@ static dsdpv1_error receive_answer(dsdpv1_uart* port, answer* reply) {
   const uint16_t rest = (uint16_t)(bytes[4] + kTelegramCrc);
   if (kExchangeHead + rest > (int)DSDPV1_UART_TELEGRAM) return DSDPV1_ERR_REPLY;
   const uint16_t got = port->receive(port->ctx, bytes + kExchangeHead, rest, reply_timeout_us(port));
-  const dsdpv1_reply whole = {bytes, (uint16_t)(kExchangeHead + rest)};
+  const dsdpv1_response whole = {bytes, (uint16_t)(kExchangeHead + rest)};
   if (got < rest || !dsdpv1_sealed(&whole)) return DSDPV1_ERR_REPLY;
   reply->function = bytes[1];
   reply->data.bytes = bytes + kExchangeHead;
@@ -158,7 +159,7 @@ static dsdpv1_error present_inputs(dsdpv1_device* device, uint8_t* n) {
   if (error != DSDPV1_OK) return error;
   *n = (uint8_t)((data.bytes[0] <= DSDPV1_MAX_IO ? data.bytes[0] : 0u) + 1u);
   error = dsdpv1_read_cells(device, &wire, DSDPV1_REG_INPUT_LENGTH, &data, *n);
-  if (error == DSDPV1_OK) memmove(device->port.uart->bytes + kExchangeHead, data.bytes, *n);
+  if (error == DSDPV1_OK) (void)memmove(device->port.uart->bytes + kExchangeHead, data.bytes, *n);
   return error;
 }
 
@@ -196,7 +197,7 @@ static void keep_outputs(const answer* reply, dsdpv1_copy* outputs, uint16_t crc
   const uint8_t length = reply->data.bytes[0];
   outputs->header[0] = length;
   outputs->crc = crc;
-  if (length <= outputs->capacity) memcpy(outputs->data, reply->data.bytes + 1, length);
+  if (length <= outputs->capacity) (void)memcpy(outputs->data, reply->data.bytes + 1, length);
 }
 
 /*
@@ -354,9 +355,9 @@ dsdpv1_error dsdpv1_open_uart(dsdpv1_device* device, dsdpv1_uart* port, const ds
       port->address > 2u || port->baud < 9600u || port->baud > 1843200u)
     return DSDPV1_ERR_ARGUMENT;
   dsdpv1_open_link(device, &kUart, judge);
-  memset(&port->serial, 0, sizeof port->serial);
-  memset(port->news, 0, sizeof port->news);
-  memset(port->at_risk, 0, sizeof port->at_risk);
+  (void)memset(&port->serial, 0, sizeof port->serial);
+  (void)memset(port->news, 0, sizeof port->news);
+  (void)memset(port->at_risk, 0, sizeof port->at_risk);
   port->serial.bytes = port->bytes;
   port->outputs_crc = dsdpv1_crc_byte(DSDPV1_CRC_START, 0); /* of no outputs */
   device->port.uart = port;

@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The C API: a master brings a slave up whose user CPU is this program. It runs the C driver; the driver's port is a
  * chip of libdsdpv1.so, pin by pin. Masters of class 1 and 2 then read and write an object of it by acyclic requests.

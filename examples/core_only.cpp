@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // The DSDPV1 core without SystemC: pins in, pin changes out, advance. A user CPU releases RESET, takes the DPRAM by the
 // handshake and reads B000..B004 through the host port.
 #include <cstdio>

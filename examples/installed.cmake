@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 # What the examples show with an installed copy, besides the programs that are built; what is not there to run one with is said.
 # Python is the one that CMake finds, or -DPython3_EXECUTABLE=... names.
 set(here ${CMAKE_CURRENT_SOURCE_DIR})

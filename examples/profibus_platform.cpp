@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // A PROFIBUS segment in SystemC: a master of class 1, the chip, and a user CPU that runs the C driver. They go from
 // power-on to data exchange, and the device answers each output byte with its complement as an input.
 //

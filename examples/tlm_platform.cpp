@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // A SystemC platform round the TLM module: a user CPU that brings the chip up with the C driver, and a bus station that
 // asks it for its FDL status and prints the answer.
 #include <iostream>

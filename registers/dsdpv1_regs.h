@@ -1,3 +1,4 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 OR MIT */
 /* Generated from registers/dsdpv1.rdl by registers/generate.py. Do not edit. */
 /* Addresses, bits and values of the DPRAM. A word (CRC, count) is at its high byte, the low byte follows. */

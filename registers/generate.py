@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0 OR MIT
 """Writes the constants of the DPRAM and docs/registers.md from dsdpv1.rdl.
 
     generate.py           writes the files
@@ -15,7 +17,15 @@ from systemrdl.node import RegfileNode
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "registers" / "dsdpv1.rdl"
+# REUSE-IgnoreStart
+LICENCE = ("SPDX-FileCopyrightText: 2026 the dsdpv1 authors", "SPDX-License-Identifier: ")
+# REUSE-IgnoreEnd
 ORIGIN = "Generated from registers/dsdpv1.rdl by registers/generate.py. Do not edit."
+
+
+def licence(comment, identifier="Apache-2.0 OR MIT"):
+    """The first lines of a file that is copied on its own."""
+    return [comment.format(LICENCE[0]), comment.format(LICENCE[1] + identifier)]
 
 
 # ------------------------------------------------------------------------------------------------- what the map says
@@ -310,9 +320,7 @@ def render_c(areas):
         return f"#define DSDPV1_REG_{constant.key.upper()} {hexadecimal(constant)}U"
 
     head = [
-        # REUSE-IgnoreStart
-        "/* SPDX-License-Identifier: Apache-2.0 OR MIT */",
-        # REUSE-IgnoreEnd
+        *licence("/* {} */"),
         f"/* {ORIGIN} */",
         "/* Addresses, bits and values of the DPRAM. A word (CRC, count) is at its high byte, the low byte follows. */",
         "#ifndef DSDPV1_REGS_H",
@@ -332,6 +340,7 @@ def render_sv(areas):
         return f"localparam logic [{width - 1}:0] DSDPV1_REG_{constant.key.upper()} = {width}'{number};"
 
     head = [
+        *licence("// {}"),
         f"// {ORIGIN}",
         "// Addresses, bits and values of the DPRAM. A word (CRC, count) is at its high byte, the low byte follows.",
         "`ifndef DSDPV1_REGS_SVH",
@@ -346,7 +355,7 @@ def render_python(areas):
         text = f"  # {constant.text}" if constant.text else ""
         return f"{constant.key.upper()} = {hexadecimal(constant)}{text}"
 
-    head = [f'"""Addresses, bits and values of the DPRAM. A word (CRC, count) is at its high byte, the low byte follows.\n\n{ORIGIN}\n"""']
+    head = [*licence("# {}", "Apache-2.0"), f'"""Addresses, bits and values of the DPRAM. A word (CRC, count) is at its high byte, the low byte follows.\n\n{ORIGIN}\n"""']
     lines = []
     for heading, constants in constant_groups(areas):
         lines += ["", f"# {heading}", *map(line, constants)]

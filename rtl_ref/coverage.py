@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0 OR MIT
 """Coverage of the reference RTL: what Verilator counted, by file, and why the rest was not reached (coverage.txt, coverage_rsu.txt)."""
 import argparse
 import collections

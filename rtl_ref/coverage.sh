@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0 OR MIT
 # Coverage of the reference RTL by lines and toggles, of the DSDPV1 and of the DSDPV1-RSU's ports: model and RTL in lockstep on random stimuli and on
 # the directed ones, of the DSDPV1 also on all scenarios that end before 120 ms of simulated time; then tables, and what was not reached with its
 # explanation (coverage.txt, coverage_rsu.txt). Fails when a run differs, a line or bit that was not reached has no explanation, or an explanation

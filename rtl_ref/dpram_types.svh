@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // What the DPRAM's blocks share (dpram/): areas and registers of the user's side, whatever port the chip gives him to it.
 `ifndef DPRAM_TYPES_SVH
 `define DPRAM_TYPES_SVH

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // What the blocks of DSDPV1-RSU's serial ports share (dsdpv1_rsu/), beside what they have of the DSDPV1. Words are those of
 // docs/microarchitecture_rsu.md, whose sections are meant by the numbers in these blocks.
 `ifndef DSDPV1_RSU_TYPES_SVH

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0 OR MIT
 """Figures of a synthesis run and their table in docs/rtl.md, which names the RTL that it was measured on by a checksum."""
 import argparse
 import hashlib

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0 OR MIT
 # Lints the reference RTL, DSDPV1 and DSDPV1-RSU, with all three tools in all its builds (normal, with faults, with limits of run time, with both), compares
 # the numbers of the faults in the sources with faults.txt and faults_rsu.txt, and looks for names that do not belong where they stand: a chip's, its
 # addresses' and registers' in profibus/, pins of a port in dpram/. Silent when all is well.

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Constants, functions and bundles that the blocks of every DP slave chip share (profibus/): the protocol, and the seam to the user's
 // side. No address, size or register of a chip. Words and numbers are those of docs/microarchitecture.md.
 `ifndef PROFIBUS_TYPES_SVH

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0 OR MIT
 # Synthesis of the reference RTL, DSDPV1 and DSDPV1-RSU, for an iCE40 hx8k: prints cells, block RAMs and the greatest clock, and fails at 48 MHz or
 # less.
 #   synth.sh [FOLDER FOR RESULTS] [-u to rewrite the figures in docs/rtl.md]

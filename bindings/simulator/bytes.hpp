@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Bytes as a simulator's vector holds them: the first in bits 7:0.
 #include <cstdint>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // The checks of docs/checks.md on packed pins. With a rate, a bus beside them hears the telegrams on PBRXD and PBTXD.
 #include <fmt/format.h>
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 // A master of the C API on a line that the simulator has: all other stations are one outside station of its bus.
 #include <array>

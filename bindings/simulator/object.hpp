@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 // The objects that a simulator knows by number, and how what goes wrong gets back to it.
 #include <cstdint>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 // "name=value name=value": what a module's parameters hand over.
 #include <cstdint>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Packed pins and halves of a cycle, as simulator.h has them, and what they are for the C API.
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 // A model beside somebody's RTL on the same inputs: the first difference of their outputs.
 #include <cstdint>

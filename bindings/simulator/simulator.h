@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What a simulator of Verilog or SystemVerilog calls, by DPI-C or by VPI: the model, the scoreboard, the checks and a
  * master on the C API, behind numbers and packed pins. One set of functions serves both interfaces, so that both do the

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // What holds at the pins of a DSDPV1 at every edge of CLK: the proved properties of rtl_ref/formal and rulings of docs/chip.md. Bound to
 // the reference RTL or to one with its port names by dsdpv1_bind.sv; the model keeps them as well.
 //

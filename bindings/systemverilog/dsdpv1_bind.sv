@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // Binds the assertions to every instance of the RTL's top, for simulators and formal tools. DSDPV1_TOP is its name where it is another one;
 // it has the reference RTL's port names and the parameters RTS_LEAD, INTR_LOW, INTR_GAP.
 `ifndef DSDPV1_TOP

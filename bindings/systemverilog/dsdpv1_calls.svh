@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // One source for both interfaces: `DSDPV1(model_step)(...) is the DPI function dsdpv1_model_step of dsdpv1_pkg, or with DSDPV1_VPI
 // defined (Icarus) the system function $dsdpv1_model_step of dsdpv1.vpi.
 `ifndef DSDPV1_CALLS_SVH

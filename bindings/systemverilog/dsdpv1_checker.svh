@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // Inside of the checkers of all kinds: handshake, timing of the host port, cells, service (docs/checks.md). They can be bound as scoreboards are. Each
 // violation is an $error with its clause and what to do about it.
   `include "dsdpv1_time.svh"

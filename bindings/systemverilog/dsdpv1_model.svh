@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // Inside of the models of all kinds. The library is called at an edge of CLK at which an output may change, when MISO changes, and at each change of an
 // input.
 //

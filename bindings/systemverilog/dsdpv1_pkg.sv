@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // The functions of libdsdpv1_dpi.so and the numbers that benches need. What each does, its units and ranges: bindings/simulator/simulator.h.
 package dsdpv1_pkg;
   timeunit 1ps;

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // Inside of the scoreboards of all kinds: at the first different level they say which pin, both levels, cycle and time, the last input and the last
 // events of the model, and stop the simulation. Parameters of the chip are those of the RTL.
 //

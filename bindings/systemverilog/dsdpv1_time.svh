@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // Inside of the modules that have a chip's pins: the halves of a cycle of CLK, see bindings/simulator/simulator.h, and a bell that rings at a time.
   longint half = 0;     // 2n since the rising edge n, 2n + 1 since the falling edge after it
   longint edge_ps = 0;  // when that was

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // A user CPU at the pins of a DSDPV1, model or RTL, as a bus functional model: accesses with the times of table 15, ownership by R_REQ and
 // R_STA (H2), blocks with their CRC (4.2). Tasks are called by one process.
 module dsdpv1_user #(

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // A PROFIBUS master, class 1 or 2, as a bus functional model. It works by itself once it is started: the bus parameters, token, polling of
 // its slaves, repetitions. Tasks are services out of the cycle, each returns when the answer is there. Bits are at their exact times, in
 // ps rounded from the absolute count of 1/12 ns.

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // The two wires of a segment: a station whose driver is enabled (RTS) puts its TXD on them, low wins, 1 is idle. A chip's PBRXD is line_o; a
 // profibus_master wants what all others do.
 module profibus_segment #(

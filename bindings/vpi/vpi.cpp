@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // The functions of simulator.h as system functions of VPI: dsdpv1_model_step is $dsdpv1_model_step. A C++ function's
 // own signature says how its arguments are read from the call and written back to it.
 #include <vpi_user.h>

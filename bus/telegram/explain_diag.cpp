@@ -140,7 +140,7 @@ class ExtDiagReader {
       const std::size_t i = at_ - begin;
       const std::string plain = fmt::format("device related byte {}: 0x{:02X}", i, data_[at_]);
       const std::string words = may_be_dpv1 ? dpv1_block_words(data_[begin + 1], i, data_[at_]) : "";
-      say(!may_be_dpv1 ? plain : dpv1_ ? words : plain + ", in DPV1 " + words);
+      say(!may_be_dpv1 ? plain : dpv1_ ? words : fmt::format("{}, in DPV1 {}", plain, words));
     }
   }
 

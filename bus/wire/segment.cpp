@@ -150,16 +150,16 @@ bool Segment::send_run(StationId station, const CharacterRun& run) {
 }
 
 /// True: the station's filter keeps the run from it for now.
-bool Segment::offer(StationId id, Offer& offer) {
-  Station& station = stations_[id];
-  if (passes(station, offer)) {
-    station.passed_for_stations += std::exchange(station.last_for_station, offer.addressee < kBroadcast) ? 1 : 0;
-    station.run = run_count_;
-    return station.passes = true;
+bool Segment::offer(StationId station, Offer& offer) {
+  Station& one = stations_[station];
+  if (passes(one, offer)) {
+    one.passed_for_stations += std::exchange(one.last_for_station, offer.addressee < kBroadcast) ? 1 : 0;
+    one.run = run_count_;
+    return one.passes = true;
   }
-  hear(id);
-  if (station.listener == nullptr || station.listener->run_begins(offer.run))
-    station.run = run_count_;
+  hear(station);
+  if (one.listener == nullptr || one.listener->run_begins(offer.run))
+    one.run = run_count_;
   else
     run_->driven = true;
   return false;

@@ -8,6 +8,7 @@ A section is a function of its own, which reads its own file of results. Python'
 """
 import argparse
 import pathlib
+import re
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -75,8 +76,82 @@ def fuzzing():
             FUZZ_FOUND + table(["target", "input", "what was wrong"], found))
 
 
+# --------------------------------------------------------------------------------------------------------------- static
+STATIC = """
+## Without asking what is computed
+
+`./run lint` has clang-tidy over all sources, tests among them, with clang's static analyzer among its checks; [.clang-tidy](../.clang-tidy) says which are
+left out and why. What the analyzer says and is not so is marked in the source, with the reason:
+
+"""
+PARTS = """
+`./run static [PART...]` does the rest; `./run nightly` has all but `tsan`, which needs a build of its own.
+
+"""
+MISRA = """
+### MISRA C:2012
+
+The C driver under the required and mandatory rules that cppcheck's addon knows. Each place where the driver does not keep one is explained, and the test
+fails on a place without an explanation and on an explanation without a place. Advisory rules are counted only. The texts of the rules are MISRA's and
+stand nowhere here.
+
+"""
+STACK = """
+### Stack of the driver
+
+Bytes on a Cortex-M3 on the deepest path of each public function, by port, at {levels}: GCC's figures for each function ({compiler}, measured {date}) along
+its graph of calls. Not counted are the functions of the application, which the last column names (`port`: those of its port; the others take DPV1 services,
+parameters and configurations), interrupts, and the C library's `memcpy`, `memset`, `memmove` and `strlen`.
+
+"""
+
+
+def said_of_analyzer():
+    """The marks in the sources: place, check, reason."""
+    for folder in ("apps", "bindings", "bus", "capi", "driver", "examples", "model", "tb", "tests"):
+        for path in sorted((ROOT / folder).rglob("*.[ch]*")):
+            if path.suffix in (".c", ".h", ".cpp", ".hpp"):
+                for check, why in re.findall(r"NOLINT\w*\((clang-analyzer-[\w.-]+)\): (.*?)(?: \*/)?$", path.read_text(encoding="utf-8"), re.M):
+                    yield [f"`{path.relative_to(ROOT)}`", f"`{check}`", why]
+
+
+def code(text):
+    return "any" if text == "*" else "`" + text.replace("|", "\\|") + "`"
+
+
+def static():
+    head = (HERE / "stack.tsv").read_text(encoding="utf-8").splitlines()[0]
+    date, levels, compiler = re.match(r"# (\S+): .* at (.*), what .*; (.*)$", head).groups()
+    rows = [[part, case, found, date] for date, part, case, found in results("static.tsv")]
+    deviations = [[rule, code(file), code(part), places, why] for rule, file, part, places, why in results("misra.tsv")]
+    depths = [[code(function), *rest] for function, *rest in results("stack.tsv")]
+    return (STATIC + table(["where", "check", "why it is not so"], said_of_analyzer()) + PARTS + table(["part", "case", "found", "when"], rows) +
+            MISRA + table(["rule", "file", "at", "places", "why"], deviations) +
+            STACK.format(levels=levels, compiler=compiler, date=date) + table(["function", "parallel", "SPI", "UART", "calls"], depths))
+
+
+# ----------------------------------------------------------------------------------------------------------------- soak
+SOAK = """
+## Hours of `serve`
+
+`tests/serve/soak.py DSDPV1_SIM --hours N` lets hosts misbehave at 1.5 Mbit/s, one after the other and in the order that the seed gives: they babble, flood,
+read nothing, trickle, break off, connect and hang up by the hundred, come in crowds, and leave as a program that ends or as one that is killed. After each
+of them a decent master, which waited meanwhile, must have its turn, bring the slave up and exchange data, of which every byte is compared; memory may not
+grow by more than 4 MB, and `serve` may listen at 127.0.0.1 only. `serve` keeps real time, so its hours are those of the clock.
+
+"""
+
+
+def soak():
+    rows = []
+    for date, seed, hours, simulated, rounds, exchanges, repeats, turn, settled, end, peak, verdict in results("soak.tsv"):
+        rows.append([hours, simulated, rounds, exchanges, repeats, f"{turn} s", *(f"{int(kb) / 1024:.1f} MB" for kb in (settled, end, peak)), verdict, seed, date])
+    return SOAK + table(["hours", "simulated", "hosts that misbehaved", "exchanges", "repeated requests", "longest wait for the turn", "memory when settled",
+                         "at the end", "at most", "result", "seed", "when"], rows)
+
+
 def page():
-    return HEAD + fuzzing()
+    return HEAD + fuzzing() + static() + soak()
 
 
 def main(words):

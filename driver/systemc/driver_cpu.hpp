@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 #pragma once
 // A user CPU at the parallel port, for SystemC platforms: a thread that runs a program with the portable C driver. The
 // driver's port is this module's socket and pins.

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 #pragma once
 // What the user CPUs of SystemC platforms share, whichever port they reach the chip by: a thread that runs a program
 // with the driver, its local time, RESET and INTR0.

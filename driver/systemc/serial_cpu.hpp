@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 #pragma once
 // User CPUs at the SPI and the UART port of a DSDPV1-RSU, for SystemC platforms: as DriverCpu, with the driver's port
 // on a socket of streams of bytes. All other calls of the driver are the same.

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """Runs the tests of test_rtl.py on the reference RTL, each in a simulation of its own.
 
     run.py [--simulator icarus|verilator] [--test NAME]... [--fault N] [--scenario FILE] [--end MICROSECONDS] [--build FOLDER]

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """The reference RTL in cocotb: a master brings it up through its pins, and the model looks at each of its outputs.
 
 The environment says what is played: FAULT, a number of rtl_ref/faults.txt that is switched on; SCENARIO, one whose pins are replayed; MASTERS, one

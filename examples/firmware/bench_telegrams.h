@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef BENCH_TELEGRAMS_H
 #define BENCH_TELEGRAMS_H
 /* Telegrams over SPI and UART that go wrong because a scenario asks for it. */

@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Clocks, pins, memory bus, time and interrupts of the evaluation board. */
 #include "examples/firmware/board.h"
 

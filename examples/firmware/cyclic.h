@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef CYCLIC_H
 #define CYCLIC_H
 /* Cyclic data: the inputs of the process to the master, the master's outputs to the process. */

@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef DSDPV1_PORT_STM32_H
 #define DSDPV1_PORT_STM32_H
 /* The driver's port on the evaluation board (board.h): the DPRAM on the memory bus, the handshake on port C. */

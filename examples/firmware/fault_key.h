@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef FAULT_KEY_H
 #define FAULT_KEY_H
 /* The board's key stands for a fault of the process: diagnosis comes and goes with it. */

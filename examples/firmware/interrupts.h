@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef INTERRUPTS_H
 #define INTERRUPTS_H
 /* The handlers that the vector table (startup.c) points to. */

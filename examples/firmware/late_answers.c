@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A ring of answers in order of their times. */
 #include "examples/firmware/late_answers.h"
 

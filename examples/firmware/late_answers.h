@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef LATE_ANSWERS_H
 #define LATE_ANSWERS_H
 /* Acyclic answers that are given some time after their request, as if the data had to be fetched from somewhere. */

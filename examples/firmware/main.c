@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Firmware of a simple PROFIBUS-DP slave: STM32F103ZE and DSDPV1. It initialises the chip, exchanges inputs and outputs
  * at a fixed period, judges what the master sends, and answers acyclic requests.

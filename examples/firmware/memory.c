@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /*
  * memcpy and its relatives. Compiled with -fno-tree-loop-distribute-patterns, else the compiler recognises the loops
  * and replaces them by calls of the very functions that they make up.

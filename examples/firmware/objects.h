@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef OBJECTS_H
 #define OBJECTS_H
 /* DPV1: what masters reach by slot and index, and the nameplate (I&M0). */

@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef PORT_H
 #define PORT_H
 /* The driver on the port that the chip's straps have chosen. */

@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef REPORT_H
 #define REPORT_H
 /* What has happened so far: counters and errors, for the bench or the debugger, and in words on the serial line. */

@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /* From reset to main: the vector table, RAM, and what happens at interrupts that nobody asked for. */
 #include <stdint.h>
 

@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef STATION_H
 #define STATION_H
 /* The chip: bring-up, INTR0, judging of what the master sends, diagnosis. */

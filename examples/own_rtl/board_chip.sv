@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0
 // A chip as a user of the co-simulation might bring it: the pins have names and polarities of their own, INTR0 is made by an own pulse
 // generator. Two things are wrong in it; docs/cosim.md shows how they are found.
 module board_chip #(

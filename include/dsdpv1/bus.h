@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A PROFIBUS segment: chips, masters of class 1 and class 2, stations outside of the library, and a monitor that hears
  * all.

@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The C API of the DSDPV1 model: libdsdpv1.so. C99, and C++.
  *

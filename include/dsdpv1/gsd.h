@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /*
  * GSD files (docs/gsd.md), and what a master has to know of a slave.
  */

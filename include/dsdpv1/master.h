@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Masters of class 1 and class 2 on a bus. A master belongs to its bus and ends with it.
  *

@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Telegrams of the data link layer (EN 50170 / IEC 61158-4 type 3): as fields, as bytes, in words. No objects, no
  * state; all of it may be called from any thread, also in callbacks.

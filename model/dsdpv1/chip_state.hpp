@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 #pragma once
 // What stands round a chip's state in its bytes: what it is, of which version, part and parameters, and a checksum.
 #include <cstddef>

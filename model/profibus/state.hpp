@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 #pragma once
 // The state of a chip as bytes: written, and read again in another process. Each block says in one function beside its
 // members what its state is, for both ways:

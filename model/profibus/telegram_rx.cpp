@@ -34,15 +34,15 @@ std::uint8_t fcs_of(const std::uint8_t* bytes, int size) {
 
 }  // namespace
 
-int addressee(const std::uint8_t* bytes, std::size_t length) {
-  const int size = static_cast<int>(length);
-  if (bytes[0] == sd::kSc || bytes[0] == sd::kSd4) return size == expected_size(bytes[0]) ? kForNobody : kNoTelegram;
-  const bool variable = bytes[0] == sd::kSd2 && size > kSd2Header;
+int addressee(const std::uint8_t* bytes, std::size_t size) {
+  const int length = static_cast<int>(size);
+  if (bytes[0] == sd::kSc || bytes[0] == sd::kSd4) return length == expected_size(bytes[0]) ? kForNobody : kNoTelegram;
+  const bool variable = bytes[0] == sd::kSd2 && length > kSd2Header;
   if (variable && (bytes[1] != bytes[2] || bytes[1] < kMinLe || bytes[1] > kMaxLe || bytes[3] != sd::kSd2))
     return kNoTelegram;
   const int expected = variable ? bytes[1] + kSd2Frame : expected_size(bytes[0]), offset = address_offset(bytes[0]);
-  if (size != expected || size <= kSd2Header) return kNoTelegram;
-  const bool right = bytes[size - 2] == fcs_of(bytes + offset, size - offset - 2) && bytes[size - 1] == sd::kEd;
+  if (length != expected || length <= kSd2Header) return kNoTelegram;
+  const bool right = bytes[length - 2] == fcs_of(bytes + offset, length - offset - 2) && bytes[length - 1] == sd::kEd;
   return right ? bytes[offset] & kAddressMask : kNoTelegram;
 }
 

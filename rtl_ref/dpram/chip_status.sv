@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Notes of what the chip's status bytes are to say (9.2, section 10; D1, D5, D7, D16): which of them have to be written, and what.
 `include "dpram_types.svh"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // CRC-16 of blocks in the DPRAM (4.2, D2): polynomial A001 reflected, one byte a cycle.
 `include "dpram_types.svh"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // What the sequencer does next in an access (9.2; H4): the first item that is due, and its first move.
 `include "dpram_types.svh"
 

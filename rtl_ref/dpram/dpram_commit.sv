@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // What the commits of a DPRAM access command the station (section 10; H7, D7, D12 to D17), and how the CRC of each block is judged.
 `include "dpram_types.svh"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The one byte that the sequencer moves at an edge (9.1 to 9.7): where, whether it is written, and what.
 `include "dpram_types.svh"
 

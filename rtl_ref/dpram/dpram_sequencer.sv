@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The chip's accesses to the DPRAM (sections 9 and 10; H1 to H8, D1 to D17): one byte a cycle.
 //
 // The state says what the next edge does. A byte read at one edge is in rdata_i at the next.

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The initialisation block while it is read (chapter 8; D7, D11): its values, and whether any is beyond its limit.
 `include "dpram_types.svh"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The chip: PROFIBUS half, DPRAM and the user's side (section 2). Pins as in table 1; D is split into d_i, d_o and d_oe_o.
 `include "dsdpv1_types.svh"
 

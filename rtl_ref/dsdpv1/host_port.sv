@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The user's asynchronous port (section 12; 5.2, P5, P8, P11, P12).
 //
 // Writes go through a FIFO of four that WR clocks, with a Gray pointer through two flip-flops. Reads take A at the first rising edge

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // INTR0 (section 13, P7): low for low_i cycles after a flag of parameters or configuration, and high for gap_i cycles at least between
 // two pulses.
 `include "dsdpv1_types.svh"

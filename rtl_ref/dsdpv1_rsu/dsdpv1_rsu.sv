@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // DSDPV1-RSU: the DSDPV1 with two more host ports, SPI and UART, of which straps choose one (R1, R11). Pins as in table 1, and those of R2;
 // D is split into d_i, d_o and d_oe_o, MISO into miso_o and miso_oe_o.
 `include "dsdpv1_rsu_types.svh"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Judgement of a telegram (5.3, 6.3; SP10 to SP13, SP16, UA13): error code, refusal, and what it causes. No registers.
 `include "dsdpv1_rsu_types.svh"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // B014.1 and U_Timer (4.1, 5.5; SP12, SP13, SP17): the host owns the DPRAM. SPI only.
 `include "dsdpv1_rsu_types.svh"
 

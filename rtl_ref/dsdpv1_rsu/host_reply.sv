@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bytes of a reply, one after the other (5.4, 6.3 to 6.5; SP4 to SP6, SP10, UA8, UA10, UA12, UA13). SPI loads one when a slot of eight SCK
 // has begun, UART when a character begins.
 `include "dsdpv1_rsu_types.svh"

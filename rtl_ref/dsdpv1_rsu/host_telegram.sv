@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Telegrams of the host, byte by byte (5.3, 6.2): their fields, their CRC, and what is wrong with them. Data go into the buffer, from
 // its byte 1 on; the length byte of SPI's read and write, which is written with them, is byte 0.
 //

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The UART port (6.1, 6.2, 6.5; UA1 to UA4, UA16): characters to and from the host, half duplex, and the two waits that begin with a
 // character's end: for the silence that ends a telegram, and for the first start bit of the reply.
 `include "dsdpv1_rsu_types.svh"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The two serial host ports, SPI and UART, of which the mode chooses one or none: telegrams, their judgement, commit and reply.
 //
 // A reply reads the DPRAM while the chip may be in an access (SP14), so there is a second copy of it, which all writes go to.

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The SPI port towards CLK (5.2, 5.4): frames, their bytes, and the two registers of the reply that SCK shifts out.
 `include "dsdpv1_rsu_types.svh"
 

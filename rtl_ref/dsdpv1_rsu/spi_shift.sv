@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The part of the SPI port that SCK clocks (5.1; SP1 to SP3): bits from MOSI to bytes, bits of the reply to MISO.
 //
 // byte_o stands from the eighth rise to the next but seven, flip_o says that there is a new one. miso_o changes at SCK's fall; what SP2

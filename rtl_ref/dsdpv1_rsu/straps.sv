@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The straps (section 2, R11), taken at R, the first edge without reset.
 `include "dsdpv1_rsu_types.svh"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The CRC of telegrams (R15): first over the request's bytes, then over its reply's.
 `include "dsdpv1_rsu_types.svh"
 

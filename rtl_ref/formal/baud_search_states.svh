@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into baud_search.
 reg selected = 1'b0;
 reg [3:0] rate_before = 4'd0;

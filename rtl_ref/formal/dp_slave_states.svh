@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into dp_slave: its states and what may hold in each (S13, S15, S18), and that Global_Control is heard only
 // from the holder in DATA_EXCH.
 reg init_before = 1'b0, initialised_before = 1'b0, control_before = 1'b0;

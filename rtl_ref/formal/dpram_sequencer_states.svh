@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into dpram_sequencer: states, and the items that each may work on.
 wire reads = state_q == SEQ_READ_LOOK || state_q == SEQ_READ_BYTES || state_q == SEQ_READ_CRC_HIGH || state_q == SEQ_READ_CRC_LOW ||
              state_q == SEQ_READ_LAST;

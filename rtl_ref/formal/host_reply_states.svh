@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into host_reply: bytes of a reply.
 initial assume (!rst_ni);
 always @* assert (state_q <= CRC_LOW);

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into host_uart: receiver, its samples, and bits of a character that is sent.
 initial assume (!rst_ni);
 always @* begin

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into msac1 (15.1): a request is on its way to the user, or with him, only while it is open. An answer is accepted only from a
 // user who has the request (V14: msac).
 initial assume (!rst_ni);

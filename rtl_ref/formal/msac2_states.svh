@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into msac2 (15.2): the area in the DPRAM is of one channel at most, and a request is on its way to the user, or with him, only
 // while it is of one.
 initial assume (!rst_ni);

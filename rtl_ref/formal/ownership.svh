@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into dsdpv1. Ownership of the DPRAM (H1, H2, H6): never both sides at once, also through any reset.
 //
 // The user is free but for rule H2. He looks at L_REQ and at L_STA when he likes, once each while R_REQ is high, in the third cycle of

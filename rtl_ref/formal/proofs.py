@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0 OR MIT
 """The proofs: what is bound where, what is cut away, and the defects of the twins."""
 import dataclasses
 

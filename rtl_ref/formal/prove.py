@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0 OR MIT
 """Unbounded proofs of the reference RTL, each with broken twins that have to fail.
 
 A proof takes copies of the RTL, binds its properties into one block (in front of endmodule), makes its surroundings free and

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into serial_port. A reply lasts from its telegram's judgement to the frame's end.
 reg replying = 1'b0;
 wire replies_now = replying || judgement.replies;

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into serial_port. The two bytes of a telegram that were taken last against the CRC of those before them, as it stands at its judgement: where
 // they differ, nothing is written, B014 stays, and the first byte of the reply, with UART's exchange the second, says that it is an error.
 reg [15:0] taken = 16'd0;

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into uart_rx. Behind the release of the line the receiver is IDLE within ten and a half bit times (section 6), at every rate.
 //
 // Its surroundings: the rate is one of S2 and only changes where it is selected (baud_search_states), and the receiver runs again only

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bound into uart_tx. No answer is ordered while PBRTS is high: that is nothing_decided_while_sending.
 reg rts_before = 1'b0, ended = 1'b0;
 always @(posedge clk_i) begin

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Writes the answer's characters into the answer memory, one a cycle. The decision only fixes what the answer is; at least 37 cycles
 // lie between it and the first start bit, and the sender needs a character every 44, so that it never overtakes.
 `include "profibus_types.svh"

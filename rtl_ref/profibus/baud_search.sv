@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Search for the baud rate (8.1; S1, S9): from 12 Mbit/s downwards, wrapping, until a telegram without error is decided.
 `include "profibus_types.svh"
 

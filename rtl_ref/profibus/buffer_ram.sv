@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Memory of bytes with one write and one read port, both synchronous: inferred as block RAM. A byte that is written and read at the
 // same edge is read as it was before.
 `include "profibus_types.svh"

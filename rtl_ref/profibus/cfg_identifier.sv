@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Decodes configuration identifiers byte by byte (D11, S17): input and output lengths, and whether the bytes end with an identifier.
 `include "profibus_types.svh"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Checks Check_Cfg (SAP 62; 6.2.3, D8, S16, S17) while the bytes arrive: decodes the identifiers, and compares them with the
 // configuration of the initialisation, the one in use and the last one that was sent (which a verdict may put in use meanwhile).
 `include "profibus_types.svh"

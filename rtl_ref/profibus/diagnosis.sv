@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Diagnosis of the user (6.2.4; D9, D14, S23): its type's bits, its length and whether it waits to be read. The bytes are in
 // sap_buffers. Outputs with _now include a commit at this edge.
 `include "profibus_types.svh"

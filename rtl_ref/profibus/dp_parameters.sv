@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Parameters of the DP slave (6.2.2; S6, S11, S28): those in force, and those that wait for the user's verdict.
 `include "profibus_types.svh"
 

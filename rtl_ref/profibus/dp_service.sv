@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // What a telegram's service is answered, and what it does to the DP slave (section 11; S5, S13, S16, S19 to S25, S33): decided at its
 // edge, without a register of its own. Inputs with _b are those behind the commits and the end of DP_CONTROL at the same edge.
 `include "profibus_types.svh"

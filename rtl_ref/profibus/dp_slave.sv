@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The DP slave (section 11; S1 to S33): state, holding master, and what commits and services do to them.
 //
 // Three things can happen at an edge, in this order: a commit of the user's side, the end of DP_CONTROL, a telegram. Each has its

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // FDL (8.2; S3, S20, S26, S32): which telegrams are for this station, repetitions, and the memory of the last answer. The answer itself
 // is written by answer_builder while the wait for TSDR runs.
 `include "profibus_types.svh"

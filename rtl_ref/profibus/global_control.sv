@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Decodes Global_Control (SAP 58; 6.2.6, S4, S24): what it asks of this slave. All 0 when it is to be ignored.
 `include "profibus_types.svh"
 

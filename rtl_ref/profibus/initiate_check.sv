@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Checks Initiate (SAP 49; 15.2, V2, V10) while its bytes arrive. All results are registers that stand still before the decision.
 `include "profibus_types.svh"
 

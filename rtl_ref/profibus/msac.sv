@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // DPV1 (section 15): hands telegrams to SAPs 51, 49, 48 and 47 to MSAC_C1 and MSAC_C2, and the user's answers to the request that is
 // with him.
 `include "profibus_types.svh"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // MSAC_C1 (15.1; V1, V7 to V9, V14): one request at a time, from the holding master.
 //
 // At an edge: the user's answer, then the telegram, then DATA_EXCH being left by whatever happened at it.

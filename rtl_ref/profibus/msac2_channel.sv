@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // A channel of MSAC_C2 (15.2; V2, V3, V8 to V13): its row of the RM registry, its state and its timers.
 //
 // At an edge: the user's answer, then the end of a timer, then the telegram: _q before the edge, _b behind the timers, _d behind

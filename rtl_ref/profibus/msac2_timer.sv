@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // A timer of a C2 channel (15.2; V3, V12): units x 480 000 cycles from its start. It is loaded one edge behind the start, and its end
 // is seen one edge ahead, so that neither lengthens the path through a decision.
 `include "profibus_types.svh"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bytes of DPV1 (section 15, section 3 on mail): requests and Initiates as they came, the user's answers, and the answer that the
 // builder fetches behind the decision.
 //

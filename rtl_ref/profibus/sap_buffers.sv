@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Buffers of the SAPs (6.1, figure 8; S4, S18, S27) and the mail for the user (section 3).
 //
 // Nothing is copied at a decision: bytes are received into a free bank, and a decision only changes which bank is which buffer. So a

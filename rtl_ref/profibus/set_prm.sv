@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Checks Set_Prm (SAP 61; 6.2.2, S6, S28, D8, D17) in the order of section 11. The first check that fails decides.
 `include "profibus_types.svh"
 

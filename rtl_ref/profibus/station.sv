@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The PROFIBUS half of a chip: from PBRXD to PBTXD and PBRTS, and the seam to the user's side (section 2).
 `include "profibus_types.svh"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Two-stage synchroniser (P9): what edge m sampled is seen by the logic at edge m+2. It runs during reset, too.
 `include "profibus_types.svh"
 

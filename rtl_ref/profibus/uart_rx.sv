@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Receiver of characters (section 6; S2, S10): 11 bits, sampled at mid-bit from the synchronised falling edge.
 //
 // A character that is complete at edge C is handed on registered, that is, telegram_rx uses it at edge C+1; nothing can be decided

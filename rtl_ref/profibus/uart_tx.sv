@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Sends the answer (8.3; P2, S3, S11): waits until T, then PBRTS and the characters without a gap.
 `include "profibus_types.svh"
 

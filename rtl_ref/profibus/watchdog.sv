@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Watchdog (8.1; S1, S22): BAUD_CONTROL watches for telegrams to this station, DP_CONTROL for those of the holding master.
 //
 // One timer of three nested counters, base time x WD_Fact_1 x WD_Fact_2; BAUD_CONTROL uses the innermost only. It is loaded one edge

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The DPV1 part of the RTL's own test (section 15; V1 to V15): what C1 and C2 answer, what the user finds in the DPRAM,
 // and the cycles of turn and timers. At 12 Mbit/s: a decision falls 5 cycles behind the calculated end of the telegram.
 #include <utility>

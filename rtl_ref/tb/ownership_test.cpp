@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Who owns the DPRAM (H1, H2, H6): R_REQ and R_STA both hold the chip off, in every order, also through RESET.
 #include "rtl_bench.hpp"
 

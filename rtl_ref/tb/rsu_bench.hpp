@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The bench of DSDPV1-RSU's own test: pins by the tick of 1/12 ns (edge n of CLK is at tick 250 n), a host with SPI and
 // one with UART, and a bus that only sends.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Exchanges over UART (section 6.4; UA7 to UA14): areas, what the reply carries, errors, and the worked example to the
 // cycle.
 #include "rsu_bench.hpp"

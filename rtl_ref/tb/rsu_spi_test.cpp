@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The SPI port (section 5 of microarchitecture_rsu.md): bits, frames, telegrams, errors, replies.
 #include "rsu_bench.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The UART port (sections 6.1 to 6.3, 6.5): rates, characters, silence, errors, half duplex, the DPRAM as one.
 #include "rsu_bench.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // The bench of the RTL's own test: pins and user port of the chip under Verilator, and a line that sends telegrams and
 // reads answers.
 #pragma once

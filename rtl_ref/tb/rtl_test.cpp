@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Test of the reference RTL by itself, under Verilator: what docs/microarchitecture.md says of pins and DPRAM, on the
 // usual way from RESET to data exchange. The comparison with the model is not here but in the lockstep harness.
 #include <cstdlib>

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0 OR MIT
 # Builds the reference RTL with Verilator and runs its own test: with its parameters as they are, with others, and in the build with
 # limits of run time, which has to do the same on every pin. Arguments go to Verilator, e.g. --trace-fst. OUT is the folder for the
 # builds, by default build/rtl-test. With BUILDS=run_time_limits only that build is made and tested.

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0 OR MIT
 # Builds DSDPV1-RSU's RTL with Verilator, with limits of run time and single faults, and runs the test of its serial ports: as it is, and with each
 # fault of faults_rsu.txt, which has to be found. Arguments go to Verilator. OUT is the folder for the build, by default build/rtl-test.
 set -eu

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // Rules of telegrams and services: SA 127 (S32), address 126 (S33), repetitions (S26), Unlock (S28), data bytes where
 // there are to be none (S13), Not_Supported by Global_Control (S24) and high priority (D9).
 #include "rtl_bench.hpp"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+// SPDX-License-Identifier: Apache-2.0 OR MIT
 // What the user chooses with B005 (D17) and B011 (D16).
 #include "rtl_bench.hpp"
 

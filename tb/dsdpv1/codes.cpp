@@ -8,7 +8,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-const char* advice_of(dsdpv1_error error) {
+const char* advice_of(dsdpv1_error error) {  // NOLINT(readability-function-size): a table
   switch (error) {
     case DSDPV1_OK: return "Nothing.";
     case DSDPV1_ERR_ARGUMENT: return "Fill in the port's functions and pass no null pointers.";

@@ -233,7 +233,7 @@ const keys::Object& user_keys_of(Part part) {
 }
 
 dsdpv1::Config config_of(const ChipRequest& request) {
-  dsdpv1::Config config = static_cast<const Dsdpv1Settings&>(request.settings);
+  dsdpv1::Config config = static_cast<const dsdpv1::Config&>(static_cast<const Dsdpv1Settings&>(request.settings));
   config.engine = request.engine == Engine::kStep || request.inside ? dsdpv1::Engine::kStep : dsdpv1::Engine::kSkip;
   return config;
 }

@@ -58,7 +58,9 @@ const char* name_of(HostMode mode) {
 /// Those that only a DSDPV1's program knows. Block CRCs are not looked at over SPI and UART (SP15), the handshake's
 /// pins are dead (R14), and the UART knows no ownership (UA6).
 std::vector<std::string> orders_for(CpuKind kind, HostMode mode) {
-  using namespace user_cpu;
+  using user_cpu::kCutTelegram, user_cpu::kEarlyRSta, user_cpu::kFlipBit, user_cpu::kHoldDpram, user_cpu::kHostTelegram,
+      user_cpu::kPauseTelegram, user_cpu::kSendBreak, user_cpu::kTalkOverReply, user_cpu::kWrongCrc,
+      user_cpu::kWrongParity;
   if (mode == HostMode::kParallel) return {kHoldDpram, kWrongCrc, kEarlyRSta};
   const bool firmware = kind == CpuKind::kArm;  // spoils what it sends (DSDPV1_SPOIL_ of its mailbox), and no more
   if (mode == HostMode::kSpi && firmware) return {kHoldDpram, kFlipBit, kCutTelegram};

@@ -59,7 +59,7 @@ void ShareProgress::clear() const {
 std::string count_text(const Count& count, const std::string& what, double wall_s) {
   const auto number = [](std::size_t of) { return static_cast<double>(of); };
   const double part = count.all == 0 ? 1 : number(count.done) / number(count.all);
-  const std::string bar =
+  std::string bar =
       fmt::format("[{:<{}}] {} of {} {}  {:.0f} s", bar_of(part), kWidth, count.done, count.all, what, wall_s);
   if (count.done == count.before) return bar;
   const double each = wall_s / number(count.done - count.before);

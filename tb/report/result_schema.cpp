@@ -27,7 +27,7 @@ Json master() {
                  {"cycles", count("data cycles")},
                  {"min_slave_interval_us", count("the time that a data cycle takes at least")},
                  {"min_slave_interval_from",
-                  or_null({{"type", "string"}, {"description", "\"scenario\", \"gsd\", or null when it is 0"}})}},
+                  or_null({{"type", "string"}, {"description", R"("scenario", "gsd", or null when it is 0)"}})}},
                 "a master of class 1");
 }
 
@@ -81,7 +81,7 @@ Json slave() {
   return object({{"name", text("of the scenario")},
                  {"address", count("0 to 126")},
                  {"dp_state", one_of({"OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH"}, "at the end")},
-                 {"baud", text("the rate it has found: \"12M\" to \"9.6k\", or \"searching\"")},
+                 {"baud", text(R"(the rate it has found: "12M" to "9.6k", or "searching")")},
                  {"master", or_null(count("the one that has it, by address"))},
                  {"data_exchanges", count("how many the chip has had")},
                  {"outputs_overwritten", count("outputs that newer ones replaced before the user had fetched them")},

@@ -23,6 +23,12 @@ STRICT = "GPL-2.0-only"
 # What may be in one program with GPL-2.0-only: https://www.gnu.org/licenses/license-list.html, and docs/licences.md on Artistic-2.0 and GCC's.
 FITS_STRICT = {STRICT, "GPL-2.0-or-later", "LGPL-2.1-or-later", "GPL-2.0-only WITH Linux-syscall-note", "GPL-3.0-or-later WITH GCC-exception-3.1",
                "Artistic-2.0", "MIT", "BSD-2-Clause", "BSD-3-Clause", "ISC", "Zlib", "BSL-1.0", "bzip2-1.0.6", "LicenseRef-Public-Domain"}
+ALONE = ("bindings", "driver", "examples", "include", "registers", "rtl_ref", "share")
+ALONE_SUFFIXES = (".c", ".h", ".ld", ".cpp", ".sv", ".svh", ".rdl", ".lua", ".py", ".sh", ".cmake")
+NEVER_ALONE = ("dsdpv1_regs.hpp",)
+# REUSE-IgnoreStart
+HEAD_LINE = r"(?:/\*|//|#|--) SPDX-"
+# REUSE-IgnoreEnd
 
 
 def fits(licence, allowed=frozenset(FITS_STRICT)):
@@ -166,6 +172,23 @@ def faults_of_texts(root, reuse):
         yield "LICENSE: is not the text of LICENSES/Apache-2.0.txt"
 
 
+def copied_alone(root):
+    """Files that others copy one by one into projects of theirs, without REUSE.toml; of the C++ libraries nobody copies one."""
+    for folder in ALONE:
+        yield from (file for file in sorted((root / folder).rglob("*")) if file.suffix in ALONE_SUFFIXES and file.name not in NEVER_ALONE)
+
+
+def faults_of_heads(root, reuse):
+    """What they say themselves, in their first lines, is what REUSE.toml says."""
+    for file in copied_alone(root):
+        name, head = str(file.relative_to(root)), file.read_text(encoding="utf-8").split("\n")[:3]
+        said = [found[1] for line in head if (found := re.fullmatch(HEAD_LINE + r"License-Identifier: ([^*]*?)( \*/)?", line))]
+        if said != [reuse.licence(name)]:
+            yield f"{name}:1: says {said[0] if said else 'no licence'} itself, REUSE.toml {reuse.licence(name)}"
+        if not any(re.match(HEAD_LINE + "FileCopyrightText: ", line) for line in head):
+            yield f"{name}:1: does not say whose it is"
+
+
 def own_files(program, root, build):
     return {str(pathlib.PurePosixPath(file).relative_to(root)) for file in program.files
             if file.startswith(f"{root}/") and not file.startswith(f"{build}/")}
@@ -187,6 +210,7 @@ def check(root, build):
     yield from stale_rows(found, rows, debian.source)
     yield from faults_of_lists(listed, set().union(*found.values()), rows, debian.source)
     yield from faults_of_texts(root, reuse)
+    yield from faults_of_heads(root, reuse)
     yield from faults_of_locks(root)
 
 

@@ -117,6 +117,32 @@ class Texts(unittest.TestCase):
                                                                                  "LICENSE: is not the text of LICENSES/Apache-2.0.txt"])
 
 
+class Heads(unittest.TestCase):
+    def faults(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "driver").mkdir()
+            (root / "driver" / "port.c").write_text(text, encoding="utf-8")
+            return list(check_licences.faults_of_heads(root, check_licences.Reuse(REUSE)))
+
+    # REUSE-IgnoreStart
+    WHOSE, LICENCE = "/* SPDX-FileCopyrightText: 2026 us */\n", "/* SPDX-License-Identifier: Apache-2.0 */\n"
+    # REUSE-IgnoreEnd
+
+    def test_a_file_that_says_what_reuse_toml_says_is_right(self):
+        self.assertEqual(self.faults(self.WHOSE + self.LICENCE + "int a;\n"), [])
+        self.assertEqual(self.faults("#!/bin/sh\n" + (self.WHOSE + self.LICENCE).replace("/*", "#").replace(" */", "")), [])
+
+    def test_a_file_that_says_nothing_or_something_else(self):
+        self.assertEqual(self.faults("int a;\n"), ["driver/port.c:1: says no licence itself, REUSE.toml Apache-2.0",
+                                                   "driver/port.c:1: does not say whose it is"])
+        self.assertEqual(self.faults(self.WHOSE + self.LICENCE.replace("Apache-2.0", "MIT")),
+                         ["driver/port.c:1: says MIT itself, REUSE.toml Apache-2.0"])
+
+    def test_one_that_says_it_further_down_only(self):
+        self.assertEqual(len(self.faults("/*\n * Words.\n */\n" + self.WHOSE + self.LICENCE)), 2)
+
+
 NINJA = """rule CXX_EXECUTABLE_LINKER__sim_Release
 build obj/a.o: CXX_COMPILER__sim_Release /src/a.cpp || order
 build obj/b.o: CXX_COMPILER__low_Release /src/b$ c.cpp

@@ -73,15 +73,15 @@ class Lines:
 
 
 class Serve:
-    """A running `dsdpv1-sim serve`; `end` ends it as Ctrl-C does."""
+    """A running `dsdpv1-sim serve`; `end` ends it as Ctrl-C does. Without a log for runs of hours, whose log would fill the disk."""
 
-    def __init__(self, program, folder, scenario, *options, port=("--pty", "dp")):
+    def __init__(self, program, folder, scenario, *options, port=("--pty", "dp"), log=True):
         self.folder = folder
         with open(os.path.join(folder, "scenario.yaml"), "w", encoding="UTF-8") as file:
             file.write(scenario)
         self.errors = open(os.path.join(folder, "serve.err"), "w+", encoding="UTF-8")
         self.process = subprocess.Popen(
-            [program, "serve", "scenario.yaml", *port, "--log", "serve.log", "--result", "serve.json", *options],
+            [program, "serve", "scenario.yaml", *port, *(("--log", "serve.log") if log else ()), "--result", "serve.json", *options],
             cwd=folder, stdout=subprocess.PIPE, stderr=self.errors)
         self.lines = Lines(self.process.stdout)
         self.ready = self.lines.next(time.monotonic() + DEADLINE)

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """The DSDPV1, a PROFIBUS-DP slave ASIC, cycle by cycle: chips pin by pin, a bus with masters and monitor, GSD files, checks, scenarios.
 
     import dsdpv1

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """libdsdpv1 behind ctypes: found, checked, its errors made exceptions. ctypes lets other threads of Python run while a call is in the library.
 
 DSDPV1_LIBRARY in the environment names another libdsdpv1.so than the one that is installed with this package.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """A PROFIBUS segment: chips, masters, stations outside, and the monitor that hears all."""
 import ctypes
 import dataclasses

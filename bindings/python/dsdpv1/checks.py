@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """The rules of a chip's user side (docs/checks.md), judged from any pins: those of a model, of RTL, of a recording."""
 import ctypes
 import dataclasses

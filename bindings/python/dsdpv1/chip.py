@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """One chip, driven pin by pin, and what it says of itself."""
 import ctypes
 import dataclasses

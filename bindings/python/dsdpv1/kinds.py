@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """Kinds of chips: what the library has, their pins and parameters."""
 import dataclasses
 import functools

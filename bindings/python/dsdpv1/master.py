@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """Masters of class 1 and 2. Their commands may be given in callbacks; they take effect between two requests, at the present tick at the earliest, and
 what comes of them is told by Bus.on_event."""
 import ctypes

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """Addresses, bits and values of the DPRAM. A word (CRC, count) is at its high byte, the low byte follows.
 
 Generated from registers/dsdpv1.rdl by registers/generate.py. Do not edit.

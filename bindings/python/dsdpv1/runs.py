@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """A scenario (docs/scenarios.md) loaded, run, and what came of it."""
 import ctypes
 import functools

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """Time: whole ticks of 1/12 ns since the start of simulation, in which every time of the chip's documents and of PROFIBUS is a whole number.
 
 ``chip.advance(150 * US)`` is 150 us; ``tick / NS`` is a tick in ns. Convert absolute times, so that nothing drifts.

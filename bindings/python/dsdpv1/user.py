@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """The user CPU's side of a DSDPV1: the handshake and the blocks of the DPRAM.
 
 What a user does is written as generators of actions, so that the same programs run on a Chip (User, here) and, in a simulator, on a DUT's pins

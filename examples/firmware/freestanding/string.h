@@ -1,3 +1,5 @@
+/* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
+/* SPDX-License-Identifier: Apache-2.0 */
 #ifndef FREESTANDING_STRING_H
 #define FREESTANDING_STRING_H
 /* For a build without a C library: the four functions that a compiler may call by itself, and strlen. In memory.c. */

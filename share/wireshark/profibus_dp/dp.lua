@@ -1,3 +1,5 @@
+-- SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+-- SPDX-License-Identifier: Apache-2.0 OR MIT
 -- The data of DPV0's services.
 local fields, Reader, words = ...
 if type(fields) ~= "table" then return end

@@ -1,3 +1,5 @@
+-- SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+-- SPDX-License-Identifier: Apache-2.0 OR MIT
 -- The PDUs of DPV1: MSAC1 and MSAC2.
 local fields, words = ...
 if type(fields) ~= "table" then return end

@@ -1,3 +1,5 @@
+-- SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+-- SPDX-License-Identifier: Apache-2.0 OR MIT
 -- Every field and expert info of the two protocols: pbdl (data link layer) and pbdp (DP, DPV0 and DPV1).
 local words = ...
 if type(words) ~= "table" then return end -- Wireshark also loads each file of the folder by itself

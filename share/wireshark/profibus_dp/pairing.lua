@@ -1,3 +1,5 @@
+-- SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+-- SPDX-License-Identifier: Apache-2.0 OR MIT
 -- Which answer belongs to which request. Learnt when telegrams are seen the first time, in order; kept by frame.
 local pairing = {}
 

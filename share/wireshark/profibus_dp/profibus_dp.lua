@@ -1,3 +1,5 @@
+-- SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+-- SPDX-License-Identifier: Apache-2.0 OR MIT
 -- PROFIBUS DP for Wireshark and tshark: data link layer (pbdl), DP with DPV0 and DPV1 (pbdp).
 -- docs/captures.md of dsdpv1 says how to install it and what its filters are.
 if not __DIR__ then return end

@@ -1,3 +1,5 @@
+-- SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+-- SPDX-License-Identifier: Apache-2.0 OR MIT
 -- Walks over the bytes of a telegram and puts them into the tree; never beyond their end.
 local fields = ...
 if type(fields) ~= "table" then return end

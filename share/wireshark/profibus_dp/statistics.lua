@@ -1,3 +1,5 @@
+-- SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+-- SPDX-License-Identifier: Apache-2.0 OR MIT
 -- Telegrams by type, service and station, and response times: printed by tshark at its end, a window in Wireshark.
 local words = ...
 if type(words) ~= "table" then return end

@@ -1,3 +1,5 @@
+-- SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+-- SPDX-License-Identifier: Apache-2.0 OR MIT
 -- The words of PROFIBUS: function codes, services, error codes, as tables from number to name.
 local words = {}
 

@@ -19,8 +19,7 @@
 #include "tb/dsdpv1/systemc/tlm_host_bus.hpp"
 #include "tb/input/input_error.hpp"
 
-namespace dsdpv1 {
-namespace tb {
+namespace dsdpv1::tb {
 namespace {
 
 // Pins at which an agent has a new plan: the user CPU, and who reads the telegrams of the serial ports.
@@ -130,7 +129,6 @@ int run_body() {
   }
 }
 
-}  // namespace tb
-}  // namespace dsdpv1
+}  // namespace dsdpv1::tb
 
 int sc_main(int, char**) { return dsdpv1::tb::run_body(); }

@@ -19,7 +19,7 @@ void UartSender::begin(Tick at, std::vector<std::uint8_t> bytes, const UartFault
   if (const auto bit = fault.flipped_bit; bit && *bit / 8 < bytes.size())
     bytes[*bit / 8] = static_cast<std::uint8_t>(bytes[*bit / 8] ^ 1U << *bit % 8);
   if (fault.break_at) bytes.resize(std::min(bytes.size(), *fault.break_at + 1));
-  UartFaults faults = fault;
+  UartFaults faults = static_cast<const UartFaults&>(fault);
   if (fault.talk_over) {
     faults.pause_before = bytes.size();
     faults.pause = *fault.talk_over;

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """PROFIBUS and the DSDPV1 in cocotb: masters, source, sink, monitor, the user CPU at the host port, and the model as reference.
 
 Everything is at its tick of 1/12 ns; see docs/cocotb.md.

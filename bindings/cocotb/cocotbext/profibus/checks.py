@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """The rules of the user's side (docs/checks.md) on a DUT's pins."""
 import typing
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """The user CPU at a DUT's pins: the programs of dsdpv1.user, each edge at its tick."""
 import typing
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """Pins as a source: what a run of the model has had at its inputs, on a DUT."""
 import typing
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """The model as reference: it gets the DUT's inputs, and each change of each output has to be the DUT's, at its cycle."""
 import collections
 import typing

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """The line in a simulator: masters and monitor of the model, the DUT as a station."""
 import typing
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """Time in a simulator: ticks of 1/12 ns, which every time of the chip and of PROFIBUS is a whole number of, against the simulator's steps.
 
 Only absolute times are converted, each once, so that nothing drifts: an edge is at most half a step beside its tick, and a time that was made from a

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 the dsdpv1 authors
+# SPDX-License-Identifier: Apache-2.0
 """Characters on a signal, without a bus: source and sink of PROFIBUS characters (start bit, eight data, even parity, stop bit), and a monitor of
 telegrams. Bit times are whole ticks, edges are at absolute ones."""
 import dataclasses
