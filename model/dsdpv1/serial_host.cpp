@@ -28,7 +28,7 @@ bool SpiFrame::mosi(std::size_t bit) const {
 
 SerialEdge SpiFrame::operator[](std::size_t number) const {
   if (number == 0) return {0, Pin::kXss, false};
-  if (number == 1) return {0, Pin::kMosi, mosi(0)};
+  if (number == 1) return {std::min(timing_.mosi_delay, timing_.lead), Pin::kMosi, mosi(0)};
   if (number == size_ - 1)
     return {bits_ == 0 ? timing_.lead : rise(bits_ - 1) + timing_.high + timing_.lag, Pin::kXss, true};
   const std::size_t bit = (number - 2) / 4;
@@ -36,8 +36,12 @@ SerialEdge SpiFrame::operator[](std::size_t number) const {
     case 0: return {rise(bit), Pin::kMiso, true};
     case 1: return {rise(bit), Pin::kSck, true};
     case 2: return {rise(bit) + timing_.high, Pin::kSck, false};
-    default: return {rise(bit) + timing_.high, Pin::kMosi, mosi(bit + 1)};
+    default: return {rise(bit) + timing_.high + mosi_delay(bit), Pin::kMosi, mosi(bit + 1)};
   }
+}
+
+Tick SpiFrame::mosi_delay(std::size_t bit) const {
+  return bit + 1 < bits_ ? timing_.mosi_delay : std::min(timing_.mosi_delay, timing_.lag);
 }
 
 void SpiFrame::sampled(bool miso) {

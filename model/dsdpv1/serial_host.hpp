@@ -26,9 +26,11 @@ struct SpiTiming {
   Tick lag = 2400;             ///< SCK falls, XSS rises
   Tick gap = 6000;             ///< XSS is high at least so long between two frames: 500 ns
   Tick byte_gap = 0;           ///< SCK stays low so much longer between two bytes
+  Tick mosi_delay = 0;         ///< from SCK's fall, of the first bit XSS's, to MOSI's change; no longer than low
 };
 
-/// One frame of XSS: mode 0, MSB first (SP1). MOSI changes with SCK's fall, the first bit with XSS's.
+/// One frame of XSS: mode 0, MSB first (SP1). MOSI changes `mosi_delay` after SCK's fall, the first bit after XSS's,
+/// but not after SCK's first rise nor XSS's.
 class SpiFrame {
  public:
   SpiFrame() = default;  ///< no edges
@@ -47,6 +49,7 @@ class SpiFrame {
  private:
   Tick rise(std::size_t bit) const;
   bool mosi(std::size_t bit) const;
+  Tick mosi_delay(std::size_t bit) const;  ///< after this bit
 
   SpiTiming timing_;
   std::vector<std::uint8_t> out_, in_;

@@ -31,6 +31,9 @@ const ObjectOf<SpiKeys>& spi_keys() {
     o.time("lag", &S::lag, range, "XSS rises after SCK's last fall.");
     o.time("gap", &S::gap, range, "XSS is high at least so long between two frames.");
     o.time("byte_gap", &S::byte_gap, range, "SCK stays low so much longer between two bytes.");
+    o.time("mosi_delay", &S::mosi_delay, range,
+           "MOSI changes so long after SCK's fall, the first bit after XSS's; at most half of SCK's period, when it "
+           "changes with the rise.");
     o.integer("spare", &S::spare, {0, static_cast<int>(DSDPV1_SPI_SPARE)}, "bytes",
               "By how much a reply may come later than right after the request (SP6).");
     return o;
@@ -75,10 +78,19 @@ bool is_of_the_card(const Switch& one) {
   return (kPins.at(one.port) >> one.pin & 1U) != 0;
 }
 
+Tick period_of(const SpiKeys& keys) { return (1000 * bus::kTicksPerUs + keys.clock_khz / 2) / keys.clock_khz; }
+
+void check_mosi(const SpiKeys& keys, const std::string& file) {
+  if (keys.mosi_delay <= period_of(keys) / 2) return;
+  throw InputError(file, keys.line,
+                   fmt::format("mosi_delay is {} ticks, allowed is half of SCK's period, {} ticks, at most",
+                               keys.mosi_delay, period_of(keys) / 2));
+}
+
 user_cpu::SpiPort spi_port(const SpiKeys& keys) {
   user_cpu::SpiPort port;
-  const Tick period = (1000 * bus::kTicksPerUs + keys.clock_khz / 2) / keys.clock_khz;
-  port.timing = {(period + 1) / 2, period / 2, keys.lead, keys.lag, keys.gap, keys.byte_gap};
+  const Tick period = period_of(keys);
+  port.timing = {(period + 1) / 2, period / 2, keys.lead, keys.lag, keys.gap, keys.byte_gap, keys.mosi_delay};
   port.spare = static_cast<std::uint8_t>(keys.spare);
   return port;
 }
@@ -145,6 +157,7 @@ void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::s
     throw InputError(file, where, fmt::format("{} with mode: {} of the chip, allowed is {}", key, mode, allowed));
   };
   if (user.spi && chip.mode != HostMode::kSpi) refuse(user.spi->line, "spi", "mode: spi");
+  if (user.spi) check_mosi(*user.spi, file);
   if (user.uart && chip.mode != HostMode::kUart) refuse(user.uart->line, "uart", "mode: uart");
   if (chip.mode == HostMode::kParallel) return;
   if (user.access) refuse(user.access->line, "access", "mode: parallel");

@@ -51,7 +51,7 @@ enum class WithoutMailbox : std::uint8_t { kRefuse, kLeaveOut };
 /// The user's end of an SPI port. Times in ticks.
 struct SpiKeys {
   int clock_khz = 9000;
-  Tick lead = 2400, lag = 2400, gap = 6000, byte_gap = 0;
+  Tick lead = 2400, lag = 2400, gap = 6000, byte_gap = 0, mosi_delay = 0;
   int spare = 0;
   int line = 0;
 };

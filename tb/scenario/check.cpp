@@ -201,7 +201,10 @@ class Checker {
     check_connection_name(action.connection);
     check_time(action.at, "at", action.line);
     if (action.when) check_condition(*action.when);
-    if (action.what == ActionKind::kOfChip) check_order(action);
+    if (action.what == ActionKind::kOfChip)
+      check_order(action);
+    else if (action.bytes.size() > 255)
+      fail(action.line, fmt::format("bytes has {} bytes, allowed are 0 to 255", action.bytes.size()));
     switch (action.what) {
       case ActionKind::kReadInputs:
       case ActionKind::kReadOutputs:

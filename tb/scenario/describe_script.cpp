@@ -155,7 +155,8 @@ void describe_values(ObjectOf<Action>& o, const ChipKind& kind) {
   o.name_of("slave", &A::slave, "Name of the slave.");
   o.name_of("master", &A::master, "Name of the master; left out: the first one.");
   o.name_of("connection", &A::connection, "Name of a connection of a class 2 master.");
-  o.bytes("bytes", &A::bytes, {0, 255}, "Data, or all bytes of a telegram.");
+  o.bytes("bytes", &A::bytes, {0, 256},
+          "Data, or all bytes of a telegram; 256 of host_telegram only, of all others up to 255.");
   o.word("type", &A::diagnosis,
          std::vector<WordFor<DiagnosisKind>>{{DiagnosisKind::kExtended, "extended", "low priority"},
                                              {DiagnosisKind::kExternal, "external", "Ext_Diag"},

@@ -65,7 +65,7 @@ void expect_same_in_both_views(const std::string& text) {
 
 TEST(SerialViews, SpiIsTheSameWithFaultsGapsAndResets) {
   expect_same_in_both_views(scenario("mode: spi, spi_reply_gap: 2",
-                                     "spi: {clock: 7000, byte_gap: 1us, gap: 900ns, spare: 2}",
+                                     "spi: {clock: 7000, byte_gap: 1us, gap: 900ns, mosi_delay: 60ns, spare: 2}",
                                      {"flip_bit", "cut_telegram"}));
 }
 

@@ -1,6 +1,7 @@
 // The serial ports of the DSDPV1-RSU, the model alone, on frames and telegrams of which most are wrong: after each few
 // of them the port answers a right one, and every way in which a host can offend the port has been told.
-// DSDPV1_TELEGRAMS in the environment says how many are sent (docs/cosim.md has the figures of a long run).
+// DSDPV1_TELEGRAMS and DSDPV1_SEED in the environment say how many are sent and which (docs/cosim.md has the figures of
+// a long run).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,10 +24,12 @@ constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr std::uint16_t kReady = 0x004;  // no cell of a port's
 constexpr int kRate = 7;
 
-long telegrams() {
-  const char* text = std::getenv("DSDPV1_TELEGRAMS");
-  return text == nullptr ? 2000 : std::atol(text);
+long from_environment(const char* name, long usual) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? usual : std::atol(text);
 }
+long telegrams() { return from_environment("DSDPV1_TELEGRAMS", 2000); }
+std::uint64_t seed() { return static_cast<std::uint64_t>(from_environment("DSDPV1_SEED", 1)); }
 
 bus::Bytes with_crc(bus::Bytes bytes) {
   const int crc = dpram::crc16(bytes.data(), static_cast<int>(bytes.size()));
@@ -157,7 +160,7 @@ class Port {
 };
 
 TEST(SerialPort, SpiAnswersARightFrameAfterWhateverCameBefore) {
-  Port port(HostMode::kSpi, 1);
+  Port port(HostMode::kSpi, seed());
   long answered = 0;
   for (long sent = 0; sent < telegrams(); ++answered) {
     sent += port.anything();
@@ -171,7 +174,7 @@ TEST(SerialPort, SpiAnswersARightFrameAfterWhateverCameBefore) {
 }
 
 TEST(SerialPort, UartAnswersARightTelegramAfterWhateverCameBefore) {
-  Port port(HostMode::kUart, 1);
+  Port port(HostMode::kUart, seed());
   long answered = 0;
   for (long sent = 0; sent < telegrams(); ++answered) {
     sent += port.anything();

@@ -79,6 +79,20 @@ TEST_F(SpiMasterTest, AByteHasItsEdgesAtTheirTicks) {
                                                Change{12'900, Pin::kMosi, true}, Change{14'200, Pin::kMosi, false}));
 }
 
+TEST_F(SpiMasterTest, MosiFollowsSckLaterButStaysWithinTheFrame) {
+  timing.mosi_delay = 650;
+  timing.lead = 620;
+  timing.lag = 630;
+  PinSpiMaster late{pins, timing};
+  late.begin(0, {0xA1});
+  run(late);
+  EXPECT_THAT(
+      pins.of(Pin::kMosi),
+      ElementsAre(Change{620, Pin::kMosi, true}, Change{1220 + 650, Pin::kMosi, false},
+                  Change{1220 + 1300 + 650, Pin::kMosi, true}, Change{1220 + 2 * 1300 + 650, Pin::kMosi, false},
+                  Change{1220 + 6 * 1300 + 650, Pin::kMosi, true}, Change{1220 + 7 * 1300 + 630, Pin::kMosi, false}));
+}
+
 TEST_F(SpiMasterTest, MisoIsSampledAtEachRise) {
   pins.answer = {true, false, false, false, false, false, false, true,
                  true, true,  false, false, true,  false, true,  false};
