@@ -191,7 +191,7 @@ class ChipTest(unittest.TestCase):
         chip.set("R_STA", 0, at=152 * US)
         chip.set("R_REQ", 0)
         chip.advance(1 * MS)
-        return chip.changes().tobytes()
+        return repr(chip.changes().tolist()).encode()
 
     def test_a_saved_chip_goes_on_in_another_process(self):
         chip = self.begun(parameters={"ready_cycles": 5000})
