@@ -32,6 +32,12 @@ class Changes {
     if (taken_ >= kept_.size() - taken_) forget_taken();
     return count;
   }
+  /// Those that are kept are of a time that is none any more.
+  void forget() {
+    kept_.clear();
+    taken_ = 0;
+    lost_ = false;
+  }
   /// After a call in which changes were added: throws std::bad_alloc when one could not be kept.
   void check() {
     if (!lost_) return;

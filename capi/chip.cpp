@@ -325,6 +325,36 @@ dpsim_status dpsim_chip_peek(const dpsim_chip* chip, uint16_t address, uint8_t* 
       });
 }
 
+dpsim_status dpsim_chip_save(const dpsim_chip* chip, uint8_t* bytes, size_t capacity, size_t* size) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        need(size, "size");
+        capi::need_buffer(bytes, capacity, "bytes");
+        capi::need_outside(chip->clock);
+        const std::vector<std::uint8_t> state = chip->save();
+        *size = state.size();
+        if (state.size() > capacity)
+          fail(DPSIM_ERR_SPACE,
+               "the state has " + std::to_string(state.size()) + " bytes, capacity is " + std::to_string(capacity));
+        std::copy(state.begin(), state.end(), bytes);
+      });
+}
+
+dpsim_status dpsim_chip_restore(dpsim_chip* chip, const uint8_t* bytes, size_t size) {
+  return guarded(
+      __func__,
+      [&] {
+        need(chip, "chip");
+        capi::need_buffer(bytes, size, "bytes");
+        capi::need_outside(chip->clock);
+        chip->restore(bytes, size);
+        chip->clock.now = chip->now();
+        chip->changes.forget();
+      });
+}
+
 dpsim_status dpsim_chip_poke(dpsim_chip* chip, uint16_t address, uint8_t value) {
   return guarded(
       __func__,

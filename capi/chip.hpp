@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "capi/changes.hpp"
 #include "capi/clock.hpp"
@@ -60,6 +61,10 @@ struct dpsim_chip {
   virtual tb::ChipStatus status() const = 0;
   virtual std::uint8_t peek(std::uint16_t address) const = 0;
   virtual void poke(std::uint16_t address, std::uint8_t value) = 0;
+  // Of a chip alone.
+  virtual std::vector<std::uint8_t> save() const = 0;
+  /// Throws for bytes that are no state of this chip.
+  virtual void restore(const std::uint8_t* bytes, std::size_t size) = 0;
 
   /// Sets a pin if it is an input and has such a level at a time that is not over; else throws.
   void set_checked(std::uint64_t tick, std::uint16_t pin, Level level) {

@@ -46,6 +46,14 @@ class Alone : public dpsim_chip {
   tb::ChipStatus status() const override { return tb::status_of(chip_); }
   std::uint8_t peek(std::uint16_t address) const override { return chip_.peek(address); }
   void poke(std::uint16_t address, std::uint8_t value) override { chip_.poke(address, value); }
+  std::vector<std::uint8_t> save() const override { return chip_.save(); }
+  void restore(const std::uint8_t* bytes, std::size_t size) override {
+    try {
+      chip_.restore(bytes, size);
+    } catch (const StateError& error) {
+      fail(DPSIM_ERR_INPUT, error.what());
+    }
+  }
 
  private:
   [[gnu::noinline]] void set_watched(Tick at, Pin pin, Level level) {
@@ -102,8 +110,13 @@ class OnBus : public dpsim_chip {
     chip_.sync(now());
     core_.poke(address, value);
   }
+  std::vector<std::uint8_t> save() const override { refuse_state("saved"); }
+  void restore(const std::uint8_t* /*bytes*/, std::size_t /*size*/) override { refuse_state("restored"); }
 
  private:
+  [[noreturn]] static void refuse_state(const std::string& what) {
+    fail(DPSIM_ERR_STATE, "the chip is on a bus, allowed is that one alone is " + what);
+  }
   /// It leaves undone what nobody sees; inside of a callback it is not to be moved.
   void catch_up() const {
     if (!clock.calling) chip_.sync(now());

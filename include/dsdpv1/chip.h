@@ -274,6 +274,30 @@ DPSIM_API dpsim_status dpsim_chip_peek(const dpsim_chip* chip, uint16_t address,
 /** Writes it; what the chip acts upon (a flag for it) it finds at its next access. */
 DPSIM_API dpsim_status dpsim_chip_poke(dpsim_chip* chip, uint16_t address, uint8_t value);
 
+/* ---- saved and restored ---- */
+
+#define DPSIM_MAX_CHIP_STATE 32768
+
+/** All that a chip alone is at its present tick, as bytes that dpsim_chip_restore takes, in this process or another:
+ * registers, memory, levels of its pins, what is on its way, the tick. Not who watches and listens, and not changes
+ * that are kept. `bytes` has room for `capacity`, `size` is their number; DPSIM_MAX_CHIP_STATE is always enough.
+ *
+ *    uint8_t state[DPSIM_MAX_CHIP_STATE];
+ *    size_t size;
+ *    dpsim_chip_save(chip, state, sizeof state, &size);
+ *    ...
+ *    dpsim_chip_restore(again, state, size);
+ *
+ *  DPSIM_ERR_SPACE: `size` is what is needed. DPSIM_ERR_STATE: it is on a bus, whose line, masters and time are
+ * no part of a chip. */
+DPSIM_API dpsim_status dpsim_chip_save(const dpsim_chip* chip, uint8_t* bytes, size_t capacity, size_t* size);
+/** The chip goes on as the one that was saved, from its tick on, which may be before the present one: pins, events and
+ * status are to the tick what they would have been. Kind and parameters must be the same, the engine need not.
+ * Callbacks and the set of watched pins stay; that pins have other levels now is told to nobody, and changes that are
+ * kept are forgotten. DPSIM_ERR_INPUT: the bytes are no state, cut or damaged, of another version of the format, kind
+ * or parameter; then the chip is what it was. DPSIM_ERR_STATE: it is on a bus. */
+DPSIM_API dpsim_status dpsim_chip_restore(dpsim_chip* chip, const uint8_t* bytes, size_t size);
+
 #ifdef __cplusplus
 }
 #endif

@@ -184,7 +184,7 @@ bool Chip::Impl::apply(Tick at, Pin pin, Level value) {
   if (pin > Pin::kReady) return set_serial(at, pin, value);
   if (value == host.level(pin)) return false;
   host.set(at, pin, value);
-  plans.host = host.next();
+  if (!live) plans.host = host.next();  // else it does not listen
   publish_data(at);
   return true;
 }

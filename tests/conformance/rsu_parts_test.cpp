@@ -148,5 +148,20 @@ TEST(RsuPorts, ModeChangesWithEachReset) {
   }
 }
 
+TEST(RsuParts, PinsOfTheParallelPortDisturbNoSerialOne) {
+  RsuBench bench;
+  bench.power_on();
+  bench.xss(0);
+  bench.set(bench.now() + 1, Pin::kA, 0x123);  // XSS is on its way to the logic
+  bench.set(bench.now() + 2, Pin::kCsr, 0);
+  bench.run_until(bench.now() + 600);
+  const Bytes request = read_telegram(0x004, 4);
+  bench.clock(part_of(request, 0, 2));
+  bench.set(bench.now(), Pin::kRd, 0);
+  bench.clock(part_of(request, 2, request.size() - 2));
+  bench.set(bench.now(), Pin::kRd, 1);
+  EXPECT_EQ(part_of(bench.clock(Bytes(8, 0xFF)), 0, 2), (Bytes{0x81, 0x00}));
+}
+
 }  // namespace
 }  // namespace dsdpv1::conformance

@@ -47,6 +47,12 @@ constexpr unsigned kRestoredEvery = 100;
 
 }  // namespace
 
+void save_and_restore(dsdpv1::Chip& chip) {
+  const std::vector<std::uint8_t> state = chip.save();
+  chip.restore(state.data(), state.size());
+  ASSERT_TRUE(chip.save() == state) << "at tick " << chip.now();
+}
+
 TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines)
     : segment_(segment),
       station_(segment.attach("chip", this)),
@@ -158,10 +164,7 @@ void TwinChip::compare_state() const {
 
 void TwinChip::restore_one() {
   dsdpv1::Chip* const chips[] = {&skip_, &step_, &doze_};
-  dsdpv1::Chip& chip = *chips[comparisons_ / kRestoredEvery % std::size(chips)];
-  const std::vector<std::uint8_t> state = chip.save();
-  chip.restore(state.data(), state.size());
-  ASSERT_TRUE(chip.save() == state) << "what was restored is saved again as it was";
+  save_and_restore(*chips[comparisons_ / kRestoredEvery % std::size(chips)]);
 }
 
 void TwinChip::on_skip_pin(void* self, Tick at, Pin pin, Level level) {

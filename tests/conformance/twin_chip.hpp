@@ -24,6 +24,9 @@ struct PinChange {
   bool operator==(const PinChange& other) const { return at == other.at && pin == other.pin && level == other.level; }
 };
 
+/// It goes on from what it has saved, which is what it saves again.
+void save_and_restore(dsdpv1::Chip& chip);
+
 /// Whether the chip has its twins. Alone, in skip, it keeps no trace either: for long campaigns.
 enum class Engines : std::uint8_t { kStepAndSkip, kSkipAlone };
 

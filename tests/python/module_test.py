@@ -1,9 +1,12 @@
 """The module dsdpv1: each part once, and what is Python's own: exceptions, callbacks, threads, numpy."""
+import copy
 import dataclasses
 import functools
 import os
 import pathlib
+import pickle
 import re
+import subprocess
 import sys
 import tempfile
 import threading
@@ -167,6 +170,63 @@ class ChipTest(unittest.TestCase):
         end = chip.receive(status, bit, at=chip.now + 200 * bit)
         chip.advance(end + 200 * bit)
         self.assertIn(chip.changes()["tick"][0] - end, range(11 * bit, 12 * bit + 1))  # TSDR
+
+    @staticmethod
+    def begun(**options):
+        """A chip in the middle of an access of the user, and what brings it to the end."""
+        chip = dsdpv1.Chip(**options)
+        chip.set("RESET", 1, at=1 * US)
+        chip.set("R_REQ", 1, at=150 * US)
+        chip.set("R_STA", 1, at=151 * US)
+        chip.set("A", 4)
+        chip.set("CSR", 0)
+        chip.set("RD", 0)
+        return chip
+
+    @staticmethod
+    def ended(chip):
+        chip.watch()
+        chip.set("RD", 1, at=151 * US + 1000)
+        chip.set("CSR", 1)
+        chip.set("R_STA", 0, at=152 * US)
+        chip.set("R_REQ", 0)
+        chip.advance(1 * MS)
+        return repr(chip.changes().tolist()).encode()
+
+    def test_a_saved_chip_goes_on_in_another_process(self):
+        chip = self.begun(parameters={"ready_cycles": 5000})
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "chip.state"
+            path.write_bytes(chip.save())
+            program = ("import sys, pathlib, dsdpv1; from module_test import ChipTest; chip = dsdpv1.Chip(parameters={'ready_cycles': 5000});"
+                       "chip.restore(pathlib.Path(sys.argv[1]).read_bytes()); sys.stdout.buffer.write(ChipTest.ended(chip))")
+            there = subprocess.run([sys.executable, "-B", "-c", program, path], check=True, stdout=subprocess.PIPE,
+                                   env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [str(pathlib.Path(__file__).parent), *sys.path]))})
+        here = self.ended(chip)
+        self.assertGreater(len(here), 1000)
+        self.assertEqual(there.stdout, here)
+
+    def test_a_chip_can_be_copied_pickled_and_taken_back(self):
+        chip = self.begun(engine="step", parameters={"ready_cycles": 5000})
+        state, copied, pickled = chip.save(), copy.copy(chip), pickle.loads(pickle.dumps(chip))
+        ended = self.ended(chip)
+        for each in (copied, pickled):
+            self.assertEqual(each.now, 151 * US)
+            self.assertEqual(self.ended(each), ended)
+        chip.restore(state)
+        self.assertEqual(self.ended(chip), ended)
+
+    def test_what_is_no_state_of_such_a_chip_is_refused(self):
+        chip = self.begun()
+        state, now = chip.save(), chip.now
+        for wrong, why in ((b"", "this is no saved state of a chip"), (state[:-1], "it was saved with"), (state[:-1] + b"\0", "damaged")):
+            with self.assertRaisesRegex(dsdpv1.InputError, why):
+                chip.restore(wrong)
+            self.assertEqual((chip.now, chip.save()), (now, state))
+        with self.assertRaisesRegex(dsdpv1.InputError, "whose ready_cycles is 4096, here it is 5000"):
+            dsdpv1.Chip(parameters={"ready_cycles": 5000}).restore(state)
+        with self.assertRaisesRegex(dsdpv1.StateError, "on a bus"):
+            pickle.dumps(dsdpv1.Bus().add_chip())
 
     def test_what_a_callback_raises_comes_out_of_the_call(self):
         chip = dsdpv1.Chip()

@@ -6,7 +6,7 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int16, 
                     c_uint64, c_void_p)
 
 DPSIM_ABI_MAJOR = 0
-DPSIM_ABI_MINOR = 2
+DPSIM_ABI_MINOR = 3
 DPSIM_TICKS_PER_CYCLE = 250
 DPSIM_TICKS_PER_NS = 12
 DPSIM_NEVER = 0xffffffffffffffff
@@ -51,6 +51,7 @@ dpsim_change_fn = CFUNCTYPE(None, c_void_p, POINTER(dpsim_change))
 DPSIM_ALL_PINS = 0xffffffffffffffff
 DPSIM_BAUD_COUNT = 10
 DPSIM_BAUD_NONE = -1
+DPSIM_MAX_CHIP_STATE = 32768
 
 
 class dpsim_pin_info(Structure):
@@ -739,6 +740,8 @@ FUNCTIONS = {
     "dpsim_chip_get_status": (dpsim_status, [c_void_p, POINTER(dpsim_chip_status)]),
     "dpsim_chip_peek": (dpsim_status, [c_void_p, c_uint16, c_void_p]),
     "dpsim_chip_poke": (dpsim_status, [c_void_p, c_uint16, c_uint8]),
+    "dpsim_chip_save": (dpsim_status, [c_void_p, c_void_p, c_size_t, POINTER(c_size_t)]),
+    "dpsim_chip_restore": (dpsim_status, [c_void_p, c_char_p, c_size_t]),
     "dpsim_gsd_load": (dpsim_status, [c_char_p, POINTER(c_void_p)]),
     "dpsim_gsd_parse": (dpsim_status, [c_char_p, c_size_t, c_char_p, POINTER(c_void_p)]),
     "dpsim_gsd_destroy": (None, [c_void_p]),

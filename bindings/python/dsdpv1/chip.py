@@ -111,12 +111,20 @@ def chip_options(engine: str, kind: typing.Optional[str], name: typing.Optional[
                  parameters=ctypes.cast(table, ctypes.POINTER(_c.dpsim_parameter)), parameter_count=len(parameters))
 
 
+def _unpickled(kind: str, engine: str, parameters: typing.Mapping[str, int], state: bytes) -> "Chip":
+    made = Chip(kind, engine, parameters)
+    made.restore(state)
+    return made
+
+
 class Chip(Handle):
     """A chip alone, fresh from power-on at tick 0: RESET is low.
 
     A change of an input at tick t is seen by the first rising edge of CLK strictly after t (P9); the host port, which is asynchronous, sees it
     at t. Calls come in order of time: a tick before the present one is a TimeError. `at` None is the present tick. Pins are given by name or
     number. On a bus (Bus.add_chip) setting or advancing the chip runs the whole bus.
+
+    A chip alone can be saved and restored, and so be copied and pickled: the copy goes on where the chip is; nobody watches or listens to it.
     """
 
     def __init__(self, kind: typing.Optional[str] = None, engine: str = "skip", parameters: typing.Optional[typing.Mapping[str, int]] = None) -> None:
@@ -124,6 +132,7 @@ class Chip(Handle):
         options = chip_options(engine, kind, None, parameters or {})
         super().__init__(number(lambda into: lib.dpsim_chip_create(ctypes.byref(options), into), ctypes.c_void_p), lib.dpsim_chip_destroy)
         self._set_kind(kind)
+        self._made_with = (engine, dict(parameters or {}))
 
     @classmethod
     def _of(cls, handle: int, kind: typing.Optional[str]) -> "Chip":
@@ -199,6 +208,30 @@ class Chip(Handle):
     def poke(self, cell: int, value: int) -> None:
         """Writes it so; the chip finds it at its next access."""
         lib.dpsim_chip_poke(self, cell, value)
+
+    # ---- saved and restored
+    def save(self) -> bytes:
+        """All that the chip is at the present tick, for restore() here or in another process. Not who watches and listens, and not changes that
+        are kept. StateError: it is on a bus, whose line, masters and time are no part of a chip.
+
+            path.write_bytes(chip.save())
+            ...
+            again = dsdpv1.Chip()
+            again.restore(path.read_bytes())
+        """
+        state = ctypes.create_string_buffer(_c.DPSIM_MAX_CHIP_STATE)
+        size = number(lambda into: lib.dpsim_chip_save(self, ctypes.addressof(state), len(state), into), ctypes.c_size_t)
+        return state.raw[:size]
+
+    def restore(self, state: bytes) -> None:
+        """Goes on as the chip that was saved, from its tick on, which may be before the present one. Kind and parameters must be the same, the
+        engine need not. Who watches and listens stays; changes that are kept are forgotten. InputError: these bytes are no state of such a chip;
+        then it is what it was."""
+        lib.dpsim_chip_restore(self, bytes(state), len(state))
+
+    def __reduce__(self) -> typing.Any:
+        state = self.save()
+        return _unpickled, (self.kind.name, *self._made_with, state)
 
     # ---- what is told
     def watch(self, pins: typing.Optional[typing.Iterable[PinName]] = None,

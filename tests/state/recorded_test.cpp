@@ -1,0 +1,139 @@
+// The pins of all scenarios again, to a chip that lives through and to one that is saved and restored at random ticks,
+// each time into a chip with another history: the same pins, the same events, and byte for byte the same state.
+#include "tests/state/recorded.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <random>
+
+#include "model/dsdpv1/reasons.hpp"
+
+namespace dsdpv1::state_test {
+namespace {
+
+using profibus::Event;
+using profibus::kTicksPerCycle;
+
+constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
+
+/// How a chip is evaluated and looked at: it dozes where nobody looks at L_REQ and L_STA.
+enum class Way : std::uint8_t { kSkip, kDoze, kStep };
+const char* words(Way way) { return way == Way::kSkip ? "Skip" : way == Way::kDoze ? "Doze" : "Step"; }
+
+/// What has left a chip.
+struct Heard {
+  std::vector<Input> pins;
+  std::vector<Event> events;
+};
+bool same(const Event& a, const Event& b) {
+  return a.at == b.at && a.reason == b.reason && a.a == b.a && a.b == b.b && a.c == b.c;
+}
+
+std::unique_ptr<Chip> make_chip(Config config, Way way, Heard& heard) {
+  config.engine = way == Way::kStep ? Engine::kStep : Engine::kSkip;
+  auto chip = std::make_unique<Chip>(config);
+  const auto on_pin = [](void* self, Tick at, Pin pin, Level level) {
+    static_cast<Heard*>(self)->pins.push_back({at, pin, level});
+  };
+  const auto on_event = [](void* self, const Event& event) { static_cast<Heard*>(self)->events.push_back(event); };
+  chip->watch({on_pin, &heard}, outputs_of(config.part) & (way == Way::kDoze ? ~kAccessPins : ~0U));
+  chip->on_event({on_event, &heard});
+  return chip;
+}
+
+/// Half of them anywhere, half soon after an input: within characters, accesses, frames.
+std::vector<Tick> random_ticks(const Recorded& slave, int count, std::mt19937& random) {
+  std::vector<Tick> ticks;
+  const auto below = [&](Tick limit) { return static_cast<Tick>(random() % static_cast<std::uint64_t>(limit)); };
+  for (int i = 0; i < count; ++i) {
+    const Input& near = slave.inputs[static_cast<std::size_t>(below(static_cast<Tick>(slave.inputs.size())))];
+    ticks.push_back(std::min(slave.end, i % 2 == 0 ? below(slave.end) : near.at + below(20 * kTicksPerCycle)));
+  }
+  std::sort(ticks.begin(), ticks.end());
+  return ticks;
+}
+
+class Lives {
+ public:
+  Lives(const Recorded& slave, Way way)
+      : slave_(slave),
+        unbroken_(make_chip(slave.config, way, expected_)),
+        restored_{make_chip(slave.config, way, heard_), make_chip(slave.config, way, heard_)} {
+    restored_[1]->set(777, Pin::kReset, 1);  // another history, of which nothing may stay
+    restored_[1]->set(5'000'000, Pin::kRReq, 1);
+    restored_[1]->advance(7'777'777);
+    heard_ = {};
+  }
+
+  void run(const std::vector<Tick>& ticks) {
+    auto next = ticks.begin();
+    for (const Input& each : slave_.inputs) {
+      for (; next != ticks.end() && *next < each.at; ++next) move_on(*next);
+      for (Chip* chip : {unbroken_.get(), &now()}) chip->set(each.at, each.pin, each.level);
+    }
+    for (; next != ticks.end(); ++next) move_on(*next);
+    move_on(slave_.end);
+    compare();
+  }
+
+ private:
+  Chip& now() { return *restored_[which_]; }
+  void move_on(Tick at) {
+    for (Chip* chip : {unbroken_.get(), &now()}) chip->advance(at);
+    const std::vector<std::uint8_t> state = now().save();
+    ASSERT_TRUE(state == unbroken_->save()) << "at tick " << at;
+    which_ = 1 - which_;
+    now().restore(state.data(), state.size());
+    ASSERT_EQ(now().now(), at);
+    ASSERT_EQ(now().next_event(), unbroken_->next_event()) << "at tick " << at;
+    ASSERT_TRUE(state == now().save()) << "at tick " << at;
+  }
+  void compare() const {
+    EXPECT_TRUE(heard_.pins == expected_.pins);
+    EXPECT_TRUE(
+        std::equal(heard_.events.begin(), heard_.events.end(), expected_.events.begin(), expected_.events.end(), same));
+    EXPECT_GT(expected_.pins.size() + expected_.events.size(), 5U) << "something happens";
+  }
+
+  const Recorded& slave_;
+  Heard expected_, heard_;
+  std::unique_ptr<Chip> unbroken_;
+  std::array<std::unique_ptr<Chip>, 2> restored_;
+  std::size_t which_ = 0;
+};
+
+struct Case {
+  std::string scenario;
+  Way way;
+  int ticks;  ///< of each slave
+};
+
+class RecordedLives : public ::testing::TestWithParam<Case> {};
+
+TEST_P(RecordedLives, GoOnFromASavedStateAtRandomTicks) {
+  std::mt19937 random(17);
+  for (const Recorded& slave : recorded(GetParam().scenario)) {
+    SCOPED_TRACE(slave.name);
+    Lives(slave, GetParam().way).run(random_ticks(slave, GetParam().ticks, random));
+    if (HasFatalFailure()) return;
+  }
+}
+
+std::vector<Case> cases(std::initializer_list<Way> ways, int ticks) {
+  std::vector<Case> all;
+  for (const Way way : ways)
+    for (const std::string& scenario : recorded_scenarios()) all.push_back({scenario, way, ticks});
+  return all;
+}
+std::string name_of(const ::testing::TestParamInfo<Case>& info) { return info.param.scenario + words(info.param.way); }
+
+// 39 slaves: 1170 ticks each way
+INSTANTIATE_TEST_SUITE_P(Short, RecordedLives, ::testing::ValuesIn(cases({Way::kSkip, Way::kDoze}, 30)), name_of);
+INSTANTIATE_TEST_SUITE_P(Nightly, RecordedLives, ::testing::ValuesIn(cases({Way::kSkip, Way::kDoze, Way::kStep}, 1000)),
+                         name_of);
+
+}  // namespace
+}  // namespace dsdpv1::state_test
