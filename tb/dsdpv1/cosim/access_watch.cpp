@@ -16,12 +16,12 @@ AccessWatch::AccessWatch() {
   for (const Pin high : {Pin::kCsr, Pin::kRd, Pin::kWr, Pin::kXss, Pin::kRxd}) level(high) = 1;
 }
 
-void AccessWatch::change(Tick at, Pin pin, Level level) {
-  const bool differs = level(pin) != level;
-  level(pin) = level;
+void AccessWatch::change(Tick at, Pin pin, Level to) {
+  const bool differs = level(pin) != to;
+  level(pin) = to;
   if (!differs) return;
-  if (pin == Pin::kLReq) (level != 0 ? chip_start_ : chip_end_) = at;
-  user_.pin(at, pin, level);
+  if (pin == Pin::kLReq) (to != 0 ? chip_start_ : chip_end_) = at;
+  user_.pin(at, pin, to);
 }
 
 std::string AccessWatch::chip_text() const {
