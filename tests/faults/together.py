@@ -27,7 +27,7 @@ masters:
   - {name: plc, address: 2, slaves: [{slave: demo, outputs: "01 02"}]}
 """
 LONG = "3000s"  # until it is interrupted
-MANY = 20
+MANY = 12
 
 
 class Folder(unittest.TestCase):
