@@ -47,6 +47,11 @@ std::string key_of(const Description& description, const Run& run, const Json& c
 /// Exit codes of a run that say nothing about it.
 bool says_nothing(int exit) { return exit == kInterrupted || exit == kNotStarted; }
 
+/// Exit code 2 is not always the scenario's: a full disk has it too. Then the line is about a file in the run's place.
+bool could_not_write(const Ended& ended, const std::string& place) {
+  return ended.exit == kWrongInput && ended.output.rfind(place + "/", 0) == 0;
+}
+
 }  // namespace
 
 RegressInputs::RegressInputs(const Description& description, const std::string& program)
@@ -77,7 +82,7 @@ std::vector<std::string> RegressJobs::begin(std::size_t job) {
 
 std::string RegressJobs::end(const Ended& ended) {
   const auto read = read_.extract(ended.job);
-  if (says_nothing(ended.exit)) return fate(ended);
+  if (says_nothing(ended.exit) || could_not_write(ended, folder_.place(plan_.runs[ended.job]))) return fate(ended);
   if (inputs_.look(ended.job) != read.mapped())
     return "one of its files was written while it ran";  // and has its old content again
   outcomes_[ended.job] = folder_.finish(plan_.runs[ended.job], inputs_.key(ended.job), ended);

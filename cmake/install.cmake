@@ -188,7 +188,7 @@ endfunction()
 function(dsdpv1_install_docs)
   install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE REUSE.toml DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
   install(DIRECTORY docs LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs PATTERN "*.py" EXCLUDE)
-  install(DIRECTORY examples DESTINATION ${DSDPV1_INSTALL_DATADIR} COMPONENT docs)
+  install(DIRECTORY examples DESTINATION ${DSDPV1_INSTALL_DATADIR} COMPONENT docs PATTERN ".clang-tidy" EXCLUDE)
   # Sources that firmware takes along, for the example and for products.
   install(DIRECTORY driver DESTINATION ${DSDPV1_INSTALL_DATADIR} COMPONENT docs
           FILES_MATCHING PATTERN "*.c" PATTERN "*.h" PATTERN "systemc" EXCLUDE)

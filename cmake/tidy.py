@@ -56,6 +56,24 @@ def object_of(entry):
     return words[words.index("-o") + 1]
 
 
+def is_firmware(source):
+    """For the ARM board, whose compiler CMake does not know: no command in the database."""
+    return source.suffix == ".c" and "firmware" in source.parts
+
+
+def firmware_entry(source):
+    options = f"--target=thumbv7m-none-eabi -std=c99 -ffreestanding -isystem {ROOT}/examples/firmware/freestanding -I{ROOT}"
+    return {"directory": str(ROOT), "file": str(source), "command": f"clang {options} -c {source} -o {source.stem}.o"}
+
+
+def firmware_headers(entry):
+    """As clang itself finds them."""
+    words = shlex.split(entry["command"])
+    rule = output_of(*words[:words.index("-c")], "-MM", entry["file"])
+    paths = {Path(word).resolve() for word in rule.replace("\\\n", " ").split()[1:]}
+    return {path for path in paths if path.is_relative_to(ROOT)}
+
+
 def read_dependencies(build):
     """Object -> the files of this project that it was made from."""
     dependencies, current = {}, []
@@ -71,7 +89,7 @@ def read_dependencies(build):
 
 def settings_digest():
     digest = hashlib.sha256(output_of("clang-tidy", "--version").encode())
-    for pattern in (".clang-tidy", "*/.clang-tidy", "*/*/.clang-tidy"):
+    for pattern in (".clang-tidy", "*/.clang-tidy", "*/*/.clang-tidy", "*/*/*/.clang-tidy"):
         for path in sorted(ROOT.glob(pattern)):
             digest.update(path.read_bytes())
     return digest.hexdigest()
@@ -86,6 +104,8 @@ def digest_of(settings, command, files):
 
 def files_of(source, commands, dependencies):
     """The source and the headers of its object, of which it may be only a part: then they are more than it includes."""
+    if is_firmware(source):
+        return firmware_headers(commands[source])
     made_from = dependencies.get(object_of(commands[source]), [])
     return {source} | {path for path in made_from if path not in commands}
 
@@ -111,12 +131,14 @@ def main():
     arguments = parser.parse_args()
     build = arguments.build.resolve()
     commands, dependencies, settings = read_commands(build), read_dependencies(build), settings_digest()
+    sources = [Path(name).resolve() for name in arguments.files]
+    commands |= {source: firmware_entry(source) for source in sources if is_firmware(source)}
     cache = build / "tidy-clean"
     cache.mkdir(exist_ok=True)
     (cache / "compile_commands.json").write_text(json.dumps(list(commands.values())), encoding="utf-8")
 
     due = []
-    for source in (Path(name).resolve() for name in arguments.files):
+    for source in sources:
         if source not in commands:
             continue  # not a part of this build, as the projects of tests/install
         entry = commands[source]

@@ -23,7 +23,7 @@
 #ifndef DSDPV1_SIMULATOR_H
 #define DSDPV1_SIMULATOR_H
 
-#include <stdint.h>
+#include <stdint.h> /* NOLINT(modernize-deprecated-headers): C includes this, too */
 
 #if defined(__GNUC__)
 #define DSDPV1_SIMULATOR_API __attribute__((visibility("default")))

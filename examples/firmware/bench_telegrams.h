@@ -8,6 +8,6 @@
 /* Puts itself before the functions of the port that is open. Once, when it is. */
 void bench_telegrams_start(void);
 /* The next telegrams go wrong: DSDPV1_SPOIL_ of the mailbox. */
-void bench_spoil(uint8_t fault, uint32_t times);
+void bench_spoil(uint8_t which, uint32_t times);
 
 #endif /* BENCH_TELEGRAMS_H */

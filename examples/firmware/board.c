@@ -220,7 +220,7 @@ void board_enable_serial(unsigned irq) {
 }
 
 uint32_t board_lock(void) {
-  uint32_t before;
+  uint32_t before; /* NOLINT(cppcoreguidelines-init-variables): the instruction does it */
   __asm__ volatile("mrs %0, primask\n\tcpsid i" : "=r"(before)::"memory");
   return before;
 }

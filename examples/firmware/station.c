@@ -68,9 +68,9 @@ void station_send_verdict(uint8_t which, bool refuse) {
 /* ---------------------------------------------------------------------------------------------------------- bring-up
  */
 
-dsdpv1_device* station_open(const dsdpv1_port* port) {
+dsdpv1_device* station_open(const dsdpv1_port* parallel) {
   const dsdpv1_judge judges = {NULL, judge_prm, judge_cfg};
-  if (port_open(&chip, port, &judges) != DSDPV1_OK) board_halt(); /* straps for no card: ADR 0 or 3 */
+  if (port_open(&chip, parallel, &judges) != DSDPV1_OK) board_halt(); /* straps for no card: ADR 0 or 3 */
   return &chip;
 }
 

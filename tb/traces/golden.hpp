@@ -19,7 +19,7 @@ std::string trace_path(const std::string& folder, const std::string& name);
 /// Names of all goldens there, in order; throws InputError when there is no such folder.
 std::vector<std::string> golden_names(const std::string& folder);
 
-struct Golden {
+struct Golden {  // NOLINT(bugprone-exception-escape): what moves throws nothing
   Json manifest;
   std::unique_ptr<Trace> trace;
 };

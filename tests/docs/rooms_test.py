@@ -50,6 +50,18 @@ class Rooms(unittest.TestCase):
                 self.assertEqual(len(found), 1, found)
                 self.assertTrue(found[0].startswith(f"{row[0]}/block.hpp:2: "), found[0])
 
+    def test_whose_a_file_is_may_be_said_in_its_first_lines_only(self):
+        # REUSE-IgnoreStart
+        head = "// SPDX-FileCopyrightText: 2026 the dsdpv1 authors"
+        # REUSE-IgnoreEnd
+        pattern = [("model/profibus", r"dsdpv1", "no chip")]
+        for text, count in ((head + "\n", 0), (head + "\nint dsdpv1;\n", 1), ("int a;  " + head + "\n", 1)):
+            with tempfile.TemporaryDirectory() as folder:
+                file = pathlib.Path(folder, "model", "profibus", "a.cpp")
+                file.parent.mkdir(parents=True)
+                file.write_text(text, encoding="utf-8")
+                self.assertEqual(len(list(rooms.faults(pathlib.Path(folder), pattern))), count, text)
+
     def test_a_room_of_the_bench_that_nobody_judges_is_a_fault(self):
         (self.root / "tb" / "new").mkdir(parents=True)
         (self.root / "tb" / "dsdpv1").mkdir()

@@ -15,7 +15,7 @@ class AccessWatch {
  public:
   AccessWatch();
   /// A pin has a new level; in order of time. D is what the user drives.
-  void change(Tick at, Pin pin, Level level);
+  void change(Tick at, Pin pin, Level to);
   /// When the chip's last access began, -1: there was none yet.
   Tick chip_access_start() const { return chip_start_; }
   std::string user_text() const { return user_.words(); }

@@ -25,6 +25,7 @@ void add_character(std::vector<PinEdge>& edges, const bus::Character& character,
   const Tick glitch = character.glitch ? character.glitch->start_millibits : -1;
   const Tick over = character.glitch ? glitch + character.glitch->length_millibits : -1;
   std::vector<Tick> instants;
+  instants.reserve(static_cast<std::size_t>(character.bit_count) + 2);
   for (int i = 0; i < character.bit_count; ++i) instants.push_back(i * kMillibits);
   if (character.glitch) instants.insert(instants.end(), {glitch, over});
   for (const Tick instant : instants) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "tb/dsdpv1/cosim/campaign.hpp"
 
@@ -7,8 +8,8 @@ namespace {
 
 class Shrinker {
  public:
-  Shrinker(Stimulus stimulus, const MakeTop& make, int runs, const PlayOptions& options)
-      : best_(std::move(stimulus)), make_(make), options_(options), runs_(runs) {
+  Shrinker(Stimulus stimulus, const MakeTop& make, int runs, PlayOptions options)
+      : best_(std::move(stimulus)), make_(make), options_(std::move(options)), runs_(runs) {
     cut_behind_difference();
   }
 
