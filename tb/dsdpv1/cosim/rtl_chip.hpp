@@ -53,6 +53,7 @@ class RtlChip {
   void apply_serial(Pin pin, Level level);
   void end_tick();
   void take_mosi();
+  Level mosi() const;
   void clock_edge();
   void eval(Tick at);
   void report(Tick at, const RtlOutputs& before);
