@@ -74,7 +74,7 @@ void RtlChip::power_up() {
 
 void RtlChip::set(Tick at, Pin pin, Level level) {
   advance(at);
-  if (ends_ == TickEnds::kLater) return held_.push_back({at, pin, level});
+  if (ends_ == TickEnds::kLater || pin == Pin::kMosi) return held_.push_back({at, pin, level});
   apply(pin, level);
   if (acts_at_once(pin)) eval(at);
 }
@@ -114,7 +114,8 @@ void RtlChip::apply_serial(Pin pin, Level level) {
 }
 
 void RtlChip::advance(Tick to) {
-  if (ends_ == TickEnds::kLater && to > now_) end_tick();
+  to = std::max(to, now_);  // who samples MISO asks for what was before this tick, after other inputs of it perhaps
+  if (to > now_) ends_ == TickEnds::kLater ? end_tick() : take_mosi();
   const Tick last = ends_ == TickEnds::kLater ? to - 1 : to;
   while (next_edge_ <= last) {
     const Tick at = next_edge_;
@@ -143,6 +144,19 @@ void RtlChip::end_tick() {
     apply(change.pin, change.level);
     if (acts_at_once(change.pin)) eval(now_);
   }
+  held_.clear();
+}
+
+/// As the host has set it, also while it waits for the end of its tick.
+Level RtlChip::mosi() const {
+  for (auto change = held_.rbegin(); change != held_.rend(); ++change)
+    if (change->pin == Pin::kMosi) return change->level;
+  return top_->in.mosi;
+}
+
+/// MOSI of a tick that is over: SCK's rise at that tick has not seen its change.
+void RtlChip::take_mosi() {
+  for (const Change& change : held_) apply(change.pin, change.level);
   held_.clear();
 }
 
@@ -202,7 +216,7 @@ Level RtlChip::level(Pin pin) const {
     case Pin::kPbrxd: return in.pbrxd;
     case Pin::kXss: return in.xss;
     case Pin::kSck: return in.sck;
-    case Pin::kMosi: return in.mosi;
+    case Pin::kMosi: return mosi();
     case Pin::kRxd: return in.rxd;
     case Pin::kMode: return in.mode;
     case Pin::kAdr: return in.adr;

@@ -20,7 +20,7 @@ namespace dsdpv1::cosim {
 /// tick, so who wants that to the tick evaluates both at once: when the tick is over. Only where a byte is loaded at
 /// the very edge that SCK falls with does it matter, at a clock of SCK that SP2 does not allow.
 enum class TickEnds : std::uint8_t {
-  kAtOnce,  ///< CLK, then each input as it is set
+  kAtOnce,  ///< CLK, then each input as it is set; MOSI, of which SCK sees what it was before, when the tick is over
   kLater,   ///< CLK and SCK together, then the other inputs, when somebody goes on beyond the tick
 };
 
@@ -52,6 +52,8 @@ class RtlChip {
   void apply(Pin pin, Level level);
   void apply_serial(Pin pin, Level level);
   void end_tick();
+  void take_mosi();
+  Level mosi() const;
   void clock_edge();
   void eval(Tick at);
   void report(Tick at, const RtlOutputs& before);
