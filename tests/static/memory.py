@@ -59,12 +59,12 @@ CASES = (
 
 
 def errors_in(logs):
-    """The errors that valgrind counts in each process, and the first words about them."""
+    """The errors that valgrind counts in each process, and the first words about them. A process that has become the shell has no end in its log."""
     counts = [int(count) for log in logs for count in re.findall(r"ERROR SUMMARY: (\d+) errors", log)]
-    if len(counts) != len(logs) or not logs:
-        return None, "valgrind has not come to its end"
     words = [line.split("== ", 1)[1] for log in logs for line in log.splitlines() if re.search(r"== (Invalid|Conditional|Use of|Syscall|.*definitely lost in)", line)]
-    return sum(counts), "; ".join(words[:3])
+    if not counts:
+        return None, "valgrind has not come to its end"
+    return max(sum(counts), len(words)), "; ".join(words[:3])
 
 
 def carry_out(case, folder):
