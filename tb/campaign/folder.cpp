@@ -65,7 +65,7 @@ Json description_of(const fs::path& folder, const Kind& kind) {
 }
 
 Folder::Folder(fs::path path, const Kind& kind, const Json& description, Difference difference, Access access)
-    : path_(std::move(path)), kind_(kind), difference_(difference) {
+    : path_(std::move(path)), kind_(kind), difference_(std::move(difference)) {
   try {
     if (access == Access::kTask)
       join(description);
@@ -140,7 +140,7 @@ Json Folder::kept(const std::string& name) const {
 }
 
 Json Folder::keep(const std::string& name, const Json& item) const {
-  const Json kept = as_kept(item);
+  Json kept = as_kept(item);
   Json with_sum = kept;
   with_sum["sum"] = fingerprint(text_of(kept));
   write_file(item_file(name + ".json"), text_of(with_sum) + "\n");

@@ -13,7 +13,7 @@ namespace dsdpv1::tb::campaign {
 
 std::string fate(const Ended& ended) {
   constexpr int kInterrupted = 130;  // the run's own word for it
-  const std::string said = ended.last_line();
+  std::string said = ended.last_line();
   if (!said.empty()) return said;
   if (ended.exit > kSignalled && ended.exit != kInterrupted)
     return fmt::format("its run was killed by signal {}", ended.exit - kSignalled);
@@ -42,6 +42,7 @@ Runner::Runner(Jobs& jobs, Carrying carrying, const std::vector<std::size_t>& wa
       all_(wanted.size()) {
   std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(waiting_),
                [&jobs](std::size_t job) { return !jobs.finished(job); });
+  // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): only now is known what waits
   done_ = all_ - waiting_.size();
   bar_.begin(done_);
 }

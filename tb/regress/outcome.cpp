@@ -35,7 +35,7 @@ std::string first_unmet(const Json& result) {
 /// Of a run that failed. A lockstep run whose scenario has passed says on its output where the two sides differ.
 std::string failure(const Ended& ended, const Json& result) {
   try {
-    const std::string unmet = first_unmet(result);
+    std::string unmet = first_unmet(result);
     if (!unmet.empty()) return unmet;
     const sweep::Point point = sweep::point_of(ended.exit, "", result);
     if (result.at("passed") == false) return point.reason();

@@ -87,7 +87,7 @@ std::string row(const Run& run, const Outcome& outcome) {
   const char* const verdict = name(outcome.verdict);
   return fmt::format("<tr><td class=\"verdict {0}\">{0}</td>", verdict) + cell(run.scenario) + cell(run.engine) +
          cell(run.view) + cell(settings_text(run)) +
-         fmt::format("<td class=\"number\" data-key=\"{0:.3f}\">{0:.2f}</td>", outcome.seconds) + reason_cell(outcome) +
+         fmt::format(R"(<td class="number" data-key="{0:.3f}">{0:.2f}</td>)", outcome.seconds) + reason_cell(outcome) +
          files_cell(run, outcome) + "</tr>\n";
 }
 

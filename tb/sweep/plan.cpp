@@ -90,7 +90,7 @@ std::vector<std::string> values_of(Kind kind, const std::string& list, const std
 Parameter parse_parameter(const std::string& text, const std::string& option) {
   const scenario::Setting given = scenario::parse_setting(option, text);
   const Kind kind = scenario::field_of_any(given.path, given.origin).type.kind;
-  const Parameter parameter{given.path, values_of(kind, given.value, given.origin)};
+  Parameter parameter{given.path, values_of(kind, given.value, given.origin)};
   for (const std::string& value : parameter.values) scenario::check({given.path, value, given.origin});
   return parameter;
 }

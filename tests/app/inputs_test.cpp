@@ -27,7 +27,7 @@ const std::string kEscaped = R"(\x1B]0;x\x07\u009B2J\x7F\u202E\nPASSED ü)";
 bool steers(const std::string& text) {
   const auto is_order = [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7F; };
   return std::any_of(text.begin(), text.end(), is_order) || text.find("\xC2\x9B") != std::string::npos ||
-         text.find("\u202E") != std::string::npos;
+         text.find("\u202E") != std::string::npos;  // NOLINT(misc-misleading-bidirectional): what is looked for
 }
 
 std::string scenario_named(const std::string& name) {

@@ -1,4 +1,5 @@
 // What the program writes: help, result file, waves, log, and all of it complete when a run is interrupted.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -229,10 +230,8 @@ TEST_F(Outputs, WavesShowThePinsTheLineAndTheStates) {
 
 TEST_F(Outputs, SameRunGivesTheSameFiles) {
   write("s.yaml", kScenario);
-  for (const char* name : {"a", "b"}) {
-    const std::string n = name;
-    ASSERT_EQ(run("--quiet --wave " + n + ".vcd --log " + n + ".log --trace " + n + ".txt").status, 0);
-  }
+  for (const char* name : {"a", "b"})
+    ASSERT_EQ(run(fmt::format("--quiet --wave {0}.vcd --log {0}.log --trace {0}.txt", name)).status, 0);
   for (const char* ending : {".vcd", ".log", ".txt"})
     EXPECT_TRUE(read(folder_.file(std::string("a") + ending)) == read(folder_.file(std::string("b") + ending)))
         << ending;

@@ -1,5 +1,6 @@
 // The serial ports of a DSDPV1-RSU in both views, with what the shipped scenarios have not: telegrams that go wrong,
 // other timings of the user CPU, and resets in the middle of frames and telegrams. Every pin moves at the same ticks.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,9 +51,11 @@ void expect_same_in_both_views(const std::string& text) {
   const app_test::Folder folder;
   std::ofstream(folder.file("s.yaml")) << text;
   for (const std::string view : {"pins", "tlm"}) {
-    const app_test::Called called = call("run s.yaml --quiet --checks off --view " + view + " --wave " + view +
-                                             ".vcd --log " + view + ".log --trace " + view + ".trace",
-                                         folder.path());
+    const app_test::Called called =
+        call(fmt::format("run s.yaml --quiet --checks off --view {0} --wave {0}.vcd --log {0}.log "
+                         "--trace {0}.trace",
+                         view),
+             folder.path());
     ASSERT_LE(called.status, 1) << called.err;  // 1: the resets are violations
   }
   for (const char* ending : {".log", ".trace"})

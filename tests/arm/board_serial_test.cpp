@@ -17,7 +17,6 @@ using dsdpv1::Pin;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 
 enum Program {
   kSpi1,

@@ -12,7 +12,6 @@ namespace dsdpv1::arm {
 namespace {
 
 using testing::ElementsAre;
-using testing::StrEq;
 
 constexpr std::uint32_t kCr1 = 0x00, kCr2 = 0x04, kSr = 0x08, kDr = 0x0C;
 constexpr std::uint32_t kMaster = 1U << 2U, kEnabled = 1U << 6U, kLsbFirst = 1U << 7U, kSsi = 1U << 8U, kSsm = 1U << 9U,
@@ -26,6 +25,7 @@ struct Edge {
   bool level;
   bool operator==(const Edge& other) const { return at == other.at && level == other.level; }
 };
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest's
 void PrintTo(const Edge& edge, std::ostream* out) { *out << edge.at << (edge.level ? " up" : " down"); }
 
 class SpiBlock : public testing::Test {

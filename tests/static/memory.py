@@ -1,6 +1,7 @@
 """Valgrind's memcheck over one run of each kind: reads of what was never written, accesses outside of what is had, and memory that is lost.
 
-Waves of the runs and what the later cases read stand in one folder: the cases are in the order in which they need each other.
+The view tlm is not among them: valgrind cannot follow how SystemC's threads switch their stacks, and takes what is on them for never written. The preset
+debug has that view under AddressSanitizer. Waves of the runs and what the later cases read stand in one folder: the cases are in the order in which they need each other.
 """
 import dataclasses
 import pathlib
@@ -11,7 +12,8 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIM = ROOT / "build" / "default" / "apps" / "dsdpv1-sim"
-VALGRIND = ("valgrind", "--trace-children=yes", "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite",
+# Not of the shell that asks which libraries a program loads: it says so before valgrind has begun.
+VALGRIND = ("valgrind", "--trace-children=yes", "--trace-children-skip=/bin/sh", "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite",
             "--smc-check=all-non-file", "--log-file=valgrind.%p", "--")  # smc: the ARM's emulator writes code
 LIMIT_S = 1800
 
@@ -39,7 +41,6 @@ CASES = (
     run("parallel port, native program, skip; wave, log, capture, trace, report", "power_on_12m", "--wave", "w.fst", "--log", "l.jsonl", "--capture",
         "c.pcapng", "--trace", "t", "--report", "r.html", "--result", "r.json"),
     Case("step", ("run", "short.yaml", "--engine", "step", "--wave", "w.vcd")),
-    Case("TLM", ("run", "short.yaml", "--view", "tlm", "--wave", "tlm.vcd")),
     Case("lockstep with the reference RTL", ("run", "short.yaml", "--engine", "lockstep")),
     run("checks that find something", "violations"),
     run("two masters, DPV1 class 2", "dpv1_c2_two_masters"),
@@ -49,7 +50,7 @@ CASES = (
     run("ARM program at the SPI port", "arm_spi"),
     Case("replay of a capture", ("replay", "c.pcapng", "--as", "5", "--scenario", "{scenarios}/power_on_12m.yaml", "--wave", "again.vcd"), (0, 1)),
     Case("decode", ("decode", "c.pcapng", "--table", "d.tsv")),
-    Case("compare of two waves", ("compare", "w.vcd", "tlm.vcd"), (0, 1)),
+    Case("compare of two waves", ("compare", "w.vcd", "again.vcd"), (0, 1)),
     Case("GSD file", ("gsd", "{scenarios}/dsdpv1.gsd")),
     Case("sweep", ("sweep", "short.yaml", "--param", "baud=12M,6M", "--out", "sweep"), (0, 1)),
     Case("serve", ("serve", "{scenarios}/serve_19k2.yaml", "--tcp", "0", "--for", "200ms")),
@@ -58,12 +59,12 @@ CASES = (
 
 
 def errors_in(logs):
-    """The errors that valgrind counts in each process, and the first words about them."""
+    """The errors that valgrind counts in each process, and the first words about them. A process that has become the shell has no end in its log."""
     counts = [int(count) for log in logs for count in re.findall(r"ERROR SUMMARY: (\d+) errors", log)]
-    if len(counts) != len(logs) or not logs:
-        return None, "valgrind has not come to its end"
     words = [line.split("== ", 1)[1] for log in logs for line in log.splitlines() if re.search(r"== (Invalid|Conditional|Use of|Syscall|.*definitely lost in)", line)]
-    return sum(counts), "; ".join(words[:3])
+    if not counts:
+        return None, "valgrind has not come to its end"
+    return max(sum(counts), len(words)), "; ".join(words[:3])
 
 
 def carry_out(case, folder):

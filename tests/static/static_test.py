@@ -99,9 +99,12 @@ class Memory(unittest.TestCase):
         self.assertEqual(memory.errors_in([self.RIGHT]), (0, ""))
         self.assertEqual(memory.errors_in([self.RIGHT, wrong]), (2, "Invalid read of size 4"))
 
-    def test_a_process_that_has_said_nothing_is_no_good_one(self):
+    def test_of_a_process_that_became_the_shell_only_what_it_did_before_counts(self):
+        head = "==9== Memcheck, a memory error detector\n"
         self.assertIsNone(memory.errors_in([])[0])
-        self.assertIsNone(memory.errors_in([self.RIGHT, "==9== Memcheck, a memory error detector\n"])[0])
+        self.assertIsNone(memory.errors_in([head])[0])
+        self.assertEqual(memory.errors_in([self.RIGHT, head]), (0, ""))
+        self.assertEqual(memory.errors_in([self.RIGHT, head + "==9== Invalid write of size 1\n"]), (1, "Invalid write of size 1"))
 
 
 if __name__ == "__main__":
