@@ -38,8 +38,8 @@ const char* const kLogHelp =
 const char* const kLogWholeHelp =
     "All bytes of telegrams and data in the log, not only the first 32 of each; FILE.jsonl has them anyway";
 
-void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
-  command
+CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& settings) {
+  return command
       .add_option("--set", settings,
                   "PATH=VALUE instead of what the scenario says, once for each key: slaves.0.user_cpu.cycle=40us, "
                   "slaves.plant.init.dpv1=true, or of every slave user_cpu.fsmc.datast=3")
@@ -97,18 +97,21 @@ const char* const kRunExamples =
     "  dsdpv1-sim run my.yaml --engine step --trace step.txt\n"
     "  dsdpv1-sim run my.yaml --set end=50ms --set user_cpu.fsmc.datast=3\n"
     "  dsdpv1-sim run scenarios/arm_board_12m.yaml --gdb 3333\n"
+    "  dsdpv1-sim run my.yaml --save-at 5ms at_5ms.run --save-at 20ms at_20ms.run\n"
+    "  dsdpv1-sim run my.yaml --wave bad.fst --rewind-on violation 100us\n"
+    "  dsdpv1-sim run --restore at_20ms.run --log rest.log --wave rest.fst\n"
     "  dsdpv1-sim run my.yaml --engine lockstep --difference both.vcd\n";
 
 void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* command = app.add_subcommand("run", "Carries out a scenario and judges it");
-  command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md")->required();
-  command
+  CLI::Option* scenario = command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md");
+  CLI::Option* engine = command
       ->add_option(
           "--engine", arguments.engine,
           "How the chips are executed: step (every cycle), skip (from event to event), rtl (the reference RTL), "
           "lockstep (model and RTL side by side, compared)")
       ->capture_default_str();
-  command
+  CLI::Option* view = command
       ->add_option("--view", arguments.view, "How the user CPUs reach them: pins, tlm (SystemC; not with an ARM board)")
       ->capture_default_str();
   add_wave_options(*command, arguments.wave);
@@ -119,7 +122,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   command->add_option("--junit", arguments.junit,
                       "The verdict for CI as JUnit's XML: a case for the run, its violations and each expectation");
   add_capture_options(*command, arguments.capture, arguments.capture_link);
-  command
+  CLI::Option* checks = command
       ->add_option(
           "--checks", arguments.checks,
           "The checks of docs/checks.md on handshake, bus timing and DPRAM: report (listed), fail (exit 1 on a "
@@ -130,20 +133,37 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
       ->add_option("--difference", arguments.difference,
                    "Wave of both sides, written when --engine lockstep finds a difference")
       ->capture_default_str();
-  command->add_option("--golden", arguments.golden,
+  CLI::Option* golden = command->add_option("--golden", arguments.golden,
                       "Folder of golden traces (traces): every change of every pin is compared, the first difference "
                       "ends the run (docs/traces.md)");
-  command
+  CLI::Option* fault = command
       ->add_option("--fault", arguments.fault,
                    "With this single fault of rtl_ref/faults.txt, or faults_rsu.txt, in the reference RTL")
       ->check(CLI::Range(0, 255));
-  command->add_option("--seed", arguments.seed,
+  CLI::Option* seed = command->add_option("--seed", arguments.seed,
                       "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
-  add_set_option(*command, arguments.set);
+  CLI::Option* set = add_set_option(*command, arguments.set);
+  command
+      ->add_option("--save-at", arguments.save_at,
+                   "TIME FILE: saves the run as it is then, for --restore; once for each time (docs/save_restore.md)")
+      ->type_name("TIME FILE")
+      ->allow_extra_args(false);
+  CLI::Option* rewind = command
+      ->add_option("--rewind-on", arguments.rewind_on,
+                   "CODE TIME: no wave until an event with this code of the log, or a violation, happens; then the run is done again "
+                   "from a snapshot, with the wave from so long before it to as long behind it (docs/save_restore.md)")
+      ->type_name("CODE TIME")
+      ->needs(command->get_option("--wave"));
+  for (const char* each : {"--wave-on", "--wave-from", "--wave-to", "--wave-inside"}) rewind->excludes(command->get_option(each));
+  CLI::Option* restore = command->add_option("--restore", arguments.restore,
+                      "A saved run in the place of a scenario: it goes on from there, and log, wave, trace and capture begin there");
+  for (CLI::Option* each : {scenario, engine, view, checks, golden, fault, seed, set}) restore->excludes(each);
+  rewind->excludes(restore);
   command
       ->add_option(
           "--gdb", arguments.gdb,
           "TCP port (0: any free one) where gdb-multiarch attaches to the first ARM board; the run waits for it")
+      ->excludes(rewind)
       ->check(CLI::Range(0, 65535));
   add_output_options(*command, arguments.progress, arguments.quiet);
   command->footer(std::string(kRunExamples) + kExitCodes);

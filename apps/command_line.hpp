@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/printable_output.hpp"
@@ -28,6 +29,9 @@ struct RunArguments {
   std::optional<bool> progress;             ///< absent: on a terminal
   std::vector<std::string> set;             ///< PATH=VALUE: keys other than in the file
   std::optional<std::uint32_t> seed;        ///< of RTL
+  std::vector<std::pair<std::string, std::string>> save_at;  ///< time and file of each
+  std::pair<std::string, std::string> rewind_on;  ///< code and time; empty: not wanted
+  std::string restore;                      ///< a saved run in the place of a scenario, empty: none
   std::optional<int> gdb;                   ///< TCP port for the debugger of the first ARM board
   bool log_whole = false, quiet = false;
 };

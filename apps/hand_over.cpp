@@ -76,12 +76,12 @@ std::string missing_library(const std::string& program) {
 }
 
 /// What leave_text has left to this program.
-std::optional<std::string> left_text() {
+std::optional<std::string> left_text(const tb::FileKind& kind) {
   const char* const left = std::getenv(kTextVariable);
   if (left == nullptr) return std::nullopt;
   const std::string file = left;
   unsetenv(kTextVariable);  // is not for the runs of a campaign
-  std::string text = tb::scenario::read_file("/proc/self/fd/" + file);
+  std::string text = tb::read_file("/proc/self/fd/" + file, kind);
   close(std::atoi(file.c_str()));
   return text;
 }
@@ -107,13 +107,21 @@ void hand_over(const tb::scenario::Scenario& scenario) {
   if (std::string program = other_program(scenario); !program.empty()) throw HandOver{std::move(program), std::nullopt};
 }
 
-tb::scenario::Scenario load_scenario(const std::string& path, const std::vector<tb::scenario::Setting>& settings) {
-  std::optional<std::string> text = left_text();
-  if (!text) text = tb::scenario::read_file(path);
-  tb::scenario::Scenario scenario = tb::scenario::parse(*text, path, settings);
-  if (std::string program = other_program(scenario); !program.empty())
-    throw HandOver{std::move(program), std::move(text)};
+std::string load_text(const std::string& path, const tb::FileKind& kind) {
+  std::optional<std::string> text = left_text(kind);
+  return text ? std::move(*text) : tb::read_file(path, kind);
+}
+
+tb::scenario::Scenario parse_scenario(const std::string& text, const std::string& path,
+                                   const std::vector<tb::scenario::Setting>& settings, const std::string& left) {
+  tb::scenario::Scenario scenario = tb::scenario::parse(text, path, settings);
+  if (std::string program = other_program(scenario); !program.empty()) throw HandOver{std::move(program), left};
   return scenario;
+}
+
+tb::scenario::Scenario load_scenario(const std::string& path, const std::vector<tb::scenario::Setting>& settings) {
+  const std::string text = load_text(path, tb::kScenarioFile);
+  return parse_scenario(text, path, settings, text);
 }
 
 }  // namespace dsdpv1::app

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tb/input/read_file.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::app {
@@ -11,7 +12,7 @@ namespace dsdpv1::app {
 /// Thrown where another program has to go on; program() lets it, once all that the command has begun is undone.
 struct HandOver {
   std::string program;                  ///< path
-  std::optional<std::string> scenario;  ///< its text, which can perhaps not be read twice
+  std::optional<std::string> scenario;  ///< the text of its file, which can perhaps not be read twice
 };
 
 /// Ends this program in favour of the other, with the same words, environment, channels and process number. Returns an
@@ -29,7 +30,12 @@ std::string other_program(const tb::scenario::Scenario& scenario);
 /// Throws HandOver when the scenario needs another program. For commands that read scenarios by name, again and again.
 void hand_over(const tb::scenario::Scenario& scenario);
 
-/// scenario::load for the one scenario of a command, which may come from a pipe. Throws HandOver as above.
+/// The text of the file that says what is to be run, which may come from a pipe. Throws tb::InputError.
+std::string load_text(const std::string& path, const tb::FileKind& kind);
+/// The scenario of this text; throws HandOver as above. `left`: what the other program gets as load_text.
+tb::scenario::Scenario parse_scenario(const std::string& text, const std::string& path,
+                                   const std::vector<tb::scenario::Setting>& settings, const std::string& left);
+/// Both, as scenario::load for the one scenario of a command, which may come from a pipe. Throws HandOver as above.
 tb::scenario::Scenario load_scenario(const std::string& path, const std::vector<tb::scenario::Setting>& settings = {});
 
 }  // namespace dsdpv1::app

@@ -13,7 +13,9 @@
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "apps/program.hpp"
+#include "apps/rewind.hpp"
 #include "apps/rtl_commands.hpp"
+#include "apps/saved_runs.hpp"
 #include "bus/printable.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/dsdpv1/cosim/joined_wave.hpp"
@@ -69,10 +71,9 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   options.log_whole = arguments.log_whole;
   options.trace = arguments.trace;
   options.capture = capture_request("dsdpv1-sim run", arguments.capture, arguments.capture_link);
-  if (arguments.gdb) {
-    const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
-    options.gdb = tb::GdbRequest{*arguments.gdb, say, interrupted};
-  }
+  const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
+  if (arguments.gdb)
+    options.gdb = tb::GdbRequest{arguments.gdb, say, interrupted, std::make_shared<user_cpu::DebugHistory>()};
   if (!arguments.quiet) {
     options.on_text = [](const std::string& station, const std::string& line) {
       std::cout << station << "| " << bus::printable(line) << std::endl;
@@ -96,8 +97,20 @@ std::string junit_of(const tb::RunResult& result, const std::string& of_golden, 
   return tb::junit("dsdpv1-sim run", cases);
 }
 
-int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arguments, tb::RunOptions options,
-                 std::unique_ptr<tb::Execution> execution, const LockstepSteps& lockstep = {}) {
+/// What is to be carried out.
+struct RunRequest {
+  RunArguments arguments;
+  tb::scenario::Scenario scenario;
+  tb::RunOptions options;
+  tb::SavedRun described;                ///< for --save-at
+  std::optional<tb::SavedRun> restored;  ///< of --restore
+};
+
+int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execution,
+                 const LockstepSteps& lockstep = {}) {
+  const tb::scenario::Scenario& scenario = request.scenario;
+  const RunArguments& arguments = request.arguments;
+  tb::RunOptions options = request.options;
   tb::traces::GoldenRun golden(arguments.golden, scenario, execution->segment(), options);
   std::optional<tb::OutputFile> result_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
@@ -105,24 +118,31 @@ int run_scenario(const tb::scenario::Scenario& scenario, const RunArguments& arg
   if (!arguments.junit.empty()) junit_file.emplace(arguments.junit);
   std::optional<tb::html::ReportFile> report_file;
   if (!arguments.report.empty()) report_file.emplace(arguments.report, scenario, options);
+  SavedRuns saved(arguments, request.described, request.restored ? &*request.restored : nullptr, scenario.end);
+  saved.ask(options);
+  Rewind rewind(arguments, *scenario.kind);
+  rewind.ask(options);
   tb::Bench bench(scenario, options, std::move(execution));
   tb::Progress progress(scenario.end, arguments.progress.value_or(isatty(STDERR_FILENO) != 0));
   catch_signals();
-  tb::RunResult result = bench.run([&](tb::Tick now) {
-    progress.show(now);
-    return !interrupted() && !golden.over(now);
-  });
+  const auto goes_on = [&](tb::Tick now) {
+    if (!rewind.is_copy()) progress.show(now);
+    return !interrupted() && !golden.over(now) && rewind.look(now);
+  };
+  tb::RunResult result = rewind.carry_out(bench, goes_on);
   progress.clear();
+  saved.check(result.interrupted);
+  if (rewind.failed()) return kWrongInput;
   if (lockstep.judge) lockstep.judge(result);
   if (result_file) {
     result_file->write(tb::result_json(result));
     result_file->commit();
   }
-  if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
+  if (arguments.wave.save && !(rewind.wanted() && !rewind.recorded())) write_save_files(arguments.wave.file, *scenario.kind);
   if (report_file) report_file->write(result, DSDPV1_VERSION);
-  if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
+  if (!rewind.wanted() && bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
   const bool ran_through = !lockstep.report || lockstep.report();
-  if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << std::flush;
+  if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << rewind.report() << std::flush;
   const bool broken_off = result.interrupted && golden.same();
   const std::string of_golden = ran_through && !broken_off ? golden.report() : "";
   std::cout << of_golden << std::flush;
@@ -139,8 +159,7 @@ struct LockstepOutcome {
   std::optional<cosim::Difference> difference;
 };
 
-LockstepOutcome run_lockstep(const tb::scenario::Scenario& scenario, const RunArguments& arguments,
-                             const tb::RunOptions& options, cosim::MakeRtl make,
+LockstepOutcome run_lockstep(const RunRequest& request, cosim::MakeRtl make,
                              const cosim::LockstepOptions& lockstep = {}) {
   auto made = std::make_unique<cosim::LockstepExecution>(std::move(make), lockstep);
   cosim::LockstepExecution& execution = *made;
@@ -152,12 +171,12 @@ LockstepOutcome run_lockstep(const tb::scenario::Scenario& scenario, const RunAr
   };
   steps.report = [&] {
     std::string text;
-    const bool same = cosim::report(execution, arguments.difference, text);
+    const bool same = cosim::report(execution, request.arguments.difference, text);
     std::cout << text << std::flush;
     if (!same) outcome.difference = execution.different()->difference();
     return same;
   };
-  outcome.status = run_scenario(scenario, arguments, options, std::move(made), steps);
+  outcome.status = run_scenario(request, std::move(made), steps);
   return outcome;
 }
 
@@ -179,7 +198,10 @@ void check_outputs_of(const RunArguments& arguments, const tb::scenario::Scenari
   outputs.push_back({"--trace", arguments.trace});
   outputs.push_back({"--capture", arguments.capture});
   outputs.push_back({"--difference", arguments.engine == "lockstep" ? arguments.difference : ""});
-  check_outputs("dsdpv1-sim run", scenario_inputs(arguments.scenario, scenario.files), outputs);
+  for (NamedFile& file : save_files(arguments)) outputs.push_back(std::move(file));
+  std::vector<NamedFile> inputs = scenario_inputs(arguments.scenario, scenario.files);
+  inputs.push_back({"the saved run", arguments.restore});
+  check_outputs("dsdpv1-sim run", inputs, outputs);
 }
 
 constexpr const char* kCosim = "dsdpv1-sim cosim";
@@ -224,44 +246,75 @@ void check_outputs_of(const CosimArguments& arguments, const tb::scenario::Scena
 }
 
 /// In lockstep with the user's RTL; with a wave, its inside goes beside the model's.
-int run_own_rtl(const tb::scenario::Scenario& scenario, const CosimArguments& arguments, tb::RunOptions options,
-                const OwnRtl& own) {
+int run_own_rtl(RunRequest request, const CosimArguments& arguments, const OwnRtl& own) {
   cosim::LockstepOptions lockstep;
   lockstep.tolerances = own.map.tolerances;
-  const RunArguments run = run_arguments_of(arguments);
   if (arguments.wave.file.empty())
     return run_lockstep(
-               scenario, run, options, [&own](auto&&...) { return own.make(std::nullopt); }, lockstep)
+               request, [&own](auto&&...) { return own.make(std::nullopt); }, lockstep)
         .status;
   cosim::JoinedWave wave(arguments.wave.file, arguments.own.build);
-  const tb::WaveSelection window = options.wave.selection;
-  options.wave.path = wave.model();
+  const tb::WaveSelection window = request.options.wave.selection;
+  request.options.wave.path = wave.model();
   const auto make = [&](const std::string& name, const auto& /*parameters*/) {
     return own.make(wave.trace(name, window.from, window.to));
   };
-  const LockstepOutcome outcome = run_lockstep(scenario, run, options, make, lockstep);
+  const LockstepOutcome outcome = run_lockstep(request, make, lockstep);
   wave.finish(outcome.difference);
-  if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
+  if (arguments.wave.save) write_save_files(arguments.wave.file, *request.scenario.kind);
   std::cout << "with the inside   " << arguments.wave.file << std::endl;
   return outcome.status;
 }
 
 }  // namespace
 
-int run(const RunArguments& arguments) {
+namespace {
+
+/// From the command line; throws tb::InputError.
+RunRequest scenario_request(const RunArguments& arguments) {
+  RunRequest request{arguments, {}, options_of(arguments), {}, {}};
+  const std::string text = load_text(arguments.scenario, tb::kScenarioFile);
+  request.scenario = parse_scenario(text, arguments.scenario, tb::scenario::parse_settings(arguments.set), text);
+  request.described = described_run(arguments, text, request.scenario);
+  return request;
+}
+
+/// From a saved run.
+RunRequest restored_request(const RunArguments& arguments) {
+  const std::string bytes = load_text(arguments.restore, tb::kSavedRunFile);
+  tb::SavedRun saved = tb::parse_saved_run(bytes, arguments.restore);
+  provide_files(saved, arguments.restore);
+  RunRequest request{arguments_of(arguments, saved), {}, {}, {}, {}};
+  request.options = options_of(request.arguments);
+  const std::string& text = saved.files.front().content;
+  request.scenario = parse_scenario(text, saved.scenario, tb::scenario::parse_settings(saved.settings), bytes);
+  request.described = described_run(request.arguments, text, request.scenario);
+  replay_debugger(request.options, saved);
+  request.restored = std::move(saved);
+  return request;
+}
+
+RunRequest request_of(const RunArguments& arguments) {
+  if (arguments.scenario.empty() == arguments.restore.empty())
+    throw tb::InputError("dsdpv1-sim run: allowed is one of SCENARIO and --restore");
+  return arguments.restore.empty() ? scenario_request(arguments) : restored_request(arguments);
+}
+
+}  // namespace
+
+int run(const RunArguments& given) {
   leave_nothing_on_signals();
-  tb::RunOptions options = options_of(arguments);
-  const tb::scenario::Scenario scenario =
-      load_scenario(arguments.scenario, tb::scenario::parse_settings(arguments.set));
-  options.wave = wave_options("dsdpv1-sim run", arguments.wave, *scenario.kind);
-  check_outputs_of(arguments, scenario);
-  if (arguments.gdb) check_has_board(scenario);
+  RunRequest request = request_of(given);
+  const RunArguments& arguments = request.arguments;
+  request.options.wave = wave_options("dsdpv1-sim run", arguments.wave, *request.scenario.kind);
+  check_outputs_of(arguments, request.scenario);
+  if (arguments.gdb) check_has_board(request.scenario);
   const cosim::MakeRtl rtl = cosim::reference_rtl(arguments.fault, arguments.seed.value_or(cosim::kUsualSeed));
-  if (arguments.engine == "lockstep") return run_lockstep(scenario, arguments, options, rtl).status;
-  if (arguments.engine == "rtl") return run_scenario(scenario, arguments, options, cosim::make_rtl_execution(rtl));
-  if (arguments.view == "pins") return run_scenario(scenario, arguments, options, tb::make_pin_execution());
-  return in_tlm_view([&](std::unique_ptr<tb::Execution> execution) {
-    return run_scenario(scenario, arguments, options, std::move(execution));
+  if (arguments.engine == "lockstep") return run_lockstep(request, rtl).status;
+  if (arguments.engine == "rtl") return run_scenario(request, cosim::make_rtl_execution(rtl));
+  if (arguments.view == "pins") return run_scenario(request, tb::make_pin_execution());
+  return in_tlm_view([&request](std::unique_ptr<tb::Execution> execution) {
+    return run_scenario(request, std::move(execution));
   });
 }
 
@@ -270,15 +323,14 @@ int cosim_own_rtl(const CosimArguments& arguments) {
     throw tb::InputError(std::string(kCosim) + ": allowed is one of SCENARIO and --replay");
   if (!arguments.replay.empty()) return rtl_random(stimulus_arguments_of(arguments));
   leave_nothing_on_signals();
-  const RunArguments run_arguments = run_arguments_of(arguments);
-  tb::RunOptions options = options_of(run_arguments);
-  const tb::scenario::Scenario scenario =
-      load_scenario(arguments.scenario, tb::scenario::parse_settings(arguments.set));
-  options.wave = wave_options(kCosim, arguments.wave, *scenario.kind);
-  options.wave.inside = true;
-  check_outputs_of(arguments, scenario);
+  RunRequest request{run_arguments_of(arguments), {}, {}, {}, {}};
+  request.options = options_of(request.arguments);
+  request.scenario = load_scenario(arguments.scenario, tb::scenario::parse_settings(arguments.set));
+  request.options.wave = wave_options(kCosim, arguments.wave, *request.scenario.kind);
+  request.options.wave.inside = true;
+  check_outputs_of(arguments, request.scenario);
   const OwnRtl own = build_own_rtl(arguments.own, kCosim, !arguments.wave.file.empty());
-  return run_own_rtl(scenario, arguments, options, own);
+  return run_own_rtl(std::move(request), arguments, own);
 }
 
 }  // namespace dsdpv1::app

@@ -34,12 +34,12 @@ std::string now() {
   return text.data();
 }
 
-void check_code(const std::string& command, const std::string& code, const tb::ChipKind& kind) {
+void check_code(const std::string& command, const char* option, const std::string& code, const tb::ChipKind& kind) {
   std::vector<std::string> allowed = tb::scenario::all_codes(kind);
   allowed.insert(allowed.begin(), tb::kAnyViolation);
   if (std::find(allowed.begin(), allowed.end(), code) != allowed.end()) return;
-  throw tb::InputError(fmt::format("{}: --wave-on is {}{}, allowed are {} and the codes of dsdpv1-sim reasons", command,
-                                   code, tb::did_you_mean(code, allowed), tb::kAnyViolation));
+  throw tb::InputError(fmt::format("{}: {} is {}{}, allowed are {} and the codes of dsdpv1-sim reasons", command,
+                                   option, code, tb::did_you_mean(code, allowed), tb::kAnyViolation));
 }
 
 }  // namespace
@@ -124,8 +124,14 @@ tb::WaveOptions wave_options(const std::string& command, const WaveArguments& ar
   if (options.selection.to < options.selection.from)
     throw tb::InputError(fmt::format("{}: --wave-to is {}, allowed is a time not before --wave-from, {}", command,
                                      arguments.to, arguments.from));
-  for (const std::string& code : arguments.on) check_code(command, code, kind);
+  for (const std::string& code : arguments.on) check_code(command, "--wave-on", code, kind);
   return options;
+}
+
+bus::Tick check_window(const std::string& command, const char* option, const std::string& code, const std::string& around,
+                       const tb::ChipKind& kind) {
+  check_code(command, option, code, kind);
+  return time_of(command, option, around);
 }
 
 std::string nothing_recorded(const WaveArguments& arguments) {

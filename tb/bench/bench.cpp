@@ -10,6 +10,22 @@
 
 namespace dsdpv1::tb {
 
+namespace {
+
+void add(Hash& hash, const SlaveResult& slave) {
+  const ChipStatus& chip = slave.status;
+  for (const std::uint64_t number : {std::uint64_t{chip.address}, std::uint64_t{chip.master}, chip.telegrams_received, chip.telegrams_answered,
+                                     chip.data_exchanges, chip.outputs_missed, chip.accesses})
+    hash.add(number);
+  hash.add(static_cast<std::uint64_t>(chip.dp_state));
+  hash.add(static_cast<std::uint64_t>(chip.baud.value_or(-1)));
+  hash.add(static_cast<std::uint64_t>(chip.longest_wait));
+  if (slave.outputs)
+    for (const std::uint8_t byte : *slave.outputs) hash.add(std::uint64_t{byte});
+}
+
+}  // namespace
+
 /// Keeps the monitor at the rate of the masters. It hears of each edge, or of a run, before the monitor does.
 class Bench::BaudFollower : private bus::Listener {
  public:
@@ -39,7 +55,8 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
       setup_(scenario),
       checks_(scenario, options.checks),
       hosts_(scenario, !options.log.empty() || !options.wave.path.empty() || !options.observers.empty()),
-      journal_(scenario, execution_->timeline(), log_form(options.log, options.log_whole, options.open_ended)) {
+      journal_(scenario, execution_->timeline(), log_form(options.log, options.log_whole, options.open_ended, options.from)) {
+  add_marks();
   checks_.on_violation = [this](const std::string& slave, const checks::Violation& violation, const char* kind) {
     stations_.slave(slave).chip().pause_access();
     journal_.check_violated(slave, violation, kind);
@@ -59,8 +76,8 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
   script_ = std::make_unique<Script>(scenario_, stations_, execution_->segment(), journal_, replies_, left_out_);
   add_agents();
   if (!options.log.empty()) journal_.open(options.log);
-  if (!options.trace.empty()) trace_.emplace(options.trace, scenario_);
-  if (!options.capture.path.empty()) capture_.emplace(options.capture, scenario_.baud);
+  if (!options.trace.empty()) trace_.emplace(options.trace, scenario_, options.from);
+  if (!options.capture.path.empty()) capture_.emplace(options.capture, scenario_.baud, options.from);
   add_observers();
   if (!waves_) return;
   waves_->begin();
@@ -72,7 +89,8 @@ Bench::~Bench() = default;
 
 /// What the bench itself needs a chip watches anyway.
 PinMask Bench::watched_pins() const {
-  const bool all = !options_.wave.path.empty() || !options_.trace.empty() || !options_.observers.empty();
+  const bool wave = !options_.wave.path.empty() && !options_.wave.asleep;
+  const bool all = wave || !options_.trace.empty() || !options_.observers.empty();
   return all ? all_of(maker_.pins()) : checks_.pins() | hosts_.pins();
 }
 
@@ -129,7 +147,7 @@ void Bench::connect(SlaveStation& station, std::size_t index) {
   };
   station.on_text = [this, &station](Tick at, const std::string& line) {
     journal_.log(at, station.name(), "text", line);
-    if (options_.on_text) options_.on_text(station.name(), line);
+    if (options_.on_text && at >= options_.from) options_.on_text(station.name(), line);
   };
   station.on_killed = [this] { periodic_poll_.stop(); };
   station.on_failure = [this, &station](Tick at, const std::string& why, const std::string& registers) {
@@ -211,6 +229,7 @@ void Bench::add_observers() {
   if (trace_) observers_.add(*trace_);
   if (waves_) observers_.add(*waves_);
   if (capture_) observers_.add(*capture_);
+  if (!options_.marks.empty()) observers_.add(digest_);
   for (Observer* each : options_.observers) observers_.add(*each);
   observers_.add(journal_);
   observers_.add(*script_);
@@ -252,6 +271,7 @@ RunResult Bench::run(const std::function<bool(Tick)>& poll) {
   const auto begin = std::chrono::steady_clock::now();
   periodic_poll_.poll = [&](Tick at) {
     if (journal_.run_log() != nullptr) journal_.run_log()->flush(at - 1);
+    digest_.before(at);
     return keep_outputs(at) && poll(at);
   };
   for (std::size_t slave = 0; slave < stations_.slaves.size(); ++slave) {
@@ -261,8 +281,69 @@ RunResult Bench::run(const std::function<bool(Tick)>& poll) {
   execution_->run(scenario_.end, [this] { return stopped(); });
   RunResult result = collect();
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  finish_outputs();
+  if (!leaves_nothing_) finish_outputs();
   return result;
+}
+
+void Bench::add_marks() {
+  for (const Tick at : options_.marks) marks_.add(at);
+  if (options_.wave.asleep && sleeps_until() != bus::kNever) marks_.add(sleeps_until());
+  marks_.on_mark = [this](Tick at) { marked(at); };
+  if (!marks_.empty()) execution_->timeline().add(marks_);
+}
+
+void Bench::marked(Tick now) {
+  if (waves_ && waves_->asleep() && now == sleeps_until()) wake_wave(options_.wave.selection.from, options_.wave.selection.to);
+  const bool wanted = std::find(options_.marks.begin(), options_.marks.end(), now) != options_.marks.end();
+  if (wanted && !options_.on_mark(now, digest(now))) leave_nothing();
+}
+
+void Bench::leave_nothing() {
+  leaves_nothing_ = true;
+  periodic_poll_.stop();
+}
+
+/// A wave that begins late.
+Tick Bench::sleeps_until() const {
+  const Tick from = options_.wave.selection.from;
+  return from == bus::kNever ? bus::kNever : std::max<Tick>(from - kAwakeBefore, 0);
+}
+
+void Bench::wake_wave(Tick from, Tick to) {
+  for (const auto& slave : stations_.slaves) {
+    if (now() > 0) slave->chip().sync(now());
+    slave->chip().watch(now(), all_of(maker_.pins()));
+  }
+  waves_->wake(now(), from, to, execution_->segment().level());
+}
+
+const WaveRecorder::Trigger* Bench::wave_trigger() const {
+  return waves_ && waves_->triggered() ? &*waves_->triggered() : nullptr;
+}
+
+void Bench::keep_only_wave() {
+  only_wave_ = true;
+  options_.on_text = nullptr;
+  if (journal_.run_log() != nullptr) journal_.run_log()->mute();
+  if (trace_) trace_->mute();
+  if (capture_) capture_->mute();
+}
+
+/// Chips have their turn at `now`, which is the next one anyway. Those that took a telegram as a whole hear it so far.
+std::uint64_t Bench::digest(Tick now) {
+  Hash hash;
+  hash.add(digest_.before(now));
+  for (const auto& slave : stations_.slaves) slave->chip().sync(now);
+  execution_->segment().cut_run(now);
+  for (const auto& slave : stations_.slaves) {
+    for (std::size_t pin = 0; pin < maker_.pins().size(); ++pin)
+      hash.add(static_cast<std::uint64_t>(slave->chip().level(static_cast<PinNumber>(pin))));
+    add(hash, slave->result());
+  }
+  for (const MasterStation& each : stations_.masters) hash.add(each.master->cycles());
+  hash.add(monitor_->statistics().telegrams);
+  hash.add(monitor_->statistics().wrong);
+  return hash.value();
 }
 
 RunResult Bench::collect() {
@@ -321,12 +402,14 @@ bool Bench::keep_outputs(Tick at) {
 
 /// A run that one of them has ended early leaves none of them.
 void Bench::finish_outputs() {
-  RunLog* log = journal_.run_log();
+  RunLog* log = only_wave_ ? nullptr : journal_.run_log();
+  if (waves_ && waves_->asleep()) waves_.reset();
   if (waves_) waves_->check();
   if (log != nullptr) log->check();
   if (trace_) trace_->check();
   if (capture_) capture_->check();
   if (waves_) waves_->finish(std::max(now(), stopped() ? now() : scenario_.end));
+  if (only_wave_) return;
   if (log != nullptr) log->finish();
   if (trace_) trace_->finish();
   if (capture_) capture_->finish();

@@ -15,11 +15,13 @@
 #include "tb/bench/execution.hpp"
 #include "tb/bench/host_watch.hpp"
 #include "tb/bench/journal.hpp"
+#include "tb/bench/marks.hpp"
 #include "tb/bench/observer.hpp"
 #include "tb/bench/periodic_poll.hpp"
 #include "tb/bench/pin_trace.hpp"
 #include "tb/bench/record.hpp"
 #include "tb/bench/reply.hpp"
+#include "tb/bench/run_digest.hpp"
 #include "tb/bench/setup.hpp"
 #include "tb/bench/stations.hpp"
 #include "tb/bench/wave_recorder.hpp"
@@ -39,6 +41,10 @@ struct RunOptions {
   std::optional<GdbRequest> gdb;  ///< debugger of the first user CPU that takes one
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
   ChecksMode checks = ChecksMode::kOff;
+  Tick from = 0;  ///< log, trace, capture, wave and what user CPUs print have what happens from then on
+  std::vector<Tick> marks;  ///< when `on_mark` is called, before anybody acts there; a digest costs some time
+  /// `digest`: of all before `now`. False: the run ends and leaves no file.
+  std::function<bool(Tick now, std::uint64_t digest)> on_mark;
   std::vector<Observer*> observers;  ///< more of them, told of all pins; they must outlive the bench
   bool open_ended = false;  ///< the run ends when `poll` says so, and what is to be judged at the end is judged then
 };
@@ -66,6 +72,16 @@ class Bench {
   void add_observer(Observer& observer) { observers_.add(observer); }
   /// Where the log grows until the run ends; empty without a log.
   std::string log_grows_at() const { return journal_.run_log() != nullptr ? journal_.run_log()->grows_at() : ""; }
+  /// Lets a sleeping wave (WaveOptions::asleep) begin to follow all pins, see WaveRecorder::wake.
+  void wake_wave(Tick from, Tick to);
+  /// See WaveRecorder::triggered; null without a sleeping wave.
+  const WaveRecorder::Trigger* wave_trigger() const;
+  /// This process is a copy of one that goes on by itself: of all files it writes the wave only.
+  void keep_only_wave();
+  /// The unfinished wave is removed; nothing is recorded any more.
+  void drop_wave() { waves_.reset(); }
+  /// The run ends and leaves no file.
+  void leave_nothing();
   /// There is a wave, but nothing opened a window of it.
   bool wave_is_empty() const { return waves_ && waves_->is_empty(); }
 
@@ -79,6 +95,7 @@ class Bench {
   void connect(MasterStation& entry);
   void add_master(const scenario::Master& spec);
   void add_master2(const scenario::Master2& spec);
+  void add_marks();
   void add_monitor();
   void add_agents();
   void add_observers();
@@ -92,6 +109,12 @@ class Bench {
   void changed(Tick at);
   RunResult collect();
   SlaveResult collect(SlaveStation& slave, Tick at) const;
+  /// A wave that begins late wakes so long before: what is told late, and an access under way, are over then.
+  static constexpr Tick kAwakeBefore = bus::kTicksPerMs;
+
+  Tick sleeps_until() const;
+  void marked(Tick now);
+  std::uint64_t digest(Tick now);
   bool keep_outputs(Tick at);
   void finish_outputs();
 
@@ -111,6 +134,10 @@ class Bench {
   std::unique_ptr<bus::Monitor> monitor_;
   std::unique_ptr<Script> script_;
   PeriodicPoll periodic_poll_;
+  Marks marks_;
+  RunDigest digest_;
+  bool leaves_nothing_ = false;  ///< of the files of the options
+  bool only_wave_ = false;
   std::optional<PinTrace> trace_;
   std::optional<WaveRecorder> waves_;
   std::optional<CaptureRecorder> capture_;

@@ -18,13 +18,14 @@ struct CaptureRequest {
 
 class CaptureRecorder : public Observer {
  public:
-  /// `baud`: of the line at the start; throws InputError when the file cannot be created.
-  CaptureRecorder(const CaptureRequest& request, int baud);
+  /// `baud`: of the line at the start. Telegrams that begin before `from` are left out. Throws InputError when the file cannot be created.
+  CaptureRecorder(const CaptureRequest& request, int baud, Tick from);
 
   void telegram(const HeardTelegram& telegram) override;
   void flag(const bus::Flag& flag) override { collector_.flagged(flag); }
   void skipped(const bus::ReceivedCharacter& character) override { collector_.skipped(character, baud_); }
   void save() { file_.flush(); }
+  void mute() { file_.mute(); }
   bool failed() const { return file_.failed(); }
   void check() const { file_.check(); }
   /// Writes the last telegram and gives the file its name.

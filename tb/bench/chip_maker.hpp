@@ -2,6 +2,7 @@
 // A kind of chip that the bench can put on its segment, and the user CPU that goes with it.
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "tb/bench/chip_view.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/scenario/scenario.hpp"
+#include "tb/user_cpu/debug_history.hpp"
 #include "tb/user_cpu/station_cpu.hpp"
 
 namespace dsdpv1::tb {
@@ -31,9 +33,10 @@ struct ChipRequest {
 
 /// `--gdb`: the debugger of a processor that runs firmware.
 struct GdbRequest {
-  int port = 0;
+  std::optional<int> port;                      ///< absent: nobody can connect, only what was done before is done again
   std::function<void(const std::string&)> say;  ///< a line for the user
   std::function<bool()> stopped;                ///< whether the run is to end
+  std::shared_ptr<user_cpu::DebugHistory> history;
 };
 
 /// Makes the user CPU that starts at `start` with these initialisation data.

@@ -67,6 +67,10 @@ class ChipView {
   /// Somebody else acts before the next edge of an access under way.
   virtual void pause_access() {}
 
+  /// From now on changes of these pins are told, all of them; a telegram and an access under way, too. Only of cores
+  /// by their pins.
+  virtual void watch(Tick /*now*/, PinMask /*pins*/) {}
+
   /// Changes of the watched pins, in order of time.
   std::function<void(Tick at, PinNumber pin, Level level)> on_pin;
   /// The pin has the levels of the run that begins on the line now, until its end or until it is cut: changes up to

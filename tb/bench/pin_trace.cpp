@@ -7,7 +7,7 @@
 namespace dsdpv1::tb {
 void PinTrace::pin(std::size_t slave, bus::Tick at, PinNumber pin, Level level) {
   const PinInfo& info = scenario_.kind->pins()[pin];
-  if (info.input) return;
+  if (info.input || at < from_) return;
   if (at != at_) flush();
   at_ = at;
   const bus::Tick cycle = at / profibus::kTicksPerCycle, rest = at % profibus::kTicksPerCycle;

@@ -14,10 +14,12 @@ namespace dsdpv1::tb {
 /// matter which chip was evaluated first; D with its ticks behind the cycle: "cycle+ticks".
 class PinTrace : public Observer {
  public:
-  /// `scenario` must outlive it.
-  PinTrace(const std::string& path, const scenario::Scenario& scenario) : file_(path), scenario_(scenario) {}
+  /// `scenario` must outlive it. What is before `from` is left out.
+  PinTrace(const std::string& path, const scenario::Scenario& scenario, bus::Tick from)
+      : file_(path), scenario_(scenario), from_(from) {}
   void pin(std::size_t slave, bus::Tick at, PinNumber pin, Level level) override;
   void save() { file_.flush(); }
+  void mute() { file_.mute(); }
   bool failed() const { return file_.failed(); }
   void check() const { file_.check(); }
   void finish();
@@ -27,7 +29,7 @@ class PinTrace : public Observer {
 
   OutputFile file_;
   const scenario::Scenario& scenario_;
-  bus::Tick at_ = 0;
+  bus::Tick from_, at_ = 0;
   std::map<std::size_t, std::string> lines_;  ///< of `at_`, by the number of the slave
 };
 

@@ -53,11 +53,11 @@ LogEntry log_entry(const bus::WireTelegram& telegram, const std::string& words) 
   return entry;
 }
 
-LogForm log_form(const std::string& path, bool whole, bool live) {
+LogForm log_form(const std::string& path, bool whole, bool live, bus::Tick from) {
   constexpr std::string_view kEnding = ".jsonl";
   const bool json =
       path.size() > kEnding.size() && path.compare(path.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
-  return {json, whole, live};
+  return {json, whole, from, live};
 }
 
 void RunLog::add(const LogEntry& entry) { add(entry, ": ", {}); }
@@ -65,6 +65,7 @@ void RunLog::add(const LogEntry& entry) { add(entry, ": ", {}); }
 void RunLog::finding(const LogEntry& entry) { add(entry, " ", entry.code + " " + entry.text); }
 
 void RunLog::add(const LogEntry& entry, const char* joint, std::string order) {
+  if (entry.at < form_.from) return;
   waiting_.emplace(std::tuple(entry.at, entry.station, std::move(order)),
                    form_.json ? json_line(entry) : text_line(entry, form_, joint));
 }

@@ -31,6 +31,7 @@ LogEntry log_entry(const bus::WireTelegram& telegram, const std::string& words);
 struct LogForm {
   bool json = false;   ///< JSON lines, everything whole
   bool whole = false;  ///< text: all bytes of telegrams and data, not the first kShownBytes only
+  bus::Tick from = 0;  ///< what is before is left out
   bool live = false;   ///< each line is in the file at once, for whoever follows it while the run goes on
 
   static constexpr std::size_t kShownBytes = 32;
@@ -38,7 +39,7 @@ struct LogForm {
 };
 
 /// JSON lines for a file whose name ends in .jsonl, else text.
-LogForm log_form(const std::string& path, bool whole, bool live);
+LogForm log_form(const std::string& path, bool whole, bool live, bus::Tick from = 0);
 
 class RunLog {
  public:
@@ -53,6 +54,7 @@ class RunLog {
   void flush(bus::Tick now);
   /// What was written is in the temporary file, which grows there.
   void save() { file_.flush(); }
+  void mute() { file_.mute(); }
   const std::string& grows_at() const { return file_.grows_at(); }
   bool failed() const { return file_.failed(); }
   void check() const { file_.check(); }

@@ -36,7 +36,8 @@ bool concerns(const bus::WireTelegram& telegram, std::uint8_t station) {
 
 WaveSelection selection_of(const WaveOptions& options) {
   WaveSelection selection = options.selection;
-  selection.on_trigger = !options.on.empty();
+  selection.on_trigger = !options.on.empty() && !options.asleep;
+  if (options.asleep) selection.from = bus::kNever;
   return selection;
 }
 
@@ -48,7 +49,8 @@ WaveRecorder::WaveRecorder(const WaveOptions& options, bus::Segment& segment, co
       kind_(kind),
       on_(options.on),
       inside_(options.inside),
-      writer_(std::make_unique<SelectedWave>(open_wave(options.path, options.date), selection_of(options))) {
+      asleep_(options.asleep),
+      writer_(std::make_unique<SelectedWave>(file(options), selection_of(options))) {
   writer_->open_scope(kBus);
   line_ = writer_->wire("line", 1);
   character_ = writer_->words("character");
@@ -56,6 +58,13 @@ WaveRecorder::WaveRecorder(const WaveOptions& options, bus::Segment& segment, co
   event_signals_[kBus] = writer_->words("flag");
   writer_->close_scope();
   segment.attach("waves", this);
+}
+
+std::unique_ptr<WaveWriter> WaveRecorder::file(const WaveOptions& options) {
+  if (!asleep_) return open_wave(options.path, options.date);
+  auto wave = std::make_unique<DeferredWave>(options.path, options.date);
+  deferred_ = wave.get();
+  return wave;
 }
 
 void WaveRecorder::add_chip(const std::string& name, const ChipView& chip, const char* host_port) {
@@ -122,7 +131,25 @@ void WaveRecorder::begin() {
   for (const auto& [name, state] : master_states_) say(0, state.signal, state.initial);
 }
 
+/// Words were noted in its sleep, levels are looked at now.
+void WaveRecorder::wake(bus::Tick now, bus::Tick from, bus::Tick to, bool line) {
+  asleep_ = false;
+  deferred_->open();
+  if (now == 0) {
+    writer_->begin_again(from, to);
+    return begin();
+  }
+  set(now, line_, line ? 1 : 0);
+  for (std::size_t chip = 0; chip < chips_.size(); ++chip)
+    for (std::size_t i = 0; i < chips_[chip].pins.size(); ++i) {
+      const auto number = static_cast<PinNumber>(i);
+      show(now, chip, number, chips_[chip].chip->level(number));
+    }
+  writer_->set_window(from, to);
+}
+
 void WaveRecorder::pin(std::size_t chip, bus::Tick at, PinNumber pin, Level level) {
+  if (asleep_) return;
   PinSignal& own = chips_[chip].pins[pin];
   make_changes(at, turn_of(*own.pin, chip));
   if (own.follows || (own.has_followed && own.level == level)) return;
@@ -142,6 +169,7 @@ void WaveRecorder::show(bus::Tick at, std::size_t chip, PinNumber pin, Level lev
 // --- runs ------------------------------------------------------------------------------------------------------------
 
 bool WaveRecorder::run_begins(const bus::CharacterRun& run) {
+  if (asleep_) return takes_runs_;
   make_changes(run.start, Turn::kLast);
   end_run();
   if (!takes_runs_) return false;
@@ -166,6 +194,7 @@ void WaveRecorder::end_run() {
 
 /// A sender moves its own pin before the line.
 void WaveRecorder::follow_run(std::size_t slave, PinNumber pin) {
+  if (asleep_) return;
   PinSignal& own = chips_[slave].pins[pin];
   own.follows = own.has_followed = true;
   const Follower follower{slave, pin, false, own.pin->input};
@@ -261,7 +290,11 @@ void WaveRecorder::happened(bus::Tick at, const std::string& station, const std:
   make_changes(at, Turn::kMonitor);
   const auto signal = event_signals_.find(station);
   if (signal != event_signals_.end()) say(at, signal->second, fmt::format("{} {}", code, count));
-  if (opens_window(code, violation)) writer_->trigger(at);
+  if (!opens_window(code, violation)) return;
+  if (!asleep_)
+    writer_->trigger(at);
+  else if (!triggered_)
+    triggered_ = {at, station, code};
 }
 
 }  // namespace dsdpv1::tb

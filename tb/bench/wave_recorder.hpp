@@ -15,6 +15,7 @@
 #include "tb/bench/line_run.hpp"
 #include "tb/bench/observer.hpp"
 #include "tb/chip/chip_kind.hpp"
+#include "tb/waves/deferred_wave.hpp"
 #include "tb/waves/wave_selection.hpp"
 #include "tb/waves/wave_writer.hpp"
 
@@ -31,6 +32,8 @@ struct WaveOptions {
   std::vector<std::string> on;
   bool inside = false;  ///< inner signals of the chips, too
   std::string date;     ///< that the file is to have; empty: none
+  /// Pins are not followed, and there is no file, until `WaveRecorder::wake`; `on` is told by `triggered` then.
+  bool asleep = false;
 };
 
 class WaveRecorder : public Observer, private bus::Listener {
@@ -46,6 +49,16 @@ class WaveRecorder : public Observer, private bus::Listener {
   void add_master(const std::string& master, const std::vector<std::string>& members, const std::string& initial);
   /// Writes the first values.
   void begin();
+  /// Before a run, or in it, where chips tell all pins from now on and `now` is before `from` by 1 ms or more: opens the
+  /// file, throws InputError.
+  void wake(bus::Tick now, bus::Tick from, bus::Tick to, bool line);
+  bool asleep() const { return asleep_; }
+  /// While asleep: when the first of WaveOptions::on happened, its code and its station.
+  struct Trigger {
+    bus::Tick at = 0;
+    std::string station, code;
+  };
+  const std::optional<Trigger>& triggered() const { return triggered_; }
 
   void pin(std::size_t chip, bus::Tick at, PinNumber pin, Level level) override;
   /// From now on the changes of runs are made here. Where chips tell theirs it is the same wave, and takes longer.
@@ -69,6 +82,7 @@ class WaveRecorder : public Observer, private bus::Listener {
   bool is_empty() const { return !writer_->has_window(); }
   // See WaveWriter.
   void save(bus::Tick at) {
+    if (asleep_) return;
     make_changes(at, Turn::kLast);
     writer_->save(at);
   }
@@ -109,6 +123,7 @@ class WaveRecorder : public Observer, private bus::Listener {
     bool is_line, is_input;
   };
   void line_changed(bus::Tick at, bool level) override {
+    if (asleep_) return;
     make_changes(at, Turn::kLast);
     set(at, line_, level ? 1 : 0);
   }
@@ -133,6 +148,7 @@ class WaveRecorder : public Observer, private bus::Listener {
     last_ = std::max(at, last_);
     writer_->say(last_, signal, word);
   }
+  std::unique_ptr<WaveWriter> file(const WaveOptions& options);
   std::vector<Signal> add_inside();
   bool opens_window(const std::string& code, bool violation) const;
 
@@ -140,6 +156,9 @@ class WaveRecorder : public Observer, private bus::Listener {
   const ChipKind& kind_;
   const std::vector<std::string> on_;
   const bool inside_;
+  bool asleep_;
+  std::optional<Trigger> triggered_;
+  DeferredWave* deferred_ = nullptr;  ///< of writer_
   std::unique_ptr<SelectedWave> writer_;
   bus::Tick last_ = 0;  ///< of the last change
   Signal line_ = 0, telegram_ = 0, character_ = 0;

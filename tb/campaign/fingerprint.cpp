@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "tb/input/descriptor.hpp"
+#include "tb/input/hash.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 
@@ -20,16 +21,7 @@ namespace {
 
 constexpr std::size_t kMostMb = 1024;  // of a result
 
-class Hash {
- public:
-  void add(std::string_view text) {
-    for (const char c : text) hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
-  }
-  std::string text() const { return fmt::format("{:016x}", hash_); }
-
- private:
-  std::uint64_t hash_ = 0xCBF29CE484222325U;
-};
+std::string text_of(const Hash& hash) { return fmt::format("{:016x}", hash.value()); }
 
 /// Errors that say something about the path and not about the machine's state.
 bool of_the_path(int error) {
@@ -46,7 +38,7 @@ bool of_the_path(int error) {
 std::string fingerprint(const std::string& text) {
   Hash hash;
   hash.add(text);
-  return hash.text();
+  return text_of(hash);
 }
 
 std::string program_identity(const std::string& version) {
@@ -66,8 +58,8 @@ std::optional<std::string> fingerprint_of_file(const std::string& path) {
   for (;;) {
     const ssize_t count = read(file.get(), block.data(), block.size());
     if (count < 0 && errno != EINTR) fail(path);
-    if (count == 0) return hash.text();
-    if (count > 0) hash.add({block.data(), static_cast<std::size_t>(count)});
+    if (count == 0) return text_of(hash);
+    if (count > 0) hash.add(std::string_view(block.data(), static_cast<std::size_t>(count)));
   }
 }
 

@@ -226,7 +226,15 @@ bool PinChip::put_off() {
 
 // The chip is about to act at `at`, or to hear something.
 void PinChip::catch_up_access(Tick at) {
-  if (put_off_ && pins_->next_edge() < at) pins_->run_edges(at - 1);
+  if (!put_off_) return;
+  if (!reports_host_) {
+    if (pins_->next_edge() < at) pins_->run_edges(at - 1);
+    return;
+  }
+  for (Tick edge = pins_->next_edge(); edge < at; edge = pins_->next_edge()) {  // watched since it was put off
+    pins_->run_edges(edge);
+    report_access(edge);
+  }
 }
 
 // Whoever is told something acts before the next edge.

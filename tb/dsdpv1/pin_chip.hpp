@@ -39,7 +39,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   void set_pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
   dsdpv1::Level sample(Tick at) { return device().sample(at); }
   /// From now on changes of these pins are told.
-  void watch(Tick now, PinMask pins);
+  void watch(Tick now, PinMask pins) override;
 
   /// From now on inner signals are told: of a core with Engine::kStep.
   void watch_inside() { inside_.emplace(); }

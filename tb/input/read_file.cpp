@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -28,7 +29,15 @@ int read_all(int fd, std::size_t most, std::string& text) {
   return 0;
 }
 
+/// See provide_file.
+std::map<std::string, std::string>& provided() {
+  static std::map<std::string, std::string> files;
+  return files;
+}
+
 }  // namespace
+
+void provide_file(const std::string& path, std::string text) { provided()[path] = std::move(text); }
 
 std::string what_is_wrong(int error) {
   if (error == ENOENT || error == ENOTDIR) return "no such file";
@@ -38,7 +47,12 @@ std::string what_is_wrong(int error) {
 
 ReadFile try_read_file(const std::string& path, std::size_t most_mb) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) return {"", what_is_wrong(errno)};
+  if (file.get() < 0) {
+    const int error = errno;
+    const auto instead = provided().find(path);
+    const bool absent = error == ENOENT || error == ENOTDIR;
+    return absent && instead != provided().end() ? ReadFile{instead->second, ""} : ReadFile{"", what_is_wrong(error)};
+  }
   const std::size_t most = most_mb << 20U;
   ReadFile result;
   if (const int error = read_all(file.get(), most, result.text); error != 0) return {"", what_is_wrong(error)};

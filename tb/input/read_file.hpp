@@ -19,6 +19,8 @@ constexpr FileKind kStimulusFile{"a stimulus file", 16};                // a lin
 constexpr FileKind kFirmwareFile{// 512 KB of flash with any amount of debug information
                                  "an executable for ARM (32 bit, little endian) such as arm-none-eabi-gcc links", 64};
 
+constexpr FileKind kSavedRunFile{"what run --save-at writes", 128};  // holds the files of the run, firmware too
+
 struct ReadFile {
   std::string text;
   std::string wrong;  ///< empty, or why there is no text: "no such file", "is larger than 4 MB"
@@ -29,7 +31,9 @@ std::string what_is_wrong(int error);
 
 /// All that is in `path`: a file, a device or a FIFO (`<(...)` of a shell), up to `most_mb` times 2^20 bytes.
 ReadFile try_read_file(const std::string& path, std::size_t most_mb);
-/// The same; throws InputError with one line when there is anything wrong.
+/// From now on who reads `path`, where there is no such file, gets this text.
+void provide_file(const std::string& path, std::string text);
+/// As try_read_file; throws InputError with one line when there is anything wrong.
 std::string read_file(const std::string& path, const FileKind& kind);
 
 }  // namespace dsdpv1::tb

@@ -1,5 +1,8 @@
 #include "tb/output/output_file.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 
 namespace dsdpv1::tb {
@@ -12,6 +15,12 @@ void OutputFile::keep_error() { error_ = errno != 0 ? errno : EIO; }
 
 void OutputFile::flush() {
   if (error_ == 0 && std::fflush(file_.get()) != 0) keep_error();
+}
+
+void OutputFile::mute() {
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  ::dup2(nowhere, ::fileno(file_.get()));
+  ::close(nowhere);
 }
 
 void OutputFile::check() const {

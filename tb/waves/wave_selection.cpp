@@ -112,7 +112,8 @@ void SelectedWave::say(bus::Tick at, Signal signal, std::string_view word) {
 /// A window that begins or ends up to `at` does so.
 void SelectedWave::advance(bus::Tick at) {
   if (open_ && at <= end_of_window()) return;
-  const bool begins = !selection_.on_trigger && closed_at_ < 0 && at >= selection_.from;
+  const bool wanted = !selection_.on_trigger || until_ >= selection_.from;
+  const bool begins = wanted && closed_at_ < 0 && at >= selection_.from;
   if (!open_ && begins) open(selection_.from);
   if (open_ && at > end_of_window()) close();
 }
@@ -135,7 +136,13 @@ void SelectedWave::trigger(bus::Tick at) {
   if (!selection_.on_trigger) return;
   advance(at);
   until_ = std::max(until_, at + selection_.around);
-  if (!open_) open(std::max(at - selection_.around, closed_at_ + 1));
+  if (!open_ && at >= selection_.from) open(std::max({at - selection_.around, closed_at_ + 1, selection_.from}));
+}
+
+void SelectedWave::begin_again(bus::Tick from, bus::Tick to) {
+  set_window(from, to);
+  kept_.clear();
+  for (Declared& signal : signals_) signal.told = false;
 }
 
 /// Every signal has its value of `at`; then come the changes since.

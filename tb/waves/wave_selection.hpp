@@ -51,6 +51,13 @@ class SelectedWave {
 
   /// To be called once all signals are declared: throws InputError for a pattern that fits none of them.
   void check_patterns() const;
+  /// The window is another one; before it begins.
+  void set_window(bus::Tick from, bus::Tick to) {
+    selection_.from = from;
+    selection_.to = to;
+  }
+  /// The same, and what was told so far is forgotten.
+  void begin_again(bus::Tick from, bus::Tick to);
   /// Something happened at `at`, at most a millisecond before the last change.
   void trigger(bus::Tick at);
   /// Whether anything has been written.
@@ -97,7 +104,7 @@ class SelectedWave {
   std::vector<Declared> signals_;
   std::deque<Change> kept_;  ///< the last ones, while no window is open
   bool open_ = false;
-  bus::Tick until_ = 0;       ///< of the window that a trigger has opened
+  bus::Tick until_ = -1;      ///< of the window that a trigger has opened
   bus::Tick closed_at_ = -1;  ///< end of the last window
   Signal clock_ = 0;
   bus::Tick next_clock_ = 0;  ///< the next change of CLK

@@ -30,6 +30,7 @@ class FakeTarget final : public DebugTarget {
     return resettable;
   }
   bus::Tick now() const override { return static_cast<bus::Tick>(done_) * bus::kTicksPerUs; }
+  std::uint64_t instructions() const override { return done_; }
   void end_run() override { ended_ = true; }
 
   bool watchable = true, resettable = true;

@@ -10,6 +10,7 @@
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/dsdpv1/user_cpu/arm/board.hpp"
 #include "tb/dsdpv1/user_cpu/arm/gdb_server.hpp"
+#include "tb/dsdpv1/user_cpu/arm/history_player.hpp"
 #include "tb/dsdpv1/user_maker.hpp"
 #include "tb/input/input_error.hpp"
 
@@ -51,6 +52,16 @@ void check_objects(const scenario::Scenario& scenario, const scenario::Slave& sl
                      fmt::format("dpv1 has {} objects, allowed on an ARM board are {}", count, DSDPV1_MAILBOX_OBJECTS));
 }
 
+std::unique_ptr<arm::Debugger> make_debugger(const GdbRequest& gdb, arm::DebugTarget& target) {
+  arm::HistoryPlayer::MakeDebugger server;
+  if (gdb.port) {
+    server = [&gdb](arm::DebugTarget& noted) {
+      return std::make_unique<arm::GdbServer>(noted, arm::GdbOptions{*gdb.port, gdb.stopped, gdb.say});
+    };
+  }
+  return std::make_unique<arm::HistoryPlayer>(target, *gdb.history, server);
+}
+
 MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
   const scenario::UserCpu& user = request.slave.user_cpu;
   const Dsdpv1User& own = tb::own(user);
@@ -73,9 +84,7 @@ MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
     if (settings.mode != HostMode::kParallel) options.card = static_cast<unsigned>(settings.address);
   }
   if (const GdbRequest* gdb = request.gdb) {
-    options.make_debugger = [gdb](arm::DebugTarget& target) {
-      return std::make_unique<arm::GdbServer>(target, arm::GdbOptions{gdb->port, gdb->stopped, gdb->say});
-    };
+    options.make_debugger = [gdb](arm::DebugTarget& target) { return make_debugger(*gdb, target); };
   }
   return [&user, &chip, options](const user_cpu::StationConfig& station, Tick start) {
     arm::BoardOptions now = options;

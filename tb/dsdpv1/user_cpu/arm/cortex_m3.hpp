@@ -92,7 +92,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   /// From System's functions: time has gone on. Not backwards.
   void advance_to(std::uint64_t cycle);
   /// Instructions executed, those too whose condition failed.
-  std::uint64_t instructions() const { return instructions_; }
+  std::uint64_t instructions() const override { return instructions_; }
   /// Of the instruction at work, or of the next one between two.
   std::uint32_t pc() const { return at_; }
 

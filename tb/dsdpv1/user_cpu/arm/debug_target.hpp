@@ -61,6 +61,8 @@ class DebugTarget {
   virtual bool reset() = 0;
   /// Simulated time.
   virtual bus::Tick now() const = 0;
+  /// Instructions begun since the processor was made, the one included that before_instruction() is called for.
+  virtual std::uint64_t instructions() const = 0;
   /// gdb's `kill`: the run ends before the next instruction.
   virtual void end_run() = 0;
 };

@@ -1,0 +1,71 @@
+#pragma once
+// run --save-at and --restore.
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/command_line.hpp"
+#include "apps/outputs.hpp"
+#include "tb/bench/bench.hpp"
+#include "tb/output/output_file.hpp"
+#include "tb/saved/saved_run.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace dsdpv1::app {
+
+/// A run as it is to be saved, but for its tick and digest: what the arguments say, and the files that it reads.
+tb::SavedRun described_run(const RunArguments& arguments, const std::string& text,
+                           const tb::scenario::Scenario& scenario);
+
+/// Its files are what they were, or absent and given to whoever reads them; throws tb::InputError.
+void provide_files(const tb::SavedRun& run, const std::string& path);
+/// The arguments with what a saved run says.
+RunArguments arguments_of(RunArguments arguments, const tb::SavedRun& run);
+
+/// What a debugger did in it is done again, and a debugger of this run has its say after it.
+void replay_debugger(tb::RunOptions& options, const tb::SavedRun& run);
+
+/// What --save-at and --restore do during a run.
+class SavedRuns {
+ public:
+  /// Opens the files of --save-at; throws tb::InputError, also for times that the run has not. `restored` may be null;
+  /// `run` and `restored` must outlive it.
+  SavedRuns(const RunArguments& arguments, const tb::SavedRun& run, const tb::SavedRun* restored, tb::Tick end);
+
+  /// What the bench has to do for them.
+  void ask(tb::RunOptions& options);
+  /// At the end of a run: throws tb::InputError when a file could not be written or the restored run is another one.
+  /// Says which files were not written as the run was over before.
+  void check(bool interrupted);
+
+ private:
+  struct Save {
+    Save(tb::Tick tick, const std::string& text, const std::string& path) : at(tick), time(text), file(path) {}
+    tb::Tick at;
+    std::string time;  ///< as it was given; empty: it is written
+    tb::OutputFile file;
+  };
+  bool marked(tb::Tick now, std::uint64_t digest);
+  void write(Save& save, std::uint64_t digest);
+  void refuse() const;
+
+  const tb::SavedRun& run_;
+  const tb::SavedRun* restored_;
+  tb::Tick end_;
+  std::string path_;  ///< of --restore
+  std::vector<std::unique_ptr<Save>> saves_;
+  std::shared_ptr<const user_cpu::DebugHistory> history_;
+  bool met_ = false, differs_ = false;
+  std::exception_ptr error_;
+};
+
+/// By the pins of cores: their pins can be followed from any time on.
+bool is_of_cores(const tb::RunOptions& options);
+
+/// The files of --save-at, for check_outputs.
+std::vector<NamedFile> save_files(const RunArguments& arguments);
+
+}  // namespace dsdpv1::app

@@ -1,0 +1,36 @@
+"""Runs of dsdpv1-sim and what they leave, for the tests of this folder."""
+import json
+import pathlib
+import subprocess
+
+PROJECT = pathlib.Path(__file__).resolve().parents[2]
+TICKS_PER_NS = 12
+
+
+def call(program, *arguments, folder=PROJECT, limit=None):
+    """The finished run; `limit`: bytes that a file may have."""
+    shell = [] if limit is None else ["bash", "-c", f'ulimit -f {limit // 1024}; exec "$@"', "bash"]
+    return subprocess.run([*shell, program, "run", *map(str, arguments), "--no-progress", "--quiet"], cwd=folder, capture_output=True, text=True, check=False)
+
+
+def tick_of(line):
+    """Of a line of a log."""
+    return round(float(line.split(maxsplit=1)[0]) * TICKS_PER_NS)
+
+
+def log_from(path, tick):
+    return [line for line in path.read_text(encoding="utf-8").splitlines() if tick_of(line) >= tick]
+
+
+def result(path):
+    """Without what the wall clock says."""
+    values = json.loads(path.read_text(encoding="utf-8"))
+    for key in ("wall_s", "real_time_factor"):
+        values.pop(key)
+    return values
+
+
+def report(failures):
+    for failure in failures:
+        print(failure)
+    return 1 if failures else 0
