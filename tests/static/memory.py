@@ -52,7 +52,6 @@ CASES = (
     Case("decode", ("decode", "c.pcapng", "--table", "d.tsv")),
     Case("compare of two waves", ("compare", "w.vcd", "again.vcd"), (0, 1)),
     Case("GSD file", ("gsd", "{scenarios}/dsdpv1.gsd")),
-    Case("sweep", ("sweep", "short.yaml", "--param", "baud=12M,6M", "--out", "sweep"), (0, 1)),
     Case("serve", ("serve", "{scenarios}/serve_19k2.yaml", "--tcp", "0", "--for", "200ms")),
     Case("random lockstep in two threads", ("rtl-random", "--cycles", "20000", "--jobs", "2", "--seed", "1")),
 )
