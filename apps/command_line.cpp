@@ -104,16 +104,19 @@ const char* const kRunExamples =
 
 void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* command = app.add_subcommand("run", "Carries out a scenario and judges it");
-  CLI::Option* scenario = command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md");
-  CLI::Option* engine = command
-      ->add_option(
-          "--engine", arguments.engine,
-          "How the chips are executed: step (every cycle), skip (from event to event), rtl (the reference RTL), "
-          "lockstep (model and RTL side by side, compared)")
-      ->capture_default_str();
+  CLI::Option* scenario =
+      command->add_option("SCENARIO", arguments.scenario, "Scenario in YAML, see docs/scenarios.md");
+  CLI::Option* engine =
+      command
+          ->add_option(
+              "--engine", arguments.engine,
+              "How the chips are executed: step (every cycle), skip (from event to event), rtl (the reference RTL), "
+              "lockstep (model and RTL side by side, compared)")
+          ->capture_default_str();
   CLI::Option* view = command
-      ->add_option("--view", arguments.view, "How the user CPUs reach them: pins, tlm (SystemC; not with an ARM board)")
-      ->capture_default_str();
+                          ->add_option("--view", arguments.view,
+                                       "How the user CPUs reach them: pins, tlm (SystemC; not with an ARM board)")
+                          ->capture_default_str();
   add_wave_options(*command, arguments.wave);
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
@@ -122,41 +125,50 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   command->add_option("--junit", arguments.junit,
                       "The verdict for CI as JUnit's XML: a case for the run, its violations and each expectation");
   add_capture_options(*command, arguments.capture, arguments.capture_link);
-  CLI::Option* checks = command
-      ->add_option(
-          "--checks", arguments.checks,
-          "The checks of docs/checks.md on handshake, bus timing and DPRAM: report (listed), fail (exit 1 on a "
-          "violation that the scenario does not allow), off")
-      ->capture_default_str();
+  CLI::Option* checks =
+      command
+          ->add_option(
+              "--checks", arguments.checks,
+              "The checks of docs/checks.md on handshake, bus timing and DPRAM: report (listed), fail (exit 1 on a "
+              "violation that the scenario does not allow), off")
+          ->capture_default_str();
   command->add_option("--trace", arguments.trace, "Every change of every output pin, for comparisons");
   command
       ->add_option("--difference", arguments.difference,
                    "Wave of both sides, written when --engine lockstep finds a difference")
       ->capture_default_str();
-  CLI::Option* golden = command->add_option("--golden", arguments.golden,
-                      "Folder of golden traces (traces): every change of every pin is compared, the first difference "
-                      "ends the run (docs/traces.md)");
-  CLI::Option* fault = command
-      ->add_option("--fault", arguments.fault,
-                   "With this single fault of rtl_ref/faults.txt, or faults_rsu.txt, in the reference RTL")
-      ->check(CLI::Range(0, 255));
-  CLI::Option* seed = command->add_option("--seed", arguments.seed,
-                      "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
+  CLI::Option* golden = command->add_option(
+      "--golden", arguments.golden,
+      "Folder of golden traces (traces): every change of every pin is compared, the first difference "
+      "ends the run (docs/traces.md)");
+  CLI::Option* fault =
+      command
+          ->add_option("--fault", arguments.fault,
+                       "With this single fault of rtl_ref/faults.txt, or faults_rsu.txt, in the reference RTL")
+          ->check(CLI::Range(0, 255));
+  CLI::Option* seed =
+      command->add_option("--seed", arguments.seed,
+                          "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
   CLI::Option* set = add_set_option(*command, arguments.set);
   command
       ->add_option("--save-at", arguments.save_at,
                    "TIME FILE: saves the run as it is then, for --restore; once for each time (docs/save_restore.md)")
       ->type_name("TIME FILE")
       ->allow_extra_args(false);
-  CLI::Option* rewind = command
-      ->add_option("--rewind-on", arguments.rewind_on,
-                   "CODE TIME: no wave until an event with this code of the log, or a violation, happens; then the run is done again "
-                   "from a snapshot, with the wave from so long before it to as long behind it (docs/save_restore.md)")
-      ->type_name("CODE TIME")
-      ->needs(command->get_option("--wave"));
-  for (const char* each : {"--wave-on", "--wave-from", "--wave-to", "--wave-inside"}) rewind->excludes(command->get_option(each));
-  CLI::Option* restore = command->add_option("--restore", arguments.restore,
-                      "A saved run in the place of a scenario: it goes on from there, and log, wave, trace and capture begin there");
+  CLI::Option* rewind =
+      command
+          ->add_option(
+              "--rewind-on", arguments.rewind_on,
+              "CODE TIME: no wave until an event with this code of the log, or a violation, happens; then the run is "
+              "done again "
+              "from a snapshot, with the wave from so long before it to as long behind it (docs/save_restore.md)")
+          ->type_name("CODE TIME")
+          ->needs(command->get_option("--wave"));
+  for (const char* each : {"--wave-on", "--wave-from", "--wave-to", "--wave-inside"})
+    rewind->excludes(command->get_option(each));
+  CLI::Option* restore = command->add_option(
+      "--restore", arguments.restore,
+      "A saved run in the place of a scenario: it goes on from there, and log, wave, trace and capture begin there");
   for (CLI::Option* each : {scenario, engine, view, checks, golden, fault, seed, set}) restore->excludes(each);
   rewind->excludes(restore);
   command

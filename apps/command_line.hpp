@@ -23,16 +23,16 @@ struct RunArguments {
   WaveArguments wave;
   std::string log, result, trace, report, junit;
   std::string capture, capture_link = "profibus";
-  std::string golden;                       ///< folder of golden traces, empty: not compared with them
-  unsigned fault = 0;                       ///< of rtl_ref/faults.txt, 0: none
-  std::string difference = "lockstep.vcd";  ///< wave of a lockstep run's first difference
-  std::optional<bool> progress;             ///< absent: on a terminal
-  std::vector<std::string> set;             ///< PATH=VALUE: keys other than in the file
-  std::optional<std::uint32_t> seed;        ///< of RTL
+  std::string golden;                                        ///< folder of golden traces, empty: not compared with them
+  unsigned fault = 0;                                        ///< of rtl_ref/faults.txt, 0: none
+  std::string difference = "lockstep.vcd";                   ///< wave of a lockstep run's first difference
+  std::optional<bool> progress;                              ///< absent: on a terminal
+  std::vector<std::string> set;                              ///< PATH=VALUE: keys other than in the file
+  std::optional<std::uint32_t> seed;                         ///< of RTL
   std::vector<std::pair<std::string, std::string>> save_at;  ///< time and file of each
-  std::pair<std::string, std::string> rewind_on;  ///< code and time; empty: not wanted
-  std::string restore;                      ///< a saved run in the place of a scenario, empty: none
-  std::optional<int> gdb;                   ///< TCP port for the debugger of the first ARM board
+  std::pair<std::string, std::string> rewind_on;             ///< code and time; empty: not wanted
+  std::string restore;                                       ///< a saved run in the place of a scenario, empty: none
+  std::optional<int> gdb;                                    ///< TCP port for the debugger of the first ARM board
   bool log_whole = false, quiet = false;
 };
 

@@ -113,7 +113,7 @@ std::string load_text(const std::string& path, const tb::FileKind& kind) {
 }
 
 tb::scenario::Scenario parse_scenario(const std::string& text, const std::string& path,
-                                   const std::vector<tb::scenario::Setting>& settings, const std::string& left) {
+                                      const std::vector<tb::scenario::Setting>& settings, const std::string& left) {
   tb::scenario::Scenario scenario = tb::scenario::parse(text, path, settings);
   if (std::string program = other_program(scenario); !program.empty()) throw HandOver{std::move(program), left};
   return scenario;

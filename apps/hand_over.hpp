@@ -34,7 +34,7 @@ void hand_over(const tb::scenario::Scenario& scenario);
 std::string load_text(const std::string& path, const tb::FileKind& kind);
 /// The scenario of this text; throws HandOver as above. `left`: what the other program gets as load_text.
 tb::scenario::Scenario parse_scenario(const std::string& text, const std::string& path,
-                                   const std::vector<tb::scenario::Setting>& settings, const std::string& left);
+                                      const std::vector<tb::scenario::Setting>& settings, const std::string& left);
 /// Both, as scenario::load for the one scenario of a command, which may come from a pipe. Throws HandOver as above.
 tb::scenario::Scenario load_scenario(const std::string& path, const std::vector<tb::scenario::Setting>& settings = {});
 

@@ -32,7 +32,8 @@ Rewind::Rewind(const RunArguments& arguments, const tb::ChipKind& kind) {
   file_ = arguments.wave.file;
   around_ = check_window("dsdpv1-sim run", "--rewind-on", code_, time_, kind);
   if (arguments.view != "pins" || (arguments.engine != "step" && arguments.engine != "skip"))
-    throw tb::InputError("dsdpv1-sim run: --rewind-on is about the model, allowed with it are --view pins and --engine step or skip");
+    throw tb::InputError(
+        "dsdpv1-sim run: --rewind-on is about the model, allowed with it are --view pins and --engine step or skip");
   tb::find_place(file_);
 }
 
@@ -69,7 +70,8 @@ bool Rewind::look(tb::Tick now) {
 }
 
 bool Rewind::is_time_for_snapshot(tb::Tick now) const {
-  return snapshots_.possible() && now - snapshots_.newest() > around_ + kLate && steady_clock::now() - last_ >= kBetween;
+  return snapshots_.possible() && now - snapshots_.newest() > around_ + kLate &&
+         steady_clock::now() - last_ >= kBetween;
 }
 
 void Rewind::take_snapshot(tb::Tick now) {

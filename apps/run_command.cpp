@@ -106,6 +106,13 @@ struct RunRequest {
   std::optional<tb::SavedRun> restored;  ///< of --restore
 };
 
+/// Of a run that a debugger takes back, see DebugHistory: it is to be done again.
+constexpr int kGoesBack = -1;
+
+bool goes_back(const RunRequest& request) {
+  return request.options.gdb && request.options.gdb->history->back.has_value();
+}
+
 int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execution,
                  const LockstepSteps& lockstep = {}) {
   const tb::scenario::Scenario& scenario = request.scenario;
@@ -131,6 +138,7 @@ int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execu
   };
   tb::RunResult result = rewind.carry_out(bench, goes_on);
   progress.clear();
+  if (goes_back(request)) return kGoesBack;
   saved.check(result.interrupted);
   if (rewind.failed()) return kWrongInput;
   if (lockstep.judge) lockstep.judge(result);
@@ -138,7 +146,8 @@ int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execu
     result_file->write(tb::result_json(result));
     result_file->commit();
   }
-  if (arguments.wave.save && !(rewind.wanted() && !rewind.recorded())) write_save_files(arguments.wave.file, *scenario.kind);
+  if (arguments.wave.save && !(rewind.wanted() && !rewind.recorded()))
+    write_save_files(arguments.wave.file, *scenario.kind);
   if (report_file) report_file->write(result, DSDPV1_VERSION);
   if (!rewind.wanted() && bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
   const bool ran_through = !lockstep.report || lockstep.report();
@@ -302,6 +311,29 @@ RunRequest request_of(const RunArguments& arguments) {
 
 }  // namespace
 
+namespace {
+
+/// As often as a debugger goes back. What user CPUs print is shown once.
+int forth_and_back(RunRequest& request, const std::function<int()>& carry_out) {
+  const auto show = request.options.on_text;
+  std::size_t shown = 0, line = 0;
+  if (show) {
+    request.options.on_text = [&](const std::string& station, const std::string& text) {
+      if (++line <= shown) return;
+      shown = line;
+      show(station, text);
+    };
+  }
+  for (;;) {
+    const int status = carry_out();
+    if (!goes_back(request)) return status;
+    request.options.gdb->history->begin_again();
+    line = 0;
+  }
+}
+
+}  // namespace
+
 int run(const RunArguments& given) {
   leave_nothing_on_signals();
   RunRequest request = request_of(given);
@@ -310,12 +342,14 @@ int run(const RunArguments& given) {
   check_outputs_of(arguments, request.scenario);
   if (arguments.gdb) check_has_board(request.scenario);
   const cosim::MakeRtl rtl = cosim::reference_rtl(arguments.fault, arguments.seed.value_or(cosim::kUsualSeed));
-  if (arguments.engine == "lockstep") return run_lockstep(request, rtl).status;
-  if (arguments.engine == "rtl") return run_scenario(request, cosim::make_rtl_execution(rtl));
-  if (arguments.view == "pins") return run_scenario(request, tb::make_pin_execution());
-  return in_tlm_view([&request](std::unique_ptr<tb::Execution> execution) {
-    return run_scenario(request, std::move(execution));
-  });
+  if (arguments.engine == "lockstep") return forth_and_back(request, [&] { return run_lockstep(request, rtl).status; });
+  if (arguments.engine == "rtl")
+    return forth_and_back(request, [&] { return run_scenario(request, cosim::make_rtl_execution(rtl)); });
+  if (arguments.view == "pins")
+    return forth_and_back(
+        request, [&] { return run_scenario(request, tb::make_pin_execution()); });
+  return in_tlm_view(
+      [&request](std::unique_ptr<tb::Execution> execution) { return run_scenario(request, std::move(execution)); });
 }
 
 int cosim_own_rtl(const CosimArguments& arguments) {

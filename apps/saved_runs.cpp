@@ -58,8 +58,9 @@ void provide_files(const tb::SavedRun& run, const std::string& path) {
     tb::provide_file(file.path, file.content);
     if (!tb::input_identity(file.path)) continue;  // absent, or a pipe of then
     if (tb::try_read_file(file.path, tb::kSavedRunFile.most_mb).text == file.content) continue;
-    throw tb::InputError(file.path, 0,
-                         fmt::format("has changed since {} was saved, allowed is what it was then, or no such file", path));
+    throw tb::InputError(
+        file.path, 0,
+        fmt::format("has changed since {} was saved, allowed is what it was then, or no such file", path));
   }
 }
 
@@ -103,7 +104,8 @@ void SavedRuns::ask(tb::RunOptions& options) {
     options.marks.push_back(restored_->at);
     options.from = restored_->at;
     options.wave.selection.from = std::max(options.wave.selection.from, restored_->at);
-    options.wave.asleep = is_of_cores(options) && options.wave.selection.from <= end_ && options.wave.on.empty() && !options.wave.inside;
+    options.wave.asleep =
+        is_of_cores(options) && options.wave.selection.from <= end_ && options.wave.on.empty() && !options.wave.inside;
   }
   if (options.gdb) history_ = options.gdb->history;
   options.on_mark = [this](tb::Tick now, std::uint64_t digest) { return marked(now, digest); };
@@ -140,7 +142,8 @@ void SavedRuns::check(bool interrupted) {
   if (restored_ != nullptr && (differs_ || (!met_ && !interrupted))) refuse();
   for (const auto& save : saves_)
     if (!save->time.empty())
-      std::cerr << fmt::format("dsdpv1-sim: {} is not written: the run was over before {}", save->file.path(), save->time)
+      std::cerr << fmt::format("dsdpv1-sim: {} is not written: the run was over before {}", save->file.path(),
+                               save->time)
                 << std::endl;
 }
 
@@ -150,7 +153,8 @@ void SavedRuns::refuse() const {
       path_, 0,
       fmt::format("the run up to {} is not the one that was saved: {}", tb::time_text(restored_->at),
                   same ? "this same program does otherwise here, which is a fault of its own"
-                       : fmt::format("{} saved it, this is {}, allowed is a program that does the same", restored_->program, this_program())));
+                       : fmt::format("{} saved it, this is {}, allowed is a program that does the same",
+                                     restored_->program, this_program())));
 }
 
 }  // namespace dsdpv1::app

@@ -128,8 +128,8 @@ tb::WaveOptions wave_options(const std::string& command, const WaveArguments& ar
   return options;
 }
 
-bus::Tick check_window(const std::string& command, const char* option, const std::string& code, const std::string& around,
-                       const tb::ChipKind& kind) {
+bus::Tick check_window(const std::string& command, const char* option, const std::string& code,
+                       const std::string& around, const tb::ChipKind& kind) {
   check_code(command, option, code, kind);
   return time_of(command, option, around);
 }

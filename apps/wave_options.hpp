@@ -37,8 +37,8 @@ void write_save_files(const std::string& wave, const tb::ChipKind& kind);
 tb::WaveOptions wave_options(const std::string& command, const WaveArguments& arguments, const tb::ChipKind& kind);
 
 /// Of an option that records `around` before and behind an event with this code: the time. Throws tb::InputError.
-bus::Tick check_window(const std::string& command, const char* option, const std::string& code, const std::string& around,
-                       const tb::ChipKind& kind);
+bus::Tick check_window(const std::string& command, const char* option, const std::string& code,
+                       const std::string& around, const tb::ChipKind& kind);
 
 /// To be said at the end of a run whose wave shows nothing.
 std::string nothing_recorded(const WaveArguments& arguments);

@@ -14,8 +14,8 @@ namespace {
 
 void add(Hash& hash, const SlaveResult& slave) {
   const ChipStatus& chip = slave.status;
-  for (const std::uint64_t number : {std::uint64_t{chip.address}, std::uint64_t{chip.master}, chip.telegrams_received, chip.telegrams_answered,
-                                     chip.data_exchanges, chip.outputs_missed, chip.accesses})
+  for (const std::uint64_t number : {std::uint64_t{chip.address}, std::uint64_t{chip.master}, chip.telegrams_received,
+                                     chip.telegrams_answered, chip.data_exchanges, chip.outputs_missed, chip.accesses})
     hash.add(number);
   hash.add(static_cast<std::uint64_t>(chip.dp_state));
   hash.add(static_cast<std::uint64_t>(chip.baud.value_or(-1)));
@@ -55,7 +55,8 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
       setup_(scenario),
       checks_(scenario, options.checks),
       hosts_(scenario, !options.log.empty() || !options.wave.path.empty() || !options.observers.empty()),
-      journal_(scenario, execution_->timeline(), log_form(options.log, options.log_whole, options.open_ended, options.from)) {
+      journal_(scenario, execution_->timeline(),
+               log_form(options.log, options.log_whole, options.open_ended, options.from)) {
   add_marks();
   checks_.on_violation = [this](const std::string& slave, const checks::Violation& violation, const char* kind) {
     stations_.slave(slave).chip().pause_access();
@@ -281,7 +282,7 @@ RunResult Bench::run(const std::function<bool(Tick)>& poll) {
   execution_->run(scenario_.end, [this] { return stopped(); });
   RunResult result = collect();
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (!leaves_nothing_) finish_outputs();
+  if (!leaves_nothing_ && !goes_back()) finish_outputs();
   return result;
 }
 
@@ -293,7 +294,8 @@ void Bench::add_marks() {
 }
 
 void Bench::marked(Tick now) {
-  if (waves_ && waves_->asleep() && now == sleeps_until()) wake_wave(options_.wave.selection.from, options_.wave.selection.to);
+  if (waves_ && waves_->asleep() && now == sleeps_until())
+    wake_wave(options_.wave.selection.from, options_.wave.selection.to);
   const bool wanted = std::find(options_.marks.begin(), options_.marks.end(), now) != options_.marks.end();
   if (wanted && !options_.on_mark(now, digest(now))) leave_nothing();
 }

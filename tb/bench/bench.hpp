@@ -41,7 +41,7 @@ struct RunOptions {
   std::optional<GdbRequest> gdb;  ///< debugger of the first user CPU that takes one
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
   ChecksMode checks = ChecksMode::kOff;
-  Tick from = 0;  ///< log, trace, capture, wave and what user CPUs print have what happens from then on
+  Tick from = 0;            ///< log, trace, capture, wave and what user CPUs print have what happens from then on
   std::vector<Tick> marks;  ///< when `on_mark` is called, before anybody acts there; a digest costs some time
   /// `digest`: of all before `now`. False: the run ends and leaves no file.
   std::function<bool(Tick now, std::uint64_t digest)> on_mark;
@@ -115,6 +115,8 @@ class Bench {
   Tick sleeps_until() const;
   void marked(Tick now);
   std::uint64_t digest(Tick now);
+  /// A debugger goes back: the run is to be done again.
+  bool goes_back() const { return options_.gdb && options_.gdb->history && options_.gdb->history->back; }
   bool keep_outputs(Tick at);
   void finish_outputs();
 

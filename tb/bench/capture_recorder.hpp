@@ -18,7 +18,8 @@ struct CaptureRequest {
 
 class CaptureRecorder : public Observer {
  public:
-  /// `baud`: of the line at the start. Telegrams that begin before `from` are left out. Throws InputError when the file cannot be created.
+  /// `baud`: of the line at the start. Telegrams that begin before `from` are left out. Throws InputError when the file
+  /// cannot be created.
   CaptureRecorder(const CaptureRequest& request, int baud, Tick from);
 
   void telegram(const HeardTelegram& telegram) override;

@@ -44,8 +44,7 @@ void RunDigest::flag(const bus::Flag& flag) {
   add(flag.at, hash);
 }
 
-void RunDigest::master_state(Tick now, const std::string& master, const std::string& member,
-                             const std::string& state) {
+void RunDigest::master_state(Tick now, const std::string& master, const std::string& member, const std::string& state) {
   Hash hash = begun('m', now);
   for (const std::string* text : {&master, &member, &state}) hash.add(*text);
   add(now, hash);

@@ -49,8 +49,8 @@ class WaveRecorder : public Observer, private bus::Listener {
   void add_master(const std::string& master, const std::vector<std::string>& members, const std::string& initial);
   /// Writes the first values.
   void begin();
-  /// Before a run, or in it, where chips tell all pins from now on and `now` is before `from` by 1 ms or more: opens the
-  /// file, throws InputError.
+  /// Before a run, or in it, where chips tell all pins from now on and `now` is before `from` by 1 ms or more: opens
+  /// the file, throws InputError.
   void wake(bus::Tick now, bus::Tick from, bus::Tick to, bool line);
   bool asleep() const { return asleep_; }
   /// While asleep: when the first of WaveOptions::on happened, its code and its station.

@@ -29,7 +29,8 @@ std::string text_of(const json& binary) {
 }
 
 json json_of(const DebuggerInput& input) {
-  return {input.board, input.instructions, input.at, static_cast<int>(input.kind), input.where, json::binary(input.bytes)};
+  return {input.board, input.instructions,       input.at, static_cast<int>(input.kind),
+          input.where, json::binary(input.bytes)};
 }
 
 DebuggerInput input_of(const json& given) {
@@ -48,18 +49,12 @@ json json_of(const SavedRun& run) {
   for (const SavedFile& file : run.files) files.push_back({binary(file.path), binary(file.content)});
   for (const DebuggerInput& input : run.inputs) inputs.push_back(json_of(input));
   for (const std::string& setting : run.settings) settings.push_back(binary(setting));
-  return {{"program", run.program},
-          {"scenario", binary(run.scenario)},
-          {"settings", settings},
-          {"engine", run.engine},
-          {"view", run.view},
-          {"checks", run.checks},
-          {"fault", run.fault},
-          {"seed", run.seed ? json(*run.seed) : json()},
-          {"files", files},
-          {"inputs", inputs},
-          {"at", run.at},
-          {"digest", run.digest}};
+  return {{"program", run.program}, {"scenario", binary(run.scenario)},
+          {"settings", settings},   {"engine", run.engine},
+          {"view", run.view},       {"checks", run.checks},
+          {"fault", run.fault},     {"seed", run.seed ? json(*run.seed) : json()},
+          {"files", files},         {"inputs", inputs},
+          {"at", run.at},           {"digest", run.digest}};
 }
 
 SavedRun run_of(const json& given) {
@@ -94,7 +89,8 @@ SavedRun parse_saved_run(std::string_view bytes, const std::string& path) {
   const std::string_view object = bytes.substr(std::min(line.size() + 1, bytes.size()));
   const std::string version = fmt::format("{}{} ", kMagic, SavedRun::kVersion);
   if (line.substr(0, version.size()) != version)
-    throw InputError(path, 0, fmt::format("is a saved run of another version of the format, allowed is {}", SavedRun::kVersion));
+    throw InputError(path, 0,
+                     fmt::format("is a saved run of another version of the format, allowed is {}", SavedRun::kVersion));
   const InputError damaged(path, 0, "is damaged, allowed is a saved run as it was written");
   if (line.substr(version.size()) != fingerprint(object)) throw damaged;
   try {

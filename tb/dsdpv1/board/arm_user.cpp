@@ -55,8 +55,9 @@ void check_objects(const scenario::Scenario& scenario, const scenario::Slave& sl
 std::unique_ptr<arm::Debugger> make_debugger(const GdbRequest& gdb, arm::DebugTarget& target) {
   arm::HistoryPlayer::MakeDebugger server;
   if (gdb.port) {
-    server = [&gdb](arm::DebugTarget& noted) {
-      return std::make_unique<arm::GdbServer>(noted, arm::GdbOptions{*gdb.port, gdb.stopped, gdb.say});
+    server = [&gdb](arm::DebugTarget& noted, std::uint64_t board) {
+      return std::make_unique<arm::GdbServer>(
+          noted, arm::GdbOptions{*gdb.port, gdb.stopped, gdb.say, gdb.history.get(), board});
     };
   }
   return std::make_unique<arm::HistoryPlayer>(target, *gdb.history, server);
@@ -83,9 +84,8 @@ MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
     hold_straps(options.switches, settings);
     if (settings.mode != HostMode::kParallel) options.card = static_cast<unsigned>(settings.address);
   }
-  if (const GdbRequest* gdb = request.gdb) {
+  if (const GdbRequest* gdb = request.gdb)
     options.make_debugger = [gdb](arm::DebugTarget& target) { return make_debugger(*gdb, target); };
-  }
   return [&user, &chip, options](const user_cpu::StationConfig& station, Tick start) {
     arm::BoardOptions now = options;
     now.program = program_options(user, station);

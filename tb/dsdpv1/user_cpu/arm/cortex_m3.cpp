@@ -307,7 +307,9 @@ void CortexM3::doze() {
     catch_up();
     if (debugger_ != nullptr) {
       at_ = engine_.read(Register::kPc);
+      asleep_ = true;
       debugger_->poll();
+      asleep_ = false;
     }
   }
   event_ = event_ && !for_event;

@@ -120,6 +120,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   bool reset() override;
   bus::Tick now() const override { return system_.now(); }
   void end_run() override { stop(); }
+  bool asleep() const override { return asleep_; }
 
  private:
   static constexpr std::uint64_t kMillis = 1000;
@@ -224,6 +225,7 @@ class CortexM3 : public DebugTarget, private EngineEvents {
   bool moved_ = false;       // a debugger wrote PC
   bool stale_code_ = false;  // memory was written from outside, or report_data_ changed
   bool report_data_ = false;
+  bool asleep_ = false;      // while a debugger is asked
   bool announced_ = false;   // the debugger has let the next instruction pass
   bool translated_ = false;  // something has been executed
 

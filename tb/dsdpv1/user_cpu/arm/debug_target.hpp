@@ -63,6 +63,8 @@ class DebugTarget {
   virtual bus::Tick now() const = 0;
   /// Instructions begun since the processor was made, the one included that before_instruction() is called for.
   virtual std::uint64_t instructions() const = 0;
+  /// In WFI or WFE: the last one begun is executed already.
+  virtual bool asleep() const { return false; }
   /// gdb's `kill`: the run ends before the next instruction.
   virtual void end_run() = 0;
 };
@@ -72,8 +74,9 @@ class Debugger {
  public:
   virtual ~Debugger() = default;
 
-  /// Whether before_instruction() must be called for every instruction. Changes only in calls of this class: look after
-  /// each of poll() and before_instruction(). While false, poll() now and then is enough and the processor may run as
+  /// Whether before_instruction() must be called for every instruction. Changes in calls of this class, and where what
+  /// was done before is done again with the time: look after each of poll() and before_instruction(), and now and then,
+  /// about every 250 ns of simulated time. While false, poll() now and then is enough and the processor may run as
   /// fast as it can; while true, before_instruction() does what poll() does.
   virtual bool wanted() const = 0;
   /// Before each instruction, those of handlers too; returns when it may be executed. Meanwhile registers (kPc!) and

@@ -63,6 +63,7 @@ GdbCommands::Result GdbCommands::execute(std::string_view packet) {
     case 'q': result.reply = query(packet); break;
     case 'Q': result.reply = set(packet, result); break;
     case 'v': return verbose(fields);
+    case 'b': return back(packet);
     case 'c': return resume_at(fields, Resumption::kContinue);
     case 's': return resume_at(fields, Resumption::kStep);
     case 'D': return {kOk, Resumption::kDetach};
@@ -70,6 +71,18 @@ GdbCommands::Result GdbCommands::execute(std::string_view packet) {
     default: result.reply = kUnknown;
   }
   return result;
+}
+
+void GdbCommands::set_stops(Stops stops) {
+  breakpoints_ = std::move(stops.breakpoints);
+  watchpoints_ = std::move(stops.watchpoints);
+  if (!watchpoints_.empty()) target_.report_data_accesses(true);
+}
+
+GdbCommands::Result GdbCommands::back(std::string_view packet) const {
+  if (reverses_ && packet == "bs") return {std::nullopt, Resumption::kStepBack};
+  if (reverses_ && packet == "bc") return {std::nullopt, Resumption::kContinueBack};
+  return {kUnknown};
 }
 
 void GdbCommands::forget_stops() {
@@ -81,8 +94,8 @@ void GdbCommands::forget_stops() {
 std::string GdbCommands::query(std::string_view packet) {
   GdbFields fields(packet);
   if (fields.skip("qSupported")) {
-    return fmt::format("PacketSize={:x};QStartNoAckMode+;vContSupported+;qXfer:features:read+;qXfer:memory-map:read+",
-                       kGdbPacketSize);
+    return fmt::format("PacketSize={:x};QStartNoAckMode+;vContSupported+;qXfer:features:read+;qXfer:memory-map:read+{}",
+                       kGdbPacketSize, reverses_ ? ";ReverseStep+;ReverseContinue+" : "");
   }
   if (fields.skip("qXfer:")) return transfer(fields);
   if (fields.skip("qRcmd,")) {

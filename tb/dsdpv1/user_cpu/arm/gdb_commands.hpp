@@ -13,11 +13,13 @@ namespace dsdpv1::arm {
 
 /// How the run goes on after a packet.
 enum class Resumption {
-  kNone,      ///< it does not: the processor stays halted
-  kContinue,  ///< until something stops it
-  kStep,      ///< until an instruction outside of the step range is about to be executed
-  kDetach,    ///< without gdb
-  kKill,      ///< not at all: the run ends
+  kNone,          ///< it does not: the processor stays halted
+  kContinue,      ///< until something stops it
+  kStep,          ///< until an instruction outside of the step range is about to be executed
+  kDetach,        ///< without gdb
+  kKill,          ///< not at all: the run ends
+  kStepBack,      ///< to the instruction before
+  kContinueBack,  ///< to where something would have stopped it last
 };
 
 /// Addresses from `start` to before `end` that a step runs through; equal: one instruction only.
@@ -26,9 +28,16 @@ struct StepRange {
   bool holds(std::uint32_t pc) const { return start <= pc && pc < end; }
 };
 
+/// What stops the run.
+struct Stops {
+  Breakpoints breakpoints;
+  Watchpoints watchpoints;
+};
+
 class GdbCommands {
  public:
-  explicit GdbCommands(DebugTarget& target) : target_(target) {}
+  /// `reverses`: gdb may go back.
+  explicit GdbCommands(DebugTarget& target, bool reverses = false) : target_(target), reverses_(reverses) {}
 
   struct Result {
     std::optional<std::string>
@@ -41,6 +50,8 @@ class GdbCommands {
   const Breakpoints& breakpoints() const { return breakpoints_; }
   const Watchpoints& watchpoints() const { return watchpoints_; }
   const StepRange& step_range() const { return step_range_; }
+  Stops stops() const { return {breakpoints_, watchpoints_}; }
+  void set_stops(Stops stops);
   /// Nothing stops the run any longer.
   void forget_stops();
 
@@ -64,11 +75,13 @@ class GdbCommands {
   std::string change_stop(GdbFields fields, bool insert);
   std::string change_watchpoint(const Watchpoint& point, bool insert);
 
+  Result back(std::string_view packet) const;
   Result verbose(GdbFields fields);
   Result resume(GdbFields fields);
   Result resume_at(GdbFields fields, Resumption resumption);
 
   DebugTarget& target_;
+  bool reverses_;
   Breakpoints breakpoints_;
   Watchpoints watchpoints_;
   StepRange step_range_;

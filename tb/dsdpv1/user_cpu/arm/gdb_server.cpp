@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace dsdpv1::arm {
@@ -10,10 +11,14 @@ namespace {
 constexpr int kLookMs = 100;  // real time between two looks at `stopped` while the processor is halted
 
 // Stop replies: signals by gdb's numbers, and the one thread.
-constexpr const char* kInterrupted = "T02thread:1;";  // SIGINT
-constexpr const char* kTrapped = "T05thread:1;";      // SIGTRAP
-constexpr const char* kFaulted = "T0bthread:1;";      // SIGSEGV
+constexpr const char* kInterrupted = "T02thread:1;";              // SIGINT
+constexpr const char* kTrapped = "T05thread:1;";                  // SIGTRAP
+constexpr const char* kFaulted = "T0bthread:1;";                  // SIGSEGV
+constexpr const char* kAtBegin = "T05thread:1;replaylog:begin;";  // there is nothing further back
 constexpr const char* kRunHasEnded = "W00";
+
+/// A processor asks wanted() every 250 ns, which are far fewer instructions.
+constexpr std::uint64_t kAhead = 1024;
 
 std::string watch_reply(const Watchpoint& point) {
   const char* const name = point.kind == Watchpoint::Kind::kWrite  ? "watch"
@@ -25,15 +30,24 @@ std::string watch_reply(const Watchpoint& point) {
 }  // namespace
 
 GdbServer::GdbServer(DebugTarget& target, GdbOptions options)
-    : target_(target), options_(std::move(options)), link_(options_.port, options_.say), commands_(target) {
+    : target_(target), options_(std::move(options)), commands_(target, options_.history != nullptr) {
   commands_.set_stop_reply(kTrapped);
+  if (travels())
+    take_over();
+  else
+    link_ = std::make_shared<GdbLink>(options_.port, options_.say);
 }
 
 GdbServer::~GdbServer() {
-  if (attached_ && link_.connected()) link_.send(kRunHasEnded);
+  if (attached_ && link_->connected()) link_->send(kRunHasEnded);
 }
 
 void GdbServer::data_access(std::uint32_t address, std::uint32_t size, bool write) {
+  if (travels()) {
+    const auto met = commands_.watchpoints().met_by(address, size, write);
+    if (met && options_.history->journey->searches) found_ = {2 * target_.instructions(), watch_reply(*met)};
+    return;
+  }
   if (!watch_hit_.empty() || over_) return;
   const auto point = commands_.watchpoints().met_by(address, size, write);
   if (!point) return;
@@ -81,27 +95,28 @@ std::optional<std::string> GdbServer::reason_to_stop(std::uint32_t pc) const {
 
 void GdbServer::wait_for_gdb() {
   options_.say(fmt::format("waiting for gdb: target remote localhost:{}", port()));
-  while (!link_.connected() && !options_.stopped()) link_.look(kLookMs);
+  while (!link_->connected() && !options_.stopped()) link_->look(kLookMs);
   converse();
 }
 
 void GdbServer::stop(const std::string& reply) {
   commands_.set_stop_reply(reply);
-  link_.send(reply);
+  link_->send(reply);
   converse();
 }
 
 void GdbServer::converse() {
-  attached_ = attached_ || link_.connected();
+  attached_ = attached_ || link_->connected();
+  if (options_.history != nullptr && !options_.history->begin) options_.history->begin = place();
   waiting_ = stepping_ = due_ = false;
   watch_hit_.clear();
   while (!options_.stopped()) {
-    if (!link_.connected()) return let_go();
-    if (const auto input = link_.next()) {
+    if (!link_->connected()) return let_go();
+    if (const auto input = link_->next()) {
       // Ctrl-C that came too late: the processor is halted already.
       if (input->kind == GdbInput::Kind::kPacket && carry_out(input->packet)) return;
     } else {
-      link_.look(kLookMs);
+      link_->look(kLookMs);
     }
   }
   end();
@@ -110,8 +125,10 @@ void GdbServer::converse() {
 /// Whether the processor goes on.
 bool GdbServer::carry_out(const std::string& packet) {
   const GdbCommands::Result result = commands_.execute(packet);
-  if (result.reply) link_.send(*result.reply);
-  if (result.stop_acknowledging) link_.stop_acknowledging();
+  if (result.reply) link_->send(*result.reply);
+  if (result.stop_acknowledging) link_->stop_acknowledging();
+  if (result.resumption == Resumption::kStepBack || result.resumption == Resumption::kContinueBack)
+    return go_back(result.resumption == Resumption::kContinueBack);
   resume(result.resumption);
   return result.resumption != Resumption::kNone;
 }
@@ -119,6 +136,8 @@ bool GdbServer::carry_out(const std::string& packet) {
 void GdbServer::resume(Resumption how) {
   switch (how) {
     case Resumption::kNone:
+    case Resumption::kStepBack:
+    case Resumption::kContinueBack:
     case Resumption::kContinue: break;
     case Resumption::kStep: stepping_ = due_ = true; break;
     case Resumption::kDetach:
@@ -140,14 +159,81 @@ void GdbServer::end() {
 
 void GdbServer::let_go() {
   if (std::exchange(attached_, false)) options_.say("gdb has gone without `detach`: the run goes on");
-  link_.close();
+  link_->close();
   commands_.forget_stops();
   watch_hit_.clear();
   stepping_ = due_ = false;
 }
 
 void GdbServer::poll() {
+  if (travels()) return travel(std::nullopt);
   if (!over_ && halt_if_gdb_wants()) expect_call_again();
+}
+
+// ------------------------------------------------------------------------------------------------- going back
+
+void GdbServer::take_over() {
+  const auto session = std::static_pointer_cast<Session>(options_.history->connection);
+  link_ = session->link;
+  commands_.set_stops(session->stops);
+  waiting_ = due_ = false;
+  attached_ = true;
+}
+
+/// Whether the processor goes on: at the very beginning it does not.
+bool GdbServer::go_back(bool as_far_as_something_stops) {
+  const std::uint64_t here = place(), begin = *options_.history->begin;
+  if (here <= begin) {
+    commands_.set_stop_reply(kAtBegin);
+    link_->send(kAtBegin);
+    return false;
+  }
+  const std::uint64_t before = here % 2 != 0 ? here - 1 : here - 2;
+  const bool nothing_stops = commands_.breakpoints().empty() && commands_.watchpoints().empty();
+  user_cpu::Journey journey{options_.board, std::max(before, begin), here, false, kTrapped};
+  if (as_far_as_something_stops && nothing_stops) journey.until = begin, journey.reply = kAtBegin;
+  if (as_far_as_something_stops && !nothing_stops) journey.until = here, journey.searches = true;
+  depart(std::move(journey));
+  return true;
+}
+
+/// This run ends; whoever has begun it begins it again.
+void GdbServer::depart(user_cpu::Journey journey) {
+  options_.history->connection = std::make_shared<Session>(Session{link_, commands_.stops()});
+  options_.history->back = std::move(journey);
+  options_.history->journey.reset();
+  over_ = true;
+  attached_ = stepping_ = due_ = false;
+  target_.end_run();
+}
+
+bool GdbServer::nears_end() const {
+  const user_cpu::Journey& journey = *options_.history->journey;
+  return journey.searches || place() + 2 * kAhead >= journey.until;
+}
+
+/// `pc`: of the instruction that comes next; absent while the processor sleeps, or nobody wants to know.
+void GdbServer::travel(std::optional<std::uint32_t> pc) {
+  const user_cpu::Journey& journey = *options_.history->journey;
+  if (place() >= journey.until) return end_journey();
+  if (journey.searches && pc && commands_.breakpoints().at(*pc)) found_ = {place(), kTrapped};
+}
+
+void GdbServer::end_journey() {
+  user_cpu::Journey journey = *options_.history->journey;
+  const std::uint64_t begin = *options_.history->begin;
+  if (journey.searches) {
+    if (!found_) found_ = {begin, kAtBegin};
+    return depart({journey.board, found_->place, journey.until, false, found_->reply});
+  }
+  if (place() >= journey.limit && journey.until > begin) {  // instructions whose condition failed are no places
+    journey.until = std::max(journey.until - 2, begin);
+    return depart(std::move(journey));
+  }
+  options_.history->journey.reset();
+  const std::uint32_t pc = target_.read_register(Register::kPc);
+  stop(journey.reply);
+  if (target_.read_register(Register::kPc) != pc) expect_call_again();
 }
 
 /// Whether the processor was halted, and has been let go.
@@ -156,8 +242,8 @@ bool GdbServer::halt_if_gdb_wants() {
     wait_for_gdb();
     return true;
   }
-  link_.look(0);
-  if (!link_.connected()) {
+  link_->look(0);
+  if (!link_->connected()) {
     if (attached_) let_go();
     return false;
   }
@@ -166,7 +252,7 @@ bool GdbServer::halt_if_gdb_wants() {
     converse();
     return true;
   }
-  while (const auto input = link_.next()) {
+  while (const auto input = link_->next()) {
     if (input->kind != GdbInput::Kind::kInterrupt) continue;
     stop(kInterrupted);
     return true;
@@ -177,7 +263,7 @@ bool GdbServer::halt_if_gdb_wants() {
 void GdbServer::fault(const std::string& what) {
   poll();
   if (!attached_ || over_) return;
-  link_.send("O" + to_hex(what + "\n"));
+  link_->send("O" + to_hex(what + "\n"));
   stop(kFaulted);
 }
 

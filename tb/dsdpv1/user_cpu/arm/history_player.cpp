@@ -48,8 +48,14 @@ HistoryPlayer::HistoryPlayer(DebugTarget& target, user_cpu::DebugHistory& histor
       board_(history.boards++),
       end_(history.inputs.size()),
       noted_(target, history, board_),
-      debugger_(make ? make(noted_) : nullptr) {
+      debugger_(debugger_of(make)) {
   while (next_ < end_ && history_.inputs[next_].board < board_) ++next_;
+}
+
+/// The debugger that travels keeps its connection: nobody else can have the port.
+std::unique_ptr<Debugger> HistoryPlayer::debugger_of(const MakeDebugger& make) {
+  const bool wanted = make && (!history_.journey || travels());
+  return wanted ? make(noted_, board_) : nullptr;
 }
 
 bool HistoryPlayer::has_more() const { return next_ < end_ && history_.inputs[next_].board == board_; }
@@ -60,24 +66,36 @@ bool HistoryPlayer::is_due(const DebuggerInput& input) const {
 }
 
 bool HistoryPlayer::wanted() const {
-  if (live_ != nullptr) return live_->wanted();
-  if (has_more()) return target_.instructions() + kAhead >= history_.inputs[next_].instructions;
-  return debugger_ && target_.now() >= history_.live_from;
+  if (has_more() && target_.instructions() + kAhead >= history_.inputs[next_].instructions) return true;
+  if (live_ != nullptr || travels()) return debugger_->wanted();
+  return !has_more() && debugger_ && target_.now() >= history_.live_from;
 }
 
 void HistoryPlayer::before_instruction(std::uint32_t pc) {
-  if (play()) live_->before_instruction(pc);
+  pass_on([pc](Debugger& debugger) { debugger.before_instruction(pc); });
 }
 
 void HistoryPlayer::poll() {
-  if (play()) live_->poll();
+  pass_on([](Debugger& debugger) { debugger.poll(); });
+}
+
+/// At the end of a journey what was done after it is undone.
+template <class Call>
+void HistoryPlayer::pass_on(Call call) {
+  if (!play()) return;
+  const bool travelled = travels();
+  call(*live_);
+  if (!travelled || travels() || history_.back) return;
+  const auto first = history_.inputs.begin();
+  history_.inputs.erase(first + static_cast<std::ptrdiff_t>(next_), first + static_cast<std::ptrdiff_t>(end_));
+  end_ = next_;
 }
 
 /// Whether the debugger has a say.
 bool HistoryPlayer::play() {
-  if (live_ != nullptr) return true;
   while (has_more() && is_due(history_.inputs[next_])) carry_out(history_.inputs[next_++]);
-  if (!has_more() && debugger_ && target_.now() >= history_.live_from) live_ = debugger_.get();
+  const bool has_a_say = travels() || (!has_more() && target_.now() >= history_.live_from);
+  if (has_a_say) live_ = debugger_.get();
   return live_ != nullptr;
 }
 
@@ -86,9 +104,7 @@ void HistoryPlayer::carry_out(const DebuggerInput& input) {
     case DebuggerInput::Kind::kRegister:
       target_.write_register(static_cast<Register>(input.where), value_of(input.bytes));
       break;
-    case DebuggerInput::Kind::kMemory:
-      target_.write_memory(input.where, input.bytes.data(), input.bytes.size());
-      break;
+    case DebuggerInput::Kind::kMemory: target_.write_memory(input.where, input.bytes.data(), input.bytes.size()); break;
     case DebuggerInput::Kind::kReset: target_.reset(); break;
   }
 }

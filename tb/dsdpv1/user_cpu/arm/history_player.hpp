@@ -25,6 +25,7 @@ class NotedTarget final : public DebugTarget {
   bool reset() override;
   bus::Tick now() const override { return target_.now(); }
   std::uint64_t instructions() const override { return target_.instructions(); }
+  bool asleep() const override { return target_.asleep(); }
   void end_run() override { target_.end_run(); }
 
  private:
@@ -35,10 +36,11 @@ class NotedTarget final : public DebugTarget {
   std::uint64_t board_;
 };
 
-/// Plays what is noted of a board; then, not before DebugHistory::live_from, it is the debugger of this run.
+/// Plays what is noted of a board; then, not before DebugHistory::live_from, it is the debugger of this run. On a
+/// journey of its board that one is there from the beginning, to see where it ends.
 class HistoryPlayer final : public Debugger {
  public:
-  using MakeDebugger = std::function<std::unique_ptr<Debugger>(DebugTarget&)>;
+  using MakeDebugger = std::function<std::unique_ptr<Debugger>(DebugTarget&, std::uint64_t board)>;
 
   /// `make`: null without a debugger. `target` and `history` must outlive it.
   HistoryPlayer(DebugTarget& target, user_cpu::DebugHistory& history, const MakeDebugger& make);
@@ -57,7 +59,11 @@ class HistoryPlayer final : public Debugger {
   /// The processor asks wanted() every 250 ns, which are far fewer instructions.
   static constexpr std::uint64_t kAhead = 1024;
 
+  std::unique_ptr<Debugger> debugger_of(const MakeDebugger& make);
   bool play();
+  bool travels() const { return history_.journey && history_.journey->board == board_; }
+  template <class Call>
+  void pass_on(Call call);
   bool is_due(const user_cpu::DebuggerInput& input) const;
   void carry_out(const user_cpu::DebuggerInput& input);
   bool has_more() const;

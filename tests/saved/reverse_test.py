@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""gdb goes back on the ARM board: reverse-stepi, reverse-continue to the last breakpoint and watchpoint before now, to the beginning; what was
+changed after the place is undone, and a run that went back and forth has the log of one that did not. A session with changes is saved and restored without gdb.
+
+usage: reverse_test.py DSDPV1_SIM --firmware ELF"""
+import argparse
+import pathlib
+import re
+import subprocess
+import tempfile
+
+import runs
+
+SCENARIO = runs.PROJECT / "scenarios" / "arm_board_12m.yaml"
+PATIENCE_S = 300
+
+
+class Session:
+    """A run under gdb, with the commands given."""
+
+    def __init__(self, program, firmware, folder, run_words, commands):
+        run = subprocess.Popen([program, "run", *map(str, run_words), "--gdb", "0", "--no-progress"], cwd=folder, text=True, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE)
+        port = re.search(r"localhost:(\d+)", run.stderr.readline()).group(1)
+        words = [word for command in ["set tcp connect-timeout 120", f"target remote localhost:{port}", *commands] for word in ("-ex", command)]
+        self.text = subprocess.run(["gdb-multiarch", "-nx", "-batch", *words, firmware], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=PATIENCE_S, check=False).stdout
+        self.out, self.err = run.communicate(timeout=PATIENCE_S)
+        self.status = run.returncode
+
+    def values(self):
+        """Of `print`, in order."""
+        return re.findall(r"^\$\d+ = (?:\(.*\) )?(\S+)", self.text, re.MULTILINE)
+
+
+def places(program, firmware, folder):
+    """Registers and time at places that are come to forwards, and once more backwards."""
+    look = ["print/x $pc", "print/x $sp", "print/x $r0", "monitor time"]
+    commands = ["break dsdpv1_initialise", "continue", *look, "stepi", *look, "stepi", *look, "reverse-stepi", *look, "reverse-stepi", *look, "stepi", *look, "kill"]
+    session = Session(program, firmware, folder, [SCENARIO], commands)
+    values, times = session.values(), re.findall(r"simulated time (\S+)", session.text)
+    seen = [(*values[3 * i:3 * i + 3], times[i]) for i in range(len(times))]
+    if len(seen) != 6 or seen[0] == seen[1] or [seen[i] for i in (1, 0, 1)] != seen[3:]:
+        yield f"back is not where it came from: {seen}\n{session.text}\n{session.err}"
+
+
+def stops(program, firmware, folder):
+    """The last of three hits, then the one before it, then the beginning."""
+    where = ["monitor time"]
+    commands = [*where, "delete", "break dsdpv1_service", "continue", *where, "continue", *where, "continue", *where,
+                "reverse-continue", *where, "reverse-continue", *where, "delete", "reverse-continue", *where, "print/x $pc", "kill"]
+    session = Session(program, firmware, folder, [SCENARIO], commands)
+    times = re.findall(r"simulated time (\S+)", session.text)
+    if len(times) != 7 or times[4:6] != [times[2], times[1]] or "No more reverse-execution history" not in session.text or times[6] != times[0]:
+        yield f"reverse-continue stops elsewhere: {times}\n{session.text}\n{session.err}"
+    if session.status != 130:
+        yield f"exit {session.status} after kill"
+
+
+def watches(program, firmware, folder):
+    """Back to the instruction that wrote: it is still to be executed, and what it writes is not there yet."""
+    commands = ["break dsdpv1_service", "continue", "continue", "delete", "watch *(unsigned*)($sp-4)", "continue", "print/x $pc", "monitor time",
+                "reverse-continue", "stepi", "monitor time", "kill"]
+    session = Session(program, firmware, folder, [SCENARIO], commands)
+    times = re.findall(r"simulated time (\S+)", session.text)
+    if len(times) != 2 or times[0] != times[1]:
+        yield f"the watchpoint is not met where it was: {times}\n{session.text}\n{session.err}"
+
+
+def undone(program, firmware, folder):
+    """A change is undone behind its place; back and forth leaves no trace in the log."""
+    commands = ["break dsdpv1_initialise", "continue", "print $r4", "stepi", "set var $r4 = 77", "print $r4", "reverse-stepi", "print $r4", "stepi", "print $r4",
+                "delete", "detach"]
+    session = Session(program, firmware, folder, [SCENARIO, "--log", folder / "back.log"], commands)
+    runs.call(program, SCENARIO, "--log", folder / "plain.log")
+    values = session.values()
+    if len(values) != 4 or values[1] != "77" or values[2] != values[0] or values[3] != values[0]:
+        yield f"a change is not undone: {values}\n{session.text}\n{session.err}"
+    if session.status != 0 or (folder / "back.log").read_text() != (folder / "plain.log").read_text():
+        yield f"the run that went back is another one: exit {session.status}, {session.err}"
+
+
+def saved(program, firmware, folder):
+    """The outputs of the run hang on a value that gdb writes; restored, it is written without gdb."""
+    commands = ["break dsdpv1_initialise", "continue", "set var $r4 = 77", "set var *(unsigned*)($sp-256) = 1", "delete", "detach"]
+    words = [SCENARIO, "--log", folder / "whole.log", "--save-at", "4ms", folder / "session.run"]
+    session = Session(program, firmware, folder, words, commands)
+    done = runs.call(program, "--restore", folder / "session.run", "--log", folder / "rest.log", folder=folder)
+    if done.returncode != session.status:
+        yield f"a saved session is restored with {done.returncode}: {done.stderr}"
+    if (folder / "rest.log").read_text(encoding="utf-8").splitlines() != runs.log_from(folder / "whole.log", 4_000_000 * runs.TICKS_PER_NS):
+        yield "a saved session goes on otherwise"
+    later = Session(program, firmware, folder, ["--restore", folder / "session.run"], ["monitor time", "reverse-stepi", "kill"])
+    if not re.search(r"simulated time 0\.00400", later.text) or "No more reverse-execution history" not in later.text:
+        yield f"gdb comes to a restored run elsewhere: {later.text}{later.err}"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program")
+    parser.add_argument("--firmware", required=True)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        return runs.report([failure for case in (places, stops, watches, undone, saved)
+                            for failure in case(arguments.program, arguments.firmware, pathlib.Path(folder))])
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
