@@ -360,6 +360,13 @@ void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
   command->add_option("--fault", arguments.fault, "With this single fault of rtl_ref/faults.txt in the reference RTL")
       ->check(CLI::Range(0, 255))
       ->excludes("--rtl");
+  CLI::Option* campaign =
+      command->add_flag("--campaign", arguments.campaign,
+                        "At the DSDPV1 and at each port of the DSDPV1-RSU in turn; goes on where --state ends");
+  for (const char* each : {"--chip", "--mode", "--replay", "--rtl"}) campaign->excludes(each);
+  command->add_option("--state", arguments.state, "Folder that keeps what a campaign has compared")
+      ->capture_default_str()
+      ->needs(campaign);
   command
       ->add_option("--set", arguments.set,
                    "chip.KEY=VALUE, once for each: a parameter of the model, as a scenario has it; left out: those of "
@@ -375,11 +382,18 @@ void describe_rtl_random(CLI::App& app, RtlRandomArguments& arguments) {
   add_wave_save_option(*command, arguments.wave_save, wave);
   command->add_option("--log", arguments.log,
                       "Log of it: every change of every pin, events, telegrams; FILE.jsonl: for programs");
-  command->add_option("--result", arguments.result, "The result as JSON, also when nothing differs (docs/cosim.md)");
+  command->add_option("--result", arguments.result, "The result as JSON, also when nothing differs (docs/cosim.md)")
+      ->excludes(campaign);
+  command
+      ->add_option("--tsv", arguments.tsv,
+                   "What occurred, and what did not: states, services, refusals, situations at the host port, with "
+                   "their counts")
+      ->excludes("--replay");
   command->footer(
       "\n--wave and --log are written of the case that differs, and of a stimulus that --replay plays.\n"
       "\nExamples:\n  dsdpv1-sim rtl-random --cycles 100000000 --seed 7\n"
       "  dsdpv1-sim rtl-random --chip dsdpv1_rsu --mode spi --cycles 100000000\n"
+      "  dsdpv1-sim rtl-random --campaign --cycles 1000000000 --state nightly --tsv situations.tsv\n"
       "  dsdpv1-sim rtl-random --replay lockstep.stimulus --difference both.fst --log case.log\n"
       "  dsdpv1-sim rtl-random --rtl my_chip --top chip --pins pins.yaml --set chip.search_window_ms=1 --result "
       "r.json\n"

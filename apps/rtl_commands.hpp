@@ -22,7 +22,9 @@ struct RtlRandomArguments {
   std::string difference = "lockstep.vcd";     ///< ... and its wave
   OwnRtlArguments own;                         ///< without a folder: the reference RTL
   std::vector<std::string> set;                ///< chip.KEY=VALUE: parameters of the model
-  std::string wave, log, result;               ///< empty: none
+  std::string wave, log, result, tsv;          ///< empty: none
+  bool campaign = false;                       ///< all four host ports in turn, kept in `state`
+  std::string state = "rtl-campaign";          ///< folder
   bool wave_save = false;
 };
 

@@ -15,7 +15,9 @@
 #include "apps/outputs.hpp"
 #include "apps/rtl_commands.hpp"
 #include "bus/printable.hpp"
+#include "tb/campaign/lock.hpp"
 #include "tb/dsdpv1/cosim/campaign.hpp"
+#include "tb/dsdpv1/cosim/campaign_record.hpp"
 #include "tb/dsdpv1/cosim/joined_wave.hpp"
 #include "tb/dsdpv1/cosim/play_log.hpp"
 #include "tb/dsdpv1/cosim/play_options.hpp"
@@ -25,13 +27,15 @@
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/output/output_file.hpp"
+#include "tb/output/write_file.hpp"
 #include "tb/waves/wave_writer.hpp"
 
 namespace dsdpv1::app {
 namespace {
 
 constexpr int kShrinkRuns = 600;
-constexpr const char* kChip = "chip";  // its scope in waves
+constexpr std::uint64_t kRound = 5'000'000;  // cycles of a campaign between two records: some seconds
+constexpr const char* kChip = "chip";        // its scope in waves
 
 cosim::Stimulus read_stimulus(const std::string& path, Part part) {
   return cosim::parse_stimulus(tb::read_file(path, tb::kStimulusFile), path, part);
@@ -104,6 +108,29 @@ class StimulusOutputs {
   std::optional<tb::OutputFile> result_;
 };
 
+/// Makes RTL for a case's own parameters, where nothing says which they are; empty: they are those of all cases.
+cosim::MakeTopFor make_for(const RtlRandomArguments& arguments) {
+  if (!arguments.own.rtl.empty() || !arguments.set.empty()) return {};
+  return [fault = arguments.fault, seed = static_cast<std::uint32_t>(arguments.seed)](
+             const cosim::PlayOptions& options) { return cosim::reference_top(options, fault, seed); };
+}
+
+/// From here on `arguments` and `bench` have the parameters of the case that differs.
+void take_case(const cosim::CampaignResult& campaign, RtlRandomArguments& arguments, Bench& bench) {
+  const dsdpv1::Config usual = bench.options.config;
+  const auto set = [&](const char* key, std::uint32_t dsdpv1::Config::*parameter) {
+    const std::uint32_t value = campaign.failed_config.*parameter;
+    if (value == usual.*parameter) return;
+    bench.options.config.*parameter = value;
+    arguments.set.push_back(fmt::format("chip.{}={}", key, value));
+  };
+  set("search_window_ms", &dsdpv1::Config::search_window_ms);
+  set("search_window_bits", &dsdpv1::Config::search_window_bits);
+  set("baud_control_ms", &dsdpv1::Config::baud_control_ms);
+  if (arguments.own.rtl.empty())
+    bench.make = cosim::reference_top(bench.options, arguments.fault, static_cast<std::uint32_t>(arguments.seed));
+}
+
 /// The waves that were written.
 std::string files_text(const RtlRandomArguments& arguments, bool differs) {
   std::string text;
@@ -168,13 +195,14 @@ std::string command_text(const RtlRandomArguments& arguments) {
   return text + fmt::format(" --seed {} --replay {}", arguments.seed, word(arguments.stimulus));
 }
 
-int shrink_and_play(const RtlRandomArguments& arguments, const cosim::CampaignResult& campaign, tb::OutputFile& file,
-                    const Bench& bench, StimulusOutputs& outputs, cosim::StimulusResult& result) {
+int shrink_and_play(RtlRandomArguments arguments, const cosim::CampaignResult& campaign, tb::OutputFile& file,
+                    Bench bench, StimulusOutputs& outputs, cosim::StimulusResult& result) {
+  const HostMode mode = mode_of(bench.options.config.part, arguments.mode);
+  take_case(campaign, arguments, bench);
   std::cout << fmt::format("case {} differs: {}\nshrinking it ...\n", campaign.cases, campaign.difference->what)
             << std::flush;
-  const cosim::Stimulus shrunk =
-      cosim::shrink(cosim::random_stimulus(campaign.failed_seed, mode_of(bench.options.config.part, arguments.mode)),
-                    bench.make, kShrinkRuns, bench.options);
+  const cosim::Stimulus shrunk = cosim::shrink(cosim::random_stimulus(campaign.failed_seed, mode, bench.options.config),
+                                               bench.make, kShrinkRuns, bench.options);
   const std::string text = cosim::to_text(shrunk);
   file.write(text);
   file.commit();
@@ -187,25 +215,83 @@ int shrink_and_play(const RtlRandomArguments& arguments, const cosim::CampaignRe
                        arguments.stimulus, bench, outputs, result);
 }
 
+cosim::CampaignOptions options_of(const RtlRandomArguments& arguments, const Bench& bench) {
+  cosim::CampaignOptions options;
+  options.seed = arguments.seed;
+  options.cycles = arguments.cycles;
+  options.jobs = threads_of(arguments.jobs);
+  options.play = bench.options;
+  options.mode = mode_of(bench.options.config.part, arguments.mode);
+  options.make_for = make_for(arguments);
+  options.counts_situations = true;
+  return options;
+}
+
 int random_cases(const RtlRandomArguments& arguments, const Bench& bench, StimulusOutputs& outputs,
                  cosim::StimulusResult& result) {
   tb::OutputFile stimulus(arguments.stimulus);
-  const HostMode mode = mode_of(bench.options.config.part, arguments.mode);
+  const cosim::CampaignOptions options = options_of(arguments, bench);
+  const cosim::HostSide side = {options.play.config.part, options.mode};
   const auto begin = std::chrono::steady_clock::now();
   const ProgressLine line;
-  const cosim::CampaignResult campaign =
-      cosim::run_campaign({arguments.seed, arguments.cycles, threads_of(arguments.jobs), bench.options, mode},
-                          bench.make, [&line](std::uint64_t cases, std::uint64_t cycles) { line.show(cases, cycles); });
+  const cosim::CampaignResult campaign = cosim::run_campaign(
+      options, bench.make, [&line](std::uint64_t cases, std::uint64_t cycles) { line.show(cases, cycles); });
   line.clear();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::cout << fmt::format("seed {}: {} cases, {} ({:.1f} M cycles/s)\n", arguments.seed, campaign.cases,
                            counts_text(campaign.counts), static_cast<double>(campaign.counts.cycles) / 1e6 / seconds)
-            << campaign.coverage.text();
+            << campaign.coverage.text() << cosim::text(campaign.situations, side);
+  if (!arguments.tsv.empty()) tb::write_file(arguments.tsv, cosim::table(campaign.situations, side));
   result.cases = campaign.cases;
   result.counts = campaign.counts;
   result.coverage = campaign.coverage;
+  result.situations = campaign.situations;
+  result.side = side;
   if (!campaign.difference) return kPassed;
   return shrink_and_play(arguments, campaign, stimulus, bench, outputs, result);
+}
+
+// --- a campaign at all ports ----------------------------------------------------------------------------------------
+
+std::string record_text(const cosim::CampaignRecord& record) {
+  return fmt::format("seed {}: {} cases, {} cycles", record.seed, record.cases(), record.cycles());
+}
+
+/// The next cases at one port, which are kept unless one differs.
+int play_round(const RtlRandomArguments& all, cosim::CampaignRecord& record, cosim::PortRecord& port) {
+  RtlRandomArguments arguments = all;
+  arguments.chip = port.side.part == Part::kRsu ? "dsdpv1_rsu" : "dsdpv1";
+  arguments.mode = port.side.mode == HostMode::kSpi ? "spi" : port.side.mode == HostMode::kUart ? "uart" : "parallel";
+  arguments.cycles = kRound;
+  const Bench bench = bench_of(arguments);
+  tb::OutputFile stimulus(arguments.stimulus);
+  cosim::CampaignOptions options = options_of(arguments, bench);
+  options.first_case = port.cases;
+  const cosim::CampaignResult campaign = cosim::run_campaign(options, bench.make);
+  if (campaign.difference) {
+    StimulusOutputs outputs(arguments);
+    cosim::StimulusResult result;
+    std::cout << port.name() << ", from case " << port.cases << " on: ";
+    return shrink_and_play(arguments, campaign, stimulus, bench, outputs, result);
+  }
+  cosim::CampaignRecord::add(port, campaign);
+  cosim::write_record(arguments.state, record);
+  std::cout << record_text(record) << '\n' << std::flush;
+  return kPassed;
+}
+
+/// Goes on where the folder's record ends, until so many cycles are compared in all.
+int campaign_of_all(const RtlRandomArguments& arguments) {
+  const tb::campaign::Lock lock(arguments.state, "rtl-random");
+  cosim::CampaignRecord record = cosim::read_record(arguments.state, arguments.seed);
+  while (cosim::PortRecord* port = record.behind(arguments.cycles))
+    if (const int status = play_round(arguments, record, *port); status != kPassed) return status;
+  for (const cosim::PortRecord& port : record.ports)
+    std::cout << fmt::format("\n{}: {} cases, {}\n", port.name(), port.cases, counts_text(port.counts))
+              << port.coverage.text() << cosim::text(port.situations, port.side);
+  std::cout << '\n' << record_text(record) << ", no difference\n";
+  if (!arguments.tsv.empty()) tb::write_file(arguments.tsv, cosim::table(record));
+  return kPassed;
 }
 
 void check_files(const RtlRandomArguments& arguments) {
@@ -216,6 +302,7 @@ void check_files(const RtlRandomArguments& arguments) {
   outputs.push_back({"--difference", arguments.difference});
   outputs.push_back({"--log", arguments.log});
   outputs.push_back({"--result", arguments.result});
+  outputs.push_back({"--tsv", arguments.tsv});
   check_outputs(arguments.command, {{"--replay", arguments.replay}, {"--pins", arguments.own.pins}}, outputs);
 }
 
@@ -242,6 +329,7 @@ int rtl_random(const RtlRandomArguments& arguments) {
   leave_nothing_on_signals();
   check_files(arguments);
   mode_of(part_of(arguments.chip), arguments.mode);
+  if (arguments.campaign) return campaign_of_all(arguments);
   cosim::Stimulus stimulus;
   if (!arguments.replay.empty()) stimulus = read_stimulus(arguments.replay, part_of(arguments.chip));
   const Bench bench = bench_of(arguments);

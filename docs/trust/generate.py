@@ -150,8 +150,53 @@ def soak():
                          "at the end", "at most", "result", "seed", "when"], rows)
 
 
+# --------------------------------------------------------------------------------------------------------------- faults
+FAULTS = """
+## Planted faults
+
+What no test notices is not tested. `./run faults` plants one fault after the other into the model, the driver and the checks: a limit that is one too large,
+a cycle too many, a wrong bit, a transition left out. Each is built beside the build, and the tests of the ordinary suite are run until one fails; a fault
+that none finds fails the command. The lists are `tests/planted/model.yaml`, `driver.yaml` and `checks.yaml`, the last with one fault for each check of
+[checks.md](checks.md). Without any fault the same tests, built the same way, all pass: the command looks at that, too. The tests are tried in a fixed order:
+what found a fault is the first that did, not the only one. `./run nightly` looks for all of them; those of the RTL have `./run rtl-faults` ([cosim.md](cosim.md)).
+
+"""
+FAULT_TITLES = {"model": "Of the model", "driver": "Of the driver", "checks": "Of the checks, each named for the check"}
+
+
+def entries(name):
+    """The faults of a list, in its order: keys and their texts. A line of a text of several lines has no key."""
+    entries = []
+    for line in (ROOT / "tests" / "planted" / f"{name}.yaml").read_text(encoding="utf-8").splitlines():
+        if line.startswith("- "):
+            entries.append({})
+        key, colon, text = line[2:].partition(": ")
+        if colon and key.isidentifier() and line[:2] in ("- ", "  ") and entries:
+            entries[-1].setdefault(key, text.strip("'"))
+    return entries
+
+
+def fault_rows(name, found):
+    for entry in entries(name):
+        when, _, _, test, seconds = found.get((name, entry["name"]), ["-"] * 5)
+        rule = [entry.get("block", ""), entry.get("rule", "")]
+        words = entry["what"].replace("''", "'")
+        yield [f"`{entry['name']}`", *[each for each in rule if each], words, f"`{test}`" if test != "-" else "-", seconds, when]
+
+
+def faults():
+    found = {(row[1], row[2]): row for row in results("faults.tsv")}
+    heads = {"model": ["fault", "where", "rules", "what is wrong"], "driver": ["fault", "rules", "what is wrong"], "checks": ["check", "what is wrong"]}
+    text = FAULTS
+    for name, title in FAULT_TITLES.items():
+        rows = list(fault_rows(name, found))
+        count = sum(1 for row in rows if row[-3] != "-")
+        text += f"{title}: {count} of {len(rows)} found.\n\n" + table([*heads[name], "found by", "seconds", "when"], rows) + "\n"
+    return text.rstrip() + "\n\nSeconds are wall time of building and testing, on a machine that had other work.\n"
+
+
 def page():
-    return HEAD + fuzzing() + static() + soak()
+    return HEAD + fuzzing() + faults() + static() + soak()
 
 
 def main(words):

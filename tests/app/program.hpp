@@ -1,5 +1,5 @@
 #pragma once
-// Calls the built dsdpv1-sim.
+// Calls the built dsdpv1-sim, or the one that DSDPV1_SIM of the environment names, as ./run faults does.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,6 +10,9 @@ struct Called {
   int status = 0;  ///< exit code, 128 + signal when it was killed
   std::string out, err;
 };
+
+/// The program that call() runs.
+std::string simulator();
 
 /// Runs the program with `arguments` (shell words) in `folder`; `program`: another one than the built dsdpv1-sim.
 Called call(const std::string& arguments, const std::filesystem::path& folder, const std::string& program = "");

@@ -7,6 +7,7 @@
 
 #include "tb/dsdpv1/cosim/random_setup.hpp"
 #include "tb/dsdpv1/cosim/random_stimulus.hpp"
+#include "tb/dsdpv1/cosim/situation_watch.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -19,6 +20,12 @@ void add(MatchCounts& sum, const MatchCounts& one) {
   sum.pin_changes += one.pin_changes;
   sum.dpram_images += one.dpram_images;
 }
+
+struct Played {
+  PlayResult result;
+  Situations situations;
+  dsdpv1::Config config;
+};
 
 /// Hands out case numbers and collects what came of them.
 class Campaign {
@@ -40,23 +47,38 @@ class Campaign {
       number = played_.size();
       played_.emplace_back();
     }
-    PlayResult result = play(random_stimulus(case_seed(options_.seed, number), options_.mode), make_, options_.play);
+    Played played = play_case(seed_of(number));
     const std::lock_guard<std::mutex> lock(mutex_);
-    cycles_ += result.counts.cycles;
-    differs_ = differs_ || result.difference;
-    played_[number] = std::move(result);
+    cycles_ += played.result.counts.cycles;
+    differs_ = differs_ || played.result.difference;
+    played_[number] = std::move(played);
     if (progress_) progress_(played_.size(), cycles_);
     return true;
+  }
+  std::uint64_t seed_of(std::uint64_t number) const { return case_seed(options_.seed, options_.first_case + number); }
+  Played play_case(std::uint64_t seed) const {
+    PlayOptions options = options_.play;
+    if (options_.make_for) options.config = case_config(seed, options.config);
+    Played played;
+    played.config = options.config;
+    SituationWatch watch(played.config, options_.mode);
+    if (options_.counts_situations) options.listeners.push_back(&watch);
+    const Stimulus stimulus = random_stimulus(seed, options_.mode, options.config);
+    played.result = play(stimulus, options_.make_for ? options_.make_for(options) : make_, options);
+    played.situations = watch.situations();
+    return played;
   }
   /// Every case before the first with a difference was begun before it, and all that were begun have ended.
   CampaignResult sum() const {
     CampaignResult result;
-    for (const PlayResult& each : played_) {
+    for (const Played& each : played_) {
       if (result.counts.cycles >= options_.cycles || result.difference) break;
-      add(result.counts, each.counts);
-      result.coverage.add(each.coverage);
-      result.difference = each.difference;
-      result.failed_seed = case_seed(options_.seed, result.cases++);
+      add(result.counts, each.result.counts);
+      result.coverage.add(each.result.coverage);
+      result.situations.add(each.situations);
+      result.difference = each.result.difference;
+      result.failed_seed = seed_of(result.cases++);
+      result.failed_config = each.config;
     }
     return result;
   }
@@ -65,7 +87,7 @@ class Campaign {
   const MakeTop& make_;
   const CampaignProgress& progress_;
   std::mutex mutex_;
-  std::vector<PlayResult> played_;
+  std::vector<Played> played_;
   std::uint64_t cycles_ = 0;
   bool differs_ = false;
 };
@@ -96,6 +118,17 @@ void in_parallel(unsigned jobs, const std::function<bool()>& work) {
   run();
   for (std::thread& each : threads) each.join();
   if (thrown) std::rethrow_exception(thrown);
+}
+
+dsdpv1::Config case_config(std::uint64_t seed, const dsdpv1::Config& usual) {
+  constexpr std::uint64_t kOwnNumbers = 0x5EA5C4;  // not those of the case's stimulus
+  Random random(seed ^ kOwnNumbers);
+  dsdpv1::Config config = usual;
+  if (!random.one_in(3)) return config;
+  config.search_window_ms = static_cast<std::uint32_t>(random.between(1, 3));
+  config.search_window_bits = static_cast<std::uint32_t>(random.between(120, 400));
+  config.baud_control_ms = static_cast<std::uint32_t>(random.between(1, 4));
+  return config;
 }
 
 std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number) {

@@ -6,25 +6,38 @@
 
 #include "tb/dsdpv1/cosim/coverage.hpp"
 #include "tb/dsdpv1/cosim/player.hpp"
+#include "tb/dsdpv1/cosim/situations.hpp"
 
 namespace dsdpv1::cosim {
 
 /// How random cases and directed stimuli are played on the reference RTL of the part.
 PlayOptions quick_options(dsdpv1::Part part = dsdpv1::Part::kDsdpv1);
 
+/// The parameters of a case of this seed: now and then other limits of the baud search and of BAUD_CONTROL (S1) than
+/// those of `usual`, still short ones.
+dsdpv1::Config case_config(std::uint64_t seed, const dsdpv1::Config& usual);
+
+/// Makes RTL with these parameters.
+using MakeTopFor = std::function<MakeTop(const PlayOptions&)>;
+
 struct CampaignOptions {
   std::uint64_t seed = 1, cycles = 0;  ///< cases are begun until so many cycles are compared
   unsigned jobs = 1;                   ///< threads
   PlayOptions play = quick_options();
   HostMode mode = HostMode::kParallel;  ///< of the host of random cases
+  std::uint64_t first_case = 0;         ///< number of the first one
+  MakeTopFor make_for = {};             ///< each case has its case_config(); empty: all have that of `play`
+  bool counts_situations = false;       ///< costs a few percent
 };
 
 /// The same for the same seed and cycles, however many threads there are.
 struct CampaignResult {
   MatchCounts counts;
   Coverage coverage;
-  std::uint64_t cases = 0;               ///< up to and including the one with the difference
-  std::uint64_t failed_seed = 0;         ///< of the case with the difference
+  Situations situations;
+  std::uint64_t cases = 0;        ///< up to and including the one with the difference
+  std::uint64_t failed_seed = 0;  ///< of the case with the difference
+  dsdpv1::Config failed_config;
   std::optional<Difference> difference;  ///< of the first case that has one
 };
 

@@ -15,6 +15,8 @@ class Coverage {
   void sent(const bus::Bytes& bytes, const bus::WireFaults& faults);
   void happened(const profibus::Event& event);
   void add(const Coverage& other);
+  void add(const std::string& telegram, std::uint64_t times) { telegrams_[telegram] += times; }
+  void add(profibus::Reason reason, std::uint64_t times) { reasons_[reason] += times; }
 
   const std::map<std::string, std::uint64_t>& telegrams() const { return telegrams_; }
   std::uint64_t count(profibus::Reason reason) const { return of(reasons_, reason); }

@@ -25,6 +25,8 @@ class RandomHost {
   virtual void block(int address, int crc_address, const bus::Bytes& bytes) = 0;
   /// Pins in an order that nothing has.
   virtual void rude() = 0;
+  /// Accesses of which each breaks a rule of its own; the port is at rest before and after.
+  virtual void break_rules() {}
   /// Traffic that only this port has; false, without a number drawn: it has none.
   virtual bool own_traffic() { return false; }
   /// Whether whole initialisations and data exchange take no longer than a case.

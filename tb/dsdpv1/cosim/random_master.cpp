@@ -9,8 +9,7 @@ constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr int kNoSap = -1;
 constexpr int kReplyBits = 270;  // longer than any min_TSDR
 
-Tick window(int rate) {
-  const dsdpv1::Config config = quick_config();
+Tick window(const dsdpv1::Config& config, int rate) {
   const Tick least = static_cast<Tick>(config.search_window_ms) * bus::kTicksPerMs;
   return std::max(least, static_cast<Tick>(config.search_window_bits) * bus::baud(rate).bit);
 }
@@ -35,7 +34,7 @@ void RandomMaster::fastest_rate() {
 /// Waits for the rate's window, then telegrams.
 void RandomMaster::be_found() {
   Tick wait = 0;
-  for (int rate = 0; rate < setup_.rate; ++rate) wait += window(rate);
+  for (int rate = 0; rate < setup_.rate; ++rate) wait += window(config_, rate);
   extra_ += wait + 500 * kCycle;
   for (int i = random_.between(1, 2); i > 0; --i) {
     const auto to = random_.one_in(3) ? setup_.address : static_cast<std::uint8_t>(random_.between(6, 126));
@@ -266,7 +265,7 @@ void RandomMaster::anything() {
 void RandomMaster::silence() { extra_ += random_.below(20) * bus::kTicksPerMs / 20; }
 
 void RandomMaster::wait_baud_control() {
-  extra_ += static_cast<Tick>(quick_config().baud_control_ms) * bus::kTicksPerMs - random_.below(2) * 40 * bit();
+  extra_ += static_cast<Tick>(config_.baud_control_ms) * bus::kTicksPerMs - random_.below(2) * 40 * bit();
 }
 
 std::uint8_t RandomMaster::master() {

@@ -9,8 +9,9 @@ namespace dsdpv1::cosim {
 
 class RandomMaster {
  public:
-  RandomMaster(Random& random, Setup& setup, Stimulus& stimulus)
-      : random_(random), setup_(setup), stimulus_(stimulus) {}
+  /// `config`: the times that it waits for.
+  RandomMaster(Random& random, Setup& setup, Stimulus& stimulus, const dsdpv1::Config& config)
+      : random_(random), setup_(setup), stimulus_(stimulus), config_(config) {}
 
   /// Another baud rate, and telegrams until the chip must have found it.
   void choose_rate();
@@ -64,6 +65,7 @@ class RandomMaster {
   Random& random_;
   Setup& setup_;
   Stimulus& stimulus_;
+  const dsdpv1::Config config_;
   bool fcb_ = true, fcv_ = false, careful_ = false;
   std::optional<bus::Telegram> last_;
   Tick extra_ = 0;  ///< waited before the next telegram

@@ -21,9 +21,16 @@ class RandomParallel : public RandomHost {
   void read(int address) override;
   void block(int address, int crc_address, const bus::Bytes& bytes) override;
   void rude() override;
+  void break_rules() override;
 
  private:
   Action access(Verb verb);
+  void late_data();
+  void late_address();
+  void read_back_at_once();
+  void half_owned();
+  void floating_data();
+  void deselected();
   void shorten(Action& action);
   void take_unseen();
   Tick small_delay() { return random_.one_in(8) ? random_.below(20'000) : random_.below(1000); }
@@ -52,6 +59,88 @@ void RandomParallel::rude() {
   }
   give();
   wait(1);
+}
+
+void RandomParallel::break_rules() {
+  for (int i = random_.between(1, 4); i > 0; --i) {
+    const bool owned = random_.one_in(2);
+    if (owned) take();
+    switch (random_.below(6)) {
+      case 0: late_data(); break;
+      case 1: late_address(); break;
+      case 2: read_back_at_once(); break;
+      case 3: half_owned(); break;
+      case 4: floating_data(); break;
+      default: deselected(); break;
+    }
+    if (owned) give();
+    wait(10);
+  }
+}
+
+/// D changes less than Td before WR rises (table 15, P11).
+void RandomParallel::late_data() {
+  pin(Pin::kA, random_.below(0x800), kLeast);
+  pin(Pin::kDIn, random_.byte(), 0);
+  pin(Pin::kCsr, 0, 0);
+  pin(Pin::kWr, 0, kLeast);
+  pin(Pin::kDIn, random_.byte(), random_.between(1, 600));
+  pin(Pin::kWr, 1, random_.between(1, static_cast<int>(kLeast) - 1));
+  pin(Pin::kCsr, 1, kLeast);
+  pin(Pin::kDIn, dsdpv1::kLevelZ, kLeast);
+}
+
+/// A changes after RD fell, about where the chip samples it (Tc, P5).
+void RandomParallel::late_address() {
+  pin(Pin::kA, random_.below(0x800), kLeast);
+  pin(Pin::kCsr, 0, 0);
+  pin(Pin::kRd, 0, kLeast);
+  pin(Pin::kA, random_.below(0x800), random_.between(1, 2 * static_cast<int>(kCycle)));
+  pin(Pin::kRd, 1, kTw + random_.below(400));
+  pin(Pin::kCsr, 1, kLeast);
+}
+
+/// The cell just written, while the write is still on its way (P8).
+void RandomParallel::read_back_at_once() {
+  Action access;
+  access.address = random_.below(0x800);
+  access.value = random_.byte();
+  access.low = kTw;
+  access.hold = kLeast + random_.below(400);
+  access.verb = Verb::kWrite;
+  stimulus_.push_back(access);
+  access.verb = Verb::kRead;
+  stimulus_.push_back(access);
+}
+
+/// With R_REQ alone, R_STA alone, or neither when nothing was taken before (P12).
+void RandomParallel::half_owned() {
+  const Pin raised = random_.one_in(2) ? Pin::kRReq : Pin::kRSta,
+            other = raised == Pin::kRReq ? Pin::kRSta : Pin::kRReq;
+  pin(other, 0, random_.below(600));
+  pin(raised, random_.one_in(4) ? 0 : 1, random_.below(600));
+  for (int i = random_.between(1, 3); i > 0; --i)
+    random_.one_in(2) ? read(random_.below(0x800)) : write(random_.below(0x800), random_.byte());
+  pin(raised, 0, random_.below(600));
+}
+
+void RandomParallel::floating_data() {
+  pin(Pin::kA, random_.below(0x800), kLeast);
+  pin(Pin::kCsr, 0, 0);
+  pin(Pin::kWr, 0, kLeast);
+  pin(Pin::kWr, 1, kTw);
+  pin(Pin::kCsr, 1, kLeast);
+}
+
+/// CSR rises before WR: nothing is written (5.2).
+void RandomParallel::deselected() {
+  pin(Pin::kA, random_.below(0x800), kLeast);
+  pin(Pin::kDIn, random_.byte(), 0);
+  pin(Pin::kCsr, 0, 0);
+  pin(Pin::kWr, 0, kLeast);
+  pin(Pin::kCsr, 1, kTw);
+  pin(Pin::kWr, 1, random_.between(1, 400));
+  pin(Pin::kDIn, dsdpv1::kLevelZ, kLeast);
 }
 
 Action RandomParallel::access(Verb verb) {

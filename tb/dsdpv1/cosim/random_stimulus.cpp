@@ -13,9 +13,9 @@ namespace {
 
 class Case {
  public:
-  Case(std::uint64_t seed, std::unique_ptr<RandomHost> (*make_host)(Random&, Stimulus&))
+  Case(std::uint64_t seed, std::unique_ptr<RandomHost> (*make_host)(Random&, Stimulus&), const dsdpv1::Config& config)
       : random_(seed),
-        master_(random_, setup_, stimulus_),
+        master_(random_, setup_, stimulus_, config),
         host_(make_host(random_, stimulus_)),
         user_(random_, setup_, *host_) {}
 
@@ -23,6 +23,10 @@ class Case {
     power_on();
     if (!host_->is_quick()) return host_only();
     for (int i = random_.between(1, 3); i > 0; --i) episode();
+    sync();
+    host_->give();
+    host_->break_rules();
+    if (random_.one_in(2)) reset_amid();
     return std::move(stimulus_);
   }
 
@@ -256,6 +260,26 @@ class Case {
     master_.choose_rate();
   }
 
+  /// RESET falls while telegrams, blocks of the user and accesses of the chip are under way (H6, P10).
+  void reset_amid() {
+    constexpr int kWhile = 300'000;  // ticks: a telegram at 12 Mbit/s, or a block
+    sync();
+    random_.one_in(3) ? master_.set_prm(true) : random_.one_in(2) ? master_.check_cfg(true) : master_.data_exchange();
+    random_.one_in(2) ? user_.inputs() : user_.anything();
+    Action reset;
+    reset.verb = Verb::kReset;
+    reset.delay = random_.below(kWhile);
+    reset.low = random_.between(1, 20'000);
+    stimulus_.push_back(reset);
+    sync();
+    host_->give();
+    if (random_.one_in(2)) return host_->wait(4200);
+    reset.delay = random_.below(4096 * static_cast<int>(profibus::kTicksPerCycle));  // in the start-up
+    stimulus_.push_back(reset);
+    sync();
+    host_->wait(4200);
+  }
+
   Random random_;
   Setup setup_;
   Stimulus stimulus_;
@@ -266,11 +290,11 @@ class Case {
 
 }  // namespace
 
-Stimulus random_stimulus(std::uint64_t seed, HostMode mode) {
+Stimulus random_stimulus(std::uint64_t seed, HostMode mode, const dsdpv1::Config& config) {
   const auto make = mode == HostMode::kSpi    ? make_random_spi
                     : mode == HostMode::kUart ? make_random_uart
                                               : make_random_parallel;
-  return Case(seed, make).make();
+  return Case(seed, make, config).make();
 }
 
 }  // namespace dsdpv1::cosim

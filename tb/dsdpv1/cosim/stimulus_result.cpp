@@ -30,6 +30,15 @@ Json coverage_of(const Coverage& coverage) {
   return {{"telegrams", telegrams}, {"codes", codes}};
 }
 
+/// Each group with its situations, those that did not occur, too.
+Json situations_of(const StimulusResult& result) {
+  Json groups = Json::object();
+  for (const Situation& each : known_situations(result.side))
+    groups[each.first][each.second] = result.situations.of(each);
+  for (const auto& [each, times] : result.situations.counts()) groups[each.first][each.second] = times;
+  return groups;
+}
+
 }  // namespace
 
 std::string result_json(const StimulusResult& result) {
@@ -47,6 +56,7 @@ std::string result_json(const StimulusResult& result) {
   json["case"] = random && result.difference ? case_of(result) : Json();
   json["difference"] = result.difference ? difference_of(*result.difference) : Json();
   json["coverage"] = coverage_of(result.coverage);
+  json["coverage"]["situations"] = random ? situations_of(result) : Json();
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -6,11 +6,12 @@
 
 #include "tb/dsdpv1/cosim/coverage.hpp"
 #include "tb/dsdpv1/cosim/lockstep.hpp"
+#include "tb/dsdpv1/cosim/situations.hpp"
 
 namespace dsdpv1::cosim {
 
 constexpr const char* kStimulusResultSchema = "dsdpv1-sim rtl-random";
-constexpr const char* kStimulusResultVersion = "1.0";
+constexpr const char* kStimulusResultVersion = "1.1";
 
 struct StimulusResult {
   std::string rtl;     ///< folder of the user's RTL; empty: the reference RTL
@@ -21,6 +22,8 @@ struct StimulusResult {
   std::uint64_t case_seed = 0;  ///< of the one that differs
   MatchCounts counts;
   Coverage coverage;
+  Situations situations;                 ///< of random cases ...
+  HostSide side;                         ///< ... with this host
   std::optional<Difference> difference;  ///< of the stimulus in `stimulus`, or of the one that was played
   std::string stimulus;                  ///< where the case that differs, shrunk, was written
   std::size_t actions = 0;               ///< ... and how long it is

@@ -30,7 +30,10 @@ Json difference() {
 Json coverage() {
   return words::object(
       {{"telegrams", words::named(words::count("how many"), "each kind, with its count")},
-       {"codes", words::named(words::count("how often"), "each code of docs/reasons.md, with its count")}},
+       {"codes", words::named(words::count("how often"), "each code of docs/reasons.md, with its count")},
+       {"situations", words::or_null(words::named(
+                          words::named(words::count("how often"), "each situation, with its count"),
+                          "each group: states, services, events, situations at the host port; null: `--replay`"))}},
       "what occurred");
 }
 

@@ -1,0 +1,179 @@
+// What is counted of random cases, and that a campaign goes on where it was interrupted.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "tb/dsdpv1/cosim/campaign_record.hpp"
+#include "tb/dsdpv1/cosim/random_setup.hpp"
+#include "tb/dsdpv1/cosim/situation_watch.hpp"
+#include "tb/input/input_error.hpp"
+
+namespace dsdpv1::cosim {
+namespace {
+
+namespace fs = std::filesystem;
+using profibus::Event;
+using profibus::Reason;
+using testing::HasSubstr;
+
+constexpr HostSide kSides[] = {{Part::kDsdpv1, HostMode::kParallel},
+                               {Part::kRsu, HostMode::kParallel},
+                               {Part::kRsu, HostMode::kSpi},
+                               {Part::kRsu, HostMode::kUart}};
+
+bool is_known(const Situation& situation, const HostSide& side = {}) {
+  const std::vector<Situation> known = known_situations(side);
+  return std::find(known.begin(), known.end(), situation) != known.end();
+}
+
+TEST(Situations, AreKnownOnceAtEachPort) {
+  for (const HostSide& side : kSides) {
+    const std::vector<Situation> known = known_situations(side);
+    EXPECT_EQ(std::set<Situation>(known.begin(), known.end()).size(), known.size());
+  }
+}
+
+TEST(Situations, OfAPortAreNotThoseOfAnother) {
+  EXPECT_TRUE(is_known({"events", "HOST_TS"}));
+  EXPECT_FALSE(is_known({"events", "SPI_BUSY 0"}));
+  EXPECT_FALSE(is_known({"events", "STRAP_CHANGED 0"}));
+  EXPECT_TRUE(is_known({"events", "STRAP_CHANGED 0"}, kSides[1]));
+  EXPECT_TRUE(is_known({"events", "SPI_BUSY 0"}, kSides[2]));
+  EXPECT_FALSE(is_known({"events", "HOST_TS"}, kSides[2]));
+  EXPECT_FALSE(is_known({"events", "INPUT_CRC"}, kSides[3]));
+  EXPECT_TRUE(is_known({"replies of exchanges", "C1 in DATA_EXCH"}, kSides[3]));
+}
+
+TEST(Situations, OfAnEventAreWhatTheRulingTellsApart) {
+  const auto item = [](Reason reason, std::uint16_t a, std::uint16_t b = 0, std::uint16_t c = 0) {
+    return event_item({0, reason, a, b, c}, "WAIT_CFG");
+  };
+  EXPECT_EQ(item(Reason::kPrmIdent, 1), "PRM_IDENT");
+  EXPECT_EQ(item(Reason::kSapState, 55, 2), "SAP_STATE SAP 55 in 2");
+  EXPECT_EQ(item(Reason::kC2Request, 48 << 8 | 0x5E), "C2_REQUEST 5E on SAP 48");
+  EXPECT_EQ(item(Reason::kC2Timeout, 47, 3), "C2_TIMEOUT timer 3 on SAP 47");
+  EXPECT_EQ(item(Reason::kBaudLost, 2), "BAUD_LOST WAIT_CFG");
+  EXPECT_EQ(item(Reason::kC1Answer, 0x77), "C1_ANSWER other");
+}
+
+TEST(Situations, ThatAreMissingAreNamed) {
+  Situations some;
+  some.count("DP states", "OFFLINE to WAIT_PRM");
+  some.count("DP states", "OFFLINE to WAIT_PRM");
+  EXPECT_THAT(text(some, {}), HasSubstr("DP states             1 of 9; never seen: WAIT_PRM to OFFLINE, "));
+  EXPECT_THAT(table(some, {}), HasSubstr("DP states\tOFFLINE to WAIT_PRM\t2\nDP states\tWAIT_PRM to OFFLINE\t0\n"));
+  Situations more;
+  more.count("events", "C1_ANSWER other");
+  some.add(more);
+  EXPECT_THAT(table(some, {}), HasSubstr("events\tC1_ANSWER other\t1\n"));  // not known, and counted all the same
+}
+
+/// Sync and Freeze are held or not, as Global_Control and the answers to it say (S4, S24, S27).
+TEST(SituationWatch, FollowsSyncAndFreeze) {
+  const dsdpv1::Config config;
+  SituationWatch watch(config, HostMode::kParallel);
+  const auto control = [&](std::uint16_t command) { watch.event({0, Reason::kGlobalControl, command, 0, 2}); };
+  control(0x20);
+  control(0x08);
+  control(0x30);  // Unsync wins
+  control(0x20);
+  watch.event({0, Reason::kGcSync, 1});  // not asked for in Set_Prm
+  control(0x04);
+  watch.event({0, Reason::kDpState, 3, 1});
+  control(0x02);
+  const auto count = [&](const char* item) { return watch.situations().of({"Sync and Freeze", item}); };
+  EXPECT_EQ(count("nothing held: Sync"), 1U);
+  EXPECT_EQ(count("Sync: Freeze"), 1U);
+  EXPECT_EQ(count("Sync and Freeze: Unsync"), 1U);
+  EXPECT_EQ(count("Freeze: Sync"), 1U);
+  EXPECT_EQ(count("Freeze: Unfreeze"), 1U);
+  EXPECT_EQ(count("nothing held: Clear_Data"), 1U);
+  EXPECT_EQ(watch.situations().of({"DP states", "DATA_EXCH to WAIT_PRM"}), 1U);
+}
+
+class Record : public testing::Test {
+ protected:
+  Record() { fs::create_directories(folder_); }
+  ~Record() override { fs::remove_all(folder_); }
+  std::string wrong(std::uint64_t seed = 7) const {
+    try {
+      read_record(folder_, seed);
+    } catch (const tb::InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  const std::string folder_ = testing::TempDir() + "record_" + std::to_string(::getpid());
+};
+
+CampaignResult some_cases() {
+  CampaignResult result;
+  result.cases = 3;
+  result.counts = {1000, 20, 5};
+  result.coverage.add(Reason::kPrmIdent, 4);
+  result.coverage.add("Set_Prm", 6);
+  result.situations.count("DP states", "OFFLINE to WAIT_PRM");
+  return result;
+}
+
+TEST_F(Record, IsReadAsItWasWritten) {
+  CampaignRecord record = new_record(7);
+  CampaignRecord::add(record.ports[2], some_cases());
+  CampaignRecord::add(record.ports[2], some_cases());
+  write_record(folder_, record);
+  const CampaignRecord read = read_record(folder_, 7);
+  EXPECT_EQ(read.cycles(), 2000U);
+  EXPECT_EQ(read.ports[2].cases, 6U);
+  EXPECT_EQ(read.ports[2].coverage.count(Reason::kPrmIdent), 8U);
+  EXPECT_EQ(read.ports[2].coverage.telegrams().at("Set_Prm"), 12U);
+  EXPECT_EQ(table(read), table(record));
+  EXPECT_THAT(table(read), HasSubstr("dsdpv1_rsu spi\tDP states\tOFFLINE to WAIT_PRM\t2\n"));
+}
+
+TEST_F(Record, OfAnEmptyFolderIsANewOne) { EXPECT_EQ(read_record(folder_, 7).cycles(), 0U); }
+
+TEST_F(Record, OfAnotherSeedOrNoneIsOneLine) {
+  write_record(folder_, new_record(8));
+  EXPECT_THAT(wrong(), HasSubstr("campaign.json: this campaign has seed 8, allowed is --seed 8 or --state"));
+  std::ofstream(fs::path(folder_) / kCampaignFile) << "{\"schema\": 1}";
+  EXPECT_THAT(wrong(), HasSubstr("campaign.json: no record of a campaign of this program"));
+  std::ofstream(fs::path(folder_) / kCampaignFile) << "half a f";
+  EXPECT_THAT(wrong(), HasSubstr("campaign.json: no record of a campaign of this program"));
+  EXPECT_EQ(wrong().find('\n'), std::string::npos);
+}
+
+TEST(CampaignRecord, GivesEachPortItsShare) {
+  CampaignRecord record = new_record(1);
+  constexpr std::uint64_t kGoal = 200'000;
+  while (PortRecord* port = record.behind(kGoal)) port->counts.cycles += 1000;
+  EXPECT_EQ(record.ports[0].counts.cycles, kGoal * 55 / 100);
+  EXPECT_EQ(record.ports[3].counts.cycles, kGoal * 20 / 100);
+  EXPECT_EQ(record.cycles(), kGoal);
+}
+
+TEST(CaseConfig, VariesTheLimitsOfTheSearchInSomeCases) {
+  const dsdpv1::Config usual = quick_config();
+  std::set<std::uint32_t> windows, bits, control;
+  int changed = 0;
+  for (std::uint64_t number = 0; number < 300; ++number) {
+    const dsdpv1::Config config = case_config(case_seed(1, number), usual);
+    EXPECT_EQ(config.search_window_ms, case_config(case_seed(1, number), usual).search_window_ms);
+    changed += config.search_window_bits != usual.search_window_bits ? 1 : 0;
+    windows.insert(config.search_window_ms);
+    bits.insert(config.search_window_bits);
+    control.insert(config.baud_control_ms);
+  }
+  EXPECT_GT(changed, 60);
+  EXPECT_LT(changed, 150);
+  EXPECT_EQ(windows.size(), 3U);
+  EXPECT_GT(bits.size(), 50U);
+  EXPECT_EQ(control.size(), 4U);
+}
+
+}  // namespace
+}  // namespace dsdpv1::cosim

@@ -1,0 +1,143 @@
+"""How faults are planted, in a project of three files; and lists that are no lists. Called with a C++ compiler."""
+import dataclasses
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import faults
+import lists
+import overlay
+import suite
+
+COMPILER = sys.argv.pop(1)
+NINJA = """
+rule cxx
+  command = {compiler} -I{root} -O2 -MD -MT $out -MF $out.d -o $out -c $in
+  depfile = $out.d
+  deps = gcc
+rule archive
+  command = rm -f $out && ar qc $out $in && ranlib $out
+rule link
+  command = : && {compiler} -O2 $in -o $out  $libs && :
+build together.o: cxx together.cpp
+build main.o: cxx {root}/main.cpp
+build lib/part.a: archive together.o
+build tests/all/program: link main.o | lib/part.a
+  libs = lib/part.a
+build tests/all/other: link {root}/other.cpp
+"""
+
+
+def write(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+
+
+class Project(unittest.TestCase):
+    """part.cpp and scale.hpp are compiled together with other files, as in the project's own build."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name)
+        write(self.root / "part/scale.hpp", "inline int scale() { return 3; }\n")
+        write(self.root / "part/part.cpp", '#include "part/scale.hpp"\nint part() { return scale() + 1; }\n')
+        write(self.root / "main.cpp", "int part();\nint main() { return part(); }\n")
+        write(self.root / "other.cpp", "int main() { return 9; }\n")
+        write(self.root / "build/together.cpp", f'#include "{self.root}/part/part.cpp"\n')
+        write(self.root / "build/build.ninja", NINJA.format(compiler=COMPILER, root=self.root))
+        (self.root / "tests/all").mkdir(parents=True)
+        subprocess.run(["ninja", "-C", self.root / "build", "--quiet"], check=True)
+        self.build = overlay.Build(self.root / "build", self.root)
+
+    def fault(self, **changes):
+        fault = lists.Fault(list="model", name="one", file="part/part.cpp", replace="+ 1", by="+ 2", what="wrong", where="model.yaml:1")
+        return dataclasses.replace(fault, **changes)
+
+    def status_of(self, program):
+        return subprocess.run([program], check=False).returncode
+
+    def plant(self, fault):
+        return overlay.Overlay(self.build, fault, self.root / "faults" / fault.name).link("tests/all/program")
+
+    def test_a_source_that_is_compiled_together_with_others(self):
+        self.assertEqual(self.status_of(self.plant(self.fault())), 5)
+
+    def test_a_header(self):
+        self.assertEqual(self.status_of(self.plant(self.fault(file="part/scale.hpp", replace="3", by="7"))), 8)
+
+    def test_a_source_of_the_program_itself(self):
+        self.assertEqual(self.status_of(self.plant(self.fault(file="main.cpp", replace="return part()", by="return part() + 40"))), 44)
+
+    def test_sources_and_build_stay_as_they_are(self):
+        before = {path: path.read_bytes() for path in self.root.rglob("*") if path.is_file()}
+        self.plant(self.fault())
+        self.assertEqual(before, {path: path.read_bytes() for path in before})
+        self.assertEqual(self.status_of(self.root / "build/tests/all/program"), 4)
+
+    def test_a_program_without_the_file_is_not_made(self):
+        planted = overlay.Overlay(self.build, self.fault(), self.root / "faults/one")
+        self.assertIsNone(planted.link("tests/all/other"))
+
+    def test_a_fault_that_does_not_compile_is_one_line(self):
+        with self.assertRaisesRegex(overlay.Failed, r"^model.yaml:1: one cannot be built: [^\n]+$"):
+            self.plant(self.fault(by="+"))
+
+
+class Lists(unittest.TestCase):
+    RIGHT = "- {name: one, file: source.cpp, replace: 'a = 1', by: 'a = 2', what: a is wrong, rule: S3}\n"
+
+    def read(self, text):
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name)
+            write(root / "source.cpp", "a = 1;\nb = 1;\n")
+            for page in lists.RULING_PAGES:
+                write(root / page, "- **S3** A ruling\n")
+            write(root / "tests/planted/model.yaml", "# a list\n" + text)
+            return lists.read("model", root)
+
+    def test_a_right_one(self):
+        fault = self.read(self.RIGHT)[0]
+        self.assertEqual((fault.name, fault.by, fault.where), ("one", "a = 2", "tests/planted/model.yaml:2"))
+
+    def test_wrong_ones_are_one_line_with_file_and_line(self):
+        for change, said in (
+                (("a = 1", "a = 3"), "one: its text is not in source.cpp, allowed is once"),
+                (("a = 1", "= 1"), "one: its text stands 2 times in source.cpp"),
+                (("a = 2", "a = 1"), "one: nothing is changed"),
+                (("source.cpp", "none.cpp"), "one: none.cpp is not there"),
+                (("S3", "S4"), "one: there is no ruling S4"),
+                (("by:", "buy:"), "unknown key buy"),
+                ((", by: 'a = 2'", ""), "by is missing")):
+            with self.assertRaisesRegex(lists.BadList, r"^tests/planted/model.yaml:2: " + re.escape(said)):
+                self.read(self.RIGHT.replace(*change))
+        with self.assertRaisesRegex(lists.BadList, r"^tests/planted/model.yaml:3: there is another one"):
+            self.read(2 * self.RIGHT)
+
+    def test_there_are_as_many_as_the_page_promises(self):
+        counts = {name: len(lists.read(name)) for name in lists.NAMES}
+        self.assertGreaterEqual(counts["model"], 60)
+        self.assertGreaterEqual(counts["driver"], 20)
+        checks = (lists.ROOT / "tb/dsdpv1/checks/check_table.inc").read_text(encoding="utf-8")
+        self.assertEqual({fault.name for fault in lists.read("checks")}, set(re.findall(r'^X\(\w+, "(\w+)"', checks, re.M)))
+
+
+class Output(unittest.TestCase):
+    def test_the_first_case_that_failed(self):
+        printed = "[ RUN      ] A.B/1\n[  FAILED  ] A.B/1, where GetParam() = 1 (2 ms)\n[  FAILED  ] A.C (1 ms)\n"
+        self.assertEqual(faults.failed_test(printed), "A.B/1")
+
+    def test_the_case_in_which_the_program_ended(self):
+        self.assertEqual(faults.failed_test("[ RUN      ] A.B\n[       OK ] A.B (0 ms)\n[ RUN      ] A.C\nassertion"), "A.C")
+
+    def test_cases_of_a_stage(self):
+        cases = {"p": [("A.B", False), ("A.C", True), ("D.E", False)]}
+        self.assertEqual(suite.names_of(cases, suite.Stage("p", names="A.")), ["A.B"])
+        self.assertEqual(suite.names_of(cases, suite.Stage("p", long=True)), ["A.C"])
+
+
+if __name__ == "__main__":
+    unittest.main()

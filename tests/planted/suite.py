@@ -1,0 +1,44 @@
+"""Which tests look for a fault, and in which order: those first that are over soon and find most. All are tests of the ordinary suite."""
+import dataclasses
+import json
+import subprocess
+
+SIM, BOARD = "apps/dsdpv1-sim", "apps/dsdpv1-board"  # the one calls the other, which it finds beside itself
+LONG, NIGHTLY = "long", "nightly"
+
+
+@dataclasses.dataclass(frozen=True)
+class Stage:
+    program: str
+    long: bool = False     # its cases with that label; else those without
+    calls_sim: bool = False
+    names: str = ""        # part of the names; else all
+
+
+UNIT = Stage("core_blocks")
+CONFORMANCE = (Stage("conformance_rsu_test"), Stage("conformance_test"))
+SCENARIOS = Stage("app_scenarios_test", calls_sim=True, names="All/Scenarios.")
+STAGES = {
+    "model": (UNIT, *CONFORMANCE, Stage("user_cpu_test"), Stage("checks_test"), SCENARIOS, Stage("conformance_test", long=True),
+              Stage("cosim_rtl_test", names="All/Directed"), Stage("conformance_dpv1_campaign")),
+    "driver": (Stage("driver_test"), Stage("user_cpu_test"), SCENARIOS),
+    "checks": (Stage("checks_test"), Stage("user_cpu_test"), SCENARIOS),
+}
+SECONDS = 600  # of a stage: the limit that its tests have
+
+
+def read(build):
+    """The cases of each test program that run when the suite does, with their labels."""
+    listed = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True, check=True).stdout
+    cases = {}
+    for test in json.loads(listed)["tests"]:
+        command = test.get("command", [])
+        name = next((word.split("=", 1)[1] for word in command if word.startswith("--gtest_filter=")), None)
+        labels = next((entry["value"] for entry in test["properties"] if entry["name"] == "LABELS"), [])
+        if name and NIGHTLY not in labels:
+            cases.setdefault(command[0].rsplit("/", 1)[-1], []).append((name, LONG in labels))
+    return cases
+
+
+def names_of(cases, stage):
+    return [name for name, long in cases.get(stage.program, []) if long == stage.long and name.startswith(stage.names)]
