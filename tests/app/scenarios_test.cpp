@@ -52,8 +52,7 @@ class Scenarios : public testing::TestWithParam<std::string> {
   void expect_result_as_the_schema_says(const std::string& name) const {
     const std::string command = "'" DSDPV1_SOURCE_DIR "/.venv/bin/python' -B '" DSDPV1_SOURCE_DIR
                                 "/tests/report/validate.py' '" +
-                                app_test::simulator() + "' '" +
-                                folder_.file(name + ".json") + "'";
+                                app_test::simulator() + "' '" + folder_.file(name + ".json") + "'";
     EXPECT_EQ(std::system(command.c_str()), 0);
   }
   app_test::Folder folder_;
