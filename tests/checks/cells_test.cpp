@@ -235,6 +235,21 @@ const Case kCases[] = {
        next_hold(board);
        board.write(0x010, 0x80);
      }},
+    {"VerdictUnfetchedOnANewerBlockSeenEarlier", Check::kVerdictUnfetched,
+     [](Board& board) {
+       fetch_parameters(board);
+       next_hold(board);
+       fetch_parameters(board);
+       next_hold(board);
+       board.write(0x010, 0x80);
+     },
+     [](Board& board) {
+       fetch_parameters(board);
+       next_hold(board);
+       board.read(0x00E, 0x02);
+       next_hold(board);
+       board.write(0x010, 0x80);  // on the newer block, which nobody has fetched
+     }},
     {"VerdictUnfetchedWhenANewerBlockCame", Check::kVerdictUnfetched,
      [](Board& board) {
        fetch_parameters(board);
@@ -281,6 +296,17 @@ TEST_P(EachRule, IsFoundWhenBroken) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Checks, EachRule, testing::ValuesIn(kCases), [](const auto& each) { return each.param.name; });
+
+TEST(CountByChip, ZeroIsNeitherTheChipsNorWhatTheUserLeft) {
+  Board board;
+  board.ask();
+  board.read(0x006, 0x00);
+  board.write(0x006, 0x01);
+  board.release();
+  board.checks().finish(board.now());
+  EXPECT_EQ(board.checks().record(Check::kCountByChip).violations, 1U);
+  EXPECT_EQ(board.violations.size(), 1U);
+}
 
 /// The five blocks of the user, written with the CRC that `crc_over` gives for `count` bytes.
 struct UserBlock {

@@ -99,6 +99,28 @@ TEST(NoRequest, RStaBeforeRReqIsOneMistakeAndInTheSameTickTheWindow) {
   }
 }
 
+TEST(BothOwn, MarginCountsFromTheRequestWhenTheChipHadGoneBefore) {
+  Board board;
+  board.chip_owns(true);
+  board.wait(300);
+  board.chip_owns(false);
+  board.wait(50'000);
+  board.ask(2040);
+  EXPECT_EQ(board.checks().record(Check::kBothOwn).worst_value, 2040);
+}
+
+TEST(SyncWindow, BothLowForNoTimeIsNoNewRequest) {
+  Board board;
+  board.ask();
+  board.set(Pin::kRSta, 0);
+  board.set(Pin::kRReq, 0);
+  board.set(Pin::kRReq, 1);
+  board.wait(100);
+  board.set(Pin::kRSta, 1);
+  EXPECT_EQ(board.checks().record(Check::kSyncWindow).count, 2U);
+  EXPECT_EQ(violations(board, Check::kSyncWindow), 0U);
+}
+
 TEST(Reset, RequestThroughItHoldsTheChipOffFromItsEndOn) {
   Board board;
   board.ask();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "bus/monitor/monitor.hpp"
 #include "tb/dsdpv1/checks/checks.hpp"
 
 namespace dsdpv1 {
@@ -58,6 +59,20 @@ class Host {
     set(end_ = at + kHalf, Pin::kXss, 1);
     return last_bit_;
   }
+  /// The answer of station 5 on the line, framed by PBRTS: from it the address is learnt.
+  void answer(Tick at) {
+    bus::WireTelegram answer = on_line(bus::make_sc(), at + 1000, at + 12'000);
+    answer.tsdr = 11'000;
+    answer.station = kStation;
+    set(at, Pin::kPbrts, 1);
+    set(at + 13'000, Pin::kPbrts, 0);
+    checks.telegram(at + 13'000, answer);
+  }
+  /// A Data_Exchange to it that ends at `end`.
+  void exchange(Tick end) {
+    constexpr std::uint8_t kMaster = 2, kFc = bus::fc::kRequest | bus::fc::kSrdHigh;
+    checks.telegram(end, on_line(bus::make_telegram(kStation, kMaster, kFc, {0x11}), end - 10'000, end));
+  }
   Tick end() const { return end_; }
   const checks::Record& record(Check check) const { return checks.record(check); }
 
@@ -65,6 +80,15 @@ class Host {
   std::vector<checks::Violation> violations;
 
  private:
+  static constexpr std::uint8_t kStation = 5;
+  static bus::WireTelegram on_line(const bus::Telegram& telegram, Tick start, Tick end) {
+    bus::WireTelegram wire;
+    wire.decoded.readable = true;
+    wire.decoded.telegram = telegram;
+    wire.start = start;
+    wire.end = end;
+    return wire;
+  }
   static checks::Limits limits(std::optional<Tick> longest) {
     checks::Limits limits(checks::rules(Part::kRsu));
     if (longest) limits[Check::kOwned].value = *longest;
@@ -168,6 +192,29 @@ TEST(SpiOwned, HasNotBegunWithARefusedOrWrongClaimAndEndsWhenB014SaysSo) {
   EXPECT_EQ(ended.record(Check::kOwned).count, 0U);
   ended.frame(500'000, kLook, with_crc({0x81, 0x00, 0x00}));
   EXPECT_EQ(ended.record(Check::kOwned).count, 1U);
+}
+
+TEST(SpiOwned, CountsFromTheFirstOfTwoClaims) {
+  Host host;
+  host.frame(10'000, kClaim, kDone);
+  host.frame(300'000, kClaim, kDone);
+  host.frame(2'000'000, kRelease, kDone);
+  EXPECT_EQ(host.record(Check::kOwned).worst_value, 2'000'000 - 10'000);
+}
+
+/// From its last bit to XSS's rise (SP16), of the time between two Data_Exchange.
+TEST(SpiHoldInterval, ReadAndWriteHoldsAsLongAsItsFrame) {
+  constexpr Tick kFirst = 300'000, kSecond = 900'000;
+  Host host;
+  host.answer(50'000);
+  host.exchange(kFirst);
+  const Tick asked = host.frame(kFirst + 50'000, with_crc({0x41, 0x01, 0x55}), with_crc({0xC1, 0x00, 0x00}));
+  const Tick held = host.end() - asked;
+  host.exchange(kSecond);
+  host.checks.finish(kSecond + 20'000);
+  const checks::Record& record = host.record(Check::kOwnerInterval);
+  EXPECT_EQ(record.count, 1U);
+  EXPECT_EQ(record.worst_value, kSecond - kFirst - held);
 }
 
 TEST(SpiOwned, LastsToTheEndOfTheRunWhenNobodyReleases) {

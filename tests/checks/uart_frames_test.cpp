@@ -106,6 +106,16 @@ TEST(RxdCharacterGap, OfTheNextTelegramIsThatOfB019) {
   host.expect_violation(Check::kRxdCharacterGap, late, -1);
 }
 
+TEST(RxdCharacterGap, IsThatOfB019UpToItsLastCode) {
+  Host host;
+  host.reply(host.send(kFirst, sealed({0x21, 0x00, 0x19, 0x01, 0x07})) + 11 * kBit + kCycle, sealed({0xA1, 0x00}));
+  const Tick first = 2'000'000;
+  host.character(first, {kRead[0]});
+  const Tick late = silence_after(first) + (200 * 11 * 26 / 2 - kInterval) * kCycle;  // UA3: code 7 is 100 characters
+  host.checks.finish(host.character(late, {kRead[1]}));
+  host.expect_violation(Check::kRxdCharacterGap, late, -1);
+}
+
 TEST(RxdCharacterGap, OfATelegramWithoutAnEndIsFoundAtTheEndOfTheRun) {
   Host host;
   host.character(kFirst, {kRead[0]});
@@ -211,6 +221,15 @@ TEST(RxdBreak, IsACharacterThatIsLowForAllItsTime) {
     else
       EXPECT_TRUE(host.violations.empty());
   }
+}
+
+TEST(RxdBreak, IsNoCharacterWhoseParityBitAloneIsHigh) {
+  Host host;
+  LineCharacter character;
+  character.wrong_parity = character.no_stop_bit = true;
+  host.checks.finish(host.character(kFirst, character) + 20 * kBit);
+  EXPECT_EQ(host.record(Check::kRxdBreak).count, 0U);
+  EXPECT_EQ(host.record(Check::kRxdFraming).violations, 1U);
 }
 
 TEST(RxdParity, IsJudgedAtTheStopBit) {

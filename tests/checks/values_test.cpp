@@ -368,6 +368,21 @@ TEST(Tw, ASampleThatNobodyHasToldIsTheEndOfTheRead) {
   EXPECT_EQ(record.count, 4U);
 }
 
+TEST(Ts, CountsFromTheFallOfWrThoughCsrFallsLater) {
+  Board board;
+  board.ask();
+  board.set(Pin::kA, 0x014);
+  board.set(Pin::kDIn, 0x55);
+  board.wait(300);
+  board.set(Pin::kWr, 0);
+  board.wait(500);
+  board.set(Pin::kCsr, 0);
+  board.wait(100);
+  board.set(Pin::kWr, 1);
+  EXPECT_EQ(board.checks().record(Check::kTs).worst_value, 600);
+  EXPECT_EQ(board.checks().record(Check::kTs).violations, 0U);
+}
+
 TEST(Td, NobodyDrivingDIsAViolation) {
   Board board;
   board.ask();

@@ -58,6 +58,17 @@ TEST_F(CheckCfg, ModeZeroTakesEveryLengthUpToB02C) {
   expect_refused(Bytes(200, 0), Reason::kCfgLength);
 }
 
+// S16: not that of the initialisation, which is another one here.
+TEST_F(CheckCfg, InDataExchangeTheConfigurationInUseIsTheOneThatCounts) {
+  bench.to_wait_cfg();
+  expect_accepted({0x10, 0x20}, 1, 1);
+  EXPECT_TRUE(is_sc(cfg({0x10, 0x20})));
+  EXPECT_EQ(bench.dp_state(), DpState::kDataExch);
+  EXPECT_TRUE(is_sc(cfg(Init{}.cfg)));
+  EXPECT_EQ(bench.dp_state(), DpState::kWaitPrm);
+  EXPECT_TRUE(cfg_fault());
+}
+
 TEST_F(CheckCfg, ModeOneTakesOnlyTheInitialConfiguration) {
   Init init;
   init.cfg_mode = 1;

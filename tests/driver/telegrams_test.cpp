@@ -158,6 +158,15 @@ TEST_F(Spi, ClaimIsTriedAgainWhileTheChipIsInAnAccess) {
   EXPECT_EQ(dsdpv1_wait_ready(&device), DSDPV1_ERR_DPRAM_BUSY);
 }
 
+TEST_F(Spi, ClaimWhoseRepliesWereAllDestroyedIsGivenBack) {
+  initialise();
+  rsu.requests.clear();
+  rsu.spoilt_replies = 1 + device.tuning.telegram_retries;
+  EXPECT_EQ(exchange({0x55}), DSDPV1_ERR_REPLY);
+  ASSERT_THAT(rsu.requests, SizeIs(2U + device.tuning.telegram_retries));
+  EXPECT_THAT(Bytes(rsu.requests.back().begin(), rsu.requests.back().end() - 2), ElementsAre(0x21, 0x00, 0x14, 1, 0));
+}
+
 TEST_F(Spi, ReplyIsFoundWhereItBegins) {
   rsu.spi.spare = 3;
   ASSERT_EQ(rsu.open(FakePort::kSpi, device, judge), DSDPV1_OK);
@@ -264,6 +273,18 @@ TEST_F(Uart, AnAnswerThatWaitsIsNotAnnouncedTwice) {
   ASSERT_EQ(dsdpv1_keep_input_errors(&device, true), DSDPV1_OK);
   EXPECT_EQ(chip.answers_taken, 1);
   EXPECT_EQ(chip.at(0x011), 0x40);
+}
+
+TEST_F(Uart, HistoryThatStandsIsNotWaitedFor) {
+  initialise();
+  const auto telegrams = [this] {
+    rsu.requests.clear();
+    EXPECT_EQ(dsdpv1_clear_input_error(&device), DSDPV1_OK);
+    return rsu.requests.size();
+  };
+  const std::size_t without = telegrams();
+  ASSERT_EQ(dsdpv1_keep_input_errors(&device, true), DSDPV1_OK);
+  EXPECT_EQ(telegrams(), without);
 }
 
 TEST_F(Uart, WaitsForAReplyAsLongAsTheRateAsks) {
