@@ -117,16 +117,12 @@ cosim::MakeTopFor make_for(const RtlRandomArguments& arguments) {
 
 /// From here on `arguments` and `bench` have the parameters of the case that differs.
 void take_case(const cosim::CampaignResult& campaign, RtlRandomArguments& arguments, Bench& bench) {
-  const dsdpv1::Config usual = bench.options.config;
-  const auto set = [&](const char* key, std::uint32_t dsdpv1::Config::*parameter) {
-    const std::uint32_t value = campaign.failed_config.*parameter;
-    if (value == usual.*parameter) return;
-    bench.options.config.*parameter = value;
-    arguments.set.push_back(fmt::format("chip.{}={}", key, value));
-  };
-  set("search_window_ms", &dsdpv1::Config::search_window_ms);
-  set("search_window_bits", &dsdpv1::Config::search_window_bits);
-  set("baud_control_ms", &dsdpv1::Config::baud_control_ms);
+  for (const cosim::OwnParameter& each : cosim::kOwnParameters) {
+    const std::uint32_t value = campaign.failed_config.*each.member;
+    if (value == bench.options.config.*each.member) continue;
+    bench.options.config.*each.member = value;
+    arguments.set.push_back(fmt::format("chip.{}={}", each.key, value));
+  }
   if (arguments.own.rtl.empty())
     bench.make = cosim::reference_top(bench.options, arguments.fault, static_cast<std::uint32_t>(arguments.seed));
 }

@@ -41,6 +41,15 @@ struct CampaignResult {
   std::optional<Difference> difference;  ///< of the first case that has one
 };
 
+/// A parameter of the chip that cases choose for themselves, by its key in scenarios.
+struct OwnParameter {
+  const char* key;
+  std::uint32_t dsdpv1::Config::*member;
+};
+constexpr OwnParameter kOwnParameters[] = {{"search_window_ms", &dsdpv1::Config::search_window_ms},
+                                           {"search_window_bits", &dsdpv1::Config::search_window_bits},
+                                           {"baud_control_ms", &dsdpv1::Config::baud_control_ms}};
+
 /// What is compared so far, for a progress line; called by one thread at a time.
 using CampaignProgress = std::function<void(std::uint64_t cases, std::uint64_t cycles)>;
 
