@@ -29,6 +29,7 @@ TARGETS = (
     Target("run", 2048, "scenarios carried out for 2 ms, in step and in skip: the same results"),
     Target("capi", 1024, "calls of the C API in any order, with right and wrong arguments"),
     Target("chip", 512, "the chip's pins, its three host ports and its line, with and without manners: step, skip and dozing change the same pins"),
+    Target("state", 128, "saved states of chips, damaged: refused, or restored and carried on in step and in skip"),
 )
 NAMES = tuple(each.name for each in TARGETS)
 
