@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <ostream>
 #include <random>
 
 #include "model/dsdpv1/reasons.hpp"
@@ -110,6 +111,8 @@ struct Case {
   Way way;
   int ticks;  ///< of each slave
 };
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest's
+void PrintTo(const Case& each, std::ostream* out) { *out << each.scenario << words(each.way); }
 
 class RecordedLives : public ::testing::TestWithParam<Case> {};
 
