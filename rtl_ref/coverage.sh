@@ -19,7 +19,7 @@ runs() {
     return
   fi
   for scenario in scenarios/*.yaml; do
-    if grep -q 'kind: arm' "$scenario"; then continue; fi  # firmware that would have to be built first
+    if grep -qE 'kind: (arm|dsdpv1_rsu)' "$scenario"; then continue; fi  # firmware that would have to be built first; other RTL
     end=$(sed -n 's/^end: *\([0-9]*\)ms$/\1/p' "$scenario")
     if [ "${end:-$end_before_ms}" -lt "$end_before_ms" ]; then echo "run $scenario --engine lockstep"; fi
   done
