@@ -72,7 +72,8 @@ enum {
   DPSIM_ERR_NOT_FOUND = -3, /**< no kind, pin, parameter, slave, connection, rule, module of that name or number */
   DPSIM_ERR_TIME = -4,      /**< a tick before the object's present time */
   DPSIM_ERR_STATE = -5,     /**< not now: inside of a callback, after the run, of a master of the other class */
-  DPSIM_ERR_INPUT = -6, /**< a file or text is wrong or cannot be read: "file:line: what is wrong, what is allowed" */
+  DPSIM_ERR_INPUT = -6, /**< a file, text or saved state is wrong or cannot be read: "file:line: what is wrong, what is
+                             allowed" */
   DPSIM_ERR_SPACE = -7, /**< the caller's buffer is too small; where a size is returned, it is the one needed */
   DPSIM_ERR_UNSUPPORTED =
       -8, /**< this library cannot: an ARM board in a scenario, an access to a chip without a host bus */

@@ -151,16 +151,16 @@ TEST(RsuPorts, ModeChangesWithEachReset) {
 TEST(RsuParts, PinsOfTheParallelPortDisturbNoSerialOne) {
   RsuBench bench;
   bench.power_on();
-  bench.xss(0);
-  bench.set(bench.now() + 1, Pin::kA, 0x123);  // XSS is on its way to the logic
-  bench.set(bench.now() + 2, Pin::kCsr, 0);
-  bench.run_until(bench.now() + 600);
-  const Bytes request = read_telegram(0x004, 4);
-  bench.clock(part_of(request, 0, 2));
-  bench.set(bench.now(), Pin::kRd, 0);
-  bench.clock(part_of(request, 2, request.size() - 2));
-  bench.set(bench.now(), Pin::kRd, 1);
-  EXPECT_EQ(part_of(bench.clock(Bytes(8, 0xFF)), 0, 2), (Bytes{0x81, 0x00}));
+  bench.claim();
+  const Bytes bytes = {1, 2, 3, 4, 5, 6, 7, 8};
+  bench.spi(write_telegram(0x400, bytes));
+  for (const Level level : {Level{0}, Level{1}}) {  // while the bytes go into the DPRAM
+    bench.run_cycles(3);
+    for (const Pin pin : {Pin::kCsr, Pin::kRd, Pin::kWr}) bench.set(bench.now() + 1, pin, level);
+    bench.set(bench.now() + 1, Pin::kA, level);
+  }
+  bench.run_cycles(100);
+  EXPECT_EQ(bench.peek(0x400, 8), bytes);
 }
 
 }  // namespace
