@@ -89,6 +89,7 @@ def saved(program, firmware, folder):
     done = runs.call(program, "--restore", folder / "session.run", "--log", folder / "rest.log", folder=folder)
     if done.returncode != session.status:
         yield f"a saved session is restored with {done.returncode}: {done.stderr}"
+        return
     if (folder / "rest.log").read_text(encoding="utf-8").splitlines() != runs.log_from(folder / "whole.log", 4_000_000 * runs.TICKS_PER_NS):
         yield "a saved session goes on otherwise"
     later = Session(program, firmware, folder, ["--restore", folder / "session.run"], ["monitor time", "reverse-stepi", "kill"])
