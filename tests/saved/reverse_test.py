@@ -80,13 +80,16 @@ def undone(program, firmware, folder):
 
 
 def saved(program, firmware, folder):
-    """The outputs of the run hang on a value that gdb writes; restored, it is written without gdb."""
-    commands = ["break dsdpv1_initialise", "continue", "set var $r4 = 77", "set var *(unsigned*)($sp-256) = 1", "delete", "detach"]
+    """gdb writes the station's address, so that the run is another one; restored, it is written without gdb."""
+    commands = ["break dsdpv1_initialise", "continue", "set var config->address = 7", "delete", "detach"]
     words = [SCENARIO, "--log", folder / "whole.log", "--save-at", "4ms", folder / "session.run"]
     session = Session(program, firmware, folder, words, commands)
+    if "address 7" not in (folder / "whole.log").read_text(encoding="utf-8"):
+        yield f"gdb has not changed the address: {session.text}"
     done = runs.call(program, "--restore", folder / "session.run", "--log", folder / "rest.log", folder=folder)
     if done.returncode != session.status:
         yield f"a saved session is restored with {done.returncode}: {done.stderr}"
+        return
     if (folder / "rest.log").read_text(encoding="utf-8").splitlines() != runs.log_from(folder / "whole.log", 4_000_000 * runs.TICKS_PER_NS):
         yield "a saved session goes on otherwise"
     later = Session(program, firmware, folder, ["--restore", folder / "session.run"], ["monitor time", "reverse-stepi", "kill"])
