@@ -195,8 +195,61 @@ def faults():
     return text.rstrip() + "\n\nSeconds are wall time of building and testing, on a machine that had other work.\n"
 
 
+# --------------------------------------------------------------------------------------------------------- random cases
+RANDOM = """
+## Random lockstep
+
+`./run rtl-random --campaign` plays random cases to model and reference RTL at the DSDPV1 and at each host port of the DSDPV1-RSU; every change of every pin and the DPRAM are
+the same ([cosim.md](cosim.md)). What the cases reach is counted: transitions of the DP state, the answers of each service in each state, events with what their ruling tells apart, Sync and
+Freeze, transfers of the DPRAM, and what the host does in which part of an access of the chip. `./run nightly` goes on until a thousand million cycles are compared.
+
+"""
+RANDOM_GOAL = 1_000_000_000  # cycles
+RANDOM_HOLES = """
+What no random case has reached yet. Where no reason is known, more cycles may reach it: these are few of the thousand million that are the goal.
+
+"""
+
+
+def random_reason(port, group, situation):
+    """Why random cases do not reach it; empty: no reason but chance."""
+    for of_port, of_group, begin, why in results("random_reasons.tsv"):
+        if of_port in (port, "*") and of_group == group and situation.startswith(begin):
+            return why
+    return ""
+
+
+def random_holes(rows):
+    """For each group its situations with the count 0, those of one reason together."""
+    holes = {}
+    for port, group, situation, count in rows:
+        if int(count) == 0:
+            holes.setdefault((port, group, random_reason(port, group, situation)), []).append(situation)
+    return [[port, group, "; ".join(names), why or "-"] for (port, group, why), names in holes.items()]
+
+
+def random_lockstep():
+    rows = results("random.tsv")
+    compared = {(port, what): int(count) for port, group, what, count in rows if group == "compared"}
+    rows = [row for row in rows if row[1] != "compared"]
+    when = next(line[2:] for line in (HERE / "random.tsv").read_text(encoding="utf-8").splitlines() if line.startswith("# 2"))
+    ports = list(dict.fromkeys(row[0] for row in rows))
+    groups = list(dict.fromkeys(row[1] for row in rows))
+    total = sum(compared[port, "cycles"] for port in ports)
+    cycles = f"{total:,}".replace(",", " ")
+    text = RANDOM + f"{when}: {cycles} cycles, {100 * total / RANDOM_GOAL:.2g} % of the goal. No difference.\n\n"
+    text += table(["host port", "seed", "cases", "cycles"], [
+        [port, compared[port, "seed"], f"{compared[port, 'cases']:,}".replace(",", " "), f"{compared[port, 'cycles']:,}".replace(",", " ")] for port in ports])
+    seen = []
+    for group in groups:
+        cells = [[int(count) > 0 for of_port, of_group, _, count in rows if (of_port, of_group) == (port, group)] for port in ports]
+        seen.append([group, *[f"{sum(cell)} of {len(cell)}" if cell else "-" for cell in cells]])
+    text += "\nSituations that were reached:\n\n" + table(["situations", *ports], seen)
+    return text + RANDOM_HOLES + table(["host port", "situations", "not reached", "why"], random_holes(rows))
+
+
 def page():
-    return HEAD + fuzzing() + faults() + static() + soak()
+    return HEAD + fuzzing() + faults() + random_lockstep() + static() + soak()
 
 
 def main(words):

@@ -45,6 +45,8 @@ TEST(Situations, OfAPortAreNotThoseOfAnother) {
   EXPECT_TRUE(is_known({"events", "STRAP_CHANGED 0"}, kSides[1]));
   EXPECT_TRUE(is_known({"events", "SPI_BUSY 0"}, kSides[2]));
   EXPECT_FALSE(is_known({"events", "HOST_TS"}, kSides[2]));
+  EXPECT_FALSE(is_known({"events", "TELEGRAM_ADDRESS 2"}, kSides[2]));
+  EXPECT_TRUE(is_known({"events", "TELEGRAM_ADDRESS 2"}, kSides[3]));
   EXPECT_FALSE(is_known({"events", "INPUT_CRC"}, kSides[3]));
   EXPECT_TRUE(is_known({"replies of exchanges", "C1 in DATA_EXCH"}, kSides[3]));
 }

@@ -110,6 +110,9 @@ bool is_foreign(const std::string& code, const HostSide& side) {
   return crc || begins(code, "HOST_") || begins(code, "HANDSHAKE_");
 }
 
+/// The address of an exchange, which only the UART has (UA9).
+bool names_area(const std::string& code, const std::string& word) { return code == "TELEGRAM_ADDRESS" && word != "0"; }
+
 void add(std::vector<Situation>& all, const char* group, const Words& items) {
   for (const std::string& item : items) all.emplace_back(group, item);
 }
@@ -214,7 +217,8 @@ std::vector<Situation> known(const HostSide& side) {
     const Detail* detail = detail_of(code);
     add(all, "events", detail == nullptr ? Words{code} : Words{});
     if (detail == nullptr) continue;
-    for (const std::string& word : detail->known) all.emplace_back("events", code + " " + word);
+    for (const std::string& word : detail->known)
+      if (!names_area(code, word) || side.mode == HostMode::kUart) all.emplace_back("events", code + " " + word);
   }
   add(all, "Sync and Freeze", sync_and_freeze());
   add(all, "transfers", kTransfers);
