@@ -27,7 +27,7 @@ class PadDelay {
     uint64_t tick, level;
   };
   const PinPlace* place_ = nullptr;
-  uint64_t delay_ = 0;  ///< ticks
+  uint64_t delay_ = 0;               ///< ticks
   uint64_t tick_ = 0, settled_ = 0;  ///< what the register was before this tick, in which it may still change
   uint64_t register_ = 0, pin_ = 0;
   std::deque<Change> coming_;

@@ -50,14 +50,7 @@ module dsdpv1_r_model #(
   timeunit 1ps;
   timeprecision 1ps;
   `DSDPV1_IMPORTS
-
-  // Of an X the level of rest; what has one among its wires is released, if it can be.
-  wire d_released = (^d_i) === 1'bx;
-  wire [63:0] inputs = {
-    37'd0, d_released, pbrxd_i !== 1'b0, (d_released ? 8'd0 : d_i),
-    ((^a_i) === 1'bx ? 11'd0 : a_i), wr_i !== 1'b0, rd_i !== 1'b0, csr_i !== 1'b0,
-    r_sta_i === 1'b1, r_req_i === 1'b1, reset_i === 1'b1
-  };
+  `include "dsdpv1_inputs.svh"
 
   task drive(input longint outputs);
     {ready_o, br_o, pbf_o, pbrts_o, pbtxd_o, intr0_o, d_o, l_sta_o, l_req_o} <= outputs[15:0];

@@ -51,33 +51,8 @@ module dsdpv1_scoreboard #(
   timeunit 1ps;
   timeprecision 1ps;
   `DSDPV1_IMPORTS
-
-  // Of an X the level of rest; what has one among its wires is released, if it can be.
-  wire d_released = (^d_i) === 1'bx;
-  wire [63:0] inputs = {
-    37'd0, d_released, pbrxd_i !== 1'b0, (d_released ? 8'd0 : d_i),
-    ((^a_i) === 1'bx ? 11'd0 : a_i), wr_i !== 1'b0, rd_i !== 1'b0, csr_i !== 1'b0,
-    r_sta_i === 1'b1, r_req_i === 1'b1, reset_i === 1'b1
-  };
-
-  // What is released or unknown, X or Z, is so as a whole.
-  wire l_req_unknown = (^l_req_o) === 1'bx;
-  wire l_sta_unknown = (^l_sta_o) === 1'bx;
-  wire d_off = d_oe_o === 1'b0;
-  wire d_unknown = !d_off && (^{d_oe_o, d_o}) === 1'bx;
-  wire intr0_unknown = (^intr0_o) === 1'bx;
-  wire pbtxd_unknown = (^pbtxd_o) === 1'bx;
-  wire pbrts_unknown = (^pbrts_o) === 1'bx;
-  wire pbf_unknown = (^pbf_o) === 1'bx;
-  wire br_unknown = (^br_o) === 1'bx;
-  wire ready_unknown = (^ready_o) === 1'bx;
-  wire [63:0] outputs = {
-    38'd0, ready_unknown, br_unknown, pbf_unknown,
-    pbrts_unknown, pbtxd_unknown, intr0_unknown, d_unknown,
-    l_sta_unknown, l_req_unknown, d_off, ready_o === 1'b1,
-    br_o === 1'b1, pbf_o === 1'b1, pbrts_o === 1'b1, pbtxd_o === 1'b1,
-    intr0_o === 1'b1, (d_off || d_unknown ? 8'd0 : d_o), l_sta_o === 1'b1, l_req_o === 1'b1
-  };
+  `include "dsdpv1_inputs.svh"
+  `include "dsdpv1_outputs.svh"
 
   string options;
   initial begin
