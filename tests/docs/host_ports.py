@@ -9,14 +9,12 @@ Exit 1 when a row is another, or a run fails.
 import concurrent.futures
 import json
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/programmers_guide.md"
-BLOCK = re.compile(r"(<!-- host_ports -->\n)(.*?)(<!-- /host_ports -->)", re.S)
+import guide
+
 HEAD = ("| port | cycle | longest hold | longest wait of the chip | cycles a second |\n"
         "|---|---|---|---|---|\n")
 RATES = {"9.6k": 9600, "19.2k": 19200, "38.4k": 38400, "57.6k": 57600, "115.2k": 115200, "230.4k": 230400, "460.8k": 460800, "1.8432M": 1843200}
@@ -81,7 +79,7 @@ def exchanges(wave, pause):
 
 def simulate(sim, port, folder):
     scenario, wave, result = folder / "cost.yaml", folder / "cost.vcd", folder / "cost.json"
-    scenario.write_text(SCENARIO.format(end=20_000 + (port.cycles + 4) * port.cycle_us, chip=port.chip, gsd=ROOT / "scenarios/dsdpv1.gsd", modules=MODULES,
+    scenario.write_text(SCENARIO.format(end=20_000 + (port.cycles + 4) * port.cycle_us, chip=port.chip, gsd=guide.ROOT / "scenarios/dsdpv1.gsd", modules=MODULES,
                                         cycle=port.cycle_us, user=port.user), encoding="utf-8")
     signals = [word for pin in port.pins for word in ("--wave-signals", f"card.{pin}")]
     done = subprocess.run([sim, "run", scenario, "--checks", "off", "--quiet", "--wave", wave, *signals, "--result", result], check=False,
@@ -113,16 +111,15 @@ def rows(sim, chosen):
 
 def main():
     sim, write = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:] == ["--write"]
-    text = PAGE.read_text(encoding="utf-8")
-    block = BLOCK.search(text)
+    block = guide.Block("host_ports", "table of the host ports is stale")
     if write:
-        PAGE.write_text(text[:block.start(2)] + HEAD + "".join(rows(sim, ports())) + text[block.end(2):], encoding="utf-8")
+        block.write(HEAD + "".join(rows(sim, ports())))
         return
     fast = [port for port in ports() if port.cycle_us < FAST_US]
-    stale = [line for line in rows(sim, fast) if line not in block.group(2)]
-    stale += [port.name for port in ports() if f"| {port.name} |" not in block.group(2)]
+    stale = [line for line in rows(sim, fast) if line not in block.text]
+    stale += [port.name for port in ports() if f"| {port.name} |" not in block.text]
     if stale:
-        sys.exit(f"docs/programmers_guide.md: the table of the host ports is stale (./run generate); a run gives\n{''.join(stale)}")
+        block.refuse("a run gives\n" + "".join(stale))
 
 
 if __name__ == "__main__":

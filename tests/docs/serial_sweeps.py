@@ -8,14 +8,12 @@ Exit 1 when a table is another, or a sweep fails.
 """
 import csv
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/programmers_guide.md"
-BLOCK = re.compile(r"(<!-- serial_sweeps -->\n)(.*?)(<!-- /serial_sweeps -->)", re.S)
+import guide
+
 NOT_CHECKED = "no data exchange"  # the expectation that the scenario has
 
 
@@ -47,7 +45,7 @@ SWEEPS = [
 
 def points(sim, sweep, folder):
     """The rows of results.csv, by the value of the other parameter, in the order of the swept one."""
-    done = subprocess.run([sim, "sweep", *sweep.command(), "--no-progress", "--out", folder], cwd=ROOT, check=False, capture_output=True, text=True)
+    done = subprocess.run([sim, "sweep", *sweep.command(), "--no-progress", "--out", folder], cwd=guide.ROOT, check=False, capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"{sweep.scenario}: exit {done.returncode}\n{done.stdout}{done.stderr}")
     rows = {}
@@ -85,13 +83,12 @@ def table(sim, sweep):
 
 def main():
     sim, write = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:] == ["--write"]
-    text = PAGE.read_text(encoding="utf-8")
-    block = BLOCK.search(text)
+    block = guide.Block("serial_sweeps", "tables of the sweeps are stale")
     found = "\n".join(table(sim, sweep) for sweep in SWEEPS)
     if write:
-        PAGE.write_text(text[:block.start(2)] + found + text[block.end(2):], encoding="utf-8")
-    elif block.group(2) != found:
-        sys.exit(f"docs/programmers_guide.md: the tables of the sweeps are stale (./run generate); sweeps give\n{found}")
+        block.write(found)
+    elif block.text != found:
+        block.refuse(f"sweeps give\n{found}")
 
 
 if __name__ == "__main__":

@@ -9,14 +9,12 @@ Exit 1 when a row is another, or a run fails.
 import json
 import math
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/programmers_guide.md"
-BLOCK = re.compile(r"(<!-- spi_holds -->\n)(.*?)(<!-- /spi_holds -->)", re.S)
+import guide
+
 HEAD = ("| host | longest hold | least Min_Slave_Intervall |\n"
         "|---|---|---|\n")
 LATEST_NS = 250  # after a release's last bit the chip takes outputs that wait (H3, SP12): the limit of B014_HOLD_INTERVAL
@@ -34,7 +32,7 @@ def hosts(firmware):
 def longest_hold_ns(sim, scenario, key, value):
     with tempfile.TemporaryDirectory(prefix="dsdpv1_spi_hold_") as folder:
         result = pathlib.Path(folder) / "result.json"
-        done = subprocess.run([sim, "run", ROOT / "scenarios" / f"{scenario}.yaml", "--set", f"{key}={value}", "--set", "masters.plc.bus.min_slave_interval=2500",
+        done = subprocess.run([sim, "run", guide.ROOT / "scenarios" / f"{scenario}.yaml", "--set", f"{key}={value}", "--set", "masters.plc.bus.min_slave_interval=2500",
                                "--checks", "off", "--quiet", "--result", result], check=False, capture_output=True, text=True)
         if done.returncode != 0:
             sys.exit(f"{scenario} with {key}={value}: exit {done.returncode}\n{done.stdout}{done.stderr}")
@@ -50,16 +48,14 @@ def row(sim, name, run):
 def main():
     sim, firmware = (pathlib.Path(each).resolve() for each in sys.argv[1:3])
     rows = [row(sim, name, run) for name, run in hosts(firmware)]
-    text = PAGE.read_text(encoding="utf-8")
-    block = BLOCK.search(text)
+    block = guide.Block("spi_holds", "table of holds over SPI is stale")
     if sys.argv[3:] == ["--write"]:
         if len(rows) < len(HOSTS) + len(BOARD):
             sys.exit(f"{firmware} has not all of the example firmware: cmake --build build/default --target dsdpv1_firmware")
-        PAGE.write_text(text[:block.start(2)] + HEAD + "".join(rows) + text[block.end(2):], encoding="utf-8")
+        block.write(HEAD + "".join(rows))
         return
-    stale = [line for line in rows if line not in block.group(2)]
-    if stale:
-        sys.exit(f"docs/programmers_guide.md: the table of holds over SPI is stale (./run generate); a run gives\n{''.join(stale)}")
+    if stale := [line for line in rows if line not in block.text]:
+        block.refuse("a run gives\n" + "".join(stale))
 
 
 if __name__ == "__main__":
