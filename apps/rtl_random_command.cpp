@@ -53,6 +53,12 @@ struct Bench {
   cosim::MakeUserRtl make_own;  ///< null: it is the reference RTL
 };
 
+/// Makes the reference RTL for the parameters that it is asked for.
+cosim::MakeTopFor reference_of(const RtlRandomArguments& arguments) {
+  return [fault = arguments.fault, seed = static_cast<std::uint32_t>(arguments.seed)](
+             const cosim::PlayOptions& options) { return cosim::reference_top(options, fault, seed); };
+}
+
 Bench bench_of(const RtlRandomArguments& arguments) {
   Bench bench;
   if (!arguments.own.rtl.empty() && part_of(arguments.chip) == Part::kRsu)
@@ -60,7 +66,7 @@ Bench bench_of(const RtlRandomArguments& arguments) {
   if (arguments.own.rtl.empty()) {
     bench.options = cosim::quick_options(part_of(arguments.chip));
     cosim::set_parameters(bench.options, arguments.set);
-    bench.make = cosim::reference_top(bench.options, arguments.fault, static_cast<std::uint32_t>(arguments.seed));
+    bench.make = reference_of(arguments)(bench.options);
     return bench;
   }
   const OwnRtl own = build_own_rtl(arguments.own, arguments.command, !arguments.wave.empty());
@@ -110,9 +116,7 @@ class StimulusOutputs {
 
 /// Makes RTL for a case's own parameters, where nothing says which they are; empty: they are those of all cases.
 cosim::MakeTopFor make_for(const RtlRandomArguments& arguments) {
-  if (!arguments.own.rtl.empty() || !arguments.set.empty()) return {};
-  return [fault = arguments.fault, seed = static_cast<std::uint32_t>(arguments.seed)](
-             const cosim::PlayOptions& options) { return cosim::reference_top(options, fault, seed); };
+  return arguments.own.rtl.empty() && arguments.set.empty() ? reference_of(arguments) : cosim::MakeTopFor();
 }
 
 /// From here on `arguments` and `bench` have the parameters of the case that differs.
@@ -123,8 +127,7 @@ void take_case(const cosim::CampaignResult& campaign, RtlRandomArguments& argume
     bench.options.config.*each.member = value;
     arguments.set.push_back(fmt::format("chip.{}={}", each.key, value));
   }
-  if (arguments.own.rtl.empty())
-    bench.make = cosim::reference_top(bench.options, arguments.fault, static_cast<std::uint32_t>(arguments.seed));
+  if (arguments.own.rtl.empty()) bench.make = reference_of(arguments)(bench.options);
 }
 
 /// The waves that were written.
@@ -256,8 +259,8 @@ std::string record_text(const cosim::CampaignRecord& record) {
 /// The next cases at one port, which are kept unless one differs.
 int play_round(const RtlRandomArguments& all, cosim::CampaignRecord& record, cosim::PortRecord& port) {
   RtlRandomArguments arguments = all;
-  arguments.chip = port.side.part == Part::kRsu ? "dsdpv1_rsu" : "dsdpv1";
-  arguments.mode = port.side.mode == HostMode::kSpi ? "spi" : port.side.mode == HostMode::kUart ? "uart" : "parallel";
+  arguments.chip = port.chip();
+  arguments.mode = port.mode();
   arguments.cycles = kRound;
   const Bench bench = bench_of(arguments);
   tb::OutputFile stimulus(arguments.stimulus);

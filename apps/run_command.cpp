@@ -275,10 +275,6 @@ int run_own_rtl(RunRequest request, const CosimArguments& arguments, const OwnRt
   return outcome.status;
 }
 
-}  // namespace
-
-namespace {
-
 /// From the command line; throws tb::InputError.
 RunRequest scenario_request(const RunArguments& arguments) {
   RunRequest request{arguments, {}, options_of(arguments), {}, {}};
@@ -308,10 +304,6 @@ RunRequest request_of(const RunArguments& arguments) {
     throw tb::InputError("dsdpv1-sim run: allowed is one of SCENARIO and --restore");
   return arguments.restore.empty() ? scenario_request(arguments) : restored_request(arguments);
 }
-
-}  // namespace
-
-namespace {
 
 /// As often as a debugger goes back. What user CPUs print is shown once.
 int forth_and_back(RunRequest& request, const std::function<int()>& carry_out) {

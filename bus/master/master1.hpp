@@ -37,11 +37,6 @@ struct MasterConfig {
 /// What the FDL status polls have found at an address.
 enum class LiveState : std::uint8_t { kUnknown, kAbsent, kPassive, kActive };
 
-/// Bits of Control_Command (table 23).
-namespace global_control {
-constexpr std::uint8_t kClearData = 0x02, kUnfreeze = 0x04, kFreeze = 0x08, kUnsync = 0x10, kSync = 0x20;
-}
-
 using AnswerCallback = std::function<void(const FdlResult&)>;
 
 class Master1 : public Agent {

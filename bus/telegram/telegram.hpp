@@ -40,6 +40,11 @@ constexpr std::uint8_t kMs2Rm = 49;     ///< Initiate of class 2
 constexpr std::uint8_t kMs2Master = 50;
 }  // namespace sap
 
+/// Bits of Control_Command (table 23).
+namespace global_control {
+constexpr std::uint8_t kClearData = 0x02, kUnfreeze = 0x04, kFreeze = 0x08, kUnsync = 0x10, kSync = 0x20;
+}
+
 constexpr std::size_t kMaxDataUnit = 246;  ///< data of SD2, SAP bytes included (LE at most 249)
 constexpr std::size_t kMaxData = 244;      ///< ... without the two SAP bytes
 

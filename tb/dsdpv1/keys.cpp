@@ -159,6 +159,8 @@ ChipKeys rsu_chip_keys() {
 
 }  // namespace
 
+const char* mode_name(HostMode mode) { return mode_words().at(static_cast<std::size_t>(mode)).text; }
+
 const keys::Object& chip_keys_of(Part part) {
   static const ChipKeys plain = plain_chip_keys(), rsu = rsu_chip_keys();
   return part == Part::kRsu ? static_cast<const keys::Object&>(rsu) : plain;

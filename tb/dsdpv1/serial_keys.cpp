@@ -54,10 +54,6 @@ const ObjectOf<UartKeys>& uart_keys() {
 
 constexpr std::array<int, 8> kRates = {9600, 19'200, 38'400, 57'600, 115'200, 230'400, 460'800, 1'843'200};  // UA1
 
-const char* name_of(HostMode mode) {
-  return mode == HostMode::kSpi ? "spi" : mode == HostMode::kUart ? "uart" : "parallel";
-}
-
 /// Those that only a DSDPV1's program knows. Block CRCs are not looked at over SPI and UART (SP15), the handshake's
 /// pins are dead (R14), and the UART knows no ownership (UA6).
 std::vector<std::string> orders_for(CpuKind kind, HostMode mode) {
@@ -152,7 +148,7 @@ user_cpu::HostPort host_port_of(const Dsdpv1User& user, const Dsdpv1Settings& ch
 void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file, const std::string& slave,
                 int line) {
   if (user.kind == CpuKind::kArm) check_board_port(user, chip, file);
-  const char* mode = name_of(chip.mode);
+  const char* mode = mode_name(chip.mode);
   const auto refuse = [&](int where, const char* key, const char* allowed) {
     throw InputError(file, where, fmt::format("{} with mode: {} of the chip, allowed is {}", key, mode, allowed));
   };
@@ -173,7 +169,7 @@ void check_order(const std::string& order, CpuKind kind, HostMode mode, const st
   const std::vector<std::string> useful = orders_for(kind, mode);
   if (std::find(useful.begin(), useful.end(), order) != useful.end()) return;
   throw InputError(file, line,
-                   fmt::format("{} is of no use with mode: {} of the chip{}, allowed are {}", order, name_of(mode),
+                   fmt::format("{} is of no use with mode: {} of the chip{}, allowed are {}", order, mode_name(mode),
                                kind == CpuKind::kArm ? " and kind: arm" : "", fmt::join(useful, ", ")));
 }
 

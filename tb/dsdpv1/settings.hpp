@@ -26,6 +26,9 @@ struct Dsdpv1Settings : OwnSettings, dsdpv1::Config {
   int interval = 0;   ///< UIV
 };
 
+/// The word that scenarios and command lines have for it.
+const char* mode_name(HostMode mode);
+
 /// Levels of MODE, ADR, UBR and UIV.
 using Straps = std::array<Level, 4>;
 Straps straps_of(const OwnSettings& settings);

@@ -15,12 +15,6 @@ namespace {
 // No case needs longer; the slow rates would make some last for minutes.
 constexpr Tick kLongestCase = 2'500'000 * profibus::kTicksPerCycle;
 
-void add(MatchCounts& sum, const MatchCounts& one) {
-  sum.cycles += one.cycles;
-  sum.pin_changes += one.pin_changes;
-  sum.dpram_images += one.dpram_images;
-}
-
 struct Played {
   PlayResult result;
   Situations situations;
@@ -73,7 +67,7 @@ class Campaign {
     CampaignResult result;
     for (const Played& each : played_) {
       if (result.counts.cycles >= options_.cycles || result.difference) break;
-      add(result.counts, each.result.counts);
+      result.counts.add(each.result.counts);
       result.coverage.add(each.result.coverage);
       result.situations.add(each.situations);
       result.difference = each.result.difference;

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "model/dsdpv1/reasons.hpp"
+#include "tb/dsdpv1/cosim/play_options.hpp"
+#include "tb/dsdpv1/settings.hpp"
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
 #include "tb/output/write_file.hpp"
@@ -19,10 +21,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kSchema = "dsdpv1-sim rtl-random --campaign";
 constexpr int kVersion = 1;
 constexpr tb::FileKind kRecordFile{"the record of a campaign", 64};
-
-const char* mode_name(HostMode mode) {
-  return mode == HostMode::kSpi ? "spi" : mode == HostMode::kUart ? "uart" : "parallel";
-}
 
 Json json_of(const PortRecord& port) {
   Json telegrams = Json::object(), codes = Json::object(), situations = Json::array();
@@ -69,9 +67,11 @@ void read_all(const Json& json, CampaignRecord& record) {
 
 }  // namespace
 
-std::string PortRecord::name() const {
-  return fmt::format("{} {}", side.part == Part::kRsu ? "dsdpv1_rsu" : "dsdpv1", mode_name(side.mode));
-}
+std::string PortRecord::chip() const { return chip_kind(side.part).name(); }
+
+std::string PortRecord::mode() const { return tb::mode_name(side.mode); }
+
+std::string PortRecord::name() const { return chip() + " " + mode(); }
 
 std::uint64_t CampaignRecord::cycles() const {
   std::uint64_t sum = 0;
@@ -94,9 +94,7 @@ PortRecord* CampaignRecord::behind(std::uint64_t goal) {
 
 void CampaignRecord::add(PortRecord& port, const CampaignResult& result) {
   port.cases += result.cases;
-  port.counts.cycles += result.counts.cycles;
-  port.counts.pin_changes += result.counts.pin_changes;
-  port.counts.dpram_images += result.counts.dpram_images;
+  port.counts.add(result.counts);
   port.coverage.add(result.coverage);
   port.situations.add(result.situations);
 }

@@ -20,6 +20,9 @@ struct PortRecord {
   Coverage coverage;
   Situations situations;
 
+  /// As --chip and --mode have them.
+  std::string chip() const;
+  std::string mode() const;
   /// "dsdpv1 parallel", "dsdpv1_rsu spi".
   std::string name() const;
 };

@@ -43,6 +43,12 @@ struct MatchCounts {
   std::uint64_t cycles = 0;        ///< compared up to here
   std::uint64_t pin_changes = 0;   ///< that both sides made
   std::uint64_t dpram_images = 0;  ///< compared as a whole
+
+  void add(const MatchCounts& other) {
+    cycles += other.cycles;
+    pin_changes += other.pin_changes;
+    dpram_images += other.dpram_images;
+  }
 };
 
 class Lockstep {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "bus/telegram/telegram.hpp"
 #include "model/profibus/request.hpp"
 #include "tb/dsdpv1/settings.hpp"
 
@@ -139,17 +140,17 @@ void SituationWatch::event(const profibus::Event& event) {
 
 /// S24, S4, S27. What Set_Prm has not asked for is refused by an event that follows.
 void SituationWatch::global_control(unsigned command) {
-  constexpr unsigned kSync = 0x20, kUnsync = 0x10, kFreeze = 0x08, kUnfreeze = 0x04, kClear = 0x02;
+  namespace gc = bus::global_control;
   const char* held = sync_ && freeze_ ? "Sync and Freeze" : sync_ ? "Sync" : freeze_ ? "Freeze" : "nothing held";
-  const unsigned outputs = (command & kUnsync) != 0 ? kUnsync : command & kSync;
-  const unsigned inputs = (command & kUnfreeze) != 0 ? kUnfreeze : command & kFreeze;
-  std::string what = outputs == kUnsync ? "Unsync" : outputs != 0 ? "Sync" : "";
+  const unsigned outputs = (command & gc::kUnsync) != 0 ? unsigned{gc::kUnsync} : command & gc::kSync;
+  const unsigned inputs = (command & gc::kUnfreeze) != 0 ? unsigned{gc::kUnfreeze} : command & gc::kFreeze;
+  std::string what = outputs == gc::kUnsync ? "Unsync" : outputs != 0 ? "Sync" : "";
   if (inputs != 0)
-    what += fmt::format("{}{}", what.empty() ? "" : " and ", inputs == kUnfreeze ? "Unfreeze" : "Freeze");
+    what += fmt::format("{}{}", what.empty() ? "" : " and ", inputs == gc::kUnfreeze ? "Unfreeze" : "Freeze");
   if (!what.empty()) situations_.count("Sync and Freeze", fmt::format("{}: {}", held, what));
-  if ((command & kClear) != 0) situations_.count("Sync and Freeze", fmt::format("{}: Clear_Data", held));
-  if (outputs != 0) sync_ = outputs == kSync;
-  if (inputs != 0) freeze_ = inputs == kFreeze;
+  if ((command & gc::kClearData) != 0) situations_.count("Sync and Freeze", fmt::format("{}: Clear_Data", held));
+  if (outputs != 0) sync_ = outputs == gc::kSync;
+  if (inputs != 0) freeze_ = inputs == gc::kFreeze;
 }
 
 // --- telegrams -------------------------------------------------------------------------------------------------------
