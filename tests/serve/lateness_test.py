@@ -15,6 +15,15 @@ from bench import ATTEMPTS, DEADLINE, HERE, Failure, check, exit_code
 
 STOPPED_MS = 200
 WATCHED = "import lateness, sys; lateness.watch(sys.argv[1]); input()"
+STOPS_AS_IT_TELLS = """
+import lateness, os, signal, sys, threading
+write = os.pwrite
+def write_and_stop(*arguments):
+    os.pwrite = write
+    write(*arguments)
+    signal.pthread_kill(threading.get_ident(), signal.SIGSTOP)  # not os.kill: it stops here, not as soon as some thread hears of it
+os.pwrite = write_and_stop
+""" + WATCHED
 
 
 def wait_for_lateness(path, least_ms):
@@ -24,18 +33,31 @@ def wait_for_lateness(path, least_ms):
         time.sleep(0.01)  # polls; nothing depends on how long
 
 
-def stopped_process_was_late():
+def is_late(program, stop):
+    """Whether a process of `program` that `stop` has stopped, and that goes on after STOPPED_MS, was that late."""
     with tempfile.TemporaryDirectory(prefix="dsdpv1_late_") as folder:
         late = os.path.join(folder, "late_ms")
         check(lateness.greatest_ms(late) == 0, "late before it was watched")
-        with subprocess.Popen([sys.executable, "-c", WATCHED, late], cwd=HERE, stdin=subprocess.PIPE) as watched:
-            wait_for_lateness(late, 0.001)
-            watched.send_signal(signal.SIGSTOP)
-            time.sleep(STOPPED_MS / 1000)  # this is how long it is late
-            watched.send_signal(signal.SIGCONT)
-            wait_for_lateness(late, 0.9 * STOPPED_MS)
-            watched.communicate(b"\n")
+        with subprocess.Popen([sys.executable, "-c", program, late], cwd=HERE, stdin=subprocess.PIPE) as watched:
+            try:
+                wait_for_lateness(late, 0.001)
+                stop(watched)
+                os.waitid(os.P_PID, watched.pid, os.WSTOPPED)
+                time.sleep(STOPPED_MS / 1000)  # this is how long it is late
+                watched.send_signal(signal.SIGCONT)
+                wait_for_lateness(late, 0.9 * STOPPED_MS)
+                watched.communicate(b"\n")
+            finally:
+                watched.kill()
         check(watched.returncode == 0, "it did not come to its end")
+
+
+def stopped_process_was_late():
+    is_late(WATCHED, stop=lambda process: process.send_signal(signal.SIGSTOP))
+
+
+def stopped_between_two_naps_was_late():
+    is_late(STOPS_AS_IT_TELLS, stop=lambda process: None)
 
 
 def only_a_busy_machine_gets_another_try():
@@ -51,7 +73,7 @@ def only_a_busy_machine_gets_another_try():
     check(tries(busy=True, succeeds_at=2) == (0, 2), "the second try does not count")
 
 
-CASES = [stopped_process_was_late, only_a_busy_machine_gets_another_try]
+CASES = [stopped_process_was_late, stopped_between_two_naps_was_late, only_a_busy_machine_gets_another_try]
 
 if __name__ == "__main__":
     try:
