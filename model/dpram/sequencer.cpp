@@ -416,6 +416,7 @@ void Sequencer::flag(Cycle now) {
 // --- what was read ---------------------------------------------------------------------------------------------------
 
 bool Sequencer::is_possible(Cycle now) const {
+  if (op_ == profibus::kNever) return false;
   const bool begun_lately = op_ + kStartUpMoves + 1 > now;
   if (dozing_ && phase_ != Phase::kIdle && phase_ != Phase::kHeader && phase_ != Phase::kChoose) return false;
   return !owns() || ((dozing_ || begun_lately) && is_possible_block());
