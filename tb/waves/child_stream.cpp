@@ -14,7 +14,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-constexpr std::size_t kBuffer = std::size_t{1} << 20U;
+constexpr std::size_t kPipeBuffer = std::size_t{1} << 20U;
 
 /// What the parent does on a signal, and at its end, is not the child's business.
 [[noreturn]] void tell_and_end(const std::function<void(std::FILE*)>& tell, int to) {
@@ -23,14 +23,14 @@ constexpr std::size_t kBuffer = std::size_t{1} << 20U;
   ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
   std::FILE* const file = ::fdopen(to, "wb");
   if (file == nullptr) ::_exit(1);
-  std::setvbuf(file, nullptr, _IOFBF, kBuffer);
+  std::setvbuf(file, nullptr, _IOFBF, kPipeBuffer);
   tell(file);
   ::_exit(std::fclose(file) == 0 ? 0 : 1);
 }
 
 }  // namespace
 
-ChildStream::ChildStream(const std::function<void(std::FILE*)>& tell) : buffer_(kBuffer) {
+ChildStream::ChildStream(const std::function<void(std::FILE*)>& tell) : buffer_(kPipeBuffer) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   pipe_.reset(ends[0]);

@@ -17,7 +17,7 @@ std::vector<Pin> pins_of_waves() {
   return pins;
 }
 
-std::string wave_name(Pin pin) { return pin == Pin::kDIn ? "D" : dsdpv1::name(pin); }
+std::string name_in_both(Pin pin) { return pin == Pin::kDIn ? "D" : dsdpv1::name(pin); }
 
 /// What the chip drives, Z when it does not: D_OUT of a golden trace.
 tb::compare::NamedPair driven_pair(const PinMap& map) {
@@ -83,7 +83,7 @@ std::vector<tb::compare::NamedPair> pairs_of(const PinMap& map) {
 const std::vector<std::string>& PinSurroundings::pins() const {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const Pin pin : pins_of_waves()) all.push_back(wave_name(pin));
+    for (const Pin pin : pins_of_waves()) all.push_back(name_in_both(pin));
     return all;
   }();
   return names;
