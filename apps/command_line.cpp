@@ -251,6 +251,12 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
   tcp->excludes(serial);
   command->add_option("--bind", arguments.bind, "IPv4 address of --tcp")->capture_default_str()->needs(tcp);
   command
+      ->add_option("--turn", arguments.turn,
+                   "Seconds; a host that sends nothing for so long while others wait loses the TCP port (0: keeps it)")
+      ->check(CLI::Range(0, 86400))
+      ->capture_default_str()
+      ->needs(tcp);
+  command
       ->add_flag("--rts", arguments.rts, "RTS of the serial port switches the transceiver; else it does so by itself")
       ->needs(serial);
   command->add_option("--baud", arguments.baud, "Baud rate; left out: that of the scenario");

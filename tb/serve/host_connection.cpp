@@ -30,8 +30,18 @@ bool hung_up(int fd) {
 
 void HostConnection::set_peer(int fd) {
   peer_ = fd;
+  last_bytes_ = std::chrono::steady_clock::now();
   heard_ = last_read_ = told_of_loss_ = false;
   kept_.clear();
+}
+
+std::chrono::steady_clock::time_point HostConnection::silent_since() const {
+  return left_to_read(peer_) ? std::chrono::steady_clock::now() : last_bytes_;
+}
+
+void HostConnection::drop_peer() {
+  set_peer(-1);
+  on_gone();
 }
 
 void HostConnection::forget_peer(const std::string& why) {
@@ -46,6 +56,7 @@ bus::Bytes HostConnection::receive(std::size_t most) {
   if (!gone) last_read_ = false;
   if (gone && (most == 0 || std::exchange(last_read_, true))) forget_peer("");
   bus::Bytes bytes = read(most);
+  if (!bytes.empty()) last_bytes_ = std::chrono::steady_clock::now();
   if (!bytes.empty() && !std::exchange(heard_, true)) first_bytes();
   if (!gone) flush();
   if (!has_peer()) bytes.clear();

@@ -3,6 +3,7 @@
 // end or not.
 #include <poll.h>
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -59,6 +60,10 @@ class HostConnection {
   bool has_peer() const { return peer_ >= 0; }
   int peer() const { return peer_; }
   void set_peer(int fd);
+  /// Since when nothing has come of the peer: its last bytes, its beginning, or now while there is something to read.
+  std::chrono::steady_clock::time_point silent_since() const;
+  /// The port is done with the peer.
+  void drop_peer();
   /// Lets the peer go when it has hung up and left nothing; that shows also when it is not read from now.
   void check_peer();
 
@@ -68,6 +73,7 @@ class HostConnection {
   void forget_peer(const std::string& why);
 
   int peer_ = -1;
+  std::chrono::steady_clock::time_point last_bytes_;
   bool heard_ = false, told_of_loss_ = false;
   bool last_read_ = false;  ///< it has gone and what it left was read
   ByteQueue kept_;          ///< not yet taken by the peer

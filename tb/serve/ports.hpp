@@ -1,5 +1,6 @@
 #pragma once
 // The three kinds of ports. Each constructor throws InputError in one line when the port cannot be had.
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -13,8 +14,9 @@ namespace dsdpv1::tb::serve {
 std::unique_ptr<HostConnection> open_pty(const std::string& link, int bits_per_second);
 
 /// A TCP port at the numeric address `bind`, one host at a time: others are accepted, wait for their turn in the order
-/// in which they came and are not read from until then. More than 16 do not wait: their connections are reset.
-std::unique_ptr<HostConnection> open_tcp(const std::string& bind, int port);
+/// in which they came and are not read from until then. More than 16 do not wait: their connections are reset, and so
+/// is that of a host that has sent nothing for `turn` while others waited; of 0 s: it keeps the port.
+std::unique_ptr<HostConnection> open_tcp(const std::string& bind, int port, std::chrono::seconds turn);
 
 struct SerialOptions {
   std::string device;

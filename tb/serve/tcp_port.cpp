@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <sys/socket.h>
 
+#include <algorithm>
+#include <chrono>
 #include <deque>
 #include <utility>
 
@@ -11,10 +13,13 @@
 namespace dsdpv1::tb::serve {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 /// A host that has connected.
 struct Host {
   std::string address;
   Descriptor connection;
+  Clock::time_point came = Clock::now();
 };
 
 /// The other side is told of a fault, not of an end; and nothing of the connection stays in the system.
@@ -25,7 +30,8 @@ void reset_at_close(int connection) {
 
 class TcpPort : public HostConnection {
  public:
-  TcpPort(const std::string& bind, int port) : listener_("dsdpv1-sim serve", bind, port, {kBacklog, true}) {}
+  TcpPort(const std::string& bind, int port, std::chrono::seconds turn)
+      : listener_("dsdpv1-sim serve", bind, port, {kBacklog, true}), turn_(turn) {}
 
   std::string name() const override { return "TCP port " + listener_.address(); }
   pollfd watched(bool reading) const override {
@@ -36,6 +42,7 @@ class TcpPort : public HostConnection {
   void look() override {
     forget_gone();
     accept_all();
+    if (has_peer() && its_turn_is_over()) end_turn();
     if (!has_peer() && !waiting_.empty()) take_next();
   }
 
@@ -65,7 +72,7 @@ class TcpPort : public HostConnection {
       begin(std::move(connection));
       say(fmt::format("{}: {} has connected", name(), from));
     } else if (waiting_.size() < kMostWaiting) {
-      waiting_.push_back({from, std::move(connection)});
+      waiting_.push_back(Host{from, std::move(connection)});
       say(fmt::format("{}: {} waits, {} of {}: another host has the port", name(), from, waiting_.size(),
                       kMostWaiting));
     } else {
@@ -85,6 +92,19 @@ class TcpPort : public HostConnection {
     }
   }
 
+  /// It has been silent since the one that has waited longest came, and may be dead, or have been forgotten.
+  bool its_turn_is_over() const {
+    return turn_.count() != 0 && !waiting_.empty() &&
+           Clock::now() - std::max(silent_since(), waiting_.front().came) >= turn_;
+  }
+
+  void end_turn() {
+    reset_at_close(host_.get());
+    host_.reset();
+    say(fmt::format("{}: the host has sent nothing for {} s while others waited: its turn is over", name(), turn_.count()));
+    drop_peer();
+  }
+
   void take_next() {
     Host next = std::move(waiting_.front());
     waiting_.pop_front();
@@ -98,14 +118,15 @@ class TcpPort : public HostConnection {
   }
 
   TcpListener listener_;
+  std::chrono::seconds turn_;
   Descriptor host_;
   std::deque<Host> waiting_;  ///< in the order of their arrival
 };
 
 }  // namespace
 
-std::unique_ptr<HostConnection> open_tcp(const std::string& bind, int port) {
-  return std::make_unique<TcpPort>(bind, port);
+std::unique_ptr<HostConnection> open_tcp(const std::string& bind, int port, std::chrono::seconds turn) {
+  return std::make_unique<TcpPort>(bind, port, turn);
 }
 
 }  // namespace dsdpv1::tb::serve

@@ -27,6 +27,7 @@ HEAD = """| a host | `serve` says | the others | exit, after SIGINT | memory |
 
 CONNECTED, HUNG_UP = "PORT: HOST has connected", "PORT: the host hung up; the next one may connect"
 WAITS, TURN = "PORT: HOST waits, N of 16: another host has the port", "PORT: HOST has waited and has its turn"
+SILENT = "PORT: the host has sent nothing for N s while others waited: its turn is over"
 REFUSED, LEFT = "PORT: HOST is refused: 16 hosts wait already", "PORT: HOST hung up while it waited"
 MORE = "PORT: N more such lines are left out"
 CLOSED, OPENED = "PORT: the host hung up; the next one may open it", "PORT: opened again"
@@ -36,10 +37,10 @@ PLACES = {"PORT": r"(TCP port [\d.]+:\d+|dp \(/dev/pts/\d+\))", "HOST": r"[\d.]+
 CASES = {}
 
 
-def fault(what, others, says, port="tcp", status=0, may=(), stop=signal.SIGINT):
+def fault(what, others, says, port="tcp", status=0, may=(), stop=signal.SIGINT, options=()):
     """A row of the table. `says`: the lines that must come; `may`: those that can come as well; no others."""
     def register(body):
-        CASES[body.__name__] = (body, what, others, says, port, status, may, stop)
+        CASES[body.__name__] = (body, what, others, says, port, status, may, stop, options)
         return body
     return register
 
@@ -63,9 +64,9 @@ def check_said(said, says, may):
 
 def do(program, name):
     """Carries out a case; its row."""
-    body, what, others, says, port, status, may, stop = CASES[name]
+    body, what, others, says, port, status, may, stop, options = CASES[name]
     with Folder() as folder:
-        serve = Serve(program, folder, SCENARIO, port=port_options(port))
+        serve = Serve(program, folder, SCENARIO, *options, port=port_options(port))
         try:
             before = rss_kb(serve.process.pid)
             body(serve)
@@ -123,6 +124,18 @@ def flood(serve, fd, payload, seconds):
 def log_so_far(serve):
     with open(serve.growing_log(), encoding="UTF-8") as file:
         return file.read()
+
+
+def read_to_the_end(connection):
+    """How it ends: "closed" or "reset"."""
+    connection.setblocking(True)
+    connection.settimeout(DEADLINE)
+    try:
+        while connection.recv(4096):
+            pass
+    except ConnectionResetError:
+        return "reset"
+    return "closed"
 
 
 def answered_in_turn(serve, connection):
@@ -213,8 +226,8 @@ def trickle(serve):
             read_some(slow.fileno(), 1, 0.04)
 
 
-@fault("connects and hangs up 1000 times", "are served afterwards. 40 lines a second are said, the others counted", [CONNECTED, HUNG_UP, MORE],
-       may=[WAITS, TURN, LEFT, REFUSED])
+@fault("connects and hangs up 1000 times", "are served afterwards. 40 lines a second are said, the others counted", [CONNECTED, MORE],
+       may=[HUNG_UP, WAITS, TURN, LEFT, REFUSED])
 def reconnect_storm(serve):
     begin = time.monotonic()
     for _ in range(1000):
@@ -240,6 +253,23 @@ def twenty_hosts(serve):
     for each in hosts:
         ask(each.fileno())
         each.close()
+
+
+@fault("says nothing any more, and does not hang up", "wait; after 10 s (`--turn`; 1 s here) the next has its turn, the silent one's connection is reset",
+       [CONNECTED, WAITS, SILENT, TURN], may=[HUNG_UP], options=("--turn", "1"))
+def silent_host(serve):
+    with host(serve) as silent:
+        ask(silent.fileno())
+        time.sleep(1.5)
+        ask(silent.fileno())  # while nobody waits it keeps the port
+        with host(serve) as other:
+            said(serve, WAITS)
+            for _ in range(5):  # and while it talks
+                time.sleep(0.4)
+                ask(silent.fileno())
+            check("its turn is over" not in serve.said(), "it has lost the port, though it was not silent")
+            answered_in_turn(serve, other)
+            check(read_to_the_end(silent) == "reset", "the silent one was not told")
 
 
 @fault("is killed in the middle of its telegrams (RST)", "wait; what was taken of it (2040 bytes at most) still goes on the line, its answers are for nobody",
