@@ -47,7 +47,8 @@ tb::Tick chosen_end(const std::string& text) {
 std::unique_ptr<tb::serve::HostConnection> open_port(const ServeArguments& arguments, int baud) {
   const int bits_per_second = static_cast<int>(bus::kTicksPerSecond / bus::baud(baud).bit);
   if (!arguments.serial.empty()) return tb::serve::open_serial({arguments.serial, bits_per_second, arguments.rts});
-  if (arguments.tcp >= 0) return tb::serve::open_tcp(arguments.bind, arguments.tcp, std::chrono::seconds(arguments.turn));
+  if (arguments.tcp >= 0)
+    return tb::serve::open_tcp(arguments.bind, arguments.tcp, std::chrono::seconds(arguments.turn));
   return tb::serve::open_pty(arguments.link, bits_per_second);
 }
 

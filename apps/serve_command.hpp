@@ -11,7 +11,7 @@ struct ServeArguments {
   std::string link;  ///< of the pseudo-terminal; empty: none
   int tcp = -1;      ///< port; 0: any free one; -1: no TCP
   std::string bind = "127.0.0.1";
-  int turn = 10;     ///< s; 0: a host keeps the TCP port
+  int turn = 10;  ///< s; 0: a host keeps the TCP port
   std::string serial;
   bool rts = false;
   std::string baud;      ///< empty: that of the scenario

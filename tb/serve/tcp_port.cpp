@@ -101,7 +101,8 @@ class TcpPort : public HostConnection {
   void end_turn() {
     reset_at_close(host_.get());
     host_.reset();
-    say(fmt::format("{}: the host has sent nothing for {} s while others waited: its turn is over", name(), turn_.count()));
+    say(fmt::format("{}: the host has sent nothing for {} s while others waited: its turn is over", name(),
+                    turn_.count()));
     drop_peer();
   }
 
