@@ -14,7 +14,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-constexpr std::size_t kBuffer = std::size_t{8} << 20U;
+constexpr std::size_t kLeastRoom = std::size_t{64} << 10U, kMostRoom = std::size_t{8} << 20U;
 
 constexpr std::array<bool, 256> blanks() {
   std::array<bool, 256> blank{};
@@ -27,10 +27,13 @@ constexpr std::array<bool, 256> blanks() {
 const std::array<bool, 256> VcdText::kBlank = blanks();
 
 VcdText::VcdText(const std::string& path)
-    : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(new char[kBuffer + 1]) {
+    : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (!file_) throw InputError(path, 0, what_is_wrong(errno) + ", allowed is a wave, VCD or FST");
   struct stat status {};
   if (::fstat(file_.get(), &status) == 0) size_ = static_cast<std::uint64_t>(status.st_size);
+  // Room for all of a short file and its end; what has no size, a pipe, may be long.
+  room_ = size_ == 0 ? kMostRoom : static_cast<std::size_t>(std::clamp<std::uint64_t>(size_ + 1, kLeastRoom, kMostRoom));
+  buffer_.reset(new char[room_ + 1]);
   at_ = end_ = buffer_.get();
   fill();
 }
@@ -40,8 +43,8 @@ void VcdText::fill() {
   const auto rest = static_cast<std::size_t>(end_ - at_);
   std::memmove(buffer_.get(), at_, rest);
   std::size_t have = rest;
-  while (have < kBuffer && !whole_) {
-    const ssize_t got = ::read(file_.get(), buffer_.get() + have, kBuffer - have);
+  while (have < room_ && !whole_) {
+    const ssize_t got = ::read(file_.get(), buffer_.get() + have, room_ - have);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw InputError(path_, 0, what_is_wrong(errno) + ", allowed is a wave, VCD or FST");
     whole_ = got == 0;

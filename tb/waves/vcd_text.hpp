@@ -46,7 +46,8 @@ class VcdText {
 
   std::string path_;
   Descriptor file_;
-  std::unique_ptr<char[]> buffer_;  ///< not filled before it is needed: small files do not pay for it
+  std::size_t room_ = 0;           ///< bytes of the buffer, without the zero behind them
+  std::unique_ptr<char[]> buffer_;  ///< not filled before it is needed
   const char *at_, *end_;
   bool whole_ = false;  ///< all of the file is in the buffer
   int line_ = 1;
