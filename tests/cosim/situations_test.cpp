@@ -56,9 +56,10 @@ TEST(Situations, OfATelegramAreTheErrorsThatItCanHave) {
   for (const HostSide& side : {kSides[2], kSides[3]}) {
     EXPECT_TRUE(is_known({"telegrams of the host", "write, code 06"}, side));
     EXPECT_TRUE(is_known({"telegrams of the host", "write, code 0C"}, side));
+    EXPECT_TRUE(is_known({"telegrams of the host", "write, code 0E"}, side));
     EXPECT_FALSE(is_known({"telegrams of the host", "read, code 0C"}, side));
   }
-  EXPECT_TRUE(is_known({"telegrams of the host", "exchange, code 02"}, kSides[3]));
+  EXPECT_TRUE(is_known({"telegrams of the host", "exchange, code 0E"}, kSides[3]));
   EXPECT_FALSE(is_known({"telegrams of the host", "read and write, code 02"}, kSides[2]));
 }
 

@@ -116,7 +116,8 @@ void RandomSerial::break_rules() {
 void RandomSerial::wrong_telegram() {
   constexpr int kArea = 0x5D0;  // of an exchange
   if (random_.one_in(6)) return send(random_.bytes(random_.between(1, 12)), random_.below(8));
-  const int address = random_.one_in(2) ? random_.below(0x10000) : random_.between(0x7F0, 0x810);
+  const int beyond = random_.one_in(2) ? random_.below(0x10000) : random_.between(0x7F0, 0x810);
+  const int address = random_.one_in(3) ? random_.below(0x700) : beyond;
   constexpr int kLong[] = {245, 246, 250, 251, 251, 255};
   const int count = random_.one_in(10) ? random_.pick(kLong) : random_.one_in(3) ? 0 : random_.between(1, 20);
   switch (random_.below(3)) {

@@ -124,6 +124,7 @@ void RandomCase::acyclic() {
       if (!random_.one_in(6)) master_.acyclic_poll(channel);
   }
   host_->careful(random_.one_in(2));
+  for (int i = random_.below(4); i > 0; --i) user_.inputs();  // a UART tells parameters and configuration first (UA10)
   for (int i = random_.between(6, 20) / host_->slowness() + 5; i > 0; --i) acyclic_step(random_.below(3));
   careful(false);
 }

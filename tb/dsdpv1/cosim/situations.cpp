@@ -191,7 +191,8 @@ Words host_telegrams(HostMode mode) {
   for (const std::string kind : {"read", "write", third}) {
     const bool names_address = mode == HostMode::kUart || kind != third;
     for (const char* code : {"00", "01", "04"}) all.push_back(kind + ", code " + code);
-    if (kind != "read") all.push_back(kind + ", code 0C");  // as long as it says
+    if (kind != "read") all.push_back(kind + ", code 0C");  // a read is never too long
+    if (kind != "read" && names_address) all.push_back(kind + ", code 0E");
     for (const char* code : {"02", "06"})
       if (names_address) all.push_back(kind + ", code " + code);
     if (mode == HostMode::kSpi && kind != "read") all.push_back(kind + ", refused");
