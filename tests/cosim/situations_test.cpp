@@ -51,6 +51,18 @@ TEST(Situations, OfAPortAreNotThoseOfAnother) {
   EXPECT_TRUE(is_known({"replies of exchanges", "C1 in DATA_EXCH"}, kSides[3]));
 }
 
+/// SPI's read and write names no address, and a read telegram is never too long (SP4, SP10).
+TEST(Situations, OfATelegramAreTheErrorsThatItCanHave) {
+  for (const HostSide& side : {kSides[2], kSides[3]}) {
+    EXPECT_TRUE(is_known({"telegrams of the host", "write, code 06"}, side));
+    EXPECT_TRUE(is_known({"telegrams of the host", "write, code 0C"}, side));
+    EXPECT_TRUE(is_known({"telegrams of the host", "write, code 0E"}, side));
+    EXPECT_FALSE(is_known({"telegrams of the host", "read, code 0C"}, side));
+  }
+  EXPECT_TRUE(is_known({"telegrams of the host", "exchange, code 0E"}, kSides[3]));
+  EXPECT_FALSE(is_known({"telegrams of the host", "read and write, code 02"}, kSides[2]));
+}
+
 TEST(Situations, OfAnEventAreWhatTheRulingTellsApart) {
   const auto item = [](Reason reason, std::uint16_t a, std::uint16_t b = 0, std::uint16_t c = 0) {
     return event_item({0, reason, a, b, c}, "WAIT_CFG");

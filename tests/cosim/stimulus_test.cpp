@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <set>
 
 #include "tb/dsdpv1/cosim/faults.hpp"
 #include "tb/dsdpv1/cosim/random_stimulus.hpp"
@@ -34,6 +36,36 @@ TEST(Stimulus, RandomCasesAreReadBackAsTheyWereWritten) {
 TEST(Stimulus, RandomCasesAreTheSameForTheSameSeed) {
   EXPECT_EQ(to_text(cosim::random_stimulus(5)), to_text(cosim::random_stimulus(5)));
   EXPECT_NE(to_text(cosim::random_stimulus(5)), to_text(cosim::random_stimulus(6)));
+}
+
+TEST(Stimulus, RandomCasesOfEachPortAreReadBackAsTheyWereWritten) {
+  for (const HostMode mode : {HostMode::kParallel, HostMode::kSpi, HostMode::kUart}) {
+    const std::string text = to_text(cosim::random_stimulus(4, mode, cosim::quick_config(Part::kRsu)));
+    EXPECT_EQ(to_text(parse_stimulus(text, "again", Part::kRsu)), text);
+  }
+}
+
+TEST(Stimulus, AnActionOfUserOrBoardIsAimedAtAPartOfAnAccess) {
+  const std::string text =
+      "reset +12 low=5 during=C1_request:7000\nspi +1 setup=1 high=1 low=1 lead=1 lag=1 pause=0 bits=0 "
+      "during=start-up:0 : 00\n";
+  const cosim::Stimulus stimulus = parse_stimulus(text, "x", Part::kRsu);
+  EXPECT_EQ(stimulus[0].during, cosim::AccessPart::kC1Request);
+  EXPECT_EQ(stimulus[0].within, 7000);
+  EXPECT_EQ(to_text(stimulus), to_text({}) + text);
+  EXPECT_EQ(parse_stimulus("reset +12 low=5\n", "x", Part::kDsdpv1)[0].during, cosim::AccessPart::kNone);
+}
+
+/// Of RESET and of the host's first edges, at each port; what comes by chance is not counted.
+TEST(RandomCases, AimAtEachPartOfAnAccess) {
+  for (const HostMode mode : {HostMode::kParallel, HostMode::kSpi, HostMode::kUart}) {
+    std::set<cosim::AccessPart> reset, host;
+    for (std::uint64_t seed = 0; seed < 150; ++seed)
+      for (const cosim::Action& each : cosim::random_stimulus(seed, mode, cosim::quick_config(Part::kRsu)))
+        (each.verb == cosim::Verb::kReset ? reset : host).insert(each.during);
+    EXPECT_EQ(reset.size(), std::size(cosim::kAccessParts) + 1) << static_cast<int>(mode);
+    EXPECT_EQ(host.size(), std::size(cosim::kAccessParts) + 1) << static_cast<int>(mode);
+  }
 }
 
 TEST(Stimulus, EmptyLinesAndCommentsAreSkipped) {
@@ -96,7 +128,14 @@ INSTANTIATE_TEST_SUITE_P(
               "behind pin"},
         Wrong{"write +0 at=800 value=1\n", "my.stimulus:1: wrong number 800, allowed: 0 to 7FF, hexadecimal"},
         Wrong{"write +0 to=1\n",
-              "my.stimulus:1: unknown argument to, allowed: +DELAY, at=, value=, setup=, low=, hold="},
+              "my.stimulus:1: unknown argument to, allowed: +DELAY, at=, value=, setup=, low=, hold=, during="},
+        Wrong{"take +0 during=lunch:1\n",
+              "my.stimulus:1: unknown part of an access lunch, allowed: start-up, commands, choice, initialisation, "
+              "Set_Prm_verdict, Chk_Cfg_verdict, inputs, diagnosis, C1_answer, C2_answer, Set_Prm, Chk_Cfg, outputs, "
+              "C1_request, C2_request, status_B00B"},
+        Wrong{"take +0 during=inputs\n", "my.stimulus:1: no time in inputs, allowed: PART:TICKS"},
+        Wrong{"take +0 during=inputs:x\n", "my.stimulus:1: wrong number x, allowed: 0 to 1099511627776"},
+        Wrong{"spike +0 during=inputs:1\n", "my.stimulus:1: unknown argument during, allowed: +DELAY, low="},
         Wrong{"reset +x\n", "my.stimulus:1: wrong number x, allowed: 0 to 1099511627776"},
         Wrong{"pin +0 PBTXD level=1\n",
               "my.stimulus:1: unknown word PBTXD, allowed: +DELAY, KEY=VALUE, : BYTES, and the name of an input pin "

@@ -17,6 +17,62 @@ namespace {
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr Tick kAfterwards = 3000 * kCycle;  // so that what the last action has caused is compared as well
 
+/// One lane: takes its next action when the one before has ended.
+class Lane : public bus::Agent {
+ public:
+  virtual bool takes(Verb verb) const = 0;
+  /// The action begins at `at`.
+  void begin(Tick at, const Action& action) {
+    plan(at, action);
+    announce();
+  }
+  bool idle() const { return next() == bus::kNever; }
+
+ protected:
+  virtual void plan(Tick at, const Action& action) = 0;
+};
+
+/// A lane whose actions may be aimed: they wait for a part of an access of the chip, which whoever runs the chip tells
+/// about, so that nobody looks at every cycle.
+class AimedLane : public Lane {
+ public:
+  /// What the chip's access works on now.
+  void works_on(Tick now, const char* item) {
+    item_ = item;
+    if (aimed_ != nullptr && is_of(aimed_->during, item)) fire(now);
+  }
+  Tick next() const final { return aimed_ != nullptr ? by_ : planned(); }
+  void run(Tick now) final {
+    if (aimed_ != nullptr)
+      fire(now);
+    else
+      act(now);
+  }
+
+ protected:
+  virtual void begin_at(Tick at, const Action& action) = 0;
+  virtual Tick planned() const = 0;
+  virtual void act(Tick now) = 0;
+
+ private:
+  void plan(Tick at, const Action& action) override {
+    if (action.during == AccessPart::kNone) return begin_at(at, action);
+    const Tick now = at - action.delay;
+    aimed_ = &action;
+    by_ = now + action.within;
+    if (is_of(action.during, item_)) fire(now);
+  }
+  void fire(Tick now) {
+    const Action& action = *std::exchange(aimed_, nullptr);
+    begin_at(now + action.delay, action);
+    announce();
+  }
+
+  const char* item_ = "";
+  const Action* aimed_ = nullptr;  ///< waits
+  Tick by_ = 0;                    ///< ... until then at most
+};
+
 /// The chip as a station of the segment, model and RTL in one.
 class ChipAgent : public bus::Agent, private bus::Listener {
  public:
@@ -34,7 +90,12 @@ class ChipAgent : public bus::Agent, private bus::Listener {
     lockstep_.advance(now);
     tell();
     for (PlayListener* each : listeners_) each->evaluated(now, lockstep_.model());
+    if (aimed_.empty()) return;
+    const char* item = lockstep_.model().inside().access.item;
+    for (AimedLane* each : aimed_) each->works_on(now, item);
   }
+  /// `lane` wants to know what the chip's accesses work on.
+  void tell_of_accesses(AimedLane& lane) { aimed_.push_back(&lane); }
   Lockstep& lockstep() { return lockstep_; }
   Level level(Pin pin) const { return lockstep_.level(pin); }
   void set(Tick at, Pin pin, Level level) {
@@ -63,25 +124,11 @@ class ChipAgent : public bus::Agent, private bus::Listener {
 
   Lockstep lockstep_;
   const std::vector<PlayListener*>& listeners_;
+  std::vector<AimedLane*> aimed_;
   bus::Segment& segment_;
   bus::StationId station_;
   bool enabled_ = false, level_ = true;
   std::vector<Drive> due_;
-};
-
-/// One lane: takes its next action when the one before has ended.
-class Lane : public bus::Agent {
- public:
-  virtual bool takes(Verb verb) const = 0;
-  /// The action begins at `at`.
-  void begin(Tick at, const Action& action) {
-    plan(at, action);
-    announce();
-  }
-  bool idle() const { return next() == bus::kNever; }
-
- private:
-  virtual void plan(Tick at, const Action& action) = 0;
 };
 
 class BusLane : public Lane {
@@ -127,12 +174,12 @@ class BusLane : public Lane {
   Tick bit_ = 0, answer_by_ = -1, look_ = bus::kNever, spike_ = bus::kNever, spike_end_ = bus::kNever;
 };
 
-class UserLane : public Lane {
+class UserLane : public AimedLane {
  public:
   explicit UserLane(ChipAgent& chip) : chip_(chip) {}
 
   bool takes(Verb verb) const override { return verb >= Verb::kTake && verb <= Verb::kUart; }
-  void plan(Tick at, const Action& action) override {
+  void begin_at(Tick at, const Action& action) override {
     edges_.clear();
     edge_ = 0;
     end_ = at;
@@ -148,8 +195,8 @@ class UserLane : public Lane {
       default: return add({{0, action.pin, static_cast<Level>(action.value)}}, 0);
     }
   }
-  Tick next() const override { return edge_ < edges_.size() ? edges_[edge_].at : look_; }
-  void run(Tick now) override {
+  Tick planned() const override { return edge_ < edges_.size() ? edges_[edge_].at : look_; }
+  void act(Tick now) override {
     if (edge_ == edges_.size() && look_ <= now) return look(now);
     for (; edge_ < edges_.size() && edges_[edge_].at <= now; ++edge_) {
       const Edge edge = edges_[edge_];
@@ -236,16 +283,16 @@ class UserLane : public Lane {
   int polls_ = 0;
 };
 
-class BoardLane : public Lane {
+class BoardLane : public AimedLane {
  public:
   explicit BoardLane(ChipAgent& chip) : chip_(chip) {}
   bool takes(Verb verb) const override { return verb == Verb::kReset; }
-  void plan(Tick at, const Action& action) override {
+  void begin_at(Tick at, const Action& action) override {
     fall_ = at;
     rise_ = at + action.low;
   }
-  Tick next() const override { return std::min(fall_, rise_); }
-  void run(Tick now) override {
+  Tick planned() const override { return std::min(fall_, rise_); }
+  void act(Tick now) override {
     if (fall_ <= now) {
       chip_.set(fall_, Pin::kReset, 0);
       fall_ = bus::kNever;
@@ -270,6 +317,10 @@ class Player {
         user_(chip_),
         board_(chip_) {
     timeline_.add(chip_);
+    if (std::any_of(stimulus.begin(), stimulus.end(),
+                    [](const Action& each) { return each.during != AccessPart::kNone; }))
+      for (AimedLane* each : {static_cast<AimedLane*>(&user_), static_cast<AimedLane*>(&board_)})
+        chip_.tell_of_accesses(*each);
     for (Place& place : places_) timeline_.add(*place.lane);
     lockstep().on_event({[](void* self, const profibus::Event& event) {
                            auto& player = *static_cast<Player*>(self);

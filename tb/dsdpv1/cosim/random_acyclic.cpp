@@ -13,9 +13,10 @@ constexpr std::uint8_t kRead = 0x5E, kWrite = 0x5F, kTransport = 0x51, kIdle = 0
 }  // namespace
 
 void RandomMaster::send_acyclic(int dsap, int ssap, const bus::Bytes& data) {
-  if (random_.one_in(24)) ssap ^= 1;
+  if (random_.one_in(careful_ ? 20 : 8)) ssap ^= 1;
   bus::Telegram telegram = bus::make_telegram(setup_.address, master(), function_code(), data,
                                               static_cast<std::uint8_t>(dsap), static_cast<std::uint8_t>(ssap));
+  if (random_.one_in(30)) telegram.sa = 3;
   if (random_.one_in(40)) telegram.fc = bus::fc::kRequest | bus::fc::kSdnHigh;
   send(telegram);
 }
@@ -25,6 +26,8 @@ void RandomMaster::acyclic_poll(int channel) { send_acyclic(kSaps[channel], chan
 void RandomMaster::acyclic_request(int channel) {
   send_acyclic(kSaps[channel], channel == 0 ? kC1Ssap : kC2Ssap, acyclic_pdu(channel));
 }
+
+void RandomMaster::abort(int channel) { send_acyclic(kSaps[channel], kC2Ssap, {kAbort, 0, 0x20, 0}); }
 
 /// Mostly right: what a slave with the user's help can answer.
 bus::Bytes RandomMaster::acyclic_pdu(int channel) {
@@ -44,11 +47,12 @@ bus::Bytes RandomMaster::acyclic_pdu(int channel) {
   return pdu;
 }
 
-void RandomMaster::wait_timer(int ms) {
+void RandomMaster::wait_timer(int ms, bool polls) {
   constexpr Tick kStep = bus::kTicksPerMs, kTelegram = 700 * profibus::kTicksPerCycle;
   for (; ms > 1; --ms) {
-    extra_ += kStep - kTelegram;
-    send(bus::make_telegram(setup_.address, 2, bus::fc::kRequest | bus::fc::kFdlStatus));
+    extra_ += kStep - kTelegram * (polls ? 2 : 1);
+    if (!polls) send(bus::make_telegram(setup_.address, 2, bus::fc::kRequest | bus::fc::kFdlStatus));
+    for (int channel = 1; polls && channel <= 2; ++channel) acyclic_poll(channel);
   }
   extra_ += ms * kStep + random_.between(-4000, 1500) * profibus::kTicksPerCycle;
 }
@@ -57,10 +61,10 @@ void RandomMaster::wait_timer(int ms) {
 void RandomMaster::initiate() {
   bus::Bytes pdu = {kInitiate, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0};
   if (random_.one_in(12)) pdu[5] = static_cast<std::uint8_t>(random_.below(3));
-  if (random_.one_in(12)) pdu[6] = 0;
+  if (random_.one_in(8)) pdu[6] = 0;
   if (random_.one_in(3)) {  // S_Type, S_Len, D_Type, D_Len, S_Addr, D_Addr
     const int source = random_.below(3), destination = random_.below(3);
-    const bus::Bytes addresses = random_.bytes(source + destination + (random_.one_in(6) ? 1 : 0));
+    const bus::Bytes addresses = random_.bytes(source + destination + (random_.one_in(3) ? 1 : 0));
     for (const int each : {random_.below(2), source, random_.below(2), destination})
       pdu.push_back(static_cast<std::uint8_t>(each));
     pdu.insert(pdu.end(), addresses.begin(), addresses.end());

@@ -7,7 +7,8 @@ namespace {
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr int kNoSap = -1;
-constexpr int kReplyBits = 270;  // longer than any min_TSDR
+constexpr std::uint8_t kFailSafe = 0x08, kFailSafeReq = 0x40;  // B024.3; byte 7 of Set_Prm
+constexpr int kReplyBits = 270;                                // longer than any min_TSDR
 
 Tick window(const dsdpv1::Config& config, int rate) {
   const Tick least = static_cast<Tick>(config.search_window_ms) * bus::kTicksPerMs;
@@ -19,10 +20,14 @@ Tick window(const dsdpv1::Config& config, int rate) {
 Tick RandomMaster::bit() const { return bus::baud(setup_.rate).bit; }
 
 void RandomMaster::choose_rate() {
-  // Slow rates are rare: a telegram takes as long as a whole case at 12 Mbit/s.
-  constexpr int kRates[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
-                            0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 5, 6};
-  setup_.rate = random_.one_in(200) ? random_.between(7, 9) : random_.pick(kRates);
+  setup_.rate = random_.one_in(8) ? random_.between(1, 2) : 0;
+  be_found();
+}
+
+/// What choose_rate() has few of, since a telegram lasts as long as a whole case at 12 Mbit/s.
+void RandomMaster::slow_rate() {
+  constexpr int kRates[] = {3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 9};
+  setup_.rate = random_.pick(kRates);
   be_found();
 }
 
@@ -57,6 +62,8 @@ bus::Bytes RandomMaster::prm(bool right) {
   const bus::Bytes more = random_.bytes(user);
   bytes.insert(bytes.end(), more.begin(), more.end());
   if (bytes.size() > 7) bytes[7] = static_cast<std::uint8_t>(random_.below(4) << 1 & 0x04);
+  setup_.fail_safe = bytes.size() > 7 && (setup_.command & kFailSafe) != 0 && random_.one_in(2);
+  if (setup_.fail_safe) bytes[7] |= kFailSafeReq;
   if (setup_.dpv1) {
     bytes.resize(std::max<std::size_t>(bytes.size(), 10), 0);
     bytes[7] |= 0x80;
@@ -75,7 +82,7 @@ bus::Bytes RandomMaster::prm(bool right) {
   if (random_.one_in(6)) bytes[0] |= 0x08;  // with what may be factors of 0
   if (random_.one_in(5)) bytes[random_.one_in(2) ? 4 : 5] ^= static_cast<std::uint8_t>(1 << random_.below(8));
   if (random_.one_in(6)) bytes.resize(static_cast<std::size_t>(random_.below(14)));
-  if (random_.one_in(6) && bytes.size() > 7) bytes[7] = random_.byte();
+  if (random_.one_in(4) && bytes.size() > 7) bytes[7] = random_.byte();
   if (random_.one_in(6) && bytes.size() > 2) bytes[1] = bytes[2] = static_cast<std::uint8_t>(random_.below(2));
   return bytes;
 }
@@ -90,7 +97,7 @@ void RandomMaster::set_prm_with_watchdog() {
   request(bus::sap::kSetPrm, bytes);
 }
 
-void RandomMaster::wait_watchdog() { extra_ += random_.between(9, 22) * bus::kTicksPerMs / 10; }
+void RandomMaster::wait_watchdog() { extra_ += random_.between(9, 26) * bus::kTicksPerMs / 10; }
 
 void RandomMaster::repeat_last() {
   if (last_) send(*last_);
@@ -113,10 +120,19 @@ void RandomMaster::spike() {
 
 void RandomMaster::set_prm(bool right) { request(bus::sap::kSetPrm, prm(right)); }
 
+void RandomMaster::unlock() {
+  bus::Bytes bytes = prm(true);
+  bytes[0] = 0x40;
+  request(bus::sap::kSetPrm, bytes);
+}
+
 void RandomMaster::check_cfg(bool right) {
   bus::Bytes cfg = setup_.cfg;
+  if (cfg.empty()) cfg = {0x00};  // an empty place; nothing at all is refused (D8)
   if (!right) {
-    const int what = random_.below(5);
+    constexpr int kMost = 200;  // S14
+    const int what = random_.below(random_.one_in(4) ? 6 : 5);
+    if (what == 5) cfg.resize(static_cast<std::size_t>(random_.between(kMost, kMost + 2)));
     if (what == 4) cfg[0] ^= 0x01;
     if (what == 0) cfg[static_cast<std::size_t>(random_.below(static_cast<int>(cfg.size())))] = random_.byte();
     if (what == 1) cfg.push_back(random_.one_in(2) ? std::uint8_t{0x00} : random_.byte());
@@ -127,15 +143,17 @@ void RandomMaster::check_cfg(bool right) {
 }
 
 void RandomMaster::data_exchange() {
-  const int length = !careful_ && random_.one_in(16) ? random_.below(6) : setup_.outputs;
+  int length = !careful_ && random_.one_in(16) ? random_.below(3) * random_.below(4) : setup_.outputs;
+  if (setup_.fail_safe && random_.one_in(8)) length = 0;  // Clear (S19)
   request(kNoSap, random_.bytes(length));
 }
 
 void RandomMaster::global_control() {
-  constexpr int kCommands[] = {0x20, 0x20, 0x10, 0x08, 0x08, 0x04, 0x28, 0x14, 0x02, 0x30, 0x0C};
-  bus::Bytes data = {static_cast<std::uint8_t>(random_.one_in(5) ? random_.byte() : random_.pick(kCommands)),
-                     random_.one_in(3) ? random_.byte() : std::uint8_t{0}};
-  if (random_.one_in(16)) data.resize(static_cast<std::size_t>(random_.below(4)));
+  constexpr int kCommands[] = {0x20, 0x20, 0x10, 0x08, 0x08, 0x04, 0x28, 0x28, 0x14, 0x02, 0x30, 0x0C};
+  bus::Bytes data = {
+      static_cast<std::uint8_t>(random_.one_in(careful_ ? 20 : 5) ? random_.byte() : random_.pick(kCommands)),
+      random_.one_in(careful_ ? 12 : 3) ? random_.byte() : std::uint8_t{0}};
+  if (!careful_ && random_.one_in(16)) data.resize(static_cast<std::size_t>(random_.below(4)));
   const std::uint8_t to = random_.one_in(3) ? setup_.address : bus::kBroadcast;
   send(bus::make_telegram(to, master(), random_.one_in(2) ? 0x46 : 0x44, data, bus::sap::kGlobalControl,
                           bus::sap::kMaster),
@@ -148,8 +166,39 @@ void RandomMaster::set_slave_address() {
                      static_cast<std::uint8_t>(random_.one_in(3))};
   if (random_.one_in(6)) data.resize(static_cast<std::size_t>(random_.below(7)));
   if (random_.one_in(6) && data.size() > 1) data[1] ^= 1;
+  const bool right = data.size() == 4 && data[1] == setup_.ident >> 8 && to < 126;
   request(bus::sap::kSetSlaveAddress, data);
-  if (random_.one_in(2) && to < 126) setup_.address = to;
+  if (careful_ ? right && !setup_.locked : random_.one_in(2) && to < 126) setup_.address = to;
+  setup_.locked = setup_.locked || (right && data[3] != 0);
+}
+
+void RandomMaster::any_service() {
+  constexpr int kSaps[] = {bus::sap::kSetSlaveAddress,
+                           bus::sap::kReadInputs,
+                           bus::sap::kReadOutputs,
+                           bus::sap::kGlobalControl,
+                           bus::sap::kGetCfg,
+                           bus::sap::kSlaveDiag,
+                           51,
+                           49,
+                           48,
+                           47,
+                           10};
+  const int what = random_.below(14);
+  if (what == 0) return send(bus::make_telegram(setup_.address, master(), bus::fc::kRequest | bus::fc::kFdlStatus));
+  if (what == 1)
+    return send(
+        bus::make_telegram(setup_.address, master(), static_cast<std::uint8_t>(random_.byte() | bus::fc::kRequest)));
+  if (what == 2) return data_exchange();
+  const int sap = random_.pick(kSaps);
+  const bool dpv1 = sap > 10 && sap <= 51;
+  bus::Telegram telegram = bus::make_telegram(
+      setup_.address, random_.one_in(8) ? std::uint8_t{3} : master(), function_code(),
+      random_.one_in(3) ? random_.bytes(random_.between(1, 7)) : bus::Bytes{}, static_cast<std::uint8_t>(sap),
+      static_cast<std::uint8_t>(!dpv1 || random_.one_in(8) ? bus::sap::kMaster
+                                : sap == 51                ? 51
+                                                           : 50));
+  send(telegram);
 }
 
 /// Other SAPs, function codes, FDL services.
@@ -218,7 +267,15 @@ void RandomMaster::broken() {
       bytes[std::min<std::size_t>(2, bytes.size() - 1)] ^= static_cast<std::uint8_t>(1 << random_.below(8));
       break;
     case 10: faults.missing_stop_at = bytes.size() - 1; break;
+    case 11:  // a SAP is announced and does not come (S8)
+      bytes = bus::encode(bus::make_telegram(setup_.address, 2, 0x6D));
+      bytes[random_.one_in(2) ? 1 : 2] |= 0x80;
+      bytes[4] = static_cast<std::uint8_t>(bytes[1] + bytes[2] + bytes[3]);
+      break;
     case 8: bytes.insert(bytes.end(), bytes.begin(), bytes.end()); break;
+    case 13:
+      if (bytes[0] == bus::sd::k2) bytes[3] ^= static_cast<std::uint8_t>(1 << random_.below(8));
+      break;
     default: bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(position)); break;
   }
   send(bytes, idle(), true, faults);

@@ -15,12 +15,15 @@ class RandomMaster {
 
   /// Another baud rate, and telegrams until the chip must have found it.
   void choose_rate();
+  void slow_rate();
   void fastest_rate();
   void forget_series() { fcv_ = false; }
   /// From now on nothing goes wrong on the line: T_SYN is kept, each request begins a series, one master.
   void careful(bool careful) { careful_ = careful; }
   void slave_diag();
   void set_prm(bool right);
+  /// Of the present holder: the slave is free again.
+  void unlock();
   void check_cfg(bool right);
   void data_exchange();
   void global_control();
@@ -31,13 +34,17 @@ class RandomMaster {
   void wait_watchdog();
   /// The last request, exactly.
   void repeat_last();
+  /// Any service but those that parameterise, mostly right, by this master or another.
+  void any_service();
   void anything();
   /// To SAP 51 (channel 0), 48 or 47: without data, or a PDU right or wrong.
   void acyclic_poll(int channel);
   void acyclic_request(int channel);
   void initiate();
-  /// So many milliseconds, or some cycles around them, in which nothing but the watchdog is triggered.
-  void wait_timer(int ms);
+  void abort(int channel);
+  /// So many milliseconds, or some cycles around them, in which nothing but the watchdog is triggered, or both C2
+  /// channels are polled all the time.
+  void wait_timer(int ms, bool polls);
   /// Nothing on the line, for a while.
   void silence();
   /// ... until BAUD_CONTROL has run out.

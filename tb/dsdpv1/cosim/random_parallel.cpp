@@ -1,6 +1,7 @@
 // The host at the parallel port: R_REQ and R_STA, strobes with mostly the times of table 15. Left out is what its times
 // do not allow and docs/rtl.md names: two rises of WR within a cycle.
 #include <algorithm>
+#include <utility>
 
 #include "tb/dsdpv1/cosim/random_host.hpp"
 
@@ -13,7 +14,7 @@ constexpr Tick kTw = 375;     // ... Tw is 31.25 ns
 
 class RandomParallel : public RandomHost {
  public:
-  using RandomHost::RandomHost;
+  RandomParallel(Random& random, Stimulus& stimulus, Part part) : RandomHost(random, stimulus), part_(part) {}
   void hold_through_reset() override;
   void take() override;
   void give() override;
@@ -22,9 +23,12 @@ class RandomParallel : public RandomHost {
   void block(int address, int crc_address, const bus::Bytes& bytes) override;
   void rude() override;
   void break_rules() override;
+  void edge(AccessPart part, Tick within) override;
 
  private:
   Action access(Verb verb);
+  void amid();
+  void straps();
   void late_data();
   void late_address();
   void read_back_at_once();
@@ -33,7 +37,9 @@ class RandomParallel : public RandomHost {
   void deselected();
   void shorten(Action& action);
   void take_unseen();
-  Tick small_delay() { return random_.one_in(8) ? random_.below(20'000) : random_.below(1000); }
+  Tick small_delay() { return mishap(8) ? random_.below(20'000) : random_.below(1000); }
+
+  const Part part_;
 };
 
 /// Pins in an order that no access has.
@@ -47,7 +53,7 @@ void RandomParallel::rude() {
     action.value = random_.below(2);
     if (action.pin == Pin::kA) action.value = random_.below(0x800);
     if (action.pin == Pin::kDIn) action.value = random_.below(257) - 1;
-    stimulus_.push_back(action);
+    push(action);
   }
   for (const Pin pin : {Pin::kRd, Pin::kWr, Pin::kCsr}) {
     Action action;
@@ -55,10 +61,51 @@ void RandomParallel::rude() {
     action.delay = 500;
     action.pin = pin;
     action.value = 1;
-    stimulus_.push_back(action);
+    push(action);
   }
+  if (part_ == Part::kRsu) straps();
   give();
   wait(1);
+}
+
+/// Too late: they are in force since the last reset (R11). Behind it they stand as before.
+void RandomParallel::straps() {
+  constexpr Pin kStraps[] = {Pin::kMode, Pin::kAdr, Pin::kUbr, Pin::kUiv};
+  const Pin strap = random_.pick(kStraps);
+  pin(strap, random_.between(1, 3), random_.below(900));
+  pin(strap, 0, random_.below(900));
+}
+
+/// R_REQ rises, for as long as the chip may see it or longer; or the user comes while the chip is there.
+void RandomParallel::edge(AccessPart part, Tick within) {
+  aim(part, within);
+  if (random_.one_in(3)) {
+    amid();
+  } else if (random_.one_in(2)) {
+    take();
+    read(random_.below(0x800));
+  } else {
+    pin(Pin::kRReq, 1, 0);
+    pin(Pin::kRReq, 0, random_.between(1, 20 * static_cast<int>(kCycle)));
+  }
+  give();
+}
+
+/// With both of R_REQ and R_STA, one or none, soon enough to meet the chip in its access (P12, H2).
+void RandomParallel::amid() {
+  constexpr int kSoon = 100;
+  if (random_.one_in(2)) pin(Pin::kRSta, 1, random_.below(kSoon));
+  if (random_.one_in(2)) pin(Pin::kRReq, 1, random_.below(kSoon));
+  for (int i = random_.between(1, 2); i > 0; --i) {
+    Action action;
+    action.verb = random_.one_in(2) ? Verb::kRead : Verb::kWrite;
+    action.address = random_.below(0x800);
+    action.value = random_.byte();
+    action.delay = action.setup = random_.below(kSoon);
+    action.low = kTw;
+    action.hold = kLeast;
+    push(action);
+  }
 }
 
 void RandomParallel::break_rules() {
@@ -108,9 +155,9 @@ void RandomParallel::read_back_at_once() {
   access.low = kTw;
   access.hold = kLeast + random_.below(400);
   access.verb = Verb::kWrite;
-  stimulus_.push_back(access);
+  push(access);
   access.verb = Verb::kRead;
-  stimulus_.push_back(access);
+  push(access);
 }
 
 /// With R_REQ alone, R_STA alone, or neither when nothing was taken before (P12).
@@ -148,9 +195,9 @@ Action RandomParallel::access(Verb verb) {
   action.verb = verb;
   action.delay = random_.below(300);
   action.setup = random_.between(0, 300);
-  action.low = kTw + random_.below(random_.one_in(4) ? 2000 : 300);
+  action.low = kTw + random_.below(mishap(4) ? 2000 : 300);
   action.hold = random_.one_in(4) ? kLeast : kLeast + random_.below(400);
-  if (random_.one_in(12)) shorten(action);
+  if (mishap(12)) shorten(action);
   return action;
 }
 
@@ -165,13 +212,13 @@ void RandomParallel::write(int address, int value) {
   Action action = access(Verb::kWrite);
   action.address = address;
   action.value = value;
-  stimulus_.push_back(action);
+  push(action);
 }
 
 void RandomParallel::read(int address) {
   Action action = access(Verb::kRead);
   action.address = address;
-  stimulus_.push_back(action);
+  push(action);
 }
 
 void RandomParallel::block(int address, int crc_address, const bus::Bytes& bytes) {
@@ -179,17 +226,17 @@ void RandomParallel::block(int address, int crc_address, const bus::Bytes& bytes
   action.address = address;
   action.crc_address = crc_address;
   action.bytes = bytes;
-  if (random_.one_in(12)) action.value = 1 << random_.below(16);
-  stimulus_.push_back(action);
+  if (mishap(12)) action.value = 1 << random_.below(16);
+  push(action);
 }
 
 void RandomParallel::take() {
-  if (random_.one_in(24)) take_unseen();
+  if (mishap(24)) take_unseen();
   Action action;
   action.verb = Verb::kTake;
   action.delay = small_delay();
   action.low = random_.between(200, 3000);
-  stimulus_.push_back(action);
+  push(action);
 }
 
 /// R_REQ for less than the chip may see, or R_STA with it before the chip can have answered (H2).
@@ -202,7 +249,7 @@ void RandomParallel::take_unseen() {
 
 /// R_REQ and R_STA fall together, or one after the other in either order (H1).
 void RandomParallel::give() {
-  if (random_.one_in(6)) {
+  if (mishap(6)) {
     const bool request_first = random_.one_in(2);
     pin(request_first ? Pin::kRReq : Pin::kRSta, 0, random_.below(600));
     return pin(request_first ? Pin::kRSta : Pin::kRReq, 0, random_.below(random_.one_in(4) ? 20'000 : 900));
@@ -210,7 +257,7 @@ void RandomParallel::give() {
   Action action;
   action.verb = Verb::kGive;
   action.delay = random_.below(600);
-  stimulus_.push_back(action);
+  push(action);
 }
 
 void RandomParallel::hold_through_reset() {
@@ -220,13 +267,28 @@ void RandomParallel::hold_through_reset() {
 
 }  // namespace
 
+void RandomHost::push(Action action) {
+  if (aimed_at_ != AccessPart::kNone) {
+    constexpr int kShort = kCycle, kLong = 12 * kShort;  // parts of one cycle, and blocks
+    action.during = std::exchange(aimed_at_, AccessPart::kNone);
+    action.within = within_;
+    action.delay = random_.between(1, random_.one_in(2) ? kShort - 1 : kLong);
+  }
+  stimulus_.push_back(std::move(action));
+}
+
+void RandomHost::aim(AccessPart part, Tick within) {
+  aimed_at_ = part;
+  within_ = within;
+}
+
 void RandomHost::pin(Pin pin, int value, Tick delay) {
   Action action;
   action.verb = Verb::kPin;
   action.delay = delay;
   action.pin = pin;
   action.value = value;
-  stimulus_.push_back(action);
+  push(action);
 }
 
 void RandomHost::wait(int cycles) {
@@ -235,11 +297,11 @@ void RandomHost::wait(int cycles) {
   action.delay = cycles * kCycle + random_.below(static_cast<int>(kCycle));
   action.pin = Pin::kDIn;
   action.value = dsdpv1::kLevelZ;
-  stimulus_.push_back(action);
+  push(action);
 }
 
-std::unique_ptr<RandomHost> make_random_parallel(Random& random, Stimulus& stimulus) {
-  return std::make_unique<RandomParallel>(random, stimulus);
+std::unique_ptr<RandomHost> make_random_parallel(Random& random, Stimulus& stimulus, Part part) {
+  return std::make_unique<RandomParallel>(random, stimulus, part);
 }
 
 }  // namespace dsdpv1::cosim

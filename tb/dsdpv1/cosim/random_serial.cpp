@@ -17,17 +17,23 @@ std::uint8_t byte(int value) { return static_cast<std::uint8_t>(value); }
 
 /// Mostly a card that is spoken to and the fastest rate; MODE, ADR, UBR and UIV stand before RESET rises (R11).
 void RandomSerial::strap() {
+  constexpr int kFastest = 7;
   adr_ = random_.one_in(20) ? random_.below(4) : random_.between(1, 2);
-  ubr_ = random_.one_in(6) ? random_.below(8) : 7;
+  ubr_ = random_.one_in(12) ? kFastest - 1 : kFastest;
+  if (random_.one_in(20)) ubr_ = std::max(random_.below(kFastest), random_.below(kFastest));
   uiv_ = random_.below(8);
+  straps();
+  stimulus_.push_back({});
+}
+
+void RandomSerial::straps() {
   pin(Pin::kMode, mode_ == HostMode::kSpi ? 1 : 2, random_.below(500));
   pin(Pin::kAdr, adr_, 0);
   pin(Pin::kUbr, ubr_, 0);
   pin(Pin::kUiv, uiv_, 0);
-  stimulus_.push_back({});
 }
 
-std::uint8_t RandomSerial::card() const { return byte(random_.one_in(40) ? random_.below(4) : adr_); }
+std::uint8_t RandomSerial::card() { return byte(mishap(40) ? random_.below(4) : adr_); }
 
 void RandomSerial::ask(int address, int count) {
   send({start(0), byte(address >> 8), byte(address), byte(count)}, count + 4);
@@ -49,7 +55,7 @@ void RandomSerial::block(int address, int crc_address, const bus::Bytes& bytes) 
     const auto count = std::min(kMostData, bytes.size() - at);
     write_bytes(address + static_cast<int>(at), {begin, begin + static_cast<std::ptrdiff_t>(count)});
   }
-  if (random_.one_in(2)) return;
+  if (!mishap(2)) return;
   const int crc = dpram::crc16(bytes.data(), static_cast<int>(bytes.size())) ^ (random_.one_in(8) ? 1 : 0);
   write_bytes(crc_address, {byte(crc >> 8), byte(crc)});
 }
@@ -58,7 +64,7 @@ bus::Bytes RandomSerial::finished(bus::Bytes telegram) {
   const int crc = dpram::crc16(telegram.data(), static_cast<int>(telegram.size()));
   telegram.push_back(byte(crc >> 8));
   telegram.push_back(byte(crc));
-  if (!random_.one_in(12)) return telegram;
+  if (!mishap(12)) return telegram;
   const auto place = static_cast<std::size_t>(random_.below(static_cast<int>(telegram.size())));
   switch (random_.below(5)) {
     case 0: telegram[place] ^= byte(1 << random_.below(8)); break;
@@ -81,6 +87,7 @@ void RandomSerial::rude() {
   }
   for (const Pin low : {Pin::kSck, Pin::kRReq}) pin(low, 0, 300);
   for (const Pin high : {Pin::kWr, Pin::kRd, Pin::kCsr, Pin::kXss, Pin::kRxd}) pin(high, 1, 300);
+  straps();
   wait(random_.below(400));
 }
 
@@ -88,12 +95,11 @@ bool RandomSerial::own_traffic() {
   if (random_.one_in(2)) return false;
   const int what = random_.below(14);
   if (what < 3)
-    ask(random_.below(kLastCell + 1), random_.one_in(6) ? random_.below(256) : random_.between(1, 12));
+    ask(random_.below(kLastCell + 1), is_long() ? random_.below(256) : random_.between(1, 12));
   else if (what < 5)
     wrong_telegram();
   else if (what < 6)
-    write_bytes(random_.between(0, kLastCell),
-                random_.bytes(random_.one_in(6) ? random_.below(256) : random_.below(9)));
+    write_bytes(random_.between(0, kLastCell), random_.bytes(is_long() ? random_.below(256) : random_.below(9)));
   else if (what < 7)
     write_bytes(0x0A, random_.bytes(random_.between(1, 20)));
   else
@@ -101,13 +107,24 @@ bool RandomSerial::own_traffic() {
   return true;
 }
 
-/// Any bytes; addresses beyond the DPRAM and lengths beyond the limits with a right CRC.
+void RandomSerial::break_rules() {
+  for (int i = random_.between(1, 4); i > 0; --i) wrong_telegram();
+}
+
+/// Any bytes; addresses beyond the DPRAM and lengths beyond the limits with a right CRC, which each has a bit of its
+/// own in the error code.
 void RandomSerial::wrong_telegram() {
-  if (random_.one_in(4)) return send(random_.bytes(random_.between(1, 12)), random_.below(8));
-  const int address = random_.one_in(2) ? random_.below(0x10000) : random_.between(0x7F0, 0x810);
-  const int count = random_.one_in(2) ? random_.between(0, 20) : random_.between(240, 255);
-  if (random_.one_in(2)) return ask(address, count);
-  write_bytes(address, random_.bytes(count));
+  constexpr int kArea = 0x5D0;  // of an exchange
+  if (random_.one_in(6)) return send(random_.bytes(random_.between(1, 12)), random_.below(8));
+  const int beyond = random_.one_in(2) ? random_.below(0x10000) : random_.between(0x7F0, 0x810);
+  const int address = random_.one_in(3) ? random_.below(0x700) : beyond;
+  constexpr int kLong[] = {245, 246, 250, 251, 251, 255};
+  const int count = random_.one_in(10) ? random_.pick(kLong) : random_.one_in(3) ? 0 : random_.between(1, 20);
+  switch (random_.below(3)) {
+    case 0: return ask(address, random_.one_in(3) ? random_.between(246, 255) : count);
+    case 1: return write_bytes(address, random_.bytes(count));
+    default: return third(random_.one_in(2) ? kArea : address, random_.bytes(count));
+  }
 }
 
 }  // namespace dsdpv1::cosim

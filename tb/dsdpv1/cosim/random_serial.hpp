@@ -14,6 +14,7 @@ class RandomSerial : public RandomHost {
   void block(int address, int crc_address, const bus::Bytes& bytes) override;
   void rude() override;
   bool own_traffic() override;
+  void break_rules() override;
 
  protected:
   /// A telegram without its CRC, which is added; a reply of so many bytes is expected.
@@ -22,9 +23,14 @@ class RandomSerial : public RandomHost {
   virtual bool exchange(int address, const bus::Bytes& bytes) = 0;
   virtual void own_telegram() = 0;
 
-  std::uint8_t start(int command) const { return static_cast<std::uint8_t>(command << 5 | card()); }
+  std::uint8_t start(int command) { return static_cast<std::uint8_t>(command << 5 | card()); }
   /// The address in a telegram: mostly the card's own.
-  std::uint8_t card() const;
+  std::uint8_t card();
+  /// The one of the three kinds of telegrams that is the port's own, to `address` where it names one.
+  virtual void third(int address, const bus::Bytes& bytes) = 0;
+
+  /// A telegram of hundreds of bytes, not too often for how long it lasts.
+  bool is_long() { return random_.one_in(3 + 3 * slowness()); }
   void ask(int address, int count);
   void write_bytes(int address, const bus::Bytes& bytes);
   /// With its CRC, now and then changed somewhere.
@@ -34,6 +40,7 @@ class RandomSerial : public RandomHost {
 
  private:
   void wrong_telegram();
+  void straps();
 
   HostMode mode_;
 };

@@ -54,7 +54,9 @@ struct Setup {
   bus::Bytes cfg = {0x11, 0x21};  ///< of the initialisation
   int inputs = 2, outputs = 2;    ///< bytes that `cfg` describes
   int rate = 0;
-  bool dpv1 = false;  ///< B005 is 1D, and Set_Prm enables DPV1
+  bool dpv1 = false;       ///< B005 is 1D, and Set_Prm enables DPV1
+  bool locked = false;     ///< the address (S5)
+  bool fail_safe = false;  ///< the last Set_Prm asks for it
   /// Of the last acyclic requests to SAP 51, 48 and 47: function, slot, index.
   std::uint8_t function[3] = {0x5E, 0x5E, 0x5E}, slot[3] = {}, index[3] = {};
 };

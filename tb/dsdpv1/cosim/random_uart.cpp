@@ -2,6 +2,7 @@
 // the interval, breaks, characters while the chip replies.
 #include "registers/dsdpv1_regs.hpp"
 #include "tb/dsdpv1/cosim/random_serial.hpp"
+#include "tb/dsdpv1/cosim/serial_edges.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -16,12 +17,16 @@ class RandomUart : public RandomSerial {
 
   void take() override {}
   void give() override {}
+  void edge(AccessPart part, Tick within) override;
+  void hurry() override;
+  int slowness() const override { return 8; }
   bool is_quick() const override { return ubr_ >= kQuick; }
 
  private:
   void send(const bus::Bytes& telegram, int reply) override;
   bool exchange(int address, const bus::Bytes& bytes) override;
   void own_telegram() override;
+  void third(int address, const bus::Bytes& bytes) override;
   void break_it(Action& action);
   void low_line(int bit);
 };
@@ -31,18 +36,18 @@ void RandomUart::send(const bus::Bytes& telegram, int reply) {
   action.verb = Verb::kUart;
   action.bytes = finished(telegram);
   if (action.bytes.empty()) return;
-  action.rate = random_.one_in(60) ? random_.below(8) : ubr_;
+  action.rate = mishap(60) ? random_.between(kQuick, 7) : ubr_;
   if (!is_quick()) action.rate = ubr_;
-  const Tick bit = (ubr_ == 7 ? 26 : 5000) * profibus::kTicksPerCycle;
-  action.delay = random_.one_in(4) ? random_.below(static_cast<int>(bit)) : bit * random_.below(60);
+  const Tick bit = uart_bit(ubr_);
+  action.delay = random_.one_in(4) ? random_.below(static_cast<int>(bit)) : bit * random_.below(mishap(2) ? 60 : 12);
   if (random_.one_in(5)) action.ppm = random_.between(-20'000, 20'000);
-  if (random_.one_in(20)) action.ppm = random_.between(-80'000, 80'000);  // beyond what a stop bit's sample bears
-  if (random_.one_in(8)) break_it(action);
-  if (is_quick() && random_.one_in(24)) low_line(static_cast<int>(bit));
+  if (mishap(20)) action.ppm = random_.between(-80'000, 80'000);  // beyond what a stop bit's sample bears
+  if (mishap(12)) break_it(action);
+  if (is_quick() && mishap(24)) low_line(static_cast<int>(bit));
   // The host sometimes speaks before it has heard the reply to its end (UA16).
-  action.reply_bits = random_.one_in(12) ? random_.below(40) : 60 + (reply > 0 ? random_.below(300) : 0);
+  action.reply_bits = mishap(12) ? random_.below(40) : 60 + (reply > 0 ? random_.below(300) : 0);
   if (!is_quick()) action.delay = 0;
-  stimulus_.push_back(action);
+  push(action);
 }
 
 void RandomUart::break_it(Action& action) {
@@ -78,12 +83,29 @@ void RandomUart::low_line(int bit) {
 bool RandomUart::exchange(int address, const bus::Bytes& bytes) {
   const bool area = address == kInputs || address == kDiagnosis || address == kC1 || address == kC2;
   if (!area || random_.one_in(3)) return false;
-  const auto function = static_cast<std::uint8_t>(random_.one_in(4) ? random_.byte() : address == kDiagnosis ? 3 : 1);
+  third(address, bytes);
+  return true;
+}
+
+void RandomUart::third(int address, const bus::Bytes& bytes) {
+  const auto function = static_cast<std::uint8_t>(mishap(4) ? random_.byte() : address == kDiagnosis ? 3 : 1);
   bus::Bytes telegram = {start(2), function, static_cast<std::uint8_t>(address >> 8),
                          static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(bytes.size())};
   telegram.insert(telegram.end(), bytes.begin(), bytes.end());
   send(telegram, 250);
-  return true;
+}
+
+/// RXD falls: a telegram, a spike, a character or a break. The chip may have a reply under way, whose end is waited
+/// for.
+void RandomUart::edge(AccessPart part, Tick within) {
+  constexpr int kReply = 2000;  // cycles
+  aim(part, within);
+  random_.one_in(3) ? ask(random_.below(0x20), 1) : low_line(static_cast<int>(uart_bit(ubr_)));
+  wait(kReply);
+}
+
+void RandomUart::hurry() {
+  if (stimulus_.back().verb == Verb::kUart) stimulus_.back().reply_bits = 0;
 }
 
 void RandomUart::own_telegram() {
@@ -91,7 +113,7 @@ void RandomUart::own_telegram() {
   const int what = random_.below(8);
   if (what == 0) return write(kInterval, random_.below(10));
   if (what == 1) return write(kTsdr, random_.one_in(3) ? random_.byte() : random_.below(40));
-  bus::Bytes data = random_.bytes(random_.one_in(8) ? random_.between(238, 255) : random_.between(1, 12));
+  bus::Bytes data = random_.bytes(is_long() ? random_.between(238, 255) : random_.between(1, 12));
   if (random_.one_in(2)) data[0] = static_cast<std::uint8_t>(data.size() - 1);
   if (!exchange(random_.pick(kAreas), data)) ask(random_.one_in(2) ? 0x00B : 0x319, random_.between(1, 8));
 }

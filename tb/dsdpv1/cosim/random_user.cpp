@@ -23,7 +23,8 @@ const Configuration kConfigurations[] = {{{0x11, 0x21}, 2, 2},
                                          {{0xC1, 0x01, 0x02, 0xAA}, 3, 2},
                                          {{0x41, 0x43, 0x11}, 4, 0},
                                          {{0x00, 0x33}, 4, 4},
-                                         {{0x1F, 0x2F, 0x12}, 19, 16}};
+                                         {{0x1F, 0x2F, 0x12}, 19, 16},
+                                         {{}, 0, 0}};
 
 }  // namespace
 
@@ -46,7 +47,7 @@ Setup RandomUser::any_setup() {
   return setup;
 }
 
-void RandomUser::initialise() {
+bus::Bytes RandomUser::init_block() const {
   const auto byte = [](int value) { return static_cast<std::uint8_t>(value); };
   const auto cfg_length = setup_.cfg.size();
   bus::Bytes bytes = {byte(14 + static_cast<int>(cfg_length)),
@@ -65,23 +66,62 @@ void RandomUser::initialise() {
                       byte(setup_.cfg_mode),
                       byte(static_cast<int>(cfg_length))};
   bytes.insert(bytes.end(), setup_.cfg.begin(), setup_.cfg.end());
-  if (random_.one_in(10))
-    bytes[static_cast<std::size_t>(random_.below(static_cast<int>(bytes.size())))] = random_.byte();
-  if (random_.one_in(16)) bytes[1] = byte(random_.between(125, 129));
+  return bytes;
+}
+
+void RandomUser::hand_over_init(const bus::Bytes& bytes) {
   host_.take();
   host_.block(regs::kInit, regs::kInitCrc, bytes);
   command(regs::kUserCommand1Init);
   host_.give();
 }
 
+void RandomUser::initialise() {
+  bus::Bytes bytes = init_block();
+  if (host_.mishap(10)) bytes[static_cast<std::size_t>(random_.below(static_cast<int>(bytes.size())))] = random_.byte();
+  if (host_.mishap(16)) bytes[1] = static_cast<std::uint8_t>(random_.between(125, 129));
+  hand_over_init(bytes);
+}
+
+void RandomUser::initialise_wrong() {
+  constexpr int kLongestInit = 214;  // D12
+  struct Cell {
+    int address, most;
+  };
+  const Cell cells[] = {{regs::kInitLength, kLongestInit},
+                        {regs::kInitAddress, regs::kInitAddressLimit},
+                        {regs::kInitMaxInput, regs::kInitMaxInputLimit},
+                        {regs::kInitMaxOutput, regs::kInitMaxOutputLimit},
+                        {regs::kInitMaxDiag, regs::kInitMaxDiagLimit},
+                        {regs::kInitMaxPrm, regs::kInitMaxPrmLimit},
+                        {regs::kPrmMode, 2},
+                        {regs::kInitMaxCfg, regs::kInitMaxCfgLimit},
+                        {regs::kCfgMode, 2},
+                        {regs::kInitCfgLength, setup_.max_cfg}};
+  bus::Bytes bytes = init_block();
+  const auto at = [&bytes](int address) -> std::uint8_t& {
+    return bytes[static_cast<std::size_t>(address - regs::kInit)];
+  };
+  if (random_.one_in(4)) {  // too few inputs or outputs, or an identifier without its end
+    at(random_.one_in(2) ? regs::kInitMaxInput : regs::kInitMaxOutput) = 0;
+    bytes.back() |= 0xC0;
+  } else {
+    const Cell cell = random_.pick(cells);
+    const int least = std::min(cell.most + 1, 255);
+    at(cell.address) = static_cast<std::uint8_t>(random_.one_in(2) ? least : random_.between(least, 255));
+  }
+  if (random_.one_in(10)) bytes[0] = static_cast<std::uint8_t>(random_.below(20));
+  hand_over_init(bytes);
+}
+
 void RandomUser::inputs() {
-  bus::Bytes bytes = random_.bytes(setup_.inputs + (random_.one_in(10) ? random_.between(-1, 1) : 0) + 1);
+  bus::Bytes bytes = random_.bytes(setup_.inputs + (host_.mishap(10) ? random_.between(-1, 1) : 0) + 1);
   if (bytes.empty()) bytes.push_back(0);
   bytes[0] =
-      static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(240, 255) : static_cast<int>(bytes.size()) - 1);
+      static_cast<std::uint8_t>(host_.mishap(16) ? random_.between(240, 255) : static_cast<int>(bytes.size()) - 1);
   host_.take();
   host_.block(regs::kInput, regs::kInputCrc, bytes);
-  if (random_.one_in(4)) host_.write(regs::kUserCommand2, random_.below(4) << 6);  // D16
+  if (host_.mishap(4)) host_.write(regs::kUserCommand2, random_.below(4) << 6);  // D16
   command(regs::kUserCommand1Input);
   host_.give();
 }
@@ -132,7 +172,7 @@ void RandomUser::acyclic_answer(int channel) {
                       static_cast<std::uint8_t>(random_.one_in(16) ? random_.between(238, 243) : random_.below(6))};
   constexpr std::uint8_t kRead = 0x5E, kTransport = 0x51, kError = 0x80;
   const bool data = function == kRead || function == kTransport;
-  if (random_.one_in(5)) {
+  if (random_.one_in(3)) {
     bytes = {static_cast<std::uint8_t>(function | kError), 0x80, random_.byte(), random_.byte()};
   } else if (data) {
     const bus::Bytes more = random_.bytes(bytes[3]);
@@ -185,7 +225,7 @@ void RandomUser::anything() {
 
 void RandomUser::command(int value) {
   // Now and then with other flags, whose blocks are then what they happen to be.
-  host_.write(regs::kUserCommand1, random_.one_in(12) ? value | random_.byte() : value);
+  host_.write(regs::kUserCommand1, host_.mishap(12) ? value | random_.byte() : value);
 }
 
 }  // namespace dsdpv1::cosim

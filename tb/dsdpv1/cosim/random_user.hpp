@@ -11,6 +11,8 @@ class RandomUser {
   Setup any_setup();
   /// The block of the present setup, mostly right.
   void initialise();
+  /// ... with one of its bytes out of its limits (D7, D11, D12).
+  void initialise_wrong();
   void inputs();
   void diagnosis();
   void verdict(bool prm, bool cfg, bool good);
@@ -22,6 +24,8 @@ class RandomUser {
   void anything();
 
  private:
+  bus::Bytes init_block() const;
+  void hand_over_init(const bus::Bytes& bytes);
   void command(int value);
   void poke();
   void long_hold();

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "model/dsdpv1/reasons.hpp"
+#include "tb/dsdpv1/cosim/access_parts.hpp"
 
 namespace dsdpv1::cosim {
 namespace {
@@ -154,15 +155,12 @@ Words services() {
   return all;
 }
 
-// H4's, without those that are over in the cycle of the choice.
-const Words kTransfers = {"initialisation", "Set_Prm verdict", "Chk_Cfg verdict", "inputs",  "diagnosis",
-                          "C1 answer",      "C2 answer",       "Set_Prm",         "Chk_Cfg", "outputs",
-                          "C1 request",     "C2 request",      "status B00B"};
+Words transfers() { return {std::begin(kAccessParts) + kFirstTransfer, std::end(kAccessParts)}; }
 
 /// Of the chip's accesses: in none, in each part of one.
 Words phases() {
-  Words all = {"-", "start-up", "commands", "choice"};
-  all.insert(all.end(), kTransfers.begin(), kTransfers.end());
+  Words all = {"-"};
+  all.insert(all.end(), std::begin(kAccessParts), std::end(kAccessParts));
   return all;
 }
 
@@ -191,7 +189,12 @@ Words host_telegrams(HostMode mode) {
   Words all;
   const char* third = mode == HostMode::kSpi ? "read and write" : "exchange";
   for (const std::string kind : {"read", "write", third}) {
-    for (const char* code : {"00", "01", "02", "04", "06"}) all.push_back(kind + ", code " + code);
+    const bool names_address = mode == HostMode::kUart || kind != third;
+    for (const char* code : {"00", "01", "04"}) all.push_back(kind + ", code " + code);
+    if (kind != "read") all.push_back(kind + ", code 0C");  // a read is never too long
+    if (kind != "read" && names_address) all.push_back(kind + ", code 0E");
+    for (const char* code : {"02", "06"})
+      if (names_address) all.push_back(kind + ", code " + code);
     if (mode == HostMode::kSpi && kind != "read") all.push_back(kind + ", refused");
   }
   return all;
@@ -221,7 +224,7 @@ std::vector<Situation> known(const HostSide& side) {
       if (!names_area(code, word) || side.mode == HostMode::kUart) all.emplace_back("events", code + " " + word);
   }
   add(all, "Sync and Freeze", sync_and_freeze());
-  add(all, "transfers", kTransfers);
+  add(all, "transfers", transfers());
   add(all, "RESET falls in", phases());
   if (side.mode == HostMode::kParallel) {
     add(all, "R_REQ rises in", phases());

@@ -119,6 +119,27 @@ std::string faults_text(const bus::WireFaults& faults) {
   return text;
 }
 
+bool is_aimed(const Action& action) { return action.during != AccessPart::kNone; }
+
+/// Of user and board, whose lanes look at what the chip does.
+bool may_be_aimed(Verb verb) { return verb != Verb::kSend && verb != Verb::kSpike && verb != Verb::kSync; }
+
+constexpr const char* kDuring = "during";
+
+/// "C1_request".
+std::string word_of(AccessPart part) {
+  std::string word = name(part);
+  std::replace(word.begin(), word.end(), ' ', '_');
+  return word;
+}
+
+std::string part_words() {
+  std::string words;
+  for (std::size_t i = 0; i < std::size(kAccessParts); ++i)
+    words += fmt::format("{}{}", i == 0 ? "" : ", ", word_of(static_cast<AccessPart>(i)));
+  return words;
+}
+
 std::string line_of(const Action& action) {
   const auto verb =
       std::find_if(kVerbs.begin(), kVerbs.end(), [&](const auto& each) { return each.second == action.verb; });
@@ -130,6 +151,7 @@ std::string line_of(const Action& action) {
     const Tick value = field.get(action);
     line += field.hex ? fmt::format(" {}={:X}", field.key, value) : fmt::format(" {}={}", field.key, value);
   }
+  if (is_aimed(action)) line += fmt::format(" {}={}:{}", kDuring, word_of(action.during), action.within);
   line += faults_text(action.faults);
   for (std::size_t i = 0; i < action.bytes.size(); ++i)
     line += fmt::format("{}{:02X}", i == 0 ? " : " : " ", action.bytes[i]);
@@ -196,12 +218,26 @@ class LineParser {
       if (key == field.key) return field.set(action, number(text, field.hex ? 16 : 10, field.least, field.most));
       allowed += fmt::format(", {}=", field.key);
     }
+    if (may_be_aimed(action.verb)) {
+      if (key == kDuring) return aim(action, text);
+      allowed += fmt::format(", {}=", kDuring);
+    }
     for (const FaultField& field : kFaults) {
       if (action.verb != Verb::kSend && action.verb != Verb::kUart) break;
       if (key == field.key) return field.set(action.faults, split(text, field.numbers + 1));
       allowed += fmt::format(", {}=", field.key);
     }
     fail("unknown argument " + key, allowed);
+  }
+  /// PART:TICKS
+  void aim(Action& action, const std::string& text) const {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::string part = text.substr(0, colon);
+    for (std::size_t i = 0; i < std::size(kAccessParts); ++i)
+      if (part == word_of(static_cast<AccessPart>(i))) action.during = static_cast<AccessPart>(i);
+    if (!is_aimed(action)) fail("unknown part of an access " + part, part_words());
+    if (colon == text.size()) fail("no time in " + text, "PART:TICKS");
+    action.within = number(text.substr(colon + 1), 10, 0, kLongest);
   }
   std::vector<long> split(const std::string& text, std::size_t count) const {
     std::vector<long> values;

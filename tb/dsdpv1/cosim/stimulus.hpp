@@ -3,12 +3,14 @@
 //
 // Three lanes act at the same time: the bus (send, spike), the user at the host port (take, give, write, read, block,
 // pin; spi, uart of the DSDPV1-RSU), the board (reset). Each action begins `delay` ticks after the one before it in its
-// lane has ended; `sync` lets all lanes wait for each other.
+// lane has ended; `sync` lets all lanes wait for each other. An action of user or board may be aimed: it waits for a
+// part of an access of the chip, and `delay` counts from its begin.
 #include <string>
 #include <vector>
 
 #include "bus/wire/uart.hpp"
 #include "model/dsdpv1/pins.hpp"
+#include "tb/dsdpv1/cosim/access_parts.hpp"
 
 namespace dsdpv1::cosim {
 
@@ -38,6 +40,8 @@ struct Action {
   Tick pause = 0;                          ///< ... between two bytes, besides
   int bits = 0;                            ///< ... all there are, 0: those of `bytes`
   int ppm = 0;                             ///< kUart: bits are longer by so many millionths
+  AccessPart during = AccessPart::kNone;   ///< aimed at
+  Tick within = 0;                         ///< ... but so long is waited for it at most
   Pin pin{};
   bus::Bytes bytes = {};
   bus::WireFaults faults = {};

@@ -1,0 +1,113 @@
+// What random cases are made of does what it is for, at model and RTL: edges that are aimed, limits that are exceeded,
+// the way to data exchange.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tb/dsdpv1/cosim/campaign.hpp"
+#include "tb/dsdpv1/cosim/play_options.hpp"
+#include "tb/dsdpv1/cosim/random_host.hpp"
+#include "tb/dsdpv1/cosim/random_stimulus.hpp"
+#include "tb/dsdpv1/cosim/random_user.hpp"
+#include "tb/dsdpv1/cosim/situation_watch.hpp"
+
+namespace dsdpv1::cosim {
+namespace {
+
+/// What a stimulus brings about, at model and RTL alike.
+class Played {
+ public:
+  explicit Played(const Stimulus& stimulus, Tick limit = Tick{1} << 40) {
+    PlayOptions options = quick_options();
+    options.limit = limit;
+    SituationWatch watch(options.config, HostMode::kParallel);
+    options.listeners.push_back(&watch);
+    result_ = play(stimulus, reference_top(options, 0, 1), options);
+    EXPECT_FALSE(result_.difference);
+    situations_ = watch.situations();
+  }
+  std::uint64_t count(const char* group, const std::string& item) const { return situations_.of({group, item}); }
+  Tick end() const { return static_cast<Tick>(result_.counts.cycles) * profibus::kTicksPerCycle; }
+
+ private:
+  PlayResult result_;
+  Situations situations_;
+};
+
+/// A chip that is ready, its user with an initialisation of `cfg`, and `more`.
+std::string from_power_on(const std::string& more) {
+  return "reset +0 low=5000\nsync\npin +1050000 D_IN level=-1\ntake +0 poll=300\n"
+         "block +0 at=20 crc=F7 xor=0 setup=200 low=600 hold=200 : 0F 05 0C C9 0F 00 00 02 02 20 ED 00 C8 00 01 31\n"
+         "write +0 at=10 value=4 setup=200 low=600 hold=200\n" +
+         more;
+}
+
+Stimulus parsed(const std::string& text) { return parse_stimulus(text, "x", Part::kDsdpv1); }
+
+/// While the user hands over the block, RESET waits for the chip to read it.
+TEST(AimedEdge, FallsInThePartThatItIsAimedAt) {
+  for (const int delay : {1, 249, 2000}) {
+    const Played played(
+        parsed(from_power_on(fmt::format("give +0\nreset +{} low=5000 during=initialisation:9000000\n", delay))));
+    EXPECT_EQ(played.count("RESET falls in", "initialisation"), 1U) << delay;
+    EXPECT_EQ(played.count("events", "INITIALISED"), 0U) << delay;
+  }
+  const Played host(parsed(from_power_on("give +0\npin +1 R_REQ level=1 during=initialisation:9000000\n")));
+  EXPECT_EQ(host.count("R_REQ rises in", "initialisation"), 1U);
+  EXPECT_EQ(host.count("events", "INITIALISED"), 1U);
+}
+
+/// ... and is carried out all the same when it does not come in time.
+TEST(AimedEdge, DoesNotWaitForEver) {
+  constexpr Tick kWithin = 500'000;
+  const std::string before = from_power_on("give +0\nsync\n");
+  const Played without(parsed(before)),
+      aimed(parsed(before + fmt::format("reset +0 low=100 during=C1_request:{}\n", kWithin)));
+  EXPECT_EQ(aimed.count("RESET falls in", "C1 request"), 0U);
+  EXPECT_EQ(aimed.count("RESET falls in", "-") + aimed.count("RESET falls in", "commands"), 1U);
+  EXPECT_NEAR(static_cast<double>(aimed.end() - without.end()), static_cast<double>(kWithin), 500);
+}
+
+TEST(RandomUser, ExceedsEachLimitOfAnInitialisation) {
+  Random random(1);
+  cosim::Setup setup;
+  Stimulus stimulus = parsed("reset +0 low=5000\nsync\npin +1050000 D_IN level=-1\n");
+  const auto host = make_random_parallel(random, stimulus, Part::kDsdpv1);
+  host->careful(true);
+  RandomUser user(random, setup, *host);
+  for (int i = 0; i < 120; ++i) user.initialise_wrong();
+  const Played played(stimulus);
+  for (const char* each :
+       {"INIT_LENGTH", "INIT_ADDRESS", "INIT_CFG", "INIT_LIMIT B027", "INIT_LIMIT B028", "INIT_LIMIT B029",
+        "INIT_LIMIT B02A", "INIT_LIMIT B02B", "INIT_LIMIT B02C", "INIT_LIMIT B02D", "INIT_LIMIT B02E"})
+    EXPECT_GT(played.count("events", each), 0U) << each;
+  EXPECT_EQ(played.count("events", "INIT_CRC"), 0U);
+}
+
+/// In good order first: soon after power-on most cases are in data exchange.
+TEST(RandomCases, BringTheSlaveUpBeforeTheyGoWild) {
+  constexpr Tick kSoon = 70'000 * profibus::kTicksPerCycle;
+  int cases = 0, up = 0;
+  for (std::uint64_t number = 0; number < 24; ++number, ++cases)
+    if (Played(random_stimulus(case_seed(1, number)), kSoon).count("DP states", "WAIT_CFG to DATA_EXCH") > 0) ++up;
+  EXPECT_GE(up, cases * 6 / 10);
+}
+
+/// Through the port that the straps choose; few cycles, of which most are its telegrams.
+TEST(RandomCases, ReachDataExchangeAtEachSerialPort) {
+  for (const HostMode mode : {HostMode::kSpi, HostMode::kUart}) {
+    CampaignOptions options;
+    options.cycles = 600'000;
+    options.play = quick_options(Part::kRsu);
+    options.mode = mode;
+    options.counts_situations = true;
+    const auto result = run_campaign(options, reference_top(options.play, 0, 1));
+    EXPECT_FALSE(result.difference);
+    for (const char* each : {"WAIT_CFG to DATA_EXCH", "DATA_EXCH to OFFLINE"})
+      EXPECT_GT(result.situations.of({"DP states", each}), 0U) << each << static_cast<int>(mode);
+  }
+}
+
+}  // namespace
+}  // namespace dsdpv1::cosim
