@@ -174,7 +174,7 @@ TEST_F(SweepFolder, ResultsThatNoSweepHasWrittenAreSomethingElse) {
 
 TEST_F(SweepFolder, DamagedDescriptionStartsAnew) {
   finish(open(), 0);
-  for (const char* text : {"", "{\"format\": \"dsdp"}) {
+  for (const char* text : {"", R"({"format": "dsdp)"}) {
     write(base_ / "out/sweep.json", text);
     const Folder folder = open();
     EXPECT_EQ(folder.started_anew(), "nothing that can be known, its sweep.json is damaged");
