@@ -411,7 +411,7 @@ int test(int argc, char** argv) {
 }  // namespace rtl
 
 // rtl_test [NAME=NUMBER...]: names of Limits, or fault, and with that only the faster part, for the build with faults
-int main(int argc, char** argv) {
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): of Failure, without looks_for_fault
   Verilated::commandArgs(argc, argv);
   return rtl::test(argc, argv);
 }
