@@ -4,8 +4,8 @@
     tidy.py BUILD_FOLDER [-j N] FILE...
 
 BUILD_FOLDER holds compile_commands.json and a finished Ninja build: ninja knows what each source includes. A file is looked at
-again when it, one of the project's headers it includes, its command, .clang-tidy or clang-tidy itself has changed. Exit 1 when
-something was found.
+again when it, one of the project's headers it includes, its command, .clang-tidy or clang-tidy itself has changed. Each is looked at
+alone, also what CMake compiles together, or does not compile itself. Exit 1 when something was found.
 """
 import argparse
 import hashlib
@@ -18,6 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+CACHE = "tidy-clean"
 OF_GCC_ALONE = (" -fno-gnu-unique", " -ffat-lto-objects")  # clang does not know them
 
 
@@ -56,17 +57,23 @@ def object_of(entry):
     return words[words.index("-o") + 1]
 
 
-def is_firmware(source):
-    """For the ARM board, whose compiler CMake does not know: no command in the database."""
-    return source.suffix == ".c" and "firmware" in source.parts
+def apart_options(source, build):
+    """Of what CMake has no command for: the ARM board's firmware, what Verilator's make compiles, projects of an installed package."""
+    if source.suffix == ".c":
+        return f"--target=thumbv7m-none-eabi -std=c99 -ffreestanding -isystem {ROOT}/examples/firmware/freestanding -I{ROOT}"
+    top = "dsdpv1_rsu" if source.name.startswith("rsu_") else "dsdpv1"
+    verilator = output_of("verilator", "--getenv", "VERILATOR_ROOT").strip()
+    verilated = f"-isystem {build}/rtl/lib{top}_rtl_faults -isystem {verilator}/include -isystem {verilator}/include/vltstd"
+    return f"-std=c++17 -I{ROOT} -I{build}/{CACHE} {verilated} -DDSDPV1_RTL_LAYOUT=1"
 
 
-def firmware_entry(source):
-    options = f"--target=thumbv7m-none-eabi -std=c99 -ffreestanding -isystem {ROOT}/examples/firmware/freestanding -I{ROOT}"
-    return {"directory": str(ROOT), "file": str(source), "command": f"clang {options} -c {source} -o {source.stem}.o"}
+def apart_entry(source, build):
+    compiler = "clang" if source.suffix == ".c" else "clang++"
+    command = f"{compiler} {apart_options(source, build)} -c {source} -o {source.stem}.o"
+    return {"directory": str(ROOT), "file": str(source), "command": command}
 
 
-def firmware_headers(entry):
+def apart_headers(entry):
     """As clang itself finds them."""
     words = shlex.split(entry["command"])
     rule = output_of(*words[:words.index("-c")], "-MM", entry["file"])
@@ -102,11 +109,11 @@ def digest_of(settings, command, files):
     return digest.hexdigest()
 
 
-def files_of(source, commands, dependencies):
+def files_of(source, entry, commands, dependencies):
     """The source and the headers of its object, of which it may be only a part: then they are more than it includes."""
-    if is_firmware(source):
-        return firmware_headers(commands[source])
-    made_from = dependencies.get(object_of(commands[source]), [])
+    if source not in commands:
+        return apart_headers(entry)
+    made_from = dependencies.get(object_of(entry), [])
     return {source} | {path for path in made_from if path not in commands}
 
 
@@ -132,17 +139,17 @@ def main():
     build = arguments.build.resolve()
     commands, dependencies, settings = read_commands(build), read_dependencies(build), settings_digest()
     sources = [Path(name).resolve() for name in arguments.files]
-    commands |= {source: firmware_entry(source) for source in sources if is_firmware(source)}
-    cache = build / "tidy-clean"
+    entries = {source: commands.get(source) or apart_entry(source, build) for source in sources}
+    cache = build / CACHE
     cache.mkdir(exist_ok=True)
-    (cache / "compile_commands.json").write_text(json.dumps(list(commands.values())), encoding="utf-8")
+    installed = cache / "dsdpv1"  # where a package has its headers
+    if not installed.exists():
+        installed.symlink_to(ROOT)
+    (cache / "compile_commands.json").write_text(json.dumps(list(entries.values())), encoding="utf-8")
 
     due = []
-    for source in sources:
-        if source not in commands:
-            continue  # not a part of this build, as the projects of tests/install
-        entry = commands[source]
-        clean = cache / digest_of(settings, entry["command"], files_of(source, commands, dependencies))
+    for source, entry in entries.items():
+        clean = cache / digest_of(settings, entry["command"], files_of(source, entry, commands, dependencies))
         if not clean.exists():
             due.append((entry["file"], clean))
     print(f"clang-tidy: {len(due)} of {len(arguments.files)} files to look at", flush=True)

@@ -80,8 +80,8 @@ def fuzzing():
 STATIC = """
 ## Without asking what is computed
 
-`./run lint` has clang-tidy over all sources, tests among them, with clang's static analyzer among its checks; [.clang-tidy](../.clang-tidy) says which are
-left out and why. What the analyzer says and is not so is marked in the source, with the reason:
+`./run lint` has clang-tidy over all sources and headers but generated ones, tests, firmware and the RTL's own bench among them, with clang's static analyzer
+among its checks; [.clang-tidy](../.clang-tidy) says which are left out and why, [tests/.clang-tidy](../tests/.clang-tidy) how far the analyzer goes in a test. What the analyzer says and is not so is marked in the source, with the reason:
 
 """
 PARTS = """

@@ -26,6 +26,7 @@
 #ifndef DPSIM_BUS_H
 #define DPSIM_BUS_H
 
+/* NOLINTBEGIN(modernize-use-using): C, also when included by C++ */
 #include "dsdpv1/chip.h"
 #include "dsdpv1/telegram.h"
 
@@ -172,5 +173,7 @@ DPSIM_API dpsim_status dpsim_bus_on_event(dpsim_bus* bus, dpsim_event_fn fn, voi
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(modernize-use-using) */
 
 #endif

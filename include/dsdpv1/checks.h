@@ -13,6 +13,7 @@
 #ifndef DPSIM_CHECKS_H
 #define DPSIM_CHECKS_H
 
+/* NOLINTBEGIN(modernize-use-using): C, also when included by C++ */
 #include "dsdpv1/chip.h"
 #include "dsdpv1/telegram.h"
 
@@ -117,5 +118,7 @@ DPSIM_API dpsim_status dpsim_checker_get_result(const dpsim_checker* checker, si
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(modernize-use-using) */
 
 #endif

@@ -19,6 +19,7 @@
 #ifndef DPSIM_CHIP_H
 #define DPSIM_CHIP_H
 
+/* NOLINTBEGIN(modernize-use-using): C, also when included by C++ */
 #include "dsdpv1/types.h"
 
 #ifdef __cplusplus
@@ -301,5 +302,7 @@ DPSIM_API dpsim_status dpsim_chip_restore(dpsim_chip* chip, const uint8_t* bytes
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(modernize-use-using) */
 
 #endif

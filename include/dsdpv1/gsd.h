@@ -6,6 +6,7 @@
 #ifndef DPSIM_GSD_H
 #define DPSIM_GSD_H
 
+/* NOLINTBEGIN(modernize-use-using): C, also when included by C++ */
 #include "dsdpv1/chip.h"
 
 #ifdef __cplusplus
@@ -86,5 +87,7 @@ DPSIM_API dpsim_status dpsim_gsd_report(dpsim_gsd* gsd, const char* const* modul
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(modernize-use-using) */
 
 #endif

@@ -9,6 +9,7 @@
 #ifndef DPSIM_MASTER_H
 #define DPSIM_MASTER_H
 
+/* NOLINTBEGIN(modernize-use-using): C, also when included by C++ */
 #include "dsdpv1/bus.h"
 #include "dsdpv1/gsd.h"
 
@@ -323,5 +324,7 @@ DPSIM_API dpsim_status dpsim_master_get_connection(const dpsim_master* master, u
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(modernize-use-using) */
 
 #endif

@@ -15,6 +15,7 @@
 #ifndef DPSIM_RUN_H
 #define DPSIM_RUN_H
 
+/* NOLINTBEGIN(modernize-use-using): C, also when included by C++ */
 #include "dsdpv1/chip.h"
 #include "dsdpv1/telegram.h"
 
@@ -116,5 +117,7 @@ DPSIM_API dpsim_status dpsim_run_telegrams(const dpsim_run* run, const dpsim_hea
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(modernize-use-using) */
 
 #endif

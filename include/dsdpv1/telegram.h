@@ -7,6 +7,7 @@
 #ifndef DPSIM_TELEGRAM_H
 #define DPSIM_TELEGRAM_H
 
+/* NOLINTBEGIN(modernize-use-using): C, also when included by C++ */
 #include "dsdpv1/types.h"
 
 #ifdef __cplusplus
@@ -97,5 +98,7 @@ typedef void (*dpsim_telegram_fn)(void* user, const dpsim_heard* heard);
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(modernize-use-using) */
 
 #endif

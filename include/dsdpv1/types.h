@@ -36,6 +36,7 @@
 #ifndef DPSIM_TYPES_H
 #define DPSIM_TYPES_H
 
+/* NOLINTBEGIN(modernize-deprecated-headers, modernize-use-using): C, also when included by C++ */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -136,5 +137,7 @@ typedef void (*dpsim_change_fn)(void* user, const dpsim_change* change);
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(modernize-deprecated-headers, modernize-use-using) */
 
 #endif

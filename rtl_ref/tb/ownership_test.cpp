@@ -3,9 +3,8 @@
 // Who owns the DPRAM (H1, H2, H6): R_REQ and R_STA both hold the chip off, in every order, also through RESET.
 #include "rtl_bench.hpp"
 
+namespace rtl {
 namespace {
-
-using namespace rtl;
 
 // The edge at which an access starts when both pins have been low since now (P9)
 int64_t seen(const Bench& b) { return b.edge + 1 + 2; }
@@ -103,7 +102,9 @@ void releases(Bench& b) {
 
 }  // namespace
 
-void rtl::ownership(Bench& b) {
+void ownership(Bench& b) {
   start_up_waits(b);
   releases(b);
 }
+
+}  // namespace rtl

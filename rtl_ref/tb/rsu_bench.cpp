@@ -143,7 +143,7 @@ Bytes RsuBench::spi(const Bytes& request, size_t reply_bytes) {
 
 Bytes RsuBench::read(int address, size_t count) {
   const Bytes reply = spi(read_telegram(address, count), count + 4);
-  const Bytes data(reply.begin() + 2, reply.end() - 2);
+  Bytes data(reply.begin() + 2, reply.end() - 2);
   expect_bytes(reply, with_crc(Bytes{0x81, 0} + data), "form of a read's reply");
   return data;
 }
@@ -212,9 +212,7 @@ Bytes RsuBench::receive() {
       for (int i = 1; i < 10; ++i) ones += value >> i & 1;
       expect((value & 1) | (ones & 1) << 1 | (value >> 10) << 2, 4, "start bit, parity and stop bit of the reply");
       reply.push_back(static_cast<uint8_t>(value >> 1));
-      clock(bit - bit / 2 - 1);
-      more = top.txd_o != 0;
-      clock();
+      clock(bit - bit / 2);
       more = top.txd_o == 0;
     }
   }
@@ -232,7 +230,7 @@ Bytes RsuBench::uart_read(int address, size_t count) {
     expect_bytes(reply, Bytes(count + 4), "length of a read's reply");
     return Bytes(count);
   }
-  const Bytes data(reply.begin() + 2, reply.end() - 2);
+  Bytes data(reply.begin() + 2, reply.end() - 2);
   expect_bytes(reply, with_crc(Bytes{0x81, 0} + data), "form of a read's reply");
   return data;
 }

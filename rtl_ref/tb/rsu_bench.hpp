@@ -57,13 +57,13 @@ class RsuBench {
 
   // ---- time
   void clock(int64_t cycles = 1);
-  void run_to(int64_t tick);  // the edges strictly before it
+  void run_to(int64_t to);  // the edges strictly before it
   bool wait(const std::function<bool()>& until, int64_t limit);
   void start_up();  // RESET rises: R is edge 10; to the end of the start-up access
 
   // ---- SPI
-  void xss(int64_t tick, int level);
-  void sck(int64_t tick, int level);
+  void xss(int64_t at, int level);
+  void sck(int64_t at, int level);
   Bytes spi(const Bytes& request,
             size_t reply_bytes);          // one frame at `tick`, which then stands where the next may begin
   Bytes read(int address, size_t count);  // with their replies' form

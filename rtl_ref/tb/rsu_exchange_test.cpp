@@ -4,9 +4,8 @@
 // cycle.
 #include "rsu_bench.hpp"
 
+namespace rtl {
 namespace {
-
-using namespace rtl;
 
 Chip with(Chip chip, unsigned fault) {
   chip.mode = 2;
@@ -154,7 +153,7 @@ void cfg_length(unsigned fault) {
 
 }  // namespace
 
-void rtl::rsu_exchange(unsigned fault) {
+void rsu_exchange(unsigned fault) {
   {
     RsuBench b(with({}, fault));
     news(b);
@@ -164,3 +163,5 @@ void rtl::rsu_exchange(unsigned fault) {
   example(fault);
   cfg_length(fault);
 }
+
+}  // namespace rtl

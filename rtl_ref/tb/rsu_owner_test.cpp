@@ -4,9 +4,8 @@
 // block CRCs.
 #include "rsu_bench.hpp"
 
+namespace rtl {
 namespace {
-
-using namespace rtl;
 
 const Bytes kWritten = {0xA1, 0x00, 0x20, 0x78};
 const Bytes kRefused = with_crc({0xE1, 0x00});
@@ -244,9 +243,9 @@ void u_timer(unsigned fault) {
   b.clock(6000);
   expect(b.host.level, 1, "no U_Timer with B015.0 = 0");
   b.write(0x015, {1});
-  int64_t j = judged_frame(read_telegram(0x000, 1));
+  judged_frame(read_telegram(0x000, 1));
   b.clock(2000);
-  j = judged_frame(read_telegram(0x000, 1));
+  int64_t j = judged_frame(read_telegram(0x000, 1));
   b.wait([&] { return b.host.level == 0; }, 6000);
   expect(b.host.fall, j + 4800, "U_Timer, from the last telegram's judgement on");
   b.clock(2);
@@ -301,7 +300,7 @@ void block_crc(unsigned fault) {
 
 }  // namespace
 
-void rtl::rsu_owner(unsigned fault) {
+void rsu_owner(unsigned fault) {
   {
     RsuBench b(with({}, fault));
     claims(b);
@@ -317,3 +316,5 @@ void rtl::rsu_owner(unsigned fault) {
   u_timer(fault);
   block_crc(fault);
 }
+
+}  // namespace rtl

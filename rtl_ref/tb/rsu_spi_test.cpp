@@ -3,9 +3,8 @@
 // The SPI port (section 5 of microarchitecture_rsu.md): bits, frames, telegrams, errors, replies.
 #include "rsu_bench.hpp"
 
+namespace rtl {
 namespace {
-
-using namespace rtl;
 
 const Bytes kSilence4 = {0xFF, 0xFF, 0xFF, 0xFF};
 
@@ -237,7 +236,7 @@ void fast(RsuBench& b) {
 
 }  // namespace
 
-void rtl::rsu_spi(unsigned fault) {
+void rsu_spi(unsigned fault) {
   example(fault);
   Chip chip;
   chip.fault = fault;
@@ -251,3 +250,5 @@ void rtl::rsu_spi(unsigned fault) {
   variants(fault);
   early_reads(fault);
 }
+
+}  // namespace rtl

@@ -12,9 +12,8 @@
 #include "rsu_bench.hpp"
 #include "verilated.h"
 
+namespace rtl {
 namespace {
-
-using namespace rtl;
 
 const std::map<std::string, void (*)(unsigned)> kGroups = {
     {"spi", rsu_spi}, {"owner", rsu_owner}, {"uart", rsu_uart}, {"exchange", rsu_exchange}};
@@ -42,8 +41,7 @@ int play_faults(const char* name) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  Verilated::commandArgs(argc, argv);
+int test(int argc, char** argv) {
   if (argc == 3 && std::string(argv[1]) == "faults") return play_faults(argv[2]);
   if (argc > 2 || (argc == 2 && kGroups.count(argv[1]) == 0)) {
     std::fprintf(stderr, "rsu_test: allowed are nothing, spi, owner, uart, exchange, or: faults FILE\n");
@@ -56,4 +54,11 @@ int main(int argc, char** argv) {
     std::printf("%s: %d failures\n", name.c_str(), failures - before);
   }
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace rtl
+
+int main(int argc, char** argv) {
+  Verilated::commandArgs(argc, argv);
+  return rtl::test(argc, argv);
 }

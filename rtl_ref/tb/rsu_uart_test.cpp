@@ -3,9 +3,8 @@
 // The UART port (sections 6.1 to 6.3, 6.5): rates, characters, silence, errors, half duplex, the DPRAM as one.
 #include "rsu_bench.hpp"
 
+namespace rtl {
 namespace {
-
-using namespace rtl;
 
 Bytes error(unsigned code, unsigned adr = 1) { return with_crc(one(0xE0 + adr) + one(code)); }
 
@@ -231,7 +230,7 @@ void early(unsigned fault) {
 
 }  // namespace
 
-void rtl::rsu_uart(unsigned fault) {
+void rsu_uart(unsigned fault) {
   {
     RsuBench b(with({}, fault));
     cells_and_errors(b);
@@ -244,3 +243,5 @@ void rtl::rsu_uart(unsigned fault) {
   intervals(fault);
   rates(fault);
 }
+
+}  // namespace rtl

@@ -115,7 +115,7 @@ class Bench {
   Bytes peek(int address, int count) {
     own();
     step(3);
-    const Bytes bytes = read(address, count);
+    Bytes bytes = read(address, count);
     disown();
     return bytes;
   }

@@ -7,9 +7,8 @@
 
 #include "rtl_bench.hpp"
 
+namespace rtl {
 namespace {
-
-using namespace rtl;
 
 // RESET, start-up and the first accesses (9.1, 9.7)
 void start_up(Bench& b) {
@@ -94,7 +93,7 @@ void initialise(Bench& b, uint8_t prm_mode, uint8_t cfg_mode) {
 }
 
 void baud(Bench& b, int rate_index) {
-  static const int kBits[] = {4, 8, 16, 32};
+  static constexpr int kBits[] = {4, 8, 16, 32};
   b.bit = kBits[rate_index];
   b.step(int64_t{rate_index} * limits.search_window_ms * 48000);
   b.send(sd1(9, 2, 0x49));
@@ -336,72 +335,83 @@ void user_judges(Bench& b) {
   expect(b.pbf.rise, triggered + 1920000, "watchdog of 40 ms");
 }
 
-}  // namespace
+void usual_way(Bench& b, int rate) {
+  start_up(b);
+  host_port(b);
+  initialise(b, 0, 1);
+  baud(b, rate);
+  fdl(b);
+  receiver(b);
+  to_data_exchange(b);
+  exchange(b);
+  diagnosis(b);
+  check_again(b);
+  sap_bytes(b);
+  sync_and_freeze(b);
+  leave(b);
+  interrupts(b);
+}
 
-// rtl_test [NAME=NUMBER...]: names of Limits, or fault, and with that only the faster part, for the build with faults
-int main(int argc, char** argv) {
-  Verilated::commandArgs(argc, argv);
-  unsigned fault = 0;
-  unsigned with_dpv1 = 1;
+struct Choice {
+  unsigned fault = 0, with_dpv1 = 1;
+};
+
+bool read(int argc, char** argv, Choice& choice) {
   const std::map<std::string, unsigned*> settings = {{"rts_lead", &limits.rts_lead},
                                                      {"rts_trail", &limits.rts_trail},
                                                      {"search_window_ms", &limits.search_window_ms},
-                                                     {"fault", &fault},
-                                                     {"dpv1", &with_dpv1}};
+                                                     {"fault", &choice.fault},
+                                                     {"dpv1", &choice.with_dpv1}};
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     const size_t equals = argument.find('=');
     const auto setting = settings.find(argument.substr(0, equals));
-    if (setting == settings.end() || equals == std::string::npos) {
+    char* end = nullptr;
+    const char* const number = argv[i] + (equals == std::string::npos ? argument.size() : equals + 1);
+    const unsigned long value = std::strtoul(number, &end, 10);
+    if (setting == settings.end() || *number == 0 || *end != 0) {
       std::fprintf(
           stderr,
           "rtl_test: unknown argument %s, allowed are rts_lead, rts_trail, search_window_ms, fault, dpv1 =NUMBER\n",
           argv[i]);
-      return 2;
+      return false;
     }
-    *setting->second = static_cast<unsigned>(std::stoul(argument.substr(equals + 1)));
+    *setting->second = static_cast<unsigned>(value);
   }
+  return true;
+}
+
+// One chip's part of the test
+template <class Part>
+void play(const char* name, unsigned fault, const Part& part) {
+  Bench b(fault);
+  part(b);
+  std::printf("%s: %lld cycles, pins %016llx\n", name, static_cast<long long>(b.edge),
+              static_cast<unsigned long long>(b.digest));
+}
+
+}  // namespace
+
+int test(int argc, char** argv) {
+  Choice choice;
+  if (!read(argc, argv, choice)) return 2;
+  const unsigned fault = choice.fault;
   const uint16_t example = crc16({2, 7});
   expect(example, 0x1241, "CRC of 02 07");
-  for (int rate : {0, 3}) {
-    if (fault != 0 && rate != 0) break;
-    Bench b(fault);
-    start_up(b);
-    host_port(b);
-    initialise(b, 0, 1);
-    baud(b, rate);
-    fdl(b);
-    receiver(b);
-    to_data_exchange(b);
-    exchange(b);
-    diagnosis(b);
-    check_again(b);
-    sap_bytes(b);
-    sync_and_freeze(b);
-    leave(b);
-    interrupts(b);
-    if (rate == 0) user_judges(b);
-    std::printf("rate index %d: %lld cycles, pins %016llx\n", rate, static_cast<long long>(b.edge),
-                static_cast<unsigned long long>(b.digest));
-  }
-  Bench user(fault);
-  ownership(user);
-  std::printf("ownership: %lld cycles, pins %016llx\n", static_cast<long long>(user.edge),
-              static_cast<unsigned long long>(user.digest));
-  Bench rules(fault);
-  user_rules(rules);
-  std::printf("rules of the user: %lld cycles, pins %016llx\n", static_cast<long long>(rules.edge),
-              static_cast<unsigned long long>(rules.digest));
-  Bench services(fault);
-  service_rules(services);
-  std::printf("rules of services: %lld cycles, pins %016llx\n", static_cast<long long>(services.edge),
-              static_cast<unsigned long long>(services.digest));
-  if (with_dpv1 != 0) {
-    Bench b(fault);
-    dpv1(b);
-    std::printf("DPV1: %lld cycles, pins %016llx\n", static_cast<long long>(b.edge),
-                static_cast<unsigned long long>(b.digest));
-  }
+  play("rate index 0", fault, [](Bench& b) { usual_way(b, 0), user_judges(b); });
+  if (fault == 0) play("rate index 3", fault, [](Bench& b) { usual_way(b, 3); });
+  play("ownership", fault, ownership);
+  play("rules of the user", fault, user_rules);
+  play("rules of services", fault, service_rules);
+  if (choice.with_dpv1 != 0) play("DPV1", fault, dpv1);
   std::printf("%d failures\n", failures);
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace rtl
+
+// rtl_test [NAME=NUMBER...]: names of Limits, or fault, and with that only the faster part, for the build with faults
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): of Failure, without looks_for_fault
+  Verilated::commandArgs(argc, argv);
+  return rtl::test(argc, argv);
 }

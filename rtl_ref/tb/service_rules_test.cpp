@@ -4,9 +4,8 @@
 // there are to be none (S13), Not_Supported by Global_Control (S24) and high priority (D9).
 #include "rtl_bench.hpp"
 
+namespace rtl {
 namespace {
-
-using namespace rtl;
 
 constexpr uint8_t kRs = 3, kRr = 2;
 
@@ -160,7 +159,7 @@ void unlock(Bench& b) {
 
 }  // namespace
 
-void rtl::service_rules(Bench& b) {
+void service_rules(Bench& b) {
   b.release_reset();
   b.step(5000);
   addresses(b);
@@ -171,3 +170,5 @@ void rtl::service_rules(Bench& b) {
   not_supported(b);
   unlock(b);
 }
+
+}  // namespace rtl

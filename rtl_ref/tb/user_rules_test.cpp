@@ -3,9 +3,8 @@
 // What the user chooses with B005 (D17) and B011 (D16).
 #include "rtl_bench.hpp"
 
+namespace rtl {
 namespace {
-
-using namespace rtl;
 
 constexpr int kHistory = 0x40, kClear = 0x80, kInputError = 0x04;
 
@@ -107,7 +106,7 @@ void dpv1_at_the_initialisation(Bench& b) {
 
 }  // namespace
 
-void rtl::user_rules(Bench& b) {
+void user_rules(Bench& b) {
   b.release_reset();
   b.step(5000);
   clearing_offline(b);
@@ -116,3 +115,5 @@ void rtl::user_rules(Bench& b) {
   history(b);
   dpv1_at_the_initialisation(b);
 }
+
+}  // namespace rtl

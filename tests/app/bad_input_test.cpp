@@ -15,7 +15,6 @@ struct Case {
   std::string arguments, line;
 };
 
-// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for this name
 void PrintTo(const Case& each, std::ostream* out) { *out << each.arguments; }
 
 std::vector<Case> cases() {

@@ -25,7 +25,6 @@ struct Edge {
   bool level;
   bool operator==(const Edge& other) const { return at == other.at && level == other.level; }
 };
-// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest's
 void PrintTo(const Edge& edge, std::ostream* out) { *out << edge.at << (edge.level ? " up" : " down"); }
 
 class SpiBlock : public testing::Test {

@@ -136,8 +136,7 @@ class FakeC2 {
     if (!abort_next.empty()) return free(channel, data_answer(request, std::exchange(abort_next, {})));
     if (channel.state == State::kInitiated) return connect(channel, request);
     if (poll && channel.idle) return idle_answer(channel, request);
-    const Telegram answer =
-        !poll && request.data[0] == function_num::kIdle ? idle(channel) : channel.mailbox.hear(request);
+    Telegram answer = !poll && request.data[0] == function_num::kIdle ? idle(channel) : channel.mailbox.hear(request);
     if (!poll || channel.state == State::kBusy) {
       channel.state = channel.mailbox.open() || channel.idle ? State::kBusy : State::kOpen;
       channel.deadline = units(channel.state == State::kOpen ? 2 : 1);

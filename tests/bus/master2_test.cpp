@@ -53,7 +53,7 @@ struct Class2 : testing::Test {
     parameters.send_timeout = kSendTimeout;
     return parameters;
   }
-  ConnectionId open(ConnectionParameters how = parameters()) {
+  ConnectionId open(const ConnectionParameters& how = parameters()) {
     const ConnectionId id = master.add_connection(how);
     master.connect(id);
     return id;

@@ -5,10 +5,9 @@
 
 #include "made_capture.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::calibrate_test {
 namespace {
 
-using namespace calibrate_test;
 using calibrate::Verdict;
 
 void exchange_data(MadeCapture& capture, int times) {
@@ -303,4 +302,4 @@ TEST(CalibrateAnswers, ADriverThatStaysEnabledIsContradicted) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::calibrate_test

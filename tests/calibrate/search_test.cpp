@@ -3,10 +3,9 @@
 
 #include "made_capture.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::calibrate_test {
 namespace {
 
-using namespace calibrate_test;
 using calibrate::Verdict;
 
 struct Verdicts {
@@ -69,4 +68,4 @@ TEST(CalibrateSearch, AnEndWithoutATelegramIsAgainstS1Alone) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::calibrate_test

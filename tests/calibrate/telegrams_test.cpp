@@ -3,10 +3,9 @@
 
 #include "made_capture.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::calibrate_test {
 namespace {
 
-using namespace calibrate_test;
 using calibrate::Verdict;
 namespace fc = bus::fc;
 namespace sap = bus::sap;
@@ -140,4 +139,4 @@ TEST(CalibrateTelegrams, StatusThreeOfTheDiagnosisIsZero) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::calibrate_test

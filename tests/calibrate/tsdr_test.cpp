@@ -5,10 +5,9 @@
 
 #include "made_capture.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::calibrate_test {
 namespace {
 
-using namespace calibrate_test;
 using calibrate::Verdict;
 namespace sap = bus::sap;
 
@@ -211,4 +210,4 @@ TEST(CalibrateTsdr, WithoutBrAnInitialisationShowsInWhatIsNoDataExchange) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::calibrate_test

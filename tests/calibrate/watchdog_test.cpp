@@ -6,10 +6,9 @@
 
 #include "made_capture.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::calibrate_test {
 namespace {
 
-using namespace calibrate_test;
 using calibrate::Verdict;
 
 const Bytes kOutputs = {1, 2};
@@ -391,4 +390,4 @@ TEST(CalibrateWatchdog, AFallOfBrInALongAccessMayBeAnInitialisation) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::calibrate_test

@@ -21,11 +21,17 @@ using tb::campaign::Submission;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+/// Where commands are looked for.
+std::string search_path() {
+  const char* path = std::getenv("PATH");
+  return path != nullptr ? path : "";
+}
+
 class SlurmCommands : public testing::Test {
- protected:
-  SlurmCommands() : base_(fs::temp_directory_path() / ("dsdpv1_slurm_" + std::to_string(getpid()))) {
+ public:
+  SlurmCommands()
+      : base_(fs::temp_directory_path() / ("dsdpv1_slurm_" + std::to_string(getpid()))), path_(search_path()) {
     fs::create_directories(base_ / "bin");
-    path_ = std::getenv("PATH");
     setenv("PATH", ((base_ / "bin").string() + ":" + path_).c_str(), 1);
   }
   ~SlurmCommands() override {
@@ -36,6 +42,7 @@ class SlurmCommands : public testing::Test {
   SlurmCommands(const SlurmCommands&) = delete;
   SlurmCommands& operator=(const SlurmCommands&) = delete;
 
+ protected:
   /// A command that keeps its words, prints `text` and exits.
   void command(const std::string& name, const std::string& text, int exit = 0) const {
     const fs::path file = base_ / "bin" / name;
@@ -58,7 +65,7 @@ TEST(SlurmTasks, HaveAJobEachUntilThereAreTooMany) {
 }
 
 TEST_F(SlurmCommands, SubmissionIsAnArrayWhoseTasksCallTheProgramBack) {
-  command("sbatch", "4711;cluster\\n");
+  command("sbatch", R"(4711;cluster\n)");
   const Slurm slurm(base_, "--partition=x");
   const Submission made = slurm.submit("id", {{3}, {5}}, {"sweep", "it's.yaml"});
   EXPECT_EQ(made.job, "4711");
@@ -71,7 +78,7 @@ TEST_F(SlurmCommands, SubmissionIsAnArrayWhoseTasksCallTheProgramBack) {
 }
 
 TEST_F(SlurmCommands, SubmissionsAreFoundAgainAndForgotten) {
-  command("sbatch", "1\\n");
+  command("sbatch", R"(1\n)");
   const Slurm slurm(base_, "");
   const Submission first = slurm.submit("id", {{3}}, {"sweep"}), second = slurm.submit("id", {{4}}, {"sweep"});
   EXPECT_EQ(second.number, 2);
@@ -84,7 +91,7 @@ TEST_F(SlurmCommands, SubmissionsAreFoundAgainAndForgotten) {
 }
 
 TEST_F(SlurmCommands, RefusalOfSbatchIsTheLine) {
-  command("sbatch", "sbatch: error: more\\nsbatch: error: invalid partition\\n", 1);
+  command("sbatch", R"(sbatch: error: more\nsbatch: error: invalid partition\n)", 1);
   try {
     Slurm(base_, "--partition=none").submit("id", {{3}}, {"sweep"});
     ADD_FAILURE() << "no error";
@@ -95,7 +102,7 @@ TEST_F(SlurmCommands, RefusalOfSbatchIsTheLine) {
 }
 
 TEST_F(SlurmCommands, TasksUnderWayAreThoseThatSqueueNames) {
-  command("squeue", "7 0\\n7 12\\n8 N/A\\n9 1\\n");
+  command("squeue", R"(7 0\n7 12\n8 N/A\n9 1\n)");
   const auto tasks = Slurm::under_way();
   ASSERT_TRUE(tasks);
   EXPECT_THAT(tasks->at("7"), ElementsAre(0, 12));
@@ -104,12 +111,12 @@ TEST_F(SlurmCommands, TasksUnderWayAreThoseThatSqueueNames) {
 }
 
 TEST_F(SlurmCommands, ASqueueThatFailsSaysNothingAboutTasks) {
-  command("squeue", "slurm_load_jobs error\\n", 1);
+  command("squeue", R"(slurm_load_jobs error\n)", 1);
   EXPECT_FALSE(Slurm::under_way());
 }
 
 TEST_F(SlurmCommands, OnlyATaskOfASubmissionHasJobs) {
-  command("sbatch", "1\\n");
+  command("sbatch", R"(1\n)");
   Slurm(base_, "").submit("id", {{3}, {5}}, {"sweep"});
   for (const char* task : {"", "2", "-1", "x"}) {
     setenv("SLURM_ARRAY_TASK_ID", task, 1);

@@ -271,9 +271,7 @@ const Case kCases[] = {
      [](Board& board) { board.write(0x411, 0x01); }},
 };
 
-void PrintTo(const Case& each, std::ostream* out) {
-  *out << each.name;
-}  // NOLINT(readability-identifier-naming): GoogleTest looks for it
+void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
 
 class EachRule : public testing::TestWithParam<Case> {};
 
@@ -325,9 +323,7 @@ const UserBlock kUserBlocks[] = {
     {"C2Transport", {{0x6D0, 0x51}, {0x6D1, 1}, {0x6D2, 2}, {0x6D3, 1}, {0x6D4, 3}}, 0x6D0, 5, 0x7C4, 0x011, 0x02},
 };
 
-void PrintTo(const UserBlock& each, std::ostream* out) {
-  *out << each.name;
-}  // NOLINT(readability-identifier-naming): GoogleTest looks for it
+void PrintTo(const UserBlock& each, std::ostream* out) { *out << each.name; }
 
 class CrcWritten : public testing::TestWithParam<UserBlock> {
  protected:

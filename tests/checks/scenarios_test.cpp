@@ -39,7 +39,6 @@ struct Case {
   std::vector<const char*> events;  ///< violations that the core itself reports, allowed
 };
 
-// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for it
 void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
 
 const char* const kNone = "";
@@ -291,7 +290,6 @@ const UartCase kUartCases[] = {
     {"TalkOver", "talk_over_reply, slave: demo", "UART_HALF_DUPLEX", edge_seen, checks::Check::kRxdHalfDuplex, false},
 };
 
-// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for it
 void PrintTo(const UartCase& each, std::ostream* out) { *out << each.name; }
 
 class UartMistake : public testing::TestWithParam<UartCase> {};

@@ -67,7 +67,6 @@ const Case kCases[] = {
     {"MosiHold", Check::kMosiHold, &Frame::hold, 150, 4},
 };
 
-// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for it
 void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
 
 class SpiValue : public testing::TestWithParam<Case> {

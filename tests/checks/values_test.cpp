@@ -276,9 +276,7 @@ const Case kCases[] = {
     {"HoldIntervalToItsEnd", Check::kHoldInterval, hold_interval_to_its_end},
 };
 
-void PrintTo(const Case& each, std::ostream* out) {
-  *out << each.name;
-}  // NOLINT(readability-identifier-naming): GoogleTest looks for it
+void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
 
 class EachValue : public testing::TestWithParam<Case> {
  protected:

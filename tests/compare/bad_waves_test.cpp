@@ -27,7 +27,7 @@ class BadWaves : public testing::Test {
   }
   std::string refusal_of(const std::string& content) const {
     waves_.write("bad", content);
-    const std::string said = refusal("good.vcd bad --wave out.vcd --json out.json");
+    std::string said = refusal("good.vcd bad --wave out.vcd --json out.json");
     EXPECT_EQ(refusal("bad good.vcd"), said);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(waves_.folder()), {}), 2) << "an output was left";
     return said;

@@ -112,8 +112,8 @@ TEST_F(Fdl, RequestWithTheSameFrameCountButAnotherContentIsExecuted) {
     Bytes data;
     std::uint8_t master;
   };
-  const Case kRequest = {"the same", kFcb0, 62, 62, {0x11, 0x21}, 2};
-  const Case kOthers[] = {
+  const Case request = {"the same", kFcb0, 62, 62, {0x11, 0x21}, 2};
+  const Case others[] = {
       {"FCS", kFcb0, 62, 62, {0x11, 0x22}, 2},         {"priority", kLowFcb0, 62, 62, {0x11, 0x21}, 2},
       {"DSAP", kFcb0, 61, 62, {0x11, 0x22}, 2},        {"SSAP", kFcb0, 62, 61, {0x11, 0x22}, 2},
       {"SA", kFcb0, 62, 62, {0x11, 0x20}, 3},          {"length", kFcb0, 62, 62, {0x11, 0x21, 0x00}, 2},
@@ -122,17 +122,17 @@ TEST_F(Fdl, RequestWithTheSameFrameCountButAnotherContentIsExecuted) {
   const auto send = [this](const Case& one) {
     return send_fc(bench, one.fc, one.dsap, one.ssap, one.data, one.master);
   };
-  for (const Case& other : kOthers) {
+  for (const Case& other : others) {
     SCOPED_TRACE(other.what);
-    ASSERT_TRUE(send(kRequest).answered());
+    ASSERT_TRUE(send(request).answered());
     const int before = bench.count(Reason::kRepetition);
-    ASSERT_TRUE(send(kRequest).answered());
+    ASSERT_TRUE(send(request).answered());
     ASSERT_EQ(bench.count(Reason::kRepetition), before + 1);
     ASSERT_TRUE(send(other).answered());
     EXPECT_EQ(bench.count(Reason::kRepetition), before + 1) << "executed";
     ASSERT_TRUE(send(other).answered());
     EXPECT_EQ(bench.count(Reason::kRepetition), before + 2) << "and remembered in the other's place";
-    ASSERT_TRUE(send(kRequest).answered());
+    ASSERT_TRUE(send(request).answered());
     EXPECT_EQ(bench.count(Reason::kRepetition), before + 2);
   }
 }
@@ -146,14 +146,14 @@ TEST_F(Fdl, RequestWithTheSameFcsButAnotherSapOrSourceIsExecuted) {
     return bytes.at(bytes.size() - 2);
   };
   const bus::Telegram first = bus::make_telegram(5, 2, kFcb0, {0x11, 0x21}, 62, 62);
-  const std::pair<const char*, bus::Telegram> kOthers[] = {
+  const std::pair<const char*, bus::Telegram> others[] = {
       {"DSAP", bus::make_telegram(5, 2, kFcb0, {0x12, 0x21}, 61, 62)},
       {"SSAP", bus::make_telegram(5, 2, kFcb0, {0x11, 0x22}, 62, 61)},
       {"SA", bus::make_telegram(5, 3, kFcb0, {0x10, 0x21}, 62, 62)},
       {"FC", bus::make_telegram(5, 2, 0x5C, {0x12, 0x21}, 62, 62)},
       {"length", bus::make_telegram(5, 2, kFcb0, {0x11, 0x21, 0x00}, 62, 62)},
   };
-  for (const auto& [what, other] : kOthers) {
+  for (const auto& [what, other] : others) {
     SCOPED_TRACE(what);
     ASSERT_EQ(fcs(first), fcs(other));
     EXPECT_TRUE(bench.requester.send(bench.timeline, first).answered());
@@ -186,7 +186,7 @@ TEST_F(Fdl, MasterThatLostItsPlaceGetsTheServiceThatItAsksFor) {
 TEST_F(Fdl, EveryOtherAnsweredRequestEndsTheMemory) {
   bench.to_data_exch();
   dx(kFirst);
-  const std::pair<const char*, std::function<void()>> kOthers[] = {
+  const std::pair<const char*, std::function<void()>> others[] = {
       {"FDL status", [this] { bench.fdl_status(); }},
       {"FDL status of another", [this] { bench.requester.send(bench.timeline, bus::make_telegram(5, 3, kFdlStatus)); }},
       {"FCV = 0", [this] { diag(bench); }},
@@ -195,7 +195,7 @@ TEST_F(Fdl, EveryOtherAnsweredRequestEndsTheMemory) {
       {"refused, FCV = 1", [this] { send_fc(bench, kFcb1, 40, 62, {}); }},
       {"SDA", [this] { send_fc(bench, 0x53, 62, 62, {}); }},
   };
-  for (const auto& [what, other] : kOthers) {
+  for (const auto& [what, other] : others) {
     ASSERT_TRUE(dx(kFcb0).answered());
     const auto before = executed();
     ASSERT_TRUE(dx(kFcb0).answered());

@@ -215,7 +215,7 @@ TEST_F(GlobalControl, SyncOrFreezeThatIsNotSupportedSetsNotSupported) {
     int b024, command, group;
     bool not_supported;
   };
-  const Case kCases[] = {
+  const Case cases[] = {
       {0x00, kSync, 0, true},
       {0x00, kFreeze, 0, true},
       {0x02, kSync, 0, true},
@@ -230,7 +230,7 @@ TEST_F(GlobalControl, SyncOrFreezeThatIsNotSupportedSetsNotSupported) {
       {0x00, kSync, 0x04, false},
       {0x00, kSync | kFreeze | kUnfreeze, 0, true},
   };
-  for (const Case& one : kCases) {
+  for (const Case& one : cases) {
     SCOPED_TRACE(testing::Message() << std::hex << one.b024 << " " << one.command << " " << one.group);
     SlaveBench slave(quick_search());
     Init init;

@@ -91,14 +91,14 @@ struct Wrong {
 
 TEST_F(C1, RequestsThatTheChipFindsWrongAreAnsweredByItself) {
   start();
-  const Wrong kWrong[] = {
+  const Wrong cases[] = {
       {{0x5C, 0, 0, 0}, 0xA9},  // alarm acknowledge: not supported
       {{0x51, 0, 0, 0}, 0xA9},  // transport is C2's
       {{0x00}, 0xA9},          {{0xDE, 0, 0, 0}, 0xA9},      {{0x5E}, 0xB8},
       {{0x5E, 1, 2}, 0xB8},    {{0x5E, 1, 2, 241, 0}, 0xB8}, {{0x5E, 1, 2, 1, 0}, 0xB8},
       {{0x5F, 1, 2}, 0xB1},    {{0x5F, 1, 2, 1}, 0xB1},      {{0x5F, 1, 2, 1, 0, 0}, 0xB1},
   };
-  for (const Wrong& wrong : kWrong) {
+  for (const Wrong& wrong : cases) {
     SCOPED_TRACE(testing::PrintToString(wrong.request));
     EXPECT_TRUE(is_sc(c1(wrong.request)));
     EXPECT_EQ(bench.last(Reason::kAcyclicRequestRefused).c, wrong.code);
@@ -237,10 +237,10 @@ TEST_F(C1, AnswerThatDoesNotRepeatTheRequestIsRefusedAndTheRequestStaysOpen) {
   ASSERT_TRUE(is_sc(c1(read_request(1, 2, 3))));
   bench.chip_accesses();
   fetch(kC1Area);
-  const Bytes kWrong[] = {pdu_of(0x5F, 1, 2, 0),       pdu_of(0x5E, 9, 2, 1, {0}), pdu_of(0x5E, 1, 9, 1, {0}),
-                          pdu_of(0xDF, 0x80, 0xB2, 0), pdu_of(0x51, 1, 2, 1, {0}), pdu_of(0x00, 1, 2, 0)};
+  const Bytes answers[] = {pdu_of(0x5F, 1, 2, 0),       pdu_of(0x5E, 9, 2, 1, {0}), pdu_of(0x5E, 1, 9, 1, {0}),
+                           pdu_of(0xDF, 0x80, 0xB2, 0), pdu_of(0x51, 1, 2, 1, {0}), pdu_of(0x00, 1, 2, 0)};
   int refused = 0;
-  for (const Bytes& answer : kWrong) {
+  for (const Bytes& answer : answers) {
     give(kC1Area, answer);
     EXPECT_EQ(bench.count(Reason::kAcyclicAnswerDiffers), ++refused) << testing::PrintToString(answer);
     EXPECT_TRUE(is_sc(c1({})));

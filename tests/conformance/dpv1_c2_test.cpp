@@ -49,13 +49,13 @@ TEST_F(C2, InitiateIsAnsweredAtOnceAndConnectedByTheFirstPoll) {
 
 TEST_F(C2, AddressesAreExchanged) {
   start();
-  const std::pair<Bytes, Bytes> kCases[] = {
+  const std::pair<Bytes, Bytes> cases[] = {
       {{0x11, 0x22}, {0x22, 0x11}},
       {{0, 0, 0, 0}, {0, 0, 0, 0}},
       {{1, 3, 0, 2, 1, 2, 3, 8, 9}, {0, 2, 1, 3, 8, 9, 1, 2, 3}},
       {{7, 0, 9, 1, 5}, {9, 1, 7, 0, 5}},
   };
-  for (const auto& [request, answer] : kCases) {
+  for (const auto& [request, answer] : cases) {
     ASSERT_TRUE(is_data(c2(kManagerSap, initiate_pdu(100, request))));
     const Exchange poll = c2(kFirstChannel);
     ASSERT_TRUE(is_data(poll));
@@ -178,7 +178,7 @@ TEST_F(C2, ChannelIsOnlyForItsMasterAndSsap50) {
 TEST_F(C2, ReadWriteAndTransportReachTheUserAndTheAnswerTheMaster) {
   start();
   ASSERT_EQ(connect(), kFirstChannel);
-  const std::pair<Bytes, Bytes> kCases[] = {
+  const std::pair<Bytes, Bytes> cases[] = {
       {read_request(1, 2, 20), pdu_of(0x5E, 1, 2, 3, {7, 8, 9})},
       {pdu_of(0x5F, 1, 2, 3, {7, 8, 9}), pdu_of(0x5F, 1, 2, 3)},
       {pdu_of(0x51, 1, 2, 2, {1, 2}), pdu_of(0x51, 1, 2, 4, {3, 4, 5, 6})},
@@ -186,7 +186,7 @@ TEST_F(C2, ReadWriteAndTransportReachTheUserAndTheAnswerTheMaster) {
       {read_request(1, 2, 20), pdu_of(0xDE, 0x80, 0xB2, 0)},
       {pdu_of(0x5F, 1, 2, 0), pdu_of(0xDF, 0x80, 0xB6, 241)},
   };
-  for (const auto& [request, answer] : kCases) {
+  for (const auto& [request, answer] : cases) {
     SCOPED_TRACE(testing::PrintToString(request));
     to_user(kFirstChannel, request);
     EXPECT_TRUE(registry(0x30).exchanging);
@@ -226,12 +226,12 @@ TEST_F(C2, IdleIsAnsweredByTheChip) {
 // V9, V11. Until an audit the chip answered them with error PDUs, and the early request at once.
 TEST_F(C2, RequestsThatAreNoneOfItsServicesAbortTheChannelAtTheNextTelegram) {
   start();
-  const std::pair<Bytes, int> kCases[] = {{{0x5C, 0, 0, 0}, 2},    {{0x5D, 0, 0, 0}, 2}, {{0x5E, 0, 0, 1, 2}, 2},
-                                          {{0x5E, 0, 0}, 2},       {{0x51, 0, 0, 1}, 2}, {{0x51}, 2},
-                                          {{0x5F, 0, 0, 0, 1}, 2}, {{0x56, 0, 0, 0}, 2}, {{0xDE, 0x80, 0xB2, 0}, 2},
-                                          {{0x57, 0, 0, 0}, 1},    {{0x57}, 1},          {initiate_pdu(), 1}};
+  const std::pair<Bytes, int> cases[] = {{{0x5C, 0, 0, 0}, 2},    {{0x5D, 0, 0, 0}, 2}, {{0x5E, 0, 0, 1, 2}, 2},
+                                         {{0x5E, 0, 0}, 2},       {{0x51, 0, 0, 1}, 2}, {{0x51}, 2},
+                                         {{0x5F, 0, 0, 0, 1}, 2}, {{0x56, 0, 0, 0}, 2}, {{0xDE, 0x80, 0xB2, 0}, 2},
+                                         {{0x57, 0, 0, 0}, 1},    {{0x57}, 1},          {initiate_pdu(), 1}};
   bool poll = false;
-  for (const auto& [request, reason] : kCases) {
+  for (const auto& [request, reason] : cases) {
     SCOPED_TRACE(testing::PrintToString(request));
     ASSERT_EQ(connect(), kFirstChannel);
     EXPECT_TRUE(is_sc(c2(kFirstChannel, request)));

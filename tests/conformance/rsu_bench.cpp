@@ -218,7 +218,7 @@ Bytes RsuBench::spi(const Bytes& mosi, const Frame& frame) {
   set(now_, Pin::kXss, 0);
   if (!mosi.empty()) set(now_, Pin::kMosi, static_cast<Level>(mosi[0] >> 7));
   run_until(now_ + frame.lead - frame.low);
-  const Bytes miso = clock(mosi, frame);
+  Bytes miso = clock(mosi, frame);
   run_until(now_ + frame.lag);
   if (!frame.stays) set(now_, Pin::kXss, 1);
   return miso;

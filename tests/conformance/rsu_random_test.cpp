@@ -51,7 +51,7 @@ class Traffic {
         telegram[static_cast<std::size_t>(below(static_cast<int>(telegram.size())))] ^=
             static_cast<std::uint8_t>(1 << below(8));
         break;
-      case 1: telegram.resize(static_cast<std::size_t>(1 + below(static_cast<int>(telegram.size())))); break;
+      case 1: telegram.resize(1 + static_cast<std::size_t>(below(static_cast<int>(telegram.size())))); break;
       case 2: telegram.resize(telegram.size() + static_cast<std::size_t>(below(9)), byte()); break;
       default: telegram[0] = byte();
     }

@@ -111,9 +111,13 @@ TEST(SituationWatch, FollowsSyncAndFreeze) {
 }
 
 class Record : public testing::Test {
- protected:
+ public:
   Record() { fs::create_directories(folder_); }
   ~Record() override { fs::remove_all(folder_); }
+  Record(const Record&) = delete;
+  Record& operator=(const Record&) = delete;
+
+ protected:
   std::string wrong(std::uint64_t seed = 7) const {
     try {
       read_record(folder_, seed);

@@ -31,9 +31,7 @@ TEST_P(DirectedRsuStimulus, DoesNotDifferAndReachesWhatItIsFor) {
   plays(GetParam(), "--chip dsdpv1_rsu --replay tests/cosim/stimuli_rsu/");
 }
 
-void PrintTo(const Directed& each, std::ostream* out) {
-  *out << each.name;
-}  // NOLINT(readability-identifier-naming): GoogleTest looks for it
+void PrintTo(const Directed& each, std::ostream* out) { *out << each.name; }
 
 INSTANTIATE_TEST_SUITE_P(
     All, DirectedStimulus,

@@ -179,7 +179,7 @@ TEST_F(Init, DropsFlagsOfTheEarlierOperation) {
 /// An initialisation that the chip refuses changes nothing (D11): what waited in DPRAM and driver waits still.
 class RefusedInit : public Init {
  protected:
-  void refuse_one(std::function<void()> meanwhile = [] {}) {
+  void refuse_one(const std::function<void()>& meanwhile = [] {}) {
     chip.before_access = [this, meanwhile, once = true]() mutable {
       if ((chip.at(0x010) & 0x04) != 0 && std::exchange(once, false)) {
         chip.at(0x0F8) = static_cast<std::uint8_t>(chip.at(0x0F8) ^ 1);

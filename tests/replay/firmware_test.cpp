@@ -6,10 +6,9 @@
 
 #include "tests/replay/captures.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::replay_test {
 namespace {
 
-using namespace replay_test;
 using tb::replay::Firmware;
 using tb::replay::firmware_of;
 using testing::IsEmpty;
@@ -154,4 +153,4 @@ TEST(Beginning, InTheMiddleWithoutAStartThereIsNone) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::replay_test

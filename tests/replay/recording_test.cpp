@@ -7,10 +7,9 @@
 #include "tb/input/input_error.hpp"
 #include "tests/replay/captures.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::replay_test {
 namespace {
 
-using namespace replay_test;
 using tb::replay::Recording;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -117,4 +116,4 @@ TEST(Recording, ResolutionIsTheLargestUnitOfAllStarts) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::replay_test

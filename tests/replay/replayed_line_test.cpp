@@ -8,10 +8,9 @@
 #include "bus/wire/uart.hpp"
 #include "tests/replay/captures.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::replay_test {
 namespace {
 
-using namespace replay_test;
 using bus::Tick;
 using tb::replay::place;
 using tb::replay::Recording;
@@ -122,4 +121,4 @@ TEST(ReplayedLine, CoarseTimesDoNotMakeTelegramsOverlap) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::replay_test

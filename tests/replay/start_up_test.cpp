@@ -6,10 +6,9 @@
 
 #include "tests/replay/captures.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::replay_test {
 namespace {
 
-using namespace replay_test;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -87,4 +86,4 @@ TEST(StartUp, ConfigurationHasTheBytesOfTheExchange) {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::replay_test

@@ -111,7 +111,6 @@ struct Case {
   Way way;
   int ticks;  ///< of each slave
 };
-// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest's
 void PrintTo(const Case& each, std::ostream* out) { *out << each.scenario << words(each.way); }
 
 class RecordedLives : public ::testing::TestWithParam<Case> {};

@@ -19,7 +19,7 @@ using tb::sweep::Folder;
 using tb::sweep::Plan;
 
 class SweepFolder : public testing::Test {
- protected:
+ public:
   SweepFolder() : base_(fs::temp_directory_path() / ("dsdpv1_sweep_" + std::to_string(::getpid()))) {
     fs::create_directories(base_);
     write(base_ / "s.yaml", "name: x\nslaves: [{name: a, gsd: a.gsd}]\n");
@@ -31,6 +31,7 @@ class SweepFolder : public testing::Test {
   SweepFolder(const SweepFolder&) = delete;
   SweepFolder& operator=(const SweepFolder&) = delete;
 
+ protected:
   static void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
   std::string point_file(const char* number) const { return (base_ / "out/points" / number).string() + ".json"; }
   Folder open() { return {base_ / "out", tb::sweep::identity(plan_, tb::sweep::Inputs(plan_), program_)}; }
@@ -174,7 +175,7 @@ TEST_F(SweepFolder, ResultsThatNoSweepHasWrittenAreSomethingElse) {
 
 TEST_F(SweepFolder, DamagedDescriptionStartsAnew) {
   finish(open(), 0);
-  for (const char* text : {"", "{\"format\": \"dsdp"}) {
+  for (const char* text : {"", R"({"format": "dsdp)"}) {
     write(base_ / "out/sweep.json", text);
     const Folder folder = open();
     EXPECT_EQ(folder.started_anew(), "nothing that can be known, its sweep.json is damaged");

@@ -19,7 +19,7 @@ using tb::sweep::Inputs;
 using tb::sweep::Plan;
 
 class SweepInputs : public testing::Test {
- protected:
+ public:
   SweepInputs() : base_(fs::temp_directory_path() / ("dsdpv1_inputs_" + std::to_string(::getpid()))) {
     fs::create_directories(base_);
     write("s.yaml", "name: x\nslaves: [{name: a, gsd: none.gsd}]\n");
@@ -32,6 +32,7 @@ class SweepInputs : public testing::Test {
   SweepInputs(const SweepInputs&) = delete;
   SweepInputs& operator=(const SweepInputs&) = delete;
 
+ protected:
   std::string file(const char* name) const { return (base_ / name).string(); }
   void write(const char* name, const char* text) const { std::ofstream(base_ / name) << text; }
   static std::string error_of(const Inputs& inputs, std::size_t point) {

@@ -37,10 +37,10 @@ void simulate() {
 
 int sc_main(int argc, char* argv[]) {
   dsdpv1::systemc::require_resolution();
-  const auto held = make_block();
-  simulate();
+  const auto held = dsdpv1::make_block();
+  dsdpv1::simulate();
   if (argc == 2 && std::strcmp(argv[1], "held") == 0) std::exit(EXIT_SUCCESS);
   dsdpv1::systemc::announce_main_stack();
-  lose_a_block();
+  dsdpv1::lose_a_block();
   return EXIT_SUCCESS;
 }

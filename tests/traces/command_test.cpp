@@ -101,15 +101,15 @@ TEST_F(TracesCommand, AnotherParameterIsRefused) {
   auto json = tb::traces::Json::parse(read(manifest()));
   json["parameters"]["access_interval"] = "49";
   write(manifest(), json.dump());
-  expect_refused("parameters: access_interval is \"49\" there and \"48\" now");
+  expect_refused(R"(parameters: access_interval is "49" there and "48" now)");
 }
 
 TEST_F(TracesCommand, AManifestThatIsNoneIsRefused) {
-  for (const char* text : {"", "[]", "{", "\xFF\xFE", "{\"format\": \"x"}) {
+  for (const char* text : {"", "[]", "{", "\xFF\xFE", R"({"format": "x)"}) {
     write(manifest(), text);
     expect_refused("traces/bus_timing.json: is no manifest of a golden trace");
   }
-  for (const char* text : {"{}", "{\"format\": 2}", "{\"format\": {\"a\": 1}}"}) {
+  for (const char* text : {"{}", R"({"format": 2})", R"({"format": {"a": 1}})"}) {
     write(manifest(), text);
     expect_refused("traces/bus_timing.json: is of another format, format ");
   }

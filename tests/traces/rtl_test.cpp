@@ -19,7 +19,6 @@ struct Planted {
   const char* pin;
 };
 
-// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for it
 void PrintTo(const Planted& each, std::ostream* out) { *out << each.fault; }
 
 std::string matched(const std::string& text, const char* pattern) {

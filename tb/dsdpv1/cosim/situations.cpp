@@ -29,8 +29,8 @@ Words both_channels(const Words& words) {
 }
 
 const std::vector<Detail>& details() {
-  static const Words kChannels = both_channels({"SAP {}"});
-  static const Words kStates = {"WAIT_PRM", "WAIT_CFG", "DATA_EXCH"};
+  static const Words channels = both_channels({"SAP {}"});
+  static const Words states = {"WAIT_PRM", "WAIT_CFG", "DATA_EXCH"};
   static const std::vector<Detail> all = {
       {"SAP_STATE",
        "SAP {0} in {1}",
@@ -43,9 +43,9 @@ const std::vector<Detail>& details() {
       {"GC_FREEZE", "B024.1 {0}", {"B024.1 0", "B024.1 1"}},
       {"ADDRESS_DISABLED", "B024.0 {0}, locked {1}", {"B024.0 0, locked 0", "B024.0 1, locked 1"}},
       {"BAUD_FOUND", "{0}", {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"}},
-      {"BAUD_LOST", "{5}", kStates},
+      {"BAUD_LOST", "{5}", states},
       {"WD_ON", "{1} ms", {"1 ms", "10 ms"}},
-      {"WD_EXPIRED", "{5}", kStates},
+      {"WD_EXPIRED", "{5}", states},
       {"DIAG", "{0:02X}", {"00", "01", "02", "81", "82"}},
       {"VERDICT_UNEXPECTED", "{0}", {"0", "1"}},
       {"VERDICT_SUPERSEDED", "{0}", {"0", "1"}},
@@ -58,14 +58,14 @@ const std::vector<Detail>& details() {
       {"DPV1_LENGTH", "C{0}", {"C1", "C2"}},
       {"C1_REQUEST", "{0:X}", {"5E", "5F"}},
       {"C1_ANSWER", "{0:X}", {"5E", "5F", "DE", "DF"}},
-      {"C2_INITIATE", "SAP {0}", kChannels},
-      {"C2_INITIATE_REFUSED", "SAP {0}", kChannels},
-      {"C2_ADD_ADDR", "SAP {0}", kChannels},
-      {"C2_CONNECTED", "SAP {0}", kChannels},
-      {"C2_NOT_IN_USE", "SAP {0}", kChannels},
-      {"C2_MASTER", "SAP {0}", kChannels},
-      {"C2_MASTER_ABORT", "SAP {0}", kChannels},
-      {"C2_FREED", "SAP {0}", kChannels},
+      {"C2_INITIATE", "SAP {0}", channels},
+      {"C2_INITIATE_REFUSED", "SAP {0}", channels},
+      {"C2_ADD_ADDR", "SAP {0}", channels},
+      {"C2_CONNECTED", "SAP {0}", channels},
+      {"C2_NOT_IN_USE", "SAP {0}", channels},
+      {"C2_MASTER", "SAP {0}", channels},
+      {"C2_MASTER_ABORT", "SAP {0}", channels},
+      {"C2_FREED", "SAP {0}", channels},
       {"C2_REQUEST", "{4:X} on SAP {3}", both_channels({"5E on SAP {}", "5F on SAP {}", "51 on SAP {}"})},
       {"C2_ANSWER", "{1:X} on SAP {0}",
        both_channels({"5E on SAP {}", "5F on SAP {}", "51 on SAP {}", "DE on SAP {}", "DF on SAP {}", "D1 on SAP {}"})},

@@ -12,11 +12,7 @@ namespace dsdpv1::cosim {
 template <class Model>
 class VerilatedTop : public RtlTop {
  public:
-  explicit VerilatedTop(std::uint32_t seed) {
-    context_->randReset(2);
-    context_->randSeed(static_cast<int>(seed % 0x7FFF'FFFF + 1));
-    model_ = std::make_unique<Model>(context_.get());
-  }
+  explicit VerilatedTop(std::uint32_t seed) : context_(seeded(seed)), model_(std::make_unique<Model>(context_.get())) {}
   ~VerilatedTop() override { model_->final(); }
 
   void eval() override {
@@ -66,11 +62,17 @@ class VerilatedTop : public RtlTop {
   }
 
  private:
+  static std::unique_ptr<VerilatedContext> seeded(std::uint32_t seed) {
+    auto context = std::make_unique<VerilatedContext>();
+    context->randReset(2);
+    context->randSeed(static_cast<int>(seed % 0x7FFF'FFFF + 1));
+    return context;
+  }
   static void put(DpramImage& image, std::uint32_t write) {
     image.at(write >> 8 & (kDpramSize - 1)) = static_cast<std::uint8_t>(write & 0xFF);
   }
 
-  std::unique_ptr<VerilatedContext> context_ = std::make_unique<VerilatedContext>();
+  std::unique_ptr<VerilatedContext> context_;
   std::unique_ptr<Model> model_;
 };
 
