@@ -135,9 +135,10 @@ void RsuBench::compare() {
   }
   ASSERT_EQ(doze_trace_compared_, doze_trace_.size()) << "at tick " << now_;
   ASSERT_EQ(doze_.status().accesses, step_.status().accesses);
-  constexpr unsigned kRestoredEvery = 500;
+  constexpr unsigned kUsual = 500;
+  const unsigned every = restored_every(kUsual);
   Chip* const chips[] = {&skip_, &step_, &doze_};
-  if (++comparisons_ % kRestoredEvery == 0) save_and_restore(*chips[comparisons_ / kRestoredEvery % std::size(chips)]);
+  if (++comparisons_ % every == 0) save_and_restore(*chips[comparisons_ / every % std::size(chips)]);
 }
 
 void RsuBench::power_on() {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <iterator>
 
 #include "model/profibus/addressee.hpp"
@@ -42,15 +44,17 @@ void compare_lists(const std::vector<T>& skip, const std::vector<T>& other, std:
 
 constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
 
-// Comparisons, each after an operation of the bench.
-constexpr unsigned kRestoredEvery = 100;
-
 }  // namespace
 
 void save_and_restore(dsdpv1::Chip& chip) {
   const std::vector<std::uint8_t> state = chip.save();
   chip.restore(state.data(), state.size());
   ASSERT_TRUE(chip.save() == state) << "at tick " << chip.now();
+}
+
+unsigned restored_every(unsigned usual) {
+  static const char* const given = std::getenv("DSDPV1_RESTORED_EVERY");
+  return given == nullptr ? usual : static_cast<unsigned>(std::max(1, std::atoi(given)));
 }
 
 TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines)
@@ -150,7 +154,7 @@ void TwinChip::compare(Tick at) {
   compare_lists(unwatched_trace_, doze_trace_, compared_doze_pins_, "doze");
   compare_lists(events_, doze_events_, compared_doze_events_, "doze");
   compare_state();
-  if (++comparisons_ % kRestoredEvery == 0) restore_one();
+  restore_one();
   filter_for_doze();
 }
 
@@ -163,8 +167,10 @@ void TwinChip::compare_state() const {
 }
 
 void TwinChip::restore_one() {
+  constexpr unsigned kUsual = 100;
+  const unsigned every = restored_every(kUsual);
   dsdpv1::Chip* const chips[] = {&skip_, &step_, &doze_};
-  save_and_restore(*chips[comparisons_ / kRestoredEvery % std::size(chips)]);
+  if (++comparisons_ % every == 0) save_and_restore(*chips[comparisons_ / every % std::size(chips)]);
 }
 
 void TwinChip::on_skip_pin(void* self, Tick at, Pin pin, Level level) {

@@ -26,6 +26,8 @@ struct PinChange {
 
 /// It goes on from what it has saved, which is what it saves again.
 void save_and_restore(dsdpv1::Chip& chip);
+/// One of so many comparisons: `usual`, or as DSDPV1_RESTORED_EVERY in the environment says.
+unsigned restored_every(unsigned usual);
 
 /// Whether the chip has its twins. Alone, in skip, it keeps no trace either: for long campaigns.
 enum class Engines : std::uint8_t { kStepAndSkip, kSkipAlone };

@@ -57,6 +57,12 @@ std::vector<Tick> random_ticks(const Recorded& slave, int count, std::mt19937& r
   return ticks;
 }
 
+/// What is counted and shown to nobody but by status().
+std::vector<std::uint64_t> numbers_of(const Status& status) {
+  return {status.telegrams_received, status.telegrams_answered, status.data_exchanges, status.outputs_missed,
+          status.accesses,           status.longest_wait,       status.address,        status.master};
+}
+
 class Lives {
  public:
   Lives(const Recorded& slave, Way way)
@@ -90,6 +96,7 @@ class Lives {
     now().restore(state.data(), state.size());
     ASSERT_EQ(now().now(), at);
     ASSERT_EQ(now().next_event(), unbroken_->next_event()) << "at tick " << at;
+    ASSERT_EQ(numbers_of(now().status()), numbers_of(unbroken_->status())) << "at tick " << at;
     ASSERT_TRUE(state == now().save()) << "at tick " << at;
   }
   void compare() const {
