@@ -96,8 +96,8 @@ class Lives {
     now().restore(state.data(), state.size());
     ASSERT_EQ(now().now(), at);
     ASSERT_EQ(now().next_event(), unbroken_->next_event()) << "at tick " << at;
-    ASSERT_EQ(numbers_of(now().status()), numbers_of(unbroken_->status())) << "at tick " << at;
     ASSERT_TRUE(state == now().save()) << "at tick " << at;
+    ASSERT_EQ(numbers_of(now().status()), numbers_of(unbroken_->status())) << "at tick " << at;
   }
   void compare() const {
     EXPECT_TRUE(heard_.pins == expected_.pins);
