@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <iterator>
 
 #include "model/profibus/addressee.hpp"
 #include "registers/dsdpv1_regs.hpp"
@@ -44,17 +43,24 @@ void compare_lists(const std::vector<T>& skip, const std::vector<T>& other, std:
 
 constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
 
-}  // namespace
+unsigned restored_every(unsigned usual) {
+  const char* const given = std::getenv("DSDPV1_RESTORED_EVERY");
+  return given == nullptr ? usual : static_cast<unsigned>(std::max(1, std::atoi(given)));
+}
 
+/// It goes on from what it has saved, which is what it saves again.
 void save_and_restore(dsdpv1::Chip& chip) {
   const std::vector<std::uint8_t> state = chip.save();
   chip.restore(state.data(), state.size());
   ASSERT_TRUE(chip.save() == state) << "at tick " << chip.now();
 }
 
-unsigned restored_every(unsigned usual) {
-  static const char* const given = std::getenv("DSDPV1_RESTORED_EVERY");
-  return given == nullptr ? usual : static_cast<unsigned>(std::max(1, std::atoi(given)));
+}  // namespace
+
+Restorer::Restorer(unsigned usual) : every_(restored_every(usual)) {}
+
+void Restorer::compared(std::initializer_list<dsdpv1::Chip*> twins) {
+  if (++comparisons_ % every_ == 0) save_and_restore(**(twins.begin() + comparisons_ / every_ % twins.size()));
 }
 
 TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines)
@@ -154,7 +160,7 @@ void TwinChip::compare(Tick at) {
   compare_lists(unwatched_trace_, doze_trace_, compared_doze_pins_, "doze");
   compare_lists(events_, doze_events_, compared_doze_events_, "doze");
   compare_state();
-  restore_one();
+  restorer_.compared({&skip_, &step_, &doze_});
   filter_for_doze();
 }
 
@@ -164,13 +170,6 @@ void TwinChip::compare_state() const {
   ASSERT_EQ(doze_.status().accesses, step_.status().accesses);
   ASSERT_EQ(doze_.status().telegrams_received, step_.status().telegrams_received);
   ASSERT_EQ(doze_.peek(dsdpv1::regs::kAccessCount), step_.peek(dsdpv1::regs::kAccessCount));
-}
-
-void TwinChip::restore_one() {
-  constexpr unsigned kUsual = 100;
-  const unsigned every = restored_every(kUsual);
-  dsdpv1::Chip* const chips[] = {&skip_, &step_, &doze_};
-  if (++comparisons_ % every == 0) save_and_restore(*chips[comparisons_ / every % std::size(chips)]);
 }
 
 void TwinChip::on_skip_pin(void* self, Tick at, Pin pin, Level level) {
