@@ -6,7 +6,6 @@
 
 #include "bus/wire/uart.hpp"
 #include "model/dpram/crc16.hpp"
-#include "model/dsdpv1/reasons.hpp"
 #include "registers/dsdpv1_regs.hpp"
 
 namespace dsdpv1::state_test {
@@ -327,7 +326,7 @@ Aimed racing_spi() {
   bytes(read_of(0x001, 2), 700, false);
   for (const Tick half : {400, 35, 130, 33, 55, 65}) bytes({0xFF}, half, true);
   Chance chance(1);
-  for (int i = 0; i < 60; ++i) bytes({0x5A}, chance.from_to(7, 30), i % 2 == 0);  // some within a cycle
+  for (int i = 0; i < 60; ++i) bytes({0x5A}, chance.from_to(3, 12), i % 2 == 0);  // some within a cycle
   script.mark_cycles(4);
   script.wait(800);
   for (const Tick low : {20, 20, 500, 20}) {
@@ -873,27 +872,16 @@ Act sampled_too_early() {
           }};
 }
 
-/// Channels of second masters that say nothing more, behind their request number `which`: they are closed when
-/// their time is over.
-Act silent_channels(std::size_t which) {
+/// Channels of second masters that say nothing more: they are closed when their time is over.
+Act silent_channels(int ms) {
   static const Recorded scenario = recorded("dpv1_c2_two_masters").at(0);
-  static const std::vector<Tick> events = [] {
-    std::vector<Tick> ticks;
-    Chip chip(scenario.config);
-    const auto note = [](void* self, const profibus::Event& event) {
-      if (event.reason == profibus::Reason::kC2Request) static_cast<std::vector<Tick>*>(self)->push_back(event.at);
-    };
-    chip.on_event({note, &ticks});
-    for (const Input& each : scenario.inputs) chip.set(each.at, each.pin, each.level);
-    return ticks;
-  }();
-  const Tick from = events.at(which) + 10 * kCycle;
+  const Tick from = ms * kMs;
   const auto before = [from](Chip& chip) {
     for (const Input& each : scenario.inputs)
       if (each.at <= from) chip.set(each.at, each.pin, each.level);
     chip.advance(from);
   };
-  return {"silent_channels_" + std::to_string(which), scenario.config, before,
+  return {"silent_channels_" + std::to_string(ms), scenario.config, before,
           [from](Chip& chip) { chip.advance(from + 2000 * kMs); }};
 }
 
@@ -901,7 +889,8 @@ Act silent_channels(std::size_t which) {
 
 std::vector<Act> acts() {
   std::vector<Act> all = runs();
-  for (std::size_t request = 0; request < 4; ++request) all.push_back(silent_channels(request));
+  // both idle, a request each, and polled for the one or the other while the user has it
+  for (const int ms : {200, 251, 253, 255}) all.push_back(silent_channels(ms));
   all.push_back(sampled_too_early());
   return all;
 }
