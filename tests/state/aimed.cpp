@@ -323,7 +323,7 @@ Aimed racing_spi() {
   };
   script.set(Pin::kXss, 0);
   script.wait(800);
-  bytes(read_of(0x001, 2), 700, false);
+  bytes(read_of(0x001, 200), 700, false);  // longer than what is sent: how much was, is told
   for (const Tick half : {400, 35, 130, 33, 55, 65}) bytes({0xFF}, half, true);
   Chance chance(1);
   for (int i = 0; i < 60; ++i) bytes({0x5A}, chance.from_to(3, 12), i % 2 == 0);  // some within a cycle
