@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 #include "tb/input/input_error.hpp"
 #include "tb/input/read_file.hpp"
-#include "tb/output/write_file.hpp"
+#include "tb/output/output_file.hpp"
 #include "tb/traces/xz.hpp"
 
 namespace dsdpv1::tb::traces {
@@ -38,6 +39,13 @@ std::optional<std::string> present_trace(const std::string& path) {
   if (!file.wrong.empty()) return std::nullopt;
   Decompressed result = decompress(file.text, kMostBytes);
   return result.wrong.empty() ? std::optional(std::move(result.content)) : std::nullopt;
+}
+
+/// All of it is on the disk, under a temporary name until it is committed.
+void fill(OutputFile& file, std::string_view content) {
+  file.write(content);
+  file.flush();
+  file.check();
 }
 
 }  // namespace
@@ -106,8 +114,11 @@ Written write_golden(const std::string& folder, const std::string& name, const N
   Written written;
   written.trace = present_trace(trace_path(folder, name)) != golden.trace;
   written.manifest = try_read_file(manifest_path(folder, name), kManifest.most_mb).text != manifest;
-  if (written.trace) write_file(trace_path(folder, name), compress(golden.trace));
-  if (written.manifest) write_file(manifest_path(folder, name), manifest);
+  std::optional<OutputFile> trace_file, manifest_file;
+  if (written.trace) fill(trace_file.emplace(trace_path(folder, name)), compress(golden.trace));
+  if (written.manifest) fill(manifest_file.emplace(manifest_path(folder, name)), manifest);
+  if (trace_file) trace_file->commit();
+  if (manifest_file) manifest_file->commit();
   return written;
 }
 

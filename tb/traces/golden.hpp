@@ -39,7 +39,8 @@ struct NewGolden {
 /// `tool` names the program, `rulings` is of rulings_of.
 NewGolden make_golden(const scenario::Scenario& scenario, std::string trace, const std::string& tool,
                       const Json& rulings);
-/// Writes those of the two files that are not so already; says whether the trace, the manifest were written.
+/// Writes those of the two files that are not so already; says whether the trace, the manifest were written. Throws
+/// InputError when one cannot be written (a full disk), and both stay as they are: each without the other is no golden.
 struct Written {
   bool trace = false, manifest = false;
 };

@@ -4,56 +4,59 @@
 
 enum { kNs = DPSIM_TICKS_PER_NS, kCycle = DPSIM_TICKS_PER_CYCLE };
 
-static int failed = 0;
+/* A thread's own: there may be several at once. */
+struct user {
+  dpsim_chip* chip;
+  int failed;
+};
 
-static void check(dpsim_status status) {
-  if (status != DPSIM_OK) failed = 1;
+static void check(struct user* user, dpsim_status status) {
+  if (status != DPSIM_OK) user->failed = 1;
 }
 
 /* H2: R_REQ, then L_REQ and L_STA seen low, then R_STA. */
-static uint64_t take(dpsim_chip* chip, uint64_t now) {
+static uint64_t take(struct user* user, uint64_t now) {
   dpsim_level l_req = DPSIM_X, l_sta = DPSIM_X;
-  check(dpsim_chip_set(chip, now, DPSIM_DSDPV1_R_REQ, 1));
+  check(user, dpsim_chip_set(user->chip, now, DPSIM_DSDPV1_R_REQ, 1));
   do {
     now += 100 * kNs;
-    check(dpsim_chip_advance(chip, now));
-    check(dpsim_chip_level(chip, DPSIM_DSDPV1_L_REQ, &l_req));
-    check(dpsim_chip_level(chip, DPSIM_DSDPV1_L_STA, &l_sta));
-  } while ((l_req != 0 || l_sta != 0) && !failed);
-  check(dpsim_chip_set(chip, now, DPSIM_DSDPV1_R_STA, 1));
+    check(user, dpsim_chip_advance(user->chip, now));
+    check(user, dpsim_chip_level(user->chip, DPSIM_DSDPV1_L_REQ, &l_req));
+    check(user, dpsim_chip_level(user->chip, DPSIM_DSDPV1_L_STA, &l_sta));
+  } while ((l_req != 0 || l_sta != 0) && !user->failed);
+  check(user, dpsim_chip_set(user->chip, now, DPSIM_DSDPV1_R_STA, 1));
   return now + 50 * kNs;
 }
 
 /* Table 15: A no later than RD's fall, D certain 31.25 ns after it. */
-static dpsim_level read(dpsim_chip* chip, uint64_t now, dpsim_level address) {
+static dpsim_level read(struct user* user, uint64_t now, dpsim_level address) {
   dpsim_level value = DPSIM_X;
-  check(dpsim_chip_set(chip, now, DPSIM_DSDPV1_A, address));
-  check(dpsim_chip_set(chip, now, DPSIM_DSDPV1_CSR, 0));
-  check(dpsim_chip_set(chip, now + 10 * kNs, DPSIM_DSDPV1_RD, 0));
-  check(dpsim_chip_sample(chip, now + 50 * kNs, &value));
-  check(dpsim_chip_set(chip, now + 50 * kNs, DPSIM_DSDPV1_RD, 1));
-  check(dpsim_chip_set(chip, now + 50 * kNs, DPSIM_DSDPV1_CSR, 1));
+  check(user, dpsim_chip_set(user->chip, now, DPSIM_DSDPV1_A, address));
+  check(user, dpsim_chip_set(user->chip, now, DPSIM_DSDPV1_CSR, 0));
+  check(user, dpsim_chip_set(user->chip, now + 10 * kNs, DPSIM_DSDPV1_RD, 0));
+  check(user, dpsim_chip_sample(user->chip, now + 50 * kNs, &value));
+  check(user, dpsim_chip_set(user->chip, now + 50 * kNs, DPSIM_DSDPV1_RD, 1));
+  check(user, dpsim_chip_set(user->chip, now + 50 * kNs, DPSIM_DSDPV1_CSR, 1));
   return value;
 }
 
 size_t drive_pin_by_pin(uint64_t released, dpsim_change* changes, size_t capacity) {
-  dpsim_chip* chip = NULL;
+  struct user user = {NULL, 0};
   dpsim_chip_options options;
   uint64_t now = 7200 * (uint64_t)kCycle;
   size_t count = 0;
-  failed = 0;
   memset(&options, 0, sizeof options);
   options.size = sizeof options;
-  if (dpsim_chip_create(&options, &chip) != DPSIM_OK) return 0;
-  check(dpsim_chip_watch(chip, DPSIM_ALL_PINS & ~(DPSIM_PIN(DPSIM_DSDPV1_L_REQ) - 1), NULL, NULL));
-  check(dpsim_chip_set(chip, released, DPSIM_DSDPV1_RESET, 1));
-  check(dpsim_chip_advance(chip, now));
-  now = take(chip, now);
-  if (read(chip, now, 4) != 0xC5) failed = 1;
-  check(dpsim_chip_set(chip, now + 100 * kNs, DPSIM_DSDPV1_R_STA, 0));
-  check(dpsim_chip_set(chip, now + 100 * kNs, DPSIM_DSDPV1_R_REQ, 0));
-  check(dpsim_chip_advance(chip, now + 2000 * kNs));
-  check(dpsim_chip_read_changes(chip, changes, capacity, &count));
-  dpsim_chip_destroy(chip);
-  return failed ? 0 : count;
+  if (dpsim_chip_create(&options, &user.chip) != DPSIM_OK) return 0;
+  check(&user, dpsim_chip_watch(user.chip, DPSIM_ALL_PINS & ~(DPSIM_PIN(DPSIM_DSDPV1_L_REQ) - 1), NULL, NULL));
+  check(&user, dpsim_chip_set(user.chip, released, DPSIM_DSDPV1_RESET, 1));
+  check(&user, dpsim_chip_advance(user.chip, now));
+  now = take(&user, now);
+  if (read(&user, now, 4) != 0xC5) user.failed = 1;
+  check(&user, dpsim_chip_set(user.chip, now + 100 * kNs, DPSIM_DSDPV1_R_STA, 0));
+  check(&user, dpsim_chip_set(user.chip, now + 100 * kNs, DPSIM_DSDPV1_R_REQ, 0));
+  check(&user, dpsim_chip_advance(user.chip, now + 2000 * kNs));
+  check(&user, dpsim_chip_read_changes(user.chip, changes, capacity, &count));
+  dpsim_chip_destroy(user.chip);
+  return user.failed ? 0 : count;
 }

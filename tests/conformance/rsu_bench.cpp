@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 namespace dsdpv1::conformance {
 namespace {
@@ -135,9 +134,7 @@ void RsuBench::compare() {
   }
   ASSERT_EQ(doze_trace_compared_, doze_trace_.size()) << "at tick " << now_;
   ASSERT_EQ(doze_.status().accesses, step_.status().accesses);
-  constexpr unsigned kRestoredEvery = 500;
-  Chip* const chips[] = {&skip_, &step_, &doze_};
-  if (++comparisons_ % kRestoredEvery == 0) save_and_restore(*chips[comparisons_ / kRestoredEvery % std::size(chips)]);
+  restorer_.compared({&skip_, &step_, &doze_});
 }
 
 void RsuBench::power_on() {

@@ -103,7 +103,7 @@ class RsuBench {
   std::size_t pins_compared_ = 0, events_compared_ = 0, doze_compared_ = 0, doze_trace_compared_ = 0;
   Tick now_ = 0;
   int bit_ = 26;
-  unsigned comparisons_ = 0;
+  Restorer restorer_{500};
 };
 
 }  // namespace dsdpv1::conformance

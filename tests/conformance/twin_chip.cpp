@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <iterator>
+#include <algorithm>
+#include <cstdlib>
 
 #include "model/profibus/addressee.hpp"
 #include "registers/dsdpv1_regs.hpp"
@@ -42,15 +43,24 @@ void compare_lists(const std::vector<T>& skip, const std::vector<T>& other, std:
 
 constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
 
-// Comparisons, each after an operation of the bench.
-constexpr unsigned kRestoredEvery = 100;
+unsigned restored_every(unsigned usual) {
+  const char* const given = std::getenv("DSDPV1_RESTORED_EVERY");
+  return given == nullptr ? usual : static_cast<unsigned>(std::max(1, std::atoi(given)));
+}
 
-}  // namespace
-
+/// It goes on from what it has saved, which is what it saves again.
 void save_and_restore(dsdpv1::Chip& chip) {
   const std::vector<std::uint8_t> state = chip.save();
   chip.restore(state.data(), state.size());
   ASSERT_TRUE(chip.save() == state) << "at tick " << chip.now();
+}
+
+}  // namespace
+
+Restorer::Restorer(unsigned usual) : every_(restored_every(usual)) {}
+
+void Restorer::compared(std::initializer_list<dsdpv1::Chip*> twins) {
+  if (++comparisons_ % every_ == 0) save_and_restore(**(twins.begin() + comparisons_ / every_ % twins.size()));
 }
 
 TwinChip::TwinChip(bus::Segment& segment, dsdpv1::Config config, Engines engines)
@@ -150,7 +160,7 @@ void TwinChip::compare(Tick at) {
   compare_lists(unwatched_trace_, doze_trace_, compared_doze_pins_, "doze");
   compare_lists(events_, doze_events_, compared_doze_events_, "doze");
   compare_state();
-  if (++comparisons_ % kRestoredEvery == 0) restore_one();
+  restorer_.compared({&skip_, &step_, &doze_});
   filter_for_doze();
 }
 
@@ -160,11 +170,6 @@ void TwinChip::compare_state() const {
   ASSERT_EQ(doze_.status().accesses, step_.status().accesses);
   ASSERT_EQ(doze_.status().telegrams_received, step_.status().telegrams_received);
   ASSERT_EQ(doze_.peek(dsdpv1::regs::kAccessCount), step_.peek(dsdpv1::regs::kAccessCount));
-}
-
-void TwinChip::restore_one() {
-  dsdpv1::Chip* const chips[] = {&skip_, &step_, &doze_};
-  save_and_restore(*chips[comparisons_ / kRestoredEvery % std::size(chips)]);
 }
 
 void TwinChip::on_skip_pin(void* self, Tick at, Pin pin, Level level) {

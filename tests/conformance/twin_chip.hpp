@@ -5,6 +5,7 @@
 // difference of pins or events fails the test, so each conformance test also proves that they agree. From time to time
 // one of them goes on from what it has saved (Chip::save), so that it also proves that nothing is forgotten there.
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,16 @@ struct PinChange {
   bool operator==(const PinChange& other) const { return at == other.at && pin == other.pin && level == other.level; }
 };
 
-/// It goes on from what it has saved, which is what it saves again.
-void save_and_restore(dsdpv1::Chip& chip);
+/// The twins of a bench go on from what they have saved, one after the other: one of them each time that so many
+/// comparisons are over, `usual` or what DSDPV1_RESTORED_EVERY in the environment says.
+class Restorer {
+ public:
+  explicit Restorer(unsigned usual);
+  void compared(std::initializer_list<dsdpv1::Chip*> twins);
+
+ private:
+  unsigned every_, comparisons_ = 0;
+};
 
 /// Whether the chip has its twins. Alone, in skip, it keeps no trace either: for long campaigns.
 enum class Engines : std::uint8_t { kStepAndSkip, kSkipAlone };
@@ -63,7 +72,6 @@ class TwinChip : public bus::Agent, public bus::Listener {
   void filter_for_doze();
   void leave_run_with_doze(Tick at);
   void compare_state() const;
-  void restore_one();
 
   /// Hears for doze_.
   class Ear : public bus::Listener {
@@ -90,7 +98,7 @@ class TwinChip : public bus::Agent, public bus::Listener {
   std::vector<Unheard> unheard_;  // changes of the line that doze_ has not been told yet
   std::vector<PinChange> trace_, step_trace_, unwatched_trace_, doze_trace_;  // unwatched: trace_ without L_REQ, L_STA
   std::vector<profibus::Event> events_, step_events_, doze_events_;
-  unsigned comparisons_ = 0;
+  Restorer restorer_{100};
   std::size_t compared_pins_ = 0, compared_events_ = 0, compared_doze_pins_ = 0, compared_doze_events_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Many at once in one folder, regressions that are disturbed, and what all commands do alike: docs/robustness.md has the rules.
+"""Many at once in one folder, regressions that are disturbed, goldens on a full disk, and what all commands do alike: docs/robustness.md has the rules.
 
     together.py DSDPV1_SIM [--many N] [TEST...]
 """
@@ -180,6 +180,44 @@ class Regression(Folder):
         self.assertEqual((code, lines[-1]), (2, "device.gsd: was changed while the regression ran, allowed is the same content for all of its runs"))
         self.assertEqual(self.do(*self.WORDS)[0], 1)  # what a scenario refuses is what its run has come to
         self.assertIn("device.gsd: no such file", self.said)
+
+
+class Goldens(Folder):
+    WORDS = ("traces", "regenerate", "short.yaml", "--folder", "goldens")
+    FILES = ("short.json", "short.trace.xz")
+
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.file("goldens"))
+        self.write("short.yaml", SCENARIO % ("short", "30us"))
+        self.assertEqual(self.do(*self.WORDS), (0, []))
+
+    def contents(self):
+        self.assertEqual(self.found("goldens"), list(self.FILES))
+        found = []
+        for name in self.FILES:
+            with open(self.file("goldens", name), "rb") as file:
+                found.append(file.read())
+        return found
+
+    def test_on_a_full_disk_both_files_stay_as_they_are(self):
+        before = self.contents()
+        self.write("short.yaml", SCENARIO % ("short", "60us"))
+        self.assertEqual(self.do(*self.WORDS), (0, []))
+        manifest, trace = self.contents()
+        self.assertTrue(manifest != before[0] and trace != before[1])
+        self.assertLess(len(trace), len(manifest))  # so that there is room for the trace alone, too
+        for room in (0, len(trace) // 2, len(trace) - 1, len(trace), len(manifest) - 1):
+            with self.subTest(room):
+                for name, content in zip(self.FILES, before):
+                    with open(self.file("goldens", name), "wb") as file:
+                        file.write(content)
+                code, lines = self.do(*self.WORDS, faults="fsize=%d" % room)
+                does_not_fit = "short.trace.xz" if room < len(trace) else "short.json"
+                self.assertEqual((code, lines), (2, ["goldens/%s: cannot be written: File too large" % does_not_fit]))
+                self.assertEqual(self.contents(), before)
+        self.assertEqual(self.do(*self.WORDS), (0, []))
+        self.assertEqual(self.contents(), [manifest, trace])
 
 
 COMMANDS = (["manual"], ["completion", "bash"], ["schema"], ["reasons"], ["gsd", "device.gsd"], ["decode", "log"], ["compare", "w.vcd", "w.vcd"],

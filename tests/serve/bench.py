@@ -84,8 +84,12 @@ class Serve:
             [program, "serve", "scenario.yaml", *port, *(("--log", "serve.log") if log else ()), "--result", "serve.json", *options],
             cwd=folder, stdout=subprocess.PIPE, stderr=self.errors)
         self.lines = Lines(self.process.stdout)
-        self.ready = self.lines.next(time.monotonic() + DEADLINE)
-        check(self.ready is not None, "serve did not start: " + self.said())
+        try:
+            self.ready = self.lines.next(time.monotonic() + DEADLINE)
+            check(self.ready is not None, "serve did not start: " + self.said())
+        except BaseException:  # an interrupt, too: who has asked for it never gets it
+            self.kill()
+            raise
         self.port = os.path.join(folder, "dp")
         self.log = self.result = None
 

@@ -8,6 +8,7 @@ import argparse
 import datetime
 import os
 import random
+import signal
 import socket
 import sys
 import tempfile
@@ -24,7 +25,8 @@ EXAMPLES = """examples:
   tests/serve/soak.py build/default/apps/dsdpv1-sim --hours 0.05 --seed 7
   tests/serve/soak.py build/default/apps/dsdpv1-sim --hours 1.5 --record # the row of docs/trust.md
 
-The table is tab-separated: minutes, rounds, exchanges, memory in KB, greatest wait for a turn in s. Exit codes: 0 all held, 1 something did not, 2 wrong input.
+The table is tab-separated: minutes, rounds, exchanges, memory in KB, greatest wait for a turn in s. Exit codes: 0 all held, 1 something did not,
+2 wrong input, 130 interrupted (SIGINT, SIGTERM, SIGHUP), which ends `serve`, too.
 """
 RECORD = os.path.join(ROOT, "docs", "trust", "soak.tsv")
 SCENARIO = """name: soak
@@ -43,6 +45,8 @@ MOST_GROWTH_KB = 4096  # as flood.py; from the sixth part of an hour (or the ten
 TURN_S = 60           # after a host that hangs up has sent what TCP holds of it: up to 1 MB (docs/pyprofibus.md), which takes 8 s at 1.5 Mbit/s
 UP_S = 30
 SAMPLE_S = 60
+HELD, FAILED, INTERRUPTED = "held", "failed", "interrupted"
+EXIT_CODES = {HELD: 0, FAILED: 1, INTERRUPTED: 130}
 
 
 # ------------------------------------------------------------------------------------------------- hosts that misbehave
@@ -215,18 +219,18 @@ def listens_at(pid):
     return found
 
 
-def record(soak, seed, peak, finished):
+def record(soak, seed, peak, verdict):
     result = soak.serve.result
     row = [datetime.date.today().isoformat(), seed, "%.2f" % (soak.now() / 3600), "%.2f" % (result["simulated_ns"] / 3.6e12), soak.rounds,
            soak.exchanges, soak.repeats, "%.1f" % soak.longest_turn_s, soak.settled_kb(), soak.samples[-1][1], peak,
-           "held" if finished else "failed"]
+           verdict]
     with open(RECORD, "a", encoding="utf-8") as file:
         file.write("\t".join(map(str, row)) + "\n")
 
 
 def soak_for(program, hours, seed, keep):
-    """The failure, or None."""
-    failure = None
+    """The verdict and words for it."""
+    verdict, words = HELD, "all held"
     with tempfile.TemporaryDirectory(prefix="dsdpv1_soak_") as folder:
         serve = Serve(program, folder, SCENARIO, port=("--tcp", "0"), log=False)
         soak = Soak(serve, seed)
@@ -234,8 +238,10 @@ def soak_for(program, hours, seed, keep):
             check(listens_at(serve.process.pid) == ["0100007F"], "it listens elsewhere than at 127.0.0.1: %s" % listens_at(serve.process.pid))
             soak.run(hours * 3600)
             soak.judge()
-        except (Failure, KeyboardInterrupt) as error:
-            failure = str(error) or "interrupted after %.2f hours" % (soak.now() / 3600)
+        except Failure as failure:
+            verdict, words = FAILED, str(failure)
+        except KeyboardInterrupt:
+            verdict, words = INTERRUPTED, "interrupted after %.2f hours" % (soak.now() / 3600)
         peak = peak_kb(serve.process.pid) if serve.process.poll() is None else 0
         try:
             serve.end(read_log=False)
@@ -244,8 +250,8 @@ def soak_for(program, hours, seed, keep):
         print("rounds of each kind: " + ", ".join("%s %d" % each for each in soak.count.items()))
         print("simulated %.3f hours, given up %.1f s" % (serve.result["simulated_ns"] / 3.6e12, serve.result["pacing"]["time_lost_ns"] / 1e9))
         if keep and soak.samples:
-            record(soak, seed, peak, failure is None)
-    return failure
+            record(soak, seed, peak, verdict)
+    return verdict, words
 
 
 def main():
@@ -257,9 +263,11 @@ def main():
     arguments = parser.parse_args()
     if not 0 < arguments.hours <= 1000:
         parser.error("--hours is %s, allowed is above 0 and up to 1000" % arguments.hours)
-    failure = soak_for(os.path.abspath(arguments.program), arguments.hours, arguments.seed, arguments.record)
-    print(failure or "all held")
-    return 1 if failure else 0
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.default_int_handler)  # as SIGINT
+    verdict, words = soak_for(os.path.abspath(arguments.program), arguments.hours, arguments.seed, arguments.record)
+    print(words)
+    return EXIT_CODES[verdict]
 
 
 if __name__ == "__main__":

@@ -1,6 +1,5 @@
 // The pins of all scenarios again, to a chip that lives through and to one that is saved and restored at random ticks,
 // each time into a chip with another history: the same pins, the same events, and byte for byte the same state.
-#include "tests/state/recorded.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,40 +9,12 @@
 #include <ostream>
 #include <random>
 
-#include "model/dsdpv1/reasons.hpp"
+#include "tests/state/life.hpp"
 
 namespace dsdpv1::state_test {
 namespace {
 
-using profibus::Event;
 using profibus::kTicksPerCycle;
-
-constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
-
-/// How a chip is evaluated and looked at: it dozes where nobody looks at L_REQ and L_STA.
-enum class Way : std::uint8_t { kSkip, kDoze, kStep };
-const char* words(Way way) { return way == Way::kSkip ? "Skip" : way == Way::kDoze ? "Doze" : "Step"; }
-
-/// What has left a chip.
-struct Heard {
-  std::vector<Input> pins;
-  std::vector<Event> events;
-};
-bool same(const Event& a, const Event& b) {
-  return a.at == b.at && a.reason == b.reason && a.a == b.a && a.b == b.b && a.c == b.c;
-}
-
-std::unique_ptr<Chip> make_chip(Config config, Way way, Heard& heard) {
-  config.engine = way == Way::kStep ? Engine::kStep : Engine::kSkip;
-  auto chip = std::make_unique<Chip>(config);
-  const auto on_pin = [](void* self, Tick at, Pin pin, Level level) {
-    static_cast<Heard*>(self)->pins.push_back({at, pin, level});
-  };
-  const auto on_event = [](void* self, const Event& event) { static_cast<Heard*>(self)->events.push_back(event); };
-  chip->watch({on_pin, &heard}, outputs_of(config.part) & (way == Way::kDoze ? ~kAccessPins : ~0U));
-  chip->on_event({on_event, &heard});
-  return chip;
-}
 
 /// Half of them anywhere, half soon after an input: within characters, accesses, frames.
 std::vector<Tick> random_ticks(const Recorded& slave, int count, std::mt19937& random) {
@@ -61,6 +32,7 @@ class Lives {
  public:
   Lives(const Recorded& slave, Way way)
       : slave_(slave),
+        way_(way),
         unbroken_(make_chip(slave.config, way, expected_)),
         restored_{make_chip(slave.config, way, heard_), make_chip(slave.config, way, heard_)} {
     restored_[1]->set(777, Pin::kReset, 1);  // another history, of which nothing may stay
@@ -91,15 +63,15 @@ class Lives {
     ASSERT_EQ(now().now(), at);
     ASSERT_EQ(now().next_event(), unbroken_->next_event()) << "at tick " << at;
     ASSERT_TRUE(state == now().save()) << "at tick " << at;
+    ASSERT_EQ(asked(now(), slave_.config, way_), asked(*unbroken_, slave_.config, way_)) << "at tick " << at;
   }
   void compare() const {
-    EXPECT_TRUE(heard_.pins == expected_.pins);
-    EXPECT_TRUE(
-        std::equal(heard_.events.begin(), heard_.events.end(), expected_.events.begin(), expected_.events.end(), same));
+    EXPECT_TRUE(heard_ == expected_);
     EXPECT_FALSE(expected_.pins.empty() && expected_.events.empty()) << "something happens";
   }
 
   const Recorded& slave_;
+  const Way way_;
   Heard expected_, heard_;
   std::unique_ptr<Chip> unbroken_;
   std::array<std::unique_ptr<Chip>, 2> restored_;

@@ -1,0 +1,51 @@
+#pragma once
+// In the place of the core's, for a core whose writer notes where each field of a state lies.
+#define StateWriter UnmarkedStateWriter
+#include "../../../../../model/profibus/state.hpp"
+#undef StateWriter
+
+namespace dsdpv1::profibus {
+
+/// Bytes of a state.
+struct StateField {
+  std::size_t at, size;
+};
+
+class StateWriter : public StateArchive<StateWriter> {
+ public:
+  static constexpr bool kReads = false;
+
+  StateWriter() { fields().clear(); }
+  /// Those of the state that was written last.
+  static std::vector<StateField>& fields() {
+    static std::vector<StateField> all;
+    return all;
+  }
+
+  template <class T>
+  void number(const T& value, T least, T most) {
+    // of times, what says whether there is one goes before the number, which alone may be below 0
+    if (sizeof(T) == sizeof(Tick) && least < T{0})
+      fields().back().size += sizeof(T);
+    else
+      note(sizeof(T));
+    writer_.number(value, least, most);
+  }
+  void bytes(const std::uint8_t* values, std::size_t count) {
+    note(count);
+    writer_.bytes(values, count);
+  }
+  void check(bool /*possible*/) {}
+
+  std::vector<std::uint8_t> take() { return writer_.take(); }
+
+ private:
+  void note(std::size_t size) {
+    std::vector<StateField>& all = fields();
+    all.push_back({all.empty() ? 0 : all.back().at + all.back().size, size});
+  }
+
+  UnmarkedStateWriter writer_;
+};
+
+}  // namespace dsdpv1::profibus
