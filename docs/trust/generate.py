@@ -206,7 +206,7 @@ Freeze, transfers of the DPRAM, and what the host does in which part of an acces
 """
 RANDOM_GOAL = 1_000_000_000  # cycles
 RANDOM_HOLES = """
-What no random case has reached yet. Where no reason is known, more cycles may reach it: these are few of the thousand million that are the goal.
+What no random case has reached yet. Where no reason is known, more cycles may reach it.
 
 """
 
@@ -237,7 +237,7 @@ def random_lockstep():
     groups = list(dict.fromkeys(row[1] for row in rows))
     total = sum(compared[port, "cycles"] for port in ports)
     cycles = f"{total:,}".replace(",", " ")
-    text = RANDOM + f"{when}: {cycles} cycles, {100 * total / RANDOM_GOAL:.2g} % of the goal. No difference.\n\n"
+    text = RANDOM + f"{when}: {cycles} cycles, {100 * total / RANDOM_GOAL:.1f} % of the goal. No difference.\n\n"
     text += table(["host port", "seed", "cases", "cycles"], [
         [port, compared[port, "seed"], f"{compared[port, 'cases']:,}".replace(",", " "), f"{compared[port, 'cycles']:,}".replace(",", " ")] for port in ports])
     seen = []
