@@ -9,13 +9,6 @@
 namespace dsdpv1::bus {
 namespace {
 
-Decoded decode(const Bytes& bytes) {
-  TelegramDecoder decoder;
-  for (const std::uint8_t byte : bytes)
-    if (auto decoded = decoder.feed(byte)) return *decoded;
-  return *decoder.finish();
-}
-
 Bytes counting(std::size_t size) {
   Bytes data;
   for (std::size_t i = 0; i < size; ++i) data.push_back(static_cast<std::uint8_t>(i));
