@@ -56,8 +56,10 @@ bus::Bytes HostConnection::receive(std::size_t most) {
   if (!gone) last_read_ = false;
   if (gone && (most == 0 || std::exchange(last_read_, true))) forget_peer("");
   bus::Bytes bytes = read(most);
-  if (!bytes.empty()) last_bytes_ = std::chrono::steady_clock::now();
-  if (!bytes.empty() && !std::exchange(heard_, true)) first_bytes();
+  if (!bytes.empty()) {
+    last_bytes_ = std::chrono::steady_clock::now();
+    if (!std::exchange(heard_, true)) first_bytes();
+  }
   if (!gone) flush();
   if (!has_peer()) bytes.clear();
   return bytes;

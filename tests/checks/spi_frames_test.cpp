@@ -7,28 +7,18 @@
 
 #include "bus/monitor/monitor.hpp"
 #include "tb/dsdpv1/checks/checks.hpp"
+#include "tests/conformance/host_telegrams.hpp"
 
 namespace dsdpv1 {
 namespace {
 
+using bus::Bytes;
 using bus::Tick;
 using checks::Check;
-using Bytes = std::vector<std::uint8_t>;
+using conformance::with_crc;
 
 constexpr Level kSpi = 1;
 constexpr Tick kHalf = 667;  ///< of SCK's period
-
-Bytes with_crc(Bytes bytes, unsigned error = 0) {
-  unsigned crc = 0xFFFF;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1) ^ 0xA001U : crc >> 1;
-  }
-  crc ^= error;
-  bytes.push_back(static_cast<std::uint8_t>(crc >> 8));
-  bytes.push_back(static_cast<std::uint8_t>(crc & 0xFFU));
-  return bytes;
-}
 
 const Bytes kClaim = with_crc({0x21, 0x00, 0x14, 0x01, 0x02}), kRelease = with_crc({0x21, 0x00, 0x14, 0x01, 0x00}),
             kLook = with_crc({0x01, 0x00, 0x14, 0x01}), kWrite = with_crc({0x21, 0x00, 0x20, 0x01, 0x55}),

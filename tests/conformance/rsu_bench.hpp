@@ -10,20 +10,13 @@
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/reasons.hpp"
 #include "registers/dsdpv1_regs.hpp"
+#include "tests/conformance/host_telegrams.hpp"
 #include "tests/conformance/twin_chip.hpp"
 
 namespace dsdpv1::conformance {
 
-using bus::Bytes;
 using Cycle = profibus::Cycle;
 
-/// Bytes and their CRC, high byte first, by chapter 4.2 bit by bit (R15).
-Bytes with_crc(Bytes bytes, std::uint16_t error = 0);
-Bytes read_telegram(std::uint16_t address, std::uint8_t length, std::uint8_t card = 1);
-Bytes write_telegram(std::uint16_t address, const Bytes& data, std::uint8_t card = 1);
-/// SPI's read and write; its length byte is the number of inputs.
-Bytes inputs_telegram(const Bytes& inputs, std::uint8_t card = 1);
-Bytes exchange_telegram(std::uint8_t function, std::uint16_t address, const Bytes& data, std::uint8_t card = 1);
 Bytes part_of(const Bytes& bytes, std::size_t from, std::size_t count);
 
 struct Straps {

@@ -9,14 +9,15 @@
 #include <initializer_list>
 #include <set>
 
-#include "model/dpram/crc16.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/dsdpv1/cosim/random_host.hpp"
 #include "tb/dsdpv1/cosim/serial_edges.hpp"
+#include "tests/conformance/host_telegrams.hpp"
 
 namespace dsdpv1 {
 namespace {
 
+using conformance::with_crc;
 using cosim::Action;
 using cosim::Verb;
 
@@ -30,13 +31,6 @@ long from_environment(const char* name, long usual) {
 }
 long telegrams() { return from_environment("DSDPV1_TELEGRAMS", 2000); }
 std::uint64_t seed() { return static_cast<std::uint64_t>(from_environment("DSDPV1_SEED", 1)); }
-
-bus::Bytes with_crc(bus::Bytes bytes) {
-  const int crc = dpram::crc16(bytes.data(), static_cast<int>(bytes.size()));
-  bytes.push_back(static_cast<std::uint8_t>(crc >> 8));
-  bytes.push_back(static_cast<std::uint8_t>(crc));
-  return bytes;
-}
 
 /// A chip behind one of the ports, and a host that draws what it sends from a seed.
 class Port {

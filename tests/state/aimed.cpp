@@ -4,14 +4,20 @@
 #include <random>
 #include <utility>
 
+#include "bus/telegram/telegram.hpp"
 #include "bus/wire/uart.hpp"
-#include "model/dpram/crc16.hpp"
 #include "registers/dsdpv1_regs.hpp"
+#include "tests/conformance/host_telegrams.hpp"
+#include "tests/state/life.hpp"
 
 namespace dsdpv1::state_test {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using bus::Bytes;
+using conformance::exchange_telegram;
+using conformance::inputs_telegram;
+using conformance::read_telegram;
+using conformance::write_telegram;
 
 constexpr Tick kCycle = profibus::kTicksPerCycle;
 constexpr Tick kStartUp = 4200 * kCycle;  // RAM cleared, B004 written
@@ -131,12 +137,18 @@ class Clumsy {
   Chance& chance_;
 };
 
-Aimed clumsy_user(unsigned seed) {
-  Chance chance(seed);
-  Script script("clumsy_user_seed_" + std::to_string(seed), {});
+/// A DSDPV1 behind its start-up.
+Script started(std::string name) {
+  Script script(std::move(name), Config{});
   script.wait(5000);
   script.set(Pin::kReset, 1);
   script.wait(kStartUp);
+  return script;
+}
+
+Aimed clumsy_user(unsigned seed) {
+  Chance chance(seed);
+  Script script = started("clumsy_user_seed_" + std::to_string(seed));
   Clumsy user(script, chance);
   for (int i = 0; i < 400; ++i) user.act();
   script.set(Pin::kReset, 0);
@@ -148,10 +160,7 @@ Aimed clumsy_user(unsigned seed) {
 
 /// An address that changes between RD's fall and the edge that takes it.
 Aimed exact_read() {
-  Script script("exact_read", {});
-  script.wait(5000);
-  script.set(Pin::kReset, 1);
-  script.wait(kStartUp);
+  Script script = started("exact_read");
   script.set(Pin::kRReq, 1);
   script.wait(100 * kCycle);
   script.set(Pin::kRSta, 1);
@@ -174,10 +183,7 @@ Aimed exact_read() {
 /// Shorter than a cycle and longer: what the two flip-flops have on their way.
 Aimed pulses(Pin pin) {
   Chance chance(3);
-  Script script(std::string("pulses_of_") + name(pin), {});
-  script.wait(5000);
-  script.set(Pin::kReset, 1);
-  script.wait(kStartUp);
+  Script script = started(std::string("pulses_of_") + name(pin));
   for (int i = 0; i < 400; ++i) {
     script.set(pin, static_cast<Level>(i % 2));
     script.wait(chance.below(kCycle));
@@ -189,36 +195,18 @@ Aimed pulses(Pin pin) {
 
 // --- a host at the serial ports --------------------------------------------------------------------------------------
 
-Bytes with_crc(Bytes bytes) {
-  const std::uint16_t crc = dpram::crc16(bytes.data(), static_cast<int>(bytes.size()));
-  bytes.push_back(static_cast<std::uint8_t>(crc >> 8));
-  bytes.push_back(static_cast<std::uint8_t>(crc & 0xFF));
-  return bytes;
-}
-Bytes joined(Bytes head, const Bytes& data) {
-  head.insert(head.end(), data.begin(), data.end());
-  return head;
-}
-Bytes read_of(int address, std::uint8_t length) {
-  return with_crc({0x01, static_cast<std::uint8_t>(address >> 8), static_cast<std::uint8_t>(address & 0xFF), length});
-}
-Bytes write_of(int address, const Bytes& data) {
-  return with_crc(joined({0x21, static_cast<std::uint8_t>(address >> 8), static_cast<std::uint8_t>(address & 0xFF),
-                          static_cast<std::uint8_t>(data.size())},
-                         data));
-}
-Bytes spi_exchange_of(const Bytes& inputs) {
-  return with_crc(joined({0x41, static_cast<std::uint8_t>(inputs.size())}, inputs));
-}
-Bytes uart_exchange_of(std::uint8_t function, int address, const Bytes& data) {
-  return with_crc(joined({0x41, function, static_cast<std::uint8_t>(address >> 8),
-                          static_cast<std::uint8_t>(address & 0xFF), static_cast<std::uint8_t>(data.size())},
-                         data));
-}
-
 constexpr std::uint8_t kNoCommand = 0x20;  // of B010: a bit that stays
 
-void power_on(Script& script, HostMode mode, int rate) {
+/// MOSI of a frame: the request, and so many bytes more for its reply.
+Bytes and_reply(Bytes request, std::size_t reply) {
+  request.resize(request.size() + reply, 0xFF);
+  return request;
+}
+
+/// A DSDPV1-RSU behind its start-up.
+Script at_port(std::string name, HostMode mode, int rate = 0, Config config = {}) {
+  config.part = Part::kRsu;
+  Script script(std::move(name), config);
   script.set(Pin::kMode, static_cast<Level>(mode));
   script.set(Pin::kAdr, 1);
   script.set(Pin::kUbr, static_cast<Level>(rate));
@@ -227,6 +215,7 @@ void power_on(Script& script, HostMode mode, int rate) {
   script.set(Pin::kReset, 1);
   script.mark();
   script.wait(kStartUp);
+  return script;
 }
 
 void change_straps(Script& script) {
@@ -237,19 +226,29 @@ void change_straps(Script& script) {
   }
 }
 
+/// Bits of MOSI, SCK's rise `low` after each; `falls(bit, of the last byte)` is what happens from there on.
+template <class Falls>
+void clock(Script& script, const Bytes& bytes, Tick low, const Falls& falls) {
+  for (const std::uint8_t& byte : bytes)
+    for (int bit = 7; bit >= 0; --bit) {
+      script.set(Pin::kMosi, static_cast<Level>(byte >> bit & 1));
+      script.wait(low);
+      script.set(Pin::kSck, 1);
+      falls(bit, &byte == &bytes.back());
+    }
+}
+
 /// Frames whose times are chance, down to several edges in one tick; MISO is late as it may be.
 class Frames {
  public:
   Frames(Script& script, Chance& chance) : script_(script), chance_(chance) {}
 
   void send(const Bytes& request, std::size_t reply) {
-    Bytes mosi = request;
-    mosi.resize(request.size() + reply, 0xFF);
     usual_ = chance_.one_in(3) ? 1000 : chance_.one_in(2) ? 500 : 260;
     together_ = chance_.one_in(3);
     if (usual_ != 260) script_.wait(kCycle - script_.now() % kCycle);  // with CLK
     step(Pin::kXss, 0);
-    for (const std::uint8_t byte : mosi) {
+    for (const std::uint8_t byte : and_reply(request, reply)) {
       for (int bit = 7; bit >= 0; --bit) {
         if (chance_.one_in(200)) return end();
         step(Pin::kMosi, static_cast<Level>(byte >> bit & 1));
@@ -283,19 +282,17 @@ class Frames {
 Aimed hasty_spi(unsigned seed) {
   Chance chance(seed);
   Config config;
-  config.part = Part::kRsu;
   config.spi_miso_delay = 600;
   config.spi_reply_gap = 3 * (seed % 2);
   config.u_timer = 2000;
-  Script script("hasty_spi_seed_" + std::to_string(seed), config);
-  power_on(script, HostMode::kSpi, 0);
+  Script script = at_port("hasty_spi_seed_" + std::to_string(seed), HostMode::kSpi, 0, config);
   Frames frames(script, chance);
   for (int i = 0; i < 60; ++i) {
     switch (chance.below(5)) {
-      case 0: frames.send(read_of(0x700, 3), 7); break;
-      case 1: frames.send(write_of(0x700, chance.bytes(4)), 4); break;
-      case 2: frames.send(write_of(0x014, {static_cast<std::uint8_t>(chance.below(4))}), 4); break;
-      case 3: frames.send(spi_exchange_of(chance.bytes(3)), 8); break;
+      case 0: frames.send(read_telegram(0x700, 3), 7); break;
+      case 1: frames.send(write_telegram(0x700, chance.bytes(4)), 4); break;
+      case 2: frames.send(write_telegram(0x014, {static_cast<std::uint8_t>(chance.below(4))}), 4); break;
+      case 3: frames.send(inputs_telegram(chance.bytes(3)), 8); break;
       default: frames.send(chance.bytes(5), 4); break;
     }
   }
@@ -306,24 +303,18 @@ Aimed hasty_spi(unsigned seed) {
 /// SCK far too fast: changes of MISO wait one behind the other.
 Aimed racing_spi() {
   Config config;
-  config.part = Part::kRsu;
   config.spi_miso_delay = 600;
-  Script script("racing_spi", config);
-  power_on(script, HostMode::kSpi, 0);
+  Script script = at_port("racing_spi", HostMode::kSpi, 0, config);
   const auto bytes = [&script](const Bytes& all, Tick half, bool marks) {
-    for (const std::uint8_t byte : all)
-      for (int bit = 7; bit >= 0; --bit) {
-        script.set(Pin::kMosi, static_cast<Level>(byte >> bit & 1));
-        script.wait(half);
-        script.set(Pin::kSck, 1);
-        script.wait(half);
-        script.set(Pin::kSck, 0);
-        if (marks) script.mark();
-      }
+    clock(script, all, half, [&script, half, marks](int, bool) {
+      script.wait(half);
+      script.set(Pin::kSck, 0);
+      if (marks) script.mark();
+    });
   };
   script.set(Pin::kXss, 0);
   script.wait(800);
-  bytes(read_of(0x001, 200), 700, false);  // longer than what is sent: how much was, is told
+  bytes(read_telegram(0x001, 200), 700, false);  // longer than what is sent: how much was, is told
   for (const Tick half : {400, 35, 130, 33, 55, 65}) bytes({0xFF}, half, true);
   Chance chance(1);
   for (int i = 0; i < 60; ++i) bytes({0x5A}, chance.from_to(3, 12), i % 2 == 0);  // some within a cycle
@@ -345,62 +336,49 @@ Aimed racing_spi() {
 /// DPRAM gets from them, byte by byte.
 Aimed exact_spi() {
   Config config;
-  config.part = Part::kRsu;
   config.spi_reply_gap = 4;
-  Script script("exact_spi", config);
-  power_on(script, HostMode::kSpi, 0);
+  Script script = at_port("exact_spi", HostMode::kSpi, 0, config);
   const auto frame = [&script](const Bytes& request, bool ends) {
     script.wait(kCycle - script.now() % kCycle);
     script.set(Pin::kXss, 0);
     script.wait(800);
-    for (const std::uint8_t& byte : request)
-      for (int bit = 7; bit >= 0; --bit) {
-        script.set(Pin::kMosi, static_cast<Level>(byte >> bit & 1));
-        script.wait(700);
-        script.set(Pin::kSck, 1);
-        if (ends && bit == 0 && &byte == &request.back()) break;
-        script.wait(700);
-        script.set(Pin::kSck, 0);
-      }
+    clock(script, request, 700, [&script, ends](int bit, bool last) {
+      if (ends && last && bit == 0) return;
+      script.wait(700);
+      script.set(Pin::kSck, 0);
+    });
     if (!ends) script.mark_cycles(20);
     script.set(Pin::kXss, 1);
     if (ends) script.mark_cycles(20);
     script.set(Pin::kSck, 0);
     script.wait(300 * kCycle);
   };
-  frame(write_of(regs::kOwnership, {0x02}), false);
-  frame(write_of(0x012, {1, 2, 2, 4, 5, 6}), false);
-  frame(write_of(0x700, {1, 2, 3, 4}), false);
-  frame(write_of(0x700, {5, 6, 7, 8}), true);
-  frame(write_of(regs::kChipCommand1, {0x07}), false);
-  frame(write_of(regs::kUserCommand1, {kNoCommand}), false);
-  frame(spi_exchange_of({1, 2, 3, 4}), false);
-  for (const int cell : {regs::kChipCommand1, regs::kUserCommand1})
-    frame(joined(read_of(cell, 1), Bytes(9, 0xFF)), false);
-  frame(spi_exchange_of({1, 2, 3, 4}), true);
-  frame(joined(read_of(0x700, 2), {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF}), false);
+  frame(write_telegram(regs::kOwnership, {0x02}), false);
+  frame(write_telegram(0x012, {1, 2, 2, 4, 5, 6}), false);
+  frame(write_telegram(0x700, {1, 2, 3, 4}), false);
+  frame(write_telegram(0x700, {5, 6, 7, 8}), true);
+  frame(write_telegram(regs::kChipCommand1, {0x07}), false);
+  frame(write_telegram(regs::kUserCommand1, {kNoCommand}), false);
+  frame(inputs_telegram({1, 2, 3, 4}), false);
+  for (const std::uint16_t cell : {regs::kChipCommand1, regs::kUserCommand1})
+    frame(and_reply(read_telegram(cell, 1), 9), false);
+  frame(inputs_telegram({1, 2, 3, 4}), true);
+  frame(and_reply(read_telegram(0x700, 2), 7), false);
   return script.done(300 * kCycle);
 }
 
 /// Edges of SCK with those of CLK, as the port loads what it sends, and of XSS and SCK at one tick.
 Aimed ties_of_spi() {
-  Config config;
-  config.part = Part::kRsu;
-  Script script("ties_of_spi", config);
-  power_on(script, HostMode::kSpi, 0);
+  Script script = at_port("ties_of_spi", HostMode::kSpi);
   for (int high = 3; high <= 7; ++high) {
     script.wait(kCycle - script.now() % kCycle);
     script.set(Pin::kXss, 0);
     script.wait(4 * kCycle);
-    for (const std::uint8_t byte : joined(read_of(0x001, 30), Bytes(9, 0xFF)))
-      for (int bit = 7; bit >= 0; --bit) {
-        script.set(Pin::kMosi, static_cast<Level>(byte >> bit & 1));
-        script.wait(3 * kCycle);
-        script.set(Pin::kSck, 1);
-        script.wait(high * kCycle);
-        if (bit < 2) script.mark();
-        script.set(Pin::kSck, 0);
-      }
+    clock(script, and_reply(read_telegram(0x001, 30), 9), 3 * kCycle, [&script, high](int bit, bool) {
+      script.wait(high * kCycle);
+      if (bit < 2) script.mark();
+      script.set(Pin::kSck, 0);
+    });
     for (int bit = 0; bit < 7; ++bit)
       for (const Level level : {Level{1}, Level{0}}) {
         script.wait(4 * kCycle);
@@ -416,19 +394,15 @@ Aimed ties_of_spi() {
   }
   script.set(Pin::kXss, 0);  // as fast as bytes that are loaded are sent a byte later
   script.wait(4 * kCycle);
-  const auto clock = [&script](const Bytes& bytes, Tick half) {
-    for (const std::uint8_t byte : bytes)
-      for (int bit = 7; bit >= 0; --bit) {
-        script.set(Pin::kMosi, static_cast<Level>(byte >> bit & 1));
-        script.wait(half);
-        script.set(Pin::kSck, 1);
-        script.wait(half);
-        if (script.now() % kCycle == 0 && half < kCycle) script.mark();
-        script.set(Pin::kSck, 0);
-      }
+  const auto bytes = [&script](const Bytes& all, Tick half) {
+    clock(script, all, half, [&script, half](int, bool) {
+      script.wait(half);
+      if (script.now() % kCycle == 0 && half < kCycle) script.mark();
+      script.set(Pin::kSck, 0);
+    });
   };
-  clock(read_of(0x000, 9), 3 * kCycle);
-  clock(Bytes(16, 0xFF), 25);
+  bytes(read_telegram(0x000, 9), 3 * kCycle);
+  bytes(Bytes(16, 0xFF), 25);
   script.wait(4 * kCycle);
   script.set(Pin::kXss, 1);
   return script.done(100 * kCycle);
@@ -436,10 +410,7 @@ Aimed ties_of_spi() {
 
 /// The edge at which the port begins to listen, behind a reset, and one of SCK at the same tick.
 Aimed awaking_spi() {
-  Config config;
-  config.part = Part::kRsu;
-  Script script("awaking_spi", config);
-  power_on(script, HostMode::kSpi, 0);
+  Script script = at_port("awaking_spi", HostMode::kSpi);
   for (int cycles = 1; cycles < 10; ++cycles) {
     script.wait(kCycle - script.now() % kCycle);
     script.set(Pin::kReset, 0);
@@ -510,20 +481,18 @@ class Characters {
 
 Aimed talking_uart(unsigned seed) {
   constexpr int kRate = 7;
+  constexpr std::uint8_t kAllNews = 0x07;  // parameters, configuration, outputs
   Chance chance(seed);
-  Config config;
-  config.part = Part::kRsu;
-  Script script("talking_uart_seed_" + std::to_string(seed), config);
-  power_on(script, HostMode::kUart, kRate);
+  Script script = at_port("talking_uart_seed_" + std::to_string(seed), HostMode::kUart, kRate);
   Characters host(script, chance, kRate);
   for (int i = 0; i < 40; ++i) {
     switch (chance.below(6)) {
-      case 0: host.ask(read_of(0x700, 4), 8); break;
-      case 1: host.ask(write_of(0x700, chance.bytes(4)), 4); break;
-      case 2: host.ask(write_of(regs::kChipCommand1, {0x07}), 4); break;  // parameters, configuration, outputs are news
-      case 3: host.ask(write_of(regs::kChipCommand2, {0x03}), 4); break;
-      case 4: host.ask(uart_exchange_of(1, regs::kInput, chance.bytes(6)), 20); break;
-      default: host.ask(uart_exchange_of(3, regs::kC1, chance.bytes(6)), 20); break;
+      case 0: host.ask(read_telegram(0x700, 4), 8); break;
+      case 1: host.ask(write_telegram(0x700, chance.bytes(4)), 4); break;
+      case 2: host.ask(write_telegram(regs::kChipCommand1, {kAllNews}), 4); break;
+      case 3: host.ask(write_telegram(regs::kChipCommand2, {0x03}), 4); break;
+      case 4: host.ask(exchange_telegram(1, regs::kInput, chance.bytes(6)), 20); break;
+      default: host.ask(exchange_telegram(3, regs::kC1, chance.bytes(6)), 20); break;
     }
   }
   change_straps(script);
@@ -533,25 +502,22 @@ Aimed talking_uart(unsigned seed) {
 Aimed exact_uart() {
   constexpr int kRate = 7;
   Chance chance(1);
-  Config config;
-  config.part = Part::kRsu;
-  Script script("exact_uart", config);
-  power_on(script, HostMode::kUart, kRate);
+  Script script = at_port("exact_uart", HostMode::kUart, kRate);
   Characters host(script, chance, kRate);
-  host.say(write_of(regs::kC1, {0x5F, 1, 2, 4, 9, 8, 7, 6}));
-  host.say(write_of(regs::kOutput, {4, 1, 2, 3, 4}));
-  host.say(read_of(regs::kC1, 6));
-  host.say(write_of(0x700, Bytes(255, 0)));  // too long
-  host.say(write_of(regs::kUserCommand1, {kNoCommand}));
-  for (const int news : {regs::kChipCommand2, regs::kChipCommand1}) {
-    host.say(write_of(news, {0x03}));
-    host.say(uart_exchange_of(1, regs::kInput, {1, 2, 3}));
-    host.say(uart_exchange_of(3, regs::kC1, {0x5E, 1, 2, 0}));
-    host.say(uart_exchange_of(3, regs::kDiag, {1, 2, 3}));
-    host.say(write_of(regs::kUserCommand1, {kNoCommand}));
-    host.say(uart_exchange_of(1, regs::kInput, {}));
-    host.say(uart_exchange_of(1, regs::kInput, {7}));
-    host.say(read_of(regs::kUserCommand1, 2));
+  host.say(write_telegram(regs::kC1, {0x5F, 1, 2, 4, 9, 8, 7, 6}));
+  host.say(write_telegram(regs::kOutput, {4, 1, 2, 3, 4}));
+  host.say(read_telegram(regs::kC1, 6));
+  host.say(write_telegram(0x700, Bytes(255, 0)));  // too long
+  host.say(write_telegram(regs::kUserCommand1, {kNoCommand}));
+  for (const std::uint16_t news : {regs::kChipCommand2, regs::kChipCommand1}) {
+    host.say(write_telegram(news, {0x03}));
+    host.say(exchange_telegram(1, regs::kInput, {1, 2, 3}));
+    host.say(exchange_telegram(3, regs::kC1, {0x5E, 1, 2, 0}));
+    host.say(exchange_telegram(3, regs::kDiag, {1, 2, 3}));
+    host.say(write_telegram(regs::kUserCommand1, {kNoCommand}));
+    host.say(exchange_telegram(1, regs::kInput, {}));
+    host.say(exchange_telegram(1, regs::kInput, {7}));
+    host.say(read_telegram(regs::kUserCommand1, 2));
   }
   return script.done(200 * kCycle);
 }
@@ -567,33 +533,30 @@ class Master {
 
   /// A request without SAPs, or with them, and time for its answer. `marked`: saved behind it, and during it.
   void ask(std::uint8_t function, const Bytes& saps, const Bytes& data, bool marked = true) {
-    const std::uint8_t sap_bit = saps.empty() ? 0 : 0x80;
-    Bytes body = {static_cast<std::uint8_t>(slave_ | sap_bit), static_cast<std::uint8_t>(own_ | sap_bit), function};
-    send(joined(joined(std::move(body), saps), data), marked);
+    send(telegram(slave_, function, saps, data), marked);
     script_.wait(kAnswer * bit_);
     if (marked) script_.mark();
   }
   /// Behind one for another station and without T_SYN: it is no request then.
   void ask_too_soon(std::uint8_t function, const Bytes& data) {
-    send({static_cast<std::uint8_t>(slave_ + 1), own_, function}, false);
-    send(joined({slave_, own_, function}, data), true, kSyn / 3);
+    send(telegram(slave_ + 1, function, {}, {}), false);
+    send(telegram(slave_, function, {}, data), true, kSyn / 3);
     script_.wait(kSyn * bit_);
   }
   void tell_all(const Bytes& saps, const Bytes& data) {
-    send(joined(joined({0xFF, static_cast<std::uint8_t>(own_ | 0x80), 0x46}, saps), data), true);
+    send(telegram(bus::kBroadcast, 0x46, saps, data), true);
     script_.wait(kSyn * bit_);
   }
 
  private:
   static constexpr Tick kSyn = 60, kAnswer = 800;  // bits
-  void send(const Bytes& body, bool marked, Tick idle = kSyn) {
+  Bytes telegram(int to, std::uint8_t function, const Bytes& saps, const Bytes& data) const {
+    const auto slave = static_cast<std::uint8_t>(to);
+    return bus::encode(saps.empty() ? bus::make_telegram(slave, own_, function, data)
+                                    : bus::make_telegram(slave, own_, function, data, saps.at(0), saps.at(1)));
+  }
+  void send(const Bytes& telegram, bool marked, Tick idle = kSyn) {
     script_.wait(idle * bit_);
-    unsigned sum = 0;
-    for (const std::uint8_t each : body) sum += each;
-    const auto length = static_cast<std::uint8_t>(body.size());
-    Bytes telegram = length == 3 ? joined({0x10}, body) : joined({0x68, length, length, 0x68}, body);
-    telegram.push_back(static_cast<std::uint8_t>(sum & 0xFF));
-    telegram.push_back(0x16);
     for (const std::uint8_t& byte : telegram) {
       const std::uint16_t bits = bus::Character::of(byte).bits;
       for (int i = 0; i < 11; ++i) {
@@ -635,11 +598,19 @@ Script in_data_exchange(std::string name) {
   return script;
 }
 
-/// The user writes some cells, and gives the DPRAM back.
-void write(Script& script, const std::vector<std::pair<int, std::uint8_t>>& cells) {
+void take(Script& script) {
   script.set(Pin::kRReq, 1);
   script.wait(200 * kCycle);
   script.set(Pin::kRSta, 1);
+}
+void give(Script& script) {
+  script.set(Pin::kRSta, 0);
+  script.set(Pin::kRReq, 0);
+}
+
+/// The user writes some cells, and gives the DPRAM back.
+void write(Script& script, const std::vector<std::pair<int, std::uint8_t>>& cells) {
+  take(script);
   for (const auto& [address, value] : cells) {
     script.set(Pin::kA, static_cast<Level>(address));
     script.set(Pin::kDIn, value);
@@ -653,15 +624,12 @@ void write(Script& script, const std::vector<std::pair<int, std::uint8_t>>& cell
   }
   script.set(Pin::kDIn, kLevelZ);
   script.wait(10 * kCycle);
-  script.set(Pin::kRSta, 0);
-  script.set(Pin::kRReq, 0);
+  give(script);
 }
 
 /// ... and reads the status.
 void read_status(Script& script) {
-  script.set(Pin::kRReq, 1);
-  script.wait(200 * kCycle);
-  script.set(Pin::kRSta, 1);
+  take(script);
   for (const int address : {regs::kChipStatus2, regs::kChipStatus4, regs::kChipCommand2, regs::kUserCommand2}) {
     script.set(Pin::kA, static_cast<Level>(address));
     script.wait(300);
@@ -672,8 +640,7 @@ void read_status(Script& script) {
     script.set(Pin::kCsr, 1);
     script.wait(300);
   }
-  script.set(Pin::kRSta, 0);
-  script.set(Pin::kRReq, 0);
+  give(script);
 }
 
 /// A C1 request beside a C2 flag that the user has not cleared.
@@ -806,7 +773,7 @@ Act hears_run(std::string name, const Bytes& telegram, Tick saved, std::function
   const Recorded begin = in_data_exchange("").done(0).stimulus;
   const Tick start = begin.end + 60 * kBusBit;
   const auto before = [begin, telegram, start, saved](Chip& chip) {
-    for (const Input& each : begin.inputs) chip.set(each.at, each.pin, each.level);
+    play(chip, begin, 0, begin.end);
     chip.hear(start, {start, kBusBit / kCycle, telegram.data(), static_cast<int>(telegram.size())});
     chip.advance(start + saved);
   };
@@ -814,13 +781,7 @@ Act hears_run(std::string name, const Bytes& telegram, Tick saved, std::function
 }
 
 Bytes telegram_to(std::uint8_t slave) {
-  const Bytes body = {slave, 2, kSrd, 1, 2, 3, 4, 5, 6, 7, 8};
-  unsigned sum = 0;
-  for (const std::uint8_t each : body) sum += each;
-  Bytes telegram = joined({0x68, 11, 11, 0x68}, body);
-  telegram.push_back(static_cast<std::uint8_t>(sum & 0xFF));
-  telegram.push_back(0x16);
-  return telegram;
+  return bus::encode(bus::make_telegram(slave, 2, kSrd, {1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
 std::vector<Act> runs() {
@@ -844,8 +805,7 @@ std::vector<Act> runs() {
                           hears_run("broken_run", broken, 5 * kCharacter + 100, to_its_end),
                           hears_run("left_run", broken, 5 * kCharacter + 100, is_left),
                           hears_run("run_into_reset", telegram_to(5), 5 * kCharacter, falls_into_reset)};
-  Act left = hears_run("run_left_by_reset", telegram_to(5), 5 * kCharacter,
-                       [](Chip& chip, Tick start) { chip.advance(start + 60 * kCharacter); });
+  Act left = hears_run("run_left_by_reset", telegram_to(5), 5 * kCharacter, to_its_end);
   left.before = [before = left.before](Chip& chip) {
     before(chip);
     chip.set(chip.now() + 10, Pin::kReset, 0);
@@ -858,7 +818,7 @@ std::vector<Act> runs() {
 Act sampled_too_early() {
   const Recorded begin = in_data_exchange("").done(0).stimulus;
   const auto before = [begin](Chip& chip) {
-    for (const Input& each : begin.inputs) chip.set(each.at, each.pin, each.level);
+    play(chip, begin, 0, begin.end);
     chip.set(begin.end, Pin::kRReq, 1);
     chip.set(begin.end + 200 * kCycle, Pin::kRSta, 1);
     const Tick falls = begin.end + 300 * kCycle;
@@ -877,8 +837,7 @@ Act silent_channels(int ms) {
   static const Recorded scenario = recorded("dpv1_c2_two_masters").at(0);
   const Tick from = ms * kMs;
   const auto before = [from](Chip& chip) {
-    for (const Input& each : scenario.inputs)
-      if (each.at <= from) chip.set(each.at, each.pin, each.level);
+    play(chip, scenario, 0, from);
     chip.advance(from);
   };
   return {"silent_channels_" + std::to_string(ms), scenario.config, before,

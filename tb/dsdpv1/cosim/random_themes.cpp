@@ -38,8 +38,7 @@ const RandomCase::Theme& RandomCase::any_theme() {
   return *theme;
 }
 
-// --- what they want of the slave
-// --------------------------------------------------------------------------------------
+// --- what they want of the slave ------------------------------------------------------------------------------------
 
 void RandomCase::with_dpv1() {
   setup_.dpv1 = true;
@@ -209,8 +208,7 @@ void RandomCase::hold_commands_unseen() {
   host_->give();
 }
 
-// --- parameters, configurations, verdicts
-// -----------------------------------------------------------------------------
+// --- parameters, configurations, verdicts ---------------------------------------------------------------------------
 
 void RandomCase::judgements() {
   for (int i = random_.between(4, 12); i > 0; --i) random_.one_in(4) ? supersede() : judging();
@@ -260,8 +258,7 @@ void RandomCase::initialisations() {
   host_->careful(false);
 }
 
-// --- services, addresses, rates, silences
-// -----------------------------------------------------------------------------
+// --- services, addresses, rates, silences ---------------------------------------------------------------------------
 
 /// Each service in each state, with data or without, by the holder and by another master.
 void RandomCase::services() {
@@ -337,8 +334,7 @@ void RandomCase::search_again() {
   master_.repeat_last();
 }
 
-// --- the host's port
-// --------------------------------------------------------------------------------------------------
+// --- the host's port ------------------------------------------------------------------------------------------------
 
 void RandomCase::port() {
   for (int i = random_.between(2, 5); i > 0; --i) {
