@@ -1,13 +1,9 @@
 #include "tests/app/program.hpp"
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 namespace dsdpv1::app_test {
 
@@ -27,13 +23,6 @@ Called call(const std::string& arguments, const fs::path& folder, const std::str
           read(outputs.file("err"))};
 }
 
-std::string read(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 std::vector<std::string> shipped_scenarios() {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(DSDPV1_SOURCE_DIR "/scenarios"))
@@ -41,13 +30,5 @@ std::vector<std::string> shipped_scenarios() {
   std::sort(names.begin(), names.end());
   return names;
 }
-
-Folder::Folder() {
-  static int count = 0;
-  path_ = fs::temp_directory_path() / ("dsdpv1_app_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
-  fs::create_directories(path_);
-}
-
-Folder::~Folder() { fs::remove_all(path_); }
 
 }  // namespace dsdpv1::app_test

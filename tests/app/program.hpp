@@ -1,8 +1,11 @@
 #pragma once
 // Calls the built dsdpv1-sim, or the one that DSDPV1_SIM of the environment names, as ./run faults does.
+// Under DSDPV1_TEST_PROGRAMS alone: elsewhere what calls it is not linked.
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/app/folder.hpp"
 
 namespace dsdpv1::app_test {
 
@@ -17,23 +20,7 @@ std::string simulator();
 /// Runs the program with `arguments` (shell words) in `folder`; `program`: another one than the built dsdpv1-sim.
 Called call(const std::string& arguments, const std::filesystem::path& folder, const std::string& program = "");
 
-std::string read(const std::filesystem::path& path);
-
 /// The names of scenarios/*.yaml, in order.
 std::vector<std::string> shipped_scenarios();
-
-/// A folder for one test, removed at its end.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace dsdpv1::app_test

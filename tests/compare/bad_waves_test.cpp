@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tests/app/program.hpp"
 #include "tests/compare/waves.hpp"
 
 namespace dsdpv1 {

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/app/program.hpp"
 #include "tests/compare/waves.hpp"
 
 namespace dsdpv1 {

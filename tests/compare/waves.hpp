@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tb/compare/comparison.hpp"
-#include "tests/app/program.hpp"
+#include "tests/app/folder.hpp"
 
 namespace dsdpv1::compare_test {
 

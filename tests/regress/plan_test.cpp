@@ -9,7 +9,7 @@
 #include <set>
 
 #include "tb/input/input_error.hpp"
-#include "tests/app/program.hpp"
+#include "tests/app/folder.hpp"
 
 namespace dsdpv1 {
 namespace {
