@@ -99,13 +99,13 @@ def the_same_difference(sim, folder):
     status, told = run([sim, "traces", "check", GOLDEN, "--engine", "rtl", "--fault", FAULT, "--no-progress"], ROOT)
     found = re.search(r"first difference  (cycle (\d+).*)\n +pin (\w+) of \w+: golden (?:still )?(\w), here (\w)\n", told)
     expect("the golden does not find the fault", status == 1 and found, told)
-    for wave in ("fault.vcd", "fault.fst"):
-        simulate(folder, wave, FAULT)
-        result, said = compare(sim, folder, wave)
-        first = result["first"]
-        expect("the fault is not found", first, said)
-        named = str(first["cycle"]), first["signal"], first["a"], first["b"]
-        expect(f"the golden says\n{told}", named == found.groups()[1:] and found[1] in said, said)
+    wave = "fault.fst"  # that VCD is read as well is seen where nothing differs
+    simulate(folder, wave, FAULT)
+    result, said = compare(sim, folder, wave)
+    first = result["first"]
+    expect("the fault is not found", first, said)
+    named = str(first["cycle"]), first["signal"], first["a"], first["b"]
+    expect(f"the golden says\n{told}", named == found.groups()[1:] and found[1] in said, said)
 
 
 def main():
