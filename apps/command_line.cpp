@@ -102,6 +102,28 @@ const char* const kRunExamples =
     "  dsdpv1-sim run --restore at_20ms.run --log rest.log --wave rest.fst\n"
     "  dsdpv1-sim run my.yaml --engine lockstep --difference both.vcd\n";
 
+/// What a run is held against, and with what RTL; those that a saved run already has.
+std::vector<CLI::Option*> add_comparison_options(CLI::App& command, RunArguments& arguments) {
+  command.add_option("--trace", arguments.trace, "Every change of every output pin, for comparisons");
+  command
+      .add_option("--difference", arguments.difference,
+                  "Wave of both sides, written when --engine lockstep finds a difference")
+      ->capture_default_str();
+  CLI::Option* golden = command.add_option(
+      "--golden", arguments.golden,
+      "Folder of golden traces (traces): every change of every pin is compared, the first difference "
+      "ends the run (docs/traces.md)");
+  CLI::Option* fault =
+      command
+          .add_option("--fault", arguments.fault,
+                      "With this single fault of rtl_ref/faults.txt, or faults_rsu.txt, in the reference RTL")
+          ->check(CLI::Range(0, 255));
+  CLI::Option* seed =
+      command.add_option("--seed", arguments.seed,
+                         "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
+  return {golden, fault, seed};
+}
+
 void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::App* command = app.add_subcommand("run", "Carries out a scenario and judges it");
   CLI::Option* scenario =
@@ -132,24 +154,8 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
               "The checks of docs/checks.md on handshake, bus timing and DPRAM: report (listed), fail (exit 1 on a "
               "violation that the scenario does not allow), off")
           ->capture_default_str();
-  command->add_option("--trace", arguments.trace, "Every change of every output pin, for comparisons");
-  command
-      ->add_option("--difference", arguments.difference,
-                   "Wave of both sides, written when --engine lockstep finds a difference")
-      ->capture_default_str();
-  CLI::Option* golden = command->add_option(
-      "--golden", arguments.golden,
-      "Folder of golden traces (traces): every change of every pin is compared, the first difference "
-      "ends the run (docs/traces.md)");
-  CLI::Option* fault =
-      command
-          ->add_option("--fault", arguments.fault,
-                       "With this single fault of rtl_ref/faults.txt, or faults_rsu.txt, in the reference RTL")
-          ->check(CLI::Range(0, 255));
-  CLI::Option* seed =
-      command->add_option("--seed", arguments.seed,
-                          "With --engine rtl or lockstep: what RTL begins with where nothing is reset; left out: 1");
-  CLI::Option* set = add_set_option(*command, arguments.set);
+  std::vector<CLI::Option*> of_whole_run = add_comparison_options(*command, arguments);
+  of_whole_run.insert(of_whole_run.end(), {scenario, engine, view, checks, add_set_option(*command, arguments.set)});
   command
       ->add_option("--save-at", arguments.save_at,
                    "TIME FILE: saves the run as it is then, for --restore; once for each time (docs/save_restore.md)")
@@ -169,7 +175,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   CLI::Option* restore = command->add_option(
       "--restore", arguments.restore,
       "A saved run in the place of a scenario: it goes on from there, and log, wave, trace and capture begin there");
-  for (CLI::Option* each : {scenario, engine, view, checks, golden, fault, seed, set}) restore->excludes(each);
+  for (CLI::Option* each : of_whole_run) restore->excludes(each);
   rewind->excludes(restore);
   command
       ->add_option(

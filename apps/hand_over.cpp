@@ -82,7 +82,7 @@ std::optional<std::string> left_text(const tb::FileKind& kind) {
   const std::string file = left;
   unsetenv(kTextVariable);  // is not for the runs of a campaign
   std::string text = tb::read_file("/proc/self/fd/" + file, kind);
-  close(std::atoi(file.c_str()));
+  close(static_cast<int>(std::strtol(file.c_str(), nullptr, 10)));
   return text;
 }
 

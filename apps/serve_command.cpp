@@ -86,19 +86,20 @@ int serve(const ServeArguments& arguments) {
   auto made = std::make_unique<tb::serve::RealTimeExecution>(std::move(port), scenario.baud);
   tb::serve::RealTimeExecution& execution = *made;
   tb::Bench bench(scenario, options, std::move(made));
-  if (!arguments.log.empty()) std::cerr << "serve: the log grows as " << bench.log_grows_at() << std::endl;
+  if (!arguments.log.empty()) std::cerr << "serve: the log grows as " << bench.log_grows_at() << '\n';
   execution.join();
   execution.say = [&bench](tb::Tick at, const std::string& text) {
-    std::cerr << "serve: " << text << std::endl;
+    std::cerr << "serve: " << text << '\n';
     bench.log(at, "host", "serve", text);
   };
   catch_signals();
   std::cout << "serving \"" << bus::printable(scenario.name) << "\" at " << bus::baud(scenario.baud).name << " on "
-            << name << "; Ctrl-C ends" << std::endl;
+            << name << "; Ctrl-C ends\n"
+            << std::flush;
 
   tb::RunResult result = bench.run([](tb::Tick) { return !interrupted(); });
   if (arguments.wave.save) write_save_files(arguments.wave.file, *scenario.kind);
-  if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
+  if (bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << '\n';
   result.pacing = execution.pacing();
   if (result_file) {
     result_file->write(tb::result_json(result));

@@ -3,6 +3,7 @@
 
 #include "capi/bus.hpp"
 #include "capi/chip.hpp"
+#include "capi/error.hpp"
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/dsdpv1/kind.hpp"
 #include "tb/dsdpv1/pin_chip.hpp"

@@ -40,7 +40,7 @@ def debian_versions(packages):
 
 
 def python_versions():
-    lists = "".join((ROOT / name).read_text(encoding="utf-8") for name in ("requirements.txt", "requirements-test.txt"))
+    lists = "".join((ROOT / name).read_text(encoding="utf-8") for name in ("requirements.txt", "requirements-test.txt", "requirements-lint.txt"))
     return dict(re.findall(r"^([\w.-]+)==(\S+)", lists, re.M))
 
 

@@ -19,6 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 CACHE = "tidy-clean"
+CLANG_TIDY = ROOT / ".venv" / "bin" / "clang-tidy"  # ./run lint installs it
 OF_GCC_ALONE = (" -fno-gnu-unique", " -ffat-lto-objects")  # clang does not know them
 
 
@@ -95,7 +96,7 @@ def read_dependencies(build):
 
 
 def settings_digest():
-    digest = hashlib.sha256(output_of("clang-tidy", "--version").encode())
+    digest = hashlib.sha256(output_of(CLANG_TIDY, "--version").encode())
     for pattern in (".clang-tidy", "*/.clang-tidy", "*/*/.clang-tidy", "*/*/*/.clang-tidy"):
         for path in sorted(ROOT.glob(pattern)):
             digest.update(path.read_bytes())
@@ -120,7 +121,7 @@ def files_of(source, entry, commands, dependencies):
 def look_at(database, source, clean):
     """Prints what clang-tidy finds; `clean` is made when it finds nothing."""
     result = subprocess.run(
-        ["clang-tidy", "--quiet", "-p", str(database), source], capture_output=True, text=True, check=False
+        [CLANG_TIDY, "--quiet", "-p", str(database), source], capture_output=True, text=True, check=False
     )
     if result.returncode == 0:
         clean.touch()

@@ -23,7 +23,7 @@ static double us(uint64_t ticks) { return (double)ticks / (1000 * DPSIM_TICKS_PE
 
 /* ---- the user CPU: each action takes its time, and the bus goes on meanwhile ---- */
 
-typedef struct user {
+typedef struct {
   dpsim_chip* chip;
   uint64_t now;
 } user;
@@ -106,7 +106,7 @@ static void open_object(dsdpv1_acyclic* acyclic, dsdpv1_device* device) {
 
 /* ---- acyclic requests of the masters ---- */
 
-typedef struct dialogue {
+typedef struct {
   dpsim_master *first, *second; /* of class 1, of class 2 */
   uint32_t connection;
   int ended; /* how many of kRequests */

@@ -32,6 +32,9 @@ namespace dsdpv1::profibus {
 /// What both ways have in common. `Way` has `number(T& value, T least, T most)` for each integer, `bytes` and `check`.
 template <class Way>
 class StateArchive {
+  friend Way;
+  StateArchive() = default;
+
  public:
   /// Truth values, integers that may have any value, blocks, and arrays of them.
   template <class... T>

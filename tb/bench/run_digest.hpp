@@ -14,7 +14,7 @@ namespace dsdpv1::tb {
 class RunDigest : public Observer {
  public:
   void event(std::size_t slave, const profibus::Event& event) override;
-  void telegram(const HeardTelegram& telegram) override;
+  void telegram(const HeardTelegram& heard) override;
   void violated(const std::string& slave, const checks::Violation& violation) override;
   void flag(const bus::Flag& flag) override;
   void master_state(Tick now, const std::string& master, const std::string& member, const std::string& state) override;

@@ -64,8 +64,8 @@ Json description_of(const fs::path& folder, const Kind& kind) {
   return json.is_object() && json.value("format", Json()) == kind.format() ? json : Json();
 }
 
-Folder::Folder(fs::path path, const Kind& kind, const Json& description, Difference difference, Access access)
-    : path_(std::move(path)), kind_(kind), difference_(std::move(difference)) {
+Folder::Folder(fs::path path, Kind kind, const Json& description, Difference difference, Access access)
+    : path_(std::move(path)), kind_(std::move(kind)), difference_(std::move(difference)) {
   try {
     if (access == Access::kTask)
       join(description);

@@ -39,7 +39,7 @@ class Folder {
   /// Opens or makes the folder; `description` has the member format. What another campaign has kept there is removed. A
   /// task finds the folder made. Throws InputError for a folder that holds something else, that another process has, or
   /// that cannot be written, and to a task when the folder is about something else by now.
-  Folder(std::filesystem::path path, const Kind& kind, const Json& description, Difference difference, Access access);
+  Folder(std::filesystem::path path, Kind kind, const Json& description, Difference difference, Access access);
 
   /// In what an earlier campaign in this folder was another one; empty when nothing was removed.
   const std::string& started_anew() const { return started_anew_; }

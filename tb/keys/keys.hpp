@@ -204,7 +204,7 @@ class ObjectOf : public Object {
     const T fresh{};
     for (const V value : fresh.*member)
       field.default_text += (field.default_text.empty() ? "[" : ", ") + default_text(value);
-    field.default_text += "]";
+    field.default_text += ']';
     return on_read(field, [member](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
       check_list(self, node, source);
       Field element = self;
@@ -253,7 +253,8 @@ class ObjectOf : public Object {
         if (fresh.*member == each.value) field.default_text = each.text;
       }
     }
-    return on_read(field, [member, words](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
+    return on_read(field, [member, words = std::move(words)](T& owner, const Field& self, const YAML::Node& node,
+                                                             const Source& source) {
       owner.*member = words[read_word(self, node, source)].value;
     });
   }
@@ -325,7 +326,7 @@ class ObjectOf : public Object {
   /// Fields move while others are added, so the reader gets its own copy of what it has to know.
   template <class Read>
   Field& on_read(Field& field, Read read) {
-    field.read = [self = field, read](void* owner, const YAML::Node& node, const Source& source) {
+    field.read = [self = field, read = std::move(read)](void* owner, const YAML::Node& node, const Source& source) {
       read(*static_cast<T*>(owner), self, node, source);
     };
     return field;

@@ -10,6 +10,7 @@ namespace dsdpv1::tb::scenario {
 std::vector<WordFor<int>> baud_words() {
   std::vector<WordFor<int>> words;
   words.reserve(bus::kBaudCount);
+  // NOLINTNEXTLINE(bugprone-suspicious-stringview-data-usage): a literal
   for (int i = 0; i < bus::kBaudCount; ++i) words.push_back({i, bus::baud(i).name.data(), ""});
   return words;
 }

@@ -29,4 +29,4 @@
 #define compress2(to, to_size, from, from_size, level) \
   compress2(to, to_size, from, from_size, (level) > 4 ? 4 : (level))
 
-#include <fstapi.c>
+#include <fstapi.c> /* NOLINT(bugprone-suspicious-include): with the macros above */

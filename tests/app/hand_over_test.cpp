@@ -162,7 +162,9 @@ TEST_F(HandOver, TheProgramIsFoundInLibexecAndInPath) {
   EXPECT_EQ(run(), 0);
   fs::remove_all(folder_.path() / "libexec");
   EXPECT_EQ(run(), 2);
-  const std::string path = std::getenv("PATH");
+  const char* const given = std::getenv("PATH");
+  ASSERT_NE(given, nullptr);
+  const std::string path = given;
   setenv("PATH", (path + ":" + fs::path(kBoard).parent_path().string()).c_str(), 1);
   EXPECT_EQ(run(), 0);
   setenv("PATH", path.c_str(), 1);

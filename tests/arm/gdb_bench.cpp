@@ -27,7 +27,7 @@ void GdbBench::start() {
   GdbOptions options;
   options.stopped = [this] { return stopped_.load(); };
   options.say = [this](const std::string& line) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     said_.push_back(line);
   };
   server_ = std::make_unique<GdbServer>(target, options);
@@ -48,7 +48,7 @@ void GdbBench::end() {
 }
 
 std::vector<std::string> GdbBench::said() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::scoped_lock lock(mutex_);
   return said_;
 }
 

@@ -15,7 +15,7 @@
 
 namespace dsdpv1::conformance {
 
-using Cycle = profibus::Cycle;
+using profibus::Cycle;
 
 Bytes part_of(const Bytes& bytes, std::size_t from, std::size_t count);
 

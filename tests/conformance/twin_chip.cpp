@@ -45,7 +45,7 @@ constexpr std::uint32_t kAccessPins = mask(Pin::kLReq) | mask(Pin::kLSta);
 
 unsigned restored_every(unsigned usual) {
   const char* const given = std::getenv("DSDPV1_RESTORED_EVERY");
-  return given == nullptr ? usual : static_cast<unsigned>(std::max(1, std::atoi(given)));
+  return given == nullptr ? usual : static_cast<unsigned>(std::max(1L, std::strtol(given, nullptr, 10)));
 }
 
 /// It goes on from what it has saved, which is what it saves again.

@@ -12,8 +12,8 @@
 
 namespace dsdpv1::conformance {
 
+using profibus::Cycle;
 using profibus::Reason;
-using Cycle = profibus::Cycle;
 
 /// The first edge that samples a change made at `t`, and the one at which the logic sees it (P9).
 constexpr Cycle sampled_at(Tick t) { return t / kCycleTicks + 1; }

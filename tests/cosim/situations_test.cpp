@@ -17,7 +17,6 @@ namespace dsdpv1::cosim {
 namespace {
 
 namespace fs = std::filesystem;
-using profibus::Event;
 using profibus::Reason;
 using testing::HasSubstr;
 

@@ -5,9 +5,6 @@ namespace dsdpv1 {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::SizeIs;
 
 /// A device on one port, whose log says what the services returned and what reached whom.
 class Story : public AcyclicTest {

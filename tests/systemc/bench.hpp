@@ -19,7 +19,7 @@ void simulate();
 /// others for a resolution that is refused).
 inline void set_resolution() {
   const char* femtoseconds = std::getenv("DSDPV1_RESOLUTION_FS");
-  sc_core::sc_set_time_resolution(femtoseconds != nullptr ? std::atof(femtoseconds) : 1, sc_core::SC_FS);
+  sc_core::sc_set_time_resolution(femtoseconds != nullptr ? std::strtod(femtoseconds, nullptr) : 1, sc_core::SC_FS);
 }
 
 constexpr dsdpv1::Tick kNs = 12;

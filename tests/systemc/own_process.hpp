@@ -49,7 +49,7 @@ inline std::string in_a_process_of_its_own(const std::function<std::string()>& b
   int status = 0;
   waitpid(child, &status, 0);
   std::string text;
-  std::rewind(file);
+  if (std::fseek(file, 0, SEEK_SET) != 0) throw std::runtime_error("the temporary file cannot be read");
   for (int character = std::fgetc(file); character != EOF; character = std::fgetc(file))
     text += static_cast<char>(character);
   std::fclose(file);

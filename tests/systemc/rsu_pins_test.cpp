@@ -102,7 +102,7 @@ struct Board {
   }
   Level level_of_miso() const {
     const sc_dt::sc_logic level = miso.read();
-    return level == sc_dt::SC_LOGIC_Z ? kLevelZ : level == sc_dt::SC_LOGIC_1 ? 1 : 0;
+    return level == sc_dt::SC_LOGIC_Z ? kLevelZ : static_cast<Level>(level == sc_dt::SC_LOGIC_1);
   }
   void see(Pin pin, Level level) { seen.push_back({dsdpv1::systemc::current_tick(), pin, level}); }
 };

@@ -131,7 +131,7 @@ void narrow_clock(Scene& scene, double interval, Found& found) {
   clock.span = common(clock.span, scene.time.scale);
   scene.time.scale = clock.span;
   clock.count += found.clock.count;
-  found.clock = clock;
+  found.clock = std::move(clock);
 }
 
 void fit_interval(Scene& scene, Found& found) {

@@ -36,13 +36,13 @@ class Campaign {
   bool next_case() {
     std::size_t number = 0;
     {
-      const std::lock_guard<std::mutex> lock(mutex_);
+      const std::scoped_lock lock(mutex_);
       if (cycles_ >= options_.cycles || differs_) return false;
       number = played_.size();
       played_.emplace_back();
     }
     Played played = play_case(seed_of(number));
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     cycles_ += played.result.counts.cycles;
     differs_ = differs_ || played.result.difference;
     played_[number] = std::move(played);
@@ -103,7 +103,7 @@ void in_parallel(unsigned jobs, const std::function<bool()>& work) {
       while (work()) {
       }
     } catch (...) {
-      const std::lock_guard<std::mutex> lock(mutex);
+      const std::scoped_lock lock(mutex);
       if (!thrown) thrown = std::current_exception();
     }
   };

@@ -110,12 +110,12 @@ std::vector<Kill> hunt_all(const std::vector<Fault>& faults, const std::vector<N
   in_parallel(options.jobs, [&] {
     std::size_t number = 0;
     {
-      const std::lock_guard<std::mutex> lock(mutex);
+      const std::scoped_lock lock(mutex);
       if (begun == faults.size()) return false;
       number = begun++;
     }
     Kill kill = hunt(faults[number], directed, options);
-    const std::lock_guard<std::mutex> lock(mutex);
+    const std::scoped_lock lock(mutex);
     kills[number] = std::move(kill);
     for (; told < kills.size() && kills[told]; ++told) found(*kills[told]);
     return true;

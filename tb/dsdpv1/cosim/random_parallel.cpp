@@ -28,7 +28,7 @@ class RandomParallel : public RandomHost {
  private:
   Action access(Verb verb);
   void amid();
-  void straps();
+  void late_straps();
   void late_data();
   void late_address();
   void read_back_at_once();
@@ -63,13 +63,13 @@ void RandomParallel::rude() {
     action.value = 1;
     push(action);
   }
-  if (part_ == Part::kRsu) straps();
+  if (part_ == Part::kRsu) late_straps();
   give();
   wait(1);
 }
 
 /// Too late: they are in force since the last reset (R11). Behind it they stand as before.
-void RandomParallel::straps() {
+void RandomParallel::late_straps() {
   constexpr Pin kStraps[] = {Pin::kMode, Pin::kAdr, Pin::kUbr, Pin::kUiv};
   const Pin strap = random_.pick(kStraps);
   pin(strap, random_.between(1, 3), random_.below(900));

@@ -54,7 +54,7 @@ Make load(const std::string& name) {
 Make make_of(const dsdpv1::Config& config, const char* kind) {
   static std::mutex mutex;
   static std::map<std::string, Make> loaded;
-  const std::lock_guard<std::mutex> lock(mutex);
+  const std::scoped_lock lock(mutex);
   const std::string name = fmt::format("lib{}_rtl{}.so", config.part == Part::kRsu ? "dsdpv1_rsu" : "dsdpv1", kind);
   const auto found = loaded.find(name);
   return found != loaded.end() ? found->second : loaded.emplace(name, load(name)).first->second;

@@ -1,5 +1,7 @@
 #include "tb/dsdpv1/user_cpu/fsmc_timing.hpp"
 
+#include "bus/time.hpp"
+
 namespace dsdpv1::user_cpu {
 namespace {
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kMostTicks = 100'000'000;  ///< 8 ms for all objects together, so that a run ends soon
 constexpr const char* kScenario =
-    "name: short\nbaud: 12M\nend: 1ms\n"
+    "name: short\nbaud: 12M\nend: 650us\n"
     "slaves:\n  - {name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 4, max_outputs: 4, cfg: \"33\"}}\n"
     "masters:\n  - {name: plc, address: 2, start: 500us, slaves: [{slave: io, outputs: \"01 02 03 04\"}]}\n";
 
