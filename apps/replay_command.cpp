@@ -179,7 +179,7 @@ int replay(const ReplayArguments& arguments) {
   write_wanted(arguments.json, tb::replay::json(result));
   write_wanted(arguments.table, tb::replay::table(result));
   write_wanted(arguments.result, tb::result_json(replay.bench_result()));
-  if (replay.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
+  if (replay.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << '\n';
   if (!arguments.quiet) std::cout << tb::replay::text(result) << std::flush;
   return status_of(result);
 }

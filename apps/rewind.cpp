@@ -52,7 +52,7 @@ tb::RunResult Rewind::carry_out(tb::Bench& bench, const std::function<bool(tb::T
     if (!copy_) return result;
   } catch (const tb::InputError& error) {
     if (!copy_) throw;
-    std::cerr << error.what() << std::endl;
+    std::cerr << error.what() << '\n';
     bench.drop_wave();
     ::_exit(kWrongInput);
   }
@@ -90,7 +90,7 @@ void Rewind::record(const tb::WaveRecorder::Trigger& trigger) {
   const Window window{std::max<tb::Tick>(trigger.at - around_, 0), trigger.at + around_};
   if (snapshots_.empty()) throw tb::InputError("dsdpv1-sim run: --rewind-on: the system allows no second process");
   const int status = snapshots_.wake(window.from - kLate, window);
-  if (status == -1) std::cerr << "dsdpv1-sim run: the process that recorded " << file_ << " was killed" << std::endl;
+  if (status == -1) std::cerr << "dsdpv1-sim run: the process that recorded " << file_ << " was killed" << '\n';
   failed_ = status != kPassed;
   if (failed_) return bench_->leave_nothing();
   recorded_ = trigger;

@@ -71,12 +71,12 @@ tb::RunOptions options_of(const RunArguments& arguments) {
   options.log_whole = arguments.log_whole;
   options.trace = arguments.trace;
   options.capture = capture_request("dsdpv1-sim run", arguments.capture, arguments.capture_link);
-  const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
+  const auto say = [](const std::string& line) { std::cerr << line << '\n'; };
   if (arguments.gdb)
     options.gdb = tb::GdbRequest{arguments.gdb, say, interrupted, std::make_shared<user_cpu::DebugHistory>()};
   if (!arguments.quiet) {
     options.on_text = [](const std::string& station, const std::string& line) {
-      std::cout << station << "| " << bus::printable(line) << std::endl;
+      std::cout << station << "| " << bus::printable(line) << '\n' << std::flush;
     };
   }
   options.checks = checks_mode(arguments.checks);
@@ -149,7 +149,7 @@ int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execu
   if (arguments.wave.save && !(rewind.wanted() && !rewind.recorded()))
     write_save_files(arguments.wave.file, *scenario.kind);
   if (report_file) report_file->write(result, DSDPV1_VERSION);
-  if (!rewind.wanted() && bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << std::endl;
+  if (!rewind.wanted() && bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << '\n';
   const bool ran_through = !lockstep.report || lockstep.report();
   if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << rewind.report() << std::flush;
   const bool broken_off = result.interrupted && golden.same();
@@ -271,7 +271,7 @@ int run_own_rtl(RunRequest request, const CosimArguments& arguments, const OwnRt
   const LockstepOutcome outcome = run_lockstep(request, make, lockstep);
   wave.finish(outcome.difference);
   if (arguments.wave.save) write_save_files(arguments.wave.file, *request.scenario.kind);
-  std::cout << "with the inside   " << arguments.wave.file << std::endl;
+  std::cout << "with the inside   " << arguments.wave.file << '\n' << std::flush;
   return outcome.status;
 }
 

@@ -144,7 +144,7 @@ void SavedRuns::check(bool interrupted) {
     if (!save->time.empty())
       std::cerr << fmt::format("dsdpv1-sim: {} is not written: the run was over before {}", save->file.path(),
                                save->time)
-                << std::endl;
+                << '\n';
 }
 
 void SavedRuns::refuse() const {

@@ -43,7 +43,7 @@ class SavedRuns {
 
  private:
   struct Save {
-    Save(tb::Tick tick, const std::string& text, const std::string& path) : at(tick), time(text), file(path) {}
+    Save(tb::Tick tick, std::string text, const std::string& path) : at(tick), time(std::move(text)), file(path) {}
     tb::Tick at;
     std::string time;  ///< as it was given; empty: it is written
     tb::OutputFile file;

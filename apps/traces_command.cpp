@@ -76,7 +76,7 @@ int for_each(const std::vector<std::string>& files, const std::function<int(cons
     try {
       status = worse(status, work(file));
     } catch (const tb::InputError& error) {
-      std::cerr << bus::printable(error.what()) << std::endl;
+      std::cerr << bus::printable(error.what()) << '\n';
       status = worse(status, kWrongInput);
     }
   }

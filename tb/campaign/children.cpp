@@ -91,7 +91,7 @@ void Children::start(std::size_t job, const std::vector<std::string>& arguments,
 
 std::optional<Ended> Children::wait() {
   if (!not_started_.empty()) {
-    const Ended ended = not_started_.back();
+    Ended ended = std::move(not_started_.back());
     not_started_.pop_back();
     return ended;
   }

@@ -24,11 +24,11 @@ StandardOutput::StandardOutput() : before_(std::cout.rdbuf(this)) {
 }
 
 StandardOutput::~StandardOutput() {
-  empty();
+  write_out();
   std::cout.rdbuf(before_);
 }
 
-bool StandardOutput::empty() {
+bool StandardOutput::write_out() {
   for (const char* from = pbase(); from < pptr() && error_ == 0;) {
     const ssize_t written = ::write(STDOUT_FILENO, from, static_cast<std::size_t>(pptr() - from));
     if (written >= 0) from += written;
@@ -44,13 +44,13 @@ StandardOutput::int_type StandardOutput::overflow(int_type character) {
     *pptr() = traits_type::to_char_type(character);
     pbump(1);
   }
-  return empty() ? traits_type::not_eof(character) : traits_type::eof();
+  return write_out() ? traits_type::not_eof(character) : traits_type::eof();
 }
 
-int StandardOutput::sync() { return empty() ? 0 : -1; }
+int StandardOutput::sync() { return write_out() ? 0 : -1; }
 
 int StandardOutput::finish() {
-  empty();
+  write_out();
   return error_;
 }
 

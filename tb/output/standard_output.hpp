@@ -22,7 +22,7 @@ class StandardOutput : public std::streambuf {
 
  private:
   /// False after an error; what comes then is thrown away.
-  bool empty();
+  bool write_out();
 
   std::array<char, 1U << 14U> text_{};
   std::streambuf* before_;

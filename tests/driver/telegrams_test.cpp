@@ -5,7 +5,6 @@ namespace dsdpv1 {
 namespace {
 
 using testing::ElementsAre;
-using testing::IsEmpty;
 using testing::SizeIs;
 
 class Spi : public AcyclicTest {

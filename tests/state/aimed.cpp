@@ -451,7 +451,7 @@ class Characters {
 
   void ask(const Bytes& request, int reply) {
     const bool spoilt = chance_.one_in(5);
-    for (std::size_t i = 0; i < request.size(); ++i) character(request[i], spoilt && chance_.one_in(3));
+    for (const std::uint8_t byte : request) character(byte, spoilt && chance_.one_in(3));
     for (int i = 0; i < reply + 3; ++i) {
       script_.wait(chance_.below(2 * kCharacter * bit_));
       if (chance_.one_in(6)) script_.mark();
@@ -777,7 +777,7 @@ Act hears_run(std::string name, const Bytes& telegram, Tick saved, std::function
     chip.hear(start, {start, kBusBit / kCycle, telegram.data(), static_cast<int>(telegram.size())});
     chip.advance(start + saved);
   };
-  return {std::move(name), begin.config, before, [start, rest](Chip& chip) { rest(chip, start); }};
+  return {std::move(name), begin.config, before, [start, rest = std::move(rest)](Chip& chip) { rest(chip, start); }};
 }
 
 Bytes telegram_to(std::uint8_t slave) {

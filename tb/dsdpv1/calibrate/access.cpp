@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tb/dsdpv1/calibrate/found.hpp"
 

@@ -221,7 +221,8 @@ std::vector<Situation> known(const HostSide& side) {
     add(all, "events", detail == nullptr ? Words{code} : Words{});
     if (detail == nullptr) continue;
     for (const std::string& word : detail->known)
-      if (!names_area(code, word) || side.mode == HostMode::kUart) all.emplace_back("events", code + " " + word);
+      if (!names_area(code, word) || side.mode == HostMode::kUart)
+        all.emplace_back("events", fmt::format("{} {}", code, word));
   }
   add(all, "Sync and Freeze", sync_and_freeze());
   add(all, "transfers", transfers());
@@ -247,7 +248,7 @@ const char* dp_state_name(unsigned state) {
 std::vector<Situation> known_situations(const HostSide& side) { return known(side); }
 
 std::string event_item(const profibus::Event& event, const std::string& state) {
-  const std::string code = profibus::code(event.reason);
+  std::string code = profibus::code(event.reason);
   const Detail* detail = detail_of(code);
   if (detail == nullptr) return code;
   const std::string word =
