@@ -3,6 +3,7 @@
 #pragma once
 // What the user CPUs of SystemC platforms share, whichever port they reach the chip by: a thread that runs a program
 // with the driver, its local time, RESET and INTR0.
+#include <tlm.h>
 #include <tlm_utils/tlm_quantumkeeper.h>
 
 #include <functional>

@@ -130,7 +130,7 @@ std::string TextTable::as_blocks(std::size_t columns) const {
   const Widths widths = {name, columns > name + 2 * kGap ? columns - name - 2 * kGap : 1};
   std::string text;
   for (std::size_t i = 1; i < rows_.size(); ++i) {
-    if (i > 1) text += "\n";
+    if (i > 1) text += '\n';
     for (std::size_t cell = 0; cell < std::min(head.size(), rows_[i].size()); ++cell)
       text += row_text({head[cell], rows_[i][cell]}, widths);
   }

@@ -74,6 +74,10 @@ SavedRun run_of(const json& given) {
   return run;
 }
 
+[[noreturn]] void damaged(const std::string& path) {
+  throw InputError(path, 0, "is damaged, allowed is a saved run as it was written");
+}
+
 }  // namespace
 
 std::string to_bytes(const SavedRun& run) {
@@ -91,14 +95,13 @@ SavedRun parse_saved_run(std::string_view bytes, const std::string& path) {
   if (line.substr(0, version.size()) != version)
     throw InputError(path, 0,
                      fmt::format("is a saved run of another version of the format, allowed is {}", SavedRun::kVersion));
-  const InputError damaged(path, 0, "is damaged, allowed is a saved run as it was written");
-  if (line.substr(version.size()) != fingerprint(object)) throw damaged;
+  if (line.substr(version.size()) != fingerprint(object)) damaged(path);
   try {
     SavedRun run = run_of(json::from_cbor(object.begin(), object.end()));
-    if (run.files.empty()) throw damaged;
+    if (run.files.empty()) damaged(path);
     return run;
   } catch (const json::exception&) {
-    throw damaged;
+    damaged(path);
   }
 }
 

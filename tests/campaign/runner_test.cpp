@@ -23,7 +23,6 @@ using tb::campaign::Ended;
 using tb::campaign::Kind;
 using tb::campaign::Runner;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using Words = std::vector<std::string>;
 
 const Kind kKind{"test", "jobs", [](const std::string& /*name*/) { return false; }};

@@ -51,7 +51,6 @@ class Port {
     chip_->set(0, Pin::kAdr, 1);
     chip_->set(0, Pin::kUbr, kRate);
     chip_->set(1000 * kCycle, Pin::kReset, 1);
-    now_ = 10'000 * kCycle;
   }
 
   /// Something random: telegrams, pins. How many telegrams it was.
@@ -147,7 +146,7 @@ class Port {
   cosim::Stimulus actions_;
   std::unique_ptr<Chip> chip_;
   std::unique_ptr<cosim::RandomHost> host_;
-  Tick now_ = 0;
+  Tick now_ = 10'000 * kCycle;  // it is initialised
   bus::Bytes miso_;
   std::vector<cosim::PinEdge> edges_;
   std::set<std::string> told_;

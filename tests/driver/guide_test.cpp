@@ -156,7 +156,7 @@ class GuideExample : public AcyclicTest {
     ASSERT_EQ(drive_open(&device), DSDPV1_OK);
     initialise();
   }
-  Bytes ask(int master_class, const Bytes& request) {
+  Bytes answer_to(int master_class, const Bytes& request) {
     chip.answers[master_class - 1].clear();
     chip.put_request(master_class, request);
     EXPECT_EQ(drive_poll(), DSDPV1_OK);
@@ -168,19 +168,19 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 TEST_F(GuideExample, LimitsAreWrittenAndReadBack) {
-  EXPECT_THAT(ask(1, {0x5F, 1, 10, 4, 1, 2, 3, 4}), ElementsAre(0x5F, 1, 10, 4));
-  EXPECT_THAT(ask(2, {0x5E, 1, 10, 4}), ElementsAre(0x5E, 1, 10, 4, 1, 2, 3, 4));
-  EXPECT_THAT(ask(1, {0x5F, 1, 10, 3, 1, 2, 3}), ElementsAre(0xDF, 0x80, 0xB1, 0));
+  EXPECT_THAT(answer_to(1, {0x5F, 1, 10, 4, 1, 2, 3, 4}), ElementsAre(0x5F, 1, 10, 4));
+  EXPECT_THAT(answer_to(2, {0x5E, 1, 10, 4}), ElementsAre(0x5E, 1, 10, 4, 1, 2, 3, 4));
+  EXPECT_THAT(answer_to(1, {0x5F, 1, 10, 3, 1, 2, 3}), ElementsAre(0xDF, 0x80, 0xB1, 0));
 }
 
 TEST_F(GuideExample, SpeedIsMeasured) {
-  EXPECT_THAT(ask(1, {0x5E, 1, 11, 2}), ElementsAre(0x5E, 1, 11, 2, 0x05, 0xDC));
-  EXPECT_THAT(ask(1, {0x5F, 1, 11, 2, 0, 0}), ElementsAre(0xDF, 0x80, 0xB6, 0));
+  EXPECT_THAT(answer_to(1, {0x5E, 1, 11, 2}), ElementsAre(0x5E, 1, 11, 2, 0x05, 0xDC));
+  EXPECT_THAT(answer_to(1, {0x5F, 1, 11, 2, 0, 0}), ElementsAre(0xDF, 0x80, 0xB6, 0));
 }
 
 TEST_F(GuideExample, StoreIsAnsweredWhenTheFlashIsReady) {
-  EXPECT_THAT(ask(1, {0x5F, 2, 1, 1, 7}), ElementsAre(0xDF, 0x80, 0xB6, 0)) << "class 2 only";
-  EXPECT_THAT(ask(2, {0x5F, 2, 1, 2, 7, 8}), IsEmpty());
+  EXPECT_THAT(answer_to(1, {0x5F, 2, 1, 1, 7}), ElementsAre(0xDF, 0x80, 0xB6, 0)) << "class 2 only";
+  EXPECT_THAT(answer_to(2, {0x5F, 2, 1, 2, 7, 8}), IsEmpty());
   EXPECT_THAT(board::flash, ElementsAre(7, 8));
   EXPECT_EQ(drive_poll(), DSDPV1_OK);
   EXPECT_THAT(last_answer(2), IsEmpty());
@@ -190,7 +190,7 @@ TEST_F(GuideExample, StoreIsAnsweredWhenTheFlashIsReady) {
 }
 
 TEST_F(GuideExample, FailedStoreIsRefused) {
-  EXPECT_THAT(ask(2, {0x5F, 2, 1, 1, 7}), IsEmpty());
+  EXPECT_THAT(answer_to(2, {0x5F, 2, 1, 1, 7}), IsEmpty());
   board::busy = false;
   board::failed = true;
   EXPECT_EQ(drive_poll(), DSDPV1_OK);
@@ -198,8 +198,8 @@ TEST_F(GuideExample, FailedStoreIsRefused) {
 }
 
 TEST_F(GuideExample, MasterThatAsksAnewDuringAStoreIsToldBusy) {
-  EXPECT_THAT(ask(2, {0x5F, 2, 1, 1, 7}), IsEmpty());
-  EXPECT_THAT(ask(2, {0x5F, 2, 1, 1, 9}), ElementsAre(0xDF, 0x80, 0xC2, 0));
+  EXPECT_THAT(answer_to(2, {0x5F, 2, 1, 1, 7}), IsEmpty());
+  EXPECT_THAT(answer_to(2, {0x5F, 2, 1, 1, 9}), ElementsAre(0xDF, 0x80, 0xC2, 0));
   EXPECT_THAT(board::flash, ElementsAre(7));
   board::busy = false;
   EXPECT_EQ(drive_poll(), DSDPV1_OK) << "the first one's answer is stale, which is no error";
@@ -207,8 +207,8 @@ TEST_F(GuideExample, MasterThatAsksAnewDuringAStoreIsToldBusy) {
 }
 
 TEST_F(GuideExample, Nameplate) {
-  EXPECT_THAT(ask(2, {0x5F, 0, 255, 4, 0x08, 0x00, 0xFD, 0xE8}), ElementsAre(0x5F, 0, 255, 4));
-  const Bytes answer = ask(2, {0x5E, 0, 255, 68});
+  EXPECT_THAT(answer_to(2, {0x5F, 0, 255, 4, 0x08, 0x00, 0xFD, 0xE8}), ElementsAre(0x5F, 0, 255, 4));
+  const Bytes answer = answer_to(2, {0x5E, 0, 255, 68});
   ASSERT_EQ(answer.size(), 72U);
   EXPECT_EQ(std::string(answer.begin() + 20, answer.begin() + 27), "DRIVE-1");
 }

@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 using app_test::call;
 using app_test::Called;
 using testing::HasSubstr;
-using testing::Not;
 
 const char* const kGood =
     "name: small\nbaud: 12M\nend: 600us\n"

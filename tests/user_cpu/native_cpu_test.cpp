@@ -73,7 +73,7 @@ TEST_F(NativeCpu, OthersActBetweenTheEdges) {
     Tick next() const override { return acted ? bus::kNever : 700; }
     void run(Tick) override {
       acted = true;
-      log->push_back("other");
+      log->emplace_back("other");
     }
     bool acted = false;
     std::vector<std::string>* log = nullptr;
@@ -129,7 +129,7 @@ TEST_F(NativeCpu, AnAccessThatIsPutOffIsDoneAtItsEnd) {
     Tick next() const override { return acted ? bus::kNever : 700; }
     void run(Tick) override {
       acted = true;
-      log->push_back("other");
+      log->emplace_back("other");
     }
     bool acted = false;
     std::vector<std::string>* log = nullptr;
