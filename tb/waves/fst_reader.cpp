@@ -159,8 +159,9 @@ void FstReader::read_declarations() {
 /// One of the hierarchy; false at its end.
 bool FstReader::read_entry(ChildStream& told, WaveScopes& scopes) {
   HierarchyRecord record{};
-  if (!told.read(record) || (names_ += record.name) > kMostWaveNames) damaged();
-  if (record.handle > kMostWaveVariables || record.width > kMostWaveWidth) damaged();
+  if (!told.read(record)) damaged();
+  names_ += record.name;
+  if (names_ > kMostWaveNames || record.handle > kMostWaveVariables || record.width > kMostWaveWidth) damaged();
   std::string name(record.name, '\0');
   if (!told.read(name.data(), name.size())) damaged();
   if (record.handle > declarations_.signals.size()) declarations_.signals.resize(record.handle);
