@@ -102,6 +102,16 @@ const char* const kRunExamples =
     "  dsdpv1-sim run --restore at_20ms.run --log rest.log --wave rest.fst\n"
     "  dsdpv1-sim run my.yaml --engine lockstep --difference both.vcd\n";
 
+/// What a run leaves besides its wave and its capture.
+void add_report_options(CLI::App& command, RunArguments& arguments) {
+  CLI::Option* log = command.add_option("--log", arguments.log, kLogHelp);
+  command.add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
+  command.add_option("--result", arguments.result, "Result and measurements as JSON");
+  command.add_option("--report", arguments.report, kReportHelp);
+  command.add_option("--junit", arguments.junit,
+                     "The verdict for CI as JUnit's XML: a case for the run, its violations and each expectation");
+}
+
 /// What a run is held against, and with what RTL; those that a saved run already has.
 std::vector<CLI::Option*> add_comparison_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("--trace", arguments.trace, "Every change of every output pin, for comparisons");
@@ -140,12 +150,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
                                        "How the user CPUs reach them: pins, tlm (SystemC; not with an ARM board)")
                           ->capture_default_str();
   add_wave_options(*command, arguments.wave);
-  CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
-  command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
-  command->add_option("--result", arguments.result, "Result and measurements as JSON");
-  command->add_option("--report", arguments.report, kReportHelp);
-  command->add_option("--junit", arguments.junit,
-                      "The verdict for CI as JUnit's XML: a case for the run, its violations and each expectation");
+  add_report_options(*command, arguments);
   add_capture_options(*command, arguments.capture, arguments.capture_link);
   CLI::Option* checks =
       command
