@@ -14,7 +14,7 @@
 namespace dsdpv1::tb {
 namespace {
 
-constexpr std::size_t kPipeBuffer = std::size_t{1} << 20U;
+constexpr std::size_t kPipeBuffer = std::size_t{1} << 16U;  // what a pipe holds
 
 /// What the parent does on a signal, and at its end, is not the child's business.
 [[noreturn]] void tell_and_end(const std::function<void(std::FILE*)>& tell, int to) {

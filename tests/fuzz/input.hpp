@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dsdpv1::fuzz {
@@ -48,14 +49,14 @@ class Input {
 };
 
 /// A promise of the code under test; `what` says which was broken. Ends a fuzzer, and fails the test that replays.
-inline void promise(bool kept, const std::string& what) {
-  if (!kept) throw std::logic_error("broken promise: " + what);
+inline void promise(bool kept, std::string_view what) {
+  if (!kept) throw std::logic_error("broken promise: " + std::string(what));
 }
 
 /// An error begins with the name of the file. What it quotes of it may be anything: whoever prints it makes it
 /// printable.
 inline void promise_named(const std::string& error, const std::string& name) {
-  promise(error.rfind(name + ":", 0) == 0, "an error names its file: " + error);
+  if (error.rfind(name + ":", 0) != 0) promise(false, "an error names its file: " + error);
 }
 
 }  // namespace dsdpv1::fuzz
