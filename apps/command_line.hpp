@@ -56,7 +56,7 @@ struct DecodeArguments {
   bool quiet = false;
 };
 
-int run(const RunArguments& arguments);
+int run(const RunArguments& given);
 int schema(const SchemaArguments& arguments);
 int gsd(const GsdArguments& arguments);
 int decode(const DecodeArguments& arguments);

@@ -113,18 +113,41 @@ bool goes_back(const RunRequest& request) {
   return request.options.gdb && request.options.gdb->history->back.has_value();
 }
 
+/// What is written when a run has ended, each file complete or absent.
+class ResultFiles {
+ public:
+  /// The report asks in `options` for what it shows.
+  ResultFiles(const RunArguments& arguments, const tb::scenario::Scenario& scenario, tb::RunOptions& options) {
+    if (!arguments.result.empty()) result_.emplace(arguments.result);
+    if (!arguments.junit.empty()) junit_.emplace(arguments.junit);
+    if (!arguments.report.empty()) report_.emplace(arguments.report, scenario, options);
+  }
+
+  void write(const tb::RunResult& result) {
+    if (result_) {
+      result_->write(tb::result_json(result));
+      result_->commit();
+    }
+    if (report_) report_->write(result, DSDPV1_VERSION);
+  }
+  void write_junit(const tb::RunResult& result, const std::string& of_golden, bool same) {
+    if (!junit_) return;
+    junit_->write(junit_of(result, of_golden, same));
+    junit_->commit();
+  }
+
+ private:
+  std::optional<tb::OutputFile> result_, junit_;
+  std::optional<tb::html::ReportFile> report_;
+};
+
 int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execution,
                  const LockstepSteps& lockstep = {}) {
   const tb::scenario::Scenario& scenario = request.scenario;
   const RunArguments& arguments = request.arguments;
   tb::RunOptions options = request.options;
   tb::traces::GoldenRun golden(arguments.golden, scenario, execution->segment(), options);
-  std::optional<tb::OutputFile> result_file;
-  if (!arguments.result.empty()) result_file.emplace(arguments.result);
-  std::optional<tb::OutputFile> junit_file;
-  if (!arguments.junit.empty()) junit_file.emplace(arguments.junit);
-  std::optional<tb::html::ReportFile> report_file;
-  if (!arguments.report.empty()) report_file.emplace(arguments.report, scenario, options);
+  ResultFiles files(arguments, scenario, options);
   SavedRuns saved(arguments, request.described, request.restored ? &*request.restored : nullptr, scenario.end);
   saved.ask(options);
   Rewind rewind(arguments, *scenario.kind);
@@ -142,23 +165,16 @@ int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execu
   saved.check(result.interrupted);
   if (rewind.failed()) return kWrongInput;
   if (lockstep.judge) lockstep.judge(result);
-  if (result_file) {
-    result_file->write(tb::result_json(result));
-    result_file->commit();
-  }
+  files.write(result);
   if (arguments.wave.save && !(rewind.wanted() && !rewind.recorded()))
     write_save_files(arguments.wave.file, *scenario.kind);
-  if (report_file) report_file->write(result, DSDPV1_VERSION);
   if (!rewind.wanted() && bench.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << '\n';
   const bool ran_through = !lockstep.report || lockstep.report();
   if (!arguments.quiet && ran_through) std::cout << tb::summary(result) << rewind.report() << std::flush;
   const bool broken_off = result.interrupted && golden.same();
   const std::string of_golden = ran_through && !broken_off ? golden.report() : "";
   std::cout << of_golden << std::flush;
-  if (junit_file) {
-    junit_file->write(junit_of(result, of_golden, golden.same()));
-    junit_file->commit();
-  }
+  files.write_junit(result, of_golden, golden.same());
   if (broken_off) return kInterrupted;
   return result.passed && golden.same() ? kPassed : kFailed;
 }

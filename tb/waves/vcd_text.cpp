@@ -26,13 +26,13 @@ constexpr std::array<bool, 256> blanks() {
 
 const std::array<bool, 256> VcdText::kBlank = blanks();
 
-VcdText::VcdText(const std::string& path)
-    : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+VcdText::VcdText(const std::string& path) : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (!file_) throw InputError(path, 0, what_is_wrong(errno) + ", allowed is a wave, VCD or FST");
   struct stat status {};
   if (::fstat(file_.get(), &status) == 0) size_ = static_cast<std::uint64_t>(status.st_size);
   // Room for all of a short file and its end; what has no size, a pipe, may be long.
-  room_ = size_ == 0 ? kMostRoom : static_cast<std::size_t>(std::clamp<std::uint64_t>(size_ + 1, kLeastRoom, kMostRoom));
+  room_ =
+      size_ == 0 ? kMostRoom : static_cast<std::size_t>(std::clamp<std::uint64_t>(size_ + 1, kLeastRoom, kMostRoom));
   buffer_.reset(new char[room_ + 1]);
   at_ = end_ = buffer_.get();
   fill();

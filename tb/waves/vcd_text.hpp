@@ -46,7 +46,7 @@ class VcdText {
 
   std::string path_;
   Descriptor file_;
-  std::size_t room_ = 0;           ///< bytes of the buffer, without the zero behind them
+  std::size_t room_ = 0;            ///< bytes of the buffer, without the zero behind them
   std::unique_ptr<char[]> buffer_;  ///< not filled before it is needed
   const char *at_, *end_;
   bool whole_ = false;  ///< all of the file is in the buffer

@@ -96,12 +96,13 @@ def program(name):
 
 def call(name, words, **options):
     """libFuzzer with the limits that a finding is judged by; standard input is empty, as a path may name it."""
-    # What an input has freed is kept until others have freed 16 MB: as much as the default makes processors and forks slow.
     target = target_list.find(name)
+    # What an input has freed is kept until others have freed 16 MB: as much as the default makes processors and forks slow.
     environment = {**os.environ, "ASAN_OPTIONS": f"detect_leaks=1:max_allocation_size_mb=4096:quarantine_size_mb=16:malloc_context_size=8:{target.asan}",
                    "UBSAN_OPTIONS": "print_stacktrace=1"}
     # Entropic counts rare features of all inputs, for which it takes a third of the time.
-    words = [program(name), "-entropic=0", "-print_funcs=0", f"-max_len={target.longest}", "-timeout=10", "-rss_limit_mb=2048", "-malloc_limit_mb=256", *target.flags, *words]
+    limits = [f"-max_len={target.longest}", "-timeout=10", "-rss_limit_mb=2048", "-malloc_limit_mb=256"]
+    words = [program(name), "-entropic=0", "-print_funcs=0", *limits, *target.flags, *words]
     return subprocess.run(words, cwd=BUILD, env=environment, stdin=subprocess.DEVNULL, check=False, **options)
 
 
