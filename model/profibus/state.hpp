@@ -119,11 +119,11 @@ class StateArchive {
       way().number(value, static_cast<T>(least), static_cast<T>(most));
     }
   }
-  void time(Tick& value, Tick last) {
+  void time(Tick& value, Tick highest) {
     bool never = value == kNever;
     field(never);
     Tick finite = never ? 0 : value;
-    limited(kFirst, last, finite);
+    limited(kFirst, highest, finite);
     value = never ? kNever : finite;
   }
 };

@@ -30,9 +30,10 @@ user_cpu::AcyclicOptions acyclic_options(const scenario::Dpv1User& user) {
 }  // namespace
 
 const ChipMaker& chip_maker(const scenario::Scenario& scenario) {
-  if (const auto* maker = dynamic_cast<const ChipMaker*>(scenario.kind)) return *maker;
+  const ChipKind& kind = *scenario.kind;
+  if (const auto* maker = dynamic_cast<const ChipMaker*>(&kind)) return *maker;
   throw InputError(scenario.file, scenario.chip->line,
-                   fmt::format("kind is {}, which the bench cannot make", scenario.kind->name()));
+                   fmt::format("kind is {}, which the bench cannot make", kind.name()));
 }
 
 user_cpu::ProgramOptions program_options(const scenario::UserCpu& user, const user_cpu::StationConfig& station) {

@@ -19,6 +19,7 @@ void OutputFile::flush() {
 
 void OutputFile::mute() {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) refuse_output("/dev/null", errno);
   ::dup2(nowhere, ::fileno(file_.get()));
   ::close(nowhere);
 }

@@ -25,7 +25,8 @@ class OutputFile {
   }
   /// What was written so far is in the file with the temporary name.
   void flush();
-  /// What is written from now on goes nowhere: in a process that shares the file with another, whose it is.
+  /// What is written from now on goes nowhere: in a process that shares the file with another, whose it is. Throws
+  /// InputError when there is no nowhere.
   void mute();
   /// Whether something could not be written: a run need not go on.
   bool failed() const { return error_ != 0; }

@@ -50,12 +50,17 @@ std::string as_written(const std::string& name, const std::string& target) {
   return target.find('/') == std::string::npos ? name.substr(2) : name;
 }
 
+struct NewFile {
+  std::string name;
+  int descriptor;
+};
+
 /// A name that is there already was left by a process with this one's number, or belongs to another computer.
-std::string create(const OutputPlace& place, int& descriptor) {
+NewFile create(const OutputPlace& place) {
   for (int attempt = 0;; ++attempt) {
     std::string name = as_written(part_name(place.target, attempt), place.target);
-    descriptor = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) return name;
+    const int descriptor = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) return {std::move(name), descriptor};
     if (errno != EEXIST) refuse_output(place.wanted, errno);
   }
 }
@@ -79,7 +84,9 @@ std::unique_ptr<NameToRemove> open_place(const OutputPlace& place, int& descript
     return std::make_unique<NameToRemove>("");
   }
   const SignalsHeld held;  // between the making of the file and the note of its name
-  auto part = std::make_unique<NameToRemove>(create(place, descriptor));
+  NewFile made = create(place);
+  descriptor = made.descriptor;
+  auto part = std::make_unique<NameToRemove>(std::move(made.name));
   if (place.replaced) keep_owner_and_mode(descriptor, *place.replaced);
   return part;
 }

@@ -102,7 +102,8 @@ Lock lock_of(const Scene& scene, Tick start, std::size_t by) {
     if (before) widest = std::max(widest, TimeBase::nominal(each.start - *before));
     if (i < by) before = each.start;
   }
-  const double all = TimeBase::nominal(telegram.start - start), silent = TimeBase::nominal(*first - start);
+  const double all = TimeBase::nominal(telegram.start - start);
+  const double silent = TimeBase::nominal(first.value_or(telegram.start) - start);
   const bool dense = before && silent * 2 < all && widest * 2 * (telegram.baud + 1) < all;
   if (dense) lock.cycles.lo = std::max(0.0, scene.time.between(start, *before).lo - syn - doubt);
   return lock;
