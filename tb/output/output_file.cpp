@@ -1,9 +1,8 @@
 #include "tb/output/output_file.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
+
+#include "tb/output/nowhere.hpp"
 
 namespace dsdpv1::tb {
 
@@ -18,10 +17,7 @@ void OutputFile::flush() {
 }
 
 void OutputFile::mute() {
-  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (nowhere < 0) refuse_output("/dev/null", errno);
-  ::dup2(nowhere, ::fileno(file_.get()));
-  ::close(nowhere);
+  if (!send_nowhere(::fileno(file_.get()))) refuse_output("/dev/null", errno);
 }
 
 void OutputFile::check() const {

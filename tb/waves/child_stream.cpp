@@ -11,6 +11,8 @@
 #include <csignal>
 #include <system_error>
 
+#include "tb/output/nowhere.hpp"
+
 namespace dsdpv1::tb {
 namespace {
 
@@ -20,7 +22,7 @@ constexpr std::size_t kPipeBuffer = std::size_t{1} << 16U;  // what a pipe holds
 [[noreturn]] void tell_and_end(const std::function<void(std::FILE*)>& tell, int to) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int each : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(each, SIG_DFL);
-  ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
+  if (!send_nowhere(STDERR_FILENO)) ::_exit(1);
   std::FILE* const file = ::fdopen(to, "wb");
   if (file == nullptr) ::_exit(1);
   std::setvbuf(file, nullptr, _IOFBF, kPipeBuffer);

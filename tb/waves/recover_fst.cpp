@@ -1,11 +1,11 @@
 // A complete FST file from what is readable of one.
-#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <vector>
 
 #include "tb/input/input_error.hpp"
+#include "tb/output/nowhere.hpp"
 #include "tb/output/output_place.hpp"
 #include "tb/waves/fst_blocks.hpp"
 #include "tb/waves/fst_file.hpp"
@@ -21,7 +21,7 @@ void ignore(void* /*file*/, std::uint64_t /*time*/, fstHandle /*signal*/, const 
 bool readable(const std::string& path) {
   const pid_t child = ::fork();
   if (child == 0) {
-    ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
+    if (!send_nowhere(STDERR_FILENO)) ::_exit(1);
     const FstHandle reader = open_fst(path);
     if (!reader) ::_exit(1);
     fstReaderSetFacProcessMaskAll(reader.get());

@@ -66,7 +66,7 @@ TEST(SimulatorPins, OfEachKindAreThoseThatTheCApiLists) {
 TEST(SimulatorPins, ALevelComesBackAsItWasPacked) {
   for (const PinPlace& each : pins_of_kind("dsdpv1_rsu").outputs.places()) {
     const uint64_t others = 0x5555'5555'5555'5555U & ~each.all();
-    for (const dpsim_level level : {dpsim_level{0}, dpsim_level{1}, dpsim_level{DPSIM_X}}) {
+    for (const dpsim_level level : {dpsim_level{0}, dpsim_level{1}, DPSIM_X}) {
       const uint64_t pins = with_level(others | each.all(), each, level);
       EXPECT_EQ(level_of(each, pins), level) << each.name;
       EXPECT_EQ(pins & ~each.all(), others) << each.name;

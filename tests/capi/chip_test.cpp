@@ -191,7 +191,7 @@ TEST(CapiChip, OneOfTheRsusGapsIsSetByItself) {
   const auto note = [](void* user, const dpsim_chip_event* event) {
     auto info = sized<dpsim_reason_info>();
     ok(dpsim_reason_get("dsdpv1_rsu", event->reason, &info));
-    static_cast<std::vector<std::string>*>(user)->push_back(info.code);
+    static_cast<std::vector<std::string>*>(user)->emplace_back(info.code);
   };
   ok(dpsim_chip_on_event(made, note, &codes));
   constexpr uint64_t kBit = 26 * kCycle, kStart = 1000 * kCycle;

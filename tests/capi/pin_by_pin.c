@@ -5,17 +5,17 @@
 enum { kNs = DPSIM_TICKS_PER_NS, kCycle = DPSIM_TICKS_PER_CYCLE };
 
 /* A thread's own: there may be several at once. */
-struct user {
+struct User {
   dpsim_chip* chip;
   int failed;
 };
 
-static void check(struct user* user, dpsim_status status) {
+static void check(struct User* user, dpsim_status status) {
   if (status != DPSIM_OK) user->failed = 1;
 }
 
 /* H2: R_REQ, then L_REQ and L_STA seen low, then R_STA. */
-static uint64_t take(struct user* user, uint64_t now) {
+static uint64_t take(struct User* user, uint64_t now) {
   dpsim_level l_req = DPSIM_X, l_sta = DPSIM_X;
   check(user, dpsim_chip_set(user->chip, now, DPSIM_DSDPV1_R_REQ, 1));
   do {
@@ -29,7 +29,7 @@ static uint64_t take(struct user* user, uint64_t now) {
 }
 
 /* Table 15: A no later than RD's fall, D certain 31.25 ns after it. */
-static dpsim_level read(struct user* user, uint64_t now, dpsim_level address) {
+static dpsim_level read(struct User* user, uint64_t now, dpsim_level address) {
   dpsim_level value = DPSIM_X;
   check(user, dpsim_chip_set(user->chip, now, DPSIM_DSDPV1_A, address));
   check(user, dpsim_chip_set(user->chip, now, DPSIM_DSDPV1_CSR, 0));
@@ -41,7 +41,7 @@ static dpsim_level read(struct user* user, uint64_t now, dpsim_level address) {
 }
 
 size_t drive_pin_by_pin(uint64_t released, dpsim_change* changes, size_t capacity) {
-  struct user user = {NULL, 0};
+  struct User user = {NULL, 0};
   dpsim_chip_options options;
   uint64_t now = 7200 * (uint64_t)kCycle;
   size_t count = 0;
