@@ -88,8 +88,8 @@ TEST(RandomUser, ExceedsEachLimitOfAnInitialisation) {
 TEST(RandomCases, BringTheSlaveUpBeforeTheyGoWild) {
   struct Port {
     HostSide side;
-    int cases;
-    Tick cycles;  ///< each: a host at the UART takes its time
+    int cases = 0;
+    Tick cycles = 0;  ///< each: a host at the UART takes its time
   };
   for (const Port& port :
        {Port{{Part::kDsdpv1, HostMode::kParallel}, 6, 70'000}, Port{{Part::kRsu, HostMode::kSpi}, 6, 100'000},
