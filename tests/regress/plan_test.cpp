@@ -21,7 +21,6 @@ using tb::regress::Plan;
 using tb::regress::plan_of;
 using tb::regress::Request;
 using OneRun = tb::regress::Run;  // testing::Test has a Run, too
-using tb::regress::Shard;
 using testing::ElementsAre;
 using testing::HasSubstr;
 

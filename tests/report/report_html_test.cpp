@@ -16,7 +16,6 @@ using tb::Turn;
 using tb::html::DiagramWatch;
 using tb::html::Distribution;
 using tb::html::PinMemory;
-using tb::html::SpanLimits;
 
 constexpr tb::PinNumber kStrobe = 0, kData = 1;
 constexpr DiagramEdge kFall{kStrobe, Turn::kFall}, kRise{kStrobe, Turn::kRise}, kChange{kData, Turn::kChange};

@@ -36,7 +36,7 @@ std::int64_t thirds_off(Tick tick) {
 }
 
 TEST(SimTime, TheTimeOfATickIsOffByAThirdOfTheResolutionAtMost) {
-  const double unit = static_cast<double>(femtoseconds());
+  const auto unit = static_cast<double>(femtoseconds());
   EXPECT_EQ(to_time(1).value(), static_cast<std::uint64_t>(std::llround(250'000.0 / 3 / unit)));
   EXPECT_EQ(to_time(250).value(), static_cast<std::uint64_t>(std::llround(62'500'000.0 / 3 / unit)));
   for (int i = 0; i < 100'000; ++i) {

@@ -15,7 +15,7 @@ using user_cpu::Fiber;
 /// A fiber needs itself to suspend.
 struct Coroutine {
   template <typename Body>
-  explicit Coroutine(Body body) : fiber([this, body] { body(fiber); }) {}
+  explicit Coroutine(const Body& body) : fiber([this, body] { body(fiber); }) {}
   Fiber fiber;
 };
 

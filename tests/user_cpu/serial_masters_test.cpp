@@ -13,7 +13,6 @@ namespace {
 
 using bus::Tick;
 using testing::ElementsAre;
-using testing::IsEmpty;
 using user_cpu::PinSpiMaster;
 using user_cpu::PinUartSender;
 using user_cpu::UartReceiver;

@@ -176,7 +176,8 @@ TEST_F(ReadWaves, DamagedVcdIsRefusedInOneLine) {
   EXPECT_THAT(refusal_of("$var wire 99999999 ! a $end "), HasSubstr("$var has the size 99999999, allowed are 0 to"));
   EXPECT_THAT(refusal_of("$var port 1 ! a $end "), HasSubstr("is an extended VCD"));
   EXPECT_THAT(refusal_of("$upscope $end "), HasSubstr("$upscope without a $scope"));
-  EXPECT_THAT(refusal_of(std::string(9'000'000, 'a')), HasSubstr("longer than any right one"));
+  EXPECT_THAT(refusal_of(std::string(8U << 20U, 'a') + std::string(1U << 20U, 'a')),
+              HasSubstr("longer than any right one"));
 }
 
 #ifdef DSDPV1_WITH_FST
