@@ -30,10 +30,9 @@ user_cpu::AcyclicOptions acyclic_options(const scenario::Dpv1User& user) {
 }  // namespace
 
 const ChipMaker& chip_maker(const scenario::Scenario& scenario) {
-  const ChipKind& kind = *scenario.kind;
-  if (const auto* maker = dynamic_cast<const ChipMaker*>(&kind)) return *maker;
-  throw InputError(scenario.file, scenario.chip->line,
-                   fmt::format("kind is {}, which the bench cannot make", kind.name()));
+  const std::string name = scenario.kind->name();
+  if (const auto* maker = dynamic_cast<const ChipMaker*>(scenario.kind)) return *maker;
+  throw InputError(scenario.file, scenario.chip->line, fmt::format("kind is {}, which the bench cannot make", name));
 }
 
 user_cpu::ProgramOptions program_options(const scenario::UserCpu& user, const user_cpu::StationConfig& station) {
