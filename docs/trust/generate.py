@@ -61,7 +61,7 @@ What was found and mended; each input stays in the corpus of its target.
 def fuzz_row(target, runs):
     """The sum of the target's runs."""
     inputs = sum(int(run[3]) for run in runs)
-    met = "yes" if inputs >= target.goal else f"{100 * inputs / target.goal:.2g} %"
+    met = "yes" if inputs >= target.goal else f"{min(100 * inputs / target.goal, 99):.2g} %"
     seeds = ", ".join(sorted({run[2] for run in runs}, key=int)) or "-"
     dates = sorted({run[0] for run in runs})
     when = "-" if not dates else dates[0] if len(dates) == 1 else f"{dates[0]} to {dates[-1]}"
