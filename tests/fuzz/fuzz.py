@@ -94,11 +94,11 @@ def program(name):
     return path
 
 
-def call(name, words, **options):
+def call(name, words, asan="", **options):
     """libFuzzer with the limits that a finding is judged by; standard input is empty, as a path may name it."""
     target = target_list.find(name)
     # What an input has freed is kept until others have freed 16 MB: as much as the default makes processors and forks slow.
-    environment = {**os.environ, "ASAN_OPTIONS": f"detect_leaks=1:max_allocation_size_mb=4096:quarantine_size_mb=16:malloc_context_size=8:{target.asan}",
+    environment = {**os.environ, "ASAN_OPTIONS": f"detect_leaks=1:max_allocation_size_mb=4096:quarantine_size_mb=16:malloc_context_size=8:{target.asan}:{asan}",
                    "UBSAN_OPTIONS": "print_stacktrace=1"}
     # Entropic counts rare features of all inputs, for which it takes a third of the time.
     limits = [f"-max_len={target.longest}", "-timeout=10", "-rss_limit_mb=2048", "-malloc_limit_mb=256"]
@@ -163,7 +163,7 @@ def main(words):
             print(f"{each.name}\t{each.what}")
         return 0
     if arguments.reproduce:
-        return 1 if call(arguments.target[0], [arguments.reproduce]).returncode else 0
+        return 1 if call(arguments.target[0], [arguments.reproduce], asan="symbolize=1").returncode else 0
     if arguments.minimise:
         for name in arguments.target:
             corpora.minimise(name, folder("corpus", name), call)
