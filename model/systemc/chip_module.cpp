@@ -133,11 +133,13 @@ void ChipModule::schedule(Tick now, Tick due) {
   const Tick at = std::min(std::max(due, now + 1), now + kFarthest);
   if (scheduled_ > now && scheduled_ <= at) return;
   scheduled_ = at;
-  due_.notify(time_until(at + options_.phase));
+  scheduled_at_ = to_time(at + options_.phase);
+  due_.notify(scheduled_at_ - sc_core::sc_time_stamp());
 }
 
 void ChipModule::schedule_now() {
   scheduled_ = 0;
+  scheduled_at_ = sc_core::sc_max_time();
   due_.notify(sc_core::SC_ZERO_TIME);
 }
 

@@ -74,6 +74,10 @@ class ChipModule : public sc_core::sc_module {
 
   /// `due_` will fire at `due`, a tick of the chip, whose present one is `now`; maybe more often.
   void schedule(Tick now, Tick due);
+  /// `due_` has fired at scheduled(), and no input has changed with it: SystemC fires timed events when all signals
+  /// have settled. Whoever changes an input at this time does it in a later delta cycle.
+  bool fired_as_scheduled() const { return sc_core::sc_time_stamp() == scheduled_at_ && due_.triggered(); }
+  Tick scheduled() const { return scheduled_; }
   /// `due_` fires in the next delta cycle.
   void schedule_now();
   sc_core::sc_event due_;
@@ -84,7 +88,8 @@ class ChipModule : public sc_core::sc_module {
 
   ChipOptions options_;
   Chip chip_;
-  Tick scheduled_ = 0;  ///< of the chip; up to now: no notification is pending
+  Tick scheduled_ = 0;                                      ///< of the chip; up to now: no notification is pending
+  sc_core::sc_time scheduled_at_ = sc_core::sc_max_time();  ///< the same; never: `due_` fires in the next delta cycle
   struct Wire {
     std::uint32_t pin;
     sc_core::sc_signal_inout_if<bool>* signal;

@@ -32,6 +32,7 @@ void PinModule::end_of_elaboration() {
 }
 
 void PinModule::evaluate() {
+  if (fired_as_scheduled()) return evaluate_core();
   if (clock_) clock_edge();
   if (sc_core::sc_time_stamp() == sc_core::SC_ZERO_TIME) {
     begin();
@@ -44,6 +45,15 @@ void PinModule::evaluate() {
   if (!clock_) return schedule(now, chip().next_event());
   if (due_.triggered()) check_clock();
   plan_between_edges(now);
+}
+
+/// No input has changed; but when the chip releases D, what the user drives there is an input again.
+void PinModule::evaluate_core() {
+  const Tick now = scheduled();
+  advance(now);
+  if (has_changed(mask(Pin::kDOut))) apply_inputs(now, false);
+  drive_pins(take_changed());
+  schedule(now, chip().next_event());
 }
 
 void PinModule::begin() {

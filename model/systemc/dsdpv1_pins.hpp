@@ -59,6 +59,7 @@ class PinModule : public ChipModule {
   /// CLK is bound, the chip is at `now`: for what it does between two edges of CLK.
   virtual void plan_between_edges(Tick /*now*/) {}
   void evaluate();
+  void evaluate_core();
   void begin();
   void clock_edge();
   void check_clock();

@@ -221,9 +221,21 @@ unsigned int TlmModule::transport_dbg(Payload& payload) {
 // ------------------------------------------------------------------------------------------------------ pins and core
 
 void TlmModule::evaluate() {
+  if (only_the_core_acts()) return evaluate_core();
   const Tick now = catch_up();
   drive(take_changed());
   plan(now, chip().next_event());
+}
+
+/// Most of what wakes the module moves L_REQ and L_STA and does nothing else.
+void TlmModule::evaluate_core() {
+  const Tick now = scheduled();
+  advance(now);
+  const bool alone = others_ > now && !(in_run(now) && chip().left_run());
+  if (!alone) catch_up();
+  drive(take_changed());
+  const Tick core = chip().next_event();
+  alone ? schedule(now, std::min(core, others_)) : plan(now, core);
 }
 
 Tick TlmModule::catch_up() {
@@ -261,11 +273,16 @@ void TlmModule::apply(Tick now, Pin pin, bool level) {
 /// Signals are written by `evaluate` only (SystemC allows one writer), characters for now take effect in the next delta
 /// cycle.
 void TlmModule::plan(Tick now, Tick core) {
-  const Tick line = std::min(to_chip_.next(), runs_.empty() ? profibus::kNever : runs_.front().start);
-  if (has_changed(bound_) || line <= now || line_is_stale(now))
+  const Tick line = line_is_stale(now) ? now : next_of_line();
+  others_ = std::min({line, next_of_host(), from_chip_.next(), next_answered()});
+  if (has_changed(bound_) || line <= now)
     schedule_now();
   else
-    schedule(now, std::min({core, line, next_of_host(), from_chip_.next(), next_answered()}));
+    schedule(now, std::min(core, others_));
+}
+
+Tick TlmModule::next_of_line() const {
+  return std::min(to_chip_.next(), runs_.empty() ? profibus::kNever : runs_.front().start);
 }
 
 }  // namespace dsdpv1::systemc

@@ -144,6 +144,8 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   /// The thread of a transaction is brought to its annotated delay.
   static void wait_for(sc_core::sc_time& delay);
   bool output_changed(Tick at, Pin pin, Level level) override;
+  /// Something that plan() asks for has changed in the middle of the core's doing.
+  void others_changed() { others_ = 0; }
   /// `on_pin` is to hear it.
   bool hears(Pin pin) const { return (observed_ & mask(pin)) != 0; }
   /// The live host port's socket is bound.
@@ -180,6 +182,8 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   static void report_unbound(const std::string& socket, const char* why);
 
   void evaluate();
+  bool only_the_core_acts() const { return fired_as_scheduled() && scheduled() < others_ && !in_access(); }
+  void evaluate_core();
   void apply_line(Tick now);
   bool hears_host() const { return on_pin && (observed_ & kHostPins) != 0; }
   bool tells_runs() const { return !on_pin || (observed_ & mask(Pin::kPbrxd)) == 0; }
@@ -193,6 +197,7 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   void apply(Tick now, Pin pin, bool level);
   /// `core`: when that is to be evaluated next.
   void plan(Tick now, Tick core);
+  Tick next_of_line() const;
 
   void txd_changed(Tick at, bool level);
   void offer_answer();
@@ -209,6 +214,7 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   void take_back_last_run();
 
   AccessTiming timing_;
+  Tick others_ = 0;  ///< when anything but the core acts next, as plan() found it; 0: it has to be asked again
   std::uint32_t observed_, bound_ = 0;  ///< pins
   std::uint32_t applied_ = 0;           ///< of RESET, R_REQ, R_STA those that the core knows as high
   sc_core::sc_mutex host_bus_;          ///< accesses of several initiators follow each other

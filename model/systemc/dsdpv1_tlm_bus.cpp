@@ -161,6 +161,7 @@ void TlmModule::leave_run() {
 
 bool TlmModule::output_changed(Tick at, Pin pin, Level level) {
   if (pin != Pin::kPbtxd && pin != Pin::kPbrts) return true;
+  others_changed();
   if (pin == Pin::kPbrts && level == 0) {
     end_answer(at);
     txd_changed(at, true);  // RESET takes both away

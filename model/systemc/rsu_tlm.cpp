@@ -118,6 +118,7 @@ void RsuTlmModule::release(std::initializer_list<Pin> pins) {
 
 bool RsuTlmModule::output_changed(Tick at, Pin pin, Level level) {
   if (pin != Pin::kTxd) return TlmModule::output_changed(at, pin, level);
+  others_changed();
   collect_byte(at);
   const auto rate = static_cast<std::size_t>(straps_.uart_rate);
   from_uart_.edge(at, level != 0, kUbrCycles.at(rate) * profibus::kTicksPerCycle);

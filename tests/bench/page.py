@@ -54,8 +54,8 @@ LIMITS = ("What bounds the others. The measured limit is what would remain of a 
           "are named.")
 
 RUNS = """
-Runs of `dsdpv1-sim`, by the part that a function belongs to: the chip (`model/`), the driver, masters, monitor and line (`bus/`), the bench with user
-CPU, checks and waves (`tb/`), and what they call.
+Runs of `dsdpv1-sim`, and the modules in a platform, by the part that a function belongs to: the chip (`model/`), its SystemC module (`model/systemc/`), the
+driver, masters, monitor and line (`bus/`), the bench with user CPU, checks and waves (`tb/`), and what they call.
 
 """
 

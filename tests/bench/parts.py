@@ -1,28 +1,29 @@
-"""Whose time a run of dsdpv1-sim is: samples of perf, each given to the part of the house, or the library, that its function belongs to."""
+"""Whose time a run is: samples of perf, each given to the part of the house, or the library, that its function belongs to."""
 import collections
 import re
 
-from programs import Failed, run_command, samples
+from programs import Failed, samples
 from rows import PROFILED
 
 LINE = re.compile(r"^\s*([\d.]+)%\s+(\S.*?)\s+\[[.kgu]\]\s+(\S.*?)\s*$")
 REST = "elsewhere"
-PROGRAM = r"^dsdpv1-(sim|board)$"  # the second has the rows with an ARM board
+PROGRAM = r"^(dsdpv1-(sim|board)|bench_systemc)$"  # the second has the rows with an ARM board
 # Part, its file (program, library, kernel), its functions: the first that fits. Types in the arguments of a template come last.
 OWNERS = tuple((part, re.compile(file), re.compile(function)) for part, file, function in (
     ("kernel", r"^\[(kernel|vdso)", ""),
-    ("SystemC", "systemc", ""),
+    ("SystemC", "^libsystemc", ""),
     ("Unicorn", r"unicorn|^\[JIT\]", ""),
     ("libraries", rf"^(?!{PROGRAM[1:]})", ""),
     ("FST library", PROGRAM, r"^(fst|LZ4_|fastlz|jenkins)"),
     ("driver", PROGRAM, "^dsdpv1_"),
     ("SystemC", PROGRAM, r"^([a-z]+ thunk to )?(sc_core|sc_dt|tlm|tlm_utils)::"),
+    ("module", PROGRAM, r"^([a-z-]+ thunk to )?dsdpv1::systemc::"),
     ("chip", PROGRAM, r"^([a-z-]+ thunk to )?dsdpv1::((dpram|profibus)::|[A-Z])"),
     ("bus", PROGRAM, r"^([a-z-]+ thunk to )?dsdpv1::bus::"),
-    ("bench", PROGRAM, r"\bdsdpv1::(tb|user_cpu|checks|arm|systemc_bench|app)::"),
+    ("bench", PROGRAM, r"\bdsdpv1::(tb|user_cpu|checks|arm|systemc_bench|app|speed)::"),
     ("bus", PROGRAM, r"\bdsdpv1::bus::"),
     ("chip", PROGRAM, r"\bdsdpv1::")))
-NAMES = ("chip", "driver", "bus", "bench", "FST library", "SystemC", "Unicorn", "libraries", "kernel", REST)
+NAMES = ("chip", "module", "driver", "bus", "bench", "FST library", "SystemC", "Unicorn", "libraries", "kernel", REST)
 
 
 def owner(file, function):
@@ -42,6 +43,6 @@ def shares(printed):
 def profiles(folder):
     """Row to the shares of its run; none where there is no perf, which the profile of the core says."""
     try:
-        return {name: shares(samples(folder, run_command(*run), "dso,sym")) for name, run in PROFILED.items()}
+        return {name: shares(samples(folder, command, "dso,sym")) for name, command in PROFILED.items()}
     except Failed:
         return {}

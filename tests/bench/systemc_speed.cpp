@@ -10,15 +10,12 @@
 #include "tests/bench/stopwatch.hpp"
 #include "tests/systemc/bench.hpp"
 
-namespace dsdpv1 {
+namespace dsdpv1::speed {
 namespace {
 
 using dsdpv1::systemc::BusCharacter;
 using dsdpv1::systemc::ChipModule;
 using dsdpv1::systemc::to_time;
-using speed::Bytes;
-using speed::Failure;
-using speed::Tick;
 
 constexpr int kIo = 16;
 constexpr Tick kMillisecond = 12'000'000, kSlice = 5 * kMillisecond;
@@ -35,13 +32,13 @@ class Requests {
   }
   /// From the begin of the request that `next` has given to that of the one behind it.
   Tick period(const Bytes& request) const {
-    const int idle = exchanges_ > 0 ? speed::answer_and_syn_bits(kIo) : 1000;
-    return (static_cast<int>(request.size()) * bus::kCharacterBits + idle) * speed::kBit;
+    const int idle = exchanges_ > 0 ? answer_and_syn_bits(kIo) : 1000;
+    return (static_cast<int>(request.size()) * bus::kCharacterBits + idle) * kBit;
   }
   std::uint64_t exchanges() const { return exchanges_; }
 
  private:
-  std::vector<Bytes> bring_up_ = speed::bring_up(kIo), cyclic_ = speed::exchange_requests(kIo);
+  std::vector<Bytes> bring_up_ = bring_up(kIo), cyclic_ = exchange_requests(kIo);
   std::size_t begun_ = 0;
   std::uint64_t exchanges_ = 0;
 };
@@ -74,7 +71,7 @@ struct CharacterMaster : sc_core::sc_module, private tlm::tlm_analysis_if<BusCha
 
  private:
   sc_core::sc_event start_;
-  const sc_core::sc_time bit_ = to_time(speed::kBit), character_ = to_time(bus::kCharacterBits * speed::kBit);
+  const sc_core::sc_time bit_ = to_time(kBit), character_ = to_time(bus::kCharacterBits * kBit);
 };
 
 /// Sends requests edge by edge.
@@ -100,12 +97,12 @@ struct EdgeMaster : sc_core::sc_module {
  private:
   void begin() {
     const Bytes& request = requests.next();
-    wave_ = speed::wave_of(request);
+    wave_ = wave_of(request);
     period_ = requests.period(request);
     edge_ = 0;
   }
   sc_core::sc_event start_;
-  speed::Wave wave_;
+  Wave wave_;
   std::size_t edge_ = 0;
   Tick period_ = 0;
 };
@@ -118,7 +115,7 @@ struct IdleCpu : sc_core::sc_module {
 
 /// The user writes past the pins: he is idle, and what he does before is not measured.
 void initialise(ChipModule& chip) {
-  for (const speed::Cell& cell : speed::initialisation(kIo)) chip.poke(cell.address, cell.value);
+  for (const Cell& cell : initialisation(kIo)) chip.poke(cell.address, cell.value);
 }
 
 void run_for(Tick duration) { sc_core::sc_start(to_time(duration)); }
@@ -126,9 +123,9 @@ void run_for(Tick duration) { sc_core::sc_start(to_time(duration)); }
 /// Simulated time by CPU time.
 double speed_from_now() {
   Tick simulated = 0;
-  const speed::Stopwatch watch;
+  const Stopwatch watch;
   for (; watch.seconds() < kMeasured; simulated += kSlice) run_for(kSlice);
-  return static_cast<double>(simulated) / speed::kTicksPerSecond / watch.seconds();
+  return static_cast<double>(simulated) / kTicksPerSecond / watch.seconds();
 }
 
 double measure(ChipModule& chip, const Requests& requests) {
@@ -178,7 +175,7 @@ struct Replay : sc_core::sc_module {
   Replay(const sc_core::sc_module_name& name, std::uint32_t pins) : sc_module(name) {
     constexpr int kExchanges = 20;
     dsdpv1::Chip chip;
-    speed::SaturatedBus<dsdpv1::Chip> bus(chip, kIo);
+    SaturatedBus<dsdpv1::Chip> bus(chip, kIo);
     bus.start();
     chip.watch({[](void* self, Tick at, dsdpv1::Pin pin, dsdpv1::Level level) {
                   static_cast<Replay*>(self)->changes_.push_back({at, pin, level != 0});
@@ -253,7 +250,7 @@ double kernel_handshake() {
 }
 
 }  // namespace
-}  // namespace dsdpv1
+}  // namespace dsdpv1::speed
 
 int sc_main(int argc, char* argv[]) {
   dsdpv1::systemc::require_femtoseconds();
@@ -262,9 +259,9 @@ int sc_main(int argc, char* argv[]) {
     return 2;
   }
   return dsdpv1::speed::run_rows(argc, argv,
-                                 {{"systemc_tlm", [] { return dsdpv1::tlm_module(false); }},
-                                  {"systemc_tlm_handshake", [] { return dsdpv1::tlm_module(true); }},
-                                  {"kernel_handshake", dsdpv1::kernel_handshake},
-                                  {"systemc_pins", dsdpv1::systemc_pins},
-                                  {"kernel_pins", dsdpv1::kernel_pins}});
+                                 {{"systemc_tlm", [] { return dsdpv1::speed::tlm_module(false); }},
+                                  {"systemc_tlm_handshake", [] { return dsdpv1::speed::tlm_module(true); }},
+                                  {"kernel_handshake", dsdpv1::speed::kernel_handshake},
+                                  {"systemc_pins", dsdpv1::speed::systemc_pins},
+                                  {"kernel_pins", dsdpv1::speed::kernel_pins}});
 }
