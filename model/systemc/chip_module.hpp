@@ -74,9 +74,10 @@ class ChipModule : public sc_core::sc_module {
 
   /// `due_` will fire at `due`, a tick of the chip, whose present one is `now`; maybe more often.
   void schedule(Tick now, Tick due);
-  /// `due_` has fired at scheduled(), and no input has changed with it: SystemC fires timed events when all signals
-  /// have settled. Whoever changes an input at this time does it in a later delta cycle.
-  bool fired_as_scheduled() const { return sc_core::sc_time_stamp() == scheduled_at_ && due_.triggered(); }
+  /// Of the module's process: `due_` has fired at scheduled(), and it is the first time that it runs then. So no input
+  /// has changed: SystemC fires timed events when all signals have settled, and who changes one at this time does it in
+  /// a later delta cycle, when something else is scheduled.
+  bool fired_as_scheduled() const { return sc_core::sc_time_stamp() == scheduled_at_; }
   Tick scheduled() const { return scheduled_; }
   /// `due_` fires in the next delta cycle.
   void schedule_now();

@@ -47,11 +47,10 @@ void PinModule::evaluate() {
   plan_between_edges(now);
 }
 
-/// No input has changed; but when the chip releases D, what the user drives there is an input again.
+/// No input has changed, nor who drives D: the chip takes it and lets it go at the user's own edges.
 void PinModule::evaluate_core() {
   const Tick now = scheduled();
   advance(now);
-  if (has_changed(mask(Pin::kDOut))) apply_inputs(now, false);
   drive_pins(take_changed());
   schedule(now, chip().next_event());
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include <algorithm>
 #include <memory>
 #include <random>
 
@@ -44,6 +45,7 @@ struct Station : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
   static TlmOptions options() {
     TlmOptions options;
     options.report_violations = false;
+    options.chip.baud_control_ms = 1;
     return options;
   }
   void write(const BusCharacter& character) override {
@@ -64,12 +66,16 @@ struct Station : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
     chip.poke(dsdpv1::regs::kInitCrc + 1, static_cast<std::uint8_t>(crc & 0xFF));
     chip.poke(dsdpv1::regs::kUserCommand1, dsdpv1::regs::kUserCommand1Init);
   }
+  std::ptrdiff_t baud_lost() const {
+    return std::count_if(
+        events.begin(), events.end(), [](const auto& e) { return e.reason == profibus::Reason::kBaudLost; });
+  }
 };
 
 struct Line : sc_core::sc_module {
   Station told{"told", true}, untold{"untold", false};
   sc_core::sc_signal<bool> reset, r_req, r_sta, raw{"raw", true}, raw_of_told{"raw_of_told", true};
-  int cuts = 0, resets = 0, collisions = 0, stops = 0;
+  int cuts = 0, resets = 0, collisions = 0, stops = 0, searches = 0;
 
   explicit Line(const sc_core::sc_module_name& name) : sc_module(name) {
     for (Station* each : {&told, &untold}) each->chip.RESET(reset), each->chip.R_REQ(r_req), each->chip.R_STA(r_sta);
@@ -79,17 +85,18 @@ struct Line : sc_core::sc_module {
 
   void run() {
     power_on();
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 600; ++i) {
       const auto& telegram = choose(3) == 0 ? kToAnother : choose(4) == 0 ? kNoTelegram : kFdlStatus;
       const Tick start = dsdpv1::systemc::current_tick() + choose(3) * 250;
       const Tick end = start + static_cast<Tick>(telegram.size()) * kCharacter;
-      switch (choose(9)) {
+      switch (choose(10)) {
         case 0: send_one_by_one(telegram); break;
         case 1: send(start, telegram), break_in(start, end); break;
         case 2: send(start, telegram), collide(start, end); break;
         case 3: send_broken(start, telegram); break;
         case 4: send(start, telegram), reset_during_answer(end); break;
         case 5: stop_sending(telegram); break;
+        case 6: search_in_telegram(); break;
         default: send(start, telegram); break;
       }
       wait_until(std::max(end, dsdpv1::systemc::current_tick()) + 20 * kCharacter + kPause + choose(250));
@@ -159,6 +166,19 @@ struct Line : sc_core::sc_module {
     const Tick last = end - kCharacter + 1, now = dsdpv1::systemc::current_tick();
     put({to_time(std::max(now, last + choose(10 * kBit))), to_time(kBit), 0xA5, true, true});
   }
+  /// The baud rate is given up while a telegram for another station is on the line (S22), which another one finds
+  /// again.
+  void search_in_telegram() {
+    const Tick length = static_cast<Tick>(kToAnother.size()) * kCharacter;
+    wait_until(dsdpv1::systemc::current_tick() + choose(static_cast<int>(length)));
+    for (const auto before = untold.baud_lost(); untold.baud_lost() == before;) {
+      const Tick start = dsdpv1::systemc::current_tick(), end = start + length;
+      send(start, kToAnother);
+      wait_until(end - 1);
+      searches += untold.baud_lost() != before ? 1 : 0;
+      wait_until(end + kPause);
+    }
+  }
   void reset_during_answer(Tick end) {
     ++resets;
     wait_until(end + choose(20 * kCharacter));
@@ -182,7 +202,7 @@ void simulate() {
   set_resolution();
   collect_reports();
   line = std::make_unique<Line>("line");
-  sc_core::sc_start(80, sc_core::SC_MS);
+  sc_core::sc_start(180, sc_core::SC_MS);
 }
 
 namespace {
@@ -192,6 +212,7 @@ TEST(Runs, WhatBreaksInHasHappened) {
   EXPECT_GT(line->resets, 10);
   EXPECT_GT(line->collisions, 10);
   EXPECT_GT(line->stops, 10);
+  EXPECT_GT(line->searches, 10);
 }
 
 TEST(Runs, TheCharactersOfTheChipAreTheSame) {
