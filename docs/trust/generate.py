@@ -146,7 +146,9 @@ def soak():
     rows = []
     for date, seed, hours, simulated, rounds, exchanges, repeats, turn, settled, end, peak, verdict in results("soak.tsv"):
         rows.append([hours, simulated, rounds, exchanges, repeats, f"{turn} s", *(f"{int(kb) / 1024:.1f} MB" for kb in (settled, end, peak)), verdict, seed, date])
-    return SOAK + table(["hours", "simulated", "hosts that misbehaved", "exchanges", "repeated requests", "longest wait for the turn", "memory when settled",
+    total = sum(float(row[0]) for row in rows)
+    text = SOAK + f"{total:.2f} hours in {len(rows)} runs, none of which was resumed; the goal is eight.\n\n"
+    return text + table(["hours", "simulated", "hosts that misbehaved", "exchanges", "repeated requests", "longest wait for the turn", "memory when settled",
                          "at the end", "at most", "result", "seed", "when"], rows)
 
 
