@@ -46,7 +46,8 @@ ChipModule::ChipModule(const sc_core::sc_module_name& name, const ChipOptions& o
       {[](void* self, const profibus::Event& event) { static_cast<ChipModule*>(self)->event_happened(event); }, this});
 }
 
-void ChipModule::watch(std::uint32_t pins) {
+void ChipModule::watch(std::uint32_t pins, std::uint32_t asked) {
+  asked_ = asked;
   chip_.watch(
       {[](void* self, Tick at, Pin pin, Level level) { static_cast<ChipModule*>(self)->pin_changed(at, pin, level); },
        this},
@@ -144,7 +145,7 @@ void ChipModule::schedule_now() {
 }
 
 void ChipModule::pin_changed(Tick at, Pin pin, Level level) {
-  if (!output_changed(at, pin, level)) return;
+  if ((asked_ & mask(pin)) != 0 && !output_changed(at, pin, level)) return;
   changed_ |= mask(pin);
   high_ = level == 1 ? high_ | mask(pin) : high_ & ~mask(pin);
   if (on_pin) on_pin(at, pin, level);

@@ -39,10 +39,11 @@ class ChipModule : public sc_core::sc_module {
 
   /// The chip's tick at simulation tick `tick`; 0 until the first rising edge.
   Tick chip_tick(Tick tick) const { return tick > options_.phase ? tick - options_.phase : 0; }
-  /// That of the core, when it was brought ahead of simulation time.
-  Tick chip_now() const { return std::max(chip_tick(current_tick()), chip_.now()); }
+  /// That of the present time, or of the core, when it was brought ahead of simulation time.
+  Tick chip_now() const { return std::max(fired_as_scheduled() ? scheduled_ : chip_tick(current_tick()), chip_.now()); }
 
-  void watch(std::uint32_t pins);
+  /// Of those in `asked`, output_changed() is asked.
+  void watch(std::uint32_t pins, std::uint32_t asked);
   void set(Tick at, Pin pin, Level level);
   void advance(Tick to);
   Level sample(Tick at);
@@ -63,7 +64,7 @@ class ChipModule : public sc_core::sc_module {
   bool has_changed(std::uint32_t pins) const { return (changed_ & pins) != 0; }
   /// True when the user's access has violated the timing of table 15 or P8 since the last call.
   bool take_broken_timing();
-  /// Called from inside the core for every output that is watched. False: nobody is to hear it.
+  /// Called from inside the core. False: nobody is to hear it.
   virtual bool output_changed(Tick /*at*/, Pin /*pin*/, Level /*level*/) { return true; }
 
   /// See Chip.
@@ -96,6 +97,7 @@ class ChipModule : public sc_core::sc_module {
     sc_core::sc_signal_inout_if<bool>* signal;
   };
   std::vector<Wire> wires_;
+  std::uint32_t asked_ = 0;    ///< outputs of which output_changed() is asked
   std::uint32_t changed_ = 0;  ///< the first drive is of all outputs
   std::uint32_t high_ = 0;     ///< ... and the levels that were told
   bool broken_timing_ = false;

@@ -15,7 +15,7 @@ const Tick kClockStart = 2 * BoundClock::kWindow * profibus::kTicksPerCycle;
 
 PinModule::PinModule(const sc_core::sc_module_name& name, const PinOptions& options)
     : ChipModule(name, options), clock_tolerance_ppm_(options.clock_tolerance_ppm) {
-  watch(outputs_of(part()));
+  watch(outputs_of(part()), 0);
   SC_HAS_PROCESS(PinModule);
   SC_METHOD(evaluate);  // the only process: SystemC would count a second one as a second driver of D
   sensitive << due_ << CLK << RESET << R_REQ << R_STA << CSR << RD << WR << A << D << PBRXD;

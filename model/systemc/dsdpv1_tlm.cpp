@@ -33,11 +33,10 @@ void TlmModule::start_of_simulation() {
     connect(wire.pin, wire.port);
     if (wire.port.size() > 0) bound_ |= mask(wire.pin);
   }
-  std::uint32_t watched = bound_ | heard_outputs() | mask(Pin::kPbtxd) | mask(Pin::kPbrts);
-  if (on_pin) watched |= observed_;
+  const std::uint32_t asked = heard_outputs() | mask(Pin::kPbtxd) | mask(Pin::kPbrts);
   const bool told = on_pin && (observed_ & mask(Pin::kPbtxd)) != 0 && !on_answer;
   may_hide_ = PBTXD.size() == 0 && !told;
-  watch(watched);
+  watch(bound_ | asked | (on_pin ? observed_ : 0), asked);
 }
 
 void TlmModule::report_unbound(const std::string& socket, const char* why) {

@@ -19,8 +19,9 @@ std::ostream& operator<<(std::ostream& out, const BusCharacter& character) {
 void TlmModule::write(const BusCharacter& character) {
   const Tick bit = to_tick(character.bit);
   if (!is_sendable(character, bit)) return;
+  const Tick before = next_of_line();
   put_on_line(character, bit);
-  plan();
+  if (next_of_line() != before) plan();  // else it belongs to a telegram that is planned
 }
 
 bool TlmModule::is_sendable(const BusCharacter& character, Tick bit) {
@@ -160,7 +161,6 @@ void TlmModule::leave_run() {
 // --- characters of the chip ------------------------------------------------------------------------------------------
 
 bool TlmModule::output_changed(Tick at, Pin pin, Level level) {
-  if (pin != Pin::kPbtxd && pin != Pin::kPbrts) return true;
   others_changed();
   if (pin == Pin::kPbrts && level == 0) {
     end_answer(at);
