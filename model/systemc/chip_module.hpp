@@ -75,10 +75,9 @@ class ChipModule : public sc_core::sc_module {
 
   /// `due_` will fire at `due`, a tick of the chip, whose present one is `now`; maybe more often.
   void schedule(Tick now, Tick due);
-  /// Of the module's process: `due_` has fired at scheduled(), and it is the first time that it runs then. So no input
-  /// has changed: SystemC fires timed events when all signals have settled, and who changes one at this time does it in
-  /// a later delta cycle, when something else is scheduled.
-  bool fired_as_scheduled() const { return sc_core::sc_time_stamp() == scheduled_at_; }
+  /// `due_` has fired at scheduled() in this delta cycle. So no input has changed in it: SystemC fires timed events
+  /// when all signals have settled, and who changes one at this time does it in a later delta cycle.
+  bool fired_as_scheduled() const { return sc_core::sc_time_stamp() == scheduled_at_ && due_.triggered(); }
   Tick scheduled() const { return scheduled_; }
   /// `due_` fires in the next delta cycle.
   void schedule_now();

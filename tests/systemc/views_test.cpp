@@ -49,7 +49,40 @@ Changes core_trace(Engine engine) {
   return sorted(changes);
 }
 
+/// RESET falls before the chip's next event and rises at its very tick, at which a chip in RESET has nothing to do.
+template <class Bench>
+void reset_up_to_the_next_event(Bench& bench) {
+  wait_until(kUs);
+  bench.reset.write(true);
+  wait_until(80 * kUs);
+  const Tick due = bench.chip.chip().next_event();
+  wait_until(due - 60);
+  bench.reset.write(false);
+  wait_until(due);
+  bench.reset.write(true);
+}
+
+struct ResetPins : PinBench {
+  ResetPins() : PinBench("reset_pins") {
+    thread([this] { reset_up_to_the_next_event(*this); });
+  }
+};
+
+struct ResetTlm : sc_core::sc_module {
+  dsdpv1::systemc::TlmModule chip{"chip"};
+  tlm_utils::simple_initiator_socket<ResetTlm> socket{"socket"};
+  sc_core::sc_signal<bool> reset, r_req, r_sta, l_req;
+
+  explicit ResetTlm(const sc_core::sc_module_name& name) : sc_module(name) {
+    socket.bind(chip.host_socket);
+    chip.RESET(reset), chip.R_REQ(r_req), chip.R_STA(r_sta), chip.L_REQ(l_req);
+    thread([this] { reset_up_to_the_next_event(*this); });
+  }
+};
+
 std::unique_ptr<World> world;
+std::unique_ptr<ResetPins> reset_pins;
+std::unique_ptr<ResetTlm> reset_tlm;
 
 }  // namespace
 
@@ -57,6 +90,8 @@ void simulate() {
   set_resolution();
   collect_reports();
   world = std::make_unique<World>();
+  reset_pins = std::make_unique<ResetPins>();
+  reset_tlm = std::make_unique<ResetTlm>("reset_tlm");
   sc_core::sc_start(to_time(kEnd));
 }
 
@@ -105,6 +140,11 @@ TEST(Views, TheDataBusIsReleasedThenUnknownThenDriven) {
   seen.resize(5);
   // The user's write, then the chip's answer to the read of the same byte.
   EXPECT_THAT(seen, testing::ElementsAre("01011010", "ZZZZZZZZ", "XXXXXXXX", "01011010", "ZZZZZZZZ"));
+}
+
+TEST(Views, AnInputIsHeardThatChangesInTheDeltaCycleAfterTheChipsOwnEvent) {
+  EXPECT_EQ(reset_pins->chip.chip().level(Pin::kReset), 1);
+  EXPECT_EQ(reset_tlm->chip.chip().level(Pin::kReset), 1);
 }
 
 TEST(Views, ARightStimulusIsReportedByNobody) {
