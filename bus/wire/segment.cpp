@@ -65,6 +65,12 @@ void Segment::plug(StationId station, Tick at, bool plugged) {
 
 bool Segment::level_at(StationId station) const { return !stations_.at(station).plugged || level_; }
 
+bool Segment::level_before(Tick at) const {
+  const bool carried = run_ && !run_->driven && at > run_->characters.start;
+  if (carried) return run_->characters.level(at - 1);
+  return noted_at_ == at ? before_noted_ : level_;
+}
+
 bool Segment::driven_level() const {
   if (forced_) return *forced_;
   return std::all_of(drivers_.begin(), drivers_.end(), [this](StationId driver) { return stations_[driver].drives; });
@@ -85,6 +91,7 @@ void Segment::tell_all(Tick at) {
 
 void Segment::note_change(Tick at) {
   if (level_ == noted_) return;
+  if (std::exchange(noted_at_, at) != at) before_noted_ = noted_;
   noted_ = level_;
   if (changes_.size() == kMostMissed) forget_changes();
   changes_.push_back({at, level_});
@@ -208,6 +215,8 @@ void Segment::cut_run(Tick at) {
     if (station.listener != nullptr) cut.push_back(station.listener);
   }
   if (!run.driven) {
+    before_noted_ = level_before(at);
+    noted_at_ = at;
     stations_[run.sender].drives = level;
     level_ = noted_ = level;
   }

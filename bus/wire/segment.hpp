@@ -82,6 +82,8 @@ class Segment {
   void plug(StationId station, Tick at, bool plugged);
 
   bool level() const { return level_; }
+  /// The level just before `at`, be it that somebody has driven at `at` already; nobody has later.
+  bool level_before(Tick at) const;
   /// What this station hears: the segment's level, or idle while it is unplugged.
   bool level_at(StationId station) const;
   /// How many have been attached: the next one's StationId.
@@ -153,7 +155,9 @@ class Segment {
   CharacterRun last_run_;
   std::array<std::uint8_t, kLongestKept> last_bytes_ = {};  ///< those of last_run_, where somebody passes it
   bool level_ = true, noted_ = true;
-  bool telling_ = false;  ///< a listener that drives the line while it is being told must not be told out of order
+  Tick noted_at_ = 0;         ///< the last change ...
+  bool before_noted_ = true;  ///< ... and the level before all changes at that tick
+  bool telling_ = false;      ///< a listener that drives the line while it is being told must not be told out of order
 };
 
 }  // namespace dsdpv1::bus

@@ -294,10 +294,10 @@ void Bench::add_marks() {
 }
 
 void Bench::marked(Tick now) {
-  if (waves_ && waves_->asleep() && now == sleeps_until())
-    wake_wave(options_.wave.selection.from, options_.wave.selection.to);
   const bool wanted = std::find(options_.marks.begin(), options_.marks.end(), now) != options_.marks.end();
   if (wanted && !options_.on_mark(now, digest(now))) leave_nothing();
+  if (waves_ && waves_->asleep() && now == sleeps_until())  // not before the digest, which is the one without a wave
+    wake_wave(options_.wave.selection.from, options_.wave.selection.to);
 }
 
 void Bench::leave_nothing() {
@@ -331,20 +331,25 @@ void Bench::keep_only_wave() {
   if (capture_) capture_->mute();
 }
 
-/// Chips have their turn at `now`, which is the next one anyway. Those that took a telegram as a whole hear it so far.
+/// Nobody has acted at `now` yet but chips of the TLM view. All others are looked at as they are; then each chip has
+/// its turn at `now`, which is the next one anyway, and what it took as a whole of a telegram it hears so far. That is
+/// with the edge at `now`, which without such a whole it would not know yet: so no pin that hears the line is looked
+/// at.
 std::uint64_t Bench::digest(Tick now) {
   Hash hash;
   hash.add(digest_.before(now));
+  hash.add(std::uint64_t{execution_->segment().level_before(now)});
+  for (const MasterStation& each : stations_.masters) hash.add(each.master->cycles());
+  hash.add(monitor_->statistics().telegrams);
+  hash.add(monitor_->statistics().wrong);
   for (const auto& slave : stations_.slaves) slave->chip().sync(now);
   execution_->segment().cut_run(now);
   for (const auto& slave : stations_.slaves) {
     for (std::size_t pin = 0; pin < maker_.pins().size(); ++pin)
-      hash.add(static_cast<std::uint64_t>(slave->chip().level(static_cast<PinNumber>(pin))));
+      if (!maker_.pins()[pin].line)
+        hash.add(static_cast<std::uint64_t>(slave->chip().level(static_cast<PinNumber>(pin))));
     add(hash, slave->result());
   }
-  for (const MasterStation& each : stations_.masters) hash.add(each.master->cycles());
-  hash.add(monitor_->statistics().telegrams);
-  hash.add(monitor_->statistics().wrong);
   return hash.value();
 }
 

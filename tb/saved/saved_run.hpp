@@ -21,7 +21,7 @@ struct SavedFile {
 };
 
 struct SavedRun {
-  static constexpr int kVersion = 1;
+  static constexpr int kVersion = 2;
 
   std::string program;                          ///< that has saved it: its version, and what it is made of
   std::string scenario;                         ///< path, as it was given

@@ -191,6 +191,43 @@ TEST(Segment, WhatComesAndGoesAtOneTickIsHeardByNobodyBehind) {
   EXPECT_TRUE(second.changes.empty());
 }
 
+// --- the level before ------------------------------------------------------------------------------------------------
+
+TEST_F(SegmentTest, LevelBeforeATickIsThatBeforeAllChangesAtIt) {
+  segment.drive(a, 10, true, false);
+  EXPECT_TRUE(segment.level_before(10));
+  EXPECT_FALSE(segment.level_before(11));
+  segment.drive(a, 20, true, true);
+  segment.drive(a, 20, true, false);
+  EXPECT_FALSE(segment.level_before(20));
+  segment.drive(a, 20, true, true);
+  EXPECT_FALSE(segment.level_before(20));
+  EXPECT_TRUE(segment.level_before(21));
+}
+
+/// Takes runs as a whole.
+struct Taker : Listener {
+  void line_changed(Tick, bool) override {}
+  bool run_begins(const CharacterRun&) override { return true; }
+  void run_cut(Tick, bool) override {}
+};
+
+TEST(Segment, LevelBeforeATickInARunIsThatOfItsCharactersAndSoItIsWhenTheRunIsCutThere) {
+  constexpr Tick kBit = 1000, kStart = 100'000;
+  constexpr std::uint8_t kBytes[] = {0xFE};  // the start bit, then bit 0, are low: up at the end of two bits
+  for (const bool cut : {false, true}) {
+    for (const Tick at : {kStart, kStart + 1, kStart + 2 * kBit, kStart + 2 * kBit + 1}) {
+      Segment segment;
+      Taker sender;
+      const StationId station = segment.attach("sender", &sender);
+      segment.drive(station, 1, true, true);
+      ASSERT_TRUE(segment.send_run(station, {kStart, kBit, kBytes, 1}));
+      if (cut) segment.cut_run(at);
+      EXPECT_EQ(segment.level_before(at), at == kStart || at > kStart + 2 * kBit) << at << (cut ? ", cut" : "");
+    }
+  }
+}
+
 // --- runs that a filter keeps from a listener ------------------------------------------------------------------------
 
 constexpr Tick kFilteredBit = 1000, kFirstRun = 100'000, kNextRun = 500'000;

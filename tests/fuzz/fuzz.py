@@ -9,8 +9,11 @@ import re
 import subprocess
 import sys
 
-import corpora
-import target_list
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "docs" / "trust"))
+import corpora  # noqa: E402
+import records  # noqa: E402
+import target_list  # noqa: E402
 
 EXAMPLES = """examples:
   ./run fuzz                              # all targets in turn, 30 s each
@@ -24,9 +27,7 @@ The table is tab-separated: target, inputs, seconds, inputs a second, what was f
 run goes on. A finding is a crash, a report of a sanitizer, a leak, a broken promise, more than 10 s for an input, or more memory than 2 GB in all or
 256 MB at once; its input is kept in build/fuzz/findings/TARGET. Exit codes: 0 nothing found, 1 a finding, 2 wrong input.
 """
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "fuzz"
-RECORD = ROOT / "docs" / "trust" / "fuzz.tsv"
 MOST_SECONDS, MOST_RUNS = 7 * 24 * 3600, 10 ** 12
 HEAD = ["target", "inputs", "seconds", "inputs/s", "found"]
 
@@ -147,10 +148,8 @@ def tell(outcome):
 
 
 def record(outcomes):
-    today = datetime.date.today().isoformat()
-    with RECORD.open("a", encoding="utf-8") as file:
-        for each in outcomes:
-            file.write("\t".join(map(str, [today, each["target"], each["seed"], each["inputs"], each["seconds"], len(each["found"])])) + "\n")
+    for each in outcomes:
+        records.add("fuzz.tsv", each["target"], each["seed"], each["inputs"], each["seconds"], len(each["found"]))
 
 
 def main(words):

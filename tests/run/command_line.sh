@@ -26,6 +26,12 @@ done
 grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
 [ "$("$run")" = "$help" ] || fail "without arguments it does not print the help"
 
+for command in demo test nightly rtl-synth reproducible build conformance deps; do
+  help=$("$run" "$command" --help) || fail "$command --help: exit $?"
+  [[ $help == "  $command "* ]] || fail "$command --help does not explain it: $help"
+  [ "$(grep -c '^  [^ ]' <<<"$help")" -eq 1 ] || fail "$command --help explains others, too: $help"
+done
+
 version=$("$run" --version) || fail "--version: exit $?"
 [[ $version =~ ^dsdpv1\ [0-9]+\.[0-9]+\.[0-9]+(\ \([^ ]+\))?$ ]] || fail "--version prints $version"
 [ "${version%% (*}" = "dsdpv1 $2" ] || fail "--version prints $version, this is $2"

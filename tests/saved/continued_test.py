@@ -2,17 +2,23 @@
 """A run that is saved at any tick and restored in another process, and folder, is the unbroken one from there on: log, wave, trace and capture
 from that tick, the result as a whole. And a run that is saved is the one that is not.
 
-usage: continued_test.py DSDPV1_SIM [--firmware ELF] [--ticks N] [--seed N]
+usage: continued_test.py DSDPV1_SIM [--firmware ELF] [--ticks N] [--seed N] [--record]
 
-Without --ticks a few scenarios, in each engine and view of the model; with it all of them, at N random ticks in sum."""
+Without --ticks a few scenarios, in each engine and view of the model; with it all of them, at N random ticks
+in sum or a few more, so that each has the same number; --record makes that a row of docs/trust.md."""
 import argparse
 import filecmp
+import os
 import pathlib
 import random
 import re
+import sys
 import tempfile
 
 import runs
+
+sys.path.insert(0, str(runs.PROJECT / "docs" / "trust"))
+import records  # noqa: E402
 
 TICKS = {"ms": 12_000_000, "us": 12_000, "s": 12_000_000_000}
 TICKS_PER_CYCLE = 250
@@ -111,12 +117,22 @@ def check(program, name, options, count, seed):
     return scenario.failures
 
 
+def campaign(program, names, ticks, seed):
+    """Failures in all scenarios, at so many ticks each."""
+    failures = []
+    for name in names:
+        failures += check(program, name, (), ticks, seed)
+        print(f"{name}: {len(failures)} failures so far", flush=True)
+    return failures
+
+
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("program")
+    parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("--firmware")
     parser.add_argument("--ticks", type=int)
     parser.add_argument("--seed", default="1")
+    parser.add_argument("--record", action="store_true")
     arguments = parser.parse_args()
     failures = []
     if arguments.ticks is None:
@@ -126,9 +142,10 @@ def main():
         return runs.report(failures)
     names = sorted(path.stem for path in (runs.PROJECT / "scenarios").glob("*.yaml"))
     names = [name for name in names if arguments.firmware or not has_board(name)]
-    for name in names:
-        failures += check(arguments.program, name, (), -(-arguments.ticks // len(names)), arguments.seed)
-        print(f"{name}: {len(failures)} failures so far", flush=True)
+    each = -(-arguments.ticks // len(names))
+    failures = campaign(arguments.program, names, each, arguments.seed)
+    if arguments.record:
+        records.add("saved.tsv", arguments.seed, len(names), each * len(names), len(failures))
     return runs.report(failures)
 
 

@@ -48,7 +48,7 @@ class Refusals:
         self.restore(self.saved[:-1], line="b.run: is damaged")
         self.restore(b"", line="b.run: is no saved run")
         self.restore(self.scenario.encode(), line="b.run: is no saved run")
-        self.restore(self.saved.replace(b"saved run 1 ", b"saved run 2 ", 1), line="b.run: is a saved run of another version")
+        self.restore(self.saved.replace(b"saved run 2 ", b"saved run 1 ", 1), line="b.run: is a saved run of another version")
         self.run("--restore", "none.run", line="none.run: no such file")
 
     def changed(self, name, text):
@@ -64,7 +64,7 @@ class Refusals:
         object_at = self.saved.index(b"\n") + 1
         content = bytearray(self.saved[object_at:])
         content[digest - object_at + len("digest") + 4] ^= 1  # a byte of the number behind its key
-        self.restore(b"DSDPV1 saved run 1 " + fingerprint(content) + b"\n" + bytes(content), line="b.run: the run up to 1ms is not the one that was saved")
+        self.restore(b"DSDPV1 saved run 2 " + fingerprint(content) + b"\n" + bytes(content), line="b.run: the run up to 1ms is not the one that was saved")
 
     def command_lines(self):
         self.run("s.yaml", "--save-at", "4ms", "c.run", line="--save-at is 4ms, allowed is a time up to the end of the run, 3ms")

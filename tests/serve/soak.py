@@ -5,7 +5,6 @@ A round is one host that misbehaves while a decent one waits; then the decent on
 every byte is looked at. Real time: `serve` is never faster. Nothing is resumed; what was reached is printed every minute, also when it is interrupted.
 """
 import argparse
-import datetime
 import os
 import random
 import signal
@@ -20,6 +19,9 @@ from faults_test import reset
 from flood import PAYLOADS, peak_kb, push, rss_kb, tcp_number
 from port_test import STATUS_REQUEST
 
+sys.path.insert(0, os.path.join(ROOT, "docs", "trust"))
+import records  # noqa: E402
+
 EXAMPLES = """examples:
   tests/serve/soak.py build/default/apps/dsdpv1-sim                      # eight hours
   tests/serve/soak.py build/default/apps/dsdpv1-sim --hours 0.05 --seed 7
@@ -28,7 +30,6 @@ EXAMPLES = """examples:
 The table is tab-separated: minutes, rounds, exchanges, memory in KB, greatest wait for a turn in s. Exit codes: 0 all held, 1 something did not,
 2 wrong input, 130 interrupted (SIGINT, SIGTERM, SIGHUP), which ends `serve`, too.
 """
-RECORD = os.path.join(ROOT, "docs", "trust", "soak.tsv")
 SCENARIO = """name: soak
 baud: 1.5M
 end: 100ms
@@ -221,11 +222,8 @@ def listens_at(pid):
 
 def record(soak, seed, peak, verdict):
     result = soak.serve.result
-    row = [datetime.date.today().isoformat(), seed, "%.2f" % (soak.now() / 3600), "%.2f" % (result["simulated_ns"] / 3.6e12), soak.rounds,
-           soak.exchanges, soak.repeats, "%.1f" % soak.longest_turn_s, soak.settled_kb(), soak.samples[-1][1], peak,
-           verdict]
-    with open(RECORD, "a", encoding="utf-8") as file:
-        file.write("\t".join(map(str, row)) + "\n")
+    records.add("soak.tsv", seed, "%.2f" % (soak.now() / 3600), "%.2f" % (result["simulated_ns"] / 3.6e12), soak.rounds, soak.exchanges, soak.repeats,
+                "%.1f" % soak.longest_turn_s, soak.settled_kb(), soak.samples[-1][1], peak, verdict)
 
 
 def soak_for(program, hours, seed, keep):

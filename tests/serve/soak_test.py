@@ -12,7 +12,7 @@ import time
 
 from bench import DEADLINE, HERE, Lines, check
 
-SOAK = "import sys, soak; soak.RECORD = sys.argv.pop(1); sys.exit(soak.main())"
+SOAK = "import pathlib, sys, soak; soak.records.HERE = pathlib.Path(sys.argv.pop(1)); sys.exit(soak.main())"
 
 
 def state_and_parent(pid):
@@ -38,8 +38,7 @@ def is_there(pid):
 
 def interrupted_by(program, number):
     with tempfile.TemporaryDirectory(prefix="dsdpv1_soak_") as folder:
-        record = os.path.join(folder, "soak.tsv")
-        soak = subprocess.Popen([sys.executable, "-c", SOAK, record, os.path.abspath(program), "--record"], cwd=HERE, stdout=subprocess.PIPE)
+        soak = subprocess.Popen([sys.executable, "-c", SOAK, folder, os.path.abspath(program), "--record"], cwd=HERE, stdout=subprocess.PIPE)
         serves = []
         try:
             lines = Lines(soak.stdout)
@@ -55,7 +54,7 @@ def interrupted_by(program, number):
                 os.kill(pid, signal.SIGKILL)
         check(soak.returncode == 130, "it ended with %d" % soak.returncode)
         check(not left, "serve was still there")
-        with open(record, encoding="utf-8") as file:
+        with open(os.path.join(folder, "soak.tsv"), encoding="utf-8") as file:
             check(file.read().endswith("\tinterrupted\n"), "it is not recorded as interrupted")
 
 

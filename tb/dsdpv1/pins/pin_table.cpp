@@ -11,7 +11,8 @@ PinTable make_pins(Part part) {
   for (int i = 0; i < pin_count(part); ++i) {
     const auto pin = static_cast<dsdpv1::Pin>(i);
     const bool data = pin == dsdpv1::Pin::kDIn || pin == dsdpv1::Pin::kDOut;
-    table.push_back({dsdpv1::name(pin), dsdpv1::width(pin), dsdpv1::is_input(pin), data ? "D" : nullptr});
+    table.push_back({dsdpv1::name(pin), dsdpv1::width(pin), dsdpv1::is_input(pin), data ? "D" : nullptr,
+                     pin == dsdpv1::Pin::kPbrxd});
   }
   return table;
 }

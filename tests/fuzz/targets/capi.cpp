@@ -91,15 +91,19 @@ class Caller {
   T* or_null(T& place) {
     return input_.byte() % 16 == 0 ? nullptr : &place;
   }
+  /// As many ticks of what is left; none when they are more.
+  std::uint64_t spend(std::uint64_t ticks) {
+    if (ticks > left_) return 0;
+    left_ -= ticks;
+    return ticks;
+  }
   /// A little later than `now`, and now and then before it or beyond all time.
   std::uint64_t tick(std::uint64_t now) {
     const std::uint8_t how = input_.byte();
-    if (how == 0) return input_.number(4);
     if (how == 1) return DPSIM_LAST_TICK + 1 + input_.number(8) / 2;
-    const std::uint64_t ahead = how % 4 == 0 ? input_.number(3) : input_.number(2);
-    if (ahead > left_) return now;
-    left_ -= ahead;
-    return now + ahead;
+    if (how != 0) return now + spend(how % 4 == 0 ? input_.number(3) : input_.number(2));
+    const std::uint64_t any = input_.number(4);
+    return any < now ? any : now + spend(any - now);
   }
   std::uint64_t now_of(const dpsim_chip* chip) const {
     std::uint64_t now = 0;
@@ -233,7 +237,7 @@ class Caller {
   void bring_up() {
     dpsim_chip* const chip = chips_.pick(input_);
     check(dpsim_chip_set(chip, now_of(chip) + 10 * DPSIM_TICKS_PER_CYCLE, DPSIM_DSDPV1_RESET, 1));
-    check(dpsim_chip_advance(chip, now_of(chip) + 6000 * DPSIM_TICKS_PER_CYCLE));
+    check(dpsim_chip_advance(chip, now_of(chip) + spend(6000 * DPSIM_TICKS_PER_CYCLE)));
   }
 
   // --- the bus
