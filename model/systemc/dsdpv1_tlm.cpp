@@ -220,18 +220,21 @@ unsigned int TlmModule::transport_dbg(Payload& payload) {
 // ------------------------------------------------------------------------------------------------------ pins and core
 
 void TlmModule::evaluate() {
-  if (only_the_core_acts()) return evaluate_core();
+  if (nothing_arrives()) return evaluate_core();
   const Tick now = catch_up();
   drive(take_changed());
   plan(now, chip().next_event());
 }
 
-/// Most of what wakes the module moves L_REQ and L_STA and does nothing else.
+/// Most of what wakes the module moves L_REQ and L_STA, or ends a character of the chip's, and does nothing else.
 void TlmModule::evaluate_core() {
   const Tick now = scheduled();
   advance(now);
-  const bool alone = others_ > now && !(in_run(now) && chip().left_run());
-  if (!alone) catch_up();
+  const bool left_run = in_run(now) && chip().left_run(), alone = others_ > now && !left_run;
+  if (arrivals_ <= now || left_run)
+    catch_up();
+  else if (!alone)
+    tell_characters(now);
   drive(take_changed());
   const Tick core = chip().next_event();
   alone ? schedule(now, std::min(core, others_)) : plan(now, core);
@@ -246,8 +249,7 @@ Tick TlmModule::catch_up() {
   apply_line(now);
   apply_inputs(now);
   if (chip().left_run()) stop_run(now);
-  collect_character(now);
-  if (!complete_.empty()) emit_characters();
+  tell_characters(now);
   tell_host(now);
   return now;
 }
@@ -273,7 +275,8 @@ void TlmModule::apply(Tick now, Pin pin, bool level) {
 /// cycle.
 void TlmModule::plan(Tick now, Tick core) {
   const Tick line = line_is_stale(now) ? now : next_of_line();
-  others_ = std::min({line, next_of_host(), from_chip_.next(), next_answered()});
+  arrivals_ = std::min(line, next_of_host());
+  others_ = std::min({arrivals_, from_chip_.next(), next_answered()});
   if (has_changed(bound_) || line <= now)
     schedule_now();
   else

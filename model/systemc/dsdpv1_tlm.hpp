@@ -145,7 +145,7 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   static void wait_for(sc_core::sc_time& delay);
   bool output_changed(Tick at, Pin pin, Level level) override;
   /// Something that plan() asks for has changed in the middle of the core's doing.
-  void others_changed() { others_ = 0; }
+  void others_changed() { others_ = arrivals_ = 0; }
   /// `on_pin` is to hear it.
   bool hears(Pin pin) const { return (observed_ & mask(pin)) != 0; }
   /// The live host port's socket is bound.
@@ -182,7 +182,7 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   static void report_unbound(const std::string& socket, const char* why);
 
   void evaluate();
-  bool only_the_core_acts() const { return fired_as_scheduled() && scheduled() < others_ && !in_access(); }
+  bool nothing_arrives() const { return fired_as_scheduled() && scheduled() < arrivals_ && !in_access(); }
   void evaluate_core();
   void apply_line(Tick now);
   bool hears_host() const { return on_pin && (observed_ & kHostPins) != 0; }
@@ -205,7 +205,7 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   Tick bit_time() const;
   Tick next_answered() const;
   void collect_character(Tick now);
-  void emit_characters();
+  void tell_characters(Tick now);
   bool is_sendable(const BusCharacter& character, Tick bit);
   void put_on_line(const BusCharacter& character, Tick bit);
   Tick tick_of_bit(const BusCharacter& character, unsigned int bit) const;
@@ -214,7 +214,9 @@ class TlmModule : public ChipModule, protected tlm::tlm_analysis_if<BusCharacter
   void take_back_last_run();
 
   AccessTiming timing_;
-  Tick others_ = 0;  ///< when anything but the core acts next, as plan() found it; 0: it has to be asked again
+  // As plan() found it; 0: it has to be asked again.
+  Tick arrivals_ = 0;  ///< when something comes to the chip next, on the line or from the host ...
+  Tick others_ = 0;    ///< ... and when anything but the core acts, which may be the end of a character of the chip's
   std::uint32_t observed_, bound_ = 0;  ///< pins
   std::uint32_t applied_ = 0;           ///< of RESET, R_REQ, R_STA those that the core knows as high
   sc_core::sc_mutex host_bus_;          ///< accesses of several initiators follow each other

@@ -193,7 +193,9 @@ void TlmModule::collect_character(Tick now) {
     complete_.push_back({answer_.character(answered_), answer_.bit, answer_.bytes[answered_], true, true});
 }
 
-void TlmModule::emit_characters() {
+void TlmModule::tell_characters(Tick now) {
+  collect_character(now);
+  if (complete_.empty()) return;
   while (emitted_ < complete_.size()) {  // a listener may call back, and goes on here
     const LineCharacter c = complete_[emitted_++];
     bus_out.write({to_time(c.start + phase()), to_time(c.bit), c.data, c.parity_ok, c.stop_ok});

@@ -1,5 +1,6 @@
 #include "model/systemc/sim_time.hpp"
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -28,18 +29,22 @@ std::uint64_t resolution_in_femtoseconds() {
   return kCoarsest;  // reports that do not throw
 }
 
-/// 250 ps in units of the simulation's resolution: SystemC takes powers of ten, so it is a whole number.
-std::uint64_t units_per_three_ticks() {
-  static std::uint64_t units = 0;  // not a guarded constant: it is asked for several times in each event
-  if (units == 0) units = kFsPerThreeTicks / checked_resolution();
+/// No tick, a tick, two and three in units of the simulation's resolution, rounded; three are 250 ps, which are a whole
+/// number of them, as SystemC takes powers of ten.
+const std::array<std::uint64_t, 4>& units_of_ticks() {
+  static std::array<std::uint64_t, 4> units =
+      {};  // not a guarded constant: it is asked for several times in each event
+  if (units[3] == 0) {
+    units[3] = kFsPerThreeTicks / checked_resolution();
+    for (std::size_t ticks = 1; ticks < 3; ++ticks) units[ticks] = (ticks * units[3] + 1) / 3;
+  }
   return units;
 }
 
 std::uint64_t units(Tick tick) {
   const auto count = static_cast<std::uint64_t>(tick);
-  const std::uint64_t in_three = units_per_three_ticks();
-  const std::uint64_t rest = (count % 3 * in_three + 1) / 3;  // thirds of a unit, rounded
-  return count / 3 * in_three + rest;
+  const std::array<std::uint64_t, 4>& of = units_of_ticks();
+  return count / 3 * of[3] + of[count % 3];
 }
 
 /// The compiler divides by constants without dividing.
@@ -71,7 +76,7 @@ void try_to_set_femtoseconds() {
 sc_core::sc_time to_time(Tick tick) { return sc_core::sc_time::from_value(units(tick)); }
 
 Tick to_tick(const sc_core::sc_time& time) {
-  const std::uint64_t in_three = units_per_three_ticks();
+  const std::uint64_t in_three = units_of_ticks()[3];
   if (in_three == 250'000) return nearest_tick<250'000>(time.value());
   if (in_three == 250) return nearest_tick<250>(time.value());
   return in_three == 25'000 ? nearest_tick<25'000>(time.value()) : nearest_tick<2'500>(time.value());

@@ -11,7 +11,7 @@
 namespace dsdpv1 {
 namespace {
 
-constexpr std::uint64_t kMostTicks = 100'000'000;  ///< 8 ms for all objects together, so that a run ends soon
+constexpr std::uint64_t kMostTicks = 24'000'000;  ///< 2 ms for all objects together, in which a slave comes up
 constexpr const char* kScenario =
     "name: short\nbaud: 12M\nend: 650us\n"
     "slaves:\n  - {name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 4, max_outputs: 4, cfg: \"33\"}}\n"
