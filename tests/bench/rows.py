@@ -63,11 +63,6 @@ def of_sim(name, goal, what, measure, **others):
     return Row(name, goal, others.pop("unit", TIMES), what, measure, ("dsdpv1-sim", *others.pop("targets", ())), **others)
 
 
-def one_after_the_other(*names):
-    """The speed of work that consists of what these rows measure."""
-    return lambda values, _: 1 / sum(1 / values[name] for name in names)
-
-
 def without(part, row):
     """The row, if this part of its run cost nothing."""
     return lambda values, profiles: values[row] / (1 - profiles[row][part] / 100)
@@ -135,9 +130,10 @@ ROWS = (
         limit="An event of SystemC for each character of the answer, which `bus_out` tells at its end."),
     Row("systemc_tlm_handshake", 5, TIMES, "The same with L_REQ and L_STA bound, as a user who accesses the DPRAM needs them.",
         in_program("bench_systemc", "systemc_tlm_handshake"), SYSTEMC,
-        limit="L_REQ and L_STA change twice a microsecond: a timed event, a process and two signals of SystemC each time, which are nearly half of the "
-              "instructions. What remains when the kernel does that and nothing else, and the core what it does alone, says the limit.",
-        limit_of=one_after_the_other("kernel_handshake", "core_16"), limit_by="kernel_handshake and core_16"),
+        limit="L_REQ and L_STA change twice a microsecond: a timed event, a process and two signals of SystemC each time, nearly half of the run; "
+              "kernel_handshake is what remains when nobody computes anything. The limit is what would remain if the module between kernel and core "
+              "cost nothing: neither to ask for its next turn, nor to write outputs, nor to collect characters.",
+        limit_of=without("module", "systemc_tlm_handshake"), limit_by="systemc_tlm_handshake without the module's own part"),
     Row("kernel_handshake", None, TIMES, "The SystemC kernel alone: the characters of systemc_tlm_handshake sent to nobody, the same changes of L_REQ and "
         "L_STA replayed.", in_program("bench_systemc", "kernel_handshake"), SYSTEMC),
     Row("systemc_pins", 2, TIMES, "The pin module in a SystemC platform, all pins bound, the same exchanges edge by edge.",
