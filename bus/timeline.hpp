@@ -4,7 +4,7 @@
 // of cycle n is seen by everybody who looks at the tick of cycle n).
 //
 // Nobody is polled: the timeline knows when each agent wants to act, and an agent whose plan changes announces it. In
-// one step everybody due at that tick has one turn, in order, as his plan is when his turn comes: who becomes due
+// one step everybody due at that tick has one turn, in order, as its plan is when its turn comes: who becomes due
 // through an earlier one acts in the same step, who becomes due through a later one in the next step at the same tick.
 #include <cstddef>
 #include <vector>
@@ -31,8 +31,8 @@ class Agent {
 
  protected:
   /// `next()` may have become another: to be called by everything but `run` that changes what it depends on. Before or
-  /// after the change: the timeline does not ask at once, but when the one who acts has had his turn. Costs little, and
-  /// nothing outside of a timeline.
+  /// after the change: the timeline does not ask at once, but when the agent that acts has had its turn. Costs little,
+  /// and nothing outside of a timeline.
   void announce();
   /// The same by one who knows: `next()` is `plan` now.
   void announce(Tick plan);
@@ -55,11 +55,11 @@ class Timeline {
 
   /// The tick of the earliest planned action of any agent.
   Tick next();
-  /// Nobody but `agent`, who has his turn, has one up to and including `tick`, which is not after the limit of the
-  /// step: as long as he does nothing to others, nothing happens until then.
+  /// Nobody but `agent`, which has its turn, has one up to and including `tick`, which is not after the limit of the
+  /// step: as long as it does nothing to others, nothing happens until then.
   bool quiet(const Agent& agent, Tick tick);
-  /// It is quiet up to `tick`, where `agent` would act next: the step goes on to that tick, and this is his turn there.
-  /// False: he is to wait for it.
+  /// It is quiet up to `tick`, where `agent` would act next: the step goes on to that tick, and this is its turn there.
+  /// False: it has to wait for it.
   bool go_on(const Agent& agent, Tick tick);
   /// Runs every action due up to and including `until`; `now()` is then `until`.
   void run_until(Tick until);

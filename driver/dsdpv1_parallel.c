@@ -48,7 +48,7 @@ static bool acquire(dsdpv1_device* device) {
 }
 
 /*
- * Note 1 under table 2: the chip sets B006 to 1 at each access, the user adds 1 at each of his. A 1 that is our own
+ * Note 1 under table 2: the chip sets B006 to 1 at each access, the user adds 1 at each of theirs. A 1 that is our own
  * (the count wrapped round) does not speak for the chip.
  */
 static void count_access(dsdpv1_device* device) {

@@ -1,6 +1,6 @@
 /* SPDX-FileCopyrightText: 2026 the dsdpv1 authors */
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The driver's port: what a device maker writes for his MCU. */
+/* The driver's port: what a device maker writes for their MCU. */
 #include "examples/firmware/dsdpv1_port_stm32.h"
 
 #include <stddef.h>

@@ -164,7 +164,7 @@ void TlmModule::release_host_pins() {
 }
 
 /// `sampled_` is then the level of D when it was sampled, X without a sample. As long as the user owns the DPRAM and
-/// nobody hears the pins, only he sees what an access does, so they are moved late: when something else happens, or at
+/// nobody hears the pins, only they see what an access does, so they are moved late: when something else happens, or at
 /// its end.
 void TlmModule::perform(bool write, std::uint16_t address, std::uint8_t value, const AccessTiming& timing) {
   wait_until(access_start_);

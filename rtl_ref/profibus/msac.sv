@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the dsdpv1 authors
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // DPV1 (section 15): hands telegrams to SAPs 51, 49, 48 and 47 to MSAC_C1 and MSAC_C2, and the user's answers to the request that is
-// with him.
+// with them.
 `include "profibus_types.svh"
 
 module msac (
@@ -32,9 +32,9 @@ module msac (
   input  logic [7:0]  reply_index_i,
   output logic [7:0]  reply_data_o,
   // the user's side
-  output acyclic_mail_t c1_o,           // requests for him
+  output acyclic_mail_t c1_o,           // requests for the user
   output acyclic_mail_t c2_o,
-  input  answers_t    answers_i,        // his answers
+  input  answers_t    answers_i,        // the user's answers
   /* verilator lint_off UNUSEDSIGNAL */
   input  stage_t      stage_i,
   input  take_t       take_i,
@@ -77,7 +77,7 @@ module msac (
   assign channel_srd = srd ? {c2f_sap_q, c30_sap_q} : 2'b00;
   assign channel_sdn = service_i.execute && service_i.sdn ? {c2f_sap_q, c30_sap_q} : 2'b00;
 
-  // ---- the user's answer against the request with him (V6, V14), while its first bytes arrive
+  // ---- the user's answer against the request with the user (V6, V14), while its first bytes arrive
   logic stage, staged_c2_q, error_q, function_same_q, slot_same_q, index_same_q, fits, c1_answer, c2_answer;
   logic c1_with_user, c2_with_user, owner_2f;
   logic [23:0] c1_request, c2_request;

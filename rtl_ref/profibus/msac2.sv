@@ -16,7 +16,7 @@ module msac2 (
   input  logic        take_i,           // the user's side takes the mail
   output logic        mail_o,
   output logic        with_user_o,
-  output logic        owner_2f_o,       // the channel that the request with the user, or on its way to him, is of
+  output logic        owner_2f_o,       // the channel that the request with the user, or on its way there, is of
   output logic [23:0] request_o,
   output logic [7:0]  request_length_o,
   // the telegram, executed at this edge

@@ -12,7 +12,7 @@ module msac2_channel (
   input  logic        rst_ni,
   input  logic        init_i,           // an initialisation is committed
   // the user
-  input  logic        answer_i,         // his answer is accepted
+  input  logic        answer_i,         // the user's answer is accepted
   input  logic [7:0]  answer_length_i,  // bytes of the PDU
   input  logic        turn_i,           // the area becomes this channel's at this edge
   // Initiate

@@ -60,7 +60,7 @@ int64_t give(Bench& b, int area, const Bytes& bytes, uint16_t crc_change = 0) {
   return s;
 }
 
-// What the chip has written for the user, and its flag, which he takes back
+// What the chip has written for the user, and its flag, which the user takes back
 void expect_request(Bench& b, int area, const Bytes& bytes, const char* what) {
   b.step(100 + static_cast<int64_t>(bytes.size()));
   const uint16_t crc = crc16(bytes);

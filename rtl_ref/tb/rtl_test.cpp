@@ -23,7 +23,7 @@ void start_up(Bench& b) {
   b.pins().csr_i = b.pins().rd_i = 1;
   b.step();
   expect(b.l_req.rise, r, "start-up access begins at R");
-  // A user who writes although the chip owns the DPRAM (P12): what is cleared already keeps his bytes
+  // A user who writes although the chip owns the DPRAM (P12): what is cleared already keeps the user's bytes
   b.step(r + 1500 - b.edge);
   for (int i = 0; i < 64; ++i) b.write(0x100 + i, i + 1);
   for (int i = 0; i < 16; ++i) b.write(0x7C0 + i, 0xFF);

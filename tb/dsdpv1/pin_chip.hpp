@@ -106,7 +106,7 @@ class PinChip : public Dsdpv1View, public bus::Agent, private bus::Listener, pri
   bool reports_host_ = false, reports_rxd_ = false, reports_txd_ = false, catching_up_ = false;
   bool own_run_ = false, hides_txd_ = false;
   bool put_off_ = false;  ///< an access is under way whose edges are set when the chip goes beyond them
-  bool pauses_ = false;   ///< since an edge of an access, somebody was told something on which he may act
+  bool pauses_ = false;   ///< since an edge of an access, somebody was told something on which they may act
   std::array<dsdpv1::Level, dsdpv1::kRsuPinCount> inputs_{};  ///< of the inputs, as told last
 };
 

@@ -107,13 +107,13 @@ struct EdgeMaster : sc_core::sc_module {
   Tick period_ = 0;
 };
 
-/// The user's side of the TLM module: he accesses nothing.
+/// The user's side of the TLM module, without an access.
 struct IdleCpu : sc_core::sc_module {
   tlm_utils::simple_initiator_socket<IdleCpu> socket{"socket"};
   explicit IdleCpu(const sc_core::sc_module_name& name) : sc_module(name) {}
 };
 
-/// The user writes past the pins: he is idle, and what he does before is not measured.
+/// The user writes past the pins: they are idle, and what comes before is not measured.
 void initialise(ChipModule& chip) {
   for (const Cell& cell : initialisation(kIo)) chip.poke(cell.address, cell.value);
 }

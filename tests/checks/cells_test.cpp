@@ -125,7 +125,7 @@ const Case kCases[] = {
        board.write(0x011, 0x01);
        board.write(0x011, 0x02);
      }},
-    {"FlagByUserWithdrawsTheClearingOfB00B", Check::kFlagByUser,  // D16: B011.6 is his, B011.7 the chip clears
+    {"FlagByUserWithdrawsTheClearingOfB00B", Check::kFlagByUser,  // D16: B011.6 is the user's, B011.7 the chip clears
      [](Board& board) {
        board.read(0x011, 0x40);
        board.write(0x011, 0xC0);

@@ -328,7 +328,7 @@ TEST_F(ByUser, CheckCfgWhileTheParametersAreJudgedIsRefused) {
 
 TEST_F(ByUser, AVerdictForASupersededBlockIsDiscarded) {
   wait_for_prm_verdict();
-  // The user takes the DPRAM, a newer Set_Prm arrives meanwhile; his verdict is for the older block (H7).
+  // The user takes the DPRAM, a newer Set_Prm arrives meanwhile; the verdict is for the older block (H7).
   bench.acquire();
   ASSERT_TRUE(bench.set_prm(with_user({7, 8})).short_acknowledge());
   bench.write(regs::kUserStatus1, 0);

@@ -1,5 +1,6 @@
-// A user without manners: every pin of his at random times, with and without a reset, while the master works. Whatever
-// he does, step and skip agree in pins, events and DPRAM, the chip keeps its own rules, and it works again afterwards.
+// A user without manners: every pin of theirs at random times, with and without a reset, while the master works.
+// Whatever they do, step and skip agree in pins, events and DPRAM, the chip keeps its own rules, and it works again
+// afterwards.
 #include <random>
 
 #include "tests/conformance/user_helpers.hpp"

@@ -1,4 +1,4 @@
-// What a user may say about the pins of RTL of his own, and the code that is made of it.
+// What a user may say about the pins of RTL of their own, and the code that is made of it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -32,7 +32,7 @@ const user_cpu::ProgramOptions& options() {
     user_cpu::ProgramOptions options;
     options.station.max_cfg = DSDPV1_MAX_CFG;
     options.inputs = user_cpu::InputSource::kCount;
-    options.start_delay = 2 * kReset;  // sooner, and he holds off the chip's start-up (H6)
+    options.start_delay = 2 * kReset;  // sooner, and the user holds off the chip's start-up (H6)
     return options;
   }();
   return shared;

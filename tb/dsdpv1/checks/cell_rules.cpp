@@ -267,7 +267,7 @@ void CellRules::note_fetched(std::uint8_t now, const std::optional<std::uint8_t>
 }
 
 /// Whether the block's flag stands. Not looked at in this hold, it still does when it did before, as only the user
-/// clears it; else nobody knows whether a newer block has come, but who has cleared nothing since his last verdict has
+/// clears it; else nobody knows whether a newer block has come, but who has cleared nothing since the last verdict has
 /// fetched nothing.
 std::optional<bool> CellRules::stands_unfetched(std::size_t verdict) const {
   constexpr std::size_t kPlace = regs::kChipCommand1 - kFirstFlags;

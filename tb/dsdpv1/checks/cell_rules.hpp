@@ -1,6 +1,6 @@
 #pragma once
 // What the user may do with the cells of the DPRAM: B006, the CRCs, the flags, the chip's own cells. All of it is read
-// from his accesses.
+// from the user's accesses.
 #include <array>
 #include <bitset>
 #include <cstdint>
@@ -33,7 +33,7 @@ class CellRules {
   /// What the user did in the present hold.
   struct Hold {
     std::uint64_t accesses = 0;
-    std::optional<std::uint8_t> count;  ///< B006 as he read it last
+    std::optional<std::uint8_t> count;  ///< B006 as the user read it last
     bool counted_unknown = false;       ///< ... which brought nothing certain
     unsigned increments = 0;            ///< right ones
     unsigned wrong_counts = 0;
@@ -70,8 +70,8 @@ class CellRules {
   Hold hold_;
   std::optional<std::uint8_t> count_left_;             ///< B006 as the user wrote it last
   std::array<std::uint8_t, kFlagBytes> flags_left_{};  ///< B00A.. as the user knew them last
-  std::bitset<2> fetched_;                             ///< he cleared B00E.1, B00E.2 since his last verdict
-  std::array<std::uint8_t, 2> set_aside_{};            ///< B00E, B00F: flags that he cleared without fetching the block
+  std::bitset<2> fetched_;                             ///< the user cleared B00E.1, B00E.2 since the last verdict
+  std::array<std::uint8_t, 2> set_aside_{};  ///< B00E, B00F: flags that were cleared without fetching the block
 };
 
 }  // namespace dsdpv1::checks

@@ -97,8 +97,8 @@ first byte is none of a telegram the end is not known. Violations say the margin
   the end of the read, RD's or CSR's rise, as the latest moment. What a read brought is taken to be D as the chip drove it last.
 - A cell that the chip may have written since the user's last look. It counts as unknown until the user reads it in the hold, and what depends on
   it is not judged (a CRC over it, a flag written blindly).
-- Whether a block that is judged has been replaced. VERDICT_UNFETCHED looks at B00E as the user left it: a verdict in a hold in which he does not
-  look at B00E is judged by what he knew of it before; when he has cleared the flag since his last verdict, it is not judged.
+- Whether a block that is judged has been replaced. VERDICT_UNFETCHED looks at B00E as the user left it: a verdict in a hold without a
+  look at B00E is judged by what was known of it before; when the flag was cleared since the last verdict, it is not judged.
 - Whether INTR0's block was read from B00E alone. INTR0_SERVICE ends with the begin of the first read that is in B410 to B5CC, or that finds
   B00E.1 or B00E.2 set; a read of B00E that finds neither ends it uncounted, because an earlier service has taken the block along. An INTR0 that is
   not served is judged at the end of the run.
@@ -108,7 +108,7 @@ first byte is none of a telegram the end is not known. Violations say the margin
 - A DSDPV1-RSU's parameters (`uart_gaps`, `uart_min_tsdr`, `spi_write_gap`, ...). A run takes them from its scenario; the checker of the C API and of Python has their
   defaults.
 - How many outputs were lost. The table of the slaves and `outputs_overwritten` of the result file have it: output blocks that a newer one
-  replaced before the user had fetched them (cleared B00E.0), be it that he held the chip off or that he was merely slower than the master. The
+  replaced before the user had fetched them (cleared B00E.0), be it that the chip was held off or that the user was merely slower than the master. The
   core counts them, since the last reset; with an RTL in its place it is the core beside it, on the same pins.
 
 ## The checks

@@ -1,7 +1,7 @@
 #pragma once
 // Who owns the DPRAM (5.1; H1, H2, P12), from R_REQ, R_STA, L_STA and the begin and end of the user's accesses.
 //
-// While R_REQ or R_STA is high the user holds the chip off; only with both high may he access. So of a release, in
+// While R_REQ or R_STA is high the user holds the chip off; only with both high may they access. So of a release, in
 // which they may fall one after the other in either order, the first fall ends the right to access, and the second lets
 // the chip in.
 //

@@ -13,7 +13,7 @@ class RandomHost {
   RandomHost(Random& random, Stimulus& stimulus) : random_(random), stimulus_(stimulus) {}
   virtual ~RandomHost() = default;
 
-  /// From now on nothing goes wrong at the port, and the user does what he means to.
+  /// From now on nothing goes wrong at the port, and the user does what is meant.
   void careful(bool careful) { careful_ = careful; }
   /// Something goes wrong, once in `n` times; never while careful.
   bool mishap(int n) { return !careful_ && random_.one_in(n); }

@@ -194,7 +194,7 @@ void RandomCase::hold_commands_seen() {
   }
 }
 
-/// The same while the user keeps the chip from the DPRAM: what he gets in the end is what Sync has let through.
+/// The same while the user keeps the chip from the DPRAM: what comes in the end is what Sync has let through.
 void RandomCase::hold_commands_unseen() {
   sync();
   host_->take();
@@ -236,7 +236,7 @@ void RandomCase::judging() {
   master_.careful(false);
 }
 
-/// A verdict on the block that the user has, while a newer one waits for him to let go of the DPRAM (H7).
+/// A verdict on the block that the user has, while a newer one waits for them to let go of the DPRAM (H7).
 void RandomCase::supersede() {
   const bool prm = random_.one_in(2);
   careful(true);

@@ -1,5 +1,6 @@
 #pragma once
-// The driver's port on a simulated CPU: what a device maker writes for his MCU, with counters and, on request, faults.
+// The driver's port on a simulated CPU: what a device maker writes for their MCU, with counters and, on request,
+// faults.
 #include <cstdint>
 #include <map>
 
