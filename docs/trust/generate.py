@@ -151,14 +151,14 @@ def soak():
 FAULTS = """
 ## Planted faults
 
-What no test notices is not tested. `./run faults` plants one fault after the other into the model, the driver and the checks: a limit that is one too large,
+What no test notices is not tested. `./run faults` plants one fault after the other into the model, its SystemC modules, the driver and the checks: a limit that is one too large,
 a cycle too many, a wrong bit, a transition left out. Each is built beside the build, and the tests of the ordinary suite are run until one fails; a fault
-that none finds fails the command. The lists are `tests/planted/model.yaml`, `driver.yaml` and `checks.yaml`, the last with one fault for each check of
+that none finds fails the command. The lists are `tests/planted/model.yaml`, `systemc.yaml`, `driver.yaml` and `checks.yaml`, the last with one fault for each check of
 [checks.md](checks.md). Without any fault the same tests, built the same way, all pass: the command looks at that, too. The tests are tried in a fixed order:
 what found a fault is the first that did, not the only one. `./run nightly` looks for all of them; those of the RTL have `./run rtl-faults` ([cosim.md](cosim.md)).
 
 """
-FAULT_TITLES = {"model": "Of the model", "driver": "Of the driver", "checks": "Of the checks, each named for the check"}
+FAULT_TITLES = {"model": "Of the model", "systemc": "Of the SystemC modules", "driver": "Of the driver", "checks": "Of the checks, each named for the check"}
 
 
 def entries(name):
@@ -183,7 +183,7 @@ def fault_rows(name, found):
 
 def faults():
     found = {(row[1], row[2]): row for row in results("faults.tsv")}
-    heads = {"model": ["fault", "where", "rules", "what is wrong"], "driver": ["fault", "rules", "what is wrong"], "checks": ["check", "what is wrong"]}
+    heads = {"model": ["fault", "where", "rules", "what is wrong"], "systemc": ["fault", "where", "what is wrong"], "driver": ["fault", "rules", "what is wrong"], "checks": ["check", "what is wrong"]}
     text = FAULTS
     for name, title in FAULT_TITLES.items():
         rows = list(fault_rows(name, found))

@@ -18,9 +18,12 @@ class Stage:
 UNIT = Stage("core_blocks")
 CONFORMANCE = (Stage("conformance_rsu_test"), Stage("conformance_test"))
 SCENARIOS = Stage("app_scenarios_test", calls_sim=True, names="All/Scenarios.")
+SYSTEMC = ("time", "views", "bus", "tlm", "run", "ahead", "clock", "host_pins", "character", "binding", "rsu_tlm", "rsu_pins", "quantum", "decoupled",
+           "serial_platform", "bench")
 STAGES = {
     "model": (UNIT, *CONFORMANCE, Stage("user_cpu_test"), Stage("checks_test"), SCENARIOS, Stage("conformance_test", long=True),
               Stage("cosim_rtl_test", names="All/Directed"), Stage("conformance_dpv1_campaign")),
+    "systemc": (*(Stage(f"systemc_{name}_test") for name in SYSTEMC), SCENARIOS),
     "driver": (Stage("driver_test"), Stage("user_cpu_test"), SCENARIOS),
     "checks": (Stage("checks_test"), Stage("user_cpu_test"), SCENARIOS),
 }
