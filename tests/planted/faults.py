@@ -158,12 +158,20 @@ class Hunt:
             shutil.rmtree(folder)
         return found, time.monotonic() - begin
 
+    @staticmethod
+    def simulator(built):
+        """The program that the tests call, with its board beside it; None when the fault is not in it."""
+        sim = built.link(suite.SIM)
+        if sim and not built.link(suite.BOARD):
+            board = pathlib.Path(sim).with_name(pathlib.Path(suite.BOARD).name)
+            board.unlink(missing_ok=True)
+            board.symlink_to(BUILD / suite.BOARD)
+        return sim
+
     def stage(self, built, stage):
         """The test of this stage that fails, None when none does."""
         name = self.build.program(stage.program)
-        sim = built.link(suite.SIM) if stage.calls_sim else None
-        if sim:
-            built.link(suite.BOARD)
+        sim = self.simulator(built) if stage.calls_sim else None
         program = built.link(name) or (sim and BUILD / name)
         names = suite.names_of(self.cases, stage)
         if not program or not names:

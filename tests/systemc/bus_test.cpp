@@ -22,10 +22,39 @@ constexpr Tick kSearch = 120 * kUs, kRequest = 200 * kUs, kBroken = 300 * kUs, k
 constexpr std::uint8_t kAddress = 9, kMaster = 2;
 const std::vector<std::uint8_t> kFdlStatus = {0x10, kAddress, kMaster, 0x49, 0x54, 0x16};
 
+constexpr Tick kPhase = 100;
+
+/// A chip of which nobody hears a pin, so that characters are told as runs: to it, and by it.
+struct Unheard : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
+  dsdpv1::systemc::TlmModule chip;
+  tlm_utils::simple_initiator_socket<Unheard> cpu{"cpu"};  // there, and idle
+  std::vector<BusCharacter> heard;
+  std::vector<sc_time> heard_at;
+
+  Unheard(const sc_core::sc_module_name& name, sc_core::sc_signal<bool>& reset, sc_core::sc_signal<bool>& low)
+      : sc_module(name), chip("chip", options()) {
+    chip.RESET(reset), chip.R_REQ(low), chip.R_STA(low);
+    cpu.bind(chip.host_socket);
+    chip.bus_out.bind(*this);
+  }
+  static dsdpv1::systemc::TlmOptions options() {
+    dsdpv1::systemc::TlmOptions options;
+    options.phase = kPhase;
+    return options;
+  }
+  void write(const BusCharacter& character) override {
+    heard.push_back(character);
+    heard_at.push_back(sc_core::sc_time_stamp());
+  }
+  bool found_a_rate() const { return chip.chip().status().baud_index.known(); }
+};
+
 struct World : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
   dsdpv1::systemc::TlmModule chip{"chip"};
   tlm_utils::simple_initiator_socket<World> cpu{"cpu"};  // there, and idle
   sc_core::sc_signal<bool> reset, r_req, r_sta, pbtxd, pbrts, pbrxd;
+  Unheard phased{"phased", reset, r_req};
+  Unheard two_rates{"two_rates", reset, r_req};  // the last character of the first telegram has half the rate
   Changes changes;
   std::vector<BusCharacter> heard;
   std::vector<sc_time> heard_at, rts_at;
@@ -50,9 +79,14 @@ struct World : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
     wait_until(100);
     reset.write(true);
     wait_until(100 * kUs);
-    initialise();
-    send(kSearch, kFdlStatus);
-    request_end = send(kRequest, kFdlStatus);
+    for (auto* each : {&chip, &phased.chip, &two_rates.chip}) initialise(*each);
+    send(chip, kSearch, kFdlStatus);
+    send(phased.chip, kSearch, kFdlStatus);
+    const std::vector<std::uint8_t> but_last(kFdlStatus.begin(), kFdlStatus.end() - 1);
+    const Tick last = send(two_rates.chip, kSearch, but_last);
+    two_rates.chip.bus_in->write({to_time(last), to_time(2 * kBit), kFdlStatus.back(), true, true});
+    request_end = send(chip, kRequest, kFdlStatus);
+    send(phased.chip, kRequest, kFdlStatus);
     wait_until(kBroken);
     chip.bus_in->write({to_time(kBroken), to_time(kBit), 0x00, false, false});
     wait_until(kSlow);
@@ -70,7 +104,7 @@ struct World : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
   }
 
   /// The user's part past the pins: table 2's initialisation data and their flag.
-  void initialise() {
+  static void initialise(dsdpv1::systemc::TlmModule& chip) {
     std::vector<std::uint8_t> init = {16, kAddress, 0x0C, 0x0D, 0, 0, 0, 4, 4, 0, 0, 0, 2, 0, 2, 0x13, 0x23};
     std::uint16_t crc = 0xFFFF;  // D2
     std::uint16_t cell = dsdpv1::regs::kInit;
@@ -84,7 +118,7 @@ struct World : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
     chip.poke(dsdpv1::regs::kUserCommand1, dsdpv1::regs::kUserCommand1Init);
   }
 
-  Tick send(Tick start, const std::vector<std::uint8_t>& telegram) {
+  static Tick send(dsdpv1::systemc::TlmModule& chip, Tick start, const std::vector<std::uint8_t>& telegram) {
     for (const std::uint8_t byte : telegram) {
       chip.bus_in->write({to_time(start), to_time(kBit), byte, true, true});
       start += 11 * kBit;
@@ -158,6 +192,21 @@ TEST(Bus, TheAnswerComesAsCharactersEachAtItsEnd) {
     EXPECT_EQ(world->heard_at[i], to_time(dsdpv1::systemc::to_tick(c.start) + 11 * kBit));
   }
   EXPECT_THAT(data, ElementsAre(0x10, kMaster, kAddress, 0x00, 0x0B, 0x16));
+}
+
+TEST(Bus, TheAnswerHasThePhaseOfTheClockAlsoWhenNobodyHearsAPin) {
+  ASSERT_EQ(world->phased.heard.size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const BusCharacter& c = world->phased.heard[i];
+    EXPECT_EQ(c.data, world->heard.at(i).data);
+    EXPECT_EQ(dsdpv1::systemc::to_tick(c.start) % profibus::kTicksPerCycle, kPhase);
+    EXPECT_EQ(world->phased.heard_at[i], to_time(dsdpv1::systemc::to_tick(c.start) + 11 * kBit));
+  }
+}
+
+TEST(Bus, ACharacterOfAnotherRateIsNoneOfTheRunBeforeIt) {
+  EXPECT_TRUE(world->phased.found_a_rate());
+  EXPECT_FALSE(world->two_rates.found_a_rate());
 }
 
 TEST(Bus, TheAnswerBeginsAtMinTsdr) {

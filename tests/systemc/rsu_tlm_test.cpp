@@ -20,6 +20,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 const Bytes kReadB014 = {0x01, 0x00, 0x14, 0x01, 0x18, 0xCF}, kReply = {0x81, 0x00, 0x00, 0xE8, 0x21};  // R15
+constexpr Tick kMisoDelay = 120;                                                                        // SP2
 constexpr Tick kAt = 200 * kUs, kDelay = 777, kBit = 26 * 250;
 
 struct Outcome {
@@ -100,7 +101,7 @@ Bytes with_room(Bytes request) {
 
 struct World {
   Side spi{"spi", HostMode::kSpi}, uart{"uart", HostMode::kUart};
-  std::optional<Outcome> frame, next, after_kill, telegram, read;
+  std::optional<Outcome> frame, next, after_kill, telegram, read, at_the_delay, after_the_delay;
   std::vector<tlm::tlm_response_status> of_spi, of_uart;
   Tick refused_until = 0;
   Bytes debug = Bytes(2);
@@ -123,6 +124,18 @@ struct World {
     killed.kill();
     wait_until(kKill + kUs);
     after_kill = spi.transport(tlm::TLM_READ_COMMAND, with_room(kReadB014));
+    at_the_delay = read_with_low(kMisoDelay);
+    after_the_delay = read_with_low(kMisoDelay + 1);
+  }
+  /// SCK is low for so many ticks.
+  Outcome read_with_low(Tick low) {
+    return spi.transport(
+        tlm::TLM_READ_COMMAND, with_room(kReadB014),
+        [low](tlm::tlm_generic_payload& payload) {
+          auto* special = new systemc::SpiFrameExtension;  // owned by the payload
+          special->timing.low = low;
+          payload.set_extension(special);
+        });
   }
   unsigned write_and_read_debug() {
     Bytes written = {0x12, 0x34};
@@ -179,6 +192,15 @@ TEST(RsuSockets, ATransactionIsAFrameOfSpiWithItsReply) {
   EXPECT_EQ(xss[1], (Change{kAt + kDelay + duration, Pin::kXss, 1}));
   EXPECT_EQ(xss[2].at, xss[1].at + SpiTiming().gap) << "the next frame waits for the gap";
   EXPECT_EQ(world->next->data, with_room(kReadB014)) << "a write leaves its data alone";
+}
+
+TEST(RsuSockets, MisoIsSampledBeforeWhatChangesAtTheTickOfTheEdge) {
+  EXPECT_EQ(behind(world->after_the_delay->data, kReadB014.size()), kReply);
+  const Bytes late = behind(world->at_the_delay->data, kReadB014.size());
+  for (std::size_t bit = 1; bit < 8 * kReply.size(); ++bit) {
+    const auto at = [](const Bytes& bytes, std::size_t n) { return bytes.at(n / 8) >> (7 - n % 8) & 1; };
+    EXPECT_EQ(at(late, bit), at(kReply, bit - 1)) << bit;
+  }
 }
 
 TEST(RsuSockets, WrongTransactionsAreRefusedAtOnce) {

@@ -80,6 +80,7 @@ struct World : sc_core::sc_module {
   sc_time time_before_dbg, time_after_dbg, delayed_from;
   bool dmi = true;
   std::uint8_t enabled_cells[4] = {};
+  std::vector<Level> killed_pins, killed_quiet_pins;  ///< CSR, RD, WR, A, D_IN
 
   explicit World(const sc_core::sc_module_name& name) : sc_module(name) {
     cpu.socket.bind(chip.host_socket);
@@ -109,7 +110,27 @@ struct World : sc_core::sc_module {
     do_enables();
     do_debug();
     do_violations();
+    killed_pins = kill_in_a_write(cpu, chip);
+    killed_quiet_pins = kill_in_a_write(second, quiet);
     reset_alone();
+  }
+
+  /// In the middle of its strobe.
+  std::vector<Level> kill_in_a_write(Cpu& initiator, dsdpv1::systemc::TlmModule& module) {
+    const HostAccess access = HostAccess::write(0x160, 0x5A, {});
+    const auto edge_of = [&](Pin pin, Level level) {
+      return std::find_if(
+                 access.begin(), access.end(), [&](const auto& e) { return e.pin == pin && e.level == level; })
+          ->at;
+    };
+    auto killed = sc_core::sc_spawn([&initiator] { initiator.write(0x160, {0x5A}); });
+    wait_until(dsdpv1::systemc::current_tick() + (edge_of(Pin::kWr, 0) + edge_of(Pin::kWr, 1)) / 2);
+    killed.kill();
+    std::vector<Level> levels;
+    for (const Pin pin : {Pin::kCsr, Pin::kRd, Pin::kWr, Pin::kA, Pin::kDIn})
+      levels.push_back(module.chip().level(pin));
+    wait_until(dsdpv1::systemc::current_tick() + kUs);
+    return levels;
   }
 
   /// The user still holds the DPRAM.
@@ -339,6 +360,11 @@ TEST(HostSocket, AWriteThatViolatesTable15IsAGenericErrorAndReported) {
   EXPECT_EQ(world->short_strobe.response, tlm::TLM_GENERIC_ERROR_RESPONSE);
   EXPECT_THAT(world->events, testing::Contains(dsdpv1::Reason::kWriteLowTooShort));
   EXPECT_THAT(reports_of("/dsdpv1/violation", "world.chip"), testing::Contains(testing::HasSubstr("HOST_TS")));
+}
+
+TEST(HostSocket, AKilledInitiatorLeavesIdlePinsWhetherSomebodyHearsThemOrNot) {
+  for (const auto* pins : {&world->killed_pins, &world->killed_quiet_pins})
+    EXPECT_THAT(*pins, testing::ElementsAre(1, 1, 1, HostAccess::kIdleAddress, kLevelZ));
 }
 
 TEST(HostSocket, AccessWithoutOwnershipIsCarriedOutAndReported) {

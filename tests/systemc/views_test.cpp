@@ -80,7 +80,59 @@ struct ResetTlm : sc_core::sc_module {
   }
 };
 
+/// The user drives D already while the chip still does, with the same value: nothing moves on D when the chip lets go.
+struct SharedD : PinBench {
+  static constexpr Tick kOwned = 120 * kUs, kShared = 122 * kUs, kEdge = 124 * kUs;
+  static constexpr Level kValue = 0x5A;
+
+  SharedD() : PinBench("shared_d") {
+    thread([this] {
+      drive(Pin::kDIn, kLevelZ);
+      wait_until(kUs);
+      for (const Change& c : Changes{{kUs, Pin::kReset, 1}, {100 * kUs, Pin::kRReq, 1}, {110 * kUs, Pin::kRSta, 1}}) {
+        wait_until(c.at);
+        drive(c.pin, c.level);
+      }
+      wait_until(kOwned);
+      chip.poke(0x021, kValue);
+      for (const Change& c : Changes{{0, Pin::kA, 0x021}, {0, Pin::kCsr, 0}, {0, Pin::kRd, 0}}) drive(c.pin, c.level);
+      wait_until(kShared);
+      drive(Pin::kDIn, kValue);
+      wait_until(kShared + kUs);
+      drive(Pin::kRd, 1);
+      drive(Pin::kCsr, 1);
+      wait_until(kEdge);
+      drive(Pin::kPbrxd, 0);
+    });
+  }
+};
+
+/// A write whose CSR rises together with WR.
+struct StrobesTogether : PinBench {
+  static constexpr std::uint16_t kCell = 0x022;
+
+  StrobesTogether() : PinBench("strobes_together") {
+    thread([this] {
+      drive(Pin::kDIn, kLevelZ);
+      for (const Change& c : Changes{{kUs, Pin::kReset, 1},
+                                     {100 * kUs, Pin::kRReq, 1},
+                                     {110 * kUs, Pin::kRSta, 1},
+                                     {120 * kUs, Pin::kA, kCell},
+                                     {120 * kUs, Pin::kDIn, 0x77},
+                                     {120 * kUs, Pin::kCsr, 0},
+                                     {120 * kUs, Pin::kWr, 0},
+                                     {121 * kUs, Pin::kCsr, 1},
+                                     {121 * kUs, Pin::kWr, 1}}) {
+        wait_until(c.at);
+        drive(c.pin, c.level);
+      }
+    });
+  }
+};
+
 std::unique_ptr<World> world;
+std::unique_ptr<StrobesTogether> strobes_together;
+std::unique_ptr<SharedD> shared_d;
 std::unique_ptr<ResetPins> reset_pins;
 std::unique_ptr<ResetTlm> reset_tlm;
 
@@ -90,6 +142,8 @@ void simulate() {
   set_resolution();
   collect_reports();
   world = std::make_unique<World>();
+  strobes_together = std::make_unique<StrobesTogether>();
+  shared_d = std::make_unique<SharedD>();
   reset_pins = std::make_unique<ResetPins>();
   reset_tlm = std::make_unique<ResetTlm>("reset_tlm");
   sc_core::sc_start(to_time(kEnd));
@@ -140,6 +194,17 @@ TEST(Views, TheDataBusIsReleasedThenUnknownThenDriven) {
   seen.resize(5);
   // The user's write, then the chip's answer to the read of the same byte.
   EXPECT_THAT(seen, testing::ElementsAre("01011010", "ZZZZZZZZ", "XXXXXXXX", "01011010", "ZZZZZZZZ"));
+}
+
+TEST(Views, AWriteCountsWhoseCsrRisesTogetherWithWr) {
+  EXPECT_EQ(strobes_together->chip.peek(StrobesTogether::kCell), 0x77);
+}
+
+TEST(Views, WhatTheUserDrivesIsHeardOnceTheChipHasLetGoOfD) {
+  const Changes heard = only(shared_d->changes, Pin::kDIn), driven = only(shared_d->changes, Pin::kDOut);
+  ASSERT_EQ(driven.back().level, kLevelZ);
+  ASSERT_FALSE(heard.empty());
+  EXPECT_EQ(heard.back(), (Change{SharedD::kEdge, Pin::kDIn, SharedD::kValue}));
 }
 
 TEST(Views, AnInputIsHeardThatChangesInTheDeltaCycleAfterTheChipsOwnEvent) {
