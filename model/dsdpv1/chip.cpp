@@ -269,7 +269,7 @@ void Chip::Impl::plan() {
   plan_edge(std::min(other_plans, plans.station));
 }
 
-// Nobody hears when the writes of a user who owns the DPRAM settle: they read them or gives the DPRAM back, and either
+// Nobody hears when the writes of a user who owns the DPRAM settle: they read them or give the DPRAM back, and either
 // is a call.
 Tick Chip::Impl::next_seen() const {
   if (engine == Engine::kStep || sequencer.owns() || live || host.next_seen() == plans.host) return next_event();

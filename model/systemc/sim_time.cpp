@@ -32,8 +32,8 @@ std::uint64_t resolution_in_femtoseconds() {
 /// No tick, a tick, two and three in units of the simulation's resolution, rounded; three are 250 ps, which are a whole
 /// number of them, as SystemC takes powers of ten.
 const std::array<std::uint64_t, 4>& units_of_ticks() {
-  static std::array<std::uint64_t, 4> units =
-      {};  // not a guarded constant: it is asked for several times in each event
+  // Not a guarded constant: it is asked for several times in each event.
+  static std::array<std::uint64_t, 4> units = {};
   if (units[3] == 0) {
     units[3] = kFsPerThreeTicks / checked_resolution();
     for (std::size_t ticks = 1; ticks < 3; ++ticks) units[ticks] = (ticks * units[3] + 1) / 3;

@@ -331,10 +331,9 @@ void Bench::keep_only_wave() {
   if (capture_) capture_->mute();
 }
 
-/// Nobody has acted at `now` yet but chips of the TLM view. All others are looked at as they are; then each chip has
-/// its turn at `now`, which is the next one anyway, and what it took as a whole of a telegram it hears so far. That is
-/// with the edge at `now`, which without such a whole it would not know yet: so no pin that hears the line is looked
-/// at.
+/// Nobody has acted at `now` yet but chips of the TLM view. All others are looked at as they are. Then each chip has
+/// its turn at `now`, which is the next one anyway, and hears so far what it took as a whole of a telegram, with an
+/// edge at `now` that it would not know yet otherwise: so no pin that hears the line is looked at.
 std::uint64_t Bench::digest(Tick now) {
   Hash hash;
   hash.add(digest_.before(now));
