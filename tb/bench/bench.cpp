@@ -331,9 +331,9 @@ void Bench::keep_only_wave() {
   if (capture_) capture_->mute();
 }
 
-/// Nobody has acted at `now` yet but chips of the TLM view. All others are looked at as they are. Then each chip has
-/// its turn at `now`, which is the next one anyway, and hears so far what it took as a whole of a telegram, with an
-/// edge at `now` that it would not know yet otherwise: so no pin that hears the line is looked at.
+/// Nobody has acted at `now` yet but chips of the TLM view. All others are looked at as they are, and the line as it
+/// was just before, in the place of the pins at it: what is carried as a whole does not move them. Then each chip has
+/// its turn at `now`, which is the next one anyway.
 std::uint64_t Bench::digest(Tick now) {
   Hash hash;
   hash.add(digest_.before(now));
@@ -342,7 +342,6 @@ std::uint64_t Bench::digest(Tick now) {
   hash.add(monitor_->statistics().telegrams);
   hash.add(monitor_->statistics().wrong);
   for (const auto& slave : stations_.slaves) slave->chip().sync(now);
-  execution_->segment().cut_run(now);
   for (const auto& slave : stations_.slaves) {
     for (std::size_t pin = 0; pin < maker_.pins().size(); ++pin)
       if (!maker_.pins()[pin].line)

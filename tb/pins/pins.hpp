@@ -21,7 +21,7 @@ struct PinInfo {
   int width = 1;               ///< number of wires, 1..15
   bool input = false;
   const char* bus = nullptr;  ///< of two pins that are the two directions of one bus: its name, shown in waves
-  bool line = false;          ///< hears the bus
+  bool line = false;          ///< sends to the bus or hears it
 };
 
 /// At most 32 pins.
