@@ -36,7 +36,7 @@ def some_of(edges, chance):
 def files_of(program, options, ticks, folder, outputs):
     """What is saved at each tick."""
     files = [folder / f"{tick}.run" for tick in ticks]
-    saves = [word for tick, file in zip(ticks, files) for word in ("--save-at", f"{tick / runs.TICKS_PER_NS:.4f}ns", file)]
+    saves = [word for tick, file in zip(ticks, files) for word in ("--save-at", runs.time_of(tick), file)]
     done = runs.call(program, *options, *saves, *outputs)
     if done.returncode not in (0, 1):
         raise SystemExit(f"{' '.join(options)}: {done.stderr}")

@@ -47,7 +47,7 @@ def random_time(chance, end):
     if chance.random() < 0.5:
         cycle = tick // TICKS_PER_CYCLE
         return cycle * TICKS_PER_CYCLE, f"{cycle}cycles"
-    return tick, f"{tick / runs.TICKS_PER_NS:.4f}ns"
+    return tick, runs.time_of(tick)
 
 
 class Scenario:

@@ -13,6 +13,11 @@ def call(program, *arguments, folder=PROJECT, limit=None):
     return subprocess.run([*shell, program, "run", *map(str, arguments), "--no-progress", "--quiet"], cwd=folder, capture_output=True, text=True, check=False)
 
 
+def time_of(tick):
+    """As a command line has it."""
+    return f"{tick / TICKS_PER_NS:.4f}ns"
+
+
 def tick_of(line):
     """Of a line of a log."""
     return round(float(line.split(maxsplit=1)[0]) * TICKS_PER_NS)

@@ -63,6 +63,11 @@ inline std::vector<std::string> reports_of(const std::string& type, const std::s
   return texts;
 }
 
+inline void wait_until(dsdpv1::Tick tick) {
+  const sc_core::sc_time at = dsdpv1::systemc::to_time(tick);
+  if (at > sc_core::sc_time_stamp()) sc_core::wait(at - sc_core::sc_time_stamp());
+}
+
 /// A pin module among signals of its own, its pins recorded.
 struct PinBench {
   sc_core::sc_signal<bool> reset, r_req, r_sta, csr, rd, wr, pbrxd;
@@ -83,6 +88,13 @@ struct PinBench {
     };
   }
 
+  /// Each at its time, `shift` ticks later. As `drive`, in a thread.
+  void play(const Changes& inputs, Tick shift = 0) {
+    for (const Change& c : inputs) {
+      wait_until(c.at + shift);
+      drive(c.pin, c.level);
+    }
+  }
   /// From one process only: D counts its drivers by process.
   void drive(dsdpv1::Pin pin, dsdpv1::Level level) {
     const bool high = level != 0;
@@ -115,11 +127,6 @@ void method_on(const sc_core::sc_event& event, Body body) {
   options.dont_initialize();
   options.set_sensitivity(&event);
   sc_core::sc_spawn(body, nullptr, &options);
-}
-
-inline void wait_until(dsdpv1::Tick tick) {
-  const sc_core::sc_time at = dsdpv1::systemc::to_time(tick);
-  if (at > sc_core::sc_time_stamp()) sc_core::wait(at - sc_core::sc_time_stamp());
 }
 
 }  // namespace dsdpv1

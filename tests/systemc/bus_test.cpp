@@ -24,12 +24,21 @@ const std::vector<std::uint8_t> kFdlStatus = {0x10, kAddress, kMaster, 0x49, 0x5
 
 constexpr Tick kPhase = 100;
 
-/// A chip of which nobody hears a pin, so that characters are told as runs: to it, and by it.
-struct Unheard : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
-  dsdpv1::systemc::TlmModule chip;
-  tlm_utils::simple_initiator_socket<Unheard> cpu{"cpu"};  // there, and idle
+/// What a chip sends, and when it is told.
+struct Ear : tlm::tlm_analysis_if<BusCharacter> {
   std::vector<BusCharacter> heard;
   std::vector<sc_time> heard_at;
+
+  void write(const BusCharacter& character) override {
+    heard.push_back(character);
+    heard_at.push_back(sc_core::sc_time_stamp());
+  }
+};
+
+/// A chip of which nobody hears a pin, so that characters are told as runs: to it, and by it.
+struct Unheard : sc_core::sc_module, Ear {
+  dsdpv1::systemc::TlmModule chip;
+  tlm_utils::simple_initiator_socket<Unheard> cpu{"cpu"};  // there, and idle
 
   Unheard(const sc_core::sc_module_name& name, sc_core::sc_signal<bool>& reset, sc_core::sc_signal<bool>& low)
       : sc_module(name), chip("chip", options()) {
@@ -42,22 +51,17 @@ struct Unheard : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
     options.phase = kPhase;
     return options;
   }
-  void write(const BusCharacter& character) override {
-    heard.push_back(character);
-    heard_at.push_back(sc_core::sc_time_stamp());
-  }
   bool found_a_rate() const { return chip.chip().status().baud_index.known(); }
 };
 
-struct World : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
+struct World : sc_core::sc_module, Ear {
   dsdpv1::systemc::TlmModule chip{"chip"};
   tlm_utils::simple_initiator_socket<World> cpu{"cpu"};  // there, and idle
   sc_core::sc_signal<bool> reset, r_req, r_sta, pbtxd, pbrts, pbrxd;
   Unheard phased{"phased", reset, r_req};
   Unheard two_rates{"two_rates", reset, r_req};  // the last character of the first telegram has half the rate
   Changes changes;
-  std::vector<BusCharacter> heard;
-  std::vector<sc_time> heard_at, rts_at;
+  std::vector<sc_time> rts_at;
   Tick request_end = 0;
 
   explicit World(const sc_core::sc_module_name& name) : sc_module(name), pbrxd("pbrxd", true) {
@@ -68,11 +72,6 @@ struct World : sc_core::sc_module, tlm::tlm_analysis_if<BusCharacter> {
     method_on(
         pbrts.value_changed_event(), [this] { rts_at.push_back(sc_core::sc_time_stamp()); });
     thread([this] { run(); });
-  }
-
-  void write(const BusCharacter& character) override {
-    heard.push_back(character);
-    heard_at.push_back(sc_core::sc_time_stamp());
   }
 
   void run() {

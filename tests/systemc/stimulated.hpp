@@ -73,10 +73,7 @@ struct StimulatedPins : PinBench {
   StimulatedPins(const char* name, const dsdpv1::systemc::PinOptions& options, Tick shift) : PinBench(name, options) {
     thread([this, shift] {
       drive(Pin::kDIn, dsdpv1::kLevelZ);
-      for (const Change& c : stimulus()) {
-        wait_until(c.at + shift);
-        drive(c.pin, c.level);
-      }
+      play(stimulus(), shift);
     });
     record(l_req, Pin::kLReq);
     record(l_sta, Pin::kLSta);

@@ -80,29 +80,26 @@ struct ResetTlm : sc_core::sc_module {
   }
 };
 
+/// Out of reset, and the user owns the DPRAM.
+const Changes kOwnership = {
+    {0, Pin::kDIn, kLevelZ}, {kUs, Pin::kReset, 1}, {100 * kUs, Pin::kRReq, 1}, {110 * kUs, Pin::kRSta, 1}};
+
 /// The user drives D already while the chip still does, with the same value: nothing moves on D when the chip lets go.
 struct SharedD : PinBench {
-  static constexpr Tick kOwned = 120 * kUs, kShared = 122 * kUs, kEdge = 124 * kUs;
+  static constexpr Tick kEdge = 124 * kUs;
   static constexpr Level kValue = 0x5A;
 
   SharedD() : PinBench("shared_d") {
     thread([this] {
-      drive(Pin::kDIn, kLevelZ);
-      wait_until(kUs);
-      for (const Change& c : Changes{{kUs, Pin::kReset, 1}, {100 * kUs, Pin::kRReq, 1}, {110 * kUs, Pin::kRSta, 1}}) {
-        wait_until(c.at);
-        drive(c.pin, c.level);
-      }
-      wait_until(kOwned);
+      play(kOwnership);
       chip.poke(0x021, kValue);
-      for (const Change& c : Changes{{0, Pin::kA, 0x021}, {0, Pin::kCsr, 0}, {0, Pin::kRd, 0}}) drive(c.pin, c.level);
-      wait_until(kShared);
-      drive(Pin::kDIn, kValue);
-      wait_until(kShared + kUs);
-      drive(Pin::kRd, 1);
-      drive(Pin::kCsr, 1);
-      wait_until(kEdge);
-      drive(Pin::kPbrxd, 0);
+      play({{120 * kUs, Pin::kA, 0x021},
+            {120 * kUs, Pin::kCsr, 0},
+            {120 * kUs, Pin::kRd, 0},
+            {122 * kUs, Pin::kDIn, kValue},
+            {123 * kUs, Pin::kRd, 1},
+            {123 * kUs, Pin::kCsr, 1},
+            {kEdge, Pin::kPbrxd, 0}});
     });
   }
 };
@@ -113,19 +110,13 @@ struct StrobesTogether : PinBench {
 
   StrobesTogether() : PinBench("strobes_together") {
     thread([this] {
-      drive(Pin::kDIn, kLevelZ);
-      for (const Change& c : Changes{{kUs, Pin::kReset, 1},
-                                     {100 * kUs, Pin::kRReq, 1},
-                                     {110 * kUs, Pin::kRSta, 1},
-                                     {120 * kUs, Pin::kA, kCell},
-                                     {120 * kUs, Pin::kDIn, 0x77},
-                                     {120 * kUs, Pin::kCsr, 0},
-                                     {120 * kUs, Pin::kWr, 0},
-                                     {121 * kUs, Pin::kCsr, 1},
-                                     {121 * kUs, Pin::kWr, 1}}) {
-        wait_until(c.at);
-        drive(c.pin, c.level);
-      }
+      play(kOwnership);
+      play({{120 * kUs, Pin::kA, kCell},
+            {120 * kUs, Pin::kDIn, 0x77},
+            {120 * kUs, Pin::kCsr, 0},
+            {120 * kUs, Pin::kWr, 0},
+            {121 * kUs, Pin::kCsr, 1},
+            {121 * kUs, Pin::kWr, 1}});
     });
   }
 };
