@@ -40,7 +40,7 @@ AccessTiming timing_of(const dpsim_access_timing* given) {
 tb::Level carry_out(dpsim_chip& chip, std::uint64_t tick, const HostAccess& access, std::uint64_t* end) {
   if (!chip.kind.has_host_bus()) capi::fail(DPSIM_ERR_UNSUPPORTED, "a chip of this kind has no parallel host bus");
   const Tick begin = capi::tick_from(tick, chip.clock.now);
-  capi::need_outside(chip.clock);
+  const capi::Running running(chip.clock);
   tb::Level sampled = DPSIM_X;
   for (const HostAccess::Edge& edge : access)
     if (edge.pin == dsdpv1::Pin::kDOut)

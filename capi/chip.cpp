@@ -52,28 +52,29 @@ const tb::PinInfo& pin_of(const capi::Kind& kind, std::uint16_t number) {
 bool may_float(const tb::PinInfo& pin) { return pin.bus != nullptr; }
 Level highest_of(const tb::PinInfo& pin) { return static_cast<Level>((1 << pin.width) - 1); }
 
-struct Characters {
-  const std::uint8_t* bytes;
-  std::size_t count;
-};
-
 void check_address(const dpsim_chip& chip, std::uint16_t address) {
   capi::need_range("address", address, 0, chip.kind.cells() - 1);
 }
 
-/// The levels of the characters at the line; the end of the last one.
-Tick receive(dpsim_chip& chip, Tick at, Tick bit, const Characters& characters) {
+/// The changes of the line that the characters are, those after `heard`.
+void spell_out(dpsim_chip& chip, const bus::CharacterRun& run, Tick heard) {
   const tb::PinNumber line = chip.kind.line_pin();
+  Tick at = run.start;
   unsigned level = 1;
-  for (std::size_t i = 0; i < characters.count; ++i) {
-    const unsigned frame = bus::frame_of(characters.bytes[i]);
-    for (int position = 0; position < bus::kCharacterBits; ++position, at += bit) {
+  for (std::size_t i = 0; i < run.size; ++i) {
+    const unsigned frame = bus::frame_of(run.bytes[i]);
+    for (int position = 0; position < bus::kCharacterBits; ++position, at += run.bit) {
       if (((frame >> position) & 1U) == level) continue;
       level ^= 1U;
-      chip.set(at, line, static_cast<Level>(level));
+      if (at > heard) chip.set(at, line, static_cast<Level>(level));
     }
   }
-  return at;
+}
+
+void receive(dpsim_chip& chip, const bus::CharacterRun& run) {
+  const Tick heard = chip.hear(run);
+  if (heard < run.end()) spell_out(chip, run, heard);
+  chip.advance(run.end());
 }
 
 dpsim_chip_status status_of(const tb::ChipStatus& own) {
@@ -156,7 +157,7 @@ dpsim_status dpsim_chip_set(dpsim_chip* chip, uint64_t tick, uint16_t pin, dpsim
       __func__,
       [&] {
         need(chip, "chip");
-        capi::need_outside(chip->clock);
+        const capi::Running running(chip->clock);
         chip->set_checked(tick, pin, level);
         chip->changes.check();
       });
@@ -167,7 +168,7 @@ dpsim_status dpsim_chip_set_many(dpsim_chip* chip, const dpsim_change* changes, 
   const dpsim_status status = guarded(__func__, [&] {
     need(chip, "chip");
     capi::need_buffer(changes, count, "changes");
-    capi::need_outside(chip->clock);
+    const capi::Running running(chip->clock);
     for (; number < count; ++number)
       chip->set_checked(changes[number].tick, changes[number].pin, changes[number].level);
     chip->changes.check();
@@ -184,13 +185,13 @@ dpsim_status dpsim_chip_receive(dpsim_chip* chip, uint64_t tick, uint32_t bit, c
         need(chip, "chip");
         capi::need_buffer(bytes, count, "bytes");
         capi::need_range("bit", bit, 1, bus::kTicksPerMs);
-        capi::need_outside(chip->clock);
+        const capi::Running running(chip->clock);
         if (chip->bus != nullptr) fail(DPSIM_ERR_STATE, "the chip is on a bus, whose line it hears");
-        const Tick over = receive(*chip, capi::tick_from(tick, chip->clock.now), bit, {bytes, count});
-        chip->advance(over);
-        chip->clock.now = over;
+        const bus::CharacterRun run{capi::tick_from(tick, chip->clock.now), bit, bytes, count};
+        receive(*chip, run);
+        chip->clock.now = run.end();
         chip->changes.check();
-        if (end != nullptr) *end = capi::tick_out(over);
+        if (end != nullptr) *end = capi::tick_out(run.end());
       });
 }
 
@@ -199,7 +200,7 @@ dpsim_status dpsim_chip_advance(dpsim_chip* chip, uint64_t tick) {
       __func__,
       [&] {
         need(chip, "chip");
-        capi::need_outside(chip->clock);
+        const capi::Running running(chip->clock);
         const Tick to = capi::tick_from(tick, chip->clock.now);
         chip->advance(to);
         chip->clock.now = to;
@@ -245,7 +246,7 @@ dpsim_status dpsim_chip_sample(dpsim_chip* chip, uint64_t tick, dpsim_level* lev
       [&] {
         need(chip, "chip");
         need(level, "level");
-        capi::need_outside(chip->clock);
+        const capi::Running running(chip->clock);
         const Tick at = capi::tick_from(tick, chip->clock.now);
         *level = chip->sample(at);
         chip->clock.now = at;

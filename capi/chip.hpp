@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/wire/character_run.hpp"
 #include "capi/changes.hpp"
 #include "capi/clock.hpp"
 #include "capi/kind.hpp"
@@ -41,6 +42,7 @@ struct dpsim_chip {
   using Tick = capi::Tick;
   using Level = tb::Level;
   using PinNumber = tb::PinNumber;
+  static constexpr Tick kNotHeard = -1;
 
   /// Alone.
   explicit dpsim_chip(const capi::Kind& its_kind);
@@ -53,6 +55,9 @@ struct dpsim_chip {
   // All values are right, and no tick is before clock.now.
   virtual void set(Tick at, PinNumber pin, Level level) = 0;
   virtual void advance(Tick to) = 0;
+  /// Hears characters as a whole, from their start on: the tick up to which it needs none of their changes, kNotHeard:
+  /// it needs all.
+  virtual Tick hear(const dsdpv1::bus::CharacterRun& /*run*/) { return kNotHeard; }
   virtual Level sample(Tick at) = 0;
   virtual Tick next() = 0;
   virtual Tick now() const = 0;
@@ -86,9 +91,8 @@ struct dpsim_chip {
   capi::Changes changes;
   capi::ChipEvents events;
 
-  /// A change of a pin.
-  void tell(Tick at, PinNumber pin, Level level) noexcept {
-    changes.add({static_cast<std::uint64_t>(at), station, pin, level, 0});
+  dpsim_change change_of(Tick at, PinNumber pin, Level level) const {
+    return {static_cast<std::uint64_t>(at), station, pin, level, 0};
   }
 
  private:

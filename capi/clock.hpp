@@ -34,6 +34,21 @@ inline void need_outside(const Clock& clock) {
   if (clock.calling) refuse_inside();
 }
 
+/// In the place of need_outside: all that is told within this call is a callback, which needs no Callback of its own.
+class Running {
+ public:
+  explicit Running(Clock& clock) : clock_(clock) {
+    need_outside(clock);
+    clock.calling = true;
+  }
+  ~Running() { clock_.calling = false; }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+ private:
+  Clock& clock_;
+};
+
 [[noreturn]] void refuse_tick(std::uint64_t tick, Tick now);
 /// One that is not before `now`.
 inline Tick tick_from(std::uint64_t tick, Tick now) {

@@ -28,21 +28,34 @@ class Alone : public dpsim_chip {
 
   void set(Tick at, PinNumber number, Level level) override {
     const auto pin = static_cast<Pin>(number);
-    if ((watched_ & dsdpv1::mask(pin)) == 0) return chip_.set(at, pin, level);
+    if (!is_watched(pin)) return chip_.set(at, pin, level);
     set_watched(at, pin, level);
   }
   void advance(Tick to) override { chip_.advance(to); }
+  Tick hear(const bus::CharacterRun& run) override {
+    const profibus::CharacterRun told{run.start, run.bit / profibus::kTicksPerCycle, run.bytes,
+                                      static_cast<int>(std::min(run.size, kTooLong))};
+    if (run.size == 0 || run.bit % profibus::kTicksPerCycle != 0 || is_watched(Pin::kPbrxd) || !line_is_idle() ||
+        !chip_.hear(run.start, told))
+      return kNotHeard;
+    heard_ = &run;
+    chip_.advance_in_run(run.end());
+    heard_ = nullptr;
+    if (chip_.left_run()) chip_.leave_run(chip_.now());
+    return chip_.now();
+  }
   Level sample(Tick at) override { return chip_.sample(at); }
   Tick next() override { return chip_.next_event(); }
   Tick now() const override { return chip_.now(); }
-  Level level(PinNumber pin) const override { return chip_.level(static_cast<Pin>(pin)); }
+  Level level(PinNumber pin) const override {
+    if (heard_ != nullptr && pin == kind.line_pin()) return heard_level();
+    return chip_.level(static_cast<Pin>(pin));
+  }
   void watch(tb::PinMask pins) override {
     watched_ = pins;
-    chip_.watch({[](void* self, Tick at, Pin pin, Level level) {
-                   static_cast<Alone*>(self)->tell(at, static_cast<PinNumber>(pin), level);
-                 },
-                 this},
-                pins);
+    chip_.watch(
+        {[](void* self, Tick at, Pin pin, Level level) { static_cast<Alone*>(self)->tell(at, pin, level); }, this},
+        pins);
   }
   tb::ChipStatus status() const override { return tb::status_of(chip_); }
   std::uint8_t peek(std::uint16_t address) const override { return chip_.peek(address); }
@@ -57,14 +70,26 @@ class Alone : public dpsim_chip {
   }
 
  private:
+  static constexpr std::size_t kTooLong = 1 << 20;  ///< longer than any run that the core takes
+  void tell(Tick at, Pin pin, Level level) noexcept {
+    changes.add_running(change_of(at, static_cast<PinNumber>(pin), level));
+  }
+  bool is_watched(Pin pin) const { return (watched_ & dsdpv1::mask(pin)) != 0; }
+  bool line_is_idle() const { return chip_.level(Pin::kPbrxd) == 1; }
+  /// In a callback: of the line before what changes at its own tick.
+  Level heard_level() const {
+    const Tick before = chip_.now() - 1;
+    return before < heard_->start || heard_->level(before) ? 1 : 0;
+  }
   [[gnu::noinline]] void set_watched(Tick at, Pin pin, Level level) {
     const Level before = chip_.level(pin);
     chip_.set(at, pin, level);
-    if (level != before) tell(at, static_cast<PinNumber>(pin), level);
+    if (level != before) tell(at, pin, level);
   }
 
   dsdpv1::Chip chip_;
   tb::PinMask watched_ = 0;
+  const bus::CharacterRun* heard_ = nullptr;  ///< while it is
 };
 
 /// The bench's chip, whose user is the caller.
@@ -77,7 +102,7 @@ class OnBus : public dpsim_chip {
         chip_(plan.name, std::move(device_), 0, its_bus.segment) {
     chip_.on_event = [this](const profibus::Event& event) { events.add(event); };
     chip_.on_pin = [this](Tick at, PinNumber pin, Level level) {
-      if ((watched_ & tb::mask_of(pin)) != 0) tell(at, pin, level);
+      if ((watched_ & tb::mask_of(pin)) != 0) changes.add(change_of(at, pin, level));
     };
     its_bus.timeline.add(chip_);
     its_bus.add_station({chip_.station(), Station::Kind::kChip});

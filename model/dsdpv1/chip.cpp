@@ -91,6 +91,8 @@ struct Chip::Impl {
     const Tick edge = cycle * kTicksPerCycle;
     return edge > now ? edge : next_cycle();
   }
+  [[gnu::always_inline]] inline void evaluate(Tick event, Tick to);
+  void advance_in_run(Tick to);
   void plan_edge(Cycle cycle) { planned_edge = edge_of(cycle); }
   void plan();
   bool apply(Tick at, Pin pin, Level value);
@@ -277,24 +279,32 @@ Tick Chip::Impl::next_seen() const {
 }
 
 void Chip::Impl::advance(Tick to) {
+  for (Tick event = next_event(); event <= to; event = next_event()) evaluate(event, to);
+  now = std::max(now, to);
+}
+
+void Chip::Impl::advance_in_run(Tick to) {
   for (Tick event = next_event(); event <= to; event = next_event()) {
-    const bool drives = event < next_edge();  // MISO may change at the tick of an edge: after it
-    now = event;
-    if (drives) {
-      drive(event);
-    } else if (const Cycle cycle = event / kTicksPerCycle; only_sends(cycle)) {
-      send_bits(cycle, to);
-    } else {
-      if (only_settles(cycle))
-        settle_writes(cycle);
-      else if (only_accesses(cycle))
-        access_edges(cycle, to);
-      else
-        rising_edge(cycle);
-      plan();
-    }
+    evaluate(event, to);
+    if (station.left_run()) return;
   }
   now = std::max(now, to);
+}
+
+// What is due at the tick `event`, and as much until `to` as is alike.
+void Chip::Impl::evaluate(Tick event, Tick to) {
+  const bool drives = event < next_edge();  // MISO may change at the tick of an edge: after it
+  now = event;
+  if (drives) return drive(event);
+  const Cycle cycle = event / kTicksPerCycle;
+  if (only_sends(cycle)) return send_bits(cycle, to);
+  if (only_settles(cycle))
+    settle_writes(cycle);
+  else if (only_accesses(cycle))
+    access_edges(cycle, to);
+  else
+    rising_edge(cycle);
+  plan();
 }
 
 void Chip::Impl::drive(Tick at) {
@@ -588,6 +598,7 @@ Chip::~Chip() = default;
 
 void Chip::set(Tick at, Pin pin, Level level) { impl_->set(at, pin, level); }
 void Chip::advance(Tick to) { impl_->advance(to); }
+void Chip::advance_in_run(Tick to) { impl_->advance_in_run(to); }
 Level Chip::sample(Tick at) {
   impl_->advance(at);
   return impl_->host.user_samples(at);

@@ -102,6 +102,8 @@ class Chip {
   /// searches a baud rate from this tick on or is in RESET: left_run() says so until leave_run() is called, at that
   /// tick. Engine::kSkip only.
   bool hear(Tick at, const profibus::CharacterRun& run);
+  /// As advance(), but it stops at the tick at which the chip leaves the run that it hears.
+  void advance_in_run(Tick to);
   /// Runs that the chip need not hear: of those that come one after the other the last one, before anything else
   /// happens to the chip or advance() goes beyond its start, is enough, late as it is; the chip takes it. pass() counts
   /// those of the others that were for stations. Holds until something happens to the chip. Engine::kSkip only.

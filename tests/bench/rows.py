@@ -96,10 +96,10 @@ ROWS = (
     Row("core_vs_rtl", 200, "times as fast", "The core against the Verilated RTL on the stimulus of core_16, neither with a bench round it: in "
         "turns, in one process, in CPU time. The RTL is built with -O3, --x-assign fast, --x-initial fast and without limits of run time.",
         in_program("bench_rtl", "core_vs_rtl"), RTL, limit="The core's limit, see core_16."),
-    Row("c_api", 90, "%", "The chip through the C API as a share of the core itself, on the stimulus of core_16: a request is one call (`dpsim_chip_receive`), in the "
-        "core the edges that come of it; L_REQ and PBTXD are watched by a callback and counted. In turns, in one process, in CPU time.", in_program("bench_capi", "c_api"), CAPI,
+    Row("c_api", 90, "%", "The chip through the C API as a share of the core itself, on the stimulus of core_16: a request is one call (`dpsim_chip_receive`, "
+        "`Chip::hear`); L_REQ and PBTXD are watched by a callback and counted. In turns, in one process, in CPU time.", in_program("bench_capi", "c_api"), CAPI,
         limit="Each change of a watched pin is one more call out of the library."),
-    Row("c_api_edges", None, "%", "The same with a call for each edge of a request (`dpsim_chip_set`), as a simulator makes it whose pins the chip has.",
+    Row("c_api_edges", None, "%", "The same with a call for each edge of a request (`dpsim_chip_set`, `Chip::set`), as a simulator makes it whose pins the chip has.",
         in_program("bench_capi", "c_api_edges"), CAPI),
     Row("c_api_changes", 10, "million/s", "Changes of all pins that come into the caller's buffer through the C API, on the same stimulus.",
         in_program("bench_capi", "c_api_changes"), CAPI, limit="What the core takes to make them."),
