@@ -2,11 +2,13 @@
 """The speed table: what has been asked for, measured in rounds, judged, printed. ./run bench builds the programs and calls it."""
 import argparse
 import json
+import math
 import os
 import pathlib
 import re
 import sys
 import tempfile
+import time
 
 import hot_spots
 import page
@@ -21,6 +23,7 @@ EXAMPLES = """examples:
   ./run bench --only core_16,demo --rounds 9
   ./run bench --json out/bench.json
   ./run bench --clock cpu           # others work on this machine
+  ./run bench --wait 60             # or wait until they do not
   ./run bench --list
   ./run bench --document            # writes docs/performance.md
 
@@ -28,7 +31,7 @@ The table is tab-separated: row, value, goal, met or not, min..max. Exit codes: 
 measured, 2 wrong input.
 """
 PAGE = programs.ROOT / "docs" / "performance.md"
-MOST_ROUNDS = 1000
+MOST_ROUNDS, MOST_MINUTES = 1000, 10_000
 
 
 class Parser(argparse.ArgumentParser):
@@ -50,6 +53,12 @@ def some_rounds(text):
     return int(text)
 
 
+def some_minutes(text):
+    if not re.fullmatch(r"[0-9]{1,9}", text) or int(text) > MOST_MINUTES:
+        raise argparse.ArgumentTypeError(f"{text} is no number of minutes, allowed are 0 to {MOST_MINUTES}")
+    return int(text)
+
+
 def some_file(text):
     path = pathlib.Path(text)
     if path.exists() and not path.is_file():
@@ -65,6 +74,8 @@ def parse(words):
     parser.add_argument("--json", type=some_file, metavar="FILE", help="also writes the table, with every round's values, as JSON")
     parser.add_argument("--only", type=some_rows, metavar="ROW[,ROW]", help="measures these rows only")
     parser.add_argument("--rounds", type=some_rounds, default=5, metavar="N", help="rounds whose median is taken; default 5")
+    parser.add_argument("--wait", type=some_minutes, default=0, metavar="MINUTES",
+                        help="measures a row again when others used the machine before or after it, as long as these minutes are not over; default 0")
     parser.add_argument("--clock", choices=("wall", "cpu"), default="wall",
                         help="which time of dsdpv1-sim counts: wall (default), or CPU time where others use the machine; start is always wall")
     parser.add_argument("--list", action="store_true", help="prints the rows, their goals and what they do")
@@ -98,29 +109,67 @@ class Progress:
             print(f"\r{'':60}\r", end="", file=sys.stderr, flush=True)
 
 
-def measure_row(outcome, turn):
+class Machine:
+    """How busy it is with other things: the calibration's times before, between and after the rows, of the values that count."""
+
+    def __init__(self, minutes):
+        self.times, self.refused = [], 0
+        self._least = math.inf
+        self._until = time.monotonic() + 60 * minutes
+        self._look()
+
+    def _look(self):
+        self._last = programs.calibration()
+        self._least = min(self._least, self._last)
+
+    def _is_to_wait(self, taken):
+        return taken > self._least * (1 + table.BUSY) and time.monotonic() < self._until
+
+    def wait(self):
+        """Until it is quiet, as long as there is time to wait."""
+        while self._is_to_wait(self._last):
+            self._look()
+
+    def was_quiet(self):
+        """Before and after what has been measured since wait(); or there is no time to do it again."""
+        before = self._last
+        self._look()
+        if self._is_to_wait(max(before, self._last)):
+            self.refused += 1
+            return False
+        self.times += [before, self._last]
+        return True
+
+
+def measure_row(outcome, turn, machine):
     """A row that has failed once is not tried again."""
-    if outcome.error:
-        return
-    try:
-        outcome.values.append(outcome.row.measure(turn))
-    except programs.Failed as failure:
-        outcome.error = str(failure)
+    counts = False
+    while not counts and not outcome.error:
+        machine.wait()
+        done = dict(turn.done)
+        try:
+            value = outcome.row.measure(turn)
+        except programs.Failed as failure:
+            outcome.error = str(failure)
+            return
+        counts = machine.was_quiet()
+        if counts:
+            outcome.values.append(value)
+        else:
+            turn.done = done
 
 
-def measure(chosen, rounds, clock, folder):
-    """Outcomes, and the calibration's times before, between and after the rows."""
-    outcomes, times, progress = [table.Outcome(row, []) for row in chosen], [], Progress(rounds)
+def measure(chosen, rounds, clock, folder, minutes):
+    """Outcomes, and how busy the machine was."""
+    outcomes, progress, machine = [table.Outcome(row, []) for row in chosen], Progress(rounds), Machine(minutes)
     for number in range(1, rounds + 1):
         progress.round(number)
         turn = programs.Round(folder, clock)
         for outcome in outcomes:
             progress.row(number, outcome.row.name)
-            times.append(programs.calibration())
-            measure_row(outcome, turn)
-    times.append(programs.calibration())
+            measure_row(outcome, turn, machine)
     progress.end()
-    return outcomes, times
+    return outcomes, machine
 
 
 # -------------------------------------------------------------------------------------------------------------- results
@@ -156,13 +205,13 @@ def run(arguments):
     with tempfile.TemporaryDirectory(prefix="bench-") as name:
         folder = pathlib.Path(name)
         scenarios.write_all(folder)
-        outcomes, times = measure(arguments.rows, arguments.rounds, arguments.clock, folder)
-        print("\n".join([*table.lines(outcomes), "", table.calibration_line(times)]), flush=True)
+        outcomes, state = measure(arguments.rows, arguments.rounds, arguments.clock, folder, arguments.wait)
+        print("\n".join([*table.lines(outcomes), "", table.calibration_line(state)]), flush=True)
         if arguments.document:
-            write_whole(PAGE, page.performance_page(outcomes, times, arguments.rounds, arguments.clock, machine(),
+            write_whole(PAGE, page.performance_page(outcomes, state, arguments.rounds, arguments.clock, machine(),
                                                     hot_spots.profile(folder), parts.profiles(folder)))
     if arguments.json:
-        write_whole(arguments.json, json.dumps(table.report(outcomes, times, arguments.rounds, arguments.clock, machine()), indent=2) + "\n")
+        write_whole(arguments.json, json.dumps(table.report(outcomes, state, arguments.rounds, arguments.clock, machine()), indent=2) + "\n")
     return 0 if all(outcome.met for outcome in outcomes) else 1
 
 

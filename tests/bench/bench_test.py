@@ -6,6 +6,7 @@ import json
 import pathlib
 import re
 import tempfile
+import types
 import unittest
 from unittest import mock
 
@@ -25,6 +26,10 @@ def row(name="speed", goal=10, at_most=False, measure=None):
 
 def outcome(*values, error="", **others):
     return table.Outcome(row(**others), list(values), error)
+
+
+def state(*times, refused=0):
+    return types.SimpleNamespace(times=list(times), refused=refused)
 
 
 def called(*words):
@@ -61,7 +66,7 @@ class Judging(unittest.TestCase):
     def test_a_spread_of_more_than_a_tenth_is_busy(self):
         self.assertFalse(table.is_busy([100, 110]))
         self.assertTrue(table.is_busy([100, 111]))
-        self.assertIn("the machine was busy", table.calibration_line([100, 120]))
+        self.assertIn("the machine was busy", table.calibration_line(state(100, 120)))
 
 
 class Measuring(unittest.TestCase):
@@ -88,6 +93,26 @@ class Measuring(unittest.TestCase):
         measured = [row(name, measure=lambda turn, name=name: calls.append(name) or 11) for name in ("one", "two")]
         self.bench("--rounds", "1", measured=measured, times=lambda: calls.append("time") or 20.0)
         self.assertEqual(calls, ["time", "one", "time", "two", "time"])
+
+    def test_what_is_measured_while_others_use_the_machine_is_measured_again(self):
+        values, times = iter([5, 11]), iter([20.0, 30.0, 31.0, 21.0, 20.0])  # busy behind the first value, then quiet
+        measured = [row(measure=lambda turn: next(values))]
+        status, out, _ = self.bench("--rounds", "1", "--wait", "1", measured=measured, times=lambda: next(times))
+        self.assertEqual(status, 0)
+        self.assertIn("speed\t11\t", out)
+        self.assertIn("the machine was quiet, 1 values were measured again", out)
+
+    def test_runs_made_while_others_use_the_machine_are_made_again_for_other_rows_too(self):
+        runs, times = iter([1, 2]), iter([20.0, 30.0, 20.0, 20.0, 20.0])
+        shared = [row(name, measure=lambda turn: turn.once("run", lambda: next(runs))) for name in ("one", "two")]
+        out = self.bench("--rounds", "1", "--wait", "1", measured=shared, times=lambda: next(times))[1]
+        self.assertEqual([line.split("\t")[1] for line in out.splitlines()[1:3]], ["2", "2"])
+
+    def test_without_time_to_wait_a_busy_machine_is_only_said(self):
+        values, times = iter([5]), iter([20.0, 30.0])
+        out = self.bench("--rounds", "1", measured=[row(measure=lambda turn: next(values))], times=lambda: next(times))[1]
+        self.assertIn("speed\t5\t", out)
+        self.assertIn("the machine was busy", out)
 
     def test_a_row_that_fails_is_said_and_is_exit_1(self):
         def fail(turn):
@@ -213,12 +238,17 @@ class Page(unittest.TestCase):
              0.25%  bench_systemc             [.] dsdpv1::speed::(anonymous namespace)::EdgeMaster::run
              1.00%  dsdpv1-sim                [.] sc_core::sc_signal<bool, (sc_core::sc_writer_policy)0>::write
              6.00%  libunicorn.so.2           [.] cpu_exec_arm
+             0.50%  libdsdpv1.so.0.1.0        [.] dpsim_chip_next
+             0.75%  libdsdpv1.so.0.1.0        [.] dsdpv1::capi::(anonymous namespace)::Alone::next
+             1.00%  libdsdpv1.so.0.1.0        [.] dsdpv1::Chip::Impl::advance
+             1.25%  libdsdpv1_dpi.so.0.1.0    [.] dsdpv1::simulator::Model::step
+             2.50%  Vbinding_speed            [.] VlDelayScheduler::resume
              7.00%  [JIT] tid 29453           [.] 0x00007f2c4c0021c0
              8.00%  libc.so.6                 [.] malloc
              9.00%  [kernel.kallsyms]         [k] clear_page_erms
             10.00%  dsdpv1-sim                [.] dsdpv1_crc
             11.00%  dsdpv1-sim                [.] jump_over"""
-        self.assertEqual(parts.shares(printed), {"chip": 20, "module": 2, "bench": 5.25, "bus": 4, "FST library": 3, "SystemC": 3, "Unicorn": 13, "libraries": 8,
+        self.assertEqual(parts.shares(printed), {"chip": 21, "binding": 2.5, "Verilator": 2.5, "module": 2, "bench": 5.25, "bus": 4, "FST library": 3, "SystemC": 3, "Unicorn": 13, "libraries": 8,
                                                  "kernel": 9, "driver": 10, "elsewhere": 11})
 
     def test_a_measured_limit_is_what_the_part_that_bounds_a_row_would_leave(self):
@@ -251,7 +281,7 @@ class Page(unittest.TestCase):
         with mock.patch("shutil.which", return_value=None):
             profile = hot_spots.profile(pathlib.Path())
             profiles = parts.profiles(pathlib.Path())
-        text = page.performance_page([outcome(11)], [20.0, 30.0], 5, "wall", {"cpu": "A | B", "cores": 2}, profile, profiles)
+        text = page.performance_page([outcome(11)], state(20.0, 30.0), 5, "wall", {"cpu": "A | B", "cores": 2}, profile, profiles)
         self.assertIn("No profile was made: perf is not installed.", text)
         self.assertIn("| `speed` | 11 | at least 10 x real time | met | 11..11 |", text)
         self.assertIn("1 of 1 goals are met.", text)
@@ -261,7 +291,7 @@ class Page(unittest.TestCase):
     def test_a_goal_that_is_missed_has_its_limit_on_the_page(self):
         missed = table.Outcome(rows.Row("slow", 10, "x", "What.", None, (), limit="Because."), [9.0])
         comparison = table.Outcome(rows.Row("other", None, "x", "What.", None, ()), [1.0])
-        text = page.performance_page([missed, comparison], [20, 21, 20], 5, "wall", {"cpu": "A", "cores": 2}, ([], "perf is not installed"), {})
+        text = page.performance_page([missed, comparison], state(20, 21, 20), 5, "wall", {"cpu": "A", "cores": 2}, ([], "perf is not installed"), {})
         self.assertIn("0 of 1 goals are met.", text)
         self.assertIn("| `slow` | - | Because. |", text)
         self.assertIn("| `other` | 1 | for comparison, x | - | 1..1 |", text)

@@ -54,8 +54,8 @@ LIMITS = ("What bounds the others. The measured limit is what would remain of a 
           "are named.")
 
 RUNS = """
-Runs of `dsdpv1-sim`, and the modules in a platform, by the part that a function belongs to: the chip (`model/`), its SystemC module (`model/systemc/`), the
-driver, masters, monitor and line (`bus/`), the bench with user CPU, checks and waves (`tb/`), and what they call.
+Runs of `dsdpv1-sim`, the modules in a platform and the model in Verilator, by the part that a function belongs to: the chip (`model/`), its SystemC module (`model/systemc/`), the
+driver, masters, monitor and line (`bus/`), the bench with user CPU, checks and waves (`tb/`), C API and DPI (`binding`), and what they call.
 
 """
 
@@ -73,12 +73,16 @@ def table_row(outcome):
     return markdown_row([f"`{name}`", *others])
 
 
-def calibration(times):
-    words = (f"A piece of integer work that never changes took {table.number(statistics.median(times))} ms, from {table.number(min(times))} to "
-             f"{table.number(max(times))} ms, before, between and after the rows")
+def calibration(machine):
+    times = machine.times
+    words = (f"A piece of integer work that never changes and fills a core took {table.number(statistics.median(times))} ms, from "
+             f"{table.number(min(times))} to {table.number(max(times))} ms, before, between and after the rows")
     if table.is_busy(times):
         spread = f"{100 * table.spread(times):.0f} %"
         return words + f": the machine was busy with other things as well (spread {spread}), and the values are as uncertain."
+    if machine.refused:
+        return words + (f": the machine was quiet. It was not all the time: {machine.refused} values beside which that work took "
+                        f"{100 * table.BUSY:.0f} % more than its least were measured again.")
     return words + ": the machine was quiet."
 
 
@@ -129,9 +133,9 @@ def where_time_goes(shares, note):
     return TIME + "\n".join(["| block | share |", "|---|---|", *rows]) + "\n"
 
 
-def performance_page(outcomes, times, rounds, clock, description, profile, profiles):
+def performance_page(outcomes, state, rounds, clock, description, profile, profiles):
     method = METHOD.format(clock=CLOCKS[clock], rounds=rounds)
-    text = HEAD.format(method=paragraph(method), machine=machine(description), calibration=paragraph(calibration(times)),
+    text = HEAD.format(method=paragraph(method), machine=machine(description), calibration=paragraph(calibration(state)),
                        rows="\n".join(map(table_row, outcomes)), limits=limits(outcomes, profiles),
                        met=sum(each.met for each in outcomes if each.row.goal is not None),
                        count=sum(each.row.goal is not None for each in outcomes),

@@ -7,23 +7,26 @@ from rows import PROFILED
 
 LINE = re.compile(r"^\s*([\d.]+)%\s+(\S.*?)\s+\[[.kgu]\]\s+(\S.*?)\s*$")
 REST = "elsewhere"
-PROGRAM = r"^(dsdpv1-(sim|board)|bench_systemc)$"  # the second has the rows with an ARM board
+PROGRAM = r"^(dsdpv1-(sim|board)|bench_systemc|libdsdpv1\.so.*)$"  # the second has the rows with an ARM board, the last one the row dpi
 # Part, its file (program, library, kernel), its functions: the first that fits. Types in the arguments of a template come last.
 OWNERS = tuple((part, re.compile(file), re.compile(function)) for part, file, function in (
     ("kernel", r"^\[(kernel|vdso)", ""),
     ("SystemC", "^libsystemc", ""),
     ("Unicorn", r"unicorn|^\[JIT\]", ""),
+    ("Verilator", "^Vbinding_speed$", ""),
+    ("binding", r"^libdsdpv1_dpi\.so", ""),
     ("libraries", rf"^(?!{PROGRAM[1:]})", ""),
     ("FST library", PROGRAM, r"^(fst|LZ4_|fastlz|jenkins)"),
     ("driver", PROGRAM, "^dsdpv1_"),
     ("SystemC", PROGRAM, r"^([a-z]+ thunk to )?(sc_core|sc_dt|tlm|tlm_utils)::"),
     ("module", PROGRAM, r"^([a-z-]+ thunk to )?dsdpv1::systemc::"),
+    ("binding", PROGRAM, r"^dpsim_|^([a-z-]+ thunk to )?dsdpv1::capi::"),
     ("chip", PROGRAM, r"^([a-z-]+ thunk to )?dsdpv1::((dpram|profibus)::|[A-Z])"),
     ("bus", PROGRAM, r"^([a-z-]+ thunk to )?dsdpv1::bus::"),
     ("bench", PROGRAM, r"\bdsdpv1::(tb|user_cpu|checks|arm|systemc_bench|app|speed)::"),
     ("bus", PROGRAM, r"\bdsdpv1::bus::"),
     ("chip", PROGRAM, r"\bdsdpv1::")))
-NAMES = ("chip", "module", "driver", "bus", "bench", "FST library", "SystemC", "Unicorn", "libraries", "kernel", REST)
+NAMES = ("chip", "module", "driver", "bus", "bench", "FST library", "SystemC", "Unicorn", "binding", "Verilator", "libraries", "kernel", REST)
 
 
 def owner(file, function):

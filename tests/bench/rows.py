@@ -79,11 +79,13 @@ DEMO = "power_on_12m"
 FULL = ("--log", "full.log", "--wave", "full.fst")
 TLM = (*OFF, "--view", "tlm")
 WAVE = (*OFF, "--wave", "demo.fst")
+DPI = (programs.FOLDER / "dpi" / "Vbinding_speed",)
 # Row to the command whose time is looked into.
 PROFILED = {**{name: programs.run_command(*run) for name, run in {
     "demo": (DEMO, *OFF), "demo_full": (DEMO, *FULL), "demo_tlm": (DEMO, *TLM), "1m5": ("1m5", *OFF), "slaves_32": ("slaves_32", *OFF),
     "slaves_125": ("slaves_125", *OFF), "arm": ("arm_board_12m", *OFF)}.items()},
-    **{name: [programs.FOLDER / "bench_systemc", name] for name in ("systemc_tlm_handshake", "systemc_pins")}}
+    **{name: [programs.FOLDER / "bench_systemc", name] for name in ("systemc_tlm_handshake", "systemc_pins")},
+    "dpi": [*DPI, "+exchanges=2000"]}
 RTL, SYSTEMC, CAPI = ("bench_rtl",), ("bench_systemc",), ("bench_capi",)
 TLM_LIMIT = ("The view `pins` of the bench needs no SystemC. In the TLM view accesses of the user CPU run ahead of the kernel, but for one in fourteen, during "
              "which the chip or an agent does something. Each event of the chip, though, is an event and a process of the kernel, what agents do "
@@ -104,8 +106,8 @@ ROWS = (
     Row("c_api_changes", 10, "million/s", "Changes of all pins that come into the caller's buffer through the C API, on the same stimulus.",
         in_program("bench_capi", "c_api_changes"), CAPI, limit="What the core takes to make them."),
     Row("dpi", 10, "million/s", "Changes of the pins of `dsdpv1_model` by DPI-C under Verilator, without CLK: data exchange with 16 bytes each way, back to "
-        "back at 12 Mbit/s, each bit of a request at its time. In CPU time.", lambda turn: turn.pin_changes(programs.FOLDER / "dpi" / "Vbinding_speed"), ("bench_dpi",),
-        limit="Verilator: three quarters of the time are its own, to wait for the next time and to find out what has changed."),
+        "back at 12 Mbit/s, each bit of a request at its time. In CPU time.", lambda turn: turn.pin_changes(*DPI), ("bench_dpi",),
+        limit="Verilator: most of the time is its own, to wait for the next time and to find out what has changed.", bound="Verilator"),
     Row("vpi", None, "million/s", "The same by VPI in Icarus, which takes 98 % of the time by itself.", lambda turn: turn.pin_changes("vvp", programs.FOLDER / "vpi" / "binding_speed.vvp"), ("bench_vpi",)),
     Row("python", 10, "million/s", "Changes of all pins that come into numpy arrays through the Python module, on the same stimulus, given to the chip in one call "
         "each 9 ms; in CPU time.", lambda turn: turn.once("python", lambda: programs.row_of_python("python_speed.py", "python")), ("dsdpv1_capi",),

@@ -62,17 +62,19 @@ def lines(outcomes):
     return ["\t".join(each) for each in [HEAD, *map(cells, outcomes)]]
 
 
-def calibration_line(times):
+def calibration_line(machine):
+    times = machine.times
     state = "busy" if is_busy(times) else "quiet"
     return (f"calibration\t{number(statistics.median(times))} ms\t{number(min(times))}..{number(max(times))} ms\t"
-            f"spread {100 * spread(times):.0f} %\tthe machine was {state}")
+            f"spread {100 * spread(times):.0f} %\tthe machine was {state}, {machine.refused} values were measured again")
 
 
-def report(outcomes, times, rounds, clock, machine):
+def report(outcomes, machine, rounds, clock, description):
     """For machines: what --json writes."""
-    return {"rounds": rounds, "clock": clock, "machine": machine,
+    times = machine.times
+    return {"rounds": rounds, "clock": clock, "machine": description,
             "calibration": {"median_ms": statistics.median(times), "min_ms": min(times), "max_ms": max(times), "spread": spread(times),
-                            "busy": is_busy(times)},
+                            "busy": is_busy(times), "measured_again": machine.refused},
             "rows": [of_outcome(each) for each in outcomes]}
 
 
