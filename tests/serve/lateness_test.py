@@ -14,7 +14,7 @@ import lateness
 from bench import ATTEMPTS, DEADLINE, HERE, Failure, check, exit_code
 
 STOPPED_MS = 200
-WATCHED = "import lateness, sys; lateness.watch(sys.argv[1]); input()"
+WATCHED = "import lateness, sys; lateness.Watch(sys.argv[1]); input()"
 STOPS_AS_IT_TELLS = """
 import lateness, os, signal, sys, threading
 write = os.pwrite
@@ -60,6 +60,16 @@ def stopped_between_two_naps_was_late():
     is_late(STOPS_AS_IT_TELLS, stop=lambda process: None)
 
 
+def loop_that_was_kept_from_running_was_late():
+    with tempfile.TemporaryDirectory(prefix="dsdpv1_late_") as folder:
+        late = os.path.join(folder, "late_ms")
+        watch = lateness.Watch(late)
+        watch.clock()
+        time.sleep(STOPPED_MS / 1000)  # the other thread runs meanwhile
+        watch.clock()
+        check(lateness.greatest_ms(late) >= STOPPED_MS, "not noticed: %.1f ms" % lateness.greatest_ms(late))
+
+
 def only_a_busy_machine_gets_another_try():
     def tries(busy, succeeds_at=ATTEMPTS + 1):
         done = []
@@ -73,7 +83,7 @@ def only_a_busy_machine_gets_another_try():
     check(tries(busy=True, succeeds_at=2) == (0, 2), "the second try does not count")
 
 
-CASES = [stopped_process_was_late, stopped_between_two_naps_was_late, only_a_busy_machine_gets_another_try]
+CASES = [stopped_process_was_late, stopped_between_two_naps_was_late, loop_that_was_kept_from_running_was_late, only_a_busy_machine_gets_another_try]
 
 if __name__ == "__main__":
     try:

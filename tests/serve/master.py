@@ -7,7 +7,6 @@ All other lines are pyprofibus's own words.
 """
 import json
 import sys
-import time
 
 import pyprofibus
 import pyprofibus.dp_master
@@ -33,10 +32,11 @@ def write_configuration(plan):
     return path
 
 
-def slow_down(factor):
-    """pyprofibus's time limits are fixed (10 ms to 100 ms). Where a busy machine cannot keep them its clock goes slower."""
+def slow_down(factor, watch):
+    """pyprofibus's time limits are fixed (10 ms to 100 ms). Where a busy machine cannot keep them its clock goes slower. It is watched: its loop
+    reads it at least once a turn."""
     def clock():
-        return time.monotonic() / factor
+        return watch.clock() / factor
     for module in (pyprofibus.dp_master, pyprofibus.phy, pyprofibus.phy_serial, pyprofibus.util):
         if hasattr(module, "monotonic_time"):
             module.monotonic_time = clock
@@ -85,13 +85,11 @@ class Cycles:
 
 
 def run(plan):
-    if plan["slower"] != 1:
-        slow_down(plan["slower"])
+    slow_down(plan["slower"], lateness.Watch(plan["late"]))
     config = pyprofibus.PbConf.fromFile(write_configuration(plan))
     master = config.makeDPM()
     for description in describe(config, plan):
         master.addSlave(description)
-    lateness.watch(plan["late"])
     master.initialize()
     cycles = Cycles(master, plan)
     while not cycles.finished():

@@ -25,8 +25,7 @@ ANSWER_CHARS = 255   # so long pyprofibus keeps the line for an answer; then ano
 # first_master.py as it is, its lateness watched and its clock slower.
 FIRST_MASTER = """import sys
 import first_master, lateness, master
-lateness.watch(sys.argv[1])
-master.slow_down(%d)
+master.slow_down(%d, lateness.Watch(sys.argv[1]))
 first_master.main(sys.argv[2], int(sys.argv[3]))
 """
 
