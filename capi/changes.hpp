@@ -24,8 +24,10 @@ class Changes {
     const Callback inside(clock_);
     fn_(user_, &change);
   }
-  /// The same in a call that is Running.
-  void add_running(const dpsim_change& change) noexcept { fn_ == nullptr ? keep(change) : fn_(user_, &change); }
+  /// Whether they are told, not kept.
+  bool are_told() const { return fn_ != nullptr; }
+  /// Tells one, in a call that is Running.
+  void tell_running(const dpsim_change& change) { fn_(user_, &change); }
   /// Moves the oldest, at most `capacity`, to `changes`.
   std::size_t take(dpsim_change* changes, std::size_t capacity) {
     const std::size_t count = std::min(capacity, kept_.size() - taken_);

@@ -53,9 +53,8 @@ class Alone : public dpsim_chip {
   }
   void watch(tb::PinMask pins) override {
     watched_ = pins;
-    chip_.watch(
-        {[](void* self, Tick at, Pin pin, Level level) { static_cast<Alone*>(self)->tell(at, pin, level); }, this},
-        pins);
+    sink_ = {changes.are_told() ? tell : keep, this};
+    chip_.watch(sink_, pins);
   }
   tb::ChipStatus status() const override { return tb::status_of(chip_); }
   std::uint8_t peek(std::uint16_t address) const override { return chip_.peek(address); }
@@ -71,8 +70,18 @@ class Alone : public dpsim_chip {
 
  private:
   static constexpr std::size_t kTooLong = 1 << 20;  ///< longer than any run that the core takes
-  void tell(Tick at, Pin pin, Level level) noexcept {
-    changes.add_running(change_of(at, static_cast<PinNumber>(pin), level));
+  // From the core straight on to the caller's function, which nothing comes after: all that this library adds to a
+  // change.
+  static void tell(void* self, Tick at, Pin pin, Level level) {
+    auto* own = static_cast<Alone*>(self);
+    own->told_.tick = static_cast<std::uint64_t>(at);
+    own->told_.pin = static_cast<PinNumber>(pin);
+    own->told_.level = level;
+    own->changes.tell_running(own->told_);
+  }
+  static void keep(void* self, Tick at, Pin pin, Level level) {
+    auto* own = static_cast<Alone*>(self);
+    own->changes.add(own->change_of(at, static_cast<PinNumber>(pin), level));
   }
   bool is_watched(Pin pin) const { return (watched_ & dsdpv1::mask(pin)) != 0; }
   bool line_is_idle() const { return chip_.level(Pin::kPbrxd) == 1; }
@@ -84,11 +93,13 @@ class Alone : public dpsim_chip {
   [[gnu::noinline]] void set_watched(Tick at, Pin pin, Level level) {
     const Level before = chip_.level(pin);
     chip_.set(at, pin, level);
-    if (level != before) tell(at, pin, level);
+    if (level != before) sink_.call(sink_.self, at, pin, level);
   }
 
   dsdpv1::Chip chip_;
   tb::PinMask watched_ = 0;
+  dsdpv1::PinSink sink_;
+  dpsim_change told_ = change_of(0, 0, 0);
   const bus::CharacterRun* heard_ = nullptr;  ///< while it is
 };
 

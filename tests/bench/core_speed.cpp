@@ -71,8 +71,8 @@ double chip_kilobytes() {
 }
 
 /// The machine's own measure, in milliseconds on the wall: work that has nothing to do with the project. Six times
-/// xorshift64 side by side are more than a core does in a cycle, so that it is seen when another thread shares the core:
-/// one alone, each step of which waits for the last, takes as long then.
+/// xorshift64 side by side are more than a core does in a cycle, so that it is seen when another thread shares the
+/// core: one alone, each step of which waits for the last, takes as long then.
 double calibration() {
   constexpr int kTurns = 8'000'000;
   const auto begin = std::chrono::steady_clock::now();
@@ -82,7 +82,8 @@ double calibration() {
       state ^= state << 13;
       state ^= state >> 7;
       state ^= state << 17;
-      asm volatile("" : "+r"(state));  // no two of them in a vector, which would wait as one alone does
+      // No two of them in a vector, which would wait as one alone does.
+      asm volatile("" : "+r"(state));  // NOLINT(portability-no-assembler)
     }
   for (const std::uint64_t state : states)
     if (state == 0) throw Failure("xorshift has come to 0");  // it cannot: the loop is kept

@@ -16,7 +16,7 @@ constexpr uint64_t kOutputs = DPSIM_ALL_PINS & ~DPSIM_PIN(DPSIM_DSDPV1_PBRXD);
 /// A chip in data exchange whose changes, events and, at each of them, level of PBRXD are written down.
 class Heard {
  public:
-  explicit Heard(dpsim_engine engine) : chip(make_chip(engine)) {
+  explicit Heard(dpsim_engine engine) : chip(make_chip(engine)), now(start_up(chip.get())) {
     ok(dpsim_chip_watch(
         chip.get(), kOutputs,
         [](void* self, const dpsim_change* change) {
@@ -29,7 +29,6 @@ class Heard {
           static_cast<Heard*>(self)->note(event->tick, 100 + event->reason, event->a);
         },
         this));
-    now = start_up(chip.get());
   }
   Heard(const Heard&) = delete;
   Heard& operator=(const Heard&) = delete;
@@ -47,7 +46,7 @@ class Heard {
   void set(uint64_t at, uint16_t pin, dpsim_level level) { ok(dpsim_chip_set(chip.get(), at, pin, level)); }
 
   const Owned<dpsim_chip> chip;
-  uint64_t now = 0;
+  uint64_t now;
   std::vector<std::string> notes;
 
  private:
