@@ -62,14 +62,24 @@ def row_of_python(program, name, *words):
     return number_in(printed, program, name)
 
 
-def pin_changes(*command):
+EXCHANGES = 2000
+
+
+def pin_changes(*command, **environment):
     """Millions of changes of pins a second of CPU time, of a simulation of binding_speed.sv; what it takes to start is taken off."""
     spent = []
-    for exchanges in (0, 2000):
+    for exchanges in (0, EXCHANGES):
         before = cpu_of_children()
-        changes = number_in(call([*command, f"+exchanges={exchanges}"]), "binding_speed", "changes")
+        changes = number_in(call([*command, f"+exchanges={exchanges}"], **environment), "binding_speed", "changes")
         spent.append(cpu_of_children() - before)
     return changes / (spent[1] - spent[0]) / 1e6
+
+
+def replayed_pin_changes(folder, *command):
+    """The same with answers of the model that have been recorded before."""
+    answers, between = str(folder / "answers"), {"LD_PRELOAD": str(FOLDER / "libbench_dpi_answers.so")}
+    call([*command, f"+exchanges={EXCHANGES}"], **between, DSDPV1_RECORD=answers)
+    return pin_changes(*command, **between, DSDPV1_REPLAY=answers)
 
 
 def samples(folder, command, keys):
@@ -116,6 +126,9 @@ class Round:
 
     def pin_changes(self, *command):
         return self.once(command, lambda: pin_changes(*command))
+
+    def replayed_pin_changes(self, *command):
+        return self.once(("replayed", *command), lambda: replayed_pin_changes(self.folder, *command))
 
     def simulate(self, scenario, *options):
         """Simulated and taken seconds of a run of dsdpv1-sim."""

@@ -73,6 +73,11 @@ def kernel_beside_demo(values, profiles):
     return 1 / (1 + profiles["demo_tlm"]["SystemC"] / 100 / values["tlm_vs_demo"])
 
 
+def chip_beside_verilator(values, _):
+    """dpi, if nothing were between the simulator and the C API."""
+    return 1 / (1 / values["dpi_alone"] + 1 / values["c_api_changes"])
+
+
 CORE_LIMIT = ("Every change of a watched pin is an edge that the core evaluates: two a microsecond on L_REQ and five or six a character on PBTXD leave "
               "some 28 ns for each at ten times real time. Who does not watch PBTXD gets answers as runs; who does not watch L_REQ lets the chip doze.")
 DEMO = "power_on_12m"
@@ -85,7 +90,7 @@ PROFILED = {**{name: programs.run_command(*run) for name, run in {
     "demo": (DEMO, *OFF), "demo_full": (DEMO, *FULL), "demo_tlm": (DEMO, *TLM), "1m5": ("1m5", *OFF), "slaves_32": ("slaves_32", *OFF),
     "slaves_125": ("slaves_125", *OFF), "arm": ("arm_board_12m", *OFF)}.items()},
     **{name: [programs.FOLDER / "bench_systemc", name] for name in ("systemc_tlm_handshake", "systemc_pins")},
-    "dpi": [*DPI, "+exchanges=2000"]}
+    "dpi": [*DPI, f"+exchanges={programs.EXCHANGES}"]}
 RTL, SYSTEMC, CAPI = ("bench_rtl",), ("bench_systemc",), ("bench_capi",)
 TLM_LIMIT = ("The view `pins` of the bench needs no SystemC. In the TLM view accesses of the user CPU run ahead of the kernel, but for one in fourteen, during "
              "which the chip or an agent does something. Each event of the chip, though, is an event and a process of the kernel, what agents do "
@@ -107,7 +112,10 @@ ROWS = (
         in_program("bench_capi", "c_api_changes"), CAPI, limit="What the core takes to make them."),
     Row("dpi", 10, "million/s", "Changes of the pins of `dsdpv1_model` by DPI-C under Verilator, without CLK: data exchange with 16 bytes each way, back to "
         "back at 12 Mbit/s, each bit of a request at its time. In CPU time.", lambda turn: turn.pin_changes(*DPI), ("bench_dpi",),
-        limit="Verilator: most of the time is its own, to wait for the next time and to find out what has changed.", bound="Verilator"),
+        limit="Verilator: most of the time is its own, to wait for the next time and to find out what has changed. dpi_alone is what remains when nobody "
+              "computes anything; the chip has to make the changes as it does in c_api_changes.", limit_of=chip_beside_verilator, limit_by="dpi_alone and c_api_changes"),
+    Row("dpi_alone", None, "million/s", "Verilator alone: the same simulation, what the model answers to each call comes from a recording.",
+        lambda turn: turn.replayed_pin_changes(*DPI), ("bench_dpi",)),
     Row("vpi", None, "million/s", "The same by VPI in Icarus, which takes 98 % of the time by itself.", lambda turn: turn.pin_changes("vvp", programs.FOLDER / "vpi" / "binding_speed.vvp"), ("bench_vpi",)),
     Row("python", 10, "million/s", "Changes of all pins that come into numpy arrays through the Python module, on the same stimulus, given to the chip in one call "
         "each 9 ms; in CPU time.", lambda turn: turn.once("python", lambda: programs.row_of_python("python_speed.py", "python")), ("dsdpv1_capi",),
