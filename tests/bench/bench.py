@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The speed table: what has been asked for, measured in rounds, judged, printed. ./run bench builds the programs and calls it."""
 import argparse
+import itertools
 import json
 import math
 import os
@@ -111,14 +112,21 @@ class Progress:
 
 
 class Machine:
-    """How busy it is with other things: the calibration's times before, between and after the rows, of the values that count."""
+    """How busy it is with other things: the calibration's times before, between and after the rows, of the values that count. With time to wait
+    everything runs on one processor, of which the calibration speaks then; when that one is busy, on the next one."""
 
     def __init__(self, minutes):
         self.times, self.refused = [], 0
         self._least = math.inf
         self._until = time.monotonic() + 60 * minutes
-        for _ in range(FIRST_LOOKS if minutes else 1):  # what it takes on a quiet machine is known only when one was seen
-            self._look()
+        self._processors = itertools.cycle(sorted(os.sched_getaffinity(0)))
+        self._look()
+        for _ in range(FIRST_LOOKS if minutes else 0):  # what it takes on a quiet machine is known only when one was seen
+            self._look_at_next()
+
+    def _look_at_next(self):
+        os.sched_setaffinity(0, {next(self._processors)})
+        self._look()
 
     def _look(self):
         self._last = programs.calibration()
@@ -130,7 +138,7 @@ class Machine:
     def wait(self):
         """Until it is quiet, as long as there is time to wait."""
         while self._is_to_wait(self._last):
-            self._look()
+            self._look_at_next()
 
     def was_quiet(self):
         """Before and after what has been measured since wait(); or there is no time to do it again."""
