@@ -133,7 +133,7 @@ class Machine:
         self._least = min(self._least, self._last)
 
     def _is_to_wait(self, taken):
-        return taken > self._least * (1 + table.BUSY) and time.monotonic() < self._until
+        return taken > self._least * (1 + table.QUIET) and time.monotonic() < self._until
 
     def wait(self):
         """Until it is quiet, as long as there is time to wait."""

@@ -82,7 +82,7 @@ def calibration(machine):
         return words + f": the machine was busy with other things as well (spread {spread}), and the values are as uncertain."
     if machine.refused:
         return words + (f": the machine was quiet. It was not all the time: {machine.refused} values beside which that work took "
-                        f"{100 * table.BUSY:.0f} % more than its least were measured again.")
+                        f"{100 * table.QUIET:.0f} % more than its least were measured again.")
     return words + ": the machine was quiet."
 
 

@@ -2,7 +2,8 @@
 import dataclasses
 import statistics
 
-BUSY = 0.10  # spread of the calibration
+BUSY = 0.10   # spread of the calibration
+QUIET = 0.08  # above its least one beside which a value counts; less than BUSY, as the least may become less
 
 
 @dataclasses.dataclass
