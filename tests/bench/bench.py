@@ -77,7 +77,8 @@ def parse(words):
     parser.add_argument("--only", type=some_rows, metavar="ROW[,ROW]", help="measures these rows only")
     parser.add_argument("--rounds", type=some_rounds, default=5, metavar="N", help="rounds whose median is taken; default 5")
     parser.add_argument("--wait", type=some_minutes, default=0, metavar="MINUTES",
-                        help="measures a row again when others used the machine before or after it, as long as these minutes are not over; default 0")
+                        help="measures a row again when others used the processor before or after it, as long as these minutes are not over; all runs on "
+                        "one processor then, or the next when that is busy; default 0")
     parser.add_argument("--clock", choices=("wall", "cpu"), default="wall",
                         help="which time of dsdpv1-sim counts: wall (default), or CPU time where others use the machine; start is always wall")
     parser.add_argument("--list", action="store_true", help="prints the rows, their goals and what they do")

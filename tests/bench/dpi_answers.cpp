@@ -1,4 +1,4 @@
-// Between a simulator and the DPI library (LD_PRELOAD): what the model kAnswers to each of its calls is written to the
+// Between a simulator and the DPI library (LD_PRELOAD): what the model answers to each of its calls is written to the
 // file DSDPV1_RECORD, or comes from the file DSDPV1_REPLAY, in the place of a chip that computes it.
 #include <dlfcn.h>
 
