@@ -6,6 +6,7 @@ import subprocess
 import tempfile
 
 FOLDER = pathlib.Path(__file__).resolve().parent / "corpus"
+ROOT = str(pathlib.Path(__file__).resolve().parents[2]).encode()
 MOST_BYTES, MOST_INPUTS = 10_000, 60  # of a target
 FOUND = "found_"  # names of inputs that were findings; they always stay
 
@@ -52,7 +53,8 @@ def minimise(name, work, call):
         pool.mkdir()
         merged.mkdir()
         for path in [*own.iterdir(), *work.iterdir()]:
-            shutil.copy(path, pool)
+            if ROOT not in path.read_bytes():  # programs with debug information name the folder that they were compiled in
+                shutil.copy(path, pool)
         result = call(name, ["-merge=1", f"-merge_control_file={control}", merged, pool], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         if result.returncode:
             raise SystemExit(f"fuzz: {name}: an input of its corpus is a finding, ./run fuzz {name} shows it")
