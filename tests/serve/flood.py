@@ -125,7 +125,8 @@ class Flood:
         what = "%s by %s: " % (self.kind, self.port)
         check(growth < MOST_GROWTH_KB, what + "memory has grown by %d KB" % growth)
         check(self.end_s < 5, what + "SIGINT was obeyed after %.1f s" % self.end_s)
-        for (_, _, before), (_, _, after) in zip(self.samples[1::5], self.samples[6::5]):
+        # Over 5 s in the shortest run: a processor that the machine's owner takes away has been seen to be gone for 3 s.
+        for (_, _, before), (_, _, after) in zip(self.samples[1:], self.samples[11:]):
             check(after > before, what + "simulated time stands still at %.1f s" % before)
         check(self.simulated_s + self.lost_s > self.wall_s - 2 - self.end_s, what + "simulated %.1f s of %.1f s" % (self.simulated_s, self.wall_s))
 
