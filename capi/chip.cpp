@@ -59,16 +59,9 @@ void check_address(const dpsim_chip& chip, std::uint16_t address) {
 /// The changes of the line that the characters are, those after `heard`.
 void spell_out(dpsim_chip& chip, const bus::CharacterRun& run, Tick heard) {
   const tb::PinNumber line = chip.kind.line_pin();
-  Tick at = run.start;
-  unsigned level = 1;
-  for (std::size_t i = 0; i < run.size; ++i) {
-    const unsigned frame = bus::frame_of(run.bytes[i]);
-    for (int position = 0; position < bus::kCharacterBits; ++position, at += run.bit) {
-      if (((frame >> position) & 1U) == level) continue;
-      level ^= 1U;
-      if (at > heard) chip.set(at, line, static_cast<Level>(level));
-    }
-  }
+  bus::for_each_change(run, [&](Tick at, bool level) {
+    if (at > heard) chip.set(at, line, level ? 1 : 0);
+  });
 }
 
 void receive(dpsim_chip& chip, const bus::CharacterRun& run) {

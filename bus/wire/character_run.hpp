@@ -28,6 +28,20 @@ struct CharacterRun {
   bool level(Tick at) const;
 };
 
+/// Calls `change(at, level)` for each change of the line that a run is, falling and rising in turn.
+template <class Change>
+void for_each_change(const CharacterRun& run, Change change) {
+  bool level = true;
+  for (std::size_t i = 0; i < run.size; ++i) {
+    const unsigned frame = frame_of(run.bytes[i]);
+    for (int bit = 0; bit < kCharacterBits; ++bit) {
+      const bool sent = ((frame >> bit) & 1U) != 0;
+      if (sent != level) change(run.character(i) + bit * run.bit, sent);
+      level = sent;
+    }
+  }
+}
+
 /// Who the telegram in these characters is for, as a kind of receiver reads it: a station (0 to 126), kBroadcast,
 /// kForNobody (an acknowledgement, a token), or kNoTelegram: it is no right telegram.
 using RunReader = int (*)(const std::uint8_t* bytes, std::size_t size);
