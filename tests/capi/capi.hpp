@@ -6,6 +6,7 @@
 #include <ostream>
 #include <vector>
 
+#include "bus/wire/uart.hpp"
 #include "dsdpv1/dsdpv1.h"
 
 inline bool operator==(const dpsim_change& a, const dpsim_change& b) {
@@ -65,6 +66,17 @@ std::vector<dpsim_change> drain(dpsim_status (*read)(Object*, dpsim_change*, siz
     all.insert(all.end(), part.begin(), part.begin() + static_cast<std::ptrdiff_t>(count));
   }
   return all;
+}
+
+/// Characters at PBRXD of a chip alone, bit by bit; the end of the last one, to which the chip has come.
+template <class Bytes>
+uint64_t receive_edges(dpsim_chip* chip, uint64_t at, uint32_t bit, const Bytes& bytes) {
+  for (const uint8_t byte : bytes)
+    for (int i = 0; i < bus::kCharacterBits; ++i, at += bit)
+      ok(dpsim_chip_set(chip, at, DPSIM_DSDPV1_PBRXD,
+                        static_cast<dpsim_level>((bus::Character::of(byte).bits >> i) & 1)));
+  ok(dpsim_chip_advance(chip, at));
+  return at;
 }
 
 constexpr uint64_t kCycle = DPSIM_TICKS_PER_CYCLE;

@@ -5,7 +5,6 @@
 #include <string>
 #include <thread>
 
-#include "bus/wire/uart.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/reasons.hpp"
 #include "tests/capi/capi.hpp"
@@ -252,12 +251,7 @@ TEST(CapiChip, CharactersAreTheirEdges) {
   uint64_t end = 0;
   ok(dpsim_chip_receive(told.get(), 6000 * kCycle, 1000, bytes, sizeof bytes, &end));
   EXPECT_EQ(end, 6000 * kCycle + 11 * 1000 * sizeof bytes);
-  uint64_t at = 6000 * kCycle;
-  for (const uint8_t byte : bytes)
-    for (int bit = 0; bit < 11; ++bit, at += 1000)
-      ok(dpsim_chip_set(edges.get(), at, DPSIM_DSDPV1_PBRXD,
-                        static_cast<dpsim_level>((bus::Character::of(byte).bits >> bit) & 1)));
-  ok(dpsim_chip_advance(edges.get(), at));
+  EXPECT_EQ(receive_edges(edges.get(), 6000 * kCycle, 1000, bytes), end);
   const auto changes = drain(dpsim_chip_read_changes, told.get());
   EXPECT_EQ(changes, drain(dpsim_chip_read_changes, edges.get()));
   EXPECT_GT(std::count_if(changes.begin(), changes.end(),

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "bus/wire/uart.hpp"
 #include "tests/capi/capi.hpp"
 #include "tests/capi/station.hpp"
 
@@ -35,13 +34,6 @@ class Heard {
 
   void receive(uint64_t at, uint32_t bit, const bus::Bytes& bytes) {
     ok(dpsim_chip_receive(chip.get(), at, bit, bytes.data(), bytes.size(), &now));
-  }
-  void receive_edges(uint64_t at, uint32_t bit, const bus::Bytes& bytes) {
-    now = at;
-    for (const uint8_t byte : bytes)
-      for (int i = 0; i < bus::kCharacterBits; ++i, now += bit)
-        set(now, DPSIM_DSDPV1_PBRXD, static_cast<dpsim_level>((bus::Character::of(byte).bits >> i) & 1));
-    ok(dpsim_chip_advance(chip.get(), now));
   }
   void set(uint64_t at, uint16_t pin, dpsim_level level) { ok(dpsim_chip_set(chip.get(), at, pin, level)); }
 
@@ -138,7 +130,7 @@ TEST_P(CapiReceive, IsTheEdgesOfTheCharacters) {
     const uint32_t bit = draw.bit();
     const bus::Bytes bytes = draw.characters();
     told.receive(at, bit, bytes);
-    edges.receive_edges(at, bit, bytes);
+    edges.now = receive_edges(edges.chip.get(), at, bit, bytes);
     ASSERT_EQ(told.now, edges.now);
     if (i == kTelegrams - 2) disturb(draw, told, edges, DPSIM_DSDPV1_RESET);
     if (draw.below(10) == 0) disturb(draw, told, edges, DPSIM_DSDPV1_R_REQ);
