@@ -12,7 +12,7 @@ import struct
 import sys
 import time
 
-from bench import DEADLINE, ROOT, Failure, Serve, check
+from bench import DEADLINE, LATE_MS, ROOT, Failure, Serve, check, exit_code
 from flood import PAYLOADS, connect, floods, port_options, push, rss_kb, simulated_s, tcp_number
 from port_test import SCENARIO, STATUS_ANSWER, STATUS_REQUEST, Folder, ask, open_raw, read_some
 
@@ -315,9 +315,15 @@ def sigterm_during_flood(serve):
 
 
 def ten_seconds(program):
-    """Junk and telegrams by both kinds of port: what the long run in the page shows, in short."""
-    _, wrong = floods(program, [(kind, port) for kind in ("junk", "telegrams") for port in ("pty", "tcp")], 10)
-    check(not wrong, "; ".join(wrong))
+    """Junk and telegrams by both kinds of port: what the long run in the page shows, in short. The exit code; tried again when a serve was late, as
+    a processor of the machine may be gone for seconds."""
+    late_ms = 0.0
+
+    def case():
+        nonlocal late_ms
+        _, wrong, late_ms = floods(program, [(kind, port) for kind in ("junk", "telegrams") for port in ("pty", "tcp")], 10)
+        check(not wrong, "; ".join(wrong))
+    return exit_code(case, lambda: late_ms > LATE_MS)
 
 
 def main(program, name):
@@ -326,9 +332,8 @@ def main(program, name):
         return 0
     try:
         if name == "ten_seconds":
-            ten_seconds(program)
-        else:
-            check(do(program, name) in read_table(PAGE, TABLE).splitlines(), "docs/robustness.md is stale: faults_test.py DSDPV1_SIM --write")
+            return ten_seconds(program)
+        check(do(program, name) in read_table(PAGE, TABLE).splitlines(), "docs/robustness.md is stale: faults_test.py DSDPV1_SIM --write")
         return 0
     except Failure as failure:
         print(failure)
