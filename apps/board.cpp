@@ -1,8 +1,8 @@
 // dsdpv1-board: what dsdpv1-sim hands scenarios with an ARM board over to. It has the board's emulator, which is
 // GPL-2.0-only, and therefore no SystemC.
 #include "apps/program.hpp"
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/board/arm_user.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::app {
 

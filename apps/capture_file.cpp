@@ -11,8 +11,8 @@
 #include "apps/wave_line.hpp"
 #include "bus/capture/pcap_reader.hpp"
 #include "bus/capture/sigrok_reader.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/read_file.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
 
 namespace dsdpv1::app {
 namespace {

@@ -21,8 +21,8 @@
 #include "apps/traces_command.hpp"
 #include "bus/baud.hpp"
 #include "bus/capture/link_type.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
 #include "tb/report/text_table.hpp"
 
 namespace dsdpv1::app {

@@ -10,12 +10,12 @@
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
+#include "io/input/input_error.hpp"
+#include "io/waves/wave_writer.hpp"
 #include "tb/compare/comparison.hpp"
 #include "tb/compare/report.hpp"
 #include "tb/dsdpv1/cosim/wave_pins.hpp"
-#include "tb/input/input_error.hpp"
 #include "tb/report/progress.hpp"
-#include "tb/waves/wave_writer.hpp"
 
 namespace dsdpv1::app {
 namespace {

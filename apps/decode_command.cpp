@@ -13,8 +13,8 @@
 #include "bus/printable.hpp"
 #include "bus/telegram/explain.hpp"
 #include "bus/telegram/telegram_printer.hpp"
+#include "io/input/input_error.hpp"
 #include "tb/bench/run_log.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::app {
 namespace {

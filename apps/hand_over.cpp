@@ -13,8 +13,8 @@
 
 #include "apps/command_line.hpp"
 #include "bus/printable.hpp"
+#include "io/input/read_file.hpp"
 #include "tb/bench/chip_maker.hpp"
-#include "tb/input/read_file.hpp"
 
 namespace dsdpv1::app {
 namespace {

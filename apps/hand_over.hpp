@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tb/input/read_file.hpp"
+#include "io/input/read_file.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::app {

@@ -7,7 +7,7 @@
 #include <initializer_list>
 
 #include "apps/command_line.hpp"
-#include "tb/output/part_file.hpp"
+#include "io/output/part_file.hpp"
 
 namespace dsdpv1::app {
 namespace {

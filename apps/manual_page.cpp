@@ -2,7 +2,7 @@
 
 #include "apps/manual_command.hpp"
 #include "apps/shown_options.hpp"
-#include "tb/input/suggest.hpp"
+#include "io/input/suggest.hpp"
 
 namespace dsdpv1::app {
 namespace {

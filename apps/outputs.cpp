@@ -5,9 +5,9 @@
 #include <map>
 #include <optional>
 
-#include "tb/input/input_error.hpp"
-#include "tb/output/output_place.hpp"
-#include "tb/output/write_file.hpp"
+#include "io/input/input_error.hpp"
+#include "io/output/output_place.hpp"
+#include "io/output/write_file.hpp"
 
 namespace dsdpv1::app {
 namespace {

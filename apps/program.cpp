@@ -11,8 +11,8 @@
 #include "apps/printable_output.hpp"
 #include "apps/stack.hpp"
 #include "bus/printable.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/output/standard_output.hpp"
+#include "io/input/input_error.hpp"
+#include "io/output/standard_output.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -10,11 +10,11 @@
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/monitor/monitor.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
+#include "io/output/write_file.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/dsdpv1/checks/markdown.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
-#include "tb/output/write_file.hpp"
 #include "tb/scenario/event_codes.hpp"
 
 namespace dsdpv1::app {

@@ -8,9 +8,9 @@
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/waves/recover.hpp"
-#include "tb/waves/wave_writer.hpp"
+#include "io/input/input_error.hpp"
+#include "io/waves/recover.hpp"
+#include "io/waves/wave_writer.hpp"
 
 namespace dsdpv1::app {
 namespace {

@@ -8,10 +8,10 @@
 #include <tuple>
 
 #include "apps/wave_options.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/units.hpp"
+#include "io/output/output_place.hpp"
 #include "tb/bench/run_log.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/units.hpp"
-#include "tb/output/output_place.hpp"
 
 namespace dsdpv1::app {
 namespace {

@@ -13,8 +13,8 @@
 #include "apps/data_folder.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
+#include "io/output/output_file.hpp"
 #include "tb/dsdpv1/cosim/faults.hpp"
-#include "tb/output/output_file.hpp"
 
 namespace dsdpv1::app {
 namespace {

@@ -15,6 +15,11 @@
 #include "apps/outputs.hpp"
 #include "apps/rtl_commands.hpp"
 #include "bus/printable.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
+#include "io/output/output_file.hpp"
+#include "io/output/write_file.hpp"
+#include "io/waves/wave_writer.hpp"
 #include "tb/campaign/lock.hpp"
 #include "tb/dsdpv1/cosim/campaign.hpp"
 #include "tb/dsdpv1/cosim/campaign_record.hpp"
@@ -24,11 +29,6 @@
 #include "tb/dsdpv1/cosim/play_wave.hpp"
 #include "tb/dsdpv1/cosim/random_stimulus.hpp"
 #include "tb/dsdpv1/cosim/stimulus_result.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/read_file.hpp"
-#include "tb/output/output_file.hpp"
-#include "tb/output/write_file.hpp"
-#include "tb/waves/wave_writer.hpp"
 
 namespace dsdpv1::app {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <iostream>
 
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
+#include "io/input/units.hpp"
+#include "io/output/output_place.hpp"
 #include "tb/campaign/fingerprint.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/read_file.hpp"
-#include "tb/input/units.hpp"
-#include "tb/output/output_place.hpp"
 #include "tb/scenario/settings.hpp"
 
 namespace dsdpv1::app {

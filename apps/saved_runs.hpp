@@ -9,8 +9,8 @@
 
 #include "apps/command_line.hpp"
 #include "apps/outputs.hpp"
+#include "io/output/output_file.hpp"
 #include "tb/bench/bench.hpp"
-#include "tb/output/output_file.hpp"
 #include "tb/saved/saved_run.hpp"
 #include "tb/scenario/scenario.hpp"
 

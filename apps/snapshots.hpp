@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bus/time.hpp"
-#include "tb/input/descriptor.hpp"
+#include "io/input/descriptor.hpp"
 
 namespace dsdpv1::app {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "apps/command_line.hpp"
+#include "io/input/input_error.hpp"
 #include "tb/bench/bench.hpp"
-#include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::app {

@@ -6,7 +6,7 @@
 
 #include "bus/capture/captured_telegram.hpp"
 #include "bus/telegram/telegram.hpp"
-#include "tb/output/output_file.hpp"
+#include "io/output/output_file.hpp"
 
 namespace dsdpv1::app {
 

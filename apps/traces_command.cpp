@@ -15,15 +15,15 @@
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/printable.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
+#include "io/waves/wave_writer.hpp"
 #include "tb/bench/bench.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/text_table.hpp"
 #include "tb/traces/golden.hpp"
 #include "tb/traces/golden_check.hpp"
 #include "tb/traces/trace_wave.hpp"
-#include "tb/waves/wave_writer.hpp"
 
 namespace dsdpv1::app {
 namespace {

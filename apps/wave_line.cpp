@@ -7,7 +7,7 @@
 
 #include "bus/capture/byte_reader.hpp"
 #include "bus/capture/signal_decoder.hpp"
-#include "tb/waves/wave_reader.hpp"
+#include "io/waves/wave_reader.hpp"
 
 namespace dsdpv1::app {
 namespace {

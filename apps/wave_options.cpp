@@ -8,12 +8,12 @@
 #include <ctime>
 #include <optional>
 
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
-#include "tb/input/units.hpp"
-#include "tb/output/output_place.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
+#include "io/input/units.hpp"
+#include "io/output/output_place.hpp"
+#include "io/waves/save_files.hpp"
 #include "tb/scenario/event_codes.hpp"
-#include "tb/waves/save_files.hpp"
 
 namespace dsdpv1::app {
 namespace {

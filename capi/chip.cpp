@@ -6,7 +6,7 @@
 #include "capi/bus.hpp"
 #include "capi/names.hpp"
 #include "capi/sized.hpp"
-#include "tb/keys/keys.hpp"
+#include "io/keys/keys.hpp"
 
 using capi::fail;
 using capi::guarded;

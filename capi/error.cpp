@@ -7,7 +7,7 @@
 
 #include "bus/printable.hpp"
 #include "capi/names.hpp"
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1::capi {
 namespace {

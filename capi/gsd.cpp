@@ -11,7 +11,7 @@
 #include "capi/sized.hpp"
 #include "capi/slave.hpp"
 #include "dsdpv1/gsd.h"
-#include "tb/input/read_file.hpp"
+#include "io/input/read_file.hpp"
 
 using capi::fail;
 using capi::guarded;

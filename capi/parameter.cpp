@@ -6,7 +6,7 @@
 
 #include "capi/error.hpp"
 #include "capi/kind.hpp"
-#include "tb/keys/keys.hpp"
+#include "io/keys/keys.hpp"
 
 namespace dsdpv1::capi {
 namespace {

@@ -7,8 +7,8 @@
 #include "capi/master.hpp"
 #include "capi/names.hpp"
 #include "capi/sized.hpp"
+#include "io/input/units.hpp"
 #include "tb/bench/scenario_masters.hpp"
-#include "tb/input/units.hpp"
 
 using capi::need;
 using tb::scenario::ActionKind;

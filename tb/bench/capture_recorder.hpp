@@ -5,8 +5,8 @@
 
 #include "bus/capture/collector.hpp"
 #include "bus/capture/pcapng_writer.hpp"
+#include "io/output/output_file.hpp"
 #include "tb/bench/observer.hpp"
-#include "tb/output/output_file.hpp"
 
 namespace dsdpv1::tb {
 

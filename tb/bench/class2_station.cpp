@@ -4,11 +4,11 @@
 
 #include <stdexcept>
 
+#include "io/input/input_error.hpp"
+#include "io/input/units.hpp"
 #include "tb/bench/journal.hpp"
 #include "tb/bench/reply.hpp"
 #include "tb/bench/stations.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/units.hpp"
 
 namespace dsdpv1::tb {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bus/baud.hpp"
-#include "tb/input/units.hpp"
+#include "io/input/units.hpp"
 
 namespace dsdpv1::tb {
 namespace {

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "tb/input/units.hpp"
+#include "io/input/units.hpp"
 
 namespace dsdpv1::tb {
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "bus/time.hpp"
+#include "io/output/output_file.hpp"
 #include "tb/bench/observer.hpp"
-#include "tb/output/output_file.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::tb {

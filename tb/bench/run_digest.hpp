@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
+#include "io/input/hash.hpp"
 #include "tb/bench/observer.hpp"
-#include "tb/input/hash.hpp"
 
 namespace dsdpv1::tb {
 

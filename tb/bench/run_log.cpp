@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bus/printable.hpp"
-#include "tb/input/units.hpp"
+#include "io/input/units.hpp"
 
 namespace dsdpv1::tb {
 namespace {

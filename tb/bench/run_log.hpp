@@ -9,7 +9,7 @@
 #include "bus/bytes.hpp"
 #include "bus/monitor/monitor.hpp"
 #include "bus/time.hpp"
-#include "tb/output/output_file.hpp"
+#include "io/output/output_file.hpp"
 
 namespace dsdpv1::tb {
 

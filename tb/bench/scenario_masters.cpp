@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1::tb {
 namespace {

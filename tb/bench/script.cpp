@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "bus/baud.hpp"
+#include "io/input/units.hpp"
 #include "tb/bench/conditions.hpp"
-#include "tb/input/units.hpp"
 
 namespace dsdpv1::tb {
 

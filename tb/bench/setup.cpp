@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "bus/gsd/cfg.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/read_file.hpp"
-#include "tb/input/suggest.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
+#include "io/input/suggest.hpp"
 
 namespace dsdpv1::tb {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1::tb {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "tb/input/units.hpp"
+#include "io/input/units.hpp"
 
 namespace dsdpv1::tb {
 

@@ -11,13 +11,13 @@
 
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
+#include "io/waves/deferred_wave.hpp"
+#include "io/waves/wave_selection.hpp"
+#include "io/waves/wave_writer.hpp"
 #include "tb/bench/chip_view.hpp"
 #include "tb/bench/line_run.hpp"
 #include "tb/bench/observer.hpp"
 #include "tb/chip/chip_kind.hpp"
-#include "tb/waves/deferred_wave.hpp"
-#include "tb/waves/wave_selection.hpp"
-#include "tb/waves/wave_writer.hpp"
 
 namespace dsdpv1::tb {
 

@@ -16,8 +16,8 @@
 #include <thread>
 #include <utility>
 
+#include "io/output/signals_held.hpp"
 #include "tb/campaign/fingerprint.hpp"
-#include "tb/output/signals_held.hpp"
 
 namespace dsdpv1::tb::campaign {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "io/input/input_error.hpp"
 #include "tb/campaign/fingerprint.hpp"
-#include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::tb::campaign {

@@ -11,10 +11,10 @@
 #include <cstring>
 #include <string_view>
 
-#include "tb/input/descriptor.hpp"
-#include "tb/input/hash.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/read_file.hpp"
+#include "io/input/descriptor.hpp"
+#include "io/input/hash.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
 
 namespace dsdpv1::tb::campaign {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/input/input_error.hpp"
+#include "io/output/part_file.hpp"
+#include "io/output/write_file.hpp"
 #include "tb/campaign/fingerprint.hpp"
 #include "tb/campaign/slurm.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/output/part_file.hpp"
-#include "tb/output/write_file.hpp"
 
 namespace dsdpv1::tb::campaign {
 namespace {

@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1::tb::campaign {
 namespace {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1::tb::campaign {
 

@@ -11,10 +11,10 @@
 #include <sstream>
 #include <utility>
 
+#include "io/input/input_error.hpp"
+#include "io/input/units.hpp"
+#include "io/output/write_file.hpp"
 #include "tb/campaign/fingerprint.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/units.hpp"
-#include "tb/output/write_file.hpp"
 
 namespace dsdpv1::tb::campaign {
 namespace {

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "io/keys/keys.hpp"
 #include "model/profibus/event.hpp"
 #include "tb/checks/check.hpp"
 #include "tb/checks/chip_checks.hpp"
 #include "tb/chip/host_reader.hpp"
 #include "tb/chip/timing_diagram.hpp"
-#include "tb/keys/keys.hpp"
 #include "tb/pins/pins.hpp"
 #include "tb/user_cpu/program.hpp"
 

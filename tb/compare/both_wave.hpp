@@ -2,8 +2,8 @@
 // A wave with both sides, one below the other, and for each signal one that is 1 while they differ.
 #include <memory>
 
+#include "io/waves/wave_writer.hpp"
 #include "tb/compare/pairs.hpp"
-#include "tb/waves/wave_writer.hpp"
 
 namespace dsdpv1::tb::compare {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "io/input/input_error.hpp"
 #include "tb/compare/clock_edges.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::tb::compare {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <optional>
 
-#include "tb/input/input_error.hpp"
-#include "tb/input/units.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/units.hpp"
 
 namespace dsdpv1::tb::compare {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/waves/wave_reader.hpp"
 #include "tb/compare/options.hpp"
-#include "tb/waves/wave_reader.hpp"
 
 namespace dsdpv1::tb::compare {
 

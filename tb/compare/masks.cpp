@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
 #include "tb/compare/levels.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
 
 namespace dsdpv1::tb::compare {
 namespace {

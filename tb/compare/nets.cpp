@@ -7,8 +7,8 @@
 #include <map>
 #include <optional>
 
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
 
 namespace dsdpv1::tb::compare {
 namespace {

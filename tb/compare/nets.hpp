@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "tb/waves/wave_reader.hpp"
+#include "io/waves/wave_reader.hpp"
 
 namespace dsdpv1::tb::compare {
 

@@ -1,6 +1,6 @@
 #include "tb/compare/options.hpp"
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1::tb::compare {
 

@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
 
 namespace dsdpv1::tb::compare {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tb/input/suggest.hpp"
-#include "tb/input/units.hpp"
+#include "io/input/suggest.hpp"
+#include "io/input/units.hpp"
 #include "tb/report/junit.hpp"
 #include "tb/report/text_table.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1::tb::compare {
 namespace {

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "io/waves/wave_reader.hpp"
 #include "tb/compare/nets.hpp"
 #include "tb/compare/pairs.hpp"
 #include "tb/compare/touched.hpp"
-#include "tb/waves/wave_reader.hpp"
 
 namespace dsdpv1::tb::compare {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <map>
 
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/serial_keys.hpp"
 #include "tb/dsdpv1/settings.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::tb {
 namespace {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "driver/dsdpv1.h"
+#include "io/input/units.hpp"
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/dsdpv1/checks/checks.hpp"
 #include "tb/dsdpv1/codes.hpp"
@@ -16,7 +17,6 @@
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/dsdpv1/user_cpu/orders.hpp"
 #include "tb/dsdpv1/user_maker.hpp"
-#include "tb/input/units.hpp"
 
 namespace dsdpv1::tb {
 namespace {

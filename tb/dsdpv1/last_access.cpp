@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "io/input/units.hpp"
 #include "tb/dsdpv1/pins/pin_table.hpp"
-#include "tb/input/units.hpp"
 
 namespace dsdpv1::tb {
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 
+#include "io/input/input_error.hpp"
 #include "model/dsdpv1/config.hpp"
 #include "model/profibus/time.hpp"
 #include "tb/dsdpv1/spi_reader.hpp"
 #include "tb/dsdpv1/uart_reader.hpp"
 #include "tb/dsdpv1/user_cpu/orders.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::tb {
 namespace {

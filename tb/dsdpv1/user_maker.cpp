@@ -3,11 +3,11 @@
 #include <memory>
 #include <string>
 
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/dsdpv1_view.hpp"
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/dsdpv1/user_cpu/fsmc_timing.hpp"
 #include "tb/dsdpv1/user_cpu/native_user.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::tb {
 namespace {

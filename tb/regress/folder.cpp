@@ -7,9 +7,9 @@
 #include <fstream>
 #include <system_error>
 
+#include "io/input/input_error.hpp"
+#include "io/output/part_file.hpp"
 #include "tb/campaign/fingerprint.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/output/part_file.hpp"
 
 namespace dsdpv1::tb::regress {
 namespace {

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <set>
 
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
+#include "io/input/units.hpp"
 #include "tb/campaign/fingerprint.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
-#include "tb/input/units.hpp"
 
 namespace dsdpv1::tb::regress {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 #include "tb/replay/services.hpp"
 #include "tb/replay/start_up.hpp"
 

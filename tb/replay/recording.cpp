@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "bus/baud.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
 
 namespace dsdpv1::tb::replay {
 namespace {

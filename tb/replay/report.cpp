@@ -12,8 +12,8 @@
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/explain.hpp"
+#include "io/input/units.hpp"
 #include "tb/bench/run_log.hpp"
-#include "tb/input/units.hpp"
 #include "tb/report/text_table.hpp"
 
 namespace dsdpv1::tb::replay {

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "bus/baud.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
+#include "io/input/units.hpp"
 #include "tb/bench/setup.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
-#include "tb/input/units.hpp"
 #include "tb/replay/replay.hpp"
 
 namespace dsdpv1::tb::replay {

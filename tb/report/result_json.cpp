@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/time.hpp"
-#include "tb/input/units.hpp"
+#include "io/input/units.hpp"
 #include "tb/report/result_schema.hpp"
 
 namespace dsdpv1::tb {

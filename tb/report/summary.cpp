@@ -6,7 +6,7 @@
 #include <array>
 
 #include "bus/printable.hpp"
-#include "tb/input/units.hpp"
+#include "io/input/units.hpp"
 #include "tb/report/check_report.hpp"
 #include "tb/report/text_table.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tb/input/hash.hpp"
-#include "tb/input/input_error.hpp"
+#include "io/input/hash.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1::tb {
 namespace {

@@ -6,9 +6,9 @@
 #include <cctype>
 #include <map>
 
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
-#include "tb/input/units.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
+#include "io/input/units.hpp"
 #include "tb/scenario/event_codes.hpp"
 
 namespace dsdpv1::tb::scenario {

@@ -2,7 +2,7 @@
 // The parts of the description of a scenario's keys, one function for each mapping.
 #include <map>
 
-#include "tb/keys/keys.hpp"
+#include "io/keys/keys.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::tb::scenario {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <sstream>
 
-#include "tb/input/input_error.hpp"
-#include "tb/input/read_file.hpp"
-#include "tb/input/suggest.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
+#include "io/input/suggest.hpp"
 #include "tb/scenario/check.hpp"
 #include "tb/scenario/scenario.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "tb/input/units.hpp"
+#include "io/input/units.hpp"
 #include "tb/scenario/describe.hpp"
 #include "tb/scenario/scenario.hpp"
 

@@ -11,10 +11,10 @@
 #include "bus/master/master2_connection.hpp"
 #include "bus/master/slave_parameters.hpp"
 #include "bus/time.hpp"
+#include "io/keys/keys.hpp"
 #include "model/profibus/dp_state.hpp"
 #include "tb/checks/check.hpp"
 #include "tb/chip/chip_kind.hpp"
-#include "tb/keys/keys.hpp"
 #include "tb/scenario/settings.hpp"
 #include "tb/user_cpu/program.hpp"
 

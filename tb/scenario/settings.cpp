@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
 #include "tb/scenario/describe.hpp"
 
 namespace dsdpv1::tb::scenario {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "io/keys/keys.hpp"
 #include "tb/chip/chip_kind.hpp"
-#include "tb/keys/keys.hpp"
 
 namespace dsdpv1::tb::scenario {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "bus/bytes.hpp"
-#include "tb/input/descriptor.hpp"
+#include "io/input/descriptor.hpp"
 #include "tb/serve/byte_queue.hpp"
 
 namespace dsdpv1::tb::serve {

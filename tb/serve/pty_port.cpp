@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "tb/input/input_error.hpp"
-#include "tb/output/part_file.hpp"
+#include "io/input/input_error.hpp"
+#include "io/output/part_file.hpp"
 #include "tb/serve/ports.hpp"
 #include "tb/serve/termios2.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 #include "tb/serve/ports.hpp"
 #include "tb/serve/termios2.hpp"
 

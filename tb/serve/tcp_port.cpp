@@ -7,8 +7,8 @@
 #include <deque>
 #include <utility>
 
+#include "io/socket/tcp_listener.hpp"
 #include "tb/serve/ports.hpp"
-#include "tb/socket/tcp_listener.hpp"
 
 namespace dsdpv1::tb::serve {
 namespace {

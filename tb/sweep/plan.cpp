@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "tb/input/input_error.hpp"
-#include "tb/input/units.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/units.hpp"
 #include "tb/scenario/settings.hpp"
 
 namespace dsdpv1::tb::sweep {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tb/keys/keys.hpp"
+#include "io/keys/keys.hpp"
 
 namespace dsdpv1::tb::sweep {
 

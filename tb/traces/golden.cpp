@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string_view>
 
-#include "tb/input/input_error.hpp"
-#include "tb/input/read_file.hpp"
-#include "tb/output/output_file.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
+#include "io/output/output_file.hpp"
 #include "tb/traces/xz.hpp"
 
 namespace dsdpv1::tb::traces {

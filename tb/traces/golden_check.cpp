@@ -6,7 +6,7 @@
 
 #include "bus/baud.hpp"
 #include "bus/telegram/explain.hpp"
-#include "tb/input/units.hpp"
+#include "io/input/units.hpp"
 
 namespace dsdpv1::tb::traces {
 namespace {

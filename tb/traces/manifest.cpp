@@ -10,8 +10,8 @@
 #include <set>
 
 #include "bus/baud.hpp"
-#include "tb/input/read_file.hpp"
-#include "tb/input/units.hpp"
+#include "io/input/read_file.hpp"
+#include "io/input/units.hpp"
 
 namespace dsdpv1::tb::traces {
 namespace {

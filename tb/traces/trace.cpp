@@ -6,7 +6,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1::tb::traces {
 namespace {

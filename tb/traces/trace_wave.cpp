@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "tb/waves/wave_writer.hpp"
+#include "io/waves/wave_writer.hpp"
 
 namespace dsdpv1::tb::traces {
 namespace {

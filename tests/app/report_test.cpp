@@ -1,11 +1,11 @@
 // Times and texts of reports.
 #include <gtest/gtest.h>
 
+#include "io/waves/wave_writer.hpp"
 #include "tb/bench/conditions.hpp"
 #include "tb/bench/run_log.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/summary.hpp"
-#include "tb/waves/wave_writer.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -1,8 +1,8 @@
 // What user CPUs and masters are given, from the scenario and its GSD.
 #include <gtest/gtest.h>
 
+#include "io/input/input_error.hpp"
 #include "tb/bench/setup.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <functional>
 
+#include "io/input/input_error.hpp"
 #include "small_elf.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::arm::test {
 namespace {

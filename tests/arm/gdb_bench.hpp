@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fake_target.hpp"
+#include "io/input/descriptor.hpp"
 #include "tb/dsdpv1/user_cpu/arm/gdb_server.hpp"
-#include "tb/input/descriptor.hpp"
 
 namespace dsdpv1::arm::test {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "gdb_bench.hpp"
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1::arm::test {
 namespace {

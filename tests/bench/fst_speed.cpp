@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "tb/waves/fst_file.hpp"
+#include "io/waves/fst_file.hpp"
 #include "tests/bench/stopwatch.hpp"
 
 namespace dsdpv1 {

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <map>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "io/input/input_error.hpp"
 #include "tb/campaign/fingerprint.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1 {
 namespace {

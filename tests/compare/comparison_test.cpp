@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 #include "tests/compare/waves.hpp"
 
 namespace dsdpv1 {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "tb/waves/wave_reader.hpp"
+#include "io/waves/wave_reader.hpp"
 #include "tests/app/program.hpp"
 
 namespace dsdpv1 {

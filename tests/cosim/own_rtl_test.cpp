@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/cosim/pin_map.hpp"
 #include "tb/dsdpv1/cosim/user_rtl.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1 {
 namespace {

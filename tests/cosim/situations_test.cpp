@@ -8,10 +8,10 @@
 #include <fstream>
 #include <set>
 
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/cosim/campaign_record.hpp"
 #include "tb/dsdpv1/cosim/random_setup.hpp"
 #include "tb/dsdpv1/cosim/situation_watch.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

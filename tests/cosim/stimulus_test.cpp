@@ -6,10 +6,10 @@
 #include <iterator>
 #include <set>
 
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/cosim/faults.hpp"
 #include "tb/dsdpv1/cosim/random_stimulus.hpp"
 #include "tb/dsdpv1/cosim/stimulus.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1 {
 namespace {

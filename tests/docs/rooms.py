@@ -28,8 +28,8 @@ FORBIDDEN = [
 
 # The bench and the bus serve any kind of chip: they name no chip's types, pins or registers. A chip's own rooms are CHIP_ROOMS.
 CHIP_ROOMS = ["tb/dsdpv1", "tb/kinds"]
-GENERAL_ROOMS = ["bus", "tb/bench", "tb/checks", "tb/chip", "tb/compare", "tb/input", "tb/keys", "tb/output", "tb/pins", "tb/replay", "tb/report", "tb/saved", "tb/scenario", "tb/serve",
-                 "tb/socket", "tb/campaign", "tb/sweep", "tb/regress", "tb/systemc", "tb/traces", "tb/user_cpu", "tb/waves", "apps"]
+GENERAL_ROOMS = ["bus", "tb/bench", "tb/checks", "tb/chip", "tb/compare", "io", "tb/pins", "tb/replay", "tb/report", "tb/saved", "tb/scenario", "tb/serve",
+                 "tb/campaign", "tb/sweep", "tb/regress", "tb/systemc", "tb/traces", "tb/user_cpu", "apps"]
 A_CHIP = r"\bdsdpv1::(?=k?[A-Z])|\bdpram::|\bmailbox::|model/(dsdpv1|dpram)|\bPin::k|\bAccessTiming|\bregs::|registers/dsdpv1"
 ITS_CELLS = r"\bB[0-7][0-9A-F]{2}\b|\b(CSR|RD|WR|R_REQ|R_STA|L_REQ|L_STA|INTR0)\b"
 FORBIDDEN += [(room, A_CHIP, "no chip by name") for room in GENERAL_ROOMS]

@@ -1,7 +1,7 @@
 #pragma once
 // All of a wave, whatever its format.
-#include "tb/input/input_error.hpp"
-#include "tb/waves/wave_reader.hpp"
+#include "io/input/input_error.hpp"
+#include "io/waves/wave_reader.hpp"
 #include "tests/fuzz/in_memory.hpp"
 
 namespace dsdpv1::fuzz {

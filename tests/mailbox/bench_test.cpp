@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include "io/input/input_error.hpp"
 #include "tb/bench/bench.hpp"
-#include "tb/input/input_error.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"
 #include "tests/mailbox/kind.hpp"

@@ -1,5 +1,5 @@
 // Output files: complete or absent, and nothing replaced that is no output.
-#include "tb/output/output_file.hpp"
+#include "io/output/output_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1 {
 namespace {

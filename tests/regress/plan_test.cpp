@@ -8,7 +8,7 @@
 #include <functional>
 #include <set>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 #include "tests/app/folder.hpp"
 
 namespace dsdpv1 {

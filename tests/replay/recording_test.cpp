@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 #include "tests/replay/captures.hpp"
 
 namespace dsdpv1::replay_test {

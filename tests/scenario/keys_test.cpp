@@ -1,9 +1,9 @@
 // Errors of the parser: file, line, what is wrong, what is allowed.
 #include <gtest/gtest.h>
 
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1 {

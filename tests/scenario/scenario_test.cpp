@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/settings.hpp"
-#include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1 {

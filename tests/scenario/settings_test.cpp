@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/settings.hpp"
-#include "tb/input/input_error.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1 {

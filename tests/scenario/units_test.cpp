@@ -1,7 +1,7 @@
 // Times and bytes as people write them.
 #include <gtest/gtest.h>
 
-#include "tb/input/units.hpp"
+#include "io/input/units.hpp"
 
 namespace dsdpv1 {
 namespace {

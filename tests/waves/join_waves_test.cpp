@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "tb/input/input_error.hpp"
-#include "tb/waves/join_waves.hpp"
-#include "tb/waves/wave_writer.hpp"
+#include "io/input/input_error.hpp"
+#include "io/waves/join_waves.hpp"
+#include "io/waves/wave_writer.hpp"
 
 namespace dsdpv1 {
 namespace {

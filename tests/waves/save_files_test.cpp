@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-#include "tb/waves/save_files.hpp"
+#include "io/waves/save_files.hpp"
 
 namespace dsdpv1 {
 namespace {

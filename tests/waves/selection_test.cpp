@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "tb/input/input_error.hpp"
-#include "tb/waves/wave_selection.hpp"
+#include "io/input/input_error.hpp"
+#include "io/waves/wave_selection.hpp"
 
 namespace dsdpv1 {
 namespace {

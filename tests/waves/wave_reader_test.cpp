@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "tb/input/input_error.hpp"
-#include "tb/waves/wave_reader.hpp"
-#include "tb/waves/wave_writer.hpp"
+#include "io/input/input_error.hpp"
+#include "io/waves/wave_reader.hpp"
+#include "io/waves/wave_writer.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -13,10 +13,10 @@
 #include <fstapi.h>
 #endif
 
-#include "tb/input/input_error.hpp"
-#include "tb/waves/fst_blocks.hpp"
-#include "tb/waves/recover.hpp"
-#include "tb/waves/wave_writer.hpp"
+#include "io/input/input_error.hpp"
+#include "io/waves/fst_blocks.hpp"
+#include "io/waves/recover.hpp"
+#include "io/waves/wave_writer.hpp"
 
 namespace dsdpv1 {
 namespace {

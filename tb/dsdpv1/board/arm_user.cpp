@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/board/untold.hpp"
 #include "tb/dsdpv1/dsdpv1_view.hpp"
 #include "tb/dsdpv1/settings.hpp"
@@ -12,7 +13,6 @@
 #include "tb/dsdpv1/user_cpu/arm/gdb_server.hpp"
 #include "tb/dsdpv1/user_cpu/arm/history_player.hpp"
 #include "tb/dsdpv1/user_maker.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::tb {
 namespace {

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/dsdpv1/user_cpu/arm/mailbox.h"
-#include "tb/input/input_error.hpp"
-#include "tb/input/suggest.hpp"
 
 namespace dsdpv1::tb {
 namespace {

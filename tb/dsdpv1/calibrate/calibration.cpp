@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "tb/input/suggest.hpp"
+#include "io/input/suggest.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {

@@ -5,8 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "io/input/suggest.hpp"
 #include "tb/dsdpv1/calibrate/calibration.hpp"
-#include "tb/input/suggest.hpp"
 #include "tb/report/text_table.hpp"
 
 namespace dsdpv1::calibrate {

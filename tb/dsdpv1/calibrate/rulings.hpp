@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "io/keys/keys.hpp"
 #include "tb/dsdpv1/calibrate/found.hpp"
-#include "tb/keys/keys.hpp"
 
 namespace dsdpv1::calibrate {
 

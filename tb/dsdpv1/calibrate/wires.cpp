@@ -6,7 +6,7 @@
 #include <cctype>
 
 #include "bus/capture/captured_telegram.hpp"
-#include "tb/input/suggest.hpp"
+#include "io/input/suggest.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
+#include "io/output/write_file.hpp"
 #include "model/dsdpv1/reasons.hpp"
 #include "tb/dsdpv1/cosim/play_options.hpp"
 #include "tb/dsdpv1/settings.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/read_file.hpp"
-#include "tb/output/write_file.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <utility>
 
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
 #include "tb/dsdpv1/cosim/reference_rtl.hpp"
-#include "tb/input/input_error.hpp"
-#include "tb/input/read_file.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

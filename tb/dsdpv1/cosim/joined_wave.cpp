@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "tb/waves/join_waves.hpp"
-#include "tb/waves/wave_writer.hpp"
+#include "io/waves/join_waves.hpp"
+#include "io/waves/wave_writer.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "io/output/part_file.hpp"
 #include "tb/dsdpv1/cosim/lockstep.hpp"
 #include "tb/dsdpv1/cosim/rtl_trace.hpp"
-#include "tb/output/part_file.hpp"
 
 namespace dsdpv1::cosim {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tb/input/units.hpp"
+#include "io/input/units.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/cosim/reference_rtl.hpp"
 #include "tb/dsdpv1/cosim/rtl_device.hpp"
 #include "tb/dsdpv1/kind.hpp"
 #include "tb/dsdpv1/pin_chip.hpp"
 #include "tb/dsdpv1/settings.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

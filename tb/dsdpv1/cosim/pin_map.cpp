@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "tb/input/input_error.hpp"
-#include "tb/input/read_file.hpp"
-#include "tb/input/suggest.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
+#include "io/input/suggest.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

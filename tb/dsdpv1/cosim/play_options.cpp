@@ -1,10 +1,10 @@
 #include "tb/dsdpv1/cosim/play_options.hpp"
 
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/cosim/campaign.hpp"
 #include "tb/dsdpv1/cosim/reference_rtl.hpp"
 #include "tb/dsdpv1/kind.hpp"
 #include "tb/dsdpv1/settings.hpp"
-#include "tb/input/input_error.hpp"
 #include "tb/scenario/settings.hpp"
 
 namespace dsdpv1::cosim {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "io/waves/wave_writer.hpp"
 #include "tb/dsdpv1/cosim/player.hpp"
 #include "tb/dsdpv1/inside_watch.hpp"
-#include "tb/waves/wave_writer.hpp"
 
 namespace dsdpv1::cosim {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <sstream>
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

@@ -15,9 +15,9 @@
 #include <system_error>
 #include <utility>
 
-#include "tb/input/input_error.hpp"
-#include "tb/output/write_file.hpp"
-#include "tb/waves/wave_writer.hpp"
+#include "io/input/input_error.hpp"
+#include "io/output/write_file.hpp"
+#include "io/waves/wave_writer.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/input/input_error.hpp"
 #include "model/systemc/main_stack.hpp"
 #include "model/systemc/sim_time.hpp"
 #include "tb/dsdpv1/dsdpv1_view.hpp"
@@ -17,7 +18,6 @@
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/dsdpv1/systemc/tlm_chip.hpp"
 #include "tb/dsdpv1/systemc/tlm_host_bus.hpp"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::tb {
 namespace {

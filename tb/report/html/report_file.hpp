@@ -2,8 +2,8 @@
 // The report of a run as a file: complete or absent.
 #include <string>
 
+#include "io/output/output_file.hpp"
 #include "tb/bench/bench.hpp"
-#include "tb/output/output_file.hpp"
 #include "tb/report/html/run_recorder.hpp"
 
 namespace dsdpv1::tb::html {

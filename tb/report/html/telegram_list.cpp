@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tb/input/units.hpp"
+#include "io/input/units.hpp"
 
 namespace dsdpv1::tb::html {
 namespace {

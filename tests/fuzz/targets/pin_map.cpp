@@ -1,7 +1,7 @@
 // A map of pins, for RTL of a user's own.
 #include "tb/dsdpv1/cosim/pin_map.hpp"
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 #include "tests/fuzz/input.hpp"
 
 namespace dsdpv1 {

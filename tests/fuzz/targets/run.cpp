@@ -1,7 +1,7 @@
 // A scenario carried out for its first 2 ms, in step and in skip: the same telegrams, events and verdicts.
 #include "tb/bench/bench.hpp"
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/scenario/scenario.hpp"

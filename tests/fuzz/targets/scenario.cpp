@@ -1,7 +1,7 @@
 // A scenario: read and checked, not run. Lines "#set PATH=VALUE" at its beginning are settings of a command line.
 #include "tb/scenario/scenario.hpp"
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 #include "tests/fuzz/input.hpp"
 
 namespace dsdpv1 {

@@ -1,7 +1,7 @@
 // A stimulus file; written again and read again it is the same.
 #include "tb/dsdpv1/cosim/stimulus.hpp"
 
-#include "tb/input/input_error.hpp"
+#include "io/input/input_error.hpp"
 #include "tests/fuzz/input.hpp"
 
 namespace dsdpv1 {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <string_view>
 
-#include "tb/input/input_error.hpp"
-#include "tb/input/read_file.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
 
 namespace dsdpv1 {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "io/input/input_error.hpp"
 #include "tb/dsdpv1/user_cpu/arm/mailbox.h"
-#include "tb/input/input_error.hpp"
 
 namespace dsdpv1::arm {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "io/input/descriptor.hpp"
+#include "io/socket/tcp_listener.hpp"
 #include "tb/dsdpv1/user_cpu/arm/gdb_packet.hpp"
-#include "tb/input/descriptor.hpp"
-#include "tb/socket/tcp_listener.hpp"
 
 namespace dsdpv1::arm {
 

@@ -1,0 +1,52 @@
+#pragma once
+// A file that is complete or absent: it is written under a temporary name beside its place and renamed by `commit`.
+// Symbolic links are followed; devices and FIFOs are written to as they are.
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "io/output/part_file.hpp"
+
+namespace dsdpv1::tb {
+
+class OutputFile {
+ public:
+  /// Throws InputError when the file cannot be created.
+  explicit OutputFile(const std::string& path);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  /// Without a commit nothing is left behind.
+  ~OutputFile() = default;
+
+  /// The first error (a full disk) is kept; after it nothing more is written.
+  void write(std::string_view text) {
+    if (error_ == 0 && std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) keep_error();
+  }
+  /// What was written so far is in the file with the temporary name.
+  void flush();
+  /// What is written from now on goes nowhere: in a process that shares the file with another, whose it is. Throws
+  /// InputError when there is no nowhere.
+  void mute();
+  /// Whether something could not be written: a run need not go on.
+  bool failed() const { return error_ != 0; }
+  /// Throws InputError when something could not be written.
+  void check() const;
+  /// Closes and gives the file its name; throws InputError when something could not be written.
+  void commit();
+  const std::string& path() const { return part_.path(); }
+  /// Where it grows: the temporary name, or the device itself.
+  const std::string& grows_at() const { return part_.direct() ? part_.path() : part_.part(); }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  void keep_error();
+
+  PartFile part_;
+  std::unique_ptr<std::FILE, Close> file_;  // closed before the temporary name is removed
+  int error_ = 0;
+};
+
+}  // namespace dsdpv1::tb

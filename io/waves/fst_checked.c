@@ -1,0 +1,32 @@
+/* GTKWave's fstapi as Verilator carries it along, with input and output that keep errors (fst_io.h). Somebody else's
+ * code: compiled without this project's warnings. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <time.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include "io/waves/fst_io.h"
+
+#define fopen(name, mode) fst_io_open(name, mode)
+#define tmpfile() fst_io_temporary()
+#define fclose(file) fst_io_close(file)
+#define fwrite(data, size, count, file) fst_io_write(data, size, count, file)
+#define fputc(character, file) fst_io_put(character, file)
+#define fgetc(file) fst_io_get(file)
+#define fflush(file) fst_io_flush(file)
+#define fseeko(file, offset, whence) fst_io_seek(file, offset, whence)
+#define ftruncate(descriptor, length) fst_io_truncate(descriptor, length)
+#define unlink(name) fst_io_remove(name)
+#define mmap(address, length, protection, flags, descriptor, offset) fst_io_map(length, descriptor)
+/* It ends the program when a file is damaged: a process that was made to read it (child_stream.hpp), in which nothing
+ * is to happen that happens at the end of this one. */
+#define exit(status) _exit(status)
+/* The table of times is compressed with the level that the values have: 9 takes as long as everything else that is
+ * written, for a file that is 6 % smaller. */
+#define compress2(to, to_size, from, from_size, level) \
+  compress2(to, to_size, from, from_size, (level) > 4 ? 4 : (level))
+
+#include <fstapi.c> /* NOLINT(bugprone-suspicious-include): with the macros above */

@@ -1,0 +1,57 @@
+#pragma once
+// A VCD file as tokens: read in large pieces, from a file or a FIFO.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "io/input/descriptor.hpp"
+
+namespace dsdpv1::tb {
+
+class VcdText {
+ public:
+  /// Throws InputError when it cannot be read.
+  explicit VcdText(const std::string& path);
+
+  /// The next word between blanks, until the next call; empty at the end of the file. Throws InputError where the file
+  /// ends within a line, and at a word that is longer than any right one.
+  std::string_view token() {
+    skip_blanks();
+    if (end_ - at_ < kLongest && !whole_) fill();
+    const char* const begin = at_;
+    while (!kBlank[static_cast<unsigned char>(*at_)]) ++at_;
+    if (at_ == end_ || *at_ == '\0') check_word(begin);
+    return {begin, static_cast<std::size_t>(at_ - begin)};
+  }
+  [[noreturn]] void fail(const std::string& what) const;
+  /// How much of the file has been read, 0 to 1; 0 of a FIFO.
+  double share() const;
+
+ private:
+  static constexpr std::ptrdiff_t kLongest = 0x12'0000;  ///< a value of kMostWaveWidth and some more
+  static const std::array<bool, 256> kBlank;             ///< and the zero byte after the last one
+
+  void skip_blanks() {
+    for (;;) {
+      while (*at_ != '\0' && kBlank[static_cast<unsigned char>(*at_)]) line_ += *at_++ == '\n' ? 1 : 0;
+      if (at_ != end_ || whole_) return;
+      fill();
+    }
+  }
+  void fill();
+  void check_word(const char* begin) const;
+
+  std::string path_;
+  Descriptor file_;
+  std::size_t room_ = 0;            ///< bytes of the buffer, without the zero behind them
+  std::unique_ptr<char[]> buffer_;  ///< not filled before it is needed
+  const char *at_, *end_;
+  bool whole_ = false;  ///< all of the file is in the buffer
+  int line_ = 1;
+  std::uint64_t size_ = 0, read_ = 0;
+};
+
+}  // namespace dsdpv1::tb
