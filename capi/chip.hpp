@@ -11,7 +11,7 @@
 #include "capi/kind.hpp"
 #include "capi/names.hpp"
 #include "model/profibus/event.hpp"
-#include "tb/bench/chip_view.hpp"
+#include "tb/chip/chip_view.hpp"
 
 namespace dsdpv1::capi {
 

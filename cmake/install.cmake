@@ -128,8 +128,8 @@ function(dsdpv1_install_bus_and_checks)
   dsdpv1_install_headers(bus bus)
   dsdpv1_install_pc(bus dsdpv1-bus "PROFIBUS segment, masters, monitor and GSD files" LIBS dsdpv1_bus REQUIRES fmt)
   dsdpv1_install_targets(checks checks dsdpv1_pins dsdpv1_check_recorder dsdpv1_checks)
-  foreach(room pins checks dsdpv1/pins dsdpv1/checks)
-    install(DIRECTORY tb/${room}/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/tb/${room} COMPONENT checks
+  foreach(room tb/chip/pins tb/chip/checks tb/dsdpv1/pins tb/dsdpv1/checks)
+    install(DIRECTORY ${room}/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/${room} COMPONENT checks
             FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc")
   endforeach()
   dsdpv1_install_pc(checks dsdpv1-checks "checks of handshake, bus timing and use of the DSDPV1's DPRAM"

@@ -7,7 +7,7 @@
 
 #include "tb/bench/observer.hpp"
 #include "tb/bench/record.hpp"
-#include "tb/checks/chip_checks.hpp"
+#include "tb/chip/checks/chip_checks.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::tb {

@@ -8,11 +8,11 @@
 
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
-#include "tb/bench/chip_view.hpp"
 #include "tb/chip/chip_kind.hpp"
+#include "tb/chip/chip_view.hpp"
+#include "tb/chip/user_cpu/debug_history.hpp"
+#include "tb/chip/user_cpu/station_cpu.hpp"
 #include "tb/scenario/scenario.hpp"
-#include "tb/user_cpu/debug_history.hpp"
-#include "tb/user_cpu/station_cpu.hpp"
 
 namespace dsdpv1::tb {
 

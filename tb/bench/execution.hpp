@@ -6,7 +6,7 @@
 
 #include "bus/timeline.hpp"
 #include "tb/bench/chip_maker.hpp"
-#include "tb/bench/chip_view.hpp"
+#include "tb/chip/chip_view.hpp"
 
 namespace dsdpv1::tb {
 

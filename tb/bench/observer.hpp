@@ -8,9 +8,9 @@
 #include "bus/monitor/monitor.hpp"
 #include "model/profibus/event.hpp"
 #include "tb/bench/record.hpp"
-#include "tb/checks/recorder.hpp"
+#include "tb/chip/checks/recorder.hpp"
 #include "tb/chip/host_reader.hpp"
-#include "tb/pins/pins.hpp"
+#include "tb/chip/pins/pins.hpp"
 
 namespace dsdpv1::tb {
 
@@ -39,7 +39,7 @@ class Observer {
   virtual void read(std::size_t /*slave*/, Tick /*sample*/) {}
   virtual void event(std::size_t /*slave*/, const profibus::Event& /*event*/) {}
   virtual void telegram(const HeardTelegram& /*telegram*/) {}
-  /// What the checks of tb/checks find, as soon as it can be seen.
+  /// What the checks of tb/chip/checks find, as soon as it can be seen.
   virtual void violated(const std::string& /*slave*/, const checks::Violation& /*violation*/) {}
   /// What the monitor flags; what is flagged of a telegram comes before it.
   virtual void flag(const bus::Flag& /*flag*/) {}

@@ -10,9 +10,9 @@
 #include "bus/bytes.hpp"
 #include "bus/time.hpp"
 #include "model/profibus/dp_state.hpp"
-#include "tb/bench/chip_view.hpp"
-#include "tb/checks/recorder.hpp"
-#include "tb/user_cpu/station_cpu.hpp"
+#include "tb/chip/checks/recorder.hpp"
+#include "tb/chip/chip_view.hpp"
+#include "tb/chip/user_cpu/station_cpu.hpp"
 
 namespace dsdpv1::tb {
 
@@ -76,7 +76,7 @@ struct MasterResult {
   bool interval_given = false;  ///< by the scenario; else it is the greatest of the slaves' GSD files
 };
 
-/// What is done with violations that the checks of tb/checks find.
+/// What is done with violations that the checks of tb/chip/checks find.
 enum class ChecksMode : std::uint8_t {
   kOff,     ///< nothing is checked
   kReport,  ///< listed

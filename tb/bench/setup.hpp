@@ -6,8 +6,8 @@
 
 #include "bus/gsd/setup.hpp"
 #include "bus/master/slave_parameters.hpp"
+#include "tb/chip/user_cpu/station_config.hpp"
 #include "tb/scenario/scenario.hpp"
-#include "tb/user_cpu/station_config.hpp"
 
 namespace dsdpv1::tb {
 

@@ -14,10 +14,10 @@
 #include "io/waves/deferred_wave.hpp"
 #include "io/waves/wave_selection.hpp"
 #include "io/waves/wave_writer.hpp"
-#include "tb/bench/chip_view.hpp"
 #include "tb/bench/line_run.hpp"
 #include "tb/bench/observer.hpp"
 #include "tb/chip/chip_kind.hpp"
+#include "tb/chip/chip_view.hpp"
 
 namespace dsdpv1::tb {
 

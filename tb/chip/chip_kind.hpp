@@ -7,12 +7,12 @@
 
 #include "io/keys/keys.hpp"
 #include "model/profibus/event.hpp"
-#include "tb/checks/check.hpp"
-#include "tb/checks/chip_checks.hpp"
+#include "tb/chip/checks/check.hpp"
+#include "tb/chip/checks/chip_checks.hpp"
 #include "tb/chip/host_reader.hpp"
+#include "tb/chip/pins/pins.hpp"
 #include "tb/chip/timing_diagram.hpp"
-#include "tb/pins/pins.hpp"
-#include "tb/user_cpu/program.hpp"
+#include "tb/chip/user_cpu/program.hpp"
 
 namespace dsdpv1::tb {
 

@@ -6,7 +6,7 @@
 
 #include "bus/bytes.hpp"
 #include "bus/timeline.hpp"
-#include "tb/pins/pins.hpp"
+#include "tb/chip/pins/pins.hpp"
 
 namespace dsdpv1::tb {
 

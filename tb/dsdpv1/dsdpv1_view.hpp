@@ -1,7 +1,7 @@
 #pragma once
 // A DSDPV1 on the bench, whichever way it is executed.
 #include "model/dsdpv1/chip.hpp"
-#include "tb/bench/chip_view.hpp"
+#include "tb/chip/chip_view.hpp"
 #include "tb/dsdpv1/user_cpu/host_bus.hpp"
 
 namespace dsdpv1::tb {

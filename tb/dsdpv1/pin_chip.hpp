@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "bus/timeline.hpp"
-#include "tb/bench/line_driver.hpp"
+#include "tb/chip/line_driver.hpp"
+#include "tb/chip/pin_device.hpp"
 #include "tb/dsdpv1/dsdpv1_view.hpp"
 #include "tb/dsdpv1/inside_watch.hpp"
-#include "tb/dsdpv1/pin_device.hpp"
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "tb/chip/user_cpu/program.hpp"
 #include "tb/replay/recording.hpp"
 #include "tb/scenario/scenario.hpp"
-#include "tb/user_cpu/program.hpp"
 
 namespace dsdpv1::tb::replay {
 

@@ -2,8 +2,8 @@
 // Where a capture begins in the middle of a data exchange: the telegrams that bring the model into one before.
 #include <vector>
 
+#include "tb/chip/user_cpu/station_config.hpp"
 #include "tb/replay/recording.hpp"
-#include "tb/user_cpu/station_config.hpp"
 
 namespace dsdpv1::tb::replay {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bus/time.hpp"
-#include "tb/user_cpu/debug_history.hpp"
+#include "tb/chip/user_cpu/debug_history.hpp"
 
 namespace dsdpv1::tb {
 

@@ -13,10 +13,10 @@
 #include "bus/time.hpp"
 #include "io/keys/keys.hpp"
 #include "model/profibus/dp_state.hpp"
-#include "tb/checks/check.hpp"
+#include "tb/chip/checks/check.hpp"
 #include "tb/chip/chip_kind.hpp"
+#include "tb/chip/user_cpu/program.hpp"
 #include "tb/scenario/settings.hpp"
-#include "tb/user_cpu/program.hpp"
 
 namespace dsdpv1::tb::scenario {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "tb/user_cpu/fiber.hpp"
+#include "tb/chip/user_cpu/fiber.hpp"
 #include "tests/arm/processor_bench.hpp"
 
 namespace dsdpv1::arm {

@@ -28,10 +28,15 @@ FORBIDDEN = [
 
 # The bench and the bus serve any kind of chip: they name no chip's types, pins or registers. A chip's own rooms are CHIP_ROOMS.
 CHIP_ROOMS = ["tb/dsdpv1", "tb/kinds"]
-GENERAL_ROOMS = ["bus", "tb/bench", "tb/checks", "tb/chip", "tb/compare", "io", "tb/pins", "tb/replay", "tb/report", "tb/saved", "tb/scenario", "tb/serve",
-                 "tb/campaign", "tb/sweep", "tb/regress", "tb/systemc", "tb/traces", "tb/user_cpu", "apps"]
+GENERAL_ROOMS = ["bus", "tb/bench", "tb/chip", "tb/compare", "io", "tb/replay", "tb/report", "tb/saved", "tb/scenario", "tb/serve",
+                 "tb/campaign", "tb/sweep", "tb/regress", "tb/systemc", "tb/traces", "apps"]
 A_CHIP = r"\bdsdpv1::(?=k?[A-Z])|\bdpram::|\bmailbox::|model/(dsdpv1|dpram)|\bPin::k|\bAccessTiming|\bregs::|registers/dsdpv1"
 ITS_CELLS = r"\bB[0-7][0-9A-F]{2}\b|\b(CSR|RD|WR|R_REQ|R_STA|L_REQ|L_STA|INTR0)\b"
+# Files of these rooms that name the DSDPV1 for now, each until the step that ends it.
+NAME_A_CHIP = {
+    "tb/chip/host_pins.hpp": "pins by number",
+    "tb/chip/pin_device.hpp": "pins by number",
+}
 FORBIDDEN += [(room, A_CHIP, "no chip by name") for room in GENERAL_ROOMS]
 FORBIDDEN += [(room, ITS_CELLS, "no chip's pins and cells") for room in GENERAL_ROOMS]
 # REUSE-IgnoreStart
@@ -49,9 +54,19 @@ def faults(root, forbidden):
         if not files:
             yield f"{room}: no such room, correct the table in tests/docs/rooms.py"
         for path in files:
+            if path.relative_to(root).as_posix() in NAME_A_CHIP and pattern in (A_CHIP, ITS_CELLS):
+                continue
             for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
                 if not re.match(COPYRIGHT, line) and (found := re.search(pattern, line)):
                     yield f"{path.relative_to(root)}:{number}: {found.group()}, but {room} knows {why}"
+
+
+def names_no_chip_any_more(root):
+    """Files of NAME_A_CHIP that need not stand there."""
+    for name in NAME_A_CHIP:
+        path = root / name
+        if not path.is_file() or not re.search(f"{A_CHIP}|{ITS_CELLS}", path.read_text(encoding="utf-8")):
+            yield f"{name}: names no chip, take it out of NAME_A_CHIP of tests/docs/rooms.py"
 
 
 def unknown_rooms(root):
@@ -66,7 +81,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
     root = parser.parse_args().root
-    found = list(faults(root, FORBIDDEN)) + list(unknown_rooms(root))
+    found = [*faults(root, FORBIDDEN), *names_no_chip_any_more(root), *unknown_rooms(root)]
     print("\n".join(found), end="\n" if found else "")
     return 1 if found else 0
 

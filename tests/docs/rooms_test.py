@@ -67,6 +67,14 @@ class Rooms(unittest.TestCase):
         (self.root / "tb" / "dsdpv1").mkdir()
         self.assertEqual([fault.split(":")[0] for fault in rooms.unknown_rooms(self.root)], ["tb/new"])
 
+    def test_a_file_that_may_name_a_chip_for_now_is_a_fault_when_it_names_none(self):
+        name = next(iter(rooms.NAME_A_CHIP))
+        self.write(pathlib.Path(name).parent, "// Right.")
+        for text, count in (("dsdpv1::Chip chip;", 0), ("// Right.", 1)):
+            (self.root / name).write_text(text, encoding="utf-8")
+            self.assertEqual(list(rooms.faults(self.root, rooms.FORBIDDEN)), [])
+            self.assertEqual(sum(fault.startswith(name) for fault in rooms.names_no_chip_any_more(self.root)), count)
+
     def test_a_room_that_is_gone_is_a_fault(self):
         self.assertIn("no such room", next(rooms.faults(self.root, [("model/gone", "x", "nothing")])))
 

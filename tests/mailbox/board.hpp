@@ -7,7 +7,7 @@
 
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
-#include "tb/bench/line_driver.hpp"
+#include "tb/chip/line_driver.hpp"
 #include "tests/mailbox/chip.hpp"
 #include "tests/mailbox/reasons.hpp"
 #include "tests/mailbox/user.hpp"

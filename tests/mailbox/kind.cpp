@@ -5,8 +5,8 @@
 #include <utility>
 #include <variant>
 
-#include "tb/bench/line_driver.hpp"
 #include "tb/bench/record.hpp"
+#include "tb/chip/line_driver.hpp"
 #include "tests/mailbox/chip.hpp"
 #include "tests/mailbox/reasons.hpp"
 #include "tests/mailbox/spi_port.hpp"

@@ -2,7 +2,7 @@
 // The core as an agent of a timeline, for tests that have no bench.
 #include "bus/timeline.hpp"
 #include "model/dsdpv1/chip.hpp"
-#include "tb/dsdpv1/user_cpu/host_pins.hpp"
+#include "tb/chip/host_pins.hpp"
 
 namespace dsdpv1 {
 

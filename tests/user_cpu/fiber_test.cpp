@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tb/user_cpu/fiber.hpp"
+#include "tb/chip/user_cpu/fiber.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "tb/checks/recorder.hpp"
+#include "tb/chip/checks/recorder.hpp"
 #include "tb/dsdpv1/checks/blocks.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
 #include "tb/dsdpv1/checks/port_timing.hpp"

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "model/dsdpv1/pins.hpp"
-#include "tb/checks/check.hpp"
+#include "tb/chip/checks/check.hpp"
 
 namespace dsdpv1::checks {
 

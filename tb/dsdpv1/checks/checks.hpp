@@ -13,8 +13,8 @@
 #include <optional>
 #include <utility>
 
-#include "tb/checks/chip_checks.hpp"
-#include "tb/checks/recorder.hpp"
+#include "tb/chip/checks/chip_checks.hpp"
+#include "tb/chip/checks/recorder.hpp"
 #include "tb/dsdpv1/checks/cell_rules.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
 #include "tb/dsdpv1/checks/ownership.hpp"

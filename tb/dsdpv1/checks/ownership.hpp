@@ -8,7 +8,7 @@
 // Pins that change at the same tick may be told in any order: what lasts no time breaks no rule.
 #include <optional>
 
-#include "tb/checks/recorder.hpp"
+#include "tb/chip/checks/recorder.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
 
 namespace dsdpv1::checks {

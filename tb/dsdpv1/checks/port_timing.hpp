@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "model/dsdpv1/pins.hpp"
-#include "tb/checks/recorder.hpp"
+#include "tb/chip/checks/recorder.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
 
 namespace dsdpv1::checks {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "bus/monitor/monitor.hpp"
-#include "tb/checks/recorder.hpp"
+#include "tb/chip/checks/recorder.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
 #include "tb/dsdpv1/checks/port_timing.hpp"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "tb/checks/recorder.hpp"
+#include "tb/chip/checks/recorder.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
 #include "tb/dsdpv1/checks/host_telegram.hpp"
 #include "tb/dsdpv1/checks/serial_settings.hpp"

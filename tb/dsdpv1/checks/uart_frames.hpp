@@ -4,7 +4,7 @@
 #include <string>
 
 #include "model/dsdpv1/pins.hpp"
-#include "tb/checks/recorder.hpp"
+#include "tb/chip/checks/recorder.hpp"
 #include "tb/dsdpv1/checks/check.hpp"
 #include "tb/dsdpv1/checks/host_telegram.hpp"
 #include "tb/dsdpv1/checks/rxd_sampler.hpp"

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "tb/chip/pin_device.hpp"
 #include "tb/dsdpv1/cosim/rtl_chip.hpp"
-#include "tb/dsdpv1/pin_device.hpp"
 
 namespace dsdpv1::cosim {
 

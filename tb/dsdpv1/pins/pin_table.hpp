@@ -2,7 +2,7 @@
 // The pins as the bench has them, those of table 1 and of the DSDPV1-RSU: the number of a pin is its enumerator in
 // dsdpv1::Pin.
 #include "model/dsdpv1/pins.hpp"
-#include "tb/pins/pins.hpp"
+#include "tb/chip/pins/pins.hpp"
 
 namespace dsdpv1::tb {
 

@@ -10,7 +10,7 @@
 
 #include "bus/time.hpp"
 #include "driver/dsdpv1_acyclic.h"
-#include "tb/user_cpu/acyclic.hpp"
+#include "tb/chip/user_cpu/acyclic.hpp"
 
 namespace dsdpv1::user_cpu {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tb/user_cpu/program.hpp"
+#include "tb/chip/user_cpu/program.hpp"
 
 namespace dsdpv1::user_cpu {
 

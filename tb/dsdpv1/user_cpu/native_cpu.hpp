@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "bus/timeline.hpp"
+#include "tb/chip/user_cpu/fiber.hpp"
+#include "tb/chip/user_cpu/others.hpp"
+#include "tb/chip/user_cpu/program.hpp"
 #include "tb/dsdpv1/user_cpu/cpu.hpp"
-#include "tb/user_cpu/fiber.hpp"
-#include "tb/user_cpu/others.hpp"
-#include "tb/user_cpu/program.hpp"
 
 namespace dsdpv1::user_cpu {
 

@@ -1,9 +1,9 @@
 #pragma once
 // The standard user program on the native CPU.
+#include "tb/chip/user_cpu/station_cpu.hpp"
 #include "tb/dsdpv1/user_cpu/native_cpu.hpp"
 #include "tb/dsdpv1/user_cpu/orders.hpp"
 #include "tb/dsdpv1/user_cpu/programs.hpp"
-#include "tb/user_cpu/station_cpu.hpp"
 
 namespace dsdpv1::user_cpu {
 

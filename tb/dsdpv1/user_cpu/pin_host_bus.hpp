@@ -5,8 +5,8 @@
 
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/host_access.hpp"
+#include "tb/chip/host_pins.hpp"
 #include "tb/dsdpv1/user_cpu/host_bus.hpp"
-#include "tb/dsdpv1/user_cpu/host_pins.hpp"
 
 namespace dsdpv1::user_cpu {
 

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "driver/dsdpv1.h"
+#include "tb/chip/user_cpu/program.hpp"
 #include "tb/dsdpv1/user_cpu/acyclic_server.hpp"
 #include "tb/dsdpv1/user_cpu/driver_port.hpp"
 #include "tb/dsdpv1/user_cpu/native_cpu.hpp"
 #include "tb/dsdpv1/user_cpu/serial_port.hpp"
-#include "tb/user_cpu/program.hpp"
 
 namespace dsdpv1::user_cpu {
 

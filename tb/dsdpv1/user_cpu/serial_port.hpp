@@ -9,11 +9,11 @@
 
 #include "driver/dsdpv1_spi.h"
 #include "driver/dsdpv1_uart.h"
+#include "tb/chip/user_cpu/program.hpp"
 #include "tb/dsdpv1/user_cpu/claim_counters.hpp"
 #include "tb/dsdpv1/user_cpu/cpu.hpp"
 #include "tb/dsdpv1/user_cpu/spi_master.hpp"
 #include "tb/dsdpv1/user_cpu/uart_master.hpp"
-#include "tb/user_cpu/program.hpp"
 
 namespace dsdpv1::user_cpu {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bus/time.hpp"
+#include "tb/chip/pins/pins.hpp"
 #include "tb/chip/timing_diagram.hpp"
-#include "tb/pins/pins.hpp"
 
 namespace dsdpv1::tb::html {
 

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "model/dsdpv1/chip.hpp"
+#include "tb/chip/user_cpu/station_cpu.hpp"
 #include "tb/dsdpv1/user_cpu/arm/cortex_m3.hpp"
 #include "tb/dsdpv1/user_cpu/arm/exti.hpp"
 #include "tb/dsdpv1/user_cpu/arm/firmware.hpp"
@@ -35,7 +36,6 @@
 #include "tb/dsdpv1/user_cpu/arm/terminal.hpp"
 #include "tb/dsdpv1/user_cpu/native_cpu.hpp"
 #include "tb/dsdpv1/user_cpu/programs.hpp"
-#include "tb/user_cpu/station_cpu.hpp"
 
 namespace dsdpv1::arm {
 

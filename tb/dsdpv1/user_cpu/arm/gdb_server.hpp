@@ -14,10 +14,10 @@
 #include <optional>
 #include <string>
 
+#include "tb/chip/user_cpu/debug_history.hpp"
 #include "tb/dsdpv1/user_cpu/arm/debug_target.hpp"
 #include "tb/dsdpv1/user_cpu/arm/gdb_commands.hpp"
 #include "tb/dsdpv1/user_cpu/arm/gdb_link.hpp"
-#include "tb/user_cpu/debug_history.hpp"
 
 namespace dsdpv1::arm {
 

@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 
+#include "tb/chip/user_cpu/debug_history.hpp"
 #include "tb/dsdpv1/user_cpu/arm/debug_target.hpp"
-#include "tb/user_cpu/debug_history.hpp"
 
 namespace dsdpv1::arm {
 

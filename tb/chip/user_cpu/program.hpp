@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bus/time.hpp"
-#include "tb/user_cpu/acyclic.hpp"
-#include "tb/user_cpu/station_config.hpp"
+#include "tb/chip/user_cpu/acyclic.hpp"
+#include "tb/chip/user_cpu/station_config.hpp"
 
 namespace dsdpv1::user_cpu {
 

@@ -1,4 +1,4 @@
-#include "tb/pins/pins.hpp"
+#include "tb/chip/pins/pins.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "tb/checks/recorder.hpp"
+#include "tb/chip/checks/recorder.hpp"
 
 #include <fmt/format.h>
 

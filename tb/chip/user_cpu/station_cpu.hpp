@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bus/timeline.hpp"
-#include "tb/user_cpu/others.hpp"
-#include "tb/user_cpu/program.hpp"
+#include "tb/chip/user_cpu/others.hpp"
+#include "tb/chip/user_cpu/program.hpp"
 
 namespace dsdpv1::user_cpu {
 

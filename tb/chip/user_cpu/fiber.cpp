@@ -1,4 +1,4 @@
-#include "tb/user_cpu/fiber.hpp"
+#include "tb/chip/user_cpu/fiber.hpp"
 
 #include <utility>
 

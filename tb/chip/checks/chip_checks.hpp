@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "bus/monitor/monitor.hpp"
-#include "tb/checks/recorder.hpp"
-#include "tb/pins/pins.hpp"
+#include "tb/chip/checks/recorder.hpp"
+#include "tb/chip/pins/pins.hpp"
 
 namespace dsdpv1::checks {
 

@@ -10,7 +10,7 @@
 #include "model/profibus/dp_state.hpp"
 #include "model/profibus/event.hpp"
 #include "model/profibus/rm_registry.hpp"
-#include "tb/pins/pins.hpp"
+#include "tb/chip/pins/pins.hpp"
 
 namespace dsdpv1::tb {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bus/time.hpp"
-#include "tb/pins/pins.hpp"
+#include "tb/chip/pins/pins.hpp"
 
 namespace dsdpv1::checks {
 

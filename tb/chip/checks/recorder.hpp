@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "tb/checks/check.hpp"
-#include "tb/checks/histogram.hpp"
-#include "tb/checks/pin_history.hpp"
+#include "tb/chip/checks/check.hpp"
+#include "tb/chip/checks/histogram.hpp"
+#include "tb/chip/checks/pin_history.hpp"
 
 namespace dsdpv1::checks {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What stands behind a chip's pins on the bench: the core, or RTL (tb/dsdpv1/cosim).
 #include "model/dsdpv1/chip.hpp"
-#include "tb/dsdpv1/user_cpu/host_pins.hpp"
+#include "tb/chip/host_pins.hpp"
 
 namespace dsdpv1::tb {
 

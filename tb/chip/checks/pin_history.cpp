@@ -1,4 +1,4 @@
-#include "tb/checks/pin_history.hpp"
+#include "tb/chip/checks/pin_history.hpp"
 
 #include <algorithm>
 
