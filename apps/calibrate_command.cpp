@@ -9,7 +9,7 @@
 #include "bus/capture/sample_clock.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
-#include "tb/dsdpv1/calibrate/calibration.hpp"
+#include "lab/calibrate/calibration.hpp"
 #include "tb/dsdpv1/cosim/pin_map.hpp"
 #include "tb/report/text_table.hpp"
 

@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "apps/interrupt.hpp"
-#include "tb/campaign/runner.hpp"
-#include "tb/campaign/slurm_runner.hpp"
+#include "lab/campaign/runner.hpp"
+#include "lab/campaign/slurm_runner.hpp"
 
 namespace dsdpv1::app {
 namespace {

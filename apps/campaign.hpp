@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/outputs.hpp"
-#include "tb/campaign/folder.hpp"
-#include "tb/campaign/jobs.hpp"
+#include "lab/campaign/folder.hpp"
+#include "lab/campaign/jobs.hpp"
 
 namespace dsdpv1::app {
 

@@ -12,8 +12,8 @@
 #include "apps/outputs.hpp"
 #include "io/input/input_error.hpp"
 #include "io/waves/wave_writer.hpp"
-#include "tb/compare/comparison.hpp"
-#include "tb/compare/report.hpp"
+#include "lab/compare/comparison.hpp"
+#include "lab/compare/report.hpp"
 #include "tb/dsdpv1/cosim/wave_pins.hpp"
 #include "tb/report/progress.hpp"
 

@@ -15,9 +15,9 @@
 #include "io/input/input_error.hpp"
 #include "io/output/output_file.hpp"
 #include "io/output/write_file.hpp"
-#include "tb/campaign/fingerprint.hpp"
-#include "tb/regress/page.hpp"
-#include "tb/regress/tables.hpp"
+#include "lab/campaign/fingerprint.hpp"
+#include "lab/regress/page.hpp"
+#include "lab/regress/tables.hpp"
 #include "tb/report/text_table.hpp"
 #include "tb/scenario/scenario.hpp"
 

@@ -3,7 +3,7 @@
 #include "apps/command_line.hpp"
 #include "apps/hand_over.hpp"
 #include "io/input/input_error.hpp"
-#include "tb/campaign/fingerprint.hpp"
+#include "lab/campaign/fingerprint.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::app {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tb/campaign/contents.hpp"
-#include "tb/campaign/jobs.hpp"
-#include "tb/regress/folder.hpp"
+#include "lab/campaign/contents.hpp"
+#include "lab/campaign/jobs.hpp"
+#include "lab/regress/folder.hpp"
 
 namespace dsdpv1::app {
 

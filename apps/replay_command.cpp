@@ -20,9 +20,9 @@
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
 #include "io/input/units.hpp"
+#include "lab/replay/replay.hpp"
+#include "lab/replay/report.hpp"
 #include "tb/dsdpv1/cosim/lockstep_execution.hpp"
-#include "tb/replay/replay.hpp"
-#include "tb/replay/report.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/result_json.hpp"
 

@@ -20,7 +20,7 @@
 #include "io/output/output_file.hpp"
 #include "io/output/write_file.hpp"
 #include "io/waves/wave_writer.hpp"
-#include "tb/campaign/lock.hpp"
+#include "lab/campaign/lock.hpp"
 #include "tb/dsdpv1/cosim/campaign.hpp"
 #include "tb/dsdpv1/cosim/campaign_record.hpp"
 #include "tb/dsdpv1/cosim/joined_wave.hpp"

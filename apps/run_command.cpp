@@ -19,6 +19,7 @@
 #include "bus/printable.hpp"
 #include "io/input/input_error.hpp"
 #include "io/output/output_file.hpp"
+#include "lab/traces/golden_run.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/dsdpv1/cosim/joined_wave.hpp"
 #include "tb/dsdpv1/cosim/lockstep_execution.hpp"
@@ -28,7 +29,6 @@
 #include "tb/report/result_json.hpp"
 #include "tb/report/run_junit.hpp"
 #include "tb/report/summary.hpp"
-#include "tb/traces/golden_run.hpp"
 
 namespace dsdpv1::app {
 namespace {

@@ -8,7 +8,7 @@
 #include "io/input/read_file.hpp"
 #include "io/input/units.hpp"
 #include "io/output/output_place.hpp"
-#include "tb/campaign/fingerprint.hpp"
+#include "lab/campaign/fingerprint.hpp"
 #include "tb/scenario/settings.hpp"
 
 namespace dsdpv1::app {

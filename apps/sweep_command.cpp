@@ -13,14 +13,14 @@
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "io/output/write_file.hpp"
-#include "tb/campaign/fingerprint.hpp"
+#include "lab/campaign/fingerprint.hpp"
+#include "lab/sweep/folder.hpp"
+#include "lab/sweep/heat_map.hpp"
+#include "lab/sweep/inputs.hpp"
+#include "lab/sweep/plan.hpp"
+#include "lab/sweep/point.hpp"
+#include "lab/sweep/table.hpp"
 #include "tb/scenario/scenario.hpp"
-#include "tb/sweep/folder.hpp"
-#include "tb/sweep/heat_map.hpp"
-#include "tb/sweep/inputs.hpp"
-#include "tb/sweep/plan.hpp"
-#include "tb/sweep/point.hpp"
-#include "tb/sweep/table.hpp"
 
 namespace dsdpv1::app {
 namespace {

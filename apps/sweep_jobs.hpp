@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "tb/campaign/jobs.hpp"
-#include "tb/sweep/folder.hpp"
-#include "tb/sweep/inputs.hpp"
-#include "tb/sweep/plan.hpp"
-#include "tb/sweep/point.hpp"
+#include "lab/campaign/jobs.hpp"
+#include "lab/sweep/folder.hpp"
+#include "lab/sweep/inputs.hpp"
+#include "lab/sweep/plan.hpp"
+#include "lab/sweep/point.hpp"
 
 namespace dsdpv1::app {
 

@@ -18,12 +18,12 @@
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "io/waves/wave_writer.hpp"
+#include "lab/traces/golden.hpp"
+#include "lab/traces/golden_check.hpp"
+#include "lab/traces/trace_wave.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/text_table.hpp"
-#include "tb/traces/golden.hpp"
-#include "tb/traces/golden_check.hpp"
-#include "tb/traces/trace_wave.hpp"
 
 namespace dsdpv1::app {
 namespace {

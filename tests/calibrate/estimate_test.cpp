@@ -1,5 +1,5 @@
 // One number out of many doubtful measurements.
-#include "tb/dsdpv1/calibrate/estimate.hpp"
+#include "lab/calibrate/estimate.hpp"
 
 #include <gtest/gtest.h>
 

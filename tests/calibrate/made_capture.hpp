@@ -2,7 +2,7 @@
 // A capture that nobody took: telegrams and pins of a station 5 as a test wants them, exact to a tenth of a cycle.
 #include <string>
 
-#include "tb/dsdpv1/calibrate/calibration.hpp"
+#include "lab/calibrate/calibration.hpp"
 
 namespace dsdpv1::calibrate_test {
 

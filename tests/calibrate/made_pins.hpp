@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "tb/dsdpv1/calibrate/calibration.hpp"
+#include "lab/calibrate/calibration.hpp"
 #include "tests/calibrate/made_capture.hpp"
 
 namespace dsdpv1::calibrate_test {

@@ -1,5 +1,5 @@
 // Jobs in child processes: how many at a time, tries, signals, time limits. The children are this program.
-#include "tb/campaign/runner.hpp"
+#include "lab/campaign/runner.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

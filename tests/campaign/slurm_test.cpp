@@ -1,5 +1,5 @@
 // Job arrays without a cluster: commands in its place say what a test wants. tests/slurm has a real one.
-#include "tb/campaign/slurm.hpp"
+#include "lab/campaign/slurm.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "io/input/input_error.hpp"
-#include "tb/campaign/fingerprint.hpp"
+#include "lab/campaign/fingerprint.hpp"
 
 namespace dsdpv1 {
 namespace {

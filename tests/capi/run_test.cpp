@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tb/traces/golden.hpp"
+#include "lab/traces/golden.hpp"
 #include "tests/capi/capi.hpp"
 
 namespace dsdpv1::capi_test {

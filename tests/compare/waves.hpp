@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include "tb/compare/comparison.hpp"
+#include "lab/compare/comparison.hpp"
 #include "tests/app/folder.hpp"
 
 namespace dsdpv1::compare_test {

@@ -1,5 +1,5 @@
 // From a run's end and its result to verdict and reason.
-#include "tb/regress/outcome.hpp"
+#include "lab/regress/outcome.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

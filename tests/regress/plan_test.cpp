@@ -1,5 +1,5 @@
 // From the command line to the runs: what is combined, left out, refused, and in which shard a run is.
-#include "tb/regress/plan.hpp"
+#include "lab/regress/plan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "tb/regress/page.hpp"
-#include "tb/regress/tables.hpp"
+#include "lab/regress/page.hpp"
+#include "lab/regress/tables.hpp"
 
 namespace dsdpv1 {
 namespace {

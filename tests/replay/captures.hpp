@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bus/baud.hpp"
-#include "tb/replay/recording.hpp"
+#include "lab/replay/recording.hpp"
 
 namespace dsdpv1::replay_test {
 

@@ -1,5 +1,5 @@
 // What a capture shows of the slave's user CPU.
-#include "tb/replay/firmware.hpp"
+#include "lab/replay/firmware.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // What min_TSDR a recorded slave may have.
-#include "tb/replay/min_tsdr.hpp"
+#include "lab/replay/min_tsdr.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tb/replay/services.hpp"
+#include "lab/replay/services.hpp"
 #include "tests/replay/captures.hpp"
 
 namespace dsdpv1 {

@@ -1,5 +1,5 @@
 // Who has sent which telegram of a capture.
-#include "tb/replay/recording.hpp"
+#include "lab/replay/recording.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What is on the line when a capture is played: everything but the slave's.
-#include "tb/replay/replayed_line.hpp"
+#include "lab/replay/replayed_line.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

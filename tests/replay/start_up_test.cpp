@@ -1,5 +1,5 @@
 // How the model is brought into the data exchange in which a capture begins.
-#include "tb/replay/start_up.hpp"
+#include "lab/replay/start_up.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "tb/traces/golden.hpp"
+#include "lab/traces/golden.hpp"
 
 namespace dsdpv1::state_test {
 namespace {

@@ -1,5 +1,5 @@
 // What a sweep keeps, when it goes on and when it starts again.
-#include "tb/sweep/folder.hpp"
+#include "lab/sweep/folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "io/input/input_error.hpp"
-#include "tb/campaign/fingerprint.hpp"
+#include "lab/campaign/fingerprint.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -1,5 +1,5 @@
 // The files that a sweep reads, looked at again for each point.
-#include "tb/sweep/inputs.hpp"
+#include "lab/sweep/inputs.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "io/input/input_error.hpp"
-#include "tb/campaign/fingerprint.hpp"
+#include "lab/campaign/fingerprint.hpp"
 
 namespace dsdpv1 {
 namespace {

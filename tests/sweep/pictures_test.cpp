@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tb/sweep/heat_map.hpp"
+#include "lab/sweep/heat_map.hpp"
 
 namespace dsdpv1 {
 namespace {

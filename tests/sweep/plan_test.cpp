@@ -1,5 +1,5 @@
 // From --param to the points of a plan.
-#include "tb/sweep/plan.hpp"
+#include "lab/sweep/plan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

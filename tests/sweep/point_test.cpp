@@ -1,10 +1,10 @@
 // What is taken from a run's result file, and what the tables make of it.
-#include "tb/sweep/point.hpp"
+#include "lab/sweep/point.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tb/sweep/table.hpp"
+#include "lab/sweep/table.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -5,8 +5,8 @@
 #include <map>
 #include <memory>
 
+#include "lab/traces/golden.hpp"
 #include "model/systemc/rsu_pins.hpp"
-#include "tb/traces/golden.hpp"
 #include "tests/systemc/bench.hpp"
 
 namespace dsdpv1 {

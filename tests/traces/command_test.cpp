@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tb/traces/golden.hpp"
-#include "tb/traces/xz.hpp"
+#include "lab/traces/golden.hpp"
+#include "lab/traces/xz.hpp"
 #include "tests/app/program.hpp"
 
 namespace dsdpv1 {

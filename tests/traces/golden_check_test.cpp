@@ -1,5 +1,5 @@
 // A run held against a golden made by hand: what counts as a difference, and which is the first.
-#include "tb/traces/golden_check.hpp"
+#include "lab/traces/golden_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

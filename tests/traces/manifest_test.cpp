@@ -1,4 +1,4 @@
-#include "tb/traces/manifest.hpp"
+#include "lab/traces/manifest.hpp"
 
 #include <gtest/gtest.h>
 

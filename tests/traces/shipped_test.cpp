@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lab/traces/golden.hpp"
 #include "tb/scenario/scenario.hpp"
-#include "tb/traces/golden.hpp"
 #include "tests/app/program.hpp"
 
 namespace dsdpv1 {

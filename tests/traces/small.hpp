@@ -3,8 +3,8 @@
 #include <initializer_list>
 #include <memory>
 
+#include "lab/traces/trace.hpp"
 #include "tb/scenario/scenario.hpp"
-#include "tb/traces/trace.hpp"
 
 namespace dsdpv1::traces_test {
 

@@ -1,4 +1,4 @@
-#include "tb/traces/xz.hpp"
+#include "lab/traces/xz.hpp"
 
 #include <gtest/gtest.h>
 

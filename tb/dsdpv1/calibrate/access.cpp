@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tb/dsdpv1/calibrate/found.hpp"
+#include "lab/calibrate/found.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {

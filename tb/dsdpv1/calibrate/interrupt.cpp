@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "lab/calibrate/found.hpp"
 #include "model/dsdpv1/chip.hpp"
-#include "tb/dsdpv1/calibrate/found.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {

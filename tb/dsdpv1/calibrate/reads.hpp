@@ -1,6 +1,6 @@
 #pragma once
 // Which of the user's reads say something of the chip.
-#include "tb/dsdpv1/calibrate/scene.hpp"
+#include "lab/calibrate/scene.hpp"
 
 namespace dsdpv1::calibrate {
 

@@ -1,7 +1,7 @@
 // D1: when B004 is written.
 #include <algorithm>
 
-#include "tb/dsdpv1/calibrate/found.hpp"
+#include "lab/calibrate/found.hpp"
 #include "tb/dsdpv1/calibrate/reads.hpp"
 
 namespace dsdpv1::calibrate {

@@ -1,5 +1,5 @@
 // P9, P10: what RESET does.
-#include "tb/dsdpv1/calibrate/found.hpp"
+#include "lab/calibrate/found.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "io/keys/keys.hpp"
-#include "tb/dsdpv1/calibrate/found.hpp"
+#include "lab/calibrate/found.hpp"
 
 namespace dsdpv1::calibrate {
 

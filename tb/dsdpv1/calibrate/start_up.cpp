@@ -1,7 +1,7 @@
 // Start-up accesses (H6), and with them the resets of a capture without RESET.
 #include <algorithm>
 
-#include "tb/dsdpv1/calibrate/scene.hpp"
+#include "lab/calibrate/scene.hpp"
 
 namespace dsdpv1::calibrate {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "lab/calibrate/found.hpp"
 #include "registers/dsdpv1_regs.hpp"
-#include "tb/dsdpv1/calibrate/found.hpp"
 #include "tb/dsdpv1/calibrate/reads.hpp"
 
 namespace dsdpv1::calibrate {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "tb/compare/options.hpp"
-#include "tb/compare/surroundings.hpp"
+#include "lab/compare/options.hpp"
+#include "lab/compare/surroundings.hpp"
 #include "tb/dsdpv1/cosim/access_watch.hpp"
 #include "tb/dsdpv1/cosim/line_history.hpp"
 #include "tb/dsdpv1/cosim/pin_map.hpp"

@@ -1,0 +1,90 @@
+#pragma once
+// A capture as all measurements see it: its wires, its time, and what they add up to.
+#include <optional>
+#include <vector>
+
+#include "lab/calibrate/line.hpp"
+
+namespace dsdpv1::calibrate {
+
+/// A request, and the chip's answer to it.
+struct Exchange {
+  const LineTelegram* request = nullptr;
+  const LineTelegram* answer = nullptr;  ///< nullptr: none
+  std::optional<Span> idle = {};         ///< bit times of silence on PBRXD and PBTXD before it; nothing: not known
+  bool repeats = false;                  ///< the chip may answer it from memory (S26)
+  bool same = false;                     ///< repeats, and what was answered before it was read: the same frame
+
+  /// A right request to the station alone: data exchanges and other SRD, FDL status, SDN ...
+  bool is_request() const {
+    return request->right && request->telegram.is_request() && request->telegram.da != bus::kBroadcast;
+  }
+  /// SRD to this SAP; nothing: to the default SAP.
+  bool is_srd(std::optional<std::uint8_t> dsap) const;
+  /// A right answer of this kind.
+  bool acknowledged() const;
+  bool refused(std::uint8_t fc) const;
+  /// A data exchange that was carried out.
+  bool exchanged() const;
+};
+
+/// L_REQ high.
+struct ChipAccess {
+  Tick start = 0, end = 0;
+  bool whole = false;     ///< its beginning and end are both in the capture
+  bool start_up = false;  ///< by find_resets
+};
+
+constexpr double kEmptyAccess = 7;       ///< cycles of one that finds nothing to do: micro-architecture, 9.1
+constexpr double kStartUpAccess = 2054;  ///< cycles: micro-architecture, 9.7
+/// Cycles with the one behind it, which writes B012, and the gap between them.
+constexpr double kStartUpWithNext = kStartUpAccess + 1 + kEmptyAccess + 1;
+
+/// Of a capture without RESET: the chip was in reset some time from `from` to before `to`.
+struct Reset {
+  Tick from = 0, to = 0;
+};
+
+/// A byte that the user read or wrote.
+struct UserAccess {
+  Tick start = 0;  ///< the later of CSR and RD (WR) falls
+  Tick end = 0;    ///< of a read the earlier of them rises, of a write WR
+  bool write = false;
+  std::uint32_t address = 0;
+  std::uint8_t data = 0;
+};
+
+struct Scene {
+  const Record& record;
+  TimeBase time;
+  std::optional<int> station = {};  ///< its address, when it was said
+
+  std::vector<LineTelegram> received = {};        ///< on PBRXD, without the chip's own
+  std::vector<LineTelegram> sent = {};            ///< on PBTXD
+  std::vector<Exchange> exchanges = {};           ///< requests to the chip, answered or not
+  std::vector<const LineTelegram*> unasked = {};  ///< sent without a request before them
+  std::vector<ChipAccess> accesses = {};
+  std::vector<UserAccess> user = {};
+  std::vector<Reset> resets = {};  ///< where RESET is not in the capture; by find_resets
+
+  /// Whether the user's request pins are low, as far as they are seen, from `from` to `to`.
+  bool user_lets(Tick from, Tick to) const;
+  /// Whether both of them are in the capture.
+  bool sees_user() const { return record.sees({Wire::kRReq, Wire::kRSta}); }
+  /// The shortest accesses of the chip may lie between two samples.
+  bool may_miss_accesses() const { return time.doubt() >= kEmptyAccess; }
+  /// RESET was low between them, or may have been by what shows it otherwise.
+  bool in_reset(Tick from, Tick to) const;
+  /// There may have been a reset that no pin shows: RESET, READY and L_REQ are not in the capture, and neither BR nor
+  /// PBF is as it only is in the operation.
+  bool may_hide_reset(Tick from, Tick to) const;
+  /// The first one after a reset (H6).
+  bool is_start_up(const ChipAccess& access) const { return access.start_up; }
+};
+
+/// Reads the telegrams and accesses out of the record.
+void fill(Scene& scene);
+/// Finds the start-up accesses, and resets in a capture without RESET. Needs the scale of time.
+void find_resets(Scene& scene);
+
+}  // namespace dsdpv1::calibrate

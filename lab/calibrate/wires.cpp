@@ -1,0 +1,202 @@
+#include "lab/calibrate/wires.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "bus/capture/captured_telegram.hpp"
+#include "io/input/suggest.hpp"
+
+namespace dsdpv1::calibrate {
+namespace {
+
+using bus::capture::CaptureError;
+
+constexpr std::array<const char*, static_cast<std::size_t>(Wire::kA)> kPins = {
+    "RESET", "R_REQ", "R_STA", "CSR",   "RD",  "WR", "PBRXD", "L_REQ",
+    "L_STA", "INTR0", "PBTXD", "PBRTS", "PBF", "BR", "READY"};
+
+Wire wire_at(std::size_t place) { return static_cast<Wire>(place); }
+std::size_t place_of(Wire wire) { return static_cast<std::size_t>(wire); }
+bool is_address(Wire wire) { return wire >= Wire::kA && wire < Wire::kD; }
+bool is_data(Wire wire) { return wire >= Wire::kD; }
+std::size_t bit_of(Wire wire) { return place_of(wire) - place_of(is_data(wire) ? Wire::kD : Wire::kA); }
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string leaf(const std::string& signal) { return lower(signal.substr(signal.rfind('.') + 1)); }
+
+bool in_scope(const std::string& signal, const std::string& scope) {
+  return scope.empty() || signal.compare(0, scope.size() + 1, scope + ".") == 0;
+}
+
+/// How a signal may be called: "l_sta", as rtl_ref has it "l_sta_o", bits "a3", "a[3]", "a_i[3]".
+std::vector<std::string> spellings(Wire wire) {
+  if (!is_address(wire) && !is_data(wire)) {
+    const std::string pin = lower(name(wire));
+    return {pin, pin + "_i", pin + "_o"};
+  }
+  const std::string bus = is_data(wire) ? "d" : "a", bit = std::to_string(bit_of(wire));
+  return {bus + bit, bus + "[" + bit + "]", bus + "_i[" + bit + "]"};
+}
+
+std::vector<std::string> first_of(std::vector<std::string> names) {
+  constexpr std::size_t kMost = 20;
+  if (names.size() > kMost) names.resize(kMost);
+  return names;
+}
+
+}  // namespace
+
+std::string name(Wire wire) {
+  if (is_data(wire)) return "D" + std::to_string(bit_of(wire));
+  if (is_address(wire)) return "A" + std::to_string(bit_of(wire));
+  return kPins.at(place_of(wire));
+}
+
+std::size_t Trace::count_until(Tick at) const {
+  return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), at) - edges.begin());
+}
+
+bool Trace::low(Tick from, Tick to) const {
+  const std::size_t count = count_until(from);
+  return seen && !level(count) && count == count_until(to);
+}
+
+bool Trace::high(Tick from, Tick to) const {
+  const std::size_t count = count_until(from);
+  return seen && level(count) && count == count_until(to);
+}
+
+std::size_t Trace::next(Tick from, bool to_level) const {
+  auto edge = static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), from) - edges.begin());
+  if (level(edge + 1) != to_level) ++edge;
+  return edge < edges.size() ? edge : kNone;
+}
+
+std::size_t Trace::last(Tick until, bool to_level) const {
+  std::size_t count = count_until(until);
+  if (count > 0 && level(count) != to_level) --count;
+  return count == 0 ? kNone : count - 1;
+}
+
+bool Record::sees(const std::vector<Wire>& wires) const {
+  return std::all_of(
+      wires.begin(), wires.end(), [this](Wire wire) { return sees(wire); });
+}
+
+bool Record::sees_accesses() const {
+  for (std::size_t place = place_of(Wire::kA); place < kWireCount; ++place)
+    if (!traces[place].seen) return false;
+  return sees({Wire::kCsr, Wire::kRd, Wire::kWr});
+}
+
+std::uint32_t Record::number(Wire first, std::size_t count, Tick at) const {
+  std::uint32_t value = 0;
+  for (std::size_t bit = 0; bit < count; ++bit) value |= (traces.at(place_of(first) + bit).at(at) ? 1U : 0U) << bit;
+  return value;
+}
+
+std::vector<std::size_t> RecordTaker::choose(const std::vector<std::string>& signals) {
+  for (std::size_t place = 0; place < kWireCount; ++place) look_for(wire_at(place), signals);
+  leave_out_lone_data();
+  if (chosen_.empty())
+    throw CaptureError("shows no pin of the chip, its signals are " + tb::join(first_of(signals)) +
+                       "; allowed are the names of table 1, or --signal PIN=NAME");
+  return places_;
+}
+
+void RecordTaker::look_for(Wire wire, const std::vector<std::string>& signals) {
+  const bool bus = is_address(wire) || is_data(wire);
+  std::size_t found = Trace::kNone;
+  bool inverted = false;
+  const auto single = names_.given.find(name(wire));
+  const auto vector = names_.given.find(is_data(wire) ? "D" : "A");
+  if (single != names_.given.end()) {
+    found = given_place(wire, single->second, "", signals);
+    inverted = single->second.inverted;
+  } else if (bus && vector != names_.given.end()) {
+    found = given_place(wire, vector->second, "[" + std::to_string(bit_of(wire)) + "]", signals);
+    inverted = vector->second.inverted;
+  } else if (!names_.only_given) {
+    found = named_place(wire, signals);
+  }
+  if (found == Trace::kNone) return;
+  places_.push_back(found);
+  chosen_.push_back({wire, inverted});
+  record_.traces.at(place_of(wire)).seen = true;
+  record_.names.at(place_of(wire)) = signals[found];
+}
+
+std::size_t RecordTaker::given_place(Wire wire, const Names::Given& given, const std::string& suffix,
+                                     const std::vector<std::string>& signals) const {
+  const std::string wanted = given.signal + suffix;
+  std::size_t found = Trace::kNone;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const std::string& signal = signals[i];
+    const bool end = signal.size() > wanted.size() &&
+                     signal.compare(signal.size() - wanted.size() - 1, std::string::npos, "." + wanted) == 0;
+    if (signal == wanted) return i;
+    if (!end || !in_scope(signal, names_.scope)) continue;
+    if (found != Trace::kNone)
+      throw CaptureError(
+          fmt::format("{} for {} means {} and {}, allowed is one of them", wanted, name(wire), signals[found], signal));
+    found = i;
+  }
+  if (found == Trace::kNone)
+    throw CaptureError(fmt::format("has no signal {} for {}{}, allowed are {}", wanted, name(wire),
+                                   tb::did_you_mean(wanted, signals), tb::join(first_of(signals))));
+  return found;
+}
+
+std::size_t RecordTaker::named_place(Wire wire, const std::vector<std::string>& signals) const {
+  const std::vector<std::string> allowed = spellings(wire);
+  std::size_t found = Trace::kNone;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const bool right = std::find(allowed.begin(), allowed.end(), leaf(signals[i])) != allowed.end();
+    if (!right || !in_scope(signals[i], names_.scope)) continue;
+    if (found != Trace::kNone)
+      throw CaptureError(fmt::format("has {} twice, as {} and {}, allowed is one: --scope or --signal {}=NAME",
+                                     name(wire), signals[found], signals[i], name(wire)));
+    found = i;
+  }
+  return found;
+}
+
+/// D0 to D7 are also what logic analysers call their channels.
+void RecordTaker::leave_out_lone_data() {
+  if (record_.sees(Wire::kCsr) || record_.sees(Wire::kRd) || record_.sees(Wire::kWr) || record_.sees(Wire::kA)) return;
+  for (std::size_t i = chosen_.size(); i-- > 0;) {
+    const Wire wire = chosen_[i].wire;
+    if (!is_data(wire) || names_.given.count(name(wire)) != 0 || names_.given.count("D") != 0) continue;
+    record_.traces.at(place_of(wire)).seen = false;
+    chosen_.erase(chosen_.begin() + static_cast<std::ptrdiff_t>(i));
+    places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+void RecordTaker::level(Tick at, std::size_t which, bool level) {
+  const Chosen& chosen = chosen_[which];
+  Trace& trace = record_.traces.at(place_of(chosen.wire));
+  const bool now = level != chosen.inverted;
+  bool& begun = begun_.at(place_of(chosen.wire));
+  if (!begun) {
+    trace.first = now;
+    begun = true;
+    return;
+  }
+  if (trace.level(trace.edges.size()) == now) return;
+  if (!trace.edges.empty() && trace.edges.back() == at) {
+    trace.edges.pop_back();  // back at once: nothing to be seen
+    return;
+  }
+  trace.edges.push_back(at);
+  if (++changes_ > kMostChanges)
+    throw CaptureError(fmt::format("has more than {} million changes, allowed are so many", kMostChanges / 1'000'000));
+}
+
+}  // namespace dsdpv1::calibrate

@@ -1,0 +1,46 @@
+#pragma once
+// What a comparison has found.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lab/compare/surroundings.hpp"
+
+namespace dsdpv1::tb::compare {
+
+struct Difference {
+  Time at = 0;
+  std::string a, b;  ///< values, for people
+};
+
+struct SignalResult {
+  std::string name;            ///< A's
+  std::uint64_t compared = 0;  ///< values that were held against each other
+  std::uint64_t differences = 0;
+  std::optional<Difference> first;
+};
+
+struct FileResult {
+  std::string path;
+  std::size_t signals = 0;
+  Time begin = 0, end = 0;  ///< of the times that were read
+  bool ended = false;       ///< to its end
+};
+
+struct Result {
+  Scale scale{-15};
+  FileResult a, b;
+  Time from = 0, to = 0;  ///< compared
+  Time tolerance = 0;
+  std::optional<Time> wanted;  ///< --to
+  std::vector<SignalResult> signals;
+  std::vector<std::string> only_a, only_b;
+  std::optional<std::size_t> first;  ///< the signal that differed first
+  std::vector<Line> surroundings;    ///< of it
+
+  /// A file that ends before what was asked for is no equal one.
+  bool short_of_end() const { return wanted && to < *wanted; }
+  bool equal() const { return !first && !short_of_end(); }
+};
+
+}  // namespace dsdpv1::tb::compare

@@ -1,0 +1,78 @@
+#pragma once
+// One of the two waves while it is gone through: the present values of the signals that somebody looks at.
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/waves/wave_reader.hpp"
+#include "lab/compare/nets.hpp"
+#include "lab/compare/pairs.hpp"
+#include "lab/compare/touched.hpp"
+
+namespace dsdpv1::tb::compare {
+
+/// A source as the side that it belongs to reads it: places of its values.
+struct Probe {
+  std::vector<std::uint32_t> pieces, driven, released;
+  std::uint32_t width = 1;
+  bool inverted = false, driven_low = false;
+};
+
+class Side {
+ public:
+  /// Throws InputError, as everything here that reads.
+  Side(const std::string& path, const std::string& scope);
+
+  const std::string& path() const { return path_; }
+  const std::string& scope() const { return scope_; }
+  const Nets& nets() const { return nets_; }
+  int exponent() const { return reader_->declarations().exponent; }
+
+  // Before `start`.
+  /// Each change of the source adds `which` to `list`.
+  Probe watch(const Source& source, Touched& list, std::uint32_t which);
+  /// Reads up to the first event. Times are those of `scale`, `shift` later than in the file.
+  void start(const Scale& scale, Time shift);
+
+  /// The next event's; nullopt at the end of the file.
+  std::optional<Time> next() const { return have_ ? std::optional(next_) : std::nullopt; }
+  /// All events up to and including `to`.
+  void advance(Time to) {
+    while (have_ && next_ <= to) take();
+  }
+  /// Until the next call.
+  std::string_view value(const Probe& probe);
+  /// Whether the simulator records nothing ($dumpoff).
+  bool off() const { return off_; }
+
+  Time begin() const { return at(reader_->begin()); }
+  Time end() const { return at(reader_->end()); }  ///< of what was read
+  double share() const { return reader_->share(); }
+
+ private:
+  struct User {
+    Touched* list;
+    std::uint32_t which;
+  };
+  std::vector<std::uint32_t> places(const Net& net, Touched& list, std::uint32_t which);
+  void take();
+  void fetch();
+  Time at(std::uint64_t time) const;
+  void put_together(const std::vector<std::uint32_t>& pieces);
+
+  std::string path_, scope_;
+  std::unique_ptr<WaveReader> reader_;
+  Nets nets_;
+  std::vector<std::uint32_t> place_;  ///< by signal of the file; kNone: nobody looks at it
+  std::vector<std::string> values_;   ///< by place
+  std::vector<std::vector<User>> users_;
+  std::string scratch_;
+  Scale scale_{-15};
+  Time shift_ = 0, next_ = 0;
+  WaveEvent event_;
+  bool have_ = false, off_ = false;
+};
+
+}  // namespace dsdpv1::tb::compare

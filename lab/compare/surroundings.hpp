@@ -1,0 +1,31 @@
+#pragma once
+// What happened at the pins of a chip up to a difference: on its line, at its memory. Which pins these are, and what
+// they mean, is the business of the chip's kind.
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lab/compare/scale.hpp"
+
+namespace dsdpv1::tb::compare {
+
+/// A heading and what it is about, for a line of the report.
+using Line = std::pair<std::string, std::string>;
+
+class Surroundings {
+ public:
+  virtual ~Surroundings() = default;
+  /// Names of the pins that it looks at.
+  virtual const std::vector<std::string>& pins() const = 0;
+  /// A pin (its place in `pins`) has a new value, bits as WaveEvent has them; in order of time.
+  virtual void change(bus::Tick at, std::size_t pin, std::string_view value) = 0;
+  /// What there is to say up to `now`, which is not before the last change.
+  virtual std::vector<Line> lines(bus::Tick now) const = 0;
+};
+
+using MakeSurroundings = std::function<std::unique_ptr<Surroundings>()>;
+
+}  // namespace dsdpv1::tb::compare

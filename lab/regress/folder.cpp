@@ -1,0 +1,171 @@
+#include "lab/regress/folder.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <system_error>
+
+#include "io/input/input_error.hpp"
+#include "io/output/part_file.hpp"
+#include "lab/campaign/fingerprint.hpp"
+
+namespace dsdpv1::tb::regress {
+namespace {
+
+namespace fs = std::filesystem;
+using campaign::Ended;
+using campaign::Json;
+
+constexpr const char* kLog = "run.log";
+constexpr const char* kResult = "result.json";
+
+bool is_result(const std::string& name) { return name == "index.html"; }
+
+/// Each run has its own key, so nothing of another regression is in the way.
+std::string difference(const Json& /*before*/, const Json& /*now*/) { return ""; }
+
+/// What the system refuses in the folder is an error of one line.
+template <typename Action>
+auto in_folder(const campaign::Folder& folder, const Action& action) {
+  try {
+    return action();
+  } catch (const fs::filesystem_error& error) {
+    throw InputError(error.path1().empty() ? folder.path().string() : error.path1().string(), 0,
+                     "cannot be written: " + error.code().message());
+  }
+}
+
+/// A run that was killed has left temporary names: its log gets its own, a wave can be recovered, what is empty goes.
+void tidy_up(const fs::path& place) {
+  if (!fs::is_directory(place)) return;
+  std::vector<fs::path> parts;
+  for (const auto& entry : fs::directory_iterator(place))
+    if (entry.path().extension() == PartFile::kEnding) parts.push_back(entry.path());
+  for (const fs::path& part : parts)
+    if (fs::file_size(part) == 0)
+      fs::remove(part);
+    else if (part.filename().string().rfind(kLog, 0) == 0)
+      fs::rename(part, place / kLog);
+}
+
+/// The last lines of a file, some 2 KB.
+std::string end_of(const fs::path& file) {
+  constexpr std::streamoff kMost = 2048;
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : 0;
+  in.seekg(std::max<std::streamoff>(0, size - kMost));
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  return size > kMost ? text.substr(std::min(text.find('\n'), text.size() - 1) + 1) : text;
+}
+
+}  // namespace
+
+const campaign::Kind& kind() {
+  static const campaign::Kind kind{"regression", "runs", is_result};
+  return kind;
+}
+
+const std::vector<std::string>& keep_words() {
+  static const std::vector<std::string> words = {"none", "failed", "all"};
+  return words;
+}
+
+std::optional<Keep> keep_named(const std::string& word) {
+  const auto found = std::find(keep_words().begin(), keep_words().end(), word);
+  if (found == keep_words().end()) return std::nullopt;
+  return static_cast<Keep>(found - keep_words().begin());
+}
+
+Json json_of(const Description& description) {
+  Json json = {{"format", kind().format()},    {"checks", description.checks},
+               {"wave", description.wave},     {"keep", keep_words().at(static_cast<std::size_t>(description.keep))},
+               {"report", description.report}, {"left_out", description.plan.left_out},
+               {"runs", Json::array()}};
+  for (const Run& run : description.plan.runs) json["runs"].push_back(json_of(run));
+  return campaign::as_kept(json);
+}
+
+Description last_description(const std::string& folder) {
+  const Json json = campaign::description_of(folder, kind());
+  try {
+    Description description;
+    description.checks = json.at("checks");
+    description.wave = json.at("wave");
+    description.keep = keep_named(json.at("keep")).value_or(Keep::kFailed);
+    description.report = json.value("report", false);  // not in folders of earlier versions
+    description.plan.left_out = json.at("left_out");
+    for (const Json& each : json.at("runs")) description.plan.runs.push_back(run_of(each));
+    return description;
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(folder, 0, "holds no regression, allowed with --failed is the folder of the last one");
+  }
+}
+
+Folder::Folder(const std::string& path, const Description& description, campaign::Folder::Access access)
+    : description_(description), folder_(path, kind(), json_of(description), difference, access) {}
+
+/// With the id of this process: a run of an owner before that has not died yet writes into a place of its own.
+std::string Folder::place(const Run& run) const {
+  return folder_.item_file(fmt::format("{}.{}.run", run.file_name(), getpid()));
+}
+
+std::vector<std::string> Folder::words(const Run& run) const {
+  const fs::path files = place(run);
+  in_folder(folder_, [&files] { return fs::create_directories(files); });
+  std::vector<std::string> words = run.words();
+  words.insert(words.end(), {"--quiet", "--no-progress", "--result", files / kResult, "--log", files / kLog});
+  if (!description_.checks.empty()) words.insert(words.end(), {"--checks", description_.checks});
+  if (!description_.wave.empty()) words.insert(words.end(), {"--wave", files / ("wave." + description_.wave)});
+  if (description_.report) words.insert(words.end(), {"--report", files / "report.html"});
+  if (run.engine == "lockstep") words.insert(words.end(), {"--difference", files / "difference.vcd"});
+  return words;
+}
+
+std::optional<Outcome> Folder::finished(const Run& run, const std::string& key) const {
+  const Json kept = folder_.kept(run.file_name());
+  try {
+    if (kept.is_null() || kept.at("run") != campaign::as_kept(json_of(run))) return std::nullopt;
+    if (!key.empty() && kept.at("key") != key) return std::nullopt;
+    return outcome_of(kept.at("outcome"));
+  } catch (const nlohmann::json::exception&) {  // not of this form
+    return std::nullopt;
+  }
+}
+
+Outcome Folder::finish(const Run& run, const std::string& key, const Ended& ended) const {
+  const fs::path files = place(run);
+  in_folder(folder_, [&files] { tidy_up(files); });
+  Outcome outcome = outcome_of(ended, campaign::read_json((files / kResult).string()));
+  if (!outcome.passed()) outcome.log = end_of(files / kLog);
+  in_folder(folder_, [&] { keep_files(run, outcome); });
+  const Json kept = folder_.keep(run.file_name(), {{"key", key}, {"run", json_of(run)}, {"outcome", json_of(outcome)}});
+  return outcome_of(kept.at("outcome"));
+}
+
+void Folder::keep_files(const Run& run, Outcome& outcome) const {
+  const fs::path files = place(run), kept = folder_.item_file(run.file_name());
+  fs::remove_all(kept);
+  const bool wanted = description_.keep == Keep::kAll || (description_.keep == Keep::kFailed && !outcome.passed());
+  if (!wanted || !fs::is_directory(files) || fs::is_empty(files)) return forget(run);
+  fs::rename(files, kept);
+  for (const auto& entry : fs::directory_iterator(kept)) outcome.files.push_back(entry.path().filename());
+  std::sort(outcome.files.begin(), outcome.files.end());
+}
+
+void Folder::forget(const Run& run) const {
+  std::error_code ignored;  // the next owner of the folder removes it
+  fs::remove_all(place(run), ignored);
+}
+
+void Folder::remove(const Run& run) const {
+  in_folder(
+      folder_,
+      [&] {
+        fs::remove_all(folder_.item_file(run.file_name()));
+        fs::remove(folder_.item_file(run.file_name() + ".json"));
+      });
+}
+
+}  // namespace dsdpv1::tb::regress

@@ -1,0 +1,103 @@
+#include "lab/regress/outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+
+#include "lab/campaign/jobs.hpp"
+#include "lab/sweep/point.hpp"
+
+namespace dsdpv1::tb::regress {
+namespace {
+
+using campaign::Ended;
+using campaign::Json;
+
+constexpr std::array<const char*, 5> kNames = {"passed", "failed", "refused", "crashed", "hung"};
+constexpr int kPassedExit = 0, kWrongInput = 2;
+
+Verdict verdict_of(const Ended& ended) {
+  if (ended.too_long) return Verdict::kHung;
+  if (ended.exit > campaign::kSignalled) return Verdict::kCrashed;
+  if (ended.exit == kPassedExit) return Verdict::kPassed;
+  return ended.exit == kWrongInput ? Verdict::kRefused : Verdict::kFailed;
+}
+
+std::string first_unmet(const Json& result) {
+  for (const Json& each : result.at("expectations"))
+    if (each.at("passed") == false)
+      return fmt::format("not met: {}; seen: {}", each.at("text").get<std::string>(),
+                         each.at("seen").get<std::string>());
+  return "";
+}
+
+/// Of a run that failed. A lockstep run whose scenario has passed says on its output where the two sides differ.
+std::string failure(const Ended& ended, const Json& result) {
+  try {
+    std::string unmet = first_unmet(result);
+    if (!unmet.empty()) return unmet;
+    const sweep::Point point = sweep::point_of(ended.exit, "", result);
+    if (result.at("passed") == false) return point.reason();
+  } catch (const nlohmann::json::exception&) {  // no result, or none of this form
+    return fate(ended);
+  }
+  return ended.output.substr(0, ended.output.find('\n'));
+}
+
+std::string reason_of(Verdict verdict, const Ended& ended, const Json& result) {
+  switch (verdict) {
+    case Verdict::kPassed: return "";
+    case Verdict::kHung: return fmt::format("still ran after {:.1f} s and was killed", ended.seconds);
+    case Verdict::kCrashed: {
+      const int signal = ended.exit - campaign::kSignalled;
+      const char* const abbreviation = sigabbrev_np(signal);
+      return fmt::format("killed by signal {} (SIG{})", signal, abbreviation != nullptr ? abbreviation : "?");
+    }
+    case Verdict::kRefused: return fate(ended);
+    case Verdict::kFailed: return failure(ended, result);
+  }
+  return "";
+}
+
+Verdict verdict_named(const std::string& text) {
+  for (std::size_t i = 0; i < kNames.size(); ++i)
+    if (text == kNames[i]) return static_cast<Verdict>(i);
+  throw nlohmann::json::other_error::create(0, "no verdict", static_cast<const Json*>(nullptr));
+}
+
+}  // namespace
+
+const char* name(Verdict verdict) { return kNames.at(static_cast<std::size_t>(verdict)); }
+
+Outcome outcome_of(const Ended& ended, const Json& result) {
+  Outcome outcome;
+  outcome.verdict = verdict_of(ended);
+  outcome.exit = ended.exit;
+  outcome.seconds = ended.seconds;
+  outcome.reason = reason_of(outcome.verdict, ended, result);
+  if (!outcome.passed()) outcome.output = ended.output;
+  return outcome;
+}
+
+Json json_of(const Outcome& outcome) {
+  return {{"verdict", name(outcome.verdict)},
+          {"exit", outcome.exit},
+          {"seconds", outcome.seconds},
+          {"reason", outcome.reason},
+          {"output", outcome.output},
+          {"log", outcome.log},
+          {"files", outcome.files}};
+}
+
+Outcome outcome_of(const Json& json) {
+  return {verdict_named(json.at("verdict")),
+          json.at("exit"),
+          json.at("seconds"),
+          json.at("reason"),
+          json.at("output"),
+          json.at("log"),
+          json.at("files").get<std::vector<std::string>>()};
+}
+
+}  // namespace dsdpv1::tb::regress

@@ -1,0 +1,41 @@
+#pragma once
+// What one run of a regression has come to.
+#include <string>
+#include <vector>
+
+#include "lab/campaign/children.hpp"
+#include "lab/campaign/folder.hpp"
+
+namespace dsdpv1::tb::regress {
+
+enum class Verdict : std::uint8_t {
+  kPassed,   ///< exit code 0
+  kFailed,   ///< a check or expectation failed, or RTL and model differ
+  kRefused,  ///< exit code 2: the scenario, a file of it or the settings are wrong
+  kCrashed,  ///< ended by a signal
+  kHung      ///< killed because its time was over
+};
+
+/// "passed", "failed", "refused", "crashed", "hung".
+const char* name(Verdict verdict);
+
+struct Outcome {
+  Verdict verdict = Verdict::kPassed;
+  int exit = 0;
+  double seconds = 0;
+  std::string reason;              ///< the first failing check or expectation in words; empty when it passed
+  std::string output;              ///< what a run that did not pass has written on its channels, the end of it
+  std::string log;                 ///< and the last lines of its log
+  std::vector<std::string> files;  ///< that were kept of it
+
+  bool passed() const { return verdict == Verdict::kPassed; }
+};
+
+/// `result` is the result file of the run, null when there is none.
+Outcome outcome_of(const campaign::Ended& ended, const campaign::Json& result);
+
+campaign::Json json_of(const Outcome& outcome);
+/// Throws nlohmann::json::exception when it is none.
+Outcome outcome_of(const campaign::Json& json);
+
+}  // namespace dsdpv1::tb::regress

@@ -1,0 +1,108 @@
+#include "lab/regress/tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bus/printable.hpp"
+#include "lab/campaign/fingerprint.hpp"
+#include "tb/report/junit.hpp"
+#include "tb/report/text_table.hpp"
+
+namespace dsdpv1::tb::regress {
+namespace {
+
+using campaign::Json;
+
+constexpr Verdict kOthers[] = {Verdict::kFailed, Verdict::kRefused, Verdict::kCrashed, Verdict::kHung};
+
+std::size_t count(const Report& report, Verdict verdict) {
+  const auto is = [verdict](const Outcome& outcome) { return outcome.verdict == verdict; };
+  return static_cast<std::size_t>(std::count_if(report.outcomes.begin(), report.outcomes.end(), is));
+}
+
+std::string tsv_line(const std::vector<std::string>& fields) {
+  std::string line;
+  for (const std::string& field : fields) line += (&field == &fields.front() ? "" : "\t") + bus::printable(field);
+  return line + "\n";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+std::string folder_of(const Run& run, const Outcome& outcome) {
+  return outcome.files.empty() ? "" : "runs/" + run.file_name();
+}
+
+Json json_of(const Run& run, const Outcome& outcome) {
+  Json json = regress::json_of(run);
+  json.update(regress::json_of(outcome));
+  json["folder"] = folder_of(run, outcome);
+  return json;
+}
+
+JunitCase case_of(const Run& run, const Outcome& outcome) {
+  JunitCase made{run.scenario, run.variant(), outcome.seconds, std::nullopt, outcome.log};
+  if (!outcome.passed())
+    made.failure = std::string(name(outcome.verdict)) + ": " + outcome.reason + "\n\n" + outcome.output;
+  return made;
+}
+
+}  // namespace
+
+bool Report::passed() const { return count(*this, Verdict::kPassed) == outcomes.size(); }
+
+std::string tsv(const Report& report) {
+  std::string text =
+      tsv_line({"verdict", "scenario", "engine", "view", "seed", "settings", "exit", "seconds", "reason", "folder"});
+  for (std::size_t i = 0; i < report.outcomes.size(); ++i) {
+    const Run& run = report.plan.runs[i];
+    const Outcome& outcome = report.outcomes[i];
+    text += tsv_line({name(outcome.verdict), run.scenario, run.engine, run.view, run.seed, joined(run.settings),
+                      fmt::format("{}", outcome.exit), fmt::format("{:.3f}", outcome.seconds), outcome.reason,
+                      folder_of(run, outcome)});
+  }
+  return text;
+}
+
+std::string table(const Report& report) {
+  TextTable table({"verdict", "scenario", "how", "seconds", "reason"});
+  for (std::size_t i = 0; i < report.outcomes.size(); ++i) {
+    const Run& run = report.plan.runs[i];
+    const Outcome& outcome = report.outcomes[i];
+    table.add(
+        {name(outcome.verdict), run.scenario, run.variant(), fmt::format("{:.3f}", outcome.seconds), outcome.reason});
+  }
+  return table.text();
+}
+
+std::string json(const Report& report) {
+  Json all = {{"passed", report.passed()}, {"left_out", report.plan.left_out}, {"counts", Json::object()}};
+  all["counts"][name(Verdict::kPassed)] = count(report, Verdict::kPassed);
+  for (const Verdict verdict : kOthers) all["counts"][name(verdict)] = count(report, verdict);
+  all["runs"] = Json::array();
+  for (std::size_t i = 0; i < report.outcomes.size(); ++i)
+    all["runs"].push_back(json_of(report.plan.runs[i], report.outcomes[i]));
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string junit(const Report& report) {
+  std::vector<JunitCase> cases;
+  for (std::size_t i = 0; i < report.outcomes.size(); ++i)
+    cases.push_back(case_of(report.plan.runs[i], report.outcomes[i]));
+  return tb::junit("dsdpv1-sim regress", cases);
+}
+
+std::string summary(const Report& report) {
+  std::string text = fmt::format("{} of {} runs passed", count(report, Verdict::kPassed), report.outcomes.size());
+  for (const Verdict verdict : kOthers)
+    if (const std::size_t many = count(report, verdict)) text += fmt::format(", {} {}", many, name(verdict));
+  if (report.plan.left_out != 0)
+    text += fmt::format("; {} combinations that cannot be are left out", report.plan.left_out);
+  return text;
+}
+
+}  // namespace dsdpv1::tb::regress

@@ -1,0 +1,30 @@
+#pragma once
+// A regression as text: for programs, for CI, in one line.
+#include <string>
+#include <vector>
+
+#include "lab/regress/outcome.hpp"
+#include "lab/regress/plan.hpp"
+
+namespace dsdpv1::tb::regress {
+
+/// The runs of a plan with what each has come to.
+struct Report {
+  Plan plan;
+  std::vector<Outcome> outcomes;  ///< of the runs, in their order
+
+  bool passed() const;
+};
+
+/// A line a run with a heading, its fields separated by tabs. Control characters in them are shown as escapes.
+std::string tsv(const Report& report);
+/// The same for people: what fits a terminal (tb/report/text_table.hpp).
+std::string table(const Report& report);
+/// One JSON object with counts and runs.
+std::string json(const Report& report);
+/// JUnit's XML: a suite a scenario.
+std::string junit(const Report& report);
+/// "57 of 60 runs passed, 2 failed, 1 crashed; 20 combinations that cannot be are left out".
+std::string summary(const Report& report);
+
+}  // namespace dsdpv1::tb::regress

@@ -1,0 +1,46 @@
+#pragma once
+// What the recorded slave's user CPU must have given its chip, as far as the capture shows it: initialisation data, and
+// inputs and diagnoses with the times from which on they were there.
+#include <optional>
+#include <vector>
+
+#include "lab/replay/recording.hpp"
+#include "tb/chip/user_cpu/program.hpp"
+#include "tb/scenario/scenario.hpp"
+
+namespace dsdpv1::tb::replay {
+
+/// Something that the user CPU gives to its chip.
+struct Supply {
+  Tick at = 0;  ///< of the capture: when the answer before the first one that shows it has ended
+  std::optional<user_cpu::DiagnosisKind> diagnosis = {};  ///< absent: inputs
+  bus::Bytes bytes = {};
+
+  user_cpu::Command command() const;
+};
+
+struct Firmware {
+  scenario::InitData init;
+  bus::Bytes inputs;  ///< the first ones
+  std::vector<scenario::Dpv1Object> objects;
+  std::vector<Supply> supplies;  ///< in order of time
+  Tick cycle = 0;                ///< of the user CPU's exchanges, quick enough for the supplies
+};
+
+Firmware firmware_of(const Recording& recording);
+
+/// The inputs that an answer to this request shows; null when it shows none.
+const bus::Bytes* inputs_of(const bus::Telegram& request, const RecordedTelegram* answer);
+
+/// Positions in Recording::requests.
+struct Beginning {
+  std::size_t first_answer = 0;  ///< the first request that the slave has answered
+  /// The first that the model can answer as the slave did: where the capture begins in the middle of a data exchange,
+  /// the first Set_Prm with a Chk_Cfg before data are exchanged again. As many as there are requests: none.
+  std::size_t comparable = 0;
+};
+Beginning beginning_of(const Recording& recording);
+/// Throws InputError when there is none.
+void check_comparable(const Recording& recording);
+
+}  // namespace dsdpv1::tb::replay

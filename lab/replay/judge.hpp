@@ -1,0 +1,59 @@
+#pragma once
+// Holds the model's answers against the recorded ones.
+#include <string>
+#include <vector>
+
+#include "lab/replay/firmware.hpp"
+#include "lab/replay/listener.hpp"
+#include "lab/replay/min_tsdr.hpp"
+#include "lab/replay/result.hpp"
+
+namespace dsdpv1::tb::replay {
+
+struct JudgeOptions {
+  TsdrRule tsdr;
+  std::optional<Tick> from = {};  ///< time of the capture
+  bool started = false;           ///< the model was brought into the data exchange in which the capture begins
+  bool supplied = true;           ///< the user CPU gives the recorded inputs and diagnoses
+};
+
+class Judge {
+ public:
+  /// All that is given must outlive it.
+  Judge(const Recording& recording, const Firmware& firmware, const JudgeOptions& options);
+  std::vector<RequestResult> judge(const Listener& listener);
+
+ private:
+  struct Supplied {
+    Tick inputs = 0, diagnosis = 0;  ///< when there were others for the last time, 0 never
+    bool any_inputs = false, any_diagnosis = false;
+    bus::Bytes before;  ///< the inputs that they replaced
+    bus::Bytes now;
+  };
+  RequestResult result_of(const RecordedRequest& request, const Heard* heard) const;
+  Verdict verdict(std::size_t index, RequestResult& result, const Heard* heard);
+  /// Before the slave could answer, or inside of its answer.
+  bool capture_ends_after(const RecordedRequest& request) const;
+  Verdict compare(RequestResult& result);
+  Verdict compare_bytes(RequestResult& result);
+  Verdict compare_tsdr(RequestResult& result) const;
+  bool user_was_late(const RequestResult& result) const;
+  bool is_users_dpv1(const RequestResult& result);
+  void follow_supplies(Tick until);
+  void follow_dpv1(const RequestResult& result);
+  std::string difference_words(const RequestResult& result) const;
+  double bits(Tick ticks) const;
+
+  const Recording& recording_;
+  const Firmware& firmware_;
+  const JudgeOptions& options_;
+  Beginning beginning_;
+  std::size_t next_supply_ = 0;
+  Supplied supplied_;
+  Tick request_end_ = 0;  ///< of the request that is judged
+  MinTsdr min_tsdr_;
+  std::optional<bool> dpv1_;
+  bool dpv1_out_of_step_ = false;
+};
+
+}  // namespace dsdpv1::tb::replay

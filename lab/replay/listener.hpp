@@ -1,0 +1,50 @@
+#pragma once
+// Hears the run of a replay: which telegrams are the model's, and to which request each belongs.
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "lab/replay/replayed_line.hpp"
+#include "lab/replay/result.hpp"
+#include "tb/bench/observer.hpp"
+
+namespace dsdpv1::tb::replay {
+
+/// What the model did with a telegram of the capture.
+struct Heard {
+  bool whole = false;     ///< it was on the line undisturbed
+  bool has_rate = false;  ///< the model had its baud rate at the telegram's end
+  std::optional<Answer> answer;
+};
+
+class Listener : public Observer {
+ public:
+  /// All that is given must outlive it.
+  Listener(const Recording& recording, const std::vector<PlacedTelegram>& placed);
+
+  void begins(std::size_t /*slave*/, const ChipView& chip) override { chip_ = &chip; }
+  void telegram(const HeardTelegram& heard) override;
+  /// From now on the capture is played, its times shifted by so much.
+  void begin(Tick shift) { shift_ = shift; }
+
+  bool model_has_rate() const { return chip_ != nullptr && chip_->status().baud.has_value(); }
+  /// By position in Recording::telegrams.
+  const Heard* of(std::size_t telegram) const;
+  /// What the model sent after something that asked nothing of it, or after it had answered.
+  const std::vector<Answer>& unasked() const { return unasked_; }
+
+ private:
+  void take_answer(const bus::WireTelegram& wire, Tick start, const PlacedTelegram& before);
+
+  const Recording& recording_;
+  const std::vector<PlacedTelegram>& placed_;
+  const ChipView* chip_ = nullptr;
+  std::optional<Tick> shift_;
+  std::vector<Heard> heard_;                     ///< by position in placed_
+  std::map<std::size_t, std::size_t> requests_;  ///< position in placed_ by that in Recording::telegrams
+  std::vector<bool> asks_;                       ///< by position in placed_: a request to the slave
+  std::vector<Answer> unasked_;
+};
+
+}  // namespace dsdpv1::tb::replay

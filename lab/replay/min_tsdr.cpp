@@ -1,0 +1,47 @@
+#include "lab/replay/min_tsdr.hpp"
+
+#include <algorithm>
+
+#include "lab/replay/services.hpp"
+
+namespace dsdpv1::tb::replay {
+namespace {
+
+constexpr std::size_t kHead = 7, kMinTsdrByte = 3;    // of Set_Prm
+constexpr std::uint8_t kLock = 0x80, kUnlock = 0x40;  // in its first byte, table 19
+
+}  // namespace
+
+void MinTsdr::take(const bus::Telegram& request, const RecordedTelegram* answer) {
+  if (is_service(request, bus::sap::kSetPrm)) return set_prm(request, answer);
+  const bus::Bytes* diagnosis = diagnosis_of(request, answer);
+  if (diagnosis != nullptr && ((*diagnosis)[1] & kPrmReq) != 0) possible_.insert(bus::kMinTsdrBits);  // it may be new
+  if (!asked_ || !exchanged(request, answer)) return;
+  possible_ = {*asked_};  // who exchanges data has accepted the last Set_Prm
+  asked_.reset();
+}
+
+/// SC does not say that it was accepted (S14), and a user judges later (S11): until data are exchanged the value before
+/// may be in force as well. RS (S12, S33), an Unlock (S17), a short one (S14) and 0 (S6) leave it.
+void MinTsdr::set_prm(const bus::Telegram& request, const RecordedTelegram* answer) {
+  const bool heard = answer != nullptr && answer->right();
+  if (heard && !acknowledged(answer)) return;
+  if (request.data.size() < kHead || (request.data[0] & kUnlock) != 0) return;
+  const std::uint8_t bits = request.data[kMinTsdrByte];
+  const bool parameterises = (request.data[0] & kLock) != 0;
+  if (bits == 0) {
+    if (parameterises) asked_.reset();
+    return;
+  }
+  const int value = within_limits(bits);
+  if (!parameterises && heard) possible_.clear();  // always accepted (S28)
+  if (asked_) possible_.insert(*asked_);
+  possible_.insert(value);
+  asked_ = parameterises && heard ? std::optional<int>(value) : std::nullopt;
+}
+
+int MinTsdr::within_limits(std::uint8_t bits) const {
+  return std::clamp<int>(bits, bus::kMinTsdrBits, bus::baud(baud_).max_tsdr_bits);
+}
+
+}  // namespace dsdpv1::tb::replay

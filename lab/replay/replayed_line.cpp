@@ -1,0 +1,117 @@
+#include "lab/replay/replayed_line.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "bus/baud.hpp"
+#include "bus/wire/uart.hpp"
+
+namespace dsdpv1::tb::replay {
+namespace {
+
+/// What the capture says of a damaged telegram; which of its characters were wrong it does not say.
+bus::WireFaults faults_of(const RecordedTelegram& telegram) {
+  bus::WireFaults faults;
+  if ((telegram.damage & bus::capture::damage::kCharacter) != 0) faults.wrong_parity_at = telegram.bytes.size() - 1;
+  return faults;
+}
+
+class TelegramLine : public ReplayedLine, private bus::Listener {
+ public:
+  TelegramLine(bus::Segment& segment, const Recording& recording, const std::vector<PlacedTelegram>& placed)
+      : recording_(recording), placed_(placed), sender_(segment, segment.attach("recording", this)) {
+    sender_.set_timing(bus::baud(recording.baud).bit);
+  }
+
+  Tick next() const override { return sender_.busy() ? sender_.next() : ReplayedLine::next(); }
+  void run(Tick now) override {
+    if (!sender_.busy()) begin_next(now);
+    sender_.run(now);
+  }
+
+ private:
+  bool has_next() const override { return next_ < placed_.size(); }
+  Tick next_recorded() const override { return placed_[next_].start; }
+  void begin_next(Tick now) {
+    const RecordedTelegram& telegram = recording_.telegrams[placed_[next_].telegram];
+    ++next_;
+    sender_.send(now, bus::characters(telegram.bytes, faults_of(telegram)));
+  }
+
+  void line_changed(Tick, bool) override {}
+  bool run_begins(const bus::CharacterRun&) override { return true; }
+  void run_cut(Tick at, bool) override {
+    sender_.run_cut(at);
+    announce();
+  }
+
+  const Recording& recording_;
+  const std::vector<PlacedTelegram>& placed_;
+  bus::UartSender sender_;
+  std::size_t next_ = 0;
+};
+
+/// The recorded levels without what the slave drove, and without what is no telegram any more at the end.
+std::vector<LevelChange> levels_of_others(const Recording& recording) {
+  const Tick half_bit = bus::baud(recording.baud).bit / 2;
+  std::vector<LevelChange> others;
+  const auto drive = [&others](Tick at, bool level) {
+    if (level != (others.empty() || others.back().level)) others.push_back({at, level});
+  };
+  auto telegram = recording.telegrams.begin();
+  for (const LevelChange& change : recording.levels) {
+    if (change.at > recording.end()) break;
+    // The last stop bit is high, so that nothing of the slave's is left at the end.
+    while (telegram != recording.telegrams.end() && (!telegram->of_slave || telegram->end - half_bit < change.at))
+      ++telegram;
+    const bool of_slave = telegram != recording.telegrams.end() && change.at >= telegram->start - half_bit;
+    drive(change.at, of_slave || change.level);
+  }
+  return others;
+}
+
+/// Drives low and lets go for high, so that it meets the model's driver only where the two really disagree.
+class LevelLine : public ReplayedLine {
+ public:
+  LevelLine(bus::Segment& segment, const Recording& recording)
+      : segment_(segment), station_(segment.attach("recording", nullptr)), changes_(levels_of_others(recording)) {}
+
+  void run(Tick now) override {
+    const bool level = changes_[next_++].level;
+    segment_.drive(station_, now, !level, level);
+  }
+
+ private:
+  bool has_next() const override { return next_ < changes_.size(); }
+  Tick next_recorded() const override { return changes_[next_].at; }
+
+  bus::Segment& segment_;
+  bus::StationId station_;
+  std::vector<LevelChange> changes_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::vector<PlacedTelegram> place(const Recording& recording) {
+  std::vector<PlacedTelegram> placed;
+  const bool levels = !recording.levels.empty();
+  Tick free = recording.telegrams.front().start;
+  for (std::size_t i = 0; i < recording.telegrams.size(); ++i) {
+    const RecordedTelegram& telegram = recording.telegrams[i];
+    if (telegram.of_slave) continue;
+    const Tick start = levels ? telegram.start : std::max(telegram.start, free);
+    placed.push_back({i, start, start + telegram.end - telegram.start});
+    free = placed.back().end;
+  }
+  return placed;
+}
+
+std::unique_ptr<ReplayedLine> make_line(bus::Segment& segment, const Recording& recording,
+                                        const std::vector<PlacedTelegram>& placed) {
+  if (!recording.levels.empty()) return std::make_unique<LevelLine>(segment, recording);
+  return std::make_unique<TelegramLine>(segment, recording, placed);
+}
+
+}  // namespace dsdpv1::tb::replay

@@ -1,0 +1,84 @@
+#pragma once
+// What came of a replay: each request to the slave with both answers.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lab/replay/recording.hpp"
+
+namespace dsdpv1::tb::replay {
+
+enum class Verdict : std::uint8_t {
+  kEqual,
+  kBothSilent,
+  // Differences.
+  kMissing,     ///< only the recorded slave answered
+  kUnexpected,  ///< only the model answered
+  kBytes,       ///< other bytes
+  kTsdr,        ///< the same bytes at another time
+  // Not compared.
+  kBeforeFirstAnswer,  ///< the recorded slave was not there yet
+  kNotParameterised,   ///< the capture begins in the middle of a data exchange
+  kNoRate,             ///< the model searched its baud rate
+  kDisturbed,          ///< an answer of the model that the slave did not give reached into it
+  kCaptureEnds,        ///< before the slave could answer
+  kBeforeWindow,
+  kUserLate,  ///< the user CPU had not yet brought the inputs or the diagnosis, or judged in another time
+  kUserDpv1,  ///< DPV1: the user CPU answered at another poll, or refused for another reason
+};
+constexpr std::size_t kVerdicts = 14;
+
+/// "equal", "both silent", "missing" ...
+const char* name(Verdict verdict);
+bool is_difference(Verdict verdict);
+bool is_compared(Verdict verdict);
+
+/// An answer, whoever gave it.
+struct Answer {
+  Tick start = 0, tsdr = 0;
+  bool right = false;
+  bus::Bytes bytes;
+};
+
+struct RequestResult {
+  std::size_t telegram = 0;  ///< of the capture, from 0
+  Tick start = 0;            ///< time of the capture
+  bus::Bytes request;
+  std::string service;
+  std::optional<Answer> recorded, model;
+  Verdict verdict = Verdict::kEqual;
+  std::string why;  ///< of a difference, in words
+};
+
+/// How the TSDR of a pair of answers are held against each other.
+struct TsdrRule {
+  std::optional<double> tolerance_bits = {};  ///< absent: both have to be from min_TSDR to max_TSDR
+};
+
+struct Result {
+  std::string capture, form;  ///< `form`: "telegrams", "levels of line"
+  std::uint8_t slave = 0;
+  int baud = 0;
+  Tick resolution = 1;
+  std::size_t telegrams = 0, left_out = 0;
+  Tick begin = 0, end = 0;  ///< of the capture
+  Tick lead_in = 0;         ///< time that the model had to find the rate before
+  std::string station;      ///< what the model's user CPU gave to it
+  bool started = false;     ///< the lead-in has brought the model into data exchange
+  bool inputs_recorded = false;
+  TsdrRule rule;
+  std::vector<RequestResult> requests;
+  /// What the model sent without a request to it, times of the capture.
+  std::vector<Answer> unasked;
+  bool interrupted = false;
+
+  /// Null without a difference.
+  const RequestResult* first_difference() const;
+  std::size_t count(Verdict verdict) const;
+  std::size_t compared() const;
+  /// Something was compared, and nothing was found.
+  bool equal() const { return compared() != 0 && first_difference() == nullptr && unasked.empty(); }
+};
+
+}  // namespace dsdpv1::tb::replay

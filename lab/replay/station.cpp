@@ -1,0 +1,95 @@
+// The scenario of a replay: one slave and nobody else.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bus/baud.hpp"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
+#include "io/input/units.hpp"
+#include "lab/replay/replay.hpp"
+#include "tb/bench/setup.hpp"
+
+namespace dsdpv1::tb::replay {
+namespace {
+
+/// Longer than any capture, and far from the end of 64 bits.
+constexpr Tick kOpenEnd = 20LL * 365 * 24 * 3600 * bus::kTicksPerSecond;
+
+std::string name_of(const Recording& recording) { return fmt::format("station_{}", recording.slave); }
+
+scenario::UserCpu user_of(const Firmware& firmware, const ChipKind& kind) {
+  scenario::UserCpu user;
+  user.behaviour = scenario::Behaviour::kConstant;
+  user.constant = firmware.inputs;
+  user.cycle = firmware.cycle;
+  user.dpv1.objects = firmware.objects;
+  user.own = kind.make_user_settings();
+  return user;
+}
+
+/// Where the capture does not show something, nobody has asked for it.
+scenario::InitData init_of(const Firmware& firmware, bool has_gsd) {
+  scenario::InitData init = firmware.init;
+  if (has_gsd)
+    init.ident.reset();
+  else if (!init.ident)
+    init.ident = 0;
+  const bus::Bytes empty_slot = {0};
+  if (!init.cfg && !has_gsd) init.cfg = empty_slot;
+  return init;
+}
+
+}  // namespace
+
+scenario::Scenario scenario_of(const Recording& recording, const Firmware& firmware, const std::string& gsd) {
+  const ChipKind& kind = *chip_kinds().front();
+  scenario::Scenario scenario;
+  scenario.file = recording.name;
+  scenario.name = "Replay of " + recording.name;
+  scenario.baud = recording.baud;
+  scenario.end = kOpenEnd;
+  scenario.kind = &kind;
+  scenario.chip = kind.make_chip_settings();
+  static_cast<checks::Limits&>(scenario.checks) = checks::Limits(kind.rules());
+  scenario::Slave slave;
+  slave.name.text = name_of(recording);
+  slave.address = recording.slave;
+  slave.gsd.text = gsd;
+  slave.init = init_of(firmware, !gsd.empty());
+  slave.user_cpu = user_of(firmware, kind);
+  scenario.slaves.push_back(std::move(slave));
+  return scenario;
+}
+
+scenario::Scenario alone(scenario::Scenario scenario, const Recording& recording) {
+  auto& slaves = scenario.slaves;
+  auto slave = std::find_if(slaves.begin(), slaves.end(),
+                            [&](const scenario::Slave& each) { return each.address == recording.slave; });
+  if (slave == slaves.end() && slaves.size() == 1) slave = slaves.begin();
+  if (slave == slaves.end()) {
+    std::vector<std::string> addresses;
+    addresses.reserve(slaves.size());
+    for (const scenario::Slave& each : slaves) addresses.push_back(std::to_string(each.address));
+    throw InputError(scenario.file, 0,
+                     fmt::format("no slave has address {} (--as), allowed are {}", recording.slave, join(addresses)));
+  }
+  slaves = {*slave};
+  slaves.front().address = recording.slave;
+  scenario.baud = recording.baud;
+  scenario.end = kOpenEnd;
+  scenario.masters.clear();
+  scenario.masters2.clear();
+  scenario.script.clear();
+  scenario.expect.clear();
+  return scenario;
+}
+
+std::string describe_station(const scenario::Scenario& scenario) {
+  const user_cpu::StationConfig station = Setup(scenario).station(scenario.slaves.front());
+  const scenario::Slave& slave = scenario.slaves.front();
+  return fmt::format("address {}, ident {:04X}, configuration {}{}", slave.address, station.ident,
+                     bytes_text(station.cfg), station.dpv1 ? ", DPV1" : "");
+}
+
+}  // namespace dsdpv1::tb::replay

@@ -1,0 +1,70 @@
+#pragma once
+// A run held against its golden while it goes on.
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lab/traces/difference.hpp"
+#include "lab/traces/tap.hpp"
+#include "lab/traces/trace.hpp"
+#include "tb/bench/observer.hpp"
+
+namespace dsdpv1::tb::traces {
+
+/// Told all signals by a Tap, and as an Observer what was on the bus. Compares up to the first difference: at each
+/// tick every signal must change as often and to the same levels as in the golden; in which order signals change within
+/// one tick does not matter.
+class GoldenCheck : public Sink, public Observer {
+ public:
+  /// Both must outlive it. The signals of the trace are those of the scenario.
+  GoldenCheck(const Trace& golden, const scenario::Scenario& scenario);
+
+  void change(std::size_t signal, Tick at, Level level) override;
+  void telegram(const HeardTelegram& heard) override;
+
+  /// All changes before `now` were told.
+  void reached(Tick now);
+  /// The run has come to its end, all changes were told.
+  void finish() { reached(bus::kNever); }
+
+  const std::optional<Difference>& difference() const { return difference_; }
+  /// Nothing more is needed for `words`: the telegram at the difference has ended as well.
+  bool done(Tick now) const { return difference_ && (heard_all_ || now > difference_->at + longest_telegram_); }
+  /// The first difference in some lines: time, signal and levels, telegram, access.
+  std::string words() const;
+  /// Changes that were the same, levels of power-on not counted.
+  std::uint64_t same() const { return matched_ - std::min<std::uint64_t>(matched_, cursors_.size()); }
+
+ private:
+  struct Wrong {
+    std::size_t signal;
+    Level before, after;
+  };
+  bool is_wrong(std::size_t signal) const;
+  bool matches(std::size_t signal, Tick at, Level level);
+  Tick earliest() const;
+  void settle();
+  void find(Tick at, std::size_t signal, const Side& golden, const Side& here);
+  void note_access(std::size_t signal, Tick at, Level level);
+  std::string telegram_words() const;
+
+  const Trace& golden_;
+  std::vector<Cursor> cursors_;
+  std::vector<Tick> next_;     ///< of each cursor
+  std::vector<Level> levels_;  ///< that the signals have
+  std::vector<Wrong> wrong_;   ///< the first change of a signal at now_ that the golden does not have
+  Tick now_ = 0;               ///< of the changes told last
+  std::uint64_t matched_ = 0;
+  std::optional<Difference> difference_;
+
+  std::size_t pins_;                                     ///< of a slave
+  std::vector<std::unique_ptr<AccessReader>> accesses_;  ///< by slave
+  std::string access_;                                   ///< of the slave's user at the difference
+  Tick longest_telegram_;
+  std::optional<bus::WireTelegram> heard_;  ///< the last one begun before the difference
+  bool heard_all_ = false;                  ///< one has ended after it
+};
+
+}  // namespace dsdpv1::tb::traces

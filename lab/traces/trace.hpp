@@ -1,0 +1,84 @@
+#pragma once
+// A trace as its file holds it once decompressed (docs/traces.md): a head in text, then each signal's changes.
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lab/traces/signals.hpp"
+#include "lab/traces/tap.hpp"
+
+namespace dsdpv1::tb::traces {
+
+/// Largest trace that is read.
+constexpr std::size_t kMostBytes = 256U << 20U;
+
+/// Builds a trace from a run.
+class TraceWriter : public Sink {
+ public:
+  explicit TraceWriter(Signals signals) : signals_(std::move(signals)), columns_(signals_.size()) {}
+  void change(std::size_t signal, Tick at, Level level) override;
+  /// The trace of a run that has ended at `end`.
+  std::string content(Tick end) const;
+
+ private:
+  struct Column {
+    std::uint64_t entries = 0;
+    Tick last = 0;
+    std::string times, levels;
+  };
+  Signals signals_;
+  std::vector<Column> columns_;
+};
+
+/// The changes of one signal, one after the other. A view of a Trace, which must outlive it.
+class Cursor {
+ public:
+  Cursor(std::string_view times, std::string_view levels, std::uint64_t entries)
+      : times_(times), levels_(levels), left_(entries) {
+    step();
+  }
+  /// Of the next change; `at` is bus::kNever when there is none.
+  Tick at() const { return at_; }
+  Level level() const { return level_; }
+  /// To the change after it.
+  void step();
+
+ private:
+  std::string_view times_, levels_;
+  std::uint64_t left_;
+  Tick at_ = 0;
+  Level level_ = kLevelX;
+};
+
+class Trace {
+ public:
+  struct Column {
+    std::uint64_t entries = 0;  ///< with the level of power-on
+    std::string_view times, levels;
+  };
+  /// Reads a decompressed trace; throws InputError, `file` is for its words.
+  Trace(std::string content, const std::string& file);
+  Trace(const Trace&) = delete;
+  Trace& operator=(const Trace&) = delete;
+
+  const std::string& content() const { return content_; }
+  const Signals& signals() const { return signals_; }
+  Tick end() const { return end_; }
+  /// Without the level of power-on.
+  std::uint64_t changes(std::size_t signal) const { return columns_[signal].entries - 1; }
+  std::uint64_t changes() const;
+  Cursor cursor(std::size_t signal) const {
+    const Column& column = columns_[signal];
+    return {column.times, column.levels, column.entries};
+  }
+  std::vector<Cursor> cursors() const;
+
+ private:
+  const std::string content_;
+  Signals signals_;
+  std::vector<Column> columns_;
+  Tick end_ = 0;
+};
+
+}  // namespace dsdpv1::tb::traces
