@@ -83,6 +83,15 @@ function(dsdpv1_install_headers component)
           PATTERN "*_internal.h" EXCLUDE PATTERN "capture" EXCLUDE PATTERN "systemc" EXCLUDE)
 endfunction()
 
+# dsdpv1_install_former_header(COMPONENT ROOT FORMER NOW): at the path FORMER, which it had before 0.2, a header that includes it. To go with 0.4.
+function(dsdpv1_install_former_header component root former now)
+  cmake_path(GET former PARENT_PATH folder)
+  file(RELATIVE_PATH way /${folder} /${now})
+  set(file ${PROJECT_BINARY_DIR}/former/${former})
+  file(CONFIGURE OUTPUT ${file} CONTENT "/* Deprecated: include ${now}. */\n#include \"${way}\"\n")
+  install(FILES ${file} DESTINATION ${root}/${folder} COMPONENT ${component})
+endfunction()
+
 # dsdpv1_install_pc(COMPONENT NAME DESCRIPTION [LIBS libraries...] [REQUIRES modules...]): NAME.pc for pkg-config; what archives
 # need is needed by everybody who links with them, what a shared library needs is its own affair.
 function(dsdpv1_install_pc component name description)
@@ -123,12 +132,23 @@ function(dsdpv1_install_core_and_driver)
   dsdpv1_install_pc(driver dsdpv1-driver "driver for the DSDPV1, in C99" LIBS dsdpv1_driver)
 endfunction()
 
+# dsdpv1_install_moved_headers(ROOM FORMER): the headers of ROOM, also at their paths of before.
+function(dsdpv1_install_moved_headers room former)
+  file(GLOB headers RELATIVE ${PROJECT_SOURCE_DIR}/${room} CONFIGURE_DEPENDS ${room}/*.hpp ${room}/*.inc)
+  foreach(header ${headers})
+    install(FILES ${room}/${header} DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/${room} COMPONENT checks)
+    dsdpv1_install_former_header(checks ${DSDPV1_INSTALL_INCLUDEDIR} ${former}/${header} ${room}/${header})
+  endforeach()
+endfunction()
+
 function(dsdpv1_install_bus_and_checks)
   dsdpv1_install_targets(bus bus dsdpv1_bus)
   dsdpv1_install_headers(bus bus)
   dsdpv1_install_pc(bus dsdpv1-bus "PROFIBUS segment, masters, monitor and GSD files" LIBS dsdpv1_bus REQUIRES fmt)
   dsdpv1_install_targets(checks checks dsdpv1_pins dsdpv1_check_recorder dsdpv1_checks)
-  foreach(room tb/chip/pins tb/chip/checks tb/dsdpv1/pins tb/dsdpv1/checks)
+  dsdpv1_install_moved_headers(tb/chip/pins tb/pins)
+  dsdpv1_install_moved_headers(tb/chip/checks tb/checks)
+  foreach(room tb/dsdpv1/pins tb/dsdpv1/checks)
     install(DIRECTORY ${room}/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/${room} COMPONENT checks
             FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc")
   endforeach()
@@ -193,7 +213,8 @@ function(dsdpv1_install_docs)
   install(DIRECTORY driver DESTINATION ${DSDPV1_INSTALL_DATADIR} COMPONENT docs
           FILES_MATCHING PATTERN "*.c" PATTERN "*.h" PATTERN "systemc" EXCLUDE)
   install(FILES registers/dsdpv1_regs.h DESTINATION ${DSDPV1_INSTALL_DATADIR}/registers COMPONENT docs)
-  install(FILES tb/dsdpv1/user_cpu/arm/mailbox.h DESTINATION ${DSDPV1_INSTALL_DATADIR}/tb/dsdpv1/user_cpu/arm COMPONENT docs)
+  install(FILES board/firmware/mailbox.h DESTINATION ${DSDPV1_INSTALL_DATADIR}/board/firmware COMPONENT docs)
+  dsdpv1_install_former_header(docs ${DSDPV1_INSTALL_DATADIR} tb/dsdpv1/user_cpu/arm/mailbox.h board/firmware/mailbox.h)
 endfunction()
 
 # --component dsdpv1, which once was the only one: core, driver and SystemC modules as before. To go with 0.3 (docs/install.md).

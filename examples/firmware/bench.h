@@ -3,7 +3,7 @@
 #ifndef BENCH_H
 #define BENCH_H
 /*
- * The bench's side door (tb/dsdpv1/user_cpu/arm/mailbox.h): what a scenario's script wants of the user CPU. A product
+ * The bench's side door (board/firmware/mailbox.h): what a scenario's script wants of the user CPU. A product
  * leaves out bench.c, bench_faults.c and bench_telegrams.c, and their calls in main.c.
  */
 #include <stdbool.h>

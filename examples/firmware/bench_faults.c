@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 
+#include "board/firmware/mailbox.h"
 #include "driver/dsdpv1_internal.h"
 #include "examples/firmware/board.h"
 #include "examples/firmware/dsdpv1_port_stm32.h"
@@ -12,7 +13,6 @@
 #include "examples/firmware/report.h"
 #include "examples/firmware/straps.h"
 #include "registers/dsdpv1_regs.h"
-#include "tb/dsdpv1/user_cpu/arm/mailbox.h"
 
 /* ------------------------------------------------------------------------------------------------------- wrong CRCs */
 

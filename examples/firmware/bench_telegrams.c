@@ -5,11 +5,11 @@
 
 #include <string.h>
 
+#include "board/firmware/mailbox.h"
 #include "examples/firmware/spi_port.h"
 #include "examples/firmware/stm32f103.h"
 #include "examples/firmware/straps.h"
 #include "examples/firmware/uart_port.h"
-#include "tb/dsdpv1/user_cpu/arm/mailbox.h"
 
 enum { kFaultAt = 2 }; /* the byte that goes wrong */
 

@@ -4,13 +4,13 @@
 #define SETTINGS_H
 /*
  * What kind of device this is: station, timing, objects, nameplate. On the bench the scenario says so
- * (tb/dsdpv1/user_cpu/arm/mailbox.h); on a board of its own the firmware is the device of own_settings (settings.c).
+ * (board/firmware/mailbox.h); on a board of its own the firmware is the device of own_settings (settings.c).
  */
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "board/firmware/mailbox.h"
 #include "driver/dsdpv1.h"
-#include "tb/dsdpv1/user_cpu/arm/mailbox.h"
 
 extern dsdpv1_mailbox dsdpv1_bench;
 

@@ -5,8 +5,8 @@
 /* The chip: bring-up, INTR0, judging of what the master sends, diagnosis. */
 #include <stdbool.h>
 
+#include "board/firmware/mailbox.h"
 #include "driver/dsdpv1.h"
-#include "tb/dsdpv1/user_cpu/arm/mailbox.h"
 
 /* Opens the driver with the port of the chip's straps; `parallel` is the board's, or another one that the bench puts
  * before it. */

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "board/stm32/fsmc_timing.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/bench/chip_maker.hpp"
 #include "tb/chip/chip_kind.hpp"
 #include "tb/dsdpv1/user_cpu/cpu.hpp"
-#include "tb/dsdpv1/user_cpu/fsmc_timing.hpp"
 #include "tb/dsdpv1/user_cpu/serial_port.hpp"
 
 namespace dsdpv1::tb {

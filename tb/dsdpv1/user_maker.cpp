@@ -3,10 +3,10 @@
 #include <memory>
 #include <string>
 
+#include "board/stm32/fsmc_timing.hpp"
 #include "io/input/input_error.hpp"
 #include "tb/dsdpv1/dsdpv1_view.hpp"
 #include "tb/dsdpv1/settings.hpp"
-#include "tb/dsdpv1/user_cpu/fsmc_timing.hpp"
 #include "tb/dsdpv1/user_cpu/native_user.hpp"
 
 namespace dsdpv1::tb {

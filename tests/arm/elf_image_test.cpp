@@ -1,5 +1,5 @@
 // What the board makes of an ELF file, and of files that are none it can take.
-#include "tb/dsdpv1/user_cpu/arm/elf_image.hpp"
+#include "board/firmware/elf_image.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tb/dsdpv1/user_cpu/arm/debug_target.hpp"
-#include "tb/dsdpv1/user_cpu/arm/elf_image.hpp"
+#include "board/cpu/debug_target.hpp"
+#include "board/firmware/elf_image.hpp"
 
 namespace dsdpv1::arm::test {
 

@@ -7,9 +7,9 @@
 #include <thread>
 #include <vector>
 
+#include "board/gdb/gdb_server.hpp"
 #include "fake_target.hpp"
 #include "io/input/descriptor.hpp"
-#include "tb/dsdpv1/user_cpu/arm/gdb_server.hpp"
 
 namespace dsdpv1::arm::test {
 

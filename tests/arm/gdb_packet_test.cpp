@@ -1,5 +1,5 @@
 // Packets of the remote serial protocol from the pieces in which a network delivers them.
-#include "tb/dsdpv1/user_cpu/arm/gdb_packet.hpp"
+#include "board/gdb/gdb_packet.hpp"
 
 #include <gtest/gtest.h>
 

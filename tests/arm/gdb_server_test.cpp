@@ -1,5 +1,5 @@
 // The gdb server as a raw client sees it.
-#include "tb/dsdpv1/user_cpu/arm/gdb_server.hpp"
+#include "board/gdb/gdb_server.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "tb/dsdpv1/user_cpu/arm/nvic.hpp"
+#include "board/cpu/nvic.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "tb/dsdpv1/user_cpu/arm/cortex_m3.hpp"
+#include "board/cpu/cortex_m3.hpp"
 
 namespace dsdpv1::arm {
 

@@ -1,5 +1,5 @@
 // From an address to function, file and line.
-#include "tb/dsdpv1/user_cpu/arm/source_lines.hpp"
+#include "board/firmware/source_lines.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

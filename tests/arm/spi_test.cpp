@@ -1,5 +1,5 @@
 // SPI of the ARM board by its registers, cycle by cycle of HCLK: RM0008, chapter SPI.
-#include "tb/dsdpv1/user_cpu/arm/spi.hpp"
+#include "board/stm32/spi.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

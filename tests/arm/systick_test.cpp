@@ -1,4 +1,4 @@
-#include "tb/dsdpv1/user_cpu/arm/systick.hpp"
+#include "board/cpu/systick.hpp"
 
 #include <gtest/gtest.h>
 

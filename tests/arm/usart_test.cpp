@@ -1,5 +1,5 @@
 // USART2 of the ARM board by its registers, cycle by cycle of HCLK: RM0008, chapter USART.
-#include "tb/dsdpv1/user_cpu/arm/usart.hpp"
+#include "board/stm32/usart.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -28,12 +28,17 @@ FORBIDDEN = [
 
 # The bench and the bus serve any kind of chip: they name no chip's types, pins or registers. A chip's own rooms are CHIP_ROOMS.
 CHIP_ROOMS = ["tb/dsdpv1", "tb/kinds"]
-GENERAL_ROOMS = ["bus", "tb/bench", "tb/chip", "io", "lab", "tb/report", "tb/saved", "tb/scenario", "tb/serve",
+GENERAL_ROOMS = ["board", "bus", "tb/bench", "tb/chip", "io", "lab", "tb/report", "tb/saved", "tb/scenario", "tb/serve",
                  "tb/systemc", "apps"]
 A_CHIP = r"\bdsdpv1::(?=k?[A-Z])|\bdpram::|\bmailbox::|model/(dsdpv1|dpram)|\bPin::k|\bAccessTiming|\bregs::|registers/dsdpv1"
 ITS_CELLS = r"\bB[0-7][0-9A-F]{2}\b|\b(CSR|RD|WR|R_REQ|R_STA|L_REQ|L_STA|INTR0)\b"
 # Files of these rooms that name the DSDPV1 for now, each until the step that ends it.
 NAME_A_CHIP = {
+    "board/firmware/mailbox.h": "the mailbox is the kind's",
+    "board/stm32/fsmc_timing.cpp": "pins by number",
+    "board/stm32/fsmc_timing.hpp": "pins by number",
+    "board/stm32/rcc.cpp": "for good: RCC_CSR is a register of the STM32",
+    "board/stm32/rcc.hpp": "for good: RCC_CSR is a register of the STM32",
     "lab/calibrate/found.hpp": "a kind tells its claims",
     "lab/calibrate/scene.cpp": "a kind tells its claims",
     "lab/calibrate/scene.hpp": "a kind tells its claims",

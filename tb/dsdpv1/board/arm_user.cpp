@@ -5,13 +5,13 @@
 #include <array>
 #include <utility>
 
+#include "board/gdb/gdb_server.hpp"
+#include "board/gdb/history_player.hpp"
 #include "io/input/input_error.hpp"
 #include "tb/dsdpv1/board/untold.hpp"
 #include "tb/dsdpv1/dsdpv1_view.hpp"
 #include "tb/dsdpv1/settings.hpp"
 #include "tb/dsdpv1/user_cpu/arm/board.hpp"
-#include "tb/dsdpv1/user_cpu/arm/gdb_server.hpp"
-#include "tb/dsdpv1/user_cpu/arm/history_player.hpp"
 #include "tb/dsdpv1/user_maker.hpp"
 
 namespace dsdpv1::tb {

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "board/firmware/mailbox.h"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "tb/dsdpv1/settings.hpp"
-#include "tb/dsdpv1/user_cpu/arm/mailbox.h"
 
 namespace dsdpv1::tb {
 namespace {

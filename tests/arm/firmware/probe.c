@@ -2,7 +2,7 @@
    word `program`. Results go to the chip's DPRAM, where the test sees them. */
 #include <stdint.h>
 
-#include "../../../tb/dsdpv1/user_cpu/arm/mailbox.h"
+#include "../../../board/firmware/mailbox.h"
 
 #define REG(address) (*(volatile uint32_t*)(address))
 #define CHIP(offset) (*(volatile uint8_t*)(0x60000000u + (offset)))

@@ -1,8 +1,8 @@
 // Firmware for the ARM board: the ELF file, and its lines of source by libdw.
-#include "tb/dsdpv1/user_cpu/arm/elf_image.hpp"
+#include "board/firmware/elf_image.hpp"
 
+#include "board/firmware/source_lines.hpp"
 #include "io/input/input_error.hpp"
-#include "tb/dsdpv1/user_cpu/arm/source_lines.hpp"
 #include "tests/fuzz/input.hpp"
 
 namespace dsdpv1 {

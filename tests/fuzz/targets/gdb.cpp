@@ -1,5 +1,5 @@
 // What comes from a gdb, in pieces as a network has them, to a halted processor.
-#include "tb/dsdpv1/user_cpu/arm/gdb_commands.hpp"
+#include "board/gdb/gdb_commands.hpp"
 #include "tests/arm/fake_target.hpp"
 #include "tests/arm/small_elf.hpp"
 #include "tests/fuzz/input.hpp"

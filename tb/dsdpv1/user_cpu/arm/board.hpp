@@ -22,18 +22,18 @@
 #include <string>
 #include <vector>
 
+#include "board/cpu/cortex_m3.hpp"
+#include "board/firmware/firmware.hpp"
+#include "board/stm32/exti.hpp"
+#include "board/stm32/fsmc.hpp"
+#include "board/stm32/gpio.hpp"
+#include "board/stm32/other_registers.hpp"
+#include "board/stm32/rcc.hpp"
+#include "board/stm32/terminal.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
-#include "tb/dsdpv1/user_cpu/arm/cortex_m3.hpp"
-#include "tb/dsdpv1/user_cpu/arm/exti.hpp"
-#include "tb/dsdpv1/user_cpu/arm/firmware.hpp"
-#include "tb/dsdpv1/user_cpu/arm/fsmc.hpp"
-#include "tb/dsdpv1/user_cpu/arm/gpio.hpp"
 #include "tb/dsdpv1/user_cpu/arm/mailbox_link.hpp"
-#include "tb/dsdpv1/user_cpu/arm/other_registers.hpp"
-#include "tb/dsdpv1/user_cpu/arm/rcc.hpp"
 #include "tb/dsdpv1/user_cpu/arm/serial_side.hpp"
-#include "tb/dsdpv1/user_cpu/arm/terminal.hpp"
 #include "tb/dsdpv1/user_cpu/native_cpu.hpp"
 #include "tb/dsdpv1/user_cpu/programs.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tb/dsdpv1/user_cpu/arm/mailbox.h"
+#include "board/firmware/mailbox.h"
 #include "tb/dsdpv1/user_cpu/programs.hpp"
 
 namespace dsdpv1::arm {

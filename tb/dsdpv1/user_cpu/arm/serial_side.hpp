@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "tb/dsdpv1/user_cpu/arm/gpio.hpp"
-#include "tb/dsdpv1/user_cpu/arm/rcc.hpp"
-#include "tb/dsdpv1/user_cpu/arm/spi.hpp"
-#include "tb/dsdpv1/user_cpu/arm/usart.hpp"
+#include "board/stm32/gpio.hpp"
+#include "board/stm32/rcc.hpp"
+#include "board/stm32/spi.hpp"
+#include "board/stm32/usart.hpp"
 #include "tb/dsdpv1/user_cpu/claim_counters.hpp"
 #include "tb/dsdpv1/user_cpu/serial_pins.hpp"
 

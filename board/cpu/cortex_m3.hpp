@@ -1,0 +1,237 @@
+#pragma once
+// A Cortex-M3 (ARMv7-M) in simulated time: Unicorn executes the instructions; exceptions, the system control space and
+// the count of cycles stand here. Every instruction is taken to last the same (p), accesses to the System last what the
+// System says. Not modelled: the MPU, unaligned-access and division-by-zero traps (CCR), ICI (LDM and STM are not
+// interrupted); an unaligned access to the System comes as Unicorn cuts it up: loads as two aligned words, stores as
+// bytes.
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "board/cpu/debug_target.hpp"
+#include "board/cpu/engine.hpp"
+#include "board/cpu/fault.hpp"
+#include "board/cpu/it_block.hpp"
+#include "board/cpu/nvic.hpp"
+#include "board/cpu/scb.hpp"
+#include "board/cpu/systick.hpp"
+
+namespace dsdpv1::arm {
+
+/// What the processor finds outside of itself: everything that is neither flash, RAM nor its own registers: 0x1FFFF000
+/// to 0x1FFFFFFF, 0x40000000 to 0xDFFFFFFF, and of 0xE0000000 to 0xE00FFFFF what the core does not have (DBGMCU, ITM).
+/// The functions may throw: the exception leaves CortexM3::run().
+class System {
+ public:
+  virtual ~System() = default;
+  /// A load or store of `bytes` (1, 2 or 4) that begins at cycles(). The system spends what it takes with
+  /// CortexM3::advance_to.
+  virtual std::uint32_t load(std::uint32_t address, unsigned bytes) = 0;
+  virtual void store(std::uint32_t address, unsigned bytes, std::uint32_t value) = 0;
+  /// Called between two instructions at least every Timing::quantum cycles: the rest of the world comes up to cycles();
+  /// may call set_interrupt.
+  virtual void keep_up() = 0;
+  /// WFI or WFE with nothing pending: lets time pass until set_interrupt was called or cycle `until` (kNever: none) has
+  /// come; the system calls advance_to.
+  virtual void sleep(std::uint64_t until) = 0;
+  /// AIRCR.SYSRESETREQ or a debugger's reset: the peripherals fall back to their state after reset; the processor
+  /// starts again at its vector table.
+  virtual void reset() {}
+  /// The aligned word at `address` as a debugger sees it: no time passes, no pin moves, nothing is cleared. nullopt:
+  /// nothing is there.
+  virtual std::optional<std::uint32_t> peek(std::uint32_t /*address*/) const { return std::nullopt; }
+  /// Where peek() finds something.
+  virtual std::vector<MemoryRegion> regions() const { return {}; }
+  /// Simulated time, for a debugger.
+  virtual bus::Tick now() const { return 0; }
+};
+
+/// Cycles of HCLK.
+struct Timing {
+  std::uint32_t millicycles_per_instruction =
+      1500;                            ///< (p) an average: flash wait states with prefetch, branches, multiplications
+  std::uint32_t quantum = 18;          ///< 250 ns at 72 MHz
+  std::uint32_t exception_entry = 12;  ///< Cortex-M3 reference manual, zero wait states
+  std::uint32_t exception_return = 12;
+  std::uint32_t tail_chain = 6;  ///< in place of a return and an entry
+};
+
+/// Sizes are multiples of 4096 bytes. Flash is seen at 0 too.
+struct MemoryMap {
+  std::uint32_t flash_base = 0x08000000, flash_size = 512 * 1024;
+  std::uint32_t ram_base = 0x20000000, ram_size = 64 * 1024;
+};
+
+class CortexM3 : public DebugTarget, private EngineEvents {
+ public:
+  /// `system` has to outlive this. Throws std::runtime_error when Unicorn refuses.
+  CortexM3(System& system, const MemoryMap& map, const Timing& timing);
+  ~CortexM3() override;
+  CortexM3(const CortexM3&) = delete;
+  CortexM3& operator=(const CortexM3&) = delete;
+
+  /// Into flash or RAM, before or during the run. Throws std::out_of_range outside of both.
+  void load(std::uint32_t address, const std::uint8_t* bytes, std::size_t count);
+  /// Host memory of the RAM, for the bench's mailbox.
+  std::uint8_t* ram() { return ram_; }
+
+  /// From reset (SP and PC from the vector table) until stop(). Throws FaultError when a fault ends the run, and what
+  /// System throws.
+  void run();
+  /// The run ends before the next instruction. Callable from System's functions and on_fault.
+  void stop();
+
+  /// Timing::quantum from now on; > 0.
+  void set_quantum(std::uint32_t cycles) { timing_.quantum = cycles; }
+  /// Cycles of HCLK since the first reset.
+  std::uint64_t cycles() const { return now_ / kMillis; }
+  /// From System's functions: time has gone on. Not backwards.
+  void advance_to(std::uint64_t cycle);
+  /// Instructions executed, those too whose condition failed.
+  std::uint64_t instructions() const override { return instructions_; }
+  /// Of the instruction at work, or of the next one between two.
+  std::uint32_t pc() const { return at_; }
+
+  /// External interrupt 0 to 67 becomes pending.
+  void set_interrupt(unsigned irq);
+  /// The RXEV pin: an event from outside, which ends a WFE (B1.5.18).
+  void signal_event() { event_ = true; }
+  /// Level-sensitive source: pending again after return while high.
+  void set_interrupt_level(unsigned irq, bool high);
+  /// From System::load and store: nothing answers at this address; the access ends with a bus fault.
+  void bus_error();
+
+  Registers registers() const;
+  /// Called for each fault once, also when the firmware handles it.
+  void on_fault(std::function<void(const Fault&)> report) { report_fault_ = std::move(report); }
+  /// nullptr: none. Not while it runs.
+  void attach(Debugger* debugger) { debugger_ = debugger; }
+
+  std::uint32_t read_register(Register which) const override;
+  void write_register(Register which, std::uint32_t value) override;
+  std::vector<MemoryRegion> memory_map() const override;
+  std::size_t read_memory(std::uint32_t address, std::uint8_t* to, std::size_t count) const override;
+  bool write_memory(std::uint32_t address, const std::uint8_t* from, std::size_t count) override;
+  bool report_data_accesses(bool on) override;
+  bool reset() override;
+  bus::Tick now() const override { return system_.now(); }
+  void end_run() override { stop(); }
+  bool asleep() const override { return asleep_; }
+
+ private:
+  static constexpr std::uint64_t kMillis = 1000;
+  enum class Leave { kNo, kBetween, kBusError, kFailure };  // why a callback stopped the engine
+  enum class Sleep { kNone, kWfi, kWfe };
+
+  // cortex_m3.cpp: memory, time, the run
+  void map_memory();
+  void forget_code();
+  void reset_processor();
+  void advance_run();
+  void handle_trap(Trap trap);
+  void between_instructions();
+  void settle_instruction();
+  void leave(Leave why);
+  template <typename Action>
+  void guarded(Action action) noexcept;
+  void attend();
+  void attend_debugger();
+  void catch_up();
+  void catch_up_systick();
+  void schedule();
+  void spend(std::uint32_t cycles);
+  void doze();
+  void note_hint(std::uint32_t address, std::uint16_t opcode);
+  bool follow_it_block(std::uint32_t address, std::uint16_t opcode);
+  const std::uint8_t* host(std::uint32_t address) const;
+  std::uint16_t opcode_at(std::uint32_t address) const;
+  std::uint32_t word_at(std::uint32_t address) const;
+  bool executable(std::uint32_t address) const { return host(address) != nullptr; }
+  bool in_ram(std::uint32_t address, std::uint32_t count) const;
+
+  // EngineEvents
+  void on_instruction(std::uint32_t address) noexcept override;
+  std::uint32_t on_load(std::uint32_t address, unsigned bytes) noexcept override;
+  void on_store(std::uint32_t address, unsigned bytes, std::uint32_t value) noexcept override;
+  void on_bad_access(std::uint32_t address, bool fetch) noexcept override;
+  void on_data(std::uint32_t address, unsigned bytes, bool write) noexcept override;
+
+  // private_bus.cpp: bit-band, system control space
+  std::uint32_t load_outside(std::uint32_t address, unsigned bytes);
+  void store_outside(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  std::uint32_t load_bit(std::uint32_t alias, unsigned bytes);
+  void store_bit(std::uint32_t alias, unsigned bytes, bool value);
+  std::uint32_t load_band(std::uint32_t address, unsigned bytes);
+  void store_band(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  bool privileged() const;
+  std::uint32_t load_private(std::uint32_t address, unsigned bytes);
+  void store_private(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  std::uint32_t load_control_word(std::uint32_t offset);
+  void store_control_word(std::uint32_t offset, std::uint32_t value, std::uint32_t lanes);
+
+  // exceptions.cpp: entry, return, faults
+  unsigned preempting() const;
+  Nvic::Masks masks() const;
+  unsigned handler() const;
+  void take_exception(std::uint32_t return_address);
+  void activate(unsigned exception, std::uint32_t exc_return);
+  std::uint32_t push_frame(std::uint32_t return_address);
+  void write_frame(std::uint32_t sp, std::uint32_t return_address, std::uint32_t xpsr);
+  void chain_fault(FaultKind kind, std::uint32_t address, std::uint32_t exc_return);
+  FaultOutcome outcome(unsigned fault_handler, int priority) const;
+  void return_from_exception();
+  void unstack(std::uint32_t exc_return);
+  bool return_allowed(std::uint32_t exc_return) const;
+  void enter_mode(std::uint32_t xpsr, std::uint32_t control, std::uint32_t msp, std::uint32_t psp);
+  void supervisor_call();
+  void raise(FaultKind kind, std::uint32_t pc, std::uint32_t address);
+  void pend_fault(FaultKind kind, std::uint32_t pc, std::uint32_t address);
+  unsigned record(FaultKind kind, std::uint32_t address);
+  void continue_at(std::uint32_t target);
+
+  System& system_;
+  MemoryMap map_;
+  Timing timing_;
+  std::vector<std::uint8_t> memory_;  // flash and RAM, each on a page of the host
+  std::uint8_t* flash_ = nullptr;
+  std::uint8_t* ram_ = nullptr;
+  Engine engine_;
+
+  Nvic nvic_;
+  SysTick systick_;
+  Scb scb_;
+
+  // Time in thousandths of a cycle. An instruction is paid for when the next one begins.
+  std::uint64_t now_ = 0, due_ = 0;
+  std::uint64_t check_at_ = 0;  // the next time at which attend() has something to do
+  std::uint64_t keep_up_at_ = 0;
+  std::uint64_t instructions_ = 0;
+
+  std::uint32_t at_ = 0;
+  ItBlock it_;
+  bool inside_it_ = false;    // the instruction at_ stands in it_
+  std::uint32_t access_ = 0;  // address of the System's access at work
+  Leave leaving_ = Leave::kNo;
+  Sleep hint_ = Sleep::kNone;
+  std::exception_ptr failure_;
+  std::uint32_t bad_address_ = 0;
+  bool bad_fetch_ = false;
+  bool event_ = false;  // the event register of WFE and SEV (B1.5.18)
+  bool stopped_ = false, reset_requested_ = false;
+  bool moved_ = false;       // a debugger wrote PC
+  bool stale_code_ = false;  // memory was written from outside, or report_data_ changed
+  bool report_data_ = false;
+  bool asleep_ = false;      // while a debugger is asked
+  bool announced_ = false;   // the debugger has let the next instruction pass
+  bool translated_ = false;  // something has been executed
+
+  std::function<void(const Fault&)> report_fault_;
+  Debugger* debugger_ = nullptr;
+  unsigned polls_ = 0;
+};
+
+}  // namespace dsdpv1::arm

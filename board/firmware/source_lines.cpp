@@ -1,0 +1,127 @@
+#include "board/firmware/source_lines.hpp"
+
+#include <elfutils/libdw.h>
+#include <fmt/format.h>
+#include <libelf.h>
+
+#include <algorithm>
+#include <memory>
+#include <string_view>
+#include <tuple>
+#include <unordered_map>
+
+namespace dsdpv1::arm {
+namespace {
+
+struct EndElf {
+  void operator()(Elf* elf) const { ::elf_end(elf); }
+};
+struct EndDwarf {
+  void operator()(Dwarf* dwarf) const { ::dwarf_end(dwarf); }
+};
+
+/// One row of a unit's line table; line 0 where a sequence of instructions ends.
+struct Row {
+  std::uint32_t address;
+  const char* source;
+  int line;
+};
+
+bool read_row(Dwarf_Line* from, Row& row) {
+  Dwarf_Addr address = 0;
+  bool end = false;
+  if (::dwarf_lineaddr(from, &address) != 0 || ::dwarf_lineendsequence(from, &end) != 0) return false;
+  if (::dwarf_lineno(from, &row.line) != 0) return false;
+  if (end) row.line = 0;
+  row.address = static_cast<std::uint32_t>(address);
+  row.source = ::dwarf_linesrc(from, nullptr, nullptr);
+  return row.source != nullptr;
+}
+
+/// Calls `take` for every row of every unit that can be read.
+template <typename Take>
+void for_each_row(Dwarf* dwarf, Take take) {
+  Dwarf_CU* unit = nullptr;
+  Dwarf_Die die;
+  while (::dwarf_get_units(dwarf, unit, &unit, nullptr, nullptr, &die, nullptr) == 0) {
+    Dwarf_Lines* lines = nullptr;
+    std::size_t count = 0;
+    if (::dwarf_getsrclines(&die, &lines, &count) != 0) continue;
+    for (std::size_t i = 0; i < count; ++i) {
+      Row row{};
+      if (read_row(::dwarf_onesrcline(lines, i), row)) take(row);
+    }
+  }
+}
+
+std::string_view without_folders(std::string_view path) { return path.substr(path.find_last_of('/') + 1); }
+
+}  // namespace
+
+SourceLines::SourceLines(const ElfImage& image, std::vector<std::uint8_t> file) {
+  read_functions(image);
+  read_lines(std::move(file));
+}
+
+void SourceLines::read_functions(const ElfImage& image) {
+  for (const auto& [name, symbol] : image.symbols)
+    if (symbol.function) functions_.push_back({symbol.address, symbol.size, name});
+  std::sort(functions_.begin(), functions_.end(),
+            [](const Function& a, const Function& b) { return a.address < b.address; });
+}
+
+void SourceLines::read_lines(std::vector<std::uint8_t> file) {
+  ::elf_version(EV_CURRENT);
+  const std::unique_ptr<Elf, EndElf> elf(::elf_memory(reinterpret_cast<char*>(file.data()), file.size()));
+  const std::unique_ptr<Dwarf, EndDwarf> dwarf(::dwarf_begin_elf(elf.get(), DWARF_C_READ, nullptr));
+  if (!dwarf) return;
+  std::unordered_map<std::string, std::uint32_t> numbers;
+  for_each_row(dwarf.get(), [&](const Row& row) {
+    const auto [number, is_new] =
+        numbers.try_emplace(std::string(without_folders(row.source)), static_cast<std::uint32_t>(files_.size()));
+    if (is_new) files_.push_back(number->first);
+    lines_.push_back({row.address, number->second, row.line});
+  });
+  // Where one sequence ends another may begin: its line counts. Of several rows for an address the last counts, as in
+  // gdb.
+  std::stable_sort(lines_.begin(), lines_.end(), [](const Line& a, const Line& b) {
+    return std::make_tuple(a.address, a.line != 0) < std::make_tuple(b.address, b.line != 0);
+  });
+}
+
+namespace {
+
+/// The last entry at or before `address`; null when all are behind it.
+template <typename Entry>
+const Entry* last_until(const std::vector<Entry>& entries, std::uint32_t address) {
+  const auto after = std::upper_bound(entries.begin(), entries.end(), address,
+                                      [](std::uint32_t a, const Entry& entry) { return a < entry.address; });
+  return after == entries.begin() ? nullptr : &*std::prev(after);
+}
+
+}  // namespace
+
+const SourceLines::Function* SourceLines::function_at(std::uint32_t address) const {
+  const Function* const found = last_until(functions_, address);
+  const bool inside = found != nullptr && (found->size == 0 || address - found->address < found->size);
+  return inside ? found : nullptr;
+}
+
+const SourceLines::Line* SourceLines::line_at(std::uint32_t address) const {
+  const Line* const found = last_until(lines_, address);
+  return found != nullptr && found->line > 0 ? found : nullptr;
+}
+
+std::string SourceLines::at(std::uint32_t address) const {
+  address &= ~1U;
+  const Function* const function = function_at(address);
+  if (const Line* const line = line_at(address)) {
+    const std::string place = fmt::format("{}:{}", files_[line->file], line->line);
+    return function != nullptr ? fmt::format("{} at {}", function->name, place) : place;
+  }
+  if (function == nullptr) return fmt::format("0x{:08X}", address);
+  const std::uint32_t offset = address - function->address;
+  return offset == 0 ? function->name : fmt::format("{}+0x{:X}", function->name, offset);
+}
+
+}  // namespace dsdpv1::arm
