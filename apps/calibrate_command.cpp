@@ -7,10 +7,10 @@
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/capture/sample_clock.hpp"
+#include "cosim/pin_map.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "lab/calibrate/calibration.hpp"
-#include "tb/dsdpv1/cosim/pin_map.hpp"
 #include "tb/report/text_table.hpp"
 
 namespace dsdpv1::app {

@@ -10,11 +10,11 @@
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
+#include "cosim/wave_pins.hpp"
 #include "io/input/input_error.hpp"
 #include "io/waves/wave_writer.hpp"
 #include "lab/compare/comparison.hpp"
 #include "lab/compare/report.hpp"
-#include "tb/dsdpv1/cosim/wave_pins.hpp"
 #include "tb/report/progress.hpp"
 
 namespace dsdpv1::app {

@@ -2,8 +2,8 @@
 // RTL of the user's own, of cosim and rtl-random: --rtl and what goes with it.
 #include <string>
 
-#include "tb/dsdpv1/cosim/pin_map.hpp"
-#include "tb/dsdpv1/cosim/user_rtl.hpp"
+#include "cosim/pin_map.hpp"
+#include "cosim/user_rtl.hpp"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): its library's
 class App;

@@ -17,12 +17,12 @@
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/telegram_text.hpp"
+#include "cosim/lockstep_execution.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
 #include "io/input/units.hpp"
 #include "lab/replay/replay.hpp"
 #include "lab/replay/report.hpp"
-#include "tb/dsdpv1/cosim/lockstep_execution.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/result_json.hpp"
 

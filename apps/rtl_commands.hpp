@@ -6,7 +6,7 @@
 
 #include "apps/own_rtl.hpp"
 #include "apps/wave_options.hpp"
-#include "tb/dsdpv1/cosim/play_options.hpp"
+#include "cosim/random/play_options.hpp"
 
 namespace dsdpv1::app {
 

@@ -13,8 +13,8 @@
 #include "apps/data_folder.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
+#include "cosim/random/faults.hpp"
 #include "io/output/output_file.hpp"
-#include "tb/dsdpv1/cosim/faults.hpp"
 
 namespace dsdpv1::app {
 namespace {

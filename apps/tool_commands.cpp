@@ -6,9 +6,9 @@
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/gsd/report.hpp"
+#include "cosim/random/stimulus_schema.hpp"
 #include "io/input/read_file.hpp"
 #include "io/output/write_file.hpp"
-#include "tb/dsdpv1/cosim/stimulus_schema.hpp"
 #include "tb/report/result_schema.hpp"
 #include "tb/scenario/scenario.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What stands behind a chip's pins on the bench: the core, or RTL (tb/dsdpv1/cosim).
+// What stands behind a chip's pins on the bench: the core, or RTL (cosim/).
 #include "model/dsdpv1/chip.hpp"
 #include "tb/chip/host_pins.hpp"
 

@@ -2,11 +2,11 @@
 // measured in turns, in CPU time.
 #include <utility>
 
+#include "cosim/random/campaign.hpp"
+#include "cosim/random/random_setup.hpp"
+#include "cosim/reference_rtl.hpp"
 #include "model/dsdpv1/chip.hpp"
-#include "tb/dsdpv1/cosim/campaign.hpp"
-#include "tb/dsdpv1/cosim/random_setup.hpp"
 #include "tb/dsdpv1/cosim/random_stimulus.hpp"
-#include "tb/dsdpv1/cosim/reference_rtl.hpp"
 #include "tests/bench/programs.hpp"
 #include "tests/bench/rtl_alone.hpp"
 #include "tests/bench/saturated_bus.hpp"

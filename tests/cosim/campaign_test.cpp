@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <fstream>
 
-#include "tb/dsdpv1/cosim/campaign.hpp"
-#include "tb/dsdpv1/cosim/faults.hpp"
-#include "tb/dsdpv1/cosim/random_setup.hpp"
-#include "tb/dsdpv1/cosim/reference_rtl.hpp"
+#include "cosim/random/campaign.hpp"
+#include "cosim/random/faults.hpp"
+#include "cosim/random/random_setup.hpp"
+#include "cosim/reference_rtl.hpp"
 #include "tests/app/program.hpp"
 
 namespace dsdpv1 {

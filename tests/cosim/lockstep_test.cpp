@@ -11,7 +11,7 @@
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
-#include "tb/dsdpv1/cosim/lockstep.hpp"
+#include "cosim/lockstep.hpp"
 #include "tests/cosim/made_up_top.hpp"
 
 namespace dsdpv1 {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "cosim/rtl_top.hpp"
 #include "model/dsdpv1/chip.hpp"
-#include "tb/dsdpv1/cosim/rtl_top.hpp"
 
 namespace dsdpv1::cosim_test {
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cosim/pin_map.hpp"
+#include "cosim/user_rtl.hpp"
 #include "io/input/input_error.hpp"
-#include "tb/dsdpv1/cosim/pin_map.hpp"
-#include "tb/dsdpv1/cosim/user_rtl.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -1,7 +1,7 @@
 // Which changes of two sides count as the same.
 #include <gtest/gtest.h>
 
-#include "tb/dsdpv1/cosim/pin_comparator.hpp"
+#include "cosim/pin_comparator.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -7,11 +7,11 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tb/dsdpv1/cosim/play_log.hpp"
-#include "tb/dsdpv1/cosim/play_wave.hpp"
-#include "tb/dsdpv1/cosim/player.hpp"
-#include "tb/dsdpv1/cosim/stimulus_result.hpp"
-#include "tb/dsdpv1/cosim/stimulus_schema.hpp"
+#include "cosim/random/play_log.hpp"
+#include "cosim/random/play_wave.hpp"
+#include "cosim/random/player.hpp"
+#include "cosim/random/stimulus_result.hpp"
+#include "cosim/random/stimulus_schema.hpp"
 #include "tests/cosim/made_up_top.hpp"
 
 namespace dsdpv1 {

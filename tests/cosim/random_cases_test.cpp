@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "tb/dsdpv1/cosim/campaign.hpp"
-#include "tb/dsdpv1/cosim/play_options.hpp"
+#include "cosim/random/campaign.hpp"
+#include "cosim/random/play_options.hpp"
 #include "tb/dsdpv1/cosim/random_host.hpp"
 #include "tb/dsdpv1/cosim/random_stimulus.hpp"
 #include "tb/dsdpv1/cosim/random_user.hpp"

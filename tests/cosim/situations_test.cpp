@@ -8,9 +8,9 @@
 #include <fstream>
 #include <set>
 
+#include "cosim/random/campaign_record.hpp"
+#include "cosim/random/random_setup.hpp"
 #include "io/input/input_error.hpp"
-#include "tb/dsdpv1/cosim/campaign_record.hpp"
-#include "tb/dsdpv1/cosim/random_setup.hpp"
 #include "tb/dsdpv1/cosim/situation_watch.hpp"
 
 namespace dsdpv1::cosim {

@@ -6,10 +6,10 @@
 #include <iterator>
 #include <set>
 
+#include "cosim/random/faults.hpp"
+#include "cosim/random/stimulus.hpp"
 #include "io/input/input_error.hpp"
-#include "tb/dsdpv1/cosim/faults.hpp"
 #include "tb/dsdpv1/cosim/random_stimulus.hpp"
-#include "tb/dsdpv1/cosim/stimulus.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -2,9 +2,9 @@
 // A random case in the making: it brings the slave up, mostly in an orderly way, and then plays one of its themes.
 #include <memory>
 
+#include "cosim/random/random_master.hpp"
 #include "model/profibus/dp_state.hpp"
 #include "tb/dsdpv1/cosim/random_host.hpp"
-#include "tb/dsdpv1/cosim/random_master.hpp"
 #include "tb/dsdpv1/cosim/random_user.hpp"
 
 namespace dsdpv1::cosim {

@@ -3,8 +3,8 @@
 // things that nobody should do. One class for each port: parallel, SPI and UART.
 #include <memory>
 
+#include "cosim/random/random_setup.hpp"
 #include "model/dsdpv1/config.hpp"
-#include "tb/dsdpv1/cosim/random_setup.hpp"
 
 namespace dsdpv1::cosim {
 

@@ -3,9 +3,9 @@
 // rate.
 #include <cstdint>
 
+#include "cosim/random/random_setup.hpp"
+#include "cosim/random/stimulus.hpp"
 #include "model/dsdpv1/config.hpp"
-#include "tb/dsdpv1/cosim/random_setup.hpp"
-#include "tb/dsdpv1/cosim/stimulus.hpp"
 
 namespace dsdpv1::cosim {
 

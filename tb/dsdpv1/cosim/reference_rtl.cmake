@@ -10,13 +10,13 @@ list(TRANSFORM dsdpv1_files PREPEND ${rtl_dir}/ OUTPUT_VARIABLE dsdpv1_sources)
 list(TRANSFORM dsdpv1_rsu_files PREPEND ${rtl_dir}/ OUTPUT_VARIABLE dsdpv1_rsu_sources)
 set(rtl_headers ${rtl_dir}/profibus_types.svh ${rtl_dir}/dpram_types.svh ${rtl_dir}/dsdpv1_types.svh ${rtl_dir}/dsdpv1_rsu_types.svh)
 # What the harness looks into.
-set(dsdpv1_places ${CMAKE_CURRENT_SOURCE_DIR}/public.vlt)
-set(dsdpv1_rsu_places ${dsdpv1_places} ${CMAKE_CURRENT_SOURCE_DIR}/public_rsu.vlt)
+set(dsdpv1_places ${PROJECT_SOURCE_DIR}/tb/dsdpv1/cosim/public.vlt)
+set(dsdpv1_rsu_places ${dsdpv1_places} ${PROJECT_SOURCE_DIR}/tb/dsdpv1/cosim/public_rsu.vlt)
 
 # dsdpv1_rtl_library(TARGET TOP LIBRARY OPTIMISATION ARGUMENTS...): a part of TARGET, the RTL with this top (dsdpv1, dsdpv1_rsu) and adapter with these arguments for Verilator and
 # the macros (-D) among them. Verilator's own make keeps it out of the configuration, which every `./run` waits for.
 function(dsdpv1_rtl_library target top library optimisation)
-  set(adapter ${CMAKE_CURRENT_SOURCE_DIR}/reference_library.cpp)
+  set(adapter ${PROJECT_SOURCE_DIR}/tb/dsdpv1/cosim/reference_library.cpp)
   cmake_path(REMOVE_EXTENSION library OUTPUT_VARIABLE sources_folder)
   cmake_path(GET library PARENT_PATH folder)
   cmake_path(GET library STEM name)
@@ -37,7 +37,7 @@ function(dsdpv1_rtl_library target top library optimisation)
             ${${top}_places} ${${top}_files} ${adapter}
     WORKING_DIRECTORY ${rtl_dir}  # what it makes names sources as they are called here
     DEPENDS ${${top}_sources} ${rtl_headers} ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter}
-            ${${top}_places} ${CMAKE_CURRENT_SOURCE_DIR}/rtl_top.hpp ${CMAKE_CURRENT_SOURCE_DIR}/verilated_top.hpp
+            ${${top}_places} ${PROJECT_SOURCE_DIR}/cosim/rtl_top.hpp ${PROJECT_SOURCE_DIR}/tb/dsdpv1/cosim/verilated_top.hpp
     COMMENT "Verilating ${name}"
     VERBATIM)
   set_property(TARGET ${target} APPEND PROPERTY SOURCES ${library})

@@ -2,7 +2,7 @@
 // A frame of SPI and a telegram of UART as the host's edges at the pins of the DSDPV1-RSU.
 #include <vector>
 
-#include "tb/dsdpv1/cosim/stimulus.hpp"
+#include "cosim/random/stimulus.hpp"
 
 namespace dsdpv1::cosim {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "cosim/random/play_listener.hpp"
 #include "tb/chip/host_reader.hpp"
-#include "tb/dsdpv1/cosim/play_listener.hpp"
 #include "tb/dsdpv1/cosim/situations.hpp"
 
 namespace dsdpv1::cosim {

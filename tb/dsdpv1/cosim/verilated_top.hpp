@@ -3,7 +3,7 @@
 // compiled (reference_library.cpp), which says with RTL_INSIDE what a place below the top is called.
 #include <memory>
 
-#include "tb/dsdpv1/cosim/rtl_top.hpp"
+#include "cosim/rtl_top.hpp"
 #include "verilated.h"
 
 namespace dsdpv1::cosim {

@@ -2,8 +2,8 @@
 // itself: step, skip and dozing change the same pins at the same ticks, report the same, and have the same cells.
 #include <gtest/gtest.h>
 
+#include "cosim/random/random_setup.hpp"
 #include "model/dpram/crc16.hpp"
-#include "tb/dsdpv1/cosim/random_setup.hpp"
 #include "tb/dsdpv1/cosim/serial_edges.hpp"
 #include "tests/conformance/slave_bench.hpp"
 #include "tests/fuzz/input.hpp"

@@ -1,5 +1,5 @@
 // A map of pins, for RTL of a user's own.
-#include "tb/dsdpv1/cosim/pin_map.hpp"
+#include "cosim/pin_map.hpp"
 
 #include "io/input/input_error.hpp"
 #include "tests/fuzz/input.hpp"

@@ -1,5 +1,5 @@
 // A stimulus file; written again and read again it is the same.
-#include "tb/dsdpv1/cosim/stimulus.hpp"
+#include "cosim/random/stimulus.hpp"
 
 #include "io/input/input_error.hpp"
 #include "tests/fuzz/input.hpp"

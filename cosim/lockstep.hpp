@@ -1,0 +1,114 @@
+#pragma once
+// Model and RTL side by side on the same inputs: every change of every output pin is compared, and the DPRAM at the end
+// of each access that can have changed it. Whoever drives the chip sees the model's outputs.
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cosim/history.hpp"
+#include "cosim/pin_comparator.hpp"
+#include "cosim/rtl_chip.hpp"
+#include "model/dsdpv1/chip.hpp"
+#include "tb/dsdpv1/cosim/access_watch.hpp"
+
+namespace dsdpv1::cosim {
+
+struct LockstepOptions {
+  Tolerances tolerances{};
+  bool compare_dpram = true;  ///< as far as the RTL lets it be seen
+  int history_cycles = 5000;  ///< that the wave of a difference shows
+};
+
+struct DpramDifference {
+  Tick at = 0;
+  std::uint16_t address = 0;
+  std::uint8_t model = 0, rtl = 0;
+};
+
+/// The first difference in words, one thing a line.
+struct Difference {
+  Tick at = 0;
+  std::string what;            ///< pin or cell and both values: one line
+  std::string last_telegram;   ///< on the line
+  std::string last_access;     ///< of the user
+  std::string dpram_accesses;  ///< the chip's last one
+};
+
+/// All of it as text: cycle, time, what, last telegram and access.
+std::string describe(const Difference& difference);
+
+struct MatchCounts {
+  std::uint64_t cycles = 0;        ///< compared up to here
+  std::uint64_t pin_changes = 0;   ///< that both sides made
+  std::uint64_t dpram_images = 0;  ///< compared as a whole
+
+  void add(const MatchCounts& other) {
+    cycles += other.cycles;
+    pin_changes += other.pin_changes;
+    dpram_images += other.dpram_images;
+  }
+};
+
+class Lockstep {
+ public:
+  Lockstep(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, const LockstepOptions& options = {});
+
+  // The pins, as dsdpv1::Chip has them; outputs are the model's.
+  void set(Tick at, Pin pin, Level level);
+  void advance(Tick to);
+  Tick next_event() const { return model_.next_event(); }
+  Level level(Pin pin) const { return model_.level(pin); }
+  Level sample(Tick at) {
+    advance(at);
+    return model_.sample(at);
+  }
+  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins);
+  void on_event(const profibus::EventSink& sink) { model_.on_event(sink); }
+  /// Told each change at the pins of all sides: of each side in order of time, the sides in turns.
+  using PinListener = std::function<void(Tick at, Side side, Pin pin, Level level)>;
+  void on_pin(PinListener listener) { on_pin_ = std::move(listener); }
+
+  const dsdpv1::Chip& model() const { return model_; }
+  /// The first difference; nothing is compared after it.
+  const std::optional<Difference>& difference() const { return difference_; }
+  const MatchCounts& counts() const;
+  /// The last cycles of both sides; they are run some cycles further, so that the wave shows what follows a difference.
+  /// Nobody else is told of that.
+  void write_wave(const std::string& path);
+
+ private:
+  void model_changed(Tick at, Pin pin, Level level);
+  void rtl_changed(Tick at, Pin pin, Level level);
+  void note(Tick at, Side side, Pin pin, Level level);
+  void note_input(Tick at, Pin pin, Level level);
+  void note_serial(Tick at, Pin pin);
+  void look_at_dpram(Tick to);
+  void access_ended(Tick at);
+  bool dpram_may_have_changed(Tick at);
+  void compare_dpram(Tick at);
+  void settle(Tick horizon);
+  void found(Tick at, std::string what);
+
+  dsdpv1::Chip model_;
+  const dsdpv1::Part part_;
+  RtlChip rtl_;
+  LockstepOptions options_;
+  PinComparator comparator_;
+  History history_;
+  dsdpv1::PinSink sink_;
+  PinListener on_pin_;
+  std::uint32_t watched_ = 0;
+  AccessWatch watch_;
+  Tick last_write_ = -1;
+  std::optional<Tick> ended_;  ///< an access of the model has ended, the DPRAM is not compared yet
+  Tick image_at_ = 0;          ///< with a serial port
+  bool user_wrote_ = true;     ///< since the DPRAM was compared
+  unsigned accesses_ = 0;
+  std::optional<Difference> difference_;
+  mutable MatchCounts counts_;
+  Tick compared_to_ = 0;
+};
+
+}  // namespace dsdpv1::cosim

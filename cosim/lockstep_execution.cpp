@@ -1,0 +1,147 @@
+#include "cosim/lockstep_execution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cosim/reference_rtl.hpp"
+#include "cosim/rtl_device.hpp"
+#include "io/input/input_error.hpp"
+#include "tb/dsdpv1/kind.hpp"
+#include "tb/dsdpv1/pin_chip.hpp"
+#include "tb/dsdpv1/settings.hpp"
+
+namespace dsdpv1::cosim {
+namespace {
+
+/// The parameters of the chip; other kinds than the DSDPV1, the DSDPV1-R, which is the same, and the DSDPV1-RSU have no
+/// RTL here.
+dsdpv1::Config config_with_rtl(const tb::ChipMaker& maker, const tb::ChipRequest& request) {
+  if (!tb::is_dsdpv1(maker) && &maker != &tb::dsdpv1_rsu_kind())
+    throw tb::InputError(
+        fmt::format("--engine rtl and lockstep are for chips of the kinds {}, {} and {}, the scenario has {}",
+                    tb::dsdpv1_kind().name(), tb::dsdpv1_r_kind().name(), tb::dsdpv1_rsu_kind().name(), maker.name()));
+  return tb::config_of(request);
+}
+
+class LockstepDevice : public tb::PinDevice {
+ public:
+  LockstepDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top, const LockstepOptions& options)
+      : lockstep_(config, std::move(top), options) {}
+
+  void set(Tick at, Pin pin, Level level) override { lockstep_.set(at, pin, level); }
+  void advance(Tick to) override { lockstep_.advance(to); }
+  Level level(Pin pin) const override { return lockstep_.level(pin); }
+  Level sample(Tick at) override { return lockstep_.sample(at); }
+  Tick next_event() const override { return lockstep_.next_event(); }
+  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override { lockstep_.watch(sink, pins); }
+  void on_event(const profibus::EventSink& sink) override { lockstep_.on_event(sink); }
+  const dsdpv1::Chip& core() const override { return lockstep_.model(); }
+  Lockstep& lockstep() { return lockstep_; }
+
+ private:
+  Lockstep lockstep_;
+};
+
+class RtlExecution : public tb::Execution {
+ public:
+  explicit RtlExecution(MakeRtl make) : make_(std::move(make)) {}
+
+  std::unique_ptr<tb::ChipView> make_chip(const tb::ChipMaker& maker, const tb::ChipRequest& request) override {
+    const dsdpv1::Config config = config_with_rtl(maker, request);
+    auto chip = std::make_unique<tb::PinChip>(
+        request.name, std::make_unique<RtlDevice>(config, make_(request.name, config)), request.watched, segment_);
+    if (config.part == Part::kRsu) chip->strap(tb::straps_of(request.settings));
+    timeline_.add(*chip);
+    return chip;
+  }
+  void run(tb::Tick end, const std::function<bool()>& stopped) override {
+    while (!stopped() && timeline_.step(end)) {
+    }
+  }
+
+ private:
+  MakeRtl make_;
+};
+
+}  // namespace
+
+MakeRtl reference_rtl(unsigned fault, std::uint32_t seed) {
+  if (fault == 0)
+    return [seed](const std::string&, const dsdpv1::Config& config) { return make_reference_rtl(config, seed); };
+  return
+      [fault, seed](const std::string&, const dsdpv1::Config& config) { return make_faulty_rtl(config, fault, seed); };
+}
+
+std::unique_ptr<tb::Execution> make_rtl_execution(MakeRtl make) {
+  return std::make_unique<RtlExecution>(std::move(make));
+}
+
+std::unique_ptr<tb::ChipView> LockstepExecution::make_chip(const tb::ChipMaker& maker, const tb::ChipRequest& request) {
+  const dsdpv1::Config config = config_with_rtl(maker, request);
+  auto device = std::make_unique<LockstepDevice>(config, make_(request.name, config), options_);
+  chips_.push_back({request.name, &device->lockstep()});
+  auto chip = std::make_unique<tb::PinChip>(request.name, std::move(device), request.watched, segment_);
+  if (config.part == Part::kRsu) chip->strap(tb::straps_of(request.settings));
+  if (request.inside) chip->watch_inside();
+  timeline_.add(*chip);
+  return chip;
+}
+
+void LockstepExecution::run(tb::Tick end, const std::function<bool()>& stopped) {
+  while (!stopped() && !broken_off() && timeline_.step(end)) {
+  }
+  const Tick reached = stopped() || broken_off() ? timeline_.now() : std::max(end, timeline_.now());
+  for (const Chip& chip : chips_) chip.lockstep->advance(reached);
+}
+
+Lockstep* LockstepExecution::different() {
+  const auto found = std::find_if(chips_.begin(), chips_.end(),
+                                  [](const Chip& chip) { return chip.lockstep->difference().has_value(); });
+  return found == chips_.end() ? nullptr : found->lockstep;
+}
+
+const std::string& LockstepExecution::different_name() {
+  return std::find_if(
+             chips_.begin(), chips_.end(), [](const Chip& chip) { return chip.lockstep->difference().has_value(); })
+      ->name;
+}
+
+MatchCounts LockstepExecution::counts() const {
+  MatchCounts sum;
+  for (const Chip& chip : chips_) {
+    const MatchCounts& one = chip.lockstep->counts();
+    sum.cycles = std::max(sum.cycles, one.cycles);
+    sum.pin_changes += one.pin_changes;
+    sum.dpram_images += one.dpram_images;
+  }
+  return sum;
+}
+
+tb::LockstepResult LockstepExecution::result() {
+  const MatchCounts sum = counts();
+  tb::LockstepResult result{sum.cycles, sum.pin_changes, sum.dpram_images, {}};
+  const Lockstep* found = different();
+  if (found == nullptr) return result;
+  const Difference& difference = *found->difference();
+  result.cycles = found->counts().cycles;
+  result.difference = {different_name(),         difference.at,          difference.what,
+                       difference.last_telegram, difference.last_access, difference.dpram_accesses};
+  return result;
+}
+
+bool report(LockstepExecution& execution, const std::string& wave, std::string& text) {
+  const tb::LockstepResult result = execution.result();
+  Lockstep* different = execution.different();
+  text = fmt::format("lockstep          {} cycles, {} pin changes and {} DPRAM images of model and RTL are the same\n",
+                     result.cycles, result.pin_changes, result.dpram_images);
+  if (different == nullptr) return true;
+  text += fmt::format("chip              {}\n{}", execution.different_name(), describe(*different->difference()));
+  if (!wave.empty()) {
+    different->write_wave(wave);
+    text += fmt::format("wave              {}\n", wave);
+  }
+  return false;
+}
+
+}  // namespace dsdpv1::cosim

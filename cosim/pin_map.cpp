@@ -1,0 +1,131 @@
+#include "cosim/pin_map.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "io/input/input_error.hpp"
+#include "io/input/read_file.hpp"
+#include "io/input/suggest.hpp"
+
+namespace dsdpv1::cosim {
+namespace {
+
+constexpr int kLargestTolerance = 1000;
+
+class Reader {
+ public:
+  explicit Reader(std::string path) : path_(std::move(path)), map_(default_pin_map()) {}
+
+  PinMap read(const std::string& content) {
+    const YAML::Node root = load(content);
+    check_keys(root, {"clock", "pins", "tolerance", "parameters", "files", "include", "reference"});
+    for (const char* key : {"pins", "tolerance", "parameters"})
+      if (root[key] && !root[key].IsMap()) fail(root[key], std::string(key) + " is no map, allowed is NAME: VALUE");
+    for (const char* key : {"files", "include"})
+      if (root[key] && !root[key].IsSequence())
+        fail(root[key], std::string(key) + " is no list, allowed is [NAME, NAME]");
+    if (root["clock"]) map_.clock = port(root["clock"]);
+    for (const auto& each : root["pins"]) pin(each.first, each.second);
+    for (const auto& each : root["tolerance"]) tolerance(each.first, each.second);
+    for (const auto& each : root["parameters"]) map_.parameters[text(each.first)] = text(each.second);
+    for (const auto& each : root["files"]) map_.files.push_back(text(each));
+    for (const auto& each : root["include"]) map_.include.push_back(text(each));
+    if (root["reference"]) map_.reference = truth(root["reference"]);
+    return map_;
+  }
+
+ private:
+  [[noreturn]] void fail(const YAML::Node& at, const std::string& what) const {
+    throw tb::InputError(path_, at.Mark().line + 1, what);
+  }
+  YAML::Node load(const std::string& content) const {
+    try {
+      YAML::Node root = YAML::Load(content);
+      if (!root.IsMap() && !root.IsNull())
+        fail(root, "is no map, allowed are clock, pins, tolerance, parameters, files, include, reference");
+      return root;
+    } catch (const YAML::ParserException& error) {
+      throw tb::InputError(path_, error.mark.line + 1, error.msg + ", allowed is YAML");
+    }
+  }
+  std::string text(const YAML::Node& node) const {
+    if (!node.IsScalar() || node.Scalar().empty()) fail(node, "is no word, allowed is one name or number");
+    return node.Scalar();
+  }
+  void check_keys(const YAML::Node& node, const std::vector<std::string>& allowed) const {
+    for (const auto& each : node) check_name(each.first, allowed);
+  }
+  void check_name(const YAML::Node& node, const std::vector<std::string>& allowed) const {
+    const std::string name = text(node);
+    if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
+      fail(node, "unknown name " + name + tb::did_you_mean(name, allowed) + ", allowed are " + tb::join(allowed));
+  }
+  Port port(const YAML::Node& node) const {
+    if (node.IsScalar()) return {text(node), false};
+    if (!node.IsMap() || !node["port"]) fail(node, "is no port, allowed are NAME and {port: NAME, inverted: true}");
+    check_keys(node, {"port", "inverted"});
+    Port port{text(node["port"]), false};
+    if (node["inverted"]) port.inverted = truth(node["inverted"]);
+    return port;
+  }
+  bool truth(const YAML::Node& node) const {
+    const std::string value = text(node);
+    if (value != "true" && value != "false") fail(node, "is " + value + ", allowed are true, false");
+    return value == "true";
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : map_.pins) names.push_back(name);
+    return names;
+  }
+  void pin(const YAML::Node& name, const YAML::Node& node) {
+    check_name(name, names());
+    map_.pins[text(name)] = port(node);
+  }
+  void tolerance(const YAML::Node& name, const YAML::Node& node) {
+    std::vector<std::string> outputs;
+    for (int i = 0; i < dsdpv1::kPinCount; ++i) {
+      const Pin pin = static_cast<Pin>(i);
+      if (!dsdpv1::is_input(pin) && pin != Pin::kDOut) outputs.emplace_back(dsdpv1::name(pin));
+    }
+    check_name(name, outputs);
+    for (int i = 0; i < dsdpv1::kPinCount; ++i)
+      if (text(name) == dsdpv1::name(static_cast<Pin>(i)))
+        map_.tolerances.at(static_cast<std::size_t>(i)) = cycles(node);
+  }
+  int cycles(const YAML::Node& node) const {
+    int value = -1;
+    if (!YAML::convert<int>::decode(node, value) || value < 0 || value > kLargestTolerance)
+      fail(node, "is " + text(node) + ", allowed are 0 to " + std::to_string(kLargestTolerance) + " cycles");
+    return value;
+  }
+
+  std::string path_;
+  PinMap map_;
+};
+
+}  // namespace
+
+PinMap default_pin_map() {
+  PinMap map;
+  map.clock = {"clk_i", false};
+  for (int i = 0; i < dsdpv1::kPinCount; ++i) {
+    const Pin pin = static_cast<Pin>(i);
+    if (pin == Pin::kDIn || pin == Pin::kDOut) continue;
+    std::string port = dsdpv1::name(pin);
+    for (char& c : port) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    map.pins[dsdpv1::name(pin)] = {port + (dsdpv1::is_input(pin) ? "_i" : "_o"), false};
+  }
+  map.pins["D_IN"] = {"d_i", false};
+  map.pins["D_OUT"] = {"d_o", false};
+  map.pins["D_OE"] = {"d_oe_o", false};
+  return map;
+}
+
+PinMap load_pin_map(const std::string& path) { return parse_pin_map(tb::read_file(path, tb::kPinMapFile), path); }
+
+PinMap parse_pin_map(const std::string& text, const std::string& path) { return Reader(path).read(text); }
+
+}  // namespace dsdpv1::cosim

@@ -1,0 +1,69 @@
+#pragma once
+// Many random cases, on several threads; and the shrinking of one that fails.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cosim/random/coverage.hpp"
+#include "cosim/random/player.hpp"
+#include "tb/dsdpv1/cosim/situations.hpp"
+
+namespace dsdpv1::cosim {
+
+/// How random cases and directed stimuli are played on the reference RTL of the part.
+PlayOptions quick_options(dsdpv1::Part part = dsdpv1::Part::kDsdpv1);
+
+/// The parameters of a case of this seed: now and then other limits of the baud search and of BAUD_CONTROL (S1) than
+/// those of `usual`, still short ones.
+dsdpv1::Config case_config(std::uint64_t seed, const dsdpv1::Config& usual);
+
+/// Makes RTL with these parameters.
+using MakeTopFor = std::function<MakeTop(const PlayOptions&)>;
+
+struct CampaignOptions {
+  std::uint64_t seed = 1, cycles = 0;  ///< cases are begun until so many cycles are compared
+  unsigned jobs = 1;                   ///< threads
+  PlayOptions play = quick_options();
+  HostMode mode = HostMode::kParallel;  ///< of the host of random cases
+  std::uint64_t first_case = 0;         ///< number of the first one
+  MakeTopFor make_for = {};             ///< each case has its case_config(); empty: all have that of `play`
+  bool counts_situations = false;       ///< costs a few percent
+};
+
+/// The same for the same seed and cycles, however many threads there are.
+struct CampaignResult {
+  MatchCounts counts;
+  Coverage coverage;
+  Situations situations;
+  std::uint64_t cases = 0;        ///< up to and including the one with the difference
+  std::uint64_t failed_seed = 0;  ///< of the case with the difference
+  dsdpv1::Config failed_config;
+  std::optional<Difference> difference;  ///< of the first case that has one
+};
+
+/// A parameter of the chip that cases choose for themselves, by its key in scenarios.
+struct OwnParameter {
+  const char* key;
+  std::uint32_t dsdpv1::Config::*member;
+};
+constexpr OwnParameter kOwnParameters[] = {{"search_window_ms", &dsdpv1::Config::search_window_ms},
+                                           {"search_window_bits", &dsdpv1::Config::search_window_bits},
+                                           {"baud_control_ms", &dsdpv1::Config::baud_control_ms}};
+
+/// What is compared so far, for a progress line; called by one thread at a time.
+using CampaignProgress = std::function<void(std::uint64_t cases, std::uint64_t cycles)>;
+
+/// The seed of case `number` of a campaign.
+std::uint64_t case_seed(std::uint64_t campaign, std::uint64_t number);
+
+/// Cases until so many cycles are compared, or one differs. `make` is called by all threads; `progress` may be empty.
+CampaignResult run_campaign(const CampaignOptions& options, const MakeTop& make, const CampaignProgress& progress = {});
+
+/// A shorter stimulus that still differs: actions are left out, then delays and faults, as long as there is a
+/// difference. At most `runs` runs, each with `options`.
+Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs, const PlayOptions& options = quick_options());
+
+/// Calls `work` on so many threads, each until it returns false; throws what the first of them threw.
+void in_parallel(unsigned jobs, const std::function<bool()>& work);
+
+}  // namespace dsdpv1::cosim

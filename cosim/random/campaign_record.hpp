@@ -1,0 +1,53 @@
+#pragma once
+// A campaign at all host ports that is interrupted and gone on with: what has been compared so far, in one file of a
+// folder.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cosim/random/campaign.hpp"
+
+namespace dsdpv1::cosim {
+
+constexpr const char* kCampaignFile = "campaign.json";
+
+/// The random cases at one host port, up to now.
+struct PortRecord {
+  HostSide side;
+  unsigned share = 0;       ///< of all cycles, in percent
+  std::uint64_t cases = 0;  ///< with the numbers below this one
+  MatchCounts counts;
+  Coverage coverage;
+  Situations situations;
+
+  /// As --chip and --mode have them.
+  std::string chip() const;
+  std::string mode() const;
+  /// "dsdpv1 parallel", "dsdpv1_rsu spi".
+  std::string name() const;
+};
+
+struct CampaignRecord {
+  std::uint64_t seed = 1;
+  std::vector<PortRecord> ports;
+
+  std::uint64_t cycles() const;
+  std::uint64_t cases() const;
+  /// The port that has least of what it is to have of `goal` cycles, in relation to it; null: all have.
+  PortRecord* behind(std::uint64_t goal);
+  /// What went well is added, up to before a case that differs.
+  static void add(PortRecord& port, const CampaignResult& result);
+};
+
+/// Nothing compared yet: the DSDPV1, and the DSDPV1-RSU at each of its ports.
+CampaignRecord new_record(std::uint64_t seed);
+/// What the folder has; a new one where it has none. Throws tb::InputError: no record, or one of another seed or
+/// version of the program's table.
+CampaignRecord read_record(const std::string& folder, std::uint64_t seed);
+/// Complete or as before.
+void write_record(const std::string& folder, const CampaignRecord& record);
+
+/// Every port's situations with their counts, after what was compared: lines of text, separated by tabs.
+std::string table(const CampaignRecord& record);
+
+}  // namespace dsdpv1::cosim

@@ -1,0 +1,47 @@
+#pragma once
+// The fault campaign: the checker is checked. Every single fault that the RTL can be given must be found.
+#include <string>
+#include <vector>
+
+#include "cosim/random/campaign.hpp"
+
+namespace dsdpv1::cosim {
+
+struct Fault {
+  unsigned number = 0;
+  std::string block, stimulus, text;  ///< the directed stimulus that is played first
+};
+/// rtl_ref/faults.txt, faults_rsu.txt; throws tb::InputError.
+std::vector<Fault> read_faults(const std::string& path);
+
+struct NamedStimulus {
+  std::string name;
+  Stimulus stimulus;
+};
+/// The stimulus files of a folder, those with the shortest delays first; throws tb::InputError.
+std::vector<NamedStimulus> read_stimuli(const std::string& folder, Part part);
+
+struct Kill {
+  Fault fault;
+  bool found = false;
+  std::string stimulus;      ///< name of the directed stimulus, or "random case N"
+  std::uint64_t cycles = 0;  ///< played up to the difference
+  double seconds = 0;
+  std::string what;  ///< the difference
+};
+
+/// Directed stimuli, first the one that the fault names, then random cases until `cycles` are compared.
+/// Of the part and the mode of `options`.
+Kill hunt(const Fault& fault, const std::vector<NamedStimulus>& directed, const CampaignOptions& options);
+
+/// All of them, on several threads; `found` is called in the order of `faults`, by one thread at a time.
+std::vector<Kill> hunt_all(const std::vector<Fault>& faults, const std::vector<NamedStimulus>& directed,
+                           const CampaignOptions& options, const std::function<void(const Kill&)>& found);
+
+/// One line of the kill table; its heading.
+std::string line_of(const Kill& kill);
+std::string heading();
+/// The table for other programs: tab-separated, with a heading.
+std::string to_tsv(const std::vector<Kill>& kills);
+
+}  // namespace dsdpv1::cosim

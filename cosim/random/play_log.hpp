@@ -1,0 +1,25 @@
+#pragma once
+// The log of a stimulus that is played: every change of every pin, the model's events, telegrams, the difference.
+#include <string>
+
+#include "cosim/random/play_listener.hpp"
+#include "tb/bench/run_log.hpp"
+
+namespace dsdpv1::cosim {
+
+class PlayLog : public PlayListener {
+ public:
+  /// JSON lines for a file whose name ends in .jsonl; throws tb::InputError when it cannot be created.
+  explicit PlayLog(const std::string& path) : log_(path, tb::log_form(path, false, false)) {}
+
+  void pin(Tick at, Side side, Pin pin, Level level) override;
+  void event(const profibus::Event& event) override;
+  void telegram(Tick now, const bus::WireTelegram& telegram) override;
+  /// Gives the file its name; throws tb::InputError when it cannot be written.
+  void ends(Tick end, const Lockstep& lockstep) override;
+
+ private:
+  tb::RunLog log_;
+};
+
+}  // namespace dsdpv1::cosim

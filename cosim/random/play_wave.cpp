@@ -1,0 +1,63 @@
+#include "cosim/random/play_wave.hpp"
+
+#include "bus/telegram/explain.hpp"
+
+namespace dsdpv1::cosim {
+namespace {
+
+std::string wave_name(Pin pin) {
+  if (pin == Pin::kDIn) return "D_IN";
+  return pin == Pin::kDOut ? "D_OUT" : dsdpv1::name(pin);
+}
+
+}  // namespace
+
+PlayWave::PlayWave(const std::string& path, const std::string& chip) : writer_(tb::open_wave(path)) {
+  writer_->open_scope("bus");
+  telegram_ = writer_->words("telegram");
+  writer_->close_scope();
+  writer_->open_scope(chip);
+  for (std::size_t i = 0; i < pins_.size(); ++i) {
+    const Pin pin = static_cast<Pin>(i);
+    pins_.at(i) = writer_->wire(wave_name(pin), dsdpv1::width(pin));
+  }
+  writer_->open_scope("inside");
+  for (const tb::InnerSignal& each : tb::InsideWatch::signals())
+    inside_.push_back(each.width == 0 ? writer_->words(each.name) : writer_->wire(each.name, each.width));
+  writer_->close_scope();
+  writer_->close_scope();
+}
+
+void PlayWave::listen(PlayOptions& options) {
+  options.config.engine = dsdpv1::Engine::kStep;
+  options.listeners.push_back(this);
+}
+
+void PlayWave::begins(const Lockstep& lockstep) {
+  writer_->say(0, telegram_, "-");
+  for (std::size_t i = 0; i < pins_.size(); ++i) writer_->set(0, pins_.at(i), lockstep.level(static_cast<Pin>(i)));
+}
+
+void PlayWave::pin(Tick at, Side side, Pin pin, Level level) {
+  if (side != Side::kRtl) writer_->set(in_order(at), pins_.at(static_cast<std::size_t>(pin)), level);
+}
+
+void PlayWave::telegram(Tick now, const bus::WireTelegram& telegram) {
+  const bus::Decoded& decoded = telegram.decoded;
+  writer_->say(in_order(now), telegram_, decoded.readable ? bus::explain_line(decoded.telegram) : "not readable");
+}
+
+void PlayWave::evaluated(Tick now, const dsdpv1::Chip& model) {
+  watch_.look(
+      now, model,
+      [this](Tick at, std::size_t signal, Level level, const std::string& word) {
+        if (tb::InsideWatch::signals()[signal].width == 0)
+          writer_->say(in_order(at), inside_[signal], word);
+        else
+          writer_->set(in_order(at), inside_[signal], level);
+      });
+}
+
+void PlayWave::ends(Tick end, const Lockstep& /*lockstep*/) { writer_->finish(in_order(end)); }
+
+}  // namespace dsdpv1::cosim

@@ -1,0 +1,43 @@
+#pragma once
+// The model's side of a stimulus that is played as a wave: pins, inside, telegrams. The RTL's side comes from its own
+// trace (joined_wave.hpp).
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cosim/random/player.hpp"
+#include "io/waves/wave_writer.hpp"
+#include "tb/dsdpv1/inside_watch.hpp"
+
+namespace dsdpv1::cosim {
+
+class PlayWave : public PlayListener {
+ public:
+  /// Scopes `bus` and `chip`, as in the waves of scenarios; both directions of D by themselves. Throws tb::InputError.
+  PlayWave(const std::string& path, const std::string& chip);
+  /// From now on every cycle of the model is evaluated, and this listens.
+  void listen(PlayOptions& options);
+
+  void begins(const Lockstep& lockstep) override;
+  void pin(Tick at, Side side, Pin pin, Level level) override;
+  void telegram(Tick now, const bus::WireTelegram& telegram) override;
+  void evaluated(Tick now, const dsdpv1::Chip& model) override;
+  /// Gives the file its name; throws tb::InputError when it cannot be written.
+  void ends(Tick end, const Lockstep& lockstep) override;
+
+ private:
+  using Signal = tb::WaveWriter::Signal;
+  /// The host's edges are told when they happen, the chip's when it is evaluated.
+  Tick in_order(Tick at) { return last_ = std::max(at, last_); }
+
+  std::unique_ptr<tb::WaveWriter> writer_;
+  Signal telegram_ = 0;
+  std::array<Signal, dsdpv1::kPinCount> pins_{};
+  std::vector<Signal> inside_;
+  tb::InsideWatch watch_;
+  Tick last_ = 0;
+};
+
+}  // namespace dsdpv1::cosim

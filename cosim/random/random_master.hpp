@@ -1,0 +1,81 @@
+#pragma once
+// The master of a random case: DP services right and wrong, broken telegrams, idle times at their limits.
+#include <optional>
+
+#include "bus/telegram/telegram.hpp"
+#include "cosim/random/random_setup.hpp"
+
+namespace dsdpv1::cosim {
+
+class RandomMaster {
+ public:
+  /// `config`: the times that it waits for.
+  RandomMaster(Random& random, Setup& setup, Stimulus& stimulus, const dsdpv1::Config& config)
+      : random_(random), setup_(setup), stimulus_(stimulus), config_(config) {}
+
+  /// Another baud rate, and telegrams until the chip must have found it.
+  void choose_rate();
+  void slow_rate();
+  void fastest_rate();
+  void forget_series() { fcv_ = false; }
+  /// From now on nothing goes wrong on the line: T_SYN is kept, each request begins a series, one master.
+  void careful(bool careful) { careful_ = careful; }
+  void slave_diag();
+  void set_prm(bool right);
+  /// Of the present holder: the slave is free again.
+  void unlock();
+  void check_cfg(bool right);
+  void data_exchange();
+  void global_control();
+  void set_slave_address();
+  void read_service();
+  /// WD_On, WD_Base, 1 to 2 ms; and so long a silence.
+  void set_prm_with_watchdog();
+  void wait_watchdog();
+  /// The last request, exactly.
+  void repeat_last();
+  /// Any service but those that parameterise, mostly right, by this master or another.
+  void any_service();
+  void anything();
+  /// To SAP 51 (channel 0), 48 or 47: without data, or a PDU right or wrong.
+  void acyclic_poll(int channel);
+  void acyclic_request(int channel);
+  void initiate();
+  void abort(int channel);
+  /// So many milliseconds, or some cycles around them, in which nothing but the watchdog is triggered, or both C2
+  /// channels are polled all the time.
+  void wait_timer(int ms, bool polls);
+  /// Nothing on the line, for a while.
+  void silence();
+  /// ... until BAUD_CONTROL has run out.
+  void wait_baud_control();
+
+ private:
+  void be_found();
+  bus::Bytes prm(bool right);
+  void request(int dsap, const bus::Bytes& data);
+  void send_acyclic(int dsap, int ssap, const bus::Bytes& data);
+  bus::Bytes acyclic_pdu(int channel);
+  void other_service();
+  void repetition();
+  void broken();
+  void noise();
+  void spike();
+  void sd3();
+  void send(const bus::Bytes& bytes, Tick idle, bool answered, const bus::WireFaults& faults = {});
+  void send(const bus::Telegram& telegram, bool answered = true);
+  std::uint8_t function_code();
+  std::uint8_t master();
+  Tick bit() const;
+  Tick idle();
+
+  Random& random_;
+  Setup& setup_;
+  Stimulus& stimulus_;
+  const dsdpv1::Config config_;
+  bool fcb_ = true, fcv_ = false, careful_ = false;
+  std::optional<bus::Telegram> last_;
+  Tick extra_ = 0;  ///< waited before the next telegram
+};
+
+}  // namespace dsdpv1::cosim

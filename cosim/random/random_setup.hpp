@@ -1,0 +1,64 @@
+#pragma once
+// What the lanes of a random case share: the numbers, and how the slave was set up.
+#include <cstdint>
+#include <random>
+
+#include "bus/bytes.hpp"
+#include "cosim/random/stimulus.hpp"
+#include "model/dsdpv1/chip.hpp"
+
+namespace dsdpv1::cosim {
+
+/// Chip parameters so short that every state is reached soon. What a random case waits for, it waits for with their
+/// times.
+inline dsdpv1::Config quick_config(dsdpv1::Part part = dsdpv1::Part::kDsdpv1) {
+  dsdpv1::Config config;
+  config.part = part;
+  config.u_timer = 20'000;  // of SPI: some frames
+  config.search_window_ms = 1;
+  config.search_window_bits = 150;  // T_SYN and the shortest telegram take 100
+  config.baud_control_ms = 2;
+  return config;
+}
+
+/// Random numbers that are the same with every standard library.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  /// 0 .. limit - 1.
+  int below(int limit) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(limit)); }
+  /// least .. most.
+  int between(int least, int most) { return least + below(most - least + 1); }
+  bool one_in(int n) { return below(n) == 0; }
+  std::uint8_t byte() { return static_cast<std::uint8_t>(engine_()); }
+  bus::Bytes bytes(int count) {
+    bus::Bytes bytes;
+    for (int i = 0; i < count; ++i) bytes.push_back(byte());
+    return bytes;
+  }
+  template <class T, std::size_t N>
+  T pick(const T (&list)[N]) {
+    return list[static_cast<std::size_t>(below(static_cast<int>(N)))];
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// How the slave is initialised, as far as master and user have to know it.
+struct Setup {
+  std::uint8_t address = 5, command = 0x0F;
+  std::uint16_t ident = 0x0CC9;
+  int max_input = 244, max_output = 244, max_diag = 32, max_prm = 237, max_cfg = 200;
+  int prm_mode = 0, cfg_mode = 0;
+  bus::Bytes cfg = {0x11, 0x21};  ///< of the initialisation
+  int inputs = 2, outputs = 2;    ///< bytes that `cfg` describes
+  int rate = 0;
+  bool dpv1 = false;       ///< B005 is 1D, and Set_Prm enables DPV1
+  bool locked = false;     ///< the address (S5)
+  bool fail_safe = false;  ///< the last Set_Prm asks for it
+  /// Of the last acyclic requests to SAP 51, 48 and 47: function, slot, index.
+  std::uint8_t function[3] = {0x5E, 0x5E, 0x5E}, slot[3] = {}, index[3] = {};
+};
+
+}  // namespace dsdpv1::cosim

@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <utility>
+
+#include "cosim/random/campaign.hpp"
+
+namespace dsdpv1::cosim {
+namespace {
+
+class Shrinker {
+ public:
+  Shrinker(Stimulus stimulus, const MakeTop& make, int runs, PlayOptions options)
+      : best_(std::move(stimulus)), make_(make), options_(std::move(options)), runs_(runs) {
+    cut_behind_difference();
+  }
+
+  Stimulus run() {
+    for (bool shorter = true; shorter && runs_ > 0;) shorter = leave_out();
+    simplify();
+    return std::move(best_);
+  }
+
+ private:
+  void cut_behind_difference() {
+    const PlayResult result = play(best_, make_, options_);
+    if (!result.difference) return;
+    Stimulus cut(best_.begin(),
+                 best_.begin() + static_cast<std::ptrdiff_t>(std::min(result.actions_begun, best_.size())));
+    try_it(cut);
+    options_.limit = result.difference->at * 2;
+  }
+  bool try_it(const Stimulus& candidate) {
+    if (runs_-- <= 0 || !play(candidate, make_, options_).difference) return false;
+    best_ = candidate;
+    return true;
+  }
+  /// Blocks of actions, from halves down to single ones, from the end to the beginning.
+  bool leave_out() {
+    const std::size_t before = best_.size();
+    for (std::size_t size = std::max<std::size_t>(1, best_.size() / 2); size > 0 && runs_ > 0; size /= 2) {
+      for (std::size_t end = best_.size(); end > 0 && runs_ > 0; end -= std::min(end, size)) {
+        Stimulus candidate = best_;
+        const std::size_t last = std::min(end, best_.size()), first = last - std::min(last, size);
+        candidate.erase(candidate.begin() + static_cast<std::ptrdiff_t>(first),
+                        candidate.begin() + static_cast<std::ptrdiff_t>(last));
+        try_it(candidate);
+      }
+    }
+    return best_.size() < before;
+  }
+  /// Faults of the wire and odd delays that do not matter.
+  void simplify() {
+    for (std::size_t i = 0; i < best_.size() && runs_ > 0; ++i) {
+      Stimulus candidate = best_;
+      candidate[i].faults = {};
+      candidate[i].delay = candidate[i].delay / 1000 * 1000;
+      try_it(candidate);
+    }
+  }
+
+  Stimulus best_;
+  const MakeTop& make_;
+  PlayOptions options_;
+  int runs_;
+};
+
+}  // namespace
+
+Stimulus shrink(Stimulus stimulus, const MakeTop& make, int runs, const PlayOptions& options) {
+  return Shrinker(std::move(stimulus), make, runs, options).run();
+}
+
+}  // namespace dsdpv1::cosim

@@ -1,0 +1,344 @@
+#include "cosim/random/stimulus.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "io/input/input_error.hpp"
+
+namespace dsdpv1::cosim {
+namespace {
+
+const std::map<std::string, Verb> kVerbs = {{"send", Verb::kSend},   {"spike", Verb::kSpike}, {"take", Verb::kTake},
+                                            {"give", Verb::kGive},   {"write", Verb::kWrite}, {"read", Verb::kRead},
+                                            {"block", Verb::kBlock}, {"pin", Verb::kPin},     {"reset", Verb::kReset},
+                                            {"spi", Verb::kSpi},     {"uart", Verb::kUart},   {"sync", Verb::kSync}};
+
+constexpr Tick kLongest = Tick{1} << 40;
+constexpr int kLastCell = 0x7FF;
+
+/// One `key=value` of an action: where it is kept, and what it may be. Decimal, addresses and values hexadecimal.
+struct Field {
+  const char* key;
+  Tick (*get)(const Action&);
+  void (*set)(Action&, Tick);
+  Tick least, most;
+  bool hex;
+};
+
+#define FIELD(member)                                          \
+  [](const Action& a) { return static_cast<Tick>(a.member); }, \
+      [](Action& a, Tick v) { a.member = static_cast<decltype(a.member)>(v); }
+
+const Field kRate = {"rate", FIELD(rate), 0, 9, false};
+const Field kReply = {"reply", FIELD(reply_bits), 0, 2000, false};
+const Field kAt = {"at", FIELD(address), 0, kLastCell, true};
+const Field kCrc = {"crc", FIELD(crc_address), 0, kLastCell, true};
+const Field kXor = {"xor", FIELD(value), 0, 0xFFFF, true};
+const Field kByte = {"value", FIELD(value), 0, 0xFF, true};
+const Field kLevel = {"level", FIELD(value), -1, kLastCell, false};
+const Field kSetup = {"setup", FIELD(setup), 0, kLongest, false};
+const Field kLow = {"low", FIELD(low), 1, kLongest, false};
+const Field kHold = {"hold", FIELD(hold), 0, kLongest, false};
+const Field kHigh = {"high", FIELD(high), 1, kLongest, false};
+const Field kLead = {"lead", FIELD(lead), 0, kLongest, false};
+const Field kLag = {"lag", FIELD(lag), 0, kLongest, false};
+const Field kPause = {"pause", FIELD(pause), 0, kLongest, false};
+const Field kBits = {"bits", FIELD(bits), 0, 1'000'000, false};
+const Field kUbr = {"rate", FIELD(rate), 0, 7, false};
+const Field kPpm = {"ppm", FIELD(ppm), -100'000, 100'000, false};
+const Field kPoll = {"poll", FIELD(low), 1, kLongest, false};
+#undef FIELD
+
+const std::vector<Field>& fields(Verb verb) {
+  static const std::map<Verb, std::vector<Field>> table = {
+      {Verb::kSend, {kRate, kReply}},
+      {Verb::kSpike, {kLow}},
+      {Verb::kTake, {kPoll}},
+      {Verb::kGive, {}},
+      {Verb::kWrite, {kAt, kByte, kSetup, kLow, kHold}},
+      {Verb::kRead, {kAt, kSetup, kLow, kHold}},
+      {Verb::kBlock, {kAt, kCrc, kXor, kSetup, kLow, kHold}},
+      {Verb::kPin, {kLevel}},
+      {Verb::kReset, {kLow}},
+      {Verb::kSpi, {kSetup, kHigh, kLow, kLead, kLag, kPause, kBits}},
+      {Verb::kUart, {kUbr, kReply, kPpm}},
+      {Verb::kSync, {}}};
+  return table.at(verb);
+}
+
+/// Faults on the wire, `key=position` or `key=position:number:number`.
+struct FaultField {
+  const char* key;
+  std::size_t numbers;  ///< behind the position
+  std::optional<std::vector<long>> (*get)(const bus::WireFaults&);
+  void (*set)(bus::WireFaults&, const std::vector<long>&);
+};
+
+std::optional<std::vector<long>> numbers(const std::optional<std::size_t>& at, std::vector<long> more = {}) {
+  if (!at) return std::nullopt;
+  more.insert(more.begin(), static_cast<long>(*at));
+  return more;
+}
+
+const FaultField kFaults[] = {
+    {"parity", 0, [](const bus::WireFaults& f) { return numbers(f.wrong_parity_at); },
+     [](bus::WireFaults& f, const std::vector<long>& n) { f.wrong_parity_at = static_cast<std::size_t>(n[0]); }},
+    {"stop", 0, [](const bus::WireFaults& f) { return numbers(f.missing_stop_at); },
+     [](bus::WireFaults& f, const std::vector<long>& n) { f.missing_stop_at = static_cast<std::size_t>(n[0]); }},
+    {"gap", 1, [](const bus::WireFaults& f) { return numbers(f.gap_before, {f.gap_millibits}); },
+     [](bus::WireFaults& f, const std::vector<long>& n) {
+       f.gap_before = static_cast<std::size_t>(n[0]);
+       f.gap_millibits = static_cast<int>(n[1]);
+     }},
+    {"cut", 1, [](const bus::WireFaults& f) { return numbers(f.truncate_after, {f.truncate_bits}); },
+     [](bus::WireFaults& f, const std::vector<long>& n) {
+       f.truncate_after = static_cast<std::size_t>(n[0]);
+       f.truncate_bits = static_cast<int>(n[1]);
+     }},
+    {"glitch", 2,
+     [](const bus::WireFaults& f) {
+       return numbers(f.glitch_at, {f.glitch.start_millibits, f.glitch.length_millibits});
+     },
+     [](bus::WireFaults& f, const std::vector<long>& n) {
+       f.glitch_at = static_cast<std::size_t>(n[0]);
+       f.glitch = {static_cast<int>(n[1]), static_cast<int>(n[2])};
+     }}};
+
+std::string faults_text(const bus::WireFaults& faults) {
+  std::string text;
+  for (const FaultField& field : kFaults) {
+    const auto values = field.get(faults);
+    if (!values) continue;
+    text += fmt::format(" {}={}", field.key, fmt::join(*values, ":"));
+  }
+  return text;
+}
+
+bool is_aimed(const Action& action) { return action.during != AccessPart::kNone; }
+
+/// Of user and board, whose lanes look at what the chip does.
+bool may_be_aimed(Verb verb) { return verb != Verb::kSend && verb != Verb::kSpike && verb != Verb::kSync; }
+
+constexpr const char* kDuring = "during";
+
+/// "C1_request".
+std::string word_of(AccessPart part) {
+  std::string word = name(part);
+  std::replace(word.begin(), word.end(), ' ', '_');
+  return word;
+}
+
+std::string part_words() {
+  std::string words;
+  for (std::size_t i = 0; i < std::size(kAccessParts); ++i)
+    words += fmt::format("{}{}", i == 0 ? "" : ", ", word_of(static_cast<AccessPart>(i)));
+  return words;
+}
+
+std::string line_of(const Action& action) {
+  const auto verb =
+      std::find_if(kVerbs.begin(), kVerbs.end(), [&](const auto& each) { return each.second == action.verb; });
+  std::string line = verb->first;
+  if (action.verb == Verb::kSync) return line;
+  line += fmt::format(" +{}", action.delay);
+  if (action.verb == Verb::kPin) line += fmt::format(" {}", dsdpv1::name(action.pin));
+  for (const Field& field : fields(action.verb)) {
+    const Tick value = field.get(action);
+    line += field.hex ? fmt::format(" {}={:X}", field.key, value) : fmt::format(" {}={}", field.key, value);
+  }
+  if (is_aimed(action)) line += fmt::format(" {}={}:{}", kDuring, word_of(action.during), action.within);
+  line += faults_text(action.faults);
+  for (std::size_t i = 0; i < action.bytes.size(); ++i)
+    line += fmt::format("{}{:02X}", i == 0 ? " : " : " ", action.bytes[i]);
+  return line;
+}
+
+/// Reads one line, word by word.
+class LineParser {
+ public:
+  LineParser(const std::string& line, const std::string& file, int number, Part part)
+      : words_(line), file_(file), number_(number), part_(part) {}
+
+  /// Nothing for an empty line or a comment.
+  std::optional<Action> parse() {
+    std::string word;
+    if (!(words_ >> word) || word[0] == '#') return std::nullopt;
+    const auto verb = kVerbs.find(word);
+    const bool rsu = part_ == Part::kRsu;
+    if (verb == kVerbs.end())
+      fail("unknown action " + word, fmt::format("send, spike, take, give, write, read, block, pin, {}reset, sync, "
+                                                 "repeat, end",
+                                                 rsu ? "spi, uart, " : ""));
+    if (!rsu && (verb->second == Verb::kSpi || verb->second == Verb::kUart))
+      fail(word + " is an action of the DSDPV1-RSU's host", "--chip dsdpv1_rsu");
+    Action action;
+    action.verb = verb->second;
+    while (words_ >> word)
+      if (word == ":")
+        bytes(action);
+      else
+        argument(action, word);
+    return action;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what, const std::string& allowed) const {
+    throw tb::InputError(file_, number_, what + ", allowed: " + allowed);
+  }
+  long number(const std::string& text, int base, Tick least, Tick most) const {
+    std::size_t used = 0;
+    long value = 0;
+    try {
+      value = std::stol(text, &used, base);
+    } catch (const std::exception&) {
+      used = 0;
+    }
+    if (used == 0 || used != text.size() || value < least || value > most)
+      fail("wrong number " + text,
+           base == 16 ? fmt::format("{:X} to {:X}, hexadecimal", least, most) : fmt::format("{} to {}", least, most));
+    return value;
+  }
+  void argument(Action& action, const std::string& word) {
+    const std::size_t equals = word.find('=');
+    if (word[0] == '+')
+      action.delay = number(word.substr(1), 10, 0, kLongest);
+    else if (equals != std::string::npos)
+      assign(action, word.substr(0, equals), word.substr(equals + 1));
+    else
+      pin(action, word);
+  }
+  void assign(Action& action, const std::string& key, const std::string& text) const {
+    std::string allowed = "+DELAY";
+    for (const Field& field : fields(action.verb)) {
+      if (key == field.key) return field.set(action, number(text, field.hex ? 16 : 10, field.least, field.most));
+      allowed += fmt::format(", {}=", field.key);
+    }
+    if (may_be_aimed(action.verb)) {
+      if (key == kDuring) return aim(action, text);
+      allowed += fmt::format(", {}=", kDuring);
+    }
+    for (const FaultField& field : kFaults) {
+      if (action.verb != Verb::kSend && action.verb != Verb::kUart) break;
+      if (key == field.key) return field.set(action.faults, split(text, field.numbers + 1));
+      allowed += fmt::format(", {}=", field.key);
+    }
+    fail("unknown argument " + key, allowed);
+  }
+  /// PART:TICKS
+  void aim(Action& action, const std::string& text) const {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::string part = text.substr(0, colon);
+    for (std::size_t i = 0; i < std::size(kAccessParts); ++i)
+      if (part == word_of(static_cast<AccessPart>(i))) action.during = static_cast<AccessPart>(i);
+    if (!is_aimed(action)) fail("unknown part of an access " + part, part_words());
+    if (colon == text.size()) fail("no time in " + text, "PART:TICKS");
+    action.within = number(text.substr(colon + 1), 10, 0, kLongest);
+  }
+  std::vector<long> split(const std::string& text, std::size_t count) const {
+    std::vector<long> values;
+    std::istringstream parts(text);
+    for (std::string part; std::getline(parts, part, ':');) values.push_back(number(part, 10, 0, 1'000'000));
+    if (values.size() != count) fail("wrong fault " + text, fmt::format("{} numbers with : between them", count));
+    return values;
+  }
+  void pin(Action& action, const std::string& word) const {
+    for (int i = 0; i < pin_count(part_) && action.verb == Verb::kPin; ++i) {
+      const Pin each = static_cast<Pin>(i);
+      if (!dsdpv1::is_input(each) || word != dsdpv1::name(each)) continue;
+      action.pin = each;
+      return;
+    }
+    fail("unknown word " + word, "+DELAY, KEY=VALUE, : BYTES, and the name of an input pin behind pin");
+  }
+  void bytes(Action& action) {
+    for (std::string word; words_ >> word;)
+      action.bytes.push_back(static_cast<std::uint8_t>(number(word, 16, 0, 0xFF)));
+  }
+
+  std::istringstream words_;
+  const std::string& file_;
+  int number_;
+  Part part_;
+};
+
+/// The lines of a file; those between `repeat COUNT` and `end` several times.
+class FileParser {
+ public:
+  FileParser(const std::string& file, Part part) : file_(file), part_(part) {}
+
+  Stimulus parse(const std::string& text) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      ++number_;
+      std::istringstream words(line);
+      std::string verb, argument, more;
+      words >> verb >> argument >> more;
+      if (verb == "repeat")
+        repeat(more.empty() ? argument : fmt::format("{} {}", argument, more));
+      else if (verb == "end")
+        end(argument);
+      else if (auto action = LineParser(line, file_, number_, part_).parse())
+        add(std::move(*action));
+    }
+    if (count_ != 0) fail(repeat_line_, "repeat without its end", "end behind the lines that are repeated");
+    return std::move(stimulus_);
+  }
+
+ private:
+  static constexpr int kMostRepeats = 1000;
+  static constexpr std::size_t kMostActions = 1'000'000;  // a quarter of a gigabyte; random cases have some thousands
+  [[noreturn]] void fail(int line, const std::string& what, const std::string& allowed) const {
+    throw tb::InputError(file_, line, what + ", allowed: " + allowed);
+  }
+  void check_length(int line, std::size_t actions) const {
+    if (actions > kMostActions) fail(line, "too many actions", fmt::format("{} in all", kMostActions));
+  }
+  void add(Action action) {
+    check_length(number_, stimulus_.size() + 1);
+    stimulus_.push_back(std::move(action));
+  }
+  void repeat(const std::string& argument) {
+    if (count_ != 0) fail(number_, "repeat within repeat", fmt::format("end first, of line {}", repeat_line_));
+    const bool digits =
+        !argument.empty() && argument.size() <= 4 && argument.find_first_not_of("0123456789") == std::string::npos;
+    count_ = digits ? std::stoi(argument) : 0;
+    if (count_ < 1 || count_ > kMostRepeats)
+      fail(number_, "wrong count " + argument, fmt::format("repeat 1 to repeat {}", kMostRepeats));
+    first_ = stimulus_.size();
+    repeat_line_ = number_;
+  }
+  void end(const std::string& argument) {
+    if (count_ == 0) fail(number_, "end without repeat", "repeat COUNT before it");
+    if (!argument.empty()) fail(number_, "unknown word " + argument, "end alone");
+    const Stimulus lines(stimulus_.begin() + static_cast<std::ptrdiff_t>(first_), stimulus_.end());
+    check_length(repeat_line_, first_ + lines.size() * static_cast<std::size_t>(count_));
+    for (; count_ > 1; --count_) stimulus_.insert(stimulus_.end(), lines.begin(), lines.end());
+    count_ = 0;
+  }
+
+  const std::string& file_;
+  Part part_;
+  Stimulus stimulus_;
+  int number_ = 0, count_ = 0, repeat_line_ = 0;
+  std::size_t first_ = 0;
+};
+
+}  // namespace
+
+std::string to_text(const Stimulus& stimulus) {
+  std::string text =
+      "# Stimulus for the lockstep of model and RTL, see docs/cosim.md. Times are ticks of 1/12 ns, 250 a cycle.\n";
+  for (const Action& action : stimulus) text += line_of(action) + "\n";
+  return text;
+}
+
+Stimulus parse_stimulus(const std::string& text, const std::string& file, Part part) {
+  return FileParser(file, part).parse(text);
+}
+
+}  // namespace dsdpv1::cosim

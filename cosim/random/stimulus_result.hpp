@@ -1,0 +1,35 @@
+#pragma once
+// What came of random cases, or of a stimulus that was played, for programs: one JSON object (docs/cosim.md).
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cosim/lockstep.hpp"
+#include "cosim/random/coverage.hpp"
+#include "tb/dsdpv1/cosim/situations.hpp"
+
+namespace dsdpv1::cosim {
+
+constexpr const char* kStimulusResultSchema = "dsdpv1-sim rtl-random";
+constexpr const char* kStimulusResultVersion = "1.1";
+
+struct StimulusResult {
+  std::string rtl;     ///< folder of the user's RTL; empty: the reference RTL
+  unsigned fault = 0;  ///< of the reference RTL
+  std::uint64_t seed = 1;
+  std::string replayed;         ///< the stimulus file that was played; empty: random cases
+  std::uint64_t cases = 0;      ///< random ones, up to and including the one that differs
+  std::uint64_t case_seed = 0;  ///< of the one that differs
+  MatchCounts counts;
+  Coverage coverage;
+  Situations situations;                 ///< of random cases ...
+  HostSide side;                         ///< ... with this host
+  std::optional<Difference> difference;  ///< of the stimulus in `stimulus`, or of the one that was played
+  std::string stimulus;                  ///< where the case that differs, shrunk, was written
+  std::size_t actions = 0;               ///< ... and how long it is
+};
+
+/// Indented, with a line end.
+std::string result_json(const StimulusResult& result);
+
+}  // namespace dsdpv1::cosim

@@ -1,0 +1,77 @@
+#include "cosim/rtl_device.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dsdpv1::cosim {
+
+RtlDevice::RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top)
+    : core_(config), rtl_(std::move(top), config) {
+  core_.watch({[](void* self, Tick at, Pin pin, Level level) {
+                 static_cast<RtlDevice*>(self)->core_changes_.push_back({at, pin, level});
+               },
+               this},
+              dsdpv1::mask(Pin::kDOut));
+  rtl_.watch({[](void* self, Tick at, Pin pin, Level level) {
+                static_cast<RtlDevice*>(self)->rtl_changes_.push_back({at, pin, level});
+              },
+              this},
+             dsdpv1::outputs_of(config.part));
+}
+
+void RtlDevice::watch(const dsdpv1::PinSink& sink, std::uint32_t pins) {
+  sink_ = sink;
+  watched_ = pins;
+}
+
+void RtlDevice::set(Tick at, Pin pin, Level level) {
+  advance(at);
+  core_.set(at, pin, level);
+  rtl_.set(at, pin, level);
+  pass_on();
+}
+
+void RtlDevice::advance(Tick to) {
+  core_.advance(to);
+  rtl_.advance(to);
+  pass_on();
+}
+
+/// The RTL does not know when the user looks: before Tw (P5) the core beside it says that D is unknown.
+Level RtlDevice::sample(Tick at) {
+  advance(at);
+  return core_.sample(at) == dsdpv1::kLevelX ? dsdpv1::kLevelX : d_;
+}
+
+/// Both sides have told their changes in order of time, one side after the other.
+void RtlDevice::pass_on() {
+  while (core_next_ < core_changes_.size() || rtl_next_ < rtl_changes_.size()) {
+    Tick at = core_next_ < core_changes_.size() ? core_changes_[core_next_].at : rtl_changes_[rtl_next_].at;
+    if (rtl_next_ < rtl_changes_.size()) at = std::min(at, rtl_changes_[rtl_next_].at);
+    pass_on_tick(at);
+  }
+  core_changes_.clear();
+  rtl_changes_.clear();
+  core_next_ = rtl_next_ = 0;
+}
+
+void RtlDevice::pass_on_tick(Tick at) {
+  for (; core_next_ < core_changes_.size() && core_changes_[core_next_].at == at; ++core_next_)
+    core_d_ = core_changes_[core_next_].level;
+  for (; rtl_next_ < rtl_changes_.size() && rtl_changes_[rtl_next_].at == at; ++rtl_next_) {
+    const Change& change = rtl_changes_[rtl_next_];
+    if (change.pin == Pin::kDOut)
+      rtl_d_ = change.level;
+    else
+      tell(at, change.pin, change.level);
+  }
+  const bool unknown = core_d_ == dsdpv1::kLevelX && rtl_d_ != dsdpv1::kLevelZ;
+  const Level d = unknown ? dsdpv1::kLevelX : rtl_d_;
+  if (std::exchange(d_, d) != d) tell(at, Pin::kDOut, d);
+}
+
+void RtlDevice::tell(Tick at, Pin pin, Level level) {
+  if (sink_.call != nullptr && (watched_ & dsdpv1::mask(pin)) != 0) sink_.call(sink_.self, at, pin, level);
+}
+
+}  // namespace dsdpv1::cosim

@@ -1,0 +1,46 @@
+#pragma once
+// RTL as the chip of a bench: the RTL drives the pins. A core beside it, on the same inputs, tells what pins do not
+// show: states and events, and when D is X. A two-state simulation has no X: where P5 and section 12 of the
+// microarchitecture leave D unknown the RTL drives some value, and the bench must not see a value there.
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "cosim/rtl_chip.hpp"
+#include "tb/chip/pin_device.hpp"
+
+namespace dsdpv1::cosim {
+
+class RtlDevice : public tb::PinDevice {
+ public:
+  RtlDevice(const dsdpv1::Config& config, std::unique_ptr<RtlTop> top);
+
+  void set(Tick at, Pin pin, Level level) override;
+  void advance(Tick to) override;
+  Level level(Pin pin) const override { return pin == Pin::kDOut ? d_ : rtl_.level(pin); }
+  Level sample(Tick at) override;
+  Tick next_event() const override { return std::min(rtl_.next_event(), core_.next_event()); }
+  void watch(const dsdpv1::PinSink& sink, std::uint32_t pins) override;
+  void on_event(const profibus::EventSink& sink) override { core_.on_event(sink); }
+  const dsdpv1::Chip& core() const override { return core_; }
+
+ private:
+  struct Change {
+    Tick at;
+    Pin pin;
+    Level level;
+  };
+  void pass_on();
+  void pass_on_tick(Tick at);
+  void tell(Tick at, Pin pin, Level level);
+
+  dsdpv1::Chip core_;
+  RtlChip rtl_;
+  dsdpv1::PinSink sink_;
+  std::uint32_t watched_ = 0;
+  std::vector<Change> core_changes_, rtl_changes_;  ///< since pass_on; of the core only D
+  std::size_t core_next_ = 0, rtl_next_ = 0;
+  Level core_d_ = dsdpv1::kLevelZ, rtl_d_ = dsdpv1::kLevelZ, d_ = dsdpv1::kLevelZ;
+};
+
+}  // namespace dsdpv1::cosim

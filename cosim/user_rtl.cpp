@@ -1,0 +1,289 @@
+#include "cosim/user_rtl.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "io/input/input_error.hpp"
+#include "io/output/write_file.hpp"
+#include "io/waves/wave_writer.hpp"
+
+namespace dsdpv1::cosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Bytes that go to and come from the library, in this order.
+constexpr const char* kInputs[] = {"CLK", "RESET", "R_REQ", "R_STA", "CSR", "RD", "WR", "PBRXD"};
+constexpr const char* kOutputs[] = {"L_REQ", "L_STA", "INTR0", "PBTXD", "PBRTS", "PBF", "BR", "READY", "D_OE"};
+constexpr std::size_t kInputBytes = std::size(kInputs) + 3, kOutputBytes = std::size(kOutputs) + 1;
+constexpr std::size_t kD = std::size(kInputs), kALow = kD + 1, kAHigh = kD + 2;
+
+const Port& port(const PinMap& map, const std::string& name) { return name == "CLK" ? map.clock : map.pins.at(name); }
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+/// Ctrl-C, which the command has got as well.
+bool was_interrupted(int status) {
+  constexpr int kByShell = 128 + SIGINT;
+  return (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) || (WIFEXITED(status) && WEXITSTATUS(status) == kByShell);
+}
+
+/// Runs a command; what it says goes to a file, whose first lines with an error are the message when it fails.
+void call(const std::string& command, const std::string& log, const UserRtl& rtl) {
+  const int status = std::system((command + " >" + quoted(log) + " 2>&1").c_str());
+  if (status == 0) return;
+  if (was_interrupted(status)) std::raise(SIGINT);  // which system() has kept from this process
+  std::ifstream file(log);
+  std::string first;
+  for (std::string line; first.empty() && std::getline(file, line);)
+    if (line.find("rror:") != std::string::npos || line.find("%Error") != std::string::npos) first = line;
+  throw tb::InputError(fmt::format("{}: {}: {} (all of it in {}), allowed is RTL that Verilator 5.006 builds",
+                                   rtl.command, rtl.top, first.empty() ? "failed" : first, log));
+}
+
+std::vector<std::string> sources(const UserRtl& rtl, const PinMap& map) {
+  std::vector<std::string> files;
+  for (const std::string& file : map.files) files.push_back(fs::absolute(fs::path(rtl.folder) / file).string());
+  if (!files.empty()) return files;
+  for (const auto& entry : fs::directory_iterator(rtl.folder)) {
+    const std::string ending = entry.path().extension().string();
+    if (ending == ".sv" || ending == ".v") files.push_back(fs::absolute(entry.path()).string());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) throw tb::InputError(rtl.folder, 0, "holds no RTL, allowed are .sv and .v files");
+  return files;
+}
+
+using Create = void* (*)(int start);
+using Destroy = void (*)(void* self);
+using Eval = void (*)(void* self, const std::uint8_t* in, std::uint8_t* out);
+using Trace = void (*)(void* self, const char* file);
+using Dump = void (*)(void* self, unsigned long long picoseconds);
+
+struct Library {
+  Create create = nullptr;
+  Destroy destroy = nullptr;
+  Eval eval = nullptr;
+  Trace trace = nullptr;  ///< and dump: only of a build with UserRtl::traced
+  Dump dump = nullptr;
+};
+
+template <class Function>
+Function symbol(void* handle, const char* name) {
+  return reinterpret_cast<Function>(dlsym(handle, name));  // the way POSIX gives for functions
+}
+
+/// Stays loaded to the end of the program: designs may live as long.
+Library load(const std::string& path) {
+  void* handle = dlopen(fs::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) throw tb::InputError(path, 0, fmt::format("cannot be loaded: {}", dlerror()));
+  return {symbol<Create>(handle, "dsdpv1_rtl_create"), symbol<Destroy>(handle, "dsdpv1_rtl_destroy"),
+          symbol<Eval>(handle, "dsdpv1_rtl_eval"), symbol<Trace>(handle, "dsdpv1_rtl_trace"),
+          symbol<Dump>(handle, "dsdpv1_rtl_dump")};
+}
+
+/// Three designs that begin with zeros, with ones and with random values wherever nothing is initialised or reset
+/// (Verilator's randReset). A trace is that of the first.
+class UserTop : public TimedTop {
+ public:
+  UserTop(const Library& library, std::optional<RtlTrace> trace)
+      : library_(library), designs_{library.create(0), library.create(1), library.create(2)}, trace_(std::move(trace)) {
+    if (trace_) library_.trace(designs_.front(), trace_->file.c_str());
+  }
+  ~UserTop() override {
+    if (trace_) dump();
+    for (void* design : designs_) library_.destroy(design);
+  }
+  UserTop(const UserTop&) = delete;
+  UserTop& operator=(const UserTop&) = delete;
+
+  void eval() override {
+    const std::array<std::uint8_t, kInputBytes> levels = {in.clk,
+                                                          in.reset,
+                                                          in.r_req,
+                                                          in.r_sta,
+                                                          in.csr,
+                                                          in.rd,
+                                                          in.wr,
+                                                          in.pbrxd,
+                                                          in.d,
+                                                          static_cast<std::uint8_t>(in.a & 0xFF),
+                                                          static_cast<std::uint8_t>(in.a >> 8)};
+    out.word = word(0, levels);
+    out.unknown = (out.word ^ word(1, levels)) | (out.word ^ word(2, levels));
+  }
+  bool dpram(DpramImage&) const override { return false; }
+  /// What the evaluations of one time have led to is dumped when they are over: a trace takes each time once.
+  void moment(bus::Tick at) override {
+    if (!trace_ || at == now_) return;
+    if (now_ >= 0) dump();
+    now_ = at;
+  }
+
+ private:
+  void dump() {
+    if (now_ >= trace_->from && now_ <= trace_->to) library_.dump(designs_.front(), tb::picoseconds(now_));
+  }
+  std::uint32_t word(std::size_t design, const std::array<std::uint8_t, kInputBytes>& levels) {
+    std::array<std::uint8_t, kOutputBytes> bytes{};
+    library_.eval(designs_.at(design), levels.data(), bytes.data());
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < std::size(kOutputs); ++i) word |= (bytes.at(i) & 1U) << (kWireLReq + i);
+    return (word >> kWireDriven & 1U) != 0 ? word | bytes.back() : word;
+  }
+
+  Library library_;
+  std::array<void*, 3> designs_;
+  std::optional<RtlTrace> trace_;
+  bus::Tick now_ = -1;  ///< of the evaluations that are not dumped yet
+};
+
+/// The parts of the generated file that only a traced build has.
+constexpr const char* kTraceIncluded = "#include \"verilated_fst_c.h\"\n";
+constexpr const char* kTraceMember = "  VerilatedFstC trace;  // closed before the model goes\n";
+constexpr const char* kTraceFunctions =
+    "\nextern \"C\" void dsdpv1_rtl_trace(void* self, const char* file) {\n"
+    "  auto* design = static_cast<Design*>(self);\n"
+    "  design->model->trace(&design->trace, 99);\n"
+    "  design->trace.set_time_unit(\"1ps\");\n  design->trace.set_time_resolution(\"1ps\");\n"
+    "  design->trace.open(file);\n}\n\n"
+    "extern \"C\" void dsdpv1_rtl_dump(void* self, unsigned long long picoseconds) {\n"
+    "  static_cast<Design*>(self)->trace.dump(static_cast<uint64_t>(picoseconds));\n}\n";
+
+}  // namespace
+
+std::string adapter_source(const std::string& top, const PinMap& map, bool traced) {
+  std::string text = fmt::format(
+      "// Generated: the pins of {0} for the co-simulation.\n"
+      "#include \"V{0}.h\"\n#include \"verilated.h\"\n{1}#include <memory>\n\nnamespace {{\nstruct Design {{\n"
+      "  VerilatedContext context;\n  std::unique_ptr<V{0}> model;\n{2}}};\n}}  // namespace\n\n"
+      "extern \"C\" void* dsdpv1_rtl_create(int start) {{\n  auto* design = new Design;\n"
+      "  design->context.randReset(start);\n  design->context.randSeed(1);\n{3}"
+      "  design->model = std::make_unique<V{0}>(&design->context);\n  return design;\n}}\n\n"
+      "extern \"C\" void dsdpv1_rtl_destroy(void* self) {{ delete static_cast<Design*>(self); }}\n{4}\n"
+      "extern \"C\" void dsdpv1_rtl_eval(void* self, const unsigned char* in, unsigned char* out) {{\n"
+      "  V{0}& model = *static_cast<Design*>(self)->model;\n",
+      top, traced ? kTraceIncluded : "", traced ? kTraceMember : "",
+      traced ? "  design->context.traceEverOn(true);\n" : "", traced ? kTraceFunctions : "");
+  for (std::size_t i = 0; i < std::size(kInputs); ++i)
+    text += fmt::format("  model.{} = {}in[{}];\n", port(map, kInputs[i]).name,
+                        port(map, kInputs[i]).inverted ? "!" : "", i);
+  const auto inverted = [&map](const char* name) { return port(map, name).inverted ? "~" : ""; };
+  text += fmt::format("  model.{} = ({}in[{}]) & 0xFF;\n", port(map, "D_IN").name, inverted("D_IN"), kD);
+  text += fmt::format("  model.{} = ({}(in[{}] | in[{}] << 8)) & 0x7FF;\n", port(map, "A").name, inverted("A"), kALow,
+                      kAHigh);
+  text += "  model.eval();\n";
+  for (std::size_t i = 0; i < std::size(kOutputs); ++i)
+    text += fmt::format("  out[{}] = {}model.{};\n", i, port(map, kOutputs[i]).inverted ? "!" : "",
+                        port(map, kOutputs[i]).name);
+  text += fmt::format("  out[{}] = {}model.{};\n}}\n", std::size(kOutputs), inverted("D_OUT"), port(map, "D_OUT").name);
+  return text;
+}
+
+namespace {
+
+/// Folders with the modules of the reference RTL, and what they include.
+std::vector<std::string> reference_folders(const UserRtl& rtl) {
+  const fs::path root = fs::path(rtl.sources) / "rtl_ref";
+  std::ifstream list(root / "files.txt");
+  if (!list)
+    throw tb::InputError(fmt::format("{}: the map of pins has reference: true, but {} is not there, allowed is a {}",
+                                     rtl.command, root.string(), "program whose sources are where it was built"));
+  std::vector<std::string> folders = {root.string(), (fs::path(rtl.sources) / "registers").string()};
+  for (std::string file; std::getline(list, file);) {
+    const std::string folder = (root / file).parent_path().string();
+    if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
+  }
+  return folders;
+}
+
+std::string verilator_command(const UserRtl& rtl, const PinMap& map, const std::string& build,
+                              const std::string& adapter) {
+  std::string command = "verilator --cc --exe -O3 -Wno-fatal --x-assign unique --x-initial unique -CFLAGS '-O2 -fPIC'";
+  command += rtl.traced ? " --trace-fst --trace-structs -LDFLAGS '-shared -lz'" : " -LDFLAGS -shared";
+  command += fmt::format(" --top-module {} --prefix V{} --Mdir {} -I{} -o librtl.so", rtl.top, rtl.top, quoted(build),
+                         quoted(fs::absolute(rtl.folder).string()));
+  for (const std::string& folder : map.include)
+    command += " -I" + quoted(fs::absolute(fs::path(rtl.folder) / folder).string());
+  if (map.reference)
+    for (const std::string& folder : reference_folders(rtl)) command += " -I" + quoted(folder);
+  for (const auto& [name, value] : map.parameters)
+    command.append(" ").append(quoted(fmt::format("-G{}={}", name, value)));
+  for (const std::string& source : sources(rtl, map)) command += " " + quoted(source);
+  return command + " " + quoted(adapter);
+}
+
+/// Every port that the map names is one of the Verilated top, whose header declares them as VL_IN8(&name,7,0).
+void check_ports(const UserRtl& rtl, const PinMap& map, const std::string& build) {
+  std::ifstream file(fmt::format("{}/V{}.h", build, rtl.top));
+  const std::string header{std::istreambuf_iterator<char>(file), {}};
+  const auto check = [&](const std::string& pin, const std::string& name) {
+    if (header.find("(&" + name + ",") != std::string::npos) return;
+    throw tb::InputError(fmt::format("{}: {} has no port {} for {}, allowed are its ports, named in --pins",
+                                     rtl.command, rtl.top, name, pin));
+  };
+  check("CLK", map.clock.name);
+  for (const auto& [pin, port] : map.pins) check(pin, port.name);
+}
+
+/// It stands in names of files and classes, and in commands.
+void check_top(const UserRtl& rtl) {
+  const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  const bool begins = !rtl.top.empty() && std::isdigit(static_cast<unsigned char>(rtl.top.front())) == 0;
+  if (begins && std::all_of(rtl.top.begin(), rtl.top.end(), fits)) return;
+  throw tb::InputError(
+      fmt::format("{}: --top is {}, allowed is the name of a module: letters, digits and _", rtl.command, rtl.top));
+}
+
+bool installed(const char* program) {
+  return std::system(fmt::format("command -v {} >/dev/null 2>&1", program).c_str()) == 0;
+}
+
+void create_folder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw tb::InputError(folder, 0, "cannot be created: " + error.message());
+}
+
+/// With ccache, where there is one: RTL that has been built before is not compiled again.
+std::string make_command(const UserRtl& rtl, const std::string& build) {
+  return fmt::format("{}make -s -j2 -C {} -f V{}.mk", installed("ccache") ? "OBJCACHE=ccache " : "", quoted(build),
+                     rtl.top);
+}
+
+}  // namespace
+
+MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map) {
+  check_top(rtl);
+  if (!fs::is_directory(rtl.folder)) throw tb::InputError(rtl.folder, 0, "is no folder, allowed is one with RTL");
+  if (!installed("verilator"))
+    throw tb::InputError(rtl.command + ": Verilator is missing, allowed is version 5.006 or later in PATH");
+  const std::string build = fs::absolute(rtl.traced ? fs::path(rtl.build) / "traced" : fs::path(rtl.build)).string();
+  create_folder(build);
+  const std::string adapter = build + "/adapter.cpp";
+  tb::write_file(adapter, adapter_source(rtl.top, map, rtl.traced));
+
+  call(verilator_command(rtl, map, build, adapter), build + "/verilator.log", rtl);
+  check_ports(rtl, map, build);
+  call(make_command(rtl, build), build + "/compiler.log", rtl);
+  const Library library = load(build + "/librtl.so");
+  return [library](const std::optional<RtlTrace>& trace) { return std::make_unique<UserTop>(library, trace); };
+}
+
+}  // namespace dsdpv1::cosim

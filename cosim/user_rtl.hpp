@@ -1,0 +1,32 @@
+#pragma once
+// RTL of a user's own: built with Verilator into a shared library, loaded, and evaluated as any other RtlTop.
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cosim/pin_map.hpp"
+#include "cosim/rtl_trace.hpp"
+
+namespace dsdpv1::cosim {
+
+struct UserRtl {
+  std::string command;  ///< for messages: "dsdpv1-sim cosim"
+  std::string folder, top;
+  std::string build = "build/cosim";  ///< for what is generated
+  std::string sources;                ///< of this program, where PinMap::reference finds the reference RTL
+  bool traced = false;                ///< its inside can be recorded; a build of its own
+};
+
+/// Makes the design for one run, also on several threads. With a trace, of a build with UserRtl::traced, its inside is
+/// recorded.
+using MakeUserRtl = std::function<std::unique_ptr<RtlTop>(const std::optional<RtlTrace>& trace)>;
+
+/// Builds it; throws tb::InputError with Verilator's or the compiler's words. The result makes chips that run three
+/// times, with different values wherever nothing is initialised or reset: where the three differ a pin is X.
+MakeUserRtl build_user_rtl(const UserRtl& rtl, const PinMap& map);
+
+/// The generated file between the Verilated class and this program; `traced` as of UserRtl.
+std::string adapter_source(const std::string& top, const PinMap& map, bool traced);
+
+}  // namespace dsdpv1::cosim
