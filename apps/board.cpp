@@ -2,7 +2,7 @@
 // GPL-2.0-only, and therefore no SystemC.
 #include "apps/program.hpp"
 #include "io/input/input_error.hpp"
-#include "tb/dsdpv1/board/arm_user.hpp"
+#include "kinds/dsdpv1/board/arm_user.hpp"
 
 namespace dsdpv1::app {
 

@@ -13,8 +13,8 @@
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "io/output/write_file.hpp"
+#include "kinds/dsdpv1/checks/markdown.hpp"
 #include "tb/chip/chip_kind.hpp"
-#include "tb/dsdpv1/checks/markdown.hpp"
 #include "tb/scenario/event_codes.hpp"
 
 namespace dsdpv1::app {

@@ -27,8 +27,8 @@
 #include "io/output/output_file.hpp"
 #include "io/output/write_file.hpp"
 #include "io/waves/wave_writer.hpp"
+#include "kinds/dsdpv1/random/random_stimulus.hpp"
 #include "lab/campaign/lock.hpp"
-#include "tb/dsdpv1/cosim/random_stimulus.hpp"
 
 namespace dsdpv1::app {
 namespace {

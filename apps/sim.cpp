@@ -1,6 +1,6 @@
 // dsdpv1-sim: the command-line program, with SystemC. Scenarios with an ARM board are handed over to dsdpv1-board.
 #include "apps/program.hpp"
-#include "tb/dsdpv1/systemc/tlm_execution.hpp"
+#include "kinds/dsdpv1/tlm/tlm_execution.hpp"
 
 namespace dsdpv1::app {
 

@@ -4,10 +4,10 @@
 #include "capi/bus.hpp"
 #include "capi/chip.hpp"
 #include "capi/error.hpp"
+#include "kinds/dsdpv1/chip/pin_chip.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/kind.hpp"
 #include "model/dsdpv1/reasons.hpp"
-#include "tb/dsdpv1/kind.hpp"
-#include "tb/dsdpv1/pin_chip.hpp"
-#include "tb/dsdpv1/settings.hpp"
 
 namespace dsdpv1::capi {
 namespace {

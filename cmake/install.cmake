@@ -132,9 +132,13 @@ function(dsdpv1_install_core_and_driver)
   dsdpv1_install_pc(driver dsdpv1-driver "driver for the DSDPV1, in C99" LIBS dsdpv1_driver)
 endfunction()
 
-# dsdpv1_install_moved_headers(ROOM FORMER): the headers of ROOM, also at their paths of before.
+# dsdpv1_install_moved_headers(ROOM FORMER [NAME]): the headers of ROOM, or that of this name, also at their paths of before.
 function(dsdpv1_install_moved_headers room former)
-  file(GLOB headers RELATIVE ${PROJECT_SOURCE_DIR}/${room} CONFIGURE_DEPENDS ${room}/*.hpp ${room}/*.inc)
+  set(name *)
+  if(ARGN)
+    set(name ${ARGN})
+  endif()
+  file(GLOB headers RELATIVE ${PROJECT_SOURCE_DIR}/${room} CONFIGURE_DEPENDS ${room}/${name}.hpp ${room}/${name}.inc)
   foreach(header ${headers})
     install(FILES ${room}/${header} DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/${room} COMPONENT checks)
     dsdpv1_install_former_header(checks ${DSDPV1_INSTALL_INCLUDEDIR} ${former}/${header} ${room}/${header})
@@ -148,10 +152,8 @@ function(dsdpv1_install_bus_and_checks)
   dsdpv1_install_targets(checks checks dsdpv1_pins dsdpv1_check_recorder dsdpv1_checks)
   dsdpv1_install_moved_headers(tb/chip/pins tb/pins)
   dsdpv1_install_moved_headers(tb/chip/checks tb/checks)
-  foreach(room tb/dsdpv1/pins tb/dsdpv1/checks)
-    install(DIRECTORY ${room}/ DESTINATION ${DSDPV1_INSTALL_INCLUDEDIR}/${room} COMPONENT checks
-            FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc")
-  endforeach()
+  dsdpv1_install_moved_headers(kinds/dsdpv1/checks tb/dsdpv1/checks)
+  dsdpv1_install_moved_headers(kinds/dsdpv1/pins tb/dsdpv1/pins pin_table)
   dsdpv1_install_pc(checks dsdpv1-checks "checks of handshake, bus timing and use of the DSDPV1's DPRAM"
                     LIBS dsdpv1_checks dsdpv1_check_recorder dsdpv1_pins REQUIRES dsdpv1-core dsdpv1-bus fmt)
 endfunction()

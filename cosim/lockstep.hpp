@@ -10,8 +10,8 @@
 #include "cosim/history.hpp"
 #include "cosim/pin_comparator.hpp"
 #include "cosim/rtl_chip.hpp"
+#include "kinds/dsdpv1/random/access_watch.hpp"
 #include "model/dsdpv1/chip.hpp"
-#include "tb/dsdpv1/cosim/access_watch.hpp"
 
 namespace dsdpv1::cosim {
 

@@ -7,9 +7,9 @@
 #include "cosim/reference_rtl.hpp"
 #include "cosim/rtl_device.hpp"
 #include "io/input/input_error.hpp"
-#include "tb/dsdpv1/kind.hpp"
-#include "tb/dsdpv1/pin_chip.hpp"
-#include "tb/dsdpv1/settings.hpp"
+#include "kinds/dsdpv1/chip/pin_chip.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/kind.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "cosim/line_history.hpp"
 #include "cosim/pin_map.hpp"
+#include "kinds/dsdpv1/random/access_watch.hpp"
 #include "lab/compare/options.hpp"
 #include "lab/compare/surroundings.hpp"
-#include "tb/dsdpv1/cosim/access_watch.hpp"
 
 namespace dsdpv1::cosim {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "tb/dsdpv1/user_cpu/access_timing.hpp"
+#include "kinds/dsdpv1/user_cpu/access_timing.hpp"
 
 namespace dsdpv1::user_cpu {
 

@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "cosim/random/random_setup.hpp"
-#include "tb/dsdpv1/cosim/random_stimulus.hpp"
-#include "tb/dsdpv1/cosim/situation_watch.hpp"
+#include "kinds/dsdpv1/random/random_stimulus.hpp"
+#include "kinds/dsdpv1/random/situation_watch.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "cosim/random/coverage.hpp"
 #include "cosim/random/player.hpp"
-#include "tb/dsdpv1/cosim/situations.hpp"
+#include "kinds/dsdpv1/random/situations.hpp"
 
 namespace dsdpv1::cosim {
 

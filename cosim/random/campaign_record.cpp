@@ -10,8 +10,8 @@
 #include "io/input/input_error.hpp"
 #include "io/input/read_file.hpp"
 #include "io/output/write_file.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
 #include "model/dsdpv1/reasons.hpp"
-#include "tb/dsdpv1/settings.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

@@ -3,8 +3,8 @@
 #include "cosim/random/campaign.hpp"
 #include "cosim/reference_rtl.hpp"
 #include "io/input/input_error.hpp"
-#include "tb/dsdpv1/kind.hpp"
-#include "tb/dsdpv1/settings.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/kind.hpp"
 #include "tb/scenario/settings.hpp"
 
 namespace dsdpv1::cosim {

@@ -9,7 +9,7 @@
 
 #include "cosim/random/player.hpp"
 #include "io/waves/wave_writer.hpp"
-#include "tb/dsdpv1/inside_watch.hpp"
+#include "kinds/dsdpv1/pins/inside_watch.hpp"
 
 namespace dsdpv1::cosim {
 

@@ -8,8 +8,8 @@
 #include "bus/timeline.hpp"
 #include "bus/wire/segment.hpp"
 #include "bus/wire/uart.hpp"
+#include "kinds/dsdpv1/random/serial_edges.hpp"
 #include "model/dpram/crc16.hpp"
-#include "tb/dsdpv1/cosim/serial_edges.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bus/wire/uart.hpp"
+#include "kinds/dsdpv1/random/access_parts.hpp"
 #include "model/dsdpv1/pins.hpp"
-#include "tb/dsdpv1/cosim/access_parts.hpp"
 
 namespace dsdpv1::cosim {
 

@@ -6,7 +6,7 @@
 
 #include "cosim/lockstep.hpp"
 #include "cosim/random/coverage.hpp"
-#include "tb/dsdpv1/cosim/situations.hpp"
+#include "kinds/dsdpv1/random/situations.hpp"
 
 namespace dsdpv1::cosim {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tb/dsdpv1/calibrate/rulings.hpp"
+#include "kinds/dsdpv1/claims/rulings.hpp"
 
 namespace dsdpv1::calibrate {
 

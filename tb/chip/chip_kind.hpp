@@ -128,7 +128,7 @@ const std::vector<const ChipKind*>& chip_kinds();
 const ChipKind* find_chip_kind(const std::string& name);
 /// Adds one, which must outlive the program's use of scenarios, before the first scenario is read or described.
 void add_chip_kind(const ChipKind& kind);
-/// Those that are built in: defined by the room that knows them (tb/kinds).
+/// Those that are built in: defined by the room that knows them (kinds/).
 std::vector<const ChipKind*> built_in_chip_kinds();
 
 }  // namespace dsdpv1::tb

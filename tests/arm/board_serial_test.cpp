@@ -6,8 +6,8 @@
 #include <bitset>
 #include <map>
 
-#include "tb/dsdpv1/user_cpu/arm/board.hpp"
-#include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
+#include "kinds/dsdpv1/board/board.hpp"
+#include "kinds/dsdpv1/user_cpu/pin_host_bus.hpp"
 
 namespace dsdpv1 {
 namespace {

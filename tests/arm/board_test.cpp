@@ -1,6 +1,6 @@
 // The board's peripherals and wiring, seen from the pins: tests/arm/firmware/probe.c does things, the test looks at the
 // host bus.
-#include "tb/dsdpv1/user_cpu/arm/board.hpp"
+#include "kinds/dsdpv1/board/board.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
+#include "kinds/dsdpv1/user_cpu/pin_host_bus.hpp"
 
 namespace dsdpv1 {
 namespace {

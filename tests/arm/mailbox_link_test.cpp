@@ -1,5 +1,5 @@
 // The mailbox as firmware may leave it: whatever stands there, the bench uses it only when it can be meant.
-#include "tb/dsdpv1/user_cpu/arm/mailbox_link.hpp"
+#include "kinds/dsdpv1/board/mailbox_link.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The table of rulings is all of docs/chip.md; that of parameters all of a scenario's `chip`.
-#include "tb/dsdpv1/calibrate/rulings.hpp"
+#include "kinds/dsdpv1/claims/rulings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <set>
 
-#include "tb/dsdpv1/settings.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
 
 namespace dsdpv1 {
 namespace {

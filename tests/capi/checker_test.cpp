@@ -1,7 +1,7 @@
 // Checks fed from pins.
 #include <string>
 
-#include "tb/dsdpv1/checks/checks.hpp"
+#include "kinds/dsdpv1/checks/checks.hpp"
 #include "tests/capi/capi.hpp"
 
 namespace dsdpv1::capi_test {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tb/dsdpv1/checks/checks.hpp"
+#include "kinds/dsdpv1/checks/checks.hpp"
 
 namespace dsdpv1::checks_test {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "tb/dsdpv1/checks/blocks.hpp"
+#include "kinds/dsdpv1/checks/blocks.hpp"
 #include "tests/checks/board.hpp"
 
 namespace dsdpv1 {

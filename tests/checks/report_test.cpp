@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tb/dsdpv1/checks/markdown.hpp"
+#include "kinds/dsdpv1/checks/markdown.hpp"
 #include "tests/app/program.hpp"
 
 namespace dsdpv1 {

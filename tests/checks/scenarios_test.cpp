@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "kinds/dsdpv1/checks/check.hpp"
 #include "tb/bench/bench.hpp"
-#include "tb/dsdpv1/checks/check.hpp"
 #include "tb/scenario/scenario.hpp"
 #ifdef RUDE_FOLDER
-#include "tb/dsdpv1/board/arm_user.hpp"
+#include "kinds/dsdpv1/board/arm_user.hpp"
 #endif
 
 namespace dsdpv1 {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bus/monitor/monitor.hpp"
-#include "tb/dsdpv1/checks/checks.hpp"
+#include "kinds/dsdpv1/checks/checks.hpp"
 #include "tests/conformance/host_telegrams.hpp"
 
 namespace dsdpv1 {

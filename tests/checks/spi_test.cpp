@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "tb/dsdpv1/checks/checks.hpp"
+#include "kinds/dsdpv1/checks/checks.hpp"
 
 namespace dsdpv1 {
 namespace {

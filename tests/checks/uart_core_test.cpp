@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <random>
 
+#include "kinds/dsdpv1/checks/checks.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/reasons.hpp"
-#include "tb/dsdpv1/checks/checks.hpp"
 #include "tests/checks/uart_line.hpp"
 
 namespace dsdpv1 {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "tb/dsdpv1/checks/checks.hpp"
+#include "kinds/dsdpv1/checks/checks.hpp"
 #include "tests/checks/uart_line.hpp"
 
 namespace dsdpv1 {

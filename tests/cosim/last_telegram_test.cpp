@@ -1,9 +1,9 @@
 // The user's last access or telegram in words, from the pins alone.
 #include <gtest/gtest.h>
 
+#include "kinds/dsdpv1/port/last_access.hpp"
+#include "kinds/dsdpv1/random/access_watch.hpp"
 #include "model/dsdpv1/serial_host.hpp"
-#include "tb/dsdpv1/cosim/access_watch.hpp"
-#include "tb/dsdpv1/last_access.hpp"
 
 namespace dsdpv1 {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "cosim/random/campaign.hpp"
 #include "cosim/random/play_options.hpp"
-#include "tb/dsdpv1/cosim/random_host.hpp"
-#include "tb/dsdpv1/cosim/random_stimulus.hpp"
-#include "tb/dsdpv1/cosim/random_user.hpp"
-#include "tb/dsdpv1/cosim/situation_watch.hpp"
+#include "kinds/dsdpv1/random/random_host.hpp"
+#include "kinds/dsdpv1/random/random_stimulus.hpp"
+#include "kinds/dsdpv1/random/random_user.hpp"
+#include "kinds/dsdpv1/random/situation_watch.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

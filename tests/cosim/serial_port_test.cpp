@@ -9,9 +9,9 @@
 #include <initializer_list>
 #include <set>
 
+#include "kinds/dsdpv1/random/random_host.hpp"
+#include "kinds/dsdpv1/random/serial_edges.hpp"
 #include "model/dsdpv1/chip.hpp"
-#include "tb/dsdpv1/cosim/random_host.hpp"
-#include "tb/dsdpv1/cosim/serial_edges.hpp"
 #include "tests/conformance/host_telegrams.hpp"
 
 namespace dsdpv1 {

@@ -11,7 +11,7 @@
 #include "cosim/random/campaign_record.hpp"
 #include "cosim/random/random_setup.hpp"
 #include "io/input/input_error.hpp"
-#include "tb/dsdpv1/cosim/situation_watch.hpp"
+#include "kinds/dsdpv1/random/situation_watch.hpp"
 
 namespace dsdpv1::cosim {
 namespace {

@@ -9,7 +9,7 @@
 #include "cosim/random/faults.hpp"
 #include "cosim/random/stimulus.hpp"
 #include "io/input/input_error.hpp"
-#include "tb/dsdpv1/cosim/random_stimulus.hpp"
+#include "kinds/dsdpv1/random/random_stimulus.hpp"
 
 namespace dsdpv1 {
 namespace {

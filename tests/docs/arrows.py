@@ -22,8 +22,10 @@ NO_ROOMS = ("build/", "out/", "tests/", "rtl_ref/", ".")  # tests may look at ev
 
 def rows_of(text, table=TABLE):
     """Room, or file, to the words of its cell, in the order of the page."""
-    table = table.search(text)
-    return {room: re.findall(r"`([^`]+)`", cell) for room, cell in ROW.findall(table.group(1))} if table else {}
+    rows, table = {}, table.search(text)
+    for room, cell in ROW.findall(table.group(1)) if table else []:
+        rows.setdefault(room, []).extend(re.findall(r"`([^`]+)`", cell))
+    return rows
 
 
 def includes_of(root, upward):

@@ -62,10 +62,11 @@ class Rooms(unittest.TestCase):
                 file.write_text(text, encoding="utf-8")
                 self.assertEqual(len(list(rooms.faults(pathlib.Path(folder), pattern))), count, text)
 
-    def test_a_room_of_the_bench_that_nobody_judges_is_a_fault(self):
-        (self.root / "tb" / "new").mkdir(parents=True)
-        (self.root / "tb" / "dsdpv1").mkdir()
-        self.assertEqual([fault.split(":")[0] for fault in rooms.unknown_rooms(self.root)], ["tb/new"])
+    def test_a_room_that_nobody_judges_is_a_fault(self):
+        self.write("new/part", "// Right.")
+        self.write("kinds/dsdpv1", "// Right.")
+        (self.root / "docs").mkdir()
+        self.assertEqual([fault.split(":")[0] for fault in rooms.unknown_rooms(self.root)], ["new"])
 
     def test_a_file_that_may_name_a_chip_for_now_is_a_fault_when_it_names_none(self):
         name = next(iter(rooms.NAME_A_CHIP))

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
+#include "kinds/dsdpv1/pins/diagrams.hpp"
 #include "model/dsdpv1/pins.hpp"
-#include "tb/dsdpv1/diagrams.hpp"
 #include "tb/report/html/diagram_watch.hpp"
 
 namespace dsdpv1 {

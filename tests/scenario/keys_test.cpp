@@ -3,7 +3,7 @@
 
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
-#include "tb/dsdpv1/checks/check.hpp"
+#include "kinds/dsdpv1/checks/check.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1 {

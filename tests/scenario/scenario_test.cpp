@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "io/input/input_error.hpp"
-#include "tb/dsdpv1/settings.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
 #include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1 {

@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "bus/timeline.hpp"
-#include "tb/dsdpv1/systemc/tlm_chip.hpp"
-#include "tb/dsdpv1/systemc/tlm_host_bus.hpp"
-#include "tb/dsdpv1/user_cpu/native_cpu.hpp"
-#include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
-#include "tb/dsdpv1/user_cpu/programs.hpp"
+#include "kinds/dsdpv1/tlm/tlm_chip.hpp"
+#include "kinds/dsdpv1/tlm/tlm_host_bus.hpp"
+#include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
+#include "kinds/dsdpv1/user_cpu/pin_host_bus.hpp"
+#include "kinds/dsdpv1/user_cpu/programs.hpp"
 #include "tb/systemc/timeline_module.hpp"
 #include "tests/systemc/bench.hpp"
 #include "tests/user_cpu/chip_agent.hpp"

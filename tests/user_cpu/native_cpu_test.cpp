@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "driver/dsdpv1.h"
-#include "tb/dsdpv1/user_cpu/driver_port.hpp"
-#include "tb/dsdpv1/user_cpu/native_cpu.hpp"
+#include "kinds/dsdpv1/user_cpu/driver_port.hpp"
+#include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
 #include "tests/user_cpu/recording_bus.hpp"
 
 namespace dsdpv1 {

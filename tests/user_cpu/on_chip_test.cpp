@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "kinds/dsdpv1/user_cpu/pin_host_bus.hpp"
+#include "kinds/dsdpv1/user_cpu/programs.hpp"
 #include "model/dsdpv1/chip.hpp"
 #include "model/dsdpv1/reasons.hpp"
-#include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
-#include "tb/dsdpv1/user_cpu/programs.hpp"
 #include "tests/user_cpu/chip_agent.hpp"
 
 namespace dsdpv1 {

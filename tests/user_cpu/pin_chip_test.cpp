@@ -1,5 +1,5 @@
 // A host access on a chip of the bench: all of its edges in one turn, but for those behind one that somebody hears of.
-#include "tb/dsdpv1/pin_chip.hpp"
+#include "kinds/dsdpv1/chip/pin_chip.hpp"
 
 #include <gtest/gtest.h>
 

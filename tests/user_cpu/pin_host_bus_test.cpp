@@ -1,4 +1,4 @@
-#include "tb/dsdpv1/user_cpu/pin_host_bus.hpp"
+#include "kinds/dsdpv1/user_cpu/pin_host_bus.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "tb/dsdpv1/user_cpu/cpu.hpp"
+#include "kinds/dsdpv1/user_cpu/cpu.hpp"
 #include "tests/user_cpu/fake_pins.hpp"
 
 namespace dsdpv1 {

@@ -1,5 +1,5 @@
 // The standard program on the driver tests' fake chip, which makes an access at every release.
-#include "tb/dsdpv1/user_cpu/programs.hpp"
+#include "kinds/dsdpv1/user_cpu/programs.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

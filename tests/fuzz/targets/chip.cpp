@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "cosim/random/random_setup.hpp"
+#include "kinds/dsdpv1/random/serial_edges.hpp"
 #include "model/dpram/crc16.hpp"
-#include "tb/dsdpv1/cosim/serial_edges.hpp"
 #include "tests/conformance/slave_bench.hpp"
 #include "tests/fuzz/input.hpp"
 

@@ -2,7 +2,7 @@
 // without having asked.
 #include <dsdpv1/bus/master/master1.hpp>
 #include <dsdpv1/bus/monitor/monitor.hpp>
-#include <dsdpv1/tb/dsdpv1/checks/checks.hpp>
+#include <dsdpv1/kinds/dsdpv1/checks/checks.hpp>
 
 namespace {
 

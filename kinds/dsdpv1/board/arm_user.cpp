@@ -1,0 +1,105 @@
+#include "kinds/dsdpv1/board/arm_user.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "board/gdb/gdb_server.hpp"
+#include "board/gdb/history_player.hpp"
+#include "io/input/input_error.hpp"
+#include "kinds/dsdpv1/board/board.hpp"
+#include "kinds/dsdpv1/board/untold.hpp"
+#include "kinds/dsdpv1/chip/dsdpv1_view.hpp"
+#include "kinds/dsdpv1/chip/user_maker.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+/// As the scenario's check has found them right.
+arm::Switches switches_of(const Dsdpv1User& user) {
+  arm::Switches switches;
+  for (const Name& text : user.switches) {
+    const Switch one = *parse_switch(text.text);
+    const auto bit = static_cast<std::uint16_t>(1U << one.pin);
+    switches.held.at(one.port) |= bit;
+    if (one.high) switches.levels.at(one.port) |= bit;
+  }
+  return switches;
+}
+
+/// The straps of a DSDPV1-RSU, which the processor reads as well (R13): MODE at PC10 PC11, ADR PB0 PB1, UBR PD8 to
+/// PD10, UIV PE13 to PE15, bit 0 at the lower pin (p).
+void hold_straps(arm::Switches& switches, const Dsdpv1Settings& chip) {
+  struct Place {
+    unsigned port, pin, count;
+  };
+  static constexpr std::array<Place, 4> kPlaces = {{{2, 10, 2}, {1, 0, 2}, {3, 8, 3}, {4, 13, 3}}};
+  const Straps levels = straps_of(chip);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const Place& at = kPlaces.at(i);
+    switches.held.at(at.port) |= static_cast<std::uint16_t>(((1U << at.count) - 1) << at.pin);
+    switches.levels.at(at.port) |= static_cast<std::uint16_t>(static_cast<unsigned>(levels.at(i)) << at.pin);
+  }
+}
+
+/// The mailbox has room for so many.
+void check_objects(const scenario::Scenario& scenario, const scenario::Slave& slave, const arm::Firmware& firmware) {
+  const std::size_t count = slave.user_cpu.dpv1.objects.size();
+  if (firmware.mailbox && count > DSDPV1_MAILBOX_OBJECTS)
+    throw InputError(scenario.file, slave.user_cpu.dpv1.line,
+                     fmt::format("dpv1 has {} objects, allowed on an ARM board are {}", count, DSDPV1_MAILBOX_OBJECTS));
+}
+
+std::unique_ptr<arm::Debugger> make_debugger(const GdbRequest& gdb, arm::DebugTarget& target) {
+  arm::HistoryPlayer::MakeDebugger server;
+  if (gdb.port) {
+    server = [&gdb](arm::DebugTarget& noted, std::uint64_t board) {
+      return std::make_unique<arm::GdbServer>(
+          noted, arm::GdbOptions{*gdb.port, gdb.stopped, gdb.say, gdb.history.get(), board});
+    };
+  }
+  return std::make_unique<arm::HistoryPlayer>(target, *gdb.history, server);
+}
+
+MakeUser arm_user(const UserRequest& request, Dsdpv1View& chip) {
+  const scenario::UserCpu& user = request.slave.user_cpu;
+  const Dsdpv1User& own = tb::own(user);
+  arm::BoardOptions options;
+  options.firmware = arm::load_firmware(scenario::resolve(request.scenario, own.elf));
+  if (!options.firmware->mailbox) {
+    Untold missing = untold(request.scenario, request.slave, options.firmware->path);
+    options.notes = std::move(missing.notes);
+    request.left_out.merge(missing.left_out);
+  }
+  check_objects(request.scenario, request.slave, *options.firmware);
+  options.timing.millicycles_per_instruction = static_cast<std::uint32_t>(own.cpi * 1000);
+  if (own.fsmc) options.fsmc = static_cast<const user_cpu::FsmcOverride&>(*own.fsmc);
+  if (own.access) options.access = static_cast<const AccessTiming&>(*own.access);
+  options.switches = switches_of(own);
+  const auto& settings = static_cast<const Dsdpv1Settings&>(*request.scenario.chip);
+  if (settings.part == Part::kRsu) {
+    options.serial = true;
+    hold_straps(options.switches, settings);
+    if (settings.mode != HostMode::kParallel) options.card = static_cast<unsigned>(settings.address);
+  }
+  if (const GdbRequest* gdb = request.gdb)
+    options.make_debugger = [gdb](arm::DebugTarget& target) { return make_debugger(*gdb, target); };
+  return [&user, &chip, options](const user_cpu::StationConfig& station, Tick start) {
+    arm::BoardOptions now = options;
+    now.program = program_options(user, station);
+    now.chip = [&chip](Tick at) -> const dsdpv1::Chip& {
+      chip.sync(at);
+      return chip.core();
+    };
+    const auto set_chip_reset = [&chip](Tick at, bool level) { chip.set_reset(at, level); };
+    return std::make_unique<arm::Board>(chip.host_bus(), std::move(now), set_chip_reset, start);
+  };
+}
+
+}  // namespace
+
+void add_arm_board() { set_arm_maker(arm_user); }
+
+}  // namespace dsdpv1::tb

@@ -1,0 +1,308 @@
+#include "kinds/dsdpv1/board/board.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "kinds/dsdpv1/user_cpu/orders.hpp"
+
+namespace dsdpv1::arm {
+namespace {
+
+// The board's wiring.
+constexpr unsigned kRReqPin = 6, kRStaPin = 7;
+
+constexpr std::int64_t kQuantaASecond = 4'000'000;  // interrupts are looked for every 250 ns
+
+/// Something that the bench does on its own stack, at once.
+class AtOnce : public user_cpu::Transfer {
+ public:
+  AtOnce(Tick at, const std::function<void(Tick)>& action) : at_(at), action_(action) {}
+  Tick next() const override { return done_ ? bus::kNever : at_; }
+  void run(Tick now) override {
+    done_ = true;
+    action_(now);
+  }
+  bool done() const override { return done_; }
+
+ private:
+  Tick at_;
+  const std::function<void(Tick)>& action_;
+  bool done_ = false;
+};
+
+/// Only edges, accesses and the processor take time: instructions are counted by the processor itself.
+user_cpu::CpuTiming no_overhead() {
+  user_cpu::CpuTiming timing;
+  timing.overhead = timing.pin_sample = timing.pin_write = 0;
+  return timing;
+}
+
+}  // namespace
+
+Board::Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick, bool)> set_chip_reset, Tick start)
+    : options_(std::move(options)),
+      bus_(bus),
+      set_chip_reset_(std::move(set_chip_reset)),
+      intr0_pin_(options_.card == 2 ? Place{kD, 12} : Place{kG, 6}),
+      reset_pin_(options_.card == 2 ? Place{kE, 5} : Place{kE, 4}),
+      since_(start),
+      serial_(ports_, options_.serial ? options_.card : 0),
+      fsmc_(options_.fsmc),
+      notes_(options_.notes),
+      core_(*this, MemoryMap(), options_.timing),
+      cpu_(
+          bus, no_overhead(), [this](user_cpu::Cpu& cpu) { run_firmware(cpu); }, start) {
+  cpu_.others = this;
+  for (const Segment& segment : options_.firmware->image.segments)
+    core_.load(segment.address, segment.bytes.data(), segment.bytes.size());
+  if (options_.firmware->mailbox)
+    mailbox_.emplace(core_.ram() + (*options_.firmware->mailbox - MemoryMap().ram_base), options_.program);
+  if (options_.make_debugger) debugger_ = options_.make_debugger(core_);
+  core_.attach(debugger_.get());
+  follow_clock();
+  core_.on_fault([this](const Fault& fault) { note_fault(fault); });
+  terminal_.on_line = [this](const std::string& line) {
+    if (on_text) on_text(now(), line);
+  };
+}
+
+Board::~Board() {
+  if (pins_ != nullptr && options_.serial) bus_.on_txd = nullptr;
+}
+
+// ------------------------------------------------------------------------------------------------- the bench's side
+
+// The mailbox first: afterwards the processor has gone on to its next stop, which lies behind `now`.
+void Board::run(Tick now) {
+  if (mailbox_) look_at_mailbox(now);
+  for (Tick at = now;;) {
+    if (serial_tick() <= at) run_serial(at);
+    if (cpu_.next() <= at) cpu_.run(at);
+    at = serial_tick();
+    if (at == bus::kNever || cpu_.next() < at || !turn_goes_on(at)) break;
+  }
+  if (std::exchange(chip_reset_due_, false)) set_chip_reset_(cpu_.now(), chip_reset_);
+}
+
+/// The peripherals move on before the processor looks; an interrupt of theirs ends its sleep.
+void Board::run_serial(Tick now) {
+  while (serial_tick() <= now) serial_.run(now, bus_);
+  if ((serial_.requests() << kExtiIrq.size() & ~requests_) != 0) cpu_.wake(now);
+}
+
+/// Called while the chip acts, perhaps before this agent's turn; the processor may be ahead.
+void Board::txd_changed(Tick at, bool level) {
+  serial_.txd_changed(cycle_of(std::max(at, since_)), level);
+  announce();
+  if (on_plan) on_plan();
+}
+
+/// Firmware may sleep until an event comes (WFE): a command is one.
+void Board::look_at_mailbox(Tick now) {
+  const bool was_right = mailbox_->wrong().empty();
+  const bool handed_over = mailbox_->look(now, [this](const user_cpu::DriverError& error) {
+    if (on_error) on_error(user_cpu::program_error(error));
+  });
+  if (was_right && !mailbox_->wrong().empty() && on_failure)
+    on_failure(now,
+               fmt::format("the firmware has written nonsense into its mailbox ({}): {}", DSDPV1_MAILBOX_SYMBOL,
+                           mailbox_->wrong()),
+               table(core_.registers()));
+  if (!handed_over) return;
+  core_.signal_event();
+  cpu_.wake(now);
+}
+
+void Board::interrupt_changed(Tick at, bool level) {
+  intr0_edges_.push_back({at, level});
+  cpu_.wake(at);
+  announce();
+}
+
+void Board::command(Tick now, const user_cpu::Command& command) {
+  if (!mailbox_) return;
+  mailbox_->post(user_cpu::driver_command(command));
+  look_at_mailbox(now);
+  announce();
+}
+
+user_cpu::UserCounters Board::counters() const {
+  user_cpu::UserCounters counters{handshake_.counters(), std::nullopt, cpu_.counters()};
+  counters.port += serial_.holds();
+  if (mailbox_) counters.program = mailbox_->counters();
+  return counters;
+}
+
+std::optional<user_cpu::BoardReport> Board::board() const {
+  user_cpu::BoardReport report{core_.instructions(), core_.cycles(), hclk_hz(),
+                               options_.fsmc.hclk_mhz ? "fsmc.hclk of the scenario" : rcc_.hclk_source(), notes_};
+  const auto place = [this](std::uint32_t pc) { return options_.firmware->lines.at(pc); };
+  for (std::string& line : others_.notes(place)) report.notes.push_back(std::move(line));
+  for (std::string& line : serial_.notes()) report.notes.push_back(std::move(line));
+  if (!terminal_.unfinished().empty()) report.notes.push_back("USART1, a line without end: " + terminal_.unfinished());
+  return report;
+}
+
+// ------------------------------------------------------------------------------------------------- the firmware's side
+
+void Board::run_firmware(user_cpu::Cpu& cpu) {
+  pins_ = &cpu;
+  if (options_.serial) bus_.on_txd = [this](Tick at, bool level) { txd_changed(at, level); };
+  set_access_timing();
+  try {
+    core_.run();
+    fault_ ? failed(*fault_) : ended_by_debugger();
+  } catch (const FaultError& error) {
+    failed(error.fault());
+  }
+}
+
+/// Also a fault that the firmware has a handler for ends the run: that handler is for products, here somebody wants to
+/// see it.
+void Board::note_fault(const Fault& fault) {
+  if (fault.outcome != FaultOutcome::kHandled) return;  // comes as FaultError
+  fault_ = fault;
+  if (debugger_) debugger_->fault(fault.text);
+  core_.stop();
+}
+
+void Board::ended_by_debugger() {
+  if (on_killed) on_killed();
+}
+
+void Board::failed(const Fault& fault) {
+  const SourceLines& lines = options_.firmware->lines;
+  if (!on_failure) return;
+  on_failure(now(), fmt::format("{}; in {}, LR in {}", fault.text, lines.at(fault.pc), lines.at(fault.registers.lr)),
+             table(fault.registers));
+}
+
+Tick Board::tick_of(std::uint64_t cycle) const {
+  return since_ + static_cast<Tick>(cycle - since_cycle_) * cycle_ticks_ / cycle_parts_;
+}
+
+/// The first cycle that does not begin before `tick`.
+std::uint64_t Board::cycle_of(Tick tick) const {
+  return since_cycle_ + static_cast<std::uint64_t>(((tick - since_) * cycle_parts_ + cycle_ticks_ - 1) / cycle_ticks_);
+}
+
+std::int64_t Board::hclk_hz() const {
+  return options_.fsmc.hclk_mhz ? std::int64_t{1'000'000} * *options_.fsmc.hclk_mhz : rcc_.hclk_hz();
+}
+
+/// Cycles last what RCC says, from the present one on.
+void Board::follow_clock() {
+  since_ = now();
+  since_cycle_ = core_.cycles();
+  const std::int64_t hz = hclk_hz(), common = std::gcd(hz, bus::kTicksPerSecond);
+  cycle_ticks_ = bus::kTicksPerSecond / common;
+  cycle_parts_ = hz / common;
+  core_.set_quantum(static_cast<std::uint32_t>(std::max<std::int64_t>(hz / kQuantaASecond, 1)));
+  if (pins_ != nullptr) set_access_timing();
+}
+
+/// Everybody else has come to the processor's time.
+void Board::come_up() {
+  pins_->wait_until(now());
+  take_intr0_edges();
+}
+
+/// The serial peripherals have done what is due by the processor's time.
+void Board::meet_serial() {
+  if (serial_tick() <= now()) come_up();
+}
+
+/// The processor may stay ahead of the others as long as nobody has anything to do; the bench hears of news at the same
+/// time in any case.
+void Board::keep_up() {
+  if (has_news() || !quiet(now())) come_up();
+}
+
+/// The serial peripherals are others, too.
+bool Board::quiet(Tick tick) { return serial_tick() > tick && others() != nullptr && others()->quiet(tick); }
+
+bool Board::go_on(Tick tick) { return serial_tick() > tick && turn_goes_on(tick); }
+
+/// What is looked at between two turns is looked at first.
+bool Board::turn_goes_on(Tick tick) {
+  return !has_news() && !chip_reset_due_ && others() != nullptr && others()->go_on(tick);
+}
+
+void Board::sleep(std::uint64_t until) {
+  const Tick end = until == kNever ? bus::kNever : tick_of(until);
+  pins_->wait_until(now());
+  bool woken = false;
+  while (!take_intr0_edges() && !woken && pins_->now() < end) woken = pins_->wait_for_wake(end);
+  core_.advance_to(std::max(core_.cycles(), cycle_of(pins_->now())));
+}
+
+void Board::reset() {
+  come_up();
+  ports_ = {};
+  exti_ = {};
+  rcc_ = {};
+  serial_.reset();
+  serial_.follow(rcc_);
+  fsmc_ = Fsmc(options_.fsmc);
+  follow_clock();
+  update_interrupts();
+  update_pins();
+}
+
+/// Whether an interrupt is asked for that was not before, or an event has come.
+bool Board::take_intr0_edges() {
+  const unsigned before = requests_;
+  for (; !intr0_edges_.empty() && intr0_edges_.front().at <= pins_->now(); intr0_edges_.pop_front()) {
+    intr0_ = intr0_edges_.front().level;
+    exti_.edge(intr0_pin_.port, intr0_pin_.pin, intr0_);
+  }
+  return update_interrupts() || (requests_ & ~before) != 0;
+}
+
+/// Whether there was an event, which ends a WFE.
+bool Board::update_interrupts() {
+  const unsigned now = exti_.requests() | serial_.requests() << kExtiIrq.size(), changed = now ^ requests_;
+  const auto irq = [](std::size_t i) {
+    return i < kExtiIrq.size() ? kExtiIrq.at(i) : kSerialIrq.at(i - kExtiIrq.size());
+  };
+  requests_ = now;
+  for (std::size_t i = 0; changed >> i != 0; ++i)
+    if ((changed >> i & 1U) != 0) core_.set_interrupt_level(irq(i), (now >> i & 1U) != 0);
+  const bool event = exti_.take_event();
+  if (event) core_.signal_event();
+  return event;
+}
+
+void Board::update_pins() {
+  const Gpio& handshake = ports_[kC];
+  if (const bool level = handshake.level(kRReqPin, false); std::exchange(r_req_, level) != level) {
+    handshake_.r_req(pins_->now(), level);
+    pins_->set_r_req(level);
+  }
+  if (const bool level = handshake.level(kRStaPin, false); std::exchange(r_sta_, level) != level) {
+    handshake_.r_sta(pins_->now(), level);
+    pins_->set_r_sta(level);
+  }
+  if (const bool level = ports_.at(reset_pin_.port).level(reset_pin_.pin, true);
+      std::exchange(chip_reset_, level) != level) {
+    chip_reset_due_ = true;
+    pins_->wait(1);  // the bench moves the pin before the firmware goes on
+  }
+}
+
+void Board::update_serial_pins() {
+  if (!serial_.moved()) return;
+  come_up();
+  on_bus([this](Tick at) { serial_.move(at, bus_); });
+}
+
+/// Pins move on the bench's stack.
+void Board::on_bus(const std::function<void(Tick)>& action) {
+  AtOnce transfer(pins_->now(), action);
+  pins_->transfer(transfer);
+}
+
+}  // namespace dsdpv1::arm

@@ -1,0 +1,192 @@
+#pragma once
+// An evaluation board with an STM32F103 as a station's user CPU: it runs the firmware that is meant for the real board.
+//
+//   PC6 R_REQ, PC7 R_STA  outputs; low while the firmware has not made them outputs (pull-down on the board)
+//   PC8 L_REQ, PC9 L_STA  inputs
+//   PE4 RESET             of the chip; high while it is no output (pull-up on the board); of card 2: PE5
+//   PG6 INTR0             through AFIO, EXTI line 6, IRQ 23; of card 2: PD12, line 12, IRQ 40
+//   SPI1, SPI2, USART2    as serial_side.hpp has them
+//   PG12, PG13, PG14      inputs: PBF, BR, READY (p)
+//   other pins            inputs: what BoardOptions::switches holds; else their own pull-up or pull-down
+//   FSMC bank 1, NE1      0x60000000..0x63FFFFFF: A10..A0, D7..D0, RD, WR, CSR; the 2 KB repeat
+//   USART1                a terminal
+//
+// HCLK follows the firmware's RCC, 8 MHz from the HSI at first; an instruction takes
+// Timing::millicycles_per_instruction, an access to a peripheral two cycles more (p: the bridge to APB), an access to
+// the chip what the FSMC's registers say.
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "board/cpu/cortex_m3.hpp"
+#include "board/firmware/firmware.hpp"
+#include "board/stm32/exti.hpp"
+#include "board/stm32/fsmc.hpp"
+#include "board/stm32/gpio.hpp"
+#include "board/stm32/other_registers.hpp"
+#include "board/stm32/rcc.hpp"
+#include "board/stm32/terminal.hpp"
+#include "kinds/dsdpv1/board/mailbox_link.hpp"
+#include "kinds/dsdpv1/board/serial_side.hpp"
+#include "kinds/dsdpv1/user_cpu/native_cpu.hpp"
+#include "kinds/dsdpv1/user_cpu/programs.hpp"
+#include "model/dsdpv1/chip.hpp"
+#include "tb/chip/user_cpu/station_cpu.hpp"
+
+namespace dsdpv1::arm {
+
+using bus::Tick;
+
+/// Switches that hold input pins.
+struct Switches {
+  std::array<std::uint16_t, 7> held{}, levels{};  ///< of ports A to G
+};
+
+struct BoardOptions {
+  std::shared_ptr<const Firmware> firmware;
+  user_cpu::ProgramOptions program;  ///< for the mailbox, when the firmware has one
+  user_cpu::FsmcOverride fsmc;
+  std::optional<AccessTiming> access;  ///< edges in place of those that the FSMC makes
+  Timing timing;
+  Switches switches;
+  unsigned card = 1;                                  ///< 1 or 2: where RESET, INTR0 and SPI are wired to
+  bool serial = false;                                ///< the chip has the pins of SPI and UART
+  std::function<const dsdpv1::Chip&(Tick now)> chip;  ///< as it is `now`, for a debugger; null: that sees none
+  std::function<std::unique_ptr<Debugger>(DebugTarget&)> make_debugger;  ///< null: none
+  std::vector<std::string> notes;                                        ///< first lines of BoardReport::notes
+};
+
+class Board final : public user_cpu::StationCpu, private user_cpu::Others, private System {
+ public:
+  /// Its processor leaves reset at `start`. `set_chip_reset` moves the chip's RESET pin; both must outlive the board.
+  Board(user_cpu::HostBus& bus, BoardOptions options, std::function<void(Tick at, bool level)> set_chip_reset,
+        Tick start);
+  ~Board() override;
+
+  Tick next() const override { return std::min(cpu_.next(), serial_tick()); }
+  void run(Tick now) override;
+  void interrupt_changed(Tick at, bool level) override;
+  void command(Tick now, const user_cpu::Command& command) override;
+  user_cpu::UserCounters counters() const override;
+  bool tells() const override { return mailbox_.has_value(); }
+  std::uint64_t outputs_received() const override { return mailbox_ ? mailbox_->outputs_received() : 0; }
+  const std::vector<std::uint8_t>& outputs() const override { return mailbox_ ? mailbox_->outputs() : no_outputs_; }
+  std::optional<user_cpu::BoardReport> board() const override;
+
+ private:
+  struct Intr0Edge {
+    Tick at;
+    bool level;
+  };
+  struct Place {
+    unsigned port, pin;
+  };
+  /// What somebody outside of the processor does to the pins of a port.
+  struct Levels {
+    std::uint16_t driven, levels;
+  };
+  enum Port : unsigned { kA, kB, kC, kD, kE, kF, kG, kPorts };
+  /// What is said once only; the first are the clocks of the ports.
+  enum class Noted : unsigned {
+    kFsmcClock = kPorts,
+    kAfioClock,
+    kTerminalClock,
+    kSerialClocks,
+    kWideBus = kSerialClocks + SerialSide::kNone,
+    kClockTooFast,
+    kCount
+  };
+
+  // Others, for the CPU that moves the pins
+  bool quiet(Tick tick) override;
+  bool go_on(Tick tick) override;
+
+  // System
+  std::uint32_t load(std::uint32_t address, unsigned bytes) override;
+  void store(std::uint32_t address, unsigned bytes, std::uint32_t value) override;
+  void keep_up() override;
+  std::optional<std::uint32_t> peek(std::uint32_t address) const override;
+  std::vector<MemoryRegion> regions() const override;
+  void sleep(std::uint64_t until) override;
+  void reset() override;
+  Tick now() const override { return tick_of(core_.cycles()); }
+
+  bool has_news() const { return mailbox_ && mailbox_->has_news(); }
+  void look_at_mailbox(Tick now);
+  void run_firmware(user_cpu::Cpu& cpu);
+  Tick serial_tick() const { return serial_.next() == SerialSide::kNever ? bus::kNever : tick_of(serial_.next()); }
+  bool turn_goes_on(Tick tick);
+  void run_serial(Tick now);
+  void txd_changed(Tick at, bool level);
+  void note_fault(const Fault& fault);
+  void failed(const Fault& fault);
+  void ended_by_debugger();
+  Tick tick_of(std::uint64_t cycle) const;
+  std::uint64_t cycle_of(Tick tick) const;
+  void come_up();
+  void meet_serial();
+  bool take_intr0_edges();
+  bool update_interrupts();
+  void update_pins();
+  void update_serial_pins();
+  void on_bus(const std::function<void(Tick)>& action);
+  void store_gpio(unsigned port, std::uint32_t offset, std::uint32_t value);
+  void store_rcc(std::uint32_t offset, std::uint32_t value);
+  void store_serial(std::uint32_t address, std::uint32_t value);
+  void follow_clock();
+  std::int64_t hclk_hz() const;
+
+  std::uint32_t load_chip(std::uint32_t address, unsigned bytes);
+  void store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value);
+  void set_access_timing();
+  bool may_access(std::uint32_t address, bool write);
+  std::uint32_t load_word(std::uint32_t address);
+  void store_word(std::uint32_t address, std::uint32_t value);
+  std::uint32_t load_port(unsigned port, std::uint32_t offset);
+  Levels outside(unsigned port);
+  /// What the chip's outputs make of pins: L_REQ, L_STA; lamps as user_cpu::HostBus has them; MISO.
+  struct Outputs {
+    unsigned handshake = 0, lamps = 0;
+    bool miso = true;
+  };
+  Levels wired(unsigned port, const Outputs& chip) const;
+  std::uint32_t peek_port(unsigned port, std::uint32_t offset) const;
+  void look_at_clock(std::uint32_t address);
+  void note_clock(const char* peripheral, const char* reg, Noted which);
+  void note(const std::string& text, Noted which);
+
+  BoardOptions options_;
+  user_cpu::HostBus& bus_;
+  std::function<void(Tick at, bool level)> set_chip_reset_;
+  Place intr0_pin_, reset_pin_;
+  // `since_` is the tick of cycle `since_cycle_`; from there a cycle takes `cycle_ticks_` / `cycle_parts_` ticks.
+  Tick since_, cycle_ticks_ = 1, cycle_parts_ = 1;
+  std::uint64_t since_cycle_ = 0;
+  SerialSide::Ports ports_;
+  SerialSide serial_;
+  Exti exti_;
+  Rcc rcc_;
+  Terminal terminal_;
+  Fsmc fsmc_;
+  OtherRegisters others_;
+  std::deque<Intr0Edge> intr0_edges_;  ///< that the processor has not come to
+  bool intr0_ = true;
+  bool r_req_ = false, r_sta_ = false, chip_reset_ = true, chip_reset_due_ = false;
+  user_cpu::HandshakeCounters handshake_;
+  unsigned requests_ = 0;  ///< of exti_ and, above them, serial_, as the processor knows them
+  std::bitset<static_cast<std::size_t>(Noted::kCount)> noted_;
+  std::vector<std::string> notes_;
+  std::optional<Fault> fault_;  ///< that the firmware would have handled
+  CortexM3 core_;
+  std::unique_ptr<Debugger> debugger_;
+  std::optional<MailboxLink> mailbox_;
+  std::vector<std::uint8_t> no_outputs_;  ///< of firmware without mailbox
+  user_cpu::Cpu* pins_ = nullptr;         ///< of cpu_, while the processor runs
+  user_cpu::NativeCpu cpu_;               // ends before everything that its fiber uses
+};
+
+}  // namespace dsdpv1::arm

@@ -1,0 +1,269 @@
+// What the processor finds at an address: the chip on the memory bus, registers, and what a debugger sees of them.
+#include <fmt/format.h>
+
+#include "kinds/dsdpv1/board/board.hpp"
+
+namespace dsdpv1::arm {
+namespace {
+
+// RM0008, memory map.
+constexpr std::uint32_t kBank1 = 0x6000'0000, kBank1End = 0x7000'0000, kRegionSize = 0x0400'0000;
+constexpr std::uint32_t kAfio = 0x4001'0000, kExti = 0x4001'0400, kGpioA = 0x4001'0800, kGpioEnd = 0x4001'2400;
+constexpr std::uint32_t kUsart1 = 0x4001'3800, kRcc = 0x4002'1000, kBlock = 0x400;
+constexpr std::uint32_t kPeripherals = 0x4000'0000, kPeripheralsSize = 0x2'4000, kFsmcBlock = 0x1000;
+constexpr std::uint32_t kChipMask = 0x7FF;  // A10..A0
+constexpr std::uint32_t kGpioIdr = 0x08;
+constexpr std::uint32_t kAfioMapr = 0x04;
+
+// The board's wiring.
+constexpr unsigned kLReqPin = 8, kLStaPin = 9;
+constexpr unsigned kLampPin = 12;  // PBF, then BR and READY
+
+constexpr std::uint64_t kApbCycles = 2;
+constexpr std::int64_t kGreatestHclk = 72'000'000;
+
+bool within(std::uint32_t address, std::uint32_t base) { return address - base < kBlock; }
+
+}  // namespace
+
+// ------------------------------------------------------------------------------------------------- loads and stores
+
+std::uint32_t Board::load(std::uint32_t address, unsigned bytes) {
+  if (address >= kBank1 && address < kBank1End) return load_chip(address, bytes);
+  const std::uint32_t word = load_word(address & ~3U) >> (address % 4 * 8);
+  return bytes == 4 ? word : word & ((1U << bytes * 8) - 1);
+}
+
+void Board::store(std::uint32_t address, unsigned bytes, std::uint32_t value) {
+  if (address >= kBank1 && address < kBank1End) return store_chip(address, bytes, value);
+  if (bytes == 4) return store_word(address, value);
+  // The bridge to APB has whole words only: the rest of the register stays.
+  const unsigned shift = address % 4 * 8;
+  const std::uint32_t mask = ((1U << bytes * 8) - 1) << shift;
+  store_word(address & ~3U, (load_word(address & ~3U) & ~mask) | (value << shift & mask));
+}
+
+/// Wider accesses are as many of a byte, the lowest address first.
+std::uint32_t Board::load_chip(std::uint32_t address, unsigned bytes) {
+  if (!may_access(address, false)) return 0;
+  come_up();
+  std::uint32_t value = 0;
+  for (unsigned i = 0; i < bytes; ++i)
+    value |= static_cast<std::uint32_t>(pins_->read(static_cast<std::uint16_t>((address + i) & kChipMask))) << i * 8;
+  core_.advance_to(cycle_of(pins_->now()));
+  return value;
+}
+
+void Board::store_chip(std::uint32_t address, unsigned bytes, std::uint32_t value) {
+  if (!may_access(address, true)) return;
+  come_up();
+  for (unsigned i = 0; i < bytes; ++i)
+    pins_->write(static_cast<std::uint16_t>((address + i) & kChipMask), static_cast<std::uint8_t>(value >> i * 8));
+  core_.advance_to(cycle_of(pins_->now()));
+}
+
+void Board::set_access_timing() {
+  const user_cpu::FsmcAccess made = fsmc_.timing(hclk_hz());
+  pins_->set_access_timing(options_.access.value_or(made.read), options_.access.value_or(made.write));
+}
+
+bool Board::may_access(std::uint32_t address, bool write) {
+  if (fsmc_.refuses(write) || address >= kBank1 + kRegionSize) {
+    core_.bus_error();
+    return false;
+  }
+  if (fsmc_.is_wide()) note("FSMC_BCR1.MWID says 16 bits, the chip's bus has 8", Noted::kWideBus);
+  if ((rcc_.ahb_clocks() & 1U << 8U) == 0) note_clock("FSMC", "RCC_AHBENR", Noted::kFsmcClock);
+  return true;
+}
+
+std::uint32_t Board::load_word(std::uint32_t address) {
+  core_.advance_to(core_.cycles() + kApbCycles);
+  look_at_clock(address);
+  if (address >= kGpioA && address < kGpioEnd) return load_port((address - kGpioA) / kBlock, address % kBlock);
+  if (within(address, kAfio)) return exti_.read_afio(address - kAfio);
+  if (within(address, kExti)) {
+    come_up();
+    return exti_.read(address - kExti);
+  }
+  if (within(address, kUsart1)) return terminal_.read(address - kUsart1);
+  if (within(address, kRcc)) return rcc_.read(address - kRcc);
+  if (SerialSide::block_of(address) != SerialSide::kNone) {
+    meet_serial();
+    const std::uint32_t value = serial_.read(address);
+    update_interrupts();
+    return value;
+  }
+  if (address - Fsmc::kBase < Fsmc::kSize) return fsmc_.read(address - Fsmc::kBase);
+  return others_.read(address, core_.pc());
+}
+
+std::uint32_t Board::load_port(unsigned port, std::uint32_t offset) {
+  const Levels there = offset == kGpioIdr ? outside(port) : Levels{0, 0};
+  return ports_.at(port).read(offset, there.driven, there.levels);
+}
+
+/// The chip, the board's pull-up, the switches and the serial peripherals.
+Board::Levels Board::outside(unsigned port) {
+  Outputs chip;
+  if (port == kC || port == kG || port == intr0_pin_.port || serial_.concerns(port)) come_up();
+  if (port == kG) chip.lamps = pins_->lamps();
+  if (port == kC) {
+    chip.handshake = static_cast<unsigned>(pins_->l_req());
+    chip.handshake |= static_cast<unsigned>(pins_->l_sta()) << 1U;
+  }
+  if (serial_.has_miso(port)) on_bus([&](Tick at) { chip.miso = bus_.miso(at); });
+  return wired(port, chip);
+}
+
+Board::Levels Board::wired(unsigned port, const Outputs& chip) const {
+  const SerialSide::Seen serial = serial_.seen(port, chip.miso);
+  unsigned driven = options_.switches.held.at(port) | serial.driven;
+  unsigned levels = options_.switches.levels.at(port) | serial.levels;
+  const auto add = [&](unsigned pin, unsigned level) {
+    driven |= 1U << pin;
+    levels |= (level & 1U) << pin;
+  };
+  if (port == reset_pin_.port) add(reset_pin_.pin, 1);
+  if (port == intr0_pin_.port) add(intr0_pin_.pin, static_cast<unsigned>(intr0_));
+  if (port == kC) add(kLReqPin, chip.handshake), add(kLStaPin, chip.handshake >> 1U);
+  if (port == kG)
+    for (unsigned i = 0; i < 3; ++i) add(kLampPin + i, chip.lamps >> i);
+  return {static_cast<std::uint16_t>(driven), static_cast<std::uint16_t>(levels)};
+}
+
+// ------------------------------------------------------------------------------------------------- a debugger's looks
+
+std::vector<MemoryRegion> Board::regions() const {
+  std::vector<MemoryRegion> all = {{kPeripherals, kPeripheralsSize, false}, {Fsmc::kBase, kFsmcBlock, false}};
+  if (options_.chip) all.push_back({kBank1, kRegionSize, false});
+  return all;
+}
+
+std::optional<std::uint32_t> Board::peek(std::uint32_t address) const {
+  if (options_.chip && address - kBank1 < kRegionSize) {
+    const dsdpv1::Chip& chip = options_.chip(pins_->now());
+    std::uint32_t word = 0;
+    for (unsigned i = 0; i < 4; ++i)
+      word |= std::uint32_t{chip.peek(static_cast<std::uint16_t>((address + i) & kChipMask))} << i * 8;
+    return word;
+  }
+  if (address - Fsmc::kBase < kFsmcBlock) return fsmc_.read(address - Fsmc::kBase);
+  if (address - kPeripherals >= kPeripheralsSize) return std::nullopt;
+  if (address >= kGpioA && address < kGpioEnd) return peek_port((address - kGpioA) / kBlock, address % kBlock);
+  if (within(address, kAfio)) return exti_.read_afio(address - kAfio);
+  if (within(address, kExti)) return exti_.read(address - kExti);
+  if (within(address, kUsart1)) return terminal_.read(address - kUsart1);
+  if (within(address, kRcc)) return rcc_.read(address - kRcc);
+  if (SerialSide::block_of(address) != SerialSide::kNone) return serial_.peek(address);
+  return others_.peek(address);
+}
+
+std::uint32_t Board::peek_port(unsigned port, std::uint32_t offset) const {
+  const dsdpv1::Chip* const chip = options_.chip ? &options_.chip(pins_->now()) : nullptr;
+  const auto level = [chip](dsdpv1::Pin pin) {
+    return static_cast<unsigned>(chip != nullptr && chip->level(pin) == 1);
+  };
+  const Outputs outputs = {level(Pin::kLReq) | level(Pin::kLSta) << 1U,
+                           level(Pin::kPbf) | level(Pin::kBr) << 1U | level(Pin::kReady) << 2U,
+                           chip == nullptr || chip->level(Pin::kMiso) != 0};
+  const Levels there = wired(port, outputs);
+  return ports_.at(port).read(offset, there.driven, there.levels);
+}
+
+// ------------------------------------------------------------------------------------------------- stores
+
+void Board::store_word(std::uint32_t address, std::uint32_t value) {
+  core_.advance_to(core_.cycles() + kApbCycles);
+  look_at_clock(address);
+  if (address >= kGpioA && address < kGpioEnd) {
+    store_gpio((address - kGpioA) / kBlock, address % kBlock, value);
+  } else if (within(address, kAfio)) {
+    exti_.write_afio(address - kAfio, value);
+    serial_.remap(exti_.read_afio(kAfioMapr));
+    update_serial_pins();
+  } else if (within(address, kExti)) {
+    come_up();
+    exti_.write(address - kExti, value);
+    update_interrupts();
+  } else if (within(address, kUsart1)) {
+    terminal_.write(address - kUsart1, value);
+  } else if (within(address, kRcc)) {
+    store_rcc(address - kRcc, value);
+  } else if (SerialSide::block_of(address) != SerialSide::kNone) {
+    store_serial(address, value);
+  } else if (address - Fsmc::kBase < Fsmc::kSize) {
+    fsmc_.write(address - Fsmc::kBase, value);
+    set_access_timing();
+  } else {
+    others_.write(address, value, core_.pc());
+  }
+}
+
+/// EXTI hears outputs as well as inputs.
+void Board::store_gpio(unsigned port, std::uint32_t offset, std::uint32_t value) {
+  come_up();
+  Gpio& gpio = ports_.at(port);
+  const Gpio before = gpio;
+  gpio.write(offset, value);
+  update_pins();
+  update_serial_pins();
+  if (!exti_.listens(port)) return;
+  for (unsigned pin = 0; pin < 16; ++pin) {
+    const bool level = gpio.level(pin, false);
+    if (before.drives(pin) && gpio.drives(pin) && before.level(pin, false) != level) exti_.edge(port, pin, level);
+  }
+  update_interrupts();
+}
+
+void Board::store_rcc(std::uint32_t offset, std::uint32_t value) {
+  meet_serial();
+  rcc_.write(offset, value);
+  if (!options_.fsmc.hclk_mhz) follow_clock();
+  serial_.follow(rcc_);
+  update_serial_pins();
+  update_interrupts();
+  if (hclk_hz() > kGreatestHclk)
+    note(fmt::format("HCLK is {} MHz, allowed is 72 MHz", hclk_hz() / 1'000'000), Noted::kClockTooFast);
+}
+
+void Board::store_serial(std::uint32_t address, std::uint32_t value) {
+  meet_serial();
+  serial_.write(address, value, core_.cycles());
+  update_serial_pins();
+  update_interrupts();
+}
+
+// ------------------------------------------------------------------------------------------------- notes
+
+void Board::look_at_clock(std::uint32_t address) {
+  const auto is_on = [this](unsigned bit) { return (rcc_.apb2_clocks() >> bit & 1U) != 0; };
+  const SerialSide::Block serial = SerialSide::block_of(address);
+  if (address >= kGpioA && address < kGpioEnd) {
+    static constexpr std::array<const char*, kPorts> kNames = {"GPIOA", "GPIOB", "GPIOC", "GPIOD",
+                                                               "GPIOE", "GPIOF", "GPIOG"};
+    const unsigned port = (address - kGpioA) / kBlock;
+    if (!is_on(2 + port)) note_clock(kNames.at(port), "RCC_APB2ENR", static_cast<Noted>(port));
+  } else if (within(address, kAfio) && !is_on(0)) {
+    note_clock("AFIO", "RCC_APB2ENR", Noted::kAfioClock);
+  } else if (within(address, kUsart1) && !is_on(14)) {
+    note_clock("USART1", "RCC_APB2ENR", Noted::kTerminalClock);
+  } else if (serial != SerialSide::kNone && !SerialSide::is_clocked(serial, rcc_)) {
+    note_clock(SerialSide::name_of(serial), serial == SerialSide::kSpi1 ? "RCC_APB2ENR" : "RCC_APB1ENR",
+               static_cast<Noted>(static_cast<unsigned>(Noted::kSerialClocks) + serial));
+  }
+}
+
+void Board::note_clock(const char* peripheral, const char* reg, Noted which) {
+  if (noted_.test(static_cast<std::size_t>(which))) return;
+  note(fmt::format("{} is used while its clock is off in {}, where a real one does not answer", peripheral, reg),
+       which);
+}
+
+void Board::note(const std::string& text, Noted which) {
+  if (noted_.test(static_cast<std::size_t>(which))) return;
+  noted_.set(static_cast<std::size_t>(which));
+  notes_.push_back(fmt::format("{}, first in {}", text, options_.firmware->lines.at(core_.pc())));
+}
+
+}  // namespace dsdpv1::arm

@@ -1,0 +1,55 @@
+#pragma once
+// The bench's end of the mailbox (mailbox.h) in the firmware's RAM.
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "board/firmware/mailbox.h"
+#include "kinds/dsdpv1/user_cpu/programs.hpp"
+
+namespace dsdpv1::arm {
+
+class MailboxLink {
+ public:
+  /// `memory` is the mailbox in the processor's RAM; it is cleared and the settings filled in. At most
+  /// DSDPV1_MAILBOX_OBJECTS objects.
+  MailboxLink(std::uint8_t* memory, const user_cpu::ProgramOptions& options);
+
+  void post(const user_cpu::DriverCommand& command) { commands_.push_back(command); }
+  /// Whether look() would find something.
+  bool has_news() const {
+    return (!commands_.empty() && is_done()) || outputs_received_ != box_.report.outputs_received ||
+           errors_seen_ != box_.report.error_count || !done_is_right();
+  }
+  /// Hands over the next command when the firmware is done with the last, fetches outputs and errors: after each step
+  /// of the processor. True when it has handed one over. What the firmware has written is checked before it is used,
+  /// see wrong().
+  bool look(bus::Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error);
+
+  /// The first thing in the mailbox that the firmware cannot have meant: "report.output_length is 250, allowed are 0 to
+  /// 244". Empty: nothing. From then on look() does nothing.
+  const std::string& wrong() const { return wrong_; }
+
+  /// As of the last look().
+  std::uint64_t outputs_received() const { return outputs_received_; }
+  const std::vector<std::uint8_t>& outputs() const { return outputs_; }
+  user_cpu::ProgramCounters counters() const;
+
+ private:
+  bool is_done() const { return box_.posted == box_.done; }
+  bool done_is_right() const { return box_.posted - box_.done <= 1; }
+  bool hand_over();
+  void fetch_outputs();
+  void fetch_errors(bus::Tick now, const std::function<void(const user_cpu::DriverError&)>& on_error);
+  bool is_right(const std::string& field, unsigned value, bool right, const char* allowed);
+
+  dsdpv1_mailbox& box_;
+  std::deque<user_cpu::DriverCommand> commands_;
+  std::uint32_t errors_seen_ = 0, outputs_received_ = 0;
+  std::vector<std::uint8_t> outputs_;
+  std::string wrong_;
+};
+
+}  // namespace dsdpv1::arm

@@ -1,0 +1,202 @@
+#include "kinds/dsdpv1/board/serial_side.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace dsdpv1::arm {
+namespace {
+
+// RM0008, memory map.
+constexpr std::array<std::uint32_t, 3> kBases = {0x4001'3000, 0x4000'3800, 0x4000'4400};
+constexpr std::array<const char*, 3> kNames = {"SPI1", "SPI2", "USART2"};
+constexpr std::uint32_t kBlock = 0x400;
+constexpr std::uint32_t kSpi1Remap = 1U << 0U, kUsart2Remap = 1U << 3U;
+
+constexpr unsigned kPortA = 0;
+constexpr unsigned kRtsPin = 1, kTxPin = 2, kRxPin = 3;
+enum : unsigned { kNss, kSck, kMiso, kMosi };           // pins of an SPI, from its first one on
+constexpr std::array<unsigned, 2> kFirstPin = {4, 12};  // PA4, PB12
+
+void append(std::uint8_t& byte, bool bit) {
+  byte = static_cast<std::uint8_t>(static_cast<unsigned>(byte) << 1U | static_cast<unsigned>(bit));
+}
+
+bool is_on(std::uint32_t word, unsigned bit) { return (word >> bit & 1U) != 0; }
+
+}  // namespace
+
+// ---------------------------------------------------------------------------------------------------------- registers
+
+SerialSide::Block SerialSide::block_of(std::uint32_t address) {
+  for (unsigned i = 0; i < kBases.size(); ++i)
+    if (address - kBases.at(i) < kBlock) return static_cast<Block>(i);
+  return kNone;
+}
+
+const char* SerialSide::name_of(Block block) { return kNames.at(block); }
+
+bool SerialSide::is_clocked(Block block, const Rcc& rcc) {
+  if (block == kSpi1) return is_on(rcc.apb2_clocks(), 12);
+  return is_on(rcc.apb1_clocks(), block == kSpi2 ? 14 : 17);
+}
+
+std::uint32_t SerialSide::peek(std::uint32_t address) const {
+  const Block block = block_of(address);
+  return block == kUsart2 ? usart_.peek(address % kBlock) : spi_.at(block).peek(address % kBlock);
+}
+
+std::uint32_t SerialSide::read(std::uint32_t address) {
+  const Block block = block_of(address);
+  return block == kUsart2 ? usart_.read(address % kBlock) : spi_.at(block).read(address % kBlock);
+}
+
+void SerialSide::write(std::uint32_t address, std::uint32_t value, std::uint64_t now) {
+  const Block block = block_of(address);
+  if (block == kUsart2)
+    usart_.write(address % kBlock, value, now);
+  else
+    spi_.at(block).write(address % kBlock, value, now);
+  note_missing(block);
+}
+
+void SerialSide::follow(const Rcc& rcc) {
+  spi_[0].set_divider(rcc.apb2_divider());
+  spi_[1].set_divider(rcc.apb1_divider());
+  usart_.set_divider(rcc.apb1_divider());
+  if (is_on(rcc.apb2_resets(), 12)) spi_[0].reset();
+  if (is_on(rcc.apb1_resets(), 14)) spi_[1].reset();
+  if (is_on(rcc.apb1_resets(), 17)) usart_.reset();
+}
+
+void SerialSide::reset() {
+  for (Spi& each : spi_) each.reset();
+  usart_.reset();
+  mapr_ = 0;
+}
+
+// --------------------------------------------------------------------------------------------------------------- time
+
+std::uint64_t SerialSide::next() const { return std::min({spi_[0].next(), spi_[1].next(), usart_.next()}); }
+
+void SerialSide::run(Tick at, user_cpu::SerialPins& chip) {
+  const std::uint64_t now = next();
+  for (unsigned i = 0; i < spi_.size(); ++i)
+    if (spi_.at(i).next() == now) spi_.at(i).run(!has_miso(i) || chip.miso(at));
+  if (usart_.next() == now) usart_.run();
+  if (moved()) move(at, chip);
+}
+
+void SerialSide::txd_changed(std::uint64_t cycle, bool level) { usart_.rx_changed(cycle, level); }
+
+unsigned SerialSide::requests() const {
+  const auto bit = [](bool asks, unsigned number) { return static_cast<unsigned>(asks) << number; };
+  return bit(spi_[0].asks(), kSpi1) | bit(spi_[1].asks(), kSpi2) | bit(usart_.asks(), kUsart2);
+}
+
+// --------------------------------------------------------------------------------------------------------------- pins
+
+std::array<SerialSide::Alternate, 8> SerialSide::alternates() const {
+  std::array<Alternate, 8> all{};
+  auto* to = all.begin();
+  for (unsigned i = 0; i < spi_.size(); ++i) {
+    const Spi& spi = spi_.at(i);
+    const bool here = i != 0 || (mapr_ & kSpi1Remap) == 0;
+    const unsigned first = kFirstPin.at(i);
+    *to++ = {i, first + kNss, here && spi.selects(), false};
+    *to++ = {i, first + kSck, here && spi.drives(), spi.sck()};
+    *to++ = {i, first + kMosi, here && spi.drives(), spi.mosi()};
+  }
+  const bool here = (mapr_ & kUsart2Remap) == 0;
+  *to++ = {kPortA, kTxPin, here && usart_.drives(), usart_.tx()};
+  *to++ = {kPortA, kRtsPin, here && usart_.drives_rts(), usart_.rts()};
+  return all;
+}
+
+bool SerialSide::level(const Alternate& alternate, bool floating) const {
+  const Gpio& port = ports_.at(alternate.port);
+  if (port.drives(alternate.pin)) return port.level(alternate.pin, floating);
+  return alternate.drives && port.is_alternate(alternate.pin) ? alternate.level : floating;
+}
+
+SerialSide::Levels SerialSide::wanted() const {
+  const auto all = alternates();
+  const std::size_t first = card_ == 2 ? 3 : 0;
+  const Levels idle;
+  return {level(all.at(first), idle.xss), level(all.at(first + 1), idle.sck), level(all.at(first + 2), idle.mosi),
+          level(all.at(6), idle.rxd)};
+}
+
+bool SerialSide::moved() {
+  for (unsigned i = 0; i < spi_.size(); ++i) spi_.at(i).set_nss(ports_.at(i).level(kFirstPin.at(i), true));
+  return card_ != 0 && levels_ != wanted();
+}
+
+void SerialSide::move(Tick at, user_cpu::SerialPins& chip) {
+  using dsdpv1::Pin;
+  const Levels before = std::exchange(levels_, wanted());
+  follow_frame(at, before, chip);
+  const auto set = [&](Pin pin, bool was, bool is) {
+    if (was != is) chip.set_serial(at, pin, is);
+  };
+  set(Pin::kXss, before.xss, levels_.xss);
+  set(Pin::kSck, before.sck, levels_.sck);
+  set(Pin::kMosi, before.mosi, levels_.mosi);
+  set(Pin::kRxd, before.rxd, levels_.rxd);
+}
+
+/// What the chip's shift register would take, bit by bit at SCK's rises.
+void SerialSide::follow_frame(Tick at, const Levels& before, user_cpu::SerialPins& chip) {
+  if (before.xss && !levels_.xss) {
+    out_.clear();
+    in_.clear();
+    frame_bits_ = 0;
+    frame_begin_ = at;
+  } else if (!before.xss && levels_.xss) {
+    claims_.frame(out_, in_, frame_begin_, at);
+  } else if (!before.sck && levels_.sck && !levels_.xss) {
+    if (frame_bits_++ % 8 == 0) {
+      out_.push_back(0);
+      in_.push_back(0);
+    }
+    append(out_.back(), before.mosi);
+    append(in_.back(), chip.miso(at));
+  }
+}
+
+SerialSide::Seen SerialSide::seen(unsigned port, bool miso) const {
+  Seen seen;
+  const auto add = [&](unsigned pin, bool level) {
+    seen.driven |= static_cast<std::uint16_t>(1U << pin);
+    if (level) seen.levels |= static_cast<std::uint16_t>(1U << pin);
+  };
+  for (const Alternate& each : alternates())
+    if (each.port == port && each.drives && ports_.at(port).is_alternate(each.pin)) add(each.pin, each.level);
+  if (has_miso(port)) add(kFirstPin.at(port) + kMiso, miso);
+  if (card_ != 0 && port == kPortA) add(kRxPin, usart_.rx());
+  return seen;
+}
+
+// -------------------------------------------------------------------------------------------------------------- notes
+
+void SerialSide::note_missing(Block block) {
+  const char*& noted = missing_.at(block);
+  if (noted == nullptr) noted = block == kUsart2 ? usart_.missing() : spi_.at(block).missing();
+}
+
+std::vector<std::string> SerialSide::notes() const {
+  std::vector<std::string> lines;
+  const std::array<std::uint64_t, 3> lost = {spi_[0].lost(), spi_[1].lost(), usart_.lost()};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (missing_.at(i) != nullptr)
+      lines.push_back(
+          fmt::format("{}: {} is switched on, which the board does not have", kNames.at(i), missing_.at(i)));
+    if (lost.at(i) != 0)
+      lines.push_back(fmt::format("{}: {} bytes were lost, since those before them had not been fetched ({})",
+                                  kNames.at(i), lost.at(i), i == kUsart2 ? "ORE" : "OVR"));
+  }
+  return lines;
+}
+
+}  // namespace dsdpv1::arm

@@ -1,0 +1,110 @@
+#pragma once
+// The board's serial peripherals and what of them is wired to the chip:
+//
+//   card 1   SPI1: PA4 XSS, PA5 SCK, PA6 MISO, PA7 MOSI
+//   card 2   SPI2: PB12 XSS, PB13 SCK, PB14 MISO, PB15 MOSI
+//   both     USART2: PA2 the chip's RXD, PA3 its TXD; PA1 RTS, which the chip has no pin for
+//
+// XSS and RXD are pulled high, SCK and MOSI low (p). An output of a port moves the pin as well as the peripheral does,
+// when the pin is its alternate function; remapped ones (AFIO_MAPR) have left these pins.
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "board/stm32/gpio.hpp"
+#include "board/stm32/rcc.hpp"
+#include "board/stm32/spi.hpp"
+#include "board/stm32/usart.hpp"
+#include "kinds/dsdpv1/user_cpu/claim_counters.hpp"
+#include "kinds/dsdpv1/user_cpu/serial_pins.hpp"
+
+namespace dsdpv1::arm {
+
+using bus::Tick;
+
+/// Interrupts of the NVIC that SerialSide::requests has a bit for: SPI1, SPI2, USART2.
+constexpr std::array<unsigned, 3> kSerialIrq = {35, 36, 38};
+
+class SerialSide {
+ public:
+  using Ports = std::array<Gpio, 7>;
+  static constexpr std::uint64_t kNever = Spi::kNever;
+  enum Block : unsigned { kSpi1, kSpi2, kUsart2, kNone };
+
+  /// `card`: 1 or 2; 0: a chip without serial pins. `ports` outlive it.
+  SerialSide(const Ports& ports, unsigned card) : ports_(ports), card_(card) {}
+
+  static Block block_of(std::uint32_t address);
+  static const char* name_of(Block block);
+  static bool is_clocked(Block block, const Rcc& rcc);
+  std::uint32_t peek(std::uint32_t address) const;
+  std::uint32_t read(std::uint32_t address);
+  void write(std::uint32_t address, std::uint32_t value, std::uint64_t now);
+  /// What RCC says: clocks, and which of them are reset.
+  void follow(const Rcc& rcc);
+  /// AFIO_MAPR.
+  void remap(std::uint32_t mapr) { mapr_ = mapr; }
+  void reset();
+
+  /// The cycle of HCLK of their next action.
+  std::uint64_t next() const;
+  /// Acts at cycle next(), which begins at tick `at`; the chip's pins follow.
+  void run(Tick at, user_cpu::SerialPins& chip);
+  /// The chip's TXD changed; cycle `cycle` is the first that sees it.
+  void txd_changed(std::uint64_t cycle, bool level);
+
+  /// Ports or registers have been written: whether the chip's pins are to move. NSS hears its pin here.
+  bool moved();
+  void move(Tick at, user_cpu::SerialPins& chip);
+  /// Bits for kSerialIrq.
+  unsigned requests() const;
+
+  /// Levels that ports A and B see from here, of pins that the ports do not drive. `miso` as the chip has it.
+  struct Seen {
+    std::uint16_t driven = 0, levels = 0;
+  };
+  Seen seen(unsigned port, bool miso) const;
+  /// Something of the chip is on that port.
+  bool concerns(unsigned port) const { return card_ != 0 && port < 2; }
+  /// MISO is on that port, so that its level has to be known.
+  bool has_miso(unsigned port) const { return card_ != 0 && port == card_ - 1; }
+
+  /// Holds of the DPRAM, as the frames between the pins tell.
+  const user_cpu::HoldCounters& holds() const { return claims_.counters(); }
+  /// For the end of the run: bytes lost, functions that are not there.
+  std::vector<std::string> notes() const;
+
+ private:
+  /// As on the chip's pins: XSS, SCK, MOSI, RXD.
+  struct Levels {
+    bool xss = true, sck = false, mosi = false, rxd = true;
+    bool operator!=(const Levels& other) const {
+      return xss != other.xss || sck != other.sck || mosi != other.mosi || rxd != other.rxd;
+    }
+  };
+  /// A peripheral's pin, as the port lets it through.
+  struct Alternate {
+    unsigned port, pin;
+    bool drives, level;
+  };
+  std::array<Alternate, 8> alternates() const;
+  bool level(const Alternate& alternate, bool floating) const;
+  Levels wanted() const;
+  void follow_frame(Tick at, const Levels& before, user_cpu::SerialPins& chip);
+  void note_missing(Block block);
+
+  const Ports& ports_;
+  unsigned card_;
+  std::uint32_t mapr_ = 0;
+  std::array<Spi, 2> spi_;
+  Usart usart_;
+  Levels levels_;
+  std::vector<std::uint8_t> out_, in_;  ///< of the frame, both ways; the bits of an unfinished byte in the last ones
+  unsigned frame_bits_ = 0;
+  Tick frame_begin_ = 0;
+  user_cpu::ClaimCounters claims_;
+  std::array<const char*, 3> missing_{};  ///< by block: the first function that it lacks
+};
+
+}  // namespace dsdpv1::arm

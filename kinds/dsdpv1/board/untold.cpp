@@ -1,0 +1,123 @@
+#include "kinds/dsdpv1/board/untold.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "board/firmware/mailbox.h"
+#include "io/input/input_error.hpp"
+#include "io/input/suggest.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+using keys::Given;
+using scenario::Condition;
+
+bool is_one_of(const std::string& key, const std::vector<std::string>& keys) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Keys of user_cpu that are about the program; the others are about processor, board and bus.
+bool is_for_the_program(const std::string& key) {
+  static const std::vector<std::string> keys = {
+      "behaviour",        "constant",    "overwrite_inputs", "start_delay", "cycle", "judge_delay",
+      "judge_in_handler", "retry_delay", "judge_prm",        "judge_cfg",   "dpv1"};
+  return is_one_of(key, keys);
+}
+
+/// Keys of init that the masters go by as well.
+bool is_for_masters(const std::string& key) {
+  static const std::vector<std::string> keys = {"ident", "max_inputs", "max_outputs", "cfg"};
+  return is_one_of(key, keys);
+}
+
+bool is_of_the_driver(const std::string& event) { return event.rfind("DSDPV1_ERR_", 0) == 0; }
+
+/// What a condition wants to know from the slave's program; nullopt: nothing.
+std::optional<std::string> wanted(const Condition& condition, const std::string& slave) {
+  if (condition.slave.text != slave) return std::nullopt;
+  if (condition.outputs) return fmt::format("outputs are those that the program of {} has fetched", slave);
+  if (is_of_the_driver(condition.event.text))
+    return fmt::format("event {} is counted by the driver in the program of {}", condition.event.text, slave);
+  return std::nullopt;
+}
+
+class Finder {
+ public:
+  Finder(const scenario::Scenario& scenario, const scenario::Slave& slave, const std::string& firmware)
+      : scenario_(scenario),
+        slave_(slave),
+        firmware_(std::filesystem::path(firmware).filename().string()),
+        leave_out_(own(slave.user_cpu).without_mailbox == WithoutMailbox::kLeaveOut) {}
+
+  Untold find() {
+    not_told_.push_back(fmt::format("address (line {})", slave_.line));
+    for (const Given& key : slave_.init.given) setting(key, "init." + key.key, !is_for_masters(key.key));
+    for (const Given& key : slave_.user_cpu.given)
+      if (is_for_the_program(key.key)) setting(key, key.key, true);
+    found_.notes.push_back(
+        fmt::format("{} has no mailbox ({}): its counters and the outputs that it has fetched are not known", firmware_,
+                    DSDPV1_MAILBOX_SYMBOL));
+    found_.notes.push_back("it is not told " + join(not_told_));
+    for (const scenario::Action& each : scenario_.script) action(each);
+    for (const scenario::Expectation& each : scenario_.expect)
+      if (const auto what = wanted(each, slave_.name.text)) demanded(&each, each.line, *what, "tell them");
+    return std::move(found_);
+  }
+
+ private:
+  void setting(const Given& key, const std::string& name, bool only_for_the_program) {
+    not_told_.push_back(key.option.empty() ? fmt::format("{} (line {})", name, key.line) : name);
+    if (!only_for_the_program || leave_out_) return;
+    const std::string what = fmt::format("{} is for the program of {}", name, slave_.name.text);
+    if (!key.option.empty()) throw InputError(key.option, 0, refusal(what, "be told"));
+    if (elf_is_of_the_file()) throw InputError(scenario_.file, key.line, refusal(what, "be told"));
+  }
+
+  bool elf_is_of_the_file() const {
+    const auto& given = slave_.user_cpu.given;
+    return std::any_of(given.begin(), given.end(),
+                       [](const Given& key) { return key.key == "elf" && key.option.empty(); });
+  }
+
+  void action(const scenario::Action& action) {
+    const std::string& name = slave_.name.text;
+    if (action.slave.text == name && scenario::is_for_user_cpu(action.what))
+      return demanded(&action, action.line, fmt::format("{} is for the program of {}", action.word, name), "be told");
+    if (!action.when) return;
+    if (const auto what = wanted(*action.when, name)) demanded(&action, action.when->line, *what, "tell them");
+  }
+
+  void demanded(const void* of, int line, const std::string& what, const char* cannot) {
+    if (!leave_out_) throw InputError(scenario_.file, line, refusal(what, cannot));
+    found_.left_out.insert(of);
+    found_.notes.push_back(fmt::format("left out: {}:{}: {}", scenario_.file, line, what));
+  }
+
+  std::string refusal(const std::string& what, const char* cannot) const {
+    return fmt::format(
+        "{}, and {}, which has no mailbox ({}), cannot {}; allowed is what chip and bus show, or user_cpu: "
+        "{{without_mailbox: "
+        "leave_out}}",
+        what, firmware_, DSDPV1_MAILBOX_SYMBOL, cannot);
+  }
+
+  const scenario::Scenario& scenario_;
+  const scenario::Slave& slave_;
+  std::string firmware_;
+  bool leave_out_;
+  std::vector<std::string> not_told_;
+  Untold found_;
+};
+
+}  // namespace
+
+Untold untold(const scenario::Scenario& scenario, const scenario::Slave& slave, const std::string& firmware) {
+  return Finder(scenario, slave, firmware).find();
+}
+
+}  // namespace dsdpv1::tb

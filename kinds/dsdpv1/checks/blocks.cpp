@@ -1,0 +1,42 @@
+#include "kinds/dsdpv1/checks/blocks.hpp"
+
+namespace dsdpv1::checks {
+namespace {
+
+constexpr unsigned kAcyclicHeader = 4;
+
+/// The bytes before the CRC that a length byte, found at `length`, counts from `data` on.
+std::optional<unsigned> counted(const Block& block, Address length, Address data, const Look& look) {
+  const std::optional<std::uint8_t> count = look(length);
+  if (!count || data + *count > block.crc) return std::nullopt;
+  return static_cast<unsigned>(data - block.first) + *count;
+}
+
+/// V14: reads and transports carry data, everything else is the header alone.
+std::optional<unsigned> covered_of_answer(const Block& block, const Look& look) {
+  const std::optional<std::uint8_t> function = look(block.first);
+  if (!function) return std::nullopt;
+  const bool with_data = *function == regs::kFunctionNumRead || *function == regs::kFunctionNumTransport;
+  return with_data ? counted(block, static_cast<Address>(block.first + 3), block.data, look)
+                   : std::optional(kAcyclicHeader);
+}
+
+}  // namespace
+
+std::optional<unsigned> covered(const Block& block, const Look& look) {
+  if (block.command == regs::kUserCommand2) return covered_of_answer(block, look);
+  return counted(block, static_cast<Address>(block.data - 1), block.data, look);
+}
+
+std::optional<std::uint16_t> crc_over(Address first, unsigned count, const Look& look) {
+  unsigned crc = 0xFFFF;
+  for (unsigned i = 0; i < count; ++i) {
+    const std::optional<std::uint8_t> byte = look(static_cast<Address>(first + i));
+    if (!byte) return std::nullopt;
+    crc ^= *byte;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1) ^ 0xA001U : crc >> 1;
+  }
+  return static_cast<std::uint16_t>(crc);
+}
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,128 @@
+#include "kinds/dsdpv1/checks/checks.hpp"
+
+#include <utility>
+
+namespace dsdpv1::checks {
+
+void Checks::pin(Tick at, Pin pin, Level level) {
+  if ((dsdpv1::mask(pin) & pins_) == 0) return;
+  history_.add(at, static_cast<tb::PinNumber>(pin), level);
+  if (strap(pin, level)) return;
+  if (pin == Pin::kReset)
+    reset_pin(at, level != 0);
+  else if (!serial())
+    parallel_pin(at, pin, level);
+  else if (settings_.mode == kUart)
+    uart_.pin(at, pin, level);
+  else if (!in_reset_)
+    spi_pin(at, pin, level);
+}
+
+bool Checks::strap(Pin pin, Level level) {
+  switch (pin) {
+    case Pin::kMode: settings_.mode = level; return true;
+    case Pin::kAdr: settings_.address = level; return true;
+    case Pin::kUbr: settings_.rate = level; return true;
+    case Pin::kUiv: settings_.interval = level; return true;
+    default: return false;
+  }
+}
+
+bool Checks::applies(CheckId check) const {
+  if (check.index < CheckId(kFirstSpiCheck).index) return !serial();
+  return settings_.mode == (check.index < CheckId(kFirstUartCheck).index ? kSpi : kUart);
+}
+
+void Checks::spi_pin(Tick at, Pin pin, Level level) {
+  spi_.pin(at, pin, level);
+  frames_.pin(at, pin, level);
+}
+
+void Checks::parallel_pin(Tick at, Pin pin, Level level) {
+  end_hold_before(at);
+  switch (pin) {
+    case Pin::kRReq:
+    case Pin::kRSta: return handshake(at, pin, level != 0);
+    case Pin::kLSta: return ownership_.l_sta(at, level != 0);
+    case Pin::kIntr0: return service_.intr0(at, level != 0);
+    case Pin::kPbrts: return service_.pbrts(at, level != 0);
+    case Pin::kCsr:
+    case Pin::kRd:
+    case Pin::kWr:
+    case Pin::kA:
+    case Pin::kDIn:
+    case Pin::kDOut: return port_.pin(at, pin, level);
+    default: return;
+  }
+}
+
+/// In reset the port neither reads nor writes (P10), and whatever was going on is over.
+void Checks::reset_pin(Tick at, bool level) {
+  in_reset_ = !level;
+  holding_ = false;
+  hold_end_.reset();
+  ownership_.reset(at, in_reset_);
+  port_.reset();
+  cells_.reset();
+  service_.reset();
+  spi_.reset();
+  frames_.reset();
+  uart_.reset(at, in_reset_);
+}
+
+void Checks::handshake(Tick at, Pin pin, bool level) {
+  const std::optional<Tick> since = ownership_.held_off_since();
+  pin == Pin::kRReq ? ownership_.r_req(at, level) : ownership_.r_sta(at, level);
+  if (in_reset_) return;
+  if (pin == Pin::kRSta && level && !std::exchange(holding_, true)) cells_.hold_began();
+  if (ownership_.held_off_since()) {
+    hold_end_.reset();  // a release that lasted no time is none
+  } else {
+    if (since) service_.held_off(*since, at);
+    if (holding_) hold_end_ = at;
+  }
+}
+
+void Checks::end_hold_before(Tick at) {
+  if (!hold_end_ || *hold_end_ >= at) return;
+  cells_.hold_ended(*hold_end_);
+  hold_end_.reset();
+  holding_ = false;
+}
+
+void Checks::access_began(Tick at) {
+  if (!in_reset_) ownership_.access_began(at);
+}
+
+void Checks::access_ended(Tick at) {
+  if (!in_reset_) ownership_.access_ended(at);
+}
+
+void Checks::accessed(const Access& access) {
+  if (in_reset_) return;
+  cells_.accessed(access);
+  service_.accessed(access);
+}
+
+void Checks::telegram(Tick now, const bus::WireTelegram& telegram) {
+  recorder_.now(now);
+  if (settings_.mode == kSpi && !in_reset_) frames_.telegram(now, telegram);
+  if (serial()) return;
+  end_hold_before(now);
+  service_.telegram(now, telegram, ownership_.held_off_since());
+}
+
+void Checks::finish(Tick end) {
+  recorder_.now(end);
+  if (in_reset_) return;
+  if (settings_.mode == kUart) return uart_.finish(end);
+  if (settings_.mode == kSpi) {
+    spi_.finish(end);
+    return frames_.finish(end);
+  }
+  end_hold_before(end + 1);
+  service_.finish(end, ownership_.held_off_since());
+  ownership_.finish(end);
+}
+
+}  // namespace dsdpv1::checks

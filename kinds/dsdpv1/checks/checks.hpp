@@ -1,0 +1,109 @@
+#pragma once
+// The rules of the DSDPV1's user side: handshake, host port, cells of the DPRAM, service.
+//
+//   checks::Checks checks(limits);
+//   checks.on_violation = ...;
+//   checks.pin(at, pin, level);    // every change of the pins in kPins, in order of time
+//   checks.telegram(telegram);     // from bus::Monitor
+//   checks.finish(end);
+//   checks.record(Check::kTs).worst_margin
+//
+// docs/checks.md has the table of the checks.
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "kinds/dsdpv1/checks/cell_rules.hpp"
+#include "kinds/dsdpv1/checks/check.hpp"
+#include "kinds/dsdpv1/checks/ownership.hpp"
+#include "kinds/dsdpv1/checks/port_timing.hpp"
+#include "kinds/dsdpv1/checks/serial_settings.hpp"
+#include "kinds/dsdpv1/checks/service.hpp"
+#include "kinds/dsdpv1/checks/spi_frames.hpp"
+#include "kinds/dsdpv1/checks/spi_timing.hpp"
+#include "kinds/dsdpv1/checks/uart_frames.hpp"
+#include "kinds/dsdpv1/pins/pin_table.hpp"
+#include "tb/chip/checks/chip_checks.hpp"
+#include "tb/chip/checks/recorder.hpp"
+
+namespace dsdpv1::checks {
+
+class Checks : public ChipChecks, private AccessSink {
+ public:
+  /// Of the outputs these, and all inputs but PBRXD: the monitor hears the line.
+  static constexpr std::uint32_t kPins =
+      dsdpv1::mask(dsdpv1::Pin::kLReq) | dsdpv1::mask(dsdpv1::Pin::kLSta) | dsdpv1::mask(dsdpv1::Pin::kDOut) |
+      dsdpv1::mask(dsdpv1::Pin::kIntr0) | dsdpv1::mask(dsdpv1::Pin::kPbrts) | dsdpv1::mask(dsdpv1::Pin::kReset) |
+      dsdpv1::mask(dsdpv1::Pin::kRReq) | dsdpv1::mask(dsdpv1::Pin::kRSta) | dsdpv1::mask(dsdpv1::Pin::kA) |
+      dsdpv1::mask(dsdpv1::Pin::kDIn) | dsdpv1::mask(dsdpv1::Pin::kCsr) | dsdpv1::mask(dsdpv1::Pin::kRd) |
+      dsdpv1::mask(dsdpv1::Pin::kWr);
+
+  /// What they see of a part's pins.
+  static constexpr std::uint32_t pins(Part part) { return part == Part::kRsu ? kPins | kSerialPins : kPins; }
+
+  /// `serial`: straps and parameters; a change of a strap counts from then on.
+  explicit Checks(const Limits& limits = Limits(rules()), Part part = Part::kDsdpv1, const SerialSettings& serial = {})
+      : pins_(pins(part)),
+        settings_(serial),
+        history_(tb::pins_of(part)),
+        recorder_(rules(part), limits, history_),
+        ownership_(recorder_),
+        port_(recorder_, *this),
+        cells_(recorder_),
+        service_(recorder_),
+        spi_(recorder_, settings_),
+        frames_(recorder_, settings_),
+        uart_(recorder_, settings_) {}
+  Checks(const Checks&) = delete;
+  Checks& operator=(const Checks&) = delete;
+
+  void pin(Tick at, tb::PinNumber pin, tb::Level level) override {
+    this->pin(at, static_cast<dsdpv1::Pin>(pin), level);
+  }
+  void pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void read(Tick sample) override { port_.read(sample); }
+  void telegram(Tick now, const bus::WireTelegram& telegram) override;
+  void finish(Tick end) override;
+
+  /// Over SPI and UART the parallel port and its handshake are dead (R14), and what the cells hold is in telegrams.
+  bool applies(CheckId check) const override;
+  const Record& record(CheckId check) const override { return recorder_.record(check); }
+  const Limit& limit(CheckId check) const override { return recorder_.limit(check); }
+  void on_violation(std::function<void(const Violation&)> sink) override { recorder_.on_violation = std::move(sink); }
+
+ private:
+  static constexpr std::uint32_t kSerialPins = dsdpv1::mask(dsdpv1::Pin::kXss) | dsdpv1::mask(dsdpv1::Pin::kSck) |
+                                               dsdpv1::mask(dsdpv1::Pin::kMosi) | dsdpv1::mask(dsdpv1::Pin::kMiso) |
+                                               dsdpv1::mask(dsdpv1::Pin::kRxd) | dsdpv1::mask(dsdpv1::Pin::kTxd) |
+                                               dsdpv1::mask(dsdpv1::Pin::kMode) | dsdpv1::mask(dsdpv1::Pin::kAdr) |
+                                               dsdpv1::mask(dsdpv1::Pin::kUbr) | dsdpv1::mask(dsdpv1::Pin::kUiv);
+  static constexpr Level kSpi = 1, kUart = 2;  // R2; 3 as 0
+
+  bool serial() const { return settings_.mode == kSpi || settings_.mode == kUart; }
+  bool strap(dsdpv1::Pin pin, Level level);
+  void parallel_pin(Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+  void spi_pin(Tick at, dsdpv1::Pin pin, Level level);
+  void reset_pin(Tick at, bool level);
+  void end_hold_before(Tick at);
+  void handshake(Tick at, dsdpv1::Pin pin, bool level);
+  void access_began(Tick at) override;
+  void access_ended(Tick at) override;
+  void accessed(const Access& access) override;
+
+  std::uint32_t pins_;
+  SerialSettings settings_;
+  PinHistory history_;
+  Recorder recorder_;
+  Ownership ownership_;
+  PortTiming port_;
+  CellRules cells_;
+  Service service_;
+  SpiTiming spi_;
+  SpiFrames frames_;
+  UartFrames uart_;
+  bool in_reset_ = true;
+  bool holding_ = false;          ///< a hold runs from R_STA's rise to the time that R_REQ and R_STA are both low again
+  std::optional<Tick> hold_end_;  ///< judged when time goes on: a RESET at the same tick makes it void
+};
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,153 @@
+#include "kinds/dsdpv1/checks/ownership.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dsdpv1::checks {
+namespace {
+
+std::string no_context() { return {}; }
+
+}  // namespace
+
+void Ownership::reset(Tick at, bool low) {
+  in_reset_ = low;
+  reset_changed_ = at;
+  both_own_since_.reset();
+  alone_since_.reset();
+  last_access_end_.reset();
+  not_owned_since_.reset();
+  accessing_ = false;
+}
+
+void Ownership::record(Check check, Tick at, Tick measured) {
+  if (!in_reset_) recorder_.value(check, at, measured, no_context);
+}
+
+std::optional<Tick> Ownership::held_off_since() const {
+  return holds_off() ? std::optional(std::max(held_off_since_, reset_changed_)) : std::nullopt;
+}
+
+void Ownership::r_req(Tick at, bool level) {
+  const bool before = holds_off();
+  r_req_ = level;
+  holding_off_may_have_changed(at, before);
+  const bool with_r_sta = r_sta_ && r_sta_rose_ == at;  // the order within a tick does not count
+  if (level) {
+    r_req_rose_ = at;
+    end_alone(at);
+    if (with_r_sta) record(Check::kSyncWindow, at, at - held_off_since_);
+  } else if (with_r_sta) {
+    alone_since_ = at;
+  }
+  ownership_may_have_changed(at);
+}
+
+void Ownership::r_sta(Tick at, bool level) {
+  const bool before = holds_off();
+  r_sta_ = level;
+  holding_off_may_have_changed(at, before);
+  if (level) {
+    r_sta_rose(at);
+  } else {
+    end_both_own(at);
+    end_alone(at);
+  }
+  ownership_may_have_changed(at);
+}
+
+void Ownership::r_sta_rose(Tick at) {
+  r_sta_rose_ = at;
+  if (r_req_) {
+    record(Check::kNoRequest, at, at - r_req_rose_);
+    record(Check::kSyncWindow, at, at - held_off_since_);
+  } else {
+    alone_since_ = at;
+  }
+  if (l_sta_)
+    both_own_since_ = at;
+  else
+    record(Check::kBothOwn, at, at - std::max(l_sta_fell_, held_off_since_));
+}
+
+/// Both low for no time is not low: the window goes on (H2).
+void Ownership::holding_off_may_have_changed(Tick at, bool before) {
+  if (holds_off() == before) return;
+  if (holds_off()) {
+    if (at != freed_) held_off_since_ = at;
+    return;
+  }
+  freed_ = at;
+  const Tick since = std::max(held_off_since_, reset_changed_);
+  record(Check::kNeverReleased, since, at - since);
+}
+
+void Ownership::l_sta(Tick at, bool level) {
+  l_sta_ = level;
+  if (!level) {
+    l_sta_fell_ = at;
+    end_both_own(at);
+  } else if (r_sta_) {
+    both_own_since_ = at;
+  }
+}
+
+void Ownership::end_both_own(Tick at) {
+  if (both_own_since_) record(Check::kBothOwn, *both_own_since_, *both_own_since_ - at);
+  both_own_since_.reset();
+}
+
+void Ownership::end_alone(Tick at) {
+  if (alone_since_) record(Check::kNoRequest, *alone_since_, *alone_since_ - at);
+  alone_since_.reset();
+}
+
+void Ownership::ownership_may_have_changed(Tick at) {
+  if (std::exchange(owned_, owns()) == owns()) return;
+  if (owned_) {
+    owned_since_ = at;
+    last_access_end_.reset();
+    end_without_ownership(at);
+  } else {
+    ownership_lost(at);
+  }
+}
+
+void Ownership::ownership_lost(Tick at) {
+  if (accessing_) {
+    not_owned_since_ = at;
+    began_not_owned_ = false;
+  } else if (last_access_end_) {
+    record(Check::kReleasedInAccess, at, at - *last_access_end_);
+  }
+}
+
+void Ownership::access_began(Tick at) {
+  accessing_ = true;
+  began_not_owned_ = !owns();
+  if (began_not_owned_)
+    not_owned_since_ = at;
+  else
+    record(Check::kNotOwner, at, at - owned_since_);
+}
+
+void Ownership::access_ended(Tick at) {
+  accessing_ = false;
+  last_access_end_ = at;
+  end_without_ownership(at);
+}
+
+void Ownership::end_without_ownership(Tick at) {
+  if (!not_owned_since_) return;
+  record(began_not_owned_ ? Check::kNotOwner : Check::kReleasedInAccess, *not_owned_since_, *not_owned_since_ - at);
+  not_owned_since_.reset();
+}
+
+void Ownership::finish(Tick at) {
+  end_both_own(at);
+  end_alone(at);
+  if (accessing_) end_without_ownership(at);
+  if (const std::optional<Tick> since = held_off_since()) record(Check::kNeverReleased, *since, at - *since);
+}
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,62 @@
+#pragma once
+// Who owns the DPRAM (5.1; H1, H2, P12), from R_REQ, R_STA, L_STA and the begin and end of the user's accesses.
+//
+// While R_REQ or R_STA is high the user holds the chip off; only with both high may they access. So of a release, in
+// which they may fall one after the other in either order, the first fall ends the right to access, and the second lets
+// the chip in.
+//
+// Pins that change at the same tick may be told in any order: what lasts no time breaks no rule.
+#include <optional>
+
+#include "kinds/dsdpv1/checks/check.hpp"
+#include "tb/chip/checks/recorder.hpp"
+
+namespace dsdpv1::checks {
+
+class Ownership {
+ public:
+  explicit Ownership(Recorder& recorder) : recorder_(recorder) {}
+
+  /// RESET has become low or high: nothing of what was going on is judged any more, nor what the pins do while it is
+  /// low. Levels stay.
+  void reset(Tick at, bool low);
+  void r_req(Tick at, bool level);
+  void r_sta(Tick at, bool level);
+  void l_sta(Tick at, bool level);
+  void access_began(Tick at);
+  void access_ended(Tick at);
+  /// The run ends: what still lasts is judged as if it ended now.
+  void finish(Tick at);
+
+  /// Since when the user has held the chip off, the end of a reset at the earliest; absent while R_REQ and R_STA are
+  /// low.
+  std::optional<Tick> held_off_since() const;
+
+ private:
+  bool owns() const { return r_req_ && r_sta_; }
+  bool holds_off() const { return r_req_ || r_sta_; }
+  void record(Check check, Tick at, Tick measured);
+  void r_sta_rose(Tick at);
+  void holding_off_may_have_changed(Tick at, bool before);
+  void ownership_may_have_changed(Tick at);
+  void ownership_lost(Tick at);
+  void end_both_own(Tick at);
+  void end_alone(Tick at);
+  void end_without_ownership(Tick at);
+
+  Recorder& recorder_;
+  bool in_reset_ = true;
+  Tick reset_changed_ = 0;
+  bool r_req_ = false, r_sta_ = false, l_sta_ = false, owned_ = false;
+  Tick r_req_rose_ = 0, r_sta_rose_ = -1, l_sta_fell_ = 0, owned_since_ = 0;
+  Tick held_off_since_ = 0;  ///< R_REQ or R_STA rose when both were low
+  Tick freed_ = -1;          ///< both are low since then
+  std::optional<Tick> both_own_since_;
+  std::optional<Tick> alone_since_;  ///< R_STA rose without R_REQ
+  bool accessing_ = false;
+  std::optional<Tick> last_access_end_;  ///< in the present ownership
+  std::optional<Tick> not_owned_since_;  ///< an access runs without ownership
+  bool began_not_owned_ = false;         ///< ... and began so; else it was lost on the way
+};
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,102 @@
+#include "kinds/dsdpv1/checks/service.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bus/baud.hpp"
+#include "registers/dsdpv1_regs.hpp"
+
+namespace dsdpv1::checks {
+
+void Service::reset() {
+  intr0_fell_.reset();
+  address_.reset();
+  due_exchange_.reset();
+  last_exchange_.reset();
+  longest_part_ = 0;
+  sending_ = false;
+}
+
+// --- INTR0 -----------------------------------------------------------------------------------------------------------
+
+void Service::intr0(Tick at, bool level) {
+  if (!level && !intr0_fell_) intr0_fell_ = at;
+}
+
+void Service::accessed(const Access& access) {
+  if (!intr0_fell_ || access.write) return;
+  const bool in_areas = access.address >= regs::kPrm && access.address <= regs::kCfgCrc + 1;
+  if (!in_areas && (access.address != regs::kChipCommand1 || !access.value)) return;
+  constexpr unsigned kNews = regs::kChipCommand1Prm | regs::kChipCommand1Cfg;
+  // Nothing in B00E: an earlier service has taken this block along, and there is nothing left to do.
+  if (in_areas || (*access.value & kNews) != 0)
+    recorder_.value(Check::kIntr0Service, *intr0_fell_, access.began - *intr0_fell_,
+                    [&access] { return fmt::format("served by the read of B{:03X}", access.address); });
+  intr0_fell_.reset();
+}
+
+void Service::finish(Tick at, std::optional<Tick> held_off_since) {
+  pass(at, held_off_since);
+  if (intr0_fell_)
+    recorder_.value(Check::kIntr0Service, *intr0_fell_, at - *intr0_fell_, [] { return std::string("not served"); });
+  intr0_fell_.reset();
+}
+
+// --- the bus cycle ---------------------------------------------------------------------------------------------------
+
+void Service::pbrts(Tick at, bool level) {
+  sending_ = level;
+  (level ? pbrts_rose_ : pbrts_fell_) = at;
+}
+
+void Service::held_off(Tick since, Tick at) {
+  pass(at, since);
+  add_part(since, at);
+}
+
+/// What lies before the interval does not count.
+void Service::add_part(Tick since, Tick at) {
+  if (last_exchange_) longest_part_ = std::max(longest_part_, at - std::max(since, *last_exchange_));
+}
+
+/// Time has come to `at`.
+void Service::pass(Tick at, std::optional<Tick> held_off_since) {
+  if (!due_exchange_ || *due_exchange_ > at) return;
+  if (held_off_since && *held_off_since < *due_exchange_) add_part(*held_off_since, *due_exchange_);
+  exchange(*due_exchange_);
+  due_exchange_.reset();
+}
+
+/// Which address the station has is seen by what it answers to: nobody else drives the line while PBRTS is high.
+bool Service::is_own_answer(const bus::WireTelegram& telegram) const {
+  return telegram.tsdr && pbrts_rose_ <= telegram.start && (sending_ || pbrts_fell_ >= telegram.end) &&
+         pbrts_rose_ != 0;
+}
+
+bool Service::is_exchange(const bus::WireTelegram& telegram) const {
+  if (!telegram.right() || !address_) return false;
+  const bus::Telegram& request = telegram.decoded.telegram;
+  const bool srd = request.function() == bus::fc::kSrdLow || request.function() == bus::fc::kSrdHigh;
+  return request.is_request() && srd && request.da == *address_ && !request.dsap;
+}
+
+void Service::telegram(Tick now, const bus::WireTelegram& telegram, std::optional<Tick> held_off_since) {
+  pass(now, held_off_since);
+  if (is_own_answer(telegram)) address_ = telegram.station;
+  if (is_exchange(telegram)) due_exchange_ = telegram.end + bus::baud(telegram.baud).bit;
+}
+
+void Service::exchange(Tick at) {
+  if (last_exchange_ && longest_part_ != 0) {
+    const Tick interval = at - *last_exchange_;
+    recorder_.value(interval_, at, interval - longest_part_, [&] {
+      return fmt::format("the chip was held off for {} of the {} between two Data_Exchange", ns_text(longest_part_),
+                         ns_text(interval));
+    });
+  }
+  last_exchange_ = at;
+  longest_part_ = 0;
+}
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,50 @@
+#pragma once
+// Whether the user is quick enough: INTR0 (P7, 4.1.6), and holds against the bus cycle (H1, H5).
+#include <optional>
+
+#include "bus/monitor/monitor.hpp"
+#include "kinds/dsdpv1/checks/check.hpp"
+#include "kinds/dsdpv1/checks/port_timing.hpp"
+#include "tb/chip/checks/recorder.hpp"
+
+namespace dsdpv1::checks {
+
+class Service {
+ public:
+  /// `interval`: the check that is about holds against the bus cycle.
+  explicit Service(Recorder& recorder, Check interval = Check::kHoldInterval)
+      : recorder_(recorder), interval_(interval) {}
+
+  /// RESET is low. The station's address has to be learnt again.
+  void reset();
+  void intr0(Tick at, bool level);
+  void pbrts(Tick at, bool level);
+  void accessed(const Access& access);
+  /// The user held the chip off from `since` to `at`.
+  void held_off(Tick since, Tick at);
+  /// A telegram of the line is heard at `now`; `held_off_since`: the user holds the chip off since then.
+  void telegram(Tick now, const bus::WireTelegram& telegram, std::optional<Tick> held_off_since);
+  /// The run ends: an INTR0 not served is judged as if it were now.
+  void finish(Tick at, std::optional<Tick> held_off_since);
+
+ private:
+  bool is_own_answer(const bus::WireTelegram& telegram) const;
+  bool is_exchange(const bus::WireTelegram& telegram) const;
+  void pass(Tick at, std::optional<Tick> held_off_since);
+  void add_part(Tick since, Tick at);
+  void exchange(Tick at);
+
+  Recorder& recorder_;
+  Check interval_;
+  std::optional<Tick> intr0_fell_;  ///< and nobody has served it
+  std::optional<std::uint8_t> address_;
+  bool sending_ = false;
+  Tick pbrts_rose_ = 0, pbrts_fell_ = 0;
+  // A Data_Exchange counts from its execution, a bit time after its end (docs/microarchitecture.md, section 7):
+  // intervals run between these.
+  std::optional<Tick> due_exchange_;   ///< has been heard
+  std::optional<Tick> last_exchange_;  ///< was executed
+  Tick longest_part_ = 0;              ///< of the interval since then, that the user held the chip off
+};
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,176 @@
+#include "kinds/dsdpv1/checks/spi_frames.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace dsdpv1::checks {
+namespace {
+
+constexpr Tick kWriteGap = 32'400;  // 2.7 us
+constexpr std::uint8_t kIdle = 0xFF, kErrorReply = 7, kOwner = 0x02;
+constexpr std::size_t kReplyHeader = 2;
+
+}  // namespace
+
+void SpiFrames::Wire::set(Tick at, bool to) {
+  if (changed != at) earlier = level;
+  changed = at;
+  level = to;
+}
+
+void SpiFrames::reset() {
+  service_.reset();
+  fell_.reset();
+  rose_.reset();
+  last_write_.reset();
+  owned_since_.reset();
+  exclusive_since_.reset();
+  effect_ = Effect::kNone;
+}
+
+void SpiFrames::pin(Tick at, Pin pin, Level level) {
+  end_frame_before(at);
+  switch (pin) {
+    case Pin::kXss: return xss(at, level != 0);
+    case Pin::kSck: return level != 0 ? sck_rose(at) : void();
+    case Pin::kMosi: return mosi_.set(at, level != 0);
+    case Pin::kMiso: return miso_.set(at, level != 0);  // released: as high
+    case Pin::kPbrts: return service_.pbrts(at, level != 0);
+    default: return;
+  }
+}
+
+// --- frames ----------------------------------------------------------------------------------------------------------
+
+void SpiFrames::xss(Tick at, bool level) {
+  if (level) {
+    rose_ = at;
+    return;
+  }
+  judge_gap(at);
+  heard_ = heard(at);
+  fell_ = at;
+  rose_.reset();
+  bits_ = 0;
+  request_.clear();
+  reply_.clear();
+  for_card_ = complete_ = false;
+}
+
+void SpiFrames::end_frame_before(Tick at) {
+  if (!rose_ || !fell_ || *rose_ >= at) return;
+  settle();
+  if (exclusive_since_) owner_gone(*std::exchange(exclusive_since_, std::nullopt), *rose_);
+  fell_.reset();
+}
+
+void SpiFrames::judge_gap(Tick at) {
+  if (!last_write_) return;
+  recorder_.value(Check::kWriteGap, at, at - *last_write_, [this, at] {
+    return std::string("after a write's last bit") + (heard(at) ? "" : ": this frame is not heard");
+  });
+  if (at - *last_write_ >= kWriteGap && heard(at)) last_write_.reset();
+}
+
+/// SP9, in cycles as the chip counts them.
+bool SpiFrames::heard(Tick fell) const {
+  return !last_write_ || fell / kTicksPerCycle >= *last_write_ / kTicksPerCycle + Tick{settings_.spi_write_gap};
+}
+
+void SpiFrames::sck_rose(Tick at) {
+  if (!selected(at)) return;
+  out_ = (out_ << 1 | (mosi_.before(at) ? 1U : 0U)) & 0xFFU;
+  in_ = (in_ << 1 | (miso_.before(at) ? 1U : 0U)) & 0xFFU;
+  if (++bits_ % 8 != 0 || !heard_) return;
+  complete_ ? reply_byte(at, static_cast<std::uint8_t>(in_)) : request_byte(at, static_cast<std::uint8_t>(out_));
+}
+
+// --- telegrams -------------------------------------------------------------------------------------------------------
+
+void SpiFrames::request_byte(Tick at, std::uint8_t byte) {
+  if (bits_ > 8 && !for_card_) return;
+  request_.add(byte);
+  if (bits_ == 8) {
+    const auto address = static_cast<unsigned>(settings_.address);
+    for_card_ = request_.begins() && (address == 1 || address == 2) && request_.card() == address;
+  }
+  if (for_card_ && request_.complete()) request_complete(at);
+}
+
+void SpiFrames::request_complete(Tick at) {
+  complete_ = true;
+  idle_bytes_ = 0;
+  asked_ = at;
+  if (request_.kind() != TelegramKind::kRead) last_write_ = at;
+  effect_ = Effect::kNone;
+  if (!request_.right()) return;
+  if (request_.kind() == TelegramKind::kExchange) effect_ = Effect::kReadAndWrite;
+  if (const auto value = request_.written(kOwnershipCell))
+    effect_ = (*value & kOwner) != 0 ? Effect::kClaim : Effect::kRelease;
+}
+
+void SpiFrames::reply_byte(Tick at, std::uint8_t byte) {
+  if (reply_.empty()) judge_reply(at, byte != kIdle);
+  if (reply_.empty() && byte == kIdle) return;
+  reply_.push_back(byte);
+  if (reply_.size() == 1) {
+    if (byte >> 5 == kErrorReply) effect_ = Effect::kNone;
+    settle();
+  }
+  // Ownership that the host did not give back has ended by U_Timer (SP17).
+  const bool read = request_.kind() == TelegramKind::kRead && request_.right() && request_.covers(kOwnershipCell);
+  if (read && owned_since_ && reply_.size() == kReplyHeader + kOwnershipCell - request_.address() + 1 &&
+      (byte & kOwner) == 0)
+    release(at);
+}
+
+/// Once a telegram, where its reply begins or has to (SP6).
+void SpiFrames::judge_reply(Tick at, bool begins) {
+  const unsigned gap = idle_bytes_++;
+  if (begins ? gap <= settings_.spi_reply_gap : gap == settings_.spi_reply_gap)
+    recorder_.kept(Check::kMisoReply, at, begins && gap == settings_.spi_reply_gap, [begins, gap] {
+      return begins ? "the reply comes after " + std::to_string(gap) + " bytes" : std::string("no reply");
+    });
+}
+
+/// The telegram was not refused: its effect counts from its last bit.
+void SpiFrames::settle() {
+  const Effect effect = std::exchange(effect_, Effect::kNone);
+  if (effect == Effect::kClaim && !owned_since_) owned_since_ = asked_;
+  if (effect == Effect::kReadAndWrite) exclusive_since_ = asked_;
+  if (effect == Effect::kRelease && owned_since_) release(asked_);
+}
+
+// --- ownership -------------------------------------------------------------------------------------------------------
+
+void SpiFrames::release(Tick at) {
+  const Tick since = *std::exchange(owned_since_, std::nullopt);
+  recorder_.value(Check::kOwned, at, at - since, [since] { return "owned since " + ns_text(since); });
+  owner_gone(since, at);
+}
+
+void SpiFrames::owner_gone(Tick since, Tick at) {
+  if (!held_off_since()) service_.held_off(since, at);
+}
+
+std::optional<Tick> SpiFrames::held_off_since() const {
+  if (owned_since_) return owned_since_;
+  if (exclusive_since_) return exclusive_since_;
+  if (effect_ == Effect::kClaim || effect_ == Effect::kReadAndWrite) return asked_;
+  return std::nullopt;
+}
+
+void SpiFrames::telegram(Tick now, const bus::WireTelegram& telegram) {
+  end_frame_before(now);
+  service_.telegram(now, telegram, held_off_since());
+}
+
+void SpiFrames::finish(Tick end) {
+  end_frame_before(end + 1);
+  settle();
+  service_.finish(end, held_off_since());
+  if (owned_since_) release(end);
+}
+
+}  // namespace dsdpv1::checks

@@ -1,0 +1,73 @@
+#pragma once
+// The telegrams of a host on SPI: the 2.7 us after a write (SP9), and the ownership by B014 (SP12, SP16).
+#include <optional>
+#include <vector>
+
+#include "kinds/dsdpv1/checks/check.hpp"
+#include "kinds/dsdpv1/checks/host_telegram.hpp"
+#include "kinds/dsdpv1/checks/serial_settings.hpp"
+#include "kinds/dsdpv1/checks/service.hpp"
+#include "tb/chip/checks/recorder.hpp"
+
+namespace dsdpv1::checks {
+
+/// Pins that change at the same tick may be told in any order.
+class SpiFrames {
+ public:
+  /// `settings` outlives it.
+  SpiFrames(Recorder& recorder, const SerialSettings& settings)
+      : recorder_(recorder), settings_(settings), service_(recorder, Check::kOwnerInterval) {}
+
+  void reset();
+  /// A change of XSS, SCK, MOSI, MISO or PBRTS, not in reset.
+  void pin(Tick at, Pin pin, Level level);
+  /// A telegram of the bus.
+  void telegram(Tick now, const bus::WireTelegram& telegram);
+  void finish(Tick end);
+
+ private:
+  /// A pin whose level strictly before a tick can be asked for.
+  struct Wire {
+    Tick changed = -1;
+    bool level = true, earlier = true;
+
+    void set(Tick at, bool to);
+    bool before(Tick at) const { return changed == at ? earlier : level; }
+  };
+  /// What a telegram does when the chip does not refuse it.
+  enum class Effect : std::uint8_t { kNone, kClaim, kRelease, kReadAndWrite };
+
+  bool selected(Tick at) const { return fell_ && *fell_ < at && (!rose_ || at <= *rose_); }
+  void xss(Tick at, bool level);
+  void end_frame_before(Tick at);
+  void judge_gap(Tick at);
+  bool heard(Tick fell) const;
+  void sck_rose(Tick at);
+  void request_byte(Tick at, std::uint8_t byte);
+  void request_complete(Tick at);
+  void reply_byte(Tick at, std::uint8_t byte);
+  void judge_reply(Tick at, bool begins);
+  void settle();
+  void release(Tick at);
+  void owner_gone(Tick since, Tick at);
+  /// Since when the host holds the chip off.
+  std::optional<Tick> held_off_since() const;
+
+  Recorder& recorder_;
+  const SerialSettings& settings_;
+  Service service_;
+  Wire mosi_{-1, false, false}, miso_;  ///< levels of a chip fresh from construction
+  std::optional<Tick> fell_, rose_;     ///< XSS: begin and end of the frame
+  bool heard_ = false;
+  unsigned bits_ = 0, out_ = 0, in_ = 0;
+  HostTelegram request_{SerialPort::kSpi};
+  bool for_card_ = false, complete_ = false;
+  unsigned idle_bytes_ = 0;                            ///< of FF after the request
+  std::vector<std::uint8_t> reply_;                    ///< from the first byte on that is not FF
+  Effect effect_ = Effect::kNone;                      ///< of this telegram, until its reply says that it is refused
+  Tick asked_ = 0;                                     ///< last bit of the request
+  std::optional<Tick> last_write_;                     ///< last bit of a write or read-and-write telegram
+  std::optional<Tick> owned_since_, exclusive_since_;  ///< by B014; by a read-and-write telegram
+};
+
+}  // namespace dsdpv1::checks

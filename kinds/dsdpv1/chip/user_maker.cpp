@@ -1,0 +1,50 @@
+#include "kinds/dsdpv1/chip/user_maker.hpp"
+
+#include <memory>
+#include <string>
+
+#include "board/stm32/fsmc_timing.hpp"
+#include "io/input/input_error.hpp"
+#include "kinds/dsdpv1/chip/dsdpv1_view.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/user_cpu/native_user.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+MakeUser native_user(const scenario::UserCpu& user, const Dsdpv1Settings& settings, Dsdpv1View& chip) {
+  const Dsdpv1User& own = tb::own(user);
+  user_cpu::CpuTiming timing;
+  if (own.timing) timing = static_cast<const user_cpu::CpuTiming&>(*own.timing);
+  if (own.access) timing.access = static_cast<const AccessTiming&>(*own.access);
+  if (own.fsmc) {
+    const user_cpu::FsmcAccess fsmc = user_cpu::access_timing(user_cpu::with({}, *own.fsmc));
+    timing.access = fsmc.read;
+    timing.write_access = fsmc.write;
+  }
+  const user_cpu::HostPort port = host_port_of(own, settings);
+  return [&user, &chip, timing, port](const user_cpu::StationConfig& station, Tick start) {
+    return std::make_unique<user_cpu::NativeUser>(chip.host_bus(), timing, program_options(user, station), start, port);
+  };
+}
+
+MakeArmUser arm_maker = nullptr;
+
+}  // namespace
+
+void set_arm_maker(MakeArmUser make) { arm_maker = make; }
+
+bool has_arm_maker() { return arm_maker != nullptr; }
+
+MakeUser make_dsdpv1_user(const UserRequest& request) {
+  auto& chip = static_cast<Dsdpv1View&>(request.chip);
+  if (own(request.slave.user_cpu).kind != CpuKind::kArm)
+    return native_user(request.slave.user_cpu, static_cast<const Dsdpv1Settings&>(*request.scenario.chip), chip);
+  if (has_arm_maker()) return arm_maker(request, chip);
+  throw InputError(request.scenario.file, request.slave.user_cpu.line,
+                   std::string("kind is arm, which ") + kBoardProgram +
+                       " carries out, and that is neither beside this program nor in PATH: it is built where Unicorn "
+                       "is (Debian: libunicorn-dev), allowed without it is native");
+}
+
+}  // namespace dsdpv1::tb

@@ -1,0 +1,110 @@
+#include "kinds/dsdpv1/keys/codes.hpp"
+
+#include "driver/dsdpv1.h"
+#include "model/dsdpv1/reasons.hpp"
+#include "tb/bench/record.hpp"
+#include "tb/scenario/event_codes.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+const char* advice_of(dsdpv1_error error) {  // NOLINT(readability-function-size): a table
+  switch (error) {
+    case DSDPV1_OK: return "Nothing.";
+    case DSDPV1_ERR_ARGUMENT: return "Fill in the port's functions and pass no null pointers.";
+    case DSDPV1_ERR_NESTED:
+      return "Let the interrupt handler return; the main program calls dsdpv1_service when it has released the DPRAM.";
+    case DSDPV1_ERR_DPRAM_BUSY:
+      return "Check that L_REQ and L_STA reach the CPU and that the chip has its clock and is out of reset; then allow "
+             "more polls.";
+    case DSDPV1_ERR_CHIP_SILENT:
+      return "Check clock, RESET, R_REQ and R_STA: while one of the two stays high the chip cannot come to the DPRAM.";
+    case DSDPV1_ERR_CHIP_NOT_READY:
+      return "Wait 86 us or more after RESET rises (4096 cycles); check the read timing with B000..B003 = 01 0D 07 01.";
+    case DSDPV1_ERR_NO_REPLY:
+      return "Check the straps MODE, ADR and UBR against the port, its wiring, and that the chip is out of reset.";
+    case DSDPV1_ERR_REPLY:
+      return "Check clock or baud rate, edges and wiring: replies arrive, and not as they were sent.";
+    case DSDPV1_ERR_TELEGRAM:
+      return "Look at the port's serial.error_code and the chip's TELEGRAM_ reasons in the log; repeated CRC errors "
+             "are "
+             "the wiring's.";
+    case DSDPV1_ERR_NOT_INITIALISED: return "Call dsdpv1_initialise first and look at what it returns.";
+    case DSDPV1_ERR_CONFIG_ADDRESS: return "Give a station address from 0 to 126.";
+    case DSDPV1_ERR_CONFIG_INPUT:
+    case DSDPV1_ERR_CONFIG_OUTPUT: return "Give a largest length from 0 to 244.";
+    case DSDPV1_ERR_CONFIG_DIAG: return "Give a largest diagnosis length from 0 to 238.";
+    case DSDPV1_ERR_CONFIG_PRM: return "Give a largest length of the user parameters from 0 to 237.";
+    case DSDPV1_ERR_CONFIG_CFG: return "Give a largest configuration length from 1 to 200.";
+    case DSDPV1_ERR_CONFIG_CFG_LENGTH: return "Pass the configuration bytes, no more than their largest length.";
+    case DSDPV1_ERR_CONFIG_PRM_MODE:
+    case DSDPV1_ERR_CONFIG_CFG_MODE: return "Use mode 0 (length), 1 (equal) or 2 (the user judges).";
+    case DSDPV1_ERR_INIT_TIMEOUT:
+      return "Check that R_REQ and R_STA fall after each hold and that the chip runs; then allow more polls.";
+    case DSDPV1_ERR_INIT_CRC:
+      return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
+    case DSDPV1_ERR_INIT_LIMIT: return "Look at the chip's INIT_ reason in the log; it names the byte.";
+    case DSDPV1_ERR_INIT_REFUSED: return "Check the read timing of B00A, B00B and B013.";
+    case DSDPV1_ERR_INPUT_LENGTH: return "Pass no more input bytes than max_input.";
+    case DSDPV1_ERR_INPUT_CRC:
+      return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
+    case DSDPV1_ERR_OUTPUT_LENGTH: return "Make the buffer as large as max_output; if it is, check the read timing.";
+    case DSDPV1_ERR_OUTPUT_CRC: return "Check the read timing, and that nobody reads without owning the DPRAM.";
+    case DSDPV1_ERR_DIAG_TYPE: return "Use one of the five types of table 22.";
+    case DSDPV1_ERR_DIAG_LENGTH: return "Shorten the diagnosis or initialise with a larger max_diag.";
+    case DSDPV1_ERR_DIAG_TIMEOUT: return "Check that R_REQ and R_STA fall after each hold; then allow more polls.";
+    case DSDPV1_ERR_DIAG_CRC:
+      return "The bytes did not arrive as written: check the write timing (HOST_ codes in the log).";
+    case DSDPV1_ERR_PRM_LENGTH:
+    case DSDPV1_ERR_PRM_CRC:
+    case DSDPV1_ERR_CFG_LENGTH:
+    case DSDPV1_ERR_CFG_CRC: return "Check the read timing, and that nobody reads without owning the DPRAM.";
+    case DSDPV1_ERR_NO_VERDICT_DUE: return "Send a verdict once for each block, and only in judging mode 2.";
+    case DSDPV1_ERR_VERDICT_STALE: return "Call dsdpv1_service: it hands over the newer block.";
+    case DSDPV1_ERR_TABLE:
+      return "Give each slot and index once, 0 <= min_length <= max_length <= 240, services and classes, and data or a "
+             "handler for each service.";
+    case DSDPV1_ERR_IM0: return "Give texts of at most 20 and 16 characters.";
+    case DSDPV1_ERR_C1_LENGTH:
+    case DSDPV1_ERR_C1_CRC:
+    case DSDPV1_ERR_C2_LENGTH:
+    case DSDPV1_ERR_C2_CRC: return "Check the read timing, and that nobody reads without owning the DPRAM.";
+    case DSDPV1_ERR_ANSWER_LENGTH: return "Answer with 0 to 240 bytes.";
+    case DSDPV1_ERR_NO_REQUEST_OPEN: return "Answer each deferred request once.";
+    case DSDPV1_ERR_ANSWER_STALE: return "Forget the request: its master no longer waits for the answer.";
+  }
+  return "";
+}
+
+std::vector<CodeText> chip_codes() {
+  std::vector<CodeText> list;
+  for (const profibus::Reason reason : dsdpv1::reasons())
+    list.push_back({profibus::code(reason), tb::name(profibus::severity(reason)), dsdpv1::text_template(reason),
+                    dsdpv1::advice(reason)});
+  return list;
+}
+
+std::vector<CodeText> driver_codes() {
+  return {
+#define X(name, value, text) {#name, (name) == DSDPV1_OK ? "info" : "refusal", text, advice_of(name)},
+      DSDPV1_ERROR_TABLE(X)
+#undef X
+  };
+}
+
+std::vector<CodeText> board_codes() {
+  return {{scenario::kFirmwareFault, "violation", "the firmware of an ARM board has met a fault; the run ends",
+           "Look at the source line and the registers below the table, or run it again with --gdb."}};
+}
+
+}  // namespace
+
+const std::vector<CodeTable>& dsdpv1_codes() {
+  static const std::vector<CodeTable> tables = {
+      {"The chip", "`{a}`, `{b}`, `{c}` stand for values; `{a:4x}` is hexadecimal.", chip_codes()},
+      {"The driver", "What a call of the C driver returned to the user program.", driver_codes()},
+      {"The ARM board", "See [arm_board.md](arm_board.md).", board_codes()}};
+  return tables;
+}
+
+}  // namespace dsdpv1::tb

@@ -1,0 +1,299 @@
+// Keys of a scenario that are the DSDPV1's: parameters of the chip, and the user CPU with its bus.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "io/input/input_error.hpp"
+#include "kinds/dsdpv1/keys/serial_keys.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+using keys::ObjectOf;
+using keys::Range;
+using keys::WordFor;
+
+const ObjectOf<AccessTimes>& access_keys() {
+  static const ObjectOf<AccessTimes> keys = [] {
+    using A = AccessTimes;
+    const Range any = {-100 * bus::kTicksPerUs, 100 * bus::kTicksPerUs}, positive = {0, 100 * bus::kTicksPerUs};
+    ObjectOf<A> o(
+        "access",
+        "When the user CPU moves its bus pins. The chip's limits are in table 15; times beyond them are reported as "
+        "violations. The defaults are those of an STM32F103 at 72 MHz.");
+    o.time("address_setup", &A::address_setup, any, "A valid before RD or WR falls (Tc >= 0ns); negative: after it.");
+    o.time("cs_lead", &A::cs_lead, positive, "CSR falls before RD or WR.");
+    o.time("rd_low", &A::rd_low, {1, 100 * bus::kTicksPerUs}, "RD low.");
+    o.time("rd_sample", &A::rd_sample, positive, "From the fall of RD until D is sampled (Tw >= 31.25ns).");
+    o.time("wr_low", &A::wr_low, {1, 100 * bus::kTicksPerUs}, "WR low (Ts >= 12.5ns).");
+    o.time("data_setup", &A::data_setup, any, "D valid before WR rises (Td >= 12.5ns); negative: after it.");
+    o.time("data_hold", &A::data_hold, positive, "D driven after WR rose (Td >= 12.5ns).");
+    o.time("address_hold", &A::address_hold, positive, "A valid after RD or WR rose (Td >= 12.5ns of writes).");
+    o.time("cs_trail", &A::cs_trail, positive, "CSR rises after RD or WR.");
+    o.time("recovery", &A::recovery, positive, "From the last edge of one access to the first of the next.");
+    return o;
+  }();
+  return keys;
+}
+
+const ObjectOf<Fsmc>& fsmc_keys() {
+  static const ObjectOf<Fsmc> keys = [] {
+    using user_cpu::FsmcMode;
+    ObjectOf<Fsmc> o(
+        "fsmc",
+        "Bus timing as the FSMC of an STM32F103 makes it from its registers (bank 1, SRAM, 8 bits). Left "
+        "out: what the firmware of an ARM board writes there; a native CPU has addset 1, datast 5, busturn 0, "
+        "mode 1, hclk 72.");
+    o.integer("addset", &Fsmc::addset, {0, 15}, "HCLK", "ADDSET: WR (and in mode A RD) falls one HCLK more after CSR.");
+    o.integer("datast", &Fsmc::datast, {0, 255}, "HCLK",
+              "DATAST: WR is low so long; D is sampled one HCLK more after the address phase. 0 is reserved in the "
+              "manual: no low time of WR, against Ts.");
+    o.integer("busturn", &Fsmc::busturn, {0, 15}, "HCLK", "BUSTURN: CSR stays high so much longer between accesses.");
+    o.integer("hclk", &Fsmc::hclk_mhz, {1, 72}, "MHz",
+              "Frequency of HCLK; left out: on an ARM board what RCC says, else 72.");
+    o.word("mode", &Fsmc::mode,
+           std::vector<WordFor<FsmcMode>>{{FsmcMode::k1, "1", "RD falls with CSR"},
+                                          {FsmcMode::kA, "A", "RD falls addset + 1 HCLK after CSR"}},
+           "Access mode.");
+    return o;
+  }();
+  return keys;
+}
+
+const ObjectOf<CpuTimes>& timing_keys() {
+  static const ObjectOf<CpuTimes> keys = [] {
+    using T = CpuTimes;
+    const Range range = {0, bus::kTicksPerMs}, slow = {0, bus::kTicksPerSecond};
+    ObjectOf<T> o("timing", "How fast the user CPU is. The defaults are those of a Cortex-M3 at 72 MHz.");
+    o.time("overhead", &T::overhead, range, "Instructions between two accesses.");
+    o.time("pin_sample", &T::pin_sample, range, "Reading one handshake pin.");
+    o.time("pin_write", &T::pin_write, range, "Setting one handshake pin.");
+    o.time("r_req_to_sample", &T::r_req_to_sample, range, "From the rise of R_REQ to the first look at L_REQ (H2).");
+    o.time("r_req_to_r_sta", &T::r_req_to_r_sta, range, "Least time from the rise of R_REQ to that of R_STA (H2).");
+    o.time("interrupt_latency", &T::interrupt_latency, slow,
+           "From the fall of INTR0 to the first instruction of its handler.");
+    o.time("poll_interval", &T::poll_interval, slow, "Pause between two polls of the DPRAM while the driver waits.");
+    return o;
+  }();
+  return keys;
+}
+
+}  // namespace
+
+namespace {
+
+using ChipKeys = ObjectOf<Dsdpv1Settings>;
+using C = Dsdpv1Settings;
+
+ChipKeys plain_chip_keys() {
+  ChipKeys o("chip", "The parameters of the chip that the rulings mark (p), for all slaves of the scenario.");
+  o.integer("access_interval", &C::access_interval, {16, 4800}, "cycles",
+            "From the start of one DPRAM access of the chip to the next (H1).");
+  o.integer("ready_cycles", &C::ready_cycles, {1, 1000000}, "cycles", "From the release of RESET to B004 = 0xC5 (D1).");
+  o.integer("rts_lead", &C::rts_lead, {0, 32}, "cycles", "PBRTS high before the first start bit (P2).");
+  o.integer("rts_trail", &C::rts_trail, {0, 32}, "cycles", "PBRTS high after the last stop bit (P2).");
+  o.integer("intr_low", &C::intr_low, {1, 10000}, "cycles", "How long INTR0 stays low (P7).");
+  o.integer("intr_gap", &C::intr_gap, {1, 10000}, "cycles",
+            "How long INTR0 stays high between two pulses at least (P7).");
+  o.integer("search_window_ms", &C::search_window_ms, {1, 10000}, "ms",
+            "Least time at one baud rate of the search (S1).");
+  o.integer("search_window_bits", &C::search_window_bits, {100, 100000}, "bit times",
+            "Least bit times at one baud rate of the search (S1).");
+  o.integer("baud_control_ms", &C::baud_control_ms, {1, 60000}, "ms",
+            "Silence after which the baud rate is searched again (S1).");
+  return o;
+}
+
+const std::vector<WordFor<HostMode>>& mode_words() {
+  static const std::vector<WordFor<HostMode>> words = {{HostMode::kParallel, "parallel", "the port of the DSDPV1"},
+                                                       {HostMode::kSpi, "spi", "SPI"},
+                                                       {HostMode::kUart, "uart", "UART"}};
+  return words;
+}
+
+// In the order of UBR's codes (UA1), and of UIV's (UA3).
+const std::vector<WordFor<int>>& rate_words() {
+  static const std::vector<WordFor<int>> words = {{0, "9.6k", ""},   {1, "19.2k", ""},  {2, "38.4k", ""},
+                                                  {3, "57.6k", ""},  {4, "115.2k", ""}, {5, "230.4k", ""},
+                                                  {6, "460.8k", ""}, {7, "1.8432M", ""}};
+  return words;
+}
+
+void add_straps(ChipKeys& o) {
+  o.word("mode", &C::mode, mode_words(), "The host port that is live: the strap MODE (R11).");
+  o.integer("address", &C::address, {0, 3}, "",
+            "The card's own address in telegrams of SPI and UART: the strap ADR. With 0 and 3 none is for it (R11).");
+  o.word("uart_rate", &C::uart_rate, rate_words(), "Baud rate of the UART: the strap UBR (UA1).");
+  o.integer("interval", &C::interval, {0, 7}, "",
+            "Longest silence within a telegram of the UART, an index of `uart_gaps`: the strap UIV (UA3).");
+}
+
+void add_serial_parameters(ChipKeys& o) {
+  o.integer("spi_strobe", &C::spi_strobe, {0, 12000}, "ticks of 1/12 ns",
+            "Least SCK high, SCK low, XSS low before the first rise and after the last fall, XSS high (SP2).");
+  o.integer("spi_data", &C::spi_data, {0, 600}, "ticks of 1/12 ns", "Least setup and hold of MOSI (SP2).");
+  o.integer("spi_miso_delay", &C::spi_miso_delay, {1, 600}, "ticks of 1/12 ns",
+            "From SCK's fall to the change of MISO (SP2).");
+  o.integer("spi_reply_gap", &C::spi_reply_gap, {0, 16}, "bytes", "FF between a request and its reply (SP6).");
+  o.integer("spi_write_gap", &C::spi_write_gap, {0, 4800}, "cycles", "How long after a write no frame is heard (SP9).");
+  o.integer("serial_block_crc", &C::serial_block_crc, {0, 1}, "",
+            "1: the CRCs of blocks in the DPRAM are judged in SPI and UART mode, too (SP15).");
+  o.integer("u_timer", &C::u_timer, {0, 4'800'000}, "cycles",
+            "How long the host may keep the DPRAM without a telegram; at least 48, 0: as long as it likes (SP17).");
+  o.integers("uart_gaps", &C::uart_gaps, {1, 1000}, "half characters",
+             "Longest silence within a telegram of the UART, by the code in B019 or UIV (UA3).");
+  o.integer("uart_min_tsdr", &C::uart_min_tsdr, {1, 255}, "bit times",
+            "Least time from a request of the UART to its reply (UA4).");
+  o.integer("uart_cfg_length", &C::uart_cfg_length, {0, 1}, "",
+            "1: the length in the reply with a configuration is B502 + 1 (UA12).");
+}
+
+ChipKeys rsu_chip_keys() {
+  ChipKeys o = plain_chip_keys();
+  add_straps(o);
+  add_serial_parameters(o);
+  return o;
+}
+
+}  // namespace
+
+const char* mode_name(HostMode mode) { return mode_words().at(static_cast<std::size_t>(mode)).text; }
+
+const keys::Object& chip_keys_of(Part part) {
+  static const ChipKeys plain = plain_chip_keys(), rsu = rsu_chip_keys();
+  return part == Part::kRsu ? static_cast<const keys::Object&>(rsu) : plain;
+}
+
+void check_dsdpv1_chip(const Dsdpv1Settings& chip, const std::string& file) {
+  if (chip.u_timer > 0 && chip.u_timer < 48)
+    throw InputError(file, chip.line,
+                     fmt::format("u_timer is {}, allowed is 0 or an integer from 48 to 4800000 cycles", chip.u_timer));
+}
+
+bool is_strap(const std::string& key) {
+  static const ChipKeys straps = [] {
+    ChipKeys o("chip", "");
+    add_straps(o);
+    return o;
+  }();
+  return straps.find(key) != nullptr;
+}
+
+Straps straps_of(const OwnSettings& settings) {
+  const auto& chip = static_cast<const Dsdpv1Settings&>(settings);
+  return {static_cast<Level>(chip.mode), static_cast<Level>(chip.address), static_cast<Level>(chip.uart_rate),
+          static_cast<Level>(chip.interval)};
+}
+
+namespace {
+
+ObjectOf<Dsdpv1User> plain_user_keys() {
+  using U = Dsdpv1User;
+  ObjectOf<U> o("user_cpu", "The processor that runs the user program, and its bus to the chip.");
+  o.word("kind", &U::kind,
+         std::vector<WordFor<CpuKind>>{
+             {CpuKind::kNative, "native", "a program of the bench on a CPU whose times are `timing`"},
+             {CpuKind::kArm, "arm", "the firmware `elf` on a board with an STM32F103 (docs/arm_board.md)"}},
+         "Who runs it.");
+  o.file(
+      "elf", &U::elf,
+      "Firmware of the ARM board, relative to the scenario's folder; on the command line relative to where you are.");
+  o.word("without_mailbox", &U::without_mailbox,
+         std::vector<WordFor<WithoutMailbox>>{
+             {WithoutMailbox::kRefuse, "refuse", "the first of them is reported in one line, and nothing is run"},
+             {WithoutMailbox::kLeaveOut, "leave_out",
+              "actions are not carried out, expectations not judged, and each is listed at the end"}},
+         "For firmware without a mailbox: what becomes of actions for the user CPU, of expectations of outputs or of "
+         "errors of the driver, and of "
+         "settings for its program that stand beside `elf` (docs/arm_board.md).");
+  o.names("switches", &U::switches, {0, 112},
+          "Switches that hold input pins of the ARM board, like [PA0=low, PB5=high]: PA0 to PG15 but for those that "
+          "the board wires to the "
+          "chip. Pins without one have their pull-up or pull-down only.");
+  o.number("cpi", &U::cpi, {1, 10}, "HCLK", "Cycles per instruction of the ARM board, an estimate.");
+  o.object("timing", &U::timing, timing_keys(), "How fast it is.");
+  o.object("access", &U::access, access_keys(),
+           "When it moves the pins of its bus; on an ARM board in place of the FSMC.");
+  o.object("fsmc", &U::fsmc, fsmc_keys(), "When it moves them, as registers of an FSMC.");
+  o.at_most_one.push_back({"access", "fsmc"});
+  return o;
+}
+
+ObjectOf<Dsdpv1User> rsu_user_keys() {
+  ObjectOf<Dsdpv1User> o = plain_user_keys();
+  add_serial_ports(o);
+  return o;
+}
+
+}  // namespace
+
+const keys::Object& user_keys_of(Part part) {
+  static const ObjectOf<Dsdpv1User> plain = plain_user_keys(), rsu = rsu_user_keys();
+  return part == Part::kRsu ? rsu : plain;
+}
+
+dsdpv1::Config config_of(const ChipRequest& request) {
+  dsdpv1::Config config = static_cast<const dsdpv1::Config&>(static_cast<const Dsdpv1Settings&>(request.settings));
+  config.engine = request.engine == Engine::kStep || request.inside ? dsdpv1::Engine::kStep : dsdpv1::Engine::kSkip;
+  return config;
+}
+
+// --- what does not fit together
+// ---------------------------------------------------------------------------------------
+
+std::optional<Switch> parse_switch(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals < 3 || equals > 4 || text[0] != 'P') return std::nullopt;
+  const std::string level = text.substr(equals + 1);
+  if (text[1] < 'A' || text[1] > 'G' || (level != "low" && level != "high")) return std::nullopt;
+  // 0 to 15, without a leading zero
+  const std::string number = text.substr(2, equals - 2);
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (!std::all_of(number.begin(), number.end(), digit) || (number.size() > 1 && number[0] == '0')) return std::nullopt;
+  const auto bit = static_cast<unsigned>(std::stoi(number));
+  if (bit > 15) return std::nullopt;
+  return Switch{static_cast<unsigned>(text[1] - 'A'), bit, level == "high"};
+}
+
+namespace {
+
+/// L_REQ, L_STA, R_REQ, R_STA; RESET; INTR0, PBF, BR, READY.
+bool is_wired(const Switch& one) {
+  static const std::map<unsigned, unsigned> wired = {{2, 0x03C0}, {4, 0x0010}, {6, 0x7040}};
+  const auto port = wired.find(one.port);
+  return port != wired.end() && (port->second >> one.pin & 1U) != 0;
+}
+
+void check_switches(const Dsdpv1User& user, const std::string& file) {
+  std::map<std::pair<unsigned, unsigned>, std::string> seen;
+  for (const Name& text : user.switches) {
+    const auto fail = [&](const std::string& why) { throw InputError(file, text.line, why); };
+    if (user.kind != CpuKind::kArm) fail("switches without kind: arm, allowed are those of an ARM board");
+    const std::optional<Switch> one = parse_switch(text.text);
+    if (!one) fail(fmt::format("switches holds {}, allowed are like PA0=low or PG15=high", text.text));
+    if (is_wired(*one))
+      fail(fmt::format(
+          "switches holds {}, a pin that the board wires to the chip; allowed are the others of PA0 to PG15",
+          text.text));
+    if (!seen.emplace(std::pair(one->port, one->pin), text.text).second)
+      fail(fmt::format("switches holds {}, a pin that is there twice, allowed is once", text.text));
+  }
+}
+
+}  // namespace
+
+void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const std::string& slave, int line) {
+  const bool arm = user.kind == CpuKind::kArm;
+  if (arm && user.elf.empty())
+    throw InputError(file, line, fmt::format("elf is missing, slave {} has an ARM board that runs it", slave));
+  if (!arm && !user.elf.empty())
+    throw InputError(file, user.elf.line, "elf without kind: arm, allowed is firmware of an ARM board");
+  check_switches(user, file);
+  if (arm && user.timing)
+    throw InputError(file, user.timing->line,
+                     "timing is that of kind: native, allowed with arm are cpi, fsmc and access");
+}
+
+}  // namespace dsdpv1::tb

@@ -1,0 +1,176 @@
+#include "kinds/dsdpv1/keys/serial_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "io/input/input_error.hpp"
+#include "kinds/dsdpv1/port/spi_reader.hpp"
+#include "kinds/dsdpv1/port/uart_reader.hpp"
+#include "kinds/dsdpv1/user_cpu/orders.hpp"
+#include "model/dsdpv1/config.hpp"
+#include "model/profibus/time.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+using keys::ObjectOf;
+using keys::Range;
+
+const ObjectOf<SpiKeys>& spi_keys() {
+  static const ObjectOf<SpiKeys> keys = [] {
+    using S = SpiKeys;
+    const Range range = {0, bus::kTicksPerMs};
+    ObjectOf<S> o("spi",
+                  "The native user CPU's SPI controller, on a chip with mode: spi (an ARM board's is its firmware's). "
+                  "Times beyond the chip's limits (SP2) are "
+                  "reported as violations.");
+    o.integer("clock", &S::clock_khz, {10, 24000}, "kHz", "SCK, high and low as long as each other.");
+    o.time("lead", &S::lead, range, "XSS falls before SCK's first rise.");
+    o.time("lag", &S::lag, range, "XSS rises after SCK's last fall.");
+    o.time("gap", &S::gap, range, "XSS is high at least so long between two frames.");
+    o.time("byte_gap", &S::byte_gap, range, "SCK stays low so much longer between two bytes.");
+    o.time("mosi_delay", &S::mosi_delay, range,
+           "MOSI changes so long after SCK's fall, the first bit after XSS's; at most half of SCK's period, when it "
+           "changes with the rise.");
+    o.integer("spare", &S::spare, {0, static_cast<int>(DSDPV1_SPI_SPARE)}, "bytes",
+              "By how much a reply may come later than right after the request (SP6).");
+    return o;
+  }();
+  return keys;
+}
+
+const ObjectOf<UartKeys>& uart_keys() {
+  static const ObjectOf<UartKeys> keys = [] {
+    using U = UartKeys;
+    ObjectOf<U> o("uart", "The native user CPU's UART, on a chip with mode: uart (an ARM board's is its firmware's).");
+    o.integer("rate", &U::rate, {9600, 1'843'200}, "bit/s", "Its baud rate; left out: that of the chip's uart_rate.");
+    o.time("gap", &U::gap, {0, bus::kTicksPerSecond}, "Idle time between two characters of a telegram.");
+    return o;
+  }();
+  return keys;
+}
+
+constexpr std::array<int, 8> kRates = {9600, 19'200, 38'400, 57'600, 115'200, 230'400, 460'800, 1'843'200};  // UA1
+
+/// Those that only a DSDPV1's program knows. Block CRCs are not looked at over SPI and UART (SP15), the handshake's
+/// pins are dead (R14), and the UART knows no ownership (UA6).
+std::vector<std::string> orders_for(CpuKind kind, HostMode mode) {
+  using user_cpu::kCutTelegram, user_cpu::kEarlyRSta, user_cpu::kFlipBit, user_cpu::kHoldDpram, user_cpu::kHostTelegram,
+      user_cpu::kPauseTelegram, user_cpu::kSendBreak, user_cpu::kTalkOverReply, user_cpu::kWrongCrc,
+      user_cpu::kWrongParity;
+  if (mode == HostMode::kParallel) return {kHoldDpram, kWrongCrc, kEarlyRSta};
+  const bool firmware = kind == CpuKind::kArm;  // spoils what it sends (DSDPV1_SPOIL_ of its mailbox), and no more
+  if (mode == HostMode::kSpi && firmware) return {kHoldDpram, kFlipBit, kCutTelegram};
+  if (mode == HostMode::kSpi) return {kHoldDpram, kFlipBit, kCutTelegram, kHostTelegram};
+  if (firmware) return {kFlipBit, kCutTelegram, kWrongParity};
+  return {kFlipBit, kCutTelegram, kWrongParity, kSendBreak, kPauseTelegram, kTalkOverReply, kHostTelegram};
+}
+
+/// Straps; SPI1 and USART2, SPI2; RESET and INTR0 of card 2.
+bool is_of_the_card(const Switch& one) {
+  static constexpr std::array<unsigned, 7> kPins = {0x00FE, 0xF003, 0x0C00, 0x1700, 0xE020, 0, 0};
+  return (kPins.at(one.port) >> one.pin & 1U) != 0;
+}
+
+Tick period_of(const SpiKeys& keys) { return (1000 * bus::kTicksPerUs + keys.clock_khz / 2) / keys.clock_khz; }
+
+void check_mosi(const SpiKeys& keys, const std::string& file) {
+  if (keys.mosi_delay <= period_of(keys) / 2) return;
+  throw InputError(file, keys.line,
+                   fmt::format("mosi_delay is {} ticks, allowed is half of SCK's period, {} ticks, at most",
+                               keys.mosi_delay, period_of(keys) / 2));
+}
+
+user_cpu::SpiPort spi_port(const SpiKeys& keys) {
+  user_cpu::SpiPort port;
+  const Tick period = period_of(keys);
+  port.timing = {(period + 1) / 2, period / 2, keys.lead, keys.lag, keys.gap, keys.byte_gap, keys.mosi_delay};
+  port.spare = static_cast<std::uint8_t>(keys.spare);
+  return port;
+}
+
+user_cpu::UartPort uart_port(const UartKeys& keys, const Dsdpv1Settings& chip) {
+  user_cpu::UartPort port;
+  port.timing.baud = keys.rate != 0 ? keys.rate : kRates.at(static_cast<std::size_t>(chip.uart_rate));
+  port.timing.gap = keys.gap;
+  port.interval = static_cast<std::uint16_t>(chip.uart_gaps.at(static_cast<std::size_t>(chip.interval)));
+  port.tsdr = static_cast<std::uint16_t>(chip.uart_min_tsdr);
+  return port;
+}
+
+/// Its firmware says how fast it is, and which pins are free depends on the chip.
+void check_board_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file) {
+  const auto refuse = [&](int where, const char* key) {
+    throw InputError(file, where,
+                     fmt::format("{} is that of kind: native, allowed with arm are the firmware's registers", key));
+  };
+  if (user.spi) refuse(user.spi->line, "spi");
+  if (user.uart) refuse(user.uart->line, "uart");
+  if (chip.part != Part::kRsu) return;
+  for (const Name& text : user.switches)
+    if (is_of_the_card(*parse_switch(text.text)))
+      throw InputError(file, text.line,
+                       fmt::format("switches holds {}, a pin that the board wires to the straps and ports of a "
+                                   "DSDPV1-RSU; allowed are the others",
+                                   text.text));
+}
+
+}  // namespace
+
+std::unique_ptr<HostReader> host_reader_of(const Dsdpv1Settings& chip) {
+  if (chip.mode == HostMode::kSpi) return std::make_unique<SpiReader>();
+  if (chip.mode != HostMode::kUart) return nullptr;
+  constexpr Tick kHalfCharacters = 2, kBits = 11;
+  const Tick bit = profibus::kTicksPerCycle * kUbrCycles.at(static_cast<std::size_t>(chip.uart_rate));
+  std::array<Tick, 8> silences{};
+  std::transform(chip.uart_gaps.begin(), chip.uart_gaps.end(), silences.begin(),
+                 [bit](std::uint32_t gap) { return Tick{gap} * kBits * bit / kHalfCharacters; });
+  return std::make_unique<UartReader>(bit, silences, static_cast<unsigned>(chip.interval),
+                                      static_cast<unsigned>(chip.address));
+}
+
+void add_serial_ports(ObjectOf<Dsdpv1User>& user) {
+  user.object("spi", &Dsdpv1User::spi, spi_keys(), "Its end of SPI.");
+  user.object("uart", &Dsdpv1User::uart, uart_keys(), "Its end of the UART.");
+}
+
+user_cpu::HostPort host_port_of(const Dsdpv1User& user, const Dsdpv1Settings& chip) {
+  user_cpu::HostPort port;
+  port.address = static_cast<std::uint8_t>(chip.address);
+  port.block_crc = chip.serial_block_crc != 0;
+  if (chip.mode == HostMode::kSpi) port.port = spi_port(user.spi.value_or(SpiKeys()));
+  if (chip.mode == HostMode::kUart) port.port = uart_port(user.uart.value_or(UartKeys()), chip);
+  return port;
+}
+
+void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file, const std::string& slave,
+                int line) {
+  if (user.kind == CpuKind::kArm) check_board_port(user, chip, file);
+  const char* mode = mode_name(chip.mode);
+  const auto refuse = [&](int where, const char* key, const char* allowed) {
+    throw InputError(file, where, fmt::format("{} with mode: {} of the chip, allowed is {}", key, mode, allowed));
+  };
+  if (user.spi && chip.mode != HostMode::kSpi) refuse(user.spi->line, "spi", "mode: spi");
+  if (user.spi) check_mosi(*user.spi, file);
+  if (user.uart && chip.mode != HostMode::kUart) refuse(user.uart->line, "uart", "mode: uart");
+  if (chip.mode == HostMode::kParallel) return;
+  if (user.access) refuse(user.access->line, "access", "mode: parallel");
+  if (user.fsmc) refuse(user.fsmc->line, "fsmc", "mode: parallel");
+  if (chip.address < 1 || chip.address > 2)
+    throw InputError(
+        file, line,
+        fmt::format("address is {}, to which no telegram of slave {}'s user CPU can go, allowed are 1 and 2",
+                    chip.address, slave));
+}
+
+void check_order(const std::string& order, CpuKind kind, HostMode mode, const std::string& file, int line) {
+  const std::vector<std::string> useful = orders_for(kind, mode);
+  if (std::find(useful.begin(), useful.end(), order) != useful.end()) return;
+  throw InputError(file, line,
+                   fmt::format("{} is of no use with mode: {} of the chip{}, allowed are {}", order, mode_name(mode),
+                               kind == CpuKind::kArm ? " and kind: arm" : "", fmt::join(useful, ", ")));
+}
+
+}  // namespace dsdpv1::tb

@@ -1,0 +1,113 @@
+#pragma once
+// What a scenario says with the keys of the DSDPV1: parameters of the chip, and the user CPU with its bus.
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "board/stm32/fsmc_timing.hpp"
+#include "kinds/dsdpv1/user_cpu/cpu.hpp"
+#include "kinds/dsdpv1/user_cpu/serial_port.hpp"
+#include "model/dsdpv1/chip.hpp"
+#include "tb/bench/chip_maker.hpp"
+#include "tb/chip/chip_kind.hpp"
+
+namespace dsdpv1::tb {
+
+using keys::Name;
+
+struct Dsdpv1Settings : OwnSettings, dsdpv1::Config {
+  // levels of the DSDPV1-RSU's straps
+  HostMode mode = HostMode::kParallel;
+  int address = 1;    ///< ADR
+  int uart_rate = 7;  ///< UBR
+  int interval = 0;   ///< UIV
+};
+
+/// The word that scenarios and command lines have for it.
+const char* mode_name(HostMode mode);
+
+/// Levels of MODE, ADR, UBR and UIV.
+using Straps = std::array<Level, 4>;
+Straps straps_of(const OwnSettings& settings);
+/// Whether a key of the chip is one of them.
+bool is_strap(const std::string& key);
+
+struct AccessTimes : AccessTiming {
+  int line = 0;
+};
+
+struct Fsmc : user_cpu::FsmcOverride {
+  int line = 0;
+};
+
+struct CpuTimes : user_cpu::CpuTiming {
+  int line = 0;
+};
+
+enum class CpuKind : std::uint8_t { kNative, kArm };
+/// What becomes of that part of a scenario that only firmware with a mailbox can carry out or tell.
+enum class WithoutMailbox : std::uint8_t { kRefuse, kLeaveOut };
+
+/// The user's end of an SPI port. Times in ticks.
+struct SpiKeys {
+  int clock_khz = 9000;
+  Tick lead = 2400, lag = 2400, gap = 6000, byte_gap = 0, mosi_delay = 0;
+  int spare = 0;
+  int line = 0;
+};
+
+/// The user's end of a UART port.
+struct UartKeys {
+  int rate = 0;  ///< bit/s; 0: that of the chip's strap
+  Tick gap = 0;
+  int line = 0;
+};
+
+struct Dsdpv1User : OwnSettings {
+  CpuKind kind = CpuKind::kNative;
+  Name elf;                                                  ///< kArm
+  WithoutMailbox without_mailbox = WithoutMailbox::kRefuse;  ///< kArm
+  std::vector<Name> switches;                                ///< kArm: "PA0=low"
+  double cpi = 1.5;                                          ///< kArm: cycles of HCLK per instruction
+  std::optional<CpuTimes> timing;  ///< kNative; its `access` is left alone: that is the next member
+  std::optional<AccessTimes> access;
+  std::optional<Fsmc> fsmc;
+  std::optional<SpiKeys> spi;    ///< kNative, HostMode::kSpi
+  std::optional<UartKeys> uart;  ///< kNative, HostMode::kUart
+};
+
+/// A switch of an ARM board that holds an input pin.
+struct Switch {
+  unsigned port = 0, pin = 0;  ///< port A is 0
+  bool high = false;
+};
+/// "PA0=low"; nullopt for other text, and for pins of ports beyond G.
+std::optional<Switch> parse_switch(const std::string& text);
+
+inline const Dsdpv1User& own(const scenario::UserCpu& user) { return static_cast<const Dsdpv1User&>(*user.own); }
+
+/// The chip's parameters, with the engine of the request.
+dsdpv1::Config config_of(const ChipRequest& request);
+
+// The keys (ChipKind::chip_keys, user_keys).
+const keys::Object& chip_keys_of(Part part);
+inline const keys::Object& dsdpv1_chip_keys() { return chip_keys_of(Part::kDsdpv1); }
+const keys::Object& user_keys_of(Part part);
+
+/// ChipKind::check_chip, check_user.
+void check_dsdpv1_chip(const Dsdpv1Settings& chip, const std::string& file);
+void check_dsdpv1_user(const Dsdpv1User& user, const std::string& file, const std::string& slave, int line);
+void check_port(const Dsdpv1User& user, const Dsdpv1Settings& chip, const std::string& file, const std::string& slave,
+                int line);
+void check_order(const std::string& order, CpuKind kind, HostMode mode, const std::string& file, int line);
+
+/// Reads the telegrams of the chip's serial port; null: it has the parallel one.
+std::unique_ptr<HostReader> host_reader_of(const Dsdpv1Settings& chip);
+
+/// How the user CPU reaches the chip.
+user_cpu::HostPort host_port_of(const Dsdpv1User& user, const Dsdpv1Settings& chip);
+
+}  // namespace dsdpv1::tb

@@ -1,0 +1,249 @@
+#include "kinds/dsdpv1/kind.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "driver/dsdpv1.h"
+#include "io/input/units.hpp"
+#include "kinds/dsdpv1/checks/checks.hpp"
+#include "kinds/dsdpv1/chip/pin_chip.hpp"
+#include "kinds/dsdpv1/chip/user_maker.hpp"
+#include "kinds/dsdpv1/keys/codes.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/pins/diagrams.hpp"
+#include "kinds/dsdpv1/pins/inside_watch.hpp"
+#include "kinds/dsdpv1/pins/pin_table.hpp"
+#include "kinds/dsdpv1/port/last_access.hpp"
+#include "kinds/dsdpv1/user_cpu/orders.hpp"
+#include "model/dsdpv1/reasons.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+using user_cpu::command::OfChip;
+
+std::string said_hold(const OfChip& order) { return "holds the DPRAM for " + time_text(order.duration); }
+std::string said_wrong_crc(const OfChip&) { return "wrong CRC"; }
+std::string said_flip_bit(const OfChip& order) { return fmt::format("a wrong bit in {} telegrams", order.times); }
+std::string said_cut(const OfChip& order) { return fmt::format("{} telegrams end too early", order.times); }
+std::string said_wrong_parity(const OfChip& order) { return fmt::format("wrong parity in {} telegrams", order.times); }
+std::string said_host_telegram(const OfChip& order) { return "sends " + bytes_text(order.bytes) + " and the CRC"; }
+std::string said_break(const OfChip& order) { return fmt::format("{} telegrams end in a break", order.times); }
+std::string said_pause(const OfChip& order) {
+  return fmt::format("{} telegrams pause for {}", order.times, time_text(order.duration));
+}
+std::string said_talk_over(const OfChip& order) { return fmt::format("talks over {} replies", order.times); }
+std::string said_early_r_sta(const OfChip&) { return "R_STA without a look at L_REQ and L_STA"; }
+
+class Dsdpv1AccessReader : public AccessReader {
+ public:
+  void pin(bus::Tick at, PinNumber pin, Level level) override { last_.pin(at, static_cast<dsdpv1::Pin>(pin), level); }
+  std::string words() const override { return last_.words(); }
+
+ private:
+  LastAccess last_;
+};
+
+class Dsdpv1Kind : public ChipMaker {
+ public:
+  Dsdpv1Kind(Part part, const char* name, const char* title) : part_(part), name_(name), title_(title) {}
+
+  const char* name() const override { return name_; }
+  const char* title() const override { return title_; }
+  const PinTable& pins() const override { return pins_of(part_); }
+  int most_cfg() const override { return DSDPV1_MAX_CFG; }
+
+  const keys::Object& chip_keys() const override { return chip_keys_of(part_); }
+  std::unique_ptr<OwnSettings> make_chip_settings() const override {
+    auto settings = std::make_unique<Dsdpv1Settings>();
+    settings->part = part_;
+    return settings;
+  }
+  void check_chip(const OwnSettings& settings, const keys::Source& source) const override {
+    check_dsdpv1_chip(static_cast<const Dsdpv1Settings&>(settings), source.file);
+  }
+  const keys::Object& user_keys() const override { return user_keys_of(part_); }
+  std::unique_ptr<OwnSettings> make_user_settings() const override { return std::make_unique<Dsdpv1User>(); }
+  void check_user(const OwnSettings& settings, const OwnSettings& chip, const keys::Source& source,
+                  const std::string& slave, int where) const override {
+    const auto& user = static_cast<const Dsdpv1User&>(settings);
+    check_dsdpv1_user(user, source.file, slave, where);
+    check_port(user, static_cast<const Dsdpv1Settings&>(chip), source.file, slave, where);
+  }
+  void check_order(const std::string& order, const OwnSettings& user, const OwnSettings& chip,
+                   const keys::Source& source, int where) const override {
+    tb::check_order(order, static_cast<const Dsdpv1User&>(user).kind, static_cast<const Dsdpv1Settings&>(chip).mode,
+                    source.file, where);
+  }
+  std::string place_of(const std::string& init_key) const override;
+  const std::vector<Order>& orders() const override;
+  const std::vector<keys::Word>& blocks() const override;
+
+  std::string describe(const profibus::Event& event) const override { return dsdpv1::describe(event); }
+  std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<Dsdpv1AccessReader>(); }
+  std::unique_ptr<HostReader> make_host_reader(const OwnSettings& chip) const override {
+    return host_reader_of(static_cast<const Dsdpv1Settings&>(chip));
+  }
+  const std::vector<CodeTable>& codes() const override { return dsdpv1_codes(); }
+
+  const std::vector<PinGroup>& pin_groups() const override { return pin_groups_of(part_); }
+  const std::vector<InnerSignal>& inner_signals() const override { return InsideWatch::signals(); }
+
+  const checks::RuleTable& rules() const override { return checks::rules(part_); }
+  PinMask checked_pins() const override { return checks::Checks::pins(part_); }
+  std::unique_ptr<checks::ChipChecks> make_checks(const checks::Limits& limits,
+                                                  const OwnSettings* chip) const override {
+    checks::SerialSettings serial;
+    if (chip != nullptr) {
+      const auto& settings = static_cast<const Dsdpv1Settings&>(*chip);
+      const Straps straps = straps_of(settings);
+      serial = {straps[0],
+                straps[1],
+                straps[2],
+                straps[3],
+                settings.spi_write_gap,
+                settings.spi_reply_gap,
+                settings.spi_miso_delay,
+                settings.uart_gaps,
+                settings.uart_min_tsdr};
+    }
+    return std::make_unique<checks::Checks>(limits, part_, serial);
+  }
+  const std::vector<TimingDiagram>& timing_diagrams() const override { return dsdpv1_timing_diagrams(); }
+  const std::vector<BusyTime>& busy_times() const override { return dsdpv1_busy_times(); }
+
+  std::unique_ptr<ChipView> make_pin_chip(const ChipRequest& request, bus::Segment& segment,
+                                          bus::Timeline& timeline) const override {
+    auto chip = std::make_unique<PinChip>(request.name, config_of(request), request.watched, segment);
+    chip->strap(straps_of(request.settings));
+    if (request.inside) chip->watch_inside();
+    timeline.add(*chip);
+    return chip;
+  }
+  MakeUser make_user(const UserRequest& request) const override { return make_dsdpv1_user(request); }
+  bool has_debugger(const scenario::Slave& slave) const override { return own(slave.user_cpu).kind == CpuKind::kArm; }
+  const char* other_program(const scenario::Slave& slave) const override {
+    return own(slave.user_cpu).kind == CpuKind::kArm && !has_arm_maker() ? kBoardProgram : "";
+  }
+
+ private:
+  Part part_;
+  const char *name_, *title_;
+};
+
+std::string Dsdpv1Kind::place_of(const std::string& init_key) const {
+  static const std::map<std::string, const char*> places = {{"ident", "B022, B023"}, {"max_inputs", "B027"},
+                                                            {"max_outputs", "B028"}, {"max_diag", "B029"},
+                                                            {"max_prm", "B02A"},     {"max_cfg", "B02C"},
+                                                            {"cfg", "B02F.."},       {"prm_mode", "B02B"},
+                                                            {"cfg_mode", "B02D"},    {"set_slave_address", "B024.0"},
+                                                            {"freeze", "B024.1"},    {"sync", "B024.2"},
+                                                            {"fail_safe", "B024.3"}, {"dpv1", "B005 = 0x1D"}};
+  const auto found = places.find(init_key);
+  return found == places.end() ? "" : found->second;
+}
+
+namespace {
+
+std::vector<Order> parallel_orders() {
+  return {
+      {{user_cpu::kHoldDpram, "The user CPU takes the DPRAM and keeps it.", {"slave", "for"}, {}}, said_hold},
+      {{user_cpu::kWrongCrc,
+        "The next blocks of this kind that the user CPU writes have a wrong CRC.",
+        {"slave", "area"},
+        {"times"}},
+       said_wrong_crc},
+      {{user_cpu::kEarlyRSta,
+        "The user CPU raises R_STA one cycle after R_REQ without a look at L_REQ and L_STA (against H2), and holds for "
+        "1 us, so often.",
+        {"slave"},
+        {"times"}},
+       said_early_r_sta,
+       true},
+  };
+}
+
+std::vector<Order> rsu_orders() {
+  std::vector<Order> orders = parallel_orders();
+  orders.push_back(
+      {{user_cpu::kFlipBit,
+        "The next telegrams of the user CPU have a wrong bit: SPI and UART, there with a parity that fits.",
+        {"slave"},
+        {"times"}},
+       said_flip_bit});
+  orders.push_back({{user_cpu::kCutTelegram,
+                     "The next telegrams of the user CPU end too early: XSS rises within the third byte, or two "
+                     "characters are all.",
+                     {"slave"},
+                     {"times"}},
+                    said_cut});
+  orders.push_back({{user_cpu::kWrongParity,
+                     "The next telegrams of the user CPU have a character with a wrong parity: UART.",
+                     {"slave"},
+                     {"times"}},
+                    said_wrong_parity});
+  orders.push_back(
+      {{user_cpu::kHostTelegram,
+        "The user CPU sends these bytes and their CRC to the chip, whatever they are: SPI and UART. Before "
+        "start_delay is over, too.",
+        {"slave", "bytes"},
+        {"times", "listen"}},
+       said_host_telegram});
+  orders.push_back({{user_cpu::kSendBreak,
+                     "The next telegrams of the user CPU end in a break: RXD is low for the time of the third "
+                     "character. UART.",
+                     {"slave"},
+                     {"times"}},
+                    said_break});
+  orders.push_back({{user_cpu::kPauseTelegram,
+                     "The next telegrams of the user CPU pause before the third character. UART.",
+                     {"slave", "for"},
+                     {"times"}},
+                    said_pause});
+  orders.push_back({{user_cpu::kTalkOverReply,
+                     "The user CPU sends a character (FF) 20 bit times after its next telegrams, into the replies. "
+                     "UART.",
+                     {"slave"},
+                     {"times"}},
+                    said_talk_over});
+  return orders;
+}
+
+}  // namespace
+
+const std::vector<Order>& Dsdpv1Kind::orders() const {
+  static const std::vector<Order> plain = parallel_orders(), rsu = rsu_orders();
+  return part_ == Part::kRsu ? rsu : plain;
+}
+
+const std::vector<keys::Word>& Dsdpv1Kind::blocks() const {
+  static const std::vector<keys::Word> words = [] {
+    std::vector<keys::Word> list;
+    for (const std::string& word : user_cpu::block_words())
+      list.push_back({word, word == "init" ? "initialisation" : ""});
+    return list;
+  }();
+  return words;
+}
+
+}  // namespace
+
+const ChipMaker& dsdpv1_kind() {
+  static const Dsdpv1Kind kind(Part::kDsdpv1, "dsdpv1", "DSDPV1");
+  return kind;
+}
+
+const ChipMaker& dsdpv1_r_kind() {
+  static const Dsdpv1Kind kind(Part::kR, "dsdpv1_r", "DSDPV1-R");
+  return kind;
+}
+
+const ChipMaker& dsdpv1_rsu_kind() {
+  static const Dsdpv1Kind kind(Part::kRsu, "dsdpv1_rsu", "DSDPV1-RSU");
+  return kind;
+}
+
+bool is_dsdpv1(const ChipMaker& kind) { return &kind == &dsdpv1_kind() || &kind == &dsdpv1_r_kind(); }
+
+}  // namespace dsdpv1::tb

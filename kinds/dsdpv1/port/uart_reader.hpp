@@ -1,0 +1,52 @@
+#pragma once
+// Reads the telegrams on RXD and TXD of a DSDPV1-RSU: characters as its strap UBR says, telegrams as UA2, UA3 and UA16
+// have them.
+#include <array>
+#include <optional>
+#include <string>
+
+#include "bus/wire/uart.hpp"
+#include "kinds/dsdpv1/port/host_telegram.hpp"
+#include "model/dsdpv1/pins.hpp"
+#include "tb/chip/host_reader.hpp"
+
+namespace dsdpv1::tb {
+
+class UartReader : public HostReader {
+ public:
+  using Tick = bus::Tick;
+  /// `bit`, and for each code of B019 and UIV the longest silence within a telegram, in ticks; `interval` is UIV.
+  UartReader(Tick bit, const std::array<Tick, 8>& silences, unsigned interval, unsigned card);
+
+  const char* port() const override { return "uart"; }
+  PinMask pins() const override;
+  void pin(Tick at, PinNumber pin, Level level) override;
+  Tick next() const override;
+  void run(Tick now) override;
+
+ private:
+  void reset();
+  void heard_from_user(const bus::ReceivedCharacter& character);
+  void heard_from_chip(const bus::ReceivedCharacter& character);
+  bool heard(const bus::ReceivedCharacter& character) const;
+  void begin_request(const bus::ReceivedCharacter& character);
+  void end_request(Tick end, const std::string& wrong);
+  void end_reply(Tick end, const std::string& wrong);
+  void silence(Tick now);
+  Tick silence_at() const;
+
+  bus::UartReceiver from_user_, from_chip_;
+  std::array<Tick, 8> silences_;
+  unsigned interval_, card_;
+  unsigned b019_ = 0;                                              ///< as the user's telegrams have written it
+  Tick longest_silence_ = 0;                                       ///< of the telegram that comes
+  Tick idle_since_ = 0;                                            ///< RXD; meaningless while it is low
+  bool rxd_ = true;                                                ///< its level
+  HostRequest request_{HostLink::kUart}, asked_{HostLink::kUart};  ///< that comes; that the chip replies to
+  HostReply reply_;
+  Tick request_start_ = 0, request_end_ = 0, reply_start_ = 0, reply_end_ = 0;
+  std::string spoilt_;     ///< why the chip does not hear the telegram that comes; empty: it does
+  bool replying_ = false;  ///< a request for this card has come, its reply has not ended
+};
+
+}  // namespace dsdpv1::tb

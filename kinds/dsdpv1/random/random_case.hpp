@@ -1,0 +1,92 @@
+#pragma once
+// A random case in the making: it brings the slave up, mostly in an orderly way, and then plays one of its themes.
+#include <memory>
+
+#include "cosim/random/random_master.hpp"
+#include "kinds/dsdpv1/random/random_host.hpp"
+#include "kinds/dsdpv1/random/random_user.hpp"
+#include "model/profibus/dp_state.hpp"
+
+namespace dsdpv1::cosim {
+
+class RandomCase {
+ public:
+  RandomCase(std::uint64_t seed, HostMode mode, const dsdpv1::Config& config);
+
+  Stimulus make();
+
+ private:
+  /// What an episode is about: what the slave has to be like for it, how fast the line is, and what happens.
+  struct Theme {
+    int weight;
+    void (RandomCase::*prepare)();
+    void (RandomMaster::*find_rate)();
+    void (RandomCase::*play)();
+  };
+  static const Theme kThemes[];
+  const Theme& any_theme();
+
+  void episode();
+  Stimulus host_only();
+  // the way up
+  void power_on();
+  void come_up(const Theme& theme);
+  void bring_up();
+  void reach(profibus::DpState state);
+  void reset();
+  // what the themes want of the slave
+  void as_it_is() {}
+  void with_dpv1();
+  void perhaps_with_dpv1();
+  void judged_by_user();
+  void with_sync_and_freeze();
+  void without_address();
+  void with_everything();
+  // themes
+  void wild();
+  void acyclic();
+  void acyclic_timers();
+  void hold_commands();
+  void judgements();
+  void initialisations();
+  void services();
+  void timeouts();
+  void addresses();
+  void slow_rates();
+  void port();
+  void edges();
+  // parts of themes
+  int steps();
+  void step();
+  void acyclic_step(int channel);
+  void address_changes();
+  void judging();
+  void supersede();
+  void hold_commands_seen();
+  void hold_commands_unseen();
+  void priority();
+  void watchdog();
+  void search_again();
+  void edge_in(AccessPart part);
+  void reset_in(AccessPart part);
+  bool cause(AccessPart part);
+  void reset_amid();
+
+  void sync() { stimulus_.push_back({}); }
+  void careful(bool careful) {
+    master_.careful(careful);
+    host_->careful(careful);
+  }
+  void verdict(bool prm, bool cfg);
+  void push_reset(AccessPart during = AccessPart::kNone, Tick within = 0);
+
+  Random random_;
+  Setup setup_;
+  Stimulus stimulus_;
+  RandomMaster master_;
+  std::unique_ptr<RandomHost> host_;
+  RandomUser user_;
+  const Theme* theme_ = nullptr;
+};
+
+}  // namespace dsdpv1::cosim

@@ -1,0 +1,201 @@
+#include "kinds/dsdpv1/random/situation_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <utility>
+
+#include "bus/telegram/telegram.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
+#include "model/profibus/request.hpp"
+
+namespace dsdpv1::cosim {
+namespace {
+
+constexpr unsigned kOffline = 0, kDataExch = 3;
+
+std::string service_of(const bus::Telegram& request) {
+  namespace fc = profibus::fc;
+  const unsigned function = request.function();
+  if (function == fc::kFdlStatus) return "FDL status";
+  if (function != fc::kSrdLow && function != fc::kSrdHigh) return "another function";
+  if (!request.dsap) return "Data_Exchange";
+  switch (*request.dsap) {
+    case 47:
+    case 48: return "C2";
+    case bus::sap::kMs2Rm: return "Initiate";
+    case bus::sap::kMs1: return "C1";
+    case bus::sap::kSetSlaveAddress: return "Set_Slave_Add";
+    case bus::sap::kReadInputs: return "RD_Inp";
+    case bus::sap::kReadOutputs: return "RD_Outp";
+    case bus::sap::kGlobalControl: return "SRD to SAP 58";
+    case bus::sap::kGetCfg: return "Get_Cfg";
+    case bus::sap::kSlaveDiag: return "Slave_Diag";
+    case bus::sap::kSetPrm: return "Set_Prm";
+    case bus::sap::kChkCfg: return "Chk_Cfg";
+    default: return "another SAP";
+  }
+}
+
+const char* answer_of(const bus::Telegram& answer) {
+  namespace fc = profibus::fc;
+  if (answer.kind == bus::TelegramKind::kSc) return "SC";
+  const bool data = answer.kind != bus::TelegramKind::kSd1;
+  switch (answer.function()) {
+    case fc::kOk: return "OK";
+    case fc::kRr: return "RR";
+    case fc::kRs: return "RS";
+    case fc::kDh: return data ? "data of high priority" : "high priority";
+    default: return "data";
+  }
+}
+
+}  // namespace
+
+void SituationWatch::begins(const Lockstep& lockstep) {
+  model_ = &lockstep.model();
+  for (int pin = 0; pin < pin_count(config_.part); ++pin)
+    levels_.at(static_cast<std::size_t>(pin)) = lockstep.level(static_cast<Pin>(pin));
+}
+
+// --- pins ------------------------------------------------------------------------------------------------------------
+
+void SituationWatch::pin(Tick at, Side side, Pin pin, Level level) {
+  if (side == Side::kRtl) return;
+  if (reader_ && (reader_->pins() & mask(pin)) != 0) {
+    reader_->run(at);
+    reader_->pin(at, static_cast<tb::PinNumber>(pin), level);
+  }
+  levels_.at(static_cast<std::size_t>(pin)) = level;
+  if (side == Side::kInput) input_changed(at, pin, level);
+}
+
+std::string SituationWatch::phase() const { return model_->inside().access.item; }
+
+void SituationWatch::input_changed(Tick at, Pin pin, Level level) {
+  const bool parallel = mode_ == HostMode::kParallel;
+  if (pin == Pin::kReset && level == 0) {
+    situations_.count("RESET falls in", phase());
+    state_ = kOffline;
+    sync_ = freeze_ = false;
+    service_.clear();
+    reader_.reset();
+  } else if (pin == Pin::kReset) {
+    released(at);
+  } else if (parallel && pin == Pin::kRReq && level != 0) {
+    situations_.count("R_REQ rises in", phase());
+  } else if (mode_ == HostMode::kSpi && pin == Pin::kXss && level == 0) {
+    situations_.count("XSS falls in", phase());
+  } else if (mode_ == HostMode::kUart && pin == Pin::kRxd && level == 0) {
+    situations_.count("RXD falls in", phase());
+  } else if (parallel && (pin == Pin::kRd || pin == Pin::kWr) && level == 0 && this->level(Pin::kCsr) == 0) {
+    access_begins(pin == Pin::kWr);
+  }
+}
+
+void SituationWatch::access_begins(bool write) {
+  const bool req = level(Pin::kRReq) != 0, sta = level(Pin::kRSta) != 0;
+  const char* owner = req && sta ? "owned" : req ? "R_REQ alone" : sta ? "R_STA alone" : "not owned";
+  situations_.count("accesses of the user",
+                    fmt::format("{}, {}, {}", write ? "write" : "read", owner,
+                                level(Pin::kLSta) != 0 ? "the chip in an access" : "the chip away"));
+}
+
+/// The straps are in force.
+void SituationWatch::released(Tick at) {
+  if (mode_ == HostMode::kParallel) return;
+  tb::Dsdpv1Settings settings;
+  static_cast<dsdpv1::Config&>(settings) = config_;
+  settings.mode = mode_;
+  settings.address = level(Pin::kAdr);
+  settings.uart_rate = level(Pin::kUbr);
+  settings.interval = level(Pin::kUiv);
+  reader_ = tb::host_reader_of(settings);
+  reader_->on_telegram = [this](const tb::HostTelegram& telegram) { host_telegram(telegram); };
+  reader_->run(at);
+}
+
+void SituationWatch::evaluated(Tick /*now*/, const dsdpv1::Chip& model) {
+  const char* item = model.inside().access.item;
+  if (item == item_) return;
+  item_ = item;
+  if (std::strcmp(item, "-") != 0) situations_.count("transfers", item);
+}
+
+// --- events ----------------------------------------------------------------------------------------------------------
+
+void SituationWatch::event(const profibus::Event& event) {
+  using profibus::Reason;
+  if (event.reason == Reason::kDpState) {
+    situations_.count("DP states", fmt::format("{} to {}", dp_state_name(event.a), dp_state_name(event.b)));
+    state_ = event.b;
+    if (event.a == kDataExch) sync_ = freeze_ = false;
+    return;
+  }
+  situations_.count("events", event_item(event, dp_state_name(state_)));
+  if (event.reason == Reason::kGlobalControl) global_control(event.a);
+  if (event.reason == Reason::kGcSync) sync_ = false;
+  if (event.reason == Reason::kGcFreeze) freeze_ = false;
+}
+
+/// S24, S4, S27. What Set_Prm has not asked for is refused by an event that follows.
+void SituationWatch::global_control(unsigned command) {
+  namespace gc = bus::global_control;
+  const char* held = sync_ && freeze_ ? "Sync and Freeze" : sync_ ? "Sync" : freeze_ ? "Freeze" : "nothing held";
+  const unsigned outputs = (command & gc::kUnsync) != 0 ? unsigned{gc::kUnsync} : command & gc::kSync;
+  const unsigned inputs = (command & gc::kUnfreeze) != 0 ? unsigned{gc::kUnfreeze} : command & gc::kFreeze;
+  std::string what = outputs == gc::kUnsync ? "Unsync" : outputs != 0 ? "Sync" : "";
+  if (inputs != 0)
+    what += fmt::format("{}{}", what.empty() ? "" : " and ", inputs == gc::kUnfreeze ? "Unfreeze" : "Freeze");
+  if (!what.empty()) situations_.count("Sync and Freeze", fmt::format("{}: {}", held, what));
+  if ((command & gc::kClearData) != 0) situations_.count("Sync and Freeze", fmt::format("{}: Clear_Data", held));
+  if (outputs != 0) sync_ = outputs == gc::kSync;
+  if (inputs != 0) freeze_ = inputs == gc::kFreeze;
+}
+
+// --- telegrams -------------------------------------------------------------------------------------------------------
+
+void SituationWatch::telegram(Tick /*now*/, const bus::WireTelegram& telegram) {
+  const bool asked = !service_.empty();
+  const std::string service = std::exchange(service_, {});
+  if (!telegram.right()) return;
+  const bus::Telegram& decoded = telegram.decoded.telegram;
+  if (decoded.is_request() && decoded.wants_answer() && decoded.da == model_->address() && state_ != kOffline)
+    service_ = fmt::format("{} in {}", service_of(decoded), dp_state_name(state_));
+  if (asked && telegram.tsdr && decoded.is_response())
+    situations_.count("services", fmt::format("{}: {}", service, answer_of(decoded)));
+}
+
+void SituationWatch::host_telegram(const tb::HostTelegram& telegram) {
+  if (!telegram.reply) {
+    if (!telegram.bytes.empty()) command_ = telegram.bytes[0] >> 5U;
+    return;
+  }
+  if (telegram.wrong.empty()) host_reply(telegram.bytes);
+}
+
+/// SP4, SP10, UA8, UA13.
+void SituationWatch::host_reply(const bus::Bytes& bytes) {
+  constexpr unsigned kExchange = 2, kErrorReply = 7, kErrorFunction = 0x80;
+  const bool exchange = mode_ == HostMode::kUart && command_ == kExchange;
+  const char* third = exchange ? "exchange" : "read and write";
+  const char* kind = command_ == 0 ? "read" : command_ == 1 ? "write" : third;
+  if (bytes.size() < 3) return;
+  const bool error = exchange ? (bytes[1] & kErrorFunction) != 0 : bytes[0] >> 5U == kErrorReply;
+  const unsigned code = !error ? 0U : bytes[exchange ? 2 : 1];
+  const bool refused = error && code == 0;
+  situations_.count("telegrams of the host",
+                    refused ? fmt::format("{}, refused", kind) : fmt::format("{}, code {:02X}", kind, code));
+  if (exchange && !error) exchange_reply(bytes[1]);
+}
+
+void SituationWatch::exchange_reply(unsigned function) {
+  const char* news = (function & 0x10) != 0   ? "parameters"
+                     : (function & 0x20) != 0 ? "configuration"
+                     : (function & 0x04) != 0 ? "C1"
+                     : (function & 0x08) != 0 ? "C2"
+                                              : "outputs";
+  situations_.count("replies of exchanges", fmt::format("{}{}", news, (function & 1) != 0 ? " in DATA_EXCH" : ""));
+}
+
+}  // namespace dsdpv1::cosim

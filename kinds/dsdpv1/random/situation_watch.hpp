@@ -1,0 +1,50 @@
+#pragma once
+// Counts the situations of one run from the pins, the model's events and the telegrams on the line.
+#include <array>
+#include <memory>
+#include <string>
+
+#include "cosim/random/play_listener.hpp"
+#include "kinds/dsdpv1/random/situations.hpp"
+#include "tb/chip/host_reader.hpp"
+
+namespace dsdpv1::cosim {
+
+class SituationWatch : public PlayListener {
+ public:
+  SituationWatch(const dsdpv1::Config& config, HostMode mode) : config_(config), mode_(mode) {}
+
+  void begins(const Lockstep& lockstep) override;
+  void pin(Tick at, Side side, Pin pin, Level level) override;
+  void event(const profibus::Event& event) override;
+  void telegram(Tick now, const bus::WireTelegram& telegram) override;
+  void evaluated(Tick now, const dsdpv1::Chip& model) override;
+
+  const Situations& situations() const { return situations_; }
+
+ private:
+  void input_changed(Tick at, Pin pin, Level level);
+  void access_begins(bool write);
+  void released(Tick at);
+  void global_control(unsigned command);
+  void host_telegram(const tb::HostTelegram& telegram);
+  void host_reply(const bus::Bytes& bytes);
+  void exchange_reply(unsigned function);
+  /// The part of an access that is under way, "-" between two.
+  std::string phase() const;
+  Level level(Pin pin) const { return levels_[static_cast<std::size_t>(pin)]; }
+
+  const dsdpv1::Config& config_;
+  HostMode mode_;
+  Situations situations_;
+  const dsdpv1::Chip* model_ = nullptr;
+  std::array<Level, kRsuPinCount> levels_{};
+  const char* item_ = nullptr;  ///< of the access under way, counted
+  unsigned state_ = 0;
+  bool sync_ = false, freeze_ = false;
+  std::string service_;  ///< asked of this station and not answered yet; empty: none
+  std::unique_ptr<tb::HostReader> reader_;
+  unsigned command_ = 0;  ///< bits 7..5 of the last request of the host
+};
+
+}  // namespace dsdpv1::cosim

@@ -1,0 +1,289 @@
+#include "kinds/dsdpv1/random/situations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+
+#include "kinds/dsdpv1/random/access_parts.hpp"
+#include "model/dsdpv1/reasons.hpp"
+
+namespace dsdpv1::cosim {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// What of an event is told apart: `format` makes a word of 0 a, 1 b, 2 c, 3 and 4 the bytes of a, 5 the DP state.
+struct Detail {
+  const char* code;
+  const char* format;
+  Words known;
+};
+
+Words both_channels(const Words& words) {
+  Words both;
+  for (const char* sap : {"48", "47"})
+    for (const std::string& word : words) both.push_back(fmt::format(fmt::runtime(word), sap));
+  return both;
+}
+
+const std::vector<Detail>& details() {
+  static const Words channels = both_channels({"SAP {}"});
+  static const Words states = {"WAIT_PRM", "WAIT_CFG", "DATA_EXCH"};
+  static const std::vector<Detail> all = {
+      {"SAP_STATE",
+       "SAP {0} in {1}",
+       {"SAP 0 in 1", "SAP 0 in 2", "SAP 51 in 1", "SAP 51 in 2", "SAP 55 in 2", "SAP 55 in 3", "SAP 56 in 1",
+        "SAP 56 in 2", "SAP 58 in 1", "SAP 58 in 2", "SAP 58 in 3", "SAP 62 in 1"}},
+      {"SAP_MASTER", "SAP {0}", {"SAP 0", "SAP 51", "SAP 61", "SAP 62"}},
+      {"SAP_DATA", "SAP {0}", {"SAP 56", "SAP 57", "SAP 59", "SAP 60"}},
+      {"PRM_USER_LENGTH", "mode {2}", {"mode 0", "mode 1"}},
+      {"GC_SYNC", "B024.2 {0}", {"B024.2 0", "B024.2 1"}},
+      {"GC_FREEZE", "B024.1 {0}", {"B024.1 0", "B024.1 1"}},
+      {"ADDRESS_DISABLED", "B024.0 {0}, locked {1}", {"B024.0 0, locked 0", "B024.0 1, locked 1"}},
+      {"BAUD_FOUND", "{0}", {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"}},
+      {"BAUD_LOST", "{5}", states},
+      {"WD_ON", "{1} ms", {"1 ms", "10 ms"}},
+      {"WD_EXPIRED", "{5}", states},
+      {"DIAG", "{0:02X}", {"00", "01", "02", "81", "82"}},
+      {"VERDICT_UNEXPECTED", "{0}", {"0", "1"}},
+      {"VERDICT_SUPERSEDED", "{0}", {"0", "1"}},
+      {"INIT_LIMIT", "B{0:03X}", {"B027", "B028", "B029", "B02A", "B02B", "B02C", "B02D", "B02E"}},
+      {"DPV1_SSAP", "SAP {0}", {"SAP 51", "SAP 49", "SAP 48", "SAP 47"}},
+      {"DPV1_OPEN", "SAP {0}", {"SAP 51", "SAP 48", "SAP 47"}},
+      {"DPV1_REQUEST", "{2:X}", {"A9", "B8", "B1"}},
+      {"DPV1_NO_REQUEST", "C{0}", {"C1", "C2"}},
+      {"DPV1_ANSWER", "C{3} byte {4}", {"C1 byte 0", "C1 byte 1", "C1 byte 2", "C2 byte 0", "C2 byte 1", "C2 byte 2"}},
+      {"DPV1_LENGTH", "C{0}", {"C1", "C2"}},
+      {"C1_REQUEST", "{0:X}", {"5E", "5F"}},
+      {"C1_ANSWER", "{0:X}", {"5E", "5F", "DE", "DF"}},
+      {"C2_INITIATE", "SAP {0}", channels},
+      {"C2_INITIATE_REFUSED", "SAP {0}", channels},
+      {"C2_ADD_ADDR", "SAP {0}", channels},
+      {"C2_CONNECTED", "SAP {0}", channels},
+      {"C2_NOT_IN_USE", "SAP {0}", channels},
+      {"C2_MASTER", "SAP {0}", channels},
+      {"C2_MASTER_ABORT", "SAP {0}", channels},
+      {"C2_FREED", "SAP {0}", channels},
+      {"C2_REQUEST", "{4:X} on SAP {3}", both_channels({"5E on SAP {}", "5F on SAP {}", "51 on SAP {}"})},
+      {"C2_ANSWER", "{1:X} on SAP {0}",
+       both_channels({"5E on SAP {}", "5F on SAP {}", "51 on SAP {}", "DE on SAP {}", "DF on SAP {}", "D1 on SAP {}"})},
+      {"C2_TIMEOUT", "timer {1} on SAP {0}",
+       both_channels({"timer 1 on SAP {}", "timer 2 on SAP {}", "timer 3 on SAP {}"})},
+      {"C2_WRONG_REQUEST", "reason {2} on SAP {0}", both_channels({"reason 1 on SAP {}", "reason 2 on SAP {}"})},
+      {"C2_ABORT", "{1:X} on SAP {0}", both_channels({"11 on SAP {}", "12 on SAP {}", "13 on SAP {}", "17 on SAP {}"})},
+      {"RM_REGISTRY", "row {2} of SAP {0}",
+       both_channels({"row 0 of SAP {}", "row 1 of SAP {}", "row 3 of SAP {}", "row 7 of SAP {}"})},
+      {"HOST_NOT_OWNER", "R_REQ {1}, R_STA {2}", {"R_REQ 0, R_STA 0", "R_REQ 0, R_STA 1", "R_REQ 1, R_STA 0"}},
+      {"HANDSHAKE_HELD_THROUGH_RESET",
+       "R_REQ {0}, R_STA {1}",
+       {"R_REQ 0, R_STA 1", "R_REQ 1, R_STA 0", "R_REQ 1, R_STA 1"}},
+      {"STRAP_CHANGED", "{0}", {"0", "1", "2", "3"}},
+      {"SPI_SCK_IDLE", "{0}", {"0", "1"}},
+      {"SPI_WRITE_GAP", "heard {2}", {"heard 0", "heard 1"}},
+      {"SPI_NO_CLAIM", "{2}", {"0", "1"}},
+      {"SPI_BUSY", "{0}", {"0", "1", "2"}},
+      {"TELEGRAM_ADDRESS", "{1}", {"0", "1", "2"}},
+  };
+  return all;
+}
+
+const Detail* detail_of(const std::string& code) {
+  const auto found =
+      std::find_if(details().begin(), details().end(), [&](const Detail& detail) { return code == detail.code; });
+  return found == details().end() ? nullptr : &*found;
+}
+
+bool begins(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
+
+/// The port has no such event, whatever its host does (R14, SP15, UA6).
+bool is_foreign(const std::string& code, const HostSide& side) {
+  const bool parallel = side.mode == HostMode::kParallel;
+  const bool strap = code == "STRAP_CHANGED", shared = code == "HOST_READ_ONLY";
+  if (begins(code, "SPI_")) return side.mode != HostMode::kSpi;
+  if (begins(code, "UART_")) return side.mode != HostMode::kUart;
+  if (begins(code, "TELEGRAM_")) return parallel;
+  if (strap) return side.part != Part::kRsu;
+  if (shared || parallel) return false;
+  const bool crc = begins(code, "INIT_CRC") || begins(code, "INPUT_CRC") || begins(code, "DIAG_CRC") ||
+                   begins(code, "C1_CRC") || begins(code, "C2_CRC");
+  return crc || begins(code, "HOST_") || begins(code, "HANDSHAKE_");
+}
+
+/// The address of an exchange, which only the UART has (UA9).
+bool names_area(const std::string& code, const std::string& word) { return code == "TELEGRAM_ADDRESS" && word != "0"; }
+
+void add(std::vector<Situation>& all, const char* group, const Words& items) {
+  for (const std::string& item : items) all.emplace_back(group, item);
+}
+
+/// S13, S14, S20: what a service may be answered in each state.
+Words services() {
+  struct Service {
+    const char* name;
+    const char* answers[3];  ///< in WAIT_PRM, WAIT_CFG, DATA_EXCH
+  };
+  static constexpr Service kServices[] = {
+      {"Data_Exchange", {"RS", "RS", "data,data of high priority,SC,high priority,RR,RS"}},
+      {"Set_Slave_Add", {"SC,RR,RS", "RS", "RS"}},
+      {"RD_Inp", {"RS", "RS", "data,SC,RR"}},
+      {"RD_Outp", {"data,SC,RR", "data,SC,RR", "data,SC,RR"}},
+      {"Get_Cfg", {"data,SC,RR", "data,SC,RR", "data,RR"}},
+      {"Slave_Diag", {"data,RR", "data,RR", "data,RR"}},
+      {"Set_Prm", {"SC,RS", "SC,RS", "SC,RS"}},
+      {"Chk_Cfg", {"RS", "SC,RS", "SC,RS"}},
+      {"SRD to SAP 58", {"RS", "RS", "RS"}},
+      {"C1", {"RS", "RS", "data,SC,RR,RS"}},
+      {"Initiate", {"data,RS,SC", "data,RS,SC", "data,RS,SC"}},
+      {"C2", {"data,SC,RR,RS", "data,SC,RR,RS", "data,SC,RR,RS"}},
+      {"another SAP", {"RS", "RS", "RS"}},
+      {"FDL status", {"OK", "OK", "OK"}},
+      {"another function", {"RS", "RS", "RS"}},
+  };
+  Words all;
+  for (const Service& service : kServices) {
+    for (unsigned state = 1; state <= 3; ++state) {
+      const std::string answers = service.answers[state - 1];
+      for (std::size_t at = 0; at <= answers.size();) {
+        const std::size_t comma = std::min(answers.find(',', at), answers.size());
+        all.push_back(fmt::format("{} in {}: {}", service.name, dp_state_name(state), answers.substr(at, comma - at)));
+        at = comma + 1;
+      }
+    }
+  }
+  return all;
+}
+
+Words transfers() { return {std::begin(kAccessParts) + kFirstTransfer, std::end(kAccessParts)}; }
+
+/// Of the chip's accesses: in none, in each part of one.
+Words phases() {
+  Words all = {"-"};
+  all.insert(all.end(), std::begin(kAccessParts), std::end(kAccessParts));
+  return all;
+}
+
+Words sync_and_freeze() {
+  Words all;
+  for (const char* held : {"nothing held", "Sync", "Freeze", "Sync and Freeze"})
+    for (const char* command :
+         {"Sync", "Unsync", "Freeze", "Unfreeze", "Sync and Freeze", "Unsync and Unfreeze", "Clear_Data"})
+      all.push_back(fmt::format("{}: {}", held, command));
+  return all;
+}
+
+Words accesses() {
+  Words all;
+  for (const char* what : {"read", "write"})
+    for (const char* owner : {"owned", "R_REQ alone", "R_STA alone", "not owned"})
+      for (const char* chip : {"the chip away", "the chip in an access"}) {
+        if (std::strcmp(owner, "owned") == 0 && std::strcmp(chip, "the chip in an access") == 0) continue;
+        all.push_back(fmt::format("{}, {}, {}", what, owner, chip));
+      }
+  all.insert(all.end(), {"read, owned, the chip in an access", "write, owned, the chip in an access"});
+  return all;
+}
+
+Words host_telegrams(HostMode mode) {
+  Words all;
+  const char* third = mode == HostMode::kSpi ? "read and write" : "exchange";
+  for (const std::string kind : {"read", "write", third}) {
+    const bool names_address = mode == HostMode::kUart || kind != third;
+    for (const char* code : {"00", "01", "04"}) all.push_back(kind + ", code " + code);
+    if (kind != "read") all.push_back(kind + ", code 0C");  // a read is never too long
+    if (kind != "read" && names_address) all.push_back(kind + ", code 0E");
+    for (const char* code : {"02", "06"})
+      if (names_address) all.push_back(kind + ", code " + code);
+    if (mode == HostMode::kSpi && kind != "read") all.push_back(kind + ", refused");
+  }
+  return all;
+}
+
+Words replies_of_exchanges() {
+  Words all;
+  for (const char* news : {"outputs", "parameters", "configuration", "C1", "C2"})
+    for (const char* state : {"", " in DATA_EXCH"}) all.push_back(std::string(news) + state);
+  return all;
+}
+
+std::vector<Situation> known(const HostSide& side) {
+  std::vector<Situation> all;
+  add(all, "DP states",
+      {"OFFLINE to WAIT_PRM", "WAIT_PRM to OFFLINE", "WAIT_PRM to WAIT_CFG", "WAIT_CFG to OFFLINE",
+       "WAIT_CFG to WAIT_PRM", "WAIT_CFG to DATA_EXCH", "DATA_EXCH to OFFLINE", "DATA_EXCH to WAIT_PRM",
+       "DATA_EXCH to WAIT_CFG"});
+  add(all, "services", services());
+  for (const profibus::Reason reason : dsdpv1::reasons()) {
+    const std::string code = profibus::code(reason);
+    if (code == "DP_STATE" || is_foreign(code, side)) continue;
+    const Detail* detail = detail_of(code);
+    add(all, "events", detail == nullptr ? Words{code} : Words{});
+    if (detail == nullptr) continue;
+    for (const std::string& word : detail->known)
+      if (!names_area(code, word) || side.mode == HostMode::kUart)
+        all.emplace_back("events", fmt::format("{} {}", code, word));
+  }
+  add(all, "Sync and Freeze", sync_and_freeze());
+  add(all, "transfers", transfers());
+  add(all, "RESET falls in", phases());
+  if (side.mode == HostMode::kParallel) {
+    add(all, "R_REQ rises in", phases());
+    add(all, "accesses of the user", accesses());
+    return all;
+  }
+  add(all, side.mode == HostMode::kSpi ? "XSS falls in" : "RXD falls in", phases());
+  add(all, "telegrams of the host", host_telegrams(side.mode));
+  if (side.mode == HostMode::kUart) add(all, "replies of exchanges", replies_of_exchanges());
+  return all;
+}
+
+}  // namespace
+
+const char* dp_state_name(unsigned state) {
+  static constexpr const char* kNames[] = {"OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH"};
+  return kNames[state % std::size(kNames)];
+}
+
+std::vector<Situation> known_situations(const HostSide& side) { return known(side); }
+
+std::string event_item(const profibus::Event& event, const std::string& state) {
+  std::string code = profibus::code(event.reason);
+  const Detail* detail = detail_of(code);
+  if (detail == nullptr) return code;
+  const std::string word =
+      fmt::format(fmt::runtime(detail->format), event.a, event.b, event.c, event.a >> 8, event.a & 0xFF, state);
+  const bool known = std::find(detail->known.begin(), detail->known.end(), word) != detail->known.end();
+  return code + " " + (known ? word : "other");
+}
+
+std::string text(const Situations& situations, const HostSide& side) {
+  std::string lines;
+  const std::vector<Situation> all = known(side);
+  for (auto begin = all.begin(); begin != all.end();) {
+    const auto end = std::find_if(begin, all.end(), [&](const Situation& each) { return each.first != begin->first; });
+    std::string missing;
+    std::size_t seen = 0;
+    for (auto each = begin; each != end; ++each)
+      if (situations.of(*each) != 0)
+        ++seen;
+      else
+        missing += fmt::format("{}{}", missing.empty() ? "; never seen: " : ", ", each->second);
+    lines += fmt::format("{:<22}{} of {}{}\n", begin->first, seen, end - begin, missing);
+    begin = end;
+  }
+  return lines;
+}
+
+std::string table(const Situations& situations, const HostSide& side) {
+  std::map<Situation, std::uint64_t> others = situations.counts();
+  std::string lines;
+  for (const Situation& each : known(side)) {
+    lines += fmt::format("{}\t{}\t{}\n", each.first, each.second, situations.of(each));
+    others.erase(each);
+  }
+  for (const auto& [each, times] : others) lines += fmt::format("{}\t{}\t{}\n", each.first, each.second, times);
+  return lines;
+}
+
+}  // namespace dsdpv1::cosim

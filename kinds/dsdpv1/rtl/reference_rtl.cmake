@@ -1,0 +1,69 @@
+# The reference RTL as shared libraries in the folder rtl/ of the build, two for the DSDPV1 and two for the DSDPV1-RSU: the RTL as it is, and the one with single faults.
+# Their target dsdpv1_rtl_libraries is part of `all` and of nothing else; the program loads them when it is asked for RTL (reference_rtl.hpp).
+set(DSDPV1_RTL_DIR ${PROJECT_SOURCE_DIR}/rtl_ref CACHE PATH "Folder of the reference RTL: files.txt, files_rsu.txt and what they name")
+mark_as_advanced(DSDPV1_RTL_DIR)
+set(rtl_dir ${DSDPV1_RTL_DIR})
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rtl_dir}/files.txt ${rtl_dir}/files_rsu.txt)
+file(STRINGS ${rtl_dir}/files.txt dsdpv1_files)
+file(STRINGS ${rtl_dir}/files_rsu.txt dsdpv1_rsu_files)
+list(TRANSFORM dsdpv1_files PREPEND ${rtl_dir}/ OUTPUT_VARIABLE dsdpv1_sources)
+list(TRANSFORM dsdpv1_rsu_files PREPEND ${rtl_dir}/ OUTPUT_VARIABLE dsdpv1_rsu_sources)
+set(rtl_headers ${rtl_dir}/profibus_types.svh ${rtl_dir}/dpram_types.svh ${rtl_dir}/dsdpv1_types.svh ${rtl_dir}/dsdpv1_rsu_types.svh)
+# What the harness looks into.
+set(dsdpv1_places ${PROJECT_SOURCE_DIR}/kinds/dsdpv1/rtl/public.vlt)
+set(dsdpv1_rsu_places ${dsdpv1_places} ${PROJECT_SOURCE_DIR}/kinds/dsdpv1/rtl/public_rsu.vlt)
+
+# dsdpv1_rtl_library(TARGET TOP LIBRARY OPTIMISATION ARGUMENTS...): a part of TARGET, the RTL with this top (dsdpv1, dsdpv1_rsu) and adapter with these arguments for Verilator and
+# the macros (-D) among them. Verilator's own make keeps it out of the configuration, which every `./run` waits for.
+function(dsdpv1_rtl_library target top library optimisation)
+  set(adapter ${PROJECT_SOURCE_DIR}/kinds/dsdpv1/rtl/reference_library.cpp)
+  cmake_path(REMOVE_EXTENSION library OUTPUT_VARIABLE sources_folder)
+  cmake_path(GET library PARENT_PATH folder)
+  cmake_path(GET library STEM name)
+  set(arguments ${ARGN})
+  if(top STREQUAL dsdpv1_rsu)
+    list(APPEND arguments -DDSDPV1_RTL_RSU)
+  endif()
+  set(macros ${arguments})
+  list(FILTER macros INCLUDE REGEX "^-D")
+  list(JOIN macros " " macros)
+  set(compile "${optimisation} -fPIC -std=c++17 -I${PROJECT_SOURCE_DIR} -DDSDPV1_RTL_LAYOUT=${DSDPV1_RTL_LAYOUT} ${macros}")
+  add_custom_command(
+    OUTPUT ${library}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
+    COMMAND ${DSDPV1_VERILATOR} --cc --exe --build -O3 --x-assign fast --x-initial unique -DDSDPV1_RUN_TIME_LIMITS -I. -I${PROJECT_SOURCE_DIR}/registers
+            --top-module ${top} --Mdir ${sources_folder} -CFLAGS ${compile} -LDFLAGS -shared
+            -MAKEFLAGS "-s CXX=${CMAKE_CXX_COMPILER} OBJCACHE=${CMAKE_CXX_COMPILER_LAUNCHER} OPT_FAST= OPT_GLOBAL=" -o ${library} ${arguments}
+            ${${top}_places} ${${top}_files} ${adapter}
+    WORKING_DIRECTORY ${rtl_dir}  # what it makes names sources as they are called here
+    DEPENDS ${${top}_sources} ${rtl_headers} ${PROJECT_SOURCE_DIR}/registers/dsdpv1_regs.svh ${adapter}
+            ${${top}_places} ${PROJECT_SOURCE_DIR}/cosim/rtl_top.hpp ${PROJECT_SOURCE_DIR}/kinds/dsdpv1/rtl/verilated_top.hpp
+    COMMENT "Verilating ${name}"
+    VERBATIM)
+  set_property(TARGET ${target} APPEND PROPERTY SOURCES ${library})
+endfunction()
+
+set(rtl_folder ${PROJECT_BINARY_DIR}/rtl)
+foreach(top dsdpv1 dsdpv1_rsu)
+  dsdpv1_rtl_library(dsdpv1_rtl_libraries ${top} ${rtl_folder}/lib${top}_rtl.so -O3)
+  dsdpv1_rtl_library(dsdpv1_rtl_libraries ${top} ${rtl_folder}/lib${top}_rtl_faults.so -O3 -DSINGLE_FAULTS)
+endforeach()
+
+# The RTL as it is once more, counting lines and toggles, and the program beside it, which therefore loads this one: ./run rtl-coverage.
+# Far slower, so it is no part of `all`. It writes what it has counted into the folder of the environment's DSDPV1_RTL_COVERAGE. All
+# begins with 0: a start with random values would count as toggles.
+if(NOT PROJECT_IS_TOP_LEVEL)  # without the program
+  return()
+endif()
+set(coverage_folder ${PROJECT_BINARY_DIR}/rtl-coverage)
+add_custom_command(
+  OUTPUT ${coverage_folder}/dsdpv1-sim
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${coverage_folder}
+  COMMAND ${CMAKE_COMMAND} -E copy $<TARGET_FILE:dsdpv1-sim> ${coverage_folder}/dsdpv1-sim
+  DEPENDS dsdpv1-sim
+  VERBATIM)
+add_custom_target(dsdpv1_rtl_coverage SOURCES ${coverage_folder}/dsdpv1-sim)
+foreach(top dsdpv1 dsdpv1_rsu)
+  dsdpv1_rtl_library(dsdpv1_rtl_coverage ${top} ${coverage_folder}/rtl/lib${top}_rtl.so -O1
+                     --coverage-line --coverage-toggle --coverage-max-width 64 --output-split 20000 --x-initial 0 -j 2)
+endforeach()

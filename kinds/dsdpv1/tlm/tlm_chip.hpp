@@ -1,0 +1,67 @@
+#pragma once
+// A chip in its TLM view as a station of the bench: RESET and the handshake as calls, the bus as a station of an RS-485
+// segment.
+#include <functional>
+#include <memory>
+#include <string>
+#include <systemc>
+
+#include "bus/wire/segment.hpp"
+#include "kinds/dsdpv1/tlm/handshake_pin.hpp"
+#include "model/systemc/rsu_tlm.hpp"
+#include "tb/systemc/timeline_module.hpp"
+
+namespace dsdpv1::systemc_bench {
+
+/// The module and what it is wired to. The segment hears PBTXD and PBRTS at their exact ticks, also from inside the
+/// core; what the segment says arrives at PBRXD at its tick (one delta cycle later, which no rule of the chip can tell
+/// apart: P9). The phase of the chip must be 0: the bench counts the chip's ticks.
+class TlmChip : public sc_core::sc_module, private bus::Listener {
+ public:
+  /// Telegrams are told as runs in the direction whose pin `options.observed` leaves out.
+  TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::TlmOptions& options, bus::Segment& segment,
+          TimelineModule& timeline);
+  TlmChip(const sc_core::sc_module_name& name, const dsdpv1::systemc::RsuTlmOptions& options, bus::Segment& segment,
+          TimelineModule& timeline);
+
+  dsdpv1::systemc::TlmModule& module() { return *module_; }
+  const dsdpv1::systemc::TlmModule& module() const { return *module_; }
+  /// The module of a DSDPV1-RSU; null of other chips.
+  dsdpv1::systemc::RsuTlmModule* rsu() { return rsu_; }
+  bus::StationId station() const { return station_; }
+
+  /// Pins that the bench drives, at the timeline's present time only.
+  void set_reset(bool level) { write(reset_, level); }
+  void set_r_req(bool level) { move(r_req_, level); }
+  void set_r_sta(bool level) { move(r_sta_, level); }
+
+  /// Every pin change, as ChipModule::on_pin. Set before the simulation starts.
+  std::function<void(bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level)> on_pin;
+
+ private:
+  TlmChip(const sc_core::sc_module_name& name, bus::Segment& segment, TimelineModule& timeline);
+  /// `module` is this one's from here on.
+  void take(dsdpv1::systemc::TlmModule* module, const dsdpv1::systemc::TlmOptions& options);
+
+  using Signal = sc_core::sc_signal<bool, sc_core::SC_MANY_WRITERS>;  // the timeline's thread and the chip's process
+
+  void move(HandshakePin& pin, bool level);
+  void write(Signal& signal, bool level);
+  void line_changed(bus::Tick at, bool level) override;
+  bool run_begins(const bus::CharacterRun& run) override;
+  void run_cut(bus::Tick at, bool level) override;
+  bool answer_begins(const profibus::CharacterRun& run);
+  void pin_changed(bus::Tick at, dsdpv1::Pin pin, dsdpv1::Level level);
+
+  bus::Segment& segment_;
+  TimelineModule& timeline_;
+  dsdpv1::systemc::RsuTlmModule* rsu_ = nullptr;
+  std::unique_ptr<dsdpv1::systemc::TlmModule> module_;
+  Signal reset_{"reset"}, rxd_{"rxd", true};
+  HandshakePin r_req_{"r_req"}, r_sta_{"r_sta"};
+  bus::StationId station_;
+  bool enabled_ = false, drives_ = true;
+  bool own_run_ = false, hides_txd_ = false;
+};
+
+}  // namespace dsdpv1::systemc_bench

@@ -1,0 +1,134 @@
+#include "kinds/dsdpv1/tlm/tlm_execution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "io/input/input_error.hpp"
+#include "kinds/dsdpv1/chip/dsdpv1_view.hpp"
+#include "kinds/dsdpv1/keys/settings.hpp"
+#include "kinds/dsdpv1/kind.hpp"
+#include "kinds/dsdpv1/pins/pin_table.hpp"
+#include "kinds/dsdpv1/tlm/tlm_chip.hpp"
+#include "kinds/dsdpv1/tlm/tlm_host_bus.hpp"
+#include "model/systemc/main_stack.hpp"
+#include "model/systemc/sim_time.hpp"
+
+namespace dsdpv1::tb {
+namespace {
+
+// Pins at which an agent has a new plan: the user CPU, and who reads the telegrams of the serial ports.
+constexpr std::uint32_t kPlannedBy =
+    dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kTxd) | dsdpv1::mask(Pin::kRxd) | dsdpv1::mask(Pin::kXss);
+
+class TlmChipView : public Dsdpv1View {
+ public:
+  template <class Options>
+  TlmChipView(const std::string& name, const Options& options, std::uint32_t watched, bus::Segment& segment,
+              systemc_bench::TimelineModule& timeline)
+      : chip_(name.c_str(), options, segment, timeline), bus_((name + "_host").c_str(), chip_) {
+    chip_.on_pin = [this, watched, &timeline](Tick at, Pin pin, dsdpv1::Level level) {
+      if (!dsdpv1::is_input(pin) || (watched & dsdpv1::mask(pin)) != 0) tell(at, pin, level);
+      if (pin == Pin::kTxd && bus_.on_txd) bus_.on_txd(at, level != 0);
+      if ((dsdpv1::mask(pin) & kPlannedBy) != 0) timeline.wake();
+    };
+    chip_.module().on_event = [this, &timeline](const profibus::Event& event) {
+      if (on_event) on_event(event);
+      timeline.wake();  // the script may have waited for it
+    };
+    bus_.on_begin = [this](Tick at, const user_cpu::Access& access, Tick sample) {
+      tell_action(at, access);
+      if (!access.write && on_read) on_read(sample);
+    };
+    bus_.on_handshake = [this](Tick at, const char* pin, bool level) { tell_action(at, pin, level); };
+  }
+
+  void set_reset(Tick, bool level) override { chip_.set_reset(level); }
+  void reset_host(Tick) override { bus_.reset(); }
+  user_cpu::HostBus& host_bus() override { return bus_; }
+  bus::StationId station() const override { return chip_.station(); }
+  const dsdpv1::Chip& core() const override { return chip_.module().chip(); }
+  void sync(Tick now) override { chip_.module().sync(dsdpv1::systemc::time_until(now)); }
+
+ private:
+  systemc_bench::TlmChip chip_;
+  user_cpu::TlmHostBus bus_;
+};
+
+class TlmExecution : public Execution {
+ public:
+  std::unique_ptr<ChipView> make_chip(const ChipMaker& maker, const ChipRequest& request) override {
+    if (!is_dsdpv1(maker) && &maker != &dsdpv1_rsu_kind())
+      throw InputError(fmt::format("--view tlm is for chips of the kinds {}, {} and {}, the scenario has {}",
+                                   dsdpv1_kind().name(), dsdpv1_r_kind().name(), dsdpv1_rsu_kind().name(),
+                                   maker.name()));
+    if (&maker != &dsdpv1_rsu_kind()) return make_view(request, dsdpv1::systemc::TlmOptions());
+    dsdpv1::systemc::RsuTlmOptions options;
+    const auto& settings = static_cast<const Dsdpv1Settings&>(request.settings);
+    options.straps = {settings.mode, settings.address, settings.uart_rate, settings.interval};
+    return make_view(request, options);
+  }
+
+  bool quiet(const bus::Agent& agent, Tick tick) override { return module_.quiet(agent, tick); }
+  bool go_on(const bus::Agent& agent, Tick tick) override { return module_.go_on(agent, tick); }
+
+  void run(Tick end, const std::function<bool()>& stopped) override {
+    module_.limit = end;
+    // In slices, so that a stop takes effect; the last one ends a tick behind `end`, which SystemC itself would leave
+    // out.
+    constexpr Tick kSlice = bus::kTicksPerMs;
+    for (Tick to = std::min(kSlice, end + 1); !stopped(); to = std::min(to + kSlice, end + 1)) {
+      sc_core::sc_start(dsdpv1::systemc::to_time(to) - sc_core::sc_time_stamp());
+      dsdpv1::systemc::announce_main_stack();
+      if (to > end) return;
+    }
+  }
+
+ private:
+  template <class Options>
+  std::unique_ptr<ChipView> make_view(const ChipRequest& request, Options options) {
+    options.chip = config_of(request);
+    options.report_violations = false;  // the bench reports them
+    options.observed =
+        request.watched | dsdpv1::mask(Pin::kIntr0) | dsdpv1::mask(Pin::kPbrts) | dsdpv1::mask(Pin::kTxd);
+    return std::make_unique<TlmChipView>(request.name, options, request.watched, segment_, module_);
+  }
+
+  systemc_bench::TimelineModule module_{"timeline", timeline_};
+};
+
+const std::function<int()>* body_of_sc_main = nullptr;
+std::exception_ptr failure_of_sc_main;
+
+}  // namespace
+
+std::unique_ptr<Execution> make_tlm_execution() { return std::make_unique<TlmExecution>(); }
+
+int inside_systemc(const std::function<int()>& body) {
+  setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
+  body_of_sc_main = &body;
+  char name[] = "dsdpv1-sim";
+  char* arguments[] = {name, nullptr};
+  const int status = sc_core::sc_elab_and_sim(1, arguments);
+  if (failure_of_sc_main) std::rethrow_exception(std::exchange(failure_of_sc_main, nullptr));
+  return status;
+}
+
+/// SystemC would print an exception in words of its own.
+int run_body() {
+  try {
+    return (*body_of_sc_main)();
+  } catch (...) {
+    failure_of_sc_main = std::current_exception();
+    return 1;
+  }
+}
+
+}  // namespace dsdpv1::tb
+
+int sc_main(int, char**) { return dsdpv1::tb::run_body(); }

@@ -1,0 +1,108 @@
+#pragma once
+// A user CPU made of a C++ program: it runs on a stack of its own and is suspended during every access and wait, so
+// that blocking code like the driver takes simulated time.
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "bus/timeline.hpp"
+#include "kinds/dsdpv1/user_cpu/cpu.hpp"
+#include "tb/chip/user_cpu/fiber.hpp"
+#include "tb/chip/user_cpu/others.hpp"
+#include "tb/chip/user_cpu/program.hpp"
+
+namespace dsdpv1::user_cpu {
+
+/// The bus is touched from `run` only, on the bench's stack. Exceptions of the program leave through `run`.
+class NativeCpu : public bus::Agent, private Cpu {
+ public:
+  using Program = std::function<void(Cpu&)>;
+
+  /// The program begins at `start`. `bus` must outlive the CPU.
+  NativeCpu(HostBus& bus, const CpuTiming& timing, Program program, Tick start = 0);
+
+  Tick next() const override;
+  void run(Tick now) override;
+  /// Of the last action: behind a turn that went on, the last of its ticks.
+  Tick now() const override { return now_; }
+
+  /// As StationCpu has it.
+  Others* others = nullptr;
+
+  /// Besides `announce`, for the agent that this CPU is a part of.
+  std::function<void()> on_announce;
+
+  /// INTR0 changed at `at`; for the bench that watches the pin. Callable while the chip runs ahead of this agent's
+  /// turn.
+  void intr0_changed(Tick at, bool level);
+  /// Ends a `wait_for_wake`, the present or the next one, not before `at`.
+  void wake(Tick at);
+  /// The program has returned; the CPU does nothing any more.
+  bool ended() const { return fiber_.ended(); }
+  const CpuCounters& counters() const { return counters_; }
+
+ private:
+  enum class Op : std::uint8_t { kNone, kAccess, kSetRReq, kSetRSta, kLReq, kLSta, kLamps, kWait, kTransfer };
+  struct Request {
+    Op op = Op::kNone;
+    Access access;
+    bool level = false;
+    Tick until = 0;                ///< kWait
+    Transfer* transfer = nullptr;  ///< kTransfer
+  };
+  /// What may end a kWait before its time.
+  enum class Break : std::uint8_t { kInterrupt, kWake, kIntr0 };
+
+  const CpuTiming& timing() const override { return timing_; }
+  void set_access_timing(const AccessTiming& read, const AccessTiming& write) override {
+    timing_.access = read;
+    timing_.write_access = write;
+  }
+  std::uint8_t read(std::uint16_t address) override;
+  void write(std::uint16_t address, std::uint8_t value) override;
+  void set_r_req(bool level) override;
+  void set_r_sta(bool level) override;
+  bool l_req() override;
+  bool l_sta() override;
+  unsigned lamps() override;
+  void transfer(Transfer& transfer) override;
+  SerialPins& serial_pins() override { return bus_; }
+  void transfer_changed() override;
+  void wait_until(Tick at) override;
+  bool wait_for_wake(Tick until) override;
+  bool wait_intr0(Tick until) override;
+  void on_intr0(std::function<void()> handler) override;
+  void enable_interrupts(bool enabled) override;
+
+  void perform(const Request& request);
+  void suspend_until(Tick at, Break reason);
+  void serve_interrupt();
+  bool interrupt_is_due() const { return interrupts_open() && interrupt_at_ <= now_; }
+  bool interrupts_open() const { return handler_ && enabled_ && !in_handler_; }
+  void go_on_transfer();
+  void go_on_program();
+  bool goes_on(Tick at);
+  void take_request();
+  void begin_access();
+  void end_access();
+  Tick break_tick() const;
+
+  HostBus& bus_;
+  CpuTiming timing_;
+  CpuCounters counters_;
+  std::function<void()> handler_;
+  bool enabled_ = true, in_handler_ = false;
+  Tick interrupt_at_ = bus::kNever;  ///< a falling INTR0 edge waits for its handler since then
+  Tick intr0_at_ = bus::kNever;      ///< a falling edge that wait_intr0 has not reported
+  Tick wake_at_ = bus::kNever;
+  Request request_;
+  Break break_ = Break::kInterrupt;
+  bool put_off_ = false;  ///< the access under way, up to its end
+  Tick now_ = 0;
+  Tick ready_at_;  ///< when the program goes on
+  bool sampled_ = false;
+  unsigned lamps_ = 0;
+  Fiber fiber_;
+};
+
+}  // namespace dsdpv1::user_cpu

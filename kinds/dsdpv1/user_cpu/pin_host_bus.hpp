@@ -1,0 +1,56 @@
+#pragma once
+// The HostBus on the pins of a chip: A, D, CSR, RD, WR with exact edges.
+#include <cstddef>
+#include <optional>
+
+#include "kinds/dsdpv1/user_cpu/host_bus.hpp"
+#include "model/dsdpv1/chip.hpp"
+#include "model/dsdpv1/host_access.hpp"
+#include "tb/chip/host_pins.hpp"
+
+namespace dsdpv1::user_cpu {
+
+/// Drives a chip, which must outlive it. Between accesses CSR, RD and WR are high, D and A as HostAccess leaves them.
+class PinHostBus : public HostBus {
+ public:
+  explicit PinHostBus(dsdpv1::Chip& chip) : core_(std::in_place, chip), chip_(*core_) {}
+  explicit PinHostBus(HostPins& pins) : chip_(pins) {}
+  PinHostBus(const PinHostBus&) = delete;
+  PinHostBus& operator=(const PinHostBus&) = delete;
+
+  void set_r_req(Tick at, bool level) override;
+  void set_r_sta(Tick at, bool level) override;
+  bool l_req(Tick at) override;
+  bool l_sta(Tick at) override;
+  bool intr0(Tick at) override;
+  unsigned lamps(Tick at) override;
+  void begin(Tick at, const Access& access, const AccessTiming& timing) override;
+  Tick next_edge() const override { return edge_ < access_->size() ? begin_ + (*access_)[edge_].at : bus::kNever; }
+  bool put_off() override { return edge_ == 0 && chip_.is_private(begin_, *access_); }
+  void run_edges(Tick until) override;
+  /// The running access at once, if that comes to the same and it has not begun.
+  bool run_whole();
+  Tick last_edge() const { return begin_ + access_->last(); }
+  Tick end() const override { return end_; }
+  std::uint8_t read_value() const override { return value_; }
+  bool last_read_was_bad() const override { return bad_; }
+  /// The tick at which the read begun last samples D.
+  Tick sample_tick() const { return sample_tick_; }
+
+ private:
+  void sample(Tick at);
+  void take(dsdpv1::Level level);
+  bool is_high(Tick at, dsdpv1::Pin pin);
+
+  std::optional<CoreHostPins> core_;
+  HostPins& chip_;
+  dsdpv1::HostAccessMaker maker_;
+  const dsdpv1::HostAccess* access_ = &maker_.make(false, 0, 0, {});  ///< the one that runs or ran last
+  Tick begin_ = 0;                                                    ///< of its first edge
+  std::size_t edge_ = 0;
+  Tick end_ = 0, sample_tick_ = 0;
+  std::uint8_t value_ = 0xFF;
+  bool bad_ = false;
+};
+
+}  // namespace dsdpv1::user_cpu
