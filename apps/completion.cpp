@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/command_line.hpp"
-#include "apps/manual_command.hpp"
+#include "apps/commands/manual_command.hpp"
 #include "apps/shown_options.hpp"
 
 namespace dsdpv1::app {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "apps/manual_command.hpp"
+#include "apps/commands/manual_command.hpp"
 #include "apps/shown_options.hpp"
 #include "io/input/suggest.hpp"
 

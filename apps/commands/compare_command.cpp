@@ -1,4 +1,4 @@
-#include "apps/compare_command.hpp"
+#include "apps/commands/compare_command.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "apps/wave_line.hpp"
+#include "apps/commands/wave_line.hpp"
 
 #include <filesystem>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "apps/reasons_command.hpp"
+#include "apps/commands/reasons_command.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "apps/traces_command.hpp"
+#include "apps/commands/traces_command.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

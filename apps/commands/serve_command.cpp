@@ -1,5 +1,5 @@
 // serve: a scenario's segment behind a pseudo-terminal, a TCP port or a serial port.
-#include "apps/serve_command.hpp"
+#include "apps/commands/serve_command.hpp"
 
 #include <fmt/format.h>
 

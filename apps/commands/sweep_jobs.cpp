@@ -1,4 +1,4 @@
-#include "apps/sweep_jobs.hpp"
+#include "apps/commands/sweep_jobs.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "apps/telegram_files.hpp"
+#include "apps/commands/telegram_files.hpp"
 
 #include <fmt/format.h>
 

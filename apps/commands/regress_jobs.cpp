@@ -1,4 +1,4 @@
-#include "apps/regress_jobs.hpp"
+#include "apps/commands/regress_jobs.hpp"
 
 #include "apps/command_line.hpp"
 #include "apps/hand_over.hpp"

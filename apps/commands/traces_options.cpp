@@ -1,7 +1,7 @@
 // The command line of traces.
 #include <CLI/CLI.hpp>
 
-#include "apps/traces_command.hpp"
+#include "apps/commands/traces_command.hpp"
 
 namespace dsdpv1::app {
 namespace {

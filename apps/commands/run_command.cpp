@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "apps/command_line.hpp"
+#include "apps/commands/rtl_commands.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "apps/program.hpp"
 #include "apps/rewind.hpp"
-#include "apps/rtl_commands.hpp"
 #include "apps/saved_runs.hpp"
 #include "bus/printable.hpp"
 #include "cosim/joined_wave.hpp"

@@ -4,11 +4,11 @@
 #include <iostream>
 #include <string>
 
-#include "apps/capture_file.hpp"
 #include "apps/command_line.hpp"
+#include "apps/commands/capture_file.hpp"
+#include "apps/commands/telegram_files.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
-#include "apps/telegram_files.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/explain.hpp"

@@ -1,4 +1,4 @@
-#include "apps/recover_command.hpp"
+#include "apps/commands/recover_command.hpp"
 
 #include <fmt/format.h>
 

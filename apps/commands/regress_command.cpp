@@ -1,5 +1,5 @@
 // regress: many runs in child processes or on a cluster, then the tables and the page.
-#include "apps/regress_command.hpp"
+#include "apps/commands/regress_command.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <set>
 
 #include "apps/command_line.hpp"
+#include "apps/commands/regress_jobs.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
-#include "apps/regress_jobs.hpp"
 #include "apps/terminal.hpp"
 #include "io/input/input_error.hpp"
 #include "io/output/output_file.hpp"

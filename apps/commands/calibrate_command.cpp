@@ -1,9 +1,9 @@
-#include "apps/calibrate_command.hpp"
+#include "apps/commands/calibrate_command.hpp"
 
 #include <iostream>
 
-#include "apps/capture_file.hpp"
 #include "apps/command_line.hpp"
+#include "apps/commands/capture_file.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
 #include "bus/capture/sample_clock.hpp"

@@ -1,5 +1,5 @@
 // replay: a capture played to the model in the place of one of its slaves.
-#include "apps/replay_command.hpp"
+#include "apps/commands/replay_command.hpp"
 
 #include <unistd.h>
 
@@ -9,8 +9,8 @@
 #include <memory>
 #include <utility>
 
-#include "apps/capture_file.hpp"
 #include "apps/command_line.hpp"
+#include "apps/commands/capture_file.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "apps/command_line.hpp"
+#include "apps/commands/rtl_commands.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
-#include "apps/rtl_commands.hpp"
 #include "bus/printable.hpp"
 #include "cosim/joined_wave.hpp"
 #include "cosim/random/campaign.hpp"

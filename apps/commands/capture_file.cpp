@@ -1,4 +1,4 @@
-#include "apps/capture_file.hpp"
+#include "apps/commands/capture_file.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <iostream>
 #include <string_view>
 
-#include "apps/wave_line.hpp"
+#include "apps/commands/wave_line.hpp"
 #include "bus/capture/pcap_reader.hpp"
 #include "bus/capture/sigrok_reader.hpp"
 #include "io/input/input_error.hpp"

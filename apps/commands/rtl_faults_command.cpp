@@ -1,5 +1,5 @@
 // rtl-faults: every single fault in the reference RTL must be found.
-#include "apps/rtl_commands.hpp"
+#include "apps/commands/rtl_commands.hpp"
 
 #include <fmt/format.h>
 

@@ -1,15 +1,15 @@
 // sweep: the points of a plan in child processes, then the tables and pictures.
-#include "apps/sweep_command.hpp"
+#include "apps/commands/sweep_command.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 
 #include "apps/command_line.hpp"
+#include "apps/commands/sweep_jobs.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/outputs.hpp"
-#include "apps/sweep_jobs.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "io/output/write_file.hpp"
