@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/options/wave_options.hpp"
 #include "apps/printable_output.hpp"
-#include "apps/wave_options.hpp"
 #include "tb/bench/capture_recorder.hpp"
 
 namespace dsdpv1::app {

@@ -2,7 +2,7 @@
 
 #include "apps/command_line.hpp"
 #include "apps/commands/manual_command.hpp"
-#include "apps/shown_options.hpp"
+#include "apps/options/shown_options.hpp"
 
 namespace dsdpv1::app {
 namespace {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands/manual_command.hpp"
-#include "apps/shown_options.hpp"
+#include "apps/options/shown_options.hpp"
 #include "io/input/suggest.hpp"
 
 namespace dsdpv1::app {

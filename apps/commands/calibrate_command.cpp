@@ -5,7 +5,7 @@
 #include "apps/command_line.hpp"
 #include "apps/commands/capture_file.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "bus/capture/sample_clock.hpp"
 #include "cosim/pin_map.hpp"
 #include "io/input/input_error.hpp"

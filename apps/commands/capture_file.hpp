@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/rewound_input.hpp"
+#include "apps/options/rewound_input.hpp"
 #include "bus/capture/csv_reader.hpp"
 
 namespace dsdpv1::app {

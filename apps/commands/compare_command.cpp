@@ -9,7 +9,7 @@
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "cosim/wave_pins.hpp"
 #include "io/input/input_error.hpp"
 #include "io/waves/wave_writer.hpp"

@@ -8,7 +8,7 @@
 #include "apps/commands/capture_file.hpp"
 #include "apps/commands/telegram_files.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/explain.hpp"

@@ -8,7 +8,7 @@
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "bus/monitor/monitor.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"

@@ -7,7 +7,7 @@
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "io/input/input_error.hpp"
 #include "io/waves/recover.hpp"
 #include "io/waves/wave_writer.hpp"

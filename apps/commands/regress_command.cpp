@@ -10,7 +10,7 @@
 #include "apps/commands/regress_jobs.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "apps/terminal.hpp"
 #include "io/input/input_error.hpp"
 #include "io/output/output_file.hpp"

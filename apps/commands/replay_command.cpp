@@ -13,7 +13,7 @@
 #include "apps/commands/capture_file.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
 #include "bus/telegram/telegram_text.hpp"

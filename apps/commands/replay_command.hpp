@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/wave_options.hpp"
+#include "apps/options/wave_options.hpp"
 
 namespace dsdpv1::app {
 

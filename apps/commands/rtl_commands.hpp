@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/own_rtl.hpp"
-#include "apps/wave_options.hpp"
+#include "apps/options/own_rtl.hpp"
+#include "apps/options/wave_options.hpp"
 #include "cosim/random/play_options.hpp"
 
 namespace dsdpv1::app {

@@ -12,7 +12,7 @@
 #include "apps/command_line.hpp"
 #include "apps/data_folder.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "cosim/random/faults.hpp"
 #include "io/output/output_file.hpp"
 

@@ -13,7 +13,7 @@
 #include "apps/command_line.hpp"
 #include "apps/commands/rtl_commands.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "bus/printable.hpp"
 #include "cosim/joined_wave.hpp"
 #include "cosim/random/campaign.hpp"

@@ -12,7 +12,7 @@
 #include "apps/command_line.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
 #include "io/input/input_error.hpp"

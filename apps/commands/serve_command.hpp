@@ -2,7 +2,7 @@
 // serve: the simulated segment goes on in the real world.
 #include <string>
 
-#include "apps/wave_options.hpp"
+#include "apps/options/wave_options.hpp"
 
 namespace dsdpv1::app {
 

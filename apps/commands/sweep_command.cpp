@@ -9,7 +9,7 @@
 #include "apps/commands/sweep_jobs.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"
 #include "io/output/write_file.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/campaign.hpp"
+#include "apps/options/campaign.hpp"
 
 namespace dsdpv1::app {
 

@@ -4,7 +4,7 @@
 
 #include "apps/command_line.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "bus/gsd/report.hpp"
 #include "cosim/random/stimulus_schema.hpp"
 #include "io/input/read_file.hpp"

@@ -13,7 +13,7 @@
 #include "apps/data_folder.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "bus/printable.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/suggest.hpp"

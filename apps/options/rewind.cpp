@@ -1,4 +1,4 @@
-#include "apps/rewind.hpp"
+#include "apps/options/rewind.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <iostream>
 #include <tuple>
 
-#include "apps/wave_options.hpp"
+#include "apps/options/wave_options.hpp"
 #include "io/input/input_error.hpp"
 #include "io/input/units.hpp"
 #include "io/output/output_place.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/command_line.hpp"
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "io/output/output_file.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/saved/saved_run.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "tb/bench/wave_recorder.hpp"
 #include "tb/chip/chip_kind.hpp"
 

@@ -1,4 +1,4 @@
-#include "apps/campaign.hpp"
+#include "apps/options/campaign.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

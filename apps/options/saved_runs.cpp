@@ -1,4 +1,4 @@
-#include "apps/saved_runs.hpp"
+#include "apps/options/saved_runs.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "apps/snapshots.hpp"
+#include "apps/options/snapshots.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "apps/command_line.hpp"
-#include "apps/snapshots.hpp"
+#include "apps/options/snapshots.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/chip/chip_kind.hpp"
 

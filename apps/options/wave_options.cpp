@@ -1,4 +1,4 @@
-#include "apps/wave_options.hpp"
+#include "apps/options/wave_options.hpp"
 
 #include <fmt/format.h>
 

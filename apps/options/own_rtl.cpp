@@ -1,4 +1,4 @@
-#include "apps/own_rtl.hpp"
+#include "apps/options/own_rtl.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/outputs.hpp"
+#include "apps/options/outputs.hpp"
 #include "lab/campaign/folder.hpp"
 #include "lab/campaign/jobs.hpp"
 
