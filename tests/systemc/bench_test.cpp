@@ -14,8 +14,8 @@
 #include "kinds/dsdpv1/user_cpu/pin_host_bus.hpp"
 #include "kinds/dsdpv1/user_cpu/programs.hpp"
 #include "tb/systemc/timeline_module.hpp"
+#include "tests/kinds/dsdpv1/user_cpu/chip_agent.hpp"
 #include "tests/systemc/bench.hpp"
-#include "tests/user_cpu/chip_agent.hpp"
 
 namespace dsdpv1 {
 

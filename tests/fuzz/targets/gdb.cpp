@@ -1,7 +1,7 @@
 // What comes from a gdb, in pieces as a network has them, to a halted processor.
 #include "board/gdb/gdb_commands.hpp"
-#include "tests/arm/fake_target.hpp"
-#include "tests/arm/small_elf.hpp"
+#include "tests/board/fake_target.hpp"
+#include "tests/board/small_elf.hpp"
 #include "tests/fuzz/input.hpp"
 
 namespace dsdpv1 {

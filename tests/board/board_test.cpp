@@ -1,0 +1,383 @@
+// The board's peripherals and wiring, seen from the pins: tests/board/firmware/probe.c does things, the test looks at
+// the host bus.
+#include "kinds/dsdpv1/board/board.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "kinds/dsdpv1/user_cpu/pin_host_bus.hpp"
+
+namespace dsdpv1 {
+namespace {
+
+using bus::Tick;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr Tick kHclk3 = 500;  // three periods of 72 MHz
+
+enum Program {
+  kHandshake,
+  kAccesses,
+  kUnsetAccesses,
+  kInterrupt,
+  kChipReset,
+  kText,
+  kStrange,
+  kUndefined,
+  kBankOff,
+  kMaskedAndRising,
+  kInputs,
+  kClockTree,
+  kNonsense
+};
+
+/// Pins of a chip that answers every read with the low byte of its address.
+class Pins : public user_cpu::HostPins {
+ public:
+  struct Change {
+    Tick at;
+    Pin pin;
+    Level level;
+  };
+  void set(Tick at, Pin pin, Level level) override {
+    changes.push_back({at, pin, level});
+    if (pin == Pin::kA) address_ = level;
+    if (pin == Pin::kDIn) data_ = level;
+    if (pin == Pin::kWr && level == 1) written.emplace_back(address_, data_);
+  }
+  void advance(Tick) override {}
+  Level level(Pin pin) const override {
+    if (pin == Pin::kLReq) return l_req;
+    if (pin == Pin::kLSta) return l_sta;
+    if (pin == Pin::kPbf || pin == Pin::kReady) return 1;
+    return static_cast<Level>(pin == Pin::kDOut ? address_ & 0xFF : 0);
+  }
+  Level sample(Tick) override { return level(Pin::kDOut); }
+  std::vector<Change> of(Pin pin) const {
+    std::vector<Change> found;
+    for (const Change& each : changes)
+      if (each.pin == pin) found.push_back(each);
+    return found;
+  }
+
+  Level l_req = 0, l_sta = 0;
+  std::vector<Change> changes;
+  std::vector<std::pair<int, int>> written;  ///< address and data of each write
+
+ private:
+  Level address_ = 0, data_ = 0;
+};
+
+class BoardTest : public testing::Test {
+ protected:
+  static user_cpu::FsmcOverride at_72_mhz() {
+    user_cpu::FsmcOverride fsmc;
+    fsmc.hclk_mhz = 72;
+    return fsmc;
+  }
+  void start(Program program, const user_cpu::FsmcOverride& fsmc = at_72_mhz(), const arm::Switches& switches = {},
+             std::optional<std::uint32_t> mailbox = {}) {
+    arm::BoardOptions options;
+    options.firmware = with(program, mailbox);
+    options.fsmc = fsmc;
+    options.switches = switches;
+    board = std::make_unique<arm::Board>(
+        host, std::move(options), [this](Tick at, bool level) { resets.emplace_back(at, level); }, kStart);
+    board->on_text = [this](Tick, const std::string& line) { lines.push_back(line); };
+    board->on_failure = [this](Tick, const std::string& why, const std::string& table) {
+      failure = {why, table};
+      ++failures;
+    };
+  }
+  static std::shared_ptr<const arm::Firmware> with(Program program, std::optional<std::uint32_t> mailbox = {}) {
+    auto firmware = std::make_shared<arm::Firmware>(*arm::load_firmware(PROBE));
+    firmware->mailbox = mailbox;
+    const std::uint32_t word = firmware->image.symbols.at("program").address;
+    for (arm::Segment& segment : firmware->image.segments)
+      if (word >= segment.address && word < segment.address + segment.bytes.size())
+        segment.bytes[word - segment.address] = static_cast<std::uint8_t>(program);
+    return firmware;
+  }
+  void run_until(Tick end) {
+    while (board->next() <= end) board->run(board->next());
+  }
+  void run() { run_until(kStart + bus::kTicksPerMs); }
+
+  static constexpr Tick kStart = 1234;
+  Pins pins;
+  user_cpu::PinHostBus host{pins};
+  std::vector<std::pair<Tick, bool>> resets;
+  std::vector<std::string> lines;
+  std::pair<std::string, std::string> failure;
+  int failures = 0;
+  std::unique_ptr<arm::Board> board;
+};
+
+std::vector<Level> levels(const std::vector<Pins::Change>& changes) {
+  std::vector<Level> list;
+  list.reserve(changes.size());
+  for (const Pins::Change& each : changes) list.push_back(each.level);
+  return list;
+}
+
+TEST_F(BoardTest, PortCIsTheHandshake) {
+  pins.l_req = 1;
+  start(kHandshake);
+  run();
+  EXPECT_THAT(levels(pins.of(Pin::kRReq)), ElementsAre(1, 0, 1, 0));
+  EXPECT_THAT(levels(pins.of(Pin::kRSta)), ElementsAre(1, 0, 1, 0));
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 1)));  // PC8 high, PC9 low
+  EXPECT_LT(pins.of(Pin::kRReq).at(0).at, pins.of(Pin::kRSta).at(0).at);
+  EXPECT_EQ(board->counters().port.holds, 2U);
+}
+
+TEST_F(BoardTest, NonsenseInTheMailboxIsAFaultOfTheFirmware) {
+  start(kNonsense, at_72_mhz(), {}, 0x20008000);
+  board->on_error = [](const user_cpu::ProgramError&) { ADD_FAILURE() << "no error of the driver"; };
+  run();
+  EXPECT_EQ(failure.first,
+            "the firmware has written nonsense into its mailbox (dsdpv1_bench): report.errors[0].error is 200, allowed "
+            "are the failures of dsdpv1_error");
+  EXPECT_THAT(failure.second, HasSubstr("xpsr"));
+  EXPECT_EQ(failures, 1);
+}
+
+TEST_F(BoardTest, BothPinsOfOneStoreMoveAtOneTick) {
+  start(kHandshake);
+  run();
+  EXPECT_EQ(pins.of(Pin::kRReq).at(1).at, pins.of(Pin::kRSta).at(1).at);  // ODR = 0
+  EXPECT_EQ(pins.of(Pin::kRReq).at(2).at, pins.of(Pin::kRSta).at(2).at);
+}
+
+TEST_F(BoardTest, BtrOfTheFirmwareMovesTheEdges) {
+  start(kAccesses);
+  run();
+  const auto rd = pins.of(Pin::kRd), wr = pins.of(Pin::kWr), csr = pins.of(Pin::kCsr);
+  // Read, mode 1: RD falls with CSR, low for ADDSET + 1 + DATAST + 1 + 2 = 14.
+  EXPECT_EQ(csr.at(0).at, rd.at(0).at);
+  EXPECT_NEAR(static_cast<double>(rd.at(1).at - rd.at(0).at), 14 * kHclk3 / 3.0, 1);
+  // Write: WR falls ADDSET + 1 = 4 after CSR, low for DATAST = 7, CSR rises one later.
+  EXPECT_NEAR(static_cast<double>(wr.at(0).at - csr.at(2).at), 4 * kHclk3 / 3.0, 1);
+  EXPECT_NEAR(static_cast<double>(wr.at(1).at - wr.at(0).at), 7 * kHclk3 / 3.0, 1);
+  EXPECT_NEAR(static_cast<double>(csr.at(3).at - wr.at(1).at), 1 * kHclk3 / 3.0, 1);
+}
+
+TEST_F(BoardTest, ModeAHasATimingOfItsOwnForWrites) {
+  start(kAccesses);
+  run();
+  const auto rd = pins.of(Pin::kRd), wr = pins.of(Pin::kWr), csr = pins.of(Pin::kCsr);
+  EXPECT_NEAR(static_cast<double>(rd.at(2).at - csr.at(4).at), 4 * kHclk3 / 3.0, 1);  // RD falls ADDSET + 1 after CSR
+  EXPECT_NEAR(static_cast<double>(wr.at(3).at - wr.at(2).at), 2 * kHclk3 / 3.0, 1);   // BWTR: DATAST = 2
+}
+
+TEST_F(BoardTest, HalfwordIsTwoBytesTheLowerAddressFirstAndTheDpramRepeats) {
+  start(kAccesses);
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0x123, 0x56), std::pair(0x10, 0xFE), std::pair(0x11, 0xFF)));
+}
+
+TEST_F(BoardTest, RegistersNeverWrittenGiveTheDefaultTiming) {
+  start(kUnsetAccesses);
+  run();
+  const auto rd = pins.of(Pin::kRd);
+  EXPECT_NEAR(static_cast<double>(rd.at(1).at - rd.at(0).at), (1 + 1 + 5 + 1 + 2) * kHclk3 / 3.0, 1);
+}
+
+TEST_F(BoardTest, ScenarioTimingStandsAboveTheFirmwares) {
+  user_cpu::FsmcOverride fsmc = at_72_mhz();
+  fsmc.datast = 2;
+  start(kAccesses, fsmc);
+  run();
+  const auto wr = pins.of(Pin::kWr);
+  EXPECT_NEAR(static_cast<double>(wr.at(1).at - wr.at(0).at), 2 * kHclk3 / 3.0, 1);
+}
+
+TEST_F(BoardTest, Intr0RunsTheHandlerThroughExtiLine6) {
+  start(kInterrupt);
+  const Tick fall = kStart + 100 * bus::kTicksPerUs;
+  run_until(fall - 1);
+  EXPECT_TRUE(pins.written.empty());
+  board->interrupt_changed(fall, false);
+  board->interrupt_changed(fall + 64 * 250, true);
+  run();
+  EXPECT_THAT(pins.written,
+              ElementsAre(std::pair(0x7FF, 0), std::pair(0, 1)));  // the handler, then the main loop; once
+  const Tick handler = pins.of(Pin::kCsr).at(0).at;
+  EXPECT_GE(handler - fall, 12 * kHclk3 / 3);  // 12 cycles of entry
+  EXPECT_LE(handler - fall, 30 * kHclk3 / 3);
+}
+
+TEST_F(BoardTest, MaskedLineIsPendingOnItsChosenEdgeOnly) {
+  start(kMaskedAndRising);
+  const Tick fall = kStart + 50 * bus::kTicksPerUs;
+  board->interrupt_changed(fall, false);
+  run_until(fall + 10 * bus::kTicksPerUs);
+  EXPECT_TRUE(pins.written.empty());
+  board->interrupt_changed(fall + 20 * bus::kTicksPerUs, true);
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 1), std::pair(1, 0)));  // PG6 high; PR cleared by writing 1
+}
+
+TEST_F(BoardTest, PortE4IsTheChipsReset) {
+  start(kChipReset);
+  run();
+  ASSERT_EQ(resets.size(), 2U);
+  EXPECT_FALSE(resets[0].second);
+  EXPECT_TRUE(resets[1].second);
+  EXPECT_GT(resets[1].first - resets[0].first, bus::kTicksPerUs);
+  EXPECT_GT(pins.of(Pin::kCsr).at(0).at, resets[1].first);
+}
+
+TEST_F(BoardTest, InputsReadTheirPullsTheSwitchesAndTheLamps) {
+  arm::Switches switches;
+  switches.held[0] = 0xF0;
+  switches.levels[0] = 0xE0;  // low against a pull-up, high against a pull-down, on a floating and on an analog input
+  start(kInputs, at_72_mhz(), switches);
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 0x61), std::pair(1, 0b101), std::pair(2, 0x10)));
+}
+
+/// From the first to the tenth write of each ten, by period of HCLK.
+std::vector<double> write_periods(const std::vector<Pins::Change>& wr) {
+  std::vector<Tick> falls;
+  for (const Pins::Change& each : wr)
+    if (each.level == 0) falls.push_back(each.at);
+  falls.erase(falls.begin() + 10);  // of the look at SWS
+  std::vector<double> periods;
+  for (std::size_t i = 0; i + 9 < falls.size(); i += 10)
+    periods.push_back(static_cast<double>(falls[i + 9] - falls[i]));
+  return periods;
+}
+
+TEST_F(BoardTest, HclkFollowsRccFrom8MhzOn) {
+  start(kClockTree, {});
+  run();
+  EXPECT_EQ(pins.written.at(10), std::pair(1, 0));  // the crystal was off: SWS still says HSI
+  const std::vector<double> periods = write_periods(pins.of(Pin::kWr));
+  ASSERT_EQ(periods.size(), 4U);
+  EXPECT_NEAR(periods[0] / periods[1], 8, 0.2);
+  EXPECT_NEAR(periods[0] / periods[2], 9, 0.2);
+  EXPECT_NEAR(periods[0] / periods[3], 4.5, 0.1);
+  EXPECT_EQ(board->board()->hclk_hz, 36'000'000);
+  EXPECT_EQ(board->board()->hclk_source, "PLL, 9 x HSE, divided by 2");
+}
+
+/// Halts once, and looks.
+class Looker : public arm::Debugger {
+ public:
+  Looker(arm::DebugTarget& target, std::function<void(arm::DebugTarget&)> look)
+      : target_(target), look_(std::move(look)) {}
+  bool wanted() const override { return true; }
+  void before_instruction(std::uint32_t) override {
+    if (++instructions_ == 30) look_(target_);
+  }
+  void data_access(std::uint32_t, std::uint32_t, bool) override {}
+  void poll() override {}
+  void fault(const std::string&) override {}
+
+ private:
+  arm::DebugTarget& target_;
+  std::function<void(arm::DebugTarget&)> look_;
+  int instructions_ = 0;
+};
+
+TEST_F(BoardTest, DebuggerLooksAtPeripheralsAndDpramWithoutAnEffect) {
+  dsdpv1::Chip chip;
+  chip.poke(0x123, 0xA5);
+  arm::BoardOptions options;
+  options.firmware = with(kAccesses);
+  options.fsmc = at_72_mhz();
+  Tick asked_at = -1;
+  options.chip = [&](Tick now) -> const dsdpv1::Chip& {
+    asked_at = now;
+    return chip;
+  };
+  std::size_t looks = 0;
+  const auto look = [&](arm::DebugTarget& target) {
+    const Tick before = target.now();
+    const std::size_t changes = pins.changes.size();
+    for (const std::uint32_t address : {0x60000123U, 0x6000'0923U, 0x40021018U, 0x40011008U, 0x40012008U, 0x40010414U,
+                                        0x40013804U, 0x40000024U, 0xA0000000U}) {
+      std::uint8_t byte = 0;
+      looks += target.read_memory(address, &byte, 1);
+      EXPECT_TRUE(byte == 0xA5 || address >> 28U != 6U);
+    }
+    std::uint8_t byte = 0;
+    EXPECT_EQ(target.read_memory(0x5000'0000, &byte, 1), 0U);
+    EXPECT_EQ(target.now(), before);
+    EXPECT_EQ(pins.changes.size(), changes);
+    EXPECT_GT(asked_at, kStart);
+    EXPECT_LE(asked_at, before);
+  };
+  options.make_debugger = [&](arm::DebugTarget& target) { return std::make_unique<Looker>(target, look); };
+  board = std::make_unique<arm::Board>(
+      host, std::move(options), [](Tick, bool) {}, kStart);
+  run();
+  EXPECT_EQ(looks, 9U);
+  const auto changes = pins.changes;
+  EXPECT_TRUE(board->board()->notes.empty());  // TIM2 was looked at, not used
+  pins.changes.clear();
+  start(kAccesses);
+  run();
+  ASSERT_EQ(changes.size(), pins.changes.size());
+  for (std::size_t i = 0; i < changes.size(); ++i) EXPECT_EQ(changes[i].at, pins.changes[i].at);
+}
+
+TEST_F(BoardTest, HclkOfTheScenarioStandsAboveRcc) {
+  start(kClockTree);
+  run();
+  const std::vector<double> periods = write_periods(pins.of(Pin::kWr));
+  for (const double period : periods) EXPECT_NEAR(period / periods[0], 1, 0.05);
+  EXPECT_EQ(board->board()->hclk_hz, 72'000'000);
+  EXPECT_EQ(board->board()->hclk_source, "fsmc.hclk of the scenario");
+}
+
+TEST_F(BoardTest, UsartPrintsLinesAndRccIsReadyAtOnce) {
+  start(kText);
+  run();
+  EXPECT_THAT(lines, ElementsAre("ready"));
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 1)));
+  EXPECT_THAT(board->board()->notes, ElementsAre("USART1, a line without end: half a li"));
+}
+
+TEST_F(BoardTest, OtherPeripheralsKeepWhatIsWrittenAndAreListed) {
+  start(kStrange);
+  run();
+  EXPECT_THAT(pins.written, ElementsAre(std::pair(0, 77), std::pair(1, 0)));
+  EXPECT_THAT(board->board()->notes,
+              ElementsAre(HasSubstr("GPIOB is used while its clock is off in RCC_APB2ENR"),
+                          testing::AllOf(HasSubstr("TIM2 is not on the board: 2 reads and 1 writes"),
+                                         HasSubstr("strange at probe.c"))));
+}
+
+// Although the firmware has a handler for it, which writes to the chip.
+TEST_F(BoardTest, FaultEndsTheRunWithPlaceAndRegisters) {
+  start(kUndefined);
+  run();
+  EXPECT_THAT(failure.first, HasSubstr("undefined at probe.c"));
+  EXPECT_THAT(failure.second, HasSubstr("pc"));
+  EXPECT_EQ(board->next(), bus::kNever);
+  EXPECT_TRUE(pins.written.empty());
+}
+
+TEST_F(BoardTest, BankSwitchedOffIsABusFault) {
+  start(kBankOff);
+  run();
+  EXPECT_THAT(failure.first, HasSubstr("bank_off at probe.c"));
+  EXPECT_TRUE(pins.written.empty());
+}
+
+TEST_F(BoardTest, EndsInTheMiddleOfAnAccess) {
+  start(kUnsetAccesses);
+  while (pins.of(Pin::kCsr).empty()) board->run(board->next());
+  board.reset();  // the processor's stack is unwound through the emulator
+  EXPECT_TRUE(pins.written.empty());
+}
+
+}  // namespace
+}  // namespace dsdpv1

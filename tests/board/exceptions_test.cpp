@@ -1,0 +1,270 @@
+// Interrupts, system exceptions, SysTick and sleep on the processor.
+#include <gmock/gmock.h>
+
+#include <cstring>
+
+#include "tests/board/processor_bench.hpp"
+
+namespace dsdpv1::arm {
+namespace {
+
+using testing::ElementsAre;
+
+class Exceptions : public ProcessorBench {
+ protected:
+  void TearDown() override { EXPECT_TRUE(faults.empty()); }
+};
+
+TEST_F(Exceptions, InterruptsNestByPriority) {
+  run("nesting");
+  EXPECT_THAT(system.notes, ElementsAre(1U, 10U, 20U, 0xFFFFFFF1U, 11U, 16U, 2U));
+}
+
+TEST_F(Exceptions, EntryAndReturnTakeTwelveCycles) {
+  run("nesting");
+  // str to ISPR, entry, push and two loads, str
+  EXPECT_EQ(system.note_cycles[1] - system.note_cycles[0], 1 + 3 + 12 + 3U);
+  // str, three instructions of control, entry, two loads
+  EXPECT_EQ(system.note_cycles[2] - system.note_cycles[1], 4 + 12 + 2U);
+  // bx, return, two loads
+  EXPECT_EQ(system.note_cycles[4] - system.note_cycles[3], 1 + 1 + 12 + 2U);
+}
+
+TEST_F(Exceptions, PendingOnesGoByPriorityThenNumberAndMasksHoldThemBack) {
+  run("priorities");
+  EXPECT_THAT(system.notes, ElementsAre(1U, 12U, 77U, 10U, 11U, 2U,  // all after cpsie
+                                        12U, 3U, 10U, 4U,            // BASEPRI 0x40 keeps out 0x40
+                                        5U, 12U, 6U));               // FAULTMASK
+}
+
+TEST_F(Exceptions, TailChainingTakesSixCycles) {
+  run("priorities");
+  EXPECT_EQ(system.note_cycles[2] - system.note_cycles[1], 1 + 1 + 6 + 2U);
+}
+
+TEST_F(Exceptions, PriorityGroupingDecidesWhatPreempts) {
+  run("grouping");
+  EXPECT_THAT(system.notes, ElementsAre(0xFA050000U, 0xFA050700U, 10U, 11U, 30U, 20U));
+}
+
+TEST_F(Exceptions, ALevelSensitiveSourceComesAgainWhileItIsHigh) {
+  const std::uint32_t times = 3;
+  std::copy_n(reinterpret_cast<const std::uint8_t*>(&times), 4, processor.ram() + 0x100);
+  system.on_access = [this](const Access& access) {
+    if (access.value == 1 && system.notes.size() == 1)
+      processor.set_interrupt_level(0, true);
+    else if (system.notes.back() == 3)
+      processor.set_interrupt_level(0, false);
+  };
+  run("waiting");
+  EXPECT_THAT(system.notes, ElementsAre(1U, 1U, 2U, 3U, 2U));
+}
+
+TEST_F(Exceptions, AHigherOneThatArrivesDuringEntryGoesFirst) {
+  const std::uint32_t times = 1;
+  std::copy_n(reinterpret_cast<const std::uint8_t*>(&times), 4, processor.ram() + 0x100);
+  // Both have priority 0: of those pending when the entry ends, the lower number goes first.
+  system.interrupts = {{100, 1}, {115, 0}};
+  run("waiting");
+  EXPECT_THAT(system.notes, ElementsAre(1U, 1U, 11U, 2U)) << "entry of interrupt 1 from 108 to 120";
+}
+
+TEST_F(Exceptions, AnItBlockIsFinishedFirst) {
+  system.interrupts = {{10'000, 0}};
+  run("it_blocks");
+  EXPECT_THAT(system.notes, ElementsAre(2U, 10U, 3U, 20U, 10U));
+  EXPECT_EQ(r(4), 7U);
+  EXPECT_EQ(r(5), 0U);
+  EXPECT_EQ(r(6), 9U);
+  EXPECT_EQ(r(7), 1U);
+}
+
+TEST_F(Exceptions, SysTickComesToTheCycle) {
+  run("tick");
+  ASSERT_GE(system.note_cycles.size(), 3U);
+  EXPECT_EQ(system.note_cycles[1] - system.note_cycles[0], 100U);
+  EXPECT_EQ(system.note_cycles[2] - system.note_cycles[1], 100U);
+  EXPECT_EQ(r(4), 0x00010005U) << "COUNTFLAG";
+  EXPECT_EQ(r(5) - r(6), 1U);
+  EXPECT_EQ(r(8), 99U);
+}
+
+TEST_F(Exceptions, SleepEndsWithWhatMayWakeIt) {
+  system.interrupts = {{1000, 0}, {3000, 0}, {4000, 0}, {9000, 0}, {10'000, 1}};
+  run("sleep");
+  EXPECT_THAT(system.notes, ElementsAre(1U, 2U, 10U, 3U,   // PRIMASK keeps the handler out, not the waking
+                                        4U, 10U, 5U,       // SEV lets one WFE pass, not two
+                                        10U, 6U, 12U, 7U,  // WFI until an interrupt, until SysTick
+                                        10U, 11U, 8U));    // SLEEPONEXIT until the second handler clears it
+  EXPECT_GE(system.note_cycles[1], 1000U);
+  EXPECT_LT(system.note_cycles[1], 1010U);
+}
+
+TEST_F(Exceptions, ThreadsWithStacksOfTheirOwnTakeTurns) {
+  run("tasks");
+  EXPECT_THAT(system.notes,
+              ElementsAre(1U, 14U, 0xFFFFFFFDU, 11U, 3U,  // CONTROL: unprivileged, process stack, not to be changed
+                          14U, 0xFFFFFFFDU, 2U, 14U, 0xFFFFFFFDU, 12U, 14U, 0xFFFFFFFDU, 3U));
+}
+
+class Faults : public ProcessorBench {
+ protected:
+  enum Case : std::uint32_t {
+    kUndefined,
+    kBadLoad,
+    kBadStore,
+    kFlashStore,
+    kEvenBranch,
+    kFarBranch,
+    kDeviceBranch,
+    kBreakpoint,
+    kMaskedSvc,
+    kBadReturn,
+    kNoStack,
+    kCoprocessor,
+    kWrongPsp,
+    kRefused,
+  };
+  void choose(Case which, std::uint32_t shcsr = 0, std::uint32_t fault_again = 0) {
+    const std::uint32_t words[] = {which, shcsr, fault_again};
+    std::memcpy(processor.ram() + 0x100, words, sizeof words);
+    system.on_access = [this](const Access& access) {
+      if (access.address == 0x40005000) processor.bus_error();
+    };
+  }
+  Fault unhandled(Case which) {
+    choose(which);
+    try {
+      run("faults_unhandled");
+    } catch (const FaultError& error) {
+      EXPECT_EQ(faults.size(), 1U);
+      EXPECT_EQ(faults.at(0).text, error.what());
+      EXPECT_EQ(error.fault().outcome, FaultOutcome::kNoHandler);
+      EXPECT_EQ(error.fault().registers.pc, error.fault().pc);
+      return error.fault();
+    }
+    ADD_FAILURE() << "no fault";
+    return {};
+  }
+  static constexpr std::uint32_t kAll = 0x70000, kForced = 1U << 30;
+};
+
+TEST_F(Faults, WithoutHandlerEndTheRunWithKindAndPlace) {
+  EXPECT_EQ(unhandled(kUndefined).kind, FaultKind::kUndefinedInstruction);
+}
+
+TEST_F(Faults, LoadWhereNothingAnswers) {
+  const Fault fault = unhandled(kBadLoad);
+  EXPECT_EQ(fault.kind, FaultKind::kData);
+  EXPECT_EQ(fault.address, 0x20010004U);
+  EXPECT_EQ(fault.registers.r[2], 0x20010000U);
+  EXPECT_EQ(fault.registers.r[0], 0x11111111U);
+  EXPECT_THAT(fault.text, testing::HasSubstr("0x20010004"));
+  EXPECT_THAT(table(fault.registers), testing::HasSubstr("11111111"));
+}
+
+TEST_F(Faults, StoreWhereNothingAnswers) {
+  const Fault fault = unhandled(kBadStore);
+  EXPECT_EQ(fault.kind, FaultKind::kData);
+  EXPECT_EQ(fault.address, 0x30000000U);
+}
+
+TEST_F(Faults, StoreToFlash) {
+  const Fault fault = unhandled(kFlashStore);
+  EXPECT_EQ(fault.kind, FaultKind::kData);
+  EXPECT_EQ(fault.address, 0x08000010U);
+}
+
+TEST_F(Faults, BranchToAnEvenAddress) { EXPECT_EQ(unhandled(kEvenBranch).kind, FaultKind::kInvalidState); }
+
+TEST_F(Faults, BranchOutOfFlash) {
+  const Fault fault = unhandled(kFarBranch);
+  EXPECT_EQ(fault.kind, FaultKind::kFetch);
+  EXPECT_EQ(fault.pc, 0x08100000U);
+}
+
+TEST_F(Faults, BranchIntoAPeripheral) {
+  const Fault fault = unhandled(kDeviceBranch);
+  EXPECT_EQ(fault.kind, FaultKind::kFetch);
+  EXPECT_EQ(fault.pc, 0x40000100U);
+  EXPECT_TRUE(system.accesses.empty());
+}
+
+TEST_F(Faults, BreakpointInstruction) { EXPECT_EQ(unhandled(kBreakpoint).kind, FaultKind::kBreakpoint); }
+
+TEST_F(Faults, StackOutsideOfRam) {
+  const Fault fault = unhandled(kNoStack);
+  EXPECT_EQ(fault.kind, FaultKind::kStacking);
+  EXPECT_EQ(fault.address, 0x1FFFFFF0U);
+}
+
+TEST_F(Faults, AccessThatTheSystemRefuses) {
+  const Fault fault = unhandled(kRefused);
+  EXPECT_EQ(fault.kind, FaultKind::kData);
+  EXPECT_EQ(fault.address, 0x40005000U);
+  EXPECT_EQ(fault.registers.r[2], 0x40005000U);
+}
+
+TEST_F(Faults, ReturnToAnExceptionThatTheProcessorDoesNotHave) {
+  EXPECT_THROW(run("wrong_exception"), FaultError);
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults.back().kind, FaultKind::kExceptionReturn);
+  EXPECT_EQ(faults.back().address & 0x1FFU, 300U);
+}
+
+struct Handled {
+  std::uint32_t which, shcsr, handler, cfsr, hfsr;
+};
+class HandledFaults : public Faults, public testing::WithParamInterface<Handled> {};
+
+TEST_P(HandledFaults, ReachTheFirmwaresHandlerWithTheirStatusBits) {
+  const Handled& expected = GetParam();
+  choose(static_cast<Case>(expected.which), expected.shcsr);
+  run("faults_handled");
+  EXPECT_THAT(system.notes, ElementsAre(expected.handler, expected.cfsr, expected.hfsr));
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].outcome, FaultOutcome::kHandled);
+  EXPECT_EQ(faults[0].handler, expected.handler);
+}
+
+// Case, SHCSR, exception, CFSR, HFSR
+constexpr Handled kHandledFaults[] = {
+    {0, 0, 3, 0x00010000, 0x40000000}, {0, 0x70000, 6, 0x00010000, 0},  {1, 0, 3, 0x00008200, 0x40000000},
+    {1, 0x70000, 5, 0x00008200, 0},    {3, 0x70000, 5, 0x00008200, 0},  {4, 0x70000, 6, 0x00020000, 0},
+    {5, 0x70000, 5, 0x00000100, 0},    {6, 0x70000, 4, 0x00000001, 0},  {7, 0x70000, 3, 0, 0x80000000},
+    {8, 0x70000, 3, 0, 0x40000000},    {9, 0x70000, 6, 0x00040000, 0},  {11, 0x70000, 6, 0x00080000, 0},
+    {12, 0x70000, 5, 0x00000800, 0},   {13, 0x70000, 5, 0x00008200, 0},
+};
+INSTANTIATE_TEST_SUITE_P(All, HandledFaults, testing::ValuesIn(kHandledFaults));
+
+TEST_F(Faults, InsideOfHardFaultLockUp) {
+  choose(kBadLoad, 0, 1);
+  EXPECT_THROW(run("faults_handled"), FaultError);
+  ASSERT_EQ(faults.size(), 2U);
+  EXPECT_EQ(faults[0].outcome, FaultOutcome::kHandled);
+  EXPECT_EQ(faults[1].outcome, FaultOutcome::kLockup);
+  EXPECT_EQ(faults[1].kind, FaultKind::kUndefinedInstruction);
+}
+
+TEST_F(Faults, InsideOfAUsageFaultHandlerEscalate) {
+  choose(kUndefined, kAll, 1);
+  EXPECT_THROW(run("faults_handled"), FaultError);
+  ASSERT_EQ(faults.size(), 3U);
+  EXPECT_EQ(faults[1].handler, 3U);
+  EXPECT_EQ(faults[2].outcome, FaultOutcome::kLockup);
+}
+
+TEST_F(Faults, AHandlerMayStepOverTheInstruction) {
+  run("recovery");
+  EXPECT_EQ(r(6), 6U);
+  EXPECT_EQ(r(4), r(5));
+  EXPECT_EQ(r(7), r(4) - 36) << "a frame begins at a multiple of eight";
+}
+
+TEST_F(Faults, WithoutProgramTheRunEndsAtOnce) {
+  EXPECT_THROW(processor.run(), FaultError);
+  EXPECT_EQ(processor.instructions(), 0U);
+}
+
+}  // namespace
+}  // namespace dsdpv1::arm

@@ -1,0 +1,25 @@
+#!/usr/bin/env python3
+"""What docs/replay.md shows is what dsdpv1-sim prints.
+
+    docs_example.py SIM            fails when it is something else
+    docs_example.py SIM --write    writes it
+"""
+import pathlib
+import subprocess
+import sys
+
+import pcapng
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "docs"))
+from shown import ROOT, check
+
+
+def prepare(sim, folder):
+    subprocess.run([sim, "run", ROOT / "scenarios/diagnosis.yaml", "--quiet", "--no-progress", "--capture", "plant.pcapng"], cwd=folder, check=True)
+    head, packets = pcapng.read(folder / "plant.pcapng")
+    answers = [i for i, packet in enumerate(packets) if packet.data[0] == 0x68 and packet.data[4:6] == b"\x02\x05"]
+    del packets[answers[40]]
+    pcapng.write(folder / "silent.pcapng", head, packets)
+
+
+check("docs/replay.md", "replay", prepare)

@@ -1,0 +1,373 @@
+#!/usr/bin/env python3
+"""`dsdpv1-sim replay` on captures of runs, as they are and with planted differences.
+
+    replay_test.py SIM CASE
+"""
+import csv
+import json
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+import pcapng
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "capture"))
+from vcd_line import changes_of
+
+SIM = str(pathlib.Path(sys.argv[1]).resolve())
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+# The windows of the search are short, so that slow rates are found soon. The inputs change with nearly every exchange.
+SCENARIO = """
+name: Start-up and exchange
+baud: {baud}
+end: {end}us
+chip: {{search_window_ms: 1}}
+slaves:
+  - name: demo
+    address: 5
+    init: {{ident: 0x1234, max_inputs: 4, max_outputs: 4, cfg: "33"}}
+    user_cpu: {{behaviour: {behaviour}, cycle: {cycle}us}}
+masters:
+  - {{name: plc, address: 2, start: 100us, bus: {{min_slave_interval: {interval}}}, slaves: [{{slave: demo, outputs: "01 02 03 04"}}]}}
+"""
+DIAGNOSIS = """
+script:
+  - {{at: {half}us, do: set_diagnosis, slave: demo, type: external, bytes: "03 A5 5A"}}
+"""
+failures = []
+
+
+def expect(what, got, wanted):
+    if got != wanted:
+        failures.append(what)
+        print(f"{what}:\n  wanted {wanted}\n  got    {got}")
+
+
+def sim(folder, *arguments, status=0):
+    done = subprocess.run([SIM, *map(str, arguments)], cwd=folder, capture_output=True, text=True, check=False)
+    if status is not None and done.returncode != status:
+        sys.exit(f"dsdpv1-sim {arguments}: exit code {done.returncode} in the place of {status}\n{done.stdout}{done.stderr}")
+    return done
+
+
+def record(folder, baud="12M", behaviour="count", diagnosis=DIAGNOSIS, **outputs):
+    """Runs the scenario at the rate; its capture. The scenario stays as run.yaml."""
+    bit = 1e6 / pcapng.BITS[baud]
+    end = int(max(40000, 30000 * bit))
+    cycle = max(40, int(300 * bit))
+    text = (SCENARIO + diagnosis).format(baud=baud, end=end, cycle=cycle, interval=max(600, 2 * cycle), half=int(end * 0.7),
+                                         behaviour=behaviour)
+    (folder / "run.yaml").write_text(text, encoding="utf-8")
+    options = [word for name, value in outputs.items() for word in (f"--{name.replace('_', '-')}", value)]
+    sim(folder, "run", "run.yaml", "-q", "--no-progress", "--capture", "run.pcapng", *options)
+    return folder / "run.pcapng"
+
+
+def replayed(folder, capture, *options, status=0, slave=5):
+    """The result as JSON, with the text beside it."""
+    done = sim(folder, "replay", capture, "--as", slave, "--json", "replay.json", *options, status=status)
+    return json.loads((folder / "replay.json").read_text(encoding="utf-8")), done.stdout
+
+
+def is_equal(folder, what, capture, *options):
+    result, text = replayed(folder, capture, *options, status=None)
+    expect(f"{what}: equal", (result["equal"], result["first_difference"], result["unasked"]), (True, None, []))
+    expect(f"{what}: most is compared", result["compared"] > 15, True)
+    late = result["verdicts"]["the user CPU was not as quick"]
+    expect(f"{what}: the user CPU keeps up", late <= result["compared"] // 20, True)
+    expect(f"{what}: says so", text.endswith("\nEQUAL\n"), True)
+    return result
+
+
+# --- equal ------------------------------------------------------------------------------------------------------------
+def analyser_csv(changes, bits, inverted=False, jitter=0.12, seed=1):
+    """As a logic analyser exports it, each edge off by up to `jitter` of a bit."""
+    shaken, now = random.Random(seed), 0
+    rows = ["Time [s],D0,D1"]
+    for ps, level in changes:
+        now = max(now + 1e-12, ps / 1e12 + shaken.uniform(-jitter, jitter) / bits)
+        rows.append(f"{now:.12f},0,{level ^ inverted}")
+    return "\n".join(rows) + "\n"
+
+
+def every_rate(folder):
+    """The capture of a run, the wave of its line and a logic analyser's table of it, with jitter: all are equal, at each rate."""
+    for baud, bits in pcapng.BITS.items():
+        capture = record(folder, baud, wave="line.vcd", wave_signals="bus.line")
+        (folder / "line.csv").write_text(analyser_csv(changes_of(folder / "line.vcd"), bits, inverted=True), encoding="utf-8")
+        result = is_equal(folder, f"{baud}, telegrams", capture)
+        expect(f"{baud}: TSDR of the model", 10.9 <= result["tsdr_bits"]["model"]["min"] <= 11.3, True)
+        is_equal(folder, f"{baud}, wave", "line.vcd")
+        shaken = is_equal(folder, f"{baud}, analyser", "line.csv", "--signal", "D1", "--invert")
+        expect(f"{baud}: the jitter is in the recorded TSDR",
+               shaken["tsdr_bits"]["recorded"]["max"] - shaken["tsdr_bits"]["recorded"]["min"] > 0.05, True)
+
+
+def shipped_scenarios(folder):
+    """What a shipped scenario's slave did, the model does; where its user CPU decides, with that one."""
+    for name, slave, *options in (("power_on_12m", 5), ("diagnosis", 5), ("read_services", 5), ("sync_freeze", 11), ("sync_freeze", 12),
+                                  ("watchdog", 5), ("two_slaves", 3), ("two_slaves", 40), ("set_slave_address", 126),
+                                  ("min_tsdr_45k45", 5), ("dpv1_c2_two_masters", 5), ("baud_change", 5, "--baud", "12M"),
+                                  ("judging_modes", 7, "--scenario", ROOT / "scenarios/judging_modes.yaml"),
+                                  ("power_on_12m", 5, "--gsd", ROOT / "scenarios/dsdpv1.gsd"), ("diagnosis", 5, "--engine", "step")):
+        sim(folder, "run", ROOT / f"scenarios/{name}.yaml", "-q", "--no-progress", "--capture", "run.pcapng")
+        result, _ = replayed(folder, "run.pcapng", *options, slave=slave, status=None)
+        expect(f"{name} {slave} {options}", (result["equal"], result["compared"] > 0), (True, True))
+
+
+def coarse_times(folder):
+    """pcap knows no rate and may know microseconds only: less than the bus is exact to, and said."""
+    _, packets = pcapng.read(record(folder, "500k"))
+    pcapng.classic(folder / "ns.pcap", packets, 1)
+    pcapng.classic(folder / "us.pcap", packets, 1000)
+    is_equal(folder, "nanoseconds", "ns.pcap", "--baud", "500k")
+    result, text = replayed(folder, "us.pcap", "--baud", "500k")
+    expect("microseconds: unit", result["resolution_ns"], 1000)
+    expect("microseconds: said", "whole multiples of 1us, 0.5 bit times" in text, True)
+    missing = sim(folder, "replay", "us.pcap", "--as", "5", status=2)
+    expect("no rate", missing.stderr, "us.pcap: does not say its baud rate, name it with --baud, allowed are 12M to 9.6k\n")
+
+
+def logs(folder):
+    """A log with all bytes can be played; one that is cut, or has no rate, ends in one line."""
+    record(folder, "1.5M", log="run.jsonl")
+    is_equal(folder, "JSON lines", "run.jsonl", "--baud", "1.5M")
+    text = sim(folder, "run", "run.yaml", "-q", "--no-progress", "--log", "whole.log", "--log-whole")
+    expect("nothing is said", text.stdout, "")
+    is_equal(folder, "text", "whole.log", "--baud", "1.5M")
+    expect("no rate", sim(folder, "replay", "run.jsonl", "--as", "5", status=2).stderr,
+           "run.jsonl: is a log, which does not say its baud rate, name it with --baud\n")
+    (folder / "cut.log").write_text("   1.000 ns  bus  telegram  words  68 05 ... (49 bytes)\n", encoding="utf-8")
+    expect("cut", sim(folder, "replay", "cut.log", "--as", "5", "--baud", "1.5M", status=2).stderr,
+           "cut.log:1: has not all bytes, allowed is a log with all of them (--log-whole, .jsonl)\n")
+
+
+def reference_rtl(folder):
+    """The reference RTL in the model's place answers as it does."""
+    capture = record(folder, "1.5M")
+    is_equal(folder, "the reference RTL", capture, "--engine", "rtl")
+    refused = sim(folder, "replay", capture, "--as", "5", "--engine", "rtl", "--wave", "x.vcd", "--wave-inside", status=2)
+    expect("no inside", refused.stderr,
+           "dsdpv1-sim replay: --wave-inside is about the model, allowed with it is --engine step or skip\n")
+
+
+# --- different --------------------------------------------------------------------------------------------------------
+def is_exchange_answer(packet):
+    return packet.data[0] == 0x68 and packet.data[4:6] == b"\x02\x05"
+
+
+def answers(packets):
+    return [i for i, packet in enumerate(packets) if is_exchange_answer(packet)]
+
+
+def planted(folder, plant):
+    """The capture at 12 Mbit/s with something changed: plant(packets) gives the position of what is to be found."""
+    head, packets = pcapng.read(record(folder))
+    at = plant(packets)
+    pcapng.write(folder / "planted.pcapng", head, packets)
+    return at, packets
+
+
+def first(folder, *options):
+    result, text = replayed(folder, "planted.pcapng", *options, status=1)
+    expect("says so", text.endswith("\nDIFFERENT\n"), True)
+    return result["first_difference"], result, text
+
+
+def changed_byte(folder):
+    """A byte of an answer: which one, and what it means. The recorded inputs are given to the model, so that it is the scenario's user
+    CPU that has to have others."""
+    head, packets = pcapng.read(record(folder, behaviour='constant, constant: "11 22 33 44"', diagnosis=""))
+    result, _ = replayed(folder, "run.pcapng", "--scenario", "run.yaml")
+    expect("unchanged", (result["equal"], result["compared"] > 30), (True, True))
+    at = answers(packets)[30]
+    packets[at].change(9, 0x73)
+    pcapng.write(folder / "planted.pcapng", head, packets)
+    found, result, text = first(folder, "--scenario", "run.yaml")
+    expect("where", (found["telegram"], found["at_ns"]), (at, packets[at - 1].ns))
+    expect("what", found["why"], "byte 9: recorded 73 (input 2), model 33 (input 2)")
+    expect("how often", (result["verdicts"]["other bytes"], len(result["differences"])), (1, 1))
+    expect("in words", f"first difference  at {packets[at - 1].ns / 1000:.3f} us, telegram {at} of the capture: byte 9" in text, True)
+    expect("given, it is none", replayed(folder, "planted.pcapng")[0]["equal"], True)
+
+
+def missing_answer(folder):
+    """One that the recorded slave did not give."""
+    def plant(packets):
+        at = answers(packets)[30]
+        del packets[at]
+        return at
+
+    at, packets = planted(folder, plant)
+    found, result, _ = first(folder)
+    expect("where", (found["telegram"], found["at_ns"]), (at, packets[at - 1].ns))
+    expect("what", (found["verdict"], found["why"], found["recorded"]), ("unexpected", "only the model answers", None))
+    expect("how often", len(result["differences"]), 1)
+
+
+def answer_without_syn(folder):
+    """A request 20 bit times after the last activity: what the recorded slave answered all the same, the chip ignores (S3)."""
+    def plant(packets):
+        at = answers(packets)[30]
+        before = packets[at - 2]
+        moved = packets[at - 1].ns - (before.ns + round((len(before.data) * 11 + 20) * 1e9 / 12e6))
+        for packet in packets[at - 1:at + 1]:
+            packet.ns -= moved
+        return at
+
+    at, packets = planted(folder, plant)
+    found, _, _ = first(folder)
+    expect("where", (found["telegram"], found["at_ns"]), (at, packets[at - 1].ns))
+    expect("what", (found["verdict"], found["why"], found["model"]), ("missing", "the model does not answer", None))
+
+
+def shifted_answer(folder):
+    """By 3 bit times: within what TSDR may be, found with a tolerance. To 5: before min_TSDR, found without one."""
+    def shift(bits):
+        def plant(packets):
+            at = answers(packets)[30]
+            packets[at].ns += round(bits * 1e9 / 12e6)
+            return at
+        return plant
+
+    at, _ = planted(folder, shift(3))
+    result, _ = replayed(folder, "planted.pcapng")
+    expect("within", result["equal"], True)
+    found, _, _ = first(folder, "--tsdr-tolerance", "1")
+    expect("where", found["telegram"], at)
+    expect("what", (found["verdict"], found["why"]), ("other TSDR", found["why"]))
+    expect("numbers", bool(re.match(r"TSDR: recorded 14\.2\d bit times, model 11\.2\d, allowed are 1 apart", found["why"])), True)
+    at, _ = planted(folder, shift(-6))
+    found, _, _ = first(folder)
+    expect("early: where", found["telegram"], at)
+    expect("early: numbers",
+           bool(re.match(r"TSDR: recorded 5\.2\d bit times, model 11\.2\d, allowed are min_TSDR 11 to max_TSDR 800", found["why"])), True)
+
+
+def unlock(folder):
+    """A Set_Prm that unlocks the slave does not change its min_TSDR (S17): it goes on answering after 11 bit times. One with neither
+    Lock nor Unlock does (S28)."""
+    def at_end(packets, *telegrams):
+        """Behind the last packet, each 60 bit times after the one before, answers 11.2."""
+        now = packets[-1].ns + len(packets[-1].data) * 11e9 / 12e6
+        for telegram, pause in telegrams:
+            packet = pcapng.Packet(telegram.block()[8:-4])
+            packet.ns = round(now + pause * 1e9 / 12e6)
+            now = packet.ns + len(packet.data) * 11e9 / 12e6
+            packets.append(packet)
+
+    def first_to(packets, sap):
+        return next(i for i, packet in enumerate(packets) if packet.data[4:6] == b"\x85\x82" and packet.data[7] == sap)
+
+    for lock, verdicts in ((0x40, []), (0x00, ["other TSDR"])):
+        head, packets = pcapng.read(record(folder))
+        del packets[answers(packets)[-1] + 1:]
+        prm, diag = first_to(packets, 61), first_to(packets, 60)
+        request = pcapng.Packet(packets[prm].block()[8:-4])
+        request.change(9, lock)
+        request.change(9 + 3, 100)
+        # Unlocked it shows the diagnosis of before the start; with another min_TSDR only it goes on exchanging.
+        asked, answer = packets[diag:diag + 2] if lock else packets[-2:]
+        at_end(packets, (request, 60), (packets[prm + 1], 11.2 if lock else 100.2), (asked, 60), (answer, 11.2))
+        pcapng.write(folder / "planted.pcapng", head, packets)
+        result, _ = replayed(folder, "planted.pcapng", status=None)
+        expect(f"Set_Prm with {lock:02X}", [each["verdict"] for each in result["differences"]], verdicts)
+
+
+def other_ident(folder):
+    """A diagnosis with another ident number than the one that the slave was parameterised with."""
+    def plant(packets):
+        at = next(i for i, packet in enumerate(packets) if packet.data[0] == 0x68 and packet.data[4:6] == b"\x82\x85")
+        packets[at].change(9 + 5, 0x35)
+        return at
+
+    at, packets = planted(folder, plant)
+    found, _, _ = first(folder)
+    expect("where", (found["telegram"], found["at_ns"]), (at, packets[at - 1].ns))
+    expect("what", found["why"], "byte 14: recorded 35 (Ident_Number low: 0x35), model 34 (Ident_Number low: 0x34)")
+
+
+# --- what is not compared ---------------------------------------------------------------------------------------------
+def in_the_middle(folder):
+    """A capture that begins in data exchange: the lead-in brings the model into one. Without it, it is compared from the slave's next
+    start on, and where there is none, not at all."""
+    head, packets = pcapng.read(record(folder))
+    middle = packets[answers(packets)[5] - 1:]
+    pcapng.write(folder / "middle.pcapng", head, middle)
+    result, text = replayed(folder, "middle.pcapng")
+    expect("with the lead-in: equal", (result["equal"], result["parameterised_by_lead_in"]), (True, True))
+    expect("with the lead-in: all of it", result["verdicts"]["equal"] >= len(answers(middle)) - 1, True)
+    expect("with the lead-in: said", "with a Set_Prm and Chk_Cfg of its own" in text, True)
+    at = answers(middle)[20]
+    silent = middle[:at] + middle[at + 1:]
+    pcapng.write(folder / "planted.pcapng", head, silent)
+    expect("with the lead-in: a difference is found", first(folder)[0]["telegram"], at)
+    alone = sim(folder, "replay", "middle.pcapng", "--as", "5", "--no-lead-in", status=2)
+    expect("nothing to compare", alone.stderr,
+           "middle.pcapng: station 5 is in data exchange where it begins, and no Set_Prm and Chk_Cfg follow, so that nothing can be "
+           "compared without the lead-in, allowed is a capture with them\n")
+    later = max(packet.ns for packet in middle) + 60_000_000  # time to find the rate, 12M
+    again = [pcapng.Packet(packet.block()[8:-4]) for packet in packets]
+    for packet in again:
+        packet.ns += later - packets[0].ns
+    pcapng.write(folder / "both.pcapng", head, middle + again)
+    result, _ = replayed(folder, "both.pcapng", "--no-lead-in")
+    before = len(answers(middle))
+    expect("the first part is not", result["verdicts"]["before the slave is parameterised"] >= before, True)
+    expect("the second is", (result["equal"], result["compared"] > 30), (True, True))
+
+
+def without_lead_in(folder):
+    """The model then searches the rate in the capture: what it misses is counted, and nothing is called a difference."""
+    capture = record(folder, "500k")
+    result, text = replayed(folder, capture, "--no-lead-in", status=1)
+    expect("it searches from 12M down, 50 ms each, and the capture lasts 60", result["verdicts"]["before the model has the baud rate"] > 30, True)
+    expect("that is no difference", (result["differences"], result["compared"]), ([], 0))
+    expect("it is said", (result["lead_in_ns"] < 700_000, text.endswith("\nNOTHING COMPARED\n")), (True, True))
+    expect("with it, there is none", replayed(folder, capture)[0]["verdicts"]["before the model has the baud rate"], 0)
+
+
+def window(folder):
+    """Only differences in the window count."""
+    def plant(packets):
+        at = answers(packets)[30]
+        del packets[at]
+        return at
+
+    at, packets = planted(folder, plant)
+    us = packets[at - 1].ns / 1000
+    replayed(folder, "planted.pcapng", "--to", f"{us - 1:.0f}us", status=0)
+    replayed(folder, "planted.pcapng", "--from", f"{us + 50:.0f}us", status=0)
+    replayed(folder, "planted.pcapng", "--from", f"{us - 50:.0f}us", "--to", f"{us + 50:.0f}us", status=1)
+    nothing, text = replayed(folder, "planted.pcapng", "--from", "3000s", status=1)
+    expect("nothing is not equal", (nothing["compared"], text.endswith("\nNOTHING COMPARED\n")), (0, True))
+
+
+def outputs(folder):
+    """Table, log, wave with its save files, capture and result of a replay; the table has a row for each request, and the verdicts add up."""
+    capture = record(folder)
+    result, _ = replayed(folder, capture, "--table", "replay.tsv", "--log", "replay.log", "--wave", "replay.fst", "--wave-save", "--result", "result.json",
+                         "--capture", "replay.pcapng")
+    rows = list(csv.DictReader((folder / "replay.tsv").open(encoding="utf-8"), delimiter="\t"))
+    expect("rows", len(rows), sum(result["verdicts"].values()))
+    expect("equal rows", sum(row["verdict"] == "equal" for row in rows), result["verdicts"]["equal"])
+    expect("both answers", all(row["recorded"] == row["model"] for row in rows if row["verdict"] == "equal"), True)
+    # What the replay has on its line, replayed: the lead-in besides, which asks nobody.
+    is_equal(folder, "again", "replay.pcapng")
+    expect("written", sorted(path.name for path in folder.glob("re*")),
+           ["replay.fst", "replay.gtkw", "replay.json", "replay.log", "replay.pcapng", "replay.sucl", "replay.tsv", "result.json"])
+    clash = sim(folder, "replay", capture, "--as", "5", "--json", "run.pcapng", status=2)
+    expect("an output is no input", clash.stderr,
+           "dsdpv1-sim replay: --json would replace the capture, run.pcapng, allowed is a file of its own\n")
+
+
+CASES = {case.__name__: case for case in (every_rate, shipped_scenarios, coarse_times, logs, reference_rtl, changed_byte, missing_answer, answer_without_syn,
+                                          shifted_answer, unlock, other_ident, in_the_middle, without_lead_in, window, outputs)}
+
+with tempfile.TemporaryDirectory(prefix="dsdpv1_replay_") as folder_name:
+    CASES[sys.argv[2]](pathlib.Path(folder_name))
+print(f"{len(failures)} failures")
+sys.exit(1 if failures else 0)
