@@ -83,12 +83,12 @@ function(dsdpv1_install_headers component)
           PATTERN "*_internal.h" EXCLUDE PATTERN "capture" EXCLUDE PATTERN "systemc" EXCLUDE)
 endfunction()
 
-# dsdpv1_install_former_header(COMPONENT ROOT FORMER NOW): at the path FORMER, which it had before 0.2, a header that includes it. To go with 0.4.
+# dsdpv1_install_former_header(COMPONENT ROOT FORMER NOW): at the path FORMER, which it had before 0.2, a header that includes NOW. To go with 0.4.
 function(dsdpv1_install_former_header component root former now)
   cmake_path(GET former PARENT_PATH folder)
   file(RELATIVE_PATH way /${folder} /${now})
   set(file ${PROJECT_BINARY_DIR}/former/${former})
-  file(CONFIGURE OUTPUT ${file} CONTENT "/* Deprecated: include ${now}. */\n#include \"${way}\"\n")
+  file(CONFIGURE OUTPUT ${file} CONTENT "#pragma message(\"${former} is deprecated: include ${now}\")\n#include \"${way}\"\n")
   install(FILES ${file} DESTINATION ${root}/${folder} COMPONENT ${component})
 endfunction()
 
