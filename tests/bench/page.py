@@ -55,7 +55,7 @@ LIMITS = ("What bounds the others. The measured limit is what would remain of a 
 
 RUNS = """
 Runs of `dsdpv1-sim`, the modules in a platform and the model in Verilator, by the part that a function belongs to: the chip (`model/`), its SystemC module (`model/systemc/`), the
-driver, masters, monitor and line (`bus/`), the bench with user CPU, checks and waves (`tb/`), C API and DPI (`binding`), and what they call.
+driver, masters, monitor and line (`bus/`), the bench with user CPU, checks and waves (`io/`, `tb/`, `kinds/`), C API and DPI (`binding`), and what they call.
 
 """
 

@@ -62,11 +62,14 @@ class Rooms(unittest.TestCase):
                 file.write_text(text, encoding="utf-8")
                 self.assertEqual(len(list(rooms.faults(pathlib.Path(folder), pattern))), count, text)
 
-    def test_a_room_that_nobody_judges_is_a_fault(self):
+    def test_a_room_that_nobody_judges_or_clang_tidy_passes_over_is_a_fault(self):
         self.write("new/part", "// Right.")
         self.write("kinds/dsdpv1", "// Right.")
         (self.root / "docs").mkdir()
-        self.assertEqual([fault.split(":")[0] for fault in rooms.unknown_rooms(self.root)], ["new"])
+        for rooms_of_tidy, faults in (("kinds|new", 1), ("kinds", 2)):
+            (self.root / ".clang-tidy").write_text(f"HeaderFilterRegex: '/({rooms_of_tidy})/'\n", encoding="utf-8")
+            found = list(rooms.unknown_rooms(self.root))
+            self.assertEqual([sum(fault.startswith(f"{room}: ") for fault in found) for room in ("new", "docs")], [faults, 0])
 
     def test_a_file_that_may_name_a_chip_for_now_is_a_fault_when_it_names_none(self):
         name = next(iter(rooms.NAME_A_CHIP))
