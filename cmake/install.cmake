@@ -88,7 +88,11 @@ function(dsdpv1_install_former_header component root former now)
   cmake_path(GET former PARENT_PATH folder)
   file(RELATIVE_PATH way /${folder} /${now})
   set(file ${PROJECT_BINARY_DIR}/former/${former})
-  file(CONFIGURE OUTPUT ${file} CONTENT "#pragma message(\"${former} is deprecated: include ${now}\")\n#include \"${way}\"\n")
+  set(message "#pragma message(\"${former} is deprecated: include ${now}\")\n")
+  if(former MATCHES "\\.inc$")  # included in the middle of a declaration, where no pragma may stand
+    set(message)
+  endif()
+  file(CONFIGURE OUTPUT ${file} CONTENT "${message}#include \"${way}\"\n")
   install(FILES ${file} DESTINATION ${root}/${folder} COMPONENT ${component})
 endfunction()
 

@@ -15,6 +15,13 @@ if(DSDPV1_CCACHE)
   endforeach()
 endif()
 
+# Where it is there: it links in a tenth of the time that GNU's linker takes.
+find_program(DSDPV1_MOLD mold)
+mark_as_advanced(DSDPV1_MOLD)
+if(DSDPV1_MOLD)
+  add_link_options(-fuse-ld=mold)
+endif()
+
 # No program names the folder that it was built in: two builds in different folders are the same (./run reproducible).
 add_compile_options(-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)

@@ -12,6 +12,7 @@ import tempfile
 import time
 
 import hot_spots
+import instructions
 import page
 import parts
 import programs
@@ -25,11 +26,12 @@ EXAMPLES = """examples:
   ./run bench --json out/bench.json
   ./run bench --clock cpu           # others work on this machine
   ./run bench --wait 60             # or wait until they do not
+  ./run bench --instructions        # what no other work on the machine changes: host instructions, against the last record
   ./run bench --list
   ./run bench --document            # writes docs/performance.md
 
-The table is tab-separated: row, value, goal, met or not, min..max. Exit codes: 0 every measured row meets its goal, 1 one does not or cannot be
-measured, 2 wrong input.
+The table is tab-separated: row, value, goal, met or not, min..max; with --instructions row, instructions, of what, recorded, change. Exit codes: 0
+every measured row meets its goal, or takes at most 5 % more instructions than recorded; 1 one does not or cannot be measured; 2 wrong input.
 """
 PAGE = programs.ROOT / "docs" / "performance.md"
 MOST_ROUNDS, MOST_MINUTES = 1000, 10_000
@@ -41,12 +43,15 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"bench: {message}\n")
 
 
-def some_rows(text):
-    names = [name for name in text.split(",") if name]
-    unknown = [name for name in names if name not in rows.NAMES]
+def chosen_rows(text, known):
+    """Those that `text` names, all without it; a list of names that are none is the reason why there are none."""
+    if text is None:
+        return list(known)
+    names, allowed = [name for name in text.split(",") if name], [row.name for row in known]
+    unknown = [name for name in names if name not in allowed]
     if unknown or not names:
-        raise argparse.ArgumentTypeError(f"unknown row {unknown[0] if unknown else '(none)'}, allowed are {', '.join(rows.NAMES)}")
-    return [row for row in rows.ROWS if row.name in names]
+        raise ValueError(f"argument --only: unknown row {unknown[0] if unknown else '(none)'}, allowed are {', '.join(allowed)}")
+    return [row for row in known if row.name in names]
 
 
 def some_rounds(text):
@@ -74,20 +79,27 @@ def parse(words):
     parser = Parser(prog="./run bench", description="Measures how fast the project is, and judges it by its goals.", epilog=EXAMPLES,
                     formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
     parser.add_argument("--json", type=some_file, metavar="FILE", help="also writes the table, with every round's values, as JSON")
-    parser.add_argument("--only", type=some_rows, metavar="ROW[,ROW]", help="measures these rows only")
+    parser.add_argument("--only", metavar="ROW[,ROW]", help="measures these rows only")
     parser.add_argument("--rounds", type=some_rounds, default=5, metavar="N", help="rounds whose median is taken; default 5")
     parser.add_argument("--wait", type=some_minutes, default=0, metavar="MINUTES",
                         help="measures a row again when others used the processor before or after it, as long as these minutes are not over; all runs on "
                         "one processor then, or the next when that is busy; default 0")
     parser.add_argument("--clock", choices=("wall", "cpu"), default="wall",
                         help="which time of dsdpv1-sim counts: wall (default), or CPU time where others use the machine; start is always wall")
+    parser.add_argument("--instructions", action="store_true", help="counts host instructions instead, by valgrind: the same on a busy machine")
+    parser.add_argument("--record", action="store_true", help="with --instructions: keeps the counts, which later ones are held against")
     parser.add_argument("--list", action="store_true", help="prints the rows, their goals and what they do")
     parser.add_argument("--document", action="store_true", help="also writes docs/performance.md; all rows are measured")
     parser.add_argument("--targets", action="store_true", help=argparse.SUPPRESS)  # for ./run: what to build
     arguments = parser.parse_args(words)
     if arguments.document and (arguments.only or arguments.rounds < 5):
         parser.error("--document needs all rows and at least 5 rounds, so --only and fewer --rounds are not allowed with it")
-    arguments.rows = arguments.only or list(rows.ROWS)
+    if arguments.record and not arguments.instructions:
+        parser.error("--record needs --instructions")
+    try:
+        arguments.rows = chosen_rows(arguments.only, instructions.ROWS if arguments.instructions else rows.ROWS)
+    except ValueError as wrong:
+        parser.error(str(wrong))
     return arguments
 
 
@@ -207,9 +219,15 @@ def write_whole(path, text):
         raise
 
 
-def describe_rows(chosen):
-    for row in chosen:
-        print(f"{row.name}\t{table.goal(row)}\t{row.what}")
+def describe_rows(arguments):
+    for row in arguments.rows:
+        print(f"{row.name}\t{row.unit if arguments.instructions else table.goal(row)}\t{row.what}")
+
+
+def targets_of(arguments):
+    if arguments.instructions:
+        return instructions.TARGETS
+    return rows.targets_of(arguments.rows) + (["bench_profile"] if arguments.document else [])
 
 
 def run(arguments):
@@ -229,11 +247,13 @@ def run(arguments):
 def main(words):
     arguments = parse(words)
     if arguments.targets:
-        print("\n".join(rows.targets_of(arguments.rows) + (["bench_profile"] if arguments.document else [])))
+        print("\n".join(targets_of(arguments)))
         return 0
     if arguments.list:
-        describe_rows(arguments.rows)
+        describe_rows(arguments)
         return 0
+    if arguments.instructions:
+        return instructions.run(arguments.rows, arguments.record)
     try:
         return run(arguments)
     except programs.Failed as failure:  # of the calibration

@@ -12,7 +12,7 @@
 namespace dsdpv1::arm::test {
 namespace {
 
-constexpr time_t kPatienceSeconds = 20;
+constexpr time_t kPatienceSeconds = 300;
 
 }  // namespace
 

@@ -46,7 +46,7 @@ class GdbBench {
   std::thread thread_;
 };
 
-/// Speaks to the server; whatever does not come within 20 s is a failure of the test and gives an empty text.
+/// Speaks to the server; whatever does not come within 300 s is a failure of the test and gives an empty text.
 class RawGdb {
  public:
   explicit RawGdb(int port);

@@ -20,7 +20,7 @@ refuses() {
 }
 
 help=$("$run" --help) || fail "--help: exit $?"
-for command in demo test sim nightly rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal fuzz bench traces cosim build format lint generate conformance deps; do
+for command in demo test edit sim nightly rtl-random rtl-faults rtl-synth rtl-coverage rtl-formal fuzz bench traces cosim build format lint generate conformance deps; do
   grep -q "^  $command " <<<"$help" || fail "--help does not explain $command"
 done
 grep -q '^Examples:' <<<"$help" || fail "--help has no examples"
@@ -39,7 +39,8 @@ if git -C "$(dirname "$run")" rev-parse HEAD >/dev/null 2>&1; then
   [[ $version == *"($(git -C "$(dirname "$run")" describe --always --abbrev=9)"*")" ]] || fail "--version names no commit: $version"
 fi
 
-refuses "allowed are demo test sim" dmeo
+refuses "allowed are demo test edit sim" dmeo
+refuses "no file of the project" edit nowhere.cpp
 refuses "allowed is --quick" test --fast
 refuses "allowed is --quick" test --quick again
 refuses "allowed is default fast debug coverage fuzz" build release
@@ -50,6 +51,8 @@ refuses "allowed is none" nightly quickly
 refuses "allowed is none" rtl-coverage again
 refuses "unknown row fast, allowed are core_2" bench --only fast
 refuses "0 is no number of rounds" bench --rounds 0
+refuses "unknown row core_2, allowed are arm" bench --instructions --only core_2
+refuses "--record needs --instructions" bench --record
 refuses "unknown target gds, allowed are telegram" fuzz gds
 refuses "0 is no number of seconds" fuzz --seconds 0
 refuses "--reproduce needs one target" fuzz --reproduce "$run"

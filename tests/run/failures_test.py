@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""./run test ends with the names of the tests that did not pass and what they said, as made-up reports have it."""
+"""./run test ends with its longest tests, the names of those that did not pass and what they said, as made-up reports have it."""
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 from xml.sax.saxutils import escape
 
-FAILURES = Path(__file__).resolve().parents[2] / "cmake" / "failures.py"
+CMAKE = Path(__file__).resolve().parents[2] / "cmake"
 PASSED, FAILED, SKIPPED = '', '<failure message=""/>', '<skipped message="SKIP_RETURN_CODE=77"/>'
 
 
@@ -18,15 +18,15 @@ def case(name, result=FAILED, said=""):
     return f'<testcase name="{name}" time="2.5">{result}<system-out>{escape(said)}</system-out></testcase>'
 
 
-def told(**reports):
-    """What is printed of these presets."""
+def told(script="failures", **reports):
+    """What a script prints of these presets."""
     with tempfile.TemporaryDirectory(prefix="dsdpv1_failures_") as name:
         folders = [Path(name, preset) for preset in (*reports, "without_a_report")]
         for folder in folders:
             folder.mkdir()
         for folder, cases in zip(folders, reports.values()):
             folder.joinpath("tests.xml").write_text(f"<testsuite>{''.join(cases)}</testsuite>", encoding="utf-8")
-        return subprocess.run([sys.executable, FAILURES, *folders], capture_output=True, text=True, check=True).stdout
+        return subprocess.run([sys.executable, CMAKE / f"{script}.py", *folders], capture_output=True, text=True, check=True).stdout
 
 
 def expect(name, got, wanted):
@@ -60,3 +60,7 @@ many = told(default=[case(f"Many.{number}", said="said\n") for number in range(2
 expect("outputs of many", many.count("said"), 10)
 expect("names of many", [many.count(f"  Many.{number} ") for number in range(25)], [1] * 25)
 print("0 failures")
+
+expect("the longest of all presets", told("longest", default=[case("A.Short").replace("2.5", "0.1"), case("A.Long")], debug=[case("A.Longer").replace("2.5", "62")]),
+       "\nLongest tests:\n  62.0 s  debug  A.Longer\n   2.5 s  default  A.Long\n   0.1 s  default  A.Short\n\n")
+expect("25 of them", told("longest", default=[case(f"Many.{number}") for number in range(30)]).count("Many."), 25)

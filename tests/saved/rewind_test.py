@@ -88,7 +88,7 @@ class Rewinds:
         run.send_signal(with_signal)
         if run.wait() != status:
             self.fail(f"{with_signal.name}: exit {run.returncode}")
-        deadline = time.monotonic() + 20
+        deadline = time.monotonic() + 300
         while processes(run.pid) and time.monotonic() < deadline:
             time.sleep(0.01)
         if left := processes(run.pid):

@@ -30,7 +30,7 @@ class Folder(tempfile.TemporaryDirectory):
         super().__init__(prefix="dsdpv1_port_")
 
 
-def read_some(fd, count, patience=5.0):
+def read_some(fd, count, patience=DEADLINE):
     """Up to `count` bytes, fewer when they have not come within `patience` seconds."""
     os.set_blocking(fd, False)
     got, end = b"", time.monotonic() + patience

@@ -107,7 +107,7 @@ def go_on(sweep, lost):
             again.update(job for task in sweep.submission(number).get("tasks", []) for job in task)
         return owner.poll() is not None
 
-    wait_for(ended, "the end of the sweep", 120)
+    wait_for(ended, "the end of the sweep", 600)
     out, errors = owner.communicate()
     check(owner.returncode == 0, "exit %d: %s" % (owner.returncode, errors.decode()))
     check(again == lost, "submitted again: %s, lost: %s" % (again, lost))

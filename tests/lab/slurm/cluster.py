@@ -8,7 +8,7 @@ import sys
 import time
 
 REAPER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "reaper.py")
-DEADLINE = 60  # s, for what takes one
+DEADLINE = 300  # s, for what takes one
 CPUS = 40      # more than there are: most of a small task is waiting for Slurm
 
 CONF = """ClusterName=test

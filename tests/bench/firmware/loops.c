@@ -1,0 +1,31 @@
+/* Firmware that does one thing in an endless loop, for ./run bench --instructions. LOOP says which; each pass of a look
+ * is three instructions. */
+#include <stdint.h>
+
+#define REGISTER(address) (*(volatile uint32_t*)(address))
+
+__attribute__((used)) void run(void) {
+  REGISTER(0x40021018) = 0x1FD;    /* RCC_APB2ENR: the ports' clocks */
+  REGISTER(0x40021014) |= 1u << 8; /* RCC_AHBENR: the FSMC's */
+  REGISTER(0xA0000000) = 0x1011;   /* FSMC_BCR1: bank on, 8 bit, write enable */
+#if LOOP == GPIO                   /* L_REQ on PC8 until it falls, then until it rises */
+  for (;;) {
+    while (REGISTER(0x40011008) & 0x100) {
+    }
+    while (!(REGISTER(0x40011008) & 0x100)) {
+    }
+  }
+#elif LOOP == DPRAM /* a cell, without holding the DPRAM */
+  volatile uint8_t* dpram = (volatile uint8_t*)0x60000004;
+  while (*dpram != 0xA5) {
+  }
+#else               /* RAM */
+  volatile uint32_t n;
+  for (;;)
+    for (n = 0; n < 1000; n++) {
+    }
+#endif
+}
+
+__attribute__((section(".vectors"), used)) static const void* const vectors[16] = {(const void*)0x20010000,
+                                                                                   (const void*)run};

@@ -1,0 +1,68 @@
+"""What ./run edit makes of a changed file, on a made-up project: which tests it concerns, and which not."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "cmake"))
+
+import edit  # noqa: E402
+
+FILES = {
+    "bus/line.hpp": "",
+    "bus/line.cpp": '#include "bus/line.hpp"\n',
+    "bus/far.hpp": "",
+    "bus/far.cpp": '#include "bus/far.hpp"\n',
+    "bus/near.hpp": '#include "bus/far.hpp"\n',
+    "apps/serve_command.cpp": '#include "apps/serve_command.hpp"\n',
+    "apps/serve_command.hpp": "",
+    "apps/lonely.cpp": "",
+    "tests/bus/line_test.cpp": '#include "bus/line.hpp"\nTEST(Line, IsQuiet) {}\nTEST_P(Rates, All) {}\n',
+    "tests/bus/bench.hpp": '#include "bus/near.hpp"\n',
+    "tests/bus/near_test.cpp": '#include "tests/bus/bench.hpp"\nTEST_F(Near, Is) {}\n',
+    "tests/serve/port_test.cpp": "TEST(Port, Opens) {}\n",
+}
+LINE = {"Line.*", "*/Line.*", "Line/*.*", "Rates.*", "*/Rates.*", "Rates/*.*"}
+
+
+class Concerns(unittest.TestCase):
+    def setUp(self):
+        sources = edit.Sources(edit.collections.defaultdict(set), {})
+        for name, text in FILES.items():
+            sources.add(name, text)
+        programs = {name: {f"program_{pathlib.Path(name).stem}"} for name in FILES if name.startswith("tests/")}
+        self.concern = edit.Concern(sources, programs)
+
+    def of(self, file, **named):
+        added = self.concern.add(file, lambda each: set(named.get("ctest", ())))
+        return added, dict(self.concern.filters), self.concern.ctest
+
+    def test_a_source_of_tests_its_own_suites(self):
+        self.assertEqual(self.of("tests/bus/line_test.cpp"), (True, {"program_line_test": LINE}, set()))
+
+    def test_a_source_those_that_include_its_header(self):
+        self.assertEqual(self.of("bus/line.cpp"), (True, {"program_line_test": LINE}, set()))
+
+    def test_where_nobody_does_those_that_include_what_includes_it(self):
+        self.assertEqual(self.of("bus/far.cpp"), (True, {"program_near_test": {"Near.*", "*/Near.*", "Near/*.*"}}, set()))
+
+    def test_where_there_are_none_those_of_the_folder_of_its_name(self):
+        self.assertEqual(self.of("apps/serve_command.cpp"), (True, {"program_port_test": {"Port.*", "*/Port.*", "Port/*.*"}}, set()))
+
+    def test_what_concerns_nothing_is_said(self):
+        self.assertEqual(self.of("apps/lonely.cpp"), (False, {}, set()))
+        self.assertEqual(self.of("unknown.txt"), (False, {}, set()))
+
+    def test_a_script_the_tests_that_call_it(self):
+        self.assertEqual(self.of("tests/bus/run_test.py", ctest=["Bus.Runs"]), (True, {}, {"Bus.Runs"}))
+
+    def test_reference_rtl_its_lint(self):
+        self.assertEqual(self.of("rtl_ref/dsdpv1/dsdpv1.sv"), (True, {}, {"Rtl.LintFindsNothing"}))
+
+    def test_a_file_of_the_model_the_tests_of_its_rulings(self):
+        self.assertIn("UserReset", edit.ruled("model/dsdpv1/chip.cpp"))
+        self.assertEqual(edit.ruled("bus/line.cpp"), set())
+        self.assertEqual(edit.patterns("Services.InOrder"), {"Services.InOrder", "*/Services.InOrder*", "Services/*.InOrder"})
+
+
+if __name__ == "__main__":
+    unittest.main()
