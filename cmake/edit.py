@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Builds and runs just the tests that a changed file concerns: ./run edit.
 
-    edit.py [--list] [FILE...]
+    edit.py [--list] [--all] [FILE...]
 
-FILE: what has changed; without one, what git says has changed since the last commit. --list names the tests and runs none.
+FILE: what has changed; without one, what git says has changed since the last commit.
 
 Which tests a file concerns:
   a source of tests              its suites
@@ -15,19 +15,24 @@ Which tests a file concerns:
   a document                     links, names, rulings, rooms and arrows
   what a test of ctest names     that test
 
-All are built in the preset edit. What else a file may break, ./run test says. Exit codes: 0 all passed, 1 a test failed or does not compile,
+All are built in the preset edit. Of tests whose time is known from an earlier call, the shortest are run, up to 8 s in sum; --all runs them all. What
+else a file may break, ./run test says. Exit codes: 0 all passed, 1 a test failed or does not compile,
 2 wrong input, 3 the files concern no test.
 """
 import argparse
 import collections
 import concurrent.futures
 import dataclasses
+import fnmatch
+import itertools
 import json
+import math
 import os
 import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import time
 
 import yaml
@@ -39,6 +44,8 @@ HEADERS = (".hpp", ".h")
 NO_SOURCES = ("build", "out", "share")
 SUITE = re.compile(r"^(?:TEST|TEST_F|TEST_P|TYPED_TEST)\((\w+),", re.M)
 SECONDS = 600  # of a program: for what hangs
+BUDGET = 8  # s of tests in sum
+TIMES = BUILD / "edit_times.json"  # program to its tests to s, of earlier calls
 
 
 @dataclasses.dataclass
@@ -170,18 +177,38 @@ def build(targets, jobs):
     return subprocess.run(["cmake", "--build", BUILD, "-j", str(jobs), "--target", *sorted(targets), "--", "--quiet"], stdout=sys.stderr, check=False).returncode
 
 
-def run_shard(program, filters, shard, shards):
-    """Passed and failed tests, and what the program said when any failed."""
-    environment = {**os.environ, "GTEST_TOTAL_SHARDS": str(shards), "GTEST_SHARD_INDEX": str(shard), "GTEST_BRIEF": "1"}
-    try:
-        done = subprocess.run([BUILD / program, "--gtest_filter=" + ":".join(sorted(filters))], env=environment, cwd=(BUILD / program).parent,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=SECONDS, check=False)
-    except subprocess.TimeoutExpired:
-        return 0, 1, f"{program}: not at its end after {SECONDS} s\n"
-    passed = re.findall(r"^\[  PASSED  \] (\d+) test", done.stdout, re.M)
-    failed = re.findall(r"^\[  FAILED  \] (\d+) test", done.stdout, re.M)
-    bad = sum(map(int, failed)) or (done.returncode != 0)
-    return sum(map(int, passed)), bad, done.stdout if bad else ""
+def known_times():
+    return json.loads(TIMES.read_text(encoding="utf-8")) if TIMES.exists() else {}
+
+
+def too_long(filters, times, budget):
+    """Of the tests that the filters choose, those beyond the shortest that fit the budget: program to names; and their s in sum."""
+    known = sorted((seconds, program, name) for program, chosen in filters.items() for name, seconds in times.get(program, {}).items()
+                   if any(fnmatch.fnmatchcase(name, each) for each in chosen))
+    sums = itertools.accumulate(seconds for seconds, _, _ in known)
+    left = [each for each, total in zip(known, sums) if total > budget]
+    names = collections.defaultdict(set)
+    for _, program, name in left:
+        names[program].add(name)
+    return names, sum(seconds for seconds, _, _ in left)
+
+
+def run_shard(program, chosen, shard, shards):
+    """Passed and failed tests, what the program said when any failed, and the time of each."""
+    with tempfile.TemporaryDirectory(prefix="edit-") as folder:
+        report = pathlib.Path(folder, "tests.json")
+        environment = {**os.environ, "GTEST_TOTAL_SHARDS": str(shards), "GTEST_SHARD_INDEX": str(shard), "GTEST_BRIEF": "1"}
+        command = [BUILD / program, f"--gtest_filter={chosen}", f"--gtest_output=json:{report}"]
+        try:
+            done = subprocess.run(command, env=environment, cwd=(BUILD / program).parent, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                  errors="replace", timeout=SECONDS, check=False)
+        except subprocess.TimeoutExpired:
+            return 0, 1, f"{program}: not at its end after {SECONDS} s\n", {}
+        told = json.loads(report.read_text(encoding="utf-8")) if report.exists() else {"testsuites": []}
+    tests = [test for suite in told["testsuites"] for test in suite["testsuite"] if test["result"] == "COMPLETED"]
+    failed = sum("failures" in test for test in tests) or (done.returncode != 0)
+    times = {f"{test['classname']}.{test['name']}": float(test["time"].rstrip("s")) for test in tests}
+    return len(tests) - min(failed, len(tests)), failed, done.stdout if failed else "", times
 
 
 def run_ctest(names, jobs):
@@ -193,20 +220,30 @@ def run_ctest(names, jobs):
     return total - bad, bad, done.stdout if bad else ""
 
 
-def run(concern, jobs):
+def run(concern, left_out, times, jobs):
+    """Passed and failed tests; what was said is printed, and the times are kept."""
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        runs = [pool.submit(run_shard, program, filters, shard, jobs) for program, filters in sorted(concern.filters.items()) for shard in range(jobs)]
-        results = [each.result() for each in runs]
+        runs = {}
+        for program, filters in sorted(concern.filters.items()):
+            chosen = ":".join(sorted(filters)) + "-" + ":".join(sorted(left_out.get(program, ())))
+            runs[program] = [pool.submit(run_shard, program, chosen, shard, jobs) for shard in range(jobs)]
+        results = {program: [each.result() for each in shards] for program, shards in runs.items()}
+    for program, shards in results.items():
+        for *_, seconds in shards:
+            times.setdefault(program, {}).update(seconds)
+    TIMES.write_text(json.dumps(times), encoding="utf-8")
+    told = [shard[:3] for shards in results.values() for shard in shards]
     if concern.ctest:
-        results.append(run_ctest(concern.ctest, jobs))
-    print("".join(text for _, _, text in results), end="")
-    return sum(passed for passed, _, _ in results), sum(bad for _, bad, _ in results)
+        told.append(run_ctest(concern.ctest, jobs))
+    print("".join(text for _, _, text in told), end="")
+    return sum(passed for passed, _, _ in told), sum(failed for _, failed, _ in told)
 
 
 def parsed(arguments):
     parser = argparse.ArgumentParser(prog="./run edit", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="*", metavar="FILE")
-    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--list", action="store_true", help="names what would be run")
+    parser.add_argument("--all", action="store_true", help="also the tests that take long")
     parser.add_argument("--check", action="store_true", help=argparse.SUPPRESS)  # for ./run: the arguments only
     parser.add_argument("-j", type=int, default=os.cpu_count() or 2, dest="jobs", help=argparse.SUPPRESS)
     return parser.parse_args(arguments)
@@ -239,8 +276,11 @@ def main():
         return 0
     if build(set(concern.filters) | set().union(*(needs[name] for name in concern.ctest), set()), arguments.jobs):
         return 1
-    passed, failed = run(concern, arguments.jobs)
-    print(f"{passed} passed, {failed} failed in {time.monotonic() - begin:.1f} s; the rest of the tests: ./run test")
+    times = known_times()
+    left_out, seconds = too_long(concern.filters, times, math.inf if arguments.all else BUDGET)
+    passed, failed = run(concern, left_out, times, arguments.jobs)
+    longer = f"; {sum(map(len, left_out.values()))} more, which take {seconds:.0f} s: --all" if left_out else ""
+    print(f"{passed} passed, {failed} failed in {time.monotonic() - begin:.1f} s{longer}; all others: ./run test")
     return 1 if failed or not passed else 0
 
 

@@ -64,5 +64,15 @@ class Concerns(unittest.TestCase):
         self.assertEqual(edit.patterns("Services.InOrder"), {"Services.InOrder", "*/Services.InOrder*", "Services/*.InOrder"})
 
 
+class Times(unittest.TestCase):
+    TIMES = {"one": {"A.Short": 1, "A.Long": 6, "B.Other": 0.5}, "two": {"All/A.Rate/3": 2}}
+
+    def test_the_shortest_of_those_that_concern_fit(self):
+        filters = {"one": {"A.*"}, "two": {"*/A.*"}, "three": {"A.*"}}
+        self.assertEqual(edit.too_long(filters, self.TIMES, 3), ({"one": {"A.Long"}}, 6))
+        self.assertEqual(edit.too_long(filters, self.TIMES, 2), ({"one": {"A.Long"}, "two": {"All/A.Rate/3"}}, 8))
+        self.assertEqual(edit.too_long(filters, self.TIMES, edit.math.inf), ({}, 0))
+
+
 if __name__ == "__main__":
     unittest.main()
