@@ -44,6 +44,7 @@ HEADERS = (".hpp", ".h")
 NO_SOURCES = ("build", "out", "share")
 SUITE = re.compile(r"^(?:TEST|TEST_F|TEST_P|TYPED_TEST)\((\w+),", re.M)
 SECONDS = 600  # of a program: for what hangs
+CALLS_SIM = "tests/app/program.hpp"  # what a test includes that calls the built dsdpv1-sim
 BUDGET = 8  # s of tests in sum
 TIMES = BUILD / "edit_times.json"  # program to its tests to s, of earlier calls
 
@@ -85,6 +86,15 @@ class Sources:
             level = {self.header_of(each) for each in reached} - seen
         return set()
 
+    def reaching(self, header):
+        """All that include a header, directly or through others."""
+        found, open_names = set(), [header]
+        while open_names:
+            new = self.includers[open_names.pop()] - found
+            found |= new
+            open_names += new
+        return found
+
     def tests_of_words(self, name):
         """Sources of the folders of tests whose name begins as a word of the file's does."""
         words = re.split(r"[/_.]", name)
@@ -110,7 +120,8 @@ class Concern:
 
     def __init__(self, sources, programs):
         self._sources, self._programs = sources, programs
-        self.filters, self.ctest = collections.defaultdict(set), set()
+        self.filters, self.ctest, self.targets = collections.defaultdict(set), set(), set()
+        self._callers = sources.reaching(CALLS_SIM)
 
     def add(self, file, named):
         """Whether the file concerns any test; `named`: tests of ctest by the files on their command lines."""
@@ -138,6 +149,7 @@ class Concern:
     def _add_tests(self, source, filters):
         for program in self._programs.get(source, ()) if filters else ():
             self.filters[program] |= filters
+            self.targets |= {program, "dsdpv1-sim"} if source in self._callers else {program}
 
 
 def programs_of_tests():
@@ -274,7 +286,7 @@ def main():
     if arguments.list:
         print("".join(f"{program} {':'.join(sorted(filters))}\n" for program, filters in sorted(concern.filters.items())) + "".join(f"{name}\n" for name in sorted(concern.ctest)), end="")
         return 0
-    if build(set(concern.filters) | set().union(*(needs[name] for name in concern.ctest), set()), arguments.jobs):
+    if build(concern.targets.union(*(needs[name] for name in concern.ctest)), arguments.jobs):
         return 1
     times = known_times()
     left_out, seconds = too_long(concern.filters, times, math.inf if arguments.all else BUDGET)
