@@ -8,8 +8,9 @@ FILE: what has changed; without one, what git says has changed since the last co
 Which tests a file concerns:
   a source of tests              its suites
   a file that rulings are in     the tests that docs/conformance/rulings.yaml names for it
-  any other C or C++ file        the suites of the sources of tests that include it, or its header; where there are none, of those that
-                                 include what includes it; else those of the folder of tests whose name is a word of the file's
+  any other C or C++ file        the suites of the sources of tests that include it, or its header, in the folder of its room where such are
+                                 there; where none do, of those that include what includes it; else those of the folder of tests whose
+                                 name is a word of the file's
   a scenario                     its runs in step, skip and TLM
   the reference RTL              its lint
   a document                     links, names, rulings, rooms and arrows
@@ -75,14 +76,15 @@ class Sources:
         return next((stem + ending for ending in HEADERS if stem + ending in self.suites), name)
 
     def nearest_tests(self, name):
-        """Sources with suites that include the file: directly, else through the fewest others."""
+        """Sources with suites that include the file: directly, else through the fewest others; in the folder of its room, where such are there."""
         level, seen = {self.header_of(name)}, set()
         while level:
             seen |= level
             reached = set().union(*(self.includers[each] for each in level))
             tests = {each for each in reached if self.suites[each]}
             if tests:
-                return tests
+                rooms = set(name.split("/")[:-1])
+                return {each for each in tests if rooms & set(each.split("/")[1:-1])} or tests
             level = {self.header_of(each) for each in reached} - seen
         return set()
 

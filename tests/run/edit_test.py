@@ -19,6 +19,9 @@ FILES = {
     "tests/bus/line_test.cpp": '#include "bus/line.hpp"\nTEST(Line, IsQuiet) {}\nTEST_P(Rates, All) {}\n',
     "tests/bus/bench.hpp": '#include "bus/near.hpp"\n',
     "tests/bus/near_test.cpp": '#include "tests/bus/bench.hpp"\nTEST_F(Near, Is) {}\n',
+    "io/names.hpp": "",
+    "tests/io/names_test.cpp": '#include "io/names.hpp"\nTEST(Names, AreNames) {}\n',
+    "tests/serve/names_test.cpp": '#include "io/names.hpp"\nTEST(Far, Away) {}\n',
     "tests/serve/port_test.cpp": "TEST(Port, Opens) {}\n",
 }
 LINE = {"Line.*", "*/Line.*", "Line/*.*", "Rates.*", "*/Rates.*", "Rates/*.*"}
@@ -42,11 +45,14 @@ class Concerns(unittest.TestCase):
     def test_a_source_those_that_include_its_header(self):
         self.assertEqual(self.of("bus/line.cpp"), (True, {"program_line_test": LINE}, set()))
 
+    def test_of_those_the_ones_in_the_folder_of_its_room(self):
+        self.assertEqual(self.of("io/names.hpp"), (True, {"program_names_test": {"Names.*", "*/Names.*", "Names/*.*"}}, set()))
+
     def test_where_nobody_does_those_that_include_what_includes_it(self):
         self.assertEqual(self.of("bus/far.cpp"), (True, {"program_near_test": {"Near.*", "*/Near.*", "Near/*.*"}}, set()))
 
     def test_where_there_are_none_those_of_the_folder_of_its_name(self):
-        self.assertEqual(self.of("apps/serve_command.cpp"), (True, {"program_port_test": {"Port.*", "*/Port.*", "Port/*.*"}}, set()))
+        self.assertEqual(self.of("apps/serve_command.cpp"), (True, {"program_port_test": {"Port.*", "*/Port.*", "Port/*.*"}, "program_names_test": {"Far.*", "*/Far.*", "Far/*.*"}}, set()))
 
     def test_what_concerns_nothing_is_said(self):
         self.assertEqual(self.of("apps/lonely.cpp"), (False, {}, set()))
