@@ -19,9 +19,9 @@ endfunction()
 function(dsdpv1_precompiled_libraries)
   file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cpp "")
   add_library(dsdpv1_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
-  target_precompile_headers(dsdpv1_precompiled PRIVATE <fmt/format.h> <nlohmann/json.hpp> <algorithm> <array> <deque> <filesystem> <fstream> <functional>
+  target_precompile_headers(dsdpv1_precompiled PRIVATE <fmt/format.h> <nlohmann/json.hpp> <yaml-cpp/yaml.h> <algorithm> <array> <deque> <filesystem> <fstream> <functional>
                             <map> <memory> <optional> <set> <sstream> <string> <string_view> <tuple> <utility> <variant> <vector>)
-  target_link_libraries(dsdpv1_precompiled PRIVATE fmt::fmt nlohmann_json::nlohmann_json dsdpv1_warnings)
+  target_link_libraries(dsdpv1_precompiled PRIVATE fmt::fmt nlohmann_json::nlohmann_json yaml-cpp dsdpv1_warnings)
   foreach(room ${ARGN})
     dsdpv1_precompile_below(${PROJECT_SOURCE_DIR}/${room})
   endforeach()
