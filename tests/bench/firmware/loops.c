@@ -12,6 +12,7 @@ __attribute__((used)) void run(void) {
   for (;;) {
     while (REGISTER(0x40011008) & 0x100) {
     }
+    __asm__ volatile("nop"); /* else both loops would be one that does not test what it has read */
     while (!(REGISTER(0x40011008) & 0x100)) {
     }
   }
