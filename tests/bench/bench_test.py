@@ -12,6 +12,7 @@ from unittest import mock
 
 import bench
 import hot_spots
+import instructions
 import page
 import parts
 import programs
@@ -67,6 +68,38 @@ class Judging(unittest.TestCase):
         self.assertFalse(table.is_busy([100, 110]))
         self.assertTrue(table.is_busy([100, 111]))
         self.assertIn("the machine was busy", table.calibration_line(state(100, 120)))
+
+
+class Counting(unittest.TestCase):
+    """Instructions of made-up runs."""
+
+    def row(self, **others):
+        return instructions.Row("demo", "simulated ms", "What it does.", "power_on_12m", (20, 30), **others)
+
+    def value(self, row, short, long):
+        counts = {20: (short, {"simulated_ns": 20e6}), 30: (long, {"simulated_ns": 30e6})}
+        with mock.patch.object(instructions, "counted", lambda _, length: counts[length]):
+            return instructions.value_of(row)
+
+    def test_what_starts_a_run_is_out_of_it(self):
+        self.assertEqual(self.value(self.row(), 1200, 1700), 50)
+        self.assertEqual(self.value(self.row(start=True), 1200, 1700), 200)
+
+    def test_a_row_fails_from_a_twentieth_more_than_recorded_on(self):
+        row = self.row()
+        for value, before, change, right in ((105, 100, "+5.0 %", True), (106, 100, "grown", False), (50, 100, "-50.0 %", True), (50, None, "not recorded", False),
+                                             ("no valgrind", 100, "no valgrind", False)):
+            cells, met = instructions.judged(row, value, before)
+            self.assertEqual((cells[-1], met), (change, right))
+
+    def test_a_record_keeps_the_other_rows(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(instructions, "RECORD", pathlib.Path(folder, "record.tsv")):
+            instructions.record({"demo": 1, "arm": 2})
+            instructions.record({"demo": 3})
+            self.assertEqual(instructions.recorded(), {"arm": 2, "demo": 3})
+
+    def test_every_row_is_recorded(self):
+        self.assertEqual(set(instructions.recorded()), set(instructions.NAMES))
 
 
 class Measuring(unittest.TestCase):
