@@ -97,9 +97,9 @@ class Sources:
             open_names += new
         return found
 
-    def tests_of_words(self, name):
-        """Sources of the folders of tests whose name begins as a word of the file's does."""
-        words = re.split(r"[/_.]", name)
+    def tests_of_words(self, text):
+        """Sources of the folders of tests whose name begins as a word of a name does."""
+        words = re.split(r"[/_.]", text)
         return {each for each, suites in self.suites.items() if suites and
                 any(folder.startswith(word) or word.startswith(folder) for folder in each.split("/")[1:-1] for word in words if len(word) > 2)}
 
@@ -127,36 +127,33 @@ class Concern:
 
     def add(self, file, named):
         """Whether the file concerns any test; `named`: tests of ctest by the files on their command lines."""
-        before = sum(map(len, self.filters.values())) + len(self.ctest)
-        self.ctest |= named(file)
-        if file in self._sources.suites:
-            self._add_source(file)
-        elif re.fullmatch(r"scenarios/\w+\.yaml", file):
-            self._add_tests("tests/app/scenarios_test.cpp", {f"*/{pathlib.Path(file).stem}"})
-        elif file.startswith("rtl_ref/"):
-            self.ctest.add("Rtl.LintFindsNothing")
-        return sum(map(len, self.filters.values())) + len(self.ctest) > before
+        tests = named(file) | ({"Rtl.LintFindsNothing"} if file.startswith("rtl_ref/") else set())
+        self.ctest |= tests
+        suites = self._suites_of(file)
+        for source, filters in suites.items():
+            for program in self._programs.get(source, ()):
+                self.filters[program] |= filters
+                self.targets |= {program, "dsdpv1-sim"} if source in self._callers else {program}
+        return bool(tests or suites)
 
-    def _add_source(self, file):
+    def _suites_of(self, file):
+        """Sources of tests and the filters of what the file concerns in them."""
         suites = self._sources.suites
-        tests = {file} if suites[file] else set()
-        names = set() if tests else ruled(file)
-        if names:
-            for source, theirs in suites.items():
-                self._add_tests(source, {pattern for name in names if name.split(".")[0] in theirs for pattern in patterns(name)})
-            return
-        for source in tests or self._sources.nearest_tests(file) or self._sources.tests_of_words(file):
-            self._add_tests(source, {pattern for suite in suites[source] for pattern in patterns(suite)})
-
-    def _add_tests(self, source, filters):
-        for program in self._programs.get(source, ()) if filters else ():
-            self.filters[program] |= filters
-            self.targets |= {program, "dsdpv1-sim"} if source in self._callers else {program}
+        if re.fullmatch(r"scenarios/\w+\.yaml", file):
+            return {"tests/app/scenarios_test.cpp": {f"*/{pathlib.Path(file).stem}"}}
+        if file not in suites:
+            return {}
+        if names := set() if suites[file] else ruled(file):
+            chosen = {source: {pattern for name in names if name.split(".")[0] in theirs for pattern in patterns(name)} for source, theirs in suites.items()}
+            return {source: filters for source, filters in chosen.items() if filters}
+        folder, _, stem = file.rpartition("/")
+        near = {file} if suites[file] else self._sources.nearest_tests(file)
+        return {source: {pattern for suite in suites[source] for pattern in patterns(suite)}
+                for source in near or self._sources.tests_of_words(stem) or self._sources.tests_of_words(folder)}
 
 
-def programs_of_tests():
+def programs_of_tests(ninja):
     """Source to the programs that it is compiled into."""
-    ninja = (BUILD / "build.ninja").read_text(encoding="utf-8")
     built = set(re.findall(r"^build (\S+): CXX_EXECUTABLE_LINKER__", ninja, re.M))
     found = collections.defaultdict(set)
     for entry in json.loads((BUILD / "compile_commands.json").read_text(encoding="utf-8")):
@@ -167,15 +164,17 @@ def programs_of_tests():
     return found
 
 
-def tests_by_file():
-    """A function: file to the tests of ctest that have it on their command line, documents to those that need nothing built. And what a test needs."""
+def tests_by_file(ninja):
+    """A function: file to the tests of ctest that have it on their command line, documents to those that need nothing built. And what of the build a test
+    has on it."""
+    outputs = set(re.findall(r"^build (\S+): ", ninja, re.M))
     told = subprocess.run(["ctest", "--test-dir", BUILD, "--show-only=json-v1"], capture_output=True, text=True, check=True).stdout
     commands = {test["name"]: test.get("command", []) for test in json.loads(told)["tests"] if "--gtest_brief=1" not in test.get("command", [])}
-    needs = {name: {os.path.relpath(word, BUILD) for word in command if word.startswith(f"{BUILD}/")} for name, command in commands.items()}
+    needs = {name: {os.path.relpath(word, BUILD) for word in command} & outputs for name, command in commands.items()}
 
     def named(file):
         found = {name for name, command in commands.items() if str(ROOT / file) in command}
-        if file.endswith(".md") or file.startswith(("docs/", "tests/docs/")) or file in needs:
+        if file.endswith(".md") or file.startswith(("docs/", "tests/docs/")):
             found |= {name for name in commands if name.startswith("Docs.") and not needs[name]}
         return found
     return named, needs
@@ -277,8 +276,9 @@ def main():
     files = sorted(files_of(arguments.files)) if arguments.files else changed_files()
     if arguments.check:
         return 0
-    named, needs = tests_by_file()
-    concern = Concern(Sources.read(ROOT), programs_of_tests())
+    ninja = (BUILD / "build.ninja").read_text(encoding="utf-8")
+    named, needs = tests_by_file(ninja)
+    concern = Concern(Sources.read(ROOT), programs_of_tests(ninja))
     for file in files:
         if not concern.add(file, named):
             print(f"edit: {file} concerns no test by what includes or names it", file=sys.stderr)
@@ -288,7 +288,8 @@ def main():
     if arguments.list:
         print("".join(f"{program} {':'.join(sorted(filters))}\n" for program, filters in sorted(concern.filters.items())) + "".join(f"{name}\n" for name in sorted(concern.ctest)), end="")
         return 0
-    if build(concern.targets.union(*(needs[name] for name in concern.ctest)), arguments.jobs):
+    targets = concern.targets.union(*(needs[name] for name in concern.ctest))
+    if targets and build(targets, arguments.jobs):
         return 1
     times = known_times()
     left_out, seconds = too_long(concern.filters, times, math.inf if arguments.all else BUDGET)
