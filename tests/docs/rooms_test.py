@@ -72,7 +72,7 @@ class Rooms(unittest.TestCase):
             self.assertEqual([sum(fault.startswith(f"{room}: ") for fault in found) for room in ("new", "docs")], [faults, 0])
 
     def test_a_file_that_may_name_a_chip_for_now_is_a_fault_when_it_names_none(self):
-        name = next(iter(rooms.NAME_A_CHIP))
+        name = next(iter(rooms.named_for_now()))
         self.write(pathlib.Path(name).parent, "// Right.")
         for text, count in (("dsdpv1::Chip chip;", 0), ("// Right.", 1)):
             (self.root / name).write_text(text, encoding="utf-8")
