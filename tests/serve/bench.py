@@ -20,6 +20,7 @@ DEADLINE = 300  # seconds for one wait; far more than a busy machine needs
 LATE_MS = 25    # half of pyprofibus's shortest time limit that matters: 50 ms for an answer
 ATTEMPTS = 5
 PAUSE_S = 5   # before the second one, twice as long before the third, ...: a machine is busy for a while
+LATE_S = []   # how long a host that was to talk did not come to do so
 
 
 class Failure(Exception):
@@ -29,6 +30,21 @@ class Failure(Exception):
 def check(holds, text):
     if not holds:
         raise Failure(text)
+
+
+def talks(since, within_s):
+    """A host that had to talk within `within_s` of `since` does so now. The moment; when it is late, the machine is to blame (`was_late`)."""
+    now = time.monotonic()
+    if now - since > within_s:
+        LATE_S.append(now - since)
+    return now
+
+
+def was_late():
+    """Whether a host was, since this was asked last."""
+    late = bool(LATE_S)
+    LATE_S.clear()
+    return late
 
 
 def exit_code(case, was_busy, pause_s=PAUSE_S):

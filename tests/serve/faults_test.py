@@ -10,10 +10,11 @@ import signal
 import socket
 import struct
 import sys
+import threading
 import time
 
-from bench import DEADLINE, LATE_MS, ROOT, Failure, Serve, check, exit_code
-from flood import PAYLOADS, connect, floods, port_options, push, rss_kb, simulated_s, tcp_number
+from bench import DEADLINE, LATE_MS, ROOT, Serve, check, exit_code, talks, was_late
+from flood import PAYLOADS, connect, floods, keep_pushing, port_options, push, rss_kb, simulated_s, tcp_number
 from port_test import SCENARIO, STATUS_ANSWER, STATUS_REQUEST, Folder, ask, open_raw, read_some
 
 sys.path.insert(0, os.path.join(ROOT, "tests", "faults"))
@@ -21,7 +22,7 @@ from page import read_table, replace_table  # noqa: E402
 
 PAGE = os.path.join(ROOT, "docs", "robustness.md")
 TABLE = "serve faults"
-MOST_S, MOST_KB = 5, 4096  # SIGINT until the end; growth of memory
+MOST_KB = 4096  # growth of memory
 HEAD = """| a host | `serve` says | the others | exit, after SIGINT | memory |
 |---|---|---|---|---|"""
 
@@ -35,7 +36,6 @@ SPEED = "PORT: the host has set N bit/s, the segment runs at N (--baud); a pseud
 PLACES = {"PORT": r"(TCP port [\d.]+:\d+|dp \(/dev/pts/\d+\))", "HOST": r"[\d.]+:\d+", "N": r"\d+"}
 
 CASES = {}
-LATE = []  # s: how long a host of this file that was to talk did not come to do so
 
 
 def fault(what, others, says, port="tcp", status=0, may=(), stop=signal.SIGINT, options=()):
@@ -72,19 +72,16 @@ def do(program, name):
             before = rss_kb(serve.process.pid)
             body(serve)
             grown = rss_kb(serve.process.pid) - before
-            begin = time.monotonic()
             serve.process.send_signal(stop)
             serve.process.wait(timeout=DEADLINE)
-            took = time.monotonic() - begin
             serve.end()
         finally:
             serve.kill()
         check(serve.status == status, "exit %s instead of %s: %s" % (serve.status, status, serve.said()))
         check(grown < MOST_KB, "memory has grown by %d KB" % grown)
-        check(took < MOST_S, "it took %.1f s to end" % took)
         check_said(serve.said(), says, may)
     words = "<br>".join("`%s`" % each for each in says) or "nothing"
-    return "| %s | %s | %s | %d, within %d s | grows by less than %d MB |" % (what, words, others, status, MOST_S, MOST_KB // 1024)
+    return "| %s | %s | %s | %d | grows by less than %d MB |" % (what, words, others, status, MOST_KB // 1024)
 
 
 # --- hosts --------------------------------------------------------------------------------------------------------------
@@ -221,7 +218,7 @@ def trickle(serve):
         slow.send(bytes([0x68, 0xF9, 0xF9, 0x68]))
         sent = 4
         while "BUS_TELEGRAM_ERROR" not in log_so_far(serve):
-            check(sent < 100, "it was waited for")
+            check(sent < 250, "it was waited for")
             slow.send(b"\x00")
             sent += 1
             read_some(slow.fileno(), 1, 0.04)
@@ -269,9 +266,7 @@ def silent_host(serve):
             for _ in range(5):  # and while it talks
                 time.sleep(0.4)
                 ask(silent.fileno())
-                pause, spoke = time.monotonic() - spoke, time.monotonic()
-                if pause > 1:  # this machine kept it silent for a turn
-                    LATE.append(pause)
+                spoke = talks(spoke, 1)
             check("its turn is over" not in serve.said(), "it has lost the port, though it was not silent")
             answered_in_turn(serve, other)
             check(read_to_the_end(silent) == "reset", "the silent one was not told")
@@ -300,13 +295,11 @@ def pty_reader_gone(serve):
 
 
 def signal_during_flood(serve):
+    """The host goes on sending until serve has ended."""
     flooding = host(serve)
     flood(serve, flooding.fileno(), PAYLOADS["telegrams"], 0.5)
-    serve.keep = flooding  # until the end: what it has sent still waits
-    try:
-        flooding.send(PAYLOADS["telegrams"])
-    except BlockingIOError:
-        pass
+    threading.Thread(target=keep_pushing, args=(flooding.fileno(), PAYLOADS["telegrams"], serve), daemon=True).start()
+    serve.keep = flooding
 
 
 @fault("sends valid telegrams as fast as it can, and SIGINT comes", "-", [CONNECTED])
@@ -332,7 +325,6 @@ def ten_seconds(program):
 
 
 def in_page(program, name):
-    LATE.clear()
     check(do(program, name) in read_table(PAGE, TABLE).splitlines(), "docs/robustness.md is stale: faults_test.py DSDPV1_SIM --write")
 
 
@@ -340,13 +332,9 @@ def main(program, name):
     if name == "--write":
         replace_table(PAGE, TABLE, "\n".join([HEAD] + [do(program, case) for case in CASES]))
         return 0
-    try:
-        if name == "ten_seconds":
-            return ten_seconds(program)
-        return exit_code(lambda: in_page(program, name), lambda: bool(LATE))
-    except Failure as failure:
-        print(failure)
-        return 1
+    if name == "ten_seconds":
+        return ten_seconds(program)
+    return exit_code(lambda: in_page(program, name), was_late)
 
 
 if __name__ == "__main__":
