@@ -136,7 +136,7 @@ def exchange(program, baud, cycles):
 
 
 def exchange_19k2(program):
-    exchange(program, "19.2k", 500)
+    exchange(program, "19.2k", 200)
 
 
 def exchange_45k45(program):
