@@ -18,6 +18,7 @@
 #include "apps/commands/serve_command.hpp"
 #include "apps/commands/sweep_command.hpp"
 #include "apps/commands/traces_command.hpp"
+#include "apps/options/checks.hpp"
 #include "apps/terminal.hpp"
 #include "bus/baud.hpp"
 #include "bus/capture/link_type.hpp"
@@ -31,7 +32,7 @@ namespace {
 const char* const kExitCodes =
     "\nExit codes: 0 passed, 1 a check or expectation failed, 2 wrong input (one line says where, what, and what is "
     "allowed),\n"
-    "130 interrupted.\n";
+    "3 nothing was judged, 130 interrupted.\n";
 
 const char* const kLogHelp =
     "Everything that happened, one line a thing; FILE.jsonl: a JSON object a line, for programs (docs/log.md)";
@@ -109,7 +110,7 @@ void add_report_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("--result", arguments.result, "Result and measurements as JSON");
   command.add_option("--report", arguments.report, kReportHelp);
   command.add_option("--junit", arguments.junit,
-                     "The verdict for CI as JUnit's XML: a case for the run, its violations and each expectation");
+                     "The verdict for CI as JUnit's XML: a case for the run, its violations, each check and expectation");
 }
 
 /// What a run is held against, and with what RTL; those that a saved run already has.
@@ -152,13 +153,7 @@ void describe_run(CLI::App& app, RunArguments& arguments) {
   add_wave_options(*command, arguments.wave);
   add_report_options(*command, arguments);
   add_capture_options(*command, arguments.capture, arguments.capture_link);
-  CLI::Option* checks =
-      command
-          ->add_option(
-              "--checks", arguments.checks,
-              "The checks of docs/checks.md on handshake, bus timing and DPRAM: report (listed), fail (exit 1 on a "
-              "violation that the scenario does not allow), off")
-          ->capture_default_str();
+  CLI::Option* checks = add_checks_option(*command, arguments.checks);
   std::vector<CLI::Option*> of_whole_run = add_comparison_options(*command, arguments);
   of_whole_run.insert(of_whole_run.end(), {scenario, engine, view, checks, add_set_option(*command, arguments.set)});
   command
@@ -277,6 +272,9 @@ void describe_serve(CLI::App& app, ServeArguments& arguments) {
   command->add_flag("--log-whole", arguments.log_whole, "As of run")->needs(log);
   command->add_option("--result", arguments.result, "As of run, and how well real time was kept");
   command->add_option("--report", arguments.report, kReportHelp);
+  command->add_option("--junit", arguments.junit, "As of run");
+  add_checks_option(*command, arguments.checks);
+  add_set_option(*command, arguments.set);
   add_capture_options(*command, arguments.capture, arguments.capture_link);
   command->add_flag("--quiet,-q", arguments.quiet, "No table at the end");
   command->footer(std::string("\nExamples:\n"
@@ -297,6 +295,7 @@ void describe_sweep(CLI::App& app, SweepArguments& arguments) {
       ->allow_extra_args(false);
   add_set_option(*command, arguments.set);
   command->add_option("--checks", arguments.checks, "As of run, report or fail; left out: as run does");
+  command->add_flag("--strict", arguments.strict, "Exit 1 when a point does not hold, 3 when one judged nothing");
   command->add_option("--map", arguments.map, "Check whose margin the pictures show; left out: the worst of all");
   add_campaign_options(*command, arguments.campaign, "sweep_ and the scenario's name");
   command->footer(
@@ -307,7 +306,8 @@ void describe_sweep(CLI::App& app, SweepArguments& arguments) {
       "  dsdpv1-sim sweep my.yaml --param baud=12M,6M,500k --param slaves.plant.user_cpu.cycle=40us..200us/20us --jobs "
       "4\n"
       "The same command again goes on with an interrupted sweep. docs/sweep.md explains the results.\n"
-      "\nExit codes: 0 all points were run, whatever they showed, 2 wrong input, 130 interrupted.\n");
+      "\nExit codes: 0 all points were run, whatever they showed (--strict: and hold, else 1 or 3), 2 wrong input, 130 "
+      "interrupted.\n");
 }
 
 void describe_regress(CLI::App& app, RegressArguments& arguments) {
@@ -354,7 +354,8 @@ void describe_regress(CLI::App& app, RegressArguments& arguments) {
       "  dsdpv1-sim regress --engine rtl --seed 1..8 --shard 2/5 --out part_2\n"
       "  dsdpv1-sim regress --failed\n"
       "The same command again goes on with an interrupted regression. docs/regress.md explains the results.\n"
-      "\nExit codes: 0 all runs passed, 1 some did not, 2 wrong input, 130 interrupted.\n");
+      "\nExit codes: 0 all runs passed, 1 some did not, 2 wrong input, 3 none failed, but some judged nothing, 130 "
+      "interrupted.\n");
 }
 
 /// The reference RTL of which chip, and for random cases its port.
@@ -457,6 +458,7 @@ void describe_cosim(CLI::App& app, CosimArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log)->excludes(replay);
   command->add_option("--result", arguments.result, "Result, measurements and the first difference as JSON");
+  add_checks_option(*command, arguments.checks)->excludes(replay);
   add_set_option(*command, arguments.set);
   command->footer(
       "\nExamples:\n  dsdpv1-sim cosim --rtl examples/own_rtl --top board_chip --pins examples/own_rtl/pins.yaml "
@@ -464,7 +466,7 @@ void describe_cosim(CLI::App& app, CosimArguments& arguments) {
       "  dsdpv1-sim cosim --rtl my_chip --top chip my.yaml --wave inside.fst --wave-from 1.6ms --log my.log --result "
       "my.json\n"
       "  dsdpv1-sim cosim --rtl my_chip --top chip --replay lockstep.stimulus --wave inside.fst\n"
-      "\nExit codes: 0 no difference and the scenario passed, 1 otherwise, 2 wrong input, 130 "
+      "\nExit codes: 0 no difference and the scenario passed, 1 otherwise, 2 wrong input, 3 nothing was judged, 130 "
       "interrupted.\n");
 }
 
@@ -575,6 +577,7 @@ void describe_replay(CLI::App& app, ReplayArguments& arguments) {
   CLI::Option* log = command->add_option("--log", arguments.log, kLogHelp);
   command->add_flag("--log-whole", arguments.log_whole, kLogWholeHelp)->needs(log);
   command->add_option("--result", arguments.result, "Measurements of the run as JSON, as of run");
+  add_checks_option(*command, arguments.checks);
   add_capture_options(*command, arguments.capture_out, arguments.capture_link);
   add_output_options(*command, arguments.progress, arguments.quiet);
   command->footer(
@@ -584,7 +587,7 @@ void describe_replay(CLI::App& app, ReplayArguments& arguments) {
       "  dsdpv1-sim replay board.csv --as 5 --tsdr-tolerance 1 --log board.log --wave board.fst\n"
       "  dsdpv1-sim replay plant.pcapng --as 5 --scenario my.yaml --from 2s --to 3s --json plant.json\n"
       "docs/replay.md explains them.\n"
-      "\nExit codes: 0 equal, 1 different, 2 wrong input, 130 interrupted.\n");
+      "\nExit codes: 0 equal, 1 different or violated, 2 wrong input, 3 nothing could be compared, 130 interrupted.\n");
 }
 
 void describe_calibrate(CLI::App& app, CalibrateArguments& arguments) {

@@ -15,11 +15,12 @@ namespace dsdpv1::app {
 // Exit codes of every command.
 constexpr int kPassed = 0;         ///< all checks and expectations passed
 constexpr int kFailed = 1;         ///< a check or an expectation failed
+constexpr int kNothingJudged = 3;  ///< no data exchange, and nothing was expected
 constexpr int kWrongInput = 2;     ///< one line on the error channel says where, what, and what is allowed
 constexpr int kInterrupted = 130;  ///< SIGINT or SIGTERM; all files are complete up to there
 
 struct RunArguments {
-  std::string scenario, engine = "skip", view = "pins", checks = "report";
+  std::string scenario, engine = "skip", view = "pins", checks;  ///< `checks` empty: as the scenario says
   WaveArguments wave;
   std::string log, result, trace, report, junit;
   std::string capture, capture_link = "profibus";

@@ -11,6 +11,7 @@
 #include "capi/scenario.hpp"
 #include "capi/sized.hpp"
 #include "tb/bench/bench.hpp"
+#include "tb/bench/verdict.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"
 
@@ -28,7 +29,7 @@ struct dpsim_run {
   capi::RunWatch watch{scenario};
   bool begun = false;
   std::optional<tb::RunResult> result;
-  std::string json, report;
+  std::string json, report, verdict;
 };
 
 namespace {
@@ -45,10 +46,14 @@ void refuse_boards(const Scenario& scenario) {
                                       " has an ARM board, allowed in this library is kind: native; dsdpv1-sim runs it");
 }
 
-tb::ChecksMode checks_of(dpsim_checks_mode mode) {
-  capi::need_range("checks", mode, DPSIM_CHECKS_REPORT, DPSIM_CHECKS_OFF);
-  if (mode == DPSIM_CHECKS_OFF) return tb::ChecksMode::kOff;
-  return mode == DPSIM_CHECKS_FAIL ? tb::ChecksMode::kFail : tb::ChecksMode::kReport;
+std::optional<tb::ChecksMode> checks_of(dpsim_checks_mode mode) {
+  capi::need_range("checks", mode, DPSIM_CHECKS_AS_SCENARIO, DPSIM_CHECKS_REPORT);
+  switch (mode) {
+    case DPSIM_CHECKS_FAIL: return tb::ChecksMode::kFail;
+    case DPSIM_CHECKS_OFF: return tb::ChecksMode::kOff;
+    case DPSIM_CHECKS_REPORT: return tb::ChecksMode::kReport;
+    default: return std::nullopt;
+  }
 }
 
 tb::RunOptions options_of(const dpsim_run_options& given) {
@@ -91,7 +96,7 @@ const tb::RunResult& result_of(const dpsim_run* run) {
 
 dpsim_run_summary summary_of(const tb::RunResult& result) {
   dpsim_run_summary summary{};
-  summary.passed = result.passed ? 1 : 0;
+  summary.passed = tb::verdict(result) == tb::Verdict::kPassed ? 1 : 0;
   summary.interrupted = result.interrupted ? 1 : 0;
   summary.simulated = static_cast<std::uint64_t>(result.simulated);
   summary.telegrams = result.telegrams;
@@ -205,6 +210,19 @@ dpsim_status dpsim_run_execute(dpsim_run* run, dpsim_poll_fn poll, void* user) {
 dpsim_status dpsim_run_get_summary(const dpsim_run* run, dpsim_run_summary* summary) {
   return guarded(
       __func__, [&] { capi::give(summary_of(result_of(run)), summary, "summary"); });
+}
+
+dpsim_status dpsim_run_verdict(dpsim_run* run, int32_t* exit_code, const char** text) {
+  return guarded(
+      __func__,
+      [&] {
+        need(exit_code, "exit_code");
+        need(text, "text");
+        const tb::RunResult& result = result_of(run);
+        run->verdict = tb::words(result);
+        *text = run->verdict.c_str();
+        *exit_code = tb::exit_code(tb::verdict(result));
+      });
 }
 
 dpsim_status dpsim_run_result(dpsim_run* run, const char** json) {

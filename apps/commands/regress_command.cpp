@@ -10,6 +10,7 @@
 #include "apps/commands/regress_jobs.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/options/checks.hpp"
 #include "apps/options/outputs.hpp"
 #include "apps/terminal.hpp"
 #include "io/input/input_error.hpp"
@@ -64,7 +65,7 @@ tb::regress::Request request_of(const RegressArguments& arguments) {
 }
 
 Description new_description(const RegressArguments& arguments) {
-  if (!arguments.checks.empty()) check_word("regress: --checks", arguments.checks, {"report", "fail", "off"});
+  checks_mode("regress", arguments.checks);
   if (!arguments.wave.empty()) check_word("regress: --wave", arguments.wave, {"vcd", "fst"});
   if (!arguments.keep.empty()) check_word("regress: --keep", arguments.keep, tb::regress::keep_words());
   const tb::regress::Shard shard =
@@ -116,6 +117,17 @@ void write_report(const RegressArguments& arguments, const Report& report, const
   std::cerr << "regression: " << tb::regress::summary(report) << "; " << index << "\n";
 }
 
+int status_of(const Report& report) {
+  const auto any = [&report](const auto& is) {
+    return std::any_of(report.outcomes.begin(), report.outcomes.end(), is);
+  };
+  const auto judged_nothing = [](const tb::regress::Outcome& each) {
+    return each.verdict == tb::regress::Verdict::kNothingJudged;
+  };
+  if (any([&](const tb::regress::Outcome& each) { return !each.passed() && !judged_nothing(each); })) return kFailed;
+  return any(judged_nothing) ? kNothingJudged : kPassed;
+}
+
 }  // namespace
 
 int regress(const RegressArguments& arguments) {
@@ -139,7 +151,7 @@ int regress(const RegressArguments& arguments) {
   if (arguments.campaign.is_task()) return kPassed;
   const Report report{description.plan, jobs.outcomes()};
   write_report(arguments, report, folder, junit);
-  return report.passed() ? kPassed : kFailed;
+  return status_of(report);
 }
 
 }  // namespace dsdpv1::app

@@ -13,6 +13,7 @@
 #include "apps/commands/capture_file.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/options/checks.hpp"
 #include "apps/options/outputs.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
@@ -127,6 +128,7 @@ tb::RunOptions run_options(const ReplayArguments& arguments, const tb::ChipKind&
   options.wave = wave_options(kCommand, arguments.wave, kind);
   options.log = arguments.log;
   options.log_whole = arguments.log_whole;
+  options.checks = checks_mode("replay", arguments.checks);
   options.capture = capture_request(kCommand, arguments.capture_out, arguments.capture_link);
   return options;
 }
@@ -150,8 +152,9 @@ void check_files(const ReplayArguments& arguments, const tb::scenario::Scenario&
   check_outputs(kCommand, inputs, outputs);
 }
 
-int status_of(const tb::replay::Result& result) {
-  if (!result.equal()) return kFailed;
+int status_of(const tb::replay::Result& result, const tb::RunResult& run) {
+  if (result.compared() == 0) return kNothingJudged;
+  if (!result.equal() || verdict(run) == tb::Verdict::kFailed) return kFailed;
   return result.interrupted ? kInterrupted : kPassed;
 }
 
@@ -180,8 +183,8 @@ int replay(const ReplayArguments& arguments) {
   write_wanted(arguments.table, tb::replay::table(result));
   write_wanted(arguments.result, tb::result_json(replay.bench_result()));
   if (replay.wave_is_empty()) std::cerr << nothing_recorded(arguments.wave) << '\n';
-  if (!arguments.quiet) std::cout << tb::replay::text(result) << std::flush;
-  return status_of(result);
+  if (!arguments.quiet) std::cout << tb::replay::text(result, replay.bench_result()) << std::flush;
+  return status_of(result, replay.bench_result());
 }
 
 }  // namespace dsdpv1::app

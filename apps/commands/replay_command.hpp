@@ -17,6 +17,7 @@ struct ReplayArguments {
   std::optional<double> tolerance;  ///< of the TSDR, bit times
   std::string engine = "skip";
   std::string json, table, log, result;
+  std::string checks;  ///< as of RunArguments
   std::string capture_out, capture_link = "profibus";
   WaveArguments wave;
   std::optional<bool> progress;  ///< absent: on a terminal

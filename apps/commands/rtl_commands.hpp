@@ -42,6 +42,7 @@ struct CosimArguments {
   std::string difference = "lockstep.vcd";
   WaveArguments wave;  ///< file, from and to; its inside is always there
   std::string log, result;
+  std::string checks;  ///< as of RunArguments
   bool log_whole = false;
   std::vector<std::string> set;  ///< as of RunArguments
 };

@@ -12,6 +12,7 @@
 #include "apps/commands/rtl_commands.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/options/checks.hpp"
 #include "apps/options/outputs.hpp"
 #include "apps/options/rewind.hpp"
 #include "apps/options/saved_runs.hpp"
@@ -33,11 +34,6 @@
 namespace dsdpv1::app {
 namespace {
 
-tb::ChecksMode checks_mode(const std::string& word) {
-  if (word == "off") return tb::ChecksMode::kOff;
-  return word == "fail" ? tb::ChecksMode::kFail : tb::ChecksMode::kReport;
-}
-
 void check_golden(const RunArguments& arguments) {
   if (arguments.fault != 0 && arguments.engine != "rtl" && arguments.engine != "lockstep")
     throw tb::InputError("dsdpv1-sim run: --fault is one of the RTL, allowed with it is --engine rtl or lockstep");
@@ -51,7 +47,6 @@ void check_golden(const RunArguments& arguments) {
 tb::RunOptions options_of(const RunArguments& arguments) {
   check_word("run: --engine", arguments.engine, {"step", "skip", "rtl", "lockstep"});
   check_word("run: --view", arguments.view, {"pins", "tlm"});
-  check_word("run: --checks", arguments.checks, {"report", "fail", "off"});
   if (arguments.view == "tlm" && arguments.engine != "step" && arguments.engine != "skip")
     throw tb::InputError("dsdpv1-sim run: --engine " + arguments.engine +
                          " is about pins, allowed with it is --view pins");
@@ -79,7 +74,7 @@ tb::RunOptions options_of(const RunArguments& arguments) {
       std::cout << station << "| " << bus::printable(line) << '\n' << std::flush;
     };
   }
-  options.checks = checks_mode(arguments.checks);
+  options.checks = checks_mode("run", arguments.checks);
   return options;
 }
 
@@ -176,7 +171,7 @@ int run_scenario(const RunRequest& request, std::unique_ptr<tb::Execution> execu
   std::cout << of_golden << std::flush;
   files.write_junit(result, of_golden, golden.same());
   if (broken_off) return kInterrupted;
-  return result.passed && golden.same() ? kPassed : kFailed;
+  return golden.same() ? exit_code(verdict(result)) : kFailed;
 }
 
 struct LockstepOutcome {
@@ -192,7 +187,6 @@ LockstepOutcome run_lockstep(const RunRequest& request, cosim::MakeRtl make,
   LockstepSteps steps;
   steps.judge = [&](tb::RunResult& result) {
     result.lockstep = execution.result();
-    result.passed = result.passed && !result.lockstep->difference;
   };
   steps.report = [&] {
     std::string text;
@@ -239,6 +233,7 @@ RunArguments run_arguments_of(const CosimArguments& arguments) {
   run.log = arguments.log;
   run.log_whole = arguments.log_whole;
   run.result = arguments.result;
+  run.checks = arguments.checks;
   run.set = arguments.set;
   run.wave = arguments.wave;
   run.wave.save = false;  // once it has both sides

@@ -12,6 +12,7 @@
 #include "apps/command_line.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/options/checks.hpp"
 #include "apps/options/outputs.hpp"
 #include "bus/baud.hpp"
 #include "bus/printable.hpp"
@@ -21,6 +22,7 @@
 #include "tb/bench/bench.hpp"
 #include "tb/report/html/report_file.hpp"
 #include "tb/report/result_json.hpp"
+#include "tb/report/run_junit.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/serve/ports.hpp"
 #include "tb/serve/real_time_execution.hpp"
@@ -58,6 +60,7 @@ tb::RunOptions options_of(const ServeArguments& arguments, const tb::ChipKind& k
   options.log = arguments.log;
   options.log_whole = arguments.log_whole;
   options.capture = capture_request("dsdpv1-sim serve", arguments.capture, arguments.capture_link);
+  options.checks = checks_mode("serve", arguments.checks);
   options.open_ended = true;
   return options;
 }
@@ -66,7 +69,7 @@ tb::RunOptions options_of(const ServeArguments& arguments, const tb::ChipKind& k
 
 int serve(const ServeArguments& arguments) {
   leave_nothing_on_signals();
-  tb::scenario::Scenario scenario = load_scenario(arguments.scenario);
+  tb::scenario::Scenario scenario = load_scenario(arguments.scenario, tb::scenario::parse_settings(arguments.set));
   scenario.baud = chosen_baud(scenario, arguments.baud);
   scenario.end = chosen_end(arguments.duration);
   tb::RunOptions options = options_of(arguments, *scenario.kind);
@@ -74,10 +77,12 @@ int serve(const ServeArguments& arguments) {
   outputs.push_back({"--log", arguments.log});
   outputs.push_back({"--result", arguments.result});
   outputs.push_back({"--report", arguments.report});
+  outputs.push_back({"--junit", arguments.junit});
   outputs.push_back({"--capture", arguments.capture});
   check_outputs("dsdpv1-sim serve", scenario_inputs(arguments.scenario, scenario.files), outputs);
-  std::optional<tb::OutputFile> result_file;
+  std::optional<tb::OutputFile> result_file, junit_file;
   if (!arguments.result.empty()) result_file.emplace(arguments.result);
+  if (!arguments.junit.empty()) junit_file.emplace(arguments.junit);
   std::optional<tb::html::ReportFile> report_file;
   if (!arguments.report.empty()) report_file.emplace(arguments.report, scenario, options);
 
@@ -105,9 +110,13 @@ int serve(const ServeArguments& arguments) {
     result_file->write(tb::result_json(result));
     result_file->commit();
   }
+  if (junit_file) {
+    junit_file->write(tb::junit("dsdpv1-sim serve", tb::run_cases(result)));
+    junit_file->commit();
+  }
   if (report_file) report_file->write(result, DSDPV1_VERSION);
   if (!arguments.quiet) std::cout << tb::summary(result) << std::flush;
-  return result.passed ? kPassed : kFailed;
+  return exit_code(verdict(result));
 }
 
 }  // namespace dsdpv1::app

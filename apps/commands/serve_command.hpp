@@ -1,6 +1,7 @@
 #pragma once
 // serve: the simulated segment goes on in the real world.
 #include <string>
+#include <vector>
 
 #include "apps/options/wave_options.hpp"
 
@@ -17,7 +18,9 @@ struct ServeArguments {
   std::string baud;      ///< empty: that of the scenario
   std::string duration;  ///< empty: until interrupted
   WaveArguments wave;
-  std::string log, result, report;
+  std::string log, result, report, junit;
+  std::string checks;            ///< as of RunArguments
+  std::vector<std::string> set;  ///< likewise
   std::string capture, capture_link = "profibus";
   bool log_whole = false, quiet = false;
 };

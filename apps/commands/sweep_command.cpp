@@ -83,6 +83,14 @@ void write_results(const Plan& plan, const std::vector<Point>& points, const Fol
     tb::write_file(folder.file(picture.name), picture.svg);
 }
 
+/// With --strict. Points that are not possible have not been asked about.
+int status_of(const std::vector<Point>& points) {
+  const auto any = [&points](bool (*is)(const Point&)) { return std::any_of(points.begin(), points.end(), is); };
+  if (any([](const Point& point) { return point.possible() && !point.holds() && point.exit != kNothingJudged; }))
+    return kFailed;
+  return any([](const Point& point) { return point.exit == kNothingJudged; }) ? kNothingJudged : kPassed;
+}
+
 }  // namespace
 
 int sweep(const SweepArguments& arguments) {
@@ -111,7 +119,7 @@ int sweep(const SweepArguments& arguments) {
   if (!arguments.campaign.quiet)
     std::cout << tb::sweep::summary(plan, points) << "  written: " << folder.file("results.csv") << " and map*.svg\n"
               << std::flush;
-  return kPassed;
+  return arguments.strict ? status_of(points) : kPassed;
 }
 
 }  // namespace dsdpv1::app

@@ -12,6 +12,7 @@ struct SweepArguments {
   std::vector<std::string> parameters;  ///< PATH=VALUES
   std::vector<std::string> set;         ///< PATH=VALUE, at every point
   std::string checks;                   ///< of run; empty: what is usual there
+  bool strict = false;                  ///< the exit code follows the points
   std::string map;                      ///< the check whose margin the pictures show; empty: the worst
   CampaignArguments campaign;           ///< its folder is sweep_ and the scenario's name, when none is given
 };

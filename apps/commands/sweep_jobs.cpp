@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/command_line.hpp"
+#include "apps/options/checks.hpp"
 #include "io/input/input_error.hpp"
 #include "tb/bench/bench.hpp"
 #include "tb/scenario/scenario.hpp"
@@ -23,7 +24,7 @@ std::string refusal(const Plan& plan, std::size_t point) {
     const tb::scenario::Scenario scenario =
         tb::scenario::load(plan.scenario, tb::scenario::parse_settings(plan.settings_of(point)));
     tb::RunOptions options;
-    options.checks = plan.checks == "fail" ? tb::ChecksMode::kFail : tb::ChecksMode::kReport;
+    options.checks = checks_mode("sweep", plan.checks);
     const tb::Bench bench(scenario, options, tb::make_pin_execution());
     return "";
   } catch (const tb::InputError& error) {
@@ -55,7 +56,8 @@ std::vector<std::string> SweepJobs::begin(std::size_t job) {
 /// What the run says about the point, when it does, and has read what all others read.
 std::string SweepJobs::end(const Ended& ended) {
   const auto read = read_.extract(ended.job);
-  if (ended.exit != kPassed && ended.exit != kFailed && ended.exit != kWrongInput) return fate(ended);
+  if (ended.exit != kPassed && ended.exit != kFailed && ended.exit != kWrongInput && ended.exit != kNothingJudged)
+    return fate(ended);
   const std::string refused = ended.exit == kWrongInput ? refusal(plan_, ended.job) : "";
   if (inputs_.look(ended.job) != read.mapped())
     return "one of its files was written while it ran";  // and has its old content again

@@ -22,6 +22,7 @@
 #include "lab/traces/golden_check.hpp"
 #include "lab/traces/trace_wave.hpp"
 #include "tb/bench/bench.hpp"
+#include "tb/bench/verdict.hpp"
 #include "tb/report/progress.hpp"
 #include "tb/report/text_table.hpp"
 
@@ -129,7 +130,6 @@ int check(const TracesArguments& arguments) {
         one.engine = arguments.engine;
         one.fault = arguments.fault;
         one.golden = folder_of(arguments);
-        one.checks = "off";
         one.difference = "";
         one.progress = arguments.progress;
         one.quiet = true;
@@ -211,9 +211,9 @@ int regenerate(const TracesArguments& arguments) {
     Regeneration regeneration(scenario, folder);
     const tb::RunResult result = regeneration.run(arguments.progress);
     if (result.interrupted) return kInterrupted;
-    if (!result.passed) {
+    if (const tb::Verdict verdict = tb::verdict(result); verdict != tb::Verdict::kPassed) {
       std::cout << golden_name(file) << ": does not pass, its golden stays as it is\n" << std::flush;
-      return kFailed;
+      return tb::exit_code(verdict);
     }
     const tb::traces::NewGolden golden = regeneration.golden();
     const tb::traces::Written written = tb::traces::write_golden(folder, golden_name(file), golden);

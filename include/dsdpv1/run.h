@@ -27,9 +27,10 @@ typedef struct dpsim_run dpsim_run;
 
 typedef int32_t dpsim_checks_mode;
 enum {
-  DPSIM_CHECKS_REPORT = 0, /**< violations are listed in the result */
-  DPSIM_CHECKS_FAIL = 1,   /**< and those that the scenario does not allow fail the run */
-  DPSIM_CHECKS_OFF = 2
+  DPSIM_CHECKS_AS_SCENARIO = 0, /**< as the scenario says, else DPSIM_CHECKS_FAIL */
+  DPSIM_CHECKS_FAIL = 1,        /**< violations that the scenario does not allow fail the run */
+  DPSIM_CHECKS_OFF = 2,
+  DPSIM_CHECKS_REPORT = 3 /**< violations are listed in the result; the verdict says how many were not judged */
 };
 
 typedef struct dpsim_run_options {
@@ -87,14 +88,14 @@ DPSIM_API dpsim_status dpsim_run_keep(dpsim_run* run, uint32_t what);
 /** Asked every 100 us of simulated time whether the run is to go on: not 0 is yes. */
 typedef int32_t (*dpsim_poll_fn)(void* user, uint64_t now);
 /** Runs it to its end, or until `poll` (NULL: nobody is asked) says no; once (DPSIM_ERR_STATE). DPSIM_ERR_INPUT: a file
- *  cannot be written. DPSIM_OK also when the scenario's expectations are not met. */
+ *  cannot be written. DPSIM_OK also when the scenario's expectations are not met: see dpsim_run_verdict. */
 DPSIM_API dpsim_status dpsim_run_execute(dpsim_run* run, dpsim_poll_fn poll, void* user);
 
 /* After dpsim_run_execute (DPSIM_ERR_STATE before). */
 
 typedef struct dpsim_run_summary {
   uint32_t size;
-  uint8_t passed;      /**< all expectations met, no violation that is not allowed, not stopped */
+  uint8_t passed;      /**< the verdict is 0 */
   uint8_t interrupted; /**< stopped by `poll` */
   uint16_t reserved;
   uint64_t simulated; /**< ticks */
@@ -104,6 +105,10 @@ typedef struct dpsim_run_summary {
   double wall_seconds;
 } dpsim_run_summary;
 DPSIM_API dpsim_status dpsim_run_get_summary(const dpsim_run* run, dpsim_run_summary* summary);
+/** What the run comes to, the same word and number as of `dsdpv1-sim run`. `exit_code`: 0 passed; 1 an expectation was
+ *  not met, or something was violated that is not allowed; 3 nothing was judged; 130 stopped by `poll`. `text`: in
+ *  words, with what was not judged, "PASSED, 140 violations not judged"; stands as long as the run. */
+DPSIM_API dpsim_status dpsim_run_verdict(dpsim_run* run, int32_t* exit_code, const char** text);
 /** The whole result, as `dsdpv1-sim run --result` writes it: one JSON object (docs/result.md). Stands as long as the
  * run. */
 DPSIM_API dpsim_status dpsim_run_result(dpsim_run* run, const char** json);

@@ -215,8 +215,17 @@ bus::Bytes read_bytes(const Field& field, const YAML::Node& node, const Source& 
   return bytes;
 }
 
+bool is_word_of(const Field& field, const YAML::Node& node) {
+  return node.IsScalar() && std::any_of(field.type.words.begin(), field.type.words.end(),
+                                        [&node](const Word& word) { return node.Scalar() == word.text; });
+}
+
 void check_list(const Field& field, const YAML::Node& node, const Source& source) {
-  if (!node.IsSequence()) fail(source, node, fmt::format("{} is {}, allowed is a list", field.name, shown(node)));
+  if (!node.IsSequence()) {
+    std::string words;
+    for (const Word& word : field.type.words) words += " or " + word.text;
+    fail(source, node, fmt::format("{} is {}, allowed is a list{}", field.name, shown(node), words));
+  }
   const auto items = static_cast<std::int64_t>(node.size());
   if (items < field.type.range.min || items > field.type.range.max) {
     fail(source, node,

@@ -38,7 +38,7 @@ struct Type {
   Kind kind = Kind::kText;
   Range range;
   std::string unit;  ///< of an integer or number, for people
-  std::vector<Word> words;
+  std::vector<Word> words;         ///< of a kWord; of a kList: a word in the place of a list
   Kind element = Kind::kObject;    ///< of a kList
   Range each;                      ///< of the elements of a kList of integers
   const Object* object = nullptr;  ///< of a kObject, or of the elements of a kList; outlives the Type
@@ -113,6 +113,8 @@ std::size_t read_word(const Field& field, const YAML::Node& node, const Source& 
 bus::Tick read_time(const Field& field, const YAML::Node& node, const Source& source);
 bus::Bytes read_bytes(const Field& field, const YAML::Node& node, const Source& source);
 void read_object(const Object& object, void* owner, const YAML::Node& node, const Source& source);
+/// Whether it is one of the field's words.
+bool is_word_of(const Field& field, const YAML::Node& node);
 /// Checks that `node` is a list of an allowed length.
 void check_list(const Field& field, const YAML::Node& node, const Source& source);
 int line_of(const YAML::Node& node);
@@ -293,6 +295,22 @@ class ObjectOf : public Object {
                        (owner.*member).emplace_back();
                        read_object(described, &(owner.*member).back(), item, source);
                      }
+                   });
+  }
+
+  /// A list, or `word` in its place, which makes `flag` false.
+  template <class U>
+  Field& list_or(const char* key, std::vector<U> T::*member, const ObjectOf<U>& described, Range items, const Word& word,
+                 bool T::*flag, const char* text) {
+    Field& field = list(key, member, described, items, text);
+    field.type.words = {word};
+    const auto read_list = field.read;
+    return on_read(field,
+                   [flag, read_list](T& owner, const Field& self, const YAML::Node& node, const Source& source) {
+                     if (is_word_of(self, node))
+                       owner.*flag = false;
+                     else
+                       read_list(&owner, node, source);
                    });
   }
 

@@ -81,6 +81,10 @@ class Dsdpv1Kind : public ChipMaker {
   const std::vector<keys::Word>& blocks() const override;
 
   std::string describe(const profibus::Event& event) const override { return dsdpv1::describe(event); }
+  std::string cell_of(const profibus::Event& event) const override {
+    const bool has_cell = dsdpv1::text_template(event.reason).find("B{a:3x}") != std::string::npos;
+    return has_cell ? fmt::format("B{:03X}", event.a) : "";
+  }
   std::unique_ptr<AccessReader> make_access_reader() const override { return std::make_unique<Dsdpv1AccessReader>(); }
   std::unique_ptr<HostReader> make_host_reader(const OwnSettings& chip) const override {
     return host_reader_of(static_cast<const Dsdpv1Settings&>(chip));

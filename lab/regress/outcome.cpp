@@ -14,13 +14,14 @@ namespace {
 using campaign::Ended;
 using campaign::Json;
 
-constexpr std::array<const char*, 5> kNames = {"passed", "failed", "refused", "crashed", "hung"};
-constexpr int kPassedExit = 0, kWrongInput = 2;
+constexpr std::array<const char*, 6> kNames = {"passed", "failed", "nothing_judged", "refused", "crashed", "hung"};
+constexpr int kPassedExit = 0, kWrongInput = 2, kNothingJudgedExit = 3;
 
 Verdict verdict_of(const Ended& ended) {
   if (ended.too_long) return Verdict::kHung;
   if (ended.exit > campaign::kSignalled) return Verdict::kCrashed;
   if (ended.exit == kPassedExit) return Verdict::kPassed;
+  if (ended.exit == kNothingJudgedExit) return Verdict::kNothingJudged;
   return ended.exit == kWrongInput ? Verdict::kRefused : Verdict::kFailed;
 }
 
@@ -55,7 +56,8 @@ std::string reason_of(Verdict verdict, const Ended& ended, const Json& result) {
       return fmt::format("killed by signal {} (SIG{})", signal, abbreviation != nullptr ? abbreviation : "?");
     }
     case Verdict::kRefused: return fate(ended);
-    case Verdict::kFailed: return failure(ended, result);
+    case Verdict::kFailed:
+    case Verdict::kNothingJudged: return failure(ended, result);
   }
   return "";
 }

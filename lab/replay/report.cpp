@@ -14,6 +14,7 @@
 #include "bus/telegram/explain.hpp"
 #include "io/input/units.hpp"
 #include "tb/bench/run_log.hpp"
+#include "tb/bench/verdict.hpp"
 #include "tb/report/text_table.hpp"
 
 namespace dsdpv1::tb::replay {
@@ -167,10 +168,11 @@ std::string resolution_text(const Result& result) {
                                    time_text(result.resolution), bits(result, result.resolution)));
 }
 
-const char* verdict_text(const Result& result) {
-  if (result.compared() == 0) return "\nNOTHING COMPARED\n";
+std::string verdict_text(const Result& result, const RunResult& run) {
+  if (result.compared() == 0) return "\nNOTHING JUDGED: nothing could be compared\n";
   if (!result.equal()) return "\nDIFFERENT\n";
-  return result.interrupted ? "\nINTERRUPTED, equal so far\n" : "\nEQUAL\n";
+  if (tb::verdict(run) == tb::Verdict::kFailed) return fmt::format("\nFAILED: equal, but {} violations\n", run.violations);
+  return (result.interrupted ? "\nINTERRUPTED, equal so far" : "\nEQUAL") + not_judged(run) + "\n";
 }
 
 // --- for programs ----------------------------------------------------------------------------------------------------
@@ -208,7 +210,7 @@ std::string cells(const Result& result, const std::optional<Answer>& answer) {
 
 }  // namespace
 
-std::string text(const Result& result) {
+std::string text(const Result& result, const RunResult& run) {
   std::string text = line("capture", capture_text(result));
   text += resolution_text(result);
   text += line("model", result.station);
@@ -222,7 +224,7 @@ std::string text(const Result& result) {
     text += line("not compared", fmt::format("{}: {}", count, name(verdict)));
   text += first_text(result) + unasked_text(result);
   text += "\n" + services_table(result);
-  return text + verdict_text(result);
+  return text + verdict_text(result, run);
 }
 
 std::string json(const Result& result) {

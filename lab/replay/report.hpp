@@ -3,11 +3,13 @@
 #include <string>
 
 #include "lab/replay/result.hpp"
+#include "tb/bench/record.hpp"
 
 namespace dsdpv1::tb::replay {
 
-/// Lines and tables, ended by EQUAL or DIFFERENT.
-std::string text(const Result& result);
+/// Lines and tables, ended by EQUAL or DIFFERENT; `run`: what the bench says of the run, which may have failed all the
+/// same.
+std::string text(const Result& result, const RunResult& run);
 /// docs/replay.md describes it.
 std::string json(const Result& result);
 /// A head, then a line for each request, separated by tabs.

@@ -21,7 +21,8 @@ struct FirstViolation {
 };
 
 struct Point {
-  int exit = 0;       ///< of the run: 0 passed, 1 failed, 2 the scenario cannot be run like this, above 128 killed
+  int exit = 0;       ///< of the run: 0 passed, 1 failed, 2 the scenario cannot be run like this, 3 nothing was
+                      ///< judged, above 128 killed
   std::string error;  ///< what the run said then
   std::int64_t violations = 0, bad_reads = 0;
   std::vector<CheckSeen> checks;

@@ -53,7 +53,8 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
       options_(options),
       execution_(std::move(execution)),
       setup_(scenario),
-      checks_(scenario, options.checks),
+      exchange_(scenario, stations_),
+      checks_(scenario, options.checks.value_or(scenario.checks.mode)),
       hosts_(scenario, !options.log.empty() || !options.wave.path.empty() || !options.observers.empty()),
       journal_(scenario, execution_->timeline(),
                log_form(options.log, options.log_whole, options.open_ended, options.from)) {
@@ -75,6 +76,7 @@ Bench::Bench(const scenario::Scenario& scenario, const RunOptions& options, std:
   for (const scenario::Master& master : scenario.masters) add_master(master);
   for (const scenario::Master2& master : scenario.masters2) add_master2(master);
   script_ = std::make_unique<Script>(scenario_, stations_, execution_->segment(), journal_, replies_, left_out_);
+  script_->on_action = [this](const scenario::Action& action) { exchange_.acts(action); };
   add_agents();
   if (!options.log.empty()) journal_.open(options.log);
   if (!options.trace.empty()) trace_.emplace(options.trace, scenario_, options.from);
@@ -225,6 +227,7 @@ void Bench::add_agents() {
 
 /// Checks before what they are shown by, the script last: it acts on what the others have noted.
 void Bench::add_observers() {
+  observers_.add(exchange_);
   observers_.add(checks_);
   observers_.add(hosts_);
   if (trace_) observers_.add(*trace_);
@@ -368,13 +371,19 @@ RunResult Bench::collect() {
   for (const auto& slave : stations_.slaves) result.slaves.push_back(collect(*slave, result.simulated));
   checks_.finish(result.simulated);
   result.checks = checks_.results();
+  result.checks_mode = checks_.mode();
+  result.checks_off = checks_.left_out();
   result.violations = journal_.violations() + checks_.failures();
-  result.expectations = script_->finish(result.simulated, result.interrupted || execution_->broken_off());
+  add_expectations(result);
   journal_.fill(result);
-  const bool met = std::all_of(result.expectations.begin(), result.expectations.end(),
-                               [](const ExpectationResult& each) { return each.passed || each.left_out; });
-  result.passed = met && result.violations == 0 && !result.interrupted;
   return result;
+}
+
+void Bench::add_expectations(RunResult& result) {
+  const bool ended_early = result.interrupted || execution_->broken_off();
+  result.expectations = script_->finish(result.simulated, ended_early);
+  if (ended_early) return;
+  for (ExpectationResult& each : exchange_.finish(result.slaves)) result.expectations.push_back(std::move(each));
 }
 
 SlaveResult Bench::collect(SlaveStation& slave, Tick at) const {
@@ -386,6 +395,7 @@ SlaveResult Bench::collect(SlaveStation& slave, Tick at) const {
     result.master_reason = view.reason;
     result.inputs = view.inputs;
   }
+  result.waits_for = exchange_.waits_for(result);
   return result;
 }
 

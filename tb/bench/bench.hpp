@@ -12,6 +12,7 @@
 #include "bus/monitor/monitor.hpp"
 #include "tb/bench/capture_recorder.hpp"
 #include "tb/bench/check_watch.hpp"
+#include "tb/bench/exchange_watch.hpp"
 #include "tb/bench/execution.hpp"
 #include "tb/bench/host_watch.hpp"
 #include "tb/bench/journal.hpp"
@@ -40,7 +41,7 @@ struct RunOptions {
   CaptureRequest capture;         ///< of the telegrams
   std::optional<GdbRequest> gdb;  ///< debugger of the first user CPU that takes one
   std::function<void(const std::string& station, const std::string& line)> on_text;  ///< what user CPUs print
-  ChecksMode checks = ChecksMode::kOff;
+  std::optional<ChecksMode> checks;  ///< absent: as the scenario says
   Tick from = 0;            ///< log, trace, capture, wave and what user CPUs print have what happens from then on
   std::vector<Tick> marks;  ///< when `on_mark` is called, before anybody acts there; a digest costs some time
   /// `digest`: of all before `now`. False: the run ends and leaves no file.
@@ -108,6 +109,7 @@ class Bench {
   void changed() { changed(now()); }
   void changed(Tick at);
   RunResult collect();
+  void add_expectations(RunResult& result);
   SlaveResult collect(SlaveStation& slave, Tick at) const;
   /// A wave that begins late wakes so long before: what is told late, and an access under way, are over then.
   static constexpr Tick kAwakeBefore = bus::kTicksPerMs;
@@ -125,6 +127,7 @@ class Bench {
   RunOptions options_;
   std::unique_ptr<Execution> execution_;
   Setup setup_;
+  ExchangeWatch exchange_;
   CheckWatch checks_;
   HostWatch hosts_;
   Journal journal_;

@@ -1,8 +1,37 @@
 #include "tb/bench/check_watch.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
+#include "io/input/input_error.hpp"
+
 namespace dsdpv1::tb {
+
+namespace {
+
+/// Otherwise it would never come true, or always.
+void refuse_unmade(const scenario::Scenario& scenario, ChecksMode mode, const scenario::Condition& condition) {
+  const checks::RuleTable& rules = scenario.kind->rules();
+  const auto rule = std::find_if(rules.begin(), rules.end(),
+                                 [&](const checks::Rule& each) { return condition.event.text == each.id; });
+  if (rule == rules.end()) return;
+  const bool made = scenario.checks[checks::CheckId(static_cast<std::size_t>(rule - rules.begin()))].on;
+  if (mode != ChecksMode::kOff && made) return;
+  throw InputError(scenario.file, condition.line,
+                   fmt::format("{} is a check, which is off, allowed is {}", rule->id,
+                               made ? "mode fail or report (--checks, checks: {mode})" : "enabled: true"));
+}
+
+}  // namespace
+
+CheckWatch::CheckWatch(const scenario::Scenario& scenario, ChecksMode mode)
+    : scenario_(scenario), mode_(mode), on_(mode != ChecksMode::kOff && !scenario.kind->rules().empty()) {
+  for (const scenario::Expectation& each : scenario.expect) refuse_unmade(scenario, mode, each);
+  for (const scenario::Action& each : scenario.script)
+    if (each.when) refuse_unmade(scenario, mode, *each.when);
+}
 
 PinMask CheckWatch::pins() const { return on() ? scenario_.kind->checked_pins() : 0; }
 
@@ -34,6 +63,17 @@ void CheckWatch::keep(Slave& slave, const checks::Violation& violation) {
   if (slave.listed_of.at(check)++ < CheckResult::kListed) slave.listed.push_back(violation);
   if (on_violation)
     on_violation(slave.name, violation, mode_ != ChecksMode::kFail ? "check" : allowed ? "allowed" : "violation");
+}
+
+std::uint64_t CheckWatch::left_out() const {
+  if (slaves_.empty()) return 0;
+  std::uint64_t count = 0;
+  const checks::ChipChecks& own = *slaves_.front()->checks;
+  for (std::size_t i = 0; i < scenario_.kind->rules().size(); ++i) {
+    const checks::CheckId check(i);
+    if (own.applies(check) && !own.limit(check).on) ++count;
+  }
+  return count;
 }
 
 std::vector<CheckResult> CheckWatch::results() const {

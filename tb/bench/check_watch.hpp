@@ -15,8 +15,8 @@ namespace dsdpv1::tb {
 class CheckWatch : public Observer {
  public:
   /// `scenario` must outlive it.
-  CheckWatch(const scenario::Scenario& scenario, ChecksMode mode)
-      : scenario_(scenario), mode_(mode), on_(mode != ChecksMode::kOff && !scenario.kind->rules().empty()) {}
+  /// Throws InputError when an expectation, or what an action waits for, is on a check that is not made.
+  CheckWatch(const scenario::Scenario& scenario, ChecksMode mode);
   CheckWatch(const CheckWatch&) = delete;
   CheckWatch& operator=(const CheckWatch&) = delete;
 
@@ -35,6 +35,9 @@ class CheckWatch : public Observer {
   void telegram(const HeardTelegram& telegram) override;
   void finish(Tick end);
 
+  ChecksMode mode() const { return mode_; }
+  /// Checks that the scenario leaves out.
+  std::uint64_t left_out() const;
   /// Violations that fail the run.
   std::uint64_t failures() const { return failures_; }
   std::vector<CheckResult> results() const;

@@ -27,7 +27,10 @@ void Journal::happened(Occurrence occurrence) {
   const bool violation = occurrence.severity == profibus::Severity::kViolation;
   count_one(occurrence.at, occurrence.station, occurrence.code, violation);
   occurrence.allowed = violation && scenario::allows(scenario_, occurrence.code, occurrence.station);
-  if (violation && !occurrence.allowed) ++violations_;
+  if (violation) {
+    ++(occurrence.allowed ? allowed_ : violations_);
+    violated_.count(occurrence);
+  }
   if (occurrence.severity == profibus::Severity::kRefusal) refusals_.count(occurrence);
   log({occurrence.at, occurrence.station, occurrence.allowed ? "allowed" : name(occurrence.severity), occurrence.text,
        occurrence.code});
@@ -49,7 +52,7 @@ void Journal::check_violated(const std::string& slave, const checks::Violation& 
 
 void Journal::event(std::size_t slave, const profibus::Event& event) {
   happened({event.at, scenario_.slaves[slave].name.text, profibus::code(event.reason), profibus::severity(event.reason),
-            scenario_.kind->describe(event)});
+            scenario_.kind->describe(event), scenario_.kind->cell_of(event)});
 }
 
 void Journal::telegram(const HeardTelegram& telegram) {
@@ -76,7 +79,9 @@ void Journal::fill(RunResult& result) const {
     return std::tie(a.at, a.station) < std::tie(b.at, b.station);
   });
   result.occurrences_dropped = occurrences_dropped_;
+  result.allowed = allowed_;
   result.refused = refusals_.list();
+  result.violated = violated_.list();
 }
 
 }  // namespace dsdpv1::tb

@@ -59,8 +59,8 @@ class Journal : public Observer {
   LogForm form_;
   std::optional<RunLog> log_;
   std::vector<Occurrence> occurrences_;
-  std::uint64_t occurrences_dropped_ = 0, violations_ = 0;
-  Refusals refusals_;
+  std::uint64_t occurrences_dropped_ = 0, violations_ = 0, allowed_ = 0;
+  Repetitions refusals_, violated_;
   std::map<std::string, std::map<std::string, std::uint64_t>> counts_;  ///< by station and code
 };
 

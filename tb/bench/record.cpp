@@ -25,18 +25,28 @@ const char* name(profibus::DpState state) {
   return "";
 }
 
-void Refusals::count(const Occurrence& occurrence) {
-  Refused& entry = entries_[{occurrence.station, occurrence.code}];
+const char* name(ChecksMode mode) {
+  switch (mode) {
+    case ChecksMode::kFail: return "fail";
+    case ChecksMode::kReport: return "report";
+    case ChecksMode::kOff: return "off";
+  }
+  return "";
+}
+
+void Repetitions::count(const Occurrence& occurrence) {
+  Repeated& entry = entries_[{occurrence.station, occurrence.code, occurrence.place}];
   if (entry.count++ == 0)
-    entry = {occurrence.station, occurrence.code, occurrence.text, occurrence.at, occurrence.at, 1};
+    entry = {occurrence.station, occurrence.code, occurrence.place,  occurrence.text,
+             occurrence.at,      occurrence.at,   1,                 occurrence.allowed};
   entry.last = std::max(entry.last, occurrence.at);
 }
 
-std::vector<Refused> Refusals::list() const {
-  std::vector<Refused> list;
+std::vector<Repeated> Repetitions::list() const {
+  std::vector<Repeated> list;
   list.reserve(entries_.size());
   for (const auto& [key, entry] : entries_) list.push_back(entry);
-  std::stable_sort(list.begin(), list.end(), [](const Refused& a, const Refused& b) { return a.first < b.first; });
+  std::stable_sort(list.begin(), list.end(), [](const Repeated& a, const Repeated& b) { return a.first < b.first; });
   return list;
 }
 

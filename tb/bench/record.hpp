@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "bus/bytes.hpp"
@@ -13,6 +13,7 @@
 #include "tb/chip/checks/recorder.hpp"
 #include "tb/chip/chip_view.hpp"
 #include "tb/chip/user_cpu/station_cpu.hpp"
+#include "tb/scenario/scenario.hpp"
 
 namespace dsdpv1::tb {
 
@@ -25,28 +26,30 @@ struct Occurrence {
   std::string code;     ///< stable: "PRM_IDENT", "DSDPV1_ERR_INIT_CRC", "BUS_COLLISION"
   profibus::Severity severity = profibus::Severity::kInfo;
   std::string text;
-  bool allowed = false;  ///< a violation that the scenario lists
+  std::string place = {};  ///< the cell that it is about, as "B31A"; empty: none
+  bool allowed = false;    ///< a violation that the scenario lists
 };
 
 /// "info", "refusal", "violation".
 const char* name(profibus::Severity severity);
 
-/// What was refused at one station for one reason: however long the run, none is forgotten.
-struct Refused {
-  std::string station, code;
+/// What happened at one station with one code at one place: however long the run, none is forgotten.
+struct Repeated {
+  std::string station, code, place;
   std::string text;  ///< of the first time
   Tick first = 0, last = 0;
   std::uint64_t count = 0;
+  bool allowed = false;
 };
 
-class Refusals {
+class Repetitions {
  public:
   void count(const Occurrence& occurrence);
   /// By the first time.
-  std::vector<Refused> list() const;
+  std::vector<Repeated> list() const;
 
  private:
-  std::map<std::pair<std::string, std::string>, Refused> entries_;  ///< by station and code
+  std::map<std::tuple<std::string, std::string, std::string>, Repeated> entries_;  ///< by station, code, place
 };
 
 /// Answers of one slave, measured by the monitor.
@@ -60,7 +63,8 @@ struct SlaveResult {
   std::string name;
   ChipStatus status;
   std::string master_state;  ///< what its master makes of it, empty without one
-  std::string master_reason;
+  std::string master_reason;  ///< what it has met, empty when all is well
+  std::string waits_for;      ///< of a slave that is not in data exchange: what stands in the way, as its chip has said
   Tsdr tsdr;
   user_cpu::UserCounters user;
   std::optional<user_cpu::BoardReport> board;  ///< of a board with a processor of its own
@@ -76,12 +80,7 @@ struct MasterResult {
   bool interval_given = false;  ///< by the scenario; else it is the greatest of the slaves' GSD files
 };
 
-/// What is done with violations that the checks of tb/chip/checks find.
-enum class ChecksMode : std::uint8_t {
-  kOff,     ///< nothing is checked
-  kReport,  ///< listed
-  kFail,    ///< listed, and those that the scenario does not allow fail the run
-};
+using scenario::ChecksMode;
 
 /// A check on one slave.
 struct CheckResult {
@@ -101,6 +100,7 @@ struct ExpectationResult {
   bool passed = false;
   std::string seen;
   bool left_out = false;  ///< of firmware that does not tell: not judged
+  bool implied = false;   ///< by a master that has the slave; `line`: of the slave in the master's list
 };
 
 /// How a run against a host outside kept to real time (serve).
@@ -127,16 +127,20 @@ struct LockstepResult {
 
 struct RunResult {
   std::string scenario, file, engine, view;
-  bool passed = false, interrupted = false;
+  bool interrupted = false;
+  ChecksMode checks_mode = ChecksMode::kFail;
+  std::uint64_t checks_off = 0;  ///< that the scenario leaves out, each counted once
   Tick simulated = 0;
   double wall_s = 0;
   std::uint64_t telegrams = 0, wrong_telegrams = 0;
   std::uint64_t violations = 0;       ///< those that are not allowed, and with ChecksMode::kFail those of checks
+  std::uint64_t allowed = 0;          ///< those that the scenario lists, those of checks apart
   std::vector<MasterResult> masters;  ///< of class 1
   std::vector<SlaveResult> slaves;
   std::vector<Occurrence> occurrences;
   std::uint64_t occurrences_dropped = 0;  ///< beyond the first kKept
-  std::vector<Refused> refused;           ///< by the first time
+  std::vector<Repeated> refused;          ///< by the first time
+  std::vector<Repeated> violated;         ///< likewise, those that are allowed too; those of checks apart
   std::vector<ExpectationResult> expectations;
   std::vector<CheckResult> checks;  ///< by slave, then in the order of the chip's rules
   std::optional<Pacing> pacing;
@@ -150,6 +154,8 @@ struct RunResult {
 
 /// The word for a baud index of Status: "12M" ... "9.6k", "searching".
 std::string baud_text(std::optional<int> baud);
+/// "fail", "report", "off", as scenarios and options have them.
+const char* name(ChecksMode mode);
 /// "OFFLINE", "WAIT_PRM", "WAIT_CFG", "DATA_EXCH".
 const char* name(profibus::DpState state);
 

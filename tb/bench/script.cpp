@@ -78,7 +78,10 @@ void Script::carry_out(const Due& due, Tick now) {
       stations_.class2(name)->master().start();
       break;
     }
-    case Kind::kAction: act(scenario.script[due.index], now); break;
+    case Kind::kAction:
+      on_action(scenario.script[due.index]);
+      act(scenario.script[due.index], now);
+      break;
     case Kind::kResumeUser:
       stations_.slave(scenario.slaves[due.index].name.text).command(now, user_cpu::command::Resume{});
       break;

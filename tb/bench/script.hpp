@@ -2,6 +2,7 @@
 // The scenario's script and expectations as the last agent of the timeline: it acts when everybody else has acted at a
 // tick.
 #include <cstddef>
+#include <functional>
 #include <set>
 #include <vector>
 
@@ -22,6 +23,9 @@ class Script : public bus::Agent, public Observer {
   /// judged.
   Script(const scenario::Scenario& scenario, Stations& stations, bus::Segment& segment, Journal& journal,
          Replies& replies, const std::set<const void*>& left_out);
+
+  /// Told of each action before it is carried out.
+  std::function<void(const scenario::Action& action)> on_action;
 
   /// Conditions are looked at again at `at`.
   void changed(Tick at) override {

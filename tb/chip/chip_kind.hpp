@@ -95,6 +95,8 @@ class ChipKind {
   // --- What happens.
   /// In words.
   virtual std::string describe(const profibus::Event& event) const = 0;
+  /// The cell that it is about, as its documents write it; empty: none.
+  virtual std::string cell_of(const profibus::Event& /*event*/) const { return ""; }
   /// By default null: its accesses are not put into words.
   virtual std::unique_ptr<AccessReader> make_access_reader() const { return nullptr; }
   /// By default, and where the chip's user has no serial port, null. `chip`: its settings.

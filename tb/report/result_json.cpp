@@ -4,6 +4,7 @@
 
 #include "bus/time.hpp"
 #include "io/input/units.hpp"
+#include "tb/bench/verdict.hpp"
 #include "tb/report/result_schema.hpp"
 
 namespace dsdpv1::tb {
@@ -79,6 +80,7 @@ Json slave_of(const SlaveResult& slave) {
   if (slave.board) json["arm_board"] = board_of(*slave.board);
   json["master_state"] = slave.master_state;
   json["master_reason"] = slave.master_reason;
+  json["waits_for"] = slave.waits_for;
   json["inputs"] = bytes_text(slave.inputs, slave.inputs.size());
   json["outputs"] = slave.outputs ? Json(bytes_text(*slave.outputs, slave.outputs->size())) : Json();
   return json;
@@ -172,7 +174,7 @@ Json master_of(const MasterResult& master) {
           {"min_slave_interval_from", master.interval_given ? Json("scenario") : of_slaves}};
 }
 
-Json refused_of(const Refused& refused) {
+Json refused_of(const Repeated& refused) {
   return {{"slave", refused.station},
           {"code", refused.code},
           {"count", refused.count},
@@ -181,13 +183,22 @@ Json refused_of(const Refused& refused) {
           {"text", refused.text}};
 }
 
+Json violated_of(const Repeated& violated) {
+  Json json = refused_of(violated);
+  json["place"] = violated.place;
+  json["allowed"] = violated.allowed;
+  return json;
+}
+
 }  // namespace
 
 std::string result_json(const RunResult& result) {
   Json json = {{"schema", kResultSchema}, {"version", kResultVersion}};
   json["scenario"] = result.scenario;
   json["file"] = result.file;
-  json["passed"] = result.passed;
+  json["passed"] = verdict(result) == Verdict::kPassed;
+  json["verdict"] = name(verdict(result));
+  json["verdict_text"] = words(result);
   json["interrupted"] = result.interrupted;
   json["engine"] = result.engine;
   json["view"] = result.view;
@@ -198,6 +209,8 @@ std::string result_json(const RunResult& result) {
   json["telegrams"] = result.telegrams;
   json["wrong_telegrams"] = result.wrong_telegrams;
   json["violations"] = result.violations;
+  json["checks_mode"] = name(result.checks_mode);
+  json["violations_not_judged"] = violations_not_judged(result);
   if (result.pacing) json["pacing"] = pacing_of(*result.pacing);
   if (result.lockstep) json["lockstep"] = lockstep_of(*result.lockstep);
   json["masters"] = Json::array();
@@ -209,12 +222,15 @@ std::string result_json(const RunResult& result) {
     json["expectations"].push_back({{"text", each.text},
                                     {"line", each.line},
                                     {"passed", each.left_out ? Json() : Json(each.passed)},
-                                    {"seen", each.seen}});
+                                    {"seen", each.seen},
+                                    {"implied", each.implied}});
   }
   json["checks"] = Json::array();
   for (const CheckResult& each : result.checks) json["checks"].push_back(check_of(each));
   json["refused"] = Json::array();
-  for (const Refused& each : result.refused) json["refused"].push_back(refused_of(each));
+  for (const Repeated& each : result.refused) json["refused"].push_back(refused_of(each));
+  json["violated"] = Json::array();
+  for (const Repeated& each : result.violated) json["violated"].push_back(violated_of(each));
   json["events"] = Json::array();
   for (const Occurrence& each : result.occurrences) json["events"].push_back(event_of(each));
   json["events_dropped"] = result.occurrences_dropped;

@@ -94,6 +94,7 @@ Json slave() {
                  {"arm_board", arm_board(), false},
                  {"master_state", text("what its master makes of it; empty without one")},
                  {"master_reason", text("and why")},
+                 {"waits_for", text("not in data exchange: what stands in the way, as its chip has said, and what to do; else empty")},
                  {"inputs", text("at the end, bytes in hexadecimal")},
                  {"outputs", or_null(text("at the end, bytes in hexadecimal; null: its program does not tell"))}},
                 "a slave at the end of the run");
@@ -118,8 +119,9 @@ Json expectation() {
   return object({{"text", text("in words")},
                  {"line", count("where it stands in the scenario")},
                  {"passed", or_null(boolean("null: not judged, since firmware does not tell"))},
-                 {"seen", text("what was seen")}},
-                "an expectation of the scenario");
+                 {"seen", text("what was seen")},
+                 {"implied", boolean("by a master that has the slave: data exchange, to the end")}},
+                "an expectation");
 }
 
 Json violation() {
@@ -157,14 +159,22 @@ Json check() {
                 "a check on one slave");
 }
 
-Json refused() {
-  return object({{"slave", text("at which")},
-                 {"code", text("of docs/reasons.md")},
-                 {"count", count("how often")},
-                 {"first_ns", number("the first time")},
-                 {"last_ns", number("the last time")},
-                 {"text", text("in words, of the first time")}},
-                "what was refused for one reason");
+std::vector<Member> repeated() {
+  return {{"slave", text("at which")},
+          {"code", text("of docs/reasons.md")},
+          {"count", count("how often")},
+          {"first_ns", number("the first time")},
+          {"last_ns", number("the last time")},
+          {"text", text("in words, of the first time")}};
+}
+
+Json refused() { return object(repeated(), "what was refused for one reason"); }
+
+Json violated() {
+  std::vector<Member> members = repeated();
+  members.push_back({"place", text("the cell that it is about; empty: none")});
+  members.push_back({"allowed", boolean("the scenario allows it")});
+  return object(members, "what was violated in one way at one place, those of checks apart");
 }
 
 Json event() {
@@ -183,7 +193,11 @@ Json root() {
        {"version", constant(kResultVersion, "of what it holds")},
        {"scenario", text("its name")},
        {"file", text("where it was read")},
-       {"passed", boolean("nothing was violated that is not allowed, all expectations were met, and no RTL differed")},
+       {"passed", boolean("`verdict` is passed")},
+       {"verdict", one_of({"passed", "failed", "nothing_judged", "interrupted"},
+                          "passed: all expectations were met, nothing was violated that is not allowed, no RTL differed; "
+                          "nothing_judged: no data exchange, and nothing was expected")},
+       {"verdict_text", text("the last line of the table: the verdict, and what was not judged")},
        {"interrupted", boolean("it was ended by a signal before its time")},
        {"engine", text("step, skip, rtl, lockstep")},
        {"view", text("pins, tlm")},
@@ -193,14 +207,17 @@ Json root() {
        {"real_time_factor", number("simulated time over that; 0: not measured")},
        {"telegrams", count("on the line")},
        {"wrong_telegrams", count("of them with an error")},
-       {"violations", count("that the scenario does not allow; of checks with --checks fail only")},
+       {"violations", count("that the scenario does not allow; of checks in checks_mode fail only")},
+       {"checks_mode", one_of({"fail", "report", "off"}, "what comes of violations that checks find")},
+       {"violations_not_judged", count("of checks in checks_mode report")},
        {"pacing", pacing(), false},
        {"lockstep", lockstep(), false},
        {"masters", list(master(), "of class 1")},
        {"slaves", list(slave(), "in the order of the scenario")},
-       {"expectations", list(expectation(), "in the order of the scenario")},
-       {"checks", list(check(), "empty with --checks off")},
+       {"expectations", list(expectation(), "in the order of the scenario, then the implied ones")},
+       {"checks", list(check(), "empty in checks_mode off")},
        {"refused", list(refused(), "by the first time")},
+       {"violated", list(violated(), "by the first time")},
        {"events", list(event(), "the first 10 000, in order of time")},
        {"events_dropped", count("events beyond those")}},
       "the result of a run");

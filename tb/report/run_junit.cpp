@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tb/bench/verdict.hpp"
 #include "tb/report/summary.hpp"
 #include "tb/report/text_table.hpp"
 
@@ -17,24 +18,34 @@ JunitCase case_of_run(const RunResult& result) {
   JunitCase made{result.file, fmt::format("run, engine {}, view {}", result.engine, result.view), result.wall_s,
                  std::nullopt, summary(result)};
   if (result.interrupted) made.failure = "interrupted at " + when(result.simulated);
+  if (verdict(result) == Verdict::kNothingJudged)
+    made.failure = "nothing judged: no data exchange, and nothing was expected";
   return made;
 }
 
 std::string violations_text(const RunResult& result) {
-  std::string text = fmt::format("{} violations that the scenario does not allow\n", result.violations);
-  for (const Occurrence& each : result.occurrences)
-    if (each.severity == profibus::Severity::kViolation && !each.allowed)
-      text += fmt::format("{} {}: {}: {}\n", when(each.at), each.station, each.code, each.text);
-  for (const CheckResult& each : result.checks)
-    if (each.record.violations > each.allowed)
-      text += fmt::format("{}: {}: {} times: {}\n", each.slave, each.rule->id, each.record.violations - each.allowed,
-                          each.rule->rule);
+  std::string text;
+  for (const Repeated& each : result.violated)
+    if (!each.allowed)
+      text += fmt::format("{} times {} {}{}{}, first at {}: {}\n", each.count, each.station, each.code,
+                          each.place.empty() ? "" : " at ", each.place, when(each.first), each.text);
   return text;
 }
 
 JunitCase case_of_violations(const RunResult& result) {
   JunitCase made{result.file, "no violation that the scenario does not allow", 0, std::nullopt, ""};
-  if (result.violations != 0) made.failure = violations_text(result);
+  if (const std::string text = violations_text(result); !text.empty()) made.failure = text;
+  return made;
+}
+
+/// A check on one slave.
+JunitCase case_of(const RunResult& result, const CheckResult& check) {
+  JunitCase made{result.file, fmt::format("{}: {}", check.slave, check.rule->id), 0, std::nullopt, ""};
+  const std::uint64_t count = check.record.violations - check.allowed;
+  if (count == 0) return made;
+  const std::string text = fmt::format("violated {} times, first at {}: {}\n{}\n", count, when(check.listed.front().at),
+                                       check.listed.front().text, check.rule->rule);
+  (result.checks_mode == ChecksMode::kFail ? made.failure.emplace() : made.output) = text;
   return made;
 }
 
@@ -58,6 +69,7 @@ JunitCase case_of(const RunResult& result, const LockstepResult& lockstep) {
 
 std::vector<JunitCase> run_cases(const RunResult& result) {
   std::vector<JunitCase> cases = {case_of_run(result), case_of_violations(result)};
+  for (const CheckResult& each : result.checks) cases.push_back(case_of(result, each));
   for (const ExpectationResult& each : result.expectations) cases.push_back(case_of(result, each));
   if (result.lockstep) cases.push_back(case_of(result, *result.lockstep));
   return cases;

@@ -7,6 +7,7 @@
 
 #include "bus/printable.hpp"
 #include "io/input/units.hpp"
+#include "tb/bench/verdict.hpp"
 #include "tb/report/check_report.hpp"
 #include "tb/report/text_table.hpp"
 
@@ -17,13 +18,12 @@ std::string microseconds(Tick tick) {
   return fmt::format("{:.3f}", static_cast<double>(tick) / static_cast<double>(bus::kTicksPerUs));
 }
 
-/// The steps from power-on to data exchange, and whatever went wrong.
+/// The steps from power-on to data exchange.
 bool is_step(const Occurrence& each) {
   static constexpr std::array<const char*, 9> kSteps = {"READY_FLAG", "INITIALISED", "BAUD_SEARCH",
                                                         "BAUD_FOUND", "BAUD_LOST",   "DP_STATE",
                                                         "WD_ON",      "WD_EXPIRED",  "ADDRESS"};
-  const bool known = std::any_of(kSteps.begin(), kSteps.end(), [&each](const char* code) { return each.code == code; });
-  return known || each.severity == profibus::Severity::kViolation;
+  return std::any_of(kSteps.begin(), kSteps.end(), [&each](const char* code) { return each.code == code; });
 }
 
 std::string steps(const RunResult& result) {
@@ -37,26 +37,25 @@ std::string steps(const RunResult& result) {
       continue;
     }
     ++shown;
-    const std::string mark =
-        each.severity == profibus::Severity::kViolation ? (each.allowed ? "allowed: " : "VIOLATION: ") : "";
-    table.add({fmt::format("{:>13}", microseconds(each.at)), each.station, mark + each.text});
+    table.add({fmt::format("{:>13}", microseconds(each.at)), each.station, each.text});
   }
   if (shown == 0) return "";
   return table.text() + (hidden != 0 ? fmt::format("  ... and {} more, see --log and --result\n", hidden) : "") + "\n";
 }
 
-/// What was refused, a row for each station and code: nobody should need the log to find that out.
-std::string refused(const RunResult& result) {
+/// A row for each station, code and place: nobody should need the log to find that out.
+std::string repeated(const char* head, const std::vector<Repeated>& all) {
   constexpr std::size_t kMost = 40;
-  if (result.refused.empty()) return "";
-  TextTable table({"refused by", "reason", "times", "first / us", "last / us", "what, the first time"});
-  const std::size_t shown = std::min(result.refused.size(), kMost);
+  if (all.empty()) return "";
+  TextTable table({head, "reason", "times", "first / us", "last / us", "what, the first time"});
+  const std::size_t shown = std::min(all.size(), kMost);
   for (std::size_t i = 0; i < shown; ++i) {
-    const Refused& each = result.refused[i];
-    table.add({each.station, each.code, fmt::format("{}", each.count), microseconds(each.first),
+    const Repeated& each = all[i];
+    table.add({each.station, each.code + (each.place.empty() ? "" : " (" + each.place + ")"),
+               fmt::format("{}{}", each.count, each.allowed ? " allowed" : ""), microseconds(each.first),
                microseconds(each.last), each.text});
   }
-  const std::size_t hidden = result.refused.size() - shown;
+  const std::size_t hidden = all.size() - shown;
   return table.text() + (hidden != 0 ? fmt::format("  ... and {} more, see --result\n", hidden) : "") +
          "  dsdpv1-sim reasons REASON says what to do\n\n";
 }
@@ -96,12 +95,12 @@ std::string masters(const RunResult& result) {
 }
 
 std::string expectations(const RunResult& result) {
-  if (result.expectations.empty()) return "";
   std::string text;
-  std::size_t met = 0, left_out = 0;
+  std::size_t all = 0, met = 0, left_out = 0, implied = 0, kept = 0;
   for (const ExpectationResult& each : result.expectations) {
+    ++(each.implied ? implied : all);
     if (each.passed) {
-      ++met;
+      ++(each.implied ? kept : met);
     } else if (each.left_out) {
       ++left_out;
     } else {
@@ -109,9 +108,25 @@ std::string expectations(const RunResult& result) {
               bus::printable(fmt::format("{}:{}: {}; seen: {}", result.file, each.line, each.text, each.seen)) + "\n";
     }
   }
-  return fmt::format("  expectations   {} of {} met{}\n", met, result.expectations.size(),
-                     left_out != 0 ? fmt::format(", {} left out", left_out) : "") +
-         text;
+  const std::string own = all == 0 ? ""
+                                   : fmt::format("  expectations   {} of {} met{}\n", met, all,
+                                                 left_out != 0 ? fmt::format(", {} left out", left_out) : "");
+  const std::string of_masters =
+      implied == 0 ? "" : fmt::format("  data exchange  {} of {} slaves of masters, to the end\n", kept, implied);
+  return of_masters + own + text;
+}
+
+/// Of each slave that is not in data exchange: why not, as its master and its chip have it.
+std::string waiting(const RunResult& result) {
+  std::string text;
+  for (const SlaveResult& slave : result.slaves) {
+    if (slave.status.dp_state == profibus::DpState::kDataExch) continue;
+    text += fmt::format("  {} is in {}", slave.name, name(slave.status.dp_state));
+    if (!slave.master_reason.empty()) text += "; its master: " + bus::printable(slave.master_reason);
+    if (!slave.waits_for.empty()) text += "; " + bus::printable(slave.waits_for);
+    text += "\n";
+  }
+  return text.empty() ? "" : text + "\n";
 }
 
 std::string pacing(const Pacing& pacing) {
@@ -148,7 +163,9 @@ std::string boards(const RunResult& result) {
 
 std::string summary(const RunResult& result) {
   std::string text =
-      fmt::format("\n{}\n\n", bus::printable(result.scenario)) + steps(result) + refused(result) + slaves(result);
+      fmt::format("\n{}\n\n", bus::printable(result.scenario)) + steps(result) + repeated("violated by", result.violated) +
+      repeated("refused by", result.refused) + slaves(result) +
+      waiting(result);
   text += masters(result);
   text += fmt::format("  telegrams      {} ({} wrong)\n", result.telegrams, result.wrong_telegrams);
   text +=
@@ -159,7 +176,7 @@ std::string summary(const RunResult& result) {
   if (result.violations != 0)
     text += fmt::format("  violations     {} that the scenario does not allow\n", result.violations);
   text += expectations(result) + check_report(result);
-  return text + fmt::format("\n{}\n", result.interrupted ? "INTERRUPTED" : result.passed ? "PASSED" : "FAILED");
+  return text + fmt::format("\n{}\n", words(result));
 }
 
 }  // namespace dsdpv1::tb

@@ -70,7 +70,7 @@ keys::Field checks_field(const ChipKind& kind) {
   field.name = "checks";
   field.type.kind = keys::Kind::kObject;
   field.type.object = &check_keys(kind);
-  field.doc = "Limits of the checks other than their defaults.";
+  field.doc = "What comes of violations that the checks find, and limits other than their defaults.";
   field.read = [keys = field.type.object](void* owner, const YAML::Node& node, const keys::Source& source) {
     keys::read_object(*keys, &static_cast<Scenario*>(owner)->checks, node, source);
   };
@@ -104,7 +104,12 @@ ObjectOf<Scenario> describe_scenario(const ChipKind& kind) {
   o.list("masters2", &Scenario::masters2, master2_keys(), {0, 4}, "The DP masters class 2.");
   o.list("slaves", &Scenario::slaves, slave_keys(kind), {1, 125}, "The chips, each with its user CPU.").required = true;
   o.list("script", &Scenario::script, action_keys(kind), kItems, "What happens during the run.");
-  o.list("expect", &Scenario::expect, expectation_keys(), kItems, "What must be true, else the run fails (exit 1).");
+  o.list_or("expect", &Scenario::expect, expectation_keys(), kItems, {"none", "not even data exchange"},
+            &Scenario::expects_exchange,
+            "What must be true, else the run fails (exit 1). Each slave that a master of class 1 has must besides come to "
+            "data exchange, be in it at the end, and not leave it but for the script; not so where an expectation on the "
+            "slave says another `dp_state`, `baud: searching`, `data_exchanges_at_most` or an event that ends data exchange "
+            "(`WD_EXPIRED`, `BAUD_LOST`).");
   o.list("allow", &Scenario::allow, allow_keys(), kItems,
          "Violations that are expected. Every other one fails the run.");
   o.fields.push_back(checks_field(kind));

@@ -31,7 +31,7 @@ const ObjectOf<Action>& action_keys(const ChipKind& kind);
 const ObjectOf<When>& when_keys();
 const ObjectOf<Expectation>& expectation_keys();
 const ObjectOf<Allow>& allow_keys();
-const ObjectOf<CheckLimits>& check_keys(const ChipKind& kind);
+const ObjectOf<Checks>& check_keys(const ChipKind& kind);
 
 /// The ten baud rates, fastest first.
 std::vector<WordFor<int>> baud_words();

@@ -66,7 +66,7 @@ keys::Field field_of(const checks::Rule& rule, checks::CheckId check) {
                                                         const keys::Source& source) {
     CheckLimit said;
     keys::read_object(described, &said, node, source);
-    checks::Limit& limit = (*static_cast<CheckLimits*>(owner))[check];
+    checks::Limit& limit = (*static_cast<Checks*>(owner))[check];
     limit.on = said.enabled;
     if (said.min) limit.value = *said.min;
     if (said.max) limit.value = *said.max;
@@ -74,15 +74,20 @@ keys::Field field_of(const checks::Rule& rule, checks::CheckId check) {
   return field;
 }
 
-ObjectOf<CheckLimits> describe_checks(const ChipKind& kind) {
-  ObjectOf<CheckLimits> o("checks", "Limits of the checks on the user's side, see docs/checks.md. A key a check.");
+ObjectOf<Checks> describe_checks(const ChipKind& kind) {
+  ObjectOf<Checks> o("checks", "The checks on the user's side, see docs/checks.md: what comes of a violation, and a key a check for other limits.");
   const checks::RuleTable& rules = kind.rules();
+  o.word("mode", &Checks::mode,
+         std::vector<WordFor<ChecksMode>>{{ChecksMode::kFail, "fail", "the run fails"},
+                                          {ChecksMode::kReport, "report", "listed; the verdict says how many were not judged"},
+                                          {ChecksMode::kOff, "off", "nothing is checked, and the verdict says so"}},
+         "What comes of a violation that `allow` does not list. The option `--checks` comes before it.");
   for (std::size_t i = 0; i < rules.size(); ++i) o.fields.push_back(field_of(rules[i], checks::CheckId(i)));
   return o;
 }
 
 }  // namespace
 
-const ObjectOf<CheckLimits>& check_keys(const ChipKind& kind) { return per_kind<CheckLimits>(kind, describe_checks); }
+const ObjectOf<Checks>& check_keys(const ChipKind& kind) { return per_kind<Checks>(kind, describe_checks); }
 
 }  // namespace dsdpv1::tb::scenario

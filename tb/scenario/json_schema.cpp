@@ -89,6 +89,7 @@ class SchemaWriter {
   Json list(const Field& field) {
     Json json = {{"type", "array"}, {"minItems", field.type.range.min}, {"maxItems", field.type.range.max}};
     json["items"] = element(field);
+    if (!field.type.words.empty()) json = {{"anyOf", {json, words(field)}}};
     return json;
   }
 

@@ -39,7 +39,11 @@ std::string link(const Object& object) {
 std::string items(const Field& field) { return fmt::format("{} to {}", field.type.range.min, field.type.range.max); }
 
 std::string list_of(const Field& field) {
-  if (field.type.object != nullptr) return "list of " + link(*field.type.object);
+  if (field.type.object != nullptr) {
+    std::string text = "list of " + link(*field.type.object);
+    for (const keys::Word& word : field.type.words) text += ", or `" + word.text + "`";
+    return text;
+  }
   if (field.type.element != Kind::kInteger) return "list of text";
   return fmt::format("list of {} integers, {} to {} {}", field.type.range.max, field.type.each.min, field.type.each.max,
                      field.type.unit);

@@ -268,8 +268,16 @@ struct Allow {
   int line = 0;
 };
 
-/// Limits of checks other than their defaults, for all slaves.
-struct CheckLimits : checks::Limits {
+/// What is done with violations that the checks of tb/chip/checks find.
+enum class ChecksMode : std::uint8_t {
+  kFail,    ///< listed, and those that the scenario does not allow fail the run
+  kReport,  ///< listed
+  kOff,     ///< nothing is checked
+};
+
+/// What is checked, and limits other than the chip's own, for all slaves.
+struct Checks : checks::Limits {
+  ChecksMode mode = ChecksMode::kFail;
   int line = 0;
 };
 
@@ -286,8 +294,9 @@ struct Scenario {
   std::vector<Slave> slaves;
   std::vector<Action> script;
   std::vector<Expectation> expect;
+  bool expects_exchange = true;  ///< of each slave that a master has, see tb/bench/exchange_watch.hpp
   std::vector<Allow> allow;
-  CheckLimits checks;
+  Checks checks;
   int line = 0;
 };
 

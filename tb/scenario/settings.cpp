@@ -96,7 +96,9 @@ void check_value(const Field& field, const YAML::Node& value, const std::string&
     case Kind::kWord: keys::read_word(field, value, source); break;
     case Kind::kTime: keys::read_time(field, value, source); break;
     case Kind::kBytes: keys::read_bytes(field, value, source); break;
-    case Kind::kList: keys::check_list(field, value, source); break;
+    case Kind::kList:
+      if (!keys::is_word_of(field, value)) keys::check_list(field, value, source);
+      break;
     default: keys::read_text(field, value, source); break;
   }
 }

@@ -44,10 +44,9 @@ TEST(Summary, NamesWhatIsNotMet) {
 
 TEST(Summary, ListsWhatWasRefused) {
   tb::RunResult result;
-  result.passed = true;
   EXPECT_EQ(tb::summary(result).find("refused"), std::string::npos);
   result.refused.push_back(
-      {"demo", "PRM_IDENT", "Prm_Fault: ident 1234", 2 * bus::kTicksPerUs, 5 * bus::kTicksPerUs, 3});
+      {"demo", "PRM_IDENT", "", "Prm_Fault: ident 1234", 2 * bus::kTicksPerUs, 5 * bus::kTicksPerUs, 3, false});
   const std::string text = tb::summary(result);
   EXPECT_NE(text.find("  refused by  reason     times  first / us  last / us  what, the first time\n"),
             std::string::npos)
@@ -55,6 +54,18 @@ TEST(Summary, ListsWhatWasRefused) {
   EXPECT_NE(text.find("  demo        PRM_IDENT  3      2.000       5.000      Prm_Fault: ident 1234\n"),
             std::string::npos)
       << text;
+}
+
+TEST(Summary, HasEqualViolationsInOneRow) {
+  tb::Repetitions repetitions;
+  for (tb::Tick at = 1; at <= 6000; ++at)
+    repetitions.count({at * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "B31A is accessed", "B31A"});
+  repetitions.count({7 * bus::kTicksPerUs, "demo", "HOST_NOT_OWNER", profibus::Severity::kViolation, "B31B is accessed", "B31B"});
+  tb::RunResult result;
+  result.violated = repetitions.list();
+  const std::string text = tb::summary(result);
+  EXPECT_NE(text.find("  demo         HOST_NOT_OWNER (B31A)  6000   1.000       6000.000   B31A is accessed\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  demo         HOST_NOT_OWNER (B31B)  1      7.000       7.000      B31B is accessed\n"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "io/input/input_error.hpp"
 #include "tb/bench/bench.hpp"
+#include "tb/bench/verdict.hpp"
 #include "tb/report/result_json.hpp"
 #include "tb/report/summary.hpp"
 #include "tests/mailbox/kind.hpp"
@@ -57,7 +58,7 @@ class MailboxOnTheBench : public testing::Test {
 
 TEST_F(MailboxOnTheBench, ReachesDataExchangeByAScenario) {
   const tb::RunResult result = run(tb::Engine::kSkip, "skip");
-  EXPECT_TRUE(result.passed) << tb::summary(result);
+  EXPECT_EQ(tb::verdict(result), tb::Verdict::kPassed) << tb::summary(result);
   EXPECT_EQ(result.violations, 0U);
   EXPECT_THAT(tb::summary(result), HasSubstr("DATA_EXCH"));
   EXPECT_THAT(tb::result_json(result), HasSubstr(R"("dp_state": "DATA_EXCH")"));
@@ -65,8 +66,8 @@ TEST_F(MailboxOnTheBench, ReachesDataExchangeByAScenario) {
 }
 
 TEST_F(MailboxOnTheBench, StepAndSkipGiveTheSamePinsLogAndWave) {
-  EXPECT_TRUE(run(tb::Engine::kSkip, "skip").passed);
-  EXPECT_TRUE(run(tb::Engine::kStep, "step").passed);
+  EXPECT_EQ(tb::verdict(run(tb::Engine::kSkip, "skip")), tb::Verdict::kPassed);
+  EXPECT_EQ(tb::verdict(run(tb::Engine::kStep, "step")), tb::Verdict::kPassed);
   EXPECT_EQ(read("skip.trace"), read("step.trace"));
   EXPECT_EQ(read("skip.log"), read("step.log"));
   EXPECT_EQ(read("skip.vcd"), read("step.vcd"));
@@ -99,7 +100,7 @@ expect:
   const tb::scenario::Scenario scenario = tb::scenario::parse(text, kScenario);
   tb::Bench bench(scenario, {}, tb::make_pin_execution());
   const tb::RunResult result = bench.run([](tb::Tick) { return true; });
-  EXPECT_TRUE(result.passed) << tb::summary(result);
+  EXPECT_EQ(tb::verdict(result), tb::Verdict::kPassed) << tb::summary(result);
 }
 
 std::string error_of(const std::string& text, const std::vector<std::string>& set = {}) {

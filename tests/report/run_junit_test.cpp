@@ -16,7 +16,6 @@ tb::RunResult made_up() {
   result.engine = "skip";
   result.view = "pins";
   result.wall_s = 1.5;
-  result.passed = true;
   result.expectations = {{"demo: dp_state DATA_EXCH", 12, true, "", false},
                          {"demo: outputs 01", 13, false, "outputs 02", false},
                          {"demo: driver_errors 0", 14, false, "", true}};
@@ -28,7 +27,7 @@ TEST(RunJunit, HasACaseForTheRunItsViolationsAndEachExpectation) {
   ASSERT_EQ(cases.size(), 5U);
   EXPECT_EQ(cases[0].name, "run, engine skip, view pins");
   EXPECT_EQ(cases[0].seconds, 1.5);
-  EXPECT_THAT(cases[0].output, HasSubstr("PASSED"));
+  EXPECT_THAT(cases[0].output, HasSubstr("FAILED, 1 expectation not judged"));
   EXPECT_EQ(cases[1].name, "no violation that the scenario does not allow");
   EXPECT_EQ(cases[2].name, "line 12: demo: dp_state DATA_EXCH");
   for (const tb::JunitCase& each : cases) {
@@ -42,11 +41,33 @@ TEST(RunJunit, HasACaseForTheRunItsViolationsAndEachExpectation) {
 TEST(RunJunit, ViolationsAreListedButForThoseThatTheScenarioAllows) {
   tb::RunResult result = made_up();
   result.violations = 1;
-  result.occurrences = {{12'000, "demo", "HOST_TS", profibus::Severity::kViolation, "WR too short", false},
-                        {24'000, "demo", "HOST_TD", profibus::Severity::kViolation, "D too short", true},
-                        {36'000, "demo", "BAUD_FOUND", profibus::Severity::kInfo, "found", false}};
+  result.violated = {{"demo", "HOST_TS", "B31A", "WR too short", 12'000, 13'000, 4, false},
+                     {"demo", "HOST_TD", "", "D too short", 24'000, 24'000, 1, true}};
   const std::vector<tb::JunitCase> cases = tb::run_cases(result);
-  EXPECT_EQ(cases[1].failure, "1 violations that the scenario does not allow\n1.000 us demo: HOST_TS: WR too short\n");
+  EXPECT_EQ(cases[1].failure, "4 times demo HOST_TS at B31A, first at 1.000 us: WR too short\n");
+}
+
+TEST(RunJunit, EachCheckIsACase) {
+  static const checks::Rule kRule = {"TIMING_TS", checks::Bound::kMin, 150, 0, "WR is low long enough", "", "", "", ""};
+  tb::RunResult result = made_up();
+  result.checks.resize(2);
+  result.checks[0].slave = result.checks[1].slave = "demo";
+  result.checks[0].rule = result.checks[1].rule = &kRule;
+  result.checks[1].record.violations = 2;
+  result.checks[1].listed.resize(2);
+  result.checks[1].listed[0].at = 12'000;
+  result.checks[1].listed[0].text = "too short";
+  const std::vector<tb::JunitCase> cases = tb::run_cases(result);
+  EXPECT_EQ(cases[2].name, "demo: TIMING_TS");
+  EXPECT_FALSE(cases[2].failure);
+  EXPECT_EQ(cases[3].failure, "violated 2 times, first at 1.000 us: too short\nWR is low long enough\n");
+  result.checks_mode = tb::ChecksMode::kReport;
+  EXPECT_FALSE(tb::run_cases(result)[3].failure);
+  EXPECT_THAT(tb::run_cases(result)[3].output, HasSubstr("violated 2 times"));
+}
+
+TEST(RunJunit, ARunInWhichNothingWasJudgedHasFailed) {
+  EXPECT_THAT(tb::run_cases(tb::RunResult{})[0].failure, testing::Optional(HasSubstr("nothing judged")));
 }
 
 TEST(RunJunit, ARunThatWasInterruptedHasFailed) {

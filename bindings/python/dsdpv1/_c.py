@@ -6,7 +6,7 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int16, 
                     c_uint64, c_void_p)
 
 DPSIM_ABI_MAJOR = 0
-DPSIM_ABI_MINOR = 3
+DPSIM_ABI_MINOR = 4
 DPSIM_TICKS_PER_CYCLE = 250
 DPSIM_TICKS_PER_NS = 12
 DPSIM_NEVER = 0xffffffffffffffff
@@ -652,9 +652,10 @@ class dpsim_check_result(Structure):
 
 
 dpsim_checks_mode = c_int32
-DPSIM_CHECKS_REPORT = 0
+DPSIM_CHECKS_AS_SCENARIO = 0
 DPSIM_CHECKS_FAIL = 1
 DPSIM_CHECKS_OFF = 2
+DPSIM_CHECKS_REPORT = 3
 
 
 class dpsim_run_options(Structure):
@@ -823,6 +824,7 @@ FUNCTIONS = {
     "dpsim_run_keep": (dpsim_status, [c_void_p, c_uint32]),
     "dpsim_run_execute": (dpsim_status, [c_void_p, dpsim_poll_fn, c_void_p]),
     "dpsim_run_get_summary": (dpsim_status, [c_void_p, POINTER(dpsim_run_summary)]),
+    "dpsim_run_verdict": (dpsim_status, [c_void_p, POINTER(c_int32), POINTER(c_char_p)]),
     "dpsim_run_result": (dpsim_status, [c_void_p, POINTER(c_char_p)]),
     "dpsim_run_report": (dpsim_status, [c_void_p, POINTER(c_char_p)]),
     "dpsim_run_read_changes": (dpsim_status, [c_void_p, c_void_p, c_size_t, POINTER(c_size_t)]),

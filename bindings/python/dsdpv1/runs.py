@@ -17,7 +17,7 @@ from .kinds import Kind, PinName, kind_of
 from .telegram import Heard, heard_of, table
 from .units import LINE
 
-CHECKS = ("report", "fail", "off")
+CHECKS = ("fail", "off", "report")  # 1, 2, 3 of the C API
 Path = typing.Union[str, "os.PathLike[str]"]
 
 
@@ -25,13 +25,14 @@ def _file(path: typing.Optional[Path]) -> typing.Optional[bytes]:
     return None if path is None else encoded(os.fspath(path))
 
 
-def _options(path: typing.Optional[Path], source: typing.Optional[str], settings: typing.Mapping[str, typing.Any], engine: str, checks: str,
+def _options(path: typing.Optional[Path], source: typing.Optional[str], settings: typing.Mapping[str, typing.Any], engine: str,
+             checks: typing.Optional[str],
              files: typing.Mapping[str, typing.Optional[Path]]) -> typing.Any:
     for name, value, allowed in (("engine", engine, ENGINES), ("checks", checks, CHECKS)):
-        if value not in allowed:
+        if value is not None and value not in allowed:
             raise ValueError(f"{name} is {value}, allowed are {', '.join(allowed)}")
     words = (ctypes.c_char_p * max(1, len(settings)))(*(encoded(f"{key}={value}") for key, value in settings.items()))
-    return sized(_c.dpsim_run_options, engine=ENGINES.index(engine), checks=CHECKS.index(checks), setting_count=len(settings), path=_file(path),
+    return sized(_c.dpsim_run_options, engine=ENGINES.index(engine), checks=0 if checks is None else 1 + CHECKS.index(checks), setting_count=len(settings), path=_file(path),
                  text=encoded(source), settings=ctypes.cast(words, ctypes.POINTER(ctypes.c_char_p)), **{key: _file(each) for key, each in files.items()})
 
 
@@ -42,10 +43,11 @@ class Run(Handle):
     """
 
     def __init__(self, path: typing.Optional[Path] = None, *, text: typing.Optional[str] = None,  # pylint: disable=redefined-outer-name
-                 settings: typing.Optional[typing.Mapping[str, typing.Any]] = None, engine: str = "skip", checks: str = "report",
+                 settings: typing.Optional[typing.Mapping[str, typing.Any]] = None, engine: str = "skip", checks: typing.Optional[str] = None,
                  log: typing.Optional[Path] = None, wave: typing.Optional[Path] = None, capture: typing.Optional[Path] = None) -> None:
         """`path` of the scenario; or `text` is the scenario itself, and `path` stands for it in messages and is the base of relative paths.
-        `settings` replace keys: {"user_cpu.cycle": "40us"}. `log` (.log, .jsonl), `wave` (.vcd, .fst) and `capture` (.pcapng) are written."""
+        `settings` replace keys: {"user_cpu.cycle": "40us"}. `checks`: one of CHECKS; None: as the scenario says,
+        else "fail". `log` (.log, .jsonl), `wave` (.vcd, .fst) and `capture` (.pcapng) are written."""
         options = _options(path, text, settings or {}, engine, checks, {"log": log, "wave": wave, "capture": capture})
         super().__init__(number(lambda into: lib.dpsim_run_create(ctypes.byref(options), into), ctypes.c_void_p), lib.dpsim_run_destroy)
         info = filled(lambda into: lib.dpsim_run_get_info(self, into), _c.dpsim_run_info)
@@ -89,11 +91,18 @@ _text = text
 
 
 class Result:
-    """What came of a run. `passed` also needs all expectations of the scenario met; unmet ones are no exception."""
+    """What came of a run; one that has not passed is no exception.
+
+    `exit_code`, as of `dsdpv1-sim run`: 0 passed; 1 an expectation was not met, or something was violated that is not allowed; 3 nothing was judged;
+    130 stopped by `poll`. `verdict`: in words, with what was not judged, "PASSED, 140 violations not judged". `passed`: exit_code is 0.
+    """
 
     def __init__(self, executed: Run) -> None:
         got = filled(lambda into: lib.dpsim_run_get_summary(executed, into), _c.dpsim_run_summary)
         self._run = executed
+        exit_code, words = ctypes.c_int32(), ctypes.c_char_p()
+        lib.dpsim_run_verdict(executed, ctypes.byref(exit_code), ctypes.byref(words))
+        self.exit_code, self.verdict = int(exit_code.value), text(words)
         self.name, self.slaves, self.kind = executed.name, executed.slaves, executed.kind  # type: str, typing.Tuple[str, ...], Kind
         self.passed, self.interrupted = bool(got.passed), bool(got.interrupted)
         self.simulated = int(got.simulated)  # ticks

@@ -7,6 +7,7 @@
 
 #include "bus/printable.hpp"
 #include "tb/report/html/page_data.hpp"
+#include "tb/bench/verdict.hpp"
 #include "tb/report/markup.hpp"
 #include "tb/report/summary.hpp"
 
@@ -22,8 +23,7 @@ namespace {
 std::string escaped(const std::string& text) { return markup_escaped(bus::printable_lines(text)); }
 
 std::string title_of(const RunResult& result, const std::string& version) {
-  const char* const verdict = result.interrupted ? "interrupted" : result.passed ? "passed" : "failed";
-  return fmt::format("{}: {} (dsdpv1-sim {})", result.scenario, verdict, version);
+  return fmt::format("{}: {} (dsdpv1-sim {})", result.scenario, words(result), version);
 }
 
 std::string scripts() {

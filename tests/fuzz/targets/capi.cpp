@@ -565,7 +565,7 @@ class Caller {
     if (place == nullptr || run_count_++ == 2) return;
     auto options = sized<dpsim_run_options>();
     options.engine = static_cast<dpsim_engine>(input_.below(3));
-    options.checks = static_cast<dpsim_checks_mode>(input_.below(4));
+    options.checks = static_cast<dpsim_checks_mode>(input_.below(5));
     options.path = "short.yaml";
     options.text = kScenario;
     const char* const setting = words(40).c_str();

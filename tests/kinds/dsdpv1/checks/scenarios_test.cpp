@@ -13,6 +13,7 @@
 
 #include "kinds/dsdpv1/checks/check.hpp"
 #include "tb/bench/bench.hpp"
+#include "tb/bench/verdict.hpp"
 #include "tb/scenario/scenario.hpp"
 #ifdef RUDE_FOLDER
 #include "kinds/dsdpv1/board/arm_user.hpp"
@@ -145,7 +146,7 @@ class EachCheck : public testing::TestWithParam<Case> {};
 TEST_P(EachCheck, IsFoundByItsScenarioAndFailsTheRun) {
   const tb::RunResult result = run(GetParam(), false, tb::ChecksMode::kFail);
   EXPECT_EQ(broken(result), std::set<std::string>(GetParam().found.begin(), GetParam().found.end()));
-  EXPECT_FALSE(result.passed);
+  EXPECT_EQ(tb::verdict(result), tb::Verdict::kFailed);
   std::uint64_t counted = 0;
   for (const tb::CheckResult& check : result.checks) {
     counted += check.record.violations;
@@ -156,13 +157,13 @@ TEST_P(EachCheck, IsFoundByItsScenarioAndFailsTheRun) {
 
 TEST_P(EachCheck, DoesNotFailTheRunWhenAllowedReportedOrOff) {
   const tb::RunResult allowed = run(GetParam(), true, tb::ChecksMode::kFail);
-  EXPECT_TRUE(allowed.passed);
+  EXPECT_EQ(tb::verdict(allowed), tb::Verdict::kPassed);
   EXPECT_FALSE(broken(allowed).empty());
   const tb::RunResult reported = run(GetParam(), false, tb::ChecksMode::kReport);
-  EXPECT_TRUE(reported.passed);
+  EXPECT_EQ(tb::verdict(reported), tb::Verdict::kPassed);
   EXPECT_FALSE(broken(reported).empty());
   const tb::RunResult off = run(GetParam(), false, tb::ChecksMode::kOff);
-  EXPECT_TRUE(off.passed);
+  EXPECT_EQ(tb::verdict(off), tb::Verdict::kPassed);
   EXPECT_TRUE(off.checks.empty());
 }
 
@@ -363,7 +364,7 @@ TEST(OutputsOverwritten, AreThoseThatASlowUserMissedThoughHisHoldsAreShort) {
 TEST(Checks, TheSameFirmwareWithoutItsMistakesIsSilent) {
   const tb::RunResult result = run({"Polite", {}, RUDE("polite"), kNone, kNone, {}}, false, tb::ChecksMode::kFail);
   EXPECT_TRUE(broken(result).empty());
-  EXPECT_TRUE(result.passed);
+  EXPECT_EQ(tb::verdict(result), tb::Verdict::kPassed);
 }
 #endif
 
@@ -376,7 +377,7 @@ TEST(Checks, OneSwitchedOffInTheScenarioIsNotInTheResult) {
                      {"HOST_TD_HOLD", "HOST_READ_UNKNOWN"}};
   const tb::RunResult result = run(each, false, tb::ChecksMode::kFail);
   EXPECT_TRUE(broken(result).empty());
-  EXPECT_TRUE(result.passed);
+  EXPECT_EQ(tb::verdict(result), tb::Verdict::kPassed);
   EXPECT_EQ(result.checks.size(), checks::rules().size() - 1);
 }
 

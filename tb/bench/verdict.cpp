@@ -1,0 +1,90 @@
+#include "tb/bench/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dsdpv1::tb {
+namespace {
+
+bool failed(const RunResult& result) {
+  const auto missed = [](const ExpectationResult& each) { return !each.passed && !each.left_out; };
+  return result.violations != 0 || std::any_of(result.expectations.begin(), result.expectations.end(), missed) ||
+         (result.lockstep && result.lockstep->difference);
+}
+
+bool judged(const RunResult& result) {
+  if (result.pacing && result.pacing->telegrams_from_host != 0) return true;
+  const auto is_judged = [](const ExpectationResult& each) { return !each.left_out; };
+  const auto exchanges = [](const SlaveResult& each) { return each.status.data_exchanges != 0; };
+  return std::any_of(result.expectations.begin(), result.expectations.end(), is_judged) ||
+         std::any_of(result.slaves.begin(), result.slaves.end(), exchanges);
+}
+
+std::uint64_t allowed(const RunResult& result) {
+  std::uint64_t count = result.allowed;
+  for (const CheckResult& each : result.checks) count += each.allowed;
+  return count;
+}
+
+std::string counted(std::uint64_t count, const char* one, const char* what) {
+  return count == 0 ? "" : fmt::format(", {} {}{} {}", count, one, count == 1 ? "" : "s", what);
+}
+
+const char* capitals(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPassed: return "PASSED";
+    case Verdict::kFailed: return "FAILED";
+    case Verdict::kNothingJudged: return "NOTHING JUDGED";
+    case Verdict::kInterrupted: return "INTERRUPTED";
+  }
+  return "";
+}
+
+}  // namespace
+
+Verdict verdict(const RunResult& result) {
+  if (result.interrupted) return Verdict::kInterrupted;
+  if (failed(result)) return Verdict::kFailed;
+  return judged(result) ? Verdict::kPassed : Verdict::kNothingJudged;
+}
+
+int exit_code(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPassed: return 0;
+    case Verdict::kFailed: return 1;
+    case Verdict::kNothingJudged: return 3;
+    case Verdict::kInterrupted: break;
+  }
+  return 130;
+}
+
+const char* name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPassed: return "passed";
+    case Verdict::kFailed: return "failed";
+    case Verdict::kNothingJudged: return "nothing_judged";
+    case Verdict::kInterrupted: break;
+  }
+  return "interrupted";
+}
+
+std::uint64_t violations_not_judged(const RunResult& result) {
+  std::uint64_t count = 0;
+  if (result.checks_mode != ChecksMode::kReport) return count;
+  for (const CheckResult& each : result.checks) count += each.record.violations - each.allowed;
+  return count;
+}
+
+std::string not_judged(const RunResult& result) {
+  const auto left_out = std::count_if(result.expectations.begin(), result.expectations.end(),
+                                      [](const ExpectationResult& each) { return each.left_out; });
+  return counted(violations_not_judged(result), "violation", "not judged") +
+         counted(static_cast<std::uint64_t>(left_out), "expectation", "not judged") +
+         counted(allowed(result), "violation", "allowed") +
+         (result.checks_mode == ChecksMode::kOff ? ", checks off" : counted(result.checks_off, "check", "off"));
+}
+
+std::string words(const RunResult& result) { return capitals(verdict(result)) + not_judged(result); }
+
+}  // namespace dsdpv1::tb

@@ -1,0 +1,141 @@
+// What is expected of a slave that a master has, without a word in the scenario, on the bench.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "io/input/input_error.hpp"
+#include "tb/bench/bench.hpp"
+#include "tb/bench/verdict.hpp"
+
+namespace dsdpv1 {
+namespace {
+
+using testing::HasSubstr;
+
+/// A slave that comes to data exchange at 2 ms, `more`: of the scenario, `master_slave` and `user_cpu`: more of their keys.
+struct Given {
+  std::string more = {}, master_slave = {}, user_cpu = {}, init = {};
+  std::string end = "8ms";
+};
+
+tb::RunResult run(const Given& given) {
+  const std::string text = "name: x\nbaud: 12M\nend: " + given.end +
+                           "\nslaves:\n  - {name: io, address: 5, init: {ident: 0x0CC9, max_inputs: 2, max_outputs: 2, cfg: \"31\"" +
+                           given.init + "}, user_cpu: {" + given.user_cpu +
+                           "}}\nmasters:\n  - {name: plc, address: 2, slaves: [{slave: io, outputs: \"01 02\"" +
+                           given.master_slave + "}]}\n" + given.more;
+  const tb::scenario::Scenario scenario = tb::scenario::parse(text, "x.yaml");
+  tb::Bench bench(scenario, {}, tb::make_pin_execution());
+  return bench.run([](tb::Tick) { return true; });
+}
+
+/// Of the one implied expectation.
+tb::ExpectationResult implied(const tb::RunResult& result) {
+  const bool one = result.expectations.size() == 1 && result.expectations[0].implied;
+  EXPECT_TRUE(one) << result.expectations.size();
+  return one ? result.expectations[0] : tb::ExpectationResult{};
+}
+
+void expect_passes(const Given& given) {
+  const tb::RunResult result = run(given);
+  EXPECT_EQ(tb::verdict(result), tb::Verdict::kPassed) << implied(result).seen;
+}
+
+void expect_fails(const Given& given, const std::string& seen) {
+  const tb::RunResult result = run(given);
+  EXPECT_EQ(tb::verdict(result), tb::Verdict::kFailed);
+  EXPECT_THAT(implied(result).seen, HasSubstr(seen));
+}
+
+TEST(ImpliedExchange, IsReachedAndKept) {
+  const tb::RunResult result = run({});
+  EXPECT_TRUE(implied(result).passed) << implied(result).seen;
+  EXPECT_EQ(implied(result).text, "io: data exchange with plc, from then on to the end");
+  EXPECT_EQ(implied(result).line, 7);
+  EXPECT_EQ(tb::words(result), "PASSED");
+}
+
+TEST(ImpliedExchange, OfAnotherIdentIsNeverReached) {
+  expect_fails({"", ", ident: 0xC90C"}, "never, WAIT_PRM at the end; plc: ident is 0x0CC9, expected 0xC90C");
+}
+
+TEST(ImpliedExchange, OfAnotherConfigurationIsNeverReached) {
+  expect_fails({"", ", cfg: \"32\""}, "never, WAIT_CFG at the end; plc: Cfg_Fault; CFG_IO_LENGTH since ");
+}
+
+TEST(ImpliedExchange, WithAnotherAddressIsNeverReached) { expect_fails({"", ", address: 6"}, "never, "); }
+
+TEST(ImpliedExchange, IsNotReachedInAShortRun) { expect_fails({"", "", "", "", "1ms"}, "never, "); }
+
+TEST(ImpliedExchange, IsNotExpectedWithExpectNone) {
+  const tb::RunResult result = run({"expect: none\n", ", ident: 0xC90C"});
+  EXPECT_TRUE(result.expectations.empty());
+  EXPECT_EQ(tb::verdict(result), tb::Verdict::kNothingJudged);
+}
+
+TEST(ImpliedExchange, IsNotExpectedWhereTheScenarioSaysOtherwise) {
+  const tb::RunResult result = run({"expect:\n  - {slave: io, dp_state: wait_prm}\n", ", ident: 0xC90C"});
+  ASSERT_EQ(result.expectations.size(), 1U);
+  EXPECT_FALSE(result.expectations[0].implied);
+  EXPECT_EQ(tb::verdict(result), tb::Verdict::kPassed);
+}
+
+TEST(ImpliedExchange, StaysExpectedBesideOtherExpectations) {
+  const tb::RunResult result = run({"expect:\n  - {slave: io, event: PRM_IDENT}\n", ", ident: 0xC90C"});
+  ASSERT_EQ(result.expectations.size(), 2U);
+  EXPECT_EQ(tb::verdict(result), tb::Verdict::kFailed);
+}
+
+// --- the script
+
+/// A master that stops cuts its telegram off.
+const std::string kCut = "allow:\n  - {event: BUS_CHARACTER_ERROR}\n  - {event: BUS_TELEGRAM_ERROR}\n";
+
+TEST(ImpliedExchange, MayEndWithTheMaster) { expect_passes({"script:\n  - {at: 5ms, do: stop_master}\n" + kCut}); }
+
+TEST(ImpliedExchange, ComesBackWithTheMaster) {
+  expect_passes({"script:\n  - {at: 4ms, do: stop_master}\n  - {at: 5ms, do: start_master}\n"});
+}
+
+TEST(ImpliedExchange, MustComeBackInTime) {
+  expect_fails({"script:\n  - {at: 4ms, do: stop_master}\n  - {at: 7990us, do: start_master}\n"}, "at the end");
+}
+
+TEST(ImpliedExchange, MayEndWithTheSlaveUnplugged) { expect_passes({"script:\n  - {at: 4ms, do: unplug, slave: io}\n"}); }
+
+TEST(ImpliedExchange, OfOneSlaveMayEndWithAnotherOnlyByItsOwnFault) {
+  // The user loses the DPRAM for good, which no script has told it to.
+  expect_fails({"", "", "start_delay: 100ms"}, "never, OFFLINE at the end");
+}
+
+TEST(ImpliedExchange, ComesBackAfterAReset) {
+  expect_passes({"script:\n  - {at: 4ms, do: reset_chip, slave: io, for: 20us}\n", "", "", "", "20ms"});
+}
+
+// --- checks
+
+TEST(ChecksOfAScenario, FailByDefaultAndMayBeReportedOrOff) {
+  const std::string rude = "fsmc: {mode: A, datast: 1}";
+  EXPECT_EQ(tb::verdict(run({"", "", rude})), tb::Verdict::kFailed);
+  const tb::RunResult reported = run({"checks: {mode: report}\nallow:\n  - {event: HOST_TS}\n  - {event: HOST_TW}\n  - {event: HOST_TD_SETUP}\n", "", rude});
+  EXPECT_THAT(tb::words(reported), HasSubstr(" violations not judged"));
+}
+
+TEST(ChecksOfAScenario, CannotBeExpectedWhenTheyAreNotMade) {
+  const std::string expectation = "expect:\n  - {slave: io, event: TIMING_TS, count_at_most: 0}\n";
+  const auto refused = [&](const std::string& checks) {
+    try {
+      run({checks + expectation});
+      return std::string("not refused");
+    } catch (const tb::InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_THAT(refused("checks: {mode: off}\n"), HasSubstr("x.yaml:10: TIMING_TS is a check, which is off"));
+  EXPECT_THAT(refused("checks: {TIMING_TS: {enabled: false}}\n"), HasSubstr("x.yaml:10: TIMING_TS is a check, which is off"));
+  EXPECT_EQ(refused("checks: {mode: report}\n"), "not refused");
+}
+
+}  // namespace
+}  // namespace dsdpv1
